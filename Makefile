@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# DilatedDEM: make [all|demo|check|verify|bench|lint|install|clean] [SAN=address,undefined]
+include config.mk
+
+B     = build$(if $(SAN),/san)
+TOOLS = voronoi-ice struct-import dem-solve loadstats
+FLAGS = $(OPT) -g $(FLOAT) -fopenmp -Ilib -MMD -MP $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all)
+CCALL  = $(CC) -std=c17 -D_POSIX_C_SOURCE=200809L $(CWARN) $(FLAGS) $(CFLAGS)
+CXXALL = $(CXX) -std=c++17 $(WARN) $(FLAGS) $(CXXFLAGS)
+LIBS  = -Wl,--as-needed -lccd -lgsl -lgslcblas -linih -lz -lm
+CGAL  = -lstdc++ -lgmp -lmpfr
+
+LIBOBJ   = $(patsubst %.c,$B/%.o,$(wildcard lib/*/*.c))
+SHIMOBJ  = $(patsubst %.cpp,$B/%.o,$(wildcard lib/shim/*.cpp))
+SUPPORT  = $(patsubst %.c,$B/%.o,$(wildcard tests/support/*.c))
+test_of  = $(patsubst tests/$1/%.c,$B/tests/$1/%,$(wildcard tests/$1/*.c))
+TESTS    = $(foreach k,unit prop fuzz verify bench,$(call test_of,$k))
+
+all: $(TOOLS:%=$B/bin/%)
+tests: all $(TESTS)
+
+$B/%.o: %.c
+	@mkdir -p $(@D)
+	$(CCALL) -c $< -o $@
+$B/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(CXXALL) -c $< -o $@
+$B/libfloe.a: $(LIBOBJ)
+	@rm -f $@
+	ar rcs $@ $^
+$B/libfloe-shim.a: $(SHIMOBJ)
+	@rm -f $@
+	ar rcs $@ $^
+
+# A program is the .c files of its folder on the two libraries; what it does not use is not linked.
+define tool
+$B/bin/$1: $(patsubst %.c,$B/%.o,$(wildcard tools/$1/*.c)) $B/libfloe-shim.a $B/libfloe.a
+	@mkdir -p $$(@D)
+	$$(CCALL) $$(LDFLAGS) $$^ $$(LIBS) $$(CGAL) -o $$@
+endef
+$(foreach t,$(TOOLS),$(eval $(call tool,$t)))
+$B/tests/%: $B/tests/%.o $(SUPPORT) $B/libfloe-shim.a $B/libfloe.a
+	$(CCALL) $(LDFLAGS) $^ -lcmocka $(LIBS) $(CGAL) -o $@
+$B/tests/%.o $(SUPPORT): CFLAGS += -Itests
+
+# setup installs what is missing (Debian, Ubuntu) or names it; then the real work runs in a second make.
+setup:
+	@sh share/setup.sh
+demo check verify bench: setup
+	@$(MAKE) --no-print-directory run-$@
+run-demo: all
+	@$(MAKE) --no-print-directory -C share/examples/cylinder BIN=$(CURDIR)/$B/bin demo
+run-check run-verify run-bench: tests
+	@sh tests/run.sh $(@:run-%=%) $B
+lint:
+	@sh tests/lint/lint.sh
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(foreach s,1 5 7,$(DESTDIR)$(PREFIX)/share/man/man$s) $(DESTDIR)$(PREFIX)/share/dilateddem
+	install $(TOOLS:%=$B/bin/%) $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(wildcard tools/*/*.1) $(DESTDIR)$(PREFIX)/share/man/man1
+	install -m 644 $(wildcard share/man5/*.5) $(DESTDIR)$(PREFIX)/share/man/man5
+	install -m 644 $(wildcard share/man7/*.7) $(DESTDIR)$(PREFIX)/share/man/man7
+	cp -R share/materials share/examples $(DESTDIR)$(PREFIX)/share/dilateddem
+clean:
+	rm -rf build
+
+.PHONY: all tests setup demo check verify bench run-demo run-check run-verify run-bench lint install clean
+.SECONDARY:
+-include $(wildcard $B/*/*/*.d $B/*/*/*/*.d)

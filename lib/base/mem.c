@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/mem.h"
+
+static long fail_after = -1;
+
+void fl_mem_fail_after(long n) { fail_after = n; }
+
+static int refused(void)
+{
+    if (fail_after < 0) return 0;
+    if (fail_after == 0) return 1;
+    fail_after--;
+    return 0;
+}
+
+void *fl_alloc(int64_t n, size_t size, fl_err *err)
+{
+    size_t bytes;
+    void *p = NULL;
+    if (n < 0 || __builtin_mul_overflow((size_t)n, size, &bytes) || bytes > SIZE_MAX - 64) {
+        fl_fail(err, FL_SYSTEM, "out of memory: %lld elements of %zu bytes", (long long)n, size);
+        return NULL;
+    }
+    bytes = (bytes + 63) / 64 * 64 + (bytes == 0 ? 64 : 0);
+    if (!refused()) p = aligned_alloc(64, bytes);
+    if (p) memset(p, 0, bytes);
+    else fl_fail(err, FL_SYSTEM, "out of memory: %zu bytes", bytes);
+    return p;
+}
+
+int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err)
+{
+    void *old, *fresh;
+    int64_t n = *cap;
+    size_t bytes;
+    if (want <= n) return 0;
+    n = n < 8 ? 8 : 2 * n;
+    if (n < want) n = want;
+    if (n > INT32_MAX || __builtin_mul_overflow((size_t)n, size, &bytes))
+        return fl_fail(err, FL_SYSTEM, "out of memory: %lld elements of %zu bytes", (long long)n, size);
+    memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T */
+    fresh = refused() ? NULL : realloc(old, bytes);
+    if (!fresh) return fl_fail(err, FL_SYSTEM, "out of memory: %zu bytes", bytes);
+    memcpy(array, &fresh, sizeof fresh);
+    *cap = (int32_t)n;
+    return 0;
+}

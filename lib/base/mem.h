@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* mem.h -- arrays that may fail to grow.  Everything returned is freed with free(). */
+#ifndef FL_BASE_MEM_H
+#define FL_BASE_MEM_H
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "base/err.h"
+
+/* Zeroed memory for n elements of the given size, aligned to 64 bytes.  n = 0 gives a valid pointer.
+ * Returns NULL with FL_SYSTEM in err when there is none. */
+void *fl_alloc(int64_t n, size_t size, fl_err *err);
+
+/* Make room for at least want elements in the array *(T **)array of capacity *cap; the capacity at
+ * least doubles, new elements are not initialised.  The array is untouched on failure.
+ * Returns 0, or -1 with FL_SYSTEM in err. */
+int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err);
+
+/* For tests: let the n-th allocation from now, and all after it, fail; n < 0 switches this off. */
+void fl_mem_fail_after(long n);
+
+#endif

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* num.h -- numbers and decimal text, each way without loss. */
+#ifndef FL_BASE_NUM_H
+#define FL_BASE_NUM_H
+#include <stdint.h>
+#include <stdio.h>
+
+enum { FL_NUM_LEN = 32 };
+
+/* Shortest decimal text (15, 16 or 17 digits) that reads back to the same double; -0 prints as 0.
+ * Writes at most FL_NUM_LEN bytes with the closing nul.  Returns buf. */
+char *fl_num_text(double x, char buf[FL_NUM_LEN]);
+
+/* Read all of s as a finite number, an integer in [lo, hi], or a 64-bit unsigned.
+ * Return 0, or -1 when s is anything else (empty, trailing characters, nan, inf, hexadecimal, out of range). */
+int fl_num_f64(const char *s, double *x);
+int fl_num_i32(const char *s, int32_t lo, int32_t hi, int32_t *x);
+int fl_num_u64(const char *s, uint64_t *x);
+
+#endif

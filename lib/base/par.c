@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/par.h"
+
+enum { BLOCK = 1024 };
+
+double fl_par_sum(const double *x, int64_t n)
+{
+    double total = 0.0;
+    for (int64_t b = 0; b < n; b += BLOCK) {
+        const int64_t end = b + BLOCK < n ? b + BLOCK : n;
+        double part = 0.0;
+        for (int64_t k = b; k < end; k++) part += x[k];
+        total += part;
+    }
+    return total;
+}
+
+uint64_t fl_hash(uint64_t h, const void *data, int64_t bytes)
+{
+    const unsigned char *p = data;
+    for (; bytes > 0; p += 8, bytes -= 8) {
+        uint64_t word = 0;
+        memcpy(&word, p, bytes < 8 ? (size_t)bytes : 8);
+        h = (h ^ word) * UINT64_C(0x100000001b3);
+        h ^= h >> 29; /* FNV alone mixes only upward; the shift lets high bits reach the low ones */
+    }
+    return h;
+}

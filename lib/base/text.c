@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "base/text.h"
+
+enum { CHUNK = 1 << 16 };
+
+int fl_text_open(fl_text *t, const char *path, fl_err *err)
+{
+    *t = (fl_text){0};
+    t->in = fl_in_open(path, err);
+    t->chunk = t->in ? fl_alloc(CHUNK, 1, err) : NULL;
+    if (t->chunk) return 0;
+    fl_text_close(t);
+    return -1;
+}
+
+void fl_text_close(fl_text *t)
+{
+    fl_in_close(t->in);
+    free(t->chunk);
+    free(t->line);
+    free(t->field);
+    free(t->history);
+    *t = (fl_text){0};
+}
+
+int fl_text_fail(const fl_text *t, fl_err *err, const char *fmt, ...)
+{
+    char what[400];
+    va_list ap;
+    va_start(ap, fmt);
+    vsnprintf(what, sizeof what, fmt, ap);
+    va_end(ap);
+    return fl_fail(err, FL_INPUT, "%s:%d: %s", fl_in_name(t->in), t->number, what);
+}
+
+int fl_text_line(fl_text *t, fl_err *err)
+{
+    t->len = 0;
+    t->number++;
+    for (;;) {
+        const char *from = t->chunk + t->pos;
+        const char *end = memchr(from, '\n', (size_t)(t->have - t->pos));
+        const int64_t k = end ? end - from : t->have - t->pos;
+        if (t->len + k > FL_TEXT_LINE_MAX) return fl_text_fail(t, err, "line is longer than 1 MiB");
+        if (fl_grow(&t->line, &t->line_cap, t->len + k + 1, 1, err)) return -1;
+        memcpy(t->line + t->len, from, (size_t)k);
+        t->len += (int32_t)k;
+        t->pos += k + (end != NULL);
+        if (end) break;
+        t->pos = 0;
+        t->have = fl_in_read(t->in, t->chunk, CHUNK, err);
+        if (t->have < 0) return -1;
+        if (t->have == 0) {
+            if (t->len) break;
+            t->line[0] = '\0';
+            t->number--;
+            return 0;
+        }
+    }
+    if (t->len && t->line[t->len - 1] == '\r') t->len--;
+    t->line[t->len] = '\0';
+    if (memchr(t->line, '\0', (size_t)t->len)) return fl_text_fail(t, err, "a zero byte: this is not a text file");
+    return 1;
+}
+
+static int keep_history(fl_text *t, fl_err *err)
+{
+    if (fl_grow(&t->history, &t->history_cap, t->history_len + t->len + 2, 1, err)) return -1;
+    memcpy(t->history + t->history_len, t->line, (size_t)t->len);
+    t->history_len += t->len;
+    memcpy(t->history + t->history_len, "\n", 2);
+    t->history_len++;
+    return 0;
+}
+
+int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err)
+{
+    char found[32];
+    int version = 0, used = 0;
+    const int more = fl_text_line(t, err);
+    if (more < 0) return -1;
+    if (!more) return fl_fail(err, FL_INPUT, "%s: empty, a %s file was wanted", fl_in_name(t->in), kind);
+    if (sscanf(t->line, "#%31s %d %n", found, &version, &used) != 2 || t->line[used] || version < 1)
+        return fl_text_fail(t, err, "\"%.40s\" does not open a %s file, \"#%s %d\" was wanted", t->line, kind,
+                            kind, newest);
+    if (strcmp(found, kind) != 0)
+        return fl_text_fail(t, err, "this is a %s file, a %s file was wanted", found, kind);
+    if (version > newest)
+        return fl_text_fail(t, err, "%s version %d is newer than this program, which reads up to %d", kind,
+                            version, newest);
+    t->version = version;
+    return 0;
+}
+
+int fl_text_row(fl_text *t, fl_err *err)
+{
+    int more;
+    while ((more = fl_text_line(t, err)) > 0) {
+        char *p = t->line;
+        t->n = t->next = 0;
+        if (p[0] == '#') {
+            if (strncmp(p, "#by ", 4) == 0 && keep_history(t, err)) return -1;
+            continue;
+        }
+        for (;;) {
+            p += strspn(p, " \t\f\v");
+            if (*p == '\0' || *p == '#') break;
+            if (fl_grow(&t->field, &t->field_cap, t->n + 1, sizeof *t->field, err)) return -1;
+            t->field[t->n++] = p;
+            p += strcspn(p, " \t\f\v");
+            if (*p) *p++ = '\0';
+        }
+        if (t->n) return 1;
+    }
+    return more;
+}
+
+int fl_text_word(fl_text *t, const char *what, const char **word, fl_err *err)
+{
+    if (t->next >= t->n) return fl_text_fail(t, err, "%s is missing after %d fields", what, t->n);
+    *word = t->field[t->next++];
+    return 0;
+}
+
+int fl_text_f64(fl_text *t, const char *what, double *x, fl_err *err)
+{
+    const char *w = "";
+    if (fl_text_word(t, what, &w, err)) return -1;
+    if (fl_num_f64(w, x)) return fl_text_fail(t, err, "%s is \"%.40s\", a finite number was wanted", what, w);
+    return 0;
+}
+
+int fl_text_i32(fl_text *t, const char *what, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
+{
+    const char *w = "";
+    if (fl_text_word(t, what, &w, err)) return -1;
+    if (fl_num_i32(w, lo, hi, x))
+        return fl_text_fail(t, err, "%s is \"%.40s\", a whole number from %d to %d was wanted", what, w, lo, hi);
+    return 0;
+}
+
+int fl_text_end(fl_text *t, fl_err *err)
+{
+    if (t->next == t->n) return 0;
+    return fl_text_fail(t, err, "\"%.40s\" was not expected after %d fields", t->field[t->next], t->next);
+}
+
+/* Levenshtein distance on at most 63 characters, case ignored. */
+static int edit_distance(const char *a, const char *b)
+{
+    int row[64];
+    const int na = (int)strnlen(a, 63), nb = (int)strnlen(b, 63);
+    for (int j = 0; j <= nb; j++) row[j] = j;
+    for (int i = 1; i <= na; i++) {
+        int diagonal = row[0];
+        row[0] = i;
+        for (int j = 1; j <= nb; j++) {
+            int best = diagonal + (strncasecmp(a + i - 1, b + j - 1, 1) != 0);
+            if (row[j] + 1 < best) best = row[j] + 1;
+            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
+            diagonal = row[j];
+            row[j] = best;
+        }
+    }
+    return row[nb];
+}
+
+const char *fl_text_nearest(const char *word, const char *const *list, int n)
+{
+    const char *best = NULL;
+    int least = 1000;
+    for (int k = 0; k < n; k++) {
+        const int d = edit_distance(word, list[k]);
+        if (d < least) {
+            least = d;
+            best = list[k];
+        }
+    }
+    return best;
+}

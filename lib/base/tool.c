@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <stdarg.h>
+#include <string.h>
+#include "base/tool.h"
+
+void fl_by_start(fl_by *by, const char *program)
+{
+    by->len = snprintf(by->text, sizeof by->text, "#by %s %s", program, FL_VERSION);
+}
+
+void fl_by_add(fl_by *by, const char *fmt, ...)
+{
+    va_list ap;
+    int k;
+    if (by->len + 2 >= FL_BY_MAX) return;
+    by->text[by->len++] = ' ';
+    va_start(ap, fmt);
+    k = vsnprintf(by->text + by->len, (size_t)(FL_BY_MAX - by->len), fmt, ap);
+    va_end(ap);
+    by->len += k < FL_BY_MAX - by->len ? k : FL_BY_MAX - by->len - 1;
+    for (char *p = by->text; *p; p++) /* one line, whatever a file name holds */
+        if ((unsigned char)*p < ' ') *p = ' ';
+}
+
+void fl_by_header(FILE *f, const char *kind, int version, const char *history, const fl_by *by)
+{
+    fprintf(f, "#%s %d\n%s%s\n", kind, version, history ? history : "", by->text);
+}
+
+void fl_tool_version(const char *program) { printf("%s %s\n", program, FL_VERSION); }
+
+int fl_tool_end(const char *program, int rc, fl_err *err)
+{
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout))
+        rc = fl_fail(err, FL_SYSTEM, "<stdout>: %s", errno ? strerror(errno) : "could not write all of it");
+    if (rc == 0) return FL_DONE;
+    if (err->text[0]) fprintf(stderr, "%s: %s\n", program, err->text);
+    return err->code ? err->code : FL_SYSTEM;
+}

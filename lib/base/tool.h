@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tool.h -- what every program does the same way: version, history line, end. */
+#ifndef FL_BASE_TOOL_H
+#define FL_BASE_TOOL_H
+#include <stdint.h>
+#include <stdio.h>
+#include "base/err.h"
+
+#define FL_VERSION "0.1.0"
+
+enum { FL_BY_MAX = 2000 };
+
+/* The history line of this run, "#by PROGRAM VERSION OPTIONS\n".  Start it, add what bears on the result. */
+typedef struct {
+    char text[FL_BY_MAX];
+    int len;
+} fl_by;
+void fl_by_start(fl_by *by, const char *program);
+void fl_by_add(fl_by *by, const char *fmt, ...) __attribute__((format(printf, 2, 3))); /* adds a blank first */
+
+/* Open a file of ours: "#KIND VERSION", the history it continues (NULL for none), its own line. */
+void fl_by_header(FILE *f, const char *kind, int version, const char *history, const fl_by *by);
+
+/* Print "program 0.1.0" to standard output, for --version. */
+void fl_tool_version(const char *program);
+
+/* End of main: flush standard output, say "program: sentence" on stderr if anything failed, and return the
+ * exit status: 0, or the code in err.  A run that succeeded but could not write its output ends in FL_SYSTEM. */
+int fl_tool_end(const char *program, int rc, fl_err *err);
+
+#endif

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* poly.h -- convex polyhedra: vertices, faces, edges, planes.  A point (nv = 1), a segment (nv = 2) and a
+ * flat polygon (two faces, one the other turned round) are polyhedra too. */
+#ifndef FL_GEOM_POLY_H
+#define FL_GEOM_POLY_H
+#include <stdint.h>
+#include "base/err.h"
+#include "geom/aabb.h"
+#include "geom/mat3.h"
+#include "geom/vec3.h"
+
+typedef struct {
+    int32_t a, b;        /* vertices, a < b */
+    int32_t left, right; /* faces: a to b runs counter-clockwise round left; -1 for the edge of a segment */
+} fl_edge;
+
+typedef struct {
+    int32_t nv, nf, ne;
+    fl_vec3 *v;     /* [nv] vertices                                            [m] */
+    fl_vec3 *n;     /* [nf] outward unit normals                                    */
+    double *c;      /* [nf] plane offsets, n.x = c, largest over the face's vertices [m] */
+    int32_t *first; /* [nf + 1] offsets into loop                                   */
+    int32_t *loop;  /* [first[nf]] vertices of each face, counter-clockwise from outside */
+    fl_edge *edge;  /* [ne], sorted by (a, b)                                       */
+    double size;    /* largest side of the bounding box                          [m] */
+    void *mem;      /* the one block that all the arrays lie in */
+} fl_poly;
+
+/* Build from copied input; derives planes, edges and size.  Checks that every face has three vertices and an area,
+ * is flat and convex within 1e-9 size, that edges pair up (closed), that faces look outward and that the
+ * whole is convex within 1e-9 size.  nv = 1 and nv = 2 take nf = 0.
+ *   first[nf + 1], loop[first[nf]]   as in fl_poly
+ * Returns 0, or -1 with FL_INPUT and a sentence ("face 3 is turned inside out", "vertex 5 lies 0.02 m outside
+ * face 2: the core is not convex", ...). */
+int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int32_t *first, const int32_t *loop,
+                 fl_err *err);
+
+/* The box |x| <= h.x, |y| <= h.y, |z| <= h.z; h > 0. */
+int fl_poly_box(fl_poly *p, fl_vec3 h, fl_err *err);
+
+/* The prism over a convex polygon xy[n] (counter-clockwise; z ignored) between z0 < z1. */
+int fl_poly_prism(fl_poly *p, int32_t n, const fl_vec3 *xy, double z0, double z1, fl_err *err);
+
+int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err);
+
+/* Move and turn in place: x becomes R (x - o), where R = transpose(axes), so that o becomes the origin and the columns of axes the axes. */
+void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
+
+fl_aabb fl_poly_aabb(const fl_poly *p);
+void fl_poly_free(fl_poly *p); /* accepts a zeroed struct, leaves one */
+
+#endif

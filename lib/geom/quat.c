@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "geom/quat.h"
+
+fl_quat q_of_matrix(fl_mat3 a)
+{
+    const double t = a.m[0][0] + a.m[1][1] + a.m[2][2];
+    fl_quat q;
+    if (t >= a.m[0][0] && t >= a.m[1][1] && t >= a.m[2][2])
+        q = (fl_quat){1 + t, a.m[2][1] - a.m[1][2], a.m[0][2] - a.m[2][0], a.m[1][0] - a.m[0][1]};
+    else if (a.m[0][0] >= a.m[1][1] && a.m[0][0] >= a.m[2][2])
+        q = (fl_quat){a.m[2][1] - a.m[1][2], 1 + 2 * a.m[0][0] - t, a.m[0][1] + a.m[1][0], a.m[0][2] + a.m[2][0]};
+    else if (a.m[1][1] >= a.m[2][2])
+        q = (fl_quat){a.m[0][2] - a.m[2][0], a.m[0][1] + a.m[1][0], 1 + 2 * a.m[1][1] - t, a.m[1][2] + a.m[2][1]};
+    else
+        q = (fl_quat){a.m[1][0] - a.m[0][1], a.m[0][2] + a.m[2][0], a.m[1][2] + a.m[2][1], 1 + 2 * a.m[2][2] - t};
+    return q_unit(q);
+}
+
+/* cos x and sin(x)/x from x^2, for any x: the argument is halved until |x| <= 1/4 and doubled back by
+ * cos 2x = 2 cos^2 x - 1, sinc 2x = sinc x cos x.  Steps turn bodies by far less than half a radian, so the
+ * loop is seldom entered.  Series to x^14: the first term left out is below 1e-17 at 1/4. */
+static void cos_sinc(double x2, double *c, double *s)
+{
+    int twice = 0;
+    while (x2 > 0.0625 && twice < 60) {
+        x2 *= 0.25;
+        twice++;
+    }
+    /* versine 1 - cos is what doubles without cancellation: V(2x) = 2 V (2 - V) */
+    double v = x2 * (1.0 / 2 - x2 * (1.0 / 24 - x2 * (1.0 / 720 - x2 * (1.0 / 40320 - x2 * (1.0 / 3628800 - x2 *
+               (1.0 / 479001600 - x2 / 87178291200.0))))));
+    double f = 1.0 - x2 * (1.0 / 6 - x2 * (1.0 / 120 - x2 * (1.0 / 5040 - x2 * (1.0 / 362880 - x2 *
+               (1.0 / 39916800 - x2 / 6227020800.0)))));
+    for (; twice > 0; twice--) {
+        f *= 1.0 - v;
+        v = 2.0 * v * (2.0 - v);
+    }
+    *c = 1.0 - v;
+    *s = f;
+}
+
+fl_quat q_of_vector(fl_vec3 r)
+{
+    double c, s;
+    cos_sinc(0.25 * v3_norm2(r), &c, &s);
+    s *= 0.5;
+    return (fl_quat){c, s * r.x, s * r.y, s * r.z};
+}
+
+fl_quat q_about(int k, double a)
+{
+    double c, s;
+    cos_sinc(0.25 * a * a, &c, &s);
+    s *= 0.5 * a;
+    return (fl_quat){c, k == 0 ? s : 0.0, k == 1 ? s : 0.0, k == 2 ? s : 0.0};
+}
