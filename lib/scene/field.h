@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* field.h -- a field of ice: the bodies of a g-polys file, g-polys(5). */
+#ifndef FL_SCENE_FIELD_H
+#define FL_SCENE_FIELD_H
+#include <stdint.h>
+#include <stdio.h>
+#include "base/err.h"
+#include "base/names.h"
+#include "base/tool.h"
+#include "geom/poly.h"
+
+enum { FL_FIELD_VERSION = 1 };
+
+/* The farthest coordinate and the largest radius a file may hold [m]: squares and cubes stay finite, and one
+ * ulp of it is a tenth of a micrometre. */
+#define FL_FIELD_FAR 1e9
+
+/* Body i is the Minkowski sum of core[i] and a ball of radius[i].  core[i].nv is 1 for a sphere, 2 for a
+ * capsule.  Order is that of the file; memory grows with the rows that are there, whatever the counts say. */
+typedef struct {
+    int32_t n, cap;
+    int32_t *id;       /* [n] names of the bodies, >= 0, all different                  */
+    int32_t *line;     /* [n] line of the poly record, 0 for a body that was not read   */
+    int32_t *material; /* [n] number in materials, -1 when none is given                */
+    int32_t *group;    /* [n] number in groups, -1 when none is given                   */
+    double *radius;    /* [n] dilation radius, >= 0; > 0 where the core has no volume [m] */
+    fl_poly *core;     /* [n] core, vertices in world coordinates                   [m] */
+    fl_vec3 *vel;      /* [n] velocity at the start                               [m/s] */
+    fl_vec3 *spin;     /* [n] angular velocity at the start, world axes         [rad/s] */
+    fl_names materials, groups;
+    char *history; /* "#by ..." lines of the file it came from, NULL for none; owned */
+} fl_field;
+
+/* Append a body; the core moves into the field and *core is left zeroed.  material and group may be NULL.
+ * Returns 0, or -1 with FL_SYSTEM in err, field and core as they were. */
+int fl_field_add(fl_field *a, int32_t id, double radius, fl_poly *core, const char *material,
+                 const char *group, fl_vec3 vel, fl_vec3 spin, fl_err *err);
+
+/* Read a file ("-" is standard input, gzip is unpacked).  Checks the syntax, that ids differ, indices and
+ * radii, and through fl_poly_make() that every core is closed, convex and the right way out.
+ * Returns 0, or -1 with FL_INPUT ("file:line: ...", for a core the line of its poly record and its id) or
+ * FL_SYSTEM; out is untouched then. */
+int fl_field_read(fl_field *out, const char *path, fl_err *err);
+
+/* Write the whole file: kind and version, the history of the field and this run's line, the bodies.  Numbers
+ * read back to the same doubles.  Write errors stay in f, for fl_out_close(). */
+void fl_field_write(FILE *f, const fl_field *a, const fl_by *by);
+
+void fl_field_free(fl_field *a); /* accepts a zeroed struct, leaves one */
+
+#endif
