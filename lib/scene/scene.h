@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* scene.h -- what the user asked for: one case, every key with its value, read from a scene file.
+ *
+ * The life of a scene:
+ *     fl_scene_start()   every key at its default                          (scene.h)
+ *     fl_scene_read()    the file over it                                  (scene_read.h)
+ *     fl_scene_set()     --set section.key=value over that, any number     (scene_read.h)
+ *     fl_scene_check()   "auto" filled in, the parts held against another  (scene_check.h)
+ *     fl_scene_write(), fl_scene_explain()                                 (scene_show.h)
+ *     fl_scene_free()                                                      (scene.h)
+ * All keys, their types, units, defaults, ranges and sources are rows of one table, scene_key.h; the
+ * specification for the user is scene(5).  Values are SI. */
+#ifndef FL_SCENE_SCENE_H
+#define FL_SCENE_SCENE_H
+#include <stdint.h>
+#include "base/err.h"
+#include "geom/vec3.h"
+
+enum { FL_SCENE_NAME = 48, FL_SCENE_PATH = 1024, FL_SCENE_KEYS = 24 };
+
+/* Where a value was given: line 0 says nowhere, the default stands; file is an index into scene.file,
+ * or FL_SCENE_ARGUMENT for --set. */
+enum { FL_SCENE_ARGUMENT = -1 };
+typedef struct {
+    int32_t file, line;
+    uint32_t parts; /* bit c: component c of a vector; all bits for a whole value */
+} fl_scene_mark;
+
+/* First member of every section. */
+typedef struct {
+    int present;                      /* the section stands in the file, or one of its keys was set */
+    fl_scene_mark opened;             /* the line of its heading */
+    fl_scene_mark key[FL_SCENE_KEYS]; /* one per key, in the order of the table */
+} fl_scene_head;
+
+enum fl_law { FL_LAW_PATCH, FL_LAW_MANUAL, FL_LAW_MANUAL_SI, FL_LAW_CORE };
+enum fl_shape { FL_SHAPE_SHARP, FL_SHAPE_ROUND };
+enum fl_bound_type {
+    FL_BOUND_RIGID,
+    FL_BOUND_ELASTIC,
+    FL_BOUND_PERIODIC,
+    FL_BOUND_FREE
+}; /* manual's word - 1 */
+enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
+
+typedef struct {
+    fl_scene_head head;
+    double duration;      /* [s] */
+    double dt;            /* [s]; 0: auto */
+    double safety;        /* fraction of the critical step, for dt = auto */
+    fl_vec3 gravity;      /* [m/s2] as a vector; the file's one number g is (0, 0, -g) */
+    int32_t threads;      /* 0: auto, as many as OpenMP offers */
+    int32_t search_every; /* steps between neighbour searches; 0: auto, when the skin is used up */
+} fl_scene_run;
+
+typedef struct {
+    fl_scene_head head;
+    /* Intervals [s].  Those that follow another until given are 0 before fl_scene_check() and filled in by it. */
+    double loads_every;
+    double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
+    int32_t files;                         /* number of files the frames are split over */
+    double state_every, energy_every, contacts_every;
+    char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH],
+        contacts[FL_SCENE_PATH]; /* "": none */
+} fl_scene_output;
+
+typedef struct {
+    fl_scene_head head;
+    char name[FL_SCENE_NAME];
+    double density; /* [kg/m3] */
+    double young;   /* [Pa] */
+    double poisson;
+    double restitution; /* of the material against itself */
+    double friction;
+} fl_scene_material;
+
+/* How two things touch.  In scene.contact a member counts where its key was given; fl_scene_pair() answers
+ * with every member set. */
+typedef struct {
+    fl_scene_head head;
+    char a[FL_SCENE_NAME], b[FL_SCENE_NAME]; /* both empty: the defaults of all pairs */
+    int32_t law;                             /* enum fl_law */
+    double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
+    double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli (PHYSICS 2.3) */
+    double softening;                        /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
+    double tangential;                       /* kt / kn */
+    double friction, restitution;            /* negative in scene.contact: auto, from the materials */
+    double damping;                          /* overrides what restitution asks for: chi v_impact of `patch`
+                                                and `core`, zeta of `manual`; negative: auto */
+    int32_t literal2, literal18;             /* equations (2), (18) of the manual as printed */
+} fl_scene_contact;
+
+typedef struct {
+    fl_scene_head head;
+    char file[FL_SCENE_PATH];     /* g-polys; "-" is standard input, "" not given */
+    char material[FL_SCENE_NAME]; /* of bodies whose record names none */
+    int32_t shape;                /* enum fl_shape */
+} fl_scene_ice;
+
+typedef struct {
+    fl_scene_head head;
+    char file[FL_SCENE_PATH]; /* g_struct */
+    char material[FL_SCENE_NAME];
+    double friction;  /* against everything; negative: auto */
+    fl_vec3 velocity; /* [m/s] */
+} fl_scene_structure;
+
+typedef struct {
+    fl_scene_head head;
+    int32_t type;     /* enum fl_bound_type; an absent section is FL_BOUND_FREE */
+    fl_vec3 min, max; /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
+    double stiffness; /* of the springs against the boundary [N/m^n]; 0: auto */
+} fl_scene_boundary;
+
+typedef struct {
+    fl_scene_head head;
+    double level;            /* z of the still water [m] */
+    double depth;            /* [m]; INFINITY: deep.  Bears on waves and sheared currents alone */
+    double density;          /* [kg/m3] */
+    fl_vec3 current;         /* [m/s] */
+    double drag_force_coef;  /* C of equation (8) */
+    double drag_moment_coef; /* C of equation (9) */
+} fl_scene_water;
+
+typedef struct {
+    fl_scene_head head;
+    fl_vec3 velocity; /* at 10 m [m/s] */
+    double density;   /* of the air [kg/m3] */
+    double drag_coef;
+} fl_scene_wind;
+
+typedef struct {
+    fl_scene_head head;
+    int32_t on;                             /* always 0 in this version */
+    double normal_strength, shear_strength; /* [Pa] */
+} fl_scene_bond;
+
+typedef struct {
+    fl_scene_head head;
+    char name[FL_SCENE_NAME];
+    uint32_t fixed;   /* FL_FIX_X | ...: directions (world axes) and turns that forces do not change */
+    fl_vec3 velocity; /* [m/s] of the fixed directions */
+} fl_scene_group;
+
+typedef struct {
+    fl_scene_run run;
+    fl_scene_output output;
+    fl_scene_ice ice;
+    fl_scene_structure structure;
+    fl_scene_boundary boundary;
+    fl_scene_water water;
+    fl_scene_wind wind;
+    fl_scene_bond bond;
+    fl_scene_material *material; /* "ice" and "steel" are always there after fl_scene_check() */
+    fl_scene_contact *contact;
+    fl_scene_group *group;
+    int32_t n_material, n_contact, n_group;
+    int32_t cap_material, cap_contact, cap_group;
+    char **file; /* names of the files read, the scene first, then what it includes */
+    int32_t n_file, cap_file;
+} fl_scene;
+
+/* Every key at its default, no section present.  Cannot fail.  scene may be uninitialised. */
+void fl_scene_start(fl_scene *scene);
+
+/* Accepts a zeroed scene and leaves one. */
+void fl_scene_free(fl_scene *scene);
+
+/* Index of the material or the group of that name, -1 when there is none. */
+int32_t fl_scene_find_material(const fl_scene *scene, const char *name);
+int32_t fl_scene_find_group(const fl_scene *scene, const char *name);
+
+/* How a body of material a (an index) meets b: an index as well, or the structure, or the boundary.
+ * Each member comes from the first of these places where it was given:
+ *     [contact A B], names in either order, where the structure is called "structure" or by its material,
+ *                    and the boundary "boundary"
+ *     [structure] friction, [boundary] stiffness        where b is the structure, the boundary
+ *     [contact]      without names
+ *     friction, restitution: the smaller of the two materials' (the boundary has none: material a alone);
+ *     the others: the default of the key.
+ * Only after fl_scene_check().  Cannot fail. */
+enum { FL_SCENE_STRUCTURE = -1, FL_SCENE_BOUNDARY = -2 };
+fl_scene_contact fl_scene_pair(const fl_scene *scene, int32_t a, int32_t b);
+
+/* Complain about a key, "FILE:LINE: sentence": the line where the key was given, or else its section's heading,
+ * or else the file alone; "--set: sentence" for a value from the command line.
+ *   key  "section.key", "material ice.young", "contact ice steel.law"
+ * Records FL_INPUT (FL_USAGE for --set).  Returns -1. */
+int fl_scene_fail(const fl_scene *scene, const char *key, fl_err *err, const char *fmt, ...)
+    __attribute__((format(printf, 4, 5)));
+
+#endif
