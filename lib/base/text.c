@@ -65,7 +65,8 @@ int fl_text_line(fl_text *t, fl_err *err)
     }
     if (t->len && t->line[t->len - 1] == '\r') t->len--;
     t->line[t->len] = '\0';
-    if (memchr(t->line, '\0', (size_t)t->len)) return fl_text_fail(t, err, "a zero byte: this is not a text file");
+    if (memchr(t->line, '\0', (size_t)t->len))
+        return fl_text_fail(t, err, "a zero byte: this is not a text file");
     return 1;
 }
 
@@ -81,42 +82,48 @@ static int keep_history(fl_text *t, fl_err *err)
 
 int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err)
 {
-    char found[32];
+    char found[32] = "";
     int version = 0, used = 0;
     const int more = fl_text_line(t, err);
     if (more < 0) return -1;
-    if (!more) return fl_fail(err, FL_INPUT, "%s: empty, a %s file was wanted", fl_in_name(t->in), kind);
+    if (!more)
+        return fl_fail(err, FL_INPUT, "%s: empty, a %s file was wanted", fl_in_name(t->in),
+                       kind ? kind : "table");
     if (sscanf(t->line, "#%31s %d %n", found, &version, &used) != 2 || t->line[used] || version < 1)
-        return fl_text_fail(t, err, "\"%.40s\" does not open a %s file, \"#%s %d\" was wanted", t->line, kind,
-                            kind, newest);
-    if (strcmp(found, kind) != 0)
+        return fl_text_fail(t, err, "\"%.40s\" does not open a %s file, \"#%s %d\" was wanted", t->line,
+                            kind ? kind : "table", kind ? kind : "KIND", newest);
+    if (kind && strcmp(found, kind) != 0)
         return fl_text_fail(t, err, "this is a %s file, a %s file was wanted", found, kind);
     if (version > newest)
-        return fl_text_fail(t, err, "%s version %d is newer than this program, which reads up to %d", kind,
+        return fl_text_fail(t, err, "%s version %d is newer than this program, which reads up to %d", found,
                             version, newest);
+    memcpy(t->kind, found, sizeof found);
     t->version = version;
     return 0;
+}
+
+int fl_text_cut(fl_text *t, fl_err *err)
+{
+    char *p = t->line;
+    t->n = t->next = 0;
+    if (strncmp(p, "#by ", 4) == 0 && keep_history(t, err)) return -1;
+    for (;;) {
+        p += strspn(p, " \t\f\v");
+        if (*p == '\0' || *p == '#') break;
+        if (fl_grow(&t->field, &t->field_cap, t->n + 1, sizeof *t->field, err)) return -1;
+        t->field[t->n++] = p;
+        p += strcspn(p, " \t\f\v");
+        if (*p) *p++ = '\0';
+    }
+    return t->n > 0;
 }
 
 int fl_text_row(fl_text *t, fl_err *err)
 {
     int more;
     while ((more = fl_text_line(t, err)) > 0) {
-        char *p = t->line;
-        t->n = t->next = 0;
-        if (p[0] == '#') {
-            if (strncmp(p, "#by ", 4) == 0 && keep_history(t, err)) return -1;
-            continue;
-        }
-        for (;;) {
-            p += strspn(p, " \t\f\v");
-            if (*p == '\0' || *p == '#') break;
-            if (fl_grow(&t->field, &t->field_cap, t->n + 1, sizeof *t->field, err)) return -1;
-            t->field[t->n++] = p;
-            p += strcspn(p, " \t\f\v");
-            if (*p) *p++ = '\0';
-        }
-        if (t->n) return 1;
+        const int cut = fl_text_cut(t, err);
+        if (cut) return cut;
     }
     return more;
 }
@@ -141,7 +148,8 @@ int fl_text_i32(fl_text *t, const char *what, int32_t lo, int32_t hi, int32_t *x
     const char *w = "";
     if (fl_text_word(t, what, &w, err)) return -1;
     if (fl_num_i32(w, lo, hi, x))
-        return fl_text_fail(t, err, "%s is \"%.40s\", a whole number from %d to %d was wanted", what, w, lo, hi);
+        return fl_text_fail(t, err, "%s is \"%.40s\", a whole number from %d to %d was wanted", what, w, lo,
+                            hi);
     return 0;
 }
 

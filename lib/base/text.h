@@ -19,19 +19,24 @@ typedef struct {
     int32_t n, next, field_cap;
     char *history; /* the "#by ..." lines, each with its newline; NULL while there are none */
     int32_t history_len, history_cap;
-    int version; /* set by fl_text_magic() */
+    char kind[32]; /* both set by fl_text_magic() */
+    int version;
 } fl_text;
 
 /* Open for reading; "-" is standard input, gzip is unpacked.  0, or -1 with err. */
 int fl_text_open(fl_text *t, const char *path, fl_err *err);
 
-/* Read line 1, which must be "#KIND VERSION" with VERSION in 1 .. newest, and the "#by" lines below it.
+/* Read line 1, which must be "#KIND VERSION" with VERSION in 1 .. newest; kind NULL takes any kind.
  * FL_INPUT in err otherwise; a newer file and a file of another kind are named as such. */
 int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err);
 
 /* Next line whole, without its end (\n or \r\n), comments and blank lines included.
  * 1, or 0 at the end of the file, or -1 with err (too long, a nul byte, read error). */
 int fl_text_line(fl_text *t, fl_err *err);
+
+/* Cut the line just read into field[0 .. n) at blanks and tabs, up to a "#", and set next = 0.  A "#by" line
+ * joins the history.  1, or 0 when nothing is on it, or -1 with err. */
+int fl_text_cut(fl_text *t, fl_err *err);
 
 /* Next row: skips blank lines and comments (gathering "#by" lines), cuts at blanks and tabs into
  * field[0 .. n), and sets next = 0.  1, 0 or -1 as above. */
