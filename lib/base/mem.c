@@ -2,16 +2,25 @@
 #include <string.h>
 #include "base/mem.h"
 
-static long fail_after = -1;
+static long fail_after = -1, refusals;
 
-void fl_mem_fail_after(long n) { fail_after = n; }
+void fl_mem_fail_after(long n)
+{
+    fail_after = n;
+    refusals = 0;
+}
+
+long fl_mem_refused(void) { return refusals; }
 
 static int refused(void)
 {
     if (fail_after < 0) return 0;
-    if (fail_after == 0) return 1;
-    fail_after--;
-    return 0;
+    if (fail_after > 0) {
+        fail_after--;
+        return 0;
+    }
+    refusals++;
+    return 1;
 }
 
 void *fl_alloc(int64_t n, size_t size, fl_err *err)

@@ -18,5 +18,7 @@ int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err);
 
 /* For tests: let the n-th allocation from now, and all after it, fail; n < 0 switches this off. */
 void fl_mem_fail_after(long n);
+/* How many allocations failed that way since the last call of it. */
+long fl_mem_refused(void);
 
 #endif
