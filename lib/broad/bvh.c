@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/mem.h"
+#include "broad/bvh.h"
+
+enum { LEAF = 4, DEPTH_MAX = 64 }; /* halving n < 2^31 ends after 30 levels */
+
+static double centre(const fl_aabb *b, int axis)
+{
+    return axis == 0 ? b->lo.x + b->hi.x : axis == 1 ? b->lo.y + b->hi.y : b->lo.z + b->hi.z;
+}
+
+static int before(const fl_aabb *box, int axis, int32_t a, int32_t b)
+{
+    const double ca = centre(&box[a], axis), cb = centre(&box[b], axis);
+    return ca < cb || (ca == cb && a < b);
+}
+
+/* Hoare's selection: order[lo .. hi) with the element of rank mid in its place. */
+static void select_median(const fl_aabb *box, int axis, int32_t *order, int32_t lo, int32_t mid, int32_t hi)
+{
+    while (hi - lo > 1) {
+        const int32_t pivot = order[lo + (hi - lo) / 2];
+        int32_t i = lo, j = hi - 1;
+        while (i <= j) {
+            while (before(box, axis, order[i], pivot)) i++;
+            while (before(box, axis, pivot, order[j])) j--;
+            if (i <= j) {
+                const int32_t swap = order[i];
+                order[i++] = order[j];
+                order[j--] = swap;
+            }
+        }
+        if (mid <= j) hi = j + 1;
+        else if (mid >= i) lo = i;
+        else return;
+    }
+}
+
+static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int32_t count)
+{
+    fl_aabb all = aabb_empty(), mids = aabb_empty();
+    for (int32_t k = first; k < first + count; k++) {
+        const fl_aabb *b = &box[t->order[k]];
+        all = aabb_join(all, *b);
+        mids = aabb_add(mids, v3(centre(b, 0), centre(b, 1), centre(b, 2)));
+    }
+    t->node[at] = (fl_bvh_node){all, first, count};
+    if (count <= LEAF) return;
+    const fl_vec3 side = v3_sub(mids.hi, mids.lo);
+    const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+    const int32_t half = count / 2, child = t->nodes;
+    select_median(box, axis, t->order, first, first + half, first + count);
+    t->nodes += 2;
+    t->node[at].first = child;
+    t->node[at].count = 0;
+    split(t, box, child, first, half);
+    split(t, box, child + 1, first + half, count - half);
+}
+
+int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err)
+{
+    if (fl_grow(&t->order, &t->order_cap, n, sizeof *t->order, err)) return -1;
+    if (fl_grow(&t->node, &t->node_cap, 2 * (int64_t)n + 1, sizeof *t->node, err)) return -1;
+    t->n = n;
+    t->nodes = n > 0;
+    for (int32_t k = 0; k < n; k++) t->order[k] = k;
+    if (n > 0) split(t, box, 0, 0, n);
+    return 0;
+}
+
+int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *out, int32_t room)
+{
+    int32_t stack[2 * DEPTH_MAX], top = 0, found = 0;
+    if (t->nodes) stack[top++] = 0;
+    while (top > 0) {
+        const fl_bvh_node *node = &t->node[stack[--top]];
+        if (!aabb_meet(node->box, q)) continue;
+        if (node->count == 0) {
+            stack[top++] = node->first;
+            stack[top++] = node->first + 1;
+            continue;
+        }
+        for (int32_t k = node->first; k < node->first + node->count; k++) {
+            if (!aabb_meet(box[t->order[k]], q)) continue;
+            if (found < room) out[found] = t->order[k];
+            found++;
+        }
+    }
+    return found;
+}
+
+void fl_bvh_free(fl_bvh *t)
+{
+    free(t->node);
+    free(t->order);
+    *t = (fl_bvh){0};
+}
