@@ -26,24 +26,40 @@ typedef struct {
     void *mem;      /* the one block that all the arrays lie in */
 } fl_poly;
 
-/* Build from copied input; derives planes, edges and size.  Checks that every face has three vertices and an area,
- * is flat and convex within 1e-9 size, that edges pair up (closed), that faces look outward and that the
- * whole is convex within 1e-9 size.  nv = 1 and nv = 2 take nf = 0.
+/* Build from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and never below what
+ * doubles so far from the origin can hold.  Checked: every face has three distinct vertices and an area, is
+ * flat and convex; faces look outward; edges pair up, once each way (closed); every vertex is used; one
+ * surface, of the kind of a sphere (V - E + F = 2), that covers its body once; and the whole is convex: no
+ * vertex stands outside any face by more than the tolerance.  Above 65536 vertex-face pairs that is shown
+ * edge by edge instead: no edge bends inward by more than the tolerance, an inner point lies behind every
+ * face, and a ray from it leaves through one face only.  For exact planes that proves convexity, in linear
+ * time (Mehlhorn et al., Computational Geometry 12, 1999); with the tolerance, a vertex may stand out of a
+ * distant face by as many tolerances as there are faces between.
+ * Neighbouring faces may share a plane and corners may be straight.  nv = 1 and nv = 2 take nf = 0, and first
+ * and loop are not read; a flat polygon takes two faces.
+ *   v[nv]                            [m]
  *   first[nf + 1], loop[first[nf]]   as in fl_poly
- * Returns 0, or -1 with FL_INPUT and a sentence ("face 3 is turned inside out", "vertex 5 lies 0.02 m outside
- * face 2: the core is not convex", ...). */
-int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int32_t *first, const int32_t *loop,
-                 fl_err *err);
+ * Returns 0, or -1 with FL_SYSTEM, or FL_INPUT and a sentence ("face 3 is turned inside out", "vertex 5 lies
+ * 0.02 m outside face 2: the core is not convex", ...); p is untouched on failure. */
+int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int32_t *first,
+                 const int32_t *loop, fl_err *err);
 
 /* The box |x| <= h.x, |y| <= h.y, |z| <= h.z; h > 0. */
 int fl_poly_box(fl_poly *p, fl_vec3 h, fl_err *err);
 
-/* The prism over a convex polygon xy[n] (counter-clockwise; z ignored) between z0 < z1. */
+/* The prism over a convex polygon xy[n] (counter-clockwise; z ignored) between z0 < z1.  Vertices 0 .. n-1 are
+ * the lower ones, n .. 2n-1 the upper; face 0 looks down, face 1 up, face 2 + k stands on the side from corner
+ * k to k + 1.  Fails as fl_poly_make(). */
 int fl_poly_prism(fl_poly *p, int32_t n, const fl_vec3 *xy, double z0, double z1, fl_err *err);
 
+/* A copy of its own; to is overwritten, not freed.  -1 with FL_SYSTEM, to untouched. */
 int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err);
 
-/* Move and turn in place: x becomes R (x - o), where R = transpose(axes), so that o becomes the origin and the columns of axes the axes. */
+/* The area vector of face f, area times outward normal [m^2]; exact under far offsets of the whole. */
+fl_vec3 fl_poly_area(const fl_poly *p, int32_t f);
+
+/* Move and turn in place: x becomes transpose(axes) (x - o), so that o becomes the origin and the columns of
+ * axes, which must be a rotation, become the axes. */
 void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
 
 fl_aabb fl_poly_aabb(const fl_poly *p);
