@@ -278,8 +278,8 @@ static int check_edges(const struct build *b, fl_err *err)
     for (int32_t e = 0; e < p->ne; e++) {
         const fl_edge s = p->edge[e];
         const fl_vec3 along = v3_unit(v3_sub(p->v[s.b], p->v[s.a]));
-        /* Convex: the left normal turns into the right one about along.  The sine of the bend times the extent
-         * of the smaller face bounds how far that face stands out of the other's plane. */
+        /* Convex: the left normal turns into the right one about along.  The sine of the bend times the
+         * extent of the smaller face bounds how far that face stands out of the other's plane. */
         const double bend = v3_dot(v3_cross(p->n[s.left], p->n[s.right]), along);
         if (bend >= 0.0 && v3_dot(p->n[s.left], p->n[s.right]) > -1.0) continue;
         for (int side = 0; side < 2; side++) {

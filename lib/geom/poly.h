@@ -47,9 +47,9 @@ int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int
 /* The box |x| <= h.x, |y| <= h.y, |z| <= h.z; h > 0. */
 int fl_poly_box(fl_poly *p, fl_vec3 h, fl_err *err);
 
-/* The prism over a convex polygon xy[n] (counter-clockwise; z ignored) between z0 < z1.  Vertices 0 .. n-1 are
- * the lower ones, n .. 2n-1 the upper; face 0 looks down, face 1 up, face 2 + k stands on the side from corner
- * k to k + 1.  Fails as fl_poly_make(). */
+/* The prism over a convex polygon xy[n] (counter-clockwise; z ignored) between z0 < z1.  Vertices 0 .. n-1
+ * are the lower ones, n .. 2n-1 the upper; face 0 looks down, face 1 up, face 2 + k stands on the side from
+ * corner k to k + 1.  Fails as fl_poly_make(). */
 int fl_poly_prism(fl_poly *p, int32_t n, const fl_vec3 *xy, double z0, double z1, fl_err *err);
 
 /* A copy of its own; to is overwritten, not freed.  -1 with FL_SYSTEM, to untouched. */
