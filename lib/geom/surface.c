@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+#include "base/mem.h"
+#include "geom/surface.h"
+
+/* Names stand in tables cut at blanks, where '#' opens a comment; bytes above ASCII pass as they are. */
+static char clean(const char *name, size_t k)
+{
+    return (unsigned char)name[k] <= ' ' || name[k] == 0x7f || (k == 0 && name[k] == '#') ? '_' : name[k];
+}
+
+static int same_name(const char *cleaned, const char *name, size_t len)
+{
+    for (size_t k = 0; k < len; k++)
+        if (cleaned[k] == '\0' || cleaned[k] != clean(name, k)) return 0;
+    return cleaned[len] == '\0';
+}
+
+int32_t fl_surface_find(const fl_surface *s, const char *name, size_t len)
+{
+    for (int32_t i = 0; i < s->n; i++)
+        if (same_name(s->part[i].name, name, len)) return i;
+    return -1;
+}
+
+int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err)
+{
+    const size_t room = len + 16; /* for "part" or the longest "_N" */
+    fl_part *p;
+    int32_t id = 0;
+    char *word = fl_alloc((int64_t)room, 1, err);
+    if (!word || fl_grow(&s->part, &s->cap, s->n + 1, sizeof *s->part, err)) {
+        free(word);
+        return -1;
+    }
+    for (size_t k = 0; k < len; k++) word[k] = clean(name, k);
+    if (len == 0) {
+        memcpy(word, "part", 4);
+        len = 4;
+    }
+    for (int32_t k = 2; fl_surface_find(s, word, strlen(word)) >= 0; k++) snprintf(word + len, 12, "_%d", k);
+    for (int32_t i = 0; i < s->n; i++)
+        if (s->part[i].id >= id && s->part[i].id < INT32_MAX) id = s->part[i].id + 1;
+    p = &s->part[s->n];
+    *p = (fl_part){.name = word, .id = id};
+    return s->n++;
+}
+
+int fl_surface_vertex(fl_part *p, fl_vec3 x, fl_err *err)
+{
+    if (fl_grow(&p->v, &p->v_cap, (int64_t)p->nv + 1, sizeof *p->v, err)) return -1;
+    p->v[p->nv++] = x;
+    return 0;
+}
+
+int fl_surface_triangle(fl_part *p, int32_t a, int32_t b, int32_t c, fl_err *err)
+{
+    if (fl_grow(&p->t, &p->t_cap, (int64_t)p->nt + 1, sizeof *p->t, err)) return -1;
+    p->t[p->nt++] = (fl_tri){{a, b, c}};
+    return 0;
+}
+
+int fl_surface_cone(fl_part *p, fl_cone c, fl_err *err)
+{
+    if (fl_grow(&p->cone, &p->c_cap, (int64_t)p->nc + 1, sizeof *p->cone, err)) return -1;
+    p->cone[p->nc++] = c;
+    return 0;
+}
+
+/* A disc of radius r and unit normal a reaches r sqrt(1 - a_k^2) along axis k. */
+fl_aabb fl_cone_aabb(const fl_cone *c)
+{
+    const fl_vec3 a = v3_unit(v3_sub(c->p1, c->p0));
+    const fl_vec3 reach = v3(hypot(a.y, a.z), hypot(a.z, a.x), hypot(a.x, a.y));
+    fl_aabb b = aabb_empty();
+    b = aabb_add(aabb_add(b, v3_madd(c->p0, -c->r0, reach)), v3_madd(c->p0, c->r0, reach));
+    return aabb_add(aabb_add(b, v3_madd(c->p1, -c->r1, reach)), v3_madd(c->p1, c->r1, reach));
+}
+
+fl_aabb fl_part_aabb(const fl_part *p)
+{
+    fl_aabb b = aabb_empty();
+    for (int32_t t = 0; t < p->nt; t++)
+        for (int k = 0; k < 3; k++) b = aabb_add(b, p->v[p->t[t].v[k]]);
+    for (int32_t c = 0; c < p->nc; c++) b = aabb_join(b, fl_cone_aabb(&p->cone[c]));
+    return b;
+}
+
+fl_aabb fl_surface_aabb(const fl_surface *s)
+{
+    fl_aabb b = aabb_empty();
+    for (int32_t i = 0; i < s->n; i++) {
+        const fl_aabb part = fl_part_aabb(&s->part[i]);
+        if (part.lo.x <= part.hi.x) b = aabb_join(b, part);
+    }
+    return b;
+}
+
+void fl_part_free(fl_part *p)
+{
+    free(p->name);
+    free(p->v);
+    free(p->t);
+    free(p->cone);
+    *p = (fl_part){0};
+}
+
+void fl_surface_free(fl_surface *s)
+{
+    for (int32_t i = 0; i < s->n; i++) fl_part_free(&s->part[i]);
+    free(s->part);
+    free(s->history);
+    *s = (fl_surface){0};
+}

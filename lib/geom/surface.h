@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* surface.h -- what ice meets: named parts made of triangles and of solid truncated cones. */
+#ifndef FL_GEOM_SURFACE_H
+#define FL_GEOM_SURFACE_H
+#include <stddef.h>
+#include <stdint.h>
+#include "base/err.h"
+#include "geom/aabb.h"
+#include "geom/vec3.h"
+
+typedef struct {
+    int32_t v[3]; /* vertices, counter-clockwise seen from outside; the normal is outward */
+} fl_tri;
+
+/* The convex hull of the disc of radius r0 about p0 and the disc of radius r1 about p1, both at right angles
+ * to p1 - p0.  r0 = r1 is a cylinder, one of them 0 a pointed cone. */
+typedef struct {
+    fl_vec3 p0, p1; /* [m] */
+    double r0, r1;  /* [m] */
+} fl_cone;
+
+typedef struct {
+    char *name; /* owned; one word without blanks */
+    int32_t id; /* >= 0, unique in the surface */
+    int32_t nv, nt, nc;
+    fl_vec3 *v;    /* [nv] [m] */
+    fl_tri *t;     /* [nt] indices into v */
+    fl_cone *cone; /* [nc] */
+    int32_t v_cap, t_cap, c_cap;
+} fl_part;
+
+typedef struct {
+    int32_t n, cap;
+    fl_part *part; /* [n]; moves when a part is added */
+    char *history; /* the "#by ..." lines of the file it came from, NULL for none */
+} fl_surface;
+
+/* Add an empty part; its id is the largest so far plus one (0 first).  Of name[0 .. len) every byte up to
+ * the blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name that is taken gets "_2", "_3", ...
+ * Returns the index of the part, or -1 with FL_SYSTEM. */
+int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err);
+
+/* Index of the part of that name (compared after the same cleaning), -1 when there is none. */
+int32_t fl_surface_find(const fl_surface *s, const char *name, size_t len);
+
+/* Append to a part.  Return 0, or -1 with FL_SYSTEM.  Indices are not checked here. */
+int fl_surface_vertex(fl_part *p, fl_vec3 x, fl_err *err);
+int fl_surface_triangle(fl_part *p, int32_t a, int32_t b, int32_t c, fl_err *err);
+int fl_surface_cone(fl_part *p, fl_cone c, fl_err *err);
+
+/* Boxes of the vertices in use and of the cones; empty when there is nothing. */
+fl_aabb fl_part_aabb(const fl_part *p);
+fl_aabb fl_surface_aabb(const fl_surface *s);
+fl_aabb fl_cone_aabb(const fl_cone *c);
+
+void fl_part_free(fl_part *p); /* both accept a zeroed struct and leave one */
+void fl_surface_free(fl_surface *s);
+
+#endif

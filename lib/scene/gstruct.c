@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "base/num.h"
+#include "base/text.h"
+#include "scene/gstruct.h"
+
+static const char *const record[] = {"part", "v", "t", "cone"};
+
+static int read_vec3(fl_text *in, fl_vec3 *x, fl_err *err)
+{
+    return fl_text_f64(in, "x", &x->x, err) || fl_text_f64(in, "y", &x->y, err) ||
+                   fl_text_f64(in, "z", &x->z, err)
+               ? -1
+               : 0;
+}
+
+static int read_part(fl_text *in, fl_surface *s, fl_err *err)
+{
+    const char *name = "";
+    int32_t id = 0, k;
+    if (fl_text_i32(in, "part id", 0, 999999999, &id, err) || fl_text_word(in, "part name", &name, err) ||
+        fl_text_end(in, err))
+        return -1;
+    for (k = 0; k < s->n; k++)
+        if (s->part[k].id == id) return fl_text_fail(in, err, "part id %d is used a second time", id);
+    if (fl_surface_find(s, name, strlen(name)) >= 0)
+        return fl_text_fail(in, err, "part name \"%.60s\" is used a second time", name);
+    k = fl_surface_add(s, name, strlen(name), err);
+    if (k < 0) return -1;
+    s->part[k].id = id;
+    return 0;
+}
+
+static int read_triangle(fl_text *in, fl_part *p, fl_err *err)
+{
+    int32_t v[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        if (fl_text_i32(in, "vertex index", 0, INT32_MAX, &v[k], err)) return -1;
+        if (v[k] >= p->nv)
+            return fl_text_fail(in, err, "triangle %d wants vertex %d, but part \"%.60s\" has %d so far",
+                                p->nt, v[k], p->name, p->nv);
+    }
+    if (fl_text_end(in, err)) return -1;
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+        return fl_text_fail(in, err, "triangle %d %d %d repeats a vertex", v[0], v[1], v[2]);
+    return fl_surface_triangle(p, v[0], v[1], v[2], err);
+}
+
+static int read_cone(fl_text *in, fl_part *p, fl_err *err)
+{
+    fl_cone c = {0};
+    if (read_vec3(in, &c.p0, err) || fl_text_f64(in, "first radius", &c.r0, err) ||
+        read_vec3(in, &c.p1, err) || fl_text_f64(in, "second radius", &c.r1, err) || fl_text_end(in, err))
+        return -1;
+    if (c.r0 < 0 || c.r1 < 0)
+        return fl_text_fail(in, err, "cone radius %g is negative", c.r0 < 0 ? c.r0 : c.r1);
+    if (c.r0 == 0 && c.r1 == 0) return fl_text_fail(in, err, "both radii of the cone are 0");
+    if (!(v3_norm(v3_sub(c.p1, c.p0)) > 0)) return fl_text_fail(in, err, "the cone has no length");
+    return fl_surface_cone(p, c, err);
+}
+
+static int read_row(fl_text *in, fl_surface *s, fl_err *err)
+{
+    fl_part *p = s->n ? &s->part[s->n - 1] : NULL;
+    const char *word = "";
+    fl_vec3 x = {0};
+    if (fl_text_word(in, "record", &word, err)) return -1;
+    if (strcmp(word, "part") == 0) return read_part(in, s, err);
+    if (!p && (strcmp(word, "v") == 0 || strcmp(word, "t") == 0 || strcmp(word, "cone") == 0))
+        return fl_text_fail(in, err, "\"%s\" stands before the first part", word);
+    if (strcmp(word, "v") == 0) {
+        if (read_vec3(in, &x, err) || fl_text_end(in, err)) return -1;
+        return fl_surface_vertex(p, x, err);
+    }
+    if (strcmp(word, "t") == 0) return read_triangle(in, p, err);
+    if (strcmp(word, "cone") == 0) return read_cone(in, p, err);
+    return fl_text_fail(in, err, "unknown record \"%.40s\", the nearest is \"%s\"", word,
+                        fl_text_nearest(word, record, 4));
+}
+
+static int empty(const fl_part *p)
+{
+    return p->nt == 0 && p->nc == 0;
+}
+
+int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err)
+{
+    fl_text in = {0};
+    fl_surface got = {0};
+    int32_t opened = 0; /* line of the latest part */
+    int rc = -1, more;
+
+    if (fl_text_open(&in, path, err) || fl_text_magic(&in, "g_struct", FL_GSTRUCT_VERSION, err)) goto done;
+    while ((more = fl_text_row(&in, err)) > 0) {
+        if (strcmp(in.field[0], "part") == 0) {
+            if (got.n && empty(&got.part[got.n - 1])) break;
+            opened = in.number;
+        }
+        if (read_row(&in, &got, err)) goto done;
+    }
+    if (more < 0) goto done;
+    if (got.n == 0) {
+        fl_fail(err, FL_INPUT, "%s: no part, at least one with triangles or cones was wanted",
+                fl_in_name(in.in));
+        goto done;
+    }
+    if (empty(&got.part[got.n - 1])) {
+        fl_fail(err, FL_INPUT, "%s:%d: part \"%.60s\" has neither triangles nor cones", fl_in_name(in.in),
+                opened, got.part[got.n - 1].name);
+        goto done;
+    }
+    got.history = in.history;
+    in.history = NULL;
+    *s = got;
+    got = (fl_surface){0};
+    rc = 0;
+done:
+    fl_surface_free(&got);
+    fl_text_close(&in);
+    return rc;
+}
+
+static void put(FILE *f, const char *before, double x)
+{
+    char text[FL_NUM_LEN];
+    fprintf(f, "%s%s", before, fl_num_text(x, text));
+}
+
+static void put_disc(FILE *f, fl_vec3 p, double r)
+{
+    put(f, " ", p.x);
+    put(f, " ", p.y);
+    put(f, " ", p.z);
+    put(f, " ", r);
+}
+
+void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by)
+{
+    fl_by_header(f, "g_struct", FL_GSTRUCT_VERSION, s->history, by);
+    for (int32_t i = 0; i < s->n; i++) {
+        const fl_part *p = &s->part[i];
+        fprintf(f, "part %d %s\n", p->id, p->name);
+        for (int32_t v = 0; v < p->nv; v++) {
+            put(f, "v ", p->v[v].x);
+            put(f, " ", p->v[v].y);
+            put(f, " ", p->v[v].z);
+            fputc('\n', f);
+        }
+        for (int32_t t = 0; t < p->nt; t++)
+            fprintf(f, "t %d %d %d\n", p->t[t].v[0], p->t[t].v[1], p->t[t].v[2]);
+        for (int32_t c = 0; c < p->nc; c++) {
+            fputs("cone", f);
+            put_disc(f, p->cone[c].p0, p->cone[c].r0);
+            fputc(' ', f);
+            put_disc(f, p->cone[c].p1, p->cone[c].r1);
+            fputc('\n', f);
+        }
+    }
+}

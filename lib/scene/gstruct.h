@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gstruct.h -- the structure file g_struct.dat (kind g_struct, version 1); see g_struct(5). */
+#ifndef FL_SCENE_GSTRUCT_H
+#define FL_SCENE_GSTRUCT_H
+#include <stdio.h>
+#include "base/tool.h"
+#include "geom/surface.h"
+
+enum { FL_GSTRUCT_VERSION = 1 };
+
+/* Read path ("-" is standard input, gzip is unpacked).  s is zeroed or free before, and untouched on failure.
+ * Checked, each with file and line: kind and version, known records, numbers finite, vertices of a
+ * triangle present above it and distinct, cones of positive length with radii >= 0 and not both 0, part ids >= 0 and names
+ * unique, no part without a triangle or a cone, at least one part.
+ * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
+int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err);
+
+/* Write s with its history and the line of this run.  Write errors show in fl_out_close(). */
+void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by);
+
+#endif
