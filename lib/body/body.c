@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "body/body.h"
+
+int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
+{
+    *b = (fl_bodies){.n = n, .total = total};
+    const struct {
+        void *array;
+        size_t size;
+    } want[] = {{&b->x, sizeof *b->x},           {&b->v, sizeof *b->v},           {&b->L, sizeof *b->L},
+                {&b->q, sizeof *b->q},           {&b->R, sizeof *b->R},           {&b->w, sizeof *b->w},
+                {&b->f, sizeof *b->f},           {&b->t, sizeof *b->t},           {&b->m, sizeof *b->m},
+                {&b->invm, sizeof *b->invm},     {&b->I, sizeof *b->I},           {&b->radius, sizeof *b->radius},
+                {&b->bound, sizeof *b->bound},   {&b->core, sizeof *b->core},     {&b->hold, sizeof *b->hold},
+                {&b->odometer, sizeof *b->odometer}};
+    for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
+        void *p = fl_alloc(total, want[k].size, err);
+        if (!p) {
+            fl_bodies_free(b);
+            return -1;
+        }
+        *(void **)want[k].array = p;
+    }
+    for (int32_t i = 0; i < total; i++) {
+        b->q[i] = q_one();
+        b->R[i] = q_matrix(b->q[i]);
+        b->I[i] = v3(1, 1, 1);
+    }
+    return 0;
+}
+
+void fl_bodies_free(fl_bodies *b)
+{
+    for (int32_t i = 0; b->core && i < b->total; i++) fl_poly_free(&b->core[i]);
+    free(b->x), free(b->v), free(b->L), free(b->q), free(b->R), free(b->w), free(b->f), free(b->t);
+    free(b->m), free(b->invm), free(b->I), free(b->radius), free(b->bound), free(b->core), free(b->hold);
+    free(b->odometer);
+    *b = (fl_bodies){0};
+}
+
+void fl_body_derive(fl_bodies *b, int32_t i)
+{
+    b->R[i] = q_matrix(b->q[i]);
+    b->w[i] = fl_body_turn(b, i, b->L[i]);
+}
+
+void fl_body_spin(fl_bodies *b, int32_t i, fl_vec3 w)
+{
+    const fl_vec3 s = m3_tmul(b->R[i], w), I = b->I[i];
+    b->w[i] = w;
+    b->L[i] = m3_mul(b->R[i], v3(I.x * s.x, I.y * s.y, I.z * s.z));
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* body.h -- the state of all rigid bodies: what moves by itself first, what is held after it.
+ *
+ * The frame of a body has its centre of mass as origin and its principal axes as axes, I.x <= I.y <= I.z.
+ * Bodies [0, n) are moved by forces; bodies [n, total) are pieces of the structure, whose velocity is given.
+ * One piece of geometry serves contact (the core and its radius) and mass and water (the outer shape). */
+#ifndef FL_BODY_BODY_H
+#define FL_BODY_BODY_H
+#include <stdint.h>
+#include "base/err.h"
+#include "geom/mat3.h"
+#include "geom/poly.h"
+#include "geom/quat.h"
+#include "geom/vec3.h"
+
+/* Directions that forces do not change; the order of FL_FIX_X, ... of a scene. */
+enum { FL_HOLD_X = 1, FL_HOLD_Y = 2, FL_HOLD_Z = 4, FL_HOLD_RX = 8, FL_HOLD_RY = 16, FL_HOLD_RZ = 32 };
+
+typedef struct {
+    int32_t n, total;
+    /* state, [total] each */
+    fl_vec3 *x; /* centre of mass                          [m]       */
+    fl_vec3 *v; /* its velocity                            [m/s]     */
+    fl_vec3 *L; /* angular momentum, world axes            [kg m2/s] */
+    fl_quat *q; /* body axes to world                                */
+    /* derived from the state */
+    fl_mat3 *R; /* matrix of q                                       */
+    fl_vec3 *w; /* angular velocity, world axes            [rad/s]   */
+    /* what acts, world axes, about the centre of mass */
+    fl_vec3 *f, *t; /* [N], [N m] */
+    /* what a body is */
+    double *m, *invm; /* [kg], [1/kg]; 0 and 0 for what is held      */
+    fl_vec3 *I;       /* principal moments, ascending      [kg m2]   */
+    double *radius;   /* dilation radius                   [m]       */
+    double *bound;    /* farthest core vertex from x       [m]       */
+    fl_poly *core;    /* in the body frame                           */
+    uint8_t *hold;    /* FL_HOLD_X | ...                             */
+    double *odometer; /* path no point of the core exceeds: sum of (|v| + |w| bound) dt  [m] */
+} fl_bodies;
+
+/* Arrays for `total` bodies, the first n of which move; all zero but q = 1.  -1 with FL_SYSTEM. */
+int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err);
+void fl_bodies_free(fl_bodies *b);
+
+/* R and w of body i from q and L. */
+void fl_body_derive(fl_bodies *b, int32_t i);
+
+/* Set L so that body i turns with angular velocity w (world axes). */
+void fl_body_spin(fl_bodies *b, int32_t i, fl_vec3 w);
+
+/* I^-1 t in world axes. */
+static inline fl_vec3 fl_body_turn(const fl_bodies *b, int32_t i, fl_vec3 t)
+{
+    const fl_vec3 s = m3_tmul(b->R[i], t), I = b->I[i];
+    return m3_mul(b->R[i], v3(s.x / I.x, s.y / I.y, s.z / I.z));
+}
+
+/* Velocity of the material point at world position offset a from the centre of mass. */
+static inline fl_vec3 fl_body_velocity(const fl_bodies *b, int32_t i, fl_vec3 a)
+{
+    return v3_add(b->v[i], v3_cross(b->w[i], a));
+}
+
+#endif

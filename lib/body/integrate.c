@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "body/integrate.h"
+
+fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt)
+{
+    const double a0 = 0.5 * dt * (1.0 / I.x - 1.0 / I.y), a2 = dt * (1.0 / I.z - 1.0 / I.y);
+    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * v3_dot(m3_col(q_matrix(q), 0), L)));
+    {
+        const fl_quat turn = q_of_vector(v3_scale(dt / I.y, L));
+        if (a2 != 0.0) q = q_mul(q, q_about(2, a2 * v3_dot(m3_col(q_matrix(q), 2), L)));
+        q = q_mul(turn, q);
+    }
+    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * v3_dot(m3_col(q_matrix(q), 0), L)));
+    /* rounding alone moves |q| from 1: one Newton step for 1/sqrt(|q|^2) takes it back */
+    const double s = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
+}
+
+void fl_kick(fl_bodies *b, double h)
+{
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < b->n; i++) {
+        const fl_vec3 v0 = b->v[i], w0 = b->w[i];
+        b->v[i] = v3_madd(v0, h * b->invm[i], b->f[i]);
+        b->L[i] = v3_madd(b->L[i], h, b->t[i]);
+        if (b->hold[i]) fl_hold(b, i, v0, w0);
+        else b->w[i] = fl_body_turn(b, i, b->L[i]);
+    }
+}
+
+void fl_drift(fl_bodies *b, double dt)
+{
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < b->total; i++) {
+        b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
+        b->odometer[i] += dt * (v3_norm(b->v[i]) + v3_norm(b->w[i]) * b->bound[i]);
+        if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) continue;
+        b->q[i] = fl_drift_rotation(b->q[i], b->L[i], b->I[i], dt);
+        fl_body_derive(b, i);
+    }
+}
+
+/* Solve the k x k system a x = y, k <= 3, a symmetric and positive definite (Cholesky). */
+static void solve_spd(int k, double a[3][3], const double *y, double *x)
+{
+    for (int i = 0; i < k; i++) {
+        for (int j = 0; j <= i; j++) {
+            double s = a[i][j];
+            for (int l = 0; l < j; l++) s -= a[i][l] * a[j][l];
+            a[i][j] = i == j ? sqrt(s) : s / a[j][j];
+        }
+    }
+    for (int i = 0; i < k; i++) {
+        x[i] = y[i];
+        for (int l = 0; l < i; l++) x[i] -= a[i][l] * x[l];
+        x[i] /= a[i][i];
+    }
+    for (int i = k - 1; i >= 0; i--) {
+        for (int l = i + 1; l < k; l++) x[i] -= a[l][i] * x[l];
+        x[i] /= a[i][i];
+    }
+}
+
+static double component(fl_vec3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
+
+void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
+{
+    const unsigned hold = b->hold[i];
+    if (hold & FL_HOLD_X) b->v[i].x = v_held.x;
+    if (hold & FL_HOLD_Y) b->v[i].y = v_held.y;
+    if (hold & FL_HOLD_Z) b->v[i].z = v_held.z;
+    if (!(hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ))) {
+        b->w[i] = fl_body_turn(b, i, b->L[i]);
+        return;
+    }
+    double Iw[3][3], a[3][3], y[3], s[3], w[3];
+    int free_axis[3], k = 0;
+    for (int r = 0; r < 3; r++) {
+        w[r] = hold & (unsigned)(FL_HOLD_RX << r) ? component(w_held, r) : 0.0;
+        if (!(hold & (unsigned)(FL_HOLD_RX << r))) free_axis[k++] = r;
+        for (int c = 0; c < 3; c++) {
+            const double *ri = b->R[i].m[r], *rc = b->R[i].m[c];
+            Iw[r][c] = ri[0] * b->I[i].x * rc[0] + ri[1] * b->I[i].y * rc[1] + ri[2] * b->I[i].z * rc[2];
+        }
+    }
+    for (int r = 0; r < k; r++) {
+        const double *row = Iw[free_axis[r]];
+        y[r] = component(b->L[i], free_axis[r]) - row[0] * w[0] - row[1] * w[1] - row[2] * w[2];
+        for (int c = 0; c < k; c++) a[r][c] = row[free_axis[c]];
+    }
+    solve_spd(k, a, y, s);
+    for (int r = 0; r < k; r++) w[free_axis[r]] = s[r];
+    fl_body_spin(b, i, v3(w[0], w[1], w[2]));
+}

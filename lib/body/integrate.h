@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* integrate.h -- time integration of rigid bodies: kick, drift, kick.
+ *
+ * Translation is velocity Verlet.  Rotation carries the angular momentum L in the world and a quaternion; a
+ * torque kicks L exactly, and the free rotation between kicks is split into exact rotations,
+ *     H = |L|^2/(2 I1) + (1/I0 - 1/I1) L0^2/2 + (1/I2 - 1/I1) L2^2/2,
+ * as axis 0 for dt/2, symmetric top (I1 everywhere, I2 about axis 2) for dt, axis 0 for dt/2.  Time-reversible,
+ * symplectic, order 2; L is untouched by the drift, so it is conserved to rounding.
+ * Source: Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840, in the variant that joins a
+ * symmetric top and one rotation. */
+#ifndef FL_BODY_INTEGRATE_H
+#define FL_BODY_INTEGRATE_H
+#include "body/body.h"
+
+/* v += h f/m, L += h t for bodies [0, n), but for what is held; renews w.
+ *   h  [s], half a step */
+void fl_kick(fl_bodies *b, double h);
+
+/* x += dt v and the rotation above for bodies [0, total); renews R, w and the odometer.  dt [s] */
+void fl_drift(fl_bodies *b, double dt);
+
+/* The rotation part alone, of one body; for tests. */
+fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
+
+/* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
+ * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w. */
+void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held);
+
+#endif
