@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* deep.h -- how far two convex cores that meet have to be moved apart, and which way. */
+#ifndef FL_NARROW_DEEP_H
+#define FL_NARROW_DEEP_H
+#include <stdint.h>
+#include "geom/poly.h"
+#include "narrow/gjk.h"
+
+/* A body as the narrow phase sees it, everything borrowed: the topology of its core, the vertices and
+ * the outward face normals in world axes, and the dilation radius. */
+typedef struct {
+    const fl_poly *p;
+    const fl_vec3 *v; /* [p->nv] world [m] */
+    const fl_vec3 *n; /* [p->nf] world     */
+    double r;         /* [m]               */
+} fl_solid;
+
+static inline fl_core fl_solid_core(const fl_solid *s)
+{
+    return (fl_core){s->v, s->p->nv};
+}
+
+/* What became of the proposals of libccd; add up over calls.  NULL where nobody asks. */
+typedef struct {
+    int64_t asked;  /* overlaps looked at                                                         */
+    int64_t none;   /* libccd found no overlap, or an answer that is not finite or not a direction */
+    int64_t poor;   /* its direction, measured by our own supports, is wider than the depth by
+                     * more than 1e-6 of the extent                                              */
+    int64_t capped; /* it was stopped at the limit of support calls                               */
+} fl_deep_count;
+
+typedef struct {
+    double depth;   /* smallest shift that separates the cores, >= 0                         [m] */
+    fl_vec3 n;      /* its unit direction, from b to a: move a by depth n                        */
+    fl_vec3 pa, pb; /* a point of a deepest below, of b highest along n: pa - pb = -depth n;
+                     * centred where faces or edges are parallel                             [m] */
+} fl_overlap;
+
+/* Penetration depth of two cores that meet (fl_gap.overlap),
+ *     depth = min over unit n of  max_b n.y - min_a n.x .
+ * For polyhedra the minimum is attained at a face normal of a or b or at the cross product of an edge of
+ * each; all are tried when ea eb <= 2^20, the edge pairs being thinned by the test that their arcs on the
+ * Gauss sphere cross (Gregorius 2013).  Beyond that the faces are tried, and the direction that libccd's
+ * MPR proposes (cores scaled to unit size about the centre of the pair, support calls capped) is carried
+ * to the exact direction of the facet it belongs to.  libccd is asked in both cases and checked: see
+ * fl_deep_count. Points, segments and flat polygons are allowed.  Equal minima go to the direction that
+ * points from the centre of b to that of a, then to the first in the order faces of a, faces of b, edges:
+ * coincident bodies get one direction, always the same. Cannot fail.  Together with fl_gjk the signed
+ * distance (d, or -depth) is continuous through zero. */
+void fl_deep(const fl_solid *a, const fl_solid *b, fl_deep_count *count, fl_overlap *out);
+
+#endif
