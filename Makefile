@@ -52,6 +52,8 @@ run-demo: all
 	@$(MAKE) --no-print-directory -C share/examples/cylinder BIN=$(CURDIR)/$B/bin demo
 run-check run-verify run-bench: tests
 	@sh tests/run.sh $(@:run-%=%) $B
+golden-update: all
+	@sh tests/run.sh update $B
 lint:
 	@sh tests/lint/lint.sh
 
@@ -65,6 +67,6 @@ install: all
 clean:
 	rm -rf build
 
-.PHONY: all tests setup demo check verify bench run-demo run-check run-verify run-bench lint install clean
+.PHONY: all tests setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install clean
 .SECONDARY:
 -include $(wildcard $B/*/*/*.d $B/*/*/*/*.d)

@@ -371,7 +371,7 @@ static int replay_damaged(const char *name, const bytes *b, fuzz_fn *one, int64_
     return 0;
 }
 
-/* Every allocation of the first 200 fails once, then every eighth or so: what follows is more of the same rows. */
+/* The first 200 allocations fail one by one, then some: what follows is more of the same rows. */
 static int replay_starved(const char *name, const bytes *b, fuzz_fn *one, int usual)
 {
     for (long k = 0;; k += k < 200 ? 1 : k / 8) {

@@ -19,7 +19,7 @@
 #include <stddef.h>
 #include "base/err.h"
 
-enum { FUZZ_READ = 0, FUZZ_REFUSED = 1, FUZZ_BROKEN = 2, FUZZ_SYSTEM = 3 };
+enum fuzz_says { FUZZ_READ, FUZZ_REFUSED, FUZZ_BROKEN, FUZZ_SYSTEM };
 
 /* Does the reader do with these bytes what it promises?  FUZZ_BROKEN where it does not; else what
  * fuzz_verdict() says. */
@@ -35,9 +35,9 @@ const char *fuzz_file(const unsigned char *data, size_t n);
 /* For each file of the corpus, in the order of their names:
  *  - the file as it is;
  *  - damaged copies: bits flipped, ends cut, lines lost, repeated or swapped, numbers replaced by -1, 1e309,
- *    nan, 2147483648 and the like, parts of other corpus files spliced in.  Copy m of a file is the same on every
- *    run.  Their number is 400 when FLOE_QUICK is set, 4000 otherwise, or FLOE_FUZZ; fewer for files
- *    so long that this would take minutes;
+ *    nan, 2147483648 and the like, parts of other corpus files spliced in.  Copy m of a file is the same on
+ *    every run.  Their number is 400 when FLOE_QUICK is set, 4000 otherwise, or FLOE_FUZZ; fewer for files so
+ *    long that this would take minutes;
  *  - the file as it is with allocation 0, 1, 2, ... and all after it failing, until none fails any more.
  * A reader is broken when it crashes, takes longer than 30 s, leaves rc and err at odds, reads what it must
  * refuse or the reverse, runs out of 2 GiB of memory, or goes on after an allocation failed.

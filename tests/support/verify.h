@@ -34,8 +34,8 @@ void verify_row(const char *id, const char *what, double value, double expected,
 /* One row for value <= bound; a value that is not finite fails. */
 void verify_below(const char *id, const char *what, double value, double bound);
 
-/* Print err[n] against the step h[n], n >= 2, with the order between neighbours, and fit one order p through all of
- * it: log err = p log h + c by least squares.  ok when |p - expected| <= tol; an error that is not a
+/* Print err[n] against the step h[n], n >= 2, with the order between neighbours, and fit one order p through
+ * all of it: log err = p log h + c by least squares.  ok when |p - expected| <= tol; an error that is not a
  * positive number fails. */
 void verify_order(const char *id, const char *what, const double *h, const double *err, int n,
                   double expected, double tol);
@@ -46,7 +46,8 @@ void verify_true(const char *id, const char *what, int ok);
 /* A line of explanation in the table. */
 void verify_note(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 
-/* Print "N passed, N failed"; returns the exit status of the program: 0, or 1 when a row failed or there was none. */
+/* Print "N passed, N failed"; returns the exit status of the program: 0, or 1 when a row failed or there was
+ * none. */
 int verify_end(void);
 
 #endif

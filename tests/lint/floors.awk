@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# floors.awk -- the rules of the house that can be read from the text of a file.  Files are named as arguments, paths
+# from the root of the tree.  Prints "file:line: complaint"; status 1 when there was one.
+BEGIN {
+    n = split("base geom shim broad narrow law body water bond bound scene out stat step", floor)
+    for (k = 1; k <= n; k++) rank[floor[k]] = k
+    # Spelt so that this file does not hold them.
+    marks = "(^|[^A-Za-z_])(TO" "DO|FIX" "ME|XX" "X)([^A-Za-z_]|$)"
+    paths = "/(ho" "me|wo" "rk|ro" "ot|Us" "ers)/"
+    WIDTH = 110
+}
+
+function complain(what)
+{
+    printf "%s:%d: %s\n", FILENAME, FNR, what
+    bad = 1
+}
+
+FNR == 1 {
+    parts = split(FILENAME, part, "/")
+    file = part[parts]
+    stem = file
+    sub(/\.[^.]*$/, "", stem)
+    is_c = file ~ /\.(c|h|cpp)$/
+    house = part[1]
+    mine = house == "lib" ? part[2] : ""
+    folder = FILENAME
+    sub(/\/[^\/]*$/, "", folder)
+    licensed = 0
+    guard = ""
+    if (is_c) {
+        if ($0 != "/* SPDX-License-Identifier: GPL-3.0-or-later */") complain("the licence line is wanted here")
+        licensed = 1
+        if (house == "lib" && (parts != 3 || !(mine in rank))) complain("lib/" mine " is not a floor")
+        if (file ~ /\.cpp$/ && folder != "lib/shim") complain("C++ is for lib/shim")
+        # A program's main and options are called the same everywhere; all else has a name of its own.
+        if (house == "tools" && (stem == "main" || stem == "options")) stem = folder "/" stem
+        if (stem in home && home[stem] != folder) complain("the name " stem " is taken by " home[stem])
+        home[stem] = folder
+    }
+}
+
+# Scripts have "#!" before it, manual pages a type line: the first three lines will do.
+!is_c && FNR <= 3 && /SPDX-License-Identifier: GPL-3\.0-or-later/ { licensed = 1 }
+!is_c && FNR == 4 && !licensed {
+    complain("no licence line in the first three lines")
+    licensed = 1
+}
+
+$0 ~ marks { complain("a mark of unfinished work") }
+$0 ~ paths { complain("a path of one machine") }
+
+is_c {
+    line = $0
+    gsub(/[\200-\277]/, "", line) # what follows the first byte of a UTF-8 character
+    if (length(line) > WIDTH) complain("line of " length(line) " columns, " WIDTH " are the most")
+    if (/[ \t]$/) complain("a blank at the end of the line")
+}
+
+is_c && file ~ /\.h$/ && guard == "" && /^#ifndef/ {
+    guard = $2
+    want = toupper("FL_" (house == "lib" ? mine : part[2]) "_" stem "_H")
+    if (house == "tools") want = toupper("FL_" part[2] "_" part[parts])
+    if (house == "tests") want = toupper("FL_TESTS_" stem "_H")
+    gsub(/[^A-Z0-9_]/, "_", want)
+    if (guard != want) complain("the guard is " guard ", " want " was wanted")
+}
+
+is_c && /^[ \t]*#[ \t]*include[ \t]*"/ {
+    split($0, quoted, "\"")
+    target = quoted[2]
+    steps = split(target, step, "/")
+    if (house == "lib") {
+        if (steps != 2 || !(step[1] in rank)) complain("\"" target "\": the include path shows the floor, \"geom/poly.h\"")
+        else if (rank[step[1]] > rank[mine]) complain(mine " is beneath " step[1] " and may not include " target)
+    } else if (steps == 2 && step[1] in rank) {
+        ok = 1
+    } else if (house == "tests") {
+        if (target !~ /^support\//) complain("\"" target "\": tests include the library and support/")
+    } else if (steps != 1) {
+        complain("\"" target "\": a program includes the library and its own folder")
+    }
+}
+
+END { exit bad }

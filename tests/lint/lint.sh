@@ -1,0 +1,112 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# lint.sh [floors] -- what the house asks of every file; `floors` is the part that reads text only and takes a moment.
+#   floors    a library file includes from its own floor or those beneath, a program from the library or its own
+#             folder; C++ in lib/shim only; base names, include guards, licence lines, width of lines, left-over marks
+#   warnings  every file under gcc, and under clang where there is one, with the warnings of config.mk as errors
+#   headers   each header compiles alone, as C
+#   format    clang-format agrees, where there is one
+#   man       the manual pages parse without a complaint, where mandoc or man is there
+#   shell     the scripts pass shellcheck, where there is one
+# Prints each complaint, and "N passed, N failed" at the end.  What is skipped for want of a program is named.
+set -u
+LC_ALL=C
+export LC_ALL
+cd "$(dirname "$0")/../.." || exit 4
+passed=0 failed=0
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/floe-lint.XXXXXX") || exit 4
+trap 'rm -rf "$scratch"' EXIT
+trap 'exit 130' INT TERM HUP
+
+verdict() # NAME STATUS
+{
+    if [ "$2" -eq 0 ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "lint: $1 failed"
+    fi
+}
+
+floors()
+{
+    find Makefile config.mk .ci lib tools tests share -type f \( -name '*.[ch]' -o -name '*.cpp' -o -name '*.sh' \
+        -o -name '*.mk' -o -name Makefile -o -name '*.[157]' -o -path '.ci/*' \) | sort >"$scratch/files"
+    [ -s "$scratch/files" ] || return 1
+    xargs awk -f tests/lint/floors.awk <"$scratch/files"
+}
+
+floors
+verdict floors $?
+if [ "${1-}" = floors ]; then
+    echo "$passed passed, $failed failed"
+    [ $failed -eq 0 ]
+    exit
+fi
+
+# The builder's flags, as make sees them.
+# shellcheck disable=SC2016 # for make, not for the shell
+flags() { printf 'include config.mk\nshow:\n\t@echo $(%s)\n' "$1" | make -s -f - show; }
+cwarn=$(flags CWARN) warn=$(flags WARN) float=$(flags FLOAT)
+c_flags="-std=c17 -D_POSIX_C_SOURCE=200809L $cwarn $float -fopenmp -Ilib -Itests -Werror -fsyntax-only"
+cxx_flags="-std=c++17 $warn $float -fopenmp -Ilib -Werror -fsyntax-only"
+
+skip() { echo "lint: $1 skipped: $2"; }
+
+# compile NAME COMPILER FLAGS < files: all of them, on every core; complaints and a verdict.
+compile()
+{
+    # shellcheck disable=SC2086 # flags are a list
+    xargs -n 4 -P "$(getconf _NPROCESSORS_ONLN)" $2 $3
+    verdict "$1" $?
+}
+
+for cc in gcc clang; do
+    if ! command -v $cc >/dev/null; then
+        skip "warnings of $cc" "no $cc"
+        continue
+    fi
+    more=
+    if [ $cc = clang ]; then
+        cxx=clang++ # where clang has no OpenMP header of its own, that of gcc says the same
+        more="-idirafter $(dirname "$(gcc -print-file-name=include/omp.h)")"
+    else
+        cxx=g++
+    fi
+    find lib tools tests -name '*.c' | sort | compile "warnings of $cc" $cc "$c_flags $more"
+    find lib tools tests -name '*.h' | sort | compile "headers alone under $cc" $cc "$c_flags $more -x c"
+    find lib -name '*.cpp' | sort | compile "warnings of $cxx" $cxx "$cxx_flags $more"
+done
+
+if command -v clang-format >/dev/null; then
+    find lib tools tests \( -name '*.[ch]' -o -name '*.cpp' \) -exec clang-format --dry-run -Werror {} +
+    verdict format $?
+else
+    skip format "no clang-format"
+fi
+
+pages=$(find share tools -name '*.[157]' | sort)
+if command -v mandoc >/dev/null; then
+    # shellcheck disable=SC2086
+    [ -z "$pages" ] || mandoc -T lint -W warning $pages
+    verdict "manual pages" $?
+elif command -v man >/dev/null && command -v groff >/dev/null; then
+    bad=0
+    for p in $pages; do
+        LC_ALL=C.UTF-8 man --warnings -E UTF-8 -l "$p" 2>"$scratch/man" >/dev/null </dev/null
+        [ -s "$scratch/man" ] && { sed "s|^|$p: |" "$scratch/man"; bad=1; }
+    done
+    verdict "manual pages" $bad
+else
+    skip "manual pages" "neither mandoc nor man with groff"
+fi
+
+if command -v shellcheck >/dev/null; then
+    find share tests -name '*.sh' -exec shellcheck -s sh {} +
+    verdict shell $?
+else
+    skip shell "no shellcheck"
+fi
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

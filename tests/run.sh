@@ -1,0 +1,172 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# run.sh check|verify|bench|update BUILD -- run the tests that lie built under BUILD.
+#   check    floors, man pages against --help, unit, prop, fuzz, golden, and the quick part of verify
+#   verify   every verification program in full, with its table
+#   bench    every benchmark, one at a time
+#   update   rewrite what the golden cases expect; CASE='name*' limits it to some of them
+# One line a program, the output of those that failed, and at the end "N passed, N failed" alone.
+# Status 0, or 1 when something failed.  A program that crashes, hangs (FLOE_TIMEOUT seconds, else 600; 3600 for
+# verify and bench) or prints no count has failed.  ONLY='unit/*' limits check and verify to some programs.
+set -u
+LC_ALL=C
+export LC_ALL
+
+# counts FILE STATUS: "passed failed skipped" from the summary lines of cmocka and from a line "N passed, N failed".
+counts()
+{
+    awk -v status="$2" '
+        /^\[ *(PASSED|FAILED|SKIPPED) *\] [0-9]+ test\(s\)/ {
+            match($0, /\] [0-9]+/)
+            n = substr($0, RSTART + 2, RLENGTH - 2) + 0
+            if (/^\[ *PASSED/) passed += n
+            else if (/^\[ *FAILED/) failed += n
+            else skipped += n
+        }
+        /^[0-9]+ passed, [0-9]+ failed$/ { own_passed = $1; own_failed = $3 }
+        END {
+            passed += own_passed
+            failed += own_failed
+            if (failed == 0 && (status != 0 || passed + skipped == 0)) failed = 1
+            print passed + 0, failed, skipped + 0
+        }' "$1"
+}
+
+# job FOLDER K LIMIT: run the command in FOLDER/K.cmd; leaves K.out, and K.done with status and seconds.
+if [ "${1-}" = job ]; then
+    s=$2/$3
+    mkdir "$s.tmp"
+    start=$(date +%s)
+    bound=
+    command -v timeout >/dev/null && bound="timeout -k 10 $4"
+    TMPDIR=$s.tmp $bound sh "$s.cmd" >"$s.out" 2>&1 </dev/null &
+    echo $! >"$s.pid"
+    wait $!
+    status=$?
+    rm "$s.pid"
+    [ $status -eq 124 ] && echo "stopped after $4 s" >>"$s.out"
+    rm -rf "$s.tmp"
+    echo "$status $(($(date +%s) - start))" >"$s.fin"
+    mv "$s.fin" "$s.done"
+    exit 0
+fi
+
+what=${1-} build=${2-}
+case $what in
+check | verify | bench | update) ;;
+*)
+    echo "usage: run.sh check|verify|bench|update BUILD" >&2
+    exit 2
+    ;;
+esac
+root=$(cd "$(dirname "$0")/.." && pwd) || exit 4
+cd "$root" || exit 4
+build=$(cd "$build" 2>/dev/null && pwd) || {
+    echo "run.sh: ${2-}: no such folder, the one that make built into was wanted" >&2
+    exit 2
+}
+
+if [ "$what" = update ]; then
+    for c in tests/golden/${CASE:-*}/cmd; do
+        [ -f "$c" ] || continue
+        sh tests/golden.sh --update "${c%/cmd}" "$build" || exit 1
+    done
+    exit 0
+fi
+
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/floe-run.XXXXXX") || exit 4
+crew=
+trap 'rm -rf "$scratch"' EXIT
+# xargs first, so that nothing new starts, then what runs; timeout hands the signal on.
+trap 'kill $crew $(cat "$scratch"/*.pid) 2>/dev/null; exit 130' INT TERM HUP
+# A reader that trusts a count must get NULL back, not the end of the program.
+ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
+UBSAN_OPTIONS=print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}
+export ASAN_OPTIONS UBSAN_OPTIONS
+
+jobs=0 only=${ONLY:-*}
+: >"$scratch/list"
+add() # LABEL COMMAND
+{
+    # shellcheck disable=SC2254 # a pattern
+    case $1 in
+    $only) ;;
+    *) return ;;
+    esac
+    jobs=$((jobs + 1))
+    k=$(printf %04d $jobs)
+    printf '%s\n' "$2" >"$scratch/$k.cmd"
+    printf '%s %s\n' "$k" "$1" >>"$scratch/list"
+}
+programs() # KIND
+{
+    for source in tests/"$1"/*.c; do
+        [ -f "$source" ] || continue
+        name=$(basename "$source" .c)
+        add "$1/$name" "exec '$build/tests/$1/$name'"
+    done
+}
+
+crews=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+limit=${FLOE_TIMEOUT:-3600}
+case $what in
+check)
+    FLOE_QUICK=1
+    export FLOE_QUICK
+    limit=${FLOE_TIMEOUT:-600}
+    add lint/floors "exec sh tests/lint/lint.sh floors"
+    add lint/options "exec sh tests/lint/options.sh '$build'"
+    programs unit
+    programs prop
+    programs fuzz
+    for c in tests/golden/*/cmd; do
+        [ -f "$c" ] && add "golden/$(basename "${c%/cmd}")" "exec sh tests/golden.sh '${c%/cmd}' '$build'"
+    done
+    programs verify
+    ;;
+verify)
+    unset FLOE_QUICK
+    programs verify
+    ;;
+bench)
+    unset FLOE_QUICK
+    crews=1
+    programs bench
+    ;;
+esac
+
+cut -d ' ' -f 1 "$scratch/list" | xargs -n 1 -P "$crews" -I '{}' sh tests/run.sh job "$scratch" '{}' "$limit" &
+crew=$!
+
+passed=0 failed=0
+while read -r k label; do
+    while [ ! -f "$scratch/$k.done" ]; do
+        kill -0 $crew 2>/dev/null || [ -f "$scratch/$k.done" ] || {
+            echo "run.sh: could not start $label" >&2
+            exit 4
+        }
+        sleep 0.1
+    done
+    read -r status seconds <"$scratch/$k.done"
+    if [ "$what" = bench ]; then # it measures; that it ran to its end is the test
+        grep -q '^[0-9]* passed, [0-9]* failed$' "$scratch/$k.out" ||
+            [ "$status" -ne 0 ] || echo "1 passed, 0 failed" >>"$scratch/$k.out"
+    fi
+    # shellcheck disable=SC2046 # three numbers
+    set -- $(counts "$scratch/$k.out" "$status")
+    passed=$((passed + $1)) failed=$((failed + $2))
+    note=
+    [ "$3" -gt 0 ] && note="$note, $3 skipped"
+    [ "$status" -gt 128 ] && note="$note, ended by signal $((status - 128))"
+    [ "$seconds" -gt 1 ] && note="$note, $seconds s"
+    if [ "$what" != check ]; then
+        grep -v '^[0-9]* passed, [0-9]* failed$' "$scratch/$k.out"
+    elif [ "$2" -gt 0 ]; then
+        echo "--- $label ---"
+        tail -n 60 "$scratch/$k.out"
+    fi
+    printf '%-32s %d passed, %d failed%s\n' "$label" "$1" "$2" "$note"
+done <"$scratch/list"
+wait $crew
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]
