@@ -61,7 +61,10 @@ static void solve_spd(int k, double a[3][3], const double *y, double *x)
     }
 }
 
-static double component(fl_vec3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
+static double component(fl_vec3 a, int k)
+{
+    return k == 0 ? a.x : k == 1 ? a.y : a.z;
+}
 
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
 {

@@ -9,7 +9,8 @@
 
 typedef struct {
     fl_aabb box;
-    int32_t first, count; /* leaf: order[first .. first + count); inner node: count = 0, children first, first + 1 */
+    int32_t first,
+        count; /* leaf: order[first .. first + count); inner node: count = 0, children first, first + 1 */
 } fl_bvh_node;
 
 typedef struct {
