@@ -36,8 +36,8 @@ typedef struct {
 } fl_surface;
 
 /* Add an empty part; its id is the largest so far plus one (0 first).  Of name[0 .. len) every byte up to
- * the blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name that is taken gets "_2", "_3", ...
- * Returns the index of the part, or -1 with FL_SYSTEM. */
+ * the blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name that is taken gets "_2",
+ * "_3", ... Returns the index of the part, or -1 with FL_SYSTEM. */
 int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err);
 
 /* Index of the part of that name (compared after the same cleaning), -1 when there is none. */

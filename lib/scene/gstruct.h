@@ -10,8 +10,8 @@ enum { FL_GSTRUCT_VERSION = 1 };
 
 /* Read path ("-" is standard input, gzip is unpacked).  s is zeroed or free before, and untouched on failure.
  * Checked, each with file and line: kind and version, known records, numbers finite, vertices of a
- * triangle present above it and distinct, cones of positive length with radii >= 0 and not both 0, part ids >= 0 and names
- * unique, no part without a triangle or a cone, at least one part.
+ * triangle present above it and distinct, cones of positive length with radii >= 0 and not both 0, part ids
+ * >= 0 and names unique, no part without a triangle or a cone, at least one part.
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
 int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err);
 

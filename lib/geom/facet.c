@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "geom/facet.h"
+
+/* A quadrilateral is flat when its corners stray less than this from a plane, relative to its diagonal:
+ * float32 coordinates stray 1e-7 of their size, and a panel meant as warped strays 1e-3 and more. */
+static const double FLAT = 1e-6;
+
+static const double TWO_PI = 6.283185307179586477;
+
+/* Corner k of n of the unit circle.  The angle is brought to within an eighth of a turn before the C library
+ * sees it, so that corners opposite each other are opposite to the last bit. */
+static void circle(int32_t k, int32_t n, double *c, double *s)
+{
+    const int64_t eighth = 8 * (int64_t)k / n; /* 0 .. 7 */
+    const int64_t turn = (eighth + 1) / 2;     /* quarter turns to take off, 0 .. 4 */
+    const double a = TWO_PI * (double)(4 * (int64_t)k - turn * n) / (4.0 * n), x = cos(a), y = sin(a);
+    *c = turn % 4 == 0 ? x : turn % 4 == 1 ? -y : turn % 4 == 2 ? -x : y;
+    *s = turn % 4 == 0 ? y : turn % 4 == 1 ? x : turn % 4 == 2 ? -y : -x;
+}
+
+int fl_facet_cone(fl_part *p, const fl_cone *c, int32_t n, fl_err *err)
+{
+    const fl_vec3 axis = v3_unit(v3_sub(c->p1, c->p0)), e0 = v3_normal_to(axis), e1 = v3_cross(axis, e0);
+    int32_t first[2], count[2];
+    for (int end = 0; end < 2; end++) {
+        const double r = end ? c->r1 : c->r0;
+        const fl_vec3 o = end ? c->p1 : c->p0;
+        first[end] = p->nv;
+        count[end] = r > 0.0 ? n : 1; /* a point is one corner */
+        for (int32_t k = 0; k < count[end]; k++) {
+            double x, y;
+            circle(k, n, &x, &y);
+            if (fl_surface_vertex(p, v3_madd(v3_madd(o, r * x, e0), r * y, e1), err)) return -1;
+        }
+    }
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t next = k + 1 < n ? k + 1 : 0;
+        const int32_t a = first[0] + k % count[0], b = first[0] + next % count[0];
+        const int32_t d = first[1] + k % count[1], e = first[1] + next % count[1];
+        if (a != b && fl_surface_triangle(p, a, b, e, err)) return -1;
+        if (d != e && fl_surface_triangle(p, a, e, d, err)) return -1;
+    }
+    for (int32_t k = 2; k < count[0]; k++)
+        if (fl_surface_triangle(p, first[0], first[0] + k, first[0] + k - 1, err)) return -1;
+    for (int32_t k = 2; k < count[1]; k++)
+        if (fl_surface_triangle(p, first[1], first[1] + k - 1, first[1] + k, err)) return -1;
+    return 0;
+}
+
+int fl_facet_box(fl_part *p, fl_vec3 lo, fl_vec3 hi, fl_err *err)
+{
+    /* corner k has its high x, y, z where bit 0, 1, 2 of k is set */
+    static const int32_t face[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    const int32_t o = p->nv;
+    for (int k = 0; k < 8; k++) {
+        const fl_vec3 x = v3(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
+        if (fl_surface_vertex(p, x, err)) return -1;
+    }
+    for (int f = 0; f < 6; f++) {
+        const int32_t *q = face[f];
+        if (fl_surface_triangle(p, o + q[0], o + q[1], o + q[2], err) ||
+            fl_surface_triangle(p, o + q[0], o + q[2], o + q[3], err))
+            return -1;
+    }
+    return 0;
+}
+
+/* --- polygons ------------------------------------------------------------------------------------------- */
+
+/* Smallest angle of a triangle, as its largest cosine. */
+static double sharpest(fl_vec3 a, fl_vec3 b, fl_vec3 c)
+{
+    const fl_vec3 ab = v3_unit(v3_sub(b, a)), bc = v3_unit(v3_sub(c, b)), ca = v3_unit(v3_sub(a, c));
+    return fmax(-v3_dot(ca, ab), fmax(-v3_dot(ab, bc), -v3_dot(bc, ca)));
+}
+
+/* Which diagonal splits the convex quadrilateral: 0 from corner 0 to 2, 1 from corner 1 to 3. */
+static int diagonal(const fl_vec3 *x, const int32_t q[4])
+{
+    const fl_vec3 a = x[q[0]], b = x[q[1]], c = x[q[2]], d = x[q[3]];
+    const double ac = v3_norm(v3_sub(c, a)), bd = v3_norm(v3_sub(d, b));
+    const fl_vec3 n = v3_unit(v3_cross(v3_sub(c, a), v3_sub(d, b)));
+    double one = ac, other = bd;
+    /* n is at right angles to both diagonals; their distance along it is twice what the corners stray */
+    if (fabs(v3_dot(n, v3_sub(b, a))) > 2.0 * FLAT * fmax(ac, bd)) {
+        one = fmax(sharpest(a, b, c), sharpest(a, c, d));
+        other = fmax(sharpest(b, c, d), sharpest(b, d, a));
+    }
+    if (one != other) return other < one;
+    return (q[1] < q[3] ? q[1] : q[3]) < (q[0] < q[2] ? q[0] : q[2]);
+}
+
+/* Twice the area of a, b, c seen along n; positive when counter-clockwise. */
+static double turn(fl_vec3 n, fl_vec3 a, fl_vec3 b, fl_vec3 c)
+{
+    return v3_dot(n, v3_cross(v3_sub(b, a), v3_sub(c, a)));
+}
+
+typedef struct {
+    const fl_vec3 *x;
+    fl_vec3 n;                   /* unit vector area */
+    int32_t *loop, *prev, *next; /* corners still there, as a ring */
+    char *concave;
+    int32_t left, hollow; /* corners still there, concave ones among them */
+} ring;
+
+static double corner_turn(const ring *r, int32_t k)
+{
+    return turn(r->n, r->x[r->loop[r->prev[k]]], r->x[r->loop[k]], r->x[r->loop[r->next[k]]]);
+}
+
+/* An ear: a convex corner whose triangle holds no other corner.  Only concave corners can be the first
+ * inside. */
+static int is_ear(const ring *r, int32_t k)
+{
+    const int32_t i = r->prev[k], j = r->next[k];
+    const fl_vec3 a = r->x[r->loop[i]], b = r->x[r->loop[k]], c = r->x[r->loop[j]];
+    if (r->concave[k]) return 0;
+    if (r->hollow == 0) return 1;
+    for (int32_t m = r->next[j]; m != i; m = r->next[m]) {
+        const fl_vec3 y = r->x[r->loop[m]];
+        if (!r->concave[m] || r->loop[m] == r->loop[i] || r->loop[m] == r->loop[j] ||
+            r->loop[m] == r->loop[k])
+            continue;
+        if (turn(r->n, a, b, y) >= 0.0 && turn(r->n, b, c, y) >= 0.0 && turn(r->n, c, a, y) >= 0.0) return 0;
+    }
+    return 1;
+}
+
+static void mark(ring *r, int32_t k, int concave)
+{
+    r->hollow += concave - r->concave[k];
+    r->concave[k] = (char)concave;
+}
+
+static int clip_ears(fl_part *p, ring *r, fl_err *err)
+{
+    int32_t k = 0, idle = 0;
+    while (r->left > 3) {
+        const int32_t i = r->prev[k], j = r->next[k];
+        if (!is_ear(r, k) && idle < r->left) {
+            idle++;
+            k = j;
+            continue;
+        }
+        /* With a full round idle the polygon crosses itself: what is left is cut off corner by corner. */
+        if (fl_surface_triangle(p, r->loop[i], r->loop[k], r->loop[j], err)) return -1;
+        r->next[i] = j;
+        r->prev[j] = i;
+        r->left--;
+        mark(r, k, 0);
+        mark(r, i, !(corner_turn(r, i) > 0.0));
+        mark(r, j, !(corner_turn(r, j) > 0.0));
+        if (idle < r->left) idle = 0;
+        k = r->next[j]; /* not j itself: going round keeps triangles from becoming slivers of one corner */
+    }
+    return fl_surface_triangle(p, r->loop[r->prev[k]], r->loop[k], r->loop[r->next[k]], err);
+}
+
+static int quadrilateral(fl_part *p, const int32_t q[4], fl_err *err)
+{
+    const int d = diagonal(p->v, q);
+    return fl_surface_triangle(p, q[d], q[d + 1], q[d + 2], err) ||
+                   fl_surface_triangle(p, q[d], q[d + 2], q[(d + 3) % 4], err)
+               ? -1
+               : 0;
+}
+
+int fl_facet_polygon(fl_part *p, int32_t n, const int32_t *loop, fl_err *err)
+{
+    ring r = {.x = p->v};
+    int32_t *mem;
+    int rc = -1;
+    if (n == 3) { /* the common case needs no ring */
+        if (loop[0] == loop[1] || loop[1] == loop[2] || loop[2] == loop[0]) return 0;
+        return fl_surface_triangle(p, loop[0], loop[1], loop[2], err);
+    }
+    mem = fl_alloc(4 * (int64_t)n, sizeof *mem, err);
+    if (!mem) return -1;
+    r.loop = mem;
+    r.prev = mem + n;
+    r.next = mem + 2 * (int64_t)n;
+    r.concave = (char *)(mem + 3 * (int64_t)n);
+    for (int32_t k = 0; k < n; k++)
+        if (loop[k] != loop[k ? k - 1 : n - 1]) r.loop[r.left++] = loop[k];
+    if (r.left < 3) {
+        rc = 0;
+        goto done;
+    }
+    for (int32_t k = 0; k < r.left; k++) {
+        r.prev[k] = k ? k - 1 : r.left - 1;
+        r.next[k] = k + 1 < r.left ? k + 1 : 0;
+        /* about corner 0, so that a polygon far from the origin keeps its digits */
+        r.n = v3_add(r.n, v3_cross(v3_sub(r.x[r.loop[k]], r.x[r.loop[0]]),
+                                   v3_sub(r.x[r.loop[r.next[k]]], r.x[r.loop[0]])));
+    }
+    r.n = v3_unit(r.n);
+    for (int32_t k = 0; k < r.left; k++) mark(&r, k, !(corner_turn(&r, k) > 0.0));
+    rc = r.left == 4 && r.hollow == 0 ? quadrilateral(p, r.loop, err) : clip_ears(p, &r, err);
+done:
+    free(mem);
+    return rc;
+}

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/mem.h"
+#include "geom/patch.h"
+
+/* Rounding leaves up to about 4 x 2^-53 of the longest side squared in a cross product that should be zero.
+ * */
+static const double NO_AREA = 1e-15;
+
+static const double PI = 3.141592653589793238;
+
+/* One side of a triangle, keyed by its ends. */
+typedef struct {
+    int32_t lo, hi, t;
+    int8_t k, up; /* side k of triangle t, running from lo to hi */
+} side;
+
+static int by_ends(const void *x, const void *y)
+{
+    const side *a = x, *b = y;
+    if (a->lo != b->lo) return a->lo < b->lo ? -1 : 1;
+    if (a->hi != b->hi) return a->hi < b->hi ? -1 : 1;
+    if (a->t != b->t) return a->t < b->t ? -1 : 1;
+    return a->k - b->k;
+}
+
+static int repeats(const fl_tri *t)
+{
+    return t->v[0] == t->v[1] || t->v[1] == t->v[2] || t->v[2] == t->v[0];
+}
+
+/* Who lies across side k of triangle t: across[3 t + k], -1 for nobody; agree[3 t + k] when they run
+ * coherently. */
+typedef struct {
+    int32_t *across, *queue;
+    int8_t *agree;
+    int8_t *sign; /* 0 not reached, 1 as it is, -1 to be turned */
+    int32_t open, branched, incoherent;
+    int balanced;
+} web;
+
+static void web_free(web *w)
+{
+    free(w->across);
+    free(w->queue);
+    free(w->agree);
+    free(w->sign);
+}
+
+static void join(web *w, const side *s, int64_t n)
+{
+    int64_t up = 0;
+    for (int64_t k = 0; k < n; k++) up += s[k].up ? 1 : -1;
+    if (up != 0) w->balanced = 0;
+    if (n == 1) w->open++;
+    if (n > 2) w->branched++;
+    if (n != 2) return;
+    if (up != 0) w->incoherent++;
+    for (int k = 0; k < 2; k++) {
+        const int64_t here = 3 * (int64_t)s[k].t + s[k].k;
+        w->across[here] = s[1 - k].t;
+        w->agree[here] = up == 0;
+    }
+}
+
+static int web_make(web *w, const fl_part *p, fl_err *err)
+{
+    int64_t n = 0;
+    side *s = fl_alloc(3 * (int64_t)p->nt, sizeof *s, err);
+    *w = (web){.balanced = 1};
+    w->across = s ? fl_alloc(3 * (int64_t)p->nt, sizeof *w->across, err) : NULL;
+    w->agree = w->across ? fl_alloc(3 * (int64_t)p->nt, 1, err) : NULL;
+    w->sign = w->agree ? fl_alloc(p->nt, 1, err) : NULL;
+    w->queue = w->sign ? fl_alloc(p->nt, sizeof *w->queue, err) : NULL;
+    if (!w->queue) {
+        free(s);
+        web_free(w);
+        return -1;
+    }
+    memset(w->across, -1, 3 * (size_t)p->nt * sizeof *w->across);
+    for (int32_t t = 0; t < p->nt; t++) {
+        if (repeats(&p->t[t])) continue;
+        for (int k = 0; k < 3; k++) {
+            const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
+            s[n++] = a < b ? (side){a, b, t, (int8_t)k, 1} : (side){b, a, t, (int8_t)k, 0};
+        }
+    }
+    qsort(s, (size_t)n, sizeof *s, by_ends);
+    for (int64_t from = 0, to; from < n; from = to) {
+        for (to = from + 1; to < n && s[to].lo == s[from].lo && s[to].hi == s[from].hi;) to++;
+        join(w, s + from, to - from);
+    }
+    free(s);
+    return 0;
+}
+
+/* What is known of a patch once it has been walked. */
+typedef struct {
+    int32_t n;        /* triangles, w->queue[0 .. n)      */
+    int rim, twisted; /* has a rim; signs could not agree */
+} patch;
+
+/* Walk the patch of triangle t0, giving each of its triangles the sign that makes it agree with t0. */
+static patch walk(web *w, int32_t t0)
+{
+    patch g = {1, 0, 0};
+    w->queue[0] = t0;
+    w->sign[t0] = 1;
+    for (int32_t at = 0; at < g.n; at++) {
+        const int32_t t = w->queue[at];
+        for (int k = 0; k < 3; k++) {
+            const int32_t u = w->across[3 * (int64_t)t + k];
+            const int8_t want = w->agree[3 * (int64_t)t + k] ? w->sign[t] : (int8_t)-w->sign[t];
+            if (u < 0) {
+                g.rim = 1;
+            } else if (w->sign[u] == 0) {
+                w->sign[u] = want;
+                w->queue[g.n++] = u;
+            } else if (w->sign[u] != want) {
+                g.twisted = 1;
+            }
+        }
+    }
+    return g;
+}
+
+/* Volume and area of the signed triangles of a patch, the volume about a corner of the patch itself. */
+static void patch_sums(const fl_part *p, const web *w, int32_t n, double *volume, double *kept,
+                       double *turned)
+{
+    const fl_vec3 o = p->v[p->t[w->queue[0]].v[0]];
+    *volume = *kept = *turned = 0.0;
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t t = w->queue[k], *v = p->t[t].v;
+        const fl_vec3 a = v3_sub(p->v[v[0]], o), b = v3_sub(p->v[v[1]], o), c = v3_sub(p->v[v[2]], o);
+        *volume += w->sign[t] * v3_dot(a, v3_cross(b, c)) / 6.0;
+        *(w->sign[t] > 0 ? kept : turned) += 0.5 * v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a)));
+    }
+}
+
+int fl_part_orient(fl_part *p, fl_orient *o, fl_err *err)
+{
+    web w;
+    *o = (fl_orient){0};
+    if (web_make(&w, p, err)) return -1;
+    for (int32_t t0 = 0; t0 < p->nt; t0++) {
+        double volume, kept, turned;
+        int flip;
+        patch g;
+        if (w.sign[t0] || repeats(&p->t[t0])) continue;
+        g = walk(&w, t0);
+        patch_sums(p, &w, g.n, &volume, &kept, &turned);
+        o->rimmed += g.rim;
+        o->twisted += g.twisted;
+        flip = turned > kept;
+        for (int32_t k = 0; k < g.n; k++) o->triangles += (w.sign[w.queue[k]] < 0) != flip;
+        if (!g.rim && !g.twisted && (flip ? -volume : volume) < 0.0) {
+            flip = !flip;
+            o->patches++;
+        }
+        for (int32_t k = 0; k < g.n; k++) {
+            int32_t *v = p->t[w.queue[k]].v;
+            if ((w.sign[w.queue[k]] < 0) != flip) {
+                const int32_t keep = v[1];
+                v[1] = v[2];
+                v[2] = keep;
+            }
+        }
+    }
+    web_free(&w);
+    return 0;
+}
+
+/* --- measures ------------------------------------------------------------------------------------------- */
+
+typedef struct {
+    double volume, area;
+    fl_vec3 vc, ac; /* first moments of volume and area about the common origin */
+} sums;
+
+static void add_cone(sums *s, const fl_cone *c, fl_vec3 o)
+{
+    const fl_vec3 p0 = v3_sub(c->p0, o), along = v3_sub(c->p1, c->p0), p1 = v3_sub(c->p1, o);
+    const double h = v3_norm(along), r = c->r0, q = c->r1, squares = r * r + r * q + q * q;
+    const double volume = PI * h / 3.0 * squares, side_area = PI * (r + q) * hypot(h, r - q);
+    s->volume += volume;
+    s->vc = v3_madd(s->vc, volume, v3_madd(p0, 0.25 * (r * r + 2 * r * q + 3 * q * q) / squares, along));
+    s->area += side_area + PI * r * r + PI * q * q;
+    s->ac = v3_madd(s->ac, side_area, v3_madd(p0, (r + 2 * q) / (3 * (r + q)), along));
+    s->ac = v3_madd(v3_madd(s->ac, PI * r * r, p0), PI * q * q, p1);
+}
+
+/* Add part p to s, and its degenerate triangles and shortest edge to q. */
+static void add_part(sums *s, fl_quality *q, const fl_part *p, fl_vec3 o)
+{
+    for (int32_t t = 0; t < p->nt; t++) {
+        const int32_t *v = p->t[t].v;
+        const fl_vec3 a = v3_sub(p->v[v[0]], o), b = v3_sub(p->v[v[1]], o), c = v3_sub(p->v[v[2]], o);
+        const fl_vec3 ab = v3_sub(b, a), ac = v3_sub(c, a), middle = v3_add(a, v3_add(b, c));
+        const double twice = v3_norm(v3_cross(ab, ac)), six = v3_dot(a, v3_cross(b, c));
+        const double l0 = v3_norm2(ab), l1 = v3_norm2(v3_sub(c, b)), l2 = v3_norm2(ac);
+        q->degenerate += repeats(&p->t[t]) || twice <= NO_AREA * fmax(l0, fmax(l1, l2));
+        q->shortest = fmin(q->shortest, sqrt(fmin(l0, fmin(l1, l2))));
+        s->volume += six / 6.0;
+        s->vc = v3_madd(s->vc, six / 24.0, middle);
+        s->area += 0.5 * twice;
+        s->ac = v3_madd(s->ac, twice / 6.0, middle);
+    }
+    for (int32_t c = 0; c < p->nc; c++) add_cone(s, &p->cone[c], o);
+}
+
+static int add_edges(fl_quality *q, const fl_part *p, fl_err *err)
+{
+    web w;
+    if (web_make(&w, p, err)) return -1;
+    q->open += w.open;
+    q->branched += w.branched;
+    q->incoherent += w.incoherent;
+    q->closed = q->closed && w.balanced;
+    for (int32_t t0 = 0; t0 < p->nt; t0++) {
+        double volume, kept, turned;
+        patch g;
+        if (w.sign[t0] || repeats(&p->t[t0])) continue;
+        g = walk(&w, t0);
+        patch_sums(p, &w, g.n, &volume, &kept, &turned);
+        q->patches++;
+        q->inverted += !g.rim && !g.twisted && turned == 0.0 && volume < 0.0;
+    }
+    web_free(&w);
+    return 0;
+}
+
+static int measure(const fl_part *p, int32_t n, fl_quality *q, fl_err *err)
+{
+    const fl_surface all = {.n = n, .part = (fl_part *)p};
+    sums s = {0};
+    fl_vec3 o = {0};
+    *q = (fl_quality){.closed = 1, .shortest = INFINITY, .box = fl_surface_aabb(&all)};
+    if (q->box.lo.x <= q->box.hi.x) o = v3_scale(0.5, v3_add(q->box.lo, q->box.hi));
+    for (int32_t i = 0; i < n; i++) {
+        q->vertices += p[i].nv;
+        q->triangles += p[i].nt;
+        q->cones += p[i].nc;
+        add_part(&s, q, &p[i], o);
+        if (p[i].nt && add_edges(q, &p[i], err)) return -1;
+    }
+    q->volume = s.volume;
+    q->area = s.area;
+    q->centroid = o;
+    if (q->closed && s.volume != 0.0) q->centroid = v3_madd(o, 1.0 / s.volume, s.vc);
+    else if (s.area > 0.0) q->centroid = v3_madd(o, 1.0 / s.area, s.ac);
+    return 0;
+}
+
+int fl_part_measure(const fl_part *p, fl_quality *q, fl_err *err)
+{
+    return measure(p, 1, q, err);
+}
+
+int fl_surface_measure(const fl_surface *s, fl_quality *q, fl_err *err)
+{
+    return measure(s->part, s->n, q, err);
+}
