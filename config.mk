@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Builder's settings: override on the command line or edit here.
 CC  ?= gcc
 CXX ?= g++
