@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include "law/damping.h"
+
+#define PI 3.14159265358979323846
+
+static double clamp(double e)
+{
+    return e < FL_RESTITUTION_LEAST ? FL_RESTITUTION_LEAST : e;
+}
+
+/* Root of f in (lo, hi) where f changes sign once from - to +; bisection to the last bit, it is set-up. */
+static double root(double (*f)(double, double), double e, double lo, double hi)
+{
+    for (int k = 0; k < 200; k++) {
+        const double mid = 0.5 * (lo + hi);
+        if (mid <= lo || mid >= hi) break;
+        if (f(mid, e) < 0.0) lo = mid;
+        else hi = mid;
+    }
+    return 0.5 * (lo + hi);
+}
+
+static double crossley(double D, double e)
+{
+    return log1p(D) - log1p(-e * D) - D * (1.0 + e);
+}
+
+double fl_damping_crossley(double e)
+{
+    e = clamp(e);
+    if (e >= 1.0) return 0.0;
+    /* Near 0 the function is -(1 - e^2) D^2/2 + (1 + e^3) D^3/3: negative up to about D0, the root lies beyond. */
+    const double D0 = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
+    return root(crossley, e, 0.5 * D0, (1.0 - 1e-16) / e);
+}
+
+double fl_damping_linear_e(double zeta)
+{
+    if (zeta < 1.0) {
+        const double s = sqrt(1.0 - zeta * zeta);
+        if (zeta <= 0.0) return 1.0;
+        return exp(-zeta / s * (PI - atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)));
+    }
+    if (zeta == 1.0) return exp(-2.0);
+    const double q = sqrt(zeta * zeta - 1.0);
+    return pow((zeta - q) / (zeta + q), zeta / q);
+}
+
+static double linear(double zeta, double e)
+{
+    return e - fl_damping_linear_e(zeta);
+}
+
+double fl_damping_linear(double e)
+{
+    e = clamp(e);
+    return e >= 1.0 ? 0.0 : root(linear, e, 0.0, 100.0);
+}
+
+double fl_damping_tsuji(double e)
+{
+    static const double h[10] = {-6.918798, -16.41105, 146.8049,  -796.4559, 2928.711,
+                                 -7206.864, 11494.29,  -11342.18, 6276.757,  -1489.915};
+    double p = 0.0;
+    e = clamp(e);
+    if (e >= 1.0) return 0.0;
+    for (int k = 9; k >= 0; k--) p = e * (h[k] + p);
+    const double g2 = 1.0 / (1.0 - (1.0 + e) * (1.0 + e) * exp(p)) - 1.0;
+    return g2 > 0.0 ? sqrt(6.0 * g2) : 0.0;
+}

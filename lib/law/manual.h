@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* manual.h -- the contact law of the DilatedDEM manual, a formula for each kind of contact, corrected where the
+ * manual's is wrong (equations (2), (18)) or printed literally on request.  Not the gradient of one energy: forces
+ * jump where the kind changes.  Kept for comparison with results obtained by it. */
+#ifndef FL_LAW_MANUAL_H
+#define FL_LAW_MANUAL_H
+
+typedef enum {
+    FL_TOUCH_VV,
+    FL_TOUCH_VE,
+    FL_TOUCH_VF,
+    FL_TOUCH_EE,
+    FL_TOUCH_EP,
+    FL_TOUCH_EF,
+    FL_TOUCH_FF
+} fl_touch;
+
+typedef struct {
+    fl_touch touch;
+    double length; /* of the overlap, for EP and EF     [m]  */
+    double area;   /* of the overlap, for FF            [m2] */
+    double sine;   /* of the angle of the edges, for EE      */
+    double
+        r_low; /* radius of the side with the lower feature (vertex before edge before face); 0: sharp [m] */
+    double r_high; /* of the other side; 0: flat                                                       [m] */
+    double edge;   /* shorter of the two edges, for EE: bounds the contact ellipse                     [m] */
+} fl_manual_contact;
+
+/* F = k s^n; n is 1 or 1.5.
+ *   VV (11)  4/3 E* sqrt(R*)                     1/R* = 1/Ra + 1/Rb
+ *   VE (13)  4/3 E* (Rv R*)^(1/4)
+ *   VF (12)  4/3 E* sqrt(Rv)
+ *   EE (14)-(18)  4/3 E* sqrt(R~), R~ = sqrt(Ra Rb)/sin; twice that R~ as printed.  The long radius is at most
+ *            edge^2/(4 s), so that the ellipse stays on the edge when sin goes to 0.
+ *   EP (19), EF (20)  as printed 4/3 L E* sqrt(R), L taken as a number, exponent 3/2;
+ *            si: (pi/4) E* L, exponent 1 (line contact, independent of R: Johnson 1985, ch. 4)
+ *   FF (25)  2 E* 1.02 sqrt(A/pi), exponent 1
+ *   modulus  E* [Pa]      overlap  s [m]      si, literal18   flags
+ * Returns k [N/m^n] and sets *n. */
+double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double overlap, int si, int literal18,
+                           double *n);
+
+/* Damping force for approach speed u: 2 zeta sqrt(M k) u for n = 1, alpha sqrt(M k) s^(1/4) u for 3/2. [N] */
+double fl_manual_damping(double k, double n, double overlap, double mass, double zeta, double alpha,
+                         double u);
+
+#endif

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* material.h -- from elastic constants to the stiffness of a contact. */
+#ifndef FL_LAW_MATERIAL_H
+#define FL_LAW_MATERIAL_H
+
+typedef struct {
+    double young; /* [Pa]; INFINITY for a rigid thing */
+    double poisson;
+} fl_elastic;
+
+/* Effective modulus, 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b [Pa].  Equation (5) of the manual. */
+double fl_material_modulus(fl_elastic a, fl_elastic b);
+
+/* Effective radius, 1/R* = 1/R_a + 1/R_b [m]; a radius of 0 stands for a flat partner, as the structure is. */
+double fl_material_radius(double ra, double rb);
+
+/* Stiffness of one vertex place of `patch` with exponent 1 [N/m]: a sixth of that of a flat punch,
+ *     kappa = 2 E* beta sqrt(A/pi) / 6,   beta = 1.02,
+ * six being about the number of places that carry a face.
+ *   area   smaller of the largest faces of the two cores [m2]
+ * Source: equation (25) of the manual; King, Int. J. Solids Struct. 23 (1987) 1657, for beta. */
+double fl_material_punch(double modulus, double area);
+
+/* Hertz stiffness, F = kappa d^(3/2): kappa = (4/3) E* sqrt(R*) [N/m^1.5].  Johnson 1985, eq. 4.23. */
+double fl_material_hertz(double modulus, double radius);
+
+#endif
