@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include "base/mem.h"
+#include "stat/butter.h"
+
+static const double PI = 3.14159265358979323846;
+
+int fl_butter_low(fl_butter *f, int order, double fc, double fs, fl_err *err)
+{
+    if (order < 1 || order > FL_BUTTER_ORDER_MAX)
+        return fl_fail(err, FL_INPUT, "filter of order %d, 1 to %d was wanted", order, FL_BUTTER_ORDER_MAX);
+    if (!(fc > 0.0) || !(fc < 0.5 * fs))
+        return fl_fail(err, FL_INPUT,
+                       "filter at %g Hz, more than 0 and less than %g Hz, half the sampling rate, was wanted",
+                       fc, 0.5 * fs);
+    const double K = tan(PI * fc / fs);
+    *f = (fl_butter){.order = order, .fc = fc, .fs = fs};
+    if (order % 2) {
+        const double a1 = (K - 1.0) / (1.0 + K), b = 0.5 * (1.0 + a1);
+        f->s[f->n++] = (fl_biquad){.b0 = b, .b1 = b, .a1 = a1};
+    }
+    for (int k = order / 2; k >= 1; k--) {
+        const double q = 2.0 * sin(PI * (2 * k - 1) / (2.0 * order)), a0 = 1.0 + q * K + K * K;
+        const double a1 = 2.0 * (K - 1.0) * (K + 1.0) / a0, a2 = (1.0 - q * K + K * K) / a0;
+        /* K^2 / a0 would be the same but for rounding; taken from a1 and a2 as they were rounded, the gain at
+         * zero frequency is one even where K^2 is close to the rounding of a1. */
+        const double b = 0.25 * (1.0 + a1 + a2);
+        f->s[f->n++] = (fl_biquad){.b0 = b, .b1 = 2.0 * b, .b2 = b, .a1 = a1, .a2 = a2};
+    }
+    return 0;
+}
+
+double fl_butter_gain(const fl_butter *f, double freq)
+{
+    const double w = 2.0 * PI * freq / f->fs;
+    const double complex z1 = cos(w) - I * sin(w), z2 = z1 * z1;
+    double gain = 1.0;
+    for (int k = 0; k < f->n; k++) {
+        const fl_biquad *s = &f->s[k];
+        gain *= cabs(s->b0 + s->b1 * z1 + s->b2 * z2) / cabs(1.0 + s->a1 * z1 + s->a2 * z2);
+    }
+    return gain;
+}
+
+/* p[0 .. degree] times c0 + c1 x + c2 x^2, in place; p has room for two more. */
+static void multiply(double *p, int degree, double c0, double c1, double c2)
+{
+    p[degree + 1] = p[degree + 2] = 0.0;
+    for (int k = degree + 2; k >= 0; k--)
+        p[k] = c0 * p[k] + (k > 0 ? c1 * p[k - 1] : 0.0) + (k > 1 ? c2 * p[k - 2] : 0.0);
+}
+
+void fl_butter_polynomials(const fl_butter *f, double *b, double *a)
+{
+    double pb[FL_BUTTER_ORDER_MAX + 4] = {1.0}, pa[FL_BUTTER_ORDER_MAX + 4] = {1.0};
+    for (int k = 0; k < f->n; k++) {
+        multiply(pb, 2 * k, f->s[k].b0, f->s[k].b1, f->s[k].b2);
+        multiply(pa, 2 * k, 1.0, f->s[k].a1, f->s[k].a2);
+    }
+    for (int k = 0; k <= f->order; k++) {
+        b[k] = pb[k];
+        a[k] = pa[k];
+    }
+}
+
+double fl_butter_pad(const fl_butter *f)
+{
+    return ceil(3.0 * f->order * f->fs / f->fc);
+}
+
+/* One pass over y[0 .. n) in steps of +1, or from the far end in steps of -1 (transposed direct form II). */
+static void pass(const fl_biquad *s, int64_t n, double *y, int step)
+{
+    double *p = step > 0 ? y : y + n - 1;
+    /* The state a constant input of this value would have left: output = input, as the gain is one. */
+    double u2 = (s->b2 - s->a2) * p[0], u1 = (1.0 - s->b0) * p[0];
+    for (int64_t k = 0; k < n; k++, p += step) {
+        const double in = *p, out = s->b0 * in + u1;
+        u1 = s->b1 * in - s->a1 * out + u2;
+        u2 = s->b2 * in - s->a2 * out;
+        *p = out;
+    }
+}
+
+int fl_butter_zero_phase(const fl_butter *f, int32_t n, const double *x, double *y, fl_err *err)
+{
+    const double need = fl_butter_pad(f);
+    if (!(need < n))
+        return fl_fail(err, FL_INPUT,
+                       "the record of %d rows is too short for a filter of order %d at %g Hz, which needs "
+                       "more than %.0f",
+                       n, f->order, f->fc, need);
+    const int64_t pad = (int64_t)need, all = n + 2 * pad;
+    double *ext = fl_alloc(all, sizeof *ext, err);
+    if (!ext) return -1;
+    for (int64_t k = 0; k < pad; k++) {
+        ext[k] = 2.0 * x[0] - x[pad - k];
+        ext[pad + n + k] = 2.0 * x[n - 1] - x[n - 2 - k];
+    }
+    for (int32_t k = 0; k < n; k++) ext[pad + k] = x[k];
+    for (int k = 0; k < f->n; k++) pass(&f->s[k], all, ext, 1);
+    for (int k = 0; k < f->n; k++) pass(&f->s[k], all, ext, -1);
+    for (int32_t k = 0; k < n; k++) y[k] = ext[pad + k];
+    free(ext);
+    return 0;
+}

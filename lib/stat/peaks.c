@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include "base/mem.h"
+#include "stat/peaks.h"
+
+static int push(fl_peaks *p, int32_t at, fl_err *err)
+{
+    if (fl_grow(&p->at, &p->cap, (int64_t)p->n + 1, sizeof *p->at, err)) return -1;
+    p->at[p->n++] = at;
+    return 0;
+}
+
+int fl_peaks_rayleigh(int32_t n, const double *x, double ratio, double threshold, fl_peaks *p, fl_err *err)
+{
+    int32_t held = -1;     /* the maximum that may still give way to a larger neighbour */
+    double low = INFINITY; /* the smallest value since then */
+    p->n = 0;
+    for (int32_t k = 1, end; k < n; k = end) {
+        for (end = k + 1; end < n && x[end] == x[k]; end++) {}
+        if (x[k] < low) low = x[k];
+        if (end == n || !(x[k - 1] < x[k] && x[end] < x[k]) || !(x[k] > threshold)) continue;
+        if (held >= 0 && low < ratio * fmin(x[held], x[k])) {
+            if (push(p, held, err)) return -1;
+        } else if (held >= 0 && x[k] <= x[held]) {
+            continue; /* low goes on: it is the smallest since the one that is kept */
+        }
+        /* Whatever peak came before is separate from the held one, so also from this one, which is larger. */
+        held = k;
+        low = INFINITY;
+    }
+    return held < 0 ? 0 : push(p, held, err);
+}
+
+void fl_peaks_free(fl_peaks *p)
+{
+    free(p->at);
+    *p = (fl_peaks){0};
+}

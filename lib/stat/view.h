@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* view.h -- one signal as it is reported: raw or filtered, with its description, peaks and ranks. */
+#ifndef FL_STAT_VIEW_H
+#define FL_STAT_VIEW_H
+#include <stdint.h>
+#include "stat/butter.h"
+#include "stat/describe.h"
+#include "stat/peaks.h"
+#include "stat/series.h"
+
+typedef struct {
+    int32_t n;
+    const double *t, *edge, *x; /* [n], [n + 1], [n]: borrowed from the series, or the view's own */
+    double *own;                /* what a filtered view holds itself, or NULL */
+    fl_describe d;
+    fl_peaks peaks;
+    int32_t *rank; /* [peaks.n] rank[0] is the index in peaks.at of the largest */
+    double *value; /* [peaks.n] the peaks in descending order */
+    double *q;     /* [quantiles] */
+} fl_view;
+
+/* How a view is made.
+ *   filter       -3 dB frequency of one pass [Hz]; 0 for the raw view
+ *   order        of the filter
+ *   ratio, threshold   of fl_peaks_rayleigh()
+ *   p[quantiles] in 0 .. 1 */
+typedef struct {
+    double filter;
+    int order;
+    double ratio, threshold;
+    int32_t quantiles;
+    const double *p;
+} fl_view_ask;
+
+/* The raw view of signal s of part p takes the rows as they are.  The filtered view needs equal intervals: the
+ * rows' own when they are equal, otherwise as many equal ones, by fl_resample_means(); its t is the end of the
+ * interval in a loads table and the middle in another.
+ * The series must live as long as the view.  0, or -1 with FL_INPUT (a filter that the record cannot carry) or
+ * FL_SYSTEM in err; v is then empty. */
+int fl_view_make(fl_view *v, const fl_series *s, int32_t part, int32_t signal, const fl_view_ask *ask,
+                 fl_err *err);
+
+/* Accepts a zeroed struct and leaves one. */
+void fl_view_free(fl_view *v);
+
+#endif
