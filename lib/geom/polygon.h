@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* polygon.h -- convex polygons in the plane, as corners and as sides.  Side k runs from v[k] to v[k + 1], the
+ * last one back to v[0], counter-clockwise; a side knows its line better than two corners that nearly
+ * coincide do, so the normals of side[] are what offsets and cuts are computed from. */
+#ifndef FL_GEOM_POLYGON_H
+#define FL_GEOM_POLYGON_H
+#include <stdint.h>
+
+typedef struct {
+    double x, y;
+} fl_vec2;
+
+/* The half-plane nx x + ny y <= c; (nx, ny) is the outward unit normal. */
+typedef struct {
+    double nx, ny, c;
+    int32_t tag; /* the caller's; carried along */
+} fl_side;
+
+static inline double fl_side_beyond(fl_side s, fl_vec2 p)
+{
+    return s.nx * p.x + s.ny * p.y - s.c;
+}
+/* Sine and cosine of the angle by which the outline turns from side a to side b. */
+static inline double fl_side_sin(fl_side a, fl_side b)
+{
+    return a.nx * b.ny - a.ny * b.nx;
+}
+static inline double fl_side_cos(fl_side a, fl_side b)
+{
+    return a.nx * b.nx + a.ny * b.ny;
+}
+
+/* Area (positive when counter-clockwise) and length of the outline of v[n].  Products are taken from v[0], so
+ * that a polygon far from the origin loses nothing. */
+double fl_polygon_area(int32_t n, const fl_vec2 *v);
+double fl_polygon_outline(int32_t n, const fl_vec2 *v);
+fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v); /* area > 0 */
+
+/* The rectangle lo .. hi: v[4], side[4] with tags -1 (left), -2 (bottom), -3 (right), -4 (top). */
+void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_side *side);
+
+/* Cut away what lies beyond the half-plane h, in place; v and side have room for n + 1.
+ * Returns the number of sides left, 0 when nothing is. */
+int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_side *side, fl_side h);
+
+/* Corners of the polygon whose sides are moved inward by d: v[k] is where side[k - 1] and side[k] meet.
+ * Neighbouring sides must turn left by less than pi. */
+void fl_polygon_corners(int32_t n, const fl_side *side, double d, fl_vec2 *v);
+
+/* Move all sides inward by d >= 0 and drop those that vanish on the way.  While the polygon shrinks by t,
+ * side k loses  t (tan(a/2) + tan(b/2)),  a and b being the turns at its ends; the side that is first to
+ * reach length zero goes, its neighbours then meet, and so on (the straight skeleton of a convex polygon).
+ *   v      in: corners at t = 0.  out: corners at t = d, of the sides left
+ *   side   in and out; c stays that of t = 0
+ *   depth  out: d, or the radius of the largest inscribed circle when that is smaller
+ * Returns the number of sides left, 0 when the polygon has vanished. */
+int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_side *side, double d, double *depth);
+
+/* Corners of the polygon v[n] with its sides moved outward by r >= 0; corners stay sharp. */
+void fl_polygon_outset(int32_t n, const fl_vec2 *v, double r, fl_vec2 *out);
+
+/* Distance of p from the filled polygon v[n], 0 inside. */
+double fl_polygon_from_point(int32_t n, const fl_vec2 *v, fl_vec2 p);
+
+/* Distance between two polygons that have no point inside each other: the least from a corner of one to a side
+ * of the other.  m n work. */
+double fl_polygon_gap(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
+
+#endif
