@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <utility>
+#include <vector>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+extern "C" {
+#include "base/mem.h"
+}
+#include "shim/cgal_voronoi.h"
+
+namespace
+{
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int32_t, Kernel>;
+using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex>>;
+using Pair = std::pair<int32_t, int32_t>;
+
+/* A site that CGAL took for another one has no vertex of its own. */
+int coincident(const Delaunay &dt, int32_t n, const fl_vec2 *site, fl_err *err)
+{
+    std::vector<char> has(static_cast<size_t>(n), 0);
+    for (auto v = dt.finite_vertices_begin(); v != dt.finite_vertices_end(); ++v)
+        has[static_cast<size_t>(v->info())] = 1;
+    const auto lost = static_cast<int32_t>(std::find(has.begin(), has.end(), 0) - has.begin());
+    const auto twin = dt.nearest_vertex(Kernel::Point_2(site[lost].x, site[lost].y));
+    return fl_fail(err, FL_INPUT, "sites %d and %d are the same point (%g, %g)", std::min(twin->info(), lost),
+                   std::max(twin->info(), lost), site[lost].x, site[lost].y);
+}
+
+int neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, fl_err *err)
+{
+    std::vector<std::pair<Kernel::Point_2, int32_t>> point;
+    point.reserve(static_cast<size_t>(n));
+    for (int32_t i = 0; i < n; i++) point.emplace_back(Kernel::Point_2(site[i].x, site[i].y), i);
+    Delaunay dt(point.begin(), point.end());
+    if (dt.number_of_vertices() != static_cast<size_t>(n)) return coincident(dt, n, site, err);
+
+    /* CGAL inserts in an order that it draws at random; sorting makes the lists a function of the sites. */
+    std::vector<Pair> pair;
+    for (auto e = dt.finite_edges_begin(); e != dt.finite_edges_end(); ++e) {
+        const int32_t a = e->first->vertex(dt.ccw(e->second))->info();
+        const int32_t b = e->first->vertex(dt.cw(e->second))->info();
+        pair.emplace_back(a, b);
+        pair.emplace_back(b, a);
+    }
+    std::sort(pair.begin(), pair.end());
+    *near = static_cast<int32_t *>(fl_alloc(static_cast<int64_t>(pair.size()), sizeof **near, err));
+    if (!*near) return -1;
+    for (int32_t i = 0, k = 0; i <= n; i++) {
+        first[i] = k;
+        for (; k < static_cast<int32_t>(pair.size()) && pair[static_cast<size_t>(k)].first == i; k++)
+            (*near)[k] = pair[static_cast<size_t>(k)].second;
+    }
+    return 0;
+}
+
+} // namespace
+
+extern "C" int fl_cgal_neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, fl_err *err)
+try {
+    return neighbours(n, site, first, near, err);
+} catch (const std::bad_alloc &) {
+    return fl_fail(err, FL_SYSTEM, "out of memory: the neighbours of %d sites", n);
+} catch (const std::exception &e) {
+    return fl_fail(err, FL_NUMERIC, "the neighbours of %d sites: %s", n, e.what());
+}
+
+extern "C" int fl_cgal_turn(fl_vec2 a, fl_vec2 b, fl_vec2 c)
+try {
+    return CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y));
+} catch (...) {
+    return 0; /* no memory for the exact number: "cannot tell left from right" is the cautious answer */
+}
