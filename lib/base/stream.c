@@ -109,7 +109,10 @@ int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err)
     return in->gzip ? gzip_read(in, buf, n, err) : plain_read(in, buf, n, err);
 }
 
-const char *fl_in_name(const fl_in *in) { return in->name; }
+const char *fl_in_name(const fl_in *in)
+{
+    return in->name;
+}
 
 void fl_in_close(fl_in *in)
 {
@@ -129,15 +132,19 @@ static ssize_t gz_cookie_write(void *gz, const char *buf, size_t n)
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err)
 {
     int fd = STDOUT_FILENO;
+    struct stat st;
     *out = (fl_out){0};
     if (strcmp(path, "-") != 0) {
-        if (asprintf(&out->tmp, "%s.part", path) < 0) out->tmp = NULL;
-        out->path = strdup(path);
-        if (!out->tmp || !out->path) {
+        /* Renaming over a link or a device would put a plain file in its place: /dev/null, /dev/stdout. */
+        out->path = lstat(path, &st) == 0 && S_ISLNK(st.st_mode) ? realpath(path, NULL) : NULL;
+        if (!out->path) out->path = strdup(path);
+        const int direct = out->path && stat(out->path, &st) == 0 && !S_ISREG(st.st_mode);
+        if (out->path && !direct && asprintf(&out->tmp, "%s.part", out->path) < 0) out->tmp = NULL;
+        if (!out->path || (!direct && !out->tmp)) {
             fl_fail(err, FL_SYSTEM, "out of memory");
             goto fail;
         }
-        fd = open(out->tmp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        fd = open(direct ? out->path : out->tmp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (fd < 0) {
             fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
             free(out->tmp);
@@ -171,7 +178,7 @@ int fl_out_close(fl_out *out, fl_err *err)
     out->f = NULL;
     if (out->gz) bad |= gzclose(out->gz) != Z_OK;
     out->gz = NULL;
-    if (!bad && out->path) bad = rename(out->tmp, out->path) != 0;
+    if (!bad && out->tmp) bad = rename(out->tmp, out->path) != 0;
     if (bad) fl_fail(err, FL_SYSTEM, "%s: %s", name, errno ? strerror(errno) : "could not write all of it");
     else if (out->tmp) {
         free(out->tmp);

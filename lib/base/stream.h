@@ -23,11 +23,12 @@ void fl_in_close(fl_in *in); /* NULL is accepted */
 
 typedef struct {
     FILE *f;          /* write here; NULL when closed */
-    char *path, *tmp; /* NULL for standard output */
+    char *path, *tmp; /* NULL for standard output; tmp alone NULL for a device or a pipe */
     void *gz;         /* the compressor, when asked for */
 } fl_out;
 
-/* Open path for writing ("-" is standard output); gzip compresses.  FL_SYSTEM in err on failure. */
+/* Open path for writing ("-" is standard output); gzip compresses.  A link is followed, and a device or a pipe
+ * (/dev/null, a fifo) is written to directly.  FL_SYSTEM in err on failure. */
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err);
 
 /* Flush, sync, and give the file its final name.  -1 with FL_SYSTEM in err when anything written was lost;
