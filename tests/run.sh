@@ -39,11 +39,12 @@ if [ "${1-}" = job ]; then
     start=$(date +%s)
     bound=
     command -v timeout >/dev/null && bound="timeout -k 10 $4"
-    TMPDIR=$s.tmp $bound sh "$s.cmd" >"$s.out" 2>&1 </dev/null &
+    TMPDIR=$s.tmp $bound sh "$s.cmd" >"$s.out" 2>"$s.err" </dev/null &
     echo $! >"$s.pid"
     wait $!
     status=$?
     rm "$s.pid"
+    cat "$s.err" >>"$s.out" # apart until here: a line of the one must not cut one of the other
     [ $status -eq 124 ] && echo "stopped after $4 s" >>"$s.out"
     rm -rf "$s.tmp"
     echo "$status $(($(date +%s) - start))" >"$s.fin"
@@ -135,7 +136,7 @@ bench)
     ;;
 esac
 
-cut -d ' ' -f 1 "$scratch/list" | xargs -n 1 -P "$crews" -I '{}' sh tests/run.sh job "$scratch" '{}' "$limit" &
+cut -d ' ' -f 1 "$scratch/list" | xargs -P "$crews" -I '{}' sh tests/run.sh job "$scratch" '{}' "$limit" &
 crew=$!
 
 passed=0 failed=0
