@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "water/sea.h"
+
+int fl_sea_alloc(fl_sea *s, int32_t n, fl_err *err)
+{
+    s->n = n;
+    s->outer = fl_alloc(n, sizeof *s->outer, err);
+    s->hull = fl_alloc(n, sizeof *s->hull, err);
+    s->reach = fl_alloc(n, sizeof *s->reach, err);
+    s->wetted = fl_alloc(n, sizeof *s->wetted, err);
+    s->energy = fl_alloc(n, sizeof *s->energy, err);
+    s->drained = fl_alloc(n, sizeof *s->drained, err);
+    s->blown = fl_alloc(n, sizeof *s->blown, err);
+    return s->outer && s->hull && s->reach && s->wetted && s->energy && s->drained && s->blown ? 0 : -1;
+}
+
+void fl_sea_free(fl_sea *s)
+{
+    for (int32_t i = 0; i < s->n; i++) {
+        if (s->hull) fl_hull_free(&s->hull[i]);
+        if (s->outer) fl_poly_free(&s->outer[i]);
+    }
+    free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->energy);
+    free(s->drained), free(s->blown);
+    *s = (fl_sea){0};
+}
+
+void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
+{
+    const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]); /* transpose(R) e_z */
+    const double level = s->level - b->x[i].z;
+    fl_wet wet;
+    fl_vec3 f, t;
+    fl_buoyancy(&s->hull[i], up, level, &wet);
+    s->wetted[i] = wet.wetted;
+    s->energy[i] = fl_buoyancy_force(&wet, up, level, s->weight, &f, &t);
+    b->f[i].z += s->weight * wet.volume; /* R up is e_z */
+    b->t[i] = v3_add(b->t[i], m3_mul(b->R[i], t));
+}
+
+static double kinetic(const fl_bodies *b, int32_t i)
+{
+    return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + v3_dot(b->w[i], b->L[i]));
+}
+
+/* Decay of body i in a fluid that goes by with velocity c; returns the work done on the body. */
+static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach, fl_vec3 c,
+                    double h)
+{
+    const double before = kinetic(b, i);
+    const fl_vec3 u = v3_sub(b->v[i], c), v0 = b->v[i], w0 = b->w[i];
+    const double speed = v3_norm(u), spin2 = v3_norm2(b->w[i]);
+    const double factor = fl_drag_factor(fl_drag_kappa_force(fluid, area, b->m[i]), speed, h);
+    b->v[i] = v3_madd(c, factor, u);
+    if (spin2 > 0.0 && fluid->moment > 0.0) {
+        /* about the axis of the motion, whose moment of inertia is w.L/w^2: exact for a principal axis */
+        const double inertia = v3_dot(b->w[i], b->L[i]) / spin2;
+        const double turn = fl_drag_factor(fl_drag_kappa_moment(fluid, area, reach, inertia), sqrt(spin2), h);
+        b->L[i] = v3_scale(turn, b->L[i]);
+        b->w[i] = v3_scale(turn, b->w[i]);
+    }
+    if (b->hold[i]) fl_hold(b, i, v0, w0);
+    return kinetic(b, i) - before;
+}
+
+void fl_sea_drag(fl_sea *s, fl_bodies *b, double h, double t)
+{
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < s->n; i++) {
+        if (s->water && s->wetted[i] > 0.0) {
+            const fl_vec3 c = fl_current_at(&s->current, b->x[i], s->level - b->x[i].z, t);
+            s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], c, h);
+        }
+        if (s->wind) {
+            const double dry = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
+            const fl_vec3 c = fl_current_at(&s->breeze, b->x[i], 0.0, t);
+            if (dry > 0.0) s->blown[i] += decay(b, i, &s->air, dry, s->reach[i], c, h);
+        }
+    }
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* sea.h -- water and wind on all bodies: buoyancy as a force, drag as a decay of velocity. */
+#ifndef FL_WATER_SEA_H
+#define FL_WATER_SEA_H
+#include "body/integrate.h"
+#include "water/buoyancy.h"
+#include "water/current.h"
+#include "water/drag.h"
+
+typedef struct {
+    int water, wind; /* which of the two there is; neither: nothing below is allocated or run */
+    double level;    /* z of the still water           [m]   */
+    double weight;   /* rho g                        [N/m3]  */
+    fl_fluid sea, air;
+    fl_current current, breeze;
+    int32_t n;
+    fl_poly *outer;  /* [n] sharp outer shapes, body frames; empty where the core floats as it is */
+    fl_hull *hull;   /* [n]                                  */
+    double *reach;   /* [n] r_eff of equation (9)     [m]    */
+    double *wetted;  /* [n] at the last fl_sea_force() [m2]  */
+    double *energy;  /* [n] hydrostatic, at the last fl_sea_force() [J] */
+    double *drained; /* [n] work that drag of the water has taken out [J] */
+    double *blown;   /* [n] work that the wind has put in    [J] */
+} fl_sea;
+
+/* Arrays for n bodies; hulls are made by the caller.  -1 with FL_SYSTEM. */
+int fl_sea_alloc(fl_sea *s, int32_t n, fl_err *err);
+void fl_sea_free(fl_sea *s);
+
+/* Add buoyancy to b->f[i], b->t[i]; renews wetted[i] and energy[i]. */
+void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
+
+/* Let the drag of water and wind act on all bodies for h seconds, positions held: the exact decay of
+ * velocities, equations (8), (9) alone.  Adds the work to drained, blown.  t is the time [s]. */
+void fl_sea_drag(fl_sea *s, fl_bodies *b, double h, double t);
+
+#endif
