@@ -11,7 +11,7 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
     return 0;
 }
 
-int fl_places_add(fl_places *w, fl_place place)
+static int add(fl_places *w, fl_place place)
 {
     fl_err lost = {0};
     if (fl_grow(&w->place, &w->place_cap, w->n + 1, sizeof *w->place, &lost)) return -1;
@@ -41,9 +41,14 @@ static int edges_of_interest(int32_t **list, int32_t *cap, const fl_poly *p, con
     return k;
 }
 
+int fl_places_vertex(fl_places *w, int64_t key, fl_vec3 x, fl_vec3 n, double overlap, double ra)
+{
+    return add(w, place_at(key, x, n, overlap, ra));
+}
+
 /* The term of edges a0 a1 of A and b0 b1 of B, if it counts. */
-static int edge_place(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double ra,
-                      double rb, fl_vec3 axis, int deep)
+int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double ra,
+                    double rb, fl_vec3 axis, int deep)
 {
     const double R = ra + rb;
     double s, t;
@@ -75,7 +80,7 @@ static int edge_place(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3
         /* dc/dtheta of A is -2 (e.e')(e x e'); the torque is minus the gradient */
         place.couple = v3_scale(FL_PLACE_EDGE * dm * 2.0 * cosine / (la2 * lb2), x);
     }
-    return fl_places_add(w, place);
+    return add(w, place);
 }
 
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
@@ -101,7 +106,7 @@ int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, 
     for (int32_t v = 0; v < a->nv; v++) {
         if (v3_dot(n, w->va[v]) >= high + R || !aabb_meet((fl_aabb){w->va[v], w->va[v]}, box_b)) continue;
         const fl_nearest q = fl_nearest_poly(b, w->va[v]);
-        if (q.d < R && fl_places_add(w, place_at(v, w->va[v], q.n, R - q.d, ra))) return -1;
+        if (q.d < R && fl_places_vertex(w, v, w->va[v], q.n, R - q.d, ra)) return -1;
     }
     for (int32_t v = 0; v < b->nv; v++) {
         if (v3_dot(n, b->v[v]) <= low - R || !aabb_meet((fl_aabb){b->v[v], b->v[v]}, box_a)) continue;
@@ -109,8 +114,7 @@ int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, 
         if (q.d >= R) continue;
         /* q.n leaves A; the place's normal leaves B.  From b's vertex the nearest point of A is at +d n. */
         const fl_vec3 m = v3_neg(m3_mul(M, q.n));
-        if (fl_places_add(w, place_at((int64_t)a->nv + v, v3_madd(b->v[v], q.d, m), m, R - q.d, ra)))
-            return -1;
+        if (fl_places_vertex(w, (int64_t)a->nv + v, v3_madd(b->v[v], q.d, m), m, R - q.d, ra)) return -1;
     }
     const int na = edges_of_interest(&w->ea, &w->ea_cap, a, w->va, n, 1.0, high + R, box_b);
     const int nb = edges_of_interest(&w->eb, &w->eb_cap, b, b->v, n, -1.0, R - low, box_a);
@@ -122,7 +126,7 @@ int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, 
             const fl_vec3 b0 = b->v[b->edge[w->eb[j]].a], b1 = b->v[b->edge[w->eb[j]].b];
             if (!aabb_meet(box, aabb_add((fl_aabb){b0, b0}, b1))) continue;
             const int64_t key = (int64_t)a->nv + b->nv + (int64_t)w->ea[i] * b->ne + w->eb[j];
-            if (edge_place(w, key, a0, a1, b0, b1, ra, rb, n, deep)) return -1;
+            if (fl_places_edges(w, key, a0, a1, b0, b1, ra, rb, n, deep)) return -1;
         }
     }
     return 0;

@@ -27,8 +27,7 @@ typedef struct {
     double weight;  /* 1 for a vertex, m(c)/4 for a pair of edges; the derivative of W carries it */
     fl_vec3 n;      /* from B to A                                                          */
     fl_vec3 p;      /* middle of the overlap, on the line through the two nearest points [m] */
-    fl_vec3
-        couple; /* the torque on A is phi k times this, on B the opposite: dm/dc (dc/dtheta), 0 for c >= E */
+    fl_vec3 couple; /* times phi k: torque on A, its opposite on B, from the change of m; 0 for c >= E */
 } fl_place;
 
 /* Scratch of one thread, and the places found.  Zeroed to start; grows as it must. */
@@ -54,8 +53,12 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
                    double rb, fl_vec3 n, int deep);
 
-/* Add one place; for other sources of places. */
-int fl_places_add(fl_places *w, fl_place place);
+/* Append one term, for other shapes than two convex cores; -1 when memory runs out.
+ * fl_places_vertex: the point x of A, or the point of A nearest to a vertex of B; n from B to A.
+ * fl_places_edges: the term of edges a0 a1 of A and b0 b1 of B, which may not count. */
+int fl_places_vertex(fl_places *w, int64_t key, fl_vec3 x, fl_vec3 n, double overlap, double ra);
+int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double ra,
+                    double rb, fl_vec3 axis, int deep);
 
 void fl_places_free(fl_places *w);
 

@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/mem.h"
+#include "bound/structure.h"
+#include "geom/clip.h"
+
+#define PI 3.14159265358979323846
+
+/* Vertices within this fraction of the part's diagonal of a plane lie in it: coordinates that went through 32-bit
+ * floats, as in STL, are rounded by 6e-8 of the largest of them. */
+#define FLAT 1e-6
+/* and two triangles whose normals differ by more than this bend all the same [rad] */
+#define BEND 1e-3
+
+typedef struct {
+    int32_t a, b; /* vertices, a < b */
+    int32_t t;    /* triangle */
+} side;
+
+typedef struct {
+    const fl_part *p;
+    double tol;    /* [m] */
+    fl_vec3 *n;    /* [nt] unit normals */
+    side *s;       /* [3 nt] sorted */
+    int32_t *mate; /* [3 nt] triangle over side k of triangle t at 3 t + k, -1 for none or several */
+    int32_t *face; /* [nt] flat region */
+    fl_vec3 *fn;   /* [regions] normals, of the largest triangle */
+    double *fc;    /* [regions] plane offsets */
+    int32_t *queue;
+    int32_t regions;
+    int closed;
+} flats;
+
+static int side_order(const void *x, const void *y)
+{
+    const side *p = x, *q = y;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    if (p->b != q->b) return p->b < q->b ? -1 : 1;
+    return (p->t > q->t) - (p->t < q->t);
+}
+
+static void flats_free(flats *f)
+{
+    free(f->n), free(f->s), free(f->mate), free(f->face), free(f->fn), free(f->fc), free(f->queue);
+}
+
+static int corner_of(const fl_tri *t, int32_t v)
+{
+    return t->v[0] == v ? 0 : t->v[1] == v ? 1 : 2;
+}
+
+/* Side k of a triangle runs from corner k to corner k + 1. */
+static int side_of(const fl_tri *t, int32_t a, int32_t b)
+{
+    const int k = corner_of(t, a);
+    return t->v[(k + 1) % 3] == b ? k : corner_of(t, b);
+}
+
+static void join_sides(flats *f)
+{
+    const fl_part *p = f->p;
+    const int32_t ns = 3 * p->nt;
+    for (int32_t t = 0; t < p->nt; t++) {
+        for (int k = 0; k < 3; k++) {
+            const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
+            f->s[3 * t + k] = (side){a < b ? a : b, a < b ? b : a, t};
+            f->mate[3 * t + k] = -1;
+        }
+    }
+    qsort(f->s, (size_t)ns, sizeof *f->s, side_order);
+    f->closed = 1;
+    for (int32_t k = 0, end; k < ns; k = end) {
+        for (end = k + 1; end < ns && f->s[end].a == f->s[k].a && f->s[end].b == f->s[k].b; end++) {}
+        if (end - k != 2) {
+            f->closed = 0;
+            continue;
+        }
+        const int32_t t = f->s[k].t, u = f->s[k + 1].t, a = f->s[k].a, b = f->s[k].b;
+        const int kt = side_of(&p->t[t], a, b), ku = side_of(&p->t[u], a, b);
+        if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: turned against each other */
+            f->closed = 0;
+            continue;
+        }
+        f->mate[3 * t + kt] = u;
+        f->mate[3 * u + ku] = t;
+    }
+}
+
+static int in_plane(const flats *f, int32_t t, fl_vec3 n, double c)
+{
+    if (v3_dot(f->n[t], n) < 1.0 - 0.5 * BEND * BEND) return 0;
+    for (int k = 0; k < 3; k++)
+        if (fabs(v3_dot(n, f->p->v[f->p->t[t].v[k]]) - c) > f->tol) return 0;
+    return 1;
+}
+
+typedef struct {
+    double area;
+    int32_t t;
+} sized;
+
+static int larger_first(const void *x, const void *y)
+{
+    const sized *p = x, *q = y;
+    if (p->area != q->area) return p->area > q->area ? -1 : 1;
+    return (p->t > q->t) - (p->t < q->t);
+}
+
+/* Flood flat regions, the largest triangles first: their normals are the best known. */
+static int find_flats(flats *f, const fl_part *p, fl_err *err)
+{
+    const fl_aabb box = fl_part_aabb(p);
+    sized *order = fl_alloc(p->nt, sizeof *order, err);
+    f->p = p;
+    f->tol = FLAT * v3_norm(v3_sub(box.hi, box.lo));
+    f->n = fl_alloc(p->nt, sizeof *f->n, err);
+    f->s = fl_alloc(3 * (int64_t)p->nt, sizeof *f->s, err);
+    f->mate = fl_alloc(3 * (int64_t)p->nt, sizeof *f->mate, err);
+    f->face = fl_alloc(p->nt, sizeof *f->face, err);
+    f->fn = fl_alloc(p->nt, sizeof *f->fn, err);
+    f->fc = fl_alloc(p->nt, sizeof *f->fc, err);
+    f->queue = fl_alloc(p->nt, sizeof *f->queue, err);
+    if (!order || !f->n || !f->s || !f->mate || !f->face || !f->fn || !f->fc || !f->queue) {
+        free(order);
+        return -1;
+    }
+    for (int32_t t = 0; t < p->nt; t++) {
+        const fl_vec3 a = p->v[p->t[t].v[0]], b = p->v[p->t[t].v[1]], c = p->v[p->t[t].v[2]];
+        const fl_vec3 n = v3_cross(v3_sub(b, a), v3_sub(c, a));
+        order[t] = (sized){v3_norm(n), t};
+        f->n[t] = v3_unit(n);
+        f->face[t] = -1;
+    }
+    qsort(order, (size_t)p->nt, sizeof *order, larger_first);
+    if (order[0].area == 0.0) {
+        free(order);
+        return fl_fail(err, FL_INPUT, "part %s: its triangles have no area", p->name);
+    }
+    join_sides(f);
+    for (int32_t o = 0; o < p->nt; o++) {
+        const int32_t seed = order[o].t;
+        int32_t head = 0, tail = 0;
+        if (f->face[seed] >= 0 || order[o].area == 0.0) continue;
+        const fl_vec3 n = f->n[seed];
+        const double c = v3_dot(n, p->v[p->t[seed].v[0]]);
+        f->face[seed] = f->regions;
+        f->queue[tail++] = seed;
+        while (head < tail) {
+            const int32_t t = f->queue[head++];
+            for (int k = 0; k < 3; k++) {
+                const int32_t u = f->mate[3 * t + k];
+                if (u < 0 || f->face[u] >= 0 || !in_plane(f, u, n, c)) continue;
+                f->face[u] = f->regions;
+                f->queue[tail++] = u;
+            }
+        }
+        f->fn[f->regions] = n;
+        f->fc[f->regions++] = c;
+    }
+    free(order);
+    return 0;
+}
+
+/* Every vertex in use lies behind every region's plane. */
+static int is_convex(const flats *f)
+{
+    const fl_part *p = f->p;
+    for (int32_t r = 0; r < f->regions; r++)
+        for (int32_t t = 0; t < p->nt; t++)
+            for (int k = 0; k < 3; k++)
+                if (v3_dot(f->fn[r], p->v[p->t[t].v[k]]) - f->fc[r] > f->tol) return 0;
+    return 1;
+}
+
+static fl_piece *add_piece(fl_structure *s, fl_err *err)
+{
+    if (fl_grow(&s->piece, &s->cap, (int64_t)s->n + 1, sizeof *s->piece, err)) return NULL;
+    fl_piece *piece = &s->piece[s->n];
+    *piece = (fl_piece){.q = q_one()};
+    return piece;
+}
+
+/* The convex part as the intersection of its faces' half-spaces, cut out of a box that holds it. */
+static int make_solid(fl_piece *piece, const flats *f, fl_err *err)
+{
+    const fl_aabb box = fl_part_aabb(f->p);
+    const fl_vec3 side_half = v3_scale(0.5, v3_sub(box.hi, box.lo));
+    piece->kind = FL_PIECE_SOLID;
+    piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
+    if (fl_poly_box(&piece->core, v3_scale(1.5, side_half), err)) return -1;
+    for (int32_t r = 0; r < f->regions; r++)
+        if (fl_poly_cut(&piece->core, f->fn[r], f->fc[r] - v3_dot(f->fn[r], piece->x), err)) return -1;
+    return 0;
+}
+
+/* The rim of a flat open part as one polygon: 1 when it is a single convex loop. */
+static int make_plate(fl_piece *piece, const flats *f, fl_err *err)
+{
+    const fl_part *p = f->p;
+    const fl_aabb box = fl_part_aabb(p);
+    const fl_vec3 n = f->fn[0];
+    int32_t *next = fl_alloc(p->nv, sizeof *next, err), *loop = NULL, sides = 0, start = -1, count = 0;
+    fl_vec3 *rim = NULL;
+    int made = 0;
+    if (!next) return -1;
+    memset(next, -1, (size_t)p->nv * sizeof *next);
+    piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
+    for (int32_t t = 0; t < p->nt; t++) {
+        for (int k = 0; k < 3; k++) {
+            if (f->mate[3 * t + k] >= 0) continue;
+            start = p->t[t].v[k];
+            if (next[start] >= 0) goto done; /* two loops meet in a vertex */
+            next[start] = p->t[t].v[(k + 1) % 3];
+            sides++;
+        }
+    }
+    rim = fl_alloc(sides, sizeof *rim, err);
+    loop = fl_alloc(2 * (int64_t)sides, sizeof *loop, err);
+    if (!rim || !loop) {
+        made = -1;
+        goto done;
+    }
+    for (int32_t v = start, k = 0; k < sides; k++, v = next[v]) {
+        if (v < 0 || (k > 0 && v == start)) goto done; /* more than one loop */
+        const fl_vec3 x = v3_sub(p->v[v], piece->x);
+        rim[count++] = v3_madd(x, f->fc[0] - v3_dot(n, p->v[v]), n); /* into the plane */
+    }
+    for (int again = 1; again && count > 3;) { /* corners that are straight go */
+        again = 0;
+        for (int32_t k = 0; k < count && count > 3; k++) {
+            const fl_vec3 a = rim[(k + count - 1) % count], b = rim[k], c = rim[(k + 1) % count];
+            if (v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a))) > f->tol * v3_norm(v3_sub(c, a))) continue;
+            memmove(rim + k, rim + k + 1, (size_t)(count - k - 1) * sizeof *rim);
+            count--;
+            again = 1;
+        }
+    }
+    for (int32_t k = 0; k < count; k++) loop[k] = k, loop[2 * count - 1 - k] = k;
+    {
+        const int32_t first[3] = {0, count, 2 * count};
+        fl_err no = {0};
+        made = fl_poly_make(&piece->core, count, rim, 2, first, loop, &no) == 0;
+        if (!made && no.code == FL_SYSTEM) {
+            *err = no;
+            made = -1;
+        }
+        piece->kind = FL_PIECE_SOLID;
+    }
+done:
+    free(next), free(rim), free(loop);
+    return made;
+}
+
+static void shell_free(fl_shell *s)
+{
+    free(s->corner), free(s->box), free(s->edge_box);
+    fl_bvh_free(&s->tree);
+    fl_bvh_free(&s->edges);
+}
+
+/* A surface of triangles.  The block of a fl_poly is laid out by hand: it is not convex, so fl_poly_make() is not asked. */
+static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
+{
+    const fl_part *p = f->p;
+    const fl_aabb box = fl_part_aabb(p);
+    const size_t nv = (size_t)p->nv, nt = (size_t)p->nt;
+    fl_poly *core = &piece->core;
+    fl_shell *sh = &piece->shell;
+    const size_t bytes = nv * sizeof(fl_vec3) + nt * (sizeof(fl_vec3) + sizeof(double)) +
+                         3 * nt * sizeof(fl_edge) + (4 * nt + 1) * sizeof(int32_t);
+    char *mem = fl_alloc((int64_t)bytes, 1, err);
+    char *bent = fl_alloc(p->nv, 1, err);
+    piece->kind = FL_PIECE_SHELL;
+    piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
+    core->mem = mem;
+    sh->corner = fl_alloc(p->nv, sizeof *sh->corner, err);
+    sh->box = fl_alloc(p->nt, sizeof *sh->box, err);
+    sh->edge_box = fl_alloc(3 * (int64_t)p->nt, sizeof *sh->edge_box, err);
+    if (!mem || !bent || !sh->corner || !sh->box || !sh->edge_box) {
+        free(bent);
+        return -1;
+    }
+    core->v = (fl_vec3 *)mem;
+    core->n = core->v + nv;
+    core->c = (double *)(core->n + nt);
+    core->edge = (fl_edge *)(core->c + nt);
+    core->first = (int32_t *)(core->edge + 3 * nt);
+    core->loop = core->first + nt + 1;
+    core->nv = p->nv;
+    core->size = fmax(box.hi.x - box.lo.x, fmax(box.hi.y - box.lo.y, box.hi.z - box.lo.z));
+    for (int32_t v = 0; v < p->nv; v++) core->v[v] = v3_sub(p->v[v], piece->x);
+    for (int32_t t = 0; t < p->nt; t++) {
+        if (f->face[t] < 0) continue; /* no area */
+        const int32_t k = core->nf++;
+        sh->box[k] = aabb_empty();
+        for (int c = 0; c < 3; c++) {
+            core->loop[3 * k + c] = p->t[t].v[c];
+            sh->box[k] = aabb_add(sh->box[k], core->v[p->t[t].v[c]]);
+        }
+        core->n[k] = f->fn[f->face[t]];
+        core->c[k] = f->fc[f->face[t]] - v3_dot(core->n[k], piece->x);
+        core->first[k + 1] = 3 * (k + 1);
+    }
+    for (int32_t k = 0; k < 3 * p->nt; k++) { /* sides in order of their vertices; each edge once */
+        const side *s = &f->s[k];
+        if (k > 0 && side_order(&(side){s->a, s->b, 0}, &(side){f->s[k - 1].a, f->s[k - 1].b, 0}) == 0)
+            continue;
+        const int32_t u = f->mate[3 * s->t + side_of(&p->t[s->t], s->a, s->b)];
+        if (f->face[s->t] < 0 || (u >= 0 && f->face[u] == f->face[s->t])) continue;
+        core->edge[core->ne] = (fl_edge){s->a, s->b, -1, -1};
+        sh->edge_box[core->ne++] = aabb_add((fl_aabb){core->v[s->a], core->v[s->a]}, core->v[s->b]);
+        bent[s->a] = bent[s->b] = 1;
+    }
+    for (int32_t v = 0; v < p->nv; v++)
+        if (bent[v]) sh->corner[sh->corners++] = v;
+    free(bent);
+    return fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
+                   fl_bvh_build(&sh->edges, sh->edge_box, core->ne, err)
+               ? -1
+               : 0;
+}
+
+static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
+{
+    flats f = {0};
+    fl_piece *piece = add_piece(s, err);
+    int rc = -1, plate = 0;
+    if (!piece || find_flats(&f, p, err)) goto done;
+    s->n++;
+    piece->part = part;
+    if (f.closed && is_convex(&f)) {
+        rc = make_solid(piece, &f, err);
+    } else {
+        if (f.regions == 1) plate = make_plate(piece, &f, err);
+        rc = plate ? (plate < 0 ? -1 : 0) : make_shell(piece, &f, err);
+    }
+done:
+    flats_free(&f);
+    return rc;
+}
+
+static int add_cone(fl_structure *s, const fl_cone *c, int32_t part, fl_err *err)
+{
+    const int n = FL_CONE_SIDES;
+    /* corners at this radius give the polygon the area of the circle */
+    const double fit = sqrt(2.0 * PI / n / sin(2.0 * PI / n));
+    const fl_vec3 along = v3_sub(c->p1, c->p0), z = v3_unit(along), x = v3_normal_to(z), y = v3_cross(z, x);
+    const int point0 = c->r0 == 0.0, point1 = c->r1 == 0.0;
+    fl_vec3 v[2 * FL_CONE_SIDES];
+    int32_t first[FL_CONE_SIDES + 3] = {0}, loop[6 * FL_CONE_SIDES], nf = 0, nv = 0, k = 0;
+    fl_piece *piece = add_piece(s, err);
+    if (!piece) return -1;
+    s->n++;
+    piece->kind = FL_PIECE_CONE;
+    piece->part = part;
+    piece->x = c->p0;
+    piece->q = q_of_matrix((fl_mat3){{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}});
+    piece->r0 = c->r0, piece->r1 = c->r1, piece->h = v3_norm(along);
+    const int32_t low = 0, high = point0 ? 1 : n; /* first vertex of each end */
+    for (int j = 0; j < (point0 ? 1 : n); j++)
+        v[nv++] = v3(fit * c->r0 * cos(2 * PI * j / n), fit * c->r0 * sin(2 * PI * j / n), 0.0);
+    for (int j = 0; j < (point1 ? 1 : n); j++)
+        v[nv++] = v3(fit * c->r1 * cos(2 * PI * j / n), fit * c->r1 * sin(2 * PI * j / n), piece->h);
+    if (!point0) {
+        for (int j = 0; j < n; j++) loop[k++] = low + n - 1 - j;
+        first[++nf] = k;
+    }
+    if (!point1) {
+        for (int j = 0; j < n; j++) loop[k++] = high + j;
+        first[++nf] = k;
+    }
+    for (int j = 0; j < n; j++) {
+        const int i = (j + 1) % n;
+        loop[k++] = point0 ? low : low + j;
+        if (!point0) loop[k++] = low + i;
+        loop[k++] = point1 ? high : high + i;
+        if (!point1) loop[k++] = high + j;
+        first[++nf] = k;
+    }
+    return fl_poly_make(&piece->core, nv, v, nf, first, loop, err);
+}
+
+int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err)
+{
+    for (int32_t k = 0; k < surface->n; k++) {
+        const fl_part *p = &surface->part[k];
+        if (p->nt && add_triangles(s, p, k, err)) return -1;
+        for (int32_t c = 0; c < p->nc; c++)
+            if (add_cone(s, &p->cone[c], k, err)) return -1;
+    }
+    return 0;
+}
+
+void fl_structure_free(fl_structure *s)
+{
+    for (int32_t k = 0; k < s->n; k++) {
+        fl_poly_free(&s->piece[k].core);
+        shell_free(&s->piece[k].shell);
+    }
+    free(s->piece);
+    *s = (fl_structure){0};
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* structure.h -- what ice meets, as pieces that a contact can be computed with.
+ *
+ * Triangles of a part that lie in one plane and hang together become one face first, so that a flat wall loads
+ * the ice the same whether it is 2 triangles or 20 000.  Then a part is
+ *   a solid   when it is closed and convex: one convex polyhedron, the half-spaces of its faces;
+ *   a plate   when it is one flat convex polygon;
+ *   a shell   otherwise: faces, and of edges and vertices those where the surface bends.
+ * A truncated cone is a piece of its own: exact for spheres, an FL_CONE_SIDES-sided frustum of the same
+ * cross-section for everything else. */
+#ifndef FL_BOUND_STRUCTURE_H
+#define FL_BOUND_STRUCTURE_H
+#include "broad/bvh.h"
+#include "geom/poly.h"
+#include "geom/quat.h"
+#include "geom/surface.h"
+
+enum { FL_CONE_SIDES = 96 };
+
+typedef enum { FL_PIECE_SOLID, FL_PIECE_CONE, FL_PIECE_PLANE, FL_PIECE_SHELL } fl_piece_kind;
+
+/* The faces of a shell hold triangles; core.edge and corner[] only what bends or ends there. */
+typedef struct {
+    int32_t corners;
+    int32_t *corner;   /* [corners] vertices of core where the surface bends */
+    fl_aabb *box;      /* [core.nf] of the faces */
+    fl_bvh tree;       /* over box */
+    fl_bvh edges;      /* over edge_box */
+    fl_aabb *edge_box; /* [core.ne] */
+} fl_shell;
+
+typedef struct {
+    fl_piece_kind kind;
+    int32_t part;     /* index in the surface                      */
+    fl_vec3 x;        /* origin of the frame of the piece      [m] */
+    fl_quat q;        /* its axes                                  */
+    fl_poly core;     /* in that frame; a plate for plates         */
+    double r0, r1, h; /* cone: between z = 0 and z = h of the frame */
+    fl_shell shell;
+} fl_piece;
+
+typedef struct {
+    int32_t n, cap;
+    fl_piece *piece;
+} fl_structure;
+
+/* Build the pieces of all parts.  Welds nothing: triangles are joined by the indices of their vertices.
+ * -1 with FL_INPUT (a part whose triangles have no area) or FL_SYSTEM. */
+int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err);
+void fl_structure_free(fl_structure *s);
+
+#endif
