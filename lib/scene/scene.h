@@ -24,6 +24,7 @@ enum { FL_SCENE_ARGUMENT = -1 };
 typedef struct {
     int32_t file, line;
     uint32_t parts; /* bit c: component c of a vector; all bits for a whole value */
+    int32_t left;   /* the word given was "auto" or the like, which leaves the value to something else */
 } fl_scene_mark;
 
 /* First member of every section. */
@@ -55,7 +56,7 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    /* Intervals [s].  Those that follow another until given are 0 before fl_scene_check() and filled in by it. */
+    /* Intervals [s].  Those that follow another are 0 until fl_scene_check() fills them in. */
     double loads_every;
     double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
     int32_t files;                         /* number of files the frames are split over */
@@ -118,6 +119,7 @@ typedef struct {
     double depth;            /* [m]; INFINITY: deep.  Bears on waves and sheared currents alone */
     double density;          /* [kg/m3] */
     fl_vec3 current;         /* [m/s] */
+    int32_t profile, wave;   /* 0, uniform, and 0, none, in this version */
     double drag_force_coef;  /* C of equation (8) */
     double drag_moment_coef; /* C of equation (9) */
 } fl_scene_water;
@@ -182,7 +184,7 @@ int32_t fl_scene_find_group(const fl_scene *scene, const char *name);
 enum { FL_SCENE_STRUCTURE = -1, FL_SCENE_BOUNDARY = -2 };
 fl_scene_contact fl_scene_pair(const fl_scene *scene, int32_t a, int32_t b);
 
-/* Complain about a key, "FILE:LINE: sentence": the line where the key was given, or else its section's heading,
+/* Complain about a key, "FILE:LINE: sentence": the line where it was given, or else its section's heading,
  * or else the file alone; "--set: sentence" for a value from the command line.
  *   key  "section.key", "material ice.young", "contact ice steel.law"
  * Records FL_INPUT (FL_USAGE for --set).  Returns -1. */

@@ -7,13 +7,13 @@
 /* Read a scene over its defaults (fl_scene_start() is called here); "-" is standard input.  Paths of files in
  * it are taken from the folder of the file they stand in, for standard input from the working folder.
  * scene is untouched on failure.
- * 0, or -1 with FL_INPUT (grammar, unknown or repeated or unsupported key, unit, range; file and line are told)
- * or FL_SYSTEM in err. */
+ * 0, or -1 with FL_INPUT (grammar, unknown or repeated or unsupported key, unit, range; file and line are
+ * told) or FL_SYSTEM in err. */
 int fl_scene_read(fl_scene *scene, const char *path, fl_err *err);
 
 /* Change one key: "section.key=value", for named sections "material.ice.young=2 GPa" or
- * "contact.ice.steel.friction=0.1"; blanks may stand for the dots of the section.  What the file said is overruled,
- * a section that was absent becomes present; paths are taken from the working folder.
+ * "contact.ice.steel.friction=0.1"; blanks may stand for the dots of the section.  What the file said is
+ * overruled, a section that was absent becomes present; paths are taken from the working folder.
  * 0, or -1 with FL_USAGE or FL_SYSTEM in err; then scene keeps its values. */
 int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err);
 

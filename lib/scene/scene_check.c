@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "scene/scene_check.h"
+#include "scene/scene_section.h"
+
+static int ensure_material(fl_scene *s, const char *name, fl_err *err)
+{
+    if (fl_scene_find_material(s, name) >= 0) return 0;
+    return fl_section_add(s, FL_SEC_MATERIAL, name, "", err) < 0 ? -1 : 0;
+}
+
+/* What follows another key until it is given.  A second call must follow it anew, hence the marks. */
+static void follow(const fl_scene_output *o, const char *key, double *value, double leader)
+{
+    const int slot = fl_key_find(FL_SEC_OUTPUT, key) - fl_key_first(FL_SEC_OUTPUT);
+    if (o->head.key[slot].line == 0 || o->head.key[slot].left) *value = leader;
+}
+
+static void fill_in(fl_scene *s)
+{
+    fl_scene_output *o = &s->output;
+    follow(o, "ice_every", &o->ice_every, o->frames_every);
+    follow(o, "until", &o->until, s->run.duration);
+    follow(o, "state_every", &o->state_every, o->loads_every);
+    follow(o, "energy_every", &o->energy_every, o->loads_every);
+    follow(o, "contacts_every", &o->contacts_every, o->loads_every);
+}
+
+/* A material that a key names.  key is the whole address, for the line to tell. */
+static int known_material(const fl_scene *s, const char *key, const char *name, int place, fl_err *err)
+{
+    if (fl_scene_find_material(s, name) >= 0) return 0;
+    if (place && (strcmp(name, "structure") == 0 || strcmp(name, "boundary") == 0)) return 0;
+    return fl_scene_fail(s, key, err, "there is no [material %s]", name);
+}
+
+static int check_inputs(const fl_scene *s, fl_err *err)
+{
+    const int std_scene = s->n_file > 0 && strcmp(s->file[0], "<stdin>") == 0;
+    const int std_ice = strcmp(s->ice.file, "-") == 0;
+    const int std_structure = s->structure.head.present && strcmp(s->structure.file, "-") == 0;
+    if (!s->ice.head.present || s->ice.file[0] == '\0')
+        return fl_scene_fail(s, "ice.file", err,
+                             "the scene has no ice: [ice] file = FILE, or --ice FILE, was wanted");
+    if (s->structure.head.present && s->structure.file[0] == '\0')
+        return fl_scene_fail(s, "structure.file", err,
+                             "[structure] has no file: file = FILE, or --structure FILE, was wanted");
+    if (std_scene + std_ice + std_structure > 1)
+        return fl_scene_fail(s, std_ice ? "ice.file" : "structure.file", err,
+                             "standard input can be only one of scene, ice and structure");
+    if (known_material(s, "ice.material", s->ice.material, 0, err)) return -1;
+    if (s->structure.head.present && known_material(s, "structure.material", s->structure.material, 0, err))
+        return -1;
+    return 0;
+}
+
+static int check_outputs(const fl_scene *s, fl_err *err)
+{
+    const char *const key[] = {"output.frames", "output.state", "output.energy", "output.contacts"};
+    const char *const path[] = {s->output.frames, s->output.state, s->output.energy, s->output.contacts};
+    for (int k = 0; k < 4; k++) {
+        if (strcmp(path[k], "-") == 0)
+            return fl_scene_fail(s, key[k], err,
+                                 "%s is \"-\", and standard output carries the loads: a file was wanted",
+                                 key[k]);
+        for (int j = 0; j < k && path[k][0]; j++)
+            if (strcmp(path[j], path[k]) == 0)
+                return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is %s already", key[k], path[k],
+                                     key[j]);
+        if (path[k][0] && (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0))
+            return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is an input", key[k], path[k]);
+    }
+    return 0;
+}
+
+static int check_contacts(const fl_scene *s, fl_err *err)
+{
+    const int first = fl_key_first(FL_SEC_CONTACT), law = fl_key_find(FL_SEC_CONTACT, "law") - first;
+    const int32_t all = fl_section_named(s, FL_SEC_CONTACT, "", "");
+    for (int32_t i = 0; i < s->n_contact; i++) {
+        const fl_scene_contact *c = &s->contact[i];
+        const int32_t in_force = c->head.key[law].line || all < 0 ? c->law : s->contact[all].law;
+        char at[3 * FL_SCENE_NAME], key[4 * FL_SCENE_NAME];
+        snprintf(at, sizeof at, "contact%s%s%s%s", c->a[0] ? " " : "", c->a, c->b[0] ? " " : "", c->b);
+        snprintf(key, sizeof key, "%s.literal%d", at, c->literal2 ? 2 : 18);
+        if ((c->literal2 || c->literal18) && in_force != FL_LAW_MANUAL)
+            return fl_scene_fail(s, key, err, "literal%d bears on law = manual alone", c->literal2 ? 2 : 18);
+        if (i == all) continue;
+        if (known_material(s, at, c->a, 1, err) || known_material(s, at, c->b, 1, err)) return -1;
+        if (fl_scene_find_material(s, c->a) < 0 && fl_scene_find_material(s, c->b) < 0)
+            return fl_scene_fail(s, at, err, "[%s] names no material: structure and boundary never touch",
+                                 at);
+    }
+    return 0;
+}
+
+static int check_boundary(const fl_scene *s, fl_err *err)
+{
+    const double lo[] = {s->boundary.min.x, s->boundary.min.y, s->boundary.min.z};
+    const double hi[] = {s->boundary.max.x, s->boundary.max.y, s->boundary.max.z};
+    int walls = 0;
+    if (!s->boundary.head.present) return 0;
+    for (int c = 0; c < 3; c++) {
+        walls += isfinite(lo[c]) + isfinite(hi[c]);
+        if (!(lo[c] < hi[c]))
+            return fl_scene_fail(s, "boundary.max", err,
+                                 "boundary.max of %c is %g m, more than its min, %g m, was wanted", 'x' + c,
+                                 hi[c], lo[c]);
+    }
+    if (s->boundary.type == FL_BOUND_RIGID && walls == 0)
+        return fl_scene_fail(s, "boundary.type", err,
+                             "a rigid boundary has no bounds: boundary.min or boundary.max was wanted");
+    return 0;
+}
+
+static int check_groups(const fl_scene *s, fl_err *err)
+{
+    for (int32_t i = 0; i < s->n_group; i++) {
+        const fl_scene_group *g = &s->group[i];
+        const double v[] = {g->velocity.x, g->velocity.y, g->velocity.z};
+        char key[2 * FL_SCENE_NAME];
+        snprintf(key, sizeof key, "group %s.velocity", g->name);
+        for (int c = 0; c < 3; c++)
+            if (v[c] != 0.0 && !(g->fixed >> c & 1u))
+                return fl_scene_fail(
+                    s, key, err,
+                    "group.velocity along %c is %g m/s, and %c is not among the fixed directions", 'x' + c,
+                    v[c], 'x' + c);
+    }
+    return 0;
+}
+
+int fl_scene_check(fl_scene *s, fl_err *err)
+{
+    if (ensure_material(s, "ice", err) || ensure_material(s, "steel", err)) return -1;
+    fill_in(s);
+    if (s->run.dt > s->run.duration)
+        return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, was wanted",
+                             s->run.dt, s->run.duration);
+    if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
+    return check_boundary(s, err) || check_groups(s, err) ? -1 : 0;
+}

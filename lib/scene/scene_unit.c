@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+#include "scene/scene_unit.h"
+
+static const struct unit {
+    enum fl_unit_kind kind;
+    const char *word;
+    double mul, div;
+} units[] = {
+    {FL_UNIT_ONE, "", 1, 1},
+    {FL_UNIT_ONE, "%", 1, 100},
+    {FL_UNIT_TIME, "s", 1, 1},
+    {FL_UNIT_TIME, "ms", 1, 1e3},
+    {FL_UNIT_TIME, "us", 1, 1e6},
+    {FL_UNIT_TIME, "min", 60, 1},
+    {FL_UNIT_TIME, "h", 3600, 1},
+    {FL_UNIT_LENGTH, "m", 1, 1},
+    {FL_UNIT_LENGTH, "mm", 1, 1e3},
+    {FL_UNIT_LENGTH, "cm", 1, 100},
+    {FL_UNIT_LENGTH, "dm", 1, 10},
+    {FL_UNIT_LENGTH, "km", 1e3, 1},
+    {FL_UNIT_LENGTH, "um", 1, 1e6},
+    {FL_UNIT_SPEED, "m/s", 1, 1},
+    {FL_UNIT_SPEED, "mm/s", 1, 1e3},
+    {FL_UNIT_SPEED, "cm/s", 1, 100},
+    {FL_UNIT_SPEED, "km/h", 1, 3.6},
+    {FL_UNIT_SPEED, "kn", 1852, 3600},
+    {FL_UNIT_ACCEL, "m/s2", 1, 1},
+    {FL_UNIT_ACCEL, "m/s^2", 1, 1},
+    {FL_UNIT_STRESS, "Pa", 1, 1},
+    {FL_UNIT_STRESS, "kPa", 1e3, 1},
+    {FL_UNIT_STRESS, "MPa", 1e6, 1},
+    {FL_UNIT_STRESS, "GPa", 1e9, 1},
+    {FL_UNIT_STRESS, "N/m2", 1, 1},
+    {FL_UNIT_STRESS, "N/m^2", 1, 1},
+    {FL_UNIT_STRESS, "kN/m2", 1e3, 1},
+    {FL_UNIT_STRESS, "kN/m^2", 1e3, 1},
+    {FL_UNIT_STRESS, "N/mm2", 1e6, 1},
+    {FL_UNIT_STRESS, "N/mm^2", 1e6, 1},
+    {FL_UNIT_DENSITY, "kg/m3", 1, 1},
+    {FL_UNIT_DENSITY, "kg/m^3", 1, 1},
+    {FL_UNIT_DENSITY, "t/m3", 1e3, 1},
+    {FL_UNIT_DENSITY, "t/m^3", 1e3, 1},
+    {FL_UNIT_DENSITY, "g/cm3", 1e3, 1},
+    {FL_UNIT_DENSITY, "g/cm^3", 1e3, 1},
+    {FL_UNIT_SPRING, "N/m^n", 1, 1},
+    {FL_UNIT_SPRING, "N/m", 1, 1},
+    {FL_UNIT_SPRING, "kN/m", 1e3, 1},
+    {FL_UNIT_SPRING, "MN/m", 1e6, 1},
+    {FL_UNIT_SPRING, "GN/m", 1e9, 1},
+    {FL_UNIT_SPRING, "N/mm", 1e3, 1},
+    {FL_UNIT_SPRING, "N/m^1.5", 1, 1},
+    {FL_UNIT_MASS, "kg", 1, 1},
+    {FL_UNIT_MASS, "g", 1, 1e3},
+    {FL_UNIT_MASS, "t", 1e3, 1},
+    {FL_UNIT_ANGLE, "deg", 1, 1},
+    {FL_UNIT_ANGLE, "rad", 180, 3.14159265358979323846},
+};
+enum { N_UNIT = sizeof units / sizeof units[0] };
+
+int fl_unit_convert(enum fl_unit_kind kind, const char *word, double *x)
+{
+    for (int k = 0; k < N_UNIT; k++)
+        if (units[k].kind == kind && strcmp(units[k].word, word) == 0) {
+            *x = *x * units[k].mul / units[k].div;
+            return 0;
+        }
+    return -1;
+}
+
+const char *fl_unit_si(enum fl_unit_kind kind)
+{
+    int k = 0;
+    while (units[k].kind != kind) k++;
+    return units[k].word;
+}
+
+char *fl_unit_list(enum fl_unit_kind kind, char *buf, size_t size)
+{
+    size_t len = 0;
+    buf[0] = '\0';
+    for (int k = 0; k < N_UNIT; k++)
+        if (units[k].kind == kind && units[k].word[0] && len < size)
+            len += (size_t)snprintf(buf + len, size - len, "%s%s", len ? " " : "", units[k].word);
+    return buf;
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* scene_unit.h -- the units a value of a scene may carry, and their factor to SI. */
+#ifndef FL_SCENE_SCENE_UNIT_H
+#define FL_SCENE_SCENE_UNIT_H
+#include <stddef.h>
+
+/* What is measured.  The first unit of each is the one values are kept and written in: SI, and degrees. */
+enum fl_unit_kind {
+    FL_UNIT_ONE,     /* a pure number; % */
+    FL_UNIT_TIME,    /* s ms us min h */
+    FL_UNIT_LENGTH,  /* m mm cm dm km um */
+    FL_UNIT_SPEED,   /* m/s mm/s cm/s km/h kn */
+    FL_UNIT_ACCEL,   /* m/s2 m/s^2 */
+    FL_UNIT_STRESS,  /* Pa kPa MPa GPa N/m2 N/m^2 kN/m2 kN/m^2 N/mm2 N/mm^2 */
+    FL_UNIT_DENSITY, /* kg/m3 kg/m^3 t/m3 t/m^3 g/cm3 g/cm^3 */
+    FL_UNIT_SPRING,  /* N/m^n, n the exponent of the law: also N/m kN/m MN/m GN/m N/mm for n = 1, N/m^1.5 */
+    FL_UNIT_MASS,    /* kg g t */
+    FL_UNIT_ANGLE    /* deg rad */
+};
+
+/* Convert *x from the unit `word` to that of the kind, *x * mul / div with one rounding where either is 1, so
+ * that "50 mm" is the double 0.05.  0, or -1 when the kind has no such unit. */
+int fl_unit_convert(enum fl_unit_kind kind, const char *word, double *x);
+
+/* The first unit of the kind, "" for a pure number. */
+const char *fl_unit_si(enum fl_unit_kind kind);
+
+/* All units of the kind with blanks between, into buf.  Returns buf. */
+char *fl_unit_list(enum fl_unit_kind kind, char *buf, size_t size);
+
+#endif

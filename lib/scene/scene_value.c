@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/num.h"
+#include "base/text.h"
+#include "scene/scene_value.h"
+
+static const char *const fix_word[] = {"x", "y", "z", "rx", "ry", "rz"};
+enum { N_FIX = 6, N_CHOICE = 8, LINE_COPY = 256 };
+
+/* What failed, told once: the key before the sentence. */
+typedef struct {
+    const fl_key *key;
+    char *why;
+    size_t size;
+} complaint;
+
+static int wrong(const complaint *c, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+static int wrong(const complaint *c, const char *fmt, ...)
+{
+    const char *section = fl_section_table[c->key->section].name;
+    const int k = snprintf(c->why, c->size, "%s.%s ", section, c->key->key);
+    va_list ap;
+    va_start(ap, fmt);
+    if (k > 0 && (size_t)k < c->size) vsnprintf(c->why + k, c->size - (size_t)k, fmt, ap);
+    va_end(ap);
+    return -1;
+}
+
+/* Ends of an interval "(0,1]", and whether they belong to it. */
+static void interval(const char *range, double *lo, double *hi, int *lo_in, int *hi_in)
+{
+    char *end;
+    *lo_in = range[0] == '[';
+    *lo = strtod(range + 1, &end);
+    *hi = strtod(end + 1, &end);
+    *hi_in = *end == ']';
+}
+
+char *fl_value_range(const fl_key *key, char *buf, size_t size)
+{
+    char low[FL_NUM_LEN], high[FL_NUM_LEN];
+    double lo, hi;
+    int lo_in, hi_in;
+    buf[0] = '\0';
+    if (!key->range) return buf;
+    interval(key->range, &lo, &hi, &lo_in, &hi_in);
+    fl_num_text(lo, low);
+    fl_num_text(hi, high);
+    if (isinf(hi)) snprintf(buf, size, "%s %s", lo_in ? "at least" : "above", low);
+    else
+        snprintf(buf, size, "%s %s and %s %s", lo_in ? "at least" : "above", low, hi_in ? "at most" : "below",
+                 high);
+    return buf;
+}
+
+static int in_range(const fl_key *key, double x)
+{
+    double lo, hi;
+    int lo_in, hi_in;
+    if (!key->range) return 1;
+    interval(key->range, &lo, &hi, &lo_in, &hi_in);
+    return (lo_in ? x >= lo : x > lo) && (hi_in ? x <= hi : x < hi);
+}
+
+static int out_of_range(const complaint *c, const char *text)
+{
+    char range[100];
+    const char *si = fl_unit_si(c->key->unit);
+    return wrong(c, "is %.60s, a value %s%s%s was wanted", text, fl_value_range(c->key, range, sizeof range),
+                 si[0] ? " " : "", si);
+}
+
+/* Cut "a|!b|c" apart; open[k] tells whether a choice has no '!'.  Returns their number. */
+static int cut_choices(const char *choices, char word[N_CHOICE][16], int open[N_CHOICE])
+{
+    int n = 0;
+    while (*choices && n < N_CHOICE) {
+        const size_t len = strcspn(choices, "|");
+        open[n] = choices[0] != '!';
+        snprintf(word[n], sizeof word[n], "%.*s", (int)(len - !open[n]), choices + !open[n]);
+        n++;
+        choices += len + (choices[len] == '|');
+    }
+    return n;
+}
+
+static int wrong_choice(const complaint *c, const char *text, char word[N_CHOICE][16], const int *open, int n)
+{
+    char all[160];
+    const char *list[N_CHOICE];
+    size_t len = 0;
+    int kept = 0;
+    for (int k = 0; k < n; k++)
+        if (open[k]) {
+            len += (size_t)snprintf(all + len, sizeof all - len, " %s", word[k]);
+            list[kept++] = word[k];
+        }
+    return wrong(c, "is \"%.60s\", one of%s was wanted, nearest is %s", text, all,
+                 fl_text_nearest(text, list, kept));
+}
+
+static int read_word(const complaint *c, const char *text, int32_t *out)
+{
+    char word[N_CHOICE][16];
+    int open[N_CHOICE];
+    const int n = cut_choices(c->key->choices, word, open);
+    if (strcmp(word[0], "false") == 0) { /* a switch: the manual writes 0 and 1 */
+        if (!strcmp(text, "0") || !strcmp(text, "no") || !strcmp(text, "off")) text = "false";
+        if (!strcmp(text, "1") || !strcmp(text, "yes") || !strcmp(text, "on")) text = "true";
+    }
+    for (int k = 0; k < n; k++)
+        if (strcmp(text, word[k]) == 0) {
+            if (!open[k]) return wrong(c, "= %s is not supported by this version", word[k]);
+            *out = k;
+            return 0;
+        }
+    return wrong_choice(c, text, word, open, n);
+}
+
+/* Length of the number at the start of s, 0 when there is none. */
+static size_t number_length(const char *s)
+{
+    size_t k = s[0] == '+' || s[0] == '-', digits, tail;
+    digits = strspn(s + k, "0123456789");
+    k += digits;
+    if (s[k] == '.') {
+        tail = strspn(s + k + 1, "0123456789");
+        digits += tail;
+        k += 1 + tail;
+    }
+    if (digits == 0) return 0;
+    if (s[k] == 'e' || s[k] == 'E') { /* an exponent has digits; "5 eV" has none */
+        const size_t sign = s[k + 1] == '+' || s[k + 1] == '-';
+        tail = strspn(s + k + 1 + sign, "0123456789");
+        if (tail) k += 1 + sign + tail;
+    }
+    return k;
+}
+
+static int wrong_number(const complaint *c, const char *text)
+{
+    const fl_key *key = c->key;
+    const char *count = key->type == FL_VALUE_F64 ? "a number"
+                        : key->lone               ? "one number or three"
+                                                  : "three numbers";
+    const char *were = key->type == FL_VALUE_F64 ? "was" : "were";
+    char list[100];
+    if (strchr(text, ','))
+        return wrong(c, "is \"%.60s\", a decimal point and blanks were wanted, not a comma", text);
+    if (key->unit == FL_UNIT_ONE) return wrong(c, "is \"%.60s\", %s %s wanted", text, count, were);
+    return wrong(c, "is \"%.60s\", %s in %s %s wanted (units: %s)", text, count, fl_unit_si(key->unit), were,
+                 fl_unit_list(key->unit, list, sizeof list));
+}
+
+/* Give the numbers x[from .. n) the unit they wait for. */
+static int apply_unit(const complaint *c, const char *unit, double *x, const int *special, int from, int n)
+{
+    const enum fl_unit_kind kind = c->key->unit;
+    char list[100];
+    for (int k = from; k < n; k++)
+        if (!special[k] && fl_unit_convert(kind, unit, &x[k]))
+            return wrong(c, "has the unit \"%.20s\", %s%s was wanted", unit,
+                         kind == FL_UNIT_ONE ? "none or " : "one of ", fl_unit_list(kind, list, sizeof list));
+    return 0;
+}
+
+/* Numbers with units: a unit holds for the numbers before it that have none yet, "1 2 3 mm", "-5m 0 2 km".
+ * Returns how many numbers, or -1. */
+static int read_numbers(const complaint *c, const char *text, double *x)
+{
+    const fl_key *key = c->key;
+    const int want = key->type == FL_VALUE_F64 ? 1 : 3;
+    char copy[LINE_COPY], *save = NULL;
+    int n = 0, bare = 0, special[3] = {0}; /* bare: first number that has no unit yet */
+    if (strlen(text) >= sizeof copy || strchr(text, ',')) return wrong_number(c, text);
+    memcpy(copy, text, strlen(text) + 1);
+    for (char *t = strtok_r(copy, " \t", &save); t; t = strtok_r(NULL, " \t", &save)) {
+        const size_t len = number_length(t);
+        char unit[LINE_COPY], *end;
+        if (len == 0 && key->special && strcmp(t, key->special) == 0) {
+            if (n == want) return wrong_number(c, text);
+            special[n] = 1;
+            x[n++] = key->value;
+            continue;
+        }
+        snprintf(unit, sizeof unit, "%s", t + len);
+        if (len) {
+            if (n == want) return wrong_number(c, text);
+            x[n] = strtod(t, &end);
+            if (end < t + len || !isfinite(x[n])) return wrong_number(c, text);
+            n++;
+        } else if (bare == n) { /* no number waits for this word */
+            return wrong_number(c, text);
+        }
+        if (unit[0]) {
+            if (apply_unit(c, unit, x, special, bare, n)) return -1;
+            bare = n;
+        }
+    }
+    if (n != want && !(n == 1 && key->lone)) return wrong_number(c, text);
+    for (int k = 0; k < n; k++) {
+        if (special[k]) continue;
+        if (!isfinite(x[k])) return wrong_number(c, text);
+        if (want == 1 && !in_range(key, x[k])) return out_of_range(c, text);
+    }
+    return n;
+}
+
+static int read_f64(const complaint *c, const char *text, double *out)
+{
+    double x[3];
+    if (read_numbers(c, text, x) < 0) return -1;
+    if (c->key->choices) {
+        char word[N_CHOICE][16];
+        int open[N_CHOICE], hit = 0;
+        const int n = cut_choices(c->key->choices, word, open);
+        for (int k = 0; k < n; k++) hit |= open[k] && strtod(word[k], NULL) == x[0];
+        if (!hit) return wrong_choice(c, text, word, open, n);
+    }
+    *out = x[0];
+    return 0;
+}
+
+static int read_vec3(const complaint *c, const char *text, fl_vec3 *out)
+{
+    double x[3];
+    const int n = read_numbers(c, text, x);
+    if (n < 0) return -1;
+    if (n == 3) *out = v3(x[0], x[1], x[2]);
+    else if (c->key->lone == FL_LONE_X) *out = v3(x[0], 0, 0);
+    else if (x[0] >= 0.0) *out = v3(0, 0, -x[0]);
+    else
+        return wrong(c,
+                     "is %.60s: one number is the size of a downward vector and cannot be negative, three "
+                     "give another direction",
+                     text);
+    return 0;
+}
+
+static int read_i32(const complaint *c, const char *text, int32_t *out)
+{
+    double lo, hi;
+    int lo_in, hi_in;
+    interval(c->key->range, &lo, &hi, &lo_in, &hi_in);
+    if (c->key->special && strcmp(text, c->key->special) == 0) *out = (int32_t)c->key->value;
+    else if (fl_num_i32(text, (int32_t)lo, (int32_t)hi, out))
+        return wrong(c, "is \"%.60s\", a whole number from %d to %d was wanted", text, (int)lo, (int)hi);
+    return 0;
+}
+
+static int read_fixed(const complaint *c, const char *text, uint32_t *out)
+{
+    char copy[LINE_COPY], *save = NULL;
+    uint32_t bits = 0;
+    int words = 0, k;
+    if (strcmp(text, c->key->special) == 0) {
+        *out = 0;
+        return 0;
+    }
+    snprintf(copy, sizeof copy, "%s", text);
+    for (char *t = strtok_r(copy, " \t", &save); t; t = strtok_r(NULL, " \t", &save), words++) {
+        for (k = 0; k < N_FIX && strcmp(t, fix_word[k]) != 0; k++) continue;
+        if (k == N_FIX || (bits & 1u << k)) break;
+        bits |= 1u << k;
+    }
+    for (k = 0; bits >> k; k++) words -= (int)(bits >> k & 1u);
+    if (bits == 0 || words != 0 || strlen(text) >= sizeof copy)
+        return wrong(c, "is \"%.60s\", none or some of x y z rx ry rz, each once, was wanted", text);
+    *out = bits;
+    return 0;
+}
+
+static int read_name(const complaint *c, const char *text, char *out)
+{
+    if (!fl_value_is_name(text))
+        return wrong(c, "is \"%.60s\", a name of letters, digits, _ + - and at most %d characters was wanted",
+                     text, FL_SCENE_NAME - 1);
+    memcpy(out, text, strlen(text) + 1);
+    return 0;
+}
+
+static int read_path(const complaint *c, const char *text, const char *folder, char *out)
+{
+    const char *joint = "";
+    if (strcmp(text, c->key->special) == 0) {
+        out[0] = '\0';
+        return 0;
+    }
+    for (const char *p = text; *p; p++)
+        if (iscntrl((unsigned char)*p) || ((*p == '#' || *p == ';') && p > text && p[-1] == ' '))
+            return wrong(c, "is \"%.60s\", a path without control characters and comments was wanted", text);
+    if (text[0] == '/' || strcmp(text, "-") == 0) folder = "";
+    else if (folder[0] && folder[strlen(folder) - 1] != '/') joint = "/";
+    if (strlen(folder) + strlen(joint) + strlen(text) >= FL_SCENE_PATH)
+        return wrong(c, "is a path of %zu characters, at most %d were wanted",
+                     strlen(folder) + strlen(joint) + strlen(text), FL_SCENE_PATH - 1);
+    snprintf(out, FL_SCENE_PATH, "%s%s%s", folder, joint, text);
+    return 0;
+}
+
+int fl_value_is_name(const char *s)
+{
+    static const char ok[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_+-";
+    const size_t len = strlen(s);
+    return len > 0 && len < FL_SCENE_NAME && strspn(s, ok) == len;
+}
+
+int fl_value_read(const fl_key *key, const char *text, const char *folder, void *section, char *why,
+                  size_t why_size)
+{
+    const complaint c = {key, why, why_size};
+    void *at = (char *)section + key->at;
+    if (key->later) return wrong(&c, "is not supported by this version");
+    if (text[0] == '\0') return wrong(&c, "has no value");
+    switch (key->type) {
+    case FL_VALUE_F64: return read_f64(&c, text, at);
+    case FL_VALUE_VEC3: return read_vec3(&c, text, at);
+    case FL_VALUE_I32: return read_i32(&c, text, at);
+    case FL_VALUE_WORD: return read_word(&c, text, at);
+    case FL_VALUE_FIXED: return read_fixed(&c, text, at);
+    case FL_VALUE_NAME: return read_name(&c, text, at);
+    case FL_VALUE_PATH: break;
+    }
+    return read_path(&c, text, folder, at);
+}
+
+static int number_text(const fl_key *key, double x, char *buf, size_t size)
+{
+    char num[FL_NUM_LEN];
+    if (key->special && x == key->value) return snprintf(buf, size, "%s", key->special);
+    return snprintf(buf, size, "%s", fl_num_text(x, num));
+}
+
+char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TEXT])
+{
+    const void *at = (const char *)section + key->at;
+    const char *si = fl_unit_si(key->unit);
+    char word[N_CHOICE][16];
+    int open[N_CHOICE], len = 0, all_special = 0;
+    double x[3] = {0};
+    int32_t i;
+    uint32_t bits;
+    buf[0] = '\0';
+    switch (key->type) {
+    case FL_VALUE_F64:
+    case FL_VALUE_VEC3:
+        memcpy(x, at, key->type == FL_VALUE_F64 ? sizeof(double) : sizeof(fl_vec3));
+        all_special = key->special != NULL;
+        for (int k = 0; k < (key->type == FL_VALUE_F64 ? 1 : 3); k++) {
+            if (k) buf[len++] = ' ';
+            len += number_text(key, x[k], buf + len, FL_VALUE_TEXT - (size_t)len);
+            all_special = all_special && x[k] == key->value;
+        }
+        if (si[0] && !all_special) snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, " %s", si);
+        break;
+    case FL_VALUE_I32:
+        memcpy(&i, at, sizeof i);
+        if (key->special && i == (int32_t)key->value) snprintf(buf, FL_VALUE_TEXT, "%s", key->special);
+        else snprintf(buf, FL_VALUE_TEXT, "%d", i);
+        break;
+    case FL_VALUE_WORD:
+        memcpy(&i, at, sizeof i);
+        if (i >= 0 && i < cut_choices(key->choices, word, open)) snprintf(buf, FL_VALUE_TEXT, "%s", word[i]);
+        break;
+    case FL_VALUE_FIXED:
+        memcpy(&bits, at, sizeof bits);
+        for (int k = 0; k < N_FIX; k++)
+            if (bits & 1u << k)
+                len += snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, "%s%s", len ? " " : "", fix_word[k]);
+        if (!bits) snprintf(buf, FL_VALUE_TEXT, "%s", key->special);
+        break;
+    case FL_VALUE_NAME:
+    case FL_VALUE_PATH: {
+        const char *text = at;
+        snprintf(buf, FL_VALUE_TEXT, "%s", text[0] || !key->special ? text : key->special);
+        break;
+    }
+    }
+    return buf;
+}
+
+void fl_value_copy(const fl_key *key, void *to, const void *from)
+{
+    static const size_t size[] = {[FL_VALUE_F64] = sizeof(double),     [FL_VALUE_VEC3] = sizeof(fl_vec3),
+                                  [FL_VALUE_I32] = sizeof(int32_t),    [FL_VALUE_WORD] = sizeof(int32_t),
+                                  [FL_VALUE_FIXED] = sizeof(uint32_t), [FL_VALUE_NAME] = FL_SCENE_NAME,
+                                  [FL_VALUE_PATH] = FL_SCENE_PATH};
+    memmove((char *)to + key->at, (const char *)from + key->at, size[key->type]);
+}
+
+int fl_value_is_special(const fl_key *key, const void *section)
+{
+    double x;
+    if (key->type != FL_VALUE_F64 || !key->special) return 0;
+    memcpy(&x, (const char *)section + key->at, sizeof x);
+    return x == key->value;
+}
