@@ -468,6 +468,16 @@ void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes)
     p->size = size_of(p);
 }
 
+double fl_poly_bend(const fl_poly *p, int32_t e)
+{
+    const fl_edge s = p->edge[e];
+    if (s.left < 0) return 6.283185307179586;
+    const fl_vec3 l = p->n[s.left], r = p->n[s.right];
+    const double sine = v3_dot(v3_cross(l, r), v3_unit(v3_sub(p->v[s.b], p->v[s.a])));
+    /* rounding may bend a flat edge inward, and -0 would turn pi into -pi */
+    return atan2(sine > 0.0 ? sine : 0.0, v3_dot(l, r));
+}
+
 fl_aabb fl_poly_aabb(const fl_poly *p)
 {
     fl_aabb box = aabb_empty();

@@ -58,6 +58,10 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err);
 /* The area vector of face f, area times outward normal [m^2]; exact under far offsets of the whole. */
 fl_vec3 fl_poly_area(const fl_poly *p, int32_t f);
 
+/* The angle t_e between the outward normals of the two faces of edge e, in [0, pi] rad: 0 where they share a
+ * plane, pi round a flat polygon.  2 pi for the edge of a segment. */
+double fl_poly_bend(const fl_poly *p, int32_t e);
+
 /* Move and turn in place: x becomes transpose(axes) (x - o), so that o becomes the origin and the columns of
  * axes, which must be a rotation, become the axes. */
 void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
