@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* drag.h -- drag of water or air on one body: the manual's quadratic laws. */
+#ifndef FL_WATER_DRAG_H
+#define FL_WATER_DRAG_H
+#include "geom/poly.h"
+
+/* What drags: water on the wetted surface, air on the dry one. */
+typedef struct {
+    double density; /* rho                                     [kg/m^3] */
+    double force;   /* C of the force, 0.005 for skin on water      [-] */
+    double moment;  /* C of the moment                              [-] */
+} fl_fluid;
+
+/* r_eff, the radius at which spin meets the fluid: that of the smallest sphere about the centre of mass that
+ * holds the body, max |x_v| + dilation.  (A 10 x 10 x 1 m box: sqrt(50.25) = 7.088723 m.)
+ *   p   origin at the centre of mass [m];   dilation   0 for a sharp body [m] */
+double fl_drag_radius(const fl_poly *p, double dilation);
+
+/* Force and moment of the manual's equations (8) and (9),
+ *     F = -1/2 C_f rho A u |u|,   M = -1/2 C_m rho A r_eff^3 w |w|.
+ *   area     of the surface that touches the fluid          [m^2]
+ *   radius   r_eff                                             [m]
+ *   u        velocity of the body in the fluid, v - v_w      [m/s]
+ *   w        angular velocity                              [rad/s]
+ * force [N], moment [N.m] may be NULL.  Source: DilatedDEM manual (2016), eqs. (8), (9). */
+void fl_drag(const fl_fluid *fluid, double area, double radius, fl_vec3 u, fl_vec3 w, fl_vec3 *force,
+             fl_vec3 *moment);
+
+/* Coefficients of the same laws as decay: du/dt = -kappa |u| u with kappa = C_f rho A / (2 m) [1/m], and
+ * dw/dt = -kappa |w| w with kappa = C_m rho A r_eff^3 / (2 I) [-] for spin about an axis of moment of
+ * inertia I. */
+double fl_drag_kappa_force(const fl_fluid *fluid, double area, double mass);
+double fl_drag_kappa_moment(const fl_fluid *fluid, double area, double radius, double inertia);
+
+/* The factor that takes u(t) to u(t + dt) under du/dt = -kappa |u| u alone, exactly:
+ *     1 / (1 + kappa |u| dt).
+ * It lies in (0, 1] for any kappa |u| dt >= 0: drag slows a motion and never turns it round, however large
+ * the step or the coefficient.
+ *   kappa   [1/m] or [-];   speed   |u| [m/s] or [rad/s];   dt   [s] */
+static inline double fl_drag_factor(double kappa, double speed, double dt)
+{
+    return 1.0 / (1.0 + kappa * speed * dt);
+}
+
+#endif
