@@ -12,7 +12,8 @@ typedef struct {
 
 /* Record a failure, unless one is recorded already: the first failure is the one told.
  *   code  FL_NO .. FL_NUMERIC
- *   fmt   one sentence without a full stop; the program's name is put before it by fl_tool_end()
+ *   fmt   one sentence without a full stop; the program's name is put before it by fl_tool_end().  Control
+ *         characters in what it quotes become "?": the sentence stays one line
  * Returns -1, so that "return fl_fail(...)" ends a function. */
 int fl_fail(fl_err *err, int code, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
 

@@ -55,7 +55,10 @@ int fl_text_line(fl_text *t, fl_err *err)
         if (end) break;
         t->pos = 0;
         t->have = fl_in_read(t->in, t->chunk, CHUNK, err);
-        if (t->have < 0) return -1;
+        if (t->have < 0) {
+            t->have = 0;
+            return -1;
+        }
         if (t->have == 0) {
             if (t->len) break;
             t->line[0] = '\0';
@@ -82,14 +85,16 @@ static int keep_history(fl_text *t, fl_err *err)
 
 int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err)
 {
-    char found[32] = "";
-    int version = 0, used = 0;
+    char found[32] = "", digits[16] = "";
+    int32_t version = 0;
+    int used = 0;
     const int more = fl_text_line(t, err);
     if (more < 0) return -1;
     if (!more)
         return fl_fail(err, FL_INPUT, "%s: empty, a %s file was wanted", fl_in_name(t->in),
                        kind ? kind : "table");
-    if (sscanf(t->line, "#%31s %d %n", found, &version, &used) != 2 || t->line[used] || version < 1)
+    if (sscanf(t->line, "#%31s %15s %n", found, digits, &used) != 2 || t->line[used] ||
+        fl_num_i32(digits, 1, INT32_MAX, &version))
         return fl_text_fail(t, err, "\"%.40s\" does not open a %s file, \"#%s %d\" was wanted", t->line,
                             kind ? kind : "table", kind ? kind : "KIND", newest);
     if (kind && strcmp(found, kind) != 0)
