@@ -84,41 +84,46 @@ static int empty(const fl_part *p)
     return p->nt == 0 && p->nc == 0;
 }
 
-int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err)
+int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err)
 {
-    fl_text in = {0};
     fl_surface got = {0};
     int32_t opened = 0; /* line of the latest part */
     int rc = -1, more;
 
-    if (fl_text_open(&in, path, err) || fl_text_magic(&in, "g_struct", FL_GSTRUCT_VERSION, err)) goto done;
-    while ((more = fl_text_row(&in, err)) > 0) {
-        if (strcmp(in.field[0], "part") == 0) {
+    if (fl_text_magic(in, "g_struct", FL_GSTRUCT_VERSION, err)) goto done;
+    while ((more = fl_text_row(in, err)) > 0) {
+        if (strcmp(in->field[0], "part") == 0) {
             if (got.n && empty(&got.part[got.n - 1])) break;
-            opened = in.number;
+            opened = in->number;
         }
-        if (read_row(&in, &got, err)) goto done;
+        if (read_row(in, &got, err)) goto done;
     }
     if (more < 0) goto done;
     if (got.n == 0) {
         fl_fail(err, FL_INPUT, "%s: no part, at least one with triangles or cones was wanted",
-                fl_in_name(in.in));
+                fl_in_name(in->in));
         goto done;
     }
     if (empty(&got.part[got.n - 1])) {
-        fl_fail(err, FL_INPUT, "%s:%d: part \"%.60s\" has neither triangles nor cones", fl_in_name(in.in),
+        fl_fail(err, FL_INPUT, "%s:%d: part \"%.60s\" has neither triangles nor cones", fl_in_name(in->in),
                 opened, got.part[got.n - 1].name);
         goto done;
     }
-    got.history = in.history;
-    in.history = NULL;
+    got.history = in->history;
+    in->history = NULL;
     *s = got;
     got = (fl_surface){0};
     rc = 0;
 done:
     fl_surface_free(&got);
-    fl_text_close(&in);
+    fl_text_close(in);
     return rc;
+}
+
+int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err)
+{
+    fl_text in = {0};
+    return fl_text_open(&in, path, err) ? -1 : fl_gstruct_read_text(s, &in, err);
 }
 
 static void put(FILE *f, const char *before, double x)

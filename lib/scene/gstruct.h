@@ -3,6 +3,7 @@
 #ifndef FL_SCENE_GSTRUCT_H
 #define FL_SCENE_GSTRUCT_H
 #include <stdio.h>
+#include "base/text.h"
 #include "base/tool.h"
 #include "geom/surface.h"
 
@@ -14,6 +15,9 @@ enum { FL_GSTRUCT_VERSION = 1 };
  * >= 0 and names unique, no part without a triangle or a cone, at least one part.
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
 int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err);
+
+/* The same from a text that was opened already, which it closes. */
+int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err);
 
 /* Write s with its history and the line of this run.  Write errors show in fl_out_close(). */
 void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by);

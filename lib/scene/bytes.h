@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bytes.h -- a whole mesh file in memory, to be looked at twice: as bytes, and as rows of words. */
+#ifndef FL_SCENE_BYTES_H
+#define FL_SCENE_BYTES_H
+#include <stdint.h>
+#include "base/err.h"
+#include "base/stream.h"
+
+typedef struct {
+    fl_in *in;  /* at its end */
+    char *data; /* [n], and a zero byte after them; rows are cut in place */
+    int32_t n, cap, pos;
+    int32_t line; /* of the current row; 0 in binary data */
+    char comment; /* opens a comment, '\0' for none */
+    char **field; /* words of the current row */
+    int32_t words, next, field_cap;
+    char note[600]; /* remarks for the user, each with its newline */
+} fl_bytes;
+
+/* Read all of path ("-" is standard input, gzip is unpacked).  0, or -1 with FL_INPUT (missing, unreadable,
+ * larger than 2 GiB) or FL_SYSTEM. */
+int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err);
+
+/* Next row with words: skips blank ones and comments; \n, \r\n and \r end a line, and a backslash before the
+ * end joins the next one on.  1, 0 at the end, -1 with err (a zero byte, no memory). */
+int fl_bytes_row(fl_bytes *b, fl_err *err);
+
+/* Next word, of this row or of the next: 1, 0 at the end, -1 with err. */
+int fl_bytes_word(fl_bytes *b, const char **word, fl_err *err);
+
+/* Word k of the row, or the next word anywhere, as a finite number called `what` in the complaint.
+ * 0, or -1 with FL_INPUT in err when it is missing, not a number, nan or infinite. */
+int fl_bytes_f64_at(const fl_bytes *b, int32_t k, const char *what, double *x, fl_err *err);
+int fl_bytes_f64(fl_bytes *b, const char *what, double *x, fl_err *err);
+
+/* Fail with "file:line: ", or "file: " in binary data, before the sentence.  Returns -1. */
+int fl_bytes_fail(const fl_bytes *b, fl_err *err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+
+/* Add a remark; what does not fit is dropped. */
+void fl_bytes_note(fl_bytes *b, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+
+void fl_bytes_free(fl_bytes *b); /* accepts a zeroed struct, leaves one */
+
+#endif

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/mem.h"
+#include "scene/bytes.h"
+#include "scene/gstruct.h"
+#include "scene/read_mesh.h"
+#include "scene/read_obj.h"
+#include "scene/read_off.h"
+#include "scene/read_ply.h"
+#include "scene/read_stl.h"
+
+enum { NAME = 128 };
+
+/* "dir/tower.v2.stl" is called "tower.v2"; so is "tower.v2.stl.gz". */
+static void base_name(const char *path, char name[NAME])
+{
+    const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path;
+    size_t len = strlen(start);
+    if (strcmp(path, "-") == 0) {
+        start = "stdin";
+        len = 5;
+    }
+    if (len > 3 && strcasecmp(start + len - 3, ".gz") == 0) len -= 3;
+    for (size_t k = len; k-- > 1;)
+        if (start[k] == '.') {
+            len = k;
+            break;
+        }
+    if (len > NAME - 1) len = NAME - 1;
+    memcpy(name, start, len);
+    name[len] = '\0';
+}
+
+/* Hand the bytes on as the text they are: what is read so far is all there is, and the stream is at its end.
+ * */
+static int read_own(fl_surface *s, fl_bytes *b, fl_err *err)
+{
+    fl_text text = {.in = b->in, .chunk = b->data, .have = b->n};
+    b->in = NULL;
+    b->data = NULL;
+    return fl_gstruct_read_text(s, &text, err);
+}
+
+static int starts_with(const fl_bytes *b, const char *word)
+{
+    const char *p = b->data + strspn(b->data, " \t\r\n");
+    return strncasecmp(p, word, strlen(word)) == 0;
+}
+
+static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+{
+    const int zero = memchr(b->data, '\0', (size_t)b->n) != NULL;
+    if (b->n == 0) return fl_bytes_fail(b, err, "empty, a mesh was wanted");
+    if (fl_stl_is_binary(b)) return fl_stl_read_binary(s, b, name, err);
+    if (fl_ply_is(b)) return fl_ply_read(s, b, name, err);
+    if (starts_with(b, "#g_struct")) return read_own(s, b, err);
+    if (zero)
+        return fl_bytes_fail(
+            b, err,
+            "%d bytes of binary data: not a whole binary STL (84 + 50 n bytes), and no other "
+            "kind that is known",
+            b->n);
+    if (starts_with(b, "solid")) return fl_stl_read_ascii(s, b, name, err);
+    if (fl_off_is(b)) return fl_off_read(s, b, name, err);
+    if (fl_obj_is(b)) return fl_obj_read(s, b, name, err);
+    return fl_bytes_fail(b, err, "neither STL, OBJ, OFF, PLY nor g_struct");
+}
+
+static void drop_empty(fl_surface *s, fl_bytes *b)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < s->n; i++) {
+        if (s->part[i].nt || s->part[i].nc) {
+            s->part[kept++] = s->part[i];
+        } else {
+            fl_bytes_note(b, "part \"%.60s\" has no triangles and was dropped", s->part[i].name);
+            fl_part_free(&s->part[i]);
+        }
+    }
+    s->n = kept;
+}
+
+/* Move the parts of one surface to the end of another. */
+static int append(fl_surface *to, fl_surface *from, fl_err *err)
+{
+    const int32_t had = to->n;
+    const size_t old = to->history ? strlen(to->history) : 0,
+                 more = from->history ? strlen(from->history) : 0;
+    char *history = NULL;
+    if (more) {
+        history = fl_alloc((int64_t)(old + more + 1), 1, err);
+        if (!history) return -1;
+    }
+    for (int32_t i = 0; i < from->n; i++)
+        if (fl_surface_add(to, from->part[i].name, strlen(from->part[i].name), err) < 0) {
+            while (to->n > had) fl_part_free(&to->part[--to->n]);
+            free(history);
+            return -1;
+        }
+    for (int32_t i = 0; i < from->n; i++) {
+        fl_part *p = &to->part[had + i], *q = &from->part[i];
+        char *name = p->name;
+        const int32_t id = had == 0 ? q->id : p->id; /* the first file keeps its numbers */
+        free(q->name);
+        *p = *q;
+        p->name = name;
+        p->id = id;
+        *q = (fl_part){0};
+    }
+    if (more) {
+        if (old) memcpy(history, to->history, old);
+        memcpy(history + old, from->history, more);
+        free(to->history);
+        to->history = history;
+    }
+    return 0;
+}
+
+int fl_mesh_read(fl_surface *s, const char *path, char *note, fl_err *err)
+{
+    fl_bytes b = {0};
+    fl_surface got = {0};
+    char name[NAME];
+    int rc = -1;
+    note[0] = '\0';
+    base_name(path, name);
+    if (fl_bytes_load(&b, path, err) || read_any(&got, &b, name, err)) goto done;
+    drop_empty(&got, &b);
+    if (got.n == 0) {
+        fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);
+        goto done;
+    }
+    if (append(s, &got, err)) goto done;
+    memcpy(note, b.note, FL_MESH_NOTE);
+    rc = 0;
+done:
+    fl_surface_free(&got);
+    fl_bytes_free(&b);
+    return rc;
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* read_mesh.h -- a mesh file of any kind that is known, told by what is in it. */
+#ifndef FL_SCENE_READ_MESH_H
+#define FL_SCENE_READ_MESH_H
+#include "geom/surface.h"
+
+enum { FL_MESH_NOTE = 600 };
+
+/* Add what path ("-" is standard input, gzip is unpacked) holds to s: STL (binary or ASCII), OBJ, OFF, PLY or
+ * g_struct. The kind is told by content, never by name.  A part that has no name in the file is called by the
+ * file's base name up to its last dot ("stdin" for the stream); parts without triangles and cones are dropped
+ * with a remark.  The history of a g_struct file is appended to that of s.  Coordinates are as in the file:
+ * nothing is scaled, welded or turned.
+ *   note[FL_MESH_NOTE]   out: remarks for the user, each with its newline
+ * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err and s as it was. */
+int fl_mesh_read(fl_surface *s, const char *path, char *note, fl_err *err);
+
+#endif

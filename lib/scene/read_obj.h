@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* read_obj.h -- Wavefront OBJ: vertices and polygons. */
+#ifndef FL_SCENE_READ_OBJ_H
+#define FL_SCENE_READ_OBJ_H
+#include "geom/surface.h"
+#include "scene/bytes.h"
+
+/* Does a row of b, before any that is not OBJ, start with "v" or "f"? */
+int fl_obj_is(const fl_bytes *b);
+
+/* Add the faces of b to s.  Parts are the objects (o), or the groups (g) where the file has fewer than two
+ * objects, or the materials (usemtl) where it has neither; faces outside any go to `name`.  Indices start at
+ * 1, negative ones count back from the latest vertex; texture and normal indices are not looked at.
+ * Free-form surfaces and unknown words are counted in a remark, lines and points are passed over.
+ * 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
+int fl_obj_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err);
+
+#endif

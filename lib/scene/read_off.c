@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "geom/facet.h"
+#include "scene/read_off.h"
+
+/* Does p hold a header word, [ST][C][N][4][n]OFF, before a blank or a line end?  Its length, or 0. */
+static size_t header_word(const char *p)
+{
+    const char *q = p;
+    if (strncmp(q, "ST", 2) == 0) q += 2;
+    for (const char *letter = "CN4n"; *letter; letter++)
+        if (*q == *letter) q++;
+    if (strncmp(q, "OFF", 3) != 0) return 0;
+    q += 3;
+    return *q == '\0' || strchr(" \t\r\n", *q) ? (size_t)(q - p) : 0;
+}
+
+/* First byte that is neither blank nor comment. */
+static const char *first_word(const char *p)
+{
+    for (p += strspn(p, " \t\r\n"); *p == '#'; p += strspn(p, " \t\r\n")) p += strcspn(p, "\r\n");
+    return p;
+}
+
+int fl_off_is(const fl_bytes *b)
+{
+    const char *p = first_word(b->data);
+    if (header_word(p)) return 1;
+    for (int k = 0; k < 3; k++) {
+        const size_t digits = strspn(p, "0123456789");
+        if (digits == 0) return 0;
+        p += digits;
+        p += strspn(p, " \t");
+    }
+    return *p == '\r' || *p == '\n' || *p == '#' || *p == '\0';
+}
+
+static int read_count(fl_bytes *b, const char *what, int32_t *n, fl_err *err)
+{
+    const char *word = "";
+    const int more = fl_bytes_word(b, &word, err);
+    if (more < 0) return -1;
+    if (more == 0) return fl_bytes_fail(b, err, "the file ends where the number of %s was wanted", what);
+    if (fl_num_i32(word, 0, INT32_MAX, n))
+        return fl_bytes_fail(b, err, "the number of %s is \"%.40s\", a whole number >= 0 was wanted", what,
+                             word);
+    return 0;
+}
+
+static int read_vertex(fl_bytes *b, fl_part *p, int homogeneous, fl_err *err)
+{
+    fl_vec3 x = {0};
+    double w = 1.0;
+    if (fl_bytes_f64_at(b, 0, "x", &x.x, err) || fl_bytes_f64_at(b, 1, "y", &x.y, err) ||
+        fl_bytes_f64_at(b, 2, "z", &x.z, err) || (homogeneous && fl_bytes_f64_at(b, 3, "w", &w, err)))
+        return -1;
+    x = v3(x.x / w, x.y / w, x.z / w);
+    if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
+        return fl_bytes_fail(b, err, "the vertex lies at infinity (w is %g)", w);
+    return fl_surface_vertex(p, x, err);
+}
+
+static int read_face(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_err *err)
+{
+    int32_t n = 0;
+    if (fl_num_i32(b->field[0], 0, INT32_MAX, &n))
+        return fl_bytes_fail(b, err, "the number of corners is \"%.40s\", a whole number >= 0 was wanted",
+                             b->field[0]);
+    if (n > FL_FACET_CORNERS)
+        return fl_bytes_fail(b, err, "a face of %d corners, at most %d were wanted", n, FL_FACET_CORNERS);
+    if (n > b->words - 1) return fl_bytes_fail(b, err, "the face has %d of its %d corners", b->words - 1, n);
+    if (n < 3) return 0; /* a point or an edge */
+    if (fl_grow(loop, cap, n, sizeof **loop, err)) return -1;
+    for (int32_t k = 0; k < n; k++)
+        if (fl_num_i32(b->field[k + 1], 0, p->nv - 1, &(*loop)[k]))
+            return fl_bytes_fail(b, err, "vertex index \"%.40s\" was found, 0 to %d was wanted",
+                                 b->field[k + 1], p->nv - 1);
+    return fl_facet_polygon(p, n, *loop, err);
+}
+
+/* The header word and the counts. */
+static int read_head(fl_bytes *b, int *homogeneous, int32_t n[2], fl_err *err)
+{
+    const char *word = "";
+    if (fl_bytes_word(b, &word, err) < 0) return -1;
+    if (header_word(word)) {
+        const char *after = b->next < b->words ? b->field[b->next] : "";
+        *homogeneous = strchr(word, '4') != NULL;
+        if (strchr(word, 'n'))
+            return fl_bytes_fail(b, err, "%s has any number of dimensions: three were wanted", word);
+        if (strcmp(after, "BINARY") == 0)
+            return fl_bytes_fail(b, err, "a binary OFF file, an ASCII one was wanted");
+    } else {
+        b->next = 0; /* no header word: the row starts with the counts */
+    }
+    /* the number of edges, which is sometimes left out and often wrong, is not needed */
+    return read_count(b, "vertices", &n[0], err) || read_count(b, "faces", &n[1], err) ? -1 : 0;
+}
+
+/* Next row, of `what` number k of n. */
+static int wanted_row(fl_bytes *b, const char *what, int32_t k, int32_t n, fl_err *err)
+{
+    const int more = fl_bytes_row(b, err);
+    if (more > 0) return 0;
+    if (more == 0) fl_bytes_fail(b, err, "the file ends after %d of %d %s", k, n, what);
+    return -1;
+}
+
+int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+{
+    int32_t n[2] = {0}, *loop = NULL, cap = 0, i;
+    int homogeneous = 0, rc = -1;
+    b->comment = '#';
+    if (read_head(b, &homogeneous, n, err)) return -1;
+    i = fl_surface_add(s, name, strlen(name), err);
+    if (i < 0) return -1;
+    for (int32_t v = 0; v < n[0]; v++)
+        if (wanted_row(b, "vertices", v, n[0], err) || read_vertex(b, &s->part[i], homogeneous, err))
+            goto done;
+    for (int32_t f = 0; f < n[1]; f++)
+        if (wanted_row(b, "faces", f, n[1], err) || read_face(b, &s->part[i], &loop, &cap, err)) goto done;
+    rc = 0;
+done:
+    free(loop);
+    return rc;
+}

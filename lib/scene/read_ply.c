@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "geom/facet.h"
+#include "scene/read_ply.h"
+
+typedef enum { I8, U8, I16, U16, I32, U32, F32, F64, TYPES } type;
+
+static const char *const type_name[TYPES][2] = {
+    {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
+    {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
+static const int type_size[TYPES] = {1, 1, 2, 2, 4, 4, 4, 8};
+
+/* What the numbers of a property are for. */
+typedef enum { NOTHING, X, Y, Z, CORNERS } role;
+
+typedef struct {
+    type of, count; /* type of the value; of the length of a list */
+    int list;
+    role is;
+} property;
+
+typedef enum { OTHER, VERTEX, FACE } kind;
+
+typedef struct {
+    kind is;
+    int64_t n;
+    int32_t first, last; /* properties, first .. last - 1 */
+} element;
+
+typedef struct {
+    fl_bytes *b;
+    int binary, swap; /* swap: bytes run the other way than here */
+    element *el;
+    property *pr;
+    int32_t els, prs, el_cap, pr_cap;
+    int32_t *loop, loop_cap, loop_n;
+    int64_t row; /* element being read, for complaints about binary data */
+} ply;
+
+int fl_ply_is(const fl_bytes *b)
+{
+    return strncmp(b->data, "ply", 3) == 0 && (b->data[3] == '\n' || b->data[3] == '\r' || b->data[3] == ' ');
+}
+
+/* --- header --------------------------------------------------------------------------------------------- */
+
+static int read_type(const fl_bytes *b, int32_t k, type *t, fl_err *err)
+{
+    const char *word = k < b->words ? b->field[k] : "";
+    for (int i = 0; i < TYPES; i++)
+        if (strcmp(word, type_name[i][0]) == 0 || strcmp(word, type_name[i][1]) == 0) {
+            *t = (type)i;
+            return 0;
+        }
+    return fl_bytes_fail(b, err, "\"%.40s\" is not a type of PLY 1.0", word);
+}
+
+static int read_format(ply *p, fl_err *err)
+{
+    const fl_bytes *b = p->b;
+    const char *word = b->words > 1 ? b->field[1] : "";
+    const uint16_t probe = 1;
+    const int little = *(const unsigned char *)&probe == 1;
+    if (strcmp(word, "ascii") == 0) return 0;
+    p->binary = 1;
+    if (strcmp(word, "binary_little_endian") == 0) p->swap = !little;
+    else if (strcmp(word, "binary_big_endian") == 0) p->swap = little;
+    else return fl_bytes_fail(b, err, "format \"%.40s\" is not one of PLY 1.0", word);
+    return 0;
+}
+
+static int read_element(ply *p, fl_err *err)
+{
+    const fl_bytes *b = p->b;
+    uint64_t n = 0;
+    element e = {OTHER, 0, p->prs, p->prs};
+    if (b->words != 3 || fl_num_u64(b->field[2], &n) || n > INT64_MAX)
+        return fl_bytes_fail(b, err, "\"element NAME COUNT\" was wanted");
+    e.n = (int64_t)n;
+    if (strcmp(b->field[1], "vertex") == 0) e.is = VERTEX;
+    if (strcmp(b->field[1], "face") == 0) e.is = FACE;
+    if (fl_grow(&p->el, &p->el_cap, (int64_t)p->els + 1, sizeof *p->el, err)) return -1;
+    p->el[p->els++] = e;
+    return 0;
+}
+
+static int read_property(ply *p, fl_err *err)
+{
+    const fl_bytes *b = p->b;
+    const int list = b->words > 1 && strcmp(b->field[1], "list") == 0;
+    const char *name = b->field[b->words - 1];
+    element *e = p->els ? &p->el[p->els - 1] : NULL;
+    property q = {.list = list};
+    if (!e) return fl_bytes_fail(b, err, "a property stands before the first element");
+    if (b->words != (list ? 5 : 3))
+        return fl_bytes_fail(b, err, "\"property TYPE NAME\" or \"property list TYPE TYPE NAME\" was wanted");
+    if (list && read_type(b, 2, &q.count, err)) return -1;
+    if (read_type(b, list ? 3 : 1, &q.of, err)) return -1;
+    if (e->is == VERTEX && !list && strlen(name) == 1 && *name >= 'x' && *name <= 'z')
+        q.is = *name == 'x' ? X : *name == 'y' ? Y : Z;
+    if (e->is == FACE && list && (strcmp(name, "vertex_indices") == 0 || strcmp(name, "vertex_index") == 0))
+        q.is = CORNERS;
+    if ((list && q.count >= F32) || (q.is == CORNERS && q.of >= F32))
+        return fl_bytes_fail(b, err,
+                             "a list is counted, and its vertices are numbered, by a floating-point type");
+    if (fl_grow(&p->pr, &p->pr_cap, (int64_t)p->prs + 1, sizeof *p->pr, err)) return -1;
+    p->pr[p->prs++] = q;
+    e->last = p->prs;
+    return 0;
+}
+
+/* Each role is played once, and vertices come before the faces that name them. */
+static int check_header(const ply *p, fl_err *err)
+{
+    int seen[CORNERS + 1] = {0}, elements[FACE + 1] = {0};
+    for (int32_t k = 0; k < p->prs; k++) seen[p->pr[k].is]++;
+    for (int32_t k = 0; k < p->els; k++) {
+        elements[p->el[k].is]++;
+        if (p->el[k].is == FACE && !elements[VERTEX])
+            return fl_bytes_fail(p->b, err, "the faces stand before the vertices");
+    }
+    if (elements[VERTEX] != 1 || seen[X] != 1 || seen[Y] != 1 || seen[Z] != 1)
+        return fl_bytes_fail(p->b, err, "one element \"vertex\" with properties x, y and z was wanted");
+    if (elements[FACE] != 1 || seen[CORNERS] != 1)
+        return fl_bytes_fail(p->b, err, "one element \"face\" with one list vertex_indices was wanted");
+    return 0;
+}
+
+static int read_header(ply *p, fl_err *err)
+{
+    fl_bytes *b = p->b;
+    int formats = 0, more;
+    while ((more = fl_bytes_row(b, err)) > 0) {
+        const char *word = b->field[0];
+        if (strcmp(word, "end_header") == 0) {
+            if (formats != 1)
+                return fl_bytes_fail(b, err, "%d format rows in the header, one was wanted", formats);
+            b->next = b->words;
+            return check_header(p, err);
+        }
+        if (strcmp(word, "format") == 0) {
+            formats++;
+            if (read_format(p, err)) return -1;
+        } else if (strcmp(word, "element") == 0) {
+            if (read_element(p, err)) return -1;
+        } else if (strcmp(word, "property") == 0) {
+            if (read_property(p, err)) return -1;
+        } else if (strcmp(word, "ply") != 0 && strcmp(word, "comment") != 0 &&
+                   strcmp(word, "obj_info") != 0) {
+            return fl_bytes_fail(b, err, "\"%.40s\" has no place in a PLY header", word);
+        }
+    }
+    if (more == 0) fl_bytes_fail(b, err, "the file ends inside the header");
+    return -1;
+}
+
+/* --- data ----------------------------------------------------------------------------------------------- */
+
+static int read_binary(ply *p, type t, double *x, fl_err *err)
+{
+    fl_bytes *b = p->b;
+    const int size = type_size[t];
+    unsigned char raw[8];
+    union {
+        int8_t i8;
+        uint8_t u8;
+        int16_t i16;
+        uint16_t u16;
+        int32_t i32;
+        uint32_t u32;
+        float f32;
+        double f64;
+    } u;
+    if (b->n - b->pos < size) return fl_bytes_fail(b, err, "the file ends inside the data");
+    for (int k = 0; k < size; k++) raw[k] = (unsigned char)b->data[b->pos + (p->swap ? size - 1 - k : k)];
+    b->pos += size;
+    memcpy(&u, raw, (size_t)size);
+    switch (t) {
+    case I8: *x = u.i8; break;
+    case U8: *x = u.u8; break;
+    case I16: *x = u.i16; break;
+    case U16: *x = u.u16; break;
+    case I32: *x = u.i32; break;
+    case U32: *x = u.u32; break;
+    case F32: *x = (double)u.f32; break;
+    default: *x = u.f64; break;
+    }
+    return 0;
+}
+
+/* A number in either kind of file; what is not used may be nan. */
+static int read_number(ply *p, type t, int used, double *x, fl_err *err)
+{
+    const char *word = "";
+    int more;
+    if (p->binary) return read_binary(p, t, x, err);
+    if (used) return fl_bytes_f64(p->b, "number", x, err);
+    *x = 0.0;
+    more = fl_bytes_word(p->b, &word, err);
+    if (more == 0) fl_bytes_fail(p->b, err, "the file ends inside the data");
+    return more > 0 ? 0 : -1;
+}
+
+static int read_list(ply *p, const property *q, const fl_part *part, fl_err *err)
+{
+    double n = 0.0, v = 0.0;
+    if (read_number(p, q->count, 1, &n, err)) return -1;
+    if (!(n >= 0.0) || n != floor(n) || (q->is == CORNERS && n > FL_FACET_CORNERS))
+        return fl_bytes_fail(p->b, err, "row %lld has a list of %g entries, 0 to %d were wanted",
+                             (long long)p->row, n, FL_FACET_CORNERS);
+    if (q->is == CORNERS && fl_grow(&p->loop, &p->loop_cap, (int64_t)n, sizeof *p->loop, err)) return -1;
+    for (double k = 0.0; k < n; k += 1.0) {
+        if (read_number(p, q->of, q->is == CORNERS, &v, err)) return -1;
+        if (q->is != CORNERS) continue;
+        if (!(v >= 0.0 && v < part->nv) || v != floor(v))
+            return fl_bytes_fail(p->b, err, "face %lld wants vertex %g, 0 to %d was wanted",
+                                 (long long)p->row, v, part->nv - 1);
+        p->loop[(int32_t)k] = (int32_t)v;
+    }
+    if (q->is == CORNERS) p->loop_n = (int32_t)n;
+    return 0;
+}
+
+/* One vertex, face or other thing. */
+static int read_one(ply *p, const element *e, fl_part *part, fl_err *err)
+{
+    fl_vec3 x = {0};
+    for (int32_t k = e->first; k < e->last; k++) {
+        const property *q = &p->pr[k];
+        double value = 0.0;
+        if (q->list ? read_list(p, q, part, err) : read_number(p, q->of, q->is != NOTHING, &value, err))
+            return -1;
+        if (q->is == X) x.x = value;
+        if (q->is == Y) x.y = value;
+        if (q->is == Z) x.z = value;
+    }
+    if (e->is == FACE) return p->loop_n < 3 ? 0 : fl_facet_polygon(part, p->loop_n, p->loop, err);
+    if (e->is != VERTEX) return 0;
+    if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
+        return fl_bytes_fail(p->b, err, "vertex %lld is %g %g %g, finite numbers were wanted",
+                             (long long)p->row, x.x, x.y, x.z);
+    return fl_surface_vertex(part, x, err);
+}
+
+int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+{
+    ply p = {.b = b};
+    int rc = -1;
+    const int32_t i = fl_surface_add(s, name, strlen(name), err);
+    if (i < 0 || read_header(&p, err)) goto done;
+    if (p.binary) b->line = 0;
+    for (int32_t e = 0; e < p.els; e++) {
+        if (p.el[e].first == p.el[e].last) continue; /* nothing is stored of it, however many there are */
+        for (p.row = 0; p.row < p.el[e].n; p.row++)
+            if (read_one(&p, &p.el[e], &s->part[i], err)) goto done;
+    }
+    rc = 0;
+done:
+    free(p.el);
+    free(p.pr);
+    free(p.loop);
+    return rc;
+}

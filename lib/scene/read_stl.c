@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include <strings.h>
+#include "base/mem.h"
+#include "geom/facet.h"
+#include "scene/read_stl.h"
+
+enum { HEAD = 84, RECORD = 50 };
+
+/* --- binary --------------------------------------------------------------------------------------------- */
+
+static uint32_t u32_at(const fl_bytes *b, int64_t at)
+{
+    const unsigned char *p = (const unsigned char *)b->data + at;
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+static double f32_at(const fl_bytes *b, int64_t at)
+{
+    const uint32_t bits = u32_at(b, at);
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return (double)x;
+}
+
+int fl_stl_is_binary(const fl_bytes *b)
+{
+    if (b->n < HEAD) return 0;
+    if ((int64_t)b->n == HEAD + RECORD * (int64_t)u32_at(b, 80)) return 1;
+    return u32_at(b, 80) == 0 && b->n > HEAD && (b->n - HEAD) % RECORD == 0;
+}
+
+int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+{
+    const int32_t n = (b->n - HEAD) / RECORD, i = fl_surface_add(s, name, strlen(name), err);
+    fl_part *p;
+    if (i < 0) return -1;
+    p = &s->part[i];
+    if (n > 0 && u32_at(b, 80) == 0)
+        fl_bytes_note(b, "the header says no triangles, the size says %d: these were read", n);
+    for (int32_t t = 0; t < n; t++) {
+        const int64_t at = HEAD + RECORD * (int64_t)t + 12; /* behind the normal */
+        for (int k = 0; k < 3; k++) {
+            const fl_vec3 x =
+                v3(f32_at(b, at + 12 * k), f32_at(b, at + 12 * k + 4), f32_at(b, at + 12 * k + 8));
+            if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
+                return fl_bytes_fail(b, err,
+                                     "triangle %d of %d has the corner %g %g %g, finite numbers were wanted",
+                                     t, n, x.x, x.y, x.z);
+            if (fl_surface_vertex(p, x, err)) return -1;
+        }
+        if (fl_surface_triangle(p, 3 * t, 3 * t + 1, 3 * t + 2, err)) return -1;
+    }
+    return 0;
+}
+
+/* --- ASCII ---------------------------------------------------------------------------------------------- */
+
+/* Take the next word, which must be `want`. */
+static int expect(fl_bytes *b, const char *want, fl_err *err)
+{
+    const char *word = "";
+    const int more = fl_bytes_word(b, &word, err);
+    if (more < 0) return -1;
+    if (more == 0) return fl_bytes_fail(b, err, "the file ends where \"%s\" was wanted", want);
+    if (strcasecmp(word, want) != 0)
+        return fl_bytes_fail(b, err, "\"%.40s\" was found, \"%s\" was wanted", word, want);
+    return 0;
+}
+
+/* One facet, behind its first word. */
+static int read_facet(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_err *err)
+{
+    const char *word = "";
+    int32_t n = 0;
+    int more = 1;
+    if (expect(b, "normal", err)) return -1;
+    for (int k = 0; k < 3 && more > 0; k++)
+        more = fl_bytes_word(b, &word, err); /* may be nan, may be wrong */
+    if (more < 0 || expect(b, "outer", err) || expect(b, "loop", err)) return -1;
+    for (;;) {
+        fl_vec3 x = {0};
+        more = fl_bytes_word(b, &word, err);
+        if (more < 0) return -1;
+        if (more == 0 || strcasecmp(word, "vertex") != 0) break;
+        if (n == FL_FACET_CORNERS)
+            return fl_bytes_fail(b, err, "a loop of more than %d corners", FL_FACET_CORNERS);
+        if (fl_bytes_f64(b, "x", &x.x, err) || fl_bytes_f64(b, "y", &x.y, err) ||
+            fl_bytes_f64(b, "z", &x.z, err) || fl_surface_vertex(p, x, err) ||
+            fl_grow(loop, cap, (int64_t)n + 1, sizeof **loop, err))
+            return -1;
+        (*loop)[n++] = p->nv - 1;
+    }
+    if (more == 0) return fl_bytes_fail(b, err, "the file ends inside a loop");
+    if (strcasecmp(word, "endloop") != 0)
+        return fl_bytes_fail(b, err, "\"%.40s\" was found, \"vertex\" or \"endloop\" was wanted", word);
+    if (n < 3) return fl_bytes_fail(b, err, "a loop of %d corners, at least 3 were wanted", n);
+    if (expect(b, "endfacet", err)) return -1;
+    return fl_facet_polygon(p, n, *loop, err);
+}
+
+/* The part of a solid, whose name is the rest of the row.  Words lie one behind the other in the file, and
+ * fl_surface_add() cleans what lies between them. */
+static int32_t open_solid(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+{
+    const char *last = b->next < b->words ? b->field[b->words - 1] : NULL;
+    const char *first = last ? b->field[b->next] : NULL;
+    b->next = b->words;
+    if (!last) return fl_surface_add(s, name, strlen(name), err);
+    return fl_surface_add(s, first, (size_t)(last - first) + strlen(last), err);
+}
+
+int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+{
+    const char *word = "";
+    int32_t *loop = NULL, cap = 0, i = -1; /* i: part of the open solid */
+    int rc = -1, more;
+    while ((more = fl_bytes_word(b, &word, err)) > 0) {
+        if (i < 0 && strcasecmp(word, "solid") == 0) {
+            i = open_solid(s, b, name, err);
+            if (i < 0) goto done;
+        } else if (i >= 0 && strcasecmp(word, "facet") == 0) {
+            if (read_facet(b, &s->part[i], &loop, &cap, err)) goto done;
+        } else if (i >= 0 && strcasecmp(word, "endsolid") == 0) {
+            b->next = b->words; /* its name, again */
+            i = -1;
+        } else {
+            fl_bytes_fail(b, err, "\"%.40s\" was found, %s was wanted", word,
+                          i < 0 ? "\"solid\"" : "\"facet\" or \"endsolid\"");
+            goto done;
+        }
+    }
+    if (more < 0) goto done;
+    if (i >= 0) {
+        fl_bytes_fail(b, err, "the file ends inside solid \"%.60s\"", s->part[i].name);
+        goto done;
+    }
+    rc = 0;
+done:
+    free(loop);
+    return rc;
+}
