@@ -1,2 +1,99 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-int main(void) { return 4; }
+/* loadstats -- from a load record to its statistics. */
+#include <omp.h>
+#include <stdlib.h>
+#include "base/mem.h"
+#include "base/stream.h"
+#include "stat/resample.h"
+#include "options.h"
+#include "plot.h"
+#include "tables.h"
+
+/* One view of one signal, if the signal exists for this part. */
+static int make_one(fl_view *v, const fl_series *s, const struct options *o, int each, int64_t k, fl_err *err)
+{
+    const int32_t pair = (int32_t)(k / each), part = pair / s->signals, signal = pair % s->signals;
+    const fl_view_ask ask = {.filter = k % each ? o->filter : 0.0,
+                             .order = o->order,
+                             .ratio = o->separation,
+                             .threshold = o->threshold,
+                             .quantiles = o->quantiles,
+                             .p = o->quantile};
+    if (!s->x[pair]) return 0;
+    return fl_view_make(v, s, part, signal, &ask, err);
+}
+
+/* Views are independent; the failure that is told is that of the first of them, whoever comes to it first. */
+static int make_views(fl_view *v, const fl_series *s, const struct options *o, int each, fl_err *err)
+{
+    const int64_t n = (int64_t)s->parts * s->signals * each;
+    int64_t failed = n;
+#pragma omp parallel for schedule(dynamic)
+    for (int64_t k = 0; k < n; k++) {
+        fl_err own = {0};
+        if (make_one(&v[k], s, o, each, k, &own) == 0) continue;
+#pragma omp critical
+        if (k < failed) {
+            failed = k;
+            *err = own;
+        }
+    }
+    return failed < n ? -1 : 0;
+}
+
+static void notes(const fl_series *s, const struct options *o)
+{
+    if (o->quiet) return;
+    const double span = s->edge[s->n] - s->edge[0];
+    if (o->verbose)
+        fprintf(stderr, "loadstats: %d rows from %.10g s to %.10g s\n", s->n, s->edge[0], s->edge[s->n]);
+    if (o->filter > 0.0 && fl_resample_step(s->n, s->edge) <= 0.0)
+        fprintf(stderr,
+                "loadstats: the intervals are not equal, the filter works on %d equal ones of %.10g s\n",
+                s->n, span / s->n);
+}
+
+static int run(const struct options *o, fl_err *err)
+{
+    fl_series s = {0};
+    fl_view *views = NULL;
+    fl_out out = {0};
+    fl_by by;
+    const int each = o->filter > 0.0 ? 2 : 1;
+    const fl_series_ask ask = {.signal = o->signal,
+                               .signals = o->signals,
+                               .part = o->part,
+                               .from = o->from,
+                               .to = o->to,
+                               .last = o->window};
+    int rc = -1;
+    int64_t n = 0;
+    if (o->threads) omp_set_num_threads(o->threads);
+    options_by(o, &by);
+    if (fl_series_read(&s, o->in, &ask, err)) goto done;
+    n = (int64_t)s.parts * s.signals * each;
+    views = fl_alloc(n, sizeof *views, err);
+    if (!views || make_views(views, &s, o, each, err)) goto done;
+    notes(&s, o);
+    const struct result r = {&s, views, each};
+    if (fl_out_open(&out, o->out, o->gzip, err) || tables_write(out.f, &r, o, &by, err) ||
+        fl_out_close(&out, err))
+        goto done;
+    rc = o->plot ? plot(&r, o, &by, err) : 0;
+done:
+    fl_out_abort(&out);
+    for (int64_t k = 0; views && k < n; k++) fl_view_free(&views[k]);
+    free(views);
+    fl_series_free(&s);
+    return rc;
+}
+
+int main(int argc, char **argv)
+{
+    struct options o;
+    fl_err err = {0};
+    int rc = options_parse(&o, argc, argv, &err);
+    if (rc == 0 && !o.ended) rc = run(&o, &err);
+    options_free(&o);
+    return fl_tool_end("loadstats", rc, &err);
+}

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "base/text.h"
+#include "stat/butter.h"
+#include "options.h"
+
+static const char HELP[] =
+    "usage: loadstats [options] [FILE]\n"
+    "Statistics of a load record: moments, quantiles, peaks, histogram, exceedance, plots.\n"
+    "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
+    "\n"
+    "  -t, --table WHAT        stats, peaks, histogram or exceedance (stats)\n"
+    "  -c, --component LIST    of fx fy fz mx my mz, fh (horizontal), f (all of it) (fx,fy,fz,fh)\n"
+    "  -C, --column LIST       columns of the table by name\n"
+    "  -p, --part NAME         one part of the structure, or total\n"
+    "      --from T            leave out what is before T seconds\n"
+    "      --to T              leave out what is after T seconds\n"
+    "  -w, --window S          only the last S seconds\n"
+    "  -f, --filter HZ         add the view through a zero-phase Butterworth low pass\n"
+    "      --order N           order of one pass of the filter (4)\n"
+    "  -s, --separation R      peaks are separate when the load falls below R times the smaller (0.5)\n"
+    "      --threshold X       only peaks above X, in the unit of the signal (0)\n"
+    "  -b, --bins N            classes of the histogram (20)\n"
+    "      --quantiles LIST    of 0 .. 1 (0.5,0.9,0.95,0.99)\n"
+    "      --plot DIR          draw history and peak distribution into DIR\n"
+    "      --format FORMAT     of the pictures, svg or png (svg)\n"
+    "  -o, --output FILE       write there, - is standard output\n"
+    "  -z, --gzip              compress the table\n"
+    "  -j, --threads N         threads (one per processor)\n"
+    "  -q, --quiet             no notes on standard error\n"
+    "  -v, --verbose           more of them\n"
+    "  -h, --help              this text\n"
+    "      --version           the version\n";
+
+enum { FROM = 256, TO, ORDER, THRESHOLD, QUANTILES, PLOT, FORMAT, VERSION };
+
+static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
+                                     {"component", required_argument, NULL, 'c'},
+                                     {"column", required_argument, NULL, 'C'},
+                                     {"part", required_argument, NULL, 'p'},
+                                     {"from", required_argument, NULL, FROM},
+                                     {"to", required_argument, NULL, TO},
+                                     {"window", required_argument, NULL, 'w'},
+                                     {"filter", required_argument, NULL, 'f'},
+                                     {"order", required_argument, NULL, ORDER},
+                                     {"separation", required_argument, NULL, 's'},
+                                     {"threshold", required_argument, NULL, THRESHOLD},
+                                     {"bins", required_argument, NULL, 'b'},
+                                     {"quantiles", required_argument, NULL, QUANTILES},
+                                     {"plot", required_argument, NULL, PLOT},
+                                     {"format", required_argument, NULL, FORMAT},
+                                     {"output", required_argument, NULL, 'o'},
+                                     {"gzip", no_argument, NULL, 'z'},
+                                     {"threads", required_argument, NULL, 'j'},
+                                     {"quiet", no_argument, NULL, 'q'},
+                                     {"verbose", no_argument, NULL, 'v'},
+                                     {"help", no_argument, NULL, 'h'},
+                                     {"version", no_argument, NULL, VERSION},
+                                     {NULL, 0, NULL, 0}};
+
+static const char *const TABLE[] = {"stats", "peaks", "histogram", "exceedance"};
+static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
+static const char *const PICTURE[] = {"svg", "png"};
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+const char *options_table(enum table t)
+{
+    return TABLE[t];
+}
+
+static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
+                  fl_err *err)
+{
+    if (fl_num_f64(text, x) == 0 && *x >= lo && *x <= hi) return 0;
+    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", %s was wanted", option, text, wanted);
+}
+
+static int whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
+{
+    if (fl_num_i32(text, lo, hi, x) == 0) return 0;
+    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", a whole number from %d to %d was wanted", option, text,
+                   lo, hi);
+}
+
+static int choice(const char *option, const char *text, const char *const *list, int n, fl_err *err)
+{
+    for (int k = 0; k < n; k++)
+        if (strcmp(text, list[k]) == 0) return k;
+    return fl_fail(err, FL_USAGE, "--%s does not know \"%.40s\", the nearest is %s", option, text,
+                   fl_text_nearest(text, list, n));
+}
+
+/* Cut a list at its commas; each word goes to `take`. */
+static int each(struct options *o, const char *option, const char *text,
+                int (*take)(struct options *, char *, fl_err *), fl_err *err)
+{
+    const size_t bytes = strlen(text) + 1;
+    char *word = fl_alloc((int64_t)bytes, 1, err), *copy = word;
+    int rc = word ? 0 : -1;
+    if (rc == 0) memcpy(copy, text, bytes);
+    while (rc == 0 && word) {
+        char *comma = strchr(word, ',');
+        if (comma) *comma++ = '\0';
+        rc = word[0] ? take(o, word, err)
+                     : fl_fail(err, FL_USAGE, "--%s has an empty entry in \"%.60s\"", option, text);
+        word = comma;
+    }
+    free(copy);
+    return rc;
+}
+
+/* words moves when it grows, so the list keeps offsets until options_parse() is done. */
+static int take_signal(struct options *o, char *word, fl_err *err)
+{
+    const int32_t bytes = (int32_t)strnlen(word, 1000) + 1;
+    if (o->signals == SIGNALS_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d components and columns were asked for", SIGNALS_MAX);
+    if (fl_grow(&o->words, &o->words_cap, (int64_t)o->words_len + bytes, 1, err)) return -1;
+    memcpy(o->words + o->words_len, word, (size_t)bytes - 1);
+    o->words_len += bytes;
+    o->words[o->words_len - 1] = '\0';
+    o->signals++;
+    return 0;
+}
+
+static int take_component(struct options *o, char *word, fl_err *err)
+{
+    return choice("component", word, COMPONENT, COUNT(COMPONENT), err) < 0 ? -1 : take_signal(o, word, err);
+}
+
+static int take_quantile(struct options *o, char *word, fl_err *err)
+{
+    if (o->quantiles == QUANTILES_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d quantiles were asked for", QUANTILES_MAX);
+    double *q = &o->quantile[o->quantiles];
+    if (number("quantiles", word, 0.0, 1.0, "numbers from 0 to 1", q, err)) return -1;
+    for (int32_t k = 0; k < o->quantiles; k++) /* it names a column, and columns have different names */
+        if (o->quantile[k] == *q) return fl_fail(err, FL_USAGE, "--quantiles has %.40s twice", word);
+    o->quantiles++;
+    return 0;
+}
+
+static int apply(struct options *o, int c, const char *arg, fl_err *err)
+{
+    const double tiny = 1e-300, huge = 1e300;
+    int k;
+    switch (c) {
+    case 't':
+        k = choice("table", arg, TABLE, COUNT(TABLE), err);
+        o->table = k < 0 ? TABLE_STATS : (enum table)k;
+        return k < 0 ? -1 : 0;
+    case 'c': return each(o, "component", arg, take_component, err);
+    case 'C': return each(o, "column", arg, take_signal, err);
+    case 'p': o->part = arg; return 0;
+    case FROM: return number("from", arg, -huge, huge, "a time", &o->from, err);
+    case TO: return number("to", arg, -huge, huge, "a time", &o->to, err);
+    case 'w': return number("window", arg, tiny, huge, "a time above 0", &o->window, err);
+    case 'f': return number("filter", arg, tiny, huge, "a frequency above 0", &o->filter, err);
+    case ORDER: return whole("order", arg, 1, FL_BUTTER_ORDER_MAX, &o->order, err);
+    case 's': return number("separation", arg, 0.0, 1.0, "a number from 0 to 1", &o->separation, err);
+    case THRESHOLD: return number("threshold", arg, 0.0, huge, "a number not below 0", &o->threshold, err);
+    case 'b': return whole("bins", arg, 1, 1000000, &o->bins, err);
+    case QUANTILES:
+        o->quantiles = 0;
+        o->quantiles_text = arg;
+        return each(o, "quantiles", arg, take_quantile, err);
+    case PLOT: o->plot = arg; return 0;
+    case FORMAT:
+        k = choice("format", arg, PICTURE, COUNT(PICTURE), err);
+        if (k >= 0) o->format = PICTURE[k];
+        return k < 0 ? -1 : 0;
+    case 'o': o->out = arg; return 0;
+    case 'z': o->gzip = 1; return 0;
+    case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
+    case 'q': o->quiet = 1; return 0;
+    case 'v': o->verbose = 1; return 0;
+    case 'h':
+        fputs(HELP, stdout);
+        o->ended = 1;
+        return 0;
+    case VERSION:
+        fl_tool_version("loadstats");
+        o->ended = 1;
+        return 0;
+    default: return fl_fail(err, FL_USAGE, "see loadstats --help");
+    }
+}
+
+int options_parse(struct options *o, int argc, char **argv, fl_err *err)
+{
+    static const double usual[] = {0.5, 0.9, 0.95, 0.99};
+    int c;
+    *o = (struct options){.in = "-",
+                          .out = "-",
+                          .format = "svg",
+                          .from = -INFINITY,
+                          .to = INFINITY,
+                          .order = 4,
+                          .separation = 0.5,
+                          .bins = 20,
+                          .quantiles = COUNT(usual)};
+    memcpy(o->quantile, usual, sizeof usual);
+    opterr = 0;
+    while (!o->ended && (c = getopt_long(argc, argv, ":t:c:C:p:w:f:s:b:o:zj:qvh", LONG, NULL)) != -1) {
+        const char *word = argv[optind - 1];
+        if (c == ':') return fl_fail(err, FL_USAGE, "%s needs a value, see loadstats --help", word);
+        if (c == '?' && optopt)
+            return fl_fail(err, FL_USAGE, "-%c is no option, see loadstats --help", optopt);
+        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see loadstats --help", word);
+        if (apply(o, c, optarg, err)) return -1;
+    }
+    if (o->ended) return 0;
+    if (optind < argc) o->in = argv[optind++];
+    if (optind < argc)
+        return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", argv[optind]);
+    if (!(o->from < o->to))
+        return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
+    char *word = o->words;
+    for (int32_t k = 0; k < o->signals; k++) {
+        o->signal[k] = word;
+        word += strlen(word) + 1;
+    }
+    return 0;
+}
+
+void options_free(struct options *o)
+{
+    free(o->words);
+    o->words = NULL;
+}
+
+static void add_number(fl_by *by, const char *option, double x)
+{
+    char buf[FL_NUM_LEN];
+    fl_by_add(by, "--%s %s", option, fl_num_text(x, buf));
+}
+
+void options_by(const struct options *o, fl_by *by)
+{
+    fl_by_start(by, "loadstats");
+    for (int32_t k = 0; k < o->signals; k++) fl_by_add(by, "--column %s", o->signal[k]);
+    if (o->part) fl_by_add(by, "--part %s", o->part);
+    if (isfinite(o->from)) add_number(by, "from", o->from);
+    if (isfinite(o->to)) add_number(by, "to", o->to);
+    if (o->window > 0.0) add_number(by, "window", o->window);
+    if (o->filter > 0.0) {
+        add_number(by, "filter", o->filter);
+        fl_by_add(by, "--order %d", o->order);
+    }
+    add_number(by, "separation", o->separation);
+    if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
+    if (o->table == TABLE_HISTOGRAM) fl_by_add(by, "--bins %d", o->bins);
+    if (o->table == TABLE_STATS && o->quantiles_text) fl_by_add(by, "--quantiles %s", o->quantiles_text);
+    if (strcmp(o->in, "-") != 0) fl_by_add(by, "%s", o->in);
+}

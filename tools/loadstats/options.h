@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* options.h -- the command line of loadstats. */
+#ifndef LOADSTATS_OPTIONS_H
+#define LOADSTATS_OPTIONS_H
+#include <stdint.h>
+#include "base/err.h"
+#include "base/tool.h"
+
+enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50 };
+enum table { TABLE_STATS, TABLE_PEAKS, TABLE_HISTOGRAM, TABLE_EXCEEDANCE };
+
+struct options {
+    const char *in, *out, *part, *plot, *format; /* borrowed from argv */
+    const char *signal[SIGNALS_MAX];             /* into words */
+    char *words;                                 /* the lists of the command line, cut in place */
+    int32_t signals, words_len, words_cap;
+    double from, to, window; /* [s] */
+    double filter;           /* [Hz], 0 for none */
+    int order;
+    double separation, threshold;
+    int32_t bins;
+    double quantile[QUANTILES_MAX];
+    int32_t quantiles;
+    const char *quantiles_text; /* as given, or NULL */
+    enum table table;
+    int gzip, quiet, verbose, threads;
+    int ended; /* --help or --version was answered */
+};
+
+/* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */
+int options_parse(struct options *o, int argc, char **argv, fl_err *err);
+void options_free(struct options *o);
+
+/* The history line: what was asked for and is not the default, always in the same order. */
+void options_by(const struct options *o, fl_by *by);
+
+/* "stats", "peaks" ... : the word of --table, which is also the kind of the file. */
+const char *options_table(enum table t);
+
+#endif

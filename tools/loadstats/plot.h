@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* plot.h -- pictures by gnuplot. */
+#ifndef LOADSTATS_PLOT_H
+#define LOADSTATS_PLOT_H
+#include "tables.h"
+
+/* Write into the folder o->plot, made if need be, for each part P (for the total alone, when it is the sum of
+ * one part):
+ *     history-P.tsv  history-P.gp  history-P.svg      the signals against time
+ *     peaks-P.tsv    peaks-P.gp    peaks-P.svg        classes and exceedance of their peaks
+ * The .gp files draw the .svg (or .png) again when run by gnuplot in that folder.  A history longer than the
+ * picture can show is thinned to the smallest and the largest value of each stretch.
+ * 0, or -1 with FL_USAGE (too many parts) or FL_SYSTEM (gnuplot missing or failing, a file not written) in err. */
+int plot(const struct result *r, const struct options *o, const fl_by *by, fl_err *err);
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include "base/num.h"
+#include "stat/extreme.h"
+#include "stat/histogram.h"
+#include "tables.h"
+
+const char *view_name(int w)
+{
+    return w ? "filtered" : "raw";
+}
+
+const fl_view *view_of(const struct result *r, int32_t part, int32_t signal, int w)
+{
+    const fl_view *v = &r->views[((int64_t)part * r->s->signals + signal) * r->each + w];
+    return v->n ? v : NULL;
+}
+
+void put_number(FILE *f, double x)
+{
+    char buf[FL_NUM_LEN];
+    fputs(isfinite(x) ? fl_num_text(x, buf) : "-", f);
+}
+
+static void put_field(FILE *f, double x)
+{
+    putc('\t', f);
+    put_number(f, x);
+}
+
+/* What every row begins with. */
+static void put_label(FILE *f, const struct result *r, int32_t p, int32_t s, int w)
+{
+    const char *unit = r->s->unit[s];
+    fprintf(f, "%s\t%s\t%s\t%s", r->s->part[p], r->s->signal[s], unit[0] ? unit : "-", view_name(w));
+}
+
+static void stats_row(FILE *f, const fl_view *v, const struct options *o)
+{
+    const fl_describe *d = &v->d;
+    const int32_t n = v->peaks.n;
+    put_field(f, v->edge[0]);
+    put_field(f, v->edge[v->n]);
+    fprintf(f, "\t%d", v->n);
+    put_field(f, d->mean);
+    put_field(f, d->std);
+    put_field(f, d->skew);
+    put_field(f, d->kurtosis);
+    put_field(f, d->min);
+    put_field(f, d->max);
+    put_field(f, v->t[d->at_max]);
+    for (int32_t k = 0; k < o->quantiles; k++) put_field(f, v->q[k]);
+    fprintf(f, "\t%d", n);
+    put_field(f, n ? fl_describe_highest(n, v->value, 1.0) : NAN);
+    put_field(f, n ? fl_describe_highest(n, v->value, 1.0 / 3.0) : NAN);
+    put_field(f, n ? fl_describe_highest(n, v->value, 0.1) : NAN);
+    putc('\n', f);
+}
+
+static void peaks_rows(FILE *f, const struct result *r, int32_t p, int32_t s, int w, const fl_view *v)
+{
+    for (int32_t k = 0; k < v->peaks.n; k++) {
+        put_label(f, r, p, s, w);
+        put_field(f, v->t[v->peaks.at[k]]);
+        put_field(f, v->x[v->peaks.at[k]]);
+        putc('\n', f);
+    }
+}
+
+static void exceedance_rows(FILE *f, const struct result *r, int32_t p, int32_t s, int w, const fl_view *v)
+{
+    for (int32_t k = 0; k < v->peaks.n; k++) {
+        put_label(f, r, p, s, w);
+        fprintf(f, "\t%d", k + 1);
+        put_field(f, v->value[k]);
+        put_field(f, fl_extreme_position(k + 1, v->peaks.n));
+        putc('\n', f);
+    }
+}
+
+/* Raw and filtered share their classes, so that they can be compared line by line. */
+static int histogram_rows(FILE *f, const struct result *r, const struct options *o, int32_t p, int32_t s,
+                          fl_err *err)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    int rc = 0;
+    for (int w = 0; w < r->each; w++) {
+        const fl_view *v = view_of(r, p, s, w);
+        lo = fmin(lo, v->d.min);
+        hi = fmax(hi, v->d.max);
+    }
+    for (int w = 0; w < r->each && rc == 0; w++) {
+        const fl_view *v = view_of(r, p, s, w);
+        fl_histogram time = {0}, peaks = {0};
+        rc = fl_histogram_make(&time, o->bins, lo, hi, err) ? -1
+                                                            : fl_histogram_make(&peaks, o->bins, lo, hi, err);
+        for (int32_t k = 0; rc == 0 && k < v->n; k++)
+            fl_histogram_add(&time, v->x[k], v->edge[k + 1] - v->edge[k]);
+        for (int32_t k = 0; rc == 0 && k < v->peaks.n; k++) fl_histogram_add(&peaks, v->value[k], 1.0);
+        for (int32_t k = 0; rc == 0 && k < o->bins; k++) {
+            put_label(f, r, p, s, w);
+            put_field(f, time.range[k]);
+            put_field(f, time.range[k + 1]);
+            put_field(f, time.bin[k]);
+            put_field(f, time.bin[k] / v->d.time);
+            put_field(f, peaks.bin[k]);
+            putc('\n', f);
+        }
+        fl_histogram_free(&time);
+        fl_histogram_free(&peaks);
+    }
+    return rc;
+}
+
+static void header(FILE *f, const struct options *o)
+{
+    char buf[FL_NUM_LEN];
+    fputs("part\tsignal\tunit\tview", f);
+    switch (o->table) {
+    case TABLE_STATS:
+        fputs("\tfrom[s]\tto[s]\trows\tmean\tstd\tskew\tkurtosis\tmin\tmax\tt_max[s]", f);
+        for (int32_t k = 0; k < o->quantiles; k++) fprintf(f, "\tq%s", fl_num_text(o->quantile[k], buf));
+        fputs("\tpeaks\tpeak_mean\tpeak_third\tpeak_tenth\n", f);
+        break;
+    case TABLE_PEAKS: fputs("\tt[s]\tpeak\n", f); break;
+    case TABLE_HISTOGRAM: fputs("\tfrom\tto\ttime[s]\tshare\tpeaks\n", f); break;
+    case TABLE_EXCEEDANCE: fputs("\trank\tpeak\tP\n", f); break;
+    }
+}
+
+int tables_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err)
+{
+    fl_by_header(f, options_table(o->table), 1, r->s->history, by);
+    header(f, o);
+    for (int32_t p = 0; p < r->s->parts; p++) {
+        for (int32_t s = 0; s < r->s->signals; s++) {
+            if (!view_of(r, p, s, 0)) continue;
+            if (o->table == TABLE_HISTOGRAM && histogram_rows(f, r, o, p, s, err)) return -1;
+            for (int w = 0; w < r->each && o->table != TABLE_HISTOGRAM; w++) {
+                const fl_view *v = view_of(r, p, s, w);
+                if (o->table == TABLE_PEAKS) peaks_rows(f, r, p, s, w, v);
+                if (o->table == TABLE_EXCEEDANCE) exceedance_rows(f, r, p, s, w, v);
+                if (o->table != TABLE_STATS) continue;
+                put_label(f, r, p, s, w);
+                stats_row(f, v, o);
+            }
+        }
+    }
+    return 0;
+}
