@@ -38,11 +38,11 @@ $B/libfloe-shim.a: $(SHIMOBJ)
 define tool
 $B/bin/$1: $(patsubst %.c,$B/%.o,$(wildcard tools/$1/*.c)) $B/libfloe-shim.a $B/libfloe.a
 	@mkdir -p $$(@D)
-	$$(CCALL) $$(LDFLAGS) $$^ $$(LIBS) $$(CGAL) -o $$@
+	$$(CCALL) $$(LDFLAGS) -Wl,--start-group $$^ -Wl,--end-group $$(LIBS) $$(CGAL) -o $$@
 endef
 $(foreach t,$(TOOLS),$(eval $(call tool,$t)))
 $B/tests/%: $B/tests/%.o $(SUPPORT) $B/libfloe-shim.a $B/libfloe.a
-	$(CCALL) $(LDFLAGS) $^ -lcmocka $(LIBS) $(CGAL) -o $@
+	$(CCALL) $(LDFLAGS) -Wl,--start-group $^ -Wl,--end-group -lcmocka $(LIBS) $(CGAL) -o $@
 $B/tests/%.o $(SUPPORT): CFLAGS += -Itests
 
 # setup installs what is missing (Debian, Ubuntu) or names it; then the real work runs in a second make.
