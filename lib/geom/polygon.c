@@ -119,7 +119,7 @@ int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_side *side, fl_side h)
     return m >= 3 ? m : 0;
 }
 
-static fl_vec2 meet(fl_side a, fl_side b, double d)
+fl_vec2 fl_side_meet(fl_side a, fl_side b, double d)
 {
     const double s = 1.0 / fl_side_sin(a, b), ca = a.c - d, cb = b.c - d;
     return (fl_vec2){s * (ca * b.ny - cb * a.ny), s * (a.nx * cb - b.nx * ca)};
@@ -127,7 +127,7 @@ static fl_vec2 meet(fl_side a, fl_side b, double d)
 
 void fl_polygon_corners(int32_t n, const fl_side *side, double d, fl_vec2 *v)
 {
-    for (int32_t k = 0; k < n; k++) v[k] = meet(side[k ? k - 1 : n - 1], side[k], d);
+    for (int32_t k = 0; k < n; k++) v[k] = fl_side_meet(side[k ? k - 1 : n - 1], side[k], d);
 }
 
 /* tan of half the turn from a to b */
@@ -199,6 +199,22 @@ double fl_polygon_from_point(int32_t n, const fl_vec2 *v, fl_vec2 p)
         if (d < least) least = d;
     }
     return inside ? 0.0 : least;
+}
+
+static int side_separates(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
+{
+    for (int32_t k = 0; k < m; k++) {
+        const fl_vec2 e = sub(a[k + 1 < m ? k + 1 : 0], a[k]);
+        int32_t j = 0;
+        while (j < n && cross(e, sub(b[j], a[k])) < 0.0) j++;
+        if (j == n) return 1;
+    }
+    return 0;
+}
+
+int fl_polygon_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
+{
+    return side_separates(m, a, n, b) || side_separates(n, b, m, a);
 }
 
 double fl_polygon_gap(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)

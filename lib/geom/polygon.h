@@ -30,6 +30,9 @@ static inline double fl_side_cos(fl_side a, fl_side b)
     return a.nx * b.nx + a.ny * b.ny;
 }
 
+/* Where the lines of a and b meet when both are moved inward by d; fl_side_sin(a, b) != 0. */
+fl_vec2 fl_side_meet(fl_side a, fl_side b, double d);
+
 /* Area (positive when counter-clockwise) and length of the outline of v[n].  Products are taken from v[0], so
  * that a polygon far from the origin loses nothing. */
 double fl_polygon_area(int32_t n, const fl_vec2 *v);
@@ -61,6 +64,10 @@ void fl_polygon_outset(int32_t n, const fl_vec2 *v, double r, fl_vec2 *out);
 
 /* Distance of p from the filled polygon v[n], 0 inside. */
 double fl_polygon_from_point(int32_t n, const fl_vec2 *v, fl_vec2 p);
+
+/* 1 when a side of one polygon has all of the other strictly beyond it, within the rounding of one product:
+ * convex polygons that neither overlap nor touch. */
+int fl_polygon_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
 
 /* Distance between two polygons that have no point inside each other: the least from a corner of one to a side
  * of the other.  m n work. */
