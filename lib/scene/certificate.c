@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include "base/mem.h"
+#include "base/par.h"
+#include "broad/bvh.h"
+#include "scene/certificate.h"
+#include "shim/cgal_voronoi.h"
+
+static int32_t sides(const fl_floes *a, int32_t i)
+{
+    return a->first[i + 1] - a->first[i];
+}
+static const fl_vec2 *outer(const fl_floes *a, int32_t i)
+{
+    return a->outer + a->first[i];
+}
+
+static int side_separates(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
+{
+    for (int32_t k = 0; k < m; k++) {
+        int32_t j = 0;
+        while (j < n && fl_cgal_turn(a[k], a[k + 1 < m ? k + 1 : 0], b[j]) < 0) j++;
+        if (j == n) return 1;
+    }
+    return 0;
+}
+
+static int apart(const fl_floes *a, int32_t i, int32_t j)
+{
+    return side_separates(sides(a, i), outer(a, i), sides(a, j), outer(a, j)) ||
+           side_separates(sides(a, j), outer(a, j), sides(a, i), outer(a, i));
+}
+
+static fl_aabb box_of(const fl_floes *a, int32_t i)
+{
+    fl_aabb b = aabb_empty();
+    for (int32_t k = 0; k < sides(a, i); k++) b = aabb_add(b, v3(outer(a, i)[k].x, outer(a, i)[k].y, 0.0));
+    return b;
+}
+
+/* Pairs within reach of each other: count those not apart, find the nearest.  Touching boxes are within any
+ * reach >= 0, so that each pass sees every overlap there is. */
+static int pass(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree, double reach, fl_certificate *out,
+                fl_err *err)
+{
+    int32_t *near = NULL, cap = 0, got;
+    int rc = -1;
+    out->overlaps = 0;
+    out->gap = INFINITY;
+    out->gap_of[0] = out->gap_of[1] = -1;
+    for (int32_t i = 0; i < a->n; i++) {
+        const fl_aabb q = aabb_grow(box[i], reach);
+        while ((got = fl_bvh_query(tree, box, q, near, cap)) > cap)
+            if (fl_grow(&near, &cap, got, sizeof *near, err)) goto done;
+        for (int32_t k = 0; k < got; k++) {
+            const int32_t j = near[k];
+            const int touching = j > i && aabb_meet(box[i], box[j]) && !apart(a, i, j);
+            double gap = 0.0;
+            if (j <= i) continue;
+            out->overlaps += touching;
+            if (!touching) gap = fl_polygon_gap(sides(a, i), outer(a, i), sides(a, j), outer(a, j));
+            if (gap < out->gap || (gap == out->gap && out->gap_of[0] == i && j < out->gap_of[1])) {
+                out->gap = gap;
+                out->gap_of[0] = i;
+                out->gap_of[1] = j;
+            }
+        }
+    }
+    rc = 0;
+done:
+    free(near);
+    return rc;
+}
+
+static int measure_pairs(const fl_floes *a, fl_certificate *out, fl_err *err)
+{
+    fl_aabb *box = fl_alloc(a->n, sizeof *box, err), all = aabb_empty();
+    fl_bvh tree = {0};
+    /* Neighbours stand two insets apart: one pass finds the nearest, unless floes are few and far between. */
+    double reach = 2.0 * a->inset * (1.0 + 1e-9), far;
+    int rc = -1;
+    if (!box) goto done;
+    for (int32_t i = 0; i < a->n; i++) all = aabb_join(all, box[i] = box_of(a, i));
+    far = hypot(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
+    if (!(reach > 1e-6 * far)) reach = 1e-6 * far;
+    if (fl_bvh_build(&tree, box, a->n, err)) goto done;
+    for (;; reach *= 2.0) {
+        if (pass(a, box, &tree, reach, out, err)) goto done;
+        if (out->gap <= reach || reach > far) break;
+    }
+    rc = 0;
+done:
+    fl_bvh_free(&tree);
+    free(box);
+    return rc;
+}
+
+static double corner_angle(const fl_vec2 *v, int32_t k, int32_t n)
+{
+    const fl_vec2 p = v[k ? k - 1 : n - 1], q = v[k + 1 < n ? k + 1 : 0];
+    const double ax = p.x - v[k].x, ay = p.y - v[k].y, bx = q.x - v[k].x, by = q.y - v[k].y;
+    return atan2(fabs(ax * by - ay * bx), ax * bx + ay * by);
+}
+
+static int measure_areas(const fl_floes *a, fl_certificate *out, fl_err *err)
+{
+    double *area = fl_alloc(a->n, sizeof *area, err), *square = fl_alloc(a->n, sizeof *square, err);
+    if (area && square) {
+        for (int32_t i = 0; i < a->n; i++) area[i] = fl_polygon_area(sides(a, i), outer(a, i));
+        out->total = fl_par_sum(area, a->n);
+        out->mean = out->total / a->n;
+        out->least_of = out->most_of = 0;
+        for (int32_t i = 0; i < a->n; i++) {
+            square[i] = (area[i] - out->mean) * (area[i] - out->mean);
+            if (area[i] < area[out->least_of]) out->least_of = i;
+            if (area[i] > area[out->most_of]) out->most_of = i;
+        }
+        out->least = area[out->least_of];
+        out->most = area[out->most_of];
+        out->cv = sqrt(fl_par_sum(square, a->n) / a->n) / out->mean;
+    }
+    free(square);
+    free(area);
+    return area && square ? 0 : -1;
+}
+
+int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err)
+{
+    fl_certificate c = {.edge = INFINITY, .angle = INFINITY};
+    for (int32_t i = 0; i < a->n; i++) {
+        const fl_vec2 *v = a->core + a->first[i];
+        const int32_t n = sides(a, i);
+        for (int32_t k = 0; k < n; k++) {
+            const fl_vec2 p = v[k], q = v[k + 1 < n ? k + 1 : 0];
+            const double edge = hypot(q.x - p.x, q.y - p.y), angle = corner_angle(v, k, n);
+            if (edge < c.edge) {
+                c.edge = edge;
+                c.edge_of = i;
+            }
+            if (angle < c.angle) {
+                c.angle = angle;
+                c.angle_of = i;
+            }
+        }
+    }
+    c.sides = (double)a->first[a->n] / a->n;
+    if (measure_areas(a, &c, err) || measure_pairs(a, &c, err)) return -1;
+    *out = c;
+    return 0;
+}

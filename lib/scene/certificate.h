@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* certificate.h -- what a plane field of floes is, measured on the corners that are written and not on the
+ * way by which they were made. */
+#ifndef FL_SCENE_CERTIFICATE_H
+#define FL_SCENE_CERTIFICATE_H
+#include <stdint.h>
+#include "base/err.h"
+#include "scene/floes.h"
+
+typedef struct {
+    double total;             /* area of all outer polygons                             [m2] */
+    double mean, least, most; /* area of one                                            [m2] */
+    double cv;                /* standard deviation (of n, not n - 1) over the mean          */
+    int32_t least_of, most_of;
+    double sides;       /* mean number                                                 */
+    double edge, angle; /* shortest side of a core [m], sharpest corner          [rad] */
+    int32_t edge_of, angle_of;
+    double gap;        /* least distance between two outer polygons, infinite when there is one [m] */
+    int32_t gap_of[2]; /* -1 when there is one                                        */
+    int64_t overlaps;  /* pairs of outer polygons that touch or overlap               */
+} fl_certificate;
+
+/* Measure floes of at least one.  A pair counts as apart when all corners of one lie strictly beyond a side of
+ * the other, decided by exact predicates on the corners as they are; for convex polygons no other pair is
+ * apart.  All pairs are covered: those whose boxes do not meet are apart already.
+ * Returns 0, or -1 with FL_SYSTEM.  n log n. */
+int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err);
+
+#endif

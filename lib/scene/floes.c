@@ -1,0 +1,398 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/par.h"
+#include "scene/floes.h"
+
+enum { KEPT = 1, FIXED = 2, ROUNDS = 40, NEWTON = 60 };
+
+/* Everything by side lies at the cells' own offsets. */
+struct fit {
+    const fl_cells *cells;
+    double radius;
+    double *inradius, *most; /* [n] of the cell, and the largest inset it may have            [m] */
+    double *area, *outline;  /* [n] of the outer polygon at the inset last asked for     [m2, m] */
+    int32_t *count;          /* [n] sides of the floe                                            */
+    fl_side *side;           /* sides of the floe; tag is the place in the cell                  */
+    fl_side *line, *left;    /* scratch: the cell's sides as moved, and those of the core        */
+    fl_vec2 *corner;         /* scratch                                                          */
+    unsigned char *state;    /* scratch                                                          */
+};
+
+static void fit_free(struct fit *f)
+{
+    free(f->inradius);
+    free(f->most);
+    free(f->area);
+    free(f->outline);
+    free(f->count);
+    free(f->side);
+    free(f->line);
+    free(f->left);
+    free(f->corner);
+    free(f->state);
+}
+
+static int fit_alloc(struct fit *f, fl_err *err)
+{
+    const int32_t n = f->cells->n, all = f->cells->first[n];
+    return (f->inradius = fl_alloc(n, sizeof(double), err)) && (f->most = fl_alloc(n, sizeof(double), err)) &&
+                   (f->area = fl_alloc(n, sizeof(double), err)) &&
+                   (f->outline = fl_alloc(n, sizeof(double), err)) &&
+                   (f->count = fl_alloc(n, sizeof(int32_t), err)) &&
+                   (f->side = fl_alloc(all, sizeof(fl_side), err)) &&
+                   (f->line = fl_alloc(all, sizeof(fl_side), err)) &&
+                   (f->left = fl_alloc(all, sizeof(fl_side), err)) &&
+                   (f->corner = fl_alloc(all, sizeof(fl_vec2), err)) && (f->state = fl_alloc(all, 1, err))
+               ? 0
+               : -1;
+}
+
+static double inset_of(const struct fit *f, int32_t i, double d)
+{
+    return d < f->most[i] ? d : f->most[i];
+}
+
+/* --- the sides of one floe ------------------------------------------------------------------------------ */
+
+static double half_tan(fl_side a, fl_side b)
+{
+    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
+}
+
+/* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
+ * from the corner of a and b to the inscribed circle leave rho (tan + tan) at depth of the circle: half of it
+ * stays clear. */
+static double least_side(fl_side a, fl_side e, fl_side b, double rho)
+{
+    const double clear = 0.5 * (half_tan(a, e) + half_tan(e, b));
+    return rho * (clear < FL_FLOES_LEAST ? clear : FL_FLOES_LEAST);
+}
+
+/* The outer corner of a and b at inset d must stay inside the cell by `spare`: how far is it beyond that,
+ * against the cell's sides between the two, and against which? */
+static double beyond(const fl_side *cell, int32_t m, fl_side a, fl_side b, double d, double spare,
+                     int32_t *worst)
+{
+    const fl_vec2 w = fl_side_meet(a, b, d);
+    double most = -INFINITY;
+    for (int32_t e = (a.tag + 1) % m; e != b.tag; e = (e + 1) % m) {
+        const double x = fl_side_beyond(cell[e], w) + spare;
+        if (x > most) {
+            most = x;
+            *worst = e;
+        }
+    }
+    return most;
+}
+
+/* Let side e pass between the core's sides a and b, so deep that its own length is the least one. */
+static void cut_corner(fl_side *line, unsigned char *state, int32_t e, fl_side a, fl_side b, double inset,
+                       double rho)
+{
+    const fl_vec2 q = fl_side_meet(a, b, inset);
+    const fl_side s = line[e];
+    const double per_depth = fl_side_cos(a, s) / fl_side_sin(a, s) + fl_side_cos(s, b) / fl_side_sin(s, b);
+    line[e].c = s.nx * q.x + s.ny * q.y - least_side(a, s, b, rho) / per_depth + inset;
+    state[e] = KEPT | FIXED;
+}
+
+static double length(const fl_vec2 *v, int32_t k, int32_t n)
+{
+    const fl_vec2 a = v[k], b = v[k + 1 < n ? k + 1 : 0];
+    return hypot(b.x - a.x, b.y - a.y);
+}
+
+/* The core of the sides kept so far, in left and corner; those that vanish are kept no more. */
+static int32_t core_of(const fl_side *line, unsigned char *state, int32_t m, double inset, fl_side *left,
+                       fl_vec2 *corner)
+{
+    int32_t k = 0;
+    double depth;
+    for (int32_t e = 0; e < m; e++)
+        if (state[e] & KEPT) left[k++] = line[e];
+    fl_polygon_corners(k, left, 0.0, corner);
+    k = fl_polygon_inset(k, corner, left, inset, &depth);
+    for (int32_t e = 0; e < m; e++) state[e] &= (unsigned char)~KEPT;
+    for (int32_t e = 0; e < k; e++) state[left[e].tag] |= KEPT;
+    return k;
+}
+
+/* One short side: drop it, cut it deeper, or leave it for good.  Returns 0 when there was none. */
+static int mend_short(const fl_side *cell, int32_t m, fl_side *line, unsigned char *state, int32_t n,
+                      const fl_side *left, const fl_vec2 *corner, double d, double radius, double rho)
+{
+    int32_t at = -1, e, worst = 0;
+    double least = FL_FLOES_SHORT * rho;
+    fl_side a, b;
+    for (int32_t k = 0; k < n; k++) {
+        if (!(state[left[k].tag] & FIXED) && length(corner, k, n) < least) {
+            least = length(corner, k, n);
+            at = k;
+        }
+    }
+    if (at < 0) return 0;
+    e = left[at].tag;
+    a = left[at ? at - 1 : n - 1];
+    b = left[at + 1 < n ? at + 1 : 0];
+    if (n <= 3 || fl_side_sin(a, b) <= 0.0) state[e] |= FIXED; /* wide as it is, it only looks short */
+    else if (beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0) state[e] &= (unsigned char)~KEPT;
+    else if (least < least_side(a, left[at], b, rho)) cut_corner(line, state, e, a, b, d + radius, rho);
+    else state[e] |= FIXED;
+    return 1;
+}
+
+/* Choose the sides of floe i for inset d.  Returns -1 when they do not settle. */
+static int fit_floe(struct fit *f, int32_t i, double d)
+{
+    const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first;
+    const fl_side *cell = f->cells->side + first;
+    fl_side *line = f->line + first, *left = f->left + first;
+    fl_vec2 *corner = f->corner + first;
+    unsigned char *state = f->state + first;
+    const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
+    for (int32_t e = 0; e < m; e++) {
+        line[e] = cell[e];
+        line[e].tag = e;
+        state[e] = KEPT;
+    }
+    /* Each side is dropped once and cut a few times; a cell that asks for more has no room for a floe. */
+    for (int32_t round = 0; round < 8 * (m + 2); round++) {
+        const int32_t n = core_of(line, state, m, di + f->radius, left, corner);
+        int changed = 0;
+        if (n == 0) return -1;
+        for (int32_t k = 0; k < n; k++) {
+            const fl_side a = left[k], b = left[k + 1 < n ? k + 1 : 0];
+            int32_t e = 0;
+            if (beyond(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
+                cut_corner(line, state, e, a, b, di + f->radius, rho);
+                changed = 1;
+            }
+        }
+        if (changed || mend_short(cell, m, line, state, n, left, corner, di, f->radius, rho)) continue;
+        memcpy(f->side + first, left, (size_t)n * sizeof *left);
+        f->count[i] = n;
+        return 0;
+    }
+    return -1;
+}
+
+/* Do the sides chosen at another inset serve at this one too?  Half of every margin may be used up. */
+static int still_fits(struct fit *f, int32_t i, double d)
+{
+    const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first, n = f->count[i];
+    const fl_side *side = f->side + first;
+    fl_vec2 *corner = f->corner + first;
+    const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
+    fl_polygon_corners(n, side, di + f->radius, corner);
+    for (int32_t k = 0; k < n; k++) {
+        const fl_side a = side[k ? k - 1 : n - 1], b = side[k + 1 < n ? k + 1 : 0];
+        const fl_vec2 p = corner[k], q = corner[k + 1 < n ? k + 1 : 0];
+        int32_t e = 0;
+        if ((q.y - p.y) * side[k].nx - (q.x - p.x) * side[k].ny < 0.5 * least_side(a, side[k], b, rho))
+            return 0;
+        if (beyond(f->cells->side + first, m, side[k], b, di, 0.25 * di, &e) > 0.0) return 0;
+    }
+    return 1;
+}
+
+/* --- the inset ------------------------------------------------------------------------------------------ */
+
+/* Area that the outer polygons have in excess of target at inset d, and how fast it falls: the outlines of
+ * the floes that are not held.  With raw the sides are all those that the cell has left. */
+static double excess(struct fit *f, int raw, double d, double target, double *fall)
+{
+    const int32_t n = f->cells->n;
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t first = f->cells->first[i];
+        const double di = inset_of(f, i, d);
+        fl_vec2 *v = f->corner + first;
+        int32_t m = f->count[i];
+        if (raw) {
+            double depth;
+            m = f->cells->first[i + 1] - first;
+            memcpy(v, f->cells->v + first, (size_t)m * sizeof *v);
+            memcpy(f->left + first, f->cells->side + first, (size_t)m * sizeof *f->left);
+            m = fl_polygon_inset(m, v, f->left + first, di, &depth);
+        } else {
+            fl_polygon_corners(m, f->side + first, di, v);
+        }
+        f->area[i] = fl_polygon_area(m, v);
+        f->outline[i] = d < f->most[i] ? fl_polygon_outline(m, v) : 0.0;
+    }
+    *fall = fl_par_sum(f->outline, n);
+    return fl_par_sum(f->area, n) - target;
+}
+
+/* Root of excess(), which falls and is convex: Newton's step from the left stays left of the root and
+ * converges; the bracket catches rounding, and the start from the right.  Ends when three steps in a row
+ * bring no improvement, which is at the rounding of the sum.
+ *   *d  in: where to start.  out: the root
+ * Returns 0, or -1 when there is none in [0, hi]. */
+static int solve(struct fit *f, int raw, double target, double hi, double *d)
+{
+    double lo = 0.0, x = *d, best = INFINITY;
+    int idle = 0;
+    for (int step = 0; step < NEWTON && idle < 3; step++) {
+        double fall;
+        const double over = excess(f, raw, x, target, &fall);
+        if (fabs(over) < best) {
+            best = fabs(over);
+            *d = x;
+            idle = 0;
+        } else {
+            idle++;
+        }
+        if (over == 0.0) break;
+        if (over > 0.0) lo = x;
+        else hi = x;
+        x = fall > 0.0 ? x + over / fall : hi;
+        if (!(x >= lo && x <= hi)) x = 0.5 * (lo + hi);
+    }
+    return best <= 1e-9 * target ? 0 : -1;
+}
+
+/* Inscribed circles; the smallest cell must have room for a core. */
+static int measure_cells(struct fit *f, double *total, double *hi, fl_err *err)
+{
+    const fl_cells *c = f->cells;
+    int32_t tight = 0;
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < c->n; i++) {
+        const int32_t first = c->first[i], m = c->first[i + 1] - first;
+        memcpy(f->corner + first, c->v + first, (size_t)m * sizeof *f->corner);
+        memcpy(f->left + first, c->side + first, (size_t)m * sizeof *f->left);
+        fl_polygon_inset(m, f->corner + first, f->left + first, INFINITY, &f->inradius[i]);
+        f->most[i] = (1.0 - FL_FLOES_KEEP) * (f->inradius[i] - f->radius);
+        f->area[i] = fl_polygon_area(m, c->v + first);
+    }
+    *hi = 0.0;
+    for (int32_t i = 0; i < c->n; i++) {
+        if (f->inradius[i] < f->inradius[tight]) tight = i;
+        if (f->most[i] > *hi) *hi = f->most[i];
+    }
+    *total = fl_par_sum(f->area, c->n);
+    /* A core of less than a thousandth of its cell would have sides at the edge of what a contact resolves. */
+    if (f->inradius[tight] * (1.0 - 1e-3) > f->radius) return 0;
+    return fl_fail(err, FL_INPUT,
+                   "the cell of floe %d has an inscribed radius of %.4g m, too little for a core inside a "
+                   "dilation radius of %.4g m: a smaller radius, fewer floes or more smoothing is wanted",
+                   tight, f->inradius[tight], f->radius);
+}
+
+/* Sides and inset in turn, until the sides chosen serve at the inset that they lead to. */
+static int settle(struct fit *f, double concentration, double *d, fl_err *err)
+{
+    const int32_t n = f->cells->n;
+    double total, hi, fall, over;
+    if (measure_cells(f, &total, &hi, err)) return -1;
+    over = excess(f, 1, hi, concentration * total, &fall);
+    if (over > 0.0)
+        return fl_fail(
+            err, FL_INPUT,
+            "floes of dilation radius %.4g m in these cells cover %.4g of the area at least, %.4g was "
+            "asked for: a smaller radius or fewer floes is wanted",
+            f->radius, concentration + over / total, concentration);
+    *d = 0.0;
+    if (solve(f, 1, concentration * total, hi, d))
+        return fl_fail(err, FL_NUMERIC, "no inset gives a concentration of %.17g", concentration);
+    for (int round = 0; round < ROUNDS; round++) {
+        int32_t changed = 0, bad = INT32_MAX;
+#pragma omp parallel for schedule(static) reduction(+ : changed) reduction(min : bad)
+        for (int32_t i = 0; i < n; i++) {
+            if (round && still_fits(f, i, *d)) continue;
+            changed++;
+            if (fit_floe(f, i, *d) && i < bad) bad = i;
+        }
+        if (bad < INT32_MAX)
+            return fl_fail(
+                err, FL_INPUT,
+                "the cell of floe %d, inscribed radius %.4g m, leaves no room for a core inside a "
+                "dilation radius of %.4g m: a smaller radius, fewer floes or more smoothing is wanted",
+                bad, f->inradius[bad], f->radius);
+        if (changed == 0) return 0;
+        over = excess(f, 0, 0.0, concentration * total, &fall);
+        if (over < 0.0)
+            return fl_fail(
+                err, FL_INPUT,
+                "floes of dilation radius %.4g m in these cells cover about %.4g of the area at most, "
+                "%.4g was asked for: a smaller radius or more smoothing is wanted",
+                f->radius, concentration + over / total, concentration);
+        if (solve(f, 0, concentration * total, hi, d)) break;
+    }
+    return fl_fail(err, FL_NUMERIC, "sides and inset of %d floes do not settle at a concentration of %.17g",
+                   n, concentration);
+}
+
+/* --- the floes ------------------------------------------------------------------------------------------ */
+
+static int collect(const struct fit *f, double d, fl_vec2 shift, fl_floes *a, fl_err *err)
+{
+    const fl_cells *c = f->cells;
+    a->n = c->n;
+    a->inset = d;
+    a->first = fl_alloc((int64_t)c->n + 1, sizeof *a->first, err);
+    if (!a->first) return -1;
+    for (int32_t i = 0; i < c->n; i++) a->first[i + 1] = a->first[i] + f->count[i];
+    a->core = fl_alloc(a->first[c->n], sizeof *a->core, err);
+    a->outer = fl_alloc(a->first[c->n], sizeof *a->outer, err);
+    if (!a->core || !a->outer) return -1;
+    for (int32_t i = 0; i < c->n; i++) {
+        const int32_t m = f->count[i];
+        const fl_side *side = f->side + c->first[i];
+        fl_vec2 *core = a->core + a->first[i];
+        fl_polygon_corners(m, side, inset_of(f, i, d) + f->radius, core);
+        for (int32_t k = 0; k < m; k++) {
+            core[k].x += shift.x;
+            core[k].y += shift.y;
+            a->cut += side[k].c < c->side[c->first[i] + side[k].tag].c;
+        }
+        fl_polygon_outset(m, core, f->radius, a->outer + a->first[i]);
+        a->held += f->most[i] < d;
+    }
+    a->dropped = c->first[c->n] - a->first[c->n];
+    return 0;
+}
+
+int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
+                  fl_err *err)
+{
+    struct fit f = {.cells = cells, .radius = radius};
+    fl_floes a = {0};
+    double d = 0.0;
+    int rc = -1;
+    if (fit_alloc(&f, err) || settle(&f, concentration, &d, err) || collect(&f, d, shift, &a, err)) goto done;
+    *out = a;
+    a = (fl_floes){0};
+    rc = 0;
+done:
+    fl_floes_free(&a);
+    fit_free(&f);
+    return rc;
+}
+
+void fl_floes_drop(fl_floes *a, const char *gone, int32_t *name)
+{
+    int32_t n = 0, at = 0;
+    for (int32_t i = 0; i < a->n; i++) {
+        const int32_t from = a->first[i], m = a->first[i + 1] - from;
+        if (gone[i]) continue;
+        memmove(a->core + at, a->core + from, (size_t)m * sizeof *a->core);
+        memmove(a->outer + at, a->outer + from, (size_t)m * sizeof *a->outer);
+        a->first[n] = at; /* n <= i: first[i + 1] is still to be read */
+        name[n++] = name[i];
+        at += m;
+    }
+    a->first[n] = at;
+    a->n = n;
+}
+
+void fl_floes_free(fl_floes *a)
+{
+    free(a->first);
+    free(a->core);
+    free(a->outer);
+    *a = (fl_floes){0};
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* floes.h -- from cells that fill a rectangle to floes that cover a given part of it.
+ *
+ * The sides of every cell move inward by one common distance, the inset d; what is left is the floe as the
+ * water sees it (the outer polygon).  Moved inward by the radius once more it is the core that is written.
+ * Dilating the core's sides gives the outer polygon back (PHYSICS: inputs give the outer size), so both must
+ * have the same sides: the fit of a floe sees to that.
+ *   - A side that vanishes between outer polygon and core, or is left shorter than FL_FLOES_SHORT times the
+ *     core's inscribed radius, is dropped, where the sharper corner that this leaves stays inside the cell
+ *     with half the inset to spare.
+ *   - Where it does not, the side is kept and moves in farther, until the core's side is FL_FLOES_LEAST times
+ *     that radius long (less at a blunt corner, so that the inscribed circle is never cut).
+ * A small cell keeps FL_FLOES_KEEP of the inscribed radius that it has to spare over the dilation radius: its
+ * floe is inset less than the others ("held"). */
+#ifndef FL_SCENE_FLOES_H
+#define FL_SCENE_FLOES_H
+#include <stdint.h>
+#include "base/err.h"
+#include "scene/cells.h"
+
+#define FL_FLOES_SHORT 0.1
+#define FL_FLOES_LEAST 0.02
+#define FL_FLOES_KEEP 0.1
+
+/* Floe i has the corners first[i] .. first[i + 1), counter-clockwise. */
+typedef struct {
+    int32_t n;
+    int32_t *first;  /* [n + 1]                                       */
+    fl_vec2 *core;   /* [first[n]]                                [m] */
+    fl_vec2 *outer;  /* [first[n]] the core's sides moved out by the radius [m] */
+    double inset;    /* d                                         [m] */
+    int32_t held;    /* floes inset by less than d               */
+    int32_t dropped; /* sides of cells that have no side of a floe */
+    int32_t cut;     /* sides that moved in by more than their floe */
+} fl_floes;
+
+/* Shrink cells until the outer polygons cover  concentration  times the area of the cells, to rounding.
+ *   concentration  in (0, 1)
+ *   radius         dilation radius, >= 0                                                  [m]
+ *   shift          added to all corners                                                   [m]
+ * The covered area falls with d and is convex in d; d is bracketed and found by Newton's steps.
+ * Returns 0, or -1 with FL_INPUT: a cell is too small for the radius (which one, and how large the radius may be),
+ * or the concentration lies outside what the cells can give; FL_NUMERIC: sides and inset did not settle;
+ * FL_SYSTEM.  out is untouched then. */
+int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
+                  fl_err *err);
+
+/* Drop the floes with gone[i] set.  name[i], the cell of floe i, is kept in step. */
+void fl_floes_drop(fl_floes *a, const char *gone, int32_t *name);
+
+void fl_floes_free(fl_floes *a); /* accepts a zeroed struct, leaves one */
+
+#endif
