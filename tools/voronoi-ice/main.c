@@ -1,2 +1,223 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-int main(void) { return 4; }
+/* voronoi-ice -- a field of ice floes.  Sites, their cells, floes inside the cells, a file. */
+#include <math.h>
+#include <omp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "base/stream.h"
+#include "base/tool.h"
+#include "scene/cells.h"
+#include "scene/certificate.h"
+#include "scene/field.h"
+#include "scene/floes.h"
+#include "options.h"
+
+/* The concentration is met to the rounding of areas and of corners far from the origin. */
+#define MET 1e-12
+
+struct field {
+    fl_cells cells;
+    fl_floes floes;
+    int32_t *name;        /* [floes.n] number of the site, which is the id in the file */
+    double full;          /* covered area before floes were taken out [m2]             */
+    double covered, kept; /* area of the floes and of their cells after it             [m2] */
+    fl_certificate c;
+};
+
+static void tell(const struct options *o, const char *what)
+{
+    if (o->verbose) fprintf(stderr, "voronoi-ice: %s\n", what);
+}
+
+/* The field is made round the origin, where numbers are finest, and shifted when it is done. */
+static int make_cells(const struct options *o, fl_cells *cells, fl_err *err)
+{
+    const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y}, lo = {-hi.x, -hi.y};
+    fl_vec2 *site = fl_alloc(o->floes, sizeof *site, err);
+    int rc = -1;
+    if (!site) return -1;
+    fl_cells_sites(o->floes, o->seed, lo, hi, site);
+    tell(o, "dividing the field into cells");
+    if (fl_cells_build(cells, o->floes, site, lo, hi, err)) goto done;
+    for (int k = 0; k < o->smooth; k++) {
+        tell(o, "smoothing");
+        fl_cells_centroids(cells, site);
+        fl_cells_free(cells);
+        if (fl_cells_build(cells, o->floes, site, lo, hi, err)) goto done;
+    }
+    rc = 0;
+done:
+    free(site);
+    return rc;
+}
+
+/* --- taking floes out ----------------------------------------------------------------------------------- */
+
+static int meets(const struct keep_out *s, int32_t n, const fl_vec2 *v)
+{
+    const fl_vec2 box[4] = {s->lo, {s->hi.x, s->lo.y}, s->hi, {s->lo.x, s->hi.y}};
+    if (s->circle) return fl_polygon_from_point(n, v, s->lo) <= s->r;
+    return !fl_polygon_apart(n, v, 4, box);
+}
+
+static int take_out(const struct options *o, struct field *a, fl_err *err)
+{
+    char *gone = fl_alloc(a->floes.n, 1, err);
+    if (!gone) return -1;
+    for (int32_t i = 0; i < a->floes.n; i++)
+        for (int k = 0; k < o->keep_outs && !gone[i]; k++)
+            gone[i] = (char)meets(&o->keep_out[k], a->floes.first[i + 1] - a->floes.first[i],
+                                  a->floes.outer + a->floes.first[i]);
+    fl_floes_drop(&a->floes, gone, a->name);
+    free(gone);
+    if (a->floes.n) return 0;
+    return fl_fail(err, FL_INPUT, "all %d floes meet what is kept out: none is left", o->floes);
+}
+
+/* --- the file ------------------------------------------------------------------------------------------- */
+
+/* Prisms that float upright: still water is z = 0, the outer shape reaches from -draft to thickness - draft. */
+static int add_floe(const struct options *o, const struct field *a, int32_t i, fl_vec3 *xy, fl_field *out,
+                    fl_err *err)
+{
+    const int32_t first = a->floes.first[i], n = a->floes.first[i + 1] - first;
+    const double draft = o->thickness * (o->ice_density / o->water_density);
+    fl_poly core = {0};
+    fl_err why = {0};
+    for (int32_t k = 0; k < n; k++) xy[k] = v3(a->floes.core[first + k].x, a->floes.core[first + k].y, 0.0);
+    if (fl_poly_prism(&core, n, xy, o->radius - draft, o->thickness - draft - o->radius, &why))
+        return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", a->name[i],
+                       why.text);
+    if (fl_field_add(out, a->name[i], o->radius, &core, o->material, NULL,
+                     v3(o->velocity.x, o->velocity.y, 0.0), v3(0, 0, 0), err) == 0)
+        return 0;
+    fl_poly_free(&core);
+    return -1;
+}
+
+static int write_field(const struct options *o, const struct field *a, fl_err *err)
+{
+    fl_field out = {0};
+    fl_out file = {0};
+    fl_by by;
+    fl_vec3 *xy = NULL;
+    int32_t cap = 0;
+    int rc = -1;
+    for (int32_t i = 0; i < a->floes.n; i++)
+        if (fl_grow(&xy, &cap, a->floes.first[i + 1] - a->floes.first[i], sizeof *xy, err) ||
+            add_floe(o, a, i, xy, &out, err))
+            goto done;
+    options_by(o, &by);
+    if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
+    fl_field_write(file.f, &out, &by);
+    rc = fl_out_close(&file, err);
+done:
+    free(xy);
+    fl_field_free(&out);
+    return rc;
+}
+
+/* --- the certificate ------------------------------------------------------------------------------------ */
+
+static void row(const char *what, const char *asked, const char *fmt, ...)
+    __attribute__((format(printf, 3, 4)));
+static void row(const char *what, const char *asked, const char *fmt, ...)
+{
+    va_list ap;
+    fprintf(stderr, "%-32s %10s   ", what, asked);
+    va_start(ap, fmt);
+    vfprintf(stderr, fmt, ap);
+    va_end(ap);
+    fputc('\n', stderr);
+}
+
+static void certify(const struct options *o, const struct field *a)
+{
+    const fl_certificate *c = &a->c;
+    const double area = o->size.x * o->size.y, off = fabs(a->full / area - o->concentration);
+    char asked[FL_NUM_LEN], count[FL_NUM_LEN];
+    snprintf(count, sizeof count, "%d", o->floes);
+    fprintf(stderr, "voronoi-ice: certificate\n");
+    row("", "asked", "achieved");
+    row("floes", count, "%d", a->cells.n);
+    row("concentration", fl_num_text(o->concentration, asked), "%.10g, off by %s %.0e", a->full / area,
+        off < MET ? "less than" : "about", off < MET ? MET : off);
+    if (o->keep_outs) {
+        row("floes kept out", "", "%d", a->cells.n - a->floes.n);
+        row("floes left", "", "%d", a->floes.n);
+        row("concentration, whole field", "", "%.6g", a->covered / area);
+        row("concentration, cells left", "", "%.6g", a->covered / a->kept);
+    }
+    row("overlaps", "0", "%lld", (long long)c->overlaps);
+    row("draft [m]", "", "%.6g", o->thickness * (o->ice_density / o->water_density));
+    row("area, mean [m2]", "", "%.6g", c->mean);
+    row("area, deviation over mean", "", "%.4f", c->cv);
+    row("area, smallest [m2]", "", "%.6g (floe %d)", c->least, a->name[c->least_of]);
+    row("area, largest [m2]", "", "%.6g (floe %d)", c->most, a->name[c->most_of]);
+    row("sides of a floe, mean", "", "%.3f", c->sides);
+    row("shortest side of a core [m]", "", "%.4g (floe %d)", c->edge, a->name[c->edge_of]);
+    row("sharpest corner [degrees]", "", "%.2f (floe %d)", c->angle * (180.0 / acos(-1.0)),
+        a->name[c->angle_of]);
+    if (c->gap_of[0] >= 0)
+        row("narrowest gap [m]", "", "%.6g (floes %d and %d)", c->gap, a->name[c->gap_of[0]],
+            a->name[c->gap_of[1]]);
+    row("inset of the cells [m]", "", "%.6g", a->floes.inset);
+    row("floes inset less: small cells", "", "%d", a->floes.held);
+    row("sides of cells dropped", "", "%d", a->floes.dropped);
+    row("sides moved in farther", "", "%d", a->floes.cut);
+}
+
+static int measure(const struct options *o, struct field *a, fl_err *err)
+{
+    if (fl_certificate_make(&a->c, &a->floes, err)) return -1;
+    a->full = a->covered = a->c.total;
+    if (o->keep_outs) {
+        if (take_out(o, a, err) || fl_certificate_make(&a->c, &a->floes, err)) return -1;
+        a->covered = a->c.total;
+    }
+    for (int32_t i = 0; i < a->floes.n; i++) {
+        const int32_t first = a->cells.first[a->name[i]];
+        a->kept += fl_polygon_area(a->cells.first[a->name[i] + 1] - first, a->cells.v + first);
+    }
+    if (a->c.overlaps)
+        return fl_fail(err, FL_NUMERIC,
+                       "%lld pairs of floes overlap, floes %d and %d among them: nothing is written",
+                       (long long)a->c.overlaps, a->name[a->c.gap_of[0]], a->name[a->c.gap_of[1]]);
+    return 0;
+}
+
+static int run(const struct options *o, fl_err *err)
+{
+    const fl_vec2 shift = {o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
+    struct field a = {0};
+    int rc = -1;
+    if (o->threads) omp_set_num_threads(o->threads);
+    a.name = fl_alloc(o->floes, sizeof *a.name, err);
+    if (!a.name) return -1;
+    for (int32_t i = 0; i < o->floes; i++) a.name[i] = i;
+    if (make_cells(o, &a.cells, err)) goto done;
+    tell(o, "shrinking the cells");
+    if (fl_floes_make(&a.floes, &a.cells, o->concentration, o->radius, shift, err)) goto done;
+    tell(o, "measuring");
+    if (measure(o, &a, err)) goto done;
+    tell(o, "writing");
+    if (write_field(o, &a, err)) goto done;
+    if (!o->quiet) certify(o, &a);
+    rc = 0;
+done:
+    fl_floes_free(&a.floes);
+    fl_cells_free(&a.cells);
+    free(a.name);
+    return rc;
+}
+
+int main(int argc, char **argv)
+{
+    struct options o;
+    fl_err err = {0};
+    int rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
+    if (rc == 0 && !o.ended) rc = run(&o, &err);
+    return fl_tool_end("voronoi-ice", rc, &err); /* closes stdout, prints err, picks the status */
+}

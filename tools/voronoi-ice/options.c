@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <getopt.h>
+#include <string.h>
+#include "base/num.h"
+#include "options.h"
+
+static const char HELP[] =
+    "usage: voronoi-ice [options]\n"
+    "A field of ice floes of a given concentration, none of which overlaps another, to a g-polys file.\n"
+    "Lengths are in metres; what each number came to goes to standard error.\n"
+    "\n"
+    "      --size AxB          sides of the field along x and y (50x50)\n"
+    "      --origin X,Y        its corner of least x and y (such that the field is centred on 0,0)\n"
+    "      --floes N           number of floes (200)\n"
+    "      --concentration C   part of the field that floes cover, between 0 and 1 (0.8)\n"
+    "      --thickness H       of the ice (0.5)\n"
+    "      --radius R          dilation radius, the roundness of edges, below H/2 (0.05)\n"
+    "      --seed N            another number, another field (1)\n"
+    "      --smooth N          steps of Lloyd's smoothing; 0 leaves Poisson-Voronoi cells (2)\n"
+    "      --material NAME     material of the floes (ice)\n"
+    "      --ice-density RHO   kg/m3, sets the draft together with (900)\n"
+    "      --water-density RHO kg/m3 (1025)\n"
+    "      --velocity VX,VY    of all floes at the start, m/s (0,0)\n"
+    "      --keep-out SHAPE    take out floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 "
+    "times\n"
+    "  -o, --output FILE       write there, - is standard output\n"
+    "  -z, --gzip              compress the file\n"
+    "  -j, --threads N         threads (one per processor)\n"
+    "  -q, --quiet             no certificate\n"
+    "  -v, --verbose           say what is being done\n"
+    "  -h, --help              this text\n"
+    "      --version           the version\n";
+
+enum {
+    SIZE = 256,
+    ORIGIN,
+    FLOES,
+    CONCENTRATION,
+    THICKNESS,
+    RADIUS,
+    SEED,
+    SMOOTH,
+    MATERIAL,
+    ICE_DENSITY,
+    WATER_DENSITY,
+    VELOCITY,
+    KEEP_OUT,
+    VERSION
+};
+
+static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
+                                     {"origin", required_argument, NULL, ORIGIN},
+                                     {"floes", required_argument, NULL, FLOES},
+                                     {"concentration", required_argument, NULL, CONCENTRATION},
+                                     {"thickness", required_argument, NULL, THICKNESS},
+                                     {"radius", required_argument, NULL, RADIUS},
+                                     {"seed", required_argument, NULL, SEED},
+                                     {"smooth", required_argument, NULL, SMOOTH},
+                                     {"material", required_argument, NULL, MATERIAL},
+                                     {"ice-density", required_argument, NULL, ICE_DENSITY},
+                                     {"water-density", required_argument, NULL, WATER_DENSITY},
+                                     {"velocity", required_argument, NULL, VELOCITY},
+                                     {"keep-out", required_argument, NULL, KEEP_OUT},
+                                     {"output", required_argument, NULL, 'o'},
+                                     {"gzip", no_argument, NULL, 'z'},
+                                     {"threads", required_argument, NULL, 'j'},
+                                     {"quiet", no_argument, NULL, 'q'},
+                                     {"verbose", no_argument, NULL, 'v'},
+                                     {"help", no_argument, NULL, 'h'},
+                                     {"version", no_argument, NULL, VERSION},
+                                     {NULL, 0, NULL, 0}};
+
+/* Up to a million kilometres from the origin, an ulp is a tenth of a micrometre; the solver reads no farther. */
+#define FAR 1e9
+#define LONGEST 1e6
+#define SHORTEST 1e-6
+
+/* Exactly n numbers, divided by `by`; what says how they should look. */
+static int numbers(const char *option, const char *text, char by, int n, double lo, double hi, double *x,
+                   const char *wanted, fl_err *err)
+{
+    char word[64];
+    const char *p = text;
+    for (int k = 0; k < n; k++) {
+        const char *end = k + 1 < n ? strchr(p, by) : p + strlen(p);
+        const size_t len = end ? (size_t)(end - p) : sizeof word;
+        if (len >= sizeof word) goto bad;
+        memcpy(word, p, len);
+        word[len] = '\0';
+        if (fl_num_f64(word, &x[k]) || !(x[k] >= lo && x[k] <= hi)) goto bad;
+        p = end + 1;
+    }
+    return 0;
+bad:
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %s was wanted", option, text, wanted);
+}
+
+static int number(const char *option, const char *text, double lo, double hi, double *x, const char *wanted,
+                  fl_err *err)
+{
+    return numbers(option, text, ',', 1, lo, hi, x, wanted, err);
+}
+
+static int whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
+{
+    if (fl_num_i32(text, lo, hi, x) == 0) return 0;
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a whole number from %d to %d was wanted", option, text,
+                   lo, hi);
+}
+
+static int pair(const char *option, const char *text, char by, double lo, double hi, fl_vec2 *out,
+                const char *wanted, fl_err *err)
+{
+    double x[2] = {0.0, 0.0};
+    if (numbers(option, text, by, 2, lo, hi, x, wanted, err)) return -1;
+    *out = (fl_vec2){x[0], x[1]};
+    return 0;
+}
+
+static int shape(struct options *o, const char *text, fl_err *err)
+{
+    static const char wanted[] = "circle:X,Y,R or box:X0,Y0,X1,Y1 in metres";
+    struct keep_out k = {0};
+    double x[4] = {0};
+    if (o->keep_outs == KEEP_OUT_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d shapes to keep out", KEEP_OUT_MAX);
+    if (strncmp(text, "circle:", 7) == 0) {
+        if (numbers("keep-out", text + 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
+        k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
+        if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 was wanted", text);
+    } else if (strncmp(text, "box:", 4) == 0) {
+        if (numbers("keep-out", text + 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
+        k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
+        if (!(x[0] < x[2] && x[1] < x[3]))
+            return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 was wanted", text);
+    } else {
+        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s was wanted", text, wanted);
+    }
+    o->keep_out[o->keep_outs++] = k;
+    return 0;
+}
+
+/* A name is one word of the file. */
+static int name(const char *text, const char **out, fl_err *err)
+{
+    if (text[0] == '\0' || strlen(text) > 200 || strpbrk(text, " \t\r\n\f\v"))
+        return fl_fail(err, FL_USAGE, "--material is \"%.60s\", one word of up to 200 bytes was wanted",
+                       text);
+    *out = text;
+    return 0;
+}
+
+static int apply(struct options *o, int c, const char *arg, fl_err *err)
+{
+    switch (c) {
+    case SIZE: return pair("size", arg, 'x', SHORTEST, LONGEST, &o->size, "AxB in metres, as 50x50,", err);
+    case ORIGIN:
+        o->has_origin = 1;
+        return pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
+    case FLOES: return whole("floes", arg, 1, 10000000, &o->floes, err);
+    case CONCENTRATION:
+        /* the bounds themselves are no concentration of floes with water between them */
+        if (number("concentration", arg, 0.0, 1.0, &o->concentration, "a number between 0 and 1", err))
+            return -1;
+        if (o->concentration > 0.0 && o->concentration < 1.0) return 0;
+        return fl_fail(err, FL_USAGE, "--concentration is \"%.60s\", a number between 0 and 1 was wanted",
+                       arg);
+    case THICKNESS: return number("thickness", arg, SHORTEST, LONGEST, &o->thickness, "a length", err);
+    case RADIUS: return number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
+    case SEED:
+        if (fl_num_u64(arg, &o->seed) == 0) return 0;
+        return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", a whole number from 0 to 2^64 - 1 was wanted",
+                       arg);
+    case SMOOTH: return whole("smooth", arg, 0, 10000, &o->smooth, err);
+    case MATERIAL: return name(arg, &o->material, err);
+    case ICE_DENSITY: return number("ice-density", arg, 1.0, 1e5, &o->ice_density, "kg/m3", err);
+    case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
+    case VELOCITY: return pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
+    case KEEP_OUT: return shape(o, arg, err);
+    case 'o': o->out = arg; return 0;
+    case 'z': o->gzip = 1; return 0;
+    case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
+    case 'q': o->quiet = 1; return 0;
+    case 'v': o->verbose = 1; return 0;
+    case 'h':
+        fputs(HELP, stdout);
+        o->ended = 1;
+        return 0;
+    case VERSION:
+        fl_tool_version("voronoi-ice");
+        o->ended = 1;
+        return 0;
+    default: return fl_fail(err, FL_USAGE, "see voronoi-ice --help");
+    }
+}
+
+int options_parse(struct options *o, int argc, char **argv, fl_err *err)
+{
+    int c;
+    *o = (struct options){.out = "-",
+                          .material = "ice",
+                          .size = {50.0, 50.0},
+                          .floes = 200,
+                          .smooth = 2,
+                          .concentration = 0.8,
+                          .thickness = 0.5,
+                          .radius = 0.05,
+                          .ice_density = 900.0,
+                          .water_density = 1025.0,
+                          .seed = 1};
+    opterr = 0;
+    while (!o->ended && (c = getopt_long(argc, argv, ":o:zj:qvh", LONG, NULL)) != -1) {
+        const char *word = argv[optind - 1];
+        if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see voronoi-ice --help", word);
+        if (c == '?' && optopt > 0 && optopt < 256)
+            return fl_fail(err, FL_USAGE, "-%c is no option, see voronoi-ice --help", optopt);
+        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see voronoi-ice --help", word);
+        if (apply(o, c, optarg, err)) return -1;
+    }
+    if (o->ended) return 0;
+    if (optind < argc)
+        return fl_fail(err, FL_USAGE, "\"%.60s\" was not expected, voronoi-ice reads no file", argv[optind]);
+    if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
+    if (!(o->thickness > 2.0 * o->radius))
+        return fl_fail(err, FL_USAGE, "--thickness %g is not more than twice --radius %g: no core is left",
+                       o->thickness, o->radius);
+    if (!(o->ice_density < o->water_density))
+        return fl_fail(err, FL_USAGE, "--ice-density %g is not below --water-density %g: the floes sink",
+                       o->ice_density, o->water_density);
+    return 0;
+}
+
+static void add_numbers(fl_by *by, const char *option, char divide, int n, const double *x)
+{
+    char text[4][FL_NUM_LEN], all[4 * (FL_NUM_LEN + 1) + 1] = "";
+    for (int k = 0; k < n; k++) {
+        const size_t at = strlen(all);
+        snprintf(all + at, sizeof all - at, "%s%.1s", fl_num_text(x[k], text[k]), k + 1 < n ? &divide : "");
+    }
+    fl_by_add(by, "%s%s", option, all);
+}
+
+static void add_pair(fl_by *by, const char *option, char divide, fl_vec2 p)
+{
+    add_numbers(by, option, divide, 2, (const double[]){p.x, p.y});
+}
+
+void options_by(const struct options *o, fl_by *by)
+{
+    fl_by_start(by, "voronoi-ice");
+    add_pair(by, "--size ", 'x', o->size);
+    add_pair(by, "--origin ", ',', o->origin);
+    fl_by_add(by, "--floes %d", o->floes);
+    add_numbers(by, "--concentration ", ',', 1, &o->concentration);
+    add_numbers(by, "--thickness ", ',', 1, &o->thickness);
+    add_numbers(by, "--radius ", ',', 1, &o->radius);
+    fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
+    fl_by_add(by, "--smooth %d", o->smooth);
+    fl_by_add(by, "--material %s", o->material);
+    add_numbers(by, "--ice-density ", ',', 1, &o->ice_density);
+    add_numbers(by, "--water-density ", ',', 1, &o->water_density);
+    add_pair(by, "--velocity ", ',', o->velocity);
+    for (int k = 0; k < o->keep_outs; k++) {
+        const struct keep_out *s = &o->keep_out[k];
+        if (s->circle)
+            add_numbers(by, "--keep-out circle:", ',', 3, (const double[]){s->lo.x, s->lo.y, s->r});
+        else add_numbers(by, "--keep-out box:", ',', 4, (const double[]){s->lo.x, s->lo.y, s->hi.x, s->hi.y});
+    }
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* options.h -- the command line of voronoi-ice. */
+#ifndef VORONOI_ICE_OPTIONS_H
+#define VORONOI_ICE_OPTIONS_H
+#include <stdint.h>
+#include "base/err.h"
+#include "base/tool.h"
+#include "geom/polygon.h"
+
+enum { KEEP_OUT_MAX = 16 };
+
+struct keep_out {
+    int circle;     /* else a box */
+    fl_vec2 lo, hi; /* corners of the box; lo is the centre of a circle [m] */
+    double r;       /* of the circle [m] */
+};
+
+struct options {
+    const char *out, *material;     /* borrowed from argv */
+    fl_vec2 size, origin, velocity; /* origin is the corner of least x and y [m, m, m/s] */
+    int32_t floes, smooth;
+    double concentration;
+    double thickness, radius;          /* [m] */
+    double ice_density, water_density; /* [kg/m3] */
+    uint64_t seed;
+    struct keep_out keep_out[KEEP_OUT_MAX];
+    int keep_outs;
+    int gzip, quiet, verbose, threads;
+    int has_origin;
+    int ended; /* --help or --version was answered */
+};
+
+/* Defaults, then the command line.  0, or -1 with FL_USAGE in err. */
+int options_parse(struct options *o, int argc, char **argv, fl_err *err);
+
+/* The history line: everything that bears on the field, defaults included, so that it can be made again by a
+ * version with other defaults. */
+void options_by(const struct options *o, fl_by *by);
+
+#endif
