@@ -19,7 +19,8 @@ int fl_num_f64(const char *s, double *x)
 {
     char *end;
     double v;
-    if (s[strspn(s, "+-0123456789.eEdD")] != '\0') return -1; /* strtod also takes nan, inf, 0x.. and blanks */
+    /* strtod also takes nan, inf, 0x.. and blanks */
+    if (s[strspn(s, "+-0123456789.eEdD")] != '\0') return -1;
     v = strtod(s, &end);
     if (end == s || *end || !isfinite(v)) return -1;
     *x = v;

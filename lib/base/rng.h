@@ -6,8 +6,15 @@
 #define FL_BASE_RNG_H
 #include <stdint.h>
 
-enum fl_rng_purpose { FL_RNG_TEST, FL_RNG_SITE, FL_RNG_SIZE, FL_RNG_THICKNESS, FL_RNG_VELOCITY, FL_RNG_WAVE,
-                      FL_RNG_BOOTSTRAP };
+enum fl_rng_purpose {
+    FL_RNG_TEST,
+    FL_RNG_SITE,
+    FL_RNG_SIZE,
+    FL_RNG_THICKNESS,
+    FL_RNG_VELOCITY,
+    FL_RNG_WAVE,
+    FL_RNG_BOOTSTRAP
+};
 
 typedef struct {
     uint32_t key[2], ctr[4], out[4];
@@ -16,8 +23,8 @@ typedef struct {
 
 fl_rng fl_rng_of(uint64_t seed, int64_t entity, uint32_t purpose);
 uint64_t fl_rng_u64(fl_rng *g);
-double fl_rng_unit(fl_rng *g);                       /* uniform in [0, 1), a multiple of 2^-53 */
-double fl_rng_in(fl_rng *g, double lo, double hi);   /* uniform in [lo, hi) */
-double fl_rng_normal(fl_rng *g);                     /* mean 0, standard deviation 1; polar method */
+double fl_rng_unit(fl_rng *g);                     /* uniform in [0, 1), a multiple of 2^-53 */
+double fl_rng_in(fl_rng *g, double lo, double hi); /* uniform in [lo, hi) */
+double fl_rng_normal(fl_rng *g);                   /* mean 0, standard deviation 1; polar method */
 
 #endif

@@ -13,8 +13,8 @@ typedef struct fl_in fl_in;
  * NULL with FL_INPUT (missing, a folder, unreadable) or FL_SYSTEM in err. */
 fl_in *fl_in_open(const char *path, fl_err *err);
 
-/* Read up to n bytes; returns the number read, 0 at the end, -1 with FL_INPUT in err (damaged gzip, read error).
- * A short count is not the end: data are handed over as they come down a pipe. */
+/* Read up to n bytes; returns the number read, 0 at the end, -1 with FL_INPUT in err (damaged gzip, read
+ * error). A short count is not the end: data are handed over as they come down a pipe. */
 int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err);
 
 /* The name to put in messages: the path, or "<stdin>". */
@@ -27,8 +27,8 @@ typedef struct {
     void *gz;         /* the compressor, when asked for */
 } fl_out;
 
-/* Open path for writing ("-" is standard output); gzip compresses.  A link is followed, and a device or a pipe
- * (/dev/null, a fifo) is written to directly.  FL_SYSTEM in err on failure. */
+/* Open path for writing ("-" is standard output); gzip compresses.  A link is followed, and a device or a
+ * pipe (/dev/null, a fifo) is written to directly.  FL_SYSTEM in err on failure. */
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err);
 
 /* Flush, sync, and give the file its final name.  -1 with FL_SYSTEM in err when anything written was lost;

@@ -5,7 +5,7 @@
 #include "base/num.h"
 #include "base/table.h"
 
-/* "#start T" [s] above the names; the rows of the first interval need it when the record does not begin at 0. */
+/* "#start T" [s] above the names; the first interval needs it when the record does not begin at 0. */
 static int read_start(fl_table *t, fl_err *err)
 {
     const char *word = t->text.line + strlen("#start");

@@ -16,7 +16,8 @@ typedef struct {
     int len;
 } fl_by;
 void fl_by_start(fl_by *by, const char *program);
-void fl_by_add(fl_by *by, const char *fmt, ...) __attribute__((format(printf, 2, 3))); /* adds a blank first */
+/* Adds a blank first. */
+void fl_by_add(fl_by *by, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
 /* Open a file of ours: "#KIND VERSION", the history it continues (NULL for none), its own line. */
 void fl_by_header(FILE *f, const char *kind, int version, const char *history, const fl_by *by);
@@ -25,7 +26,8 @@ void fl_by_header(FILE *f, const char *kind, int version, const char *history, c
 void fl_tool_version(const char *program);
 
 /* End of main: flush standard output, say "program: sentence" on stderr if anything failed, and return the
- * exit status: 0, or the code in err.  A run that succeeded but could not write its output ends in FL_SYSTEM. */
+ * exit status: 0, or the code in err.  A run that succeeded but could not write its output ends in
+ * FL_SYSTEM. */
 int fl_tool_end(const char *program, int rc, fl_err *err);
 
 #endif

@@ -60,10 +60,10 @@ is_c {
 is_c && file ~ /\.h$/ && guard == "" && /^#ifndef/ {
     guard = $2
     want = toupper("FL_" (house == "lib" ? mine : part[2]) "_" stem "_H")
-    if (house == "tools") want = toupper("FL_" part[2] "_" part[parts])
+    if (house == "tools") want = toupper(part[2] "_" part[parts])
     if (house == "tests") want = toupper("FL_TESTS_" stem "_H")
     gsub(/[^A-Z0-9_]/, "_", want)
-    if (guard != want) complain("the guard is " guard ", " want " was wanted")
+    if (guard != want && !(house == "tools" && guard == "FL_" want)) complain("the guard is " guard ", " want " was wanted")
 }
 
 is_c && /^[ \t]*#[ \t]*include[ \t]*"/ {

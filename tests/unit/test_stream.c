@@ -153,7 +153,8 @@ static void what_cannot_be_read(void **state)
     unlink(path);
 }
 
-/* Put the reading end of a pipe in place of standard input; a child writes data[n] into it, `piece` at a time. */
+/* Put the reading end of a pipe in place of standard input; a child writes data[n] into it, `piece` at a
+ * time. */
 static pid_t feed_stdin(const void *data, size_t n, size_t piece)
 {
     int end[2];
