@@ -26,6 +26,9 @@ typedef struct {
                       * centroid of the overlap of the features (or on the line of nearest points) [m] */
     double length;   /* EP, EF: length of the overlap, seen along n; else 0                      [m] */
     double area;     /* FF: area of the overlap, seen along n; else 0                           [m2] */
+    double sine;     /* EE: sine of the angle between the two edges; else 0                          */
+    double edge;     /* EE: length of the shorter of the two edges; else 0                       [m] */
+    int32_t low_b;   /* VE, VF, EF: 1 when the lower feature (vertex before edge before face) is b's  */
 } fl_contact;
 
 /* Two letters and a nul: "VV" .. "FF"; "--" for FL_MODE_NONE. */
