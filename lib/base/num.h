@@ -12,7 +12,7 @@ enum { FL_NUM_LEN = 32 };
 char *fl_num_text(double x, char buf[FL_NUM_LEN]);
 
 /* Read all of s as a finite number, an integer in [lo, hi], or a 64-bit unsigned.
- * Return 0, or -1 when s is anything else (empty, more than a number, nan, inf, hexadecimal, out of range). */
+ * Return 0, or -1 when s is anything else (empty, more than a number, nan, inf, 0x.., out of range). */
 int fl_num_f64(const char *s, double *x);
 int fl_num_i32(const char *s, int32_t lo, int32_t hi, int32_t *x);
 int fl_num_u64(const char *s, uint64_t *x);
