@@ -10,10 +10,7 @@ void fl_mem_fail_after(long n)
     refusals = 0;
 }
 
-long fl_mem_refused(void)
-{
-    return refusals;
-}
+long fl_mem_refused(void) { return refusals; }
 
 static int refused(void)
 {

@@ -39,15 +39,9 @@ uint64_t fl_rng_u64(fl_rng *g)
     return hi << 32 | next32(g);
 }
 
-double fl_rng_unit(fl_rng *g)
-{
-    return (double)(fl_rng_u64(g) >> 11) * 0x1p-53;
-}
+double fl_rng_unit(fl_rng *g) { return (double)(fl_rng_u64(g) >> 11) * 0x1p-53; }
 
-double fl_rng_in(fl_rng *g, double lo, double hi)
-{
-    return lo + (hi - lo) * fl_rng_unit(g);
-}
+double fl_rng_in(fl_rng *g, double lo, double hi) { return lo + (hi - lo) * fl_rng_unit(g); }
 
 double fl_rng_normal(fl_rng *g)
 {

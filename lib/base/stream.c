@@ -109,10 +109,7 @@ int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err)
     return in->gzip ? gzip_read(in, buf, n, err) : plain_read(in, buf, n, err);
 }
 
-const char *fl_in_name(const fl_in *in)
-{
-    return in->name;
-}
+const char *fl_in_name(const fl_in *in) { return in->name; }
 
 void fl_in_close(fl_in *in)
 {

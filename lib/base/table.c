@@ -119,10 +119,7 @@ int fl_table_row(fl_table *t, fl_err *err)
     return more;
 }
 
-const char *fl_table_word(const fl_table *t, int32_t col)
-{
-    return t->text.field[col];
-}
+const char *fl_table_word(const fl_table *t, int32_t col) { return t->text.field[col]; }
 
 int fl_table_f64(const fl_table *t, int32_t col, double *x, fl_err *err)
 {

@@ -28,10 +28,7 @@ void fl_by_header(FILE *f, const char *kind, int version, const char *history, c
     fprintf(f, "#%s %d\n%s%s\n", kind, version, history ? history : "", by->text);
 }
 
-void fl_tool_version(const char *program)
-{
-    printf("%s %s\n", program, FL_VERSION);
-}
+void fl_tool_version(const char *program) { printf("%s %s\n", program, FL_VERSION); }
 
 int fl_tool_end(const char *program, int rc, fl_err *err)
 {

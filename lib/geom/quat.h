@@ -8,20 +8,14 @@ typedef struct {
     double w, x, y, z;
 } fl_quat;
 
-static inline fl_quat q_one(void)
-{
-    return (fl_quat){1, 0, 0, 0};
-}
+static inline fl_quat q_one(void) { return (fl_quat){1, 0, 0, 0}; }
 static inline fl_quat q_mul(fl_quat a, fl_quat b)
 {
     return (fl_quat){
         a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
         a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
-static inline fl_quat q_conj(fl_quat q)
-{
-    return (fl_quat){q.w, -q.x, -q.y, -q.z};
-}
+static inline fl_quat q_conj(fl_quat q) { return (fl_quat){q.w, -q.x, -q.y, -q.z}; }
 static inline fl_quat q_unit(fl_quat q)
 {
     const double s = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
@@ -36,14 +30,8 @@ static inline fl_mat3 q_matrix(fl_quat q)
                       {2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)},
                       {2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)}}};
 }
-static inline fl_vec3 q_rotate(fl_quat q, fl_vec3 v)
-{
-    return m3_mul(q_matrix(q), v);
-}
-static inline fl_vec3 q_unrotate(fl_quat q, fl_vec3 v)
-{
-    return m3_tmul(q_matrix(q), v);
-}
+static inline fl_vec3 q_rotate(fl_quat q, fl_vec3 v) { return m3_mul(q_matrix(q), v); }
+static inline fl_vec3 q_unrotate(fl_quat q, fl_vec3 v) { return m3_tmul(q_matrix(q), v); }
 
 /* The quaternion whose matrix is the proper rotation a (Shepperd's choice of the largest element). */
 fl_quat q_of_matrix(fl_mat3 a);

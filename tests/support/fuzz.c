@@ -184,10 +184,7 @@ static void load_corpus(const char *folder)
 
 /* --- damage --------------------------------------------------------------------------------------------- */
 
-static int32_t below(fl_rng *g, int32_t n)
-{
-    return n > 0 ? (int32_t)(fl_rng_u64(g) % (uint64_t)n) : 0;
-}
+static int32_t below(fl_rng *g, int32_t n) { return n > 0 ? (int32_t)(fl_rng_u64(g) % (uint64_t)n) : 0; }
 
 /* The line at a random place: its first byte, and its length with the newline. */
 static int32_t some_line(const bytes *b, fl_rng *g, int32_t *len)

@@ -68,7 +68,7 @@ void verify_order(const char *id, const char *what, const double *h, const doubl
 
 void verify_true(const char *id, const char *what, int ok)
 {
-    printf("%-5s %-105s %s\n", id, what, count(ok));
+    printf("%-5s %-106s %s\n", id, what, count(ok));
     fflush(stdout);
 }
 

@@ -212,10 +212,7 @@ static void from_a_pipe(void **state)
 
 /* --- out ------------------------------------------------------------------------------------------------ */
 
-static int exists(const char *path)
-{
-    return access(path, F_OK) == 0;
-}
+static int exists(const char *path) { return access(path, F_OK) == 0; }
 
 static const char *part_of(const char *path)
 {
