@@ -136,7 +136,7 @@ bench)
     ;;
 esac
 
-cut -d ' ' -f 1 "$scratch/list" | xargs -P "$crews" -I '{}' sh tests/run.sh job "$scratch" '{}' "$limit" &
+cut -d ' ' -f 1 "$scratch/list" | xargs -P "$crews" -I '{}' sh tests/run.sh job "$scratch" '{}' "$limit" 2>/dev/null &
 crew=$!
 
 passed=0 failed=0

@@ -55,11 +55,12 @@ whole="-O2 -c -o /dev/null"
 
 skip() { echo "lint: $1 skipped: $2"; }
 
-# compile NAME COMPILER FLAGS < files: all of them, on every core; complaints and a verdict.
+# compile NAME KIND COMPILER FLAGS: every file of that kind, on every core; complaints and a verdict.
 compile()
 {
+    find lib tools tests -name "*.$2" | sort >"$scratch/sources"
     # shellcheck disable=SC2086 # flags are a list
-    xargs -n 1 -P "$(getconf _NPROCESSORS_ONLN)" $2 $3
+    xargs -r -n 1 -P "$(getconf _NPROCESSORS_ONLN)" $3 $4 <"$scratch/sources"
     verdict "$1" $?
 }
 
@@ -76,14 +77,20 @@ for cc in gcc clang; do
         cxx=g++
     fi
     [ $cc = gcc ] && how=$whole || how=-fsyntax-only
-    find lib tools tests -name '*.c' | sort | compile "warnings of $cc" $cc "$c_flags $more $how"
-    find lib tools tests -name '*.h' | sort | compile "headers alone under $cc" $cc "$c_flags $more -fsyntax-only -x c"
-    find lib -name '*.cpp' | sort | compile "warnings of $cxx" $cxx "$cxx_flags $more $how"
+    compile "warnings of $cc" c $cc "$c_flags $more $how"
+    compile "headers alone under $cc" h $cc "$c_flags $more -fsyntax-only -x c /dev/null -include"
+    compile "warnings of $cxx" cpp $cxx "$cxx_flags $more $how"
 done
 
 if command -v clang-format >/dev/null; then
-    find lib tools tests \( -name '*.[ch]' -o -name '*.cpp' \) -exec clang-format --dry-run -Werror {} +
-    verdict format $?
+    bad=0
+    for f in $(find lib tools tests -name '*.[ch]' -o -name '*.cpp' | sort); do
+        clang-format "$f" | cmp -s - "$f" || {
+            echo "$f: clang-format -i would change it"
+            bad=1
+        }
+    done
+    verdict format $bad
 else
     skip format "no clang-format"
 fi
