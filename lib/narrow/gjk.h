@@ -20,8 +20,8 @@ typedef struct {
 
 typedef struct {
     double d;           /* distance >= 0; 0 when the cores meet                                 [m] */
-    fl_vec3 pa, pb;     /* nearest points of a and of b, pa - pb = d n to the rounding of world
-                         * coordinates; when the cores meet, a point of both                     [m] */
+    fl_vec3 pa, pb;     /* nearest points of a and of b: pa - pb = d n, to the rounding of world
+                         * coordinates; where the cores meet, a point of both                    [m] */
     fl_vec3 n;          /* unit vector from b to a; zero when the cores meet                         */
     int32_t overlap;    /* 1 when the cores meet: touch (d = 0) or penetrate                         */
     int32_t iterations; /* supports evaluated, all stages together                                   */
