@@ -85,8 +85,9 @@ static int check_contacts(const fl_scene *s, fl_err *err)
         char at[3 * FL_SCENE_NAME], key[4 * FL_SCENE_NAME];
         snprintf(at, sizeof at, "contact%s%s%s%s", c->a[0] ? " " : "", c->a, c->b[0] ? " " : "", c->b);
         snprintf(key, sizeof key, "%s.literal%d", at, c->literal2 ? 2 : 18);
-        if ((c->literal2 || c->literal18) && in_force != FL_LAW_MANUAL)
-            return fl_scene_fail(s, key, err, "literal%d bears on law = manual alone", c->literal2 ? 2 : 18);
+        if ((c->literal2 || c->literal18) && in_force != FL_LAW_MANUAL && in_force != FL_LAW_MANUAL_SI)
+            return fl_scene_fail(s, key, err, "literal%d bears on law = manual and manual-si alone",
+                                 c->literal2 ? 2 : 18);
         if (i == all) continue;
         if (known_material(s, at, c->a, 1, err) || known_material(s, at, c->b, 1, err)) return -1;
         if (fl_scene_find_material(s, c->a) < 0 && fl_scene_find_material(s, c->b) < 0)

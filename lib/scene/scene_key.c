@@ -274,7 +274,7 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, exponent),
      .fallback = "1",
      .choices = "1|1.5",
-     .meaning = "n of F = kappa delta^n in the laws patch and core; the manual's laws have their own",
+     .meaning = "the n of F = kappa delta^n in the laws patch and core; the manual's laws have their own",
      .source = "1 linear; 1.5 Hertz"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness",
@@ -284,7 +284,7 @@ const fl_key fl_key_table[] = {
      .fallback = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "kappa of each spring of the laws patch and core; auto takes it from the moduli",
+     .meaning = "the kappa of each spring of the laws patch and core; auto takes it from the moduli",
      .source = "flat punch 2 E* beta sqrt(A/pi) over six supports for n = 1, (4/3) E* sqrt(R*) for n = 1.5"},
     {.section = FL_SEC_CONTACT,
      .key = "softening",
@@ -292,8 +292,9 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, softening),
      .fallback = "1",
      .range = "(0,1]",
-     .meaning = "s_k, multiplies the automatic stiffness so that steps may be longer; the report tells the "
-                "overlap it costs",
+     .meaning =
+         "the factor s_k of the automatic stiffness, so that steps may be longer; the report tells the "
+         "overlap it costs",
      .source = "allowed while the overlap stays below 0.3 of the dilation radius"},
     {.section = FL_SEC_CONTACT,
      .key = "tangential",
@@ -320,7 +321,7 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, literal2),
      .fallback = "false",
      .choices = "false|true",
-     .meaning = "true takes m1 + m2 for the effective mass in the manual's law, as equation (2) is printed",
+     .meaning = "true takes m1 + m2 for the effective mass in the manual's laws, as equation (2) is printed",
      .source = "DilatedDEM manual (2016), equation (2)"},
     {.section = FL_SEC_CONTACT,
      .key = "literal18",
@@ -328,7 +329,8 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, literal18),
      .fallback = "false",
      .choices = "false|true",
-     .meaning = "true takes R' = 1/lambda for crossed edges in the manual's law, as equation (18) is printed",
+     .meaning =
+         "true takes R' = 1/lambda for crossed edges in the manual's laws, as equation (18) is printed",
      .source = "DilatedDEM manual (2016), equation (18)"},
     {.section = FL_SEC_ICE,
      .key = "file",
@@ -447,8 +449,9 @@ const fl_key fl_key_table[] = {
      .fallback = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "kappa of the springs against the walls, in place of contact.stiffness; auto is that of the "
-                "contact"},
+     .meaning =
+         "the kappa of the springs against the walls, in place of contact.stiffness; auto is that of the "
+         "contact"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive",
      .type = FL_VALUE_VEC3,
@@ -502,7 +505,7 @@ const fl_key fl_key_table[] = {
      .at = AT(water, drag_force_coef),
      .fallback = "0.005",
      .range = "[0,inf)",
-     .meaning = "C of the drag force, on the wetted area",
+     .meaning = "the C of the drag force, on the wetted area",
      .source = "DilatedDEM manual (2016), equation (8); skin friction of ice, 0.001 to 0.035"},
     {.section = FL_SEC_WATER,
      .key = "drag_moment_coef",
@@ -510,7 +513,7 @@ const fl_key fl_key_table[] = {
      .at = AT(water, drag_moment_coef),
      .fallback = "0.002",
      .range = "[0,inf)",
-     .meaning = "C of the drag moment, on the wetted area",
+     .meaning = "the C of the drag moment, on the wetted area",
      .source = "DilatedDEM manual (2016), equation (9); 2/5 of the skin coefficient for a disc"},
     {.section = FL_SEC_WATER,
      .key = "added_mass",

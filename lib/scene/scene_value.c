@@ -257,20 +257,19 @@ static int read_fixed(const complaint *c, const char *text, uint32_t *out)
 {
     char copy[LINE_COPY], *save = NULL;
     uint32_t bits = 0;
-    int words = 0, k;
+    int bad = strlen(text) >= sizeof copy;
     if (strcmp(text, c->key->special) == 0) {
         *out = 0;
         return 0;
     }
     snprintf(copy, sizeof copy, "%s", text);
-    for (char *t = strtok_r(copy, " \t", &save); t; t = strtok_r(NULL, " \t", &save), words++) {
-        for (k = 0; k < N_FIX && strcmp(t, fix_word[k]) != 0; k++) continue;
-        if (k == N_FIX || (bits & 1u << k)) break;
-        bits |= 1u << k;
+    for (char *t = strtok_r(copy, " \t", &save); t && !bad; t = strtok_r(NULL, " \t", &save)) {
+        int k = 0;
+        while (k < N_FIX && strcmp(t, fix_word[k]) != 0) k++;
+        bad = k == N_FIX || (bits >> k & 1u);
+        if (!bad) bits |= 1u << k;
     }
-    for (k = 0; bits >> k; k++) words -= (int)(bits >> k & 1u);
-    if (bits == 0 || words != 0 || strlen(text) >= sizeof copy)
-        return wrong(c, "is \"%.60s\", none or some of x y z rx ry rz, each once, was wanted", text);
+    if (bad) return wrong(c, "is \"%.60s\", none or some of x y z rx ry rz, each once, was wanted", text);
     *out = bits;
     return 0;
 }

@@ -1,0 +1,597 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "support/near.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "scene/scene_check.h"
+#include "scene/scene_read.h"
+#include "scene/scene_section.h"
+#include "scene/scene_show.h"
+#include "scene/scene_value.h"
+
+#define ICE "[ice]\nfile = ice.dat\n"
+
+/* The behaviour of one text: read it, and check it. */
+static int load(fl_scene *s, const char *text, fl_err *err)
+{
+    *s = (fl_scene){0};
+    *err = (fl_err){0};
+    return fl_scene_read(s, test_file("case.scene", text, strlen(text)), err) || fl_scene_check(s, err) ? -1
+                                                                                                        : 0;
+}
+
+static void good(fl_scene *s, const char *text)
+{
+    fl_err err;
+    if (load(s, text, &err)) fail_msg("%s: %s", text, err.text);
+}
+
+/* The text is refused, and what is said after "case.scene" is `tail`. */
+static void refused(const char *text, const char *tail)
+{
+    fl_scene s;
+    fl_err err;
+    const char *at;
+    if (load(&s, text, &err) == 0) fail_msg("taken, but %s was wanted:\n%s", tail, text);
+    at = strstr(err.text, "case.scene");
+    if (!at || strcmp(at + strlen("case.scene"), tail) != 0)
+        fail_msg("for\n%s\nit says   %s\nwanted    ...case.scene%s", text, err.text, tail);
+    assert_int_equal(err.code, FL_INPUT);
+    fl_scene_free(&s);
+}
+
+/* --set with this assignment, and the check behind it, says exactly this. */
+static void set_refused(const char *assignment, const char *says)
+{
+    fl_scene s;
+    fl_err err = {0};
+    good(&s, ICE);
+    if (fl_scene_set(&s, assignment, &err) == 0) assert_int_equal(fl_scene_check(&s, &err), -1);
+    assert_string_equal(err.text, says);
+    assert_int_equal(err.code, FL_USAGE);
+    fl_scene_free(&s);
+}
+
+static char *written(const fl_scene *s)
+{
+    char *text = NULL;
+    size_t n;
+    FILE *f = open_memstream(&text, &n);
+    fl_scene_write(f, s);
+    fclose(f);
+    return text;
+}
+
+static void every_default_reads_back(void **state)
+{
+    fl_scene_output scratch; /* the largest section */
+    char why[400], text[FL_VALUE_TEXT], again[FL_VALUE_TEXT];
+    (void)state;
+    for (int k = 0; k < fl_key_count; k++) {
+        const fl_key *key = &fl_key_table[k];
+        assert_true(key->meaning && key->meaning[0]);
+        assert_true(fl_section_table[key->section].size <= sizeof scratch);
+        assert_int_equal(fl_key_find((int)key->section, key->key), k);
+        assert_true(k - fl_key_first((int)key->section) < FL_SCENE_KEYS);
+        assert_true(k == 0 || fl_key_table[k - 1].section <= key->section);
+        if (key->later) continue;
+        assert_true(key->at >= sizeof(fl_scene_head) && key->at < fl_section_table[key->section].size);
+        for (int steel = 0; steel < 2; steel++) {
+            const char *word = steel && key->steel ? key->steel : key->fallback;
+            memset(&scratch, 0, sizeof scratch);
+            if (fl_value_read(key, word, "", &scratch, why, sizeof why)) fail_msg("%s", why);
+            fl_value_text(key, &scratch, text);
+            if (fl_value_read(key, text, "", &scratch, why, sizeof why)) fail_msg("%s", why);
+            assert_string_equal(fl_value_text(key, &scratch, again), text);
+        }
+    }
+    for (int w = 0; w < fl_manual_count; w++)
+        assert_true(fl_key_find((int)fl_manual_table[w].section, fl_manual_table[w].key) >= 0);
+}
+
+static void the_least_scene_has_the_stated_defaults(void **state)
+{
+    fl_scene s;
+    (void)state;
+    good(&s, ICE);
+    assert_near(s.run.duration, 60.0, 0);
+    assert_near(s.run.dt, 0.0, 0);
+    assert_near(s.run.gravity.z, -9.81, 0);
+    assert_near(s.run.safety, 0.1, 0);
+    assert_near(s.output.state_every, s.output.loads_every, 0);
+    assert_near(s.output.until, s.run.duration, 0);
+    assert_string_equal(s.output.frames, "");
+    assert_true(s.ice.head.present);
+    assert_false(s.structure.head.present || s.water.head.present || s.wind.head.present);
+    assert_false(s.boundary.head.present || s.bond.head.present);
+    assert_int_equal(s.n_material, 2);
+    assert_near(s.material[fl_scene_find_material(&s, "ice")].density, 900.0, 0);
+    assert_near(s.material[fl_scene_find_material(&s, "steel")].young, 210e9, 0);
+    assert_near(s.material[fl_scene_find_material(&s, "steel")].friction, 0.15, 0);
+    fl_scene_free(&s);
+    fl_scene_free(&s); /* a freed scene is a zeroed one */
+}
+
+static void values_carry_units(void **state)
+{
+    static const struct {
+        const char *key, *text;
+        double si;
+    } row[] = {
+        {"material ice.young", "1.5 GPa", 1.5e9},
+        {"material ice.young", "900MPa", 9e8},
+        {"material ice.young", "1e9", 1e9},
+        {"material ice.young", "2 N/mm2", 2e6},
+        {"water.level", "50 mm", 0.05},
+        {"water.level", "-3 cm", -0.03},
+        {"run.duration", "10 min", 600.0},
+        {"run.duration", "2 h", 7200.0},
+        {"run.dt", "5e-5", 5e-5},
+        {"run.dt", "50 us", 5e-5},
+        {"contact ice ice.stiffness", "2 kN/m", 2000.0},
+        {"contact ice ice.friction", "12 %", 0.12},
+        {"material ice.density", "0.9 t/m3", 900.0},
+        {"water.density", "1.025 g/cm3", 1025.0},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++) {
+        char assignment[200];
+        double x;
+        fl_address at;
+        fl_scene s;
+        fl_err err = {0};
+        good(&s, ICE);
+        snprintf(assignment, sizeof assignment, " %s = %s ", row[k].key, row[k].text);
+        if (fl_scene_set(&s, assignment, &err)) fail_msg("%s", err.text);
+        assert_int_equal(fl_address_read(row[k].key, &at, err.text, sizeof err.text), 0);
+        memcpy(&x,
+               (char *)fl_section_at(&s, at.section, fl_section_named(&s, at.section, at.a, at.b)) +
+                   fl_key_table[at.key].at,
+               sizeof x);
+        assert_near(x, row[k].si, 0); /* the same double as the decimal number in SI */
+        fl_scene_free(&s);
+    }
+    double x = 5.0;
+    assert_int_equal(fl_unit_convert(FL_UNIT_ANGLE, "deg", &x), 0);
+    assert_near(x, 5.0, 0); /* angles are kept in degrees */
+    assert_int_equal(fl_unit_convert(FL_UNIT_ANGLE, "rad", &x), 0);
+    assert_near(x, 286.47889756541160, 1e-15);
+    assert_int_equal(fl_unit_convert(FL_UNIT_ANGLE, "m", &x), -1);
+}
+
+static void vectors_take_one_number_or_three(void **state)
+{
+    fl_scene s;
+    (void)state;
+    good(&s, ICE "[run]\ngravity = 1 2 -3\n[water]\ncurrent = 50 cm/s\n"
+                 "[boundary]\nmin = -50 mm none 1\nmax = 1 none 2 km\n");
+    assert_near(s.run.gravity.y, 2.0, 0);
+    assert_near(s.run.gravity.z, -3.0, 0);
+    assert_near(s.water.current.x, 0.5, 0);
+    assert_near(s.water.current.y, 0.0, 0);
+    assert_near(s.boundary.min.x, -0.05, 0);
+    assert_near(s.boundary.min.z, 1.0, 0);
+    assert_near(s.boundary.max.x, 1000.0, 0); /* a unit holds for all numbers before it without one */
+    assert_near(s.boundary.max.z, 2000.0, 0);
+    assert_true(isinf(s.boundary.min.y) && s.boundary.min.y < 0 && isinf(s.boundary.max.y));
+    fl_scene_free(&s);
+}
+
+static void grammar_is_as_scene_5_says(void **state)
+{
+    char text[4000], folder[600];
+    fl_scene s;
+    (void)state;
+    /* byte order mark, CRLF, comments, blanks, a section opened twice, # inside a word, no newline at the end */
+    good(&s, "\xEF\xBB\xBF#scene 1\r\n; c\r\n[ run ] # c\r\n  duration=5 s ; c\r\n\r\n[ice]\r\nfile = "
+             "a#b.dat\r\n[run]\r\n"
+             "dt\t=\t1 ms");
+    assert_near(s.run.duration, 5.0, 0);
+    assert_near(s.run.dt, 1e-3, 0);
+    assert_string_equal(strrchr(s.ice.file, '/'), "/a#b.dat");
+    fl_scene_free(&s);
+    /* values longer than the packaged parser's line */
+    memset(folder, 'd', 500);
+    folder[500] = '\0';
+    snprintf(text, sizeof text, "[ice]\nfile = /%s/ice = cold.dat   # comment\n", folder);
+    good(&s, text);
+    assert_int_equal(strlen(s.ice.file), 500 + 16);
+    assert_string_equal(s.ice.file + 501, "/ice = cold.dat");
+    fl_scene_free(&s);
+    /* paths start from the scene's folder */
+    good(&s, "[ice]\nfile = sub/ice.dat\n[output]\nstate = /abs/state.dat\nframes=none\n");
+    assert_string_equal(s.ice.file + strlen(s.ice.file) - 12, "/sub/ice.dat");
+    assert_true(s.ice.file[0] == '/');
+    assert_string_equal(s.output.state, "/abs/state.dat");
+    assert_string_equal(s.output.frames, "");
+    fl_scene_free(&s);
+}
+
+static void words_of_the_manual_are_read_bare(void **state)
+{
+    fl_scene s;
+    (void)state;
+    good(&s,
+         "expperiment duration\t120\ngravity 9.8\nnproc = 4\nndtsrc 10\ndtoutInfo "
+         "0.1\ndtoutAni=2\ndtoutAni_draw 4\n"
+         "dtoutfile 100\noutput file number 3\nrestitution 0.4\nmus 0.2\nmubed 0.1\nstructvelx "
+         "0.1\nstructvely=-0.2\n"
+         "structvelz 0\nbound_type 1\nwaterdepth 20\nwatervel 0.5\nwindvel 6\nisbonding 0\nn_strength 6e5\n"
+         "t_strength 5e5\n" ICE "[structure]\nfile=s\n[boundary]\nmin = 0 0 none\n");
+    assert_near(s.run.duration, 120.0, 0);
+    assert_near(s.run.gravity.z, -9.8, 0);
+    assert_int_equal(s.run.threads, 4);
+    assert_int_equal(s.run.search_every, 10);
+    assert_near(s.output.loads_every, 0.1, 0);
+    assert_near(s.output.frames_every, 2.0, 0);
+    assert_near(s.output.ice_every, 4.0, 0);
+    assert_near(s.output.until, 100.0, 0);
+    assert_int_equal(s.output.files, 3);
+    assert_near(s.material[fl_scene_find_material(&s, "ice")].restitution, 0.4, 0);
+    assert_near(s.material[fl_scene_find_material(&s, "ice")].friction, 0.2, 0);
+    assert_near(s.structure.friction, 0.1, 0);
+    assert_near(s.structure.velocity.x, 0.1, 0);
+    assert_near(s.structure.velocity.y, -0.2, 0);
+    assert_int_equal(s.boundary.type, FL_BOUND_RIGID);
+    assert_near(s.water.depth, 20.0, 0);
+    assert_near(s.water.current.x, 0.5, 0);
+    assert_near(s.wind.velocity.x, 0.836 * 6 * sqrt(6), 1e-15); /* 12.3 m/s at Beaufort 6 */
+    assert_int_equal(s.bond.on, 0);
+    assert_near(s.bond.normal_strength, 6e5, 0);
+    assert_near(s.bond.shear_strength, 5e5, 0);
+    fl_scene_free(&s);
+    refused("bound_type 5\n" ICE,
+            ":1: bound_type is \"5\", 1 (rigid), 2 (elastic), 3 (periodic) or 4 (free) was wanted");
+    refused("bound_type 3\n" ICE, ":1: boundary.type = periodic is not supported by this version");
+    refused("windvel 18\n" ICE, ":1: windvel is \"18\", a Beaufort number from 0 to 17 was wanted");
+    refused("isbonding 1\n" ICE, ":1: bond.on = true is not supported by this version");
+    refused("\ngravitiy 9\n" ICE,
+            ":2: \"gravitiy\" before the first section is not a word of the manual, nearest is \"gravity\"");
+    refused("output file numbers = 9\n" ICE,
+            ":1: \"output file numbers\" before the first section is not a word of "
+            "the manual, nearest is \"output file number\"");
+    refused("structvelx 1\nstructvely 1\nstructvelx 2\n" ICE,
+            ":3: structure.velocity was given on line 2 already");
+    refused("gravity\n" ICE, ":1: run.gravity has no value");
+}
+
+static void each_complaint_names_file_and_line(void **state)
+{
+    (void)state;
+    refused("[run]\nduration = abc\n" ICE,
+            ":2: run.duration is \"abc\", a number in s was wanted (units: s ms us min h)");
+    refused("[run]\nduration = 5 m\n" ICE,
+            ":2: run.duration has the unit \"m\", one of s ms us min h was wanted");
+    refused("[run]\nduration = -1 s\n" ICE, ":2: run.duration is -1 s, a value above 0 s was wanted");
+    refused("[run]\nduration = nan\n" ICE,
+            ":2: run.duration is \"nan\", a number in s was wanted (units: s ms us min h)");
+    refused("[run]\nduration = 1e999\n" ICE,
+            ":2: run.duration is \"1e999\", a number in s was wanted (units: s ms us min h)");
+    refused("[run]\nduration = 1 2\n" ICE,
+            ":2: run.duration is \"1 2\", a number in s was wanted (units: s ms us min h)");
+    refused("[run]\nduration = 1 s s\n" ICE,
+            ":2: run.duration is \"1 s s\", a number in s was wanted (units: s ms us min h)");
+    refused("[run]\nduration = 2,5\n" ICE,
+            ":2: run.duration is \"2,5\", a decimal point and blanks were wanted, not a comma");
+    refused("[run]\nduration =\n" ICE, ":2: run.duration has no value");
+    refused("[run]\nduration 5\n" ICE, ":2: \"duration 5\" is no section and no key = value");
+    refused("[run]\n= 5\n" ICE, ":2: no key stands before =");
+    refused("[run\nduration = 5\n" ICE, ":1: \"[run\" lacks the ] of a section");
+    refused("[run] duration = 5\n" ICE, ":1: \" duration = 5\" behind a section was not expected");
+    refused("[run]\ndurration = 5\n" ICE, ":2: unknown key \"durration\" in [run], nearest is \"duration\"");
+    refused("[watter]\n" ICE, ":1: unknown section [watter], nearest is [water]");
+    refused("[]\n" ICE, ":1: unknown section [], nearest is [run]");
+    refused("[water deep]\n" ICE, ":1: [water deep] has 1 name, [water] was wanted");
+    refused("[material]\n" ICE, ":1: [material] has 0 names, [material NAME] was wanted");
+    refused("[contact ice]\n" ICE, ":1: [contact ice] has 1 name, [contact A B] was wanted");
+    refused("[group a/b]\n" ICE,
+            ":1: \"a/b\" cannot be a name: letters, digits, _ + -, at most 47 characters");
+    refused("[material structure]\n" ICE,
+            ":1: a material cannot be called \"structure\": that word names a place in [contact A B]");
+    refused("[run]\ndt = 1\n\n[run]\ndt = 2\n" ICE, ":5: run.dt was given on line 2 already");
+    refused("gravity 9\n[run]\ngravity = 9\n" ICE, ":3: run.gravity was given on line 1 already");
+    refused("#scene 2\n" ICE, ":1: scene version 2 is newer than this program, which reads up to 1");
+    refused("[run]\nerror = 0.1\n" ICE, ":2: run.error is not supported by this version");
+    refused("[run]\nthreads = 2.5\n" ICE,
+            ":2: run.threads is \"2.5\", a whole number from 1 to 1024 was wanted");
+    refused(
+        "[run]\ngravity = -9.81\n" ICE,
+        ":2: run.gravity is -9.81: one number is the size of a downward vector and cannot be negative, three "
+        "give another direction");
+    refused("[run]\ngravity = 1 2\n" ICE,
+            ":2: run.gravity is \"1 2\", one number or three in m/s2 were wanted (units: "
+            "m/s2 m/s^2)");
+    refused("[material ice]\npoisson = 0.5\n" ICE,
+            ":2: material.poisson is 0.5, a value at least 0 and below 0.5 was wanted");
+    refused("[contact]\nlaw = pach\n" ICE,
+            ":2: contact.law is \"pach\", one of patch manual manual-si core was wanted, nearest is patch");
+    refused("[contact]\nexponent = 2\n" ICE,
+            ":2: contact.exponent is \"2\", one of 1 1.5 was wanted, nearest is 1");
+    refused("[group a]\nfixed = x x\n" ICE,
+            ":2: group.fixed is \"x x\", none or some of x y z rx ry rz, each once, was wanted");
+    refused(
+        "[ice]\nmaterial = a b\n",
+        ":2: ice.material is \"a b\", a name of letters, digits, _ + - and at most 47 characters was wanted");
+    refused("include =\n" ICE, ":1: include wants the name of a file");
+    refused("include = -\n" ICE, ":1: include wants the name of a file");
+}
+
+static void parts_are_held_against_each_other(void **state)
+{
+    (void)state;
+    refused("[run]\nduration = 5\n", ": the scene has no ice: [ice] file = FILE, or --ice FILE, was wanted");
+    refused("", ": the scene has no ice: [ice] file = FILE, or --ice FILE, was wanted");
+    refused("\n[ice]\nshape = round\n",
+            ":2: the scene has no ice: [ice] file = FILE, or --ice FILE, was wanted");
+    refused(ICE "[structure]\n", ":3: [structure] has no file: file = FILE, or --structure FILE, was wanted");
+    refused("[ice]\nfile = -\n[structure]\nfile = -\n",
+            ":2: standard input can be only one of scene, ice and structure");
+    refused(ICE "material = cheese\n", ":3: there is no [material cheese]");
+    refused(ICE "[structure]\nfile = s\nmaterial = cheese\n", ":5: there is no [material cheese]");
+    refused(ICE "[contact ice cheese]\n", ":3: there is no [material cheese]");
+    refused(ICE "[contact structure boundary]\n",
+            ":3: [contact structure boundary] names no material: structure and boundary never touch");
+    refused(ICE "[contact]\nliteral18 = true\n", ":4: literal18 bears on law = manual and manual-si alone");
+    refused(ICE "[run]\nduration = 1\ndt = 2\n", ":5: run.dt is 2 s, at most the duration, 1 s, was wanted");
+    refused(ICE "[output]\nstate = -\n",
+            ":4: output.state is \"-\", and standard output carries the loads: a file was wanted");
+    refused(ICE "[output]\nstate = /a\nenergy = /a\n",
+            ":5: output.energy is \"/a\", which is output.state already");
+    refused("[ice]\nfile = /a\n[output]\nstate = /a\n", ":4: output.state is \"/a\", which is an input");
+    refused(ICE "[boundary]\nmin = 0 0 0\nmax = 1 0 1\n",
+            ":5: boundary.max of y is 0 m, more than its min, 0 m, was wanted");
+    refused(ICE "[boundary]\n",
+            ":3: a rigid boundary has no bounds: boundary.min or boundary.max was wanted");
+    refused(ICE "[group a]\nfixed = x\nvelocity = 0 1 0\n",
+            ":5: group.velocity along y is 1 m/s, and y is not among the fixed directions");
+}
+
+static void set_overrules_the_file(void **state)
+{
+    fl_scene s;
+    fl_err err = {0};
+    (void)state;
+    good(&s, ICE "[run]\nduration = 5\n");
+    assert_int_equal(fl_scene_set(&s, "run.duration=1 min", &err), 0);
+    assert_int_equal(fl_scene_set(&s, "run.duration = 2 min", &err), 0);
+    assert_int_equal(fl_scene_set(&s, "contact.ice.ice.friction=0.5", &err), 0);
+    assert_int_equal(fl_scene_set(&s, "material snow.density=300", &err), 0);
+    assert_int_equal(fl_scene_set(&s, "water.density=1000", &err), 0);
+    assert_int_equal(fl_scene_set(&s, "output.state=here.dat", &err), 0);
+    assert_int_equal(fl_scene_set(&s, "output.loads_every=0.5", &err), 0);
+    assert_int_equal(fl_scene_set(&s, "output.energy_every=auto", &err), 0);
+    assert_int_equal(fl_scene_check(&s, &err), 0);
+    assert_near(s.run.duration, 120.0, 0);
+    assert_near(s.output.until, 120.0, 0);
+    assert_near(s.output.state_every, 0.5, 0);
+    assert_near(s.output.energy_every, 0.5, 0);
+    assert_near(fl_scene_pair(&s, 0, 0).friction, s.material[0].name[0] == 'i' ? 0.5 : 0.3, 0);
+    assert_true(fl_scene_find_material(&s, "snow") >= 0);
+    assert_true(s.water.head.present);
+    assert_string_equal(s.output.state, "here.dat"); /* from the working folder */
+    fl_scene_free(&s);
+    set_refused("run.duration", "--set: \"run.duration\" is not section.key=value");
+    set_refused("run=5", "--set: \"run\" is a section, section.key=value was wanted");
+    set_refused("runn.dt=5", "--set: unknown section [runn], nearest is [run]");
+    set_refused("run.dtt=5", "--set: unknown key \"dtt\" in [run], nearest is \"dt\"");
+    set_refused("run.dt=", "--set: run.dt has no value");
+    set_refused("run.dt=1 h", "--set: run.dt is 3600 s, at most the duration, 60 s, was wanted");
+    set_refused("material.young=5", "--set: [material] has 0 names, [material NAME] was wanted");
+    set_refused("group.a.velocity=1 0 0",
+                "--set: group.velocity along x is 1 m/s, and x is not among the fixed directions");
+}
+
+static void a_failed_set_changes_nothing(void **state)
+{
+    fl_scene s;
+    fl_err err = {0};
+    char *before, *after;
+    (void)state;
+    good(&s, ICE);
+    before = written(&s);
+    assert_int_equal(fl_scene_set(&s, "material.snow.density=-1", &err), -1);
+    assert_int_equal(fl_scene_set(&s, "water.density=heavy", &err), -1);
+    after = written(&s);
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+    fl_scene_free(&s);
+}
+
+static void pairs_take_the_nearest_word(void **state)
+{
+    fl_scene s;
+    fl_scene_contact c;
+    int32_t ice, snow;
+    (void)state;
+    good(&s, ICE
+         "[structure]\nfile = s\n[boundary]\nmin = 0 0 0\nstiffness = 3e6\n[material snow]\nfriction = 0.6\n"
+         "restitution = 0.1\n");
+    ice = fl_scene_find_material(&s, "ice");
+    snow = fl_scene_find_material(&s, "snow");
+    assert_near(fl_scene_pair(&s, ice, ice).friction, 0.3, 0);
+    assert_near(fl_scene_pair(&s, ice, snow).restitution, 0.1, 0);
+    assert_near(fl_scene_pair(&s, snow, FL_SCENE_STRUCTURE).friction, 0.15, 0);
+    assert_near(fl_scene_pair(&s, snow, FL_SCENE_BOUNDARY).friction, 0.6, 0);
+    assert_near(fl_scene_pair(&s, snow, FL_SCENE_BOUNDARY).stiffness, 3e6, 0);
+    assert_int_equal(fl_scene_pair(&s, ice, ice).law, FL_LAW_PATCH);
+    assert_near(fl_scene_pair(&s, ice, ice).tangential, 0.824, 0);
+    assert_true(fl_scene_pair(&s, ice, ice).damping < 0);
+    fl_scene_free(&s);
+
+    good(&s, ICE
+         "[structure]\nfile = s\nfriction = 0.4\n[contact]\nlaw = core\nfriction = 0.9\nrestitution = 0.7\n"
+         "[contact steel ice]\nlaw = manual\nstiffness = 5 kN/m\n[contact ice structure]\nstiffness = auto\n"
+         "damping = 2\n[contact boundary ice]\nrestitution = 0\n");
+    ice = fl_scene_find_material(&s, "ice");
+    c = fl_scene_pair(&s, ice, FL_SCENE_STRUCTURE);
+    assert_near(c.friction, 0.4, 0);        /* [structure] over [contact] */
+    assert_near(c.restitution, 0.7, 0);     /* [contact] over the materials */
+    assert_int_equal(c.law, FL_LAW_MANUAL); /* the structure's material */
+    assert_near(c.stiffness, 5000.0, 0);    /* auto gives the word on */
+    assert_near(c.damping, 2.0, 0);
+    assert_string_equal(c.b, "structure");
+    assert_int_equal(fl_scene_pair(&s, ice, ice).law, FL_LAW_CORE);
+    assert_near(fl_scene_pair(&s, ice, FL_SCENE_BOUNDARY).restitution, 0.0, 0);
+    assert_near(fl_scene_pair(&s, ice, FL_SCENE_BOUNDARY).friction, 0.9, 0);
+    fl_scene_free(&s);
+}
+
+static void included_files_are_overruled_by_the_scene(void **state)
+{
+    static const char materials[] =
+        "[material snow]\ndensity = 400\nyoung = 10 MPa\n[ice]\nmaterial = snow\n";
+    char text[1000];
+    fl_scene s;
+    fl_err err = {0};
+    const char *name;
+    (void)state;
+    name = strrchr(test_file("mat.scene", materials, strlen(materials)), '/') + 1;
+    snprintf(text, sizeof text, "include = %s\n" ICE "[material snow]\ndensity = 350\n", name);
+    good(&s, text);
+    assert_near(s.material[fl_scene_find_material(&s, "snow")].density, 350.0, 0);
+    assert_near(s.material[fl_scene_find_material(&s, "snow")].young, 1e7, 0);
+    assert_string_equal(s.ice.material, "snow");
+    assert_int_equal(s.n_file, 2);
+    fl_scene_free(&s);
+    /* a loop is an include in an included file */
+    snprintf(text, sizeof text, "include %s\n" ICE, name);
+    test_file("mat.scene", text, strlen(text));
+    assert_int_equal(load(&s, text, &err), -1);
+    assert_non_null(strstr(err.text,
+                           "mat.scene:1: include stands in a file that is itself included, one level was "
+                           "wanted"));
+    /* the same key from two included files */
+    test_file("mat.scene", materials, strlen(materials));
+    snprintf(text, sizeof text, "include %s\ninclude %s\n" ICE, name, name);
+    assert_int_equal(load(&s, text, &err), -1);
+    assert_non_null(strstr(err.text, "mat.scene:2: material.density was given on line 2 of"));
+    /* a file that is not there */
+    assert_int_equal(load(&s, "include nowhere.scene\n" ICE, &err), -1);
+    assert_non_null(strstr(err.text, "nowhere.scene: No such file"));
+    assert_int_equal(err.code, FL_INPUT);
+}
+
+static void what_is_written_reads_back(void **state)
+{
+    fl_scene s, t;
+    fl_err err = {0};
+    char *first, *second;
+    (void)state;
+    good(&s,
+         ICE "[structure]\nfile = s\n[contact ice structure]\nfriction = 0.1\n[group tug]\nfixed = x "
+             "rz\nvelocity = "
+             "0.3 0 0\n[water]\n[wind]\n[bond]\n[boundary]\ntype = free\nmax = 1 none 3\n[material snow]\n");
+    first = written(&s);
+    t = (fl_scene){0};
+    if (fl_scene_read(&t, test_file("echo.scene", first, strlen(first)), &err)) fail_msg("%s", err.text);
+    assert_int_equal(fl_scene_check(&t, &err), 0);
+    second = written(&t);
+    assert_string_equal(first, second);
+    free(first);
+    free(second);
+    fl_scene_free(&s);
+    fl_scene_free(&t);
+}
+
+static char *explained(const char *key, fl_err *err, int *rc)
+{
+    char *text = NULL;
+    size_t n;
+    FILE *f = open_memstream(&text, &n);
+    *err = (fl_err){0};
+    *rc = fl_scene_explain(f, key, err);
+    fclose(f);
+    return text;
+}
+
+static void explain_tells_all_there_is(void **state)
+{
+    fl_err err;
+    int rc;
+    char *text = explained("water.density", &err, &rc);
+    (void)state;
+    assert_int_equal(rc, 0);
+    assert_string_equal(
+        text, "water.density: mass per volume of the water\n"
+              "  value    a number in kg/m3 (units: kg/m3 kg/m^3 t/m3 t/m^3 g/cm3 g/cm^3), above 0\n"
+              "  default  1025 kg/m3\n"
+              "  source   sea water 1005 to 1035\n");
+    free(text);
+    text = explained("material.friction", &err, &rc);
+    assert_non_null(strstr(text, "  default  0.3 (steel: 0.15)\n  manual   mus\n"));
+    free(text);
+    text = explained("material ice.friction", &err, &rc);
+    assert_int_equal(rc, 0);
+    free(text);
+    text = explained("run.error", &err, &rc);
+    assert_non_null(strstr(text, "not supported by this version"));
+    free(text);
+    for (int s = 0; s < FL_SECTIONS; s++) {
+        text = explained(fl_section_table[s].name, &err, &rc);
+        assert_int_equal(rc, 0);
+        for (int k = fl_key_first(s); k < fl_key_first(s + 1); k++)
+            assert_non_null(strstr(text, fl_key_table[k].key));
+        free(text);
+    }
+    free(explained("watr.density", &err, &rc));
+    assert_int_equal(rc, -1);
+    assert_string_equal(err.text, "unknown section [watr], nearest is [water]");
+    free(explained("water.dansity", &err, &rc));
+    assert_string_equal(err.text, "unknown key \"dansity\" in [water], nearest is \"density\"");
+    assert_int_equal(err.code, FL_USAGE);
+}
+
+/* scene(5) is the specification: every section, key, choice, word of the manual and default stands in it. */
+static void the_manual_page_lists_every_key(void **state)
+{
+    static char page[200000];
+    FILE *f = fopen("share/man5/scene.5", "r");
+    size_t n;
+    (void)state;
+    assert_non_null(f);
+    n = fread(page, 1, sizeof page - 1, f);
+    fclose(f);
+    page[n] = '\0';
+    for (int k = 0; k < fl_key_count; k++) {
+        const fl_key *key = &fl_key_table[k];
+        char heading[100], entry[100];
+        const char *from, *to, *at;
+        snprintf(heading, sizeof heading, ".Ss %s\n", fl_section_table[key->section].form);
+        from = strstr(page, heading);
+        if (!from) fail_msg("scene.5 lacks the line %s", heading);
+        to = strstr(from + 1, "\n.S");
+        if (key->later) snprintf(entry, sizeof entry, "\n.It Cm %s\n", key->key);
+        else snprintf(entry, sizeof entry, "\n.It Cm %s , No default %s\n", key->key, key->fallback);
+        at = strstr(from, entry);
+        if (!at || (to && at > to)) fail_msg("under %s scene.5 lacks the line %s", heading, entry + 1);
+    }
+    for (int w = 0; w < fl_manual_count; w++) {
+        char entry[100];
+        snprintf(entry, sizeof entry, "\n.It Cm %s\n", fl_manual_table[w].word);
+        if (!strstr(page, entry)) fail_msg("scene.5 lacks the word %s", fl_manual_table[w].word);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_default_reads_back),
+        cmocka_unit_test(the_least_scene_has_the_stated_defaults),
+        cmocka_unit_test(values_carry_units),
+        cmocka_unit_test(vectors_take_one_number_or_three),
+        cmocka_unit_test(grammar_is_as_scene_5_says),
+        cmocka_unit_test(words_of_the_manual_are_read_bare),
+        cmocka_unit_test(each_complaint_names_file_and_line),
+        cmocka_unit_test(parts_are_held_against_each_other),
+        cmocka_unit_test(set_overrules_the_file),
+        cmocka_unit_test(a_failed_set_changes_nothing),
+        cmocka_unit_test(pairs_take_the_nearest_word),
+        cmocka_unit_test(included_files_are_overruled_by_the_scene),
+        cmocka_unit_test(what_is_written_reads_back),
+        cmocka_unit_test(explain_tells_all_there_is),
+        cmocka_unit_test(the_manual_page_lists_every_key),
+    };
+    return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
+}
