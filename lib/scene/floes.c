@@ -119,27 +119,42 @@ static int32_t core_of(const fl_side *line, unsigned char *state, int32_t m, dou
     return k;
 }
 
+/* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were cut
+ * after it and took of its length; a quarter may go before it is cut again. */
+static int32_t find_short(const unsigned char *state, int32_t n, const fl_side *left, const fl_vec2 *corner,
+                          double rho)
+{
+    int32_t at = -1;
+    double least = INFINITY;
+    for (int32_t k = 0; k < n; k++) {
+        const fl_side a = left[k ? k - 1 : n - 1], b = left[k + 1 < n ? k + 1 : 0];
+        const double limit =
+            state[left[k].tag] & FIXED ? 0.75 * least_side(a, left[k], b, rho) : FL_FLOES_SHORT * rho;
+        const double l = length(corner, k, n);
+        if (l < limit && l < least) {
+            least = l;
+            at = k;
+        }
+    }
+    return at;
+}
+
 /* One short side: drop it, cut it deeper, or leave it for good.  Returns 0 when there was none. */
 static int mend_short(const fl_side *cell, int32_t m, fl_side *line, unsigned char *state, int32_t n,
                       const fl_side *left, const fl_vec2 *corner, double d, double radius, double rho)
 {
-    int32_t at = -1, e, worst = 0;
-    double least = FL_FLOES_SHORT * rho;
+    const int32_t at = find_short(state, n, left, corner, rho);
+    int32_t e, worst = 0;
     fl_side a, b;
-    for (int32_t k = 0; k < n; k++) {
-        if (!(state[left[k].tag] & FIXED) && length(corner, k, n) < least) {
-            least = length(corner, k, n);
-            at = k;
-        }
-    }
     if (at < 0) return 0;
     e = left[at].tag;
     a = left[at ? at - 1 : n - 1];
     b = left[at + 1 < n ? at + 1 : 0];
-    if (n <= 3 || fl_side_sin(a, b) <= 0.0) state[e] |= FIXED; /* wide as it is, it only looks short */
-    else if (beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0) state[e] &= (unsigned char)~KEPT;
-    else if (least < least_side(a, left[at], b, rho)) cut_corner(line, state, e, a, b, d + radius, rho);
-    else state[e] |= FIXED;
+    if (n > 3 && fl_side_sin(a, b) > 0.0 && beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
+        state[e] &= (unsigned char)~KEPT;
+    else if (fl_side_sin(a, b) > 0.0 && length(corner, at, n) < least_side(a, left[at], b, rho))
+        cut_corner(line, state, e, a, b, d + radius, rho);
+    else state[e] |= FIXED; /* it stays as it is; between sides that open outward it only looks short */
     return 1;
 }
 
