@@ -8,14 +8,23 @@ int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
     const struct {
         void *array;
         size_t size;
-    } want[] = {{&b->x, sizeof *b->x},         {&b->v, sizeof *b->v},
-                {&b->L, sizeof *b->L},         {&b->q, sizeof *b->q},
-                {&b->R, sizeof *b->R},         {&b->w, sizeof *b->w},
-                {&b->f, sizeof *b->f},         {&b->t, sizeof *b->t},
-                {&b->m, sizeof *b->m},         {&b->invm, sizeof *b->invm},
-                {&b->I, sizeof *b->I},         {&b->radius, sizeof *b->radius},
-                {&b->bound, sizeof *b->bound}, {&b->core, sizeof *b->core},
-                {&b->hold, sizeof *b->hold},   {&b->odometer, sizeof *b->odometer}};
+    } want[] = {{&b->x, sizeof *b->x},
+                {&b->v, sizeof *b->v},
+                {&b->L, sizeof *b->L},
+                {&b->q, sizeof *b->q},
+                {&b->R, sizeof *b->R},
+                {&b->w, sizeof *b->w},
+                {&b->f, sizeof *b->f},
+                {&b->t, sizeof *b->t},
+                {&b->m, sizeof *b->m},
+                {&b->invm, sizeof *b->invm},
+                {&b->I, sizeof *b->I},
+                {&b->radius, sizeof *b->radius},
+                {&b->bound, sizeof *b->bound},
+                {&b->core, sizeof *b->core},
+                {&b->hold, sizeof *b->hold},
+                {&b->held, sizeof *b->held},
+                {&b->odometer, sizeof *b->odometer}};
     for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
         void *p = fl_alloc(total, want[k].size, err);
         if (!p) {
@@ -37,7 +46,7 @@ void fl_bodies_free(fl_bodies *b)
     for (int32_t i = 0; b->core && i < b->total; i++) fl_poly_free(&b->core[i]);
     free(b->x), free(b->v), free(b->L), free(b->q), free(b->R), free(b->w), free(b->f), free(b->t);
     free(b->m), free(b->invm), free(b->I), free(b->radius), free(b->bound), free(b->core), free(b->hold);
-    free(b->odometer);
+    free(b->odometer), free(b->held);
     *b = (fl_bodies){0};
 }
 

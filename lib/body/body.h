@@ -35,6 +35,7 @@ typedef struct {
     double *bound;    /* farthest core vertex from x       [m]       */
     fl_poly *core;    /* in the body frame                           */
     uint8_t *hold;    /* FL_HOLD_X | ...                             */
+    double *held;     /* work done by what holds the body so far [J] */
     double *odometer; /* path no point of the core exceeds: sum of (|v| + |w| bound) dt  [m] */
 } fl_bodies;
 
@@ -53,6 +54,12 @@ static inline fl_vec3 fl_body_turn(const fl_bodies *b, int32_t i, fl_vec3 t)
 {
     const fl_vec3 s = m3_tmul(b->R[i], t), I = b->I[i];
     return m3_mul(b->R[i], v3(s.x / I.x, s.y / I.y, s.z / I.z));
+}
+
+/* Kinetic energy [J]. */
+static inline double fl_body_kinetic(const fl_bodies *b, int32_t i)
+{
+    return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + v3_dot(b->w[i], b->L[i]));
 }
 
 /* Velocity of the material point at world position offset a from the centre of mass. */

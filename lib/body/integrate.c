@@ -23,8 +23,8 @@ void fl_kick(fl_bodies *b, double h)
         const fl_vec3 v0 = b->v[i], w0 = b->w[i];
         b->v[i] = v3_madd(v0, h * b->invm[i], b->f[i]);
         b->L[i] = v3_madd(b->L[i], h, b->t[i]);
+        b->w[i] = fl_body_turn(b, i, b->L[i]);
         if (b->hold[i]) fl_hold(b, i, v0, w0);
-        else b->w[i] = fl_body_turn(b, i, b->L[i]);
     }
 }
 
@@ -61,21 +61,11 @@ static void solve_spd(int k, double a[3][3], const double *y, double *x)
     }
 }
 
-static double component(fl_vec3 a, int k)
-{
-    return k == 0 ? a.x : k == 1 ? a.y : a.z;
-}
+static double component(fl_vec3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
-void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
+/* The turning part: w of the held axes given, of the free ones from what is left of L. */
+static void hold_turn(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
 {
-    const unsigned hold = b->hold[i];
-    if (hold & FL_HOLD_X) b->v[i].x = v_held.x;
-    if (hold & FL_HOLD_Y) b->v[i].y = v_held.y;
-    if (hold & FL_HOLD_Z) b->v[i].z = v_held.z;
-    if (!(hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ))) {
-        b->w[i] = fl_body_turn(b, i, b->L[i]);
-        return;
-    }
     double Iw[3][3], a[3][3], y[3], s[3], w[3];
     int free_axis[3], k = 0;
     for (int r = 0; r < 3; r++) {
@@ -94,4 +84,15 @@ void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
     solve_spd(k, a, y, s);
     for (int r = 0; r < k; r++) w[free_axis[r]] = s[r];
     fl_body_spin(b, i, v3(w[0], w[1], w[2]));
+}
+
+void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
+{
+    const unsigned hold = b->hold[i];
+    b->held[i] -= fl_body_kinetic(b, i);
+    if (hold & FL_HOLD_X) b->v[i].x = v_held.x;
+    if (hold & FL_HOLD_Y) b->v[i].y = v_held.y;
+    if (hold & FL_HOLD_Z) b->v[i].z = v_held.z;
+    if (hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) hold_turn(b, i, hold, w_held);
+    b->held[i] += fl_body_kinetic(b, i);
 }

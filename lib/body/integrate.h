@@ -23,7 +23,8 @@ void fl_drift(fl_bodies *b, double dt);
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
 
 /* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
- * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w. */
+ * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w.
+ * w must belong to L before.  The change of kinetic energy goes to held[i]. */
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held);
 
 #endif

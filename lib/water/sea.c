@@ -10,9 +10,12 @@ int fl_sea_alloc(fl_sea *s, int32_t n, fl_err *err)
     s->reach = fl_alloc(n, sizeof *s->reach, err);
     s->wetted = fl_alloc(n, sizeof *s->wetted, err);
     s->energy = fl_alloc(n, sizeof *s->energy, err);
+    s->lift = fl_alloc(n, sizeof *s->lift, err);
     s->drained = fl_alloc(n, sizeof *s->drained, err);
     s->blown = fl_alloc(n, sizeof *s->blown, err);
-    return s->outer && s->hull && s->reach && s->wetted && s->energy && s->drained && s->blown ? 0 : -1;
+    return s->outer && s->hull && s->reach && s->wetted && s->energy && s->lift && s->drained && s->blown
+               ? 0
+               : -1;
 }
 
 void fl_sea_free(fl_sea *s)
@@ -21,7 +24,7 @@ void fl_sea_free(fl_sea *s)
         if (s->hull) fl_hull_free(&s->hull[i]);
         if (s->outer) fl_poly_free(&s->outer[i]);
     }
-    free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->energy);
+    free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->lift), free(s->energy);
     free(s->drained), free(s->blown);
     *s = (fl_sea){0};
 }
@@ -35,20 +38,16 @@ void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
     fl_buoyancy(&s->hull[i], up, level, &wet);
     s->wetted[i] = wet.wetted;
     s->energy[i] = fl_buoyancy_force(&wet, up, level, s->weight, &f, &t);
-    b->f[i].z += s->weight * wet.volume; /* R up is e_z */
+    s->lift[i] = s->weight * wet.volume;
+    b->f[i].z += s->lift[i]; /* R up is e_z */
     b->t[i] = v3_add(b->t[i], m3_mul(b->R[i], t));
-}
-
-static double kinetic(const fl_bodies *b, int32_t i)
-{
-    return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + v3_dot(b->w[i], b->L[i]));
 }
 
 /* Decay of body i in a fluid that goes by with velocity c; returns the work done on the body. */
 static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach, fl_vec3 c,
                     double h)
 {
-    const double before = kinetic(b, i);
+    const double before = fl_body_kinetic(b, i);
     const fl_vec3 u = v3_sub(b->v[i], c), v0 = b->v[i], w0 = b->w[i];
     const double speed = v3_norm(u), spin2 = v3_norm2(b->w[i]);
     const double factor = fl_drag_factor(fl_drag_kappa_force(fluid, area, b->m[i]), speed, h);
@@ -60,8 +59,9 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
         b->L[i] = v3_scale(turn, b->L[i]);
         b->w[i] = v3_scale(turn, b->w[i]);
     }
+    const double work = fl_body_kinetic(b, i) - before;
     if (b->hold[i]) fl_hold(b, i, v0, w0);
-    return kinetic(b, i) - before;
+    return work;
 }
 
 void fl_sea_drag(fl_sea *s, fl_bodies *b, double h, double t)

@@ -18,6 +18,7 @@ typedef struct {
     fl_hull *hull;   /* [n]                                  */
     double *reach;   /* [n] r_eff of equation (9)     [m]    */
     double *wetted;  /* [n] at the last fl_sea_force() [m2]  */
+    double *lift;    /* [n] buoyancy, at the last fl_sea_force() [N] */
     double *energy;  /* [n] hydrostatic, at the last fl_sea_force() [J] */
     double *drained; /* [n] work that drag of the water has taken out [J] */
     double *blown;   /* [n] work that the wind has put in    [J] */

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "law/damping.h"
+#include "law/material.h"
+#include "step/pairing.h"
+
+static fl_elastic elastic_of(const fl_scene *s, int32_t material)
+{
+    if (material == FL_SCENE_BOUNDARY) return (fl_elastic){INFINITY, 0.0};
+    if (material == FL_SCENE_STRUCTURE) material = fl_scene_find_material(s, s->structure.material);
+    return (fl_elastic){s->material[material].young, s->material[material].poisson};
+}
+
+/* Column of the law table for the partner's material. */
+static int32_t column(const fl_world *w, int32_t material)
+{
+    return material >= 0 ? material : material == FL_SCENE_STRUCTURE ? w->materials : w->materials + 1;
+}
+
+int fl_pairing_laws(fl_world *w, fl_err *err)
+{
+    const fl_scene *s = w->scene;
+    w->materials = s->n_material;
+    w->law = fl_alloc((int64_t)w->materials * (w->materials + 2), sizeof *w->law, err);
+    if (!w->law) return -1;
+    for (int32_t a = 0; a < w->materials; a++) {
+        for (int32_t c = 0; c < w->materials + 2; c++) {
+            const int32_t b = c < w->materials    ? c
+                              : c == w->materials ? FL_SCENE_STRUCTURE
+                                                  : FL_SCENE_BOUNDARY;
+            const fl_scene_contact t = fl_scene_pair(s, a, b);
+            const double given = t.damping;
+            w->law[a * (w->materials + 2) + c] = (fl_touching){
+                .kind = t.law,
+                .exponent = t.exponent,
+                .modulus = fl_material_modulus(elastic_of(s, a), elastic_of(s, b)),
+                .stiffness = t.stiffness,
+                .softening = t.softening,
+                .friction = t.friction,
+                .tangential = t.tangential,
+                .chi = given >= 0.0 ? given : fl_damping_crossley(t.restitution),
+                .zeta = given >= 0.0 ? given : fl_damping_linear(t.restitution),
+                .alpha = given >= 0.0 ? given : fl_damping_tsuji(t.restitution),
+                .literal2 = t.literal2,
+                .literal18 = t.literal18,
+            };
+        }
+    }
+    return 0;
+}
+
+const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j)
+{
+    return &w->law[w->material[i] * (w->materials + 2) + column(w, w->material[j])];
+}
+
+double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent)
+{
+    const fl_bodies *b = &w->b;
+    const fl_touching *law = fl_pairing_law(w, i, j);
+    const int round = b->core[i].nv <= 2 || (j < w->n && b->core[j].nv <= 2);
+    *exponent = round ? 1.5 : law->exponent;
+    if (law->stiffness > 0.0) return law->stiffness;
+    if (*exponent == 1.0) {
+        const double area = w->face[j] > 0.0 && w->face[j] < w->face[i] ? w->face[j] : w->face[i];
+        return law->softening * fl_material_punch(law->modulus, area);
+    }
+    return law->softening * fl_material_hertz(law->modulus, fl_material_radius(b->radius[i], b->radius[j]));
+}
+
+void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
+{
+    const double mi = w->b.m[i], mj = w->b.m[j];
+    *p = (fl_pair){.i = i, .j = j, .law = fl_pairing_law(w, i, j)};
+    p->k = fl_pairing_stiffness(w, i, j, &p->exponent);
+    p->mass = j < w->n ? mi * mj / (mi + mj) : mi;
+}
+
+void fl_pair_end(fl_world *w, fl_pair *p)
+{
+    w->ledger.damping += p->damped;
+    w->ledger.friction += p->rubbed;
+    free(p->memory);
+    p->memory = NULL;
+}

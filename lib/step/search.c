@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "step/pairing.h"
+#include "step/search.h"
+
+/* The box of body k: of its core in the world, dilated. */
+static fl_aabb box_of(const fl_world *w, int32_t k)
+{
+    const fl_bodies *b = &w->b;
+    const fl_poly *core = &b->core[k];
+    fl_aabb box = aabb_empty();
+    if (k >= w->n && w->structure.piece[k - w->n].kind == FL_PIECE_PLANE) { /* the half-space behind a wall */
+        const fl_vec3 n = m3_col(b->R[k], 2), x = b->x[k];
+        box = (fl_aabb){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+        if (n.x > 0.5) box.hi.x = x.x;
+        if (n.x < -0.5) box.lo.x = x.x;
+        if (n.y > 0.5) box.hi.y = x.y;
+        if (n.y < -0.5) box.lo.y = x.y;
+        if (n.z > 0.5) box.hi.z = x.z;
+        if (n.z < -0.5) box.lo.z = x.z;
+        return box;
+    }
+    for (int32_t v = 0; v < core->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(b->R[k], core->v[v])));
+    return aabb_grow(box, b->radius[k]);
+}
+
+static int stale(const fl_world *w)
+{
+    double first = 0.0, second = 0.0; /* the two that have moved most */
+    if (w->found_at < 0) return 1;
+    if (w->scene->run.search_every > 0 && w->step - w->found_at >= w->scene->run.search_every) return 1;
+    for (int32_t k = 0; k < w->b.total; k++) {
+        const double moved = w->b.odometer[k] - w->odometer_found[k];
+        if (moved > first) second = first, first = moved;
+        else if (moved > second) second = moved;
+    }
+    return first + second >= w->skin * (1.0 - 1e-6);
+}
+
+/* Pairs of each body, in the order of the list. */
+static int index_pairs(fl_world *w, fl_err *err)
+{
+    const int32_t total = w->b.total;
+    if (fl_grow(&w->inc_first, &w->inc_first_cap, (int64_t)total + 1, sizeof *w->inc_first, err)) return -1;
+    if (fl_grow(&w->inc, &w->inc_cap, 2 * (int64_t)w->n_pair, sizeof *w->inc, err)) return -1;
+    for (int32_t k = 0; k <= total; k++) w->inc_first[k] = 0;
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        w->inc_first[w->pair[c].i + 1]++;
+        w->inc_first[w->pair[c].j + 1]++;
+    }
+    for (int32_t k = 0; k < total; k++) w->inc_first[k + 1] += w->inc_first[k];
+    /* fill from the back, so that each list ends ascending and first[] returns to its start */
+    for (int32_t k = total; k > 0; k--) w->inc_first[k] = w->inc_first[k - 1];
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        w->inc[w->inc_first[w->pair[c].i + 1]++] = c;
+        w->inc[w->inc_first[w->pair[c].j + 1]++] = c;
+    }
+    w->inc_first[0] = 0;
+    return 0;
+}
+
+int fl_search(fl_world *w, fl_err *err)
+{
+    const int32_t total = w->b.total;
+    fl_pair *old = w->pair;
+    const int32_t n_old = w->n_pair;
+    if (!stale(w)) return 0;
+#pragma omp parallel for schedule(static)
+    for (int32_t k = 0; k < total; k++) w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin);
+    if (fl_pairs_find(&w->near, w->box, w->n, total, w->walls, err)) return -1;
+
+    const int64_t n = w->near.first[w->n];
+    fl_pair *fresh = fl_alloc(n, sizeof *fresh, err);
+    if (!fresh) return -1;
+    int32_t at = 0;
+    for (int32_t i = 0; i < w->n; i++) {
+        for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
+            const int32_t j = w->near.partner[k];
+            for (; at < n_old && (old[at].i < i || (old[at].i == i && old[at].j < j)); at++)
+                fl_pair_end(w, &old[at]);
+            if (at < n_old && old[at].i == i && old[at].j == j) fresh[k] = old[at++];
+            else fl_pair_start(w, &fresh[k], i, j);
+        }
+    }
+    for (; at < n_old; at++) fl_pair_end(w, &old[at]);
+    free(old);
+    w->pair = fresh;
+    w->n_pair = (int32_t)n;
+    for (int32_t k = 0; k < total; k++) w->odometer_found[k] = w->b.odometer[k];
+    w->found_at = w->step;
+    w->searches++;
+    return index_pairs(w, err);
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* search.h -- which pairs are near, kept until something has moved far enough to make it untrue. */
+#ifndef FL_STEP_SEARCH_H
+#define FL_STEP_SEARCH_H
+#include "step/world.h"
+
+/* Renew the list of near pairs when it may be incomplete: when any two odometers together have grown by more than
+ * the skin since the last search, or when the scene's search_every steps have passed.  Boxes are those of the dilated
+ * cores, grown by half the skin each, so that no pair can touch unlisted.  What a pair remembers is carried over
+ * by merging the two lists, both sorted by (i, j).  Returns 0, or -1 with FL_SYSTEM. */
+int fl_search(fl_world *w, fl_err *err);
+
+#endif

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include "base/mem.h"
+#include "base/par.h"
+#include "body/integrate.h"
+#include "step/interact.h"
+#include "step/search.h"
+#include "step/step.h"
+
+enum { SURVEY = 16 }; /* steps between two looks at the stiffness that is active */
+
+/* Each thread takes the pairs as it can; each pair writes its own result. */
+static void contacts(fl_world *w, double dt, int survey)
+{
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int32_t c = 0; c < w->n_pair; c++) fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
+}
+
+/* Sum what acts on each body: weight, water, then its pairs in the order of the list, whichever thread takes it. */
+static void gather(fl_world *w)
+{
+    fl_bodies *b = &w->b;
+#pragma omp parallel for schedule(static)
+    for (int32_t k = 0; k < b->total; k++) {
+        b->f[k] = b->t[k] = v3(0, 0, 0);
+        if (k < w->n) {
+            b->f[k] = v3_scale(b->m[k], w->gravity);
+            if (w->sea.water) fl_sea_force(&w->sea, b, k);
+        }
+        for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
+            const fl_pair *p = &w->pair[w->inc[c]];
+            if (p->n == 0) continue;
+            b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
+            b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
+        }
+    }
+}
+
+/* The largest omega^2 = 2 sum k (1/m + ...) of a body bounds the step from above. */
+static void survey_stiffness(fl_world *w)
+{
+    for (int32_t i = 0; i < w->n; i++) {
+        double sum = 0.0;
+        for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
+            const fl_pair *p = &w->pair[w->inc[c]];
+            if (p->n) sum += p->i == i ? p->stiff_i : p->stiff_j;
+        }
+        if (sum <= 0.0) continue;
+        const double limit = 2.0 / sqrt(2.0 * sum);
+        if (limit < w->dt_critical) {
+            w->dt_critical = limit;
+            w->critical_body = i;
+        }
+    }
+}
+
+static int finite3(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
+
+static int check(fl_world *w, int survey, fl_err *err)
+{
+    if (w->failed) return fl_fail(err, FL_SYSTEM, "out of memory in step %lld", (long long)w->step);
+    for (int32_t i = 0; i < w->n; i++)
+        if (!finite3(w->b.f[i]) || !finite3(w->b.t[i]) || !finite3(w->b.x[i]) || !finite3(w->b.v[i]))
+            return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)", w->id[i],
+                           (long long)w->step, (double)w->step * w->dt);
+    if (survey && w->dt > w->dt_critical)
+        return fl_fail(err, FL_NUMERIC,
+                       "body %d: the step of %g s is above the critical %g s of its contacts in step %lld (t "
+                       "= %g s); set "
+                       "a smaller run.dt or run.safety",
+                       w->id[w->critical_body], w->dt, w->dt_critical, (long long)w->step,
+                       (double)w->step * w->dt);
+    return 0;
+}
+
+/* What the held things feel goes to their parts: half of it before, half after. */
+static void load_parts(fl_world *w, double h)
+{
+    const fl_bodies *b = &w->b;
+    for (int32_t p = 0; p < w->parts; p++) w->part_force[p] = w->part_torque[p] = v3(0, 0, 0);
+    for (int32_t k = 0; k < w->pieces; k++) {
+        const int32_t j = w->n + k, p = w->structure.piece[k].part;
+        w->part_force[p] = v3_add(w->part_force[p], b->f[j]);
+        w->part_torque[p] = v3_add(w->part_torque[p], v3_add(b->t[j], v3_cross(b->x[j], b->f[j])));
+    }
+    for (int32_t p = 0; p < w->parts; p++) {
+        const double size = v3_norm(w->part_force[p]);
+        if (size > w->part_peak[p]) w->part_peak[p] = size;
+        w->part_impulse[p] = v3_madd(w->part_impulse[p], h, w->part_force[p]);
+        w->part_moment[p] = v3_madd(w->part_moment[p], h, w->part_torque[p]);
+    }
+}
+
+/* Work of damping and friction at the velocities of the full step, overlaps, counts, and whether action is reaction. */
+static void account(fl_world *w, double dt)
+{
+    const fl_bodies *b = &w->b;
+    fl_vec3 balance = v3(0, 0, 0);
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        fl_pair *p = &w->pair[c];
+        if (p->n == 0) continue;
+        const fl_vec3 dv = v3_sub(b->v[p->i], b->v[p->j]);
+        p->damped -= dt * (v3_dot(p->fd, dv) + v3_dot(p->di, b->w[p->i]) + v3_dot(p->dj, b->w[p->j]));
+        p->rubbed -= dt * (v3_dot(p->fs, dv) + v3_dot(p->si, b->w[p->i]) + v3_dot(p->sj, b->w[p->j]));
+        const double R = b->radius[p->i] + b->radius[p->j], deep = R > 0.0 ? p->overlap / R : 0.0;
+        if (deep > w->worst_overlap) {
+            w->worst_overlap = deep;
+            w->worst_i = p->i;
+            w->worst_j = p->j;
+        }
+        w->impulse_size += dt * v3_norm(p->f);
+        w->touching_steps++;
+    }
+    for (int32_t k = 0; k < b->total; k++) {
+        fl_vec3 f = b->f[k];
+        if (k < w->n) {
+            f = v3_madd(f, -b->m[k], w->gravity);
+            if (w->sea.water) f.z -= w->sea.lift[k];
+        } else if (w->structure.piece[k - w->n].part >= 0) {
+            w->ledger.drive -= dt * v3_dot(f, b->v[k]);
+        }
+        balance = v3_add(balance, f);
+    }
+    w->imbalance = v3_madd(w->imbalance, dt, balance);
+}
+
+static int forces(fl_world *w, double dt, fl_err *err)
+{
+    const int survey = w->step % SURVEY == 0;
+    if (fl_search(w, err)) return -1;
+    contacts(w, dt, survey);
+    gather(w);
+    if (survey) survey_stiffness(w);
+    return check(w, survey, err);
+}
+
+int fl_step_start(fl_world *w, fl_err *err)
+{
+    if (forces(w, 0.0, err)) return -1;
+    fl_step_ledger(w);
+    w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic;
+    fl_step_ledger(w);
+    return 0;
+}
+
+int fl_step(fl_world *w, fl_err *err)
+{
+    const double h = 0.5 * w->dt, t = (double)w->step * w->dt;
+    const int sea = w->sea.n > 0;
+    load_parts(w, h);
+    if (sea) fl_sea_drag(&w->sea, &w->b, h, t);
+    fl_kick(&w->b, h);
+    fl_drift(&w->b, w->dt);
+    w->step++;
+    if (forces(w, w->dt, err)) return -1;
+    fl_kick(&w->b, h);
+    account(w, w->dt);
+    load_parts(w, h);
+    if (sea) fl_sea_drag(&w->sea, &w->b, h, t + h);
+    return 0;
+}
+
+/* --- what the books say ------------------------------------------------------------------------------------- */
+
+void fl_step_ledger(fl_world *w)
+{
+    const fl_bodies *b = &w->b;
+    fl_ledger *g = &w->ledger;
+    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
+           held = 0.0;
+    double damped = 0.0, rubbed = 0.0;
+    for (int32_t i = 0; i < w->n; i++) {
+        kinetic += fl_body_kinetic(b, i);
+        gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
+        held += b->held[i];
+        if (w->sea.n) {
+            if (w->sea.water) hydro += w->sea.energy[i];
+            drag += w->sea.drained[i];
+            wind += w->sea.blown[i];
+        }
+    }
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        const fl_pair *p = &w->pair[c];
+        damped += p->damped;
+        rubbed += p->rubbed;
+        if (p->n == 0) continue;
+        elastic += p->energy;
+        spring += p->spring;
+    }
+    g->kinetic = kinetic;
+    g->gravity = gravity;
+    g->elastic = elastic;
+    g->hydrostatic = hydro;
+    g->damping_now = g->damping + damped;
+    g->friction_now = g->friction + rubbed - spring; /* what the springs hold can still come back */
+    g->drag = drag;
+    g->wind = wind;
+    const double drive = g->drive + held;
+    g->drive_now = drive;
+    g->residual = kinetic + gravity + elastic + hydro - g->start + g->damping_now + g->friction_now + drag -
+                  wind - drive;
+    const double through =
+        fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) + fabs(drive) + kinetic;
+    if (through > g->throughput) g->throughput = through;
+}
+
+uint64_t fl_step_hash(const fl_world *w)
+{
+    const fl_bodies *b = &w->b;
+    uint64_t h = FL_HASH_START;
+    for (int32_t i = 0; i < w->n; i++) {
+        h = fl_hash(h, &b->x[i], sizeof b->x[i]);
+        h = fl_hash(h, &b->q[i], sizeof b->q[i]);
+        h = fl_hash(h, &b->v[i], sizeof b->v[i]);
+        h = fl_hash(h, &b->L[i], sizeof b->L[i]);
+    }
+    return h;
+}

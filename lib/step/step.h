@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* step.h -- one time step. */
+#ifndef FL_STEP_STEP_H
+#define FL_STEP_STEP_H
+#include "step/world.h"
+
+/* Forces at the start: neighbours, contacts, surroundings, and the reference of the ledger.  w->dt must be set.
+ * -1 with FL_SYSTEM, or FL_NUMERIC when something is not finite. */
+int fl_step_start(fl_world *w, fl_err *err);
+
+/* From time step * dt to the next:
+ *     drag h, kick h, drift dt, forces, kick h, drag h,     h = dt/2.
+ * Contacts see the velocities in the middle of the step.  Symmetric, order 2 (contact damping and friction: order 1 in
+ * their own share).  -1 with FL_SYSTEM, or FL_NUMERIC when a number is not finite or the step is above the
+ * critical one: body and step are named. */
+int fl_step(fl_world *w, fl_err *err);
+
+/* Stores, sinks and residual now, into w->ledger. */
+void fl_step_ledger(fl_world *w);
+
+/* Hash of positions, orientations, velocities and angular momenta of all floes. */
+uint64_t fl_step_hash(const fl_world *w);
+
+#endif

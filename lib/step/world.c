@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include <string.h>
+#include "base/mem.h"
+#include "geom/clip.h"
+#include "geom/mass.h"
+#include "step/pairing.h"
+#include "step/world.h"
+
+/* The number of places, each as stiff as one, that a face at rest on a face puts under a body at once. */
+#define PLACES 12.0
+
+/* --- bodies ----------------------------------------------------------------------------------------------- */
+
+static double largest_face(const fl_poly *p)
+{
+    double area = 0.0;
+    for (int32_t f = 0; f < p->nf; f++) area = fmax(area, v3_norm(fl_poly_area(p, f)));
+    return area;
+}
+
+/* What the scene says of the body's group: directions it holds, and the velocity it holds them at.  A turn that is
+ * held is held at no spin. */
+static void hold_body(fl_world *w, int32_t i, const char *group, fl_vec3 spin)
+{
+    fl_bodies *b = &w->b;
+    const int32_t g = fl_scene_find_group(w->scene, group);
+    if (g < 0) return;
+    const unsigned fixed = w->scene->group[g].fixed;
+    const fl_vec3 given = w->scene->group[g].velocity;
+    b->hold[i] = (uint8_t)fixed;
+    if (fixed & FL_HOLD_X) b->v[i].x = given.x;
+    if (fixed & FL_HOLD_Y) b->v[i].y = given.y;
+    if (fixed & FL_HOLD_Z) b->v[i].z = given.z;
+    fl_body_spin(b, i,
+                 v3(fixed & FL_HOLD_RX ? 0.0 : spin.x, fixed & FL_HOLD_RY ? 0.0 : spin.y,
+                    fixed & FL_HOLD_RZ ? 0.0 : spin.z));
+}
+
+/* Body i from the field: outer shape, mass, frame, start. */
+static int make_body(fl_world *w, const fl_field *field, int32_t i, fl_poly *outer, fl_err *err)
+{
+    const fl_scene *s = w->scene;
+    fl_bodies *b = &w->b;
+    const fl_poly *core = &field->core[i];
+    const double r = field->radius[i];
+    const int sharp = s->ice.shape == FL_SHAPE_SHARP && core->nf > 0;
+    const char *material =
+        field->material[i] >= 0 ? field->materials.name[field->material[i]] : s->ice.material;
+    fl_mass mass;
+    fl_err why = {0};
+    w->id[i] = field->id[i];
+    w->material[i] = fl_scene_find_material(s, material);
+    if (w->material[i] < 0)
+        return fl_fail(err, FL_INPUT, "body %d: material %s is not in the scene", field->id[i], material);
+    if (sharp && (r > 0.0 ? fl_poly_offset(outer, core, r, &why) : fl_poly_copy(outer, core, &why))) goto bad;
+    if (fl_mass_of(&mass, sharp ? outer : core, sharp ? 0.0 : r, &why)) goto bad;
+
+    const double rho = s->material[w->material[i]].density;
+    b->m[i] = rho * mass.volume;
+    b->invm[i] = 1.0 / b->m[i];
+    b->I[i] = v3_scale(rho, mass.inertia);
+    b->x[i] = mass.centre;
+    b->q[i] = q_of_matrix(mass.axes);
+    b->v[i] = field->vel[i];
+    b->radius[i] = r;
+    const fl_mat3 axes = q_matrix(b->q[i]);
+    if (fl_poly_copy(&b->core[i], core, err)) return -1;
+    fl_poly_to_frame(&b->core[i], b->x[i], axes);
+    if (sharp) fl_poly_to_frame(outer, b->x[i], axes);
+    for (int32_t v = 0; v < core->nv; v++) b->bound[i] = fmax(b->bound[i], v3_norm(b->core[i].v[v]));
+    w->face[i] = largest_face(&b->core[i]);
+    w->q0[i] = b->q[i];
+    fl_body_derive(b, i);
+    fl_body_spin(b, i, field->spin[i]);
+    if (field->group[i] >= 0) hold_body(w, i, field->groups.name[field->group[i]], field->spin[i]);
+    return 0;
+bad:
+    if (why.code == FL_SYSTEM) {
+        *err = why;
+        return -1;
+    }
+    return fl_fail(err, FL_INPUT, "body %d: %s", field->id[i], why.text);
+}
+
+/* The sea's view of body i: what floats, and how far out it drags. */
+static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
+{
+    const fl_poly *core = &w->b.core[i];
+    const int round = core->nv <= 2;
+    if (!round && outer->nv == 0)
+        return fl_fail(err, FL_INPUT,
+                       "body %d: ice.shape = round has no hydrostatics of a polyhedron; use sharp with "
+                       "[water] or [wind]",
+                       w->id[i]);
+    w->sea.outer[i] = *outer;
+    *outer = (fl_poly){0};
+    w->sea.reach[i] = round ? fl_drag_radius(core, w->b.radius[i]) : fl_drag_radius(&w->sea.outer[i], 0.0);
+    return fl_hull_make(&w->sea.hull[i], round ? core : &w->sea.outer[i], round ? w->b.radius[i] : 0.0, err);
+}
+
+static int make_sea(fl_world *w, fl_err *err)
+{
+    const fl_scene *s = w->scene;
+    fl_sea *sea = &w->sea;
+    if (!s->water.head.present && !s->wind.head.present) return 0;
+    sea->water = s->water.head.present;
+    sea->wind = s->wind.head.present;
+    sea->level = s->water.level;
+    sea->weight = s->water.density * v3_norm(s->run.gravity);
+    sea->sea = (fl_fluid){s->water.density, s->water.drag_force_coef, s->water.drag_moment_coef};
+    sea->air = (fl_fluid){s->wind.density, s->wind.drag_coef, 0.0};
+    sea->current = (fl_current){s->water.current};
+    sea->breeze = (fl_current){s->wind.velocity};
+    return fl_sea_alloc(sea, w->n, err);
+}
+
+/* --- what is held ------------------------------------------------------------------------------------------- */
+
+static int add_wall(fl_structure *s, fl_vec3 x, fl_vec3 normal, fl_err *err)
+{
+    const fl_vec3 ex = v3_normal_to(normal), ey = v3_cross(normal, ex);
+    if (fl_grow(&s->piece, &s->cap, (int64_t)s->n + 1, sizeof *s->piece, err)) return -1;
+    s->piece[s->n++] =
+        (fl_piece){.kind = FL_PIECE_PLANE,
+                   .part = -1,
+                   .x = x,
+                   .q = q_of_matrix(
+                       (fl_mat3){{{ex.x, ey.x, normal.x}, {ex.y, ey.y, normal.y}, {ex.z, ey.z, normal.z}}})};
+    return 0;
+}
+
+static int make_walls(fl_world *w, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_structure *st = &w->structure;
+    if (!s->head.present || s->type != FL_BOUND_RIGID) return 0;
+    const int32_t before = st->n;
+    if (isfinite(s->min.x) && add_wall(st, v3(s->min.x, 0, 0), v3(1, 0, 0), err)) return -1;
+    if (isfinite(s->max.x) && add_wall(st, v3(s->max.x, 0, 0), v3(-1, 0, 0), err)) return -1;
+    if (isfinite(s->min.y) && add_wall(st, v3(0, s->min.y, 0), v3(0, 1, 0), err)) return -1;
+    if (isfinite(s->max.y) && add_wall(st, v3(0, s->max.y, 0), v3(0, -1, 0), err)) return -1;
+    if (isfinite(s->min.z) && add_wall(st, v3(0, 0, s->min.z), v3(0, 0, 1), err)) return -1;
+    if (isfinite(s->max.z) && add_wall(st, v3(0, 0, s->max.z), v3(0, 0, -1), err)) return -1;
+    w->walls = st->n - before;
+    return 0;
+}
+
+static int place_pieces(fl_world *w, fl_err *err)
+{
+    for (int32_t k = 0; k < w->structure.n; k++) {
+        const fl_piece *piece = &w->structure.piece[k];
+        const int32_t j = w->n + k;
+        w->b.x[j] = piece->x;
+        w->b.q[j] = piece->q;
+        w->b.R[j] = q_matrix(piece->q);
+        w->material[j] = piece->kind == FL_PIECE_PLANE ? FL_SCENE_BOUNDARY : FL_SCENE_STRUCTURE;
+        if (piece->kind == FL_PIECE_PLANE) continue;
+        w->b.v[j] = w->scene->structure.velocity;
+        if (piece->kind == FL_PIECE_SHELL) { /* only its box is looked at, through the corners */
+            fl_vec3 corner[8];
+            const fl_aabb box = piece->shell.tree.node[0].box;
+            for (int c = 0; c < 8; c++)
+                corner[c] =
+                    v3(c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z);
+            fl_poly *p = &w->b.core[j];
+            p->mem = fl_alloc(8, sizeof(fl_vec3), err);
+            if (!p->mem) return -1;
+            p->v = memcpy(p->mem, corner, sizeof corner);
+            p->nv = 8;
+            for (int32_t f = 0; f < piece->core.nf; f++)
+                w->face[j] = fmax(w->face[j], v3_norm(fl_poly_area(&piece->core, f)));
+        } else {
+            if (fl_poly_copy(&w->b.core[j], &piece->core, err)) return -1;
+            w->face[j] = largest_face(&piece->core);
+        }
+        for (int32_t v = 0; v < w->b.core[j].nv; v++)
+            w->b.bound[j] = fmax(w->b.bound[j], v3_norm(w->b.core[j].v[v]));
+    }
+    return 0;
+}
+
+/* --- all of it ---------------------------------------------------------------------------------------------- */
+
+static int make_arrays(fl_world *w, fl_err *err)
+{
+    const int64_t total = w->b.total;
+    w->id = fl_alloc(w->n, sizeof *w->id, err);
+    w->q0 = fl_alloc(w->n, sizeof *w->q0, err);
+    w->material = fl_alloc(total, sizeof *w->material, err);
+    w->face = fl_alloc(total, sizeof *w->face, err);
+    w->box = fl_alloc(total, sizeof *w->box, err);
+    w->odometer_found = fl_alloc(total, sizeof *w->odometer_found, err);
+    w->part_impulse = fl_alloc(w->parts, sizeof *w->part_impulse, err);
+    w->part_moment = fl_alloc(w->parts, sizeof *w->part_moment, err);
+    w->part_force = fl_alloc(w->parts, sizeof *w->part_force, err);
+    w->part_torque = fl_alloc(w->parts, sizeof *w->part_torque, err);
+    w->part_peak = fl_alloc(w->parts, sizeof *w->part_peak, err);
+    w->scratch = fl_alloc(w->threads, sizeof *w->scratch, err);
+    w->near_shell = fl_alloc(w->threads, sizeof *w->near_shell, err);
+    w->fresh = fl_alloc(w->threads, sizeof *w->fresh, err);
+    w->fresh_cap = fl_alloc(w->threads, sizeof *w->fresh_cap, err);
+    if (err->code) return -1;
+    for (int32_t k = 0; k < w->threads; k++)
+        if (fl_grow(&w->fresh[k], &w->fresh_cap[k], 64, sizeof **w->fresh, err)) return -1;
+    return 0;
+}
+
+int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
+                  fl_err *err)
+{
+    double bound = 0.0;
+    *w = (fl_world){.scene = scene, .n = field->n, .found_at = -1, .gravity = scene->run.gravity};
+    w->threads = scene->run.threads > 0 ? scene->run.threads : omp_get_max_threads();
+    omp_set_num_threads(w->threads);
+    w->dt_critical = INFINITY;
+    w->worst_i = w->worst_j = w->critical_body = -1;
+    w->parts = surface ? surface->n : 0;
+    if (surface && fl_structure_build(&w->structure, surface, err)) goto fail;
+    if (make_walls(w, err)) goto fail;
+    w->pieces = w->structure.n - w->walls;
+    if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) || make_sea(w, err))
+        goto fail;
+    for (int32_t i = 0; i < w->n; i++) {
+        fl_poly outer = {0};
+        const int bad = make_body(w, field, i, &outer, err) || (w->sea.n && make_hull(w, i, &outer, err));
+        fl_poly_free(&outer);
+        if (bad) goto fail;
+        bound += w->b.bound[i] + w->b.radius[i];
+    }
+    if (place_pieces(w, err) || fl_pairing_laws(w, err)) goto fail;
+    /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
+    w->skin = w->n ? 0.1 * bound / w->n : 0.0;
+    return 0;
+fail:
+    fl_world_free(w);
+    return -1;
+}
+
+void fl_world_free(fl_world *w)
+{
+    for (int32_t k = 0; k < w->n_pair; k++) free(w->pair[k].memory);
+    for (int32_t k = 0; k < w->threads; k++) {
+        if (w->scratch) fl_places_free(&w->scratch[k]);
+        if (w->near_shell) fl_shell_near_free(&w->near_shell[k]);
+        if (w->fresh) free(w->fresh[k]);
+    }
+    free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell), free(w->fresh);
+    free(w->fresh_cap), free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law),
+        free(w->box);
+    free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
+        free(w->part_torque);
+    free(w->part_peak);
+    fl_pairs_free(&w->near);
+    fl_sea_free(&w->sea);
+    fl_bodies_free(&w->b);
+    fl_structure_free(&w->structure);
+    *w = (fl_world){0};
+}
+
+/* Largest compliance of a core's vertices along the normals of their faces, 1/m + (v x n).I^-1 (v x n) [1/kg]. */
+static double softest(const fl_world *w, int32_t i)
+{
+    const fl_poly *p = &w->b.core[i];
+    const fl_vec3 I = w->b.I[i];
+    double most = 0.0;
+    for (int32_t f = 0; f < p->nf; f++) {
+        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) {
+            const fl_vec3 t = v3_cross(p->v[p->loop[k]], p->n[f]);
+            most = fmax(most, t.x * t.x / I.x + t.y * t.y / I.y + t.z * t.z / I.z);
+        }
+    }
+    if (p->nf == 0 && p->nv == 2) most = w->b.bound[i] * w->b.bound[i] / I.x;
+    return most + w->b.invm[i];
+}
+
+/* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact at the speed that bodies
+ * have or will take from gravity and current over their own size, (5 M v^2/4 k)^(2/5). */
+static double place_slope(const fl_world *w, int32_t i, double k, double exponent)
+{
+    if (exponent == 1.0) return k;
+    const double size = w->b.bound[i] + w->b.radius[i], g = v3_norm(w->gravity);
+    const double v2 = fmax(v3_norm2(w->b.v[i]),
+                           fmax(v3_norm2(w->sea.current.velocity), v3_norm2(w->scene->structure.velocity))) +
+                      2.0 * g * 0.1 * size;
+    const double depth =
+        fmin(pow(1.25 * w->b.m[i] * v2 / k, 0.4), w->b.radius[i] > 0.0 ? 0.3 * w->b.radius[i] : size);
+    return 1.5 * k * sqrt(depth);
+}
+
+double fl_world_dt(const fl_world *w, int32_t *body)
+{
+    double most = 0.0, damp = 0.0;
+    *body = -1;
+    for (int32_t i = 0; i < w->n; i++) {
+        const double places = w->b.core[i].nv > 2 ? PLACES : 1.0;
+        double n, k = fl_pairing_stiffness(w, i, i, &n),
+                  stiffest = place_slope(w, i, k, n); /* one like itself */
+        damp = fmax(damp, fl_pairing_law(w, i, i)->chi);
+        for (int32_t j = w->n; j < w->b.total; j++) {
+            k = fl_pairing_stiffness(w, i, j, &n);
+            stiffest = fmax(stiffest, place_slope(w, i, k, n));
+            damp = fmax(damp, fl_pairing_law(w, i, j)->chi);
+        }
+        /* two equal bodies on one spring: twice the compliance */
+        const double omega2 = 2.0 * places * stiffest * softest(w, i);
+        if (omega2 > most) {
+            most = omega2;
+            *body = i;
+        }
+    }
+    if (most == 0.0) return INFINITY;
+    /* The damping ratio stays below chi/2; explicit damping lowers the limit by sqrt(1 + z^2) - z.  Half of that bounds what
+     * the scene asks for. */
+    const double z = 0.5 * damp, limit = 0.5 * (sqrt(1.0 + z * z) - z);
+    return fmin(w->scene->run.safety, limit) * 2.0 / sqrt(most);
+}

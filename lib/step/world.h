@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* world.h -- everything that a scene sets in motion: bodies, what is held, pairs, laws, surroundings, ledger.
+ *
+ * Indices [0, n) are floes; then come the pieces of the structure, then the walls of the boundary. */
+#ifndef FL_STEP_WORLD_H
+#define FL_STEP_WORLD_H
+#include "body/body.h"
+#include "bound/shell.h"
+#include "broad/pairs.h"
+#include "law/tangent.h"
+#include "narrow/contact.h"
+#include "narrow/deep.h"
+#include "narrow/gjk.h"
+#include "narrow/places.h"
+#include "scene/field.h"
+#include "scene/scene.h"
+#include "water/sea.h"
+
+/* A pair of materials, resolved. */
+typedef struct {
+    int32_t kind;       /* enum fl_law                                       */
+    double exponent;    /* n of the polyhedra's places                       */
+    double modulus;     /* E* [Pa]                                           */
+    double stiffness;   /* given by the user [N/m^n]; 0: from the modulus    */
+    double softening;   /* multiplies the stiffness that comes from the modulus */
+    double friction;    /* mu                                                */
+    double tangential;  /* k_t over the tangent stiffness of the place       */
+    double chi;         /* D = chi v_impact of patch and core                */
+    double zeta, alpha; /* of the manual's laws                              */
+    int32_t literal2, literal18;
+} fl_touching;
+
+/* What one place keeps from step to step. */
+typedef struct {
+    int64_t key;
+    fl_slip slip;
+} fl_memory;
+
+typedef struct {
+    int32_t i, j;           /* i moves, i < j                                        */
+    int32_t n, cap;         /* places in contact and remembered; 0: not touching     */
+    fl_memory *memory;      /* [n], keys ascending; owned                            */
+    fl_gjk_cache cache;     /* where the distance query starts                       */
+    fl_mode mode;           /* of the manual's laws                                  */
+    int32_t deep;           /* the cores overlap                                     */
+    int32_t has_axis;       /* axis has been set                                     */
+    fl_vec3 axis;           /* from j to i in the frame of j: separates the cores, or did */
+    double asleep;          /* while the odometers add up to less, it cannot touch [m] */
+    double k;               /* stiffness of one place [N/m^n]                        */
+    double exponent;        /* n                                                     */
+    double mass;            /* reduced [kg]                                          */
+    double touch;           /* largest approach speed of this touch [m/s]            */
+    const fl_touching *law; /* borrowed */
+    /* of the last evaluation; world axes, torques about the two centres */
+    fl_vec3 f, ti, tj;       /* force on i (on j its opposite), torques               */
+    fl_vec3 fd, di, dj;      /* the part of damping                                   */
+    fl_vec3 fs, si, sj;      /* the part of friction                                  */
+    double energy;           /* elastic, normal and tangential [J]                    */
+    double spring;           /* the tangential part of it [J]                         */
+    double overlap;          /* largest [m]                                           */
+    double stiff_i, stiff_j; /* sum of k (1/m + (r x n).I^-1 (r x n)) over places [1/s2] */
+    double damped, rubbed;   /* work taken out by damping; done against friction [J] */
+} fl_pair;
+
+/* Stores, sinks and sources of energy [J].  The residual is stores - start + taken out - put in: 0 but for the error of the
+ * time integration. */
+typedef struct {
+    double kinetic, gravity, elastic, hydrostatic; /* stores now; elastic with the springs of friction */
+    double friction_now, damping_now, drag;        /* taken out since the start                        */
+    double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
+    double start, residual;
+    double
+        throughput; /* largest kinetic energy + |each of the works| so far: what the residual is held against */
+    double friction, damping, drive; /* parts of the sums above that no pair and no body carries any more */
+} fl_ledger;
+
+typedef struct {
+    const fl_scene *scene; /* borrowed */
+    fl_bodies b;
+    int32_t n, pieces, walls;
+    fl_structure structure;
+    fl_sea sea;        /* water and wind; n = 0 where there are none */
+    int32_t *id;       /* [n] as in the ice file                 */
+    int32_t *material; /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */
+    double *face;      /* [total] area of the largest face [m2]  */
+    fl_quat *q0;       /* [n] body axes in the ice file's pose: orientations are told against it */
+    fl_vec3 gravity;
+    fl_touching *law; /* [materials][materials + 2]             */
+    int32_t materials;
+
+    fl_pairs near;
+    fl_aabb *box; /* [total] */
+    fl_pair *pair;
+    int32_t n_pair, pair_cap;
+    int64_t *inc_first; /* [total + 1] pairs of each body, ascending */
+    int32_t *inc;       /* [2 n_pair] */
+    int32_t inc_cap, inc_first_cap;
+    double skin;            /* boxes are grown by half of it [m] */
+    double *odometer_found; /* [total] odometers at the last search */
+    int64_t found_at;       /* step of the last search, -1 before the first */
+
+    fl_places *scratch;        /* [threads] */
+    fl_shell_near *near_shell; /* [threads] */
+    fl_memory **fresh;         /* [threads] */
+    int32_t *fresh_cap;
+    int32_t threads;
+
+    double dt, dt_critical; /* dt_critical: the smallest 2/omega seen [s] */
+    int32_t critical_body;
+    int64_t step;
+    fl_ledger ledger;
+    fl_vec3 *part_impulse,
+        *part_moment;                  /* [parts] since the last loads row [N s], [N m s], about the origin */
+    fl_vec3 *part_force, *part_torque; /* [parts] now                                                       */
+    double *part_peak;                 /* [parts] largest |F| since the last row */
+    int32_t parts;
+    fl_vec3 imbalance;   /* sum of all contact impulses, floes and held things together: 0 but for rounding */
+    double impulse_size; /* sum of their sizes */
+    double worst_overlap; /* largest overlap over the sum of the radii (or the radius of the floe) so far */
+    int32_t worst_i, worst_j;
+    int64_t touching_steps;       /* sum over steps of pairs in contact */
+    int64_t searches, deep_pairs; /* neighbour searches; evaluations with overlapping cores */
+    fl_deep_count deep_count;
+    int failed; /* a thread ran out of memory */
+} fl_world;
+
+/* Build everything from what was read.  field and surface are read once and stay the caller's.
+ *   surface  NULL for a scene without structure
+ * -1 with FL_INPUT (a body without a volume where one is needed, mass not positive), FL_SYSTEM or FL_NUMERIC. */
+int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
+                  fl_err *err);
+void fl_world_free(fl_world *w);
+
+/* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the stiffest face
+ * it can meet, at its most compliant vertex, lowered for damping (see world.c). */
+double fl_world_dt(const fl_world *w, int32_t *body);
+
+#endif
