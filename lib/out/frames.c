@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/num.h"
+#include "out/frames.h"
+
+static void put(FILE *f, double x)
+{
+    char text[FL_NUM_LEN];
+    putc(' ', f);
+    fputs(fl_num_text(x, text), f);
+}
+
+static void put3(FILE *f, fl_vec3 a)
+{
+    put(f, a.x);
+    put(f, a.y);
+    put(f, a.z);
+}
+
+static void vertex(FILE *f, fl_vec3 x)
+{
+    putc('v', f);
+    put3(f, x);
+    putc('\n', f);
+}
+
+void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_bodies *b, const int32_t *id,
+                      const fl_quat *q0, const fl_surface *surface)
+{
+    fl_by_header(f, "animation", 1, history, by);
+    for (int32_t i = 0; i < b->n; i++) {
+        const fl_poly *p = &b->core[i];
+        const fl_mat3 R = q_matrix(q0[i]);
+        fprintf(f, "shape %d", id[i]);
+        put(f, b->radius[i]);
+        fprintf(f, " %d %d\n", p->nv, p->nf);
+        for (int32_t v = 0; v < p->nv; v++) vertex(f, m3_mul(R, p->v[v]));
+        for (int32_t k = 0; k < p->nf; k++) {
+            fprintf(f, "f %d", p->first[k + 1] - p->first[k]);
+            for (int32_t c = p->first[k]; c < p->first[k + 1]; c++) fprintf(f, " %d", p->loop[c]);
+            putc('\n', f);
+        }
+    }
+    for (int32_t k = 0; surface && k < surface->n; k++) {
+        const fl_part *p = &surface->part[k];
+        fprintf(f, "part %d %s\n", p->id, p->name);
+        for (int32_t v = 0; v < p->nv; v++) vertex(f, p->v[v]);
+        for (int32_t t = 0; t < p->nt; t++)
+            fprintf(f, "t %d %d %d\n", p->t[t].v[0], p->t[t].v[1], p->t[t].v[2]);
+        for (int32_t c = 0; c < p->nc; c++) {
+            fputs("cone", f);
+            put3(f, p->cone[c].p0);
+            put(f, p->cone[c].r0);
+            put3(f, p->cone[c].p1);
+            put(f, p->cone[c].r1);
+            putc('\n', f);
+        }
+    }
+}
+
+void fl_frames_frame(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
+                     fl_vec3 gone, int ice)
+{
+    fputs("frame", f);
+    put(f, t);
+    putc('\n', f);
+    for (int32_t i = 0; ice && i < b->n; i++) {
+        const fl_quat q = q_mul(b->q[i], q_conj(q0[i]));
+        fprintf(f, "body %d", id[i]);
+        put3(f, b->x[i]);
+        put(f, q.w);
+        put3(f, v3(q.x, q.y, q.z));
+        putc('\n', f);
+    }
+    if (gone.x != 0.0 || gone.y != 0.0 || gone.z != 0.0) {
+        fputs("structure", f);
+        put3(f, gone);
+        putc('\n', f);
+    }
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/num.h"
+#include "out/tables.h"
+
+static void put(FILE *f, double x)
+{
+    char text[FL_NUM_LEN];
+    putc('\t', f);
+    fputs(fl_num_text(x, text), f);
+}
+
+static void put3(FILE *f, fl_vec3 a)
+{
+    put(f, a.x);
+    put(f, a.y);
+    put(f, a.z);
+}
+
+void fl_table_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns)
+{
+    fl_by_header(f, kind, 1, history, by);
+    fprintf(f, "%s\n", columns);
+}
+
+void fl_table_row(FILE *f, int n, const double *x)
+{
+    char text[FL_NUM_LEN];
+    fputs(fl_num_text(x[0], text), f);
+    for (int k = 1; k < n; k++) put(f, x[k]);
+    putc('\n', f);
+}
+
+void fl_loads_header(FILE *f, const char *history, const fl_by *by)
+{
+    fl_table_header(f, "loads", history, by,
+                    "t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts");
+}
+
+void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
+                  int32_t contacts)
+{
+    char text[FL_NUM_LEN];
+    fprintf(f, "%s\t%s", fl_num_text(t, text), part);
+    put3(f, force);
+    put3(f, moment);
+    put(f, peak);
+    fprintf(f, "\t%d\n", contacts);
+}
+
+void fl_state_header(FILE *f, const char *history, const fl_by *by)
+{
+    fl_table_header(
+        f, "state", history, by,
+        "t[s]\tbody\tx[m]\ty[m]\tz[m]\tqw\tqx\tqy\tqz\tvx[m/s]\tvy[m/s]\tvz[m/s]\twx[rad/s]\twy[rad/s]\t"
+        "wz[rad/s]");
+}
+
+void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0)
+{
+    char text[FL_NUM_LEN];
+    fl_num_text(t, text);
+    for (int32_t i = 0; i < b->n; i++) {
+        const fl_quat q = q_mul(b->q[i], q_conj(q0[i]));
+        fprintf(f, "%s\t%d", text, id[i]);
+        put3(f, b->x[i]);
+        put(f, q.w);
+        put3(f, v3(q.x, q.y, q.z));
+        put3(f, b->v[i]);
+        put3(f, b->w[i]);
+        putc('\n', f);
+    }
+}
+
+void fl_contacts_header(FILE *f, const char *history, const fl_by *by)
+{
+    fl_table_header(
+        f, "contacts", history, by,
+        "t[s]\ti\tj\tmode\tgap[m]\tnx\tny\tnz\tpx[m]\tpy[m]\tpz[m]\tlength[m]\tarea[m2]\tfn[N]\tfsx[N]\t"
+        "fsy[N]\tfsz[N]");
+}
+
+void fl_contacts_row(FILE *f, double t, int32_t i, int32_t j, const fl_contact *c, double normal,
+                     fl_vec3 slide)
+{
+    char text[FL_NUM_LEN];
+    fprintf(f, "%s\t%d\t%d\t%s", fl_num_text(t, text), i, j, fl_mode_name(c->mode));
+    put(f, c->gap);
+    put3(f, c->n);
+    put3(f, c->p);
+    put(f, c->length);
+    put(f, c->area);
+    put(f, normal);
+    put3(f, slide);
+    putc('\n', f);
+}

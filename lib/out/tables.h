@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* tables.h -- the tables a run leaves: loads, state, energy, contacts.  Each header function writes kind, version,
+ * history and column names; each row function one line, tab-separated, numbers that read back to the same double.
+ * Write errors stay in the stream.  Formats: loads(5), state(5), energy(5), contacts(5). */
+#ifndef FL_OUT_TABLES_H
+#define FL_OUT_TABLES_H
+#include <stdio.h>
+#include "base/tool.h"
+#include "body/body.h"
+#include "narrow/contact.h"
+
+void fl_loads_header(FILE *f, const char *history, const fl_by *by);
+/* force, moment: mean over the interval that ends at t, the moment about the world's origin; peak: largest |force| of
+ * any step in it; contacts: bodies that touch the part at t. */
+void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
+                  int32_t contacts);
+
+void fl_state_header(FILE *f, const char *history, const fl_by *by);
+/* All bodies [0, n): position of the centre of mass; orientation against the pose at the start, q q0^-1. */
+void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0);
+
+/* A row of any table of doubles. */
+void fl_table_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns);
+void fl_table_row(FILE *f, int n, const double *x);
+
+#define FL_ENERGY_COLUMNS                                                                                    \
+    "t[s]\tkinetic[J]\tgravity[J]\telastic[J]\thydrostatic[J]\tfriction[J]\tdamping[J]\tdrag[J]\twind[J]"    \
+    "\tdrive[J]\t"                                                                                           \
+    "residual[J]"
+
+void fl_contacts_header(FILE *f, const char *history, const fl_by *by);
+/* normal: component of the force on i along n, slide: the rest of it [N]. */
+void fl_contacts_row(FILE *f, double t, int32_t i, int32_t j, const fl_contact *c, double normal,
+                     fl_vec3 slide);
+
+#endif
