@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include "base/mem.h"
 #include "geom/facet.h"
 
@@ -17,6 +18,21 @@ static void circle(int32_t k, int32_t n, double *c, double *s)
     const double a = TWO_PI * (double)(4 * (int64_t)k - turn * n) / (4.0 * n), x = cos(a), y = sin(a);
     *c = turn % 4 == 0 ? x : turn % 4 == 1 ? -y : turn % 4 == 2 ? -x : y;
     *s = turn % 4 == 0 ? y : turn % 4 == 1 ? x : turn % 4 == 2 ? -y : -x;
+}
+
+/* The disc of n corners from `first` on, or nothing for a point.  As a polygon and not a fan: ten thousand
+ * triangles round one corner make every search for neighbours quadratic. */
+static int close_end(fl_part *p, int32_t first, int32_t n, int reverse, fl_err *err)
+{
+    int32_t *loop;
+    int rc;
+    if (n == 1) return 0;
+    loop = fl_alloc(n, sizeof *loop, err);
+    if (!loop) return -1;
+    for (int32_t k = 0; k < n; k++) loop[k] = first + (reverse ? n - 1 - k : k);
+    rc = fl_facet_polygon(p, n, loop, err);
+    free(loop);
+    return rc;
 }
 
 int fl_facet_cone(fl_part *p, const fl_cone *c, int32_t n, fl_err *err)
@@ -41,11 +57,7 @@ int fl_facet_cone(fl_part *p, const fl_cone *c, int32_t n, fl_err *err)
         if (a != b && fl_surface_triangle(p, a, b, e, err)) return -1;
         if (d != e && fl_surface_triangle(p, a, e, d, err)) return -1;
     }
-    for (int32_t k = 2; k < count[0]; k++)
-        if (fl_surface_triangle(p, first[0], first[0] + k, first[0] + k - 1, err)) return -1;
-    for (int32_t k = 2; k < count[1]; k++)
-        if (fl_surface_triangle(p, first[1], first[1] + k - 1, first[1] + k, err)) return -1;
-    return 0;
+    return close_end(p, first[0], count[0], 1, err) || close_end(p, first[1], count[1], 0, err) ? -1 : 0;
 }
 
 int fl_facet_box(fl_part *p, fl_vec3 lo, fl_vec3 hi, fl_err *err)

@@ -6,7 +6,7 @@
 
 enum { FL_FACET_CORNERS = 10000 };
 
-/* Append the solid c as triangles: n facets inscribed in it, ends closed by fans, normals outward.  Corners
+/* Append the solid c as triangles: n facets inscribed in it, ends closed, normals outward.  Corners
  * lie on the circles, the first of each in one of the directions at right angles to the axis (+y for an
  * upright one).  Its volume is that of c times (n / 2 pi) sin(2 pi / n).
  *   n   3 .. FL_FACET_CORNERS

@@ -1,2 +1,159 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-int main(void) { return 4; }
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/stream.h"
+#include "geom/facet.h"
+#include "scene/gstruct.h"
+#include "scene/read_mesh.h"
+#include "scene/write_stl.h"
+#include "options.h"
+#include "report.h"
+
+enum {
+    STL_FACETS = 64
+}; /* of a round solid in STL, which knows triangles only; 0.2 % of its volume is lost */
+
+/* Turn y up into z up, scale to metres, move. */
+static void place(const struct options *o, fl_part *p)
+{
+    fl_vec3 *point[2];
+    for (int32_t v = 0; v < p->nv; v++) {
+        const fl_vec3 x = o->y_up ? v3(p->v[v].x, -p->v[v].z, p->v[v].y) : p->v[v];
+        p->v[v] = v3_madd(o->translate, o->scale, x);
+    }
+    for (int32_t c = 0; c < p->nc; c++) {
+        point[0] = &p->cone[c].p0;
+        point[1] = &p->cone[c].p1;
+        for (int k = 0; k < 2; k++) {
+            const fl_vec3 x = o->y_up ? v3(point[k]->x, -point[k]->z, point[k]->y) : *point[k];
+            *point[k] = v3_madd(o->translate, o->scale, x);
+        }
+        p->cone[c].r0 *= o->scale;
+        p->cone[c].r1 *= o->scale;
+    }
+}
+
+/* A file of one part takes the name; the parts of one of several put it before theirs. */
+static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *err)
+{
+    const int32_t n = s->n - first;
+    for (int32_t i = first; name && i < s->n; i++) {
+        const char *own = s->part[i].name;
+        const size_t len = strlen(name), more = n > 1 ? strlen(own) + 1 : 0;
+        char *whole = fl_alloc((int64_t)(len + more + 1), 1, err);
+        int32_t k;
+        if (!whole) return -1;
+        memcpy(whole, name, len);
+        if (more) {
+            whole[len] = '.';
+            memcpy(whole + len + 1, own, more - 1);
+        }
+        k = fl_surface_add(s, whole, len + more,
+                           err); /* cleans the name and keeps it apart from the others */
+        free(whole);
+        if (k < 0) return -1;
+        free(s->part[i].name);
+        s->part[i].name = s->part[k].name;
+        s->n--;
+    }
+    return 0;
+}
+
+static int read_file(const struct options *o, const struct item *it, fl_surface *s, fl_err *err)
+{
+    const int32_t first = s->n;
+    char note[FL_MESH_NOTE];
+    if (fl_mesh_read(s, it->path, note, err) || rename_parts(s, first, it->name, err)) return -1;
+    for (char *p = note, *end; !o->quiet && (end = strchr(p, '\n')) != NULL; p = end + 1)
+        fprintf(stderr, "struct-import: %s: %.*s\n", it->path, (int)(end - p), p);
+    for (int32_t i = first; i < s->n; i++) place(o, &s->part[i]);
+    return 0;
+}
+
+static int make(const struct item *it, fl_surface *s, fl_err *err)
+{
+    static const char *const kind[] = {"", "cylinder", "cone", "box"};
+    const char *name = it->name ? it->name : kind[it->kind];
+    const int32_t i = fl_surface_add(s, name, strlen(name), err);
+    if (i < 0) return -1;
+    if (it->kind == ITEM_BOX) return fl_facet_box(&s->part[i], it->box.lo, it->box.hi, err);
+    return fl_surface_cone(&s->part[i], it->cone, err);
+}
+
+/* Give facets to the cones of a part. */
+static int facet(fl_part *p, int32_t n, fl_err *err)
+{
+    for (int32_t c = 0; c < p->nc; c++)
+        if (fl_facet_cone(p, &p->cone[c], n, err)) return -1;
+    p->nc = 0;
+    return 0;
+}
+
+static int collect(const struct options *o, fl_surface *s, fl_err *err)
+{
+    const int32_t facets = o->facets ? o->facets : o->to == TO_G_STRUCT ? 0 : STL_FACETS;
+    for (int32_t k = 0; k < o->items; k++)
+        if (o->item[k].kind == ITEM_FILE ? read_file(o, &o->item[k], s, err) : make(&o->item[k], s, err))
+            return -1;
+    for (int32_t i = 0; facets && i < s->n; i++)
+        if (facet(&s->part[i], facets, err)) return -1;
+    return 0;
+}
+
+static int write_out(const struct options *o, const fl_surface *s, fl_err *err)
+{
+    fl_out out = {0};
+    fl_by by;
+    int rc = -1;
+    options_by(o, &by);
+    if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
+    if (o->to == TO_G_STRUCT) fl_gstruct_write(out.f, s, &by);
+    else if (o->to == TO_STL) fl_stl_write_ascii(out.f, s);
+    else fl_stl_write_binary(out.f, s);
+    rc = fl_out_close(&out, err);
+done:
+    fl_out_abort(&out);
+    return rc;
+}
+
+/* With --strict the answer is no when a part does not bound a body. */
+static int judge(const fl_surface *s, const struct mended *m, fl_err *err)
+{
+    for (int32_t i = 0; i < s->n; i++) {
+        const fl_quality *q = &m[i].left;
+        if (q->open || q->branched || q->incoherent)
+            return fl_fail(err, FL_NO,
+                           "part \"%.60s\" is left with %d open, %d non-manifold and %d twisted edges",
+                           s->part[i].name, q->open, q->branched, q->incoherent);
+    }
+    return 0;
+}
+
+static int run(const struct options *o, fl_err *err)
+{
+    fl_surface s = {0};
+    struct mended *m = NULL;
+    int rc = -1;
+    if (collect(o, &s, err)) goto done;
+    m = fl_alloc(s.n, sizeof *m, err);
+    if (!m) goto done;
+    for (int32_t i = 0; i < s.n; i++)
+        if (mend(&s.part[i], o->weld, o->fill_holes, o->raw, &m[i], err)) goto done;
+    if (report(o, &s, m, err) || write_out(o, &s, err)) goto done;
+    rc = o->strict ? judge(&s, m, err) : 0;
+done:
+    free(m);
+    fl_surface_free(&s);
+    return rc;
+}
+
+int main(int argc, char **argv)
+{
+    struct options o;
+    fl_err err = {0};
+    int rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
+    if (rc == 0 && !o.ended) rc = run(&o, &err);
+    options_free(&o);
+    return fl_tool_end("struct-import", rc, &err);
+}

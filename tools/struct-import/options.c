@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "geom/facet.h"
+#include "options.h"
+
+static const char HELP[] =
+    "usage: struct-import [options] [FILE ...]\n"
+    "Turn meshes and ready-made solids into a structure file (g_struct) for dem-solve.\n"
+    "FILE is STL, OBJ, OFF, PLY or g_struct, told by its content; - or nothing is standard input.\n"
+    "\n"
+    "      --cylinder R,Z0,Z1[,X,Y]      an upright cylinder about X,Y (0,0) from Z0 to Z1 [m]\n"
+    "      --cone R0,Z0,R1,Z1[,X,Y]      an upright cone, cut where both radii are above 0 [m]\n"
+    "      --box X0,Y0,Z0,X1,Y1,Z1       a box of 12 triangles [m]\n"
+    "  -n, --name NAME         name of the part that comes next; at the end, of the last one\n"
+    "  -f, --facets N          make cylinders and cones of triangles, N round the circle\n"
+    "  -u, --unit UNIT         length unit of the files: mm, cm, m, in or ft (m)\n"
+    "  -s, --scale S           multiply the coordinates of the files by S (1)\n"
+    "      --up AXIS           axis that points up in the files, y or z (z)\n"
+    "  -t, --translate X,Y,Z   then move what the files hold [m]\n"
+    "  -w, --weld TOL          merge vertices within TOL [m] (1e-6 of the part's diagonal)\n"
+    "      --fill-holes N      close holes of up to N edges (0)\n"
+    "      --raw               no mending: weld only\n"
+    "      --strict            status 1 when open, non-manifold or twisted edges are left\n"
+    "      --to FORMAT         g_struct, stl (ASCII) or stl-binary (g_struct)\n"
+    "  -o, --output FILE       write there, - is standard output\n"
+    "  -z, --gzip              compress the output\n"
+    "  -j, --threads N         threads; the import works on one whatever N is\n"
+    "  -q, --quiet             no table and no warnings on standard error\n"
+    "  -v, --verbose           more about what was mended\n"
+    "  -h, --help              this text\n"
+    "      --version           the version\n";
+
+enum { CYLINDER = 256, CONE, BOX, UP, FILL_HOLES, RAW, STRICT, TO, VERSION };
+
+static const struct option LONG[] = {{"cylinder", required_argument, NULL, CYLINDER},
+                                     {"cone", required_argument, NULL, CONE},
+                                     {"box", required_argument, NULL, BOX},
+                                     {"name", required_argument, NULL, 'n'},
+                                     {"facets", required_argument, NULL, 'f'},
+                                     {"unit", required_argument, NULL, 'u'},
+                                     {"scale", required_argument, NULL, 's'},
+                                     {"up", required_argument, NULL, UP},
+                                     {"translate", required_argument, NULL, 't'},
+                                     {"weld", required_argument, NULL, 'w'},
+                                     {"fill-holes", required_argument, NULL, FILL_HOLES},
+                                     {"raw", no_argument, NULL, RAW},
+                                     {"strict", no_argument, NULL, STRICT},
+                                     {"to", required_argument, NULL, TO},
+                                     {"output", required_argument, NULL, 'o'},
+                                     {"gzip", no_argument, NULL, 'z'},
+                                     {"threads", required_argument, NULL, 'j'},
+                                     {"quiet", no_argument, NULL, 'q'},
+                                     {"verbose", no_argument, NULL, 'v'},
+                                     {"help", no_argument, NULL, 'h'},
+                                     {"version", no_argument, NULL, VERSION},
+                                     {NULL, 0, NULL, 0}};
+
+static const struct unit {
+    const char *name;
+    double metres;
+} UNIT[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
+
+static const double FAR = 1e9; /* [m] no structure reaches farther; squares and cubes stay exact in range */
+
+/* least .. most numbers divided by commas.  Their count, or -1. */
+static int numbers(const char *option, const char *text, int least, int most, double *x, fl_err *err)
+{
+    char copy[400];
+    int n = 0;
+    if (strlen(text) >= sizeof copy) return fl_fail(err, FL_USAGE, "--%s is too long", option);
+    strcpy(copy, text);
+    for (char *p = copy, *end; p; p = end) {
+        end = strchr(p, ',');
+        if (end) *end++ = '\0';
+        if (n == most || fl_num_f64(p, &x[n]) || !(fabs(x[n]) <= FAR)) {
+            n = -1;
+            break;
+        }
+        n++;
+    }
+    if (n >= least && (n == most || n == least)) return n;
+    if (least == most && least == 1)
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number was wanted", option, text);
+    if (least == most)
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d numbers with commas were wanted", option, text,
+                       least);
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d or %d numbers with commas were wanted", option, text,
+                   least, most);
+}
+
+static int whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
+{
+    if (fl_num_i32(text, lo, hi, x) == 0) return 0;
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a whole number from %d to %d was wanted", option, text,
+                   lo, hi);
+}
+
+/* The part that comes next gets the name that waits. */
+static int add_item(struct options *o, struct item it, const char **waiting, fl_err *err)
+{
+    if (fl_grow(&o->item, &o->item_cap, (int64_t)o->items + 1, sizeof *o->item, err)) return -1;
+    it.name = *waiting;
+    *waiting = NULL;
+    o->item[o->items++] = it;
+    return 0;
+}
+
+/* --cylinder R,Z0,Z1[,X,Y] is --cone R,Z0,R,Z1[,X,Y]. */
+static int round_solid(const char *option, const char *text, struct item *it, fl_err *err)
+{
+    const int cylinder = strcmp(option, "cylinder") == 0, least = cylinder ? 3 : 4;
+    double x[6] = {0};
+    const int n = numbers(option, text, least, least + 2, x, err);
+    if (n < 0) return -1;
+    const double *axis = n > least ? x + least : (const double[]){0.0, 0.0};
+    const double r0 = x[0], z0 = x[1], r1 = cylinder ? x[0] : x[2], z1 = cylinder ? x[2] : x[3];
+    if (r0 < 0.0 || r1 < 0.0 || !(r0 + r1 > 0.0))
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", radii >= 0 and not both 0 were wanted", option,
+                       text);
+    if (!(z0 < z1)) return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", Z0 < Z1 was wanted", option, text);
+    *it = (struct item){.kind = cylinder ? ITEM_CYLINDER : ITEM_CONE, .text = text};
+    it->cone = (fl_cone){v3(axis[0], axis[1], z0), v3(axis[0], axis[1], z1), r0, r1};
+    return 0;
+}
+
+static int box(const char *text, struct item *it, fl_err *err)
+{
+    double x[6] = {0};
+    if (numbers("box", text, 6, 6, x, err) < 0) return -1;
+    *it = (struct item){.kind = ITEM_BOX, .text = text, .box = {v3(x[0], x[1], x[2]), v3(x[3], x[4], x[5])}};
+    if (x[0] < x[3] && x[1] < x[4] && x[2] < x[5]) return 0;
+    return fl_fail(err, FL_USAGE, "--box is \"%.60s\", X0 < X1, Y0 < Y1 and Z0 < Z1 was wanted", text);
+}
+
+static int unit(struct options *o, const char *text, fl_err *err)
+{
+    for (size_t k = 0; k < sizeof UNIT / sizeof UNIT[0]; k++)
+        if (strcmp(text, UNIT[k].name) == 0) {
+            o->unit = UNIT[k].name;
+            o->scale = UNIT[k].metres;
+            return 0;
+        }
+    return fl_fail(err, FL_USAGE, "--unit is \"%.60s\", one of mm cm m in ft was wanted", text);
+}
+
+static int positive(const char *option, const char *text, double *x, fl_err *err)
+{
+    if (numbers(option, text, 1, 1, x, err) < 0) return -1;
+    return *x > 0.0 ? 0
+                    : fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number above 0 was wanted", option, text);
+}
+
+static int format(struct options *o, const char *text, fl_err *err)
+{
+    if (strcmp(text, "g_struct") == 0) o->to = TO_G_STRUCT;
+    else if (strcmp(text, "stl") == 0) o->to = TO_STL;
+    else if (strcmp(text, "stl-binary") == 0) o->to = TO_STL_BINARY;
+    else return fl_fail(err, FL_USAGE, "--to is \"%.60s\", g_struct, stl or stl-binary was wanted", text);
+    return 0;
+}
+
+static int apply(struct options *o, int c, const char *arg, const char **waiting, fl_err *err)
+{
+    struct item it = {0};
+    double x[3] = {0};
+    switch (c) {
+    case 1: return add_item(o, (struct item){.kind = ITEM_FILE, .path = arg}, waiting, err);
+    case CYLINDER: return round_solid("cylinder", arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
+    case CONE: return round_solid("cone", arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
+    case BOX: return box(arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
+    case 'n':
+        if (*waiting)
+            return fl_fail(err, FL_USAGE,
+                           "--name %.60s is followed by --name %.60s, a part was wanted between them",
+                           *waiting, arg);
+        if (*arg == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
+        *waiting = arg;
+        return 0;
+    case 'f': return whole("facets", arg, 3, FL_FACET_CORNERS, &o->facets, err);
+    case 'u': return unit(o, arg, err);
+    case 's': return positive("scale", arg, &o->factor, err);
+    case UP:
+        o->y_up = strcmp(arg, "y") == 0;
+        if (o->y_up || strcmp(arg, "z") == 0) return 0;
+        return fl_fail(err, FL_USAGE, "--up is \"%.60s\", y or z was wanted", arg);
+    case 't':
+        if (numbers("translate", arg, 3, 3, x, err) < 0) return -1;
+        o->translate = v3(x[0], x[1], x[2]);
+        return 0;
+    case 'w':
+        if (numbers("weld", arg, 1, 1, &o->weld, err) < 0) return -1;
+        return o->weld >= 0.0 ? 0
+                              : fl_fail(err, FL_USAGE, "--weld is \"%.60s\", a length >= 0 was wanted", arg);
+    case FILL_HOLES: return whole("fill-holes", arg, 0, 1000, &o->fill_holes, err);
+    case RAW: o->raw = 1; return 0;
+    case STRICT: o->strict = 1; return 0;
+    case TO: return format(o, arg, err);
+    case 'o': o->out = arg; return 0;
+    case 'z': o->gzip = 1; return 0;
+    case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
+    case 'q': o->quiet = 1; return 0;
+    case 'v': o->verbose = 1; return 0;
+    case 'h':
+        fputs(HELP, stdout);
+        o->ended = 1;
+        return 0;
+    case VERSION:
+        fl_tool_version("struct-import");
+        o->ended = 1;
+        return 0;
+    default: return fl_fail(err, FL_USAGE, "see struct-import --help");
+    }
+}
+
+/* The last word on names and input, once everything was read. */
+static int finish(struct options *o, const char *waiting, fl_err *err)
+{
+    int32_t streams = 0;
+    if (o->items == 0) {
+        if (add_item(o, (struct item){.kind = ITEM_FILE, .path = "-"}, &waiting, err)) return -1;
+    } else if (waiting) {
+        struct item *last = &o->item[o->items - 1];
+        if (last->name)
+            return fl_fail(err, FL_USAGE, "--name %.60s stands behind a part that is called %.60s", waiting,
+                           last->name);
+        last->name = waiting;
+    }
+    for (int32_t k = 0; k < o->items; k++)
+        streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
+    if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
+    if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes do not go together");
+    o->scale *= o->factor;
+    return 0;
+}
+
+int options_parse(struct options *o, int argc, char **argv, fl_err *err)
+{
+    const char *waiting = NULL; /* a name without a part yet */
+    int c;
+    *o = (struct options){.out = "-", .scale = 1.0, .factor = 1.0, .weld = -1.0};
+    opterr = 0;
+    /* "-": files come in their order among the options, as if by an option of code 1 */
+    while (!o->ended && (c = getopt_long(argc, argv, "-:n:f:u:s:t:w:o:zj:qvh", LONG, NULL)) != -1) {
+        const char *word = argv[optind - 1];
+        if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see struct-import --help", word);
+        if (c == '?' && optopt > 0 && optopt < 256)
+            return fl_fail(err, FL_USAGE, "-%c is no option, see struct-import --help", optopt);
+        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see struct-import --help", word);
+        if (apply(o, c, optarg, &waiting, err)) return -1;
+    }
+    for (; !o->ended && optind < argc; optind++) /* behind "--" */
+        if (apply(o, 1, argv[optind], &waiting, err)) return -1;
+    return o->ended ? 0 : finish(o, waiting, err);
+}
+
+void options_free(struct options *o) { free(o->item); }
+
+void options_by(const struct options *o, fl_by *by)
+{
+    static const char *const option[] = {"", "--cylinder ", "--cone ", "--box "};
+    char a[FL_NUM_LEN], b[FL_NUM_LEN], c[FL_NUM_LEN];
+    fl_by_start(by, "struct-import");
+    if (o->facets) fl_by_add(by, "--facets %d", o->facets);
+    if (o->unit) fl_by_add(by, "--unit %s", o->unit);
+    if (o->factor != 1.0) fl_by_add(by, "--scale %s", fl_num_text(o->factor, a));
+    if (o->y_up) fl_by_add(by, "--up y");
+    if (v3_norm(o->translate) > 0.0)
+        fl_by_add(by, "--translate %s,%s,%s", fl_num_text(o->translate.x, a), fl_num_text(o->translate.y, b),
+                  fl_num_text(o->translate.z, c));
+    if (o->weld >= 0.0) fl_by_add(by, "--weld %s", fl_num_text(o->weld, a));
+    if (o->fill_holes) fl_by_add(by, "--fill-holes %d", o->fill_holes);
+    if (o->raw) fl_by_add(by, "--raw");
+    for (int32_t k = 0; k < o->items; k++) {
+        const struct item *it = &o->item[k];
+        const char *slash = it->path ? strrchr(it->path, '/') : NULL;
+        if (it->name) fl_by_add(by, "--name %s", it->name);
+        fl_by_add(by, "%s%s", option[it->kind],
+                  it->kind == ITEM_FILE ? slash ? slash + 1 : it->path : it->text);
+    }
+}

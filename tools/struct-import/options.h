@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* options.h -- the command line of struct-import. */
+#ifndef STRUCT_IMPORT_OPTIONS_H
+#define STRUCT_IMPORT_OPTIONS_H
+#include <stdint.h>
+#include "base/err.h"
+#include "base/tool.h"
+#include "geom/surface.h"
+
+enum item_kind { ITEM_FILE, ITEM_CYLINDER, ITEM_CONE, ITEM_BOX };
+enum format { TO_G_STRUCT, TO_STL, TO_STL_BINARY };
+
+/* One thing of the command line that becomes parts, in the order given. */
+struct item {
+    enum item_kind kind;
+    const char *path, *name; /* borrowed; name is NULL when none was given */
+    const char *text;        /* the numbers of a ready-made one, as given */
+    fl_cone cone;
+    fl_aabb box;
+};
+
+struct options {
+    struct item *item; /* [items]; standard input when none was given */
+    int32_t items, item_cap;
+    const char *out, *unit; /* borrowed; unit is NULL when unknown */
+    enum format to;
+    int32_t facets;     /* 0: round solids stay what they are */
+    int32_t fill_holes; /* rims of up to this many edges are closed */
+    double scale;       /* metres per unit of the file, times --scale */
+    double factor;      /* --scale alone, 1 when not given */
+    fl_vec3 translate;  /* [m] */
+    double weld;        /* [m]; < 0: automatic */
+    int y_up, strict, raw;
+    int gzip, quiet, verbose, threads;
+    int ended; /* --help or --version was answered */
+};
+
+/* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */
+int options_parse(struct options *o, int argc, char **argv, fl_err *err);
+void options_free(struct options *o);
+
+/* The history line: what bears on the result; files by their base names. */
+void options_by(const struct options *o, fl_by *by);
+
+#endif
