@@ -291,7 +291,7 @@ static int read_path(const complaint *c, const char *text, const char *folder, c
         return 0;
     }
     for (const char *p = text; *p; p++)
-        if (iscntrl((unsigned char)*p) || ((*p == '#' || *p == ';') && p > text && p[-1] == ' '))
+        if (iscntrl((unsigned char)*p) || ((*p == '#' || *p == ';') && (p == text || p[-1] == ' ')))
             return wrong(c, "is \"%.60s\", a path without control characters and comments was wanted", text);
     if (text[0] == '/' || strcmp(text, "-") == 0) folder = "";
     else if (folder[0] && folder[strlen(folder) - 1] != '/') joint = "/";

@@ -372,6 +372,8 @@ static void set_overrules_the_file(void **state)
     assert_string_equal(s.output.state, "here.dat"); /* from the working folder */
     fl_scene_free(&s);
     set_refused("run.duration", "--set: \"run.duration\" is not section.key=value");
+    set_refused("ice.file=#x",
+                "--set: ice.file is \"#x\", a path without control characters and comments was wanted");
     set_refused("run=5", "--set: \"run\" is a section, section.key=value was wanted");
     set_refused("runn.dt=5", "--set: unknown section [runn], nearest is [run]");
     set_refused("run.dtt=5", "--set: unknown key \"dtt\" in [run], nearest is \"dt\"");
@@ -561,7 +563,8 @@ static void the_manual_page_lists_every_key(void **state)
         snprintf(heading, sizeof heading, ".Ss %s\n", fl_section_table[key->section].form);
         from = strstr(page, heading);
         if (!from) fail_msg("scene.5 lacks the line %s", heading);
-        to = strstr(from + 1, "\n.S");
+        to = strstr(from + 1, "\n.Ss ");
+        if (!to) to = strstr(from + 1, "\n.Sh ");
         if (key->later) snprintf(entry, sizeof entry, "\n.It Cm %s\n", key->key);
         else snprintf(entry, sizeof entry, "\n.It Cm %s , No default %s\n", key->key, key->fallback);
         at = strstr(from, entry);
