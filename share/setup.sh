@@ -51,16 +51,21 @@ install_on_debian()
     asroot=
     if [ "$(id -u)" -ne 0 ]; then
         have sudo || fail 2 "missing:$missing; neither root nor sudo is there to install them (apt-get install$missing)"
-        asroot=sudo
-        [ -t 0 ] || asroot="sudo -n" # nobody is there to type a password
-        $asroot true || fail 2 "missing:$missing; sudo is refused (as root: apt-get install$missing)"
+        if [ -t 0 ]; then
+            asroot=sudo
+            sudo true
+        else
+            asroot="sudo -n" # nobody is there to type a password
+            sudo -n true 2>/dev/null
+        fi || fail 2 "missing:$missing; sudo is refused (as root: apt-get install$missing)"
     fi
     echo "setup: installing$missing" >&2
     log=$(mktemp) || exit 4
     apt="env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3"
+    # One archive of several may be out of reach; the packages decide.
+    $asroot $apt update >"$log" 2>&1 </dev/null
     # shellcheck disable=SC2086 # lists
-    if ! $asroot $apt update >"$log" 2>&1 </dev/null ||
-        ! $asroot $apt install --no-install-recommends $missing >>"$log" 2>&1 </dev/null; then
+    if ! $asroot $apt install --no-install-recommends $missing >>"$log" 2>&1 </dev/null; then
         tail -n 30 "$log" >&2
         rm -f "$log"
         fail 4 "apt-get could not install$missing"
