@@ -121,8 +121,6 @@ static int check_face(struct build *b, int32_t f, fl_err *err)
         /* s over the longer side is how far the shorter side's far end stands off the longer's line */
         if (s < -b->flat * sqrt(fmax(v3_norm2(in), v3_norm2(out))))
             return fl_fail(err, FL_INPUT, "face %d is not convex at vertex %d", f, at[k]);
-        if (c < 0.0 && s <= b->width * sqrt(fmax(v3_norm2(in), v3_norm2(out))))
-            return fl_fail(err, FL_INPUT, "face %d folds back on itself at vertex %d", f, at[k]);
         if (m > 4) turn += atan2(s, c);
     }
     if (m > 4 && turn > 9.0) /* between one turn, 6.28, and two, 12.57 */
