@@ -44,6 +44,7 @@ $package installed
     done
 }
 
+# shellcheck disable=SC2086 # lists of words, meant to be split
 install_on_debian()
 {
     missing_on_debian
@@ -64,7 +65,6 @@ install_on_debian()
     apt="env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3"
     # One archive of several may be out of reach; the packages decide.
     $asroot $apt update >"$log" 2>&1 </dev/null
-    # shellcheck disable=SC2086 # lists
     if ! $asroot $apt install --no-install-recommends $missing >>"$log" 2>&1 </dev/null; then
         tail -n 30 "$log" >&2
         rm -f "$log"
