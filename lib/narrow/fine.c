@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "narrow/fine.h"
+#include <math.h>
+#include "geom/dd.h"
+
+/* |v| below this is a touch: 2^-90, some bits above the rounding of a difference of pairs of doubles. */
+#define TOUCH 8.1e-28
+
+/* Reached by no walk that was seen; a bound for the proof that there is one. */
+enum { STEPS = 4096 };
+
+typedef struct {
+    int32_t n, a[4], b[4];
+    fl_ddv w[4];
+} fine_simplex;
+
+typedef struct {
+    fl_dd d2;
+    fl_ddv v;
+    int32_t n, k[4];
+    double share[4]; /* v = sum of share[i] w[k[i]], shares sum to 1 */
+} fine_nearest;
+
+/* Points without a length, an area or a volume are left to their parts: the square of 1e-29, the rounding
+ * of a product of pairs of doubles with a margin. */
+#define FLAT 1e-58
+
+/* The point c->v of the affine hull of the points c->k[0 .. c->n) nearest to the origin, if it lies
+ * inside them. */
+static int fine_project(const fine_simplex *s, fine_nearest *c)
+{
+    const fl_ddv p = s->w[c->k[0]];
+    c->share[0] = 1.0;
+    c->v = p;
+    if (c->n == 1) return 1;
+    const fl_ddv q = s->w[c->k[1]], e = ddv_sub(q, p);
+    const fl_dd ee = ddv_dot(e, e);
+    if (c->n == 2) {
+        const fl_dd t = dd_neg(ddv_dot(p, e));
+        if (!(ee.h > 0.0) || !(t.h > 0.0) || !(dd_cmp(t, ee) < 0.0)) return 0;
+        const fl_dd x = dd_div(t, ee);
+        c->v = ddv_madd(p, x, e);
+        c->share[0] = 1.0 - x.h;
+        c->share[1] = x.h;
+        return 1;
+    }
+    const fl_ddv r = s->w[c->k[2]], g = ddv_sub(r, p), m = ddv_cross(e, g);
+    const double gg = ddv_dot(g, g).h;
+    if (c->n == 3) {
+        const fl_dd mm = ddv_dot(m, m);
+        if (!(mm.h > FLAT * ee.h * gg)) return 0;
+        const double x[3] = {ddv_dot(m, ddv_cross(q, r)).h, ddv_dot(m, ddv_cross(r, p)).h,
+                             ddv_dot(m, ddv_cross(p, q)).h};
+        if (!(x[0] > 0.0 && x[1] > 0.0 && x[2] > 0.0)) return 0;
+        for (int32_t k = 0; k < 3; k++) c->share[k] = x[k] / mm.h;
+        c->v = ddv_scale(dd_div(ddv_dot(m, p), mm), m);
+        return 1;
+    }
+    const fl_ddv t = s->w[c->k[3]], h = ddv_sub(t, p);
+    const double det = ddv_dot(m, h).h;
+    if (!(det * det > FLAT * ee.h * gg * ddv_dot(h, h).h)) return 0;
+    /* Volumes of the four tetrahedra that the origin makes with the faces, over that of the whole. */
+    const double x[4] = {ddv_dot(q, ddv_cross(r, t)).h / det, -ddv_dot(p, ddv_cross(r, t)).h / det,
+                         ddv_dot(p, ddv_cross(q, t)).h / det, -ddv_dot(p, ddv_cross(q, r)).h / det};
+    for (int32_t k = 0; k < 4; k++) {
+        if (x[k] < 0.0) return 0;
+        c->share[k] = x[k];
+    }
+    c->v = (fl_ddv){dd_of(0.0), dd_of(0.0), dd_of(0.0)};
+    return 1;
+}
+
+/* Tries every part of the simplex, so that no test of a sign can lose the nearest one. */
+static void fine_reduce(fine_simplex *s, fine_nearest *best)
+{
+    *best = (fine_nearest){.d2 = {INFINITY, 0.0}};
+    for (int32_t set = 1; set < 1 << s->n; set++) {
+        fine_nearest c = {.n = 0};
+        for (int32_t k = 0; k < s->n; k++)
+            if (set >> k & 1) c.k[c.n++] = k;
+        if (!fine_project(s, &c)) continue;
+        c.d2 = ddv_dot(c.v, c.v);
+        if (best->n == 0 || dd_cmp(c.d2, best->d2) < 0.0) *best = c;
+    }
+    fine_simplex t = {.n = best->n};
+    for (int32_t k = 0; k < t.n; k++) {
+        t.a[k] = s->a[best->k[k]];
+        t.b[k] = s->b[best->k[k]];
+        t.w[k] = s->w[best->k[k]];
+    }
+    *s = t;
+}
+
+/* As fl_core_fl_core_lowest(), the ties of the doubles decided in pairs. */
+static int32_t fine_lowest(fl_core c, fl_ddv n, double size)
+{
+    double low;
+    int32_t at = fl_core_lowest(c, ddv_round(n), &low);
+    const double border = low + FL_SUPPORT_ROUNDING * size;
+    fl_dd best = ddv_dot(n, ddv_diff(c.v[at], c.v[0]));
+    for (int32_t i = 0; i < c.n; i++) {
+        if (i == at || v3_dot(ddv_round(n), v3_sub(c.v[i], c.v[0])) > border) continue;
+        const fl_dd s = ddv_dot(n, ddv_diff(c.v[i], c.v[0]));
+        if (dd_cmp(s, best) < 0.0) {
+            best = s;
+            at = i;
+        }
+    }
+    return at;
+}
+
+int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *out)
+{
+    fine_simplex f = {.n = s->n};
+    fine_nearest now;
+    const double whole = size > 0.0 ? size : v3_norm(v3_sub(a.v[0], b.v[0]));
+    for (int32_t k = 0; k < s->n; k++) {
+        f.a[k] = s->a[k];
+        f.b[k] = s->b[k];
+        f.w[k] = ddv_diff(a.v[f.a[k]], b.v[f.b[k]]);
+    }
+    fine_reduce(&f, &now);
+    for (int step = 0; step < STEPS; step++) {
+        const double len = sqrt(now.d2.h > 0.0 ? now.d2.h : 0.0);
+        if (!(len > TOUCH * whole)) {
+            out->overlap = 1;
+            break;
+        }
+        const fl_ddv dir = ddv_scale(dd_div(dd_of(1.0), dd_of(len)), now.v);
+        const int32_t i = fine_lowest(a, dir, size),
+                      j = fine_lowest(b, (fl_ddv){dd_neg(dir.x), dd_neg(dir.y), dd_neg(dir.z)}, size);
+        out->iterations++;
+        if (fl_simplex_has(f.n, f.a, f.b, i, j)) break;
+        const fl_ddv w = ddv_diff(a.v[i], b.v[j]);
+        if (!(ddv_dot(dir, ddv_sub(f.w[0], w)).h > 0.0)) break;
+        fine_simplex t = f;
+        t.a[t.n] = i;
+        t.b[t.n] = j;
+        t.w[t.n++] = w;
+        fine_nearest next;
+        fine_reduce(&t, &next);
+        if (!(dd_cmp(next.d2, now.d2) < 0.0)) break;
+        f = t;
+        now = next;
+    }
+    out->d = out->overlap ? 0.0 : sqrt(now.d2.h);
+    out->n = out->overlap ? v3(0, 0, 0) : v3_unit(v3_scale(1.0 / out->d, ddv_round(now.v)));
+    out->pa = a.v[f.a[0]];
+    out->pb = b.v[f.b[0]];
+    for (int32_t k = 1; k < f.n; k++) {
+        out->pa = v3_madd(out->pa, now.share[k], v3_sub(a.v[f.a[k]], a.v[f.a[0]]));
+        out->pb = v3_madd(out->pb, now.share[k], v3_sub(b.v[f.b[k]], b.v[f.b[0]]));
+    }
+    s->n = f.n;
+    for (int32_t k = 0; k < f.n; k++) {
+        s->a[k] = f.a[k];
+        s->b[k] = f.b[k];
+        s->w[k] = ddv_round(f.w[k]);
+    }
+    return out->overlap;
+}
