@@ -93,11 +93,11 @@ fail:
 int32_t fl_table_column(const fl_table *t, const char *name)
 {
     const char *open = strchr(name, '[');
-    const size_t len = open ? (size_t)(open - name) : strlen(name);
-    for (int32_t k = 0; k < t->n; k++) {
-        if (strncmp(t->name[k], name, len) != 0 || t->name[k][len] != '\0') continue;
-        if (!open) return k;
-        const size_t unit = strlen(t->unit[k]);
+    for (int32_t k = 0; k < t->n; k++)
+        if (strcmp(t->name[k], name) == 0) return k;
+    for (int32_t k = 0; open && k < t->n; k++) {
+        const size_t len = strlen(t->name[k]), unit = strlen(t->unit[k]);
+        if (strncmp(name, t->name[k], len) != 0 || name + len != open) continue;
         if (strncmp(open + 1, t->unit[k], unit) == 0 && strcmp(open + 1 + unit, "]") == 0) return k;
     }
     return -1;

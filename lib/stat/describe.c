@@ -70,7 +70,8 @@ int fl_describe_quantiles(int32_t n, const double *x, const double *w, int32_t m
             else hi = k;
         }
         const double f = middle[hi] > middle[lo] ? (want - middle[lo]) / (middle[hi] - middle[lo]) : 0.0;
-        q[j] = f >= 1.0 ? s[hi].x : s[lo].x + f * (s[hi].x - s[lo].x);
+        /* p = 1 is the largest value, whatever the rounding of the sum makes of its position. */
+        q[j] = p[j] >= 1.0 ? s[n - 1].x : s[lo].x + f * (s[hi].x - s[lo].x);
     }
     free(s);
     free(middle);
