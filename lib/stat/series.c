@@ -332,6 +332,9 @@ static int cut(fl_series *s, const fl_series_ask *ask, const char *name, fl_err 
     int32_t a = 0, b = s->n;
     while (a < b && s->edge[a] < from - slack) a++;
     while (b > a && s->edge[b] > to + slack) b--;
+    if (a == b && from >= to)
+        return fl_fail(err, FL_INPUT, "%s: nothing is left by the cut, the record is from %.10g s to %.10g s",
+                       name, first, end);
     if (a == b)
         return fl_fail(err, FL_INPUT,
                        "%s: no row lies between %.10g s and %.10g s, the record is from %.10g s to %.10g s",

@@ -68,10 +68,7 @@ static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh"
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
-const char *options_table(enum table t)
-{
-    return TABLE[t];
-}
+const char *options_table(enum table t) { return TABLE[t]; }
 
 static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
                   fl_err *err)
@@ -138,7 +135,7 @@ static int take_quantile(struct options *o, char *word, fl_err *err)
     if (o->quantiles == QUANTILES_MAX)
         return fl_fail(err, FL_USAGE, "more than %d quantiles were asked for", QUANTILES_MAX);
     double *q = &o->quantile[o->quantiles];
-    if (number("quantiles", word, 0.0, 1.0, "numbers from 0 to 1", q, err)) return -1;
+    if (number("quantiles", word, 0.0, 1.0, "a number from 0 to 1", q, err)) return -1;
     for (int32_t k = 0; k < o->quantiles; k++) /* it names a column, and columns have different names */
         if (o->quantile[k] == *q) return fl_fail(err, FL_USAGE, "--quantiles has %.40s twice", word);
     o->quantiles++;
