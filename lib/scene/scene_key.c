@@ -274,7 +274,8 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, exponent),
      .fallback = "1",
      .choices = "1|1.5",
-     .meaning = "the n of F = kappa delta^n in the laws patch and core; the manual's laws have their own",
+     .meaning = "the n of F = kappa delta^n in the laws patch and core; spheres and capsules have 1.5 "
+                "always, the manual's laws their own",
      .source = "1 linear; 1.5 Hertz"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness",
@@ -312,8 +313,8 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .value = -1,
      .range = "[0,1000]",
-     .meaning = "damping in place of what restitution asks for: D = chi v_impact of patch and core, zeta of "
-                "the manual's laws",
+     .meaning = "damping in place of what restitution asks for: D = chi v_impact of patch and core; zeta of "
+                "the linear and alpha of the 3/2 modes of the manual's laws",
      .source = "Hunt & Crossley 1975; DilatedDEM manual (2016), equation (2)"},
     {.section = FL_SEC_CONTACT,
      .key = "literal2",
