@@ -16,28 +16,22 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt)
     return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
 }
 
-void fl_kick(fl_bodies *b, double h)
+void fl_kick(fl_bodies *b, int32_t i, double h)
 {
-#pragma omp parallel for schedule(static)
-    for (int32_t i = 0; i < b->n; i++) {
-        const fl_vec3 v0 = b->v[i], w0 = b->w[i];
-        b->v[i] = v3_madd(v0, h * b->invm[i], b->f[i]);
-        b->L[i] = v3_madd(b->L[i], h, b->t[i]);
-        b->w[i] = fl_body_turn(b, i, b->L[i]);
-        if (b->hold[i]) fl_hold(b, i, v0, w0);
-    }
+    const fl_vec3 v0 = b->v[i], w0 = b->w[i];
+    b->v[i] = v3_madd(v0, h * b->invm[i], b->f[i]);
+    b->L[i] = v3_madd(b->L[i], h, b->t[i]);
+    b->w[i] = fl_body_turn(b, i, b->L[i]);
+    if (b->hold[i]) fl_hold(b, i, v0, w0);
 }
 
-void fl_drift(fl_bodies *b, double dt)
+void fl_drift(fl_bodies *b, int32_t i, double dt)
 {
-#pragma omp parallel for schedule(static)
-    for (int32_t i = 0; i < b->total; i++) {
-        b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
-        b->odometer[i] += dt * (v3_norm(b->v[i]) + v3_norm(b->w[i]) * b->bound[i]);
-        if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) continue;
-        b->q[i] = fl_drift_rotation(b->q[i], b->L[i], b->I[i], dt);
-        fl_body_derive(b, i);
-    }
+    b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
+    b->odometer[i] += dt * (v3_norm(b->v[i]) + v3_norm(b->w[i]) * b->bound[i]);
+    if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) return;
+    b->q[i] = fl_drift_rotation(b->q[i], b->L[i], b->I[i], dt);
+    fl_body_derive(b, i);
 }
 
 /* Solve the k x k system a x = y, k <= 3, a symmetric and positive definite (Cholesky). */

@@ -12,12 +12,12 @@
 #define FL_BODY_INTEGRATE_H
 #include "body/body.h"
 
-/* v += h f/m, L += h t for bodies [0, n), but for what is held; renews w.
+/* v += h f/m, L += h t of body i < n, but for what is held; renews w.
  *   h  [s], half a step */
-void fl_kick(fl_bodies *b, double h);
+void fl_kick(fl_bodies *b, int32_t i, double h);
 
-/* x += dt v and the rotation above for bodies [0, total); renews R, w and the odometer.  dt [s] */
-void fl_drift(fl_bodies *b, double dt);
+/* x += dt v and the rotation above of body i < total; renews R, w and the odometer.  dt [s] */
+void fl_drift(fl_bodies *b, int32_t i, double dt);
 
 /* The rotation part alone, of one body; for tests. */
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);

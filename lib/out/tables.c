@@ -16,13 +16,13 @@ static void put3(FILE *f, fl_vec3 a)
     put(f, a.z);
 }
 
-void fl_table_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns)
+void fl_rows_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns)
 {
     fl_by_header(f, kind, 1, history, by);
     fprintf(f, "%s\n", columns);
 }
 
-void fl_table_row(FILE *f, int n, const double *x)
+void fl_rows_row(FILE *f, int n, const double *x)
 {
     char text[FL_NUM_LEN];
     fputs(fl_num_text(x[0], text), f);
@@ -32,7 +32,7 @@ void fl_table_row(FILE *f, int n, const double *x)
 
 void fl_loads_header(FILE *f, const char *history, const fl_by *by)
 {
-    fl_table_header(f, "loads", history, by,
+    fl_rows_header(f, "loads", history, by,
                     "t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts");
 }
 
@@ -49,7 +49,7 @@ void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 mo
 
 void fl_state_header(FILE *f, const char *history, const fl_by *by)
 {
-    fl_table_header(
+    fl_rows_header(
         f, "state", history, by,
         "t[s]\tbody\tx[m]\ty[m]\tz[m]\tqw\tqx\tqy\tqz\tvx[m/s]\tvy[m/s]\tvz[m/s]\twx[rad/s]\twy[rad/s]\t"
         "wz[rad/s]");
@@ -73,7 +73,7 @@ void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, con
 
 void fl_contacts_header(FILE *f, const char *history, const fl_by *by)
 {
-    fl_table_header(
+    fl_rows_header(
         f, "contacts", history, by,
         "t[s]\ti\tj\tmode\tgap[m]\tnx\tny\tnz\tpx[m]\tpy[m]\tpz[m]\tlength[m]\tarea[m2]\tfn[N]\tfsx[N]\t"
         "fsy[N]\tfsz[N]");

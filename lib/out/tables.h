@@ -20,8 +20,8 @@ void fl_state_header(FILE *f, const char *history, const fl_by *by);
 void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0);
 
 /* A row of any table of doubles. */
-void fl_table_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns);
-void fl_table_row(FILE *f, int n, const double *x);
+void fl_rows_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns);
+void fl_rows_row(FILE *f, int n, const double *x);
 
 #define FL_ENERGY_COLUMNS                                                                                    \
     "t[s]\tkinetic[J]\tgravity[J]\telastic[J]\thydrostatic[J]\tfriction[J]\tdamping[J]\tdrag[J]\twind[J]"    \

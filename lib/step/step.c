@@ -16,23 +16,20 @@ static void contacts(fl_world *w, double dt, int survey)
     for (int32_t c = 0; c < w->n_pair; c++) fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
 }
 
-/* Sum what acts on each body: weight, water, then its pairs in the order of the list, whichever thread takes it. */
-static void gather(fl_world *w)
+/* What acts on body k: weight, water, then its pairs in the order of the list, whichever thread takes it. */
+static void gather(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
-#pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < b->total; k++) {
-        b->f[k] = b->t[k] = v3(0, 0, 0);
-        if (k < w->n) {
-            b->f[k] = v3_scale(b->m[k], w->gravity);
-            if (w->sea.water) fl_sea_force(&w->sea, b, k);
-        }
-        for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-            const fl_pair *p = &w->pair[w->inc[c]];
-            if (p->n == 0) continue;
-            b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
-            b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
-        }
+    b->f[k] = b->t[k] = v3(0, 0, 0);
+    if (k < w->n) {
+        b->f[k] = v3_scale(b->m[k], w->gravity);
+        if (w->sea.water) fl_sea_force(&w->sea, b, k);
+    }
+    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
+        const fl_pair *p = &w->pair[w->inc[c]];
+        if (p->n == 0) continue;
+        b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
+        b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
     }
 }
 
@@ -124,19 +121,13 @@ static void account(fl_world *w, double dt)
     w->imbalance = v3_madd(w->imbalance, dt, balance);
 }
 
-static int forces(fl_world *w, double dt, fl_err *err)
-{
-    const int survey = w->step % SURVEY == 0;
-    if (fl_search(w, err)) return -1;
-    contacts(w, dt, survey);
-    gather(w);
-    if (survey) survey_stiffness(w);
-    return check(w, survey, err);
-}
-
 int fl_step_start(fl_world *w, fl_err *err)
 {
-    if (forces(w, 0.0, err)) return -1;
+    if (fl_search(w, err)) return -1;
+    contacts(w, 0.0, 1);
+    for (int32_t k = 0; k < w->b.total; k++) gather(w, k);
+    survey_stiffness(w);
+    if (check(w, 1, err)) return -1;
     fl_step_ledger(w);
     w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic;
     fl_step_ledger(w);
@@ -145,19 +136,33 @@ int fl_step_start(fl_world *w, fl_err *err)
 
 int fl_step(fl_world *w, fl_err *err)
 {
-    const double h = 0.5 * w->dt, t = (double)w->step * w->dt;
-    const int sea = w->sea.n > 0;
+    fl_bodies *b = &w->b;
+    const double dt = w->dt, h = 0.5 * dt, t = (double)w->step * dt;
+    const int sea = w->sea.n > 0, survey = (w->step + 1) % SURVEY == 0;
+
     load_parts(w, h);
-    if (sea) fl_sea_drag(&w->sea, &w->b, h, t);
-    fl_kick(&w->b, h);
-    fl_drift(&w->b, w->dt);
+#pragma omp parallel for schedule(static)
+    for (int32_t k = 0; k < b->total; k++) {
+        if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, t);
+        if (k < w->n) fl_kick(b, k, h);
+        fl_drift(b, k, dt);
+    }
     w->step++;
-    if (forces(w, w->dt, err)) return -1;
-    fl_kick(&w->b, h);
-    account(w, w->dt);
+    if (fl_search(w, err)) return -1;
+    contacts(w, dt, survey);
+#pragma omp parallel for schedule(static)
+    for (int32_t k = 0; k < b->total; k++) {
+        gather(w, k);
+        if (k < w->n) fl_kick(b, k, h);
+    }
+    account(w, dt);
     load_parts(w, h);
-    if (sea) fl_sea_drag(&w->sea, &w->b, h, t + h);
-    return 0;
+    if (sea) {
+#pragma omp parallel for schedule(static)
+        for (int32_t k = 0; k < w->n; k++) fl_sea_drag(&w->sea, b, k, h, t + h);
+    }
+    if (survey) survey_stiffness(w);
+    return check(w, survey, err);
 }
 
 /* --- what the books say ------------------------------------------------------------------------------------- */

@@ -31,8 +31,8 @@ void fl_sea_free(fl_sea *s);
 /* Add buoyancy to b->f[i], b->t[i]; renews wetted[i] and energy[i]. */
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
-/* Let the drag of water and wind act on all bodies for h seconds, positions held: the exact decay of
- * velocities, equations (8), (9) alone.  Adds the work to drained, blown.  t is the time [s]. */
-void fl_sea_drag(fl_sea *s, fl_bodies *b, double h, double t);
+/* Let the drag of water and wind act on body i for h seconds, position held: the exact decay of its velocities by
+ * equations (8), (9) alone.  Adds the work to drained[i], blown[i].  t is the time [s]. */
+void fl_sea_drag(fl_sea *s, fl_bodies *b, int32_t i, double h, double t);
 
 #endif

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include "base/mem.h"
+#include "out/tables.h"
+#include "run.h"
+#include "step/interact.h"
+#include "step/pairing.h"
+#include "step/search.h"
+#include "step/step.h"
+
+int look_probe(struct run *r, FILE *f, fl_err *err)
+{
+    fl_world *w = r->w;
+    w->skin = r->o->probe;
+    if (fl_search(w, err)) return -1;
+    fl_contacts_header(f, r->history, r->by);
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        fl_contact k;
+        if (!fl_interact_probe(w, w->pair[c].i, w->pair[c].j, r->o->probe, &k)) continue;
+        fl_contacts_row(f, 0.0, w->id[w->pair[c].i], run_partner(w, w->pair[c].j), &k, 0.0, v3(0, 0, 0));
+    }
+    return 0;
+}
+
+static void stage(FILE *f, const char *name, int on, const char *what)
+{
+    fprintf(f, "  %-12s %-4s %s\n", name, on ? "yes" : "no", what);
+}
+
+static double mib_of(const fl_world *w)
+{
+    double bytes = 0.0;
+    const double total = w->b.total;
+    for (int32_t k = 0; k < w->b.total; k++) {
+        const fl_poly *p = &w->b.core[k];
+        bytes += p->nv * 24.0 + p->nf * 36.0 + p->ne * 16.0 + (p->nf ? p->first[p->nf] * 4.0 : 0.0);
+        if (k < w->sea.n) bytes += w->sea.outer[k].nv * 24.0 + w->sea.outer[k].nf * 68.0;
+    }
+    bytes += total * (7 * sizeof(fl_vec3) + sizeof(fl_quat) + sizeof(fl_mat3) + sizeof(fl_poly) +
+                      12 * sizeof(double));
+    bytes += w->n_pair * (sizeof(fl_pair) + 2.0 * sizeof(int32_t));
+    for (int32_t c = 0; c < w->n_pair; c++) bytes += w->pair[c].cap * (double)sizeof(fl_memory);
+    return bytes / 1048576.0;
+}
+
+int look_plan(struct run *r, FILE *f, fl_err *err)
+{
+    static const char *const LAW[] = {"patch", "manual", "manual-si", "core"};
+    fl_world *w = r->w;
+    int32_t spheres = 0, capsules = 0, held = 0, kind[4] = {0};
+    for (int32_t i = 0; i < w->n; i++) {
+        spheres += w->b.core[i].nv == 1;
+        capsules += w->b.core[i].nv == 2;
+        held += w->b.hold[i] != 0;
+    }
+    for (int32_t k = 0; k < w->structure.n; k++) kind[w->structure.piece[k].kind]++;
+    /* Steps of this very scene tell the time better than any table. */
+    const double begun = run_clock();
+    double spent = 0.0;
+    if (fl_step_start(w, err)) return -1;
+    while (w->step < r->steps && (spent = run_clock() - begun) < 0.5)
+        if (fl_step(w, err)) return -1;
+    fprintf(f, "bodies         %d: %d polyhedra, %d spheres, %d capsules\n", w->n, w->n - spheres - capsules,
+            spheres, capsules);
+    fprintf(f, "structure      %d parts: %d solids and plates, %d cones, %d shells; %d walls\n", w->parts,
+            kind[FL_PIECE_SOLID], kind[FL_PIECE_CONE], kind[FL_PIECE_SHELL], w->walls);
+    fprintf(f, "near pairs     %d, search again after %.3g m\n", w->n_pair, w->skin);
+    fprintf(f, "law            %s between like bodies\n", w->n ? LAW[fl_pairing_law(w, 0, 0)->kind] : "none");
+    fprintf(f, "stages\n");
+    stage(f, "weight", v3_norm(w->gravity) > 0.0, "");
+    stage(f, "contacts", 1, "");
+    stage(f, "structure", w->pieces > 0, "");
+    stage(f, "walls", w->walls > 0, "");
+    stage(f, "buoyancy", w->sea.water, "exact clipping of every body that floats");
+    stage(f, "water drag", w->sea.water, "");
+    stage(f, "wind", w->sea.wind, "");
+    stage(f, "holds", held > 0, "");
+    fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,
+            r->limit);
+    if (r->step_body >= 0) fprintf(f, ", set by body %d", w->id[r->step_body]);
+    fprintf(f, "\nmemory         %.1f MiB\n", mib_of(w));
+    if (w->step)
+        fprintf(f, "time           about %.0f s on %d threads, from %" PRId64 " steps of it\n",
+                spent / (double)w->step * (double)r->steps, w->threads, w->step);
+    return 0;
+}

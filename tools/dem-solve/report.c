@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include "run.h"
+#include "step/step.h"
+
+/* Speed is never printed without its error: the two blocks belong together. */
+void report_write(const struct run *r, FILE *f)
+{
+    const fl_world *w = r->w;
+    const fl_ledger *g = &w->ledger;
+    const double steps = (double)w->step, simulated = steps * w->dt, touches = (double)w->touching_steps;
+    const double scale = g->throughput > 0.0 ? g->throughput : 1.0;
+    fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
+    if (isfinite(w->dt_critical))
+        fprintf(f, "step over critical %.3g (smallest 2/omega seen: %.4g s, body %d)\n",
+                w->dt / w->dt_critical, w->dt_critical, w->id[w->critical_body]);
+    else fprintf(f, "step over critical no contact was made\n");
+    fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %d thread%s\n", simulated,
+            r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, w->threads, w->threads == 1 ? "" : "s");
+    if (w->n && steps > 0.0)
+        fprintf(f,
+                "                   %.0f ns a body-step, %.0f ns a contact-step (%.3g contacts at a time, "
+                "%" PRId64 " searches)\n",
+                1e9 * r->wall / steps / w->n, touches > 0.0 ? 1e9 * r->wall / touches : 0.0, touches / steps,
+                w->searches);
+    fprintf(f, "energy residual    %.2g of the throughput (%.3g J of %.3g J)\n", fabs(g->residual) / scale,
+            g->residual, g->throughput);
+    fprintf(f, "momentum residual  %.2g of the contact impulses (%.3g N s of %.3g N s)\n",
+            w->impulse_size > 0.0 ? v3_norm(w->imbalance) / w->impulse_size : 0.0, v3_norm(w->imbalance),
+            w->impulse_size);
+    if (w->worst_i >= 0)
+        fprintf(f, "largest overlap    %.3g of the radii (body %d and %d)\n", w->worst_overlap,
+                w->id[w->worst_i], run_partner(w, w->worst_j));
+    else fprintf(f, "largest overlap    0 of the radii\n");
+    if (w->deep_pairs)
+        fprintf(f,
+                "core overlaps      %" PRId64
+                " evaluations (the radius is too small or the contact too soft)\n",
+                w->deep_pairs);
+    fprintf(f, "state hash         %016" PRIx64 "\n", fl_step_hash(w));
+}
