@@ -183,7 +183,7 @@ static void grammar_is_as_scene_5_says(void **state)
     char text[4000], folder[600];
     fl_scene s;
     (void)state;
-    /* byte order mark, CRLF, comments, blanks, a section opened twice, # inside a word, no newline at the end */
+    /* byte order mark, CRLF, comments, a section opened twice, # inside a word, no newline at the end */
     good(&s, "\xEF\xBB\xBF#scene 1\r\n; c\r\n[ run ] # c\r\n  duration=5 s ; c\r\n\r\n[ice]\r\nfile = "
              "a#b.dat\r\n[run]\r\n"
              "dt\t=\t1 ms");
