@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include "base/tool.h"
+#include "support/near.h"
+
+/* The end of a program, in a child whose stdout is out: its status, and what it said on stderr. */
+static int end_of(const char *out, const char *text, int rc, fl_err err, char *said, size_t room)
+{
+    const char *path = test_path("said");
+    int status = -1;
+    fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        const int fd = open(out, O_WRONLY), to = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        dup2(fd, STDOUT_FILENO);
+        dup2(to, STDERR_FILENO);
+        fputs(text, stdout);
+        _exit(fl_tool_end("loadstats", rc, &err));
+    }
+    waitpid(child, &status, 0);
+    assert_true(WIFEXITED(status));
+    FILE *f = fopen(path, "r");
+    assert_non_null(f);
+    said[fread(said, 1, room - 1, f)] = '\0';
+    fclose(f);
+    unlink(path);
+    return WEXITSTATUS(status);
+}
+
+static void status_is_the_code(void **state)
+{
+    char said[800];
+    (void)state;
+    assert_int_equal(end_of("/dev/null", "text", 0, (fl_err){0}, said, sizeof said), FL_DONE);
+    assert_string_equal(said, "");
+    for (int code = FL_NO; code <= FL_NUMERIC; code++) {
+        fl_err err = {0};
+        fl_fail(&err, code, "a.loads:%d: what was found", code);
+        char want[80];
+        snprintf(want, sizeof want, "loadstats: a.loads:%d: what was found\n", code);
+        assert_int_equal(end_of("/dev/null", "", -1, err, said, sizeof said), code);
+        assert_string_equal(said, want);
+    }
+    /* an answer "no" that needs no sentence */
+    assert_int_equal(end_of("/dev/null", "", -1, (fl_err){.code = FL_NO}, said, sizeof said), FL_NO);
+    assert_string_equal(said, "");
+    /* failed, and nobody said why */
+    assert_int_equal(end_of("/dev/null", "", -1, (fl_err){0}, said, sizeof said), FL_SYSTEM);
+}
+
+static void lost_output_is_a_failure(void **state)
+{
+    char said[800];
+    (void)state;
+    assert_int_equal(end_of("/dev/full", "text", 0, (fl_err){0}, said, sizeof said), FL_SYSTEM);
+    assert_string_equal(said, "loadstats: <stdout>: No space left on device\n");
+    /* nothing written, nothing lost */
+    assert_int_equal(end_of("/dev/full", "", 0, (fl_err){0}, said, sizeof said), FL_DONE);
+    /* the first failure is the one told */
+    fl_err err = {0};
+    fl_fail(&err, FL_INPUT, "first");
+    assert_int_equal(end_of("/dev/full", "text", -1, err, said, sizeof said), FL_INPUT);
+    assert_string_equal(said, "loadstats: first\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(status_is_the_code),
+                                       cmocka_unit_test(lost_output_is_a_failure)};
+    return cmocka_run_group_tests_name("tool", tests, NULL, NULL);
+}
