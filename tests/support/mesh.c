@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "geom/patch.h"
+#include "geom/weld.h"
+#include "scene/gstruct.h"
+#include "scene/read_mesh.h"
+#include "support/fuzz.h"
+#include "support/mesh.h"
+
+static int finite3(fl_vec3 x) { return isfinite(x.x) && isfinite(x.y) && isfinite(x.z); }
+
+static int part_sound(const fl_part *p)
+{
+    if (!p->name || !*p->name || *p->name == '#' || p->id < 0 || (p->nt == 0 && p->nc == 0)) return 0;
+    for (const char *c = p->name; *c; c++)
+        if ((unsigned char)*c <= ' ') return 0;
+    for (int32_t v = 0; v < p->nv; v++)
+        if (!finite3(p->v[v])) return 0;
+    for (int32_t t = 0; t < p->nt; t++)
+        for (int k = 0; k < 3; k++)
+            if (p->t[t].v[k] < 0 || p->t[t].v[k] >= p->nv) return 0;
+    for (int32_t c = 0; c < p->nc; c++) {
+        const fl_cone *q = &p->cone[c];
+        if (!finite3(q->p0) || !finite3(q->p1) || !(q->r0 >= 0.0 && q->r1 >= 0.0 && q->r0 + q->r1 > 0.0))
+            return 0;
+    }
+    return 1;
+}
+
+int mesh_sound(const fl_surface *s)
+{
+    for (int32_t i = 0; i < s->n; i++)
+        if (!part_sound(&s->part[i])) return 0;
+    return s->n > 0;
+}
+
+static int same3(fl_vec3 a, fl_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+static int part_same(const fl_part *p, const fl_part *q)
+{
+    if (p->nv != q->nv || p->nt != q->nt || p->nc != q->nc || p->id != q->id || strcmp(p->name, q->name) != 0)
+        return 0;
+    for (int32_t v = 0; v < p->nv; v++)
+        if (!same3(p->v[v], q->v[v])) return 0;
+    for (int32_t t = 0; t < p->nt; t++)
+        if (memcmp(&p->t[t], &q->t[t], sizeof p->t[t]) != 0) return 0;
+    for (int32_t c = 0; c < p->nc; c++) {
+        const fl_cone *a = &p->cone[c], *b = &q->cone[c];
+        if (!same3(a->p0, b->p0) || !same3(a->p1, b->p1) || a->r0 != b->r0 || a->r1 != b->r1) return 0;
+    }
+    return 1;
+}
+
+int mesh_same(const fl_surface *a, const fl_surface *b)
+{
+    if (a->n != b->n) return 0;
+    for (int32_t i = 0; i < a->n; i++)
+        if (!part_same(&a->part[i], &b->part[i])) return 0;
+    return 1;
+}
+
+/* The text of s, read again: FUZZ_READ when the same came back. */
+static int round_trip(const fl_surface *s, fl_err *err)
+{
+    char *text = NULL;
+    size_t n = 0;
+    FILE *f = open_memstream(&text, &n);
+    fl_surface again = {0};
+    fl_by by;
+    int rc;
+    if (!f) return FUZZ_SYSTEM;
+    fl_by_start(&by, "mesh-fuzz");
+    fl_gstruct_write(f, s, &by);
+    if (fclose(f) != 0) return FUZZ_SYSTEM;
+    rc = fl_gstruct_read(&again, fuzz_file((const unsigned char *)text, n), err);
+    free(text);
+    if (rc) return fuzz_verdict(rc, err) == FUZZ_SYSTEM ? FUZZ_SYSTEM : FUZZ_BROKEN;
+    rc = mesh_same(s, &again) ? FUZZ_READ : FUZZ_BROKEN;
+    fl_surface_free(&again);
+    return rc;
+}
+
+/* Welding may refuse a part that is too large to measure; nothing else may. */
+static int mend(fl_part *p, fl_err *err)
+{
+    fl_quality q;
+    fl_orient o;
+    fl_weld w;
+    if (fl_part_weld(p, -1.0, &w, err) || fl_part_orient(p, &o, err) || fl_part_measure(p, &q, err))
+        return -1;
+    return q.inverted == 0 && q.incoherent <= 3 * o.twisted * (int64_t)p->nt ? 0 : 1;
+}
+
+int mesh_fuzz(const unsigned char *data, size_t n)
+{
+    fl_err err = {0};
+    fl_surface s = {0};
+    char note[FL_MESH_NOTE];
+    int verdict, rc = fl_mesh_read(&s, fuzz_file(data, n), note, &err);
+    verdict = fuzz_verdict(rc, &err);
+    if (verdict == FUZZ_READ && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
+    if (verdict != FUZZ_READ && s.n) verdict = FUZZ_BROKEN;
+    for (int32_t i = 0; i < s.n && verdict == FUZZ_READ; i++) {
+        rc = mend(&s.part[i], &err);
+        verdict = rc > 0 ? FUZZ_BROKEN : fuzz_verdict(rc, &err);
+        if (verdict == FUZZ_READ && s.part[i].nt == 0 && s.part[i].nc == 0)
+            goto done; /* all of it collapsed */
+    }
+    if (verdict == FUZZ_READ) verdict = round_trip(&s, &err);
+done:
+    fl_surface_free(&s);
+    return verdict;
+}
