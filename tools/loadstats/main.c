@@ -7,7 +7,7 @@
 #include "stat/resample.h"
 #include "options.h"
 #include "plot.h"
-#include "tables.h"
+#include "statrows.h"
 
 /* One view of one signal, if the signal exists for this part. */
 static int make_one(fl_view *v, const fl_series *s, const struct options *o, int each, int64_t k, fl_err *err)
@@ -76,7 +76,7 @@ static int run(const struct options *o, fl_err *err)
     if (!views || make_views(views, &s, o, each, err)) goto done;
     notes(&s, o);
     const struct result r = {&s, views, each};
-    if (fl_out_open(&out, o->out, o->gzip, err) || tables_write(out.f, &r, o, &by, err) ||
+    if (fl_out_open(&out, o->out, o->gzip, err) || statrows_write(out.f, &r, o, &by, err) ||
         fl_out_close(&out, err))
         goto done;
     rc = o->plot ? plot(&r, o, &by, err) : 0;

@@ -183,10 +183,7 @@ static const char *const STYLES = "set style line 1 lc rgb '#85bcdb' lw 1.0 pt 6
                                   "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
                                   "set grid back ls 9\n";
 
-static int height_of(const picture *p)
-{
-    return HEAD + p->panels * PANEL + (p->panels - 1) * p->gap + FOOT;
-}
+static int height_of(const picture *p) { return HEAD + p->panels * PANEL + (p->panels - 1) * p->gap + FOOT; }
 
 static void open_script(const picture *p, const char *heading)
 {
@@ -231,10 +228,7 @@ static void start_curve(picture *p)
 }
 
 /* Title and key belong to the first panel. */
-static void end_panel(const picture *p)
-{
-    fputs("\nunset key\nunset label 1\n", p->script);
-}
+static void end_panel(const picture *p) { fputs("\nunset key\nunset label 1\n", p->script); }
 
 /* A step of 1, 2 or 5 times a power of ten that cuts a range into three to six. */
 static double tics(double range)

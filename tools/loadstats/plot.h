@@ -2,7 +2,7 @@
 /* plot.h -- pictures by gnuplot. */
 #ifndef LOADSTATS_PLOT_H
 #define LOADSTATS_PLOT_H
-#include "tables.h"
+#include "statrows.h"
 
 /* Write into the folder o->plot, made if need be, for each part P (for the total alone, when it is the sum of
  * one part):

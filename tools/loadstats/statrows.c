@@ -3,12 +3,9 @@
 #include "base/num.h"
 #include "stat/extreme.h"
 #include "stat/histogram.h"
-#include "tables.h"
+#include "statrows.h"
 
-const char *view_name(int w)
-{
-    return w ? "filtered" : "raw";
-}
+const char *view_name(int w) { return w ? "filtered" : "raw"; }
 
 const fl_view *view_of(const struct result *r, int32_t part, int32_t signal, int w)
 {
@@ -128,7 +125,7 @@ static void header(FILE *f, const struct options *o)
     }
 }
 
-int tables_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err)
+int statrows_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err)
 {
     fl_by_header(f, options_table(o->table), 1, r->s->history, by);
     header(f, o);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tables.h -- what loadstats prints; the columns are specified in loads(5). */
-#ifndef LOADSTATS_TABLES_H
-#define LOADSTATS_TABLES_H
+/* statrows.h -- what loadstats prints; the columns are specified in loads(5). */
+#ifndef LOADSTATS_STATROWS_H
+#define LOADSTATS_STATROWS_H
 #include <stdio.h>
 #include "base/tool.h"
 #include "stat/view.h"
@@ -22,6 +22,6 @@ const fl_view *view_of(const struct result *r, int32_t part, int32_t signal,
 void put_number(FILE *f, double x);
 
 /* Print the table that was asked for.  0, or -1 with FL_SYSTEM in err. */
-int tables_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err);
+int statrows_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err);
 
 #endif
