@@ -10,6 +10,9 @@
 /* The number of places, each as stiff as one, that a face at rest on a face puts under a body at once. */
 #define PLACES 12.0
 
+/* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its end. */
+enum { BODIES_A_THREAD = 32 };
+
 /* --- bodies ----------------------------------------------------------------------------------------------- */
 
 static double largest_face(const fl_poly *p)
@@ -212,6 +215,7 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
     double bound = 0.0;
     *w = (fl_world){.scene = scene, .n = field->n, .found_at = -1, .gravity = scene->run.gravity};
     w->threads = scene->run.threads > 0 ? scene->run.threads : omp_get_max_threads();
+    if (w->threads > 1 + field->n / BODIES_A_THREAD) w->threads = 1 + field->n / BODIES_A_THREAD;
     omp_set_num_threads(w->threads);
     w->dt_critical = INFINITY;
     w->worst_i = w->worst_j = w->critical_body = -1;

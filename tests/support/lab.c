@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "scene/scene_check.h"
+#include "scene/scene_read.h"
+#include "support/lab.h"
+
+static void must(int rc, const fl_err *err)
+{
+    if (rc == 0) return;
+    printf("lab: %s\n", err->text);
+    exit(1);
+}
+
+void lab_start(lab *l)
+{
+    static const char *const KEYS[] = {"ice.file=-",    "run.gravity=0",      "run.duration=1",
+                                       "run.threads=1", "contact.friction=0", "contact.restitution=1"};
+    memset(l, 0, sizeof *l);
+    fl_scene_start(&l->scene);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+}
+
+void lab_set(lab *l, const char *assignment)
+{
+    fl_err err = {0};
+    must(fl_scene_set(&l->scene, assignment, &err), &err);
+}
+
+void lab_poly(lab *l, fl_poly *core, double radius, fl_vec3 v, fl_vec3 spin)
+{
+    fl_err err = {0};
+    must(fl_field_add(&l->field, l->field.n + 1, radius, core, NULL, NULL, v, spin, &err), &err);
+}
+
+void lab_box(lab *l, fl_vec3 centre, fl_vec3 half, double radius, fl_quat q, fl_vec3 v, fl_vec3 spin)
+{
+    fl_err err = {0};
+    fl_poly p = {0};
+    must(fl_poly_box(&p, v3(half.x - radius, half.y - radius, half.z - radius), &err), &err);
+    fl_poly_to_frame(&p, v3(0, 0, 0), q_matrix(q_conj(q)));
+    fl_poly_to_frame(&p, v3_neg(centre), q_matrix(q_one()));
+    lab_poly(l, &p, radius, v, spin);
+}
+
+void lab_sphere(lab *l, fl_vec3 centre, double radius, fl_vec3 v, fl_vec3 spin)
+{
+    fl_err err = {0};
+    fl_poly p = {0};
+    must(fl_poly_make(&p, 1, &centre, 0, NULL, NULL, &err), &err);
+    lab_poly(l, &p, radius, v, spin);
+}
+
+static fl_part *part(lab *l)
+{
+    fl_err err = {0};
+    const int32_t k = fl_surface_add(&l->surface, "part", 4, &err);
+    must(k < 0, &err);
+    return &l->surface.part[k];
+}
+
+void lab_cone(lab *l, fl_cone c)
+{
+    fl_err err = {0};
+    must(fl_surface_cone(part(l), c, &err), &err);
+}
+
+/* The corners of an n by n grid on each of the six faces, one vertex each where faces meet. */
+void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n)
+{
+    fl_err err = {0};
+    fl_part *p = part(l);
+    const fl_vec3 s = v3_sub(hi, lo);
+    int32_t *index = calloc((size_t)(n + 1) * (size_t)(n + 1) * (size_t)(n + 1), sizeof *index);
+    if (!index) exit(1);
+    for (int axis = 0; axis < 3; axis++) {
+        for (int end = 0; end < 2; end++) {
+            for (int i = 0; i < n; i++) {
+                for (int j = 0; j < n; j++) {
+                    int32_t v[4];
+                    for (int c = 0; c < 4; c++) {
+                        int at[3];
+                        at[axis] = end * n;
+                        at[(axis + 1) % 3] = i + (c == 1 || c == 2);
+                        at[(axis + 2) % 3] = j + (c >= 2);
+                        int32_t *k = &index[(at[0] * (n + 1) + at[1]) * (n + 1) + at[2]];
+                        if (!*k) {
+                            must(fl_surface_vertex(p,
+                                                   v3(lo.x + s.x * at[0] / n, lo.y + s.y * at[1] / n,
+                                                      lo.z + s.z * at[2] / n),
+                                                   &err),
+                                 &err);
+                            *k = p->nv;
+                        }
+                        v[c] = *k - 1;
+                    }
+                    must(fl_surface_triangle(p, v[0], end ? v[1] : v[2], end ? v[2] : v[1], &err), &err);
+                    must(fl_surface_triangle(p, v[0], end ? v[2] : v[3], end ? v[3] : v[2], &err), &err);
+                }
+            }
+        }
+    }
+    free(index);
+}
+
+void lab_make(lab *l, double dt)
+{
+    fl_err err = {0};
+    int32_t body;
+    if (l->surface.n) lab_set(l, "structure.file=lab");
+    must(fl_scene_check(&l->scene, &err), &err);
+    must(fl_world_make(&l->w, &l->scene, &l->field, l->surface.n ? &l->surface : NULL, &err), &err);
+    l->w.dt = dt > 0.0 ? dt : fl_world_dt(&l->w, &body);
+    must(fl_step_start(&l->w, &err), &err);
+    l->made = 1;
+}
+
+int lab_run(lab *l, int64_t steps)
+{
+    fl_err err = {0};
+    for (int64_t k = 0; k < steps; k++) {
+        if (fl_step(&l->w, &err)) {
+            printf("lab: %s\n", err.text);
+            return err.code;
+        }
+    }
+    return 0;
+}
+
+double lab_energy(lab *l)
+{
+    fl_step_ledger(&l->w);
+    const fl_ledger *g = &l->w.ledger;
+    return g->kinetic + g->gravity + g->elastic + g->hydrostatic;
+}
+
+void lab_free(lab *l)
+{
+    if (l->made) fl_world_free(&l->w);
+    fl_field_free(&l->field);
+    fl_surface_free(&l->surface);
+    fl_scene_free(&l->scene);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* lab.h -- a small world for a test: set keys, put bodies, run. */
+#ifndef FL_TESTS_LAB_H
+#define FL_TESTS_LAB_H
+#include "step/step.h"
+
+typedef struct {
+    fl_scene scene;
+    fl_field field;
+    fl_surface surface;
+    fl_world w;
+    int made;
+} lab;
+
+/* No gravity, no damping, no friction, one thread; keys as for --set ("material.ice.young=1 GPa").  Failures end the
+ * program with the sentence: a test that cannot set up its world has failed. */
+void lab_start(lab *l);
+void lab_set(lab *l, const char *assignment);
+void lab_box(lab *l, fl_vec3 centre, fl_vec3 outer_half, double radius, fl_quat q, fl_vec3 v, fl_vec3 spin);
+void lab_sphere(lab *l, fl_vec3 centre, double radius, fl_vec3 v, fl_vec3 spin);
+void lab_poly(lab *l, fl_poly *core, double radius, fl_vec3 v, fl_vec3 spin); /* takes the core */
+/* A part of the structure: a box of triangles, n by n on its top face, or a cone. */
+void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n);
+void lab_cone(lab *l, fl_cone c);
+/* Build, and choose the step: dt > 0, or 0 for the automatic one.  Then the state is that of t = 0. */
+void lab_make(lab *l, double dt);
+/* Steps; returns 0, or the code of the error that ended them. */
+int lab_run(lab *l, int64_t steps);
+double lab_energy(lab *l); /* all stores */
+void lab_free(lab *l);
+
+#endif
