@@ -170,7 +170,7 @@ int fl_out_close(fl_out *out, fl_err *err)
     if (!out->f) return 0;
     errno = 0;
     bad = fflush(out->f) != 0 || ferror(out->f);
-    if (!out->gz && out->path) bad |= fsync(fileno(out->f)) != 0 && errno != EINVAL && errno != EROFS;
+    if (!bad && !out->gz && out->path) bad = fsync(fileno(out->f)) != 0 && errno != EINVAL && errno != EROFS;
     if (out->f != stdout) bad |= fclose(out->f) != 0;
     out->f = NULL;
     if (out->gz) bad |= gzclose(out->gz) != Z_OK;
