@@ -65,10 +65,7 @@ void fl_butter_polynomials(const fl_butter *f, double *b, double *a)
     }
 }
 
-double fl_butter_pad(const fl_butter *f)
-{
-    return ceil(3.0 * f->order * f->fs / f->fc);
-}
+double fl_butter_pad(const fl_butter *f) { return ceil(3.0 * f->order * f->fs / f->fc); }
 
 /* One pass over y[0 .. n) in steps of +1, or from the far end in steps of -1 (transposed direct form II). */
 static void pass(const fl_biquad *s, int64_t n, double *y, int step)

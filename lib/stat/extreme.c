@@ -26,7 +26,4 @@ int fl_extreme_rank(int32_t n, const double *x, int32_t *rank, fl_err *err)
     return 0;
 }
 
-double fl_extreme_position(int32_t i, int32_t n)
-{
-    return i / (n + 1.0);
-}
+double fl_extreme_position(int32_t i, int32_t n) { return i / (n + 1.0); }
