@@ -9,7 +9,8 @@
 
 /* Cell i has the sides first[i] .. first[i + 1); they and the corners v run counter-clockwise.  side.tag is
  * the site across that side, or the wall of fl_polygon_rectangle().  The two sides of a shared edge hold the
- * same numbers with opposite signs. */
+ * same numbers with opposite signs.  Where four sites lie on one circle, a side as short as rounding may be
+ * there for one of the two cells only. */
 typedef struct {
     int32_t n;
     int32_t *first; /* [n + 1]        */
