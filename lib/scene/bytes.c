@@ -8,6 +8,8 @@
 
 enum { CHUNK = 1 << 16 };
 
+static const char BYTE_ORDER_MARK[] = "\xef\xbb\xbf";
+
 int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err)
 {
     int64_t k;
@@ -24,6 +26,10 @@ int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err)
         if (k < 0) goto fail;
         b->n += (int32_t)k;
     } while (k > 0);
+    if (b->n >= 3 && memcmp(b->data, BYTE_ORDER_MARK, 3) == 0) {
+        b->n -= 3;
+        memmove(b->data, b->data + 3, (size_t)b->n);
+    }
     b->data[b->n] = '\0';
     return 0;
 fail:
@@ -61,16 +67,10 @@ void fl_bytes_note(fl_bytes *b, const char *fmt, ...)
     if (have + strlen(what) + 2 <= sizeof b->note) sprintf(b->note + have, "%s\n", what);
 }
 
-static int is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\f' || c == '\v';
-}
+static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 
 /* Length of the line end at p, 0 when there is none. */
-static int line_end(const char *p)
-{
-    return *p == '\n' ? 1 : *p != '\r' ? 0 : p[1] == '\n' ? 2 : 1;
-}
+static int line_end(const char *p) { return *p == '\n' ? 1 : *p != '\r' ? 0 : p[1] == '\n' ? 2 : 1; }
 
 /* Cut the line at pos into words; pos moves to the next line. */
 static int cut_line(fl_bytes *b, fl_err *err)
