@@ -46,6 +46,20 @@ void fl_hull_free(fl_hull *h)
     *h = (fl_hull){0};
 }
 
+/* The water plane, and the heights of the vertices over it when there are few enough to keep: every face of a
+ * vertex asks for its height. */
+enum { KEPT = 64 };
+struct water {
+    fl_vec3 up;
+    double level, s[KEPT];
+    int kept;
+};
+
+static double over(const fl_poly *p, int32_t v, const struct water *w)
+{
+    return w->kept ? w->s[v] : v3_dot(w->up, p->v[v]) - w->level;
+}
+
 /* The wetted part of a face: area, int (x - apex) dA, and the two points where the water leaves and enters
  * the loop. */
 struct part {
@@ -56,16 +70,16 @@ struct part {
 
 /* Walk round face f and keep what is wet, as a fan over its first wet corner: no list of corners is needed.
  * A crossing is always computed from its wet end, so that the two faces of an edge find the same point. */
-static struct part clip_face(const fl_poly *p, int32_t f, fl_vec3 up, double level, fl_vec3 apex)
+static struct part clip_face(const fl_poly *p, int32_t f, const struct water *w, fl_vec3 apex)
 {
     const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
     struct part out = {0};
     fl_vec3 hub = {0}, rim = {0}, from = p->v[at[m - 1]];
-    double s0 = v3_dot(up, from) - level;
+    double s0 = over(p, at[m - 1], w);
     int have = 0;
     for (int32_t k = 0; k < m; k++) {
         const fl_vec3 to = p->v[at[k]];
-        const double s1 = v3_dot(up, to) - level;
+        const double s1 = over(p, at[k], w);
         const int wet0 = s0 <= 0.0, wet1 = s1 <= 0.0;
         fl_vec3 corner[2];
         int n = 0;
@@ -95,12 +109,16 @@ static struct part clip_face(const fl_poly *p, int32_t f, fl_vec3 up, double lev
 
 /* -1 dry, +1 wet, 0 cut: then the apex is where the line from the deepest to the highest vertex meets the
  * water, a point inside. */
-static int find_apex(const fl_poly *p, fl_vec3 up, double level, fl_vec3 *apex)
+static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct water *w, fl_vec3 *apex)
 {
     double low = INFINITY, high = -INFINITY;
     int32_t l = 0, h = 0;
+    w->up = up;
+    w->level = level;
+    w->kept = p->nv <= KEPT;
     for (int32_t v = 0; v < p->nv; v++) {
         const double s = v3_dot(up, p->v[v]) - level;
+        if (w->kept) w->s[v] = s;
         if (s < low) {
             low = s;
             l = v;
@@ -121,7 +139,8 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
     const fl_poly *p = h->p;
     fl_vec3 apex, sum = {0};
     double v3fold = 0.0, wetted = 0.0, plane = 0.0;
-    const int state = find_apex(p, up, level, &apex);
+    struct water water;
+    const int state = find_apex(p, up, level, &water, &apex);
     if (state) {
         *wet = state < 0 ? (fl_wet){0}
                          : (fl_wet){.volume = h->volume, .centre = h->centre, .wetted = h->surface};
@@ -132,15 +151,14 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
         const int32_t m = p->first[f + 1] - p->first[f];
         double area = h->area[f];
         fl_vec3 moment;
-        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++)
-            below += v3_dot(up, p->v[p->loop[k]]) - level <= 0.0;
+        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) below += over(p, p->loop[k], &water) <= 0.0;
         if (below == 0) continue;
         if (below == m) {
             moment = v3_scale(area, v3_sub(h->middle[f], apex));
         } else {
-            const struct part w = clip_face(p, f, up, level, apex);
-            area = w.area;
-            moment = w.moment;
+            const struct part part = clip_face(p, f, &water, apex);
+            area = part.area;
+            moment = part.moment;
         }
         const double height = p->c[f] - v3_dot(p->n[f], apex);
         v3fold += area * height;
@@ -156,10 +174,10 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
 
 /* Spherical cap of height t = level + r over the lowest point:
  *     V = pi t^2 (3r - t) / 3,  its centroid 3 (2r - t)^2 / (4 (3r - t)) below the centre. */
-static void sphere(const fl_hull *h, fl_vec3 up, double over, fl_wet *wet)
+static void sphere(const fl_hull *h, fl_vec3 up, double water, fl_wet *wet)
 {
     const fl_vec3 o = h->p->v[0];
-    const double r = h->radius, level = over - v3_dot(up, o), t = level + r;
+    const double r = h->radius, level = water - v3_dot(up, o), t = level + r;
     *wet = (fl_wet){0};
     if (t <= 0.0) return;
     if (t >= 2.0 * r) {
@@ -172,74 +190,121 @@ static void sphere(const fl_hull *h, fl_vec3 up, double over, fl_wet *wet)
     wet->waterplane = PI * t * (2.0 * r - t);
 }
 
-/* What the stations of a capsule add up to, along the axis s and along w, the wet direction across it. */
-struct slices {
+/* What the parts of a capsule add up to: first moments about its middle, along the axis and along w, the
+ * direction across it that leads out of the water; plane is the area of the water plane, found as minus the
+ * sum of A (n.up) over the wetted surface. */
+struct parts {
     double volume, along, across, wetted, plane;
 };
 
-/* Capsule |s| <= half + r on an axis; off is how far a station lies out in a cap. */
+/* The capsule |s| <= half + r on its axis, turned so that sine >= 0. */
 struct capsule {
     double r, half, level; /* level: height of the water over the middle */
-    double sine, cosine;   /* up = sine axis + cosine w */
+    double sine, cosine;   /* up = sine axis + cosine w, cosine > 0 */
 };
 
-/* Positive halves of the nodes of the 20-point Gauss-Legendre rule on [-1, 1], and their weights. */
-static const double GAUSS[10][2] = {
-    {0.99312859918509488, 0.017614007139152118}, {0.96397192727791381, 0.040601429800386939},
-    {0.91223442825132595, 0.062672048334109068}, {0.83911697182221878, 0.083276741576704755},
-    {0.7463319064601508, 0.10193011981724044},   {0.63605368072651502, 0.11819453196151841},
-    {0.51086700195082713, 0.13168863844917664},  {0.37370608871541955, 0.14209610931838204},
-    {0.22778585114164507, 0.14917298647260374},  {0.076526521133497338, 0.15275338713072584}};
+static double clamped(double x, double lo, double hi) { return fmin(fmax(x, lo), hi); }
 
-static double off_of(const struct capsule *c, double s)
+/* theta/2 - sin cos/2 - sin^3 cos/3: what rho^2 A - int |x|^2 dA is for a circular segment of radius rho and
+ * half angle theta, in units of rho^4 */
+static double segment4(double theta, double s, double c)
 {
-    return s > c->half ? s - c->half : s < -c->half ? s + c->half : 0.0;
+    return 0.5 * (theta - s * c) - s * s * s * c / 3.0;
 }
 
-/* The station at s: a disc of radius R of which y <= k is wet, a circular segment of half angle psi. */
-static void add_station(struct slices *t, const struct capsule *c, double s, double weight)
+/* The half ball beyond an end of the axis, side = +1 or -1: |x| <= r, p.x >= 0 with p = side axis, up.x <= d.
+ * Its surface is a patch A0 of the sphere, a segment A1 of the water plane (circle of radius rho, half angle
+ * t1) and a segment A2 of the end of the cylinder (radius r, half angle t2).  With S = segment4(), sp = up.p,
+ *     V        = (r A0 + d A1) / 3                                            (divergence theorem)
+ *     int x dV = 1/2 int |x|^2 n dA = 1/2 (p r^4 S(t2) - up rho^4 S(t1))     (the same)
+ *     A0       = r^2 (2 atan2(q, sp r) + 2 (d/r) t1)                          (Gauss and Bonnet)
+ * where q is half the chord that A1 and A2 share, times the cosine.  All three angles are atan2 of q; where
+ * the circles miss each other q = 0, and they come out as the 0 or pi that is right. */
+static void add_cap(struct parts *t, const struct capsule *c, int side)
 {
-    const double off = off_of(c, s), rr = (c->r - off) * (c->r + off),
-                 k = (c->level - c->sine * s) / c->cosine;
-    const double cc = rr - k * k, chord = cc > 0.0 ? sqrt(cc) : 0.0; /* half the chord */
-    const double psi = atan2(chord, -k), area = rr * psi + k * chord;
-    t->volume += weight * area;
-    t->along += weight * area * s;
-    t->across -= weight * (2.0 / 3.0) * chord * chord * chord;
-    t->wetted += weight * 2.0 * psi * c->r;
-    t->plane += weight * 2.0 * (c->cosine * chord - c->sine * off * psi);
-}
-
-/* Whole discs from s = a to b, both on the cylinder or both in one cap: polynomials. */
-static void add_discs(struct slices *t, const struct capsule *c, double a, double b)
-{
-    const double p = off_of(c, a), q = off_of(c, b), r2 = c->r * c->r,
-                 base = a - p; /* s = base + off in a cap */
-    const int cap = p < 0.0 || q > 0.0;
-    const double v = PI * (r2 * (b - a) - (cap ? (q * q * q - p * p * p) / 3.0 : 0.0));
+    const double r = c->r, g = c->cosine, sp = side * c->sine, at = c->level - sp * c->half;
+    const double d = clamped(at, -r, r), qq = (g * r - d) * (g * r + d), q = qq > 0.0 ? sqrt(qq) : 0.0;
+    const double rho2 = (r - d) * (r + d), t1 = atan2(q, -d * sp), t2 = atan2(q, -d);
+    const double rho = sqrt(rho2), s1 = rho > 0.0 ? q / (g * rho) : 0.0,
+                 c1 = rho > 0.0 ? -d * sp / (g * rho) : 0.0;
+    const double s2 = q / (g * r),
+                 c2 = -d / (g * r); /* sine and cosine only where q > 0: else they multiply 0 */
+    const double a0 = r * r * (2.0 * atan2(q, sp * r) + 2.0 * (d / r) * t1);
+    const double a1 = rho2 * (q > 0.0 ? t1 - s1 * c1 : t1), a2 = r * r * (q > 0.0 ? t2 - s2 * c2 : t2);
+    const double m1 = -0.5 * rho2 * rho2 * (q > 0.0 ? segment4(t1, s1, c1) : 0.5 * t1);
+    const double m2 = 0.5 * r * r * r * r * (q > 0.0 ? segment4(t2, s2, c2) : 0.5 * t2);
+    const double v = (r * a0 + d * a1) / 3.0;
     t->volume += v;
-    t->along += cap ? base * v + PI * (r2 * (q * q - p * p) / 2.0 - (q * q * q * q - p * p * p * p) / 4.0)
-                    : v * 0.5 * (a + b);
-    t->wetted += 2.0 * PI * c->r * (b - a);
-    t->plane -= PI * c->sine * (q * q - p * p);
+    t->along += side * (c->half * v + m1 * sp + m2);
+    t->across += m1 * g;
+    t->wetted += a0;
+    t->plane += a1 - sp * a2;
 }
 
-static void capsule(const fl_hull *h, fl_vec3 up, double over, fl_wet *wet)
+/* Positive halves of the nodes of the 16-point Gauss-Legendre rule on [-1, 1], and their weights. */
+static const double GAUSS[8][2] = {
+    {0.98940093499164994, 0.027152459411754096}, {0.9445750230732326, 0.062253523938647894},
+    {0.86563120238783176, 0.095158511682492786}, {0.755404408355003, 0.12462897125553388},
+    {0.61787624440264377, 0.14959598881657674},  {0.45801677765722737, 0.16915651939500254},
+    {0.28160355077925892, 0.18260341504492358},  {0.095012509837637441, 0.1894506104550685}};
+
+/* Half angle of the wet segment of the disc at station s. */
+static double wet_angle(const struct capsule *c, double s)
+{
+    const double x = (c->level - c->sine * s) / (c->cosine * c->r), u = x > 1.0 ? 1.0 : x < -1.0 ? -1.0 : x;
+    return atan2(sqrt((1.0 - u) * (1.0 + u)), -u);
+}
+
+/* The cylinder: whole discs up to station a, then segments up to b, then nothing.  The half angle theta of a
+ * segment has cos theta linear in s; over theta instead of s all integrands are entire functions (sixteen
+ * nodes leave 1e-16 even for a range of pi), and differences of cosines written as products of sines stay
+ * good when the axis lies along the water and all angles are nearly one. */
+static void add_cylinder(struct parts *t, const struct capsule *c)
+{
+    const double r = c->r, h = c->half, in = (c->level - c->cosine * r) / c->sine,
+                 out = (c->level + c->cosine * r) / c->sine;
+    const int level_axis = !(c->sine > 0.0) || !(fabs(in) < 1e300);
+    const double x = c->level / (c->cosine * r); /* of all discs, when the axis is level */
+    const double a = level_axis ? (x >= 1.0 ? h : -h) : in > h ? h : in < -h ? -h : in;
+    const double b = level_axis ? (x <= -1.0 ? -h : h) : out > h ? h : out < -h ? -h : out;
+    const double disc = PI * r * r * (a + h);
+    t->volume += disc;
+    t->along += disc * 0.5 * (a - h);
+    t->wetted += 2.0 * PI * r * (a + h);
+    if (!(b > a)) return;
+    const double ta = wet_angle(c, a), tb = wet_angle(c, b), mid = 0.5 * (ta + tb), part = 0.5 * (ta - tb);
+    if (!(mid > 0.0)) return;
+    for (int g = 0; g < 16; g++) {
+        const double y = g < 8 ? -GAUSS[g][0] : GAUSS[g - 8][0], weight = GAUSS[g % 8][1];
+        const double theta = mid + y * part, rest = 0.5 * (1.0 - y) * part; /* rest = (ta - theta) / 2 */
+        const double sine = sin(theta), cosine = cos(theta);
+        const double narrow = part > 1e-8 ? part / sin(part) : 1.0;
+        const double done =
+            (part > 1e-8 ? sin(rest) / sin(part) : 0.5 * (1.0 - y)) * sin(0.5 * (ta + theta)) / sin(mid);
+        const double s = a + (b - a) * done, ds = 0.5 * (b - a) * weight * narrow * sine / sin(mid);
+        const double area = r * r * (theta - sine * cosine);
+        t->volume += ds * area;
+        t->along += ds * area * s;
+        t->across -= ds * (2.0 / 3.0) * r * r * r * sine * sine * sine;
+        t->wetted += ds * 2.0 * r * theta;
+        t->plane += ds * 2.0 * c->cosine * r * sine;
+    }
+}
+
+static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_wet *wet)
 {
     const fl_vec3 ends = v3_sub(h->p->v[1], h->p->v[0]), mid = v3_lerp(h->p->v[0], h->p->v[1], 0.5);
-    const double len = v3_norm(ends), r = h->radius, half = 0.5 * len, end = half + r;
-    const fl_vec3 axis = v3_scale(1.0 / len, ends), cross = v3_madd(up, -v3_dot(up, axis), axis);
+    const double len = v3_norm(ends), r = h->radius, half = 0.5 * len;
+    const fl_vec3 axis = v3_scale((v3_dot(up, ends) < 0.0 ? -1.0 : 1.0) / len, ends);
+    const fl_vec3 cross = v3_madd(up, -v3_dot(up, axis), axis);
     /* A cosine of zero would only divide 0 by 0 at one station: any tiny one gives the limit. */
     const struct capsule c = {.r = r,
                               .half = half,
-                              .level = over - v3_dot(up, mid),
+                              .level = water - v3_dot(up, mid),
                               .sine = v3_dot(up, axis),
-                              .cosine = fmax(v3_norm(cross), 1e-150)};
-    const fl_vec3 w = v3_scale(1.0 / c.cosine, cross);
-    const double reach = half * fabs(c.sine) + r;
-    double at[10] = {-end, -half, half, end};
-    struct slices t = {0};
-    int n = 4;
+                              .cosine = fmax(v3_norm(cross), 1e-140)};
+    const double reach = half * c.sine + r;
+    struct parts t = {0};
 
     *wet = (fl_wet){0};
     if (c.level <= -reach) return;
@@ -247,40 +312,16 @@ static void capsule(const fl_hull *h, fl_vec3 up, double over, fl_wet *wet)
         *wet = (fl_wet){.volume = h->volume, .centre = h->centre, .wetted = h->surface};
         return;
     }
-    /* Where the water meets the profile: on the two lines of the cylinder, and on the circles of the caps. */
-    for (int k = -1; k <= 1; k += 2) {
-        const double s = (c.level + k * c.cosine * r) / c.sine;
-        const double d = c.level - c.sine * k * half, cc = (r - d) * (r + d);
-        if (fabs(s) < half) at[n++] = s;
-        for (int l = -1; l <= 1 && cc > 0.0; l += 2) {
-            const double off = d * c.sine + l * sqrt(cc) * c.cosine;
-            if (k * off > 0.0 && fabs(off) < r) at[n++] = k * half + off;
-        }
-    }
-    for (int i = 1; i < n; i++)
-        for (int j = i; j > 0 && at[j] < at[j - 1]; j--) {
-            const double swap = at[j];
-            at[j] = at[j - 1];
-            at[j - 1] = swap;
-        }
-    for (int i = 0; i + 1 < n; i++) {
-        const double a = at[i], b = at[i + 1], m = 0.5 * (a + b), off = off_of(&c, m);
-        const double k = (c.level - c.sine * m) / c.cosine, rr = (r - off) * (r + off);
-        if (!(b > a) || (k <= 0.0 && k * k >= rr)) continue;
-        if (k > 0.0 && k * k >= rr) {
-            add_discs(&t, &c, a, b);
-            continue;
-        }
-        /* Areas grow from an end like (s - a)^(3/2): with s = m - (b - a)/2 cos phi they are smooth. */
-        for (int g = 0; g < 20; g++) {
-            const double *node = GAUSS[g % 10], phi = 0.5 * PI * (1.0 + (g < 10 ? -node[0] : node[0]));
-            add_station(&t, &c, m - 0.5 * (b - a) * cos(phi), 0.25 * PI * (b - a) * sin(phi) * node[1]);
-        }
-    }
+    add_cap(&t, &c, -1);
+    add_cap(&t, &c, 1);
+    add_cylinder(&t, &c);
+    /* The last rounding of a body just dipping in must not leave it, nor throw its centroid about. */
+    if (!(t.volume > 0.0)) return;
     wet->volume = t.volume;
-    if (t.volume > 0.0) wet->centre = v3_madd(v3_madd(mid, t.along / t.volume, axis), t.across / t.volume, w);
-    wet->wetted = t.wetted;
-    wet->waterplane = t.plane > 0.0 ? t.plane : 0.0;
+    wet->centre = v3_madd(v3_madd(mid, clamped(t.along / t.volume, -half - r, half + r), axis),
+                          clamped(t.across / t.volume, -r, 0.0) / c.cosine, cross);
+    wet->wetted = fmax(t.wetted, 0.0);
+    wet->waterplane = fmax(t.plane, 0.0);
 }
 
 void fl_buoyancy(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
@@ -295,11 +336,12 @@ void fl_buoyancy_plane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane
     const fl_poly *p = h->p;
     double xx[3][3] = {{0}};
     fl_vec3 apex, sum = {0};
+    struct water water;
     *w = (fl_waterplane){0};
-    if (p->nf == 0 || find_apex(p, up, level, &apex)) return;
+    if (p->nf == 0 || find_apex(p, up, level, &water, &apex)) return;
     /* Each cut face gives one side of the water plane, which the wet part's cap runs from enter to leave. */
     for (int32_t f = 0; f < p->nf; f++) {
-        const struct part part = clip_face(p, f, up, level, apex);
+        const struct part part = clip_face(p, f, &water, apex);
         if (!part.cut) continue;
         const fl_vec3 a = v3_sub(part.enter, apex), b = v3_sub(part.leave, apex), s = v3_add(a, b);
         const double tri = 0.5 * v3_dot(up, v3_cross(a, b));
