@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
+#include "geom/facet.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
 #include "support/lab.h"
@@ -101,6 +102,25 @@ void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n)
         }
     }
     free(index);
+}
+
+void lab_prism(lab *l, int n, const fl_vec3 *xy, double z0, double z1)
+{
+    fl_err err = {0};
+    fl_part *p = part(l);
+    int32_t *down = calloc((size_t)n, sizeof *down), *up = calloc((size_t)n, sizeof *up);
+    if (!down || !up) exit(1);
+    for (int k = 0; k < 2 * n; k++)
+        must(fl_surface_vertex(p, v3(xy[k % n].x, xy[k % n].y, k < n ? z0 : z1), &err), &err);
+    for (int k = 0; k < n; k++) {
+        const int32_t wall[4] = {k, (k + 1) % n, n + (k + 1) % n, n + k};
+        down[k] = n - 1 - k;
+        up[k] = n + k;
+        must(fl_facet_polygon(p, 4, wall, &err), &err);
+    }
+    must(fl_facet_polygon(p, n, down, &err), &err);
+    must(fl_facet_polygon(p, n, up, &err), &err);
+    free(down), free(up);
 }
 
 void lab_make(lab *l, double dt)

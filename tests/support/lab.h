@@ -22,6 +22,8 @@ void lab_poly(lab *l, fl_poly *core, double radius, fl_vec3 v, fl_vec3 spin); /*
 /* A part of the structure: a box of triangles, n by n on its top face, or a cone. */
 void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n);
 void lab_cone(lab *l, fl_cone c);
+/* A part that is an upright prism over any simple polygon (counter-clockwise, z ignored). */
+void lab_prism(lab *l, int n, const fl_vec3 *xy, double z0, double z1);
 /* Build, and choose the step: dt > 0, or 0 for the automatic one.  Then the state is that of t = 0. */
 void lab_make(lab *l, double dt);
 /* Steps; returns 0, or the code of the error that ended them. */
