@@ -2,6 +2,7 @@
 /* dem-solve: a scene in, the load on the structure out. */
 #include <string.h>
 #include "base/mem.h"
+#include "base/par.h"
 #include "base/stream.h"
 #include "options.h"
 #include "run.h"
@@ -118,6 +119,7 @@ int main(int argc, char **argv)
 {
     struct options o;
     fl_err err = {0};
+    fl_par_wait_briefly(argv);
     int rc = options_parse(&o, argc, argv, &err);
     if (rc == 0 && !o.ended) rc = run(&o, &err);
     return fl_tool_end("dem-solve", rc, &err);
