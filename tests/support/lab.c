@@ -28,6 +28,16 @@ void lab_set(lab *l, const char *assignment)
     must(fl_scene_set(&l->scene, assignment, &err), &err);
 }
 
+void lab_setf(lab *l, const char *fmt, ...)
+{
+    char line[256];
+    va_list ap;
+    va_start(ap, fmt);
+    vsnprintf(line, sizeof line, fmt, ap);
+    va_end(ap);
+    lab_set(l, line);
+}
+
 void lab_poly(lab *l, fl_poly *core, double radius, fl_vec3 v, fl_vec3 spin)
 {
     fl_err err = {0};

@@ -16,6 +16,7 @@ typedef struct {
  * program with the sentence: a test that cannot set up its world has failed. */
 void lab_start(lab *l);
 void lab_set(lab *l, const char *assignment);
+void lab_setf(lab *l, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 void lab_box(lab *l, fl_vec3 centre, fl_vec3 outer_half, double radius, fl_quat q, fl_vec3 v, fl_vec3 spin);
 void lab_sphere(lab *l, fl_vec3 centre, double radius, fl_vec3 v, fl_vec3 spin);
 void lab_poly(lab *l, fl_poly *core, double radius, fl_vec3 v, fl_vec3 spin); /* takes the core */
