@@ -16,6 +16,9 @@ static const double COARSE_TOL = 16 * DBL_EPSILON;
 /* Planes whose normals differ by less than this squared, in rad^2, are one plane as far as finding their
  * common corner goes: normals of narrow faces are good to 1e-5 only (fl_poly_make()). */
 static const double RANK_TOL = 1e-9;
+/* Three planes whose normals span more than this meet in a corner that Cramer's rule finds: it is off by
+ * DBL_EPSILON / DET_TOL of the way, which a second turn takes up. */
+static const double DET_TOL = 1e-7;
 /* A corner may miss its planes by this, of size + r, and still be theirs. */
 static const double MEET_TOL = 1e-12;
 /* How far a corner may fly off, in units of size + r. */
@@ -270,7 +273,6 @@ static int cut_line(fl_poly *p, struct plane pl, double tol, fl_err *err)
     double s[2] = {0};
     fl_vec3 v[2];
     fl_poly out;
-    fl_err why = {0};
     for (int32_t k = 0; k < p->nv; k++) {
         s[k] = v3_dot(pl.n, p->v[k]) - pl.c;
         if (fabs(s[k]) <= tol) s[k] = 0.0;
@@ -283,10 +285,7 @@ static int cut_line(fl_poly *p, struct plane pl, double tol, fl_err *err)
     }
     const int wet = s[0] < 0.0 ? 0 : 1, dry = 1 - wet;
     v[dry] = v3_lerp(v[wet], v[dry], s[wet] / (s[wet] - s[dry]));
-    if (fl_poly_make(&out, 2, v, 0, NULL, NULL, &why))
-        return why.code == FL_SYSTEM
-                   ? fl_fail(err, FL_SYSTEM, "%s", why.text)
-                   : fl_fail(err, FL_NUMERIC, "what the cut leaves is too short: %s", why.text);
+    if (fl_poly_make(&out, 2, v, 0, NULL, NULL, err)) return -1;
     fl_poly_free(p);
     *p = out;
     return 0;
@@ -324,13 +323,12 @@ static fl_vec3 meet(int32_t n, const struct plane *pl, const double *miss)
     fl_vec3 rhs = {0}, d = {0};
     fl_mat3 a = {{{0}}}, axes;
     double value[3];
-    if (n ==
-        3) { /* nearly always; Cramer's rule is ten times faster, and good where the planes differ well */
+    if (n == 3) { /* nearly always; Cramer's rule is ten times faster */
         const fl_vec3 yz = v3_cross(pl[1].n, pl[2].n), zx = v3_cross(pl[2].n, pl[0].n),
                       xy = v3_cross(pl[0].n, pl[1].n);
         const double det = v3_dot(pl[0].n, yz);
         d = v3_madd(v3_madd(v3_scale(miss[0], yz), miss[1], zx), miss[2], xy);
-        if (fabs(det) > 1e-3) return v3_scale(1.0 / det, d);
+        if (fabs(det) > DET_TOL) return v3_scale(1.0 / det, d);
         d = (fl_vec3){0};
     }
     for (int32_t k = 0; k < n; k++) {
