@@ -7,6 +7,10 @@
  * float32 coordinates stray 1e-7 of their size, and a panel meant as warped strays 1e-3 and more. */
 static const double FLAT = 1e-6;
 
+/* Sides that turn by less than this [rad] are straight: rounding turns the sides of a panel 1 m wide by up to
+ * 1e-10 when it stands 1e6 m from the origin. */
+static const double STRAIGHT = 1e-9;
+
 static const double TWO_PI = 6.283185307179586477;
 
 /* Corner k of n of the unit circle.  The angle is brought to within an eighth of a turn before the C library
@@ -118,25 +122,35 @@ typedef struct {
     int32_t left, hollow; /* corners still there, concave ones among them */
 } ring;
 
-static double corner_turn(const ring *r, int32_t k)
+/* How much turns too little to count, for sides ab and bc or any two like them. */
+static double slack(fl_vec3 a, fl_vec3 b, fl_vec3 c)
 {
-    return turn(r->n, r->x[r->loop[r->prev[k]]], r->x[r->loop[k]], r->x[r->loop[r->next[k]]]);
+    return STRAIGHT * v3_norm(v3_sub(b, a)) * v3_norm(v3_sub(c, b));
 }
 
-/* An ear: a convex corner whose triangle holds no other corner.  Only concave corners can be the first
- * inside. */
+/* Does corner k fail to turn left? */
+static int turns_in(const ring *r, int32_t k)
+{
+    const fl_vec3 a = r->x[r->loop[r->prev[k]]], b = r->x[r->loop[k]], c = r->x[r->loop[r->next[k]]];
+    return !(turn(r->n, a, b, c) > slack(a, b, c));
+}
+
+static int same_place(fl_vec3 a, fl_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/* An ear: a convex corner whose triangle holds no other corner, not even on its rim.  Only concave corners
+ * can be the first inside.  A corner in the same place as one of the triangle's is the other bank of a cut to
+ * a hole. */
 static int is_ear(const ring *r, int32_t k)
 {
     const int32_t i = r->prev[k], j = r->next[k];
     const fl_vec3 a = r->x[r->loop[i]], b = r->x[r->loop[k]], c = r->x[r->loop[j]];
+    const double rim = -slack(a, b, c);
     if (r->concave[k]) return 0;
     if (r->hollow == 0) return 1;
     for (int32_t m = r->next[j]; m != i; m = r->next[m]) {
         const fl_vec3 y = r->x[r->loop[m]];
-        if (!r->concave[m] || r->loop[m] == r->loop[i] || r->loop[m] == r->loop[j] ||
-            r->loop[m] == r->loop[k])
-            continue;
-        if (turn(r->n, a, b, y) >= 0.0 && turn(r->n, b, c, y) >= 0.0 && turn(r->n, c, a, y) >= 0.0) return 0;
+        if (!r->concave[m] || same_place(y, a) || same_place(y, b) || same_place(y, c)) continue;
+        if (turn(r->n, a, b, y) >= rim && turn(r->n, b, c, y) >= rim && turn(r->n, c, a, y) >= rim) return 0;
     }
     return 1;
 }
@@ -149,23 +163,24 @@ static void mark(ring *r, int32_t k, int concave)
 
 static int clip_ears(fl_part *p, ring *r, fl_err *err)
 {
-    int32_t k = 0, idle = 0;
+    int32_t k = 0, idle = 0; /* corners since the last ear */
+    int crossed = 0;
     while (r->left > 3) {
         const int32_t i = r->prev[k], j = r->next[k];
-        if (!is_ear(r, k) && idle < r->left) {
-            idle++;
+        if (!crossed && !is_ear(r, k)) {
+            /* A full round without an ear: the polygon crosses itself, and is cut off corner by corner. */
+            crossed = ++idle == r->left;
             k = j;
             continue;
         }
-        /* With a full round idle the polygon crosses itself: what is left is cut off corner by corner. */
         if (fl_surface_triangle(p, r->loop[i], r->loop[k], r->loop[j], err)) return -1;
         r->next[i] = j;
         r->prev[j] = i;
         r->left--;
         mark(r, k, 0);
-        mark(r, i, !(corner_turn(r, i) > 0.0));
-        mark(r, j, !(corner_turn(r, j) > 0.0));
-        if (idle < r->left) idle = 0;
+        mark(r, i, turns_in(r, i));
+        mark(r, j, turns_in(r, j));
+        idle = 0;
         k = r->next[j]; /* not j itself: going round keeps triangles from becoming slivers of one corner */
     }
     return fl_surface_triangle(p, r->loop[r->prev[k]], r->loop[k], r->loop[r->next[k]], err);
@@ -209,7 +224,7 @@ int fl_facet_polygon(fl_part *p, int32_t n, const int32_t *loop, fl_err *err)
                                    v3_sub(r.x[r.loop[r.next[k]]], r.x[r.loop[0]])));
     }
     r.n = v3_unit(r.n);
-    for (int32_t k = 0; k < r.left; k++) mark(&r, k, !(corner_turn(&r, k) > 0.0));
+    for (int32_t k = 0; k < r.left; k++) mark(&r, k, turns_in(&r, k));
     rc = r.left == 4 && r.hollow == 0 ? quadrilateral(p, r.loop, err) : clip_ears(p, &r, err);
 done:
     free(mem);

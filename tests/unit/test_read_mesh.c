@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include "geom/facet.h"
+#include "geom/patch.h"
+#include "geom/weld.h"
+#include "scene/gstruct.h"
+#include "scene/read_mesh.h"
+#include "scene/write_stl.h"
+#include "support/mesh.h"
+#include "support/near.h"
+
+static fl_err err;
+static char note[FL_MESH_NOTE];
+
+/* The float32 next to x.  By way of memory: gcc 12 drops a pair of conversions there and back when it packs
+ * two of them into one register. */
+static double single(double x)
+{
+    volatile float y = (float)x;
+    return (double)y;
+}
+
+/* The model: a frustum on the grid of float32, so that each format can hold it. */
+static void model(fl_surface *s)
+{
+    const fl_cone c = {v3(0, 0, -2), v3(0, 0, 3), 2, 1};
+    const int32_t i = fl_surface_add(s, "model", 5, &err);
+    fl_part *p = &s->part[i];
+    fl_weld w;
+    fl_facet_cone(p, &c, 24, &err);
+    for (int32_t v = 0; v < p->nv; v++) p->v[v] = v3(single(p->v[v].x), single(p->v[v].y), single(p->v[v].z));
+    fl_part_weld(p, 0.0, &w, &err);
+}
+
+static void put_obj(FILE *f, const fl_part *p)
+{
+    fprintf(f, "g model\n");
+    for (int32_t v = 0; v < p->nv; v++) fprintf(f, "v %.17g %.17g %.17g\n", p->v[v].x, p->v[v].y, p->v[v].z);
+    for (int32_t t = 0; t < p->nt; t++)
+        fprintf(f, "f %d %d/7 %d//9\n", p->t[t].v[0] + 1, p->t[t].v[1] + 1, p->t[t].v[2] - p->nv);
+}
+
+static void put_off(FILE *f, const fl_part *p)
+{
+    fprintf(f, "OFF\n%d %d 0\n", p->nv, p->nt);
+    for (int32_t v = 0; v < p->nv; v++) fprintf(f, "%.17g %.17g %.17g\n", p->v[v].x, p->v[v].y, p->v[v].z);
+    for (int32_t t = 0; t < p->nt; t++) fprintf(f, "3 %d %d %d\n", p->t[t].v[0], p->t[t].v[1], p->t[t].v[2]);
+}
+
+static void put_ply_head(FILE *f, const fl_part *p, const char *kind, const char *real)
+{
+    fprintf(f, "ply\nformat %s 1.0\nelement vertex %d\nproperty %s x\nproperty %s y\nproperty %s z\n", kind,
+            p->nv, real, real, real);
+    fprintf(f, "element face %d\nproperty list uchar int vertex_indices\nend_header\n", p->nt);
+}
+
+static void put_ply(FILE *f, const fl_part *p)
+{
+    put_ply_head(f, p, "ascii", "double");
+    for (int32_t v = 0; v < p->nv; v++) fprintf(f, "%.17g %.17g %.17g\n", p->v[v].x, p->v[v].y, p->v[v].z);
+    for (int32_t t = 0; t < p->nt; t++) fprintf(f, "3 %d %d %d\n", p->t[t].v[0], p->t[t].v[1], p->t[t].v[2]);
+}
+
+/* The bytes of an unsigned number of n bytes, the lowest first or last. */
+static void put_bits(FILE *f, uint64_t u, int n, int big)
+{
+    for (int k = 0; k < n; k++) fputc((int)(u >> 8 * (big ? n - 1 - k : k) & 0xff), f);
+}
+
+static void put_ply_binary(FILE *f, const fl_part *p, int big, int wide)
+{
+    put_ply_head(f, p, big ? "binary_big_endian" : "binary_little_endian", wide ? "double" : "float");
+    for (int32_t v = 0; v < p->nv; v++) {
+        const double x[3] = {p->v[v].x, p->v[v].y, p->v[v].z};
+        for (int k = 0; k < 3; k++) {
+            const float y = (float)x[k];
+            uint64_t bits = 0;
+            uint32_t half = 0;
+            memcpy(&bits, &x[k], sizeof bits);
+            memcpy(&half, &y, sizeof half);
+            put_bits(f, wide ? bits : half, wide ? 8 : 4, big);
+        }
+    }
+    for (int32_t t = 0; t < p->nt; t++) {
+        fputc(3, f);
+        for (int k = 0; k < 3; k++) put_bits(f, (uint64_t)p->t[t].v[k], 4, big);
+    }
+}
+
+enum { STL_ASCII, STL_BINARY, OBJ, OFF, PLY, PLY_LITTLE, PLY_BIG, PLY_DOUBLE, G_STRUCT, KINDS };
+
+static char *written(const fl_surface *s, int kind, size_t *n)
+{
+    char *text = NULL;
+    FILE *f = open_memstream(&text, n);
+    const fl_part *p = &s->part[0];
+    fl_by by;
+    fl_by_start(&by, "test");
+    switch (kind) {
+    case STL_ASCII: fl_stl_write_ascii(f, s); break;
+    case STL_BINARY: fl_stl_write_binary(f, s); break;
+    case OBJ: put_obj(f, p); break;
+    case OFF: put_off(f, p); break;
+    case PLY: put_ply(f, p); break;
+    case PLY_LITTLE: put_ply_binary(f, p, 0, 0); break;
+    case PLY_BIG: put_ply_binary(f, p, 1, 0); break;
+    case PLY_DOUBLE: put_ply_binary(f, p, 1, 1); break;
+    default: fl_gstruct_write(f, s, &by); break;
+    }
+    fclose(f);
+    return text;
+}
+
+static void the_same_model_in_every_format(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        fl_surface s = {0}, got = {0};
+        fl_weld w;
+        size_t n = 0;
+        char *text;
+        model(&s);
+        text = written(&s, kind, &n);
+        assert_int_equal(fl_mesh_read(&got, test_file("model", text, n), note, &err), 0);
+        assert_string_equal(note, "");
+        assert_int_equal(got.n, 1);
+        assert_int_equal(fl_part_weld(&got.part[0], 0.0, &w, &err), 0);
+        free(got.part[0].name); /* files without a name give it that of the file */
+        got.part[0].name = strdup("model");
+        assert_int_equal(mesh_same(&s, &got), 1);
+        free(text);
+        fl_surface_free(&s);
+        fl_surface_free(&got);
+    }
+    unlink(test_path("model"));
+}
+
+/* CRLF for LF, no last line end, and a byte order mark, in each text format. */
+static void line_ends_do_not_matter(void **state)
+{
+    static const int kinds[] = {STL_ASCII, OBJ, OFF, PLY, G_STRUCT};
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        fl_surface s = {0}, plain = {0}, other = {0};
+        size_t n = 0, m = 3;
+        char *text, *dos;
+        model(&s);
+        text = written(&s, kinds[k], &n);
+        dos = malloc(2 * n + 3);
+        assert_non_null(dos);
+        memcpy(dos, "\xef\xbb\xbf", 3);
+        for (size_t i = 0; i < n; i++) {
+            if (text[i] == '\n') dos[m++] = '\r';
+            dos[m++] = text[i];
+        }
+        assert_int_equal(fl_mesh_read(&plain, test_file("model", text, n), note, &err), 0);
+        assert_int_equal(fl_mesh_read(&other, test_file("model", dos, m - 2), note, &err), 0);
+        assert_int_equal(mesh_same(&plain, &other), 1);
+        free(text);
+        free(dos);
+        fl_surface_free(&s);
+        fl_surface_free(&plain);
+        fl_surface_free(&other);
+    }
+    unlink(test_path("model"));
+}
+
+static fl_surface read_text(const char *text)
+{
+    fl_surface s = {0};
+    if (fl_mesh_read(&s, test_file("in.v2.mesh", text, strlen(text)), note, &err)) fail_msg("%s", err.text);
+    assert_int_equal(mesh_sound(&s), 1);
+    unlink(test_path("in.v2.mesh"));
+    return s;
+}
+
+#define FACET "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+
+static void solids_are_parts(void **state)
+{
+    fl_surface s = read_text("solid leg one\n" FACET "endsolid leg one\nSOLID\n" FACET FACET
+                             "endsolid\nsolid none\nendsolid none\nsolid leg  one\n" FACET "endsolid");
+    (void)state;
+    assert_int_equal(s.n, 3);
+    assert_string_equal(s.part[0].name, "leg_one");
+    assert_non_null(strstr(s.part[1].name, "in.v2")); /* the file without folder and ending */
+    assert_null(strstr(s.part[1].name, "mesh"));
+    assert_string_equal(s.part[2].name, "leg__one");
+    assert_int_equal(s.part[1].nt, 2);
+    assert_string_equal(note, "part \"none\" has no triangles and was dropped\n");
+    fl_surface_free(&s);
+}
+
+#define FOUR "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+
+static void objects_groups_and_materials_are_parts(void **state)
+{
+    static const struct {
+        const char *text, *names[3];
+        int32_t triangles[3];
+    } c[] = {
+        {FOUR "usemtl steel\nf 1 2 3\nusemtl ice\nf 1 2 4\nusemtl steel\nf 2 3 4\n",
+         {"steel", "ice"},
+         {2, 1}},
+        {FOUR "g a b\nusemtl steel\nf 1 2 3\ng c\nf 1 2 4\n", {"a_b", "c"}, {1, 1}},
+        {FOUR "o all\ng a\nf 1 2 3\ng c\nf 1 2 4\ng a\nf 1 3 4\n", {"a", "c"}, {2, 1}},
+        {FOUR "o one\ng a\nf 1 2 3\no two\ng c\nf 1 2 4\nf 1 2 3 4\n", {"one", "two"}, {1, 3}},
+        {FOUR "o one\nusemtl x\nf 1 2 3\nusemtl y\nf 1 2 4\n", {"one"}, {2}},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) {
+        fl_surface s = read_text(c[k].text);
+        int32_t n = 0;
+        for (; n < 3 && c[k].names[n]; n++) {
+            assert_true(n < s.n);
+            assert_string_equal(s.part[n].name, c[k].names[n]);
+            assert_int_equal(s.part[n].nt, c[k].triangles[n]);
+        }
+        assert_int_equal(s.n, n);
+        fl_surface_free(&s);
+    }
+}
+
+static void remarks_are_made(void **state)
+{
+    fl_surface s = read_text(FOUR "curv2 1 2\nsurf 0 1\nf 1 2 3\nl 1 2\ns off\n");
+    (void)state;
+    assert_string_equal(note, "2 rows of unknown words were passed over\n");
+    fl_surface_free(&s);
+}
+
+/* A second file adds its parts under names and numbers of its own, and its history. */
+static void files_add_up(void **state)
+{
+    static const char own[] = "#g_struct 1\n#by a\npart 7 leg\ncone 0 0 0 1 0 0 1 1\n";
+    static const char other[] =
+        "#g_struct 1\n#by b\npart 7 leg\ncone 0 0 0 1 0 0 2 1\npart 3 arm\ncone 0 0 0 1 0 0 2 1\n";
+    fl_surface s = {0};
+    (void)state;
+    assert_int_equal(fl_mesh_read(&s, test_file("a", own, strlen(own)), note, &err), 0);
+    assert_int_equal(fl_mesh_read(&s, test_file("a", other, strlen(other)), note, &err), 0);
+    assert_int_equal(s.n, 3);
+    assert_int_equal(s.part[0].id, 7);
+    assert_int_equal(s.part[1].id, 8);
+    assert_int_equal(s.part[2].id, 9);
+    assert_string_equal(s.part[1].name, "leg_2");
+    assert_string_equal(s.part[2].name, "arm");
+    assert_string_equal(s.history, "#by a\n#by b\n");
+    fl_surface_free(&s);
+    unlink(test_path("a"));
+}
+
+static void each_fault_has_its_sentence(void **state)
+{
+    static const struct {
+        const char *text, *says; /* behind the name of the file */
+    } fault[] = {
+        {"", ": empty, a mesh was wanted"},
+        {"hello world\n", ": neither STL, OBJ, OFF, PLY nor g_struct"},
+        {"solid a\nendsolid a\n", ": no triangles"},
+        {"solid a\n" FACET, ":8: the file ends inside solid \"a\""},
+        {"solid a\n" FACET "oops\n", ":9: \"oops\" was found, \"facet\" or \"endsolid\" was wanted"},
+        {"solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 nan 0\n",
+         ":4: y is \"nan\", a finite number was wanted"},
+        {"solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n",
+         ":6: a loop of 2 corners, at least 3 were wanted"},
+        {FOUR "f 1 2 5\n", ":5: the face wants vertex 5, but there are 4 so far"},
+        {FOUR "f 1 2 -5\n", ":5: the face wants vertex -5, but there are 4 so far"},
+        {FOUR "f 1 2 0\n", ":5: vertex index \"0\" was found, a whole number other than 0 was wanted"},
+        {FOUR "f 1 2\n", ":5: a face of 2 corners, at least 3 were wanted"},
+        {FOUR "v 1 inf 2\n", ":5: y is \"inf\", a finite number was wanted"},
+        {FOUR "v 1 2\n", ":5: z is missing after 3 words"},
+        {FOUR, ": no triangles"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: the file ends after 2 of 3 vertices"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: vertex index \"3\" was found, 0 to 2 was wanted"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n", ":6: the face has 3 of its 4 corners"},
+        {"OFF\n3 many 0\n", ":2: the number of faces is \"many\", a whole number >= 0 was wanted"},
+        {"OFF BINARY\n", ":1: a binary OFF file, an ASCII one was wanted"},
+        {"ply\nformat ascii 1.0\nelement vertex 1\nend_header\n",
+         ":4: one element \"vertex\" with properties x, y and z was wanted"},
+        {"ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n",
+         ":4: \"half\" is not a type of PLY 1.0"},
+        {"ply\nelement vertex 1\n", ":2: the file ends inside the header"},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof fault / sizeof fault[0]; k++) {
+        fl_surface s = {0};
+        fl_err e = {0};
+        const char *path = test_file("bad", fault[k].text, strlen(fault[k].text));
+        assert_int_equal(fl_mesh_read(&s, path, note, &e), -1);
+        assert_int_equal(e.code, FL_INPUT);
+        assert_int_equal(strncmp(e.text, path, strlen(path)), 0);
+        assert_string_equal(e.text + strlen(path), fault[k].says);
+        assert_null(s.part);
+    }
+    unlink(test_path("bad"));
+}
+
+/* 84 + 50 n decides, whatever the first word says; a count that was never filled in is taken from the size.
+ * */
+static void size_decides_on_binary(void **state)
+{
+    fl_surface s = {0}, got = {0};
+    fl_err e = {0};
+    size_t n = 0;
+    char *text;
+    (void)state;
+    model(&s);
+    text = written(&s, STL_BINARY, &n);
+    assert_int_equal(n, 84 + 50 * (size_t)s.part[0].nt);
+    memcpy(text, "solid liar", 10);
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), note, &err), 0);
+    assert_int_equal(got.part[0].nt, s.part[0].nt);
+    fl_surface_free(&got);
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n - 50), note, &e), -1);
+    assert_non_null(strstr(e.text, "bytes of binary data: not a whole binary STL"));
+    memset(text + 80, 0, 4);
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), note, &err), 0);
+    assert_int_equal(got.part[0].nt, s.part[0].nt);
+    assert_non_null(strstr(note, "the header says no triangles"));
+    fl_surface_free(&got);
+    memset(text + 84 + 50 * 3 + 12, 0xff, 4); /* a nan */
+    e = (fl_err){0};
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), note, &e), -1);
+    assert_non_null(strstr(e.text, ": triangle 3 of "));
+    free(text);
+    fl_surface_free(&s);
+    unlink(test_path("b"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_model_in_every_format),
+                                       cmocka_unit_test(line_ends_do_not_matter),
+                                       cmocka_unit_test(solids_are_parts),
+                                       cmocka_unit_test(objects_groups_and_materials_are_parts),
+                                       cmocka_unit_test(remarks_are_made),
+                                       cmocka_unit_test(files_add_up),
+                                       cmocka_unit_test(each_fault_has_its_sentence),
+                                       cmocka_unit_test(size_decides_on_binary)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
