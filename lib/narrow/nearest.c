@@ -70,6 +70,8 @@ fl_nearest fl_nearest_poly(const fl_poly *p, fl_vec3 x)
         q.n = q.d > 0.0 ? v3_scale(1.0 / q.d, q.n) : v3(0, 0, 1);
         return q;
     }
+    /* A flat polygon has no inside: a point in its plane may lie beside it. */
+    if (p->nf == 2) return fl_nearest_face(p, face, x);
     /* Inside, or the foot on the farthest plane is in its face: no other point of a convex body is nearer. */
     if (top <= 0.0 || foot_inside(p, face, x))
         return (fl_nearest){top, v3_madd(x, -top, p->n[face]), p->n[face]};
