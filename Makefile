@@ -49,7 +49,7 @@ $B/tests/%.o $(SUPPORT): CFLAGS += -Itests
 setup:
 	@sh share/setup.sh
 demo check verify bench: setup
-	@$(MAKE) --no-print-directory run-$@
+	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) run-$@
 run-demo: all
 	@$(MAKE) --no-print-directory -C share/examples/cylinder BIN=$(CURDIR)/$B/bin demo
 run-check run-verify run-bench: tests
