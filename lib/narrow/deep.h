@@ -15,10 +15,7 @@ typedef struct {
     double r;         /* [m]               */
 } fl_solid;
 
-static inline fl_core fl_solid_core(const fl_solid *s)
-{
-    return (fl_core){s->v, s->p->nv};
-}
+static inline fl_core fl_solid_core(const fl_solid *s) { return (fl_core){s->v, s->p->nv}; }
 
 /* What became of the proposals of libccd; add up over calls.  NULL where nobody asks. */
 typedef struct {
@@ -32,8 +29,8 @@ typedef struct {
 typedef struct {
     double depth;   /* smallest shift that separates the cores, >= 0                         [m] */
     fl_vec3 n;      /* its unit direction, from b to a: move a by depth n                        */
-    fl_vec3 pa, pb; /* a point of a deepest below, of b highest along n: pa - pb = -depth n;
-                     * centred where faces or edges are parallel                             [m] */
+    fl_vec3 pa, pb; /* a point of a deepest below, of b highest along n: pa - pb = -depth n; one of
+                     * many where faces or edges are parallel                                [m] */
 } fl_overlap;
 
 /* Penetration depth of two cores that meet (fl_gap.overlap),

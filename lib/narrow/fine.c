@@ -3,11 +3,16 @@
 #include <math.h>
 #include "geom/dd.h"
 
-/* |v| below this is a touch: 2^-90, some bits above the rounding of a difference of pairs of doubles. */
-#define TOUCH 8.1e-28
+/* |v| below this fraction of the size is a touch.  The two edges of a lattice body that was turned are
+ * parallel to 2^-53 and no better; the normal of the sliver that they span is good to 2^-106 / 2^-53, so
+ * v to 2^-53 of the size. */
+#define TOUCH (4.0 * 2.220446049250313e-16)
 
 /* Reached by no walk that was seen; a bound for the proof that there is one. */
-enum { STEPS = 4096 };
+enum { STEPS = 4096, IDLE = 16 };
+
+/* Squared distances this near to each other count as equal. */
+#define TIE 4e-16
 
 typedef struct {
     int32_t n, a[4], b[4];
@@ -70,11 +75,13 @@ static int fine_project(const fine_simplex *s, fine_nearest *c)
     return 1;
 }
 
-/* Tries every part of the simplex, so that no test of a sign can lose the nearest one. */
-static void fine_reduce(fine_simplex *s, fine_nearest *best)
+/* Tries every part of the simplex, so that no test of a sign can lose the nearest one.  held >= 0 is a
+ * point that the right part is known to have; best->n is 0 when no such part is found. */
+static void fine_reduce(fine_simplex *s, int32_t held, fine_nearest *best)
 {
     *best = (fine_nearest){.d2 = {INFINITY, 0.0}};
     for (int32_t set = 1; set < 1 << s->n; set++) {
+        if (held >= 0 && !(set >> held & 1)) continue;
         fine_nearest c = {.n = 0};
         for (int32_t k = 0; k < s->n; k++)
             if (set >> k & 1) c.k[c.n++] = k;
@@ -91,7 +98,7 @@ static void fine_reduce(fine_simplex *s, fine_nearest *best)
     *s = t;
 }
 
-/* As fl_core_fl_core_lowest(), the ties of the doubles decided in pairs. */
+/* As fl_core_lowest(), the ties of the doubles decided in pairs. */
 static int32_t fine_lowest(fl_core c, fl_ddv n, double size)
 {
     double low;
@@ -119,7 +126,8 @@ int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *ou
         f.b[k] = s->b[k];
         f.w[k] = ddv_diff(a.v[f.a[k]], b.v[f.b[k]]);
     }
-    fine_reduce(&f, &now);
+    int idle = 0;
+    fine_reduce(&f, -1, &now);
     for (int step = 0; step < STEPS; step++) {
         const double len = sqrt(now.d2.h > 0.0 ? now.d2.h : 0.0);
         if (!(len > TOUCH * whole)) {
@@ -138,8 +146,11 @@ int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *ou
         t.b[t.n] = j;
         t.w[t.n++] = w;
         fine_nearest next;
-        fine_reduce(&t, &next);
-        if (!(dd_cmp(next.d2, now.d2) < 0.0)) break;
+        /* w lies below the plane through v, so the nearest part has w.  Where two parts are equally far to the
+         * last place it is still the one to go on with, some times. */
+        fine_reduce(&t, t.n - 1, &next);
+        if (next.n == 0) break;
+        if (!(dd_cmp(next.d2, now.d2) < 0.0) && (idle++ == IDLE || next.d2.h > now.d2.h * (1.0 + TIE))) break;
         f = t;
         now = next;
     }

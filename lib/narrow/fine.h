@@ -7,7 +7,7 @@
 /* From simplex s to the nearest points, with 106 bits; all 15 parts of the simplex are tried at each
  * step, so that no sign can lose the nearest one, and the distance falls strictly, so that no simplex
  * comes back. Sets d, n, pa, pb and overlap of *out, adds to its iterations; s ends as the points that
- * carry the answer. A distance below 2^-90 of size is a touch: overlap, d = 0, n = 0.  Returns
+ * carry the answer. A distance below 2^-50 of size is a touch: overlap, d = 0, n = 0.  Returns
  * out->overlap. */
 int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *out);
 

@@ -14,13 +14,12 @@
 #define EDGE_FINE 1e-3
 
 /* A direction found in doubles is taken when no vertex lies beyond its planes by more than this, in
- * extents: the direction of a vertex and an edge, the vertex a hundredth as far as the end of the edge
- * (the worst that is left to doubles), has an error of 4 * 2^-53 * 100. */
-#define PROOF 5e-14
+ * extents: the rounding of two heights, and of a direction that has lost a digit (parts.c). */
+#define PROOF 4e-15
 
 /* Vertices of a supporting plane that are copied out; cores with more (the end of a fine cylinder) take
  * part whole. */
-enum { PLANE_MAX = 64 };
+enum { PLANE_MAX = 64, ROUNDS = 4 };
 
 typedef struct {
     fl_core a, b;
@@ -69,22 +68,41 @@ static fl_part part_of(fl_core c, int32_t k, const int32_t *at, const int32_t *m
     return f;
 }
 
-/* Stage 3 for the direction n.  Returns 1 when the answer in *out stands, 0 when more bits are needed. */
-static int settle(const pair *p, fl_vec3 n, int fine, fl_gap *out)
+/* The vertices on the two supporting planes across n, and the cores that they make. */
+typedef struct {
+    int32_t ka, kb, at[PLANE_MAX], bt[PLANE_MAX];
+} planes;
+
+static void find_planes(const pair *p, fl_vec3 n, planes *f)
+{
+    const double band = PLANE_BAND * p->size;
+    f->ka = plane_of(p->a, n, band, f->at);
+    f->kb = plane_of(p->b, v3_neg(n), band, f->bt);
+}
+
+static int same_planes(const planes *f, const planes *g)
+{
+    if (f->ka != g->ka || f->kb != g->kb) return 0;
+    for (int32_t k = 0; k < f->ka && f->ka <= PLANE_MAX; k++)
+        if (f->at[k] != g->at[k]) return 0;
+    for (int32_t k = 0; k < f->kb && f->kb <= PLANE_MAX; k++)
+        if (f->bt[k] != g->bt[k]) return 0;
+    return 1;
+}
+
+/* Nearest points from the vertices on the planes alone.  1, or 0 when more bits are needed. */
+static int answer_on(const pair *p, const planes *f, int fine, fl_gap *out)
 {
     static const int32_t first[3] = {0, 1, 2};
-    int32_t at[PLANE_MAX], bt[PLANE_MAX];
     fl_vec3 va[PLANE_MAX], vb[PLANE_MAX];
-    const double band = PLANE_BAND * p->size;
-    const int32_t ka = plane_of(p->a, n, band, at), kb = plane_of(p->b, v3_neg(n), band, bt);
-    const int whole = ka > PLANE_MAX || kb > PLANE_MAX;
+    const int whole = f->ka > PLANE_MAX || f->kb > PLANE_MAX;
     fl_core a = p->a, b = p->b;
     if (!whole) {
-        if (!fine && (crowded(a, p->ea, ka, at) || crowded(b, p->eb, kb, bt))) return 0;
-        for (int32_t k = 0; k < ka; k++) va[k] = a.v[at[k]];
-        for (int32_t k = 0; k < kb; k++) vb[k] = b.v[bt[k]];
-        a = (fl_core){va, ka};
-        b = (fl_core){vb, kb};
+        if (!fine && (crowded(a, p->ea, f->ka, f->at) || crowded(b, p->eb, f->kb, f->bt))) return 0;
+        for (int32_t k = 0; k < f->ka; k++) va[k] = a.v[f->at[k]];
+        for (int32_t k = 0; k < f->kb; k++) vb[k] = b.v[f->bt[k]];
+        a = (fl_core){va, f->ka};
+        b = (fl_core){vb, f->kb};
     }
     fl_simplex s = {.n = 0};
     const int direct = a.n <= 3 && b.n <= 3 && a.n + b.n <= 4;
@@ -95,10 +113,27 @@ static int settle(const pair *p, fl_vec3 n, int fine, fl_gap *out)
                  : !fl_descend(a, b, p->size, &s, &v, &out->iterations))
             return 0;
     }
-    const fl_part fa = part_of(a, direct ? a.n : s.n, direct ? first : s.a, whole ? NULL : at),
-                  fb = part_of(b, direct ? b.n : s.n, direct ? first : s.b, whole ? NULL : bt);
-    if (!fl_parts_nearest(&fa, &fb, p->size, fine, out)) return 0;
-    if (fine) return 1;
+    const fl_part fa = part_of(a, direct ? a.n : s.n, direct ? first : s.a, whole ? NULL : f->at),
+                  fb = part_of(b, direct ? b.n : s.n, direct ? first : s.b, whole ? NULL : f->bt);
+    return fl_parts_nearest(&fa, &fb, p->size, fine, out);
+}
+
+/* Stage 3 for the direction n.  The answer stands when along its own direction the same vertices lie on the
+ * planes as it was made from, so that it is a function of them; a first n in doubles may be off by 1e-8,
+ * since distances alone cannot tell, and then the better one that it leads to is used.  Returns 1, or 0
+ * when more bits are needed. */
+static int settle(const pair *p, fl_vec3 n, int fine, fl_gap *out)
+{
+    planes f, g;
+    find_planes(p, n, &f);
+    for (int round = 0; round < ROUNDS; round++) {
+        if (!answer_on(p, &f, fine, out)) return 0;
+        if (fine) return 1; /* this n was right to the last place to begin with */
+        find_planes(p, out->n, &g);
+        if (same_planes(&f, &g)) break;
+        if (round == ROUNDS - 1) return 0;
+        f = g;
+    }
     /* The proof: along the final direction no vertex at all lies beyond the two planes. */
     double la, lb;
     fl_core_lowest(p->a, out->n, &la);
@@ -120,9 +155,11 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
         *out = (fl_gap){.iterations = out->iterations};
         if (!fl_fine_descend(a, b, p.size, &s, out)) {
             /* Doubles first here too, wherever they might do: which road was taken must not show in the bits.
-             * Should the parts of the nearest features all degenerate, the walk's own answer is kept. */
+             * Should the parts of the nearest features all degenerate, the walk's own answer is kept; should the
+             * vertices on the planes meet, the cores do. */
             const fl_gap own = *out;
-            if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, 0, out)) && !settle(&p, own.n, 1, out))
+            if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, 0, out)) &&
+                !settle(&p, own.n, 1, out) && !out->overlap)
                 *out = own;
         }
     }

@@ -41,7 +41,8 @@ typedef struct {
  *    when no vertex lies beyond the supporting plane by more than its rounding, or after 64 supports.
  * 2. In pairs of doubles (106 bits), with all 15 parts of the simplex tried, when stage 1 suspects an
  *    overlap, did not end, or found d below 1e-4 of the extent, where rounding would turn the normal.
- *    The distance falls strictly from step to step, so no simplex comes back and the stage ends.
+ *    Below 2^-50 of the extent the cores touch. The distance falls from step to step, so no simplex comes
+ *    back and the stage ends.
  * 3. From the vertices within 1e-10 of the extent of the two supporting planes alone, by closed formulae
  *    or from a fixed start.  The result is therefore a function of the cores: cold, warm and stale starts
  *    give the same bits, unless a vertex lies within rounding of that border.

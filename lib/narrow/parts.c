@@ -6,9 +6,8 @@
 
 /* sin^2 of the angle below which a cross product in doubles loses two digits. */
 #define NEARLY_PARALLEL 1e-4
-/* (d / u)^2 below which the foot of a vertex on an edge leaves less than 1e-14 / d of the direction to
- * doubles. */
-#define NEARLY_TOUCHING 1e-4
+/* (d / u)^2 below which the foot of a vertex on an edge loses a digit of the direction to rounding. */
+#define NEARLY_TOUCHING 1e-2
 
 typedef struct {
     const fl_part *a, *b;
@@ -184,7 +183,8 @@ int fl_parts_nearest(const fl_part *a, const fl_part *b, double size, int fine, 
     const int32_t na = a->n, nb = b->n, ea = na == 3 ? 3 : na - 1, eb = nb == 3 ? 3 : nb - 1;
     search s = {
         .a = a, .b = b, .fine = fine, .enough = 0.5 * DBL_EPSILON * size, .slack = INFINITY, .out = out};
-    /* Higher dimensions first: most often one of them ends it.  Fine ones are all tried: slack stays infinite. */
+    /* Higher dimensions first: most often one of them ends it.  In pairs of doubles all are tried, as the slack
+     * stays infinite. */
     for (int32_t i = 0; i < na && nb == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 0);
     for (int32_t i = 0; i < nb && na == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 1);
     for (int32_t e = 0; e < ea; e++)

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "narrow/deep.h"
+#include <ccd/ccd.h>
+#include <float.h>
+#include <math.h>
+#include "narrow/descent.h"
+
+/* Widths nearer to each other than this fraction of the extent are equal: a few roundings of a support. */
+#define EQUAL_WIDTH (64.0 * DBL_EPSILON)
+/* libccd's direction is poor when it is wider than the depth by more, in extents. */
+#define POOR 1e-6
+/* Vertices this near to a supporting plane of libccd's direction, in extents, belong to the facet that it
+ * means: its portal ends within 1e-8 and its direction is good to about the root of that. */
+#define FACET_BAND 1e-3
+/* Vertices that touch the shifted plane, in extents: as in gjk.c. */
+#define PLANE_BAND 1e-10
+
+enum { SUPPORTS_MAX = 4000, CCD_STEPS = 200, NEAR_MAX = 64 };
+static const int64_t ALL_EDGE_PAIRS = 1 << 20;
+
+typedef struct {
+    const fl_solid *a, *b;
+    fl_core ca, cb;
+    fl_vec3 offset, apart; /* b's vertex 0 from a's; centre of a from the centre of b */
+    double size;
+    double width; /* the least so far, along n */
+    fl_vec3 n;
+} hunt;
+
+/* Mean of the vertices over vertex 0. */
+static fl_vec3 centre_of(fl_core c)
+{
+    fl_vec3 s = {0, 0, 0};
+    for (int32_t i = 0; i < c.n; i++) s = v3_add(s, v3_sub(c.v[i], c.v[0]));
+    return v3_scale(1.0 / c.n, s);
+}
+
+/* How far a has to go along n until it leaves b: max over b of n.y - min over a of n.x. */
+static double width_along(const hunt *h, fl_vec3 n)
+{
+    double la, lb;
+    fl_core_lowest(h->ca, n, &la);
+    fl_core_lowest(h->cb, v3_neg(n), &lb);
+    return v3_dot(n, h->offset) - lb - la;
+}
+
+static void try_direction(hunt *h, fl_vec3 n)
+{
+    const double w = width_along(h, n), equal = EQUAL_WIDTH * h->size;
+    if (w < h->width - equal ||
+        (w < h->width + equal && v3_dot(n, h->apart) > v3_dot(h->n, h->apart) + equal)) {
+        h->width = w;
+        h->n = n;
+    }
+}
+
+static void try_faces(hunt *h)
+{
+    for (int32_t f = 0; f < h->a->p->nf; f++) try_direction(h, v3_neg(h->a->n[f]));
+    for (int32_t f = 0; f < h->b->p->nf; f++) try_direction(h, h->b->n[f]);
+}
+
+static fl_vec3 along(const fl_solid *s, const fl_edge *e) { return v3_sub(s->v[e->b], s->v[e->a]); }
+
+static void try_cross(hunt *h, const fl_edge *e, const fl_edge *f)
+{
+    const fl_vec3 l = along(h->a, e), m = along(h->b, f), n = v3_cross(l, m);
+    /* Parallel edges have no direction of their own; that of the next face serves. */
+    if (!(v3_norm2(n) > 1e-24 * v3_norm2(l) * v3_norm2(m))) return;
+    try_direction(h, v3_unit(n));
+    try_direction(h, v3_neg(v3_unit(n)));
+}
+
+/* Do the arcs p q (an edge of a) and -r -s (an edge of b turned round) cross on the sphere of normals?  Only
+ * then is the pair of edges a facet of the difference of the bodies. */
+static int arcs_cross(fl_vec3 p, fl_vec3 q, fl_vec3 r, fl_vec3 s)
+{
+    const fl_vec3 c = v3_cross(q, p), d = v3_cross(s, r);
+    const double rc = -v3_dot(r, c), sc = -v3_dot(s, c), pd = v3_dot(p, d), qd = v3_dot(q, d);
+    return rc * sc < 0.0 && pd * qd < 0.0 && rc * qd > 0.0;
+}
+
+/* A body without volume has edges whose normals are opposite or missing: no arcs to speak of. */
+static int has_arcs(const fl_solid *s) { return s->p->nf > 2; }
+
+static void try_edges(hunt *h)
+{
+    const fl_poly *p = h->a->p, *q = h->b->p;
+    const int thin = has_arcs(h->a) && has_arcs(h->b);
+    for (int32_t e = 0; e < p->ne; e++)
+        for (int32_t f = 0; f < q->ne; f++) {
+            const fl_edge *ea = &p->edge[e], *eb = &q->edge[f];
+            if (thin &&
+                !arcs_cross(h->a->n[ea->left], h->a->n[ea->right], h->b->n[eb->left], h->b->n[eb->right]))
+                continue;
+            try_cross(h, ea, eb);
+        }
+}
+
+/* ---- libccd -------------------------------------------------------------------------------------------- */
+
+typedef struct {
+    fl_core c;
+    fl_vec3 centre, o; /* both from vertex 0 */
+    double scale;
+    int *left; /* support calls that are still allowed */
+} ccd_body;
+
+static void ccd_support(const void *obj, const ccd_vec3_t *dir, ccd_vec3_t *out)
+{
+    const ccd_body *s = obj;
+    double low;
+    /* Its loops have no bound of their own; a support at the origin ends each of them. */
+    if (--*s->left < 0) {
+        ccdVec3Set(out, 0, 0, 0);
+        return;
+    }
+    const int32_t i =
+        fl_core_lowest(s->c, v3(-(double)dir->v[0], -(double)dir->v[1], -(double)dir->v[2]), &low);
+    const fl_vec3 p = v3_scale(s->scale, v3_sub(v3_sub(s->c.v[i], s->c.v[0]), s->o));
+    ccdVec3Set(out, p.x, p.y, p.z);
+}
+
+static void ccd_centre(const void *obj, ccd_vec3_t *out)
+{
+    const ccd_body *s = obj;
+    const fl_vec3 p = v3_scale(s->scale, v3_sub(s->centre, s->o));
+    ccdVec3Set(out, p.x, p.y, p.z);
+}
+
+/* The direction that libccd proposes; 0 when it has none. */
+static int ask_ccd(const hunt *h, fl_deep_count *count, fl_vec3 *n)
+{
+    int left = SUPPORTS_MAX;
+    const fl_vec3 ca = centre_of(h->ca), cb = centre_of(h->cb);
+    /* The origin of both: midway between the centres. */
+    const fl_vec3 mid = v3_scale(0.5, v3_add(ca, v3_add(h->offset, cb)));
+    const double scale = h->size > 0.0 ? 1.0 / h->size : 1.0;
+    const ccd_body a = {h->ca, ca, mid, scale, &left}, b = {h->cb, cb, v3_sub(mid, h->offset), scale, &left};
+    ccd_t ccd;
+    ccd_real_t depth = 0;
+    ccd_vec3_t dir, at;
+    CCD_INIT(&ccd);
+    ccd.support1 = ccd.support2 = ccd_support;
+    ccd.center1 = ccd.center2 = ccd_centre;
+    ccd.max_iterations = CCD_STEPS;
+    ccd.mpr_tolerance = (ccd_real_t)1e-8;
+    ccdVec3Set(&dir, 0, 0, 0);
+    ccdVec3Set(&at, 0, 0, 0);
+    const int rc = ccdMPRPenetration(&a, &b, &ccd, &depth, &dir, &at);
+    if (count && left < 0) count->capped++;
+    *n = v3(-(double)dir.v[0], -(double)dir.v[1], -(double)dir.v[2]); /* it moves b, we move a */
+    const double len = v3_norm(*n);
+    if (rc != 0 || !isfinite(len) || !(fabs(len - 1.0) < 1e-6)) return 0;
+    *n = v3_unit(*n);
+    return 1;
+}
+
+static int32_t vertices_near(fl_core c, fl_vec3 n, double band, int32_t *at)
+{
+    double low;
+    int32_t k = 0;
+    fl_core_lowest(c, n, &low);
+    for (int32_t i = 0; i < c.n && k < NEAR_MAX; i++)
+        if (v3_dot(n, v3_sub(c.v[i], c.v[0])) <= low + band) at[k++] = i;
+    return k;
+}
+
+static int listed(int32_t n, const int32_t *at, int32_t i)
+{
+    for (int32_t k = 0; k < n; k++)
+        if (at[k] == i) return 1;
+    return 0;
+}
+
+/* The pairs of edges about the supports of n. */
+static void try_edges_near(hunt *h, fl_vec3 n)
+{
+    int32_t va[NEAR_MAX], vb[NEAR_MAX];
+    const double band = FACET_BAND * h->size;
+    const int32_t na = vertices_near(h->ca, n, band, va), nb = vertices_near(h->cb, v3_neg(n), band, vb);
+    const fl_poly *p = h->a->p, *q = h->b->p;
+    for (int32_t e = 0; e < p->ne; e++) {
+        if (!listed(na, va, p->edge[e].a) || !listed(na, va, p->edge[e].b)) continue;
+        for (int32_t f = 0; f < q->ne; f++)
+            if (listed(nb, vb, q->edge[f].a) && listed(nb, vb, q->edge[f].b))
+                try_cross(h, &p->edge[e], &q->edge[f]);
+    }
+}
+
+/* Points and parallel segments have no face and no product of edges: then any direction across them, and
+ * the vertical for two points. */
+static void try_whatever(hunt *h)
+{
+    const fl_solid *s = h->a->p->ne ? h->a : h->b;
+    if (s->p->ne == 0) {
+        try_direction(h, v3(0, 0, 1));
+        return;
+    }
+    const fl_vec3 n = v3_normal_to(v3_unit(along(s, &s->p->edge[0])));
+    try_direction(h, n);
+    try_direction(h, v3_neg(n));
+}
+
+/* Points of the two planes that come together when a has been moved out. */
+static void find_points(const hunt *h, fl_overlap *out)
+{
+    int32_t va[NEAR_MAX], vb[NEAR_MAX];
+    fl_vec3 pa[NEAR_MAX], pb[NEAR_MAX];
+    const double band = PLANE_BAND * h->size;
+    const int32_t na = vertices_near(h->ca, h->n, band, va),
+                  nb = vertices_near(h->cb, v3_neg(h->n), band, vb);
+    /* Moved out by a size more, so that they are apart beyond any rounding; and relative to a's vertex 0. */
+    const fl_vec3 shift = v3_scale(out->depth + h->size, h->n);
+    for (int32_t k = 0; k < na; k++) pa[k] = v3_add(v3_sub(h->ca.v[va[k]], h->ca.v[0]), shift);
+    for (int32_t k = 0; k < nb; k++) pb[k] = v3_add(v3_sub(h->cb.v[vb[k]], h->cb.v[0]), h->offset);
+    fl_gap g;
+    fl_gjk((fl_core){pa, na}, (fl_core){pb, nb}, NULL, &g);
+    out->pa = v3_add(h->ca.v[0], v3_sub(g.pa, shift));
+    out->pb = v3_add(h->ca.v[0], g.pb);
+}
+
+void fl_deep(const fl_solid *a, const fl_solid *b, fl_deep_count *count, fl_overlap *out)
+{
+    hunt h = {.a = a, .b = b, .ca = fl_solid_core(a), .cb = fl_solid_core(b), .width = INFINITY};
+    h.offset = v3_sub(b->v[0], a->v[0]);
+    h.apart = v3_sub(v3_sub(centre_of(h.ca), centre_of(h.cb)), h.offset);
+    h.size = fl_core_extent(h.ca) + fl_core_extent(h.cb);
+    fl_vec3 n;
+    const int proposed = ask_ccd(&h, count, &n);
+    const double theirs = proposed ? width_along(&h, n) : INFINITY;
+
+    try_faces(&h);
+    if ((int64_t)a->p->ne * b->p->ne <= ALL_EDGE_PAIRS) try_edges(&h);
+    else if (proposed) {
+        try_edges_near(&h, n);
+        try_direction(&h, n);
+    }
+    if (h.width == INFINITY) try_whatever(&h);
+    if (count) {
+        count->asked++;
+        count->none += !proposed;
+        count->poor += proposed && theirs > h.width + POOR * h.size;
+    }
+    out->depth = h.width > 0.0 ? h.width : 0.0;
+    out->n = h.n;
+    find_points(&h, out);
+}
