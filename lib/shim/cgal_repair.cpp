@@ -64,21 +64,21 @@ void close_holes(Mesh &mesh, std::size_t most, fl_repair &did)
     }
 }
 
-void remove_degenerate(Mesh &mesh, fl_repair &did)
+int32_t count_degenerate(const Mesh &mesh)
 {
-    const std::size_t before = mesh.number_of_faces();
-    std::size_t stuck = 0;
-    PMP::remove_degenerate_faces(mesh);
-    for (const auto f : mesh.faces()) stuck += PMP::is_degenerate_triangle_face(f, mesh);
-    did.stuck = static_cast<int32_t>(stuck);
-    did.degenerate = static_cast<int32_t>(before - mesh.number_of_faces());
+    int32_t n = 0;
+    for (const auto f : mesh.faces()) n += PMP::is_degenerate_triangle_face(f, mesh);
+    return n;
 }
 
-bool any_degenerate(const Mesh &mesh)
+/* An edge is flipped or collapsed for each, so the number of faces may or may not change. */
+void remove_degenerate(Mesh &mesh, fl_repair &did)
 {
-    for (const auto f : mesh.faces())
-        if (PMP::is_degenerate_triangle_face(f, mesh)) return true;
-    return false;
+    const int32_t found = count_degenerate(mesh);
+    if (found == 0) return;
+    PMP::remove_degenerate_faces(mesh);
+    did.stuck = count_degenerate(mesh);
+    did.degenerate = found - did.stuck;
 }
 
 void orient(Mesh &mesh, fl_repair &did)
@@ -143,7 +143,7 @@ int repair(fl_soup *s, int32_t holes, fl_repair *did, fl_err *err)
         return fl_fail(err, FL_NUMERIC, "the triangles could not be cut into manifold pieces");
     PMP::polygon_soup_to_polygon_mesh(points, triangles, mesh);
     did->stitched = static_cast<int32_t>(PMP::stitch_borders(mesh));
-    if (any_degenerate(mesh)) remove_degenerate(mesh, *did);
+    remove_degenerate(mesh, *did);
     if (holes > 0) close_holes(mesh, static_cast<std::size_t>(holes), *did);
     orient(mesh, *did);
     mesh.collect_garbage();
