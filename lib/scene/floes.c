@@ -49,17 +49,11 @@ static int fit_alloc(struct fit *f, fl_err *err)
                : -1;
 }
 
-static double inset_of(const struct fit *f, int32_t i, double d)
-{
-    return d < f->most[i] ? d : f->most[i];
-}
+static double inset_of(const struct fit *f, int32_t i, double d) { return d < f->most[i] ? d : f->most[i]; }
 
 /* --- the sides of one floe ------------------------------------------------------------------------------ */
 
-static double half_tan(fl_side a, fl_side b)
-{
-    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
-}
+static double half_tan(fl_side a, fl_side b) { return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b)); }
 
 /* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
  * from the corner of a and b to the inscribed circle leave rho (tan + tan) at depth of the circle: half of it
@@ -307,7 +301,7 @@ static int settle(struct fit *f, double concentration, double *d, fl_err *err)
     if (over > 0.0)
         return fl_fail(
             err, FL_INPUT,
-            "floes of dilation radius %.4g m in these cells cover %.4g of the area at least, %.4g was "
+            "floes of dilation radius %.4g m in these cells cover %.4g of the area at least, %.10g was "
             "asked for: a smaller radius or fewer floes is wanted",
             f->radius, concentration + over / total, concentration);
     *d = 0.0;
@@ -332,8 +326,8 @@ static int settle(struct fit *f, double concentration, double *d, fl_err *err)
         if (over < 0.0)
             return fl_fail(
                 err, FL_INPUT,
-                "floes of dilation radius %.4g m in these cells cover about %.4g of the area at most, "
-                "%.4g was asked for: a smaller radius or more smoothing is wanted",
+                "floes of dilation radius %.4g m in these cells cover about %.10g of the area at most, "
+                "%.10g was asked for: a smaller radius or more smoothing is wanted",
                 f->radius, concentration + over / total, concentration);
         if (solve(f, 0, concentration * total, hi, d)) break;
     }

@@ -5,6 +5,8 @@
 #include "support/near.h"
 #include "base/mem.h"
 #include "base/rng.h"
+#include "geom/clip.h"
+#include "geom/mass.h"
 #include "scene/certificate.h"
 #include "scene/floes.h"
 
@@ -74,6 +76,37 @@ static void concentration_is_met_and_nothing_overlaps(void **state)
     }
 }
 
+/* The solver takes mass and buoyancy from the core's faces moved outward: these volumes must be the ice that was
+ * asked for. */
+static void the_solver_sees_the_ice_that_was_asked_for(void **state)
+{
+    (void)state;
+    const double thickness = 0.6, radius = 0.1;
+    fl_cells c = {0};
+    fl_floes a = {0};
+    fl_err err = {0};
+    double volume = 0.0;
+    make_cells(&c, 300, test_seed(), 1);
+    assert_int_equal(fl_floes_make(&a, &c, 0.9, radius, (fl_vec2){0, 0}, &err), 0);
+    for (int32_t i = 0; i < a.n; i++) {
+        const int32_t n = a.first[i + 1] - a.first[i];
+        fl_vec3 xy[30];
+        fl_poly core = {0}, sharp = {0};
+        fl_mass m;
+        for (int32_t k = 0; k < n; k++) xy[k] = v3(a.core[a.first[i] + k].x, a.core[a.first[i] + k].y, 0.0);
+        assert_int_equal(fl_poly_prism(&core, n, xy, radius - 0.5, thickness - radius - 0.5, &err), 0);
+        assert_int_equal(fl_poly_offset(&sharp, &core, radius, &err), 0);
+        assert_int_equal(sharp.nv, core.nv);
+        assert_int_equal(fl_mass_of(&m, &sharp, 0.0, &err), 0);
+        volume += m.volume;
+        fl_poly_free(&core);
+        fl_poly_free(&sharp);
+    }
+    assert_near(volume, 0.9 * AREA * thickness, 1e-11);
+    fl_floes_free(&a);
+    fl_cells_free(&c);
+}
+
 /* Dense fields of coarse floes: nearly every short side asks for a decision. */
 static void dense_and_coarse_fields_settle(void **state)
 {
@@ -141,7 +174,7 @@ static void what_cannot_be_is_refused(void **state)
     make_cells(&c, 100, 1, 2);
     refused(&c, 0.5, 5.0, "too little for a core inside a dilation radius of 5 m");
     refused(&c, 0.01, 0.5, "of the area at least, 0.01 was asked for");
-    refused(&c, 1.0 - 1e-7, 0.5, "of the area at most, 1 was asked for");
+    refused(&c, 1.0 - 1e-7, 0.5, "of the area at most, 0.9999999 was asked for");
     fl_cells_free(&c);
     assert_int_equal(fl_cells_build(&c, 3, site, LO, HI, &err), 0);
     refused(&c, 0.5, 5.2, "the cell of floe 2 has an inscribed radius");
@@ -264,6 +297,7 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(concentration_is_met_and_nothing_overlaps),
+                                       cmocka_unit_test(the_solver_sees_the_ice_that_was_asked_for),
                                        cmocka_unit_test(dense_and_coarse_fields_settle),
                                        cmocka_unit_test(one_floe_is_a_rectangle),
                                        cmocka_unit_test(what_cannot_be_is_refused),

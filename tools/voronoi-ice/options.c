@@ -75,12 +75,12 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
 #define LONGEST 1e6
 #define SHORTEST 1e-6
 
-/* Exactly n numbers, divided by `by`; what says how they should look. */
-static int numbers(const char *option, const char *text, char by, int n, double lo, double hi, double *x,
-                   const char *wanted, fl_err *err)
+/* Exactly n numbers behind `skip` characters, divided by `by`; wanted says how they should look. */
+static int numbers(const char *option, const char *text, int skip, char by, int n, double lo, double hi,
+                   double *x, const char *wanted, fl_err *err)
 {
     char word[64];
-    const char *p = text;
+    const char *p = text + skip;
     for (int k = 0; k < n; k++) {
         const char *end = k + 1 < n ? strchr(p, by) : p + strlen(p);
         const size_t len = end ? (size_t)(end - p) : sizeof word;
@@ -98,7 +98,7 @@ bad:
 static int number(const char *option, const char *text, double lo, double hi, double *x, const char *wanted,
                   fl_err *err)
 {
-    return numbers(option, text, ',', 1, lo, hi, x, wanted, err);
+    return numbers(option, text, 0, ',', 1, lo, hi, x, wanted, err);
 }
 
 static int whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
@@ -112,7 +112,7 @@ static int pair(const char *option, const char *text, char by, double lo, double
                 const char *wanted, fl_err *err)
 {
     double x[2] = {0.0, 0.0};
-    if (numbers(option, text, by, 2, lo, hi, x, wanted, err)) return -1;
+    if (numbers(option, text, 0, by, 2, lo, hi, x, wanted, err)) return -1;
     *out = (fl_vec2){x[0], x[1]};
     return 0;
 }
@@ -125,11 +125,11 @@ static int shape(struct options *o, const char *text, fl_err *err)
     if (o->keep_outs == KEEP_OUT_MAX)
         return fl_fail(err, FL_USAGE, "more than %d shapes to keep out", KEEP_OUT_MAX);
     if (strncmp(text, "circle:", 7) == 0) {
-        if (numbers("keep-out", text + 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
+        if (numbers("keep-out", text, 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
         k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
         if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 was wanted", text);
     } else if (strncmp(text, "box:", 4) == 0) {
-        if (numbers("keep-out", text + 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
+        if (numbers("keep-out", text, 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
         k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
         if (!(x[0] < x[2] && x[1] < x[3]))
             return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 was wanted", text);
