@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "support/near.h"
+#include <math.h>
+#include "support/lab.h"
+
+/* A box of 10 x 10 x 1 m with its centre at z, in water of 1025 kg/m3. */
+static void floe(lab *l, double z, fl_vec3 v, fl_vec3 spin)
+{
+    lab_start(l);
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "water.density=1025");
+    lab_set(l, "water.drag_force_coef=0.005");
+    lab_set(l, "water.drag_moment_coef=0.005");
+    lab_box(l, v3(0, 0, z), v3(5, 5, 0.5), 0.05, q_one(), v, spin);
+}
+
+#define DRAFT (900.0 / 1025.0)
+
+static void buoyancy_carries_the_weight_at_the_draft(void **state)
+{
+    (void)state;
+    lab l;
+    floe(&l, 0.5 - DRAFT, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-3);
+    fl_world *w = &l.w;
+    const double weight = 90000.0 * 9.81;
+    assert_near(w->b.m[0], 90000.0, 1e-14);
+    assert_near(w->sea.lift[0], weight, 1e-14);
+    assert_near_of(w->b.f[0].z, 0.0, 1e-14, weight);
+    assert_near_of(v3_norm(w->b.t[0]), 0.0, 1e-14, weight);
+    assert_near(w->sea.wetted[0], 100.0 + 40.0 * DRAFT, 1e-14);
+    assert_near(w->sea.reach[0], sqrt(50.25), 1e-14);
+    /* rho g V d/2: the water that was displaced stands half a draft higher now */
+    assert_near(w->sea.energy[0], weight * 0.5 * DRAFT, 1e-13);
+    lab_free(&l);
+}
+
+/* Lift and energy when it is raised: F = -dU/dz, up to where it leaves the water. */
+static void lift_is_the_gradient_of_the_energy(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 30; k++) {
+        const double z = -0.7 + 0.05 * k, h = 1e-5;
+        lab l;
+        floe(&l, z, v3(0, 0, 0), v3(0, 0, 0));
+        lab_make(&l, 1e-3);
+        fl_world *w = &l.w;
+        double u[2];
+        for (int s = 0; s < 2; s++) {
+            w->b.f[0] = w->b.t[0] = v3(0, 0, 0);
+            w->b.x[0].z = s ? z + h : z - h;
+            fl_sea_force(&w->sea, &w->b, 0);
+            u[s] = w->sea.energy[0];
+        }
+        w->b.x[0].z = z;
+        w->b.f[0] = w->b.t[0] = v3(0, 0, 0);
+        fl_sea_force(&w->sea, &w->b, 0);
+        assert_near_of(w->b.f[0].z, -(u[1] - u[0]) / (2 * h), 1e-5, 1e6);
+        if (z > 0.5) assert_true(w->sea.lift[0] == 0.0 && w->sea.energy[0] == 0.0);
+        lab_free(&l);
+    }
+}
+
+static void drag_is_the_exact_decay_and_books_its_work(void **state)
+{
+    (void)state;
+    lab l;
+    floe(&l, 0.5 - DRAFT, v3(3, 4, 0), v3(0, 0, 0.1));
+    lab_set(&l, "water.current=1 0 0");
+    lab_make(&l, 1e-3);
+    fl_world *w = &l.w;
+    const double kinetic = fl_body_kinetic(&w->b, 0), area = 100.0 + 40.0 * DRAFT;
+    const double kappa = 0.5 * 0.005 * 1025 * area / 90000.0, u = sqrt(20.0), h = 7.0;
+    fl_sea_drag(&w->sea, &w->b, 0, h, 0.0);
+    const double f = 1.0 / (1.0 + kappa * u * h);
+    assert_near(w->b.v[0].x, 1.0 + 2.0 * f, 1e-14);
+    assert_near(w->b.v[0].y, 4.0 * f, 1e-14);
+    const double spin = 0.5 * 0.005 * 1025 * area * pow(50.25, 1.5) / (90000.0 * 200.0 / 12.0);
+    assert_near(w->b.w[0].z, 0.1 / (1.0 + spin * 0.1 * h), 1e-13);
+    assert_near(w->sea.drained[0], kinetic - fl_body_kinetic(&w->b, 0), 1e-14);
+    /* in two steps of the half: the same, since the decay is exact */
+    lab m;
+    floe(&m, 0.5 - DRAFT, v3(3, 4, 0), v3(0, 0, 0.1));
+    lab_set(&m, "water.current=1 0 0");
+    lab_make(&m, 1e-3);
+    for (int k = 0; k < 2; k++) fl_sea_drag(&m.w.sea, &m.w.b, 0, 0.5 * h, 0.0);
+    assert_near(m.w.b.v[0].y, w->b.v[0].y, 1e-14);
+    assert_near(m.w.b.w[0].z, w->b.w[0].z, 1e-13);
+    lab_free(&m);
+    lab_free(&l);
+}
+
+static void wind_takes_hold_of_what_is_dry(void **state)
+{
+    (void)state;
+    lab l;
+    floe(&l, 0.5 - DRAFT, v3(0, 0, 0), v3(0, 0, 0));
+    lab_set(&l, "water.drag_force_coef=0");
+    lab_set(&l, "wind.velocity=20 0 0");
+    lab_set(&l, "wind.density=1.293");
+    lab_set(&l, "wind.drag_coef=0.0015");
+    lab_make(&l, 1e-3);
+    fl_world *w = &l.w;
+    const double dry = 240.0 - (100.0 + 40.0 * DRAFT), kappa = 0.5 * 0.0015 * 1.293 * dry / 90000.0,
+                 h = 100.0;
+    fl_sea_drag(&w->sea, &w->b, 0, h, 0.0);
+    const double v = 20.0 * (1.0 - 1.0 / (1.0 + kappa * 20.0 * h));
+    assert_near(w->b.v[0].x, v, 1e-11);
+    assert_near(w->sea.blown[0], 45000.0 * v * v, 1e-11);
+    assert_true(w->sea.drained[0] == 0.0);
+    lab_free(&l);
+}
+
+/* Drag of a body that is held along x: the held velocity stays, and what holds it does the work. */
+static void what_is_held_is_not_dragged(void **state)
+{
+    (void)state;
+    lab l;
+    floe(&l, 0.5 - DRAFT, v3(2, 2, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-3);
+    fl_world *w = &l.w;
+    w->b.hold[0] = FL_HOLD_X;
+    const double before = fl_body_kinetic(&w->b, 0);
+    fl_sea_drag(&w->sea, &w->b, 0, 10.0, 0.0);
+    assert_true(w->b.v[0].x == 2.0);
+    assert_true(w->b.v[0].y < 2.0);
+    assert_near(w->b.held[0] - w->sea.drained[0], fl_body_kinetic(&w->b, 0) - before, 1e-13);
+    assert_true(w->b.held[0] > 0.0);
+    lab_free(&l);
+}
+
+/* A sphere and a capsule float by their round shape. */
+static void round_bodies_float_round(void **state)
+{
+    (void)state;
+    const double pi = 3.141592653589793;
+    for (int segment = 0; segment < 2; segment++) {
+        lab l;
+        fl_err err = {0};
+        fl_poly p = {0};
+        const fl_vec3 v[2] = {v3(0, 0, 0), v3(2, 0, 0)};
+        lab_start(&l);
+        lab_set(&l, "run.gravity=10");
+        lab_set(&l, "water.density=1000");
+        assert_int_equal(fl_poly_make(&p, 1 + segment, v, 0, NULL, NULL, &err), 0);
+        lab_poly(&l, &p, 0.5, v3(0, 0, 0), v3(0, 0, 0));
+        lab_make(&l, 1e-3);
+        const double half = 0.5 * (4.0 / 3.0 * pi * 0.125 + segment * 2.0 * pi * 0.25);
+        assert_near(l.w.sea.lift[0], 1e4 * half, 1e-9);
+        lab_free(&l);
+    }
+}
+
+static void a_scene_without_water_allocates_none(void **state)
+{
+    (void)state;
+    lab l;
+    lab_start(&l);
+    lab_sphere(&l, v3(0, 0, 0), 1.0, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-3);
+    assert_int_equal(l.w.sea.n, 0);
+    assert_null(l.w.sea.hull);
+    lab_free(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(buoyancy_carries_the_weight_at_the_draft),
+        cmocka_unit_test(lift_is_the_gradient_of_the_energy),
+        cmocka_unit_test(drag_is_the_exact_decay_and_books_its_work),
+        cmocka_unit_test(wind_takes_hold_of_what_is_dry),
+        cmocka_unit_test(what_is_held_is_not_dragged),
+        cmocka_unit_test(round_bodies_float_round),
+        cmocka_unit_test(a_scene_without_water_allocates_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
