@@ -88,17 +88,48 @@ static void load_parts(fl_world *w, double h)
     }
 }
 
-/* Work of damping and friction at the velocities of the full step, overlaps, counts, and whether action is reaction. */
+/* What damping and friction take out, and what the held things put in, per time [W]. */
+static double damping_power(const fl_bodies *b, const fl_pair *p)
+{
+    const fl_vec3 dv = v3_sub(b->v[p->i], b->v[p->j]);
+    return -(v3_dot(p->fd, dv) + v3_dot(p->di, b->w[p->i]) + v3_dot(p->dj, b->w[p->j]));
+}
+
+static double friction_power(const fl_bodies *b, const fl_pair *p)
+{
+    const fl_vec3 dv = v3_sub(b->v[p->i], b->v[p->j]);
+    return -(v3_dot(p->fs, dv) + v3_dot(p->si, b->w[p->i]) + v3_dot(p->sj, b->w[p->j]));
+}
+
+static double drive_power(const fl_world *w)
+{
+    double power = 0.0;
+    for (int32_t k = w->n; k < w->b.total; k++)
+        if (w->structure.piece[k - w->n].part >= 0) power -= v3_dot(w->b.f[k], w->b.v[k]);
+    return power;
+}
+
+/* Book the works of the forces just found, at the velocities of the full step, for the two half kicks that they give
+ * (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out. */
+static void book(fl_world *w, double dt)
+{
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        fl_pair *p = &w->pair[c];
+        if (p->n == 0) continue;
+        p->damped += dt * damping_power(&w->b, p);
+        p->rubbed += dt * friction_power(&w->b, p);
+    }
+    w->ledger.drive += dt * drive_power(w);
+}
+
+/* Overlaps, counts, and whether action is reaction. */
 static void account(fl_world *w, double dt)
 {
     const fl_bodies *b = &w->b;
     fl_vec3 balance = v3(0, 0, 0);
     for (int32_t c = 0; c < w->n_pair; c++) {
-        fl_pair *p = &w->pair[c];
+        const fl_pair *p = &w->pair[c];
         if (p->n == 0) continue;
-        const fl_vec3 dv = v3_sub(b->v[p->i], b->v[p->j]);
-        p->damped -= dt * (v3_dot(p->fd, dv) + v3_dot(p->di, b->w[p->i]) + v3_dot(p->dj, b->w[p->j]));
-        p->rubbed -= dt * (v3_dot(p->fs, dv) + v3_dot(p->si, b->w[p->i]) + v3_dot(p->sj, b->w[p->j]));
         const double R = b->radius[p->i] + b->radius[p->j], deep = R > 0.0 ? p->overlap / R : 0.0;
         if (deep > w->worst_overlap) {
             w->worst_overlap = deep;
@@ -113,8 +144,6 @@ static void account(fl_world *w, double dt)
         if (k < w->n) {
             f = v3_madd(f, -b->m[k], w->gravity);
             if (w->sea.water) f.z -= w->sea.lift[k];
-        } else if (w->structure.piece[k - w->n].part >= 0) {
-            w->ledger.drive -= dt * v3_dot(f, b->v[k]);
         }
         balance = v3_add(balance, f);
     }
@@ -128,6 +157,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < w->b.total; k++) gather(w, k);
     survey_stiffness(w);
     if (check(w, 1, err)) return -1;
+    book(w, 0.5 * w->dt);
     fl_step_ledger(w);
     w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic;
     fl_step_ledger(w);
@@ -155,6 +185,7 @@ int fl_step(fl_world *w, fl_err *err)
         gather(w, k);
         if (k < w->n) fl_kick(b, k, h);
     }
+    book(w, dt);
     account(w, dt);
     load_parts(w, h);
     if (sea) {
@@ -174,6 +205,7 @@ void fl_step_ledger(fl_world *w)
     double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
            held = 0.0;
     double damped = 0.0, rubbed = 0.0;
+    const double h = 0.5 * w->dt; /* of the last works booked, the half kick that has not been given yet */
     for (int32_t i = 0; i < w->n; i++) {
         kinetic += fl_body_kinetic(b, i);
         gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
@@ -189,6 +221,8 @@ void fl_step_ledger(fl_world *w)
         damped += p->damped;
         rubbed += p->rubbed;
         if (p->n == 0) continue;
+        damped -= h * damping_power(b, p);
+        rubbed -= h * friction_power(b, p);
         elastic += p->energy;
         spring += p->spring;
     }
@@ -200,7 +234,7 @@ void fl_step_ledger(fl_world *w)
     g->friction_now = g->friction + rubbed - spring; /* what the springs hold can still come back */
     g->drag = drag;
     g->wind = wind;
-    const double drive = g->drive + held;
+    const double drive = g->drive - h * drive_power(w) + held;
     g->drive_now = drive;
     g->residual = kinetic + gravity + elastic + hydro - g->start + g->damping_now + g->friction_now + drag -
                   wind - drive;
