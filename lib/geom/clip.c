@@ -7,8 +7,10 @@
 #include "geom/mass.h"
 
 /* A vertex this near the plane, of the size, is on it: a plane through given vertices misses them by a few
- * roundings only, and a split nearer than that has no meaning. */
-static const double ON_TOL = 1e-12;
+ * roundings only.  A vertex a little farther off may leave a face too narrow for fl_poly_make(): then it is
+ * taken to be on the plane after all, up to half of what a face may be out of flat. */
+enum { ON_TRIES = 3 };
+static const double ON_TOL[ON_TRIES] = {1e-12, 5e-11, 5e-10};
 /* Corners this near each other are one: twice what fl_poly_make() calls coincident. */
 static const double WELD_TOL = 2e-10;
 /* What coordinates of magnitude m are good to, a few m eps: as in fl_poly_make(), twice for the weld. */
@@ -220,9 +222,11 @@ static int32_t root_of(int32_t *up, int32_t v)
     return v;
 }
 
-/* Draw corners nearer than tol together, drop the faces that leaves without an inside, and build. */
+/* Draw corners nearer than tol together, drop the faces that leaves without an inside, and build.  CUT_SOME,
+ * or CUT_ALL when that leaves no volume of what was solid, or -1. */
 static int finish(struct shape *s, double tol, fl_poly *out, fl_err *err)
 {
+    const int solid = s->nf > 2;
     int32_t *up = fl_alloc(s->nv, sizeof *up, err), at = 0, nf = 0;
     fl_err why = {0};
     if (!up) return -1;
@@ -250,7 +254,8 @@ static int finish(struct shape *s, double tol, fl_poly *out, fl_err *err)
     s->nf = nf;
     compress(s, up, s->nv);
     free(up);
-    if (fl_poly_make(out, s->nv, s->v, s->nf, s->first, s->loop, &why) == 0) return 0;
+    if (solid && nf < 4) return CUT_ALL;
+    if (fl_poly_make(out, s->nv, s->v, s->nf, s->first, s->loop, &why) == 0) return CUT_SOME;
     if (why.code == FL_SYSTEM) return fl_fail(err, FL_SYSTEM, "%s", why.text);
     return fl_fail(err, FL_NUMERIC, "what the cut leaves is too thin: %s", why.text);
 }
@@ -293,27 +298,28 @@ static int cut_line(fl_poly *p, struct plane pl, double tol, fl_err *err)
 
 int fl_poly_cut(fl_poly *p, fl_vec3 n, double c, fl_err *err)
 {
-    struct shape s = {0};
-    fl_poly out = {0};
     double far;
     int rc = -1;
-    const double size = extent(p->nv, p->v, &far), on = ON_TOL * size + COARSE_TOL * far;
+    const double size = extent(p->nv, p->v, &far), coarse = COARSE_TOL * far;
 
-    if (p->nv <= 2) return cut_line(p, (struct plane){n, c}, on, err);
-    if (shape_of(&s, p, err)) return -1;
-    const int what = cut(&s, (struct plane){n, c}, 0, on, err);
-    if (what == CUT_SOME) {
-        rc = finish(&s, WELD_TOL * size + COARSE_TOL * far, &out, err);
-        if (rc == 0) {
+    if (p->nv <= 2) return cut_line(p, (struct plane){n, c}, ON_TOL[0] * size + coarse, err);
+    for (int k = 0; k < ON_TRIES && rc == -1; k++) {
+        struct shape s = {0};
+        fl_poly out = {0};
+        fl_err why = {0};
+        if (shape_of(&s, p, &why) == 0) {
+            rc = cut(&s, (struct plane){n, c}, 0, ON_TOL[k] * size + coarse, &why);
+            if (rc == CUT_SOME) rc = finish(&s, WELD_TOL * size + coarse, &out, &why);
+        }
+        shape_free(&s);
+        if (rc == CUT_SOME || rc == CUT_ALL) {
             fl_poly_free(p);
             *p = out;
+        } else if (rc == -1 && (why.code == FL_SYSTEM || k + 1 == ON_TRIES)) {
+            return fl_fail(err, why.code, "%s", why.text);
         }
-    } else if (what >= 0) {
-        if (what == CUT_ALL) fl_poly_free(p);
-        rc = 0;
     }
-    shape_free(&s);
-    return rc;
+    return 0;
 }
 
 /* The smallest step d with n_k.d = miss_k for the planes k of a corner, in the sense of least squares;
@@ -479,18 +485,18 @@ static int start_box(struct shape *s, double half, int32_t tag, fl_err *err)
     return rc;
 }
 
-/* Cut the half-spaces out of a box about o; the box grows until it does not show in the result. */
-static int intersect(fl_poly *out, const fl_poly *in, fl_vec3 o, double r, fl_err *err)
+/* Cut the half-spaces out of a box about o; the box grows until it does not show in the result.  CUT_..., or
+ * -1; on is what counts as on a plane, of the size. */
+static int intersect(fl_poly *out, const fl_poly *in, fl_vec3 o, double r, double on, fl_err *err)
 {
     struct plane *pl = fl_alloc((int64_t)in->nf + in->first[1], sizeof *pl, err);
     struct shape s = {0};
     const double reach = in->size + fabs(r);
     double far;
-    int rc = -1;
+    int rc = -1, shows = 1;
     if (!pl) return -1;
     const int32_t n = gather_planes(in, o, r, pl);
-    for (double half = 2.0 * reach;; half *= 8.0) {
-        int shows = 0, what = CUT_SOME;
+    for (double half = 2.0 * reach; shows; half *= 8.0) {
         if (half > FAR_MAX * reach) {
             fl_fail(err, FL_INPUT, "a corner is so sharp that moving the faces by %g m throws it beyond %g m",
                     r, FAR_MAX * reach);
@@ -498,17 +504,13 @@ static int intersect(fl_poly *out, const fl_poly *in, fl_vec3 o, double r, fl_er
         }
         shape_free(&s);
         if (start_box(&s, half, n, err)) goto done;
-        for (int32_t k = 0; k < n && what >= 0 && what != CUT_ALL; k++) {
-            const double size = extent(s.nv, s.v, &far);
-            what = cut(&s, pl[k], k, ON_TOL * size, err);
+        for (int32_t k = 0; k < n; k++) {
+            rc = cut(&s, pl[k], k, on * extent(s.nv, s.v, &far), err);
+            if (rc < 0 || rc == CUT_ALL) goto done;
         }
-        if (what < 0) goto done;
-        if (what == CUT_ALL) {
-            fl_fail(err, FL_INPUT, "moving the faces inward by %g m leaves nothing", -r);
-            goto done;
-        }
+        rc = -1;
+        shows = 0;
         for (int32_t f = 0; f < s.nf; f++) shows |= s.tag[f] >= n;
-        if (!shows) break;
     }
     if (polish(&s, pl, err)) goto done;
     const double size = extent(s.nv, s.v, &far);
@@ -536,5 +538,13 @@ int fl_poly_offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
                           : move_corners(out, in, r, WELD_TOL * (size + fabs(r)) + COARSE_TOL * far, err);
     if (moved) return moved < 0 ? -1 : 0;
     for (int32_t v = 0; v < in->nv; v++) o = v3_add(o, v3_sub(in->v[v], in->v[0]));
-    return intersect(out, in, v3_madd(in->v[0], 1.0 / in->nv, o), r, err);
+    o = v3_madd(in->v[0], 1.0 / in->nv, o);
+    for (int k = 0;; k++) {
+        fl_err why = {0};
+        const int rc = intersect(out, in, o, r, ON_TOL[k], &why);
+        if (rc == CUT_SOME) return 0;
+        if (rc == CUT_ALL)
+            return fl_fail(err, FL_INPUT, "moving the faces inward by %g m leaves nothing", -r);
+        if (why.code != FL_NUMERIC || k + 1 == ON_TRIES) return fl_fail(err, why.code, "%s", why.text);
+    }
 }

@@ -10,9 +10,11 @@
  *   n    unit normal of the half-space, pointing out of it
  *   c    offset of its plane                                     [m]
  * Vertices within 1e-12 size of the plane count as on it: they are neither cut off nor split.  Corners of the
- * result closer than 2e-10 size are drawn together, since fl_poly_make() could not tell them apart.
- * Returns 0; when nothing but points of the plane is left, p is freed and zeroed (nv = 0).  -1, p untouched,
- * with FL_SYSTEM, or with FL_NUMERIC when what is left is too thin to have faces. */
+ * result closer than 2e-10 size are drawn together, since fl_poly_make() could not tell them apart, and where
+ * a face would come out too narrow for it vertices within 5e-10 size count as on the plane.
+ * Returns 0; when no more is left than points of the plane, or a slice that has no volume after this, p is
+ * freed and zeroed (nv = 0).  -1, p untouched, with FL_SYSTEM, or with FL_NUMERIC when what is left is too
+ * thin to have faces and yet does not vanish. */
 int fl_poly_cut(fl_poly *p, fl_vec3 n, double c, fl_err *err);
 
 /* The intersection of the half-spaces n_f.x <= c_f + r of the faces of in: every face moved outward by r > 0

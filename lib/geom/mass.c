@@ -139,8 +139,9 @@ int fl_mass_of(fl_mass *m, const fl_poly *p, double r, fl_err *err)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) out.second.m[i][j] = 0.5 * (s.xx.m[i][j] + s.xx.m[j][i]);
     fl_mass_principal(&out.second, value, &out.axes);
+    if (value[2] < 0.0) value[2] = 0.0; /* a body so thin that rounding hides its thickness: a lamina */
     out.inertia = v3(value[1] + value[2], value[0] + value[2], value[0] + value[1]);
-    if (!(s.v > 0.0 && value[2] > 0.0 && isfinite(out.inertia.z)))
+    if (!(s.v > 0.0 && value[1] > 0.0 && isfinite(out.inertia.z)))
         return fl_fail(err, FL_INPUT, "a body of volume %g m^3 has no usable moments of inertia", s.v);
     *m = out;
     return 0;
