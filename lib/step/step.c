@@ -173,7 +173,7 @@ int fl_step(fl_world *w, fl_err *err)
     load_parts(w, h);
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
-        if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, t);
+        if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, t, 0);
         if (k < w->n) fl_kick(b, k, h);
         fl_drift(b, k, dt);
     }
@@ -190,7 +190,7 @@ int fl_step(fl_world *w, fl_err *err)
     load_parts(w, h);
     if (sea) {
 #pragma omp parallel for schedule(static)
-        for (int32_t k = 0; k < w->n; k++) fl_sea_drag(&w->sea, b, k, h, t + h);
+        for (int32_t k = 0; k < w->n; k++) fl_sea_drag(&w->sea, b, k, h, t + h, 1);
     }
     if (survey) survey_stiffness(w);
     return check(w, survey, err);

@@ -64,15 +64,24 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
     return work;
 }
 
-void fl_sea_drag(fl_sea *s, fl_bodies *b, int32_t i, double h, double t)
+static void drag_of_water(fl_sea *s, fl_bodies *b, int32_t i, double h, double t)
 {
-    if (s->water && s->wetted[i] > 0.0) {
-        const fl_vec3 c = fl_current_at(&s->current, b->x[i], s->level - b->x[i].z, t);
-        s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], c, h);
-    }
-    if (s->wind) {
-        const double dry = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
-        const fl_vec3 c = fl_current_at(&s->breeze, b->x[i], 0.0, t);
-        if (dry > 0.0) s->blown[i] += decay(b, i, &s->air, dry, s->reach[i], c, h);
-    }
+    if (!s->water || s->wetted[i] <= 0.0) return;
+    const fl_vec3 c = fl_current_at(&s->current, b->x[i], s->level - b->x[i].z, t);
+    s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], c, h);
+}
+
+static void drag_of_wind(fl_sea *s, fl_bodies *b, int32_t i, double h, double t)
+{
+    if (!s->wind) return;
+    const double dry = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
+    const fl_vec3 c = fl_current_at(&s->breeze, b->x[i], 0.0, t);
+    if (dry > 0.0) s->blown[i] += decay(b, i, &s->air, dry, s->reach[i], c, h);
+}
+
+void fl_sea_drag(fl_sea *s, fl_bodies *b, int32_t i, double h, double t, int back)
+{
+    if (back) drag_of_wind(s, b, i, h, t);
+    drag_of_water(s, b, i, h, t);
+    if (!back) drag_of_wind(s, b, i, h, t);
 }
