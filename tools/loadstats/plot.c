@@ -80,15 +80,20 @@ static void put_quoted(FILE *f, const char *text)
     putc('\'', f);
 }
 
-static void put_axis(const picture *p, const char *axis, int32_t s, const char *title)
+/* "Horizontal force  [kN]" */
+static void axis_text(const picture *p, int32_t s, char *label, size_t size)
 {
-    char label[300];
-    const char *unit = p->r->s->unit[s];
-    if (unit[0]) snprintf(label, sizeof label, "%.200s  [%s%.60s]", title, scale_of(p, s).prefix, unit);
-    else snprintf(label, sizeof label, "%.200s", title);
-    fprintf(p->script, "set %slabel ", axis);
-    put_quoted(p->script, label);
-    putc('\n', p->script);
+    const char *unit = p->r->s->unit[s], *title = title_of(p->r->s->signal[s]);
+    if (unit[0]) snprintf(label, size, "%.200s  [%s%.60s]", title, scale_of(p, s).prefix, unit);
+    else snprintf(label, size, "%.200s", title);
+}
+
+/* gnuplot puts the title of a vertical axis beside its longest number; at one place the titles line up. */
+static void put_left_title(const picture *p, const char *text, double x)
+{
+    fputs("set label 2 ", p->script);
+    put_quoted(p->script, text);
+    fprintf(p->script, " at screen %.4f, graph 0.5 center rotate\n", x);
 }
 
 /* A part may have any name; a file has a plain one, told apart by the number of the part where that is not enough. */
@@ -211,7 +216,7 @@ static void open_script(const picture *p, const char *heading)
     put_quoted(f, title);
     fprintf(f, " at screen 0.5, screen %.4f center font ',%d' textcolor rgb '#111111'\n", 1.0 - 24.0 / height,
             png ? 14 : 18);
-    fprintf(f, "set key at screen 0.985, screen %.4f right top horizontal Left reverse samplen 2\n",
+    fprintf(f, "set key at screen 0.975, screen %.4f right top horizontal Left reverse samplen 2\n",
             1.0 - 40.0 / height);
 }
 
@@ -247,6 +252,7 @@ static void history_panel(picture *p, int k, int32_t s)
     const fl_view *v = view_of(r, p->part, s, 0);
     const scale c = scale_of(p, s);
     double lo = v->d.min, hi = v->d.max;
+    char text[300];
     for (int w = 1; w < r->each; w++) {
         lo = fmin(lo, view_of(r, p->part, s, w)->d.min);
         hi = fmax(hi, view_of(r, p->part, s, w)->d.max);
@@ -256,11 +262,12 @@ static void history_panel(picture *p, int k, int32_t s)
         lo -= room;
         hi += room;
     }
-    place_panel(p, k, 0.095, 0.98);
+    place_panel(p, k, 0.095, 0.97);
     fprintf(p->script, "set xrange [%.10g:%.10g]\n", v->edge[0], v->edge[v->n]);
     fprintf(p->script, "set yrange [%.6g:%.6g]\nset ytics %.6g\n", c.factor * (lo - 0.04 * (hi - lo)),
             c.factor * (hi + 0.04 * (hi - lo)), tics(c.factor * (hi - lo)));
-    put_axis(p, "y", s, title_of(r->s->signal[s]));
+    axis_text(p, s, text, sizeof text);
+    put_left_title(p, text, 0.022);
     if (k + 1 == p->panels) fputs("set xlabel 'Time  [s]'\nset format x '%g'\n", p->script);
     else fputs("set format x ''\n", p->script);
     for (int w = 0; w < r->each; w++) {
@@ -303,6 +310,7 @@ static int classes_panel(picture *p, int k, int32_t s, fl_err *err)
     const scale c = scale_of(p, s);
     fl_histogram h[2] = {{0}, {0}};
     double lo = INFINITY, hi = -INFINITY, most = 0.0;
+    char text[300];
     int rc = -1;
     for (int w = 0; w < r->each; w++) {
         const fl_view *v = view_of(r, p->part, s, w);
@@ -316,10 +324,14 @@ static int classes_panel(picture *p, int k, int32_t s, fl_err *err)
         for (int32_t i = 0; i < v->peaks.n; i++) fl_histogram_add(&h[w], v->value[i], 1.0);
         for (int32_t i = 0; i < CLASSES; i++) most = fmax(most, h[w].bin[i]);
     }
-    place_panel(p, k, 0.075, 0.465);
-    put_axis(p, "x", s, title_of(r->s->signal[s]));
-    fprintf(p->script, "unset logscale y\nset ylabel 'Peaks in class'\nset yrange [0:%g]\nset ytics %g\n",
-            1.08 * most, fmax(1.0, tics(most)));
+    place_panel(p, k, 0.1, 0.475);
+    axis_text(p, s, text, sizeof text);
+    fputs("set xlabel ", p->script);
+    put_quoted(p->script, text);
+    putc('\n', p->script);
+    put_left_title(p, "Peaks in class", 0.018);
+    fprintf(p->script, "unset logscale y\nset yrange [0:%g]\nset ytics %g\n", 1.08 * most,
+            fmax(1.0, tics(most)));
     for (int w = 0; w < r->each; w++) {
         start_curve(p);
         fprintf(p->script,
@@ -340,8 +352,11 @@ done:
 static void exceedance_panel(picture *p, int k, int32_t s)
 {
     const scale c = scale_of(p, s);
-    place_panel(p, k, 0.57, 0.98);
-    fputs("set logscale y\nset ylabel 'Probability of exceedance'\nset yrange [*:1]\nset ytics autofreq\n",
+    place_panel(p, k, 0.58, 0.97);
+    put_left_title(p, "Probability of exceedance", 0.508);
+    fputs("set logscale y\nset yrange [*:1]\nset ytics "
+          "autofreq\nset "
+          "format y '%g'\n",
           p->script);
     for (int w = 0; w < p->r->each; w++) {
         if (!view_of(p->r, p->part, s, w)->peaks.n) continue;

@@ -13,54 +13,54 @@ set tics nomirror out scale 0.6 textcolor rgb '#222222'
 set grid back ls 9
 set multiplot
 set label 1 'Load history, total' at screen 0.5, screen 0.9763 center font ',18' textcolor rgb '#111111'
-set key at screen 0.985, screen 0.9606 right top horizontal Left reverse samplen 2
+set key at screen 0.975, screen 0.9606 right top horizontal Left reverse samplen 2
 set lmargin at screen 0.0950
-set rmargin at screen 0.9800
+set rmargin at screen 0.9700
 set tmargin at screen 0.9349
 set bmargin at screen 0.7377
 set xrange [0:12.5]
 set yrange [-3.47543:68.4019]
 set ytics 20
-set ylabel 'Force in x  [kN]'
+set label 2 'Force in x  [kN]' at screen 0.0220, graph 0.5 center rotate
 set format x ''
 plot data index 0 using 4:($5*0.001) with lines ls 1 title 'raw', \
      data index 1 using 4:($5*0.001) with lines ls 2 title 'filtered, 1 Hz'
 unset key
 unset label 1
 set lmargin at screen 0.0950
-set rmargin at screen 0.9800
+set rmargin at screen 0.9700
 set tmargin at screen 0.7120
 set bmargin at screen 0.5148
 set xrange [0:12.5]
 set yrange [-19.6363:27.2372]
 set ytics 10
-set ylabel 'Force in y  [kN]'
+set label 2 'Force in y  [kN]' at screen 0.0220, graph 0.5 center rotate
 set format x ''
 plot data index 2 using 4:($5*0.001) with lines ls 1 title 'raw', \
      data index 3 using 4:($5*0.001) with lines ls 2 title 'filtered, 1 Hz'
 unset key
 unset label 1
 set lmargin at screen 0.0950
-set rmargin at screen 0.9800
+set rmargin at screen 0.9700
 set tmargin at screen 0.4892
 set bmargin at screen 0.2919
 set xrange [0:12.5]
 set yrange [-6.84018:0.347541]
 set ytics 2
-set ylabel 'Force in z  [kN]'
+set label 2 'Force in z  [kN]' at screen 0.0220, graph 0.5 center rotate
 set format x ''
 plot data index 4 using 4:($5*0.001) with lines ls 1 title 'raw', \
      data index 5 using 4:($5*0.001) with lines ls 2 title 'filtered, 1 Hz'
 unset key
 unset label 1
 set lmargin at screen 0.0950
-set rmargin at screen 0.9800
+set rmargin at screen 0.9700
 set tmargin at screen 0.2663
 set bmargin at screen 0.0690
 set xrange [0:12.5]
 set yrange [-3.67686:71.5642]
 set ytics 20
-set ylabel 'Horizontal force  [kN]'
+set label 2 'Horizontal force  [kN]' at screen 0.0220, graph 0.5 center rotate
 set xlabel 'Time  [s]'
 set format x '%g'
 plot data index 6 using 4:($5*0.001) with lines ls 1 title 'raw', \
