@@ -8,7 +8,7 @@
 #include "scene/read_mesh.h"
 #include "scene/write_stl.h"
 #include "options.h"
-#include "report.h"
+#include "quality.h"
 
 enum {
     STL_FACETS = 64
@@ -49,6 +49,7 @@ static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *
             whole[len] = '.';
             memcpy(whole + len + 1, own, more - 1);
         }
+        s->part[i].name[0] = '\0'; /* the part may well take the name it has */
         k = fl_surface_add(s, whole, len + more,
                            err); /* cleans the name and keeps it apart from the others */
         free(whole);
