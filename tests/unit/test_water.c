@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "support/near.h"
+#include "support/shapes.h"
+#include "water/buoyancy.h"
+#include "water/current.h"
+#include "water/drag.h"
+
+static const double PI = 3.141592653589793;
+
+static void floe(fl_poly *p, fl_hull *h, double x, double y, double z)
+{
+    fl_err err = {0};
+    assert_int_equal(fl_poly_box(p, v3(x / 2, y / 2, z / 2), &err), 0);
+    assert_int_equal(fl_hull_make(h, p, 0.0, &err), 0);
+}
+
+static void upright_box(void **state)
+{
+    (void)state;
+    fl_poly p;
+    fl_hull h;
+    fl_wet w;
+    fl_waterplane a;
+    fl_vec3 f, m;
+    floe(&p, &h, 10, 6, 1);
+    assert_near(h.volume, 60.0, 1e-15);
+    assert_near(h.surface, 152.0, 1e-15);
+    fl_buoyancy(&h, v3(0, 0, 1), 0.3, &w);
+    assert_near(w.volume, 48.0, 1e-15);
+    assert_near(w.centre.z, -0.1, 1e-15);
+    assert_near_of(w.centre.x, 0.0, 1e-15, 10.0);
+    assert_near(w.waterplane, 60.0, 1e-15);
+    assert_near(w.wetted, 60.0 + 0.8 * 32, 1e-15);
+    const double u = fl_buoyancy_force(&w, v3(0, 0, 1), 0.3, 1e4, &f, &m);
+    assert_near(f.z, 48e4, 1e-15);
+    assert_near_of(v3_norm(m), 0.0, 1e-15, 48e5);
+    assert_near(u, 1e4 * 48.0 * 0.4, 1e-15);
+    fl_buoyancy_plane(&h, v3(0, 0, 1), 0.3, &a);
+    assert_near(a.area, 60.0, 1e-15);
+    assert_near(a.second.m[0][0], 6 * 1000.0 / 12, 1e-14);
+    assert_near(a.second.m[1][1], 10 * 216.0 / 12, 1e-14);
+    assert_near(a.centre.z, 0.3, 1e-15);
+    fl_hull_free(&h);
+    fl_hull_free(&h);
+    fl_poly_free(&p);
+}
+
+/* Freeboard zero, keel dry, and all that is beyond: nothing is missing, nothing is twice (H23). */
+static void plane_through_faces(void **state)
+{
+    (void)state;
+    fl_poly p;
+    fl_hull h;
+    fl_wet w;
+    floe(&p, &h, 10, 10, 1);
+    for (int k = -20; k <= 20; k++) {
+        const double off = k * 1e-10;
+        fl_buoyancy(&h, v3(0, 0, 1), 0.5 + off, &w);
+        assert_near_of(w.volume, off < 0 ? 100 + 100 * off : 100.0, 1e-14, 100.0);
+        assert_near_of(w.centre.z, off < 0 ? off / 2 : 0.0, 1e-13, 1.0);
+        assert_near(w.waterplane, off < 0 ? 100.0 : 0.0, 1e-14);
+        fl_buoyancy(&h, v3(0, 0, 1), -0.5 + off, &w);
+        assert_near_of(w.volume, off > 0 ? 100 * off : 0.0, 1e-14, 100.0);
+        assert_near(w.waterplane, off > 0 ? 100.0 : 0.0, 1e-14);
+    }
+    fl_buoyancy(&h, v3(0, 0, 1), 1e9, &w);
+    assert_near(w.volume, 100.0, 1e-15);
+    assert_near(w.wetted, 240.0, 1e-15);
+    fl_buoyancy(&h, v3(0, 0, 1), -1e9, &w);
+    assert_near(w.volume, 0.0, 0.0);
+    assert_near(w.wetted, 0.0, 0.0);
+    fl_hull_free(&h);
+    fl_poly_free(&p);
+}
+
+/* The diagonal of a cube stands up and the water passes three vertices at once (H24). */
+static void plane_through_vertices(void **state)
+{
+    (void)state;
+    fl_poly p;
+    fl_hull h;
+    fl_wet w;
+    const double third = 1.0 / sqrt(3.0);
+    floe(&p, &h, 1, 1, 1);
+    fl_buoyancy(&h, v3(third, third, third), -0.5 * third, &w);
+    assert_near(w.volume, 1.0 / 6, 1e-15);
+    assert_near(w.waterplane, sqrt(3.0) / 2, 1e-15);
+    fl_buoyancy(&h, v3(third, third, third), 0.5 * third, &w);
+    assert_near(w.volume, 5.0 / 6, 1e-15);
+    fl_buoyancy(&h, v3(third, third, third), 0.0, &w);
+    assert_near(w.volume, 0.5, 1e-15);
+    assert_near(w.centre.x, -13.0 / 96, 1e-14);
+    fl_hull_free(&h);
+    fl_poly_free(&p);
+}
+
+static void spheres_and_capsules(void **state)
+{
+    (void)state;
+    const fl_vec3 v[2] = {{0, 0, -1}, {0, 0, 1}};
+    fl_err err = {0};
+    fl_poly ball, rod;
+    fl_hull hb, hr;
+    fl_wet w;
+    assert_int_equal(fl_poly_make(&ball, 1, &(fl_vec3){0}, 0, NULL, NULL, &err), 0);
+    assert_int_equal(fl_poly_make(&rod, 2, v, 0, NULL, NULL, &err), 0);
+    assert_int_equal(fl_hull_make(&hb, &ball, 0.5, &err), 0);
+    assert_int_equal(fl_hull_make(&hr, &rod, 0.5, &err), 0);
+    fl_buoyancy(&hb, v3(0, 0.6, 0.8), 0.0, &w);
+    assert_near(w.volume, PI / 12, 1e-15);
+    assert_near(v3_dot(w.centre, v3(0, 0.6, 0.8)), -3.0 / 16, 1e-15);
+    assert_near(w.wetted, PI / 2, 1e-15);
+    assert_near(w.waterplane, PI / 4, 1e-15);
+    fl_buoyancy(&hb, v3(0, 0.6, 0.8), 0.5, &w);
+    assert_near(w.volume, PI / 6, 1e-15);
+    fl_buoyancy(&hb, v3(0, 0.6, 0.8), -0.5, &w);
+    assert_near(w.volume, 0.0, 0.0);
+    /* standing: half a ball and a piece of cylinder */
+    fl_buoyancy(&hr, v3(0, 0, 1), 0.25, &w);
+    assert_near(w.volume, PI / 12 + PI / 4 * 1.25, 1e-14);
+    assert_near(w.waterplane, PI / 4, 1e-14);
+    assert_near(w.wetted, PI / 2 + PI * 1.25, 1e-14);
+    assert_near(w.volume * w.centre.z, PI / 12 * (-1 - 3.0 / 16) + PI / 4 * 1.25 * -0.375, 1e-14);
+    fl_buoyancy(&hr, v3(0, 0, -1), 0.25, &w); /* and on its head */
+    assert_near(w.volume, PI / 12 + PI / 4 * 1.25, 1e-14);
+    /* lying half in: half of everything */
+    fl_buoyancy(&hr, v3(0.6, 0.8, 0), 0.0, &w);
+    assert_near(w.volume, 0.5 * hr.volume, 1e-14);
+    assert_near(w.waterplane, 2.0 + PI / 4, 1e-14);
+    assert_near(w.volume * v3_dot(w.centre, v3(0.6, 0.8, 0)), -2.0 * 2.0 / 3 * 0.125 - PI / 4 * 0.0625,
+                1e-14);
+    assert_near_of(w.centre.z, 0.0, 1e-15, 1.0);
+    /* a quarter of a turn between the two: nothing jumps */
+    double last = 0.0;
+    for (int k = 0; k <= 100000; k++) {
+        const double t = 0.5 * PI * k / 100000;
+        fl_buoyancy(&hr, v3(sin(t), 0, cos(t)), 0.3, &w);
+        if (k) assert_near_of(w.volume, last, 5e-5, 1.0);
+        last = w.volume;
+    }
+    fl_hull_free(&hb);
+    fl_hull_free(&hr);
+    fl_poly_free(&ball);
+    fl_poly_free(&rod);
+}
+
+static void what_cannot_float(void **state)
+{
+    (void)state;
+    const fl_vec3 v[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    const int32_t first[3] = {0, 4, 8}, loop[8] = {0, 1, 2, 3, 3, 2, 1, 0};
+    for (int nv = 1; nv <= 4; nv += nv == 2 ? 2 : 1) {
+        fl_err err = {0};
+        fl_poly p;
+        fl_hull h = {.radius = 7.0};
+        assert_int_equal(fl_poly_make(&p, nv, v, nv == 4 ? 2 : 0, first, loop, &err), 0);
+        assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), -1);
+        assert_int_equal(err.code, FL_INPUT);
+        assert_near(h.radius, 7.0, 0.0);
+        fl_poly_free(&p);
+    }
+    for (int after = 0; after < 2; after++) {
+        fl_err err = {0};
+        fl_poly p;
+        fl_hull h = {0};
+        assert_int_equal(fl_poly_box(&p, v3(1, 1, 1), &err), 0);
+        fl_mem_fail_after(after);
+        assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), -1);
+        fl_mem_fail_after(-1);
+        assert_int_equal(err.code, FL_SYSTEM);
+        fl_poly_free(&p);
+    }
+}
+
+/* More vertices than heights are kept for: they are then computed where they are needed. */
+static void many_vertices(void **state)
+{
+    (void)state;
+    enum { N = 100 };
+    fl_vec3 xy[N];
+    fl_err err = {0};
+    fl_poly p;
+    fl_hull h;
+    fl_wet w;
+    for (int k = 0; k < N; k++) xy[k] = v3(cos(2 * PI * k / N), sin(2 * PI * k / N), 0);
+    assert_int_equal(fl_poly_prism(&p, N, xy, -1, 1, &err), 0);
+    assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
+    const double area = 0.5 * N * sin(2 * PI / N);
+    fl_buoyancy(&h, v3_unit(v3(0.3, 0, 1)), 0.0, &w);
+    assert_near(w.volume, area, 1e-14);
+    assert_near(w.waterplane, area * sqrt(1.09), 1e-14);
+    fl_hull_free(&h);
+    fl_poly_free(&p);
+}
+
+static void drag_laws(void **state)
+{
+    (void)state;
+    const fl_fluid sea = {.density = 1025, .force = 0.005, .moment = 0.004};
+    fl_err err = {0};
+    fl_poly p;
+    fl_vec3 f, m;
+    assert_int_equal(fl_poly_box(&p, v3(5, 5, 0.5), &err), 0);
+    assert_near(fl_drag_radius(&p, 0.0), 7.088723439378913, 1e-15);
+    assert_near(fl_drag_radius(&p, 0.25), 7.338723439378913, 1e-15);
+    fl_poly_free(&p);
+    fl_drag(&sea, 100.0, 2.0, v3(3, 4, 0), v3(0, 0, -2), &f, &m);
+    assert_near(f.x, -0.5 * 0.005 * 1025 * 100 * 3 * 5, 1e-15);
+    assert_near(f.y, -0.5 * 0.005 * 1025 * 100 * 4 * 5, 1e-15);
+    assert_near(m.z, 0.5 * 0.004 * 1025 * 100 * 8 * 4, 1e-15);
+    fl_drag(&sea, 100.0, 2.0, v3(0, 0, 0), v3(0, 0, 0), &f, NULL);
+    assert_near(v3_norm(f), 0.0, 0.0);
+    /* kappa |u|^2 m is the force, kappa w^2 I the moment */
+    assert_near(fl_drag_kappa_force(&sea, 100.0, 50.0) * 25 * 50, 0.5 * 0.005 * 1025 * 100 * 25, 1e-15);
+    assert_near(fl_drag_kappa_moment(&sea, 100.0, 2.0, 30.0) * 4 * 30, 0.5 * 0.004 * 1025 * 100 * 8 * 4,
+                1e-15);
+}
+
+/* One long step, or many short ones: du/dt = -kappa u^2 is followed exactly, and no step, however long, turns
+ * the motion round (H38). */
+static void drag_never_reverses(void **state)
+{
+    (void)state;
+    double u = 3.0;
+    for (int k = 0; k < 1000; k++) u *= fl_drag_factor(0.2, u, 0.05);
+    assert_near(u, 3.0 * fl_drag_factor(0.2, 3.0, 50.0), 1e-12);
+    for (int k = 0; k < 1000; k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        const double f = fl_drag_factor(pow(10, fl_rng_in(&g, -9, 300)), pow(10, fl_rng_in(&g, -9, 9)),
+                                        pow(10, fl_rng_in(&g, -9, 9)));
+        assert_true(f >= 0.0 && f <= 1.0);
+    }
+    assert_near(fl_drag_factor(1.0, 0.0, 1.0), 1.0, 0.0);
+}
+
+static void current_is_uniform(void **state)
+{
+    (void)state;
+    const fl_current c = {{0.5, -0.25, 0}};
+    for (int k = 0; k < 10; k++) {
+        const fl_vec3 u = fl_current_at(&c, v3(k, -k, 2 * k), k, 100 * k);
+        assert_near(u.x, 0.5, 0.0);
+        assert_near(u.y, -0.25, 0.0);
+        assert_near(u.z, 0.0, 0.0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(upright_box),
+        cmocka_unit_test(plane_through_faces),
+        cmocka_unit_test(plane_through_vertices),
+        cmocka_unit_test(spheres_and_capsules),
+        cmocka_unit_test(what_cannot_float),
+        cmocka_unit_test(many_vertices),
+        cmocka_unit_test(drag_laws),
+        cmocka_unit_test(drag_never_reverses),
+        cmocka_unit_test(current_is_uniform),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
