@@ -2,18 +2,9 @@
 #include <math.h>
 #include "geom/polygon.h"
 
-static fl_vec2 sub(fl_vec2 a, fl_vec2 b)
-{
-    return (fl_vec2){a.x - b.x, a.y - b.y};
-}
-static double cross(fl_vec2 a, fl_vec2 b)
-{
-    return a.x * b.y - a.y * b.x;
-}
-static double dot(fl_vec2 a, fl_vec2 b)
-{
-    return a.x * b.x + a.y * b.y;
-}
+static fl_vec2 sub(fl_vec2 a, fl_vec2 b) { return (fl_vec2){a.x - b.x, a.y - b.y}; }
+static double cross(fl_vec2 a, fl_vec2 b) { return a.x * b.y - a.y * b.x; }
+static double dot(fl_vec2 a, fl_vec2 b) { return a.x * b.x + a.y * b.y; }
 
 double fl_polygon_area(int32_t n, const fl_vec2 *v)
 {
@@ -131,10 +122,7 @@ void fl_polygon_corners(int32_t n, const fl_side *side, double d, fl_vec2 *v)
 }
 
 /* tan of half the turn from a to b */
-static double half_tan(fl_side a, fl_side b)
-{
-    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
-}
+static double half_tan(fl_side a, fl_side b) { return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b)); }
 
 int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_side *side, double d, double *depth)
 {

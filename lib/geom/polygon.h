@@ -16,19 +16,10 @@ typedef struct {
     int32_t tag; /* the caller's; carried along */
 } fl_side;
 
-static inline double fl_side_beyond(fl_side s, fl_vec2 p)
-{
-    return s.nx * p.x + s.ny * p.y - s.c;
-}
+static inline double fl_side_beyond(fl_side s, fl_vec2 p) { return s.nx * p.x + s.ny * p.y - s.c; }
 /* Sine and cosine of the angle by which the outline turns from side a to side b. */
-static inline double fl_side_sin(fl_side a, fl_side b)
-{
-    return a.nx * b.ny - a.ny * b.nx;
-}
-static inline double fl_side_cos(fl_side a, fl_side b)
-{
-    return a.nx * b.nx + a.ny * b.ny;
-}
+static inline double fl_side_sin(fl_side a, fl_side b) { return a.nx * b.ny - a.ny * b.nx; }
+static inline double fl_side_cos(fl_side a, fl_side b) { return a.nx * b.nx + a.ny * b.ny; }
 
 /* Where the lines of a and b meet when both are moved inward by d; fl_side_sin(a, b) != 0. */
 fl_vec2 fl_side_meet(fl_side a, fl_side b, double d);
@@ -69,8 +60,8 @@ double fl_polygon_from_point(int32_t n, const fl_vec2 *v, fl_vec2 p);
  * convex polygons that neither overlap nor touch. */
 int fl_polygon_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
 
-/* Distance between two polygons that have no point inside each other: the least from a corner of one to a side
- * of the other.  m n work. */
+/* Distance between two polygons that have no point inside each other: the least from a corner of one to a
+ * side of the other.  m n work. */
 double fl_polygon_gap(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
 
 #endif

@@ -25,10 +25,7 @@ static fl_side bisector(const fl_vec2 *site, int32_t i, int32_t j)
 }
 
 /* A rectangle cut k times has at most 4 + k sides; that is the room each cell gets first. */
-static int32_t room(const int32_t *near_first, int32_t i)
-{
-    return near_first[i] + 4 * i;
-}
+static int32_t room(const int32_t *near_first, int32_t i) { return near_first[i] + 4 * i; }
 
 int fl_cells_build(fl_cells *out, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, fl_err *err)
 {

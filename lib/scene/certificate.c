@@ -6,14 +6,8 @@
 #include "scene/certificate.h"
 #include "shim/cgal_voronoi.h"
 
-static int32_t sides(const fl_floes *a, int32_t i)
-{
-    return a->first[i + 1] - a->first[i];
-}
-static const fl_vec2 *outer(const fl_floes *a, int32_t i)
-{
-    return a->outer + a->first[i];
-}
+static int32_t sides(const fl_floes *a, int32_t i) { return a->first[i + 1] - a->first[i]; }
+static const fl_vec2 *outer(const fl_floes *a, int32_t i) { return a->outer + a->first[i]; }
 
 static int side_separates(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
 {

@@ -20,8 +20,8 @@ typedef struct {
     int64_t overlaps;  /* pairs of outer polygons that touch or overlap               */
 } fl_certificate;
 
-/* Measure floes of at least one.  A pair counts as apart when all corners of one lie strictly beyond a side of
- * the other, decided by exact predicates on the corners as they are; for convex polygons no other pair is
+/* Measure floes of at least one.  A pair counts as apart when all corners of one lie strictly beyond a side
+ * of the other, decided by exact predicates on the corners as they are; for convex polygons no other pair is
  * apart.  All pairs are covered: those whose boxes do not meet are apart already.
  * Returns 0, or -1 with FL_SYSTEM.  n log n. */
 int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err);

@@ -297,10 +297,7 @@ done:
 
 /* --- write ---------------------------------------------------------------------------------------------- */
 
-static int moves(fl_vec3 v)
-{
-    return v.x != 0.0 || v.y != 0.0 || v.z != 0.0;
-}
+static int moves(fl_vec3 v) { return v.x != 0.0 || v.y != 0.0 || v.z != 0.0; }
 
 static void write_vec3(FILE *f, fl_vec3 x)
 {

@@ -113,8 +113,8 @@ static int32_t core_of(const fl_side *line, unsigned char *state, int32_t m, dou
     return k;
 }
 
-/* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were cut
- * after it and took of its length; a quarter may go before it is cut again. */
+/* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were
+ * cut after it and took of its length; a quarter may go before it is cut again. */
 static int32_t find_short(const unsigned char *state, int32_t n, const fl_side *left, const fl_vec2 *corner,
                           double rho)
 {
@@ -283,7 +283,7 @@ static int measure_cells(struct fit *f, double *total, double *hi, fl_err *err)
         if (f->most[i] > *hi) *hi = f->most[i];
     }
     *total = fl_par_sum(f->area, c->n);
-    /* A core of less than a thousandth of its cell would have sides at the edge of what a contact resolves. */
+    /* A core of less than a thousandth of its cell would have sides too short for any contact. */
     if (f->inradius[tight] * (1.0 - 1e-3) > f->radius) return 0;
     return fl_fail(err, FL_INPUT,
                    "the cell of floe %d has an inscribed radius of %.4g m, too little for a core inside a "

@@ -39,8 +39,8 @@ typedef struct {
  *   radius         dilation radius, >= 0                                                  [m]
  *   shift          added to all corners                                                   [m]
  * The covered area falls with d and is convex in d; d is bracketed and found by Newton's steps.
- * Returns 0, or -1 with FL_INPUT: a cell is too small for the radius (which one, and how large the radius may be),
- * or the concentration lies outside what the cells can give; FL_NUMERIC: sides and inset did not settle;
+ * Returns 0, or -1 with FL_INPUT: a cell is too small for the radius (which one, and how large the radius may
+ * be), or the concentration lies outside what the cells can give; FL_NUMERIC: sides and inset did not settle;
  * FL_SYSTEM.  out is untouched then. */
 int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
                   fl_err *err);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* cgal_voronoi.h -- which Voronoi cells touch, and on which side of a line a point lies: both decided exactly,
- * by CGAL's filtered predicates. */
+/* cgal_voronoi.h -- which Voronoi cells touch, and on which side of a line a point lies: both decided
+ * exactly, by CGAL's filtered predicates. */
 #ifndef FL_SHIM_CGAL_VORONOI_H
 #define FL_SHIM_CGAL_VORONOI_H
 #include <stdint.h>
@@ -22,8 +22,8 @@ extern "C" {
  * Exact_predicates_inexact_constructions_kernel. */
 int fl_cgal_neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, fl_err *err);
 
-/* 1 when a, b, c turn left, -1 when they turn right, 0 when they lie on one line; exact.  Also 0 when there is
- * no memory for the exact arithmetic that a close decision takes. */
+/* 1 when a, b, c turn left, -1 when they turn right, 0 when they lie on one line; exact.  Also 0 when there
+ * is no memory for the exact arithmetic that a close decision takes. */
 int fl_cgal_turn(fl_vec2 a, fl_vec2 b, fl_vec2 c);
 
 #ifdef __cplusplus

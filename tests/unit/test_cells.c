@@ -52,8 +52,8 @@ static void cells_tile_the_rectangle(void **state)
     }
 }
 
-/* Four cells meet in each inner corner of a lattice; the side between diagonal neighbours is empty, or as long
- * as rounding makes it. */
+/* Four cells meet in each inner corner of a lattice; the side between diagonal neighbours is empty, or as
+ * long as rounding makes it. */
 static void a_lattice_gives_squares(void **state)
 {
     (void)state;

@@ -36,8 +36,8 @@ static void few_sites_and_sites_on_a_line(void **state)
     free(near);
 }
 
-/* A cell touches another when some point is nearest to both: the Delaunay pairs are those with a circle through
- * both and nothing inside, which is tried here against every third site, n^3. */
+/* A cell touches another when some point is nearest to both: the Delaunay pairs are those with a circle
+ * through both and nothing inside, which is tried here against every third site, n^3. */
 static void neighbours_are_those_with_an_empty_circle(void **state)
 {
     (void)state;

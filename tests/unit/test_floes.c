@@ -76,8 +76,8 @@ static void concentration_is_met_and_nothing_overlaps(void **state)
     }
 }
 
-/* The solver takes mass and buoyancy from the core's faces moved outward: these volumes must be the ice that was
- * asked for. */
+/* The solver takes mass and buoyancy from the core's faces moved outward: these volumes must be the ice that
+ * was asked for. */
 static void the_solver_sees_the_ice_that_was_asked_for(void **state)
 {
     (void)state;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells of random sites against what is known of them.  A wall would change the cells along it, so the square is
- * periodic here: the sites are repeated round it, and only the cells of the sites themselves count.
- * V41: Brakke, Random Voronoi (1986, 2005); Ferenc & Neda, Physica A 385 (2007) 518.
- * V43: a Monte Carlo of unstated, small size.  Smoothing spreads the differences between samples: over ten fields of
- * 2000 cells, four of this program and six of a brute-force one that shares no code with it, the deviation of
- * the figure after 20 steps is 6 % of its mean (0.125), that of the figure before the first step 2 % (0.527).
- * Hence 5 % for up to five steps, as stated there, and 10 % beyond. */
+/* Cells of random sites against what is known of them.  A wall would change the cells along it, so the square
+ * is periodic here: the sites are repeated round it, and only the cells of the sites themselves count. V41:
+ * Brakke, Random Voronoi (1986, 2005); Ferenc & Neda, Physica A 385 (2007) 518. V43: a Monte Carlo of
+ * unstated, small size.  Smoothing spreads the differences between samples: over ten fields of 2000 cells,
+ * four of this program and six of a brute-force one that shares no code with it, the deviation of the figure
+ * after 20 steps is 6 % of its mean (0.125), that of the figure before the first step 2 % (0.527). Hence 5 %
+ * for up to five steps, as stated there, and 10 % beyond. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,8 +13,8 @@
 #include "base/mem.h"
 #include "scene/cells.h"
 
-/* At one site to the unit of area no cell of a million reaches farther than 3 for its corners, and so 6 for its
- * neighbours: an empty circle of radius 3 has probability exp(-9 pi). */
+/* At one site to the unit of area no cell of a million reaches farther than 3 for its corners, and so 6 for
+ * its neighbours: an empty circle of radius 3 has probability exp(-9 pi). */
 #define MARGIN 6.0
 
 struct stats {

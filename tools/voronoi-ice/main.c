@@ -78,7 +78,7 @@ static int take_out(const struct options *o, struct field *a, fl_err *err)
 
 /* --- the file ------------------------------------------------------------------------------------------- */
 
-/* Prisms that float upright: still water is z = 0, the outer shape reaches from -draft to thickness - draft. */
+/* Prisms that float upright: still water is z = 0, the outer shape goes from -draft to thickness - draft. */
 static int add_floe(const struct options *o, const struct field *a, int32_t i, fl_vec3 *xy, fl_field *out,
                     fl_err *err)
 {
