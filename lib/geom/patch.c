@@ -24,10 +24,7 @@ static int by_ends(const void *x, const void *y)
     return a->k - b->k;
 }
 
-static int repeats(const fl_tri *t)
-{
-    return t->v[0] == t->v[1] || t->v[1] == t->v[2] || t->v[2] == t->v[0];
-}
+static int repeats(const fl_tri *t) { return t->v[0] == t->v[1] || t->v[1] == t->v[2] || t->v[2] == t->v[0]; }
 
 /* Who lies across side k of triangle t: across[3 t + k], -1 for nobody; agree[3 t + k] when they run
  * coherently. */
@@ -252,10 +249,7 @@ static int measure(const fl_part *p, int32_t n, fl_quality *q, fl_err *err)
     return 0;
 }
 
-int fl_part_measure(const fl_part *p, fl_quality *q, fl_err *err)
-{
-    return measure(p, 1, q, err);
-}
+int fl_part_measure(const fl_part *p, fl_quality *q, fl_err *err) { return measure(p, 1, q, err); }
 
 int fl_surface_measure(const fl_surface *s, fl_quality *q, fl_err *err)
 {

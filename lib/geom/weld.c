@@ -53,10 +53,7 @@ static uint64_t slot(const grid *g, int64_t ix, int64_t iy, int64_t iz)
     return (h ^ h >> 32) & g->mask;
 }
 
-static int64_t cell_of(double x, double lo, double cell)
-{
-    return (int64_t)floor((x - lo) / cell);
-}
+static int64_t cell_of(double x, double lo, double cell) { return (int64_t)floor((x - lo) / cell); }
 
 /* Nearest vertex in the grid within tol of x, the lowest index on a tie; -1 for none. */
 static int32_t nearest(const grid *g, const fl_part *p, fl_vec3 x, double tol, double *distance)

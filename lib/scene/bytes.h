@@ -17,8 +17,8 @@ typedef struct {
     char note[600]; /* remarks for the user, each with its newline */
 } fl_bytes;
 
-/* Read all of path ("-" is standard input, gzip is unpacked); a UTF-8 byte order mark at its start is dropped.
- * 0, or -1 with FL_INPUT (missing, unreadable, larger than 2 GiB) or FL_SYSTEM. */
+/* Read all of path ("-" is standard input, gzip is unpacked); a UTF-8 byte order mark at its start is
+ * dropped. 0, or -1 with FL_INPUT (missing, unreadable, larger than 2 GiB) or FL_SYSTEM. */
 int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err);
 
 /* Next row with words: skips blank ones and comments; \n, \r\n and \r end a line, and a backslash before the

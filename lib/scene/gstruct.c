@@ -79,10 +79,7 @@ static int read_row(fl_text *in, fl_surface *s, fl_err *err)
                         fl_text_nearest(word, record, 4));
 }
 
-static int empty(const fl_part *p)
-{
-    return p->nt == 0 && p->nc == 0;
-}
+static int empty(const fl_part *p) { return p->nt == 0 && p->nc == 0; }
 
 int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err)
 {

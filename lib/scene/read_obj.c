@@ -27,10 +27,7 @@ static const char *next_line(const char *p)
     return *p ? p + 1 : NULL;
 }
 
-static const char *skip_blanks(const char *p)
-{
-    return p + strspn(p, " \t");
-}
+static const char *skip_blanks(const char *p) { return p + strspn(p, " \t"); }
 
 int fl_obj_is(const fl_bytes *b)
 {
@@ -101,6 +98,15 @@ static int corner(const state *o, const fl_bytes *b, char *word, int32_t *v, fl_
     return 0;
 }
 
+/* See that the part has vertex v.  A part that comes back gets it twice: welding mends that. */
+static int bring(state *o, fl_part *p, int32_t v, fl_err *err)
+{
+    if (o->owner[v] == o->part + 1) return 0;
+    o->owner[v] = o->part + 1;
+    o->local[v] = p->nv;
+    return fl_surface_vertex(p, o->pool.v[v], err);
+}
+
 static int read_face(state *o, fl_surface *s, fl_bytes *b, fl_err *err)
 {
     const int32_t n = b->words - 1;
@@ -109,18 +115,18 @@ static int read_face(state *o, fl_surface *s, fl_bytes *b, fl_err *err)
     if (n > FL_FACET_CORNERS)
         return fl_bytes_fail(b, err, "a face of %d corners, at most %d were wanted", n, FL_FACET_CORNERS);
     if (fl_grow(&o->loop, &o->loop_cap, n, sizeof *o->loop, err)) return -1;
-    for (int32_t k = 0; k < n; k++) {
-        int32_t v = 0;
-        if (corner(o, b, b->field[k + 1], &v, err)) return -1;
-        if (o->owner[v] !=
-            o->part + 1) { /* a part that comes back gets the vertex twice: welding mends that */
-            o->owner[v] = o->part + 1;
-            o->local[v] = p->nv;
-            if (fl_surface_vertex(p, o->pool.v[v], err)) return -1;
-        }
-        o->loop[k] = o->local[v];
+    for (int32_t k = 0; k < n; k++)
+        if (corner(o, b, b->field[k + 1], &o->loop[k], err)) return -1;
+    /* Cut up under the numbers of the file, which decide on ties, and not under those of the part. */
+    o->pool.nt = 0;
+    if (fl_facet_polygon(&o->pool, n, o->loop, err)) return -1;
+    for (int32_t t = 0; t < o->pool.nt; t++) {
+        const int32_t *v = o->pool.t[t].v;
+        for (int k = 0; k < 3; k++)
+            if (bring(o, p, v[k], err)) return -1;
+        if (fl_surface_triangle(p, o->local[v[0]], o->local[v[1]], o->local[v[2]], err)) return -1;
     }
-    return fl_facet_polygon(p, n, o->loop, err);
+    return 0;
 }
 
 /* Open or reopen the part that the row names. */

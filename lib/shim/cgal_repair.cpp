@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <exception>
@@ -81,13 +82,39 @@ void remove_degenerate(Mesh &mesh, fl_repair &did)
     did.degenerate = found - did.stuck;
 }
 
+/* Do two triangles that meet do more than touch in corners or an edge that lie in the same place?  Where the
+ * surface was cut along a branched edge, they are neighbours that CGAL no longer knows as such. */
+bool crosses(const Mesh &mesh, Mesh::Face_index f, Mesh::Face_index g)
+{
+    std::vector<Point> a, b, common;
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) a.push_back(mesh.point(v));
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(g), mesh)) b.push_back(mesh.point(v));
+    const Kernel::Triangle_3 ta(a[0], a[1], a[2]), tb(b[0], b[1], b[2]);
+    for (const Point &x : std::vector<Point>(a)) {
+        const auto twin = std::find(b.begin(), b.end(), x);
+        if (twin == b.end()) continue;
+        common.push_back(x);
+        b.erase(twin);
+        a.erase(std::find(a.begin(), a.end(), x));
+    }
+    switch (common.size()) {
+    case 1:
+        return CGAL::do_intersect(Kernel::Segment_3(a[0], a[1]), tb) ||
+               CGAL::do_intersect(Kernel::Segment_3(b[0], b[1]), ta);
+    case 2:
+        return CGAL::coplanar(common[0], common[1], a[0], b[0]) &&
+               CGAL::coplanar_orientation(common[0], common[1], a[0], b[0]) == CGAL::POSITIVE;
+    default: return true;
+    }
+}
+
 void orient(Mesh &mesh, fl_repair &did)
 {
-    std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> crossing;
+    std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> meeting;
     if (did.stuck) return; /* a triangle without a plane has no exact answer */
-    PMP::self_intersections(mesh, std::back_inserter(crossing));
-    did.crossings = static_cast<int32_t>(crossing.size());
-    if (!crossing.empty() || mesh.number_of_faces() == 0 || !CGAL::is_closed(mesh)) return;
+    PMP::self_intersections(mesh, std::back_inserter(meeting));
+    for (const auto &pair : meeting) did.crossings += crosses(mesh, pair.first, pair.second);
+    if (!meeting.empty() || mesh.number_of_faces() == 0 || !CGAL::is_closed(mesh)) return;
     PMP::orient_to_bound_a_volume(mesh);
     did.bounding = 1;
 }

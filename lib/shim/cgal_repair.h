@@ -19,7 +19,7 @@ typedef struct {
     int32_t holes;      /* rims closed by new triangles                                                */
     int32_t patched;    /* those triangles                                                             */
     int32_t crossings;  /* pairs of triangles that pass through each other                             */
-    int32_t bounding;   /* 1: all is closed and nothing crosses, and every patch was turned so that the
+    int32_t bounding;   /* 1: all is closed and no two patches meet, and each was turned so that the
                               whole bounds a volume: cavities look inward */
 } fl_repair;
 

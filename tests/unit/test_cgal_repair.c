@@ -147,7 +147,8 @@ static void crossing_bodies_are_told_of(void **state)
     fl_surface_free(&s);
 }
 
-/* A box one edge of which has a corner in the middle on one side only, the gap filled by a triangle of no area. */
+/* A box one edge of which has a corner in the middle on one side only, the gap filled by a triangle of no
+ * area. */
 static void triangles_of_one_line_are_taken_out(void **state)
 {
     fl_surface s = {0};
@@ -193,6 +194,7 @@ static void branched_edges_stay_what_they_are(void **state)
     fl_facet_box(p, v3(1, 1, 0), v3(2, 2, 1), &err);
     fl_part_weld(p, 0.0, &w, &err);
     q = repaired(p, 0, &did);
+    assert_int_equal(did.crossings, 0); /* they touch */
     assert_int_equal(q.branched, 1);
     assert_int_equal(q.open, 0);
     assert_int_equal(q.vertices, 14);
@@ -215,8 +217,8 @@ static void nothing_is_mended_to_nothing(void **state)
     fl_surface_free(&s);
 }
 
-/* Triangles on any three of a few points, many of them on one line, in one place, doubled: nothing crashes, the
- * answer is sound, and is the same the second time. */
+/* Triangles on any three of a few points, many of them on one line, in one place, doubled: nothing crashes,
+ * the answer is sound, and is the same the second time. */
 static void any_soup_is_survived(void **state)
 {
     (void)state;

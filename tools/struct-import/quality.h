@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* report.h -- what struct-import says on standard error. */
-#ifndef STRUCT_IMPORT_REPORT_H
-#define STRUCT_IMPORT_REPORT_H
+/* quality.h -- what struct-import says on standard error. */
+#ifndef STRUCT_IMPORT_QUALITY_H
+#define STRUCT_IMPORT_QUALITY_H
 #include "mend.h"
 #include "options.h"
 

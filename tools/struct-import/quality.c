@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
-#include "report.h"
+#include "quality.h"
 
 static const double LARGEST = 1000.0, SMALLEST = 0.01; /* [m] sides of a box that are likely another unit */
 static const double ROUNDING = 1e-12;                  /* of the diagonal: thousands of roundings of 1e-16 */
