@@ -45,11 +45,13 @@ typedef struct {
  *    back and the stage ends.
  * 3. From the vertices within 1e-10 of the extent of the two supporting planes alone, by closed formulae
  *    or from a fixed start.  The result is therefore a function of the cores: cold, warm and stale starts
- *    give the same bits, unless a vertex lies within rounding of that border.
+ *    give the same bits.  Exceptions, some 2 in 100 000 pairs on a lattice and none seen elsewhere: a vertex
+ *    within rounding of that border, and ties (below).
  *
  * Error, with L the larger of d and the extent of the cores: 1e-13 L in d, 1e-12 rad in n for d from 1e-9
- * L up; the normal of two parallel features is that of the features.  Where the nearest points are not
- * unique one is returned.
+ * L up.  Where two pairs of features are equally near to rounding (outlines of parallel faces that just
+ * meet) n is that of one of them, and these may differ by the root of 2^-53.  Where the nearest points
+ * are not unique one is returned.
  *   cache  in: where to start; out: where the next query should.  NULL starts cold.
  * Cannot fail; all coordinates finite and below 1e100 in magnitude. */
 void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out);

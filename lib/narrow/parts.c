@@ -161,6 +161,13 @@ static void try_vertex_triangle(search *s, int32_t i, int swapped)
     offer_vertex(s, i, 3, all, swapped, c, p, v3_madd(p, -c.d, c.n));
 }
 
+static fl_vec3 foot_on(fl_vec3 p, fl_vec3 e0, fl_vec3 e1)
+{
+    const fl_vec3 l = v3_sub(e1, e0);
+    const double t = v3_dot(v3_sub(p, e0), l) / v3_norm2(l);
+    return v3_madd(e0, t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t, l);
+}
+
 static void try_edges(search *s, const int32_t *ea, const int32_t *eb)
 {
     const fl_vec3 a0 = s->a->v[ea[0]], a1 = s->a->v[ea[1]], b0 = s->b->v[eb[0]], b1 = s->b->v[eb[1]];
@@ -172,8 +179,12 @@ static void try_edges(search *s, const int32_t *ea, const int32_t *eb)
     const double mm = v3_norm2(ddv_round(m)), x = turn(s, m, b1, b0, a0, b0), y = turn(s, m, a1, a0, a0, b0);
     if (!(x > 0.0 && y > 0.0)) return;
     if (!(turn(s, m, b1, b0, a1, b0) < 0.0 && turn(s, m, a1, a0, a0, b1) < 0.0)) return;
-    c.pa = v3_madd(a0, x / mm, v3_sub(a1, a0));
-    c.pb = v3_madd(b0, y / mm, v3_sub(b1, b0));
+    /* Where on nearly parallel edges they do is uncertain; so that the two points face each other all the same,
+     * each is the foot of the other. */
+    const double t = x / mm;
+    c.pa = v3_madd(a0, t < 1.0 ? t : 1.0, v3_sub(a1, a0));
+    c.pb = foot_on(c.pa, b0, b1);
+    c.pa = foot_on(c.pb, a0, a1);
     offer(s, 2, ea, 2, eb, &c);
 }
 
