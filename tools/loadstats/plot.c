@@ -132,26 +132,35 @@ static void put_columns(const picture *p, int n, const double *x)
     putc('\n', p->data);
 }
 
-static void history_row(const picture *p, int32_t s, int w, const fl_view *v, int32_t k)
+static void history_row(const picture *p, int32_t s, int w, double t, double x)
 {
     label_row(p, s, w);
-    put_columns(p, 2, (double[]){v->t[k], v->x[k]});
+    put_columns(p, 2, (double[]){t, x});
 }
 
+/* A row of a loads table is the mean of an interval: a step where there is room for it, else its middle. */
 static void history_block(picture *p, int32_t s, int w)
 {
     const fl_view *v = view_of(p->r, p->part, s, w);
+    const int means = strcmp(p->r->s->kind, "loads") == 0, steps = means && w == 0 && v->n <= STRETCHES;
     const int64_t stretches = v->n > 2 * STRETCHES ? STRETCHES : v->n;
     start_block(p);
-    for (int64_t j = 0; j < stretches; j++) {
+    for (int32_t k = 0; steps && k < v->n; k++) {
+        history_row(p, s, w, v->edge[k], v->x[k]);
+        history_row(p, s, w, v->edge[k + 1], v->x[k]);
+    }
+    for (int64_t j = 0; !steps && j < stretches; j++) {
         const int32_t from = (int32_t)(j * v->n / stretches), to = (int32_t)((j + 1) * v->n / stretches);
-        int32_t lo = from, hi = from;
-        for (int32_t k = from; k < to; k++) {
-            if (v->x[k] < v->x[lo]) lo = k;
-            if (v->x[k] > v->x[hi]) hi = k;
+        int32_t k[2] = {from, from};
+        for (int32_t i = from; i < to; i++) {
+            if (v->x[i] < v->x[k[0]]) k[0] = i;
+            if (v->x[i] > v->x[k[1]]) k[1] = i;
         }
-        history_row(p, s, w, v, lo < hi ? lo : hi);
-        if (lo != hi) history_row(p, s, w, v, lo < hi ? hi : lo);
+        const int later = k[0] < k[1], single = k[0] == k[1];
+        for (int i = 0; i < 2 - single; i++) {
+            const int32_t row = k[i ? later : !later];
+            history_row(p, s, w, means ? 0.5 * (v->edge[row] + v->edge[row + 1]) : v->t[row], v->x[row]);
+        }
     }
 }
 
