@@ -214,7 +214,9 @@ void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gj
     found f = {plain_mode(w.a.n, w.b.n), 0.0, w.pa, w.pb};
     if (!try_faces(&w, &f)) {
         try_edge_face(&w, &w.a, &w.b, 0, &f);
+        const double ours = f.size;
         try_edge_face(&w, &w.b, &w.a, 1, &f);
+        out->low_b = f.size > ours;
         if (f.size == 0.0) try_parallel(&w, &f);
     }
     out->mode = f.mode;
@@ -223,4 +225,12 @@ void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gj
     out->p = v3_scale(0.5, v3_add(v3_madd(f.pa, -a->r, w.n), v3_madd(f.pb, b->r, w.n)));
     out->length = f.mode == FL_EP || f.mode == FL_EF ? f.size : 0.0;
     out->area = f.mode == FL_FF ? f.size : 0.0;
+    if (f.mode == FL_VE || f.mode == FL_VF) out->low_b = w.b.n < w.a.n;
+    if (f.mode == FL_EE) {
+        const fl_vec3 l = v3_sub(a->v[w.a.at[1]], a->v[w.a.at[0]]),
+                      m = v3_sub(b->v[w.b.at[1]], b->v[w.b.at[0]]);
+        const double la = v3_norm(l), lb = v3_norm(m);
+        out->sine = v3_norm(v3_cross(l, m)) / (la * lb);
+        out->edge = la < lb ? la : lb;
+    }
 }
