@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Volumes, moments and floating bodies against closed forms: cases V33 to V37, V48, V51, V52, H23, H24, and what
- * V50, V54 and V56 take from hydrostatics. */
+/* Volumes, moments and floating bodies against closed forms: cases V33 to V37, V48, V51, V52, H23, H24, and
+ * what V50, V54 and V56 take from hydrostatics. */
 #include <stdio.h>
 #include <stdlib.h>
 #include "geom/clip.h"
