@@ -6,8 +6,8 @@
 #include "base/mem.h"
 #include "stat/describe.h"
 
-/* Sums of deviations from a mean that is rounded to half a unit in the last place cannot tell a smaller spread
- * from none: std <= 4 eps max|x| is rounding of the mean and of the differences. */
+/* Sums of deviations from a mean that is rounded to half a unit in the last place cannot tell a smaller
+ * spread from none: std <= 4 eps max|x| is rounding of the mean and of the differences. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 
 void fl_describe_moments(int32_t n, const double *x, const double *w, fl_describe *d)

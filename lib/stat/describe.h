@@ -35,7 +35,8 @@ int fl_describe_quantiles(int32_t n, const double *x, const double *w, int32_t m
                           fl_err *err);
 
 /* Mean of the highest n * share values, the last of them counting by the part that belongs: with share = 1/3
- * the significant value.  descending[n] is sorted, n >= 1, 0 < share <= 1.  At least one whole value is taken. */
+ * the significant value.  descending[n] is sorted, n >= 1, 0 < share <= 1.  At least one whole value is
+ * taken. */
 double fl_describe_highest(int32_t n, const double *descending, double share);
 
 #endif

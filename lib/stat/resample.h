@@ -4,8 +4,9 @@
 #define FL_STAT_RESAMPLE_H
 #include <stdint.h>
 
-/* The common length of the intervals edge[k] .. edge[k + 1], k = 0 .. n - 1, when they are equal to a millionth
- * of their mean: then a row is nowhere off its place by more than a millionth of the whole record.  0 otherwise. */
+/* The common length of the intervals edge[k] .. edge[k + 1], k = 0 .. n - 1, when they are equal to a
+ * millionth of their mean: then a row is nowhere off its place by more than a millionth of the whole record.
+ * 0 otherwise. */
 double fl_resample_step(int32_t n, const double *edge);
 
 /* Means over m equal intervals of a record that is constant in each of its own,

@@ -26,8 +26,8 @@ typedef struct {
 } fl_series;
 
 /* What to read.
- *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total of the
- *                    summed components; signals = 0 takes fx, fy, fz, fh of a loads table
+ *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total
+ *                    of the summed components; signals = 0 takes fx, fy, fz, fh of a loads table
  *   part             one part or "total"; NULL takes all of them and the total
  *   from, to         only rows whose interval lies within [s]; -INFINITY and INFINITY take all
  *   last             only the rows of the last so many seconds; 0 takes all */
@@ -41,9 +41,9 @@ typedef struct {
 /* Read a table that has a column t and, where rows share a time, a column part or body that tells them apart.
  * Every part must have one row at each time.  A table without such a column has one part, "-".  The total is
  * the sum over the parts of fx, fy, fz, mx, my, mz and contacts; other columns have none.
- * 0, or -1 with FL_INPUT (no rows, none left by the cut, a missing or repeated part, time that does not rise, a
- * field that is not a number or beyond FL_SERIES_LARGEST), FL_USAGE (a total that does not exist, or signals
- * needed) or FL_SYSTEM. */
+ * 0, or -1 with FL_INPUT (no rows, none left by the cut, a missing or repeated part, time that does not
+ * rise, a field that is not a number or beyond FL_SERIES_LARGEST), FL_USAGE (a total that does not exist, or
+ * signals needed) or FL_SYSTEM. */
 int fl_series_read(fl_series *s, const char *path, const fl_series_ask *ask, fl_err *err);
 
 /* The index of a part, or -1. */

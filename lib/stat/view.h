@@ -32,11 +32,11 @@ typedef struct {
     const double *p;
 } fl_view_ask;
 
-/* The raw view of signal s of part p takes the rows as they are.  The filtered view needs equal intervals: the
- * rows' own when they are equal, otherwise as many equal ones, by fl_resample_means(); its t is the end of the
- * interval in a loads table and the middle in another.
- * The series must live as long as the view.  0, or -1 with FL_INPUT (a filter that the record cannot carry) or
- * FL_SYSTEM in err; v is then empty. */
+/* The raw view of signal s of part p takes the rows as they are.  The filtered view needs equal intervals:
+ * the rows' own when they are equal, otherwise as many equal ones, by fl_resample_means(); its t is the end
+ * of the interval in a loads table and the middle in another.
+ * The series must live as long as the view.  0, or -1 with FL_INPUT (a filter that the record cannot carry)
+ * or FL_SYSTEM in err; v is then empty. */
 int fl_view_make(fl_view *v, const fl_series *s, int32_t part, int32_t signal, const fl_view_ask *ask,
                  fl_err *err);
 

@@ -92,10 +92,10 @@ static void laws(void)
         fl_describe d;
         fl_describe_moments(n, x, NULL, &d);
         for (int32_t k = 0; k < n; k++) down[k] = x[rank[k]];
-        /* Five standard errors: of a quantile sqrt(p (1 - p) / n) / f(q), with f(q) = 1 - p; of the mean of the
-         * highest share a, whose excess over its lower end has mean and deviation 1, sqrt((2 - a) / (a n)); of
-         * the shape numbers sqrt(72 / n) and sqrt(8064 / n), by linearising them in the sample moments with the
-         * central moments 1, 2, 9, 44, 265, 1854, 14833 of the exponential law. */
+        /* Five standard errors: of a quantile sqrt(p (1 - p) / n) / f(q), with f(q) = 1 - p; of the mean of
+         * the highest share a, whose excess over its lower end has mean and deviation 1, sqrt((2 - a) / (a
+         * n)); of the shape numbers sqrt(72 / n) and sqrt(8064 / n), by linearising them in the sample
+         * moments with the central moments 1, 2, 9, 44, 265, 1854, 14833 of the exponential law. */
         for (int j = 0; j < 3; j++)
             verify_row("L20", "exponential quantile 0.5, 0.9, 0.99", q[j], -log(1.0 - p[j]),
                        5.0 * sqrt(p[j] / (1.0 - p[j]) / n), VERIFY_ABS);

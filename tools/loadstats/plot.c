@@ -96,7 +96,8 @@ static void put_left_title(const picture *p, const char *text, double x)
     fprintf(p->script, " at screen %.4f, graph 0.5 center rotate\n", x);
 }
 
-/* A part may have any name; a file has a plain one, told apart by the number of the part where that is not enough. */
+/* A part may have any name; a file has a plain one, told apart by the number of the part where that is not
+ * enough. */
 static void make_stem(picture *p)
 {
     const char *name = p->r->s->part[p->part];
