@@ -87,7 +87,8 @@ static void constants_and_lines_pass(void **state)
     for (int k = 0; k < N; k++) x[k] = 1e6;
     assert_int_equal(fl_butter_zero_phase(&f, N, x, y, &err), 0);
     for (int k = 0; k < N; k++) assert_near(y[k], 1e6, 1e-12);
-    /* The odd reflection continues a line as a line; only the start of the pad, long died out, does not know. */
+    /* The odd reflection continues a line as a line; only the start of the pad, long died out, does not
+     * know. */
     for (int k = 0; k < N; k++) x[k] = -5.0 + 0.25 * k;
     assert_int_equal(fl_butter_zero_phase(&f, N, x, y, &err), 0);
     for (int k = 0; k < N; k++) assert_near_of(y[k], x[k], 1e-6, 500.0);

@@ -195,7 +195,8 @@ static void one_part_called_total_is_the_total(void **state)
     fl_series_free(&s);
 }
 
-/* Unequal intervals onto equal ones: the impulse, and so the mean, is what it was, and a constant is a constant. */
+/* Unequal intervals onto equal ones: the impulse, and so the mean, is what it was, and a constant is a
+ * constant. */
 static void resampling_keeps_the_impulse(void **state)
 {
     enum { N = 200, M = 373 };
