@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include "support/near.h"
+#include "base/rng.h"
+#include "law/damping.h"
+#include "law/manual.h"
+#include "law/material.h"
+#include "law/normal.h"
+#include "law/tangent.h"
+#include "support/shapes.h"
+
+#define PI 3.14159265358979323846
+
+/* --- damping ----------------------------------------------------------------------------------------------
+ */
+
+static void damping_is_that_of_the_table(void **state)
+{
+    static const struct {
+        double e, zeta, alpha, D;
+    } row[] = {
+        {0.9, 0.03427, 0.07662, 0.16648}, {0.8, 0.07436, 0.16626, 0.37315}, {0.7, 0.12221, 0.27328, 0.63483},
+        {0.6, 0.18086, 0.40441, 0.97487}, {0.5, 0.25528, 0.57081, 1.43275}, {0.4, 0.35451, 0.79270, 2.08250},
+        {0.3, 0.49724, 1.11186, 3.08708}, {0.2, 0.73125, 1.63512, 4.91917}, {0.1, 1.24319, 2.77985, 9.99816}};
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        assert_near_of(fl_damping_linear(row[k].e), row[k].zeta, 5.01e-6,
+                       1.0); /* half a digit of the table */
+        assert_near_of(fl_damping_crossley(row[k].e), row[k].D, 5.01e-6, 1.0);
+        assert_near(fl_damping_tsuji(row[k].e), row[k].alpha, 2e-3); /* the fit's accuracy */
+    }
+}
+
+static void damping_of_every_restitution_is_finite(void **state)
+{
+    double zeta = INFINITY, alpha = INFINITY, D = INFINITY;
+    (void)state;
+    for (int k = 0; k <= 1000; k++) {
+        const double e = 0.001 * k, z = fl_damping_linear(e), a = fl_damping_tsuji(e),
+                     d = fl_damping_crossley(e);
+        assert_true(isfinite(z) && isfinite(a) && isfinite(d));
+        assert_true(z >= 0.0 && a >= 0.0 && d >= 0.0);
+        if (e > FL_RESTITUTION_LEAST) assert_true(z < zeta && a < alpha && d < D); /* falls with e */
+        zeta = z, alpha = a, D = d;
+    }
+    assert_near_of(zeta, 0.0, 1e-15, 1.0);
+    assert_near_of(alpha, 0.0, 1e-15, 1.0);
+    assert_near_of(D, 0.0, 1e-15, 1.0);
+    assert_near(fl_damping_crossley(0.0), fl_damping_crossley(FL_RESTITUTION_LEAST), 1e-15);
+    assert_near(fl_damping_linear(-1.0), fl_damping_linear(FL_RESTITUTION_LEAST), 1e-15);
+}
+
+static void damping_solves_its_equation(void **state)
+{
+    (void)state;
+    for (int k = 1; k < 100; k++) {
+        const double e = 0.01 * k, D = fl_damping_crossley(e);
+        /* without the logarithm, whose argument is beyond doubles for small e */
+        assert_near_of((1.0 + D) * exp(-D * (1.0 + e)), 1.0 - e * D, 1e-14, 1.0);
+        assert_true(D > 0.0 && e * D < 1.0);
+        assert_near(fl_damping_linear_e(fl_damping_linear(e)), e, 1e-13);
+    }
+    /* both sides of zeta = 1 and the point itself */
+    assert_near(fl_damping_linear_e(1.0), exp(-2.0), 1e-15);
+    assert_near(fl_damping_linear_e(1.0 - 1e-8), exp(-2.0), 1e-6);
+    assert_near(fl_damping_linear_e(1.0 + 1e-8), exp(-2.0), 1e-6);
+}
+
+/* --- material, normal
+ * --------------------------------------------------------------------------------------- */
+
+static void material_gives_hertz_and_punch(void **state)
+{
+    (void)state;
+    const fl_elastic ice = {1e9, 0.3}, rigid = {INFINITY, 0.0};
+    const double same = fl_material_modulus(ice, ice), half = fl_material_modulus(ice, rigid);
+    assert_near(same, 1e9 / (2.0 * 0.91), 1e-15);
+    assert_near(half, 1e9 / 0.91, 1e-15);
+    assert_near(fl_material_modulus(rigid, ice), half, 0.0);
+    assert_near(fl_material_radius(0.1, 0.1), 0.05, 1e-15);
+    assert_near(fl_material_radius(0.1, 0.3), 0.075, 1e-15);
+    assert_near(fl_material_radius(0.1, 0.0), 0.1, 0.0);
+    assert_near(fl_material_radius(0.0, 0.3), 0.3, 0.0);
+    assert_near(fl_material_hertz(same, 0.05), 4.0 / 3.0 * same * sqrt(0.05), 1e-15);
+    /* six places make the punch: 2 E* a, a the radius of the circle of that area, times beta */
+    assert_near(6.0 * fl_material_punch(same, PI * 4.0), 2.0 * same * 1.02 * 2.0, 1e-15);
+}
+
+/* phi' = s^n and (s^n)' = slope, by central differences at the optimal width cbrt(eps): error 4e-11. */
+static void normal_powers_derive_from_one_another(void **state)
+{
+    const double exponent[] = {1.0, 1.5}, h = 6e-6;
+    (void)state;
+    for (int c = 0; c < 2; c++) {
+        const double n = exponent[c];
+        for (int k = -6; k <= 2; k++) {
+            const double s = pow(10.0, k), d = h * s;
+            assert_near(fl_normal_power(s, n), pow(s, n), 1e-15);
+            assert_near(fl_normal_phi(s, n), pow(s, n + 1.0) / (n + 1.0), 1e-15);
+            assert_near((fl_normal_phi(s + d, n) - fl_normal_phi(s - d, n)) / (2.0 * d),
+                        fl_normal_power(s, n), 1e-9);
+            assert_near((fl_normal_power(s + d, n) - fl_normal_power(s - d, n)) / (2.0 * d),
+                        fl_normal_slope(s, n), 1e-9);
+        }
+    }
+    assert_near(fl_normal_damped(10.0, 0.5, 1.0), 15.0, 1e-15);
+    assert_near(fl_normal_damped(10.0, 0.5, -3.0), 0.0, 0.0); /* never pulls */
+}
+
+/* --- the manual
+ * --------------------------------------------------------------------------------------------- */
+
+/* The table of mode jumps: E = 1 GPa, nu = 0.3, R = 0.1 m on both, L = 5 m, A = 12.5 m2. */
+static void manual_modes_are_those_of_the_table(void **state)
+{
+    static const double overlap[] = {1e-4, 1e-3, 1e-2};
+    static const double want[][6] = {/* VV, VF, EP literal, EP si, EF literal, FF [N] */
+                                     {164, 232, 819, 216e3, 1.16e3, 224e3},
+                                     {5.18e3, 7.33e3, 25.9e3, 2.16e6, 36.6e3, 2.24e6},
+                                     {164e3, 232e3, 819e3, 21.6e6, 1.16e6, 22.4e6}};
+    static const struct {
+        fl_touch touch;
+        int si;
+    } mode[] = {{FL_TOUCH_VV, 0}, {FL_TOUCH_VF, 0}, {FL_TOUCH_EP, 0},
+                {FL_TOUCH_EP, 1}, {FL_TOUCH_EF, 0}, {FL_TOUCH_FF, 0}};
+    const double modulus = fl_material_modulus((fl_elastic){1e9, 0.3}, (fl_elastic){1e9, 0.3});
+    (void)state;
+    for (int s = 0; s < 3; s++) {
+        for (int m = 0; m < 6; m++) {
+            const fl_manual_contact c = {.touch = mode[m].touch,
+                                         .length = 5.0,
+                                         .area = 12.5,
+                                         .r_low = 0.1,
+                                         .r_high = 0.1,
+                                         .edge = 5.0};
+            double n;
+            const double k = fl_manual_stiffness(&c, modulus, overlap[s], mode[m].si, 0, &n);
+            assert_near(k * fl_normal_power(overlap[s], n), want[s][m], 5e-3); /* three digits are printed */
+        }
+    }
+}
+
+/* Crossed cylinders: R~ = sqrt(Ra Rb)/sin; as printed, twice that; bounded where edges become parallel. */
+static void manual_crossed_edges(void **state)
+{
+    const double modulus = 1e9, overlap = 1e-4;
+    double n;
+    (void)state;
+    for (int k = 1; k <= 9; k++) {
+        const double angle = k * PI / 18.0;
+        const fl_manual_contact c = {
+            .touch = FL_TOUCH_EE, .sine = sin(angle), .r_low = 0.1, .r_high = 0.3, .edge = 5.0};
+        const double R = sqrt(0.03) / sin(angle), want = fl_material_hertz(modulus, R);
+        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n), want, 1e-12);
+        assert_near(n, 1.5, 0.0);
+        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 1, &n), want * sqrt(2.0), 1e-12);
+    }
+    fl_manual_contact c = {.touch = FL_TOUCH_EE, .r_low = 0.1, .r_high = 0.1, .edge = 5.0};
+    /* parallel: half the radius one way, edge^2/(4 s) the other.  With the angle the first grows by sin^2/4
+     * at most. */
+    const double parallel = fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n);
+    assert_near(parallel, fl_material_hertz(modulus, sqrt(0.05 * 25.0 / (4.0 * overlap))), 1e-12);
+    double before = parallel;
+    for (double sine = 1e-12; sine < 0.5; sine *= 10.0) {
+        c.sine = sine;
+        const double k = fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n);
+        assert_true(k > 0.0 && k <= before * (1.0 + 0.25 * sine * sine));
+        before = k;
+    }
+    assert_true(before < 0.2 * parallel);
+}
+
+static void manual_sharp_sides_are_finite(void **state)
+{
+    (void)state;
+    for (int t = FL_TOUCH_VV; t <= FL_TOUCH_FF; t++) {
+        for (int side = 0; side < 2; side++) {
+            const fl_manual_contact c = {.touch = (fl_touch)t,
+                                         .length = 1,
+                                         .area = 1,
+                                         .sine = 0.5,
+                                         .edge = 1,
+                                         .r_low = side ? 0.1 : 0.0,
+                                         .r_high = side ? 0.0 : 0.1};
+            double n = 0.0;
+            const double k = fl_manual_stiffness(&c, 1e9, 1e-3, 0, 0, &n);
+            assert_true(isfinite(k) && k > 0.0);
+            assert_true(n == 1.0 || n == 1.5);
+        }
+    }
+}
+
+static void manual_damping_by_its_exponent(void **state)
+{
+    (void)state;
+    assert_near(fl_manual_damping(100.0, 1.0, 0.3, 4.0, 0.25, 9.0, 2.0), 2.0 * 0.25 * 20.0 * 2.0, 1e-15);
+    assert_near(fl_manual_damping(100.0, 1.5, 0.0625, 4.0, 9.0, 0.25, 2.0), 0.25 * 20.0 * 0.5 * 2.0, 1e-15);
+}
+
+/* --- friction
+ * ------------------------------------------------------------------------------------------------ */
+
+static void friction_sticks_slides_and_comes_back(void **state)
+{
+    const fl_vec3 n = v3(0, 0, 1), v = v3(1, 0, 0.7); /* the normal part is dropped */
+    const double k = 1000.0, dt = 1e-3, limit = 5.0;
+    fl_slip s = {0};
+    fl_vec3 f = v3(0, 0, 0);
+    (void)state;
+    for (int i = 1; i <= 5; i++) {
+        f = fl_tangent_force(&s, n, v, 0.0, dt, k, 0.0, limit);
+        assert_near(f.x, -k * dt * i, 1e-14);
+        assert_near_of(f.z, 0.0, 1e-15, limit);
+    }
+    for (int i = 0; i < 5; i++) f = fl_tangent_force(&s, n, v, 0.0, dt, k, 0.0, limit);
+    assert_near(f.x, -limit, 1e-14);
+    assert_near(fl_tangent_energy(&s), 0.5 * limit * limit / k, 1e-14);
+    f = fl_tangent_force(&s, n, v3_neg(v), 0.0, dt, k, 0.0, limit); /* turning round it gives way at once */
+    assert_near(f.x, -limit + k * dt, 1e-14);
+    f = fl_tangent_force(&s, n, v3(0, 0, 0), 0.0, dt, k, 0.0, 0.0); /* no load, no friction */
+    assert_near(v3_norm(f), 0.0, 0.0);
+    s = (fl_slip){v3(1, 0, 0), k};
+    f = fl_tangent_force(&s, n, v, 0.0, dt, 0.0, 0.0, limit); /* no stiffness, no force */
+    assert_near(v3_norm(f), 0.0, 0.0);
+    assert_near(fl_tangent_energy(&s), 0.0, 0.0);
+}
+
+/* The memory turns with the normal and with the pair about it, and keeps its length. */
+static void friction_rolls_with_the_contact(void **state)
+{
+    fl_slip s = {v3(3, 0, 0), 1000.0};
+    const int turns = 1000;
+    (void)state;
+    for (int i = 1; i <= turns; i++) {
+        const double a = 0.5 * PI * i / turns;
+        const fl_vec3 f =
+            fl_tangent_force(&s, v3(-sin(a), 0, cos(a)), v3(0, 0, 0), 0.0, 1e-3, 1000.0, 0.0, 100.0);
+        assert_near(v3_norm(f), 3.0, 1e-13);
+    }
+    assert_near_of(s.force.z, 3.0, 1e-6, 3.0);
+    for (int i = 0; i < turns; i++) /* a quarter turn about n = -x */
+        fl_tangent_force(&s, v3(-1, 0, 0), v3(0, 0, 0), 0.5 * PI, 1.0 / turns, 1000.0, 0.0, 100.0);
+    assert_near(v3_norm(s.force), 3.0, 1e-12);
+    /* each turn is made along the tangent: error (pi/2)^3/(3 N^2) */
+    assert_near_of(s.force.y, 3.0, 2e-6, 3.0);
+}
+
+static void friction_damping_stays_within_the_limit(void **state)
+{
+    fl_slip s = {0};
+    const fl_vec3 n = v3(0, 0, 1);
+    (void)state;
+    fl_vec3 f = fl_tangent_force(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 2.0, 5.0);
+    assert_near(f.x, -1.0 - 2.0, 1e-14);
+    assert_near(s.force.x, -1.0, 1e-14); /* the spring does not remember the damping */
+    f = fl_tangent_force(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 1e6, 5.0);
+    assert_near(f.x, -5.0, 1e-14);
+    assert_near(s.force.x, -2.0, 1e-14);
+}
+
+/* Whatever the history of slip, load and stiffness, as long as slip ends where it began friction has taken
+ * work: the force on A does -f.v dt against the slip.  Trapezoids, as the spring's own energy goes. */
+static void friction_creates_no_energy(void **state)
+{
+    (void)state;
+    for (long c = 0; c < test_times(200); c++) {
+        fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
+        const double dt = 1e-3, base = 1000.0, a1 = fl_rng_in(&g, 1, 20), a2 = fl_rng_in(&g, 1, 20),
+                     b = fl_rng_in(&g, 1, 20), mu = fl_rng_in(&g, 0.05, 5), damp = fl_rng_in(&g, 0, 3);
+        fl_slip s = {0};
+        double taken = 0.0, moved = 0.0;
+        fl_vec3 before = v3(0, 0, 0);
+        const fl_vec3 n = v3(0, 0, 1);
+        for (int i = 1; i <= 20000; i++) {
+            const double t = i * dt, depth = 0.5 * (1.0 - cos(b * t)), k = base * sqrt(depth);
+            const fl_vec3 v = v3(sin(a1 * t), cos(a2 * t), 0);
+            const fl_vec3 f = fl_tangent_force(&s, n, v, 0.0, dt, k, damp, mu * base * depth * sqrt(depth));
+            assert_true(v3_norm(f) <= mu * base * depth * sqrt(depth) * (1.0 + 1e-15));
+            taken -= 0.5 * dt * v3_dot(v3_add(f, before), v);
+            moved += dt * v3_norm(v);
+            before = f;
+            /* what it has given back so far never exceeds what was put in; the rule errs by order dt of the
+             * work */
+            if (taken - fl_tangent_energy(&s) < -2.0 * dt * base * moved) {
+                print_error("seed %llu case %ld\n", (unsigned long long)test_seed(), c);
+                assert_true(0);
+            }
+        }
+        assert_true(taken > fl_tangent_energy(&s));
+    }
+}
+
+/* The closed path that a plain incremental spring gains on: load, slip, unload, slip back.  Loaded by k1,
+ * unloaded by k2 < k1: plain, the force k1 x would be met by k2 only. */
+static void friction_unloads_along_its_stiffness(void **state)
+{
+    const fl_vec3 n = v3(0, 0, 1), there = v3(1, 0, 0), still = v3(0, 0, 0);
+    const double k1 = 1000.0, k2 = 250.0, dt = 1e-4, far = 1e9;
+    fl_slip s = {0};
+    (void)state;
+    for (int i = 0; i < 100; i++) fl_tangent_force(&s, n, there, 0.0, dt, k1, 0.0, far);
+    const double held = fl_tangent_energy(&s);
+    assert_near(s.force.x, -k1 * 100 * dt, 1e-12);
+    fl_tangent_force(&s, n, still, 0.0, dt, k2, 0.0, far);
+    assert_near(s.force.x, -k2 * 100 * dt, 1e-12);
+    assert_near(fl_tangent_energy(&s), held * k2 / k1, 1e-12);
+    for (int i = 0; i < 100; i++) fl_tangent_force(&s, n, v3_neg(there), 0.0, dt, k2, 0.0, far);
+    assert_near_of(s.force.x, 0.0, 1e-12, k1 * 100 * dt);
+    /* stiffer again, the force stays as it is: incremental */
+    s = (fl_slip){v3(-7, 0, 0), k2};
+    fl_tangent_force(&s, n, still, 0.0, dt, k1, 0.0, far);
+    assert_near(s.force.x, -7.0, 1e-15);
+    assert_true(fl_tangent_energy(&s) < 49.0 / (2.0 * k2));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(damping_is_that_of_the_table),
+        cmocka_unit_test(damping_of_every_restitution_is_finite),
+        cmocka_unit_test(damping_solves_its_equation),
+        cmocka_unit_test(material_gives_hertz_and_punch),
+        cmocka_unit_test(normal_powers_derive_from_one_another),
+        cmocka_unit_test(manual_modes_are_those_of_the_table),
+        cmocka_unit_test(manual_crossed_edges),
+        cmocka_unit_test(manual_sharp_sides_are_finite),
+        cmocka_unit_test(manual_damping_by_its_exponent),
+        cmocka_unit_test(friction_sticks_slides_and_comes_back),
+        cmocka_unit_test(friction_rolls_with_the_contact),
+        cmocka_unit_test(friction_damping_stays_within_the_limit),
+        cmocka_unit_test(friction_creates_no_energy),
+        cmocka_unit_test(friction_unloads_along_its_stiffness),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
