@@ -53,8 +53,7 @@ static void plateaus_and_ends(void **state)
     expect(3, (double[]){-3, -1, -3}, 0.5, 0.0, 0, NULL); /* not above the threshold of 0 */
 }
 
-/* Against the definition: every two neighbours are separate, and no maximum that was dropped could be kept.
- * */
+/* Against the definition: every two neighbours are separate, and no larger maximum was dropped. */
 static void random_records_obey_the_rule(void **state)
 {
     enum { N = 300 };
