@@ -1,0 +1,323 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Floating bodies through the solver, against closed forms. */
+#include <math.h>
+#include <stdio.h>
+#include "support/lab.h"
+#include "support/verify.h"
+
+#define PI 3.14159265358979323846
+#define G 9.81
+#define DRAFT (900.0 / 1025.0)    /* of 10 x 10 x 1 m of ice */
+#define WETTED (100 + 40 * DRAFT) /* [m2]                    */
+#define REST (0.5 - DRAFT)        /* its centre at rest [m]  */
+
+/* The floe of V48: 10 x 10 x 1 m, ice 900 in water of 1025 kg/m3; no drag unless asked for. */
+static void floe(lab *l, double z, fl_quat q, fl_vec3 v, fl_vec3 spin)
+{
+    lab_start(l);
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "water.density=1025");
+    lab_set(l, "water.drag_force_coef=0");
+    lab_set(l, "water.drag_moment_coef=0");
+    lab_box(l, v3(0, 0, z), v3(5, 5, 0.5), 0.05, q, v, spin);
+}
+
+/* Mean period of y about 0 over `cycles` cycles: times of upward crossings, by the straight line between steps. */
+static double period(lab *l, int cycles, double (*y)(const fl_world *))
+{
+    double first = NAN, before = y(&l->w);
+    for (int seen = -1;;) {
+        if (lab_run(l, 1)) return NAN;
+        const double now = y(&l->w);
+        if (before < 0.0 && now >= 0.0) {
+            const double t = l->w.dt * ((double)l->w.step - now / (now - before));
+            if (++seen == 0) first = t;
+            if (seen == cycles) return (t - first) / cycles;
+        }
+        before = now;
+    }
+}
+
+static double heave(const fl_world *w) { return w->b.x[0].z - REST; }
+static double roll(const fl_world *w) { return w->b.R[0].m[2][1]; }
+
+static void draft(void)
+{
+    const fl_vec3 o = v3(0, 0, 0);
+    const double omega = sqrt(G / DRAFT), dt = 2.0 * sin(PI / 1000) / omega;
+    lab l;
+    floe(&l, REST, q_one(), o, o);
+    lab_make(&l, 1e-3);
+    lab_run(&l, 10000);
+    verify_row("V48", "draft after 1e4 steps, started at it [m]", 0.5 - l.w.b.x[0].z, DRAFT, 1e-9,
+               VERIFY_ABS);
+    verify_row("V48", "freeboard [m]", 0.5 + l.w.b.x[0].z, 0.1219512195121951, 1e-9, VERIFY_ABS);
+    verify_row("V48", "lift over weight", l.w.sea.lift[0] / (90000 * G), 1.0, 1e-13, VERIFY_ABS);
+    lab_free(&l);
+
+    verify_note("released 1 mm and 0.1 m above: with this step the period of Verlet's method is 1000 steps");
+    for (int k = 0; k < 2; k++) {
+        double sum = 0.0;
+        floe(&l, REST + (k ? 0.1 : 1e-3), q_one(), o, o);
+        lab_make(&l, dt);
+        for (int s = 0; s < 3000; s++) {
+            lab_run(&l, 1);
+            sum += l.w.b.x[0].z;
+        }
+        verify_row("V48", "mean draft over 3 periods [m]", 0.5 - sum / 3000, DRAFT, 1e-9, VERIFY_ABS);
+        lab_free(&l);
+    }
+}
+
+static void heaving(void)
+{
+    const fl_vec3 o = v3(0, 0, 0);
+    const double T = 2 * PI * sqrt(DRAFT / G);
+    double h[4], late[4], energy[4];
+    lab l;
+    floe(&l, REST + 0.05, q_one(), o, o);
+    lab_make(&l, T / 200);
+    verify_row("V49", "period of heave, no added mass [s]", period(&l, 10, heave), T, 1e-3, VERIFY_REL);
+    lab_free(&l);
+    for (int k = 0; k < 4; k++) {
+        const int steps = 20 << k;
+        h[k] = T / steps;
+        floe(&l, REST + 0.05, q_one(), o, o);
+        lab_make(&l, h[k]);
+        const double start = lab_energy(&l);
+        energy[k] = 0.0;
+        for (int s = 0; s < 3 * steps; s++) { /* to a time when it moves fastest */
+            lab_run(&l, 1);
+            energy[k] = fmax(energy[k], fabs(lab_energy(&l) - start));
+        }
+        for (int s = 0; s < steps / 4; s++) lab_run(&l, 1);
+        late[k] = fabs(heave(&l.w)) / 0.05;
+        energy[k] /= 0.5 * 1025 * G * 100 * 0.05 * 0.05;
+        lab_free(&l);
+    }
+    verify_order("V49", "heave after 3.25 periods over the amplitude", h, late, 4, 2.0, 0.1);
+    verify_order("V29", "energy, largest error over the energy put in", h, energy, 4, 2.0, 0.1);
+}
+
+static void rolling(void)
+{
+    const double tilt = 1e-3, T = 1.895243, GM = 9.429765;
+    lab l;
+    floe(&l, REST, q_of_vector(v3(1e-6, 0, 0)), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-3);
+    verify_row("V50", "GM from the moment at 1e-6 rad [m]", -l.w.b.t[0].x / (90000 * G * 1e-6), GM, 1e-6,
+               VERIFY_REL);
+    lab_free(&l);
+    floe(&l, REST, q_of_vector(v3(tilt, 0, 0)), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, T / 200);
+    verify_row("V50", "period of roll, no added inertia [s]", period(&l, 10, roll), T, 2e-3, VERIFY_REL);
+    lab_free(&l);
+}
+
+/* Heave and roll together, large: the books must close better with every smaller step. */
+static void tumbling(void)
+{
+    double h[4], residual[4];
+    for (int k = 0; k < 4; k++) {
+        lab l;
+        h[k] = 0.04 / (1 << k);
+        floe(&l, REST + 0.3, q_of_vector(v3(0.3, 0.2, 0)), v3(0, 0, 0), v3(0.2, 0, 0.1));
+        lab_make(&l, h[k]);
+        residual[k] = 0.0;
+        for (int s = 0; s < 500 << k; s++) {
+            lab_run(&l, 1);
+            fl_step_ledger(&l.w);
+            residual[k] = fmax(residual[k], fabs(l.w.ledger.residual));
+        }
+        residual[k] /= l.w.ledger.throughput;
+        lab_free(&l);
+    }
+    verify_order("V29", "tumbling 20 s undamped: residual over throughput", h, residual, 4, 2.0, 0.3);
+}
+
+static void drift(void)
+{
+    const double U = 0.5;
+    const struct {
+        const char *coef, *v_of, *x_of, *half_of;
+        double kappa, t, v, x, half;
+    } cases[2] = {{"water.drag_force_coef=0.005", "(a) v(1000 s) [m/s]", "(a) x(1000 s) [m]",
+                   "(a) t at half speed [s]", 3.847222e-3, 1000, 0.32898, 221.144, 519.86},
+                  {NULL, "(b) v(100 s) [m/s]", "(b) x(100 s) [m]", "(b) t at half speed [s]", 0.05, 100,
+                   0.357143, NAN, 40}};
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        char coef[64];
+        const double t = cases[k].t;
+        /* (b) has form drag, C = 1, on the side of 8.7805 m2; equation (8) has one area, the wetted one */
+        snprintf(coef, sizeof coef, "water.drag_force_coef=%.17g", 10 * DRAFT / WETTED);
+        const double C = k ? 10 * DRAFT / WETTED : 0.005, kappa = 0.5 * C * 1025 * WETTED / 90000;
+        floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        lab_set(&l, cases[k].coef ? cases[k].coef : coef);
+        lab_set(&l, "water.current=0.5 0 0");
+        lab_make(&l, t / 10000);
+        double half = NAN, before = 0.0; /* half: when half the speed is reached */
+        for (int s = 0; s < 10000; s++) {
+            lab_run(&l, 1);
+            const double v = l.w.b.v[0].x;
+            if (v >= 0.5 * U && isnan(half))
+                half = l.w.dt * ((double)l.w.step - (v - 0.5 * U) / (v - before));
+            before = v;
+        }
+        verify_row("V54", k ? "(b) kappa [1/m]" : "(a) kappa [1/m]", kappa, cases[k].kappa, 1e-6, VERIFY_REL);
+        verify_row("V54", cases[k].v_of, l.w.b.v[0].x, U - U / (1 + kappa * U * t), 1e-6, VERIFY_REL);
+        verify_row("V54", cases[k].x_of, l.w.b.x[0].x, U * t - log(1 + kappa * U * t) / kappa, 1e-6,
+                   VERIFY_REL);
+        verify_row("V54", cases[k].half_of, half, 1 / (kappa * U), 1e-6, VERIFY_REL);
+        verify_row("V54", "  as PHYSICS lists it, to its digits", half, cases[k].half, 1e-5, VERIFY_REL);
+        verify_row("V54", "  v as listed", l.w.b.v[0].x, cases[k].v, 1e-5, VERIFY_ABS);
+        if (isfinite(cases[k].x))
+            verify_row("V54", "  x as listed", l.w.b.x[0].x, cases[k].x, 1e-3, VERIFY_ABS);
+        lab_free(&l);
+    }
+}
+
+/* Speed of a floe of that density after t in the wind; `strong` multiplies the coefficients of drag. */
+static double blown(double density, double strong, double t, double dt)
+{
+    lab l;
+    char set[64];
+    floe(&l, 0.5 - density / 1025, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    snprintf(set, sizeof set, "material.ice.density=%.17g", density);
+    lab_set(&l, set);
+    snprintf(set, sizeof set, "water.drag_force_coef=%.17g", 0.0055 * strong);
+    lab_set(&l, set);
+    lab_set(&l, "wind.velocity=20 0 0");
+    lab_set(&l, "wind.density=1.293");
+    snprintf(set, sizeof set, "wind.drag_coef=%.17g", 0.0015 * strong);
+    lab_set(&l, set);
+    lab_make(&l, dt);
+    lab_run(&l, (int64_t)(t / dt));
+    const double v = l.w.b.v[0].x;
+    lab_free(&l);
+    return v;
+}
+
+static void wind(void)
+{
+    const double ratio = sqrt(1.293 * 1.5e-3 / (1025 * 5.5e-3));
+    verify_note("ice of 512.5 kg/m3 floats half out: as much area in the wind as in the water");
+    verify_row("V55", "free drift in wind, equal areas [m/s]", blown(512.5, 1, 6000, 0.1), 0.364208, 1e-4,
+               VERIFY_REL);
+    const double r = ratio * sqrt((240 - WETTED) / WETTED);
+    verify_row("V55", "ice of 900 kg/m3, its own areas [m/s]", blown(900, 1, 6000, 0.1), 20 * r / (1 + r),
+               1e-4, VERIFY_REL);
+    const double h[3] = {0.4, 0.2, 0.1};
+    double off[3];
+    for (int k = 0; k < 3; k++) off[k] = fabs(blown(900, 100, 400, h[k]) - 20 * r / (1 + r));
+    verify_order("V55", "error of the drift, coefficients 100 times larger", h, off, 3, 2.0, 0.2);
+}
+
+static void spinning(void)
+{
+    lab l;
+    floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0.1));
+    lab_set(&l, "water.drag_moment_coef=0.005");
+    lab_make(&l, 0.05);
+    lab_run(&l, 2000);
+    verify_row("V56", "spin after 100 s [rad/s]", l.w.b.w[0].z, 0.054877, 1e-4, VERIFY_REL);
+    verify_row("V56", "  r_eff [m]", l.w.sea.reach[0], 7.088723, 1e-6, VERIFY_REL);
+    lab_free(&l);
+}
+
+static void resting(void)
+{
+    const int64_t steps = verify_quick() ? 100000 : 1000000;
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        if (k) {
+            lab_set(&l, "water.drag_force_coef=0.005");
+            lab_set(&l, "water.drag_moment_coef=0.005");
+        }
+        lab_make(&l, 1e-3);
+        lab_run(&l, steps);
+        verify_note("%ld steps at rest, %s", (long)steps, k ? "drag of 0.005" : "no drag");
+        verify_below("V60", "speed [m/s]", v3_norm(l.w.b.v[0]), 1e-9);
+        verify_below("V60", "spin [rad/s]", v3_norm(l.w.b.w[0]), 1e-9);
+        verify_below("V60", "moved [m]", v3_norm(v3_sub(l.w.b.x[0], v3(0, 0, REST))), 1e-9);
+        lab_free(&l);
+    }
+}
+
+/* Whatever the coefficient and the step, drag takes speed away and never turns it round. */
+static void drowning(void)
+{
+    int monotone = 1;
+    double last = 0.0;
+    for (int k = 0; k < 40; k++) {
+        lab l;
+        char set[64];
+        floe(&l, REST, q_one(), v3(10, 0, 0), v3(0, 0, 3));
+        snprintf(set, sizeof set, "water.drag_force_coef=%g", pow(10, k - 20));
+        lab_set(&l, set);
+        snprintf(set, sizeof set, "water.drag_moment_coef=%g", pow(10, k - 20));
+        lab_set(&l, set);
+        lab_make(&l, k % 2 ? 0.5 : 1e-3);
+        for (int s = 0; s < 100; s++) {
+            const double v = l.w.b.v[0].x, w = l.w.b.w[0].z;
+            lab_run(&l, 1);
+            /* but for the rounding of the other forces */
+            const double eps = 1e-15 * 3;
+            if (!(l.w.b.v[0].x >= -eps && l.w.b.v[0].x <= v + eps && l.w.b.w[0].z >= -eps &&
+                  l.w.b.w[0].z <= w + eps))
+                monotone = 0;
+        }
+        last = l.w.b.v[0].x;
+        lab_free(&l);
+    }
+    verify_true("H38", "C = 1e-20 .. 1e19: speed and spin fall and never turn round", monotone);
+    verify_below("H38", "  speed left with C = 1e19 [m/s]", last, 1e-15);
+}
+
+/* A square prism of half the water's density floats on its side by no means: GM = -1/12 m, I = m/6, so a tilt grows
+ * as cosh(t sqrt(g/2)). */
+static void falling(void)
+{
+    const double rate = sqrt(G / 2);
+    for (int k = 0; k < 2; k++) {
+        const double tilt = k ? 1e-12 : 0.0;
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "run.gravity=9.81");
+        lab_set(&l, "water.density=1000");
+        lab_set(&l, "water.drag_force_coef=0");
+        lab_set(&l, "water.drag_moment_coef=0");
+        lab_set(&l, "material.ice.density=500");
+        lab_box(&l, v3(0, 0, 0), v3(5, 0.5, 0.5), 0.05, q_of_vector(v3(tilt, 0, 0)), v3(0, 0, 0),
+                v3(0, 0, 0));
+        lab_make(&l, 1e-3);
+        lab_run(&l, 6000);
+        const double theta = fabs(l.w.b.R[0].m[2][1]);
+        if (k)
+            verify_row("H25", "growth of a tilt of 1e-12 rad [1/s]", acosh(theta / tilt) / 6, rate, 1e-2,
+                       VERIFY_REL);
+        else verify_row("H25", "tilt of an upright unstable prism after 6 s", theta, 0.0, 1e-10, VERIFY_ABS);
+        if (k) {
+            lab_run(&l, 9000);
+            verify_true("H25", "  and then it falls", fabs(l.w.b.R[0].m[2][1]) > 0.1);
+        }
+        lab_free(&l);
+    }
+}
+
+int main(void)
+{
+    verify_begin("floating bodies");
+    draft();
+    heaving();
+    rolling();
+    tumbling();
+    drift();
+    wind();
+    spinning();
+    resting();
+    drowning();
+    falling();
+    return verify_end();
+}
