@@ -146,8 +146,8 @@ int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *ou
         t.b[t.n] = j;
         t.w[t.n++] = w;
         fine_nearest next;
-        /* w lies below the plane through v, so the nearest part has w.  Where two parts are equally far to the
-         * last place it is still the one to go on with, some times. */
+        /* w lies below the plane through v, so the nearest part has w.  Where two parts are equally far to
+         * the last place it is still the one to go on with, some times. */
         fine_reduce(&t, t.n - 1, &next);
         if (next.n == 0) break;
         if (!(dd_cmp(next.d2, now.d2) < 0.0) && (idle++ == IDLE || next.d2.h > now.d2.h * (1.0 + TIE))) break;

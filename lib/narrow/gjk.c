@@ -154,9 +154,9 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
     if (!fl_descend(a, b, p.size, &s, &v, &out->iterations) || !settle(&p, v3_unit(v), 0, out)) {
         *out = (fl_gap){.iterations = out->iterations};
         if (!fl_fine_descend(a, b, p.size, &s, out)) {
-            /* Doubles first here too, wherever they might do: which road was taken must not show in the bits.
-             * Should the parts of the nearest features all degenerate, the walk's own answer is kept; should the
-             * vertices on the planes meet, the cores do. */
+            /* Doubles first here too, wherever they might do: which road was taken must not show in the
+             * bits. Should the parts of the nearest features all degenerate, the walk's own answer is
+             * kept; should the vertices on the planes meet, the cores do. */
             const fl_gap own = *out;
             if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, 0, out)) &&
                 !settle(&p, own.n, 1, out) && !out->overlap)

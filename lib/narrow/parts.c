@@ -179,8 +179,8 @@ static void try_edges(search *s, const int32_t *ea, const int32_t *eb)
     const double mm = v3_norm2(ddv_round(m)), x = turn(s, m, b1, b0, a0, b0), y = turn(s, m, a1, a0, a0, b0);
     if (!(x > 0.0 && y > 0.0)) return;
     if (!(turn(s, m, b1, b0, a1, b0) < 0.0 && turn(s, m, a1, a0, a0, b1) < 0.0)) return;
-    /* Where on nearly parallel edges they do is uncertain; so that the two points face each other all the same,
-     * each is the foot of the other. */
+    /* Where on nearly parallel edges they do is uncertain; so that the two points face each other all the
+     * same, each is the foot of the other. */
     const double t = x / mm;
     c.pa = v3_madd(a0, t < 1.0 ? t : 1.0, v3_sub(a1, a0));
     c.pb = foot_on(c.pa, b0, b1);
@@ -194,8 +194,8 @@ int fl_parts_nearest(const fl_part *a, const fl_part *b, double size, int fine, 
     const int32_t na = a->n, nb = b->n, ea = na == 3 ? 3 : na - 1, eb = nb == 3 ? 3 : nb - 1;
     search s = {
         .a = a, .b = b, .fine = fine, .enough = 0.5 * DBL_EPSILON * size, .slack = INFINITY, .out = out};
-    /* Higher dimensions first: most often one of them ends it.  In pairs of doubles all are tried, as the slack
-     * stays infinite. */
+    /* Higher dimensions first: most often one of them ends it.  In pairs of doubles all are tried, as the
+     * slack stays infinite. */
     for (int32_t i = 0; i < na && nb == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 0);
     for (int32_t i = 0; i < nb && na == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 1);
     for (int32_t e = 0; e < ea; e++)

@@ -81,8 +81,8 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
         bad |= fabs(v3_norm(g.n) - 1.0) > 1e-15;
     }
     if (g.overlap) {
-        /* Bodies that are apart are apart along a face normal or a product of edges, and fl_deep() finds the least
-         * overlap of all these. */
+        /* Bodies that are apart are apart along a face normal or a product of edges, and fl_deep() finds
+         * the least overlap of all these. */
         fl_overlap deep;
         fl_deep(&q.a, &q.b, &t->count, &deep);
         depth = deep.depth;
@@ -93,8 +93,8 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
         bad |= v3_norm(miss) > DISTANCE_TOL * scale + coarse ? 64 : 0;
         room = 0.0;
     }
-    /* A vertex within rounding of the band that stage 3 looks at, or a tie, may show where the search began: in the
-     * last bits of d, and seldom. */
+    /* A vertex within rounding of the band that stage 3 looks at, or a tie, may show where the search
+     * began: in the last bits of d, and seldom. */
     if (!same_answer(&g, &warm)) {
         t->starts++;
         bad |= g.overlap != warm.overlap || fabs(warm.d - g.d) > 1e-15 * scale ||
@@ -112,8 +112,8 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
             const real m[3] = {o.n[1] * g.n.z - o.n[2] * g.n.y, o.n[2] * g.n.x - o.n[0] * g.n.z,
                                o.n[0] * g.n.y - o.n[1] * g.n.x};
             en = (double)sqrtl(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-            /* Where rounding cannot tell which features are nearest (parallel faces whose outlines just meet), the
-             * direction of any of them will do; counted as ties. */
+            /* Where rounding cannot tell which features are nearest (parallel faces whose outlines just
+             * meet), the direction of any of them will do; counted as ties. */
             if (o.d > 1e-9L * size && en > NORMAL_TOL) {
                 en = (double)oracle_off(&q.a, &q.b, &o, g.n);
                 bad |= !(en <= NORMAL_TOL) ? 16 : 0;
@@ -132,7 +132,7 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
     if (ccd_meet(a, b) != g.overlap) t->ccd_wrong++;
     t->n += bad != 0;
     t->meet += g.overlap;
-    t->worst_d = fmax(t->worst_d, ed);
+    t->worst_d = fmax(t->worst_d, ed - (g.overlap ? coarse / scale : 0.0));
     t->worst_n = fmax(t->worst_n, en);
     t->worst_room = fmax(t->worst_room, room);
     t->steps += g.iterations;

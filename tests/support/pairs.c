@@ -58,7 +58,8 @@ static int make_drum(fl_poly *p, int32_t n, const fl_vec3 *low, const fl_vec3 *h
     return make(p, 2 * n, v, n + 2, first, loop);
 }
 
-/* Corners of a convex polygon in an ellipse of half axes a, b; near > 0 puts the last that close to the one before. */
+/* Corners of a convex polygon in an ellipse of half axes a, b; near > 0 puts the last that close to the
+ * one before. */
 static void ring(fl_rng *g, int32_t n, double a, double b, double near, fl_vec3 *out)
 {
     double at = fl_rng_in(g, 0.0, 2.0 * PI);
@@ -177,7 +178,8 @@ void pair_place(pair_case *q, int k, fl_vec3 o, fl_mat3 r)
     *(k ? &q->b : &q->a) = (fl_solid){p, q->v[k], q->n[k], 0.0};
 }
 
-/* Shift both bodies so that b lies at the gap g below a along n: min over a of n.x - max over b of n.y = g. */
+/* Shift both bodies so that b lies at the gap g below a along n: min over a of n.x - max over b of n.y =
+ * g. */
 static void set_apart(pair_case *q, fl_vec3 n, double g)
 {
     double la = INFINITY, hb = -INFINITY;
@@ -193,7 +195,8 @@ static double shortest_edge(const fl_poly *p)
     return p->size > 0.0 ? s / p->size : 1.0;
 }
 
-static int make_pair(pair_case *q)
+/* Room for the world vertices and normals of the two shapes that are there. */
+static int make_room(pair_case *q)
 {
     for (int k = 0; k < 2; k++) {
         q->v[k] = malloc(((size_t)q->p[k].nv + 1) * sizeof *q->v[k]);
@@ -208,7 +211,7 @@ static int make_pair(pair_case *q)
 
 static int ordinary(pair_case *q, fl_rng *g, int deep)
 {
-    if (ordinary_shape(&q->p[0], g) || ordinary_shape(&q->p[1], g) || make_pair(q)) return -1;
+    if (ordinary_shape(&q->p[0], g) || ordinary_shape(&q->p[1], g) || make_room(q)) return -1;
     pair_place(q, 0, v3(0, 0, 0), some_turn(g));
     pair_place(q, 1, v3_scale((deep ? 0.2 * fl_rng_unit(g) : 0.3) * q->size, some_direction(g)),
                some_turn(g));
@@ -229,7 +232,7 @@ static int hostile(pair_case *q, fl_rng *g)
     const int same = below(g, 8) == 0;
     fl_err err = {0};
     if (same ? fl_poly_copy(&q->p[1], &q->p[0], &err) : hostile_shape(&q->p[1], g, near)) return -1;
-    if (make_pair(q)) return -1;
+    if (make_room(q)) return -1;
     const fl_mat3 one = q_matrix(q_one());
     fl_mat3 turn = one, tilt = one;
     if (below(g, 3) == 0) turn = some_turn(g);
@@ -266,6 +269,17 @@ static int hostile(pair_case *q, fl_rng *g)
         for (int k = 0; k < 2; k++)
             for (int32_t i = 0; i < q->p[k].nv; i++) q->v[k][i] = v3_add(q->v[k][i], far);
     }
+    return 0;
+}
+
+int pair_take(pair_case *q, fl_poly a, fl_poly b)
+{
+    *q = (pair_case){.p = {a, b}};
+    if (make_room(q)) {
+        pair_free(q);
+        return -1;
+    }
+    for (int k = 0; k < 2; k++) pair_place(q, k, v3(0, 0, 0), q_matrix(q_one()));
     return 0;
 }
 
