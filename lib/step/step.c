@@ -7,7 +7,10 @@
 #include "step/search.h"
 #include "step/step.h"
 
-enum { SURVEY = 16 }; /* steps between two looks at the stiffness that is active */
+/* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic size; one
+ * that a longer step throws apart would be missed in between. */
+enum { SURVEY = 16 };
+static int surveyed(const fl_world *w, int64_t step) { return w->dt > w->dt_safe || step % SURVEY == 0; }
 
 /* Each thread takes the pairs as it can; each pair writes its own result. */
 static void contacts(fl_world *w, double dt, int survey)
@@ -152,6 +155,8 @@ static void account(fl_world *w, double dt)
 
 int fl_step_start(fl_world *w, fl_err *err)
 {
+    int32_t body;
+    w->dt_safe = fl_world_dt(w, &body);
     if (fl_search(w, err)) return -1;
     contacts(w, 0.0, 1);
     for (int32_t k = 0; k < w->b.total; k++) gather(w, k);
@@ -168,7 +173,7 @@ int fl_step(fl_world *w, fl_err *err)
 {
     fl_bodies *b = &w->b;
     const double dt = w->dt, h = 0.5 * dt, t = (double)w->step * dt;
-    const int sea = w->sea.n > 0, survey = (w->step + 1) % SURVEY == 0;
+    const int sea = w->sea.n > 0, survey = surveyed(w, w->step + 1);
 
     load_parts(w, h);
 #pragma omp parallel for schedule(static)

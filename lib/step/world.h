@@ -106,6 +106,7 @@ typedef struct {
     int32_t threads;
 
     double dt, dt_critical; /* dt_critical: the smallest 2/omega seen [s] */
+    double dt_safe;         /* fl_world_dt() at the start; above it every step is looked at [s] */
     int32_t critical_body;
     int64_t step;
     fl_ledger ledger;
