@@ -55,7 +55,8 @@ static int make_body(fl_world *w, const fl_field *field, int32_t i, fl_poly *out
     w->id[i] = field->id[i];
     w->material[i] = fl_scene_find_material(s, material);
     if (w->material[i] < 0)
-        return fl_fail(err, FL_INPUT, "body %d: material %s is not in the scene", field->id[i], material);
+        return fl_fail(err, FL_INPUT, "%s: body %d: material %s is not in the scene", s->ice.file,
+                       field->id[i], material);
     if (sharp && (r > 0.0 ? fl_poly_offset(outer, core, r, &why) : fl_poly_copy(outer, core, &why))) goto bad;
     if (fl_mass_of(&mass, sharp ? outer : core, sharp ? 0.0 : r, &why)) goto bad;
 
@@ -83,7 +84,7 @@ bad:
         *err = why;
         return -1;
     }
-    return fl_fail(err, FL_INPUT, "body %d: %s", field->id[i], why.text);
+    return fl_fail(err, FL_INPUT, "%s: body %d: %s", s->ice.file, field->id[i], why.text);
 }
 
 /* The sea's view of body i: what floats, and how far out it drags. */
@@ -93,9 +94,9 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
     const int round = core->nv <= 2;
     if (!round && outer->nv == 0)
         return fl_fail(err, FL_INPUT,
-                       "body %d: ice.shape = round has no hydrostatics of a polyhedron; use sharp with "
+                       "%s: body %d: ice.shape = round has no hydrostatics of a polyhedron; use sharp with "
                        "[water] or [wind]",
-                       w->id[i]);
+                       w->scene->ice.file, w->id[i]);
     w->sea.outer[i] = *outer;
     *outer = (fl_poly){0};
     w->sea.reach[i] = round ? fl_drag_radius(core, w->b.radius[i]) : fl_drag_radius(&w->sea.outer[i], 0.0);
@@ -213,6 +214,7 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
                   fl_err *err)
 {
     double bound = 0.0;
+    fl_err why = {0};
     *w = (fl_world){.scene = scene, .n = field->n, .found_at = -1, .gravity = scene->run.gravity};
     w->threads = scene->run.threads > 0 ? scene->run.threads : omp_get_max_threads();
     if (w->threads > 1 + field->n / BODIES_A_THREAD) w->threads = 1 + field->n / BODIES_A_THREAD;
@@ -220,7 +222,11 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
     w->dt_critical = INFINITY;
     w->worst_i = w->worst_j = w->critical_body = -1;
     w->parts = surface ? surface->n : 0;
-    if (surface && fl_structure_build(&w->structure, surface, err)) goto fail;
+    if (surface && fl_structure_build(&w->structure, surface, &why)) {
+        if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", scene->structure.file, why.text);
+        else *err = why;
+        goto fail;
+    }
     if (make_walls(w, err)) goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) || make_sea(w, err))

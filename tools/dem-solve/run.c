@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 #include "base/stream.h"
@@ -103,7 +105,7 @@ static int open_outputs(struct run *r, outputs *u, fl_err *err)
     return 0;
 }
 
-static void write_loads(struct run *r, outputs *u, double t)
+static int write_loads(struct run *r, outputs *u, double t, fl_err *err)
 {
     fl_world *w = r->w;
     const double length = t - u->last_row;
@@ -121,7 +123,8 @@ static void write_loads(struct run *r, outputs *u, double t)
         w->part_peak[p] = 0.0;
     }
     u->last_row = t;
-    fflush(u->loads.f);
+    if (fflush(u->loads.f) == 0 && !ferror(u->loads.f)) return 0;
+    return fl_fail(err, FL_SYSTEM, "%s: %s", u->loads.path ? u->loads.path : "<stdout>", strerror(errno));
 }
 
 static void write_contacts(struct run *r, outputs *u, double t)
@@ -172,7 +175,7 @@ static int write_due(struct run *r, outputs *u, fl_err *err)
     const fl_world *w = r->w;
     const double t = (double)w->step * w->dt;
     if (w->step > 0 && (w->step >= u->at_loads.due || (w->step == r->steps && t > u->last_row))) {
-        write_loads(r, u, t);
+        if (write_loads(r, u, t, err)) return -1;
         next(&u->at_loads, w->dt);
     }
     if (u->state.f && w->step >= u->at_state.due) {
@@ -191,7 +194,7 @@ static int write_due(struct run *r, outputs *u, fl_err *err)
         if (write_frames(r, u, t, err)) return -1;
         next(&u->at_frames, w->dt);
     }
-    return ferror(u->loads.f) ? fl_fail(err, FL_SYSTEM, "the loads cannot be written") : 0;
+    return 0;
 }
 
 static int close_outputs(outputs *u, fl_err *err)
