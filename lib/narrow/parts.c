@@ -23,6 +23,9 @@ typedef struct {
     fl_vec3 n, pa, pb;
 } answer;
 
+/* By division, not by a reciprocal: a direction along an axis comes out as one. */
+static fl_vec3 over(fl_vec3 a, double d) { return v3(a.x / d, a.y / d, a.z / d); }
+
 static fl_ddv widen(fl_vec3 v) { return (fl_ddv){dd_of(v.x), dd_of(v.y), dd_of(v.z)}; }
 
 static double slack_of(const search *s, const int32_t *ka, const int32_t *kb, fl_vec3 n)
@@ -78,7 +81,9 @@ static void offer_vertex(search *s, int32_t i, int32_t n, const int32_t *k, int 
 static void try_points(search *s, int32_t i, int32_t j)
 {
     const fl_vec3 p = s->a->v[i], q = s->b->v[j], w = v3_sub(p, q);
-    answer c = {.d = v3_norm(w), .n = v3_unit(w), .pa = p, .pb = q};
+    const double d = v3_norm(w);
+    if (!(d > 0.0)) return;
+    answer c = {.d = d, .n = over(w, d), .pa = p, .pb = q};
     if (s->fine) {
         const fl_ddv e = ddv_diff(p, q);
         c.d2 = ddv_dot(e, e);
@@ -113,7 +118,7 @@ static void try_vertex_edge(search *s, int32_t i, const int32_t *e, int swapped)
     if (!(t > 0.0 && t < 1.0)) return;
     c.d = v3_norm(w);
     if (!(c.d > 0.0)) return;
-    c.n = v3_unit(v3_scale(1.0 / c.d, w));
+    c.n = over(w, c.d);
     offer_vertex(s, i, 2, e, swapped, c, p, v3_madd(e0, t, l));
 }
 
@@ -126,14 +131,14 @@ static int across(const search *s, fl_vec3 e1, fl_vec3 e0, fl_vec3 g1, fl_vec3 g
     double h;
     if (!s->fine && v3_norm2(p) > NEARLY_PARALLEL * v3_norm2(e) * v3_norm2(g)) {
         *m = widen(p);
-        c->n = v3_unit(p);
+        c->n = over(p, v3_norm(p));
         h = v3_dot(c->n, v3_sub(x, y));
     } else {
         *m = ddv_cross(ddv_diff(e1, e0), ddv_diff(g1, g0));
         const double len = v3_norm(ddv_round(*m));
         if (!(len > 0.0)) return 0;
         const fl_dd high = ddv_dot(*m, ddv_diff(x, y));
-        c->n = v3_scale(1.0 / len, ddv_round(*m));
+        c->n = over(ddv_round(*m), len);
         c->d2 = dd_div(dd_mul(high, high), ddv_dot(*m, *m));
         h = high.h / len;
     }

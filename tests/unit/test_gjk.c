@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Distance and depth where the answer is known, on bodies that are hard or hardly bodies; pairs of
+ * doubles. */
+#include "support/near.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include "base/rng.h"
+#include "geom/dd.h"
+#include "geom/quat.h"
+#include "narrow/deep.h"
+#include "narrow/gjk.h"
+#include "support/pairs.h"
+
+#define CORE(v) ((fl_core){(v), (int32_t)(sizeof(v) / sizeof *(v))})
+
+static fl_gap gap_of(fl_core a, fl_core b)
+{
+    fl_gap g;
+    fl_gjk(a, b, NULL, &g);
+    return g;
+}
+
+static void pairs_of_doubles_keep_106_bits(void **state)
+{
+    (void)state;
+    /* (1 + 2^-60) (1 - 2^-60) = 1 - 2^-120, beyond the last bit; its distance from 1 - 2^-100 is not. */
+    const fl_dd a = dd_sum(1.0, 0x1p-60), b = dd_sum(1.0, -0x1p-60), p = dd_mul(a, b);
+    assert_true(p.h == 1.0 && fabs(p.l) <= 0x1p-106);
+    assert_true(dd_cmp(p, dd_sum(1.0, -0x1p-100)) > 0.0);
+    for (int k = 0; k < 1000; k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        const fl_dd x = dd_sum(fl_rng_in(&g, -1.0, 1.0), 1e-17 * fl_rng_unit(&g)),
+                    y = dd_sum(fl_rng_in(&g, 0.5, 1.0), 1e-17 * fl_rng_unit(&g));
+        /* (x / y) y = x and (x + y) - y = x to 2^-100. */
+        assert_true(fabs(dd_sub(dd_mul(dd_div(x, y), y), x).h) <= 0x1p-100);
+        assert_true(fabs(dd_sub(dd_sub(dd_add(x, y), y), x).h) <= 0x1p-100);
+    }
+    /* A difference of coordinates a million metres off is exact. */
+    const fl_ddv d = ddv_diff(v3(1e6 + 0.1, 1e-9, 1), v3(0.1, 1e6, 1));
+    assert_true(d.y.h + d.y.l == d.y.h && d.y.l != 0.0 && d.z.h == 0.0);
+}
+
+static void points_and_segments_are_cores(void **state)
+{
+    (void)state;
+    const fl_vec3 p[] = {{1, 2, 3}}, q[] = {{4, 6, 3}}, s[] = {{0, 0, 0}, {10, 0, 0}},
+                  t[] = {{5, 3, 0}, {5, 9, 0}}, u[] = {{2, 4, 0}, {22, 4, 0}};
+    fl_gap g = gap_of(CORE(p), CORE(q));
+    assert_true(g.d == 5.0 && g.na == 1 && g.nb == 1);
+    assert_near(g.n.x, -0.6, 1e-15);
+    g = gap_of(CORE(p), CORE(p));
+    assert_true(g.overlap && g.d == 0.0);
+    g = gap_of(CORE(q), CORE(s));
+    assert_near(g.d, sqrt(45.0), 1e-15);
+    assert_true(g.na == 1 && g.nb == 2 && g.ib[0] == 0 && g.ib[1] == 1);
+    g = gap_of(CORE(s), CORE(t)); /* the end of one over the middle of the other */
+    assert_true(g.d == 3.0 && g.na == 2 && g.nb == 1 && g.ib[0] == 0);
+    g = gap_of(CORE(s), CORE(u)); /* parallel, partly abreast */
+    assert_true(g.d == 4.0 && g.n.y == -1.0);
+    g = gap_of(CORE(s), CORE(s));
+    assert_true(g.overlap);
+}
+
+static void repeated_and_flat_vertices_do_no_harm(void **state)
+{
+    (void)state;
+    /* A square given with its corners twice, its centre, and points on its sides. */
+    const fl_vec3 a[] = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 2, 0},
+                         {0, 2, 0}, {1, 1, 0}, {1, 0, 0}, {2, 1, 0}};
+    const fl_vec3 b[] = {{0.5, 0.5, 1}, {0.5, 0.5, 1}, {0.5, 0.5, 1}},
+                  c[] = {{3, 3, 0}, {3, 3, 0}, {4, 4, 0}};
+    fl_gap g = gap_of(CORE(a), CORE(b));
+    assert_true(g.d == 1.0 && g.n.z == -1.0);
+    g = gap_of(CORE(a), CORE(c));
+    assert_near(g.d, sqrt(2.0), 1e-15);
+    assert_true(g.na == 1 && g.nb == 1);
+    g = gap_of(CORE(a), CORE(a));
+    assert_true(g.overlap);
+}
+
+static void a_foul_cache_is_no_harm(void **state)
+{
+    (void)state;
+    pair_case q;
+    for (int k = 0; k < 200; k++) {
+        assert_int_equal(pair_make(&q, test_seed(), k, k % 2 ? PAIR_ORDINARY : PAIR_HOSTILE), 0);
+        const fl_core a = fl_solid_core(&q.a), b = fl_solid_core(&q.b);
+        const fl_gap cold = gap_of(a, b);
+        fl_gap g;
+        fl_gjk_cache foul[] = {{-3, {0}, {0}},
+                               {4, {0, 0, 0, 0}, {0, 0, 0, 0}},
+                               {7, {1 << 30, -1, 5, 5}, {0, 1, 2, 3}},
+                               {INT32_MAX, {a.n - 1, 0, a.n / 2, 0}, {0, b.n - 1, 0, b.n / 2}}};
+        for (size_t f = 0; f < sizeof foul / sizeof *foul; f++) {
+            fl_gjk(a, b, &foul[f], &g);
+            assert_int_equal(g.overlap, cold.overlap);
+            assert_near_of(g.d, cold.d, 1e-14, q.size + cold.d);
+            assert_true(foul[f].n >= 1 && foul[f].n <= 4);
+        }
+        pair_free(&q);
+    }
+}
+
+static fl_poly box(double x, double y, double z)
+{
+    fl_poly p;
+    fl_err err = {0};
+    assert_int_equal(fl_poly_box(&p, v3(x / 2, y / 2, z / 2), &err), 0);
+    return p;
+}
+
+/* H02, H03, H04: equal boxes and plates with all edges over each other, at every distance, wherever they
+ * are. */
+static void aligned_boxes_and_plates(void **state)
+{
+    (void)state;
+    static const double thick[] = {1.0, 0.1, 0.01, 1e-4};
+    for (int t = 0; t < 4; t++)
+        for (int where = 0; where < 3; where++) {
+            pair_case q;
+            assert_int_equal(pair_take(&q, box(10, 10, thick[t]), box(10, 10, thick[t])), 0);
+            const fl_mat3 one = q_matrix(q_one());
+            const fl_vec3 o = where == 0 ? v3(0, 0, 0) : where == 1 ? v3(1e6, 0, 0) : v3(-3e5, 1e6, 0);
+            for (int k = -9; k <= 4; k++) {
+                const double d = pow(10.0, k);
+                pair_place(&q, 0, v3_add(o, v3(0, 0, thick[t] + d)), one);
+                pair_place(&q, 1, o, one);
+                const fl_gap g = gap_of(fl_solid_core(&q.a), fl_solid_core(&q.b));
+                assert_near_of(g.d, d, 1e-14, fmax(10.0, d));
+                assert_true(g.n.x == 0.0 && g.n.y == 0.0 && g.n.z == 1.0);
+                assert_in_range(g.iterations, 0, 64);
+            }
+            pair_place(&q, 0, v3_add(o, v3(0, 0, thick[t])), one);
+            const fl_gap g = gap_of(fl_solid_core(&q.a), fl_solid_core(&q.b));
+            fl_overlap deep;
+            assert_true(g.overlap && g.d == 0.0); /* faces touch exactly */
+            fl_deep(&q.a, &q.b, NULL, &deep);
+            assert_near_of(deep.depth, 0.0, 1e-15, 10.0);
+            assert_true(deep.n.z == 1.0);
+            pair_free(&q);
+        }
+}
+
+/* H11: the same body twice, in the same place. */
+static void coincident_bodies_get_one_direction(void **state)
+{
+    (void)state;
+    pair_case q;
+    fl_overlap first, again;
+    assert_int_equal(pair_take(&q, box(3, 2, 1), box(3, 2, 1)), 0);
+    for (int k = 0; k < 50; k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        const fl_mat3 r = q_matrix(q_of_vector(v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g))));
+        pair_place(&q, 0, v3(1e3, 2, 3), r);
+        pair_place(&q, 1, v3(1e3, 2, 3), r);
+        assert_true(gap_of(fl_solid_core(&q.a), fl_solid_core(&q.b)).overlap);
+        fl_deep(&q.a, &q.b, NULL, &first);
+        fl_deep(&q.b, &q.a, NULL, &again); /* the same numbers, so the same answer */
+        assert_near(first.depth, 1.0, 1e-12);
+        assert_true(isfinite(first.n.x + first.pa.x + first.pb.x));
+        assert_memory_equal(&first, &again, sizeof first);
+    }
+    pair_free(&q);
+    /* Two points, two segments on one line, a segment in a polygon's plane: depth 0, a direction all the
+     * same. */
+    fl_err err = {0};
+    fl_poly s[2], p[2];
+    const fl_vec3 v[] = {{0, 0, 0}, {2, 0, 0}};
+    const int32_t none = 0;
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(fl_poly_make(&p[k], 1, v, 0, &none, NULL, &err), 0);
+        assert_int_equal(fl_poly_make(&s[k], 2, v, 0, &none, NULL, &err), 0);
+    }
+    assert_int_equal(pair_take(&q, p[0], p[1]), 0);
+    fl_deep(&q.a, &q.b, NULL, &first);
+    assert_true(first.depth == 0.0 && first.n.z == 1.0);
+    pair_free(&q);
+    assert_int_equal(pair_take(&q, s[0], s[1]), 0);
+    pair_place(&q, 1, v3(1, 0, 0), q_matrix(q_one()));
+    fl_deep(&q.a, &q.b, NULL, &first);
+    assert_true(first.depth == 0.0 && first.n.x == 0.0);
+    assert_near(v3_norm(first.n), 1.0, 1e-15);
+    pair_free(&q);
+}
+
+/* A box of 2 in a box of 10 x 8 x 6: out by the nearest face; and by edges where those are nearest. */
+static void depth_is_the_shortest_way_out(void **state)
+{
+    (void)state;
+    pair_case q;
+    fl_overlap deep;
+    fl_deep_count count = {0};
+    const fl_mat3 one = q_matrix(q_one());
+    assert_int_equal(pair_take(&q, box(2, 2, 2), box(10, 8, 6)), 0);
+    pair_place(&q, 0, v3(4, 0.5, 0.25), one);
+    fl_deep(&q.a, &q.b, &count, &deep);
+    assert_near(deep.depth, 2.0, 1e-15); /* by +x: 5 - (4 - 1) */
+    assert_true(deep.n.x == 1.0);
+    pair_place(&q, 0, v3(0.5, -0.5, -0.25), one);
+    fl_deep(&q.a, &q.b, &count, &deep);
+    assert_near(deep.depth, 3.75, 1e-15); /* by -z: 3 + 1 - 0.25 */
+    assert_true(deep.n.z == -1.0);
+    pair_free(&q);
+    /* Two cubes of side 2, each stood on an edge, the edges crossed and 0.3 into each other. */
+    const double h = sqrt(2.0);
+    assert_int_equal(pair_take(&q, box(2, 2, 2), box(2, 2, 2)), 0);
+    pair_place(&q, 0, v3(0, 0, 2.0 * h - 0.3), q_matrix(q_of_vector(v3(atan(1.0), 0, 0))));
+    pair_place(&q, 1, v3(0, 0, 0), q_matrix(q_of_vector(v3(0, atan(1.0), 0))));
+    assert_true(gap_of(fl_solid_core(&q.a), fl_solid_core(&q.b)).overlap);
+    fl_deep(&q.a, &q.b, &count, &deep);
+    assert_near(deep.depth, 0.3, 1e-14);
+    assert_near(deep.n.z, 1.0, 1e-15);
+    assert_near_of(v3_norm(v3_sub(deep.pa, v3(0, 0, h - 0.3))), 0.0, 1e-14, 1.0);
+    assert_near_of(v3_norm(v3_sub(deep.pb, v3(0, 0, h))), 0.0, 1e-14, 1.0);
+    assert_int_equal(count.asked, 3);
+    pair_free(&q);
+}
+
+/* H12, H15: the distance of crossing edges as they turn parallel, at 1e-9 of their length. */
+static void nearly_parallel_edges(void **state)
+{
+    (void)state;
+    for (double t = 1e-15; t < 1.0; t *= 10.0) {
+        const fl_vec3 a[] = {{-1, 0, 1e-9}, {1, 0, 1e-9}}, b[] = {{-cos(t), -sin(t), 0}, {cos(t), sin(t), 0}};
+        const fl_gap g = gap_of(CORE(a), CORE(b));
+        assert_near(g.d, 1e-9, 1e-12);
+        assert_near(g.n.z, 1.0, 1e-15);
+    }
+}
+
+/* H20: the pair carried away; the coordinates are on a grid that both places have, so the answer is the
+ * same. */
+static void far_from_the_origin(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 300; k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        fl_vec3 v[2][9], w[2][9];
+        for (int s = 0; s < 2; s++)
+            for (int i = 0; i < 9; i++) {
+                const double grid = 0x1p-20;
+                v[s][i] =
+                    v3(grid * floor(fl_rng_in(&g, -1, 1) / grid) + 2.5 * s,
+                       grid * floor(fl_rng_in(&g, -1, 1) / grid), grid * floor(fl_rng_in(&g, -1, 1) / grid));
+                w[s][i] = v3_add(v[s][i], v3(0x1p20, -0x1p21, 0x1p19));
+            }
+        const fl_gap here = gap_of(CORE(v[0]), CORE(v[1])), there = gap_of(CORE(w[0]), CORE(w[1]));
+        assert_memory_equal(&here.d, &there.d, sizeof here.d);
+        assert_memory_equal(&here.n, &there.n, sizeof here.n);
+        assert_memory_equal(here.ia, there.ia, sizeof here.ia);
+    }
+}
+
+/* Thousands of vertices, a plane with more than are copied out. */
+static void many_vertices(void **state)
+{
+    (void)state;
+    enum { N = 5000 };
+    static fl_vec3 ring[2 * N];
+    for (int i = 0; i < N; i++) {
+        const double t = 2.0 * 3.14159265358979323846 * i / N;
+        ring[i] = v3(cos(t), sin(t), 0.0);
+        ring[N + i] = v3(cos(t), sin(t), 1.0);
+    }
+    const fl_core drum = {ring, 2 * N};
+    const fl_vec3 p[] = {{0.3, 0.2, 1.5}}, t[] = {{-1, -1, 3}, {1, -1, 3}, {0, 1, 3}}, q[] = {{3, 0, 0.5}};
+    fl_gap g = gap_of(CORE(p), drum);
+    assert_near(g.d, 0.5, 1e-15);
+    g = gap_of(CORE(t), drum);
+    assert_near(g.d, 2.0, 1e-15);
+    g = gap_of(drum, CORE(q));
+    assert_near(g.d, 2.0, 1e-15);
+    g = gap_of(drum, drum);
+    assert_true(g.overlap);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_of_doubles_keep_106_bits),
+        cmocka_unit_test(points_and_segments_are_cores),
+        cmocka_unit_test(repeated_and_flat_vertices_do_no_harm),
+        cmocka_unit_test(a_foul_cache_is_no_harm),
+        cmocka_unit_test(aligned_boxes_and_plates),
+        cmocka_unit_test(coincident_bodies_get_one_direction),
+        cmocka_unit_test(depth_is_the_shortest_way_out),
+        cmocka_unit_test(nearly_parallel_edges),
+        cmocka_unit_test(far_from_the_origin),
+        cmocka_unit_test(many_vertices),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
