@@ -36,7 +36,7 @@ typedef struct {
     fl_poly *core;    /* in the body frame                           */
     uint8_t *hold;    /* FL_HOLD_X | ...                             */
     double *held;     /* work done by what holds the body so far [J] */
-    double *odometer; /* path no point of the core exceeds: sum of (|v| + |w| bound) dt  [m] */
+    double *odometer; /* path no point of the core exceeds: sum over steps of |v| dt + chord bound  [m] */
 } fl_bodies;
 
 /* Arrays for `total` bodies, the first n of which move; all zero but q = 1.  -1 with FL_SYSTEM. */

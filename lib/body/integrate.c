@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "body/integrate.h"
 
+/* Rounding alone moves |q| from 1: one Newton step for 1/sqrt(|q|^2) takes it back. */
+static fl_quat renormal(fl_quat q)
+{
+    const double s = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
+}
+
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt)
 {
     const double a0 = 0.5 * dt * (1.0 / I.x - 1.0 / I.y), a2 = dt * (1.0 / I.z - 1.0 / I.y);
@@ -11,9 +18,7 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt)
         q = q_mul(turn, q);
     }
     if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * v3_dot(m3_col(q_matrix(q), 0), L)));
-    /* rounding alone moves |q| from 1: one Newton step for 1/sqrt(|q|^2) takes it back */
-    const double s = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
+    return renormal(q);
 }
 
 void fl_kick(fl_bodies *b, int32_t i, double h)
@@ -23,15 +28,6 @@ void fl_kick(fl_bodies *b, int32_t i, double h)
     b->L[i] = v3_madd(b->L[i], h, b->t[i]);
     b->w[i] = fl_body_turn(b, i, b->L[i]);
     if (b->hold[i]) fl_hold(b, i, v0, w0);
-}
-
-void fl_drift(fl_bodies *b, int32_t i, double dt)
-{
-    b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
-    b->odometer[i] += dt * (v3_norm(b->v[i]) + v3_norm(b->w[i]) * b->bound[i]);
-    if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) return;
-    b->q[i] = fl_drift_rotation(b->q[i], b->L[i], b->I[i], dt);
-    fl_body_derive(b, i);
 }
 
 /* Solve the k x k system a x = y, k <= 3, a symmetric and positive definite (Cholesky). */
@@ -80,13 +76,61 @@ static void hold_turn(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
     fl_body_spin(b, i, v3(w[0], w[1], w[2]));
 }
 
+/* Work of a turning impulse of what holds: only along the held axes is it one, beyond rounding. */
+static double holding(unsigned hold, fl_vec3 impulse, fl_vec3 w)
+{
+    return (hold & FL_HOLD_RX ? impulse.x * w.x : 0.0) + (hold & FL_HOLD_RY ? impulse.y * w.y : 0.0) +
+           (hold & FL_HOLD_RZ ? impulse.z * w.z : 0.0);
+}
+
+/* What holds a turn acts between kicks too: with products of inertia, turning about one axis takes a torque
+ * about the others.  It has no component along the free axes, so L keeps its free components and w its held
+ * ones.  By the midpoint, order 2. */
+static void drift_held(fl_bodies *b, int32_t i, double dt)
+{
+    const unsigned hold = b->hold[i];
+    const fl_quat q = b->q[i];
+    const fl_vec3 w = b->w[i], L = b->L[i];
+    b->q[i] = q_mul(q_of_vector(v3_scale(0.5 * dt, w)), q);
+    b->R[i] = q_matrix(b->q[i]);
+    hold_turn(b, i, hold, w);
+    b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
+    b->R[i] = q_matrix(b->q[i]);
+    b->L[i] = L;
+    hold_turn(b, i, hold, w);
+    b->held[i] += holding(hold, v3_sub(b->L[i], L), w);
+}
+
+/* How far a step from q to r takes a point at distance 1 at most: the chord 2 sin(angle/2).  |w| dt would not
+ * do, for w changes on the way. */
+static double chord(fl_quat q, fl_quat r)
+{
+    const fl_quat d = q_mul(r, q_conj(q));
+    return 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
+void fl_drift(fl_bodies *b, int32_t i, double dt)
+{
+    const fl_quat q = b->q[i];
+    b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
+    b->odometer[i] += fabs(dt) * v3_norm(b->v[i]);
+    if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) return;
+    if (b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) {
+        drift_held(b, i, dt);
+    } else {
+        b->q[i] = fl_drift_rotation(q, b->L[i], b->I[i], dt);
+        fl_body_derive(b, i);
+    }
+    b->odometer[i] += chord(q, b->q[i]) * b->bound[i];
+}
+
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
 {
     const unsigned hold = b->hold[i];
-    b->held[i] -= fl_body_kinetic(b, i);
+    const fl_vec3 v = b->v[i], L = b->L[i];
     if (hold & FL_HOLD_X) b->v[i].x = v_held.x;
     if (hold & FL_HOLD_Y) b->v[i].y = v_held.y;
     if (hold & FL_HOLD_Z) b->v[i].z = v_held.z;
     if (hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) hold_turn(b, i, hold, w_held);
-    b->held[i] += fl_body_kinetic(b, i);
+    b->held[i] += b->m[i] * v3_dot(v3_sub(b->v[i], v), v_held) + holding(hold, v3_sub(b->L[i], L), w_held);
 }

@@ -4,10 +4,10 @@
  * Translation is velocity Verlet.  Rotation carries the angular momentum L in the world and a quaternion; a
  * torque kicks L exactly, and the free rotation between kicks is split into exact rotations,
  *     H = |L|^2/(2 I1) + (1/I0 - 1/I1) L0^2/2 + (1/I2 - 1/I1) L2^2/2,
- * as axis 0 for dt/2, symmetric top (I1 everywhere, I2 about axis 2) for dt, axis 0 for dt/2.  Time-reversible,
- * symplectic, order 2; L is untouched by the drift, so it is conserved to rounding.
- * Source: Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840, in the variant that joins a
- * symmetric top and one rotation. */
+ * as axis 0 for dt/2, symmetric top (I1 everywhere, I2 about axis 2) for dt, axis 0 for dt/2.
+ * Time-reversible, symplectic, order 2; L is untouched by the drift, so it is conserved to rounding. Source:
+ * Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840, in the variant that joins a symmetric
+ * top and one rotation. */
 #ifndef FL_BODY_INTEGRATE_H
 #define FL_BODY_INTEGRATE_H
 #include "body/body.h"
@@ -16,7 +16,8 @@
  *   h  [s], half a step */
 void fl_kick(fl_bodies *b, int32_t i, double h);
 
-/* x += dt v and the rotation above of body i < total; renews R, w and the odometer.  dt [s] */
+/* x += dt v and the rotation above of body i < total; renews R, w and the odometer.  Where turns are held,
+ * the held components of w and the free ones of L stay, by the midpoint rule.  dt [s] */
 void fl_drift(fl_bodies *b, int32_t i, double dt);
 
 /* The rotation part alone, of one body; for tests. */
@@ -24,7 +25,7 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
 
 /* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
  * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w.
- * w must belong to L before.  The change of kinetic energy goes to held[i]. */
+ * The impulse that this takes works at the held velocity; that work goes to held[i]. */
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held);
 
 #endif

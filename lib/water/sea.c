@@ -47,7 +47,7 @@ void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
 static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach, fl_vec3 c,
                     double h)
 {
-    const double before = fl_body_kinetic(b, i);
+    const double before = fl_body_kinetic(b, i) - b->held[i];
     const fl_vec3 u = v3_sub(b->v[i], c), v0 = b->v[i], w0 = b->w[i];
     const double speed = v3_norm(u), spin2 = v3_norm2(b->w[i]);
     const double factor = fl_drag_factor(fl_drag_kappa_force(fluid, area, b->m[i]), speed, h);
@@ -59,9 +59,8 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
         b->L[i] = v3_scale(turn, b->L[i]);
         b->w[i] = v3_scale(turn, b->w[i]);
     }
-    const double work = fl_body_kinetic(b, i) - before;
     if (b->hold[i]) fl_hold(b, i, v0, w0);
-    return work;
+    return fl_body_kinetic(b, i) - b->held[i] - before;
 }
 
 static void drag_of_water(fl_sea *s, fl_bodies *b, int32_t i, double h, double t)

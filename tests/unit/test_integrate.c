@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+#include "support/near.h"
+#include "base/rng.h"
+#include "body/integrate.h"
+#include "support/lab.h"
+#include "support/shapes.h"
+
+#define TURNS (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)
+
+static fl_vec3 random3(fl_rng *g)
+{
+    fl_vec3 a;
+    a.x = fl_rng_normal(g);
+    a.y = fl_rng_normal(g);
+    a.z = fl_rng_normal(g);
+    return a;
+}
+
+/* One body of mass 2 and moments I, turned and moving by chance; held turns at rest. */
+static void random_body(fl_bodies *b, fl_rng *g, fl_vec3 I, unsigned hold)
+{
+    fl_err err = {0};
+    assert_int_equal(fl_bodies_alloc(b, 1, 1, &err), 0);
+    b->m[0] = 2.0;
+    b->invm[0] = 0.5;
+    b->I[0] = I;
+    b->bound[0] = 1.0;
+    b->q[0] = shape_rotation(g);
+    b->hold[0] = (uint8_t)hold;
+    b->v[0] = random3(g);
+    fl_vec3 w = random3(g);
+    if (hold & FL_HOLD_RX) w.x = 0.0;
+    if (hold & FL_HOLD_RY) w.y = 0.0;
+    if (hold & FL_HOLD_RZ) w.z = 0.0;
+    fl_body_derive(b, 0);
+    fl_body_spin(b, 0, w);
+}
+
+static double apart(fl_vec3 a, fl_vec3 b) { return v3_norm(v3_sub(a, b)); }
+
+static double turned(fl_quat a, fl_quat b)
+{
+    const fl_quat d = q_mul(q_conj(a), b);
+    return 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
+static void a_kick_changes_momenta_alone(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 1, FL_RNG_TEST);
+    fl_bodies b;
+    (void)state;
+    random_body(&b, &g, v3(1, 2, 3), 0);
+    const fl_vec3 x = b.x[0], v = b.v[0], L = b.L[0], f = b.f[0] = random3(&g), t = b.t[0] = random3(&g);
+    const fl_quat q = b.q[0];
+    fl_kick(&b, 0, 0.3);
+    assert_near_of(apart(b.v[0], v3_madd(v, 0.3 / 2.0, f)), 0.0, 1e-15, 1.0);
+    assert_near_of(apart(b.L[0], v3_madd(L, 0.3, t)), 0.0, 1e-15, 1.0);
+    assert_memory_equal(&b.x[0], &x, sizeof x);
+    assert_memory_equal(&b.q[0], &q, sizeof q);
+    const fl_vec3 s = m3_tmul(b.R[0], b.L[0]);
+    assert_near_of(apart(b.w[0], m3_mul(b.R[0], v3(s.x, s.y / 2.0, s.z / 3.0))), 0.0, 1e-14, 1.0);
+    fl_bodies_free(&b);
+}
+
+/* Moments (I, I, J) or (J, I, I) are turned exactly: round L by |L|/I t, after round the axis by (1/J - 1/I)
+ * L_axis t. */
+static void a_symmetric_top_turns_exactly(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 2, FL_RNG_TEST);
+    (void)state;
+    for (int c = 0; c < 60; c++) {
+        const double few = fl_rng_in(&g, 0.2, 1.0), more = fl_rng_in(&g, 1.0, 1.9),
+                     dt = fl_rng_in(&g, 0.0, 0.5);
+        const int axis = c % 3 == 2 ? 0 : 2; /* of the different moment; a ball at c % 3 == 0 */
+        const fl_vec3 I = c % 3 == 0  ? v3(more, more, more)
+                          : axis == 0 ? v3(few, more, more)
+                                      : v3(1, 1, more);
+        const double mid = I.y, other = axis == 0 ? I.x : I.z;
+        fl_bodies b;
+        random_body(&b, &g, I, 0);
+        const fl_quat q = b.q[0];
+        const fl_vec3 L = b.L[0];
+        const double along = v3_dot(m3_col(b.R[0], axis), L);
+        const fl_quat want = q_mul(q_of_vector(v3_scale(dt / mid, L)),
+                                   q_mul(q, q_about(axis, dt * (1.0 / other - 1.0 / mid) * along)));
+        fl_drift(&b, 0, dt);
+        assert_near_of(turned(b.q[0], want), 0.0, 1e-14, 1.0);
+        assert_memory_equal(&b.L[0], &L, sizeof L);
+        fl_bodies_free(&b);
+    }
+}
+
+static void a_drift_goes_back_the_way_it_came(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 3, FL_RNG_TEST);
+    (void)state;
+    for (int c = 0; c < 50; c++) {
+        fl_bodies b;
+        random_body(&b, &g, v3(1, 1.5, 2.2), 0);
+        const fl_quat q = b.q[0];
+        const fl_vec3 x = b.x[0];
+        for (int k = 0; k < 100; k++) fl_drift(&b, 0, 0.05);
+        for (int k = 0; k < 100; k++) fl_drift(&b, 0, -0.05);
+        assert_near_of(turned(b.q[0], q), 0.0, 1e-12, 1.0);
+        assert_near_of(apart(b.x[0], x), 0.0, 1e-13, 5.0);
+        const fl_quat n = b.q[0];
+        assert_near(n.w * n.w + n.x * n.x + n.y * n.y + n.z * n.z, 1.0, 1e-15);
+        fl_bodies_free(&b);
+    }
+}
+
+/* No point of the core goes farther in a step than the odometer says. */
+static void the_odometer_is_a_bound(void **state)
+{
+    (void)state;
+    for (unsigned hold = 0; hold < 64; hold += 4) {
+        fl_rng g = fl_rng_of(test_seed(), 200 + hold, FL_RNG_TEST);
+        fl_bodies b;
+        random_body(&b, &g, v3(1, 1.5, 2.2), hold);
+        double worst = 0.0;
+        for (int k = 0; k < 1000; k++) {
+            const fl_vec3 x = b.x[0];
+            const fl_mat3 R = b.R[0];
+            const double before = b.odometer[0];
+            fl_drift(&b, 0, 0.1);
+            for (int p = 0; p < 20; p++) {
+                const fl_vec3 a = shape_direction(&g); /* bound = 1 */
+                const double path = apart(v3_add(x, m3_mul(R, a)), v3_add(b.x[0], m3_mul(b.R[0], a)));
+                worst = fmax(worst, path / (b.odometer[0] - before));
+            }
+        }
+        assert_true(worst <= 1.0 + 1e-12);
+        assert_true(worst > 0.5);
+        fl_bodies_free(&b);
+    }
+}
+
+/* Under any forces, for every set of held directions: what is held keeps its bits, and what is free moves. */
+static void what_is_held_stays(void **state)
+{
+    (void)state;
+    for (unsigned hold = 0; hold < 64; hold++) {
+        fl_rng g = fl_rng_of(test_seed(), hold, FL_RNG_TEST);
+        fl_bodies b;
+        random_body(&b, &g, v3(1, 1.5, 2.2), hold);
+        const fl_vec3 v = b.v[0], w = b.w[0];
+        for (int k = 0; k < 500; k++) {
+            b.f[0] = random3(&g);
+            b.t[0] = random3(&g);
+            fl_kick(&b, 0, 0.01);
+            fl_drift(&b, 0, 0.02);
+            fl_kick(&b, 0, 0.01);
+        }
+        assert_int_equal(b.v[0].x == v.x, (hold & FL_HOLD_X) != 0);
+        assert_int_equal(b.v[0].y == v.y, (hold & FL_HOLD_Y) != 0);
+        assert_int_equal(b.v[0].z == v.z, (hold & FL_HOLD_Z) != 0);
+        assert_int_equal(b.w[0].x == w.x, (hold & FL_HOLD_RX) != 0);
+        assert_int_equal(b.w[0].y == w.y, (hold & FL_HOLD_RY) != 0);
+        assert_int_equal(b.w[0].z == w.z, (hold & FL_HOLD_RZ) != 0);
+        const fl_vec3 s = m3_tmul(b.R[0], b.L[0]);
+        assert_near_of(apart(m3_mul(b.R[0], v3(s.x, s.y / 1.5, s.z / 2.2)), b.w[0]), 0.0, 1e-13,
+                       v3_norm(b.w[0]));
+        fl_bodies_free(&b);
+    }
+}
+
+/* Held about x and y, a body without torque turns about z for ever at one speed, however its axes lie. */
+static void two_held_turns_leave_an_axle(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 4, FL_RNG_TEST);
+    (void)state;
+    for (int c = 0; c < 20; c++) {
+        fl_bodies b;
+        random_body(&b, &g, v3(1, 1.5, 2.2), FL_HOLD_RX | FL_HOLD_RY);
+        const double w = b.w[0].z, dt = 0.01;
+        const int steps = 5000;
+        const fl_quat q = b.q[0];
+        for (int k = 0; k < steps; k++) {
+            fl_kick(&b, 0, 0.5 * dt);
+            fl_drift(&b, 0, dt);
+            fl_kick(&b, 0, 0.5 * dt);
+        }
+        assert_near(b.w[0].z, w, 1e-11);
+        assert_near_of(
+            turned(b.q[0],
+                   q_mul(q_of_vector(v3(0, 0, fmod(w * dt * steps, 2.0 * 3.14159265358979323846))), q)),
+            0.0, 1e-9, 1.0);
+        assert_near_of(b.held[0], 0.0, 1e-15, 1.0); /* what holds at rest does no work */
+        fl_bodies_free(&b);
+    }
+}
+
+/* One held turn: L keeps its free components, and the energy errs by the order of the step squared. */
+static void one_held_turn_keeps_energy(void **state)
+{
+    (void)state;
+    for (int c = 0; c < 10; c++) {
+        double error[2];
+        for (int d = 0; d < 2; d++) {
+            fl_rng g = fl_rng_of(test_seed(), 100 + c, FL_RNG_TEST);
+            fl_bodies b;
+            random_body(&b, &g, v3(1, 1.5, 2.2), FL_HOLD_RY);
+            const fl_vec3 L = b.L[0];
+            const double E = fl_body_kinetic(&b, 0), dt = 0.02 / (1 << d);
+            for (int k = 0; k < 100 << d; k++) fl_drift(&b, 0, dt);
+            assert_near_of(b.L[0].x, L.x, 1e-13, v3_norm(L));
+            assert_near_of(b.L[0].z, L.z, 1e-13, v3_norm(L));
+            error[d] = fabs(fl_body_kinetic(&b, 0) / E - 1.0);
+            fl_bodies_free(&b);
+        }
+        assert_true(error[0] < 1e-2);
+        assert_true(error[1] < 0.35 * error[0] + 1e-6); /* a quarter, and terms of higher order */
+    }
+}
+
+/* The work of what holds is force times held velocity, to rounding: none where it stands still.  And kinetic
+ * energy is that work and the work of the rest. */
+static void the_work_of_holding_is_booked(void **state)
+{
+    const double speed[] = {0.0, 3.0};
+    (void)state;
+    for (int c = 0; c < 2; c++) {
+        fl_rng g = fl_rng_of(test_seed(), 5, FL_RNG_TEST);
+        fl_bodies b;
+        random_body(&b, &g, v3(1, 1.5, 2.2), FL_HOLD_X | TURNS);
+        b.v[0] = v3(speed[c], 0, 0);
+        b.f[0] = v3(-70.0, 5.0, 0.0);
+        b.t[0] = v3(10, -20, 30);
+        const double dt = 0.01, before = fl_body_kinetic(&b, 0);
+        const int steps = 1000;
+        for (int k = 0; k < steps; k++) {
+            fl_kick(&b, 0, 0.5 * dt);
+            fl_drift(&b, 0, dt);
+            fl_kick(&b, 0, 0.5 * dt);
+        }
+        assert_near_of(b.held[0], 70.0 * speed[c] * dt * steps, 1e-12, 70.0 * dt * steps);
+        assert_near_of(fl_body_kinetic(&b, 0) - before, b.held[0] + v3_dot(b.f[0], b.x[0]), 1e-12,
+                       70.0 * dt * steps);
+        fl_bodies_free(&b);
+    }
+}
+
+/* A turn held at a speed: a lopsided body driven about z, no torque from outside: the drive's work is what
+ * its kinetic energy gains, and over whole turns none. */
+static void the_work_of_a_held_turn_is_booked(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 6, FL_RNG_TEST);
+    fl_bodies b;
+    (void)state;
+    random_body(&b, &g, v3(1, 1.5, 2.2), FL_HOLD_RZ);
+    fl_body_spin(&b, 0, v3(0.2, 0.1, 2.0));
+    const double before = fl_body_kinetic(&b, 0);
+    double worst = 0.0, most = 0.0;
+    for (int k = 0; k < 4000; k++) {
+        fl_drift(&b, 0, 5e-4);
+        worst = fmax(worst, fabs(fl_body_kinetic(&b, 0) - before - b.held[0]));
+        most = fmax(most, fabs(b.held[0]));
+        assert_true(b.w[0].z == 2.0);
+    }
+    assert_true(most > 0.01 * before);
+    assert_near_of(worst, 0.0, 1e-5, before); /* order 2 of 5e-4 s at 2 rad/s */
+    fl_bodies_free(&b);
+}
+
+/* Through the solver: a floe of a group that is held in z and all turns and driven in x pushes another along;
+ * the ledger closes with the work of the drive. */
+static void a_driven_group_pays_for_what_it_pushes(void **state)
+{
+    double residual[2];
+    (void)state;
+    for (int d = 0; d < 2; d++) {
+        lab l;
+        fl_err err = {0};
+        fl_poly p = {0};
+        lab_start(&l);
+        lab_set(&l, "material.ice.young=10 MPa");
+        lab_set(&l, "contact.restitution=0.3");
+        lab_set(&l, "contact.friction=0.2");
+        lab_set(&l, "group.pusher.fixed=x y z rx ry rz");
+        lab_set(&l, "group.pusher.velocity=0.5 0 0");
+        assert_int_equal(fl_poly_box(&p, v3(0.45, 0.45, 0.45), &err), 0);
+        assert_int_equal(fl_field_add(&l.field, 1, 0.05, &p, NULL, "pusher", v3(0, 0, 0), v3(0, 0, 0), &err),
+                         0);
+        lab_box(&l, v3(1.1, 0.1, 0.05), v3(0.5, 0.5, 0.5), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        lab_make(&l, 0);
+        l.w.dt /= 1 << d;
+        assert_int_equal(lab_run(&l, (int64_t)(1.0 / l.w.dt)), 0);
+        fl_step_ledger(&l.w);
+        assert_near(l.w.b.x[0].x, 0.5 * l.w.dt * (double)l.w.step, 1e-12);
+        assert_true(l.w.b.v[1].x > 0.4);
+        assert_true(l.w.ledger.drive_now >= l.w.ledger.damping_now + 0.5 * l.w.b.m[1] * 0.16);
+        residual[d] = fabs(l.w.ledger.residual) / l.w.ledger.drive_now;
+        lab_free(&l);
+    }
+    assert_true(residual[0] < 1e-2);
+    assert_true(residual[1] < 0.5 * residual[0]); /* order 2, a quarter, over few steps */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_kick_changes_momenta_alone),
+        cmocka_unit_test(a_symmetric_top_turns_exactly),
+        cmocka_unit_test(a_drift_goes_back_the_way_it_came),
+        cmocka_unit_test(the_odometer_is_a_bound),
+        cmocka_unit_test(what_is_held_stays),
+        cmocka_unit_test(two_held_turns_leave_an_axle),
+        cmocka_unit_test(one_held_turn_keeps_energy),
+        cmocka_unit_test(the_work_of_holding_is_booked),
+        cmocka_unit_test(the_work_of_a_held_turn_is_booked),
+        cmocka_unit_test(a_driven_group_pays_for_what_it_pushes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
