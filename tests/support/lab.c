@@ -6,6 +6,8 @@
 #include "geom/facet.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
+#include "step/interact.h"
+#include "step/pairing.h"
 #include "support/lab.h"
 
 static void must(int rc, const fl_err *err)
@@ -164,6 +166,24 @@ double lab_energy(lab *l)
     fl_step_ledger(&l->w);
     const fl_ledger *g = &l->w.ledger;
     return g->kinetic + g->gravity + g->elastic + g->hydrostatic;
+}
+
+void lab_pose(fl_world *w, int32_t i, fl_vec3 x, fl_quat q)
+{
+    w->b.x[i] = x;
+    w->b.q[i] = q;
+    w->b.v[i] = w->b.L[i] = v3(0, 0, 0);
+    fl_body_derive(&w->b, i);
+}
+
+fl_pair lab_look(fl_world *w, int32_t i, int32_t j)
+{
+    fl_pair p;
+    fl_pair_start(w, &p, i, j);
+    fl_interact(w, &p, 0, 0.0, 0);
+    free(p.memory);
+    p.memory = NULL;
+    return p;
 }
 
 void lab_free(lab *l)

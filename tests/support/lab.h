@@ -30,6 +30,10 @@ void lab_make(lab *l, double dt);
 /* Steps; returns 0, or the code of the error that ended them. */
 int lab_run(lab *l, int64_t steps);
 double lab_energy(lab *l); /* all stores */
+/* Put body i where it is wanted, at rest. */
+void lab_pose(fl_world *w, int32_t i, fl_vec3 x, fl_quat q);
+/* The pair (i, j), i < j, evaluated at the poses of now as one that never touched before; it remembers nothing. */
+fl_pair lab_look(fl_world *w, int32_t i, int32_t j);
 void lab_free(lab *l);
 
 #endif
