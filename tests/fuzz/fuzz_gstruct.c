@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
-#include "scene/gstruct.h"
+#include "mesh/gstruct.h"
 #include "support/fuzz.h"
 #include "support/mesh.h"
 

@@ -5,8 +5,8 @@
 #include <string.h>
 #include "geom/patch.h"
 #include "geom/weld.h"
-#include "scene/gstruct.h"
-#include "scene/read_mesh.h"
+#include "mesh/gstruct.h"
+#include "mesh/read_mesh.h"
 #include "support/fuzz.h"
 #include "support/mesh.h"
 

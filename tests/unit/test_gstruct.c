@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "scene/gstruct.h"
+#include "mesh/gstruct.h"
 #include "support/mesh.h"
 #include "support/near.h"
 

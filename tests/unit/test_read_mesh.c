@@ -7,9 +7,9 @@
 #include "geom/facet.h"
 #include "geom/patch.h"
 #include "geom/weld.h"
-#include "scene/gstruct.h"
-#include "scene/read_mesh.h"
-#include "scene/write_stl.h"
+#include "mesh/gstruct.h"
+#include "mesh/read_mesh.h"
+#include "mesh/write_stl.h"
 #include "support/mesh.h"
 #include "support/near.h"
 

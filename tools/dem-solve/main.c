@@ -7,7 +7,7 @@
 #include "options.h"
 #include "run.h"
 #include "scene/field.h"
-#include "scene/gstruct.h"
+#include "mesh/gstruct.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
 #include "scene/scene_show.h"

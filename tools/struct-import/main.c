@@ -4,9 +4,9 @@
 #include "base/mem.h"
 #include "base/stream.h"
 #include "geom/facet.h"
-#include "scene/gstruct.h"
-#include "scene/read_mesh.h"
-#include "scene/write_stl.h"
+#include "mesh/gstruct.h"
+#include "mesh/read_mesh.h"
+#include "mesh/write_stl.h"
 #include "options.h"
 #include "quality.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* read_stl.h -- STL, binary and ASCII. */
-#ifndef FL_SCENE_READ_STL_H
-#define FL_SCENE_READ_STL_H
+#ifndef FL_MESH_READ_STL_H
+#define FL_MESH_READ_STL_H
 #include "geom/surface.h"
-#include "scene/bytes.h"
+#include "mesh/bytes.h"
 
 /* Is this a binary STL?  80 bytes, a 32-bit count n, n records of 50 bytes: the size decides, not the first
  * word, which is "solid" in both kinds.  A file whose count was never filled in (0) is binary by its size

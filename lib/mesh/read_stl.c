@@ -3,7 +3,7 @@
 #include <strings.h>
 #include "base/mem.h"
 #include "geom/facet.h"
-#include "scene/read_stl.h"
+#include "mesh/read_stl.h"
 
 enum { HEAD = 84, RECORD = 50 };
 

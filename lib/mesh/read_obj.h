@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* read_obj.h -- Wavefront OBJ: vertices and polygons. */
-#ifndef FL_SCENE_READ_OBJ_H
-#define FL_SCENE_READ_OBJ_H
+#ifndef FL_MESH_READ_OBJ_H
+#define FL_MESH_READ_OBJ_H
 #include "geom/surface.h"
-#include "scene/bytes.h"
+#include "mesh/bytes.h"
 
 /* Does a row of b, before any that is not OBJ, start with "v" or "f"? */
 int fl_obj_is(const fl_bytes *b);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* write_stl.h -- the triangles of a surface as STL. */
-#ifndef FL_SCENE_WRITE_STL_H
-#define FL_SCENE_WRITE_STL_H
+#ifndef FL_MESH_WRITE_STL_H
+#define FL_MESH_WRITE_STL_H
 #include <stdio.h>
 #include "geom/surface.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gstruct.h -- the structure file g_struct.dat (kind g_struct, version 1); see g_struct(5). */
-#ifndef FL_SCENE_GSTRUCT_H
-#define FL_SCENE_GSTRUCT_H
+#ifndef FL_MESH_GSTRUCT_H
+#define FL_MESH_GSTRUCT_H
 #include <stdio.h>
 #include "base/text.h"
 #include "base/tool.h"

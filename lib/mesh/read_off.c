@@ -4,7 +4,7 @@
 #include "base/mem.h"
 #include "base/num.h"
 #include "geom/facet.h"
-#include "scene/read_off.h"
+#include "mesh/read_off.h"
 
 /* Does p hold a header word, [ST][C][N][4][n]OFF, before a blank or a line end?  Its length, or 0. */
 static size_t header_word(const char *p)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* read_off.h -- the Object File Format of Geomview: OFF, COFF, NOFF, STOFF, 4OFF, or no word at all. */
-#ifndef FL_SCENE_READ_OFF_H
-#define FL_SCENE_READ_OFF_H
+#ifndef FL_MESH_READ_OFF_H
+#define FL_MESH_READ_OFF_H
 #include "geom/surface.h"
-#include "scene/bytes.h"
+#include "mesh/bytes.h"
 
 /* Is the first word one of these, or are the first words of b three whole numbers alone on their row? */
 int fl_off_is(const fl_bytes *b);

@@ -2,7 +2,7 @@
 #include <stdint.h>
 #include <string.h>
 #include "base/num.h"
-#include "scene/write_stl.h"
+#include "mesh/write_stl.h"
 
 static fl_vec3 normal(const fl_part *p, int32_t t)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* bytes.h -- a whole mesh file in memory, to be looked at twice: as bytes, and as rows of words. */
-#ifndef FL_SCENE_BYTES_H
-#define FL_SCENE_BYTES_H
+#ifndef FL_MESH_BYTES_H
+#define FL_MESH_BYTES_H
 #include <stdint.h>
 #include "base/err.h"
 #include "base/stream.h"

@@ -4,7 +4,7 @@
 #include "base/mem.h"
 #include "base/num.h"
 #include "geom/facet.h"
-#include "scene/read_obj.h"
+#include "mesh/read_obj.h"
 
 /* Words that carry no surface: passed over in silence.  "v" and "f" come first: they are looked for alone. */
 static const char *const known[] = {

@@ -4,7 +4,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/num.h"
-#include "scene/bytes.h"
+#include "mesh/bytes.h"
 
 enum { CHUNK = 1 << 16 };
 

@@ -4,7 +4,7 @@
 #include "base/mem.h"
 #include "base/num.h"
 #include "geom/facet.h"
-#include "scene/read_ply.h"
+#include "mesh/read_ply.h"
 
 typedef enum { I8, U8, I16, U16, I32, U32, F32, F64, TYPES } type;
 

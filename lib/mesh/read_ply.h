@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* read_ply.h -- PLY 1.0: ascii, binary_little_endian, binary_big_endian. */
-#ifndef FL_SCENE_READ_PLY_H
-#define FL_SCENE_READ_PLY_H
+#ifndef FL_MESH_READ_PLY_H
+#define FL_MESH_READ_PLY_H
 #include "geom/surface.h"
-#include "scene/bytes.h"
+#include "mesh/bytes.h"
 
 /* Is the first line "ply"? */
 int fl_ply_is(const fl_bytes *b);

@@ -3,7 +3,7 @@
 #include <string.h>
 #include "base/num.h"
 #include "base/text.h"
-#include "scene/gstruct.h"
+#include "mesh/gstruct.h"
 
 static const char *const record[] = {"part", "v", "t", "cone"};
 

@@ -3,13 +3,13 @@
 #include <string.h>
 #include <strings.h>
 #include "base/mem.h"
-#include "scene/bytes.h"
-#include "scene/gstruct.h"
-#include "scene/read_mesh.h"
-#include "scene/read_obj.h"
-#include "scene/read_off.h"
-#include "scene/read_ply.h"
-#include "scene/read_stl.h"
+#include "mesh/bytes.h"
+#include "mesh/gstruct.h"
+#include "mesh/read_mesh.h"
+#include "mesh/read_obj.h"
+#include "mesh/read_off.h"
+#include "mesh/read_ply.h"
+#include "mesh/read_stl.h"
 
 enum { NAME = 128 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* read_mesh.h -- a mesh file of any kind that is known, told by what is in it. */
-#ifndef FL_SCENE_READ_MESH_H
-#define FL_SCENE_READ_MESH_H
+#ifndef FL_MESH_READ_MESH_H
+#define FL_MESH_READ_MESH_H
 #include "geom/surface.h"
 
 enum { FL_MESH_NOTE = 600 };
