@@ -70,8 +70,8 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-/* The farthest a shape may lie, as FL_FIELD_FAR; the longest field, where an ulp is a tenth of a nanometre; and
- * the shortest length [m]. */
+/* The farthest a shape may lie, as FL_FIELD_FAR; the longest field, where an ulp is a tenth of a nanometre;
+ * and the shortest length [m]. */
 #define FAR 1e9
 #define LONGEST 1e6
 #define SHORTEST 1e-6
