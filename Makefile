@@ -51,7 +51,7 @@ setup:
 demo check verify bench: setup
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) run-$@
 run-demo: all
-	@$(MAKE) --no-print-directory -C share/examples/cylinder BIN=$(CURDIR)/$B/bin demo
+	@$(MAKE) --no-print-directory -C share/examples/cylinder BIN=$(CURDIR)/$B/bin OUT=$(CURDIR)/$B/demo demo
 run-check run-verify run-bench: tests
 	@sh tests/run.sh $(@:run-%=%) $B
 golden-update: all
