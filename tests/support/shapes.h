@@ -11,8 +11,8 @@
 /* Half sides 10^u, u uniform in [lo, hi]. */
 void shape_random_box(fl_poly *p, fl_rng *g, double lo, double hi);
 
-/* An upright prism over a convex polygon of 3 to 8 corners on an ellipse: radius in [0.5, 2] m, height 0.02 to
- * 1 of that. */
+/* An upright prism over a convex polygon of 3 to 8 corners on an ellipse: radius in [0.5, 2] m, height
+ * 0.02 to 1 times that. */
 void shape_random_prism(fl_poly *p, fl_rng *g);
 
 /* A box of random sides in [0.5, 2] m cut by up to `cuts` random planes that leave its middle. */
