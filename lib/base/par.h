@@ -7,11 +7,12 @@
 /* Sum of x[0 .. n): blocks of 1024 in ascending order, then the blocks in order. */
 double fl_par_sum(const double *x, int64_t n);
 
-/* Let threads that wait at the end of a parallel loop spin for a few microseconds only, then sleep.  GNU OpenMP spins for
- * milliseconds, which on a machine that others use too makes two threads tens of times slower than one (200 floes,
- * four other busy processes: 14.4 s against 0.35 s).  The library reads its environment before main(), so the
- * program is started once more with GOMP_SPINCOUNT set; where the user has set it or OMP_WAIT_POLICY, or the program
- * cannot be started again, nothing happens.  Call first in main(). */
+/* Let threads that wait at the end of a parallel loop spin for a few microseconds only, then sleep.  GNU
+ * OpenMP spins for milliseconds, which on a machine that others use too makes two threads tens of times
+ * slower than one (200 floes, four other busy processes: 14.4 s against 0.35 s).  The library reads its
+ * environment before main(), so the program is started once more with GOMP_SPINCOUNT set; where the user has
+ * set it or OMP_WAIT_POLICY, or the program cannot be started again, nothing happens.  Call first in main().
+ */
 void fl_par_wait_briefly(char **argv);
 
 /* 64-bit FNV-1a over bytes, eight at a time; start from FL_HASH_START and chain. */

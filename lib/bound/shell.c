@@ -3,8 +3,9 @@
 #include "bound/shell.h"
 #include "narrow/nearest.h"
 
-/* Signed distance of x from the faces in the list.  Of faces whose nearest points agree within rounding (a shared edge or
- * corner) the one that x is most in front of tells the side: its plane passes between x and the others. */
+/* Signed distance of x from the faces in the list.  Of faces whose nearest points agree within rounding (a
+ * shared edge or corner) the one that x is most in front of tells the side: its plane passes between x and
+ * the others. */
 static fl_nearest nearest_of(const fl_poly *p, const int32_t *face, int32_t n, fl_vec3 x)
 {
     fl_nearest best = {.d = INFINITY};

@@ -2,8 +2,8 @@
 /* shell.h -- the places where a dilated convex core touches a surface that is not convex.
  *
  * The potential is that of places.h with d(v, S) the distance of a vertex from the whole surface, taken once:
- * the nearest of all its faces, negative behind it.  Edges and corners of the surface count where it bends, so that
- * seams between coplanar triangles are not there. */
+ * the nearest of all its faces, negative behind it.  Edges and corners of the surface count where it bends,
+ * so that seams between coplanar triangles are not there. */
 #ifndef FL_BOUND_SHELL_H
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"
@@ -15,9 +15,9 @@ typedef struct {
     int32_t face_cap, edge_cap;
 } fl_shell_near;
 
-/* All places of core a (frame to piece frame: M, o; radius ra) on the shell of piece b, as fl_places_find(); after
- * fl_places_enter().  *distance is a lower bound of the distance of the core from the surface: reach when no
- * face comes that near, else ra.
+/* All places of core a (frame to piece frame: M, o; radius ra) on the shell of piece b, as fl_places_find();
+ * after fl_places_enter().  *distance is a lower bound of the distance of the core from the surface: reach
+ * when no face comes that near, else ra.
  *   reach   how far to look, >= ra [m]
  * -1 when memory runs out. */
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, fl_mat3 M,

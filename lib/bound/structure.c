@@ -6,8 +6,8 @@
 
 #define PI 3.14159265358979323846
 
-/* Vertices within this fraction of the part's diagonal of a plane lie in it: coordinates that went through 32-bit
- * floats, as in STL, are rounded by 6e-8 of the largest of them. */
+/* Vertices within this fraction of the part's diagonal of a plane lie in it: coordinates that went through
+ * 32-bit floats, as in STL, are rounded by 6e-8 of the largest of them. */
 #define FLAT 1e-6
 /* and two triangles whose normals differ by more than this bend all the same [rad] */
 #define BEND 1e-3
@@ -44,10 +44,7 @@ static void flats_free(flats *f)
     free(f->n), free(f->s), free(f->mate), free(f->face), free(f->fn), free(f->fc), free(f->queue);
 }
 
-static int corner_of(const fl_tri *t, int32_t v)
-{
-    return t->v[0] == v ? 0 : t->v[1] == v ? 1 : 2;
-}
+static int corner_of(const fl_tri *t, int32_t v) { return t->v[0] == v ? 0 : t->v[1] == v ? 1 : 2; }
 
 /* Side k of a triangle runs from corner k to corner k + 1. */
 static int side_of(const fl_tri *t, int32_t a, int32_t b)
@@ -258,7 +255,8 @@ static void shell_free(fl_shell *s)
     fl_bvh_free(&s->edges);
 }
 
-/* A surface of triangles.  The block of a fl_poly is laid out by hand: it is not convex, so fl_poly_make() is not asked. */
+/* A surface of triangles.  The block of a fl_poly is laid out by hand: it is not convex, so fl_poly_make()
+ * is not asked. */
 static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
 {
     const fl_part *p = f->p;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* structure.h -- what ice meets, as pieces that a contact can be computed with.
  *
- * Triangles of a part that lie in one plane and hang together become one face first, so that a flat wall loads
- * the ice the same whether it is 2 triangles or 20 000.  Then a part is
+ * Triangles of a part that lie in one plane and hang together become one face first, so that a flat wall
+ * loads the ice the same whether it is 2 triangles or 20 000.  Then a part is
  *   a solid   when it is closed and convex: one convex polyhedron, the half-spaces of its faces;
  *   a plate   when it is one flat convex polygon;
  *   a shell   otherwise: faces, and of edges and vertices those where the surface bends.

@@ -28,7 +28,8 @@ int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int
     int failed = 0;
     if (fl_bvh_build(&p->tree, box, total - wide, err)) return -1;
     if (fl_grow(&p->first, &p->first_cap, (int64_t)n + 1, sizeof *p->first, err)) return -1;
-    /* Twice the same queries: the first counts, the second fills its stretch.  No thread waits for another. */
+    /* Twice the same queries: the first counts, the second fills its stretch.  No thread waits for another.
+     */
     for (int pass = 0; pass < 2; pass++) {
 #pragma omp parallel
         {

@@ -12,8 +12,8 @@ typedef struct {
 } fl_pairs;
 
 /* Find the pairs (i, j), i < n, i < j < total.
- *   box[total]  those below n are bodies that move and may pair with everything; pairs among [n, total) are not
- *               sought.  The last `wide` boxes may be unbounded (walls); they are tried one by one.
+ *   box[total]  those below n are bodies that move and may pair with everything; pairs among [n, total)
+ *               are not sought.  The last `wide` boxes may be unbounded (walls); they are tried one by one.
  * The lists are the same for any number of threads.  0, or -1 with FL_SYSTEM. */
 int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int32_t wide, fl_err *err);
 

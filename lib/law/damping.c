@@ -4,10 +4,7 @@
 
 #define PI 3.14159265358979323846
 
-static double clamp(double e)
-{
-    return e < FL_RESTITUTION_LEAST ? FL_RESTITUTION_LEAST : e;
-}
+static double clamp(double e) { return e < FL_RESTITUTION_LEAST ? FL_RESTITUTION_LEAST : e; }
 
 /* Root of f in (lo, hi) where f changes sign once from - to +; bisection to the last bit, it is set-up. */
 static double root(double (*f)(double, double), double e, double lo, double hi)
@@ -21,16 +18,14 @@ static double root(double (*f)(double, double), double e, double lo, double hi)
     return 0.5 * (lo + hi);
 }
 
-static double crossley(double D, double e)
-{
-    return log1p(D) - log1p(-e * D) - D * (1.0 + e);
-}
+static double crossley(double D, double e) { return log1p(D) - log1p(-e * D) - D * (1.0 + e); }
 
 double fl_damping_crossley(double e)
 {
     e = clamp(e);
     if (e >= 1.0) return 0.0;
-    /* Near 0 the function is -(1 - e^2) D^2/2 + (1 + e^3) D^3/3: negative up to about D0, the root lies beyond. */
+    /* Near 0 the function is -(1 - e^2) D^2/2 + (1 + e^3) D^3/3: negative up to about D0, the root lies
+     * beyond. */
     const double D0 = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
     return root(crossley, e, 0.5 * D0, (1.0 - 1e-16) / e);
 }
@@ -47,10 +42,7 @@ double fl_damping_linear_e(double zeta)
     return pow((zeta - q) / (zeta + q), zeta / q);
 }
 
-static double linear(double zeta, double e)
-{
-    return e - fl_damping_linear_e(zeta);
-}
+static double linear(double zeta, double e) { return e - fl_damping_linear_e(zeta); }
 
 double fl_damping_linear(double e)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* manual.h -- the contact law of the DilatedDEM manual, a formula for each kind of contact, corrected where the
- * manual's is wrong (equations (2), (18)) or printed literally on request.  Not the gradient of one energy: forces
- * jump where the kind changes.  Kept for comparison with results obtained by it. */
+/* manual.h -- the contact law of the DilatedDEM manual, a formula for each kind of contact, corrected where
+ * the manual's is wrong (equations (2), (18)) or printed literally on request.  Not the gradient of one
+ * energy: forces jump where the kind changes.  Kept for comparison with results obtained by it. */
 #ifndef FL_LAW_MANUAL_H
 #define FL_LAW_MANUAL_H
 
@@ -30,8 +30,8 @@ typedef struct {
  *   VV (11)  4/3 E* sqrt(R*)                     1/R* = 1/Ra + 1/Rb
  *   VE (13)  4/3 E* (Rv R*)^(1/4)
  *   VF (12)  4/3 E* sqrt(Rv)
- *   EE (14)-(18)  4/3 E* sqrt(R~), R~ = sqrt(Ra Rb)/sin; twice that R~ as printed.  The long radius is at most
- *            edge^2/(4 s), so that the ellipse stays on the edge when sin goes to 0.
+ *   EE (14)-(18)  4/3 E* sqrt(R~), R~ = sqrt(Ra Rb)/sin; twice that R~ as printed.  The long radius
+ *            is at most edge^2/(4 s), so that the ellipse stays on the edge when sin goes to 0.
  *   EP (19), EF (20)  as printed 4/3 L E* sqrt(R), L taken as a number, exponent 3/2;
  *            si: (pi/4) E* L, exponent 1 (line contact, independent of R: Johnson 1985, ch. 4)
  *   FF (25)  2 E* 1.02 sqrt(A/pi), exponent 1

@@ -23,7 +23,4 @@ double fl_material_punch(double modulus, double area)
     return 2.0 * modulus * BETA * sqrt(area / PI) / PLACES_OF_FACE;
 }
 
-double fl_material_hertz(double modulus, double radius)
-{
-    return 4.0 / 3.0 * modulus * sqrt(radius);
-}
+double fl_material_hertz(double modulus, double radius) { return 4.0 / 3.0 * modulus * sqrt(radius); }

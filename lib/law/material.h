@@ -11,7 +11,8 @@ typedef struct {
 /* Effective modulus, 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b [Pa].  Equation (5) of the manual. */
 double fl_material_modulus(fl_elastic a, fl_elastic b);
 
-/* Effective radius, 1/R* = 1/R_a + 1/R_b [m]; a radius of 0 stands for a flat partner, as the structure is. */
+/* Effective radius, 1/R* = 1/R_a + 1/R_b [m]; a radius of 0 stands for a flat partner, as the structure is.
+ */
 double fl_material_radius(double ra, double rb);
 
 /* Stiffness of one vertex place of `patch` with exponent 1 [N/m]: a sixth of that of a flat punch,

@@ -11,12 +11,12 @@ typedef struct {
     fl_vec3 n; /* unit vector from p to x, or against it when d < 0: always outward */
 } fl_nearest;
 
-/* Point x and a convex polyhedron: outside the Euclidean distance, inside the largest n_f.x - c_f (<= 0), which
- * is continuous through zero.  Points, segments and flat polygons have no inside: d >= 0. */
+/* Point x and a convex polyhedron: outside the Euclidean distance, inside the largest n_f.x - c_f (<= 0),
+ * which is continuous through zero.  Points, segments and flat polygons have no inside: d >= 0. */
 fl_nearest fl_nearest_poly(const fl_poly *p, fl_vec3 x);
 
-/* Point x and one face of a polyhedron, taken as a flat polygon: d >= 0, n from p to x (the face's normal where
- * d is at rounding level of size). */
+/* Point x and one face of a polyhedron, taken as a flat polygon: d >= 0, n from p to x (the face's normal
+ * where d is at rounding level of size). */
 fl_nearest fl_nearest_face(const fl_poly *p, int32_t f, fl_vec3 x);
 
 /* Segments a0 a1 and b0 b1: parameters s, t in [0, 1] of nearest points and their squared distance.  Parallel
@@ -25,7 +25,8 @@ fl_nearest fl_nearest_face(const fl_poly *p, int32_t f, fl_vec3 x);
 double fl_nearest_segments(fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double *s, double *t);
 
 /* Point x and the solid truncated cone between the disc of radius r0 about the origin and the disc of
- * radius r1 about (0, 0, h); h > 0.  On the axis the direction is x; of equal distances the smaller z wins. */
+ * radius r1 about (0, 0, h); h > 0.  On the axis the direction is x; of equal distances the smaller z wins.
+ */
 fl_nearest fl_nearest_cone(double r0, double r1, double h, fl_vec3 x);
 
 #endif

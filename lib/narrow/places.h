@@ -8,11 +8,11 @@
  *     + sum_{e of A, e' of B} (k/4) m(c) phi(R - d(e,e')),     phi(s) = s^(n+1)/(n+1) for s > 0, else 0,
  *   c = |e^ x e'^|^2,   m(c) = (2 - c/E)(c/E) for c < E, else 1,  E = FL_PLACE_PARALLEL.
  *
- * Each term is one place.  A vertex has one distance from the whole core, and edges are clamped, never tested for
- * "interior", so W and its gradient are continuous from vertex to edge to face; m fades out edges that become
- * parallel, whose nearest points are not unique and whose ends (vertices) carry instead.
- * The force of a place is k w s^n along n through p; an edge place also carries a couple (see below).
- * Source of the fade: Li et al., Incremental Potential Contact, ACM TOG 39 (2020), in the public toolkit. */
+ * Each term is one place.  A vertex has one distance from the whole core, and edges are clamped, never
+ * tested for "interior", so W and its gradient are continuous from vertex to edge to face; m fades out edges
+ * that become parallel, whose nearest points are not unique and whose ends (vertices) carry instead. The
+ * force of a place is k w s^n along n through p; an edge place also carries a couple (see below). Source of
+ * the fade: Li et al., Incremental Potential Contact, ACM TOG 39 (2020), in the public toolkit. */
 #ifndef FL_NARROW_PLACES_H
 #define FL_NARROW_PLACES_H
 #include "geom/mat3.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tables.h -- the tables a run leaves: loads, state, energy, contacts.  Each header function writes kind, version,
- * history and column names; each row function one line, tab-separated, numbers that read back to the same double.
- * Write errors stay in the stream.  Formats: loads(5), state(5), energy(5), contacts(5). */
+/* tables.h -- the tables a run leaves: loads, state, energy, contacts.  Each header function writes kind,
+ * version, history and column names; each row function one line, tab-separated, numbers that read back to
+ * the same double. Write errors stay in the stream.  Formats: loads(5), state(5), energy(5), contacts(5). */
 #ifndef FL_OUT_TABLES_H
 #define FL_OUT_TABLES_H
 #include <stdio.h>
@@ -10,8 +10,8 @@
 #include "narrow/contact.h"
 
 void fl_loads_header(FILE *f, const char *history, const fl_by *by);
-/* force, moment: mean over the interval that ends at t, the moment about the world's origin; peak: largest |force| of
- * any step in it; contacts: bodies that touch the part at t. */
+/* force, moment: mean over the interval that ends at t, the moment about the world's origin; peak: largest
+ * |force| of any step in it; contacts: bodies that touch the part at t. */
 void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
                   int32_t contacts);
 

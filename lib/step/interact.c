@@ -8,12 +8,13 @@
 #include "narrow/nearest.h"
 #include "step/interact.h"
 
-/* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the bound by
- * the old direction lets it sleep for long enough. */
+/* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
+ * bound by the old direction lets it sleep for long enough. */
 #define NEARLY 1.02
 
-/* Where the two stand to one another.  Everything is computed relative to B, so that nothing depends on where the world's
- * origin is: o and M take A's frame to B's, off is the world vector from A's centre to B's. */
+/* Where the two stand to one another.  Everything is computed relative to B, so that nothing depends on
+ * where the world's origin is: o and M take A's frame to B's, off is the world vector from A's centre to
+ * B's. */
 typedef struct {
     fl_mat3 M;
     fl_vec3 o, off;
@@ -36,7 +37,7 @@ static const fl_piece *piece_of(const fl_world *w, int32_t j)
     return j < w->n ? NULL : &w->structure.piece[j - w->n];
 }
 
-/* --- where they touch ------------------------------------------------------------------------------------- */
+/* --- where they touch -------------------------------------------------------------------------- */
 
 /* One point against anything with a closed form: the whole contact is one place. */
 static int point_places(fl_places *s, const fl_poly *b, const fl_piece *piece, fl_vec3 x, double ra, double R,
@@ -76,7 +77,8 @@ static double gap_along(const fl_vec3 *va, int32_t na, const fl_poly *b, fl_vec3
     return low - high;
 }
 
-/* Normals of A in B's frame, for the rare case of overlapping cores; the scratch of places holds its vertices. */
+/* Normals of A in B's frame, for the rare case of overlapping cores; the scratch of places holds its
+ * vertices. */
 static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl_places *s, fl_mat3 M,
                        fl_overlap *deep)
 {
@@ -99,8 +101,8 @@ static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl
     return 0;
 }
 
-/* Direction between the cores in B's frame, p->axis, and a lower bound of their distance (negative: penetration).  The
- * direction of the last look serves while it still separates them by `enough`. */
+/* Direction between the cores in B's frame, p->axis, and a lower bound of their distance (negative:
+ * penetration).  The direction of the last look serves while it still separates them by `enough`. */
 static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b, const fl_places *s,
                     fl_mat3 M, double enough, double *distance)
 {
@@ -150,8 +152,8 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
     if (piece && piece->kind == FL_PIECE_SHELL)
         return fl_shell_places(s, near, A, piece, r->M, r->o, ra, ra + w->skin, distance);
     const int core_law = p->law->kind == FL_LAW_CORE;
-    /* A direction that separates the cores at all is enough to find the places of a touching pair; one that sleeps
-     * wants its distance. */
+    /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
+     * sleeps wants its distance. */
     if (separate(w, p, A, B, s, r->M, core_law ? INFINITY : p->n ? 0.0 : NEARLY * R, distance)) return -1;
     if (*distance >= R) return 0;
     if (core_law) {
@@ -177,7 +179,7 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
     return 0;
 }
 
-/* --- the forces of it ------------------------------------------------------------------------------------- */
+/* --- the forces of it -------------------------------------------------------------------------- */
 
 static int remember(fl_world *w, fl_pair *p, int32_t thread, int32_t n)
 {
@@ -237,9 +239,9 @@ static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec
 
 /* Forces of the places in s, by the potential.  Damping is the same factor for all places of a pair,
  *     chi = D / max(v_touch, sqrt(2 W / M)),
- * where v_touch is the largest approach speed of this touch and sqrt(2 W/M) the speed that the stored energy W amounts
- * to: in an impact it stays below v_touch, so restitution is that of D; in a contact that was never an impact it
- * keeps the damping ratio below D/2. */
+ * where v_touch is the largest approach speed of this touch and sqrt(2 W/M) the speed that the stored energy
+ * W amounts to: in an impact it stays below v_touch, so restitution is that of D; in a contact that was
+ * never an impact it keeps the damping ratio below D/2. */
 static void force_places(fl_world *w, fl_pair *p, fl_places *s, int32_t thread, const relative *r, double dt,
                          int survey)
 {

@@ -8,12 +8,12 @@
  *   thread   whose scratch to use
  *   dt       the step just drifted, over which places have slipped [s]; 0 at the start
  *   survey   also compute stiff_i, stiff_j
- * A pair that sleeps (too far apart to touch since it was last looked at) returns at once.  A pair that runs out of
- * memory sets w->failed. */
+ * A pair that sleeps (too far apart to touch since it was last looked at) returns at once.  A pair that runs
+ * out of memory sets w->failed. */
 void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey);
 
-/* The signed contact of two things as the probe tells it: gap and mode by narrow/contact.h, in world axes relative to
- * the world's origin.  Returns 0 where a kind has no such contact within reach. */
+/* The signed contact of two things as the probe tells it: gap and mode by narrow/contact.h, in world axes
+ * relative to the world's origin.  Returns 0 where a kind has no such contact within reach. */
 int fl_interact_probe(fl_world *w, int32_t i, int32_t j, double reach, fl_contact *out);
 
 #endif

@@ -7,8 +7,8 @@
 #include "step/search.h"
 #include "step/step.h"
 
-/* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic size; one
- * that a longer step throws apart would be missed in between. */
+/* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic
+ * size; one that a longer step throws apart would be missed in between. */
 enum { SURVEY = 16 };
 static int surveyed(const fl_world *w, int64_t step) { return w->dt > w->dt_safe || step % SURVEY == 0; }
 
@@ -112,8 +112,8 @@ static double drive_power(const fl_world *w)
     return power;
 }
 
-/* Book the works of the forces just found, at the velocities of the full step, for the two half kicks that they give
- * (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out. */
+/* Book the works of the forces just found, at the velocities of the full step, for the two half kicks that
+ * they give (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out. */
 static void book(fl_world *w, double dt)
 {
     for (int32_t c = 0; c < w->n_pair; c++) {
@@ -201,7 +201,7 @@ int fl_step(fl_world *w, fl_err *err)
     return check(w, survey, err);
 }
 
-/* --- what the books say ------------------------------------------------------------------------------------- */
+/* --- what the books say ------------------------------------------------------------------------ */
 
 void fl_step_ledger(fl_world *w)
 {

@@ -4,15 +4,15 @@
 #define FL_STEP_STEP_H
 #include "step/world.h"
 
-/* Forces at the start: neighbours, contacts, surroundings, and the reference of the ledger.  w->dt must be set.
- * -1 with FL_SYSTEM, or FL_NUMERIC when something is not finite. */
+/* Forces at the start: neighbours, contacts, surroundings, and the reference of the ledger.  w->dt must be
+ * set. -1 with FL_SYSTEM, or FL_NUMERIC when something is not finite. */
 int fl_step_start(fl_world *w, fl_err *err);
 
 /* From time step * dt to the next:
  *     drag h, kick h, drift dt, forces, kick h, drag h,     h = dt/2.
- * Contacts see the velocities in the middle of the step.  Symmetric, order 2 (contact damping and friction: order 1 in
- * their own share).  -1 with FL_SYSTEM, or FL_NUMERIC when a number is not finite or the step is above the
- * critical one: body and step are named. */
+ * Contacts see the velocities in the middle of the step.  Symmetric, order 2 (contact damping and friction:
+ * order 1 in their own share).  -1 with FL_SYSTEM, or FL_NUMERIC when a number is not finite or the step is
+ * above the critical one: body and step are named. */
 int fl_step(fl_world *w, fl_err *err);
 
 /* Stores, sinks and residual now, into w->ledger. */

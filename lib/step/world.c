@@ -10,10 +10,11 @@
 /* The number of places, each as stiff as one, that a face at rest on a face puts under a body at once. */
 #define PLACES 12.0
 
-/* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its end. */
+/* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its
+ * end. */
 enum { BODIES_A_THREAD = 32 };
 
-/* --- bodies ----------------------------------------------------------------------------------------------- */
+/* --- bodies ------------------------------------------------------------------------------------ */
 
 static double largest_face(const fl_poly *p)
 {
@@ -22,8 +23,8 @@ static double largest_face(const fl_poly *p)
     return area;
 }
 
-/* What the scene says of the body's group: directions it holds, and the velocity it holds them at.  A turn that is
- * held is held at no spin. */
+/* What the scene says of the body's group: directions it holds, and the velocity it holds them at.  A turn
+ * that is held is held at no spin. */
 static void hold_body(fl_world *w, int32_t i, const char *group, fl_vec3 spin)
 {
     fl_bodies *b = &w->b;
@@ -119,7 +120,7 @@ static int make_sea(fl_world *w, fl_err *err)
     return fl_sea_alloc(sea, w->n, err);
 }
 
-/* --- what is held ------------------------------------------------------------------------------------------- */
+/* --- what is held ------------------------------------------------------------------------------ */
 
 static int add_wall(fl_structure *s, fl_vec3 x, fl_vec3 normal, fl_err *err)
 {
@@ -184,7 +185,7 @@ static int place_pieces(fl_world *w, fl_err *err)
     return 0;
 }
 
-/* --- all of it ---------------------------------------------------------------------------------------------- */
+/* --- all of it --------------------------------------------------------------------------------- */
 
 static int make_arrays(fl_world *w, fl_err *err)
 {
@@ -268,7 +269,8 @@ void fl_world_free(fl_world *w)
     *w = (fl_world){0};
 }
 
-/* Largest compliance of a core's vertices along the normals of their faces, 1/m + (v x n).I^-1 (v x n) [1/kg]. */
+/* Largest compliance of a core's vertices along the normals of their faces, 1/m + (v x n).I^-1 (v x n)
+ * [1/kg]. */
 static double softest(const fl_world *w, int32_t i)
 {
     const fl_poly *p = &w->b.core[i];
@@ -284,8 +286,8 @@ static double softest(const fl_world *w, int32_t i)
     return most + w->b.invm[i];
 }
 
-/* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact at the speed that bodies
- * have or will take from gravity and current over their own size, (5 M v^2/4 k)^(2/5). */
+/* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact at the speed
+ * that bodies have or will take from gravity and current over their own size, (5 M v^2/4 k)^(2/5). */
 static double place_slope(const fl_world *w, int32_t i, double k, double exponent)
 {
     if (exponent == 1.0) return k;
@@ -320,8 +322,8 @@ double fl_world_dt(const fl_world *w, int32_t *body)
         }
     }
     if (most == 0.0) return INFINITY;
-    /* The damping ratio stays below chi/2; explicit damping lowers the limit by sqrt(1 + z^2) - z.  Half of that bounds what
-     * the scene asks for. */
+    /* The damping ratio stays below chi/2; explicit damping lowers the limit by sqrt(1 + z^2) - z.  Half of
+     * that bounds what the scene asks for. */
     const double z = 0.5 * damp, limit = 0.5 * (sqrt(1.0 + z * z) - z);
     return fmin(w->scene->run.safety, limit) * 2.0 / sqrt(most);
 }

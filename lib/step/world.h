@@ -62,15 +62,16 @@ typedef struct {
     double damped, rubbed;   /* work taken out by damping; done against friction [J] */
 } fl_pair;
 
-/* Stores, sinks and sources of energy [J].  The residual is stores - start + taken out - put in: 0 but for the error of the
- * time integration. */
+/* Stores, sinks and sources of energy [J].  The residual is stores - start + taken out - put in: 0 but for
+ * the error of the time integration. */
 typedef struct {
     double kinetic, gravity, elastic, hydrostatic; /* stores now; elastic with the springs of friction */
     double friction_now, damping_now, drag;        /* taken out since the start                        */
     double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
     double start, residual;
     double
-        throughput; /* largest kinetic energy + |each of the works| so far: what the residual is held against */
+        /* largest kinetic energy + |each of the works| so far: what the residual is held against */
+        throughput;
     double friction, damping, drive; /* parts of the sums above that no pair and no body carries any more */
 } fl_ledger;
 
@@ -127,13 +128,14 @@ typedef struct {
 
 /* Build everything from what was read.  field and surface are read once and stay the caller's.
  *   surface  NULL for a scene without structure
- * -1 with FL_INPUT (a body without a volume where one is needed, mass not positive), FL_SYSTEM or FL_NUMERIC. */
+ * -1 with FL_INPUT (a body without a volume where one is needed, mass not positive), FL_SYSTEM or
+ * FL_NUMERIC. */
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
                   fl_err *err);
 void fl_world_free(fl_world *w);
 
-/* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the stiffest face
- * it can meet, at its most compliant vertex, lowered for damping (see world.c). */
+/* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the
+ * stiffest face it can meet, at its most compliant vertex, lowered for damping (see world.c). */
 double fl_world_dt(const fl_world *w, int32_t *body);
 
 #endif

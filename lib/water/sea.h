@@ -31,8 +31,9 @@ void fl_sea_free(fl_sea *s);
 /* Add buoyancy to b->f[i], b->t[i]; renews wetted[i] and energy[i]. */
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
-/* Let the drag of water and wind act on body i for h seconds, position held: the exact decay of its velocities by
- * equations (8), (9) alone, first of the one fluid, then of the other.  Adds the work to drained[i], blown[i].
+/* Let the drag of water and wind act on body i for h seconds, position held: the exact decay of its
+ * velocities by equations (8), (9) alone, first of the one fluid, then of the other.  Adds the work to
+ * drained[i], blown[i].
  *   t     the time [s]
  *   back  0: water first, 1: wind first, so that two halves of a step are each other's mirror image and the
  *         splitting has order 2 */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_step.c -- what a step costs, beside what it is worth: a frictionless elastic gas of square floes between
- * walls, by law and by fraction of the critical step.  Energy must stay, so its drift is the error.  Times are
- * of this machine now; compare rows of one run only. */
+/* bench_step.c -- what a step costs, beside what it is worth: a frictionless elastic gas of square floes
+ * between walls, by law and by fraction of the critical step.  Energy must stay, so its drift is the error.
+ * Times are of this machine now; compare rows of one run only. */
 #include <time.h>
 #include "base/rng.h"
 #include "support/lab.h"

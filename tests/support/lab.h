@@ -12,8 +12,8 @@ typedef struct {
     int made;
 } lab;
 
-/* No gravity, no damping, no friction, one thread; keys as for --set ("material.ice.young=1 GPa").  Failures end the
- * program with the sentence: a test that cannot set up its world has failed. */
+/* No gravity, no damping, no friction, one thread; keys as for --set ("material.ice.young=1 GPa").  Failures
+ * end the program with the sentence: a test that cannot set up its world has failed. */
 void lab_start(lab *l);
 void lab_set(lab *l, const char *assignment);
 void lab_setf(lab *l, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
@@ -32,7 +32,8 @@ int lab_run(lab *l, int64_t steps);
 double lab_energy(lab *l); /* all stores */
 /* Put body i where it is wanted, at rest. */
 void lab_pose(fl_world *w, int32_t i, fl_vec3 x, fl_quat q);
-/* The pair (i, j), i < j, evaluated at the poses of now as one that never touched before; it remembers nothing. */
+/* The pair (i, j), i < j, evaluated at the poses of now as one that never touched before; it remembers
+ * nothing. */
 fl_pair lab_look(fl_world *w, int32_t i, int32_t j);
 void lab_free(lab *l);
 

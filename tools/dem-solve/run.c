@@ -38,7 +38,8 @@ void run_step_size(struct run *r)
     r->steps = (int64_t)ceil(r->scene->run.duration / dt * (1.0 - 1e-12));
 }
 
-/* --- outputs that come at an interval ------------------------------------------------------------------------ */
+/* --- outputs that come at an interval
+ * ------------------------------------------------------------------------ */
 
 /* Row k is due at the first step at or after k every. */
 typedef struct {

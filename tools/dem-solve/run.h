@@ -19,12 +19,12 @@ struct run {
     double wall; /* [s] spent in steps */
 };
 
-/* Choose the step: the scene's, or the automatic one, then a little smaller so that it divides the interval of the
- * loads. */
+/* Choose the step: the scene's, or the automatic one, then a little smaller so that it divides the interval
+ * of the loads. */
 void run_step_size(struct run *r);
 
-/* The whole run. -1 as fl_step(), or FL_SYSTEM when an output cannot be written; what was written until then is
- * complete and carries its name. */
+/* The whole run. -1 as fl_step(), or FL_SYSTEM when an output cannot be written; what was written until then
+ * is complete and carries its name. */
 int run_scene(struct run *r, fl_err *err);
 
 /* report.c */
@@ -34,7 +34,8 @@ void report_write(const struct run *r, FILE *f);
 int look_plan(struct run *r, FILE *f, fl_err *err);
 int look_probe(struct run *r, FILE *f, fl_err *err);
 
-/* Number by which the contacts table calls partner j: its id, or -1 - part of the structure, walls after those. */
+/* Number by which the contacts table calls partner j: its id, or -1 - part of the structure, walls after
+ * those. */
 int32_t run_partner(const fl_world *w, int32_t j);
 
 /* Seconds of a clock that only goes forward. */
