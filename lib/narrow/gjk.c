@@ -26,14 +26,23 @@ typedef struct {
     double ea, eb, size; /* extents and their sum */
 } pair;
 
-/* The vertices of c within band of its lowest along n, ascending; PLANE_MAX + 1 for more than PLANE_MAX. */
-static int32_t plane_of(fl_core c, fl_vec3 n, double band, int32_t *at)
+/* The vertices of c within band of its lowest along n, ascending; PLANE_MAX + 1 for more than PLANE_MAX.  *low is
+ * the height of the lowest over vertex 0. */
+static int32_t plane_of(fl_core c, fl_vec3 n, double band, int32_t *at, double *low)
 {
-    double low;
+    double height[PLANE_MAX];
     int32_t k = 0;
-    fl_core_lowest(c, n, &low);
+    if (c.n <= PLANE_MAX) { /* each height once */
+        *low = height[0] = 0.0;
+        for (int32_t i = 1; i < c.n; i++) height[i] = v3_dot(n, v3_sub(c.v[i], c.v[0]));
+        for (int32_t i = 1; i < c.n; i++) *low = height[i] < *low ? height[i] : *low;
+        for (int32_t i = 0; i < c.n; i++)
+            if (height[i] <= *low + band) at[k++] = i;
+        return k;
+    }
+    fl_core_lowest(c, n, low);
     for (int32_t i = 0; i < c.n; i++)
-        if (v3_dot(n, v3_sub(c.v[i], c.v[0])) <= low + band) {
+        if (v3_dot(n, v3_sub(c.v[i], c.v[0])) <= *low + band) {
             if (k == PLANE_MAX) return PLANE_MAX + 1;
             at[k++] = i;
         }
@@ -71,13 +80,14 @@ static fl_part part_of(fl_core c, int32_t k, const int32_t *at, const int32_t *m
 /* The vertices on the two supporting planes across n, and the cores that they make. */
 typedef struct {
     int32_t ka, kb, at[PLANE_MAX], bt[PLANE_MAX];
+    double low_a, low_b; /* heights of the planes over vertices 0 along n and -n */
 } planes;
 
 static void find_planes(const pair *p, fl_vec3 n, planes *f)
 {
     const double band = PLANE_BAND * p->size;
-    f->ka = plane_of(p->a, n, band, f->at);
-    f->kb = plane_of(p->b, v3_neg(n), band, f->bt);
+    f->ka = plane_of(p->a, n, band, f->at, &f->low_a);
+    f->kb = plane_of(p->b, v3_neg(n), band, f->bt, &f->low_b);
 }
 
 static int same_planes(const planes *f, const planes *g)
@@ -135,11 +145,8 @@ static int settle(const pair *p, fl_vec3 n, int fine, fl_gap *out)
         f = g;
     }
     /* The proof: along the final direction no vertex at all lies beyond the two planes. */
-    double la, lb;
-    fl_core_lowest(p->a, out->n, &la);
-    fl_core_lowest(p->b, v3_neg(out->n), &lb);
-    const double beyond = v3_dot(out->n, v3_sub(p->a.v[out->ia[0]], p->a.v[0])) - la -
-                          v3_dot(out->n, v3_sub(p->b.v[out->ib[0]], p->b.v[0])) - lb;
+    const double beyond = v3_dot(out->n, v3_sub(p->a.v[out->ia[0]], p->a.v[0])) - g.low_a -
+                          v3_dot(out->n, v3_sub(p->b.v[out->ib[0]], p->b.v[0])) - g.low_b;
     return beyond <= PROOF * p->size;
 }
 
