@@ -15,10 +15,7 @@ typedef struct {
     fl_dd x, y, z;
 } fl_ddv;
 
-static inline fl_dd dd_of(double a)
-{
-    return (fl_dd){a, 0.0};
-}
+static inline fl_dd dd_of(double a) { return (fl_dd){a, 0.0}; }
 /* a + b without error, |a| >= |b| */
 static inline fl_dd dd_quick(double a, double b)
 {
@@ -36,19 +33,13 @@ static inline fl_dd dd_prod(double a, double b)
     const double p = a * b;
     return (fl_dd){p, fma(a, b, -p)};
 }
-static inline fl_dd dd_neg(fl_dd a)
-{
-    return (fl_dd){-a.h, -a.l};
-}
+static inline fl_dd dd_neg(fl_dd a) { return (fl_dd){-a.h, -a.l}; }
 static inline fl_dd dd_add(fl_dd a, fl_dd b)
 {
     const fl_dd s = dd_sum(a.h, b.h), t = dd_sum(a.l, b.l), u = dd_quick(s.h, s.l + t.h);
     return dd_quick(u.h, u.l + t.l);
 }
-static inline fl_dd dd_sub(fl_dd a, fl_dd b)
-{
-    return dd_add(a, dd_neg(b));
-}
+static inline fl_dd dd_sub(fl_dd a, fl_dd b) { return dd_add(a, dd_neg(b)); }
 static inline fl_dd dd_mul(fl_dd a, fl_dd b)
 {
     const fl_dd p = dd_prod(a.h, b.h);
@@ -64,10 +55,7 @@ static inline fl_dd dd_div(fl_dd a, fl_dd b)
     return dd_add(s, dd_of(r.h / b.h));
 }
 /* Positive, zero or negative as a - b is. */
-static inline double dd_cmp(fl_dd a, fl_dd b)
-{
-    return dd_sub(a, b).h;
-}
+static inline double dd_cmp(fl_dd a, fl_dd b) { return dd_sub(a, b).h; }
 
 /* a - b without error */
 static inline fl_ddv ddv_diff(fl_vec3 a, fl_vec3 b)
@@ -96,9 +84,6 @@ static inline fl_ddv ddv_cross(fl_ddv a, fl_ddv b)
     return (fl_ddv){dd_sub(dd_mul(a.y, b.z), dd_mul(a.z, b.y)), dd_sub(dd_mul(a.z, b.x), dd_mul(a.x, b.z)),
                     dd_sub(dd_mul(a.x, b.y), dd_mul(a.y, b.x))};
 }
-static inline fl_vec3 ddv_round(fl_ddv a)
-{
-    return v3(a.x.h, a.y.h, a.z.h);
-}
+static inline fl_vec3 ddv_round(fl_ddv a) { return v3(a.x.h, a.y.h, a.z.h); }
 
 #endif
