@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Laws of the whole solver, on heaps of random bodies: bits that depend on neither threads nor neighbour
+ * search, momenta, and motion that depends on neither the order of the bodies nor the place of the origin. */
+#include <math.h>
+#include <stdlib.h>
+#include "support/near.h"
+#include "base/rng.h"
+#include "support/lab.h"
+#include "support/shapes.h"
+
+/* What to vary. */
+typedef struct {
+    int32_t side;     /* bodies along an edge of the heap                   */
+    int32_t threads;  /* 0: 1                                               */
+    int32_t every;    /* steps between searches; 0: when the skin is used up */
+    double skin;      /* factor on it; 0: 1                                 */
+    int reversed;     /* the last body first                                */
+    int walled;       /* gravity, rigid walls, a structure                  */
+    double dissipate; /* friction, and 1 - restitution                      */
+    double squeeze;   /* distance of the bodies over their size             */
+    fl_vec3 shift;    /* of everything                                   [m] */
+} heap;
+
+static void put(lab *l, const heap *h, uint64_t seed, int32_t k)
+{
+    fl_rng g = fl_rng_of(seed, k, FL_RNG_TEST);
+    fl_err err = {0};
+    fl_poly p = {0};
+    const int32_t n = h->side;
+    const double middle = 0.5 * (n - 1), r = k % 5 == 0 ? 0.45 : 0.05;
+    const fl_vec3 cell = v3(k % n - middle, k / n % n - middle, k / (n * n) - middle);
+    fl_vec3 v, w, turn;
+    v.x = fl_rng_normal(&g), v.y = fl_rng_normal(&g), v.z = fl_rng_normal(&g);
+    w.x = fl_rng_normal(&g), w.y = fl_rng_normal(&g), w.z = fl_rng_normal(&g);
+    turn.x = fl_rng_normal(&g), turn.y = fl_rng_normal(&g), turn.z = fl_rng_normal(&g);
+    switch (k % 5) {
+    case 0: assert_int_equal(fl_poly_make(&p, 1, &(fl_vec3){0, 0, 0}, 0, NULL, NULL, &err), 0); break;
+    case 1: {
+        const fl_vec3 end[2] = {v3(-0.4, 0, 0), v3(0.4, 0, 0)};
+        assert_int_equal(fl_poly_make(&p, 2, end, 0, NULL, NULL, &err), 0);
+        break;
+    }
+    case 2: shape_regular(&p, 8, 0.5); break;
+    default: {
+        const double a = fl_rng_in(&g, 0.3, 0.4), b = fl_rng_in(&g, 0.3, 0.4);
+        assert_int_equal(fl_poly_box(&p, v3(a, b, 0.4), &err), 0);
+    }
+    }
+    shape_move(&p, q_of_vector(v3_scale(0.05, turn)), v3_add(h->shift, v3_scale(h->squeeze, cell)));
+    /* inward, so that all of them meet soon */
+    lab_poly(l, &p, r, v3_add(v3_scale(0.3, v), v3_scale(-0.3, cell)), v3_scale(0.3, w));
+}
+
+static void build(lab *l, const heap *h, uint64_t seed)
+{
+    const int32_t n = h->side * h->side * h->side;
+    const double half = 0.5 * h->side * h->squeeze + 0.05;
+    lab_start(l);
+    lab_set(l, "material.ice.young=1 MPa");
+    lab_setf(l, "run.threads=%d", h->threads > 0 ? h->threads : 1);
+    if (h->every > 0) lab_setf(l, "run.search_every=%d", h->every);
+    lab_setf(l, "contact.friction=%.17g", h->dissipate);
+    lab_setf(l, "contact.restitution=%.17g", 1.0 - h->dissipate);
+    if (h->walled) {
+        lab_set(l, "run.gravity=9.81");
+        lab_setf(l, "boundary.min=%.17g %.17g %.17g", h->shift.x - half, h->shift.y - half,
+                 h->shift.z - half);
+        lab_setf(l, "boundary.max=%.17g %.17g none", h->shift.x + half, h->shift.y + half);
+        lab_wall(l, v3_add(h->shift, v3(-0.3, -0.3, half)), v3_add(h->shift, v3(0.3, 0.3, half + 1.0)), 2);
+    }
+    for (int32_t k = 0; k < n; k++) put(l, h, seed, h->reversed ? n - 1 - k : k);
+    lab_make(l, 0);
+    if (h->skin > 0.0) {
+        l->w.skin *= h->skin;
+        l->w.found_at = -1; /* the list at hand is that of the old skin */
+    }
+}
+
+static uint64_t hash_after(const heap *h, uint64_t seed, int64_t steps, int64_t *touching, int64_t *searches)
+{
+    lab l;
+    build(&l, h, seed);
+    assert_int_equal(lab_run(&l, steps), 0);
+    const uint64_t hash = fl_step_hash(&l.w);
+    *touching = l.w.touching_steps;
+    *searches = l.w.searches;
+    if (h->threads > 1) assert_int_equal(l.w.threads, h->threads);
+    lab_free(&l);
+    return hash;
+}
+
+static void threads_give_the_same_bits(void **state)
+{
+    const int32_t threads[] = {1, 2, 3, 8};
+    (void)state;
+    for (long c = 0; c < test_times(1); c++) {
+        uint64_t hash = 0;
+        int64_t touching = 0, first = 0, searches = 0;
+        for (int k = 0; k < 4; k++) {
+            const heap h = {.side = 7, .threads = threads[k], .walled = 1, .dissipate = 0.4, .squeeze = 1.0};
+            const uint64_t got = hash_after(&h, test_seed() + (uint64_t)c, 150, &touching, &searches);
+            if (k == 0) hash = got, first = touching;
+            if (got != hash)
+                print_error("seed %llu case %ld threads %d\n", (unsigned long long)test_seed(), c,
+                            threads[k]);
+            assert_true(got == hash);
+            assert_true(touching == first);
+        }
+        assert_true(first > 10000); /* pairs in contact, summed over steps */
+    }
+}
+
+static void the_search_does_not_matter(void **state)
+{
+    const struct {
+        double skin;
+        int32_t every;
+    } way[] = {{1, 0}, {0.05, 0}, {4, 0}, {1, 1}, {1, 7}, {0.3, 13}};
+    (void)state;
+    for (long c = 0; c < test_times(2); c++) {
+        uint64_t hash = 0;
+        int64_t touching = 0, first = 0, searches = 0, fewest = INT64_MAX, most = 0;
+        for (int k = 0; k < 6; k++) {
+            const heap h = {.side = 4,
+                            .every = way[k].every,
+                            .skin = way[k].skin,
+                            .walled = 1,
+                            .dissipate = 0.4,
+                            .squeeze = 1.0};
+            const uint64_t got = hash_after(&h, test_seed() + (uint64_t)c, 800, &touching, &searches);
+            if (k == 0) hash = got, first = touching;
+            if (got != hash)
+                print_error("seed %llu case %ld skin %g every %d\n", (unsigned long long)test_seed(), c,
+                            way[k].skin, way[k].every);
+            assert_true(got == hash);
+            assert_true(touching == first);
+            fewest = searches < fewest ? searches : fewest;
+            most = searches > most ? searches : most;
+        }
+        assert_true(fewest < 10 && most > 800);
+        assert_true(first > 10000);
+    }
+}
+
+static void momenta_are_conserved(void **state)
+{
+    (void)state;
+    for (long c = 0; c < test_times(3); c++) {
+        const heap h = {.side = 4, .dissipate = c % 2 ? 0.5 : 0.0, .squeeze = 1.0};
+        lab l;
+        build(&l, &h, test_seed() + (uint64_t)c);
+        fl_vec3 p[2], J[2];
+        double ps = 0.0, Js = 0.0;
+        for (int t = 0; t < 2; t++) {
+            const fl_bodies *b = &l.w.b;
+            p[t] = J[t] = v3(0, 0, 0);
+            for (int32_t i = 0; i < b->n; i++) {
+                const fl_vec3 mv = v3_scale(b->m[i], b->v[i]), orbit = v3_cross(b->x[i], mv);
+                p[t] = v3_add(p[t], mv);
+                J[t] = v3_add(J[t], v3_add(orbit, b->L[i]));
+                ps += v3_norm(mv);
+                Js += v3_norm(orbit) + v3_norm(b->L[i]);
+            }
+            if (t == 0) assert_int_equal(lab_run(&l, 1000), 0);
+        }
+        assert_true(l.w.touching_steps > 10000);
+        assert_near_of(v3_norm(v3_sub(p[1], p[0])), 0.0, 1e-12, ps);
+        assert_near_of(v3_norm(v3_sub(J[1], J[0])), 0.0, 1e-12, Js);
+        assert_near_of(v3_norm(l.w.imbalance), 0.0, 1e-13, l.w.impulse_size);
+        lab_free(&l);
+    }
+}
+
+/* Other sums, other roles in each pair: the same motion, but for what rounding grows to. */
+static void the_order_of_bodies_does_not_matter(void **state)
+{
+    (void)state;
+    for (long c = 0; c < test_times(3); c++) {
+        lab l[2];
+        for (int k = 0; k < 2; k++) {
+            const heap h = {.side = 4, .reversed = k, .walled = 1, .dissipate = 0.4, .squeeze = 1.0};
+            build(&l[k], &h, test_seed() + (uint64_t)c);
+            assert_int_equal(lab_run(&l[k], 500), 0);
+        }
+        const int32_t n = l[0].w.n;
+        double x = 0.0, v = 0.0;
+        for (int32_t i = 0; i < n; i++) {
+            const fl_bodies *a = &l[0].w.b, *b = &l[1].w.b;
+            x = fmax(x, v3_norm(v3_sub(a->x[i], b->x[n - 1 - i])));
+            v = fmax(v, v3_norm(v3_sub(a->v[i], b->v[n - 1 - i])));
+        }
+        assert_true(l[0].w.touching_steps > 1000);
+        assert_near_of(x, 0.0, 1e-9, 1.0); /* bodies of 1 m at 1 m/s */
+        assert_near_of(v, 0.0, 1e-9, 1.0);
+        lab_free(&l[0]);
+        lab_free(&l[1]);
+    }
+}
+
+/* H20: all of it a thousand kilometres away. */
+static void the_origin_does_not_matter(void **state)
+{
+    (void)state;
+    for (long c = 0; c < test_times(5); c++) {
+        lab l[2];
+        for (int k = 0; k < 2; k++) {
+            const heap h = {.side = 4,
+                            .walled = 1,
+                            .dissipate = 0.4,
+                            .squeeze = 0.95,
+                            .shift = k ? v3(1e6, -1e6, 1e6) : v3(0, 0, 0)};
+            build(&l[k], &h, test_seed() + (uint64_t)c);
+        }
+        assert_int_equal(l[0].w.b.total, l[1].w.b.total);
+        double largest = 0.0, worst = 0.0;
+        for (int32_t i = 0; i < l[0].w.b.total; i++) {
+            const fl_bodies *a = &l[0].w.b, *b = &l[1].w.b;
+            largest = fmax(largest, v3_norm(a->f[i]));
+            worst = fmax(worst, v3_norm(v3_sub(a->f[i], b->f[i])));
+            if (i < l[0].w.n) worst = fmax(worst, v3_norm(v3_sub(a->t[i], b->t[i]))); /* arms are 1 m */
+        }
+        assert_true(largest > 1000.0);
+        assert_near_of(worst, 0.0, 1e-7, largest);
+        lab_free(&l[0]);
+        lab_free(&l[1]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_give_the_same_bits), cmocka_unit_test(the_search_does_not_matter),
+        cmocka_unit_test(momenta_are_conserved),      cmocka_unit_test(the_order_of_bodies_does_not_matter),
+        cmocka_unit_test(the_origin_does_not_matter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
