@@ -4,7 +4,7 @@
 #include <string.h>
 #include "support/near.h"
 #include "base/mem.h"
-#include "scene/cells.h"
+#include "ice/cells.h"
 
 enum { N = 500 };
 

@@ -7,8 +7,8 @@
 #include "base/rng.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
-#include "scene/certificate.h"
-#include "scene/floes.h"
+#include "ice/certificate.h"
+#include "ice/floes.h"
 
 static const fl_vec2 LO = {-25.0, -20.0}, HI = {25.0, 20.0};
 #define AREA 2000.0

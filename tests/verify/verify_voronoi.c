@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include "support/verify.h"
 #include "base/mem.h"
-#include "scene/cells.h"
+#include "ice/cells.h"
 
 /* At one site to the unit of area no cell of a million reaches farther than 3 for its corners, and so 6 for
  * its neighbours: an empty circle of radius 3 has probability exp(-9 pi). */

@@ -8,10 +8,10 @@
 #include "base/num.h"
 #include "base/stream.h"
 #include "base/tool.h"
-#include "scene/cells.h"
-#include "scene/certificate.h"
+#include "ice/cells.h"
+#include "ice/certificate.h"
 #include "scene/field.h"
-#include "scene/floes.h"
+#include "ice/floes.h"
 #include "options.h"
 
 /* The concentration is met to the rounding of areas and of corners far from the origin. */

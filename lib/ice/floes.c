@@ -3,7 +3,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
-#include "scene/floes.h"
+#include "ice/floes.h"
 
 enum { KEPT = 1, FIXED = 2, ROUNDS = 40, NEWTON = 60 };
 

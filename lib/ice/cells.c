@@ -3,7 +3,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/rng.h"
-#include "scene/cells.h"
+#include "ice/cells.h"
 #include "shim/cgal_voronoi.h"
 
 void fl_cells_sites(int32_t n, uint64_t seed, fl_vec2 lo, fl_vec2 hi, fl_vec2 *site)

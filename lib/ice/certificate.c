@@ -3,7 +3,7 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "broad/bvh.h"
-#include "scene/certificate.h"
+#include "ice/certificate.h"
 #include "shim/cgal_voronoi.h"
 
 static int32_t sides(const fl_floes *a, int32_t i) { return a->first[i + 1] - a->first[i]; }

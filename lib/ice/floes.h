@@ -12,11 +12,11 @@
  *     that radius long (less at a blunt corner, so that the inscribed circle is never cut).
  * A small cell keeps FL_FLOES_KEEP of the inscribed radius that it has to spare over the dilation radius: its
  * floe is inset less than the others ("held"). */
-#ifndef FL_SCENE_FLOES_H
-#define FL_SCENE_FLOES_H
+#ifndef FL_ICE_FLOES_H
+#define FL_ICE_FLOES_H
 #include <stdint.h>
 #include "base/err.h"
-#include "scene/cells.h"
+#include "ice/cells.h"
 
 #define FL_FLOES_SHORT 0.1
 #define FL_FLOES_LEAST 0.02

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* certificate.h -- what a plane field of floes is, measured on the corners that are written and not on the
  * way by which they were made. */
-#ifndef FL_SCENE_CERTIFICATE_H
-#define FL_SCENE_CERTIFICATE_H
+#ifndef FL_ICE_CERTIFICATE_H
+#define FL_ICE_CERTIFICATE_H
 #include <stdint.h>
 #include "base/err.h"
-#include "scene/floes.h"
+#include "ice/floes.h"
 
 typedef struct {
     double total;             /* area of all outer polygons                             [m2] */

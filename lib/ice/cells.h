@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* cells.h -- a rectangle divided among sites: to each the part that is nearer to it than to any other
  * (Voronoi; Okabe, Boots, Sugihara & Chiu, Spatial Tessellations, 2000, ch. 2). */
-#ifndef FL_SCENE_CELLS_H
-#define FL_SCENE_CELLS_H
+#ifndef FL_ICE_CELLS_H
+#define FL_ICE_CELLS_H
 #include <stdint.h>
 #include "base/err.h"
 #include "geom/polygon.h"
