@@ -14,8 +14,9 @@ typedef struct {
  *
  * 1. The remembered force is turned about n by the mean spin of the pair, laid into the tangent plane and
  *    given back its length: it rolls with the contact.
- * 2. Where the stiffness has fallen the force falls with it (Thornton, J. Appl. Mech. 64 (1997) 363):
- *    kept, it would hold more energy than was put in.  Where it has risen the force stays: F -= k v dt is incremental.
+ * 2. Where the stiffness has fallen the force falls with it (Thornton, J. Appl. Mech. 64 (1997) 363): kept,
+ *    it would hold more energy than was put in.  Where it has risen the force stays: F -= k v dt is
+ *    incremental.
  * 3. F -= k v dt, limited to mu |F_n|: beyond, the spring keeps the force of sliding.
  * 4. While it sticks a damping force -g v is added, the sum again limited.
  *
