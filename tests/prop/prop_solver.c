@@ -16,6 +16,7 @@ typedef struct {
     double skin;      /* factor on it; 0: 1                                 */
     int reversed;     /* the last body first                                */
     int walled;       /* gravity, rigid walls, a structure                  */
+    const char *law;  /* NULL: patch */
     double dissipate; /* friction, and 1 - restitution                      */
     double squeeze;   /* distance of the bodies over their size             */
     fl_vec3 shift;    /* of everything                                   [m] */
@@ -59,6 +60,7 @@ static void build(lab *l, const heap *h, uint64_t seed)
     lab_set(l, "material.ice.young=1 MPa");
     lab_setf(l, "run.threads=%d", h->threads > 0 ? h->threads : 1);
     if (h->every > 0) lab_setf(l, "run.search_every=%d", h->every);
+    if (h->law) lab_setf(l, "contact.law=%s", h->law);
     lab_setf(l, "contact.friction=%.17g", h->dissipate);
     lab_setf(l, "contact.restitution=%.17g", 1.0 - h->dissipate);
     if (h->walled) {
@@ -106,7 +108,7 @@ static void threads_give_the_same_bits(void **state)
             assert_true(got == hash);
             assert_true(touching == first);
         }
-        assert_true(first > 10000); /* pairs in contact, summed over steps */
+        assert_true(first > 5000); /* pairs in contact, summed over steps */
     }
 }
 
@@ -116,18 +118,20 @@ static void the_search_does_not_matter(void **state)
         double skin;
         int32_t every;
     } way[] = {{1, 0}, {0.05, 0}, {4, 0}, {1, 1}, {1, 7}, {0.3, 13}};
+    static const char *const LAW[] = {"patch", "core", "manual", "manual-si"};
     (void)state;
-    for (long c = 0; c < test_times(2); c++) {
+    for (long c = 0; c < test_times(4); c++) {
         uint64_t hash = 0;
         int64_t touching = 0, first = 0, searches = 0, fewest = INT64_MAX, most = 0;
         for (int k = 0; k < 6; k++) {
             const heap h = {.side = 4,
+                            .law = LAW[c % 4],
                             .every = way[k].every,
                             .skin = way[k].skin,
                             .walled = 1,
                             .dissipate = 0.4,
                             .squeeze = 1.0};
-            const uint64_t got = hash_after(&h, test_seed() + (uint64_t)c, 800, &touching, &searches);
+            const uint64_t got = hash_after(&h, test_seed() + (uint64_t)c, 600, &touching, &searches);
             if (k == 0) hash = got, first = touching;
             if (got != hash)
                 print_error("seed %llu case %ld skin %g every %d\n", (unsigned long long)test_seed(), c,
@@ -137,8 +141,8 @@ static void the_search_does_not_matter(void **state)
             fewest = searches < fewest ? searches : fewest;
             most = searches > most ? searches : most;
         }
-        assert_true(fewest < 10 && most > 800);
-        assert_true(first > 10000);
+        assert_true(fewest < 10 && most > 600);
+        assert_true(first > 5000);
     }
 }
 
@@ -163,7 +167,7 @@ static void momenta_are_conserved(void **state)
             }
             if (t == 0) assert_int_equal(lab_run(&l, 1000), 0);
         }
-        assert_true(l.w.touching_steps > 10000);
+        assert_true(l.w.touching_steps > 5000);
         assert_near_of(v3_norm(v3_sub(p[1], p[0])), 0.0, 1e-12, ps);
         assert_near_of(v3_norm(v3_sub(J[1], J[0])), 0.0, 1e-12, Js);
         assert_near_of(v3_norm(l.w.imbalance), 0.0, 1e-13, l.w.impulse_size);
