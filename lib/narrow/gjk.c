@@ -17,6 +17,9 @@
  * extents: the rounding of two heights, and of a direction that has lost a digit (parts.c). */
 #define PROOF 4e-15
 
+/* Distances in pairs of doubles, found in two ways, agree far better, in extents. */
+#define FARTHER 1e-14
+
 /* Vertices of a supporting plane that are copied out; cores with more (the end of a fine cylinder) take
  * part whole. */
 enum { PLANE_MAX = 64, ROUNDS = 4 };
@@ -26,8 +29,8 @@ typedef struct {
     double ea, eb, size; /* extents and their sum */
 } pair;
 
-/* The vertices of c within band of its lowest along n, ascending; PLANE_MAX + 1 for more than PLANE_MAX.  *low is
- * the height of the lowest over vertex 0. */
+/* The vertices of c within band of its lowest along n, ascending; PLANE_MAX + 1 for more than PLANE_MAX.
+ * *low is the height of the lowest over vertex 0. */
 static int32_t plane_of(fl_core c, fl_vec3 n, double band, int32_t *at, double *low)
 {
     double height[PLANE_MAX];
@@ -163,10 +166,11 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
         if (!fl_fine_descend(a, b, p.size, &s, out)) {
             /* Doubles first here too, wherever they might do: which road was taken must not show in the
              * bits. Should the parts of the nearest features all degenerate, the walk's own answer is
-             * kept; should the vertices on the planes meet, the cores do. */
+             * kept, as it is should they come out farther apart; should the vertices on the planes meet,
+             * the cores do. */
             const fl_gap own = *out;
             if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, 0, out)) &&
-                !settle(&p, own.n, 1, out) && !out->overlap)
+                (!settle(&p, own.n, 1, out) || out->d > own.d + FARTHER * p.size) && !out->overlap)
                 *out = own;
         }
     }

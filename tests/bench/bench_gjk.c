@@ -16,7 +16,7 @@
 #include "geom/quat.h"
 #include "narrow/contact.h"
 #include "support/oracle.h"
-#include "support/pairs.h"
+#include "support/couples.h"
 
 #define RADIUS 0.05
 

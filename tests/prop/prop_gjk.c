@@ -7,7 +7,7 @@
 #include <string.h>
 #include "narrow/gjk.h"
 #include "support/oracle.h"
-#include "support/pairs.h"
+#include "support/couples.h"
 
 enum { CASES = 100000, THOROUGH = 16 }; /* every 16th pair against brute force, and those that meet */
 

@@ -6,7 +6,7 @@
 #include "geom/quat.h"
 #include "narrow/contact.h"
 #include "narrow/overlap.h"
-#include "support/pairs.h"
+#include "support/couples.h"
 
 static fl_mat3 turn(fl_vec3 r) { return q_matrix(q_of_vector(r)); }
 

@@ -10,7 +10,7 @@
 #include "geom/quat.h"
 #include "narrow/deep.h"
 #include "narrow/gjk.h"
-#include "support/pairs.h"
+#include "support/couples.h"
 
 #define CORE(v) ((fl_core){(v), (int32_t)(sizeof(v) / sizeof *(v))})
 

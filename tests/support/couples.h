@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pairs.h -- two convex bodies at every distance, for the tests of the narrow phase: ordinary ones, and
+/* couples.h -- two convex bodies at every distance, for the tests of the narrow phase: ordinary ones, and
  * ones made to be hard. */
-#ifndef FL_TESTS_PAIRS_H
-#define FL_TESTS_PAIRS_H
+#ifndef FL_TESTS_COUPLES_H
+#define FL_TESTS_COUPLES_H
 #include <stdint.h>
 #include "narrow/deep.h"
 
