@@ -10,8 +10,8 @@
 #define PLANE_BAND 1e-10
 
 /* Vertices of a supporting plane nearer to each other than this, in extents of their core, are told apart in
- * pairs of doubles: a rounding of 2^-53 across an edge this short turns the plane by 1e-13. */
-#define EDGE_FINE 1e-3
+ * pairs of doubles: what PROOF leaves beyond a plane, over an edge this short, turns the plane by 4e-13. */
+#define EDGE_FINE 2e-2
 
 /* A direction found in doubles is taken when no vertex lies beyond its planes by more than this, in
  * extents: the rounding of two heights, and of a direction that has lost a digit (parts.c). */
