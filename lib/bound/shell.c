@@ -82,7 +82,7 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
             if (!aabb_meet(reached, sh->edge_box[e])) continue;
             const int64_t key = (int64_t)a->nv + core->nv + (int64_t)i * core->ne + e;
             if (fl_places_edges(w, key, a0, a1, core->v[core->edge[e].a], core->v[core->edge[e].b], ra, 0.0,
-                                v3(0, 0, 0), 0))
+                                0.0))
                 return -1;
         }
     }

@@ -23,7 +23,7 @@ static int add(fl_places *w, fl_place place)
  * ra - s/2 below x. */
 static fl_place place_at(int64_t key, fl_vec3 x, fl_vec3 n, double overlap, double ra)
 {
-    return (fl_place){key, overlap, 1.0, n, v3_madd(x, 0.5 * overlap - ra, n), v3(0, 0, 0)};
+    return (fl_place){key, overlap, 1.0, 1.0, n, v3_madd(x, 0.5 * overlap - ra, n), v3(0, 0, 0)};
 }
 
 static int edges_of_interest(int32_t **list, int32_t *cap, const fl_poly *p, const fl_vec3 *v, fl_vec3 n,
@@ -48,9 +48,9 @@ int fl_places_vertex(fl_places *w, int64_t key, fl_vec3 x, fl_vec3 n, double ove
 
 /* The term of edges a0 a1 of A and b0 b1 of B, if it counts. */
 int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double ra,
-                    double rb, fl_vec3 axis, int deep)
+                    double rb, double depth)
 {
-    const double R = ra + rb;
+    const double R = ra + rb + 2.0 * depth;
     double s, t;
     double d2 = fl_nearest_segments(a0, a1, b0, b1, &s, &t);
     if (d2 >= R * R) return 0;
@@ -59,13 +59,11 @@ int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b
     if (c == 0.0) return 0;
     const fl_vec3 pa = v3_madd(a0, s, ua), pb = v3_madd(b0, t, ub);
     const int inner = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
-    double d = sqrt(d2);
+    const double d = sqrt(d2);
     fl_vec3 n = v3_sub(pa, pb);
-    if (inner) { /* the common perpendicular: keeps its direction through d = 0 */
-        n = v3_unit(x);
-        const double h = v3_dot(n, v3_sub(pa, pb));
-        if (deep ? v3_dot(n, axis) < 0.0 : h < 0.0) n = v3_neg(n);
-        d = deep ? v3_dot(n, v3_sub(pa, pb)) : d;
+    if (inner) { /* the common perpendicular: keeps its direction down to d = 0 */
+        const fl_vec3 along = v3_unit(x);
+        n = v3_dot(along, n) < 0.0 ? v3_neg(along) : along;
     } else if (d > 0.0) {
         n = v3_scale(1.0 / d, n);
     } else {
@@ -84,9 +82,9 @@ int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b
 }
 
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
-                   double rb, fl_vec3 n, int deep)
+                   double rb, fl_vec3 n, double depth)
 {
-    const double R = ra + rb;
+    const double R = ra + rb, Re = R + 2.0 * depth;
     double low = INFINITY, high = -INFINITY;
     fl_aabb box_a = aabb_empty(), box_b = aabb_empty();
     w->n = 0;
@@ -116,17 +114,19 @@ int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, 
         const fl_vec3 m = v3_neg(m3_mul(M, q.n));
         if (fl_places_vertex(w, (int64_t)a->nv + v, v3_madd(b->v[v], q.d, m), m, R - q.d, ra)) return -1;
     }
-    const int na = edges_of_interest(&w->ea, &w->ea_cap, a, w->va, n, 1.0, high + R, box_b);
-    const int nb = edges_of_interest(&w->eb, &w->eb_cap, b, b->v, n, -1.0, R - low, box_a);
+    box_a = aabb_grow(box_a, Re - R);
+    box_b = aabb_grow(box_b, Re - R);
+    const int na = edges_of_interest(&w->ea, &w->ea_cap, a, w->va, n, 1.0, high + Re, box_b);
+    const int nb = edges_of_interest(&w->eb, &w->eb_cap, b, b->v, n, -1.0, Re - low, box_a);
     if (na < 0 || nb < 0) return -1;
     for (int32_t i = 0; i < na; i++) {
         const fl_vec3 a0 = w->va[a->edge[w->ea[i]].a], a1 = w->va[a->edge[w->ea[i]].b];
-        const fl_aabb box = aabb_grow(aabb_add((fl_aabb){a0, a0}, a1), R);
+        const fl_aabb box = aabb_grow(aabb_add((fl_aabb){a0, a0}, a1), Re);
         for (int32_t j = 0; j < nb; j++) {
             const fl_vec3 b0 = b->v[b->edge[w->eb[j]].a], b1 = b->v[b->edge[w->eb[j]].b];
             if (!aabb_meet(box, aabb_add((fl_aabb){b0, b0}, b1))) continue;
             const int64_t key = (int64_t)a->nv + b->nv + (int64_t)w->ea[i] * b->ne + w->eb[j];
-            if (fl_places_edges(w, key, a0, a1, b0, b1, ra, rb, n, deep)) return -1;
+            if (fl_places_edges(w, key, a0, a1, b0, b1, ra, rb, depth)) return -1;
         }
     }
     return 0;

@@ -25,6 +25,7 @@ typedef struct {
     int64_t key;    /* which vertex or pair of edges: the same place has the same key in every step */
     double overlap; /* R - d > 0                                                       [m] */
     double weight;  /* 1 for a vertex, m(c)/4 for a pair of edges; the derivative of W carries it */
+    double store;   /* share of W it stands for: 1; 0 where only a force is meant */
     fl_vec3 n;      /* from B to A                                                          */
     fl_vec3 p;      /* middle of the overlap, on the line through the two nearest points [m] */
     fl_vec3 couple; /* times phi k: torque on A, its opposite on B, from the change of m; 0 for c >= E */
@@ -48,17 +49,17 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
  *   ra, rb  dilation radii                                                                     [m]
  *   n       unit vector from B to A in the frame of B.  It only rules out: no place that counts has a reach
  *           along n beyond R, so any n gives the same places, and a separating one is quick.
- *   deep    cores overlap; then crossing edges count as negative distance against n
+ *   depth   D, by how much the cores overlap; 0 when they do not                                 [m]
  * Overlaps, points and normals are in the frame of B.  -1 when memory runs out. */
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
-                   double rb, fl_vec3 n, int deep);
+                   double rb, fl_vec3 n, double depth);
 
 /* Append one term, for other shapes than two convex cores; -1 when memory runs out.
  * fl_places_vertex: the point x of A, or the point of A nearest to a vertex of B; n from B to A.
- * fl_places_edges: the term of edges a0 a1 of A and b0 b1 of B, which may not count. */
+ * fl_places_edges: the term of edges a0 a1 of A and b0 b1 of B, which may not count; depth is D. */
 int fl_places_vertex(fl_places *w, int64_t key, fl_vec3 x, fl_vec3 n, double overlap, double ra);
 int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double ra,
-                    double rb, fl_vec3 axis, int deep);
+                    double rb, double depth);
 
 void fl_places_free(fl_places *w);
 

@@ -104,9 +104,10 @@ static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl
 /* Direction between the cores in B's frame, p->axis, and a lower bound of their distance (negative:
  * penetration).  The direction of the last look serves while it still separates them by `enough`. */
 static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b, const fl_places *s,
-                    fl_mat3 M, double enough, double *distance)
+                    fl_mat3 M, double enough, fl_overlap *deep, double *distance)
 {
     *distance = gap_along(s->va, a->nv, b, p->axis);
+    *deep = (fl_overlap){0};
     p->deep = 0;
     if (p->has_axis && *distance > enough) return 0;
     fl_gap gap;
@@ -117,12 +118,30 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
         *distance = gap.d;
         return 0;
     }
-    fl_overlap deep;
-    if (penetration(w, a, b, s, M, &deep)) return -1;
-    p->axis = deep.n;
+    if (penetration(w, a, b, s, M, deep)) return -1;
+    p->axis = deep->n;
     p->has_axis = 1;
     p->deep = 1;
-    *distance = -deep.depth;
+    *distance = -deep->depth;
+    return 0;
+}
+
+/* Edges of overlapping cores hold the depth D twice in their distance (places.h): the force of that,
+ *     sum k w s^n 2 = k w_D (R + D)^n,
+ * along the direction of the depth, through the deepest point.  Its energy is that of the edges.  first: key
+ * of edges. */
+static int add_depth(fl_places *s, int64_t first, int64_t key, const fl_overlap *deep, double n, double R,
+                     double ra)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < s->n; k++)
+        if (s->place[k].key >= first)
+            sum += 2.0 * s->place[k].weight * fl_normal_power(s->place[k].overlap, n);
+    if (sum == 0.0) return 0;
+    if (fl_places_vertex(s, key, deep->pa, deep->n, R + deep->depth, ra)) return -1;
+    fl_place *last = &s->place[s->n - 1];
+    last->weight = sum / fl_normal_power(last->overlap, n);
+    last->store = 0.0;
     return 0;
 }
 
@@ -152,9 +171,11 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
     if (piece && piece->kind == FL_PIECE_SHELL)
         return fl_shell_places(s, near, A, piece, r->M, r->o, ra, ra + w->skin, distance);
     const int core_law = p->law->kind == FL_LAW_CORE;
+    fl_overlap deep;
     /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
      * sleeps wants its distance. */
-    if (separate(w, p, A, B, s, r->M, core_law ? INFINITY : p->n ? 0.0 : NEARLY * R, distance)) return -1;
+    if (separate(w, p, A, B, s, r->M, core_law ? INFINITY : p->n ? 0.0 : NEARLY * R, &deep, distance))
+        return -1;
     if (*distance >= R) return 0;
     if (core_law) {
         fl_gap gap;
@@ -171,10 +192,12 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
         fl_gjk((fl_core){s->va, A->nv}, (fl_core){B->v, B->nv}, &p->cache, &gap);
         return fl_places_vertex(s, 0, gap.pa, gap.n, R - gap.d, ra);
     }
-    if (fl_places_find(s, A, B, r->M, r->o, ra, rb, p->axis, p->deep)) return -1;
+    if (fl_places_find(s, A, B, r->M, r->o, ra, rb, p->axis, deep.depth)) return -1;
+    const int64_t edges = (int64_t)A->nv + B->nv;
+    if (p->deep && add_depth(s, edges, edges + (int64_t)A->ne * B->ne, &deep, p->exponent, R, ra)) return -1;
     if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
         p->has_axis = 0;
-        return separate(w, p, A, B, s, r->M, INFINITY, distance);
+        return separate(w, p, A, B, s, r->M, INFINITY, &deep, distance);
     }
     return 0;
 }
@@ -253,7 +276,7 @@ static void force_places(fl_world *w, fl_pair *p, fl_places *s, int32_t thread, 
         fl_place *q = &s->place[k];
         q->n = m3_mul(R, q->n); /* from here on in world axes, relative to B's centre */
         q->p = m3_mul(R, q->p);
-        energy += p->k * q->weight * fl_normal_phi(q->overlap, p->exponent);
+        energy += p->k * q->weight * q->store * fl_normal_phi(q->overlap, p->exponent);
         const double u = -v3_dot(q->n, approach(b, p, v3_add(q->p, r->off), q->p));
         if (u > fastest) fastest = u;
         if (q->overlap > p->overlap) p->overlap = q->overlap;
