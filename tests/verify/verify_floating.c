@@ -22,7 +22,8 @@ static void floe(lab *l, double z, fl_quat q, fl_vec3 v, fl_vec3 spin)
     lab_box(l, v3(0, 0, z), v3(5, 5, 0.5), 0.05, q, v, spin);
 }
 
-/* Mean period of y about 0 over `cycles` cycles: times of upward crossings, by the straight line between steps. */
+/* Mean period of y about 0 over `cycles` cycles: times of upward crossings, by the straight line between
+ * steps. */
 static double period(lab *l, int cycles, double (*y)(const fl_world *))
 {
     double first = NAN, before = y(&l->w);
@@ -275,8 +276,8 @@ static void drowning(void)
     verify_below("H38", "  speed left with C = 1e19 [m/s]", last, 1e-15);
 }
 
-/* A square prism of half the water's density floats on its side by no means: GM = -1/12 m, I = m/6, so a tilt grows
- * as cosh(t sqrt(g/2)). */
+/* A square prism of half the water's density floats on its side by no means: GM = -1/12 m, I = m/6, so a tilt
+ * grows as cosh(t sqrt(g/2)). */
 static void falling(void)
 {
     const double rate = sqrt(G / 2);
