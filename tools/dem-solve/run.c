@@ -222,6 +222,23 @@ static void progress(const struct run *r, double begun, int last)
     fflush(stderr);
 }
 
+/* Bodies that stand in one another at the start are pushed apart, with loads that belong to no case. A run
+ * may take hours: this is said before it. */
+static void warn_overlaps(const struct run *r)
+{
+    const fl_world *w = r->w;
+    int32_t found = 0, first = -1;
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        if (!w->pair[c].n || !w->pair[c].deep) continue;
+        if (!found++) first = c;
+    }
+    if (!found || r->o->quiet) return;
+    fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
+            found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
+    fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[w->pair[first].i],
+            run_partner(w, w->pair[first].j));
+}
+
 int run_scene(struct run *r, fl_err *err)
 {
     outputs u = {0};
@@ -234,7 +251,9 @@ int run_scene(struct run *r, fl_err *err)
         return -1;
     }
     begun = shown = run_clock();
-    if (fl_step_start(w, err) || write_due(r, &u, err)) goto done;
+    if (fl_step_start(w, err)) goto done;
+    warn_overlaps(r);
+    if (write_due(r, &u, err)) goto done;
     while (w->step < r->steps) {
         if (fl_step(w, err) || write_due(r, &u, err)) goto done;
         if (show && w->step % 64 == 0) {
