@@ -276,10 +276,9 @@ static int include(source *in, const char *value)
     if (in->file != 0)
         return complain(in, "include stands in a file that is itself included, one level was wanted");
     if (value[0] == '\0' || strcmp(value, "-") == 0) return complain(in, "include wants the name of a file");
-    if (strlen(folder) + strlen(value) >= sizeof path)
-        return complain(in, "include is a path of %zu characters, at most %d were wanted",
-                        strlen(folder) + strlen(value), FL_SCENE_PATH - 1);
-    snprintf(path, sizeof path, "%s%s", folder, value);
+    const int n = snprintf(path, sizeof path, "%s%s", folder, value);
+    if (n >= FL_SCENE_PATH)
+        return complain(in, "include is a path of %d characters, at most %d were wanted", n, FL_SCENE_PATH - 1);
     return read_file(in->scene, path, in->err);
 }
 

@@ -295,11 +295,9 @@ static int read_path(const complaint *c, const char *text, const char *folder, c
             return wrong(c, "is \"%.60s\", a path without control characters and comments was wanted", text);
     if (text[0] == '/' || strcmp(text, "-") == 0) folder = "";
     else if (folder[0] && folder[strlen(folder) - 1] != '/') joint = "/";
-    if (strlen(folder) + strlen(joint) + strlen(text) >= FL_SCENE_PATH)
-        return wrong(c, "is a path of %zu characters, at most %d were wanted",
-                     strlen(folder) + strlen(joint) + strlen(text), FL_SCENE_PATH - 1);
-    snprintf(out, FL_SCENE_PATH, "%s%s%s", folder, joint, text);
-    return 0;
+    const int n = snprintf(out, FL_SCENE_PATH, "%s%s%s", folder, joint, text);
+    if (n < FL_SCENE_PATH) return 0;
+    return wrong(c, "is a path of %d characters, at most %d were wanted", n, FL_SCENE_PATH - 1);
 }
 
 int fl_value_is_name(const char *s)
