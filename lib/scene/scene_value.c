@@ -295,9 +295,12 @@ static int read_path(const complaint *c, const char *text, const char *folder, c
             return wrong(c, "is \"%.60s\", a path without control characters and comments was wanted", text);
     if (text[0] == '/' || strcmp(text, "-") == 0) folder = "";
     else if (folder[0] && folder[strlen(folder) - 1] != '/') joint = "/";
-    const int n = snprintf(out, FL_SCENE_PATH, "%s%s%s", folder, joint, text);
-    if (n < FL_SCENE_PATH) return 0;
-    return wrong(c, "is a path of %d characters, at most %d were wanted", n, FL_SCENE_PATH - 1);
+    char path[FL_SCENE_PATH];
+    const int n = snprintf(path, sizeof path, "%s%s%s", folder, joint, text);
+    if (n >= FL_SCENE_PATH)
+        return wrong(c, "is a path of %d characters, at most %d were wanted", n, FL_SCENE_PATH - 1);
+    memcpy(out, path, (size_t)n + 1);
+    return 0;
 }
 
 int fl_value_is_name(const char *s)
