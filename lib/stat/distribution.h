@@ -22,8 +22,8 @@ typedef struct {
 /* "weibull", "gumbel", "lognormal", "gev", "gpd" */
 const char *fl_dist_name(int kind);
 
-/* How many of its numbers are free: 2, for a GEV 3.  The location of a GPD is the threshold, which is given.
- */
+/* How many of its numbers are free: 2, for a GEV 3.  The location of a GPD is the threshold, which is
+ * given. */
 int fl_dist_free(int kind);
 
 /* P(X <= x), P(X > x) and ln of the density [1/unit of x]; -INFINITY outside the support.  Cannot fail. */

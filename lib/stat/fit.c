@@ -12,8 +12,8 @@
 
 static const double PI = 3.14159265358979323846, EULER = 0.57721566490153286061, LN2 = 0.69314718055994530942;
 
-/* What the minimisers see where there is no law; finite, as GSL wants it, and above every value per sample.
- */
+/* What the minimisers see where there is no law; finite, as GSL wants it, and above every value per
+ * sample. */
 static const double NOWHERE = 1e30;
 
 /* A minimum is flat: its place is known to the square root of the rounding, 1e-8, and no better. */
@@ -196,13 +196,13 @@ static int by_line(fl_dist *d, int32_t n, const double *x, double location, fl_f
         theta = start.shape / (start.scale + start.shape * (p.c - start.location)) * p.s;
     if (!(theta > 0.95 * least)) theta = 0.95 * least;
     if (!(theta < 0.95 * most)) theta = 0.95 * most;
-    /* An L-moment fit may lie where the likelihood is unbounded; then the way leads from an exponential tail.
-     */
+    /* An L-moment fit may lie where the likelihood is unbounded; then the way leads from an exponential
+     * tail. */
     if (!(GSL_FN_EVAL(&f, theta) < NOWHERE)) theta = 0.0;
     theta = downhill(w, &f, theta, 0.1, least, most);
     if (!isfinite(theta) || !(GSL_FN_EVAL(&f, theta) < NOWHERE) || p.shape < SHAPE_LEAST + 1e-3) return 0;
-    /* Equal values at the lower end of a GEV make its likelihood unbounded there: that is no maximum either.
-     */
+    /* Equal values at the lower end of a GEV make its likelihood unbounded there: that is no maximum
+     * either. */
     if (theta > (1.0 - 1e-6) * most) return 0;
     d->location = p.c + p.s * p.location;
     d->scale = p.s * p.scale;

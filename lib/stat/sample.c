@@ -3,8 +3,8 @@
 #include "base/mem.h"
 #include "stat/sample.h"
 
-/* A record of whole blocks must not lose its last one by the rounding of its times: a millionth of a block.
- */
+/* A record of whole blocks must not lose its last one by the rounding of its times: a millionth of a
+ * block. */
 static const double SLACK = 1e-6;
 
 static int push(fl_peaks *p, int32_t at, fl_err *err)

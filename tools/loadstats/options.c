@@ -14,7 +14,7 @@ static const char HELP[] =
     "Statistics of a load record: moments, quantiles, peaks, histogram, exceedance, plots.\n"
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
-    "  -t, --table WHAT        stats, peaks, histogram or exceedance (stats)\n"
+    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits or levels (stats)\n"
     "  -c, --component LIST    of fx fy fz mx my mz, fh (horizontal), f (all of it) (fx,fy,fz,fh)\n"
     "  -C, --column LIST       columns of the table by name\n"
     "  -p, --part NAME         one part of the structure, or total\n"
@@ -27,6 +27,12 @@ static const char HELP[] =
     "      --threshold X       only peaks above X, in the unit of the signal (0)\n"
     "  -b, --bins N            classes of the histogram (20)\n"
     "      --quantiles LIST    of 0 .. 1 (0.5,0.9,0.95,0.99)\n"
+    "      --sample WHAT       laws are fitted to peaks, pot (over the threshold) or blocks (peaks)\n"
+    "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
+    "      --block S           of blocks: their length\n"
+    "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
+    "      --resamples N       for intervals and probabilities, 0 for none (199)\n"
+    "      --seed N            of their random numbers (1)\n"
     "      --plot DIR          draw history and peak distribution into DIR\n"
     "      --format FORMAT     of the pictures, svg or png (svg)\n"
     "  -o, --output FILE       write there, - is standard output\n"
@@ -37,7 +43,22 @@ static const char HELP[] =
     "  -h, --help              this text\n"
     "      --version           the version\n";
 
-enum { FROM = 256, TO, ORDER, THRESHOLD, QUANTILES, PLOT, FORMAT, VERSION };
+enum {
+    FROM = 256,
+    TO,
+    ORDER,
+    THRESHOLD,
+    QUANTILES,
+    PLOT,
+    FORMAT,
+    VERSION,
+    SAMPLE,
+    GAP,
+    BLOCK,
+    RETURN,
+    RESAMPLES,
+    SEED
+};
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"component", required_argument, NULL, 'c'},
@@ -52,6 +73,12 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"threshold", required_argument, NULL, THRESHOLD},
                                      {"bins", required_argument, NULL, 'b'},
                                      {"quantiles", required_argument, NULL, QUANTILES},
+                                     {"sample", required_argument, NULL, SAMPLE},
+                                     {"gap", required_argument, NULL, GAP},
+                                     {"block", required_argument, NULL, BLOCK},
+                                     {"return", required_argument, NULL, RETURN},
+                                     {"resamples", required_argument, NULL, RESAMPLES},
+                                     {"seed", required_argument, NULL, SEED},
                                      {"plot", required_argument, NULL, PLOT},
                                      {"format", required_argument, NULL, FORMAT},
                                      {"output", required_argument, NULL, 'o'},
@@ -63,12 +90,14 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-static const char *const TABLE[] = {"stats", "peaks", "histogram", "exceedance"};
+static const char *const TABLE[] = {"stats", "peaks", "histogram", "exceedance", "fits", "levels"};
+static const char *const SAMPLES[] = {"peaks", "pot", "blocks"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 const char *options_table(enum table t) { return TABLE[t]; }
+const char *options_sample(enum sample s) { return SAMPLES[s]; }
 
 static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
                   fl_err *err)
@@ -142,6 +171,36 @@ static int take_quantile(struct options *o, char *word, fl_err *err)
     return 0;
 }
 
+/* A time in seconds, or with its unit: 90s 10min 3h 2d 50a. */
+static int time_of(const char *option, const char *text, double *t, fl_err *err)
+{
+    static const struct {
+        const char *unit;
+        double seconds;
+    } known[] = {{"", 1.0}, {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}, {"a", 31557600.0}};
+    const size_t digits = strspn(text, "+-0123456789.eE");
+    char number_text[40];
+    if (digits < sizeof number_text) {
+        memcpy(number_text, text, digits);
+        number_text[digits] = '\0';
+        for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+            if (strcmp(text + digits, known[k].unit) != 0 || fl_num_f64(number_text, t) || !(*t > 0.0))
+                continue;
+            *t *= known[k].seconds;
+            if (*t <= 1e300) return 0;
+        }
+    }
+    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", a time above 0 was wanted, as 90, 10min, 3h, 2d or 50a",
+                   option, text);
+}
+
+static int take_return(struct options *o, char *word, fl_err *err)
+{
+    if (o->returns == RETURNS_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d return periods were asked for", RETURNS_MAX);
+    return time_of("return", word, &o->period[o->returns++], err);
+}
+
 static int apply(struct options *o, int c, const char *arg, fl_err *err)
 {
     const double tiny = 1e-300, huge = 1e300;
@@ -166,6 +225,15 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         o->quantiles = 0;
         o->quantiles_text = arg;
         return each(o, "quantiles", arg, take_quantile, err);
+    case SAMPLE:
+        k = choice("sample", arg, SAMPLES, COUNT(SAMPLES), err);
+        o->sample = k < 0 ? SAMPLE_PEAKS : (enum sample)k;
+        return k < 0 ? -1 : 0;
+    case GAP: return strcmp(arg, "0") == 0 ? 0 : time_of("gap", arg, &o->gap, err);
+    case BLOCK: return time_of("block", arg, &o->block, err);
+    case RETURN: return each(o, "return", arg, take_return, err);
+    case RESAMPLES: return whole("resamples", arg, 0, 100000, &o->resamples, err);
+    case SEED: return whole("seed", arg, 0, INT32_MAX, &o->seed, err);
     case PLOT: o->plot = arg; return 0;
     case FORMAT:
         k = choice("format", arg, PICTURE, COUNT(PICTURE), err);
@@ -200,6 +268,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .order = 4,
                           .separation = 0.5,
                           .bins = 20,
+                          .resamples = 199,
+                          .seed = 1,
                           .quantiles = COUNT(usual)};
     memcpy(o->quantile, usual, sizeof usual);
     opterr = 0;
@@ -217,6 +287,10 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", argv[optind]);
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
+    if (o->sample == SAMPLE_BLOCKS && !(o->block > 0.0))
+        return fl_fail(err, FL_USAGE, "--sample blocks needs --block, their length");
+    if (o->table == TABLE_LEVELS && !o->returns)
+        return fl_fail(err, FL_USAGE, "--table levels needs --return, the return periods");
     char *word = o->words;
     for (int32_t k = 0; k < o->signals; k++) {
         o->signal[k] = word;
@@ -253,5 +327,13 @@ void options_by(const struct options *o, fl_by *by)
     if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
     if (o->table == TABLE_HISTOGRAM) fl_by_add(by, "--bins %d", o->bins);
     if (o->table == TABLE_STATS && o->quantiles_text) fl_by_add(by, "--quantiles %s", o->quantiles_text);
+    if (o->table == TABLE_FITS || o->table == TABLE_LEVELS) {
+        if (o->sample) fl_by_add(by, "--sample %s", SAMPLES[o->sample]);
+        if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
+        if (o->sample == SAMPLE_BLOCKS) add_number(by, "block", o->block);
+        for (int32_t k = 0; o->table == TABLE_LEVELS && k < o->returns; k++)
+            add_number(by, "return", o->period[k]);
+        fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
+    }
     if (strcmp(o->in, "-") != 0) fl_by_add(by, "%s", o->in);
 }

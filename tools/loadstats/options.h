@@ -6,8 +6,9 @@
 #include "base/err.h"
 #include "base/tool.h"
 
-enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50 };
-enum table { TABLE_STATS, TABLE_PEAKS, TABLE_HISTOGRAM, TABLE_EXCEEDANCE };
+enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50 };
+enum table { TABLE_STATS, TABLE_PEAKS, TABLE_HISTOGRAM, TABLE_EXCEEDANCE, TABLE_FITS, TABLE_LEVELS };
+enum sample { SAMPLE_PEAKS, SAMPLE_POT, SAMPLE_BLOCKS };
 
 struct options {
     const char *in, *out, *part, *plot, *format; /* borrowed from argv */
@@ -23,6 +24,10 @@ struct options {
     int32_t quantiles;
     const char *quantiles_text; /* as given, or NULL */
     enum table table;
+    enum sample sample;         /* what laws are fitted to */
+    double gap, block;          /* [s] */
+    double period[RETURNS_MAX]; /* [s] */
+    int32_t returns, resamples, seed;
     int gzip, quiet, verbose, threads;
     int ended; /* --help or --version was answered */
 };
@@ -36,5 +41,8 @@ void options_by(const struct options *o, fl_by *by);
 
 /* "stats", "peaks" ... : the word of --table, which is also the kind of the file. */
 const char *options_table(enum table t);
+
+/* "peaks", "pot", "blocks" */
+const char *options_sample(enum sample s);
 
 #endif

@@ -3,6 +3,7 @@
 #include "base/num.h"
 #include "stat/extreme.h"
 #include "stat/histogram.h"
+#include "fitrows.h"
 #include "statrows.h"
 
 const char *view_name(int w) { return w ? "filtered" : "raw"; }
@@ -19,14 +20,13 @@ void put_number(FILE *f, double x)
     fputs(isfinite(x) ? fl_num_text(x, buf) : "-", f);
 }
 
-static void put_field(FILE *f, double x)
+void put_field(FILE *f, double x)
 {
     putc('\t', f);
     put_number(f, x);
 }
 
-/* What every row begins with. */
-static void put_label(FILE *f, const struct result *r, int32_t p, int32_t s, int w)
+void put_label(FILE *f, const struct result *r, int32_t p, int32_t s, int w)
 {
     const char *unit = r->s->unit[s];
     fprintf(f, "%s\t%s\t%s\t%s", r->s->part[p], r->s->signal[s], unit[0] ? unit : "-", view_name(w));
@@ -122,6 +122,8 @@ static void header(FILE *f, const struct options *o)
     case TABLE_PEAKS: fputs("\tt[s]\tpeak\n", f); break;
     case TABLE_HISTOGRAM: fputs("\tfrom\tto\ttime[s]\tshare\tpeaks\n", f); break;
     case TABLE_EXCEEDANCE: fputs("\trank\tpeak\tP\n", f); break;
+    case TABLE_FITS:
+    case TABLE_LEVELS: fitrows_header(f, o); break;
     }
 }
 
@@ -135,6 +137,8 @@ int statrows_write(FILE *f, const struct result *r, const struct options *o, con
             if (o->table == TABLE_HISTOGRAM && histogram_rows(f, r, o, p, s, err)) return -1;
             for (int w = 0; w < r->each && o->table != TABLE_HISTOGRAM; w++) {
                 const fl_view *v = view_of(r, p, s, w);
+                const int fit = o->table == TABLE_FITS || o->table == TABLE_LEVELS;
+                if (fit && fitrows_write(f, r, o, p, s, w, err)) return -1;
                 if (o->table == TABLE_PEAKS) peaks_rows(f, r, p, s, w, v);
                 if (o->table == TABLE_EXCEEDANCE) exceedance_rows(f, r, p, s, w, v);
                 if (o->table != TABLE_STATS) continue;

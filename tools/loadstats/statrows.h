@@ -20,6 +20,10 @@ const fl_view *view_of(const struct result *r, int32_t part, int32_t signal,
 
 /* Print a number, or - when it is not finite: it does not exist. */
 void put_number(FILE *f, double x);
+/* The same after a tab. */
+void put_field(FILE *f, double x);
+/* What every row begins with: part, signal, unit and view. */
+void put_label(FILE *f, const struct result *r, int32_t part, int32_t signal, int w);
 
 /* Print the table that was asked for.  0, or -1 with FL_SYSTEM in err. */
 int statrows_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err);
