@@ -6,8 +6,8 @@
 
 #define TOL 1e-14
 
-/* A nearest point proves itself: p belongs to the body, x - p = d n, and no vertex lies beyond the plane across n
- * through p.  Inside, d is the largest height over a face. */
+/* A nearest point proves itself: p belongs to the body, x - p = d n, and no vertex lies beyond the plane
+ * across n through p.  Inside, d is the largest height over a face. */
 static void proves_itself(const fl_poly *p, fl_vec3 x, fl_nearest q)
 {
     const double size = p->size + v3_norm(x);
@@ -71,7 +71,8 @@ static void distance_is_continuous_through_zero(void **state)
     }
 }
 
-/* In the plane of a flat polygon and beside it there is a distance: floes of one thickness float at one height. */
+/* In the plane of a flat polygon and beside it there is a distance: floes of one thickness float at one
+ * height. */
 static void flat_polygons_have_no_inside(void **state)
 {
     (void)state;

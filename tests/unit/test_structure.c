@@ -105,8 +105,8 @@ static void rounded_coordinates_give_the_same_solid(void **state)
     }
 }
 
-/* Where five faces meet in a vertex that is rounded they no longer meet in one point: small edges may appear there, but no
- * face, and no volume. */
+/* Where five faces meet in a vertex that is rounded they no longer meet in one point: small edges may appear
+ * there, but no face, and no volume. */
 static void a_rounded_icosahedron_keeps_its_faces(void **state)
 {
     (void)state;

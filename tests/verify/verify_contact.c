@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include "step/interact.h"
 #include "support/lab.h"
+#include "support/sweep.h"
 #include "support/verify.h"
 
 #define PI 3.14159265358979323846
@@ -29,30 +30,25 @@ static double by_force(const sample *a, const sample *b)
 }
 static double by_torque(const sample *a, const sample *b) { return fabs(b->t - a->t) / fmax(a->f, b->f); }
 
-/* The largest change of a quantity over a step of `fine` anywhere on [from, to]: 400 steps are looked at,
- * then the one with the largest change is cut into ten, and so on.  A jump survives the cutting, a slope does
- * not. */
+/* What sweep_largest() is to follow. */
+typedef struct {
+    lab *l;
+    sampler at;
+    double (*change)(const sample *, const sample *);
+} path;
+
+static double change_on(void *what, double s, double t)
+{
+    const path *p = what;
+    const sample a = p->at(p->l, s), b = p->at(p->l, t);
+    return p->change(&a, &b);
+}
+
 static double largest_jump(lab *l, sampler at, double from, double to, double fine,
                            double (*change)(const sample *, const sample *))
 {
-    int parts = 400;
-    double most = 0.0;
-    for (;;) {
-        const double h = (to - from) / parts;
-        double worst_at = from;
-        most = -1.0;
-        sample a = at(l, from);
-        for (int k = 1; k <= parts; k++) {
-            const sample b = at(l, from + k * h);
-            const double c = change(&a, &b);
-            if (c > most) most = c, worst_at = from + (k - 1) * h;
-            a = b;
-        }
-        if (h <= fine) return most;
-        from = worst_at;
-        to = worst_at + h;
-        parts = 10;
-    }
+    path p = {l, at, change};
+    return sweep_largest(change_on, &p, from, to, fine);
 }
 
 static sample look(lab *l, double s)
