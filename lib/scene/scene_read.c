@@ -278,7 +278,8 @@ static int include(source *in, const char *value)
     if (value[0] == '\0' || strcmp(value, "-") == 0) return complain(in, "include wants the name of a file");
     const int n = snprintf(path, sizeof path, "%s%s", folder, value);
     if (n >= FL_SCENE_PATH)
-        return complain(in, "include is a path of %d characters, at most %d were wanted", n, FL_SCENE_PATH - 1);
+        return complain(in, "include is a path of %d characters, at most %d were wanted", n,
+                        FL_SCENE_PATH - 1);
     return read_file(in->scene, path, in->err);
 }
 
