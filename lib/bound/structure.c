@@ -26,6 +26,7 @@ typedef struct {
     int32_t *face; /* [nt] flat region */
     fl_vec3 *fn;   /* [regions] normals, of the largest triangle */
     double *fc;    /* [regions] plane offsets */
+    double *area;  /* [regions] summed up by who needs it */
     int32_t *queue;
     int32_t regions;
     int closed;
@@ -41,7 +42,8 @@ static int side_order(const void *x, const void *y)
 
 static void flats_free(flats *f)
 {
-    free(f->n), free(f->s), free(f->mate), free(f->face), free(f->fn), free(f->fc), free(f->queue);
+    free(f->n), free(f->s), free(f->mate), free(f->face), free(f->fn), free(f->fc), free(f->area),
+        free(f->queue);
 }
 
 static int corner_of(const fl_tri *t, int32_t v) { return t->v[0] == v ? 0 : t->v[1] == v ? 1 : 2; }
@@ -91,6 +93,28 @@ static int in_plane(const flats *f, int32_t t, fl_vec3 n, double c)
     return 1;
 }
 
+/* The plane of the region in queue[0 .. n): its area vector, which the rim alone decides, is known better
+ * than the normal of any triangle in it; the offset lies halfway between its lowest and highest corner. */
+static void settle_plane(flats *f, int32_t n, fl_vec3 seed)
+{
+    const fl_part *p = f->p;
+    const fl_vec3 origin = p->v[p->t[f->queue[0]].v[0]];
+    fl_vec3 sum = {0};
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t *v = p->t[f->queue[k]].v;
+        sum = v3_add(sum, v3_cross(v3_sub(p->v[v[1]], p->v[v[0]]), v3_sub(p->v[v[2]], p->v[v[0]])));
+    }
+    sum = v3_norm(sum) > 0.0 ? v3_unit(sum) : seed;
+    for (int32_t k = 0; k < 3 * n; k++) {
+        const double h = v3_dot(sum, v3_sub(p->v[p->t[f->queue[k / 3]].v[k % 3]], origin));
+        low = h < low ? h : low;
+        high = h > high ? h : high;
+    }
+    f->fn[f->regions] = sum;
+    f->fc[f->regions++] = v3_dot(sum, origin) + 0.5 * (low + high);
+}
+
 typedef struct {
     double area;
     int32_t t;
@@ -116,8 +140,9 @@ static int find_flats(flats *f, const fl_part *p, fl_err *err)
     f->face = fl_alloc(p->nt, sizeof *f->face, err);
     f->fn = fl_alloc(p->nt, sizeof *f->fn, err);
     f->fc = fl_alloc(p->nt, sizeof *f->fc, err);
+    f->area = fl_alloc(p->nt, sizeof *f->area, err);
     f->queue = fl_alloc(p->nt, sizeof *f->queue, err);
-    if (!order || !f->n || !f->s || !f->mate || !f->face || !f->fn || !f->fc || !f->queue) {
+    if (!order || !f->n || !f->s || !f->mate || !f->face || !f->fn || !f->fc || !f->area || !f->queue) {
         free(order);
         return -1;
     }
@@ -151,8 +176,7 @@ static int find_flats(flats *f, const fl_part *p, fl_err *err)
                 f->queue[tail++] = u;
             }
         }
-        f->fn[f->regions] = n;
-        f->fc[f->regions++] = c;
+        settle_plane(f, tail, n);
     }
     free(order);
     return 0;
@@ -255,6 +279,45 @@ static void shell_free(fl_shell *s)
     fl_bvh_free(&s->edges);
 }
 
+/* The bent edges at a vertex: how many, and the far ends of the first two. */
+typedef struct {
+    int32_t n, v[2];
+} bends;
+
+/* The sides where the surface bends or ends, each once, and what meets at every vertex. */
+static void bent_edges(const flats *f, side *edge, int32_t *edges, bends *ends)
+{
+    const fl_part *p = f->p;
+    for (int32_t k = 0; k < 3 * p->nt; k++) {
+        const side *s = &f->s[k];
+        if (k > 0 && s->a == s[-1].a && s->b == s[-1].b) continue;
+        const int32_t u = f->mate[3 * s->t + side_of(&p->t[s->t], s->a, s->b)];
+        if (f->face[s->t] < 0 || (u >= 0 && f->face[u] == f->face[s->t])) continue;
+        edge[(*edges)++] = *s;
+        for (int end = 0; end < 2; end++) {
+            bends *at = &ends[end ? s->b : s->a];
+            if (at->n < 2) at->v[at->n] = end ? s->a : s->b;
+            at->n++;
+        }
+    }
+}
+
+/* Two bent edges meet at v in one line: v is a seam of the mesh, not a corner of the shape. */
+static int straight(const fl_part *p, const bends *ends, int32_t v, double tol)
+{
+    if (ends[v].n != 2) return 0;
+    const fl_vec3 a = p->v[ends[v].v[0]], b = p->v[ends[v].v[1]], along = v3_sub(b, a);
+    const double length = v3_norm(along);
+    return v3_dot(v3_sub(p->v[v], a), v3_sub(b, p->v[v])) > 0.0 &&
+           v3_norm(v3_cross(v3_sub(p->v[v], a), along)) <= tol * length;
+}
+
+static double triangle_area(const fl_part *p, int32_t t)
+{
+    const fl_vec3 a = p->v[p->t[t].v[0]], b = p->v[p->t[t].v[1]], c = p->v[p->t[t].v[2]];
+    return 0.5 * v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a)));
+}
+
 /* A surface of triangles.  The block of a fl_poly is laid out by hand: it is not convex, so fl_poly_make()
  * is not asked. */
 static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
@@ -267,15 +330,17 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
     const size_t bytes = nv * sizeof(fl_vec3) + nt * (sizeof(fl_vec3) + sizeof(double)) +
                          3 * nt * sizeof(fl_edge) + (4 * nt + 1) * sizeof(int32_t);
     char *mem = fl_alloc((int64_t)bytes, 1, err);
-    char *bent = fl_alloc(p->nv, 1, err);
+    side *edge = fl_alloc(3 * (int64_t)p->nt, sizeof *edge, err);
+    bends *ends = fl_alloc(p->nv, sizeof *ends, err);
+    int32_t edges = 0;
     piece->kind = FL_PIECE_SHELL;
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
     core->mem = mem;
     sh->corner = fl_alloc(p->nv, sizeof *sh->corner, err);
     sh->box = fl_alloc(p->nt, sizeof *sh->box, err);
     sh->edge_box = fl_alloc(3 * (int64_t)p->nt, sizeof *sh->edge_box, err);
-    if (!mem || !bent || !sh->corner || !sh->box || !sh->edge_box) {
-        free(bent);
+    if (!mem || !edge || !ends || !sh->corner || !sh->box || !sh->edge_box) {
+        free(edge), free(ends);
         return -1;
     }
     core->v = (fl_vec3 *)mem;
@@ -298,20 +363,29 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
         core->n[k] = f->fn[f->face[t]];
         core->c[k] = f->fc[f->face[t]] - v3_dot(core->n[k], piece->x);
         core->first[k + 1] = 3 * (k + 1);
+        const double area = f->area[f->face[t]] += triangle_area(p, t);
+        if (area > piece->face) piece->face = area;
     }
-    for (int32_t k = 0; k < 3 * p->nt; k++) { /* sides in order of their vertices; each edge once */
-        const side *s = &f->s[k];
-        if (k > 0 && side_order(&(side){s->a, s->b, 0}, &(side){f->s[k - 1].a, f->s[k - 1].b, 0}) == 0)
-            continue;
-        const int32_t u = f->mate[3 * s->t + side_of(&p->t[s->t], s->a, s->b)];
-        if (f->face[s->t] < 0 || (u >= 0 && f->face[u] == f->face[s->t])) continue;
-        core->edge[core->ne] = (fl_edge){s->a, s->b, -1, -1};
-        sh->edge_box[core->ne++] = aabb_add((fl_aabb){core->v[s->a], core->v[s->a]}, core->v[s->b]);
-        bent[s->a] = bent[s->b] = 1;
+    bent_edges(f, edge, &edges, ends);
+    for (int32_t k = 0; k < edges; k++) { /* every straight run once, from its lower end */
+        if (straight(p, ends, edge[k].a, f->tol) && straight(p, ends, edge[k].b, f->tol)) continue;
+        for (int turn = 0; turn < 2; turn++) {
+            const int32_t from = turn ? edge[k].b : edge[k].a;
+            int32_t last = from, to = turn ? edge[k].a : edge[k].b;
+            if (straight(p, ends, from, f->tol)) continue;
+            while (straight(p, ends, to, f->tol)) {
+                const int32_t next = ends[to].v[0] == last ? ends[to].v[1] : ends[to].v[0];
+                last = to;
+                to = next;
+            }
+            if (from > to) continue;
+            core->edge[core->ne] = (fl_edge){from, to, -1, -1};
+            sh->edge_box[core->ne++] = aabb_add((fl_aabb){core->v[from], core->v[from]}, core->v[to]);
+        }
     }
     for (int32_t v = 0; v < p->nv; v++)
-        if (bent[v]) sh->corner[sh->corners++] = v;
-    free(bent);
+        if (ends[v].n && !straight(p, ends, v, f->tol)) sh->corner[sh->corners++] = v;
+    free(edge), free(ends);
     return fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
                    fl_bvh_build(&sh->edges, sh->edge_box, core->ne, err)
                ? -1

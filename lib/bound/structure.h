@@ -5,7 +5,7 @@
  * loads the ice the same whether it is 2 triangles or 20 000.  Then a part is
  *   a solid   when it is closed and convex: one convex polyhedron, the half-spaces of its faces;
  *   a plate   when it is one flat convex polygon;
- *   a shell   otherwise: faces, and of edges and vertices those where the surface bends.
+ *   a shell   otherwise: faces, and of edges and vertices those where the surface bends, straight runs whole.
  * A truncated cone is a piece of its own: exact for spheres, an FL_CONE_SIDES-sided frustum of the same
  * cross-section for everything else. */
 #ifndef FL_BOUND_STRUCTURE_H
@@ -37,6 +37,7 @@ typedef struct {
     fl_poly core;     /* in that frame; a plate for plates         */
     double r0, r1, h; /* cone: between z = 0 and z = h of the frame */
     fl_shell shell;
+    double face; /* area of the largest flat region of a shell, however it is cut up [m2] */
 } fl_piece;
 
 typedef struct {

@@ -173,8 +173,7 @@ static int place_pieces(fl_world *w, fl_err *err)
             if (!p->mem) return -1;
             p->v = memcpy(p->mem, corner, sizeof corner);
             p->nv = 8;
-            for (int32_t f = 0; f < piece->core.nf; f++)
-                w->face[j] = fmax(w->face[j], v3_norm(fl_poly_area(&piece->core, f)));
+            w->face[j] = piece->face;
         } else {
             if (fl_poly_copy(&w->b.core[j], &piece->core, err)) return -1;
             w->face[j] = largest_face(&piece->core);
