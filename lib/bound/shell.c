@@ -73,7 +73,7 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     }
     const int32_t ne = query(&sh->edges, sh->edge_box, box, &near->edge, &near->edge_cap);
     if (ne < 0) return -1;
-    qsort(near->edge, (size_t)(ne > 0 ? ne : 0), sizeof *near->edge, ascending);
+    if (ne > 0) qsort(near->edge, (size_t)ne, sizeof *near->edge, ascending);
     for (int32_t i = 0; i < a->ne; i++) {
         const fl_vec3 a0 = w->va[a->edge[i].a], a1 = w->va[a->edge[i].b];
         const fl_aabb reached = aabb_grow(aabb_add((fl_aabb){a0, a0}, a1), ra);

@@ -33,7 +33,7 @@ void fl_rows_row(FILE *f, int n, const double *x)
 void fl_loads_header(FILE *f, const char *history, const fl_by *by)
 {
     fl_rows_header(f, "loads", history, by,
-                    "t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts");
+                   "t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts");
 }
 
 void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
