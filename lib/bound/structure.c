@@ -85,17 +85,26 @@ static void join_sides(flats *f)
     }
 }
 
+/* Triangle t lies in the plane: its corners do, and its normal agrees as well as they tell it, which for a
+ * triangle of small height is not well. */
 static int in_plane(const flats *f, int32_t t, fl_vec3 n, double c)
 {
-    if (v3_dot(f->n[t], n) < 1.0 - 0.5 * BEND * BEND) return 0;
+    const int32_t *v = f->p->t[t].v;
+    const fl_vec3 *x = f->p->v;
+    if (f->n[t].x == 0.0 && f->n[t].y == 0.0 && f->n[t].z == 0.0) return 0; /* no area */
+    const fl_vec3 e = v3_sub(x[v[1]], x[v[0]]), g = v3_sub(x[v[2]], x[v[0]]), h = v3_sub(x[v[2]], x[v[1]]);
+    const double longest = sqrt(fmax(v3_norm2(e), fmax(v3_norm2(g), v3_norm2(h))));
+    const double bend = BEND + f->tol * longest / v3_norm(v3_cross(e, g));
+    if (1.0 - v3_dot(f->n[t], n) > 0.5 * bend * bend) return 0;
     for (int k = 0; k < 3; k++)
-        if (fabs(v3_dot(n, f->p->v[f->p->t[t].v[k]]) - c) > f->tol) return 0;
+        if (fabs(v3_dot(n, x[v[k]]) - c) > f->tol) return 0;
     return 1;
 }
 
-/* The plane of the region in queue[0 .. n): its area vector, which the rim alone decides, is known better
- * than the normal of any triangle in it; the offset lies halfway between its lowest and highest corner. */
-static void settle_plane(flats *f, int32_t n, fl_vec3 seed)
+/* The plane of the triangles queue[0 .. n): their area vector, which the rim alone decides, is known better
+ * than the normal of any of them; the offset lies halfway between their lowest and highest corner.  Returns
+ * half the distance of those two. */
+static double fit_plane(const flats *f, int32_t n, fl_vec3 *normal, double *offset)
 {
     const fl_part *p = f->p;
     const fl_vec3 origin = p->v[p->t[f->queue[0]].v[0]];
@@ -105,14 +114,55 @@ static void settle_plane(flats *f, int32_t n, fl_vec3 seed)
         const int32_t *v = p->t[f->queue[k]].v;
         sum = v3_add(sum, v3_cross(v3_sub(p->v[v[1]], p->v[v[0]]), v3_sub(p->v[v[2]], p->v[v[0]])));
     }
-    sum = v3_norm(sum) > 0.0 ? v3_unit(sum) : seed;
+    if (v3_norm(sum) > 0.0) *normal = v3_unit(sum);
     for (int32_t k = 0; k < 3 * n; k++) {
-        const double h = v3_dot(sum, v3_sub(p->v[p->t[f->queue[k / 3]].v[k % 3]], origin));
+        const double h = v3_dot(*normal, v3_sub(p->v[p->t[f->queue[k / 3]].v[k % 3]], origin));
         low = h < low ? h : low;
         high = h > high ? h : high;
     }
-    f->fn[f->regions] = sum;
-    f->fc[f->regions++] = v3_dot(sum, origin) + 0.5 * (low + high);
+    *offset = v3_dot(*normal, origin) + 0.5 * (low + high);
+    return 0.5 * (high - low);
+}
+
+/* Flood region f->regions from a triangle; queue[0 .. returned) is what it took.
+ *   follow  fit the plane again whenever the region has doubled: that of a small triangle, whose corners are
+ *           rounded, leaves a wide wall by more than the tolerance */
+static int32_t flood(flats *f, int32_t seed, int follow)
+{
+    fl_vec3 n = f->n[seed];
+    double c = v3_dot(n, f->p->v[f->p->t[seed].v[0]]);
+    int32_t tail = 0, next = 2;
+    f->face[seed] = f->regions;
+    f->queue[tail++] = seed;
+    for (int32_t head = 0; head < tail; head++) {
+        for (int k = 0; k < 3; k++) {
+            const int32_t u = f->mate[3 * f->queue[head] + k];
+            if (u < 0 || f->face[u] >= 0 || !in_plane(f, u, n, c)) continue;
+            f->face[u] = f->regions;
+            f->queue[tail++] = u;
+        }
+        if (follow && tail >= next) {
+            fit_plane(f, tail, &n, &c);
+            next = 2 * tail;
+        }
+    }
+    return tail;
+}
+
+/* The flat region of a triangle and its plane.  A plane that follows may creep round a gentle curve until
+ * what it took at first no longer lies in it; then the first triangle's own plane decides. */
+static void take_region(flats *f, int32_t seed)
+{
+    fl_vec3 n = f->n[seed];
+    double c;
+    int32_t taken = flood(f, seed, 1);
+    if (fit_plane(f, taken, &n, &c) > f->tol) {
+        for (int32_t k = 0; k < taken; k++) f->face[f->queue[k]] = -1;
+        taken = flood(f, seed, 0);
+        fit_plane(f, taken, &n, &c);
+    }
+    f->fn[f->regions] = n;
+    f->fc[f->regions++] = c;
 }
 
 typedef struct {
@@ -161,22 +211,7 @@ static int find_flats(flats *f, const fl_part *p, fl_err *err)
     join_sides(f);
     for (int32_t o = 0; o < p->nt; o++) {
         const int32_t seed = order[o].t;
-        int32_t head = 0, tail = 0;
-        if (f->face[seed] >= 0 || order[o].area == 0.0) continue;
-        const fl_vec3 n = f->n[seed];
-        const double c = v3_dot(n, p->v[p->t[seed].v[0]]);
-        f->face[seed] = f->regions;
-        f->queue[tail++] = seed;
-        while (head < tail) {
-            const int32_t t = f->queue[head++];
-            for (int k = 0; k < 3; k++) {
-                const int32_t u = f->mate[3 * t + k];
-                if (u < 0 || f->face[u] >= 0 || !in_plane(f, u, n, c)) continue;
-                f->face[u] = f->regions;
-                f->queue[tail++] = u;
-            }
-        }
-        settle_plane(f, tail, n);
+        if (f->face[seed] < 0 && order[o].area > 0.0) take_region(f, seed);
     }
     free(order);
     return 0;

@@ -105,6 +105,45 @@ static void rounded_coordinates_give_the_same_solid(void **state)
     }
 }
 
+/* The plane of one of 20 000 triangles, whose corners are rounded, leaves a wide wall by more than the
+ * tolerance: the plane has to follow the wall. */
+static void a_wide_wall_of_small_rounded_triangles_is_flat(void **state)
+{
+    (void)state;
+    for (int n = 50; n <= 100; n += 50) {
+        lab l;
+        lab_start(&l);
+        lab_wall(&l, v3(-3, -3, -1), v3(3, 3, 1), n);
+        through_floats(&l.surface, q_of_vector(v3(0.3, 0.5, -0.2)), v3(0, 0, 0));
+        fl_structure st = build(&l.surface);
+        assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
+        assert_int_equal(st.piece[0].core.nf, 6);
+        assert_int_equal(st.piece[0].core.nv, 8);
+        assert_near(volume(&st.piece[0].core), 72.0, 1e-6);
+        fl_structure_free(&st);
+        lab_free(&l);
+    }
+}
+
+/* But it must not follow a gentle curve: 8000 sides bend by less than a flat face may. */
+static void a_fine_cylinder_stays_round(void **state)
+{
+    (void)state;
+    enum { SIDES = 8000 };
+    static fl_vec3 xy[SIDES];
+    lab l;
+    lab_start(&l);
+    for (int c = 0; c < SIDES; c++)
+        xy[c] = v3(cos(6.283185307179586 * c / SIDES), sin(6.283185307179586 * c / SIDES), 0);
+    lab_prism(&l, SIDES, xy, -1, 1);
+    fl_structure st = build(&l.surface);
+    assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
+    assert_true(st.piece[0].core.nf > 500);
+    assert_near(volume(&st.piece[0].core), 2 * 3.141592653589793, 1e-5);
+    fl_structure_free(&st);
+    lab_free(&l);
+}
+
 /* Where five faces meet in a vertex that is rounded they no longer meet in one point: small edges may appear
  * there, but no face, and no volume. */
 static void a_rounded_icosahedron_keeps_its_faces(void **state)
@@ -303,6 +342,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_box_is_one_solid_however_fine),
         cmocka_unit_test(rounded_coordinates_give_the_same_solid),
+        cmocka_unit_test(a_wide_wall_of_small_rounded_triangles_is_flat),
+        cmocka_unit_test(a_fine_cylinder_stays_round),
         cmocka_unit_test(a_rounded_icosahedron_keeps_its_faces),
         cmocka_unit_test(flat_open_parts_are_plates),
         cmocka_unit_test(what_is_not_convex_is_a_shell_without_seams),
