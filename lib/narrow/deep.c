@@ -15,7 +15,7 @@
 /* Vertices that touch the shifted plane, in extents: as in gjk.c. */
 #define PLANE_BAND 1e-10
 
-enum { SUPPORTS_MAX = 4000, CCD_STEPS = 200, NEAR_MAX = 64 };
+enum { SUPPORTS_MAX = 4000, CCD_STEPS = 200, NEAR_MAX = 64, FACE_MAX = 1024 };
 static const int64_t ALL_EDGE_PAIRS = 1 << 20;
 
 typedef struct {
@@ -156,14 +156,19 @@ static int ask_ccd(const hunt *h, fl_deep_count *count, fl_vec3 *n)
     return 1;
 }
 
-static int32_t vertices_near(fl_core c, fl_vec3 n, double band, int32_t *at)
+/* Vertices within a band over the lowest along n.  Of more than max every so many are kept: of a face of many
+ * corners, so as not to lose one side of it. */
+static int32_t vertices_near(fl_core c, fl_vec3 n, double band, int32_t max, int32_t *at)
 {
     double low;
-    int32_t k = 0;
+    int64_t found = 0, k = 0;
     fl_core_lowest(c, n, &low);
-    for (int32_t i = 0; i < c.n && k < NEAR_MAX; i++)
-        if (v3_dot(n, v3_sub(c.v[i], c.v[0])) <= low + band) at[k++] = i;
-    return k;
+    for (int32_t i = 0; i < c.n; i++) found += v3_dot(n, v3_sub(c.v[i], c.v[0])) <= low + band;
+    const int64_t kept = found < max ? found : max;
+    int64_t seen = 0;
+    for (int32_t i = 0; i < c.n && k < kept; i++)
+        if (v3_dot(n, v3_sub(c.v[i], c.v[0])) <= low + band && seen++ * kept >= k * found) at[k++] = i;
+    return (int32_t)k;
 }
 
 static int listed(int32_t n, const int32_t *at, int32_t i)
@@ -178,7 +183,8 @@ static void try_edges_near(hunt *h, fl_vec3 n)
 {
     int32_t va[NEAR_MAX], vb[NEAR_MAX];
     const double band = FACET_BAND * h->size;
-    const int32_t na = vertices_near(h->ca, n, band, va), nb = vertices_near(h->cb, v3_neg(n), band, vb);
+    const int32_t na = vertices_near(h->ca, n, band, NEAR_MAX, va),
+                  nb = vertices_near(h->cb, v3_neg(n), band, NEAR_MAX, vb);
     const fl_poly *p = h->a->p, *q = h->b->p;
     for (int32_t e = 0; e < p->ne; e++) {
         if (!listed(na, va, p->edge[e].a) || !listed(na, va, p->edge[e].b)) continue;
@@ -205,11 +211,11 @@ static void try_whatever(hunt *h)
 /* Points of the two planes that come together when a has been moved out. */
 static void find_points(const hunt *h, fl_overlap *out)
 {
-    int32_t va[NEAR_MAX], vb[NEAR_MAX];
-    fl_vec3 pa[NEAR_MAX], pb[NEAR_MAX];
+    int32_t va[FACE_MAX], vb[FACE_MAX];
+    fl_vec3 pa[FACE_MAX], pb[FACE_MAX];
     const double band = PLANE_BAND * h->size;
-    const int32_t na = vertices_near(h->ca, h->n, band, va),
-                  nb = vertices_near(h->cb, v3_neg(h->n), band, vb);
+    const int32_t na = vertices_near(h->ca, h->n, band, FACE_MAX, va),
+                  nb = vertices_near(h->cb, v3_neg(h->n), band, FACE_MAX, vb);
     /* Moved out by a size more, so that they are apart beyond any rounding; and relative to a's vertex 0. */
     const fl_vec3 shift = v3_scale(out->depth + h->size, h->n);
     for (int32_t k = 0; k < na; k++) pa[k] = v3_add(v3_sub(h->ca.v[va[k]], h->ca.v[0]), shift);
