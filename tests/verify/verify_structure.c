@@ -293,15 +293,15 @@ static void impacts(void)
     static const char *const WHERE[3] = {"a face", "the outer corner", "the inner corner"};
     for (int where = 0; where < 3; where++) {
         char what[96];
+        const int runs = verify_quick() ? 2 : 3;
         double books, h[3], off[3];
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < runs; k++) {
             h[k] = 0.4 / (1 << (2 * k));
             off[k] = fabs(thrown(where, h[k], &books) - 1.0);
         }
         snprintf(what, sizeof what, "floe thrown at %s of a shell: |energy ratio - 1|", WHERE[where]);
-        verify_below("H29", what, off[2], 1e-4);
-        verify_note("with steps of 0.4, 0.1, 0.025 of the automatic: %.2e, %.2e, %.2e", off[0], off[1],
-                    off[2]);
+        verify_below("H29", what, off[runs - 1], 1e-4);
+        for (int k = 0; k < runs; k++) verify_note("with %g of the automatic step %.2e", h[k], off[k]);
         snprintf(what, sizeof what, "  impulse and moment on part + floe, over steps times rounding");
         verify_below("H29", what, books, 1.0);
     }
