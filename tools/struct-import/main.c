@@ -6,13 +6,16 @@
 #include "geom/facet.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
+#include "mesh/write_obj.h"
+#include "mesh/write_off.h"
+#include "mesh/write_ply.h"
 #include "mesh/write_stl.h"
+#include "mesh/write_vtp.h"
 #include "options.h"
 #include "quality.h"
 
-enum {
-    STL_FACETS = 64
-}; /* of a round solid in STL, which knows triangles only; 0.2 % of its volume is lost */
+/* Of a round solid in a format that knows triangles only; 0.2 % of its volume is lost. */
+enum { ROUND_FACETS = 64 };
 
 /* Turn y up into z up, scale to metres, move. */
 static void place(const struct options *o, fl_part *p)
@@ -93,13 +96,26 @@ static int facet(fl_part *p, int32_t n, fl_err *err)
 
 static int collect(const struct options *o, fl_surface *s, fl_err *err)
 {
-    const int32_t facets = o->facets ? o->facets : o->to == TO_G_STRUCT ? 0 : STL_FACETS;
+    const int32_t facets = o->facets ? o->facets : o->to == TO_G_STRUCT ? 0 : ROUND_FACETS;
     for (int32_t k = 0; k < o->items; k++)
         if (o->item[k].kind == ITEM_FILE ? read_file(o, &o->item[k], s, err) : make(&o->item[k], s, err))
             return -1;
     for (int32_t i = 0; facets && i < s->n; i++)
         if (facet(&s->part[i], facets, err)) return -1;
     return 0;
+}
+
+static int write_as(enum format to, FILE *f, const fl_surface *s, const fl_by *by, fl_err *err)
+{
+    switch (to) {
+    case TO_STL: fl_stl_write_ascii(f, s); return 0;
+    case TO_STL_BINARY: fl_stl_write_binary(f, s); return 0;
+    case TO_OBJ: fl_obj_write(f, s); return 0;
+    case TO_OFF: fl_off_write(f, s); return 0;
+    case TO_PLY: return fl_ply_write(f, s, err);
+    case TO_VTP: return fl_vtp_write(f, s, err);
+    default: fl_gstruct_write(f, s, by); return 0;
+    }
 }
 
 static int write_out(const struct options *o, const fl_surface *s, fl_err *err)
@@ -109,9 +125,7 @@ static int write_out(const struct options *o, const fl_surface *s, fl_err *err)
     int rc = -1;
     options_by(o, &by);
     if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
-    if (o->to == TO_G_STRUCT) fl_gstruct_write(out.f, s, &by);
-    else if (o->to == TO_STL) fl_stl_write_ascii(out.f, s);
-    else fl_stl_write_binary(out.f, s);
+    if (write_as(o->to, out.f, s, &by, err)) goto done;
     rc = fl_out_close(&out, err);
 done:
     fl_out_abort(&out);

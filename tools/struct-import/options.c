@@ -25,7 +25,7 @@ static const char HELP[] =
     "      --fill-holes N      close holes of up to N edges (0)\n"
     "      --raw               no mending: weld only\n"
     "      --strict            status 1 when open, non-manifold or twisted edges are left\n"
-    "      --to FORMAT         g_struct, stl (ASCII) or stl-binary (g_struct)\n"
+    "      --to FORMAT         g_struct, stl (ASCII), stl-binary, obj, off, ply or vtp (g_struct)\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the output\n"
     "  -j, --threads N         threads; the import works on one whatever N is\n"
@@ -156,11 +156,14 @@ static int positive(const char *option, const char *text, double *x, fl_err *err
 
 static int format(struct options *o, const char *text, fl_err *err)
 {
-    if (strcmp(text, "g_struct") == 0) o->to = TO_G_STRUCT;
-    else if (strcmp(text, "stl") == 0) o->to = TO_STL;
-    else if (strcmp(text, "stl-binary") == 0) o->to = TO_STL_BINARY;
-    else return fl_fail(err, FL_USAGE, "--to is \"%.60s\", g_struct, stl or stl-binary was wanted", text);
-    return 0;
+    static const char *const name[FORMATS] = {"g_struct", "stl", "stl-binary", "obj", "off", "ply", "vtp"};
+    for (int k = 0; k < FORMATS; k++)
+        if (strcmp(text, name[k]) == 0) {
+            o->to = (enum format)k;
+            return 0;
+        }
+    return fl_fail(err, FL_USAGE,
+                   "--to is \"%.60s\", one of g_struct stl stl-binary obj off ply vtp was wanted", text);
 }
 
 static int apply(struct options *o, int c, const char *arg, const char **waiting, fl_err *err)

@@ -8,7 +8,7 @@
 #include "geom/surface.h"
 
 enum item_kind { ITEM_FILE, ITEM_CYLINDER, ITEM_CONE, ITEM_BOX };
-enum format { TO_G_STRUCT, TO_STL, TO_STL_BINARY };
+enum format { TO_G_STRUCT, TO_STL, TO_STL_BINARY, TO_OBJ, TO_OFF, TO_PLY, TO_VTP, FORMATS };
 
 /* One thing of the command line that becomes parts, in the order given. */
 struct item {

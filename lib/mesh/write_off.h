@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* write_off.h -- the triangles of a surface as OFF. */
+#ifndef FL_MESH_WRITE_OFF_H
+#define FL_MESH_WRITE_OFF_H
+#include <stdio.h>
+#include "geom/surface.h"
+
+/* One mesh of all parts, one behind the other: OFF knows neither parts nor names.  Vertices have all digits.
+ * Cones are not written: give them facets first.  Write errors show in fl_out_close(). */
+void fl_off_write(FILE *f, const fl_surface *s);
+
+#endif
