@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sf_gamma.h>
+#include "base/mem.h"
+#include "base/text.h"
+#include "ice/sizes.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Diameters and areas between which a list may lie [m, m2]: squares and sums stay finite. */
+#define SMALLEST 1e-12
+#define LARGEST 1e12
+
+/* int_0^y e^(q t) dt = (e^(q y) - 1) / q.  In y = ln(D / dmin) the distribution of a power law is the ratio
+ * of two of these, q = 1 - beta, and so is its Lorenz curve of areas, q = 3 - beta. */
+static double grown(double q, double y) { return q == 0.0 ? y : expm1(q * y) / q; }
+
+/* y for which grown(q, y) is u grown(q, end) */
+static double regrown(double q, double u, double end)
+{
+    const double whole = expm1(q * end);
+    /* below this the second term of the series is lost in the first */
+    if (fabs(whole) < 1e-12) return u * end;
+    return log1p(u * whole) / q;
+}
+
+static double spread(const fl_sizes *s) { return log(s->dmax / s->dmin); }
+
+double fl_sizes_mean(const fl_sizes *s)
+{
+    switch (s->kind) {
+    case FL_SIZES_LOGNORMAL: return s->mean;
+    case FL_SIZES_POWER:
+        return 0.25 * PI * s->dmin * s->dmin * grown(3.0 - s->beta, spread(s)) /
+               grown(1.0 - s->beta, spread(s));
+    case FL_SIZES_LIST: return s->sum[s->n] / s->n;
+    default: return 0.0;
+    }
+}
+
+static double lorenz(const fl_sizes *s, double u)
+{
+    if (!(u > 0.0)) return 0.0;
+    if (!(u < 1.0)) return 1.0;
+    switch (s->kind) {
+    case FL_SIZES_LOGNORMAL:
+        return gsl_cdf_ugaussian_P(gsl_cdf_ugaussian_Pinv(u) - sqrt(log1p(s->cv * s->cv)));
+    case FL_SIZES_WEIBULL: return gsl_sf_gamma_inc_P(1.0 + 1.0 / s->k, -log1p(-u));
+    case FL_SIZES_POWER:
+        return grown(3.0 - s->beta, regrown(1.0 - s->beta, u, spread(s))) / grown(3.0 - s->beta, spread(s));
+    case FL_SIZES_LIST: {
+        const double x = u * s->n;
+        const int32_t k = x < s->n ? (int32_t)x : s->n - 1;
+        return (s->sum[k] + (x - k) * s->area[k]) / s->sum[s->n];
+    }
+    default: return u;
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void fl_sizes_areas(const fl_sizes *s, int32_t n, double mean, double *area)
+{
+    double before = 0.0;
+    for (int32_t k = 0; k < n; k++) {
+        const double h = lorenz(s, (k + 1.0) / n);
+        area[k] = n * mean * (h - before);
+        before = h;
+        if (s->kind == FL_SIZES_EQUAL) area[k] = mean;
+        if (s->kind == FL_SIZES_LIST && n == s->n) area[k] = s->area[k] * (mean / fl_sizes_mean(s));
+    }
+    /* Where two parts hold the same size, rounding may have turned them round. */
+    qsort(area, (size_t)n, sizeof *area, ascending);
+}
+
+/* Numbers of the list at most a, or below it. */
+static int32_t counted(const fl_sizes *s, double a)
+{
+    int32_t lo = 0, hi = s->n;
+    while (lo < hi) {
+        const int32_t mid = lo + (hi - lo) / 2;
+        if (s->area[mid] <= a) lo = mid + 1;
+        else hi = mid;
+    }
+    return lo;
+}
+
+double fl_sizes_below(const fl_sizes *s, double mean, double a)
+{
+    double y;
+    if (!(a > 0.0)) return 0.0;
+    switch (s->kind) {
+    case FL_SIZES_LOGNORMAL: {
+        const double var = log1p(s->cv * s->cv);
+        return gsl_cdf_ugaussian_P((log(a / mean) + 0.5 * var) / sqrt(var));
+    }
+    case FL_SIZES_WEIBULL: return -expm1(-pow(a / mean * exp(lgamma(1.0 + 1.0 / s->k)), s->k));
+    case FL_SIZES_POWER:
+        y = 0.5 * log(4.0 / PI * a * (fl_sizes_mean(s) / mean)) - log(s->dmin);
+        if (y <= 0.0) return 0.0;
+        if (y >= spread(s)) return 1.0;
+        return grown(1.0 - s->beta, y) / grown(1.0 - s->beta, spread(s));
+    case FL_SIZES_LIST: return (double)counted(s, a * (fl_sizes_mean(s) / mean)) / s->n;
+    default: return a >= mean;
+    }
+}
+
+double fl_sizes_distance(const fl_sizes *s, double mean, int32_t n, const double *area)
+{
+    double most = 0.0;
+    for (int32_t k = 0; k < n; k++) {
+        /* just below area[k] there are k of n, from it on at least k + 1 */
+        const double over = fl_sizes_below(s, mean, area[k] * (1.0 - FL_SIZES_SAME)) - (double)k / n;
+        const double under = (k + 1.0) / n - fl_sizes_below(s, mean, area[k] * (1.0 + FL_SIZES_SAME));
+        if (over > most) most = over;
+        if (under > most) most = under;
+    }
+    return most;
+}
+
+/* --- a list --------------------------------------------------------------------------------------------- */
+
+static int read_row(fl_sizes *s, fl_text *in, int32_t *cap, int diameters, fl_err *err)
+{
+    double x = 0.0;
+    if (fl_text_f64(in, diameters ? "diameter" : "area", &x, err) || fl_text_end(in, err)) return -1;
+    if (!(x >= SMALLEST && x <= LARGEST))
+        return fl_text_fail(in, err, "size %g found, one from %g to %g was wanted", x, SMALLEST, LARGEST);
+    if (fl_grow(&s->area, cap, (int64_t)s->n + 1, sizeof *s->area, err)) return -1;
+    s->area[s->n++] = diameters ? 0.25 * PI * x * x : x;
+    return 0;
+}
+
+int fl_sizes_read(fl_sizes *out, const char *path, fl_err *err)
+{
+    fl_text in = {0};
+    fl_sizes s = {.kind = FL_SIZES_LIST};
+    int32_t cap = 0;
+    int rc = -1, more, rows = 0, diameters = 0;
+    if (fl_text_open(&in, path, err)) goto done;
+    while ((more = fl_text_row(&in, err)) > 0) {
+        if (rows++ == 0 && in.n == 1 &&
+            (strcmp(in.field[0], "d[m]") == 0 || strcmp(in.field[0], "area[m2]") == 0)) {
+            diameters = in.field[0][0] == 'd';
+            continue;
+        }
+        if (read_row(&s, &in, &cap, diameters, err)) goto done;
+    }
+    if (more < 0) goto done;
+    if (s.n == 0) {
+        fl_text_fail(&in, err, "the file ends without a size, one a row was wanted");
+        goto done;
+    }
+    qsort(s.area, (size_t)s.n, sizeof *s.area, ascending);
+    s.sum = fl_alloc((int64_t)s.n + 1, sizeof *s.sum, err);
+    if (!s.sum) goto done;
+    for (int32_t k = 0; k < s.n; k++) s.sum[k + 1] = s.sum[k] + s.area[k];
+    *out = s;
+    s = (fl_sizes){0};
+    rc = 0;
+done:
+    fl_sizes_free(&s);
+    fl_text_close(&in);
+    return rc;
+}
+
+void fl_sizes_free(fl_sizes *s)
+{
+    free(s->area);
+    free(s->sum);
+    *s = (fl_sizes){0};
+}

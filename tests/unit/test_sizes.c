@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "support/near.h"
+#include "ice/sizes.h"
+
+enum { N = 1000 };
+
+static const double PI = 3.14159265358979323846;
+
+/* n areas have the asked mean, ascend, and are as near to the law as n of them can be told to be. */
+static void follows(const fl_sizes *s, double mean)
+{
+    static double a[N];
+    for (int32_t n = 1; n <= N; n = n < 8 ? n + 1 : n * 5) {
+        double sum = 0.0;
+        fl_sizes_areas(s, n, mean, a);
+        for (int32_t k = 0; k < n; k++) {
+            assert_true(a[k] > 0.0 && (k == 0 || a[k] >= a[k - 1]));
+            sum += a[k];
+        }
+        assert_near(sum, n * mean, 1e-12);
+        assert_true(fl_sizes_distance(s, mean, n, a) <= 1.0 / n + 1e-12);
+    }
+}
+
+static void areas_follow_the_law(void **state)
+{
+    (void)state;
+    static const double beta[] = {-1.0, 0.5, 1.0, 1.0 + 1e-14, 1.87, 2.0, 3.0, 3.0 - 1e-14, 4.5};
+    follows(&(fl_sizes){.kind = FL_SIZES_EQUAL}, 3.0);
+    for (double cv = 0.01; cv < 5.0; cv *= 3.0)
+        follows(&(fl_sizes){.kind = FL_SIZES_LOGNORMAL, .mean = 10.0, .cv = cv}, 7.0);
+    for (double k = 0.4; k < 20.0; k *= 2.0) follows(&(fl_sizes){.kind = FL_SIZES_WEIBULL, .k = k}, 1e-3);
+    for (size_t k = 0; k < sizeof beta / sizeof *beta; k++)
+        follows(&(fl_sizes){.kind = FL_SIZES_POWER, .beta = beta[k], .dmin = 0.5, .dmax = 50.0}, 20.0);
+}
+
+/* Closed forms: the mean area of n(D) ~ D^-3 on [1, 10] is (pi/4) ln 10 / (1/2 (1 - 1/100)); the exponential
+ * law is the Weibull law of shape 1; half of the diameters of n(D) ~ D^-1 lie below the geometric middle. */
+static void known_values(void **state)
+{
+    (void)state;
+    const fl_sizes cubic = {.kind = FL_SIZES_POWER, .beta = 3.0, .dmin = 1.0, .dmax = 10.0};
+    const fl_sizes flat = {.kind = FL_SIZES_POWER, .beta = 1.0, .dmin = 1.0, .dmax = 100.0};
+    const fl_sizes exponential = {.kind = FL_SIZES_WEIBULL, .k = 1.0};
+    const fl_sizes lognormal = {.kind = FL_SIZES_LOGNORMAL, .mean = 4.0, .cv = sqrt(exp(1.0) - 1.0)};
+    assert_near(fl_sizes_mean(&cubic), 0.25 * PI * log(10.0) / 0.495, 1e-14);
+    assert_near(fl_sizes_below(&cubic, fl_sizes_mean(&cubic), PI), (1.0 - 0.25) / (1.0 - 0.01), 1e-13);
+    assert_near(fl_sizes_below(&flat, fl_sizes_mean(&flat), 25.0 * PI), 0.5, 1e-13);
+    assert_near(fl_sizes_below(&exponential, 2.0, 2.0), 1.0 - exp(-1.0), 1e-14);
+    /* the median is the mean over sqrt(1 + cv^2) */
+    assert_near(fl_sizes_below(&lognormal, 4.0, 4.0 * exp(-0.5)), 0.5, 1e-14);
+}
+
+static void distance_sees_what_is_off(void **state)
+{
+    (void)state;
+    const fl_sizes s = {.kind = FL_SIZES_WEIBULL, .k = 1.0};
+    const fl_sizes equal = {.kind = FL_SIZES_EQUAL};
+    static double a[N];
+    double worst = 0.0;
+    for (int32_t k = 0; k < N; k++) a[k] = -2.0 * log1p(-(k + 0.5) / N); /* twice the size */
+    for (double x = 0.0; x < 5.0; x += 1e-4) worst = fmax(worst, exp(-0.5 * x) - exp(-x));
+    assert_near_of(fl_sizes_distance(&s, 1.0, N, a), worst, 1.0, 1.5 / N);
+    for (int32_t k = 0; k < 4; k++) a[k] = k < 3 ? 1.0 + 1e-6 * k : 1.1;
+    assert_near(fl_sizes_distance(&equal, 1.0, 4, a), 0.25, 1e-12);
+}
+
+static void lists_are_read(void **state)
+{
+    (void)state;
+    static const char areas[] = "# of an image\n3\n1 # small\n\n2\n", d[] = "d[m]\n2\n";
+    fl_sizes s = {0};
+    fl_err err = {0};
+    double a[3];
+    assert_int_equal(fl_sizes_read(&s, test_file("areas", areas, strlen(areas)), &err), 0);
+    assert_int_equal(s.n, 3);
+    assert_near(fl_sizes_mean(&s), 2.0, 1e-15);
+    fl_sizes_areas(&s, 3, 4.0, a);
+    assert_near(a[0], 2.0, 1e-15);
+    assert_near(a[2], 6.0, 1e-15);
+    follows(&s, 5.0);
+    fl_sizes_free(&s);
+    assert_int_equal(fl_sizes_read(&s, test_file("d", d, strlen(d)), &err), 0);
+    assert_near(s.area[0], PI, 1e-15);
+    fl_sizes_free(&s);
+}
+
+static void bad_lists_are_told(void **state)
+{
+    (void)state;
+    static const char *const bad[][2] = {{"", ":0: the file ends without a size, one a row was wanted"},
+                                         {"1\n-2\n", ":2: size -2 found"},
+                                         {"1\nd[m]\n", ":2: "},
+                                         {"1 2\n", ":1: "},
+                                         {"area[m2]\n", "without a size"},
+                                         {"1e13\n", ":1: size 1e+13 found"}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        fl_sizes s = {0};
+        fl_err err = {0};
+        assert_int_equal(fl_sizes_read(&s, test_file("bad", bad[k][0], strlen(bad[k][0])), &err), -1);
+        assert_int_equal(err.code, FL_INPUT);
+        if (!strstr(err.text, bad[k][1])) fail_msg("case %zu says %s", k, err.text);
+        assert_null(s.area);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(areas_follow_the_law),      cmocka_unit_test(known_values),
+        cmocka_unit_test(distance_sees_what_is_off), cmocka_unit_test(lists_are_read),
+        cmocka_unit_test(bad_lists_are_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
