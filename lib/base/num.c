@@ -3,26 +3,30 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/decimal.h"
 #include "base/num.h"
+
+static int reads_as(const char *text, double x)
+{
+    double y;
+    return fl_decimal(text, &y) && y == x;
+}
 
 char *fl_num_text(double x, char buf[FL_NUM_LEN])
 {
     if (x == 0.0) return memcpy(buf, "0", 2);
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(buf, FL_NUM_LEN, "%.*g", digits, x);
-        if (digits == 17 || strtod(buf, NULL) == x) break;
+        if (digits == 17 || reads_as(buf, x)) break;
     }
     return buf;
 }
 
 int fl_num_f64(const char *s, double *x)
 {
-    char *end;
     double v;
-    /* strtod also takes nan, inf, 0x.. and blanks */
-    if (s[strspn(s, "+-0123456789.eEdD")] != '\0') return -1;
-    v = strtod(s, &end);
-    if (end == s || *end || !isfinite(v)) return -1;
+    const char *end = fl_decimal(s, &v);
+    if (!end || *end || !isfinite(v)) return -1;
     *x = v;
     return 0;
 }

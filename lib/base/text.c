@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,7 +24,7 @@ void fl_text_close(fl_text *t)
 {
     fl_in_close(t->in);
     free(t->chunk);
-    free(t->line);
+    free(t->own);
     free(t->field);
     free(t->history);
     *t = (fl_text){0};
@@ -36,24 +37,49 @@ int fl_text_fail(const fl_text *t, fl_err *err, const char *fmt, ...)
     va_start(ap, fmt);
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
-    return fl_fail(err, FL_INPUT, "%s:%d: %s", fl_in_name(t->in), t->number, what);
+    return fl_fail(err, FL_INPUT, "%s:%" PRId64 ": %s", fl_in_name(t->in), t->number, what);
+}
+
+/* Is there a zero byte before end?  Each stretch of the chunk is looked through once. */
+static int has_zero(fl_text *t, int64_t end)
+{
+    if (end > t->clean) {
+        const char *from = t->chunk + t->clean, *zero = memchr(from, '\0', (size_t)(t->have - t->clean));
+        t->clean = zero ? zero - t->chunk : t->have;
+    }
+    return end > t->clean;
+}
+
+/* The line begins in this chunk and does not end in it, or did not begin in it: gather it. */
+static int append(fl_text *t, int64_t k, fl_err *err)
+{
+    if (t->len + k > FL_TEXT_LINE_MAX) return fl_text_fail(t, err, "line is longer than 1 MiB");
+    if (fl_grow(&t->own, &t->own_cap, t->len + k + 1, 1, err)) return -1;
+    if (k) memcpy(t->own + t->len, t->chunk + t->pos, (size_t)k);
+    t->len += (int32_t)k;
+    return 0;
 }
 
 int fl_text_line(fl_text *t, fl_err *err)
 {
+    int zero = 0, whole; /* whole: the line lies in the chunk, where it can stay */
     t->len = 0;
     t->number++;
-    for (;;) {
+    for (int first = 1;; first = 0) {
         const char *from = t->chunk + t->pos;
         const char *end = memchr(from, '\n', (size_t)(t->have - t->pos));
         const int64_t k = end ? end - from : t->have - t->pos;
-        if (t->len + k > FL_TEXT_LINE_MAX) return fl_text_fail(t, err, "line is longer than 1 MiB");
-        if (fl_grow(&t->line, &t->line_cap, t->len + k + 1, 1, err)) return -1;
-        memcpy(t->line + t->len, from, (size_t)k);
-        t->len += (int32_t)k;
+        zero |= has_zero(t, t->pos + k);
+        whole = first && end;
+        if (whole) {
+            t->line = t->chunk + t->pos;
+            t->len = (int32_t)k;
+        } else if (append(t, k, err)) {
+            return -1;
+        }
         t->pos += k + (end != NULL);
         if (end) break;
-        t->pos = 0;
+        t->pos = t->clean = 0;
         t->have = fl_in_read(t->in, t->chunk, CHUNK, err);
         if (t->have < 0) {
             t->have = 0;
@@ -61,15 +87,16 @@ int fl_text_line(fl_text *t, fl_err *err)
         }
         if (t->have == 0) {
             if (t->len) break;
+            t->line = t->own;
             t->line[0] = '\0';
             t->number--;
             return 0;
         }
     }
+    if (!whole) t->line = t->own;
     if (t->len && t->line[t->len - 1] == '\r') t->len--;
     t->line[t->len] = '\0';
-    if (memchr(t->line, '\0', (size_t)t->len))
-        return fl_text_fail(t, err, "a zero byte: this is not a text file");
+    if (zero) return fl_text_fail(t, err, "a zero byte: this is not a text file");
     return 1;
 }
 
@@ -107,17 +134,26 @@ int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err)
     return 0;
 }
 
+/* What ends a field: nothing, a blank, or the whole row. */
+enum { FIELD, BLANK, END };
+static const unsigned char KIND[256] = {
+    ['\0'] = END, ['#'] = END, [' '] = BLANK, ['\t'] = BLANK, ['\f'] = BLANK, ['\v'] = BLANK};
+
+static unsigned char kind_of(char c) { return KIND[(unsigned char)c]; }
+
 int fl_text_cut(fl_text *t, fl_err *err)
 {
     char *p = t->line;
     t->n = t->next = 0;
     if (strncmp(p, "#by ", 4) == 0 && keep_history(t, err)) return -1;
     for (;;) {
-        p += strspn(p, " \t\f\v");
-        if (*p == '\0' || *p == '#') break;
-        if (fl_grow(&t->field, &t->field_cap, t->n + 1, sizeof *t->field, err)) return -1;
+        while (kind_of(*p) == BLANK) p++;
+        if (kind_of(*p) == END) break;
+        if (t->n == t->field_cap && fl_grow(&t->field, &t->field_cap, t->n + 1, sizeof *t->field, err))
+            return -1;
         t->field[t->n++] = p;
-        p += strcspn(p, " \t\f\v");
+        /* A "#" begins a comment after a blank only. */
+        while (kind_of(*p) == FIELD || *p == '#') p++;
         if (*p) *p++ = '\0';
     }
     return t->n > 0;

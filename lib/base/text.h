@@ -13,9 +13,12 @@ typedef struct {
     fl_in *in;
     char *chunk;       /* what was read and not yet split */
     int64_t have, pos; /* of chunk */
-    char *line;        /* the current line, cut into fields in place */
-    int32_t len, line_cap, number;
-    char **field; /* fields of the current row */
+    int64_t clean;     /* no zero byte before this place of chunk */
+    char *line;        /* the current line, cut into fields in place; in chunk, or in own */
+    char *own;         /* a line that lay in two chunks */
+    int32_t len, own_cap;
+    int64_t number; /* of the line, from 1 */
+    char **field;   /* fields of the current row */
     int32_t n, next, field_cap;
     char *history; /* the "#by ..." lines, each with its newline; NULL while there are none */
     int32_t history_len, history_cap;

@@ -91,7 +91,7 @@ int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err)
     while ((more = fl_text_row(in, err)) > 0) {
         if (strcmp(in->field[0], "part") == 0) {
             if (got.n && empty(&got.part[got.n - 1])) break;
-            opened = in->number;
+            opened = (int32_t)in->number;
         }
         if (read_row(in, &got, err)) goto done;
     }

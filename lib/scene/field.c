@@ -140,7 +140,7 @@ static int read_poly(fl_field *a, struct body *b, fl_text *in, fl_err *err)
 {
     const int32_t most = INT32_MAX - 1;
     if (close_body(a, b, in, err)) return -1;
-    b->line = in->number;
+    b->line = (int32_t)in->number;
     b->has_v = b->has_f = b->has_vel = b->material_given = b->group_given = 0;
     b->material = b->group = -1;
     b->vel = b->spin = v3(0, 0, 0);

@@ -43,7 +43,7 @@ static int complain(const source *in, const char *fmt, ...)
 static fl_scene_mark mark_of(const source *in, uint32_t parts)
 {
     return (fl_scene_mark){
-        .file = in->file, .line = in->file == FL_SCENE_ARGUMENT ? 1 : in->text.number, .parts = parts};
+        .file = in->file, .line = in->file == FL_SCENE_ARGUMENT ? 1 : (int)in->text.number, .parts = parts};
 }
 
 /* The section of an address, made if it is not there; NULL without memory. */

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/decimal.h"
+
+__extension__ typedef unsigned __int128 wide;
+
+/* Below 10^-342 19 digits are less than half of the smallest double, above 10^308 more than the largest. */
+enum { LEAST = -342, MOST = 308, DIGITS = 19, EXACT_POWER = 55, MANTISSA = 53, BIAS = 1023 };
+
+/* 5^q = (hi 2^64 + lo + rest) 2^e with hi >= 2^63 and 0 <= rest < 1; rest = 0 for 0 <= q <= 55, as
+ * 5^55 < 2^128. */
+typedef struct {
+    uint64_t hi, lo;
+    int32_t e;
+} power;
+
+static power five[MOST - LEAST + 1];
+
+/* The leading 128 bits of the number word[0 .. n) 2^e, lowest word first. */
+static power leading(const uint64_t *word, int n, int32_t e)
+{
+    while (word[n - 1] == 0) n--;
+    const int shift = __builtin_clzll(word[n - 1]);
+    const uint64_t a = word[n - 1], b = n > 1 ? word[n - 2] : 0, c = n > 2 ? word[n - 3] : 0;
+    power p = {a, b, e + 64 * (n - 2) - shift};
+    if (shift) {
+        p.hi = a << shift | b >> (64 - shift);
+        p.lo = b << shift | c >> (64 - shift);
+    }
+    return p;
+}
+
+/* 5^308 has 716 bits.  2^1280 / 5^342 keeps 485, and what a division drops never reaches the leading ones:
+ * floor(floor(a/5)/5) = floor(a/25). */
+__attribute__((constructor)) static void make_powers(void)
+{
+    enum { UP = 13, DOWN = 21 };
+    uint64_t up[UP] = {1}, down[DOWN] = {0};
+    for (int q = 0; q <= MOST; q++) {
+        five[q - LEAST] = leading(up, UP, 0);
+        wide carry = 0;
+        for (int k = 0; k < UP; k++) {
+            carry += (wide)up[k] * 5;
+            up[k] = (uint64_t)carry;
+            carry >>= 64;
+        }
+    }
+    down[DOWN - 1] = 1;
+    for (int q = -1; q >= LEAST; q--) {
+        wide rest = 0;
+        for (int k = DOWN - 1; k >= 0; k--) {
+            rest = rest << 64 | down[k];
+            down[k] = (uint64_t)(rest / 5);
+            rest %= 5;
+        }
+        five[q - LEAST] = leading(down, DOWN, -64 * (DOWN - 1));
+    }
+}
+
+/* The bits of the double nearest to w 10^q, w > 0.  Returns 0 when the product does not decide. */
+static int nearest(uint64_t w, int64_t q, uint64_t *bits)
+{
+    if (q < LEAST || q > MOST) return 0;
+    const power *p = &five[q - LEAST];
+    const int shift = __builtin_clzll(w), exact = q >= 0 && q <= EXACT_POWER;
+    w <<= shift;
+    const wide low = (wide)w * p->lo, product = (wide)w * p->hi + (low >> 64);
+    const int drop = (int)(product >> 127) + 127 - MANTISSA;
+    const uint64_t mantissa = (uint64_t)(product >> drop);
+    const wide rest = product & (((wide)1 << drop) - 1), half = (wide)1 << (drop - 1);
+    /* w 10^q lies in (mantissa + rest / 2^drop) 2^e and less than one (exact) or two units of rest above. */
+    const int64_t e = drop + 64 + p->e - shift + q, exponent = e + MANTISSA - 1 + BIAS;
+    uint64_t up;
+    if (exponent < 1 || exponent > 2 * BIAS - 1) return 0; /* subnormal, or near the largest */
+    if (exact) up = rest > half || (rest == half && ((uint64_t)low != 0 || (mantissa & 1)));
+    else if (rest >= half) up = 1;
+    else if (rest + 2 <= half) up = 0;
+    else return 0;
+    /* The leading bit of the mantissa is not stored; a carry out of it goes where it belongs. */
+    *bits = ((uint64_t)exponent << (MANTISSA - 1)) + (mantissa & ((UINT64_C(1) << (MANTISSA - 1)) - 1)) + up;
+    return 1;
+}
+
+static int is_digit(char c) { return (unsigned char)(c - '0') < 10; }
+
+/* "e+12" after the digits; an e without digits does not belong to the number. */
+static const char *read_exponent(const char *s, int64_t *q)
+{
+    const char *p = s + 1;
+    const int minus = *p == '-';
+    int64_t e = 0;
+    if (*p == '-' || *p == '+') p++;
+    if (!is_digit(*p)) return s;
+    for (; is_digit(*p); p++)
+        if (e < 1000000000) e = 10 * e + (*p - '0'); /* beyond reach is beyond reach */
+    *q += minus ? -e : e;
+    return p;
+}
+
+static const char *read_digits(const char *p, uint64_t *w)
+{
+    for (; is_digit(*p); p++) *w = 10 * *w + (uint64_t)(*p - '0');
+    return p;
+}
+
+const char *fl_decimal(const char *s, double *x)
+{
+    static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const char *p = s, *start, *point = NULL;
+    const int minus = *p == '-';
+    uint64_t w = 0, bits = 0, next = 0;
+    int64_t q = 0, digits;
+    double value;
+    if (*p == '-' || *p == '+') p++;
+    start = p;
+    p = read_digits(p, &w);
+    if (*p == '.') {
+        point = p++;
+        p = read_digits(p, &w);
+        q = point + 1 - p;
+    }
+    digits = p - start - (point != NULL);
+    if (digits == 0) return NULL;
+    const char *const digits_end = p;
+    int more = 0; /* digits that did not fit into w */
+    if (digits > DIGITS) {
+        /* Zeros in front are no digits; w may have wrapped around, so take the first 19 again. */
+        const char *d = start;
+        int64_t taken = 0;
+        while (d < digits_end && (*d == '0' || *d == '.')) d++;
+        for (w = 0; d < digits_end && taken < DIGITS; d++) {
+            if (*d == '.') continue;
+            w = 10 * w + (uint64_t)(*d - '0');
+            taken++;
+        }
+        for (; d < digits_end; d++) {
+            if (*d == '.') continue;
+            q++;
+            more |= *d != '0';
+        }
+    }
+    if (*p == 'e' || *p == 'E') p = read_exponent(p, &q);
+    if (w == 0) value = 0.0;
+    else if (!more && w <= UINT64_C(1) << MANTISSA && q >= -22 && q <= 22) {
+        /* Both are doubles, so one correctly rounded operation is all. */
+        value = q < 0 ? (double)w / ten[-q] : (double)w * ten[q];
+    } else if (nearest(w, q, &bits) && (!more || (nearest(w + 1, q, &next) && next == bits))) {
+        memcpy(&value, &bits, sizeof value);
+    } else {
+        *x = strtod(s, NULL);
+        return p;
+    }
+    *x = minus ? -value : value;
+    return p;
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bench_parse.c -- how fast a table of decimal text is read, beside how wrong the numbers are, and `wc -l`
+ * on the same file in the same run.  The table is a loads table of 10 columns whose numbers need 15 to 17 digits.
+ * Rates are of text over elapsed time, the best of a few rounds; compare them within one run only. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+#include "base/decimal.h"
+#include "base/num.h"
+#include "base/rng.h"
+#include "base/table.h"
+
+enum { ROWS = 400000, ROUNDS = 5, COLUMNS = 10 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int write_table(const char *path)
+{
+    FILE *f = fopen(path, "w");
+    char text[FL_NUM_LEN];
+    if (!f) return -1;
+    fputs("#loads 1\nt[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts\n", f);
+    for (int k = 0; k < ROWS; k++) {
+        fl_rng g = fl_rng_of(1, k, FL_RNG_TEST);
+        fprintf(f, "%s\tleg", fl_num_text(0.01 * (k + 1), text));
+        for (int c = 0; c < 7; c++) fprintf(f, "\t%s", fl_num_text(1e4 * fl_rng_normal(&g), text));
+        fprintf(f, "\t%d\n", k % 20);
+    }
+    return fclose(f);
+}
+
+/* Seconds of one pass over the table; sum makes use of every number. */
+static double read_table(const char *path, int numbers, double *sum)
+{
+    fl_err err = {0};
+    fl_table t;
+    const double start = now();
+    int more = fl_table_open(&t, path, "loads", 1, &err);
+    *sum = 0.0;
+    while (more >= 0 && (more = fl_table_row(&t, &err)) > 0)
+        for (int32_t c = 0; numbers && c < t.n; c++) {
+            double x;
+            if (c == 1) continue;
+            if (fl_table_f64(&t, c, &x, &err)) more = -1;
+            *sum += x;
+        }
+    fl_table_close(&t);
+    if (more < 0) fprintf(stderr, "bench_parse: %s\n", err.text);
+    return more < 0 ? NAN : now() - start;
+}
+
+static double count_lines(const char *path, long *lines)
+{
+    char command[400];
+    const double start = now();
+    snprintf(command, sizeof command, "wc -l <'%s'", path);
+    FILE *f = popen(command, "r");
+    if (!f || fscanf(f, "%ld", lines) != 1) *lines = -1;
+    if (f) pclose(f);
+    return now() - start;
+}
+
+/* Numbers of the table whose bits differ from those of strtod(), and what reading all of them takes. */
+static long differences(const char *path, long *numbers, double *ours, double *theirs)
+{
+    fl_err err = {0};
+    fl_table t;
+    long bad = 0;
+    double sum = 0.0;
+    *numbers = 0;
+    *ours = *theirs = 0.0;
+    if (fl_table_open(&t, path, "loads", 1, &err)) return -1;
+    enum { BATCH = 1000 };
+    static char text[BATCH * COLUMNS][FL_NUM_LEN];
+    for (int done = 0, n; !done;) {
+        for (n = 0; n + COLUMNS <= BATCH * COLUMNS;) {
+            if (fl_table_row(&t, &err) <= 0) {
+                done = 1;
+                break;
+            }
+            for (int32_t c = 0; c < t.n; c++)
+                if (c != 1) snprintf(text[n++], FL_NUM_LEN, "%s", fl_table_word(&t, c));
+        }
+        const double a = now();
+        for (int k = 0; k < n; k++) {
+            double x = 0.0;
+            fl_decimal(text[k], &x);
+            sum += x;
+        }
+        const double b = now();
+        for (int k = 0; k < n; k++) sum -= strtod(text[k], NULL);
+        *ours += b - a;
+        *theirs += now() - b;
+        for (int k = 0; k < n; k++) {
+            double x = NAN, y = strtod(text[k], NULL);
+            bad += !fl_decimal(text[k], &x) || memcmp(&x, &y, sizeof x) != 0;
+        }
+        *numbers += n;
+    }
+    fl_table_close(&t);
+    return isfinite(sum) ? bad : -1;
+}
+
+int main(void)
+{
+    char path[300];
+    const char *tmp = getenv("TMPDIR");
+    double best[3] = {INFINITY, INFINITY, INFINITY}, sum, ours, theirs;
+    long lines = 0, numbers, bad;
+    snprintf(path, sizeof path, "%.200s/floe-parse-%ld", tmp ? tmp : "/tmp", (long)getpid());
+    if (write_table(path)) return 4;
+    FILE *f = fopen(path, "r");
+    if (!f || fseek(f, 0, SEEK_END)) return 4;
+    const double mb = 1e-6 * (double)ftell(f);
+    fclose(f);
+    for (int k = 0; k < ROUNDS; k++) {
+        best[0] = fmin(best[0], count_lines(path, &lines));
+        best[1] = fmin(best[1], read_table(path, 0, &sum));
+        best[2] = fmin(best[2], read_table(path, 1, &sum));
+    }
+    bad = differences(path, &numbers, &ours, &theirs);
+    unlink(path);
+    printf("reading a loads table of %.0f MB, %d rows, one thread\n", mb, ROWS);
+    printf("%-34s %10s %14s\n", "", "MB/s", "of wc -l");
+    static const char *const what[] = {"wc -l", "rows cut into fields", "all fields as numbers"};
+    for (int k = 0; k < 3; k++) printf("%-34s %10.0f %13.2f\n", what[k], mb / best[k], best[0] / best[k]);
+    printf("number alone: %.1f ns, strtod() %.1f ns; %ld of %ld numbers differ from strtod()\n",
+           1e9 * ours / (double)numbers, 1e9 * theirs / (double)numbers, bad, numbers);
+    printf("%d passed, %d failed\n", bad == 0 && lines == ROWS + 2, !(bad == 0 && lines == ROWS + 2));
+    return bad != 0 || lines != ROWS + 2;
+}
