@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* series.h -- signals against time, for each part of a structure and for their sum.
- *
- * A row of a loads table is the mean over the interval that ends at its time; a row of any other table is a
- * sample at its time, and stands for what is nearer to it than to its neighbours (at the ends as far outward
- * as inward).  Either way row k holds for the time edge[k] .. edge[k + 1], and all statistics weigh it so. */
+/* series.h -- signals against time, for each part of a structure and for their sum, whole and in memory.
+ * Row k holds for the time edge[k] .. edge[k + 1]; see record.h. */
 #ifndef FL_STAT_SERIES_H
 #define FL_STAT_SERIES_H
 #include <stdint.h>
 #include "base/err.h"
-
-/* Larger values are refused: no load is near it, and squares and sums of any number of rows stay finite. */
-#define FL_SERIES_LARGEST 1e100
+#include "stat/record.h"
 
 typedef struct {
     char kind[32];
@@ -25,25 +20,8 @@ typedef struct {
                              * NULL where the sum over parts would mean nothing */
 } fl_series;
 
-/* What to read.
- *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total
- *                    of the summed components; signals = 0 takes fx, fy, fz, fh of a loads table
- *   part             one part or "total"; NULL takes all of them and the total
- *   from, to         only rows whose interval lies within [s]; -INFINITY and INFINITY take all
- *   last             only the rows of the last so many seconds; 0 takes all */
-typedef struct {
-    const char *const *signal;
-    int32_t signals;
-    const char *part;
-    double from, to, last;
-} fl_series_ask;
-
-/* Read a table that has a column t and, where rows share a time, a column part or body that tells them apart.
- * Every part must have one row at each time.  A table without such a column has one part, "-".  The total is
- * the sum over the parts of fx, fy, fz, mx, my, mz and contacts; other columns have none.
- * 0, or -1 with FL_INPUT (no rows, none left by the cut, a missing or repeated part, time that does not
- * rise, a field that is not a number or beyond FL_SERIES_LARGEST), FL_USAGE (a total that does not exist, or
- * signals needed) or FL_SYSTEM. */
+/* Read a table as fl_record_open() and fl_record_next() do, and apply the cut.
+ * 0, or -1 with their errors, or FL_INPUT when the cut leaves nothing. */
 int fl_series_read(fl_series *s, const char *path, const fl_series_ask *ask, fl_err *err);
 
 /* The index of a part, or -1. */

@@ -1,0 +1,418 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/table.h"
+#include "stat/record.h"
+
+enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
+
+/* A signal is the Euclidean length of one to three columns; of one column it is the column itself. */
+typedef struct {
+    int raw[3], n; /* indices into the columns that are read */
+    int adds;      /* the sum over the parts means something */
+} formula;
+
+typedef struct {
+    char *name;
+    int keep;
+    int64_t n; /* times it has had a row for */
+} raw_part;
+
+struct fl_record_reader {
+    fl_table table;
+    fl_series_ask ask;
+    int loads;
+    int32_t time, key;          /* columns; key < 0 when rows are not told apart */
+    int32_t col[RAW_MAX], raws; /* columns that are read */
+    int adds[RAW_MAX];
+    formula form[SIGNAL_MAX];
+    const char *name[SIGNAL_MAX], *unit[SIGNAL_MAX];
+    int32_t signals;
+    raw_part *part;
+    double *raw; /* [parts * raws] of the time being read */
+    int32_t parts, part_cap, raw_cap;
+    int32_t *by_name;   /* parts in the order of their names, once the first time is complete */
+    int32_t *shown;     /* [n_shown] the parts that are reported, -1 for the total */
+    const char **label; /* [n_shown] their names */
+    unsigned char *has;
+    int32_t n_shown;
+    int64_t n;         /* complete times */
+    int32_t seen;      /* rows at the time being read */
+    double now, first; /* the time being read, and the first of all */
+    int pending; /* the row in the table belongs to the next time; 2: there is none, the table has ended */
+    /* What was read last and, where its interval is not known yet, the one that waits. */
+    double *x[2], t[2], before;
+    int waiting;
+};
+
+/* --- which columns -------------------------------------------------------------------------------------- */
+
+static int adds_up(const char *name)
+{
+    static const char *const list[] = {"fx", "fy", "fz", "mx", "my", "mz", "contacts"};
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++)
+        if (strcmp(name, list[k]) == 0) return 1;
+    return 0;
+}
+
+static int want_column(fl_record_reader *r, const char *name, int *raw, fl_err *err)
+{
+    int32_t col;
+    if (fl_table_find(&r->table, name, &col, err)) return -1;
+    for (*raw = 0; *raw < r->raws; ++*raw)
+        if (r->col[*raw] == col) return 0;
+    r->adds[r->raws] = strcmp(r->table.text.kind, "loads") == 0 && adds_up(r->table.name[col]);
+    r->col[r->raws++] = col;
+    return 0;
+}
+
+static int want_signal(fl_record_reader *r, const char *name, fl_err *err)
+{
+    static const char *const axis[] = {"fx", "fy", "fz"};
+    formula *f = &r->form[r->signals];
+    const char *of[3] = {name, NULL, NULL};
+    if (r->signals == SIGNAL_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d signals were asked for at once", SIGNAL_MAX);
+    f->n = 1;
+    if (fl_table_column(&r->table, name) < 0 && (strcmp(name, "fh") == 0 || strcmp(name, "f") == 0)) {
+        f->n = name[1] == 'h' ? 2 : 3;
+        memcpy(of, axis, sizeof of);
+    }
+    f->adds = 1;
+    for (int k = 0; k < f->n; k++) {
+        if (want_column(r, of[k], &f->raw[k], err)) return -1;
+        f->adds &= r->adds[f->raw[k]];
+    }
+    const int32_t first = r->col[f->raw[0]];
+    r->name[r->signals] = f->n == 1 ? r->table.name[first] : name;
+    r->unit[r->signals] = r->table.unit[first];
+    for (int32_t k = 0; k < r->signals; k++)
+        if (strcmp(r->name[k], r->name[r->signals]) == 0) return 0; /* asked for twice: once is enough */
+    r->signals++;
+    return 0;
+}
+
+static int want_all(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
+{
+    static const char *const usual[] = {"fx", "fy", "fz", "fh"};
+    const int loads = strcmp(r->table.text.kind, "loads") == 0;
+    const char *const *list = ask->signals ? ask->signal : usual;
+    const int32_t n = ask->signals ? ask->signals : (int32_t)(sizeof usual / sizeof *usual);
+    if (!loads && !ask->signals)
+        return fl_fail(err, FL_USAGE, "%s: a column of this %s table must be chosen, it is not loads",
+                       fl_in_name(r->table.text.in), r->table.text.kind);
+    if (fl_table_find(&r->table, "t", &r->time, err)) return -1;
+    if (loads && fl_table_find(&r->table, "part", &r->key, err)) return -1;
+    if (!loads) r->key = fl_table_column(&r->table, "part");
+    if (!loads && r->key < 0) r->key = fl_table_column(&r->table, "body");
+    for (int32_t k = 0; k < n; k++)
+        if (want_signal(r, list[k], err)) return -1;
+    if (ask->part && strcmp(ask->part, "total") == 0) {
+        for (int32_t k = 0; k < r->signals; k++)
+            if (!r->form[k].adds)
+                return fl_fail(err, FL_USAGE, "%s has no total: its sum over the parts means nothing",
+                               r->name[k]);
+    }
+    return 0;
+}
+
+/* --- rows ----------------------------------------------------------------------------------------------- */
+
+static int32_t add_part(fl_record_reader *r, const char *name, fl_err *err)
+{
+    const char *const only = r->ask.part;
+    raw_part *p;
+    if (fl_grow(&r->part, &r->part_cap, (int64_t)r->parts + 1, sizeof *r->part, err) ||
+        fl_grow(&r->raw, &r->raw_cap, ((int64_t)r->parts + 1) * r->raws, sizeof *r->raw, err))
+        return -1;
+    p = &r->part[r->parts];
+    *p = (raw_part){.name = fl_alloc((int64_t)strlen(name) + 1, 1, err)};
+    if (!p->name) return -1;
+    memcpy(p->name, name, strlen(name));
+    p->keep = !only || strcmp(only, "total") == 0 || strcmp(only, name) == 0;
+    return r->parts++;
+}
+
+static _Thread_local const raw_part *sorting; /* qsort hands its comparison no argument */
+
+static int compare_parts(const void *a, const void *b)
+{
+    return strcmp(sorting[*(const int32_t *)a].name, sorting[*(const int32_t *)b].name);
+}
+
+static int32_t find_part(const fl_record_reader *r, const char *name)
+{
+    int32_t lo = 0, hi = r->parts - 1;
+    if (r->seen < r->parts && strcmp(r->part[r->seen].name, name) == 0) return r->seen; /* the usual order */
+    while (lo <= hi) {
+        const int32_t k = lo + (hi - lo) / 2;
+        const int c = strcmp(name, r->part[r->by_name[k]].name);
+        if (c == 0) return r->by_name[k];
+        if (c < 0) hi = k - 1;
+        else lo = k + 1;
+    }
+    return -1;
+}
+
+static int check_part(const fl_record_reader *r, fl_err *err)
+{
+    const char **names, *const want = r->ask.part;
+    if (!want || strcmp(want, "total") == 0 || find_part(r, want) >= 0) return 0;
+    names = fl_alloc(r->parts, sizeof *names, err);
+    if (!names) return -1;
+    for (int32_t p = 0; p < r->parts; p++) names[p] = r->part[p].name;
+    fl_fail(err, FL_INPUT, "%s: no part %.60s, the nearest is %.60s", fl_in_name(r->table.text.in), want,
+            fl_text_nearest(want, names, r->parts));
+    free(names);
+    return -1;
+}
+
+/* Which parts are reported, and whether their total. */
+static int choose_parts(fl_record_reader *r, fl_err *err)
+{
+    const int only_total = r->ask.part && strcmp(r->ask.part, "total") == 0;
+    int total = 0;
+    for (int32_t k = 0; k < r->signals; k++) total |= r->form[k].adds;
+    total = total && (!r->ask.part || only_total);
+    r->shown = fl_alloc((int64_t)r->parts + 1, sizeof *r->shown, err);
+    r->label = r->shown ? fl_alloc((int64_t)r->parts + 1, sizeof *r->label, err) : NULL;
+    if (!r->label) return -1;
+    for (int32_t p = 0; p < r->parts; p++) {
+        const int is_total = total && strcmp(r->part[p].name, "total") == 0;
+        /* A structure of one part called total is its own sum. */
+        if (is_total && r->parts > 1)
+            return fl_fail(err, FL_INPUT, "%s: a part is called total, the name of the sum over the parts",
+                           fl_in_name(r->table.text.in));
+        if (only_total || !r->part[p].keep || is_total) continue;
+        r->label[r->n_shown] = r->part[p].name;
+        r->shown[r->n_shown++] = p;
+    }
+    if (total) {
+        r->label[r->n_shown] = "total";
+        r->shown[r->n_shown++] = -1;
+    }
+    const int64_t n = (int64_t)r->n_shown * r->signals;
+    r->has = fl_alloc(n, 1, err);
+    r->x[0] = r->has ? fl_alloc(n, sizeof(double), err) : NULL;
+    r->x[1] = r->x[0] ? fl_alloc(n, sizeof(double), err) : NULL;
+    if (!r->x[1]) return -1;
+    for (int64_t k = 0; k < n; k++)
+        r->has[k] = (unsigned char)(r->shown[k / r->signals] >= 0 || r->form[k % r->signals].adds);
+    return 0;
+}
+
+/* The first time is complete: its rows are the list of parts. */
+static int freeze_parts(fl_record_reader *r, fl_err *err)
+{
+    r->by_name = fl_alloc(r->parts, sizeof *r->by_name, err);
+    if (!r->by_name) return -1;
+    for (int32_t p = 0; p < r->parts; p++) r->by_name[p] = p;
+    sorting = r->part;
+    qsort(r->by_name, (size_t)r->parts, sizeof *r->by_name, compare_parts);
+    for (int32_t p = 1; p < r->parts; p++) {
+        const char *name = r->part[r->by_name[p]].name;
+        if (strcmp(name, r->part[r->by_name[p - 1]].name) == 0)
+            return fl_fail(err, FL_INPUT, "%s: %.60s has two rows at %.10g s", fl_in_name(r->table.text.in),
+                           name, r->now);
+    }
+    return check_part(r, err) ? -1 : choose_parts(r, err);
+}
+
+static double length3(const double *raw, const formula *f)
+{
+    if (f->n == 1) return raw[f->raw[0]];
+    const double h = hypot(raw[f->raw[0]], raw[f->raw[1]]);
+    return f->n == 2 ? h : hypot(h, raw[f->raw[2]]);
+}
+
+/* All rows of one time have been read: from columns to signals.  The total is the sum in the order in which
+ * the parts were first seen, so that it has one value. */
+static int close_time(fl_record_reader *r, fl_err *err)
+{
+    if (!r->by_name && freeze_parts(r, err)) return -1;
+    for (int32_t p = 0; r->seen < r->parts && p < r->parts; p++)
+        if (r->part[p].n == r->n)
+            return fl_text_fail(&r->table.text, err, "%.60s has no row at %.10g s", r->part[p].name, r->now);
+    double *x = r->x[!r->waiting], sum[RAW_MAX];
+    for (int32_t k = 0; k < r->n_shown; k++) {
+        const double *raw = sum;
+        if (r->shown[k] >= 0) {
+            raw = r->raw + (int64_t)r->shown[k] * r->raws;
+        } else {
+            memset(sum, 0, sizeof sum);
+            for (int32_t p = 0; p < r->parts; p++)
+                for (int32_t c = 0; c < r->raws; c++) sum[c] += r->raw[(int64_t)p * r->raws + c];
+        }
+        for (int32_t s = 0; s < r->signals; s++) *x++ = length3(raw, &r->form[s]);
+    }
+    r->t[!r->waiting] = r->now;
+    r->n++;
+    r->seen = 0;
+    return 0;
+}
+
+static int take_values(fl_record_reader *r, int32_t part, fl_err *err)
+{
+    raw_part *p = &r->part[part];
+    double *x = r->raw + (int64_t)part * r->raws;
+    for (int32_t k = 0; p->keep && k < r->raws; k++, x++) {
+        if (fl_table_f64(&r->table, r->col[k], x, err)) return -1;
+        if (fabs(*x) > FL_SERIES_LARGEST)
+            return fl_text_fail(&r->table.text, err, "%.60s is %g, at most %g was expected",
+                                r->table.name[r->col[k]], *x, FL_SERIES_LARGEST);
+    }
+    p->n++;
+    return 0;
+}
+
+static int not_there(const fl_record_reader *r, const char *name, fl_err *err)
+{
+    return fl_text_fail(&r->table.text, err, "%.60s was not there at %.10g s", name, r->first);
+}
+
+/* Take the row in the table, or leave it when it belongs to the next time. */
+static int take_row(fl_record_reader *r, fl_err *err)
+{
+    const char *name = r->key < 0 ? "-" : fl_table_word(&r->table, r->key);
+    double t;
+    int32_t p;
+    if (fl_table_f64(&r->table, r->time, &t, err)) return -1;
+    if (fabs(t) > FL_SERIES_LARGEST) return fl_text_fail(&r->table.text, err, "time %g s is out of reach", t);
+    r->pending = r->seen && t != r->now;
+    if (r->pending) return 0;
+    if (r->seen == 0 && (r->n || r->loads)) {
+        const double before = r->n ? r->now : r->table.start;
+        /* A time that is complete and goes on: with a part that was there already, or with a new one. */
+        if (r->n && r->key >= 0 && t == before)
+            return find_part(r, name) < 0
+                       ? not_there(r, name, err)
+                       : fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
+        if (!(t > before))
+            return fl_text_fail(&r->table.text, err, "time %.15g s does not follow %.15g s%s", t, before,
+                                r->n ? "" : ", where the record starts");
+    }
+    if (r->n == 0 && r->seen == 0) r->first = t;
+    r->now = t;
+    p = r->by_name ? find_part(r, name) : add_part(r, name, err);
+    if (p < 0 && !r->by_name) return -1;
+    if (p < 0) return not_there(r, name, err);
+    if (r->part[p].n > r->n)
+        return fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
+    r->seen++;
+    return take_values(r, p, err);
+}
+
+/* Read until a time is complete: 1, 0 at the end, -1.  Where the parts are known, their last row completes it;
+ * the first time is complete when another begins. */
+static int read_time(fl_record_reader *r, fl_err *err)
+{
+    for (;;) {
+        if (r->pending != 1) {
+            const int more = r->pending ? 0 : fl_table_row(&r->table, err);
+            if (more < 0) return -1;
+            if (more == 0) {
+                r->pending = 2;
+                if (r->seen) return close_time(r, err) ? -1 : 1;
+                if (r->n) return 0;
+                return fl_text_fail(&r->table.text, err, "the %s table ends here without a row",
+                                    r->table.text.kind);
+            }
+        }
+        if (take_row(r, err)) return -1;
+        if (r->pending || r->key < 0 || (r->by_name && r->seen == r->parts))
+            return close_time(r, err) ? -1 : 1;
+    }
+}
+
+/* --- all of it ------------------------------------------------------------------------------------------ */
+
+int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_err *err)
+{
+    *r = (fl_record){0};
+    fl_record_reader *own = r->reader = fl_alloc(1, sizeof *own, err);
+    if (!own) return -1;
+    own->key = -1;
+    own->ask = *ask;
+    if (fl_table_open(&own->table, path, NULL, 1, err) || want_all(own, ask, err)) {
+        fl_record_close(r);
+        return -1;
+    }
+    r->kind = own->table.text.kind;
+    own->loads = strcmp(r->kind, "loads") == 0;
+    own->before = own->table.start;
+    r->signals = own->signals;
+    r->signal = own->name;
+    r->unit = own->unit;
+    return 0;
+}
+
+static void show(fl_record *r, int which)
+{
+    fl_record_reader *own = r->reader;
+    r->parts = own->n_shown;
+    r->part = own->label;
+    r->has = own->has;
+    r->x = own->x[which];
+    r->t = own->t[which];
+    r->n++;
+}
+
+int fl_record_next(fl_record *r, fl_err *err)
+{
+    fl_record_reader *own = r->reader;
+    int more;
+    if (own->loads) {
+        own->waiting = 0;
+        more = read_time(own, err);
+        if (more <= 0) return more;
+        show(r, 1);
+        r->edge[0] = own->before;
+        r->edge[1] = own->before = r->t;
+        return 1;
+    }
+    /* A sample needs its neighbours: one is read ahead, and waits in the other place. */
+    if (r->n == 0) {
+        own->waiting = 1;
+        more = read_time(own, err);
+        if (more <= 0) return more;
+    } else if (own->waiting < 0) {
+        return 0;
+    }
+    const int here = !own->waiting;
+    own->waiting = here;
+    more = read_time(own, err);
+    if (more < 0) return -1;
+    show(r, here);
+    const double t = r->t, next = own->t[!here], middle = t + 0.5 * (next - t);
+    /* One sample alone has no neighbours; any length will do, as it is the only weight. */
+    if (r->n == 1) own->before = more ? t - (middle - t) : t - 0.5;
+    r->edge[0] = own->before;
+    r->edge[1] = own->before = more ? middle : t + (t - r->edge[0]);
+    if (!more) own->waiting = -1;
+    return 1;
+}
+
+const char *fl_record_history(const fl_record *r) { return r->reader->table.text.history; }
+
+const char *fl_record_name(const fl_record *r) { return fl_in_name(r->reader->table.text.in); }
+
+void fl_record_close(fl_record *r)
+{
+    fl_record_reader *own = r->reader;
+    if (own) {
+        for (int32_t p = 0; p < own->parts; p++) free(own->part[p].name);
+        free(own->part);
+        free(own->raw);
+        free(own->by_name);
+        free(own->shown);
+        free(own->label);
+        free(own->has);
+        free(own->x[0]);
+        free(own->x[1]);
+        fl_table_close(&own->table);
+    }
+    free(own);
+    *r = (fl_record){0};
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* record.h -- signals against time, one time after the other: what a table says, in constant memory.
+ *
+ * A row of a loads table is the mean over the interval that ends at its time; a row of any other table is a
+ * sample at its time, and stands for what is nearer to it than to its neighbours (at the ends as far outward
+ * as inward).  Either way it holds for an interval of time, and all statistics weigh it so. */
+#ifndef FL_STAT_RECORD_H
+#define FL_STAT_RECORD_H
+#include <stdint.h>
+#include "base/err.h"
+
+/* Larger values are refused: no load is near it, and squares and sums of any number of rows stay finite. */
+#define FL_SERIES_LARGEST 1e100
+
+/* What to read.
+ *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total
+ *                    of the summed components; signals = 0 takes fx, fy, fz, fh of a loads table
+ *   part             one part or "total"; NULL takes all of them and the total
+ *   from, to         only rows whose interval lies within [s]; -INFINITY and INFINITY take all
+ *   last             only the rows of the last so many seconds; 0 takes all */
+typedef struct {
+    const char *const *signal;
+    int32_t signals;
+    const char *part;
+    double from, to, last;
+} fl_series_ask;
+
+typedef struct fl_record_reader fl_record_reader;
+
+typedef struct {
+    fl_record_reader *reader;
+    const char *kind; /* of the table */
+    int32_t parts, signals;
+    const char *const *part; /* [parts] the sum over the parts is the last one, "total"; see below */
+    const char *const *signal, *const *unit; /* [signals] */
+    const unsigned char *has; /* [parts * signals] 0 where the sum over the parts would mean nothing */
+    int64_t n;                /* times read so far */
+    double t, edge[2];        /* the time as written, and the interval its row holds for [s] */
+    const double *x;          /* [parts * signals] of part p and signal s at x[p * signals + s] */
+} fl_record;
+
+/* Open a table that has a column t and, where rows share a time, a column part or body that tells them apart.
+ * Every part must have one row at each time.  A table without such a column has one part, "-".  The total is
+ * the sum over the parts of fx, fy, fz, mx, my, mz and contacts; other columns have none.  from, to and last
+ * are left to the caller.  Which parts there are is known after the first fl_record_next().
+ * 0, or -1 with FL_INPUT, FL_USAGE (a total that does not exist, or signals needed) or FL_SYSTEM in err. */
+int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_err *err);
+
+/* The next time.  1, or 0 at the end, or -1 with err: FL_INPUT for no row at all, a missing, new or repeated
+ * part, time that does not rise, a field that is not a number or beyond FL_SERIES_LARGEST.
+ * A loads table hands on a time as soon as its last row is there, any other with the first row after it. */
+int fl_record_next(fl_record *r, fl_err *err);
+
+/* The "#by" lines of the table, or NULL; complete at the end of it.  Borrowed. */
+const char *fl_record_history(const fl_record *r);
+
+/* The name to put in messages. */
+const char *fl_record_name(const fl_record *r);
+
+/* Accepts a zeroed struct and leaves one. */
+void fl_record_close(fl_record *r);
+
+#endif
