@@ -304,8 +304,8 @@ static int take_row(fl_record_reader *r, fl_err *err)
     return take_values(r, p, err);
 }
 
-/* Read until a time is complete: 1, 0 at the end, -1.  Where the parts are known, their last row completes it;
- * the first time is complete when another begins. */
+/* Read until a time is complete: 1, 0 at the end, -1.  Where the parts are known, their last row completes
+ * it; the first time is complete when another begins. */
 static int read_time(fl_record_reader *r, fl_err *err)
 {
     for (;;) {
