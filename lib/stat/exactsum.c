@@ -9,8 +9,8 @@
 
 __extension__ typedef unsigned __int128 wide;
 
-/* Bits of a product w x^4: the lowest 2^(5 * -1074), the highest below 2^(5 * 334 + 63).  Words are counted from
- * 2^(64 * LEAST), so that their numbers are not negative when they are shifted. */
+/* Bits of a product w x^4: the lowest 2^(5 * -1074), the highest below 2^(5 * 334 + 63).  Words are
+ * counted from 2^(64 * LEAST), so that their numbers are not negative when they are shifted. */
 enum {
     LEAST = -84,
     BITS_MAX = 5 * 334 + 64,
@@ -119,8 +119,8 @@ int fl_exact_merge(fl_exact *s, const fl_exact *t, fl_err *err)
     return 0;
 }
 
-/* z 2^(64 lo) is the sum.  GMP ends the program when it has no memory: of numbers of some kilobytes that is no
- * worse than any other place, and everything that grows with the data is ours. */
+/* z 2^(64 lo) is the sum.  GMP ends the program when it has no memory: of numbers of some kilobytes that is
+ * no worse than any other place, and everything that grows with the data is ours. */
 static void to_integer(mpz_t z, const fl_exact *s, int32_t lo)
 {
     mpz_t negative;
@@ -235,10 +235,11 @@ int fl_exact_read(fl_exact *s, const char *text, fl_err *err)
 void fl_exact_moments(const fl_exact s[5], double out[4])
 {
     enum { M2, M3, M4, A, B, WORK };
-    mpz_t z[5], t[WORK], *const w = &z[0];
-    int32_t lo[5];
-    int64_t e[4];
-    double f[4];
+    mpz_t z[5], t[WORK];
+    mpz_t *const w = &z[0];
+    int32_t lo[5], base, unit = 0;
+    int64_t e;
+    double f;
     for (int k = 0; k < 4; k++) out[k] = NAN;
     for (int k = 0; k < 5; k++) {
         mpz_init(z[k]);
@@ -247,52 +248,51 @@ void fl_exact_moments(const fl_exact s[5], double out[4])
     }
     for (int k = 0; k < WORK; k++) mpz_init(t[k]);
     if (mpz_sgn(*w) <= 0) goto done;
-    /* One unit u for w x^k u^k: take all to 2^(64 base) of time and 2^(64 unit) of x. */
-    {
-        int32_t base = lo[0], unit = 0;
-        for (int k = 1; k < 5; k++)
-            while (lo[k] < base + k * unit) unit--;
-        for (int k = 1; k < 5; k++) mpz_mul_2exp(z[k], z[k], (mp_bitcnt_t)(64 * (lo[k] - base - k * unit)));
-        f[0] = quotient(z[1], *w, &e[0]);
-        out[0] = ldexp(f[0], (int)(e[0] + 64 * unit));
-        /* m2 = (s2 w - s1^2) / w^2 */
-        mpz_mul(t[M2], z[2], *w);
-        mpz_submul(t[M2], z[1], z[1]);
-        mpz_mul(t[A], *w, *w);
-        f[1] = quotient(t[M2], t[A], &e[1]);
-        /* m3 = (s3 w^2 - 3 s2 s1 w + 2 s1^3) / w^3 */
-        mpz_mul(t[M3], z[3], t[A]);
-        mpz_mul(t[B], z[1], z[2]);
-        mpz_mul(t[B], t[B], *w);
-        mpz_submul_ui(t[M3], t[B], 3);
-        mpz_pow_ui(t[B], z[1], 3);
-        mpz_addmul_ui(t[M3], t[B], 2);
-        mpz_mul(t[A], t[A], *w);
-        f[2] = quotient(t[M3], t[A], &e[2]);
-        /* m4 = (s4 w^3 - 4 s3 s1 w^2 + 6 s2 s1^2 w - 3 s1^4) / w^4 */
-        mpz_mul(t[M4], z[4], t[A]);
-        mpz_mul(t[B], z[3], z[1]);
-        mpz_mul(t[B], t[B], *w);
-        mpz_mul(t[B], t[B], *w);
-        mpz_submul_ui(t[M4], t[B], 4);
-        mpz_mul(t[B], z[1], z[1]);
-        mpz_mul(t[B], t[B], z[2]);
-        mpz_mul(t[B], t[B], *w);
-        mpz_addmul_ui(t[M4], t[B], 6);
-        mpz_pow_ui(t[B], z[1], 4);
-        mpz_submul_ui(t[M4], t[B], 3);
-        mpz_mul(t[A], t[A], *w);
-        f[3] = quotient(t[M4], t[A], &e[3]);
-        if (e[1] % 2) { /* an even exponent has a root */
-            f[1] *= 2.0;
-            e[1]--;
-        }
-        out[1] = ldexp(sqrt(f[1]), (int)(e[1] / 2 + 64 * unit));
-        if (f[1] > 0.0) {
-            out[2] = ldexp(f[2] / (f[1] * sqrt(f[1])), (int)(e[2] - e[1] / 2 * 3));
-            out[3] = ldexp(f[3] / (f[1] * f[1]), (int)(e[3] - 2 * e[1])) - 3.0;
-        }
+    /* All as integers: time in units of 2^(64 base), x in units of 2^(64 unit). */
+    base = lo[0];
+    for (int k = 1; k < 5; k++)
+        while (lo[k] < base + k * unit) unit--;
+    for (int k = 1; k < 5; k++) mpz_mul_2exp(z[k], z[k], (mp_bitcnt_t)(64 * (lo[k] - base - k * unit)));
+    f = quotient(z[1], *w, &e);
+    out[0] = ldexp(f, (int)(e + 64 * unit));
+    /* m2 w^2 = s2 w - s1^2 */
+    mpz_mul(t[M2], z[2], *w);
+    mpz_submul(t[M2], z[1], z[1]);
+    mpz_mul(t[A], *w, *w);
+    f = quotient(t[M2], t[A], &e);
+    if (e % 2) { /* an even exponent has a root */
+        f *= 2.0;
+        e--;
     }
+    out[1] = ldexp(sqrt(f), (int)(e / 2 + 64 * unit));
+    if (mpz_sgn(t[M2]) <= 0) goto done;
+    /* m3 w^3 = s3 w^2 - 3 s2 s1 w + 2 s1^3, and the w cancel in (m3 w^3)^2 / (m2 w^2)^3 = skew^2 */
+    mpz_mul(t[M3], z[3], t[A]);
+    mpz_mul(t[B], z[1], z[2]);
+    mpz_mul(t[B], t[B], *w);
+    mpz_submul_ui(t[M3], t[B], 3);
+    mpz_pow_ui(t[B], z[1], 3);
+    mpz_addmul_ui(t[M3], t[B], 2);
+    mpz_mul(t[B], t[M3], t[M3]);
+    mpz_pow_ui(t[M4], t[M2], 3);
+    f = quotient(t[B], t[M4], &e);
+    out[2] = copysign(sqrt(ldexp(f, (int)e)), mpz_sgn(t[M3]));
+    /* m4 w^4 = s4 w^3 - 4 s3 s1 w^2 + 6 s2 s1^2 w - 3 s1^4 */
+    mpz_mul(t[A], t[A], *w);
+    mpz_mul(t[M4], z[4], t[A]);
+    mpz_mul(t[B], z[3], z[1]);
+    mpz_mul(t[B], t[B], *w);
+    mpz_mul(t[B], t[B], *w);
+    mpz_submul_ui(t[M4], t[B], 4);
+    mpz_mul(t[B], z[1], z[1]);
+    mpz_mul(t[B], t[B], z[2]);
+    mpz_mul(t[B], t[B], *w);
+    mpz_addmul_ui(t[M4], t[B], 6);
+    mpz_pow_ui(t[B], z[1], 4);
+    mpz_submul_ui(t[M4], t[B], 3);
+    mpz_mul(t[B], t[M2], t[M2]);
+    f = quotient(t[M4], t[B], &e);
+    out[3] = ldexp(f, (int)e) - 3.0;
 done:
     for (int k = 0; k < 5; k++) mpz_clear(z[k]);
     for (int k = 0; k < WORK; k++) mpz_clear(t[k]);

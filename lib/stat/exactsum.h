@@ -33,9 +33,9 @@ int fl_exact_merge(fl_exact *s, const fl_exact *t, fl_err *err);
  * program. */
 double fl_exact_value(const fl_exact *s);
 
-/* Print and read the sum as a hexadecimal constant of C, [-]0xHEXp[-]EXPONENT, an odd integer times a power of
- * two, or 0: equal sums print equally.  Reading adds to s: 0, or -1 with FL_INPUT in err (something else, more
- * digits or another exponent than a sum can have; one clause, without file and line) or FL_SYSTEM. */
+/* Print and read the sum as a hexadecimal constant of C, [-]0xHEXp[-]EXPONENT, an odd integer times a power
+ * of two, or 0: equal sums print equally.  Reading adds to s: 0, or -1 with FL_INPUT in err (something else,
+ * more digits or another exponent than a sum can have; one clause, without file and line) or FL_SYSTEM. */
 void fl_exact_print(FILE *f, const fl_exact *s);
 int fl_exact_read(fl_exact *s, const char *text, fl_err *err);
 

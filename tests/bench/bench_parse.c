@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_parse.c -- how fast a table of decimal text is read, beside how wrong the numbers are, and
- * `wc -l` on the same file in the same run.  The table is a loads table of 10 columns whose numbers need 15 to 17 digits.
- * Rates are of text over elapsed time, the best of a few rounds; compare them within one run only. */
+/* bench_parse.c -- how fast a table of decimal text is read, beside how wrong the numbers are, and `wc -l`
+ * on the same file in the same run.  The table is a loads table of 10 columns whose numbers need 15 to 17
+ * digits. Rates are of text over elapsed time, the best of a few rounds; compare them within one run only. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -35,11 +35,10 @@ static void known_sums(void **state)
     assert_true(fl_exact_value(&s) == 1.0);
     assert_string_equal(text_of(&s), "0x1p0");
     add(&s, 4.9e-324);
-    assert_string_equal(text_of(&s),
-                        "0x40000000000000000000000000000000000000000000000000000000000000000000000000000"
-                        "000000000000000000000000000000000000000000000000000000000000000000000000000000"
-                        "000000000000000000000000000000000000000000000000000000000000000000000000000000"
-                        "0000000000000000000000000000000000001p-1074");
+    /* 2^1074 + 1 of the smallest: 1074 = 4 * 268 + 2 */
+    assert_int_equal(strlen(text_of(&s)), strlen("0x") + 269 + strlen("p-1074"));
+    assert_int_equal(strspn(text_of(&s) + 3, "0"), 267);
+    assert_string_equal(text_of(&s) + 270, "1p-1074");
     assert_true(fl_exact_value(&s) == 1.0);
     add(&s, -1.0);
     assert_true(fl_exact_value(&s) == 4.9e-324);
@@ -148,7 +147,8 @@ static void moments(void **state)
     assert_true(out[0] == 0.1 && out[1] == 0.0 && isnan(out[2]) && isnan(out[3]));
     /* The ends of what is allowed. */
     moments_of(2, (double[]){1e100, -1e100}, (double[]){1e100, 1e100}, out);
-    assert_true(out[0] == 0.0 && out[1] == 1e100 && out[2] == 0.0 && out[3] == -2.0);
+    assert_true(out[0] == 0.0 && out[2] == 0.0 && out[3] == -2.0);
+    assert_near(out[1], 1e100, DBL_EPSILON);
     moments_of(2, (double[]){4.9e-324, -4.9e-324}, (double[]){4.9e-324, 4.9e-324}, out);
     assert_true(out[0] == 0.0 && out[1] == 4.9e-324 && out[3] == -2.0);
     for (long k = 0; k < test_times(50); k++) {
