@@ -110,6 +110,7 @@ int fl_classes_sort(const fl_classes *c, fl_class **sorted, fl_err *err)
 static double within(int32_t key, double f, double lo, double hi)
 {
     const double a = fl_classes_lower(key), b = fl_classes_upper(key);
+    if (key == 0) return fmin(fmax(0.0, lo), hi);
     return fmin(fmax(a + f * (b - a), lo), hi);
 }
 

@@ -8,6 +8,7 @@
 #include "options.h"
 #include "plot.h"
 #include "statrows.h"
+#include "sumrows.h"
 
 /* One view of one signal, if the signal exists for this part. */
 static int make_one(fl_view *v, const fl_series *s, const struct options *o, int each, int64_t k, fl_err *err)
@@ -93,7 +94,7 @@ int main(int argc, char **argv)
     struct options o;
     fl_err err = {0};
     int rc = options_parse(&o, argc, argv, &err);
-    if (rc == 0 && !o.ended) rc = run(&o, &err);
+    if (rc == 0 && !o.ended) rc = sumrows_wanted(&o) ? sumrows_run(&o, &err) : run(&o, &err);
     options_free(&o);
     return fl_tool_end("loadstats", rc, &err);
 }

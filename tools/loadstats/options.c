@@ -10,11 +10,16 @@
 #include "options.h"
 
 static const char HELP[] =
-    "usage: loadstats [options] [FILE]\n"
+    "usage: loadstats [options] [FILE ...]\n"
     "Statistics of a load record: moments, quantiles, peaks, histogram, exceedance, plots.\n"
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
-    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits or levels (stats)\n"
+    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, summary or ensemble "
+    "(stats)\n"
+    "      --summary           the table summary: what adds up, of one run or of many files\n"
+    "      --merge             the files are summaries: add them up\n"
+    "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
+    "      --follow S          stats of a record that grows, every S seconds of its data\n"
     "  -c, --component LIST    of fx fy fz mx my mz, fh (horizontal), f (all of it) (fx,fy,fz,fh)\n"
     "  -C, --column LIST       columns of the table by name\n"
     "  -p, --part NAME         one part of the structure, or total\n"
@@ -57,7 +62,11 @@ enum {
     BLOCK,
     RETURN,
     RESAMPLES,
-    SEED
+    SEED,
+    SUMMARY,
+    MERGE,
+    STREAM,
+    FOLLOW
 };
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
@@ -81,6 +90,10 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"seed", required_argument, NULL, SEED},
                                      {"plot", required_argument, NULL, PLOT},
                                      {"format", required_argument, NULL, FORMAT},
+                                     {"summary", no_argument, NULL, SUMMARY},
+                                     {"merge", no_argument, NULL, MERGE},
+                                     {"stream", no_argument, NULL, STREAM},
+                                     {"follow", required_argument, NULL, FOLLOW},
                                      {"output", required_argument, NULL, 'o'},
                                      {"gzip", no_argument, NULL, 'z'},
                                      {"threads", required_argument, NULL, 'j'},
@@ -90,7 +103,8 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-static const char *const TABLE[] = {"stats", "peaks", "histogram", "exceedance", "fits", "levels"};
+static const char *const TABLE[] = {"stats", "peaks",  "histogram", "exceedance",
+                                    "fits",  "levels", "summary",   "ensemble"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const PICTURE[] = {"svg", "png"};
@@ -209,6 +223,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case 't':
         k = choice("table", arg, TABLE, COUNT(TABLE), err);
         o->table = k < 0 ? TABLE_STATS : (enum table)k;
+        o->table_given = 1;
         return k < 0 ? -1 : 0;
     case 'c': return each(o, "component", arg, take_component, err);
     case 'C': return each(o, "column", arg, take_signal, err);
@@ -235,6 +250,13 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case RESAMPLES: return whole("resamples", arg, 0, 100000, &o->resamples, err);
     case SEED: return whole("seed", arg, 0, INT32_MAX, &o->seed, err);
     case PLOT: o->plot = arg; return 0;
+    case SUMMARY:
+        o->table = TABLE_SUMMARY;
+        o->table_given = 1;
+        return 0;
+    case MERGE: o->merge = 1; return 0;
+    case STREAM: o->stream = 1; return 0;
+    case FOLLOW: return time_of("follow", arg, &o->follow, err);
     case FORMAT:
         k = choice("format", arg, PICTURE, COUNT(PICTURE), err);
         if (k >= 0) o->format = PICTURE[k];
@@ -254,6 +276,39 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return 0;
     default: return fl_fail(err, FL_USAGE, "see loadstats --help");
     }
+}
+
+static void take_files(struct options *o, int n, char *const *file)
+{
+    static char input[] = "-";
+    static char *const only[] = {input};
+    o->file = n ? file : only;
+    o->files = n ? n : 1;
+    o->in = o->file[0];
+}
+
+/* What works in constant memory, and on many files. */
+static int check_summary(struct options *o, fl_err *err)
+{
+    const int many = o->table == TABLE_SUMMARY || o->table == TABLE_ENSEMBLE || o->merge;
+    const char *how = o->follow > 0.0 ? "follow" : o->merge ? "merge" : "stream";
+    if (o->merge && !o->table_given) o->table = TABLE_SUMMARY;
+    const int table = o->table == TABLE_STATS || (o->table == TABLE_HISTOGRAM && !(o->follow > 0.0)) ||
+                      (many && !(o->follow > 0.0) && o->table >= TABLE_SUMMARY);
+    if (o->files > 1 && !many && !o->stream)
+        return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
+    if (!many && !o->stream && !(o->follow > 0.0)) return 0;
+    if (!table)
+        return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", TABLE[o->table], how);
+    if (o->follow > 0.0 && (o->files > 1 || o->merge))
+        return fl_fail(err, FL_USAGE, "--follow reads one record");
+    if (o->filter > 0.0 || o->window > 0.0 || o->plot)
+        return fl_fail(err, FL_USAGE, "--%s needs the whole record, not %s%s",
+                       o->plot           ? "plot"
+                       : o->filter > 0.0 ? "filter"
+                                         : "window",
+                       many ? "--table " : "--", many ? TABLE[o->table] : how);
+    return 0;
 }
 
 int options_parse(struct options *o, int argc, char **argv, fl_err *err)
@@ -282,9 +337,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         if (apply(o, c, optarg, err)) return -1;
     }
     if (o->ended) return 0;
-    if (optind < argc) o->in = argv[optind++];
-    if (optind < argc)
-        return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", argv[optind]);
+    take_files(o, argc - optind, argv + optind);
+    if (check_summary(o, err)) return -1;
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
     if (o->sample == SAMPLE_BLOCKS && !(o->block > 0.0))
@@ -335,5 +389,25 @@ void options_by(const struct options *o, fl_by *by)
             add_number(by, "return", o->period[k]);
         fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
     }
-    if (strcmp(o->in, "-") != 0) fl_by_add(by, "%s", o->in);
+    if (o->merge) fl_by_add(by, "--merge");
+    if (o->stream) fl_by_add(by, "--stream");
+    if (o->follow > 0.0) add_number(by, "follow", o->follow);
+    if (o->table == TABLE_ENSEMBLE && o->block > 0.0) add_number(by, "block", o->block);
+    for (int k = 0; k < o->files; k++)
+        if (strcmp(o->file[k], "-") != 0) fl_by_add(by, "%s", o->file[k]);
+}
+
+void options_by_summary(const struct options *o, char *text)
+{
+    fl_by by;
+    fl_by_start(&by, "loadstats");
+    fl_by_add(&by, "--summary");
+    for (int32_t k = 0; k < o->signals; k++) fl_by_add(&by, "--column %s", o->signal[k]);
+    if (o->part) fl_by_add(&by, "--part %s", o->part);
+    if (isfinite(o->from)) add_number(&by, "from", o->from);
+    if (isfinite(o->to)) add_number(&by, "to", o->to);
+    add_number(&by, "separation", o->separation);
+    if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
+    if (o->block > 0.0) add_number(&by, "block", o->block);
+    snprintf(text, FL_BY_MAX + 2, "%s\n", by.text);
 }

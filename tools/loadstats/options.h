@@ -7,7 +7,16 @@
 #include "base/tool.h"
 
 enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50 };
-enum table { TABLE_STATS, TABLE_PEAKS, TABLE_HISTOGRAM, TABLE_EXCEEDANCE, TABLE_FITS, TABLE_LEVELS };
+enum table {
+    TABLE_STATS,
+    TABLE_PEAKS,
+    TABLE_HISTOGRAM,
+    TABLE_EXCEEDANCE,
+    TABLE_FITS,
+    TABLE_LEVELS,
+    TABLE_SUMMARY,
+    TABLE_ENSEMBLE
+};
 enum sample { SAMPLE_PEAKS, SAMPLE_POT, SAMPLE_BLOCKS };
 
 struct options {
@@ -24,12 +33,16 @@ struct options {
     int32_t quantiles;
     const char *quantiles_text; /* as given, or NULL */
     enum table table;
+    int table_given;
     enum sample sample;         /* what laws are fitted to */
     double gap, block;          /* [s] */
     double period[RETURNS_MAX]; /* [s] */
     int32_t returns, resamples, seed;
     int gzip, quiet, verbose, threads;
-    int ended; /* --help or --version was answered */
+    char *const *file; /* [files] the inputs, in is the first of them */
+    int files, merge, stream;
+    double follow; /* [s] of data between two reports, 0 for one at the end */
+    int ended;     /* --help or --version was answered */
 };
 
 /* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */
@@ -38,6 +51,9 @@ void options_free(struct options *o);
 
 /* The history line: what was asked for and is not the default, always in the same order. */
 void options_by(const struct options *o, fl_by *by);
+
+/* The same for a summary: one line, "#by ...\\n", without the names of files, for by[FL_BY_MAX + 2]. */
+void options_by_summary(const struct options *o, char *by);
 
 /* "stats", "peaks" ... : the word of --table, which is also the kind of the file. */
 const char *options_table(enum table t);

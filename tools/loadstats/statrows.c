@@ -109,7 +109,7 @@ static int histogram_rows(FILE *f, const struct result *r, const struct options 
     return rc;
 }
 
-static void header(FILE *f, const struct options *o)
+void statrows_header(FILE *f, const struct options *o)
 {
     char buf[FL_NUM_LEN];
     fputs("part\tsignal\tunit\tview", f);
@@ -124,13 +124,15 @@ static void header(FILE *f, const struct options *o)
     case TABLE_EXCEEDANCE: fputs("\trank\tpeak\tP\n", f); break;
     case TABLE_FITS:
     case TABLE_LEVELS: fitrows_header(f, o); break;
+    case TABLE_SUMMARY:
+    case TABLE_ENSEMBLE: break; /* sumrows.h */
     }
 }
 
 int statrows_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err)
 {
     fl_by_header(f, options_table(o->table), 1, r->s->history, by);
-    header(f, o);
+    statrows_header(f, o);
     for (int32_t p = 0; p < r->s->parts; p++) {
         for (int32_t s = 0; s < r->s->signals; s++) {
             if (!view_of(r, p, s, 0)) continue;

@@ -25,6 +25,9 @@ void put_field(FILE *f, double x);
 /* What every row begins with: part, signal, unit and view. */
 void put_label(FILE *f, const struct result *r, int32_t part, int32_t signal, int w);
 
+/* The row of column names. */
+void statrows_header(FILE *f, const struct options *o);
+
 /* Print the table that was asked for.  0, or -1 with FL_SYSTEM in err. */
 int statrows_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err);
 

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "stat/summary.h"
+
+static char *copy_text(const char *text, fl_err *err)
+{
+    const size_t bytes = strlen(text) + 1;
+    char *copy = fl_alloc((int64_t)bytes, 1, err);
+    return copy ? memcpy(copy, text, bytes) : NULL;
+}
+
+int fl_values_add(fl_values *v, double x, int64_t count, fl_err *err)
+{
+    if (v->n && v->v[v->n - 1].x == x) {
+        v->v[v->n - 1].count += count;
+        return 0;
+    }
+    if (fl_grow(&v->v, &v->cap, (int64_t)v->n + 1, sizeof *v->v, err)) return -1;
+    v->v[v->n++] = (fl_value){x, count};
+    return 0;
+}
+
+static int rising(const void *a, const void *b)
+{
+    const fl_value *p = a, *q = b;
+    return (p->x > q->x) - (p->x < q->x);
+}
+
+void fl_values_sort(fl_values *v)
+{
+    int32_t n = 0;
+    if (v->n) qsort(v->v, (size_t)v->n, sizeof *v->v, rising);
+    for (int32_t k = 0; k < v->n; k++) {
+        if (n && v->v[n - 1].x == v->v[k].x) v->v[n - 1].count += v->v[k].count;
+        else v->v[n++] = v->v[k];
+    }
+    v->n = n;
+}
+
+int64_t fl_values_count(const fl_values *v)
+{
+    int64_t n = 0;
+    for (int32_t k = 0; k < v->n; k++) n += v->v[k].count;
+    return n;
+}
+
+static int add_values(fl_values *v, const fl_values *other, fl_err *err)
+{
+    for (int32_t k = 0; k < other->n; k++)
+        if (fl_values_add(v, other->v[k].x, other->v[k].count, err)) return -1;
+    return 0;
+}
+
+/* --- signals -------------------------------------------------------------------------------------------- */
+
+/* The order in which components are told, then that of the alphabet. */
+static int order_signals(const char *a, const char *b)
+{
+    static const char *const known[] = {"fx", "fy", "fz", "fh", "f", "mx", "my", "mz"};
+    enum { KNOWN = sizeof known / sizeof *known };
+    int i = 0, j = 0;
+    while (i < KNOWN && strcmp(a, known[i]) != 0) i++;
+    while (j < KNOWN && strcmp(b, known[j]) != 0) j++;
+    return i != j ? i - j : strcmp(a, b);
+}
+
+static int order_parts(const char *a, const char *b)
+{
+    const int ta = strcmp(a, "total") == 0, tb = strcmp(b, "total") == 0;
+    return ta != tb ? ta - tb : strcmp(a, b);
+}
+
+static void free_signal(fl_summary_signal *s)
+{
+    free(s->part);
+    free(s->signal);
+    free(s->unit);
+    for (int k = 0; k < 5; k++) fl_exact_free(&s->sum[k]);
+    fl_exact_free(&s->peak_sum);
+    fl_classes_free(&s->level);
+    fl_classes_free(&s->peak);
+    fl_classes_free(&s->cycle);
+    free(s->block.v);
+    for (int k = 0; k < FL_RUN_VALUES; k++) free(s->run[k].v);
+    *s = (fl_summary_signal){0};
+}
+
+fl_summary_signal *fl_summary_find(fl_summary *s, const char *part, const char *signal, const char *unit,
+                                   const char *name, fl_err *err)
+{
+    int32_t lo = 0, hi = s->n; /* entries before lo come earlier, those from hi on do not */
+    while (lo < hi) {
+        const int32_t k = lo + (hi - lo) / 2;
+        const int c = order_parts(s->s[k].part, part);
+        if (c < 0 || (c == 0 && order_signals(s->s[k].signal, signal) < 0)) lo = k + 1;
+        else hi = k;
+    }
+    if (lo < s->n && strcmp(s->s[lo].part, part) == 0 && strcmp(s->s[lo].signal, signal) == 0) {
+        if (strcmp(s->s[lo].unit, unit) == 0) return &s->s[lo];
+        fl_fail(err, FL_INPUT, "%s: %.60s of %.60s is in \"%.20s\", in another run it was in \"%.20s\"", name,
+                signal, part, unit, s->s[lo].unit);
+        return NULL;
+    }
+    fl_summary_signal new = {.part = copy_text(part, err)};
+    new.signal = new.part ? copy_text(signal, err) : NULL;
+    new.unit = new.signal ? copy_text(unit, err) : NULL;
+    if (!new.unit || fl_grow(&s->s, &s->cap, (int64_t)s->n + 1, sizeof *s->s, err)) {
+        free_signal(&new);
+        return NULL;
+    }
+    memmove(s->s + lo + 1, s->s + lo, (size_t)(s->n - lo) * sizeof *s->s);
+    s->s[lo] = new;
+    s->n++;
+    return &s->s[lo];
+}
+
+static int merge_signal(fl_summary_signal *s, const fl_summary_signal *t, fl_err *err)
+{
+    const int first = s->rows == 0;
+    if (first || t->from < s->from) s->from = t->from;
+    if (first || t->to > s->to) s->to = t->to;
+    if (first || t->min < s->min || (t->min == s->min && t->t_min < s->t_min)) {
+        s->min = t->min;
+        s->t_min = t->t_min;
+    }
+    if (first || t->max > s->max || (t->max == s->max && t->t_max < s->t_max)) {
+        s->max = t->max;
+        s->t_max = t->t_max;
+    }
+    s->rows += t->rows;
+    s->peaks += t->peaks;
+    for (int k = 0; k < 5; k++)
+        if (fl_exact_merge(&s->sum[k], &t->sum[k], err)) return -1;
+    for (int k = 0; k < FL_RUN_VALUES; k++)
+        if (add_values(&s->run[k], &t->run[k], err)) return -1;
+    if (fl_exact_merge(&s->peak_sum, &t->peak_sum, err) || fl_classes_merge(&s->level, &t->level, err) ||
+        fl_classes_merge(&s->peak, &t->peak, err) || fl_classes_merge(&s->cycle, &t->cycle, err))
+        return -1;
+    return add_values(&s->block, &t->block, err);
+}
+
+/* --- history -------------------------------------------------------------------------------------------- */
+
+/* The end of the chain that begins at text: past the line of a summary, or past all. */
+static const char *end_of_chain(const char *text)
+{
+    while (*text) {
+        const char *line = text, *end = strchr(line, '\n');
+        text = end ? end + 1 : line + strlen(line);
+        const char *mark = strstr(line, " --summary");
+        if (mark && mark < text) break;
+    }
+    return text;
+}
+
+/* Insert one chain where it belongs among chains in order, unless it is there. */
+static int insert_chain(fl_summary *s, const char *chain, size_t len, fl_err *err)
+{
+    const char *at = s->history ? s->history : "";
+    while (*at) {
+        const char *end = end_of_chain(at);
+        const size_t n = (size_t)(end - at), less = n < len ? n : len;
+        const int c = memcmp(at, chain, less);
+        if (c == 0 && n == len) return 0;
+        if (c > 0 || (c == 0 && n > len)) break;
+        at = end;
+    }
+    const size_t before = s->history ? (size_t)(at - s->history) : 0, after = strlen(at);
+    char *all = fl_alloc((int64_t)(before + len + after) + 1, 1, err);
+    if (!all) return -1;
+    if (before) memcpy(all, s->history, before);
+    memcpy(all + before, chain, len);
+    memcpy(all + before + len, at, after);
+    free(s->history);
+    s->history = all;
+    return 0;
+}
+
+int fl_summary_add_history(fl_summary *s, const char *lines, fl_err *err)
+{
+    while (lines && *lines) {
+        const char *end = end_of_chain(lines);
+        if (insert_chain(s, lines, (size_t)(end - lines), err)) return -1;
+        lines = end;
+    }
+    return 0;
+}
+
+/* --- all of it ------------------------------------------------------------------------------------------ */
+
+static int check_ask(const fl_summary_ask *a, const fl_summary_ask *b, const char *name, fl_err *err)
+{
+    static const char what[] = "%s: its %s %g, that of the other runs %g: they do not add up";
+    if (a->separation != b->separation)
+        return fl_fail(err, FL_INPUT, what, name, "separation of peaks is", b->separation, a->separation);
+    if (a->threshold != b->threshold)
+        return fl_fail(err, FL_INPUT, what, name, "threshold of peaks is", b->threshold, a->threshold);
+    if (a->block != b->block)
+        return fl_fail(err, FL_INPUT, what, name, "length of blocks is", b->block, a->block);
+    if (a->rule != b->rule || a->residue != b->residue)
+        return fl_fail(err, FL_INPUT,
+                       "%s: its cycles are counted by another rule than those of the other runs", name);
+    return 0;
+}
+
+int fl_summary_merge(fl_summary *s, const fl_summary *other, const char *name, fl_err *err)
+{
+    if (other->n == 0) return 0;
+    if (s->n == 0) s->ask = other->ask;
+    if (check_ask(&s->ask, &other->ask, name, err)) return -1;
+    for (int32_t k = 0; k < other->n; k++) {
+        const fl_summary_signal *t = &other->s[k];
+        fl_summary_signal *to = fl_summary_find(s, t->part, t->signal, t->unit, name, err);
+        if (!to || merge_signal(to, t, err)) return -1;
+    }
+    return fl_summary_add_history(s, other->history, err);
+}
+
+void fl_summary_moments(const fl_summary_signal *s, double out[4]) { fl_exact_moments(s->sum, out); }
+
+void fl_summary_free(fl_summary *s)
+{
+    for (int32_t k = 0; k < s->n; k++) free_signal(&s->s[k]);
+    free(s->s);
+    free(s->history);
+    *s = (fl_summary){0};
+}

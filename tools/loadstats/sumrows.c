@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/stream.h"
+#include "stat/reduce.h"
+#include "stat/summary_file.h"
+#include "statrows.h"
+#include "sumrows.h"
+
+/* Intervals are of 95 %. */
+static const double TAIL = 0.025;
+
+int sumrows_wanted(const struct options *o)
+{
+    return o->table == TABLE_SUMMARY || o->table == TABLE_ENSEMBLE || o->merge || o->stream ||
+           o->follow > 0.0;
+}
+
+/* --- tables --------------------------------------------------------------------------------------------- */
+
+static void label(FILE *f, const fl_summary_signal *s)
+{
+    fprintf(f, "%s\t%s\t%s", s->part, s->signal, s->unit[0] ? s->unit : "-");
+}
+
+/* The row of the table stats; what is left open, a last peak for one, is not in it. */
+static int stats_row(FILE *f, const fl_summary_signal *s, const struct options *o, fl_err *err)
+{
+    double moment[4], lo = NAN, hi = NAN;
+    fl_class *level = NULL, *peak = NULL;
+    if (fl_classes_sort(&s->level, &level, err) || fl_classes_sort(&s->peak, &peak, err)) {
+        free(level);
+        return -1;
+    }
+    if (s->peak.n) {
+        lo = fl_classes_lower(peak[0].key);
+        hi = fmin(fl_classes_upper(peak[s->peak.n - 1].key), s->max);
+    }
+    fl_summary_moments(s, moment);
+    label(f, s);
+    fputs("\traw", f);
+    put_field(f, s->from);
+    put_field(f, s->to);
+    fprintf(f, "\t%lld", (long long)s->rows);
+    for (int k = 0; k < 4; k++) put_field(f, moment[k]);
+    put_field(f, s->min);
+    put_field(f, s->max);
+    put_field(f, s->t_max);
+    for (int32_t k = 0; k < o->quantiles; k++)
+        put_field(f, fl_classes_quantile(s->level.n, level, o->quantile[k], s->min, s->max));
+    fprintf(f, "\t%lld", (long long)s->peaks);
+    put_field(f, s->peaks ? fl_exact_value(&s->peak_sum) / (double)s->peaks : NAN);
+    put_field(f, s->peaks ? fl_classes_highest(s->peak.n, peak, 1.0 / 3.0, lo, hi) : NAN);
+    put_field(f, s->peaks ? fl_classes_highest(s->peak.n, peak, 0.1, lo, hi) : NAN);
+    putc('\n', f);
+    free(level);
+    free(peak);
+    return 0;
+}
+
+static int stats_rows(FILE *f, const fl_summary *sum, const struct options *o, fl_err *err)
+{
+    for (int32_t k = 0; k < sum->n; k++)
+        if (stats_row(f, &sum->s[k], o, err)) return -1;
+    return 0;
+}
+
+/* --- the ensemble --------------------------------------------------------------------------------------- */
+
+/* Mean of n independent values and its interval by Student's law; half is NAN for n < 2. */
+typedef struct {
+    double mean, std, half;
+} estimate;
+
+static estimate estimate_of(int n, const double *x)
+{
+    estimate e = {0.0, NAN, NAN};
+    double squares = 0.0;
+    for (int k = 0; k < n; k++) e.mean += x[k] / n;
+    for (int k = 0; k < n; k++) squares += (x[k] - e.mean) * (x[k] - e.mean);
+    if (n < 2) return e;
+    e.std = sqrt(squares / (n - 1));
+    e.half = e.std * gsl_cdf_tdist_Qinv(TAIL, n - 1) / sqrt(n);
+    return e;
+}
+
+/* Mean and largest value of each run, in the order of the files. */
+typedef struct {
+    int32_t runs, cap, signals;
+    double *x; /* [runs][signals][2] */
+} ensemble;
+
+static int ensemble_add(ensemble *e, const fl_summary *all, const fl_summary *one, const char *name,
+                        fl_err *err)
+{
+    if (e->runs == 0) e->signals = one->n;
+    if (one->n != e->signals || all->n != e->signals)
+        return fl_fail(err, FL_INPUT, "%s: its parts and signals are not those of the runs before", name);
+    if (fl_grow(&e->x, &e->cap, 2 * ((int64_t)e->runs + 1) * e->signals, sizeof *e->x, err)) return -1;
+    double *x = e->x + 2 * (int64_t)e->runs * e->signals;
+    for (int32_t k = 0; k < e->signals; k++) {
+        const fl_summary_signal *s = &one->s[k];
+        if (fl_values_count(&s->run[FL_RUN_MEAN]) != 1)
+            return fl_fail(err, FL_INPUT, "%s: a summary of several runs, which cannot be told apart", name);
+        *x++ = s->run[FL_RUN_MEAN].v[0].x;
+        *x++ = s->run[FL_RUN_MAX].v[0].x;
+    }
+    e->runs++;
+    return 0;
+}
+
+static void put_estimate(FILE *f, const estimate *e)
+{
+    put_field(f, e->mean);
+    put_field(f, e->mean - e->half);
+    put_field(f, e->mean + e->half);
+    put_field(f, e->std);
+}
+
+static int ensemble_rows(FILE *f, const ensemble *e, const fl_summary *all, fl_err *err)
+{
+    double *mean = fl_alloc(2 * (int64_t)e->runs, sizeof *mean, err), *max = mean + e->runs;
+    if (!mean) return -1;
+    for (int32_t k = 0; k < e->signals; k++) {
+        double largest = -INFINITY;
+        for (int32_t n = 0; n < e->runs; n++) {
+            mean[n] = e->x[2 * ((int64_t)n * e->signals + k)];
+            max[n] = e->x[2 * ((int64_t)n * e->signals + k) + 1];
+            const estimate a = estimate_of(n + 1, mean), b = estimate_of(n + 1, max);
+            largest = fmax(largest, max[n]);
+            label(f, &all->s[k]);
+            fprintf(f, "\t%d", n + 1);
+            put_estimate(f, &a);
+            put_estimate(f, &b);
+            put_field(f, largest);
+            putc('\n', f);
+        }
+    }
+    free(mean);
+    return 0;
+}
+
+/* Time and peaks of the classes of the values, as the table histogram has them. */
+static int histogram_rows(FILE *f, const fl_summary_signal *s, fl_err *err)
+{
+    fl_class *level = NULL, *peak = NULL;
+    if (fl_classes_sort(&s->level, &level, err) || fl_classes_sort(&s->peak, &peak, err)) {
+        free(level);
+        return -1;
+    }
+    const double total = fl_exact_value(&s->sum[0]);
+    for (int32_t k = 0, j = 0; k < s->level.n; k++) {
+        /* A peak is a value, so its class is among those of the values. */
+        while (j < s->peak.n && peak[j].key < level[k].key) j++;
+        const int64_t peaks = j < s->peak.n && peak[j].key == level[k].key ? peak[j].n : 0;
+        const double time = fl_fixed_value(level[k].time);
+        label(f, s);
+        fputs("\traw", f);
+        put_field(f, fl_classes_lower(level[k].key));
+        put_field(f, fl_classes_upper(level[k].key));
+        put_field(f, time);
+        put_field(f, time / total);
+        fprintf(f, "\t%lld\n", (long long)peaks);
+    }
+    free(level);
+    free(peak);
+    return 0;
+}
+
+static int write_rows(FILE *f, fl_summary *all, const ensemble *e, const struct options *o, fl_err *err)
+{
+    if (o->table == TABLE_SUMMARY) return fl_summary_write(f, all, err);
+    if (o->table == TABLE_ENSEMBLE) return ensemble_rows(f, e, all, err);
+    if (o->table == TABLE_STATS) return stats_rows(f, all, o, err);
+    for (int32_t k = 0; k < all->n; k++)
+        if (histogram_rows(f, &all->s[k], err)) return -1;
+    return 0;
+}
+
+/* --- reading -------------------------------------------------------------------------------------------- */
+
+/* Rows of a record that is still growing, whenever its data have gone on by o->follow seconds. */
+static int follow(FILE *f, const fl_run *run, const struct options *o, double *next, fl_err *err)
+{
+    if (run->end < *next) return 0;
+    while (*next <= run->end) *next += o->follow;
+    if (stats_rows(f, &run->sum, o, err)) return -1;
+    return fflush(f) == 0 ? 0 : fl_fail(err, FL_SYSTEM, "%s: could not write all of it", o->out);
+}
+
+static void write_header(FILE *f, const char *history, const struct options *o)
+{
+    fl_by by;
+    if (o->table == TABLE_SUMMARY) return; /* it has its own */
+    options_by(o, &by);
+    fl_by_header(f, options_table(o->table), 1, history, &by);
+    if (o->table == TABLE_ENSEMBLE)
+        fputs("part\tsignal\tunit\truns\tmean\tmean_low\tmean_high\tmean_std\tmax\tmax_low\tmax_high\tmax_std"
+              "\tlargest\n",
+              f);
+    else statrows_header(f, o);
+}
+
+static int read_run(fl_summary *one, const char *path, FILE *f, const struct options *o, const char *by,
+                    fl_err *err)
+{
+    const fl_series_ask ask = {
+        .signal = o->signal, .signals = o->signals, .part = o->part, .from = o->from, .to = o->to};
+    const fl_summary_ask how = {.separation = o->separation, .threshold = o->threshold, .block = o->block};
+    fl_run run = {0};
+    double next = NAN;
+    int more, rc = -1;
+    if (fl_run_open(&run, path, &ask, &how, err)) goto done;
+    while ((more = fl_run_next(&run, err)) > 0) {
+        if (!(o->follow > 0.0)) continue;
+        /* Rows are told at whole multiples of the interval, whenever the record began. */
+        if (isnan(next)) {
+            write_header(f, fl_record_history(&run.record), o);
+            next = o->follow * (floor(run.record.edge[0] / o->follow) + 1.0);
+        }
+        if (follow(f, &run, o, &next, err)) goto done;
+    }
+    if (more < 0 || fl_run_end(&run, by, err)) goto done;
+    rc = fl_summary_merge(one, &run.sum, path, err);
+done:
+    fl_run_close(&run);
+    return rc;
+}
+
+static int read_all(fl_summary *all, ensemble *e, FILE *f, const struct options *o, fl_err *err)
+{
+    char by[FL_BY_MAX + 2] = "";
+    /* The line that ends a chain is that of the summary; a table of one record has its own line only. */
+    if (o->table == TABLE_SUMMARY || o->files > 1) options_by_summary(o, by);
+    for (int k = 0; k < o->files; k++) {
+        const char *path = o->file[k];
+        fl_summary one = {0};
+        int rc = o->merge ? fl_summary_read(&one, path, err) : read_run(&one, path, f, o, by, err);
+        if (rc == 0) rc = fl_summary_merge(all, &one, path, err);
+        if (rc == 0 && o->table == TABLE_ENSEMBLE) rc = ensemble_add(e, all, &one, path, err);
+        fl_summary_free(&one);
+        if (rc) return -1;
+    }
+    return 0;
+}
+
+/* Two runs of one history are one run counted twice, and make intervals too narrow. */
+static void warn(const fl_summary *all, const struct options *o)
+{
+    int64_t chains = 0, runs = 0;
+    int told = 0;
+    for (const char *p = all->history; p && *p; p = strchr(p, '\n') + 1) {
+        const char *end = strchr(p, '\n'), *mark = strstr(p, " --summary");
+        if (!end) break;
+        if (mark && mark < end) chains++;
+        else told = 1;
+    }
+    for (int32_t k = 0; k < all->n; k++) {
+        const int64_t n = fl_values_count(&all->s[k].run[FL_RUN_MEAN]);
+        if (n > runs) runs = n;
+    }
+    if (!o->quiet && told && runs > chains && chains > 0)
+        fprintf(stderr, "loadstats: %lld runs have %lld histories: some are the same run, counted twice\n",
+                (long long)runs, (long long)chains);
+}
+
+int sumrows_run(const struct options *o, fl_err *err)
+{
+    fl_summary all = {0};
+    ensemble e = {0};
+    fl_out out = {0};
+    int rc = -1;
+    /* What is followed is written as it comes; all else when it has been read. */
+    if (o->follow > 0.0 && fl_out_open(&out, o->out, o->gzip, err)) goto done;
+    if (read_all(&all, &e, out.f, o, err)) goto done;
+    warn(&all, o);
+    if (!(o->follow > 0.0)) {
+        if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
+        write_header(out.f, all.history, o);
+    }
+    if (write_rows(out.f, &all, &e, o, err)) goto done;
+    rc = fl_out_close(&out, err);
+done:
+    fl_out_abort(&out);
+    free(e.x);
+    fl_summary_free(&all);
+    return rc;
+}
