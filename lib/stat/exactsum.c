@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h> /* first: gmp.h looks whether it is there */
+
 #include <gmp.h>
 #include <math.h>
 #include <stdlib.h>
