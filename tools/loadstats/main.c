@@ -6,6 +6,7 @@
 #include "base/stream.h"
 #include "stat/resample.h"
 #include "options.h"
+#include "page.h"
 #include "plot.h"
 #include "statrows.h"
 #include "sumrows.h"
@@ -80,7 +81,8 @@ static int run(const struct options *o, fl_err *err)
     if (fl_out_open(&out, o->out, o->gzip, err) || statrows_write(out.f, &r, o, &by, err) ||
         fl_out_close(&out, err))
         goto done;
-    rc = o->plot ? plot(&r, o, &by, err) : 0;
+    if (o->plot && plot(&r, o, &by, err)) goto done;
+    rc = o->report ? page_write(&r, o, err) : 0;
 done:
     fl_out_abort(&out);
     for (int64_t k = 0; views && k < n; k++) fl_view_free(&views[k]);

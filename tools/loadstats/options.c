@@ -39,6 +39,7 @@ static const char HELP[] =
     "      --resamples N       for intervals and probabilities, 0 for none (199)\n"
     "      --seed N            of their random numbers (1)\n"
     "      --plot DIR          draw history and peak distribution into DIR\n"
+    "      --report FILE       write numbers, pictures and history as one HTML page\n"
     "      --format FORMAT     of the pictures, svg or png (svg)\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the table\n"
@@ -66,7 +67,8 @@ enum {
     SUMMARY,
     MERGE,
     STREAM,
-    FOLLOW
+    FOLLOW,
+    REPORT
 };
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
@@ -91,6 +93,7 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"plot", required_argument, NULL, PLOT},
                                      {"format", required_argument, NULL, FORMAT},
                                      {"summary", no_argument, NULL, SUMMARY},
+                                     {"report", required_argument, NULL, REPORT},
                                      {"merge", no_argument, NULL, MERGE},
                                      {"stream", no_argument, NULL, STREAM},
                                      {"follow", required_argument, NULL, FOLLOW},
@@ -256,6 +259,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return 0;
     case MERGE: o->merge = 1; return 0;
     case STREAM: o->stream = 1; return 0;
+    case REPORT: o->report = arg; return 0;
     case FOLLOW: return time_of("follow", arg, &o->follow, err);
     case FORMAT:
         k = choice("format", arg, PICTURE, COUNT(PICTURE), err);
@@ -302,11 +306,9 @@ static int check_summary(struct options *o, fl_err *err)
         return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", TABLE[o->table], how);
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
-    if (o->filter > 0.0 || o->window > 0.0 || o->plot)
-        return fl_fail(err, FL_USAGE, "--%s needs the whole record, not %s%s",
-                       o->plot           ? "plot"
-                       : o->filter > 0.0 ? "filter"
-                                         : "window",
+    const char *whole = o->report ? "report" : o->plot ? "plot" : o->filter > 0.0 ? "filter" : "window";
+    if (o->filter > 0.0 || o->window > 0.0 || o->plot || o->report)
+        return fl_fail(err, FL_USAGE, "--%s needs the whole record, not %s%s", whole,
                        many ? "--table " : "--", many ? TABLE[o->table] : how);
     return 0;
 }
@@ -380,12 +382,13 @@ void options_by(const struct options *o, fl_by *by)
     add_number(by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
     if (o->table == TABLE_HISTOGRAM) fl_by_add(by, "--bins %d", o->bins);
-    if (o->table == TABLE_STATS && o->quantiles_text) fl_by_add(by, "--quantiles %s", o->quantiles_text);
-    if (o->table == TABLE_FITS || o->table == TABLE_LEVELS) {
+    if ((o->table == TABLE_STATS || o->page) && o->quantiles_text)
+        fl_by_add(by, "--quantiles %s", o->quantiles_text);
+    if (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->page) {
         if (o->sample) fl_by_add(by, "--sample %s", SAMPLES[o->sample]);
         if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
         if (o->sample == SAMPLE_BLOCKS) add_number(by, "block", o->block);
-        for (int32_t k = 0; o->table == TABLE_LEVELS && k < o->returns; k++)
+        for (int32_t k = 0; (o->table == TABLE_LEVELS || o->page) && k < o->returns; k++)
             add_number(by, "return", o->period[k]);
         fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
     }

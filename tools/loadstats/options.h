@@ -20,9 +20,9 @@ enum table {
 enum sample { SAMPLE_PEAKS, SAMPLE_POT, SAMPLE_BLOCKS };
 
 struct options {
-    const char *in, *out, *part, *plot, *format; /* borrowed from argv */
-    const char *signal[SIGNALS_MAX];             /* into words */
-    char *words;                                 /* the lists of the command line, cut in place */
+    const char *in, *out, *part, *plot, *format, *report; /* borrowed from argv */
+    const char *signal[SIGNALS_MAX];                      /* into words */
+    char *words;                                          /* the lists of the command line, cut in place */
     int32_t signals, words_len, words_cap;
     double from, to, window; /* [s] */
     double filter;           /* [Hz], 0 for none */
@@ -39,6 +39,7 @@ struct options {
     double period[RETURNS_MAX]; /* [s] */
     int32_t returns, resamples, seed;
     int gzip, quiet, verbose, threads;
+    int page;          /* the history line is that of a report, which holds several tables */
     char *const *file; /* [files] the inputs, in is the first of them */
     int files, merge, stream;
     double follow; /* [s] of data between two reports, 0 for one at the end */
