@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 #include <zlib.h>
 #include "base/mem.h"
@@ -15,6 +16,7 @@ enum { CHUNK = 1 << 16 };
 struct fl_in {
     int fd, gzip, ended;
     const char *name; /* borrowed */
+    double patience;  /* [s] */
     z_stream z;
     int64_t have, pos;
     unsigned char buf[CHUNK];
@@ -23,9 +25,16 @@ struct fl_in {
 /* Refill the raw buffer; 0 at the end of the file. */
 static int64_t raw_fill(fl_in *in, fl_err *err)
 {
+    const struct timespec pause = {.tv_nsec = 50000000};
     ssize_t k;
-    do k = read(in->fd, in->buf, CHUNK);
-    while (k < 0 && errno == EINTR);
+    double waited = 0.0;
+    for (;;) {
+        do k = read(in->fd, in->buf, CHUNK);
+        while (k < 0 && errno == EINTR);
+        if (k != 0 || waited >= in->patience) break;
+        nanosleep(&pause, NULL);
+        waited += 1e-9 * (double)pause.tv_nsec;
+    }
     if (k < 0) return fl_fail(err, FL_INPUT, "%s: %s", in->name, strerror(errno));
     in->have = k;
     in->pos = 0;
@@ -108,6 +117,8 @@ int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err)
 {
     return in->gzip ? gzip_read(in, buf, n, err) : plain_read(in, buf, n, err);
 }
+
+void fl_in_patience(fl_in *in, double seconds) { in->patience = seconds; }
 
 const char *fl_in_name(const fl_in *in) { return in->name; }
 

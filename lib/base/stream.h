@@ -17,6 +17,10 @@ fl_in *fl_in_open(const char *path, fl_err *err);
  * error). A short count is not the end: data are handed over as they come down a pipe. */
 int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err);
 
+/* A file that ends is read again, as something else may still be writing it, until it has not grown for so
+ * many seconds; 0, as at first, takes its end for the end. */
+void fl_in_patience(fl_in *in, double seconds);
+
 /* The name to put in messages: the path, or "<stdin>". */
 const char *fl_in_name(const fl_in *in);
 void fl_in_close(fl_in *in); /* NULL is accepted */

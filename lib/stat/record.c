@@ -6,7 +6,7 @@
 #include "base/table.h"
 #include "stat/record.h"
 
-enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
+enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3, WHERE_MAX = 16 };
 
 /* A signal is the Euclidean length of one to three columns; of one column it is the column itself. */
 typedef struct {
@@ -27,6 +27,8 @@ struct fl_record_reader {
     int32_t time, key;          /* columns; key < 0 when rows are not told apart */
     int32_t col[RAW_MAX], raws; /* columns that are read */
     int adds[RAW_MAX];
+    int32_t where[WHERE_MAX]; /* columns of conditions, and what must be in them */
+    const char *word[WHERE_MAX];
     formula form[SIGNAL_MAX];
     const char *name[SIGNAL_MAX], *unit[SIGNAL_MAX];
     int32_t signals;
@@ -49,6 +51,12 @@ struct fl_record_reader {
 
 /* --- which columns -------------------------------------------------------------------------------------- */
 
+const char *fl_over_name(int over)
+{
+    static const char *const name[FL_OVERS] = {"", "sum", "mean", "min", "max", "count"};
+    return name[over];
+}
+
 static int adds_up(const char *name)
 {
     static const char *const list[] = {"fx", "fy", "fz", "mx", "my", "mz", "contacts"};
@@ -63,12 +71,12 @@ static int want_column(fl_record_reader *r, const char *name, int *raw, fl_err *
     if (fl_table_find(&r->table, name, &col, err)) return -1;
     for (*raw = 0; *raw < r->raws; ++*raw)
         if (r->col[*raw] == col) return 0;
-    r->adds[r->raws] = strcmp(r->table.text.kind, "loads") == 0 && adds_up(r->table.name[col]);
+    r->adds[r->raws] = r->loads && !r->ask.over && adds_up(r->table.name[col]);
     r->col[r->raws++] = col;
     return 0;
 }
 
-static int want_signal(fl_record_reader *r, const char *name, fl_err *err)
+static int want_signal(fl_record_reader *r, const fl_series_ask *ask, const char *name, fl_err *err)
 {
     static const char *const axis[] = {"fx", "fy", "fz"};
     formula *f = &r->form[r->signals];
@@ -87,28 +95,57 @@ static int want_signal(fl_record_reader *r, const char *name, fl_err *err)
     }
     const int32_t first = r->col[f->raw[0]];
     r->name[r->signals] = f->n == 1 ? r->table.name[first] : name;
-    r->unit[r->signals] = r->table.unit[first];
+    r->unit[r->signals] = ask->over == FL_OVER_COUNT ? "" : r->table.unit[first];
     for (int32_t k = 0; k < r->signals; k++)
         if (strcmp(r->name[k], r->name[r->signals]) == 0) return 0; /* asked for twice: once is enough */
     r->signals++;
     return 0;
 }
 
+/* "COLUMN=WORD" */
+static int want_where(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
+{
+    if (ask->wheres > WHERE_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d conditions were given", WHERE_MAX);
+    for (int32_t k = 0; k < ask->wheres; k++) {
+        const char *equal = strchr(ask->where[k], '=');
+        char name[80];
+        const size_t len = equal ? (size_t)(equal - ask->where[k]) : sizeof name;
+        if (len == 0 || len >= sizeof name || equal[1] == '\0')
+            return fl_fail(err, FL_USAGE, "\"%.60s\" is no condition, COLUMN=WORD was wanted", ask->where[k]);
+        memcpy(name, ask->where[k], len);
+        name[len] = '\0';
+        if (fl_table_find(&r->table, name, &r->where[k], err)) return -1;
+        r->word[k] = equal + 1;
+    }
+    return 0;
+}
+
+/* Does the row in the table hold what was asked for? */
+static int is_wanted(const fl_record_reader *r)
+{
+    for (int32_t k = 0; k < r->ask.wheres; k++)
+        if (strcmp(fl_table_word(&r->table, r->where[k]), r->word[k]) != 0) return 0;
+    return 1;
+}
+
 static int want_all(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
 {
     static const char *const usual[] = {"fx", "fy", "fz", "fh"};
-    const int loads = strcmp(r->table.text.kind, "loads") == 0;
+    const int loads = r->loads;
     const char *const *list = ask->signals ? ask->signal : usual;
     const int32_t n = ask->signals ? ask->signals : (int32_t)(sizeof usual / sizeof *usual);
     if (!loads && !ask->signals)
         return fl_fail(err, FL_USAGE, "%s: a column of this %s table must be chosen, it is not loads",
                        fl_in_name(r->table.text.in), r->table.text.kind);
     if (fl_table_find(&r->table, "t", &r->time, err)) return -1;
-    if (loads && fl_table_find(&r->table, "part", &r->key, err)) return -1;
-    if (!loads) r->key = fl_table_column(&r->table, "part");
-    if (!loads && r->key < 0) r->key = fl_table_column(&r->table, "body");
+    if (want_where(r, ask, err)) return -1;
+    if (ask->over) r->key = -1;
+    else if (loads && fl_table_find(&r->table, "part", &r->key, err)) return -1;
+    if (!loads && !ask->over) r->key = fl_table_column(&r->table, "part");
+    if (!loads && !ask->over && r->key < 0) r->key = fl_table_column(&r->table, "body");
     for (int32_t k = 0; k < n; k++)
-        if (want_signal(r, list[k], err)) return -1;
+        if (want_signal(r, ask, list[k], err)) return -1;
     if (ask->part && strcmp(ask->part, "total") == 0) {
         for (int32_t k = 0; k < r->signals; k++)
             if (!r->form[k].adds)
@@ -232,6 +269,8 @@ static double length3(const double *raw, const formula *f)
 static int close_time(fl_record_reader *r, fl_err *err)
 {
     if (!r->by_name && freeze_parts(r, err)) return -1;
+    if (r->ask.over == FL_OVER_MEAN)
+        for (int32_t c = 0; c < r->raws; c++) r->raw[c] /= r->seen;
     for (int32_t p = 0; r->seen < r->parts && p < r->parts; p++)
         if (r->part[p].n == r->n)
             return fl_text_fail(&r->table.text, err, "%.60s has no row at %.10g s", r->part[p].name, r->now);
@@ -253,17 +292,28 @@ static int close_time(fl_record_reader *r, fl_err *err)
     return 0;
 }
 
+/* Put x into what the rows of this time have come to. */
+static void put_together(int over, int first, double x, double *sum)
+{
+    if (over == FL_OVER_COUNT) x = 1.0;
+    if (first || over == FL_OVER_NONE) *sum = x;
+    else if (over == FL_OVER_MIN) *sum = fmin(*sum, x);
+    else if (over == FL_OVER_MAX) *sum = fmax(*sum, x);
+    else *sum += x;
+}
+
 static int take_values(fl_record_reader *r, int32_t part, fl_err *err)
 {
     raw_part *p = &r->part[part];
-    double *x = r->raw + (int64_t)part * r->raws;
-    for (int32_t k = 0; p->keep && k < r->raws; k++, x++) {
-        if (fl_table_f64(&r->table, r->col[k], x, err)) return -1;
-        if (fabs(*x) > FL_SERIES_LARGEST)
+    double *sum = r->raw + (int64_t)part * r->raws, x;
+    for (int32_t k = 0; p->keep && k < r->raws; k++, sum++) {
+        if (fl_table_f64(&r->table, r->col[k], &x, err)) return -1;
+        if (fabs(x) > FL_SERIES_LARGEST)
             return fl_text_fail(&r->table.text, err, "%.60s is %g, at most %g was expected",
-                                r->table.name[r->col[k]], *x, FL_SERIES_LARGEST);
+                                r->table.name[r->col[k]], x, FL_SERIES_LARGEST);
+        put_together(r->ask.over, r->seen == 1, x, sum);
     }
-    p->n++;
+    if (p->n == r->n) p->n++;
     return 0;
 }
 
@@ -289,16 +339,20 @@ static int take_row(fl_record_reader *r, fl_err *err)
             return find_part(r, name) < 0
                        ? not_there(r, name, err)
                        : fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
+        if (r->n && r->key < 0 && !r->ask.over && t == before)
+            return fl_text_fail(&r->table.text, err,
+                                "several rows at %.10g s, and no column part or body tells them apart", t);
         if (!(t > before))
             return fl_text_fail(&r->table.text, err, "time %.15g s does not follow %.15g s%s", t, before,
                                 r->n ? "" : ", where the record starts");
     }
     if (r->n == 0 && r->seen == 0) r->first = t;
     r->now = t;
-    p = r->by_name ? find_part(r, name) : add_part(r, name, err);
+    if (r->ask.over && r->parts) p = 0;
+    else p = r->by_name ? find_part(r, name) : add_part(r, name, err);
     if (p < 0 && !r->by_name) return -1;
     if (p < 0) return not_there(r, name, err);
-    if (r->part[p].n > r->n)
+    if (r->part[p].n > r->n && !r->ask.over)
         return fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
     r->seen++;
     return take_values(r, p, err);
@@ -316,12 +370,13 @@ static int read_time(fl_record_reader *r, fl_err *err)
                 r->pending = 2;
                 if (r->seen) return close_time(r, err) ? -1 : 1;
                 if (r->n) return 0;
-                return fl_text_fail(&r->table.text, err, "the %s table ends here without a row",
-                                    r->table.text.kind);
+                return fl_text_fail(&r->table.text, err, "the %s table ends here without a row%s",
+                                    r->table.text.kind, r->ask.wheres ? " that was asked for" : "");
             }
         }
+        if (r->pending == 0 && !is_wanted(r)) continue;
         if (take_row(r, err)) return -1;
-        if (r->pending || r->key < 0 || (r->by_name && r->seen == r->parts))
+        if (r->pending || (!r->ask.over && (r->key < 0 || (r->by_name && r->seen == r->parts))))
             return close_time(r, err) ? -1 : 1;
     }
 }
@@ -335,12 +390,15 @@ int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_
     if (!own) return -1;
     own->key = -1;
     own->ask = *ask;
-    if (fl_table_open(&own->table, path, NULL, 1, err) || want_all(own, ask, err)) {
+    int rc = fl_table_open(&own->table, path, NULL, 1, err);
+    own->loads = rc == 0 && strcmp(own->table.text.kind, "loads") == 0;
+    if (rc == 0) rc = want_all(own, ask, err);
+    if (rc) {
         fl_record_close(r);
         return -1;
     }
     r->kind = own->table.text.kind;
-    own->loads = strcmp(r->kind, "loads") == 0;
+    fl_in_patience(own->table.text.in, ask->patience);
     own->before = own->table.start;
     r->signals = own->signals;
     r->signal = own->name;

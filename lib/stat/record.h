@@ -16,6 +16,9 @@
  *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total
  *                    of the summed components; signals = 0 takes fx, fy, fz, fh of a loads table
  *   part             one part or "total"; NULL takes all of them and the total
+ *   over             what becomes of several rows at one time, see below
+ *   where[wheres]    "COLUMN=WORD": only rows whose field is that word
+ *   patience         a file that has ended is waited for so long, should it grow [s], see fl_in_patience()
  *   from, to         only rows whose interval lies within [s]; -INFINITY and INFINITY take all
  *   last             only the rows of the last so many seconds; 0 takes all */
 typedef struct {
@@ -23,7 +26,18 @@ typedef struct {
     int32_t signals;
     const char *part;
     double from, to, last;
+    int over;
+    const char *const *where;
+    int32_t wheres;
+    double patience;
 } fl_series_ask;
+
+/* Rows of one time are told apart by their part, or become one value: the sum of their values, their mean,
+ * the smallest, the largest, or how many there are.  There is then one part, "-". */
+enum fl_over { FL_OVER_NONE, FL_OVER_SUM, FL_OVER_MEAN, FL_OVER_MIN, FL_OVER_MAX, FL_OVER_COUNT, FL_OVERS };
+
+/* "sum", "mean", "min", "max", "count" for 1 .. FL_OVERS - 1. */
+const char *fl_over_name(int over);
 
 typedef struct fl_record_reader fl_record_reader;
 
@@ -48,7 +62,8 @@ int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_
 
 /* The next time.  1, or 0 at the end, or -1 with err: FL_INPUT for no row at all, a missing, new or repeated
  * part, time that does not rise, a field that is not a number or beyond FL_SERIES_LARGEST.
- * A loads table hands on a time as soon as its last row is there, any other with the first row after it. */
+ * A loads table hands on a time as soon as its last row is there, any other with the first row after it;
+ * so does any table whose rows are put together, for their number is not known. */
 int fl_record_next(fl_record *r, fl_err *err);
 
 /* The "#by" lines of the table, or NULL; complete at the end of it.  Borrowed. */

@@ -150,6 +150,59 @@ static void samples_of_another_table(void **state)
     fl_series_free(&s);
 }
 
+static const char TOUCH[] = "#contacts 1\nt[s] i j fn[N] gap[m]\n0 1 2 10 -1\n0 1 -1 30 -2\n"
+                            "1 5 2 7 0.5\n"
+                            "3 1 2 1 -1\n3 2 4 2 -3\n3 4 -1 4 -2\n";
+
+/* Rows of one time become one, or some of them are chosen. */
+static void rows_of_one_time(void **state)
+{
+    static const double want[FL_OVERS][3] = {{0},        {40, 7, 7}, {20, 7, 7.0 / 3.0},
+                                             {10, 7, 1}, {30, 7, 4}, {2, 1, 3}};
+    const char *const fn[] = {"fn"}, *const leg[] = {"j=-1"}, *const both[] = {"j=2", "i=1"},
+                      *const none[] = {"i=9"}, *const wrong[] = {"i9"};
+    fl_series s;
+    (void)state;
+    fl_series_ask ask = {.signal = fn, .signals = 1, .from = -INFINITY, .to = INFINITY};
+    assert_int_equal(read_text(&s, &ask, TOUCH), -1);
+    expect_told(FL_INPUT, 4, "several rows at 0 s, and no column part or body tells them apart");
+    for (ask.over = FL_OVER_SUM; ask.over < FL_OVERS; ask.over++) {
+        assert_int_equal(read_text(&s, &ask, TOUCH), 0);
+        assert_int_equal(s.n, 3);
+        assert_int_equal(s.parts, 1);
+        assert_string_equal(s.part[0], "-");
+        assert_string_equal(s.unit[0], ask.over == FL_OVER_COUNT ? "" : "N");
+        assert_memory_equal(s.t, ((double[]){0, 1, 3}), 3 * sizeof(double));
+        assert_memory_equal(s.x[0], want[ask.over], 3 * sizeof(double));
+        fl_series_free(&s);
+    }
+    ask.over = FL_OVER_NONE;
+    ask.wheres = 1;
+    ask.where = leg;
+    assert_int_equal(read_text(&s, &ask, TOUCH), 0);
+    assert_memory_equal(s.t, ((double[]){0, 3}), 2 * sizeof(double));
+    assert_memory_equal(s.x[0], ((double[]){30, 4}), 2 * sizeof(double));
+    fl_series_free(&s);
+    ask.wheres = 2;
+    ask.where = both;
+    assert_int_equal(read_text(&s, &ask, TOUCH), 0);
+    assert_memory_equal(s.x[0], ((double[]){10, 1}), 2 * sizeof(double));
+    fl_series_free(&s);
+    ask.wheres = 1;
+    ask.where = none;
+    assert_int_equal(read_text(&s, &ask, TOUCH), -1);
+    expect_told(FL_INPUT, 8, "the contacts table ends here without a row that was asked for");
+    ask.where = wrong;
+    assert_int_equal(read_text(&s, &ask, TOUCH), -1);
+    assert_int_equal(err.code, FL_USAGE);
+    /* Of a loads table too: then there is no total beside it. */
+    ask = (fl_series_ask){.from = -INFINITY, .to = INFINITY, .over = FL_OVER_MAX};
+    assert_int_equal(read_text(&s, &ask, TWO), 0);
+    assert_int_equal(s.parts, 1);
+    assert_memory_equal(s.x[0], ((double[]){3, 6, 1}), 3 * sizeof(double));
+    fl_series_free(&s);
+}
+
 static void complaints(void **state)
 {
     static const struct {
@@ -281,6 +334,7 @@ int main(void)
                                        cmocka_unit_test(asking),
                                        cmocka_unit_test(cuts),
                                        cmocka_unit_test(samples_of_another_table),
+                                       cmocka_unit_test(rows_of_one_time),
                                        cmocka_unit_test(complaints),
                                        cmocka_unit_test(one_part_called_total_is_the_total),
                                        cmocka_unit_test(resampling_keeps_the_impulse),

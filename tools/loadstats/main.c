@@ -67,7 +67,10 @@ static int run(const struct options *o, fl_err *err)
                                .part = o->part,
                                .from = o->from,
                                .to = o->to,
-                               .last = o->window};
+                               .last = o->window,
+                               .over = o->over,
+                               .where = o->where,
+                               .wheres = o->wheres};
     int rc = -1;
     int64_t n = 0;
     if (o->threads) omp_set_num_threads(o->threads);

@@ -20,9 +20,12 @@ static const char HELP[] =
     "      --merge             the files are summaries: add them up\n"
     "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
     "      --follow S          stats of a record that grows, every S seconds of its data\n"
+    "      --patience S        of --follow: a file that has not grown for so long has ended (0)\n"
     "  -c, --component LIST    of fx fy fz mx my mz, fh (horizontal), f (all of it) (fx,fy,fz,fh)\n"
     "  -C, --column LIST       columns of the table by name\n"
     "  -p, --part NAME         one part of the structure, or total\n"
+    "      --where COLUMN=WORD only rows that have this in that column\n"
+    "      --over WHAT         rows of one time become one: sum, mean, min, max or count of them\n"
     "      --from T            leave out what is before T seconds\n"
     "      --to T              leave out what is after T seconds\n"
     "  -w, --window S          only the last S seconds\n"
@@ -68,7 +71,10 @@ enum {
     MERGE,
     STREAM,
     FOLLOW,
-    REPORT
+    REPORT,
+    WHERE,
+    OVER,
+    PATIENCE
 };
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
@@ -94,6 +100,9 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"format", required_argument, NULL, FORMAT},
                                      {"summary", no_argument, NULL, SUMMARY},
                                      {"report", required_argument, NULL, REPORT},
+                                     {"where", required_argument, NULL, WHERE},
+                                     {"over", required_argument, NULL, OVER},
+                                     {"patience", required_argument, NULL, PATIENCE},
                                      {"merge", no_argument, NULL, MERGE},
                                      {"stream", no_argument, NULL, STREAM},
                                      {"follow", required_argument, NULL, FOLLOW},
@@ -110,6 +119,7 @@ static const char *const TABLE[] = {"stats", "peaks",  "histogram", "exceedance"
                                     "fits",  "levels", "summary",   "ensemble"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
+static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
@@ -260,6 +270,16 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case MERGE: o->merge = 1; return 0;
     case STREAM: o->stream = 1; return 0;
     case REPORT: o->report = arg; return 0;
+    case WHERE:
+        if (o->wheres == WHERES_MAX)
+            return fl_fail(err, FL_USAGE, "more than %d conditions were given", WHERES_MAX);
+        o->where[o->wheres++] = arg;
+        return 0;
+    case OVER:
+        k = choice("over", arg, OVER_WHAT, COUNT(OVER_WHAT), err);
+        o->over = k + 1;
+        return k < 0 ? -1 : 0;
+    case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
     case FOLLOW: return time_of("follow", arg, &o->follow, err);
     case FORMAT:
         k = choice("format", arg, PICTURE, COUNT(PICTURE), err);
@@ -367,13 +387,21 @@ static void add_number(fl_by *by, const char *option, double x)
     fl_by_add(by, "--%s %s", option, fl_num_text(x, buf));
 }
 
+/* What is read. */
+static void add_choice(const struct options *o, fl_by *by)
+{
+    for (int32_t k = 0; k < o->signals; k++) fl_by_add(by, "--column %s", o->signal[k]);
+    if (o->part) fl_by_add(by, "--part %s", o->part);
+    for (int32_t k = 0; k < o->wheres; k++) fl_by_add(by, "--where %s", o->where[k]);
+    if (o->over) fl_by_add(by, "--over %s", OVER_WHAT[o->over - 1]);
+    if (isfinite(o->from)) add_number(by, "from", o->from);
+    if (isfinite(o->to)) add_number(by, "to", o->to);
+}
+
 void options_by(const struct options *o, fl_by *by)
 {
     fl_by_start(by, "loadstats");
-    for (int32_t k = 0; k < o->signals; k++) fl_by_add(by, "--column %s", o->signal[k]);
-    if (o->part) fl_by_add(by, "--part %s", o->part);
-    if (isfinite(o->from)) add_number(by, "from", o->from);
-    if (isfinite(o->to)) add_number(by, "to", o->to);
+    add_choice(o, by);
     if (o->window > 0.0) add_number(by, "window", o->window);
     if (o->filter > 0.0) {
         add_number(by, "filter", o->filter);
@@ -405,10 +433,7 @@ void options_by_summary(const struct options *o, char *text)
     fl_by by;
     fl_by_start(&by, "loadstats");
     fl_by_add(&by, "--summary");
-    for (int32_t k = 0; k < o->signals; k++) fl_by_add(&by, "--column %s", o->signal[k]);
-    if (o->part) fl_by_add(&by, "--part %s", o->part);
-    if (isfinite(o->from)) add_number(&by, "from", o->from);
-    if (isfinite(o->to)) add_number(&by, "to", o->to);
+    add_choice(o, &by);
     add_number(&by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
     if (o->block > 0.0) add_number(&by, "block", o->block);

@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "base/tool.h"
 
-enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50 };
+enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50, WHERES_MAX = 16 };
 enum table {
     TABLE_STATS,
     TABLE_PEAKS,
@@ -42,6 +42,10 @@ struct options {
     int page;          /* the history line is that of a report, which holds several tables */
     char *const *file; /* [files] the inputs, in is the first of them */
     int files, merge, stream;
+    double patience;
+    const char *where[WHERES_MAX]; /* "COLUMN=WORD", borrowed from argv */
+    int32_t wheres;
+    int over;      /* fl_over */
     double follow; /* [s] of data between two reports, 0 for one at the end */
     int ended;     /* --help or --version was answered */
 };

@@ -207,8 +207,15 @@ static void write_header(FILE *f, const char *history, const struct options *o)
 static int read_run(fl_summary *one, const char *path, FILE *f, const struct options *o, const char *by,
                     fl_err *err)
 {
-    const fl_series_ask ask = {
-        .signal = o->signal, .signals = o->signals, .part = o->part, .from = o->from, .to = o->to};
+    const fl_series_ask ask = {.signal = o->signal,
+                               .signals = o->signals,
+                               .part = o->part,
+                               .from = o->from,
+                               .to = o->to,
+                               .over = o->over,
+                               .where = o->where,
+                               .wheres = o->wheres,
+                               .patience = o->follow > 0.0 ? o->patience : 0.0};
     const fl_summary_ask how = {.separation = o->separation, .threshold = o->threshold, .block = o->block};
     fl_run run = {0};
     double next = NAN;
