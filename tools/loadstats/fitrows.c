@@ -47,7 +47,7 @@ static int make_sample(sample *s, const fl_view *v, const struct options *o, fl_
     const double span = v->edge[v->n] - v->edge[0];
     fl_peaks p = {0};
     int rc;
-    *s = (sample){.threshold = o->threshold, .excesses = o->sample != SAMPLE_BLOCKS};
+    *s = (sample){.threshold = o->threshold, .excesses = o->sample < SAMPLE_BLOCKS};
     if (o->sample == SAMPLE_PEAKS) {
         rc = take(s, v, &v->peaks, err);
     } else if (o->sample == SAMPLE_POT) {
@@ -57,7 +57,7 @@ static int make_sample(sample *s, const fl_view *v, const struct options *o, fl_
         rc = fl_sample_blocks(v->n, v->x, v->edge, o->block, &p, NULL, err);
         if (rc == 0) rc = take(s, v, &p, err);
     }
-    s->rate = o->sample == SAMPLE_BLOCKS ? 1.0 / o->block : s->n / span;
+    s->rate = o->sample >= SAMPLE_BLOCKS ? 1.0 / o->block : s->n / span;
     fl_peaks_free(&p);
     return rc;
 }

@@ -35,7 +35,7 @@ static const char HELP[] =
     "      --threshold X       only peaks above X, in the unit of the signal (0)\n"
     "  -b, --bins N            classes of the histogram (20)\n"
     "      --quantiles LIST    of 0 .. 1 (0.5,0.9,0.95,0.99)\n"
-    "      --sample WHAT       laws are fitted to peaks, pot (over the threshold) or blocks (peaks)\n"
+    "      --sample WHAT       laws are fitted to peaks, pot (over the threshold), blocks or runs (peaks)\n"
     "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
     "      --block S           of blocks: their length\n"
     "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
@@ -117,7 +117,7 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
 
 static const char *const TABLE[] = {"stats", "peaks",  "histogram", "exceedance",
                                     "fits",  "levels", "summary",   "ensemble"};
-static const char *const SAMPLES[] = {"peaks", "pot", "blocks"};
+static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
 static const char *const PICTURE[] = {"svg", "png"};
@@ -311,14 +311,18 @@ static void take_files(struct options *o, int n, char *const *file)
     o->in = o->file[0];
 }
 
+static int many_runs(const struct options *o) { return o->merge || o->stream; }
+
 /* What works in constant memory, and on many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
     const int many = o->table == TABLE_SUMMARY || o->table == TABLE_ENSEMBLE || o->merge;
     const char *how = o->follow > 0.0 ? "follow" : o->merge ? "merge" : "stream";
     if (o->merge && !o->table_given) o->table = TABLE_SUMMARY;
-    const int table = o->table == TABLE_STATS || (o->table == TABLE_HISTOGRAM && !(o->follow > 0.0)) ||
-                      (many && !(o->follow > 0.0) && o->table >= TABLE_SUMMARY);
+    const int table =
+        o->table == TABLE_STATS || (o->table == TABLE_HISTOGRAM && !(o->follow > 0.0)) ||
+        (many_runs(o) && !(o->follow > 0.0) && (o->table == TABLE_FITS || o->table == TABLE_LEVELS)) ||
+        (many && !(o->follow > 0.0) && o->table >= TABLE_SUMMARY);
     if (o->files > 1 && !many && !o->stream)
         return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
     if (!many && !o->stream && !(o->follow > 0.0)) return 0;
@@ -363,7 +367,9 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (check_summary(o, err)) return -1;
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
-    if (o->sample == SAMPLE_BLOCKS && !(o->block > 0.0))
+    if (o->sample == SAMPLE_RUNS && !many_runs(o))
+        return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
+    if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
         return fl_fail(err, FL_USAGE, "--sample blocks needs --block, their length");
     if (o->table == TABLE_LEVELS && !o->returns)
         return fl_fail(err, FL_USAGE, "--table levels needs --return, the return periods");
@@ -415,7 +421,7 @@ void options_by(const struct options *o, fl_by *by)
     if (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->page) {
         if (o->sample) fl_by_add(by, "--sample %s", SAMPLES[o->sample]);
         if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
-        if (o->sample == SAMPLE_BLOCKS) add_number(by, "block", o->block);
+        if (o->block > 0.0) add_number(by, "block", o->block);
         for (int32_t k = 0; (o->table == TABLE_LEVELS || o->page) && k < o->returns; k++)
             add_number(by, "return", o->period[k]);
         fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);

@@ -17,7 +17,7 @@ enum table {
     TABLE_SUMMARY,
     TABLE_ENSEMBLE
 };
-enum sample { SAMPLE_PEAKS, SAMPLE_POT, SAMPLE_BLOCKS };
+enum sample { SAMPLE_PEAKS, SAMPLE_POT, SAMPLE_BLOCKS, SAMPLE_RUNS };
 
 struct options {
     const char *in, *out, *part, *plot, *format, *report; /* borrowed from argv */
@@ -63,7 +63,7 @@ void options_by_summary(const struct options *o, char *by);
 /* "stats", "peaks" ... : the word of --table, which is also the kind of the file. */
 const char *options_table(enum table t);
 
-/* "peaks", "pot", "blocks" */
+/* "peaks", "pot", "blocks", "runs" */
 const char *options_sample(enum sample s);
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/stream.h"
 #include "stat/reduce.h"
 #include "stat/summary_file.h"
+#include "fitrows.h"
 #include "statrows.h"
 #include "sumrows.h"
 
@@ -170,13 +171,53 @@ static int histogram_rows(FILE *f, const fl_summary_signal *s, fl_err *err)
     return 0;
 }
 
+/* Laws of the largest values of the blocks, or of the runs, one beside the other as if they were one record.
+ */
+static int fit_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s, const struct options *o,
+                    fl_err *err)
+{
+    const int runs = o->sample == SAMPLE_RUNS || !(all->ask.block > 0.0);
+    const fl_values *bag = runs ? &s->run[FL_RUN_MAX] : &s->block;
+    const int64_t n = fl_values_count(bag);
+    struct options own = *o;
+    own.sample = runs ? SAMPLE_RUNS : SAMPLE_BLOCKS;
+    own.block = runs ? fl_exact_value(&s->sum[0]) / (double)n : all->ask.block;
+    if (n < 1 || n > INT32_MAX / 4)
+        return fl_fail(err, FL_INPUT, "%s of %s has %lld maxima of blocks, some were wanted", s->signal,
+                       s->part, (long long)n);
+    double *x = fl_alloc(2 * n + 1, sizeof *x, err), *edge = x + n;
+    if (!x) return -1;
+    for (int32_t k = 0, i = 0; k < bag->n; k++)
+        for (int64_t j = 0; j < bag->v[k].count; j++) x[i++] = bag->v[k].x;
+    for (int64_t k = 0; k <= n; k++) edge[k] = own.block * (double)k;
+    char *part = s->part, *signal = s->signal, *unit = s->unit;
+    const fl_series series = {.n = (int32_t)n,
+                              .t = edge,
+                              .edge = edge,
+                              .parts = 1,
+                              .signals = 1,
+                              .part = &part,
+                              .signal = &signal,
+                              .unit = &unit,
+                              .x = &x};
+    const fl_view view = {.n = (int32_t)n, .t = edge, .edge = edge, .x = x};
+    const struct result r = {&series, &view, 1};
+    const int rc = fitrows_write(f, &r, &own, 0, 0, 0, err);
+    free(x);
+    return rc;
+}
+
 static int write_rows(FILE *f, fl_summary *all, const ensemble *e, const struct options *o, fl_err *err)
 {
     if (o->table == TABLE_SUMMARY) return fl_summary_write(f, all, err);
     if (o->table == TABLE_ENSEMBLE) return ensemble_rows(f, e, all, err);
     if (o->table == TABLE_STATS) return stats_rows(f, all, o, err);
-    for (int32_t k = 0; k < all->n; k++)
-        if (histogram_rows(f, &all->s[k], err)) return -1;
+    for (int32_t k = 0; k < all->n; k++) {
+        fl_summary_signal *s = &all->s[k];
+        fl_values_sort(&s->block); /* whatever the order of the files */
+        fl_values_sort(&s->run[FL_RUN_MAX]);
+        if (o->table == TABLE_HISTOGRAM ? histogram_rows(f, s, err) : fit_rows(f, all, s, o, err)) return -1;
+    }
     return 0;
 }
 
