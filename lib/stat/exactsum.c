@@ -53,8 +53,9 @@ static int make_room(fl_exact *s, int32_t lo, int32_t hi, fl_err *err)
     return 0;
 }
 
-/* Add (or take off) term[0 .. k) 2^e. */
-static int add_term(fl_exact *s, const uint64_t *term, int k, int32_t e, int minus, fl_err *err)
+/* Add (or take off) term[0 .. k) 2^e.  Inline, as the loop is as long as k, which callers know. */
+static inline __attribute__((always_inline)) int add_term(fl_exact *s, const uint64_t *term, int k, int32_t e,
+                                                          int minus, fl_err *err)
 {
     const int32_t place = e - 64 * LEAST, lo = place / 64 + LEAST;
     const int shift = place % 64;
@@ -81,26 +82,31 @@ int fl_exact_add(fl_exact *s, double x, fl_err *err)
     return p.m ? add_term(s, &p.m, 1, p.e, p.minus, err) : 0;
 }
 
+/* term[0 .. k) becomes its product with m, of one word more. */
+static inline __attribute__((always_inline)) void times(uint64_t *term, int k, uint64_t m)
+{
+    uint64_t carry = 0;
+    for (int i = 0; i < k; i++) {
+        const wide product = (wide)term[i] * m + carry;
+        term[i] = (uint64_t)product;
+        carry = (uint64_t)(product >> 64);
+    }
+    term[k] = carry;
+}
+
 int fl_exact_add_powers(fl_exact s[5], double w, double x, fl_err *err)
 {
     const parts pw = split(w), px = split(x);
     uint64_t term[TERM_MAX] = {pw.m};
-    int32_t e = pw.e;
+    const int32_t e = pw.e;
     if (pw.m == 0) return 0;
     if (add_term(&s[0], term, 1, e, 0, err)) return -1;
     if (px.m == 0) return 0;
-    for (int k = 1; k < 5; k++) {
-        uint64_t carry = 0;
-        for (int i = 0; i < k; i++) {
-            const wide product = (wide)term[i] * px.m + carry;
-            term[i] = (uint64_t)product;
-            carry = (uint64_t)(product >> 64);
-        }
-        term[k] = carry;
-        e += px.e;
-        if (add_term(&s[k], term, k + 1, e, px.minus && k % 2, err)) return -1;
-    }
-    return 0;
+    if (times(term, 1, px.m), add_term(&s[1], term, 2, e + px.e, px.minus, err)) return -1;
+    if (times(term, 2, px.m), add_term(&s[2], term, 3, e + 2 * px.e, 0, err)) return -1;
+    if (times(term, 3, px.m), add_term(&s[3], term, 4, e + 3 * px.e, px.minus, err)) return -1;
+    times(term, 4, px.m);
+    return add_term(&s[4], term, 5, e + 4 * px.e, 0, err);
 }
 
 int fl_exact_merge(fl_exact *s, const fl_exact *t, fl_err *err)

@@ -25,8 +25,9 @@ typedef struct {
 } block_state;
 
 struct fl_run_state {
-    int32_t at; /* in the summary */
-    int32_t of; /* in the record */
+    int32_t at;   /* in the summary */
+    int32_t same; /* the entry of the total, where it is the same; else -1 */
+    int32_t of;   /* in the record */
     peak_state peak;
     block_state block;
     fl_rainflow cycle;
@@ -107,30 +108,37 @@ int fl_run_open(fl_run *r, const char *path, const fl_series_ask *ask, const fl_
     return fl_record_open(&r->record, path, ask, err);
 }
 
+/* The place of a signal in the summary, or -1. */
+static int32_t find(fl_run *r, int32_t part, int32_t signal, fl_err *err)
+{
+    const fl_record *rec = &r->record;
+    const fl_summary_signal *s = fl_summary_find(&r->sum, rec->part[part], rec->signal[signal],
+                                                 rec->unit[signal], fl_record_name(rec), err);
+    return s ? (int32_t)(s - r->sum.s) : -1;
+}
+
 /* The first time says which signals there are; their places are known when all have one. */
 static int start(fl_run *r, fl_err *err)
 {
     const fl_record *rec = &r->record;
-    int32_t n = 0;
-    for (int32_t k = 0; k < rec->parts * rec->signals; k++) {
-        if (!rec->has[k]) continue;
-        const int32_t s = k % rec->signals;
-        if (!fl_summary_find(&r->sum, rec->part[k / rec->signals], rec->signal[s], rec->unit[s],
-                             fl_record_name(rec), err))
-            return -1;
-    }
+    for (int32_t k = 0; k < rec->parts * rec->signals; k++)
+        if (rec->has[k] && find(r, k / rec->signals, k % rec->signals, err) < 0) return -1;
     r->state = fl_alloc(r->sum.n, sizeof *r->state, err);
     if (!r->state) return -1;
+    /* One part and its sum, which is the same to the bit. */
+    const int alone = rec->parts == 2 && strcmp(rec->part[1], "total") == 0;
     for (int32_t k = 0; k < rec->parts * rec->signals; k++) {
-        if (!rec->has[k]) continue;
-        const int32_t s = k % rec->signals;
-        const fl_summary_signal *at = fl_summary_find(&r->sum, rec->part[k / rec->signals], rec->signal[s],
-                                                      rec->unit[s], fl_record_name(rec), err);
-        r->state[n++] = (struct fl_run_state){.at = (int32_t)(at - r->sum.s),
-                                              .of = k,
-                                              .peak = {.low = INFINITY},
-                                              .block = {.start = rec->edge[0]},
-                                              .cycle = {.rule = r->sum.ask.rule}};
+        const int32_t p = k / rec->signals, s = k % rec->signals;
+        if (!rec->has[k] || (alone && p == 1)) continue;
+        const int32_t at = find(r, p, s, err),
+                      same = alone && rec->has[k + rec->signals] ? find(r, 1, s, err) : -1;
+        if (at < 0) return -1;
+        r->state[r->states++] = (struct fl_run_state){.at = at,
+                                                      .same = same,
+                                                      .of = k,
+                                                      .peak = {.low = INFINITY},
+                                                      .block = {.start = rec->edge[0]},
+                                                      .cycle = {.rule = r->sum.ask.rule}};
     }
     return 0;
 }
@@ -178,7 +186,7 @@ int fl_run_next(fl_run *r, fl_err *err)
                            fl_record_name(rec), w, FL_CLASSES_LONGEST);
         if (!r->state && start(r, err)) return -1;
         const fl_fixed time = fl_fixed_of(w);
-        for (int32_t k = 0; k < r->sum.n; k++)
+        for (int32_t k = 0; k < r->states; k++)
             if (take_value(r, &r->state[k], w, time, err)) return -1;
         r->end = rec->edge[1];
         return 1;
@@ -206,14 +214,24 @@ static int end_signal(fl_run *r, struct fl_run_state *state, fl_err *err)
     return 0;
 }
 
+int fl_run_update(fl_run *r, fl_err *err)
+{
+    for (int32_t k = 0; k < r->states; k++) {
+        const struct fl_run_state *s = &r->state[k];
+        if (s->same >= 0 && fl_summary_copy(&r->sum.s[s->same], &r->sum.s[s->at], err)) return -1;
+    }
+    return 0;
+}
+
 int fl_run_end(fl_run *r, const char *by, fl_err *err)
 {
     const char *history = fl_record_history(&r->record);
     if (!r->state)
         return fl_fail(err, FL_INPUT, "%s: nothing is left by the cut, the record ends at %.10g s",
                        fl_record_name(&r->record), r->record.edge[1]);
-    for (int32_t k = 0; k < r->sum.n; k++)
+    for (int32_t k = 0; k < r->states; k++)
         if (end_signal(r, &r->state[k], err)) return -1;
+    if (fl_run_update(r, err)) return -1;
     const size_t len = history ? strlen(history) : 0, own = strlen(by);
     char *chain = fl_alloc((int64_t)(len + own) + 1, 1, err);
     if (!chain) return -1;
@@ -226,7 +244,7 @@ int fl_run_end(fl_run *r, const char *by, fl_err *err)
 
 void fl_run_close(fl_run *r)
 {
-    for (int32_t k = 0; r->state && k < r->sum.n; k++) fl_rainflow_free(&r->state[k].cycle);
+    for (int32_t k = 0; k < r->states; k++) fl_rainflow_free(&r->state[k].cycle);
     free(r->state);
     fl_summary_free(&r->sum);
     fl_record_close(&r->record);

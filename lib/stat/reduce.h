@@ -9,8 +9,10 @@
 typedef struct fl_run_state fl_run_state;
 typedef struct {
     fl_record record;
-    fl_summary sum;      /* of what has been read so far: blocks and cycles as they are complete */
-    fl_run_state *state; /* [sum.n] of each signal, in the order of the record */
+    fl_summary
+        sum; /* of what has been read so far: blocks and cycles as they are complete; see fl_run_update() */
+    fl_run_state *state; /* [states] of each signal that is summed up, in the order of the record */
+    int32_t states;
     fl_series_ask ask;
     double end; /* [s] of the last row that was taken */
 } fl_run;
@@ -22,6 +24,10 @@ int fl_run_open(fl_run *r, const char *path, const fl_series_ask *ask, const fl_
 /* Take the next time.  1, 0 at the end, -1 with the errors of fl_record_next() or FL_INPUT for an interval
  * above FL_CLASSES_LONGEST. */
 int fl_run_next(fl_run *r, fl_err *err);
+
+/* Bring r->sum up to date: the total of a structure of one part is that part, and is summed up only once.
+ * fl_run_end() does it too.  0, or -1 with FL_SYSTEM in err. */
+int fl_run_update(fl_run *r, fl_err *err);
 
 /* The record has ended: settle what is open; by is the "#by" line of this summary, which ends the chain of
  * the record.  0, or -1 with FL_INPUT (no row lies within the cut) or FL_SYSTEM. */

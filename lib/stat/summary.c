@@ -72,11 +72,9 @@ static int order_parts(const char *a, const char *b)
     return ta != tb ? ta - tb : strcmp(a, b);
 }
 
-static void free_signal(fl_summary_signal *s)
+static void empty_signal(fl_summary_signal *s)
 {
-    free(s->part);
-    free(s->signal);
-    free(s->unit);
+    char *const part = s->part, *const signal = s->signal, *const unit = s->unit;
     for (int k = 0; k < 5; k++) fl_exact_free(&s->sum[k]);
     fl_exact_free(&s->peak_sum);
     fl_classes_free(&s->level);
@@ -84,6 +82,15 @@ static void free_signal(fl_summary_signal *s)
     fl_classes_free(&s->cycle);
     free(s->block.v);
     for (int k = 0; k < FL_RUN_VALUES; k++) free(s->run[k].v);
+    *s = (fl_summary_signal){.part = part, .signal = signal, .unit = unit};
+}
+
+static void free_signal(fl_summary_signal *s)
+{
+    empty_signal(s);
+    free(s->part);
+    free(s->signal);
+    free(s->unit);
     *s = (fl_summary_signal){0};
 }
 
@@ -139,6 +146,12 @@ static int merge_signal(fl_summary_signal *s, const fl_summary_signal *t, fl_err
         fl_classes_merge(&s->peak, &t->peak, err) || fl_classes_merge(&s->cycle, &t->cycle, err))
         return -1;
     return add_values(&s->block, &t->block, err);
+}
+
+int fl_summary_copy(fl_summary_signal *to, const fl_summary_signal *from, fl_err *err)
+{
+    empty_signal(to);
+    return merge_signal(to, from, err);
 }
 
 /* --- history -------------------------------------------------------------------------------------------- */

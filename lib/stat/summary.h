@@ -67,6 +67,9 @@ int fl_summary_merge(fl_summary *s, const fl_summary *other, const char *name, f
 fl_summary_signal *fl_summary_find(fl_summary *s, const char *part, const char *signal, const char *unit,
                                    const char *name, fl_err *err);
 
+/* Make an entry what another one is, but for part, signal and unit.  0, or -1 with FL_SYSTEM in err. */
+int fl_summary_copy(fl_summary_signal *to, const fl_summary_signal *from, fl_err *err);
+
 /* Join a chain of "#by" lines, or several, to the history: each line that holds " --summary" ends a chain. */
 int fl_summary_add_history(fl_summary *s, const char *lines, fl_err *err);
 

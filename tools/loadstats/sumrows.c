@@ -224,11 +224,11 @@ static int write_rows(FILE *f, fl_summary *all, const ensemble *e, const struct 
 /* --- reading -------------------------------------------------------------------------------------------- */
 
 /* Rows of a record that is still growing, whenever its data have gone on by o->follow seconds. */
-static int follow(FILE *f, const fl_run *run, const struct options *o, double *next, fl_err *err)
+static int follow(FILE *f, fl_run *run, const struct options *o, double *next, fl_err *err)
 {
     if (run->end < *next) return 0;
     while (*next <= run->end) *next += o->follow;
-    if (stats_rows(f, &run->sum, o, err)) return -1;
+    if (fl_run_update(run, err) || stats_rows(f, &run->sum, o, err)) return -1;
     return fflush(f) == 0 ? 0 : fl_fail(err, FL_SYSTEM, "%s: could not write all of it", o->out);
 }
 
