@@ -85,7 +85,7 @@ static int run(const struct options *o, fl_err *err)
         fl_out_close(&out, err))
         goto done;
     if (o->plot && plot(&r, o, &by, err)) goto done;
-    rc = o->report ? page_write(&r, o, err) : 0;
+    rc = o->report ? page_write_record(&r, o, err) : 0;
 done:
     fl_out_abort(&out);
     for (int64_t k = 0; views && k < n; k++) fl_view_free(&views[k]);

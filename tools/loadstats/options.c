@@ -330,8 +330,9 @@ static int check_summary(struct options *o, fl_err *err)
         return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", TABLE[o->table], how);
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
-    const char *whole = o->report ? "report" : o->plot ? "plot" : o->filter > 0.0 ? "filter" : "window";
-    if (o->filter > 0.0 || o->window > 0.0 || o->plot || o->report)
+    const int pictures = (o->plot || o->report) && o->table != TABLE_ENSEMBLE;
+    const char *whole = o->filter > 0.0 ? "filter" : o->window > 0.0 ? "window" : o->plot ? "plot" : "report";
+    if (o->filter > 0.0 || o->window > 0.0 || pictures)
         return fl_fail(err, FL_USAGE, "--%s needs the whole record, not %s%s", whole,
                        many ? "--table " : "--", many ? TABLE[o->table] : how);
     return 0;
@@ -426,6 +427,7 @@ void options_by(const struct options *o, fl_by *by)
             add_number(by, "return", o->period[k]);
         fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
     }
+    if (o->page && o->table != TABLE_STATS) fl_by_add(by, "--table %s", TABLE[o->table]);
     if (o->merge) fl_by_add(by, "--merge");
     if (o->stream) fl_by_add(by, "--stream");
     if (o->follow > 0.0) add_number(by, "follow", o->follow);

@@ -74,8 +74,8 @@ static void sheet_free(sheet *s)
     *s = (sheet){0};
 }
 
-static int sheet_make(sheet *s, const struct result *r, const struct options *o, enum table table,
-                      const fl_by *by, fl_err *err)
+static int sheet_make(sheet *s, const page_source *from, const struct options *o, enum table table,
+                      fl_err *err)
 {
     struct options own = *o;
     size_t size = 0;
@@ -83,7 +83,7 @@ static int sheet_make(sheet *s, const struct result *r, const struct options *o,
     own.quiet = 1; /* what is to be said was said with the table itself */
     FILE *f = open_memstream(&s->text, &size);
     if (!f) return fl_fail(err, FL_SYSTEM, "out of memory");
-    int rc = statrows_write(f, r, &own, by, err);
+    int rc = from->table(f, from->what, &own, err);
     if (fclose(f) != 0 && rc == 0) rc = fl_fail(err, FL_SYSTEM, "out of memory");
     for (char *line = s->text; rc == 0 && line && *line;) {
         char *end = strchr(line, '\n');
@@ -249,9 +249,8 @@ static void put_upright(FILE *f, const sheet *s)
 }
 
 /* As the table says on standard error. */
-static void warn_far(FILE *f, const struct result *r, const struct options *o)
+static void warn_far(FILE *f, double span, const struct options *o)
 {
-    const double span = r->s->edge[r->s->n] - r->s->edge[0];
     double most = 0.0;
     for (int32_t k = 0; k < o->returns; k++) most = fmax(most, o->period[k]);
     if (most > REACH * span)
@@ -261,16 +260,38 @@ static void warn_far(FILE *f, const struct result *r, const struct options *o)
                 span, REACH, most / span);
 }
 
-static int put_table(FILE *f, const struct result *r, const struct options *o, enum table table,
-                     const char *heading, const fl_by *by, fl_err *err)
+/* Of an ensemble the first few numbers of runs, tens, and the last. */
+static void put_some_runs(FILE *f, const sheet *s)
+{
+    const int runs = column_of(s, "runs");
+    char word[WORD_MAX], next[WORD_MAX];
+    fputs("<p>Of the first n runs: mean of their means and mean of their largest values, each with its 95 % "
+          "interval "
+          "by Student's law and the deviation between runs.</p>\n<div><table>\n",
+          f);
+    put_names(f, s);
+    for (int32_t k = 1; k < s->rows; k++) {
+        field_of(s->row[k], runs, word);
+        if (k + 1 < s->rows) field_of(s->row[k + 1], runs, next);
+        double n = 0.0, then = 0.0;
+        if (fl_num_f64(word, &n) || (k + 1 < s->rows && fl_num_f64(next, &then))) continue;
+        const int last = then <= n, round = n == 2.0 || n == 5.0 || (n >= 10.0 && fmod(n, 10.0) == 0.0);
+        if (last || (round && n <= 100.0) || (n > 100.0 && fmod(n, 100.0) == 0.0)) put_row(f, s->row[k], 0);
+    }
+    fputs("</table></div>\n", f);
+}
+
+static int put_table(FILE *f, const page_source *from, const struct options *o, enum table table,
+                     const char *heading, fl_err *err)
 {
     sheet s = {0};
-    const int rc = sheet_make(&s, r, o, table, by, err);
+    const int rc = sheet_make(&s, from, o, table, err);
     if (rc == 0 && s.rows > 1) {
         fprintf(f, "<h2>%s</h2>\n", heading);
-        if (table == TABLE_LEVELS) warn_far(f, r, o);
+        if (table == TABLE_LEVELS) warn_far(f, from->span, o);
         if (table == TABLE_STATS) put_upright(f, &s);
         else if (table == TABLE_FITS) put_laws(f, &s);
+        else if (table == TABLE_ENSEMBLE) put_some_runs(f, &s);
         else put_rows(f, &s);
     }
     sheet_free(&s);
@@ -345,40 +366,36 @@ static void remove_folder(const char *dir)
 
 /* --- the page ------------------------------------------------------------------------------------------- */
 
-static void put_head(FILE *f, const struct result *r)
+static void put_head(FILE *f, const page_source *from)
 {
-    const fl_series *s = r->s;
+    const char *title = from->many ? "Ice loads of many runs" : "Ice loads";
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-          "content=\"width=device-width, initial-scale=1\">\n<title>",
+          "content=\"width=device-width, initial-scale=1\">\n",
           f);
-    fputs(strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics", f);
-    fprintf(f, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<h1>%s</h1>\n", STYLE,
-            strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics");
-    fprintf(f, "<p>%d rows of a %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
-    if (strcmp(s->kind, "loads") == 0)
-        fputs(" A row is the mean over its interval; every mean is the impulse over the time.", f);
-    fputs(r->each > 1 ? " The filtered view stands beside the raw one, for a filter hides spikes.</p>\n"
-                      : "</p>\n",
-          f);
+    fprintf(f, "<title>%s</title>\n<style>\n%s</style>\n</head>\n<body>\n<h1>%s</h1>\n<p>", title, STYLE,
+            title);
+    from->intro(f, from->what);
+    fputs("</p>\n", f);
 }
 
-static int put_page(FILE *f, const char *dir, const struct result *r, const struct options *o,
+static int put_page(FILE *f, const char *dir, const page_source *from, const struct options *o,
                     const fl_by *by, fl_err *err)
 {
-    put_head(f, r);
-    if (put_table(f, r, o, TABLE_STATS, "Numbers", by, err) || put_pictures(f, dir, err) ||
-        put_table(f, r, o, TABLE_FITS, "Laws of the peaks", by, err))
-        return -1;
-    if (o->returns && put_table(f, r, o, TABLE_LEVELS, "Return levels", by, err)) return -1;
+    const char *laws = from->many ? "Laws of the largest values" : "Laws of the peaks";
+    put_head(f, from);
+    if (put_table(f, from, o, TABLE_STATS, "Numbers", err) || put_pictures(f, dir, err)) return -1;
+    if (from->many && put_table(f, from, o, TABLE_ENSEMBLE, "How sure they are", err)) return -1;
+    if (put_table(f, from, o, TABLE_FITS, laws, err)) return -1;
+    if (o->returns && put_table(f, from, o, TABLE_LEVELS, "Return levels", err)) return -1;
     if (o->table != TABLE_STATS && o->table != TABLE_FITS && o->table != TABLE_LEVELS &&
-        put_table(f, r, o, o->table, options_table(o->table), by, err))
+        o->table != TABLE_ENSEMBLE && put_table(f, from, o, o->table, options_table(o->table), err))
         return -1;
     fputs(
         "<h2>How to make it again</h2>\n<p>The programs in the order in which they ran, with what they were "
         "asked; the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
         "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
         f);
-    if (r->s->history) put_text(f, r->s->history);
+    if (from->history) put_text(f, from->history);
     put_text(f, by->text);
     fputs("\n</pre>\n</body>\n</html>\n", f);
     return 0;
@@ -386,7 +403,7 @@ static int put_page(FILE *f, const char *dir, const struct result *r, const stru
 
 /* The page in memory, so that the folder of the pictures is gone before anything is written: who reads the
  * page may stop reading. */
-static int make_page(char **text, size_t *size, const struct result *r, const struct options *o, fl_err *err)
+static int make_page(char **text, size_t *size, const page_source *from, const struct options *o, fl_err *err)
 {
     const char *tmp = getenv("TMPDIR");
     char dir[PATH_LEN];
@@ -400,21 +417,21 @@ static int make_page(char **text, size_t *size, const struct result *r, const st
     own.plot = dir;
     own.format = "svg";
     own.quiet = 1;
-    if (plot(r, &own, &by, err) == 0) {
+    if (from->draw(from->what, &own, err) == 0) {
         FILE *f = open_memstream(text, size);
-        rc = f ? put_page(f, dir, r, o, &by, err) : fl_fail(err, FL_SYSTEM, "out of memory");
+        rc = f ? put_page(f, dir, from, o, &by, err) : fl_fail(err, FL_SYSTEM, "out of memory");
         if (f && fclose(f) != 0 && rc == 0) rc = fl_fail(err, FL_SYSTEM, "out of memory");
     }
     remove_folder(dir);
     return rc;
 }
 
-int page_write(const struct result *r, const struct options *o, fl_err *err)
+int page_write(const page_source *from, const struct options *o, fl_err *err)
 {
     fl_out out = {0};
     char *text = NULL;
     size_t size = 0;
-    int rc = make_page(&text, &size, r, o, err) ? -1 : fl_out_open(&out, o->report, 0, err);
+    int rc = make_page(&text, &size, from, o, err) ? -1 : fl_out_open(&out, o->report, 0, err);
     if (rc == 0) {
         fwrite(text, 1, size, out.f);
         rc = fl_out_close(&out, err);
@@ -422,4 +439,42 @@ int page_write(const struct result *r, const struct options *o, fl_err *err)
     fl_out_abort(&out);
     free(text);
     return rc;
+}
+
+/* --- one record ----------------------------------------------------------------------------------------- */
+
+static void record_intro(FILE *f, const void *what)
+{
+    const struct result *r = what;
+    const fl_series *s = r->s;
+    fprintf(f, "%d rows of a %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
+    if (strcmp(s->kind, "loads") == 0)
+        fputs(" A row is the mean over its interval; every mean is the impulse over the time.", f);
+    if (r->each > 1) fputs(" The filtered view stands beside the raw one, for a filter hides spikes.", f);
+}
+
+static int record_table(FILE *f, const void *what, const struct options *o, fl_err *err)
+{
+    fl_by by;
+    options_by(o, &by);
+    return statrows_write(f, what, o, &by, err);
+}
+
+static int record_draw(const void *what, const struct options *o, fl_err *err)
+{
+    fl_by by;
+    options_by(o, &by);
+    return plot(what, o, &by, err);
+}
+
+int page_write_record(const struct result *r, const struct options *o, fl_err *err)
+{
+    const fl_series *s = r->s;
+    const page_source from = {.what = r,
+                              .history = s->history,
+                              .span = s->edge[s->n] - s->edge[0],
+                              .intro = record_intro,
+                              .table = record_table,
+                              .draw = record_draw};
+    return page_write(&from, o, err);
 }

@@ -4,10 +4,28 @@
 #define LOADSTATS_PAGE_H
 #include "statrows.h"
 
-/* Write o->report: the table stats, the laws that fit the peaks, return levels where --return asks for them,
- * the table of --table where it is another, the pictures of plot() as inline SVG, and the "#by" lines from
- * which all of it can be made again.  Numbers are rounded to six digits.  The pictures are drawn in a folder
- * of TMPDIR that is removed again. 0, or -1 with the errors of plot() or FL_SYSTEM in err. */
-int page_write(const struct result *r, const struct options *o, fl_err *err);
+/* What a page is about. */
+typedef struct {
+    const void *what;    /* handed to the functions below */
+    int many;            /* many runs, not one record */
+    const char *history; /* the "#by" lines of what was read, or NULL */
+    double span;         /* how long it is [s] */
+    /* Print the paragraph under the title, as HTML. */
+    void (*intro)(FILE *f, const void *what);
+    /* Print the table o->table, as loadstats does.  0, or -1 with err. */
+    int (*table)(FILE *f, const void *what, const struct options *o, fl_err *err);
+    /* Draw the pictures into the folder o->plot.  0, or -1 with err. */
+    int (*draw)(const void *what, const struct options *o, fl_err *err);
+} page_source;
+
+/* Write o->report: the table stats (of many runs the table ensemble too), the laws of the peaks (of the
+ * largest values), return levels where --return asks for them, the table of --table where it is another, the
+ * pictures as inline SVG, and the "#by" lines from which all of it can be made again.  Numbers are rounded to
+ * six digits. The pictures are drawn in a folder of TMPDIR that is removed again. 0, or -1 with the errors of
+ * the functions above or FL_SYSTEM in err. */
+int page_write(const page_source *from, const struct options *o, fl_err *err);
+
+/* The same for one record. */
+int page_write_record(const struct result *r, const struct options *o, fl_err *err);
 
 #endif

@@ -70,7 +70,7 @@ static scale scale_of(const picture *p, int32_t s)
 }
 
 /* A text in a gnuplot script, between single quotes. */
-static void put_quoted(FILE *f, const char *text)
+void plot_quoted(FILE *f, const char *text)
 {
     putc('\'', f);
     for (; *text; text++) {
@@ -92,7 +92,7 @@ static void axis_text(const picture *p, int32_t s, char *label, size_t size)
 static void put_left_title(const picture *p, const char *text, double x)
 {
     fputs("set label 2 ", p->script);
-    put_quoted(p->script, text);
+    plot_quoted(p->script, text);
     fprintf(p->script, " at screen %.4f, graph 0.5 center rotate\n", x);
 }
 
@@ -223,7 +223,7 @@ static void open_script(const picture *p, const char *heading)
     snprintf(title, sizeof title, "%s, %.100s", heading,
              strcmp(p->r->s->part[p->part], "-") == 0 ? p->r->s->kind : p->r->s->part[p->part]);
     fputs("set label 1 ", f);
-    put_quoted(f, title);
+    plot_quoted(f, title);
     fprintf(f, " at screen 0.5, screen %.4f center font ',%d' textcolor rgb '#111111'\n", 1.0 - 24.0 / height,
             png ? 14 : 18);
     fprintf(f, "set key at screen 0.975, screen %.4f right top horizontal Left reverse samplen 2\n",
@@ -337,7 +337,7 @@ static int classes_panel(picture *p, int k, int32_t s, fl_err *err)
     place_panel(p, k, 0.1, 0.475);
     axis_text(p, s, text, sizeof text);
     fputs("set xlabel ", p->script);
-    put_quoted(p->script, text);
+    plot_quoted(p->script, text);
     putc('\n', p->script);
     put_left_title(p, "Peaks in class", 0.018);
     fprintf(p->script, "unset logscale y\nset yrange [0:%g]\nset ytics %g\n", 1.08 * most,
@@ -450,21 +450,20 @@ static int path_of(const picture *p, const char *end, char path[PATH_LEN], fl_er
 }
 
 /* gnuplot draws under another name, which becomes the final one when the picture is complete. */
-static int draw(const picture *p, fl_err *err)
+int plot_draw(const char *dir, const char *stem, const char *format, fl_err *err)
 {
-    char script[NAME_MAX_LEN + 8], setting[NAME_MAX_LEN + 24], end[16], part[PATH_LEN], path[PATH_LEN],
-        said[2000];
+    char script[NAME_MAX_LEN + 8], setting[NAME_MAX_LEN + 24], part[PATH_LEN], path[PATH_LEN], said[2000];
     struct stat st;
-    snprintf(script, sizeof script, "%s.gp", p->stem);
-    snprintf(setting, sizeof setting, "out = '%s.%s.part'", p->stem, p->o->format);
-    snprintf(end, sizeof end, "%s.part", p->o->format);
-    if (path_of(p, end, part, err) || path_of(p, p->o->format, path, err)) return -1;
-    const int status = run_gnuplot(p->o->plot, setting, script, said, sizeof said);
+    snprintf(script, sizeof script, "%s.gp", stem);
+    snprintf(setting, sizeof setting, "out = '%s.%s.part'", stem, format);
+    if (snprintf(part, PATH_LEN, "%s/%s.%s.part", dir, stem, format) >= PATH_LEN ||
+        snprintf(path, PATH_LEN, "%s/%s.%s", dir, stem, format) >= PATH_LEN)
+        return fl_fail(err, FL_SYSTEM, "the name of a picture in %.100s is too long", dir);
+    const int status = run_gnuplot(dir, setting, script, said, sizeof said);
     if (status == 127) return fl_fail(err, FL_SYSTEM, "gnuplot was not found, it draws what --plot asks for");
     if (status != 0 || stat(part, &st) != 0 || st.st_size == 0) {
         unlink(part);
-        return fl_fail(err, FL_SYSTEM, "gnuplot failed on %s/%s: %.200s", p->o->plot, script,
-                       complaint(said));
+        return fl_fail(err, FL_SYSTEM, "gnuplot failed on %s/%s: %.200s", dir, script, complaint(said));
     }
     return rename(part, path) == 0 ? 0 : fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
 }
@@ -486,7 +485,7 @@ static int make(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *e
     if (fill(&p, err)) goto done;
     fputs("unset multiplot\nset output\n", p.script);
     if (fl_out_close(&data, err) || fl_out_close(&script, err)) goto done;
-    rc = draw(&p, err);
+    rc = plot_draw(p.o->plot, p.stem, p.o->format, err);
 done:
     fl_out_abort(&data);
     fl_out_abort(&script);

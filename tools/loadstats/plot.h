@@ -15,4 +15,11 @@
  * err. */
 int plot(const struct result *r, const struct options *o, const fl_by *by, fl_err *err);
 
+/* Print a text of a gnuplot script, between single quotes. */
+void plot_quoted(FILE *f, const char *text);
+
+/* Run gnuplot on DIR/STEM.gp, which must write to the file named in the variable out, and name what it drew
+ * DIR/STEM.FORMAT when it is complete.  0, or -1 with FL_SYSTEM in err. */
+int plot_draw(const char *dir, const char *stem, const char *format, fl_err *err);
+
 #endif

@@ -1,15 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include "base/mem.h"
 #include "base/stream.h"
 #include "stat/reduce.h"
 #include "stat/summary_file.h"
 #include "fitrows.h"
+#include "page.h"
+#include "plot.h"
 #include "statrows.h"
 #include "sumrows.h"
+
+enum { PATH_LEN = 4096, PICTURES_MAX = 48 };
 
 /* Intervals are of 95 %. */
 static const double TAIL = 0.025;
@@ -139,6 +145,31 @@ static int ensemble_rows(FILE *f, const ensemble *e, const fl_summary *all, fl_e
             put_field(f, largest);
             putc('\n', f);
         }
+    }
+    free(mean);
+    return 0;
+}
+
+/* What a picture shows of one signal. */
+static int plot_rows(FILE *f, const ensemble *e, int32_t k, fl_err *err)
+{
+    double *mean = fl_alloc(2 * (int64_t)e->runs, sizeof *mean, err), *max = mean + e->runs,
+           largest = -INFINITY;
+    if (!mean) return -1;
+    for (int32_t n = 0; n < e->runs; n++) {
+        mean[n] = e->x[2 * ((int64_t)n * e->signals + k)];
+        max[n] = e->x[2 * ((int64_t)n * e->signals + k) + 1];
+        const estimate a = estimate_of(n + 1, mean), b = estimate_of(n + 1, max);
+        largest = fmax(largest, max[n]);
+        fprintf(f, "%d", n + 1);
+        put_field(f, a.mean);
+        put_field(f, a.mean - a.half);
+        put_field(f, a.mean + a.half);
+        put_field(f, b.mean);
+        put_field(f, b.mean - b.half);
+        put_field(f, b.mean + b.half);
+        put_field(f, largest);
+        putc('\n', f);
     }
     free(mean);
     return 0;
@@ -315,11 +346,124 @@ static void warn(const fl_summary *all, const struct options *o)
                 (long long)runs, (long long)chains);
 }
 
+/* --- report and pictures -------------------------------------------------------------------------------- */
+
+typedef struct {
+    fl_summary *all;
+    const ensemble *e;
+} many;
+
+static void many_intro(FILE *f, const void *what)
+{
+    const many *m = what;
+    const fl_summary_signal *s = &m->all->s[0];
+    fprintf(f,
+            "%d runs of %lld rows and %.6g s in all, from %.6g s to %.6g s of a run. Every mean is the "
+            "impulse over "
+            "the time; what runs differ by is told with the estimates.",
+            m->e->runs, (long long)s->rows, fl_exact_value(&s->sum[0]), s->from, s->to);
+}
+
+static int many_table(FILE *f, const void *what, const struct options *o, fl_err *err)
+{
+    const many *m = what;
+    write_header(f, m->all->history, o);
+    return write_rows(f, m->all, m->e, o, err);
+}
+
+/* Mean and largest values with their intervals against the number of runs. */
+static const char SCRIPT[] =
+    "set border 3 lc rgb '#444444'\n"
+    "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+    "set datafile missing '-'\nset encoding utf8\nset multiplot\nset yrange [*:*]\nset xlabel 'Runs'\n"
+    "set key at graph 0.98, 0.98 right top samplen 2\n";
+
+static void put_panel(FILE *f, const char *title, int first, double left, double right, int largest)
+{
+    fprintf(f, "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen 0.86\n", left,
+            right);
+    fprintf(f, "set bmargin at screen 0.2\nset title '%s'\n", title);
+    fprintf(
+        f,
+        "plot data using 1:(factor*$%d):(factor*$%d) with filledcurves lc rgb '#c6dbef' title '95 %%', \\\n",
+        first + 1, first + 2);
+    fprintf(f, "     '' using 1:(factor*$%d) with lines lw 2 lc rgb '#08519c' title 'mean of the runs'",
+            first);
+    if (largest)
+        fputs(", \\\n     '' using 1:(factor*$8) with steps lw 1.5 lc rgb '#c8642d' title 'largest of all'",
+              f);
+    fputs("\n", f);
+}
+
+static int draw_signal(const many *m, int32_t k, const struct options *o, const fl_by *by, fl_err *err)
+{
+    const fl_summary_signal *s = &m->all->s[k];
+    const int newton = s->unit[0] == 'N', png = strcmp(o->format, "png") == 0;
+    const double large = fmax(fabs(s->min), fabs(s->max));
+    const char *prefix = !newton || large < 1e3 ? "" : large < 1e6 ? "k" : "M";
+    char stem[60], path[PATH_LEN];
+    fl_out out = {0};
+    int rc = -1;
+    snprintf(stem, sizeof stem, "ensemble-%d", k + 1);
+    if (snprintf(path, sizeof path, "%s/%s.tsv", o->plot, stem) >= PATH_LEN)
+        return fl_fail(err, FL_SYSTEM, "the name of a picture in %.100s is too long", o->plot);
+    if (fl_out_open(&out, path, 0, err)) goto done;
+    fl_by_header(out.f, "ensemble", 1, m->all->history, by);
+    fputs("runs\tmean\tmean_low\tmean_high\tmax\tmax_low\tmax_high\tlargest\n", out.f);
+    if (plot_rows(out.f, m->e, k, err) || fl_out_close(&out, err)) goto done;
+    snprintf(path, sizeof path, "%.4000s/%s.gp", o->plot, stem);
+    if (fl_out_open(&out, path, 0, err)) goto done;
+    fprintf(out.f, "# gnuplot %s.gp draws %s.%s from %s.tsv\nif (!exists(\"out\")) out = '%s.%s'\n", stem,
+            stem, o->format, stem, stem, o->format);
+    fputs(
+        png ? "set terminal pngcairo noenhanced size 1000,380 font 'Sans,11' background '#ffffff'\n"
+            : "set terminal svg noenhanced size 1000,380 dynamic font 'sans-serif,14' background '#ffffff'\n",
+        out.f);
+    fprintf(out.f, "set output out\ndata = '%s.tsv'\nfactor = %s\n%s", stem,
+            prefix[0] == 'k'   ? "1e-3"
+            : prefix[0] == 'M' ? "1e-6"
+                               : "1",
+            SCRIPT);
+    /* A few runs say so little that their intervals would hide the rest. */
+    fprintf(out.f, "set xrange [%d:%d]\nset ylabel ", m->e->runs > 8 ? 4 : 1,
+            m->e->runs > 1 ? m->e->runs : 2);
+    char text[300];
+    snprintf(text, sizeof text, "%.80s, %.80s  %s%s%.60s%s", s->signal, s->part, s->unit[0] ? "[" : "",
+             prefix, s->unit, s->unit[0] ? "]" : "");
+    plot_quoted(out.f, text);
+    putc('\n', out.f);
+    put_panel(out.f, "Mean of a run", 2, 0.085, 0.48, 0);
+    fputs("unset ylabel\nset key at graph 0.98, 0.75\n", out.f); /* below the largest, above the means */
+    put_panel(out.f, "Largest value of a run", 5, 0.575, 0.97, 1);
+    fputs("unset multiplot\nset output\n", out.f);
+    if (fl_out_close(&out, err)) goto done;
+    rc = plot_draw(o->plot, stem, o->format, err);
+done:
+    fl_out_abort(&out);
+    return rc;
+}
+
+static int many_draw(const void *what, const struct options *o, fl_err *err)
+{
+    const many *m = what;
+    fl_by by;
+    options_by(o, &by);
+    if (mkdir(o->plot, 0777) != 0 && errno != EEXIST)
+        return fl_fail(err, FL_SYSTEM, "%s: %s", o->plot, strerror(errno));
+    if (m->all->n > PICTURES_MAX)
+        return fl_fail(err, FL_USAGE, "at most %d signals are drawn, here are %d: choose some", PICTURES_MAX,
+                       m->all->n);
+    for (int32_t k = 0; k < m->all->n; k++)
+        if (draw_signal(m, k, o, &by, err)) return -1;
+    return 0;
+}
+
 int sumrows_run(const struct options *o, fl_err *err)
 {
     fl_summary all = {0};
     ensemble e = {0};
     fl_out out = {0};
+    const many m = {&all, &e};
     int rc = -1;
     /* What is followed is written as it comes; all else when it has been read. */
     if (o->follow > 0.0 && fl_out_open(&out, o->out, o->gzip, err)) goto done;
@@ -330,7 +474,19 @@ int sumrows_run(const struct options *o, fl_err *err)
         write_header(out.f, all.history, o);
     }
     if (write_rows(out.f, &all, &e, o, err)) goto done;
-    rc = fl_out_close(&out, err);
+    if (fl_out_close(&out, err)) goto done;
+    if (o->plot && many_draw(&m, o, err)) goto done;
+    rc = 0;
+    if (o->report) {
+        const page_source from = {.what = &m,
+                                  .many = 1,
+                                  .history = all.history,
+                                  .span = all.n ? fl_exact_value(&all.s[0].sum[0]) : 0.0,
+                                  .intro = many_intro,
+                                  .table = many_table,
+                                  .draw = many_draw};
+        rc = page_write(&from, o, err);
+    }
 done:
     fl_out_abort(&out);
     free(e.x);
