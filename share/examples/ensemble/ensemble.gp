@@ -44,7 +44,7 @@ plot rows('fh') using 4:($10/1000):($11/1000) with filledcurves lc rgb '#c6dbef'
 set tmargin at screen 0.30
 set bmargin at screen 0.06
 set logscale xy
-set xrange [3:runs]
+set xrange [runs > 8 ? 3 : 2:runs]
 set yrange [*:*]
 set xlabel 'Runs  n'
 set ylabel 'Half of the interval over the estimate'
