@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include "base/mem.h"
 #include "base/stream.h"
+#include "stat/estimate.h"
 #include "stat/reduce.h"
 #include "stat/summary_file.h"
 #include "fitrows.h"
@@ -16,9 +16,6 @@
 #include "sumrows.h"
 
 enum { PATH_LEN = 4096, PICTURES_MAX = 48 };
-
-/* Intervals are of 95 %. */
-static const double TAIL = 0.025;
 
 int sumrows_wanted(const struct options *o)
 {
@@ -77,23 +74,6 @@ static int stats_rows(FILE *f, const fl_summary *sum, const struct options *o, f
 
 /* --- the ensemble --------------------------------------------------------------------------------------- */
 
-/* Mean of n independent values and its interval by Student's law; half is NAN for n < 2. */
-typedef struct {
-    double mean, std, half;
-} estimate;
-
-static estimate estimate_of(int n, const double *x)
-{
-    estimate e = {0.0, NAN, NAN};
-    double squares = 0.0;
-    for (int k = 0; k < n; k++) e.mean += x[k] / n;
-    for (int k = 0; k < n; k++) squares += (x[k] - e.mean) * (x[k] - e.mean);
-    if (n < 2) return e;
-    e.std = sqrt(squares / (n - 1));
-    e.half = e.std * gsl_cdf_tdist_Qinv(TAIL, n - 1) / sqrt(n);
-    return e;
-}
-
 /* Mean and largest value of each run, in the order of the files. */
 typedef struct {
     int32_t runs, cap, signals;
@@ -119,7 +99,7 @@ static int ensemble_add(ensemble *e, const fl_summary *all, const fl_summary *on
     return 0;
 }
 
-static void put_estimate(FILE *f, const estimate *e)
+static void put_estimate(FILE *f, const fl_estimate *e)
 {
     put_field(f, e->mean);
     put_field(f, e->mean - e->half);
@@ -136,7 +116,7 @@ static int ensemble_rows(FILE *f, const ensemble *e, const fl_summary *all, fl_e
         for (int32_t n = 0; n < e->runs; n++) {
             mean[n] = e->x[2 * ((int64_t)n * e->signals + k)];
             max[n] = e->x[2 * ((int64_t)n * e->signals + k) + 1];
-            const estimate a = estimate_of(n + 1, mean), b = estimate_of(n + 1, max);
+            const fl_estimate a = fl_estimate_mean(n + 1, mean), b = fl_estimate_mean(n + 1, max);
             largest = fmax(largest, max[n]);
             label(f, &all->s[k]);
             fprintf(f, "\t%d", n + 1);
@@ -159,7 +139,7 @@ static int plot_rows(FILE *f, const ensemble *e, int32_t k, fl_err *err)
     for (int32_t n = 0; n < e->runs; n++) {
         mean[n] = e->x[2 * ((int64_t)n * e->signals + k)];
         max[n] = e->x[2 * ((int64_t)n * e->signals + k) + 1];
-        const estimate a = estimate_of(n + 1, mean), b = estimate_of(n + 1, max);
+        const fl_estimate a = fl_estimate_mean(n + 1, mean), b = fl_estimate_mean(n + 1, max);
         largest = fmax(largest, max[n]);
         fprintf(f, "%d", n + 1);
         put_field(f, a.mean);
