@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -444,8 +445,8 @@ int fl_record_next(fl_record *r, fl_err *err)
     if (more < 0) return -1;
     show(r, here);
     const double t = r->t, next = own->t[!here], middle = t + 0.5 * (next - t);
-    /* One sample alone has no neighbours; any length will do, as it is the only weight. */
-    if (r->n == 1) own->before = more ? t - (middle - t) : t - 0.5;
+    /* One sample alone has no neighbours; any length will do, as it is the only weight, if it is one at t. */
+    if (r->n == 1) own->before = more ? t - (middle - t) : t - fmax(0.5, fabs(t) * DBL_EPSILON);
     r->edge[0] = own->before;
     r->edge[1] = own->before = more ? middle : t + (t - r->edge[0]);
     if (!more) own->waiting = -1;

@@ -226,9 +226,13 @@ int fl_run_update(fl_run *r, fl_err *err)
 int fl_run_end(fl_run *r, const char *by, fl_err *err)
 {
     const char *history = fl_record_history(&r->record);
-    if (!r->state)
+    if (!r->state || r->states == 0)
         return fl_fail(err, FL_INPUT, "%s: nothing is left by the cut, the record ends at %.10g s",
                        fl_record_name(&r->record), r->record.edge[1]);
+    if (!(fl_exact_value(&r->sum.s[r->state[0].at].sum[0]) > 0.0))
+        return fl_fail(err, FL_INPUT,
+                       "%s: its rows last for no time, they lie too close for a number to tell",
+                       fl_record_name(&r->record));
     for (int32_t k = 0; k < r->states; k++)
         if (end_signal(r, &r->state[k], err)) return -1;
     if (fl_run_update(r, err)) return -1;

@@ -30,7 +30,7 @@ int fl_run_next(fl_run *r, fl_err *err);
 int fl_run_update(fl_run *r, fl_err *err);
 
 /* The record has ended: settle what is open; by is the "#by" line of this summary, which ends the chain of
- * the record.  0, or -1 with FL_INPUT (no row lies within the cut) or FL_SYSTEM. */
+ * the record.  0, or -1 with FL_INPUT (no row lies within the cut, or all last for no time) or FL_SYSTEM. */
 int fl_run_end(fl_run *r, const char *by, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */

@@ -38,6 +38,8 @@ static const char HELP[] =
     "      --sample WHAT       laws are fitted to peaks, pot (over the threshold), blocks or runs (peaks)\n"
     "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
     "      --block S           of blocks: their length\n"
+    "      --rule RULE         of load cycles in a summary: astm (E1049) or iso (12110-2) (astm)\n"
+    "      --residue WHAT      what iso leaves open: half cycles, repeat, or none (half)\n"
     "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
     "      --resamples N       for intervals and probabilities, 0 for none (199)\n"
     "      --seed N            of their random numbers (1)\n"
@@ -74,7 +76,9 @@ enum {
     REPORT,
     WHERE,
     OVER,
-    PATIENCE
+    PATIENCE,
+    RULE,
+    RESIDUE
 };
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
@@ -103,6 +107,8 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"where", required_argument, NULL, WHERE},
                                      {"over", required_argument, NULL, OVER},
                                      {"patience", required_argument, NULL, PATIENCE},
+                                     {"rule", required_argument, NULL, RULE},
+                                     {"residue", required_argument, NULL, RESIDUE},
                                      {"merge", no_argument, NULL, MERGE},
                                      {"stream", no_argument, NULL, STREAM},
                                      {"follow", required_argument, NULL, FOLLOW},
@@ -120,6 +126,8 @@ static const char *const TABLE[] = {"stats", "peaks",  "histogram", "exceedance"
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
+static const char *const CYCLE_RULE[] = {"astm", "iso"};             /* as fl_rainflow_rule_name() */
+static const char *const OPEN_CYCLES[] = {"half", "repeat", "none"}; /* as fl_residue_name() */
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
@@ -279,6 +287,10 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         k = choice("over", arg, OVER_WHAT, COUNT(OVER_WHAT), err);
         o->over = k + 1;
         return k < 0 ? -1 : 0;
+    case RULE: o->rule = choice("rule", arg, CYCLE_RULE, COUNT(CYCLE_RULE), err); return o->rule < 0 ? -1 : 0;
+    case RESIDUE:
+        o->residue = choice("residue", arg, OPEN_CYCLES, COUNT(OPEN_CYCLES), err);
+        return o->residue < 0 ? -1 : 0;
     case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
     case FOLLOW: return time_of("follow", arg, &o->follow, err);
     case FORMAT:
@@ -372,6 +384,9 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
         return fl_fail(err, FL_USAGE, "--sample blocks needs --block, their length");
+    if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue is of --rule iso, astm has its own");
+    if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
+        return fl_fail(err, FL_USAGE, "--report - needs another place for the table, --output");
     if (o->table == TABLE_LEVELS && !o->returns)
         return fl_fail(err, FL_USAGE, "--table levels needs --return, the return periods");
     char *word = o->words;
@@ -445,5 +460,7 @@ void options_by_summary(const struct options *o, char *text)
     add_number(&by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
     if (o->block > 0.0) add_number(&by, "block", o->block);
+    if (o->rule) fl_by_add(&by, "--rule %s", CYCLE_RULE[o->rule]);
+    if (o->rule && o->residue) fl_by_add(&by, "--residue %s", OPEN_CYCLES[o->residue]);
     snprintf(text, FL_BY_MAX + 2, "%s\n", by.text);
 }

@@ -45,9 +45,10 @@ struct options {
     double patience;
     const char *where[WHERES_MAX]; /* "COLUMN=WORD", borrowed from argv */
     int32_t wheres;
-    int over;      /* fl_over */
-    double follow; /* [s] of data between two reports, 0 for one at the end */
-    int ended;     /* --help or --version was answered */
+    int over;          /* fl_over */
+    int rule, residue; /* of the cycles, fl_rainflow_rule and fl_residue */
+    double follow;     /* [s] of data between two reports, 0 for one at the end */
+    int ended;         /* --help or --version was answered */
 };
 
 /* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */

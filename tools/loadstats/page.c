@@ -179,13 +179,22 @@ static void put_laws(FILE *f, const sheet *s)
 {
     const int aic = column_of(s, "AIC");
     char word[WORD_MAX];
+    int laws = 0;
+    double x;
+    for (int32_t k = 1; k < s->rows; k++) {
+        field_of(s->row[k], aic, word);
+        laws += fl_num_f64(word, &x) == 0;
+    }
+    if (laws == 0) {
+        fputs("<p>There are too few values to fit a law to.</p>\n", f);
+        return;
+    }
     fputs("<p>By maximum likelihood; of each sample the law with the smallest AIC is in bold type. ks_p and "
-          "ad_p tell "
-          "how often a sample of the law itself lies as far from its fit.</p>\n<div><table>\n",
+          "ad_p tell how often a sample of the law itself lies as far from its fit.</p>\n<div><table>\n",
           f);
     put_names(f, s);
     for (int32_t from = 1, to; from < s->rows; from = to) {
-        double least = INFINITY, x;
+        double least = INFINITY;
         int32_t best = -1;
         for (to = from; to < s->rows && same_sample(s->row[from], s->row[to]); to++) {
             field_of(s->row[to], aic, word);
@@ -368,12 +377,11 @@ static void remove_folder(const char *dir)
 
 static void put_head(FILE *f, const page_source *from)
 {
-    const char *title = from->many ? "Ice loads of many runs" : "Ice loads";
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
           "content=\"width=device-width, initial-scale=1\">\n",
           f);
-    fprintf(f, "<title>%s</title>\n<style>\n%s</style>\n</head>\n<body>\n<h1>%s</h1>\n<p>", title, STYLE,
-            title);
+    fprintf(f, "<title>%s</title>\n<style>\n%s</style>\n</head>\n<body>\n<h1>%s</h1>\n<p>", from->title,
+            STYLE, from->title);
     from->intro(f, from->what);
     fputs("</p>\n", f);
 }
@@ -471,6 +479,7 @@ int page_write_record(const struct result *r, const struct options *o, fl_err *e
 {
     const fl_series *s = r->s;
     const page_source from = {.what = r,
+                              .title = strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics",
                               .history = s->history,
                               .span = s->edge[s->n] - s->edge[0],
                               .intro = record_intro,

@@ -6,7 +6,8 @@
 
 /* What a page is about. */
 typedef struct {
-    const void *what;    /* handed to the functions below */
+    const void *what; /* handed to the functions below */
+    const char *title;
     int many;            /* many runs, not one record */
     const char *history; /* the "#by" lines of what was read, or NULL */
     double span;         /* how long it is [s] */

@@ -268,7 +268,11 @@ static int read_run(fl_summary *one, const char *path, FILE *f, const struct opt
                                .where = o->where,
                                .wheres = o->wheres,
                                .patience = o->follow > 0.0 ? o->patience : 0.0};
-    const fl_summary_ask how = {.separation = o->separation, .threshold = o->threshold, .block = o->block};
+    const fl_summary_ask how = {.separation = o->separation,
+                                .threshold = o->threshold,
+                                .block = o->block,
+                                .rule = o->rule,
+                                .residue = o->residue};
     fl_run run = {0};
     double next = NAN;
     int more, rc = -1;
@@ -460,6 +464,7 @@ int sumrows_run(const struct options *o, fl_err *err)
     if (o->report) {
         const page_source from = {.what = &m,
                                   .many = 1,
+                                  .title = "Ice loads of many runs",
                                   .history = all.history,
                                   .span = all.n ? fl_exact_value(&all.s[0].sum[0]) : 0.0,
                                   .intro = many_intro,
