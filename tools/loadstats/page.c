@@ -455,7 +455,7 @@ static void record_intro(FILE *f, const void *what)
 {
     const struct result *r = what;
     const fl_series *s = r->s;
-    fprintf(f, "%d rows of a %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
+    fprintf(f, "%d rows of the %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
     if (strcmp(s->kind, "loads") == 0)
         fputs(" A row is the mean over its interval; every mean is the impulse over the time.", f);
     if (r->each > 1) fputs(" The filtered view stands beside the raw one, for a filter hides spikes.", f);

@@ -204,6 +204,8 @@ static const char *const STYLES = "set style line 1 lc rgb '#85bcdb' lw 1.0 pt 6
 
 static int height_of(const picture *p) { return HEAD + p->panels * PANEL + (p->panels - 1) * p->gap + FOOT; }
 
+static int is_loads(const picture *p) { return strcmp(p->r->s->kind, "loads") == 0; }
+
 static void open_script(const picture *p, const char *heading)
 {
     FILE *f = p->script;
@@ -298,7 +300,7 @@ static int history(picture *p, fl_err *err)
     p->gap = GAP;
     for (int32_t s = 0; s < p->r->s->signals; s++) p->panels += view_of(p->r, p->part, s, 0) != NULL;
     fputs("signal\tunit\tview\tt[s]\tvalue\n", p->data);
-    open_script(p, "Load history");
+    open_script(p, is_loads(p) ? "Load history" : "History");
     for (int32_t s = 0; s < p->r->s->signals; s++)
         if (view_of(p->r, p->part, s, 0)) history_panel(p, k++, s);
     return 0;
@@ -339,6 +341,7 @@ static int classes_panel(picture *p, int k, int32_t s, fl_err *err)
     fputs("set xlabel ", p->script);
     plot_quoted(p->script, text);
     putc('\n', p->script);
+    fprintf(p->script, "set xtics %.6g\n", tics(c.factor * (h[0].range[CLASSES] - h[0].range[0])));
     put_left_title(p, "Peaks in class", 0.018);
     fprintf(p->script, "unset logscale y\nset yrange [0:%g]\nset ytics %g\n", 1.08 * most,
             fmax(1.0, tics(most)));
@@ -364,7 +367,7 @@ static void exceedance_panel(picture *p, int k, int32_t s)
     const scale c = scale_of(p, s);
     place_panel(p, k, 0.58, 0.97);
     put_left_title(p, "Probability of exceedance", 0.508);
-    fputs("set logscale y\nset yrange [*:1]\nset ytics "
+    fputs("set xtics autofreq\nset logscale y\nset yrange [*:1]\nset ytics "
           "autofreq\nset "
           "format y '%g'\n",
           p->script);
@@ -384,7 +387,7 @@ static int peaks(picture *p, fl_err *err)
     p->gap = FOOT + 10;
     for (int32_t s = 0; s < p->r->s->signals; s++) p->panels += peaks_of(p, s) > 0;
     fputs("signal\tunit\tview\tpeak\tcount_or_P\twidth_or_t\n", p->data);
-    open_script(p, "Load peaks");
+    open_script(p, is_loads(p) ? "Load peaks" : "Peaks");
     for (int32_t s = 0; s < p->r->s->signals; s++) {
         if (!peaks_of(p, s)) continue;
         if (classes_panel(p, k, s, err)) return -1;

@@ -19,6 +19,7 @@ set rmargin at screen 0.4750
 set tmargin at screen 0.9439
 set bmargin at screen 0.7738
 set xlabel 'Force in x  [kN]'
+set xtics 20
 set label 2 'Peaks in class' at screen 0.0180, graph 0.5 center rotate
 unset logscale y
 set yrange [0:4.32]
@@ -32,6 +33,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.9439
 set bmargin at screen 0.7738
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
+set xtics autofreq
 set logscale y
 set yrange [*:1]
 set ytics autofreq
@@ -45,6 +47,7 @@ set rmargin at screen 0.4750
 set tmargin at screen 0.7058
 set bmargin at screen 0.5357
 set xlabel 'Force in y  [kN]'
+set xtics 5
 set label 2 'Peaks in class' at screen 0.0180, graph 0.5 center rotate
 unset logscale y
 set yrange [0:3.24]
@@ -58,6 +61,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.7058
 set bmargin at screen 0.5357
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
+set xtics autofreq
 set logscale y
 set yrange [*:1]
 set ytics autofreq
@@ -71,6 +75,7 @@ set rmargin at screen 0.4750
 set tmargin at screen 0.4677
 set bmargin at screen 0.2976
 set xlabel 'Force in z  [kN]'
+set xtics 0.005
 set label 2 'Peaks in class' at screen 0.0180, graph 0.5 center rotate
 unset logscale y
 set yrange [0:1.08]
@@ -84,6 +89,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.4677
 set bmargin at screen 0.2976
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
+set xtics autofreq
 set logscale y
 set yrange [*:1]
 set ytics autofreq
@@ -96,6 +102,7 @@ set rmargin at screen 0.4750
 set tmargin at screen 0.2296
 set bmargin at screen 0.0595
 set xlabel 'Horizontal force  [kN]'
+set xtics 20
 set label 2 'Peaks in class' at screen 0.0180, graph 0.5 center rotate
 unset logscale y
 set yrange [0:4.32]
@@ -109,6 +116,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.2296
 set bmargin at screen 0.0595
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
+set xtics autofreq
 set logscale y
 set yrange [*:1]
 set ytics autofreq
