@@ -392,6 +392,9 @@ int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_
     own->key = -1;
     own->ask = *ask;
     int rc = fl_table_open(&own->table, path, NULL, 1, err);
+    if (rc == 0 && strcmp(own->table.text.kind, "summary") == 0)
+        rc = fl_fail(err, FL_INPUT, "%s: this is a summary of runs, a record was wanted",
+                     fl_in_name(own->table.text.in));
     own->loads = rc == 0 && strcmp(own->table.text.kind, "loads") == 0;
     if (rc == 0) rc = want_all(own, ask, err);
     if (rc) {
