@@ -14,8 +14,8 @@ static const char HELP[] =
     "Statistics of a load record: moments, quantiles, peaks, histogram, exceedance, plots.\n"
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
-    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, summary or ensemble "
-    "(stats)\n"
+    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, summary, ensemble or\n"
+    "                          cycles (stats)\n"
     "      --summary           the table summary: what adds up, of one run or of many files\n"
     "      --merge             the files are summaries: add them up\n"
     "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
@@ -121,8 +121,8 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-static const char *const TABLE[] = {"stats", "peaks",  "histogram", "exceedance",
-                                    "fits",  "levels", "summary",   "ensemble"};
+static const char *const TABLE[] = {"stats",  "peaks",   "histogram", "exceedance", "fits",
+                                    "levels", "summary", "ensemble",  "cycles"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
@@ -328,16 +328,16 @@ static int many_runs(const struct options *o) { return o->merge || o->stream; }
 /* What works in constant memory, and on many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
-    const int many = o->table == TABLE_SUMMARY || o->table == TABLE_ENSEMBLE || o->merge;
+    const int many = o->table >= TABLE_SUMMARY || o->merge;
     const char *how = o->follow > 0.0 ? "follow" : o->merge ? "merge" : "stream";
     if (o->merge && !o->table_given) o->table = TABLE_SUMMARY;
-    const int table =
-        o->table == TABLE_STATS || (o->table == TABLE_HISTOGRAM && !(o->follow > 0.0)) ||
-        (many_runs(o) && !(o->follow > 0.0) && (o->table == TABLE_FITS || o->table == TABLE_LEVELS)) ||
-        (many && !(o->follow > 0.0) && o->table >= TABLE_SUMMARY);
+    const int table = o->table == TABLE_STATS || o->table == TABLE_HISTOGRAM || o->table >= TABLE_SUMMARY ||
+                      (many_runs(o) && (o->table == TABLE_FITS || o->table == TABLE_LEVELS));
     if (o->files > 1 && !many && !o->stream)
         return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
     if (!many && !o->stream && !(o->follow > 0.0)) return 0;
+    if (o->follow > 0.0 && o->table != TABLE_STATS)
+        return fl_fail(err, FL_USAGE, "--follow prints the table stats, not %s", TABLE[o->table]);
     if (!table)
         return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", TABLE[o->table], how);
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
@@ -443,6 +443,10 @@ void options_by(const struct options *o, fl_by *by)
         fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
     }
     if (o->page && o->table != TABLE_STATS) fl_by_add(by, "--table %s", TABLE[o->table]);
+    if (o->table == TABLE_CYCLES && o->rule) {
+        fl_by_add(by, "--rule %s", CYCLE_RULE[o->rule]);
+        fl_by_add(by, "--residue %s", OPEN_CYCLES[o->residue]);
+    }
     if (o->merge) fl_by_add(by, "--merge");
     if (o->stream) fl_by_add(by, "--stream");
     if (o->follow > 0.0) add_number(by, "follow", o->follow);
@@ -461,6 +465,6 @@ void options_by_summary(const struct options *o, char *text)
     if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
     if (o->block > 0.0) add_number(&by, "block", o->block);
     if (o->rule) fl_by_add(&by, "--rule %s", CYCLE_RULE[o->rule]);
-    if (o->rule && o->residue) fl_by_add(&by, "--residue %s", OPEN_CYCLES[o->residue]);
+    if (o->rule) fl_by_add(&by, "--residue %s", OPEN_CYCLES[o->residue]);
     snprintf(text, FL_BY_MAX + 2, "%s\n", by.text);
 }

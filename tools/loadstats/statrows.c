@@ -125,7 +125,8 @@ void statrows_header(FILE *f, const struct options *o)
     case TABLE_FITS:
     case TABLE_LEVELS: fitrows_header(f, o); break;
     case TABLE_SUMMARY:
-    case TABLE_ENSEMBLE: break; /* sumrows.h */
+    case TABLE_ENSEMBLE:
+    case TABLE_CYCLES: break; /* sumrows.h */
     }
 }
 

@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/stream.h"
 #include "stat/estimate.h"
+#include "stat/rainflow.h"
 #include "stat/reduce.h"
 #include "stat/summary_file.h"
 #include "fitrows.h"
@@ -19,8 +20,7 @@ enum { PATH_LEN = 4096, PICTURES_MAX = 48 };
 
 int sumrows_wanted(const struct options *o)
 {
-    return o->table == TABLE_SUMMARY || o->table == TABLE_ENSEMBLE || o->merge || o->stream ||
-           o->follow > 0.0;
+    return o->table >= TABLE_SUMMARY || o->merge || o->stream || o->follow > 0.0;
 }
 
 /* --- tables --------------------------------------------------------------------------------------------- */
@@ -218,17 +218,41 @@ static int fit_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s, 
     return rc;
 }
 
+/* Load cycles by classes of their range. */
+static int cycle_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s, fl_err *err)
+{
+    const int own = all->ask.rule == FL_RAINFLOW_ASTM; /* treats its residue itself */
+    fl_class *sorted;
+    if (fl_classes_sort(&s->cycle, &sorted, err)) return -1;
+    for (int32_t k = 0; k < s->cycle.n; k++) {
+        label(f, s);
+        fprintf(f, "\t%s\t%s", fl_rainflow_rule_name(all->ask.rule),
+                own ? "-" : fl_residue_name(all->ask.residue));
+        put_field(f, fl_classes_lower(sorted[k].key));
+        put_field(f, fl_classes_upper(sorted[k].key));
+        put_field(f, 0.5 * (double)sorted[k].n);
+        putc('\n', f);
+    }
+    free(sorted);
+    return 0;
+}
+
+static int one_by_one(FILE *f, const fl_summary *all, fl_summary_signal *s, const struct options *o,
+                      fl_err *err)
+{
+    fl_values_sort(&s->block); /* whatever the order of the files */
+    fl_values_sort(&s->run[FL_RUN_MAX]);
+    if (o->table == TABLE_HISTOGRAM) return histogram_rows(f, s, err);
+    return o->table == TABLE_CYCLES ? cycle_rows(f, all, s, err) : fit_rows(f, all, s, o, err);
+}
+
 static int write_rows(FILE *f, fl_summary *all, const ensemble *e, const struct options *o, fl_err *err)
 {
     if (o->table == TABLE_SUMMARY) return fl_summary_write(f, all, err);
     if (o->table == TABLE_ENSEMBLE) return ensemble_rows(f, e, all, err);
     if (o->table == TABLE_STATS) return stats_rows(f, all, o, err);
-    for (int32_t k = 0; k < all->n; k++) {
-        fl_summary_signal *s = &all->s[k];
-        fl_values_sort(&s->block); /* whatever the order of the files */
-        fl_values_sort(&s->run[FL_RUN_MAX]);
-        if (o->table == TABLE_HISTOGRAM ? histogram_rows(f, s, err) : fit_rows(f, all, s, o, err)) return -1;
-    }
+    for (int32_t k = 0; k < all->n; k++)
+        if (one_by_one(f, all, &all->s[k], o, err)) return -1;
     return 0;
 }
 
@@ -253,6 +277,7 @@ static void write_header(FILE *f, const char *history, const struct options *o)
         fputs("part\tsignal\tunit\truns\tmean\tmean_low\tmean_high\tmean_std\tmax\tmax_low\tmax_high\tmax_std"
               "\tlargest\n",
               f);
+    else if (o->table == TABLE_CYCLES) fputs("part\tsignal\tunit\trule\tresidue\tfrom\tto\tcycles\n", f);
     else statrows_header(f, o);
 }
 
