@@ -431,7 +431,7 @@ void options_by(const struct options *o, fl_by *by)
     }
     add_number(by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
-    if (o->table == TABLE_HISTOGRAM) fl_by_add(by, "--bins %d", o->bins);
+    if (o->table == TABLE_HISTOGRAM && !many_runs(o)) fl_by_add(by, "--bins %d", o->bins);
     if ((o->table == TABLE_STATS || o->page) && o->quantiles_text)
         fl_by_add(by, "--quantiles %s", o->quantiles_text);
     if (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->page) {
