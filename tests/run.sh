@@ -11,6 +11,8 @@
 set -u
 LC_ALL=C
 export LC_ALL
+# A case which calls make starts afresh: it is not part of the make that started the tests.
+unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES
 
 # counts FILE STATUS: "passed failed skipped" from the summary lines of cmocka and from a line "N passed, N failed".
 counts()
