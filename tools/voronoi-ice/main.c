@@ -2,20 +2,16 @@
 /* voronoi-ice -- a field of ice floes.  Sites, their cells, floes inside the cells, a file. */
 #include <math.h>
 #include <omp.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include "base/mem.h"
-#include "base/num.h"
 #include "base/stream.h"
 #include "base/tool.h"
 #include "ice/cells.h"
 #include "ice/certificate.h"
-#include "scene/field.h"
 #include "ice/floes.h"
+#include "scene/field.h"
+#include "certify.h"
 #include "options.h"
-
-/* The concentration is met to the rounding of areas and of corners far from the origin. */
-#define MET 1e-12
 
 struct field {
     fl_cells cells;
@@ -121,52 +117,39 @@ done:
 
 /* --- the certificate ------------------------------------------------------------------------------------ */
 
-static void row(const char *what, const char *asked, const char *fmt, ...)
-    __attribute__((format(printf, 3, 4)));
-static void row(const char *what, const char *asked, const char *fmt, ...)
-{
-    va_list ap;
-    fprintf(stderr, "%-32s %10s   ", what, asked);
-    va_start(ap, fmt);
-    vfprintf(stderr, fmt, ap);
-    va_end(ap);
-    fputc('\n', stderr);
-}
-
-static void certify(const struct options *o, const struct field *a)
+static void certify(const struct options *o, const struct field *a, struct certify *t)
 {
     const fl_certificate *c = &a->c;
-    const double area = o->size.x * o->size.y, off = fabs(a->full / area - o->concentration);
-    char asked[FL_NUM_LEN], count[FL_NUM_LEN];
-    snprintf(count, sizeof count, "%d", o->floes);
-    fprintf(stderr, "voronoi-ice: certificate\n");
-    row("", "asked", "achieved");
-    row("floes", count, "%d", a->cells.n);
-    row("concentration", fl_num_text(o->concentration, asked), "%.10g, off by %s %.0e", a->full / area,
-        off < MET ? "less than" : "about", off < MET ? MET : off);
+    const double area = o->size.x * o->size.y, concentration = a->full / area;
+    certify_add(t, "floes", o->floes, a->cells.n, abs(a->cells.n - o->floes), 10, NULL);
+    certify_add(t, "concentration", o->concentration, concentration, fabs(concentration - o->concentration),
+                10, NULL);
     if (o->keep_outs) {
-        row("floes kept out", "", "%d", a->cells.n - a->floes.n);
-        row("floes left", "", "%d", a->floes.n);
-        row("concentration, whole field", "", "%.6g", a->covered / area);
-        row("concentration, cells left", "", "%.6g", a->covered / a->kept);
+        certify_add(t, "floes kept out", NOT_ASKED, a->cells.n - a->floes.n, NO_DISTANCE, 10, NULL);
+        certify_add(t, "floes left", NOT_ASKED, a->floes.n, NO_DISTANCE, 10, NULL);
+        certify_add(t, "concentration, whole field", NOT_ASKED, a->covered / area, NO_DISTANCE, 6, NULL);
+        certify_add(t, "concentration, cells left", NOT_ASKED, a->covered / a->kept, NO_DISTANCE, 6, NULL);
     }
-    row("overlaps", "0", "%lld", (long long)c->overlaps);
-    row("draft [m]", "", "%.6g", o->thickness * (o->ice_density / o->water_density));
-    row("area, mean [m2]", "", "%.6g", c->mean);
-    row("area, deviation over mean", "", "%.4f", c->cv);
-    row("area, smallest [m2]", "", "%.6g (floe %d)", c->least, a->name[c->least_of]);
-    row("area, largest [m2]", "", "%.6g (floe %d)", c->most, a->name[c->most_of]);
-    row("sides of a floe, mean", "", "%.3f", c->sides);
-    row("shortest side of a core [m]", "", "%.4g (floe %d)", c->edge, a->name[c->edge_of]);
-    row("sharpest corner [degrees]", "", "%.2f (floe %d)", c->angle * (180.0 / acos(-1.0)),
-        a->name[c->angle_of]);
+    certify_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
+    certify_add(t, "draft [m]", NOT_ASKED, o->thickness * (o->ice_density / o->water_density), NO_DISTANCE, 6,
+                NULL);
+    certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean, NO_DISTANCE, 6, NULL);
+    certify_add(t, "area, deviation over mean", NOT_ASKED, c->cv, NO_DISTANCE, 4, NULL);
+    certify_add(t, "area, smallest [m2]", NOT_ASKED, c->least, NO_DISTANCE, 6, "floe %d",
+                a->name[c->least_of]);
+    certify_add(t, "area, largest [m2]", NOT_ASKED, c->most, NO_DISTANCE, 6, "floe %d", a->name[c->most_of]);
+    certify_add(t, "sides of a floe, mean", NOT_ASKED, c->sides, NO_DISTANCE, 4, NULL);
+    certify_add(t, "shortest side of a core [m]", NOT_ASKED, c->edge, NO_DISTANCE, 4, "floe %d",
+                a->name[c->edge_of]);
+    certify_add(t, "sharpest corner [degrees]", NOT_ASKED, c->angle * (180.0 / acos(-1.0)), NO_DISTANCE, 4,
+                "floe %d", a->name[c->angle_of]);
     if (c->gap_of[0] >= 0)
-        row("narrowest gap [m]", "", "%.6g (floes %d and %d)", c->gap, a->name[c->gap_of[0]],
-            a->name[c->gap_of[1]]);
-    row("inset of the cells [m]", "", "%.6g", a->floes.inset);
-    row("floes inset less: small cells", "", "%d", a->floes.held);
-    row("sides of cells dropped", "", "%d", a->floes.dropped);
-    row("sides moved in farther", "", "%d", a->floes.cut);
+        certify_add(t, "narrowest gap [m]", NOT_ASKED, c->gap, NO_DISTANCE, 6, "floes %d and %d",
+                    a->name[c->gap_of[0]], a->name[c->gap_of[1]]);
+    certify_add(t, "inset of the cells [m]", NOT_ASKED, a->floes.inset, NO_DISTANCE, 6, NULL);
+    certify_add(t, "floes inset less: small cells", NOT_ASKED, a->floes.held, NO_DISTANCE, 10, NULL);
+    certify_add(t, "sides of cells dropped", NOT_ASKED, a->floes.dropped, NO_DISTANCE, 10, NULL);
+    certify_add(t, "sides moved in farther", NOT_ASKED, a->floes.cut, NO_DISTANCE, 10, NULL);
 }
 
 static int measure(const struct options *o, struct field *a, fl_err *err)
@@ -191,7 +174,9 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
 static int run(const struct options *o, fl_err *err)
 {
     const fl_vec2 shift = {o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
+    struct certify table = {0};
     struct field a = {0};
+    fl_by by;
     int rc = -1;
     if (o->threads) omp_set_num_threads(o->threads);
     a.name = fl_alloc(o->floes, sizeof *a.name, err);
@@ -204,7 +189,10 @@ static int run(const struct options *o, fl_err *err)
     if (measure(o, &a, err)) goto done;
     tell(o, "writing");
     if (write_field(o, &a, err)) goto done;
-    if (!o->quiet) certify(o, &a);
+    certify(o, &a, &table);
+    options_by(o, &by);
+    if (o->certificate && certify_write(&table, o->certificate, &by, err)) goto done;
+    if (!o->quiet) certify_print(&table);
     rc = 0;
 done:
     fl_floes_free(&a.floes);

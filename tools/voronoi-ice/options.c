@@ -23,6 +23,7 @@ static const char HELP[] =
     "      --velocity VX,VY    of all floes at the start, m/s (0,0)\n"
     "      --keep-out SHAPE    take out floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 "
     "times\n"
+    "      --certificate FILE  what was asked and what was achieved as a table, - is standard output\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the file\n"
     "  -j, --threads N         threads (one per processor)\n"
@@ -45,6 +46,7 @@ enum {
     WATER_DENSITY,
     VELOCITY,
     KEEP_OUT,
+    CERTIFICATE,
     VERSION
 };
 
@@ -61,6 +63,7 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"water-density", required_argument, NULL, WATER_DENSITY},
                                      {"velocity", required_argument, NULL, VELOCITY},
                                      {"keep-out", required_argument, NULL, KEEP_OUT},
+                                     {"certificate", required_argument, NULL, CERTIFICATE},
                                      {"output", required_argument, NULL, 'o'},
                                      {"gzip", no_argument, NULL, 'z'},
                                      {"threads", required_argument, NULL, 'j'},
@@ -178,6 +181,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
     case VELOCITY: return pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
     case KEEP_OUT: return shape(o, arg, err);
+    case CERTIFICATE: o->certificate = arg; return 0;
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
     case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
@@ -221,6 +225,9 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->ended) return 0;
     if (optind < argc)
         return fl_fail(err, FL_USAGE, "\"%.60s\" was not expected, voronoi-ice reads no file", argv[optind]);
+    if (o->certificate && strcmp(o->certificate, "-") == 0 && strcmp(o->out, "-") == 0)
+        return fl_fail(err, FL_USAGE,
+                       "--certificate - and the field both go to standard output: -o is wanted");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
     if (!(o->thickness > 2.0 * o->radius))
         return fl_fail(err, FL_USAGE, "--thickness %g is not more than twice --radius %g: no core is left",
