@@ -7,8 +7,8 @@
 #include "base/stream.h"
 #include "certify.h"
 
-/* Distances below this are the rounding of sums and of corners far from the origin, and differ from machine to
- * machine: the terminal says no more than that they are below it. */
+/* Distances below this are the rounding of sums and of corners far from the origin, and differ from machine
+ * to machine: the terminal says no more than that they are below it. */
 #define ROUNDING 1e-12
 
 static struct certify_row *next(struct certify *c, const char *what, const char *note, va_list ap)
