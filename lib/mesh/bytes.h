@@ -6,6 +6,8 @@
 #include "base/err.h"
 #include "base/stream.h"
 
+enum { FL_MESH_NOTE = 4000 };
+
 typedef struct {
     fl_in *in;  /* at its end */
     char *data; /* [n], and a zero byte after them; rows are cut in place */
@@ -14,7 +16,7 @@ typedef struct {
     char comment; /* opens a comment, '\0' for none */
     char **field; /* words of the current row */
     int32_t words, next, field_cap;
-    char note[600]; /* remarks for the user, each with its newline */
+    char note[FL_MESH_NOTE]; /* remarks for the user, each with its newline */
 } fl_bytes;
 
 /* Read all of path ("-" is standard input, gzip is unpacked); a UTF-8 byte order mark at its start is

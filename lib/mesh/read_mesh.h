@@ -3,8 +3,7 @@
 #ifndef FL_MESH_READ_MESH_H
 #define FL_MESH_READ_MESH_H
 #include "geom/surface.h"
-
-enum { FL_MESH_NOTE = 600 };
+#include "mesh/bytes.h"
 
 /* Add what path ("-" is standard input, gzip is unpacked) holds to s: STL (binary or ASCII), OBJ, OFF, PLY or
  * g_struct. The kind is told by content, never by name.  A part that has no name in the file is called by the

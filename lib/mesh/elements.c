@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "mesh/elements.h"
+#include "mesh/skin.h"
+
+static const struct {
+    const char *name;
+    int8_t corners, nodes, faces;
+    const char *face[6]; /* corners of each, as digits */
+} SHAPE[FL_SHAPES] = {
+    [FL_LINE2] = {"line2", 2, 2, 0, {0}},
+    [FL_LINE3] = {"line3", 2, 3, 0, {0}},
+    [FL_TRI3] = {"tri3", 3, 3, 0, {0}},
+    [FL_TRI6] = {"tri6", 3, 6, 0, {0}},
+    [FL_QUAD4] = {"quad4", 4, 4, 0, {0}},
+    [FL_QUAD8] = {"quad8", 4, 8, 0, {0}},
+    [FL_QUAD9] = {"quad9", 4, 9, 0, {0}},
+    [FL_TET4] = {"tet4", 4, 4, 4, {"012", "031", "132", "230"}},
+    [FL_TET10] = {"tet10", 4, 10, 4, {"012", "031", "132", "230"}},
+    [FL_PYRAMID5] = {"pyramid5", 5, 5, 5, {"0123", "041", "142", "243", "340"}},
+    [FL_PYRAMID13] = {"pyramid13", 5, 13, 5, {"0123", "041", "142", "243", "340"}},
+    [FL_WEDGE6] = {"wedge6", 6, 6, 5, {"012", "354", "0341", "1452", "2530"}},
+    [FL_WEDGE15] = {"wedge15", 6, 15, 5, {"012", "354", "0341", "1452", "2530"}},
+    [FL_HEX8] = {"hex8", 8, 8, 6, {"0123", "4765", "0451", "1562", "2673", "3740"}},
+    [FL_HEX20] = {"hex20", 8, 20, 6, {"0123", "4765", "0451", "1562", "2673", "3740"}},
+};
+
+int fl_shape_nodes(enum fl_shape shape) { return SHAPE[shape].nodes; }
+int fl_shape_corners(enum fl_shape shape) { return SHAPE[shape].corners; }
+int fl_shape_faces(enum fl_shape shape) { return SHAPE[shape].faces; }
+const char *fl_shape_name(enum fl_shape shape) { return SHAPE[shape].name; }
+
+int fl_shape_face(enum fl_shape shape, int face, int corner[4])
+{
+    const char *digit = SHAPE[shape].face[face];
+    int n = 0;
+    for (; digit[n]; n++) corner[n] = digit[n] - '0';
+    return n;
+}
+
+int fl_elements_start(fl_elements *e, const char *file, fl_err *err)
+{
+    *e = (fl_elements){0};
+    return fl_elements_file(e, file, err);
+}
+
+int fl_elements_file(fl_elements *e, const char *file, fl_err *err)
+{
+    const int32_t k = fl_names_add(&e->files, file, err);
+    if (k < 0) return -1;
+    e->file = k;
+    return 0;
+}
+
+int fl_elements_fail(const fl_elements *e, int32_t file, int32_t line, fl_err *err, const char *fmt, ...)
+{
+    char what[400];
+    va_list ap;
+    va_start(ap, fmt);
+    vsnprintf(what, sizeof what, fmt, ap);
+    va_end(ap);
+    if (line) return fl_fail(err, FL_INPUT, "%s:%d: %s", e->files.name[file], line, what);
+    return fl_fail(err, FL_INPUT, "%s: %s", e->files.name[file], what);
+}
+
+/* The index of a node that is spoken of. */
+static int32_t spoken(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
+{
+    const int32_t k = fl_numbers_add(&e->node, scope, id, err), had = k < 0 ? 0 : e->node.n;
+    if (k < 0 || fl_grow(&e->x, &e->x_cap, had, sizeof *e->x, err)) return -1;
+    return k;
+}
+
+/* A node that was just numbered has no place yet. */
+static int32_t mention(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
+{
+    const int32_t before = e->node.n, k = spoken(e, scope, id, err);
+    if (k >= before) e->x[k] = v3(NAN, NAN, NAN);
+    return k;
+}
+
+int32_t fl_elements_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 x, fl_err *err)
+{
+    const int32_t had = e->node.n;
+    int32_t k;
+    if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
+        return fl_elements_fail(e, e->file, e->line, err,
+                                "node %lld is at %g %g %g, finite coordinates were wanted", (long long)id,
+                                x.x, x.y, x.z);
+    k = spoken(e, scope, id, err);
+    if (k < 0) return -1;
+    if (k < had && !isnan(e->x[k].x) && v3_norm2(v3_sub(e->x[k], x)) > 0.0) e->moved++;
+    e->x[k] = x;
+    return k;
+}
+
+int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape shape, int32_t part,
+                        const int64_t *node, fl_err *err)
+{
+    const int n = SHAPE[shape].nodes;
+    const int32_t first = e->corners, had = e->number.n;
+    int32_t k;
+    if (fl_grow(&e->corner, &e->corner_cap, (int64_t)first + n, sizeof *e->corner, err) ||
+        fl_grow(&e->element, &e->element_cap, (int64_t)e->number.n + 1, sizeof *e->element, err))
+        return -1;
+    for (int i = 0; i < n; i++) {
+        if (node[i] < 1 && i < SHAPE[shape].corners)
+            return fl_elements_fail(e, e->file, e->line, err,
+                                    "corner %d of the element is node %lld, a number of 1 or more was wanted",
+                                    i + 1, (long long)node[i]);
+        k = node[i] < 1 ? -1 : mention(e, scope, node[i], err);
+        if (k < 0 && node[i] >= 1) return -1;
+        e->corner[first + i] = k;
+    }
+    /* Elements without a number get one that no file can ask for. */
+    k = id < 0 ? fl_numbers_add(&e->number, -1, e->number.n, err)
+               : fl_numbers_add(&e->number, scope, id, err);
+    if (k < 0) return -1;
+    e->corners += n;
+    e->replaced += k < had;
+    e->element[k] = (fl_element){first, part, -1, e->line, e->file, (uint8_t)shape};
+    return k;
+}
+
+int fl_elements_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err)
+{
+    const int32_t k = e->sections;
+    /* the elements of a set come one after the other with the same radii */
+    if (k && e->section[k - 1][0] == r0 && e->section[k - 1][1] == r1) {
+        e->element[element].section = k - 1;
+        return 0;
+    }
+    if (fl_grow(&e->section, &e->section_cap, (int64_t)k + 1, sizeof *e->section, err)) return -1;
+    e->section[k][0] = r0;
+    e->section[k][1] = r1;
+    e->element[element].section = e->sections++;
+    return 0;
+}
+
+int fl_elements_pick(fl_elements *e, fl_pick pick, fl_err *err)
+{
+    const int faces = SHAPE[e->element[pick.element].shape].faces;
+    if (faces && pick.face >= faces) return 0;
+    if (fl_grow(&e->pick, &e->pick_cap, (int64_t)e->picks + 1, sizeof *e->pick, err)) return -1;
+    e->pick[e->picks++] = pick;
+    return 0;
+}
+
+int fl_elements_skip(fl_elements *e, const char *type, fl_err *err)
+{
+    const int32_t had = e->skipped.n, k = fl_names_add(&e->skipped, type, err);
+    if (k < 0 || fl_grow(&e->skips, &e->skip_cap, e->skipped.n, sizeof *e->skips, err)) return -1;
+    if (k >= had) e->skips[k] = 0;
+    e->skips[k]++;
+    return 0;
+}
+
+void fl_elements_free(fl_elements *e)
+{
+    fl_numbers_free(&e->node);
+    fl_numbers_free(&e->number);
+    fl_names_free(&e->parts);
+    fl_names_free(&e->sets);
+    fl_names_free(&e->files);
+    fl_names_free(&e->skipped);
+    free(e->x);
+    free(e->element);
+    free(e->corner);
+    free(e->pick);
+    free(e->skips);
+    free(e->section);
+    *e = (fl_elements){0};
+}
+
+/* --- from elements to a surface ------------------------------------------------------------------------- */
+
+/* "hex8 4, tri3 2", what does not fit as dots. */
+typedef struct {
+    char text[300];
+    size_t len;
+} list;
+
+static void list_add(list *l, const char *name, int32_t n)
+{
+    char item[80];
+    const int k = snprintf(item, sizeof item, "%s%.40s %d", l->len ? ", " : "", name, n);
+    if (l->len + (size_t)k + 6 < sizeof l->text) memcpy(l->text + l->len, item, (size_t)k + 1);
+    else if (l->text[l->len] == '\0' && l->len + 6 < sizeof l->text) strcpy(l->text + l->len, ", ...");
+    else return;
+    l->len += strlen(l->text + l->len);
+}
+
+static void tell_counts(const fl_elements *e, fl_bytes *b)
+{
+    int32_t count[FL_SHAPES] = {0}, nodes = 0;
+    list in = {{0}, 0}, out = {{0}, 0};
+    for (int32_t k = 0; k < e->node.n; k++) nodes += !isnan(e->x[k].x);
+    for (int32_t k = 0; k < e->number.n; k++) count[e->element[k].shape]++;
+    for (int k = 0; k < FL_SHAPES; k++)
+        if (count[k]) list_add(&in, SHAPE[k].name, count[k]);
+    for (int32_t k = 0; k < e->skipped.n; k++) list_add(&out, e->skipped.name[k], e->skips[k]);
+    fl_bytes_note(b, "%d nodes; elements: %s", nodes, in.len ? in.text : "none");
+    if (e->moved) fl_bytes_note(b, "%d nodes were given another place by a later line", e->moved);
+    if (e->replaced)
+        fl_bytes_note(b, "%d elements were replaced by later ones of the same number", e->replaced);
+    if (out.len) fl_bytes_note(b, "elements without a surface, or not known, passed over: %s", out.text);
+}
+
+/* Where each element goes: its part, or a set that was asked for; sets are counted on behind the parts. */
+static int choose(fl_elements *e, fl_skin *k, fl_wish *w, fl_err *err)
+{
+    const int32_t parts = e->parts.n, all = parts + e->sets.n;
+    int32_t *first = NULL, *order = NULL; /* picks by their sets */
+    char *want = fl_alloc(all, 1, err);
+    int yes, rc = -1;
+    if (!want || fl_skin_deal(e->picks, e->sets.n, e->picks ? &e->pick[0].set : NULL,
+                              (int)(sizeof *e->pick / sizeof(int32_t)), &first, &order, err))
+        goto done;
+    for (int32_t t = 0; t < all; t++) {
+        yes = fl_wish_takes(w, t < parts ? e->parts.name[t] : e->sets.name[t - parts], err);
+        if (yes < 0) goto done;
+        want[t] = (char)(yes && (t < parts || fl_wish_chooses(w)));
+    }
+    for (int32_t i = 0; i < e->number.n; i++)
+        k->target[i] = want[e->element[i].part] ? e->element[i].part : -1;
+    for (int32_t i = 0; i < e->picks; i++) {
+        const fl_pick *p = &e->pick[i];
+        const int32_t t = parts + p->set, solid = SHAPE[e->element[p->element].shape].faces;
+        int32_t *target = &k->target[p->element];
+        if (!want[t] || (solid && p->face != FL_PICK_WHOLE)) continue;
+        if (*target >= parts && *target <= t) continue;
+        *target = t;
+        k->behind[p->element] = p->behind;
+    }
+    for (int32_t i = 0; i < e->picks; i++) {
+        const fl_pick *p = &e->pick[order[i]];
+        if (want[parts + p->set] && p->face != FL_PICK_WHOLE && fl_skin_pick(k, p, parts + p->set, err))
+            goto done;
+    }
+    rc = 0;
+done:
+    free(first);
+    free(order);
+    free(want);
+    return rc;
+}
+
+int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_wish *w, fl_err *err)
+{
+    fl_skin k = {0};
+    int rc = -1;
+    tell_counts(e, b);
+    if (fl_skin_start(&k, e, w && w->subdivide, err) == 0 && choose(e, &k, w, err) == 0)
+        rc = fl_skin_emit(&k, s, err);
+    if (rc == 0) fl_skin_tell(&k, b);
+    fl_skin_free(&k);
+    return rc;
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include "base/mem.h"
+#include "mesh/numbers.h"
+
+/* Mixes all bits of the key into the low ones: files number their nodes 1, 2, 3 ... or in tens of thousands.
+ * Constants: the finaliser of SplitMix64, Steele, Lea & Flood, OOPSLA (2014). */
+static uint64_t mix(int32_t scope, int64_t id)
+{
+    uint64_t h = (uint64_t)id + (uint64_t)scope * UINT64_C(0x9e3779b97f4a7c15);
+    h = (h ^ h >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    h = (h ^ h >> 27) * UINT64_C(0x94d049bb133111eb);
+    return h ^ h >> 31;
+}
+
+/* The slot where the pair is, or the free one where it would go; slots > 0, and one at least is free. */
+static int32_t slot_of(const fl_numbers *s, int32_t scope, int64_t id)
+{
+    int32_t k = (int32_t)(mix(scope, id) & (uint64_t)(s->slots - 1));
+    while (s->slot[k] && (s->id[s->slot[k] - 1] != id || s->scope[s->slot[k] - 1] != scope))
+        k = (k + 1) & (s->slots - 1);
+    return k;
+}
+
+static int more_slots(fl_numbers *s, fl_err *err)
+{
+    fl_numbers t = *s;
+    t.slots = s->slots ? 2 * s->slots : 16;
+    t.slot = fl_alloc(t.slots, sizeof *t.slot, err);
+    if (!t.slot) return -1;
+    for (int32_t k = 0; k < s->n; k++) t.slot[slot_of(&t, s->scope[k], s->id[k])] = k + 1;
+    free(s->slot);
+    *s = t;
+    return 0;
+}
+
+int32_t fl_numbers_find(const fl_numbers *s, int32_t scope, int64_t id)
+{
+    return s->slots ? s->slot[slot_of(s, scope, id)] - 1 : -1;
+}
+
+int32_t fl_numbers_add(fl_numbers *s, int32_t scope, int64_t id, fl_err *err)
+{
+    const int32_t found = fl_numbers_find(s, scope, id);
+    if (found >= 0) return found;
+    if (s->n >= INT32_MAX / 4) return fl_fail(err, FL_SYSTEM, "more than %d different numbers", s->n);
+    if (3 * ((int64_t)s->n + 1) > 2 * (int64_t)s->slots && more_slots(s, err)) return -1;
+    if (fl_grow(&s->id, &s->id_cap, (int64_t)s->n + 1, sizeof *s->id, err) ||
+        fl_grow(&s->scope, &s->scope_cap, (int64_t)s->n + 1, sizeof *s->scope, err))
+        return -1;
+    s->slot[slot_of(s, scope, id)] = s->n + 1;
+    s->id[s->n] = id;
+    s->scope[s->n] = scope;
+    return s->n++;
+}
+
+void fl_numbers_free(fl_numbers *s)
+{
+    free(s->id);
+    free(s->scope);
+    free(s->slot);
+    *s = (fl_numbers){0};
+}

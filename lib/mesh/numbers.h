@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* numbers.h -- sparse numbers of nodes and elements to indices: each different pair of a scope and a number
+ * is kept once and counted from 0 as it first appears. */
+#ifndef FL_MESH_NUMBERS_H
+#define FL_MESH_NUMBERS_H
+#include <stdint.h>
+#include "base/err.h"
+
+typedef struct {
+    int32_t n, id_cap, scope_cap, slots; /* slots: 0 or a power of two above 3 n / 2 */
+    int64_t *id;                         /* [n] the number in the file */
+    int32_t *scope; /* [n] whose number it is: the instance of a part, 0 in a flat file */
+    int32_t *slot;  /* [slots] index plus one, 0 when free */
+} fl_numbers;
+
+/* The index of (scope, id), which is added when it is new.  -1 with FL_SYSTEM in err, and nothing added. */
+int32_t fl_numbers_add(fl_numbers *s, int32_t scope, int64_t id, fl_err *err);
+
+/* The index of (scope, id), -1 when it is not there. */
+int32_t fl_numbers_find(const fl_numbers *s, int32_t scope, int64_t id);
+
+void fl_numbers_free(fl_numbers *s); /* accepts a zeroed struct, leaves one */
+
+#endif

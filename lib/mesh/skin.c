@@ -1,0 +1,480 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "geom/facet.h"
+#include "mesh/skin.h"
+
+int fl_skin_start(fl_skin *k, const fl_elements *e, int subdivide, fl_err *err)
+{
+    const int32_t n = e->number.n;
+    *k = (fl_skin){.e = e, .subdivide = subdivide};
+    if (!(k->target = fl_alloc(n, sizeof *k->target, err)) || !(k->behind = fl_alloc(n, 1, err)) ||
+        !(k->outer = fl_alloc(n, 1, err)) || !(k->gone = fl_alloc(n, 1, err)) ||
+        !(k->owner = fl_alloc(e->node.n, sizeof *k->owner, err)) ||
+        !(k->local = fl_alloc(e->node.n, sizeof *k->local, err)))
+        return -1;
+    for (int32_t i = 0; i < n; i++) k->target[i] = -1;
+    return 0;
+}
+
+void fl_skin_free(fl_skin *k)
+{
+    free(k->target);
+    free(k->behind);
+    free(k->outer);
+    free(k->free_face);
+    free(k->gone);
+    free(k->pick);
+    free(k->owner);
+    free(k->local);
+    fl_part_free(&k->pool);
+    *k = (fl_skin){0};
+}
+
+int fl_skin_deal(int32_t n, int32_t targets, const int32_t *target, int stride, int32_t **first,
+                 int32_t **list, fl_err *err)
+{
+    *first = fl_alloc((int64_t)targets + 1, sizeof **first, err);
+    *list = *first ? fl_alloc(n, sizeof **list, err) : NULL;
+    if (!*list) return -1;
+    for (int32_t i = 0; i < n; i++)
+        if (target[(int64_t)i * stride] >= 0) (*first)[target[(int64_t)i * stride]]++;
+    for (int32_t t = 1; t <= targets; t++) (*first)[t] += (*first)[t - 1];
+    for (int32_t i = n; i-- > 0;)
+        if (target[(int64_t)i * stride] >= 0) (*list)[--(*first)[target[(int64_t)i * stride]]] = i;
+    return 0;
+}
+
+/* --- faces that occur once ------------------------------------------------------------------------------ */
+
+/* A face, by its second to last different corners in ascending order; -1 stands for the fourth of three.
+ * The first, the lowest, says in which bucket it lies. */
+typedef struct {
+    int32_t key[3], element;
+    int8_t face;
+} side;
+
+static int by_key(const void *va, const void *vb)
+{
+    const side *a = va, *b = vb;
+    for (int i = 0; i < 3; i++)
+        if (a->key[i] != b->key[i]) return a->key[i] < b->key[i] ? -1 : 1;
+    return 0;
+}
+
+/* Different corners of a face in ascending order, the rest -1.  How many. */
+static int corners_of(const fl_elements *e, int32_t element, int face, int32_t c[4])
+{
+    const fl_element *el = &e->element[element];
+    int place[4], n = 0;
+    const int m = fl_shape_face((enum fl_shape)el->shape, face, place);
+    for (int i = 0; i < m; i++) {
+        const int32_t v = e->corner[el->first + place[i]];
+        int at = 0, same = 0;
+        for (; at < n && c[at] <= v; at++) same |= c[at] == v;
+        if (same) continue;
+        for (int j = n++; j > at; j--) c[j] = c[j - 1];
+        c[at] = v;
+    }
+    for (int i = n; i < 4; i++) c[i] = -1;
+    return n;
+}
+
+/* Of the sides that share their lowest corner, mark those that are alone. */
+static int32_t mark_alone(side *s, int32_t n, uint8_t *bit)
+{
+    int32_t crowded = 0;
+    qsort(s, (size_t)n, sizeof *s, by_key);
+    for (int32_t i = 0, j; i < n; i = j) {
+        for (j = i + 1; j < n && by_key(&s[i], &s[j]) == 0; j++) {}
+        if (j == i + 1) bit[s[i].element] = (uint8_t)(bit[s[i].element] | 1 << s[i].face);
+        crowded += j > i + 2;
+    }
+    return crowded;
+}
+
+/* For each solid with target >= 0 (any, when target is NULL), the faces that no other one has.  Faces are
+ * dealt out by their lowest corner: the buckets are small, and are looked through one at a time. */
+static int alone(const fl_elements *e, const int32_t *target, uint8_t *bit, int32_t *crowded, fl_err *err)
+{
+    int64_t *first = fl_alloc((int64_t)e->node.n + 1, sizeof *first, err);
+    int64_t *at = NULL; /* element * 8 + face */
+    side *s = NULL;
+    int32_t cap = 0, c[4], n;
+    int rc = -1;
+    if (!first) goto done;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int32_t i = 0; i < e->number.n; i++) {
+            if (target && target[i] < 0) continue;
+            for (int f = 0; f < fl_shape_faces((enum fl_shape)e->element[i].shape); f++) {
+                if (corners_of(e, i, f, c) < 3) continue;
+                if (pass == 0) first[c[0]]++;
+                else at[--first[c[0]]] = 8 * (int64_t)i + f;
+            }
+        }
+        if (pass) break;
+        for (int32_t v = 1; v <= e->node.n; v++) first[v] += first[v - 1];
+        at = fl_alloc(first[e->node.n], sizeof *at, err);
+        if (!at) goto done;
+    }
+    for (int32_t v = 0; v < e->node.n; v++) {
+        n = 0;
+        if (fl_grow(&s, &cap, first[v + 1] - first[v], sizeof *s, err)) goto done;
+        for (int64_t j = first[v]; j < first[v + 1]; j++) {
+            side *one = &s[n++];
+            one->element = (int32_t)(at[j] / 8);
+            one->face = (int8_t)(at[j] % 8);
+            corners_of(e, one->element, one->face, c);
+            memcpy(one->key, c + 1, sizeof one->key);
+        }
+        if (n) *crowded += mark_alone(s, n, bit);
+    }
+    rc = 0;
+done:
+    free(first);
+    free(at);
+    free(s);
+    return rc;
+}
+
+int fl_skin_pick(fl_skin *k, const fl_pick *p, int32_t target, fl_err *err)
+{
+    const int faces = fl_shape_faces((enum fl_shape)k->e->element[p->element].shape);
+    int32_t c[4], ignored = 0;
+    if (faces == 0) return 0;
+    if (p->face == FL_PICK_FREE && !k->free_face) {
+        k->free_face = fl_alloc(k->e->number.n, 1, err);
+        if (!k->free_face || alone(k->e, NULL, k->free_face, &ignored, err)) return -1;
+    }
+    for (int f = 0; f < faces; f++) {
+        const int bit = 1 << f;
+        const int asked = p->face == FL_PICK_FREE ? k->free_face[p->element] & bit : p->face == f;
+        if (!asked || k->gone[p->element] & bit || corners_of(k->e, p->element, f, c) < 3) continue;
+        if (fl_grow(&k->pick, &k->pick_cap, (int64_t)k->picks + 1, sizeof *k->pick, err)) return -1;
+        k->pick[k->picks++] = (fl_skin_face){target, p->element, (int8_t)f};
+        k->gone[p->element] = (uint8_t)(k->gone[p->element] | bit);
+    }
+    return 0;
+}
+
+/* --- faces to triangles --------------------------------------------------------------------------------- */
+
+/* Mids of each shape's edges stand behind the corners in this order; as pairs of digits. */
+static const char *edges(enum fl_shape shape)
+{
+    switch (shape) {
+    case FL_TRI6: return "011220";
+    case FL_QUAD8:
+    case FL_QUAD9: return "01122330";
+    case FL_TET10: return "011220031323";
+    case FL_PYRAMID13: return "0112233004142434";
+    case FL_WEDGE15: return "011220344553031425";
+    case FL_HEX20: return "011223304556677404152637";
+    default: return "";
+    }
+}
+
+/* The ring of a face: corner, and the node between it and the next one, -1 for none. */
+typedef struct {
+    int n;
+    int32_t corner[4], mid[4], centre;
+} ring;
+
+static int32_t mid_of(const fl_elements *e, const fl_element *el, int a, int b)
+{
+    const char *p = edges((enum fl_shape)el->shape);
+    for (int k = fl_shape_corners((enum fl_shape)el->shape); *p; p += 2, k++)
+        if ((p[0] - '0' == a && p[1] - '0' == b) || (p[0] - '0' == b && p[1] - '0' == a))
+            return e->corner[el->first + k];
+    return -1;
+}
+
+/* The ring of a face of a solid, or of a shell (face < 0), in the order of the element.  Corners that repeat
+ * are dropped together with the edge between them. */
+static ring ring_of(const fl_elements *e, const fl_element *el, int face)
+{
+    const enum fl_shape shape = (enum fl_shape)el->shape;
+    int place[4] = {0, 1, 2, 3}, n = fl_shape_corners(shape);
+    ring r = {0, {0}, {0}, -1};
+    if (face >= 0) n = fl_shape_face(shape, face, place);
+    for (int i = 0; i < n; i++) {
+        const int a = place[i], b = place[(i + 1) % n];
+        if (e->corner[el->first + a] == e->corner[el->first + b]) continue;
+        r.corner[r.n] = e->corner[el->first + a];
+        r.mid[r.n++] = mid_of(e, el, a, b);
+    }
+    if (shape == FL_QUAD9 && r.n == 4) r.centre = e->corner[el->first + 8];
+    return r;
+}
+
+static void turn_over(ring *r)
+{
+    const ring old = *r;
+    for (int i = 0; i < r->n; i++) {
+        r->corner[i] = old.corner[r->n - 1 - i];
+        r->mid[i] = old.mid[(2 * r->n - 2 - i) % r->n];
+    }
+}
+
+/* The vertex of a node in the part of this target. */
+static int bring(fl_skin *k, fl_part *p, int32_t target, int32_t node, int32_t *v, fl_err *err)
+{
+    if (k->owner[node] != target + 1) {
+        k->owner[node] = target + 1;
+        k->local[node] = p->nv;
+        if (fl_surface_vertex(p, k->e->x[node], err)) return -1;
+    }
+    *v = k->local[node];
+    return 0;
+}
+
+static int before(const fl_elements *e, int32_t a, int32_t b)
+{
+    if (e->node.scope[a] != e->node.scope[b]) return e->node.scope[a] < e->node.scope[b];
+    return e->node.id[a] < e->node.id[b];
+}
+
+/* Add a polygon of up to 8 nodes.  It is cut up under the numbers that the nodes have in the file, which
+ * decide on ties, from the lowest on: so it does not matter how the element lies in it. */
+static int polygon(fl_skin *k, fl_part *p, int32_t target, int n, const int32_t *node, fl_err *err)
+{
+    int32_t sorted[8], loop[8] = {0}, v[8];
+    int low = 0;
+    for (int i = 0; i < n; i++) {
+        int at = i;
+        for (; at > 0 && before(k->e, node[i], sorted[at - 1]); at--) sorted[at] = sorted[at - 1];
+        sorted[at] = node[i];
+        if (before(k->e, node[i], node[low])) low = i;
+    }
+    k->pool.nv = k->pool.nt = 0;
+    for (int i = 0; i < n; i++)
+        if (fl_surface_vertex(&k->pool, k->e->x[sorted[i]], err)) return -1;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            if (sorted[j] == node[(low + i) % n]) loop[i] = j;
+    if (fl_facet_polygon(&k->pool, n, loop, err)) return -1;
+    for (int i = 0; i < n; i++)
+        if (bring(k, p, target, node[(low + i) % n], &v[loop[i]], err)) return -1;
+    for (int32_t t = 0; t < k->pool.nt; t++) {
+        const int32_t *c = k->pool.t[t].v;
+        if (fl_surface_triangle(p, v[c[0]], v[c[1]], v[c[2]], err)) return -1;
+    }
+    return 0;
+}
+
+/* A quadratic face: a triangle at each corner and what is left in the middle, or quadrilaterals round the
+ * centre.  Where a mid-side node is left out there is one polygon through those that are there. */
+static int pieces(fl_skin *k, fl_part *p, int32_t target, const ring *r, fl_err *err)
+{
+    int32_t loop[8];
+    int n = 0, mids = 0;
+    for (int i = 0; i < r->n; i++) {
+        loop[n++] = r->corner[i];
+        if (r->mid[i] < 0) continue;
+        loop[n++] = r->mid[i];
+        mids++;
+    }
+    if (mids < r->n) return polygon(k, p, target, n, loop, err);
+    for (int i = 0; i < r->n; i++) {
+        const int32_t last = r->mid[(i + r->n - 1) % r->n];
+        const int32_t piece[4] = {r->corner[i], r->mid[i], r->centre >= 0 ? r->centre : last, last};
+        if (polygon(k, p, target, r->centre >= 0 ? 4 : 3, piece, err)) return -1;
+    }
+    return r->centre >= 0 ? 0 : polygon(k, p, target, r->n, r->mid, err);
+}
+
+static int placed(const fl_elements *e, const fl_element *el, int32_t node, fl_err *err)
+{
+    if (node < 0 || !isnan(e->x[node].x)) return 0;
+    return fl_elements_fail(e, el->file, el->line, err,
+                            "the element wants node %lld, which is defined nowhere",
+                            (long long)e->node.id[node]);
+}
+
+/* Distance of x from the line through a and b. */
+static double from_chord(fl_vec3 a, fl_vec3 b, fl_vec3 x)
+{
+    const fl_vec3 d = v3_sub(x, a), along = v3_unit(v3_sub(b, a));
+    return v3_norm(v3_madd(d, -v3_dot(d, along), along));
+}
+
+/* Add a face (of a shell when face < 0), turned over or not. */
+static int add_face(fl_skin *k, fl_part *p, int32_t target, int32_t element, int face, int turn, fl_err *err)
+{
+    const fl_elements *e = k->e;
+    const fl_element *el = &e->element[element];
+    ring r = ring_of(e, el, face);
+    int mids = 0;
+    if (r.n < 3) return 0;
+    if (turn) turn_over(&r);
+    for (int i = 0; i < r.n; i++) {
+        if (placed(e, el, r.corner[i], err) || placed(e, el, r.mid[i], err)) return -1;
+        mids += r.mid[i] >= 0;
+    }
+    if (placed(e, el, r.centre, err)) return -1;
+    if (mids && k->subdivide) return pieces(k, p, target, &r, err);
+    for (int i = 0; i < r.n; i++)
+        if (r.mid[i] >= 0)
+            k->sagitta = fmax(k->sagitta,
+                              from_chord(e->x[r.corner[i]], e->x[r.corner[(i + 1) % r.n]], e->x[r.mid[i]]));
+    k->curved += mids > 0;
+    return polygon(k, p, target, r.n, r.corner, err);
+}
+
+/* Six times the volume of a solid, by the faces as they are listed, about its first corner; negative when
+ * these wind inward, as they do in a right-handed element. */
+static double volume(const fl_elements *e, const fl_element *el)
+{
+    const fl_vec3 o = e->x[e->corner[el->first]];
+    double sum = 0.0;
+    for (int f = 0; f < fl_shape_faces((enum fl_shape)el->shape); f++) {
+        const ring r = ring_of(e, el, f);
+        fl_vec3 area = {0}, mean = {0};
+        fl_vec3 x[4];
+        if (r.n < 3) continue;
+        for (int i = 0; i < r.n; i++) {
+            x[i] = v3_sub(e->x[r.corner[i]], o);
+            mean = v3_madd(mean, 1.0 / r.n, x[i]);
+        }
+        for (int i = 1; i + 1 < r.n; i++)
+            area = v3_add(area, v3_cross(v3_sub(x[i], x[0]), v3_sub(x[i + 1], x[0])));
+        sum += v3_dot(mean, area);
+    }
+    return sum;
+}
+
+/* Should the faces of a solid be turned over? */
+static int inward(fl_skin *k, int32_t element, int *turn, fl_err *err)
+{
+    const fl_element *el = &k->e->element[element];
+    double v;
+    for (int i = 0; i < fl_shape_corners((enum fl_shape)el->shape); i++)
+        if (placed(k->e, el, k->e->corner[el->first + i], err)) return -1;
+    v = volume(k->e, el);
+    *turn = !(v > 0.0); /* without volume: as if it were right-handed */
+    if (!(k->gone[element] & FL_SKIN_MET)) {
+        k->flat += !(v > 0.0) && !(v < 0.0);
+        k->left += v > 0.0;
+        k->gone[element] |= FL_SKIN_MET;
+    }
+    return 0;
+}
+
+static int add_solid(fl_skin *k, fl_part *p, int32_t target, int32_t element, int faces, fl_err *err)
+{
+    int turn = 0;
+    if (inward(k, element, &turn, err)) return -1;
+    for (int f = 0; f < faces; f++)
+        if (k->outer[element] >> f & 1 && !(k->gone[element] >> f & 1) &&
+            add_face(k, p, target, element, f, turn, err))
+            return -1;
+    return 0;
+}
+
+/* A line with its radii; one of three nodes bends at the middle when it is subdivided. */
+static int add_line(fl_skin *k, fl_part *p, int32_t element, fl_err *err)
+{
+    const fl_elements *e = k->e;
+    const fl_element *el = &e->element[element];
+    const int32_t a = e->corner[el->first], b = e->corner[el->first + 1];
+    const int32_t m = el->shape == FL_LINE3 ? e->corner[el->first + 2] : -1;
+    const double *r = el->section >= 0 ? e->section[el->section] : NULL;
+    fl_cone half[2];
+    int n = 1;
+    if (placed(e, el, a, err) || placed(e, el, b, err) || placed(e, el, m, err)) return -1;
+    half[0] = (fl_cone){e->x[a], e->x[b], r ? r[0] : 0.0, r ? r[1] : 0.0};
+    if (m >= 0 && k->subdivide) {
+        half[1] = (fl_cone){e->x[m], e->x[b], 0.5 * (half[0].r0 + half[0].r1), half[0].r1};
+        half[0].p1 = half[1].p0;
+        half[0].r1 = half[1].r0;
+        n = 2;
+    } else if (m >= 0 && r) {
+        k->sagitta = fmax(k->sagitta, from_chord(e->x[a], e->x[b], e->x[m]));
+        k->curved++;
+    }
+    for (int i = 0; i < n; i++) {
+        const double length = v3_norm(v3_sub(half[i].p1, half[i].p0));
+        if (!(half[i].r0 + half[i].r1 > 0.0) || !(length > 0.0)) k->bare++;
+        else if (fl_surface_cone(p, half[i], err)) return -1;
+    }
+    return 0;
+}
+
+static int add_element(fl_skin *k, fl_part *p, int32_t target, int32_t element, fl_err *err)
+{
+    const enum fl_shape shape = (enum fl_shape)k->e->element[element].shape;
+    const int faces = fl_shape_faces(shape);
+    if (faces) return add_solid(k, p, target, element, faces, err);
+    if (shape == FL_LINE2 || shape == FL_LINE3) return add_line(k, p, element, err);
+    return add_face(k, p, target, element, -1, k->behind[element], err);
+}
+
+static int add_pick(fl_skin *k, fl_part *p, const fl_skin_face *f, fl_err *err)
+{
+    int turn = 0;
+    if (inward(k, f->element, &turn, err)) return -1;
+    return add_face(k, p, f->target, f->element, f->face, turn, err);
+}
+
+/* --- parts ---------------------------------------------------------------------------------------------- */
+
+static const char *name_of(const fl_elements *e, int32_t target)
+{
+    return target < e->parts.n ? e->parts.name[target] : e->sets.name[target - e->parts.n];
+}
+
+int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
+{
+    const fl_elements *e = k->e;
+    const int32_t targets = e->parts.n + e->sets.n;
+    int32_t *first = NULL, *list = NULL, *pick_first = NULL, *pick_list = NULL;
+    int rc = -1;
+    if (alone(e, k->target, k->outer, &k->crowded, err) ||
+        fl_skin_deal(e->number.n, targets, k->target, 1, &first, &list, err) ||
+        fl_skin_deal(k->picks, targets, k->picks ? &k->pick[0].target : NULL,
+                     (int)(sizeof *k->pick / sizeof(int32_t)), &pick_first, &pick_list, err))
+        goto done;
+    for (int32_t t = 0; t < targets; t++) {
+        fl_part p = {0};
+        int bad = 0;
+        for (int32_t i = first[t]; !bad && i < first[t + 1]; i++) bad = add_element(k, &p, t, list[i], err);
+        for (int32_t i = pick_first[t]; !bad && i < pick_first[t + 1]; i++)
+            bad = add_pick(k, &p, &k->pick[pick_list[i]], err);
+        if (!bad && (p.nt || p.nc)) {
+            const int32_t at = fl_surface_add(s, name_of(e, t), strlen(name_of(e, t)), err);
+            bad = at < 0;
+            if (!bad) {
+                p.name = s->part[at].name;
+                p.id = s->part[at].id;
+                s->part[at] = p;
+                p = (fl_part){0};
+            }
+        }
+        fl_part_free(&p);
+        if (bad) goto done;
+    }
+    rc = 0;
+done:
+    free(first);
+    free(list);
+    free(pick_first);
+    free(pick_list);
+    return rc;
+}
+
+void fl_skin_tell(const fl_skin *k, fl_bytes *b)
+{
+    if (k->curved)
+        fl_bytes_note(
+            b,
+            "mid-side nodes of %d faces and lines were left out, the largest sagitta is %.3g in the "
+            "unit of the file; --subdivide keeps them",
+            k->curved, k->sagitta);
+    if (k->bare) fl_bytes_note(b, "%d lines without a section radius or a length were passed over", k->bare);
+    if (k->left)
+        fl_bytes_note(b, "%d solids are numbered left-handed; their faces were turned outward", k->left);
+    if (k->flat) fl_bytes_note(b, "%d solids have no volume", k->flat);
+    if (k->crowded)
+        fl_bytes_note(b, "%d faces belong to three or more solids and were taken as interior", k->crowded);
+}

@@ -1,0 +1,514 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+#include "base/mem.h"
+#include "geom/patch.h"
+#include "geom/weld.h"
+#include "mesh/elements.h"
+#include "mesh/skin.h"
+#include "support/mesh.h"
+#include "support/near.h"
+
+static fl_err err;
+static fl_elements e;
+static fl_surface s;
+static fl_bytes b;
+
+static int begin(void **state)
+{
+    (void)state;
+    err = (fl_err){0};
+    s = (fl_surface){0};
+    b = (fl_bytes){0};
+    return fl_elements_start(&e, "test.inp", &err);
+}
+
+static int end(void **state)
+{
+    (void)state;
+    fl_elements_free(&e);
+    fl_surface_free(&s);
+    return 0;
+}
+
+static int32_t part(const char *name) { return fl_names_add(&e.parts, name, &err); }
+
+static void node(int64_t id, double x, double y, double z)
+{
+    assert_true(fl_elements_node(&e, 0, id, v3(x, y, z), &err) >= 0);
+}
+
+/* Add an element of the nodes that follow, numbered as they stand in the text. */
+static int32_t add(int64_t id, enum fl_shape shape, int32_t p, const int64_t *n)
+{
+    const int32_t k = fl_elements_add(&e, 0, id, shape, p, n, &err);
+    assert_true(k >= 0);
+    return k;
+}
+
+static fl_quality surface(fl_wish *w)
+{
+    fl_quality q = {0};
+    if (fl_elements_surface(&e, &s, &b, w, &err)) fail_msg("%s", err.text);
+    assert_true(mesh_sound(&s));
+    assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
+    return q;
+}
+
+/* --- the solid shapes ----------------------------------------------------------------------------------- */
+
+/* Corners of the unit cube, of the wedge and the pyramid and the tetrahedron in it. */
+static const double HEX[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+static const double WEDGE[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+static const double PYRAMID[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+static const double TET[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+static const int TET_MID[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+static const int PYRAMID_MID[8][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
+static const int WEDGE_MID[9][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+static const int HEX_MID[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                   {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
+static const struct solid {
+    enum fl_shape linear, quadratic;
+    const double (*x)[3];
+    const int (*mid)[2];
+    double volume;
+    int triangles, pieces; /* of its surface; with --subdivide */
+} SOLID[] = {{FL_TET4, FL_TET10, TET, TET_MID, 1.0 / 6.0, 4, 16},
+             {FL_PYRAMID5, FL_PYRAMID13, PYRAMID, PYRAMID_MID, 1.0 / 3.0, 6, 22},
+             {FL_WEDGE6, FL_WEDGE15, WEDGE, WEDGE_MID, 0.5, 8, 26},
+             {FL_HEX8, FL_HEX20, HEX, HEX_MID, 1.0, 12, 36}};
+enum { SOLIDS = sizeof SOLID / sizeof *SOLID };
+
+/* Nodes 10, 20, ... of a solid, mirrored in x when mirror is -1; straight edges. */
+static void put_solid(const struct solid *k, enum fl_shape shape, double mirror)
+{
+    const int corners = fl_shape_corners(shape), n = fl_shape_nodes(shape);
+    int64_t id[20];
+    for (int i = 0; i < n; i++) id[i] = 10 * (i + 1);
+    for (int i = 0; i < corners; i++) node(id[i], mirror * k->x[i][0], k->x[i][1], k->x[i][2]);
+    for (int i = corners; i < n; i++) {
+        const double *p = k->x[k->mid[i - corners][0]], *q = k->x[k->mid[i - corners][1]];
+        node(id[i], mirror * (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2);
+    }
+    add(1, shape, part("solid"), id);
+}
+
+/* Each solid, of either hand, with straight edges, cut at its mid-side nodes or not: closed, outward, and its
+ * volume to rounding. */
+static void solids_are_closed_and_look_outward(void **state)
+{
+    for (int k = 0; k < SOLIDS; k++)
+        for (int way = 0; way < 8; way++) {
+            const enum fl_shape shape = way & 1 ? SOLID[k].quadratic : SOLID[k].linear;
+            const int pieces = (way & 5) == 5;
+            fl_wish w = {.subdivide = way & 4};
+            fl_quality q;
+            assert_int_equal(begin(state), 0);
+            put_solid(&SOLID[k], shape, way & 2 ? -1.0 : 1.0);
+            q = surface(&w);
+            assert_int_equal(q.triangles, pieces ? SOLID[k].pieces : SOLID[k].triangles);
+            assert_true(q.closed && q.open == 0 && q.incoherent == 0 && q.branched == 0);
+            assert_near(q.volume, SOLID[k].volume, 1e-15);
+            assert_int_equal(strstr(b.note, "left-handed") != NULL, (way & 2) != 0);
+            assert_int_equal(strstr(b.note, "mid-side") != NULL, (way & 5) == 1);
+            end(state);
+        }
+    begin(state);
+}
+
+/* Each face of each solid has the corners its mid-side nodes lie between, and each edge has a mid. */
+static void faces_list_the_edges(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SOLIDS; k++) {
+        int used[20] = {0}, c[4];
+        const int corners = fl_shape_corners(SOLID[k].linear);
+        const int edges = fl_shape_nodes(SOLID[k].quadratic) - corners;
+        for (int f = 0; f < fl_shape_faces(SOLID[k].linear); f++) {
+            const int n = fl_shape_face(SOLID[k].quadratic, f, c);
+            for (int i = 0; i < n; i++)
+                for (int m = 0; m < edges; m++) {
+                    const int *p = SOLID[k].mid[m], a = c[i], z = c[(i + 1) % n];
+                    used[m] += (p[0] == a && p[1] == z) || (p[0] == z && p[1] == a);
+                }
+        }
+        for (int m = 0; m < edges; m++) assert_int_equal(used[m], 2);
+    }
+    assert_string_equal(fl_shape_name(FL_WEDGE15), "wedge15");
+}
+
+/* A hexahedron whose nodes repeat is the wedge, the pyramid or the tetrahedron that is left of it. */
+static void collapsed_solids_are_what_is_left(void **state)
+{
+    static const struct {
+        int64_t n[8];
+        double volume;
+        int triangles;
+    } row[] = {
+        {{1, 2, 3, 3, 5, 6, 7, 7}, 0.5, 8},       /* wedge */
+        {{1, 2, 3, 4, 5, 5, 5, 5}, 1.0 / 3.0, 6}, /* pyramid */
+        {{1, 2, 3, 3, 5, 5, 5, 5}, 1.0 / 6.0, 4}, /* tetrahedron */
+        {{1, 2, 2, 1, 5, 6, 7, 8}, 0.5, 8},       /* wedge of a collapsed side */
+    };
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fl_quality q;
+        assert_int_equal(begin(state), 0);
+        for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
+        add(1, FL_HEX8, part("p"), row[k].n);
+        q = surface(NULL);
+        assert_int_equal(q.triangles, row[k].triangles);
+        assert_true(q.closed);
+        assert_near(q.volume, row[k].volume, 1e-15);
+        end(state);
+    }
+    begin(state);
+}
+
+/* --- many elements -------------------------------------------------------------------------------------- */
+
+/* A block of nx by ny by nz cubes in parts a (the lower half in x) and b. */
+static void block(int nx, int ny, int nz)
+{
+    int64_t id = 0;
+    for (int k = 0; k <= nz; k++)
+        for (int j = 0; j <= ny; j++)
+            for (int i = 0; i <= nx; i++) node(1 + i + (nx + 1) * (j + (ny + 1) * k), i, j, k);
+    for (int k = 0; k < nz; k++)
+        for (int j = 0; j < ny; j++)
+            for (int i = 0; i < nx; i++) {
+                const int64_t o = 1 + i + (nx + 1) * (j + (ny + 1) * k), up = (nx + 1) * (ny + 1);
+                const int64_t n[8] = {o,      o + 1,      o + nx + 2,      o + nx + 1,
+                                      o + up, o + up + 1, o + up + nx + 2, o + up + nx + 1};
+                add(++id, FL_HEX8, part(2 * i < nx ? "a" : "b"), n);
+            }
+}
+
+static void faces_between_solids_are_interior(void **state)
+{
+    (void)state;
+    fl_quality q, one;
+    block(4, 3, 5);
+    q = surface(NULL);
+    assert_int_equal(q.triangles, 4 * (4 * 3 + 3 * 5 + 4 * 5));
+    assert_int_equal(s.n, 2);
+    assert_int_equal(fl_part_measure(&s.part[0], &one, &err), 0);
+    assert_int_equal(one.triangles, 2 * (3 * 5 + 2 * 2 * 3 + 2 * 2 * 5));
+    assert_false(one.closed);
+    /* what is one body is closed once the parts are taken together */
+    for (int32_t t = 0; t < s.part[1].nt; t++) {
+        fl_tri *x = &s.part[1].t[t];
+        assert_int_equal(fl_surface_triangle(&s.part[0], x->v[0] + s.part[0].nv, x->v[1] + s.part[0].nv,
+                                             x->v[2] + s.part[0].nv, &err),
+                         0);
+    }
+    for (int32_t v = 0; v < s.part[1].nv; v++) fl_surface_vertex(&s.part[0], s.part[1].v[v], &err);
+    fl_weld w;
+    assert_int_equal(fl_part_weld(&s.part[0], 0.0, &w, &err), 0);
+    assert_int_equal(fl_part_measure(&s.part[0], &one, &err), 0);
+    assert_true(one.closed);
+    assert_near(one.volume, 60.0, 1e-14);
+}
+
+/* A part that is taken alone has the faces that the other one would have covered. */
+static void a_part_taken_alone_is_closed(void **state)
+{
+    (void)state;
+    const char *const pattern[] = {"B"};
+    char hit[1] = {0};
+    fl_wish w = {.pattern = pattern, .patterns = 1, .hit = hit};
+    fl_quality q;
+    block(4, 3, 5);
+    q = surface(&w);
+    assert_int_equal(s.n, 1);
+    assert_string_equal(s.part[0].name, "b");
+    assert_true(q.closed && hit[0]);
+    assert_near(q.volume, 30.0, 1e-14);
+}
+
+/* A set takes its elements out of their parts: whole ones, single faces, free faces. */
+static void sets_are_taken_when_they_are_asked_for(void **state)
+{
+    const char *const all[] = {"*"}, *const face[] = {"side"}, *const skin[] = {"skin", "a"};
+    fl_wish w = {.pattern = all, .patterns = 1};
+    fl_quality q;
+    for (int way = 0; way < 4; way++) {
+        int32_t side, shell, top;
+        assert_int_equal(begin(state), 0);
+        block(2, 2, 2);
+        side = fl_names_add(&e.sets, "side", &err);
+        shell = fl_names_add(&e.sets, "skin", &err);
+        top = fl_names_add(&e.sets, "top", &err);
+        for (int32_t k = 0; k < 8; k++) {
+            assert_int_equal(fl_elements_pick(&e, (fl_pick){k, shell, FL_PICK_FREE, 0}, &err), 0);
+            if (k >= 4) fl_elements_pick(&e, (fl_pick){k, top, FL_PICK_WHOLE, 0}, &err);
+            if (k % 2 == 0) fl_elements_pick(&e, (fl_pick){k, side, 5, 0}, &err); /* x = 0 */
+        }
+        assert_int_equal(fl_elements_pick(&e, (fl_pick){0, side, 6, 0}, &err), 0); /* no such face */
+        w.pattern = way == 2 ? face : way == 3 ? skin : all;
+        w.patterns = way == 3 ? 2 : 1;
+        q = surface(way ? &w : NULL);
+        if (way == 0) { /* not asked for: parts alone */
+            assert_int_equal(s.n, 2);
+            assert_int_equal(q.triangles, 48);
+        } else if (way == 1) { /* each face once: side first, then the rest of the skin; nothing for top */
+            assert_int_equal(q.triangles, 48);
+            assert_int_equal(s.n, 2);
+            assert_string_equal(s.part[0].name, "side");
+            assert_int_equal(s.part[0].nt, 8);
+            assert_string_equal(s.part[1].name, "skin");
+            assert_int_equal(s.part[1].nt, 40);
+        } else if (way == 2) {
+            assert_int_equal(q.triangles, 8);
+            assert_near(q.area, 4.0, 1e-15);
+            for (int32_t t = 0; t < 8; t++) { /* it looks out of the solid */
+                const fl_vec3 *x = s.part[0].v;
+                const int32_t *v = s.part[0].t[t].v;
+                assert_true(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])).x < 0.0);
+            }
+        } else { /* a alone has a face at x = 1 which no set took, and which is no free face of the whole */
+            assert_int_equal(q.triangles, 48 + 8);
+        }
+        end(state);
+    }
+    begin(state);
+}
+
+/* --- shells and lines ----------------------------------------------------------------------------------- */
+
+static void shells_keep_their_side(void **state)
+{
+    const char *const pattern[] = {"under"};
+    for (int behind = 0; behind < 2; behind++) {
+        fl_wish w = {.pattern = pattern, .patterns = 1};
+        int32_t k, v[3];
+        assert_int_equal(begin(state), 0);
+        node(5, 0, 0, 0);
+        node(6, 2, 0, 0);
+        node(7, 2, 1, 0);
+        node(8, 0, 1, 0);
+        k = add(1, FL_QUAD4, part("plate"), (const int64_t[]){5, 6, 7, 8});
+        fl_elements_pick(&e, (fl_pick){k, fl_names_add(&e.sets, "under", &err), 0, 1}, &err);
+        assert_int_equal(surface(behind ? &w : NULL).triangles, 2);
+        assert_string_equal(s.part[0].name, behind ? "under" : "plate");
+        for (int t = 0; t < 2; t++) {
+            const fl_vec3 *x = s.part[0].v;
+            memcpy(v, s.part[0].t[t].v, sizeof v);
+            assert_near(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])).z, behind ? -2.0 : 2.0,
+                        0.0);
+        }
+        end(state);
+    }
+    begin(state);
+}
+
+/* The diagonal does not depend on where the list of the element starts, or on its direction: with equal ones
+ * it is that through the lowest number. */
+static void quadrilaterals_are_cut_by_the_numbers(void **state)
+{
+    for (int way = 0; way < 8; way++) {
+        static const int64_t id[4] = {40, 10, 30, 20};
+        static const double x[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        int64_t n[4];
+        assert_int_equal(begin(state), 0);
+        for (int i = 0; i < 4; i++) node(id[i], x[i][0], x[i][1], 0);
+        for (int i = 0; i < 4; i++) n[i] = id[(way & 4 ? way + 4 - i : way + i) & 3];
+        add(1, FL_QUAD4, part("p"), n);
+        surface(NULL);
+        for (int t = 0; t < 2; t++) { /* both triangles have (1, 0), node 10, and (0, 1), node 20 */
+            int seen = 0;
+            for (int i = 0; i < 3; i++) {
+                const fl_vec3 v = s.part[0].v[s.part[0].t[t].v[i]];
+                seen |= v.x > v.y ? 1 : v.y > v.x ? 2 : 0;
+            }
+            assert_int_equal(seen, 3);
+        }
+        end(state);
+    }
+    begin(state);
+}
+
+/* Shells of second order: 4, 6 and 8 triangles; one mid left out; the sagitta in the remark. */
+static void curved_shells_are_subdivided(void **state)
+{
+    static const int64_t full[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9}, some[9] = {1, 2, 3, 4, 5, 0, 7, 8, 9};
+    const struct {
+        enum fl_shape shape;
+        const int64_t *n;
+        int triangles;
+    } row[] = {{FL_TRI6, (const int64_t[]){1, 2, 3, 5, 6, 10}, 4},
+               {FL_QUAD8, full, 6},
+               {FL_QUAD9, full, 8},
+               {FL_QUAD8, some, 5},
+               {FL_QUAD9, some, 5},
+               {FL_QUAD8, (const int64_t[]){1, 2, 3, 3, 5, 6, 0, 10}, 4}}; /* collapsed to a triangle */
+    for (int k = 0; k < 6; k++)
+        for (int fine = 0; fine < 2; fine++) {
+            fl_wish w = {.subdivide = fine};
+            fl_quality q;
+            assert_int_equal(begin(state), 0);
+            for (int i = 0; i < 4; i++) node(1 + i, HEX[i][0], HEX[i][1], 0);
+            node(5, 0.5, 0, 0.125);
+            node(6, 1, 0.5, 0);
+            node(7, 0.5, 1, 0.125);
+            node(8, 0, 0.5, 0);
+            node(9, 0.5, 0.5, 0.125);
+            node(10, 0.5, 0.5, 0);
+            add(1, row[k].shape, part("p"), row[k].n);
+            q = surface(&w);
+            assert_int_equal(q.triangles, fine ? row[k].triangles : k == 0 || k == 5 ? 1 : 2);
+            if (fine) assert_true(q.area > 0.5 && q.patches == 1 && q.incoherent == 0);
+            else
+                assert_non_null(
+                    strstr(b.note, "1 faces and lines were left out, the largest sagitta is 0.125"));
+            end(state);
+        }
+    begin(state);
+}
+
+static void lines_become_cones(void **state)
+{
+    (void)state;
+    const int64_t n[3] = {1, 2, 3};
+    fl_wish w = {.subdivide = 1};
+    const int32_t p = part("legs");
+    node(1, 0, 0, 0);
+    node(2, 0, 0, 4);
+    node(3, 1, 0, 2);
+    assert_int_equal(fl_elements_radius(&e, add(1, FL_LINE2, p, n), 0.5, 0.5, &err), 0);
+    assert_int_equal(fl_elements_radius(&e, add(2, FL_LINE3, p, n), 0.5, 0.25, &err), 0);
+    add(3, FL_LINE2, p, n); /* without a section */
+    assert_int_equal(fl_elements_radius(&e, add(4, FL_LINE2, p, (const int64_t[]){1, 1}), 1, 1, &err), 0);
+    surface(&w);
+    assert_int_equal(s.part[0].nc, 3);
+    assert_near(s.part[0].cone[1].r1, 0.375, 0.0);
+    assert_near(s.part[0].cone[2].p0.x, 1.0, 0.0);
+    assert_near(s.part[0].cone[2].r1, 0.25, 0.0);
+    assert_non_null(strstr(b.note, "2 lines without a section radius or a length"));
+}
+
+/* --- numbers, scopes, complaints ------------------------------------------------------------------------ */
+
+static void scopes_keep_equal_numbers_apart(void **state)
+{
+    (void)state;
+    const int64_t n[3] = {1, 2, 3};
+    for (int scope = 0; scope < 2; scope++) {
+        for (int i = 0; i < 3; i++)
+            assert_true(fl_elements_node(&e, scope, i + 1, v3(TET[i][0], TET[i][1], scope), &err) >= 0);
+        assert_int_equal(fl_elements_add(&e, scope, 1, FL_TRI3, part("p"), n, &err), scope);
+    }
+    assert_int_equal(fl_elements_add(&e, 0, -1, FL_TRI3, part("p"), n, &err), 2); /* without a number */
+    assert_int_equal(fl_elements_add(&e, 0, -1, FL_TRI3, part("p"), n, &err), 3);
+    assert_int_equal(surface(NULL).triangles, 4);
+    assert_non_null(strstr(b.note, "6 nodes; elements: tri3 4"));
+}
+
+/* A node may come after its element; what comes twice counts once, and is told. */
+static void later_lines_win_and_say_so(void **state)
+{
+    (void)state;
+    const int64_t n[3] = {1, 2, 3}, m[3] = {3, 2, 1};
+    add(7, FL_TRI3, part("p"), n);
+    for (int i = 0; i < 3; i++) node(i + 1, TET[i][0], TET[i][1], 0);
+    node(1, 0, 0, 0);  /* the same again is nothing */
+    node(1, -1, 0, 0); /* moved */
+    add(7, FL_TRI3, part("p"), m);
+    assert_near(surface(NULL).area, 1.0, 1e-15);
+    assert_non_null(strstr(b.note, "1 nodes were given another place"));
+    assert_non_null(strstr(b.note, "1 elements were replaced"));
+}
+
+static void complaints_name_file_and_line(void **state)
+{
+    (void)state;
+    const int64_t n[3] = {1, 2, 99}, zero[3] = {1, 0, 2};
+    e.line = 4;
+    node(1, 0, 0, 0);
+    assert_int_equal(fl_elements_node(&e, 0, 2, v3(0, NAN, 0), &err), -1);
+    assert_string_equal(err.text, "test.inp:4: node 2 is at 0 nan 0, finite coordinates were wanted");
+    err = (fl_err){0};
+    e.line = 5;
+    assert_int_equal(fl_elements_add(&e, 0, 1, FL_TRI3, part("p"), zero, &err), -1);
+    assert_string_equal(err.text,
+                        "test.inp:5: corner 2 of the element is node 0, a number of 1 or more was wanted");
+    err = (fl_err){0};
+    node(2, 1, 0, 0);
+    assert_int_equal(fl_elements_file(&e, "more.inp", &err), 0);
+    e.line = 12;
+    add(1, FL_TRI3, part("p"), n);
+    e.line = 20;
+    assert_int_equal(fl_elements_surface(&e, &s, &b, NULL, &err), -1);
+    assert_int_equal(err.code, FL_INPUT);
+    assert_string_equal(err.text, "more.inp:12: the element wants node 99, which is defined nowhere");
+}
+
+static void what_is_passed_over_is_told(void **state)
+{
+    (void)state;
+    const int64_t flat[8] = {1, 2, 3, 4, 1, 2, 3, 4}, hex[8] = {1, 2, 3, 4, 5, 6, 7, 8};
+    for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
+    for (int k = 0; k < 3; k++) assert_int_equal(fl_elements_skip(&e, "SPRING1", &err), 0);
+    assert_int_equal(fl_elements_skip(&e, "MASS", &err), 0);
+    for (int k = 0; k < 3; k++) add(k + 1, FL_HEX8, part("p"), hex);
+    add(9, FL_HEX8, part("p"), flat);
+    add(10, FL_TRI3, part("p"), hex);
+    assert_int_equal(surface(NULL).triangles, 1);
+    assert_non_null(strstr(b.note, "not known, passed over: SPRING1 3, MASS 1"));
+    assert_non_null(strstr(b.note, "1 solids have no volume"));
+    assert_non_null(strstr(b.note, "faces belong to three or more solids"));
+}
+
+/* Whatever allocation fails, it is said, and nothing is lost or freed twice. */
+static void without_memory_it_says_so(void **state)
+{
+    const char *const pattern[] = {"*"};
+    int rc = -1;
+    end(state);
+    for (long fail = 0; rc; fail++) {
+        fl_wish w = {.pattern = pattern, .patterns = 1, .subdivide = 1};
+        err = (fl_err){0};
+        fl_mem_fail_after(fail);
+        rc = begin(state);
+        for (int i = 0; rc == 0 && i < 8; i++)
+            rc = fl_elements_node(&e, 0, i + 1, v3(HEX[i][0], HEX[i][1], HEX[i][2]), &err) < 0;
+        if (rc == 0) {
+            const int64_t n[8] = {1, 2, 3, 4, 5, 6, 7, 8};
+            const int32_t p = fl_names_add(&e.parts, "p", &err), set = fl_names_add(&e.sets, "t", &err);
+            const int32_t k = p < 0 || set < 0 ? -1 : fl_elements_add(&e, 0, 1, FL_HEX8, p, n, &err);
+            const int32_t l = k < 0 ? -1 : fl_elements_add(&e, 0, 2, FL_LINE2, p, n, &err);
+            rc = l < 0 || fl_elements_radius(&e, l, 1, 1, &err) || fl_elements_skip(&e, "X", &err) ||
+                 fl_elements_pick(&e, (fl_pick){k, set, FL_PICK_FREE, 0}, &err) ||
+                 fl_elements_surface(&e, &s, &b, &w, &err);
+        }
+        fl_mem_fail_after(-1);
+        assert_int_equal(rc ? FL_SYSTEM : 0, err.code);
+        if (rc) end(state);
+        assert_true(fail < 500);
+    }
+    assert_int_equal(s.n, 2);
+}
+
+#define TEST(f) cmocka_unit_test_setup_teardown(f, begin, end)
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(solids_are_closed_and_look_outward),
+        TEST(faces_list_the_edges),
+        TEST(collapsed_solids_are_what_is_left),
+        TEST(faces_between_solids_are_interior),
+        TEST(a_part_taken_alone_is_closed),
+        TEST(sets_are_taken_when_they_are_asked_for),
+        TEST(shells_keep_their_side),
+        TEST(quadrilaterals_are_cut_by_the_numbers),
+        TEST(curved_shells_are_subdivided),
+        TEST(lines_become_cones),
+        TEST(scopes_keep_equal_numbers_apart),
+        TEST(later_lines_win_and_say_so),
+        TEST(complaints_name_file_and_line),
+        TEST(what_is_passed_over_is_told),
+        TEST(without_memory_it_says_so),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

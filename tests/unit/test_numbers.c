@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "mesh/numbers.h"
+#include "support/near.h"
+
+static void numbers_are_counted_as_they_appear(void **state)
+{
+    (void)state;
+    fl_numbers s = {0};
+    fl_err err = {0};
+    assert_int_equal(fl_numbers_find(&s, 0, 7), -1);
+    assert_int_equal(fl_numbers_add(&s, 0, 7, &err), 0);
+    assert_int_equal(fl_numbers_add(&s, 1, 7, &err), 1);
+    assert_int_equal(fl_numbers_add(&s, 0, 7, &err), 0);
+    assert_int_equal(fl_numbers_add(&s, -1, -7, &err), 2);
+    assert_int_equal(fl_numbers_add(&s, 0, INT64_MAX, &err), 3);
+    assert_int_equal(fl_numbers_find(&s, 1, 7), 1);
+    assert_int_equal(fl_numbers_find(&s, 2, 7), -1);
+    assert_int_equal(s.n, 4);
+    assert_true(s.id[3] == INT64_MAX && s.scope[1] == 1);
+    fl_numbers_free(&s);
+    assert_int_equal(s.n, 0);
+}
+
+/* The same numbers in several scopes, dense, in steps of a power of two, and negative: all are kept apart. */
+static void many_numbers_keep_their_places(void **state)
+{
+    (void)state;
+    fl_numbers s = {0};
+    fl_err err = {0};
+    int32_t n = 0;
+    for (int32_t scope = 0; scope < 3; scope++)
+        for (int64_t k = 0; k < 30000; k++)
+            assert_int_equal(fl_numbers_add(&s, scope, scope == 2 ? -k * 65536 - 1 : k, &err), n++);
+    for (int64_t k = 0; k < 30000; k += 11) {
+        assert_int_equal(fl_numbers_find(&s, 0, k), k);
+        assert_int_equal(fl_numbers_find(&s, 1, k), 30000 + k);
+        assert_int_equal(fl_numbers_find(&s, 2, -k * 65536 - 1), 60000 + k);
+        assert_int_equal(fl_numbers_find(&s, 2, k), -1);
+    }
+    fl_numbers_free(&s);
+}
+
+static void without_memory_nothing_is_added(void **state)
+{
+    (void)state;
+    for (long fail = 0;; fail++) {
+        fl_numbers s = {0};
+        fl_err err = {0};
+        fl_mem_fail_after(fail);
+        const int32_t k = fl_numbers_add(&s, 0, 5, &err);
+        fl_mem_fail_after(-1);
+        if (k < 0) {
+            assert_int_equal(err.code, FL_SYSTEM);
+            assert_int_equal(s.n, 0);
+            assert_int_equal(fl_numbers_find(&s, 0, 5), -1);
+        }
+        fl_numbers_free(&s);
+        if (k >= 0) break;
+        assert_true(fail < 10);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_are_counted_as_they_appear),
+        cmocka_unit_test(many_numbers_keep_their_places),
+        cmocka_unit_test(without_memory_nothing_is_added),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
