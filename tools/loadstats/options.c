@@ -14,8 +14,8 @@ static const char HELP[] =
     "Statistics of a load record: moments, quantiles, peaks, histogram, exceedance, plots.\n"
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
-    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, summary, ensemble or\n"
-    "                          cycles (stats)\n"
+    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, legs, events,\n"
+    "                          summary, ensemble or cycles (stats)\n"
     "      --summary           the table summary: what adds up, of one run or of many files\n"
     "      --merge             the files are summaries: add them up\n"
     "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
@@ -38,6 +38,7 @@ static const char HELP[] =
     "      --sample WHAT       laws are fitted to peaks, pot (over the threshold), blocks or runs (peaks)\n"
     "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
     "      --block S           of blocks: their length\n"
+    "      --level R           of legs, events: durations are those above R times the peak (0.5)\n"
     "      --rule RULE         of load cycles in a summary: astm (E1049) or iso (12110-2) (astm)\n"
     "      --residue WHAT      what iso leaves open: half cycles, repeat, or none (half)\n"
     "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
@@ -77,6 +78,7 @@ enum {
     WHERE,
     OVER,
     PATIENCE,
+    LEVEL,
     RULE,
     RESIDUE
 };
@@ -97,6 +99,7 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"sample", required_argument, NULL, SAMPLE},
                                      {"gap", required_argument, NULL, GAP},
                                      {"block", required_argument, NULL, BLOCK},
+                                     {"level", required_argument, NULL, LEVEL},
                                      {"return", required_argument, NULL, RETURN},
                                      {"resamples", required_argument, NULL, RESAMPLES},
                                      {"seed", required_argument, NULL, SEED},
@@ -121,8 +124,8 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-static const char *const TABLE[] = {"stats",  "peaks",   "histogram", "exceedance", "fits",
-                                    "levels", "summary", "ensemble",  "cycles"};
+static const char *const TABLE[] = {"stats", "peaks",  "histogram", "exceedance", "fits",  "levels",
+                                    "legs",  "events", "summary",   "ensemble",   "cycles"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
@@ -267,6 +270,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return k < 0 ? -1 : 0;
     case GAP: return strcmp(arg, "0") == 0 ? 0 : time_of("gap", arg, &o->gap, err);
     case BLOCK: return time_of("block", arg, &o->block, err);
+    case LEVEL: return number("level", arg, 1e-9, 1.0 - 1e-9, "a number between 0 and 1", &o->level, err);
     case RETURN: return each(o, "return", arg, take_return, err);
     case RESAMPLES: return whole("resamples", arg, 0, 100000, &o->resamples, err);
     case SEED: return whole("seed", arg, 0, INT32_MAX, &o->seed, err);
@@ -362,6 +366,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .order = 4,
                           .separation = 0.5,
                           .bins = 20,
+                          .level = 0.5,
                           .resamples = 199,
                           .seed = 1,
                           .quantiles = COUNT(usual)};
@@ -442,6 +447,8 @@ void options_by(const struct options *o, fl_by *by)
             add_number(by, "return", o->period[k]);
         fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
     }
+    if ((o->table == TABLE_LEGS || o->table == TABLE_EVENTS || o->page) && o->level != 0.5)
+        add_number(by, "level", o->level);
     if (o->page && o->table != TABLE_STATS) fl_by_add(by, "--table %s", TABLE[o->table]);
     if (o->table == TABLE_CYCLES && o->rule) {
         fl_by_add(by, "--rule %s", CYCLE_RULE[o->rule]);

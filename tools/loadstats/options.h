@@ -14,6 +14,8 @@ enum table {
     TABLE_EXCEEDANCE,
     TABLE_FITS,
     TABLE_LEVELS,
+    TABLE_LEGS,
+    TABLE_EVENTS,
     TABLE_SUMMARY,
     TABLE_ENSEMBLE,
     TABLE_CYCLES
@@ -37,6 +39,7 @@ struct options {
     int table_given;
     enum sample sample;         /* what laws are fitted to */
     double gap, block;          /* [s] */
+    double level;               /* of a peak or of the largest value, what is above it lasts */
     double period[RETURNS_MAX]; /* [s] */
     int32_t returns, resamples, seed;
     int gzip, quiet, verbose, threads;

@@ -392,11 +392,13 @@ static int put_page(FILE *f, const char *dir, const page_source *from, const str
     const char *laws = from->many ? "Laws of the largest values" : "Laws of the peaks";
     put_head(f, from);
     if (put_table(f, from, o, TABLE_STATS, "Numbers", err) || put_pictures(f, dir, err)) return -1;
+    if (from->legs && put_table(f, from, o, TABLE_LEGS, "Parts side by side", err)) return -1;
     if (from->many && put_table(f, from, o, TABLE_ENSEMBLE, "How sure they are", err)) return -1;
     if (put_table(f, from, o, TABLE_FITS, laws, err)) return -1;
     if (o->returns && put_table(f, from, o, TABLE_LEVELS, "Return levels", err)) return -1;
     if (o->table != TABLE_STATS && o->table != TABLE_FITS && o->table != TABLE_LEVELS &&
-        o->table != TABLE_ENSEMBLE && put_table(f, from, o, o->table, options_table(o->table), err))
+        o->table != TABLE_ENSEMBLE && !(from->legs && o->table == TABLE_LEGS) &&
+        put_table(f, from, o, o->table, options_table(o->table), err))
         return -1;
     fputs(
         "<h2>How to make it again</h2>\n<p>The programs in the order in which they ran, with what they were "
@@ -421,7 +423,7 @@ static int make_page(char **text, size_t *size, const page_source *from, const s
     snprintf(dir, sizeof dir, "%.*s/loadstats-XXXXXX", DIR_LEN - 20, tmp && *tmp ? tmp : "/tmp");
     if (!mkdtemp(dir)) return fl_fail(err, FL_SYSTEM, "%s: %s", dir, strerror(errno));
     own.page = 1;
-    options_by(&own, &by);
+    options_by(&own, &by); /* the pictures too are those of a page */
     own.plot = dir;
     own.format = "svg";
     own.quiet = 1;
@@ -481,6 +483,7 @@ int page_write_record(const struct result *r, const struct options *o, fl_err *e
     const page_source from = {.what = r,
                               .title = strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics",
                               .history = s->history,
+                              .legs = s->parts > 2,
                               .span = s->edge[s->n] - s->edge[0],
                               .intro = record_intro,
                               .table = record_table,

@@ -10,12 +10,12 @@
 #include "base/stream.h"
 #include "stat/extreme.h"
 #include "stat/histogram.h"
+#include "legrows.h"
 #include "plot.h"
 
 enum {
     PARTS_MAX = 24,
     NAME_MAX_LEN = 80,
-    PATH_LEN = 4096,
     WIDTH = 1000,
     PANEL = 200,
     HEAD = 66,
@@ -54,19 +54,21 @@ static const char *title_of(const char *signal)
     return signal;
 }
 
-/* Newtons in thousands or millions, so that the axis has short numbers. */
-typedef struct {
-    double factor;
-    const char *prefix;
-} scale;
-
-static scale scale_of(const picture *p, int32_t s)
+plot_scale plot_scale_of(const char *unit, double large)
 {
-    const char *unit = p->r->s->unit[s];
+    if ((unit[0] != 'N' && strcmp(unit, "Pa") != 0) || large < 1e3) return (plot_scale){1.0, ""};
+    return large < 1e6 ? (plot_scale){1e-3, "k"} : (plot_scale){1e-6, "M"};
+}
+
+static double largest_of(const picture *p, int32_t s)
+{
     const fl_describe *d = &view_of(p->r, p->part, s, 0)->d;
-    const double large = fmax(fabs(d->min), fabs(d->max));
-    if (unit[0] != 'N' || large < 1e3) return (scale){1.0, ""};
-    return large < 1e6 ? (scale){1e-3, "k"} : (scale){1e-6, "M"};
+    return fmax(fabs(d->min), fabs(d->max));
+}
+
+static plot_scale scale_of(const picture *p, int32_t s)
+{
+    return plot_scale_of(p->r->s->unit[s], largest_of(p, s));
 }
 
 /* A text in a gnuplot script, between single quotes. */
@@ -80,12 +82,16 @@ void plot_quoted(FILE *f, const char *text)
     putc('\'', f);
 }
 
-/* "Horizontal force  [kN]" */
+void plot_axis(char *label, size_t size, const char *signal, const char *unit, double large)
+{
+    const char *title = title_of(signal);
+    if (unit[0]) snprintf(label, size, "%.200s  [%s%.60s]", title, plot_scale_of(unit, large).prefix, unit);
+    else snprintf(label, size, "%.200s", title);
+}
+
 static void axis_text(const picture *p, int32_t s, char *label, size_t size)
 {
-    const char *unit = p->r->s->unit[s], *title = title_of(p->r->s->signal[s]);
-    if (unit[0]) snprintf(label, size, "%.200s  [%s%.60s]", title, scale_of(p, s).prefix, unit);
-    else snprintf(label, size, "%.200s", title);
+    plot_axis(label, size, p->r->s->signal[s], p->r->s->unit[s], largest_of(p, s));
 }
 
 /* gnuplot puts the title of a vertical axis beside its longest number; at one place the titles line up. */
@@ -202,6 +208,20 @@ static const char *const STYLES = "set style line 1 lc rgb '#85bcdb' lw 1.0 pt 6
                                   "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
                                   "set grid back ls 9\n";
 
+void plot_open(FILE *f, const char *stem, const char *format, int width, int height)
+{
+    fprintf(f, "# gnuplot %s.gp draws %s.%s from %s.tsv\n", stem, stem, format, stem);
+    fprintf(f, "if (!exists(\"out\")) out = '%s.%s'\n", stem, format);
+    if (strcmp(format, "png") == 0)
+        fprintf(f, "set terminal pngcairo noenhanced size %d,%d font 'Sans,11' background '#ffffff'\n", width,
+                height);
+    else
+        fprintf(f,
+                "set terminal svg noenhanced size %d,%d dynamic font 'sans-serif,14' background '#ffffff'\n",
+                width, height);
+    fprintf(f, "set encoding utf8\nset output out\ndata = '%s.tsv'\n", stem);
+}
+
 static int height_of(const picture *p) { return HEAD + p->panels * PANEL + (p->panels - 1) * p->gap + FOOT; }
 
 static int is_loads(const picture *p) { return strcmp(p->r->s->kind, "loads") == 0; }
@@ -211,17 +231,8 @@ static void open_script(const picture *p, const char *heading)
     FILE *f = p->script;
     const int height = height_of(p), png = strcmp(p->o->format, "png") == 0;
     char title[200];
-    fprintf(f, "# gnuplot %s.gp draws %s.%s from %s.tsv\n", p->stem, p->stem, p->o->format, p->stem);
-    fprintf(f, "if (!exists(\"out\")) out = '%s.%s'\n", p->stem, p->o->format);
-    if (png)
-        fprintf(f, "set terminal pngcairo noenhanced size %d,%d font 'Sans,11' background '#ffffff'\n", WIDTH,
-                height);
-    else
-        fprintf(f,
-                "set terminal svg noenhanced size %d,%d dynamic font 'sans-serif,14' background '#ffffff'\n",
-                WIDTH, height);
-    fprintf(f, "set encoding utf8\nset output out\ndata = '%s.tsv'\n%s", p->stem, STYLES);
-    fprintf(f, "set multiplot\n");
+    plot_open(f, p->stem, p->o->format, WIDTH, height);
+    fprintf(f, "%sset multiplot\n", STYLES);
     snprintf(title, sizeof title, "%s, %.100s", heading,
              strcmp(p->r->s->part[p->part], "-") == 0 ? p->r->s->kind : p->r->s->part[p->part]);
     fputs("set label 1 ", f);
@@ -262,7 +273,7 @@ static void history_panel(picture *p, int k, int32_t s)
 {
     const struct result *r = p->r;
     const fl_view *v = view_of(r, p->part, s, 0);
-    const scale c = scale_of(p, s);
+    const plot_scale c = scale_of(p, s);
     double lo = v->d.min, hi = v->d.max;
     char text[300];
     for (int w = 1; w < r->each; w++) {
@@ -319,7 +330,7 @@ static int32_t peaks_of(const picture *p, int32_t s)
 static int classes_panel(picture *p, int k, int32_t s, fl_err *err)
 {
     const struct result *r = p->r;
-    const scale c = scale_of(p, s);
+    const plot_scale c = scale_of(p, s);
     fl_histogram h[2] = {{0}, {0}};
     double lo = INFINITY, hi = -INFINITY, most = 0.0;
     char text[300];
@@ -364,7 +375,7 @@ done:
 /* Right, how probable it is that a peak is larger. */
 static void exceedance_panel(picture *p, int k, int32_t s)
 {
-    const scale c = scale_of(p, s);
+    const plot_scale c = scale_of(p, s);
     place_panel(p, k, 0.58, 0.97);
     put_left_title(p, "Probability of exceedance", 0.508);
     fputs("set xtics autofreq\nset logscale y\nset yrange [*:1]\nset ytics "
@@ -445,23 +456,23 @@ static const char *complaint(char *said)
     return last;
 }
 
-static int path_of(const picture *p, const char *end, char path[PATH_LEN], fl_err *err)
+int plot_path(char path[PLOT_PATH_LEN], const char *dir, const char *stem, const char *end, fl_err *err)
 {
-    const int n = snprintf(path, PATH_LEN, "%s/%s.%s", p->o->plot, p->stem, end);
-    return n < PATH_LEN ? 0
-                        : fl_fail(err, FL_SYSTEM, "the name of a picture in %.100s is too long", p->o->plot);
+    if (snprintf(path, PLOT_PATH_LEN, "%s/%s.%s", dir, stem, end) < PLOT_PATH_LEN) return 0;
+    return fl_fail(err, FL_SYSTEM, "the name of a picture in %.100s is too long", dir);
 }
 
 /* gnuplot draws under another name, which becomes the final one when the picture is complete. */
 int plot_draw(const char *dir, const char *stem, const char *format, fl_err *err)
 {
-    char script[NAME_MAX_LEN + 8], setting[NAME_MAX_LEN + 24], part[PATH_LEN], path[PATH_LEN], said[2000];
+    char script[NAME_MAX_LEN + 8], setting[NAME_MAX_LEN + 24], part[PLOT_PATH_LEN], path[PLOT_PATH_LEN],
+        said[2000];
     struct stat st;
     snprintf(script, sizeof script, "%s.gp", stem);
     snprintf(setting, sizeof setting, "out = '%s.%s.part'", stem, format);
-    if (snprintf(part, PATH_LEN, "%s/%s.%s.part", dir, stem, format) >= PATH_LEN ||
-        snprintf(path, PATH_LEN, "%s/%s.%s", dir, stem, format) >= PATH_LEN)
-        return fl_fail(err, FL_SYSTEM, "the name of a picture in %.100s is too long", dir);
+    char end[40];
+    snprintf(end, sizeof end, "%.30s.part", format);
+    if (plot_path(part, dir, stem, end, err) || plot_path(path, dir, stem, format, err)) return -1;
     const int status = run_gnuplot(dir, setting, script, said, sizeof said);
     if (status == 127) return fl_fail(err, FL_SYSTEM, "gnuplot was not found, it draws what --plot asks for");
     if (status != 0 || stat(part, &st) != 0 || st.st_size == 0) {
@@ -477,11 +488,11 @@ static int make(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *e
 {
     picture p = *plan;
     fl_out data = {0}, script = {0};
-    char path[PATH_LEN];
+    char path[PLOT_PATH_LEN];
     int rc = -1;
     make_stem(&p);
-    if (path_of(&p, "tsv", path, err) || fl_out_open(&data, path, 0, err)) goto done;
-    if (path_of(&p, "gp", path, err) || fl_out_open(&script, path, 0, err)) goto done;
+    if (plot_path(path, p.o->plot, p.stem, "tsv", err) || fl_out_open(&data, path, 0, err)) goto done;
+    if (plot_path(path, p.o->plot, p.stem, "gp", err) || fl_out_open(&script, path, 0, err)) goto done;
     p.data = data.f;
     p.script = script.f;
     fl_by_header(p.data, p.what, 1, p.r->s->history, p.by);
@@ -518,6 +529,10 @@ int plot(const struct result *r, const struct options *o, const fl_by *by, fl_er
         if (n && make(&p, peaks, err)) return -1;
         if (!n && !o->quiet) fprintf(stderr, "loadstats: %s has no peaks to draw\n", r->s->part[p.part]);
         made += 1 + (n > 0);
+    }
+    if (o->table == TABLE_LEGS || (o->page && !alone && parts > 2)) {
+        if (legrows_plot(r, o, by, err)) return -1;
+        made++;
     }
     if (!o->quiet) fprintf(stderr, "loadstats: %d picture(s) in %s\n", made, o->plot);
     return 0;

@@ -4,6 +4,7 @@
 #include "stat/extreme.h"
 #include "stat/histogram.h"
 #include "fitrows.h"
+#include "legrows.h"
 #include "statrows.h"
 
 const char *view_name(int w) { return w ? "filtered" : "raw"; }
@@ -124,6 +125,8 @@ void statrows_header(FILE *f, const struct options *o)
     case TABLE_EXCEEDANCE: fputs("\trank\tpeak\tP\n", f); break;
     case TABLE_FITS:
     case TABLE_LEVELS: fitrows_header(f, o); break;
+    case TABLE_LEGS:
+    case TABLE_EVENTS: legrows_header(f, o); break;
     case TABLE_SUMMARY:
     case TABLE_ENSEMBLE:
     case TABLE_CYCLES: break; /* sumrows.h */
@@ -134,6 +137,10 @@ int statrows_write(FILE *f, const struct result *r, const struct options *o, con
 {
     fl_by_header(f, options_table(o->table), 1, r->s->history, by);
     statrows_header(f, o);
+    if (o->table == TABLE_LEGS || o->table == TABLE_EVENTS) {
+        legrows_write(f, r, o);
+        return 0;
+    }
     for (int32_t p = 0; p < r->s->parts; p++) {
         for (int32_t s = 0; s < r->s->signals; s++) {
             if (!view_of(r, p, s, 0)) continue;
