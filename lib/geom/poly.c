@@ -5,6 +5,8 @@
 #include "base/mem.h"
 #include "geom/poly.h"
 
+#define PI 3.14159265358979323846
+
 /* Planes may miss their vertices, and vertices stand outside planes, by this fraction of the size: what input
  * written with ten digits shows. */
 static const double FLAT_TOL = 1e-9;
@@ -31,17 +33,21 @@ struct build {
 static int lay_out(fl_poly *p, int32_t nl, fl_err *err)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
-    const size_t bytes = (nv + nf) * sizeof(fl_vec3) + nf * sizeof(double) + ne * sizeof(fl_edge) +
-                         (nf + 1 + (size_t)nl) * sizeof(int32_t);
+    const size_t bytes = (nv + nf) * sizeof(fl_vec3) + (nf + ne + nv) * sizeof(double) +
+                         ne * sizeof(fl_edge) + (nf + 1 + (size_t)nl + nv + 1 + 2 * ne) * sizeof(int32_t);
     char *at = fl_alloc((int64_t)bytes, 1, err);
     if (!at) return -1;
     p->mem = at;
     p->v = (fl_vec3 *)(void *)at;
     p->n = p->v + nv;
     p->c = (double *)(void *)(p->n + nf);
-    p->edge = (fl_edge *)(void *)(p->c + nf);
+    p->bend = p->c + nf;
+    p->defect = p->bend + ne;
+    p->edge = (fl_edge *)(void *)(p->defect + nv);
     p->first = (int32_t *)(void *)(p->edge + ne);
     p->loop = p->first + nf + 1;
+    p->begin = p->loop + nl;
+    p->beside = p->begin + nv + 1;
     return 0;
 }
 
@@ -394,6 +400,7 @@ int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int
         }
     }
     if (nf > 0 && make_faces(&b, err)) goto done;
+    fl_poly_angles(&b.p);
     *p = b.p;
     b.p = (fl_poly){0};
     rc = 0;
@@ -452,6 +459,10 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err)
     memcpy(p.edge, from->edge, (size_t)p.ne * sizeof *p.edge);
     memcpy(p.first, from->first, ((size_t)p.nf + 1) * sizeof *p.first);
     memcpy(p.loop, from->loop, (size_t)nl * sizeof *p.loop);
+    memcpy(p.bend, from->bend, (size_t)p.ne * sizeof *p.bend);
+    memcpy(p.defect, from->defect, (size_t)p.nv * sizeof *p.defect);
+    memcpy(p.begin, from->begin, ((size_t)p.nv + 1) * sizeof *p.begin);
+    memcpy(p.beside, from->beside, (size_t)from->begin[p.nv] * sizeof *p.beside);
     *to = p;
     return 0;
 }
@@ -469,11 +480,38 @@ void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes)
 double fl_poly_bend(const fl_poly *p, int32_t e)
 {
     const fl_edge s = p->edge[e];
-    if (s.left < 0) return 6.283185307179586;
+    if (s.left < 0) return 2.0 * PI;
+    if (s.right < 0) return PI;
     const fl_vec3 l = p->n[s.left], r = p->n[s.right];
-    const double sine = v3_dot(v3_cross(l, r), v3_unit(v3_sub(p->v[s.b], p->v[s.a])));
+    const double sine = v3_dot(v3_cross(l, r), v3_unit(v3_sub(p->v[s.b], p->v[s.a]))), cosine = v3_dot(l, r);
     /* rounding may bend a flat edge inward, and -0 would turn pi into -pi */
-    return atan2(sine > 0.0 ? sine : 0.0, v3_dot(l, r));
+    return fabs(sine) < 1e-12 ? (cosine > 0.0 ? 0.0 : PI) : atan2(sine, cosine);
+}
+
+void fl_poly_angles(fl_poly *p)
+{
+    for (int32_t v = 0; v <= p->nv; v++) p->begin[v] = 0;
+    for (int32_t v = 0; v < p->nv; v++) p->defect[v] = p->nv == 1 ? 4.0 * PI : 2.0 * PI;
+    for (int32_t e = 0; e < p->ne; e++) {
+        p->bend[e] = fl_poly_bend(p, e);
+        p->begin[p->edge[e].a + 1]++;
+        p->begin[p->edge[e].b + 1]++;
+    }
+    for (int32_t v = 0; v < p->nv; v++) p->begin[v + 1] += p->begin[v];
+    for (int32_t e = 0; e < p->ne; e++) { /* edges are sorted: first the lower neighbours, then the higher */
+        p->beside[p->begin[p->edge[e].b]++] = p->edge[e].a;
+    }
+    for (int32_t e = 0; e < p->ne; e++) p->beside[p->begin[p->edge[e].a]++] = p->edge[e].b;
+    for (int32_t v = p->nv; v > 0; v--) p->begin[v] = p->begin[v - 1];
+    p->begin[0] = 0;
+    for (int32_t f = 0; f < p->nf; f++) {
+        const int32_t *loop = p->loop + p->first[f], n = p->first[f + 1] - p->first[f];
+        for (int32_t k = 0; k < n; k++) {
+            const fl_vec3 x = p->v[loop[k]], to = v3_sub(p->v[loop[(k + 1) % n]], x),
+                          from = v3_sub(p->v[loop[(k + n - 1) % n]], x);
+            p->defect[loop[k]] -= atan2(v3_norm(v3_cross(to, from)), v3_dot(to, from));
+        }
+    }
 }
 
 fl_aabb fl_poly_aabb(const fl_poly *p)

@@ -16,14 +16,20 @@ typedef struct {
 
 typedef struct {
     int32_t nv, nf, ne;
-    fl_vec3 *v;     /* [nv] vertices                                            [m] */
-    fl_vec3 *n;     /* [nf] outward unit normals                                    */
-    double *c;      /* [nf] plane offsets, n.x = c, largest over the face's vertices [m] */
-    int32_t *first; /* [nf + 1] offsets into loop                                   */
-    int32_t *loop;  /* [first[nf]] vertices of each face, counter-clockwise from outside */
-    fl_edge *edge;  /* [ne], sorted by (a, b)                                       */
-    double size;    /* largest side of the bounding box                          [m] */
-    void *mem;      /* the one block that all the arrays lie in */
+    fl_vec3 *v;      /* [nv] vertices                                            [m] */
+    fl_vec3 *n;      /* [nf] outward unit normals                                    */
+    double *c;       /* [nf] plane offsets, n.x = c, largest over the face's vertices [m] */
+    int32_t *first;  /* [nf + 1] offsets into loop                                   */
+    int32_t *loop;   /* [first[nf]] vertices of each face, counter-clockwise from outside */
+    fl_edge *edge;   /* [ne], sorted by (a, b)                                       */
+    double *bend;    /* [ne] angle between the outward normals of the two faces, in [0, pi]; 2 pi round a
+                     * segment                                                    [rad] */
+    double *defect;  /* [nv] solid angle of the outward directions at the vertex: 2 pi less the angles of its
+                     * faces there (Gauss), 2 pi for the end of a segment, 4 pi for a point [sr] */
+    int32_t *begin;  /* [nv + 1] offsets into beside                                 */
+    int32_t *beside; /* [begin[nv]] the other ends of the edges of each vertex, ascending */
+    double size;     /* largest side of the bounding box                          [m] */
+    void *mem;       /* the one block that all the arrays lie in */
 } fl_poly;
 
 /* Build from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and never below what
@@ -58,8 +64,11 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err);
 /* The area vector of face f, area times outward normal [m^2]; exact under far offsets of the whole. */
 fl_vec3 fl_poly_area(const fl_poly *p, int32_t f);
 
-/* The angle t_e between the outward normals of the two faces of edge e, in [0, pi] rad: 0 where they share a
- * plane, pi round a flat polygon.  2 pi for the edge of a segment. */
+/* Fill bend, defect, begin and beside from the rest; bend is negative for edges that bend inward, which only
+ * surfaces that are not convex have, and pi for those with one face. */
+void fl_poly_angles(fl_poly *p);
+
+/* bend[e], computed anew. */
 double fl_poly_bend(const fl_poly *p, int32_t e);
 
 /* Move and turn in place: x becomes transpose(axes) (x - o), so that o becomes the origin and the columns of
