@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/mem.h"
 #include "bound/shell.h"
+#include "narrow/areas.h"
 #include "narrow/nearest.h"
+#include "narrow/strips.h"
 
 /* Signed distance of x from the faces in the list.  Of faces whose nearest points agree within rounding (a
  * shared edge or corner) the one that x is most in front of tells the side: its plane passes between x and
@@ -44,46 +46,94 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, fl_mat3 M,
-                    fl_vec3 o, double ra, double reach, double *distance)
+/* Every feature of the core. */
+static int whole(fl_reach *r, const fl_poly *a)
 {
-    const fl_poly *core = &b->core;
-    const fl_shell *sh = &b->shell;
-    fl_aabb box = aabb_empty();
-    w->n = 0;
-    *distance = reach;
-    for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
-    const int32_t nf = query(&sh->tree, sh->box, aabb_grow(box, reach), &near->face, &near->face_cap);
-    if (nf <= 0) return nf;
-    *distance = ra; /* something is near: no bound is claimed */
-    qsort(near->face, (size_t)nf, sizeof *near->face, ascending);
+    fl_err lost = {0};
+    if (fl_grow(&r->vertex, &r->vertex_cap, a->nv, sizeof *r->vertex, &lost) ||
+        (a->ne && fl_grow(&r->edge, &r->edge_cap, a->ne, sizeof *r->edge, &lost)) ||
+        (a->nf && fl_grow(&r->facing, &r->facing_cap, a->nf, sizeof *r->facing, &lost)))
+        return -1;
+    for (int32_t v = 0; v < a->nv; v++) r->vertex[v] = v;
+    for (int32_t e = 0; e < a->ne; e++) r->edge[e] = e;
+    for (int32_t f = 0; f < a->nf; f++) r->facing[f] = f;
+    r->vertices = a->nv;
+    r->edges = a->ne;
+    r->facings = a->nf;
+    return 0;
+}
+
+/* Faces within the reach, edges and corners within the radius; -1 when memory runs out. */
+static int around(fl_reach *r, const fl_poly *core, const fl_shell *sh, fl_aabb box, double ra, double reach)
+{
+    fl_err lost = {0};
+    r->facings = query(&sh->tree, sh->box, aabb_grow(box, reach), &r->facing, &r->facing_cap);
+    r->edges = r->vertices = 0;
+    if (r->facings <= 0) return r->facings;
+    qsort(r->facing, (size_t)r->facings, sizeof *r->facing, ascending);
     box = aabb_grow(box, ra);
-    for (int32_t v = 0; v < a->nv; v++) {
-        const fl_nearest q = nearest_of(core, near->face, nf, w->va[v]);
-        if (q.d < ra && fl_places_vertex(w, v, w->va[v], q.n, ra - q.d, ra)) return -1;
-    }
+    r->edges = query(&sh->edges, sh->edge_box, box, &r->edge, &r->edge_cap);
+    if (r->edges < 0) return -1;
+    if (r->edges > 0) qsort(r->edge, (size_t)r->edges, sizeof *r->edge, ascending);
+    if (sh->corners && fl_grow(&r->vertex, &r->vertex_cap, sh->corners, sizeof *r->vertex, &lost)) return -1;
     for (int32_t k = 0; k < sh->corners; k++) {
         const fl_vec3 x = core->v[sh->corner[k]];
-        if (!aabb_meet((fl_aabb){x, x}, box)) continue;
-        const fl_nearest q = fl_nearest_poly(a, m3_tmul(M, v3_sub(x, o)));
-        const fl_vec3 n = v3_neg(m3_mul(M, q.n));
-        if (q.d < ra &&
-            fl_places_vertex(w, (int64_t)a->nv + sh->corner[k], v3_madd(x, q.d, n), n, ra - q.d, ra))
+        if (aabb_meet((fl_aabb){x, x}, box)) r->vertex[r->vertices++] = sh->corner[k];
+    }
+    return 0;
+}
+
+/* The vertices of the core; *behind is set when one is behind the surface. */
+static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_reach *near, double ra,
+                         int single, int *behind)
+{
+    fl_nearest deepest = {.d = ra};
+    int32_t which = -1;
+    *behind = 0;
+    for (int32_t v = 0; v < A->p->nv; v++) {
+        const fl_nearest q = nearest_of(B->p, near->facing, near->facings, w->va[v]);
+        if (q.d < deepest.d) deepest = q, which = v;
+        if (single || q.d >= ra) continue;
+        if (q.d < 0.0) *behind = 1;
+        if (q.d < 0.0 ? fl_places_vertex(w, A, 0.0, v, q.n, ra - q.d)
+                      : fl_strips_vertex(w, A, v, B, near, ra))
             return -1;
     }
-    const int32_t ne = query(&sh->edges, sh->edge_box, box, &near->edge, &near->edge_cap);
-    if (ne < 0) return -1;
-    if (ne > 0) qsort(near->edge, (size_t)ne, sizeof *near->edge, ascending);
-    for (int32_t i = 0; i < a->ne; i++) {
-        const fl_vec3 a0 = w->va[a->edge[i].a], a1 = w->va[a->edge[i].b];
-        const fl_aabb reached = aabb_grow(aabb_add((fl_aabb){a0, a0}, a1), ra);
-        for (int32_t k = 0; k < ne; k++) {
-            const int32_t e = near->edge[k];
-            if (!aabb_meet(reached, sh->edge_box[e])) continue;
-            const int64_t key = (int64_t)a->nv + core->nv + (int64_t)i * core->ne + e;
-            if (fl_places_edges(w, key, a0, a1, core->v[core->edge[e].a], core->v[core->edge[e].b], ra, 0.0,
-                                0.0))
-                return -1;
+    return single && which >= 0 ? fl_places_point(w, w->va[which], deepest.n, ra - deepest.d, ra) : 0;
+}
+
+int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, fl_mat3 M,
+                    fl_vec3 o, double ra, double reach, int single, double *distance)
+{
+    const fl_poly *core = &b->core;
+    const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {core, core->v, core->n, 0.0, -1.0};
+    fl_reach *walls = &near->of_shell, *all = &near->of_core;
+    fl_aabb box = aabb_empty();
+    int behind;
+    w->n = 0;
+    w->couple = v3(0, 0, 0);
+    *distance = reach;
+    for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
+    if (around(walls, core, &b->shell, box, ra, reach)) return -1;
+    if (walls->facings == 0) return 0;
+    *distance = ra; /* something is near: no bound is claimed */
+    if (core_vertices(w, &A, &B, walls, ra, single, &behind)) return -1;
+    if (single) return 0;
+    if (whole(all, a)) return -1;
+    for (int32_t k = 0; k < walls->vertices; k++) {
+        const int32_t v = walls->vertex[k];
+        const fl_nearest q = fl_nearest_poly(a, m3_tmul(M, v3_sub(core->v[v], o)));
+        if (q.d < ra && fl_places_vertex(w, &B, ra, v, m3_mul(M, q.n), ra - q.d)) return -1;
+    }
+    const double depth = behind ? ra : 0.0;
+    for (int32_t e = 0; e < a->ne; e++)
+        if (fl_strips_edge(w, &A, e, &B, walls, ra, depth)) return -1;
+    for (int32_t k = 0; k < walls->edges; k++)
+        if (fl_strips_edge(w, &B, walls->edge[k], &A, all, ra, depth)) return -1;
+    for (int32_t f = 0; f < a->nf; f++) {
+        for (int32_t k = 0; k < walls->facings; k++) {
+            if (fl_areas_face(w, &A, f, &B, walls->facing[k], ra, depth, 0.0)) return -1;
+            if (fl_areas_face(w, &B, walls->facing[k], &A, f, ra, depth, FL_PLACE_RIM * ra)) return -1;
         }
     }
     return 0;
@@ -91,6 +141,7 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
 
 void fl_shell_near_free(fl_shell_near *near)
 {
-    free(near->face), free(near->edge);
+    fl_reach *r[2] = {&near->of_shell, &near->of_core};
+    for (int k = 0; k < 2; k++) free(r[k]->vertex), free(r[k]->edge), free(r[k]->face), free(r[k]->facing);
     *near = (fl_shell_near){0};
 }

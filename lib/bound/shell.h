@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* shell.h -- the places where a dilated convex core touches a surface that is not convex.
  *
- * The potential is that of places.h with d(v, S) the distance of a vertex from the whole surface, taken once:
- * the nearest of all its faces, negative behind it.  Edges and corners of the surface count where it bends,
- * so that seams between coplanar triangles are not there. */
+ * The potential is that of places.h, summed over the prisms over all faces, the wedges over the edges that
+ * bend outward and the cones over the corners: seams between coplanar triangles are not there, and in an
+ * inner corner every wall bears for itself.  Vertices behind the surface have one distance, to the nearest
+ * face. */
 #ifndef FL_BOUND_SHELL_H
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"
@@ -11,17 +12,17 @@
 
 /* Scratch for the faces and edges in reach. */
 typedef struct {
-    int32_t *face, *edge;
-    int32_t face_cap, edge_cap;
+    fl_reach of_shell, of_core;
 } fl_shell_near;
 
 /* All places of core a (frame to piece frame: M, o; radius ra) on the shell of piece b, as fl_places_find();
  * after fl_places_enter().  *distance is a lower bound of the distance of the core from the surface: reach
  * when no face comes that near, else ra.
  *   reach   how far to look, >= ra [m]
+ *   single  only the place of the deepest vertex, as `core` wants it
  * -1 when memory runs out. */
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, fl_mat3 M,
-                    fl_vec3 o, double ra, double reach, double *distance);
+                    fl_vec3 o, double ra, double reach, int single, double *distance);
 void fl_shell_near_free(fl_shell_near *near);
 
 #endif

@@ -353,6 +353,17 @@ static double triangle_area(const fl_part *p, int32_t t)
     return 0.5 * v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a)));
 }
 
+/* The faces on both sides of the edge a b of triangle t: left where a b runs counter-clockwise round it; -1
+ * where the surface ends. */
+static fl_edge sides_of(const flats *f, const int32_t *face_of, int32_t t, int32_t a, int32_t b)
+{
+    const fl_tri *tri = &f->p->t[t];
+    const int k = side_of(tri, a, b);
+    const int32_t u = f->mate[3 * t + k], one = face_of[t], other = u < 0 ? -1 : face_of[u];
+    if (tri->v[k] == a) return (fl_edge){a, b, one, other};
+    return other < 0 ? (fl_edge){a, b, one, -1} : (fl_edge){a, b, other, one};
+}
+
 /* A surface of triangles.  The block of a fl_poly is laid out by hand: it is not convex, so fl_poly_make()
  * is not asked. */
 static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
@@ -362,34 +373,39 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
     const size_t nv = (size_t)p->nv, nt = (size_t)p->nt;
     fl_poly *core = &piece->core;
     fl_shell *sh = &piece->shell;
-    const size_t bytes = nv * sizeof(fl_vec3) + nt * (sizeof(fl_vec3) + sizeof(double)) +
-                         3 * nt * sizeof(fl_edge) + (4 * nt + 1) * sizeof(int32_t);
+    const size_t bytes = (nv + nt) * sizeof(fl_vec3) + (nt + nv + 3 * nt) * sizeof(double) +
+                         3 * nt * sizeof(fl_edge) + (4 * nt + 1 + nv + 1 + 6 * nt) * sizeof(int32_t);
     char *mem = fl_alloc((int64_t)bytes, 1, err);
     side *edge = fl_alloc(3 * (int64_t)p->nt, sizeof *edge, err);
     bends *ends = fl_alloc(p->nv, sizeof *ends, err);
-    int32_t edges = 0;
+    int32_t edges = 0, *face_of = fl_alloc(p->nt, sizeof *face_of, err);
     piece->kind = FL_PIECE_SHELL;
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
     core->mem = mem;
     sh->corner = fl_alloc(p->nv, sizeof *sh->corner, err);
     sh->box = fl_alloc(p->nt, sizeof *sh->box, err);
     sh->edge_box = fl_alloc(3 * (int64_t)p->nt, sizeof *sh->edge_box, err);
-    if (!mem || !edge || !ends || !sh->corner || !sh->box || !sh->edge_box) {
-        free(edge), free(ends);
+    if (!mem || !edge || !ends || !face_of || !sh->corner || !sh->box || !sh->edge_box) {
+        free(edge), free(ends), free(face_of);
         return -1;
     }
     core->v = (fl_vec3 *)mem;
     core->n = core->v + nv;
     core->c = (double *)(core->n + nt);
-    core->edge = (fl_edge *)(core->c + nt);
+    core->bend = core->c + nt;
+    core->defect = core->bend + 3 * nt;
+    core->edge = (fl_edge *)(core->defect + nv);
     core->first = (int32_t *)(core->edge + 3 * nt);
     core->loop = core->first + nt + 1;
+    core->begin = core->loop + 3 * nt;
+    core->beside = core->begin + nv + 1;
     core->nv = p->nv;
     core->size = fmax(box.hi.x - box.lo.x, fmax(box.hi.y - box.lo.y, box.hi.z - box.lo.z));
     for (int32_t v = 0; v < p->nv; v++) core->v[v] = v3_sub(p->v[v], piece->x);
     for (int32_t t = 0; t < p->nt; t++) {
+        face_of[t] = -1;
         if (f->face[t] < 0) continue; /* no area */
-        const int32_t k = core->nf++;
+        const int32_t k = face_of[t] = core->nf++;
         sh->box[k] = aabb_empty();
         for (int c = 0; c < 3; c++) {
             core->loop[3 * k + c] = p->t[t].v[c];
@@ -407,6 +423,7 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
         for (int turn = 0; turn < 2; turn++) {
             const int32_t from = turn ? edge[k].b : edge[k].a;
             int32_t last = from, to = turn ? edge[k].a : edge[k].b;
+            const fl_edge sides = sides_of(f, face_of, edge[k].t, from, to);
             if (straight(p, ends, from, f->tol)) continue;
             while (straight(p, ends, to, f->tol)) {
                 const int32_t next = ends[to].v[0] == last ? ends[to].v[1] : ends[to].v[0];
@@ -414,13 +431,14 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
                 to = next;
             }
             if (from > to) continue;
-            core->edge[core->ne] = (fl_edge){from, to, -1, -1};
+            core->edge[core->ne] = (fl_edge){from, to, sides.left, sides.right};
             sh->edge_box[core->ne++] = aabb_add((fl_aabb){core->v[from], core->v[from]}, core->v[to]);
         }
     }
     for (int32_t v = 0; v < p->nv; v++)
         if (ends[v].n && !straight(p, ends, v, f->tol)) sh->corner[sh->corners++] = v;
-    free(edge), free(ends);
+    free(edge), free(ends), free(face_of);
+    fl_poly_angles(core);
     return fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
                    fl_bvh_build(&sh->edges, sh->edge_box, core->ne, err)
                ? -1

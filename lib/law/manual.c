@@ -34,7 +34,7 @@ double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double ov
             return 0.25 * PI * modulus * c->length;
         }
         return c->length * fl_material_hertz(modulus, c->touch == FL_TOUCH_EP ? both : low);
-    case FL_TOUCH_FF: *n = 1.0; return 6.0 * fl_material_punch(modulus, c->area);
+    case FL_TOUCH_FF: *n = 1.0; return fl_material_punch(modulus, c->area);
     }
     return fl_material_hertz(modulus, r);
 }

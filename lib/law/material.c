@@ -4,7 +4,6 @@
 
 #define PI 3.14159265358979323846
 #define BETA 1.02 /* a polygon: circle 1.000, square 1.012, triangle 1.034 */
-#define PLACES_OF_FACE 6
 
 double fl_material_modulus(fl_elastic a, fl_elastic b)
 {
@@ -18,9 +17,6 @@ double fl_material_radius(double ra, double rb)
     return ra * rb / (ra + rb);
 }
 
-double fl_material_punch(double modulus, double area)
-{
-    return 2.0 * modulus * BETA * sqrt(area / PI) / PLACES_OF_FACE;
-}
+double fl_material_punch(double modulus, double area) { return 2.0 * modulus * BETA * sqrt(area / PI); }
 
 double fl_material_hertz(double modulus, double radius) { return 4.0 / 3.0 * modulus * sqrt(radius); }

@@ -15,10 +15,8 @@ double fl_material_modulus(fl_elastic a, fl_elastic b);
  */
 double fl_material_radius(double ra, double rb);
 
-/* Stiffness of one vertex place of `patch` with exponent 1 [N/m]: a sixth of that of a flat punch,
- *     kappa = 2 E* beta sqrt(A/pi) / 6,   beta = 1.02,
- * six being about the number of places that carry a face.
- *   area   smaller of the largest faces of the two cores [m2]
+/* Stiffness of a flat punch [N/m], 2 E* beta sqrt(A/pi), beta = 1.02.
+ *   area   of the contact [m2]
  * Source: equation (25) of the manual; King, Int. J. Solids Struct. 23 (1987) 1657, for beta. */
 double fl_material_punch(double modulus, double area);
 

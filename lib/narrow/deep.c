@@ -25,6 +25,7 @@ typedef struct {
     double size;
     double width; /* the least so far, along n */
     fl_vec3 n;
+    fl_overlap by, trying; /* of, ea and eb of n, and of what is being tried */
 } hunt;
 
 /* Mean of the vertices over vertex 0. */
@@ -51,12 +52,15 @@ static void try_direction(hunt *h, fl_vec3 n)
         (w < h->width + equal && v3_dot(n, h->apart) > v3_dot(h->n, h->apart) + equal)) {
         h->width = w;
         h->n = n;
+        h->by = h->trying;
     }
 }
 
 static void try_faces(hunt *h)
 {
+    h->trying.of = 1;
     for (int32_t f = 0; f < h->a->p->nf; f++) try_direction(h, v3_neg(h->a->n[f]));
+    h->trying.of = -1;
     for (int32_t f = 0; f < h->b->p->nf; f++) try_direction(h, h->b->n[f]);
 }
 
@@ -67,6 +71,7 @@ static void try_cross(hunt *h, const fl_edge *e, const fl_edge *f)
     const fl_vec3 l = along(h->a, e), m = along(h->b, f), n = v3_cross(l, m);
     /* Parallel edges have no direction of their own; that of the next face serves. */
     if (!(v3_norm2(n) > 1e-24 * v3_norm2(l) * v3_norm2(m))) return;
+    h->trying = (fl_overlap){.of = 0, .ea = v3_unit(l), .eb = v3_unit(m)};
     try_direction(h, v3_unit(n));
     try_direction(h, v3_neg(v3_unit(n)));
 }
@@ -243,8 +248,10 @@ void fl_deep(const fl_solid *a, const fl_solid *b, fl_deep_count *count, fl_over
     if ((int64_t)a->p->ne * b->p->ne <= ALL_EDGE_PAIRS) try_edges(&h);
     else if (proposed) {
         try_edges_near(&h, n);
+        h.trying.of = -1;
         try_direction(&h, n);
     }
+    h.trying.of = -1;
     if (h.width == INFINITY) try_whatever(&h);
     if (count) {
         count->asked++;
@@ -256,5 +263,8 @@ void fl_deep(const fl_solid *a, const fl_solid *b, fl_deep_count *count, fl_over
     h.width = width_along(&h, h.n);
     out->depth = h.width > 0.0 ? h.width : 0.0;
     out->n = h.n;
+    out->of = h.by.of;
+    out->ea = h.by.ea;
+    out->eb = h.by.eb;
     find_points(&h, out);
 }

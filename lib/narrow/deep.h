@@ -29,6 +29,8 @@ typedef struct {
 typedef struct {
     double depth;   /* smallest shift that separates the cores, >= 0                         [m] */
     fl_vec3 n;      /* its unit direction, from b to a: move a by depth n                        */
+    int32_t of;     /* n turns with a (1: its face), with b (-1), or is the product of two edges (0) */
+    fl_vec3 ea, eb; /* the unit vectors of those; n = +-(ea x eb)/|ea x eb|                          */
     fl_vec3 pa, pb; /* a point of a deepest below, of b highest along n: pa - pb = -depth n; one of
                      * many where faces or edges are parallel                                [m] */
 } fl_overlap;

@@ -1,139 +1,188 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include "base/mem.h"
+#include "narrow/areas.h"
 #include "narrow/nearest.h"
 #include "narrow/places.h"
+#include "narrow/strips.h"
+
+#define PI 3.14159265358979323846
 
 int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
 {
     fl_err lost = {0};
     if (fl_grow(&w->va, &w->va_cap, a->nv, sizeof *w->va, &lost)) return -1;
+    if (a->nf && fl_grow(&w->na, &w->na_cap, a->nf, sizeof *w->na, &lost)) return -1;
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
+    for (int32_t f = 0; f < a->nf; f++) w->na[f] = m3_mul(M, a->n[f]);
     return 0;
 }
 
-static int add(fl_places *w, fl_place place)
+int fl_places_add(fl_places *w, fl_place place)
 {
     fl_err lost = {0};
-    if (fl_grow(&w->place, &w->place_cap, w->n + 1, sizeof *w->place, &lost)) return -1;
+    if (w->n == w->place_cap && fl_grow(&w->place, &w->place_cap, w->n + 1, sizeof *w->place, &lost))
+        return -1;
     w->place[w->n++] = place;
     return 0;
 }
 
-/* The place between the core points x - d n (of B) and x (of A): overlap s = ra + rb - d, its middle lies
- * ra - s/2 below x. */
-static fl_place place_at(int64_t key, fl_vec3 x, fl_vec3 n, double overlap, double ra)
+int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, fl_vec3 n, double overlap)
 {
-    return (fl_place){key, overlap, 1.0, 1.0, n, v3_madd(x, 0.5 * overlap - ra, n), v3(0, 0, 0)};
+    const double sharp = own->p->defect[v] * FL_PLACE_SHARP_CORNER, s2 = overlap * overlap;
+    const double k = (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (0.4 * PI) * fl_place_rho(own->r, other);
+    if (!(k > 0.0)) return 0;
+    return fl_places_add(w, (fl_place){.overlap = overlap,
+                                       .u = k * s2 * s2 * overlap,
+                                       .du = 5.0 * k * s2 * s2,
+                                       .ddu = 20.0 * k * s2 * overlap,
+                                       .n = v3_scale(own->side, n),
+                                       .across = v3_scale(own->side, n),
+                                       .p = v3_madd(own->v[v], 0.5 * overlap - own->r, n)});
 }
 
-static int edges_of_interest(int32_t **list, int32_t *cap, const fl_poly *p, const fl_vec3 *v, fl_vec3 n,
-                             double sign, double limit, fl_aabb reach)
+int fl_places_point(fl_places *w, fl_vec3 x, fl_vec3 n, double overlap, double ra)
 {
+    return fl_places_add(
+        w, (fl_place){.overlap = overlap, .n = n, .across = n, .p = v3_madd(x, 0.5 * overlap - ra, n)});
+}
+
+double fl_places_measure(const fl_places *w)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < w->n; k++) sum += w->place[k].u;
+    return sum;
+}
+
+/* The features of a core with a point below `limit` along n; the faces among them that may look at a place of
+ * contact: the line between nearest points runs along the normal of the feature and leans no more against n
+ * than the slab between the cores and the reach allow, cosine >= lean. */
+static int in_reach(fl_reach *r, const fl_side *a, fl_vec3 n, double limit, double lean)
+{
+    const fl_poly *p = a->p;
     fl_err lost = {0};
-    int32_t k = 0;
-    if (fl_grow(list, cap, p->ne, sizeof **list, &lost)) return -1;
-    for (int32_t e = 0; e < p->ne; e++) {
-        const fl_vec3 a = v[p->edge[e].a], b = v[p->edge[e].b];
-        const double ha = sign * v3_dot(n, a), hb = sign * v3_dot(n, b);
-        if ((ha < hb ? ha : hb) >= limit) continue;
-        if (aabb_meet(aabb_add((fl_aabb){a, a}, b), reach)) (*list)[k++] = e;
+    r->vertices = r->edges = r->faces = r->facings = 0;
+    if (fl_grow(&r->vertex, &r->vertex_cap, p->nv, sizeof *r->vertex, &lost) ||
+        (p->ne && fl_grow(&r->edge, &r->edge_cap, p->ne, sizeof *r->edge, &lost)) ||
+        (p->nf && fl_grow(&r->face, &r->face_cap, p->nf, sizeof *r->face, &lost)) ||
+        (p->nf && fl_grow(&r->facing, &r->facing_cap, p->nf, sizeof *r->facing, &lost)))
+        return -1;
+    for (int32_t v = 0; v < p->nv; v++)
+        if (v3_dot(n, a->v[v]) < limit) r->vertex[r->vertices++] = v;
+    for (int32_t e = 0; e < p->ne; e++)
+        if (v3_dot(n, a->v[p->edge[e].a]) < limit || v3_dot(n, a->v[p->edge[e].b]) < limit)
+            r->edge[r->edges++] = e;
+    for (int32_t f = 0; f < p->nf; f++) {
+        int near = 0;
+        for (int32_t k = p->first[f]; k < p->first[f + 1] && !near; k++)
+            near = v3_dot(n, a->v[p->loop[k]]) < limit;
+        if (!near) continue;
+        r->face[r->faces++] = f;
+        if (-v3_dot(n, a->n[f]) >= lean) r->facing[r->facings++] = f;
     }
-    return k;
+    return 0;
 }
 
-int fl_places_vertex(fl_places *w, int64_t key, fl_vec3 x, fl_vec3 n, double overlap, double ra)
+static int edges_and_faces(fl_places *w, const fl_side *own, const fl_reach *mine, const fl_side *other,
+                           const fl_reach *near, double R)
 {
-    return add(w, place_at(key, x, n, overlap, ra));
+    for (int32_t k = 0; k < mine->edges; k++)
+        if (fl_strips_edge(w, own, mine->edge[k], other, near, R, 0.0)) return -1;
+    for (int32_t k = 0; k < mine->faces; k++)
+        for (int32_t m = 0; m < near->facings; m++)
+            if (fl_areas_face(w, own, mine->face[k], other, near->facing[m], R, 0.0,
+                              FL_PLACE_RIM * (own->r + other->r)))
+                return -1;
+    return 0;
 }
 
-/* The term of edges a0 a1 of A and b0 b1 of B, if it counts. */
-int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double ra,
-                    double rb, double depth)
+/* What the shift by D n adds to the gradient of U.  A place of direction m changes by
+ *     ds = dD - m.(dx + n dD + D dn)
+ * and a rim by its last part: the terms with dD are a force along n at the deepest point.  A normal that is a
+ * face's turns with its body, so that the places lie on the lines through that body's points where they are.
+ * One of two edges turns with both: taken as B's, with
+ *     D G.dn' = D/|c| w.(ea x (eb x G')),   c = ea x eb, G = sum of du m, G' = G - n (n.G), w of A against B,
+ * left over, a couple. */
+static int add_depth(fl_places *w, const fl_overlap *deep, double R)
 {
-    const double R = ra + rb + 2.0 * depth;
-    double s, t;
-    double d2 = fl_nearest_segments(a0, a1, b0, b1, &s, &t);
-    if (d2 >= R * R) return 0;
-    const fl_vec3 ua = v3_sub(a1, a0), ub = v3_sub(b1, b0), x = v3_cross(ua, ub);
-    const double la2 = v3_norm2(ua), lb2 = v3_norm2(ub), c = v3_norm2(x) / (la2 * lb2);
-    if (c == 0.0) return 0;
-    const fl_vec3 pa = v3_madd(a0, s, ua), pb = v3_madd(b0, t, ub);
-    const int inner = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
-    const double d = sqrt(d2);
-    fl_vec3 n = v3_sub(pa, pb);
-    if (inner) { /* the common perpendicular: keeps its direction down to d = 0 */
-        const fl_vec3 along = v3_unit(x);
-        n = v3_dot(along, n) < 0.0 ? v3_neg(along) : along;
-    } else if (d > 0.0) {
-        n = v3_scale(1.0 / d, n);
-    } else {
-        return 0; /* an end point on the other edge: that vertex has a place of its own */
+    const fl_vec3 n = deep->n;
+    double sum = 0.0;
+    fl_vec3 G = {0};
+    for (int32_t k = 0; k < w->n; k++) {
+        fl_place *q = &w->place[k];
+        if (deep->of <= 0) q->p = v3_madd(q->p, -deep->depth, n);
+        sum += q->du * ((q->u > 0.0 ? 1.0 : 0.0) - v3_dot(q->n, n));
+        G = v3_madd(G, q->du, q->n);
     }
-    fl_place place = place_at(key, pa, n, R - d, ra);
-    place.weight = FL_PLACE_EDGE;
-    if (c < FL_PLACE_PARALLEL) {
-        const double y = c / FL_PLACE_PARALLEL, dm = 2.0 * (1.0 - y) / FL_PLACE_PARALLEL,
-                     cosine = v3_dot(ua, ub);
-        place.weight = FL_PLACE_EDGE * (2.0 - y) * y;
-        /* dc/dtheta of A is -2 (e.e')(e x e'); the torque is minus the gradient */
-        place.couple = v3_scale(FL_PLACE_EDGE * dm * 2.0 * cosine / (la2 * lb2), x);
-    }
-    return add(w, place);
+    if (fl_places_add(w, (fl_place){.overlap = R, .du = sum, .n = n, .p = deep->pa})) return -1;
+    if (deep->of != 0) return 0;
+    const fl_vec3 c = v3_cross(deep->ea, deep->eb), across = v3_madd(G, -v3_dot(G, n), n);
+    const double sign = v3_dot(c, n) > 0.0 ? 1.0 : -1.0;
+    const fl_vec3 couple =
+        v3_scale(sign * deep->depth / v3_norm(c), v3_cross(deep->ea, v3_cross(deep->eb, across)));
+    w->couple = v3_add(w->couple, couple);
+    return 0;
 }
 
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
-                   double rb, fl_vec3 n, double depth)
+                   double rb, fl_vec3 n, const fl_overlap *deep)
 {
-    const double R = ra + rb, Re = R + 2.0 * depth;
+    const double depth = deep->depth, R = ra + rb + depth;
+    const fl_vec3 out = v3_scale(depth, n);
+    const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {b, b->v, b->n, rb, -1.0};
     double low = INFINITY, high = -INFINITY;
-    fl_aabb box_a = aabb_empty(), box_b = aabb_empty();
     w->n = 0;
-    for (int32_t v = 0; v < a->nv; v++) {
-        const double h = v3_dot(n, w->va[v]);
-        low = h < low ? h : low;
-        box_a = aabb_add(box_a, w->va[v]);
+    w->couple = v3(0, 0, 0);
+    if (depth > 0.0) {
+        o = v3_add(o, out);
+        for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(w->va[v], out);
     }
-    for (int32_t v = 0; v < b->nv; v++) {
-        const double h = v3_dot(n, b->v[v]);
-        high = h > high ? h : high;
-        box_b = aabb_add(box_b, b->v[v]);
-    }
-    /* d(v, B) >= n.v - high and d(v, A) >= low - n.v: beyond R of these planes nothing counts */
-    box_a = aabb_grow(box_a, R);
-    box_b = aabb_grow(box_b, R);
-    for (int32_t v = 0; v < a->nv; v++) {
-        if (v3_dot(n, w->va[v]) >= high + R || !aabb_meet((fl_aabb){w->va[v], w->va[v]}, box_b)) continue;
+    for (int32_t v = 0; v < a->nv; v++) low = fmin(low, v3_dot(n, w->va[v]));
+    for (int32_t v = 0; v < b->nv; v++) high = fmax(high, v3_dot(n, b->v[v]));
+    /* Against rounding the lean is loosened by the angle that 1e-9 of it is, and nearly nothing is lost. */
+    const double gap = low - high, lean = gap > 0.0 ? gap / R - 1e-9 : -2.0;
+    if (in_reach(&w->of_a, &A, n, high + R, lean) || in_reach(&w->of_b, &B, v3_neg(n), R - low, lean))
+        return -1;
+    for (int32_t k = 0; k < w->of_a.vertices; k++) {
+        const int32_t v = w->of_a.vertex[k];
         const fl_nearest q = fl_nearest_poly(b, w->va[v]);
-        if (q.d < R && fl_places_vertex(w, v, w->va[v], q.n, R - q.d, ra)) return -1;
+        if (q.d < R && fl_places_vertex(w, &A, rb, v, q.n, R - q.d)) return -1;
     }
-    for (int32_t v = 0; v < b->nv; v++) {
-        if (v3_dot(n, b->v[v]) <= low - R || !aabb_meet((fl_aabb){b->v[v], b->v[v]}, box_a)) continue;
+    for (int32_t k = 0; k < w->of_b.vertices; k++) {
+        const int32_t v = w->of_b.vertex[k];
         const fl_nearest q = fl_nearest_poly(a, m3_tmul(M, v3_sub(b->v[v], o)));
-        if (q.d >= R) continue;
-        /* q.n leaves A; the place's normal leaves B.  From b's vertex the nearest point of A is at +d n. */
-        const fl_vec3 m = v3_neg(m3_mul(M, q.n));
-        if (fl_places_vertex(w, (int64_t)a->nv + v, v3_madd(b->v[v], q.d, m), m, R - q.d, ra)) return -1;
+        if (q.d < R && fl_places_vertex(w, &B, ra, v, m3_mul(M, q.n), R - q.d)) return -1;
     }
-    box_a = aabb_grow(box_a, Re - R);
-    box_b = aabb_grow(box_b, Re - R);
-    const int na = edges_of_interest(&w->ea, &w->ea_cap, a, w->va, n, 1.0, high + Re, box_b);
-    const int nb = edges_of_interest(&w->eb, &w->eb_cap, b, b->v, n, -1.0, Re - low, box_a);
-    if (na < 0 || nb < 0) return -1;
-    for (int32_t i = 0; i < na; i++) {
-        const fl_vec3 a0 = w->va[a->edge[w->ea[i]].a], a1 = w->va[a->edge[w->ea[i]].b];
-        const fl_aabb box = aabb_grow(aabb_add((fl_aabb){a0, a0}, a1), Re);
-        for (int32_t j = 0; j < nb; j++) {
-            const fl_vec3 b0 = b->v[b->edge[w->eb[j]].a], b1 = b->v[b->edge[w->eb[j]].b];
-            if (!aabb_meet(box, aabb_add((fl_aabb){b0, b0}, b1))) continue;
-            const int64_t key = (int64_t)a->nv + b->nv + (int64_t)w->ea[i] * b->ne + w->eb[j];
-            if (fl_places_edges(w, key, a0, a1, b0, b1, ra, rb, depth)) return -1;
-        }
-    }
+    if (edges_and_faces(w, &A, &w->of_a, &B, &w->of_b, R) ||
+        edges_and_faces(w, &B, &w->of_b, &A, &w->of_a, R))
+        return -1;
+    if (depth == 0.0) return 0;
+    for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_sub(w->va[v], out);
+    return add_depth(w, deep, R);
+}
+
+int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance)
+{
+    const fl_side A = {a, w->va, w->na, ra, 1.0};
+    w->n = 0;
+    w->couple = v3(0, 0, 0);
+    *distance = INFINITY;
+    for (int32_t v = 0; v < a->nv; v++) *distance = fmin(*distance, w->va[v].z);
+    if (*distance >= ra) return 0;
+    for (int32_t v = 0; v < a->nv; v++)
+        if (w->va[v].z < ra && fl_places_vertex(w, &A, 0.0, v, v3(0, 0, 1), ra - w->va[v].z)) return -1;
+    for (int32_t e = 0; e < a->ne; e++)
+        if ((w->va[a->edge[e].a].z < ra || w->va[a->edge[e].b].z < ra) && fl_strips_plane(w, &A, e, ra))
+            return -1;
+    for (int32_t f = 0; f < a->nf; f++)
+        if (fl_areas_plane(w, &A, f, ra)) return -1;
     return 0;
 }
 
 void fl_places_free(fl_places *w)
 {
-    free(w->va), free(w->ea), free(w->eb), free(w->place);
+    fl_reach *r[2] = {&w->of_a, &w->of_b};
+    for (int k = 0; k < 2; k++) free(r[k]->vertex), free(r[k]->edge), free(r[k]->face), free(r[k]->facing);
+    free(w->va), free(w->na), free(w->place), free(w->cut);
     *w = (fl_places){0};
 }

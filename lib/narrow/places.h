@@ -1,65 +1,117 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* places.h -- the places where two dilated convex cores touch, in the law `patch`.
+/* places.h -- the places where two dilated convex cores touch, and the law `patch` built on them.
  *
- * With R the sum of the radii, d(v, B) the signed distance of a vertex from the other core, and d(e, e') the
- * distance of two edges as clamped segments, the potential of a pair is
+ * With R the sum of the radii, d(x, B) the distance of a point from the other core and s = R - d its overlap,
  *
- *   W = sum_{v of A} k phi(R - d(v,B)) + sum_{v of B} k phi(R - d(v,A))
- *     + sum_{e of A, e' of B} (k/4) m(c) phi(R - d(e,e')),     phi(s) = s^(n+1)/(n+1) for s > 0, else 0,
- *   c = |e^ x e'^|^2,   m(c) = (2 - c/E)(c/E) for c < E, else 1,  E = FL_PLACE_PARALLEL.
+ *     W = c sqrt(U),     c = E* beta / sqrt(pi),     U = sum over the features of both cores of
  *
- * Each term is one place.  A vertex has one distance from the whole core, and edges are clamped, never
- * tested for "interior", so W and its gradient are continuous from vertex to edge to face; m fades out edges
- * that become parallel, whose nearest points are not unique and whose ends (vertices) carry instead. The
- * force of a place is k w s^n along n through p; an edge place also carries a couple (see below). Source of
- * the fade: Li et al., Incremental Potential Contact, ACM TOG 39 (2020), in the public toolkit. */
+ *     faces      1/2 m int s^4 dA          over a face of the other, m = (n.n')^2
+ *     edges      w L (256/315) sqrt(2 rho) int s^(9/2) dl
+ *     vertices   w L (2 pi/5) rho s^5,                            L = 32/45 / beta^2,
+ *
+ * rho the own radius (the other's where the own is 0), w = 1 but for edges and vertices that are hardly bent.
+ * The three rows are the same integral int s^4 dA over the contact of a flat, of a cylinder and of a ball of
+ * radius rho: one measure of a patch, whatever its kind.  What it gives, and why it is the law:
+ *   - s is the distance to a whole convex body, so that no kind of contact is ever decided: W has a
+ *     continuous gradient, which is the force, from vertex to edge to face and over every rim.
+ *   - A face carries as a flat punch, K = 2 E* beta sqrt(A/pi), (25) of the manual; rocking, as 9/8 of one
+ *     (a punch has (2/3) a^2 K, int s^4 gives (3/4) a^2 K).  The power 4 is the only one of which the root
+ *     does the first, and it does the second almost for nothing.
+ *   - A vertex on a face is Hertz' contact, exactly: (8/15) E* sqrt(rho) s^(5/2).
+ *   - Every pressure is positive, and more contact is never less energy.
+ *   - U is a sum over pieces of surface: a wall of 2 triangles is one of 20 000.
+ * Long line contacts come out too soft, as sqrt(length): at 1 m, 50 mm radius and 1 mm overlap 3 times softer
+ * than a rigid strip on a half-space.  Two edges that cross, and two vertices, are counted from both sides:
+ * up to 1.7 and 1.4 times as stiff as Hertz.  A face leaves the rim of another with a jump of the force along
+ * the face of s/(4 sqrt A) of the force across it: its strip beyond the rim, sqrt(2 R s) wide, is the edge's.
+ *
+ * Tried and left: springs at the corners of the overlap (stiffness follows the number of corners, not the
+ * area: aligned equal faces 5.6 times as stiff as offset ones); S^(3/2)/V with S = int s^2, V = int s (pulls
+ * at shallow spots); point at the nearest points (jumps on parallel faces by F times their size). */
 #ifndef FL_NARROW_PLACES_H
 #define FL_NARROW_PLACES_H
 #include "geom/mat3.h"
 #include "geom/poly.h"
+#include "narrow/deep.h"
 
-#define FL_PLACE_PARALLEL 1e-3 /* c below which edges count as parallel: 1.8 degrees */
-#define FL_PLACE_EDGE 0.25     /* share of an edge place in the stiffness of a vertex place */
+#define FL_PLACE_RIM 0.1   /* width of the fading rim of a face, over R */
+#define FL_PLACE_BETA 1.02 /* of a polygonal punch: circle 1, square 1.012, triangle 1.034 */
+#define FL_PLACE_ROUND (32.0 / 45.0 / (FL_PLACE_BETA * FL_PLACE_BETA)) /* L */
+#define FL_PLACE_SHARP_EDGE 4.0   /* w = bend times this [1/rad], at most 1 */
+#define FL_PLACE_SHARP_CORNER 2.0 /* w = defect times this [1/sr], at most 1 */
 
+/* One term of U, or one node of its quadrature. */
 typedef struct {
-    int64_t key;    /* which vertex or pair of edges: the same place has the same key in every step */
-    double overlap; /* R - d > 0                                                       [m] */
-    double weight;  /* 1 for a vertex, m(c)/4 for a pair of edges; the derivative of W carries it */
-    double store;   /* share of W it stands for: 1; 0 where only a force is meant */
-    fl_vec3 n;      /* from B to A                                                          */
-    fl_vec3 p;      /* middle of the overlap, on the line through the two nearest points [m] */
-    fl_vec3 couple; /* times phi k: torque on A, its opposite on B, from the change of m; 0 for c >= E */
+    double overlap; /* s                                                                    [m] */
+    double u;       /* share of U; 0 for the pull of a rim, that only moves the border   [m6] */
+    double du, ddu; /* derivatives of the share after s                                  [m5], [m4] */
+    fl_vec3 n;      /* the force on A is dW/dU du n; from B to A but for rims, and unit but for faces that are
+                     * not parallel */
+    fl_vec3 across; /* unit, from B to A: what bodies approach along, and press */
+    fl_vec3 p;      /* middle of the overlap, on the line of that force [m] */
 } fl_place;
+
+/* A core in the frame that both are looked at in.  Zero faces: a point or a segment. */
+typedef struct {
+    const fl_poly *p;
+    const fl_vec3 *v, *n; /* [p->nv], [p->nf] in the common frame */
+    double r;             /* dilation radius [m] */
+    double side;          /* +1 for A, -1 for B */
+} fl_side;
+
+/* Features worth a look. */
+typedef struct {
+    int32_t *vertex, *edge, *face, *facing;
+    int32_t vertices, edges, faces, facings;
+    int32_t vertex_cap, edge_cap, face_cap, facing_cap;
+} fl_reach;
 
 /* Scratch of one thread, and the places found.  Zeroed to start; grows as it must. */
 typedef struct {
-    fl_vec3 *va; /* vertices of A in the frame of B; set by fl_places_enter() */
-    int32_t *ea, *eb;
+    fl_vec3 *va, *na; /* vertices and normals of A in the frame of B; set by fl_places_enter() */
+    fl_reach of_a, of_b;
     fl_place *place;
-    int32_t n; /* number of places */
-    int32_t va_cap, ea_cap, eb_cap, place_cap;
+    fl_vec3 couple; /* times dW/dU: a moment on A beside those of the forces, its opposite on B [m6] */
+    fl_vec3 *cut;   /* of areas.c: polygons while they are cut */
+    int32_t n;      /* number of places */
+    int32_t va_cap, na_cap, place_cap, cut_cap;
 } fl_places;
 
-/* Turn the vertices of A into the frame of B: va = M v + o.  -1 when memory runs out. */
+/* Turn the vertices and normals of A into the frame of B: va = M v + o, na = M n.  -1 when memory runs out.
+ */
 int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
 
-/* All places with positive overlap, in ascending key order, after fl_places_enter().
+/* All places of two cores that do not overlap, in a fixed order, after fl_places_enter().
  *   a, b    cores in their own frames
  *   M, o    frame of A to frame of B
  *   ra, rb  dilation radii                                                                     [m]
- *   n       unit vector from B to A in the frame of B.  It only rules out: no place that counts has a reach
- *           along n beyond R, so any n gives the same places, and a separating one is quick.
- *   depth   D, by how much the cores overlap; 0 when they do not                                 [m]
- * Overlaps, points and normals are in the frame of B.  -1 when memory runs out. */
+ *   n       unit vector from B to A in the frame of B.  It only rules out: whatever it is, the places are the
+ *           same, and one that separates the cores by nearly their distance is quick.
+ *   deep    by how much the cores overlap, depth 0 when they do not; n is the way out then
+ * Cores that overlap by D are looked at as if moved apart by D n, with s = R + D - d; D and the turning of n
+ * have places of their own.
+ * Points and directions are in the frame of B.  -1 when memory runs out. */
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
-                   double rb, fl_vec3 n, double depth);
+                   double rb, fl_vec3 n, const fl_overlap *deep);
 
-/* Append one term, for other shapes than two convex cores; -1 when memory runs out.
- * fl_places_vertex: the point x of A, or the point of A nearest to a vertex of B; n from B to A.
- * fl_places_edges: the term of edges a0 a1 of A and b0 b1 of B, which may not count; depth is D. */
-int fl_places_vertex(fl_places *w, int64_t key, fl_vec3 x, fl_vec3 n, double overlap, double ra);
-int fl_places_edges(fl_places *w, int64_t key, fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double ra,
-                    double rb, double depth);
+/* All places of A over the half-space z < 0 of the frame of B, and the least z of A's core. */
+int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance);
+
+/* Sum of u. */
+double fl_places_measure(const fl_places *w);
+
+/* --- for those who put places together ------------------------------------------------------ */
+
+int fl_places_add(fl_places *w, fl_place place); /* -1 when memory runs out */
+
+/* The radius that a feature of a core of radius r shows to one of radius other. */
+static inline double fl_place_rho(double r, double other) { return r > 0.0 ? r : other; }
+
+/* A vertex of `own` at x, of which the nearest point of the other core lies at x - d n. */
+int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, fl_vec3 n, double overlap);
+
+/* The single place of a law that is not `patch`: only overlap, n and p are set.  x: the point of A. */
+int fl_places_point(fl_places *w, fl_vec3 x, fl_vec3 n, double overlap, double ra);
 
 void fl_places_free(fl_places *w);
 

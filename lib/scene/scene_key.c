@@ -263,8 +263,8 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, law),
      .fallback = "patch",
      .choices = "patch|manual|manual-si|core",
-     .meaning = "patch: a sum of vertex and edge springs with one potential; core: the nearest pair of "
-                "features alone; manual: the "
+     .meaning = "patch: a root of the sum over the faces, edges and vertices that touch, with one potential; "
+                "core: the nearest pair of features alone; manual: the "
                 "DilatedDEM manual's table of modes with its lengths as numbers; manual-si: the same with "
                 "consistent units",
      .source = "DilatedDEM manual (2016), equations (1) to (25), corrected"},
@@ -274,8 +274,8 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, exponent),
      .fallback = "1",
      .choices = "1|1.5",
-     .meaning = "the n of F = kappa delta^n in the laws patch and core; spheres and capsules have 1.5 "
-                "always, the manual's laws their own",
+     .meaning = "the n of F = kappa delta^n in the law core; what is round has 1.5 always, patch and "
+                "the laws of the manual their own",
      .source = "1 linear; 1.5 Hertz"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness",
@@ -285,8 +285,9 @@ const fl_key fl_key_table[] = {
      .fallback = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "the kappa of each spring of the laws patch and core; auto takes it from the moduli",
-     .source = "flat punch 2 E* beta sqrt(A/pi) over six supports for n = 1, (4/3) E* sqrt(R*) for n = 1.5"},
+     .meaning = "the kappa of a whole face in the law patch, of the one place in the law core; auto takes it "
+                "from the moduli",
+     .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for what is round"},
     {.section = FL_SEC_CONTACT,
      .key = "softening",
      .type = FL_VALUE_F64,

@@ -39,27 +39,26 @@ static const fl_piece *piece_of(const fl_world *w, int32_t j)
 
 /* --- where they touch -------------------------------------------------------------------------- */
 
-/* One point against anything with a closed form: the whole contact is one place. */
+/* One point against anything with a closed form. */
 static int point_places(fl_places *s, const fl_poly *b, const fl_piece *piece, fl_vec3 x, double ra, double R,
                         double *distance)
 {
     fl_nearest q;
-    if (piece && piece->kind == FL_PIECE_CONE) q = fl_nearest_cone(piece->r0, piece->r1, piece->h, x);
+    if (piece && piece->kind == FL_PIECE_PLANE) q = (fl_nearest){.d = x.z, .n = v3(0, 0, 1)};
+    else if (piece && piece->kind == FL_PIECE_CONE) q = fl_nearest_cone(piece->r0, piece->r1, piece->h, x);
     else q = fl_nearest_poly(b, x);
     *distance = q.d;
-    s->n = 0;
-    return q.d < R ? fl_places_vertex(s, 0, x, q.n, R - q.d, ra) : 0;
+    return q.d < R ? fl_places_point(s, x, q.n, R - q.d, ra) : 0;
 }
 
-static int plane_places(fl_places *s, int32_t nv, double ra, double *distance)
+/* The point of A that is lowest over the plane, for `core`. */
+static int lowest_place(fl_places *s, int32_t nv, double ra, double *distance)
 {
-    s->n = 0;
-    *distance = INFINITY;
-    for (int32_t v = 0; v < nv; v++) {
-        if (s->va[v].z < *distance) *distance = s->va[v].z;
-        if (s->va[v].z < ra && fl_places_vertex(s, v, s->va[v], v3(0, 0, 1), ra - s->va[v].z, ra)) return -1;
-    }
-    return 0;
+    fl_vec3 x = v3(0, 0, INFINITY);
+    for (int32_t v = 0; v < nv; v++)
+        if (s->va[v].z < x.z) x = s->va[v];
+    *distance = x.z;
+    return x.z < ra ? fl_places_point(s, x, v3(0, 0, 1), ra - x.z, ra) : 0;
 }
 
 /* Width of the gap that the planes across n leave between the cores: a lower bound of their distance. */
@@ -126,25 +125,6 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
     return 0;
 }
 
-/* Edges of overlapping cores hold the depth D twice in their distance (places.h): the force of that,
- *     sum k w s^n 2 = k w_D (R + D)^n,
- * along the direction of the depth, through the deepest point.  Its energy is that of the edges.  first: key
- * of edges. */
-static int add_depth(fl_places *s, int64_t first, int64_t key, const fl_overlap *deep, double n, double R,
-                     double ra)
-{
-    double sum = 0.0;
-    for (int32_t k = 0; k < s->n; k++)
-        if (s->place[k].key >= first)
-            sum += 2.0 * s->place[k].weight * fl_normal_power(s->place[k].overlap, n);
-    if (sum == 0.0) return 0;
-    if (fl_places_vertex(s, key, deep->pa, deep->n, R + deep->depth, ra)) return -1;
-    fl_place *last = &s->place[s->n - 1];
-    last->weight = sum / fl_normal_power(last->overlap, n);
-    last->store = 0.0;
-    return 0;
-}
-
 /* Fill s with the places of the pair; *distance is a lower bound of the distance of the cores. */
 static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *near, const relative *r,
                        double *distance)
@@ -154,7 +134,7 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
     const fl_piece *piece = piece_of(w, p->j);
     const double ra = b->radius[p->i], rb = b->radius[p->j], R = ra + rb;
     s->n = 0;
-    if (A->nv == 1 && (!piece || piece->kind == FL_PIECE_CONE || piece->kind == FL_PIECE_SOLID))
+    if (A->nv == 1 && (!piece || piece->kind != FL_PIECE_SHELL))
         return point_places(s, B, piece, r->o, ra, R, distance);
     if (B->nv == 1 && !piece) { /* the point is B: look from A, then turn the place round */
         if (point_places(s, A, NULL, v3_neg(m3_tmul(r->M, r->o)), rb, R, distance)) return -1;
@@ -162,14 +142,15 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
             const fl_vec3 n = v3_neg(m3_mul(r->M, s->place[0].n));
             const double overlap = s->place[0].overlap;
             s->n = 0;
-            return fl_places_vertex(s, 0, v3_scale(R - overlap, n), n, overlap, ra);
+            return fl_places_point(s, v3_scale(R - overlap, n), n, overlap, ra);
         }
         return 0;
     }
     if (fl_places_enter(s, A, r->M, r->o)) return -1;
-    if (piece && piece->kind == FL_PIECE_PLANE) return plane_places(s, A->nv, ra, distance);
+    if (piece && piece->kind == FL_PIECE_PLANE)
+        return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance) : fl_places_plane(s, A, ra, distance);
     if (piece && piece->kind == FL_PIECE_SHELL)
-        return fl_shell_places(s, near, A, piece, r->M, r->o, ra, ra + w->skin, distance);
+        return fl_shell_places(s, near, A, piece, r->M, r->o, ra, ra + w->skin, p->exponent > 0.0, distance);
     const int core_law = p->law->kind == FL_LAW_CORE;
     fl_overlap deep;
     /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
@@ -187,14 +168,12 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
                 const double h = v3_dot(p->axis, s->va[v]);
                 if (h < low) low = h, x = s->va[v];
             }
-            return fl_places_vertex(s, 0, x, p->axis, overlap, ra);
+            return fl_places_point(s, x, p->axis, overlap, ra);
         }
         fl_gjk((fl_core){s->va, A->nv}, (fl_core){B->v, B->nv}, &p->cache, &gap);
-        return fl_places_vertex(s, 0, gap.pa, gap.n, R - gap.d, ra);
+        return fl_places_point(s, gap.pa, gap.n, R - gap.d, ra);
     }
-    if (fl_places_find(s, A, B, r->M, r->o, ra, rb, p->axis, deep.depth)) return -1;
-    const int64_t edges = (int64_t)A->nv + B->nv;
-    if (p->deep && add_depth(s, edges, edges + (int64_t)A->ne * B->ne, &deep, p->exponent, R, ra)) return -1;
+    if (fl_places_find(s, A, B, r->M, r->o, ra, rb, p->axis, &deep)) return -1;
     if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
         p->has_axis = 0;
         return separate(w, p, A, B, s, r->M, INFINITY, &deep, distance);
@@ -203,15 +182,6 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
 }
 
 /* --- the forces of it -------------------------------------------------------------------------- */
-
-static int remember(fl_world *w, fl_pair *p, int32_t thread, int32_t n)
-{
-    fl_err lost = {0};
-    if (fl_grow(&p->memory, &p->cap, n, sizeof *p->memory, &lost)) return -1;
-    memcpy(p->memory, w->fresh[thread], (size_t)n * sizeof *p->memory);
-    p->n = n;
-    return 0;
-}
 
 static void add_wrench(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, fl_vec3 force, fl_vec3 ai, fl_vec3 aj)
 {
@@ -226,89 +196,145 @@ static double compliance(const fl_bodies *b, int32_t i, fl_vec3 a, fl_vec3 n)
     return b->invm[i] == 0.0 ? 0.0 : b->invm[i] + v3_dot(t, fl_body_turn(b, i, t));
 }
 
-/* What one place does, whatever law its elastic force and stiffness came from. */
-typedef struct {
-    double elastic, normal; /* F without and with damping [N] */
-    double slope;           /* dF/ds [N/m]                    */
-    double grip;            /* tangential damping [N s/m]     */
-} place_force;
-
-static void apply(fl_world *w, fl_pair *p, fl_memory *m, const fl_memory *old, const place_force *pf,
-                  fl_vec3 n, fl_vec3 ai, fl_vec3 aj, fl_vec3 u, double dt, int survey)
-{
-    const fl_bodies *b = &w->b;
-    const fl_touching *law = p->law;
-    add_wrench(&p->f, &p->ti, &p->tj, v3_scale(pf->normal, n), ai, aj);
-    add_wrench(&p->fd, &p->di, &p->dj, v3_scale(pf->normal - pf->elastic, n), ai, aj);
-    m->slip = old ? old->slip : (fl_slip){0};
-    if (law->friction > 0.0 && law->tangential > 0.0) {
-        const double twist = 0.5 * v3_dot(v3_add(b->w[p->i], b->w[p->j]), n);
-        const fl_vec3 t = fl_tangent_force(&m->slip, n, u, twist, dt, law->tangential * pf->slope, pf->grip,
-                                           law->friction * pf->normal);
-        add_wrench(&p->f, &p->ti, &p->tj, t, ai, aj);
-        add_wrench(&p->fs, &p->si, &p->sj, t, ai, aj);
-        p->spring += fl_tangent_energy(&m->slip);
-    }
-    if (survey) {
-        p->stiff_i += pf->slope * compliance(b, p->i, ai, n);
-        p->stiff_j += pf->slope * compliance(b, p->j, aj, n);
-    }
-}
-
 static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec3 aj)
 {
     return v3_sub(fl_body_velocity(b, p->i, ai), fl_body_velocity(b, p->j, aj));
 }
 
-/* Forces of the places in s, by the potential.  Damping is the same factor for all places of a pair,
+/* The pressure of a contact, summed up: what friction needs. */
+typedef struct {
+    double normal;     /* sum of F with damping                                     [N] */
+    double elastic;    /* and without                                               [N] */
+    fl_vec3 direction; /* sum of F n                                                [N] */
+    fl_vec3 at;        /* the first place, relative to B's centre                   [m] */
+    fl_vec3 moment;    /* sum of F (p - at)                                       [N m] */
+    double spread;     /* sum of F |p - at|^2; B's centre may be a thousand kilometres away [N m^2] */
+    double slope;      /* dF/ds                                                   [N/m] */
+} pressure;
+
+static void press(pressure *q, double elastic, double normal, fl_vec3 n, fl_vec3 p)
+{
+    if (q->elastic == 0.0) q->at = p;
+    const fl_vec3 arm = v3_sub(p, q->at);
+    q->elastic += elastic;
+    q->normal += normal;
+    q->direction = v3_madd(q->direction, normal, n);
+    q->moment = v3_madd(q->moment, normal, arm);
+    q->spread += normal * v3_norm2(arm);
+}
+
+/* Friction at the centre of the pressure. */
+static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const relative *r, double dt)
+{
+    const fl_bodies *b = &w->b;
+    const fl_touching *law = p->law;
+    if (!(law->friction > 0.0 && law->tangential > 0.0 && q->normal > 0.0)) {
+        p->slip = (fl_slip){0};
+        return;
+    }
+    const fl_vec3 mean = v3_scale(1.0 / q->normal, q->moment), aj = v3_add(q->at, mean),
+                  ai = v3_add(aj, r->off);
+    const double arm2 = q->spread / q->normal - v3_norm2(mean);
+    const fl_rubbing c = {.n = v3_unit(q->direction),
+                          .k = law->tangential * q->slope,
+                          .g = law->tangential * chi * q->elastic,
+                          .limit = law->friction * v3_norm(q->direction),
+                          .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0};
+    const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n);
+    double moment;
+    const fl_vec3 t =
+        fl_tangent_force(&p->slip, &c, approach(b, p, ai, aj), wi - wj, 0.5 * (wi + wj), dt, &moment);
+    const fl_vec3 m = v3_scale(moment, c.n);
+    add_wrench(&p->fs, &p->si, &p->sj, t, ai, aj);
+    p->si = v3_add(p->si, m);
+    p->sj = v3_sub(p->sj, m);
+    p->f = v3_add(p->f, p->fs);
+    p->ti = v3_add(p->ti, p->si);
+    p->tj = v3_add(p->tj, p->sj);
+    p->spring = fl_tangent_energy(&p->slip);
+}
+
+/* Forces of the places in s, by the potential: W = k phi(s) of the one place of a round thing or of `core`,
+ * W = k sqrt(U) of `patch`.  Damping is the same factor for all places of a pair,
  *     chi = D / max(v_touch, sqrt(2 W / M)),
- * where v_touch is the largest approach speed of this touch and sqrt(2 W/M) the speed that the stored energy
- * W amounts to: in an impact it stays below v_touch, so restitution is that of D; in a contact that was
- * never an impact it keeps the damping ratio below D/2. */
-static void force_places(fl_world *w, fl_pair *p, fl_places *s, int32_t thread, const relative *r, double dt,
-                         int survey)
+ * where v_touch is the largest approach speed of this touch, the mean over the pressure, and sqrt(2 W/M) the
+ * speed that the stored energy W amounts to: in an impact it stays below v_touch, so restitution is that of
+ * D; in a contact that was never an impact it keeps the damping ratio below D/2.  0 when nothing touches. */
+static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey)
 {
     const fl_bodies *b = &w->b;
     const fl_mat3 R = b->R[p->j];
-    fl_memory *fresh = w->fresh[thread];
-    double energy = 0.0, fastest = 0.0;
+    const int patch = p->exponent == 0.0;
+    double U = 0.0, scale = 0.0, pressed = 0.0, met = 0.0;
+    if (s->n == 0) return 0;
+    if (patch) {
+        U = fl_places_measure(s);
+        p->energy = p->k * sqrt(U);
+        if (!(p->energy > 0.0)) return 0;
+        scale = 0.5 * p->energy / U;
+    } else {
+        p->energy = p->k * fl_normal_phi(s->place[0].overlap, p->exponent);
+    }
     for (int32_t k = 0; k < s->n; k++) {
         fl_place *q = &s->place[k];
         q->n = m3_mul(R, q->n); /* from here on in world axes, relative to B's centre */
         q->p = m3_mul(R, q->p);
-        energy += p->k * q->weight * q->store * fl_normal_phi(q->overlap, p->exponent);
-        const double u = -v3_dot(q->n, approach(b, p, v3_add(q->p, r->off), q->p));
-        if (u > fastest) fastest = u;
+        q->across = m3_mul(R, q->across);
         if (q->overlap > p->overlap) p->overlap = q->overlap;
+        if (patch && q->u == 0.0) continue;
+        const double u = -v3_dot(q->across, approach(b, p, v3_add(q->p, r->off), q->p));
+        const double share = patch ? q->du : 1.0;
+        pressed += share;
+        if (u > 0.0) met += share * u;
     }
-    p->touch = p->n && p->touch > fastest ? p->touch : fastest;
-    const double stored = sqrt(2.0 * energy / p->mass), speed = p->touch > stored ? p->touch : stored;
+    const double speed_now = pressed > 0.0 ? met / pressed : 0.0;
+    p->touch = p->n && p->touch > speed_now ? p->touch : speed_now;
+    const double stored = sqrt(2.0 * p->energy / p->mass), speed = p->touch > stored ? p->touch : stored;
     const double chi = speed > 0.0 ? p->law->chi / speed : 0.0;
-    p->energy = energy;
-    for (int32_t k = 0, old = 0; k < s->n; k++) {
+    pressure all = {0};
+    fl_vec3 gi = {0}, hi = {0}, hj = {0}; /* gradient of U: force, torques */
+    for (int32_t k = 0; k < s->n; k++) {
         const fl_place *q = &s->place[k];
-        const fl_vec3 aj = q->p, ai = v3_add(q->p, r->off), u = approach(b, p, ai, aj);
-        const double kw = p->k * q->weight;
-        place_force pf;
-        while (old < p->n && p->memory[old].key < q->key) old++;
-        pf.elastic = kw * fl_normal_power(q->overlap, p->exponent);
-        pf.normal = fl_normal_damped(pf.elastic, chi, -v3_dot(q->n, u));
-        pf.slope = kw * fl_normal_slope(q->overlap, p->exponent);
-        pf.grip = p->law->tangential * chi * pf.elastic;
-        fresh[k].key = q->key;
-        apply(w, p, &fresh[k], old < p->n && p->memory[old].key == q->key ? &p->memory[old] : NULL, &pf, q->n,
-              ai, aj, u, dt, survey);
-        if (q->couple.x != 0.0 || q->couple.y != 0.0 || q->couple.z != 0.0) {
-            const fl_vec3 c = v3_scale(p->k * fl_normal_phi(q->overlap, p->exponent), m3_mul(R, q->couple));
-            p->ti = v3_add(p->ti, c);
-            p->tj = v3_sub(p->tj, c);
+        const fl_vec3 aj = q->p, ai = v3_add(q->p, r->off);
+        const double elastic = patch ? scale * q->du : p->k * fl_normal_power(q->overlap, p->exponent);
+        add_wrench(&p->f, &p->ti, &p->tj, v3_scale(elastic, q->n), ai, aj);
+        if (patch && survey) add_wrench(&gi, &hi, &hj, v3_scale(q->du, q->n), ai, aj);
+        if (patch && q->u == 0.0) continue; /* the pull of a rim presses on nothing */
+        const double normal = fl_normal_damped(elastic, chi, -v3_dot(q->across, approach(b, p, ai, aj)));
+        add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, q->across), ai, aj);
+        press(&all, elastic, normal, q->across, aj);
+        const double slope = patch ? scale * q->ddu : p->k * fl_normal_slope(q->overlap, p->exponent);
+        all.slope += slope;
+        if (survey) {
+            p->stiff_i += slope * compliance(b, p->i, ai, q->across);
+            p->stiff_j += slope * compliance(b, p->j, aj, q->across);
         }
     }
+    if (patch) {
+        const fl_vec3 couple = v3_scale(scale, m3_mul(R, s->couple));
+        p->ti = v3_add(p->ti, couple);
+        p->tj = v3_sub(p->tj, couple);
+    }
+    if (patch) { /* the root bends down: W'' = scale (U'' - U'^2 / 2U) */
+        all.slope -= 0.5 * all.elastic * all.elastic / (scale * U);
+        if (survey) {
+            p->stiff_i -=
+                0.5 * scale / U * (b->invm[p->i] * v3_norm2(gi) + v3_dot(hi, fl_body_turn(b, p->i, hi)));
+            p->stiff_j -=
+                0.5 * scale / U * (b->invm[p->j] * v3_norm2(gi) + v3_dot(hj, fl_body_turn(b, p->j, hj)));
+        }
+    }
+    p->f = v3_add(p->f, p->fd);
+    p->ti = v3_add(p->ti, p->di);
+    p->tj = v3_add(p->tj, p->dj);
+    rub(w, p, &all, chi, r, dt);
+    p->energy += p->spring;
+    return p->n = 1;
 }
 
 /* The manual's law: one contact, by the kind of the closest features. */
-static int force_manual(fl_world *w, fl_pair *p, fl_places *s, int32_t thread, const relative *r, double dt,
-                        int survey, double *distance)
+static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey,
+                        double *distance)
 {
     const fl_bodies *b = &w->b;
     const fl_touching *law = p->law;
@@ -344,19 +370,26 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, int32_t thread, c
     const fl_vec3 u = approach(b, p, ai, aj);
     const double closing = -v3_dot(nw, u);
     const double mass = law->literal2 && b->invm[p->j] > 0.0 ? b->m[p->i] + b->m[p->j] : p->mass;
-    place_force pf;
-    pf.elastic = k * fl_normal_power(overlap, exponent);
-    pf.normal = pf.elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, closing);
-    if (pf.normal < 0.0) pf.normal = 0.0;
-    pf.slope = k * fl_normal_slope(overlap, exponent);
-    pf.grip = 0.0;
+    const double elastic = k * fl_normal_power(overlap, exponent);
+    double normal = elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, closing);
+    if (normal < 0.0) normal = 0.0;
+    const double slope = k * fl_normal_slope(overlap, exponent);
+    pressure all = {.slope = slope};
     p->overlap = overlap;
     p->energy = k * fl_normal_phi(overlap, exponent);
     p->mode = c.mode;
-    w->fresh[thread][0].key = 0;
-    apply(w, p, w->fresh[thread], p->n ? p->memory : NULL, &pf, nw, ai, aj, u, dt, survey);
+    add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, nw), ai, aj);
+    add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, nw), ai, aj);
+    press(&all, elastic, normal, nw, aj);
+    if (survey) {
+        p->stiff_i = slope * compliance(b, p->i, ai, nw);
+        p->stiff_j = slope * compliance(b, p->j, aj, nw);
+    }
+    all.spread = v3_norm2(aj) * normal; /* one point: no moment about the normal */
+    rub(w, p, &all, 0.0, r, dt);
     p->energy += p->spring;
-    return remember(w, p, thread, 1);
+    p->n = 1;
+    return 0;
 }
 
 void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
@@ -374,19 +407,13 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
     const int manual = (p->law->kind == FL_LAW_MANUAL || p->law->kind == FL_LAW_MANUAL_SI) &&
                        (!piece || piece->kind == FL_PIECE_SOLID || piece->kind == FL_PIECE_CONE);
     if (manual) {
-        if (force_manual(w, p, s, thread, &r, dt, survey, &distance)) goto failed;
+        if (force_manual(w, p, s, &r, dt, survey, &distance)) goto failed;
         if (p->n) return;
     } else {
-        fl_err lost = {0};
         if (find_places(w, p, s, &w->near_shell[thread], &r, &distance)) goto failed;
-        if (fl_grow(&w->fresh[thread], &w->fresh_cap[thread], s->n, sizeof **w->fresh, &lost)) goto failed;
-        if (s->n) {
-            force_places(w, p, s, thread, &r, dt, survey);
-            p->energy += p->spring;
-            if (remember(w, p, thread, s->n)) goto failed;
-            return;
-        }
+        if (force_places(w, p, s, &r, dt, survey)) return;
     }
+    p->slip = (fl_slip){0};
     p->n = 0;
     p->touch = 0.0;
     p->asleep = path + (distance > R ? distance - R : 0.0) * (1.0 - 1e-9);

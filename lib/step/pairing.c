@@ -4,6 +4,9 @@
 #include "law/material.h"
 #include "step/pairing.h"
 
+/* The one place of `core` is this much softer than a face: what a corner of one would be. */
+#define FACE_OF_CORE 6.0
+
 static fl_elastic elastic_of(const fl_scene *s, int32_t material)
 {
     if (material == FL_SCENE_BOUNDARY) return (fl_elastic){INFINITY, 0.0};
@@ -58,13 +61,13 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
 {
     const fl_bodies *b = &w->b;
     const fl_touching *law = fl_pairing_law(w, i, j);
-    const int round = b->core[i].nv <= 2 || (j < w->n && b->core[j].nv <= 2);
-    *exponent = round ? 1.5 : law->exponent;
-    if (law->stiffness > 0.0) return law->stiffness;
-    if (*exponent == 1.0) {
-        const double area = w->face[j] > 0.0 && w->face[j] < w->face[i] ? w->face[j] : w->face[i];
-        return law->softening * fl_material_punch(law->modulus, area);
-    }
+    const int32_t line = law->kind == FL_LAW_CORE ? 2 : 1; /* to `core` a line is round, too */
+    const int round = b->core[i].nv <= line || (j < w->n && b->core[j].nv <= line);
+    const double area = w->face[j] > 0.0 && w->face[j] < w->face[i] ? w->face[j] : w->face[i];
+    *exponent = round ? 1.5 : law->kind == FL_LAW_CORE ? law->exponent : 0.0;
+    if (law->stiffness > 0.0) return *exponent > 0.0 ? law->stiffness : 0.5 * law->stiffness / sqrt(area);
+    if (*exponent == 0.0) return 0.5 * law->softening * fl_material_punch(law->modulus, 1.0);
+    if (*exponent == 1.0) return law->softening * fl_material_punch(law->modulus, area) / FACE_OF_CORE;
     return law->softening * fl_material_hertz(law->modulus, fl_material_radius(b->radius[i], b->radius[j]));
 }
 
@@ -80,6 +83,4 @@ void fl_pair_end(fl_world *w, fl_pair *p)
 {
     w->ledger.damping += p->damped;
     w->ledger.friction += p->rubbed;
-    free(p->memory);
-    p->memory = NULL;
 }

@@ -7,8 +7,8 @@
 #include "step/pairing.h"
 #include "step/world.h"
 
-/* The number of places, each as stiff as one, that a face at rest on a face puts under a body at once. */
-#define PLACES 12.0
+/* As many faces at rest on faces may a body have under it at once, as far as the step knows beforehand. */
+#define FACES 2.0
 
 /* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its
  * end. */
@@ -202,12 +202,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->part_peak = fl_alloc(w->parts, sizeof *w->part_peak, err);
     w->scratch = fl_alloc(w->threads, sizeof *w->scratch, err);
     w->near_shell = fl_alloc(w->threads, sizeof *w->near_shell, err);
-    w->fresh = fl_alloc(w->threads, sizeof *w->fresh, err);
-    w->fresh_cap = fl_alloc(w->threads, sizeof *w->fresh_cap, err);
-    if (err->code) return -1;
-    for (int32_t k = 0; k < w->threads; k++)
-        if (fl_grow(&w->fresh[k], &w->fresh_cap[k], 64, sizeof **w->fresh, err)) return -1;
-    return 0;
+    return err->code ? -1 : 0;
 }
 
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
@@ -249,15 +244,12 @@ fail:
 
 void fl_world_free(fl_world *w)
 {
-    for (int32_t k = 0; k < w->n_pair; k++) free(w->pair[k].memory);
     for (int32_t k = 0; k < w->threads; k++) {
         if (w->scratch) fl_places_free(&w->scratch[k]);
         if (w->near_shell) fl_shell_near_free(&w->near_shell[k]);
-        if (w->fresh) free(w->fresh[k]);
     }
-    free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell), free(w->fresh);
-    free(w->fresh_cap), free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law),
-        free(w->box);
+    free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
+    free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box);
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);
     free(w->part_peak);
@@ -287,9 +279,14 @@ static double softest(const fl_world *w, int32_t i)
 
 /* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact at the speed
  * that bodies have or will take from gravity and current over their own size, (5 M v^2/4 k)^(2/5). */
-static double place_slope(const fl_world *w, int32_t i, double k, double exponent)
+static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, double exponent)
 {
     if (exponent == 1.0) return k;
+    if (exponent == 0.0) { /* a face; or the line of a segment at the largest overlap there should be */
+        const double other = w->face[j], r = w->b.radius[i];
+        if (w->face[i] > 0.0) return 2.0 * k * sqrt(other > 0.0 && other < w->face[i] ? other : w->face[i]);
+        return 2.8 * k * sqrt(0.6 * sqrt(2.0 * r) * 2.0 * w->b.bound[i] * sqrt(0.3 * r));
+    }
     const double size = w->b.bound[i] + w->b.radius[i], g = v3_norm(w->gravity);
     const double v2 = fmax(v3_norm2(w->b.v[i]),
                            fmax(v3_norm2(w->sea.current.velocity), v3_norm2(w->scene->structure.velocity))) +
@@ -304,13 +301,13 @@ double fl_world_dt(const fl_world *w, int32_t *body)
     double most = 0.0, damp = 0.0;
     *body = -1;
     for (int32_t i = 0; i < w->n; i++) {
-        const double places = w->b.core[i].nv > 2 ? PLACES : 1.0;
+        const double places = w->b.core[i].nv > 1 ? FACES : 1.0;
         double n, k = fl_pairing_stiffness(w, i, i, &n),
-                  stiffest = place_slope(w, i, k, n); /* one like itself */
+                  stiffest = place_slope(w, i, i, k, n); /* one like itself */
         damp = fmax(damp, fl_pairing_law(w, i, i)->chi);
         for (int32_t j = w->n; j < w->b.total; j++) {
             k = fl_pairing_stiffness(w, i, j, &n);
-            stiffest = fmax(stiffest, place_slope(w, i, k, n));
+            stiffest = fmax(stiffest, place_slope(w, i, j, k, n));
             damp = fmax(damp, fl_pairing_law(w, i, j)->chi);
         }
         /* two equal bodies on one spring: twice the compliance */

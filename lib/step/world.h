@@ -30,24 +30,18 @@ typedef struct {
     int32_t literal2, literal18;
 } fl_touching;
 
-/* What one place keeps from step to step. */
-typedef struct {
-    int64_t key;
-    fl_slip slip;
-} fl_memory;
-
 typedef struct {
     int32_t i, j;           /* i moves, i < j                                        */
-    int32_t n, cap;         /* places in contact and remembered; 0: not touching     */
-    fl_memory *memory;      /* [n], keys ascending; owned                            */
+    int32_t n;              /* touching                                              */
+    fl_slip slip;           /* what friction remembers                               */
     fl_gjk_cache cache;     /* where the distance query starts                       */
     fl_mode mode;           /* of the manual's laws                                  */
     int32_t deep;           /* the cores overlap                                     */
     int32_t has_axis;       /* axis has been set                                     */
     fl_vec3 axis;           /* from j to i in the frame of j: separates the cores, or did */
     double asleep;          /* while the odometers add up to less, it cannot touch [m] */
-    double k;               /* stiffness of one place [N/m^n]                        */
-    double exponent;        /* n                                                     */
+    double k;               /* stiffness of one place [N/m^n]; of `patch`, c in W = c sqrt(U) [N/m2] */
+    double exponent;        /* n; 0 for `patch` */
     double mass;            /* reduced [kg]                                          */
     double touch;           /* largest approach speed of this touch [m/s]            */
     const fl_touching *law; /* borrowed */
@@ -102,8 +96,6 @@ typedef struct {
 
     fl_places *scratch;        /* [threads] */
     fl_shell_near *near_shell; /* [threads] */
-    fl_memory **fresh;         /* [threads] */
-    int32_t *fresh_cap;
     int32_t threads;
 
     double dt, dt_critical; /* dt_critical: the smallest 2/omega seen [s] */

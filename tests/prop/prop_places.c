@@ -84,8 +84,6 @@ static fl_pair look(fl_world *w, int32_t j, const fl_vec3 *axis)
     }
     fl_interact(w, &p, 0, 0.0, 0);
     assert_false(w->failed);
-    free(p.memory);
-    p.memory = NULL;
     return p;
 }
 

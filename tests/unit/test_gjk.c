@@ -159,7 +159,10 @@ static void coincident_bodies_get_one_direction(void **state)
         fl_deep(&q.b, &q.a, NULL, &again); /* the same numbers, so the same answer */
         assert_near(first.depth, 1.0, 1e-12);
         assert_true(isfinite(first.n.x + first.pa.x + first.pb.x));
-        assert_memory_equal(&first, &again, sizeof first);
+        assert_true(first.depth == again.depth && first.of == again.of);
+        assert_memory_equal(&first.n, &again.n, sizeof first.n);
+        assert_memory_equal(&first.pa, &again.pa, sizeof first.pa);
+        assert_memory_equal(&first.pb, &again.pb, sizeof first.pb);
     }
     pair_free(&q);
     /* Two points, two segments on one line, a segment in a polygon's plane: depth 0, a direction all the

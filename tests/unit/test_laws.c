@@ -83,7 +83,7 @@ static void material_gives_hertz_and_punch(void **state)
     assert_near(fl_material_radius(0.0, 0.3), 0.3, 0.0);
     assert_near(fl_material_hertz(same, 0.05), 4.0 / 3.0 * same * sqrt(0.05), 1e-15);
     /* six places make the punch: 2 E* a, a the radius of the circle of that area, times beta */
-    assert_near(6.0 * fl_material_punch(same, PI * 4.0), 2.0 * same * 1.02 * 2.0, 1e-15);
+    assert_near(fl_material_punch(same, PI * 4.0), 2.0 * same * 1.02 * 2.0, 1e-15);
 }
 
 /* phi' = s^n and (s^n)' = slope, by central differences at the optimal width cbrt(eps): error 4e-11. */
@@ -200,6 +200,15 @@ static void manual_damping_by_its_exponent(void **state)
 /* --- friction
  * ------------------------------------------------------------------------------------------------ */
 
+/* A point that slips. */
+static fl_vec3 rub(fl_slip *s, fl_vec3 n, fl_vec3 v, double twist, double dt, double k, double g,
+                   double limit)
+{
+    const fl_rubbing c = {.n = n, .k = k, .g = g, .limit = limit};
+    double moment;
+    return fl_tangent_force(s, &c, v, 0.0, twist, dt, &moment);
+}
+
 static void friction_sticks_slides_and_comes_back(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), v = v3(1, 0, 0.7); /* the normal part is dropped */
@@ -208,19 +217,19 @@ static void friction_sticks_slides_and_comes_back(void **state)
     fl_vec3 f = v3(0, 0, 0);
     (void)state;
     for (int i = 1; i <= 5; i++) {
-        f = fl_tangent_force(&s, n, v, 0.0, dt, k, 0.0, limit);
+        f = rub(&s, n, v, 0.0, dt, k, 0.0, limit);
         assert_near(f.x, -k * dt * i, 1e-14);
         assert_near_of(f.z, 0.0, 1e-15, limit);
     }
-    for (int i = 0; i < 5; i++) f = fl_tangent_force(&s, n, v, 0.0, dt, k, 0.0, limit);
+    for (int i = 0; i < 5; i++) f = rub(&s, n, v, 0.0, dt, k, 0.0, limit);
     assert_near(f.x, -limit, 1e-14);
     assert_near(fl_tangent_energy(&s), 0.5 * limit * limit / k, 1e-14);
-    f = fl_tangent_force(&s, n, v3_neg(v), 0.0, dt, k, 0.0, limit); /* turning round it gives way at once */
+    f = rub(&s, n, v3_neg(v), 0.0, dt, k, 0.0, limit); /* turning round it gives way at once */
     assert_near(f.x, -limit + k * dt, 1e-14);
-    f = fl_tangent_force(&s, n, v3(0, 0, 0), 0.0, dt, k, 0.0, 0.0); /* no load, no friction */
+    f = rub(&s, n, v3(0, 0, 0), 0.0, dt, k, 0.0, 0.0); /* no load, no friction */
     assert_near(v3_norm(f), 0.0, 0.0);
-    s = (fl_slip){v3(1, 0, 0), k};
-    f = fl_tangent_force(&s, n, v, 0.0, dt, 0.0, 0.0, limit); /* no stiffness, no force */
+    s = (fl_slip){.force = v3(1, 0, 0), .k = k};
+    f = rub(&s, n, v, 0.0, dt, 0.0, 0.0, limit); /* no stiffness, no force */
     assert_near(v3_norm(f), 0.0, 0.0);
     assert_near(fl_tangent_energy(&s), 0.0, 0.0);
 }
@@ -228,18 +237,17 @@ static void friction_sticks_slides_and_comes_back(void **state)
 /* The memory turns with the normal and with the pair about it, and keeps its length. */
 static void friction_rolls_with_the_contact(void **state)
 {
-    fl_slip s = {v3(3, 0, 0), 1000.0};
+    fl_slip s = {.force = v3(3, 0, 0), .k = 1000.0};
     const int turns = 1000;
     (void)state;
     for (int i = 1; i <= turns; i++) {
         const double a = 0.5 * PI * i / turns;
-        const fl_vec3 f =
-            fl_tangent_force(&s, v3(-sin(a), 0, cos(a)), v3(0, 0, 0), 0.0, 1e-3, 1000.0, 0.0, 100.0);
+        const fl_vec3 f = rub(&s, v3(-sin(a), 0, cos(a)), v3(0, 0, 0), 0.0, 1e-3, 1000.0, 0.0, 100.0);
         assert_near(v3_norm(f), 3.0, 1e-13);
     }
     assert_near_of(s.force.z, 3.0, 1e-6, 3.0);
     for (int i = 0; i < turns; i++) /* a quarter turn about n = -x */
-        fl_tangent_force(&s, v3(-1, 0, 0), v3(0, 0, 0), 0.5 * PI, 1.0 / turns, 1000.0, 0.0, 100.0);
+        rub(&s, v3(-1, 0, 0), v3(0, 0, 0), 0.5 * PI, 1.0 / turns, 1000.0, 0.0, 100.0);
     assert_near(v3_norm(s.force), 3.0, 1e-12);
     /* each turn is made along the tangent: error (pi/2)^3/(3 N^2) */
     assert_near_of(s.force.y, 3.0, 2e-6, 3.0);
@@ -250,10 +258,10 @@ static void friction_damping_stays_within_the_limit(void **state)
     fl_slip s = {0};
     const fl_vec3 n = v3(0, 0, 1);
     (void)state;
-    fl_vec3 f = fl_tangent_force(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 2.0, 5.0);
+    fl_vec3 f = rub(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 2.0, 5.0);
     assert_near(f.x, -1.0 - 2.0, 1e-14);
     assert_near(s.force.x, -1.0, 1e-14); /* the spring does not remember the damping */
-    f = fl_tangent_force(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 1e6, 5.0);
+    f = rub(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 1e6, 5.0);
     assert_near(f.x, -5.0, 1e-14);
     assert_near(s.force.x, -2.0, 1e-14);
 }
@@ -274,7 +282,7 @@ static void friction_creates_no_energy(void **state)
         for (int i = 1; i <= 20000; i++) {
             const double t = i * dt, depth = 0.5 * (1.0 - cos(b * t)), k = base * sqrt(depth);
             const fl_vec3 v = v3(sin(a1 * t), cos(a2 * t), 0);
-            const fl_vec3 f = fl_tangent_force(&s, n, v, 0.0, dt, k, damp, mu * base * depth * sqrt(depth));
+            const fl_vec3 f = rub(&s, n, v, 0.0, dt, k, damp, mu * base * depth * sqrt(depth));
             assert_true(v3_norm(f) <= mu * base * depth * sqrt(depth) * (1.0 + 1e-15));
             taken -= 0.5 * dt * v3_dot(v3_add(f, before), v);
             moved += dt * v3_norm(v);
@@ -298,19 +306,55 @@ static void friction_unloads_along_its_stiffness(void **state)
     const double k1 = 1000.0, k2 = 250.0, dt = 1e-4, far = 1e9;
     fl_slip s = {0};
     (void)state;
-    for (int i = 0; i < 100; i++) fl_tangent_force(&s, n, there, 0.0, dt, k1, 0.0, far);
+    for (int i = 0; i < 100; i++) rub(&s, n, there, 0.0, dt, k1, 0.0, far);
     const double held = fl_tangent_energy(&s);
     assert_near(s.force.x, -k1 * 100 * dt, 1e-12);
-    fl_tangent_force(&s, n, still, 0.0, dt, k2, 0.0, far);
+    rub(&s, n, still, 0.0, dt, k2, 0.0, far);
     assert_near(s.force.x, -k2 * 100 * dt, 1e-12);
     assert_near(fl_tangent_energy(&s), held * k2 / k1, 1e-12);
-    for (int i = 0; i < 100; i++) fl_tangent_force(&s, n, v3_neg(there), 0.0, dt, k2, 0.0, far);
+    for (int i = 0; i < 100; i++) rub(&s, n, v3_neg(there), 0.0, dt, k2, 0.0, far);
     assert_near_of(s.force.x, 0.0, 1e-12, k1 * 100 * dt);
     /* stiffer again, the force stays as it is: incremental */
-    s = (fl_slip){v3(-7, 0, 0), k2};
-    fl_tangent_force(&s, n, still, 0.0, dt, k1, 0.0, far);
+    s = (fl_slip){.force = v3(-7, 0, 0), .k = k2};
+    rub(&s, n, still, 0.0, dt, k1, 0.0, far);
     assert_near(s.force.x, -7.0, 1e-15);
     assert_true(fl_tangent_energy(&s) < 49.0 / (2.0 * k2));
+}
+
+/* Turning on the spot: a spring of k arm^2 about the normal up to limit arm; with slip the two share the
+ * limit. */
+static void friction_turns_and_shares_its_limit(void **state)
+{
+    const double k = 1000.0, dt = 1e-3, arm = 0.2, limit = 5.0, spin = 3.0;
+    const fl_rubbing c = {.n = v3(0, 0, 1), .k = k, .limit = limit, .arm = arm};
+    fl_slip s = {0};
+    double m = 0.0, taken = 0.0, before = 0.0;
+    (void)state;
+    fl_tangent_force(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
+    assert_near(m, -k * arm * arm * spin * dt, 1e-14);
+    for (int i = 0; i < 100; i++) fl_tangent_force(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
+    assert_near(m, -limit * arm, 1e-14);
+    assert_near(fl_tangent_energy(&s), 0.5 * limit * limit / k, 1e-14);
+    /* slip and turn of equal speed at the arm: each takes 1/sqrt(2) of the limit */
+    fl_vec3 f = v3(0, 0, 0);
+    for (int i = 0; i < 20000; i++) f = fl_tangent_force(&s, &c, v3(spin * arm, 0, 0), spin, 0.0, dt, &m);
+    assert_near(f.x, -limit / sqrt(2.0), 1e-6);
+    assert_near(m, -limit * arm / sqrt(2.0), 1e-6);
+    /* whatever it does, it takes work */
+    s = (fl_slip){0};
+    for (int i = 1; i <= 20000; i++) {
+        const double t = i * dt, w = 2.0 * sin(3.0 * t);
+        const fl_vec3 v = v3(cos(5.0 * t), sin(2.0 * t), 0);
+        f = fl_tangent_force(&s, &c, v, w, 0.0, dt, &m);
+        const double power = -(v3_dot(f, v) + m * w);
+        taken += 0.5 * dt * (power + before);
+        before = power;
+        assert_true(taken - fl_tangent_energy(&s) > -2.0 * dt * k * dt * i);
+    }
+    assert_true(taken > fl_tangent_energy(&s));
+    const fl_rubbing point = {.n = v3(0, 0, 1), .k = k, .limit = limit};
+    fl_tangent_force(&s, &point, v3(1, 0, 0), spin, 0.0, dt, &m); /* a point does not turn */
+    assert_near(m, 0.0, 0.0);
 }
 
 int main(void)
@@ -329,6 +373,7 @@ int main(void)
         cmocka_unit_test(friction_rolls_with_the_contact),
         cmocka_unit_test(friction_damping_stays_within_the_limit),
         cmocka_unit_test(friction_creates_no_energy),
+        cmocka_unit_test(friction_turns_and_shares_its_limit),
         cmocka_unit_test(friction_unloads_along_its_stiffness),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -231,7 +231,8 @@ static void V22(void)
     verify_note("%d pairs of boxes, %d of them meet; run.safety, mean and worst |dE|/E:", hits, touched);
     for (int d = 0; d < levels; d++) verify_note("  %6.3f %12.3e %12.3e", h[d], mean[d], worst[d]);
     verify_true("V22", "at least three quarters of them meet", 4 * touched >= 3 * hits);
-    verify_order("V22", "mean |dE|/E against run.safety", h, mean, levels, 2.0, 0.3);
+    /* a vertex sets in as s^(3/2), of which the step sees the start with an error of h^(5/2) */
+    verify_order("V22", "mean |dE|/E against run.safety", h, mean, levels, 2.5, 0.3);
     verify_below("V23", "largest |dp| over the sum of |p|", dp, 1e-12);
     verify_below("V23", "largest |dJ| over the sum of |J|", dJ, 1e-12);
 }
@@ -252,7 +253,7 @@ static void on_slope(lab *l, fl_vec3 half, double radius, double slope, double f
     const double area = 4.0 * (half.x - radius) * (half.y - radius),
                  weight = 8.0 * half.x * half.y * half.z * 900.0 * G * cos(slope),
                  modulus = fl_material_modulus((fl_elastic){100e6, 0.3}, (fl_elastic){INFINITY, 0.0}),
-                 overlap = weight / 4.0 / fl_material_punch(modulus, area);
+                 overlap = weight / fl_material_punch(modulus, area);
     lab_box(l, v3(0, 0, half.z - overlap), half, radius, q_one(), v3(0, 0, 0), v3(0, 0, 0));
 }
 
@@ -285,7 +286,7 @@ static void stand(int sudden, double end)
     on_slope(&l, v3(0.5, 0.5, height), 0.05, sudden ? slope : 0.0, mu, 0.3);
     lab_make(&l, 0);
     const fl_vec3 down = m3_tmul(l.w.b.R[0], v3(0, 0, -1));
-    const double kt = 4.0 * 0.824 * l.w.pair[0].k, most = mu * l.w.b.m[0] * G / kt,
+    const double kt = 0.824 * 2.0 * l.w.pair[0].k * 0.9, most = mu * l.w.b.m[0] * G / kt,
                  swing = G * sin(slope) * sqrt(l.w.b.m[0] / kt), start = base(&l, height, down);
     const int64_t tilting = sudden ? 0 : (int64_t)(1.0 / l.w.dt), half = (int64_t)(0.5 * end / l.w.dt);
     for (int64_t k = 1; k <= tilting; k++) {
@@ -320,15 +321,22 @@ static void V25(void)
 /* --- rocking
  * ------------------------------------------------------------------------------------------------ */
 
-/* A block of 2b x 2h = 0.5 x 2 m, tilted about its right foot; depth 0.5 m. */
-static void rocking(lab *l, double tilt, double restitution)
+/* A block of 2b x 2h = 0.5 x 2 m, tilted about its right foot at x = 0; depth 0.5 m.
+ *   bars  it stands with its outermost 2 mm on two bars, not on a plane: Housner's landing is a blow at the
+ *         other foot, and a base that closes over its whole width is struck all along it, by less */
+static void rocking(lab *l, double tilt, double restitution, int bars)
 {
-    const double b = 0.25, h = 1.0, r = 1e-4;
+    const double b = 0.25, h = 1.0, r = 1e-4, foot = 2e-3;
     const fl_quat q = q_of_vector(v3(0, tilt, 0));
     /* the lowest core corner stands a radius above the plane */
     const fl_vec3 corner = q_rotate(q, v3(b - r, 0, -(h - r)));
     lab_start(l);
-    lab_set(l, "boundary.min=none none 0");
+    if (bars) {
+        lab_wall(l, v3(-foot, -1, -0.1), v3(0.1, 1, 0), 1);
+        lab_wall(l, v3(-2.0 * b - 0.1, -1, -0.1), v3(-2.0 * (b - r) + foot, 1, 0), 1);
+    } else {
+        lab_set(l, "boundary.min=none none 0");
+    }
     lab_set(l, "material.ice.young=1 GPa");
     lab_set(l, "run.gravity=9.81");
     lab_set(l, "contact.friction=1000");
@@ -345,31 +353,46 @@ static double tilt_of(const fl_bodies *b, const fl_vec3 up) /* about y, of the a
 /* Kinetic energy and weight over that of the block at rest upright: what its turning holds. */
 static double turning(lab *l, double upright) { return lab_energy(l) - upright; }
 
+/* The block falls from a tilt until it stands upright: the moment of that, and what its turning holds halfway
+ * there, which is all it has before it lands. */
+static double fall(lab *l, double tilt, int bars, fl_vec3 *up, double *upright, double *falling)
+{
+    rocking(l, tilt, 0.01, bars);
+    lab_make(l, 0);
+    *up = m3_tmul(l->w.b.R[0], q_rotate(q_of_vector(v3(0, tilt, 0)), v3(0, 0, 1)));
+    *upright = l->w.b.m[0] * G * 1.0; /* its centre at half of 2 m */
+    double before = tilt, now = tilt;
+    while (now > 0.0) {
+        before = now;
+        if (lab_run(l, 1)) exit(1);
+        now = tilt_of(&l->w.b, *up);
+        if (before > 0.5 * tilt && now <= 0.5 * tilt) *falling = turning(l, *upright);
+    }
+    return l->w.dt * ((double)l->w.step - now / (now - before));
+}
+
 static void V19(void)
 {
     const double ratio[] = {0.5, 0.2, 0.8}, period[] = {1.97174, 1.03777, 3.43221}, alpha = 0.244979;
     for (int k = 0; k < (verify_quick() ? 1 : 3); k++) {
-        lab l;
-        rocking(&l, ratio[k] * alpha, 0.01);
-        lab_make(&l, 0);
-        const fl_vec3 up =
-            m3_tmul(l.w.b.R[0], q_rotate(q_of_vector(v3(0, ratio[k] * alpha, 0)), v3(0, 0, 1)));
-        const double upright = l.w.b.m[0] * G * 1.0; /* its centre at half of 2 m */
-        double before = ratio[k] * alpha, now = before;
-        while (now > 0.0) {
-            before = now;
-            if (lab_run(&l, 1)) exit(1);
-            now = tilt_of(&l.w.b, up);
+        for (int bars = 0; bars < 2; bars++) {
+            lab l;
+            fl_vec3 up;
+            double upright, falling = 0.0;
+            const double t = fall(&l, ratio[k] * alpha, bars, &up, &upright, &falling);
+            if (!bars)
+                verify_row("V19", text("period of rocking from %.1f alpha [s]", ratio[k]), 4.0 * t, period[k],
+                           0.01, VERIFY_REL);
+            /* V20: the other foot lands, and takes of the energy (1 - (1 - 3/2 sin^2 alpha)^2).  The speed
+             * before and after by the energy of turning, which the weight does not change. */
+            if (lab_run(&l, (int64_t)(0.05 / l.w.dt))) exit(1);
+            const double kept = sqrt(turning(&l, upright) / falling);
+            if (bars)
+                verify_row("V20", text("speed after over before landing, from %.1f alpha", ratio[k]), kept,
+                           0.911765, 0.02, VERIFY_REL);
+            else verify_note("on a plane, not on bars, the speed after over before landing is %.4f", kept);
+            lab_free(&l);
         }
-        const double t = l.w.dt * ((double)l.w.step - now / (now - before)), falling = turning(&l, upright);
-        verify_row("V19", text("period of rocking from %.1f alpha [s]", ratio[k]), 4.0 * t, period[k], 0.01,
-                   VERIFY_REL);
-        /* V20: the other foot lands, and takes of the energy (1 - (1 - 3/2 sin^2 alpha)^2).  The speed before
-         * and after by the energy of turning, which the weight does not change. */
-        if (lab_run(&l, (int64_t)(0.05 / l.w.dt))) exit(1);
-        verify_row("V20", text("speed after over before landing, from %.1f alpha", ratio[k]),
-                   sqrt(turning(&l, upright) / falling), 0.911765, 0.02, VERIFY_REL);
-        lab_free(&l);
     }
 }
 

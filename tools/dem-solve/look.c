@@ -39,7 +39,6 @@ static double mib_of(const fl_world *w)
     bytes += total * (7 * sizeof(fl_vec3) + sizeof(fl_quat) + sizeof(fl_mat3) + sizeof(fl_poly) +
                       12 * sizeof(double));
     bytes += w->n_pair * (sizeof(fl_pair) + 2.0 * sizeof(int32_t));
-    for (int32_t c = 0; c < w->n_pair; c++) bytes += w->pair[c].cap * (double)sizeof(fl_memory);
     return bytes / 1048576.0;
 }
 
