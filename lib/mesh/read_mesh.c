@@ -49,7 +49,23 @@ static int starts_with(const fl_bytes *b, const char *word)
     return strncasecmp(p, word, strlen(word)) == 0;
 }
 
-static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+/* Drop the parts that nobody wishes for. */
+static int choose(fl_surface *s, fl_wish *w, fl_err *err)
+{
+    int32_t kept = 0;
+    int failed = 0;
+    for (int32_t i = 0; i < s->n; i++) {
+        const int takes = failed ? 0 : fl_wish_takes(w, s->part[i].name, err);
+        failed |= takes < 0;
+        if (takes > 0) s->part[kept++] = s->part[i];
+        else fl_part_free(&s->part[i]);
+    }
+    s->n = kept;
+    return failed ? -1 : 0;
+}
+
+/* A mesh of triangles and polygons: chosen from once it is read. */
+static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
     const int zero = memchr(b->data, '\0', (size_t)b->n) != NULL;
     if (b->n == 0) return fl_bytes_fail(b, err, "empty, a mesh was wanted");
@@ -66,6 +82,11 @@ static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
     if (fl_off_is(b)) return fl_off_read(s, b, name, err);
     if (fl_obj_is(b)) return fl_obj_read(s, b, name, err);
     return fl_bytes_fail(b, err, "neither STL, OBJ, OFF, PLY nor g_struct");
+}
+
+static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+{
+    return read_faces(s, b, name, err) || choose(s, w, err) ? -1 : 0;
 }
 
 static void drop_empty(fl_surface *s, fl_bytes *b)
@@ -120,15 +141,20 @@ static int append(fl_surface *to, fl_surface *from, fl_err *err)
 
 int fl_mesh_read(fl_surface *s, const char *path, char *note, fl_err *err)
 {
+    return fl_mesh_read_some(s, path, NULL, note, err);
+}
+
+int fl_mesh_read_some(fl_surface *s, const char *path, fl_wish *w, char *note, fl_err *err)
+{
     fl_bytes b = {0};
     fl_surface got = {0};
     char name[NAME];
     int rc = -1;
     note[0] = '\0';
     base_name(path, name);
-    if (fl_bytes_load(&b, path, err) || read_any(&got, &b, name, err)) goto done;
+    if (fl_bytes_load(&b, path, err) || read_any(&got, &b, name, w, err)) goto done;
     drop_empty(&got, &b);
-    if (got.n == 0) {
+    if (got.n == 0 && !fl_wish_chooses(w)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);
         goto done;
     }

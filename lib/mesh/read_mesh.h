@@ -4,6 +4,7 @@
 #define FL_MESH_READ_MESH_H
 #include "geom/surface.h"
 #include "mesh/bytes.h"
+#include "mesh/wish.h"
 
 /* Add what path ("-" is standard input, gzip is unpacked) holds to s: STL (binary or ASCII), OBJ, OFF, PLY or
  * g_struct. The kind is told by content, never by name.  A part that has no name in the file is called by the
@@ -13,5 +14,9 @@
  *   note[FL_MESH_NOTE]   out: remarks for the user, each with its newline
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err and s as it was. */
 int fl_mesh_read(fl_surface *s, const char *path, char *note, fl_err *err);
+
+/* The same, of what is wished for only (see wish.h); where parts are chosen by name, none at all is an answer
+ * too.  w NULL wishes for everything. */
+int fl_mesh_read_some(fl_surface *s, const char *path, fl_wish *w, char *note, fl_err *err);
 
 #endif

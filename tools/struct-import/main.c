@@ -11,6 +11,7 @@
 #include "mesh/write_ply.h"
 #include "mesh/write_stl.h"
 #include "mesh/write_vtp.h"
+#include "named.h"
 #include "options.h"
 #include "quality.h"
 
@@ -64,11 +65,11 @@ static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *
     return 0;
 }
 
-static int read_file(const struct options *o, const struct item *it, fl_surface *s, fl_err *err)
+static int read_file(const struct options *o, const struct item *it, fl_wish *w, fl_surface *s, fl_err *err)
 {
     const int32_t first = s->n;
     char note[FL_MESH_NOTE];
-    if (fl_mesh_read(s, it->path, note, err) || rename_parts(s, first, it->name, err)) return -1;
+    if (fl_mesh_read_some(s, it->path, w, note, err) || rename_parts(s, first, it->name, err)) return -1;
     for (char *p = note, *end; !o->quiet && (end = strchr(p, '\n')) != NULL; p = end + 1)
         fprintf(stderr, "struct-import: %s: %.*s\n", it->path, (int)(end - p), p);
     for (int32_t i = first; i < s->n; i++) place(o, &s->part[i]);
@@ -97,9 +98,15 @@ static int facet(fl_part *p, int32_t n, fl_err *err)
 static int collect(const struct options *o, fl_surface *s, fl_err *err)
 {
     const int32_t facets = o->facets ? o->facets : o->to == TO_G_STRUCT ? 0 : ROUND_FACETS;
-    for (int32_t k = 0; k < o->items; k++)
-        if (o->item[k].kind == ITEM_FILE ? read_file(o, &o->item[k], s, err) : make(&o->item[k], s, err))
-            return -1;
+    struct chosen c = {0};
+    int bad = chosen_start(&c, o, err);
+    for (int32_t k = 0; !bad && k < o->items; k++) {
+        const struct item *it = &o->item[k];
+        bad = it->kind == ITEM_FILE ? read_file(o, it, &c.w, s, err) : make(it, s, err);
+    }
+    if (!bad) bad = chosen_check(&c, err);
+    chosen_free(&c);
+    if (bad || rename_all(o, s, err)) return -1;
     for (int32_t i = 0; facets && i < s->n; i++)
         if (facet(&s->part[i], facets, err)) return -1;
     return 0;

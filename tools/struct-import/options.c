@@ -16,6 +16,9 @@ static const char HELP[] =
     "      --cone R0,Z0,R1,Z1[,X,Y]      an upright cone, cut where both radii are above 0 [m]\n"
     "      --box X0,Y0,Z0,X1,Y1,Z1       a box of 12 triangles [m]\n"
     "  -n, --name NAME         name of the part that comes next; at the end, of the last one\n"
+    "      --part PATTERN      take only the parts and sets that are like it, * and ? stand for bytes\n"
+    "      --rename OLD=NEW    call what is like the pattern OLD by the name NEW; equal names join\n"
+    "      --subdivide         quadratic faces become 4, 6 or 8 triangles instead of 1 or 2\n"
     "  -f, --facets N          make cylinders and cones of triangles, N round the circle\n"
     "  -u, --unit UNIT         length unit of the files: mm, cm, m, in or ft (m)\n"
     "  -s, --scale S           multiply the coordinates of the files by S (1)\n"
@@ -34,12 +37,15 @@ static const char HELP[] =
     "  -h, --help              this text\n"
     "      --version           the version\n";
 
-enum { CYLINDER = 256, CONE, BOX, UP, FILL_HOLES, RAW, STRICT, TO, VERSION };
+enum { CYLINDER = 256, CONE, BOX, PART, RENAME, SUBDIVIDE, UP, FILL_HOLES, RAW, STRICT, TO, VERSION };
 
 static const struct option LONG[] = {{"cylinder", required_argument, NULL, CYLINDER},
                                      {"cone", required_argument, NULL, CONE},
                                      {"box", required_argument, NULL, BOX},
                                      {"name", required_argument, NULL, 'n'},
+                                     {"part", required_argument, NULL, PART},
+                                     {"rename", required_argument, NULL, RENAME},
+                                     {"subdivide", no_argument, NULL, SUBDIVIDE},
                                      {"facets", required_argument, NULL, 'f'},
                                      {"unit", required_argument, NULL, 'u'},
                                      {"scale", required_argument, NULL, 's'},
@@ -154,6 +160,30 @@ static int positive(const char *option, const char *text, double *x, fl_err *err
                     : fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number above 0 was wanted", option, text);
 }
 
+static int pattern(struct options *o, const char *text, fl_err *err)
+{
+    if (*text == '\0') return fl_fail(err, FL_USAGE, "--part is empty, a pattern was wanted");
+    if (fl_grow(&o->part, &o->part_cap, (int64_t)o->parts + 1, sizeof *o->part, err)) return -1;
+    o->part[o->parts++] = text;
+    return 0;
+}
+
+/* OLD=NEW, divided at the last "=": names in decks hold any byte, new ones are the user's own. */
+static int rename_as(struct options *o, const char *text, fl_err *err)
+{
+    const char *mid = strrchr(text, '=');
+    struct alias *a;
+    if (!mid || mid == text || mid[1] == '\0')
+        return fl_fail(err, FL_USAGE, "--rename is \"%.60s\", OLD=NEW was wanted", text);
+    if (fl_grow(&o->alias, &o->alias_cap, (int64_t)o->aliases + 1, sizeof *o->alias, err)) return -1;
+    a = &o->alias[o->aliases];
+    *a = (struct alias){.text = text, .name = mid + 1, .old = fl_alloc(mid - text + 1, 1, err)};
+    if (!a->old) return -1;
+    memcpy(a->old, text, (size_t)(mid - text));
+    o->aliases++;
+    return 0;
+}
+
 static int format(struct options *o, const char *text, fl_err *err)
 {
     static const char *const name[FORMATS] = {"g_struct", "stl", "stl-binary", "obj", "off", "ply", "vtp"};
@@ -183,6 +213,9 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
         if (*arg == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
         *waiting = arg;
         return 0;
+    case PART: return pattern(o, arg, err);
+    case RENAME: return rename_as(o, arg, err);
+    case SUBDIVIDE: o->subdivide = 1; return 0;
     case 'f': return whole("facets", arg, 3, FL_FACET_CORNERS, &o->facets, err);
     case 'u': return unit(o, arg, err);
     case 's': return positive("scale", arg, &o->factor, err);
@@ -260,13 +293,22 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     return o->ended ? 0 : finish(o, waiting, err);
 }
 
-void options_free(struct options *o) { free(o->item); }
+void options_free(struct options *o)
+{
+    for (int32_t k = 0; k < o->aliases; k++) free(o->alias[k].old);
+    free(o->alias);
+    free(o->part);
+    free(o->item);
+}
 
 void options_by(const struct options *o, fl_by *by)
 {
     static const char *const option[] = {"", "--cylinder ", "--cone ", "--box "};
     char a[FL_NUM_LEN], b[FL_NUM_LEN], c[FL_NUM_LEN];
     fl_by_start(by, "struct-import");
+    for (int32_t k = 0; k < o->parts; k++) fl_by_add(by, "--part %s", o->part[k]);
+    for (int32_t k = 0; k < o->aliases; k++) fl_by_add(by, "--rename %s", o->alias[k].text);
+    if (o->subdivide) fl_by_add(by, "--subdivide");
     if (o->facets) fl_by_add(by, "--facets %d", o->facets);
     if (o->unit) fl_by_add(by, "--unit %s", o->unit);
     if (o->factor != 1.0) fl_by_add(by, "--scale %s", fl_num_text(o->factor, a));

@@ -19,9 +19,19 @@ struct item {
     fl_aabb box;
 };
 
+/* What is like the pattern old becomes name. */
+struct alias {
+    char *old;
+    const char *name, *text; /* borrowed */
+};
+
 struct options {
     struct item *item; /* [items]; standard input when none was given */
     int32_t items, item_cap;
+    const char **part; /* [parts] borrowed patterns of the parts that are taken; none takes all */
+    int32_t parts, part_cap;
+    struct alias *alias; /* [aliases] */
+    int32_t aliases, alias_cap;
     const char *out, *unit; /* borrowed; unit is NULL when unknown */
     enum format to;
     int32_t facets;     /* 0: round solids stay what they are */
@@ -30,7 +40,7 @@ struct options {
     double factor;      /* --scale alone, 1 when not given */
     fl_vec3 translate;  /* [m] */
     double weld;        /* [m]; < 0: automatic */
-    int y_up, strict, raw;
+    int y_up, strict, raw, subdivide;
     int gzip, quiet, verbose, threads;
     int ended; /* --help or --version was answered */
 };
