@@ -15,7 +15,7 @@ static const char HELP[] =
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
     "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, legs, events,\n"
-    "                          summary, ensemble or cycles (stats)\n"
+    "                          rainflow, damage, summary, ensemble or cycles (stats)\n"
     "      --summary           the table summary: what adds up, of one run or of many files\n"
     "      --merge             the files are summaries: add them up\n"
     "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
@@ -39,8 +39,10 @@ static const char HELP[] =
     "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
     "      --block S           of blocks: their length\n"
     "      --level R           of legs, events: durations are those above R times the peak (0.5)\n"
-    "      --rule RULE         of load cycles in a summary: astm (E1049) or iso (12110-2) (astm)\n"
+    "      --rule RULE         of load cycles: astm (E1049) or iso (12110-2) (astm)\n"
     "      --residue WHAT      what iso leaves open: half cycles, repeat, or none (half)\n"
+    "      --sn M[,A[,M2,KNEE]] of damage: N = A S^-M cycles to failure, slope M2 below S = KNEE (3; 5)\n"
+    "      --stress X          of damage: stress per unit of the load (1)\n"
     "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
     "      --resamples N       for intervals and probabilities, 0 for none (199)\n"
     "      --seed N            of their random numbers (1)\n"
@@ -80,7 +82,9 @@ enum {
     PATIENCE,
     LEVEL,
     RULE,
-    RESIDUE
+    RESIDUE,
+    SN,
+    STRESS
 };
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
@@ -112,6 +116,8 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"patience", required_argument, NULL, PATIENCE},
                                      {"rule", required_argument, NULL, RULE},
                                      {"residue", required_argument, NULL, RESIDUE},
+                                     {"sn", required_argument, NULL, SN},
+                                     {"stress", required_argument, NULL, STRESS},
                                      {"merge", no_argument, NULL, MERGE},
                                      {"stream", no_argument, NULL, STREAM},
                                      {"follow", required_argument, NULL, FOLLOW},
@@ -124,8 +130,13 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-static const char *const TABLE[] = {"stats", "peaks",  "histogram", "exceedance", "fits",  "levels",
-                                    "legs",  "events", "summary",   "ensemble",   "cycles"};
+static const char *const TABLE[] = {[TABLE_STATS] = "stats",         [TABLE_PEAKS] = "peaks",
+                                    [TABLE_HISTOGRAM] = "histogram", [TABLE_EXCEEDANCE] = "exceedance",
+                                    [TABLE_FITS] = "fits",           [TABLE_LEVELS] = "levels",
+                                    [TABLE_LEGS] = "legs",           [TABLE_EVENTS] = "events",
+                                    [TABLE_RAINFLOW] = "rainflow",   [TABLE_DAMAGE] = "damage",
+                                    [TABLE_SUMMARY] = "summary",     [TABLE_ENSEMBLE] = "ensemble",
+                                    [TABLE_CYCLES] = "cycles"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
@@ -239,6 +250,35 @@ static int take_return(struct options *o, char *word, fl_err *err)
     return time_of("return", word, &o->period[o->returns++], err);
 }
 
+/* The words of one --sn; o->sns is raised when all of them are known. */
+static int take_sn(struct options *o, char *word, fl_err *err)
+{
+    fl_sn *sn = &o->sn[o->sns];
+    const double tiny = 1e-300, huge = 1e300;
+    switch (o->sn_words++) {
+    case 0: return number("sn", word, 1e-3, 100.0, "an exponent above 0", &sn->m, err);
+    case 1: return number("sn", word, tiny, huge, "cycles to failure at a stress of 1", &sn->a, err);
+    case 2:
+        sn->m2 = INFINITY;
+        if (strcmp(word, "inf") == 0) return 0;
+        return number("sn", word, 1e-3, 100.0, "the exponent below the knee, or inf,", &sn->m2, err);
+    case 3: return number("sn", word, tiny, huge, "the stress at the knee", &sn->knee, err);
+    default: return fl_fail(err, FL_USAGE, "--sn has more than M,A,M2,KNEE");
+    }
+}
+
+static int add_sn(struct options *o, const char *text, fl_err *err)
+{
+    if (o->sns == SNS_MAX) return fl_fail(err, FL_USAGE, "more than %d S-N lines were given", SNS_MAX);
+    o->sn[o->sns] = (fl_sn){.a = NAN};
+    o->sn_words = 0;
+    if (each(o, "sn", text, take_sn, err)) return -1;
+    if (o->sn_words == 3)
+        return fl_fail(err, FL_USAGE, "--sn \"%.60s\" has a second slope but no knee", text);
+    o->sns++;
+    return 0;
+}
+
 static int apply(struct options *o, int c, const char *arg, fl_err *err)
 {
     const double tiny = 1e-300, huge = 1e300;
@@ -295,6 +335,8 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case RESIDUE:
         o->residue = choice("residue", arg, OPEN_CYCLES, COUNT(OPEN_CYCLES), err);
         return o->residue < 0 ? -1 : 0;
+    case SN: return add_sn(o, arg, err);
+    case STRESS: return number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
     case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
     case FOLLOW: return time_of("follow", arg, &o->follow, err);
     case FORMAT:
@@ -335,8 +377,9 @@ static int check_summary(struct options *o, fl_err *err)
     const int many = o->table >= TABLE_SUMMARY || o->merge;
     const char *how = o->follow > 0.0 ? "follow" : o->merge ? "merge" : "stream";
     if (o->merge && !o->table_given) o->table = TABLE_SUMMARY;
-    const int table = o->table == TABLE_STATS || o->table == TABLE_HISTOGRAM || o->table >= TABLE_SUMMARY ||
-                      (many_runs(o) && (o->table == TABLE_FITS || o->table == TABLE_LEVELS));
+    const int table =
+        o->table == TABLE_STATS || o->table == TABLE_HISTOGRAM || o->table >= TABLE_SUMMARY ||
+        (many_runs(o) && (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->table == TABLE_DAMAGE));
     if (o->files > 1 && !many && !o->stream)
         return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
     if (!many && !o->stream && !(o->follow > 0.0)) return 0;
@@ -367,6 +410,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .separation = 0.5,
                           .bins = 20,
                           .level = 0.5,
+                          .stress = 1.0,
                           .resamples = 199,
                           .seed = 1,
                           .quantiles = COUNT(usual)};
@@ -414,6 +458,20 @@ static void add_number(fl_by *by, const char *option, double x)
     fl_by_add(by, "--%s %s", option, fl_num_text(x, buf));
 }
 
+static void add_sn_line(fl_by *by, const fl_sn *sn)
+{
+    char m[FL_NUM_LEN], a[FL_NUM_LEN], m2[FL_NUM_LEN] = "inf", knee[FL_NUM_LEN];
+    fl_num_text(sn->m, m);
+    if (isnan(sn->a)) {
+        fl_by_add(by, "--sn %s", m);
+        return;
+    }
+    fl_num_text(sn->a, a);
+    if (isfinite(sn->m2)) fl_num_text(sn->m2, m2);
+    if (sn->knee > 0.0) fl_by_add(by, "--sn %s,%s,%s,%s", m, a, m2, fl_num_text(sn->knee, knee));
+    else fl_by_add(by, "--sn %s,%s", m, a);
+}
+
 /* What is read. */
 static void add_choice(const struct options *o, fl_by *by)
 {
@@ -436,7 +494,8 @@ void options_by(const struct options *o, fl_by *by)
     }
     add_number(by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
-    if (o->table == TABLE_HISTOGRAM && !many_runs(o)) fl_by_add(by, "--bins %d", o->bins);
+    if ((o->table == TABLE_HISTOGRAM && !many_runs(o)) || o->table == TABLE_RAINFLOW)
+        fl_by_add(by, "--bins %d", o->bins);
     if ((o->table == TABLE_STATS || o->page) && o->quantiles_text)
         fl_by_add(by, "--quantiles %s", o->quantiles_text);
     if (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->page) {
@@ -450,10 +509,13 @@ void options_by(const struct options *o, fl_by *by)
     if ((o->table == TABLE_LEGS || o->table == TABLE_EVENTS || o->page) && o->level != 0.5)
         add_number(by, "level", o->level);
     if (o->page && o->table != TABLE_STATS) fl_by_add(by, "--table %s", TABLE[o->table]);
-    if (o->table == TABLE_CYCLES && o->rule) {
+    const int cycles = o->table == TABLE_CYCLES || o->table == TABLE_RAINFLOW || o->table == TABLE_DAMAGE;
+    if (cycles && o->rule && !o->merge) {
         fl_by_add(by, "--rule %s", CYCLE_RULE[o->rule]);
         fl_by_add(by, "--residue %s", OPEN_CYCLES[o->residue]);
     }
+    for (int32_t k = 0; o->table == TABLE_DAMAGE && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
+    if (o->table == TABLE_DAMAGE && o->stress != 1.0) add_number(by, "stress", o->stress);
     if (o->merge) fl_by_add(by, "--merge");
     if (o->stream) fl_by_add(by, "--stream");
     if (o->follow > 0.0) add_number(by, "follow", o->follow);

@@ -5,8 +5,9 @@
 #include <stdint.h>
 #include "base/err.h"
 #include "base/tool.h"
+#include "stat/rainflow.h"
 
-enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50, WHERES_MAX = 16 };
+enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50, WHERES_MAX = 16, SNS_MAX = 8 };
 enum table {
     TABLE_STATS,
     TABLE_PEAKS,
@@ -16,6 +17,8 @@ enum table {
     TABLE_LEVELS,
     TABLE_LEGS,
     TABLE_EVENTS,
+    TABLE_RAINFLOW,
+    TABLE_DAMAGE,
     TABLE_SUMMARY,
     TABLE_ENSEMBLE,
     TABLE_CYCLES
@@ -51,8 +54,11 @@ struct options {
     int32_t wheres;
     int over;          /* fl_over */
     int rule, residue; /* of the cycles, fl_rainflow_rule and fl_residue */
-    double follow;     /* [s] of data between two reports, 0 for one at the end */
-    int ended;         /* --help or --version was answered */
+    fl_sn sn[SNS_MAX]; /* a is NAN where only the exponent was given */
+    int32_t sns, sn_words;
+    double stress; /* per unit of the load */
+    double follow; /* [s] of data between two reports, 0 for one at the end */
+    int ended;     /* --help or --version was answered */
 };
 
 /* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */

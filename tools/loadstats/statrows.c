@@ -3,6 +3,7 @@
 #include "base/num.h"
 #include "stat/extreme.h"
 #include "stat/histogram.h"
+#include "cyclerows.h"
 #include "fitrows.h"
 #include "legrows.h"
 #include "statrows.h"
@@ -127,6 +128,8 @@ void statrows_header(FILE *f, const struct options *o)
     case TABLE_LEVELS: fitrows_header(f, o); break;
     case TABLE_LEGS:
     case TABLE_EVENTS: legrows_header(f, o); break;
+    case TABLE_RAINFLOW:
+    case TABLE_DAMAGE: cyclerows_header(f, o); break;
     case TABLE_SUMMARY:
     case TABLE_ENSEMBLE:
     case TABLE_CYCLES: break; /* sumrows.h */
@@ -145,6 +148,8 @@ int statrows_write(FILE *f, const struct result *r, const struct options *o, con
         for (int32_t s = 0; s < r->s->signals; s++) {
             if (!view_of(r, p, s, 0)) continue;
             if (o->table == TABLE_HISTOGRAM && histogram_rows(f, r, o, p, s, err)) return -1;
+            const int cycles = o->table == TABLE_RAINFLOW || o->table == TABLE_DAMAGE;
+            if (cycles && cyclerows_write(f, r, o, p, s, err)) return -1;
             for (int w = 0; w < r->each && o->table != TABLE_HISTOGRAM; w++) {
                 const fl_view *v = view_of(r, p, s, w);
                 const int fit = o->table == TABLE_FITS || o->table == TABLE_LEVELS;

@@ -10,6 +10,7 @@
 #include "stat/rainflow.h"
 #include "stat/reduce.h"
 #include "stat/summary_file.h"
+#include "cyclerows.h"
 #include "fitrows.h"
 #include "page.h"
 #include "plot.h"
@@ -221,13 +222,11 @@ static int fit_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s, 
 /* Load cycles by classes of their range. */
 static int cycle_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s, fl_err *err)
 {
-    const int own = all->ask.rule == FL_RAINFLOW_ASTM; /* treats its residue itself */
     fl_class *sorted;
     if (fl_classes_sort(&s->cycle, &sorted, err)) return -1;
     for (int32_t k = 0; k < s->cycle.n; k++) {
         label(f, s);
-        fprintf(f, "\t%s\t%s", fl_rainflow_rule_name(all->ask.rule),
-                own ? "-" : fl_residue_name(all->ask.residue));
+        cyclerows_rule(f, all->ask.rule, all->ask.residue);
         put_field(f, fl_classes_lower(sorted[k].key));
         put_field(f, fl_classes_upper(sorted[k].key));
         put_field(f, 0.5 * (double)sorted[k].n);
@@ -237,12 +236,40 @@ static int cycle_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s
     return 0;
 }
 
+/* Damage of the cycles of all runs, each taken for the middle of its class. */
+static int damage_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s, const struct options *o,
+                       fl_err *err)
+{
+    const int32_t n = s->cycle.n;
+    fl_class *sorted;
+    if (fl_classes_sort(&s->cycle, &sorted, err)) return -1;
+    fl_cycle *cycle = fl_alloc(n, sizeof *cycle, err);
+    for (int32_t k = 0; cycle && k < n; k++) {
+        const double lo = fl_classes_lower(sorted[k].key), hi = fl_classes_upper(sorted[k].key);
+        cycle[k] = (fl_cycle){.range = lo + 0.5 * (hi - lo), .count = 0.5 * (double)sorted[k].n};
+    }
+    const cyclerows_load load = {.part = s->part,
+                                 .signal = s->signal,
+                                 .unit = s->unit,
+                                 .view = view_name(0),
+                                 .rule = all->ask.rule,
+                                 .residue = all->ask.residue,
+                                 .n = n,
+                                 .cycle = cycle,
+                                 .span = fl_exact_value(&s->sum[0])};
+    if (cycle) cyclerows_damage(f, &load, o);
+    free(sorted);
+    free(cycle);
+    return cycle ? 0 : -1;
+}
+
 static int one_by_one(FILE *f, const fl_summary *all, fl_summary_signal *s, const struct options *o,
                       fl_err *err)
 {
     fl_values_sort(&s->block); /* whatever the order of the files */
     fl_values_sort(&s->run[FL_RUN_MAX]);
     if (o->table == TABLE_HISTOGRAM) return histogram_rows(f, s, err);
+    if (o->table == TABLE_DAMAGE) return damage_rows(f, all, s, o, err);
     return o->table == TABLE_CYCLES ? cycle_rows(f, all, s, err) : fit_rows(f, all, s, o, err);
 }
 
