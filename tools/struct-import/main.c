@@ -18,26 +18,6 @@
 /* Of a round solid in a format that knows triangles only; 0.2 % of its volume is lost. */
 enum { ROUND_FACETS = 64 };
 
-/* Turn y up into z up, scale to metres, move. */
-static void place(const struct options *o, fl_part *p)
-{
-    fl_vec3 *point[2];
-    for (int32_t v = 0; v < p->nv; v++) {
-        const fl_vec3 x = o->y_up ? v3(p->v[v].x, -p->v[v].z, p->v[v].y) : p->v[v];
-        p->v[v] = v3_madd(o->translate, o->scale, x);
-    }
-    for (int32_t c = 0; c < p->nc; c++) {
-        point[0] = &p->cone[c].p0;
-        point[1] = &p->cone[c].p1;
-        for (int k = 0; k < 2; k++) {
-            const fl_vec3 x = o->y_up ? v3(point[k]->x, -point[k]->z, point[k]->y) : *point[k];
-            *point[k] = v3_madd(o->translate, o->scale, x);
-        }
-        p->cone[c].r0 *= o->scale;
-        p->cone[c].r1 *= o->scale;
-    }
-}
-
 /* A file of one part takes the name; the parts of one of several put it before theirs. */
 static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *err)
 {
@@ -72,7 +52,7 @@ static int read_file(const struct options *o, const struct item *it, fl_wish *w,
     if (fl_mesh_read_some(s, it->path, w, note, err) || rename_parts(s, first, it->name, err)) return -1;
     for (char *p = note, *end; !o->quiet && (end = strchr(p, '\n')) != NULL; p = end + 1)
         fprintf(stderr, "struct-import: %s: %.*s\n", it->path, (int)(end - p), p);
-    for (int32_t i = first; i < s->n; i++) place(o, &s->part[i]);
+    for (int32_t i = first; i < s->n; i++) fl_part_map(&s->part[i], &o->map);
     return 0;
 }
 

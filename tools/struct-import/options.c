@@ -23,6 +23,8 @@ static const char HELP[] =
     "  -u, --unit UNIT         length unit of the files: mm, cm, m, in or ft (m)\n"
     "  -s, --scale S           multiply the coordinates of the files by S (1)\n"
     "      --up AXIS           axis that points up in the files, y or z (z)\n"
+    "      --mirror AXIS       mirror the files in the plane across x, y or z\n"
+    "      --rotate AX,AY,AZ,DEG  turn the files about an axis through the origin\n"
     "  -t, --translate X,Y,Z   then move what the files hold [m]\n"
     "  -w, --weld TOL          merge vertices within TOL [m] (1e-6 of the part's diagonal)\n"
     "      --fill-holes N      close holes of up to N edges (0)\n"
@@ -37,7 +39,22 @@ static const char HELP[] =
     "  -h, --help              this text\n"
     "      --version           the version\n";
 
-enum { CYLINDER = 256, CONE, BOX, PART, RENAME, SUBDIVIDE, UP, FILL_HOLES, RAW, STRICT, TO, VERSION };
+enum {
+    CYLINDER = 256,
+    CONE,
+    BOX,
+    PART,
+    RENAME,
+    SUBDIVIDE,
+    UP,
+    FILL_HOLES,
+    RAW,
+    STRICT,
+    TO,
+    VERSION,
+    MIRROR,
+    ROTATE
+};
 
 static const struct option LONG[] = {{"cylinder", required_argument, NULL, CYLINDER},
                                      {"cone", required_argument, NULL, CONE},
@@ -50,6 +67,8 @@ static const struct option LONG[] = {{"cylinder", required_argument, NULL, CYLIN
                                      {"unit", required_argument, NULL, 'u'},
                                      {"scale", required_argument, NULL, 's'},
                                      {"up", required_argument, NULL, UP},
+                                     {"mirror", required_argument, NULL, MIRROR},
+                                     {"rotate", required_argument, NULL, ROTATE},
                                      {"translate", required_argument, NULL, 't'},
                                      {"weld", required_argument, NULL, 'w'},
                                      {"fill-holes", required_argument, NULL, FILL_HOLES},
@@ -147,7 +166,7 @@ static int unit(struct options *o, const char *text, fl_err *err)
     for (size_t k = 0; k < sizeof UNIT / sizeof UNIT[0]; k++)
         if (strcmp(text, UNIT[k].name) == 0) {
             o->unit = UNIT[k].name;
-            o->scale = UNIT[k].metres;
+            o->map.s = UNIT[k].metres;
             return 0;
         }
     return fl_fail(err, FL_USAGE, "--unit is \"%.60s\", one of mm cm m in ft was wanted", text);
@@ -182,6 +201,31 @@ static int rename_as(struct options *o, const char *text, fl_err *err)
     memcpy(a->old, text, (size_t)(mid - text));
     o->aliases++;
     return 0;
+}
+
+/* Kept as text too: the history says what was given. */
+static int rotate(struct options *o, const char *text, fl_err *err)
+{
+    double x[4] = {0};
+    if (numbers("rotate", text, 4, 4, x, err) < 0) return -1;
+    if (!(v3_norm(v3(x[0], x[1], x[2])) > 0.0))
+        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", an axis of some length was wanted", text);
+    if (o->turns == TURNS) return fl_fail(err, FL_USAGE, "--rotate is given more than %d times", TURNS);
+    const fl_mat3 r = fl_similar_rotation(v3(x[0], x[1], x[2]), x[3]);
+    o->rotate[o->turns++] = text;
+    o->map.q = fl_similar_product(&r, &o->map.q);
+    return 0;
+}
+
+/* The axis is turned and mirrored before the turns of --rotate, whatever order they were given in. */
+static void place_first(struct options *o)
+{
+    static const fl_mat3 y_up = {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
+    fl_mat3 first = fl_similar_one().q;
+    if (o->y_up) first = y_up;
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 3 && o->mirror >> k & 1; j++) first.m[k][j] = -first.m[k][j];
+    o->map.q = fl_similar_product(&o->map.q, &first);
 }
 
 static int format(struct options *o, const char *text, fl_err *err)
@@ -223,9 +267,15 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
         o->y_up = strcmp(arg, "y") == 0;
         if (o->y_up || strcmp(arg, "z") == 0) return 0;
         return fl_fail(err, FL_USAGE, "--up is \"%.60s\", y or z was wanted", arg);
+    case MIRROR:
+        if (strlen(arg) != 1 || !strchr("xyz", *arg))
+            return fl_fail(err, FL_USAGE, "--mirror is \"%.60s\", x, y or z was wanted", arg);
+        o->mirror ^= 1 << (*arg - 'x');
+        return 0;
+    case ROTATE: return rotate(o, arg, err);
     case 't':
         if (numbers("translate", arg, 3, 3, x, err) < 0) return -1;
-        o->translate = v3(x[0], x[1], x[2]);
+        o->map.t = v3(x[0], x[1], x[2]);
         return 0;
     case 'w':
         if (numbers("weld", arg, 1, 1, &o->weld, err) < 0) return -1;
@@ -269,7 +319,8 @@ static int finish(struct options *o, const char *waiting, fl_err *err)
         streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
     if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
     if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes do not go together");
-    o->scale *= o->factor;
+    o->map.s *= o->factor;
+    place_first(o);
     return 0;
 }
 
@@ -277,7 +328,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
     const char *waiting = NULL; /* a name without a part yet */
     int c;
-    *o = (struct options){.out = "-", .scale = 1.0, .factor = 1.0, .weld = -1.0};
+    *o = (struct options){.out = "-", .map = fl_similar_one(), .factor = 1.0, .weld = -1.0};
     opterr = 0;
     /* "-": files come in their order among the options, as if by an option of code 1 */
     while (!o->ended && (c = getopt_long(argc, argv, "-:n:f:u:s:t:w:o:zj:qvh", LONG, NULL)) != -1) {
@@ -313,9 +364,12 @@ void options_by(const struct options *o, fl_by *by)
     if (o->unit) fl_by_add(by, "--unit %s", o->unit);
     if (o->factor != 1.0) fl_by_add(by, "--scale %s", fl_num_text(o->factor, a));
     if (o->y_up) fl_by_add(by, "--up y");
-    if (v3_norm(o->translate) > 0.0)
-        fl_by_add(by, "--translate %s,%s,%s", fl_num_text(o->translate.x, a), fl_num_text(o->translate.y, b),
-                  fl_num_text(o->translate.z, c));
+    for (int k = 0; k < 3; k++)
+        if (o->mirror >> k & 1) fl_by_add(by, "--mirror %c", 'x' + k);
+    for (int k = 0; k < o->turns; k++) fl_by_add(by, "--rotate %s", o->rotate[k]);
+    if (v3_norm(o->map.t) > 0.0)
+        fl_by_add(by, "--translate %s,%s,%s", fl_num_text(o->map.t.x, a), fl_num_text(o->map.t.y, b),
+                  fl_num_text(o->map.t.z, c));
     if (o->weld >= 0.0) fl_by_add(by, "--weld %s", fl_num_text(o->weld, a));
     if (o->fill_holes) fl_by_add(by, "--fill-holes %d", o->fill_holes);
     if (o->raw) fl_by_add(by, "--raw");

@@ -5,8 +5,10 @@
 #include <stdint.h>
 #include "base/err.h"
 #include "base/tool.h"
+#include "geom/similar.h"
 #include "geom/surface.h"
 
+enum { TURNS = 16 };
 enum item_kind { ITEM_FILE, ITEM_CYLINDER, ITEM_CONE, ITEM_BOX };
 enum format { TO_G_STRUCT, TO_STL, TO_STL_BINARY, TO_OBJ, TO_OFF, TO_PLY, TO_VTP, FORMATS };
 
@@ -36,10 +38,11 @@ struct options {
     enum format to;
     int32_t facets;     /* 0: round solids stay what they are */
     int32_t fill_holes; /* rims of up to this many edges are closed */
-    double scale;       /* metres per unit of the file, times --scale */
+    fl_similar map;     /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
     double factor;      /* --scale alone, 1 when not given */
-    fl_vec3 translate;  /* [m] */
-    double weld;        /* [m]; < 0: automatic */
+    const char *rotate[TURNS]; /* [turns] borrowed, as given */
+    int turns, mirror;         /* bits 0, 1, 2 of mirror: x, y, z */
+    double weld;               /* [m]; < 0: automatic */
     int y_up, strict, raw, subdivide;
     int gzip, quiet, verbose, threads;
     int ended; /* --help or --version was answered */
