@@ -47,6 +47,13 @@ int fl_field_add(fl_field *a, int32_t id, double radius, fl_poly *core, const ch
     return 0;
 }
 
+int fl_field_add_bond(fl_field *a, int32_t i, int32_t j, double area, double length, fl_vec3 x, fl_err *err)
+{
+    if (fl_grow(&a->bond, &a->bond_cap, (int64_t)a->bonds + 1, sizeof *a->bond, err)) return -1;
+    a->bond[a->bonds++] = (fl_field_bond){i < j ? i : j, i < j ? j : i, area, length, x};
+    return 0;
+}
+
 void fl_field_free(fl_field *a)
 {
     for (int32_t i = 0; i < a->n; i++) fl_poly_free(&a->core[i]);
@@ -58,6 +65,7 @@ void fl_field_free(fl_field *a)
     free(a->core);
     free(a->vel);
     free(a->spin);
+    free(a->bond);
     free(a->history);
     fl_names_free(&a->materials);
     fl_names_free(&a->groups);
@@ -76,6 +84,8 @@ struct body {
     fl_vec3 vel, spin;
     fl_vec3 *v;
     int32_t *first, *loop;
+    int32_t *bond_line; /* [bonds] */
+    int32_t bond_line_cap;
 };
 
 static int fail_at(const fl_text *in, int32_t line, fl_err *err, const char *sentence)
@@ -223,21 +233,50 @@ static int read_vel(struct body *b, fl_text *in, fl_err *err)
     return fl_text_end(in, err);
 }
 
+/* i and j hold ids until all bodies are known. */
+static int read_bond(fl_field *a, struct body *b, fl_text *in, fl_err *err)
+{
+    fl_field_bond d = {0};
+    if (in->version < 2)
+        return fl_text_fail(in, err, "a bond is of g-polys 2, the file says g-polys %d", in->version);
+    if (close_body(a, b, in, err)) return -1;
+    if (fl_text_i32(in, "id", 0, INT32_MAX, &d.i, err) || fl_text_i32(in, "id", 0, INT32_MAX, &d.j, err) ||
+        fl_text_f64(in, "area", &d.area, err) || fl_text_f64(in, "length", &d.length, err) ||
+        fl_text_f64(in, "x", &d.x.x, err) || fl_text_f64(in, "y", &d.x.y, err) ||
+        fl_text_f64(in, "z", &d.x.z, err) || fl_text_end(in, err))
+        return -1;
+    if (d.i == d.j) return fl_text_fail(in, err, "body %d is bonded to itself, two bodies were wanted", d.i);
+    if (!(d.area > 0.0 && d.length > 0.0 && d.area <= FL_FIELD_FAR * FL_FIELD_FAR &&
+          d.length <= FL_FIELD_FAR))
+        return fl_text_fail(in, err, "the bond has area %g m2 and length %g m, more than 0 was wanted",
+                            d.area, d.length);
+    if (fabs(d.x.x) > FL_FIELD_FAR || fabs(d.x.y) > FL_FIELD_FAR || fabs(d.x.z) > FL_FIELD_FAR)
+        return fl_text_fail(in, err, "centroid (%g, %g, %g) m is farther than %g m", d.x.x, d.x.y, d.x.z,
+                            FL_FIELD_FAR);
+    if (fl_grow(&b->bond_line, &b->bond_line_cap, (int64_t)a->bonds + 1, sizeof *b->bond_line, err))
+        return -1;
+    b->bond_line[a->bonds] = (int32_t)in->number;
+    return fl_field_add_bond(a, d.i, d.j, d.area, d.length, d.x, err);
+}
+
 static int read_record(fl_field *a, struct body *b, fl_text *in, fl_err *err)
 {
-    static const char *const records[] = {"poly", "v", "f", "vel"};
+    static const char *const records[] = {"poly", "v", "f", "vel", "bond"};
     const char *word = "";
     if (fl_text_word(in, "record", &word, err)) return -1;
     if (strcmp(word, "poly") == 0) return read_poly(a, b, in, err);
+    if (strcmp(word, "bond") == 0) return read_bond(a, b, in, err);
     if (strcmp(word, "v") != 0 && strcmp(word, "f") != 0 && strcmp(word, "vel") != 0)
         return fl_text_fail(in, err, "unknown record \"%.40s\", the nearest is \"%s\"", word,
-                            fl_text_nearest(word, records, 4));
-    if (!b->open) return fl_text_fail(in, err, "%s found before the first poly", word);
+                            fl_text_nearest(word, records, in->version < 2 ? 4 : 5));
+    if (!b->open)
+        return fl_text_fail(in, err, a->bonds ? "%s found behind a bond" : "%s found before the first poly",
+                            word);
     return word[0] == 'f' ? read_face(b, in, err) : word[1] ? read_vel(b, in, err) : read_vertex(b, in, err);
 }
 
 struct id_line {
-    int32_t id, line;
+    int32_t id, line, body;
 };
 
 static int by_id(const void *a, const void *b)
@@ -246,14 +285,83 @@ static int by_id(const void *a, const void *b)
     return p->id != q->id ? (p->id > q->id) - (p->id < q->id) : (p->line > q->line) - (p->line < q->line);
 }
 
+/* --- bonds, when all bodies are known ------------------------------------------------------------------- */
+
+/* Place of the body with that id among the sorted ones, -1 when there is none. */
+static int32_t place_of(const struct id_line *s, int32_t n, int32_t id)
+{
+    int32_t lo = 0, hi = n;
+    while (lo < hi) {
+        const int32_t mid = lo + (hi - lo) / 2;
+        if (s[mid].id < id) lo = mid + 1;
+        else hi = mid;
+    }
+    return lo < n && s[lo].id == id ? lo : -1;
+}
+
+struct bond_line {
+    fl_field_bond bond;
+    int32_t line;
+};
+
+static int by_pair(const void *a, const void *b)
+{
+    const struct bond_line *p = a, *q = b;
+    if (p->bond.i != q->bond.i) return (p->bond.i > q->bond.i) - (p->bond.i < q->bond.i);
+    if (p->bond.j != q->bond.j) return (p->bond.j > q->bond.j) - (p->bond.j < q->bond.j);
+    return (p->line > q->line) - (p->line < q->line);
+}
+
+/* Turn ids into places, then sort; s has the ids in order. */
+static int resolve_bonds(fl_field *a, const struct id_line *s, const int32_t *line, const fl_text *in,
+                         fl_err *err)
+{
+    struct bond_line *t = fl_alloc(a->bonds, sizeof *t, err);
+    int32_t twice = -1;
+    char what[120];
+    if (!t) return -1;
+    for (int32_t k = 0; k < a->bonds; k++) {
+        const int32_t id[2] = {a->bond[k].i, a->bond[k].j};
+        int32_t at[2];
+        for (int e = 0; e < 2; e++) {
+            const int32_t p = place_of(s, a->n, id[e]);
+            if (p < 0) {
+                snprintf(what, sizeof what, "the bond names body %d, which is not in the file", id[e]);
+                free(t);
+                return fail_at(in, line[k], err, what);
+            }
+            at[e] = s[p].body;
+        }
+        t[k].bond = a->bond[k];
+        t[k].bond.i = at[0] < at[1] ? at[0] : at[1];
+        t[k].bond.j = at[0] < at[1] ? at[1] : at[0];
+        t[k].line = line[k];
+    }
+    qsort(t, (size_t)a->bonds, sizeof *t, by_pair);
+    for (int32_t k = 0; k < a->bonds; k++) {
+        a->bond[k] = t[k].bond;
+        if (k && t[k].bond.i == t[k - 1].bond.i && t[k].bond.j == t[k - 1].bond.j &&
+            (twice < 0 || t[k].line < t[twice].line))
+            twice = k;
+    }
+    if (twice >= 0) {
+        snprintf(what, sizeof what, "bodies %d and %d are bonded on line %d already", a->id[t[twice].bond.i],
+                 a->id[t[twice].bond.j], t[twice - 1].line);
+        fail_at(in, t[twice].line, err, what);
+    }
+    free(t);
+    return twice >= 0 ? -1 : 0;
+}
+
 /* Sorted once at the end: one id that comes twice is found in n log n, whatever the order of the file. */
-static int check_ids(const fl_field *a, const fl_text *in, fl_err *err)
+static int check_ids(fl_field *a, const int32_t *bond_line, const fl_text *in, fl_err *err)
 {
     struct id_line *s = fl_alloc(a->n, sizeof *s, err);
     int32_t at = -1;
     char what[120];
+    int rc;
     if (!s) return -1;
-    for (int32_t i = 0; i < a->n; i++) s[i] = (struct id_line){a->id[i], a->line[i]};
+    for (int32_t i = 0; i < a->n; i++) s[i] = (struct id_line){a->id[i], a->line[i], i};
     qsort(s, (size_t)a->n, sizeof *s, by_id);
     for (int32_t k = 1; k < a->n; k++)
         if (s[k].id == s[k - 1].id && (at < 0 || s[k].line < s[at].line)) at = k;
@@ -262,8 +370,9 @@ static int check_ids(const fl_field *a, const fl_text *in, fl_err *err)
                  s[at - 1].line);
         fail_at(in, s[at].line, err, what);
     }
+    rc = at >= 0 ? -1 : resolve_bonds(a, s, bond_line, in, err);
     free(s);
-    return at >= 0 ? -1 : 0;
+    return rc;
 }
 
 int fl_field_read(fl_field *out, const char *path, fl_err *err)
@@ -280,7 +389,7 @@ int fl_field_read(fl_field *out, const char *path, fl_err *err)
         fl_text_fail(&in, err, "the file ends without a body, a poly record was wanted");
         goto done;
     }
-    if (check_ids(&a, &in, err)) goto done;
+    if (check_ids(&a, b.bond_line, &in, err)) goto done;
     a.history = in.history;
     in.history = NULL;
     *out = a;
@@ -290,6 +399,7 @@ done:
     free(b.v);
     free(b.first);
     free(b.loop);
+    free(b.bond_line);
     fl_field_free(&a);
     fl_text_close(&in);
     return rc;
@@ -308,7 +418,7 @@ static void write_vec3(FILE *f, fl_vec3 x)
 void fl_field_write(FILE *f, const fl_field *a, const fl_by *by)
 {
     char num[FL_NUM_LEN];
-    fl_by_header(f, "g-polys", FL_FIELD_VERSION, a->history, by);
+    fl_by_header(f, "g-polys", a->bonds ? 2 : 1, a->history, by);
     for (int32_t i = 0; i < a->n; i++) {
         const fl_poly *p = &a->core[i];
         fprintf(f, "poly %d %s %d %d", a->id[i], fl_num_text(a->radius[i], num), p->nv, p->nf);
@@ -331,5 +441,13 @@ void fl_field_write(FILE *f, const fl_field *a, const fl_by *by)
             write_vec3(f, a->spin[i]);
             fputc('\n', f);
         }
+    }
+    for (int32_t k = 0; k < a->bonds; k++) {
+        const fl_field_bond *d = &a->bond[k];
+        char length[FL_NUM_LEN];
+        fprintf(f, "bond %d %d %s %s", a->id[d->i], a->id[d->j], fl_num_text(d->area, num),
+                fl_num_text(d->length, length));
+        write_vec3(f, d->x);
+        fputc('\n', f);
     }
 }

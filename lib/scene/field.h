@@ -9,11 +9,21 @@
 #include "base/tool.h"
 #include "geom/poly.h"
 
-enum { FL_FIELD_VERSION = 1 };
+/* Version 2 has bond records; a field without them is written as version 1. */
+enum { FL_FIELD_VERSION = 2 };
 
 /* The farthest coordinate and the largest radius a file may hold [m]: squares and cubes stay finite, and one
  * ulp of it is a tenth of a micrometre. */
 #define FL_FIELD_FAR 1e9
+
+/* Where two bodies touch and may be frozen together: a candidate, which acts only through the scene's [bond]
+ * section.  i < j are places in the field, not ids. */
+typedef struct {
+    int32_t i, j;
+    double area;   /* of the common face; of touching spheres that of the smaller's great circle [m2] */
+    double length; /* its horizontal length; of touching spheres the smaller diameter             [m] */
+    fl_vec3 x;     /* its centroid                                                                [m] */
+} fl_field_bond;
 
 /* Body i is the Minkowski sum of core[i] and a ball of radius[i].  core[i].nv is 1 for a sphere, 2 for a
  * capsule.  Order is that of the file; memory grows with the rows that are there, whatever the counts say. */
@@ -28,7 +38,9 @@ typedef struct {
     fl_vec3 *vel;      /* [n] velocity at the start                               [m/s] */
     fl_vec3 *spin;     /* [n] angular velocity at the start, world axes         [rad/s] */
     fl_names materials, groups;
-    char *history; /* "#by ..." lines of the file it came from, NULL for none; owned */
+    int32_t bonds, bond_cap;
+    fl_field_bond *bond; /* [bonds] sorted by (i, j), no pair twice */
+    char *history;       /* "#by ..." lines of the file it came from, NULL for none; owned */
 } fl_field;
 
 /* Append a body; the core moves into the field and *core is left zeroed.  material and group may be NULL.
@@ -36,8 +48,13 @@ typedef struct {
 int fl_field_add(fl_field *a, int32_t id, double radius, fl_poly *core, const char *material,
                  const char *group, fl_vec3 vel, fl_vec3 spin, fl_err *err);
 
+/* Append a bond of the bodies i != j; bonds are sorted when they are read, and written in the order of their
+ * adding.  Returns 0, or -1 with FL_SYSTEM in err. */
+int fl_field_add_bond(fl_field *a, int32_t i, int32_t j, double area, double length, fl_vec3 x, fl_err *err);
+
 /* Read a file ("-" is standard input, gzip is unpacked).  Checks the syntax, that ids differ, indices and
- * radii, and through fl_poly_make() that every core is closed, convex and the right way out.
+ * radii, that a bond names two bodies of the file, a pair once and with an area and a length, and through
+ * fl_poly_make() that every core is closed, convex and the right way out.
  * Returns 0, or -1 with FL_INPUT ("file:line: ...", for a core the line of its poly record and its id) or
  * FL_SYSTEM; out is untouched then. */
 int fl_field_read(fl_field *out, const char *path, fl_err *err);

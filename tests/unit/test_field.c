@@ -93,7 +93,7 @@ static void faults_are_told_with_their_line(void **state)
     (void)state;
     refused("", " empty, a g-polys file was wanted");
     refused("#g_struct 1\n", "1: this is a g_struct file, a g-polys file was wanted");
-    refused("#g-polys 2\n", "1: g-polys version 2 is newer than this program, which reads up to 1");
+    refused("#g-polys 3\n", "1: g-polys version 3 is newer than this program, which reads up to 2");
     refused("#g-polys 1\n\n", "2: the file ends without a body, a poly record was wanted");
     refused("#g-polys 1\nv 0 0 0\n", "2: v found before the first poly");
     refused("#g-polys 1\nploy 1 1 1 0\n", "2: unknown record \"ploy\", the nearest is \"poly\"");
@@ -146,6 +146,52 @@ static void faults_are_told_with_their_line(void **state)
 }
 
 /* A wrong core is told with the line of its poly record and the id. */
+#define BALLS "poly 7 0.5 1 0\nv 0 0 0\npoly 3 0.5 1 0\nv 1 0 0\npoly 5 0.5 1 0\nv 2 0 0\n"
+
+static void bonds_are_read_sorted_and_written(void **state)
+{
+    (void)state;
+    static char once[4000];
+    fl_field a = {0}, b = {0};
+    fl_err err;
+    assert_int_equal(
+        read_text(&a, "#g-polys 2\n" BALLS "bond 5 3 0.25 0.5 1.5 0 0\nbond 3 7 2 1 0.5 -1 3\n", &err), 0);
+    assert_int_equal(a.bonds, 2);
+    assert_true(a.bond[0].i == 0 && a.bond[0].j == 1 && a.bond[1].i == 1 && a.bond[1].j == 2);
+    assert_true(a.bond[0].area == 2.0 && a.bond[0].length == 1.0);
+    assert_true(a.bond[0].x.x == 0.5 && a.bond[0].x.y == -1.0 && a.bond[0].x.z == 3.0);
+    written(&a, once, sizeof once);
+    assert_non_null(strstr(once, "#g-polys 2\n"));
+    assert_non_null(strstr(once, "\nbond 7 3 2 1 0.5 -1 3\nbond 3 5 0.25 0.5 1.5 0 0\n"));
+    assert_int_equal(read_text(&b, once, &err), 0);
+    assert_int_equal(b.bonds, 2);
+    b.bonds = 0; /* without them it is a file that older readers take */
+    assert_non_null(strstr(written(&b, once, sizeof once), "#g-polys 1\n"));
+    fl_field_free(&a);
+    fl_field_free(&b);
+}
+
+static void wrong_bonds_are_told_with_their_line(void **state)
+{
+    (void)state;
+    refused("#g-polys 1\n" BALLS "bond 3 5 1 1 0 0 0\n",
+            "8: a bond is of g-polys 2, the file says g-polys 1");
+    refused("#g-polys 2\n" BALLS "bond 3 3 1 1 0 0 0\n",
+            "8: body 3 is bonded to itself, two bodies were wanted");
+    refused("#g-polys 2\n" BALLS "bond 3 4 1 1 0 0 0\n",
+            "8: the bond names body 4, which is not in the file");
+    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0 0\nbond 5 3 1 1 0 0 0\n",
+            "9: bodies 3 and 5 are bonded on line 8 already");
+    refused("#g-polys 2\n" BALLS "bond 3 5 0 1 0 0 0\n",
+            "8: the bond has area 0 m2 and length 1 m, more than 0 was wanted");
+    refused("#g-polys 2\n" BALLS "bond 3 5 1 -1 0 0 0\n", "8: the bond has area 1 m2 and length -1 m");
+    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0\n", "8: z is missing after 7 fields");
+    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 2e9 0\n", "8: centroid (0, 2e+09, 0) m is farther than");
+    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0 0\nv 0 0 0\n", "9: v found behind a bond");
+    refused("#g-polys 2\npoly 1 1 1 0\nbond 1 2 1 1 0 0 0\n",
+            "2: body 1 announces 1 vertices and 0 faces, 0 and 0 follow");
+}
+
 static void wrong_cores_are_told_with_their_id(void **state)
 {
     (void)state;
@@ -165,7 +211,8 @@ static void wrong_cores_are_told_with_their_id(void **state)
 static void memory_that_runs_out_is_told(void **state)
 {
     (void)state;
-    static const char text[] = "#g-polys 1\n#by a 1\npoly 0 1e-3 8 6 material=ice group=g\n" CUBE_V CUBE_F;
+    static const char text[] = "#g-polys 2\n#by a 1\npoly 0 1e-3 8 6 material=ice group=g\n" CUBE_V CUBE_F
+                               "poly 1 1 1 0\nv 9 9 9\nbond 0 1 1 1 2 2 2\n";
     int rc = -1;
     for (long k = 0; rc; k++) {
         fl_field a = {0};
@@ -175,7 +222,7 @@ static void memory_that_runs_out_is_told(void **state)
         rc = fl_field_read(&a, path, &err);
         fl_mem_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
-        assert_int_equal(a.n, rc ? 0 : 1);
+        assert_int_equal(a.n, rc ? 0 : 2);
         fl_field_free(&a);
         assert_true(k < 1000);
     }
@@ -183,9 +230,12 @@ static void memory_that_runs_out_is_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_field_is_read_whole), cmocka_unit_test(what_is_written_reads_back),
-        cmocka_unit_test(faults_are_told_with_their_line),
-        cmocka_unit_test(wrong_cores_are_told_with_their_id), cmocka_unit_test(memory_that_runs_out_is_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_field_is_read_whole),
+                                       cmocka_unit_test(what_is_written_reads_back),
+                                       cmocka_unit_test(faults_are_told_with_their_line),
+                                       cmocka_unit_test(bonds_are_read_sorted_and_written),
+                                       cmocka_unit_test(wrong_bonds_are_told_with_their_line),
+                                       cmocka_unit_test(wrong_cores_are_told_with_their_id),
+                                       cmocka_unit_test(memory_that_runs_out_is_told)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
