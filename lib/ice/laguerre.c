@@ -9,7 +9,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { TRIES = 300, STEPS = 60, HALVES = 30, ROUNDS = 24, IDLE = 3 };
+/* MANY: fewer rows of the matrix take less time than waking the other threads does. */
+enum { TRIES = 300, STEPS = 60, HALVES = 30, ROUNDS = 24, IDLE = 3, MANY = 8192 };
 
 /* Rough enough to be quick while the sites still move; near enough that the fit of the floes does not see it;
  * and the mean error of the areas at which the fit ends. */
@@ -159,7 +160,7 @@ static int newton_alloc(struct newton *s, fl_err *err)
 
 static double dot(struct newton *s, const double *a, const double *b, double *scratch)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (s->n >= MANY)
     for (int32_t i = 0; i < s->n; i++) scratch[i] = a[i] * b[i];
     return fl_par_sum(scratch, s->n);
 }
@@ -167,7 +168,7 @@ static double dot(struct newton *s, const double *a, const double *b, double *sc
 static int slopes(struct newton *s, const fl_cells *c, fl_err *err)
 {
     if (fl_grow(&s->slope, &s->slopes, c->first[s->n], sizeof *s->slope, err)) return -1;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (s->n >= MANY)
     for (int32_t i = 0; i < s->n; i++) {
         s->diagonal[i] = 0.0;
         for (int32_t k = c->first[i]; k < c->first[i + 1]; k++) {
@@ -186,7 +187,7 @@ static int slopes(struct newton *s, const fl_cells *c, fl_err *err)
 /* q = (the matrix) p */
 static void times(struct newton *s, const fl_cells *c)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (s->n >= MANY)
     for (int32_t i = 0; i < s->n; i++) {
         double sum = s->diagonal[i] * s->p[i];
         for (int32_t k = c->first[i]; k < c->first[i + 1]; k++)
@@ -213,14 +214,14 @@ static void find_step(struct newton *s, const fl_cells *c)
         times(s, c);
         alpha = rz / dot(s, s->p, s->q, s->trial);
         if (!isfinite(alpha)) return;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n >= MANY)
         for (int32_t i = 0; i < n; i++) {
             s->step[i] += alpha * s->p[i];
             s->r[i] -= alpha * s->q[i];
             s->z[i] = s->r[i] / s->diagonal[i];
         }
         rz = dot(s, s->r, s->z, s->q);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n >= MANY)
         for (int32_t i = 0; i < n; i++) s->p[i] = s->z[i] + rz / before * s->p[i];
     }
 }

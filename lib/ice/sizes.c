@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_gamma.h>
-#include "base/mem.h"
-#include "base/text.h"
 #include "ice/sizes.h"
 
 static const double PI = 3.14159265358979323846;
-
-/* Diameters and areas between which a list may lie [m, m2]: squares and sums stay finite. */
-#define SMALLEST 1e-12
-#define LARGEST 1e12
 
 /* int_0^y e^(q t) dt = (e^(q y) - 1) / q.  In y = ln(D / dmin) the distribution of a power law is the ratio
  * of two of these, q = 1 - beta, and so is its Lorenz curve of areas, q = 3 - beta. */
@@ -36,9 +29,21 @@ double fl_sizes_mean(const fl_sizes *s)
     case FL_SIZES_POWER:
         return 0.25 * PI * s->dmin * s->dmin * grown(3.0 - s->beta, spread(s)) /
                grown(1.0 - s->beta, spread(s));
-    case FL_SIZES_LIST: return s->sum[s->n] / s->n;
+    case FL_SIZES_LIST: return s->sum[s->n] / s->upto[s->n];
     default: return 0.0;
     }
+}
+
+/* The size that the x-th floe of the list has. */
+static int32_t holds(const fl_sizes *s, double x)
+{
+    int32_t lo = 0, hi = s->n - 1;
+    while (lo < hi) {
+        const int32_t mid = lo + (hi - lo) / 2;
+        if (s->upto[mid + 1] <= x) lo = mid + 1;
+        else hi = mid;
+    }
+    return lo;
 }
 
 static double lorenz(const fl_sizes *s, double u)
@@ -52,9 +57,9 @@ static double lorenz(const fl_sizes *s, double u)
     case FL_SIZES_POWER:
         return grown(3.0 - s->beta, regrown(1.0 - s->beta, u, spread(s))) / grown(3.0 - s->beta, spread(s));
     case FL_SIZES_LIST: {
-        const double x = u * s->n;
-        const int32_t k = x < s->n ? (int32_t)x : s->n - 1;
-        return (s->sum[k] + (x - k) * s->area[k]) / s->sum[s->n];
+        const double x = u * s->upto[s->n];
+        const int32_t k = holds(s, x);
+        return (s->sum[k] + (x - s->upto[k]) * s->area[k]) / s->sum[s->n];
     }
     default: return u;
     }
@@ -74,7 +79,8 @@ void fl_sizes_areas(const fl_sizes *s, int32_t n, double mean, double *area)
         area[k] = n * mean * (h - before);
         before = h;
         if (s->kind == FL_SIZES_EQUAL) area[k] = mean;
-        if (s->kind == FL_SIZES_LIST && n == s->n) area[k] = s->area[k] * (mean / fl_sizes_mean(s));
+        if (s->kind == FL_SIZES_LIST && n == s->n && s->upto[n] == n)
+            area[k] = s->area[k] * (mean / fl_sizes_mean(s));
     }
     /* Where two parts hold the same size, rounding may have turned them round. */
     qsort(area, (size_t)n, sizeof *area, ascending);
@@ -107,7 +113,7 @@ double fl_sizes_below(const fl_sizes *s, double mean, double a)
         if (y <= 0.0) return 0.0;
         if (y >= spread(s)) return 1.0;
         return grown(1.0 - s->beta, y) / grown(1.0 - s->beta, spread(s));
-    case FL_SIZES_LIST: return (double)counted(s, a * (fl_sizes_mean(s) / mean)) / s->n;
+    case FL_SIZES_LIST: return s->upto[counted(s, a * (fl_sizes_mean(s) / mean))] / s->upto[s->n];
     default: return a >= mean;
     }
 }
@@ -125,55 +131,10 @@ double fl_sizes_distance(const fl_sizes *s, double mean, int32_t n, const double
     return most;
 }
 
-/* --- a list --------------------------------------------------------------------------------------------- */
-
-static int read_row(fl_sizes *s, fl_text *in, int32_t *cap, int diameters, fl_err *err)
-{
-    double x = 0.0;
-    if (fl_text_f64(in, diameters ? "diameter" : "area", &x, err) || fl_text_end(in, err)) return -1;
-    if (!(x >= SMALLEST && x <= LARGEST))
-        return fl_text_fail(in, err, "size %g found, one from %g to %g was wanted", x, SMALLEST, LARGEST);
-    if (fl_grow(&s->area, cap, (int64_t)s->n + 1, sizeof *s->area, err)) return -1;
-    s->area[s->n++] = diameters ? 0.25 * PI * x * x : x;
-    return 0;
-}
-
-int fl_sizes_read(fl_sizes *out, const char *path, fl_err *err)
-{
-    fl_text in = {0};
-    fl_sizes s = {.kind = FL_SIZES_LIST};
-    int32_t cap = 0;
-    int rc = -1, more, rows = 0, diameters = 0;
-    if (fl_text_open(&in, path, err)) goto done;
-    while ((more = fl_text_row(&in, err)) > 0) {
-        if (rows++ == 0 && in.n == 1 &&
-            (strcmp(in.field[0], "d[m]") == 0 || strcmp(in.field[0], "area[m2]") == 0)) {
-            diameters = in.field[0][0] == 'd';
-            continue;
-        }
-        if (read_row(&s, &in, &cap, diameters, err)) goto done;
-    }
-    if (more < 0) goto done;
-    if (s.n == 0) {
-        fl_text_fail(&in, err, "the file ends without a size, one a row was wanted");
-        goto done;
-    }
-    qsort(s.area, (size_t)s.n, sizeof *s.area, ascending);
-    s.sum = fl_alloc((int64_t)s.n + 1, sizeof *s.sum, err);
-    if (!s.sum) goto done;
-    for (int32_t k = 0; k < s.n; k++) s.sum[k + 1] = s.sum[k] + s.area[k];
-    *out = s;
-    s = (fl_sizes){0};
-    rc = 0;
-done:
-    fl_sizes_free(&s);
-    fl_text_close(&in);
-    return rc;
-}
-
 void fl_sizes_free(fl_sizes *s)
 {
     free(s->area);
+    free(s->upto);
     free(s->sum);
     *s = (fl_sizes){0};
 }

@@ -9,7 +9,6 @@
 #ifndef FL_ICE_SIZES_H
 #define FL_ICE_SIZES_H
 #include <stdint.h>
-#include "base/err.h"
 
 enum fl_sizes_kind { FL_SIZES_EQUAL, FL_SIZES_LOGNORMAL, FL_SIZES_WEIBULL, FL_SIZES_POWER, FL_SIZES_LIST };
 
@@ -17,7 +16,7 @@ enum fl_sizes_kind { FL_SIZES_EQUAL, FL_SIZES_LOGNORMAL, FL_SIZES_WEIBULL, FL_SI
  * LOGNORMAL  of areas with the given mean and standard deviation over mean, cv > 0
  * WEIBULL    of areas, of shape k > 0: P(a) = 1 - exp(-(a / scale)^k)
  * POWER      of diameters D = sqrt(4 a / pi), with the density n(D) ~ D^-beta on [dmin, dmax]
- * LIST       the areas of a list, each as probable as the other */
+ * LIST       the areas of a list or a table, as probable as they are counted there */
 typedef struct {
     enum fl_sizes_kind kind;
     double mean;       /* LOGNORMAL: of the areas [m2] */
@@ -26,7 +25,8 @@ typedef struct {
     double dmin, dmax; /* POWER: 0 < dmin < dmax [m]   */
     int32_t n;         /* LIST                         */
     double *area;      /* LIST: [n], ascending [m2]    */
-    double *sum;       /* LIST: [n + 1] of area[0 .. k) [m2] */
+    double *upto;      /* LIST: [n + 1] how many have area[0 .. k), upto[0] = 0 */
+    double *sum;       /* LIST: [n + 1] what they cover     [m2] */
 } fl_sizes;
 
 /* Sizes within this part of each other count as the same when distributions are compared: where a law has
@@ -36,7 +36,8 @@ typedef struct {
 /* Mean area of the law [m2]; 0 for EQUAL and WEIBULL, which have none of their own. */
 double fl_sizes_mean(const fl_sizes *s);
 
-/* The ascending areas of n floes, area[n], scaled to the given mean [m2].  A list of n gives itself. */
+/* The ascending areas of n floes, area[n], scaled to the given mean [m2].  A list of n that counts each once
+ * gives itself. */
 void fl_sizes_areas(const fl_sizes *s, int32_t n, double mean, double *area);
 
 /* The part of all floes whose area is at most a, when the law is scaled to the given mean. */
@@ -45,11 +46,6 @@ double fl_sizes_below(const fl_sizes *s, double mean, double a);
 /* Kolmogorov-Smirnov distance between the law, scaled to the given mean, and ascending areas: the largest
  * difference of the two distributions, sizes being the same as FL_SIZES_SAME says. */
 double fl_sizes_distance(const fl_sizes *s, double mean, int32_t n, const double *area);
-
-/* Read a list: one size a row, [m2], or [m] of the equal-area diameter where the first row says "d[m]"; a
- * first row "area[m2]" may say the other.  "-" is standard input, gzip is unpacked.
- * Returns 0, or -1 with FL_INPUT or FL_SYSTEM; out is untouched then. */
-int fl_sizes_read(fl_sizes *out, const char *path, fl_err *err);
 
 void fl_sizes_free(fl_sizes *s); /* accepts a zeroed struct, leaves one */
 

@@ -4,6 +4,8 @@
 #include <string.h>
 #include "support/near.h"
 #include "ice/sizes.h"
+#include "ice/sizes_law.h"
+#include "ice/sizes_read.h"
 
 enum { N = 1000 };
 
@@ -91,12 +93,19 @@ static void lists_are_read(void **state)
 static void bad_lists_are_told(void **state)
 {
     (void)state;
-    static const char *const bad[][2] = {{"", ":0: the file ends without a size, one a row was wanted"},
-                                         {"1\n-2\n", ":2: size -2 found"},
-                                         {"1\nd[m]\n", ":2: "},
-                                         {"1 2\n", ":1: "},
-                                         {"area[m2]\n", "without a size"},
-                                         {"1e13\n", ":1: size 1e+13 found"}};
+    static const char *const bad[][2] = {
+        {"", ":0: the file ends without a size, one a row was wanted"},
+        {"1\n-2\n", ":2: size -2 found"},
+        {"1\nd[m]\n", ":2: "},
+        {"1 2\n", ":1: "},
+        {"area[m2]\n", "without a size"},
+        {"1e13\n", ":1: size 1e+13 found"},
+        {"area[m2] count\n1 0\n", ":2: count 0 found"},
+        {"area[m2] count\n1\n", ":2: "},
+        {"x[m] y[m]\n\n", "a polygon was wanted"},
+        {"x[m] y[m]\n0 0\n1 0\n0 0\n\n", ":2: a polygon of 2 different corners"},
+        {"x[m] y[m]\n\n0 0\n4 4\n4 0\n0 4\n", ":3: the polygon of 4 corners crosses"},
+        {"x[m] y[m]\n0 0\n1e10 0\n", ":3: corner (1e+10, 0) found"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         fl_sizes s = {0};
         fl_err err = {0};
@@ -107,12 +116,116 @@ static void bad_lists_are_told(void **state)
     }
 }
 
+/* A table of sizes and counts is the list in which each size is repeated. */
+static void tables_are_lists(void **state)
+{
+    (void)state;
+    static const char table[] = "area[m2] count\n5 2\n1 3\n", list[] = "1\n1\n1\n5\n5\n";
+    fl_sizes t = {0}, l = {0};
+    fl_err err = {0};
+    double a[N], b[N];
+    assert_int_equal(fl_sizes_read(&t, test_file("table", table, strlen(table)), &err), 0);
+    assert_int_equal(fl_sizes_read(&l, test_file("list", list, strlen(list)), &err), 0);
+    assert_near(fl_sizes_mean(&t), 13.0 / 5.0, 1e-15);
+    for (int32_t n = 1; n <= N; n = n < 8 ? n + 1 : n * 5) {
+        fl_sizes_areas(&t, n, 7.0, a);
+        fl_sizes_areas(&l, n, 7.0, b);
+        for (int32_t k = 0; k < n; k++) assert_near(a[k], b[k], 1e-12);
+        assert_near_of(fl_sizes_distance(&t, 7.0, n, a), fl_sizes_distance(&l, 7.0, n, b), 1e-12, 1.0);
+    }
+    for (double x = 0.5; x < 6.0; x += 0.25)
+        assert_near_of(fl_sizes_below(&t, 2.6, x), fl_sizes_below(&l, 2.6, x), 1e-15, 1.0);
+    follows(&t, 5.0);
+    fl_sizes_free(&t);
+    fl_sizes_free(&l);
+}
+
+/* The areas of polygons, either way round, closed or not, far from the origin. */
+static void polygons_are_sizes(void **state)
+{
+    (void)state;
+    static const char text[] = "x[m] y[m]\n0 0\n4 0\n4 3\n\n\n1e6 1e6\n1e6 1000002\n# a remark\n"
+                               "1000002 1000002\n1000002 1e6\n1e6 1e6\n>\n0 0\n4 0\n4 4\n2 1\n0 4";
+    fl_sizes s = {0};
+    fl_err err = {0};
+    assert_int_equal(fl_sizes_read(&s, test_file("polygons", text, strlen(text)), &err), 0);
+    assert_int_equal(s.n, 3);
+    assert_near(s.area[0], 4.0, 1e-12);
+    assert_near(s.area[1], 6.0, 1e-15);
+    assert_near(s.area[2], 10.0, 1e-15);
+    fl_sizes_free(&s);
+}
+
+/* Four names of one law: n(D) ~ D^-3.5. */
+static void exponents_are_named(void **state)
+{
+    (void)state;
+    static const char *const same[] = {"power:3.5,2,50,number,density", "power:2.5,2,50",
+                                       "power:2.5,2,50,number,cumulative", "power:1.5,2,50,area,density",
+                                       "power:0.5,2,50,area,cumulative"};
+    char name[FL_SIZES_LAW_LEN], again[FL_SIZES_LAW_LEN];
+    fl_sizes s, t;
+    fl_err err = {0};
+    for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
+        assert_int_equal(fl_sizes_parse(&s, name, same[k], &err), 0);
+        assert_int_equal(s.kind, FL_SIZES_POWER);
+        assert_near(s.beta, 3.5, 1e-15);
+        assert_true(s.dmin == 2.0 && s.dmax == 50.0);
+        assert_int_equal(fl_sizes_parse(&t, again, name, &err), 0);
+        assert_string_equal(name, again);
+        assert_near(t.beta, 3.5, 1e-15);
+    }
+    assert_int_equal(fl_sizes_parse(&s, name, same[1], &err), 0);
+    assert_string_equal(name, same[2]);
+    assert_int_equal(fl_sizes_parse(&s, name, "weibull:0.70", &err), 0);
+    assert_string_equal(name, "weibull:0.7");
+    assert_int_equal(fl_sizes_parse(&s, name, "lognormal:2", &err), 0);
+    assert_true(s.kind == FL_SIZES_LOGNORMAL && s.cv == 2.0);
+}
+
+static void bad_laws_are_told(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"equal:1",
+                                      "lognormal",
+                                      "lognormal:",
+                                      "lognormal:0",
+                                      "lognormal:1,2",
+                                      "weibull:-1",
+                                      "weibull:nan",
+                                      "power:1,2",
+                                      "power:1,2,1",
+                                      "power:1,0,1",
+                                      "power:1,1,1",
+                                      "power:30,1,2",
+                                      "power:1,1,2,number",
+                                      "power:1,1,2,numbers,density",
+                                      "power:1,1,2,area,densities",
+                                      "power:1,1,2,area,density,",
+                                      "power:1,,2",
+                                      "gamma:2"};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        fl_sizes s = {.cv = -7.0};
+        char name[FL_SIZES_LAW_LEN] = "untouched";
+        fl_err err = {0};
+        assert_int_equal(fl_sizes_parse(&s, name, bad[k], &err), -1);
+        assert_int_equal(err.code, FL_USAGE);
+        assert_non_null(strstr(err.text, "was wanted"));
+        assert_string_equal(name, "untouched");
+        assert_true(s.cv == -7.0);
+    }
+    assert_true(fl_sizes_is_law("weibull:x") && fl_sizes_is_law("power"));
+    assert_false(fl_sizes_is_law("powers") || fl_sizes_is_law("./power:1") || fl_sizes_is_law(""));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(areas_follow_the_law),      cmocka_unit_test(known_values),
         cmocka_unit_test(distance_sees_what_is_off), cmocka_unit_test(lists_are_read),
-        cmocka_unit_test(bad_lists_are_told),
+        cmocka_unit_test(bad_lists_are_told),        cmocka_unit_test(tables_are_lists),
+        cmocka_unit_test(polygons_are_sizes),        cmocka_unit_test(exponents_are_named),
+        cmocka_unit_test(bad_laws_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,15 +34,13 @@ void certify_add(struct certify *c, const char *what, double asked, double achie
     r->digits = digits;
 }
 
-void certify_add_word(struct certify *c, const char *what, const char *asked, double distance,
-                      const char *note, ...)
+void certify_add_word(struct certify *c, const char *what, const char *asked, const char *note, ...)
 {
     va_list ap;
     va_start(ap, note);
     struct certify_row *r = next(c, what, note, ap);
     va_end(ap);
     snprintf(r->word, sizeof r->word, "%s", asked);
-    r->distance = distance;
 }
 
 /* --- the terminal --------------------------------------------------------------------------------------- */
@@ -65,8 +63,11 @@ void certify_print(const struct certify *c)
         if (!isnan(r->asked)) snprintf(asked, sizeof asked, "%.10g", r->asked);
         if (!isnan(r->achieved)) snprintf(achieved, sizeof achieved, "%.*g", r->digits, r->achieved);
         distance_text(r->asked, r->distance, distance, sizeof distance);
-        snprintf(line, sizeof line, "%-32s %10s   %-14s %-8s %s", r->what, r->word[0] ? r->word : asked,
-                 achieved, distance, r->note);
+        if (r->word[0]) /* too long for its column, and alone in the row */
+            snprintf(line, sizeof line, "%-32s %10s   %s", r->what, r->word, r->note);
+        else
+            snprintf(line, sizeof line, "%-32s %10s   %-14s %-8s %s", r->what, asked, achieved, distance,
+                     r->note);
         for (end = strlen(line); end && line[end - 1] == ' '; end--) line[end - 1] = '\0';
         fprintf(stderr, "%s\n", line);
     }

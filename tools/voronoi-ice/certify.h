@@ -16,7 +16,7 @@ struct certify_row {
     char what[48];                    /* "area, smallest [m2]"                                  */
     double asked, achieved, distance; /* NAN: none                                              */
     int digits;                       /* of achieved on the terminal; the file has all of them  */
-    char word[64];                    /* asked, where it is no number: "power:2,1,100,..."      */
+    char word[200];                   /* asked, where it is no number: "power:2,1,100,..."      */
     char note[160];                   /* behind it on the terminal, last in the file            */
 };
 
@@ -29,9 +29,9 @@ struct certify {
 void certify_add(struct certify *c, const char *what, double asked, double achieved, double distance,
                  int digits, const char *note, ...) __attribute__((format(printf, 7, 8)));
 
-/* Add a row that asked for something that is no number, with how far from it the field is. */
-void certify_add_word(struct certify *c, const char *what, const char *asked, double distance,
-                      const char *note, ...) __attribute__((format(printf, 5, 6)));
+/* Add a row that asked for something that is no number; others tell how near to it the field has come. */
+void certify_add_word(struct certify *c, const char *what, const char *asked, const char *note, ...)
+    __attribute__((format(printf, 4, 5)));
 
 /* The table, to standard error. */
 void certify_print(const struct certify *c);

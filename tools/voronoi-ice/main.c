@@ -4,14 +4,17 @@
 #include <omp.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/par.h"
 #include "base/stream.h"
 #include "base/tool.h"
 #include "ice/cells.h"
 #include "ice/certificate.h"
 #include "ice/floes.h"
+#include "ice/laguerre.h"
 #include "scene/field.h"
 #include "certify.h"
 #include "options.h"
+#include "sizing.h"
 
 struct field {
     fl_cells cells;
@@ -20,6 +23,7 @@ struct field {
     double full;          /* covered area before floes were taken out [m2]             */
     double covered, kept; /* area of the floes and of their cells after it             [m2] */
     fl_certificate c;
+    struct sizing sizing;
 };
 
 static void tell(const struct options *o, const char *what)
@@ -28,9 +32,15 @@ static void tell(const struct options *o, const char *what)
 }
 
 /* The field is made round the origin, where numbers are finest, and shifted when it is done. */
+static fl_outline outline(const struct options *o)
+{
+    const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y};
+    return (fl_outline){.lo = {-hi.x, -hi.y}, .hi = hi};
+}
+
 static int make_cells(const struct options *o, fl_cells *cells, fl_err *err)
 {
-    const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y}, lo = {-hi.x, -hi.y};
+    const fl_vec2 lo = outline(o).lo, hi = outline(o).hi;
     fl_vec2 *site = fl_alloc(o->floes, sizeof *site, err);
     int rc = -1;
     if (!site) return -1;
@@ -47,6 +57,18 @@ static int make_cells(const struct options *o, fl_cells *cells, fl_err *err)
 done:
     free(site);
     return rc;
+}
+
+/* Cells and floes in one: which cells there must be depends on the floes they leave. */
+static int make_sized(const struct options *o, struct field *a, fl_vec2 shift, fl_err *err)
+{
+    const fl_outline in = outline(o);
+    double off;
+    tell(o, "dividing the field into cells of given areas");
+    if (fl_laguerre_floes(&a->cells, &a->floes, o->floes, o->seed, a->sizing.area, &in, o->smooth,
+                          o->concentration, o->radius, shift, &off, err))
+        return -1;
+    return sizing_measure(&a->sizing, &a->floes, err);
 }
 
 /* --- taking floes out ----------------------------------------------------------------------------------- */
@@ -122,6 +144,7 @@ static void certify(const struct options *o, const struct field *a, struct certi
     const fl_certificate *c = &a->c;
     const double area = o->size.x * o->size.y, concentration = a->full / area;
     certify_add(t, "floes", o->floes, a->cells.n, abs(a->cells.n - o->floes), 10, NULL);
+    if (o->sizes) sizing_certify(&a->sizing, o, a->floes.inset, t);
     certify_add(t, "concentration", o->concentration, concentration, fabs(concentration - o->concentration),
                 10, NULL);
     if (o->keep_outs) {
@@ -171,7 +194,7 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
     return 0;
 }
 
-static int run(const struct options *o, fl_err *err)
+static int run(struct options *o, fl_err *err)
 {
     const fl_vec2 shift = {o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
     struct certify table = {0};
@@ -179,12 +202,17 @@ static int run(const struct options *o, fl_err *err)
     fl_by by;
     int rc = -1;
     if (o->threads) omp_set_num_threads(o->threads);
+    if (o->sizes && sizing_ask(&a.sizing, o, o->size.x * o->size.y, err)) goto done;
     a.name = fl_alloc(o->floes, sizeof *a.name, err);
-    if (!a.name) return -1;
+    if (!a.name) goto done;
     for (int32_t i = 0; i < o->floes; i++) a.name[i] = i;
-    if (make_cells(o, &a.cells, err)) goto done;
-    tell(o, "shrinking the cells");
-    if (fl_floes_make(&a.floes, &a.cells, o->concentration, o->radius, shift, err)) goto done;
+    if (o->sizes) {
+        if (make_sized(o, &a, shift, err)) goto done;
+    } else {
+        if (make_cells(o, &a.cells, err)) goto done;
+        tell(o, "shrinking the cells");
+        if (fl_floes_make(&a.floes, &a.cells, o->concentration, o->radius, shift, err)) goto done;
+    }
     tell(o, "measuring");
     if (measure(o, &a, err)) goto done;
     tell(o, "writing");
@@ -195,6 +223,7 @@ static int run(const struct options *o, fl_err *err)
     if (!o->quiet) certify_print(&table);
     rc = 0;
 done:
+    sizing_free(&a.sizing);
     fl_floes_free(&a.floes);
     fl_cells_free(&a.cells);
     free(a.name);
@@ -205,7 +234,9 @@ int main(int argc, char **argv)
 {
     struct options o;
     fl_err err = {0};
-    int rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
+    int rc;
+    fl_par_wait_briefly(argv);
+    rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
     if (rc == 0 && !o.ended) rc = run(&o, &err);
     return fl_tool_end("voronoi-ice", rc, &err); /* closes stdout, prints err, picks the status */
 }

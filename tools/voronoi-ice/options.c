@@ -12,6 +12,9 @@ static const char HELP[] =
     "      --size AxB          sides of the field along x and y (50x50)\n"
     "      --origin X,Y        its corner of least x and y (such that the field is centred on 0,0)\n"
     "      --floes N           number of floes (200)\n"
+    "      --sizes LAW         uniform (as they come), equal, lognormal:CV or weibull:K of areas,\n"
+    "                          power:EXP,DMIN,DMAX[,number|area,cumulative|density] of diameters, or a FILE\n"
+    "                          of sizes or of polygons (uniform)\n"
     "      --concentration C   part of the field that floes cover, between 0 and 1 (0.8)\n"
     "      --thickness H       of the ice (0.5)\n"
     "      --radius R          dilation radius, the roundness of edges, below H/2 (0.05)\n"
@@ -36,6 +39,7 @@ enum {
     SIZE = 256,
     ORIGIN,
     FLOES,
+    SIZES,
     CONCENTRATION,
     THICKNESS,
     RADIUS,
@@ -53,6 +57,7 @@ enum {
 static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"origin", required_argument, NULL, ORIGIN},
                                      {"floes", required_argument, NULL, FLOES},
+                                     {"sizes", required_argument, NULL, SIZES},
                                      {"concentration", required_argument, NULL, CONCENTRATION},
                                      {"thickness", required_argument, NULL, THICKNESS},
                                      {"radius", required_argument, NULL, RADIUS},
@@ -144,6 +149,20 @@ static int shape(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
+static int sizes(struct options *o, const char *text, fl_err *err)
+{
+    o->sizes = NULL;
+    o->sizes_file = 0;
+    if (strcmp(text, "uniform") == 0) return 0;
+    o->sizes_file = !fl_sizes_is_law(text);
+    if (!o->sizes_file && fl_sizes_parse(&o->law, o->sizes_name, text, err)) return -1;
+    if (o->sizes_file && (text[0] == '\0' || strlen(text) > 1000 || strpbrk(text, " \t\r\n\f\v")))
+        return fl_fail(err, FL_USAGE,
+                       "--sizes is \"%.60s\", a law or the name of a file without blanks was wanted", text);
+    o->sizes = o->sizes_file ? text : o->sizes_name;
+    return 0;
+}
+
 /* A name is one word of the file. */
 static int name(const char *text, const char **out, fl_err *err)
 {
@@ -161,8 +180,10 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case ORIGIN:
         o->has_origin = 1;
         return pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
-    case FLOES: return whole("floes", arg, 1, 10000000, &o->floes, err);
+    case FLOES: o->has_floes = 1; return whole("floes", arg, 1, FLOES_MOST, &o->floes, err);
+    case SIZES: return sizes(o, arg, err);
     case CONCENTRATION:
+        o->has_concentration = 1;
         /* the bounds themselves are no concentration of floes with water between them */
         if (number("concentration", arg, 0.0, 1.0, &o->concentration, "a number between 0 and 1", err))
             return -1;
@@ -259,6 +280,7 @@ void options_by(const struct options *o, fl_by *by)
     add_pair(by, "--size ", 'x', o->size);
     add_pair(by, "--origin ", ',', o->origin);
     fl_by_add(by, "--floes %d", o->floes);
+    if (o->sizes) fl_by_add(by, "--sizes %s", o->sizes);
     add_numbers(by, "--concentration ", ',', 1, &o->concentration);
     add_numbers(by, "--thickness ", ',', 1, &o->thickness);
     add_numbers(by, "--radius ", ',', 1, &o->radius);

@@ -6,8 +6,9 @@
 #include "base/err.h"
 #include "base/tool.h"
 #include "geom/polygon.h"
+#include "ice/sizes_law.h"
 
-enum { KEEP_OUT_MAX = 16 };
+enum { KEEP_OUT_MAX = 16, FLOES_MOST = 10000000 };
 
 struct keep_out {
     int circle;     /* else a box */
@@ -27,8 +28,12 @@ struct options {
     struct keep_out keep_out[KEEP_OUT_MAX];
     int keep_outs;
     int gzip, quiet, verbose, threads;
-    int has_origin;
-    int ended; /* --help or --version was answered */
+    int has_origin, has_floes, has_concentration;
+    const char *sizes; /* the name of a law, with nothing left out, or a file; NULL: Voronoi */
+    int sizes_file;    /* it is a file */
+    char sizes_name[FL_SIZES_LAW_LEN];
+    fl_sizes law; /* unless in a file */
+    int ended;    /* --help or --version was answered */
 };
 
 /* Defaults, then the command line.  0, or -1 with FL_USAGE in err. */

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/text.h"
+#include "geom/polygon.h"
+#include "ice/sizes_read.h"
+#include "shim/cgal_simple.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Sizes and counts between which a file may lie [m, m2, 1], and coordinates [m]: squares and sums stay finite,
+ * and the area of a polygon far from the origin keeps its digits. */
+#define SMALLEST 1e-12
+#define LARGEST 1e12
+#define FAR 1e9
+
+enum holds { AREAS, DIAMETERS, CORNERS };
+
+struct size {
+    double area, count;
+};
+
+struct reading {
+    fl_text in;
+    enum holds holds;
+    int counted;
+    int32_t n, cap, corners, room;
+    struct size *size;
+    fl_vec2 *v;    /* corners of the polygon at hand */
+    int64_t begun; /* the line of its first corner   */
+};
+
+static int add(struct reading *r, double area, double count, fl_err *err)
+{
+    if (fl_grow(&r->size, &r->cap, (int64_t)r->n + 1, sizeof *r->size, err)) return -1;
+    r->size[r->n++] = (struct size){area, count};
+    return 0;
+}
+
+static int positive(struct reading *r, const char *what, double *x, fl_err *err)
+{
+    if (fl_text_f64(&r->in, what, x, err)) return -1;
+    if (*x >= SMALLEST && *x <= LARGEST) return 0;
+    return fl_text_fail(&r->in, err, "%s %g found, one from %g to %g was wanted", what, *x, SMALLEST,
+                        LARGEST);
+}
+
+static int read_size(struct reading *r, fl_err *err)
+{
+    double x = 0.0, count = 1.0;
+    if (positive(r, "size", &x, err)) return -1;
+    if (r->counted && positive(r, "count", &count, err)) return -1;
+    if (fl_text_end(&r->in, err)) return -1;
+    return add(r, r->holds == DIAMETERS ? 0.25 * PI * x * x : x, count, err);
+}
+
+/* --- polygons ------------------------------------------------------------------------------------------- */
+
+static int read_corner(struct reading *r, fl_err *err)
+{
+    fl_vec2 p = {0.0, 0.0};
+    if (fl_text_f64(&r->in, "x", &p.x, err) || fl_text_f64(&r->in, "y", &p.y, err) ||
+        fl_text_end(&r->in, err))
+        return -1;
+    if (!(fabs(p.x) <= FAR && fabs(p.y) <= FAR))
+        return fl_text_fail(&r->in, err, "corner (%g, %g) found, coordinates up to %g were wanted", p.x, p.y,
+                            FAR);
+    if (fl_grow(&r->v, &r->room, (int64_t)r->corners + 1, sizeof *r->v, err)) return -1;
+    if (r->corners == 0) r->begun = r->in.number;
+    r->v[r->corners++] = p;
+    return 0;
+}
+
+static int close_polygon(struct reading *r, fl_err *err)
+{
+    int32_t n = r->corners;
+    const fl_vec2 *v = r->v;
+    const int64_t now = r->in.number;
+    int simple, rc;
+    double area;
+    if (n == 0) return 0;
+    r->corners = 0;
+    if (n > 1 && v[n - 1].x == v[0].x && v[n - 1].y == v[0].y) n--;
+    r->in.number = r->begun; /* the complaint is about the polygon, not about the line behind it */
+    if (n < 3)
+        return fl_text_fail(&r->in, err, "a polygon of %d different corners found, three were wanted", n);
+    simple = fl_cgal_simple(n, v, err);
+    if (simple < 0) return -1;
+    if (!simple)
+        return fl_text_fail(&r->in, err,
+                            "the polygon of %d corners crosses or touches itself, one that does not was "
+                            "wanted",
+                            n);
+    area = fabs(fl_polygon_area(n, v));
+    if (!(area >= SMALLEST && area <= LARGEST))
+        return fl_text_fail(&r->in, err, "a polygon of %g m2 found, one from %g to %g was wanted", area,
+                            SMALLEST, LARGEST);
+    rc = add(r, area, 1.0, err);
+    r->in.number = now;
+    return rc;
+}
+
+/* --- the file ------------------------------------------------------------------------------------------- */
+
+/* 1 when the row names the columns. */
+static int header(struct reading *r)
+{
+    char **f = r->in.field;
+    const int32_t n = r->in.n;
+    if (n == 2 && strcmp(f[0], "x[m]") == 0 && strcmp(f[1], "y[m]") == 0) {
+        r->holds = CORNERS;
+        return 1;
+    }
+    if (n > 2 || (strcmp(f[0], "d[m]") != 0 && strcmp(f[0], "area[m2]") != 0) ||
+        (n == 2 && strcmp(f[1], "count") != 0))
+        return 0;
+    r->holds = f[0][0] == 'd' ? DIAMETERS : AREAS;
+    r->counted = n == 2;
+    return 1;
+}
+
+static int blank(const char *line) { return line[strspn(line, " \t\f\v")] == '\0'; }
+
+static int read_all(struct reading *r, fl_err *err)
+{
+    int more, rows = 0;
+    while ((more = fl_text_line(&r->in, err)) > 0) {
+        const int empty = blank(r->in.line), cut = fl_text_cut(&r->in, err);
+        if (cut < 0) return -1;
+        if (cut && rows++ == 0 && header(r)) continue;
+        if (r->holds == CORNERS && (empty || (cut && strcmp(r->in.field[0], ">") == 0))) {
+            if (close_polygon(r, err)) return -1;
+        } else if (cut && (r->holds == CORNERS ? read_corner(r, err) : read_size(r, err))) {
+            return -1;
+        }
+    }
+    if (more < 0 || close_polygon(r, err)) return -1;
+    if (r->n == 0)
+        return fl_text_fail(&r->in, err, "the file ends without a size, %s was wanted",
+                            r->holds == CORNERS ? "a polygon" : "one a row");
+    return 0;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const struct size *x = a, *y = b;
+    if (x->area != y->area) return (x->area > y->area) - (x->area < y->area);
+    return (x->count > y->count) - (x->count < y->count);
+}
+
+/* Sums of sizes in ascending order lose least, and do not depend on the order of the file. */
+static int sum_up(struct reading *r, fl_sizes *s, fl_err *err)
+{
+    *s = (fl_sizes){.kind = FL_SIZES_LIST, .n = r->n};
+    qsort(r->size, (size_t)r->n, sizeof *r->size, ascending);
+    if (!(s->area = fl_alloc(r->n, sizeof *s->area, err)) ||
+        !(s->upto = fl_alloc((int64_t)r->n + 1, sizeof *s->upto, err)) ||
+        !(s->sum = fl_alloc((int64_t)r->n + 1, sizeof *s->sum, err)))
+        return -1;
+    for (int32_t k = 0; k < r->n; k++) {
+        s->area[k] = r->size[k].area;
+        s->upto[k + 1] = s->upto[k] + r->size[k].count;
+        s->sum[k + 1] = s->sum[k] + r->size[k].area * r->size[k].count;
+    }
+    return 0;
+}
+
+int fl_sizes_read(fl_sizes *out, const char *path, fl_err *err)
+{
+    struct reading r = {0};
+    fl_sizes s = {0};
+    int rc = -1;
+    if (fl_text_open(&r.in, path, err) || read_all(&r, err) || sum_up(&r, &s, err)) goto done;
+    *out = s;
+    s = (fl_sizes){0};
+    rc = 0;
+done:
+    free(r.size);
+    free(r.v);
+    fl_sizes_free(&s);
+    fl_text_close(&r.in);
+    return rc;
+}
