@@ -10,8 +10,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Sizes and counts between which a file may lie [m, m2, 1], and coordinates [m]: squares and sums stay finite,
- * and the area of a polygon far from the origin keeps its digits. */
+/* Sizes and counts between which a file may lie [m, m2, 1], and coordinates [m]: squares and sums stay
+ * finite, and the area of a polygon far from the origin keeps its digits. */
 #define SMALLEST 1e-12
 #define LARGEST 1e12
 #define FAR 1e9

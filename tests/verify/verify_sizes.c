@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include "support/verify.h"
 #include "base/mem.h"
+#include "base/par.h"
 #include "ice/laguerre.h"
 #include "ice/sizes.h"
 
@@ -72,7 +73,7 @@ static int field(const char *name, const fl_sizes *s, int32_t n, double *area, d
     return 0;
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct {
         int32_t n;
@@ -80,6 +81,8 @@ int main(void)
     } size[] = {{1000, 0.03}, {10000, 0.01}};
     fl_err err = {0};
     double *area = fl_alloc(10000, sizeof *area, &err);
+    (void)argc;
+    fl_par_wait_briefly(argv);
     verify_begin("Floes of asked sizes");
     for (int k = 0; area && k < (verify_quick() ? 1 : 2); k++) {
         const int32_t n = size[k].n;
