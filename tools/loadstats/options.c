@@ -15,7 +15,7 @@ static const char HELP[] =
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
     "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, legs, events,\n"
-    "                          rainflow, damage, summary, ensemble or cycles (stats)\n"
+    "                          rainflow, damage, spectrum, frequency, summary, ensemble or cycles (stats)\n"
     "      --summary           the table summary: what adds up, of one run or of many files\n"
     "      --merge             the files are summaries: add them up\n"
     "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
@@ -43,6 +43,10 @@ static const char HELP[] =
     "      --residue WHAT      what iso leaves open: half cycles, repeat, or none (half)\n"
     "      --sn M[,A[,M2,KNEE]] of damage: N = A S^-M cycles to failure, slope M2 below S = KNEE (3; 5)\n"
     "      --stress X          of damage: stress per unit of the load (1)\n"
+    "      --segment S         of spectra: length of a segment, they overlap by half (8 or a few more of "
+    "them)\n"
+    "      --taper WINDOW      of spectra: hann, hamming, blackman or none (hann)\n"
+    "      --speed V           of the ice, in m/s: for the breaking length V / f\n"
     "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
     "      --resamples N       for intervals and probabilities, 0 for none (199)\n"
     "      --seed N            of their random numbers (1)\n"
@@ -84,7 +88,10 @@ enum {
     RULE,
     RESIDUE,
     SN,
-    STRESS
+    STRESS,
+    SEGMENT,
+    TAPER,
+    SPEED
 };
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
@@ -117,6 +124,9 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"rule", required_argument, NULL, RULE},
                                      {"residue", required_argument, NULL, RESIDUE},
                                      {"sn", required_argument, NULL, SN},
+                                     {"segment", required_argument, NULL, SEGMENT},
+                                     {"taper", required_argument, NULL, TAPER},
+                                     {"speed", required_argument, NULL, SPEED},
                                      {"stress", required_argument, NULL, STRESS},
                                      {"merge", no_argument, NULL, MERGE},
                                      {"stream", no_argument, NULL, STREAM},
@@ -135,13 +145,15 @@ static const char *const TABLE[] = {[TABLE_STATS] = "stats",         [TABLE_PEAK
                                     [TABLE_FITS] = "fits",           [TABLE_LEVELS] = "levels",
                                     [TABLE_LEGS] = "legs",           [TABLE_EVENTS] = "events",
                                     [TABLE_RAINFLOW] = "rainflow",   [TABLE_DAMAGE] = "damage",
+                                    [TABLE_SPECTRUM] = "spectrum",   [TABLE_FREQUENCY] = "frequency",
                                     [TABLE_SUMMARY] = "summary",     [TABLE_ENSEMBLE] = "ensemble",
                                     [TABLE_CYCLES] = "cycles"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
-static const char *const CYCLE_RULE[] = {"astm", "iso"};             /* as fl_rainflow_rule_name() */
-static const char *const OPEN_CYCLES[] = {"half", "repeat", "none"}; /* as fl_residue_name() */
+static const char *const CYCLE_RULE[] = {"astm", "iso"};                     /* as fl_rainflow_rule_name() */
+static const char *const OPEN_CYCLES[] = {"half", "repeat", "none"};         /* as fl_residue_name() */
+static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none"}; /* as fl_taper_name() */
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
@@ -335,6 +347,9 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case RESIDUE:
         o->residue = choice("residue", arg, OPEN_CYCLES, COUNT(OPEN_CYCLES), err);
         return o->residue < 0 ? -1 : 0;
+    case SEGMENT: return time_of("segment", arg, &o->segment, err);
+    case TAPER: o->taper = choice("taper", arg, TAPERS, COUNT(TAPERS), err); return o->taper < 0 ? -1 : 0;
+    case SPEED: return number("speed", arg, tiny, huge, "a speed above 0", &o->speed, err);
     case SN: return add_sn(o, arg, err);
     case STRESS: return number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
     case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
@@ -514,6 +529,10 @@ void options_by(const struct options *o, fl_by *by)
         fl_by_add(by, "--rule %s", CYCLE_RULE[o->rule]);
         fl_by_add(by, "--residue %s", OPEN_CYCLES[o->residue]);
     }
+    const int spectra = o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY;
+    if (spectra && o->segment > 0.0) add_number(by, "segment", o->segment);
+    if (spectra && o->taper) fl_by_add(by, "--taper %s", TAPERS[o->taper]);
+    if (o->table == TABLE_FREQUENCY && o->speed > 0.0) add_number(by, "speed", o->speed);
     for (int32_t k = 0; o->table == TABLE_DAMAGE && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
     if (o->table == TABLE_DAMAGE && o->stress != 1.0) add_number(by, "stress", o->stress);
     if (o->merge) fl_by_add(by, "--merge");

@@ -19,6 +19,8 @@ enum table {
     TABLE_EVENTS,
     TABLE_RAINFLOW,
     TABLE_DAMAGE,
+    TABLE_SPECTRUM,
+    TABLE_FREQUENCY,
     TABLE_SUMMARY,
     TABLE_ENSEMBLE,
     TABLE_CYCLES
@@ -56,9 +58,11 @@ struct options {
     int rule, residue; /* of the cycles, fl_rainflow_rule and fl_residue */
     fl_sn sn[SNS_MAX]; /* a is NAN where only the exponent was given */
     int32_t sns, sn_words;
-    double stress; /* per unit of the load */
-    double follow; /* [s] of data between two reports, 0 for one at the end */
-    int ended;     /* --help or --version was answered */
+    double segment, speed; /* [s] of a spectrum, 0 for what suits the record; [m/s] 0 for not known */
+    int taper;             /* fl_taper */
+    double stress;         /* per unit of the load */
+    double follow;         /* [s] of data between two reports, 0 for one at the end */
+    int ended;             /* --help or --version was answered */
 };
 
 /* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */

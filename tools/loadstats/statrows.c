@@ -6,6 +6,7 @@
 #include "cyclerows.h"
 #include "fitrows.h"
 #include "legrows.h"
+#include "specrows.h"
 #include "statrows.h"
 
 const char *view_name(int w) { return w ? "filtered" : "raw"; }
@@ -130,6 +131,8 @@ void statrows_header(FILE *f, const struct options *o)
     case TABLE_EVENTS: legrows_header(f, o); break;
     case TABLE_RAINFLOW:
     case TABLE_DAMAGE: cyclerows_header(f, o); break;
+    case TABLE_SPECTRUM:
+    case TABLE_FREQUENCY: specrows_header(f, o); break;
     case TABLE_SUMMARY:
     case TABLE_ENSEMBLE:
     case TABLE_CYCLES: break; /* sumrows.h */
@@ -153,6 +156,8 @@ int statrows_write(FILE *f, const struct result *r, const struct options *o, con
             for (int w = 0; w < r->each && o->table != TABLE_HISTOGRAM; w++) {
                 const fl_view *v = view_of(r, p, s, w);
                 const int fit = o->table == TABLE_FITS || o->table == TABLE_LEVELS;
+                const int spectra = o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY;
+                if (spectra && specrows_write(f, r, o, p, s, w, err)) return -1;
                 if (fit && fitrows_write(f, r, o, p, s, w, err)) return -1;
                 if (o->table == TABLE_PEAKS) peaks_rows(f, r, p, s, w, v);
                 if (o->table == TABLE_EXCEEDANCE) exceedance_rows(f, r, p, s, w, v);
