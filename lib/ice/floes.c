@@ -11,6 +11,7 @@ enum { KEPT = 1, FIXED = 2, ROUNDS = 40, NEWTON = 60 };
 struct fit {
     const fl_cells *cells;
     double radius;
+    double few, least;       /* FL_FLOES_SHORT and FL_FLOES_LEAST, or FL_FLOES_FILL for both             */
     double *inradius, *most; /* [n] of the cell, and the largest inset it may have            [m] */
     double *area, *outline;  /* [n] of the outer polygon at the inset last asked for     [m2, m] */
     int32_t *count;          /* [n] sides of the floe                                            */
@@ -58,10 +59,10 @@ static double half_tan(fl_side a, fl_side b) { return fl_side_sin(a, b) / (1.0 +
 /* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
  * from the corner of a and b to the inscribed circle leave rho (tan + tan) at depth of the circle: half of it
  * stays clear. */
-static double least_side(fl_side a, fl_side e, fl_side b, double rho)
+static double least_side(const struct fit *f, fl_side a, fl_side e, fl_side b, double rho)
 {
     const double clear = 0.5 * (half_tan(a, e) + half_tan(e, b));
-    return rho * (clear < FL_FLOES_LEAST ? clear : FL_FLOES_LEAST);
+    return rho * (clear < f->least ? clear : f->least);
 }
 
 /* The outer corner of a and b at inset d must stay inside the cell by `spare`: how far is it beyond that,
@@ -82,13 +83,13 @@ static double beyond(const fl_side *cell, int32_t m, fl_side a, fl_side b, doubl
 }
 
 /* Let side e pass between the core's sides a and b, so deep that its own length is the least one. */
-static void cut_corner(fl_side *line, unsigned char *state, int32_t e, fl_side a, fl_side b, double inset,
-                       double rho)
+static void cut_corner(const struct fit *f, fl_side *line, unsigned char *state, int32_t e, fl_side a,
+                       fl_side b, double inset, double rho)
 {
     const fl_vec2 q = fl_side_meet(a, b, inset);
     const fl_side s = line[e];
     const double per_depth = fl_side_cos(a, s) / fl_side_sin(a, s) + fl_side_cos(s, b) / fl_side_sin(s, b);
-    line[e].c = s.nx * q.x + s.ny * q.y - least_side(a, s, b, rho) / per_depth + inset;
+    line[e].c = s.nx * q.x + s.ny * q.y - least_side(f, a, s, b, rho) / per_depth + inset;
     state[e] = KEPT | FIXED;
 }
 
@@ -115,15 +116,15 @@ static int32_t core_of(const fl_side *line, unsigned char *state, int32_t m, dou
 
 /* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were
  * cut after it and took of its length; a quarter may go before it is cut again. */
-static int32_t find_short(const unsigned char *state, int32_t n, const fl_side *left, const fl_vec2 *corner,
-                          double rho)
+static int32_t find_short(const struct fit *f, const unsigned char *state, int32_t n, const fl_side *left,
+                          const fl_vec2 *corner, double rho)
 {
     int32_t at = -1;
     double least = INFINITY;
     for (int32_t k = 0; k < n; k++) {
         const fl_side a = left[k ? k - 1 : n - 1], b = left[k + 1 < n ? k + 1 : 0];
         const double limit =
-            state[left[k].tag] & FIXED ? 0.75 * least_side(a, left[k], b, rho) : FL_FLOES_SHORT * rho;
+            state[left[k].tag] & FIXED ? 0.75 * least_side(f, a, left[k], b, rho) : f->few * rho;
         const double l = length(corner, k, n);
         if (l < limit && l < least) {
             least = l;
@@ -134,10 +135,11 @@ static int32_t find_short(const unsigned char *state, int32_t n, const fl_side *
 }
 
 /* One short side: drop it, cut it deeper, or leave it for good.  Returns 0 when there was none. */
-static int mend_short(const fl_side *cell, int32_t m, fl_side *line, unsigned char *state, int32_t n,
-                      const fl_side *left, const fl_vec2 *corner, double d, double radius, double rho)
+static int mend_short(const struct fit *f, const fl_side *cell, int32_t m, fl_side *line,
+                      unsigned char *state, int32_t n, const fl_side *left, const fl_vec2 *corner, double d,
+                      double rho)
 {
-    const int32_t at = find_short(state, n, left, corner, rho);
+    const int32_t at = find_short(f, state, n, left, corner, rho);
     int32_t e, worst = 0;
     fl_side a, b;
     if (at < 0) return 0;
@@ -146,8 +148,8 @@ static int mend_short(const fl_side *cell, int32_t m, fl_side *line, unsigned ch
     b = left[at + 1 < n ? at + 1 : 0];
     if (n > 3 && fl_side_sin(a, b) > 0.0 && beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
         state[e] &= (unsigned char)~KEPT;
-    else if (fl_side_sin(a, b) > 0.0 && length(corner, at, n) < least_side(a, left[at], b, rho))
-        cut_corner(line, state, e, a, b, d + radius, rho);
+    else if (fl_side_sin(a, b) > 0.0 && length(corner, at, n) < least_side(f, a, left[at], b, rho))
+        cut_corner(f, line, state, e, a, b, d + f->radius, rho);
     else state[e] |= FIXED; /* it stays as it is; between sides that open outward it only looks short */
     return 1;
 }
@@ -175,11 +177,11 @@ static int fit_floe(struct fit *f, int32_t i, double d)
             const fl_side a = left[k], b = left[k + 1 < n ? k + 1 : 0];
             int32_t e = 0;
             if (beyond(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
-                cut_corner(line, state, e, a, b, di + f->radius, rho);
+                cut_corner(f, line, state, e, a, b, di + f->radius, rho);
                 changed = 1;
             }
         }
-        if (changed || mend_short(cell, m, line, state, n, left, corner, di, f->radius, rho)) continue;
+        if (changed || mend_short(f, cell, m, line, state, n, left, corner, di, rho)) continue;
         memcpy(f->side + first, left, (size_t)n * sizeof *left);
         f->count[i] = n;
         return 0;
@@ -199,7 +201,7 @@ static int still_fits(struct fit *f, int32_t i, double d)
         const fl_side a = side[k ? k - 1 : n - 1], b = side[k + 1 < n ? k + 1 : 0];
         const fl_vec2 p = corner[k], q = corner[k + 1 < n ? k + 1 : 0];
         int32_t e = 0;
-        if ((q.y - p.y) * side[k].nx - (q.x - p.x) * side[k].ny < 0.5 * least_side(a, side[k], b, rho))
+        if ((q.y - p.y) * side[k].nx - (q.x - p.x) * side[k].ny < 0.5 * least_side(f, a, side[k], b, rho))
             return 0;
         if (beyond(f->cells->side + first, m, side[k], b, di, 0.25 * di, &e) > 0.0) return 0;
     }
@@ -291,6 +293,14 @@ static int measure_cells(struct fit *f, double *total, double *hi, fl_err *err)
                    tight, f->inradius[tight], f->radius);
 }
 
+static int no_room(const struct fit *f, int32_t i, fl_err *err)
+{
+    return fl_fail(err, FL_INPUT,
+                   "the cell of floe %d, inscribed radius %.4g m, leaves no room for a core inside a "
+                   "dilation radius of %.4g m: a smaller radius, fewer floes or more smoothing is wanted",
+                   i, f->inradius[i], f->radius);
+}
+
 /* Sides and inset in turn, until the sides chosen serve at the inset that they lead to. */
 static int settle(struct fit *f, double concentration, double *d, fl_err *err)
 {
@@ -315,12 +325,7 @@ static int settle(struct fit *f, double concentration, double *d, fl_err *err)
             changed++;
             if (fit_floe(f, i, *d) && i < bad) bad = i;
         }
-        if (bad < INT32_MAX)
-            return fl_fail(
-                err, FL_INPUT,
-                "the cell of floe %d, inscribed radius %.4g m, leaves no room for a core inside a "
-                "dilation radius of %.4g m: a smaller radius, fewer floes or more smoothing is wanted",
-                bad, f->inradius[bad], f->radius);
+        if (bad < INT32_MAX) return no_room(f, bad, err);
         if (changed == 0) return 0;
         over = excess(f, 0, 0.0, concentration * total, &fall);
         if (over < 0.0)
@@ -368,7 +373,7 @@ static int collect(const struct fit *f, double d, fl_vec2 shift, fl_floes *a, fl
 int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
                   fl_err *err)
 {
-    struct fit f = {.cells = cells, .radius = radius};
+    struct fit f = {.cells = cells, .radius = radius, .few = FL_FLOES_SHORT, .least = FL_FLOES_LEAST};
     fl_floes a = {0};
     double d = 0.0;
     int rc = -1;
@@ -376,6 +381,29 @@ int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, do
     *out = a;
     a = (fl_floes){0};
     rc = 0;
+done:
+    fl_floes_free(&a);
+    fit_free(&f);
+    return rc;
+}
+
+int fl_floes_fill(fl_floes *out, const fl_cells *cells, double radius, fl_vec2 shift, fl_err *err)
+{
+    struct fit f = {.cells = cells, .radius = radius, .few = FL_FLOES_FILL, .least = FL_FLOES_FILL};
+    fl_floes a = {0};
+    double total, hi;
+    int32_t bad = INT32_MAX;
+    int rc = -1;
+    if (fit_alloc(&f, err) || measure_cells(&f, &total, &hi, err)) goto done;
+#pragma omp parallel for schedule(static) reduction(min : bad)
+    for (int32_t i = 0; i < cells->n; i++)
+        if (fit_floe(&f, i, 0.0) && i < bad) bad = i;
+    if (bad < INT32_MAX) no_room(&f, bad, err);
+    else if (collect(&f, 0.0, shift, &a, err) == 0) {
+        *out = a;
+        a = (fl_floes){0};
+        rc = 0;
+    }
 done:
     fl_floes_free(&a);
     fit_free(&f);

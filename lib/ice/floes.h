@@ -45,6 +45,14 @@ typedef struct {
 int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
                   fl_err *err);
 
+/* Floes without gaps: the outer polygons are the cells.  A side shorter than FL_FLOES_FILL times the
+ * inscribed radius of the core, or one that would vanish on the way to the core, moves in until the core's
+ * side is that long, and leaves a sliver of the cell uncovered; with a radius of 0 nothing is lost but such
+ * sides.
+ * Returns 0, or -1 with FL_INPUT: a cell is too small for the radius; FL_SYSTEM.  out is untouched then. */
+#define FL_FLOES_FILL 1e-4
+int fl_floes_fill(fl_floes *out, const fl_cells *cells, double radius, fl_vec2 shift, fl_err *err);
+
 /* Drop the floes with gone[i] set.  name[i], the cell of floe i, is kept in step. */
 void fl_floes_drop(fl_floes *a, const char *gone, int32_t *name);
 

@@ -9,11 +9,13 @@
 #include "base/tool.h"
 #include "ice/cells.h"
 #include "ice/certificate.h"
+#include "ice/faces.h"
 #include "ice/floes.h"
 #include "ice/laguerre.h"
 #include "scene/field.h"
 #include "certify.h"
 #include "options.h"
+#include "sheet.h"
 #include "sizing.h"
 
 struct field {
@@ -24,6 +26,7 @@ struct field {
     double covered, kept; /* area of the floes and of their cells after it             [m2] */
     fl_certificate c;
     struct sizing sizing;
+    fl_faces faces; /* of a bonded field */
 };
 
 static void tell(const struct options *o, const char *what)
@@ -115,6 +118,20 @@ static int add_floe(const struct options *o, const struct field *a, int32_t i, f
     return -1;
 }
 
+/* The common face of two prisms stands on the side they share. */
+static int add_bonds(const struct options *o, const struct field *a, fl_field *out, fl_err *err)
+{
+    const double draft = o->thickness * (o->ice_density / o->water_density);
+    for (int32_t k = 0; k < a->faces.n; k++) {
+        const fl_face *f = &a->faces.face[k];
+        const double length = hypot(f->b.x - f->a.x, f->b.y - f->a.y);
+        const fl_vec3 middle =
+            v3(0.5 * (f->a.x + f->b.x), 0.5 * (f->a.y + f->b.y), 0.5 * o->thickness - draft);
+        if (fl_field_add_bond(out, f->i, f->j, length * o->thickness, length, middle, err)) return -1;
+    }
+    return 0;
+}
+
 static int write_field(const struct options *o, const struct field *a, fl_err *err)
 {
     fl_field out = {0};
@@ -127,6 +144,7 @@ static int write_field(const struct options *o, const struct field *a, fl_err *e
         if (fl_grow(&xy, &cap, a->floes.first[i + 1] - a->floes.first[i], sizeof *xy, err) ||
             add_floe(o, a, i, xy, &out, err))
             goto done;
+    if (add_bonds(o, a, &out, err)) goto done;
     options_by(o, &by);
     if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
     fl_field_write(file.f, &out, &by);
@@ -139,21 +157,34 @@ done:
 
 /* --- the certificate ------------------------------------------------------------------------------------ */
 
+/* Where all floes are there, what their outlines have beside the shared sides is the outline of the field. */
+static void certify_faces(const struct options *o, const struct field *a, struct certify *t)
+{
+    const fl_faces *f = &a->faces;
+    const double open = f->outline - 2.0 * f->length, outline = 2.0 * (o->size.x + o->size.y);
+    certify_add(t, "overlap, deepest [m]", 0, f->deep, f->deep, 4, NULL);
+    certify_add(t, "bond candidates", NOT_ASKED, f->n, NO_DISTANCE, 10, NULL);
+    certify_add(t, "bonded area [m2]", NOT_ASKED, f->length * o->thickness, NO_DISTANCE, 6, NULL);
+    if (o->keep_outs) certify_add(t, "sides on no other [m]", NOT_ASKED, open, NO_DISTANCE, 6, NULL);
+    else certify_add(t, "sides on no other [m]", outline, open, fabs(open - outline) / f->outline, 6, NULL);
+}
+
 static void certify(const struct options *o, const struct field *a, struct certify *t)
 {
     const fl_certificate *c = &a->c;
     const double area = o->size.x * o->size.y, concentration = a->full / area;
+    const double asked = o->bonded ? 1.0 : o->concentration;
     certify_add(t, "floes", o->floes, a->cells.n, abs(a->cells.n - o->floes), 10, NULL);
     if (o->sizes) sizing_certify(&a->sizing, o, a->floes.inset, t);
-    certify_add(t, "concentration", o->concentration, concentration, fabs(concentration - o->concentration),
-                10, NULL);
+    certify_add(t, "concentration", asked, concentration, fabs(concentration - asked), 10, NULL);
     if (o->keep_outs) {
         certify_add(t, "floes kept out", NOT_ASKED, a->cells.n - a->floes.n, NO_DISTANCE, 10, NULL);
         certify_add(t, "floes left", NOT_ASKED, a->floes.n, NO_DISTANCE, 10, NULL);
         certify_add(t, "concentration, whole field", NOT_ASKED, a->covered / area, NO_DISTANCE, 6, NULL);
         certify_add(t, "concentration, cells left", NOT_ASKED, a->covered / a->kept, NO_DISTANCE, 6, NULL);
     }
-    certify_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
+    if (o->bonded) certify_faces(o, a, t);
+    else certify_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
     certify_add(t, "draft [m]", NOT_ASKED, o->thickness * (o->ice_density / o->water_density), NO_DISTANCE, 6,
                 NULL);
     certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean, NO_DISTANCE, 6, NULL);
@@ -166,7 +197,7 @@ static void certify(const struct options *o, const struct field *a, struct certi
                 a->name[c->edge_of]);
     certify_add(t, "sharpest corner [degrees]", NOT_ASKED, c->angle * (180.0 / acos(-1.0)), NO_DISTANCE, 4,
                 "floe %d", a->name[c->angle_of]);
-    if (c->gap_of[0] >= 0)
+    if (c->gap_of[0] >= 0 && !o->bonded)
         certify_add(t, "narrowest gap [m]", NOT_ASKED, c->gap, NO_DISTANCE, 6, "floes %d and %d",
                     a->name[c->gap_of[0]], a->name[c->gap_of[1]]);
     certify_add(t, "inset of the cells [m]", NOT_ASKED, a->floes.inset, NO_DISTANCE, 6, NULL);
@@ -187,6 +218,12 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
         const int32_t first = a->cells.first[a->name[i]];
         a->kept += fl_polygon_area(a->cells.first[a->name[i] + 1] - first, a->cells.v + first);
     }
+    if (o->bonded) {
+        if (fl_faces_find(&a->faces, &a->floes, err)) return -1;
+        if (a->faces.deep <= a->faces.within) return 0;
+        return fl_fail(err, FL_NUMERIC, "floes %d and %d overlap by %g m: nothing is written",
+                       a->name[a->faces.deep_of[0]], a->name[a->faces.deep_of[1]], a->faces.deep);
+    }
     if (a->c.overlaps)
         return fl_fail(err, FL_NUMERIC,
                        "%lld pairs of floes overlap, floes %d and %d among them: nothing is written",
@@ -202,6 +239,7 @@ static int run(struct options *o, fl_err *err)
     fl_by by;
     int rc = -1;
     if (o->threads) omp_set_num_threads(o->threads);
+    if (o->lattice >= 0) return sheet_run(o, err);
     if (o->sizes && sizing_ask(&a.sizing, o, o->size.x * o->size.y, err)) goto done;
     a.name = fl_alloc(o->floes, sizeof *a.name, err);
     if (!a.name) goto done;
@@ -211,7 +249,9 @@ static int run(struct options *o, fl_err *err)
     } else {
         if (make_cells(o, &a.cells, err)) goto done;
         tell(o, "shrinking the cells");
-        if (fl_floes_make(&a.floes, &a.cells, o->concentration, o->radius, shift, err)) goto done;
+        if (o->bonded ? fl_floes_fill(&a.floes, &a.cells, o->radius, shift, err)
+                      : fl_floes_make(&a.floes, &a.cells, o->concentration, o->radius, shift, err))
+            goto done;
     }
     tell(o, "measuring");
     if (measure(o, &a, err)) goto done;
@@ -224,6 +264,7 @@ static int run(struct options *o, fl_err *err)
     rc = 0;
 done:
     sizing_free(&a.sizing);
+    fl_faces_free(&a.faces);
     fl_floes_free(&a.floes);
     fl_cells_free(&a.cells);
     free(a.name);

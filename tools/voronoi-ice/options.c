@@ -26,6 +26,10 @@ static const char HELP[] =
     "      --velocity VX,VY    of all floes at the start, m/s (0,0)\n"
     "      --keep-out SHAPE    take out floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 "
     "times\n"
+    "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
+    "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
+    "      --layers N          layers of the lattice (1)\n"
+    "      --diameter D        of the spheres of the lattice (0.25)\n"
     "      --certificate FILE  what was asked and what was achieved as a table, - is standard output\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the file\n"
@@ -51,6 +55,10 @@ enum {
     VELOCITY,
     KEEP_OUT,
     CERTIFICATE,
+    BONDED,
+    LATTICE,
+    LAYERS,
+    DIAMETER,
     VERSION
 };
 
@@ -68,6 +76,10 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"water-density", required_argument, NULL, WATER_DENSITY},
                                      {"velocity", required_argument, NULL, VELOCITY},
                                      {"keep-out", required_argument, NULL, KEEP_OUT},
+                                     {"bonded", no_argument, NULL, BONDED},
+                                     {"lattice", required_argument, NULL, LATTICE},
+                                     {"layers", required_argument, NULL, LAYERS},
+                                     {"diameter", required_argument, NULL, DIAMETER},
                                      {"certificate", required_argument, NULL, CERTIFICATE},
                                      {"output", required_argument, NULL, 'o'},
                                      {"gzip", no_argument, NULL, 'z'},
@@ -173,6 +185,44 @@ static int name(const char *text, const char **out, fl_err *err)
     return 0;
 }
 
+static const char *const LATTICES[] = {"hcp", "hex", "square"};
+
+static int lattice(const char *text, int *out, fl_err *err)
+{
+    for (int k = 0; k < 3; k++)
+        if (strcmp(text, LATTICES[k]) == 0) {
+            *out = k;
+            return 0;
+        }
+    return fl_fail(err, FL_USAGE, "--lattice is \"%.60s\", hcp, hex or square was wanted", text);
+}
+
+/* Options that say nothing where another one stands must not look as if they did. */
+static int useless(const struct options *o, const char *beside, int n, const int *without, fl_err *err)
+{
+    for (int k = 0; k < n; k++)
+        if (o->given >> (without[k] - SIZE) & 1)
+            for (const struct option *l = LONG; l->name; l++)
+                if (l->val == without[k])
+                    return fl_fail(err, FL_USAGE, "--%s means nothing %s, it was not wanted", l->name,
+                                   beside);
+    return 0;
+}
+
+static int check_lattice(const struct options *o, fl_err *err)
+{
+    static const int without[] = {FLOES, SIZES, CONCENTRATION, THICKNESS, RADIUS, SEED, SMOOTH, KEEP_OUT};
+    static const int within[] = {LAYERS, DIAMETER};
+    if (o->lattice >= 0) return useless(o, "beside --lattice", 8, without, err);
+    return useless(o, "without --lattice", 2, within, err);
+}
+
+static int check_bonded(const struct options *o, fl_err *err)
+{
+    static const int without[] = {CONCENTRATION, SIZES};
+    return o->bonded ? useless(o, "beside --bonded, which fills the field", 2, without, err) : 0;
+}
+
 static int apply(struct options *o, int c, const char *arg, fl_err *err)
 {
     switch (c) {
@@ -202,6 +252,10 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
     case VELOCITY: return pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
     case KEEP_OUT: return shape(o, arg, err);
+    case BONDED: o->bonded = 1; return 0;
+    case LATTICE: return lattice(arg, &o->lattice, err);
+    case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
+    case DIAMETER: return number("diameter", arg, SHORTEST, LONGEST, &o->diameter, "a length", err);
     case CERTIFICATE: o->certificate = arg; return 0;
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
@@ -231,6 +285,9 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .concentration = 0.8,
                           .thickness = 0.5,
                           .radius = 0.05,
+                          .lattice = -1,
+                          .layers = 1,
+                          .diameter = 0.25,
                           .ice_density = 900.0,
                           .water_density = 1025.0,
                           .seed = 1};
@@ -241,6 +298,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         if (c == '?' && optopt > 0 && optopt < 256)
             return fl_fail(err, FL_USAGE, "-%c is no option, see voronoi-ice --help", optopt);
         if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see voronoi-ice --help", word);
+        if (c >= SIZE) o->given |= UINT64_C(1) << (c - SIZE);
         if (apply(o, c, optarg, err)) return -1;
     }
     if (o->ended) return 0;
@@ -250,6 +308,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(err, FL_USAGE,
                        "--certificate - and the field both go to standard output: -o is wanted");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
+    if (check_lattice(o, err) || check_bonded(o, err)) return -1;
     if (!(o->thickness > 2.0 * o->radius))
         return fl_fail(err, FL_USAGE, "--thickness %g is not more than twice --radius %g: no core is left",
                        o->thickness, o->radius);
@@ -279,13 +338,19 @@ void options_by(const struct options *o, fl_by *by)
     fl_by_start(by, "voronoi-ice");
     add_pair(by, "--size ", 'x', o->size);
     add_pair(by, "--origin ", ',', o->origin);
-    fl_by_add(by, "--floes %d", o->floes);
-    if (o->sizes) fl_by_add(by, "--sizes %s", o->sizes);
-    add_numbers(by, "--concentration ", ',', 1, &o->concentration);
-    add_numbers(by, "--thickness ", ',', 1, &o->thickness);
-    add_numbers(by, "--radius ", ',', 1, &o->radius);
-    fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
-    fl_by_add(by, "--smooth %d", o->smooth);
+    if (o->lattice >= 0) {
+        fl_by_add(by, "--lattice %s --layers %d", LATTICES[o->lattice], o->layers);
+        add_numbers(by, "--diameter ", ',', 1, &o->diameter);
+    } else {
+        fl_by_add(by, "--floes %d", o->floes);
+        if (o->sizes) fl_by_add(by, "--sizes %s", o->sizes);
+        if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
+        add_numbers(by, "--thickness ", ',', 1, &o->thickness);
+        add_numbers(by, "--radius ", ',', 1, &o->radius);
+        fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
+        fl_by_add(by, "--smooth %d", o->smooth);
+    }
+    if (o->bonded) fl_by_add(by, "--bonded");
     fl_by_add(by, "--material %s", o->material);
     add_numbers(by, "--ice-density ", ',', 1, &o->ice_density);
     add_numbers(by, "--water-density ", ',', 1, &o->water_density);

@@ -27,13 +27,18 @@ struct options {
     uint64_t seed;
     struct keep_out keep_out[KEEP_OUT_MAX];
     int keep_outs;
+    int bonded;
+    int lattice; /* -1, or an fl_lattice_kind */
+    int32_t layers;
+    double diameter; /* of the spheres of a lattice [m] */
     int gzip, quiet, verbose, threads;
     int has_origin, has_floes, has_concentration;
     const char *sizes; /* the name of a law, with nothing left out, or a file; NULL: Voronoi */
     int sizes_file;    /* it is a file */
     char sizes_name[FL_SIZES_LAW_LEN];
-    fl_sizes law; /* unless in a file */
-    int ended;    /* --help or --version was answered */
+    fl_sizes law;   /* unless in a file */
+    uint64_t given; /* which long options there were, by their numbers */
+    int ended;      /* --help or --version was answered */
 };
 
 /* Defaults, then the command line.  0, or -1 with FL_USAGE in err. */

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include "base/mem.h"
+#include "base/par.h"
+#include "broad/bvh.h"
+#include "ice/faces.h"
+
+/* A field far from the origin has corners that are rounded to its distance: some hundred ulps of that. */
+#define FAR 1e-14
+
+struct polygon {
+    int32_t n;
+    const fl_vec2 *v;
+};
+
+static struct polygon outer(const fl_floes *a, int32_t i)
+{
+    return (struct polygon){a->first[i + 1] - a->first[i], a->outer + a->first[i]};
+}
+
+static fl_vec2 next(struct polygon p, int32_t k) { return p.v[k + 1 < p.n ? k + 1 : 0]; }
+
+/* The line through two corners, with the outward normal. */
+static fl_side line(fl_vec2 p, fl_vec2 q)
+{
+    const double s = 1.0 / hypot(q.x - p.x, q.y - p.y), nx = s * (q.y - p.y), ny = -s * (q.x - p.x);
+    return (fl_side){nx, ny, nx * p.x + ny * p.y, 0};
+}
+
+/* Depth of the overlap by the sides of a: the side that has the other polygon least far behind it. */
+static double depth(struct polygon a, struct polygon b)
+{
+    double most = -INFINITY;
+    for (int32_t k = 0; k < a.n; k++) {
+        const fl_side s = line(a.v[k], next(a, k));
+        double least = INFINITY;
+        for (int32_t j = 0; j < b.n; j++) least = fmin(least, fl_side_beyond(s, b.v[j]));
+        most = fmax(most, least);
+    }
+    return -most;
+}
+
+/* The piece that the sides p q and r s share, from p to q; the line is that of the longer side, whose
+ * direction is the better known one.  Returns its length, 0 when there is none. */
+static double shared(fl_vec2 p, fl_vec2 q, fl_vec2 r, fl_vec2 s, double within, fl_vec2 *from, fl_vec2 *to)
+{
+    const double pq = hypot(q.x - p.x, q.y - p.y), rs = hypot(s.x - r.x, s.y - r.y);
+    const fl_vec2 o = pq >= rs ? p : s, e = pq >= rs ? q : r, b = pq >= rs ? s : p, c = pq >= rs ? r : q;
+    const double l = fmax(pq, rs), ux = (e.x - o.x) / l, uy = (e.y - o.y) / l;
+    const double t0 = ux * (b.x - o.x) + uy * (b.y - o.y), t1 = ux * (c.x - o.x) + uy * (c.y - o.y);
+    const double lo = fmax(t0, 0.0), hi = fmin(t1, l);
+    if (fabs(uy * (b.x - o.x) - ux * (b.y - o.y)) > within) return 0.0;
+    if (fabs(uy * (c.x - o.x) - ux * (c.y - o.y)) > within) return 0.0;
+    if (!(hi - lo > within)) return 0.0;
+    *from = (fl_vec2){o.x + lo * ux, o.y + lo * uy};
+    *to = (fl_vec2){o.x + hi * ux, o.y + hi * uy};
+    return hi - lo;
+}
+
+/* Two convex polygons that do not overlap share one piece at most; rounding may make it look like two. */
+static double face_of(struct polygon a, struct polygon b, double within, fl_face *out)
+{
+    double best = 0.0;
+    for (int32_t k = 0; k < a.n; k++)
+        for (int32_t m = 0; m < b.n; m++) {
+            fl_vec2 from = {0}, to = {0};
+            const double l = shared(a.v[k], next(a, k), b.v[m], next(b, m), within, &from, &to);
+            if (l <= best) continue;
+            best = l;
+            out->a = from;
+            out->b = to;
+        }
+    return best;
+}
+
+static int add(fl_faces *f, int32_t *cap, fl_face face, fl_err *err)
+{
+    if (fl_grow(&f->face, cap, (int64_t)f->n + 1, sizeof *f->face, err)) return -1;
+    f->face[f->n++] = face;
+    return 0;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;
+    return (p > q) - (p < q);
+}
+
+static int find(fl_faces *f, const fl_floes *a, const fl_bvh *tree, const fl_aabb *box, double within,
+                fl_err *err)
+{
+    int32_t *near = NULL, near_cap = 0, cap = 0, got;
+    int rc = -1;
+    for (int32_t i = 0; i < a->n; i++) {
+        const fl_aabb q = aabb_grow(box[i], within);
+        while ((got = fl_bvh_query(tree, box, q, near, near_cap)) > near_cap)
+            if (fl_grow(&near, &near_cap, got, sizeof *near, err)) goto done;
+        qsort(near, (size_t)got, sizeof *near, by_number);
+        for (int32_t k = 0; k < got; k++) {
+            const struct polygon p = outer(a, i), r = outer(a, near[k]);
+            fl_face face = {.i = i, .j = near[k]};
+            double deep;
+            if (near[k] <= i) continue;
+            deep = fmin(depth(p, r), depth(r, p));
+            if (deep > f->deep) {
+                f->deep = deep;
+                f->deep_of[0] = i;
+                f->deep_of[1] = near[k];
+            }
+            if (deep >= -within && face_of(p, r, within, &face) > 0.0 && add(f, &cap, face, err)) goto done;
+        }
+    }
+    rc = 0;
+done:
+    free(near);
+    return rc;
+}
+
+int fl_faces_find(fl_faces *out, const fl_floes *a, fl_err *err)
+{
+    fl_faces f = {.deep_of = {-1, -1}};
+    fl_aabb *box = fl_alloc(a->n, sizeof *box, err), all = aabb_empty();
+    double *length = NULL, *outline = fl_alloc(a->n, sizeof *outline, err), size, far;
+    fl_bvh tree = {0};
+    int rc = -1;
+    if (!box || !outline) goto done;
+    for (int32_t i = 0; i < a->n; i++) {
+        const struct polygon p = outer(a, i);
+        box[i] = aabb_empty();
+        for (int32_t k = 0; k < p.n; k++) box[i] = aabb_add(box[i], v3(p.v[k].x, p.v[k].y, 0.0));
+        all = aabb_join(all, box[i]);
+        outline[i] = fl_polygon_outline(p.n, p.v);
+    }
+    size = fmax(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
+    far = fmax(fmax(fabs(all.lo.x), fabs(all.hi.x)), fmax(fabs(all.lo.y), fabs(all.hi.y)));
+    f.within = FL_FACES_TOGETHER * size + FAR * far;
+    if (fl_bvh_build(&tree, box, a->n, err) || find(&f, a, &tree, box, f.within, err)) goto done;
+    length = fl_alloc(f.n, sizeof *length, err);
+    if (!length) goto done;
+    for (int32_t k = 0; k < f.n; k++)
+        length[k] = hypot(f.face[k].b.x - f.face[k].a.x, f.face[k].b.y - f.face[k].a.y);
+    f.length = fl_par_sum(length, f.n);
+    f.outline = fl_par_sum(outline, a->n);
+    *out = f;
+    f = (fl_faces){0};
+    rc = 0;
+done:
+    fl_bvh_free(&tree);
+    fl_faces_free(&f);
+    free(length);
+    free(outline);
+    free(box);
+    return rc;
+}
+
+void fl_faces_free(fl_faces *a)
+{
+    free(a->face);
+    *a = (fl_faces){0};
+}
