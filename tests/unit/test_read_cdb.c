@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "mesh/read_mesh.h"
+#include "support/mesh.h"
+#include "support/near.h"
+
+static fl_err err;
+static char note[FL_MESH_NOTE];
+static fl_surface s;
+
+static int read_some(const char *text, fl_wish *w)
+{
+    fl_surface_free(&s);
+    err = (fl_err){0};
+    return fl_mesh_read_some(&s, test_file("deck", text, strlen(text)), w, note, &err);
+}
+
+static void reads(const char *text)
+{
+    if (read_some(text, NULL)) fail_msg("%s", err.text);
+    assert_true(mesh_sound(&s));
+}
+
+static void refuses(const char *text, const char *why)
+{
+    assert_int_equal(read_some(text, NULL), -1);
+    assert_int_equal(err.code, FL_INPUT);
+    if (!strstr(err.text, why)) fail_msg("\"%s\" says nothing of \"%s\"", err.text, why);
+}
+
+static fl_aabb box(void) { return fl_surface_aabb(&s); }
+
+#define NODES                                                                                                \
+    "NBLOCK,6,SOLID\n(3i8,6e20.13)\n"                                                                        \
+    "       1       0       0 0.0000000000000E+00 0.0000000000000E+00 0.0000000000000E+00\n"                 \
+    "       2       0       0 2.0000000000000E+00\n"                                                         \
+    "       3       0       0 2.0000000000000E+00 1.0000000000000E+00\n"                                     \
+    "       4       0       0 0.0000000000000E+00 1.0000000000000E+00\n"                                     \
+    "       5       0       0 0.0000000000000E+00 0.0000000000000E+00 3.0000000000000E+00\n"                 \
+    "       6       0       0 2.0000000000000E+00 0.0000000000000E+00 3.0000000000000E+00\n"                 \
+    "       7       0       0 2.0000000000000E+00 1.0000000000000E+00 3.0000000000000E+00\n"                 \
+    "       8       0       0 0.0000000000000E+00 1.0000000000000E+00 3.0000000000000E+00\n"                 \
+    "N,R5.3,LOC,       -1,\n"
+#define HEX                                                                                                  \
+    "EBLOCK,19,SOLID\n(19i4)\n"                                                                              \
+    "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7   8\n"                         \
+    "  -1\n"
+
+/* Rows are cut at their columns: numbers touch, have exponents of three digits, or are short. */
+static void columns_are_those_of_the_format(void **state)
+{
+    (void)state;
+    reads("ET,1,SHELL181\n"
+          "NBLOCK,6,SOLID,     4,     4\n(1i7,2i9,6e21.13e3)\n"
+          "      1        0        0 0.0000000000000E+000-5.0000000000000E-001-1.2500000000000E+002\n"
+          "      2        0        0-1.0000000000000E+000-5.0000000000000E-001-1.2500000000000E+002\n"
+          "      3        0        0-1.0000000000000E+000             -6.01203-1.2500000000000D+002\n"
+          "1234567        0        0                 1.+1\n"
+          "       -1\n"
+          "EBLOCK,19,SOLID,         2,         2\n(19i7)\n"
+          "      1      1      1      1      0      0      0      0      4      0      1      1      2      "
+          "31234567\n"
+          "     -1\n");
+    assert_int_equal(s.n, 1);
+    assert_int_equal(s.part[0].nt, 2);
+    assert_true(box().lo.y == -6.01203 && box().lo.z == -125.0 && box().hi.x == 10.0 && box().hi.z == 0.0);
+}
+
+static void line_ends_may_be_of_any_kind(void **state)
+{
+    static const char text[] = "et,1,185\n" NODES HEX;
+    char crlf[2 * sizeof text];
+    size_t n = 0;
+    (void)state;
+    for (size_t k = 0; k < sizeof text; k++) {
+        if (text[k] == '\n') crlf[n++] = '\r';
+        crlf[n++] = text[k];
+    }
+    reads(crlf);
+    assert_int_equal(s.part[0].nt, 12);
+    assert_near(box().hi.z, 3.0, 0.0);
+}
+
+/* An element goes to the smallest component it is in; ranges are closed by a negative number. */
+static void components_are_parts(void **state)
+{
+    static const char text[] = "ET,1,63\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
+                               "   1   1   1   1   0   0   0   0   4   0  10   1   2   3   4\n"
+                               "   1   1   1   1   0   0   0   0   4   0  11   5   6   7   8\n"
+                               "   1   1   1   1   0   0   0   0   4   0  12   1   2   6   5\n"
+                               "   1   1   1   1   0   0   0   0   4   0  14   3   4   8   7\n"
+                               "   1   1   1   1   0   0   0   0   4   0  20   1   4   8   5\n"
+                               "  -1\n"
+                               "CMBLOCK,ALL_OF_IT,ELEM,       2\n(8i10)\n        10       -14\n"
+                               "CMBLOCK,\xb5\xd7_1   ,ELEMENT,       3  ! in another alphabet\n(8i10)\n"
+                               "        10        11       -12\n"
+                               "CMBLOCK,SOME_NODES,NODE,       1\n(8i10)\n         1\n";
+    const char *pattern[] = {"all*"};
+    char hit[1] = {0};
+    fl_wish w = {.pattern = pattern, .patterns = 1, .hit = hit};
+    (void)state;
+    reads(text);
+    assert_int_equal(s.n, 3);
+    assert_non_null(strstr(s.part[0].name, "-deck")); /* the name of the file */
+    assert_int_equal(s.part[0].nt, 2);
+    assert_string_equal(s.part[1].name, "\xb5\xd7_1");
+    assert_int_equal(s.part[1].nt, 6);
+    assert_string_equal(s.part[2].name, "ALL_OF_IT");
+    assert_int_equal(s.part[2].nt, 2);
+    assert_non_null(strstr(note, "1 components of nodes"));
+    assert_int_equal(read_some(text, &w), 0);
+    assert_int_equal(s.n, 1);
+    assert_int_equal(s.part[0].nt, 8);
+    assert_int_equal(hit[0], 1);
+}
+
+static void types_come_as_a_block_too(void **state)
+{
+    (void)state;
+    reads(
+        "ETBLOCK,2,2\n(2i9,19a9)\n        1      185        0        0\n        2      174\n       -1\n" NODES
+        "EBLOCK,19,SOLID,9,2\n(19i4)\n"
+        "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7   8\n"
+        "   1   2   1   1   0   0   0   0   4   0   8   5   6   7   8\n"
+        "  -1\n");
+    assert_int_equal(s.part[0].nt, 12);
+    assert_non_null(strstr(note, "routine 174 1"));
+}
+
+static void counts_are_only_told(void **state)
+{
+    (void)state;
+    reads("ET,1,185\n" NODES "EBLOCK,19,SOLID,9,2000000000\n(19i4)\n"
+          "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7   8\n"
+          "  -1\n");
+    assert_non_null(strstr(note, "EBLOCK is to hold 2000000000 entries, and has 1"));
+}
+
+/* A tube by its section, a pipe by its section and by its real constants, a rod; a truss has no radius. */
+static void lines_have_the_radius_of_their_section(void **state)
+{
+    (void)state;
+    reads(
+        "ET,1,188\nET,2,PIPE288\nET,3,16\nET,4,180\n"
+        "RLBLOCK,1,7,8,7\n(2i8,6g16.9)\n(7g16.9)\n"
+        "       7       8  1.0             0.05           0.0            0.0             0.0            0.0\n"
+        "  0.0            0.0\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
+        "   1   1   1   1   0   0   0   0   3   0   1   1   5   2\n"
+        "   1   2   1   2   0   0   0   0   2   0   2   2   6\n"
+        "   1   3   7   1   0   0   0   0   2   0   3   3   7\n"
+        "   1   1   1   3   0   0   0   0   2   0   4   4   8\n"
+        "   1   4   7   1   0   0   0   0   2   0   5   1   2\n"
+        "  -1\n"
+        "SECTYPE,1,BEAM,CTUBE,LEG\nSECDATA,0.4,0.5,8\nSECTYPE,2,PIPE,,RISER\nSECDATA,0.6,0.02\n"
+        "SECTYPE,3,BEAM,CSOLID\nSECDATA,0.125\n");
+    assert_int_equal(s.part[0].nc, 4);
+    assert_near(s.part[0].cone[0].r0, 0.5, 0.0);
+    assert_near(s.part[0].cone[1].r1, 0.3, 1e-15);
+    assert_near(s.part[0].cone[2].r0, 0.5, 0.0);
+    assert_near(s.part[0].cone[3].r1, 0.125, 0.0);
+    assert_near(s.part[0].cone[0].p1.z, 3.0, 0.0);
+    assert_non_null(strstr(note, "1 lines"));
+}
+
+static void single_commands_work_beside_blocks(void **state)
+{
+    (void)state;
+    reads("*SET,tid,4\ncid = 3\net,tid,185\net,cid,200\nkeyopt,3,1,6\n" NODES
+          "type,tid\nen,1,1,2,3,4,5,6,7,8\nn,9,0,0,5\nn,10,2,0,5\nn,11,2,1,5.0\nn,_pilot,1,2,3\n"
+          "type,3\ne,9,10,11,11\nen,_p,1\n");
+    assert_int_equal(s.part[0].nt, 13);
+    assert_near(box().hi.z, 5.0, 0.0);
+    assert_non_null(strstr(note, "2 commands"));
+    reads("ET,1,95\n" NODES "E,1,2,3,4,5,6,7,8\nEMORE\nFINISH\n");
+    assert_int_equal(s.part[0].nt, 12);
+}
+
+static void bad_decks_are_told_where_and_why(void **state)
+{
+    (void)state;
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n       1       0       0 0.0\n", "ends inside NBLOCK");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n       1       0       0 0.0\n", ":3: \"       1");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n", "where a format line was wanted");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n(6e20.13)\n", "whole numbers and then reals");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,900e20.13)\n", "a format like");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n       1       0       0 nan\n  -1\n",
+            ":4: column 4 is \"nan\", a finite number was wanted");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n     1.5       0       0 1.0\n  -1\n", "whole number");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n       0       0       0 1.0\n  -1\n", "node 0");
+    refuses(NODES HEX, "of type 1, which no ET");
+    refuses("ET,1,185\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
+            "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7  88\n  -1\n",
+            ":15: the element wants node 88, which is defined nowhere");
+    refuses("ET,1,185\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
+            "   1   1   1   1   0   0   0   0   7   0   9   1   2   3   4   5   6   7\n  -1\n",
+            "has 7 nodes");
+    refuses("ET,1,185\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
+            "   1   1   1   1   0   0   0   0  99   0   9   1   2   3   4   5   6   7\n  -1\n",
+            "of 99 nodes");
+    refuses("ET,1,186\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
+            "   1   1   1   1   0   0   0   0  20   0   9   1   2   3   4   5   6   7   8\n",
+            "ends after 8 of its 20 nodes");
+    refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,ELEM,1\n(8i10)\n        -9\n", "-9 was found after 0");
+    refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,LINE,1\n(8i10)\n         9\n", "ELEM or NODE was wanted");
+    refuses("ET,1,185\nNBLOCK,3\n(i8,3e20.13)\n  -1\nEN,R5.5,ATTR,8,1\n", "CDWRITE");
+    refuses("ET,1,185\n" NODES "/INPUT,rest,dat\n", "/INPUT is not followed");
+    refuses("ET,1,185\n" NODES "CSYS,12\nN,12,1,2,3\n", "coordinate system 12");
+    refuses("ET,1,185\n" NODES, "no triangles");
+}
+
+static void release(void **state)
+{
+    (void)state;
+    fl_surface_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_are_those_of_the_format),
+        cmocka_unit_test(line_ends_may_be_of_any_kind),
+        cmocka_unit_test(components_are_parts),
+        cmocka_unit_test(types_come_as_a_block_too),
+        cmocka_unit_test(counts_are_only_told),
+        cmocka_unit_test(lines_have_the_radius_of_their_section),
+        cmocka_unit_test(single_commands_work_beside_blocks),
+        cmocka_unit_test(bad_decks_are_told_where_and_why),
+        cmocka_unit_test(release),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
