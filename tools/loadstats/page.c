@@ -275,8 +275,8 @@ static void put_some_runs(FILE *f, const sheet *s)
     const int runs = column_of(s, "runs");
     char word[WORD_MAX], next[WORD_MAX];
     fputs("<p>Of the first n runs: mean of their means and mean of their largest values, each with its 95 % "
-          "interval "
-          "by Student's law and the deviation between runs.</p>\n<div><table>\n",
+          "interval, "
+          "skewness included, and the deviation between runs.</p>\n<div><table>\n",
           f);
     put_names(f, s);
     for (int32_t k = 1; k < s->rows; k++) {

@@ -103,8 +103,8 @@ static int ensemble_add(ensemble *e, const fl_summary *all, const fl_summary *on
 static void put_estimate(FILE *f, const fl_estimate *e)
 {
     put_field(f, e->mean);
-    put_field(f, e->mean - e->half);
-    put_field(f, e->mean + e->half);
+    put_field(f, e->low);
+    put_field(f, e->high);
     put_field(f, e->std);
 }
 
@@ -144,11 +144,11 @@ static int plot_rows(FILE *f, const ensemble *e, int32_t k, fl_err *err)
         largest = fmax(largest, max[n]);
         fprintf(f, "%d", n + 1);
         put_field(f, a.mean);
-        put_field(f, a.mean - a.half);
-        put_field(f, a.mean + a.half);
+        put_field(f, a.low);
+        put_field(f, a.high);
         put_field(f, b.mean);
-        put_field(f, b.mean - b.half);
-        put_field(f, b.mean + b.half);
+        put_field(f, b.low);
+        put_field(f, b.high);
         put_field(f, largest);
         putc('\n', f);
     }
