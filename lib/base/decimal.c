@@ -105,10 +105,12 @@ static const char *read_digits(const char *p, uint64_t *w)
     return p;
 }
 
+/* Powers that are doubles. */
+static const double TEN[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                             1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
 const char *fl_decimal(const char *s, double *x)
 {
-    static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     const char *p = s, *start, *point = NULL;
     const int minus = *p == '-';
     uint64_t w = 0, bits = 0, next = 0;
@@ -146,7 +148,7 @@ const char *fl_decimal(const char *s, double *x)
     if (w == 0) value = 0.0;
     else if (!more && w <= UINT64_C(1) << MANTISSA && q >= -22 && q <= 22) {
         /* Both are doubles, so one correctly rounded operation is all. */
-        value = q < 0 ? (double)w / ten[-q] : (double)w * ten[q];
+        value = q < 0 ? (double)w / TEN[-q] : (double)w * TEN[q];
     } else if (nearest(w, q, &bits) && (!more || (nearest(w + 1, q, &next) && next == bits))) {
         memcpy(&value, &bits, sizeof value);
     } else {
@@ -155,4 +157,33 @@ const char *fl_decimal(const char *s, double *x)
     }
     *x = minus ? -value : value;
     return p;
+}
+
+int fl_decimal_scaled(uint64_t m, int e, int q, uint64_t *whole, uint64_t *fraction)
+{
+    if (m == 0 || q < -300 || q > MOST) return 0;
+    const power *p = &five[q - LEAST];
+    const int shift = __builtin_clzll(m);
+    m <<= shift;
+    const wide product = (wide)m * p->hi + ((wide)m * p->lo >> 64);
+    /* x 10^q lies in (product .. product + 2) 2^-point: a unit for the low word that was dropped, another one
+     * for the rest of the power.  At 65 bits below the point or more they are one unit of fraction, and what
+     * is cut off there is the second. */
+    const int point = -(64 + p->e + e - shift + q);
+    if (point < 65 || point > 127 || product >> point >> 62 || product >> point < (wide)1 << 50) return 0;
+    *whole = (uint64_t)(product >> point);
+    *fraction = (uint64_t)(product >> (point - 64));
+    return 1;
+}
+
+int fl_decimal_nearest(uint64_t w, int q, double *x)
+{
+    uint64_t bits;
+    if (w <= UINT64_C(1) << MANTISSA && q >= -22 && q <= 22) {
+        *x = q < 0 ? (double)w / TEN[-q] : (double)w * TEN[q];
+        return 1;
+    }
+    if (!nearest(w, q, &bits)) return 0;
+    memcpy(x, &bits, sizeof *x);
+    return 1;
 }

@@ -52,6 +52,55 @@ static void text_reads_back(void **state)
     }
 }
 
+/* What the C library prints with the fewest digits that read back is what is printed without it. */
+static void same_as_library(double x)
+{
+    char buf[FL_NUM_LEN], theirs[FL_NUM_LEN];
+    if (!isfinite(x) || x == 0.0) return;
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(theirs, sizeof theirs, "%.*g", digits, x);
+        if (strtod(theirs, NULL) == x) break;
+    }
+    assert_string_equal(fl_num_text(x, buf), theirs);
+}
+
+/* Random bits, coordinates, thousandths, whole numbers, decimals of every length and size; every power of
+ * ten and of two, with what stands beside it; exact halves of the last digit. */
+static void text_is_that_of_the_library(void **state)
+{
+    (void)state;
+    const long n = test_times(20000);
+    for (long k = 0; k < n; k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        const uint64_t bits = fl_rng_u64(&g);
+        char text[40];
+        double x;
+        memcpy(&x, &bits, sizeof x);
+        same_as_library(x);
+        snprintf(text, sizeof text, "%.*e", (int)(fl_rng_u64(&g) % 18), x);
+        same_as_library(strtod(text, NULL));
+        same_as_library(fl_rng_in(&g, -1e3, 1e3));
+        same_as_library(round(fl_rng_in(&g, -1e6, 1e6)) / 1000.0);
+        same_as_library((double)(fl_rng_u64(&g) >> fl_rng_u64(&g) % 64));
+        same_as_library(ldexp((double)(fl_rng_u64(&g) % 1000000), (int)(fl_rng_u64(&g) % 160) - 80));
+    }
+    for (int e = -330; e <= 308; e++)
+        for (int d = 1; d < 100; d++) {
+            char text[40];
+            snprintf(text, sizeof text, "%de%d", d, e);
+            const double x = strtod(text, NULL);
+            same_as_library(x);
+            same_as_library(-nextafter(x, 0.0));
+            same_as_library(nextafter(x, INFINITY));
+        }
+    for (int e = -1074; e < 1024; e++)
+        for (int m = 1; m < 8; m += 2) {
+            same_as_library(ldexp(m, e));
+            same_as_library(nextafter(ldexp(m, e), 0.0));
+            same_as_library(nextafter(ldexp(m, e), INFINITY));
+        }
+}
+
 static void text_not_finite(void **state)
 {
     char buf[FL_NUM_LEN];
@@ -131,8 +180,12 @@ static void reads_seeds(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shortest_text),   cmocka_unit_test(text_reads_back),
-                                       cmocka_unit_test(text_not_finite), cmocka_unit_test(reads_doubles),
-                                       cmocka_unit_test(reads_integers),  cmocka_unit_test(reads_seeds)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shortest_text),
+                                       cmocka_unit_test(text_reads_back),
+                                       cmocka_unit_test(text_not_finite),
+                                       cmocka_unit_test(reads_doubles),
+                                       cmocka_unit_test(reads_integers),
+                                       cmocka_unit_test(reads_seeds),
+                                       cmocka_unit_test(text_is_that_of_the_library)};
     return cmocka_run_group_tests_name("num", tests, NULL, NULL);
 }
