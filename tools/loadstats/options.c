@@ -15,7 +15,8 @@ static const char HELP[] =
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
     "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, legs, events,\n"
-    "                          rainflow, damage, spectrum, frequency, summary, ensemble or cycles (stats)\n"
+    "                          rainflow, damage, spectrum, frequency, response, motion, summary, ensemble or "
+    "cycles (stats)\n"
     "      --summary           the table summary: what adds up, of one run or of many files\n"
     "      --merge             the files are summaries: add them up\n"
     "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
@@ -47,6 +48,8 @@ static const char HELP[] =
     "them)\n"
     "      --taper WINDOW      of spectra: hann, hamming, blackman or none (hann)\n"
     "      --speed V           of the ice, in m/s: for the breaking length V / f\n"
+    "      --oscillator F,Z[,K] of response, motion: natural frequency, damping (1 is critical), stiffness,\n"
+    "                          or mass, as 2e6kg; may be repeated\n"
     "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
     "      --resamples N       for intervals and probabilities, 0 for none (199)\n"
     "      --seed N            of their random numbers (1)\n"
@@ -91,7 +94,8 @@ enum {
     STRESS,
     SEGMENT,
     TAPER,
-    SPEED
+    SPEED,
+    OSCILLATOR
 };
 
 static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
@@ -127,6 +131,7 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"segment", required_argument, NULL, SEGMENT},
                                      {"taper", required_argument, NULL, TAPER},
                                      {"speed", required_argument, NULL, SPEED},
+                                     {"oscillator", required_argument, NULL, OSCILLATOR},
                                      {"stress", required_argument, NULL, STRESS},
                                      {"merge", no_argument, NULL, MERGE},
                                      {"stream", no_argument, NULL, STREAM},
@@ -146,6 +151,7 @@ static const char *const TABLE[] = {[TABLE_STATS] = "stats",         [TABLE_PEAK
                                     [TABLE_LEGS] = "legs",           [TABLE_EVENTS] = "events",
                                     [TABLE_RAINFLOW] = "rainflow",   [TABLE_DAMAGE] = "damage",
                                     [TABLE_SPECTRUM] = "spectrum",   [TABLE_FREQUENCY] = "frequency",
+                                    [TABLE_RESPONSE] = "response",   [TABLE_MOTION] = "motion",
                                     [TABLE_SUMMARY] = "summary",     [TABLE_ENSEMBLE] = "ensemble",
                                     [TABLE_CYCLES] = "cycles"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
@@ -291,6 +297,40 @@ static int add_sn(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
+/* The words of one --oscillator; o->sways is raised when all of them are known. */
+static int take_sway(struct options *o, char *word, fl_err *err)
+{
+    struct sway *a = &o->sway[o->sways];
+    const double tiny = 1e-100, huge = 1e100;
+    const size_t len = strlen(word);
+    const int mass = len > 2 && strcmp(word + len - 2, "kg") == 0;
+    double k;
+    switch (o->sway_words++) {
+    case 0:
+        return number("oscillator", word, tiny, huge, "a natural frequency above 0", &a->o.frequency, err);
+    case 1: return number("oscillator", word, 0.0, 100.0, "a damping ratio from 0 on", &a->o.damping, err);
+    case 2:
+        if (mass) word[len - 2] = '\0';
+        if (number("oscillator", word, tiny, huge, "a stiffness or a mass above 0", &k, err)) return -1;
+        a->stiffness = mass ? k * pow(6.283185307179586 * a->o.frequency, 2.0) : k;
+        return 0;
+    default: return fl_fail(err, FL_USAGE, "--oscillator has more than F,Z,K");
+    }
+}
+
+static int add_sway(struct options *o, const char *text, fl_err *err)
+{
+    if (o->sways == SWAYS_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d oscillators were given", SWAYS_MAX);
+    o->sway[o->sways] = (struct sway){.stiffness = NAN, .text = text};
+    o->sway_words = 0;
+    if (each(o, "oscillator", text, take_sway, err)) return -1;
+    if (o->sway_words < 2)
+        return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, F,Z was wanted", text);
+    o->sways++;
+    return 0;
+}
+
 static int apply(struct options *o, int c, const char *arg, fl_err *err)
 {
     const double tiny = 1e-300, huge = 1e300;
@@ -350,6 +390,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case SEGMENT: return time_of("segment", arg, &o->segment, err);
     case TAPER: o->taper = choice("taper", arg, TAPERS, COUNT(TAPERS), err); return o->taper < 0 ? -1 : 0;
     case SPEED: return number("speed", arg, tiny, huge, "a speed above 0", &o->speed, err);
+    case OSCILLATOR: return add_sway(o, arg, err);
     case SN: return add_sn(o, arg, err);
     case STRESS: return number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
     case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
@@ -451,6 +492,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue is of --rule iso, astm has its own");
     if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE, "--report - needs another place for the table, --output");
+    if ((o->table == TABLE_RESPONSE || o->table == TABLE_MOTION) && !o->sways)
+        return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", TABLE[o->table]);
     if (o->table == TABLE_LEVELS && !o->returns)
         return fl_fail(err, FL_USAGE, "--table levels needs --return, the return periods");
     char *word = o->words;
@@ -529,7 +572,10 @@ void options_by(const struct options *o, fl_by *by)
         fl_by_add(by, "--rule %s", CYCLE_RULE[o->rule]);
         fl_by_add(by, "--residue %s", OPEN_CYCLES[o->residue]);
     }
-    const int spectra = o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY;
+    const int sway = o->table == TABLE_RESPONSE || o->table == TABLE_MOTION;
+    const int spectra =
+        o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY || o->table == TABLE_RESPONSE;
+    for (int32_t k = 0; sway && k < o->sways; k++) fl_by_add(by, "--oscillator %s", o->sway[k].text);
     if (spectra && o->segment > 0.0) add_number(by, "segment", o->segment);
     if (spectra && o->taper) fl_by_add(by, "--taper %s", TAPERS[o->taper]);
     if (o->table == TABLE_FREQUENCY && o->speed > 0.0) add_number(by, "speed", o->speed);

@@ -5,9 +5,10 @@
 #include <stdint.h>
 #include "base/err.h"
 #include "base/tool.h"
+#include "stat/oscillator.h"
 #include "stat/rainflow.h"
 
-enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50, WHERES_MAX = 16, SNS_MAX = 8 };
+enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50, WHERES_MAX = 16, SNS_MAX = 8, SWAYS_MAX = 50 };
 enum table {
     TABLE_STATS,
     TABLE_PEAKS,
@@ -21,11 +22,20 @@ enum table {
     TABLE_DAMAGE,
     TABLE_SPECTRUM,
     TABLE_FREQUENCY,
+    TABLE_RESPONSE,
+    TABLE_MOTION,
     TABLE_SUMMARY,
     TABLE_ENSEMBLE,
     TABLE_CYCLES
 };
 enum sample { SAMPLE_PEAKS, SAMPLE_POT, SAMPLE_BLOCKS, SAMPLE_RUNS };
+
+/* An oscillator as it was asked for; stiffness is NAN where it was not given [unit of the load / m]. */
+struct sway {
+    fl_oscillator o;
+    double stiffness;
+    const char *text; /* borrowed from argv */
+};
 
 struct options {
     const char *in, *out, *part, *plot, *format, *report; /* borrowed from argv */
@@ -60,9 +70,11 @@ struct options {
     int32_t sns, sn_words;
     double segment, speed; /* [s] of a spectrum, 0 for what suits the record; [m/s] 0 for not known */
     int taper;             /* fl_taper */
-    double stress;         /* per unit of the load */
-    double follow;         /* [s] of data between two reports, 0 for one at the end */
-    int ended;             /* --help or --version was answered */
+    struct sway sway[SWAYS_MAX];
+    int32_t sways, sway_words;
+    double stress; /* per unit of the load */
+    double follow; /* [s] of data between two reports, 0 for one at the end */
+    int ended;     /* --help or --version was answered */
 };
 
 /* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */

@@ -8,6 +8,7 @@
 #include "legrows.h"
 #include "specrows.h"
 #include "statrows.h"
+#include "swayrows.h"
 
 const char *view_name(int w) { return w ? "filtered" : "raw"; }
 
@@ -133,6 +134,8 @@ void statrows_header(FILE *f, const struct options *o)
     case TABLE_DAMAGE: cyclerows_header(f, o); break;
     case TABLE_SPECTRUM:
     case TABLE_FREQUENCY: specrows_header(f, o); break;
+    case TABLE_RESPONSE:
+    case TABLE_MOTION: swayrows_header(f, o); break;
     case TABLE_SUMMARY:
     case TABLE_ENSEMBLE:
     case TABLE_CYCLES: break; /* sumrows.h */
@@ -157,6 +160,8 @@ int statrows_write(FILE *f, const struct result *r, const struct options *o, con
                 const fl_view *v = view_of(r, p, s, w);
                 const int fit = o->table == TABLE_FITS || o->table == TABLE_LEVELS;
                 const int spectra = o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY;
+                const int sway = o->table == TABLE_RESPONSE || o->table == TABLE_MOTION;
+                if (sway && swayrows_write(f, r, o, p, s, w, err)) return -1;
                 if (spectra && specrows_write(f, r, o, p, s, w, err)) return -1;
                 if (fit && fitrows_write(f, r, o, p, s, w, err)) return -1;
                 if (o->table == TABLE_PEAKS) peaks_rows(f, r, p, s, w, v);
