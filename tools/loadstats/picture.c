@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include "base/stream.h"
+#include "picture.h"
+
+enum { WIDTH = 1000, PANEL = 200, HEAD = 66 };
+
+/* --- names and units ------------------------------------------------------------------------------------ */
+
+static const char *title_of(const char *signal)
+{
+    static const char *const known[][2] = {
+        {"fx", "Force in x"},       {"fy", "Force in y"},     {"fz", "Force in z"},
+        {"fh", "Horizontal force"}, {"f", "Force"},           {"mx", "Moment about x"},
+        {"my", "Moment about y"},   {"mz", "Moment about z"}, {"fpeak", "Largest force"},
+        {"contacts", "Contacts"}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        if (strcmp(signal, known[k][0]) == 0) return known[k][1];
+    return signal;
+}
+
+plot_scale plot_scale_of(const char *unit, double large)
+{
+    if ((unit[0] != 'N' && strcmp(unit, "Pa") != 0) || large < 1e3) return (plot_scale){1.0, ""};
+    return large < 1e6 ? (plot_scale){1e-3, "k"} : (plot_scale){1e-6, "M"};
+}
+
+static double largest_of(const picture *p, int32_t s)
+{
+    const fl_describe *d = &view_of(p->r, p->part, s, 0)->d;
+    return fmax(fabs(d->min), fabs(d->max));
+}
+
+plot_scale plot_scale_here(const picture *p, int32_t s)
+{
+    return plot_scale_of(p->r->s->unit[s], largest_of(p, s));
+}
+
+/* A text in a gnuplot script, between single quotes. */
+void plot_quoted(FILE *f, const char *text)
+{
+    putc('\'', f);
+    for (; *text; text++) {
+        if (*text == '\'') putc('\'', f);
+        putc(*text, f);
+    }
+    putc('\'', f);
+}
+
+void plot_axis(char *label, size_t size, const char *signal, const char *unit, double large)
+{
+    const char *title = title_of(signal);
+    if (unit[0]) snprintf(label, size, "%.200s  [%s%.60s]", title, plot_scale_of(unit, large).prefix, unit);
+    else snprintf(label, size, "%.200s", title);
+}
+
+void plot_axis_text(const picture *p, int32_t s, char *label, size_t size)
+{
+    plot_axis(label, size, p->r->s->signal[s], p->r->s->unit[s], largest_of(p, s));
+}
+
+/* gnuplot puts the title of a vertical axis beside its longest number; at one place the titles line up. */
+void plot_left_title(const picture *p, const char *text, double x)
+{
+    fputs("set label 2 ", p->script);
+    plot_quoted(p->script, text);
+    fprintf(p->script, " at screen %.4f, graph 0.5 center rotate\n", x);
+}
+
+/* A part may have any name; a file has a plain one, told apart by the number of the part where that is not
+ * enough. */
+static void make_stem(picture *p)
+{
+    const char *name = p->r->s->part[p->part];
+    int plain = strlen(name) < 40 && name[0] != '\0', n;
+    n = snprintf(p->stem, sizeof p->stem, "%s-%.40s", p->what, strcmp(name, "-") == 0 ? "all" : name);
+    for (char *c = p->stem; *c; c++) {
+        if (strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.", *c)) continue;
+        *c = '_';
+        plain = 0;
+    }
+    if (!plain) snprintf(p->stem + n, sizeof p->stem - (size_t)n, "+%d", p->part);
+}
+
+/* --- data ----------------------------------------------------------------------------------------------- */
+
+void plot_block(picture *p)
+{
+    if (p->blocks++) fputs("\n\n", p->data);
+}
+
+void plot_label(const picture *p, int32_t s, int w)
+{
+    const char *unit = p->r->s->unit[s];
+    fprintf(p->data, "%s\t%s\t%s", p->r->s->signal[s], unit[0] ? unit : "-", view_name(w));
+}
+
+void plot_columns(const picture *p, int n, const double *x)
+{
+    for (int k = 0; k < n; k++) {
+        putc('\t', p->data);
+        put_number(p->data, x[k]);
+    }
+    putc('\n', p->data);
+}
+
+/* --- scripts -------------------------------------------------------------------------------------------- */
+
+/* Raw is thin and light, filtered strong; alone, raw is strong. */
+static const char *const STYLES = "set style line 1 lc rgb '#85bcdb' lw 1.0 pt 6 ps 0.6\n"
+                                  "set style line 2 lc rgb '#08519c' lw 2.0 pt 7 ps 0.5\n"
+                                  "set style line 3 lc rgb '#2171b5' lw 1.2 pt 7 ps 0.5\n"
+                                  "set style line 9 lc rgb '#dddddd' lw 0.8\n"
+                                  "set border 3 lc rgb '#444444' lw 1\n"
+                                  "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+                                  "set grid back ls 9\n";
+
+void plot_open(FILE *f, const char *stem, const char *format, int width, int height)
+{
+    fprintf(f, "# gnuplot %s.gp draws %s.%s from %s.tsv\n", stem, stem, format, stem);
+    fprintf(f, "if (!exists(\"out\")) out = '%s.%s'\n", stem, format);
+    if (strcmp(format, "png") == 0)
+        fprintf(f, "set terminal pngcairo noenhanced size %d,%d font 'Sans,11' background '#ffffff'\n", width,
+                height);
+    else
+        fprintf(f,
+                "set terminal svg noenhanced size %d,%d dynamic font 'sans-serif,14' background '#ffffff'\n",
+                width, height);
+    fprintf(f, "set encoding utf8\nset output out\ndata = '%s.tsv'\n", stem);
+}
+
+static int height_of(const picture *p)
+{
+    return HEAD + p->panels * PANEL + (p->panels - 1) * p->gap + PLOT_FOOT;
+}
+
+int plot_is_loads(const picture *p) { return strcmp(p->r->s->kind, "loads") == 0; }
+
+void plot_start(const picture *p, const char *heading)
+{
+    FILE *f = p->script;
+    const int height = height_of(p), png = strcmp(p->o->format, "png") == 0;
+    char title[200];
+    plot_open(f, p->stem, p->o->format, WIDTH, height);
+    fprintf(f, "%sset multiplot\n", STYLES);
+    snprintf(title, sizeof title, "%s, %.100s", heading,
+             strcmp(p->r->s->part[p->part], "-") == 0 ? p->r->s->kind : p->r->s->part[p->part]);
+    fputs("set label 1 ", f);
+    plot_quoted(f, title);
+    fprintf(f, " at screen 0.5, screen %.4f center font ',%d' textcolor rgb '#111111'\n", 1.0 - 24.0 / height,
+            png ? 14 : 18);
+    fprintf(f, "set key at screen 0.975, screen %.4f right top horizontal Left reverse samplen 2\n",
+            1.0 - 40.0 / height);
+}
+
+/* Panel k: all have the same margins, so that axes line up. */
+void plot_place(picture *p, int k, double left, double right)
+{
+    const double height = height_of(p), top = HEAD + k * (PANEL + p->gap);
+    fprintf(p->script, "set lmargin at screen %.4f\nset rmargin at screen %.4f\n", left, right);
+    fprintf(p->script, "set tmargin at screen %.4f\nset bmargin at screen %.4f\n", 1.0 - top / height,
+            1.0 - (top + PANEL) / height);
+    p->curves = 0;
+}
+
+/* The next curve of the panel, of the next block of the data. */
+void plot_curve(picture *p)
+{
+    fprintf(p->script, "%sdata index %d ", p->curves++ ? ", \\\n     " : "plot ", p->blocks);
+}
+
+/* Title and key belong to the first panel. */
+void plot_end_panel(const picture *p) { fputs("\nunset key\nunset label 1\n", p->script); }
+
+/* A step of 1, 2 or 5 times a power of ten that cuts a range into three to six. */
+double plot_tics(double range)
+{
+    const double unit = pow(10.0, floor(log10(range / 3.0))), k = range / 3.0 / unit;
+    return unit * (k >= 5.0 ? 5.0 : k >= 2.0 ? 2.0 : 1.0);
+}
+
+/* --- running gnuplot ------------------------------------------------------------------------------------ */
+
+/* Run gnuplot in the folder; what it says on stderr comes back in said.  Returns its exit status, or -1. */
+static int run_gnuplot(const char *dir, const char *setting, const char *script, char *said, size_t size)
+{
+    int pipe_fd[2], status = 0;
+    size_t have = 0;
+    ssize_t k;
+    said[0] = '\0';
+    if (pipe(pipe_fd) != 0) return -1;
+    const pid_t pid = fork();
+    if (pid < 0) {
+        close(pipe_fd[0]);
+        close(pipe_fd[1]);
+        return -1;
+    }
+    if (pid == 0) {
+        const int null = open("/dev/null", O_RDWR);
+        if (null < 0 || dup2(null, 0) < 0 || dup2(null, 1) < 0 || dup2(pipe_fd[1], 2) < 0 || chdir(dir) != 0)
+            _exit(126);
+        close(pipe_fd[0]);
+        /* -d: a user's own start-up file must not change the picture. */
+        execlp("gnuplot", "gnuplot", "-d", "-e", setting, script, (char *)NULL);
+        _exit(errno == ENOENT ? 127 : 126);
+    }
+    close(pipe_fd[1]);
+    for (;;) {
+        char more[512];
+        k = read(pipe_fd[0], more, sizeof more);
+        if (k < 0 && errno == EINTR) continue;
+        if (k <= 0) break;
+        for (ssize_t j = 0; j < k && have + 1 < size; j++) said[have++] = more[j];
+    }
+    said[have] = '\0';
+    close(pipe_fd[0]);
+    while (waitpid(pid, &status, 0) < 0)
+        if (errno != EINTR) return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* The line of gnuplot's complaint that says what is wrong: the last one that is not empty. */
+static const char *complaint(char *said)
+{
+    const char *last = "no reason given";
+    for (char *line = strtok(said, "\r\n"); line; line = strtok(NULL, "\r\n"))
+        if (line[strspn(line, " \t^")]) last = line + strspn(line, " \t");
+    return last;
+}
+
+int plot_path(char path[PLOT_PATH_LEN], const char *dir, const char *stem, const char *end, fl_err *err)
+{
+    if (snprintf(path, PLOT_PATH_LEN, "%s/%s.%s", dir, stem, end) < PLOT_PATH_LEN) return 0;
+    return fl_fail(err, FL_SYSTEM, "the name of a picture in %.100s is too long", dir);
+}
+
+/* gnuplot draws under another name, which becomes the final one when the picture is complete. */
+int plot_draw(const char *dir, const char *stem, const char *format, fl_err *err)
+{
+    char script[PLOT_STEM_LEN + 8], setting[PLOT_STEM_LEN + 24], part[PLOT_PATH_LEN], path[PLOT_PATH_LEN],
+        said[2000];
+    struct stat st;
+    snprintf(script, sizeof script, "%s.gp", stem);
+    snprintf(setting, sizeof setting, "out = '%s.%s.part'", stem, format);
+    char end[40];
+    snprintf(end, sizeof end, "%.30s.part", format);
+    if (plot_path(part, dir, stem, end, err) || plot_path(path, dir, stem, format, err)) return -1;
+    const int status = run_gnuplot(dir, setting, script, said, sizeof said);
+    if (status == 127) return fl_fail(err, FL_SYSTEM, "gnuplot was not found, it draws what --plot asks for");
+    if (status != 0 || stat(part, &st) != 0 || st.st_size == 0) {
+        unlink(part);
+        return fl_fail(err, FL_SYSTEM, "gnuplot failed on %s/%s: %.200s", dir, script, complaint(said));
+    }
+    return rename(part, path) == 0 ? 0 : fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
+}
+
+int plot_make(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *err)
+{
+    picture p = *plan;
+    fl_out data = {0}, script = {0};
+    char path[PLOT_PATH_LEN];
+    int rc = -1;
+    make_stem(&p);
+    if (plot_path(path, p.o->plot, p.stem, "tsv", err) || fl_out_open(&data, path, 0, err)) goto done;
+    if (plot_path(path, p.o->plot, p.stem, "gp", err) || fl_out_open(&script, path, 0, err)) goto done;
+    p.data = data.f;
+    p.script = script.f;
+    fl_by_header(p.data, p.what, 1, p.r->s->history, p.by);
+    if (fill(&p, err)) goto done;
+    fputs("unset multiplot\nset output\n", p.script);
+    if (fl_out_close(&data, err) || fl_out_close(&script, err)) goto done;
+    rc = plot_draw(p.o->plot, p.stem, p.o->format, err);
+done:
+    fl_out_abort(&data);
+    fl_out_abort(&script);
+    return rc;
+}
