@@ -179,7 +179,7 @@ int fl_out_close(fl_out *out, fl_err *err)
     const char *name = out->path ? out->path : "<stdout>";
     int bad;
     if (!out->f) return 0;
-    errno = 0;
+    if (!ferror(out->f)) errno = 0; /* else the last write that failed has left why */
     bad = fflush(out->f) != 0 || ferror(out->f);
     if (!bad && !out->gz && out->path) bad = fsync(fileno(out->f)) != 0 && errno != EINVAL && errno != EROFS;
     if (out->f != stdout) bad |= fclose(out->f) != 0;

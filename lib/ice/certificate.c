@@ -32,38 +32,68 @@ static fl_aabb box_of(const fl_floes *a, int32_t i)
     return b;
 }
 
+/* The nearest pair of those seen, the first of them where several are as near. */
+struct nearest {
+    double gap;
+    int32_t i, j;
+};
+
+static void take(struct nearest *n, double gap, int32_t i, int32_t j)
+{
+    if (gap > n->gap || (gap == n->gap && (i > n->i || (i == n->i && j >= n->j)))) return;
+    *n = (struct nearest){gap, i, j};
+}
+
+/* What floe i has to do with those of higher number that are near it. */
+static int look_round(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree, double reach, int32_t i,
+                      int32_t **near, int32_t *cap, int64_t *overlaps, struct nearest *n, fl_err *err)
+{
+    const fl_aabb q = aabb_grow(box[i], reach);
+    int32_t got;
+    while ((got = fl_bvh_query(tree, box, q, *near, *cap)) > *cap)
+        if (fl_grow(near, cap, got, sizeof **near, err)) return -1;
+    for (int32_t k = 0; k < got; k++) {
+        const int32_t j = (*near)[k];
+        if (j <= i) continue;
+        if (aabb_meet(box[i], box[j]) && !apart(a, i, j)) {
+            ++*overlaps;
+            take(n, 0.0, i, j);
+        } else {
+            take(n, fl_polygon_gap(sides(a, i), outer(a, i), sides(a, j), outer(a, j)), i, j);
+        }
+    }
+    return 0;
+}
+
 /* Pairs within reach of each other: count those not apart, find the nearest.  Touching boxes are within any
  * reach >= 0, so that each pass sees every overlap there is. */
 static int pass(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree, double reach, fl_certificate *out,
                 fl_err *err)
 {
-    int32_t *near = NULL, cap = 0, got;
-    int rc = -1;
-    out->overlaps = 0;
-    out->gap = INFINITY;
-    out->gap_of[0] = out->gap_of[1] = -1;
-    for (int32_t i = 0; i < a->n; i++) {
-        const fl_aabb q = aabb_grow(box[i], reach);
-        while ((got = fl_bvh_query(tree, box, q, near, cap)) > cap)
-            if (fl_grow(&near, &cap, got, sizeof *near, err)) goto done;
-        for (int32_t k = 0; k < got; k++) {
-            const int32_t j = near[k];
-            const int touching = j > i && aabb_meet(box[i], box[j]) && !apart(a, i, j);
-            double gap = 0.0;
-            if (j <= i) continue;
-            out->overlaps += touching;
-            if (!touching) gap = fl_polygon_gap(sides(a, i), outer(a, i), sides(a, j), outer(a, j));
-            if (gap < out->gap || (gap == out->gap && out->gap_of[0] == i && j < out->gap_of[1])) {
-                out->gap = gap;
-                out->gap_of[0] = i;
-                out->gap_of[1] = j;
-            }
+    struct nearest best = {INFINITY, INT32_MAX, INT32_MAX};
+    int64_t overlaps = 0;
+    int failed = 0;
+#pragma omp parallel reduction(+ : overlaps) reduction(| : failed)
+    {
+        struct nearest mine = {INFINITY, INT32_MAX, INT32_MAX};
+        int32_t *near = NULL, cap = 0;
+        fl_err why = {0};
+#pragma omp for schedule(static)
+        for (int32_t i = 0; i < a->n; i++)
+            if (!failed && look_round(a, box, tree, reach, i, &near, &cap, &overlaps, &mine, &why))
+                failed = 1;
+        free(near);
+#pragma omp critical
+        {
+            take(&best, mine.gap, mine.i, mine.j);
+            if (failed && err->code == 0) *err = why;
         }
     }
-    rc = 0;
-done:
-    free(near);
-    return rc;
+    out->overlaps = overlaps;
+    out->gap = best.gap;
+    out->gap_of[0] = best.gap < INFINITY ? best.i : -1;
+    out->gap_of[1] = best.gap < INFINITY ? best.j : -1;
+    return failed ? -1 : 0;
 }
 
 static int measure_pairs(const fl_floes *a, fl_certificate *out, fl_err *err)

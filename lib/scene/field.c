@@ -409,45 +409,127 @@ done:
 
 static int moves(fl_vec3 v) { return v.x != 0.0 || v.y != 0.0 || v.z != 0.0; }
 
-static void write_vec3(FILE *f, fl_vec3 x)
+/* A buffer of its own: a call of the C library for each number takes as long as its digits do. */
+enum { BUFFER = 1 << 16 };
+
+struct put {
+    FILE *f;
+    int n, z_len;
+    double z; /* the number that z_text prints: prisms have two heights for all their corners */
+    char z_text[FL_NUM_LEN];
+    char text[BUFFER];
+};
+
+static void flush(struct put *o)
 {
-    char t[3][FL_NUM_LEN];
-    fprintf(f, " %s %s %s", fl_num_text(x.x, t[0]), fl_num_text(x.y, t[1]), fl_num_text(x.z, t[2]));
+    fwrite(o->text, 1, (size_t)o->n, o->f);
+    o->n = 0;
+}
+
+static void put_text(struct put *o, const char *text, int len)
+{
+    if (o->n + len > BUFFER) flush(o);
+    if (len > BUFFER) {
+        fwrite(text, 1, (size_t)len, o->f);
+        return;
+    }
+    memcpy(o->text + o->n, text, (size_t)len);
+    o->n += len;
+}
+
+static void put_char(struct put *o, char c) { put_text(o, &c, 1); }
+
+static void put_int(struct put *o, int32_t x)
+{
+    char text[12];
+    int at = 12;
+    for (; x > 9; x /= 10) text[--at] = (char)('0' + x % 10);
+    text[--at] = (char)('0' + x);
+    put_text(o, text + at, 12 - at);
+}
+
+static void put_f64(struct put *o, double x)
+{
+    char text[FL_NUM_LEN];
+    fl_num_text(x, text);
+    put_text(o, text, (int)strlen(text));
+}
+
+static void put_vec3(struct put *o, fl_vec3 x)
+{
+    put_char(o, ' ');
+    put_f64(o, x.x);
+    put_char(o, ' ');
+    put_f64(o, x.y);
+    put_char(o, ' ');
+    if (o->z_len == 0 || memcmp(&x.z, &o->z, sizeof x.z) != 0) {
+        fl_num_text(o->z = x.z, o->z_text);
+        o->z_len = (int)strlen(o->z_text);
+    }
+    put_text(o, o->z_text, o->z_len);
+}
+
+static void put_name(struct put *o, const char *key, const char *name)
+{
+    put_text(o, key, (int)strlen(key));
+    put_text(o, name, (int)strlen(name));
+}
+
+static void put_body(struct put *o, const fl_field *a, int32_t i)
+{
+    const fl_poly *p = &a->core[i];
+    put_text(o, "poly ", 5);
+    put_int(o, a->id[i]);
+    put_char(o, ' ');
+    put_f64(o, a->radius[i]);
+    put_char(o, ' ');
+    put_int(o, p->nv);
+    put_char(o, ' ');
+    put_int(o, p->nf);
+    if (a->material[i] >= 0) put_name(o, " material=", a->materials.name[a->material[i]]);
+    if (a->group[i] >= 0) put_name(o, " group=", a->groups.name[a->group[i]]);
+    put_char(o, '\n');
+    for (int32_t v = 0; v < p->nv; v++) {
+        put_char(o, 'v');
+        put_vec3(o, p->v[v]);
+        put_char(o, '\n');
+    }
+    for (int32_t k = 0; k < p->nf; k++) {
+        put_text(o, "f ", 2);
+        put_int(o, p->first[k + 1] - p->first[k]);
+        for (int32_t e = p->first[k]; e < p->first[k + 1]; e++) {
+            put_char(o, ' ');
+            put_int(o, p->loop[e]);
+        }
+        put_char(o, '\n');
+    }
+    if (moves(a->vel[i]) || moves(a->spin[i])) {
+        put_text(o, "vel", 3);
+        put_vec3(o, a->vel[i]);
+        put_vec3(o, a->spin[i]);
+        put_char(o, '\n');
+    }
 }
 
 void fl_field_write(FILE *f, const fl_field *a, const fl_by *by)
 {
-    char num[FL_NUM_LEN];
+    struct put o;
+    o.f = f;
+    o.n = o.z_len = 0;
     fl_by_header(f, "g-polys", a->bonds ? 2 : 1, a->history, by);
-    for (int32_t i = 0; i < a->n; i++) {
-        const fl_poly *p = &a->core[i];
-        fprintf(f, "poly %d %s %d %d", a->id[i], fl_num_text(a->radius[i], num), p->nv, p->nf);
-        if (a->material[i] >= 0) fprintf(f, " material=%s", a->materials.name[a->material[i]]);
-        if (a->group[i] >= 0) fprintf(f, " group=%s", a->groups.name[a->group[i]]);
-        fputc('\n', f);
-        for (int32_t v = 0; v < p->nv; v++) {
-            fputc('v', f);
-            write_vec3(f, p->v[v]);
-            fputc('\n', f);
-        }
-        for (int32_t k = 0; k < p->nf; k++) {
-            fprintf(f, "f %d", p->first[k + 1] - p->first[k]);
-            for (int32_t e = p->first[k]; e < p->first[k + 1]; e++) fprintf(f, " %d", p->loop[e]);
-            fputc('\n', f);
-        }
-        if (moves(a->vel[i]) || moves(a->spin[i])) {
-            fputs("vel", f);
-            write_vec3(f, a->vel[i]);
-            write_vec3(f, a->spin[i]);
-            fputc('\n', f);
-        }
-    }
+    for (int32_t i = 0; i < a->n; i++) put_body(&o, a, i);
     for (int32_t k = 0; k < a->bonds; k++) {
         const fl_field_bond *d = &a->bond[k];
-        char length[FL_NUM_LEN];
-        fprintf(f, "bond %d %d %s %s", a->id[d->i], a->id[d->j], fl_num_text(d->area, num),
-                fl_num_text(d->length, length));
-        write_vec3(f, d->x);
-        fputc('\n', f);
+        put_text(&o, "bond ", 5);
+        put_int(&o, a->id[d->i]);
+        put_char(&o, ' ');
+        put_int(&o, a->id[d->j]);
+        put_char(&o, ' ');
+        put_f64(&o, d->area);
+        put_char(&o, ' ');
+        put_f64(&o, d->length);
+        put_vec3(&o, d->x);
+        put_char(&o, '\n');
     }
+    flush(&o);
 }
