@@ -211,6 +211,14 @@ static void tell_counts(const fl_elements *e, fl_bytes *b)
     if (out.len) fl_bytes_note(b, "elements without a surface, or not known, passed over: %s", out.text);
 }
 
+/* A set that has the name of a part which is wanted too goes on with it. */
+static int32_t namesake(const fl_elements *e, const char *want, int32_t target)
+{
+    const int32_t parts = e->parts.n;
+    const int32_t part = target < parts ? -1 : fl_names_find(&e->parts, e->sets.name[target - parts]);
+    return part >= 0 && want[part] ? part : target;
+}
+
 /* Where each element goes: its part, or a set that was asked for; sets are counted on behind the parts. */
 static int choose(fl_elements *e, fl_skin *k, fl_wish *w, fl_err *err)
 {
@@ -237,9 +245,11 @@ static int choose(fl_elements *e, fl_skin *k, fl_wish *w, fl_err *err)
         *target = t;
         k->behind[p->element] = p->behind;
     }
+    for (int32_t i = 0; i < e->number.n; i++) k->target[i] = namesake(e, want, k->target[i]);
     for (int32_t i = 0; i < e->picks; i++) {
         const fl_pick *p = &e->pick[order[i]];
-        if (want[parts + p->set] && p->face != FL_PICK_WHOLE && fl_skin_pick(k, p, parts + p->set, err))
+        if (want[parts + p->set] && p->face != FL_PICK_WHOLE &&
+            fl_skin_pick(k, p, namesake(e, want, parts + p->set), err))
             goto done;
     }
     rc = 0;

@@ -7,6 +7,7 @@
 #include "mesh/gstruct.h"
 #include "mesh/read_cdb.h"
 #include "mesh/read_mesh.h"
+#include "mesh/read_msh.h"
 #include "mesh/read_obj.h"
 #include "mesh/read_off.h"
 #include "mesh/read_ply.h"
@@ -87,6 +88,7 @@ static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 
 static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
 {
+    if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
     return read_faces(s, b, name, err) || choose(s, w, err) ? -1 : 0;
 }

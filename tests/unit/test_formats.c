@@ -78,6 +78,178 @@ static void put_cdb(FILE *f, const model *m, int bare)
     fprintf(f, "FINISH\n");
 }
 
+/* --- Gmsh ----------------------------------------------------------------------------------------------- */
+
+static int gmsh_type(enum fl_shape shape)
+{
+    static const int type[FL_SHAPES] = {
+        [FL_TRI3] = 2,     [FL_QUAD4] = 3,  [FL_TET4] = 4,   [FL_HEX8] = 5,     [FL_WEDGE6] = 6,
+        [FL_PYRAMID5] = 7, [FL_TET10] = 11, [FL_HEX20] = 17, [FL_WEDGE15] = 18,
+    };
+    return type[shape];
+}
+
+/* Edges whose middle nodes stand behind the corners, in Gmsh's order and in that of mesh/elements.h. */
+static void gmsh_nodes(const model_element *e, int64_t node[20])
+{
+    static const char *const theirs[FL_SHAPES] = {
+        [FL_TET10] = "011220032313",
+        [FL_HEX20] = "010304121523263745475667",
+        [FL_WEDGE15] = "010203121425343545",
+    };
+    static const char *const ours[FL_SHAPES] = {
+        [FL_TET10] = "011220031323",
+        [FL_HEX20] = "011223304556677404152637",
+        [FL_WEDGE15] = "011220344553031425",
+    };
+    const int c = fl_shape_corners(e->shape);
+    memcpy(node, e->node, sizeof e->node);
+    for (int i = c; i < fl_shape_nodes(e->shape); i++) {
+        const char *a = theirs[e->shape] + 2 * (i - c);
+        for (int j = c; j < fl_shape_nodes(e->shape); j++) {
+            const char *b = ours[e->shape] + 2 * (j - c);
+            if ((a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[0])) node[i] = e->node[j];
+        }
+    }
+}
+
+/* A number as text or as bytes; in bytes the lowest comes first unless it is big. */
+typedef struct {
+    FILE *f;
+    int binary, big;
+} sink;
+
+static void put_int(sink *k, int64_t x, int bytes)
+{
+    if (!k->binary) fprintf(k->f, "%lld ", (long long)x);
+    for (int i = 0; k->binary && i < bytes; i++)
+        fputc((int)((uint64_t)x >> 8 * (k->big ? bytes - 1 - i : i) & 0xff), k->f);
+}
+
+static void put_real(sink *k, double x)
+{
+    int64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    if (k->binary) put_int(k, bits, 8);
+    else fprintf(k->f, "%.17g ", x);
+}
+
+static void put_end(sink *k)
+{
+    if (!k->binary) fputc('\n', k->f);
+}
+
+/* variant: 0 ASCII, 1 binary, 2 binary with the highest byte first. */
+static sink put_msh_head(FILE *f, const model *m, const char *version, int variant)
+{
+    sink k = {f, variant > 0, variant > 1};
+    const int dim = fl_shape_faces(m->e[0].shape) ? 3 : 2;
+    fprintf(f, "$MeshFormat\n%s %d 8\n", version, k.binary);
+    if (k.binary) {
+        put_int(&k, 1, 4);
+        fputc('\n', f);
+    }
+    fprintf(f, "$EndMeshFormat\n$PhysicalNames\n%d\n", MODEL_PARTS);
+    for (int p = 0; p < MODEL_PARTS; p++) fprintf(f, "%d %d \"%s\"\n", dim, 40 + p, m->part[p]);
+    fprintf(f, "$EndPhysicalNames\n");
+    return k;
+}
+
+static void put_msh2(FILE *f, const model *m, int variant)
+{
+    sink k = put_msh_head(f, m, "2.2", variant);
+    fprintf(f, "$Nodes\n%d\n", m->nodes);
+    for (int32_t n = 0; n < m->nodes; n++) {
+        put_int(&k, m->id[n], 4);
+        put_real(&k, m->x[n].x);
+        put_real(&k, m->x[n].y);
+        put_real(&k, m->x[n].z);
+        put_end(&k);
+    }
+    fprintf(f, "%s$EndNodes\n$Elements\n%d\n", k.binary ? "\n" : "", m->elements);
+    for (int32_t i = 0; i < m->elements; i++) {
+        const model_element *e = &m->e[i];
+        int64_t node[20];
+        gmsh_nodes(e, node);
+        if (!k.binary) put_int(&k, e->id, 4);
+        put_int(&k, gmsh_type(e->shape), 4);
+        if (k.binary) put_int(&k, 1, 4);
+        put_int(&k, 2, 4);
+        if (k.binary) put_int(&k, e->id, 4);
+        put_int(&k, 40 + e->part, 4);
+        put_int(&k, 3, 4);
+        for (int c = 0; c < fl_shape_nodes(e->shape); c++) put_int(&k, node[c], 4);
+        put_end(&k);
+    }
+    fprintf(f, "%s$EndElements\n", k.binary ? "\n" : "");
+}
+
+static void put_msh4(FILE *f, const model *m, int variant)
+{
+    sink k = put_msh_head(f, m, "4.1", variant);
+    const char *end = k.binary ? "\n" : "";
+    const int dim = fl_shape_faces(m->e[0].shape) ? 3 : 2;
+    fprintf(f, "$Entities\n");
+    for (int d = 0; d < 4; d++) put_int(&k, d == dim ? MODEL_PARTS : d == 0, 8);
+    put_end(&k);
+    put_int(&k, 1, 4); /* a point */
+    for (int c = 0; c < 3; c++) put_real(&k, 0.0);
+    put_int(&k, 0, 8);
+    put_end(&k);
+    for (int p = 0; p < MODEL_PARTS; p++) {
+        put_int(&k, 5 + p, 4);
+        for (int c = 0; c < 6; c++) put_real(&k, 0.0);
+        put_int(&k, 1, 8);
+        put_int(&k, 40 + p, 4);
+        put_int(&k, 2, 8);
+        put_int(&k, 1, 4);
+        put_int(&k, -2, 4);
+        put_end(&k);
+    }
+    fprintf(f, "%s$EndEntities\n$Nodes\n", end);
+    for (int c = 0; c < 4; c++) put_int(&k, c == 0 ? 2 : m->nodes, 8);
+    put_end(&k);
+    /* the first three nodes lie on an entity with parameters */
+    for (int block = 0; block < 2; block++) {
+        const int32_t from = block ? 3 : 0, to = block ? m->nodes : 3;
+        put_int(&k, 2, 4);
+        put_int(&k, 1, 4);
+        put_int(&k, !block, 4);
+        put_int(&k, to - from, 8);
+        put_end(&k);
+        for (int32_t n = from; n < to; n++) put_int(&k, m->id[n], 8);
+        put_end(&k);
+        for (int32_t n = from; n < to; n++) {
+            put_real(&k, m->x[n].x);
+            put_real(&k, m->x[n].y);
+            put_real(&k, m->x[n].z);
+            for (int c = 0; c < 2 && !block; c++) put_real(&k, 0.5);
+            put_end(&k);
+        }
+    }
+    fprintf(f, "%s$EndNodes\n$Periodic\n0 $\n$EndPeriodic\n$Elements\n", end);
+    for (int c = 0; c < 4; c++) put_int(&k, c == 0 ? MODEL_PARTS : m->elements, 8);
+    put_end(&k);
+    for (int p = 0; p < MODEL_PARTS; p++) {
+        int32_t count = 0;
+        for (int32_t i = 0; i < m->elements; i++) count += m->e[i].part == p;
+        put_int(&k, dim, 4);
+        put_int(&k, 5 + p, 4);
+        put_int(&k, gmsh_type(m->e[0].shape), 4);
+        put_int(&k, count, 8);
+        put_end(&k);
+        for (int32_t i = 0; i < m->elements; i++) {
+            int64_t node[20];
+            if (m->e[i].part != p) continue;
+            gmsh_nodes(&m->e[i], node);
+            put_int(&k, m->e[i].id, 8);
+            for (int c = 0; c < fl_shape_nodes(m->e[i].shape); c++) put_int(&k, node[c], 8);
+            put_end(&k);
+        }
+    }
+    fprintf(f, "%s$EndElements\n", end);
+}
+
 /* --- the test ------------------------------------------------------------------------------------------- */
 
 static const char *written(put_fn *put, const model *m, int variant)
@@ -115,8 +287,20 @@ static void ansys_gives_the_same(void **state)
     check(put_cdb, "cdb", 1);
 }
 
+static void gmsh_gives_the_same(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 3; variant++) {
+        check(put_msh2, "msh 2.2", variant);
+        check(put_msh4, "msh 4.1", variant);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ansys_gives_the_same)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ansys_gives_the_same),
+        cmocka_unit_test(gmsh_gives_the_same),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

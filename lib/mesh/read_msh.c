@@ -1,0 +1,629 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "mesh/deck.h"
+#include "mesh/elements.h"
+#include "mesh/read_msh.h"
+
+enum { NODES = 125, TYPES = 94, DIMS = 4 };
+
+/* What an element type of Gmsh is: its dimension, its nodes, what is made of it, and where the nodes of that
+ * stand among its own; NULL where they come first. */
+static const struct {
+    int8_t dim, shape;
+    uint8_t nodes;
+    const int8_t *at;
+} TYPE[TYPES] = {
+#define AT(...)                                                                                              \
+    (const int8_t[]) { __VA_ARGS__ }
+    [1] = {1, FL_LINE2, 2, NULL},
+    [2] = {2, FL_TRI3, 3, NULL},
+    [3] = {2, FL_QUAD4, 4, NULL},
+    [4] = {3, FL_TET4, 4, NULL},
+    [5] = {3, FL_HEX8, 8, NULL},
+    [6] = {3, FL_WEDGE6, 6, NULL},
+    [7] = {3, FL_PYRAMID5, 5, NULL},
+    [8] = {1, FL_LINE3, 3, NULL},
+    [9] = {2, FL_TRI6, 6, NULL},
+    [10] = {2, FL_QUAD9, 9, NULL},
+    [11] = {3, FL_TET10, 10, AT(0, 1, 2, 3, 4, 5, 6, 7, 9, 8)},
+    [12] = {3, FL_HEX20, 27, AT(0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15)},
+    [13] = {3, FL_WEDGE15, 18, AT(0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11)},
+    [14] = {3, FL_PYRAMID13, 14, AT(0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12)},
+    [15] = {0, FL_SHAPES, 1, NULL},
+    [16] = {2, FL_QUAD8, 8, NULL},
+    [17] = {3, FL_HEX20, 20, AT(0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15)},
+    [18] = {3, FL_WEDGE15, 15, AT(0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11)},
+    [19] = {3, FL_PYRAMID13, 13, AT(0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12)},
+    [20] = {2, FL_TRI3, 9, NULL},
+    [21] = {2, FL_TRI3, 10, NULL},
+    [22] = {2, FL_TRI3, 12, NULL},
+    [23] = {2, FL_TRI3, 15, NULL},
+    [24] = {2, FL_TRI3, 15, NULL},
+    [25] = {2, FL_TRI3, 21, NULL},
+    [26] = {1, FL_LINE2, 4, NULL},
+    [27] = {1, FL_LINE2, 5, NULL},
+    [28] = {1, FL_LINE2, 6, NULL},
+    [29] = {3, FL_TET4, 20, NULL},
+    [30] = {3, FL_TET4, 35, NULL},
+    [31] = {3, FL_TET4, 56, NULL},
+    [36] = {2, FL_QUAD4, 16, NULL},
+    [37] = {2, FL_QUAD4, 25, NULL},
+    [38] = {2, FL_QUAD4, 36, NULL},
+    [92] = {3, FL_HEX8, 64, NULL},
+    [93] = {3, FL_HEX8, 125, NULL},
+#undef AT
+};
+
+/* A physical group of something, and the place of the next one plus one. */
+typedef struct {
+    int32_t group, next;
+} member;
+
+typedef struct {
+    fl_bytes *b;
+    fl_elements e;
+    int version, binary, swap, wide; /* wide: bytes of a size */
+    fl_numbers group;                /* (dimension, physical tag) */
+    int32_t *name;                   /* [group.n] of names, -1 for none */
+    fl_names names;
+    fl_numbers entity; /* (dimension, tag) */
+    int32_t *member;   /* [entity.n] the first of its groups, as a place plus one */
+    int32_t *single;   /* [group.n] the group alone, as a place plus one; 0 until it is needed */
+    member *in;        /* [members] */
+    int32_t *of;       /* [e.number.n] the first of the groups of an element; 0 for none */
+    int64_t *tag;      /* of the nodes of a block */
+    int32_t members, coarse;
+    int32_t name_cap, member_cap, single_cap, in_cap, of_cap, tag_cap;
+} msh;
+
+static const char *first_mark(const fl_bytes *b) { return b->data + strspn(b->data, " \t\r\n"); }
+
+int fl_msh_is(const fl_bytes *b)
+{
+    static const char *const section[] = {"$MeshFormat", "$Comments", "$NOD", "$PhysicalNames"};
+    for (size_t k = 0; k < sizeof section / sizeof section[0]; k++)
+        if (strncmp(first_mark(b), section[k], strlen(section[k])) == 0) return 1;
+    return 0;
+}
+
+/* --- numbers of either kind ----------------------------------------------------------------------------- */
+
+static int bad(const msh *m, fl_err *err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+
+static int bad(const msh *m, fl_err *err, const char *fmt, ...)
+{
+    char what[300];
+    va_list ap;
+    va_start(ap, fmt);
+    vsnprintf(what, sizeof what, fmt, ap);
+    va_end(ap);
+    if (m->b->line) return fl_bytes_fail(m->b, err, "%s", what);
+    return fl_bytes_fail(m->b, err, "byte %d: %s", m->b->pos, what);
+}
+
+/* The next n bytes as a number, the byte order being that of the file. */
+static int raw(msh *m, int n, uint64_t *bits, fl_err *err)
+{
+    const uint16_t probe = 1;
+    const int little = (*(const unsigned char *)&probe == 1) != m->swap;
+    if (m->b->n - m->b->pos < n) return bad(m, err, "the file ends inside the data");
+    *bits = 0;
+    for (int k = 0; k < n; k++) {
+        const unsigned char byte = (unsigned char)m->b->data[m->b->pos + k];
+        *bits |= (uint64_t)byte << 8 * (little ? k : n - 1 - k);
+    }
+    m->b->pos += n;
+    return 0;
+}
+
+static int word(msh *m, const char *what, const char **w, fl_err *err)
+{
+    const int more = fl_bytes_word(m->b, w, err);
+    if (more < 0) return -1;
+    return more ? 0 : bad(m, err, "the file ends where %s was wanted", what);
+}
+
+/* A whole number: an int, or with size a size_t. */
+static int whole(msh *m, int size, const char *what, int64_t *x, fl_err *err)
+{
+    const char *w = "";
+    uint64_t bits = 0;
+    if (m->binary) {
+        const int n = size ? m->wide : 4;
+        if (raw(m, n, &bits, err)) return -1;
+        if (n == 4 && !size) *x = (int32_t)(uint32_t)bits;
+        else if (bits > INT64_MAX) return bad(m, err, "%s is %llu", what, (unsigned long long)bits);
+        else *x = (int64_t)bits;
+        return 0;
+    }
+    if (word(m, what, &w, err)) return -1;
+    if (fl_deck_whole(w, x) == 0) return 0;
+    return bad(m, err, "%s is \"%.40s\", a whole number was wanted", what, w);
+}
+
+static int an_int(msh *m, const char *what, int64_t *x, fl_err *err) { return whole(m, 0, what, x, err); }
+static int a_size(msh *m, const char *what, int64_t *x, fl_err *err) { return whole(m, 1, what, x, err); }
+
+static int real(msh *m, const char *what, double *x, fl_err *err)
+{
+    uint64_t bits = 0;
+    if (!m->binary) return fl_bytes_f64(m->b, what, x, err);
+    if (raw(m, 8, &bits, err)) return -1;
+    memcpy(x, &bits, sizeof *x);
+    return 0;
+}
+
+/* n numbers that nobody needs. */
+static int pass_over(msh *m, int is_real, int64_t n, fl_err *err)
+{
+    int64_t i;
+    const char *w = "";
+    if (m->binary) {
+        const int size = is_real ? 8 : 4;
+        if (n < 0 || n > (m->b->n - m->b->pos) / size) return bad(m, err, "the file ends inside the data");
+        m->b->pos += (int32_t)n * size;
+        return 0;
+    }
+    for (i = 0; i < n; i++)
+        if (word(m, "a number", &w, err)) return -1;
+    return 0;
+}
+
+/* --- groups --------------------------------------------------------------------------------------------- */
+
+static int32_t group_of(msh *m, int dim, int64_t tag, fl_err *err)
+{
+    const int32_t had = m->group.n, k = fl_numbers_add(&m->group, dim, tag, err);
+    if (k < 0 || fl_grow(&m->name, &m->name_cap, m->group.n, sizeof *m->name, err) ||
+        fl_grow(&m->single, &m->single_cap, m->group.n, sizeof *m->single, err))
+        return -1;
+    if (k >= had) m->name[k] = -1;
+    if (k >= had) m->single[k] = 0;
+    return k;
+}
+
+/* Add a group to the end of a list, which begins at *first, unless it is there. */
+static int join(msh *m, int32_t *first, int32_t group, fl_err *err)
+{
+    int32_t last = 0;
+    if (fl_grow(&m->in, &m->in_cap, (int64_t)m->members + 1, sizeof *m->in, err)) return -1;
+    for (int32_t k = *first; k; k = m->in[k - 1].next) {
+        if (m->in[k - 1].group == group) return 0;
+        last = k;
+    }
+    m->in[m->members++] = (member){group, 0};
+    if (last) m->in[last - 1].next = m->members;
+    else *first = m->members;
+    return 0;
+}
+
+/* The text of a line: up to its end, which is passed. */
+static char *text_line(fl_bytes *b)
+{
+    char *p = b->data + b->pos;
+    const size_t n = strcspn(p, "\r\n");
+    b->pos += (int32_t)n;
+    if (b->pos < b->n) b->pos += p[n] == '\r' && p[n + 1] == '\n' ? 2 : 1;
+    p[n] = '\0';
+    b->line++;
+    return fl_deck_trim(p);
+}
+
+/* Rows: dimension tag "name", as text in a binary file too. */
+static int read_names(msh *m, fl_err *err)
+{
+    int64_t n = 0;
+    const char *w = "";
+    if (word(m, "the number of names", &w, err)) return -1;
+    if (fl_deck_whole(w, &n) || n < 0)
+        return bad(m, err, "\"%.40s\" names were found, a whole number was wanted", w);
+    for (int64_t i = 0; i < n; i++) {
+        char *p, *end;
+        long dim, tag;
+        int32_t k;
+        do {
+            if (m->b->pos >= m->b->n) return bad(m, err, "the file ends after %lld names", (long long)i);
+            p = text_line(m->b);
+        } while (*p == '\0');
+        dim = strtol(p, &end, 10);
+        if (end == p || dim < 0 || dim >= DIMS) goto wrong;
+        tag = strtol(end, &p, 10);
+        if (p == end) goto wrong;
+        p = fl_deck_trim(p);
+        if (*p++ != '"' || !(end = strrchr(p, '"'))) goto wrong;
+        *end = '\0';
+        k = group_of(m, (int)dim, tag, err);
+        if (k < 0) return -1;
+        m->name[k] = *p ? fl_names_add(&m->names, p, err) : -1;
+        if (*p && m->name[k] < 0) return -1;
+        continue;
+wrong:
+        return bad(m, err, "a physical name of \"%.40s\" was found, DIMENSION TAG \"NAME\" was wanted", p);
+    }
+    return 0;
+}
+
+static int add_member(msh *m, int dim, int64_t tag, int64_t physical, fl_err *err)
+{
+    const int32_t had = m->entity.n, k = fl_numbers_add(&m->entity, dim, tag, err);
+    /* an orientation may be given by the sign */
+    const int32_t g = group_of(m, dim, physical < 0 ? -physical : physical, err);
+    if (k < 0 || g < 0 || fl_grow(&m->member, &m->member_cap, m->entity.n, sizeof *m->member, err)) return -1;
+    if (k >= had) m->member[k] = 0;
+    return join(m, &m->member[k], g, err);
+}
+
+/* One point, curve, surface or volume. */
+static int read_entity(msh *m, int dim, int partitioned, fl_err *err)
+{
+    int64_t tag, n, x;
+    if (an_int(m, "the tag of an entity", &tag, err)) return -1;
+    if (partitioned) {
+        if (pass_over(m, 0, 2, err) || a_size(m, "the number of partitions", &n, err) ||
+            pass_over(m, 0, n, err))
+            return -1;
+    }
+    if (pass_over(m, 1, dim ? 6 : 3, err) || a_size(m, "the number of physical tags", &n, err)) return -1;
+    for (int64_t i = 0; i < n; i++)
+        if (an_int(m, "a physical tag", &x, err) || add_member(m, dim, tag, x, err)) return -1;
+    if (dim == 0) return 0;
+    if (a_size(m, "the number of bounding entities", &n, err)) return -1;
+    return pass_over(m, 0, n, err);
+}
+
+static int read_entities(msh *m, int partitioned, fl_err *err)
+{
+    int64_t n[DIMS], x;
+    if (m->version != 4) return bad(m, err, "$Entities belongs to version 4.1");
+    if (partitioned) {
+        if (a_size(m, "the number of partitions", &x, err) || a_size(m, "the number of ghosts", &x, err) ||
+            x > INT32_MAX || pass_over(m, 0, 2 * x, err))
+            return err->code ? -1 : bad(m, err, "%lld ghosts", (long long)x);
+    }
+    for (int d = 0; d < DIMS; d++)
+        if (a_size(m, "the number of entities", &n[d], err)) return -1;
+    for (int d = 0; d < DIMS; d++)
+        for (int64_t i = 0; i < n[d]; i++)
+            if (read_entity(m, d, partitioned, err)) return -1;
+    return 0;
+}
+
+/* --- nodes and elements --------------------------------------------------------------------------------- */
+
+static int read_node(msh *m, int64_t tag, fl_err *err)
+{
+    fl_vec3 x;
+    if (real(m, "x", &x.x, err) || real(m, "y", &x.y, err) || real(m, "z", &x.z, err)) return -1;
+    if (tag < 1) return bad(m, err, "node %lld was found, a tag of 1 or more was wanted", (long long)tag);
+    if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
+        return bad(m, err, "node %lld is at %g %g %g, finite coordinates were wanted", (long long)tag, x.x,
+                   x.y, x.z);
+    return fl_elements_node(&m->e, 0, tag, x, err) < 0 ? -1 : 0;
+}
+
+/* All tags of a block of an entity, then all coordinates, with one more for each dimension when parametric.
+ */
+static int read_node_block(msh *m, fl_err *err)
+{
+    int64_t dim, tag, parametric, n;
+    if (an_int(m, "a dimension", &dim, err) || an_int(m, "an entity", &tag, err) ||
+        an_int(m, "0 or 1", &parametric, err) || a_size(m, "the number of nodes", &n, err))
+        return -1;
+    if (dim < 0 || dim >= DIMS || parametric < 0 || parametric > 1)
+        return bad(m, err, "a block of dimension %lld, parametric %lld was found", (long long)dim,
+                   (long long)parametric);
+    for (int64_t i = 0; i < n; i++)
+        if (fl_grow(&m->tag, &m->tag_cap, i + 1, sizeof *m->tag, err) ||
+            a_size(m, "the tag of a node", &m->tag[i], err))
+            return -1;
+    for (int64_t i = 0; i < n; i++)
+        if (read_node(m, m->tag[i], err) || pass_over(m, 1, parametric * dim, err)) return -1;
+    return 0;
+}
+
+static int read_nodes(msh *m, fl_err *err)
+{
+    int64_t blocks, n, x, tag;
+    if (m->version == 4) {
+        if (a_size(m, "the number of blocks", &blocks, err) || a_size(m, "the number of nodes", &n, err) ||
+            a_size(m, "the lowest tag", &x, err) || a_size(m, "the highest tag", &x, err))
+            return -1;
+        for (int64_t i = 0; i < blocks; i++)
+            if (read_node_block(m, err)) return -1;
+        return 0;
+    }
+    for (int64_t i = 0; i < m->tag[0]; i++)
+        if (an_int(m, "the number of a node", &tag, err) || read_node(m, tag, err)) return -1;
+    return 0;
+}
+
+static int known(const msh *m, int64_t type, fl_err *err)
+{
+    if (type > 0 && type < TYPES && TYPE[type].nodes) return 0;
+    return bad(m, err, "element type %lld is not known: save the mesh with order 1 or 2", (long long)type);
+}
+
+/* In version 2 an element in several groups comes once for each, one after the other, and each time by
+ * another number: is it the one before? */
+static int again(const msh *m, int type, const int64_t *node)
+{
+    const int32_t k = m->e.number.n - 1;
+    const int n = fl_shape_nodes((enum fl_shape)TYPE[type].shape);
+    if (m->version != 2 || k < 0 || m->e.element[k].shape != TYPE[type].shape) return 0;
+    for (int i = 0; i < n; i++)
+        if (m->e.node.id[m->e.corner[m->e.element[k].first + i]] != node[i]) return 0;
+    return 1;
+}
+
+/* The last element is in the groups of another list too. */
+static int also(msh *m, int32_t of, fl_err *err)
+{
+    int32_t *mine = &m->of[m->e.number.n - 1], copy = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int32_t k = pass ? of : *mine; k; k = m->in[k - 1].next)
+            if (join(m, &copy, m->in[k - 1].group, err)) return -1;
+    *mine = copy;
+    return 0;
+}
+
+/* The nodes of an element, and the element; of is the list of its groups. */
+static int read_element(msh *m, int type, int64_t id, int32_t of, fl_err *err)
+{
+    int64_t node[NODES], mine[20];
+    int32_t k;
+    for (int i = 0; i < TYPE[type].nodes; i++)
+        if (m->version == 4 ? a_size(m, "a node", &node[i], err) : an_int(m, "a node", &node[i], err))
+            return -1;
+    if (type == 15) return fl_elements_skip(&m->e, "point", err);
+    for (int i = 0; i < fl_shape_nodes((enum fl_shape)TYPE[type].shape); i++) {
+        mine[i] = node[TYPE[type].at ? TYPE[type].at[i] : i];
+        if (mine[i] < 1)
+            return bad(m, err, "element %lld has node %lld, a tag of 1 or more was wanted", (long long)id,
+                       (long long)mine[i]);
+    }
+    if (again(m, type, mine)) return also(m, of, err);
+    m->coarse += type >= 20;
+    m->e.line = m->b->line;
+    k = fl_elements_add(&m->e, 0, -1, (enum fl_shape)TYPE[type].shape, 0, mine, err);
+    if (k < 0 || fl_grow(&m->of, &m->of_cap, (int64_t)k + 1, sizeof *m->of, err)) return -1;
+    m->of[k] = of;
+    return 0;
+}
+
+static int read_element_block(msh *m, fl_err *err)
+{
+    int64_t dim, tag, type, n, id;
+    int32_t entity, of = 0;
+    if (an_int(m, "a dimension", &dim, err) || an_int(m, "an entity", &tag, err) ||
+        an_int(m, "an element type", &type, err) || a_size(m, "the number of elements", &n, err) ||
+        known(m, type, err))
+        return -1;
+    if (dim != TYPE[type].dim)
+        return bad(m, err, "elements of type %lld are in an entity of dimension %lld", (long long)type,
+                   (long long)dim);
+    entity = fl_numbers_find(&m->entity, (int32_t)dim, tag);
+    if (entity >= 0) of = m->member[entity];
+    for (int64_t i = 0; i < n; i++)
+        if (a_size(m, "the tag of an element", &id, err) || read_element(m, (int)type, id, of, err))
+            return -1;
+    return 0;
+}
+
+/* Version 2: number, then tags of which the first is the physical group, then nodes. */
+static int read_tagged(msh *m, int64_t type, int64_t tags, int64_t id, fl_err *err)
+{
+    int64_t physical = 0;
+    int32_t group, none = 0, *of = &none;
+    if (tags < 0 || (tags > 0 && an_int(m, "a physical tag", &physical, err)) ||
+        pass_over(m, 0, tags - (tags > 0), err))
+        return err->code ? -1 : bad(m, err, "element %lld has %lld tags", (long long)id, (long long)tags);
+    if (physical) {
+        group = group_of(m, TYPE[type].dim, physical < 0 ? -physical : physical, err);
+        if (group < 0) return -1;
+        of = &m->single[group];
+        if (*of == 0 && join(m, of, group, err)) return -1;
+    }
+    return read_element(m, (int)type, id, *of, err);
+}
+
+static int read_elements(msh *m, fl_err *err)
+{
+    int64_t blocks, n, x, id, type, tags;
+    if (m->version == 4) {
+        if (a_size(m, "the number of blocks", &blocks, err) || a_size(m, "the number of elements", &n, err) ||
+            a_size(m, "the lowest tag", &x, err) || a_size(m, "the highest tag", &x, err))
+            return -1;
+        for (int64_t i = 0; i < blocks; i++)
+            if (read_element_block(m, err)) return -1;
+        return 0;
+    }
+    for (int64_t i = 0; i < m->tag[0];) {
+        if (!m->binary) {
+            if (an_int(m, "an element", &id, err) || an_int(m, "an element type", &type, err) ||
+                an_int(m, "the number of tags", &tags, err) || known(m, type, err) ||
+                read_tagged(m, type, tags, id, err))
+                return -1;
+            i++;
+            continue;
+        }
+        if (an_int(m, "an element type", &type, err) || an_int(m, "the number of elements", &n, err) ||
+            an_int(m, "the number of tags", &tags, err) || known(m, type, err))
+            return -1;
+        if (n < 1) return bad(m, err, "%lld elements in a row were found", (long long)n);
+        for (; n > 0; n--, i++)
+            if (an_int(m, "an element", &id, err) || read_tagged(m, type, tags, id, err)) return -1;
+    }
+    return 0;
+}
+
+/* --- sections ------------------------------------------------------------------------------------------- */
+
+static int read_format(msh *m, fl_err *err)
+{
+    const fl_bytes *b = m->b;
+    const int more = fl_bytes_row(m->b, err);
+    const char *v = more > 0 ? b->field[0] : "";
+    uint64_t one = 0;
+    if (more < 0) return -1;
+    if (more == 0 || b->words < 3) return bad(m, err, "VERSION FILE-TYPE DATA-SIZE was wanted");
+    if (strcmp(v, "4.1") == 0) m->version = 4;
+    else if (v[0] == '2' && (v[1] == '.' || v[1] == '\0')) m->version = 2;
+    else return bad(m, err, "version %.20s of the format is not read: save as 2.2 or 4.1", v);
+    if (strcmp(b->field[1], "0") != 0 && strcmp(b->field[1], "1") != 0)
+        return bad(m, err, "file type \"%.20s\" was found, 0 or 1 was wanted", b->field[1]);
+    if (strcmp(b->field[2], "8") != 0 && strcmp(b->field[2], "4") != 0)
+        return bad(m, err, "data size \"%.20s\" was found, 8 or 4 was wanted", b->field[2]);
+    m->wide = b->field[2][0] - '0';
+    m->binary = b->field[1][0] == '1';
+    m->b->next = m->b->words;
+    if (!m->binary) return 0;
+    m->b->line = 0;
+    if (raw(m, 4, &one, err)) return -1;
+    if (one == 1) return 0;
+    m->swap = 1;
+    if (one == 0x01000000) return 0;
+    return bad(m, err, "%llu was found where the number 1 tells the byte order", (unsigned long long)one);
+}
+
+/* Go on behind the line $End.. of a section. */
+static int leave(msh *m, const char *section, fl_err *err)
+{
+    fl_bytes *b = m->b;
+    char mark[64];
+    const size_t n = (size_t)snprintf(mark, sizeof mark, "$End%.50s", section + 1);
+    for (char *p = b->data + b->pos; (p = memchr(p, '$', (size_t)(b->data + b->n - p))) != NULL; p++) {
+        if (strncmp(p, mark, n) != 0 || !strchr(" \t\r\n", p[n])) continue;
+        if (p > b->data && !strchr("\r\n", p[-1])) continue; /* a zero byte is an end of line that was cut */
+        if (b->line)
+            for (const char *q = b->data + b->pos; q < p; q++) b->line += *q == '\n';
+        b->pos = (int32_t)(p - b->data);
+        b->words = b->next = 0;
+        text_line(b);
+        if (m->binary) b->line = 0;
+        return 0;
+    }
+    return bad(m, err, "the file ends inside %.50s", section);
+}
+
+/* What is known of a section is read; its end mark must follow. */
+static int end_of(msh *m, const char *section, fl_err *err)
+{
+    char mark[64];
+    int more;
+    snprintf(mark, sizeof mark, "$End%.50s", section + 1);
+    if (m->b->next < m->b->words)
+        return bad(m, err, "\"%.40s\" was found, %s was wanted", m->b->field[m->b->next], mark);
+    more = fl_bytes_row(m->b, err);
+    if (more < 0) return -1;
+    if (more == 0) return bad(m, err, "the file ends where %s was wanted", mark);
+    if (strcmp(m->b->field[0], mark) != 0)
+        return bad(m, err, "\"%.40s\" was found, %s was wanted", m->b->field[0], mark);
+    m->b->next = m->b->words;
+    if (m->binary) m->b->line = 0;
+    return 0;
+}
+
+/* The count of nodes or elements in version 2 stands in a line of text. */
+static int count_line(msh *m, fl_err *err)
+{
+    const char *w = "";
+    if (m->version == 4) return 0;
+    if (fl_grow(&m->tag, &m->tag_cap, 1, sizeof *m->tag, err) || word(m, "a count", &w, err)) return -1;
+    if (fl_deck_whole(w, &m->tag[0]) || m->tag[0] < 0)
+        return bad(m, err, "a count of \"%.40s\" was found", w);
+    if (m->binary) m->b->line = 0;
+    return 0;
+}
+
+static int read_section(msh *m, const char *section, fl_err *err)
+{
+    if (strcmp(section, "$MeshFormat") == 0) return read_format(m, err) || end_of(m, section, err) ? -1 : 0;
+    if (strcmp(section, "$NOD") == 0 || strcmp(section, "$ELM") == 0)
+        return bad(m, err, "version 1 of the format is not read: save as 2.2 or 4.1");
+    if (strcmp(section, "$PhysicalNames") == 0) return read_names(m, err) || end_of(m, section, err) ? -1 : 0;
+    if (strcmp(section, "$Comments") != 0 && !m->version)
+        return bad(m, err, "%.40s stands before $MeshFormat", section);
+    if (strcmp(section, "$Entities") == 0)
+        return read_entities(m, 0, err) || end_of(m, section, err) ? -1 : 0;
+    if (strcmp(section, "$PartitionedEntities") == 0)
+        return read_entities(m, 1, err) || end_of(m, section, err) ? -1 : 0;
+    if (strcmp(section, "$Nodes") == 0)
+        return count_line(m, err) || read_nodes(m, err) || end_of(m, section, err) ? -1 : 0;
+    if (strcmp(section, "$Elements") == 0)
+        return count_line(m, err) || read_elements(m, err) || end_of(m, section, err) ? -1 : 0;
+    return leave(m, section, err);
+}
+
+static int read_sections(msh *m, fl_err *err)
+{
+    int more;
+    while ((more = fl_bytes_row(m->b, err)) > 0) {
+        char section[64];
+        if (m->binary) m->b->line = 0;
+        if (m->b->field[0][0] != '$' || strncmp(m->b->field[0], "$End", 4) == 0)
+            return bad(m, err, "\"%.40s\" was found, a section like $Nodes was wanted", m->b->field[0]);
+        snprintf(section, sizeof section, "%s", m->b->field[0]);
+        m->b->next = m->b->words;
+        if (read_section(m, section, err)) return -1;
+    }
+    return more;
+}
+
+/* --- parts ---------------------------------------------------------------------------------------------- */
+
+static int32_t name_in(const msh *m, int32_t group, fl_names *list, fl_err *err)
+{
+    static const char *const kind[DIMS] = {"point", "curve", "surface", "volume"};
+    char text[40];
+    if (m->name[group] >= 0) return fl_names_add(list, m->names.name[m->name[group]], err);
+    snprintf(text, sizeof text, "%s_%lld", kind[m->group.scope[group]], (long long)m->group.id[group]);
+    return fl_names_add(list, text, err);
+}
+
+/* Parts in the order in which the elements come; further groups of an element are sets. */
+static int give_parts(msh *m, int picks, fl_err *err)
+{
+    for (int32_t i = 0; i < m->e.number.n; i++)
+        for (int32_t k = m->of[i]; k; k = m->in[k - 1].next) {
+            fl_names *list = k == m->of[i] ? &m->e.parts : &m->e.sets;
+            const int32_t at = name_in(m, m->in[k - 1].group, list, err);
+            if (at < 0) return -1;
+            if (k == m->of[i]) m->e.element[i].part = at;
+            else if (picks && fl_elements_pick(&m->e, (fl_pick){i, at, FL_PICK_WHOLE, 0}, err)) return -1;
+        }
+    return 0;
+}
+
+int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+{
+    msh m = {.b = b};
+    int rc = -1;
+    if (fl_elements_start(&m.e, fl_in_name(b->in), err)) return -1;
+    if (fl_names_add(&m.e.parts, name, err) < 0 || read_sections(&m, err) ||
+        give_parts(&m, fl_wish_chooses(w), err))
+        goto done;
+    if (m.e.number.n == 0) {
+        b->line = 0;
+        fl_bytes_fail(b, err, "no elements: put what is wanted into a physical group, or save all elements");
+        goto done;
+    }
+    if (m.coarse) fl_bytes_note(b, "%d elements of order 3 or more were taken by their corners", m.coarse);
+    rc = fl_elements_surface(&m.e, s, b, w, err);
+done:
+    fl_elements_free(&m.e);
+    fl_numbers_free(&m.group);
+    fl_numbers_free(&m.entity);
+    fl_names_free(&m.names);
+    free(m.name);
+    free(m.member);
+    free(m.single);
+    free(m.in);
+    free(m.of);
+    free(m.tag);
+    return rc;
+}
