@@ -17,15 +17,17 @@
 #include "options.h"
 #include "sheet.h"
 #include "sizing.h"
+#include "water.h"
 
 struct field {
     fl_cells cells;
     fl_floes floes;
-    int32_t *name;        /* [floes.n] number of the site, which is the id in the file */
+    int32_t *name;        /* [floes.n] number of the cell */
     double full;          /* covered area before floes were taken out [m2]             */
     double covered, kept; /* area of the floes and of their cells after it             [m2] */
     fl_certificate c;
     struct sizing sizing;
+    struct water water;
     fl_faces faces; /* of a bonded field */
 };
 
@@ -34,27 +36,28 @@ static void tell(const struct options *o, const char *what)
     if (o->verbose) fprintf(stderr, "voronoi-ice: %s\n", what);
 }
 
-/* The field is made round the origin, where numbers are finest, and shifted when it is done. */
-static fl_outline outline(const struct options *o)
+/* The id in the file is the number of the site; further pieces of a cell come behind all sites. */
+static int32_t id_of(const struct field *a, int32_t i)
 {
-    const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y};
-    return (fl_outline){.lo = {-hi.x, -hi.y}, .hi = hi};
+    return a->water.on && a->water.id ? a->water.id[a->name[i]] : a->name[i];
 }
 
-static int make_cells(const struct options *o, fl_cells *cells, fl_err *err)
+static int make_cells(const struct options *o, struct field *a, fl_err *err)
 {
-    const fl_vec2 lo = outline(o).lo, hi = outline(o).hi;
-    fl_vec2 *site = fl_alloc(o->floes, sizeof *site, err);
+    const fl_outline in = water_outline(&a->water, o);
+    fl_cells *cells = &a->cells;
+    fl_vec2 *site;
     int rc = -1;
-    if (!site) return -1;
-    fl_cells_sites(o->floes, o->seed, lo, hi, site);
     tell(o, "dividing the field into cells");
-    if (fl_cells_build(cells, o->floes, site, lo, hi, err)) goto done;
+    if (a->water.on) return water_cells(&a->water, o, cells, err);
+    if (!(site = fl_alloc(o->floes, sizeof *site, err))) return -1;
+    fl_cells_sites(o->floes, o->seed, in.lo, in.hi, site);
+    if (fl_cells_build(cells, o->floes, site, in.lo, in.hi, err)) goto done;
     for (int k = 0; k < o->smooth; k++) {
         tell(o, "smoothing");
         fl_cells_centroids(cells, site);
         fl_cells_free(cells);
-        if (fl_cells_build(cells, o->floes, site, lo, hi, err)) goto done;
+        if (fl_cells_build(cells, o->floes, site, in.lo, in.hi, err)) goto done;
     }
     rc = 0;
 done:
@@ -62,14 +65,30 @@ done:
     return rc;
 }
 
-/* Cells and floes in one: which cells there must be depends on the floes they leave. */
-static int make_sized(const struct options *o, struct field *a, fl_vec2 shift, fl_err *err)
+/* Slivers were left out of the cells: the others make up for their area. */
+static int shrink(const struct options *o, struct field *a, fl_err *err)
 {
-    const fl_outline in = outline(o);
+    const struct water *w = &a->water;
+    const double part = 1.0 - w->lost / w->area;
+    tell(o, "shrinking the cells");
+    if (o->bonded) return fl_floes_fill(&a->floes, &a->cells, o->radius, w->shift, err);
+    if (!(o->concentration < part))
+        return fl_fail(
+            err, FL_INPUT,
+            "the pieces of cells that have room for a floe cover %.6g of the water, %.10g was asked "
+            "for: more floes or a smaller radius is wanted",
+            part, o->concentration);
+    return fl_floes_make(&a->floes, &a->cells, o->concentration / part, o->radius, w->shift, err);
+}
+
+/* Cells and floes in one: which cells there must be depends on the floes they leave. */
+static int make_sized(const struct options *o, struct field *a, fl_err *err)
+{
+    const fl_outline in = water_outline(&a->water, o);
     double off;
     tell(o, "dividing the field into cells of given areas");
     if (fl_laguerre_floes(&a->cells, &a->floes, o->floes, o->seed, a->sizing.area, &in, o->smooth,
-                          o->concentration, o->radius, shift, &off, err))
+                          o->concentration, o->radius, a->water.shift, &off, err))
         return -1;
     return sizing_measure(&a->sizing, &a->floes, err);
 }
@@ -109,9 +128,9 @@ static int add_floe(const struct options *o, const struct field *a, int32_t i, f
     fl_err why = {0};
     for (int32_t k = 0; k < n; k++) xy[k] = v3(a->floes.core[first + k].x, a->floes.core[first + k].y, 0.0);
     if (fl_poly_prism(&core, n, xy, o->radius - draft, o->thickness - draft - o->radius, &why))
-        return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", a->name[i],
+        return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", id_of(a, i),
                        why.text);
-    if (fl_field_add(out, a->name[i], o->radius, &core, o->material, NULL,
+    if (fl_field_add(out, id_of(a, i), o->radius, &core, o->material, NULL,
                      v3(o->velocity.x, o->velocity.y, 0.0), v3(0, 0, 0), err) == 0)
         return 0;
     fl_poly_free(&core);
@@ -165,18 +184,20 @@ static void certify_faces(const struct options *o, const struct field *a, struct
     certify_add(t, "overlap, deepest [m]", 0, f->deep, f->deep, 4, NULL);
     certify_add(t, "bond candidates", NOT_ASKED, f->n, NO_DISTANCE, 10, NULL);
     certify_add(t, "bonded area [m2]", NOT_ASKED, f->length * o->thickness, NO_DISTANCE, 6, NULL);
-    if (o->keep_outs) certify_add(t, "sides on no other [m]", NOT_ASKED, open, NO_DISTANCE, 6, NULL);
+    if (o->keep_outs || a->water.on)
+        certify_add(t, "sides on no other [m]", NOT_ASKED, open, NO_DISTANCE, 6, NULL);
     else certify_add(t, "sides on no other [m]", outline, open, fabs(open - outline) / f->outline, 6, NULL);
 }
 
 static void certify(const struct options *o, const struct field *a, struct certify *t)
 {
     const fl_certificate *c = &a->c;
-    const double area = o->size.x * o->size.y, concentration = a->full / area;
+    const double area = a->water.area, concentration = a->full / area;
     const double asked = o->bonded ? 1.0 : o->concentration;
     certify_add(t, "floes", o->floes, a->cells.n, abs(a->cells.n - o->floes), 10, NULL);
     if (o->sizes) sizing_certify(&a->sizing, o, a->floes.inset, t);
     certify_add(t, "concentration", asked, concentration, fabs(concentration - asked), 10, NULL);
+    water_certify(&a->water, o, t);
     if (o->keep_outs) {
         certify_add(t, "floes kept out", NOT_ASKED, a->cells.n - a->floes.n, NO_DISTANCE, 10, NULL);
         certify_add(t, "floes left", NOT_ASKED, a->floes.n, NO_DISTANCE, 10, NULL);
@@ -190,16 +211,16 @@ static void certify(const struct options *o, const struct field *a, struct certi
     certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean, NO_DISTANCE, 6, NULL);
     certify_add(t, "area, deviation over mean", NOT_ASKED, c->cv, NO_DISTANCE, 4, NULL);
     certify_add(t, "area, smallest [m2]", NOT_ASKED, c->least, NO_DISTANCE, 6, "floe %d",
-                a->name[c->least_of]);
-    certify_add(t, "area, largest [m2]", NOT_ASKED, c->most, NO_DISTANCE, 6, "floe %d", a->name[c->most_of]);
+                id_of(a, c->least_of));
+    certify_add(t, "area, largest [m2]", NOT_ASKED, c->most, NO_DISTANCE, 6, "floe %d", id_of(a, c->most_of));
     certify_add(t, "sides of a floe, mean", NOT_ASKED, c->sides, NO_DISTANCE, 4, NULL);
     certify_add(t, "shortest side of a core [m]", NOT_ASKED, c->edge, NO_DISTANCE, 4, "floe %d",
-                a->name[c->edge_of]);
+                id_of(a, c->edge_of));
     certify_add(t, "sharpest corner [degrees]", NOT_ASKED, c->angle * (180.0 / acos(-1.0)), NO_DISTANCE, 4,
-                "floe %d", a->name[c->angle_of]);
+                "floe %d", id_of(a, c->angle_of));
     if (c->gap_of[0] >= 0 && !o->bonded)
         certify_add(t, "narrowest gap [m]", NOT_ASKED, c->gap, NO_DISTANCE, 6, "floes %d and %d",
-                    a->name[c->gap_of[0]], a->name[c->gap_of[1]]);
+                    id_of(a, c->gap_of[0]), id_of(a, c->gap_of[1]));
     certify_add(t, "inset of the cells [m]", NOT_ASKED, a->floes.inset, NO_DISTANCE, 6, NULL);
     certify_add(t, "floes inset less: small cells", NOT_ASKED, a->floes.held, NO_DISTANCE, 10, NULL);
     certify_add(t, "sides of cells dropped", NOT_ASKED, a->floes.dropped, NO_DISTANCE, 10, NULL);
@@ -222,37 +243,28 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
         if (fl_faces_find(&a->faces, &a->floes, err)) return -1;
         if (a->faces.deep <= a->faces.within) return 0;
         return fl_fail(err, FL_NUMERIC, "floes %d and %d overlap by %g m: nothing is written",
-                       a->name[a->faces.deep_of[0]], a->name[a->faces.deep_of[1]], a->faces.deep);
+                       id_of(a, a->faces.deep_of[0]), id_of(a, a->faces.deep_of[1]), a->faces.deep);
     }
     if (a->c.overlaps)
         return fl_fail(err, FL_NUMERIC,
                        "%lld pairs of floes overlap, floes %d and %d among them: nothing is written",
-                       (long long)a->c.overlaps, a->name[a->c.gap_of[0]], a->name[a->c.gap_of[1]]);
+                       (long long)a->c.overlaps, id_of(a, a->c.gap_of[0]), id_of(a, a->c.gap_of[1]));
     return 0;
 }
 
 static int run(struct options *o, fl_err *err)
 {
-    const fl_vec2 shift = {o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
     struct certify table = {0};
     struct field a = {0};
     fl_by by;
     int rc = -1;
     if (o->threads) omp_set_num_threads(o->threads);
     if (o->lattice >= 0) return sheet_run(o, err);
-    if (o->sizes && sizing_ask(&a.sizing, o, o->size.x * o->size.y, err)) goto done;
-    a.name = fl_alloc(o->floes, sizeof *a.name, err);
+    if (water_make(&a.water, o, err) || (o->sizes && sizing_ask(&a.sizing, o, a.water.area, err))) goto done;
+    if (o->sizes ? make_sized(o, &a, err) : make_cells(o, &a, err) || shrink(o, &a, err)) goto done;
+    a.name = fl_alloc(a.cells.n, sizeof *a.name, err);
     if (!a.name) goto done;
-    for (int32_t i = 0; i < o->floes; i++) a.name[i] = i;
-    if (o->sizes) {
-        if (make_sized(o, &a, shift, err)) goto done;
-    } else {
-        if (make_cells(o, &a.cells, err)) goto done;
-        tell(o, "shrinking the cells");
-        if (o->bonded ? fl_floes_fill(&a.floes, &a.cells, o->radius, shift, err)
-                      : fl_floes_make(&a.floes, &a.cells, o->concentration, o->radius, shift, err))
-            goto done;
-    }
+    for (int32_t i = 0; i < a.cells.n; i++) a.name[i] = i;
     tell(o, "measuring");
     if (measure(o, &a, err)) goto done;
     tell(o, "writing");
@@ -265,6 +277,7 @@ static int run(struct options *o, fl_err *err)
 done:
     sizing_free(&a.sizing);
     fl_faces_free(&a.faces);
+    water_free(&a.water);
     fl_floes_free(&a.floes);
     fl_cells_free(&a.cells);
     free(a.name);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <getopt.h>
+#include <math.h>
 #include <string.h>
 #include "base/num.h"
 #include "options.h"
@@ -26,6 +27,10 @@ static const char HELP[] =
     "      --velocity VX,VY    of all floes at the start, m/s (0,0)\n"
     "      --keep-out SHAPE    take out floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 "
     "times\n"
+    "                          or files as in g_struct(5): their waterline, with the margin, is cut out\n"
+    "      --margin M          open water round the structures of --keep-out (0)\n"
+    "      --outline SHAPE     of the field instead of a rectangle: disc:R, disc:R,X,Y or a file of corners\n"
+    "      --lead X0,Y0,X1,Y1,WIDTH  a strip of open water; may be given 16 times\n"
     "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
     "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
     "      --layers N          layers of the lattice (1)\n"
@@ -55,6 +60,9 @@ enum {
     VELOCITY,
     KEEP_OUT,
     CERTIFICATE,
+    MARGIN,
+    OUTLINE,
+    LEAD,
     BONDED,
     LATTICE,
     LAYERS,
@@ -76,6 +84,9 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"water-density", required_argument, NULL, WATER_DENSITY},
                                      {"velocity", required_argument, NULL, VELOCITY},
                                      {"keep-out", required_argument, NULL, KEEP_OUT},
+                                     {"margin", required_argument, NULL, MARGIN},
+                                     {"outline", required_argument, NULL, OUTLINE},
+                                     {"lead", required_argument, NULL, LEAD},
                                      {"bonded", no_argument, NULL, BONDED},
                                      {"lattice", required_argument, NULL, LATTICE},
                                      {"layers", required_argument, NULL, LAYERS},
@@ -138,29 +149,6 @@ static int pair(const char *option, const char *text, char by, double lo, double
     return 0;
 }
 
-static int shape(struct options *o, const char *text, fl_err *err)
-{
-    static const char wanted[] = "circle:X,Y,R or box:X0,Y0,X1,Y1 in metres";
-    struct keep_out k = {0};
-    double x[4] = {0};
-    if (o->keep_outs == KEEP_OUT_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d shapes to keep out", KEEP_OUT_MAX);
-    if (strncmp(text, "circle:", 7) == 0) {
-        if (numbers("keep-out", text, 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
-        k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
-        if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 was wanted", text);
-    } else if (strncmp(text, "box:", 4) == 0) {
-        if (numbers("keep-out", text, 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
-        k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
-        if (!(x[0] < x[2] && x[1] < x[3]))
-            return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 was wanted", text);
-    } else {
-        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s was wanted", text, wanted);
-    }
-    o->keep_out[o->keep_outs++] = k;
-    return 0;
-}
-
 static int sizes(struct options *o, const char *text, fl_err *err)
 {
     o->sizes = NULL;
@@ -183,6 +171,97 @@ static int name(const char *text, const char **out, fl_err *err)
                        text);
     *out = text;
     return 0;
+}
+
+/* A file that is named in the history must be one word of it. */
+static int file(const char *option, const char *text, const char **out, fl_err *err)
+{
+    if (text[0] == '\0' || strlen(text) > 1000 || strpbrk(text, " \t\r\n\f\v"))
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", the name of a file without blanks was wanted",
+                       option, text);
+    *out = text;
+    return 0;
+}
+
+static int shape(struct options *o, const char *text, fl_err *err)
+{
+    static const char wanted[] = "circle:X,Y,R or box:X0,Y0,X1,Y1 in metres";
+    const size_t word = strcspn(text, ":/");
+    struct keep_out k = {0};
+    double x[4] = {0};
+    if (text[word] != ':') { /* "a/b:c" is a file, and so can any be */
+        if (o->structures == KEEP_OUT_MAX)
+            return fl_fail(err, FL_USAGE, "more than %d files to keep out", KEEP_OUT_MAX);
+        if (file("keep-out", text, &o->structure[o->structures], err)) return -1;
+        o->structures++;
+        return 0;
+    }
+    if (o->keep_outs == KEEP_OUT_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d shapes to keep out", KEEP_OUT_MAX);
+    if (strncmp(text, "circle:", 7) == 0) {
+        if (numbers("keep-out", text, 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
+        k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
+        if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 was wanted", text);
+    } else if (strncmp(text, "box:", 4) == 0) {
+        if (numbers("keep-out", text, 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
+        k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
+        if (!(x[0] < x[2] && x[1] < x[3]))
+            return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 was wanted", text);
+    } else {
+        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s was wanted", text, wanted);
+    }
+    o->keep_out[o->keep_outs++] = k;
+    return 0;
+}
+
+static int the_outline(struct options *o, const char *text, fl_err *err)
+{
+    static const char wanted[] = "disc:R or disc:R,X,Y in metres, or the name of a file,";
+    const int centred = strncmp(text, "disc:", 5) == 0 && !strchr(text, ',');
+    o->outline = NULL;
+    o->disc[0] = o->disc[1] = o->disc[2] = 0.0;
+    if (strncmp(text, "disc:", 5) != 0) return file("outline", text, &o->outline, err);
+    if (numbers("outline", text, 5, ',', centred ? 1 : 3, -LONGEST, LONGEST, o->disc, wanted, err)) return -1;
+    if (o->disc[0] >= SHORTEST) return 0;
+    return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", R of %g at least was wanted", text, SHORTEST);
+}
+
+static int lead(struct options *o, const char *text, fl_err *err)
+{
+    double *x = o->lead[o->leads];
+    if (o->leads == LEAD_MAX) return fl_fail(err, FL_USAGE, "--lead is given more than %d times", LEAD_MAX);
+    if (numbers("lead", text, 0, ',', 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
+    if (!(x[4] >= SHORTEST && fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST))
+        return fl_fail(err, FL_USAGE, "--lead is \"%.60s\", a length and a width of %g at least were wanted",
+                       text, SHORTEST);
+    o->leads++;
+    return 0;
+}
+
+/* "80%", "8/10" and "0.8" are the same. */
+static int concentration(const char *text, double *out, fl_err *err)
+{
+    char word[64];
+    const size_t len = strlen(text);
+    double part = 1.0;
+    if (len < sizeof word) {
+        memcpy(word, text, len + 1);
+        if (len > 1 && word[len - 1] == '%') {
+            word[len - 1] = '\0';
+            part = 100.0;
+        } else if (len > 3 && strcmp(word + len - 3, "/10") == 0) {
+            word[len - 3] = '\0';
+            part = 10.0;
+        }
+        /* the bounds themselves are no concentration of floes with water between them */
+        if (fl_num_f64(word, out) == 0 && *out / part > 0.0 && *out / part < 1.0) {
+            *out /= part;
+            return 0;
+        }
+    }
+    return fl_fail(err, FL_USAGE,
+                   "--concentration is \"%.60s\", a number between 0 and 1, as 0.8, 80%% or 8/10, was wanted",
+                   text);
 }
 
 static const char *const LATTICES[] = {"hcp", "hex", "square"};
@@ -211,10 +290,23 @@ static int useless(const struct options *o, const char *beside, int n, const int
 
 static int check_lattice(const struct options *o, fl_err *err)
 {
-    static const int without[] = {FLOES, SIZES, CONCENTRATION, THICKNESS, RADIUS, SEED, SMOOTH, KEEP_OUT};
+    static const int without[] = {FLOES, SIZES,  CONCENTRATION, THICKNESS, RADIUS,
+                                  SEED,  SMOOTH, KEEP_OUT,      OUTLINE,   LEAD};
     static const int within[] = {LAYERS, DIAMETER};
-    if (o->lattice >= 0) return useless(o, "beside --lattice", 8, without, err);
+    if (o->lattice >= 0) return useless(o, "beside --lattice", 10, without, err);
     return useless(o, "without --lattice", 2, within, err);
+}
+
+static int check_water(const struct options *o, fl_err *err)
+{
+    static const int without[] = {SIZE, ORIGIN}, within[] = {MARGIN};
+    if (o->outline || o->disc[0] > 0.0) {
+        if (useless(o, "beside --outline", 2, without, err)) return -1;
+        if (o->outline && strcmp(o->outline, "-") == 0)
+            return fl_fail(err, FL_USAGE,
+                           "--outline is \"-\", a file was wanted: a pipe cannot be named again");
+    }
+    return o->structures ? 0 : useless(o, "without the file of a structure", 1, within, err);
 }
 
 static int check_bonded(const struct options *o, fl_err *err)
@@ -232,14 +324,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
     case FLOES: o->has_floes = 1; return whole("floes", arg, 1, FLOES_MOST, &o->floes, err);
     case SIZES: return sizes(o, arg, err);
-    case CONCENTRATION:
-        o->has_concentration = 1;
-        /* the bounds themselves are no concentration of floes with water between them */
-        if (number("concentration", arg, 0.0, 1.0, &o->concentration, "a number between 0 and 1", err))
-            return -1;
-        if (o->concentration > 0.0 && o->concentration < 1.0) return 0;
-        return fl_fail(err, FL_USAGE, "--concentration is \"%.60s\", a number between 0 and 1 was wanted",
-                       arg);
+    case CONCENTRATION: o->has_concentration = 1; return concentration(arg, &o->concentration, err);
     case THICKNESS: return number("thickness", arg, SHORTEST, LONGEST, &o->thickness, "a length", err);
     case RADIUS: return number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
     case SEED:
@@ -252,6 +337,9 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
     case VELOCITY: return pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
     case KEEP_OUT: return shape(o, arg, err);
+    case MARGIN: return number("margin", arg, 0.0, LONGEST, &o->margin, "a length not below 0", err);
+    case OUTLINE: return the_outline(o, arg, err);
+    case LEAD: return lead(o, arg, err);
     case BONDED: o->bonded = 1; return 0;
     case LATTICE: return lattice(arg, &o->lattice, err);
     case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
@@ -308,7 +396,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(err, FL_USAGE,
                        "--certificate - and the field both go to standard output: -o is wanted");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
-    if (check_lattice(o, err) || check_bonded(o, err)) return -1;
+    if (check_lattice(o, err) || check_water(o, err) || check_bonded(o, err)) return -1;
     if (!(o->thickness > 2.0 * o->radius))
         return fl_fail(err, FL_USAGE, "--thickness %g is not more than twice --radius %g: no core is left",
                        o->thickness, o->radius);
@@ -320,7 +408,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 
 static void add_numbers(fl_by *by, const char *option, char divide, int n, const double *x)
 {
-    char text[4][FL_NUM_LEN], all[4 * (FL_NUM_LEN + 1) + 1] = "";
+    char text[5][FL_NUM_LEN], all[5 * (FL_NUM_LEN + 1) + 1] = "";
     for (int k = 0; k < n; k++) {
         const size_t at = strlen(all);
         snprintf(all + at, sizeof all - at, "%s%.1s", fl_num_text(x[k], text[k]), k + 1 < n ? &divide : "");
@@ -336,8 +424,12 @@ static void add_pair(fl_by *by, const char *option, char divide, fl_vec2 p)
 void options_by(const struct options *o, fl_by *by)
 {
     fl_by_start(by, "voronoi-ice");
-    add_pair(by, "--size ", 'x', o->size);
-    add_pair(by, "--origin ", ',', o->origin);
+    if (o->outline) fl_by_add(by, "--outline %s", o->outline);
+    else if (o->disc[0] > 0.0) add_numbers(by, "--outline disc:", ',', 3, o->disc);
+    else {
+        add_pair(by, "--size ", 'x', o->size);
+        add_pair(by, "--origin ", ',', o->origin);
+    }
     if (o->lattice >= 0) {
         fl_by_add(by, "--lattice %s --layers %d", LATTICES[o->lattice], o->layers);
         add_numbers(by, "--diameter ", ',', 1, &o->diameter);
@@ -361,4 +453,7 @@ void options_by(const struct options *o, fl_by *by)
             add_numbers(by, "--keep-out circle:", ',', 3, (const double[]){s->lo.x, s->lo.y, s->r});
         else add_numbers(by, "--keep-out box:", ',', 4, (const double[]){s->lo.x, s->lo.y, s->hi.x, s->hi.y});
     }
+    for (int k = 0; k < o->leads; k++) add_numbers(by, "--lead ", ',', 5, o->lead[k]);
+    for (int k = 0; k < o->structures; k++) fl_by_add(by, "--keep-out %s", o->structure[k]);
+    if (o->structures) add_numbers(by, "--margin ", ',', 1, &o->margin);
 }

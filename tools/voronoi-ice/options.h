@@ -8,7 +8,7 @@
 #include "geom/polygon.h"
 #include "ice/sizes_law.h"
 
-enum { KEEP_OUT_MAX = 16, FLOES_MOST = 10000000 };
+enum { KEEP_OUT_MAX = 16, LEAD_MAX = 16, FLOES_MOST = 10000000 };
 
 struct keep_out {
     int circle;     /* else a box */
@@ -27,6 +27,13 @@ struct options {
     uint64_t seed;
     struct keep_out keep_out[KEEP_OUT_MAX];
     int keep_outs;
+    const char *outline;      /* file, NULL: none */
+    double disc[3];           /* outline: radius (0: none) and centre [m] */
+    double lead[LEAD_MAX][5]; /* x0 y0 x1 y1 width [m] */
+    int leads;
+    const char *structure[KEEP_OUT_MAX]; /* files of --keep-out */
+    int structures;
+    double margin; /* round structures [m] */
     int bonded;
     int lattice; /* -1, or an fl_lattice_kind */
     int32_t layers;
