@@ -567,20 +567,21 @@ void options_by(const struct options *o, fl_by *by)
     if ((o->table == TABLE_LEGS || o->table == TABLE_EVENTS || o->page) && o->level != 0.5)
         add_number(by, "level", o->level);
     if (o->page && o->table != TABLE_STATS) fl_by_add(by, "--table %s", TABLE[o->table]);
-    const int cycles = o->table == TABLE_CYCLES || o->table == TABLE_RAINFLOW || o->table == TABLE_DAMAGE;
+    const enum table t = o->table;
+    const int damage = t == TABLE_DAMAGE || o->page;
+    const int cycles = damage || t == TABLE_CYCLES || t == TABLE_RAINFLOW;
+    const int sway = t == TABLE_RESPONSE || t == TABLE_MOTION || o->page;
+    const int spectra = t == TABLE_SPECTRUM || t == TABLE_FREQUENCY || t == TABLE_RESPONSE || o->page;
     if (cycles && o->rule && !o->merge) {
         fl_by_add(by, "--rule %s", CYCLE_RULE[o->rule]);
         fl_by_add(by, "--residue %s", OPEN_CYCLES[o->residue]);
     }
-    const int sway = o->table == TABLE_RESPONSE || o->table == TABLE_MOTION;
-    const int spectra =
-        o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY || o->table == TABLE_RESPONSE;
     for (int32_t k = 0; sway && k < o->sways; k++) fl_by_add(by, "--oscillator %s", o->sway[k].text);
     if (spectra && o->segment > 0.0) add_number(by, "segment", o->segment);
     if (spectra && o->taper) fl_by_add(by, "--taper %s", TAPERS[o->taper]);
-    if (o->table == TABLE_FREQUENCY && o->speed > 0.0) add_number(by, "speed", o->speed);
-    for (int32_t k = 0; o->table == TABLE_DAMAGE && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
-    if (o->table == TABLE_DAMAGE && o->stress != 1.0) add_number(by, "stress", o->stress);
+    if ((t == TABLE_FREQUENCY || o->page) && o->speed > 0.0) add_number(by, "speed", o->speed);
+    for (int32_t k = 0; damage && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
+    if (damage && o->stress != 1.0) add_number(by, "stress", o->stress);
     if (o->merge) fl_by_add(by, "--merge");
     if (o->stream) fl_by_add(by, "--stream");
     if (o->follow > 0.0) add_number(by, "follow", o->follow);

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/num.h"
 #include "base/stream.h"
+#include "stat/welch.h"
 #include "page.h"
 #include "plot.h"
 
@@ -298,7 +299,22 @@ static int put_table(FILE *f, const page_source *from, const struct options *o, 
     if (rc == 0 && s.rows > 1) {
         fprintf(f, "<h2>%s</h2>\n", heading);
         if (table == TABLE_LEVELS) warn_far(f, from->span, o);
-        if (table == TABLE_STATS) put_upright(f, &s);
+        if (table == TABLE_FREQUENCY)
+            fputs("<p>Of Welch's spectrum: share is the part of the variance within two steps df of the "
+                  "dominant "
+                  "frequency f; where it is small, no frequency dominates.</p>\n",
+                  f);
+        if (table == TABLE_DAMAGE)
+            fputs(
+                "<p>Cycles by the rule that is named, with their residue; the equivalent range does the same "
+                "damage as all of them with as many.</p>\n",
+                f);
+        if (table == TABLE_RESPONSE)
+            fputs("<p>Lock-in is flagged where the dominant frequency of the load is within 10 % of the "
+                  "natural "
+                  "one.</p>\n",
+                  f);
+        if (table == TABLE_STATS || table == TABLE_FREQUENCY || table == TABLE_RESPONSE) put_upright(f, &s);
         else if (table == TABLE_FITS) put_laws(f, &s);
         else if (table == TABLE_ENSEMBLE) put_some_runs(f, &s);
         else put_rows(f, &s);
@@ -386,6 +402,22 @@ static void put_head(FILE *f, const page_source *from)
     fputs("</p>\n", f);
 }
 
+/* Is the table on the page in any case? */
+static int has_place(const page_source *from, enum table table)
+{
+    switch (table) {
+    case TABLE_STATS:
+    case TABLE_FITS:
+    case TABLE_LEVELS:
+    case TABLE_ENSEMBLE:
+    case TABLE_FREQUENCY:
+    case TABLE_DAMAGE:
+    case TABLE_RESPONSE: return 1;
+    case TABLE_LEGS: return from->legs;
+    default: return 0;
+    }
+}
+
 static int put_page(FILE *f, const char *dir, const page_source *from, const struct options *o,
                     const fl_by *by, fl_err *err)
 {
@@ -396,9 +428,11 @@ static int put_page(FILE *f, const char *dir, const page_source *from, const str
     if (from->many && put_table(f, from, o, TABLE_ENSEMBLE, "How sure they are", err)) return -1;
     if (put_table(f, from, o, TABLE_FITS, laws, err)) return -1;
     if (o->returns && put_table(f, from, o, TABLE_LEVELS, "Return levels", err)) return -1;
-    if (o->table != TABLE_STATS && o->table != TABLE_FITS && o->table != TABLE_LEVELS &&
-        o->table != TABLE_ENSEMBLE && !(from->legs && o->table == TABLE_LEGS) &&
-        put_table(f, from, o, o->table, options_table(o->table), err))
+    if (from->spectra && put_table(f, from, o, TABLE_FREQUENCY, "Frequencies", err)) return -1;
+    if (put_table(f, from, o, TABLE_DAMAGE, "Fatigue", err)) return -1;
+    if (!from->many && o->sways && put_table(f, from, o, TABLE_RESPONSE, "Response of an oscillator", err))
+        return -1;
+    if (!has_place(from, o->table) && put_table(f, from, o, o->table, options_table(o->table), err))
         return -1;
     fputs(
         "<h2>How to make it again</h2>\n<p>The programs in the order in which they ran, with what they were "
@@ -484,6 +518,7 @@ int page_write_record(const struct result *r, const struct options *o, fl_err *e
                               .title = strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics",
                               .history = s->history,
                               .legs = s->parts > 2,
+                              .spectra = s->n >= FL_WELCH_SHORTEST,
                               .span = s->edge[s->n] - s->edge[0],
                               .intro = record_intro,
                               .table = record_table,

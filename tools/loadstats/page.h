@@ -10,6 +10,7 @@ typedef struct {
     const char *title;
     int many;            /* many runs, not one record */
     int legs;            /* there are parts to compare */
+    int spectra;         /* there are rows enough for a spectrum */
     const char *history; /* the "#by" lines of what was read, or NULL */
     double span;         /* how long it is [s] */
     /* Print the paragraph under the title, as HTML. */
@@ -21,10 +22,11 @@ typedef struct {
 } page_source;
 
 /* Write o->report: the table stats (of many runs the table ensemble too), the laws of the peaks (of the
- * largest values), of several parts the table legs, return levels where --return asks for them, the table of
- * --table where it is another, the pictures as inline SVG, and the "#by" lines from which all of it can be
- * made again.  Numbers are rounded to six digits. The pictures are drawn in a folder of TMPDIR that is
- * removed again. 0, or -1 with the errors of the functions above or FL_SYSTEM in err. */
+ * largest values), of several parts the table legs, return levels where --return asks for them, the tables
+ * frequency, damage and, where there is an oscillator, response, the table of --table where it is another,
+ * the pictures as inline SVG, and the "#by" lines from which all of it can be made again.  Numbers are
+ * rounded to six digits. The pictures are drawn in a folder of TMPDIR that is removed again. 0, or -1 with
+ * the errors of the functions above or FL_SYSTEM in err. */
 int page_write(const page_source *from, const struct options *o, fl_err *err);
 
 /* The same for one record. */

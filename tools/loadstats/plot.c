@@ -6,10 +6,17 @@
 #include <sys/stat.h>
 #include "stat/extreme.h"
 #include "stat/histogram.h"
+#include "stat/welch.h"
+#include "cycleplot.h"
 #include "legrows.h"
 #include "plot.h"
+#include "specplot.h"
+#include "swayplot.h"
 
 enum { PARTS_MAX = 24, GAP = 26, STRETCHES = 2000, CLASSES = 20, ALL_RANKS = 200 };
+
+/* A filter leaves a constant with the rounding of its sums; no axis has more digits than this. */
+static const double FLAT = 1e-6;
 
 /* --- data ----------------------------------------------------------------------------------------------- */
 
@@ -82,14 +89,14 @@ static void history_panel(picture *p, int k, int32_t s)
         lo = fmin(lo, view_of(r, p->part, s, w)->d.min);
         hi = fmax(hi, view_of(r, p->part, s, w)->d.max);
     }
-    if (!(hi > lo)) { /* a constant has no range of its own */
+    if (!(hi - lo > FLAT * fmax(fabs(lo), fabs(hi)))) { /* a constant has no range of its own */
         const double room = lo != 0.0 ? 0.5 * fabs(lo) : 1.0;
         lo -= room;
         hi += room;
     }
     plot_place(p, k, 0.095, 0.97);
     fprintf(p->script, "set xrange [%.10g:%.10g]\n", v->edge[0], v->edge[v->n]);
-    fprintf(p->script, "set yrange [%.6g:%.6g]\nset ytics %.6g\n", c.factor * (lo - 0.04 * (hi - lo)),
+    fprintf(p->script, "set yrange [%.10g:%.10g]\nset ytics %.6g\n", c.factor * (lo - 0.04 * (hi - lo)),
             c.factor * (hi + 0.04 * (hi - lo)), plot_tics(c.factor * (hi - lo)));
     plot_axis_text(p, s, text, sizeof text);
     plot_left_title(p, text, 0.022);
@@ -211,6 +218,29 @@ static int peaks(picture *p, fl_err *err)
 
 /* --- all pictures --------------------------------------------------------------------------------------- */
 
+/* The pictures of a table of its own; a page has all that the record can carry. */
+static int plot_table(picture *p, int *made, fl_err *err)
+{
+    const struct options *o = p->o;
+    const int cycles = o->page || o->table == TABLE_RAINFLOW || o->table == TABLE_DAMAGE;
+    const int spectra = o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY ||
+                        (o->page && p->r->s->n >= FL_WELCH_SHORTEST);
+    const int sway = o->sways && (o->page || o->table == TABLE_RESPONSE || o->table == TABLE_MOTION);
+    int varies = 0;
+    for (int32_t s = 0; s < p->r->s->signals; s++) {
+        const fl_view *v = view_of(p->r, p->part, s, 0);
+        varies += v && v->d.max > v->d.min;
+    }
+    p->what = "rainflow";
+    if (cycles && varies && plot_make(p, cycleplot, err)) return -1;
+    p->what = "spectrum";
+    if (spectra && varies && plot_make(p, specplot, err)) return -1;
+    p->what = "response";
+    if (sway && plot_make(p, swayplot, err)) return -1;
+    *made += (cycles && varies) + (spectra && varies) + sway;
+    return 0;
+}
+
 int plot(const struct result *r, const struct options *o, const fl_by *by, fl_err *err)
 {
     const int32_t parts = r->s->parts, alone = parts == 2 && strcmp(r->s->part[1], "total") == 0;
@@ -234,6 +264,7 @@ int plot(const struct result *r, const struct options *o, const fl_by *by, fl_er
         if (n && plot_make(&p, peaks, err)) return -1;
         if (!n && !o->quiet) fprintf(stderr, "loadstats: %s has no peaks to draw\n", r->s->part[p.part]);
         made += 1 + (n > 0);
+        if (plot_table(&p, &made, err)) return -1;
     }
     if (o->table == TABLE_LEGS || (o->page && !alone && parts > 2)) {
         if (legrows_plot(r, o, by, err)) return -1;

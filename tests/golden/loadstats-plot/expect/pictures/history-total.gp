@@ -19,7 +19,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.9349
 set bmargin at screen 0.7377
 set xrange [0:12.5]
-set yrange [-3.47543:68.4019]
+set yrange [-3.475429722:68.40189307]
 set ytics 20
 set label 2 'Force in x  [kN]' at screen 0.0220, graph 0.5 center rotate
 set format x ''
@@ -32,7 +32,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.7120
 set bmargin at screen 0.5148
 set xrange [0:12.5]
-set yrange [-19.6363:27.2372]
+set yrange [-19.6362964:27.2372264]
 set ytics 10
 set label 2 'Force in y  [kN]' at screen 0.0220, graph 0.5 center rotate
 set format x ''
@@ -45,7 +45,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.4892
 set bmargin at screen 0.2919
 set xrange [0:12.5]
-set yrange [-6.84018:0.347541]
+set yrange [-6.840181962:0.3475410071]
 set ytics 2
 set label 2 'Force in z  [kN]' at screen 0.0220, graph 0.5 center rotate
 set format x ''
@@ -58,7 +58,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.2663
 set bmargin at screen 0.0690
 set xrange [0:12.5]
-set yrange [-3.67686:71.5642]
+set yrange [-3.676856939:71.56416776]
 set ytics 20
 set label 2 'Horizontal force  [kN]' at screen 0.0220, graph 0.5 center rotate
 set xlabel 'Time  [s]'
