@@ -19,8 +19,8 @@ static const double NOWHERE = 1e30;
 /* A minimum is flat: its place is known to the square root of the rounding, 1e-8, and no better. */
 static const double PLACE = 1e-8;
 
-/* Where the local maximum of a likelihood has run into the region it is unbounded in. */
-static const double SHAPE_LEAST = -0.999;
+/* Below it a likelihood has no regular maximum, see fit.h. */
+static const double SHAPE_LEAST = -0.5;
 
 const char *fl_fit_method_name(int method)
 {
@@ -177,6 +177,50 @@ static double gpd_profile(double theta, void *data)
     return log(p->scale) + p->shape;
 }
 
+typedef struct {
+    fl_dist d;
+    int32_t n;
+    const double *x;
+    double tail, q, unit; /* unit of the scale */
+} level;
+
+static double likelihood_of(level *c)
+{
+    const double l = c->d.scale > 0.0 && isfinite(c->d.scale) && isfinite(c->d.location)
+                         ? fl_fit_log_likelihood(&c->d, c->n, c->x) / c->n
+                         : -INFINITY;
+    return l > -NOWHERE ? -l : NOWHERE; /* also for a nan */
+}
+
+/* The law whose upper end is exp(u) of the range of the sample above its largest value. */
+static double at_end(double u, void *data)
+{
+    level *c = data;
+    fl_dist *d = &c->d;
+    const double end = c->q + c->unit * exp(u), k = -1.0 / d->shape;
+    double sum = 0.0, s = end - d->location;
+    if (d->kind == FL_GEV) {
+        for (int32_t j = 0; j < c->n; j++) sum += pow(end - c->x[j], k) / c->n;
+        s = pow(sum, 1.0 / k);
+        d->location = end - s;
+    }
+    d->scale = -d->shape * s;
+    return likelihood_of(c);
+}
+
+/* The likeliest law of the smallest shape. */
+static int by_edge(fl_dist *d, int kind, int32_t n, const double *x, double location, fl_fit_work *w)
+{
+    const double lo = fmin(x[0], x[n - 1]), hi = fmax(x[0], x[n - 1]);
+    level c = {.n = n, .x = x, .q = hi, .unit = hi - lo};
+    gsl_function f = {at_end, &c};
+    c.d = (fl_dist){.kind = kind, .location = location, .shape = SHAPE_LEAST};
+    const double u = downhill(w, &f, -3.0, 0.5, -30.0, 10.0);
+    if (!isfinite(u) || !(at_end(u, &c) < NOWHERE)) return 0;
+    *d = c.d;
+    return 1;
+}
+
 static int by_line(fl_dist *d, int32_t n, const double *x, double location, fl_fit_work *w)
 {
     const int gev = d->kind == FL_GEV;
@@ -200,7 +244,8 @@ static int by_line(fl_dist *d, int32_t n, const double *x, double location, fl_f
      * tail. */
     if (!(GSL_FN_EVAL(&f, theta) < NOWHERE)) theta = 0.0;
     theta = downhill(w, &f, theta, 0.1, least, most);
-    if (!isfinite(theta) || !(GSL_FN_EVAL(&f, theta) < NOWHERE) || p.shape < SHAPE_LEAST + 1e-3) return 0;
+    if (!isfinite(theta) || !(GSL_FN_EVAL(&f, theta) < NOWHERE) || p.shape < SHAPE_LEAST + 1e-3)
+        return by_edge(d, d->kind, n, x, location, w);
     /* Equal values at the lower end of a GEV make its likelihood unbounded there: that is no maximum
      * either. */
     if (theta > (1.0 - 1e-6) * most) return 0;
@@ -401,21 +446,6 @@ double fl_fit_anderson(const fl_dist *d, int32_t n, const double *x)
 }
 
 /* --- with a given level --------------------------------------------------------------------------------- */
-
-typedef struct {
-    fl_dist d;
-    int32_t n;
-    const double *x;
-    double tail, q, unit; /* unit of the scale */
-} level;
-
-static double likelihood_of(level *c)
-{
-    const double l = c->d.scale > 0.0 && isfinite(c->d.scale) && isfinite(c->d.location)
-                         ? fl_fit_log_likelihood(&c->d, c->n, c->x) / c->n
-                         : -INFINITY;
-    return l > -NOWHERE ? -l : NOWHERE; /* also for a nan */
-}
 
 /* u is ln of the free parameter, or the shape of a GPD; the other one follows from the level. */
 static double on_line(double u, void *data)

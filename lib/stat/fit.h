@@ -7,9 +7,16 @@
  *                                     shape = theta b, scale = b e^(theta m),
  *                                     location = mean + (e^(theta m) - 1) / theta
  *     y GPD, theta = shape/scale   -> ln(1 + theta y) / theta is exponential with mean scale = shape/theta
- * and the Gumbel b is the one root of the monotone  b = mean(z) - sum(z e^(-z/b)) / sum(e^(-z/b)).  The
- * likelihood of a GEV and a GPD is unbounded for shape < -1: the maximum is the local one above, found uphill
- * from the L-moment fit.  Source: Grimshaw 1993, Technometrics 35:185, for the GPD; the GEV by the same idea.
+ * and the Gumbel b is the one root of the monotone  b = mean(z) - sum(z e^(-z/b)) / sum(e^(-z/b)).
+ * Source: Grimshaw 1993, Technometrics 35:185, for the GPD; the GEV by the same idea.
+ *
+ * The shape of a GEV and a GPD is held to -1/2 or more: below, likelihood does not tell what it tells
+ * elsewhere, and below -1 it is unbounded.  The maximum is the local one, found uphill from the L-moment fit;
+ * where there is none above -1/2 it is the likeliest law of that shape, by a search for its upper end
+ * e > max x, with
+ *     GPD          scale = -shape (e - location)
+ *     GEV          scale = -shape s, location = e - s, s^k = mean((e - x)^k), k = -1/shape
+ * Source: Smith 1985, Biometrika 72:67, for the bound.
  *
  * L-moments are the unbiased ones, l1, l2, t3 = l3/l2.  Source: Hosking 1990, J. R. Stat. Soc. B 52:105.
  * Moments are the mean, s with n - 1, and for the GEV the skewness g1. */
@@ -40,7 +47,7 @@ void fl_fit_work_free(fl_fit_work *w);
  *   n, x[n]    sorted, ascending or descending, n <= w->cap
  *   location   threshold of a GPD, below all x; unused otherwise
  * Returns 1, or 0 when there is no such fit: too few values (3, for a GEV 4), all of them equal, values <= 0
- * in a law that has none, no maximum of the likelihood with shape > -1, moments that no such law has. */
+ * in a law that has none, moments that no such law has. */
 int fl_fit(fl_dist *d, int kind, int method, int32_t n, const double *x, double location, fl_fit_work *w);
 
 /* sum ln density; -INFINITY when a value is outside the support. */

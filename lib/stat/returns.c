@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
 #include "base/rng.h"
 #include "stat/returns.h"
 
-static const double CONFIDENCE = 0.95, CHI2_95 = 3.8414588206941254;
+static const double CONFIDENCE = 0.95;
 
 /* The ends of an interval are asked for to this part of its half width: far below what a sample tells. */
 static const double END = 1e-4;
@@ -24,25 +25,46 @@ static double ratio_at(const ratio *p, double q)
     return l > -INFINITY ? fmax(0.0, 2.0 * (p->most - l)) : INFINITY;
 }
 
-/* Where W crosses the cut on one side of the level: strides that grow, then halving. */
+/* Where W crosses the cut on one side of the level.  Its root is near to a straight line: strides aim a bit
+ * beyond where that line has the cut, and then secants close in on it; every third step halves, so that what
+ * is far from straight ends too. */
 static double end_of(const ratio *p, double level, double first, double cut)
 {
-    double in = level, out = level, step = first;
+    enum { STRIDES = 100, STEPS = 200 };
+    const double want = sqrt(cut), beyond = 1.1, least = 1.2, most = 3.0;
+    double in = level, out = level + first, at_in = 0.0, at_out = 0.0;
     int k;
-    for (k = 0; k < 100; k++) {
-        out = in + step;
-        if (!(ratio_at(p, out) <= cut)) break;
+    for (k = 0; k < STRIDES; k++) {
+        at_out = sqrt(ratio_at(p, out));
+        if (!(at_out <= want)) break;
+        const double grow = at_out > 0.0 ? beyond * want / at_out : most;
         in = out;
-        step *= 1.6;
+        at_in = at_out;
+        out = level + fmin(fmax(grow, least), most) * (out - level);
     }
-    if (k == 100 || !isfinite(out)) return NAN;
-    while (fabs(out - in) > END * fabs(out - level)) {
-        const double mid = 0.5 * (in + out);
+    if (k == STRIDES || !isfinite(out)) return NAN;
+    for (k = 1; k < STEPS && fabs(out - in) > END * fabs(out - level); k++) {
+        const int secant = isfinite(at_out) && k % 3;
+        const double mid = in + (out - in) * (secant ? (want - at_in) / (at_out - at_in) : 0.5);
         if (mid == in || mid == out) break;
-        if (ratio_at(p, mid) <= cut) in = mid;
-        else out = mid;
+        const double at = sqrt(ratio_at(p, mid));
+        if (fabs(at - want) <= END * want) return mid;
+        if (at <= want) {
+            in = mid;
+            at_in = at;
+        } else {
+            out = mid;
+            at_out = at;
+        }
     }
     return 0.5 * (in + out);
+}
+
+/* The cut of W for n values and a law with p free numbers. */
+static double cut_of(int32_t n, int p)
+{
+    const double t = gsl_cdf_tdist_Qinv(0.5 * (1.0 - CONFIDENCE), n - p);
+    return n * log1p(t * t / (n - p));
 }
 
 static void interval(const ratio *p, double level, double cut, double ends[2])
@@ -113,12 +135,16 @@ int fl_returns(const fl_dist *best, int32_t n, const double *x, int32_t m, fl_re
     }
     if (!g) g = &own;
     *g = (fl_goodness){fl_fit_kolmogorov(best, n, x), fl_fit_anderson(best, n, x), NAN, NAN};
+    const double least = cut_of(n, fl_dist_free(best->kind));
     for (int32_t j = 0; j < m; j++) r[j].level = fl_dist_level(best, r[j].tail);
     resample(best, n, m, r, g, resamples, &rng, w, ratios, y, y + n);
     for (int32_t j = 0; j < m; j++) {
         const ratio p = {best, n, x, fl_fit_log_likelihood(best, n, x), r[j].tail, w};
-        interval(&p, r[j].level, CHI2_95, r[j].profile);
-        interval(&p, r[j].level, y[n + j], r[j].bootstrap);
+        /* Resamples that end at the smallest shape of a law have too small a ratio, see returns.h. */
+        const int bound = best->kind == FL_GEV || best->kind == FL_GPD;
+        const double cut = bound && y[n + j] < least ? least : y[n + j];
+        interval(&p, r[j].level, least, r[j].profile);
+        interval(&p, r[j].level, cut, r[j].bootstrap);
     }
     free(ratios);
     free(y);

@@ -62,7 +62,7 @@ static void references(fl_fit_work *w)
 
 typedef struct {
     int done, profile, bootstrap; /* samples fitted, and how often the interval holds the level */
-    double sum;
+    double level[FL_FIT_METHODS]; /* over the true one, by each method; NAN where there is no fit */
 } score;
 
 static int rising(const void *a, const void *b)
@@ -71,70 +71,104 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* One sample of SIZE values of a known law: does each interval of its level at 1 in 100 hold the true one? */
-static int trial(const fl_dist *truth, int64_t k, int32_t resamples, score *s, fl_err *err)
+/* One sample of a known law: does each interval of its level at 1 in 100 hold the true one? */
+static int trial(const fl_dist *truth, int32_t n, int64_t k, int32_t resamples, score *s, fl_err *err)
 {
-    fl_rng g = fl_rng_of(4, k * FL_DISTS + truth->kind, FL_RNG_TEST);
+    fl_rng g = fl_rng_of((uint64_t)n, k * FL_DISTS + truth->kind, FL_RNG_TEST);
     const double want = fl_dist_level(truth, 0.01);
     fl_fit_work w;
     double x[SIZE];
     fl_dist d;
     fl_return r = {.tail = 0.01};
     int rc = 0;
-    if (fl_fit_work_make(&w, SIZE, err)) return -1;
-    for (int j = 0; j < SIZE; j++) x[j] = fl_dist_level(truth, 1.0 - 0.999999999 * fl_rng_unit(&g));
-    qsort(x, SIZE, sizeof *x, rising);
-    if (fl_fit(&d, truth->kind, FL_FIT_LIKELIHOOD, SIZE, x, truth->location, &w)) {
-        rc = fl_returns(&d, SIZE, x, 1, &r, NULL, resamples, 4, k, &w, err);
+    if (fl_fit_work_make(&w, n, err)) return -1;
+    for (int j = 0; j < n; j++) x[j] = fl_dist_level(truth, 1.0 - 0.999999999 * fl_rng_unit(&g));
+    qsort(x, (size_t)n, sizeof *x, rising);
+    for (int method = 0; method < FL_FIT_METHODS; method++)
+        s->level[method] = fl_fit(&d, truth->kind, method, n, x, truth->location, &w)
+                               ? fl_dist_level(&d, 0.01) / want
+                               : (double)NAN;
+    if (fl_fit(&d, truth->kind, FL_FIT_LIKELIHOOD, n, x, truth->location, &w)) {
+        rc = fl_returns(&d, n, x, 1, &r, NULL, resamples, 4, k, &w, err);
         s->done = 1;
         s->profile = !(r.profile[0] > want) && !(r.profile[1] < want);
         s->bootstrap = isfinite(r.bootstrap[0]) && !(r.bootstrap[0] > want) && !(r.bootstrap[1] < want);
-        s->sum = r.level / want;
     }
     fl_fit_work_free(&w);
     return rc;
 }
 
+/* Median and mean of the levels by one method. */
+static void bias(const fl_dist *truth, int32_t n, int method, int32_t trials, const score *s, double *level)
+{
+    int32_t m = 0;
+    double sum = 0.0;
+    char what[80];
+    for (int32_t k = 0; k < trials; k++) {
+        if (!isfinite(s[k].level[method])) continue;
+        sum += level[m] = s[k].level[method];
+        m++;
+    }
+    qsort(level, (size_t)m, sizeof *level, rising);
+    snprintf(what, sizeof what, "%s of %d, %s: median level over true", fl_dist_name(truth->kind), n,
+             fl_fit_method_name(method));
+    /* The median of so many has the deviation 1.25 std / sqrt(trials): a hundredth in full, five of them in
+     * short. */
+    const double tol = truth->kind >= FL_GEV ? 0.15 : verify_quick() ? 0.12 : 0.06;
+    verify_row("L61", what, m ? level[m / 2] : (double)NAN, 1.0, tol, VERIFY_ABS);
+    verify_note("      mean %.4f, of %d fits in %d samples", sum / m, m, trials);
+}
+
 /* A 95 % interval must cover in 93 to 97 % of a thousand samples; with fewer samples, within five standard
  * deviations of their number. */
-static void coverage(void)
+static void coverage(const fl_dist *truth, int32_t n, int32_t resamples)
+{
+    const int32_t trials = verify_quick() ? 40 : 1000;
+    const double tol = verify_quick() ? 5.0 * sqrt(0.95 * 0.05 / trials) : 0.02;
+    score *s = calloc((size_t)trials, sizeof *s);
+    double *level = calloc((size_t)trials, sizeof *level);
+    int failed = 0, done = 0, profile = 0, bootstrap = 0;
+    char what[80];
+    if (!s || !level) {
+        verify_true("L60", "memory for the samples", 0);
+        free(s);
+        free(level);
+        return;
+    }
+#pragma omp parallel for schedule(dynamic) reduction(| : failed)
+    for (int32_t k = 0; k < trials; k++) {
+        fl_err err = {0};
+        failed |= trial(truth, n, k, resamples, &s[k], &err) != 0;
+    }
+    for (int32_t k = 0; k < trials; k++) {
+        done += s[k].done;
+        profile += s[k].profile;
+        bootstrap += s[k].bootstrap;
+    }
+    const char *name = fl_dist_name(truth->kind);
+    snprintf(what, sizeof what, "%s of %d: samples that are fitted", name, n);
+    verify_row("L60", what, failed ? (double)NAN : (double)done / trials, 1.0, 0.01, VERIFY_ABS);
+    for (int method = 0; method < FL_FIT_METHODS; method++) bias(truth, n, method, trials, s, level);
+    snprintf(what, sizeof what, "%s of %d: cover of the profile interval", name, n);
+    verify_row("L62", what, (double)profile / done, 0.95, tol, VERIFY_ABS);
+    snprintf(what, sizeof what, "%s of %d: cover of the bootstrap interval", name, n);
+    verify_row("L63", what, (double)bootstrap / done, 0.95, tol, VERIFY_ABS);
+    free(s);
+    free(level);
+}
+
+static void coverages(void)
 {
     static const fl_dist truth[] = {{FL_WEIBULL, 0.0, 50.0, 1.2},
                                     {FL_GUMBEL, 60.0, 12.0, 0.0},
                                     {FL_LOGNORMAL, 0.0, 60.0, 0.4},
                                     {FL_GEV, 60.0, 12.0, 0.1},
                                     {FL_GPD, 60.0, 15.0, 0.1}};
-    const int32_t trials = verify_quick() ? 40 : 1000, resamples = verify_quick() ? 39 : 199;
-    score *s = calloc((size_t)trials, sizeof *s);
-    for (size_t t = 0; s && t < sizeof truth / sizeof *truth; t++) {
-        const double tol = verify_quick() ? 5.0 * sqrt(0.95 * 0.05 / trials) : 0.02;
-        int failed = 0, done = 0, profile = 0, bootstrap = 0;
-        double sum = 0.0;
-        char what[80];
-        for (int32_t k = 0; k < trials; k++) s[k] = (score){0};
-#pragma omp parallel for schedule(dynamic) reduction(| : failed)
-        for (int32_t k = 0; k < trials; k++) {
-            fl_err err = {0};
-            failed |= trial(&truth[t], k, resamples, &s[k], &err) != 0;
-        }
-        for (int32_t k = 0; k < trials; k++) {
-            done += s[k].done;
-            profile += s[k].profile;
-            bootstrap += s[k].bootstrap;
-            sum += s[k].sum;
-        }
-        const char *name = fl_dist_name(truth[t].kind);
-        snprintf(what, sizeof what, "%s, samples of %d that are fitted", name, SIZE);
-        verify_row("L60", what, failed ? (double)NAN : (double)done / trials, 1.0, 0.01, VERIFY_ABS);
-        snprintf(what, sizeof what, "%s, level at 1 in 100 over the true one", name);
-        verify_row("L61", what, sum / done, 1.0, truth[t].kind >= FL_GEV ? 0.1 : 0.05, VERIFY_ABS);
-        snprintf(what, sizeof what, "%s, cover of the profile interval", name);
-        verify_row("L62", what, (double)profile / done, 0.95, tol, VERIFY_ABS);
-        snprintf(what, sizeof what, "%s, cover of the bootstrap interval", name);
-        verify_row("L63", what, (double)bootstrap / done, 0.95, tol, VERIFY_ABS);
+    /* With 39 resamples the 38th is the 95 % point as it is with 199 the 190th; it only scatters more. */
+    for (size_t t = 0; t < sizeof truth / sizeof *truth; t++) {
+        coverage(&truth[t], 20, 39);
+        coverage(&truth[t], SIZE, 39);
     }
-    verify_true("L60", "memory for the samples", s != NULL);
-    free(s);
 }
 
 int main(void)
@@ -145,6 +179,6 @@ int main(void)
     if (fl_fit_work_make(&w, 100, &err) == 0) references(&w);
     else verify_true("L40", "memory for the fits", 0);
     fl_fit_work_free(&w);
-    coverage();
+    coverages();
     return verify_end();
 }
