@@ -6,8 +6,9 @@
 #include "base/mem.h"
 #include "base/table.h"
 #include "stat/record.h"
+#include "stat/where.h"
 
-enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3, WHERE_MAX = 16 };
+enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
 
 /* A signal is the Euclidean length of one to three columns; of one column it is the column itself. */
 typedef struct {
@@ -28,8 +29,7 @@ struct fl_record_reader {
     int32_t time, key;          /* columns; key < 0 when rows are not told apart */
     int32_t col[RAW_MAX], raws; /* columns that are read */
     int adds[RAW_MAX];
-    int32_t where[WHERE_MAX]; /* columns of conditions, and what must be in them */
-    const char *word[WHERE_MAX];
+    fl_where where;
     formula form[SIGNAL_MAX];
     const char *name[SIGNAL_MAX], *unit[SIGNAL_MAX];
     int32_t signals;
@@ -103,33 +103,6 @@ static int want_signal(fl_record_reader *r, const fl_series_ask *ask, const char
     return 0;
 }
 
-/* "COLUMN=WORD" */
-static int want_where(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
-{
-    if (ask->wheres > WHERE_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d conditions were given", WHERE_MAX);
-    for (int32_t k = 0; k < ask->wheres; k++) {
-        const char *equal = strchr(ask->where[k], '=');
-        char name[80];
-        const size_t len = equal ? (size_t)(equal - ask->where[k]) : sizeof name;
-        if (len == 0 || len >= sizeof name || equal[1] == '\0')
-            return fl_fail(err, FL_USAGE, "\"%.60s\" is no condition, COLUMN=WORD was wanted", ask->where[k]);
-        memcpy(name, ask->where[k], len);
-        name[len] = '\0';
-        if (fl_table_find(&r->table, name, &r->where[k], err)) return -1;
-        r->word[k] = equal + 1;
-    }
-    return 0;
-}
-
-/* Does the row in the table hold what was asked for? */
-static int is_wanted(const fl_record_reader *r)
-{
-    for (int32_t k = 0; k < r->ask.wheres; k++)
-        if (strcmp(fl_table_word(&r->table, r->where[k]), r->word[k]) != 0) return 0;
-    return 1;
-}
-
 static int want_all(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
 {
     static const char *const usual[] = {"fx", "fy", "fz", "fh"};
@@ -140,7 +113,7 @@ static int want_all(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
         return fl_fail(err, FL_USAGE, "%s: a column of this %s table must be chosen, it is not loads",
                        fl_in_name(r->table.text.in), r->table.text.kind);
     if (fl_table_find(&r->table, "t", &r->time, err)) return -1;
-    if (want_where(r, ask, err)) return -1;
+    if (fl_where_make(&r->where, &r->table, ask->where, ask->wheres, err)) return -1;
     if (ask->over) r->key = -1;
     else if (loads && fl_table_find(&r->table, "part", &r->key, err)) return -1;
     if (!loads && !ask->over) r->key = fl_table_column(&r->table, "part");
@@ -375,7 +348,7 @@ static int read_time(fl_record_reader *r, fl_err *err)
                                     r->table.text.kind, r->ask.wheres ? " that was asked for" : "");
             }
         }
-        if (r->pending == 0 && !is_wanted(r)) continue;
+        if (r->pending == 0 && !fl_where_holds(&r->where, &r->table)) continue;
         if (take_row(r, err)) return -1;
         if (r->pending || (!r->ask.over && (r->key < 0 || (r->by_name && r->seen == r->parts))))
             return close_time(r, err) ? -1 : 1;

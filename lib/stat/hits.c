@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "stat/hits.h"
+#include "stat/record.h"
+
+/* Normals print with all their digits; what is off by more was never a unit vector. */
+static const double UNIT = 1e-6;
+
+enum { T, J, NX, NY, NZ, PX, PY, PZ, LENGTH, AREA, FN, FSX, FSY, FSZ, COLUMNS };
+static const char *const NAME[COLUMNS] = {"t",  "j",      "nx",   "ny", "nz",  "px",  "py",
+                                          "pz", "length", "area", "fn", "fsx", "fsy", "fsz"};
+
+int fl_hits_open(fl_hits *h, const char *path, const fl_hits_ask *ask, fl_err *err)
+{
+    *h = (fl_hits){.ask = *ask};
+    if (fl_table_open(&h->table, path, "contacts", 1, err)) return -1;
+    for (int k = 0; k < COLUMNS; k++)
+        if (fl_table_find(&h->table, NAME[k], &h->col[k], err)) return -1;
+    return fl_where_make(&h->where, &h->table, ask->where, ask->wheres, err);
+}
+
+static int number(const fl_hits *h, int k, double *x, fl_err *err)
+{
+    if (fl_table_f64(&h->table, h->col[k], x, err)) return -1;
+    if (fabs(*x) <= FL_SERIES_LARGEST) return 0;
+    return fl_text_fail(&h->table.text, err, "%s is %g, at most %g was wanted", NAME[k], *x,
+                        FL_SERIES_LARGEST);
+}
+
+/* The contact of this row, if it is one with the structure that was asked for. */
+static int take(fl_hits *h, fl_err *err)
+{
+    double x[COLUMNS], across;
+    for (int k = J; k < COLUMNS; k++)
+        if (number(h, k, &x[k], err)) return -1;
+    if (!(x[J] < 0.0) || x[J] < INT32_MIN || x[J] != floor(x[J])) return 0;
+    if (h->ask.part && x[J] != h->ask.part) return 0;
+    if (!fl_where_holds(&h->where, &h->table)) return 0;
+    fl_hit c = {.part = (int32_t)x[J],
+                .p = v3(x[PX], x[PY], x[PZ]),
+                .n = v3(x[NX], x[NY], x[NZ]),
+                .length = x[LENGTH],
+                .area = x[AREA],
+                .push = x[FN]};
+    across = v3_norm(c.n);
+    if (!(fabs(across - 1.0) <= UNIT))
+        return fl_text_fail(&h->table.text, err, "the normal has the length %g, 1 was wanted", across);
+    if (c.length < 0.0 || c.area < 0.0)
+        return fl_text_fail(&h->table.text, err, "length and area are %g m and %g m2, not below 0 was wanted",
+                            c.length, c.area);
+    c.force = v3_neg(v3_add(v3_scale(c.push, c.n), v3(x[FSX], x[FSY], x[FSZ])));
+    if (fl_grow(&h->hit, &h->cap, (int64_t)h->n + 1, sizeof *h->hit, err)) return -1;
+    h->hit[h->n++] = c;
+    return 0;
+}
+
+int fl_hits_next(fl_hits *h, fl_err *err)
+{
+    int open = 0; /* a time has begun */
+    h->n = 0;
+    for (;;) {
+        double t;
+        if (!h->pending) {
+            const int more = fl_table_row(&h->table, err);
+            if (more < 0) return -1;
+            if (more == 0) break;
+        }
+        h->pending = 0;
+        if (number(h, T, &t, err)) return -1;
+        if (open && t > h->t) {
+            h->pending = 1;
+            return 1;
+        }
+        if (h->times && t < h->time[h->times - 1])
+            return fl_text_fail(&h->table.text, err, "time %.10g s comes after %.10g s", t,
+                                h->time[h->times - 1]);
+        if (t < h->ask.from || t > h->ask.to) continue;
+        if (!open) {
+            if (fl_grow(&h->time, &h->time_cap, (int64_t)h->times + 1, sizeof *h->time, err)) return -1;
+            h->time[h->times++] = h->t = t;
+            open = 1;
+        }
+        if (take(h, err)) return -1;
+    }
+    if (h->times) return open;
+    return fl_fail(err, FL_INPUT, "%s: no row of it is between the times that were asked for",
+                   fl_in_name(h->table.text.in));
+}
+
+static int rising(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+int fl_hits_span(const fl_hits *h, int64_t *times, double *step, fl_err *err)
+{
+    const int32_t n = h->times - 1;
+    *times = h->times;
+    *step = 0.0;
+    if (n < 1) return 0;
+    double *apart = fl_alloc(n, sizeof *apart, err);
+    if (!apart) return -1;
+    for (int32_t k = 0; k < n; k++) apart[k] = h->time[k + 1] - h->time[k];
+    qsort(apart, (size_t)n, sizeof *apart, rising);
+    *step = apart[n / 2];
+    free(apart);
+    const double all = floor((h->time[n] - h->time[0]) / *step + 1.5);
+    if (all > (double)*times && all < 9e15) *times = (int64_t)all;
+    return 0;
+}
+
+void fl_hits_close(fl_hits *h)
+{
+    fl_table_close(&h->table);
+    free(h->hit);
+    free(h->time);
+    *h = (fl_hits){0};
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include "base/mem.h"
+#include "stat/pressure.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Neighbours a diameter away are on the rim opposite; rounding must not lose them: a part of the diameter. */
+static const double RIM = 1e-12;
+
+/* From this direction of the centre on, a force is inside, or is no longer. */
+struct fl_turn {
+    double angle, force;
+    int32_t change; /* +1, -1 */
+};
+
+static int by_angle(const void *a, const void *b)
+{
+    const struct fl_turn *p = a, *q = b;
+    if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
+    return q->change - p->change; /* in before out: the rim belongs to the disc */
+}
+
+static double inside_of(const fl_hit *c, double area, double r)
+{
+    double share = 1.0;
+    if (c->area > area) share = area / c->area;
+    if (c->length > 2.0 * r) share = fmin(share, 2.0 * r / c->length);
+    return share * c->push;
+}
+
+static int counts(const fl_hit *c, int32_t part) { return c->part == part && c->push > 0.0; }
+
+static void add_turn(fl_window_work *w, int32_t *n, double angle, double force, int32_t change)
+{
+    w->turn[(*n)++] = (struct fl_turn){angle, force, change};
+}
+
+/* All discs with contact i on their rim. */
+static void around(int32_t n, const fl_hit *hit, int32_t i, int32_t part, double area, fl_window *best,
+                   fl_window_work *w)
+{
+    const double r = sqrt(area / PI);
+    const fl_vec3 e1 = v3_normal_to(hit[i].n), e2 = v3_cross(hit[i].n, e1);
+    double force = inside_of(&hit[i], area, r), at = 0.0;
+    int32_t turns = 0, hits = 1;
+    for (int32_t j = 0; j < n; j++) {
+        if (j == i || !counts(&hit[j], part) || !(v3_dot(hit[i].n, hit[j].n) > 0.0)) continue;
+        const fl_vec3 d = v3_sub(hit[j].p, hit[i].p);
+        const double far = v3_norm(d), f = inside_of(&hit[j], area, r);
+        if (far > 2.0 * r * (1.0 + RIM)) continue;
+        if (far <= RIM * r) { /* the same point: always inside */
+            force += f;
+            hits++;
+            continue;
+        }
+        const double to = atan2(v3_dot(d, e2), v3_dot(d, e1)), half = acos(fmin(far / (2.0 * r), 1.0));
+        double from = to - half, end = to + half;
+        add_turn(w, &turns, from, f, 1);
+        add_turn(w, &turns, end, f, -1);
+        /* What reaches over the turn of the angle is there a turn earlier or later too. */
+        const double shift = from < -PI ? 2.0 * PI : end > PI ? -2.0 * PI : 0.0;
+        if (shift != 0.0) {
+            add_turn(w, &turns, from + shift, f, 1);
+            add_turn(w, &turns, end + shift, f, -1);
+        }
+    }
+    qsort(w->turn, (size_t)turns, sizeof *w->turn, by_angle);
+    double most = force;
+    int32_t inside = hits, held = hits;
+    for (int32_t k = 0; k < turns; k++) {
+        force += w->turn[k].change * w->turn[k].force;
+        inside += w->turn[k].change;
+        if (!(force > most)) continue;
+        most = force;
+        held = inside;
+        at = w->turn[k].angle;
+    }
+    if (!(most > best->force)) return;
+    const int alone = held == hits; /* then the window may as well lie around the contact */
+    best->force = most;
+    best->hits = held;
+    best->centre = alone ? hit[i].p : v3_madd(v3_madd(hit[i].p, r * cos(at), e1), r * sin(at), e2);
+}
+
+int fl_pressure_window(int32_t n, const fl_hit *hit, int32_t part, double area, fl_window *best,
+                       fl_window_work *w, fl_err *err)
+{
+    *best = (fl_window){0};
+    if (fl_grow(&w->turn, &w->cap, 4 * (int64_t)n + 4, sizeof *w->turn, err)) return -1;
+    for (int32_t i = 0; i < n; i++)
+        if (counts(&hit[i], part)) around(n, hit, i, part, area, best, w);
+    return 0;
+}
+
+void fl_window_work_free(fl_window_work *w)
+{
+    free(w->turn);
+    *w = (fl_window_work){0};
+}
+
+double fl_pressure_iso19906(double area) { return area > 10.0 ? 1.48e6 : 7.40e6 * pow(area, -0.70); }
+
+int32_t fl_pressure_fit(int32_t n, const double *area, const double *p, double *c, double *k)
+{
+    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    int32_t m = 0;
+    for (int32_t j = 0; j < n; j++) {
+        if (!(p[j] > 0.0)) continue;
+        sx += log(area[j]);
+        sy += log(p[j]);
+        m++;
+    }
+    *c = *k = NAN;
+    for (int32_t j = 0; j < n; j++) {
+        if (!(p[j] > 0.0)) continue;
+        const double x = log(area[j]) - sx / m;
+        sxx += x * x;
+        sxy += x * (log(p[j]) - sy / m);
+    }
+    if (m < 2 || !(sxx > 0.0)) return m;
+    *k = -sxy / sxx;
+    *c = exp(sy / m + *k * sx / m);
+    return m;
+}
