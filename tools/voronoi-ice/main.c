@@ -14,6 +14,7 @@
 #include "ice/laguerre.h"
 #include "scene/field.h"
 #include "certify.h"
+#include "chart.h"
 #include "options.h"
 #include "sheet.h"
 #include "sizing.h"
@@ -273,6 +274,7 @@ static int run(struct options *o, fl_err *err)
     options_by(o, &by);
     if (o->certificate && certify_write(&table, o->certificate, &by, err)) goto done;
     if (!o->quiet) certify_print(&table);
+    if (o->plot && chart(o, &a.floes, o->sizes ? &a.sizing : NULL, &by, err)) goto done;
     rc = 0;
 done:
     sizing_free(&a.sizing);

@@ -36,6 +36,8 @@ static const char HELP[] =
     "      --layers N          layers of the lattice (1)\n"
     "      --diameter D        of the spheres of the lattice (0.25)\n"
     "      --certificate FILE  what was asked and what was achieved as a table, - is standard output\n"
+    "      --plot DIR          pictures of the field and of its sizes, by gnuplot, into the folder\n"
+    "      --format FORMAT     of the pictures, svg or png (svg)\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the file\n"
     "  -j, --threads N         threads (one per processor)\n"
@@ -63,6 +65,8 @@ enum {
     MARGIN,
     OUTLINE,
     LEAD,
+    PLOT,
+    FORMAT,
     BONDED,
     LATTICE,
     LAYERS,
@@ -92,6 +96,8 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"layers", required_argument, NULL, LAYERS},
                                      {"diameter", required_argument, NULL, DIAMETER},
                                      {"certificate", required_argument, NULL, CERTIFICATE},
+                                     {"plot", required_argument, NULL, PLOT},
+                                     {"format", required_argument, NULL, FORMAT},
                                      {"output", required_argument, NULL, 'o'},
                                      {"gzip", no_argument, NULL, 'z'},
                                      {"threads", required_argument, NULL, 'j'},
@@ -290,10 +296,10 @@ static int useless(const struct options *o, const char *beside, int n, const int
 
 static int check_lattice(const struct options *o, fl_err *err)
 {
-    static const int without[] = {FLOES, SIZES,  CONCENTRATION, THICKNESS, RADIUS,
-                                  SEED,  SMOOTH, KEEP_OUT,      OUTLINE,   LEAD};
+    static const int without[] = {FLOES,  SIZES,    CONCENTRATION, THICKNESS, RADIUS, SEED,
+                                  SMOOTH, KEEP_OUT, OUTLINE,       LEAD,      PLOT};
     static const int within[] = {LAYERS, DIAMETER};
-    if (o->lattice >= 0) return useless(o, "beside --lattice", 10, without, err);
+    if (o->lattice >= 0) return useless(o, "beside --lattice", 11, without, err);
     return useless(o, "without --lattice", 2, within, err);
 }
 
@@ -345,6 +351,11 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
     case DIAMETER: return number("diameter", arg, SHORTEST, LONGEST, &o->diameter, "a length", err);
     case CERTIFICATE: o->certificate = arg; return 0;
+    case PLOT: o->plot = arg; return 0;
+    case FORMAT:
+        o->format = arg;
+        if (strcmp(arg, "svg") == 0 || strcmp(arg, "png") == 0) return 0;
+        return fl_fail(err, FL_USAGE, "--format is \"%.60s\", svg or png was wanted", arg);
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
     case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
@@ -366,6 +377,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
     int c;
     *o = (struct options){.out = "-",
+                          .format = "svg",
                           .material = "ice",
                           .size = {50.0, 50.0},
                           .floes = 200,

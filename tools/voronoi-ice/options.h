@@ -18,6 +18,7 @@ struct keep_out {
 
 struct options {
     const char *out, *material;     /* borrowed from argv */
+    const char *plot, *format;      /* a folder, NULL: no pictures; svg or png */
     const char *certificate;        /* NULL: none is written */
     fl_vec2 size, origin, velocity; /* origin is the corner of least x and y [m, m, m/s] */
     int32_t floes, smooth;
