@@ -138,7 +138,7 @@ static int plan(struct picture *p, fl_err *err)
             "5 '#90d743', 6 '#fde725')\n");
     fprintf(p->script, "set size ratio -1\nset xlabel 'x  [m]'\nset ylabel 'y  [m]'\nunset key\n");
     fprintf(p->script, "set xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", lo.x, hi.x, lo.y, hi.y);
-    fprintf(p->script, "set logscale cb\nset cbrange [%.6g:%.6g]\nset cblabel 'Diameter  [m]'\n",
+    fprintf(p->script, "set logscale cb\nset cbrange [%.6g:%.6g]\nset cblabel 'Diameter  [m]' offset 1.5\n",
             least * (1.0 - 1e-3), most * (1.0 + 1e-3));
     put_tics(p->script, "cb", least, most);
     fprintf(p->script, "set title '%d floes%s'\n", p->floes->n,
