@@ -6,6 +6,7 @@
 #include "mesh/bytes.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_cdb.h"
+#include "mesh/read_inp.h"
 #include "mesh/read_mesh.h"
 #include "mesh/read_msh.h"
 #include "mesh/read_obj.h"
@@ -90,6 +91,7 @@ static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl
 {
     if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
+    if (!memchr(b->data, '\0', (size_t)b->n) && fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);
     return read_faces(s, b, name, err) || choose(s, w, err) ? -1 : 0;
 }
 

@@ -114,3 +114,21 @@ done:
     fl_surface_free(&s);
     return verdict;
 }
+
+int mesh_fuzz_all(const unsigned char *data, size_t n)
+{
+    const char *const pattern[] = {"*"};
+    fl_names seen = {0};
+    fl_wish w = {.pattern = pattern, .patterns = 1, .seen = &seen, .subdivide = 1};
+    fl_err err = {0};
+    fl_surface s = {0};
+    char note[FL_MESH_NOTE];
+    int verdict = mesh_fuzz(data, n);
+    if (verdict != FUZZ_READ) return verdict;
+    verdict = fuzz_verdict(fl_mesh_read_some(&s, fuzz_file(data, n), &w, note, &err), &err);
+    if (verdict == FUZZ_READ && s.n && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
+    if (verdict != FUZZ_READ && s.n) verdict = FUZZ_BROKEN;
+    fl_surface_free(&s);
+    fl_names_free(&seen);
+    return verdict;
+}

@@ -15,4 +15,7 @@ int mesh_same(const fl_surface *a, const fl_surface *b);
  * the same from a g_struct file. */
 int mesh_fuzz(const unsigned char *data, size_t n);
 
+/* The same, and then again with every part and every set chosen and curved faces subdivided. */
+int mesh_fuzz_all(const unsigned char *data, size_t n);
+
 #endif

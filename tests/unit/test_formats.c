@@ -250,7 +250,53 @@ static void put_msh4(FILE *f, const model *m, int variant)
     fprintf(f, "%s$EndElements\n", end);
 }
 
-/* --- the test ------------------------------------------------------------------------------------------- */
+/* --- Abaqus
+     * --------------------------------------------------------------------------------------------- */
+
+static const char *abaqus_type(enum fl_shape shape)
+{
+    switch (shape) {
+    case FL_HEX8: return "C3D8R";
+    case FL_WEDGE6: return "C3D6";
+    case FL_TET4: return "C3D4H";
+    case FL_PYRAMID5: return "C3D5";
+    case FL_HEX20: return "C3D20RH";
+    case FL_TET10: return "C3D10MT";
+    case FL_WEDGE15: return "C3D15";
+    case FL_QUAD4: return "S4R";
+    default: return "S3";
+    }
+}
+
+/* Flat, a block of elements for each part; or as an assembly of one part placed and turned a full turn,
+     * with the sets behind the elements. */
+static void put_inp(FILE *f, const model *m, int assembly)
+{
+    const char *type = abaqus_type(m->e[0].shape);
+    fprintf(f, "*Heading\n a body\n");
+    if (assembly) fprintf(f, "*Part, name=body\n");
+    fprintf(f, "*Node\n");
+    for (int32_t n = 0; n < m->nodes; n++)
+        fprintf(f, "%lld, %.17g, %.17g, %.17g\n", (long long)m->id[n], m->x[n].x, m->x[n].y,
+                m->x[n].z + (assembly ? 4 : 0));
+    for (int32_t p = 0; p < MODEL_PARTS; p++) {
+        fprintf(f, "*Element, type=%s, elset=%s\n", type, m->part[p]);
+        for (int32_t i = 0; i < m->elements; i++) {
+            const int n = fl_shape_nodes(m->e[i].shape);
+            if (m->e[i].part != p) continue;
+            fprintf(f, "%lld", (long long)m->e[i].id);
+            for (int k = 0; k < n; k++)
+                fprintf(f, k % 15 == 14 ? ",\n%lld" : ", %lld", (long long)m->e[i].node[k]);
+            fputc('\n', f);
+        }
+    }
+    if (assembly)
+        fprintf(f, "*End Part\n*Assembly, name=all\n*Instance, name=one, part=body\n0, 0, -4\n"
+                   "1, 2, 3, 1, 2, 7, 360\n*End Instance\n*End Assembly\n");
+}
+
+/* --- the test
+     * ------------------------------------------------------------------------------------------- */
 
 static const char *written(put_fn *put, const model *m, int variant)
 {
@@ -273,6 +319,10 @@ static void check(put_fn *put, const char *format, int variant)
         model_surface(&m, &truth);
         if (fl_mesh_read(&got, written(put, &m, variant), note, &err))
             fail_msg("%s %d of %s: %s", format, variant, fl_shape_name(SHAPES[k]), err.text);
+        for (int32_t i = 0; i < got.n;
+             i++) /* an assembly puts the name of the instance before that of the part */
+            if (strncmp(got.part[i].name, "one.", 4) == 0)
+                memmove(got.part[i].name, got.part[i].name + 4, strlen(got.part[i].name) - 3);
         if (!mesh_sound(&got) || !model_same(&got, &truth))
             fail_msg("%s %d of %s: other triangles\n%s", format, variant, fl_shape_name(SHAPES[k]), note);
         fl_surface_free(&truth);
@@ -296,11 +346,19 @@ static void gmsh_gives_the_same(void **state)
     }
 }
 
+static void abaqus_gives_the_same(void **state)
+{
+    (void)state;
+    check(put_inp, "inp", 0);
+    check(put_inp, "inp", 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ansys_gives_the_same),
         cmocka_unit_test(gmsh_gives_the_same),
+        cmocka_unit_test(abaqus_gives_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
