@@ -9,6 +9,16 @@
 static int32_t sides(const fl_floes *a, int32_t i) { return a->first[i + 1] - a->first[i]; }
 static const fl_vec2 *outer(const fl_floes *a, int32_t i) { return a->outer + a->first[i]; }
 
+static int is_convex(int32_t n, const fl_vec2 *v)
+{
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t next = k + 1 < n ? k + 1 : 0;
+        for (int32_t j = 0; j < n; j++)
+            if (j != k && j != next && fl_cgal_turn(v[k], v[next], v[j]) <= 0) return 0;
+    }
+    return n > 2;
+}
+
 static int side_separates(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
 {
     for (int32_t k = 0; k < m; k++) {
@@ -148,6 +158,15 @@ static int measure_areas(const fl_floes *a, fl_certificate *out, fl_err *err)
     return area && square ? 0 : -1;
 }
 
+static int32_t count_bent(const fl_floes *a)
+{
+    int32_t bent = 0;
+#pragma omp parallel for schedule(static) reduction(+ : bent)
+    for (int32_t i = 0; i < a->n; i++)
+        bent += !is_convex(sides(a, i), a->core + a->first[i]) || !is_convex(sides(a, i), outer(a, i));
+    return bent;
+}
+
 int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err)
 {
     fl_certificate c = {.edge = INFINITY, .angle = INFINITY};
@@ -167,6 +186,7 @@ int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err)
             }
         }
     }
+    c.bent = count_bent(a);
     c.sides = (double)a->first[a->n] / a->n;
     if (measure_areas(a, &c, err) || measure_pairs(a, &c, err)) return -1;
     *out = c;

@@ -18,11 +18,17 @@ typedef struct {
     double gap;        /* least distance between two outer polygons, infinite when there is one [m] */
     int32_t gap_of[2]; /* -1 when there is one                                        */
     int64_t overlaps;  /* pairs of outer polygons that touch or overlap               */
+    int32_t bent;      /* floes whose core or outer polygon is not convex             */
 } fl_certificate;
 
-/* Measure floes of at least one.  A pair counts as apart when all corners of one lie strictly beyond a side
- * of the other, decided by exact predicates on the corners as they are; for convex polygons no other pair is
- * apart.  All pairs are covered: those whose boxes do not meet are apart already.
+/* Measure floes of at least one.
+ *
+ * A polygon is convex and runs once round, counter-clockwise, when every corner that is not on a side lies
+ * strictly to the left of it, which is decided by exact predicates on the corners as they are: then the faces
+ * of the prism on it face outward, and no two corners coincide.
+ * A pair counts as apart when all corners of one lie strictly beyond a side of the other, decided likewise;
+ * for convex polygons no other pair is apart.  All pairs are covered: those whose boxes do not meet are apart
+ * already.
  * Returns 0, or -1 with FL_SYSTEM.  n log n. */
 int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err);
 

@@ -3,6 +3,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/num.h"
+#include "base/par.h"
 #include "base/text.h"
 #include "scene/field.h"
 
@@ -532,4 +533,30 @@ void fl_field_write(FILE *f, const fl_field *a, const fl_by *by)
         put_char(&o, '\n');
     }
     flush(&o);
+}
+
+uint64_t fl_field_hash(const fl_field *a)
+{
+    uint64_t h = FL_HASH_START;
+    h = fl_hash(h, a->id, (int64_t)a->n * (int64_t)sizeof *a->id);
+    h = fl_hash(h, a->radius, (int64_t)a->n * (int64_t)sizeof *a->radius);
+    h = fl_hash(h, a->vel, (int64_t)a->n * (int64_t)sizeof *a->vel);
+    h = fl_hash(h, a->spin, (int64_t)a->n * (int64_t)sizeof *a->spin);
+    for (int32_t i = 0; i < a->n; i++) {
+        const fl_poly *p = &a->core[i];
+        const int32_t size[2] = {p->nv, p->nf};
+        h = fl_hash(h, size, sizeof size);
+        h = fl_hash(h, p->v, (int64_t)p->nv * (int64_t)sizeof *p->v);
+        if (p->nf == 0) continue;
+        h = fl_hash(h, p->first, ((int64_t)p->nf + 1) * (int64_t)sizeof *p->first);
+        h = fl_hash(h, p->loop, (int64_t)p->first[p->nf] * (int64_t)sizeof *p->loop);
+    }
+    for (int32_t k = 0; k < a->bonds; k++) {
+        const fl_field_bond *d = &a->bond[k];
+        const int32_t end[2] = {d->i, d->j};
+        const double x[5] = {d->area, d->length, d->x.x, d->x.y, d->x.z};
+        h = fl_hash(h, end, sizeof end);
+        h = fl_hash(h, x, sizeof x);
+    }
+    return h;
 }

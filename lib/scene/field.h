@@ -63,6 +63,9 @@ int fl_field_read(fl_field *out, const char *path, fl_err *err);
  * read back to the same doubles.  Write errors stay in f, for fl_out_close(). */
 void fl_field_write(FILE *f, const fl_field *a, const fl_by *by);
 
+/* A number that tells fields apart: of ids, radii, corners, faces, velocities and bonds, bit for bit. */
+uint64_t fl_field_hash(const fl_field *a);
+
 void fl_field_free(fl_field *a); /* accepts a zeroed struct, leaves one */
 
 #endif

@@ -273,6 +273,31 @@ static void the_certificate_sees_what_is_wrong(void **state)
     fl_floes_free(&a);
 }
 
+/* A corner on the line of its neighbours, two corners in one place, a polygon that runs the wrong way round
+ * and one that crosses itself: each is seen, and a sound one is not. */
+static void the_certificate_sees_what_is_bent(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        fl_floes a;
+        fl_certificate c;
+        fl_err err = {0};
+        squares(&a, 10, 0.5, 0.0);
+        fl_vec2 *v = (k & 1 ? a.core : a.outer) + 4 * 7;
+        const fl_vec2 was[4] = {v[0], v[1], v[2], v[3]};
+        /* halves are exact: v[1], v[2] and v[3] lie on one line */
+        if (k == 0) v[2] = (fl_vec2){was[2].x - 0.5, was[2].y - 0.5};
+        if (k == 1) v[2] = v[1];
+        if (k == 2)
+            for (int e = 0; e < 4; e++) v[e] = was[3 - e];
+        if (k == 3)
+            for (int e = 0; e < 4; e++) v[e] = was[2 * e % 4 + e / 2];
+        assert_int_equal(fl_certificate_make(&c, &a, &err), 0);
+        assert_int_equal(c.bent, k < 4);
+        fl_floes_free(&a);
+    }
+}
+
 static void memory_that_runs_out_is_told(void **state)
 {
     (void)state;
@@ -304,6 +329,7 @@ int main(void)
                                        cmocka_unit_test(threads_change_nothing),
                                        cmocka_unit_test(floes_that_go_leave_the_others),
                                        cmocka_unit_test(the_certificate_sees_what_is_wrong),
+                                       cmocka_unit_test(the_certificate_sees_what_is_bent),
                                        cmocka_unit_test(memory_that_runs_out_is_told)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

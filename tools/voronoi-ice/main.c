@@ -152,7 +152,7 @@ static int add_bonds(const struct options *o, const struct field *a, fl_field *o
     return 0;
 }
 
-static int write_field(const struct options *o, const struct field *a, fl_err *err)
+static int write_field(struct options *o, const struct field *a, fl_err *err)
 {
     fl_field out = {0};
     fl_out file = {0};
@@ -165,6 +165,7 @@ static int write_field(const struct options *o, const struct field *a, fl_err *e
             add_floe(o, a, i, xy, &out, err))
             goto done;
     if (add_bonds(o, a, &out, err)) goto done;
+    options_id(o, &out);
     options_by(o, &by);
     if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
     fl_field_write(file.f, &out, &by);
@@ -207,6 +208,7 @@ static void certify(const struct options *o, const struct field *a, struct certi
     }
     if (o->bonded) certify_faces(o, a, t);
     else certify_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
+    certify_add(t, "floes not convex", 0, c->bent, c->bent, 10, NULL);
     certify_add(t, "draft [m]", NOT_ASKED, o->thickness * (o->ice_density / o->water_density), NO_DISTANCE, 6,
                 NULL);
     certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean, NO_DISTANCE, 6, NULL);
@@ -240,6 +242,7 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
         const int32_t first = a->cells.first[a->name[i]];
         a->kept += fl_polygon_area(a->cells.first[a->name[i] + 1] - first, a->cells.v + first);
     }
+    if (a->c.bent) return fl_fail(err, FL_NUMERIC, "%d floes are not convex: nothing is written", a->c.bent);
     if (o->bonded) {
         if (fl_faces_find(&a->faces, &a->floes, err)) return -1;
         if (a->faces.deep <= a->faces.within) return 0;

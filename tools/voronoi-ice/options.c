@@ -36,6 +36,7 @@ static const char HELP[] =
     "      --layers N          layers of the lattice (1)\n"
     "      --diameter D        of the spheres of the lattice (0.25)\n"
     "      --certificate FILE  what was asked and what was achieved as a table, - is standard output\n"
+    "      --id NAME           of the field, for its line of history; auto makes one of the bodies\n"
     "      --plot DIR          pictures of the field and of its sizes, by gnuplot, into the folder\n"
     "      --format FORMAT     of the pictures, svg or png (svg)\n"
     "  -o, --output FILE       write there, - is standard output\n"
@@ -65,6 +66,7 @@ enum {
     MARGIN,
     OUTLINE,
     LEAD,
+    ID,
     PLOT,
     FORMAT,
     BONDED,
@@ -96,6 +98,7 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"layers", required_argument, NULL, LAYERS},
                                      {"diameter", required_argument, NULL, DIAMETER},
                                      {"certificate", required_argument, NULL, CERTIFICATE},
+                                     {"id", required_argument, NULL, ID},
                                      {"plot", required_argument, NULL, PLOT},
                                      {"format", required_argument, NULL, FORMAT},
                                      {"output", required_argument, NULL, 'o'},
@@ -170,10 +173,10 @@ static int sizes(struct options *o, const char *text, fl_err *err)
 }
 
 /* A name is one word of the file. */
-static int name(const char *text, const char **out, fl_err *err)
+static int name(const char *option, const char *text, const char **out, fl_err *err)
 {
     if (text[0] == '\0' || strlen(text) > 200 || strpbrk(text, " \t\r\n\f\v"))
-        return fl_fail(err, FL_USAGE, "--material is \"%.60s\", one word of up to 200 bytes was wanted",
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", one word of up to 200 bytes was wanted", option,
                        text);
     *out = text;
     return 0;
@@ -338,7 +341,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", a whole number from 0 to 2^64 - 1 was wanted",
                        arg);
     case SMOOTH: return whole("smooth", arg, 0, 10000, &o->smooth, err);
-    case MATERIAL: return name(arg, &o->material, err);
+    case MATERIAL: return name("material", arg, &o->material, err);
     case ICE_DENSITY: return number("ice-density", arg, 1.0, 1e5, &o->ice_density, "kg/m3", err);
     case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
     case VELOCITY: return pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
@@ -351,6 +354,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
     case DIAMETER: return number("diameter", arg, SHORTEST, LONGEST, &o->diameter, "a length", err);
     case CERTIFICATE: o->certificate = arg; return 0;
+    case ID: return name("id", arg, &o->id, err);
     case PLOT: o->plot = arg; return 0;
     case FORMAT:
         o->format = arg;
@@ -433,9 +437,17 @@ static void add_pair(fl_by *by, const char *option, char divide, fl_vec2 p)
     add_numbers(by, option, divide, 2, (const double[]){p.x, p.y});
 }
 
+void options_id(struct options *o, const fl_field *field)
+{
+    if (!o->id || strcmp(o->id, "auto") != 0) return;
+    snprintf(o->id_made, sizeof o->id_made, "%016llx", (unsigned long long)fl_field_hash(field));
+    o->id = o->id_made;
+}
+
 void options_by(const struct options *o, fl_by *by)
 {
     fl_by_start(by, "voronoi-ice");
+    if (o->id) fl_by_add(by, "--id %s", o->id);
     if (o->outline) fl_by_add(by, "--outline %s", o->outline);
     else if (o->disc[0] > 0.0) add_numbers(by, "--outline disc:", ',', 3, o->disc);
     else {

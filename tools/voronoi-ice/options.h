@@ -7,6 +7,7 @@
 #include "base/tool.h"
 #include "geom/polygon.h"
 #include "ice/sizes_law.h"
+#include "scene/field.h"
 
 enum { KEEP_OUT_MAX = 16, LEAD_MAX = 16, FLOES_MOST = 10000000 };
 
@@ -19,6 +20,8 @@ struct keep_out {
 struct options {
     const char *out, *material;     /* borrowed from argv */
     const char *plot, *format;      /* a folder, NULL: no pictures; svg or png */
+    const char *id;                 /* NULL: none */
+    char id_made[20];               /* "auto", made of the field */
     const char *certificate;        /* NULL: none is written */
     fl_vec2 size, origin, velocity; /* origin is the corner of least x and y [m, m, m/s] */
     int32_t floes, smooth;
@@ -55,5 +58,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err);
 /* The history line: everything that bears on the field, defaults included, so that it can be made again by a
  * version with other defaults. */
 void options_by(const struct options *o, fl_by *by);
+
+/* With --id auto the id becomes a number of the field: 16 hexadecimal digits, others for another field. */
+void options_id(struct options *o, const fl_field *field);
 
 #endif

@@ -65,7 +65,7 @@ static void certify(const struct options *o, const fl_lattice *a, double draft, 
     if (o->bonded) certify_add(t, "bonded area [m2]", NOT_ASKED, a->pairs * PI * r * r, NO_DISTANCE, 6, NULL);
 }
 
-int sheet_run(const struct options *o, fl_err *err)
+int sheet_run(struct options *o, fl_err *err)
 {
     const fl_vec2 hi = {o->origin.x + o->size.x, o->origin.y + o->size.y};
     struct certify table = {0};
@@ -78,8 +78,10 @@ int sheet_run(const struct options *o, fl_err *err)
     if (fl_lattice_make(&a, (enum fl_lattice_kind)o->lattice, o->diameter, o->layers, o->origin, hi, err))
         return -1;
     draft = fl_lattice_draft(&a, o->ice_density / o->water_density);
+    if (fill(o, &a, draft, &out, err)) goto done;
+    options_id(o, &out);
     options_by(o, &by);
-    if (fill(o, &a, draft, &out, err) || fl_out_open(&file, o->out, o->gzip, err)) goto done;
+    if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
     fl_field_write(file.f, &out, &by);
     if (fl_out_close(&file, err)) goto done;
     certify(o, &a, draft, &table);

@@ -6,6 +6,6 @@
 #include "options.h"
 
 /* Make the sheet, write it and its certificate.  0, or -1 with err. */
-int sheet_run(const struct options *o, fl_err *err);
+int sheet_run(struct options *o, fl_err *err);
 
 #endif
