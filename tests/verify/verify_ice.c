@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields of ice as the solver sees them.  Each is written to a file, read from it as dem-solve reads it, and
+ * the bodies are measured by what weighs and floats bodies there, which shares no code with what made them:
+ * the core's faces moved out by the dilation radius, volume and moments by the divergence theorem, and what
+ * of that lies below the still water.  Against it stands what was asked for: concentration times area,
+ * thickness and density; and the draft of a prism, thickness times density over that of water, at which every
+ * floe displaces what it weighs. H05: cells that are slivers, PHYSICS.md. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+#include "support/verify.h"
+#include "base/mem.h"
+#include "base/par.h"
+#include "base/rng.h"
+#include "geom/clip.h"
+#include "geom/mass.h"
+#include "ice/cells.h"
+#include "ice/certificate.h"
+#include "ice/floes.h"
+#include "scene/field.h"
+
+#define THICKNESS 0.5
+#define ICE 900.0
+#define WATER 1025.0
+
+struct seen {
+    double mass;   /* of all [kg]                                              */
+    double worst;  /* largest relative error of the mass of one                */
+    double afloat; /* largest difference of weight and buoyancy over the weight */
+    double least;  /* smallest ratio of a floe's principal moments of inertia  */
+    int32_t bodies;
+};
+
+static int add(fl_field *out, const fl_floes *a, int32_t i, double radius, fl_err *err)
+{
+    const double draft = THICKNESS * (ICE / WATER);
+    const int32_t n = a->first[i + 1] - a->first[i];
+    fl_vec3 *xy = fl_alloc(n, sizeof *xy, err);
+    fl_poly core = {0};
+    int rc = -1;
+    if (!xy) return -1;
+    for (int32_t k = 0; k < n; k++) xy[k] = v3(a->core[a->first[i] + k].x, a->core[a->first[i] + k].y, 0.0);
+    rc = fl_poly_prism(&core, n, xy, radius - draft, THICKNESS - draft - radius, err) ||
+                 fl_field_add(out, i, radius, &core, "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err)
+             ? -1
+             : 0;
+    free(xy);
+    return rc;
+}
+
+/* To a file and back. */
+static int by_file(fl_field *field, fl_err *err)
+{
+    char path[300];
+    const char *tmp = getenv("TMPDIR");
+    fl_by by;
+    fl_field back = {0};
+    FILE *f;
+    int rc;
+    snprintf(path, sizeof path, "%.200s/floe-ice-%ld", tmp ? tmp : "/tmp", (long)getpid());
+    f = fopen(path, "w");
+    if (!f) return fl_fail(err, FL_SYSTEM, "%s cannot be written", path);
+    fl_by_start(&by, "verify_ice");
+    fl_field_write(f, field, &by);
+    rc = fclose(f) == 0 ? fl_field_read(&back, path, err) : -1;
+    unlink(path);
+    if (rc) return -1;
+    fl_field_free(field);
+    *field = back;
+    return 0;
+}
+
+static int weigh(const fl_field *field, const fl_floes *a, struct seen *s, fl_err *err)
+{
+    *s = (struct seen){.least = INFINITY, .bodies = field->n};
+    for (int32_t i = 0; i < field->n; i++) {
+        const double area = fl_polygon_area(a->first[i + 1] - a->first[i], a->outer + a->first[i]);
+        fl_poly outer = {0};
+        fl_mass whole = {0}, wet = {0};
+        int rc = field->radius[i] > 0.0 ? fl_poly_offset(&outer, &field->core[i], field->radius[i], err)
+                                        : fl_poly_copy(&outer, &field->core[i], err);
+        if (rc == 0) rc = fl_mass_of(&whole, &outer, 0.0, err);
+        if (rc == 0) rc = fl_poly_cut(&outer, v3(0, 0, 1), 0.0, err) || fl_mass_of(&wet, &outer, 0.0, err);
+        fl_poly_free(&outer);
+        if (rc) return -1;
+        s->mass += ICE * whole.volume;
+        s->worst = fmax(s->worst, fabs(whole.volume / (area * THICKNESS) - 1.0));
+        s->afloat = fmax(s->afloat, fabs(WATER * wet.volume / (ICE * whole.volume) - 1.0));
+        s->least = fmin(s->least, whole.inertia.x / whole.inertia.z);
+    }
+    return 0;
+}
+
+static int field_of(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, int smooth,
+                    double concentration, double radius, const char *id)
+{
+    fl_vec2 *x = NULL;
+    fl_cells c = {0};
+    fl_floes a = {0};
+    fl_field field = {0};
+    fl_certificate t;
+    struct seen s;
+    fl_err err = {0};
+    char text[120];
+    int rc = -1;
+    const double asked = concentration * (hi.x - lo.x) * (hi.y - lo.y) * THICKNESS * ICE;
+    x = fl_alloc(n, sizeof *x, &err);
+    if (!x) goto done;
+    for (int32_t i = 0; i < n; i++) x[i] = site[i];
+    for (int k = 0; k <= smooth; k++) {
+        if (k) fl_cells_centroids(&c, x);
+        fl_cells_free(&c);
+        if (fl_cells_build(&c, n, x, lo, hi, &err)) goto done;
+    }
+    if (fl_floes_make(&a, &c, concentration, radius, (fl_vec2){0, 0}, &err) ||
+        fl_certificate_make(&t, &a, &err))
+        goto done;
+    for (int32_t i = 0; i < n; i++)
+        if (add(&field, &a, i, radius, &err)) goto done;
+    if (by_file(&field, &err) || weigh(&field, &a, &s, &err)) goto done;
+    verify_note("%s: %d floes, %d sides of cells dropped, %d moved in farther", what, n, a.dropped, a.cut);
+    snprintf(text, sizeof text, "mass of all [kg]");
+    verify_row(id, text, s.mass, asked, 1e-12, VERIFY_REL);
+    verify_below(id, "mass of one, largest relative error", s.worst, 1e-12);
+    verify_below(id, "weight and buoyancy of one at rest, difference", s.afloat, 1e-12);
+    verify_below(id, "overlaps and floes that are not convex", (double)t.overlaps + t.bent, 0.0);
+    verify_true(id, "moments of inertia of all are positive", s.least > 0.0);
+    rc = 0;
+done:
+    if (rc) verify_note("%s: %s", what, err.text);
+    if (rc) verify_true(id, "the field can be made", 0);
+    free(x);
+    fl_field_free(&field);
+    fl_floes_free(&a);
+    fl_cells_free(&c);
+    return rc;
+}
+
+static void random_fields(void)
+{
+    static const double concentration[] = {0.1, 0.5, 0.8, 0.95, 0.98};
+    enum { N = 2000 };
+    static fl_vec2 site[N];
+    const int32_t n = verify_quick() ? 300 : N;
+    const double side = 4.0 * sqrt(n);
+    const fl_vec2 lo = {1000.0, -0.5 * side}, hi = {1000.0 + side, 0.5 * side};
+    char what[80];
+    fl_cells_sites(n, 7, lo, hi, site);
+    for (int k = 0; k < 5; k++) {
+        snprintf(what, sizeof what, "smoothed cells, concentration %g, radius 0.02 m", concentration[k]);
+        field_of(what, n, site, lo, hi, 2, concentration[k], 0.02, "mass");
+        snprintf(what, sizeof what, "cells of random points, concentration %g, sharp", concentration[k]);
+        field_of(what, n, site, lo, hi, 0, concentration[k], 0.0, "mass");
+    }
+}
+
+/* Squares whose sites are a little out of place have sides as short as that where four of them meet. */
+static void slivers(void)
+{
+    enum { SIDE = 12, N = SIDE * SIDE };
+    static const double off[] = {0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3};
+    static fl_vec2 site[N];
+    char what[80];
+    for (int k = 0; k < 6; k++) {
+        for (int i = 0; i < N; i++) {
+            fl_rng g = fl_rng_of(5, i, FL_RNG_TEST);
+            site[i].x = i % SIDE + 0.5 + fl_rng_in(&g, -off[k], off[k]);
+            site[i].y = i / SIDE + 0.5 + fl_rng_in(&g, -off[k], off[k]);
+        }
+        snprintf(what, sizeof what, "a lattice of sites out of place by up to %.0e", off[k]);
+        field_of(what, N, site, (fl_vec2){0, 0}, (fl_vec2){SIDE, SIDE}, 0, 0.9, 0.02, "H05");
+    }
+    /* a cell of 1e-12 the area of the others, between six that come to a point there */
+    static const double PI = 3.14159265358979323846;
+    for (int i = 0; i < N; i++) site[i] = (fl_vec2){i % SIDE + 0.4, i / SIDE + 0.7};
+    for (int k = 0; k < 7; k++) {
+        const double t = k * PI / 3.0, r = k < 6 ? 1e-6 : 0.0;
+        site[60 + k] = (fl_vec2){5.3 + r * cos(t), 5.1 + r * sin(t)};
+    }
+    field_of("a cell of area 1e-12", N, site, (fl_vec2){0, 0}, (fl_vec2){SIDE, SIDE}, 0, 0.9, 0.0, "H05");
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    fl_par_wait_briefly(argv);
+    verify_begin("Fields of ice as the solver sees them");
+    random_fields();
+    slivers();
+    return verify_end();
+}
