@@ -11,7 +11,8 @@ enum { KEPT = 1, FIXED = 2, ROUNDS = 40, NEWTON = 60 };
 struct fit {
     const fl_cells *cells;
     double radius;
-    double few, least;       /* FL_FLOES_SHORT and FL_FLOES_LEAST, or FL_FLOES_FILL for both             */
+    double few, least; /* FL_FLOES_SHORT and FL_FLOES_LEAST, or FL_FLOES_FILL for both             */
+    const double *own; /* [n] insets of the floes, NULL when they have a common one                  [m] */
     double *inradius, *most; /* [n] of the cell, and the largest inset it may have            [m] */
     double *area, *outline;  /* [n] of the outer polygon at the inset last asked for     [m2, m] */
     int32_t *count;          /* [n] sides of the floe                                            */
@@ -50,7 +51,11 @@ static int fit_alloc(struct fit *f, fl_err *err)
                : -1;
 }
 
-static double inset_of(const struct fit *f, int32_t i, double d) { return d < f->most[i] ? d : f->most[i]; }
+static double inset_of(const struct fit *f, int32_t i, double d)
+{
+    if (f->own) d = f->own[i];
+    return d < f->most[i] ? d : f->most[i];
+}
 
 /* --- the sides of one floe ------------------------------------------------------------------------------ */
 
@@ -364,7 +369,7 @@ static int collect(const struct fit *f, double d, fl_vec2 shift, fl_floes *a, fl
             a->cut += side[k].c < c->side[c->first[i] + side[k].tag].c;
         }
         fl_polygon_outset(m, core, f->radius, a->outer + a->first[i]);
-        a->held += f->most[i] < d;
+        a->held += f->own ? f->most[i] <= f->own[i] : f->most[i] < d;
     }
     a->dropped = c->first[c->n] - a->first[c->n];
     return 0;
@@ -384,6 +389,136 @@ int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, do
 done:
     fl_floes_free(&a);
     fit_free(&f);
+    return rc;
+}
+
+/* --- each its own --------------------------------------------------------------------------------------- */
+
+/* Area of floe i at an inset d, with the sides that were chosen, or, raw, with all that its cell has left. */
+static double area_at(struct fit *f, int raw, int32_t i, double d, double *outline)
+{
+    const int32_t first = f->cells->first[i];
+    fl_vec2 *v = f->corner + first;
+    int32_t m = f->count[i];
+    double depth;
+    if (raw) {
+        m = f->cells->first[i + 1] - first;
+        memcpy(v, f->cells->v + first, (size_t)m * sizeof *v);
+        memcpy(f->left + first, f->cells->side + first, (size_t)m * sizeof *f->left);
+        m = fl_polygon_inset(m, v, f->left + first, d, &depth);
+    } else {
+        fl_polygon_corners(m, f->side + first, d, v);
+    }
+    *outline = fl_polygon_outline(m, v);
+    return fl_polygon_area(m, v);
+}
+
+/* Newton's steps from an inset of 0, where the area is largest, towards the target: it falls and is convex,
+ * so that they come from the left.  Returns -1 when even no inset leaves too little. */
+static int solve_one(struct fit *f, int raw, int32_t i, double target, double *d)
+{
+    double x = 0.0, best = INFINITY;
+    for (int step = 0, idle = 0; step < NEWTON && idle < 2; step++) {
+        double outline;
+        const double over = area_at(f, raw, i, x, &outline) - target;
+        if (step == 0 && over < -1e-12 * target) return -1;
+        idle = fabs(over) < best ? 0 : idle + 1;
+        if (fabs(over) < best) {
+            best = fabs(over);
+            *d = x;
+        }
+        if (over == 0.0 || !(outline > 0.0)) break;
+        x = fmax(0.0, fmin(x + over / outline, f->most[i]));
+    }
+    return 0;
+}
+
+/* Sides and inset of floe i in turn.  Returns 0, 1: no room, or 2: it cannot cover so much. */
+static int settle_one(struct fit *f, double *own, int32_t i, double target)
+{
+    if (solve_one(f, 1, i, target, &own[i])) return 2;
+    for (int round = 0; round < ROUNDS; round++) {
+        if (round && still_fits(f, i, own[i])) return 0;
+        if (fit_floe(f, i, own[i])) return 1;
+        if (solve_one(f, 0, i, target, &own[i])) return 2;
+    }
+    return 1;
+}
+
+static int grade_all(struct fit *f, double *own, const double *part, double factor, fl_err *err)
+{
+    int32_t bad = INT32_MAX, much = INT32_MAX;
+#pragma omp parallel for schedule(static) reduction(min : bad, much)
+    for (int32_t i = 0; i < f->cells->n; i++) {
+        const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first;
+        const double cell = fl_polygon_area(m, f->cells->v + first), p = factor * part[i];
+        const int rc = p < 1.0 ? settle_one(f, own, i, p * cell) : 2;
+        double outline;
+        if (rc == 1 && i < bad) bad = i;
+        if (rc == 2 && i < much) much = i;
+        if (rc == 0) f->area[i] = area_at(f, 0, i, inset_of(f, i, 0.0), &outline);
+    }
+    if (bad < INT32_MAX) return no_room(f, bad, err);
+    if (much == INT32_MAX) return 0;
+    return fl_fail(err, FL_INPUT, "floe %d cannot cover %.6g of its cell: a smaller radius or less is wanted",
+                   much, factor * part[much]);
+}
+
+/* What floes that are held have too much the others are to have less. */
+static int grade(struct fit *f, double *own, const double *part, double *off, fl_err *err)
+{
+    const int32_t n = f->cells->n;
+    double total, hi, *asked = fl_alloc(n, sizeof *asked, err), *free_part = fl_alloc(n, sizeof *asked, err);
+    double *held = fl_alloc(n, sizeof *held, err), factor = 1.0, last = 0.0;
+    int rc = -1;
+    if (!asked || !free_part || !held || measure_cells(f, &total, &hi, err)) goto done;
+    for (int32_t i = 0; i < n; i++) {
+        held[i] = f->area[i]; /* of the cell, as measured */
+        asked[i] = part[i] * held[i];
+    }
+    total = fl_par_sum(asked, n);
+    for (int round = 0; round < ROUNDS && fabs(factor - last) > 1e-15; round++) {
+        if (grade_all(f, own, part, factor, err)) goto done;
+        *off = 0.0;
+        for (int32_t i = 0; i < n; i++) {
+            const int is = own[i] >= f->most[i];
+            if (!is) *off = fmax(*off, part[i] * fabs(f->area[i] / asked[i] - 1.0));
+            free_part[i] = is ? 0.0 : asked[i];
+            held[i] = is ? f->area[i] : 0.0;
+        }
+        last = factor;
+        factor = (total - fl_par_sum(held, n)) / fl_par_sum(free_part, n);
+        if (factor > 0.0) continue;
+        fl_fail(err, FL_INPUT, "floes of dilation radius %.4g m cannot cover so little of these cells",
+                f->radius);
+        goto done;
+    }
+    rc = 0;
+done:
+    free(asked);
+    free(free_part);
+    free(held);
+    return rc;
+}
+
+int fl_floes_grade(fl_floes *out, const fl_cells *cells, const double *part, double radius, fl_vec2 shift,
+                   double *off, fl_err *err)
+{
+    struct fit f = {.cells = cells, .radius = radius, .few = FL_FLOES_SHORT, .least = FL_FLOES_LEAST};
+    double *own = fl_alloc(cells->n, sizeof *own, err);
+    fl_floes a = {0};
+    int rc = -1;
+    f.own = own;
+    if (!own || fit_alloc(&f, err) || grade(&f, own, part, off, err) || collect(&f, 0.0, shift, &a, err))
+        goto done;
+    a.inset = fl_par_sum(own, cells->n) / cells->n;
+    *out = a;
+    a = (fl_floes){0};
+    rc = 0;
+done:
+    fl_floes_free(&a);
+    fit_free(&f);
+    free(own);
     return rc;
 }
 

@@ -45,6 +45,14 @@ typedef struct {
 int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
                   fl_err *err);
 
+/* The same with a concentration for each cell: the outer polygon of floe i covers part[i], in (0, 1), of its
+ * cell, and each has an inset of its own; that of out is the mean.  A held floe covers more than it should:
+ * the parts of the others are scaled by one factor, so that all together cover what all were asked for.
+ *   *off  out: largest difference of a part that a floe not held covers and what was asked
+ * Returns as above; also FL_INPUT when a part is so near to 1 that short sides leave less. */
+int fl_floes_grade(fl_floes *out, const fl_cells *cells, const double *part, double radius, fl_vec2 shift,
+                   double *off, fl_err *err);
+
 /* Floes without gaps: the outer polygons are the cells.  A side shorter than FL_FLOES_FILL times the
  * inscribed radius of the core, or one that would vanish on the way to the core, moves in until the core's
  * side is that long, and leaves a sliver of the cell uncovered; with a radius of 0 nothing is lost but such
