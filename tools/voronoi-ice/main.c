@@ -11,7 +11,9 @@
 #include "ice/certificate.h"
 #include "ice/faces.h"
 #include "ice/floes.h"
+#include "ice/grade.h"
 #include "ice/laguerre.h"
+#include "ice/periodic.h"
 #include "scene/field.h"
 #include "certify.h"
 #include "chart.h"
@@ -30,6 +32,9 @@ struct field {
     struct sizing sizing;
     struct water water;
     fl_faces faces; /* of a bonded field */
+    double asked;   /* concentration */
+    double off;     /* graded: of the worst floe from that of its place */
+    double lo, hi;  /* graded: concentrations asked for */
 };
 
 static void tell(const struct options *o, const char *what)
@@ -43,6 +48,15 @@ static int32_t id_of(const struct field *a, int32_t i)
     return a->water.on && a->water.id ? a->water.id[a->name[i]] : a->name[i];
 }
 
+static int is_periodic(const struct options *o) { return o->periodic[0] || o->periodic[1]; }
+
+static int build(const struct options *o, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, fl_cells *cells,
+                 fl_err *err)
+{
+    if (is_periodic(o)) return fl_periodic_cells(cells, o->floes, site, lo, hi, o->periodic, err);
+    return fl_cells_build(cells, o->floes, site, lo, hi, err);
+}
+
 static int make_cells(const struct options *o, struct field *a, fl_err *err)
 {
     const fl_outline in = water_outline(&a->water, o);
@@ -53,16 +67,52 @@ static int make_cells(const struct options *o, struct field *a, fl_err *err)
     if (a->water.on) return water_cells(&a->water, o, cells, err);
     if (!(site = fl_alloc(o->floes, sizeof *site, err))) return -1;
     fl_cells_sites(o->floes, o->seed, in.lo, in.hi, site);
-    if (fl_cells_build(cells, o->floes, site, in.lo, in.hi, err)) goto done;
+    if (build(o, site, in.lo, in.hi, cells, err)) goto done;
     for (int k = 0; k < o->smooth; k++) {
         tell(o, "smoothing");
         fl_cells_centroids(cells, site);
+        for (int32_t i = 0; i < o->floes; i++) site[i] = fl_periodic_wrap(site[i], in.lo, in.hi, o->periodic);
         fl_cells_free(cells);
-        if (fl_cells_build(cells, o->floes, site, in.lo, in.hi, err)) goto done;
+        if (build(o, site, in.lo, in.hi, cells, err)) goto done;
     }
     rc = 0;
 done:
     free(site);
+    return rc;
+}
+
+/* Every cell is asked for the concentration of its centroid; where that changes linearly they add up to the
+ * integral over the field.  factor makes up for slivers. */
+static int shrink_graded(const struct options *o, struct field *a, double factor, fl_err *err)
+{
+    const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y}, lo = {-hi.x, -hi.y}, shift = a->water.shift;
+    const double angle = o->grade_angle * (acos(-1.0) / 180.0);
+    double *part = fl_alloc(a->cells.n, sizeof *part, err), *area = fl_alloc(a->cells.n, sizeof *area, err);
+    fl_grade g = {0};
+    int rc = -1;
+    if (!part || !area) goto done;
+    if (o->grade_file
+            ? fl_grade_read(&g, angle, o->grade_file, err)
+            : fl_grade_linear(&g, angle, o->grade[0], o->grade[1], (fl_vec2){lo.x + shift.x, lo.y + shift.y},
+                              (fl_vec2){hi.x + shift.x, hi.y + shift.y}, err))
+        goto done;
+    fl_cells_areas(&a->cells, area);
+    a->lo = a->hi = NAN;
+    for (int32_t i = 0; i < a->cells.n; i++) {
+        const int32_t first = a->cells.first[i], n = a->cells.first[i + 1] - first;
+        const fl_vec2 m = fl_polygon_centroid(n, a->cells.v + first);
+        const double c = fl_grade_at(&g, (fl_vec2){m.x + shift.x, m.y + shift.y});
+        a->lo = fmin(a->lo, c);
+        a->hi = fmax(a->hi, c);
+        part[i] = c * factor;
+        area[i] *= part[i];
+    }
+    a->asked = fl_par_sum(area, a->cells.n) / a->water.area;
+    rc = fl_floes_grade(&a->floes, &a->cells, part, o->radius, shift, &a->off, err);
+done:
+    fl_grade_free(&g);
+    free(part);
+    free(area);
     return rc;
 }
 
@@ -72,6 +122,8 @@ static int shrink(const struct options *o, struct field *a, fl_err *err)
     const struct water *w = &a->water;
     const double part = 1.0 - w->lost / w->area;
     tell(o, "shrinking the cells");
+    a->asked = o->bonded ? 1.0 : o->concentration;
+    if (o->graded) return shrink_graded(o, a, 1.0 / part, err);
     if (o->bonded) return fl_floes_fill(&a->floes, &a->cells, o->radius, w->shift, err);
     if (!(o->concentration < part))
         return fl_fail(
@@ -88,6 +140,7 @@ static int make_sized(const struct options *o, struct field *a, fl_err *err)
     const fl_outline in = water_outline(&a->water, o);
     double off;
     tell(o, "dividing the field into cells of given areas");
+    a->asked = o->concentration;
     if (fl_laguerre_floes(&a->cells, &a->floes, o->floes, o->seed, a->sizing.area, &in, o->smooth,
                           o->concentration, o->radius, a->water.shift, &off, err))
         return -1;
@@ -103,16 +156,35 @@ static int meets(const struct keep_out *s, int32_t n, const fl_vec2 *v)
     return !fl_polygon_apart(n, v, 4, box);
 }
 
+/* What is kept out of a periodic field is kept out of its copies. */
+static int meets_any(const struct options *o, const struct keep_out *s, int32_t n, const fl_vec2 *v,
+                     fl_vec2 *w)
+{
+    for (int ky = -o->periodic[1]; ky <= o->periodic[1]; ky++)
+        for (int kx = -o->periodic[0]; kx <= o->periodic[0]; kx++) {
+            for (int32_t k = 0; k < n; k++)
+                w[k] = (fl_vec2){v[k].x + kx * o->size.x, v[k].y + ky * o->size.y};
+            if (meets(s, n, w)) return 1;
+        }
+    return 0;
+}
+
 static int take_out(const struct options *o, struct field *a, fl_err *err)
 {
     char *gone = fl_alloc(a->floes.n, 1, err);
-    if (!gone) return -1;
+    fl_vec2 *w = fl_alloc(a->floes.first[a->floes.n], sizeof *w, err);
+    if (!gone || !w) {
+        free(gone);
+        free(w);
+        return -1;
+    }
     for (int32_t i = 0; i < a->floes.n; i++)
         for (int k = 0; k < o->keep_outs && !gone[i]; k++)
-            gone[i] = (char)meets(&o->keep_out[k], a->floes.first[i + 1] - a->floes.first[i],
-                                  a->floes.outer + a->floes.first[i]);
+            gone[i] = (char)meets_any(o, &o->keep_out[k], a->floes.first[i + 1] - a->floes.first[i],
+                                      a->floes.outer + a->floes.first[i], w);
     fl_floes_drop(&a->floes, gone, a->name);
     free(gone);
+    free(w);
     if (a->floes.n) return 0;
     return fl_fail(err, FL_INPUT, "all %d floes meet what is kept out: none is left", o->floes);
 }
@@ -195,10 +267,16 @@ static void certify(const struct options *o, const struct field *a, struct certi
 {
     const fl_certificate *c = &a->c;
     const double area = a->water.area, concentration = a->full / area;
-    const double asked = o->bonded ? 1.0 : o->concentration;
     certify_add(t, "floes", o->floes, a->cells.n, abs(a->cells.n - o->floes), 10, NULL);
     if (o->sizes) sizing_certify(&a->sizing, o, a->floes.inset, t);
-    certify_add(t, "concentration", asked, concentration, fabs(concentration - asked), 10, NULL);
+    certify_add(t, "concentration", a->asked, concentration, fabs(concentration - a->asked), 10, NULL);
+    if (o->graded) {
+        certify_add(t, "concentration, from", NOT_ASKED, a->lo, NO_DISTANCE, 6, NULL);
+        certify_add(t, "concentration, to", NOT_ASKED, a->hi, NO_DISTANCE, 6, NULL);
+        certify_add(t, "concentration, worst floe", 0, a->off, a->off, 4, NULL);
+    }
+    if (o->periodic[0]) certify_add(t, "period along x [m]", NOT_ASKED, o->size.x, NO_DISTANCE, 10, NULL);
+    if (o->periodic[1]) certify_add(t, "period along y [m]", NOT_ASKED, o->size.y, NO_DISTANCE, 10, NULL);
     water_certify(&a->water, o, t);
     if (o->keep_outs) {
         certify_add(t, "floes kept out", NOT_ASKED, a->cells.n - a->floes.n, NO_DISTANCE, 10, NULL);
@@ -230,6 +308,42 @@ static void certify(const struct options *o, const struct field *a, struct certi
     certify_add(t, "sides moved in farther", NOT_ASKED, a->floes.cut, NO_DISTANCE, 10, NULL);
 }
 
+/* Gaps and overlaps of a periodic field are those of the floes and of their copies one period on, in all
+ * directions of which one of two has the other ahead. */
+static int measure_copies(const struct options *o, struct field *a, fl_err *err)
+{
+    static const int step[5][2] = {{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}};
+    const int32_t n = a->floes.n, all = a->floes.first[n];
+    fl_floes t = {.inset = a->floes.inset};
+    fl_certificate c;
+    int rc = -1;
+    t.first = fl_alloc(5 * (int64_t)n + 1, sizeof *t.first, err);
+    t.outer = fl_alloc(5 * (int64_t)all, sizeof *t.outer, err);
+    t.core = fl_alloc(5 * (int64_t)all, sizeof *t.core, err);
+    if (!t.first || !t.outer || !t.core) goto done;
+    for (int k = 0; k < 5; k++) {
+        const fl_vec2 d = {step[k][0] * o->size.x, step[k][1] * o->size.y};
+        if ((step[k][0] && !o->periodic[0]) || (step[k][1] && !o->periodic[1])) continue;
+        for (int32_t i = 0; i < n; i++) {
+            const int32_t from = a->floes.first[i], m = a->floes.first[i + 1] - from, at = t.first[t.n];
+            for (int32_t v = 0; v < m; v++) {
+                t.outer[at + v] =
+                    (fl_vec2){a->floes.outer[from + v].x + d.x, a->floes.outer[from + v].y + d.y};
+                t.core[at + v] = (fl_vec2){a->floes.core[from + v].x + d.x, a->floes.core[from + v].y + d.y};
+            }
+            t.first[++t.n] = at + m;
+        }
+    }
+    if (fl_certificate_make(&c, &t, err)) goto done;
+    a->c.overlaps = c.overlaps;
+    a->c.gap = c.gap;
+    for (int k = 0; k < 2; k++) a->c.gap_of[k] = c.gap_of[k] < 0 ? -1 : c.gap_of[k] % n;
+    rc = 0;
+done:
+    fl_floes_free(&t);
+    return rc;
+}
+
 static int measure(const struct options *o, struct field *a, fl_err *err)
 {
     if (fl_certificate_make(&a->c, &a->floes, err)) return -1;
@@ -238,6 +352,7 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
         if (take_out(o, a, err) || fl_certificate_make(&a->c, &a->floes, err)) return -1;
         a->covered = a->c.total;
     }
+    if (is_periodic(o) && measure_copies(o, a, err)) return -1;
     for (int32_t i = 0; i < a->floes.n; i++) {
         const int32_t first = a->cells.first[a->name[i]];
         a->kept += fl_polygon_area(a->cells.first[a->name[i] + 1] - first, a->cells.v + first);

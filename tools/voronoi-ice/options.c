@@ -31,6 +31,8 @@ static const char HELP[] =
     "      --margin M          open water round the structures of --keep-out (0)\n"
     "      --outline SHAPE     of the field instead of a rectangle: disc:R, disc:R,X,Y or a file of corners\n"
     "      --lead X0,Y0,X1,Y1,WIDTH  a strip of open water; may be given 16 times\n"
+    "      --grade DIR:C0,C1   concentration rising from C0 to C1 along DIR: x, y or degrees; or DIR:FILE\n"
+    "      --periodic x|y|xy   what leaves at one side comes in at the other: copies fit without a seam\n"
     "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
     "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
     "      --layers N          layers of the lattice (1)\n"
@@ -69,6 +71,8 @@ enum {
     ID,
     PLOT,
     FORMAT,
+    GRADE,
+    PERIODIC,
     BONDED,
     LATTICE,
     LAYERS,
@@ -93,6 +97,8 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"margin", required_argument, NULL, MARGIN},
                                      {"outline", required_argument, NULL, OUTLINE},
                                      {"lead", required_argument, NULL, LEAD},
+                                     {"grade", required_argument, NULL, GRADE},
+                                     {"periodic", required_argument, NULL, PERIODIC},
                                      {"bonded", no_argument, NULL, BONDED},
                                      {"lattice", required_argument, NULL, LATTICE},
                                      {"layers", required_argument, NULL, LAYERS},
@@ -248,7 +254,7 @@ static int lead(struct options *o, const char *text, fl_err *err)
 }
 
 /* "80%", "8/10" and "0.8" are the same. */
-static int concentration(const char *text, double *out, fl_err *err)
+static int concentration(const char *option, const char *text, double *out, fl_err *err)
 {
     char word[64];
     const size_t len = strlen(text);
@@ -269,8 +275,45 @@ static int concentration(const char *text, double *out, fl_err *err)
         }
     }
     return fl_fail(err, FL_USAGE,
-                   "--concentration is \"%.60s\", a number between 0 and 1, as 0.8, 80%% or 8/10, was wanted",
+                   "--%s is \"%.60s\", a number between 0 and 1, as 0.8, 80%% or 8/10, was wanted", option,
                    text);
+}
+
+/* DIR:C0,C1 or DIR:FILE. */
+static int grade(struct options *o, const char *text, fl_err *err)
+{
+    char word[64];
+    const char *rest = strchr(text, ':'), *second;
+    const size_t len = rest ? (size_t)(rest - text) : 0;
+    if (len == 0 || len >= sizeof word) goto bad;
+    memcpy(word, text, len);
+    word[len] = '\0';
+    if (strcmp(word, "x") == 0) o->grade_angle = 0.0;
+    else if (strcmp(word, "y") == 0) o->grade_angle = 90.0;
+    else if (fl_num_f64(word, &o->grade_angle) || fabs(o->grade_angle) > 360.0) goto bad;
+    o->graded = 1;
+    o->grade_file = NULL;
+    rest++;
+    second = strchr(rest, ',');
+    if (!second) return file("grade", rest, &o->grade_file, err);
+    if ((size_t)(second - rest) >= sizeof word) goto bad;
+    memcpy(word, rest, (size_t)(second - rest));
+    word[second - rest] = '\0';
+    return concentration("grade", word, &o->grade[0], err) ||
+                   concentration("grade", second + 1, &o->grade[1], err)
+               ? -1
+               : 0;
+bad:
+    return fl_fail(err, FL_USAGE,
+                   "--grade is \"%.60s\", DIR:C0,C1 or DIR:FILE with DIR x, y or degrees was wanted", text);
+}
+
+static int periodic(const char *text, int *out, fl_err *err)
+{
+    out[0] = strcmp(text, "x") == 0 || strcmp(text, "xy") == 0;
+    out[1] = strcmp(text, "y") == 0 || strcmp(text, "xy") == 0;
+    if (out[0] || out[1]) return 0;
+    return fl_fail(err, FL_USAGE, "--periodic is \"%.60s\", x, y or xy was wanted", text);
 }
 
 static const char *const LATTICES[] = {"hcp", "hex", "square"};
@@ -299,10 +342,10 @@ static int useless(const struct options *o, const char *beside, int n, const int
 
 static int check_lattice(const struct options *o, fl_err *err)
 {
-    static const int without[] = {FLOES,  SIZES,    CONCENTRATION, THICKNESS, RADIUS, SEED,
-                                  SMOOTH, KEEP_OUT, OUTLINE,       LEAD,      PLOT};
+    static const int without[] = {FLOES,    SIZES,   CONCENTRATION, THICKNESS, RADIUS, SEED,    SMOOTH,
+                                  KEEP_OUT, OUTLINE, LEAD,          PLOT,      GRADE,  PERIODIC};
     static const int within[] = {LAYERS, DIAMETER};
-    if (o->lattice >= 0) return useless(o, "beside --lattice", 11, without, err);
+    if (o->lattice >= 0) return useless(o, "beside --lattice", 13, without, err);
     return useless(o, "without --lattice", 2, within, err);
 }
 
@@ -316,6 +359,17 @@ static int check_water(const struct options *o, fl_err *err)
                            "--outline is \"-\", a file was wanted: a pipe cannot be named again");
     }
     return o->structures ? 0 : useless(o, "without the file of a structure", 1, within, err);
+}
+
+static int check_graded(const struct options *o, fl_err *err)
+{
+    static const int without[] = {CONCENTRATION, SIZES, BONDED}, none[] = {SIZES, BONDED, OUTLINE, LEAD};
+    if (o->graded && useless(o, "beside --grade", 3, without, err)) return -1;
+    if (!o->periodic[0] && !o->periodic[1]) return 0;
+    if (o->structures)
+        return fl_fail(err, FL_USAGE,
+                       "--keep-out of a file means nothing beside --periodic, a shape was wanted");
+    return useless(o, "beside --periodic", 4, none, err);
 }
 
 static int check_bonded(const struct options *o, fl_err *err)
@@ -333,7 +387,9 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
     case FLOES: o->has_floes = 1; return whole("floes", arg, 1, FLOES_MOST, &o->floes, err);
     case SIZES: return sizes(o, arg, err);
-    case CONCENTRATION: o->has_concentration = 1; return concentration(arg, &o->concentration, err);
+    case CONCENTRATION:
+        o->has_concentration = 1;
+        return concentration("concentration", arg, &o->concentration, err);
     case THICKNESS: return number("thickness", arg, SHORTEST, LONGEST, &o->thickness, "a length", err);
     case RADIUS: return number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
     case SEED:
@@ -349,6 +405,8 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case MARGIN: return number("margin", arg, 0.0, LONGEST, &o->margin, "a length not below 0", err);
     case OUTLINE: return the_outline(o, arg, err);
     case LEAD: return lead(o, arg, err);
+    case GRADE: return grade(o, arg, err);
+    case PERIODIC: return periodic(arg, o->periodic, err);
     case BONDED: o->bonded = 1; return 0;
     case LATTICE: return lattice(arg, &o->lattice, err);
     case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
@@ -412,7 +470,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(err, FL_USAGE,
                        "--certificate - and the field both go to standard output: -o is wanted");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
-    if (check_lattice(o, err) || check_water(o, err) || check_bonded(o, err)) return -1;
+    if (check_lattice(o, err) || check_water(o, err) || check_graded(o, err) || check_bonded(o, err))
+        return -1;
     if (!(o->thickness > 2.0 * o->radius))
         return fl_fail(err, FL_USAGE, "--thickness %g is not more than twice --radius %g: no core is left",
                        o->thickness, o->radius);
@@ -444,6 +503,14 @@ void options_id(struct options *o, const fl_field *field)
     o->id = o->id_made;
 }
 
+static void add_grade(fl_by *by, const struct options *o)
+{
+    char text[FL_NUM_LEN], option[FL_NUM_LEN + 16];
+    snprintf(option, sizeof option, "--grade %s:", fl_num_text(o->grade_angle, text));
+    if (o->grade_file) fl_by_add(by, "%s%s", option, o->grade_file);
+    else add_numbers(by, option, ',', 2, o->grade);
+}
+
 void options_by(const struct options *o, fl_by *by)
 {
     fl_by_start(by, "voronoi-ice");
@@ -460,13 +527,16 @@ void options_by(const struct options *o, fl_by *by)
     } else {
         fl_by_add(by, "--floes %d", o->floes);
         if (o->sizes) fl_by_add(by, "--sizes %s", o->sizes);
-        if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
+        if (o->graded) add_grade(by, o);
+        else if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
         add_numbers(by, "--thickness ", ',', 1, &o->thickness);
         add_numbers(by, "--radius ", ',', 1, &o->radius);
         fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
         fl_by_add(by, "--smooth %d", o->smooth);
     }
     if (o->bonded) fl_by_add(by, "--bonded");
+    if (o->periodic[0] || o->periodic[1])
+        fl_by_add(by, "--periodic %s%s", o->periodic[0] ? "x" : "", o->periodic[1] ? "y" : "");
     fl_by_add(by, "--material %s", o->material);
     add_numbers(by, "--ice-density ", ',', 1, &o->ice_density);
     add_numbers(by, "--water-density ", ',', 1, &o->water_density);

@@ -38,6 +38,11 @@ struct options {
     const char *structure[KEEP_OUT_MAX]; /* files of --keep-out */
     int structures;
     double margin; /* round structures [m] */
+    int graded;
+    double grade_angle;     /* [degrees] */
+    double grade[2];        /* concentration at the two ends, when not in a file */
+    const char *grade_file; /* NULL: none */
+    int periodic[2];        /* along x, along y */
     int bonded;
     int lattice; /* -1, or an fl_lattice_kind */
     int32_t layers;
