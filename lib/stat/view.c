@@ -3,15 +3,31 @@
 #include <string.h>
 #include "base/mem.h"
 #include "stat/extreme.h"
+#include "stat/movemean.h"
 #include "stat/resample.h"
 #include "stat/view.h"
+
+const char *fl_pass_name(int pass)
+{
+    static const char *const name[FL_PASSES] = {"low", "high", "band", "mean"};
+    return name[pass];
+}
+
+static int design(fl_butter *f, double fs, const fl_view_ask *ask, fl_err *err)
+{
+    switch (ask->pass) {
+    case FL_PASS_HIGH: return fl_butter_high(f, ask->order, ask->filter, fs, err);
+    case FL_PASS_BAND: return fl_butter_band(f, ask->order, ask->filter, ask->upper, fs, err);
+    default: return fl_butter_low(f, ask->order, ask->filter, fs, err);
+    }
+}
 
 static int filter(fl_view *v, const fl_series *s, const double *x, const fl_view_ask *ask, fl_err *err)
 {
     const int32_t n = s->n;
-    const int even = fl_resample_step(n, s->edge) > 0.0;
+    const int mean = ask->pass == FL_PASS_MEAN, even = mean || fl_resample_step(n, s->edge) > 0.0;
     fl_butter f;
-    if (fl_butter_low(&f, ask->order, ask->filter, n / (s->edge[n] - s->edge[0]), err)) return -1;
+    if (!mean && design(&f, n / (s->edge[n] - s->edge[0]), ask, err)) return -1;
     v->own = fl_alloc(3 * (int64_t)n + 1, sizeof *v->own, err);
     if (!v->own) return -1;
     double *y = v->own, *t = y + n, *edge = t + n;
@@ -27,7 +43,7 @@ static int filter(fl_view *v, const fl_series *s, const double *x, const fl_view
     v->x = y;
     v->t = t;
     v->edge = edge;
-    return fl_butter_zero_phase(&f, n, y, y, err);
+    return mean ? fl_movemean(n, s->edge, x, ask->filter, y, err) : fl_butter_zero_phase(&f, n, y, y, err);
 }
 
 static int describe(fl_view *v, const fl_view_ask *ask, fl_err *err)

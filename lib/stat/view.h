@@ -19,24 +19,32 @@ typedef struct {
     double *q;     /* [quantiles] */
 } fl_view;
 
+/* Butterworth low, high and band pass, or a moving mean. */
+enum fl_pass { FL_PASS_LOW, FL_PASS_HIGH, FL_PASS_BAND, FL_PASS_MEAN, FL_PASSES };
+
+/* "low", "high", "band", "mean" */
+const char *fl_pass_name(int pass);
+
 /* How a view is made.
- *   filter       -3 dB frequency of one pass [Hz]; 0 for the raw view
- *   order        of the filter
+ *   filter       -3 dB frequency of one pass, or the lower one of a band [Hz], or the length of a moving mean
+ *                [s]; 0 for the raw view
+ *   pass, upper  fl_pass; the upper frequency of a band [Hz]
+ *   order        of a Butterworth filter
  *   ratio, threshold   of fl_peaks_rayleigh()
  *   p[quantiles] in 0 .. 1 */
 typedef struct {
-    double filter;
-    int order;
+    double filter, upper;
+    int pass, order;
     double ratio, threshold;
     int32_t quantiles;
     const double *p;
 } fl_view_ask;
 
-/* The raw view of signal s of part p takes the rows as they are.  The filtered view needs equal intervals:
- * the rows' own when they are equal, otherwise as many equal ones, by fl_resample_means(); its t is the end
- * of the interval in a loads table and the middle in another.
- * The series must live as long as the view.  0, or -1 with FL_INPUT (a filter that the record cannot carry)
- * or FL_SYSTEM in err; v is then empty. */
+/* The raw view of signal s of part p takes the rows as they are.  So does a moving mean, fl_movemean().  A
+ * view through a Butterworth filter needs equal intervals: the rows' own when they are equal, otherwise as
+ * many equal ones, by fl_resample_means(); its t is the end of the interval in a loads table and the middle
+ * in another. The series must live as long as the view.  0, or -1 with FL_INPUT (a filter that the record
+ * cannot carry) or FL_SYSTEM in err; v is then empty. */
 int fl_view_make(fl_view *v, const fl_series *s, int32_t part, int32_t signal, const fl_view_ask *ask,
                  fl_err *err);
 

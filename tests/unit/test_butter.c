@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
 #include "stat/butter.h"
 #include "support/near.h"
 
@@ -112,6 +113,109 @@ static void ends_are_treated_alike(void **state)
     for (int k = 0; k < N; k++) assert_near_of(back[k], y[N - 1 - k], 1e-5, 1.0);
 }
 
+/* High and band pass have the closed gain too, for every order, and none at zero frequency. */
+static void high_and_band_have_the_closed_gain(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= FL_BUTTER_ORDER_MAX; order++) {
+        for (double fc = 0.01; fc < 0.45; fc += 0.04) {
+            const double f2 = fc + 0.03, K1 = tan(PI * fc), K2 = tan(PI * f2), W = sqrt(K1 * K2), B = K2 - K1;
+            fl_err err = {0};
+            fl_butter high, band;
+            assert_int_equal(fl_butter_high(&high, order, fc, 1.0, &err), 0);
+            assert_int_equal(high.n, (order + 1) / 2);
+            assert_near(fl_butter_gain(&high, 0.0), 0.0, 0.0);
+            assert_near(fl_butter_gain(&high, fc), sqrt(0.5), 1e-10);
+            assert_int_equal(fl_butter_band(&band, order, fc, f2, 1.0, &err), 0);
+            assert_int_equal(band.n, order);
+            assert_near(fl_butter_gain(&band, 0.0), 0.0, 0.0);
+            assert_near(fl_butter_gain(&band, fc), sqrt(0.5), 1e-9);
+            assert_near(fl_butter_gain(&band, f2), sqrt(0.5), 1e-9);
+            for (double freq = 0.005; freq < 0.49; freq += 0.011) {
+                const double t = tan(PI * freq), h = 1.0 / sqrt(1.0 + pow(K1 / t, 2.0 * order));
+                const double b = 1.0 / sqrt(1.0 + pow((W * W - t * t) / (B * t), 2.0 * order));
+                if (h > 1e-8) assert_near(fl_butter_gain(&high, freq), h, 1e-9);
+                if (b > 1e-8) assert_near(fl_butter_gain(&band, freq), b, 1e-8);
+            }
+        }
+    }
+}
+
+/* Constantinides 1970: a band pass is the low pass of the cut f2 - f1 with
+ * z^-1 -> -z^-1 (z^-1 - c) / (1 - c z^-1),
+ * so that both have the same b0 and, but for the sign, the same last a; the numerator is (1 - z^-2)^N. */
+static void band_is_a_low_pass_transformed(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 6; order++) {
+        fl_err err = {0};
+        fl_butter low, band;
+        double lb[7], la[7], bb[13], ba[13], binomial = 1.0;
+        assert_int_equal(fl_butter_low(&low, order, 5.0, 100.0, &err), 0);
+        assert_int_equal(fl_butter_band(&band, order, 5.0, 10.0, 100.0, &err), 0);
+        assert_int_equal(band.degree, 2 * order);
+        fl_butter_polynomials(&low, lb, la);
+        fl_butter_polynomials(&band, bb, ba);
+        assert_near(ba[2 * order], (order % 2 ? -1.0 : 1.0) * la[order], 1e-12);
+        for (int k = 0; k <= order; k++) {
+            assert_near_of(bb[2 * k], (k % 2 ? -1.0 : 1.0) * binomial * lb[0], 1e-12, lb[0]);
+            if (k < order) assert_near_of(bb[2 * k + 1], 0.0, 1e-14, lb[0]);
+            binomial = binomial * (order - k) / (k + 1.0);
+        }
+    }
+}
+
+/* A constant, and a straight line, leave nothing; a sine inside the band comes out with the squared gain. */
+static void drift_is_taken_out(void **state)
+{
+    double x[N], y[N];
+    fl_err err = {0};
+    fl_butter f[2];
+    (void)state;
+    for (int order = 1; order <= 5; order++) {
+        assert_int_equal(fl_butter_high(&f[0], order, 2.0, 100.0, &err), 0);
+        assert_int_equal(fl_butter_band(&f[1], order, 2.0, 8.0, 100.0, &err), 0);
+        for (int j = 0; j < 2; j++) {
+            for (int k = 0; k < N; k++) x[k] = 1e6;
+            assert_int_equal(fl_butter_zero_phase(&f[j], N, x, y, &err), 0);
+            for (int k = 0; k < N; k++) assert_near_of(y[k], 0.0, 1e-9, 1e6);
+            for (int k = 0; k < N; k++) x[k] = 500.0 - 0.25 * k + 3.0 * sin(2.0 * PI * 4.0 * k / 100.0);
+            assert_int_equal(fl_butter_zero_phase(&f[j], N, x, y, &err), 0);
+            const double g = fl_butter_gain(&f[j], 4.0);
+            for (int k = 800; k < 1200; k++)
+                assert_near_of(y[k], 3.0 * g * g * sin(2.0 * PI * 4.0 * k / 100.0), 1e-5, 3.0);
+        }
+    }
+}
+
+/* What the pad is for: an impulse is gone when it has been crossed. */
+static void impulses_die_in_the_pad(void **state)
+{
+    enum { LONG = 20000 };
+    static double x[LONG], y[LONG];
+    (void)state;
+    for (int order = 1; order <= 8; order++) {
+        for (int kind = 0; kind < 4; kind++) {
+            fl_err err = {0};
+            fl_butter f;
+            const int rc = kind == 0   ? fl_butter_low(&f, order, 2.0, 100.0, &err)
+                           : kind == 1 ? fl_butter_high(&f, order, 2.0, 100.0, &err)
+                           : kind == 2 ? fl_butter_band(&f, order, 2.0, 30.0, 100.0, &err)
+                                       : fl_butter_band(&f, order, 10.0, 12.0, 100.0, &err);
+            assert_int_equal(rc, 0);
+            for (int k = 0; k < LONG; k++) x[k] = k == LONG / 2;
+            assert_int_equal(fl_butter_zero_phase(&f, LONG, x, y, &err), 0);
+            double worst = 0.0, top = 0.0;
+            const int pad = (int)fl_butter_pad(&f);
+            for (int k = 0; k < LONG; k++) {
+                top = fmax(top, fabs(y[k]));
+                if (abs(k - LONG / 2) > pad) worst = fmax(worst, fabs(y[k]));
+            }
+            assert_true(worst < 1e-4 * top);
+        }
+    }
+}
+
 static void limits_are_sentences(void **state)
 {
     fl_err err = {0};
@@ -136,14 +240,27 @@ static void limits_are_sentences(void **state)
                         "more than 240");
     err = (fl_err){0};
     assert_int_equal(fl_butter_zero_phase(&f, 241, x, x, &err), 0);
+    err = (fl_err){0};
+    assert_int_equal(fl_butter_band(&f, 4, 5.0, 5.0, 100.0, &err), -1);
+    assert_string_equal(err.text, "filter from 5 Hz to 5 Hz, the second was wanted above the first");
+    err = (fl_err){0};
+    assert_int_equal(fl_butter_band(&f, 4, 5.0, 50.0, 100.0, &err), -1);
+    assert_int_equal(err.code, FL_INPUT);
+    assert_int_equal(fl_butter_high(&f, 4, 0.0, 100.0, &err), -1);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_coefficients),           cmocka_unit_test(gain_is_the_closed_form),
-        cmocka_unit_test(mean_survives_a_very_low_cut), cmocka_unit_test(zero_phase_has_the_squared_gain),
-        cmocka_unit_test(constants_and_lines_pass),     cmocka_unit_test(ends_are_treated_alike),
-        cmocka_unit_test(limits_are_sentences)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(known_coefficients),
+                                       cmocka_unit_test(gain_is_the_closed_form),
+                                       cmocka_unit_test(mean_survives_a_very_low_cut),
+                                       cmocka_unit_test(zero_phase_has_the_squared_gain),
+                                       cmocka_unit_test(constants_and_lines_pass),
+                                       cmocka_unit_test(ends_are_treated_alike),
+                                       cmocka_unit_test(high_and_band_have_the_closed_gain),
+                                       cmocka_unit_test(band_is_a_low_pass_transformed),
+                                       cmocka_unit_test(drift_is_taken_out),
+                                       cmocka_unit_test(impulses_die_in_the_pad),
+                                       cmocka_unit_test(limits_are_sentences)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

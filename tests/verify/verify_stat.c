@@ -7,6 +7,7 @@
 #include "stat/butter.h"
 #include "stat/describe.h"
 #include "stat/extreme.h"
+#include "stat/movemean.h"
 #include "stat/peaks.h"
 #include "stat/resample.h"
 #include "support/verify.h"
@@ -72,6 +73,40 @@ static void zero_phase(void)
         verify_row("L13", "zero-phase gain at 1, 4, 5, 10 Hz", out / in, pow(fl_butter_gain(&f, freq[j]), 2),
                    1e-10, VERIFY_ABS);
         verify_row("L14", "its phase [rad]", atan2(side, out), 0.0, 1e-9, VERIFY_ABS);
+    }
+}
+
+/* High pass, band pass and moving mean, measured on sines, against their closed forms. */
+static void other_filters(void)
+{
+    enum { N = 8000, FROM = 3000, TO = 5000 };
+    static double x[N], y[N], edge[N + 1];
+    static const double freq[] = {0.5, 1.0, 2.0, 4.0, 8.0, 10.0};
+    for (int k = 0; k <= N; k++) edge[k] = 0.01 * k;
+    for (int j = 0; j < 6; j++) {
+        const double t = tan(PI * freq[j] / 100.0), K1 = tan(PI * 2.0 / 100.0), K2 = tan(PI * 8.0 / 100.0);
+        const double want[] = {1.0 / (1.0 + pow(K1 / t, 8.0)),
+                               1.0 / (1.0 + pow((K1 * K2 - t * t) / ((K2 - K1) * t), 8.0)),
+                               sin(PI * freq[j] * 0.31) / (31.0 * sin(PI * freq[j] * 0.01))};
+        static const char *const what[] = {"high pass from 2 Hz at 0.5 1 2 4 8 10 Hz: gain",
+                                           "band pass 2 to 8 Hz: gain", "moving mean over 0.31 s: gain"};
+        for (int k = 0; k < N; k++) x[k] = sin(2.0 * PI * freq[j] * k / 100.0);
+        for (int kind = 0; kind < 3; kind++) {
+            fl_err err = {0};
+            fl_butter f;
+            double in = 0.0, out = 0.0;
+            int rc;
+            if (kind == 2) rc = fl_movemean(N, edge, x, 0.31, y, &err);
+            else
+                rc = (kind ? fl_butter_band(&f, 4, 2.0, 8.0, 100.0, &err)
+                           : fl_butter_high(&f, 4, 2.0, 100.0, &err)) ||
+                     fl_butter_zero_phase(&f, N, x, y, &err);
+            for (int k = FROM; k < TO; k++) {
+                in += x[k] * x[k];
+                out += x[k] * y[k];
+            }
+            verify_row("L15", what[kind], rc ? (double)NAN : out / in, want[kind], 1e-9, VERIFY_ABS);
+        }
     }
 }
 
@@ -148,6 +183,7 @@ int main(void)
     sample();
     filter();
     zero_phase();
+    other_filters();
     laws();
     separation();
     resampling();

@@ -16,6 +16,8 @@ static int make_one(fl_view *v, const fl_series *s, const struct options *o, int
 {
     const int32_t pair = (int32_t)(k / each), part = pair / s->signals, signal = pair % s->signals;
     const fl_view_ask ask = {.filter = k % each ? o->filter : 0.0,
+                             .upper = o->upper,
+                             .pass = o->pass,
                              .order = o->order,
                              .ratio = o->separation,
                              .threshold = o->threshold,
@@ -49,7 +51,7 @@ static void notes(const fl_series *s, const struct options *o)
     const double span = s->edge[s->n] - s->edge[0];
     if (o->verbose)
         fprintf(stderr, "loadstats: %d rows from %.10g s to %.10g s\n", s->n, s->edge[0], s->edge[s->n]);
-    if (o->filter > 0.0 && fl_resample_step(s->n, s->edge) <= 0.0)
+    if (o->filter > 0.0 && o->pass != FL_PASS_MEAN && fl_resample_step(s->n, s->edge) <= 0.0)
         fprintf(stderr,
                 "loadstats: the intervals are not equal, the filter works on %d equal ones of %.10g s\n",
                 s->n, span / s->n);

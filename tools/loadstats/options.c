@@ -7,6 +7,7 @@
 #include "base/num.h"
 #include "base/text.h"
 #include "stat/butter.h"
+#include "stat/view.h"
 #include "options.h"
 
 static const char HELP[] =
@@ -30,7 +31,8 @@ static const char HELP[] =
     "      --from T            leave out what is before T seconds\n"
     "      --to T              leave out what is after T seconds\n"
     "  -w, --window S          only the last S seconds\n"
-    "  -f, --filter HZ         add the view through a zero-phase Butterworth low pass\n"
+    "  -f, --filter WHAT       add the view through a zero-phase Butterworth filter, HZ or low:HZ, high:HZ\n"
+    "                          or band:HZ,HZ, or a moving mean, mean:S\n"
     "      --order N           order of one pass of the filter (4)\n"
     "  -s, --separation R      peaks are separate when the load falls below R times the smaller (0.5)\n"
     "      --threshold X       only peaks above X, in the unit of the signal (0)\n"
@@ -160,6 +162,7 @@ static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /
 static const char *const CYCLE_RULE[] = {"astm", "iso"};                     /* as fl_rainflow_rule_name() */
 static const char *const OPEN_CYCLES[] = {"half", "repeat", "none"};         /* as fl_residue_name() */
 static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none"}; /* as fl_taper_name() */
+static const char *const PASS[] = {"low", "high", "band", "mean"};           /* as fl_pass_name() */
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
@@ -268,6 +271,30 @@ static int take_return(struct options *o, char *word, fl_err *err)
     return time_of("return", word, &o->period[o->returns++], err);
 }
 
+/* HZ, low:HZ, high:HZ, band:HZ,HZ or mean:S. */
+static int take_filter(struct options *o, const char *text, fl_err *err)
+{
+    const char *colon = strchr(text, ':'), *value = colon ? colon + 1 : text, *comma = strchr(value, ',');
+    char word[40];
+    o->pass = FL_PASS_LOW;
+    if (colon) {
+        snprintf(word, sizeof word, "%.*s", (int)(colon - text), text);
+        o->pass = choice("filter", word, PASS, COUNT(PASS), err);
+        if (o->pass < 0) return -1;
+    }
+    if (o->pass == FL_PASS_MEAN) return time_of("filter", value, &o->filter, err);
+    if (o->pass != FL_PASS_BAND)
+        return number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
+    if (!comma || comma - value >= (int)sizeof word)
+        return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", band:HZ,HZ was wanted", text);
+    snprintf(word, sizeof word, "%.*s", (int)(comma - value), value);
+    if (number("filter", word, 1e-300, 1e300, "a frequency above 0", &o->filter, err) ||
+        number("filter", comma + 1, 1e-300, 1e300, "a frequency above 0", &o->upper, err))
+        return -1;
+    if (o->upper > o->filter) return 0;
+    return fl_fail(err, FL_USAGE, "--filter \"%.40s\" ends before it begins", text);
+}
+
 /* The words of one --sn; o->sns is raised when all of them are known. */
 static int take_sn(struct options *o, char *word, fl_err *err)
 {
@@ -347,7 +374,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case FROM: return number("from", arg, -huge, huge, "a time", &o->from, err);
     case TO: return number("to", arg, -huge, huge, "a time", &o->to, err);
     case 'w': return number("window", arg, tiny, huge, "a time above 0", &o->window, err);
-    case 'f': return number("filter", arg, tiny, huge, "a frequency above 0", &o->filter, err);
+    case 'f': return take_filter(o, arg, err);
     case ORDER: return whole("order", arg, 1, FL_BUTTER_ORDER_MAX, &o->order, err);
     case 's': return number("separation", arg, 0.0, 1.0, "a number from 0 to 1", &o->separation, err);
     case THRESHOLD: return number("threshold", arg, 0.0, huge, "a number not below 0", &o->threshold, err);
@@ -516,6 +543,14 @@ static void add_number(fl_by *by, const char *option, double x)
     fl_by_add(by, "--%s %s", option, fl_num_text(x, buf));
 }
 
+void options_filter(const struct options *o, char *text, size_t size)
+{
+    if (o->pass == FL_PASS_LOW) snprintf(text, size, "%g Hz", o->filter);
+    else if (o->pass == FL_PASS_HIGH) snprintf(text, size, "above %g Hz", o->filter);
+    else if (o->pass == FL_PASS_BAND) snprintf(text, size, "%g to %g Hz", o->filter, o->upper);
+    else snprintf(text, size, "mean of %g s", o->filter);
+}
+
 static void add_sn_line(fl_by *by, const fl_sn *sn)
 {
     char m[FL_NUM_LEN], a[FL_NUM_LEN], m2[FL_NUM_LEN] = "inf", knee[FL_NUM_LEN];
@@ -547,8 +582,12 @@ void options_by(const struct options *o, fl_by *by)
     add_choice(o, by);
     if (o->window > 0.0) add_number(by, "window", o->window);
     if (o->filter > 0.0) {
-        add_number(by, "filter", o->filter);
-        fl_by_add(by, "--order %d", o->order);
+        char x[FL_NUM_LEN], y[FL_NUM_LEN];
+        fl_num_text(o->filter, x);
+        if (o->pass == FL_PASS_LOW) fl_by_add(by, "--filter %s", x);
+        else if (o->pass == FL_PASS_BAND) fl_by_add(by, "--filter band:%s,%s", x, fl_num_text(o->upper, y));
+        else fl_by_add(by, "--filter %s:%s", PASS[o->pass], x);
+        if (o->pass != FL_PASS_MEAN) fl_by_add(by, "--order %d", o->order);
     }
     add_number(by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);

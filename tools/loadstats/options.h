@@ -43,8 +43,8 @@ struct options {
     char *words;                                          /* the lists of the command line, cut in place */
     int32_t signals, words_len, words_cap;
     double from, to, window; /* [s] */
-    double filter;           /* [Hz], 0 for none */
-    int order;
+    double filter, upper;    /* [Hz], of a moving mean [s]; 0 for none; upper is of a band */
+    int pass, order;         /* fl_pass */
     double separation, threshold;
     int32_t bins;
     double quantile[QUANTILES_MAX];
@@ -86,6 +86,9 @@ void options_by(const struct options *o, fl_by *by);
 
 /* The same for a summary: one line, "#by ...\\n", without the names of files, for by[FL_BY_MAX + 2]. */
 void options_by_summary(const struct options *o, char *by);
+
+/* Of a picture: "2 Hz", "above 0.1 Hz", "0.1 to 2 Hz", "mean of 5 s". */
+void options_filter(const struct options *o, char *text, size_t size);
 
 /* "stats", "peaks" ... : the word of --table, which is also the kind of the file. */
 const char *options_table(enum table t);

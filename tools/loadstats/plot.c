@@ -106,8 +106,11 @@ static void history_panel(picture *p, int k, int32_t s)
         plot_curve(p);
         fprintf(p->script, "using 4:($5*%g) with lines ls %d title '%s", c.factor, r->each > 1 ? w + 1 : 3,
                 view_name(w));
-        if (w) fprintf(p->script, ", %g Hz'", p->o->filter);
-        else putc('\'', p->script);
+        if (w) {
+            options_filter(p->o, text, sizeof text);
+            fprintf(p->script, ", %s'", text);
+        }
+        if (!w) putc('\'', p->script);
         history_block(p, s, w);
     }
     plot_end_panel(p);

@@ -33,6 +33,7 @@ static void curves(picture *p, int32_t s, const fl_welch a[2])
 {
     const double factor = pow(plot_scale_here(p, s).factor, 2.0);
     FILE *f = p->script;
+    char text[120];
     for (int w = 0; w < p->r->each; w++) {
         if (w == 0) {
             plot_curve(p);
@@ -44,9 +45,9 @@ static void curves(picture *p, int32_t s, const fl_welch a[2])
             fprintf(f, "'' index %d using 4:($5*%g) with lines ls %d title '%s'", p->blocks, factor,
                     p->r->each > 1 ? 1 : 3, view_name(w));
         } else {
+            options_filter(p->o, text, sizeof text);
             plot_curve(p);
-            fprintf(f, "using 4:($5*%g) with lines ls 2 title '%s, %g Hz'", factor, view_name(w),
-                    p->o->filter);
+            fprintf(f, "using 4:($5*%g) with lines ls 2 title '%s, %s'", factor, view_name(w), text);
         }
         spectrum_block(p, s, w, &a[w]);
     }
