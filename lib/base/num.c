@@ -126,7 +126,7 @@ int fl_num_f64(const char *s, double *x)
     double v;
     const char *end = fl_decimal(s, &v);
     if (!end || *end || !isfinite(v)) return -1;
-    *x = v;
+    *x = v + 0.0; /* -0 becomes 0, as it prints */
     return 0;
 }
 

@@ -11,7 +11,7 @@ enum { FL_NUM_LEN = 32 };
  * Writes at most FL_NUM_LEN bytes with the closing nul.  Returns buf. */
 char *fl_num_text(double x, char buf[FL_NUM_LEN]);
 
-/* Read all of s as a finite number, an integer in [lo, hi], or a 64-bit unsigned.
+/* Read all of s as a finite number (-0 is 0), an integer in [lo, hi], or a 64-bit unsigned.
  * Return 0, or -1 when s is anything else (empty, more than a number, nan, inf, 0x.., out of range). */
 int fl_num_f64(const char *s, double *x);
 int fl_num_i32(const char *s, int32_t lo, int32_t hi, int32_t *x);

@@ -9,14 +9,17 @@
 #include <unistd.h>
 #include <zlib.h>
 #include "base/mem.h"
+#include "base/par.h"
 #include "base/stream.h"
 
 enum { CHUNK = 1 << 16 };
 
 struct fl_in {
     int fd, gzip, ended;
-    const char *name; /* borrowed */
-    double patience;  /* [s] */
+    const char *name;           /* borrowed */
+    double patience;            /* [s] */
+    const unsigned char *bytes; /* instead of fd, borrowed */
+    int64_t left;               /* of bytes */
     z_stream z;
     int64_t have, pos;
     unsigned char buf[CHUNK];
@@ -28,6 +31,14 @@ static int64_t raw_fill(fl_in *in, fl_err *err)
     const struct timespec pause = {.tv_nsec = 50000000};
     ssize_t k;
     double waited = 0.0;
+    if (in->bytes) {
+        in->pos = 0;
+        in->have = in->left < CHUNK ? in->left : CHUNK;
+        if (in->have) memcpy(in->buf, in->bytes, (size_t)in->have);
+        in->bytes += in->have;
+        in->left -= in->have;
+        return in->have;
+    }
     for (;;) {
         do k = read(in->fd, in->buf, CHUNK);
         while (k < 0 && errno == EINTR);
@@ -71,6 +82,17 @@ fl_in *fl_in_open(const char *path, fl_err *err)
 fail:
     fl_in_close(in);
     return NULL;
+}
+
+fl_in *fl_in_open_bytes(const char *name, const void *data, int64_t n, fl_err *err)
+{
+    fl_in *in = fl_alloc(1, sizeof *in, err);
+    if (!in) return NULL;
+    in->name = name;
+    in->fd = -1;
+    in->bytes = data;
+    in->left = n;
+    return in;
 }
 
 static int64_t plain_read(fl_in *in, void *buf, int64_t n, fl_err *err)
@@ -132,27 +154,80 @@ void fl_in_close(fl_in *in)
 
 /* --- out --------------------------------------------------------------------------------------- */
 
-static ssize_t gz_cookie_write(void *gz, const char *buf, size_t n)
+/* What fl_out.gz points to.  A member of the file begins with the first byte after the last one ended. */
+typedef struct {
+    gzFile gz; /* NULL between members */
+    int fd, level;
+} zipper;
+
+static int zip_begin(zipper *z)
 {
-    return n && gzwrite(gz, buf, (unsigned)n) != (int)n ? 0 : (ssize_t)n;
+    const int fd = dup(z->fd);
+    z->gz = fd < 0 ? NULL : gzdopen(fd, z->level > 1 ? "wb1" : "wb6");
+    if (!z->gz && fd >= 0) close(fd);
+    return z->gz ? 0 : -1;
+}
+
+static int zip_end(zipper *z)
+{
+    const int rc = z->gz ? gzclose(z->gz) : Z_OK;
+    z->gz = NULL;
+    return rc == Z_OK ? 0 : -1;
+}
+
+static ssize_t zip_write(void *cookie, const char *buf, size_t n)
+{
+    zipper *z = cookie;
+    if (n && !z->gz && zip_begin(z)) return 0;
+    return n && gzwrite(z->gz, buf, (unsigned)n) != (int)n ? 0 : (ssize_t)n;
+}
+
+/* The stream over fd, which is closed on failure. */
+static int begin(fl_out *out, int fd, int gzip, fl_err *err)
+{
+    if (gzip) {
+        zipper *z = fl_alloc(1, sizeof *z, err);
+        if (!z) goto fail;
+        *z = (zipper){NULL, fd, gzip};
+        out->gz = z;
+        if (zip_begin(z) == 0) out->f = fopencookie(z, "w", (cookie_io_functions_t){.write = zip_write});
+        if (out->f) return 0;
+    } else {
+        out->f = fd == STDOUT_FILENO ? stdout : fdopen(fd, "w");
+        if (out->f) return 0;
+    }
+    fl_fail(err, FL_SYSTEM, "%s: cannot open for writing", out->path ? out->path : "<stdout>");
+fail:
+    if (!out->gz && fd != STDOUT_FILENO) close(fd);
+    return -1;
+}
+
+static int fd_of(const fl_out *out) { return out->gz ? ((zipper *)out->gz)->fd : fileno(out->f); }
+
+/* The names that path stands for.  Renaming over a link or a device would put a plain file in its place:
+ * /dev/null, /dev/stdout.  *direct: it is no plain file. */
+static int name_out(fl_out *out, const char *path, int *direct, fl_err *err)
+{
+    struct stat st;
+    *out = (fl_out){0};
+    out->path = lstat(path, &st) == 0 && S_ISLNK(st.st_mode) ? realpath(path, NULL) : NULL;
+    if (!out->path) out->path = strdup(path);
+    *direct = out->path && stat(out->path, &st) == 0 && !S_ISREG(st.st_mode);
+    if (out->path && !*direct && asprintf(&out->tmp, "%s.part", out->path) < 0) out->tmp = NULL;
+    if (out->path && (*direct || out->tmp)) return 0;
+    free(out->path);
+    out->path = NULL;
+    return fl_fail(err, FL_SYSTEM, "out of memory");
 }
 
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err)
 {
-    int fd = STDOUT_FILENO;
-    struct stat st;
+    int fd = STDOUT_FILENO, direct;
     *out = (fl_out){0};
     if (strcmp(path, "-") != 0) {
-        /* Renaming over a link or a device would put a plain file in its place: /dev/null, /dev/stdout. */
-        out->path = lstat(path, &st) == 0 && S_ISLNK(st.st_mode) ? realpath(path, NULL) : NULL;
-        if (!out->path) out->path = strdup(path);
-        const int direct = out->path && stat(out->path, &st) == 0 && !S_ISREG(st.st_mode);
-        if (out->path && !direct && asprintf(&out->tmp, "%s.part", out->path) < 0) out->tmp = NULL;
-        if (!out->path || (!direct && !out->tmp)) {
-            fl_fail(err, FL_SYSTEM, "out of memory");
-            goto fail;
-        }
-        fd = open(direct ? out->path : out->tmp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (name_out(out, path, &direct, err)) return -1;
+        fd = open(direct ? out->path : out->tmp, (direct ? O_WRONLY : O_RDWR) | O_CREAT | O_TRUNC | O_CLOEXEC,
+                  0666);
         if (fd < 0) {
             fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
             free(out->tmp);
@@ -160,35 +235,52 @@ int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err)
             goto fail;
         }
     }
-    if (gzip) {
-        out->gz = gzdopen(dup(fd), "wb6");
-        if (out->gz) out->f = fopencookie(out->gz, "w", (cookie_io_functions_t){.write = gz_cookie_write});
-        if (fd != STDOUT_FILENO) close(fd);
-    } else {
-        out->f = fd == STDOUT_FILENO ? stdout : fdopen(fd, "w");
-    }
-    if (out->f) return 0;
-    fl_fail(err, FL_SYSTEM, "%s: cannot open for writing", path);
+    if (begin(out, fd, gzip, err) == 0) return 0;
 fail:
     fl_out_abort(out);
     return -1;
 }
 
+/* The new name of a file lasts when its folder has reached the disk. */
+static void sync_folder(const char *path)
+{
+    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
+    if (slash) slash[slash == folder] = '\0';
+    const int fd = folder ? open(slash ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (fd >= 0) {
+        fsync(fd); /* where folders cannot be synced the name is as safe as it gets */
+        close(fd);
+    }
+    free(folder);
+}
+
+/* Everything written so far to the disk; 0, or -1 with errno. */
+static int settle(fl_out *out)
+{
+    if (!ferror(out->f)) errno = 0; /* else the last write that failed has left why */
+    if (fflush(out->f) != 0 || ferror(out->f)) return -1;
+    if (out->gz && zip_end(out->gz)) return -1;
+    return !out->path || fsync(fd_of(out)) == 0 || errno == EINVAL || errno == EROFS ? 0 : -1;
+}
+
 int fl_out_close(fl_out *out, fl_err *err)
 {
     const char *name = out->path ? out->path : "<stdout>";
-    int bad;
     if (!out->f) return 0;
-    if (!ferror(out->f)) errno = 0; /* else the last write that failed has left why */
-    bad = fflush(out->f) != 0 || ferror(out->f);
-    if (!bad && !out->gz && out->path) bad = fsync(fileno(out->f)) != 0 && errno != EINVAL && errno != EROFS;
-    if (out->f != stdout) bad |= fclose(out->f) != 0;
+    int bad = settle(out) != 0, why = errno;
+    zipper *z = out->gz;
+    if (out->f != stdout && fclose(out->f) != 0 && !bad) bad = 1, why = errno;
     out->f = NULL;
-    if (out->gz) bad |= gzclose(out->gz) != Z_OK;
-    out->gz = NULL;
-    if (!bad && out->tmp) bad = rename(out->tmp, out->path) != 0;
-    if (bad) fl_fail(err, FL_SYSTEM, "%s: %s", name, errno ? strerror(errno) : "could not write all of it");
+    if (z) { /* what a failed end of the last member left */
+        zip_end(z);
+        if (z->fd != STDOUT_FILENO && close(z->fd) != 0 && !bad) bad = 1, why = errno;
+        free(z);
+        out->gz = NULL;
+    }
+    if (!bad && out->tmp && rename(out->tmp, out->path) != 0) bad = 1, why = errno;
+    if (bad) fl_fail(err, FL_SYSTEM, "%s: %s", name, why ? strerror(why) : "could not write all of it");
     else if (out->tmp) {
+        sync_folder(out->path);
         free(out->tmp);
         out->tmp = NULL;
     }
@@ -198,10 +290,125 @@ int fl_out_close(fl_out *out, fl_err *err)
 
 void fl_out_abort(fl_out *out)
 {
+    zipper *z = out->gz;
     if (out->f && out->f != stdout) fclose(out->f);
-    if (out->gz) gzclose(out->gz);
-    if (out->tmp) unlink(out->tmp);
+    if (z) {
+        zip_end(z);
+        if (z->fd != STDOUT_FILENO) close(z->fd);
+        free(z);
+    }
+    if (out->tmp && !out->keep) unlink(out->tmp);
     free(out->tmp);
     free(out->path);
     *out = (fl_out){0};
+}
+
+/* --- to go on later ---------------------------------------------------------------------------- */
+
+/* Hash of the last bytes before `at`; 0 where they cannot be read. */
+static uint64_t tail_of(int fd, int64_t at)
+{
+    unsigned char last[FL_MARK_TAIL] = {0};
+    const int64_t n = at < FL_MARK_TAIL ? at : FL_MARK_TAIL;
+    char self[40];
+    int64_t got = pread(fd, last, (size_t)n, at - n);
+    if (got < 0) { /* open for writing alone, as the shell opens standard output */
+        snprintf(self, sizeof self, "/proc/self/fd/%d", fd);
+        const int again = open(self, O_RDONLY | O_CLOEXEC);
+        if (again < 0) return 0;
+        got = pread(again, last, (size_t)n, at - n);
+        close(again);
+    }
+    return got == n ? fl_hash(FL_HASH_START, last, n) : 0;
+}
+
+int fl_out_mark(fl_out *out, fl_mark *mark, fl_err *err)
+{
+    struct stat st;
+    *mark = (fl_mark){-1, 0};
+    if (settle(out))
+        return fl_fail(err, FL_SYSTEM, "%s: %s", out->path ? out->path : "<stdout>",
+                       errno ? strerror(errno) : "could not write all of it");
+    const int fd = fd_of(out);
+    if (fstat(fd, &st) || !S_ISREG(st.st_mode)) return 0;
+    mark->at = lseek(fd, 0, SEEK_CUR);
+    if (mark->at >= 0) mark->tail = tail_of(fd, mark->at);
+    out->keep = 1;
+    return 0;
+}
+
+static int fits(int fd, const fl_mark *mark)
+{
+    struct stat st;
+    if (fstat(fd, &st) || !S_ISREG(st.st_mode) || st.st_size < mark->at) return 0;
+    return mark->tail == 0 || tail_of(fd, mark->at) == mark->tail;
+}
+
+/* Which of the two names holds the file: 0 tmp, 1 path, -1 none. */
+static int holder(const fl_out *out, const fl_mark *mark)
+{
+    const char *const name[2] = {out->tmp, out->path};
+    for (int k = 0; k < 2; k++) {
+        const int fd = open(name[k], O_RDONLY | O_CLOEXEC);
+        const int good = fd >= 0 && fits(fd, mark);
+        if (fd >= 0) close(fd);
+        if (good) return k;
+    }
+    return -1;
+}
+
+static int no_holder(const fl_out *out, const fl_mark *mark, fl_err *err)
+{
+    return fl_fail(err, FL_INPUT,
+                   "%s: neither it nor %s is the file to go on with, its first %lld bytes were wanted",
+                   out->path, out->tmp, (long long)mark->at);
+}
+
+int fl_out_marked(const char *path, const fl_mark *mark, fl_err *err)
+{
+    fl_out out;
+    int direct, rc = 0;
+    if (strcmp(path, "-") == 0 || mark->at < 0) return 0;
+    if (name_out(&out, path, &direct, err)) return -1;
+    if (!direct && holder(&out, mark) < 0) rc = no_holder(&out, mark, err);
+    out.keep = 1;
+    fl_out_abort(&out);
+    return rc;
+}
+
+int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, int *fresh, fl_err *err)
+{
+    int fd = STDOUT_FILENO, direct = 0;
+    *fresh = 1;
+    *out = (fl_out){0};
+    if (mark->at < 0) return fl_out_open(out, path, gzip, err);
+    if (strcmp(path, "-") == 0) {
+        if (mark->at == 0 || !fits(fd, mark)) return fl_out_open(out, path, gzip, err);
+    } else {
+        if (name_out(out, path, &direct, err)) return -1;
+        if (direct) {
+            fl_out_abort(out);
+            return fl_out_open(out, path, gzip, err);
+        }
+        const int which = holder(out, mark);
+        out->keep = 1;
+        if (which < 0) no_holder(out, mark, err);
+        if (which < 0) goto fail;
+        if (which == 1 && rename(out->path, out->tmp)) goto system;
+        fd = open(out->tmp, O_RDWR | O_CLOEXEC);
+        if (fd < 0) goto system;
+    }
+    if (ftruncate(fd, mark->at) || lseek(fd, mark->at, SEEK_SET) < 0) {
+        fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
+        if (fd != STDOUT_FILENO) close(fd);
+        goto fail;
+    }
+    *fresh = 0;
+    if (begin(out, fd, gzip, err) == 0) return 0;
+    goto fail;
+system:
+    fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
+fail:
+    fl_out_abort(out);
+    return -1;
 }

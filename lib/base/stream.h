@@ -13,6 +13,9 @@ typedef struct fl_in fl_in;
  * NULL with FL_INPUT (missing, a folder, unreadable) or FL_SYSTEM in err. */
 fl_in *fl_in_open(const char *path, fl_err *err);
 
+/* The same from n bytes in memory, which stay the caller's, as does the name that messages tell. */
+fl_in *fl_in_open_bytes(const char *name, const void *data, int64_t n, fl_err *err);
+
 /* Read up to n bytes; returns the number read, 0 at the end, -1 with FL_INPUT in err (damaged gzip, read
  * error). A short count is not the end: data are handed over as they come down a pipe. */
 int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err);
@@ -29,15 +32,39 @@ typedef struct {
     FILE *f;          /* write here; NULL when closed */
     char *path, *tmp; /* NULL for standard output; tmp alone NULL for a device or a pipe */
     void *gz;         /* the compressor, when asked for */
+    int keep;         /* fl_out_mark() has been here: tmp stays when something fails */
 } fl_out;
 
-/* Open path for writing ("-" is standard output); gzip compresses.  A link is followed, and a device or a
- * pipe (/dev/null, a fifo) is written to directly.  FL_SYSTEM in err on failure. */
+/* A place in a file, from which another run of the program can go on writing it. */
+typedef struct {
+    int64_t at;    /* bytes before it; -1: what is written to has no places, as a pipe */
+    uint64_t tail; /* hash of the last bytes before it, at most FL_MARK_TAIL; 0: they cannot be read */
+} fl_mark;
+enum { FL_MARK_TAIL = 4096 };
+
+/* Open path for writing ("-" is standard output); gzip compresses, 2 faster and less.  A link is followed,
+ * and a device or a pipe (/dev/null, a fifo) is written to directly.  FL_SYSTEM in err on failure. */
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err);
 
-/* Flush, sync, and give the file its final name.  -1 with FL_SYSTEM in err when anything written was lost;
- * then no file carries the final name (an older one keeps it). */
+/* Flush, sync, and give the file its final name, which is synced too.  -1 with FL_SYSTEM in err when anything
+ * written was lost; then no file carries the final name (an older one keeps it). */
 int fl_out_close(fl_out *out, fl_err *err);
+
+/* Bring what was written to the disk and tell the place.  From here on a failure leaves the unfinished file,
+ * PATH.part, since a mark speaks of it.  What is compressed ends a member of the gzip file here and begins
+ * another, so that the bytes after a mark do not depend on those before.  -1 with FL_SYSTEM. */
+int fl_out_mark(fl_out *out, fl_mark *mark, fl_err *err);
+
+/* Is there a file that a mark speaks of: PATH.part, or PATH itself when that run ended, long enough and with
+ * the same bytes before the mark?  Nothing is changed.  0, or -1 with FL_INPUT.  A mark without a place, and
+ * standard output, are always fine. */
+int fl_out_marked(const char *path, const fl_mark *mark, fl_err *err);
+
+/* Open it as fl_out_open() and go on at the mark; what lies behind is cut off.  Standard output is gone on
+ * with when it is a file that the mark speaks of (the shell's >>).  *fresh becomes 1 when there is nothing to
+ * go on with, and the output begins as a new one: a pipe, a device, another file at standard output.  -1 with
+ * FL_INPUT or FL_SYSTEM. */
+int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, int *fresh, fl_err *err);
 
 /* Drop what was written: the final name is not touched.  Accepts a zeroed or closed struct. */
 void fl_out_abort(fl_out *out);

@@ -10,14 +10,21 @@
 
 enum { CHUNK = 1 << 16 };
 
-int fl_text_open(fl_text *t, const char *path, fl_err *err)
+static int start(fl_text *t, fl_in *in, fl_err *err)
 {
     *t = (fl_text){0};
-    t->in = fl_in_open(path, err);
+    t->in = in;
     t->chunk = t->in ? fl_alloc(CHUNK, 1, err) : NULL;
     if (t->chunk) return 0;
     fl_text_close(t);
     return -1;
+}
+
+int fl_text_open(fl_text *t, const char *path, fl_err *err) { return start(t, fl_in_open(path, err), err); }
+
+int fl_text_open_bytes(fl_text *t, const char *name, const void *data, int64_t n, fl_err *err)
+{
+    return start(t, fl_in_open_bytes(name, data, n, err), err);
 }
 
 void fl_text_close(fl_text *t)

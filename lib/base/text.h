@@ -29,6 +29,9 @@ typedef struct {
 /* Open for reading; "-" is standard input, gzip is unpacked.  0, or -1 with err. */
 int fl_text_open(fl_text *t, const char *path, fl_err *err);
 
+/* The same from n bytes in memory; data and name stay the caller's. */
+int fl_text_open_bytes(fl_text *t, const char *name, const void *data, int64_t n, fl_err *err);
+
 /* Read line 1, which must be "#KIND VERSION" with VERSION in 1 .. newest; kind NULL takes any kind.
  * FL_INPUT in err otherwise; a newer file and a file of another kind are named as such. */
 int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err);
