@@ -376,23 +376,22 @@ static int check_ids(fl_field *a, const int32_t *bond_line, const fl_text *in, f
     return rc;
 }
 
-int fl_field_read(fl_field *out, const char *path, fl_err *err)
+int fl_field_read_text(fl_field *out, fl_text *in, fl_err *err)
 {
-    fl_text in = {0};
     fl_field a = {0};
     struct body b = {0};
     int rc = -1, more;
-    if (fl_text_open(&in, path, err) || fl_text_magic(&in, "g-polys", FL_FIELD_VERSION, err)) goto done;
-    while ((more = fl_text_row(&in, err)) > 0)
-        if (read_record(&a, &b, &in, err)) goto done;
-    if (more < 0 || close_body(&a, &b, &in, err)) goto done;
+    if (fl_text_magic(in, "g-polys", FL_FIELD_VERSION, err)) goto done;
+    while ((more = fl_text_row(in, err)) > 0)
+        if (read_record(&a, &b, in, err)) goto done;
+    if (more < 0 || close_body(&a, &b, in, err)) goto done;
     if (a.n == 0) {
-        fl_text_fail(&in, err, "the file ends without a body, a poly record was wanted");
+        fl_text_fail(in, err, "the file ends without a body, a poly record was wanted");
         goto done;
     }
-    if (check_ids(&a, b.bond_line, &in, err)) goto done;
-    a.history = in.history;
-    in.history = NULL;
+    if (check_ids(&a, b.bond_line, in, err)) goto done;
+    a.history = in->history;
+    in->history = NULL;
     *out = a;
     a = (fl_field){0};
     rc = 0;
@@ -402,8 +401,14 @@ done:
     free(b.loop);
     free(b.bond_line);
     fl_field_free(&a);
-    fl_text_close(&in);
+    fl_text_close(in);
     return rc;
+}
+
+int fl_field_read(fl_field *out, const char *path, fl_err *err)
+{
+    fl_text in = {0};
+    return fl_text_open(&in, path, err) ? -1 : fl_field_read_text(out, &in, err);
 }
 
 /* --- write ---------------------------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include "base/err.h"
 #include "base/names.h"
+#include "base/text.h"
 #include "base/tool.h"
 #include "geom/poly.h"
 
@@ -58,6 +59,9 @@ int fl_field_add_bond(fl_field *a, int32_t i, int32_t j, double area, double len
  * Returns 0, or -1 with FL_INPUT ("file:line: ...", for a core the line of its poly record and its id) or
  * FL_SYSTEM; out is untouched then. */
 int fl_field_read(fl_field *out, const char *path, fl_err *err);
+
+/* The same from a text that was opened already, which it closes. */
+int fl_field_read_text(fl_field *out, fl_text *in, fl_err *err);
 
 /* Write the whole file: kind and version, the history of the field and this run's line, the bodies.  Numbers
  * read back to the same doubles.  Write errors stay in f, for fl_out_close(). */

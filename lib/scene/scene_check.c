@@ -58,9 +58,11 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames", "output.state", "output.energy", "output.contacts"};
-    const char *const path[] = {s->output.frames, s->output.state, s->output.energy, s->output.contacts};
-    for (int k = 0; k < 4; k++) {
+    const char *const key[] = {"output.frames", "output.state", "output.energy", "output.contacts",
+                               "output.checkpoint"};
+    const char *const path[] = {s->output.frames, s->output.state, s->output.energy, s->output.contacts,
+                                s->output.checkpoint};
+    for (int k = 0; k < 5; k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
                                  "%s is \"-\", and standard output carries the loads: a file was wanted",

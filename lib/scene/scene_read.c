@@ -321,30 +321,41 @@ static int32_t keep_name(fl_scene *scene, const char *name, fl_err *err)
     return scene->n_file++;
 }
 
-static int read_file(fl_scene *scene, const char *path, fl_err *err)
+/* Everything in a text that is open already, which it closes.  in is fresh but for its folder. */
+static int read_source(source *in, fl_scene *scene, fl_text *text, fl_err *err)
 {
-    source *in = fl_alloc(1, sizeof *in, err);
-    const char *slash = strcmp(path, "-") == 0 ? NULL : strrchr(path, '/');
     int bad, rc = -1;
-    if (!in) return -1;
     in->scene = scene;
     in->err = err;
-    if (slash && (size_t)(slash - path) + 1 >= sizeof in->folder) {
-        fl_fail(err, FL_INPUT, "%.60s...: the path is longer than %d characters", path, FL_SCENE_PATH - 2);
-        goto done;
-    }
-    if (slash) memcpy(in->folder, path, (size_t)(slash - path) + 1);
-    if (fl_text_open(&in->text, path, err)) goto done;
+    in->text = *text;
+    *text = (fl_text){0};
     in->file = keep_name(scene, fl_in_name(in->text.in), err);
     if (in->file < 0) goto done;
     bad = ini_parse_stream(next_line, in, take, in);
     if (err->code) goto done;
-    if (bad < 0) fl_fail(err, FL_SYSTEM, "out of memory: %s", path);
+    if (bad < 0) fl_fail(err, FL_SYSTEM, "out of memory: %s", scene->file[in->file]);
     else if (bad > 0)
         complain(in, "the line is no section and no key = value"); /* next_line() lets none pass */
     else rc = 0;
 done:
     fl_text_close(&in->text);
+    return rc;
+}
+
+static int read_file(fl_scene *scene, const char *path, fl_err *err)
+{
+    source *in = fl_alloc(1, sizeof *in, err);
+    const char *slash = strcmp(path, "-") == 0 ? NULL : strrchr(path, '/');
+    fl_text text = {0};
+    int rc = -1;
+    if (!in) return -1;
+    if (slash && (size_t)(slash - path) + 1 >= sizeof in->folder) {
+        fl_fail(err, FL_INPUT, "%.60s...: the path is longer than %d characters", path, FL_SCENE_PATH - 2);
+        goto done;
+    }
+    if (slash) memcpy(in->folder, path, (size_t)(slash - path) + 1);
+    if (fl_text_open(&text, path, err) == 0) rc = read_source(in, scene, &text, err);
+done:
     free(in);
     return rc;
 }
@@ -359,6 +370,19 @@ int fl_scene_read(fl_scene *scene, const char *path, fl_err *err)
     }
     *scene = fresh;
     return 0;
+}
+
+int fl_scene_read_text(fl_scene *scene, fl_text *text, fl_err *err)
+{
+    source *in = fl_alloc(1, sizeof *in, err);
+    fl_scene fresh;
+    int rc = -1;
+    fl_scene_start(&fresh);
+    if (in) rc = read_source(in, &fresh, text, err);
+    free(in);
+    if (rc) fl_scene_free(&fresh);
+    else *scene = fresh;
+    return rc;
 }
 
 int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err)
