@@ -37,8 +37,7 @@ static int stale(const fl_world *w)
     return first + second >= w->skin * (1.0 - 1e-6);
 }
 
-/* Pairs of each body, in the order of the list. */
-static int index_pairs(fl_world *w, fl_err *err)
+int fl_search_index(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
     if (fl_grow(&w->inc_first, &w->inc_first_cap, (int64_t)total + 1, sizeof *w->inc_first, err)) return -1;
@@ -89,5 +88,5 @@ int fl_search(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < total; k++) w->odometer_found[k] = w->b.odometer[k];
     w->found_at = w->step;
     w->searches++;
-    return index_pairs(w, err);
+    return fl_search_index(w, err);
 }

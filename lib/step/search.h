@@ -11,4 +11,8 @@
  * FL_SYSTEM. */
 int fl_search(fl_world *w, fl_err *err);
 
+/* Renew w->inc, the pairs of each body in the order of the list, after the list has changed.  -1 with
+ * FL_SYSTEM. */
+int fl_search_index(fl_world *w, fl_err *err);
+
 #endif

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "base/par.h"
+#include "base/stream.h"
+#include "out/restart.h"
+
+enum { QUICK = 2 }; /* a checkpoint is written many times and read seldom: pack it fast */
+
+/* fl_hash() takes words of eight bytes and fills the last one up, so what is hashed piece by piece must come
+ * in whole words: the pieces are put together first. */
+static int compose(char **text, size_t *n, const char *history, const fl_restart_part *part, int parts)
+{
+    FILE *f = open_memstream(text, n);
+    if (!f) return -1;
+    fprintf(f, "#checkpoint %d\n%s", FL_RESTART_VERSION, history);
+    for (int k = 0; k < parts; k++) {
+        fprintf(f, "part %s %" PRId64 "\n", part[k].name, part[k].n);
+        fwrite(part[k].text, 1, (size_t)part[k].n, f);
+    }
+    const int bad = ferror(f);
+    return fclose(f) || bad ? -1 : 0;
+}
+
+int fl_restart_write(const char *path, const char *history, const fl_restart_part *part, int parts,
+                     fl_err *err)
+{
+    fl_out out = {0};
+    char *text = NULL;
+    size_t n = 0;
+    int rc = -1;
+    if (compose(&text, &n, history, part, parts)) fl_fail(err, FL_SYSTEM, "out of memory for %s", path);
+    else if (fl_out_open(&out, path, QUICK, err) == 0) {
+        fwrite(text, 1, n, out.f);
+        fprintf(out.f, "end %016" PRIx64 "\n", fl_hash(FL_HASH_START, text, (int64_t)n));
+        rc = fl_out_close(&out, err);
+    }
+    free(text);
+    return rc;
+}
+
+/* --- read -------------------------------------------------------------------------------------- */
+
+static int slurp(fl_restart *r, int64_t *n, fl_err *err)
+{
+    fl_in *in = fl_in_open(r->path, err);
+    int64_t k = 1;
+    *n = 0;
+    while (in && k > 0) {
+        if (fl_grow(&r->data, &r->cap, *n + (1 << 16) + 1, 1, err)) break;
+        k = fl_in_read(in, r->data + *n, 1 << 16, err);
+        if (k > 0) *n += k;
+    }
+    fl_in_close(in);
+    if (err->code) return -1;
+    r->data[*n] = '\0';
+    return 0;
+}
+
+static int refuse(const fl_restart *r, fl_err *err, const char *what)
+{
+    return fl_fail(err, FL_INPUT, "%s: %s", r->path, what);
+}
+
+/* Magic and history, by the reader of all other files. */
+static int read_head(fl_restart *r, int64_t n, int64_t *at, fl_err *err)
+{
+    fl_text head = {0};
+    const char *p = r->data;
+    if (fl_text_open_bytes(&head, r->path, r->data, n, err)) return -1;
+    if (fl_text_magic(&head, "checkpoint", FL_RESTART_VERSION, err) == 0) {
+        p = memchr(p, '\n', (size_t)n);
+        while (p && strncmp(p + 1, "#by ", 4) == 0) p = strchr(p + 1, '\n');
+        if (!p) refuse(r, err, "the checkpoint is cut short");
+    }
+    fl_text_close(&head);
+    if (err->code) return -1;
+    const char *first = strchr(r->data, '\n') + 1;
+    r->history = fl_alloc(p - first + 2, 1, err);
+    if (!r->history) return -1;
+    if (p + 1 > first) memcpy(r->history, first, (size_t)(p + 1 - first));
+    *at = p + 1 - r->data;
+    return 0;
+}
+
+/* The last line is "end HASH"; *n becomes the number of bytes before it. */
+static int check_end(const fl_restart *r, int64_t *n, fl_err *err)
+{
+    enum { END = 4 + 16 + 1 };
+    char wanted[END + 1];
+    if (*n < END || r->data[*n - END - 1] != '\n' || strncmp(r->data + *n - END, "end ", 4) != 0)
+        return refuse(r, err, "the checkpoint is cut short: its last line is not \"end HASH\"");
+    *n -= END;
+    snprintf(wanted, sizeof wanted, "end %016" PRIx64 "\n", fl_hash(FL_HASH_START, r->data, *n));
+    if (memcmp(wanted, r->data + *n, END) != 0)
+        return refuse(r, err, "the checkpoint is damaged: its hash is not that of its content");
+    return 0;
+}
+
+static int read_parts(fl_restart *r, int64_t at, int64_t n, fl_err *err)
+{
+    while (at < n) {
+        fl_restart_part *part = &r->part[r->parts];
+        uint64_t bytes;
+        char number[24];
+        int used = 0;
+        if (r->parts == FL_RESTART_PARTS ||
+            sscanf(r->data + at, "part %15s %23[0-9]%n", part->name, number, &used) != 2 ||
+            r->data[at + used] != '\n' || fl_num_u64(number, &bytes))
+            return refuse(r, err,
+                          "a line \"part NAME BYTES\" was wanted between the parts of the checkpoint");
+        at += used + 1;
+        if (at > n || bytes > (uint64_t)(n - at))
+            return refuse(r, err, "a part of the checkpoint is cut short");
+        part->text = r->data + at;
+        part->n = (int64_t)bytes;
+        at += part->n;
+        r->parts++;
+    }
+    return 0;
+}
+
+int fl_restart_read(fl_restart *r, const char *path, fl_err *err)
+{
+    fl_restart got = {.path = path};
+    int64_t n, at;
+    if (slurp(&got, &n, err) || read_head(&got, n, &at, err) || check_end(&got, &n, err) ||
+        read_parts(&got, at, n, err)) {
+        fl_restart_free(&got);
+        return -1;
+    }
+    *r = got;
+    return 0;
+}
+
+void fl_restart_free(fl_restart *r)
+{
+    free(r->data);
+    free(r->history);
+    *r = (fl_restart){0};
+}
+
+const fl_restart_part *fl_restart_find(const fl_restart *r, const char *name)
+{
+    for (int k = 0; k < r->parts; k++)
+        if (strcmp(r->part[k].name, name) == 0) return &r->part[k];
+    return NULL;
+}
+
+int fl_restart_open(const fl_restart *r, const char *name, fl_text *text, fl_err *err)
+{
+    const fl_restart_part *part = fl_restart_find(r, name);
+    if (!part) return fl_fail(err, FL_INPUT, "%s: the checkpoint has no part %s", r->path, name);
+    return fl_text_open_bytes(text, r->path, part->text, part->n, err);
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include <string.h>
+#include "base/mem.h"
+#include "step/pairing.h"
+#include "step/search.h"
+#include "step/snapshot.h"
+
+/* A state on its way out (f) or in (in): one list of members serves both, so that they cannot differ. */
+typedef struct {
+    FILE *f;
+    fl_text *in;
+    fl_err *err;
+} traffic;
+
+static int hex(const char *word, uint64_t *bits)
+{
+    *bits = 0;
+    for (int k = 0; word[k]; k++) {
+        const char c = word[k];
+        const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+        if (digit < 0 || k == 16) return -1;
+        *bits = *bits << 4 | (uint64_t)digit;
+    }
+    return 0;
+}
+
+static void real(traffic *t, double *x)
+{
+    uint64_t bits;
+    const char *word = "";
+    if (t->f) {
+        char text[18], *p = text + sizeof text;
+        memcpy(&bits, x, sizeof bits);
+        *--p = '\0';
+        do *--p = "0123456789abcdef"[bits & 15];
+        while (bits >>= 4);
+        *--p = ' ';
+        fputs(p, t->f);
+        return;
+    }
+    if (t->err->code || fl_text_word(t->in, "number", &word, t->err)) return;
+    if (hex(word, &bits))
+        fl_text_fail(t->in, t->err, "\"%.40s\" found, the digits of a double were wanted", word);
+    else memcpy(x, &bits, sizeof bits);
+    if (isnan(*x)) fl_text_fail(t->in, t->err, "not a number");
+}
+
+static void whole(traffic *t, int32_t lo, int32_t hi, int32_t *x)
+{
+    if (t->f) fprintf(t->f, " %" PRId32, *x);
+    else if (!t->err->code) fl_text_i32(t->in, "whole number", lo, hi, x, t->err);
+}
+
+static void count(traffic *t, int64_t *x)
+{
+    const char *word = "";
+    char *end;
+    if (t->f) {
+        fprintf(t->f, " %" PRId64, *x);
+        return;
+    }
+    if (t->err->code || fl_text_word(t->in, "count", &word, t->err)) return;
+    const long long n = strtoll(word, &end, 10);
+    if (*end || n < -1 || n > INT64_C(1) << 62)
+        fl_text_fail(t->in, t->err, "\"%.40s\" found, a count was wanted", word);
+    else *x = n;
+}
+
+static void vec3(traffic *t, fl_vec3 *x)
+{
+    real(t, &x->x);
+    real(t, &x->y);
+    real(t, &x->z);
+}
+
+static void open_row(traffic *t, const char *name)
+{
+    const char *word = "";
+    if (t->f) {
+        fputs(name, t->f);
+        return;
+    }
+    if (t->err->code) return;
+    const int more = fl_text_row(t->in, t->err);
+    if (more < 0) return;
+    if (!more) fl_text_fail(t->in, t->err, "the state ends early, %s was wanted", name);
+    else if (fl_text_word(t->in, "name of the row", &word, t->err) == 0 && strcmp(word, name) != 0)
+        fl_text_fail(t->in, t->err, "\"%.40s\" found, %s was wanted", word, name);
+}
+
+static void close_row(traffic *t)
+{
+    if (t->f) putc('\n', t->f);
+    else if (!t->err->code) fl_text_end(t->in, t->err);
+}
+
+/* --- the rows ---------------------------------------------------------------------------------- */
+
+static void books(traffic *t, fl_world *w)
+{
+    fl_ledger *g = &w->ledger;
+    open_row(t, "books");
+    real(t, &g->start);
+    real(t, &g->residual);
+    real(t, &g->throughput);
+    real(t, &g->friction);
+    real(t, &g->damping);
+    real(t, &g->drive);
+    vec3(t, &w->imbalance);
+    real(t, &w->impulse_size);
+    real(t, &w->worst_overlap);
+    whole(t, -1, w->n - 1, &w->worst_i);
+    whole(t, -1, w->b.total - 1, &w->worst_j);
+    count(t, &w->touching_steps);
+    count(t, &w->searches);
+    count(t, &w->deep_pairs);
+    count(t, &w->deep_count.asked);
+    count(t, &w->deep_count.none);
+    count(t, &w->deep_count.poor);
+    count(t, &w->deep_count.capped);
+    close_row(t);
+}
+
+static void body(traffic *t, fl_world *w, int32_t k)
+{
+    fl_bodies *b = &w->b;
+    open_row(t, "body");
+    vec3(t, &b->x[k]);
+    vec3(t, &b->v[k]);
+    vec3(t, &b->L[k]);
+    real(t, &b->q[k].w);
+    real(t, &b->q[k].x);
+    real(t, &b->q[k].y);
+    real(t, &b->q[k].z);
+    vec3(t, &b->w[k]); /* to the last bit not always what L and q give */
+    vec3(t, &b->f[k]);
+    vec3(t, &b->t[k]);
+    real(t, &b->held[k]);
+    real(t, &b->odometer[k]);
+    real(t, &w->odometer_found[k]);
+    close_row(t);
+    if (t->in) b->R[k] = q_matrix(b->q[k]);
+}
+
+static void sea(traffic *t, fl_sea *s, int32_t i)
+{
+    open_row(t, "sea");
+    real(t, &s->wetted[i]);
+    real(t, &s->lift[i]);
+    real(t, &s->energy[i]);
+    real(t, &s->drained[i]);
+    real(t, &s->blown[i]);
+    close_row(t);
+}
+
+/* What a pair remembers of its past. */
+static void memory(traffic *t, fl_pair *p)
+{
+    int32_t mode = (int32_t)p->mode;
+    whole(t, FL_MODE_NONE, FL_FF, &mode);
+    p->mode = (fl_mode)mode;
+    whole(t, 0, 1, &p->deep);
+    whole(t, 0, 1, &p->has_axis);
+    vec3(t, &p->axis);
+    whole(t, 0, 4, &p->cache.n);
+    for (int k = 0; k < p->cache.n && !t->err->code; k++) {
+        whole(t, 0, INT32_MAX, &p->cache.a[k]);
+        whole(t, 0, INT32_MAX, &p->cache.b[k]);
+    }
+    real(t, &p->asleep);
+    real(t, &p->touch);
+    real(t, &p->damped);
+    real(t, &p->rubbed);
+    vec3(t, &p->slip.force);
+    real(t, &p->slip.k);
+    real(t, &p->slip.moment);
+    real(t, &p->slip.k_turn);
+}
+
+/* What its last evaluation found. */
+static void forces(traffic *t, fl_pair *p)
+{
+    fl_vec3 *const all[] = {&p->f, &p->ti, &p->tj, &p->fd, &p->di, &p->dj, &p->fs, &p->si, &p->sj};
+    for (int k = 0; k < 9; k++) vec3(t, all[k]);
+    real(t, &p->energy);
+    real(t, &p->spring);
+    real(t, &p->overlap);
+    real(t, &p->stiff_i);
+    real(t, &p->stiff_j);
+}
+
+static void pair(traffic *t, fl_world *w, int32_t c)
+{
+    fl_pair *p = &w->pair[c];
+    int32_t i = p->i, j = p->j;
+    open_row(t, "pair");
+    whole(t, 0, w->n - 1, &i);
+    whole(t, 0, w->b.total - 1, &j);
+    if (t->in) {
+        const fl_pair *q = c > 0 ? p - 1 : NULL;
+        if (t->err->code) return;
+        if (i >= j || (q && (q->i > i || (q->i == i && q->j >= j)))) {
+            fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in rising order were wanted", i, j);
+            return;
+        }
+        fl_pair_start(w, p, i, j);
+    }
+    whole(t, 0, 1, &p->n);
+    memory(t, p);
+    if (p->n) forces(t, p);
+    close_row(t);
+}
+
+/* Everything but the pairs, whose number the first row tells. */
+static int32_t all_but_pairs(traffic *t, fl_world *w)
+{
+    int32_t parts = w->parts, total = w->b.total, n_sea = w->sea.n, pairs = w->n_pair;
+    open_row(t, "world");
+    count(t, &w->step);
+    count(t, &w->found_at);
+    real(t, &w->dt);
+    real(t, &w->skin);
+    real(t, &w->dt_critical);
+    whole(t, -1, w->n - 1, &w->critical_body);
+    real(t, &w->dt_safe);
+    whole(t, w->parts, w->parts, &parts);
+    whole(t, w->b.total, w->b.total, &total);
+    whole(t, w->sea.n, w->sea.n, &n_sea);
+    whole(t, 0, INT32_MAX, &pairs);
+    close_row(t);
+    if (t->in && !t->err->code && !(w->step >= 0 && w->dt > 0.0 && isfinite(w->dt) && w->skin >= 0.0))
+        fl_text_fail(t->in, t->err, "step %g of %g s is no state of a run", (double)w->step, w->dt);
+    books(t, w);
+    for (int32_t p = 0; p < w->parts && !t->err->code; p++) {
+        open_row(t, "part");
+        vec3(t, &w->part_impulse[p]);
+        vec3(t, &w->part_moment[p]);
+        real(t, &w->part_peak[p]);
+        close_row(t);
+    }
+    for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
+    for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) sea(t, &w->sea, i);
+    return pairs;
+}
+
+void fl_snapshot_write(FILE *f, fl_world *w)
+{
+    fl_err none = {0};
+    traffic t = {.f = f, .err = &none};
+    all_but_pairs(&t, w);
+    for (int32_t c = 0; c < w->n_pair; c++) pair(&t, w, c);
+}
+
+int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
+{
+    traffic t = {.in = in, .err = err};
+    const int32_t pairs = all_but_pairs(&t, w);
+    int32_t cap = 0;
+    free(w->pair);
+    w->pair = NULL;
+    w->n_pair = 0;
+    /* The number is a hint: room comes as rows do. */
+    for (int32_t c = 0; c < pairs && !err->code; c++) {
+        if (fl_grow(&w->pair, &cap, (int64_t)c + 1, sizeof *w->pair, err)) return -1;
+        w->pair[c] = (fl_pair){0};
+        pair(&t, w, c);
+        w->n_pair = c + 1;
+    }
+    if (err->code) return -1;
+    const int more = fl_text_row(in, err);
+    if (more > 0) fl_text_fail(in, err, "\"%.40s\" behind the last pair was not expected", in->field[0]);
+    if (more) return -1;
+    return fl_search_index(w, err);
+}

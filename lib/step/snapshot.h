@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* snapshot.h -- the state of a world as text, and back: a world that goes on from it makes the steps that the
+ * first would have made, to the bit.
+ *
+ * Held is what steps change: bodies, pairs with what friction, damping and the searches remember, water,
+ * books, and the loads of the interval under way.  What follows from scene, ice and structure is not: the
+ * world that reads has been made from the same ones.  Doubles are the 16 hexadecimal digits of their bits,
+ * leading zeros left out, so that every bit survives, on any machine.  Rows:
+ *     world     step found_at dt skin dt_critical critical_body dt_safe parts total sea pairs
+ *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
+ *     part ...  impulse, moment and peak of the loads interval
+ *     body ...  x v L q w f t held odometer, odometer at the last search
+ *     sea ...   wetted lift energy drained blown
+ *     pair ...  i j, memory, and for a pair that touches its forces */
+#ifndef FL_STEP_SNAPSHOT_H
+#define FL_STEP_SNAPSHOT_H
+#include <stdio.h>
+#include "base/text.h"
+#include "step/world.h"
+
+/* Write the state between two steps.  Changes nothing; write errors stay in f. */
+void fl_snapshot_write(FILE *f, fl_world *w);
+
+/* Read it into a world that fl_world_make() built from the same scene, ice and structure; fl_step() goes on,
+ * without fl_step_start().  -1 with FL_INPUT (w is then good for fl_world_free() alone) or FL_SYSTEM. */
+int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err);
+
+#endif

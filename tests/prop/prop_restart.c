@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stopping and going on: a world put back from its snapshot makes the steps of the one that never stopped. */
+#define _GNU_SOURCE /* open_memstream */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "support/near.h"
+#include "step/snapshot.h"
+#include "support/scenes.h"
+
+static char *snapshot(fl_world *w, size_t *n)
+{
+    char *text = NULL;
+    FILE *f = open_memstream(&text, n);
+    assert_non_null(f);
+    fl_snapshot_write(f, w);
+    assert_int_equal(fclose(f), 0);
+    return text;
+}
+
+static int put_back(fl_world *w, const char *text, size_t n, fl_err *err)
+{
+    fl_text in = {0};
+    assert_int_equal(fl_text_open_bytes(&in, "snapshot", text, (int64_t)n, err), 0);
+    const int rc = fl_snapshot_read(w, &in, err);
+    fl_text_close(&in);
+    return rc;
+}
+
+/* Everything that is stored, ledger and history with it, is the same in both. */
+static void same(fl_world *a, fl_world *b, const char *law, int64_t at)
+{
+    size_t na = 0, nb = 0;
+    fl_step_ledger(a);
+    fl_step_ledger(b);
+    char *ta = snapshot(a, &na), *tb = snapshot(b, &nb);
+    if (na != nb || memcmp(ta, tb, na) != 0)
+        print_error("law %s, stopped after %lld steps\n", law, (long long)at);
+    assert_int_equal(na, nb);
+    assert_memory_equal(ta, tb, na);
+    assert_true(fl_step_hash(a) == fl_step_hash(b));
+    free(ta);
+    free(tb);
+}
+
+static void any_step_is_a_place_to_stop(void **state)
+{
+    static const char *const LAW[] = {"patch", "core", "manual", "manual-si"};
+    (void)state;
+    for (int law = 0; law < 4; law++) {
+        lab whole;
+        int64_t pairs = 0;
+        scene_of_everything(&whole, 3, LAW[law]);
+        lab_make(&whole, 0);
+        for (int64_t at = 0; at < 300; at += 1 + at / 8) {
+            /* from here on in a second world, which has just been made, and in the first */
+            lab l;
+            fl_err err = {0};
+            size_t n = 0;
+            scene_of_everything(&l, 3, LAW[law]);
+            lab_set(&l, "run.threads=2");
+            lab_make(&l, 0);
+            while (whole.w.step < at) assert_int_equal(lab_run(&whole, 1), 0);
+            char *text = snapshot(&whole.w, &n);
+            assert_int_equal(put_back(&l.w, text, n, &err), 0);
+            free(text);
+            same(&whole.w, &l.w, LAW[law], at);
+            const int64_t further = 1 + at % 40;
+            assert_int_equal(lab_run(&whole, further), 0);
+            assert_int_equal(lab_run(&l, further), 0);
+            same(&whole.w, &l.w, LAW[law], at);
+            pairs = whole.w.touching_steps;
+            lab_free(&l);
+        }
+        assert_true(pairs > 3000 && whole.w.searches >= 2);
+        lab_free(&whole);
+    }
+}
+
+static void what_is_no_state_is_refused(void **state)
+{
+    static const struct {
+        const char *of, *from, *to;
+    } wrong[] = {{"cut short", NULL, NULL},
+                 {"another size", "world 5", "world x"},
+                 {"a row is missing", "books ", "book "},
+                 {"not hexadecimal", "body ", "body g"},
+                 {"a double of 17 digits", "body ", "body 3333333333333333"},
+                 {"not a number", "body ", "body 7ff8000000000000 "},
+                 {"pairs that fall", "pair 2 ", "pair 0 "},
+                 {"an index too large", "pair 2 ", "pair 99 "}};
+    lab l;
+    size_t n = 0;
+    (void)state;
+    scene_of_everything(&l, 2, NULL);
+    lab_make(&l, 0);
+    assert_int_equal(lab_run(&l, 5), 0);
+    char *good = snapshot(&l.w, &n);
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char *bad = calloc(n + 64, 1);
+        fl_err err = {0};
+        assert_non_null(bad);
+        memcpy(bad, good, n);
+        if (wrong[k].from) {
+            char *p = strstr(bad, wrong[k].from);
+            if (!p) print_error("%s\n", wrong[k].of);
+            assert_non_null(p);
+            const size_t a = strlen(wrong[k].from), b = strlen(wrong[k].to);
+            memmove(p + b, p + a, n + 63 - (size_t)(p - bad) - (a > b ? a : b));
+            memcpy(p, wrong[k].to, b);
+        } else {
+            bad[n / 2] = '\0';
+        }
+        lab into;
+        scene_of_everything(&into, 2, NULL);
+        lab_make(&into, 0);
+        assert_int_equal(put_back(&into.w, bad, strlen(bad), &err), -1);
+        assert_int_equal(err.code, FL_INPUT);
+        assert_non_null(strstr(err.text, "snapshot:"));
+        lab_free(&into);
+        free(bad);
+    }
+    lab other; /* a world of another size */
+    fl_err err = {0};
+    scene_of_everything(&other, 3, NULL);
+    lab_make(&other, 0);
+    assert_int_equal(put_back(&other.w, good, n, &err), -1);
+    lab_free(&other);
+    free(good);
+    lab_free(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(any_step_is_a_place_to_stop),
+                                       cmocka_unit_test(what_is_no_state_is_refused)};
+    return cmocka_run_group_tests_name("restart", tests, NULL, NULL);
+}

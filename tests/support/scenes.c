@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <stdlib.h>
+#include "base/rng.h"
+#include "support/scenes.h"
+#include "support/shapes.h"
+
+static fl_vec3 normal3(fl_rng *g)
+{
+    fl_vec3 x;
+    x.x = fl_rng_normal(g);
+    x.y = fl_rng_normal(g);
+    x.z = fl_rng_normal(g);
+    return x;
+}
+
+static void put(lab *l, int32_t side, int32_t k)
+{
+    static const char *const GROUP[] = {NULL, NULL,    NULL, NULL, "towed", NULL,
+                                        NULL, "stiff", NULL, NULL, NULL};
+    fl_rng g = fl_rng_of(5, k, FL_RNG_TEST);
+    fl_err err = {0};
+    fl_poly p = {0};
+    const double middle = 0.5 * (side - 1), r = k % 5 == 0 ? 0.45 : 0.05;
+    const fl_vec3 cell = v3(k % side - middle, k / side % side - middle, k / (side * side) - middle);
+    const fl_vec3 v = normal3(&g), w = normal3(&g), turn = normal3(&g);
+    const fl_vec3 end[2] = {v3(-0.4, 0, 0), v3(0.4, 0, 0)};
+    int bad = 0;
+    switch (k % 5) {
+    case 0: bad = fl_poly_make(&p, 1, end, 0, NULL, NULL, &err); break;
+    case 1: bad = fl_poly_make(&p, 2, end, 0, NULL, NULL, &err); break;
+    case 2: shape_regular(&p, 8, 0.5); break;
+    default: bad = fl_poly_box(&p, v3(fl_rng_in(&g, 0.36, 0.42), fl_rng_in(&g, 0.36, 0.42), 0.42), &err);
+    }
+    shape_move(&p, q_of_vector(v3_scale(0.05, turn)), cell);
+    if (bad || fl_field_add(&l->field, k + 1, r, &p, NULL, GROUP[k % 11],
+                            v3_add(v3_scale(0.3, v), v3_scale(-0.3, cell)), v3_scale(0.3, w), &err)) {
+        printf("scene_of_everything: %s\n", err.text);
+        exit(1);
+    }
+}
+
+void scene_of_everything(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"material.ice.young=1 MPa",     "contact.friction=0.3",
+                                       "contact.restitution=0.4",      "run.gravity=9.81",
+                                       "water.current=0.5 0.1 0",      "wind.velocity=8 0 0",
+                                       "structure.velocity=0.2 0 0",   "group.towed.fixed=x ry",
+                                       "group.towed.velocity=0.3 0 0", "group.stiff.fixed=rx rz"};
+    const double half = 0.5 * side + 0.05, top = half + 0.02;
+    const fl_vec3 hook[6] = {v3(-half, 0.3, 0), v3(-0.5, 0.3, 0), v3(-0.5, half, 0),
+                             v3(-0.9, half, 0), v3(-0.9, 0.7, 0), v3(-half, 0.7, 0)};
+    lab_start(l);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    lab_setf(l, "boundary.min=%.17g %.17g %.17g", -half, -half, -half);
+    lab_setf(l, "boundary.max=%.17g %.17g none", half, half);
+    lab_wall(l, v3(-0.4, -0.9, half - 0.1), v3(0.4, -0.1, half + 1.0), 2);
+    lab_cone(l, (fl_cone){v3(half - 0.7, half - 0.7, half - 0.1), v3(half - 0.7, half - 0.7, top + 1.0), 0.5,
+                          0.3});
+    lab_prism(l, 6, hook, half - 0.1, top + 0.5); /* not convex: a shell */
+    for (int32_t k = 0; k < side * side * side; k++) put(l, side, k);
+}

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* scenes.h -- a scene that has something of everything: all shapes of bodies, held and driven ones, every
+ * kind of structure, walls, water, wind, friction and restitution. */
+#ifndef FL_TESTS_SCENES_H
+#define FL_TESTS_SCENES_H
+#include "support/lab.h"
+
+/* side^3 bodies in a heap that meet one another from the start; law NULL: patch, each other law where the
+ * bodies are polyhedra.  Keys may still be set; then lab_make(). */
+void scene_of_everything(lab *l, int32_t side, const char *law);
+
+#endif
