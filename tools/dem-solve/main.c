@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dem-solve: a scene in, the load on the structure out. */
+#include <signal.h>
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
 #include "base/stream.h"
 #include "options.h"
 #include "run.h"
+#include "save.h"
 #include "scene/field.h"
 #include "mesh/gstruct.h"
 #include "scene/scene_check.h"
@@ -59,7 +61,7 @@ static int act(struct run *r, fl_err *err)
 {
     fl_out out = {0};
     if (r->o->plan || r->o->probe >= 0.0) {
-        if (fl_out_open(&out, r->o->out, r->o->gzip, err)) return -1;
+        if (fl_out_open(&out, r->out, r->gzip, err)) return -1;
         if (r->o->plan ? look_plan(r, out.f, err) : look_probe(r, out.f, err)) {
             fl_out_abort(&out);
             return -1;
@@ -71,47 +73,107 @@ static int act(struct run *r, fl_err *err)
     return rc;
 }
 
-static int run(const struct options *o, fl_err *err)
-{
-    fl_scene scene = {0};
-    fl_field field = {0};
-    fl_surface surface = {0};
-    fl_world world = {0};
+/* What a run is made from. */
+struct inputs {
+    fl_scene scene;
+    fl_field field;
+    fl_surface surface;
+    fl_restart saved;
+    fl_restart_part kept[2];
+    char *text[2]; /* of kept, where it is owned */
+    char *history;
     fl_by by;
-    char *history = NULL;
+};
+
+static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
+{
+    if (o->resume)
+        return fl_restart_read(&in->saved, o->resume, err) ||
+                       save_inputs(&in->saved, o, &in->scene, &in->field, &in->surface, err) ||
+                       save_history(&in->saved, &in->history, &in->by, err)
+                   ? -1
+                   : 0;
+    if (read_scene(&in->scene, o, err)) return -1;
+    if (o->echo) return 0;
+    if (fl_field_read(&in->field, in->scene.ice.file, err)) return -1;
+    if (in->scene.structure.head.present && in->scene.structure.file[0] &&
+        fl_gstruct_read(&in->surface, in->scene.structure.file, err))
+        return -1;
+    options_by(o, &in->by);
+    return join_history(&in->history, in->field.history, in->surface.history, err);
+}
+
+/* The texts that checkpoints carry on: those of the checkpoint resumed from, or the inputs just read. */
+static int keep_texts(struct inputs *in, const fl_surface *surface, fl_err *err)
+{
+    static const char *const NAME[2] = {"ice", "structure"};
+    if (!in->scene.output.checkpoint[0]) return 0;
+    if (!in->saved.data) {
+        const int rc = save_keep(in->kept, &in->field, surface, &in->by, err);
+        for (int k = 0; k < 2; k++) memcpy(&in->text[k], &in->kept[k].text, sizeof in->text[k]);
+        return rc;
+    }
+    for (int k = 0; k < 2; k++) {
+        const fl_restart_part *part = fl_restart_find(&in->saved, NAME[k]);
+        if (part) in->kept[k] = *part;
+    }
+    return 0;
+}
+
+static int run(const struct options *o, int *stopped, fl_err *err)
+{
+    struct inputs in = {0};
+    fl_world world = {0};
+    char path[FL_SCENE_PATH];
     int rc = -1;
     if (o->explain) return fl_scene_explain(stdout, o->explain, err);
-    if (read_scene(&scene, o, err)) goto done;
+    if (read_inputs(&in, o, err)) goto done;
     if (o->echo) {
-        fl_scene_write(stdout, &scene);
+        fl_scene_write(stdout, &in.scene);
         rc = 0;
         goto done;
     }
-    const int built = scene.structure.head.present && scene.structure.file[0];
-    if (fl_field_read(&field, scene.ice.file, err)) goto done;
-    if (built && fl_gstruct_read(&surface, scene.structure.file, err)) goto done;
-    if (field.n == 0) {
-        fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", scene.ice.file);
+    const fl_surface *surface = in.surface.n ? &in.surface : NULL;
+    if (in.field.n == 0) {
+        fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", in.scene.ice.file);
         goto done;
     }
-    if (fl_world_make(&world, &scene, &field, built ? &surface : NULL, err)) goto done;
-    if (join_history(&history, field.history, surface.history, err)) goto done;
-    fl_field_free(&field);
-    options_by(o, &by);
+    if (fl_world_make(&world, &in.scene, &in.field, surface, err) || keep_texts(&in, surface, err)) goto done;
+    fl_field_free(&in.field);
     struct run r = {.o = o,
-                    .scene = &scene,
-                    .surface = built ? &surface : NULL,
-                    .history = history,
-                    .by = &by,
+                    .scene = &in.scene,
+                    .surface = surface,
+                    .history = in.history,
+                    .by = &in.by,
+                    .saved = o->resume ? &in.saved : NULL,
+                    .kept = in.kept,
+                    .out = o->out ? o->out : "-",
+                    .gzip = o->gzip,
                     .w = &world};
+    if (o->resume && !o->out) {
+        const fl_restart_part *loads = fl_restart_find(&in.saved, "loads");
+        snprintf(path, sizeof path, "%.*s",
+                 loads ? (int)(loads->n < FL_SCENE_PATH ? loads->n : FL_SCENE_PATH) : 1,
+                 loads ? loads->text : "-");
+        r.out = path;
+    }
     run_step_size(&r);
     rc = act(&r, err);
+    *stopped = r.stopped;
+    if (r.stopped && !o->quiet)
+        fprintf(stderr, "dem-solve: stopped by a signal in step %lld (t = %g s)%s%s%s\n",
+                (long long)world.step, (double)world.step * world.dt,
+                in.scene.output.checkpoint[0] ? ", dem-solve --resume " : "", in.scene.output.checkpoint,
+                in.scene.output.checkpoint[0] ? " goes on" : "");
 done:
-    free(history);
+    free(in.text[0]);
+    free(in.text[1]);
+    free(in.history);
+    fl_restart_free(&in.saved);
     fl_world_free(&world);
-    fl_surface_free(&surface);
-    fl_field_free(&field);
-    fl_scene_free(&scene);
+    fl_surface_free(&in.surface);
+    fl_field_free(&in.field);
+    fl_scene_free(&in.scene);
     return rc;
 }
 
@@ -119,8 +181,11 @@ int main(int argc, char **argv)
 {
     struct options o;
     fl_err err = {0};
+    int stopped = 0;
     fl_par_wait_briefly(argv);
     int rc = options_parse(&o, argc, argv, &err);
-    if (rc == 0 && !o.ended) rc = run(&o, &err);
-    return fl_tool_end("dem-solve", rc, &err);
+    if (rc == 0 && !o.ended) rc = run(&o, &stopped, &err);
+    rc = fl_tool_end("dem-solve", rc, &err);
+    if (rc == 0 && stopped) raise(stopped); /* whoever sent it sees that it was heeded */
+    return rc;
 }

@@ -6,6 +6,7 @@
 
 static const char HELP[] =
     "usage: dem-solve [options] SCENE\n"
+    "       dem-solve [options] --resume CHECKPOINT\n"
     "Move ice and water of a scene through time; the load on the structure goes to standard output.\n"
     "SCENE is a scene file, scene(5); - is standard input.\n"
     "\n"
@@ -13,6 +14,7 @@ static const char HELP[] =
     "  -i, --ice FILE          the ice, instead of ice.file; - is standard input\n"
     "  -S, --structure FILE    the structure, instead of structure.file; - is standard input\n"
     "  -o, --output FILE       write the loads there, - is standard output\n"
+    "  -R, --resume FILE       go on with the run whose checkpoint this is\n"
     "  -r, --report FILE       write the closing report there instead of standard error\n"
     "  -e, --explain KEY       what a key of a scene means, its unit and default; all of a section\n"
     "      --echo              print the scene with every default, and stop\n"
@@ -28,15 +30,23 @@ static const char HELP[] =
 
 enum { ECHO = 256, PLAN, PROBE, VERSION };
 
-static const struct option LONG[] = {
-    {"set", required_argument, NULL, 's'},       {"ice", required_argument, NULL, 'i'},
-    {"structure", required_argument, NULL, 'S'}, {"output", required_argument, NULL, 'o'},
-    {"report", required_argument, NULL, 'r'},    {"explain", required_argument, NULL, 'e'},
-    {"echo", no_argument, NULL, ECHO},           {"plan", no_argument, NULL, PLAN},
-    {"probe", required_argument, NULL, PROBE},   {"gzip", no_argument, NULL, 'z'},
-    {"threads", required_argument, NULL, 'j'},   {"quiet", no_argument, NULL, 'q'},
-    {"verbose", no_argument, NULL, 'v'},         {"help", no_argument, NULL, 'h'},
-    {"version", no_argument, NULL, VERSION},     {NULL, 0, NULL, 0}};
+static const struct option LONG[] = {{"set", required_argument, NULL, 's'},
+                                     {"ice", required_argument, NULL, 'i'},
+                                     {"structure", required_argument, NULL, 'S'},
+                                     {"output", required_argument, NULL, 'o'},
+                                     {"resume", required_argument, NULL, 'R'},
+                                     {"report", required_argument, NULL, 'r'},
+                                     {"explain", required_argument, NULL, 'e'},
+                                     {"echo", no_argument, NULL, ECHO},
+                                     {"plan", no_argument, NULL, PLAN},
+                                     {"probe", required_argument, NULL, PROBE},
+                                     {"gzip", no_argument, NULL, 'z'},
+                                     {"threads", required_argument, NULL, 'j'},
+                                     {"quiet", no_argument, NULL, 'q'},
+                                     {"verbose", no_argument, NULL, 'v'},
+                                     {"help", no_argument, NULL, 'h'},
+                                     {"version", no_argument, NULL, VERSION},
+                                     {NULL, 0, NULL, 0}};
 
 static int take(struct options *o, int c, fl_err *err)
 {
@@ -48,6 +58,7 @@ static int take(struct options *o, int c, fl_err *err)
     case 'i': o->ice = optarg; return 0;
     case 'S': o->structure = optarg; return 0;
     case 'o': o->out = optarg; return 0;
+    case 'R': o->resume = optarg; return 0;
     case 'r': o->report = optarg; return 0;
     case 'e': o->explain = optarg; return 0;
     case ECHO: o->echo = 1; return 0;
@@ -79,15 +90,20 @@ static int take(struct options *o, int c, fl_err *err)
 int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
     int c;
-    *o = (struct options){.out = "-", .probe = -1.0};
+    *o = (struct options){.probe = -1.0};
     opterr = 0;
-    while ((c = getopt_long(argc, argv, "s:i:S:o:r:e:zj:qvh", LONG, NULL)) != -1) {
+    while ((c = getopt_long(argc, argv, "s:i:S:o:R:r:e:zj:qvh", LONG, NULL)) != -1) {
         if (take(o, c, err)) return -1;
         if (o->ended) return 0;
     }
     if (optind < argc) o->scene = argv[optind++];
     if (optind < argc) return fl_fail(err, FL_USAGE, "\"%.40s\" is one file too many", argv[optind]);
-    if (!o->scene && !o->explain)
+    if (o->resume && (o->scene || o->ice || o->structure || o->plan || o->probe >= 0.0 || o->gzip))
+        return fl_fail(
+            err, FL_USAGE,
+            "--resume goes on with what its checkpoint holds: no scene, --ice, --structure, --gzip, "
+            "--plan or --probe was wanted");
+    if (!o->scene && !o->explain && !o->resume)
         return fl_fail(err, FL_USAGE, "a scene file is wanted; see dem-solve --help");
     return 0;
 }

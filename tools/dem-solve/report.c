@@ -8,7 +8,8 @@ void report_write(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     const fl_ledger *g = &w->ledger;
-    const double steps = (double)w->step, simulated = steps * w->dt, touches = (double)w->touching_steps;
+    const double steps = (double)w->step, made = steps - (double)r->begun, simulated = made * w->dt,
+                 touches = (double)w->touching_steps;
     const double scale = g->throughput > 0.0 ? g->throughput : 1.0;
     fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
     if (isfinite(w->dt_critical))
@@ -17,12 +18,15 @@ void report_write(const struct run *r, FILE *f)
     else fprintf(f, "step over critical no contact was made\n");
     fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %d thread%s\n", simulated,
             r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, w->threads, w->threads == 1 ? "" : "s");
-    if (w->n && steps > 0.0)
+    if (w->n && made > 0.0)
         fprintf(f,
                 "                   %.0f ns a body-step, %.0f ns a contact-step (%.3g contacts at a time, "
                 "%" PRId64 " searches)\n",
-                1e9 * r->wall / steps / w->n, touches > 0.0 ? 1e9 * r->wall / touches : 0.0, touches / steps,
-                w->searches);
+                1e9 * r->wall / made / w->n, touches > 0.0 ? 1e9 * r->wall / touches * (steps / made) : 0.0,
+                touches / steps, w->searches);
+    if (r->saves)
+        fprintf(f, "checkpoints        %" PRId64 " in %.3g s besides, the last at t = %.6g s\n", r->saves,
+                r->save_wall, steps * w->dt);
     fprintf(f, "energy residual    %.2g of the throughput (%.3g J of %.3g J)\n", fabs(g->residual) / scale,
             g->residual, g->throughput);
     fprintf(f, "momentum residual  %.2g of the contact impulses (%.3g N s of %.3g N s)\n",

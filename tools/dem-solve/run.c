@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
+#include <signal.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
-#include "base/stream.h"
 #include "out/frames.h"
 #include "out/tables.h"
 #include "run.h"
+#include "save.h"
 #include "step/interact.h"
 #include "step/step.h"
 
@@ -24,6 +25,8 @@ int32_t run_partner(const fl_world *w, int32_t j)
     return part >= 0 ? -1 - part : -1 - w->parts - (j - w->n - w->pieces);
 }
 
+void run_steps(struct run *r) { r->steps = (int64_t)ceil(r->scene->run.duration / r->w->dt * (1.0 - 1e-12)); }
+
 void run_step_size(struct run *r)
 {
     const double safety = r->scene->run.safety, every = r->scene->output.loads_every;
@@ -35,80 +38,66 @@ void run_step_size(struct run *r)
         dt = every / ceil(every / dt * (1.0 - 1e-12));
     }
     r->w->dt = dt;
-    r->steps = (int64_t)ceil(r->scene->run.duration / dt * (1.0 - 1e-12));
+    run_steps(r);
 }
 
-/* --- outputs that come at an interval
- * ------------------------------------------------------------------------ */
+/* --- outputs that come at an interval ---------------------------------------------------------- */
 
-/* Row k is due at the first step at or after k every. */
-typedef struct {
-    double every;
-    int64_t k, due;
-} timer;
-
-static void next(timer *t, double dt)
+void run_timer(struct timer *t, int64_t k, double dt)
 {
-    t->k++;
-    t->due = (int64_t)ceil((double)t->k * t->every / dt * (1.0 - 1e-12));
+    t->k = k;
+    t->due = (int64_t)ceil((double)k * t->every / dt * (1.0 - 1e-12));
 }
 
-static timer timer_of(double every, double dt, int from_zero)
-{
-    timer t = {every, 0, 0};
-    if (!from_zero) next(&t, dt);
-    return t;
-}
+static void next(struct outputs *u, int k, double dt) { run_timer(&u->at[k], u->at[k].k + 1, dt); }
 
-typedef struct {
-    fl_out loads, state, energy, contacts, frames;
-    timer at_loads, at_state, at_energy, at_contacts, at_frames, at_ice;
-    int32_t frame_file; /* number of the one that is open */
-    double last_row;    /* [s] */
-} outputs;
-
-static int open_table(fl_out *out, const char *path, fl_err *err)
+void run_frames_path(const struct run *r, const struct outputs *u, char path[FL_SCENE_PATH + 16])
 {
-    return path[0] ? fl_out_open(out, path, 0, err) : 0;
-}
-
-/* File k of the frames: the name itself, or NAME.k when there are several. */
-static int open_frames(struct run *r, outputs *u, fl_err *err)
-{
-    char path[FL_SCENE_PATH + 16];
     const fl_scene_output *s = &r->scene->output;
-    if (!s->frames[0]) return 0;
-    if (s->files > 1) snprintf(path, sizeof path, "%s.%d", s->frames, u->frame_file);
-    else snprintf(path, sizeof path, "%s", s->frames);
-    if (fl_out_open(&u->frames, path, 0, err)) return -1;
-    fl_frames_header(u->frames.f, r->history, r->by, &r->w->b, r->w->id, r->w->q0, r->surface);
+    if (s->files > 1 && s->frames[0]) snprintf(path, FL_SCENE_PATH + 16, "%s.%d", s->frames, u->frame_file);
+    else snprintf(path, FL_SCENE_PATH + 16, "%s", s->frames);
+}
+
+void run_header(struct run *r, struct outputs *u, int k)
+{
+    FILE *f = u->table[k].f;
+    switch (k) {
+    case AT_LOADS: fl_loads_header(f, r->history, r->by); break;
+    case AT_STATE: fl_state_header(f, r->history, r->by); break;
+    case AT_ENERGY: fl_rows_header(f, "energy", r->history, r->by, FL_ENERGY_COLUMNS); break;
+    case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
+    default: fl_frames_header(f, r->history, r->by, &r->w->b, r->w->id, r->w->q0, r->surface);
+    }
+}
+
+static int open_table(struct run *r, struct outputs *u, int k, const char *path, fl_err *err)
+{
+    return path[0] ? fl_out_open(&u->table[k], path, k == AT_LOADS ? r->gzip : 0, err) : 0;
+}
+
+static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
+{
+    const fl_scene_output *s = &r->scene->output;
+    const double every[TIMERS] = {s->loads_every,  s->state_every, s->energy_every,    s->contacts_every,
+                                  s->frames_every, s->ice_every,   s->checkpoint_every};
+    char frames[FL_SCENE_PATH + 16];
+    run_frames_path(r, u, frames);
+    const char *const path[TABLES] = {r->out, s->state, s->energy, s->contacts, frames};
+    for (int k = 0; k < TABLES; k++)
+        if (open_table(r, u, k, path[k], err)) return -1;
+    for (int k = 0; k < TABLES; k++)
+        if (u->table[k].f) run_header(r, u, k);
+    for (int k = 0; k < TIMERS; k++) {
+        u->at[k].every = every[k];
+        run_timer(&u->at[k], k == AT_LOADS || k == AT_SAVE, r->w->dt);
+    }
     return 0;
 }
 
-static int open_outputs(struct run *r, outputs *u, fl_err *err)
-{
-    const fl_scene_output *s = &r->scene->output;
-    const double dt = r->w->dt;
-    if (fl_out_open(&u->loads, r->o->out, r->o->gzip, err) || open_table(&u->state, s->state, err) ||
-        open_table(&u->energy, s->energy, err) || open_table(&u->contacts, s->contacts, err) ||
-        open_frames(r, u, err))
-        return -1;
-    fl_loads_header(u->loads.f, r->history, r->by);
-    if (u->state.f) fl_state_header(u->state.f, r->history, r->by);
-    if (u->energy.f) fl_rows_header(u->energy.f, "energy", r->history, r->by, FL_ENERGY_COLUMNS);
-    if (u->contacts.f) fl_contacts_header(u->contacts.f, r->history, r->by);
-    u->at_loads = timer_of(s->loads_every, dt, 0);
-    u->at_state = timer_of(s->state_every, dt, 1);
-    u->at_energy = timer_of(s->energy_every, dt, 1);
-    u->at_contacts = timer_of(s->contacts_every, dt, 1);
-    u->at_frames = timer_of(s->frames_every, dt, 1);
-    u->at_ice = timer_of(s->ice_every, dt, 1);
-    return 0;
-}
-
-static int write_loads(struct run *r, outputs *u, double t, fl_err *err)
+static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
 {
     fl_world *w = r->w;
+    fl_out *loads = &u->table[AT_LOADS];
     const double length = t - u->last_row;
     for (int32_t p = 0; p < w->parts; p++) {
         int32_t touching = 0;
@@ -118,17 +107,17 @@ static int write_loads(struct run *r, outputs *u, double t, fl_err *err)
             for (int64_t c = w->inc_first[j]; c < w->inc_first[j + 1]; c++)
                 touching += w->pair[w->inc[c]].n > 0;
         }
-        fl_loads_row(u->loads.f, t, r->surface->part[p].name, v3_scale(1.0 / length, w->part_impulse[p]),
+        fl_loads_row(loads->f, t, r->surface->part[p].name, v3_scale(1.0 / length, w->part_impulse[p]),
                      v3_scale(1.0 / length, w->part_moment[p]), w->part_peak[p], touching);
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }
     u->last_row = t;
-    if (fflush(u->loads.f) == 0 && !ferror(u->loads.f)) return 0;
-    return fl_fail(err, FL_SYSTEM, "%s: %s", u->loads.path ? u->loads.path : "<stdout>", strerror(errno));
+    if (fflush(loads->f) == 0 && !ferror(loads->f)) return 0;
+    return fl_fail(err, FL_SYSTEM, "%s: %s", loads->path ? loads->path : "<stdout>", strerror(errno));
 }
 
-static void write_contacts(struct run *r, outputs *u, double t)
+static void write_contacts(struct run *r, struct outputs *u, double t)
 {
     fl_world *w = r->w;
     for (int32_t c = 0; c < w->n_pair; c++) {
@@ -136,80 +125,115 @@ static void write_contacts(struct run *r, outputs *u, double t)
         fl_contact k;
         if (p->n == 0 || !fl_interact_probe(w, p->i, p->j, 0.0, &k)) continue;
         const double normal = v3_dot(p->f, k.n);
-        fl_contacts_row(u->contacts.f, t, w->id[p->i], run_partner(w, p->j), &k, normal,
+        fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], run_partner(w, p->j), &k, normal,
                         v3_madd(p->f, -normal, k.n));
     }
 }
 
-static void write_energy(struct run *r, outputs *u, double t)
+static void write_energy(struct run *r, struct outputs *u, double t)
 {
     const fl_ledger *g = &r->w->ledger;
     fl_step_ledger(r->w);
     const double row[] = {
         t,       g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
         g->drag, g->wind,    g->drive_now, g->residual};
-    fl_rows_row(u->energy.f, (int)(sizeof row / sizeof *row), row);
+    fl_rows_row(u->table[AT_ENERGY].f, (int)(sizeof row / sizeof *row), row);
 }
 
-static int write_frames(struct run *r, outputs *u, double t, fl_err *err)
+static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
-    const int64_t step = r->w->step;
-    const int ice = step >= u->at_ice.due;
+    const int ice = r->w->step >= u->at[AT_ICE].due;
     const int32_t file =
         s->files > 1 ? (int32_t)fmin(s->files - 1, floor(t / s->until * s->files * (1 + 1e-12))) : 0;
     if (t > s->until * (1.0 + 1e-12)) return 0;
     if (file != u->frame_file) {
-        if (fl_out_close(&u->frames, err)) return -1;
+        char path[FL_SCENE_PATH + 16];
+        if (fl_out_close(&u->table[AT_FRAMES], err)) return -1;
         u->frame_file = file;
-        if (open_frames(r, u, err)) return -1;
+        run_frames_path(r, u, path);
+        if (open_table(r, u, AT_FRAMES, path, err)) return -1;
+        run_header(r, u, AT_FRAMES);
     }
-    fl_frames_frame(u->frames.f, t, &r->w->b, r->w->id, r->w->q0, v3_scale(t, r->scene->structure.velocity),
-                    ice);
-    if (ice) next(&u->at_ice, r->w->dt);
+    fl_frames_frame(u->table[AT_FRAMES].f, t, &r->w->b, r->w->id, r->w->q0,
+                    v3_scale(t, r->scene->structure.velocity), ice);
+    if (ice) next(u, AT_ICE, r->w->dt);
     return 0;
 }
 
-/* What is due at this step; at the end the last interval of the loads may be shorter than the others. */
-static int write_due(struct run *r, outputs *u, fl_err *err)
+static double time_of(const struct run *r) { return (double)r->w->step * r->w->dt; }
+
+/* What is due at this step. */
+static int write_due(struct run *r, struct outputs *u, fl_err *err)
 {
-    const fl_world *w = r->w;
-    const double t = (double)w->step * w->dt;
-    if (w->step > 0 && (w->step >= u->at_loads.due || (w->step == r->steps && t > u->last_row))) {
-        if (write_loads(r, u, t, err)) return -1;
-        next(&u->at_loads, w->dt);
-    }
-    if (u->state.f && w->step >= u->at_state.due) {
-        fl_state_rows(u->state.f, t, &w->b, w->id, w->q0);
-        next(&u->at_state, w->dt);
-    }
-    if (u->energy.f && w->step >= u->at_energy.due) {
-        write_energy(r, u, t);
-        next(&u->at_energy, w->dt);
-    }
-    if (u->contacts.f && w->step >= u->at_contacts.due) {
-        write_contacts(r, u, t);
-        next(&u->at_contacts, w->dt);
-    }
-    if (u->frames.f && w->step >= u->at_frames.due) {
-        if (write_frames(r, u, t, err)) return -1;
-        next(&u->at_frames, w->dt);
+    const double t = time_of(r);
+    for (int k = 0; k < TABLES; k++) {
+        if (!u->table[k].f || r->w->step < u->at[k].due) continue;
+        switch (k) {
+        case AT_LOADS:
+            if (write_loads(r, u, t, err)) return -1;
+            break;
+        case AT_STATE: fl_state_rows(u->table[k].f, t, &r->w->b, r->w->id, r->w->q0); break;
+        case AT_ENERGY: write_energy(r, u, t); break;
+        case AT_CONTACTS: write_contacts(r, u, t); break;
+        default:
+            if (write_frames(r, u, t, err)) return -1;
+        }
+        next(u, k, r->w->dt);
     }
     return 0;
 }
 
-static int close_outputs(outputs *u, fl_err *err)
+static int close_outputs(struct outputs *u, fl_err *err)
 {
-    fl_out *all[] = {&u->loads, &u->state, &u->energy, &u->contacts, &u->frames};
     int rc = 0;
-    for (int k = 0; k < 5; k++) rc |= fl_out_close(all[k], err);
+    for (int k = 0; k < TABLES; k++) rc |= fl_out_close(&u->table[k], err);
     return rc;
 }
 
-static void abort_outputs(outputs *u)
+/* --- signals ----------------------------------------------------------------------------------- */
+
+static volatile sig_atomic_t told_to_stop, told_to_save;
+
+static void on_signal(int number)
 {
-    fl_out_abort(&u->loads), fl_out_abort(&u->state), fl_out_abort(&u->energy);
-    fl_out_abort(&u->contacts), fl_out_abort(&u->frames);
+    if (number == SIGUSR1) told_to_save = 1;
+    else told_to_stop = number;
+}
+
+/* SIGTERM, SIGINT and SIGHUP end the run after the step under way; a second one ends it at once. */
+static void listen_to_signals(const struct run *r)
+{
+    static const int STOP[] = {SIGTERM, SIGINT, SIGHUP};
+    struct sigaction act = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, was;
+    if (r->scene->output.checkpoint[0]) sigaction(SIGUSR1, &act, NULL);
+    act.sa_flags |= (int)SA_RESETHAND;
+    for (size_t k = 0; k < sizeof STOP / sizeof *STOP; k++)
+        if (sigaction(STOP[k], NULL, &was) == 0 && was.sa_handler != SIG_IGN) sigaction(STOP[k], &act, NULL);
+}
+
+/* A checkpoint where the interval, a signal or the end of the run asks for one. */
+static int save_due(struct run *r, struct outputs *u, int last, fl_err *err)
+{
+    if (!r->scene->output.checkpoint[0]) return 0;
+    const int due = r->w->step >= u->at[AT_SAVE].due;
+    if (!due && !told_to_save && !told_to_stop && !last) return 0;
+    if (r->saves && r->saved_at == r->w->step) return 0;
+    told_to_save = 0;
+    while (r->w->step >= u->at[AT_SAVE].due) next(u, AT_SAVE, r->w->dt);
+    return save_write(r, u, err);
+}
+
+/* The step that fails may leave a state that is whole, when it only is too long for the contacts there are.
+ */
+static int whole_state(const fl_world *w)
+{
+    for (int32_t i = 0; i < w->n; i++) {
+        const fl_vec3 all[] = {w->b.x[i], w->b.v[i], w->b.L[i], w->b.f[i], w->b.t[i]};
+        for (int k = 0; k < 5; k++)
+            if (!isfinite(all[k].x) || !isfinite(all[k].y) || !isfinite(all[k].z)) return 0;
+    }
+    return 1;
 }
 
 static void progress(const struct run *r, double begun, int last)
@@ -239,33 +263,49 @@ static void warn_overlaps(const struct run *r)
             run_partner(w, w->pair[first].j));
 }
 
-int run_scene(struct run *r, fl_err *err)
+static int run_steps_of(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
-    outputs u = {0};
     fl_world *w = r->w;
-    const int show = r->o->verbose || (!r->o->quiet && isatty(STDERR_FILENO));
-    double begun, shown;
-    int rc = -1;
-    if (open_outputs(r, &u, err)) {
-        abort_outputs(&u);
-        return -1;
+    double shown = begun;
+    if (!r->saved) {
+        if (fl_step_start(w, err)) return -1;
+        warn_overlaps(r);
+        if (write_due(r, u, err)) return -1;
     }
-    begun = shown = run_clock();
-    if (fl_step_start(w, err)) goto done;
-    warn_overlaps(r);
-    if (write_due(r, &u, err)) goto done;
-    while (w->step < r->steps) {
-        if (fl_step(w, err) || write_due(r, &u, err)) goto done;
+    while (w->step < r->steps && !told_to_stop) {
+        if (fl_step(w, err) || write_due(r, u, err) || save_due(r, u, 0, err)) return -1;
         if (show && w->step % 64 == 0) {
             const double now = run_clock();
             if (now - shown >= 0.5) progress(r, begun, 0), shown = now;
         }
     }
-    rc = 0;
-done:
-    r->wall = run_clock() - begun;
+    r->stopped = w->step < r->steps ? told_to_stop : 0;
+    if (r->stopped) return 0; /* save_due() has seen to it, or there is nothing to save to */
+    /* The last interval of the loads may be shorter than the others.  A longer run would not end it here, so
+     * what can be gone on from comes before. */
+    if (save_due(r, u, 1, err)) return -1;
+    return time_of(r) > u->last_row ? write_loads(r, u, time_of(r), err) : 0;
+}
+
+int run_scene(struct run *r, fl_err *err)
+{
+    struct outputs u = {0};
+    const int show = r->o->verbose || (!r->o->quiet && isatty(STDERR_FILENO));
+    if (r->saved ? save_restore(r, &u, err) : open_outputs(r, &u, err)) {
+        for (int k = 0; k < TABLES; k++) fl_out_abort(&u.table[k]);
+        return -1;
+    }
+    listen_to_signals(r);
+    const double begun = run_clock();
+    const int rc = run_steps_of(r, &u, show, begun, err);
+    if (rc && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
+        whole_state(r->w)) {
+        fl_err why = {0}; /* the failure of the run is what is told */
+        save_write(r, &u, &why);
+    }
+    r->wall = run_clock() - begun - r->save_wall;
     if (show) progress(r, begun, 1);
-    fl_step_ledger(w);
+    fl_step_ledger(r->w);
     /* Also after a failure of the run: the rows until then are good and keep their names. */
     return close_outputs(&u, err) ? -1 : rc;
 }

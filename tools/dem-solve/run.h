@@ -2,7 +2,9 @@
 /* run.h -- from a built world to the end of the scene: steps, tables, report. */
 #ifndef DEM_SOLVE_RUN_H
 #define DEM_SOLVE_RUN_H
+#include "base/stream.h"
 #include "options.h"
+#include "out/restart.h"
 #include "step/world.h"
 
 /* What a run has in its hands. */
@@ -12,16 +14,53 @@ struct run {
     const fl_surface *surface; /* NULL: none */
     const char *history;       /* of the inputs; NULL: none */
     const fl_by *by;
+    const fl_restart *saved;     /* the run goes on from here; NULL: it begins */
+    const fl_restart_part *kept; /* [2] ice and structure as texts, for checkpoints */
     fl_world *w;
+    const char *out;   /* where the loads go */
+    int gzip;          /* they are compressed */
     double limit;      /* the critical step known before the run, 2/omega [s] */
     int32_t step_body; /* the body that set the automatic step, -1 */
     int64_t steps;
-    double wall; /* [s] spent in steps */
+    int64_t begun;    /* the step this program began with */
+    double wall;      /* [s] spent in steps */
+    int64_t saves;    /* checkpoints written */
+    int64_t saved_at; /* step of the last */
+    double save_wall; /* [s] spent in them */
+    int stopped;      /* number of the signal that ended the run, 0: none */
+};
+
+/* Row k is due at the first step at or after k every. */
+struct timer {
+    double every;
+    int64_t k, due;
+};
+
+enum { AT_LOADS, AT_STATE, AT_ENERGY, AT_CONTACTS, AT_FRAMES, TABLES, AT_ICE = TABLES, AT_SAVE, TIMERS };
+
+/* The tables and when they are due. */
+struct outputs {
+    fl_out table[TABLES]; /* f is NULL where the scene has none */
+    struct timer at[TIMERS];
+    int32_t frame_file; /* number of the one that is open */
+    double last_row;    /* of the loads [s] */
 };
 
 /* Choose the step: the scene's, or the automatic one, then a little smaller so that it divides the interval
  * of the loads. */
 void run_step_size(struct run *r);
+
+/* Steps until the end of the scene, from the step size that the world has. */
+void run_steps(struct run *r);
+
+/* Set a timer to its row k. */
+void run_timer(struct timer *t, int64_t k, double dt);
+
+/* File number u->frame_file of the frames: the name itself, or NAME.k when there are several. */
+void run_frames_path(const struct run *r, const struct outputs *u, char path[FL_SCENE_PATH + 16]);
+
+/* What table k begins with. */
+void run_header(struct run *r, struct outputs *u, int k);
 
 /* The whole run. -1 as fl_step(), or FL_SYSTEM when an output cannot be written; what was written until then
  * is complete and carries its name. */

@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "mesh/gstruct.h"
+#include "save.h"
+#include "scene/scene_check.h"
+#include "scene/scene_read.h"
+#include "scene/scene_show.h"
+#include "step/snapshot.h"
+#include "step/step.h"
+
+static const char *const TABLE[TABLES] = {"loads", "state", "energy", "contacts", "frames"};
+
+/* Keys that may be changed under way: none of them bears on a step or a row. */
+static const char *const FREE_KEY[] = {
+    "run.duration",    "run.threads",   "output.state",      "output.energy",
+    "output.contacts", "output.frames", "output.checkpoint", "output.checkpoint_every"};
+
+/* --- write ------------------------------------------------------------------------------------- */
+
+static int text_end(FILE *f, fl_restart_part *part, const size_t *n, fl_err *err)
+{
+    const int bad = ferror(f);
+    if (fclose(f) || bad) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
+    part->n = (int64_t)*n;
+    return 0;
+}
+
+int save_keep(fl_restart_part kept[2], const fl_field *field, const fl_surface *surface, const fl_by *by,
+              fl_err *err)
+{
+    for (int k = 0; k < 2; k++) {
+        char *text = NULL;
+        size_t n = 0;
+        kept[k] = (fl_restart_part){.name = ""};
+        if (k && !surface) break;
+        snprintf(kept[k].name, sizeof kept[k].name, "%s", k ? "structure" : "ice");
+        FILE *f = open_memstream(&text, &n);
+        if (!f) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
+        if (k) fl_gstruct_write(f, surface, by);
+        else fl_field_write(f, field, by);
+        const int bad = text_end(f, &kept[k], &n, err);
+        kept[k].text = text;
+        if (bad) return -1;
+    }
+    return 0;
+}
+
+/* Where the run is in its tables. */
+static void write_place(FILE *f, const struct run *r, const struct outputs *u, const fl_mark *mark)
+{
+    char num[FL_NUM_LEN];
+    fprintf(f, "rows");
+    for (int k = 0; k < TIMERS; k++) fprintf(f, " %" PRId64, u->at[k].k);
+    fprintf(f, " %s %" PRId32 "\n", fl_num_text(u->last_row, num), u->frame_file);
+    for (int k = 0; k < TABLES; k++)
+        if (u->table[k].f)
+            fprintf(f, "table %s %" PRId64 " %" PRIu64 " %d\n", TABLE[k], mark[k].at, mark[k].tail,
+                    k == AT_LOADS && r->gzip);
+}
+
+int save_write(struct run *r, struct outputs *u, fl_err *err)
+{
+    enum { SCENE, ICE, STRUCTURE, PLACE, LOADS, STATE, PARTS };
+    fl_restart_part part[PARTS] = {[SCENE] = {.name = "scene"},
+                                   [ICE] = r->kept[0],
+                                   [STRUCTURE] = r->kept[1],
+                                   [PLACE] = {.name = "tables"},
+                                   [LOADS] = {.name = "loads", .text = r->out, .n = (int64_t)strlen(r->out)},
+                                   [STATE] = {.name = "state"}};
+    fl_mark mark[TABLES];
+    char *text[PARTS] = {0}, *history = NULL;
+    size_t n[PARTS] = {0};
+    const double begun = run_clock();
+    fl_scene scene = *r->scene; /* to be written; nothing in it is changed but this */
+    int rc = -1;
+    scene.run.threads = 0; /* they belong to the machine, and would be the only bytes that tell */
+    for (int k = 0; k < TABLES; k++)
+        if (u->table[k].f && fl_out_mark(&u->table[k], &mark[k], err)) return -1;
+    for (int k = 0; k < PARTS; k++) {
+        if (part[k].text || !part[k].name[0]) continue;
+        FILE *f = open_memstream(&text[k], &n[k]);
+        if (!f) {
+            fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
+            goto done;
+        }
+        if (k == SCENE) fl_scene_write(f, &scene);
+        if (k == PLACE) write_place(f, r, u, mark);
+        if (k == STATE) fl_snapshot_write(f, r->w);
+        if (text_end(f, &part[k], &n[k], err)) goto done;
+        part[k].text = text[k];
+    }
+    const size_t own = strlen(r->by->text), before = r->history ? strlen(r->history) : 0;
+    history = fl_alloc((int64_t)(before + own) + 2, 1, err);
+    if (!history) goto done;
+    if (before) memcpy(history, r->history, before);
+    memcpy(history + before, r->by->text, own);
+    history[before + own] = '\n';
+    if (!part[STRUCTURE].name[0]) /* a scene without one */
+        memmove(&part[STRUCTURE], &part[STRUCTURE + 1], (PARTS - STRUCTURE - 1) * sizeof *part);
+    rc = fl_restart_write(r->scene->output.checkpoint, history, part, PARTS - !r->kept[1].name[0], err);
+done:
+    for (int k = 0; k < PARTS; k++) free(text[k]);
+    free(history);
+    r->saves++;
+    r->saved_at = r->w->step;
+    r->save_wall += run_clock() - begun;
+    return rc;
+}
+
+/* --- read -------------------------------------------------------------------------------------- */
+
+static int change(fl_scene *scene, const char *set, fl_err *err)
+{
+    const size_t len = strcspn(set, "= ");
+    const int keys = (int)(sizeof FREE_KEY / sizeof *FREE_KEY);
+    for (int k = 0; k < keys; k++)
+        if (strlen(FREE_KEY[k]) == len && strncmp(FREE_KEY[k], set, len) == 0)
+            return fl_scene_set(scene, set, err);
+    return fl_fail(err, FL_USAGE,
+                   "--set: \"%.60s\" would make another run of the one that is resumed; run.duration, "
+                   "run.threads and files of output may be changed",
+                   set);
+}
+
+int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_field *field,
+                fl_surface *surface, fl_err *err)
+{
+    fl_text text = {0};
+    if (fl_restart_open(saved, "scene", &text, err) || fl_scene_read_text(scene, &text, err)) return -1;
+    const double duration = scene->run.duration;
+    for (int k = 0; k < o->sets; k++)
+        if (change(scene, o->set[k], err)) return -1;
+    if (o->threads) scene->run.threads = o->threads;
+    if (fl_scene_check(scene, err)) return -1;
+    if (scene->output.until == duration)
+        scene->output.until = scene->run.duration; /* it followed then, too */
+    if (fl_restart_open(saved, "ice", &text, err) || fl_field_read_text(field, &text, err)) return -1;
+    if (!fl_restart_find(saved, "structure")) return 0;
+    return fl_restart_open(saved, "structure", &text, err) || fl_gstruct_read_text(surface, &text, err) ? -1
+                                                                                                        : 0;
+}
+
+int save_history(const fl_restart *saved, char **history, fl_by *by, fl_err *err)
+{
+    const char *all = saved->history, *own = NULL;
+    for (const char *p = all; *p; p = strchr(p, '\n') + 1) own = p;
+    if (!own || strlen(own) > FL_BY_MAX)
+        return fl_fail(err, FL_INPUT, "%s: the checkpoint has no history of its run", saved->path);
+    by->len = (int)strlen(own) - 1;
+    memcpy(by->text, own, (size_t)by->len);
+    by->text[by->len] = '\0';
+    *history = fl_alloc(own - all + 1, 1, err);
+    if (!*history) return -1;
+    memcpy(*history, all, (size_t)(own - all));
+    return 0;
+}
+
+static int word_i64(fl_text *in, int64_t *x, fl_err *err)
+{
+    const char *word = "";
+    char *end;
+    if (fl_text_word(in, "count", &word, err)) return -1;
+    const long long n = strtoll(word, &end, 10);
+    if (end == word || *end || n < -1 || n > INT64_C(1) << 53)
+        return fl_text_fail(in, err, "\"%.40s\" found, a count was wanted", word);
+    *x = n;
+    return 0;
+}
+
+static int read_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
+{
+    const fl_scene_output *s = &r->scene->output;
+    const double every[TIMERS] = {s->loads_every,  s->state_every, s->energy_every,    s->contacts_every,
+                                  s->frames_every, s->ice_every,   s->checkpoint_every};
+    int64_t k;
+    for (int c = 0; c < TIMERS; c++) {
+        if (word_i64(in, &k, err)) return -1;
+        u->at[c].every = every[c];
+        run_timer(&u->at[c], k, r->w->dt);
+    }
+    /* the next checkpoint comes after this one, also when its interval has been changed */
+    while (u->at[AT_SAVE].due <= r->w->step) run_timer(&u->at[AT_SAVE], u->at[AT_SAVE].k + 1, r->w->dt);
+    return fl_text_f64(in, "time of the last row", &u->last_row, err) ||
+                   fl_text_i32(in, "file of the frames", 0, INT32_MAX, &u->frame_file, err) ||
+                   fl_text_end(in, err)
+               ? -1
+               : 0;
+}
+
+static int read_table(fl_text *in, fl_mark mark[TABLES], int had[TABLES], struct run *r, fl_err *err)
+{
+    const char *name = "", *tail = "";
+    fl_mark m = {0};
+    int32_t gzip = 0;
+    if (fl_text_word(in, "table", &name, err) || word_i64(in, &m.at, err) ||
+        fl_text_word(in, "hash", &tail, err) || fl_text_i32(in, "gzip", 0, 1, &gzip, err) ||
+        fl_text_end(in, err))
+        return -1;
+    if (fl_num_u64(tail, &m.tail)) return fl_text_fail(in, err, "\"%.40s\" found, a hash was wanted", tail);
+    for (int k = 0; k < TABLES; k++) {
+        if (strcmp(name, TABLE[k]) != 0) continue;
+        mark[k] = m;
+        had[k] = 1;
+        if (k == AT_LOADS) r->gzip = gzip;
+        return 0;
+    }
+    return fl_text_fail(in, err, "unknown table \"%.40s\"", name);
+}
+
+static int read_place(struct run *r, struct outputs *u, fl_mark mark[TABLES], int had[TABLES], fl_err *err)
+{
+    fl_text in = {0};
+    const char *word = "";
+    int more, rows = 0;
+    if (fl_restart_open(r->saved, "tables", &in, err)) return -1;
+    while ((more = fl_text_row(&in, err)) > 0) {
+        if (fl_text_word(&in, "row", &word, err)) break;
+        const int first = strcmp(word, "rows") == 0;
+        if (!first && strcmp(word, "table") != 0) fl_text_fail(&in, err, "unknown row \"%.40s\"", word);
+        else if (first ? read_rows(&in, r, u, err) : read_table(&in, mark, had, r, err)) break;
+        if (err->code) break;
+        rows += first;
+    }
+    if (!err->code && (rows != 1 || !had[AT_LOADS]))
+        fl_fail(err, FL_INPUT, "%s: the checkpoint does not tell where its tables are", r->saved->path);
+    fl_text_close(&in);
+    return err->code ? -1 : 0;
+}
+
+static void table_path(const struct run *r, const struct outputs *u, int k, char path[FL_SCENE_PATH + 16])
+{
+    const fl_scene_output *s = &r->scene->output;
+    if (k == AT_FRAMES) {
+        run_frames_path(r, u, path);
+        return;
+    }
+    snprintf(path, FL_SCENE_PATH + 16, "%s",
+             k == AT_LOADS    ? r->out
+             : k == AT_STATE  ? s->state
+             : k == AT_ENERGY ? s->energy
+                              : s->contacts);
+}
+
+int save_restore(struct run *r, struct outputs *u, fl_err *err)
+{
+    char path[FL_SCENE_PATH + 16];
+    fl_mark mark[TABLES];
+    fl_text in = {0};
+    int had[TABLES] = {0}, fresh[TABLES] = {0};
+    if (fl_restart_open(r->saved, "state", &in, err)) return -1;
+    fl_snapshot_read(r->w, &in, err);
+    fl_text_close(&in);
+    if (err->code || read_place(r, u, mark, had, err)) return -1;
+    run_steps(r);
+    r->begun = r->w->step;
+    if (r->steps < r->w->step)
+        return fl_fail(err, FL_USAGE,
+                       "run.duration is %g s, and the checkpoint is of t = %g s: a later end was wanted",
+                       r->scene->run.duration, (double)r->w->step * r->w->dt);
+    for (int k = 0; k < TABLES; k++) { /* all of them are there, before one is touched */
+        table_path(r, u, k, path);
+        if (path[0] && !had[k])
+            return fl_fail(err, FL_USAGE,
+                           "%s: the run to resume does not write output.%s, and it cannot begin now", path,
+                           TABLE[k]);
+        if (path[0] && fl_out_marked(path, &mark[k], err)) return -1;
+    }
+    for (int k = 0; k < TABLES; k++) {
+        table_path(r, u, k, path);
+        if (!path[0]) continue;
+        if (fl_out_resume(&u->table[k], path, k == AT_LOADS && r->gzip, &mark[k], &fresh[k], err)) return -1;
+    }
+    for (int k = 0; k < TABLES; k++)
+        if (fresh[k]) run_header(r, u, k);
+    return 0;
+}
