@@ -168,12 +168,19 @@ void fl_polygon_outset(int32_t n, const fl_vec2 *v, double r, fl_vec2 *out)
     }
 }
 
-static double from_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
+/* From the nearest point of a segment to p. */
+static fl_vec2 to_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
 {
     const fl_vec2 e = sub(b, a), w = sub(p, a);
     double t = dot(w, e) / dot(e, e);
     t = t > 0.0 ? t < 1.0 ? t : 1.0 : 0.0;
-    return hypot(w.x - t * e.x, w.y - t * e.y);
+    return (fl_vec2){w.x - t * e.x, w.y - t * e.y};
+}
+
+static double from_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
+{
+    const fl_vec2 d = to_segment(p, a, b);
+    return hypot(d.x, d.y);
 }
 
 double fl_polygon_from_point(int32_t n, const fl_vec2 *v, fl_vec2 p)
@@ -205,16 +212,26 @@ int fl_polygon_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
     return side_separates(m, a, n, b) || side_separates(n, b, m, a);
 }
 
+/* Squares are compared, and the root of the least one is taken at the end. */
 double fl_polygon_gap(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
 {
     double least = INFINITY;
+    fl_vec2 nearest = {INFINITY, INFINITY};
     for (int32_t i = 0; i < m; i++) {
+        const fl_vec2 a1 = a[i + 1 < m ? i + 1 : 0];
         for (int32_t j = 0; j < n; j++) {
-            const fl_vec2 a1 = a[i + 1 < m ? i + 1 : 0], b1 = b[j + 1 < n ? j + 1 : 0];
-            const double d = from_segment(a[i], b[j], b1), e = from_segment(b[j], a[i], a1);
-            if (d < least) least = d;
-            if (e < least) least = e;
+            const fl_vec2 b1 = b[j + 1 < n ? j + 1 : 0];
+            const fl_vec2 d = to_segment(a[i], b[j], b1), e = to_segment(b[j], a[i], a1);
+            const double dd = dot(d, d), ee = dot(e, e);
+            if (dd < least) {
+                least = dd;
+                nearest = d;
+            }
+            if (ee < least) {
+                least = ee;
+                nearest = e;
+            }
         }
     }
-    return least;
+    return hypot(nearest.x, nearest.y);
 }

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bench_ice.c -- how fast a field of ice is made, stage by stage, for a thousand to a million floes, beside
+ * how wrong it is.  All stages of voronoi-ice with its defaults: sites, their cells, two steps of smoothing,
+ * floes of concentration 0.8, the certificate with its exact predicates, prisms, and the file.  Nothing may
+ * grow faster than the number of floes, so the time for one of them is flat: "of min" is that time over the
+ * least of all rows, within one run.  The errors are those of the areas: cells that fill the rectangle, floes
+ * that cover 0.8 of it.  BENCH_ICE=N is the largest number, else a million. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+#include "base/mem.h"
+#include "base/num.h"
+#include "base/par.h"
+#include "ice/cells.h"
+#include "ice/certificate.h"
+#include "ice/floes.h"
+#include "scene/field.h"
+
+#define CONCENTRATION 0.8
+#define RADIUS 0.05
+
+enum { ROWS = 4, STAGES = 6, SMOOTH = 2, LARGE = 200000 };
+
+struct row {
+    int32_t n;
+    double stage[STAGES]; /* s */
+    double cells, floes;  /* relative errors of areas */
+    double bytes;
+    int64_t wrong; /* overlaps and floes that are not convex */
+};
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double lap(double *since)
+{
+    const double before = *since;
+    *since = now();
+    return *since - before;
+}
+
+static int add_bodies(fl_field *field, const fl_floes *a, fl_err *err)
+{
+    fl_vec3 xy[64];
+    for (int32_t i = 0; i < a->n; i++) {
+        const int32_t n = a->first[i + 1] - a->first[i];
+        fl_poly core = {0};
+        if (n > 64) return fl_fail(err, FL_NUMERIC, "floe %d has %d sides", i, n);
+        for (int32_t k = 0; k < n; k++)
+            xy[k] = v3(a->core[a->first[i] + k].x, a->core[a->first[i] + k].y, 0.0);
+        if (fl_poly_prism(&core, n, xy, -0.4, 0.0, err)) return -1;
+        if (fl_field_add(field, i, RADIUS, &core, "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err)) {
+            fl_poly_free(&core);
+            return -1;
+        }
+    }
+    return 0;
+}
+
+static int write_file(const fl_field *field, double *bytes, fl_err *err)
+{
+    char path[300];
+    const char *tmp = getenv("TMPDIR");
+    fl_by by;
+    FILE *f;
+    snprintf(path, sizeof path, "%.200s/floe-bench-ice-%ld", tmp ? tmp : "/tmp", (long)getpid());
+    f = fopen(path, "w");
+    if (!f) return fl_fail(err, FL_SYSTEM, "%s cannot be written", path);
+    fl_by_start(&by, "bench_ice");
+    fl_field_write(f, field, &by);
+    *bytes = (double)ftell(f);
+    const int bad = fclose(f);
+    unlink(path);
+    return bad ? fl_fail(err, FL_SYSTEM, "%s could not be written", path) : 0;
+}
+
+static double sum_of_cells(const fl_cells *c, fl_err *err)
+{
+    double *area = fl_alloc(c->n, sizeof *area, err), sum = NAN;
+    if (area) {
+        fl_cells_areas(c, area);
+        sum = fl_par_sum(area, c->n);
+    }
+    free(area);
+    return sum;
+}
+
+static int make(struct row *r, uint64_t seed, fl_err *err)
+{
+    const double side = 4.0 * sqrt(r->n), total = side * side;
+    const fl_vec2 lo = {-0.5 * side, -0.5 * side}, hi = {0.5 * side, 0.5 * side};
+    fl_vec2 *site = fl_alloc(r->n, sizeof *site, err);
+    fl_cells c = {0};
+    fl_floes a = {0};
+    fl_field field = {0};
+    fl_certificate t = {0};
+    double at = now(), bytes = 0.0;
+    int rc = -1;
+    if (!site) return -1;
+    fl_cells_sites(r->n, seed, lo, hi, site);
+    if (fl_cells_build(&c, r->n, site, lo, hi, err)) goto done;
+    r->stage[0] += lap(&at);
+    for (int k = 0; k < SMOOTH; k++) {
+        fl_cells_centroids(&c, site);
+        fl_cells_free(&c);
+        if (fl_cells_build(&c, r->n, site, lo, hi, err)) goto done;
+    }
+    r->stage[1] += lap(&at);
+    if (fl_floes_make(&a, &c, CONCENTRATION, RADIUS, (fl_vec2){0, 0}, err)) goto done;
+    r->stage[2] += lap(&at);
+    if (fl_certificate_make(&t, &a, err)) goto done;
+    r->stage[3] += lap(&at);
+    if (add_bodies(&field, &a, err)) goto done;
+    r->stage[4] += lap(&at);
+    if (write_file(&field, &bytes, err)) goto done;
+    r->stage[5] += lap(&at);
+    r->cells = fmax(r->cells, fabs(sum_of_cells(&c, err) / total - 1.0));
+    r->floes = fmax(r->floes, fabs(t.total / (CONCENTRATION * total) - 1.0));
+    r->wrong += t.overlaps + t.bent;
+    r->bytes += bytes;
+    rc = 0;
+done:
+    free(site);
+    fl_field_free(&field);
+    fl_floes_free(&a);
+    fl_cells_free(&c);
+    return rc;
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const name[STAGES] = {"cells", "smooth", "floes", "certify", "prisms", "write"};
+    struct row row[ROWS] = {{.n = 1000}, {.n = 10000}, {.n = 100000}, {.n = 1000000}};
+    const char *most = getenv("BENCH_ICE");
+    int32_t largest = 1000000;
+    double least = INFINITY, each[ROWS];
+    fl_err err = {0};
+    int rows = 0, ok = 1;
+    (void)argc;
+    fl_par_wait_briefly(argv);
+    if (most && fl_num_i32(most, 1000, 1000000, &largest)) largest = 1000;
+    /* small fields are made many times, so that all rows have about as much to do */
+    for (; rows < ROWS && row[rows].n <= largest && ok; rows++) {
+        struct row *r = &row[rows];
+        const int times = r->n < LARGE ? LARGE / r->n : 1;
+        double sum = 0.0;
+        for (int k = 0; k < times && ok; k++) ok = make(r, (uint64_t)k, &err) == 0;
+        for (int k = 0; k < STAGES; k++) sum += r->stage[k] /= (double)r->n * times;
+        r->bytes /= times;
+        each[rows] = sum;
+        least = fmin(least, sum);
+        ok &= r->cells < 1e-12 && r->floes < 1e-12 && r->wrong == 0;
+    }
+    printf("microseconds for one floe, stage by stage, elapsed\n%8s", "floes");
+    for (int k = 0; k < STAGES; k++) printf(" %7s", name[k]);
+    printf(" %7s %6s %8s %10s %10s %6s\n", "all", "of min", "MB", "cells off", "floes off", "wrong");
+    for (int j = 0; j < rows; j++) {
+        const struct row *r = &row[j];
+        printf("%8d", r->n);
+        for (int k = 0; k < STAGES; k++) printf(" %7.2f", 1e6 * r->stage[k]);
+        printf(" %7.2f %6.2f %8.1f %10.1e %10.1e %6lld\n", 1e6 * each[j], each[j] / least, 1e-6 * r->bytes,
+               r->cells, r->floes, (long long)r->wrong);
+    }
+    if (!ok) fprintf(stderr, "bench_ice: %s\n", err.code ? err.text : "a field is not what was asked for");
+    printf("%d passed, %d failed\n", ok, !ok);
+    return !ok;
+}
