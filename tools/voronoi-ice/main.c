@@ -17,6 +17,7 @@
 #include "scene/field.h"
 #include "certify.h"
 #include "chart.h"
+#include "depth.h"
 #include "options.h"
 #include "sheet.h"
 #include "sizing.h"
@@ -32,9 +33,10 @@ struct field {
     struct sizing sizing;
     struct water water;
     fl_faces faces; /* of a bonded field */
-    double asked;   /* concentration */
-    double off;     /* graded: of the worst floe from that of its place */
-    double lo, hi;  /* graded: concentrations asked for */
+    struct depth depth;
+    double asked;  /* concentration */
+    double off;    /* graded: of the worst floe from that of its place */
+    double lo, hi; /* graded: concentrations asked for */
 };
 
 static void tell(const struct options *o, const char *what)
@@ -196,11 +198,11 @@ static int add_floe(const struct options *o, const struct field *a, int32_t i, f
                     fl_err *err)
 {
     const int32_t first = a->floes.first[i], n = a->floes.first[i + 1] - first;
-    const double draft = o->thickness * (o->ice_density / o->water_density);
+    const double h = depth_of(&a->depth, o, id_of(a, i)), draft = h * a->depth.ratio;
     fl_poly core = {0};
     fl_err why = {0};
     for (int32_t k = 0; k < n; k++) xy[k] = v3(a->floes.core[first + k].x, a->floes.core[first + k].y, 0.0);
-    if (fl_poly_prism(&core, n, xy, o->radius - draft, o->thickness - draft - o->radius, &why))
+    if (fl_poly_prism(&core, n, xy, o->radius - draft, h - draft - o->radius, &why))
         return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", id_of(a, i),
                        why.text);
     if (fl_field_add(out, id_of(a, i), o->radius, &core, o->material, NULL,
@@ -210,16 +212,26 @@ static int add_floe(const struct options *o, const struct field *a, int32_t i, f
     return -1;
 }
 
-/* The common face of two prisms stands on the side they share. */
+/* The common face of two prisms stands on the side they share, as high as both are there. */
+static double face_height(const struct options *o, const struct field *a, const fl_face *f, double *middle)
+{
+    const double hi = depth_of(&a->depth, o, id_of(a, f->i)), hj = depth_of(&a->depth, o, id_of(a, f->j));
+    const double h = fmin(hi, hj),
+                 r = a->depth.ratio; /* the thinner one has the lower top and higher bottom */
+    *middle = (0.5 - r) * h;
+    return h;
+}
+
 static int add_bonds(const struct options *o, const struct field *a, fl_field *out, fl_err *err)
 {
-    const double draft = o->thickness * (o->ice_density / o->water_density);
     for (int32_t k = 0; k < a->faces.n; k++) {
         const fl_face *f = &a->faces.face[k];
         const double length = hypot(f->b.x - f->a.x, f->b.y - f->a.y);
-        const fl_vec3 middle =
-            v3(0.5 * (f->a.x + f->b.x), 0.5 * (f->a.y + f->b.y), 0.5 * o->thickness - draft);
-        if (fl_field_add_bond(out, f->i, f->j, length * o->thickness, length, middle, err)) return -1;
+        double z;
+        const double area = length * face_height(o, a, f, &z);
+        if (fl_field_add_bond(out, f->i, f->j, area, length,
+                              v3(0.5 * (f->a.x + f->b.x), 0.5 * (f->a.y + f->b.y), z), err))
+            return -1;
     }
     return 0;
 }
@@ -255,9 +267,15 @@ static void certify_faces(const struct options *o, const struct field *a, struct
 {
     const fl_faces *f = &a->faces;
     const double open = f->outline - 2.0 * f->length, outline = 2.0 * (o->size.x + o->size.y);
+    double area = 0.0;
     certify_add(t, "overlap, deepest [m]", 0, f->deep, f->deep, 4, NULL);
     certify_add(t, "bond candidates", NOT_ASKED, f->n, NO_DISTANCE, 10, NULL);
-    certify_add(t, "bonded area [m2]", NOT_ASKED, f->length * o->thickness, NO_DISTANCE, 6, NULL);
+    for (int32_t k = 0; k < f->n; k++) {
+        double z;
+        area += hypot(f->face[k].b.x - f->face[k].a.x, f->face[k].b.y - f->face[k].a.y) *
+                face_height(o, a, &f->face[k], &z);
+    }
+    certify_add(t, "bonded area [m2]", NOT_ASKED, area, NO_DISTANCE, 6, NULL);
     if (o->keep_outs || a->water.on)
         certify_add(t, "sides on no other [m]", NOT_ASKED, open, NO_DISTANCE, 6, NULL);
     else certify_add(t, "sides on no other [m]", outline, open, fabs(open - outline) / f->outline, 6, NULL);
@@ -287,8 +305,7 @@ static void certify(const struct options *o, const struct field *a, struct certi
     if (o->bonded) certify_faces(o, a, t);
     else certify_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
     certify_add(t, "floes not convex", 0, c->bent, c->bent, 10, NULL);
-    certify_add(t, "draft [m]", NOT_ASKED, o->thickness * (o->ice_density / o->water_density), NO_DISTANCE, 6,
-                NULL);
+    depth_certify(&a->depth, o, t);
     certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean, NO_DISTANCE, 6, NULL);
     certify_add(t, "area, deviation over mean", NOT_ASKED, c->cv, NO_DISTANCE, 4, NULL);
     certify_add(t, "area, smallest [m2]", NOT_ASKED, c->least, NO_DISTANCE, 6, "floe %d",
@@ -371,6 +388,25 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
     return 0;
 }
 
+static int measure_depth(const struct options *o, struct field *a, fl_err *err)
+{
+    const int32_t n = a->floes.n;
+    int32_t *id = fl_alloc(n, sizeof *id, err);
+    double *area = fl_alloc(n, sizeof *area, err);
+    int rc = -1;
+    if (id && area) {
+        for (int32_t i = 0; i < n; i++) {
+            const int32_t first = a->floes.first[i];
+            id[i] = id_of(a, i);
+            area[i] = fl_polygon_area(a->floes.first[i + 1] - first, a->floes.outer + first);
+        }
+        rc = depth_measure(&a->depth, o, n, id, area, err);
+    }
+    free(id);
+    free(area);
+    return rc;
+}
+
 static int run(struct options *o, fl_err *err)
 {
     struct certify table = {0};
@@ -379,13 +415,15 @@ static int run(struct options *o, fl_err *err)
     int rc = -1;
     if (o->threads) omp_set_num_threads(o->threads);
     if (o->lattice >= 0) return sheet_run(o, err);
-    if (water_make(&a.water, o, err) || (o->sizes && sizing_ask(&a.sizing, o, a.water.area, err))) goto done;
+    if (depth_make(&a.depth, o, err) || water_make(&a.water, o, err) ||
+        (o->sizes && sizing_ask(&a.sizing, o, a.water.area, err)))
+        goto done;
     if (o->sizes ? make_sized(o, &a, err) : make_cells(o, &a, err) || shrink(o, &a, err)) goto done;
     a.name = fl_alloc(a.cells.n, sizeof *a.name, err);
     if (!a.name) goto done;
     for (int32_t i = 0; i < a.cells.n; i++) a.name[i] = i;
     tell(o, "measuring");
-    if (measure(o, &a, err)) goto done;
+    if (measure(o, &a, err) || measure_depth(o, &a, err)) goto done;
     tell(o, "writing");
     if (write_field(o, &a, err)) goto done;
     certify(o, &a, &table);
@@ -398,6 +436,7 @@ done:
     sizing_free(&a.sizing);
     fl_faces_free(&a.faces);
     water_free(&a.water);
+    depth_free(&a.depth);
     fl_floes_free(&a.floes);
     fl_cells_free(&a.cells);
     free(a.name);

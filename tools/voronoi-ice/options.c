@@ -17,7 +17,7 @@ static const char HELP[] =
     "                          power:EXP,DMIN,DMAX[,number|area,cumulative|density] of diameters, or a FILE\n"
     "                          of sizes or of polygons (uniform)\n"
     "      --concentration C   part of the field that floes cover, between 0 and 1 (0.8)\n"
-    "      --thickness H       of the ice (0.5)\n"
+    "      --thickness H       of the ice (0.5); uniform:A,B, lognormal:MEAN,CV or a file of thicknesses\n"
     "      --radius R          dilation radius, the roundness of edges, below H/2 (0.05)\n"
     "      --seed N            another number, another field (1)\n"
     "      --smooth N          steps of Lloyd's smoothing; 0 leaves Poisson-Voronoi cells (2)\n"
@@ -390,7 +390,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case CONCENTRATION:
         o->has_concentration = 1;
         return concentration("concentration", arg, &o->concentration, err);
-    case THICKNESS: return number("thickness", arg, SHORTEST, LONGEST, &o->thickness, "a length", err);
+    case THICKNESS: return file("thickness", arg, &o->thickness_law, err);
     case RADIUS: return number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
     case SEED:
         if (fl_num_u64(arg, &o->seed) == 0) return 0;
@@ -445,7 +445,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .floes = 200,
                           .smooth = 2,
                           .concentration = 0.8,
-                          .thickness = 0.5,
+                          .thickness_law = "0.5",
                           .radius = 0.05,
                           .lattice = -1,
                           .layers = 1,
@@ -472,9 +472,6 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
     if (check_lattice(o, err) || check_water(o, err) || check_graded(o, err) || check_bonded(o, err))
         return -1;
-    if (!(o->thickness > 2.0 * o->radius))
-        return fl_fail(err, FL_USAGE, "--thickness %g is not more than twice --radius %g: no core is left",
-                       o->thickness, o->radius);
     if (!(o->ice_density < o->water_density))
         return fl_fail(err, FL_USAGE, "--ice-density %g is not below --water-density %g: the floes sink",
                        o->ice_density, o->water_density);
@@ -529,7 +526,7 @@ void options_by(const struct options *o, fl_by *by)
         if (o->sizes) fl_by_add(by, "--sizes %s", o->sizes);
         if (o->graded) add_grade(by, o);
         else if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
-        add_numbers(by, "--thickness ", ',', 1, &o->thickness);
+        fl_by_add(by, "--thickness %s", o->thickness_law);
         add_numbers(by, "--radius ", ',', 1, &o->radius);
         fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
         fl_by_add(by, "--smooth %d", o->smooth);

@@ -26,7 +26,8 @@ struct options {
     fl_vec2 size, origin, velocity; /* origin is the corner of least x and y [m, m, m/s] */
     int32_t floes, smooth;
     double concentration;
-    double thickness, radius;          /* [m] */
+    const char *thickness_law;         /* as given: a length, a law or a file */
+    double thickness, radius;          /* the one of all floes, or the largest [m] */
     double ice_density, water_density; /* [kg/m3] */
     uint64_t seed;
     struct keep_out keep_out[KEEP_OUT_MAX];
