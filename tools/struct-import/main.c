@@ -128,6 +128,10 @@ static int judge(const fl_surface *s, const struct mended *m, fl_err *err)
             return fl_fail(err, FL_NO,
                            "part \"%.60s\" is left with %d open, %d non-manifold and %d twisted edges",
                            s->part[i].name, q->open, q->branched, q->incoherent);
+        if (q->degenerate || m[i].meet.crossings)
+            return fl_fail(err, FL_NO,
+                           "part \"%.60s\" is left with %d triangles without area and %d pairs that cross",
+                           s->part[i].name, q->degenerate, m[i].meet.crossings);
     }
     return 0;
 }
@@ -141,7 +145,7 @@ static int run(const struct options *o, fl_err *err)
     m = fl_alloc(s.n, sizeof *m, err);
     if (!m) goto done;
     for (int32_t i = 0; i < s.n; i++)
-        if (mend(&s.part[i], o->weld, o->fill_holes, o->raw, &m[i], err)) goto done;
+        if (mend(&s.part[i], o, &m[i], err)) goto done;
     if (report(o, &s, m, err) || write_out(o, &s, err)) goto done;
     rc = o->strict ? judge(&s, m, err) : 0;
 done:

@@ -3,6 +3,12 @@
 #include <string.h>
 #include "base/mem.h"
 #include "mend.h"
+#include "shim/cgal_distance.h"
+#include "shim/cgal_remesh.h"
+#include "shim/cgal_simplify.h"
+
+static const double BLUR = 1e-9; /* of the diagonal: to this distances are told */
+enum { TRIALS = 5 };
 
 static int to_soup(const fl_part *p, fl_soup *s, fl_err *err)
 {
@@ -18,8 +24,10 @@ static int to_soup(const fl_part *p, fl_soup *s, fl_err *err)
     return 0;
 }
 
+/* What was cut along branched edges is joined, and vertices are put back into the order of their use. */
 static int from_soup(fl_part *p, const fl_soup *s, fl_err *err)
 {
+    fl_weld w;
     p->nv = p->nt = 0;
     for (int32_t v = 0; v < s->nv; v++) {
         const double *x = s->x + 3 * (int64_t)v;
@@ -29,38 +37,178 @@ static int from_soup(fl_part *p, const fl_soup *s, fl_err *err)
         const int32_t *v = s->t + 3 * (int64_t)t;
         if (fl_surface_triangle(p, v[0], v[1], v[2], err)) return -1;
     }
-    return 0;
+    return fl_part_weld(p, 0.0, &w, err);
 }
 
-static int repair(fl_part *p, int32_t fill_holes, fl_repair *did, fl_err *err)
+/* A part as a soup that is only looked at: coordinates and corners lie one behind the other in both. */
+static fl_soup seen_as(const fl_part *p)
+{
+    return (fl_soup){p->nv, p->nt, p->nv ? &p->v[0].x : NULL, p->nt ? p->t[0].v : NULL};
+}
+
+/* Is there anything that needs a mesh of CGAL?  Sound surfaces of one patch, and open ones, do not. */
+static int ailing(const fl_quality *q, const struct options *o)
+{
+    const int fill = o->fill_holes > 0 || o->fill > 0.0;
+    return q->branched || q->degenerate || (q->closed && (q->patches > 1 || q->volume == 0.0)) ||
+           (q->open && fill);
+}
+
+static void add_repair(fl_repair *sum, const fl_repair *more)
+{
+    sum->duplicates += more->duplicates;
+    sum->stitched += more->stitched;
+    sum->degenerate += more->degenerate;
+    sum->holes += more->holes;
+    sum->patched += more->patched;
+    sum->stuck = more->stuck;
+    sum->bounding = more->bounding;
+}
+
+static int repair(fl_part *p, int32_t holes, double size, fl_repair *did, fl_err *err)
 {
     fl_soup s = {0};
-    fl_weld w;
+    fl_orient again;
+    fl_repair more;
     int rc = -1;
-    if (to_soup(p, &s, err) == 0 && fl_cgal_repair(&s, fill_holes, did, err) == 0 &&
-        from_soup(p, &s, err) == 0)
-        rc = fl_part_weld(p, 0.0, &w,
-                          err); /* joins what was cut along branched edges, and puts the order back */
+    if (to_soup(p, &s, err) == 0 && fl_cgal_repair(&s, holes, size, &more, err) == 0 &&
+        from_soup(p, &s, err) == 0) {
+        add_repair(did, &more);
+        rc = more.bounding ? 0 : fl_part_orient(p, &again, err); /* a cavity looks inward, and is right so */
+    }
     fl_soup_free(&s);
     return rc;
 }
 
-int mend(fl_part *p, double weld, int32_t fill_holes, int raw, struct mended *m, fl_err *err)
+static int count_crossings(const fl_part *p, fl_crossing *c, fl_err *err)
 {
-    fl_orient again;
-    *m = (struct mended){0};
-    if (p->nt) {
-        if (fl_part_weld(p, weld, &m->weld, err)) return -1;
-        if (p->nt == 0 && p->nc == 0)
-            return fl_fail(err, FL_INPUT, "part \"%.60s\": each of its triangles is a point or a line",
-                           p->name);
-        if (!raw) {
-            if (fl_part_orient(p, &m->orient, err) || repair(p, fill_holes, &m->repair, err)) return -1;
-            /* Where the whole bounds a volume, a cavity looks inward and is right so. */
-            if (!m->repair.bounding && fl_part_orient(p, &again, err)) return -1;
+    const fl_soup s = seen_as(p);
+    return fl_cgal_crossings(&s, c, err);
+}
+
+static int untangle(fl_part *p, struct mended *m, fl_err *err)
+{
+    fl_soup s = {0};
+    int rc = -1;
+    if (to_soup(p, &s, err) == 0 && fl_cgal_untangle(&s, &m->untangle, err) == 0) rc = 0;
+    /* new corners were rounded, which may leave triangles of one line */
+    if (rc == 0 && m->untangle.joined + m->untangle.rebuilt > 0)
+        rc = from_soup(p, &s, err) || repair(p, 0, 0.0, &m->repair, err) || count_crossings(p, &m->meet, err);
+    fl_soup_free(&s);
+    return rc ? -1 : 0;
+}
+
+/* Bounds of the distance of either from the other. */
+static int both_ways(const fl_soup *a, const fl_soup *b, double blur, double *strays, double *misses,
+                     fl_err *err)
+{
+    double least;
+    return fl_cgal_distance(a, b, blur, &least, strays, err) ||
+                   fl_cgal_distance(b, a, blur, &least, misses, err)
+               ? -1
+               : 0;
+}
+
+/* The envelope holds for the result alone; where the source then lies too far from that, a narrower one is
+ * tried. */
+static int simplify(fl_part *p, double distance, double blur, int32_t *gone, fl_err *err)
+{
+    const fl_soup before = seen_as(p);
+    double within = distance, strays, misses;
+    for (int k = 0; k < TRIALS; k++, within *= 0.5) {
+        fl_soup s = {0};
+        int rc = to_soup(p, &s, err) || fl_cgal_simplify(&s, within, gone, err) || s.nt == 0 ||
+                 both_ways(&s, &before, blur, &strays, &misses, err);
+        if (rc == 0 && fmax(strays, misses) <= distance) {
+            rc = from_soup(p, &s, err);
+            fl_soup_free(&s);
+            return rc;
         }
-        if (p->nt == 0 && p->nc == 0)
-            return fl_fail(err, FL_INPUT, "part \"%.60s\": nothing is left after repair", p->name);
+        rc = rc && s.nt > 0;
+        fl_soup_free(&s);
+        if (rc) return -1;
     }
+    *gone = 0;
+    return 0;
+}
+
+static int remesh(fl_part *p, const struct options *o, double blur, fl_err *err)
+{
+    const fl_soup before = seen_as(p);
+    fl_soup s = {0};
+    double strays, misses;
+    int rc = -1;
+    if (to_soup(p, &s, err) || fl_cgal_remesh(&s, o->remesh, err)) goto done;
+    if (s.nt == 0 || both_ways(&s, &before, blur, &strays, &misses, err)) goto done;
+    if (fmax(strays, misses) > o->remesh_within) {
+        fl_fail(err, FL_NUMERIC,
+                "part \"%.60s\": triangles of %g m stray up to %g m from it, %g m were allowed: a smaller "
+                "length or a larger distance was wanted",
+                p->name, o->remesh, fmax(strays, misses), o->remesh_within);
+        goto done;
+    }
+    rc = from_soup(p, &s, err);
+done:
+    fl_soup_free(&s);
+    return rc;
+}
+
+/* Everything behind welding. */
+static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
+{
+    fl_quality q;
+    if (fl_part_orient(p, &m->orient, err) || fl_part_measure(p, &q, err)) return -1;
+    if (ailing(&q, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
+    if (count_crossings(p, &m->meet, err)) return -1;
+    if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
+    if (p->nt == 0 || (o->simplify <= 0.0 && o->remesh <= 0.0)) return 0;
+    if (o->simplify > 0.0 && simplify(p, o->simplify, blur, &m->simplified, err)) return -1;
+    if (o->remesh > 0.0 && remesh(p, o, blur, err)) return -1;
+    return count_crossings(p, &m->meet, err);
+}
+
+/* Can anything but welding have moved the surface? */
+static int may_move(const fl_quality *q, const struct options *o)
+{
+    return ailing(q, o) || o->repair || o->simplify > 0.0 || o->remesh > 0.0;
+}
+
+static int mend_triangles(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
+{
+    const fl_aabb box = fl_part_aabb(p);
+    const double blur = BLUR * v3_norm(v3_sub(box.hi, box.lo));
+    fl_soup source = {0};
+    fl_quality q;
+    int rc = -1;
+    if (fl_part_weld(p, o->weld, &m->weld, err)) return -1;
+    if (p->nt == 0 && p->nc == 0)
+        return fl_fail(err, FL_INPUT, "part \"%.60s\": each of its triangles is a point or a line", p->name);
+    if (fl_part_measure(p, &q, err)) return -1;
+    m->came_closed = q.closed;
+    m->strays = m->misses = m->weld.moved;
+    if (p->nt == 0 || o->raw) return 0;
+    if (may_move(&q, o) && to_soup(p, &source, err)) return -1;
+    if (cure(p, o, m, blur, err)) goto done;
+    if (p->nt == 0 && p->nc == 0) {
+        fl_fail(err, FL_INPUT, "part \"%.60s\": nothing is left after repair", p->name);
+        goto done;
+    }
+    if (source.nt && p->nt) {
+        const fl_soup now = seen_as(p);
+        if (both_ways(&now, &source, blur, &m->strays, &m->misses, err)) goto done;
+        m->strays += m->weld.moved;
+        m->misses += m->weld.moved;
+    }
+    rc = 0;
+done:
+    fl_soup_free(&source);
+    return rc;
+}
+
+int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
+{
+    *m = (struct mended){.came_triangles = p->nt, .came = fl_moments_of(p, 1), .came_closed = 1};
+    if (p->nt && mend_triangles(p, o, m, err)) return -1;
+    m->went = fl_moments_of(p, 1);
     return fl_part_measure(p, &m->left, err);
 }

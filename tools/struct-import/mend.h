@@ -1,19 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* mend.h -- from what a file holds to what ice can meet: weld, orient, repair, measure. */
+/* mend.h -- from what a file holds to what ice can meet: weld, orient, repair, simplify, measure. */
 #ifndef STRUCT_IMPORT_MEND_H
 #define STRUCT_IMPORT_MEND_H
+#include "geom/moments.h"
 #include "geom/patch.h"
 #include "geom/weld.h"
+#include "options.h"
+#include "shim/cgal_crossing.h"
 #include "shim/cgal_repair.h"
+#include "shim/cgal_untangle.h"
 
 struct mended {
+    fl_moments came, went; /* as read and placed; as written */
+    int came_closed;
+    int32_t came_triangles;
     fl_weld weld;
     fl_orient orient;
     fl_repair repair;
+    fl_untangle untangle;
+    int32_t simplified; /* triangles less */
+    fl_crossing meet;   /* what is left */
     fl_quality left;
+    double strays, misses; /* no point of the result is farther from the source, and the other way [m] */
 };
 
-/* Mend a part in place.  raw: weld only.  0, or -1 with FL_INPUT, FL_NUMERIC or FL_SYSTEM in err. */
-int mend(fl_part *p, double weld, int32_t fill_holes, int raw, struct mended *m, fl_err *err);
+/* Mend a part in place, as far as o asks for it.  0, or -1 with FL_INPUT, FL_NUMERIC or FL_SYSTEM in err. */
+int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err);
 
 #endif

@@ -29,8 +29,12 @@ static const char HELP[] =
     "  -t, --translate X,Y,Z   then move what the files hold [m]\n"
     "  -w, --weld TOL          merge vertices within TOL [m] (1e-6 of the part's diagonal)\n"
     "      --fill-holes N      close holes of up to N edges (0)\n"
+    "      --fill SIZE         close holes whose box is up to SIZE [m] across (0)\n"
+    "      --repair            join bodies that cross, rebuild patches that cross themselves\n"
+    "      --simplify DISTANCE fewer triangles, within DISTANCE [m] both ways\n"
+    "      --remesh LENGTH[,D] triangles of sides of about LENGTH [m], within D (LENGTH / 10) both ways\n"
     "      --raw               no mending: weld only\n"
-    "      --strict            status 1 when open, non-manifold or twisted edges are left\n"
+    "      --strict            status 1 when anything is left unmended\n"
     "      --to FORMAT         g_struct, stl (ASCII), stl-binary, obj, off, ply or vtp (g_struct)\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the output\n"
@@ -54,6 +58,10 @@ enum {
     TO,
     VERSION,
     MIRROR,
+    FILL,
+    REPAIR,
+    SIMPLIFY,
+    REMESH,
     ROTATE
 };
 
@@ -73,6 +81,10 @@ static const struct option LONG[] = {{"cylinder", required_argument, NULL, CYLIN
                                      {"translate", required_argument, NULL, 't'},
                                      {"weld", required_argument, NULL, 'w'},
                                      {"fill-holes", required_argument, NULL, FILL_HOLES},
+                                     {"fill", required_argument, NULL, FILL},
+                                     {"repair", no_argument, NULL, REPAIR},
+                                     {"simplify", required_argument, NULL, SIMPLIFY},
+                                     {"remesh", required_argument, NULL, REMESH},
                                      {"raw", no_argument, NULL, RAW},
                                      {"strict", no_argument, NULL, STRICT},
                                      {"to", required_argument, NULL, TO},
@@ -229,6 +241,17 @@ static void place_first(struct options *o)
     o->map.q = fl_similar_product(&o->map.q, &first);
 }
 
+static int remesh(struct options *o, const char *text, fl_err *err)
+{
+    double x[2] = {0};
+    const int n = numbers("remesh", text, 1, 2, x, err);
+    if (n < 0) return -1;
+    o->remesh = x[0];
+    o->remesh_within = n == 2 ? x[1] : x[0] / 10.0;
+    if (o->remesh > 0.0 && o->remesh_within > 0.0) return 0;
+    return fl_fail(err, FL_USAGE, "--remesh is \"%.60s\", lengths above 0 were wanted", text);
+}
+
 static int format(struct options *o, const char *text, fl_err *err)
 {
     static const char *const name[FORMATS] = {"g_struct", "stl", "stl-binary", "obj", "off", "ply", "vtp"};
@@ -283,6 +306,10 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
         return o->weld >= 0.0 ? 0
                               : fl_fail(err, FL_USAGE, "--weld is \"%.60s\", a length >= 0 was wanted", arg);
     case FILL_HOLES: return whole("fill-holes", arg, 0, 1000, &o->fill_holes, err);
+    case FILL: return positive("fill", arg, &o->fill, err);
+    case REPAIR: o->repair = 1; return 0;
+    case SIMPLIFY: return positive("simplify", arg, &o->simplify, err);
+    case REMESH: return remesh(o, arg, err);
     case RAW: o->raw = 1; return 0;
     case STRICT: o->strict = 1; return 0;
     case TO: return format(o, arg, err);
@@ -320,6 +347,8 @@ static int finish(struct options *o, const char *waiting, fl_err *err)
         streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
     if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
     if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes do not go together");
+    if (o->raw && (o->fill > 0.0 || o->repair || o->simplify > 0.0 || o->remesh > 0.0))
+        return fl_fail(err, FL_USAGE, "--raw does not go together with what it leaves undone");
     o->map.s *= o->factor;
     place_first(o);
     return 0;
@@ -373,6 +402,11 @@ void options_by(const struct options *o, fl_by *by)
                   fl_num_text(o->map.t.z, c));
     if (o->weld >= 0.0) fl_by_add(by, "--weld %s", fl_num_text(o->weld, a));
     if (o->fill_holes) fl_by_add(by, "--fill-holes %d", o->fill_holes);
+    if (o->fill > 0.0) fl_by_add(by, "--fill %s", fl_num_text(o->fill, a));
+    if (o->repair) fl_by_add(by, "--repair");
+    if (o->simplify > 0.0) fl_by_add(by, "--simplify %s", fl_num_text(o->simplify, a));
+    if (o->remesh > 0.0)
+        fl_by_add(by, "--remesh %s,%s", fl_num_text(o->remesh, a), fl_num_text(o->remesh_within, b));
     if (o->raw) fl_by_add(by, "--raw");
     for (int32_t k = 0; k < o->items; k++) {
         const struct item *it = &o->item[k];

@@ -36,10 +36,14 @@ struct options {
     int32_t aliases, alias_cap;
     const char *out, *unit; /* borrowed; unit is NULL when unknown */
     enum format to;
-    int32_t facets;     /* 0: round solids stay what they are */
-    int32_t fill_holes; /* rims of up to this many edges are closed */
-    fl_similar map;     /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
-    double factor;      /* --scale alone, 1 when not given */
+    int32_t facets;               /* 0: round solids stay what they are */
+    int32_t fill_holes;           /* rims of up to this many edges are closed */
+    double fill;                  /* and those whose box has a diagonal of up to this [m] */
+    double simplify;              /* [m]; 0 for none */
+    double remesh, remesh_within; /* length of edges, 0 for none, and how far they may stray [m] */
+    int repair;
+    fl_similar map; /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
+    double factor;  /* --scale alone, 1 when not given */
     const char *rotate[TURNS]; /* [turns] borrowed, as given */
     int turns, mirror;         /* bits 0, 1, 2 of mirror: x, y, z */
     double weld;               /* [m]; < 0: automatic */

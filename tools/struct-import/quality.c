@@ -25,10 +25,10 @@ static void shape_row(const char *name, int width, const fl_quality *q)
 static void mesh_row(const char *name, int width, const struct mended *m)
 {
     const fl_quality *q = &m->left;
-    fprintf(stderr, "%-*s %7d %10d %9d %7d %7d %7d %5d %12d %7d %10d %8d\n", width, name, m->weld.merged,
+    fprintf(stderr, "%-*s %7d %10d %9d %7d %7d %7d %5d %12d %7d %7d %8d %8d\n", width, name, m->weld.merged,
             m->weld.collapsed + m->repair.degenerate, m->repair.duplicates, m->orient.patches,
             m->orient.triangles, q->patches, q->open, q->branched, q->incoherent, q->degenerate,
-            m->repair.crossings);
+            m->meet.crossings, m->meet.touching);
 }
 
 static void add(struct mended *sum, const struct mended *m)
@@ -37,9 +37,48 @@ static void add(struct mended *sum, const struct mended *m)
     sum->weld.collapsed += m->weld.collapsed;
     sum->repair.degenerate += m->repair.degenerate;
     sum->repair.duplicates += m->repair.duplicates;
-    sum->repair.crossings += m->repair.crossings;
+    sum->meet.crossings += m->meet.crossings;
+    sum->meet.touching += m->meet.touching;
     sum->orient.patches += m->orient.patches;
     sum->orient.triangles += m->orient.triangles;
+}
+
+/* Share by which a number grew, its sign apart: a body inside out becomes one outward. */
+static void put_change(int width, double came, double went)
+{
+    if (came == 0.0) fprintf(stderr, " %*s", width, went == 0.0 ? "0" : "-");
+    else fprintf(stderr, " %*.3g", width, (fabs(went) - fabs(came)) / fabs(came));
+}
+
+/* Of the largest element of the tensor of inertia. */
+static double inertia_change(const fl_moments *came, const fl_moments *went)
+{
+    const double turn = came->volume * went->volume < 0.0 ? -1.0 : 1.0;
+    double most = 0.0, size = 0.0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            most = fmax(most, fabs(turn * went->inertia.m[i][j] - came->inertia.m[i][j]));
+            size = fmax(size, fabs(came->inertia.m[i][j]));
+        }
+    return size > 0.0 ? most / size : 0.0;
+}
+
+static void cost_row(const char *name, int width, const struct mended *m)
+{
+    const int solid = m->came_closed && m->left.closed && m->came.volume != 0.0;
+    fprintf(stderr, "%-*s %9d %9d %6d %6d %7d", width, name, m->came_triangles, m->left.triangles,
+            m->repair.holes, m->untangle.joined, m->untangle.rebuilt);
+    if (solid) {
+        put_change(10, m->came.volume, m->went.volume);
+        put_change(10, m->came.area, m->went.area);
+        fprintf(stderr, " %10.3g %11.3g", v3_norm(v3_sub(m->went.centroid, m->came.centroid)),
+                inertia_change(&m->came, &m->went));
+    } else {
+        fprintf(stderr, " %10s", "-");
+        put_change(10, m->came.area, m->went.area);
+        fprintf(stderr, " %10s %11s", "-", "-");
+    }
+    fprintf(stderr, " %9.3g %9.3g\n", m->strays, m->misses);
 }
 
 static void details(const fl_part *p, const struct mended *m)
@@ -51,6 +90,9 @@ static void details(const fl_part *p, const struct mended *m)
     if (m->repair.stitched) fprintf(stderr, "%s: %d pairs of rim edges stitched\n", name, m->repair.stitched);
     if (m->repair.holes)
         fprintf(stderr, "%s: %d holes closed by %d triangles\n", name, m->repair.holes, m->repair.patched);
+    if (m->simplified) fprintf(stderr, "%s: %d triangles fewer\n", name, m->simplified);
+    if (m->untangle.failed)
+        fprintf(stderr, "%s: %d patches or pairs of them still cross\n", name, m->untangle.failed);
     if (m->repair.bounding && m->left.inverted)
         fprintf(stderr, "%s: %d patches bound cavities and look inward\n", name, m->left.inverted);
 }
@@ -93,14 +135,18 @@ int report(const struct options *o, const fl_surface *s, const struct mended *m,
             "area[m2]", "centroid[m]", "box[m]");
     for (int32_t i = 0; i < s->n; i++) shape_row(s->part[i].name, width, &m[i].left);
     if (s->n > 1) shape_row("total", width, &sum.left);
-    fprintf(stderr, "\n%-*s %7s %10s %9s %7s %7s %7s %5s %12s %7s %10s %8s\n", width, "part", "welded",
+    fprintf(stderr, "\n%-*s %7s %10s %9s %7s %7s %7s %5s %12s %7s %7s %8s %8s\n", width, "part", "welded",
             "degenerate", "duplicate", "flipped", "turned", "patches", "open", "non-manifold", "twisted",
-            "slivers", "crossing");
+            "slivers", "crossing", "touching");
     for (int32_t i = 0; i < s->n; i++) {
         mesh_row(s->part[i].name, width, &m[i]);
         add(&sum, &m[i]);
     }
     if (s->n > 1) mesh_row("total", width, &sum);
+    fprintf(stderr, "\n%-*s %9s %9s %6s %6s %7s %10s %10s %10s %11s %9s %9s\n", width, "part", "came", "went",
+            "filled", "joined", "rebuilt", "volume[1]", "area[1]", "centre[m]", "inertia[1]", "strays[m]",
+            "misses[m]");
+    for (int32_t i = 0; i < s->n; i++) cost_row(s->part[i].name, width, &m[i]);
     for (int32_t i = 0; i < s->n; i++) {
         if (o->verbose) details(&s->part[i], &m[i]);
         warn(s->part[i].name, &m[i]);

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Crossings, their repair, simplification and remeshing, and the distance by which each is judged. */
+#include <math.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/rng.h"
+#include "geom/facet.h"
+#include "geom/patch.h"
+#include "geom/weld.h"
+#include "shim/cgal_crossing.h"
+#include "shim/cgal_distance.h"
+#include "shim/cgal_remesh.h"
+#include "shim/cgal_simplify.h"
+#include "shim/cgal_untangle.h"
+#include "support/near.h"
+
+static fl_err err;
+
+static fl_soup soup_of(const fl_part *p)
+{
+    fl_soup s = {.nv = p->nv, .nt = p->nt};
+    s.x = fl_alloc(3 * (int64_t)p->nv, sizeof *s.x, &err);
+    s.t = fl_alloc(3 * (int64_t)p->nt, sizeof *s.t, &err);
+    for (int32_t v = 0; v < p->nv; v++) memcpy(s.x + 3 * v, &p->v[v].x, 3 * sizeof *s.x);
+    for (int32_t t = 0; t < p->nt; t++) memcpy(s.t + 3 * t, p->t[t].v, 3 * sizeof *s.t);
+    return s;
+}
+
+static void take(fl_part *p, fl_soup *s)
+{
+    fl_weld w;
+    p->nv = p->nt = 0;
+    for (int32_t v = 0; v < s->nv; v++)
+        fl_surface_vertex(p, v3(s->x[3 * v], s->x[3 * v + 1], s->x[3 * v + 2]), &err);
+    for (int32_t t = 0; t < s->nt; t++)
+        fl_surface_triangle(p, s->t[3 * t], s->t[3 * t + 1], s->t[3 * t + 2], &err);
+    fl_soup_free(s);
+    if (fl_part_weld(p, 0.0, &w, &err)) fail_msg("%s", err.text);
+}
+
+static fl_quality measured(const fl_part *p)
+{
+    fl_quality q;
+    assert_int_equal(fl_part_measure(p, &q, &err), 0);
+    return q;
+}
+
+static fl_crossing meetings(const fl_part *p)
+{
+    fl_soup s = soup_of(p);
+    fl_crossing c;
+    if (fl_cgal_crossings(&s, &c, &err)) fail_msg("%s", err.text);
+    fl_soup_free(&s);
+    return c;
+}
+
+static fl_part one(fl_vec3 a, fl_vec3 b, fl_vec3 c)
+{
+    fl_part p = {0};
+    fl_surface_vertex(&p, a, &err);
+    fl_surface_vertex(&p, b, &err);
+    fl_surface_vertex(&p, c, &err);
+    fl_surface_triangle(&p, 0, 1, 2, &err);
+    return p;
+}
+
+/* The triangle (0 0 0) (1 0 0) (0 1 0), and another one: crossings and touches. */
+static void pair(fl_vec3 a, fl_vec3 b, fl_vec3 c, int crossings, int touching)
+{
+    static const int order[3][3] = {{0, 1, 2}, {2, 0, 1}, {1, 0, 2}};
+    const fl_vec3 x[3] = {a, b, c};
+    for (int k = 0; k < 3; k++) { /* whatever the order of corners, and of triangles */
+        fl_part p = one(v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0));
+        fl_crossing m;
+        for (int i = 0; i < 3; i++) fl_surface_vertex(&p, x[order[k][i]], &err);
+        fl_surface_triangle(&p, 3, 4, 5, &err);
+        if (k) {
+            const fl_tri keep = p.t[0];
+            p.t[0] = p.t[1];
+            p.t[1] = keep;
+        }
+        m = meetings(&p);
+        assert_int_equal(m.crossings, crossings);
+        assert_int_equal(m.touching, touching);
+        fl_part_free(&p);
+    }
+}
+
+static void every_way_to_meet(void **state)
+{
+    (void)state;
+    pair(v3(0, 0, 1), v3(1, 0, 1), v3(0, 1, 1), 0, 0);            /* apart */
+    pair(v3(.2, .2, -1), v3(.2, .2, 1), v3(.4, .2, 1), 1, 0);     /* through the middle */
+    pair(v3(.2, .2, 0), v3(.2, .2, 1), v3(.4, .2, 1), 0, 1);      /* a corner on the face */
+    pair(v3(.1, .2, 0), v3(.3, .2, 0), v3(.2, .2, 1), 0, 1);      /* an edge on the face */
+    pair(v3(.2, 0, 0), v3(.6, 0, 0), v3(.4, -1, 0), 0, 1);        /* a T-junction in one plane */
+    pair(v3(.2, 0, 0), v3(.6, 0, 0), v3(.4, -1, 1), 0, 1);        /* and bent */
+    pair(v3(1, 0, 0), v3(0, 1, 0), v3(1, 1, 0), 0, 0);            /* neighbours in one plane */
+    pair(v3(1, 0, 0), v3(0, 1, 0), v3(.1, .1, 0), 1, 0);          /* folded on each other */
+    pair(v3(1, 0, 0), v3(0, 1, 0), v3(0, 0, 1), 0, 0);            /* neighbours at an angle */
+    pair(v3(0, 0, 0), v3(-1, 0, 0), v3(0, -1, 1), 0, 0);          /* a corner in common */
+    pair(v3(0, 0, 0), v3(1, 1, 1), v3(1, 1, -1), 1, 0);           /* and through each other */
+    pair(v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0), 1, 0);            /* the same triangle */
+    pair(v3(-.1, -.1, 0), v3(.5, -.1, 0), v3(-.1, .5, 0), 1, 0);  /* covered in part */
+    pair(v3(1, 1, 0), v3(2, 1, 0), v3(1, 2, 0), 0, 0);            /* apart in one plane */
+    pair(v3(.25, .25, 0), v3(.5, .25, -1), v3(-1, .25, 2), 1, 0); /* through, with a corner on the face */
+    pair(v3(.5, -1, -1), v3(.5, -1, 1), v3(.5, 0, 0), 0, 1);      /* a corner on an edge */
+    pair(v3(.5, -1, -1), v3(.5, 1, 1), v3(2, 0, 0), 0, 1);        /* through an edge, along it */
+    pair(v3(.5, -1, -1), v3(.5, 1, 1), v3(.4, 1, -1), 1, 0);      /* through an edge, and in */
+}
+
+static void crossing_boxes_become_their_union(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) { /* second: a third body, that only the second reaches */
+        fl_part p = {0};
+        fl_soup s;
+        fl_untangle did;
+        fl_quality q;
+        fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
+        fl_facet_box(&p, v3(.5, .25, .25), v3(2, .75, .75), &err);
+        if (k) fl_facet_box(&p, v3(1.75, 0, 0), v3(3, 1, 1), &err);
+        s = soup_of(&p);
+        if (fl_cgal_untangle(&s, &did, &err)) fail_msg("%s", err.text);
+        take(&p, &s);
+        q = measured(&p);
+        assert_int_equal(did.joined, 1 + k);
+        assert_int_equal(did.failed + did.rebuilt, 0);
+        assert_int_equal(q.open + q.branched + q.incoherent, 0);
+        assert_int_equal(q.patches, 1);
+        assert_near(q.volume, k ? 1.0 + .1875 + 1.25 : 1.25, 1e-14);
+        assert_int_equal(meetings(&p).crossings, 0);
+        fl_part_free(&p);
+    }
+}
+
+/* A roof whose ridge was pushed through its floor. */
+static void a_patch_through_itself_is_rebuilt(void **state)
+{
+    fl_part p = {0};
+    fl_soup s;
+    fl_untangle did;
+    fl_quality q;
+    (void)state;
+    fl_facet_cone(&p, &(fl_cone){v3(0, 0, 0), v3(0, 0, 4), 1.0, 1.0}, 24, &err);
+    fl_surface_vertex(&p, v3(0, 0, 0), &err);
+    p.v[24] = v3(-1.5, 0.05, 2); /* a corner of the top goes through the opposite side */
+    assert_true(meetings(&p).crossings > 0);
+    s = soup_of(&p);
+    if (fl_cgal_untangle(&s, &did, &err)) fail_msg("%s", err.text);
+    take(&p, &s);
+    q = measured(&p);
+    assert_int_equal(did.rebuilt, 1);
+    assert_int_equal(meetings(&p).crossings, 0);
+    assert_int_equal(q.open + q.branched, 0);
+    assert_true(q.volume > 6.0 && q.volume < 4.0 * 3.1415926536);
+    fl_part_free(&p);
+}
+
+static void distance_of(const fl_part *a, const fl_part *b, double *least, double *most)
+{
+    fl_soup s = soup_of(a), t = soup_of(b);
+    if (fl_cgal_distance(&s, &t, 1e-9, least, most, &err)) fail_msg("%s", err.text);
+    fl_soup_free(&s);
+    fl_soup_free(&t);
+}
+
+static void distances_are_bounded_on_both_sides(void **state)
+{
+    fl_part a = one(v3(0, 0, 0), v3(4, 0, 0), v3(0, 4, 0)), b = {0}, c = {0};
+    double least, most;
+    (void)state;
+    /* the same plane, cut otherwise: 0 to rounding both ways */
+    for (int i = 0; i < 7; i++)
+        for (int j = 0; j < 7; j++) {
+            const double h = 4.0 / 7.0, x = h * i, y = h * j;
+            if (i + j < 7) {
+                fl_part t = one(v3(x, y, 0), v3(x + h, y, 0), v3(x, y + h, 0));
+                for (int k = 0; k < 3; k++) fl_surface_vertex(&b, t.v[k], &err);
+                fl_surface_triangle(&b, b.nv - 3, b.nv - 2, b.nv - 1, &err);
+                fl_part_free(&t);
+            }
+            if (i + j < 6) {
+                fl_surface_vertex(&b, v3(x + h, y, 0), &err);
+                fl_surface_vertex(&b, v3(x + h, y + h, 0), &err);
+                fl_surface_vertex(&b, v3(x, y + h, 0), &err);
+                fl_surface_triangle(&b, b.nv - 3, b.nv - 2, b.nv - 1, &err);
+            }
+        }
+    distance_of(&a, &b, &least, &most);
+    assert_true(most < 1e-8);
+    distance_of(&b, &a, &least, &most);
+    assert_true(most < 1e-12);
+    /* one corner lifted by 0.25, another moved out by 3: told to a hundredth */
+    a.v[0].z = 0.25;
+    distance_of(&a, &b, &least, &most);
+    assert_true(least <= 0.25 + 1e-12 && most >= 0.25 && most <= 0.2526);
+    a.v[0].z = 0.0;
+    a.v[1].x = 7.0;
+    distance_of(&a, &b, &least, &most);
+    assert_true(least <= 3.0 + 1e-12 && most >= 3.0 && most <= 3.031);
+    distance_of(&b, &a, &least, &most);
+    assert_true(most < 1e-8);
+    /* the middle of a square is farthest from its rim: least is not at a corner */
+    fl_facet_box(&c, v3(0, 0, 0), v3(2, 2, 2), &err);
+    a.nt = a.nv = 0;
+    for (int k = 0; k < 4; k++) fl_surface_vertex(&a, v3(k & 1 ? 2 : 0, k & 2 ? 2 : 0, 1), &err);
+    fl_surface_triangle(&a, 0, 1, 3, &err);
+    fl_surface_triangle(&a, 0, 3, 2, &err);
+    distance_of(&a, &c, &least, &most);
+    assert_true(least <= 1.0 + 1e-12 && most >= 1.0 && most <= 1.011);
+    fl_part_free(&a);
+    fl_part_free(&b);
+    fl_part_free(&c);
+}
+
+static void simplified_stays_within_the_distance(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const double within = k ? 0.1 : 0.02;
+        fl_part p = {0}, q = {0};
+        fl_soup s, t;
+        int32_t gone;
+        double least, most;
+        fl_facet_cone(&p, &(fl_cone){v3(0, 0, 0), v3(0, 0, 3), 1.0, 1.0}, 60, &err);
+        s = soup_of(&p);
+        if (fl_cgal_simplify(&s, within, &gone, &err)) fail_msg("%s", err.text);
+        assert_int_equal(s.nt, p.nt - gone);
+        assert_true(gone > 60);
+        t = soup_of(&p);
+        assert_int_equal(fl_cgal_distance(&s, &t, 1e-9, &least, &most, &err), 0);
+        assert_true(most <= 1.02 * within);
+        fl_soup_free(&t);
+        take(&q, &s);
+        assert_int_equal(measured(&q).open + measured(&q).branched, 0);
+        fl_part_free(&p);
+        fl_part_free(&q);
+    }
+}
+
+static void remeshed_is_even_and_where_it_was(void **state)
+{
+    fl_part p = {0}, q = {0};
+    fl_soup s, t;
+    double least, most;
+    fl_quality m;
+    (void)state;
+    fl_facet_box(&p, v3(0, 0, 0), v3(1, 2, 3), &err);
+    s = soup_of(&p);
+    t = soup_of(&p);
+    if (fl_cgal_remesh(&s, 0.25, &err)) fail_msg("%s", err.text);
+    assert_int_equal(fl_cgal_distance(&s, &t, 1e-9, &least, &most, &err), 0);
+    assert_true(most < 1e-8);
+    assert_int_equal(fl_cgal_distance(&t, &s, 1e-9, &least, &most, &err), 0);
+    assert_true(most < 1e-8);
+    take(&q, &s);
+    m = measured(&q);
+    assert_int_equal(m.open + m.branched + m.degenerate, 0);
+    assert_near(m.volume, 6.0, 1e-13);
+    assert_near(m.area, 22.0, 1e-13);
+    assert_true(m.triangles > 22.0 / (0.25 * 0.25 * 0.75) && m.triangles < 22.0 / (0.25 * 0.25 * 0.2));
+    assert_true(m.shortest > 0.25 / 4.0);
+    fl_soup_free(&t);
+    fl_part_free(&p);
+    fl_part_free(&q);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_way_to_meet),
+                                       cmocka_unit_test(crossing_boxes_become_their_union),
+                                       cmocka_unit_test(a_patch_through_itself_is_rebuilt),
+                                       cmocka_unit_test(distances_are_bounded_on_both_sides),
+                                       cmocka_unit_test(simplified_stays_within_the_distance),
+                                       cmocka_unit_test(remeshed_is_even_and_where_it_was)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
