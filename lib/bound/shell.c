@@ -119,7 +119,7 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     *distance = ra; /* something is near: no bound is claimed */
     if (core_vertices(w, &A, &B, walls, ra, single, &behind)) return -1;
     if (single) return 0;
-    if (whole(all, a)) return -1;
+    if (whole(all, a) || fl_reach_boxes(all, &A) || fl_reach_boxes(walls, &B)) return -1;
     for (int32_t k = 0; k < walls->vertices; k++) {
         const int32_t v = walls->vertex[k];
         const fl_nearest q = fl_nearest_poly(a, m3_tmul(M, v3_sub(core->v[v], o)));
@@ -132,6 +132,7 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
         if (fl_strips_edge(w, &B, walls->edge[k], &A, all, ra, depth)) return -1;
     for (int32_t f = 0; f < a->nf; f++) {
         for (int32_t k = 0; k < walls->facings; k++) {
+            if (!aabb_meet(aabb_grow(all->facing_box[f], ra), walls->facing_box[k])) continue;
             if (fl_areas_face(w, &A, f, &B, walls->facing[k], ra, depth, 0.0)) return -1;
             if (fl_areas_face(w, &B, walls->facing[k], &A, f, ra, depth, FL_PLACE_RIM * ra)) return -1;
         }
@@ -141,7 +142,5 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
 
 void fl_shell_near_free(fl_shell_near *near)
 {
-    fl_reach *r[2] = {&near->of_shell, &near->of_core};
-    for (int k = 0; k < 2; k++) free(r[k]->vertex), free(r[k]->edge), free(r[k]->face), free(r[k]->facing);
-    *near = (fl_shell_near){0};
+    fl_reach_free(&near->of_shell), fl_reach_free(&near->of_core);
 }

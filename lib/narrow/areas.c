@@ -44,7 +44,8 @@ static int32_t cut(const corner *p, const double *g, int32_t n, corner *out)
     return m;
 }
 
-/* Where the plane of f is, and F over it. */
+/* Where the plane of f is, and F over it; and the sums over all nodes, relative to the corner `at` of the
+ * first polygon: what is far away keeps its digits. */
 typedef struct {
     fl_places *w;
     const fl_side *own;
@@ -52,6 +53,11 @@ typedef struct {
     fl_vec3 nf, nF;
     double slope, half, R; /* -n_F.n_f; 1/2, or 1 for a plane */
     double c0, cx, cy;     /* fade, c0 + cx x + cy y */
+    int begun;
+    double x0, y0;              /* the first corner */
+    double u, du, ddu, s, most; /* sums of u, its derivatives, du s; largest s */
+    double x, y, xx, xy, yy;    /* sums of du x ... */
+    fl_vec3 pull, turn;         /* of the rims: force, and moment about the first corner on the plane of f */
 } footprint;
 
 static fl_vec3 lift(const footprint *q, double x, double y, double s)
@@ -60,56 +66,59 @@ static fl_vec3 lift(const footprint *q, double x, double y, double s)
     return v3_madd(v3_madd(o, x, q->at.x), y, q->at.y);
 }
 
-static int node(const footprint *q, double x, double y, double s, double area)
+static void node(footprint *q, double x, double y, double s, double area)
 {
-    const double fade = q->c0 + q->cx * x + q->cy * y, k = q->half * area * fade, s2 = s * s;
-    if (s <= 0.0 || fade <= 0.0) return 0;
-    return fl_places_add(q->w, (fl_place){.overlap = s,
-                                          .u = k * s2 * s2,
-                                          .du = 4.0 * k * s2 * s,
-                                          .ddu = 12.0 * k * s2,
-                                          .n = v3_scale(-q->own->side / q->slope, q->nF),
-                                          .across = v3_scale(q->own->side, q->nf),
-                                          .p = v3_madd(lift(q, x, y, s), q->own->r - 0.5 * s, q->nF)});
+    const double fade = q->c0 + q->cx * x + q->cy * y, k = area * fade, s2 = s * s;
+    if (s <= 0.0 || fade <= 0.0) return;
+    const double du = 4.0 * k * s2 * s;
+    x -= q->x0, y -= q->y0;
+    q->u += k * s2 * s2;
+    q->du += du;
+    q->ddu += 12.0 * k * s2;
+    q->s += du * s;
+    q->x += du * x;
+    q->y += du * y;
+    q->xx += du * x * x;
+    q->xy += du * x * y;
+    q->yy += du * y * y;
+    if (s > q->most) q->most = s;
 }
 
-static int triangle(const footprint *q, corner a, corner b, corner c)
+static void triangle(footprint *q, corner a, corner b, corner c)
 {
     const double area = 0.5 * fabs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
     const corner t[3] = {a, b, c};
-    if (area == 0.0) return 0;
+    if (area == 0.0) return;
     const int flat = q->cx == 0.0 && q->cy == 0.0;
     const double *at = flat ? A4 : A5, *weight = flat ? W4 : W5;
     for (int k = 0; k < 3; k++) {
         const corner p = t[k], r = t[(k + 1) % 3], l = t[(k + 2) % 3];
         for (int rule = 0; rule < 2; rule++) {
             const double m = at[rule], o = 1.0 - 2.0 * m;
-            if (node(q, o * p.x + m * (r.x + l.x), o * p.y + m * (r.y + l.y), o * p.s + m * (r.s + l.s),
-                     weight[rule] * area))
-                return -1;
+            node(q, o * p.x + m * (r.x + l.x), o * p.y + m * (r.y + l.y), o * p.s + m * (r.s + l.s),
+                 weight[rule] * area);
         }
     }
-    if (flat) return 0;
-    return node(q, (a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, (a.s + b.s + c.s) / 3.0, MIDDLE * area);
+    if (!flat)
+        node(q, (a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, (a.s + b.s + c.s) / 3.0, MIDDLE * area);
 }
 
 /* Moving F outward over its own rim a b makes the area larger: the gradient of that. */
-static int rim(const footprint *q, corner a, corner b, double turn)
+static void rim(footprint *q, corner a, corner b, double turn)
 {
     const double ex = b.x - a.x, ey = b.y - a.y, length = sqrt(ex * ex + ey * ey);
-    if (length == 0.0) return 0;
+    if (length == 0.0) return;
     const fl_vec3 out = v3_scale(turn / length, v3_sub(v3_scale(ey, q->at.x), v3_scale(ex, q->at.y)));
     for (int k = 0; k < 3; k++) {
         const double t = GAUSS[k], s = a.s + t * (b.s - a.s), s2 = s * s;
         const double x = a.x + t * ex, y = a.y + t * ey, fade = q->c0 + q->cx * x + q->cy * y;
         if (s <= 0.0 || fade <= 0.0) continue;
-        if (fl_places_add(q->w, (fl_place){.overlap = s,
-                                           .du = q->half * GAUSS_WEIGHT[k] * length * fade * s2 * s2,
-                                           .n = v3_scale(-q->own->side, out),
-                                           .p = lift(q, x, y, s)}))
-            return -1;
+        const fl_vec3 f = v3_scale(GAUSS_WEIGHT[k] * length * fade * s2 * s2, out);
+        fl_vec3 arm = v3_scale(q->R - s, q->nf);
+        arm = v3_madd(v3_madd(arm, x - q->x0, q->at.x), y - q->y0, q->at.y);
+        q->pull = v3_add(q->pull, f);
+        q->turn = v3_add(q->turn, v3_cross(arm, f));
     }
-    return 0;
 }
 
 /* The polygon of F over the plane of f, before any cut, in the first of four buffers that have room for
@@ -130,18 +139,18 @@ static int32_t lay(footprint *q, int32_t F, int64_t more, corner *buffer[4], dou
     return n;
 }
 
-static int integrate(footprint *q, const corner *p, int32_t n)
+static void integrate(footprint *q, const corner *p, int32_t n)
 {
     double twice = 0.0;
+    if (!q->begun) q->x0 = p[0].x, q->y0 = p[0].y, q->begun = 1;
     for (int32_t k = 1; k + 1 < n; k++) {
         const corner a = p[0], b = p[k], c = p[k + 1];
         twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        if (triangle(q, a, b, c)) return -1;
+        triangle(q, a, b, c);
     }
     const double turn = twice > 0.0 ? 1.0 : -1.0;
     for (int32_t k = 0; k < n; k++)
-        if (p[k].own > 0.0 && rim(q, p[k], p[k + 1 < n ? k + 1 : 0], turn)) return -1;
-    return 0;
+        if (p[k].own > 0.0) rim(q, p[k], p[k + 1 < n ? k + 1 : 0], turn);
 }
 
 /* Keep of *now what lies left of the line from (ax, ay) to (bx, by). */
@@ -201,18 +210,38 @@ static double lay_rim(const footprint *q, const fl_side *other, int32_t f, doubl
     return width;
 }
 
-/* The places from `first` on get the factor m = slope^2, by which a face fades out that is seen ever more
- * from the side; dm has a couple. */
-static void lean(const footprint *q, int32_t first)
+/* The places of all nodes: all push along n_F, so that three with their sum, mean and second moments have the
+ * same force, torque and spread.  They get the factor m = slope^2, by which a face fades out that is seen
+ * ever more from the side; dm has a couple.  Then the pull of the rims. */
+static int put(const footprint *q)
 {
-    const double m = q->slope * q->slope;
-    double sum = 0.0;
-    for (int32_t k = first; k < q->w->n; k++) {
-        fl_place *p = &q->w->place[k];
-        sum += p->u;
-        p->u *= m, p->du *= m, p->ddu *= m;
+    static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
+    const double m = q->half * q->slope * q->slope, side = q->own->side;
+    if (!(q->du > 0.0)) return 0;
+    const double x = q->x / q->du, y = q->y / q->du, s = q->s / q->du;
+    const double xx = q->xx / q->du - x * x, xy = q->xy / q->du - x * y, yy = q->yy / q->du - y * y;
+    const double a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0, b = a > 0.0 ? 2.0 * xy / a : 0.0, c2 = 2.0 * yy - b * b,
+                 c = c2 > 0.0 ? sqrt(c2) : 0.0;
+    /* s over F */
+    const double sx = -v3_dot(q->nF, q->at.x) / q->slope, sy = -v3_dot(q->nF, q->at.y) / q->slope;
+    for (int k = 0; k < 3; k++) {
+        const double dx = a * COS[k], dy = b * COS[k] + c * SIN[k], sk = s + sx * dx + sy * dy;
+        const fl_vec3 on = lift(q, q->x0 + x + dx, q->y0 + y + dy, sk);
+        if (fl_places_add(q->w, (fl_place){.overlap = q->most,
+                                           .u = m * q->u / 3.0,
+                                           .du = m * q->du / 3.0,
+                                           .ddu = m * q->ddu / 3.0,
+                                           .n = v3_scale(-side / q->slope, q->nF),
+                                           .across = v3_scale(side, q->nf),
+                                           .p = v3_madd(on, q->own->r - 0.5 * sk, q->nF)}))
+            return -1;
     }
-    q->w->couple = v3_madd(q->w->couple, 2.0 * q->own->side * q->slope * sum, v3_cross(q->nF, q->nf));
+    q->w->couple = v3_madd(q->w->couple, 2.0 * side * q->half * q->slope * q->u, v3_cross(q->nF, q->nf));
+    const double pull = v3_norm(q->pull);
+    if (pull == 0.0) return 0;
+    q->w->couple = v3_madd(q->w->couple, -side * m, q->turn);
+    const fl_vec3 first = v3_madd(v3_madd(q->at.o, q->x0, q->at.x), q->y0, q->at.y);
+    return fl_places_add(q->w, (fl_place){.du = m * pull, .n = v3_scale(-side / pull, q->pull), .p = first});
 }
 
 static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, double behind,
@@ -223,7 +252,10 @@ static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, d
     const double floor = q->R + behind + SAME * p->size;
     corner *buffer[4];
     double *g;
-    q->at = fl_across_of(other->v[p->loop[p->first[f]]], q->nf);
+    /* axes that turn with f: which three places stand for the nodes hangs on them */
+    const fl_vec3 o = other->v[p->loop[p->first[f]]],
+                  x = v3_unit(v3_sub(other->v[p->loop[p->first[f] + 1]], o));
+    q->at = (fl_across){o, x, v3_cross(q->nf, x)};
     int32_t n = lay(q, F, 2 * (int64_t)sides + 6, buffer, &g);
     if (n < 0) return -1;
     double most = -INFINITY, least = INFINITY;
@@ -259,32 +291,28 @@ static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, d
         const double k = 1.0 / (a.s * width);
         q->cx = -(b.y - a.y) * k, q->cy = (b.x - a.x) * k;
         q->c0 = -(q->cx * a.x + q->cy * a.y);
-        if (m > 2 && integrate(q, buffer[2], m)) return -1;
+        if (m > 2) integrate(q, buffer[2], m);
     }
     q->c0 = 1.0, q->cx = q->cy = 0.0;
     for (int32_t c = 0; c < sides && n > 2 && width > 0.0; c++) {
         const corner a = inner[c], b = inner[c + 1 < sides ? c + 1 : 0];
         n = left_of(&buffer[0], &buffer[1], g, n, a.x, a.y, b.x, b.y);
     }
-    return n > 2 ? integrate(q, buffer[0], n) : 0;
+    if (n > 2) integrate(q, buffer[0], n);
+    return 0;
 }
 
 int fl_areas_face(fl_places *w, const fl_side *own, int32_t F, const fl_side *other, int32_t f, double R,
                   double behind, double rim)
 {
     footprint q = {.w = w, .own = own, .nf = other->n[f], .nF = own->n[F], .half = 0.5, .R = R, .c0 = 1.0};
-    const int32_t first = w->n;
     q.slope = -v3_dot(q.nf, q.nF);
-    if (q.slope < LEVEL) return 0;
-    if (over_face(&q, F, other, f, behind, rim)) return -1;
-    lean(&q, first);
-    return 0;
+    return q.slope < LEVEL || !over_face(&q, F, other, f, behind, rim) ? put(&q) : -1;
 }
 
 int fl_areas_plane(fl_places *w, const fl_side *own, int32_t F, double R)
 {
     footprint q = {.w = w, .own = own, .nf = v3(0, 0, 1), .nF = own->n[F], .half = 1.0, .R = R, .c0 = 1.0};
-    const int32_t first = w->n;
     corner *buffer[4];
     double *g;
     q.slope = -q.nF.z;
@@ -294,7 +322,6 @@ int fl_areas_plane(fl_places *w, const fl_side *own, int32_t F, double R)
     if (n < 0) return -1;
     for (int32_t k = 0; k < n; k++) g[k] = buffer[0][k].s;
     n = cut(buffer[0], g, n, buffer[1]);
-    if (n > 2 && integrate(&q, buffer[1], n)) return -1;
-    lean(&q, first);
-    return 0;
+    if (n > 2) integrate(&q, buffer[1], n);
+    return put(&q);
 }

@@ -80,7 +80,38 @@ static int in_reach(fl_reach *r, const fl_side *a, fl_vec3 n, double limit, doub
         r->face[r->faces++] = f;
         if (-v3_dot(n, a->n[f]) >= lean) r->facing[r->facings++] = f;
     }
+    return fl_reach_boxes(r, a);
+}
+
+static fl_aabb face_box(const fl_side *a, int32_t f)
+{
+    const fl_poly *p = a->p;
+    fl_aabb box = aabb_empty();
+    for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) box = aabb_add(box, a->v[p->loop[k]]);
+    return box;
+}
+
+int fl_reach_boxes(fl_reach *r, const fl_side *a)
+{
+    fl_err lost = {0};
+    if (fl_grow(&r->edge_box, &r->edge_box_cap, r->edges, sizeof *r->edge_box, &lost) ||
+        fl_grow(&r->face_box, &r->face_box_cap, r->faces, sizeof *r->face_box, &lost) ||
+        fl_grow(&r->facing_box, &r->facing_box_cap, r->facings, sizeof *r->facing_box, &lost))
+        return -1;
+    for (int32_t k = 0; k < r->edges; k++) {
+        const fl_edge e = a->p->edge[r->edge[k]];
+        r->edge_box[k] = aabb_add((fl_aabb){a->v[e.a], a->v[e.a]}, a->v[e.b]);
+    }
+    for (int32_t k = 0; k < r->faces; k++) r->face_box[k] = face_box(a, r->face[k]);
+    for (int32_t k = 0; k < r->facings; k++) r->facing_box[k] = face_box(a, r->facing[k]);
     return 0;
+}
+
+void fl_reach_free(fl_reach *r)
+{
+    free(r->vertex), free(r->edge), free(r->face), free(r->facing);
+    free(r->edge_box), free(r->face_box), free(r->facing_box);
+    *r = (fl_reach){0};
 }
 
 static int edges_and_faces(fl_places *w, const fl_side *own, const fl_reach *mine, const fl_side *other,
@@ -90,7 +121,8 @@ static int edges_and_faces(fl_places *w, const fl_side *own, const fl_reach *min
         if (fl_strips_edge(w, own, mine->edge[k], other, near, R, 0.0)) return -1;
     for (int32_t k = 0; k < mine->faces; k++)
         for (int32_t m = 0; m < near->facings; m++)
-            if (fl_areas_face(w, own, mine->face[k], other, near->facing[m], R, 0.0,
+            if (aabb_meet(aabb_grow(mine->face_box[k], R), near->facing_box[m]) &&
+                fl_areas_face(w, own, mine->face[k], other, near->facing[m], R, 0.0,
                               FL_PLACE_RIM * (own->r + other->r)))
                 return -1;
     return 0;
@@ -181,8 +213,7 @@ int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance)
 
 void fl_places_free(fl_places *w)
 {
-    fl_reach *r[2] = {&w->of_a, &w->of_b};
-    for (int k = 0; k < 2; k++) free(r[k]->vertex), free(r[k]->edge), free(r[k]->face), free(r[k]->facing);
+    fl_reach_free(&w->of_a), fl_reach_free(&w->of_b);
     free(w->va), free(w->na), free(w->place), free(w->cut);
     *w = (fl_places){0};
 }

@@ -30,6 +30,7 @@
  * at shallow spots); point at the nearest points (jumps on parallel faces by F times their size). */
 #ifndef FL_NARROW_PLACES_H
 #define FL_NARROW_PLACES_H
+#include "geom/aabb.h"
 #include "geom/mat3.h"
 #include "geom/poly.h"
 #include "narrow/deep.h"
@@ -40,15 +41,17 @@
 #define FL_PLACE_SHARP_EDGE 4.0   /* w = bend times this [1/rad], at most 1 */
 #define FL_PLACE_SHARP_CORNER 2.0 /* w = defect times this [1/sr], at most 1 */
 
-/* One term of U, or one node of its quadrature. */
+/* A part of U that pulls along one line: a vertex, or a piece of an edge or of a face, of which two or three
+ * have the force, the torque and the spread. */
 typedef struct {
     double overlap; /* s                                                                    [m] */
-    double u;       /* share of U; 0 for the pull of a rim, that only moves the border   [m6] */
+    double u;       /* share of U; 0 for the pull of rims, that only moves the border    [m6] */
     double du, ddu; /* derivatives of the share after s                                  [m5], [m4] */
-    fl_vec3 n;      /* the force on A is dW/dU du n; from B to A but for rims, and unit but for faces that are
-                     * not parallel */
+    fl_vec3 n; /* the force on A is dW/dU du n; from B to A but for rims.  Unit for vertices; shorter where
+                * forces of many directions meet, longer for faces that are not parallel */
     fl_vec3 across; /* unit, from B to A: what bodies approach along, and press */
     fl_vec3 p;      /* middle of the overlap, on the line of that force [m] */
+    double closing; /* for the caller: speed of approach here [m/s] */
 } fl_place;
 
 /* A core in the frame that both are looked at in.  Zero faces: a point or a segment. */
@@ -59,11 +62,12 @@ typedef struct {
     double side;          /* +1 for A, -1 for B */
 } fl_side;
 
-/* Features worth a look. */
+/* Features worth a look, and boxes around them. */
 typedef struct {
     int32_t *vertex, *edge, *face, *facing;
+    fl_aabb *edge_box, *face_box, *facing_box;
     int32_t vertices, edges, faces, facings;
-    int32_t vertex_cap, edge_cap, face_cap, facing_cap;
+    int32_t vertex_cap, edge_cap, face_cap, facing_cap, edge_box_cap, face_box_cap, facing_box_cap;
 } fl_reach;
 
 /* Scratch of one thread, and the places found.  Zeroed to start; grows as it must. */
@@ -103,6 +107,10 @@ double fl_places_measure(const fl_places *w);
 /* --- for those who put places together ------------------------------------------------------ */
 
 int fl_places_add(fl_places *w, fl_place place); /* -1 when memory runs out */
+
+/* Boxes around the edges, faces and facings in the list; -1 when memory runs out. */
+int fl_reach_boxes(fl_reach *r, const fl_side *a);
+void fl_reach_free(fl_reach *r);
 
 /* The radius that a feature of a core of radius r shows to one of radius other. */
 static inline double fl_place_rho(double r, double other) { return r > 0.0 ? r : other; }

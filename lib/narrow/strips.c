@@ -72,13 +72,31 @@ static double beyond(fl_vec3 g, fl_vec3 r)
     return h != 0.0 ? h : 1e-300 * v3_dot(g, v3(0.5772156649, 0.4342944819, 0.6931471806));
 }
 
-/* How far x is to the left of the edge a b of a face with normal n, times a length: the same number with its
- * sign turned for the face on the other side. */
+/* Points to the left of the edge a b of a face with normal n: the same numbers, turned round, for the face on
+ * the other side. */
+static fl_vec3 leftward(const fl_side *q, fl_vec3 n, int32_t a, int32_t b, fl_vec3 *from)
+{
+    *from = q->v[a < b ? a : b];
+    return v3_cross(n, v3_sub(q->v[a < b ? b : a], *from));
+}
+
+/* How far x is to the left of it, times a length. */
 static double left_of(const fl_side *q, fl_vec3 n, int32_t a, int32_t b, fl_vec3 x)
 {
-    const fl_vec3 lo = q->v[a < b ? a : b], hi = q->v[a < b ? b : a];
-    const double h = beyond(v3_cross(n, v3_sub(hi, lo)), v3_sub(x, lo));
+    fl_vec3 from;
+    const fl_vec3 g = leftward(q, n, a, b, &from);
+    const double h = beyond(g, v3_sub(x, from));
     return a < b ? h : -h;
+}
+
+/* Keep of the line from x0 to x1 what is left of the edge, or what is not. */
+static int keep_left(span *t, const fl_side *q, fl_vec3 n, int32_t a, int32_t b, fl_vec3 x0, fl_vec3 x1,
+                     int left)
+{
+    fl_vec3 from;
+    const fl_vec3 g = leftward(q, n, a, b, &from);
+    const double h0 = beyond(g, v3_sub(x0, from)), h1 = beyond(g, v3_sub(x1, from));
+    return a < b ? keep(t, h0, h1, left) : keep(t, -h0, -h1, left);
 }
 
 /* How far x is beyond a towards b, times a length. */
@@ -92,96 +110,101 @@ typedef struct {
     double length, factor, R;
 } line;
 
-/* One node at x = x0 + t u of distance d in direction n. */
-static int node(const line *l, double t, double share, double d, fl_vec3 n)
-{
-    const double s = l->R - d;
-    if (s <= 0.0) return 0;
-    const double s2 = s * s, root = sqrt(s), k = l->factor * share * root, side = l->own->side;
-    return fl_places_add(l->w, (fl_place){.overlap = s,
-                                          .u = k * s2 * s2,
-                                          .du = 4.5 * k * s2 * s,
-                                          .ddu = 15.75 * k * s2,
-                                          .n = v3_scale(side, n),
-                                          .across = v3_scale(side, n),
-                                          .p = v3_madd(v3_madd(l->x0, t, l->u), 0.5 * s - l->own->r, n)});
-}
-
-/* Node k of a piece over which s goes from p^2 to q^2.  Were s linear, its root would be
- * r = p + (q - p) z at t = lo + (hi - lo) z (r + p)/(q + p): in z the integrand s^(9/2) dt is a polynomial of
- * degree 10, and a curved s is as smooth. */
-static double at_node(span t, double p, double q, int k, double *share)
-{
-    const double z = NODE[k], r = p + (q - p) * z, dt = t.hi - t.lo;
-    *share = 2.0 * WEIGHT[k] * dt * r / (p + q);
-    return t.lo + dt * z * (r + p) / (p + q);
-}
-
 static double root_of(double s) { return s > 0.0 ? sqrt(s) : 0.0; }
 
-/* Over a plane: d is linear. */
+/* Over a plane: d is linear and its direction one, so that two places have force and torque of all nodes, and
+ * the second moment of the pressure.  Node k of a piece over which s goes from p^2 to q^2 has the root r = p
+ * + (q - p) z at t = lo + (hi - lo) z (r + p)/(q + p): in z the integrand s^(9/2) dt is a polynomial of
+ * degree 10. */
 static int piece_over_face(const line *l, span t, double h0, double h1, fl_vec3 n)
 {
     if (!keep(&t, l->R - h0, l->R - h1, 1)) return 0;
     const double p = root_of(l->R - h0 - t.lo * (h1 - h0)), q = root_of(l->R - h0 - t.hi * (h1 - h0));
     if (!(p + q > 0.0)) return 0;
+    const double dt = t.hi - t.lo, k0 = l->factor * 2.0 * dt / (p + q);
+    double u = 0.0, du = 0.0, ddu = 0.0, first = 0.0, second = 0.0;
     for (int k = 0; k < FL_STRIP_NODES; k++) {
-        double share;
-        const double at = at_node(t, p, q, k, &share);
-        if (node(l, at, share, h0 + at * (h1 - h0), n)) return -1;
+        const double z = NODE[k], r = p + (q - p) * z, at = z * (r + p) / (p + q), s = r * r;
+        const double c = k0 * WEIGHT[k] * s * s * s, pull = 4.5 * c * s;
+        u += c * s * s;
+        du += pull;
+        ddu += 15.75 * c;
+        first += pull * at;
+        second += pull * at * at;
+    }
+    if (!(u > 0.0)) return 0;
+    const double mean = first / du, spread = root_of(second / du - mean * mean);
+    for (int way = -1; way <= 1; way += 2) {
+        const double at = t.lo + dt * (mean + way * spread), s = l->R - h0 - at * (h1 - h0);
+        const fl_vec3 to = v3_scale(l->own->side, n);
+        if (fl_places_add(l->w, (fl_place){.overlap = s,
+                                           .u = 0.5 * u,
+                                           .du = 0.5 * du,
+                                           .ddu = 0.5 * ddu,
+                                           .n = to,
+                                           .across = to,
+                                           .p = v3_madd(v3_madd(l->x0, at, l->u), 0.5 * s - l->own->r, n)}))
+            return -1;
     }
     return 0;
 }
 
-/* A piece t with d = |q + t u|; zero_lo, zero_hi: s is 0 at that end. */
-static int gauss(const line *l, span t, int zero_lo, int zero_hi, fl_vec3 q, fl_vec3 u, double small)
+/* Over a point c, or a line through it along the unit vector e.  The forces all meet that point or that line
+ * at tau = tau0 + t slope, so that one place has their resultant, or two at the ends from and to of the
+ * piece. */
+typedef struct {
+    const line *l;
+    fl_vec3 q, u;                /* d = |q + t u| */
+    double small;                /* distances below it have no direction */
+    double from, over;           /* t of the first end; 1/(to - from), or 0 for a point */
+    double sum, du, ddu, s, far; /* of u, of its derivatives, of du s, of du (t - from)/(to - from) */
+    fl_vec3 f, ffar;
+} bundle;
+
+static void take(bundle *b, double t, double share)
+{
+    const fl_vec3 r = v3_madd(b->q, t, b->u);
+    const double d = v3_norm(r), s = b->l->R - d;
+    if (s <= 0.0 || d <= b->small) return;
+    const double k = b->l->factor * share * sqrt(s) * s * s, du = 4.5 * k * s, way = (t - b->from) * b->over;
+    const fl_vec3 f = v3_scale(du / d, r);
+    b->sum += k * s * s;
+    b->du += du;
+    b->ddu += 15.75 * k;
+    b->s += du * s;
+    b->f = v3_add(b->f, f);
+    b->far += way * du;
+    b->ffar = v3_madd(b->ffar, way, f);
+}
+
+/* A piece t; zero_lo, zero_hi: s is 0 at that end. */
+static void gauss(bundle *b, span t, int zero_lo, int zero_hi)
 {
     const rule *g = zero_lo && zero_hi ? &BETWEEN_ZEROS : zero_lo || zero_hi ? &FROM_ZERO : &WHOLE;
     const double from = zero_hi && !zero_lo ? t.hi : t.lo,
                  dt = zero_hi && !zero_lo ? t.lo - t.hi : t.hi - t.lo;
-    for (int k = 0; k < FL_STRIP_CURVED; k++) {
-        const double at = from + dt * g->node[k];
-        const fl_vec3 r = v3_madd(q, at, u);
-        const double d = v3_norm(r);
-        if (d > small && node(l, at, fabs(dt) * g->weight[k], d, v3_scale(1.0 / d, r))) return -1;
-    }
-    return 0;
+    for (int k = 0; k < FL_STRIP_CURVED; k++) take(b, from + dt * g->node[k], fabs(dt) * g->weight[k]);
 }
 
 /* The same where an end that is not 0 may be nearly so: the quarter next to it is a piece of its own. */
-static int gauss_over_point(const line *l, span t, int zero_lo, int zero_hi, fl_vec3 q, fl_vec3 u,
-                            double small)
+static void gauss_over_point(bundle *b, span t, int zero_lo, int zero_hi)
 {
-    const double s0 = l->R - v3_norm(v3_madd(q, t.lo, u)), s1 = l->R - v3_norm(v3_madd(q, t.hi, u));
-    const double sm = l->R - v3_norm(v3_madd(q, 0.5 * (t.lo + t.hi), u)), quarter = 0.25 * (t.hi - t.lo);
+    const double R = b->l->R, quarter = 0.25 * (t.hi - t.lo), s0 = R - v3_norm(v3_madd(b->q, t.lo, b->u)),
+                 s1 = R - v3_norm(v3_madd(b->q, t.hi, b->u)),
+                 sm = R - v3_norm(v3_madd(b->q, 0.5 * (t.lo + t.hi), b->u));
     const double most = s0 > s1 ? (s0 > sm ? s0 : sm) : s1 > sm ? s1 : sm;
     const int near_lo = !zero_lo && s0 < 0.3 * most, near_hi = !zero_hi && s1 < 0.3 * most;
     const span mid = {near_lo ? t.lo + quarter : t.lo, near_hi ? t.hi - quarter : t.hi};
-    if (near_lo && gauss(l, (span){t.lo, mid.lo}, 0, 0, q, u, small)) return -1;
-    if (near_hi && gauss(l, (span){mid.hi, t.hi}, 0, 0, q, u, small)) return -1;
-    return gauss(l, mid, zero_lo, zero_hi, q, u, small);
+    if (near_lo) gauss(b, (span){t.lo, mid.lo}, 0, 0);
+    if (near_hi) gauss(b, (span){mid.hi, t.hi}, 0, 0);
+    gauss(b, mid, zero_lo, zero_hi);
 }
 
-/* Over a point c, or a line through it along the unit vector e: d^2 = uu ((t - m)^2 + a^2) is quadratic. */
-static int piece_over_point(const line *l, span t, fl_vec3 c, const fl_vec3 *e, double small)
+/* d^2 = uu ((t - m)^2 + a^2); half: s > 0 at |t - m| < half.  Where the overlap is large d is singular at
+ * m +- i a, and pieces that grow threefold from m keep away. */
+static void graded(bundle *b, span t, int zero_lo, int zero_hi, double m, double a, double uu)
 {
-    fl_vec3 q = v3_sub(l->x0, c), u = l->u;
-    if (e) {
-        q = v3_madd(q, -v3_dot(q, *e), *e);
-        u = v3_madd(u, -v3_dot(u, *e), *e);
-    }
-    const double uu = v3_norm2(u), qq = v3_norm2(q);
-    if (!(uu > 0.0)) return qq < l->R * l->R ? gauss_over_point(l, t, 0, 0, q, u, small) : 0;
-    const double m = -v3_dot(q, u) / uu, least2 = v3_norm2(v3_madd(q, m, u)), free2 = l->R * l->R - least2;
-    if (!(free2 > 0.0)) return 0;
-    const double half = sqrt(free2 / uu), a = sqrt(least2 / uu);
-    const int zero_lo = m - half > t.lo, zero_hi = m + half < t.hi;
-    if (zero_lo) t.lo = m - half;
-    if (zero_hi) t.hi = m + half;
-    if (!(t.lo < t.hi)) return 0;
-    if (half <= 0.5 * a) return gauss_over_point(l, t, zero_lo, zero_hi, q, u, small);
-    /* The overlap is large, and d is singular at m +- i a: pieces that grow threefold from m keep away. */
-    const double bend = 1e-3 * l->R / sqrt(uu);
+    const double bend = 1e-3 * b->l->R / sqrt(uu);
     for (int way = 0; way < 2; way++) {
         double from = 0.0, to = a > bend ? a : bend;
         const double first = way ? t.lo - m : m - t.hi, last = way ? t.hi - m : m - t.lo;
@@ -192,10 +215,61 @@ static int piece_over_point(const line *l, span t, fl_vec3 c, const fl_vec3 *e, 
             if (!(lo < hi)) continue;
             const span s = way ? (span){m + lo, m + hi} : (span){m - hi, m - lo};
             const int end = zero && hi == last;
-            if (gauss_over_point(l, s, !way && end, way && end, q, u, small)) return -1;
+            gauss_over_point(b, s, !way && end, way && end);
         }
     }
-    return 0;
+}
+
+/* One place: the part `share` of the bundle with force f and scalar sum du, where it meets the point c. */
+static int tie(const bundle *b, double share, double du, fl_vec3 f, fl_vec3 c)
+{
+    const double size = v3_norm(f), s = b->s / b->du;
+    if (!(size > 0.0) || !(du > 0.0)) return 0;
+    const fl_vec3 n = v3_scale(1.0 / size, f);
+    return fl_places_add(b->l->w, (fl_place){.overlap = s,
+                                             .u = share * b->sum,
+                                             .du = du,
+                                             .ddu = share * b->ddu,
+                                             .n = v3_scale(b->l->own->side / du, f),
+                                             .across = v3_scale(b->l->own->side, n),
+                                             .p = v3_madd(c, b->l->R - 0.5 * s - b->l->own->r, n)});
+}
+
+static int piece_over_point(const line *l, span t, fl_vec3 c, const fl_vec3 *e, double small)
+{
+    bundle b = {.l = l, .q = v3_sub(l->x0, c), .u = l->u, .small = small};
+    double tau = 0.0, slope = 0.0;
+    if (e) {
+        tau = v3_dot(b.q, *e), slope = v3_dot(b.u, *e);
+        b.q = v3_madd(b.q, -tau, *e);
+        b.u = v3_madd(b.u, -slope, *e);
+    }
+    const double uu = v3_norm2(b.u);
+    double m = 0.0, a = 0.0, half = 0.0;
+    int zero_lo = 0, zero_hi = 0;
+    if (uu > 0.0) {
+        m = -v3_dot(b.q, b.u) / uu;
+        const double least2 = v3_norm2(v3_madd(b.q, m, b.u)), free2 = l->R * l->R - least2;
+        if (!(free2 > 0.0)) return 0;
+        half = sqrt(free2 / uu), a = sqrt(least2 / uu);
+        zero_lo = m - half > t.lo, zero_hi = m + half < t.hi;
+        if (zero_lo) t.lo = m - half;
+        if (zero_hi) t.hi = m + half;
+        if (!(t.lo < t.hi)) return 0;
+    } else if (v3_norm2(b.q) >= l->R * l->R) {
+        return 0;
+    }
+    b.from = t.lo;
+    b.over = slope != 0.0 ? 1.0 / (t.hi - t.lo) : 0.0;
+    if (half <= 0.5 * a || !(uu > 0.0)) gauss_over_point(&b, t, zero_lo, zero_hi);
+    else graded(&b, t, zero_lo, zero_hi, m, a, uu);
+    if (!(b.du > 0.0)) return 0;
+    if (slope == 0.0) return tie(&b, 1.0, b.du, b.f, e ? v3_madd(c, tau, *e) : c);
+    const double far = b.far / b.du;
+    return tie(&b, 1.0 - far, b.du - b.far, v3_sub(b.f, b.ffar), v3_madd(c, tau + t.lo * slope, *e)) ||
+                   tie(&b, far, b.far, b.ffar, v3_madd(c, tau + t.hi * slope, *e))
+               ? -1
+               : 0;
 }
 
 static line line_of(fl_places *w, const fl_side *own, int32_t e, double other, double R)
@@ -222,7 +296,9 @@ int fl_strips_edge(fl_places *w, const fl_side *own, int32_t e, const fl_side *o
     const fl_vec3 x0 = l.x0, x1 = own->v[own->p->edge[e].b];
     const double small = SAME * q->size;
     if (!(l.factor > 0.0)) return 0;
+    const fl_aabb box = aabb_grow(aabb_add((fl_aabb){x0, x0}, x1), R);
     for (int32_t k = 0; k < near->facings; k++) {
+        if (!aabb_meet(box, near->facing_box[k])) continue;
         const int32_t f = near->facing[k], *loop = q->loop + q->first[f], n = q->first[f + 1] - q->first[f];
         const fl_vec3 nf = other->n[f], o = other->v[loop[0]];
         const double h0 = v3_dot(nf, v3_sub(x0, o)), h1 = v3_dot(nf, v3_sub(x1, o));
@@ -230,22 +306,19 @@ int fl_strips_edge(fl_places *w, const fl_side *own, int32_t e, const fl_side *o
         if ((h0 >= R && h1 >= R) || !keep(&t, h0 + behind + small, h1 + behind + small, 1)) continue;
         int in = 1;
         for (int32_t c = 0, a = loop[n - 1]; c < n && in; a = loop[c++])
-            in = keep(&t, left_of(other, nf, a, loop[c], x0), left_of(other, nf, a, loop[c], x1), 1);
+            in = keep_left(&t, other, nf, a, loop[c], x0, x1, 1);
         if (in && piece_over_face(&l, t, h0, h1, nf)) return -1;
     }
     for (int32_t k = 0; k < near->edges; k++) {
+        if (!aabb_meet(box, near->edge_box[k])) continue;
         const fl_edge g = q->edge[near->edge[k]];
         const fl_vec3 a = other->v[g.a], b = other->v[g.b];
         span t = {0.0, 1.0};
         if (!(q->bend[near->edge[k]] > 0.0)) continue;
         if (!keep(&t, along(a, b, x0), along(a, b, x1), 1)) continue;
         if (!keep(&t, along(b, a, x0), along(b, a, x1), 1)) continue;
-        if (g.left >= 0 && !keep(&t, left_of(other, other->n[g.left], g.a, g.b, x0),
-                                 left_of(other, other->n[g.left], g.a, g.b, x1), 0))
-            continue;
-        if (g.right >= 0 && !keep(&t, left_of(other, other->n[g.right], g.b, g.a, x0),
-                                  left_of(other, other->n[g.right], g.b, g.a, x1), 0))
-            continue;
+        if (g.left >= 0 && !keep_left(&t, other, other->n[g.left], g.a, g.b, x0, x1, 0)) continue;
+        if (g.right >= 0 && !keep_left(&t, other, other->n[g.right], g.b, g.a, x0, x1, 0)) continue;
         const fl_vec3 axis = v3_unit(v3_sub(b, a));
         if (piece_over_point(&l, t, a, &axis, small)) return -1;
     }
@@ -253,7 +326,7 @@ int fl_strips_edge(fl_places *w, const fl_side *own, int32_t e, const fl_side *o
         const int32_t v = near->vertex[k];
         const fl_vec3 c = other->v[v];
         span t = {0.0, 1.0};
-        int in = q->defect[v] > 0.0;
+        int in = q->defect[v] > 0.0 && aabb_meet(box, (fl_aabb){c, c});
         for (int32_t m = q->begin[v]; m < q->begin[v + 1] && in; m++) {
             const fl_vec3 b = other->v[q->beside[m]];
             in = keep(&t, along(c, b, x0), along(c, b, x1), 0);

@@ -190,6 +190,28 @@ static void add_wrench(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, fl_vec3 force, fl_v
     *tj = v3_sub(*tj, v3_cross(aj, force));
 }
 
+/* A force and its moment about a point, in the frame of B. */
+typedef struct {
+    fl_vec3 f, m;
+} wrench;
+
+static void push(wrench *w, fl_vec3 force, fl_vec3 arm)
+{
+    w->f = v3_add(w->f, force);
+    w->m = v3_add(w->m, v3_cross(arm, force));
+}
+
+/* The same as forces and torques of the pair; the point is ai from A's centre and aj from B's, in world axes.
+ */
+static void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const wrench *w, const fl_mat3 *R, fl_vec3 ai,
+                    fl_vec3 aj)
+{
+    const fl_vec3 moment = m3_mul(*R, w->m);
+    add_wrench(f, ti, tj, m3_mul(*R, w->f), ai, aj);
+    *ti = v3_add(*ti, moment);
+    *tj = v3_sub(*tj, moment);
+}
+
 static double compliance(const fl_bodies *b, int32_t i, fl_vec3 a, fl_vec3 n)
 {
     const fl_vec3 t = v3_cross(a, n);
@@ -275,58 +297,64 @@ static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     } else {
         p->energy = p->k * fl_normal_phi(s->place[0].overlap, p->exponent);
     }
+    /* All in the frame of B and about the first place; the velocity of A against B is v + turn x arm. */
+    const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
+    const fl_vec3 v = m3_tmul(R, approach(b, p, ai, aj)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
     for (int32_t k = 0; k < s->n; k++) {
         fl_place *q = &s->place[k];
-        q->n = m3_mul(R, q->n); /* from here on in world axes, relative to B's centre */
-        q->p = m3_mul(R, q->p);
-        q->across = m3_mul(R, q->across);
         if (q->overlap > p->overlap) p->overlap = q->overlap;
-        if (patch && q->u == 0.0) continue;
-        const double u = -v3_dot(q->across, approach(b, p, v3_add(q->p, r->off), q->p));
+        if (patch && q->u == 0.0) continue; /* the pull of a rim presses on nothing */
+        q->closing = -v3_dot(q->across, v3_add(v, v3_cross(turn, v3_sub(q->p, at))));
         const double share = patch ? q->du : 1.0;
         pressed += share;
-        if (u > 0.0) met += share * u;
+        if (q->closing > 0.0) met += share * q->closing;
     }
-    const double speed_now = pressed > 0.0 ? met / pressed : 0.0;
-    p->touch = p->n && p->touch > speed_now ? p->touch : speed_now;
+    const double now = pressed > 0.0 ? met / pressed : 0.0;
+    p->touch = p->n && p->touch > now ? p->touch : now;
     const double stored = sqrt(2.0 * p->energy / p->mass), speed = p->touch > stored ? p->touch : stored;
     const double chi = speed > 0.0 ? p->law->chi / speed : 0.0;
     pressure all = {0};
-    fl_vec3 gi = {0}, hi = {0}, hj = {0}; /* gradient of U: force, torques */
+    wrench gradient = {0}, damping = {0}; /* of U, or of phi; [N] */
     for (int32_t k = 0; k < s->n; k++) {
         const fl_place *q = &s->place[k];
-        const fl_vec3 aj = q->p, ai = v3_add(q->p, r->off);
-        const double elastic = patch ? scale * q->du : p->k * fl_normal_power(q->overlap, p->exponent);
-        add_wrench(&p->f, &p->ti, &p->tj, v3_scale(elastic, q->n), ai, aj);
-        if (patch && survey) add_wrench(&gi, &hi, &hj, v3_scale(q->du, q->n), ai, aj);
-        if (patch && q->u == 0.0) continue; /* the pull of a rim presses on nothing */
-        const double normal = fl_normal_damped(elastic, chi, -v3_dot(q->across, approach(b, p, ai, aj)));
-        add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, q->across), ai, aj);
-        press(&all, elastic, normal, q->across, aj);
+        const fl_vec3 arm = v3_sub(q->p, at);
         const double slope = patch ? scale * q->ddu : p->k * fl_normal_slope(q->overlap, p->exponent);
+        const double pull = patch ? q->du : fl_normal_power(q->overlap, p->exponent);
+        const double elastic = patch ? scale * pull : p->k * pull;
+        push(&gradient, v3_scale(pull, q->n), arm);
+        if (patch && q->u == 0.0) continue;
+        const double straight = elastic * v3_dot(q->n, q->across);
+        const double normal = fl_normal_damped(straight, chi, q->closing);
+        push(&damping, v3_scale(normal - straight, q->across), arm);
+        press(&all, straight, normal, q->across, q->p);
         all.slope += slope;
         if (survey) {
-            p->stiff_i += slope * compliance(b, p->i, ai, q->across);
-            p->stiff_j += slope * compliance(b, p->j, aj, q->across);
+            const fl_vec3 n = m3_mul(R, q->across), pj = m3_mul(R, q->p);
+            p->stiff_i += slope * compliance(b, p->i, v3_add(pj, r->off), n);
+            p->stiff_j += slope * compliance(b, p->j, pj, n);
         }
     }
-    if (patch) {
-        const fl_vec3 couple = v3_scale(scale, m3_mul(R, s->couple));
-        p->ti = v3_add(p->ti, couple);
-        p->tj = v3_sub(p->tj, couple);
-    }
+    if (patch) gradient.m = v3_add(gradient.m, s->couple);
+    const double factor = patch ? scale : p->k;
+    const wrench elastic = {v3_scale(factor, gradient.f), v3_scale(factor, gradient.m)};
+    add_sum(&p->f, &p->ti, &p->tj, &elastic, &R, ai, aj);
     if (patch) { /* the root bends down: W'' = scale (U'' - U'^2 / 2U) */
         all.slope -= 0.5 * all.elastic * all.elastic / (scale * U);
         if (survey) {
+            const double half = 0.5 / (scale * U);
             p->stiff_i -=
-                0.5 * scale / U * (b->invm[p->i] * v3_norm2(gi) + v3_dot(hi, fl_body_turn(b, p->i, hi)));
+                half * (b->invm[p->i] * v3_norm2(p->f) + v3_dot(p->ti, fl_body_turn(b, p->i, p->ti)));
             p->stiff_j -=
-                0.5 * scale / U * (b->invm[p->j] * v3_norm2(gi) + v3_dot(hj, fl_body_turn(b, p->j, hj)));
+                half * (b->invm[p->j] * v3_norm2(p->f) + v3_dot(p->tj, fl_body_turn(b, p->j, p->tj)));
         }
     }
+    add_sum(&p->fd, &p->di, &p->dj, &damping, &R, ai, aj);
     p->f = v3_add(p->f, p->fd);
     p->ti = v3_add(p->ti, p->di);
     p->tj = v3_add(p->tj, p->dj);
+    all.direction = m3_mul(R, all.direction);
+    all.at = m3_mul(R, all.at);
+    all.moment = m3_mul(R, all.moment);
     rub(w, p, &all, chi, r, dt);
     p->energy += p->spring;
     return p->n = 1;
@@ -385,7 +413,6 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
         p->stiff_i = slope * compliance(b, p->i, ai, nw);
         p->stiff_j = slope * compliance(b, p->j, aj, nw);
     }
-    all.spread = v3_norm2(aj) * normal; /* one point: no moment about the normal */
     rub(w, p, &all, 0.0, r, dt);
     p->energy += p->spring;
     p->n = 1;
