@@ -20,12 +20,14 @@
  *   where[wheres]    "COLUMN=WORD": only rows whose field is that word
  *   patience         a file that has ended is waited for so long, should it grow [s], see fl_in_patience()
  *   from, to         only rows whose interval lies within [s]; -INFINITY and INFINITY take all
- *   last             only the rows of the last so many seconds; 0 takes all */
+ *   last             only the rows of the last so many seconds; 0 takes all
+ *   after            only what is so many seconds or more after the start of the first row in which a signal
+ *                    is not 0; 0 takes all */
 typedef struct {
     const char *const *signal;
     int32_t signals;
     const char *part;
-    double from, to, last;
+    double from, to, last, after;
     int over;
     const char *const *where;
     int32_t wheres;
@@ -55,8 +57,8 @@ typedef struct {
 
 /* Open a table that has a column t and, where rows share a time, a column part or body that tells them apart.
  * Every part must have one row at each time.  A table without such a column has one part, "-".  The total is
- * the sum over the parts of fx, fy, fz, mx, my, mz and contacts; other columns have none.  from, to and last
- * are left to the caller.  Which parts there are is known after the first fl_record_next().
+ * the sum over the parts of fx, fy, fz, mx, my, mz and contacts; other columns have none.  from, to, last
+ * and after are left to the caller.  Which parts there are is known after the first fl_record_next().
  * 0, or -1 with FL_INPUT, FL_USAGE (a total that does not exist, or signals needed) or FL_SYSTEM in err. */
 int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_err *err);
 

@@ -69,10 +69,23 @@ static int add_row(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
  * is far above that and far below any interval that is meant. */
 static const double CUT_SLACK = 1e-6;
 
+/* The start of the first row in which anything is not 0; INFINITY where there is none. */
+static double first_load(const fl_series *s)
+{
+    const int64_t pairs = (int64_t)s->parts * s->signals;
+    for (int32_t k = 0; k < s->n; k++)
+        for (int64_t j = 0; j < pairs; j++)
+            if (s->x[j] && s->x[j][k] != 0.0) return s->edge[k];
+    return INFINITY;
+}
+
 static int cut(fl_series *s, const fl_series_ask *ask, const char *name, fl_err *err)
 {
     const double first = s->edge[0], end = s->edge[s->n], slack = CUT_SLACK * (end - first) / s->n;
-    const double to = fmin(ask->to, end), from = fmax(ask->from, ask->last > 0.0 ? to - ask->last : first);
+    const double to = fmin(ask->to, end);
+    double from = fmax(ask->from, ask->last > 0.0 ? to - ask->last : first);
+    if (ask->after > 0.0) from = fmax(from, first_load(s) + ask->after);
+    if (from == INFINITY) return fl_fail(err, FL_INPUT, "%s: every load is 0, nothing ever comes near", name);
     int32_t a = 0, b = s->n;
     while (a < b && s->edge[a] < from - slack) a++;
     while (b > a && s->edge[b] > to + slack) b--;

@@ -51,6 +51,9 @@ static void notes(const fl_series *s, const struct options *o)
     const double span = s->edge[s->n] - s->edge[0];
     if (o->verbose)
         fprintf(stderr, "loadstats: %d rows from %.10g s to %.10g s\n", s->n, s->edge[0], s->edge[s->n]);
+    if (o->skips)
+        fprintf(stderr, "loadstats: left out until %.10g s, by when the ice front has passed %g diameters\n",
+                s->edge[0], o->skip[0]);
     if (o->filter > 0.0 && o->pass != FL_PASS_MEAN && fl_resample_step(s->n, s->edge) <= 0.0)
         fprintf(stderr,
                 "loadstats: the intervals are not equal, the filter works on %d equal ones of %.10g s\n",
@@ -61,15 +64,17 @@ static int run(const struct options *o, fl_err *err)
 {
     fl_series s = {0};
     fl_view *views = NULL;
+    fl_evenly_loss *loss = NULL;
     fl_out out = {0};
     fl_by by;
     const int each = o->filter > 0.0 ? 2 : 1;
     const fl_series_ask ask = {.signal = o->signal,
                                .signals = o->signals,
                                .part = o->part,
-                               .from = o->from,
+                               .from = options_from(o),
                                .to = o->to,
                                .last = o->window,
+                               .after = options_after(o),
                                .over = o->over,
                                .where = o->where,
                                .wheres = o->wheres};
@@ -78,11 +83,13 @@ static int run(const struct options *o, fl_err *err)
     if (o->threads) omp_set_num_threads(o->threads);
     options_by(o, &by);
     if (fl_series_read(&s, o->in, &ask, err)) goto done;
+    loss = fl_alloc((int64_t)s.parts * s.signals, sizeof *loss, err);
+    if (!loss || (o->step > 0.0 && fl_evenly(&s, o->step, loss, err))) goto done;
     n = (int64_t)s.parts * s.signals * each;
     views = fl_alloc(n, sizeof *views, err);
     if (!views || make_views(views, &s, o, each, err)) goto done;
     notes(&s, o);
-    const struct result r = {&s, views, each};
+    const struct result r = {&s, views, each, o->step > 0.0 ? loss : NULL};
     if (fl_out_open(&out, o->out, o->gzip, err) || statrows_write(out.f, &r, o, &by, err) ||
         fl_out_close(&out, err))
         goto done;
@@ -92,6 +99,7 @@ done:
     fl_out_abort(&out);
     for (int64_t k = 0; views && k < n; k++) fl_view_free(&views[k]);
     free(views);
+    free(loss);
     fl_series_free(&s);
     return rc;
 }

@@ -30,7 +30,10 @@ static const char HELP[] =
     "      --over WHAT         rows of one time become one: sum, mean, min, max or count of them\n"
     "      --from T            leave out what is before T seconds\n"
     "      --to T              leave out what is after T seconds\n"
+    "      --skip N,D[,GAP]    leave out the start, until an ice front of --speed has passed N diameters D;\n"
+    "                          it is GAP before the structure at time 0, or there with the first load\n"
     "  -w, --window S          only the last S seconds\n"
+    "      --step S            bring the record to equal steps by its means over them\n"
     "  -f, --filter WHAT       add the view through a zero-phase Butterworth filter, HZ or low:HZ, high:HZ\n"
     "                          or band:HZ,HZ, or a moving mean, mean:S\n"
     "      --order N           order of one pass of the filter (4)\n"
@@ -97,6 +100,8 @@ enum {
     SEGMENT,
     TAPER,
     SPEED,
+    SKIP,
+    STEP,
     OSCILLATOR
 };
 
@@ -134,6 +139,8 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"taper", required_argument, NULL, TAPER},
                                      {"speed", required_argument, NULL, SPEED},
                                      {"oscillator", required_argument, NULL, OSCILLATOR},
+                                     {"skip", required_argument, NULL, SKIP},
+                                     {"step", required_argument, NULL, STEP},
                                      {"stress", required_argument, NULL, STRESS},
                                      {"merge", no_argument, NULL, MERGE},
                                      {"stream", no_argument, NULL, STREAM},
@@ -269,6 +276,16 @@ static int take_return(struct options *o, char *word, fl_err *err)
     if (o->returns == RETURNS_MAX)
         return fl_fail(err, FL_USAGE, "more than %d return periods were asked for", RETURNS_MAX);
     return time_of("return", word, &o->period[o->returns++], err);
+}
+
+static int take_skip(struct options *o, char *word, fl_err *err)
+{
+    static const char *const wanted[] = {"a number of diameters above 0", "a diameter above 0",
+                                         "a distance from 0 on"};
+    if (o->skips == 3) return fl_fail(err, FL_USAGE, "--skip has more than N,D,GAP");
+    const double least = o->skips < 2 ? 1e-100 : 0.0;
+    double *to = &o->skip[o->skips];
+    return number("skip", word, least, 1e100, wanted[o->skips++], to, err);
 }
 
 /* HZ, low:HZ, high:HZ, band:HZ,HZ or mean:S. */
@@ -418,6 +435,13 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case TAPER: o->taper = choice("taper", arg, TAPERS, COUNT(TAPERS), err); return o->taper < 0 ? -1 : 0;
     case SPEED: return number("speed", arg, tiny, huge, "a speed above 0", &o->speed, err);
     case OSCILLATOR: return add_sway(o, arg, err);
+    case SKIP:
+        o->skips = 0;
+        o->skip[2] = NAN;
+        if (each(o, "skip", arg, take_skip, err)) return -1;
+        return o->skips >= 2 ? 0
+                             : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", N,D or N,D,GAP was wanted", arg);
+    case STEP: return time_of("step", arg, &o->step, err);
     case SN: return add_sn(o, arg, err);
     case STRESS: return number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
     case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
@@ -473,8 +497,14 @@ static int check_summary(struct options *o, fl_err *err)
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
     const int pictures = (o->plot || o->report) && o->table != TABLE_ENSEMBLE;
-    const char *whole = o->filter > 0.0 ? "filter" : o->window > 0.0 ? "window" : o->plot ? "plot" : "report";
-    if (o->filter > 0.0 || o->window > 0.0 || pictures)
+    const int first = o->skips && isnan(o->skip[2]); /* the first load is not known beforehand */
+    const char *whole = first             ? "skip without GAP"
+                        : o->step > 0.0   ? "step"
+                        : o->filter > 0.0 ? "filter"
+                        : o->window > 0.0 ? "window"
+                        : o->plot         ? "plot"
+                                          : "report";
+    if (first || o->step > 0.0 || o->filter > 0.0 || o->window > 0.0 || pictures)
         return fl_fail(err, FL_USAGE, "--%s needs the whole record, not %s%s", whole,
                        many ? "--table " : "--", many ? TABLE[o->table] : how);
     return 0;
@@ -510,6 +540,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->ended) return 0;
     take_files(o, argc - optind, argv + optind);
     if (check_summary(o, err)) return -1;
+    if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
     if (o->sample == SAMPLE_RUNS && !many_runs(o))
@@ -574,6 +605,25 @@ static void add_choice(const struct options *o, fl_by *by)
     if (o->over) fl_by_add(by, "--over %s", OVER_WHAT[o->over - 1]);
     if (isfinite(o->from)) add_number(by, "from", o->from);
     if (isfinite(o->to)) add_number(by, "to", o->to);
+    if (o->skips) {
+        char n[FL_NUM_LEN], d[FL_NUM_LEN], gap[FL_NUM_LEN];
+        fl_num_text(o->skip[0], n);
+        fl_num_text(o->skip[1], d);
+        if (isnan(o->skip[2])) fl_by_add(by, "--skip %s,%s", n, d);
+        else fl_by_add(by, "--skip %s,%s,%s", n, d, fl_num_text(o->skip[2], gap));
+        add_number(by, "speed", o->speed);
+    }
+}
+
+double options_from(const struct options *o)
+{
+    if (!o->skips || isnan(o->skip[2])) return o->from;
+    return fmax(o->from, (o->skip[2] + o->skip[0] * o->skip[1]) / o->speed);
+}
+
+double options_after(const struct options *o)
+{
+    return o->skips && isnan(o->skip[2]) ? o->skip[0] * o->skip[1] / o->speed : 0.0;
 }
 
 void options_by(const struct options *o, fl_by *by)
@@ -581,6 +631,7 @@ void options_by(const struct options *o, fl_by *by)
     fl_by_start(by, "loadstats");
     add_choice(o, by);
     if (o->window > 0.0) add_number(by, "window", o->window);
+    if (o->step > 0.0) add_number(by, "step", o->step);
     if (o->filter > 0.0) {
         char x[FL_NUM_LEN], y[FL_NUM_LEN];
         fl_num_text(o->filter, x);
@@ -618,7 +669,7 @@ void options_by(const struct options *o, fl_by *by)
     for (int32_t k = 0; sway && k < o->sways; k++) fl_by_add(by, "--oscillator %s", o->sway[k].text);
     if (spectra && o->segment > 0.0) add_number(by, "segment", o->segment);
     if (spectra && o->taper) fl_by_add(by, "--taper %s", TAPERS[o->taper]);
-    if ((t == TABLE_FREQUENCY || o->page) && o->speed > 0.0) add_number(by, "speed", o->speed);
+    if ((t == TABLE_FREQUENCY || o->page) && o->speed > 0.0 && !o->skips) add_number(by, "speed", o->speed);
     for (int32_t k = 0; damage && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
     if (damage && o->stress != 1.0) add_number(by, "stress", o->stress);
     if (o->merge) fl_by_add(by, "--merge");

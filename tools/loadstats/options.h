@@ -43,6 +43,9 @@ struct options {
     char *words;                                          /* the lists of the command line, cut in place */
     int32_t signals, words_len, words_cap;
     double from, to, window; /* [s] */
+    double skip[3];          /* diameters, diameter, distance at time 0; NAN: by the first load */
+    int skips;               /* how many of them were given */
+    double step;             /* [s], 0 for the rows as they are */
     double filter, upper;    /* [Hz], of a moving mean [s]; 0 for none; upper is of a band */
     int pass, order;         /* fl_pass */
     double separation, threshold;
@@ -86,6 +89,11 @@ void options_by(const struct options *o, fl_by *by);
 
 /* The same for a summary: one line, "#by ...\\n", without the names of files, for by[FL_BY_MAX + 2]. */
 void options_by_summary(const struct options *o, char *by);
+
+/* What is left out at the start [s]: all before a time, and what is less than so long after the first load.
+ */
+double options_from(const struct options *o);
+double options_after(const struct options *o);
 
 /* Of a picture: "2 Hz", "above 0.1 Hz", "0.1 to 2 Hz", "mean of 5 s". */
 void options_filter(const struct options *o, char *text, size_t size);

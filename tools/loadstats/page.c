@@ -491,9 +491,19 @@ static void record_intro(FILE *f, const void *what)
 {
     const struct result *r = what;
     const fl_series *s = r->s;
+    double share = 0.0;
     fprintf(f, "%d rows of the %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
     if (strcmp(s->kind, "loads") == 0)
         fputs(" A row is the mean over its interval; every mean is the impulse over the time.", f);
+    for (int64_t k = 0; r->loss && k < (int64_t)s->parts * s->signals; k++) {
+        const fl_view *v = &r->views[k * r->each];
+        if (v->n && v->d.std > 0.0) share = fmax(share, r->loss[k].rms / hypot(r->loss[k].rms, v->d.std));
+    }
+    if (r->loss)
+        fprintf(f,
+                " The record was brought to equal steps, which takes up to %.3g %% of a standard deviation "
+                "from it.",
+                100.0 * share);
     if (r->each > 1) fputs(" The filtered view stands beside the raw one, for a filter hides spikes.", f);
 }
 

@@ -142,9 +142,23 @@ void statrows_header(FILE *f, const struct options *o)
     }
 }
 
+/* What the steps took from the record stands above the names of the columns. */
+static void put_loss(FILE *f, const struct result *r, const struct options *o)
+{
+    for (int32_t p = 0; r->loss && p < r->s->parts; p++) {
+        for (int32_t s = 0; s < r->s->signals; s++) {
+            const fl_evenly_loss *l = &r->loss[(int64_t)p * r->s->signals + s];
+            if (!view_of(r, p, s, 0)) continue;
+            fprintf(f, "# steps of %g s: %s of %s loses %.6g rms, %.6g at most\n", o->step, r->s->signal[s],
+                    r->s->part[p], l->rms, l->largest);
+        }
+    }
+}
+
 int statrows_write(FILE *f, const struct result *r, const struct options *o, const fl_by *by, fl_err *err)
 {
     fl_by_header(f, options_table(o->table), 1, r->s->history, by);
+    put_loss(f, r, o);
     statrows_header(f, o);
     if (o->table == TABLE_LEGS || o->table == TABLE_EVENTS) {
         legrows_write(f, r, o);

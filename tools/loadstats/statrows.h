@@ -4,6 +4,7 @@
 #define LOADSTATS_STATROWS_H
 #include <stdio.h>
 #include "base/tool.h"
+#include "stat/evenly.h"
 #include "stat/view.h"
 #include "options.h"
 
@@ -11,7 +12,8 @@
 struct result {
     const fl_series *s;
     const fl_view *views;
-    int each; /* 1, or 2 with a filter */
+    int each;                   /* 1, or 2 with a filter */
+    const fl_evenly_loss *loss; /* [parts * signals] what --step took, or NULL */
 };
 
 const char *view_name(int w); /* "raw", "filtered" */

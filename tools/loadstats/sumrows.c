@@ -213,7 +213,7 @@ static int fit_rows(FILE *f, const fl_summary *all, const fl_summary_signal *s, 
                               .unit = &unit,
                               .x = &x};
     const fl_view view = {.n = (int32_t)n, .t = edge, .edge = edge, .x = x};
-    const struct result r = {&series, &view, 1};
+    const struct result r = {.s = &series, .views = &view, .each = 1};
     const int rc = fitrows_write(f, &r, &own, 0, 0, 0, err);
     free(x);
     return rc;
@@ -314,7 +314,7 @@ static int read_run(fl_summary *one, const char *path, FILE *f, const struct opt
     const fl_series_ask ask = {.signal = o->signal,
                                .signals = o->signals,
                                .part = o->part,
-                               .from = o->from,
+                               .from = options_from(o),
                                .to = o->to,
                                .over = o->over,
                                .where = o->where,
