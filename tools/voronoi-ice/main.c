@@ -13,6 +13,7 @@
 #include "ice/floes.h"
 #include "ice/grade.h"
 #include "ice/laguerre.h"
+#include "ice/pancakes.h"
 #include "ice/periodic.h"
 #include "scene/field.h"
 #include "certify.h"
@@ -133,6 +134,9 @@ static int shrink(const struct options *o, struct field *a, fl_err *err)
             "the pieces of cells that have room for a floe cover %.6g of the water, %.10g was asked "
             "for: more floes or a smaller radius is wanted",
             part, o->concentration);
+    if (o->pancakes)
+        return fl_pancakes_make(&a->floes, &a->cells, o->pancakes, o->concentration / part, o->radius,
+                                w->shift, err);
     return fl_floes_make(&a->floes, &a->cells, o->concentration / part, o->radius, w->shift, err);
 }
 
@@ -321,6 +325,11 @@ static void certify(const struct options *o, const struct field *a, struct certi
                     id_of(a, c->gap_of[0]), id_of(a, c->gap_of[1]));
     certify_add(t, "inset of the cells [m]", NOT_ASKED, a->floes.inset, NO_DISTANCE, 6, NULL);
     certify_add(t, "floes inset less: small cells", NOT_ASKED, a->floes.held, NO_DISTANCE, 10, NULL);
+    if (o->pancakes) {
+        certify_add(t, "circularity, mean", NOT_ASKED, fl_pancakes_circularity(&a->floes), NO_DISTANCE, 6,
+                    NULL);
+        return;
+    }
     certify_add(t, "sides of cells dropped", NOT_ASKED, a->floes.dropped, NO_DISTANCE, 10, NULL);
     certify_add(t, "sides moved in farther", NOT_ASKED, a->floes.cut, NO_DISTANCE, 10, NULL);
 }

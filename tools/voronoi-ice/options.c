@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/num.h"
+#include "ice/pancakes.h"
 #include "options.h"
 
 static const char HELP[] =
@@ -33,6 +34,7 @@ static const char HELP[] =
     "      --lead X0,Y0,X1,Y1,WIDTH  a strip of open water; may be given 16 times\n"
     "      --grade DIR:C0,C1   concentration rising from C0 to C1 along DIR: x, y or degrees; or DIR:FILE\n"
     "      --periodic x|y|xy   what leaves at one side comes in at the other: copies fit without a seam\n"
+    "      --pancakes SIDES    floes round in plan, of that many sides\n"
     "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
     "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
     "      --layers N          layers of the lattice (1)\n"
@@ -73,6 +75,7 @@ enum {
     FORMAT,
     GRADE,
     PERIODIC,
+    PANCAKES,
     BONDED,
     LATTICE,
     LAYERS,
@@ -99,6 +102,7 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"lead", required_argument, NULL, LEAD},
                                      {"grade", required_argument, NULL, GRADE},
                                      {"periodic", required_argument, NULL, PERIODIC},
+                                     {"pancakes", required_argument, NULL, PANCAKES},
                                      {"bonded", no_argument, NULL, BONDED},
                                      {"lattice", required_argument, NULL, LATTICE},
                                      {"layers", required_argument, NULL, LAYERS},
@@ -342,10 +346,10 @@ static int useless(const struct options *o, const char *beside, int n, const int
 
 static int check_lattice(const struct options *o, fl_err *err)
 {
-    static const int without[] = {FLOES,    SIZES,   CONCENTRATION, THICKNESS, RADIUS, SEED,    SMOOTH,
-                                  KEEP_OUT, OUTLINE, LEAD,          PLOT,      GRADE,  PERIODIC};
+    static const int without[] = {FLOES,    SIZES,   CONCENTRATION, THICKNESS, RADIUS, SEED,     SMOOTH,
+                                  KEEP_OUT, OUTLINE, LEAD,          PLOT,      GRADE,  PERIODIC, PANCAKES};
     static const int within[] = {LAYERS, DIAMETER};
-    if (o->lattice >= 0) return useless(o, "beside --lattice", 13, without, err);
+    if (o->lattice >= 0) return useless(o, "beside --lattice", 14, without, err);
     return useless(o, "without --lattice", 2, within, err);
 }
 
@@ -364,6 +368,8 @@ static int check_water(const struct options *o, fl_err *err)
 static int check_graded(const struct options *o, fl_err *err)
 {
     static const int without[] = {CONCENTRATION, SIZES, BONDED}, none[] = {SIZES, BONDED, OUTLINE, LEAD};
+    static const int round[] = {SIZES, BONDED, GRADE};
+    if (o->pancakes && useless(o, "beside --pancakes", 3, round, err)) return -1;
     if (o->graded && useless(o, "beside --grade", 3, without, err)) return -1;
     if (!o->periodic[0] && !o->periodic[1]) return 0;
     if (o->structures)
@@ -407,6 +413,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case LEAD: return lead(o, arg, err);
     case GRADE: return grade(o, arg, err);
     case PERIODIC: return periodic(arg, o->periodic, err);
+    case PANCAKES: return whole("pancakes", arg, FL_PANCAKES_LEAST, FL_PANCAKES_MOST, &o->pancakes, err);
     case BONDED: o->bonded = 1; return 0;
     case LATTICE: return lattice(arg, &o->lattice, err);
     case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
@@ -531,6 +538,7 @@ void options_by(const struct options *o, fl_by *by)
         fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
         fl_by_add(by, "--smooth %d", o->smooth);
     }
+    if (o->pancakes) fl_by_add(by, "--pancakes %d", o->pancakes);
     if (o->bonded) fl_by_add(by, "--bonded");
     if (o->periodic[0] || o->periodic[1])
         fl_by_add(by, "--periodic %s%s", o->periodic[0] ? "x" : "", o->periodic[1] ? "y" : "");

@@ -44,6 +44,7 @@ struct options {
     double grade[2];        /* concentration at the two ends, when not in a file */
     const char *grade_file; /* NULL: none */
     int periodic[2];        /* along x, along y */
+    int32_t pancakes;       /* sides of round floes, 0: not round */
     int bonded;
     int lattice; /* -1, or an fl_lattice_kind */
     int32_t layers;
