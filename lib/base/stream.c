@@ -357,11 +357,10 @@ static int holder(const fl_out *out, const fl_mark *mark)
     return -1;
 }
 
-static int no_holder(const fl_out *out, const fl_mark *mark, fl_err *err)
+static int no_holder(const fl_out *out, fl_err *err)
 {
-    return fl_fail(err, FL_INPUT,
-                   "%s: neither it nor %s is the file to go on with, its first %lld bytes were wanted",
-                   out->path, out->tmp, (long long)mark->at);
+    return fl_fail(err, FL_INPUT, "%s: neither it nor %s begins with what was written before the checkpoint",
+                   out->path, out->tmp);
 }
 
 int fl_out_marked(const char *path, const fl_mark *mark, fl_err *err)
@@ -370,7 +369,7 @@ int fl_out_marked(const char *path, const fl_mark *mark, fl_err *err)
     int direct, rc = 0;
     if (strcmp(path, "-") == 0 || mark->at < 0) return 0;
     if (name_out(&out, path, &direct, err)) return -1;
-    if (!direct && holder(&out, mark) < 0) rc = no_holder(&out, mark, err);
+    if (!direct && holder(&out, mark) < 0) rc = no_holder(&out, err);
     out.keep = 1;
     fl_out_abort(&out);
     return rc;
@@ -392,7 +391,7 @@ int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, 
         }
         const int which = holder(out, mark);
         out->keep = 1;
-        if (which < 0) no_holder(out, mark, err);
+        if (which < 0) no_holder(out, err);
         if (which < 0) goto fail;
         if (which == 1 && rename(out->path, out->tmp)) goto system;
         fd = open(out->tmp, O_RDWR | O_CLOEXEC);

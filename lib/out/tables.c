@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
 #include "base/num.h"
 #include "out/tables.h"
 
@@ -30,10 +31,23 @@ void fl_rows_row(FILE *f, int n, const double *x)
     putc('\n', f);
 }
 
-void fl_loads_header(FILE *f, const char *history, const fl_by *by)
+void fl_loads_header(FILE *f, const char *history, const fl_by *by, double start)
 {
-    fl_rows_header(f, "loads", history, by,
-                   "t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts");
+    char text[FL_NUM_LEN];
+    fl_by_header(f, "loads", 1, history, by);
+    if (start > 0.0) fprintf(f, "#start %s\n", fl_num_text(start, text));
+    fputs("t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts\n", f);
+}
+
+void fl_hash_header(FILE *f, const char *history, const fl_by *by)
+{
+    fl_rows_header(f, "hash", history, by, "t[s]\thash");
+}
+
+void fl_hash_row(FILE *f, double t, uint64_t hash)
+{
+    char text[FL_NUM_LEN];
+    fprintf(f, "%s\t%016" PRIx64 "\n", fl_num_text(t, text), hash);
 }
 
 void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,

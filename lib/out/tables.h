@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tables.h -- the tables a run leaves: loads, state, energy, contacts.  Each header function writes kind,
- * version, history and column names; each row function one line, tab-separated, numbers that read back to
- * the same double. Write errors stay in the stream.  Formats: loads(5), state(5), energy(5), contacts(5). */
+/* tables.h -- the tables a run leaves: loads, state, energy, contacts, hash.  Each header function writes
+ * kind, version, history and column names; each row function one line, tab-separated, numbers that read back
+ * to the same double. Write errors stay in the stream.  Formats: loads(5), state(5), energy(5), contacts(5),
+ * hash(5). */
 #ifndef FL_OUT_TABLES_H
 #define FL_OUT_TABLES_H
 #include <stdio.h>
@@ -9,7 +10,8 @@
 #include "body/body.h"
 #include "narrow/contact.h"
 
-void fl_loads_header(FILE *f, const char *history, const fl_by *by);
+/* start: when the first interval begins [s]; above 0 where a run is gone on with. */
+void fl_loads_header(FILE *f, const char *history, const fl_by *by, double start);
 /* force, moment: mean over the interval that ends at t, the moment about the world's origin; peak: largest
  * |force| of any step in it; contacts: bodies that touch the part at t. */
 void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
@@ -22,6 +24,9 @@ void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, con
 /* A row of any table of doubles. */
 void fl_rows_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns);
 void fl_rows_row(FILE *f, int n, const double *x);
+
+void fl_hash_header(FILE *f, const char *history, const fl_by *by);
+void fl_hash_row(FILE *f, double t, uint64_t hash);
 
 #define FL_ENERGY_COLUMNS                                                                                    \
     "t[s]\tkinetic[J]\tgravity[J]\telastic[J]\thydrostatic[J]\tfriction[J]\tdamping[J]\tdrag[J]\twind[J]"    \

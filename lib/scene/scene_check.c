@@ -26,6 +26,7 @@ static void fill_in(fl_scene *s)
     follow(o, "state_every", &o->state_every, o->loads_every);
     follow(o, "energy_every", &o->energy_every, o->loads_every);
     follow(o, "contacts_every", &o->contacts_every, o->loads_every);
+    follow(o, "hash_every", &o->hash_every, o->loads_every);
 }
 
 /* A material that a key names.  key is the whole address, for the line to tell. */
@@ -58,11 +59,11 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames", "output.state", "output.energy", "output.contacts",
-                               "output.checkpoint"};
-    const char *const path[] = {s->output.frames, s->output.state, s->output.energy, s->output.contacts,
-                                s->output.checkpoint};
-    for (int k = 0; k < 5; k++) {
+    const char *const key[] = {"output.frames",   "output.state", "output.energy",
+                               "output.contacts", "output.hash",  "output.checkpoint"};
+    const char *const path[] = {s->output.frames,   s->output.state, s->output.energy,
+                                s->output.contacts, s->output.hash,  s->output.checkpoint};
+    for (int k = 0; k < 6; k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
                                  "%s is \"-\", and standard output carries the loads: a file was wanted",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pairing.h -- a pair of things enters the list of near pairs, and leaves it. */
+/* pairing.h -- a pair of things enters the list of near pairs. */
 #ifndef FL_STEP_PAIRING_H
 #define FL_STEP_PAIRING_H
 #include "step/world.h"
@@ -14,8 +14,7 @@ const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j);
  * Hertz's with exponent 3/2; between polyhedra they are what the scene says. */
 double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent);
 
-/* A new pair that does not touch; a pair that ends hands its work over to the ledger and frees its memory. */
+/* A new pair that does not touch. */
 void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
-void fl_pair_end(fl_world *w, fl_pair *p);
 
 #endif

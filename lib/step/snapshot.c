@@ -170,8 +170,6 @@ static void memory(traffic *t, fl_pair *p)
     }
     real(t, &p->asleep);
     real(t, &p->touch);
-    real(t, &p->damped);
-    real(t, &p->rubbed);
     vec3(t, &p->slip.force);
     real(t, &p->slip.k);
     real(t, &p->slip.moment);

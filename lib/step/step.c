@@ -113,15 +113,19 @@ static double drive_power(const fl_world *w)
 }
 
 /* Book the works of the forces just found, at the velocities of the full step, for the two half kicks that
- * they give (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out. */
+ * they give (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out.
+ * The sums run over touching pairs in their order, so that no bit depends on which others are listed. */
 static void book(fl_world *w, double dt)
 {
+    double damped = 0.0, rubbed = 0.0;
     for (int32_t c = 0; c < w->n_pair; c++) {
-        fl_pair *p = &w->pair[c];
+        const fl_pair *p = &w->pair[c];
         if (p->n == 0) continue;
-        p->damped += dt * damping_power(&w->b, p);
-        p->rubbed += dt * friction_power(&w->b, p);
+        damped += damping_power(&w->b, p);
+        rubbed += friction_power(&w->b, p);
     }
+    w->ledger.damping += dt * damped;
+    w->ledger.friction += dt * rubbed;
     w->ledger.drive += dt * drive_power(w);
 }
 
@@ -223,8 +227,6 @@ void fl_step_ledger(fl_world *w)
     }
     for (int32_t c = 0; c < w->n_pair; c++) {
         const fl_pair *p = &w->pair[c];
-        damped += p->damped;
-        rubbed += p->rubbed;
         if (p->n == 0) continue;
         damped -= h * damping_power(b, p);
         rubbed -= h * friction_power(b, p);

@@ -53,7 +53,6 @@ typedef struct {
     double spring;           /* the tangential part of it [J]                         */
     double overlap;          /* largest [m]                                           */
     double stiff_i, stiff_j; /* sum of k (1/m + (r x n).I^-1 (r x n)) over places [1/s2] */
-    double damped, rubbed;   /* work taken out by damping; done against friction [J] */
 } fl_pair;
 
 /* Stores, sinks and sources of energy [J].  The residual is stores - start + taken out - put in: 0 but for
@@ -66,7 +65,7 @@ typedef struct {
     double
         /* largest kinetic energy + |each of the works| so far: what the residual is held against */
         throughput;
-    double friction, damping, drive; /* parts of the sums above that no pair and no body carries any more */
+    double friction, damping, drive; /* the works booked so far: with that of the half kick that lies ahead */
 } fl_ledger;
 
 typedef struct {

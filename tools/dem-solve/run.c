@@ -62,10 +62,11 @@ void run_header(struct run *r, struct outputs *u, int k)
 {
     FILE *f = u->table[k].f;
     switch (k) {
-    case AT_LOADS: fl_loads_header(f, r->history, r->by); break;
+    case AT_LOADS: fl_loads_header(f, r->history, r->by, u->last_row); break;
     case AT_STATE: fl_state_header(f, r->history, r->by); break;
     case AT_ENERGY: fl_rows_header(f, "energy", r->history, r->by, FL_ENERGY_COLUMNS); break;
     case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
+    case AT_HASH: fl_hash_header(f, r->history, r->by); break;
     default: fl_frames_header(f, r->history, r->by, &r->w->b, r->w->id, r->w->q0, r->surface);
     }
 }
@@ -78,11 +79,11 @@ static int open_table(struct run *r, struct outputs *u, int k, const char *path,
 static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
-    const double every[TIMERS] = {s->loads_every,  s->state_every, s->energy_every,    s->contacts_every,
-                                  s->frames_every, s->ice_every,   s->checkpoint_every};
+    const double every[TIMERS] = {s->loads_every, s->state_every,  s->energy_every, s->contacts_every,
+                                  s->hash_every,  s->frames_every, s->ice_every,    s->checkpoint_every};
     char frames[FL_SCENE_PATH + 16];
     run_frames_path(r, u, frames);
-    const char *const path[TABLES] = {r->out, s->state, s->energy, s->contacts, frames};
+    const char *const path[TABLES] = {r->out, s->state, s->energy, s->contacts, s->hash, frames};
     for (int k = 0; k < TABLES; k++)
         if (open_table(r, u, k, path[k], err)) return -1;
     for (int k = 0; k < TABLES; k++)
@@ -176,6 +177,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         case AT_STATE: fl_state_rows(u->table[k].f, t, &r->w->b, r->w->id, r->w->q0); break;
         case AT_ENERGY: write_energy(r, u, t); break;
         case AT_CONTACTS: write_contacts(r, u, t); break;
+        case AT_HASH: fl_hash_row(u->table[k].f, t, fl_step_hash(r->w)); break;
         default:
             if (write_frames(r, u, t, err)) return -1;
         }

@@ -36,7 +36,18 @@ struct timer {
     int64_t k, due;
 };
 
-enum { AT_LOADS, AT_STATE, AT_ENERGY, AT_CONTACTS, AT_FRAMES, TABLES, AT_ICE = TABLES, AT_SAVE, TIMERS };
+enum {
+    AT_LOADS,
+    AT_STATE,
+    AT_ENERGY,
+    AT_CONTACTS,
+    AT_HASH,
+    AT_FRAMES,
+    TABLES,
+    AT_ICE = TABLES,
+    AT_SAVE,
+    TIMERS
+};
 
 /* The tables and when they are due. */
 struct outputs {

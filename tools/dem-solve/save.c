@@ -12,12 +12,12 @@
 #include "step/snapshot.h"
 #include "step/step.h"
 
-static const char *const TABLE[TABLES] = {"loads", "state", "energy", "contacts", "frames"};
+static const char *const TABLE[TABLES] = {"loads", "state", "energy", "contacts", "hash", "frames"};
 
 /* Keys that may be changed under way: none of them bears on a step or a row. */
-static const char *const FREE_KEY[] = {
-    "run.duration",    "run.threads",   "output.state",      "output.energy",
-    "output.contacts", "output.frames", "output.checkpoint", "output.checkpoint_every"};
+static const char *const FREE_KEY[] = {"run.duration",  "run.threads",       "output.state",
+                                       "output.energy", "output.contacts",   "output.hash",
+                                       "output.frames", "output.checkpoint", "output.checkpoint_every"};
 
 /* --- write ------------------------------------------------------------------------------------- */
 
@@ -174,8 +174,8 @@ static int word_i64(fl_text *in, int64_t *x, fl_err *err)
 static int read_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
-    const double every[TIMERS] = {s->loads_every,  s->state_every, s->energy_every,    s->contacts_every,
-                                  s->frames_every, s->ice_every,   s->checkpoint_every};
+    const double every[TIMERS] = {s->loads_every, s->state_every,  s->energy_every, s->contacts_every,
+                                  s->hash_every,  s->frames_every, s->ice_every,    s->checkpoint_every};
     int64_t k;
     for (int c = 0; c < TIMERS; c++) {
         if (word_i64(in, &k, err)) return -1;
@@ -234,15 +234,9 @@ static int read_place(struct run *r, struct outputs *u, fl_mark mark[TABLES], in
 static void table_path(const struct run *r, const struct outputs *u, int k, char path[FL_SCENE_PATH + 16])
 {
     const fl_scene_output *s = &r->scene->output;
-    if (k == AT_FRAMES) {
-        run_frames_path(r, u, path);
-        return;
-    }
-    snprintf(path, FL_SCENE_PATH + 16, "%s",
-             k == AT_LOADS    ? r->out
-             : k == AT_STATE  ? s->state
-             : k == AT_ENERGY ? s->energy
-                              : s->contacts);
+    const char *const name[TABLES] = {r->out, s->state, s->energy, s->contacts, s->hash, ""};
+    if (k == AT_FRAMES) run_frames_path(r, u, path);
+    else snprintf(path, FL_SCENE_PATH + 16, "%s", name[k]);
 }
 
 int save_restore(struct run *r, struct outputs *u, fl_err *err)

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The same bits: a scene with something of everything, over threads, searches for neighbours, and stops. */
+#define _GNU_SOURCE /* open_memstream */
+#include <stdio.h>
+#include <stdlib.h>
+#include "support/near.h"
+#include "base/par.h"
+#include "step/snapshot.h"
+#include "support/scenes.h"
+
+/* How the same run may be made. */
+typedef struct {
+    int32_t threads, every; /* every: steps between searches, 0 when the skin is used up */
+    double skin;            /* factor on it */
+    int64_t stop;           /* goes on in another world from this step on; 0: never */
+    int32_t then;           /* threads of that world */
+} way;
+
+/* State, books and loads, every bit of them. */
+static uint64_t digest(fl_world *w)
+{
+    const fl_ledger *g = &w->ledger;
+    fl_step_ledger(w);
+    const double books[] = {g->kinetic,       g->gravity,     g->elastic,     g->hydrostatic, g->friction_now,
+                            g->damping_now,   g->drag,        g->wind,        g->drive_now,   g->residual,
+                            g->throughput,    w->imbalance.x, w->imbalance.y, w->imbalance.z, w->impulse_size,
+                            w->worst_overlap, w->dt_critical};
+    uint64_t h = fl_hash(fl_step_hash(w), books, (int64_t)sizeof books);
+    h = fl_hash(h, w->part_impulse, w->parts * (int64_t)sizeof *w->part_impulse);
+    h = fl_hash(h, w->part_moment, w->parts * (int64_t)sizeof *w->part_moment);
+    h = fl_hash(h, w->part_peak, w->parts * (int64_t)sizeof *w->part_peak);
+    return fl_hash(h, &w->touching_steps, (int64_t)sizeof w->touching_steps);
+}
+
+static void make(lab *l, const way *how, int32_t threads, int32_t side, const char *law)
+{
+    scene_of_everything(l, side, law);
+    lab_setf(l, "run.threads=%d", threads);
+    if (how->every) lab_setf(l, "run.search_every=%d", how->every);
+    lab_make(l, 0);
+    l->w.skin *= how->skin;
+    l->w.found_at = -1; /* the list at hand is that of the other skin */
+}
+
+static uint64_t run(const way *how, int32_t side, const char *law, int64_t steps, int64_t *touching,
+                    int64_t *searches)
+{
+    lab l, m;
+    fl_err err = {0};
+    fl_text in = {0};
+    char *text = NULL;
+    size_t n = 0;
+    make(&l, how, how->threads, side, law);
+    if (side == 8) assert_int_equal(l.w.threads, how->threads);
+    assert_int_equal(lab_run(&l, how->stop ? how->stop : steps), 0);
+    if (how->stop) {
+        FILE *f = open_memstream(&text, &n);
+        assert_non_null(f);
+        fl_snapshot_write(f, &l.w);
+        assert_int_equal(fclose(f), 0);
+        make(&m, how, how->then, side, law);
+        assert_int_equal(fl_text_open_bytes(&in, "snapshot", text, (int64_t)n, &err), 0);
+        assert_int_equal(fl_snapshot_read(&m.w, &in, &err), 0);
+        fl_text_close(&in);
+        free(text);
+        lab_free(&l);
+        l = m;
+        assert_int_equal(lab_run(&l, steps - how->stop), 0);
+    }
+    const uint64_t got = digest(&l.w);
+    *touching = l.w.touching_steps;
+    *searches = l.w.searches;
+    lab_free(&l);
+    return got;
+}
+
+static void compare(const way *how, int ways, int32_t side, const char *law, int64_t steps, int64_t at_least)
+{
+    uint64_t first = 0;
+    int64_t touching, searches, fewest = INT64_MAX, most = 0;
+    for (int k = 0; k < ways; k++) {
+        const uint64_t got = run(&how[k], side, law, steps, &touching, &searches);
+        if (k == 0) first = got;
+        if (got != first) print_error("law %s: way %d has other bits\n", law, k);
+        assert_true(got == first);
+        assert_true(touching > at_least);
+        fewest = searches < fewest ? searches : fewest;
+        most = searches > most ? searches : most;
+    }
+    assert_true(most > 4 * fewest); /* the searches did differ */
+}
+
+/* 512 bodies: enough for 16 threads. */
+static void threads_and_searches(void **state)
+{
+    const way how[] = {{1, 0, 1.0, 0, 0},  {2, 0, 1.0, 0, 0},   {3, 7, 1.0, 0, 0},   {8, 0, 0.2, 0, 0},
+                       {16, 0, 3.0, 0, 0}, {2, 0, 1.0, 3, 16}, {16, 1, 1.0, 7, 3}, {3, 0, 0.3, 1, 8}};
+    (void)state;
+    compare(how, sizeof how / sizeof *how, 8, "patch", 10, 2000);
+}
+
+static void laws(void **state)
+{
+    static const char *const LAW[] = {"patch", "core", "manual", "manual-si"};
+    const way how[] = {{1, 0, 1.0, 0, 0}, {2, 5, 1.0, 0, 0}, {1, 0, 0.1, 0, 0},
+                       {2, 0, 4.0, 0, 0}, {1, 1, 1.0, 0, 0}, {2, 0, 1.0, 57, 1}};
+    (void)state;
+    for (int k = 0; k < 4; k++) compare(how, sizeof how / sizeof *how, 3, LAW[k], 200, 1000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_and_searches), cmocka_unit_test(laws)};
+    return cmocka_run_group_tests_name("bits", tests, NULL, NULL);
+}
