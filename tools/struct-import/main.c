@@ -13,6 +13,7 @@
 #include "mesh/write_vtp.h"
 #include "named.h"
 #include "options.h"
+#include "views.h"
 #include "quality.h"
 
 /* Of a round solid in a format that knows triangles only; 0.2 % of its volume is lost. */
@@ -147,6 +148,7 @@ static int run(const struct options *o, fl_err *err)
     for (int32_t i = 0; i < s.n; i++)
         if (mend(&s.part[i], o, &m[i], err)) goto done;
     if (report(o, &s, m, err) || write_out(o, &s, err)) goto done;
+    if (o->plot && views(&s, o->plot, err)) goto done;
     rc = o->strict ? judge(&s, m, err) : 0;
 done:
     free(m);

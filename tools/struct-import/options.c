@@ -36,6 +36,7 @@ static const char HELP[] =
     "      --raw               no mending: weld only\n"
     "      --strict            status 1 when anything is left unmended\n"
     "      --to FORMAT         g_struct, stl (ASCII), stl-binary, obj, off, ply or vtp (g_struct)\n"
+    "      --plot WHERE        draw three views, into FILE.png, FILE.svg or a folder (by gnuplot)\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the output\n"
     "  -j, --threads N         threads; the import works on one whatever N is\n"
@@ -58,6 +59,7 @@ enum {
     TO,
     VERSION,
     MIRROR,
+    PLOT,
     FILL,
     REPAIR,
     SIMPLIFY,
@@ -88,6 +90,7 @@ static const struct option LONG[] = {{"cylinder", required_argument, NULL, CYLIN
                                      {"raw", no_argument, NULL, RAW},
                                      {"strict", no_argument, NULL, STRICT},
                                      {"to", required_argument, NULL, TO},
+                                     {"plot", required_argument, NULL, PLOT},
                                      {"output", required_argument, NULL, 'o'},
                                      {"gzip", no_argument, NULL, 'z'},
                                      {"threads", required_argument, NULL, 'j'},
@@ -313,6 +316,7 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
     case RAW: o->raw = 1; return 0;
     case STRICT: o->strict = 1; return 0;
     case TO: return format(o, arg, err);
+    case PLOT: o->plot = arg; return *arg ? 0 : fl_fail(err, FL_USAGE, "--plot is empty");
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
     case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);

@@ -42,8 +42,9 @@ struct options {
     double simplify;              /* [m]; 0 for none */
     double remesh, remesh_within; /* length of edges, 0 for none, and how far they may stray [m] */
     int repair;
-    fl_similar map; /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
-    double factor;  /* --scale alone, 1 when not given */
+    const char *plot; /* borrowed; NULL for none */
+    fl_similar map;   /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
+    double factor;    /* --scale alone, 1 when not given */
     const char *rotate[TURNS]; /* [turns] borrowed, as given */
     int turns, mirror;         /* bits 0, 1, 2 of mirror: x, y, z */
     double weld;               /* [m]; < 0: automatic */
