@@ -10,7 +10,7 @@
 static const double PI = 3.14159265358979323846;
 
 /* MANY: fewer rows of the matrix take less time than waking the other threads does. */
-enum { TRIES = 300, STEPS = 60, HALVES = 30, ROUNDS = 24, IDLE = 3, MANY = 8192 };
+enum { TRIES = 300, STEPS = 60, HALVES = 30, ROUNDS = 24, IDLE = 3, MANY = 8192, FEW = 2000, GROUPS = 500 };
 
 /* Rough enough to be quick while the sites still move; near enough that the fit of the floes does not see it;
  * and the mean error of the areas at which the fit ends. */
@@ -134,6 +134,9 @@ struct newton {
         *least;                       /* [n] areas [m2], area - got [m2], step of the weights, floor of got */
     double *diagonal, *r, *z, *p, *q; /* [n] of the conjugate gradients */
     double *trial;                    /* [n] weights */
+    int32_t groups;                   /* coarse unknowns, 0 where there are none */
+    int32_t *group;                   /* [n] of site i */
+    double *coarse, *column, *y;      /* [groups^2] factor, lower; [groups] scratch twice */
     double *slope;                    /* [sides] l / (2 |x_i - x_j|), 0 at a wall */
     int32_t slopes;
     void *mem;
@@ -196,18 +199,104 @@ static void times(struct newton *s, const fl_cells *c)
     }
 }
 
+/* --- the coarse part of the preconditioner -------------------------------------------------------------- */
+
+/* Groups are the sites in one square of a grid; the grid has no more squares than that the factor of their
+ * matrix costs less than the iterations it saves. */
+static int make_groups(struct newton *s, const fl_outline *in, fl_err *err)
+{
+    const double wx = in->hi.x - in->lo.x, wy = in->hi.y - in->lo.y;
+    const double h = sqrt(wx * wy / fmin(GROUPS, s->n / 8.0));
+    const int32_t nx = (int32_t)fmin(wx / h, GROUPS) + 1, ny = (int32_t)fmin(wy / h, GROUPS) + 1;
+    int32_t *number = NULL;
+    if (s->n < FEW) return 0;
+    if (!(s->group = fl_alloc(s->n, sizeof *s->group, err)) ||
+        !(number = fl_alloc((int64_t)nx * ny, sizeof *number, err)))
+        return -1;
+    for (int32_t i = 0; i < s->n; i++) {
+        const int32_t x = clamp((s->site[i].x - in->lo.x) / h, nx);
+        int32_t *k = &number[clamp((s->site[i].y - in->lo.y) / h, ny) * nx + x];
+        if (*k == 0) *k = ++s->groups;
+        s->group[i] = *k - 1;
+    }
+    free(number);
+    s->coarse = fl_alloc((int64_t)s->groups * s->groups, sizeof *s->coarse, err);
+    s->column = fl_alloc(s->groups, sizeof *s->column, err);
+    s->y = fl_alloc(s->groups, sizeof *s->y, err);
+    return s->coarse && s->column && s->y ? 0 : -1;
+}
+
+/* The matrix of the slopes for steps that are the same in all of a group, and its Cholesky factor.  Constants
+ * are in its kernel too: a multiple of the matrix of ones makes it definite, and changes nothing for what
+ * adds up to nothing.  Returns 0, or 1 when rounding has left it indefinite. */
+static int factor(struct newton *s, const fl_cells *c)
+{
+    const int32_t n = s->groups;
+    double *a = s->coarse, *l = s->column, trace = 0.0;
+    memset(a, 0, (size_t)n * (size_t)n * sizeof *a);
+    for (int32_t i = 0; i < s->n; i++)
+        for (int32_t k = c->first[i]; k < c->first[i + 1]; k++) {
+            const int32_t j = c->side[k].tag;
+            if (j < 0 || s->group[i] == s->group[j]) continue;
+            a[(int64_t)s->group[i] * n + s->group[i]] += s->slope[k];
+            a[(int64_t)s->group[i] * n + s->group[j]] -= s->slope[k];
+        }
+    for (int32_t k = 0; k < n; k++) trace += a[(int64_t)k * n + k];
+    for (int64_t k = 0; k < (int64_t)n * n; k++) a[k] += trace / ((double)n * n);
+    for (int32_t k = 0; k < n; k++) {
+        const double pivot = a[(int64_t)k * n + k];
+        if (!(pivot > 1e-12 * trace / n)) return 1;
+        for (int32_t i = k; i < n; i++) l[i] = a[(int64_t)i * n + k] /= sqrt(pivot);
+#pragma omp parallel for schedule(static) if (n >= 256)
+        for (int32_t i = k + 1; i < n; i++) {
+            double *row = a + (int64_t)i * n;
+            for (int32_t j = k + 1; j <= i; j++) row[j] -= l[i] * l[j];
+        }
+    }
+    return 0;
+}
+
+/* z += (the coarse inverse) r */
+static void add_coarse(struct newton *s)
+{
+    const int32_t n = s->groups;
+    const double *a = s->coarse;
+    double *y = s->y;
+    memset(y, 0, (size_t)n * sizeof *y);
+    for (int32_t i = 0; i < s->n; i++) y[s->group[i]] += s->r[i];
+    for (int32_t k = 0; k < n; k++) {
+        for (int32_t j = 0; j < k; j++) y[k] -= a[(int64_t)k * n + j] * y[j];
+        y[k] /= a[(int64_t)k * n + k];
+    }
+    for (int32_t k = n - 1; k >= 0; k--) {
+        y[k] /= a[(int64_t)k * n + k];
+        for (int32_t j = 0; j < k; j++) y[j] -= a[(int64_t)k * n + j] * y[k];
+    }
+    for (int32_t i = 0; i < s->n; i++) s->z[i] += y[s->group[i]];
+}
+
+/* z = (the preconditioner) r: the diagonal, since small cells have small slopes, and the coarse part, without
+ * which what one end of the field lacks would reach the other cell by cell. */
+static void precondition(struct newton *s)
+{
+#pragma omp parallel for schedule(static) if (s->n >= MANY)
+    for (int32_t i = 0; i < s->n; i++) s->z[i] = s->r[i] / s->diagonal[i];
+    if (s->groups) add_coarse(s);
+}
+
 /* Conjugate gradients on the matrix of the slopes, a graph Laplacian: constants are its kernel, and what is
- * lost adds up to nothing, so that the method stays where the matrix is definite.  Preconditioned by the
- * diagonal, since small cells have small slopes.  A thousandth of the error is enough for a step. */
+ * lost adds up to nothing, so that the method stays where the matrix is definite.  A thousandth of the error
+ * is enough for a step.  Source of the two levels: Smith, Bjorstad & Gropp, Domain Decomposition (1996), ch.
+ * 2. */
 static void find_step(struct newton *s, const fl_cells *c)
 {
     const int32_t n = s->n, most = 200 + (int32_t)(20.0 * sqrt(n));
     double rz, start;
-    for (int32_t i = 0; i < n; i++) {
-        s->step[i] = 0.0;
-        s->r[i] = s->lost[i];
-        s->p[i] = s->z[i] = s->r[i] / s->diagonal[i];
-    }
+    if (s->groups && factor(s, c)) s->groups = 0;
+    memset(s->step, 0, (size_t)n * sizeof *s->step);
+    memcpy(s->r, s->lost, (size_t)n * sizeof *s->r);
+    precondition(s);
+    memcpy(s->p, s->z, (size_t)n * sizeof *s->p);
     rz = start = dot(s, s->r, s->z, s->q);
     for (int32_t k = 0; k < most && rz > 1e-6 * start; k++) {
         double alpha, before = rz;
@@ -218,8 +307,8 @@ static void find_step(struct newton *s, const fl_cells *c)
         for (int32_t i = 0; i < n; i++) {
             s->step[i] += alpha * s->p[i];
             s->r[i] -= alpha * s->q[i];
-            s->z[i] = s->r[i] / s->diagonal[i];
         }
+        precondition(s);
         rz = dot(s, s->r, s->z, s->q);
 #pragma omp parallel for schedule(static) if (n >= MANY)
         for (int32_t i = 0; i < n; i++) s->p[i] = s->z[i] + rz / before * s->p[i];
@@ -282,7 +371,7 @@ int fl_laguerre_solve(fl_cells *out, int32_t n, const fl_vec2 *site, double *wei
     fl_cells c = {0};
     double sum, largest;
     int rc = -1;
-    if (newton_alloc(&s, err) || look(&s, &c, weight, in, err)) goto done;
+    if (newton_alloc(&s, err) || make_groups(&s, in, err) || look(&s, &c, weight, in, err)) goto done;
     if (!all_above(&s)) {
         rc = 1;
         goto done;
@@ -309,6 +398,10 @@ int fl_laguerre_solve(fl_cells *out, int32_t n, const fl_vec2 *site, double *wei
     rc = 0;
 done:
     free(s.mem);
+    free(s.group);
+    free(s.coarse);
+    free(s.column);
+    free(s.y);
     free(s.slope);
     fl_cells_free(&c);
     return rc;

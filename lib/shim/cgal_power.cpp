@@ -22,7 +22,6 @@ using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int32_t, Kernel, Base
 using Face = CGAL::Regular_triangulation_face_base_2<Kernel>;
 using Regular = CGAL::Regular_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
 using Weighted = Kernel::Weighted_point_2;
-using Pair = std::pair<int32_t, int32_t>;
 
 int neighbours(int32_t n, const fl_vec2 *site, const double *weight, char *empty, int32_t *first,
                int32_t **near, fl_err *err)
@@ -37,21 +36,24 @@ int neighbours(int32_t n, const fl_vec2 *site, const double *weight, char *empty
     for (auto v = rt.finite_vertices_begin(); v != rt.finite_vertices_end(); ++v) empty[v->info()] = 0;
 
     /* The order of insertion is drawn at random; sorting makes the lists a function of the sites. */
-    std::vector<Pair> pair;
+    std::memset(first, 0, (static_cast<size_t>(n) + 1) * sizeof *first);
+    for (auto e = rt.finite_edges_begin(); e != rt.finite_edges_end(); ++e) {
+        first[e->first->vertex(rt.ccw(e->second))->info()]++;
+        first[e->first->vertex(rt.cw(e->second))->info()]++;
+    }
+    for (int32_t i = 0, sum = 0; i <= n; i++) { /* counts to ends: each list is filled from behind */
+        sum += first[i];
+        first[i] = sum;
+    }
+    *near = static_cast<int32_t *>(fl_alloc(first[n], sizeof **near, err));
+    if (!*near) return -1;
     for (auto e = rt.finite_edges_begin(); e != rt.finite_edges_end(); ++e) {
         const int32_t a = e->first->vertex(rt.ccw(e->second))->info();
         const int32_t b = e->first->vertex(rt.cw(e->second))->info();
-        pair.emplace_back(a, b);
-        pair.emplace_back(b, a);
+        (*near)[--first[a]] = b;
+        (*near)[--first[b]] = a;
     }
-    std::sort(pair.begin(), pair.end());
-    *near = static_cast<int32_t *>(fl_alloc(static_cast<int64_t>(pair.size()), sizeof **near, err));
-    if (!*near) return -1;
-    for (int32_t i = 0, k = 0; i <= n; i++) {
-        first[i] = k;
-        for (; k < static_cast<int32_t>(pair.size()) && pair[static_cast<size_t>(k)].first == i; k++)
-            (*near)[k] = pair[static_cast<size_t>(k)].second;
-    }
+    for (int32_t i = 0; i < n; i++) std::sort(*near + first[i], *near + first[i + 1]);
     return 0;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <utility>
@@ -19,7 +20,6 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int32_t, Kernel>;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex>>;
-using Pair = std::pair<int32_t, int32_t>;
 
 /* A site that CGAL took for another one has no vertex of its own. */
 int coincident(const Delaunay &dt, int32_t n, const fl_vec2 *site, fl_err *err)
@@ -42,21 +42,24 @@ int neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, f
     if (dt.number_of_vertices() != static_cast<size_t>(n)) return coincident(dt, n, site, err);
 
     /* CGAL inserts in an order that it draws at random; sorting makes the lists a function of the sites. */
-    std::vector<Pair> pair;
+    std::memset(first, 0, (static_cast<size_t>(n) + 1) * sizeof *first);
+    for (auto e = dt.finite_edges_begin(); e != dt.finite_edges_end(); ++e) {
+        first[e->first->vertex(dt.ccw(e->second))->info()]++;
+        first[e->first->vertex(dt.cw(e->second))->info()]++;
+    }
+    for (int32_t i = 0, sum = 0; i <= n; i++) { /* counts to ends: each list is filled from behind */
+        sum += first[i];
+        first[i] = sum;
+    }
+    *near = static_cast<int32_t *>(fl_alloc(first[n], sizeof **near, err));
+    if (!*near) return -1;
     for (auto e = dt.finite_edges_begin(); e != dt.finite_edges_end(); ++e) {
         const int32_t a = e->first->vertex(dt.ccw(e->second))->info();
         const int32_t b = e->first->vertex(dt.cw(e->second))->info();
-        pair.emplace_back(a, b);
-        pair.emplace_back(b, a);
+        (*near)[--first[a]] = b;
+        (*near)[--first[b]] = a;
     }
-    std::sort(pair.begin(), pair.end());
-    *near = static_cast<int32_t *>(fl_alloc(static_cast<int64_t>(pair.size()), sizeof **near, err));
-    if (!*near) return -1;
-    for (int32_t i = 0, k = 0; i <= n; i++) {
-        first[i] = k;
-        for (; k < static_cast<int32_t>(pair.size()) && pair[static_cast<size_t>(k)].first == i; k++)
-            (*near)[k] = pair[static_cast<size_t>(k)].second;
-    }
+    for (int32_t i = 0; i < n; i++) std::sort(*near + first[i], *near + first[i + 1]);
     return 0;
 }
 
