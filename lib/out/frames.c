@@ -24,10 +24,11 @@ static void vertex(FILE *f, fl_vec3 x)
 }
 
 void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_bodies *b, const int32_t *id,
-                      const fl_quat *q0, const fl_surface *surface)
+                      const fl_quat *q0, const int32_t *at, const fl_surface *surface)
 {
     fl_by_header(f, "animation", 1, history, by);
-    for (int32_t i = 0; i < b->n; i++) {
+    for (int32_t c = 0; c < b->n; c++) {
+        const int32_t i = at ? at[c] : c;
         const fl_poly *p = &b->core[i];
         const fl_mat3 R = q_matrix(q0[i]);
         fprintf(f, "shape %d", id[i]);
@@ -36,7 +37,7 @@ void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_bo
         for (int32_t v = 0; v < p->nv; v++) vertex(f, m3_mul(R, p->v[v]));
         for (int32_t k = 0; k < p->nf; k++) {
             fprintf(f, "f %d", p->first[k + 1] - p->first[k]);
-            for (int32_t c = p->first[k]; c < p->first[k + 1]; c++) fprintf(f, " %d", p->loop[c]);
+            for (int32_t e = p->first[k]; e < p->first[k + 1]; e++) fprintf(f, " %d", p->loop[e]);
             putc('\n', f);
         }
     }
@@ -58,12 +59,13 @@ void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_bo
 }
 
 void fl_frames_frame(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
-                     fl_vec3 gone, int ice)
+                     const int32_t *at, fl_vec3 gone, int ice)
 {
     fputs("frame", f);
     put(f, t);
     putc('\n', f);
-    for (int32_t i = 0; ice && i < b->n; i++) {
+    for (int32_t c = 0; ice && c < b->n; c++) {
+        const int32_t i = at ? at[c] : c;
         const fl_quat q = q_mul(b->q[i], q_conj(q0[i]));
         fprintf(f, "body %d", id[i]);
         put3(f, b->x[i]);

@@ -69,11 +69,13 @@ void fl_state_header(FILE *f, const char *history, const fl_by *by)
         "wz[rad/s]");
 }
 
-void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0)
+void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
+                   const int32_t *at)
 {
     char text[FL_NUM_LEN];
     fl_num_text(t, text);
-    for (int32_t i = 0; i < b->n; i++) {
+    for (int32_t k = 0; k < b->n; k++) {
+        const int32_t i = at ? at[k] : k;
         const fl_quat q = q_mul(b->q[i], q_conj(q0[i]));
         fprintf(f, "%s\t%d", text, id[i]);
         put3(f, b->x[i]);

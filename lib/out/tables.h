@@ -18,8 +18,10 @@ void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 mo
                   int32_t contacts);
 
 void fl_state_header(FILE *f, const char *history, const fl_by *by);
-/* All bodies [0, n): position of the centre of mass; orientation against the pose at the start, q q0^-1. */
-void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0);
+/* All bodies in the order at[n] (NULL: as they are): position of the centre of mass; orientation against the
+ * pose at the start, q q0^-1. */
+void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
+                   const int32_t *at);
 
 /* A row of any table of doubles. */
 void fl_rows_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns);

@@ -4,6 +4,7 @@
 #include "support/near.h"
 #include "base/mem.h"
 #include "scene/field.h"
+#include "scene/field_order.h"
 
 #define CUBE_V "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
 #define CUBE_F "f 4 3 2 1 0\nf 4 4 5 6 7\nf 4 0 1 5 4\nf 4 1 2 6 5\nf 4 2 3 7 6\nf 4 3 0 4 7\n"
@@ -228,9 +229,44 @@ static void memory_that_runs_out_is_told(void **state)
     }
 }
 
+/* Spheres on a line, listed and numbered in two ways, with a bond between the first and the third along x. */
+static void the_order_is_the_bodies_own(void **state)
+{
+    static const char *const text[2] = {
+        "#g-polys 2\npoly 1 0.5 1 0 material=ice\nv 2 0 0\npoly 2 0.25 1 0 group=far material=steel\nv 0 0 "
+        "0\n"
+        "vel 1 2 3 4 5 6\npoly 3 0.5 1 0\nv 1 0 0\npoly 4 0.25 1 0\nv 1 0 0\nbond 1 2 0.1 0.2 1 0 0\n",
+        "#g-polys 2\npoly 9 0.25 1 0\nv 1 0 0\npoly 8 0.5 1 0\nv 1 0 0\npoly 7 0.25 1 0 group=far "
+        "material=steel\n"
+        "v 0 0 0\nvel 1 2 3 4 5 6\npoly 6 0.5 1 0 material=ice\nv 2 0 0\nbond 6 7 0.1 0.2 1 0 0\n"};
+    static const int32_t id[2][4] = {{2, 4, 3, 1}, {7, 9, 8, 6}}, was[2][4] = {{3, 0, 2, 1}, {1, 2, 0, 3}};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        fl_field a = {0};
+        fl_err err;
+        int32_t at[4];
+        assert_int_equal(read_text(&a, text[k], &err), 0);
+        assert_int_equal(fl_field_order(&a, at, &err), 0);
+        for (int i = 0; i < 4; i++) {
+            assert_int_equal(a.id[i], id[k][i]);
+            assert_int_equal(at[i], was[k][i]);
+        }
+        assert_true(a.radius[0] == 0.25 && a.radius[1] == 0.25 && a.radius[2] == 0.5 && a.radius[3] == 0.5);
+        assert_true(a.core[0].v[0].x == 0.0 && a.core[3].v[0].x == 2.0);
+        assert_true(a.vel[0].y == 2.0 && a.spin[0].z == 6.0 && a.vel[1].y == 0.0);
+        assert_string_equal(a.groups.name[a.group[0]], "far");
+        assert_string_equal(a.materials.name[a.material[3]], "ice");
+        assert_int_equal(a.material[1], -1);
+        assert_int_equal(a.bond[0].i, 0);
+        assert_int_equal(a.bond[0].j, 3);
+        fl_field_free(&a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_field_is_read_whole),
+                                       cmocka_unit_test(the_order_is_the_bodies_own),
                                        cmocka_unit_test(what_is_written_reads_back),
                                        cmocka_unit_test(faults_are_told_with_their_line),
                                        cmocka_unit_test(bonds_are_read_sorted_and_written),

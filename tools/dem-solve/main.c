@@ -9,6 +9,7 @@
 #include "run.h"
 #include "save.h"
 #include "scene/field.h"
+#include "scene/field_order.h"
 #include "mesh/gstruct.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
@@ -125,6 +126,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     struct inputs in = {0};
     fl_world world = {0};
     char path[FL_SCENE_PATH];
+    int32_t *at = NULL;
     int rc = -1;
     if (o->explain) return fl_scene_explain(stdout, o->explain, err);
     if (read_inputs(&in, o, err)) goto done;
@@ -138,10 +140,14 @@ static int run(const struct options *o, int *stopped, fl_err *err)
         fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", in.scene.ice.file);
         goto done;
     }
-    if (fl_world_make(&world, &in.scene, &in.field, surface, err) || keep_texts(&in, surface, err)) goto done;
+    at = fl_alloc(in.field.n, sizeof *at, err);
+    if (!at || keep_texts(&in, surface, err) || fl_field_order(&in.field, at, err) ||
+        fl_world_make(&world, &in.scene, &in.field, surface, err))
+        goto done;
     fl_field_free(&in.field);
     struct run r = {.o = o,
                     .scene = &in.scene,
+                    .at = at,
                     .surface = surface,
                     .history = in.history,
                     .by = &in.by,
@@ -166,6 +172,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                 in.scene.output.checkpoint[0] ? ", dem-solve --resume " : "", in.scene.output.checkpoint,
                 in.scene.output.checkpoint[0] ? " goes on" : "");
 done:
+    free(at);
     free(in.text[0]);
     free(in.text[1]);
     free(in.history);

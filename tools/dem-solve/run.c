@@ -67,7 +67,7 @@ void run_header(struct run *r, struct outputs *u, int k)
     case AT_ENERGY: fl_rows_header(f, "energy", r->history, r->by, FL_ENERGY_COLUMNS); break;
     case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
     case AT_HASH: fl_hash_header(f, r->history, r->by); break;
-    default: fl_frames_header(f, r->history, r->by, &r->w->b, r->w->id, r->w->q0, r->surface);
+    default: fl_frames_header(f, r->history, r->by, &r->w->b, r->w->id, r->w->q0, r->at, r->surface);
     }
 }
 
@@ -156,7 +156,7 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         if (open_table(r, u, AT_FRAMES, path, err)) return -1;
         run_header(r, u, AT_FRAMES);
     }
-    fl_frames_frame(u->table[AT_FRAMES].f, t, &r->w->b, r->w->id, r->w->q0,
+    fl_frames_frame(u->table[AT_FRAMES].f, t, &r->w->b, r->w->id, r->w->q0, r->at,
                     v3_scale(t, r->scene->structure.velocity), ice);
     if (ice) next(u, AT_ICE, r->w->dt);
     return 0;
@@ -174,7 +174,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         case AT_LOADS:
             if (write_loads(r, u, t, err)) return -1;
             break;
-        case AT_STATE: fl_state_rows(u->table[k].f, t, &r->w->b, r->w->id, r->w->q0); break;
+        case AT_STATE: fl_state_rows(u->table[k].f, t, &r->w->b, r->w->id, r->w->q0, r->at); break;
         case AT_ENERGY: write_energy(r, u, t); break;
         case AT_CONTACTS: write_contacts(r, u, t); break;
         case AT_HASH: fl_hash_row(u->table[k].f, t, fl_step_hash(r->w)); break;

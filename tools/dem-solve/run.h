@@ -11,6 +11,7 @@
 struct run {
     const struct options *o;
     const fl_scene *scene;
+    const int32_t *at;         /* where the k-th body of the ice file is in the world */
     const fl_surface *surface; /* NULL: none */
     const char *history;       /* of the inputs; NULL: none */
     const fl_by *by;
