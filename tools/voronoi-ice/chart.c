@@ -61,7 +61,8 @@ static void begin(const struct picture *p, const char *stem, int height)
 static int is_mark(int k, double ratio)
 {
     if (ratio > 1e3) return k == 1;
-    return ratio > 10.0 ? k == 1 || k == 2 || k == 5 : 1;
+    if (ratio > 10.0) return k == 1 || k == 2 || k == 5;
+    return ratio < 4.0 || k < 4 || k == 5 || k == 7;
 }
 
 /* gnuplot marks powers of ten only, of which a range of sizes may have one or none. */
