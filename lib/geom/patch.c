@@ -9,16 +9,15 @@ static const double NO_AREA = 1e-15;
 
 static const double PI = 3.141592653589793238;
 
-/* One side of a triangle, keyed by its ends. */
+/* One side of a triangle; the lower end is the bucket it lies in. */
 typedef struct {
-    int32_t lo, hi, t;
-    int8_t k, up; /* side k of triangle t, running from lo to hi */
+    int32_t hi, t;
+    int8_t k, up; /* side k of triangle t, running up from its lower end */
 } side;
 
 static int by_ends(const void *x, const void *y)
 {
     const side *a = x, *b = y;
-    if (a->lo != b->lo) return a->lo < b->lo ? -1 : 1;
     if (a->hi != b->hi) return a->hi < b->hi ? -1 : 1;
     if (a->t != b->t) return a->t < b->t ? -1 : 1;
     return a->k - b->k;
@@ -60,33 +59,67 @@ static void join(web *w, const side *s, int64_t n)
     }
 }
 
+/* Sides of one vertex are few but at the hub of a fan. */
+static void sort_bucket(side *s, int64_t n)
+{
+    enum { FEW = 24 };
+    if (n > FEW) {
+        qsort(s, (size_t)n, sizeof *s, by_ends);
+        return;
+    }
+    for (int64_t i = 1; i < n; i++) {
+        const side x = s[i];
+        int64_t k = i;
+        for (; k > 0 && by_ends(&s[k - 1], &x) > 0; k--) s[k] = s[k - 1];
+        s[k] = x;
+    }
+}
+
+static int32_t lower(const fl_tri *t, int k)
+{
+    const int32_t a = t->v[k], b = t->v[(k + 1) % 3];
+    return a < b ? a : b;
+}
+
+/* Deal the sides to their lower ends: s[first[v] .. first[v + 1]) are those of vertex v, sorted. */
+static void deal(const fl_part *p, int64_t *first, side *s)
+{
+    for (int32_t t = 0; t < p->nt; t++)
+        for (int k = 0; k < 3 && !repeats(&p->t[t]); k++) first[lower(&p->t[t], k) + 1]++;
+    for (int32_t v = 0; v < p->nv; v++) first[v + 1] += first[v];
+    for (int32_t t = 0; t < p->nt; t++)
+        for (int k = 0; k < 3 && !repeats(&p->t[t]); k++) {
+            const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
+            s[first[lower(&p->t[t], k)]++] = (side){a < b ? b : a, t, (int8_t)k, a < b};
+        }
+    for (int32_t v = p->nv; v > 0; v--) first[v] = first[v - 1]; /* each ran on to the next one's start */
+    first[0] = 0;
+    for (int32_t v = 0; v < p->nv; v++) sort_bucket(s + first[v], first[v + 1] - first[v]);
+}
+
 static int web_make(web *w, const fl_part *p, fl_err *err)
 {
-    int64_t n = 0;
-    side *s = fl_alloc(3 * (int64_t)p->nt, sizeof *s, err);
+    int64_t *first = fl_alloc((int64_t)p->nv + 1, sizeof *first, err);
+    side *s = first ? fl_alloc(3 * (int64_t)p->nt, sizeof *s, err) : NULL;
     *w = (web){.balanced = 1};
     w->across = s ? fl_alloc(3 * (int64_t)p->nt, sizeof *w->across, err) : NULL;
     w->agree = w->across ? fl_alloc(3 * (int64_t)p->nt, 1, err) : NULL;
     w->sign = w->agree ? fl_alloc(p->nt, 1, err) : NULL;
     w->queue = w->sign ? fl_alloc(p->nt, sizeof *w->queue, err) : NULL;
     if (!w->queue) {
+        free(first);
         free(s);
         web_free(w);
         return -1;
     }
     memset(w->across, -1, 3 * (size_t)p->nt * sizeof *w->across);
-    for (int32_t t = 0; t < p->nt; t++) {
-        if (repeats(&p->t[t])) continue;
-        for (int k = 0; k < 3; k++) {
-            const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
-            s[n++] = a < b ? (side){a, b, t, (int8_t)k, 1} : (side){b, a, t, (int8_t)k, 0};
+    deal(p, first, s);
+    for (int32_t v = 0; v < p->nv; v++)
+        for (int64_t from = first[v], to; from < first[v + 1]; from = to) {
+            for (to = from + 1; to < first[v + 1] && s[to].hi == s[from].hi;) to++;
+            join(w, s + from, to - from);
         }
-    }
-    qsort(s, (size_t)n, sizeof *s, by_ends);
-    for (int64_t from = 0, to; from < n; from = to) {
-        for (to = from + 1; to < n && s[to].lo == s[from].lo && s[to].hi == s[from].hi;) to++;
-        join(w, s + from, to - from);
-    }
+    free(first);
     free(s);
     return 0;
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
 #include "base/mem.h"
 #include "geom/weld.h"
 
@@ -6,33 +7,41 @@ static const double SHARE = 1e-6;    /* default tolerance over diagonal; see wel
 static const double NO_TOL = 1e-15;  /* cells of less than this would not fit in 53 bits */
 static const double TOO_FAR = 1e150; /* squares of lengths must not overflow */
 
-typedef struct {
-    fl_vec3 x;
-    int32_t v;
-} point;
-
-static int by_place(const void *a, const void *b)
+static uint64_t mix(uint64_t h)
 {
-    const point *p = a, *q = b;
-    if (p->x.x != q->x.x) return p->x.x < q->x.x ? -1 : 1;
-    if (p->x.y != q->x.y) return p->x.y < q->x.y ? -1 : 1;
-    if (p->x.z != q->x.z) return p->x.z < q->x.z ? -1 : 1;
-    return p->v < q->v ? -1 : p->v > q->v;
+    h ^= h >> 29;
+    h *= UINT64_C(0xbf58476d1ce4e5b9);
+    return h ^ h >> 32;
 }
 
-/* to[v] = first vertex at the same place. */
+static uint64_t hash_place(fl_vec3 x)
+{
+    const double c[3] = {x.x + 0.0, x.y + 0.0, x.z + 0.0}; /* -0 is 0 */
+    uint64_t u[3];
+    memcpy(u, c, sizeof u);
+    return mix(u[0] * UINT64_C(0x9e3779b97f4a7c15) + mix(u[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + mix(u[2])));
+}
+
+/* to[v] = first vertex at the same place: an open table of those, at most half full. */
 static int merge_equal(const fl_part *p, int32_t *to, fl_err *err)
 {
-    point *s = fl_alloc(p->nv, sizeof *s, err);
-    if (!s) return -1;
-    for (int32_t v = 0; v < p->nv; v++) s[v] = (point){p->v[v], v};
-    qsort(s, (size_t)p->nv, sizeof *s, by_place);
-    for (int32_t k = 0; k < p->nv; k++) {
-        const int same =
-            k && s[k].x.x == s[k - 1].x.x && s[k].x.y == s[k - 1].x.y && s[k].x.z == s[k - 1].x.z;
-        to[s[k].v] = same ? to[s[k - 1].v] : s[k].v;
+    uint64_t mask = 16;
+    int32_t *table;
+    while (mask < 2 * (uint64_t)p->nv) mask *= 2;
+    table = fl_alloc((int64_t)mask, sizeof *table, err); /* vertex plus one, 0 for free */
+    if (!table) return -1;
+    mask--;
+    for (int32_t v = 0; v < p->nv; v++) {
+        const fl_vec3 x = p->v[v];
+        uint64_t k = hash_place(x) & mask;
+        for (; table[k]; k = (k + 1) & mask) {
+            const fl_vec3 y = p->v[table[k] - 1];
+            if (x.x == y.x && x.y == y.y && x.z == y.z) break;
+        }
+        if (!table[k]) table[k] = v + 1;
+        to[v] = table[k] - 1;
     }
-    free(s);
+    free(table);
     return 0;
 }
 
@@ -46,11 +55,10 @@ typedef struct {
 
 static uint64_t slot(const grid *g, int64_t ix, int64_t iy, int64_t iz)
 {
-    uint64_t h = (uint64_t)ix * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)iy * UINT64_C(0xc2b2ae3d27d4eb4f) +
-                 (uint64_t)iz * UINT64_C(0x165667b19e3779f9);
-    h ^= h >> 29;
-    h *= UINT64_C(0xbf58476d1ce4e5b9);
-    return (h ^ h >> 32) & g->mask;
+    const uint64_t h = (uint64_t)ix * UINT64_C(0x9e3779b97f4a7c15) +
+                       (uint64_t)iy * UINT64_C(0xc2b2ae3d27d4eb4f) +
+                       (uint64_t)iz * UINT64_C(0x165667b19e3779f9);
+    return mix(h) & g->mask;
 }
 
 static int64_t cell_of(double x, double lo, double cell) { return (int64_t)floor((x - lo) / cell); }

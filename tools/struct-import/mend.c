@@ -156,9 +156,9 @@ done:
 /* Everything behind welding. */
 static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
 {
-    fl_quality q;
-    if (fl_part_orient(p, &m->orient, err) || fl_part_measure(p, &q, err)) return -1;
-    if (ailing(&q, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
+    if (fl_part_orient(p, &m->orient, err)) return -1;
+    if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->left, err)) return -1;
+    if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
     if (count_crossings(p, &m->meet, err)) return -1;
     if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
     if (p->nt == 0 || (o->simplify <= 0.0 && o->remesh <= 0.0)) return 0;
@@ -178,16 +178,15 @@ static int mend_triangles(fl_part *p, const struct options *o, struct mended *m,
     const fl_aabb box = fl_part_aabb(p);
     const double blur = BLUR * v3_norm(v3_sub(box.hi, box.lo));
     fl_soup source = {0};
-    fl_quality q;
     int rc = -1;
     if (fl_part_weld(p, o->weld, &m->weld, err)) return -1;
     if (p->nt == 0 && p->nc == 0)
         return fl_fail(err, FL_INPUT, "part \"%.60s\": each of its triangles is a point or a line", p->name);
-    if (fl_part_measure(p, &q, err)) return -1;
-    m->came_closed = q.closed;
+    if (fl_part_measure(p, &m->left, err)) return -1;
+    m->came_closed = m->left.closed;
     m->strays = m->misses = m->weld.moved;
     if (p->nt == 0 || o->raw) return 0;
-    if (may_move(&q, o) && to_soup(p, &source, err)) return -1;
+    if (may_move(&m->left, o) && to_soup(p, &source, err)) return -1;
     if (cure(p, o, m, blur, err)) goto done;
     if (p->nt == 0 && p->nc == 0) {
         fl_fail(err, FL_INPUT, "part \"%.60s\": nothing is left after repair", p->name);
@@ -199,7 +198,7 @@ static int mend_triangles(fl_part *p, const struct options *o, struct mended *m,
         m->strays += m->weld.moved;
         m->misses += m->weld.moved;
     }
-    rc = 0;
+    rc = source.nt ? fl_part_measure(p, &m->left, err) : 0;
 done:
     fl_soup_free(&source);
     return rc;
@@ -208,7 +207,7 @@ done:
 int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
 {
     *m = (struct mended){.came_triangles = p->nt, .came = fl_moments_of(p, 1), .came_closed = 1};
-    if (p->nt && mend_triangles(p, o, m, err)) return -1;
+    if (p->nt ? mend_triangles(p, o, m, err) : fl_part_measure(p, &m->left, err)) return -1;
     m->went = fl_moments_of(p, 1);
-    return fl_part_measure(p, &m->left, err);
+    return 0;
 }

@@ -127,7 +127,8 @@ int report(const struct options *o, const fl_surface *s, const struct mended *m,
 {
     struct mended sum = {0};
     int width = 5; /* of "total" */
-    if (fl_surface_measure(s, &sum.left, err)) return -1;
+    if (s->n == 1) sum.left = m[0].left;
+    else if (fl_surface_measure(s, &sum.left, err)) return -1;
     if (o->quiet) return 0;
     for (int32_t i = 0; i < s->n; i++)
         if ((int)strlen(s->part[i].name) > width) width = (int)strlen(s->part[i].name);
