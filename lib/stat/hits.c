@@ -108,7 +108,8 @@ int fl_hits_span(const fl_hits *h, int64_t *times, double *step, fl_err *err)
     qsort(apart, (size_t)n, sizeof *apart, rising);
     *step = apart[n / 2];
     free(apart);
-    const double all = floor((h->time[n] - h->time[0]) / *step + 1.5);
+    const double lo = isfinite(h->ask.from) ? h->ask.from : h->time[0],
+                 hi = isfinite(h->ask.to) ? h->ask.to : h->time[n], all = floor((hi - lo) / *step + 1.5);
     if (all > (double)*times && all < 9e15) *times = (int64_t)all;
     return 0;
 }

@@ -47,7 +47,8 @@ int fl_hits_open(fl_hits *h, const char *path, const fl_hits_ask *ask, fl_err *e
 int fl_hits_next(fl_hits *h, fl_err *err);
 
 /* At the end: how many times the table stands for, those that are missing in it too, and how far apart they
- * are [s]; of a single time 1 and 0.  0, or -1 with FL_SYSTEM in err. */
+ * are [s]; of a single time 1 and 0.  They reach from ask.from to ask.to where these are finite, else from
+ * the first to the last time of the table.  0, or -1 with FL_SYSTEM in err. */
 int fl_hits_span(const fl_hits *h, int64_t *times, double *step, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/stream.h"
 #include "stat/resample.h"
+#include "hitrows.h"
 #include "options.h"
 #include "page.h"
 #include "plot.h"
@@ -109,7 +110,10 @@ int main(int argc, char **argv)
     struct options o;
     fl_err err = {0};
     int rc = options_parse(&o, argc, argv, &err);
-    if (rc == 0 && !o.ended) rc = sumrows_wanted(&o) ? sumrows_run(&o, &err) : run(&o, &err);
+    if (rc == 0 && !o.ended)
+        rc = hitrows_wanted(&o)   ? hitrows_run(&o, &err)
+             : sumrows_wanted(&o) ? sumrows_run(&o, &err)
+                                  : run(&o, &err);
     options_free(&o);
     return fl_tool_end("loadstats", rc, &err);
 }

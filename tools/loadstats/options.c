@@ -16,8 +16,8 @@ static const char HELP[] =
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
     "\n"
     "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, legs, events,\n"
-    "                          rainflow, damage, spectrum, frequency, response, motion, summary, ensemble or "
-    "cycles (stats)\n"
+    "                          rainflow, damage, spectrum, frequency, response, motion, summary, ensemble,\n"
+    "                          cycles; or, of contacts, pressure-area, line-load, map (stats)\n"
     "      --summary           the table summary: what adds up, of one run or of many files\n"
     "      --merge             the files are summaries: add them up\n"
     "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
@@ -43,7 +43,13 @@ static const char HELP[] =
     "      --quantiles LIST    of 0 .. 1 (0.5,0.9,0.95,0.99)\n"
     "      --sample WHAT       laws are fitted to peaks, pot (over the threshold), blocks or runs (peaks)\n"
     "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
-    "      --block S           of blocks: their length\n"
+    "      --block S           of blocks: their length\n";
+
+/* The rest of it: a string of C has no more than 4095 characters. */
+static const char HELP_MORE[] =
+    "      --areas LIST        of pressure-area: areas of the window (0.01,0.02,0.05 ... 10)\n"
+    "      --waterline LINE    of line-load, map: circle:X,Y,R or X,Y:X,Y:...; --bins pieces of it\n"
+    "      --heights LIST      of map: rising, edges of the rows of panels\n"
     "      --level R           of legs, events: durations are those above R times the peak (0.5)\n"
     "      --rule RULE         of load cycles: astm (E1049) or iso (12110-2) (astm)\n"
     "      --residue WHAT      what iso leaves open: half cycles, repeat, or none (half)\n"
@@ -93,6 +99,9 @@ enum {
     OVER,
     PATIENCE,
     LEVEL,
+    AREAS,
+    WATERLINE,
+    HEIGHTS,
     RULE,
     RESIDUE,
     SN,
@@ -122,6 +131,9 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"gap", required_argument, NULL, GAP},
                                      {"block", required_argument, NULL, BLOCK},
                                      {"level", required_argument, NULL, LEVEL},
+                                     {"areas", required_argument, NULL, AREAS},
+                                     {"waterline", required_argument, NULL, WATERLINE},
+                                     {"heights", required_argument, NULL, HEIGHTS},
                                      {"return", required_argument, NULL, RETURN},
                                      {"resamples", required_argument, NULL, RESAMPLES},
                                      {"seed", required_argument, NULL, SEED},
@@ -162,7 +174,8 @@ static const char *const TABLE[] = {[TABLE_STATS] = "stats",         [TABLE_PEAK
                                     [TABLE_SPECTRUM] = "spectrum",   [TABLE_FREQUENCY] = "frequency",
                                     [TABLE_RESPONSE] = "response",   [TABLE_MOTION] = "motion",
                                     [TABLE_SUMMARY] = "summary",     [TABLE_ENSEMBLE] = "ensemble",
-                                    [TABLE_CYCLES] = "cycles"};
+                                    [TABLE_CYCLES] = "cycles",       [TABLE_PRESSURE] = "pressure-area",
+                                    [TABLE_LINE] = "line-load",      [TABLE_MAP] = "map"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
@@ -375,6 +388,24 @@ static int add_sway(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
+static int take_area(struct options *o, char *word, fl_err *err)
+{
+    if (o->areas == AREAS_MAX) return fl_fail(err, FL_USAGE, "more than %d areas were asked for", AREAS_MAX);
+    return number("areas", word, 1e-12, 1e12, "an area above 0", &o->area[o->areas++], err);
+}
+
+static int take_height(struct options *o, char *word, fl_err *err)
+{
+    double *z = &o->height[o->heights];
+    if (o->heights == HEIGHTS_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d heights were asked for", HEIGHTS_MAX);
+    if (number("heights", word, -1e6, 1e6, "a height", z, err)) return -1;
+    if (o->heights && !(*z > z[-1]))
+        return fl_fail(err, FL_USAGE, "--heights do not rise at \"%.40s\"", word);
+    o->heights++;
+    return 0;
+}
+
 static int apply(struct options *o, int c, const char *arg, fl_err *err)
 {
     const double tiny = 1e-300, huge = 1e300;
@@ -406,6 +437,15 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return k < 0 ? -1 : 0;
     case GAP: return strcmp(arg, "0") == 0 ? 0 : time_of("gap", arg, &o->gap, err);
     case BLOCK: return time_of("block", arg, &o->block, err);
+    case AREAS:
+        o->areas = 0;
+        o->areas_text = arg;
+        return each(o, "areas", arg, take_area, err);
+    case WATERLINE: o->waterline = arg; return 0;
+    case HEIGHTS:
+        o->heights = 0;
+        o->heights_text = arg;
+        return each(o, "heights", arg, take_height, err);
     case LEVEL: return number("level", arg, 1e-9, 1.0 - 1e-9, "a number between 0 and 1", &o->level, err);
     case RETURN: return each(o, "return", arg, take_return, err);
     case RESAMPLES: return whole("resamples", arg, 0, 100000, &o->resamples, err);
@@ -457,6 +497,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case 'v': o->verbose = 1; return 0;
     case 'h':
         fputs(HELP, stdout);
+        fputs(HELP_MORE, stdout);
         o->ended = 1;
         return 0;
     case VERSION:
@@ -474,6 +515,32 @@ static void take_files(struct options *o, int n, char *const *file)
     o->file = n ? file : only;
     o->files = n ? n : 1;
     o->in = o->file[0];
+}
+
+/* What reads contacts or panels knows no signals. */
+static int check_places(const struct options *o, fl_err *err)
+{
+    const char *not = o->signals        ? "column"
+                      : o->filter > 0.0 ? "filter"
+                      : o->window > 0.0 ? "window"
+                      : o->over         ? "over"
+                      : o->merge        ? "merge"
+                      : o->stream       ? "stream"
+                      : o->follow > 0.0 ? "follow"
+                                        : NULL;
+    if (o->table != TABLE_PRESSURE && o->table != TABLE_LINE && o->table != TABLE_MAP) return 0;
+    if (not ) return fl_fail(err, FL_USAGE, "--%s is of loads, --table %s has none", not, TABLE[o->table]);
+    if (o->table == TABLE_LINE && !o->waterline)
+        return fl_fail(err, FL_USAGE, "--table line-load needs --waterline, as circle:0,0,2");
+    if (o->table == TABLE_MAP && o->waterline && o->heights < 2)
+        return fl_fail(err, FL_USAGE,
+                       "--table map of contacts needs --heights, two or more, as -1,-0.5,0,0.5");
+    if (o->table == TABLE_MAP && !o->waterline && (o->heights || o->part || o->wheres))
+        return fl_fail(err, FL_USAGE, "--%s is of contacts, whose --table map needs --waterline too",
+                       o->part      ? "part"
+                       : o->heights ? "heights"
+                                    : "where");
+    return 0;
 }
 
 static int many_runs(const struct options *o) { return o->merge || o->stream; }
@@ -512,7 +579,8 @@ static int check_summary(struct options *o, fl_err *err)
 
 int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
-    static const double usual[] = {0.5, 0.9, 0.95, 0.99};
+    static const double usual[] = {0.5, 0.9, 0.95, 0.99},
+                        areas[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0};
     int c;
     *o = (struct options){.in = "-",
                           .out = "-",
@@ -528,6 +596,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .seed = 1,
                           .quantiles = COUNT(usual)};
     memcpy(o->quantile, usual, sizeof usual);
+    memcpy(o->area, areas, sizeof areas);
+    o->areas = COUNT(areas);
     opterr = 0;
     while (!o->ended && (c = getopt_long(argc, argv, ":t:c:C:p:w:f:s:b:o:zj:qvh", LONG, NULL)) != -1) {
         const char *word = argv[optind - 1];
@@ -539,7 +609,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     }
     if (o->ended) return 0;
     take_files(o, argc - optind, argv + optind);
-    if (check_summary(o, err)) return -1;
+    if (check_places(o, err) || check_summary(o, err)) return -1;
     if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
@@ -626,6 +696,23 @@ double options_after(const struct options *o)
     return o->skips && isnan(o->skip[2]) ? o->skip[0] * o->skip[1] / o->speed : 0.0;
 }
 
+static void add_files(const struct options *o, fl_by *by)
+{
+    for (int k = 0; k < o->files; k++)
+        if (strcmp(o->file[k], "-") != 0) fl_by_add(by, "%s", o->file[k]);
+}
+
+/* Of contacts and panels. */
+static void add_places(const struct options *o, fl_by *by)
+{
+    if (o->page) fl_by_add(by, "--table %s", TABLE[o->table]);
+    if (o->table == TABLE_PRESSURE && o->areas_text) fl_by_add(by, "--areas %s", o->areas_text);
+    if (o->table != TABLE_PRESSURE && o->waterline)
+        fl_by_add(by, "--waterline %s --bins %d", o->waterline, o->bins);
+    if (o->table == TABLE_MAP && o->heights_text) fl_by_add(by, "--heights %s", o->heights_text);
+    add_files(o, by);
+}
+
 void options_by(const struct options *o, fl_by *by)
 {
     fl_by_start(by, "loadstats");
@@ -639,6 +726,11 @@ void options_by(const struct options *o, fl_by *by)
         else if (o->pass == FL_PASS_BAND) fl_by_add(by, "--filter band:%s,%s", x, fl_num_text(o->upper, y));
         else fl_by_add(by, "--filter %s:%s", PASS[o->pass], x);
         if (o->pass != FL_PASS_MEAN) fl_by_add(by, "--order %d", o->order);
+    }
+    const int placed = o->table == TABLE_PRESSURE || o->table == TABLE_LINE || o->table == TABLE_MAP;
+    if (placed) {
+        add_places(o, by);
+        return;
     }
     add_number(by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
@@ -676,8 +768,7 @@ void options_by(const struct options *o, fl_by *by)
     if (o->stream) fl_by_add(by, "--stream");
     if (o->follow > 0.0) add_number(by, "follow", o->follow);
     if (o->table == TABLE_ENSEMBLE && o->block > 0.0) add_number(by, "block", o->block);
-    for (int k = 0; k < o->files; k++)
-        if (strcmp(o->file[k], "-") != 0) fl_by_add(by, "%s", o->file[k]);
+    add_files(o, by);
 }
 
 void options_by_summary(const struct options *o, char *text)

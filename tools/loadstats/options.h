@@ -8,7 +8,16 @@
 #include "stat/oscillator.h"
 #include "stat/rainflow.h"
 
-enum { SIGNALS_MAX = 20, QUANTILES_MAX = 50, RETURNS_MAX = 50, WHERES_MAX = 16, SNS_MAX = 8, SWAYS_MAX = 50 };
+enum {
+    SIGNALS_MAX = 20,
+    QUANTILES_MAX = 50,
+    RETURNS_MAX = 50,
+    WHERES_MAX = 16,
+    SNS_MAX = 8,
+    AREAS_MAX = 30,
+    HEIGHTS_MAX = 200,
+    SWAYS_MAX = 50
+};
 enum table {
     TABLE_STATS,
     TABLE_PEAKS,
@@ -24,6 +33,9 @@ enum table {
     TABLE_FREQUENCY,
     TABLE_RESPONSE,
     TABLE_MOTION,
+    TABLE_PRESSURE,
+    TABLE_LINE,
+    TABLE_MAP,
     TABLE_SUMMARY,
     TABLE_ENSEMBLE,
     TABLE_CYCLES
@@ -57,6 +69,10 @@ struct options {
     int table_given;
     enum sample sample;         /* what laws are fitted to */
     double gap, block;          /* [s] */
+    double area[AREAS_MAX];     /* of windows of local pressure [m^2] */
+    double height[HEIGHTS_MAX]; /* rising, of the edges of panels [m] */
+    int32_t areas, heights;
+    const char *areas_text, *heights_text, *waterline; /* as given, or NULL; borrowed from argv */
     double level;               /* of a peak or of the largest value, what is above it lasts */
     double period[RETURNS_MAX]; /* [s] */
     int32_t returns, resamples, seed;

@@ -418,11 +418,28 @@ static int has_place(const page_source *from, enum table table)
     }
 }
 
+static void put_end(FILE *f, const page_source *from, const fl_by *by)
+{
+    fputs(
+        "<h2>How to make it again</h2>\n<p>The programs in the order in which they ran, with what they were "
+        "asked; the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
+        "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
+        f);
+    if (from->history) put_text(f, from->history);
+    put_text(f, by->text);
+    fputs("\n</pre>\n</body>\n</html>\n", f);
+}
+
 static int put_page(FILE *f, const char *dir, const page_source *from, const struct options *o,
                     const fl_by *by, fl_err *err)
 {
     const char *laws = from->many ? "Laws of the largest values" : "Laws of the peaks";
     put_head(f, from);
+    if (from->alone) {
+        if (put_pictures(f, dir, err) || put_table(f, from, o, o->table, "Numbers", err)) return -1;
+        put_end(f, from, by);
+        return 0;
+    }
     if (put_table(f, from, o, TABLE_STATS, "Numbers", err) || put_pictures(f, dir, err)) return -1;
     if (from->legs && put_table(f, from, o, TABLE_LEGS, "Parts side by side", err)) return -1;
     if (from->many && put_table(f, from, o, TABLE_ENSEMBLE, "How sure they are", err)) return -1;
@@ -434,14 +451,7 @@ static int put_page(FILE *f, const char *dir, const page_source *from, const str
         return -1;
     if (!has_place(from, o->table) && put_table(f, from, o, o->table, options_table(o->table), err))
         return -1;
-    fputs(
-        "<h2>How to make it again</h2>\n<p>The programs in the order in which they ran, with what they were "
-        "asked; the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
-        "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
-        f);
-    if (from->history) put_text(f, from->history);
-    put_text(f, by->text);
-    fputs("\n</pre>\n</body>\n</html>\n", f);
+    put_end(f, from, by);
     return 0;
 }
 

@@ -10,6 +10,7 @@ typedef struct {
     const char *title;
     int many;            /* many runs, not one record */
     int legs;            /* there are parts to compare */
+    int alone;           /* nothing but the pictures and the table o->table */
     int spectra;         /* there are rows enough for a spectrum */
     const char *history; /* the "#by" lines of what was read, or NULL */
     double span;         /* how long it is [s] */

@@ -136,6 +136,9 @@ void statrows_header(FILE *f, const struct options *o)
     case TABLE_FREQUENCY: specrows_header(f, o); break;
     case TABLE_RESPONSE:
     case TABLE_MOTION: swayrows_header(f, o); break;
+    case TABLE_PRESSURE:
+    case TABLE_LINE:
+    case TABLE_MAP: /* hitrows.h */
     case TABLE_SUMMARY:
     case TABLE_ENSEMBLE:
     case TABLE_CYCLES: break; /* sumrows.h */
