@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The critical step that a run watches, against the highest frequency that the contacts really have. */
+#include <math.h>
+#include <stdlib.h>
+#include "base/rng.h"
+#include "support/lab.h"
+#include "support/shapes.h"
+#include "support/verify.h"
+
+/* A motion of all floes: shift and small turn of each. */
+typedef struct {
+    fl_vec3 *shift, *turn;
+} motion;
+
+static motion motion_of(int32_t n)
+{
+    motion u = {calloc((size_t)n, sizeof *u.shift), calloc((size_t)n, sizeof *u.turn)};
+    if (!u.shift || !u.turn) exit(1);
+    return u;
+}
+
+static void motion_free(motion *u) { free(u->shift), free(u->turn); }
+
+/* Accelerations at the poses x, q moved by e u, into a. */
+static void accelerations(fl_world *w, const fl_vec3 *x, const fl_quat *q, double e, const motion *u,
+                          motion *a)
+{
+    fl_err err = {0};
+    for (int32_t i = 0; i < w->n; i++)
+        lab_pose(w, i, v3_madd(x[i], e, u->shift[i]), q_mul(q_of_vector(v3_scale(e, u->turn[i])), q[i]));
+    for (int32_t i = 0; i < w->n; i++) fl_body_derive(&w->b, i);
+    w->found_at = -1;
+    if (fl_step_start(w, &err)) exit(1);
+    for (int32_t i = 0; i < w->n; i++) {
+        a->shift[i] = v3_scale(w->b.invm[i], w->b.f[i]);
+        a->turn[i] = fl_body_turn(&w->b, i, w->b.t[i]);
+    }
+}
+
+/* Squared length in the metric of the masses. */
+static double energy(const fl_world *w, const motion *u)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < w->n; i++) {
+        const fl_vec3 t = m3_tmul(w->b.R[i], u->turn[i]), I = w->b.I[i];
+        sum += w->b.m[i] * v3_norm2(u->shift[i]) + I.x * t.x * t.x + I.y * t.y * t.y + I.z * t.z * t.z;
+    }
+    return sum;
+}
+
+/* Highest frequency of the contacts there are, by iteration of M^-1 K; K from differences of the forces. */
+static double highest(fl_world *w, double size)
+{
+    motion u = motion_of(w->n), plus = motion_of(w->n), minus = motion_of(w->n);
+    fl_vec3 *x = calloc((size_t)w->n, sizeof *x);
+    fl_quat *q = calloc((size_t)w->n, sizeof *q);
+    double omega2 = 0.0;
+    if (!x || !q) exit(1);
+    for (int32_t i = 0; i < w->n; i++) {
+        fl_rng g = fl_rng_of(7, i, FL_RNG_TEST);
+        x[i] = w->b.x[i], q[i] = w->b.q[i];
+        u.shift[i] = v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g));
+        u.turn[i] = v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g));
+    }
+    for (int k = 0; k < 200; k++) {
+        const double length = sqrt(energy(w, &u) / w->b.m[0]), e = 1e-6 * size / length, was = omega2;
+        accelerations(w, x, q, e, &u, &plus);
+        accelerations(w, x, q, -e, &u, &minus);
+        for (int32_t i = 0; i < w->n; i++) {
+            u.shift[i] = v3_scale(-0.5 / e / length, v3_sub(plus.shift[i], minus.shift[i]));
+            u.turn[i] = v3_scale(-0.5 / e / length, v3_sub(plus.turn[i], minus.turn[i]));
+        }
+        omega2 = sqrt(energy(w, &u) / w->b.m[0]);
+        if (k > 20 && fabs(omega2 - was) < 1e-7 * omega2) break;
+    }
+    for (int32_t i = 0; i < w->n; i++) u.shift[i] = u.turn[i] = v3(0, 0, 0);
+    w->dt_critical = INFINITY; /* and that of the contacts at the poses themselves */
+    accelerations(w, x, q, 0.0, &u, &plus);
+    motion_free(&u), motion_free(&plus), motion_free(&minus);
+    free(x), free(q);
+    return sqrt(omega2);
+}
+
+/* The bound must lie above the frequency, and not too far: a step too small is paid for. */
+static void judge(const char *id, lab *l, double size, double share)
+{
+    const double omega = highest(&l->w, size), bound = 2.0 / l->w.dt_critical;
+    verify_below(id, "highest frequency over the bound of the step", omega / bound, 1.0 + 1e-6);
+    verify_below(id, "the bound over the highest frequency", bound / omega, share);
+}
+
+static void two_spheres(void)
+{
+    lab l;
+    lab_start(&l);
+    lab_sphere(&l, v3(0, 0, 0), 0.5, v3(0, 0, 0), v3(0, 0, 0));
+    lab_sphere(&l, v3(0.99, 0, 0), 0.5, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-9);
+    const double k = 1.5 * l.w.pair[0].k * sqrt(0.01); /* of Hertz' law at 10 mm */
+    verify_note(
+        "two spheres pressed together by 10 mm, the only spring between them: 2/omega, omega^2 = 2 k/m");
+    verify_row("S01", "critical step [s]", l.w.dt_critical, 2.0 / sqrt(2.0 * k / l.w.b.m[0]), 1e-10,
+               VERIFY_REL);
+    judge("S01", &l, 0.01, 1.0 + 1e-4);
+    for (int above = 0; above < 2; above++) {
+        fl_err err = {0};
+        l.w.dt = (above ? 1.001 : 0.999) * l.w.dt_critical;
+        l.w.found_at = -1;
+        const int rc = fl_step_start(&l.w, &err);
+        if (above) verify_note("%s", err.text);
+        verify_true("S01",
+                    above ? "a step a thousandth above it is refused"
+                          : "a step a thousandth below it is taken",
+                    above ? rc != 0 && err.code == FL_NUMERIC : rc == 0);
+    }
+    lab_free(&l);
+}
+
+/* Boxes on a wall, each pressed into the one below by `overlap`. */
+static void stack(const char *id, int32_t n, double overlap)
+{
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "boundary.min=none none 0");
+    for (int32_t k = 0; k < n; k++)
+        lab_box(&l, v3(0.02 * (k % 2), 0, (0.4 - overlap) * (k + 1) - 0.2), v3(0.5, 0.4, 0.2), 0.05, q_one(),
+                v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-9);
+    verify_note("%d boxes in a stack on a wall, each pressed into the next by %g mm", n, 1e3 * overlap);
+    judge(id, &l, overlap, 4.0);
+    lab_free(&l);
+}
+
+/* Bodies of all shapes in a heap, every one with many contacts. */
+static void heap(const char *id, int32_t side, double squeeze)
+{
+    lab l;
+    int64_t touching = 0;
+    lab_start(&l);
+    for (int32_t k = 0; k < side * side * side; k++) {
+        fl_rng g = fl_rng_of(3, k, FL_RNG_TEST);
+        const double middle = 0.5 * (side - 1);
+        const fl_vec3 cell = v3(k % side - middle, k / side % side - middle, k / (side * side) - middle);
+        const fl_vec3 turn = v3(0.04 * fl_rng_normal(&g), 0.04 * fl_rng_normal(&g), 0.04 * fl_rng_normal(&g));
+        if (k % 3)
+            lab_box(&l, v3_scale(squeeze, cell), v3(0.5, 0.5, 0.5), 0.1, q_of_vector(turn), v3(0, 0, 0),
+                    v3(0, 0, 0));
+        else lab_sphere(&l, v3_scale(squeeze, cell), 0.5, v3(0, 0, 0), v3(0, 0, 0));
+    }
+    lab_make(&l, 1e-9);
+    for (int32_t c = 0; c < l.w.n_pair; c++) touching += l.w.pair[c].n > 0;
+    verify_note("%d boxes and spheres in a heap, %lld contacts", l.w.n, (long long)touching);
+    judge(id, &l, 1e-3, 4.0);
+    lab_free(&l);
+}
+
+int main(void)
+{
+    verify_begin("the largest stable step");
+    two_spheres();
+    stack("S02", 1, 1e-3);
+    stack("S03", 2, 1e-3);
+    stack("S04", 8, 2e-3);
+    heap("S05", 3, 0.98);
+    if (!verify_quick()) heap("S06", 5, 0.97);
+    return verify_end();
+}
