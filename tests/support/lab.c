@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/rng.h"
 #include "geom/facet.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
@@ -190,4 +191,24 @@ void lab_free(lab *l)
     fl_field_free(&l->field);
     fl_surface_free(&l->surface);
     fl_scene_free(&l->scene);
+}
+
+void lab_gas(lab *l, const char *law, double safety)
+{
+    enum { SIDE = 14 };
+    lab_start(l);
+    lab_setf(l, "contact.law=%s", law);
+    lab_setf(l, "run.safety=%g", safety);
+    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "boundary.type=rigid");
+    lab_set(l, "boundary.min=-26.6 -26.6 none");
+    lab_set(l, "boundary.max=26.6 26.6 none");
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        fl_rng g = fl_rng_of(1, k, FL_RNG_TEST);
+        const fl_vec3 at = v3(3.8 * (k % SIDE - 0.5 * (SIDE - 1)), 3.8 * (k / SIDE - 0.5 * (SIDE - 1)), 0);
+        const double a = fl_rng_in(&g, 0.0, 1.5), half = fl_rng_in(&g, 0.8, 1.25);
+        const fl_vec3 v = v3(fl_rng_in(&g, -0.5, 0.5), fl_rng_in(&g, -0.5, 0.5), 0);
+        lab_box(l, at, v3(half, half, 0.25), 0.05, q_about(2, a), v, v3(0, 0, fl_rng_in(&g, -0.2, 0.2)));
+    }
+    lab_make(l, 0.0);
 }

@@ -30,6 +30,9 @@ void lab_make(lab *l, double dt);
 /* Steps; returns 0, or the code of the error that ended them. */
 int lab_run(lab *l, int64_t steps);
 double lab_energy(lab *l); /* all stores */
+/* A world of its own: 196 square floes of 1.6 to 2.5 m that fly about between four walls without friction and
+ * damping, made and ready. */
+void lab_gas(lab *l, const char *law, double safety);
 /* Put body i where it is wanted, at rest. */
 void lab_pose(fl_world *w, int32_t i, fl_vec3 x, fl_quat q);
 /* The pair (i, j), i < j, evaluated at the poses of now as one that never touched before; it remembers

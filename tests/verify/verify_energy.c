@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contacts by one potential: an elastic gas keeps its energy, a face carries by its area, and what slides
+ * over a rim lets go smoothly.  The manual's laws stand beside it, with what they lose. */
+#include <math.h>
+#include <stdio.h>
+#include "law/material.h"
+#include "support/lab.h"
+#include "support/sweep.h"
+#include "support/verify.h"
+
+static const fl_vec3 ZERO = {0, 0, 0};
+
+/* Largest |E/E(0) - 1| of the gas over its time, looked at every half second. */
+static double drift(const char *law, double safety, double time)
+{
+    lab l;
+    lab_gas(&l, law, safety);
+    const double start = lab_energy(&l);
+    const int64_t some = (int64_t)(0.5 / l.w.dt);
+    double worst = 0.0;
+    while ((double)l.w.step * l.w.dt < time) {
+        if (lab_run(&l, some)) return NAN;
+        worst = fmax(worst, fabs(lab_energy(&l) / start - 1.0));
+    }
+    lab_free(&l);
+    return worst;
+}
+
+static void gas(void)
+{
+    enum { LEVELS = 3 };
+    const double time = verify_quick() ? 4.0 : 150.0;
+    const int levels = verify_quick() ? 2 : LEVELS;
+    double h[LEVELS], e[LEVELS];
+    verify_note("196 floes between four walls, no friction, no damping, %g s; largest |E/E(0) - 1|", time);
+    for (int k = 0; k < levels; k++) {
+        char what[64];
+        h[k] = 0.4 / (1 << k);
+        e[k] = drift("patch", h[k], time);
+        snprintf(what, sizeof what, "patch at %g of the critical step", h[k]);
+        verify_below("gas", what, e[k], 1e-3);
+    }
+    if (!verify_quick()) verify_order("gas", "largest |E/E(0) - 1| of patch", h, e, levels, 2.0, 0.6);
+    static const char *const LAW[] = {"core", "manual-si", "manual"};
+    for (int k = 0; k < 3; k++) verify_note("%s at 0.1 of it, 4 s: %.2g", LAW[k], drift(LAW[k], 0.1, 4.0));
+}
+
+/* Two cubes with faces of an area, one on the other, aligned: force for an overlap. */
+static double carried(double area, double radius, double overlap)
+{
+    lab l;
+    const double h = 0.5 * sqrt(area) + radius;
+    lab_start(&l);
+    lab_box(&l, v3(0, 0, h), v3(h, h, h), radius, q_one(), ZERO, ZERO);
+    lab_box(&l, v3(0, 0, 3.0 * h), v3(h, h, h), radius, q_one(), ZERO, ZERO);
+    lab_make(&l, 1e-9);
+    l.w.b.x[1].z -= overlap;
+    const double f = v3_norm(lab_look(&l.w, 0, 1).f);
+    lab_free(&l);
+    return f;
+}
+
+/* (25) of the manual, with beta of a square. */
+static void areas(void)
+{
+    const fl_elastic ice = {1e9, 0.3};
+    const double E = fl_material_modulus(ice, ice);
+    verify_note("a cube on a cube, radius a hundredth of the side, overlap a tenth of the radius");
+    for (int k = -2; k <= 2; k++) {
+        char what[64];
+        const double area = pow(10.0, k), radius = 0.01 * sqrt(area), s = 0.1 * radius;
+        snprintf(what, sizeof what, "stiffness of a face of %g m2 over (25)", area);
+        verify_row("(25)", what, carried(area, radius, s) / s / fl_material_punch(E, area), 1.0, 0.2,
+                   VERIFY_ABS);
+    }
+}
+
+/* The upper of two boxes slides off the lower one, at a fixed height. */
+static double slide_force(void *what, double s, double t)
+{
+    lab *l = what;
+    fl_vec3 f[2];
+    for (int k = 0; k < 2; k++) {
+        l->w.b.x[1].x = k ? t : s;
+        f[k] = lab_look(&l->w, 0, 1).f;
+    }
+    return v3_norm(v3_sub(f[1], f[0]));
+}
+
+static void sliding_off(void)
+{
+    lab l;
+    const double radius = 0.05, s = 0.01;
+    lab_start(&l);
+    lab_box(&l, v3(0, 0, 0), v3(0.5, 0.4, 0.3), radius, q_one(), ZERO, ZERO);
+    lab_box(&l, v3(0, 0.1, 0.6 - s), v3(0.5, 0.4, 0.3), radius, q_one(), ZERO, ZERO);
+    lab_make(&l, 1e-9);
+    const double whole = v3_norm(lab_look(&l.w, 0, 1).f);
+    double most = 0.0, before = INFINITY;
+    for (int k = 0; k <= 1000; k++) {
+        l.w.b.x[1].x = 1e-3 * k;
+        const double f = fabs(lab_look(&l.w, 0, 1).f.z) / whole;
+        if (k > 0) most = fmax(most, f - before);
+        before = f;
+    }
+    verify_below("(25)", "sliding off: largest rise of the force across, of itself", most, 1e-9);
+    verify_below("(25)", "  force where the boxes have parted", before, 0.0);
+    /* over 1e-9 m a face loses 1e-9 of its length, its rim 1e-9 of its fade of 10 mm */
+    verify_below("(25)", "  largest change of the force over 1e-9 m, of itself",
+                 sweep_largest(slide_force, &l, 0.0, 1.0, 1e-9) / whole, 1e-6);
+    lab_free(&l);
+}
+
+int main(void)
+{
+    verify_begin("contacts by one potential");
+    areas();
+    sliding_off();
+    gas();
+    return verify_end();
+}
