@@ -13,6 +13,7 @@
 #include "mesh/read_off.h"
 #include "mesh/read_ply.h"
 #include "mesh/read_stl.h"
+#include "mesh/read_vtk.h"
 
 enum { NAME = 128 };
 
@@ -90,6 +91,7 @@ static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
 {
     if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
+    if (fl_vtk_is(b)) return fl_vtk_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
     if (!memchr(b->data, '\0', (size_t)b->n) && fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);
     return read_faces(s, b, name, err) || choose(s, w, err) ? -1 : 0;

@@ -1,0 +1,527 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/decimal.h"
+#include "base/mem.h"
+#include "base/num.h"
+#include "mesh/read_vtk.h"
+#include "mesh/vtk_cells.h"
+
+enum { WORDS = 8, WORD = 80 };
+
+/* In the order in which cells of POLYDATA are numbered, then those of an UNSTRUCTURED_GRID. */
+enum list { VERTICES, LINES, POLYGONS, STRIPS, CELLS, LISTS };
+static const char *const LIST[LISTS] = {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS"};
+static const int CELL_OF[LISTS] = {2, 4, 7, 6, 0};
+
+typedef struct {
+    fl_vtk_array corner, offset;
+} cells;
+
+typedef struct {
+    fl_bytes *b;
+    int binary;
+    int words;
+    char word[WORDS][WORD]; /* of the line at hand */
+    fl_vtk_grid g;
+    cells list[LISTS];
+    fl_vtk_array types;
+    int of_cells; /* is what follows data of cells? */
+    int rank;     /* of the part array that is kept */
+} vtk;
+
+typedef struct {
+    const char *name;
+    int bytes; /* 0: bits */
+    int kind;  /* of the value: 'i' signed, 'u' unsigned, 'f' */
+} number_type;
+
+static const number_type TYPE[] = {
+    {"bit", 0, 'u'},           {"char", 1, 'i'},           {"unsigned_char", 1, 'u'},
+    {"short", 2, 'i'},         {"unsigned_short", 2, 'u'}, {"int", 4, 'i'},
+    {"unsigned_int", 4, 'u'},  {"long", 8, 'i'},           {"unsigned_long", 8, 'u'},
+    {"long_long", 8, 'i'},     {"vtktypeint64", 8, 'i'},   {"vtktypeuint64", 8, 'u'},
+    {"vtktypeint32", 4, 'i'},  {"vtktypeuint32", 4, 'u'},  {"vtktypeint16", 2, 'i'},
+    {"vtktypeuint16", 2, 'u'}, {"vtktypeint8", 1, 'i'},    {"vtktypeuint8", 1, 'u'},
+    {"signed_char", 1, 'i'},   {"vtkIdType", 4, 'i'},      {"float", 4, 'f'},
+    {"double", 8, 'f'},
+};
+
+int fl_vtk_is(const fl_bytes *b) { return strncasecmp(b->data, "# vtk DataFile", 14) == 0; }
+
+static int bad(const vtk *v, fl_err *err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+
+static int bad(const vtk *v, fl_err *err, const char *fmt, ...)
+{
+    char what[300];
+    va_list ap;
+    va_start(ap, fmt);
+    vsnprintf(what, sizeof what, fmt, ap);
+    va_end(ap);
+    if (v->binary) return fl_bytes_fail(v->b, err, "byte %d: %s", v->b->pos, what);
+    return fl_bytes_fail(v->b, err, "%s", what);
+}
+
+/* --- lines and numbers ---------------------------------------------------------------------------------- */
+
+/* The next line as it is, without its end; NULL at the end of the file. */
+static const char *line(vtk *v, size_t *n)
+{
+    fl_bytes *b = v->b;
+    const char *p = b->data + b->pos;
+    if (b->pos >= b->n) return NULL;
+    *n = strcspn(p, "\r\n");
+    b->pos += (int32_t)*n;
+    if (b->pos < b->n) b->pos += p[*n] == '\r' && p[*n + 1] == '\n' ? 2 : 1;
+    b->line++;
+    return p;
+}
+
+/* The next line that is not empty, cut into words; 1, or 0 at the end. */
+static int row(vtk *v)
+{
+    const char *p;
+    size_t n;
+    do {
+        p = line(v, &n);
+        if (!p) return 0;
+        v->words = 0;
+        while (v->words < WORDS) {
+            size_t k = 0;
+            while (n && strchr(" \t", *p)) {
+                p++;
+                n--;
+            }
+            if (n == 0 || *p == '\0') break;
+            for (; n && *p != ' ' && *p != '\t'; p++, n--)
+                if (k < WORD - 1) v->word[v->words][k++] = *p;
+            v->word[v->words++][k] = '\0';
+        }
+    } while (v->words == 0);
+    for (int k = v->words; k < WORDS; k++) v->word[k][0] = '\0';
+    return 1;
+}
+
+static int is(const vtk *v, const char *word) { return strcasecmp(v->word[0], word) == 0; }
+
+static int count(const vtk *v, int k, int64_t *n, fl_err *err)
+{
+    uint64_t u = 0;
+    *n = 0;
+    if (fl_num_u64(v->word[k], &u) || u > INT32_MAX)
+        return bad(v, err, "\"%.40s\" was found behind %.40s, a count was wanted", v->word[k], v->word[0]);
+    *n = (int64_t)u;
+    return 0;
+}
+
+static const number_type *type_of(const char *word)
+{
+    for (size_t k = 0; k < sizeof TYPE / sizeof TYPE[0]; k++)
+        if (strcasecmp(TYPE[k].name, word) == 0) return &TYPE[k];
+    return NULL;
+}
+
+/* One number of the highest byte first. */
+static double binary_number(const unsigned char *p, const number_type *t)
+{
+    uint64_t u = 0;
+    float single;
+    double x;
+    uint32_t half;
+    for (int k = 0; k < t->bytes; k++) u = u << 8 | p[k];
+    if (t->kind == 'u') return (double)u;
+    if (t->kind == 'i') {
+        if (t->bytes < 8 && u >> (8 * t->bytes - 1)) u |= ~(uint64_t)0 << 8 * t->bytes;
+        return (double)(int64_t)u;
+    }
+    if (t->bytes == 4) {
+        half = (uint32_t)u;
+        memcpy(&single, &half, sizeof single);
+        return (double)single;
+    }
+    memcpy(&x, &u, sizeof x);
+    return x;
+}
+
+/* The next word of text that has lines; NULL at the end. */
+static const char *next_word(vtk *v)
+{
+    fl_bytes *b = v->b;
+    const char *p = b->data + b->pos;
+    for (; *p && strchr(" \t\r\n\f\v", *p); p++) b->line += *p == '\n';
+    b->pos = (int32_t)(p - b->data);
+    return *p ? p : NULL;
+}
+
+static int text_number(vtk *v, int used, double *x, fl_err *err)
+{
+    const char *p = next_word(v), *end;
+    if (!p) return bad(v, err, "the file ends inside the data");
+    end = fl_decimal(p, x);
+    if (!end || !strchr(" \t\r\n\f\v", *end)) {
+        const size_t n = strcspn(p, " \t\r\n\f\v");
+        if (used) return bad(v, err, "\"%.*s\" was found, a number was wanted", (int)(n < 40 ? n : 40), p);
+        end = p + n; /* nan and the like may stand where nobody looks */
+        *x = 0.0;
+    }
+    v->b->pos = (int32_t)(end - v->b->data);
+    return 0;
+}
+
+/* n numbers into a (NULL: nobody wants them).  A file that has fewer bytes than numbers was cut off, and is
+ * refused before there is memory for them. */
+static int numbers(vtk *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_err *err)
+{
+    const int64_t left = v->b->n - v->b->pos;
+    if (v->binary) {
+        const int64_t need = t->bytes ? n * t->bytes : (n + 7) / 8;
+        const unsigned char *p = (const unsigned char *)v->b->data + v->b->pos;
+        if (need > left)
+            return bad(v, err, "the file ends %lld bytes before the data do", (long long)(need - left));
+        if (a && t->bytes) {
+            a->x = fl_alloc(n, sizeof *a->x, err);
+            if (!a->x) return -1;
+            for (int64_t k = 0; k < n; k++) a->x[k] = binary_number(p + k * t->bytes, t);
+            a->n = n;
+        }
+        v->b->pos += (int32_t)need;
+        return 0;
+    }
+    if (n == 0) return 0;
+    if (n > left) return bad(v, err, "the file ends inside the data");
+    v->b->line++; /* the data begin in the next line */
+    if (a) {
+        a->x = fl_alloc(n, sizeof *a->x, err);
+        if (!a->x) return -1;
+        a->n = n;
+    }
+    for (int64_t k = 0; k < n; k++) {
+        double ignored;
+        if (text_number(v, a != NULL, a ? &a->x[k] : &ignored, err)) return -1;
+    }
+    line(v, &(size_t){0}); /* the rest of the last line, */
+    v->b->line--;          /* which is counted */
+    return 0;
+}
+
+/* --- data sets ------------------------------------------------------------------------------------------ */
+
+static int once(const vtk *v, const fl_vtk_array *a, fl_err *err)
+{
+    return a->x ? bad(v, err, "%.40s comes twice", v->word[0]) : 0;
+}
+
+static int read_points(vtk *v, fl_err *err)
+{
+    const number_type *t = type_of(v->word[2]);
+    int64_t n;
+    if (count(v, 1, &n, err) || once(v, &v->g.point, err)) return -1;
+    if (!t) return bad(v, err, "points of type \"%.40s\" were found", v->word[2]);
+    return numbers(v, t, 3 * n, &v->g.point, err);
+}
+
+/* "n c0 c1 ..." for each cell, in one array. */
+static int split(vtk *v, cells *c, int64_t n, const fl_vtk_array *all, fl_err *err)
+{
+    int64_t k = 0, to = 0;
+    if (n > all->n)
+        return bad(v, err, "%lld cells do not fit into %lld numbers", (long long)n, (long long)all->n);
+    c->offset.x = fl_alloc(n, sizeof *c->offset.x, err);
+    c->corner.x = fl_alloc(all->n, sizeof *c->corner.x, err);
+    if (!c->offset.x || !c->corner.x) return -1;
+    for (int64_t i = 0; i < n; i++) {
+        const double m = k < all->n ? all->x[k++] : -1.0;
+        if (!(m >= 0.0 && m <= (double)(all->n - k)) || m != floor(m))
+            return bad(v, err, "cell %lld of %lld does not fit into the %lld numbers of all cells",
+                       (long long)i, (long long)n, (long long)all->n);
+        for (int64_t j = 0; j < (int64_t)m; j++) c->corner.x[to++] = all->x[k++];
+        c->offset.x[i] = (double)to;
+    }
+    if (k != all->n)
+        return bad(v, err, "%lld numbers are left behind the last cell", (long long)(all->n - k));
+    c->offset.n = n;
+    c->corner.n = to;
+    return 0;
+}
+
+/* Since version 5.1: OFFSETS, of which the first is 0, and CONNECTIVITY. */
+static int read_offsets(vtk *v, cells *c, int64_t n, int64_t size, fl_err *err)
+{
+    const number_type *t = type_of(v->word[1]);
+    if (!t || n < 1)
+        return bad(v, err, "%lld offsets of type \"%.40s\" were found", (long long)n, v->word[1]);
+    if (numbers(v, t, n, &c->offset, err)) return -1;
+    if (c->offset.x[0] != 0.0) return bad(v, err, "the first offset is %g, 0 was wanted", c->offset.x[0]);
+    memmove(c->offset.x, c->offset.x + 1, (size_t)--c->offset.n * sizeof *c->offset.x);
+    if (!row(v) || !is(v, "CONNECTIVITY")) return bad(v, err, "CONNECTIVITY was wanted behind OFFSETS");
+    t = type_of(v->word[1]);
+    if (!t) return bad(v, err, "connectivity of type \"%.40s\" was found", v->word[1]);
+    return numbers(v, t, size, &c->corner, err);
+}
+
+static int read_cells(vtk *v, cells *c, fl_err *err)
+{
+    fl_vtk_array all = {0};
+    int32_t pos, line_number;
+    int64_t n, size;
+    int rc = -1;
+    if (count(v, 1, &n, err) || count(v, 2, &size, err) || once(v, &c->offset, err)) return -1;
+    pos = v->b->pos;
+    line_number = v->b->line;
+    if (row(v) && is(v, "OFFSETS")) return read_offsets(v, c, n, size, err);
+    v->b->pos = pos;
+    v->b->line = line_number;
+    if (numbers(v, type_of("int"), size, &all, err) == 0) rc = split(v, c, n, &all, err);
+    free(all.x);
+    return rc;
+}
+
+static int read_types(vtk *v, fl_err *err)
+{
+    int64_t n;
+    if (count(v, 1, &n, err) || once(v, &v->types, err)) return -1;
+    return numbers(v, type_of("int"), n, &v->types, err);
+}
+
+/* Strings of a field: in binary data each behind its length, of which the two highest bits of the first byte
+ * say how many bytes it has (3: one, 2: two, 1: four, 0: eight). */
+static int pass_strings(vtk *v, int64_t n, fl_err *err)
+{
+    size_t ignored;
+    for (int64_t k = 0; k < n; k++) {
+        if (!v->binary) {
+            if (!line(v, &ignored)) return bad(v, err, "the file ends inside the data");
+            continue;
+        }
+        const unsigned char *p = (const unsigned char *)v->b->data + v->b->pos;
+        const int64_t left = v->b->n - v->b->pos, bytes = left ? 8 >> (p[0] >> 6) : 1;
+        uint64_t length = left ? p[0] & 0x3f : 0;
+        for (int64_t i = 1; i < bytes && i < left; i++) length = length << 8 | p[i];
+        if (bytes > left || length > (uint64_t)(left - bytes))
+            return bad(v, err, "the file ends inside a string");
+        v->b->pos += (int32_t)(bytes + (int64_t)length);
+    }
+    return 0;
+}
+
+/* An array of m columns of n values called name: kept when it says the parts of cells better than what was
+ * there. */
+static int read_array(vtk *v, const char *name, const char *type, int64_t m, int64_t n, fl_err *err)
+{
+    const number_type *t = type_of(type);
+    const int rank = v->of_cells && m == 1 ? fl_vtk_part_rank(name) : -1;
+    if (m > 0 && n > INT32_MAX / m) return bad(v, err, "%lld times %lld values", (long long)n, (long long)m);
+    if (strcasecmp(type, "string") == 0) return pass_strings(v, n * m, err);
+    if (!t) return bad(v, err, "\"%.40s\" is of type \"%.40s\"", name, type);
+    if (rank < 0 || t->kind == 'f' || (v->rank >= 0 && v->rank <= rank))
+        return numbers(v, t, n * m, NULL, err);
+    free(v->g.part.x);
+    v->g.part = (fl_vtk_array){0};
+    v->rank = rank;
+    snprintf(v->g.part_word, sizeof v->g.part_word, "%.39s", name);
+    return numbers(v, t, n, &v->g.part, err);
+}
+
+static int read_field(vtk *v, fl_err *err)
+{
+    int64_t arrays, m, n;
+    if (count(v, 2, &arrays, err)) return -1;
+    for (int64_t k = 0; k < arrays; k++) {
+        char name[WORD], type[WORD];
+        if (!row(v))
+            return bad(v, err, "the file ends after %lld of %lld arrays", (long long)k, (long long)arrays);
+        if (is(v, "METADATA")) {
+            size_t length = 1;
+            while (length && line(v, &length)) {}
+            k--;
+            continue;
+        }
+        memcpy(name, v->word[0], sizeof name);
+        memcpy(type, v->word[3], sizeof type);
+        if (count(v, 1, &m, err) || count(v, 2, &n, err) || read_array(v, name, type, m, n, err)) return -1;
+    }
+    return 0;
+}
+
+/* SCALARS, VECTORS and their like; n is the number of what they belong to. */
+static int read_attribute(vtk *v, int64_t n, fl_err *err)
+{
+    static const struct {
+        const char *word;
+        int columns;
+    } plain[] = {{"VECTORS", 3},    {"NORMALS", 3},      {"TENSORS", 9},   {"TENSORS6", 6},
+                 {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}, {"EDGE_FLAGS", 1}};
+    char name[WORD], type[WORD];
+    int64_t m = 1;
+    memcpy(name, v->word[1], sizeof name);
+    memcpy(type, v->word[2], sizeof type);
+    if (is(v, "SCALARS")) {
+        if (v->words > 3 && count(v, 3, &m, err)) return -1;
+        const int32_t pos = v->b->pos, line_number = v->b->line;
+        if (!row(v) || !is(v, "LOOKUP_TABLE")) { /* it may be left out */
+            v->b->pos = pos;
+            v->b->line = line_number;
+        }
+        return read_array(v, name, type, m, n, err);
+    }
+    if (is(v, "TEXTURE_COORDINATES")) {
+        if (count(v, 2, &m, err)) return -1;
+        memcpy(type, v->word[3], sizeof type);
+        return read_array(v, name, type, m, n, err);
+    }
+    if (is(v, "COLOR_SCALARS")) {
+        if (count(v, 2, &m, err)) return -1;
+        return read_array(v, name, v->binary ? "unsigned_char" : "float", m, n, err);
+    }
+    if (is(v, "LOOKUP_TABLE")) {
+        if (count(v, 2, &n, err)) return -1;
+        return read_array(v, name, v->binary ? "unsigned_char" : "float", 4, n, err);
+    }
+    for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
+        if (is(v, plain[k].word)) return read_array(v, name, type, plain[k].columns, n, err);
+    return bad(v, err, "\"%.40s\" has no place in a VTK file", v->word[0]);
+}
+
+static int read_head(vtk *v, fl_err *err)
+{
+    size_t n;
+    line(v, &n);
+    if (!line(v, &n) || !row(v)) return bad(v, err, "the file ends inside its head");
+    if (is(v, "BINARY")) v->binary = 1;
+    else if (!is(v, "ASCII"))
+        return bad(v, err, "\"%.40s\" was found, ASCII or BINARY was wanted", v->word[0]);
+    return 0;
+}
+
+static int read_set(vtk *v, int *grid, fl_err *err)
+{
+    *grid = strcasecmp(v->word[1], "UNSTRUCTURED_GRID") == 0;
+    if (*grid || strcasecmp(v->word[1], "POLYDATA") == 0) return 0;
+    return bad(v, err, "a data set of kind \"%.40s\" has no surface of its own: save its surface as POLYDATA",
+               v->word[1]);
+}
+
+static int read_all(vtk *v, fl_err *err)
+{
+    int64_t n = 0;
+    int grid = 0, sets = 0;
+    if (read_head(v, err)) return -1;
+    while (row(v)) {
+        int k = 0;
+        if (is(v, "METADATA")) { /* up to an empty line */
+            size_t length = 1;
+            while (length && line(v, &length)) {}
+            continue;
+        }
+        while (k < LISTS && !is(v, LIST[k])) k++;
+        if (is(v, "DATASET")) {
+            sets++;
+            if (read_set(v, &grid, err)) return -1;
+        } else if (is(v, "FIELD")) {
+            if (read_field(v, err)) return -1;
+        } else if (sets != 1) {
+            return bad(v, err, "\"%.40s\" was found, one DATASET was wanted", v->word[0]);
+        } else if (is(v, "POINTS")) {
+            if (read_points(v, err)) return -1;
+        } else if (is(v, "CELL_TYPES")) {
+            if (read_types(v, err)) return -1;
+        } else if (k < LISTS) {
+            if (grid != (k == CELLS))
+                return bad(v, err, "%s do not belong to a data set of this kind", LIST[k]);
+            if (read_cells(v, &v->list[k], err)) return -1;
+        } else if (is(v, "CELL_DATA") || is(v, "POINT_DATA")) {
+            v->of_cells = is(v, "CELL_DATA");
+            if (count(v, 1, &n, err)) return -1;
+        } else if (read_attribute(v, n, err)) {
+            return -1;
+        }
+    }
+    if (!v->g.point.x) return bad(v, err, "no POINTS");
+    return 0;
+}
+
+/* Put the lists one behind the other. */
+static int join(vtk *v, fl_err *err)
+{
+    int64_t n = 0, corners = 0;
+    for (int k = 0; k < LISTS; k++) {
+        n += v->list[k].offset.n;
+        corners += v->list[k].corner.n;
+    }
+    v->g.corner.x = fl_alloc(corners, sizeof *v->g.corner.x, err);
+    v->g.offset.x = fl_alloc(n, sizeof *v->g.offset.x, err);
+    v->g.type.x = fl_alloc(n, sizeof *v->g.type.x, err);
+    if (!v->g.corner.x || !v->g.offset.x || !v->g.type.x) return -1;
+    for (int k = 0; k < LISTS; k++) {
+        const cells *c = &v->list[k];
+        for (int64_t i = 0; i < c->offset.n; i++) {
+            v->g.offset.x[v->g.offset.n++] = (double)v->g.corner.n + c->offset.x[i];
+            v->g.type.x[v->g.type.n++] = (double)CELL_OF[k];
+        }
+        if (c->corner.n)
+            memcpy(v->g.corner.x + v->g.corner.n, c->corner.x, (size_t)c->corner.n * sizeof(double));
+        v->g.corner.n += c->corner.n;
+    }
+    if (v->list[CELLS].offset.n == 0) return 0;
+    if (v->types.n != n)
+        return bad(v, err, "%lld cells have %lld types", (long long)n, (long long)v->types.n);
+    memcpy(v->g.type.x, v->types.x, (size_t)n * sizeof(double));
+    return 0;
+}
+
+/* Polyhedra of a legacy file: the corners are the number of faces, then each face with its count. */
+static int faces(vtk *v, fl_err *err)
+{
+    fl_vtk_grid *g = &v->g;
+    int64_t n = 0, from = 0;
+    for (int64_t c = 0; c < g->type.n; c++) n += g->type.x[c] == 42.0;
+    if (n == 0) return 0;
+    g->face.x = fl_alloc(g->corner.n, sizeof *g->face.x, err);
+    g->face_last.x = fl_alloc(g->type.n, sizeof *g->face_last.x, err);
+    if (!g->face.x || !g->face_last.x) return -1;
+    g->face_last.n = g->type.n;
+    for (int64_t c = 0, to = 0; c < g->type.n; c++) {
+        const double last = g->offset.x[c];
+        const int64_t begin = to;
+        if (!(last >= (double)from && last <= (double)g->corner.n) || last != floor(last))
+            return bad(v, err, "cell %lld ends at place %g", (long long)c, last);
+        g->face_last.x[c] = -1.0;
+        for (int64_t k = from; k < (int64_t)last; k++) {
+            if (g->type.x[c] == 42.0) g->face.x[g->face.n++] = g->corner.x[k];
+            else g->corner.x[to++] = g->corner.x[k];
+        }
+        if (g->type.x[c] == 42.0) g->face_last.x[c] = (double)g->face.n;
+        from = (int64_t)last;
+        g->offset.x[c] = (double)(g->type.x[c] == 42.0 ? begin : to);
+    }
+    return 0;
+}
+
+int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+{
+    vtk v = {.b = b, .rank = -1};
+    fl_vtk_names names = {0};
+    fl_elements e;
+    int32_t coarse = 0;
+    int rc = -1;
+    if (fl_elements_start(&e, fl_in_name(b->in), err)) return -1;
+    if (read_all(&v, err) || join(&v, err) || faces(&v, err) ||
+        fl_vtk_add(&e, &v.g, 0, &names, name, &coarse, err))
+        goto done;
+    if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
+    rc = fl_elements_surface(&e, s, b, w, err);
+done:
+    for (int k = 0; k < LISTS; k++) {
+        free(v.list[k].corner.x);
+        free(v.list[k].offset.x);
+    }
+    free(v.types.x);
+    fl_vtk_grid_free(&v.g);
+    fl_vtk_names_free(&names);
+    fl_elements_free(&e);
+    return rc;
+}
