@@ -20,6 +20,7 @@
 #include "chart.h"
 #include "depth.h"
 #include "options.h"
+#include "pile.h"
 #include "sheet.h"
 #include "sizing.h"
 #include "water.h"
@@ -35,6 +36,7 @@ struct field {
     struct water water;
     fl_faces faces; /* of a bonded field */
     struct depth depth;
+    struct pile pile;
     double asked;  /* concentration */
     double off;    /* graded: of the worst floe from that of its place */
     double lo, hi; /* graded: concentrations asked for */
@@ -252,7 +254,7 @@ static int write_field(struct options *o, const struct field *a, fl_err *err)
         if (fl_grow(&xy, &cap, a->floes.first[i + 1] - a->floes.first[i], sizeof *xy, err) ||
             add_floe(o, a, i, xy, &out, err))
             goto done;
-    if (add_bonds(o, a, &out, err)) goto done;
+    if (add_bonds(o, a, &out, err) || pile_add(&a->pile, o, &out, err)) goto done;
     options_id(o, &out);
     options_by(o, &by);
     if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
@@ -310,6 +312,7 @@ static void certify(const struct options *o, const struct field *a, struct certi
     else certify_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
     certify_add(t, "floes not convex", 0, c->bent, c->bent, 10, NULL);
     depth_certify(&a->depth, o, t);
+    pile_certify(&a->pile, o, t);
     certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean, NO_DISTANCE, 6, NULL);
     certify_add(t, "area, deviation over mean", NOT_ASKED, c->cv, NO_DISTANCE, 4, NULL);
     certify_add(t, "area, smallest [m2]", NOT_ASKED, c->least, NO_DISTANCE, 6, "floe %d",
@@ -424,13 +427,20 @@ static int run(struct options *o, fl_err *err)
     int rc = -1;
     if (o->threads) omp_set_num_threads(o->threads);
     if (o->lattice >= 0) return sheet_run(o, err);
-    if (depth_make(&a.depth, o, err) || water_make(&a.water, o, err) ||
-        (o->sizes && sizing_ask(&a.sizing, o, a.water.area, err)))
+    if (depth_make(&a.depth, o, err)) goto done;
+    if (o->rubble) {
+        if (a.depth.law.kind == FL_THICKNESS_SAME) rc = rubble_run(o, err);
+        else fl_fail(err, FL_USAGE, "--rubble needs one thickness, not a law");
         goto done;
+    }
+    if (o->ridges && !(o->block > 0.0)) o->block = o->thickness;
+    if (water_make(&a.water, o, err) || (o->sizes && sizing_ask(&a.sizing, o, a.water.area, err))) goto done;
     if (o->sizes ? make_sized(o, &a, err) : make_cells(o, &a, err) || shrink(o, &a, err)) goto done;
     a.name = fl_alloc(a.cells.n, sizeof *a.name, err);
     if (!a.name) goto done;
     for (int32_t i = 0; i < a.cells.n; i++) a.name[i] = i;
+    if (o->ridges) tell(o, "piling up blocks");
+    if (pile_make(&a.pile, o, err)) goto done;
     tell(o, "measuring");
     if (measure(o, &a, err) || measure_depth(o, &a, err)) goto done;
     tell(o, "writing");
@@ -446,6 +456,7 @@ done:
     fl_faces_free(&a.faces);
     water_free(&a.water);
     depth_free(&a.depth);
+    pile_free(&a.pile);
     fl_floes_free(&a.floes);
     fl_cells_free(&a.cells);
     free(a.name);

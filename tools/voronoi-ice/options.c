@@ -35,6 +35,12 @@ static const char HELP[] =
     "      --grade DIR:C0,C1   concentration rising from C0 to C1 along DIR: x, y or degrees; or DIR:FILE\n"
     "      --periodic x|y|xy   what leaves at one side comes in at the other: copies fit without a seam\n"
     "      --pancakes SIDES    floes round in plan, of that many sides\n"
+    "      --rubble            blocks that fill the field from bottom to top, C being their part of its "
+    "volume\n"
+    "      --ridge X0,Y0,X1,Y1,HS,WS,HK,WK,WB  a ridge along that line, of blocks: height and width of its\n"
+    "                          sail, depth and width of its keel and that at its bottom; up to 4 times\n"
+    "      --block L           size of the blocks of ridges (the thickness)\n"
+    "      --porosity P        part of ridges that is no ice (0.3)\n"
     "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
     "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
     "      --layers N          layers of the lattice (1)\n"
@@ -76,6 +82,10 @@ enum {
     GRADE,
     PERIODIC,
     PANCAKES,
+    RUBBLE,
+    RIDGE,
+    BLOCK,
+    POROSITY,
     BONDED,
     LATTICE,
     LAYERS,
@@ -103,6 +113,10 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"grade", required_argument, NULL, GRADE},
                                      {"periodic", required_argument, NULL, PERIODIC},
                                      {"pancakes", required_argument, NULL, PANCAKES},
+                                     {"rubble", no_argument, NULL, RUBBLE},
+                                     {"ridge", required_argument, NULL, RIDGE},
+                                     {"block", required_argument, NULL, BLOCK},
+                                     {"porosity", required_argument, NULL, POROSITY},
                                      {"bonded", no_argument, NULL, BONDED},
                                      {"lattice", required_argument, NULL, LATTICE},
                                      {"layers", required_argument, NULL, LAYERS},
@@ -320,6 +334,24 @@ static int periodic(const char *text, int *out, fl_err *err)
     return fl_fail(err, FL_USAGE, "--periodic is \"%.60s\", x, y or xy was wanted", text);
 }
 
+static int ridge(struct options *o, const char *text, fl_err *err)
+{
+    static const char wanted[] = "X0,Y0,X1,Y1,HS,WS,HK,WK,WB in metres";
+    double *x = o->ridge[o->ridges];
+    if (o->ridges == RIDGE_MAX)
+        return fl_fail(err, FL_USAGE, "--ridge is given more than %d times", RIDGE_MAX);
+    if (numbers("ridge", text, 0, ',', 9, -LONGEST, LONGEST, x, wanted, err)) return -1;
+    for (int k = 4; k < 8; k++)
+        if (!(x[k] >= SHORTEST))
+            return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", heights and widths above 0 were wanted",
+                           text);
+    if (!(fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST) || !(x[8] >= 0.0 && x[8] <= x[7]))
+        return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", a length and a WB from 0 to WK were wanted",
+                       text);
+    o->ridges++;
+    return 0;
+}
+
 static const char *const LATTICES[] = {"hcp", "hex", "square"};
 
 static int lattice(const char *text, int *out, fl_err *err)
@@ -346,10 +378,11 @@ static int useless(const struct options *o, const char *beside, int n, const int
 
 static int check_lattice(const struct options *o, fl_err *err)
 {
-    static const int without[] = {FLOES,    SIZES,   CONCENTRATION, THICKNESS, RADIUS, SEED,     SMOOTH,
-                                  KEEP_OUT, OUTLINE, LEAD,          PLOT,      GRADE,  PERIODIC, PANCAKES};
+    static const int without[] = {FLOES,    SIZES,    CONCENTRATION, THICKNESS, RADIUS, SEED,
+                                  SMOOTH,   KEEP_OUT, OUTLINE,       LEAD,      PLOT,   GRADE,
+                                  PERIODIC, PANCAKES, RUBBLE,        RIDGE};
     static const int within[] = {LAYERS, DIAMETER};
-    if (o->lattice >= 0) return useless(o, "beside --lattice", 14, without, err);
+    if (o->lattice >= 0) return useless(o, "beside --lattice", 16, without, err);
     return useless(o, "without --lattice", 2, within, err);
 }
 
@@ -376,6 +409,16 @@ static int check_graded(const struct options *o, fl_err *err)
         return fl_fail(err, FL_USAGE,
                        "--keep-out of a file means nothing beside --periodic, a shape was wanted");
     return useless(o, "beside --periodic", 4, none, err);
+}
+
+static int check_piles(const struct options *o, fl_err *err)
+{
+    static const int without[] = {SIZES,  KEEP_OUT, OUTLINE,  LEAD,  GRADE,
+                                  BONDED, PLOT,     PERIODIC, RIDGE, PANCAKES};
+    static const int ridged[] = {SIZES, PERIODIC}, within[] = {BLOCK, POROSITY};
+    if (o->rubble && useless(o, "beside --rubble", 10, without, err)) return -1;
+    if (!o->ridges) return useless(o, "without --ridge", 2, within, err);
+    return useless(o, "beside --ridge", 2, ridged, err);
 }
 
 static int check_bonded(const struct options *o, fl_err *err)
@@ -414,6 +457,10 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case GRADE: return grade(o, arg, err);
     case PERIODIC: return periodic(arg, o->periodic, err);
     case PANCAKES: return whole("pancakes", arg, FL_PANCAKES_LEAST, FL_PANCAKES_MOST, &o->pancakes, err);
+    case RUBBLE: o->rubble = 1; return 0;
+    case RIDGE: return ridge(o, arg, err);
+    case BLOCK: return number("block", arg, SHORTEST, LONGEST, &o->block, "a length", err);
+    case POROSITY: return concentration("porosity", arg, &o->porosity, err);
     case BONDED: o->bonded = 1; return 0;
     case LATTICE: return lattice(arg, &o->lattice, err);
     case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
@@ -452,6 +499,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .floes = 200,
                           .smooth = 2,
                           .concentration = 0.8,
+                          .porosity = 0.3,
                           .thickness_law = "0.5",
                           .radius = 0.05,
                           .lattice = -1,
@@ -477,7 +525,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(err, FL_USAGE,
                        "--certificate - and the field both go to standard output: -o is wanted");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
-    if (check_lattice(o, err) || check_water(o, err) || check_graded(o, err) || check_bonded(o, err))
+    if (check_lattice(o, err) || check_water(o, err) || check_graded(o, err) || check_piles(o, err) ||
+        check_bonded(o, err))
         return -1;
     if (!(o->ice_density < o->water_density))
         return fl_fail(err, FL_USAGE, "--ice-density %g is not below --water-density %g: the floes sink",
@@ -487,7 +536,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 
 static void add_numbers(fl_by *by, const char *option, char divide, int n, const double *x)
 {
-    char text[5][FL_NUM_LEN], all[5 * (FL_NUM_LEN + 1) + 1] = "";
+    char text[9][FL_NUM_LEN], all[9 * (FL_NUM_LEN + 1) + 1] = "";
     for (int k = 0; k < n; k++) {
         const size_t at = strlen(all);
         snprintf(all + at, sizeof all - at, "%s%.1s", fl_num_text(x[k], text[k]), k + 1 < n ? &divide : "");
@@ -538,6 +587,10 @@ void options_by(const struct options *o, fl_by *by)
         fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
         fl_by_add(by, "--smooth %d", o->smooth);
     }
+    if (o->rubble) fl_by_add(by, "--rubble");
+    for (int k = 0; k < o->ridges; k++) add_numbers(by, "--ridge ", ',', 9, o->ridge[k]);
+    if (o->ridges && o->block > 0.0) add_numbers(by, "--block ", ',', 1, &o->block);
+    if (o->ridges) add_numbers(by, "--porosity ", ',', 1, &o->porosity);
     if (o->pancakes) fl_by_add(by, "--pancakes %d", o->pancakes);
     if (o->bonded) fl_by_add(by, "--bonded");
     if (o->periodic[0] || o->periodic[1])

@@ -9,7 +9,7 @@
 #include "ice/sizes_law.h"
 #include "scene/field.h"
 
-enum { KEEP_OUT_MAX = 16, LEAD_MAX = 16, FLOES_MOST = 10000000 };
+enum { KEEP_OUT_MAX = 16, LEAD_MAX = 16, RIDGE_MAX = 4, FLOES_MOST = 10000000 };
 
 struct keep_out {
     int circle;     /* else a box */
@@ -44,6 +44,10 @@ struct options {
     double grade[2];        /* concentration at the two ends, when not in a file */
     const char *grade_file; /* NULL: none */
     int periodic[2];        /* along x, along y */
+    int rubble;
+    double ridge[RIDGE_MAX][9]; /* x0 y0 x1 y1 hs ws hk wk wb [m] */
+    int ridges;
+    double block, porosity; /* of ridges: size of a block [m], 0 for the thickness */
     int32_t pancakes;       /* sides of round floes, 0: not round */
     int bonded;
     int lattice; /* -1, or an fl_lattice_kind */

@@ -80,7 +80,7 @@ static void centre(struct water *w, struct options *o)
 
 int water_make(struct water *w, struct options *o, fl_err *err)
 {
-    w->on = o->outline || o->disc[0] > 0.0 || o->leads || o->structures;
+    w->on = o->outline || o->disc[0] > 0.0 || o->leads || o->ridges || o->structures;
     w->area = o->size.x * o->size.y;
     w->shift = (fl_vec2){o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
     if (!w->on) return 0;
@@ -91,6 +91,10 @@ int water_make(struct water *w, struct options *o, fl_err *err)
     o->size = (fl_vec2){w->d.hi.x - w->d.lo.x, w->d.hi.y - w->d.lo.y};
     for (int k = 0; k < o->leads; k++)
         if (add_lead(&w->d, o->lead[k], err)) return -1;
+    for (int k = 0; k < o->ridges; k++) { /* the floes make room for sail and keel */
+        const double *r = o->ridge[k], x[5] = {r[0], r[1], r[2], r[3], fmax(r[5], r[7])};
+        if (add_lead(&w->d, x, err)) return -1;
+    }
     for (int k = 0; k < o->structures; k++)
         if (add_structure(w, o, o->structure[k], err)) return -1;
     centre(w, o);
@@ -176,7 +180,7 @@ done:
 void water_certify(const struct water *w, const struct options *o, struct certify *t)
 {
     if (!w->on) return;
-    if (o->disc[0] > 0.0 && !o->leads && !o->structures) {
+    if (o->disc[0] > 0.0 && w->d.rings == 1) {
         const double asked = PI * o->disc[0] * o->disc[0];
         certify_add(t, "water [m2]", asked, w->area, fabs(w->area - asked) / asked, 10, NULL);
     } else {
