@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "stat/evenly.h"
+#include "stat/oscillator.h"
+#include "stat/rangemean.h"
 #include "stat/view.h"
+#include "stat/welch.h"
 #include "support/fuzz.h"
 
 /* What was read must be describable: raw, and through a filter where the record carries one. */
@@ -26,6 +30,81 @@ static int views(const fl_series *s, fl_err *err)
     return 0;
 }
 
+/* Filters, cycles, spectrum and response of a signal: finite, or refused. */
+static int signals(const fl_series *s, const double *x, fl_err *err)
+{
+    const double span = s->edge[s->n] - s->edge[0];
+    const double p[] = {0.5};
+    double low, high, sum = 0.0;
+    fl_rainflow cycles = {0};
+    fl_rangemean m = {0};
+    fl_welch w = {0};
+    fl_response r;
+    fl_err own = {0};
+    int rc = FUZZ_BROKEN;
+    for (int pass = 0; pass < FL_PASSES; pass++) {
+        const double f = pass == FL_PASS_MEAN ? span / 3.0 : 0.2 * s->n / span;
+        const fl_view_ask ask = {
+            .filter = f, .upper = 2.0 * f, .pass = pass, .order = 3, .ratio = 0.5, .quantiles = 1, .p = p};
+        fl_view v = {0};
+        const fl_series one = {
+            .n = s->n, .t = s->t, .edge = s->edge, .parts = 1, .signals = 1, .x = (double *[]){(double *)x}};
+        own = (fl_err){0};
+        if (fl_view_make(&v, &one, 0, 0, &ask, &own) == 0) sum += v.d.std;
+        fl_view_free(&v);
+        if (own.code == FL_SYSTEM) goto done;
+    }
+    for (int rule = 0; rule < FL_RAINFLOW_RULES; rule++) {
+        double largest = 0.0, lo = INFINITY, hi = -INFINITY;
+        if (fl_rainflow_count(&cycles, rule, FL_RESIDUE_REPEAT, s->n, x, &own)) goto done;
+        for (int32_t k = 0; k < cycles.cycles; k++) {
+            largest = fmax(largest, cycles.cycle[k].range);
+            lo = fmin(lo, cycles.cycle[k].mean);
+            hi = fmax(hi, cycles.cycle[k].mean);
+        }
+        fl_rangemean_free(&m);
+        if (fl_rangemean_make(&m, 7, largest, lo, hi, cycles.cycles, cycles.cycle, &own)) goto done;
+        for (int32_t k = 0; k < m.cells; k++) {
+            const int sound =
+                m.cell[k].range >= 0 && m.cell[k].range < 7 && m.cell[k].mean >= 0 && m.cell[k].mean < 7;
+            if (!sound || !(m.cell[k].cycles > 0.0)) goto done;
+        }
+        sum += fl_rainflow_equivalent(cycles.cycles, cycles.cycle, 5.0);
+    }
+    if (s->n >= FL_WELCH_SHORTEST) {
+        if (fl_welch_make(&w, s->n, x, s->n / span, fl_welch_length(s->n), FL_TAPER_HANN, &own)) goto done;
+        fl_welch_interval(&w, w.n / 2, &low, &high);
+        if (!(low <= high)) goto done;
+        sum += fl_welch_power(&w);
+        if (isfinite(fl_welch_dominant(&w, NULL)) && !(fl_welch_dominant(&w, NULL) < w.fs)) goto done;
+    }
+    double longest = 0.0; /* a few steps to a row: intervals of a damaged file may differ by any factor */
+    for (int32_t k = 0; k < s->n; k++) longest = fmax(longest, s->edge[k + 1] - s->edge[k]);
+    const fl_oscillator o = {.frequency = 0.1 / longest, .damping = 0.02};
+    fl_oscillator_run(&o, s->n, s->edge, x, 20.0, 1, &r, NULL);
+    sum += r.largest;
+    rc = isfinite(sum) ? 0 : FUZZ_BROKEN;
+done:
+    if (own.code == FL_SYSTEM) {
+        *err = own;
+        rc = -1;
+    }
+    fl_welch_free(&w);
+    fl_rangemean_free(&m);
+    fl_rainflow_free(&cycles);
+    return rc;
+}
+
+static int steps(fl_series *s, fl_err *err)
+{
+    fl_err own = {0};
+    const double span = s->edge[s->n] - s->edge[0];
+    if (fl_evenly(s, span / 5.0, NULL, &own) == 0) return s->n == 5 || s->n == 4 ? 0 : FUZZ_BROKEN;
+    if (own.code != FL_SYSTEM) return 0;
+    *err = own;
+    return -1;
+}
+
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     const fl_series_ask ask = {.from = -INFINITY, .to = INFINITY};
@@ -33,6 +112,9 @@ static int fuzz_one(const unsigned char *data, size_t n)
     fl_series s = {0};
     int rc = fl_series_read(&s, fuzz_file(data, n), &ask, &err);
     if (rc == 0) rc = views(&s, &err);
+    for (int32_t k = 0; rc == 0 && k < s.parts * s.signals; k++)
+        if (s.x[k]) rc = signals(&s, s.x[k], &err);
+    if (rc == 0) rc = steps(&s, &err);
     fl_series_free(&s);
     return rc == FUZZ_BROKEN ? FUZZ_BROKEN : fuzz_verdict(rc, &err);
 }
