@@ -13,13 +13,6 @@ enum { FEW = 20 }; /* values: a law fitted to fewer says little */
 static const double REACH = 4.0;
 
 typedef struct {
-    int32_t n;
-    double *x;              /* [n] descending */
-    double threshold, rate; /* rate: values in a second */
-    int excesses;           /* all lie above the threshold, so that a GPD makes sense */
-} sample;
-
-typedef struct {
     int found;
     fl_dist d;
     fl_goodness g;
@@ -27,7 +20,7 @@ typedef struct {
 } law;
 
 /* From rows to their values, the largest first. */
-static int take(sample *s, const fl_view *v, const fl_peaks *p, fl_err *err)
+static int take(fit_sample *s, const fl_view *v, const fl_peaks *p, fl_err *err)
 {
     double *x = fl_alloc(p->n, sizeof *x, err);
     int32_t *rank = x ? fl_alloc(p->n, sizeof *rank, err) : NULL;
@@ -42,12 +35,12 @@ static int take(sample *s, const fl_view *v, const fl_peaks *p, fl_err *err)
     return rc;
 }
 
-static int make_sample(sample *s, const fl_view *v, const struct options *o, fl_err *err)
+int fitrows_sample(fit_sample *s, const fl_view *v, const struct options *o, fl_err *err)
 {
     const double span = v->edge[v->n] - v->edge[0];
     fl_peaks p = {0};
     int rc;
-    *s = (sample){.threshold = o->threshold, .excesses = o->sample < SAMPLE_BLOCKS};
+    *s = (fit_sample){.threshold = o->threshold, .excesses = o->sample < SAMPLE_BLOCKS};
     if (o->sample == SAMPLE_PEAKS) {
         rc = take(s, v, &v->peaks, err);
     } else if (o->sample == SAMPLE_POT) {
@@ -64,7 +57,7 @@ static int make_sample(sample *s, const fl_view *v, const struct options *o, fl_
 
 /* The law of one kind by likelihood, with its levels.  Its random numbers are its own: the entity is the
  * kind. */
-static int make_law(law *l, int kind, const sample *s, const struct options *o, fl_err *err)
+static int make_law(law *l, int kind, const fit_sample *s, const struct options *o, fl_err *err)
 {
     fl_fit_work w = {0};
     int rc = -1;
@@ -87,7 +80,7 @@ static int make_law(law *l, int kind, const sample *s, const struct options *o, 
     return rc;
 }
 
-static int make_laws(law *l, const sample *s, const struct options *o, fl_err *err)
+static int make_laws(law *l, const fit_sample *s, const struct options *o, fl_err *err)
 {
     int failed = FL_DISTS;
 #pragma omp parallel for schedule(dynamic)
@@ -104,7 +97,7 @@ static int make_laws(law *l, const sample *s, const struct options *o, fl_err *e
 }
 
 static int fits(FILE *f, const struct result *r, const struct options *o, int32_t p, int32_t s, int w,
-                const sample *c, const law *l, fl_err *err)
+                const fit_sample *c, const law *l, fl_err *err)
 {
     fl_fit_work work = {0};
     if (fl_fit_work_make(&work, c->n, err)) return -1;
@@ -135,7 +128,7 @@ static int fits(FILE *f, const struct result *r, const struct options *o, int32_
 }
 
 static void levels(FILE *f, const struct result *r, const struct options *o, int32_t p, int32_t s, int w,
-                   const sample *c, const law *l, double span)
+                   const fit_sample *c, const law *l, double span)
 {
     for (int kind = 0; kind < FL_DISTS; kind++) {
         int32_t j = 0;
@@ -168,7 +161,7 @@ void fitrows_header(FILE *f, const struct options *o)
 }
 
 static void warn(const struct result *r, const struct options *o, int32_t p, int32_t s, int w,
-                 const sample *c, double span)
+                 const fit_sample *c, double span)
 {
     const char *part = r->s->part[p], *signal = r->s->signal[s];
     if (o->quiet) return;
@@ -189,9 +182,9 @@ int fitrows_write(FILE *f, const struct result *r, const struct options *o, int3
 {
     const fl_view *v = view_of(r, part, signal, w);
     const double span = v->edge[v->n] - v->edge[0];
-    sample s = {0};
+    fit_sample s = {0};
     law *l = fl_alloc(FL_DISTS, sizeof *l, err);
-    int rc = l ? make_sample(&s, v, o, err) : -1;
+    int rc = l ? fitrows_sample(&s, v, o, err) : -1;
     if (rc == 0) warn(r, o, part, signal, w, &s, span);
     if (rc == 0) rc = make_laws(l, &s, o, err);
     if (rc == 0 && o->table == TABLE_FITS) rc = fits(f, r, o, part, signal, w, &s, l, err);

@@ -8,6 +8,7 @@
 #include "stat/histogram.h"
 #include "stat/welch.h"
 #include "cycleplot.h"
+#include "fitplot.h"
 #include "legrows.h"
 #include "plot.h"
 #include "specplot.h"
@@ -234,6 +235,10 @@ static int plot_table(picture *p, int *made, fl_err *err)
         const fl_view *v = view_of(p->r, p->part, s, 0);
         varies += v && v->d.max > v->d.min;
     }
+    const int levels = o->returns && (o->page || o->table == TABLE_LEVELS);
+    p->what = "levels";
+    const int drawn = levels ? fitplot(p, made, err) : 0;
+    if (drawn) return drawn;
     p->what = "rainflow";
     if (cycles && varies && plot_make(p, cycleplot, err)) return -1;
     p->what = "spectrum";
