@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hard cases that no other table holds, a line or two each.  The others are in
+ *     verify_contact    H01 H02 H10 H11 H12 H14 H15 H16 H17
+ *     verify_structure  H29 H30 (the rows of V30)
+ *     verify_geometry   H23 H24        verify_floating  H25 H38        verify_ice  H05
+ *     test_gjk          H03            test_poly, test_field, test_mass  H06 H07 H13
+ *     dem-solve-errors  H37
+ * H21 and H22 (periodic), H32 and H33 (bonds), H39 (waves) wait for what they are about; H26, H27 and H36 are
+ * long runs and in no table. */
+#define _GNU_SOURCE /* open_memstream */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include "base/rng.h"
+#include "narrow/gjk.h"
+#include "step/snapshot.h"
+#include "support/lab.h"
+#include "support/scenes.h"
+#include "support/verify.h"
+
+static const fl_vec3 ZERO = {0, 0, 0};
+
+/* A floe of 10 x 10 x 0.1 m and a sphere over its face, its edge, its corner: distance and normal. */
+static void thin_floe(void)
+{
+    static const fl_vec3 at[3] = {{1, 2, 0.5}, {5.3, 1, 0.45}, {5.2, 5.2, 0.15}};
+    double worst_d = 0.0, worst_n = 0.0;
+    fl_poly p = {0};
+    fl_err err = {0};
+    if (fl_poly_box(&p, v3(5, 5, 0.05), &err)) exit(1);
+    for (int k = 0; k < 3; k++) {
+        fl_gap g;
+        const fl_vec3 q = v3(fmin(at[k].x, 5), fmin(at[k].y, 5), 0.05), off = v3_sub(at[k], q);
+        fl_gjk((fl_core){&at[k], 1}, (fl_core){p.v, p.nv}, NULL, &g);
+        worst_d = fmax(worst_d, fabs(g.d - v3_norm(off)));
+        worst_n = fmax(worst_n, v3_norm(v3_sub(g.n, v3_unit(off))));
+    }
+    fl_poly_free(&p);
+    verify_below("H04", "thin floe 100:1: error of a distance [m]", worst_d, 1e-10);
+    verify_below("H04", "thin floe 100:1: error of a normal", worst_n, 1e-10);
+}
+
+/* A pebble under a floe a million times heavier, on a wall. */
+static void mass_ratio(void)
+{
+    lab l;
+    double most = 0.0;
+    const double r = 0.01, ground = 2.0 * r;
+    lab_start(&l);
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "boundary.min=none none 0");
+    lab_set(&l, "material.ice.young=100 GPa"); /* ice would be pressed by half its size, and rightly so */
+    lab_set(&l, "contact.restitution=0.3");
+    lab_sphere(&l, v3(0, 0, r), r, ZERO, ZERO);
+    lab_sphere(&l, v3(0, 0, ground + 1.0), 1.0, ZERO, ZERO);
+    lab_make(&l, 0);
+    const double ratio = l.w.b.m[1] / l.w.b.m[0];
+    for (int64_t k = 0; k < 4000; k++) {
+        if (lab_run(&l, 1)) break;
+        for (int32_t c = 0; c < l.w.n_pair; c++)
+            if (l.w.pair[c].n) most = fmax(most, l.w.pair[c].overlap / r);
+    }
+    verify_row("H08", "mass ratio of floe and pebble", ratio, 1e6, 1e-9, VERIFY_REL);
+    verify_below("H08", "overlap of the pebble over its radius", most, 0.3);
+    lab_free(&l);
+}
+
+/* 300 spheres from 1 mm to 1 km: every pair that touches is listed. */
+static void size_ratio(void)
+{
+    enum { N = 300 };
+    lab l;
+    int64_t missed = 0, found = 0;
+    lab_start(&l);
+    for (int32_t k = 0; k < N; k++) {
+        fl_rng g = fl_rng_of(21, k, FL_RNG_TEST);
+        const double r = pow(10.0, fl_rng_in(&g, -3.0, 3.0)), far = pow(10.0, fl_rng_in(&g, -2.0, 3.5));
+        lab_sphere(&l, v3_scale(far, v3_unit(v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g)))), r,
+                   ZERO, ZERO);
+    }
+    lab_make(&l, 1e-12);
+    for (int32_t i = 0; i < N; i++) {
+        for (int32_t j = i + 1; j < N; j++) {
+            const double d = v3_norm(v3_sub(l.w.b.x[i], l.w.b.x[j]));
+            int listed = 0;
+            if (d > l.w.b.radius[i] + l.w.b.radius[j]) continue;
+            for (int64_t c = l.w.inc_first[i]; c < l.w.inc_first[i + 1]; c++)
+                listed |= l.w.pair[l.w.inc[c]].i == i && l.w.pair[l.w.inc[c]].j == j;
+            found++;
+            missed += !listed;
+        }
+    }
+    verify_note("%lld pairs of 300 spheres overlap, radii from 1 mm to 1 km", (long long)found);
+    verify_row("H09", "of these not found", (double)missed, 0, 0, VERIFY_ABS);
+    verify_below("H09", "and there were some: 1000 over their number", 1000.0 / (double)found, 1.0);
+    lab_free(&l);
+}
+
+/* 100 m/s against a plate of 0.1 m: it comes back, or the run says that the step is too long; never through.
+ */
+static void bullet(void)
+{
+    const double safety[] = {0.1, 0.5, 1.0};
+    int through = 0, said = 0;
+    for (int k = 0; k < 3; k++) {
+        lab l;
+        lab_start(&l);
+        lab_setf(&l, "run.safety=%.17g", safety[k]);
+        lab_box(&l, v3(-1, 0.1, 0), v3(0.3, 0.2, 0.2), 0.05, q_of_vector(v3(0.1, 0.2, 0.3)), v3(100, 0, 0),
+                v3(1, 2, 3));
+        lab_wall(&l, v3(0, -5, -5), v3(0.1, 5, 5), 1);
+        lab_make(&l, 0);
+        fl_err err = {0};
+        for (int64_t s = 0; (double)s * l.w.dt < 0.03 && !err.code; s++) fl_step(&l.w, &err);
+        if (err.code) said++;
+        else through += l.w.b.x[0].x > 0.0;
+        lab_free(&l);
+    }
+    verify_row("H18", "100 m/s against a plate: runs that went through it", through, 0, 0, VERIFY_ABS);
+    verify_note("%d of 3 ended with a sentence about the step", said);
+}
+
+/* A body that spins and drifts, alone. */
+static void drift(void)
+{
+    const int64_t steps = verify_quick() ? 100000 : 10000000;
+    const fl_vec3 v = v3(0.3, -0.2, 0.1);
+    lab l;
+    lab_start(&l);
+    lab_box(&l, ZERO, v3(0.5, 0.4, 0.3), 0.05, q_one(), v, v3(0.3, 0.5, 0.7));
+    lab_make(&l, 1e-3);
+    const fl_vec3 L = l.w.b.L[0];
+    if (lab_run(&l, steps)) exit(1);
+    const double t = (double)steps * 1e-3, path = t * v3_norm(v);
+    verify_below("H19", "alone: error of the place over the path", v3_norm(v3_madd(l.w.b.x[0], -t, v)) / path,
+                 1e-9);
+    verify_row("H19", "alone: change of the angular momentum", v3_norm(v3_sub(l.w.b.L[0], L)), 0, 0,
+               VERIFY_ABS);
+    lab_free(&l);
+}
+
+/* The force between two boxes, here and a thousand kilometres away. */
+static void far_away(void)
+{
+    fl_vec3 f[2];
+    const double shift = 1048576.0; /* 2^20 m: the coordinates below are exact there, too */
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "contact.friction=0.3");
+        lab_box(&l, v3(k * shift, 0, 0), v3(0.5, 0.5, 0.25), 0.0625, q_one(), ZERO, ZERO);
+        lab_box(&l, v3(k * shift + 0.125, 0.25, 0.49609375), v3(0.5, 0.5, 0.25), 0.0625, q_one(), ZERO, ZERO);
+        lab_make(&l, 1e-9);
+        f[k] = lab_look(&l.w, 0, 1).f;
+        lab_free(&l);
+    }
+    verify_below("H20", "1000 km away: change of a force over its size",
+                 v3_norm(v3_sub(f[0], f[1])) / v3_norm(f[0]), 1e-7);
+}
+
+/* A floe pressed between two cylinders, symmetric about x: it stays so. */
+static void pinched(void)
+{
+    double worst = 0.0;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "contact.friction=0.3");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_cone(&l, (fl_cone){v3(1.5, 1.45, -1), v3(1.5, 1.45, 1), 1.0, 1.0});
+    lab_cone(&l, (fl_cone){v3(1.5, -1.45, -1), v3(1.5, -1.45, 1), 1.0, 1.0});
+    lab_box(&l, v3(0.65, 0, 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(1, 0, 0), ZERO);
+    lab_make(&l, 0);
+    const int64_t steps = verify_quick() ? 10000 : 100000;
+    for (int64_t k = 0; k < steps; k += 10) {
+        if (lab_run(&l, 10)) exit(1);
+        const fl_vec3 x = l.w.b.x[0];
+        const fl_quat q = l.w.b.q[0];
+        worst = fmax(worst, fmax(fabs(x.y), fmax(fabs(q.z), fabs(q.x))));
+    }
+    verify_below("H28", "pinched between cylinders: farthest from symmetry [m, rad]", worst, 1e-9);
+    verify_true("H28", "and it was pinched", l.w.touching_steps > 1000);
+    lab_free(&l);
+}
+
+/* No friction and more than any, no rebound and a full one: nothing gains energy. */
+static void limits_of_laws(void)
+{
+    static const double mu[] = {0.0, 0.3, 1e6}, e[] = {0.0, 0.5, 1.0};
+    static const char *const LAW[] = {"patch", "core", "manual", "manual-si"};
+    double worst[2][2] = {{-INFINITY, -INFINITY}, {-INFINITY, -INFINITY}};
+    for (int k = 0; k < 36; k++) {
+        lab l;
+        const int manual = k / 9 >= 2, elastic = mu[k % 3] == 0.0 && e[k / 3 % 3] == 1.0;
+        lab_start(&l);
+        lab_set(&l, "material.ice.young=10 MPa");
+        lab_setf(&l, "contact.law=%s", LAW[k / 9]);
+        lab_setf(&l, "contact.friction=%.17g", mu[k % 3]);
+        lab_setf(&l, "contact.restitution=%.17g", e[k / 3 % 3]);
+        lab_box(&l, ZERO, v3(0.5, 0.5, 0.5), 0.1, q_of_vector(v3(0.3, 0.2, 0.1)), v3(1, 0.4, 0), v3(1, 2, 3));
+        lab_box(&l, v3(1.6, 0.2, 0.1), v3(0.5, 0.5, 0.5), 0.1, q_of_vector(v3(-0.2, 0.5, 0.1)),
+                v3(-1, 0, 0.3), v3(0, 1, -2));
+        lab_make(&l, 0);
+        const double before = lab_energy(&l);
+        while ((double)l.w.step * l.w.dt < 0.6)
+            if (lab_run(&l, 1)) exit(1);
+        worst[manual][elastic] = fmax(worst[manual][elastic], (lab_energy(&l) - before) / before);
+        lab_free(&l);
+    }
+    verify_below("H31", "mu 0.3 and 1e6, or e 0 and 0.5; all laws: energy gained",
+                 fmax(worst[0][0], worst[1][0]), 0.0);
+    verify_below("H31", "mu 0 and e 1; patch, core: energy gained", worst[0][1], 1e-4);
+    verify_note(
+        "the forces of the manual follow from no potential: where its modes change energy comes or goes");
+    verify_below("H31", "mu 0 and e 1; manual, manual-si: energy gained", worst[1][1], 0.01);
+}
+
+static uint64_t bits_after(lab *l, int64_t steps)
+{
+    if (lab_run(l, steps)) exit(1);
+    const uint64_t hash = fl_step_hash(&l->w);
+    lab_free(l);
+    return hash;
+}
+
+static void heap(lab *l, int threads)
+{
+    scene_of_everything(l, 4, NULL);
+    lab_setf(l, "run.threads=%d", threads);
+    lab_make(l, 0);
+}
+
+/* All shapes, structures, water and wind: put into another world after any step, and with more threads. */
+static void same_bits(void)
+{
+    enum { STEPS = 60 };
+    lab l;
+    int other = 0, stops = 0;
+    heap(&l, 1);
+    const uint64_t hash = bits_after(&l, STEPS);
+    for (int at = 0; at < STEPS; at += verify_quick() ? 12 : 1, stops++) {
+        lab m;
+        fl_err err = {0};
+        fl_text in = {0};
+        char *text = NULL;
+        size_t n = 0;
+        heap(&l, 1);
+        heap(&m, 1);
+        if (lab_run(&l, at)) exit(1);
+        FILE *f = open_memstream(&text, &n);
+        if (!f) exit(1);
+        fl_snapshot_write(f, &l.w);
+        if (fclose(f) || fl_text_open_bytes(&in, "snapshot", text, (int64_t)n, &err) ||
+            fl_snapshot_read(&m.w, &in, &err))
+            exit(1);
+        fl_text_close(&in);
+        free(text);
+        lab_free(&l);
+        other += bits_after(&m, STEPS - at) != hash;
+    }
+    verify_note("64 bodies of all shapes, %d stops", stops);
+    verify_row("H34", "stopped and gone on with: runs with other bits", other, 0, 0, VERIFY_ABS);
+    other = 0;
+    for (int threads = 2; threads <= 3; threads++) {
+        heap(&l, threads);
+        other += bits_after(&l, STEPS) != hash;
+    }
+    verify_row("H35", "2 and 3 threads: runs with other bits", other, 0, 0, VERIFY_ABS);
+}
+
+int main(void)
+{
+    verify_begin("hard cases");
+    thin_floe();
+    mass_ratio();
+    size_ratio();
+    bullet();
+    drift();
+    far_away();
+    pinched();
+    limits_of_laws();
+    same_bits();
+    return verify_end();
+}
