@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include "base/mem.h"
 #include "base/par.h"
+#include "base/rng.h"
 #include "base/stream.h"
 #include "base/tool.h"
 #include "ice/cells.h"
@@ -40,7 +41,12 @@ struct field {
     double asked;  /* concentration */
     double off;    /* graded: of the worst floe from that of its place */
     double lo, hi; /* graded: concentrations asked for */
+    int32_t id0;   /* rafted: added to the ids of the layer */
+    double lift;   /* rafted: of the layer over where it would float alone [m] */
 };
+
+/* Layers of rafted ice lie this part of their thickness apart, so that none touches another at the start. */
+#define RAFT_GAP 1e-3
 
 static void tell(const struct options *o, const char *what)
 {
@@ -50,7 +56,7 @@ static void tell(const struct options *o, const char *what)
 /* The id in the file is the number of the site; further pieces of a cell come behind all sites. */
 static int32_t id_of(const struct field *a, int32_t i)
 {
-    return a->water.on && a->water.id ? a->water.id[a->name[i]] : a->name[i];
+    return a->id0 + (a->water.on && a->water.id ? a->water.id[a->name[i]] : a->name[i]);
 }
 
 static int is_periodic(const struct options *o) { return o->periodic[0] || o->periodic[1]; }
@@ -208,7 +214,7 @@ static int add_floe(const struct options *o, const struct field *a, int32_t i, f
     fl_poly core = {0};
     fl_err why = {0};
     for (int32_t k = 0; k < n; k++) xy[k] = v3(a->floes.core[first + k].x, a->floes.core[first + k].y, 0.0);
-    if (fl_poly_prism(&core, n, xy, o->radius - draft, h - draft - o->radius, &why))
+    if (fl_poly_prism(&core, n, xy, o->radius - draft + a->lift, h - draft - o->radius + a->lift, &why))
         return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", id_of(a, i),
                        why.text);
     if (fl_field_add(out, id_of(a, i), o->radius, &core, o->material, NULL,
@@ -242,7 +248,7 @@ static int add_bonds(const struct options *o, const struct field *a, fl_field *o
     return 0;
 }
 
-static int write_field(struct options *o, const struct field *a, fl_err *err)
+static int write_field(struct options *o, const struct field *a, int32_t layers, fl_err *err)
 {
     fl_field out = {0};
     fl_out file = {0};
@@ -250,10 +256,11 @@ static int write_field(struct options *o, const struct field *a, fl_err *err)
     fl_vec3 *xy = NULL;
     int32_t cap = 0;
     int rc = -1;
-    for (int32_t i = 0; i < a->floes.n; i++)
-        if (fl_grow(&xy, &cap, a->floes.first[i + 1] - a->floes.first[i], sizeof *xy, err) ||
-            add_floe(o, a, i, xy, &out, err))
-            goto done;
+    for (int32_t k = 0; k < layers; k++)
+        for (int32_t i = 0; i < a[k].floes.n; i++)
+            if (fl_grow(&xy, &cap, a[k].floes.first[i + 1] - a[k].floes.first[i], sizeof *xy, err) ||
+                add_floe(o, &a[k], i, xy, &out, err))
+                goto done;
     if (add_bonds(o, a, &out, err) || pile_add(&a->pile, o, &out, err)) goto done;
     options_id(o, &out);
     options_by(o, &by);
@@ -419,47 +426,116 @@ static int measure_depth(const struct options *o, struct field *a, fl_err *err)
     return rc;
 }
 
+static int make_layer(struct options *o, struct field *a, fl_err *err)
+{
+    if (water_make(&a->water, o, err) || (o->sizes && sizing_ask(&a->sizing, o, a->water.area, err)))
+        return -1;
+    if (o->sizes ? make_sized(o, a, err) : make_cells(o, a, err) || shrink(o, a, err)) return -1;
+    a->name = fl_alloc(a->cells.n, sizeof *a->name, err);
+    if (!a->name) return -1;
+    for (int32_t i = 0; i < a->cells.n; i++) a->name[i] = i;
+    if (o->ridges) tell(o, "piling up blocks");
+    if (pile_make(&a->pile, o, err)) return -1;
+    tell(o, "measuring");
+    return measure(o, a, err) || measure_depth(o, a, err) ? -1 : 0;
+}
+
+static void free_layer(struct field *a)
+{
+    sizing_free(&a->sizing);
+    fl_faces_free(&a->faces);
+    water_free(&a->water);
+    depth_free(&a->depth);
+    pile_free(&a->pile);
+    fl_floes_free(&a->floes);
+    fl_cells_free(&a->cells);
+    free(a->name);
+}
+
+/* Depth of the bottom of n layers that cover the same part of the water: each has the thickness h, the ice
+ * displaces ratio n h of it, and the gaps displace nothing. */
+static double raft_depth(int32_t n, double h, double ratio)
+{
+    const double wet = ratio * n * h, full = floor(wet / h);
+    return full * h * (1.0 + RAFT_GAP) + (wet - full * h);
+}
+
+/* Further layers are fields of their own, of seeds that follow from the first, above each other. */
+static int make_rafts(struct options *o, struct field *a, fl_err *err)
+{
+    const double h = o->thickness, deep = raft_depth(o->layers, h, a->depth.ratio);
+    const uint64_t seed = o->seed;
+    int64_t id = 0;
+    int rc = 0;
+    for (int32_t k = 0; k < o->layers && rc == 0; k++) {
+        fl_rng g = fl_rng_of(seed, k, FL_RNG_LAYER);
+        if (k) o->seed = fl_rng_u64(&g);
+        if ((k && depth_make(&a[k].depth, o, err)) || make_layer(o, &a[k], err)) rc = -1;
+        if (rc == 0 && o->layers > 1) {
+            a[k].id0 = (int32_t)id;
+            a[k].lift = h * a->depth.ratio - deep + k * h * (1.0 + RAFT_GAP);
+            /* pieces of cells are numbered behind the sites */
+            id += (int64_t)o->floes + a[k].cells.n;
+            if (id > INT32_MAX)
+                rc = fl_fail(err, FL_INPUT, "%d layers have more floes than there are ids", o->layers);
+        }
+    }
+    o->seed = seed;
+    return rc;
+}
+
+static void certify_rafts(const struct options *o, const struct field *a, struct certify *t)
+{
+    double off = 0.0;
+    int64_t overlaps = 0;
+    int32_t floes = 0;
+    if (o->layers == 1) return;
+    for (int32_t k = 0; k < o->layers; k++) {
+        floes += a[k].floes.n;
+        overlaps += a[k].c.overlaps;
+        off = fmax(off, fabs(a[k].full / a[k].water.area - a[k].asked));
+    }
+    certify_add(t, "layers", o->layers, o->layers, 0, 10, "the rows above are of the lowest");
+    certify_add(t, "layers, floes in all", NOT_ASKED, floes, NO_DISTANCE, 10, NULL);
+    certify_add(t, "layers, worst concentration", NOT_ASKED, NOT_ASKED, off, 10, NULL);
+    certify_add(t, "layers, overlaps", 0, (double)overlaps, (double)overlaps, 10, NULL);
+    certify_add(t, "layers, depth of the lowest [m]", NOT_ASKED,
+                raft_depth(o->layers, o->thickness, a->depth.ratio), NO_DISTANCE, 6, NULL);
+}
+
 static int run(struct options *o, fl_err *err)
 {
     struct certify table = {0};
-    struct field a = {0};
+    struct field *a;
     fl_by by;
     int rc = -1;
     if (o->threads) omp_set_num_threads(o->threads);
     if (o->lattice >= 0) return sheet_run(o, err);
-    if (depth_make(&a.depth, o, err)) goto done;
+    a = fl_alloc(o->layers, sizeof *a, err);
+    if (!a) return -1;
+    if (depth_make(&a->depth, o, err)) goto done;
+    if ((o->rubble || o->layers > 1) && a->depth.law.kind != FL_THICKNESS_SAME) {
+        fl_fail(err, FL_USAGE, "--%s needs one thickness, not a law", o->rubble ? "rubble" : "layers");
+        goto done;
+    }
     if (o->rubble) {
-        if (a.depth.law.kind == FL_THICKNESS_SAME) rc = rubble_run(o, err);
-        else fl_fail(err, FL_USAGE, "--rubble needs one thickness, not a law");
+        rc = rubble_run(o, err);
         goto done;
     }
     if (o->ridges && !(o->block > 0.0)) o->block = o->thickness;
-    if (water_make(&a.water, o, err) || (o->sizes && sizing_ask(&a.sizing, o, a.water.area, err))) goto done;
-    if (o->sizes ? make_sized(o, &a, err) : make_cells(o, &a, err) || shrink(o, &a, err)) goto done;
-    a.name = fl_alloc(a.cells.n, sizeof *a.name, err);
-    if (!a.name) goto done;
-    for (int32_t i = 0; i < a.cells.n; i++) a.name[i] = i;
-    if (o->ridges) tell(o, "piling up blocks");
-    if (pile_make(&a.pile, o, err)) goto done;
-    tell(o, "measuring");
-    if (measure(o, &a, err) || measure_depth(o, &a, err)) goto done;
+    if (make_rafts(o, a, err)) goto done;
     tell(o, "writing");
-    if (write_field(o, &a, err)) goto done;
-    certify(o, &a, &table);
+    if (write_field(o, a, o->layers, err)) goto done;
+    certify(o, a, &table);
+    certify_rafts(o, a, &table);
     options_by(o, &by);
     if (o->certificate && certify_write(&table, o->certificate, &by, err)) goto done;
     if (!o->quiet) certify_print(&table);
-    if (o->plot && chart(o, &a.floes, o->sizes ? &a.sizing : NULL, &by, err)) goto done;
+    if (o->plot && chart(o, &a->floes, o->sizes ? &a->sizing : NULL, &by, err)) goto done;
     rc = 0;
 done:
-    sizing_free(&a.sizing);
-    fl_faces_free(&a.faces);
-    water_free(&a.water);
-    depth_free(&a.depth);
-    pile_free(&a.pile);
-    fl_floes_free(&a.floes);
-    fl_cells_free(&a.cells);
-    free(a.name);
+    for (int32_t k = 0; k < o->layers; k++) free_layer(&a[k]);
+    free(a);
     return rc;
 }
 

@@ -43,7 +43,7 @@ static const char HELP[] =
     "      --porosity P        part of ridges that is no ice (0.3)\n"
     "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
     "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
-    "      --layers N          layers of the lattice (1)\n"
+    "      --layers N          layers of the lattice, or of rafted floes (1)\n"
     "      --diameter D        of the spheres of the lattice (0.25)\n"
     "      --certificate FILE  what was asked and what was achieved as a table, - is standard output\n"
     "      --id NAME           of the field, for its line of history; auto makes one of the bodies\n"
@@ -381,9 +381,9 @@ static int check_lattice(const struct options *o, fl_err *err)
     static const int without[] = {FLOES,    SIZES,    CONCENTRATION, THICKNESS, RADIUS, SEED,
                                   SMOOTH,   KEEP_OUT, OUTLINE,       LEAD,      PLOT,   GRADE,
                                   PERIODIC, PANCAKES, RUBBLE,        RIDGE};
-    static const int within[] = {LAYERS, DIAMETER};
+    static const int within[] = {DIAMETER};
     if (o->lattice >= 0) return useless(o, "beside --lattice", 16, without, err);
-    return useless(o, "without --lattice", 2, within, err);
+    return useless(o, "without --lattice", 1, within, err);
 }
 
 static int check_water(const struct options *o, fl_err *err)
@@ -416,6 +416,12 @@ static int check_piles(const struct options *o, fl_err *err)
     static const int without[] = {SIZES,  KEEP_OUT, OUTLINE,  LEAD,  GRADE,
                                   BONDED, PLOT,     PERIODIC, RIDGE, PANCAKES};
     static const int ridged[] = {SIZES, PERIODIC}, within[] = {BLOCK, POROSITY};
+    static const int rafted[] = {SIZES, BONDED, RIDGE, RUBBLE};
+    if (o->layers > 1 && o->lattice < 0) {
+        if (o->structures)
+            return fl_fail(err, FL_USAGE, "--keep-out of a file means nothing beside --layers");
+        if (useless(o, "beside --layers", 4, rafted, err)) return -1;
+    }
     if (o->rubble && useless(o, "beside --rubble", 10, without, err)) return -1;
     if (!o->ridges) return useless(o, "without --ridge", 2, within, err);
     return useless(o, "beside --ridge", 2, ridged, err);
@@ -587,6 +593,7 @@ void options_by(const struct options *o, fl_by *by)
         fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
         fl_by_add(by, "--smooth %d", o->smooth);
     }
+    if (o->lattice < 0 && o->layers > 1) fl_by_add(by, "--layers %d", o->layers);
     if (o->rubble) fl_by_add(by, "--rubble");
     for (int k = 0; k < o->ridges; k++) add_numbers(by, "--ridge ", ',', 9, o->ridge[k]);
     if (o->ridges && o->block > 0.0) add_numbers(by, "--block ", ',', 1, &o->block);
