@@ -38,6 +38,8 @@ int fl_deck_line(fl_deck *d, fl_err *err)
     char *start, *p, *end;
     if (d->held) {
         d->held = 0;
+        d->e->file = d->held_file;
+        d->e->line = d->held_line;
         return 1;
     }
     while (b->pos >= b->n) {
@@ -59,7 +61,12 @@ int fl_deck_line(fl_deck *d, fl_err *err)
     return 1;
 }
 
-void fl_deck_hold(fl_deck *d) { d->held = 1; }
+void fl_deck_hold(fl_deck *d)
+{
+    d->held = 1;
+    d->held_file = d->e->file;
+    d->held_line = d->e->line;
+}
 
 int fl_deck_include(fl_deck *d, const char *path, fl_err *err)
 {

@@ -17,8 +17,9 @@ typedef struct {
     fl_bytes included[FL_DECK_DEPTH];
     int32_t file[FL_DECK_DEPTH + 1]; /* of e->files, by depth */
     int depth, includes;
-    char *line; /* the current one, ended by a zero byte */
-    int held;   /* it is to come once more */
+    char *line;                   /* the current one, ended by a zero byte */
+    int held;                     /* it is to come once more, */
+    int32_t held_file, held_line; /* from there */
 } fl_deck;
 
 void fl_deck_start(fl_deck *d, fl_elements *e, fl_bytes *base);

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "mesh/bytes.h"
 #include "mesh/gstruct.h"
+#include "mesh/read_bdf.h"
 #include "mesh/read_cdb.h"
 #include "mesh/read_inp.h"
 #include "mesh/read_mesh.h"
@@ -85,7 +86,15 @@ static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
     if (starts_with(b, "solid")) return fl_stl_read_ascii(s, b, name, err);
     if (fl_off_is(b)) return fl_off_read(s, b, name, err);
     if (fl_obj_is(b)) return fl_obj_read(s, b, name, err);
-    return fl_bytes_fail(b, err, "neither STL, OBJ, OFF, PLY nor g_struct");
+    return fl_bytes_fail(
+        b, err, "neither STL, OBJ, OFF, PLY, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran");
+}
+
+/* Is it a mesh of those above?  Decks of Nastran have no first word of their own and are looked for last. */
+static int is_faces(const fl_bytes *b)
+{
+    return memchr(b->data, '\0', (size_t)b->n) || fl_stl_is_binary(b) || starts_with(b, "#g_struct") ||
+           starts_with(b, "solid") || fl_off_is(b) || fl_obj_is(b);
 }
 
 static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
@@ -93,7 +102,8 @@ static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl
     if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
     if (fl_vtk_is(b)) return fl_vtk_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
-    if (!memchr(b->data, '\0', (size_t)b->n) && fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);
+    if (fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);
+    if (!is_faces(b) && fl_bdf_is(b)) return fl_bdf_read(s, b, w, err);
     return read_faces(s, b, name, err) || choose(s, w, err) ? -1 : 0;
 }
 

@@ -17,8 +17,9 @@ static fl_bytes b;
 static int begin(void **state)
 {
     (void)state;
+    fl_elements_free(&e);
+    fl_surface_free(&s);
     err = (fl_err){0};
-    s = (fl_surface){0};
     b = (fl_bytes){0};
     return fl_elements_start(&e, "test.inp", &err);
 }

@@ -250,8 +250,7 @@ static void put_msh4(FILE *f, const model *m, int variant)
     fprintf(f, "%s$EndElements\n", end);
 }
 
-/* --- Abaqus
-     * --------------------------------------------------------------------------------------------- */
+/* --- Abaqus --------------------------------------------------------------------------------------------- */
 
 static const char *abaqus_type(enum fl_shape shape)
 {
@@ -295,8 +294,68 @@ static void put_inp(FILE *f, const model *m, int assembly)
                    "1, 2, 3, 1, 2, 7, 360\n*End Instance\n*End Assembly\n");
 }
 
-/* --- the test
-     * ------------------------------------------------------------------------------------------- */
+/* --- Nastran -------------------------------------------------------------------------------------------- */
+
+static const char *nastran_name(enum fl_shape shape)
+{
+    switch (shape) {
+    case FL_HEX8:
+    case FL_HEX20: return "CHEXA";
+    case FL_WEDGE6:
+    case FL_WEDGE15: return "CPENTA";
+    case FL_TET4:
+    case FL_TET10: return "CTETRA";
+    case FL_PYRAMID5: return "CPYRAM";
+    case FL_QUAD4: return "CQUAD4";
+    default: return "CTRIA3";
+    }
+}
+
+/* An entry in small (0), large (1) or free (2) field. */
+static void put_entry(FILE *f, int kind, const char *name, int n, char field[][20])
+{
+    const int row = kind == 1 ? 4 : 8, width = kind == 1 ? 16 : 8;
+    fprintf(f, kind == 1 ? "%s*" : "%s", name);
+    if (kind < 2) fprintf(f, "%*s", 8 - (int)strlen(name) - kind, "");
+    for (int k = 0; k < n; k++) {
+        if (k && k % row == 0) fputs(kind == 2 ? ",+\n+" : kind == 1 ? "\n*       " : "\n        ", f);
+        if (kind == 2) fprintf(f, ",%s", field[k]);
+        else fprintf(f, "%*s", width, field[k]);
+    }
+    fputc('\n', f);
+}
+
+/* In small, large or free field, or (3) each in its turn. */
+static void put_bdf(FILE *f, const model *m, int variant)
+{
+    char field[24][20];
+    fputs(variant == 1 ? "$ a punched mesh\n" : "SOL 101\nCEND\nBEGIN BULK\n", f);
+    for (int p = 0; p < MODEL_PARTS; p++) fprintf(f, "$HMNAME PROP %20d\"%s\" 4\n", 7 + p, m->part[p]);
+    for (int32_t n = 0; n < m->nodes; n++) {
+        const double x[3] = {m->x[n].x, m->x[n].y, m->x[n].z};
+        snprintf(field[0], 20, "%lld", (long long)m->id[n]);
+        field[1][0] = '\0';
+        for (int k = 0; k < 3; k++) /* multiples of 1/16 below 100: all their digits */
+            snprintf(field[2 + k], 20, "%.4f", x[k]);
+        put_entry(f, variant == 3 ? n % 3 : variant, "GRID", 5, field);
+    }
+    for (int32_t i = 0; i < m->elements; i++) {
+        const model_element *e = &m->e[i];
+        const int n = fl_shape_nodes(e->shape), c = fl_shape_corners(e->shape);
+        const int ring = e->shape == FL_HEX20 ? 4 : 3,
+                  turned = e->shape == FL_HEX20 || e->shape == FL_WEDGE15;
+        snprintf(field[0], 20, "%lld", (long long)e->id);
+        snprintf(field[1], 20, "%d", 7 + e->part);
+        for (int k = 0; k < n; k++) { /* the mids of the top stand last */
+            const int from = turned && k >= c + 2 * ring ? k - ring : turned && k >= c + ring ? k + ring : k;
+            snprintf(field[2 + k], 20, "%lld", (long long)e->node[from]);
+        }
+        put_entry(f, variant == 3 ? i % 3 : variant, nastran_name(e->shape), 2 + n, field);
+    }
+    fprintf(f, "ENDDATA\n");
+}
+
+/* --- VTK ------------------------------------------------------------------------------------------------ */
 
 static int64_t index_of(const model *m, int64_t id)
 {
@@ -361,6 +420,8 @@ static void put_vtk(FILE *f, const model *m, int variant)
     for (int32_t i = 0; i < m->elements; i++) put_int(&k, m->e[i].part, 4);
     fputc('\n', f);
 }
+
+/* --- the test ------------------------------------------------------------------------------------------- */
 
 static const char *written(put_fn *put, const model *m, int variant)
 {
@@ -427,13 +488,18 @@ static void vtk_gives_the_same(void **state)
     for (int variant = 0; variant < 8; variant++) check(put_vtk, "vtk", variant);
 }
 
+static void nastran_gives_the_same(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 4; variant++) check(put_bdf, "bdf", variant);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ansys_gives_the_same),
-        cmocka_unit_test(gmsh_gives_the_same),
-        cmocka_unit_test(vtk_gives_the_same),
-        cmocka_unit_test(abaqus_gives_the_same),
+        cmocka_unit_test(ansys_gives_the_same),   cmocka_unit_test(gmsh_gives_the_same),
+        cmocka_unit_test(vtk_gives_the_same),     cmocka_unit_test(abaqus_gives_the_same),
+        cmocka_unit_test(nastran_gives_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

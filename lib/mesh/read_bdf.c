@@ -1,0 +1,490 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/mem.h"
+#include "geom/similar.h"
+#include "mesh/bdf_entry.h"
+#include "mesh/read_bdf.h"
+
+enum {
+    DEEPEST = 1000,
+    NAME = 100, /* bytes of a name that count */
+    CONROD = -1 /* stands for the property of rods that have none */
+};
+
+static const double PI = 3.14159265358979323846;
+
+/* A coordinate system: as it is given, and once `state` is done its frame. */
+typedef struct {
+    char kind; /* R C S */
+    int by;    /* 1: by grids, 2: by points in another system */
+    int state; /* 0 as it is given, 1 being worked out, 2 done */
+    int32_t file, line;
+    int64_t other, grid[3];
+    fl_vec3 point[3]; /* origin, on the third axis, in the half plane of the first */
+    fl_mat3 axes;     /* columns */
+} frame;
+
+/* Where a grid is given, and its system: BASIC, DEFAULT, OPEN while it is worked out, or FIRST and a place.
+ */
+typedef struct {
+    int32_t cp, file, line;
+} grid_at;
+
+typedef struct {
+    fl_bdf_entry at;
+    fl_elements e;
+    fl_numbers frames; /* numbers of coordinate systems */
+    frame *frame;
+    grid_at *grid; /* [nodes] */
+    int64_t grdset;
+    fl_numbers pids; /* numbers of properties; elements name their part by their place here until the end */
+    char **name;     /* [pids] names from comments, NULL for none */
+    double (*radius)[2]; /* [pids] nan for none */
+    int32_t frame_cap, grid_cap, name_cap, radius_cap;
+} reader;
+
+enum { OPEN = -1, DEFAULT = 0, BASIC = 1, FIRST = 2 };
+
+/* --- is it one? ----------------------------------------------------------------------------------------- */
+
+static int starts(const char *p, const char *word)
+{
+    const size_t n = strlen(word);
+    return strncasecmp(p, word, n) == 0 && strchr(" \t,*'\"=\r\n", p[n]) != NULL;
+}
+
+int fl_bdf_is(const fl_bytes *b)
+{
+    for (const char *p = b->data; *p; p += strspn(p, "\r\n")) {
+        const char *q = p + strspn(p, " \t");
+        /* lines of Nastran begin with a letter, with the mark of a continuation, or with a blank */
+        if (*q && !isalpha((unsigned char)*q) && !strchr("$+*,\r\n", *q) && q == p) return 0;
+        if (starts(p, "GRID")) return 1;
+        if (starts(p, "BEGIN") && strncasecmp(p + 5 + strspn(p + 5, " \t,"), "BULK", 4) == 0) return 1;
+        if (starts(q, "INCLUDE") && strchr("'\"", q[7 + strspn(q + 7, " \t")])) return 1;
+        p += strcspn(p, "\r\n");
+    }
+    return 0;
+}
+
+/* --- properties ----------------------------------------------------------------------------------------- */
+
+static int32_t property(reader *r, int64_t pid, fl_err *err)
+{
+    const int32_t had = r->pids.n, k = fl_numbers_add(&r->pids, 0, pid, err);
+    if (k < had) return k;
+    if (fl_grow(&r->name, &r->name_cap, (int64_t)k + 1, sizeof *r->name, err) ||
+        fl_grow(&r->radius, &r->radius_cap, (int64_t)k + 1, sizeof *r->radius, err)) {
+        r->pids.n = had; /* there is no name to free */
+        return -1;
+    }
+    r->name[k] = NULL;
+    r->radius[k][0] = r->radius[k][1] = NAN;
+    return k;
+}
+
+static int call(reader *r, int64_t pid, const char *name, size_t n, fl_err *err)
+{
+    const int32_t k = property(r, pid, err);
+    char *copy;
+    if (k < 0) return -1;
+    while (n > 0 && isspace((unsigned char)name[n - 1])) n--;
+    if (n == 0) return 0;
+    if (n > NAME) n = NAME;
+    copy = fl_alloc((int64_t)n + 1, 1, err);
+    if (!copy) return -1;
+    memcpy(copy, name, n);
+    free(r->name[k]);
+    r->name[k] = copy;
+    return 0;
+}
+
+/* The names that preprocessors leave behind the $:
+ *     HMNAME PROP              7"leg" 4
+ *     ANSA_NAME_COMMENT;7;PSHELL;leg;...
+ *      Femap Property 7 : leg                */
+static int comment(void *context, const char *text, fl_err *err)
+{
+    reader *r = context;
+    char word[16], *end;
+    const char *p;
+    int64_t pid;
+    if (strncasecmp(text, "HMNAME PROP", 11) == 0) {
+        p = text + 11 + strspn(text + 11, " \t");
+        pid = strtoll(p, &end, 10);
+        end += strspn(end, " \t");
+        if (pid < 1 || pid > INT32_MAX || *end != '"') return 0;
+        return call(r, pid, end + 1, strcspn(end + 1, "\""), err);
+    }
+    if (strncasecmp(text, "ANSA_NAME_COMMENT;", 18) == 0) {
+        pid = strtoll(text + 18, &end, 10);
+        if (pid < 1 || pid > INT32_MAX || end[0] != ';' || toupper((unsigned char)end[1]) != 'P') return 0;
+        p = strchr(end + 1, ';');
+        return p ? call(r, pid, p + 1, strcspn(p + 1, ";"), err) : 0;
+    }
+    if (sscanf(text, " %15s", word) == 1 && strcasecmp(word, "Femap") == 0 &&
+        (p = strstr(text, "Property ")) != NULL) {
+        pid = strtoll(p + 9, &end, 10);
+        end += strspn(end, " \t");
+        if (pid < 1 || pid > INT32_MAX || *end != ':') return 0;
+        end += 1 + strspn(end + 1, " \t");
+        return call(r, pid, end, strlen(end), err);
+    }
+    return 0;
+}
+
+/* Radii of round sections. */
+static int section(reader *r, fl_err *err)
+{
+    const fl_bdf_entry *a = &r->at;
+    const int listed = strcmp(a->name, "PBARL") == 0 || strcmp(a->name, "PBEAML") == 0;
+    const char *kind = fl_bdf_field(a, 3);
+    int64_t pid;
+    double x[2] = {0};
+    int32_t k;
+    if (fl_bdf_number(a, 0, &pid, err)) return -1;
+    k = property(r, pid, err);
+    if (k < 0) return -1;
+    if (listed && strcasecmp(kind, "ROD") && strcasecmp(kind, "TUBE") && strcasecmp(kind, "TUBE2")) return 0;
+    if (fl_bdf_real(a, listed ? 8 : 2, &x[0], err)) return -1;
+    if (strcmp(a->name, "PTUBE") == 0 && fl_bdf_real(a, 5, &x[1], err)) return -1;
+    if (x[0] < 0.0 || x[1] < 0.0)
+        return fl_bdf_fail(a, err, "%s %lld is %g wide, 0 or more was wanted", a->name, (long long)pid,
+                           fmin(x[0], x[1]));
+    if (strcmp(a->name, "PTUBE") == 0) { /* outer diameters; blank for the far end as at the near one */
+        r->radius[k][0] = 0.5 * x[0];
+        r->radius[k][1] = *fl_bdf_field(a, 5) ? 0.5 * x[1] : 0.5 * x[0];
+    } else {
+        r->radius[k][0] = r->radius[k][1] = listed ? x[0] : sqrt(x[0] / PI);
+    }
+    return 0;
+}
+
+/* --- grids and coordinate systems ----------------------------------------------------------------------- */
+
+static int32_t frame_of(reader *r, int64_t id, fl_err *err)
+{
+    const int32_t k = fl_numbers_add(&r->frames, 0, id, err);
+    const int32_t had = r->frame_cap;
+    if (k < 0 || fl_grow(&r->frame, &r->frame_cap, (int64_t)k + 1, sizeof *r->frame, err)) return -1;
+    if (r->frame_cap > had) memset(r->frame + had, 0, (size_t)(r->frame_cap - had) * sizeof *r->frame);
+    return k;
+}
+
+static int grid(reader *r, fl_err *err)
+{
+    const fl_bdf_entry *a = &r->at;
+    int64_t id, cp;
+    fl_vec3 x;
+    int32_t k, f = BASIC;
+    if (fl_bdf_number(a, 0, &id, err) || fl_bdf_whole(a, 1, -1, &cp, err) || fl_bdf_point(a, 2, &x, err))
+        return -1;
+    if (cp < -1)
+        return fl_bdf_fail(a, err, "field 3 of GRID is \"%.40s\", 0 or more was wanted", fl_bdf_field(a, 1));
+    if (cp > 0 && (f = frame_of(r, cp, err)) < 0) return -1;
+    r->e.file = a->file;
+    r->e.line = a->line;
+    k = fl_elements_node(&r->e, 0, id, x, err);
+    if (k < 0 || fl_grow(&r->grid, &r->grid_cap, (int64_t)r->e.node.n, sizeof *r->grid, err)) return -1;
+    r->grid[k] = (grid_at){cp < 0 ? DEFAULT : cp == 0 ? BASIC : FIRST + f, a->file, a->line};
+    return 0;
+}
+
+/* CORD1x CID G1 G2 G3, and a second one behind it; CORD2x CID RID A1 A2 A3 B1 B2 B3 C1 C2 C3. */
+static int cord(reader *r, fl_err *err)
+{
+    const fl_bdf_entry *a = &r->at;
+    const int by = a->name[4] - '0';
+    for (int k = 0; k < (by == 1 ? 8 : 1); k += 4) {
+        frame f = {.kind = a->name[5], .by = by, .file = a->file, .line = a->line};
+        int64_t id;
+        int32_t at;
+        if (k && *fl_bdf_field(a, k) == '\0') break;
+        if (fl_bdf_number(a, k, &id, err)) return -1;
+        for (int i = 0; i < 3; i++)
+            if (by == 1 ? fl_bdf_number(a, k + 1 + i, &f.grid[i], err)
+                        : fl_bdf_point(a, 2 + 3 * i, &f.point[i], err))
+                return -1;
+        if (by == 2 && fl_bdf_whole(a, 1, 0, &f.other, err)) return -1;
+        at = frame_of(r, id, err);
+        if (at < 0) return -1;
+        r->frame[at] = f;
+    }
+    return 0;
+}
+
+/* Who wants a system: a line, or a grid. */
+typedef struct {
+    int32_t file, line;
+    int64_t grid;
+} asker;
+
+static int solve(reader *r, int64_t id, int depth, frame **out, asker who, fl_err *err);
+
+/* x of a system in the basic one. */
+static int from_system(reader *r, int64_t id, fl_vec3 *x, int depth, asker who, fl_err *err)
+{
+    frame *f = NULL;
+    fl_vec3 y = *x;
+    if (id == 0) return 0;
+    if (solve(r, id, depth, &f, who, err)) return -1;
+    if (f->kind != 'R') { /* quarter turns are exact */
+        const fl_mat3 about = fl_similar_rotation(v3(0, 0, 1), f->kind == 'C' ? x->y : x->z);
+        if (f->kind == 'C') y = v3_add(m3_mul(about, v3(x->x, 0, 0)), v3(0, 0, x->z));
+        else y = m3_mul(about, m3_mul(fl_similar_rotation(v3(0, 1, 0), x->y), v3(0, 0, x->x)));
+    }
+    *x = v3_add(f->point[0], m3_mul(f->axes, y));
+    if (isfinite(x->x) && isfinite(x->y) && isfinite(x->z)) return 0;
+    return fl_elements_fail(&r->e, who.file, who.line, err, "coordinate system %lld leads beyond all numbers",
+                            (long long)id);
+}
+
+/* A grid in the basic system, once and for all. */
+static int settle(reader *r, int32_t k, int depth, fl_err *err)
+{
+    grid_at *g = &r->grid[k];
+    const int32_t cp = g->cp;
+    if (cp == BASIC) return 0;
+    if (cp == OPEN)
+        return fl_elements_fail(&r->e, g->file, g->line, err,
+                                "grid %lld stands in a coordinate system that it defines",
+                                (long long)r->e.node.id[k]);
+    g->cp = OPEN;
+    if (from_system(r, cp == DEFAULT ? r->grdset : r->frames.id[cp - FIRST], &r->e.x[k], depth,
+                    (asker){g->file, g->line, r->e.node.id[k]}, err))
+        return -1;
+    g->cp = BASIC;
+    return 0;
+}
+
+/* Work out a system, after those that it is defined in. */
+static int solve(reader *r, int64_t id, int depth, frame **out, asker who, fl_err *err)
+{
+    const int32_t at = fl_numbers_find(&r->frames, 0, id);
+    frame *f = at < 0 ? NULL : &r->frame[at];
+    if ((!f || !f->by) && who.grid)
+        return fl_elements_fail(&r->e, who.file, who.line, err,
+                                "grid %lld wants coordinate system %lld, which is defined nowhere",
+                                (long long)who.grid, (long long)id);
+    if (!f || !f->by)
+        return fl_elements_fail(&r->e, who.file, who.line, err, "coordinate system %lld is defined nowhere",
+                                (long long)id);
+    *out = f;
+    if (f->state == 2) return 0;
+    if (f->state == 1)
+        return fl_elements_fail(&r->e, f->file, f->line, err, "coordinate system %lld is defined by itself",
+                                (long long)id);
+    if (depth == DEEPEST)
+        return fl_elements_fail(&r->e, f->file, f->line, err,
+                                "coordinate systems are defined in one another more than %d deep", DEEPEST);
+    f->state = 1;
+    for (int i = 0; i < 3; i++) {
+        if (f->by == 1) {
+            const int32_t k = fl_numbers_find(&r->e.node, 0, f->grid[i]);
+            if (k < 0 || isnan(r->e.x[k].x))
+                return fl_elements_fail(&r->e, f->file, f->line, err, "grid %lld is defined nowhere",
+                                        (long long)f->grid[i]);
+            if (settle(r, k, depth + 1, err)) return -1;
+            f->point[i] = r->e.x[k];
+        } else if (from_system(r, f->other, &f->point[i], depth + 1, (asker){f->file, f->line, 0}, err)) {
+            return -1;
+        }
+    }
+    const fl_vec3 z = v3_unit(v3_sub(f->point[1], f->point[0]));
+    const fl_vec3 y = v3_unit(v3_cross(z, v3_unit(v3_sub(f->point[2], f->point[0])))), x = v3_cross(y, z);
+    if (!(v3_norm(z) > 0.5) || !(v3_norm(y) > 0.5))
+        return fl_elements_fail(&r->e, f->file, f->line, err,
+                                "the points of coordinate system %lld lie on one line", (long long)id);
+    f->axes = (fl_mat3){{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}};
+    f->state = 2;
+    return 0;
+}
+
+/* --- elements ------------------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *name;
+    enum fl_shape linear, quadratic; /* the latter FL_SHAPES where there is none */
+} ELEMENT[] = {{"CTRIA3", FL_TRI3, FL_SHAPES},       {"CTRIAR", FL_TRI3, FL_SHAPES},
+               {"CTRIA6", FL_TRI3, FL_TRI6},         {"CPLSTN3", FL_TRI3, FL_SHAPES},
+               {"CPLSTS3", FL_TRI3, FL_SHAPES},      {"CQUAD4", FL_QUAD4, FL_SHAPES},
+               {"CQUADR", FL_QUAD4, FL_SHAPES},      {"CQUAD8", FL_QUAD4, FL_QUAD8},
+               {"CQUAD", FL_QUAD4, FL_QUAD9},        {"CSHEAR", FL_QUAD4, FL_SHAPES},
+               {"CPLSTN4", FL_QUAD4, FL_SHAPES},     {"CPLSTS4", FL_QUAD4, FL_SHAPES},
+               {"CTETRA", FL_TET4, FL_TET10},        {"CPYRAM", FL_PYRAMID5, FL_PYRAMID13},
+               {"CPYRA", FL_PYRAMID5, FL_PYRAMID13}, {"CPENTA", FL_WEDGE6, FL_WEDGE15},
+               {"CHEXA", FL_HEX8, FL_HEX20},         {"CBAR", FL_LINE2, FL_SHAPES},
+               {"CBEAM", FL_LINE2, FL_SHAPES},       {"CROD", FL_LINE2, FL_SHAPES},
+               {"CTUBE", FL_LINE2, FL_SHAPES},       {"CONROD", FL_LINE2, FL_SHAPES}};
+
+/* The mids between bottom and top stand before those of the top here, and behind them in elements.h. */
+static void swap_mids(enum fl_shape shape, int64_t *node)
+{
+    const int n = shape == FL_HEX20 ? 4 : shape == FL_WEDGE15 ? 3 : 0;
+    int64_t *upright = node + fl_shape_corners(shape) + n, *top = upright + n;
+    for (int k = 0; k < n; k++) {
+        const int64_t keep = upright[k];
+        upright[k] = top[k];
+        top[k] = keep;
+    }
+}
+
+static int element(reader *r, enum fl_shape linear, enum fl_shape quadratic, fl_err *err)
+{
+    const fl_bdf_entry *a = &r->at;
+    const int rod = strcmp(a->name, "CONROD") == 0, first = rod ? 1 : 2, corners = fl_shape_nodes(linear);
+    enum fl_shape shape = linear;
+    int64_t id, pid = CONROD, node[20];
+    int32_t p, k;
+    if (fl_bdf_number(a, 0, &id, err)) return -1;
+    if (!rod && (fl_bdf_whole(a, 1, id, &pid, err) || pid < 1))
+        return fl_bdf_fail(a, err, "field 3 of %s is \"%.40s\", a property was wanted", a->name,
+                           fl_bdf_field(a, 1));
+    p = property(r, pid, err);
+    if (p < 0) return -1;
+    for (int i = 0; i < corners; i++)
+        if (fl_bdf_number(a, first + i, &node[i], err)) return -1;
+    for (int i = corners; quadratic < FL_SHAPES && i < fl_shape_nodes(quadratic); i++) {
+        if (fl_bdf_whole(a, first + i, 0, &node[i], err)) return -1;
+        if (node[i]) shape = quadratic;
+    }
+    swap_mids(shape, node);
+    r->e.file = a->file;
+    r->e.line = a->line;
+    k = fl_elements_add(&r->e, 0, id, shape, p, node, err);
+    if (k < 0 || fl_grow(&r->grid, &r->grid_cap, (int64_t)r->e.node.n, sizeof *r->grid, err)) return -1;
+    if (rod) {
+        double area;
+        if (fl_bdf_real(a, 4, &area, err)) return -1;
+        if (area < 0.0) return fl_bdf_fail(a, err, "CONROD %lld has the area %g", (long long)id, area);
+        return fl_elements_radius(&r->e, k, sqrt(area / PI), sqrt(area / PI), err);
+    }
+    return 0;
+}
+
+/* Elements that are no surface, by how they begin. */
+static int is_skipped(const char *name)
+{
+    static const char *const family[] = {
+        "CELAS",  "CDAMP",  "CMASS",  "CONM",    "CBUSH",  "CGAP",   "CVISC",  "CWELD",  "CFAST",
+        "CSEAM",  "CRAC",   "CTRIAX", "CQUADX",  "CHBDY",  "CHACAB", "CHACBR", "CBEND",  "CBEAM3",
+        "CDUM",   "CAXIF",  "CSLOT",  "CFLUID",  "CCONE",  "CINT",   "RBE",    "RBAR",   "RROD",
+        "RTRPLT", "RJOINT", "RSPLIN", "RSSCON",  "PLOTEL", "GENEL",  "CPLSTN", "CPLSTS", "CSPOT",
+        "CACINF", "CIFHEX", "CIFPEN", "CIFQUAD", "CDUMMY", "CNGRET"};
+    for (size_t k = 0; k < sizeof family / sizeof *family; k++)
+        if (strncmp(name, family[k], strlen(family[k])) == 0) return 1;
+    return 0;
+}
+
+/* --- all of it ------------------------------------------------------------------------------------------ */
+
+static int entry(reader *r, fl_err *err)
+{
+    const fl_bdf_entry *a = &r->at;
+    const char *name = a->name;
+    int64_t cp;
+    if (strcmp(name, "GRID") == 0) return grid(r, err);
+    for (size_t k = 0; k < sizeof ELEMENT / sizeof *ELEMENT; k++)
+        if (strcmp(name, ELEMENT[k].name) == 0)
+            return element(r, ELEMENT[k].linear, ELEMENT[k].quadratic, err);
+    if (strlen(name) == 6 && strncmp(name, "CORD", 4) == 0 && strchr("12", name[4]) && strchr("RCS", name[5]))
+        return cord(r, err);
+    if (strcmp(name, "GRDSET") == 0) {
+        if (fl_bdf_whole(a, 1, 0, &cp, err)) return -1;
+        if (cp < 0) return fl_bdf_fail(a, err, "GRDSET names coordinate system %lld", (long long)cp);
+        r->grdset = cp;
+        return 0;
+    }
+    if (strcmp(name, "PTUBE") == 0 || strcmp(name, "PBARL") == 0 || strcmp(name, "PBEAML") == 0 ||
+        strcmp(name, "PROD") == 0)
+        return section(r, err);
+    if (name[0] == '=')
+        return fl_bdf_fail(a, err, "replication (=) is not read: export all grids and elements written out");
+    if (strcmp(name, "BEGIN") == 0 &&
+        strncasecmp(a->deck.line + 5 + strspn(a->deck.line + 5, " \t"), "SUPER", 5) == 0)
+        return fl_bdf_fail(a, err, "BEGIN SUPER is not read: export the model without superelements");
+    if (is_skipped(name)) return fl_elements_skip(&r->e, name, err);
+    return 0;
+}
+
+/* All grids in the basic system. */
+static int settle_all(reader *r, fl_err *err)
+{
+    for (int32_t k = 0; k < r->e.node.n; k++) {
+        if (isnan(r->e.x[k].x) || r->grid[k].cp == BASIC || (r->grid[k].cp == DEFAULT && r->grdset == 0))
+            continue;
+        if (settle(r, k, 0, err)) return -1;
+    }
+    return 0;
+}
+
+/* Properties become parts; one whose name another one has gets its number behind it. */
+static int name_parts(reader *r, fl_err *err)
+{
+    int32_t *part = fl_alloc(r->pids.n, sizeof *part, err);
+    int rc = -1;
+    if (!part) return -1;
+    for (int32_t k = 0; k < r->pids.n; k++) part[k] = -1;
+    for (int32_t i = 0; i < r->e.number.n; i++) {
+        fl_element *el = &r->e.element[i];
+        const int32_t k = el->part;
+        if (part[k] < 0) {
+            const long long pid = r->pids.id[k];
+            char name[NAME + 40];
+            if (pid < 0) snprintf(name, sizeof name, "conrod");
+            else if (!r->name[k]) snprintf(name, sizeof name, "property_%lld", pid);
+            else if (fl_names_find(&r->e.parts, r->name[k]) < 0)
+                snprintf(name, sizeof name, "%s", r->name[k]);
+            else snprintf(name, sizeof name, "%s_%lld", r->name[k], pid);
+            part[k] = fl_names_add(&r->e.parts, name, err);
+            if (part[k] < 0) goto done;
+        }
+        el->part = part[k];
+        if ((el->shape == FL_LINE2 || el->shape == FL_LINE3) && !isnan(r->radius[k][0]) &&
+            fl_elements_radius(&r->e, i, r->radius[k][0], r->radius[k][1], err))
+            goto done;
+    }
+    rc = 0;
+done:
+    free(part);
+    return rc;
+}
+
+static void end(reader *r)
+{
+    for (int32_t k = 0; k < r->pids.n; k++) free(r->name[k]);
+    fl_bdf_end(&r->at);
+    fl_elements_free(&r->e);
+    fl_numbers_free(&r->frames);
+    fl_numbers_free(&r->pids);
+    free(r->frame);
+    free(r->grid);
+    free(r->name);
+    free(r->radius);
+}
+
+int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_wish *w, fl_err *err)
+{
+    reader r = {.at = {.comment = comment}};
+    int rc = -1, more;
+    r.at.context = &r;
+    if (fl_elements_start(&r.e, fl_in_name(b->in), err)) goto done;
+    fl_deck_start(&r.at.deck, &r.e, b);
+    while ((more = fl_bdf_next(&r.at, err)) > 0)
+        if (entry(&r, err)) goto done;
+    if (more < 0) goto done;
+    fl_bdf_end(&r.at); /* a large deck is not wanted twice over */
+    free(b->data);
+    b->data = NULL;
+    b->n = b->cap = 0;
+    if (settle_all(&r, err) || name_parts(&r, err)) goto done;
+    rc = fl_elements_surface(&r.e, s, b, w, err);
+done:
+    end(&r);
+    return rc;
+}
