@@ -20,6 +20,8 @@ struct fit {
     fl_side *line, *left;    /* scratch: the cell's sides as moved, and those of the core        */
     fl_vec2 *corner;         /* scratch                                                          */
     unsigned char *state;    /* scratch                                                          */
+    double sharp;            /* cot(t / 2) for the angle t below which corners are cut off; 0: none are */
+    int32_t blunted;         /* corners cut off                                                  */
 };
 
 static void fit_free(struct fit *f)
@@ -306,13 +308,15 @@ static int no_room(const struct fit *f, int32_t i, fl_err *err)
                    i, f->inradius[i], f->radius);
 }
 
-/* Sides and inset in turn, until the sides chosen serve at the inset that they lead to. */
-static int settle(struct fit *f, double concentration, double *d, fl_err *err)
+/* Sides and inset in turn, until the sides chosen serve at the inset that they lead to.  The floes are to
+ * cover `lost` [m2] more than asked for, since so much will be cut off their corners. */
+static int settle(struct fit *f, double concentration, double lost, double *d, fl_err *err)
 {
     const int32_t n = f->cells->n;
-    double total, hi, fall, over;
+    double total, hi, fall, over, target;
     if (measure_cells(f, &total, &hi, err)) return -1;
-    over = excess(f, 1, hi, concentration * total, &fall);
+    target = concentration * total + lost;
+    over = excess(f, 1, hi, target, &fall);
     if (over > 0.0)
         return fl_fail(
             err, FL_INPUT,
@@ -320,7 +324,7 @@ static int settle(struct fit *f, double concentration, double *d, fl_err *err)
             "asked for: a smaller radius or fewer floes is wanted",
             f->radius, concentration + over / total, concentration);
     *d = 0.0;
-    if (solve(f, 1, concentration * total, hi, d))
+    if (solve(f, 1, target, hi, d))
         return fl_fail(err, FL_NUMERIC, "no inset gives a concentration of %.17g", concentration);
     for (int round = 0; round < ROUNDS; round++) {
         int32_t changed = 0, bad = INT32_MAX;
@@ -332,57 +336,151 @@ static int settle(struct fit *f, double concentration, double *d, fl_err *err)
         }
         if (bad < INT32_MAX) return no_room(f, bad, err);
         if (changed == 0) return 0;
-        over = excess(f, 0, 0.0, concentration * total, &fall);
+        over = excess(f, 0, 0.0, target, &fall);
         if (over < 0.0)
             return fl_fail(
                 err, FL_INPUT,
                 "floes of dilation radius %.4g m in these cells cover about %.10g of the area at most, "
                 "%.10g was asked for: a smaller radius or more smoothing is wanted",
                 f->radius, concentration + over / total, concentration);
-        if (solve(f, 0, concentration * total, hi, d)) break;
+        if (solve(f, 0, target, hi, d)) break;
     }
     return fl_fail(err, FL_NUMERIC, "sides and inset of %d floes do not settle at a concentration of %.17g",
                    n, concentration);
 }
 
+/* --- sharp corners -------------------------------------------------------------------------------------- */
+
+/* How far from corner k of the core of floe i, along its two sides, it is to be cut off; 0: it stays.  The
+ * new side is FL_FLOES_LEAST times the radius rho of the inscribed circle long, unless the corner is so sharp
+ * that this would take more than a quarter of a side.  *lost is the triangle that the outer polygon loses:
+ * its corner is r / sin(t / 2) away from that of the core, t being the angle, and the new side r, so that
+ * it is cut at a depth of h + r (1 / sin(t / 2) - 1) when the core is at h, whatever the inset. */
+static double blunt(const struct fit *f, int32_t n, const fl_side *side, const fl_vec2 *core, int32_t k,
+                    double rho, double *lost)
+{
+    const int32_t before = k ? k - 1 : n - 1;
+    /* the sides turn by pi - t, and tan((pi - t) / 2) = cot(t / 2) */
+    const double cot = half_tan(side[before], side[k]),
+                 quarter = 0.25 * fmin(length(core, before, n), length(core, k, n));
+    const double sine = 1.0 / hypot(1.0, cot); /* of t / 2 */
+    double along, depth;
+    *lost = 0.0;
+    if (!(f->sharp > 0.0 && cot > f->sharp)) return 0.0;
+    along = 0.5 * f->least * rho / sine;
+    if (!(along < quarter)) along = quarter;
+    depth = along * cot * sine + f->radius * (1.0 / sine - 1.0);
+    *lost = depth * depth / cot;
+    return along;
+}
+
+static double rho_of(const struct fit *f, int32_t i, double d)
+{
+    return f->inradius[i] - inset_of(f, i, d) - f->radius;
+}
+
+/* What all floes lose at inset d, and in how many corners. */
+static double lost_at(struct fit *f, double d, int32_t *corners)
+{
+    int32_t all = 0;
+#pragma omp parallel for schedule(static) reduction(+ : all)
+    for (int32_t i = 0; i < f->cells->n; i++) {
+        const int32_t first = f->cells->first[i], n = f->count[i];
+        double lost;
+        fl_polygon_corners(n, f->side + first, inset_of(f, i, d) + f->radius, f->corner + first);
+        f->area[i] = 0.0;
+        for (int32_t k = 0; k < n; k++) {
+            all += blunt(f, n, f->side + first, f->corner + first, k, rho_of(f, i, d), &lost) > 0.0;
+            f->area[i] += lost;
+        }
+    }
+    *corners = all;
+    return fl_par_sum(f->area, f->cells->n);
+}
+
+/* Sides and inset, and what is cut off at the inset to which that leads: it changes little with the inset. */
+static int settle_blunt(struct fit *f, double concentration, double *d, fl_err *err)
+{
+    double lost = 0.0;
+    for (int round = 0; round < ROUNDS; round++) {
+        double next;
+        int32_t corners;
+        if (settle(f, concentration, lost, d, err)) return -1;
+        next = lost_at(f, *d, &corners);
+        if (corners == f->blunted && fabs(next - lost) <= 1e-12 * lost) return 0;
+        f->blunted = corners;
+        lost = next;
+    }
+    return fl_fail(err, FL_NUMERIC, "corners and inset of %d floes do not settle at a concentration of %.17g",
+                   f->cells->n, concentration);
+}
+
 /* --- the floes ------------------------------------------------------------------------------------------ */
+
+/* The core of floe i at inset d, about the origin; v has room for twice its sides.  Returns their number. */
+static int32_t core_at(const struct fit *f, int32_t i, double d, fl_vec2 *v)
+{
+    const fl_side *side = f->side + f->cells->first[i];
+    const int32_t n = f->count[i];
+    fl_vec2 *core = f->corner + f->cells->first[i];
+    int32_t m = 0;
+    fl_polygon_corners(n, side, inset_of(f, i, d) + f->radius, core);
+    for (int32_t k = 0; k < n; k++) {
+        double lost;
+        const double along = blunt(f, n, side, core, k, rho_of(f, i, d), &lost);
+        const fl_side a = side[k ? k - 1 : n - 1], b = side[k];
+        if (!(along > 0.0)) {
+            v[m++] = core[k];
+            continue;
+        }
+        /* side a runs along (-ny, nx), and ends here; b begins */
+        v[m++] = (fl_vec2){core[k].x + along * a.ny, core[k].y - along * a.nx};
+        v[m++] = (fl_vec2){core[k].x - along * b.ny, core[k].y + along * b.nx};
+    }
+    return m;
+}
 
 static int collect(const struct fit *f, double d, fl_vec2 shift, fl_floes *a, fl_err *err)
 {
     const fl_cells *c = f->cells;
+    const int64_t room = (int64_t)c->first[c->n] + f->blunted;
     a->n = c->n;
     a->inset = d;
+    a->blunted = f->blunted;
     a->first = fl_alloc((int64_t)c->n + 1, sizeof *a->first, err);
-    if (!a->first) return -1;
-    for (int32_t i = 0; i < c->n; i++) a->first[i + 1] = a->first[i] + f->count[i];
-    a->core = fl_alloc(a->first[c->n], sizeof *a->core, err);
-    a->outer = fl_alloc(a->first[c->n], sizeof *a->outer, err);
-    if (!a->core || !a->outer) return -1;
+    a->core = fl_alloc(room, sizeof *a->core, err);
+    a->outer = fl_alloc(room, sizeof *a->outer, err);
+    if (!a->first || !a->core || !a->outer) return -1;
     for (int32_t i = 0; i < c->n; i++) {
-        const int32_t m = f->count[i];
         const fl_side *side = f->side + c->first[i];
         fl_vec2 *core = a->core + a->first[i];
-        fl_polygon_corners(m, side, inset_of(f, i, d) + f->radius, core);
+        const int32_t m = core_at(f, i, d, core);
+        a->first[i + 1] = a->first[i] + m;
         for (int32_t k = 0; k < m; k++) {
             core[k].x += shift.x;
             core[k].y += shift.y;
-            a->cut += side[k].c < c->side[c->first[i] + side[k].tag].c;
         }
+        for (int32_t k = 0; k < f->count[i]; k++) a->cut += side[k].c < c->side[c->first[i] + side[k].tag].c;
         fl_polygon_outset(m, core, f->radius, a->outer + a->first[i]);
         a->held += f->own ? f->most[i] <= f->own[i] : f->most[i] < d;
+        a->dropped += c->first[i + 1] - c->first[i] - f->count[i];
     }
-    a->dropped = c->first[c->n] - a->first[c->n];
     return 0;
 }
 
 int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
                   fl_err *err)
 {
-    struct fit f = {.cells = cells, .radius = radius, .few = FL_FLOES_SHORT, .least = FL_FLOES_LEAST};
+    struct fit f = {.cells = cells,
+                    .radius = radius,
+                    .few = FL_FLOES_SHORT,
+                    .least = FL_FLOES_LEAST,
+                    .sharp = 1.0 / tan(0.5 * FL_FLOES_SHARP)};
     fl_floes a = {0};
     double d = 0.0;
     int rc = -1;
-    if (fit_alloc(&f, err) || settle(&f, concentration, &d, err) || collect(&f, d, shift, &a, err)) goto done;
+    if (fit_alloc(&f, err) || settle_blunt(&f, concentration, &d, err) || collect(&f, d, shift, &a, err))
+        goto done;
     *out = a;
     a = (fl_floes){0};
     rc = 0;

@@ -10,6 +10,8 @@
  *     with half the inset to spare.
  *   - Where it does not, the side is kept and moves in farther, until the core's side is FL_FLOES_LEAST times
  *     that radius long (less at a blunt corner, so that the inscribed circle is never cut).
+ *   - A corner of the core sharper than FL_FLOES_SHARP is cut off by a side of FL_FLOES_LEAST times that
+ *     radius, square to the bisector; what the outer polygons lose there, the inset gives back.
  * A small cell keeps FL_FLOES_KEEP of the inscribed radius that it has to spare over the dilation radius: its
  * floe is inset less than the others ("held"). */
 #ifndef FL_ICE_FLOES_H
@@ -21,6 +23,7 @@
 #define FL_FLOES_SHORT 0.1
 #define FL_FLOES_LEAST 0.02
 #define FL_FLOES_KEEP 0.1
+#define FL_FLOES_SHARP 0.0872664625997165 /* 5 degrees */
 
 /* Floe i has the corners first[i] .. first[i + 1), counter-clockwise. */
 typedef struct {
@@ -31,6 +34,7 @@ typedef struct {
     double inset;    /* d                                         [m] */
     int32_t held;    /* floes inset by less than d               */
     int32_t dropped; /* sides of cells that have no side of a floe */
+    int32_t blunted; /* corners cut off since they were too sharp */
     int32_t cut;     /* sides that moved in by more than their floe */
 } fl_floes;
 

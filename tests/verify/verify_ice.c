@@ -119,12 +119,15 @@ static int field_of(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo
     for (int32_t i = 0; i < n; i++)
         if (add(&field, &a, i, radius, &err)) goto done;
     if (by_file(&field, &err) || weigh(&field, &a, &s, &err)) goto done;
-    verify_note("%s: %d floes, %d sides of cells dropped, %d moved in farther", what, n, a.dropped, a.cut);
+    verify_note("%s: %d floes, %d sides of cells dropped, %d moved in farther, %d corners cut off", what, n,
+                a.dropped, a.cut, a.blunted);
     snprintf(text, sizeof text, "mass of all [kg]");
     verify_row(id, text, s.mass, asked, 1e-12, VERIFY_REL);
     verify_below(id, "mass of one, largest relative error", s.worst, 1e-12);
     verify_below(id, "weight and buoyancy of one at rest, difference", s.afloat, 1e-12);
     verify_below(id, "overlaps and floes that are not convex", (double)t.overlaps + t.bent, 0.0);
+    verify_true(id, "no corner of a core is sharper than the bound",
+                t.angle >= FL_FLOES_SHARP * (1.0 - 1e-12));
     verify_true(id, "moments of inertia of all are positive", s.least > 0.0);
     rc = 0;
 done:
@@ -152,6 +155,26 @@ static void random_fields(void)
         field_of(what, n, site, lo, hi, 2, concentration[k], 0.02, "mass");
         snprintf(what, sizeof what, "cells of random points, concentration %g, sharp", concentration[k]);
         field_of(what, n, site, lo, hi, 0, concentration[k], 0.0, "mass");
+    }
+}
+
+/* Sites in rows far apart, close together in each and out of place by `off` of their distance: cells that are
+ * long and come to sharp points. */
+static void needles(void)
+{
+    enum { ACROSS = 60, ROWS = 4, N = ACROSS * ROWS };
+    static const double off[] = {0.1, 0.3, 0.45};
+    static fl_vec2 site[N];
+    char what[80];
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < N; i++) {
+            fl_rng g = fl_rng_of(9, i, FL_RNG_TEST);
+            site[i].x = i % ACROSS + 0.5 + fl_rng_in(&g, -off[k], off[k]);
+            site[i].y = 40.0 * (i / ACROSS + 0.5) + 10.0 * fl_rng_in(&g, -off[k], off[k]);
+        }
+        snprintf(what, sizeof what, "needles, out of place by up to %g of their width", off[k]);
+        field_of(what, N, site, (fl_vec2){0, 0}, (fl_vec2){ACROSS, 40 * ROWS}, 0, 0.7, k ? 0.0 : 0.005,
+                 "H05");
     }
 }
 
@@ -188,5 +211,6 @@ int main(int argc, char **argv)
     verify_begin("Fields of ice as the solver sees them");
     random_fields();
     slivers();
+    needles();
     return verify_end();
 }

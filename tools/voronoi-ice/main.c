@@ -341,6 +341,8 @@ static void certify(const struct options *o, const struct field *a, struct certi
         return;
     }
     certify_add(t, "sides of cells dropped", NOT_ASKED, a->floes.dropped, NO_DISTANCE, 10, NULL);
+    if (a->floes.blunted)
+        certify_add(t, "corners below 5 degrees cut off", NOT_ASKED, a->floes.blunted, NO_DISTANCE, 10, NULL);
     certify_add(t, "sides moved in farther", NOT_ASKED, a->floes.cut, NO_DISTANCE, 10, NULL);
 }
 
