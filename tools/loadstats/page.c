@@ -299,6 +299,12 @@ static int put_table(FILE *f, const page_source *from, const struct options *o, 
     if (rc == 0 && s.rows > 1) {
         fprintf(f, "<h2>%s</h2>\n", heading);
         if (table == TABLE_LEVELS) warn_far(f, from->span, o);
+        if (table == TABLE_LEGS)
+            fputs("<p>Ratios are those to the part that carries most. at_total is the value at the moment "
+                  "the total is largest, simultaneity that over the own largest value; of the total, its "
+                  "largest value over the sum of those of the parts. Rise and duration are means over the "
+                  "peaks.</p>\n",
+                  f);
         if (table == TABLE_FREQUENCY)
             fputs("<p>Of Welch's spectrum: share is the part of the variance within two steps df of the "
                   "dominant "
