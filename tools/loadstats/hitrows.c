@@ -302,8 +302,8 @@ static void intro(FILE *f, const void *what)
 {
     const place *p = what;
     static const char *const text[] = {
-        "The largest force on a round window of given area, wherever it lies on the structure, over that "
-        "area.",
+        ("The largest force on a round window of given area, wherever it lies on the structure, over that "
+         "area."),
         "The load along the waterline: what presses inward, level, over the length of each piece.",
         "The load on panels: what presses on each, over its area."};
     fputs(text[p->o->table == TABLE_PRESSURE ? 0 : p->o->table == TABLE_LINE ? 1 : 2], f);
