@@ -30,6 +30,8 @@ typedef struct {
     int32_t literal2, literal18;
 } fl_touching;
 
+/* Two things that are near.  What is new here and lasts from step to step, or is new in fl_world, goes into
+ * snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit. */
 typedef struct {
     int32_t i, j;           /* i moves, i < j                                        */
     int32_t n;              /* touching                                              */

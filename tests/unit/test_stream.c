@@ -389,6 +389,80 @@ static void to_standard_output(void **state)
     }
 }
 
+/* Written in two runs, the first of which went on after its mark and then failed, ended or was killed. */
+static void gone_on_with_at_a_mark(void **state)
+{
+    (void)state;
+    for (int gz = 0; gz < 2; gz++) {
+        for (int end = 0; end < 3; end++) {
+            const char *path = test_path("marked");
+            char part[300];
+            fl_err err = {0};
+            fl_out out = {0}, again = {0};
+            fl_mark mark;
+            int fresh = 1;
+            snprintf(part, sizeof part, "%s.part", path);
+            assert_int_equal(fl_out_open(&out, path, gz, &err), 0);
+            fwrite(sample, 1, 100000, out.f);
+            assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
+            assert_true(gz ? mark.at > 0 : mark.at == 100000);
+            fwrite("lost", 1, 4, out.f);
+            if (end == 0) fl_out_abort(&out); /* keeps PATH.part, as a mark speaks of it */
+            else if (end == 1) assert_int_equal(fl_out_close(&out, &err), 0);
+            else assert_int_equal(fflush(out.f), 0);
+            assert_int_equal(access(end == 1 ? path : part, F_OK), 0);
+            assert_int_equal(fl_out_marked(path, &mark, &err), 0);
+            assert_int_equal(fl_out_resume(&again, path, gz, &mark, &fresh, &err), 0);
+            assert_int_equal(fresh, 0);
+            assert_int_equal(access(part, F_OK), 0);
+            fwrite(sample + 100000, 1, SIZE - 100000, again.f);
+            assert_int_equal(fl_out_close(&again, &err), 0);
+            expect_sample(path, 1);
+            assert_int_equal(access(part, F_OK), -1);
+            if (end == 2) fl_out_abort(&out);
+            unlink(path);
+        }
+    }
+}
+
+static void another_file_is_not_gone_on_with(void **state)
+{
+    const char *path = test_path("marked");
+    fl_err err = {0};
+    fl_out out = {0};
+    fl_mark mark, longer, other, none = {-1, 0};
+    int fresh;
+    (void)state;
+    assert_int_equal(fl_out_open(&out, path, 0, &err), 0);
+    fwrite(sample, 1, 5000, out.f);
+    assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
+    assert_int_equal(fl_out_close(&out, &err), 0);
+    longer = other = mark;
+    longer.at++;
+    other.tail++;
+    assert_int_equal(fl_out_marked(path, &mark, &err), 0);
+    assert_int_equal(fl_out_marked(path, &none, &err), 0);
+    const fl_mark *const bad[2] = {&longer, &other};
+    for (int k = 0; k < 2; k++) {
+        fl_err why = {0};
+        assert_int_equal(fl_out_marked(path, bad[k], &why), -1);
+        assert_int_equal(why.code, FL_INPUT);
+        why = (fl_err){0};
+        assert_int_equal(fl_out_resume(&out, path, 0, bad[k], &fresh, &why), -1);
+        assert_int_equal(why.code, FL_INPUT);
+        assert_null(out.f);
+    }
+    /* a device has no places: it begins anew */
+    assert_int_equal(fl_out_open(&out, "/dev/null", 0, &err), 0);
+    assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
+    assert_int_equal(mark.at, -1);
+    assert_int_equal(fl_out_close(&out, &err), 0);
+    assert_int_equal(fl_out_resume(&out, "/dev/null", 0, &mark, &fresh, &err), 0);
+    assert_int_equal(fresh, 1);
+    assert_int_equal(fl_out_close(&out, &err), 0);
+    unlink(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(plain_and_gzip),
@@ -402,6 +476,8 @@ int main(void)
                                        cmocka_unit_test(full_disk),
                                        cmocka_unit_test(devices_and_links_stay),
                                        cmocka_unit_test(into_a_fifo),
+                                       cmocka_unit_test(gone_on_with_at_a_mark),
+                                       cmocka_unit_test(another_file_is_not_gone_on_with),
                                        cmocka_unit_test(to_standard_output)};
     return cmocka_run_group_tests_name("stream", tests, make_sample, NULL);
 }

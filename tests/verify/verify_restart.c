@@ -201,6 +201,25 @@ static void killed(const char *a, const char *b, double whole)
     }
 }
 
+/* Asked for checkpoints beside its own, a run goes on as if nothing had been. */
+static void asked(const char *a, const char *b)
+{
+    int asks = 0, sent = 0;
+    clear(b);
+    const pid_t child = go_on(b, "1");
+    for (; asks < 2000 && !there(b, "run.ckpt"); asks++)
+        wait_for(0.005); /* until then it may not listen yet */
+    for (int k = 0; k < 3; k++) {
+        fl_rng g = fl_rng_of(test_seed(), 1000 + k, FL_RNG_TEST);
+        sent += kill(child, SIGUSR1) == 0;
+        wait_for(fl_rng_in(&g, 0.0, 0.05));
+    }
+    const int status = end_of(child);
+    verify_note("SIGUSR1: sent %d times", sent);
+    verify_row("R03", "SIGUSR1: status of the run", status, 0, 0, VERIFY_ABS);
+    verify_row("R03", "SIGUSR1: files with other bytes", FILES - same_files(a, b), 0, 0, VERIFY_ABS);
+}
+
 int main(void)
 {
     char self[500];
@@ -230,6 +249,7 @@ int main(void)
     const double begun = now();
     if (end_of(go_on(a, "1")) != 0) die("dem-solve");
     killed(a, b, now() - begun);
+    asked(a, b);
     char line[500];
     snprintf(line, sizeof line, "rm -rf '%s'", root);
     if (system(line) != 0) printf("%s stays\n", root);
