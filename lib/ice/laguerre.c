@@ -17,6 +17,7 @@ enum { TRIES = 300, STEPS = 60, HALVES = 30, ROUNDS = 24, IDLE = 3, MANY = 8192,
 #define ROUGH 0.02
 #define NEAR 2e-6
 #define FITTED 1e-5
+#define EXACT 1e-9
 /* The area of a cell in squares of the radius of its inscribed circle, before the cell is known: a regular
  * hexagon has 3.46, the cells of random sites somewhat more. */
 #define SHAPE 3.7
@@ -574,6 +575,34 @@ static int start(struct fitted *s, uint64_t seed, fl_err *err)
     return fl_laguerre_place(s->n, seed, s->cell, s->in, s->site, s->weight, err);
 }
 
+static void fitted_free(struct fitted *s)
+{
+    free(s->site);
+    free(s->to);
+    free(s->weight);
+    free(s->cell);
+    free(s->model);
+    free(s->got);
+}
+
+int fl_laguerre_cells(fl_cells *cells, int32_t n, uint64_t seed, const double *area, const fl_outline *in,
+                      int32_t smooth, fl_err *err)
+{
+    struct fitted s = {.n = n, .in = in, .area = area};
+    fl_cells c = {0}, last = {0};
+    int rc = -1;
+    if (start(&s, seed, err) || fl_laguerre_solve(&c, n, s.site, s.weight, s.cell, in, ROUGH, err)) goto done;
+    for (int32_t k = 0; k < smooth; k++)
+        if (smooth_once(&s, &c, err)) goto done;
+    if (fl_laguerre_solve(&last, n, s.site, s.weight, s.cell, in, EXACT, err)) goto done;
+    *cells = last;
+    rc = 0;
+done:
+    fitted_free(&s);
+    fl_cells_free(&c);
+    return rc;
+}
+
 int fl_laguerre_floes(fl_cells *cells, fl_floes *floes, int32_t n, uint64_t seed, const double *area,
                       const fl_outline *in, int32_t smooth, double concentration, double radius,
                       fl_vec2 shift, double *off, fl_err *err)
@@ -615,12 +644,7 @@ int fl_laguerre_floes(fl_cells *cells, fl_floes *floes, int32_t n, uint64_t seed
     best = (fl_floes){0};
     rc = 0;
 done:
-    free(s.site);
-    free(s.to);
-    free(s.weight);
-    free(s.cell);
-    free(s.model);
-    free(s.got);
+    fitted_free(&s);
     fl_cells_free(&c);
     fl_cells_free(&best_cells);
     fl_floes_free(&a);

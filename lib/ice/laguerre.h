@@ -41,4 +41,10 @@ int fl_laguerre_floes(fl_cells *cells, fl_floes *floes, int32_t n, uint64_t seed
                       const fl_outline *in, int32_t smooth, double concentration, double radius,
                       fl_vec2 shift, double *off, fl_err *err);
 
+/* Cells that have the areas area[n] to 1e-9 of each, which add up to that of the outline: place, and smooth
+ * steps of Lloyd's method, each with the weights found anew.
+ * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM; cells is untouched then. */
+int fl_laguerre_cells(fl_cells *cells, int32_t n, uint64_t seed, const double *area, const fl_outline *in,
+                      int32_t smooth, fl_err *err);
+
 #endif

@@ -70,6 +70,27 @@ static void cells_get_their_areas(void **state)
     }
 }
 
+/* Cells of asked areas in one call: they are right, fill the outline, and no smoothing makes them empty. */
+static void cells_in_one_call(void **state)
+{
+    (void)state;
+    for (int smooth = 0; smooth < 4; smooth += 3) {
+        static double area[N], got[N];
+        fl_cells c = {0};
+        fl_err err = {0};
+        double sum = 0.0;
+        sizes(N, &POLYGON, 1.0, area);
+        assert_int_equal(fl_laguerre_cells(&c, N, test_seed(), area, &POLYGON, smooth, &err), 0);
+        fl_cells_areas(&c, got);
+        for (int32_t i = 0; i < N; i++) {
+            assert_near(got[i], area[i], 1e-8);
+            sum += got[i];
+        }
+        assert_near(sum, fl_outline_area(&POLYGON), 1e-13);
+        fl_cells_free(&c);
+    }
+}
+
 /* Two sites in a square: the wall lies where the smaller one gets a fifth, and weights tell where. */
 static void two_cells(void **state)
 {
@@ -156,9 +177,9 @@ static void failures_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(discs_stand_apart), cmocka_unit_test(cells_get_their_areas),
-        cmocka_unit_test(two_cells),         cmocka_unit_test(floes_get_their_areas),
-        cmocka_unit_test(failures_are_told),
+        cmocka_unit_test(discs_stand_apart),     cmocka_unit_test(cells_get_their_areas),
+        cmocka_unit_test(cells_in_one_call),     cmocka_unit_test(two_cells),
+        cmocka_unit_test(floes_get_their_areas), cmocka_unit_test(failures_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -154,9 +154,13 @@ static int make_sized(const struct options *o, struct field *a, fl_err *err)
     const fl_outline in = water_outline(&a->water, o);
     double off;
     tell(o, "dividing the field into cells of given areas");
-    a->asked = o->concentration;
-    if (fl_laguerre_floes(&a->cells, &a->floes, o->floes, o->seed, a->sizing.area, &in, o->smooth,
-                          o->concentration, o->radius, a->water.shift, &off, err))
+    a->asked = o->bonded ? 1.0 : o->concentration;
+    if (o->bonded) {
+        if (fl_laguerre_cells(&a->cells, o->floes, o->seed, a->sizing.area, &in, o->smooth, err) ||
+            fl_floes_fill(&a->floes, &a->cells, o->radius, a->water.shift, err))
+            return -1;
+    } else if (fl_laguerre_floes(&a->cells, &a->floes, o->floes, o->seed, a->sizing.area, &in, o->smooth,
+                                 o->concentration, o->radius, a->water.shift, &off, err))
         return -1;
     return sizing_measure(&a->sizing, &a->floes, err);
 }

@@ -429,8 +429,8 @@ static int check_piles(const struct options *o, fl_err *err)
 
 static int check_bonded(const struct options *o, fl_err *err)
 {
-    static const int without[] = {CONCENTRATION, SIZES};
-    return o->bonded ? useless(o, "beside --bonded, which fills the field", 2, without, err) : 0;
+    static const int without[] = {CONCENTRATION};
+    return o->bonded ? useless(o, "beside --bonded, which fills the field", 1, without, err) : 0;
 }
 
 static int apply(struct options *o, int c, const char *arg, fl_err *err)

@@ -29,13 +29,15 @@ static int by_number(const void *a, const void *b)
     return (p->i > q->i) - (p->i < q->i);
 }
 
+static double covered(const struct options *o) { return o->bonded ? 1.0 : o->concentration; }
+
 /* How many floes, and which concentration, where the command line leaves them to the sizes. */
 static int settle(const struct sizing *s, struct options *o, double area, fl_err *err)
 {
     const double each = fl_sizes_mean(&s->law);
     const int list = s->law.kind == FL_SIZES_LIST;
     double n = o->floes;
-    if (list && !o->has_floes && !o->has_concentration) {
+    if (list && !o->has_floes && !o->has_concentration && !o->bonded) {
         const double cover = s->law.sum[s->law.n] / area;
         if (!(cover > 0.0 && cover < 1.0))
             return fl_fail(err, FL_INPUT,
@@ -45,7 +47,7 @@ static int settle(const struct sizing *s, struct options *o, double area, fl_err
         o->concentration = cover;
     }
     if (list && !o->has_floes) n = s->law.upto[s->law.n];
-    if (s->law.kind == FL_SIZES_POWER && !o->has_floes) n = o->concentration * area / each;
+    if (s->law.kind == FL_SIZES_POWER && !o->has_floes) n = covered(o) * area / each;
     if (!(n >= 0.5 && n <= FLOES_MOST))
         return fl_fail(
             err, FL_INPUT,
@@ -64,7 +66,7 @@ int sizing_ask(struct sizing *s, struct options *o, double area, fl_err *err)
     s->law = o->law;
     if (o->sizes_file && fl_sizes_read(&s->law, o->sizes, err)) return -1;
     if (settle(s, o, area, err)) return -1;
-    s->mean = o->concentration * area / o->floes;
+    s->mean = covered(o) * area / o->floes;
     s->factor = s->law.kind == FL_SIZES_POWER || s->law.kind == FL_SIZES_LIST
                     ? sqrt(s->mean / fl_sizes_mean(&s->law))
                     : NAN;
