@@ -46,7 +46,9 @@ int fl_shape_face(enum fl_shape shape, int face, int corner[4])
 int fl_elements_start(fl_elements *e, const char *file, fl_err *err)
 {
     *e = (fl_elements){0};
-    return fl_elements_file(e, file, err);
+    if (fl_elements_file(e, file, err) == 0) return 0;
+    fl_elements_free(e);
+    return -1;
 }
 
 int fl_elements_file(fl_elements *e, const char *file, fl_err *err)

@@ -15,6 +15,7 @@
 #include "mesh/read_ply.h"
 #include "mesh/read_stl.h"
 #include "mesh/read_vtk.h"
+#include "mesh/read_vtx.h"
 
 enum { NAME = 128 };
 
@@ -100,6 +101,7 @@ static int is_faces(const fl_bytes *b)
 static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
 {
     if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
+    if (fl_vtx_is(b)) return fl_vtx_read(s, b, name, w, err);
     if (fl_vtk_is(b)) return fl_vtk_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
     if (fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
 #include "mesh/read_mesh.h"
 #include "support/mesh.h"
 #include "support/model.h"
@@ -421,6 +422,114 @@ static void put_vtk(FILE *f, const model *m, int variant)
     fputc('\n', f);
 }
 
+static void put_base64(FILE *f, const unsigned char *p, size_t n)
+{
+    static const char letter[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t k = 0; k < n; k += 3) {
+        const unsigned a = p[k], b = k + 1 < n ? p[k + 1] : 0, c = k + 2 < n ? p[k + 2] : 0;
+        fputc(letter[a >> 2], f);
+        fputc(letter[(a & 3) << 4 | b >> 4], f);
+        fputc(k + 1 < n ? letter[(b & 15) << 2 | c >> 6] : '=', f);
+        fputc(k + 2 < n ? letter[c & 63] : '=', f);
+    }
+}
+
+/* variant 0 ascii, 1 base64 with the highest byte first, 2 appended, 3 appended in base64 and packed. */
+typedef struct {
+    FILE *f, *data; /* the file, and what is appended to it */
+    int variant;
+} xml;
+
+/* Two blocks of packed data behind a header that is encoded by itself. */
+static void put_packed(FILE *f, const unsigned char *p, size_t n)
+{
+    const size_t half = (n + 1) / 2;
+    static unsigned char out[80000], head[40];
+    uLongf size[2] = {sizeof out / 2, sizeof out / 2};
+    assert_int_equal(compress(out, &size[0], p, half), Z_OK);
+    assert_int_equal(compress(out + size[0], &size[1], p + half, n - half), Z_OK);
+    const uint64_t word[5] = {2, half, n - half == half ? 0 : n - half, size[0], size[1]};
+    for (int k = 0; k < 40; k++) head[k] = (unsigned char)(word[k / 8] >> 8 * (k % 8) & 0xff);
+    put_base64(f, head, sizeof head);
+    put_base64(f, out, size[0] + size[1]);
+}
+
+/* An array: whole numbers of 4 bytes, or doubles. */
+static void put_array(xml *x, const char *name, const double *v, int n, int is_real)
+{
+    static const char *const format[] = {"ascii", "binary", "appended", "appended"};
+    char *text = NULL;
+    size_t len = 0;
+    FILE *raw = open_memstream(&text, &len);
+    sink k = {raw, x->variant > 0, x->variant == 1};
+    fprintf(x->f, "<DataArray type=\"%s\" Name=\"%s\" format=\"%s\"", is_real ? "Float64" : "Int32", name,
+            format[x->variant]);
+    if (x->variant > 1) fprintf(x->f, " offset=\"%ld\"/>\n", ftell(x->data));
+    else fprintf(x->f, ">\n");
+    if (x->variant == 1 || x->variant == 2)
+        put_int(&k, (int64_t)n * (is_real ? 8 : 4), x->variant == 1 ? 4 : 8);
+    for (int i = 0; i < n; i++) {
+        if (is_real) put_real(&k, v[i]);
+        else put_int(&k, (int64_t)v[i], 4);
+    }
+    fclose(raw);
+    if (x->variant == 0) fwrite(text, 1, len, x->f);
+    if (x->variant == 1) put_base64(x->f, (unsigned char *)text, len);
+    if (x->variant < 2) fprintf(x->f, "\n</DataArray>\n");
+    if (x->variant == 2) fwrite(text, 1, len, x->data);
+    if (x->variant == 3) put_packed(x->data, (unsigned char *)text, len);
+    free(text);
+}
+
+static void put_vtx(FILE *f, const model *m, int variant)
+{
+    static double v[MODEL_ELEMENTS * 20 + 3 * MODEL_NODES];
+    const int solid = fl_shape_faces(m->e[0].shape) > 0, nodes = fl_shape_nodes(m->e[0].shape);
+    const char *type = solid ? "UnstructuredGrid" : "PolyData", *cells = solid ? "Cells" : "Polys";
+    char *text = NULL;
+    size_t len = 0;
+    xml x = {f, open_memstream(&text, &len), variant};
+    int n = 0;
+    fprintf(f,
+            "<?xml version=\"1.0\"?>\n<!-- a > body <b> -->\n<VTKFile type=\"%s\" byte_order='%s' "
+            "header_type=\"UInt%d\"%s>\n<%s>\n<FieldData>\n",
+            type, variant == 1 ? "BigEndian" : "LittleEndian", variant == 1 ? 32 : 64,
+            variant == 3 ? " compressor=\"vtkZLibDataCompressor\"" : "", type);
+    fprintf(f, "<Array type=\"String\" Name=\"part_name\" format=\"ascii\">");
+    for (int p = 0; p < MODEL_PARTS; p++) {
+        for (const char *c = m->part[p]; *c; c++) fprintf(f, "%d ", *c);
+        fprintf(f, "0 ");
+    }
+    fprintf(f, "</Array>\n<DataArray type=\"Int32\" Name=\"part_id\" format=\"ascii\">7 "
+               "8</DataArray></FieldData>\n");
+    fprintf(f, "<Piece NumberOfPoints=\"%d\" NumberOf%s=\"%d\">\n<CellData>\n", m->nodes, cells, m->elements);
+    for (int32_t i = 0; i < m->elements; i++) v[i] = 7 + m->e[i].part;
+    put_array(&x, "part", v, m->elements, 0);
+    fprintf(f, "</CellData>\n<Points>\n");
+    for (int32_t i = 0; i < m->nodes; i++) {
+        v[3 * i] = m->x[i].x;
+        v[3 * i + 1] = m->x[i].y;
+        v[3 * i + 2] = m->x[i].z;
+    }
+    put_array(&x, "Points", v, 3 * m->nodes, 1);
+    fprintf(f, "</Points>\n<%s>\n", cells);
+    for (int32_t i = 0; i < m->elements; i++)
+        for (int c = 0; c < nodes; c++) v[n++] = (double)index_of(m, m->e[i].node[c]);
+    put_array(&x, "connectivity", v, n, 0);
+    for (int32_t i = 0; i < m->elements; i++) v[i] = (i + 1) * nodes;
+    put_array(&x, "offsets", v, m->elements, 0);
+    for (int32_t i = 0; i < m->elements; i++) v[i] = vtk_type(m->e[i].shape);
+    if (solid) put_array(&x, "types", v, m->elements, 0);
+    fprintf(f, "</%s>\n</Piece>\n</%s>\n", cells, type);
+    fclose(x.data);
+    if (variant > 1) {
+        fprintf(f, "<AppendedData encoding=\"%s\">\n_", variant == 2 ? "raw" : "base64");
+        fwrite(text, 1, len, f);
+        fprintf(f, "\n</AppendedData>\n");
+    }
+    fprintf(f, "</VTKFile>\n");
+    free(text);
+}
 /* --- the test ------------------------------------------------------------------------------------------- */
 
 static const char *written(put_fn *put, const model *m, int variant)
@@ -486,6 +595,7 @@ static void vtk_gives_the_same(void **state)
 {
     (void)state;
     for (int variant = 0; variant < 8; variant++) check(put_vtk, "vtk", variant);
+    for (int variant = 0; variant < 4; variant++) check(put_vtx, "vtx", variant);
 }
 
 static void nastran_gives_the_same(void **state)
