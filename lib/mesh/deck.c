@@ -132,10 +132,11 @@ int fl_deck_real(const char *s, double *x)
 
 int fl_deck_whole(const char *s, int64_t *x)
 {
-    const char *p = s + (*s == '-' || *s == '+');
-    const size_t n = strspn(p, "0123456789");
-    if (n == 0 || n > 18 || p[n] != '\0') return -1;
-    *x = strtoll(s, NULL, 10);
+    const char *p = s + (*s == '-' || *s == '+'), *first = p;
+    int64_t n = 0;
+    for (; *p >= '0' && *p <= '9' && p - first < 18; p++) n = 10 * n + (*p - '0');
+    if (p == first || *p != '\0') return -1; /* what goes on has more than 18 digits */
+    *x = *s == '-' ? -n : n;
     return 0;
 }
 

@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* numbers.h -- sparse numbers of nodes and elements to indices: each different pair of a scope and a number
- * is kept once and counted from 0 as it first appears. */
+ * is kept once and counted from 0 as it first appears.
+ *
+ * Most files count up, and speak of numbers near one another: as long as all rise nothing is hashed, and the
+ * first guess is that numbers go on by one from the last that was met.  Any other order costs a hash. */
 #ifndef FL_MESH_NUMBERS_H
 #define FL_MESH_NUMBERS_H
 #include <stdint.h>
 #include "base/err.h"
 
 typedef struct {
-    int32_t n, id_cap, scope_cap, slots; /* slots: 0 or a power of two above 3 n / 2 */
-    int64_t *id;                         /* [n] the number in the file */
+    int32_t n, last, id_cap, scope_cap;
+    int32_t slots;  /* 0 as long as all rise, else a power of two above 3 n / 2 */
+    int64_t *id;    /* [n] the number in the file */
     int32_t *scope; /* [n] whose number it is: the instance of a part, 0 in a flat file */
     int32_t *slot;  /* [slots] index plus one, 0 when free */
 } fl_numbers;
