@@ -283,7 +283,11 @@ static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, d
     for (int32_t c = 0; c < sides && n > 2 && width > 0.0; c++) { /* what lies in the rim of side c */
         const int32_t d = c + 1 < sides ? c + 1 : 0;
         const corner a = rim[c], b = rim[d], ai = inner[c], bi = inner[d];
-        int32_t m = n;
+        int32_t m = n, reached = 0;
+        for (int32_t k = 0; k < n; k++) /* by a corner nearer to the side than its rim is wide */
+            reached |=
+                (b.x - a.x) * (buffer[0][k].y - a.y) - (b.y - a.y) * (buffer[0][k].x - a.x) < width * a.s;
+        if (!reached) continue;
         for (int32_t k = 0; k < n; k++) buffer[2][k] = buffer[0][k];
         m = left_of(&buffer[2], &buffer[1], g, m, bi.x, bi.y, ai.x, ai.y);
         if (m > 2) m = left_of(&buffer[2], &buffer[1], g, m, b.x, b.y, bi.x, bi.y);
