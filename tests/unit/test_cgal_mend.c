@@ -266,6 +266,53 @@ static void remeshed_is_even_and_where_it_was(void **state)
     fl_part_free(&q);
 }
 
+/* Triangles on any three of a few points: nothing crashes, failures are FL_NUMERIC, and what comes out is
+ * sound. */
+static void any_soup_is_survived(void **state)
+{
+    (void)state;
+    for (long k = 0; k < test_times(60); k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        const int32_t nv = 4 + (int32_t)fl_rng_in(&g, 0, 12), nt = 1 + (int32_t)fl_rng_in(&g, 0, 30);
+        fl_part p = {0};
+        for (int32_t v = 0; v < nv; v++) {
+            const fl_vec3 x = v3(fl_rng_in(&g, 0, 4), fl_rng_in(&g, 0, 4), fl_rng_in(&g, 0, k % 2 ? 4 : 1));
+            fl_surface_vertex(&p, k % 3 ? x : v3(floor(x.x), floor(x.y), floor(x.z)), &err);
+        }
+        while (p.nt < nt) {
+            const int32_t a = (int32_t)fl_rng_in(&g, 0, nv), b = (int32_t)fl_rng_in(&g, 0, nv),
+                          c = (int32_t)fl_rng_in(&g, 0, nv);
+            if (a != b && b != c && c != a) fl_surface_triangle(&p, a, b, c, &err);
+        }
+        for (int what = 0; what < 4; what++) {
+            fl_soup s = soup_of(&p), t = soup_of(&p);
+            fl_err e = {0};
+            fl_crossing c;
+            fl_untangle did;
+            fl_repair mended;
+            int32_t gone;
+            int rc = fl_cgal_repair(&s, 0, 0.0, &mended, &e);
+            if (rc == 0 && what == 0) rc = fl_cgal_crossings(&s, &c, &e);
+            if (rc == 0 && what == 1) rc = fl_cgal_untangle(&s, &did, &e);
+            if (rc == 0 && what == 2) rc = fl_cgal_simplify(&s, 0.1, &gone, &e);
+            if (rc == 0 && what == 3) rc = fl_cgal_remesh(&s, 0.5, &e);
+            if (rc && e.code != FL_NUMERIC)
+                print_error("seed %llu case %ld\n", (unsigned long long)test_seed(), k);
+            assert_true(rc == 0 || e.code == FL_NUMERIC);
+            for (int32_t m = 0; m < 3 * s.nt; m++) assert_true(s.t[m] >= 0 && s.t[m] < s.nv);
+            for (int32_t m = 0; m < 3 * s.nv; m++) assert_true(isfinite(s.x[m]));
+            if (s.nt && t.nt) {
+                double least, most;
+                assert_int_equal(fl_cgal_distance(&s, &t, 1e-6, &least, &most, &e), 0);
+                assert_true(least >= 0.0 && most >= least && most < 10.0);
+            }
+            fl_soup_free(&s);
+            fl_soup_free(&t);
+        }
+        fl_part_free(&p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_way_to_meet),
@@ -273,6 +320,7 @@ int main(void)
                                        cmocka_unit_test(a_patch_through_itself_is_rebuilt),
                                        cmocka_unit_test(distances_are_bounded_on_both_sides),
                                        cmocka_unit_test(simplified_stays_within_the_distance),
-                                       cmocka_unit_test(remeshed_is_even_and_where_it_was)};
+                                       cmocka_unit_test(remeshed_is_even_and_where_it_was),
+                                       cmocka_unit_test(any_soup_is_survived)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
