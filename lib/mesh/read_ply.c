@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/names.h"
 #include "base/num.h"
 #include "geom/facet.h"
 #include "mesh/read_ply.h"
@@ -14,7 +16,7 @@ static const char *const type_name[TYPES][2] = {
 static const int type_size[TYPES] = {1, 1, 2, 2, 4, 4, 4, 8};
 
 /* What the numbers of a property are for. */
-typedef enum { NOTHING, X, Y, Z, CORNERS } role;
+typedef enum { NOTHING, X, Y, Z, PART, CORNERS } role;
 
 typedef struct {
     type of, count; /* type of the value; of the length of a list */
@@ -37,7 +39,11 @@ typedef struct {
     property *pr;
     int32_t els, prs, el_cap, pr_cap;
     int32_t *loop, loop_cap, loop_n;
-    int64_t row; /* element being read, for complaints about binary data */
+    int64_t row;    /* element being read, for complaints about binary data */
+    fl_names names; /* of parts, as comments of the header give them */
+    double *number; /* [names.n] their numbers */
+    double *of;     /* [triangles] the part of each, where faces have that property */
+    int32_t number_cap, of_cap;
 } ply;
 
 int fl_ply_is(const fl_bytes *b)
@@ -101,6 +107,7 @@ static int read_property(ply *p, fl_err *err)
     if (read_type(b, list ? 3 : 1, &q.of, err)) return -1;
     if (e->is == VERTEX && !list && strlen(name) == 1 && *name >= 'x' && *name <= 'z')
         q.is = *name == 'x' ? X : *name == 'y' ? Y : Z;
+    if (e->is == FACE && !list && q.of < F32 && strcmp(name, "part") == 0) q.is = PART;
     if (e->is == FACE && list && (strcmp(name, "vertex_indices") == 0 || strcmp(name, "vertex_index") == 0))
         q.is = CORNERS;
     if ((list && q.count >= F32) || (q.is == CORNERS && q.of >= F32))
@@ -124,8 +131,23 @@ static int check_header(const ply *p, fl_err *err)
     }
     if (elements[VERTEX] != 1 || seen[X] != 1 || seen[Y] != 1 || seen[Z] != 1)
         return fl_bytes_fail(p->b, err, "one element \"vertex\" with properties x, y and z was wanted");
+    if (seen[PART] > 1) return fl_bytes_fail(p->b, err, "the property part comes twice");
     if (elements[FACE] != 1 || seen[CORNERS] != 1)
         return fl_bytes_fail(p->b, err, "one element \"face\" with one list vertex_indices was wanted");
+    return 0;
+}
+
+/* "comment part NUMBER NAME", as fl_ply_write() leaves it; any other comment says nothing. */
+static int read_comment(ply *p, fl_err *err)
+{
+    const fl_bytes *b = p->b;
+    const int32_t had = p->names.n;
+    double x;
+    int32_t k;
+    if (b->words != 4 || strcmp(b->field[1], "part") != 0 || fl_num_f64(b->field[2], &x)) return 0;
+    k = fl_names_add(&p->names, b->field[3], err);
+    if (k < 0 || fl_grow(&p->number, &p->number_cap, p->names.n, sizeof *p->number, err)) return -1;
+    if (k >= had) p->number[k] = x;
     return 0;
 }
 
@@ -148,8 +170,9 @@ static int read_header(ply *p, fl_err *err)
             if (read_element(p, err)) return -1;
         } else if (strcmp(word, "property") == 0) {
             if (read_property(p, err)) return -1;
-        } else if (strcmp(word, "ply") != 0 && strcmp(word, "comment") != 0 &&
-                   strcmp(word, "obj_info") != 0) {
+        } else if (strcmp(word, "comment") == 0) {
+            if (read_comment(p, err)) return -1;
+        } else if (strcmp(word, "ply") != 0 && strcmp(word, "obj_info") != 0) {
             return fl_bytes_fail(b, err, "\"%.40s\" has no place in a PLY header", word);
         }
     }
@@ -228,6 +251,9 @@ static int read_list(ply *p, const property *q, const fl_part *part, fl_err *err
 static int read_one(ply *p, const element *e, fl_part *part, fl_err *err)
 {
     fl_vec3 x = {0};
+    double of = 0.0;
+    const int32_t had = part->nt;
+    p->loop_n = 0;
     for (int32_t k = e->first; k < e->last; k++) {
         const property *q = &p->pr[k];
         double value = 0.0;
@@ -236,8 +262,14 @@ static int read_one(ply *p, const element *e, fl_part *part, fl_err *err)
         if (q->is == X) x.x = value;
         if (q->is == Y) x.y = value;
         if (q->is == Z) x.z = value;
+        if (q->is == PART) of = value;
     }
-    if (e->is == FACE) return p->loop_n < 3 ? 0 : fl_facet_polygon(part, p->loop_n, p->loop, err);
+    if (e->is == FACE) {
+        if (p->loop_n >= 3 && fl_facet_polygon(part, p->loop_n, p->loop, err)) return -1;
+        if (fl_grow(&p->of, &p->of_cap, part->nt, sizeof *p->of, err)) return -1;
+        for (int32_t t = had; t < part->nt; t++) p->of[t] = of;
+        return 0;
+    }
     if (e->is != VERTEX) return 0;
     if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
         return fl_bytes_fail(p->b, err, "vertex %lld is %g %g %g, finite numbers were wanted",
@@ -245,20 +277,129 @@ static int read_one(ply *p, const element *e, fl_part *part, fl_err *err)
     return fl_surface_vertex(part, x, err);
 }
 
+/* --- parts ---------------------------------------------------------------------------------------------- */
+
+enum { MOST = 1000000000 }; /* more parts can be numbered behind it */
+
+typedef struct {
+    double of;
+    int32_t t;
+} dealt;
+
+static int by_part(const void *pa, const void *pb)
+{
+    const dealt *a = pa, *b = pb;
+    if (a->of != b->of) return a->of < b->of ? -1 : 1;
+    return a->t < b->t ? -1 : a->t > b->t;
+}
+
+static int by_index(const void *pa, const void *pb)
+{
+    const int32_t a = *(const int32_t *)pa, b = *(const int32_t *)pb;
+    return a < b ? -1 : a > b;
+}
+
+/* An empty part for the faces of that number. */
+static int32_t open_part(const ply *p, fl_surface *s, double of, int keep, fl_err *err)
+{
+    char text[40];
+    const char *name = text;
+    int32_t i;
+    snprintf(text, sizeof text, "part_%.0f", of);
+    for (int32_t k = 0; k < p->names.n; k++)
+        if (p->number[k] == of) {
+            name = p->names.name[k];
+            break;
+        }
+    i = fl_surface_add(s, name, strlen(name), err);
+    if (i >= 0 && keep) s->part[i].id = (int32_t)of;
+    return i;
+}
+
+/* Give to[] the triangles d[0 .. n) of all, and the vertices that they use, in the order these have. */
+static int fill_part(fl_part *to, const fl_part *all, const dealt *d, int32_t n, int32_t *local, fl_err *err)
+{
+    int32_t *used = fl_alloc(3 * (int64_t)n, sizeof *used, err);
+    int rc = -1;
+    if (!used) return -1;
+    for (int32_t k = 0; k < n; k++)
+        for (int c = 0; c < 3; c++) used[3 * (int64_t)k + c] = all->t[d[k].t].v[c];
+    qsort(used, 3 * (size_t)n, sizeof *used, by_index);
+    for (int64_t k = 0; k < 3 * (int64_t)n; k++) {
+        if (k && used[k] == used[k - 1]) continue;
+        local[used[k]] = to->nv;
+        if (fl_surface_vertex(to, all->v[used[k]], err)) goto done;
+    }
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t *v = all->t[d[k].t].v;
+        if (fl_surface_triangle(to, local[v[0]], local[v[1]], local[v[2]], err)) goto done;
+    }
+    rc = 0;
+done:
+    free(used);
+    return rc;
+}
+
+/* Deal the one part out to those that its faces name. */
+static int split(const ply *p, fl_surface *s, fl_part *all, fl_err *err)
+{
+    dealt *d = fl_alloc(all->nt, sizeof *d, err);
+    int32_t *local = fl_alloc(all->nv, sizeof *local, err), i;
+    int rc = -1;
+    if (!d || !local) goto done;
+    for (int32_t t = 0; t < all->nt; t++) d[t] = (dealt){p->of[t], t};
+    qsort(d, (size_t)all->nt, sizeof *d, by_part);
+    /* the numbers differ from one another, and where all can be numbers of parts they are kept */
+    const int keep = all->nt && d[0].of >= 0.0 && d[all->nt - 1].of < MOST;
+    for (int32_t from = 0, to; from < all->nt; from = to) {
+        for (to = from + 1; to < all->nt && d[to].of == d[from].of; to++) {}
+        i = open_part(p, s, d[from].of, keep, err);
+        if (i < 0 || fill_part(&s->part[i], all, d + from, to - from, local, err)) goto done;
+    }
+    rc = 0;
+done:
+    free(d);
+    free(local);
+    return rc;
+}
+
+/* Do the faces say which part they are of? */
+static int has_parts(const ply *p)
+{
+    for (int32_t k = 0; k < p->prs; k++)
+        if (p->pr[k].is == PART) return 1;
+    return 0;
+}
+
 int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
     ply p = {.b = b};
+    fl_part all = {0};
+    int32_t i;
     int rc = -1;
-    const int32_t i = fl_surface_add(s, name, strlen(name), err);
-    if (i < 0 || read_header(&p, err)) goto done;
+    if (read_header(&p, err)) goto done;
     if (p.binary) b->line = 0;
     for (int32_t e = 0; e < p.els; e++) {
         if (p.el[e].first == p.el[e].last) continue; /* nothing is stored of it, however many there are */
         for (p.row = 0; p.row < p.el[e].n; p.row++)
-            if (read_one(&p, &p.el[e], &s->part[i], err)) goto done;
+            if (read_one(&p, &p.el[e], &all, err)) goto done;
     }
+    if (has_parts(&p)) {
+        rc = split(&p, s, &all, err);
+        goto done;
+    }
+    i = fl_surface_add(s, name, strlen(name), err);
+    if (i < 0) goto done;
+    all.name = s->part[i].name;
+    all.id = s->part[i].id;
+    s->part[i] = all;
+    all = (fl_part){0};
     rc = 0;
 done:
+    fl_part_free(&all);
+    fl_names_free(&p.names);
+    free(p.number);
+    free(p.of);
     free(p.el);
     free(p.pr);
     free(p.loop);

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <zlib.h>
 #include "mesh/read_mesh.h"
+#include "mesh/write_ply.h"
 #include "support/mesh.h"
 #include "support/model.h"
 #include "support/near.h"
@@ -604,12 +605,31 @@ static void nastran_gives_the_same(void **state)
     for (int variant = 0; variant < 4; variant++) check(put_bdf, "bdf", variant);
 }
 
+static void put_surface_as_ply(FILE *f, const model *m, int variant)
+{
+    fl_surface body = {0};
+    fl_err err = {0};
+    model_surface(m, &body);
+    body.part[0].id = 12 - variant; /* the order of the numbers need not be that of the parts */
+    body.part[1].id = 11;
+    assert_int_equal(fl_ply_write(f, &body, &err), 0);
+    fl_surface_free(&body);
+}
+
+/* What --to ply writes comes back with its parts. */
+static void ply_keeps_parts(void **state)
+{
+    (void)state;
+    check(put_surface_as_ply, "ply", 0);
+    check(put_surface_as_ply, "ply", 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ansys_gives_the_same),   cmocka_unit_test(gmsh_gives_the_same),
-        cmocka_unit_test(vtk_gives_the_same),     cmocka_unit_test(abaqus_gives_the_same),
-        cmocka_unit_test(nastran_gives_the_same),
+        cmocka_unit_test(ply_keeps_parts),       cmocka_unit_test(ansys_gives_the_same),
+        cmocka_unit_test(gmsh_gives_the_same),   cmocka_unit_test(vtk_gives_the_same),
+        cmocka_unit_test(abaqus_gives_the_same), cmocka_unit_test(nastran_gives_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
