@@ -17,6 +17,7 @@
 #include "mesh/write_off.h"
 #include "mesh/write_ply.h"
 #include "mesh/write_stl.h"
+#include "mesh/write_vtp.h"
 #include "support/verify.h"
 
 static const double PI = 3.141592653589793238;
@@ -85,7 +86,7 @@ static void rows(const char *id, const char *what, const fl_moments *a, const fl
     verify_row(id, text, most / size, 0.0, tol, VERIFY_ABS);
 }
 
-enum { OWN, STL, STL32, OBJ, OFF, PLY, WAYS };
+enum { OWN, STL, STL32, OBJ, OFF, PLY, VTP, WAYS };
 
 static void put(int way, FILE *f, const fl_surface *s)
 {
@@ -96,13 +97,13 @@ static void put(int way, FILE *f, const fl_surface *s)
     else if (way == STL32) fl_stl_write_binary(f, s);
     else if (way == OBJ) fl_obj_write(f, s);
     else if (way == OFF) fl_off_write(f, s);
-    else if (fl_ply_write(f, s, &err)) die();
+    else if (way == PLY ? fl_ply_write(f, s, &err) : fl_vtp_write(f, s, &err)) die();
 }
 
 static void through(int way, const fl_surface *s, const fl_moments *source)
 {
-    static const char *const name[WAYS] = {"g_struct", "STL", "STL, float32", "OBJ", "OFF", "PLY"};
-    static const char *const id[WAYS] = {"I10", "I11", "I12", "I13", "I14", "I15"};
+    static const char *const name[WAYS] = {"g_struct", "STL", "STL, float32", "OBJ", "OFF", "PLY", "VTP"};
+    static const char *const id[WAYS] = {"I10", "I11", "I12", "I13", "I14", "I15", "I16"};
     const char *dir = getenv("TMPDIR");
     char path[4096], note[FL_MESH_NOTE], text[80];
     fl_surface back = {0};
