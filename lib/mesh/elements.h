@@ -138,9 +138,11 @@ int fl_elements_skip(fl_elements *e, const char *type, fl_err *err);
  * the name of a part goes on with it.
  * Quadrilaterals are split by fl_facet_polygon() with the numbers of the nodes deciding on ties.  Mid-side
  * nodes are dropped, and the largest sagitta (distance of the middle node from the chord) told in a remark;
- * or with w->subdivide a triangle becomes 4, a quadrilateral 6, one with a centre node 8. b   takes the
- * remarks: what came in, what was passed over w   NULL wants everything Returns 0, or -1 with FL_INPUT (a
- * node that is nowhere defined, named with the line of the element) or FL_SYSTEM. */
+ * or with w->subdivide a triangle becomes 4, a quadrilateral 6, one with a centre node 8.
+ *   b   takes the remarks: what came in, what was passed over
+ *   w   NULL wants everything
+ * Returns 0, or -1 with FL_INPUT (a node that is nowhere defined, named with the line of the element) or
+ * FL_SYSTEM. */
 int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_wish *w, fl_err *err);
 
 void fl_elements_free(fl_elements *e); /* accepts a zeroed struct, leaves one */

@@ -88,7 +88,7 @@ static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
     if (fl_off_is(b)) return fl_off_read(s, b, name, err);
     if (fl_obj_is(b)) return fl_obj_read(s, b, name, err);
     return fl_bytes_fail(
-        b, err, "neither STL, OBJ, OFF, PLY, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran");
+        b, err, "neither STL, OBJ, OFF, PLY, VTK, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran");
 }
 
 /* Is it a mesh of those above?  Decks of Nastran have no first word of their own and are looked for last. */

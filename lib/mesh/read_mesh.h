@@ -6,11 +6,12 @@
 #include "mesh/bytes.h"
 #include "mesh/wish.h"
 
-/* Add what path ("-" is standard input, gzip is unpacked) holds to s: STL (binary or ASCII), OBJ, OFF, PLY or
- * g_struct. The kind is told by content, never by name.  A part that has no name in the file is called by the
- * file's base name up to its last dot ("stdin" for the stream); parts without triangles and cones are dropped
- * with a remark.  The history of a g_struct file is appended to that of s.  Coordinates are as in the file:
- * nothing is scaled, welded or turned.
+/* Add what path ("-" is standard input, gzip is unpacked) holds to s: STL (binary or ASCII), OBJ, OFF, PLY,
+ * VTK (legacy or XML), g_struct, or a mesh of Abaqus, ANSYS, Gmsh or Nastran.  The kind is told by content,
+ * never by name.  A part that has no name in the file is called by the file's base name up to its last dot
+ * ("stdin" for the stream); parts without triangles and cones are dropped with a remark.  The history of a
+ * g_struct file is appended to that of s.  Coordinates are as in the file: nothing is scaled, welded or
+ * turned.
  *   note[FL_MESH_NOTE]   out: remarks for the user, each with its newline
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err and s as it was. */
 int fl_mesh_read(fl_surface *s, const char *path, char *note, fl_err *err);

@@ -13,10 +13,10 @@ int fl_msh_is(const fl_bytes *b);
  * $Elements, in any order and any number; other sections are passed over.
  * A part is a physical group, called as $PhysicalNames says, or else curve_N, surface_N, volume_N by its tag;
  * what is in no group is in a part called name.  Of an entity in several groups the first is its part, and
- * each can be wished for.  Elements of order 3 and more are taken by their corners, with a remark. w   NULL
- * wishes for everything Returns 0, or -1 with FL_INPUT, which names the line or, in binary data, the byte
- * (4.0 and 1.0 are refused, and so is a file that ends too early), or FL_SYSTEM; s may then have new parts.
- */
+ * each can be wished for.  Elements of order 3 and more are taken by their corners, with a remark.
+ *   w   NULL wishes for everything
+ * Returns 0, or -1 with FL_INPUT, which names the line or, in binary data, the byte (4.0 and 1.0 are refused,
+ * and so is a file that ends too early), or FL_SYSTEM; s may then have new parts. */
 int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err);
 
 #endif

@@ -12,8 +12,8 @@ int fl_ply_is(const fl_bytes *b);
  * vertex_indices or vertex_index of the element "face", wherever they stand and of whatever type; all else is
  * passed over.  Faces of fewer than three corners are passed over too.  Vertices must come before faces.
  * Where faces have a property "part" of a whole type there is a part for each of its numbers instead, in
- * their order, called as the header says in "comment part NUMBER NAME", or else part_NUMBER. 0, or -1 with
- * FL_INPUT or FL_SYSTEM in err. */
+ * their order, called as the header says in "comment part NUMBER NAME", or else part_NUMBER.
+ * 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
 int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err);
 
 #endif

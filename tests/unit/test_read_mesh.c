@@ -261,7 +261,7 @@ static void each_fault_has_its_sentence(void **state)
     } fault[] = {
         {"", ": empty, a mesh was wanted"},
         {"hello world\n",
-         ": neither STL, OBJ, OFF, PLY, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran"},
+         ": neither STL, OBJ, OFF, PLY, VTK, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran"},
         {"solid a\nendsolid a\n", ": no triangles"},
         {"solid a\n" FACET, ":8: the file ends inside solid \"a\""},
         {"solid a\n" FACET "oops\n", ":9: \"oops\" was found, \"facet\" or \"endsolid\" was wanted"},

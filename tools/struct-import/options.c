@@ -10,9 +10,8 @@
 static const char HELP[] =
     "usage: struct-import [options] [FILE ...]\n"
     "Turn meshes and ready-made solids into a structure file (g_struct) for dem-solve.\n"
-    "FILE is STL, OBJ, OFF, PLY, g_struct, or a mesh of finite elements: Abaqus, ANSYS, Gmsh, Nastran, told "
-    "by its\n"
-    "content; - or nothing is standard input.\n"
+    "FILE is STL, OBJ, OFF, PLY, VTK, g_struct, or a mesh of finite elements: Abaqus, ANSYS, Gmsh, Nastran,\n"
+    "told by its content; - or nothing is standard input.\n"
     "\n"
     "      --cylinder R,Z0,Z1[,X,Y]      an upright cylinder about X,Y (0,0) from Z0 to Z1 [m]\n"
     "      --cone R0,Z0,R1,Z1[,X,Y]      an upright cone, cut where both radii are above 0 [m]\n"
