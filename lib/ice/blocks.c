@@ -152,7 +152,7 @@ static int gather(const struct grid *g, const fl_vec3 *site, int32_t i, int32_t 
                     (*list)[(*n)++] = (struct other){v3_norm(v3_sub(site[j], site[i])), j};
                 }
             }
-    qsort(*list, (size_t)*n, sizeof **list, nearer);
+    if (*n) qsort(*list, (size_t)*n, sizeof **list, nearer);
     return 0;
 }
 

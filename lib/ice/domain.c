@@ -265,7 +265,7 @@ static int cut_cell(struct cutting *c, const fl_cells *cells, int32_t i, fl_err 
     if (m < 3) return 0;
     for (int32_t k = 0; k < m; k++) box = aabb_add(box, v3(cells->v[first + k].x, cells->v[first + k].y, 0));
     if (look(c->d, box, &c->near, err)) return -1;
-    qsort(c->near.k, (size_t)c->near.n, sizeof *c->near.k, by_number);
+    if (c->near.n) qsort(c->near.k, (size_t)c->near.n, sizeof *c->near.k, by_number);
     todo->n = todo->at = 0;
     if (pool_add(todo, m, cells->v + first, cells->side + first, err)) return -1;
     for (int32_t t = 0; t < todo->n; t++) {
