@@ -13,7 +13,8 @@ namespace
 {
 using namespace shim;
 
-enum { ROUNDS = 5, BEND = 30 /* degrees */ };
+enum { ROUNDS = 5 };
+constexpr double BEND = 30.0; // degrees
 
 /* Does the surface come to a point, with angles that fall short of a full turn by BEND or more? */
 bool pointed(const Mesh &mesh, Mesh::Vertex_index v)

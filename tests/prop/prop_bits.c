@@ -93,7 +93,7 @@ static void compare(const way *how, int ways, int32_t side, const char *law, int
 /* 512 bodies: enough for 16 threads. */
 static void threads_and_searches(void **state)
 {
-    const way how[] = {{1, 0, 1.0, 0, 0},  {2, 0, 1.0, 0, 0},   {3, 7, 1.0, 0, 0},   {8, 0, 0.2, 0, 0},
+    const way how[] = {{1, 0, 1.0, 0, 0},  {2, 0, 1.0, 0, 0},  {3, 7, 1.0, 0, 0},  {8, 0, 0.2, 0, 0},
                        {16, 0, 3.0, 0, 0}, {2, 0, 1.0, 3, 16}, {16, 1, 1.0, 7, 3}, {3, 0, 0.3, 1, 8}};
     (void)state;
     compare(how, sizeof how / sizeof *how, 8, "patch", 10, 2000);

@@ -488,7 +488,7 @@ static void files_are_included(void **state)
 {
     (void)state;
     char deck[1200], nodes[200], mesh[200];
-    snprintf(nodes, sizeof nodes, "%s", strrchr(test_file("nodes.txt", CUBE + 6, strlen(CUBE) - 6), '/') + 1);
+    snprintf(nodes, sizeof nodes, "%s", strrchr(test_file("nodes.txt", &CUBE[6], strlen(CUBE) - 6), '/') + 1);
     snprintf(mesh, sizeof mesh, "%s", strrchr(test_file("mesh.inp", CUBE HEX, strlen(CUBE HEX)), '/') + 1);
     snprintf(deck, sizeof deck, "*HEADING\n*Include, input=%s\n*STEP\n", mesh);
     assert_near(reads(deck).volume, 1.0, 0.0);
