@@ -35,6 +35,7 @@ typedef struct {
     fl_vec3 x;        /* origin of the frame of the piece      [m] */
     fl_quat q;        /* its axes                                  */
     fl_poly core;     /* in that frame; a plate for plates         */
+    int elastic;      /* a plane on springs                        */
     double r0, r1, h; /* cone: between z = 0 and z = h of the frame */
     fl_shell shell;
     double face; /* area of the largest flat region of a shell, however it is cut up [m2] */

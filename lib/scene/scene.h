@@ -109,9 +109,10 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    int32_t type;     /* enum fl_bound_type; an absent section is FL_BOUND_FREE */
-    fl_vec3 min, max; /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
-    double stiffness; /* of the springs against the boundary [N/m^n]; 0: auto */
+    int32_t type[3];            /* enum fl_bound_type of x, y, z; an absent section is FL_BOUND_FREE */
+    fl_vec3 min, max;           /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
+    double stiffness;           /* of the springs against the boundary [N/m^n]; 0: auto */
+    double foundation, damping; /* of an elastic wall, per area [N/m3], [N s/m3] */
 } fl_scene_boundary;
 
 typedef struct {

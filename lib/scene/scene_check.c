@@ -104,18 +104,23 @@ static int check_boundary(const fl_scene *s, fl_err *err)
 {
     const double lo[] = {s->boundary.min.x, s->boundary.min.y, s->boundary.min.z};
     const double hi[] = {s->boundary.max.x, s->boundary.max.y, s->boundary.max.z};
-    int walls = 0;
+    static const char *const NAME[] = {"rigid", "elastic", "periodic"};
+    int walls = 0, open = 1;
     if (!s->boundary.head.present) return 0;
     for (int c = 0; c < 3; c++) {
         walls += isfinite(lo[c]) + isfinite(hi[c]);
+        open = open && s->boundary.type[c] == FL_BOUND_FREE;
         if (!(lo[c] < hi[c]))
             return fl_scene_fail(s, "boundary.max", err,
                                  "boundary.max of %c is %g m, more than its min, %g m, was wanted", 'x' + c,
                                  hi[c], lo[c]);
     }
-    if (s->boundary.type == FL_BOUND_RIGID && walls == 0)
-        return fl_scene_fail(s, "boundary.type", err,
-                             "a rigid boundary has no bounds: boundary.min or boundary.max was wanted");
+    for (int c = 0; c < 3 && walls == 0 && !open; c++)
+        if (s->boundary.type[c] != FL_BOUND_FREE)
+            return fl_scene_fail(s, "boundary.type", err,
+                                 "%s %s boundary has no bounds: boundary.min or boundary.max was wanted",
+                                 s->boundary.type[c] == FL_BOUND_ELASTIC ? "an" : "a",
+                                 NAME[s->boundary.type[c]]);
     return 0;
 }
 

@@ -446,11 +446,13 @@ const fl_key fl_key_table[] = {
      .meaning = "dampers that hold it, per direction"},
     {.section = FL_SEC_BOUNDARY,
      .key = "type",
-     .type = FL_VALUE_WORD,
+     .type = FL_VALUE_WORDS,
      .at = AT(boundary, type),
      .fallback = "rigid",
-     .choices = "rigid|!elastic|!periodic|free",
-     .meaning = "rigid: walls at the bounds; free: no walls",
+     .choices = "rigid|elastic|!periodic|free",
+     .meaning =
+         "what stands at the bounds, one word for all directions or one for each of x, y and z; rigid: "
+         "walls; elastic: walls on springs and dashpots; free: nothing",
      .source = "DilatedDEM manual (2016), bound_type"},
     {.section = FL_SEC_BOUNDARY,
      .key = "min",
@@ -481,6 +483,26 @@ const fl_key fl_key_table[] = {
      .meaning =
          "the kappa of the springs against the walls, in place of contact.stiffness; auto is that of the "
          "contact"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "foundation",
+     .type = FL_VALUE_F64,
+     .unit = FL_UNIT_BED,
+     .at = AT(boundary, foundation),
+     .fallback = "10 MN/m3",
+     .range = "(0,inf)",
+     .meaning = "stiffness of an elastic wall per area that presses into it; the force is this times the "
+                "volume behind the wall, of the shape that mass sees",
+     .source = "a sheet of 1 GPa that goes on for 100 m behind the wall, E/L"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "damping",
+     .type = FL_VALUE_F64,
+     .unit = FL_UNIT_DASHPOT,
+     .at = AT(boundary, damping),
+     .fallback = "0 N.s/m3",
+     .range = "[0,inf)",
+     .meaning = "dashpots of an elastic wall per area that presses into it; sqrt(density young) of the ice "
+                "takes a wave up without reflection",
+     .source = "Lysmer & Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive",
      .type = FL_VALUE_VEC3,

@@ -28,6 +28,7 @@ enum fl_value_type {
     FL_VALUE_VEC3,  /* fl_vec3 */
     FL_VALUE_I32,   /* int32_t */
     FL_VALUE_WORD,  /* int32_t, index into the choices */
+    FL_VALUE_WORDS, /* int32_t[3], one word for all of x, y, z or one for each */
     FL_VALUE_FIXED, /* uint32_t, FL_FIX_X | ... */
     FL_VALUE_NAME,  /* char[FL_SCENE_NAME] */
     FL_VALUE_PATH   /* char[FL_SCENE_PATH] */

@@ -62,6 +62,7 @@ static void explain_type(FILE *f, const fl_key *k)
     case FL_VALUE_VEC3: fprintf(f, k->lone ? "one number or three" : "three numbers"); break;
     case FL_VALUE_I32: fprintf(f, "a whole number"); break;
     case FL_VALUE_WORD: fprintf(f, "one of"); break;
+    case FL_VALUE_WORDS: fprintf(f, "one, or one for each of x, y, z, of"); break;
     case FL_VALUE_FIXED: fprintf(f, "some of x y z rx ry rz"); break;
     case FL_VALUE_NAME: fprintf(f, "a name"); break;
     case FL_VALUE_PATH: fprintf(f, "a file"); break;

@@ -14,6 +14,8 @@ enum fl_unit_kind {
     FL_UNIT_STRESS,  /* Pa kPa MPa GPa N/m2 N/m^2 kN/m2 kN/m^2 N/mm2 N/mm^2 */
     FL_UNIT_DENSITY, /* kg/m3 kg/m^3 t/m3 t/m^3 g/cm3 g/cm^3 */
     FL_UNIT_SPRING,  /* N/m^n, n the exponent of the law: also N/m kN/m MN/m GN/m N/mm for n = 1, N/m^1.5 */
+    FL_UNIT_BED,     /* N/m3 N/m^3 kN/m3 MN/m3 GN/m3 Pa/m kPa/m MPa/m GPa/m */
+    FL_UNIT_DASHPOT, /* N.s/m3 N.s/m^3 kN.s/m3 MN.s/m3 */
     FL_UNIT_MASS,    /* kg g t */
     FL_UNIT_ANGLE    /* deg rad */
 };

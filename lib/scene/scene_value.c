@@ -122,6 +122,24 @@ static int read_word(const complaint *c, const char *text, int32_t *out)
     return wrong_choice(c, text, word, open, n);
 }
 
+/* One word for all three, or three. */
+static int read_words(const complaint *c, const char *text, int32_t out[3])
+{
+    char copy[LINE_COPY], *save = NULL;
+    int32_t got[3] = {0};
+    int n = 0;
+    snprintf(copy, sizeof copy, "%s", text);
+    for (char *t = strtok_r(copy, " \t", &save); t; t = strtok_r(NULL, " \t", &save)) {
+        if (n == 3) n = 4;
+        if (n == 4) break;
+        if (read_word(c, t, &got[n++])) return -1;
+    }
+    if (n != 1 && n != 3)
+        return wrong(c, "is \"%.60s\", one word or three, for x, y and z, were wanted", text);
+    for (int k = 0; k < 3; k++) out[k] = got[n == 1 ? 0 : k];
+    return 0;
+}
+
 /* Length of the number at the start of s, 0 when there is none. */
 static size_t number_length(const char *s)
 {
@@ -322,6 +340,7 @@ int fl_value_read(const fl_key *key, const char *text, const char *folder, void 
     case FL_VALUE_VEC3: return read_vec3(&c, text, at);
     case FL_VALUE_I32: return read_i32(&c, text, at);
     case FL_VALUE_WORD: return read_word(&c, text, at);
+    case FL_VALUE_WORDS: return read_words(&c, text, at);
     case FL_VALUE_FIXED: return read_fixed(&c, text, at);
     case FL_VALUE_NAME: return read_name(&c, text, at);
     case FL_VALUE_PATH: break;
@@ -343,7 +362,7 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
     char word[N_CHOICE][16];
     int open[N_CHOICE], len = 0, all_special = 0;
     double x[3] = {0};
-    int32_t i;
+    int32_t i, three[3];
     uint32_t bits;
     buf[0] = '\0';
     switch (key->type) {
@@ -367,6 +386,12 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
         memcpy(&i, at, sizeof i);
         if (i >= 0 && i < cut_choices(key->choices, word, open)) snprintf(buf, FL_VALUE_TEXT, "%s", word[i]);
         break;
+    case FL_VALUE_WORDS:
+        memcpy(three, at, sizeof three);
+        cut_choices(key->choices, word, open);
+        for (int k = 0; k < (three[0] == three[1] && three[1] == three[2] ? 1 : 3); k++)
+            len += snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, "%s%s", k ? " " : "", word[three[k]]);
+        break;
     case FL_VALUE_FIXED:
         memcpy(&bits, at, sizeof bits);
         for (int k = 0; k < N_FIX; k++)
@@ -386,10 +411,10 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
 
 void fl_value_copy(const fl_key *key, void *to, const void *from)
 {
-    static const size_t size[] = {[FL_VALUE_F64] = sizeof(double),     [FL_VALUE_VEC3] = sizeof(fl_vec3),
-                                  [FL_VALUE_I32] = sizeof(int32_t),    [FL_VALUE_WORD] = sizeof(int32_t),
-                                  [FL_VALUE_FIXED] = sizeof(uint32_t), [FL_VALUE_NAME] = FL_SCENE_NAME,
-                                  [FL_VALUE_PATH] = FL_SCENE_PATH};
+    static const size_t size[] = {[FL_VALUE_F64] = sizeof(double),        [FL_VALUE_VEC3] = sizeof(fl_vec3),
+                                  [FL_VALUE_I32] = sizeof(int32_t),       [FL_VALUE_WORD] = sizeof(int32_t),
+                                  [FL_VALUE_WORDS] = 3 * sizeof(int32_t), [FL_VALUE_FIXED] = sizeof(uint32_t),
+                                  [FL_VALUE_NAME] = FL_SCENE_NAME,        [FL_VALUE_PATH] = FL_SCENE_PATH};
     memmove((char *)to + key->at, (const char *)from + key->at, size[key->type]);
 }
 

@@ -360,6 +360,39 @@ static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     return p->n = 1;
 }
 
+/* An elastic wall: force, moment and energy of Winkler's foundation under the part of A behind the wall, and
+ * a dashpot at the centre of the pressure, which never pulls the body back into the wall.  The closing speed
+ * of a point does not change along the normal, so the centre may stand behind the wall. */
+static int force_bed(fl_world *w, fl_pair *p, const relative *r, double dt, int survey, double *distance)
+{
+    const fl_bodies *b = &w->b;
+    const int32_t i = p->i, j = p->j;
+    const fl_vec3 n = m3_col(b->R[j], 2), up = m3_tmul(b->R[i], n);
+    const double level = v3_dot(n, r->off); /* of the wall over the centre of A */
+    const fl_hull *hull = &w->bed.hull[i];
+    double low = INFINITY;
+    for (int32_t v = 0; v < hull->p->nv; v++) low = fmin(low, v3_dot(up, hull->p->v[v]));
+    *distance = low - level - hull->radius;
+    if (*distance >= 0.0) return 0;
+    fl_wet wet;
+    fl_vec3 force, moment;
+    fl_buoyancy(hull, up, level, &wet);
+    if (wet.volume <= 0.0) return 0;
+    p->energy = fl_buoyancy_force(&wet, up, level, w->bed.stiffness, &force, &moment);
+    const fl_vec3 ai = m3_mul(b->R[i], wet.centre), aj = v3_sub(ai, r->off);
+    const double closing = -v3_dot(n, approach(b, p, ai, aj)), elastic = w->bed.stiffness * wet.volume;
+    double normal = elastic + w->bed.damping * wet.waterplane * closing;
+    if (normal < 0.0) normal = 0.0;
+    pressure all = {.slope = w->bed.stiffness * wet.waterplane};
+    add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
+    add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
+    press(&all, elastic, normal, n, aj);
+    if (survey) p->stiff_i = all.slope * compliance(b, i, ai, n);
+    rub(w, p, &all, 0.0, r, dt);
+    p->energy += p->spring;
+    return p->n = 1;
+}
+
 /* The manual's law: one contact, by the kind of the closest features. */
 static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey,
                         double *distance)
@@ -433,7 +466,10 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
     const fl_piece *piece = piece_of(w, p->j);
     const int manual = (p->law->kind == FL_LAW_MANUAL || p->law->kind == FL_LAW_MANUAL_SI) &&
                        (!piece || piece->kind == FL_PIECE_SOLID || piece->kind == FL_PIECE_CONE);
-    if (manual) {
+    if (piece && piece->elastic) {
+        if (force_bed(w, p, &r, dt, survey, &distance)) return;
+        distance += R; /* what sleeps is told by the distance of the cores */
+    } else if (manual) {
         if (force_manual(w, p, s, &r, dt, survey, &distance)) goto failed;
         if (p->n) return;
     } else {

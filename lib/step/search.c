@@ -20,6 +20,12 @@ static fl_aabb box_of(const fl_world *w, int32_t k)
         if (n.z < -0.5) box.lo.z = x.z;
         return box;
     }
+    if (k < w->n && w->bed.hull && core->nv > 2) { /* sharp corners stand out from the dilated core */
+        const fl_poly *outer = &w->bed.outer[k];
+        for (int32_t v = 0; v < outer->nv; v++)
+            box = aabb_add(box, v3_add(b->x[k], m3_mul(b->R[k], outer->v[v])));
+        return box;
+    }
     for (int32_t v = 0; v < core->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(b->R[k], core->v[v])));
     return aabb_grow(box, b->radius[k]);
 }

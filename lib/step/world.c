@@ -104,6 +104,35 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
     return fl_hull_make(&w->sea.hull[i], round ? core : &w->sea.outer[i], round ? w->b.radius[i] : 0.0, err);
 }
 
+/* The elastic walls' view of body i: what presses.  Its corners stand out farther than the dilated core, and
+ * move farther as it turns. */
+static int make_bed(fl_world *w, int32_t i, const fl_poly *outer, fl_err *err)
+{
+    const fl_poly *core = &w->b.core[i];
+    const int round = core->nv <= 2;
+    fl_poly *p = &w->bed.outer[i];
+    if (!round && outer->nv == 0)
+        return fl_fail(err, FL_INPUT,
+                       "%s: body %d: ice.shape = round has no volume behind an elastic wall; use sharp",
+                       w->scene->ice.file, w->id[i]);
+    if (!round && fl_poly_copy(p, outer, err)) return -1;
+    for (int32_t v = 0; v < p->nv; v++) w->b.bound[i] = fmax(w->b.bound[i], v3_norm(p->v[v]));
+    return fl_hull_make(&w->bed.hull[i], round ? core : p, round ? w->b.radius[i] : 0.0, err);
+}
+
+static int make_beds(fl_world *w, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    int elastic = 0;
+    for (int32_t k = w->pieces; k < w->structure.n; k++) elastic |= w->structure.piece[k].elastic;
+    if (!elastic) return 0;
+    w->bed.stiffness = s->foundation;
+    w->bed.damping = s->damping;
+    w->bed.outer = fl_alloc(w->n, sizeof *w->bed.outer, err);
+    w->bed.hull = fl_alloc(w->n, sizeof *w->bed.hull, err);
+    return w->bed.outer && w->bed.hull ? 0 : -1;
+}
+
 static int make_sea(fl_world *w, fl_err *err)
 {
     const fl_scene *s = w->scene;
@@ -122,13 +151,14 @@ static int make_sea(fl_world *w, fl_err *err)
 
 /* --- what is held ------------------------------------------------------------------------------ */
 
-static int add_wall(fl_structure *s, fl_vec3 x, fl_vec3 normal, fl_err *err)
+static int add_wall(fl_structure *s, int elastic, fl_vec3 x, fl_vec3 normal, fl_err *err)
 {
     const fl_vec3 ex = v3_normal_to(normal), ey = v3_cross(normal, ex);
     if (fl_grow(&s->piece, &s->cap, (int64_t)s->n + 1, sizeof *s->piece, err)) return -1;
     s->piece[s->n++] =
         (fl_piece){.kind = FL_PIECE_PLANE,
                    .part = -1,
+                   .elastic = elastic,
                    .x = x,
                    .q = q_of_matrix(
                        (fl_mat3){{{ex.x, ey.x, normal.x}, {ex.y, ey.y, normal.y}, {ex.z, ey.z, normal.z}}})};
@@ -139,14 +169,16 @@ static int make_walls(fl_world *w, fl_err *err)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_structure *st = &w->structure;
-    if (!s->head.present || s->type != FL_BOUND_RIGID) return 0;
+    const double lo[3] = {s->min.x, s->min.y, s->min.z}, hi[3] = {s->max.x, s->max.y, s->max.z};
     const int32_t before = st->n;
-    if (isfinite(s->min.x) && add_wall(st, v3(s->min.x, 0, 0), v3(1, 0, 0), err)) return -1;
-    if (isfinite(s->max.x) && add_wall(st, v3(s->max.x, 0, 0), v3(-1, 0, 0), err)) return -1;
-    if (isfinite(s->min.y) && add_wall(st, v3(0, s->min.y, 0), v3(0, 1, 0), err)) return -1;
-    if (isfinite(s->max.y) && add_wall(st, v3(0, s->max.y, 0), v3(0, -1, 0), err)) return -1;
-    if (isfinite(s->min.z) && add_wall(st, v3(0, 0, s->min.z), v3(0, 0, 1), err)) return -1;
-    if (isfinite(s->max.z) && add_wall(st, v3(0, 0, s->max.z), v3(0, 0, -1), err)) return -1;
+    if (!s->head.present) return 0;
+    for (int c = 0; c < 3; c++) {
+        const fl_vec3 e = v3(c == 0, c == 1, c == 2);
+        const int elastic = s->type[c] == FL_BOUND_ELASTIC;
+        if (!elastic && s->type[c] != FL_BOUND_RIGID) continue;
+        if (isfinite(lo[c]) && add_wall(st, elastic, v3_scale(lo[c], e), e, err)) return -1;
+        if (isfinite(hi[c]) && add_wall(st, elastic, v3_scale(hi[c], e), v3_neg(e), err)) return -1;
+    }
     w->walls = st->n - before;
     return 0;
 }
@@ -224,11 +256,13 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
     }
     if (make_walls(w, err)) goto fail;
     w->pieces = w->structure.n - w->walls;
-    if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) || make_sea(w, err))
+    if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
+        make_beds(w, err) || make_sea(w, err))
         goto fail;
     for (int32_t i = 0; i < w->n; i++) {
         fl_poly outer = {0};
-        const int bad = make_body(w, field, i, &outer, err) || (w->sea.n && make_hull(w, i, &outer, err));
+        const int bad = make_body(w, field, i, &outer, err) || (w->bed.hull && make_bed(w, i, &outer, err)) ||
+                        (w->sea.n && make_hull(w, i, &outer, err));
         fl_poly_free(&outer);
         if (bad) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];
@@ -248,6 +282,11 @@ void fl_world_free(fl_world *w)
         if (w->scratch) fl_places_free(&w->scratch[k]);
         if (w->near_shell) fl_shell_near_free(&w->near_shell[k]);
     }
+    for (int32_t i = 0; i < w->n; i++) {
+        if (w->bed.hull) fl_hull_free(&w->bed.hull[i]);
+        if (w->bed.outer) fl_poly_free(&w->bed.outer[i]);
+    }
+    free(w->bed.hull), free(w->bed.outer);
     free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box);
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
@@ -296,6 +335,14 @@ static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, dou
     return 1.5 * k * sqrt(depth);
 }
 
+/* What an elastic wall puts under the largest face of body i [N/m]. */
+static double bed_slope(const fl_world *w, int32_t i)
+{
+    const fl_poly *core = &w->b.core[i];
+    const double r = w->b.radius[i];
+    return w->bed.stiffness * (core->nv > 2 ? largest_face(&w->bed.outer[i]) : 4.0 * r * (r + w->b.bound[i]));
+}
+
 double fl_world_dt(const fl_world *w, int32_t *body)
 {
     double most = 0.0, damp = 0.0;
@@ -306,6 +353,12 @@ double fl_world_dt(const fl_world *w, int32_t *body)
                   stiffest = place_slope(w, i, i, k, n); /* one like itself */
         damp = fmax(damp, fl_pairing_law(w, i, i)->chi);
         for (int32_t j = w->n; j < w->b.total; j++) {
+            if (w->structure.piece[j - w->n].elastic) {
+                const double slope = bed_slope(w, i); /* the damping ratio is c/k omega/2 */
+                stiffest = fmax(stiffest, slope);
+                damp = fmax(damp, w->bed.damping / w->bed.stiffness * sqrt(slope * w->b.invm[i]));
+                continue;
+            }
             k = fl_pairing_stiffness(w, i, j, &n);
             stiffest = fmax(stiffest, place_slope(w, i, j, k, n));
             damp = fmax(damp, fl_pairing_law(w, i, j)->chi);

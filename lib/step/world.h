@@ -70,11 +70,21 @@ typedef struct {
     double friction, damping, drive; /* the works booked so far: with that of the half kick that lies ahead */
 } fl_ledger;
 
+/* Elastic walls: a foundation of springs and dashpots, which a body presses by what of it is behind the wall.
+ * Winkler's pressure k_A x depth is that of a heavy fluid of specific weight k_A, so force, moment and energy
+ * are those of buoyancy, exact for any attitude and one potential. */
+typedef struct {
+    double stiffness, damping; /* k_A [N/m3], c_A [N s/m3] */
+    fl_poly *outer;            /* [n] sharp outer shapes, body frames; empty where the core is round */
+    fl_hull *hull;             /* [n]; NULL: no wall is elastic */
+} fl_beds;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
     int32_t n, pieces, walls;
     fl_structure structure;
+    fl_beds bed;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */
     int32_t *material; /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */

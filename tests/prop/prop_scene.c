@@ -59,6 +59,7 @@ static void random_value(fl_rng *g, const fl_key *key, char *text, size_t size)
         snprintf(text, size, "%s %s %s %s", part[0], part[1], part[2], count == 3 ? "" : unit);
         break;
     case FL_VALUE_I32: snprintf(text, size, "%d", 1 + pick(g, 1000)); break;
+    case FL_VALUE_WORDS:
     case FL_VALUE_WORD: { /* one of the choices that are supported */
         char copy[100];
         snprintf(copy, sizeof copy, "%s", key->choices);

@@ -42,17 +42,19 @@ static void put(lab *l, int32_t side, int32_t k)
 
 void scene_of_everything(lab *l, int32_t side, const char *law)
 {
-    static const char *const KEYS[] = {"material.ice.young=1 MPa",     "contact.friction=0.3",
-                                       "contact.restitution=0.4",      "run.gravity=9.81",
-                                       "water.current=0.5 0.1 0",      "wind.velocity=8 0 0",
-                                       "structure.velocity=0.2 0 0",   "group.towed.fixed=x ry",
-                                       "group.towed.velocity=0.3 0 0", "group.stiff.fixed=rx rz"};
+    static const char *const KEYS[] = {"material.ice.young=1 MPa",          "contact.friction=0.3",
+                                       "contact.restitution=0.4",           "run.gravity=9.81",
+                                       "boundary.type=rigid elastic rigid", "boundary.foundation=50 kN/m3",
+                                       "water.current=0.5 0.1 0",           "wind.velocity=8 0 0",
+                                       "structure.velocity=0.2 0 0",        "group.towed.fixed=x ry",
+                                       "group.towed.velocity=0.3 0 0",      "group.stiff.fixed=rx rz"};
     const double half = 0.5 * side + 0.05, top = half + 0.02;
     const fl_vec3 hook[6] = {v3(-half, 0.3, 0), v3(-0.5, 0.3, 0), v3(-0.5, half, 0),
                              v3(-0.9, half, 0), v3(-0.9, 0.7, 0), v3(-half, 0.7, 0)};
     lab_start(l);
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
     if (law) lab_setf(l, "contact.law=%s", law);
+    lab_set(l, "boundary.damping=1 kN.s/m3");
     lab_setf(l, "boundary.min=%.17g %.17g %.17g", -half, -half, -half);
     lab_setf(l, "boundary.max=%.17g %.17g none", half, half);
     lab_wall(l, v3(-0.4, -0.9, half - 0.1), v3(0.4, -0.1, half + 1.0), 2);

@@ -233,7 +233,7 @@ static void words_of_the_manual_are_read_bare(void **state)
     assert_near(s.structure.friction, 0.1, 0);
     assert_near(s.structure.velocity.x, 0.1, 0);
     assert_near(s.structure.velocity.y, -0.2, 0);
-    assert_int_equal(s.boundary.type, FL_BOUND_RIGID);
+    for (int c = 0; c < 3; c++) assert_int_equal(s.boundary.type[c], FL_BOUND_RIGID);
     assert_near(s.water.depth, 20.0, 0);
     assert_near(s.water.current.x, 0.5, 0);
     assert_near(s.wind.velocity.x, 0.836 * 6 * sqrt(6), 1e-15); /* 12.3 m/s at Beaufort 6 */
@@ -341,6 +341,12 @@ static void parts_are_held_against_each_other(void **state)
     refused("[ice]\nfile = /a\n[output]\nstate = /a\n", ":4: output.state is \"/a\", which is an input");
     refused(ICE "[boundary]\nmin = 0 0 0\nmax = 1 0 1\n",
             ":5: boundary.max of y is 0 m, more than its min, 0 m, was wanted");
+    refused(ICE "[boundary]\ntype = free elastic free\n",
+            ":4: an elastic boundary has no bounds: boundary.min or boundary.max was wanted");
+    refused(ICE "[boundary]\ntype = free rigid\n",
+            ":4: boundary.type is \"free rigid\", one word or three, for x, y and z, were wanted");
+    refused(ICE "[boundary]\ntype = free rigid free free\n",
+            ":4: boundary.type is \"free rigid free free\", one word or three, for x, y and z, were wanted");
     refused(ICE "[boundary]\n",
             ":3: a rigid boundary has no bounds: boundary.min or boundary.max was wanted");
     refused(ICE "[group a]\nfixed = x\nvelocity = 0 1 0\n",
