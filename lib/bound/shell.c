@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/mem.h"
 #include "bound/shell.h"
-#include "narrow/areas.h"
 #include "narrow/nearest.h"
-#include "narrow/strips.h"
 
 /* Signed distance of x from the faces in the list.  Of faces whose nearest points agree within rounding (a
  * shared edge or corner) the one that x is most in front of tells the side: its plane passes between x and
@@ -52,14 +50,14 @@ static int whole(fl_reach *r, const fl_poly *a)
     fl_err lost = {0};
     if (fl_grow(&r->vertex, &r->vertex_cap, a->nv, sizeof *r->vertex, &lost) ||
         (a->ne && fl_grow(&r->edge, &r->edge_cap, a->ne, sizeof *r->edge, &lost)) ||
-        (a->nf && fl_grow(&r->facing, &r->facing_cap, a->nf, sizeof *r->facing, &lost)))
+        (a->nf && fl_grow(&r->face, &r->face_cap, a->nf, sizeof *r->face, &lost)))
         return -1;
     for (int32_t v = 0; v < a->nv; v++) r->vertex[v] = v;
     for (int32_t e = 0; e < a->ne; e++) r->edge[e] = e;
-    for (int32_t f = 0; f < a->nf; f++) r->facing[f] = f;
+    for (int32_t f = 0; f < a->nf; f++) r->face[f] = f;
     r->vertices = a->nv;
     r->edges = a->ne;
-    r->facings = a->nf;
+    r->faces = a->nf;
     return 0;
 }
 
@@ -67,10 +65,10 @@ static int whole(fl_reach *r, const fl_poly *a)
 static int around(fl_reach *r, const fl_poly *core, const fl_shell *sh, fl_aabb box, double ra, double reach)
 {
     fl_err lost = {0};
-    r->facings = query(&sh->tree, sh->box, aabb_grow(box, reach), &r->facing, &r->facing_cap);
+    r->faces = query(&sh->tree, sh->box, aabb_grow(box, reach), &r->face, &r->face_cap);
     r->edges = r->vertices = 0;
-    if (r->facings <= 0) return r->facings;
-    qsort(r->facing, (size_t)r->facings, sizeof *r->facing, ascending);
+    if (r->faces <= 0) return r->faces;
+    qsort(r->face, (size_t)r->faces, sizeof *r->face, ascending);
     box = aabb_grow(box, ra);
     r->edges = query(&sh->edges, sh->edge_box, box, &r->edge, &r->edge_cap);
     if (r->edges < 0) return -1;
@@ -83,61 +81,58 @@ static int around(fl_reach *r, const fl_poly *core, const fl_shell *sh, fl_aabb 
     return 0;
 }
 
-/* The vertices of the core; *behind is set when one is behind the surface. */
-static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_reach *near, double ra,
+/* The vertices of the core: signed distances from the walls.  *behind is set when one is behind the surface;
+ * the places of those are added here, or, for `single`, the place of the deepest. */
+static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_matches *l, double ra,
                          int single, int *behind)
 {
     fl_nearest deepest = {.d = ra};
     int32_t which = -1;
     *behind = 0;
     for (int32_t v = 0; v < A->p->nv; v++) {
-        const fl_nearest q = nearest_of(B->p, near->facing, near->facings, w->va[v]);
+        const fl_nearest q = nearest_of(B->p, l->wall, l->walls, w->va[v]);
         if (q.d < deepest.d) deepest = q, which = v;
-        if (single || q.d >= ra) continue;
-        if (q.d < 0.0) *behind = 1;
-        if (q.d < 0.0 ? fl_places_vertex(w, A, 0.0, v, q.n, ra - q.d)
-                      : fl_strips_vertex(w, A, v, B, near, ra))
-            return -1;
+        if (single || q.d >= 0.0) continue;
+        *behind = 1;
+        if (fl_places_vertex(w, A, 0.0, v, q.n, ra - q.d)) return -1;
     }
     return single && which >= 0 ? fl_places_point(w, w->va[which], deepest.n, ra - deepest.d, ra) : 0;
 }
 
-int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, fl_mat3 M,
-                    fl_vec3 o, double ra, double reach, int single, double *distance)
+/* The walls within reach, and what of them and of the core may have places, until the pair has moved by the
+ * margin. */
+static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, const fl_side *B,
+                        const fl_shell *shell, double ra, double reach, fl_matches *l, double path)
+{
+    const double margin = FL_PLACE_MARGIN * ra;
+    fl_reach *walls = &near->of_shell, *all = &near->of_core;
+    fl_aabb box = aabb_empty();
+    fl_err lost = {0};
+    for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
+    if (around(walls, B->p, shell, box, ra + margin, reach + margin)) return -1;
+    if (walls->faces && fl_grow(&l->wall, &l->wall_cap, walls->faces, sizeof *l->wall, &lost)) return -1;
+    for (int32_t k = 0; k < walls->faces; k++) l->wall[k] = walls->face[k];
+    l->walls = walls->faces;
+    return whole(all, A->p) || fl_matches_list(l, A, all, B, walls, ra, ra, margin, path) ? -1 : 0;
+}
+
+int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
+                    double reach, int single, fl_matches *l, double path, double *distance)
 {
     const fl_poly *core = &b->core;
     const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {core, core->v, core->n, 0.0, -1.0};
-    fl_reach *walls = &near->of_shell, *all = &near->of_core;
-    fl_aabb box = aabb_empty();
     int behind;
     w->n = 0;
     w->couple = v3(0, 0, 0);
     *distance = reach;
-    for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
-    if (around(walls, core, &b->shell, box, ra, reach)) return -1;
-    if (walls->facings == 0) return 0;
+    if (path >= l->until && list_matches(w, near, &A, &B, &b->shell, ra, reach, l, path)) return -1;
+    if (l->walls == 0) {
+        l->until = path; /* what is not near now is not known later */
+        return 0;
+    }
     *distance = ra; /* something is near: no bound is claimed */
-    if (core_vertices(w, &A, &B, walls, ra, single, &behind)) return -1;
-    if (single) return 0;
-    if (whole(all, a) || fl_reach_boxes(all, &A) || fl_reach_boxes(walls, &B)) return -1;
-    for (int32_t k = 0; k < walls->vertices; k++) {
-        const int32_t v = walls->vertex[k];
-        const fl_nearest q = fl_nearest_poly(a, m3_tmul(M, v3_sub(core->v[v], o)));
-        if (q.d < ra && fl_places_vertex(w, &B, ra, v, m3_mul(M, q.n), ra - q.d)) return -1;
-    }
-    const double depth = behind ? ra : 0.0;
-    for (int32_t e = 0; e < a->ne; e++)
-        if (fl_strips_edge(w, &A, e, &B, walls, ra, depth)) return -1;
-    for (int32_t k = 0; k < walls->edges; k++)
-        if (fl_strips_edge(w, &B, walls->edge[k], &A, all, ra, depth)) return -1;
-    for (int32_t f = 0; f < a->nf; f++) {
-        for (int32_t k = 0; k < walls->facings; k++) {
-            if (!aabb_meet(aabb_grow(all->facing_box[f], ra), walls->facing_box[k])) continue;
-            if (fl_areas_face(w, &A, f, &B, walls->facing[k], ra, depth, 0.0)) return -1;
-            if (fl_areas_face(w, &B, walls->facing[k], &A, f, ra, depth, FL_PLACE_RIM * ra)) return -1;
-        }
-    }
-    return 0;
+    if (core_vertices(w, &A, &B, l, ra, single, &behind) || single) return single ? 0 : -1;
+    return fl_matches_places(w, l, &A, &B, ra, behind ? ra : 0.0, FL_PLACE_RIM * ra, 0.0);
 }
 
 void fl_shell_near_free(fl_shell_near *near)

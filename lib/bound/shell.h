@@ -8,21 +8,22 @@
 #ifndef FL_BOUND_SHELL_H
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"
-#include "narrow/places.h"
+#include "narrow/matches.h"
 
 /* Scratch for the faces and edges in reach. */
 typedef struct {
     fl_reach of_shell, of_core;
 } fl_shell_near;
 
-/* All places of core a (frame to piece frame: M, o; radius ra) on the shell of piece b, as fl_places_find();
+/* All places of core a (radius ra) on the shell of piece b, as fl_places_find();
  * after fl_places_enter().  *distance is a lower bound of the distance of the core from the surface: reach
  * when no face comes that near, else ra.
  *   reach   how far to look, >= ra [m]
  *   single  only the place of the deepest vertex, as `core` wants it
+ *   l, path the matches of the pair and how far it has moved, as fl_places_find() wants them
  * -1 when memory runs out. */
-int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, fl_mat3 M,
-                    fl_vec3 o, double ra, double reach, int single, double *distance);
+int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
+                    double reach, int single, fl_matches *l, double path, double *distance);
 void fl_shell_near_free(fl_shell_near *near);
 
 #endif

@@ -2,8 +2,7 @@
 #include <math.h>
 #include "base/mem.h"
 #include "narrow/areas.h"
-#include "narrow/nearest.h"
-#include "narrow/places.h"
+#include "narrow/matches.h"
 #include "narrow/strips.h"
 
 #define PI 3.14159265358979323846
@@ -54,18 +53,15 @@ double fl_places_measure(const fl_places *w)
     return sum;
 }
 
-/* The features of a core with a point below `limit` along n; the faces among them that may look at a place of
- * contact: the line between nearest points runs along the normal of the feature and leans no more against n
- * than the slab between the cores and the reach allow, cosine >= lean. */
-static int in_reach(fl_reach *r, const fl_side *a, fl_vec3 n, double limit, double lean)
+/* The features of a core with a point below `limit` along n. */
+static int in_reach(fl_reach *r, const fl_side *a, fl_vec3 n, double limit)
 {
     const fl_poly *p = a->p;
     fl_err lost = {0};
-    r->vertices = r->edges = r->faces = r->facings = 0;
+    r->vertices = r->edges = r->faces = 0;
     if (fl_grow(&r->vertex, &r->vertex_cap, p->nv, sizeof *r->vertex, &lost) ||
         (p->ne && fl_grow(&r->edge, &r->edge_cap, p->ne, sizeof *r->edge, &lost)) ||
-        (p->nf && fl_grow(&r->face, &r->face_cap, p->nf, sizeof *r->face, &lost)) ||
-        (p->nf && fl_grow(&r->facing, &r->facing_cap, p->nf, sizeof *r->facing, &lost)))
+        (p->nf && fl_grow(&r->face, &r->face_cap, p->nf, sizeof *r->face, &lost)))
         return -1;
     for (int32_t v = 0; v < p->nv; v++)
         if (v3_dot(n, a->v[v]) < limit) r->vertex[r->vertices++] = v;
@@ -76,56 +72,29 @@ static int in_reach(fl_reach *r, const fl_side *a, fl_vec3 n, double limit, doub
         int near = 0;
         for (int32_t k = p->first[f]; k < p->first[f + 1] && !near; k++)
             near = v3_dot(n, a->v[p->loop[k]]) < limit;
-        if (!near) continue;
-        r->face[r->faces++] = f;
-        if (-v3_dot(n, a->n[f]) >= lean) r->facing[r->facings++] = f;
+        if (near) r->face[r->faces++] = f;
     }
-    return fl_reach_boxes(r, a);
-}
-
-static fl_aabb face_box(const fl_side *a, int32_t f)
-{
-    const fl_poly *p = a->p;
-    fl_aabb box = aabb_empty();
-    for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) box = aabb_add(box, a->v[p->loop[k]]);
-    return box;
-}
-
-int fl_reach_boxes(fl_reach *r, const fl_side *a)
-{
-    fl_err lost = {0};
-    if (fl_grow(&r->edge_box, &r->edge_box_cap, r->edges, sizeof *r->edge_box, &lost) ||
-        fl_grow(&r->face_box, &r->face_box_cap, r->faces, sizeof *r->face_box, &lost) ||
-        fl_grow(&r->facing_box, &r->facing_box_cap, r->facings, sizeof *r->facing_box, &lost))
-        return -1;
-    for (int32_t k = 0; k < r->edges; k++) {
-        const fl_edge e = a->p->edge[r->edge[k]];
-        r->edge_box[k] = aabb_add((fl_aabb){a->v[e.a], a->v[e.a]}, a->v[e.b]);
-    }
-    for (int32_t k = 0; k < r->faces; k++) r->face_box[k] = face_box(a, r->face[k]);
-    for (int32_t k = 0; k < r->facings; k++) r->facing_box[k] = face_box(a, r->facing[k]);
     return 0;
 }
 
 void fl_reach_free(fl_reach *r)
 {
-    free(r->vertex), free(r->edge), free(r->face), free(r->facing);
-    free(r->edge_box), free(r->face_box), free(r->facing_box);
+    free(r->vertex), free(r->edge), free(r->face);
     *r = (fl_reach){0};
 }
 
-static int edges_and_faces(fl_places *w, const fl_side *own, const fl_reach *mine, const fl_side *other,
-                           const fl_reach *near, double R)
+static int list_matches(fl_places *w, const fl_side *A, const fl_side *B, double R, fl_vec3 n, int deep,
+                        fl_matches *l, double path)
 {
-    for (int32_t k = 0; k < mine->edges; k++)
-        if (fl_strips_edge(w, own, mine->edge[k], other, near, R, 0.0)) return -1;
-    for (int32_t k = 0; k < mine->faces; k++)
-        for (int32_t m = 0; m < near->facings; m++)
-            if (aabb_meet(aabb_grow(mine->face_box[k], R), near->facing_box[m]) &&
-                fl_areas_face(w, own, mine->face[k], other, near->facing[m], R, 0.0,
-                              FL_PLACE_RIM * (own->r + other->r)))
-                return -1;
-    return 0;
+    const double margin = deep ? 0.0 : FL_PLACE_MARGIN * R;
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t v = 0; v < A->p->nv; v++) low = fmin(low, v3_dot(n, A->v[v]));
+    for (int32_t v = 0; v < B->p->nv; v++) high = fmax(high, v3_dot(n, B->v[v]));
+    return in_reach(&w->of_a, A, n, high + R + margin) ||
+                   in_reach(&w->of_b, B, v3_neg(n), R + margin - low) ||
+                   fl_matches_list(l, A, &w->of_a, B, &w->of_b, R, 0.0, margin, path)
+               ? -1
+               : 0;
 }
 
 /* What the shift by D n adds to the gradient of U.  A place of direction m changes by
@@ -156,39 +125,20 @@ static int add_depth(fl_places *w, const fl_overlap *deep, double R)
     return 0;
 }
 
-int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
-                   double rb, fl_vec3 n, const fl_overlap *deep)
+int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, double rb, fl_vec3 n,
+                   const fl_overlap *deep, fl_matches *l, double path)
 {
-    const double depth = deep->depth, R = ra + rb + depth;
+    const double depth = deep->depth, R = ra + rb + depth, rim = FL_PLACE_RIM * (ra + rb);
     const fl_vec3 out = v3_scale(depth, n);
     const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {b, b->v, b->n, rb, -1.0};
-    double low = INFINITY, high = -INFINITY;
     w->n = 0;
     w->couple = v3(0, 0, 0);
-    if (depth > 0.0) {
-        o = v3_add(o, out);
+    if (depth > 0.0)
         for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(w->va[v], out);
-    }
-    for (int32_t v = 0; v < a->nv; v++) low = fmin(low, v3_dot(n, w->va[v]));
-    for (int32_t v = 0; v < b->nv; v++) high = fmax(high, v3_dot(n, b->v[v]));
-    /* Against rounding the lean is loosened by the angle that 1e-9 of it is, and nearly nothing is lost. */
-    const double gap = low - high, lean = gap > 0.0 ? gap / R - 1e-9 : -2.0;
-    if (in_reach(&w->of_a, &A, n, high + R, lean) || in_reach(&w->of_b, &B, v3_neg(n), R - low, lean))
-        return -1;
-    for (int32_t k = 0; k < w->of_a.vertices; k++) {
-        const int32_t v = w->of_a.vertex[k];
-        const fl_nearest q = fl_nearest_poly(b, w->va[v]);
-        if (q.d < R && fl_places_vertex(w, &A, rb, v, q.n, R - q.d)) return -1;
-    }
-    for (int32_t k = 0; k < w->of_b.vertices; k++) {
-        const int32_t v = w->of_b.vertex[k];
-        const fl_nearest q = fl_nearest_poly(a, m3_tmul(M, v3_sub(b->v[v], o)));
-        if (q.d < R && fl_places_vertex(w, &B, ra, v, m3_mul(M, q.n), R - q.d)) return -1;
-    }
-    if (edges_and_faces(w, &A, &w->of_a, &B, &w->of_b, R) ||
-        edges_and_faces(w, &B, &w->of_b, &A, &w->of_a, R))
-        return -1;
+    if ((depth > 0.0 || path >= l->until) && list_matches(w, &A, &B, R, n, depth > 0.0, l, path)) return -1;
+    if (fl_matches_places(w, l, &A, &B, R, 0.0, rim, rim)) return -1;
     if (depth == 0.0) return 0;
+    l->until = path; /* of cores that were moved */
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_sub(w->va[v], out);
     return add_depth(w, deep, R);
 }

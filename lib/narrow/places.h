@@ -30,13 +30,13 @@
  * at shallow spots); point at the nearest points (jumps on parallel faces by F times their size). */
 #ifndef FL_NARROW_PLACES_H
 #define FL_NARROW_PLACES_H
-#include "geom/aabb.h"
 #include "geom/mat3.h"
 #include "geom/poly.h"
 #include "narrow/deep.h"
 
-#define FL_PLACE_RIM 0.1   /* width of the fading rim of a face, over R */
-#define FL_PLACE_BETA 1.02 /* of a polygonal punch: circle 1, square 1.012, triangle 1.034 */
+#define FL_PLACE_RIM 0.1     /* width of the fading rim of a face, over R */
+#define FL_PLACE_MARGIN 0.05 /* how far cores may move before their features are sorted out anew, over R */
+#define FL_PLACE_BETA 1.02   /* of a polygonal punch: circle 1, square 1.012, triangle 1.034 */
 #define FL_PLACE_ROUND (32.0 / 45.0 / (FL_PLACE_BETA * FL_PLACE_BETA)) /* L */
 #define FL_PLACE_SHARP_EDGE 4.0   /* w = bend times this [1/rad], at most 1 */
 #define FL_PLACE_SHARP_CORNER 2.0 /* w = defect times this [1/sr], at most 1 */
@@ -62,13 +62,14 @@ typedef struct {
     double side;          /* +1 for A, -1 for B */
 } fl_side;
 
-/* Features worth a look, and boxes around them. */
+/* Features worth a look. */
 typedef struct {
-    int32_t *vertex, *edge, *face, *facing;
-    fl_aabb *edge_box, *face_box, *facing_box;
-    int32_t vertices, edges, faces, facings;
-    int32_t vertex_cap, edge_cap, face_cap, facing_cap, edge_box_cap, face_box_cap, facing_box_cap;
+    int32_t *vertex, *edge, *face;
+    int32_t vertices, edges, faces;
+    int32_t vertex_cap, edge_cap, face_cap;
 } fl_reach;
+
+typedef struct fl_matches fl_matches; /* matches.h */
 
 /* Scratch of one thread, and the places found.  Zeroed to start; grows as it must. */
 typedef struct {
@@ -87,16 +88,18 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
 
 /* All places of two cores that do not overlap, in a fixed order, after fl_places_enter().
  *   a, b    cores in their own frames
- *   M, o    frame of A to frame of B
  *   ra, rb  dilation radii                                                                     [m]
  *   n       unit vector from B to A in the frame of B.  It only rules out: whatever it is, the places are the
  *           same, and one that separates the cores by nearly their distance is quick.
  *   deep    by how much the cores overlap, depth 0 when they do not; n is the way out then
+ *   l       the matches of this pair, made anew when they are out of date
+ *   path    bounds from above how far points of the two cores have moved against each other, but for a
+ *           constant: it only grows                                                            [m]
  * Cores that overlap by D are looked at as if moved apart by D n, with s = R + D - d; D and the turning of n
  * have places of their own.
  * Points and directions are in the frame of B.  -1 when memory runs out. */
-int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, fl_mat3 M, fl_vec3 o, double ra,
-                   double rb, fl_vec3 n, const fl_overlap *deep);
+int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, double rb, fl_vec3 n,
+                   const fl_overlap *deep, fl_matches *l, double path);
 
 /* All places of A over the half-space z < 0 of the frame of B, and the least z of A's core. */
 int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance);
@@ -108,8 +111,6 @@ double fl_places_measure(const fl_places *w);
 
 int fl_places_add(fl_places *w, fl_place place); /* -1 when memory runs out */
 
-/* Boxes around the edges, faces and facings in the list; -1 when memory runs out. */
-int fl_reach_boxes(fl_reach *r, const fl_side *a);
 void fl_reach_free(fl_reach *r);
 
 /* The radius that a feature of a core of radius r shows to one of radius other. */

@@ -102,21 +102,13 @@ static int keep_left(span *t, const fl_side *q, fl_vec3 n, int32_t a, int32_t b,
 /* How far x is beyond a towards b, times a length. */
 static double along(fl_vec3 a, fl_vec3 b, fl_vec3 x) { return beyond(v3_sub(b, a), v3_sub(x, a)); }
 
-/* The line in work: from x0 to x1, and what its integral is multiplied by. */
-typedef struct {
-    fl_places *w;
-    const fl_side *own;
-    fl_vec3 x0, u;
-    double length, factor, R;
-} line;
-
 static double root_of(double s) { return s > 0.0 ? sqrt(s) : 0.0; }
 
 /* Over a plane: d is linear and its direction one, so that two places have force and torque of all nodes, and
  * the second moment of the pressure.  Node k of a piece over which s goes from p^2 to q^2 has the root r = p
  * + (q - p) z at t = lo + (hi - lo) z (r + p)/(q + p): in z the integrand s^(9/2) dt is a polynomial of
  * degree 10. */
-static int piece_over_face(const line *l, span t, double h0, double h1, fl_vec3 n)
+static int piece_over_face(const fl_line *l, span t, double h0, double h1, fl_vec3 n)
 {
     if (!keep(&t, l->R - h0, l->R - h1, 1)) return 0;
     const double p = root_of(l->R - h0 - t.lo * (h1 - h0)), q = root_of(l->R - h0 - t.hi * (h1 - h0));
@@ -153,7 +145,7 @@ static int piece_over_face(const line *l, span t, double h0, double h1, fl_vec3 
  * at tau = tau0 + t slope, so that one place has their resultant, or two at the ends from and to of the
  * piece. */
 typedef struct {
-    const line *l;
+    const fl_line *l;
     fl_vec3 q, u;                /* d = |q + t u| */
     double small;                /* distances below it have no direction */
     double from, over;           /* t of the first end; 1/(to - from), or 0 for a point */
@@ -235,7 +227,7 @@ static int tie(const bundle *b, double share, double du, fl_vec3 f, fl_vec3 c)
                                              .p = v3_madd(c, b->l->R - 0.5 * s - b->l->own->r, n)});
 }
 
-static int piece_over_point(const line *l, span t, fl_vec3 c, const fl_vec3 *e, double small)
+static int piece_over_point(const fl_line *l, span t, fl_vec3 c, const fl_vec3 *e, double small)
 {
     bundle b = {.l = l, .q = v3_sub(l->x0, c), .u = l->u, .small = small};
     double tau = 0.0, slope = 0.0;
@@ -272,68 +264,65 @@ static int piece_over_point(const line *l, span t, fl_vec3 c, const fl_vec3 *e, 
                : 0;
 }
 
-static line line_of(fl_places *w, const fl_side *own, int32_t e, double other, double R)
+fl_line fl_strips_line(fl_places *w, const fl_side *own, int32_t e, double other, double R)
 {
     const fl_poly *p = own->p;
     const fl_vec3 x0 = own->v[p->edge[e].a], u = v3_sub(own->v[p->edge[e].b], x0);
     const double sharp = p->bend[e] * FL_PLACE_SHARP_EDGE, length = v3_norm(u);
     const double rho = fl_place_rho(own->r, other);
-    return (line){.w = w,
-                  .own = own,
-                  .x0 = x0,
-                  .u = u,
-                  .length = length,
-                  .R = R,
-                  .factor = (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (256.0 / 315.0) * sqrt(2.0 * rho) *
-                            length};
+    return (fl_line){.w = w,
+                     .own = own,
+                     .edge = e,
+                     .x0 = x0,
+                     .u = u,
+                     .length = length,
+                     .R = R,
+                     .factor = (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (256.0 / 315.0) *
+                               sqrt(2.0 * rho) * length};
 }
 
-int fl_strips_edge(fl_places *w, const fl_side *own, int32_t e, const fl_side *other, const fl_reach *near,
-                   double R, double behind)
+static fl_vec3 end_of(const fl_line *l) { return l->own->v[l->own->p->edge[l->edge].b]; }
+
+int fl_strips_edge_face(const fl_line *l, const fl_side *other, int32_t f, double behind)
 {
     const fl_poly *q = other->p;
-    const line l = line_of(w, own, e, other->r, R);
-    const fl_vec3 x0 = l.x0, x1 = own->v[own->p->edge[e].b];
-    const double small = SAME * q->size;
-    if (!(l.factor > 0.0)) return 0;
-    const fl_aabb box = aabb_grow(aabb_add((fl_aabb){x0, x0}, x1), R);
-    for (int32_t k = 0; k < near->facings; k++) {
-        if (!aabb_meet(box, near->facing_box[k])) continue;
-        const int32_t f = near->facing[k], *loop = q->loop + q->first[f], n = q->first[f + 1] - q->first[f];
-        const fl_vec3 nf = other->n[f], o = other->v[loop[0]];
-        const double h0 = v3_dot(nf, v3_sub(x0, o)), h1 = v3_dot(nf, v3_sub(x1, o));
-        span t = {0.0, 1.0};
-        if ((h0 >= R && h1 >= R) || !keep(&t, h0 + behind + small, h1 + behind + small, 1)) continue;
-        int in = 1;
-        for (int32_t c = 0, a = loop[n - 1]; c < n && in; a = loop[c++])
-            in = keep_left(&t, other, nf, a, loop[c], x0, x1, 1);
-        if (in && piece_over_face(&l, t, h0, h1, nf)) return -1;
+    const int32_t *loop = q->loop + q->first[f], n = q->first[f + 1] - q->first[f];
+    const fl_vec3 nf = other->n[f], o = other->v[loop[0]], x0 = l->x0, x1 = end_of(l);
+    const double h0 = v3_dot(nf, v3_sub(x0, o)), h1 = v3_dot(nf, v3_sub(x1, o)), small = SAME * q->size;
+    span t = {0.0, 1.0};
+    if (!(l->factor > 0.0)) return 0;
+    if ((h0 >= l->R && h1 >= l->R) || !keep(&t, h0 + behind + small, h1 + behind + small, 1)) return 0;
+    for (int32_t c = 0, a = loop[n - 1]; c < n; a = loop[c++])
+        if (!keep_left(&t, other, nf, a, loop[c], x0, x1, 1)) return 0;
+    return piece_over_face(l, t, h0, h1, nf);
+}
+
+int fl_strips_edge_edge(const fl_line *l, const fl_side *other, int32_t k)
+{
+    const fl_poly *q = other->p;
+    const fl_edge g = q->edge[k];
+    const fl_vec3 a = other->v[g.a], b = other->v[g.b], x0 = l->x0, x1 = end_of(l);
+    span t = {0.0, 1.0};
+    if (!(l->factor > 0.0) || !(q->bend[k] > 0.0)) return 0;
+    if (!keep(&t, along(a, b, x0), along(a, b, x1), 1)) return 0;
+    if (!keep(&t, along(b, a, x0), along(b, a, x1), 1)) return 0;
+    if (g.left >= 0 && !keep_left(&t, other, other->n[g.left], g.a, g.b, x0, x1, 0)) return 0;
+    if (g.right >= 0 && !keep_left(&t, other, other->n[g.right], g.b, g.a, x0, x1, 0)) return 0;
+    const fl_vec3 axis = v3_unit(v3_sub(b, a));
+    return piece_over_point(l, t, a, &axis, SAME * q->size);
+}
+
+int fl_strips_edge_vertex(const fl_line *l, const fl_side *other, int32_t v)
+{
+    const fl_poly *q = other->p;
+    const fl_vec3 c = other->v[v], x0 = l->x0, x1 = end_of(l);
+    span t = {0.0, 1.0};
+    if (!(l->factor > 0.0) || !(q->defect[v] > 0.0)) return 0;
+    for (int32_t m = q->begin[v]; m < q->begin[v + 1]; m++) {
+        const fl_vec3 b = other->v[q->beside[m]];
+        if (!keep(&t, along(c, b, x0), along(c, b, x1), 0)) return 0;
     }
-    for (int32_t k = 0; k < near->edges; k++) {
-        if (!aabb_meet(box, near->edge_box[k])) continue;
-        const fl_edge g = q->edge[near->edge[k]];
-        const fl_vec3 a = other->v[g.a], b = other->v[g.b];
-        span t = {0.0, 1.0};
-        if (!(q->bend[near->edge[k]] > 0.0)) continue;
-        if (!keep(&t, along(a, b, x0), along(a, b, x1), 1)) continue;
-        if (!keep(&t, along(b, a, x0), along(b, a, x1), 1)) continue;
-        if (g.left >= 0 && !keep_left(&t, other, other->n[g.left], g.a, g.b, x0, x1, 0)) continue;
-        if (g.right >= 0 && !keep_left(&t, other, other->n[g.right], g.b, g.a, x0, x1, 0)) continue;
-        const fl_vec3 axis = v3_unit(v3_sub(b, a));
-        if (piece_over_point(&l, t, a, &axis, small)) return -1;
-    }
-    for (int32_t k = 0; k < near->vertices; k++) {
-        const int32_t v = near->vertex[k];
-        const fl_vec3 c = other->v[v];
-        span t = {0.0, 1.0};
-        int in = q->defect[v] > 0.0 && aabb_meet(box, (fl_aabb){c, c});
-        for (int32_t m = q->begin[v]; m < q->begin[v + 1] && in; m++) {
-            const fl_vec3 b = other->v[q->beside[m]];
-            in = keep(&t, along(c, b, x0), along(c, b, x1), 0);
-        }
-        if (in && piece_over_point(&l, t, c, NULL, small)) return -1;
-    }
-    return 0;
+    return piece_over_point(l, t, c, NULL, SAME * q->size);
 }
 
 /* Vertex v at r from the nearest point of an edge or a vertex. */
@@ -344,42 +333,45 @@ static int vertex_over(fl_places *w, const fl_side *own, int32_t v, const fl_sid
     return fl_places_vertex(w, own, other->r, v, v3_scale(1.0 / d, r), R - d);
 }
 
-int fl_strips_vertex(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, const fl_reach *near,
-                     double R)
+int fl_strips_vertex_face(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t f,
+                          double R)
+{
+    const fl_poly *q = other->p;
+    const int32_t *loop = q->loop + q->first[f], n = q->first[f + 1] - q->first[f];
+    const fl_vec3 x = own->v[v];
+    const double h = v3_dot(other->n[f], v3_sub(x, other->v[loop[0]]));
+    if (h >= R || h < -SAME * q->size) return 0;
+    for (int32_t c = 0, a = loop[n - 1]; c < n; a = loop[c++])
+        if (left_of(other, other->n[f], a, loop[c], x) < 0.0) return 0;
+    return fl_places_vertex(w, own, other->r, v, other->n[f], R - h);
+}
+
+int fl_strips_vertex_edge(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t k,
+                          double R)
+{
+    const fl_edge g = other->p->edge[k];
+    const fl_vec3 a = other->v[g.a], b = other->v[g.b], x = own->v[v];
+    if (!(other->p->bend[k] > 0.0) || along(a, b, x) < 0.0 || along(b, a, x) < 0.0) return 0;
+    if (g.left >= 0 && left_of(other, other->n[g.left], g.a, g.b, x) >= 0.0) return 0;
+    if (g.right >= 0 && left_of(other, other->n[g.right], g.b, g.a, x) >= 0.0) return 0;
+    const fl_vec3 e = v3_unit(v3_sub(b, a)), r = v3_sub(x, a);
+    return vertex_over(w, own, v, other, v3_madd(r, -v3_dot(r, e), e), R);
+}
+
+int fl_strips_vertex_vertex(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t c,
+                            double R)
 {
     const fl_poly *q = other->p;
     const fl_vec3 x = own->v[v];
-    for (int32_t k = 0; k < near->facings; k++) {
-        const int32_t f = near->facing[k], *loop = q->loop + q->first[f], n = q->first[f + 1] - q->first[f];
-        const double h = v3_dot(other->n[f], v3_sub(x, other->v[loop[0]]));
-        if (h >= R || h < -SAME * q->size) continue;
-        int in = 1;
-        for (int32_t c = 0, a = loop[n - 1]; c < n && in; a = loop[c++])
-            in = left_of(other, other->n[f], a, loop[c], x) >= 0.0;
-        if (in && fl_places_vertex(w, own, other->r, v, other->n[f], R - h)) return -1;
-    }
-    for (int32_t k = 0; k < near->edges; k++) {
-        const fl_edge g = q->edge[near->edge[k]];
-        const fl_vec3 a = other->v[g.a], b = other->v[g.b];
-        if (!(q->bend[near->edge[k]] > 0.0) || along(a, b, x) < 0.0 || along(b, a, x) < 0.0) continue;
-        if (g.left >= 0 && left_of(other, other->n[g.left], g.a, g.b, x) >= 0.0) continue;
-        if (g.right >= 0 && left_of(other, other->n[g.right], g.b, g.a, x) >= 0.0) continue;
-        const fl_vec3 e = v3_unit(v3_sub(b, a)), r = v3_sub(x, a);
-        if (vertex_over(w, own, v, other, v3_madd(r, -v3_dot(r, e), e), R)) return -1;
-    }
-    for (int32_t k = 0; k < near->vertices; k++) {
-        const int32_t c = near->vertex[k];
-        int in = q->defect[c] > 0.0;
-        for (int32_t m = q->begin[c]; m < q->begin[c + 1] && in; m++)
-            in = along(other->v[c], other->v[q->beside[m]], x) < 0.0;
-        if (in && vertex_over(w, own, v, other, v3_sub(x, other->v[c]), R)) return -1;
-    }
-    return 0;
+    if (!(q->defect[c] > 0.0)) return 0;
+    for (int32_t m = q->begin[c]; m < q->begin[c + 1]; m++)
+        if (along(other->v[c], other->v[q->beside[m]], x) >= 0.0) return 0;
+    return vertex_over(w, own, v, other, v3_sub(x, other->v[c]), R);
 }
 
 int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e, double R)
 {
-    const line l = line_of(w, own, e, 0.0, R);
+    const fl_line l = fl_strips_line(w, own, e, 0.0, R);
     if (!(l.factor > 0.0)) return 0;
     return piece_over_face(&l, (span){0.0, 1.0}, l.x0.z, l.x0.z + l.u.z, v3(0, 0, 1));
 }

@@ -78,3 +78,5 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
     p->k = fl_pairing_stiffness(w, i, j, &p->exponent);
     p->mass = j < w->n ? mi * mj / (mi + mj) : mi;
 }
+
+void fl_pair_end(fl_pair *p) { fl_matches_free(&p->matches); }

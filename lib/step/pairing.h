@@ -17,4 +17,7 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
 /* A new pair that does not touch. */
 void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
 
+/* Free what a pair has of its own. */
+void fl_pair_end(fl_pair *p);
+
 #endif

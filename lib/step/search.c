@@ -81,11 +81,13 @@ int fl_search(fl_world *w, fl_err *err)
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
-            while (at < n_old && (old[at].i < i || (old[at].i == i && old[at].j < j))) at++;
+            while (at < n_old && (old[at].i < i || (old[at].i == i && old[at].j < j)))
+                fl_pair_end(&old[at++]);
             if (at < n_old && old[at].i == i && old[at].j == j) fresh[k] = old[at++];
             else fl_pair_start(w, &fresh[k], i, j);
         }
     }
+    while (at < n_old) fl_pair_end(&old[at++]);
     free(old);
     w->pair = fresh;
     w->n_pair = (int32_t)n;

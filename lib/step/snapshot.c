@@ -255,6 +255,7 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     traffic t = {.in = in, .err = err};
     const int32_t pairs = all_but_pairs(&t, w);
     int32_t cap = 0;
+    for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
     free(w->pair);
     w->pair = NULL;
     w->n_pair = 0;

@@ -9,6 +9,7 @@
 #include "broad/pairs.h"
 #include "law/tangent.h"
 #include "narrow/contact.h"
+#include "narrow/matches.h"
 #include "narrow/deep.h"
 #include "narrow/gjk.h"
 #include "narrow/places.h"
@@ -36,6 +37,7 @@ typedef struct {
     int32_t i, j;           /* i moves, i < j                                        */
     int32_t n;              /* touching                                              */
     fl_slip slip;           /* what friction remembers                               */
+    fl_matches matches;     /* which features may touch; can be made again at any time */
     fl_gjk_cache cache;     /* where the distance query starts                       */
     fl_mode mode;           /* of the manual's laws                                  */
     int32_t deep;           /* the cores overlap                                     */

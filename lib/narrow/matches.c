@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "narrow/matches.h"
+#include "base/mem.h"
+#include "geom/aabb.h"
+#include "narrow/areas.h"
+#include "narrow/strips.h"
+
+/* Of the size: points on a plane may seem to be that far off it. */
+#define ROUNDING 1e-12
+
+/* Some points of `own`, the ends of a feature, and the box around them and all that they may move to. */
+typedef struct {
+    const fl_vec3 *v;
+    const int32_t *at;
+    int32_t n;
+    fl_aabb box;
+} ends;
+
+typedef struct {
+    fl_matches *l;
+    const fl_side *own, *other;
+    double R, behind, margin, turn;
+} search;
+
+static int add(const search *s, int kind, int32_t own, int32_t other)
+{
+    fl_matches *l = s->l;
+    fl_err lost = {0};
+    if (l->n == l->cap && fl_grow(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c, &lost)) return -1;
+    l->c[l->n++] = (fl_match){(int16_t)kind, s->own->side < 0.0, own, other};
+    return 0;
+}
+
+static ends ends_of(const search *s, const int32_t *at, int32_t n)
+{
+    ends e = {s->own->v, at, n, aabb_empty()};
+    for (int32_t k = 0; k < n; k++) e.box = aabb_add(e.box, s->own->v[at[k]]);
+    e.box = aabb_grow(e.box, s->R + s->margin);
+    return e;
+}
+
+/* Some point is beyond the plane through `from` with normal g, or may come there. */
+static int reaches(const search *s, const ends *e, fl_vec3 from, fl_vec3 g)
+{
+    const double enough = -s->margin * v3_norm(g);
+    for (int32_t k = 0; k < e->n; k++)
+        if (v3_dot(g, v3_sub(e->v[e->at[k]], from)) >= enough) return 1;
+    return 0;
+}
+
+static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
+{
+    return v3_cross(q->n[f], v3_sub(q->v[b], q->v[a]));
+}
+
+static int over_face(const search *s, const ends *e, int32_t f)
+{
+    const fl_poly *p = s->other->p;
+    const fl_vec3 *v = s->other->v, n = s->other->n[f];
+    const int32_t *loop = p->loop + p->first[f], sides = p->first[f + 1] - p->first[f];
+    if (!reaches(s, e, v3_madd(v[loop[0]], s->R, n), v3_neg(n))) return 0;
+    if (!reaches(s, e, v3_madd(v[loop[0]], -s->behind, n), n)) return 0;
+    for (int32_t c = 0, a = loop[sides - 1]; c < sides; a = loop[c++])
+        if (!reaches(s, e, v[a], leftward(s->other, f, a, loop[c]))) return 0;
+    return 1;
+}
+
+static int over_edge(const search *s, const ends *e, int32_t k)
+{
+    const fl_edge g = s->other->p->edge[k];
+    const fl_vec3 a = s->other->v[g.a], b = s->other->v[g.b], u = v3_sub(b, a);
+    if (!(s->other->p->bend[k] > 0.0)) return 0;
+    if (!aabb_meet(e->box, aabb_add((fl_aabb){a, a}, b))) return 0;
+    if (!reaches(s, e, a, u) || !reaches(s, e, b, v3_neg(u))) return 0;
+    if (g.left >= 0 && !reaches(s, e, a, v3_neg(leftward(s->other, g.left, g.a, g.b)))) return 0;
+    return g.right < 0 || reaches(s, e, a, leftward(s->other, g.right, g.a, g.b));
+}
+
+static int over_vertex(const search *s, const ends *e, int32_t v)
+{
+    const fl_poly *p = s->other->p;
+    const fl_vec3 c = s->other->v[v];
+    if (!(p->defect[v] > 0.0) || !aabb_meet(e->box, (fl_aabb){c, c})) return 0;
+    for (int32_t m = p->begin[v]; m < p->begin[v + 1]; m++)
+        if (!reaches(s, e, c, v3_sub(c, s->other->v[p->beside[m]]))) return 0;
+    return 1;
+}
+
+/* Feature `own` over all of the others. */
+static int over_all(const search *s, int kind, int32_t own, const ends *e, const fl_reach *near)
+{
+    for (int32_t k = 0; k < near->faces; k++)
+        if (over_face(s, e, near->face[k]) && add(s, kind, own, near->face[k])) return -1;
+    for (int32_t k = 0; k < near->edges; k++)
+        if (over_edge(s, e, near->edge[k]) && add(s, kind + 1, own, near->edge[k])) return -1;
+    for (int32_t k = 0; k < near->vertices; k++)
+        if (over_vertex(s, e, near->vertex[k]) && add(s, kind + 2, own, near->vertex[k])) return -1;
+    return 0;
+}
+
+static int vertices(const search *s, const fl_reach *mine, const fl_reach *near)
+{
+    for (int32_t k = 0; k < mine->vertices; k++) {
+        const ends e = ends_of(s, &mine->vertex[k], 1);
+        if (over_all(s, FL_MATCH_VERTEX_FACE, mine->vertex[k], &e, near)) return -1;
+    }
+    return 0;
+}
+
+static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach *near)
+{
+    const fl_poly *p = s->own->p;
+    for (int32_t k = 0; k < mine->edges; k++) {
+        const int32_t at[2] = {p->edge[mine->edge[k]].a, p->edge[mine->edge[k]].b};
+        const ends e = ends_of(s, at, 2);
+        if (over_all(s, FL_MATCH_EDGE_FACE, mine->edge[k], &e, near)) return -1;
+    }
+    for (int32_t k = 0; k < mine->faces; k++) {
+        const int32_t F = mine->face[k];
+        const ends e = ends_of(s, p->loop + p->first[F], p->first[F + 1] - p->first[F]);
+        for (int32_t m = 0; m < near->faces; m++) {
+            const int32_t f = near->face[m];
+            if (v3_dot(s->own->n[F], s->other->n[f]) > s->turn || !over_face(s, &e, f)) continue;
+            if (add(s, FL_MATCH_FACE_FACE, F, f)) return -1;
+        }
+    }
+    return 0;
+}
+
+int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
+                    double R, double behind, double margin, double path)
+{
+    const double least = 0.5 * (A->p->size < B->p->size ? A->p->size : B->p->size);
+    const double turn = 2.0 * margin / least; /* of the two together */
+    const double wide = margin + ROUNDING * (A->p->size + B->p->size);
+    const search of_a = {l, A, B, R, behind, wide, turn}, of_b = {l, B, A, R, behind, wide, turn};
+    l->n = 0;
+    l->until = path + margin / (1.0 + (R + margin) / least);
+    return vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
+                   edges_and_faces(&of_b, b, a)
+               ? -1
+               : 0;
+}
+
+int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const fl_side *B, double R,
+                      double behind, double rim_a, double rim_b)
+{
+    fl_line line = {.edge = -1};
+    for (int32_t k = 0; k < l->n; k++) {
+        const fl_match *c = &l->c[k];
+        const fl_side *own = c->of_b ? B : A, *other = c->of_b ? A : B;
+        const int edge = c->kind >= FL_MATCH_EDGE_FACE && c->kind <= FL_MATCH_EDGE_VERTEX;
+        int rc = 0;
+        if (edge && (line.edge != c->own || line.own != own))
+            line = fl_strips_line(w, own, c->own, other->r, R);
+        switch (c->kind) {
+        case FL_MATCH_VERTEX_FACE: rc = fl_strips_vertex_face(w, own, c->own, other, c->other, R); break;
+        case FL_MATCH_VERTEX_EDGE: rc = fl_strips_vertex_edge(w, own, c->own, other, c->other, R); break;
+        case FL_MATCH_VERTEX_VERTEX: rc = fl_strips_vertex_vertex(w, own, c->own, other, c->other, R); break;
+        case FL_MATCH_EDGE_FACE: rc = fl_strips_edge_face(&line, other, c->other, behind); break;
+        case FL_MATCH_EDGE_EDGE: rc = fl_strips_edge_edge(&line, other, c->other); break;
+        case FL_MATCH_EDGE_VERTEX: rc = fl_strips_edge_vertex(&line, other, c->other); break;
+        default: rc = fl_areas_face(w, own, c->own, other, c->other, R, behind, c->of_b ? rim_a : rim_b);
+        }
+        if (rc) return -1;
+    }
+    return 0;
+}
+
+void fl_matches_free(fl_matches *l)
+{
+    free(l->c), free(l->wall);
+    *l = (fl_matches){0};
+}
