@@ -117,13 +117,17 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    double level;            /* z of the still water [m] */
-    double depth;            /* [m]; INFINITY: deep.  Bears on waves and sheared currents alone */
-    double density;          /* [kg/m3] */
-    fl_vec3 current;         /* [m/s] */
-    int32_t profile, wave;   /* 0, uniform, and 0, none, in this version */
-    double drag_force_coef;  /* C of equation (8) */
-    double drag_moment_coef; /* C of equation (9) */
+    double level;                     /* z of the still water [m] */
+    double depth;                     /* [m]; INFINITY: deep.  Bears on waves and sheared currents alone */
+    double density;                   /* [kg/m3] */
+    fl_vec3 current;                  /* at the surface [m/s] */
+    int32_t profile;                  /* uniform, power, linear, table: enum fl_profile of water/current.h */
+    double profile_exponent;          /* of power */
+    double profile_depth;             /* [m]; 0: auto, the depth */
+    char profile_file[FL_SCENE_PATH]; /* of table; "": none */
+    int32_t wave;                     /* 0, none, in this version */
+    double drag_force_coef;           /* C of equation (8) */
+    double drag_moment_coef;          /* C of equation (9) */
 } fl_scene_water;
 
 typedef struct {

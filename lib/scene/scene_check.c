@@ -124,6 +124,28 @@ static int check_boundary(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+static int check_current(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_water *w = &s->water;
+    const int sheared = w->profile == 1 || w->profile == 2, table = w->profile == 3;
+    if (!w->head.present) return 0;
+    if (sheared && w->profile_depth == 0.0 && !isfinite(w->depth))
+        return fl_scene_fail(
+            s, "water.profile", err,
+            "a current that changes with depth needs one: water.profile_depth or water.depth "
+            "was wanted");
+    if (table && w->profile_file[0] == '\0')
+        return fl_scene_fail(s, "water.profile", err,
+                             "water.profile = table has no rows: water.profile_file was wanted");
+    if (!table && w->profile_file[0])
+        return fl_scene_fail(s, "water.profile_file", err,
+                             "water.profile_file bears on water.profile = table alone");
+    if (table && v3_norm(w->current) > 0.0)
+        return fl_scene_fail(s, "water.current", err,
+                             "the current is given twice: by water.current and by water.profile_file");
+    return 0;
+}
+
 static int check_groups(const fl_scene *s, fl_err *err)
 {
     for (int32_t i = 0; i < s->n_group; i++) {
@@ -149,5 +171,5 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, was wanted",
                              s->run.dt, s->run.duration);
     if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
-    return check_boundary(s, err) || check_groups(s, err) ? -1 : 0;
+    return check_boundary(s, err) || check_current(s, err) || check_groups(s, err) ? -1 : 0;
 }

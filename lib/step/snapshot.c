@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/par.h"
 #include "step/pairing.h"
 #include "step/search.h"
 #include "step/snapshot.h"
@@ -143,6 +144,21 @@ static void body(traffic *t, fl_world *w, int32_t k)
     if (t->in) b->R[k] = q_matrix(b->q[k]);
 }
 
+/* The table of the current is not kept, but it must be the one that the run had. */
+static void table_of(traffic *t, const fl_current *c)
+{
+    uint64_t bits = fl_hash(fl_hash(FL_HASH_START, c->z, c->n * (int64_t)sizeof *c->z), c->u,
+                            c->n * (int64_t)sizeof *c->u);
+    const uint64_t now = bits;
+    const char *word = "";
+    open_row(t, "current");
+    if (t->f) fprintf(t->f, " %" PRIx64, bits);
+    else if (!t->err->code && fl_text_word(t->in, "hash", &word, t->err) == 0 &&
+             (hex(word, &bits) || bits != now))
+        fl_text_fail(t->in, t->err, "the rows of water.profile_file are not those that the run had");
+    close_row(t);
+}
+
 static void sea(traffic *t, fl_sea *s, int32_t i)
 {
     open_row(t, "sea");
@@ -238,7 +254,11 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
         close_row(t);
     }
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
-    for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) sea(t, &w->sea, i);
+    if (w->sea.current.n) table_of(t, &w->sea.current);
+    for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
+        sea(t, &w->sea, i);
+        if (t->in && !t->err->code) fl_sea_renew(&w->sea, &w->b, i);
+    }
     return pairs;
 }
 

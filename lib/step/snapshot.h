@@ -10,6 +10,7 @@
  *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
  *     part ...  impulse, moment and peak of the loads interval
  *     body ...  x v L q w f t held odometer, odometer at the last search
+ *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown
  *     pair ...  i j, memory, and for a pair that touches its forces */
 #ifndef FL_STEP_SNAPSHOT_H

@@ -176,13 +176,13 @@ int fl_step_start(fl_world *w, fl_err *err)
 int fl_step(fl_world *w, fl_err *err)
 {
     fl_bodies *b = &w->b;
-    const double dt = w->dt, h = 0.5 * dt, t = (double)w->step * dt;
+    const double dt = w->dt, h = 0.5 * dt;
     const int sea = w->sea.n > 0, survey = surveyed(w, w->step + 1);
 
     load_parts(w, h);
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
-        if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, t, 0);
+        if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, 0);
         if (k < w->n) fl_kick(b, k, h);
         fl_drift(b, k, dt);
     }
@@ -199,7 +199,7 @@ int fl_step(fl_world *w, fl_err *err)
     load_parts(w, h);
     if (sea) {
 #pragma omp parallel for schedule(static)
-        for (int32_t k = 0; k < w->n; k++) fl_sea_drag(&w->sea, b, k, h, t + h, 1);
+        for (int32_t k = 0; k < w->n; k++) fl_sea_drag(&w->sea, b, k, h, 1);
     }
     if (survey) survey_stiffness(w);
     return check(w, survey, err);

@@ -144,8 +144,14 @@ static int make_sea(fl_world *w, fl_err *err)
     sea->weight = s->water.density * v3_norm(s->run.gravity);
     sea->sea = (fl_fluid){s->water.density, s->water.drag_force_coef, s->water.drag_moment_coef};
     sea->air = (fl_fluid){s->wind.density, s->wind.drag_coef, 0.0};
-    sea->current = (fl_current){s->water.current};
-    sea->breeze = (fl_current){s->wind.velocity};
+    sea->current =
+        (fl_current){.velocity = s->water.current,
+                     .kind = s->water.profile,
+                     .depth = s->water.profile_depth > 0.0 ? s->water.profile_depth : s->water.depth,
+                     .exponent = s->water.profile_exponent};
+    if (s->water.profile == FL_PROFILE_TABLE && fl_current_read(&sea->current, s->water.profile_file, err))
+        return -1;
+    sea->breeze = s->wind.velocity;
     return fl_sea_alloc(sea, w->n, err);
 }
 
@@ -328,9 +334,10 @@ static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, dou
         return 2.8 * k * sqrt(0.6 * sqrt(2.0 * r) * 2.0 * w->b.bound[i] * sqrt(0.3 * r));
     }
     const double size = w->b.bound[i] + w->b.radius[i], g = v3_norm(w->gravity);
-    const double v2 = fmax(v3_norm2(w->b.v[i]),
-                           fmax(v3_norm2(w->sea.current.velocity), v3_norm2(w->scene->structure.velocity))) +
-                      2.0 * g * 0.1 * size;
+    const double current = w->sea.water ? fl_current_most(&w->sea.current) : 0.0;
+    const double v2 =
+        fmax(v3_norm2(w->b.v[i]), fmax(current * current, v3_norm2(w->scene->structure.velocity))) +
+        2.0 * g * 0.1 * size;
     const double depth =
         fmin(pow(1.25 * w->b.m[i] * v2 / k, 0.4), w->b.radius[i] > 0.0 ? 0.3 * w->b.radius[i] : size);
     return 1.5 * k * sqrt(depth);

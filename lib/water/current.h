@@ -1,17 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* current.h -- how fast the water (or the air) goes by.  Uniform: one velocity everywhere. */
+/* current.h -- how fast the water goes by at each depth.  With z the height over still water (<= 0 below it),
+ *     uniform   U(z) = U0
+ *     power     U(z) = U0 (1 + z/d)^a       d the depth of the water, a = 1/7 for a bottom of sand
+ *     linear    U(z) = U0 (1 + z/d)         d the depth that the shear reaches, 0 below it
+ *     table     straight lines between the rows of a file, the end rows beyond them
+ * and U(z) = U(0) above still water.  Source: DNV-RP-C205 (2010), 4.1.4, for the power law. */
 #ifndef FL_WATER_CURRENT_H
 #define FL_WATER_CURRENT_H
+#include <stdint.h>
+#include "base/err.h"
 #include "geom/vec3.h"
 
+/* In the order of the choices of water.profile. */
+enum fl_profile { FL_PROFILE_UNIFORM, FL_PROFILE_POWER, FL_PROFILE_LINEAR, FL_PROFILE_TABLE };
+
 typedef struct {
-    fl_vec3 velocity; /* [m/s] */
+    fl_vec3 velocity; /* U0 [m/s]                                   */
+    int kind;         /* enum fl_profile                            */
+    double depth;     /* d > 0 [m]; of power and linear             */
+    double exponent;  /* a > 0                                      */
+    int32_t n;        /* rows of the table, 0 for the other kinds   */
+    double *z;        /* [n] rising [m]                             */
+    fl_vec3 *u;       /* [n] [m/s], horizontal                      */
 } fl_current;
 
-/* Velocity at the point x at time t [m/s].
- *   x       world position                       [m]
- *   depth   of that point below still water      [m]
- *   t       [s] */
-fl_vec3 fl_current_at(const fl_current *c, fl_vec3 x, double depth, double t);
+/* Velocity at height z over still water [m/s].  Same bits on every machine. */
+fl_vec3 fl_current_at(const fl_current *c, double z);
+
+/* Read the rows "z u v" of a file of the kind current, current(5), into c->n, z, u: z all rising or all
+ * falling.  0, or -1 with FL_INPUT or FL_SYSTEM and c untouched. */
+int fl_current_read(fl_current *c, const char *path, fl_err *err);
+
+/* Largest speed that it has anywhere [m/s]. */
+double fl_current_most(const fl_current *c);
+
+/* Frees the table; accepts a zeroed struct and leaves one. */
+void fl_current_free(fl_current *c);
 
 #endif

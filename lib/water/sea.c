@@ -11,9 +11,11 @@ int fl_sea_alloc(fl_sea *s, int32_t n, fl_err *err)
     s->wetted = fl_alloc(n, sizeof *s->wetted, err);
     s->energy = fl_alloc(n, sizeof *s->energy, err);
     s->lift = fl_alloc(n, sizeof *s->lift, err);
+    s->centre = fl_alloc(n, sizeof *s->centre, err);
     s->drained = fl_alloc(n, sizeof *s->drained, err);
     s->blown = fl_alloc(n, sizeof *s->blown, err);
-    return s->outer && s->hull && s->reach && s->wetted && s->energy && s->lift && s->drained && s->blown
+    return s->outer && s->hull && s->reach && s->wetted && s->energy && s->lift && s->centre && s->drained &&
+                   s->blown
                ? 0
                : -1;
 }
@@ -25,22 +27,39 @@ void fl_sea_free(fl_sea *s)
         if (s->outer) fl_poly_free(&s->outer[i]);
     }
     free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->lift), free(s->energy);
-    free(s->drained), free(s->blown);
+    free(s->centre), free(s->drained), free(s->blown);
+    fl_current_free(&s->current);
     *s = (fl_sea){0};
 }
 
-void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
+/* The water as it meets body i: force and moment about its centre, world axes. */
+static void look(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]); /* transpose(R) e_z */
     const double level = s->level - b->x[i].z;
     fl_wet wet;
-    fl_vec3 f, t;
+    fl_vec3 turn;
     fl_buoyancy(&s->hull[i], up, level, &wet);
     s->wetted[i] = wet.wetted;
-    s->energy[i] = fl_buoyancy_force(&wet, up, level, s->weight, &f, &t);
+    s->centre[i] = v3_dot(up, wet.centre) - level;
+    s->energy[i] = fl_buoyancy_force(&wet, up, level, s->weight, f, &turn);
     s->lift[i] = s->weight * wet.volume;
-    b->f[i].z += s->lift[i]; /* R up is e_z */
-    b->t[i] = v3_add(b->t[i], m3_mul(b->R[i], t));
+    *f = v3(0, 0, s->lift[i]); /* R up is e_z */
+    *t = m3_mul(b->R[i], turn);
+}
+
+void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
+{
+    fl_vec3 f, t;
+    look(s, b, i, &f, &t);
+    b->f[i] = v3_add(b->f[i], f);
+    b->t[i] = v3_add(b->t[i], t);
+}
+
+void fl_sea_renew(fl_sea *s, const fl_bodies *b, int32_t i)
+{
+    fl_vec3 f, t;
+    if (s->water) look(s, b, i, &f, &t);
 }
 
 /* Decay of body i in a fluid that goes by with velocity c; returns the work done on the body. */
@@ -63,24 +82,24 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
     return fl_body_kinetic(b, i) - b->held[i] - before;
 }
 
-static void drag_of_water(fl_sea *s, fl_bodies *b, int32_t i, double h, double t)
+static void drag_of_water(fl_sea *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->water || s->wetted[i] <= 0.0) return;
-    const fl_vec3 c = fl_current_at(&s->current, b->x[i], s->level - b->x[i].z, t);
+    const fl_vec3 c = fl_current_at(&s->current, s->centre[i]);
     s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], c, h);
 }
 
-static void drag_of_wind(fl_sea *s, fl_bodies *b, int32_t i, double h, double t)
+static void drag_of_wind(fl_sea *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->wind) return;
     const double dry = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
-    const fl_vec3 c = fl_current_at(&s->breeze, b->x[i], 0.0, t);
+    const fl_vec3 c = s->breeze;
     if (dry > 0.0) s->blown[i] += decay(b, i, &s->air, dry, s->reach[i], c, h);
 }
 
-void fl_sea_drag(fl_sea *s, fl_bodies *b, int32_t i, double h, double t, int back)
+void fl_sea_drag(fl_sea *s, fl_bodies *b, int32_t i, double h, int back)
 {
-    if (back) drag_of_wind(s, b, i, h, t);
-    drag_of_water(s, b, i, h, t);
-    if (!back) drag_of_wind(s, b, i, h, t);
+    if (back) drag_of_wind(s, b, i, h);
+    drag_of_water(s, b, i, h);
+    if (!back) drag_of_wind(s, b, i, h);
 }

@@ -12,13 +12,15 @@ typedef struct {
     double level;    /* z of the still water           [m]   */
     double weight;   /* rho g                        [N/m3]  */
     fl_fluid sea, air;
-    fl_current current, breeze;
+    fl_current current;
+    fl_vec3 breeze; /* velocity of the wind [m/s] */
     int32_t n;
     fl_poly *outer;  /* [n] sharp outer shapes, body frames; empty where the core floats as it is */
     fl_hull *hull;   /* [n]                                  */
     double *reach;   /* [n] r_eff of equation (9)     [m]    */
     double *wetted;  /* [n] at the last fl_sea_force() [m2]  */
     double *lift;    /* [n] buoyancy, at the last fl_sea_force() [N] */
+    double *centre;  /* [n] height of the submerged centre over still water, at the last fl_sea_force() [m] */
     double *energy;  /* [n] hydrostatic, at the last fl_sea_force() [J] */
     double *drained; /* [n] work that drag of the water has taken out [J] */
     double *blown;   /* [n] work that the wind has put in    [J] */
@@ -31,12 +33,14 @@ void fl_sea_free(fl_sea *s);
 /* Add buoyancy to b->f[i], b->t[i]; renews wetted[i] and energy[i]. */
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
+/* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere. */
+void fl_sea_renew(fl_sea *s, const fl_bodies *b, int32_t i);
+
 /* Let the drag of water and wind act on body i for h seconds, position held: the exact decay of its
  * velocities by equations (8), (9) alone, first of the one fluid, then of the other.  Adds the work to
  * drained[i], blown[i].
- *   t     the time [s]
  *   back  0: water first, 1: wind first, so that two halves of a step are each other's mirror image and the
  *         splitting has order 2 */
-void fl_sea_drag(fl_sea *s, fl_bodies *b, int32_t i, double h, double t, int back);
+void fl_sea_drag(fl_sea *s, fl_bodies *b, int32_t i, double h, int back);
 
 #endif

@@ -71,7 +71,7 @@ static void drag_is_the_exact_decay_and_books_its_work(void **state)
     fl_world *w = &l.w;
     const double kinetic = fl_body_kinetic(&w->b, 0), area = 100.0 + 40.0 * DRAFT;
     const double kappa = 0.5 * 0.005 * 1025 * area / 90000.0, u = sqrt(20.0), h = 7.0;
-    fl_sea_drag(&w->sea, &w->b, 0, h, 0.0, 0);
+    fl_sea_drag(&w->sea, &w->b, 0, h, 0);
     const double f = 1.0 / (1.0 + kappa * u * h);
     assert_near(w->b.v[0].x, 1.0 + 2.0 * f, 1e-14);
     assert_near(w->b.v[0].y, 4.0 * f, 1e-14);
@@ -83,7 +83,7 @@ static void drag_is_the_exact_decay_and_books_its_work(void **state)
     floe(&m, 0.5 - DRAFT, v3(3, 4, 0), v3(0, 0, 0.1));
     lab_set(&m, "water.current=1 0 0");
     lab_make(&m, 1e-3);
-    for (int k = 0; k < 2; k++) fl_sea_drag(&m.w.sea, &m.w.b, 0, 0.5 * h, 0.0, k);
+    for (int k = 0; k < 2; k++) fl_sea_drag(&m.w.sea, &m.w.b, 0, 0.5 * h, k);
     assert_near(m.w.b.v[0].y, w->b.v[0].y, 1e-14);
     assert_near(m.w.b.w[0].z, w->b.w[0].z, 1e-13);
     lab_free(&m);
@@ -103,7 +103,7 @@ static void wind_takes_hold_of_what_is_dry(void **state)
     fl_world *w = &l.w;
     const double dry = 240.0 - (100.0 + 40.0 * DRAFT), kappa = 0.5 * 0.0015 * 1.293 * dry / 90000.0,
                  h = 100.0;
-    fl_sea_drag(&w->sea, &w->b, 0, h, 0.0, 0);
+    fl_sea_drag(&w->sea, &w->b, 0, h, 0);
     const double v = 20.0 * (1.0 - 1.0 / (1.0 + kappa * 20.0 * h));
     assert_near(w->b.v[0].x, v, 1e-11);
     assert_near(w->sea.blown[0], 45000.0 * v * v, 1e-11);
@@ -121,7 +121,7 @@ static void what_is_held_is_not_dragged(void **state)
     fl_world *w = &l.w;
     w->b.hold[0] = FL_HOLD_X;
     const double before = fl_body_kinetic(&w->b, 0);
-    fl_sea_drag(&w->sea, &w->b, 0, 10.0, 0.0, 0);
+    fl_sea_drag(&w->sea, &w->b, 0, 10.0, 0);
     assert_true(w->b.v[0].x == 2.0);
     assert_true(w->b.v[0].y < 2.0);
     assert_near(w->b.held[0] - w->sea.drained[0], fl_body_kinetic(&w->b, 0) - before, 1e-13);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
 #include "base/mem.h"
 #include "support/near.h"
 #include "support/shapes.h"
@@ -234,16 +235,49 @@ static void drag_never_reverses(void **state)
     assert_near(fl_drag_factor(1.0, 0.0, 1.0), 1.0, 0.0);
 }
 
-static void current_is_uniform(void **state)
+static void currents_follow_their_profile(void **state)
 {
     (void)state;
-    const fl_current c = {{0.5, -0.25, 0}};
-    for (int k = 0; k < 10; k++) {
-        const fl_vec3 u = fl_current_at(&c, v3(k, -k, 2 * k), k, 100 * k);
-        assert_near(u.x, 0.5, 0.0);
-        assert_near(u.y, -0.25, 0.0);
-        assert_near(u.z, 0.0, 0.0);
+    fl_current c = {.velocity = {0.5, -0.25, 0}};
+    for (int k = -10; k < 10; k++) {
+        assert_near(fl_current_at(&c, k).x, 0.5, 0.0);
+        assert_near(fl_current_at(&c, k).y, -0.25, 0.0);
     }
+    c = (fl_current){.velocity = {0.5, -0.25, 0}, .kind = FL_PROFILE_POWER, .depth = 20, .exponent = 1.0 / 7};
+    for (int k = 0; k < 20; k++) {
+        assert_near(fl_current_at(&c, -k).x, 0.5 * pow(1.0 - k / 20.0, 1.0 / 7), 1e-15);
+        assert_near(fl_current_at(&c, -k).y, -0.25 * pow(1.0 - k / 20.0, 1.0 / 7), 1e-15);
+    }
+    assert_true(fl_current_at(&c, 3).x == 0.5 && fl_current_at(&c, -20).x == 0.0 &&
+                fl_current_at(&c, -21).x == 0.0);
+    c.kind = FL_PROFILE_LINEAR;
+    assert_near(fl_current_at(&c, -5).x, 0.375, 1e-15);
+    assert_true(fl_current_at(&c, 1).x == 0.5 && fl_current_at(&c, -25).x == 0.0);
+    assert_near(fl_current_most(&c), sqrt(0.3125), 1e-15);
+}
+
+static void a_table_of_currents(void **state)
+{
+    (void)state;
+    static const char rising[] = "#current 1\n-20 0 0\n-5 0.4 0.1\n0.5 0.5 0\n",
+                      falling[] = "#current 1\n0.5 0.5 0\n-5 0.4 0.1\n-20 0 0\n";
+    for (int k = 0; k < 2; k++) {
+        fl_current c = {0};
+        fl_err err = {0};
+        assert_int_equal(
+            fl_current_read(&c, test_file("current", k ? falling : rising, sizeof rising - 1), &err), 0);
+        assert_true(fl_current_at(&c, 2).x == 0.5 && fl_current_at(&c, -30).x == 0.0);
+        assert_near(fl_current_at(&c, -12.5).x, 0.2, 1e-15);
+        assert_near(fl_current_at(&c, -12.5).y, 0.05, 1e-15);
+        assert_near(fl_current_at(&c, -5).x, 0.4, 1e-15);
+        fl_current_free(&c);
+    }
+    fl_current c = {0};
+    fl_err err = {0};
+    static const char wrong[] = "#current 1\n0 1 0\n-1 1 0\n-0.5 1 0\n";
+    assert_int_equal(fl_current_read(&c, test_file("current", wrong, sizeof wrong - 1), &err), -1);
+    assert_int_equal(err.code, FL_INPUT);
+    assert_non_null(strstr(err.text, ":4: height -0.5 m does not follow -1 m"));
 }
 
 int main(void)
@@ -257,7 +291,8 @@ int main(void)
         cmocka_unit_test(many_vertices),
         cmocka_unit_test(drag_laws),
         cmocka_unit_test(drag_never_reverses),
-        cmocka_unit_test(current_is_uniform),
+        cmocka_unit_test(currents_follow_their_profile),
+        cmocka_unit_test(a_table_of_currents),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

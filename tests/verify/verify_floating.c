@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include "support/lab.h"
+#include "support/near.h"
 #include "support/verify.h"
 
 #define PI 3.14159265358979323846
@@ -178,6 +179,32 @@ static void drift(void)
     }
 }
 
+/* A current that changes with depth carries a floe as fast as at its submerged centre. */
+static void sheared(void)
+{
+    static const char *const SET[3][3] = {
+        {"water.profile=power", "water.depth=10", "water.current=0.5 0 0"},
+        {"water.profile=linear", "water.profile_depth=10", "water.current=0.5 0 0"},
+        {"water.profile=table", NULL, NULL},
+    };
+    const double part = 1 - 0.5 * DRAFT / 10, kappa = 0.5 * 0.005 * 1025 * WETTED / 90000;
+    const double U[3] = {0.5 * pow(part, 1.0 / 7), 0.5 * part, 0.5 - 0.5 * DRAFT * 0.1};
+    const char *what[3] = {"power law over 10 m: v(1000 s) [m/s]", "linear over 10 m", "table"};
+    const char *file = test_file("rows", "#current 1\n0 0.5 0\n-5 0 0\n", 26);
+    for (int k = 0; k < 3; k++) {
+        lab l;
+        floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        for (int j = 0; j < 3; j++)
+            if (SET[k][j]) lab_set(&l, SET[k][j]);
+        if (k == 2) lab_setf(&l, "water.profile_file=%s", file);
+        lab_set(&l, "water.drag_force_coef=0.005");
+        lab_make(&l, 0.1);
+        lab_run(&l, 10000);
+        verify_row("V54", what[k], l.w.b.v[0].x, U[k] - U[k] / (1 + kappa * U[k] * 1000), 1e-6, VERIFY_REL);
+        lab_free(&l);
+    }
+}
+
 /* Speed of a floe of that density after t in the wind; `strong` multiplies the coefficients of drag. */
 static double blown(double density, double strong, double t, double dt)
 {
@@ -315,6 +342,7 @@ int main(void)
     rolling();
     tumbling();
     drift();
+    sheared();
     wind();
     spinning();
     resting();
