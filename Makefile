@@ -12,6 +12,7 @@ CGAL  = -lstdc++ -lgmp -lmpfr
 
 LIBOBJ   = $(patsubst %.c,$B/%.o,$(wildcard lib/*/*.c))
 SHIMOBJ  = $(patsubst %.cpp,$B/%.o,$(wildcard lib/shim/*.cpp))
+SHIM    ?= $B/libfloe-shim.a
 SUPPORT  = $(patsubst %.c,$B/%.o,$(wildcard tests/support/*.c))
 test_of  = $(patsubst tests/$1/%.c,$B/tests/$1/%,$(wildcard tests/$1/*.c))
 TESTS    = $(foreach k,unit prop fuzz verify bench,$(call test_of,$k))
@@ -41,7 +42,7 @@ $B/bin/$1: $(patsubst %.c,$B/%.o,$(wildcard tools/$1/*.c)) $B/libfloe-shim.a $B/
 	$$(CCALL) $$(LDFLAGS) -Wl,--start-group $$^ -Wl,--end-group $$(LIBS) $$(CGAL) -o $$@
 endef
 $(foreach t,$(TOOLS),$(eval $(call tool,$t)))
-$B/tests/%: $B/tests/%.o $(SUPPORT) $B/libfloe-shim.a $B/libfloe.a
+$B/tests/%: $B/tests/%.o $(SUPPORT) $(SHIM) $B/libfloe.a
 	$(CCALL) $(LDFLAGS) -Wl,--start-group $^ -Wl,--end-group -lcmocka $(LIBS) $(CGAL) -o $@
 $B/tests/%.o $(SUPPORT): CFLAGS += -Itests
 

@@ -27,6 +27,7 @@ typedef struct {
     fl_tri *t;     /* [nt] indices into v */
     fl_cone *cone; /* [nc] */
     int32_t v_cap, t_cap, c_cap;
+    int32_t doubled; /* elements of its file that stood on others, and were left out */
 } fl_part;
 
 typedef struct {

@@ -267,8 +267,7 @@ int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_wish *w, 
     fl_skin k = {0};
     int rc = -1;
     tell_counts(e, b);
-    if (fl_skin_start(&k, e, w && w->subdivide, err) == 0 && choose(e, &k, w, err) == 0)
-        rc = fl_skin_emit(&k, s, err);
+    if (fl_skin_start(&k, e, w, err) == 0 && choose(e, &k, w, err) == 0) rc = fl_skin_emit(&k, s, err);
     if (rc == 0) fl_skin_tell(&k, b);
     fl_skin_free(&k);
     return rc;

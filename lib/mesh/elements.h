@@ -136,6 +136,7 @@ int fl_elements_skip(fl_elements *e, const char *type, fl_err *err);
  * With wishes, a set that is like one takes its elements out of their parts, the first such set in the order
  * of the file; picked faces become triangles of the set and no longer of the solid's part.  A set that has
  * the name of a part goes on with it.
+ * A face comes once, whatever lies on it: fl_sides_settle() says who brings it.
  * Quadrilaterals are split by fl_facet_polygon() with the numbers of the nodes deciding on ties.  Mid-side
  * nodes are dropped, and the largest sagitta (distance of the middle node from the chord) told in a remark;
  * or with w->subdivide a triangle becomes 4, a quadrilateral 6, one with a centre node 8.

@@ -3,14 +3,17 @@
 #include <string.h>
 #include "base/mem.h"
 #include "geom/facet.h"
+#include "mesh/sides.h"
 #include "mesh/skin.h"
 
-int fl_skin_start(fl_skin *k, const fl_elements *e, int subdivide, fl_err *err)
+int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_wish *w, fl_err *err)
 {
-    const int32_t n = e->number.n;
-    *k = (fl_skin){.e = e, .subdivide = subdivide};
+    const int32_t n = e->number.n, targets = e->parts.n + e->sets.n;
+    *k = (fl_skin){.e = e, .subdivide = w && w->subdivide, .by_name = fl_wish_chooses(w)};
     if (!(k->target = fl_alloc(n, sizeof *k->target, err)) || !(k->behind = fl_alloc(n, 1, err)) ||
         !(k->outer = fl_alloc(n, 1, err)) || !(k->gone = fl_alloc(n, 1, err)) ||
+        !(k->spare = fl_alloc(n, 1, err)) || !(k->back = fl_alloc(n, 1, err)) ||
+        !(k->doubled = fl_alloc(targets, sizeof *k->doubled, err)) ||
         !(k->owner = fl_alloc(e->node.n, sizeof *k->owner, err)) ||
         !(k->local = fl_alloc(e->node.n, sizeof *k->local, err)))
         return -1;
@@ -25,6 +28,9 @@ void fl_skin_free(fl_skin *k)
     free(k->outer);
     free(k->free_face);
     free(k->gone);
+    free(k->spare);
+    free(k->back);
+    free(k->doubled);
     free(k->pick);
     free(k->owner);
     free(k->local);
@@ -46,111 +52,19 @@ int fl_skin_deal(int32_t n, int32_t targets, const int32_t *target, int stride, 
     return 0;
 }
 
-/* --- faces that occur once ------------------------------------------------------------------------------ */
-
-/* A face, by its second to last different corners in ascending order; -1 stands for the fourth of three.
- * The first, the lowest, says in which bucket it lies. */
-typedef struct {
-    int32_t key[3], element;
-    int8_t face;
-} side;
-
-static int by_key(const void *va, const void *vb)
-{
-    const side *a = va, *b = vb;
-    for (int i = 0; i < 3; i++)
-        if (a->key[i] != b->key[i]) return a->key[i] < b->key[i] ? -1 : 1;
-    return 0;
-}
-
-/* Different corners of a face in ascending order, the rest -1.  How many. */
-static int corners_of(const fl_elements *e, int32_t element, int face, int32_t c[4])
-{
-    const fl_element *el = &e->element[element];
-    int place[4], n = 0;
-    const int m = fl_shape_face((enum fl_shape)el->shape, face, place);
-    for (int i = 0; i < m; i++) {
-        const int32_t v = e->corner[el->first + place[i]];
-        int at = 0, same = 0;
-        for (; at < n && c[at] <= v; at++) same |= c[at] == v;
-        if (same) continue;
-        for (int j = n++; j > at; j--) c[j] = c[j - 1];
-        c[at] = v;
-    }
-    for (int i = n; i < 4; i++) c[i] = -1;
-    return n;
-}
-
-/* Of the sides that share their lowest corner, mark those that are alone. */
-static int32_t mark_alone(side *s, int32_t n, uint8_t *bit)
-{
-    int32_t crowded = 0;
-    qsort(s, (size_t)n, sizeof *s, by_key);
-    for (int32_t i = 0, j; i < n; i = j) {
-        for (j = i + 1; j < n && by_key(&s[i], &s[j]) == 0; j++) {}
-        if (j == i + 1) bit[s[i].element] = (uint8_t)(bit[s[i].element] | 1 << s[i].face);
-        crowded += j > i + 2;
-    }
-    return crowded;
-}
-
-/* For each solid with target >= 0 (any, when target is NULL), the faces that no other one has.  Faces are
- * dealt out by their lowest corner: the buckets are small, and are looked through one at a time. */
-static int alone(const fl_elements *e, const int32_t *target, uint8_t *bit, int32_t *crowded, fl_err *err)
-{
-    int64_t *first = fl_alloc((int64_t)e->node.n + 1, sizeof *first, err);
-    int64_t *at = NULL; /* element * 8 + face */
-    side *s = NULL;
-    int32_t cap = 0, c[4], n;
-    int rc = -1;
-    if (!first) goto done;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int32_t i = 0; i < e->number.n; i++) {
-            if (target && target[i] < 0) continue;
-            for (int f = 0; f < fl_shape_faces((enum fl_shape)e->element[i].shape); f++) {
-                if (corners_of(e, i, f, c) < 3) continue;
-                if (pass == 0) first[c[0]]++;
-                else at[--first[c[0]]] = 8 * (int64_t)i + f;
-            }
-        }
-        if (pass) break;
-        for (int32_t v = 1; v <= e->node.n; v++) first[v] += first[v - 1];
-        at = fl_alloc(first[e->node.n], sizeof *at, err);
-        if (!at) goto done;
-    }
-    for (int32_t v = 0; v < e->node.n; v++) {
-        n = 0;
-        if (fl_grow(&s, &cap, first[v + 1] - first[v], sizeof *s, err)) goto done;
-        for (int64_t j = first[v]; j < first[v + 1]; j++) {
-            side *one = &s[n++];
-            one->element = (int32_t)(at[j] / 8);
-            one->face = (int8_t)(at[j] % 8);
-            corners_of(e, one->element, one->face, c);
-            memcpy(one->key, c + 1, sizeof one->key);
-        }
-        if (n) *crowded += mark_alone(s, n, bit);
-    }
-    rc = 0;
-done:
-    free(first);
-    free(at);
-    free(s);
-    return rc;
-}
-
 int fl_skin_pick(fl_skin *k, const fl_pick *p, int32_t target, fl_err *err)
 {
     const int faces = fl_shape_faces((enum fl_shape)k->e->element[p->element].shape);
-    int32_t c[4], ignored = 0;
+    int32_t c[4];
     if (faces == 0) return 0;
     if (p->face == FL_PICK_FREE && !k->free_face) {
         k->free_face = fl_alloc(k->e->number.n, 1, err);
-        if (!k->free_face || alone(k->e, NULL, k->free_face, &ignored, err)) return -1;
+        if (!k->free_face || fl_sides_free(k->e, k->free_face, err)) return -1;
     }
     for (int f = 0; f < faces; f++) {
         const int bit = 1 << f;
         const int asked = p->face == FL_PICK_FREE ? k->free_face[p->element] & bit : p->face == f;
-        if (!asked || k->gone[p->element] & bit || corners_of(k->e, p->element, f, c) < 3) continue;
+        if (!asked || k->gone[p->element] & bit || fl_sides_corners(k->e, p->element, f, c) < 3) continue;
         if (fl_grow(&k->pick, &k->pick_cap, (int64_t)k->picks + 1, sizeof *k->pick, err)) return -1;
         k->pick[k->picks++] = (fl_skin_face){target, p->element, (int8_t)f};
         k->gone[p->element] = (uint8_t)(k->gone[p->element] | bit);
@@ -413,6 +327,7 @@ static int add_element(fl_skin *k, fl_part *p, int32_t target, int32_t element, 
 static int add_pick(fl_skin *k, fl_part *p, const fl_skin_face *f, fl_err *err)
 {
     int turn = 0;
+    if (k->spare[f->element] >> f->face & 1) return 0;
     if (inward(k, f->element, &turn, err)) return -1;
     return add_face(k, p, f->target, f->element, f->face, turn, err);
 }
@@ -430,8 +345,7 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
     const int32_t targets = e->parts.n + e->sets.n;
     int32_t *first = NULL, *list = NULL, *pick_first = NULL, *pick_list = NULL;
     int rc = -1;
-    if (alone(e, k->target, k->outer, &k->crowded, err) ||
-        fl_skin_deal(e->number.n, targets, k->target, 1, &first, &list, err) ||
+    if (fl_sides_settle(k, err) || fl_skin_deal(e->number.n, targets, k->target, 1, &first, &list, err) ||
         fl_skin_deal(k->picks, targets, k->picks ? &k->pick[0].target : NULL,
                      (int)(sizeof *k->pick / sizeof(int32_t)), &pick_first, &pick_list, err))
         goto done;
@@ -447,6 +361,7 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
             if (!bad) {
                 p.name = s->part[at].name;
                 p.id = s->part[at].id;
+                p.doubled = k->doubled[t];
                 s->part[at] = p;
                 p = (fl_part){0};
             }
@@ -475,6 +390,15 @@ void fl_skin_tell(const fl_skin *k, fl_bytes *b)
     if (k->left)
         fl_bytes_note(b, "%d solids are numbered left-handed; their faces were turned outward", k->left);
     if (k->flat) fl_bytes_note(b, "%d solids have no volume", k->flat);
+    if (k->twins)
+        fl_bytes_note(b, "%d elements stand on the nodes of others of their kind and were left out",
+                      k->twins);
+    if (k->covered)
+        fl_bytes_note(b, "%d shells lie on faces of solids, which are there already, and were left out%s",
+                      k->covered, k->by_name ? "" : "; --part gives such faces to the parts of the shells");
+    if (k->taken)
+        fl_bytes_note(b, "%d faces of solids went to the parts of the shells that lie on them", k->taken);
+    if (k->between) fl_bytes_note(b, "%d shells lie between two solids and were left out", k->between);
     if (k->crowded)
         fl_bytes_note(b, "%d faces belong to three or more solids and were taken as interior", k->crowded);
 }

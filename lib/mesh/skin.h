@@ -20,9 +20,13 @@ typedef struct {
     uint8_t *outer;       /* [elements] a bit for each face that no other wanted solid has */
     uint8_t *free_face;   /* [elements] the same among all solids; NULL until a set asks for it */
     uint8_t *gone;        /* [elements] a bit for each face that went to a set, FL_SKIN_MET when counted */
+    uint8_t *spare;       /* [elements] a bit for each face that a twin brings, though it went to a set */
+    uint8_t *back;        /* [elements] another one brings all that it has */
+    int32_t *doubled;     /* [targets] elements that stood back behind those of the target */
     fl_skin_face *pick;   /* [picks] */
     int32_t picks, pick_cap;
-    int subdivide;
+    int subdivide, by_name; /* parts were chosen by name */
+    int mixed;              /* shells may lie on solids, or on shells of another part */
     int32_t *owner, *local; /* [nodes] target that saw a node last, plus one; its vertex there */
     fl_part pool;           /* corners of the face at hand */
     int32_t bare;           /* lines without a radius or a length */
@@ -30,18 +34,23 @@ typedef struct {
     double sagitta;         /* largest distance of such a node from its chord */
     int32_t flat, left;     /* solids without volume; numbered left-handed */
     int32_t crowded;        /* faces of three or more solids */
+    int32_t twins;          /* elements on the nodes of another one */
+    int32_t covered, taken; /* shells on faces that others bring; that brought the face of a solid */
+    int32_t between;        /* shells between two solids */
 } fl_skin;
 
 /* Start with every element going nowhere.  -1 with FL_SYSTEM. */
-int fl_skin_start(fl_skin *k, const fl_elements *e, int subdivide, fl_err *err);
+int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_wish *w, fl_err *err);
 
 /* Give the face of a solid (or its free ones) to a target, unless it went to one before.  Shells and lines
  * are passed over.  -1 with FL_SYSTEM. */
 int fl_skin_pick(fl_skin *k, const fl_pick *p, int32_t target, fl_err *err);
 
 /* Things by their targets: after this, list[first[t] .. first[t + 1]) are the numbers of those of t,
- * ascending. n        things; that of thing i is target[i * stride], < 0 for none first    out, [targets +
- * 1], list out, [n]: freed by the caller, on failure too Returns 0, or -1 with FL_SYSTEM. */
+ * ascending.
+ *   n            things; that of thing i is target[i * stride], < 0 for none
+ *   first, list  out, [targets + 1] and [n]: freed by the caller, on failure too
+ * Returns 0, or -1 with FL_SYSTEM. */
 int fl_skin_deal(int32_t n, int32_t targets, const int32_t *target, int stride, int32_t **first,
                  int32_t **list, fl_err *err);
 

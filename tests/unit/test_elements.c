@@ -276,6 +276,87 @@ static void sets_are_taken_when_they_are_asked_for(void **state)
     begin(state);
 }
 
+/* Elements that a file has twice count once, in the part of the first: solids, of either hand, shells and
+ * lines; a set of the second one's faces takes those of the first. */
+static void twins_count_once(void **state)
+{
+    const char *const all[] = {"*"}, *const second[] = {"b"};
+    const int64_t hex[8] = {1, 2, 3, 4, 5, 6, 7, 8}, turned[8] = {5, 6, 7, 8, 1, 2, 3, 4};
+    for (int way = 0; way < 3; way++) {
+        fl_wish w = {.pattern = way == 1 ? all : second, .patterns = 1};
+        fl_quality q;
+        int32_t set;
+        assert_int_equal(begin(state), 0);
+        for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
+        node(9, 3, 0, 0);
+        node(10, 3, 1, 0);
+        node(11, 3, 0, 1);
+        add(1, FL_HEX8, part("a"), hex);
+        add(2, FL_HEX8, part("b"), turned);
+        add(3, FL_TRI3, part("a"), (const int64_t[]){9, 10, 11});
+        add(4, FL_TRI3, part("b"), (const int64_t[]){11, 9, 10});
+        for (int k = 0; k < 3; k++) { /* two of one radius, and one more */
+            const int32_t l = add(5 + k, FL_LINE2, part("b"), (const int64_t[]){1 + k % 2, 2 - k % 2});
+            fl_elements_radius(&e, l, k < 2 ? 0.5 : 0.6, 0.5, &err);
+        }
+        set = fl_names_add(&e.sets, "top", &err);
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(fl_elements_pick(&e, (fl_pick){k, set, k == 0, 0}, &err), 0); /* z = 1 */
+        q = surface(way ? &w : NULL);
+        assert_int_equal(q.cones, 2);
+        assert_int_equal(q.triangles, 13);
+        assert_int_equal(s.n, way == 0 ? 2 : way == 1 ? 3 : 1);
+        assert_non_null(strstr(b.note, way < 2 ? "3 elements stand on the nodes of others" : "1 elements"));
+        if (way == 0) {
+            assert_int_equal(s.part[0].doubled, 2);
+            assert_int_equal(s.part[1].doubled, 1);
+            assert_int_equal(s.part[0].nt, 13);
+        }
+        if (way == 1) assert_int_equal(s.part[2].nt, 2);
+        end(state);
+    }
+    begin(state);
+}
+
+/* Shells on the faces of a solid: left out, or the face goes to their part when parts are chosen by name, and
+ * looks out of the solid whatever their own side is. */
+static void shells_on_solids_are_no_second_face(void **state)
+{
+    const char *const all[] = {"*"}, *const skin[] = {"skin"};
+    for (int way = 0; way < 3; way++) {
+        fl_wish w = {.pattern = way == 1 ? all : skin, .patterns = 1};
+        fl_quality q;
+        assert_int_equal(begin(state), 0);
+        block(2, 1, 1);
+        add(101, FL_QUAD4, part("skin"), (const int64_t[]){1, 4, 10, 7}); /* x = 0, wound inward */
+        add(102, FL_QUAD4, part("skin"), (const int64_t[]){1, 7, 10, 4}); /* once more, outward */
+        add(103, FL_QUAD4, part("skin"), (const int64_t[]){2, 5, 11, 8}); /* between the two cubes */
+        add(104, FL_TRI3, part("fin"), (const int64_t[]){3, 6, 7});       /* on no face */
+        q = surface(way ? &w : NULL);
+        if (way == 0) {
+            assert_int_equal(q.triangles, 21);
+            assert_int_equal(s.n, 3);
+            assert_non_null(strstr(b.note, "2 shells lie on faces of solids, which are there already"));
+            assert_non_null(strstr(b.note, "--part gives such faces"));
+            assert_non_null(strstr(b.note, "1 shells lie between two solids"));
+            assert_int_equal(s.part[0].doubled, 2);
+        } else {
+            const fl_part *p = &s.part[way == 1 ? 2 : 0];
+            assert_string_equal(p->name, "skin");
+            assert_int_equal(p->nt, way == 1 ? 2 : 4);
+            assert_int_equal(q.triangles, way == 1 ? 21 : 4);
+            for (int32_t t = 0; t < p->nt; t++) {
+                const fl_vec3 *x = p->v;
+                const int32_t *v = p->t[t].v;
+                if (x[v[0]].x == 0.0)
+                    assert_true(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])).x < 0.0);
+            }
+        }
+        end(state);
+    }
+    begin(state);
+}
+
 /* --- shells and lines ----------------------------------------------------------------------------------- */
 
 static void shells_keep_their_side(void **state)
@@ -452,13 +533,17 @@ static void what_is_passed_over_is_told(void **state)
     for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
     for (int k = 0; k < 3; k++) assert_int_equal(fl_elements_skip(&e, "SPRING1", &err), 0);
     assert_int_equal(fl_elements_skip(&e, "MASS", &err), 0);
-    for (int k = 0; k < 3; k++) add(k + 1, FL_HEX8, part("p"), hex);
+    for (int k = 0; k < 3; k++) { /* wedges on one face, of different nodes elsewhere */
+        const int64_t wedge[6] = {1, 2, 3, 11 + 3 * k, 12 + 3 * k, 13 + 3 * k};
+        for (int i = 0; i < 3; i++) node(wedge[3 + i], HEX[i][0], HEX[i][1], k ? k : -1);
+        add(k + 1, FL_WEDGE6, part("p"), wedge);
+    }
     add(9, FL_HEX8, part("p"), flat);
-    add(10, FL_TRI3, part("p"), hex);
-    assert_int_equal(surface(NULL).triangles, 1);
+    add(10, FL_TRI3, part("p"), hex + 3);
+    assert_int_equal(surface(NULL).triangles, 3 * 7 + 1);
     assert_non_null(strstr(b.note, "not known, passed over: SPRING1 3, MASS 1"));
     assert_non_null(strstr(b.note, "1 solids have no volume"));
-    assert_non_null(strstr(b.note, "faces belong to three or more solids"));
+    assert_non_null(strstr(b.note, "1 faces belong to three or more solids"));
 }
 
 /* Whatever allocation fails, it is said, and nothing is lost or freed twice. */
@@ -501,6 +586,8 @@ int main(void)
         TEST(faces_between_solids_are_interior),
         TEST(a_part_taken_alone_is_closed),
         TEST(sets_are_taken_when_they_are_asked_for),
+        TEST(twins_count_once),
+        TEST(shells_on_solids_are_no_second_face),
         TEST(shells_keep_their_side),
         TEST(quadrilaterals_are_cut_by_the_numbers),
         TEST(curved_shells_are_subdivided),

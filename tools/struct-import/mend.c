@@ -206,7 +206,8 @@ done:
 
 int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
 {
-    *m = (struct mended){.came_triangles = p->nt, .came = fl_moments_of(p, 1), .came_closed = 1};
+    *m = (struct mended){
+        .came_triangles = p->nt, .came = fl_moments_of(p, 1), .came_closed = 1, .doubled = p->doubled};
     if (p->nt ? mend_triangles(p, o, m, err) : fl_part_measure(p, &m->left, err)) return -1;
     m->went = fl_moments_of(p, 1);
     return 0;

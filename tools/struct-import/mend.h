@@ -14,6 +14,7 @@ struct mended {
     fl_moments came, went; /* as read and placed; as written */
     int came_closed;
     int32_t came_triangles;
+    int32_t doubled; /* elements that stood on others, and did not come */
     fl_weld weld;
     fl_orient orient;
     fl_repair repair;

@@ -26,7 +26,7 @@ static void mesh_row(const char *name, int width, const struct mended *m)
 {
     const fl_quality *q = &m->left;
     fprintf(stderr, "%-*s %7d %10d %9d %7d %7d %7d %5d %12d %7d %7d %8d %8d\n", width, name, m->weld.merged,
-            m->weld.collapsed + m->repair.degenerate, m->repair.duplicates, m->orient.patches,
+            m->weld.collapsed + m->repair.degenerate, m->doubled + m->repair.duplicates, m->orient.patches,
             m->orient.triangles, q->patches, q->open, q->branched, q->incoherent, q->degenerate,
             m->meet.crossings, m->meet.touching);
 }
@@ -36,6 +36,7 @@ static void add(struct mended *sum, const struct mended *m)
     sum->weld.merged += m->weld.merged;
     sum->weld.collapsed += m->weld.collapsed;
     sum->repair.degenerate += m->repair.degenerate;
+    sum->doubled += m->doubled;
     sum->repair.duplicates += m->repair.duplicates;
     sum->meet.crossings += m->meet.crossings;
     sum->meet.touching += m->meet.touching;
