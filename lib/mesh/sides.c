@@ -250,7 +250,9 @@ static int settle_shells(fl_skin *k, const side *shell, int32_t shells, const in
 {
     const int free = !is_picked && (n[WANTED] == 0 || (n[WANTED] == 1 && k->by_name));
     const int32_t keeper = free ? k->target[shell->element] : n[WANTED] == 1 ? k->target[alone->element] : -1;
-    if (free && n[n[WANTED] ? WANTED : OTHER] == 1 && has_places(k->e, alone->element)) {
+    const int told = k->target[shell->element] >= k->e->parts.n; /* a surface tells its side */
+    if (free && n[n[WANTED] ? WANTED : OTHER] == 1 && !(told && !n[WANTED]) &&
+        has_places(k->e, alone->element)) {
         if (take(k, alone, shell, err)) return -1;
         if (n[WANTED]) set_bit(k->gone, alone);
         k->taken++;

@@ -19,7 +19,7 @@ int fl_sides_free(const fl_elements *e, uint8_t *free, fl_err *err);
  *    by the solid: k->outer;
  *  - a face of two wanted solids is brought by none, nor by shells on it;
  *  - of a face of no wanted solid the first shell stays, turned as the solid is that it lies on, if there is
- *    one alone.
+ *    one alone and no set tells the side of the shell.
  * Elements that bring nothing get the target -1; counts are left in k.  -1 with FL_SYSTEM. */
 int fl_sides_settle(fl_skin *k, fl_err *err);
 

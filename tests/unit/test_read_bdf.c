@@ -147,7 +147,7 @@ static void lines_have_radii(void **state)
 {
     (void)state;
     reads("GRID,1\nGRID,2,,4.\nCBAR,1,1,1,2,0.,0.,1.\nCBEAM,2,2,1,2\nCROD,3,3,1,2\nCTUBE,4,4,1,2\nCONROD,5,1,"
-          "2,1,3.14159265358979\n"
+          "2,1,12.5663706143592\n"
           "CBAR,6,5,1,2\nCBAR,7,6,1,2\nPBARL,1,1,,TUBE\n,.5,.4\nPBEAML,2,1,,ROD,,,,\n,.25\nPROD,3,1,3."
           "14159265358979\n"
           "PTUBE,4,1,2.,.1,,1.\nPBARL,5,1,,BOX\n,.5,.4,.1,.1\nPBARL,6,1,,TUBE2\n,.75,.1\n");
@@ -155,7 +155,7 @@ static void lines_have_radii(void **state)
         const char *name;
         double r0, r1;
     } row[] = {{"property_1", .5, .5}, {"property_2", .25, .25}, {"property_3", 1, 1},
-               {"property_4", 1, .5},  {"conrod", 1, 1},         {"property_6", .75, .75}};
+               {"property_4", 1, .5},  {"conrod", 2, 2},         {"property_6", .75, .75}};
     assert_int_equal(s.n, 6);
     says("1 lines without a section radius");
     for (int k = 0; k < 6; k++) {
@@ -170,7 +170,7 @@ static void lines_have_radii(void **state)
 static void parts_have_the_names_of_comments(void **state)
 {
     (void)state;
-    reads(CUBE "CTRIA3,1,1,1,2,3\nCTRIA3,2,2,1,2,3\nCTRIA3,3,3,1,2,3\nCTRIA3,4,4,1,2,3\nCTRIA3,5,5,1,2,3\n"
+    reads(CUBE "CTRIA3,1,1,1,2,3\nCTRIA3,2,2,1,2,4\nCTRIA3,3,3,1,2,5\nCTRIA3,4,4,1,2,6\nCTRIA3,5,5,1,2,7\n"
                "$HMNAME PROP                   1\"left leg\" 4\n$ANSA_NAME_COMMENT;2;PSHELL;\xb5\xbc;;NO;\n"
                "$ Femap Property 3 : deck \n$ Femap with NX Nastran Property 4 : "
                "deck\n$ANSA_NAME_COMMENT;5;MAT1;x;\n"
