@@ -23,24 +23,26 @@ static void vertex(FILE *f, fl_vec3 x)
     putc('\n', f);
 }
 
-void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_bodies *b, const int32_t *id,
-                      const fl_quat *q0, const int32_t *at, const fl_surface *surface)
+static void shape(FILE *f, const fl_poses *s, int32_t i)
+{
+    const fl_poly *p = &s->b->core[i];
+    const fl_mat3 R = q_matrix(s->q0[i]);
+    fprintf(f, "shape %d", s->id[i]);
+    put(f, s->b->radius[i]);
+    fprintf(f, " %d %d\n", p->nv, p->nf);
+    for (int32_t v = 0; v < p->nv; v++) vertex(f, m3_mul(R, p->v[v]));
+    for (int32_t k = 0; k < p->nf; k++) {
+        fprintf(f, "f %d", p->first[k + 1] - p->first[k]);
+        for (int32_t e = p->first[k]; e < p->first[k + 1]; e++) fprintf(f, " %d", p->loop[e]);
+        putc('\n', f);
+    }
+}
+
+void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_poses *s,
+                      const fl_surface *surface)
 {
     fl_by_header(f, "animation", 1, history, by);
-    for (int32_t c = 0; c < b->n; c++) {
-        const int32_t i = at ? at[c] : c;
-        const fl_poly *p = &b->core[i];
-        const fl_mat3 R = q_matrix(q0[i]);
-        fprintf(f, "shape %d", id[i]);
-        put(f, b->radius[i]);
-        fprintf(f, " %d %d\n", p->nv, p->nf);
-        for (int32_t v = 0; v < p->nv; v++) vertex(f, m3_mul(R, p->v[v]));
-        for (int32_t k = 0; k < p->nf; k++) {
-            fprintf(f, "f %d", p->first[k + 1] - p->first[k]);
-            for (int32_t e = p->first[k]; e < p->first[k + 1]; e++) fprintf(f, " %d", p->loop[e]);
-            putc('\n', f);
-        }
-    }
+    for (int32_t c = 0; c < s->b->n; c++) shape(f, s, fl_poses_body(s, c));
     for (int32_t k = 0; surface && k < surface->n; k++) {
         const fl_part *p = &surface->part[k];
         fprintf(f, "part %d %s\n", p->id, p->name);
@@ -58,17 +60,16 @@ void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_bo
     }
 }
 
-void fl_frames_frame(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
-                     const int32_t *at, fl_vec3 gone, int ice)
+void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice)
 {
     fputs("frame", f);
     put(f, t);
     putc('\n', f);
-    for (int32_t c = 0; ice && c < b->n; c++) {
-        const int32_t i = at ? at[c] : c;
-        const fl_quat q = q_mul(b->q[i], q_conj(q0[i]));
-        fprintf(f, "body %d", id[i]);
-        put3(f, b->x[i]);
+    for (int32_t c = 0; ice && c < s->b->n; c++) {
+        const int32_t i = fl_poses_body(s, c);
+        const fl_quat q = q_mul(s->b->q[i], q_conj(s->q0[i]));
+        fprintf(f, "body %d", s->id[i]);
+        put3(f, fl_poses_place(s, i));
         put(f, q.w);
         put3(f, v3(q.x, q.y, q.z));
         putc('\n', f);

@@ -3,18 +3,17 @@
 #ifndef FL_OUT_FRAMES_H
 #define FL_OUT_FRAMES_H
 #include "base/tool.h"
-#include "body/body.h"
 #include "geom/surface.h"
+#include "out/poses.h"
 
-/* Kind, history, then the shape of every body about its centre of mass, in the order at[n] (NULL: as they
- * are) and the axes of the start, shape ID RADIUS NV NF   v X Y Z ...   f N I1 ... IN ... and of the
- * structure (NULL: none), the records of g_struct. */
-void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_bodies *b, const int32_t *id,
-                      const fl_quat *q0, const int32_t *at, const fl_surface *surface);
+/* Kind, history, then the shape of every body about its centre of mass, with the axes of the start,
+ * shape ID RADIUS NV NF   v X Y Z ...   f N I1 ... IN ... and of the structure (NULL: none), the records of
+ * g_struct. */
+void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_poses *s,
+                      const fl_surface *surface);
 
 /* One frame:  frame T   body ID X Y Z QW QX QY QZ ...   structure X Y Z, the way the structure has gone.
  * ice = 0 leaves the bodies out. */
-void fl_frames_frame(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
-                     const int32_t *at, fl_vec3 gone, int ice);
+void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice);
 
 #endif

@@ -69,20 +69,19 @@ void fl_state_header(FILE *f, const char *history, const fl_by *by)
         "wz[rad/s]");
 }
 
-void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
-                   const int32_t *at)
+void fl_state_rows(FILE *f, double t, const fl_poses *p)
 {
     char text[FL_NUM_LEN];
     fl_num_text(t, text);
-    for (int32_t k = 0; k < b->n; k++) {
-        const int32_t i = at ? at[k] : k;
-        const fl_quat q = q_mul(b->q[i], q_conj(q0[i]));
-        fprintf(f, "%s\t%d", text, id[i]);
-        put3(f, b->x[i]);
+    for (int32_t k = 0; k < p->b->n; k++) {
+        const int32_t i = fl_poses_body(p, k);
+        const fl_quat q = q_mul(p->b->q[i], q_conj(p->q0[i]));
+        fprintf(f, "%s\t%d", text, p->id[i]);
+        put3(f, fl_poses_place(p, i));
         put(f, q.w);
         put3(f, v3(q.x, q.y, q.z));
-        put3(f, b->v[i]);
-        put3(f, b->w[i]);
+        put3(f, p->b->v[i]);
+        put3(f, p->b->w[i]);
         putc('\n', f);
     }
 }

@@ -7,8 +7,8 @@
 #define FL_OUT_TABLES_H
 #include <stdio.h>
 #include "base/tool.h"
-#include "body/body.h"
 #include "narrow/contact.h"
+#include "out/poses.h"
 
 /* start: when the first interval begins [s]; above 0 where a run is gone on with. */
 void fl_loads_header(FILE *f, const char *history, const fl_by *by, double start);
@@ -18,10 +18,9 @@ void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 mo
                   int32_t contacts);
 
 void fl_state_header(FILE *f, const char *history, const fl_by *by);
-/* All bodies in the order at[n] (NULL: as they are): position of the centre of mass; orientation against the
- * pose at the start, q q0^-1. */
-void fl_state_rows(FILE *f, double t, const fl_bodies *b, const int32_t *id, const fl_quat *q0,
-                   const int32_t *at);
+/* The bodies that are there: position of the centre of mass; orientation against the pose at the start, q
+ * q0^-1. */
+void fl_state_rows(FILE *f, double t, const fl_poses *p);
 
 /* A row of any table of doubles. */
 void fl_rows_header(FILE *f, const char *kind, const char *history, const fl_by *by, const char *columns);

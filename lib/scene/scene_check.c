@@ -121,6 +121,16 @@ static int check_boundary(const fl_scene *s, fl_err *err)
                                  "%s %s boundary has no bounds: boundary.min or boundary.max was wanted",
                                  s->boundary.type[c] == FL_BOUND_ELASTIC ? "an" : "a",
                                  NAME[s->boundary.type[c]]);
+    for (int c = 0; c < 3; c++)
+        if (s->boundary.type[c] == FL_BOUND_PERIODIC && isfinite(lo[c]) != isfinite(hi[c]))
+            return fl_scene_fail(s, "boundary.type", err,
+                                 "%c is periodic and has one bound: boundary.min and boundary.max of %c, or "
+                                 "none of the two, were wanted",
+                                 'x' + c, 'x' + c);
+    if (s->boundary.type[2] == FL_BOUND_PERIODIC && isfinite(lo[2]) && s->water.head.present)
+        return fl_scene_fail(s, "boundary.type", err,
+                             "z is periodic, and there is [water], which has one surface: one of the two was "
+                             "wanted");
     return 0;
 }
 

@@ -449,10 +449,11 @@ const fl_key fl_key_table[] = {
      .type = FL_VALUE_WORDS,
      .at = AT(boundary, type),
      .fallback = "rigid",
-     .choices = "rigid|elastic|!periodic|free",
+     .choices = "rigid|elastic|periodic|free",
      .meaning =
          "what stands at the bounds, one word for all directions or one for each of x, y and z; rigid: "
-         "walls; elastic: walls on springs and dashpots; free: nothing",
+         "walls; elastic: walls on springs and dashpots; periodic: what leaves at one bound comes in at the "
+         "other; free: nothing",
      .source = "DilatedDEM manual (2016), bound_type"},
     {.section = FL_SEC_BOUNDARY,
      .key = "min",

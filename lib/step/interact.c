@@ -20,11 +20,15 @@ typedef struct {
     fl_vec3 o, off;
 } relative;
 
-static relative relate(const fl_bodies *b, int32_t i, int32_t j)
+static relative relate(const fl_world *w, const fl_pair *p)
 {
+    const fl_bodies *b = &w->b;
+    const int32_t i = p->i, j = p->j;
     const fl_mat3 *A = &b->R[i], *B = &b->R[j];
     relative r;
     r.off = v3_sub(b->x[j], b->x[i]);
+    if (w->cell.wraps)
+        r.off = v3_add(r.off, fl_cell_way(&w->cell, v3(p->image[0], p->image[1], p->image[2])));
     r.o = v3_neg(m3_tmul(*B, r.off));
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
@@ -459,7 +463,7 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
     const double path = b->odometer[p->i] + b->odometer[p->j];
     if (p->n == 0 && path < p->asleep) return;
     const double R = b->radius[p->i] + b->radius[p->j];
-    const relative r = relate(b, p->i, p->j);
+    const relative r = relate(w, p);
     fl_places *s = &w->scratch[thread];
     double distance = 0.0;
     p->f = p->ti = p->tj = p->fd = p->di = p->dj = p->fs = p->si = p->sj = v3(0, 0, 0);
@@ -487,11 +491,12 @@ failed:
     w->failed = 1;
 }
 
-int fl_interact_probe(fl_world *w, int32_t i, int32_t j, double reach, fl_contact *out)
+int fl_interact_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out)
 {
     const fl_bodies *b = &w->b;
+    const int32_t i = p->i, j = p->j;
     const fl_poly *A = &b->core[i], *B = &b->core[j];
-    const relative r = relate(b, i, j);
+    const relative r = relate(w, p);
     const fl_piece *piece = piece_of(w, j);
     fl_places *s = &w->scratch[0];
     fl_err lost = {0};
@@ -522,6 +527,8 @@ int fl_interact_probe(fl_world *w, int32_t i, int32_t j, double reach, fl_contac
         free(n);
     }
     out->n = m3_mul(b->R[j], out->n);
-    out->p = v3_add(b->x[j], m3_mul(b->R[j], out->p));
+    /* b->x[j] where j is no image: the bits of a scene without a cell */
+    out->p = v3_add(w->cell.wraps ? v3_add(b->x[i], r.off) : b->x[j], m3_mul(b->R[j], out->p));
+    out->p = fl_cell_inside(&w->cell, out->p);
     return out->gap < reach;
 }

@@ -12,8 +12,9 @@
  * out of memory sets w->failed. */
 void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey);
 
-/* The signed contact of two things as the probe tells it: gap and mode by narrow/contact.h, in world axes
- * relative to the world's origin.  Returns 0 where a kind has no such contact within reach. */
-int fl_interact_probe(fl_world *w, int32_t i, int32_t j, double reach, fl_contact *out);
+/* The signed contact of a pair as the probe tells it: gap and mode by narrow/contact.h, in world axes
+ * relative to the world's origin, the point inside the cell.  Returns 0 where a kind has no such contact
+ * within reach. */
+int fl_interact_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
 #include "base/mem.h"
 #include "step/pairing.h"
 #include "step/search.h"
@@ -28,6 +29,38 @@ static fl_aabb box_of(const fl_world *w, int32_t k)
     }
     for (int32_t v = 0; v < core->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(b->R[k], core->v[v])));
     return aabb_grow(box, b->radius[k]);
+}
+
+/* Bring the boxes into the cell; each by the cell that its body's centre is in, walls as they are. */
+static void wrap_boxes(fl_world *w)
+{
+#pragma omp parallel for schedule(static)
+    for (int32_t k = 0; k < w->b.total - w->walls; k++) {
+        const fl_vec3 way = fl_cell_way(&w->cell, fl_cell_of(&w->cell, w->b.x[k]));
+        w->box[k] = (fl_aabb){v3_sub(w->box[k].lo, way), v3_sub(w->box[k].hi, way)};
+    }
+    w->near.period = w->cell.length;
+}
+
+/* The image of pair k of the search: boxes met after each had been moved by its own cell. */
+static void image_of(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t image[3])
+{
+    image[0] = image[1] = image[2] = 0;
+    if (!w->cell.wraps || j >= w->b.total - w->walls) return;
+    const fl_vec3 ci = fl_cell_of(&w->cell, w->b.x[i]), cj = fl_cell_of(&w->cell, w->b.x[j]);
+    const double own[3] = {ci.x - cj.x, ci.y - cj.y, ci.z - cj.z};
+    for (int axis = 0; axis < 3; axis++)
+        image[axis] = fl_pairs_image(w->near.image[k], axis) + (int32_t)own[axis];
+}
+
+/* -1, 0, 1: pair p comes before (i, j, image), is it, or comes after it. */
+static int order(const fl_pair *p, int32_t i, int32_t j, const int32_t image[3])
+{
+    if (p->i != i) return p->i < i ? -1 : 1;
+    if (p->j != j) return p->j < j ? -1 : 1;
+    for (int axis = 0; axis < 3; axis++)
+        if (p->image[axis] != image[axis]) return p->image[axis] < image[axis] ? -1 : 1;
+    return 0;
 }
 
 static int stale(const fl_world *w)
@@ -72,6 +105,7 @@ int fl_search(fl_world *w, fl_err *err)
     if (!stale(w)) return 0;
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < total; k++) w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin);
+    if (w->cell.wraps) wrap_boxes(w);
     if (fl_pairs_find(&w->near, w->box, w->n, total, w->walls, err)) return -1;
 
     const int64_t n = w->near.first[w->n];
@@ -81,10 +115,15 @@ int fl_search(fl_world *w, fl_err *err)
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
-            while (at < n_old && (old[at].i < i || (old[at].i == i && old[at].j < j)))
-                fl_pair_end(&old[at++]);
-            if (at < n_old && old[at].i == i && old[at].j == j) fresh[k] = old[at++];
-            else fl_pair_start(w, &fresh[k], i, j);
+            int32_t image[3];
+            image_of(w, k, i, j, image);
+            while (at < n_old && order(&old[at], i, j, image) < 0) fl_pair_end(&old[at++]);
+            if (at < n_old && order(&old[at], i, j, image) == 0) {
+                fresh[k] = old[at++];
+            } else {
+                fl_pair_start(w, &fresh[k], i, j);
+                memcpy(fresh[k].image, image, sizeof image);
+            }
         }
     }
     while (at < n_old) fl_pair_end(&old[at++]);

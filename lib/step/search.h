@@ -7,8 +7,8 @@
 /* Renew the list of near pairs when it may be incomplete: when any two odometers together have grown by more
  * than the skin since the last search, or when the scene's search_every steps have passed.  Boxes are those
  * of the dilated cores, grown by half the skin each, so that no pair can touch unlisted.  What a pair
- * remembers is carried over by merging the two lists, both sorted by (i, j).  Returns 0, or -1 with
- * FL_SYSTEM. */
+ * remembers is carried over by merging the two lists, both sorted by (i, j), then by image.  Returns 0, or -1
+ * with FL_SYSTEM. */
 int fl_search(fl_world *w, fl_err *err);
 
 /* Renew w->inc, the pairs of each body in the order of the list, after the list has changed.  -1 with

@@ -214,12 +214,13 @@ static void pair(traffic *t, fl_world *w, int32_t c)
     if (t->in) {
         const fl_pair *q = c > 0 ? p - 1 : NULL;
         if (t->err->code) return;
-        if (i >= j || (q && (q->i > i || (q->i == i && q->j >= j)))) {
+        if (i >= j || (q && (q->i > i || (q->i == i && (w->cell.wraps ? q->j > j : q->j >= j))))) {
             fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in rising order were wanted", i, j);
             return;
         }
         fl_pair_start(w, p, i, j);
     }
+    for (int axis = 0; w->cell.wraps && axis < 3; axis++) whole(t, -INT32_MAX, INT32_MAX, &p->image[axis]);
     whole(t, 0, 1, &p->n);
     memory(t, p);
     if (p->n) forces(t, p);

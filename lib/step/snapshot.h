@@ -12,7 +12,7 @@
  *     body ...  x v L q w f t held odometer, odometer at the last search
  *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown
- *     pair ...  i j, memory, and for a pair that touches its forces */
+ *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces */
 #ifndef FL_STEP_SNAPSHOT_H
 #define FL_STEP_SNAPSHOT_H
 #include <stdio.h>

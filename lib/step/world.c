@@ -189,6 +189,40 @@ static int make_walls(fl_world *w, fl_err *err)
     return 0;
 }
 
+static void make_cell(fl_world *w)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    const fl_vec3 lo = s->min, hi = s->max;
+    if (!s->head.present) return;
+    for (int c = 0; c < 3; c++) {
+        double *low = c == 0 ? &w->cell.lo.x : c == 1 ? &w->cell.lo.y : &w->cell.lo.z;
+        double *length = c == 0 ? &w->cell.length.x : c == 1 ? &w->cell.length.y : &w->cell.length.z;
+        const double a = c == 0 ? lo.x : c == 1 ? lo.y : lo.z, b = c == 0 ? hi.x : c == 1 ? hi.y : hi.z;
+        if (s->type[c] != FL_BOUND_PERIODIC || !isfinite(a) || !isfinite(b)) continue;
+        *low = a;
+        *length = b - a;
+        w->cell.wraps = 1;
+    }
+}
+
+/* A body that spans half the cell could meet two images of another at once, or its own. */
+static int fits_cell(const fl_world *w, int32_t i, fl_err *err)
+{
+    const double length[3] = {w->cell.length.x, w->cell.length.y, w->cell.length.z};
+    const fl_poly *p = &w->b.core[i];
+    double across = 0.0;
+    for (int32_t a = 0; a < p->nv; a++)
+        for (int32_t b = 0; b < a; b++) across = fmax(across, v3_norm2(v3_sub(p->v[a], p->v[b])));
+    across = sqrt(across) + 2.0 * w->b.radius[i];
+    for (int c = 0; c < 3; c++)
+        if (length[c] > 0.0 && across > 0.5 * length[c])
+            return fl_fail(err, FL_INPUT,
+                           "%s: body %d is %.4g m across, more than half of the %.4g m of the periodic %c; a "
+                           "wider cell was wanted",
+                           w->scene->ice.file, w->id[i], across, length[c], 'x' + c);
+    return 0;
+}
+
 static int place_pieces(fl_world *w, fl_err *err)
 {
     for (int32_t k = 0; k < w->structure.n; k++) {
@@ -261,13 +295,15 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
         goto fail;
     }
     if (make_walls(w, err)) goto fail;
+    make_cell(w);
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
         make_beds(w, err) || make_sea(w, err))
         goto fail;
     for (int32_t i = 0; i < w->n; i++) {
         fl_poly outer = {0};
-        const int bad = make_body(w, field, i, &outer, err) || (w->bed.hull && make_bed(w, i, &outer, err)) ||
+        const int bad = make_body(w, field, i, &outer, err) || (w->cell.wraps && fits_cell(w, i, err)) ||
+                        (w->bed.hull && make_bed(w, i, &outer, err)) ||
                         (w->sea.n && make_hull(w, i, &outer, err));
         fl_poly_free(&outer);
         if (bad) goto fail;

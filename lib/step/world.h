@@ -5,6 +5,7 @@
 #ifndef FL_STEP_WORLD_H
 #define FL_STEP_WORLD_H
 #include "body/body.h"
+#include "bound/cell.h"
 #include "bound/shell.h"
 #include "broad/pairs.h"
 #include "law/tangent.h"
@@ -35,6 +36,7 @@ typedef struct {
  * snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit. */
 typedef struct {
     int32_t i, j;           /* i moves, i < j                                        */
+    int32_t image[3];       /* j is where it is, moved by so many lengths of the cell */
     int32_t n;              /* touching                                              */
     fl_slip slip;           /* what friction remembers                               */
     fl_matches matches;     /* which features may touch; can be made again at any time */
@@ -86,6 +88,7 @@ typedef struct {
     fl_bodies b;
     int32_t n, pieces, walls;
     fl_structure structure;
+    fl_cell cell;
     fl_beds bed;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */

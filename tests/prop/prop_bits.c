@@ -32,9 +32,16 @@ static uint64_t digest(fl_world *w)
     return fl_hash(h, &w->touching_steps, (int64_t)sizeof w->touching_steps);
 }
 
-static void make(lab *l, const way *how, int32_t threads, int32_t side, const char *law)
+/* What is run: a scene of so many bodies to a side under a law. */
+typedef struct {
+    void (*scene)(lab *l, int32_t side, const char *law);
+    int32_t side;
+    const char *law;
+} what;
+
+static void make(lab *l, const way *how, int32_t threads, const what *it)
 {
-    scene_of_everything(l, side, law);
+    it->scene(l, it->side, it->law);
     lab_setf(l, "run.threads=%d", threads);
     if (how->every) lab_setf(l, "run.search_every=%d", how->every);
     lab_make(l, 0);
@@ -42,23 +49,22 @@ static void make(lab *l, const way *how, int32_t threads, int32_t side, const ch
     l->w.found_at = -1; /* the list at hand is that of the other skin */
 }
 
-static uint64_t run(const way *how, int32_t side, const char *law, int64_t steps, int64_t *touching,
-                    int64_t *searches)
+static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touching, int64_t *searches)
 {
     lab l, m;
     fl_err err = {0};
     fl_text in = {0};
     char *text = NULL;
     size_t n = 0;
-    make(&l, how, how->threads, side, law);
-    if (side == 8) assert_int_equal(l.w.threads, how->threads);
+    make(&l, how, how->threads, it);
+    if (it->side == 8) assert_int_equal(l.w.threads, how->threads);
     assert_int_equal(lab_run(&l, how->stop ? how->stop : steps), 0);
     if (how->stop) {
         FILE *f = open_memstream(&text, &n);
         assert_non_null(f);
         fl_snapshot_write(f, &l.w);
         assert_int_equal(fclose(f), 0);
-        make(&m, how, how->then, side, law);
+        make(&m, how, how->then, it);
         assert_int_equal(fl_text_open_bytes(&in, "snapshot", text, (int64_t)n, &err), 0);
         assert_int_equal(fl_snapshot_read(&m.w, &in, &err), 0);
         fl_text_close(&in);
@@ -74,14 +80,14 @@ static uint64_t run(const way *how, int32_t side, const char *law, int64_t steps
     return got;
 }
 
-static void compare(const way *how, int ways, int32_t side, const char *law, int64_t steps, int64_t at_least)
+static void compare(const way *how, int ways, const what *it, int64_t steps, int64_t at_least)
 {
     uint64_t first = 0;
     int64_t touching, searches, fewest = INT64_MAX, most = 0;
     for (int k = 0; k < ways; k++) {
-        const uint64_t got = run(&how[k], side, law, steps, &touching, &searches);
+        const uint64_t got = run(&how[k], it, steps, &touching, &searches);
         if (k == 0) first = got;
-        if (got != first) print_error("law %s: way %d has other bits\n", law, k);
+        if (got != first) print_error("law %s: way %d has other bits\n", it->law, k);
         assert_true(got == first);
         assert_true(touching > at_least);
         fewest = searches < fewest ? searches : fewest;
@@ -95,17 +101,23 @@ static void threads_and_searches(void **state)
 {
     const way how[] = {{1, 0, 1.0, 0, 0},  {2, 0, 1.0, 0, 0},  {3, 7, 1.0, 0, 0},  {8, 0, 0.2, 0, 0},
                        {16, 0, 3.0, 0, 0}, {2, 0, 1.0, 3, 16}, {16, 1, 1.0, 7, 3}, {3, 0, 0.3, 1, 8}};
+    const what it[] = {{scene_of_everything, 8, "patch"}, {scene_of_wraps, 8, "patch"}};
     (void)state;
-    compare(how, sizeof how / sizeof *how, 8, "patch", 10, 2000);
+    for (int k = 0; k < 2; k++) compare(how, sizeof how / sizeof *how, &it[k], 10, 2000);
 }
 
 static void laws(void **state)
 {
-    static const char *const LAW[] = {"patch", "core", "manual", "manual-si"};
+    static const what IT[] = {{scene_of_everything, 3, "patch"},
+                              {scene_of_everything, 3, "core"},
+                              {scene_of_everything, 3, "manual"},
+                              {scene_of_everything, 3, "manual-si"},
+                              {scene_of_wraps, 3, "patch"}};
     const way how[] = {{1, 0, 1.0, 0, 0}, {2, 5, 1.0, 0, 0}, {1, 0, 0.1, 0, 0},
                        {2, 0, 4.0, 0, 0}, {1, 1, 1.0, 0, 0}, {2, 0, 1.0, 57, 1}};
     (void)state;
-    for (int k = 0; k < 4; k++) compare(how, sizeof how / sizeof *how, 3, LAW[k], 200, 1000);
+    for (size_t k = 0; k < sizeof IT / sizeof *IT; k++)
+        compare(how, sizeof how / sizeof *how, &IT[k], 200, 1000);
 }
 
 int main(void)

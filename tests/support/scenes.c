@@ -63,3 +63,9 @@ void scene_of_everything(lab *l, int32_t side, const char *law)
     lab_prism(l, 6, hook, half - 0.1, top + 0.5); /* not convex: a shell */
     for (int32_t k = 0; k < side * side * side; k++) put(l, side, k);
 }
+
+void scene_of_wraps(lab *l, int32_t side, const char *law)
+{
+    scene_of_everything(l, side, law);
+    lab_set(l, "boundary.type=periodic periodic rigid");
+}

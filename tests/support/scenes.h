@@ -9,4 +9,7 @@
  * bodies are polyhedra.  Keys may still be set; then lab_make(). */
 void scene_of_everything(lab *l, int32_t side, const char *law);
 
+/* The same in a cell that repeats itself along x and y, with nothing at its sides. */
+void scene_of_wraps(lab *l, int32_t side, const char *law);
+
 #endif

@@ -150,10 +150,51 @@ static void runs_out_of_memory_in_peace(void **state)
     free(box);
 }
 
+/* The same with images: every pair of images in reach, brute force over more of them than can meet. */
+static void finds_images(void **state)
+{
+    fl_pairs p = {0};
+    (void)state;
+    for (long c = 0; c < test_times(30); c++) {
+        fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
+        fl_err err = {0};
+        const int32_t n = (int32_t)fl_rng_in(&g, 0, 100), held = (int32_t)fl_rng_in(&g, 0, 10),
+                      total = n + held;
+        const int32_t which = (int32_t)fl_rng_in(&g, 1, 8);
+        int64_t at = 0;
+        p.period = v3(which & 1 ? 20.0 : 0, which & 2 ? 23.0 : 0, which & 4 ? 21.0 : 0);
+        fl_aabb *box = calloc((size_t)total + 1, sizeof *box);
+        assert_non_null(box);
+        for (int32_t k = 0; k < total; k++) box[k] = random_box(&g, 10.0, -4.0, 0.5);
+        assert_int_equal(fl_pairs_find(&p, box, n, total, 0, &err), 0);
+        for (int32_t i = 0; i < n; i++) {
+            for (int32_t j = i + 1; j < total; j++) {
+                for (int e = 0; e < 125; e++) {
+                    const int x = e / 25 - 2, y = e / 5 % 5 - 2, z = e % 5 - 2;
+                    const fl_vec3 way = v3(x * p.period.x, y * p.period.y, z * p.period.z);
+                    const fl_aabb q = {v3_sub(box[i].lo, way), v3_sub(box[i].hi, way)};
+                    if ((!(which & 1) && x) || (!(which & 2) && y) || (!(which & 4) && z)) continue;
+                    if (!aabb_meet(q, box[j])) continue;
+                    assert_true(at < p.first[i + 1]);
+                    assert_int_equal(p.partner[at], j);
+                    assert_int_equal(fl_pairs_image(p.image[at], 0), x);
+                    assert_int_equal(fl_pairs_image(p.image[at], 1), y);
+                    assert_int_equal(fl_pairs_image(p.image[at], 2), z);
+                    at++;
+                }
+            }
+            assert_true(p.first[i + 1] == at);
+        }
+        free(box);
+    }
+    fl_pairs_free(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_what_brute_force_finds),
+        cmocka_unit_test(finds_images),
         cmocka_unit_test(threads_give_the_same_lists),
         cmocka_unit_test(misses_none_at_a_size_ratio_of_a_million),
         cmocka_unit_test(runs_out_of_memory_in_peace),

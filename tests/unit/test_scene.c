@@ -243,7 +243,8 @@ static void words_of_the_manual_are_read_bare(void **state)
     fl_scene_free(&s);
     refused("bound_type 5\n" ICE,
             ":1: bound_type is \"5\", 1 (rigid), 2 (elastic), 3 (periodic) or 4 (free) was wanted");
-    refused("bound_type 3\n" ICE, ":1: boundary.type = periodic is not supported by this version");
+    refused("bound_type 3\n" ICE,
+            ":1: a periodic boundary has no bounds: boundary.min or boundary.max was wanted");
     refused("windvel 18\n" ICE, ":1: windvel is \"18\", a Beaufort number from 0 to 17 was wanted");
     refused("isbonding 1\n" ICE, ":1: bond.on = true is not supported by this version");
     refused("\ngravitiy 9\n" ICE,
@@ -347,6 +348,12 @@ static void parts_are_held_against_each_other(void **state)
             ":4: boundary.type is \"free rigid\", one word or three, for x, y and z, were wanted");
     refused(ICE "[boundary]\ntype = free rigid free free\n",
             ":4: boundary.type is \"free rigid free free\", one word or three, for x, y and z, were wanted");
+    refused(
+        ICE "[boundary]\ntype = periodic\nmin = 0 0 none\nmax = 1 none none\n",
+        ":4: y is periodic and has one bound: boundary.min and boundary.max of y, or none of the two, were "
+        "wanted");
+    refused(ICE "[boundary]\ntype = periodic\nmin = 0 0 0\nmax = 1 1 1\n[water]\n",
+            ":4: z is periodic, and there is [water], which has one surface: one of the two was wanted");
     refused(ICE "[boundary]\n",
             ":3: a rigid boundary has no bounds: boundary.min or boundary.max was wanted");
     refused(ICE "[group a]\nfixed = x\nvelocity = 0 1 0\n",

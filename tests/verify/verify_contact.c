@@ -371,7 +371,8 @@ static void frictionless_boxes(void)
 static double signed_distance(lab *l)
 {
     fl_contact c;
-    fl_interact_probe(&l->w, 0, 1, INFINITY, &c);
+    const fl_pair p = {.i = 0, .j = 1};
+    fl_interact_probe(&l->w, &p, INFINITY, &c);
     return c.d;
 }
 

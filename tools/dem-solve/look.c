@@ -16,7 +16,7 @@ int look_probe(struct run *r, FILE *f, fl_err *err)
     fl_contacts_header(f, r->history, r->by);
     for (int32_t c = 0; c < w->n_pair; c++) {
         fl_contact k;
-        if (!fl_interact_probe(w, w->pair[c].i, w->pair[c].j, r->o->probe, &k)) continue;
+        if (!fl_interact_probe(w, &w->pair[c], r->o->probe, &k)) continue;
         fl_contacts_row(f, 0.0, w->id[w->pair[c].i], run_partner(w, w->pair[c].j), &k, 0.0, v3(0, 0, 0));
     }
     return 0;

@@ -58,8 +58,15 @@ void run_frames_path(const struct run *r, const struct outputs *u, char path[FL_
     else snprintf(path, FL_SCENE_PATH + 16, "%s", s->frames);
 }
 
+/* The bodies as the tables tell them. */
+static fl_poses poses(const struct run *r)
+{
+    return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->at, &r->w->cell};
+}
+
 void run_header(struct run *r, struct outputs *u, int k)
 {
+    const fl_poses now = poses(r);
     FILE *f = u->table[k].f;
     switch (k) {
     case AT_LOADS: fl_loads_header(f, r->history, r->by, u->last_row); break;
@@ -67,7 +74,7 @@ void run_header(struct run *r, struct outputs *u, int k)
     case AT_ENERGY: fl_rows_header(f, "energy", r->history, r->by, FL_ENERGY_COLUMNS); break;
     case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
     case AT_HASH: fl_hash_header(f, r->history, r->by); break;
-    default: fl_frames_header(f, r->history, r->by, &r->w->b, r->w->id, r->w->q0, r->at, r->surface);
+    default: fl_frames_header(f, r->history, r->by, &now, r->surface);
     }
 }
 
@@ -124,7 +131,7 @@ static void write_contacts(struct run *r, struct outputs *u, double t)
     for (int32_t c = 0; c < w->n_pair; c++) {
         const fl_pair *p = &w->pair[c];
         fl_contact k;
-        if (p->n == 0 || !fl_interact_probe(w, p->i, p->j, 0.0, &k)) continue;
+        if (p->n == 0 || !fl_interact_probe(w, p, 0.0, &k)) continue;
         const double normal = v3_dot(p->f, k.n);
         fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], run_partner(w, p->j), &k, normal,
                         v3_madd(p->f, -normal, k.n));
@@ -145,6 +152,7 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
     const int ice = r->w->step >= u->at[AT_ICE].due;
+    const fl_poses now = poses(r);
     const int32_t file =
         s->files > 1 ? (int32_t)fmin(s->files - 1, floor(t / s->until * s->files * (1 + 1e-12))) : 0;
     if (t > s->until * (1.0 + 1e-12)) return 0;
@@ -156,8 +164,7 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         if (open_table(r, u, AT_FRAMES, path, err)) return -1;
         run_header(r, u, AT_FRAMES);
     }
-    fl_frames_frame(u->table[AT_FRAMES].f, t, &r->w->b, r->w->id, r->w->q0, r->at,
-                    v3_scale(t, r->scene->structure.velocity), ice);
+    fl_frames_frame(u->table[AT_FRAMES].f, t, &now, v3_scale(t, r->scene->structure.velocity), ice);
     if (ice) next(u, AT_ICE, r->w->dt);
     return 0;
 }
@@ -168,13 +175,14 @@ static double time_of(const struct run *r) { return (double)r->w->step * r->w->d
 static int write_due(struct run *r, struct outputs *u, fl_err *err)
 {
     const double t = time_of(r);
+    const fl_poses now = poses(r);
     for (int k = 0; k < TABLES; k++) {
         if (!u->table[k].f || r->w->step < u->at[k].due) continue;
         switch (k) {
         case AT_LOADS:
             if (write_loads(r, u, t, err)) return -1;
             break;
-        case AT_STATE: fl_state_rows(u->table[k].f, t, &r->w->b, r->w->id, r->w->q0, r->at); break;
+        case AT_STATE: fl_state_rows(u->table[k].f, t, &now); break;
         case AT_ENERGY: write_energy(r, u, t); break;
         case AT_CONTACTS: write_contacts(r, u, t); break;
         case AT_HASH: fl_hash_row(u->table[k].f, t, fl_step_hash(r->w)); break;

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* poses.h -- what the tables see of the bodies. */
+#ifndef FL_OUT_POSES_H
+#define FL_OUT_POSES_H
+#include "body/body.h"
+#include "bound/cell.h"
+
+/* All borrowed. */
+typedef struct {
+    const fl_bodies *b;
+    const int32_t *id;
+    const fl_quat *q0;   /* axes at the start: orientations are told against them */
+    const int32_t *at;   /* [b->n] the order; NULL: as they are */
+    const fl_cell *cell; /* positions are told inside it; NULL: as they are */
+} fl_poses;
+
+/* The k-th body to be told. */
+static inline int32_t fl_poses_body(const fl_poses *p, int32_t k) { return p->at ? p->at[k] : k; }
+
+static inline fl_vec3 fl_poses_place(const fl_poses *p, int32_t i)
+{
+    return p->cell ? fl_cell_inside(p->cell, p->b->x[i]) : p->b->x[i];
+}
+
+#endif
