@@ -12,7 +12,7 @@ CGAL  = -lstdc++ -lgmp -lmpfr
 
 LIBOBJ   = $(patsubst %.c,$B/%.o,$(wildcard lib/*/*.c))
 SHIMOBJ  = $(patsubst %.cpp,$B/%.o,$(wildcard lib/shim/*.cpp))
-SHIM    ?= $B/libfloe-shim.a
+SHIM     = $B/libfloe-shim.a
 SUPPORT  = $(patsubst %.c,$B/%.o,$(wildcard tests/support/*.c))
 test_of  = $(patsubst tests/$1/%.c,$B/tests/$1/%,$(wildcard tests/$1/*.c))
 TESTS    = $(foreach k,unit prop fuzz verify bench,$(call test_of,$k))
@@ -53,8 +53,16 @@ demo check verify bench: setup
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) run-$@
 run-demo: all
 	@$(MAKE) --no-print-directory -C share/examples/cylinder BIN=$(CURDIR)/$B/bin OUT=$(CURDIR)/$B/demo demo
+run-check: $(if $(SAN),,readers)
 run-check run-verify run-bench: tests
 	@sh tests/run.sh $(@:run-%=%) $B
+# The readers once more, under the sanitizers: check replays the corpora of tests/fuzz with them.  CGAL stays as it is.
+readers: $(SHIM)
+	@echo 'int main(void) { return 0; }' >$B/probe.c
+	@if $(CC) -fsanitize=address,undefined $B/probe.c -o $B/probe && $B/probe; then \
+		$(MAKE) --no-print-directory SAN=address,undefined OPT=-O0 SHIM=$(SHIM) corpora; \
+	else echo "readers: this compiler has no sanitizers, corpora are replayed without them" >&2; fi
+corpora: $(call test_of,fuzz)
 golden-update: all
 	@sh tests/run.sh update $B
 lint:
@@ -70,6 +78,6 @@ install: all
 clean:
 	rm -rf build
 
-.PHONY: all tests setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install clean
+.PHONY: all tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install clean
 .SECONDARY:
 -include $(wildcard $B/*/*/*.d $B/*/*/*/*.d)

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh check|verify|bench|update BUILD -- run the tests that lie built under BUILD.
-#   check    floors, man pages against --help, unit, prop, fuzz, golden, and the quick part of verify
+#   check    floors, man pages against --help, unit, prop, fuzz, golden, the quick part of verify, and each corpus of
+#            fuzz as it is under the sanitizers, where BUILD/san has the programs
 #   verify   every verification program in full, with its table
 #   bench    every benchmark, one at a time
 #   update   rewrite what the golden cases expect; CASE='name*' limits it to some of them
@@ -110,6 +111,9 @@ programs() # KIND
     done
 }
 
+# The sanitizers' map of memory may collide with addresses drawn at random where the kernel draws from many.
+straight=
+setarch -R true 2>/dev/null && straight="setarch -R"
 crews=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 limit=${FLOE_TIMEOUT:-3600}
 case $what in
@@ -122,6 +126,11 @@ check)
     programs unit
     programs prop
     programs fuzz
+    for reader in "$build"/san/tests/fuzz/fuzz_*.o; do
+        [ -x "${reader%.o}" ] || continue
+        name=$(basename "$reader" .o)
+        [ -f "tests/fuzz/$name.c" ] && add "corpus/${name#fuzz_}" "FLOE_FUZZ=0 exec $straight '${reader%.o}'"
+    done
     for c in tests/golden/*/cmd; do
         [ -f "$c" ] && add "golden/$(basename "${c%/cmd}")" "exec sh tests/golden.sh '${c%/cmd}' '$build'"
     done
