@@ -235,6 +235,8 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
     count(t, &w->step);
     count(t, &w->found_at);
     real(t, &w->dt);
+    real(t, &w->t0);
+    count(t, &w->step0);
     real(t, &w->skin);
     real(t, &w->dt_critical);
     whole(t, -1, w->n - 1, &w->critical_body);
@@ -244,7 +246,9 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
     whole(t, w->sea.n, w->sea.n, &n_sea);
     whole(t, 0, INT32_MAX, &pairs);
     close_row(t);
-    if (t->in && !t->err->code && !(w->step >= 0 && w->dt > 0.0 && isfinite(w->dt) && w->skin >= 0.0))
+    if (t->in && !t->err->code &&
+        !(w->step >= 0 && w->dt > 0.0 && isfinite(w->dt) && w->skin >= 0.0 && w->t0 >= 0.0 &&
+          isfinite(w->t0) && w->step0 >= 0 && w->step0 <= w->step))
         fl_text_fail(t->in, t->err, "step %g of %g s is no state of a run", (double)w->step, w->dt);
     books(t, w);
     for (int32_t p = 0; p < w->parts && !t->err->code; p++) {

@@ -62,14 +62,13 @@ static int check(fl_world *w, int survey, fl_err *err)
     for (int32_t i = 0; i < w->n; i++)
         if (!finite3(w->b.f[i]) || !finite3(w->b.t[i]) || !finite3(w->b.x[i]) || !finite3(w->b.v[i]))
             return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)", w->id[i],
-                           (long long)w->step, (double)w->step * w->dt);
+                           (long long)w->step, fl_world_time(w));
     if (survey && w->dt > w->dt_critical)
         return fl_fail(err, FL_NUMERIC,
                        "body %d: the step of %g s is above the critical %g s of its contacts in step %lld (t "
                        "= %g s); set "
                        "a smaller run.dt or run.safety",
-                       w->id[w->critical_body], w->dt, w->dt_critical, (long long)w->step,
-                       (double)w->step * w->dt);
+                       w->id[w->critical_body], w->dt, w->dt_critical, (long long)w->step, fl_world_time(w));
     return 0;
 }
 
@@ -203,6 +202,25 @@ int fl_step(fl_world *w, fl_err *err)
     }
     if (survey) survey_stiffness(w);
     return check(w, survey, err);
+}
+
+/* The half kick that lies ahead is booked already, and gets another length. */
+void fl_step_resize(fl_world *w, double dt, double t)
+{
+    const double more = 0.5 * (dt - w->dt);
+    double damped = 0.0, rubbed = 0.0;
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        const fl_pair *p = &w->pair[c];
+        if (p->n == 0) continue;
+        damped += damping_power(&w->b, p);
+        rubbed += friction_power(&w->b, p);
+    }
+    w->ledger.damping += more * damped;
+    w->ledger.friction += more * rubbed;
+    w->ledger.drive += more * drive_power(w);
+    w->t0 = t;
+    w->step0 = w->step;
+    w->dt = dt;
 }
 
 /* --- what the books say ------------------------------------------------------------------------ */

@@ -8,12 +8,15 @@
  * set. -1 with FL_SYSTEM, or FL_NUMERIC when something is not finite. */
 int fl_step_start(fl_world *w, fl_err *err);
 
-/* From time step * dt to the next:
+/* From time t to t + dt:
  *     drag h, kick h, drift dt, forces, kick h, drag h,     h = dt/2.
  * Contacts see the velocities in the middle of the step.  Symmetric, order 2 (contact damping and friction:
  * order 1 in their own share).  -1 with FL_SYSTEM, or FL_NUMERIC when a number is not finite or the step is
  * above the critical one: body and step are named. */
 int fl_step(fl_world *w, fl_err *err);
+
+/* From here on, steps of dt; t is what the clock shows now, fl_world_time() but for its rounding. [s] */
+void fl_step_resize(fl_world *w, double dt, double t);
 
 /* Stores, sinks and residual now, into w->ledger. */
 void fl_step_ledger(fl_world *w);

@@ -118,6 +118,8 @@ typedef struct {
     double dt_safe;         /* fl_world_dt() at the start; above it every step is looked at [s] */
     int32_t critical_body;
     int64_t step;
+    double t0; /* the time of step `step0`, from which on steps are of dt [s] */
+    int64_t step0;
     fl_ledger ledger;
     fl_vec3 *part_impulse,
         *part_moment;                  /* [parts] since the last loads row [N s], [N m s], about the origin */
@@ -141,6 +143,9 @@ typedef struct {
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
                   fl_err *err);
 void fl_world_free(fl_world *w);
+
+/* Time now [s].  Steps are of one size, or change it at times that are known exactly. */
+static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(w->step - w->step0) * w->dt; }
 
 /* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the
  * stiffest face it can meet, at its most compliant vertex, lowered for damping (see world.c). */

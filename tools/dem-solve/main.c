@@ -168,7 +168,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     *stopped = r.stopped;
     if (r.stopped && !o->quiet)
         fprintf(stderr, "dem-solve: stopped by a signal in step %lld (t = %g s)%s%s%s\n",
-                (long long)world.step, (double)world.step * world.dt,
+                (long long)world.step, fl_world_time(&world),
                 in.scene.output.checkpoint[0] ? ", dem-solve --resume " : "", in.scene.output.checkpoint,
                 in.scene.output.checkpoint[0] ? " goes on" : "");
 done:

@@ -8,8 +8,8 @@ void report_write(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     const fl_ledger *g = &w->ledger;
-    const double steps = (double)w->step, made = steps - (double)r->begun, simulated = made * w->dt,
-                 touches = (double)w->touching_steps;
+    const double steps = (double)w->step, made = steps - (double)r->begun,
+                 simulated = fl_world_time(w) - r->begun_time, touches = (double)w->touching_steps;
     const double scale = g->throughput > 0.0 ? g->throughput : 1.0;
     fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
     if (isfinite(w->dt_critical))
@@ -26,7 +26,7 @@ void report_write(const struct run *r, FILE *f)
                 touches / steps, w->searches);
     if (r->saves)
         fprintf(f, "checkpoints        %" PRId64 " in %.3g s besides, the last at t = %.6g s\n", r->saves,
-                r->save_wall, steps * w->dt);
+                r->save_wall, fl_world_time(w));
     fprintf(f, "energy residual    %.2g of the throughput (%.3g J of %.3g J)\n", fabs(g->residual) / scale,
             g->residual, g->throughput);
     fprintf(f, "momentum residual  %.2g of the contact impulses (%.3g N s of %.3g N s)\n",

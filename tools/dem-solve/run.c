@@ -25,7 +25,13 @@ int32_t run_partner(const fl_world *w, int32_t j)
     return part >= 0 ? -1 - part : -1 - w->parts - (j - w->n - w->pieces);
 }
 
-void run_steps(struct run *r) { r->steps = (int64_t)ceil(r->scene->run.duration / r->w->dt * (1.0 - 1e-12)); }
+/* The first step at or after t: a row is due at the step that differs from its time by rounding alone. */
+static int64_t step_at(const fl_world *w, double t)
+{
+    return w->step0 + (int64_t)ceil((t - w->t0 - 1e-12 * t) / w->dt);
+}
+
+void run_steps(struct run *r) { r->steps = step_at(r->w, r->scene->run.duration); }
 
 void run_step_size(struct run *r)
 {
@@ -43,13 +49,13 @@ void run_step_size(struct run *r)
 
 /* --- outputs that come at an interval ---------------------------------------------------------- */
 
-void run_timer(struct timer *t, int64_t k, double dt)
+void run_timer(struct timer *t, int64_t k, const fl_world *w)
 {
     t->k = k;
-    t->due = (int64_t)ceil((double)k * t->every / dt * (1.0 - 1e-12));
+    t->due = step_at(w, (double)k * t->every);
 }
 
-static void next(struct outputs *u, int k, double dt) { run_timer(&u->at[k], u->at[k].k + 1, dt); }
+static void next(struct outputs *u, int k, const fl_world *w) { run_timer(&u->at[k], u->at[k].k + 1, w); }
 
 void run_frames_path(const struct run *r, const struct outputs *u, char path[FL_SCENE_PATH + 16])
 {
@@ -97,7 +103,7 @@ static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
         if (u->table[k].f) run_header(r, u, k);
     for (int k = 0; k < TIMERS; k++) {
         u->at[k].every = every[k];
-        run_timer(&u->at[k], k == AT_LOADS || k == AT_SAVE, r->w->dt);
+        run_timer(&u->at[k], k == AT_LOADS || k == AT_SAVE, r->w);
     }
     return 0;
 }
@@ -165,11 +171,11 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         run_header(r, u, AT_FRAMES);
     }
     fl_frames_frame(u->table[AT_FRAMES].f, t, &now, v3_scale(t, r->scene->structure.velocity), ice);
-    if (ice) next(u, AT_ICE, r->w->dt);
+    if (ice) next(u, AT_ICE, r->w);
     return 0;
 }
 
-static double time_of(const struct run *r) { return (double)r->w->step * r->w->dt; }
+static double time_of(const struct run *r) { return fl_world_time(r->w); }
 
 /* What is due at this step. */
 static int write_due(struct run *r, struct outputs *u, fl_err *err)
@@ -189,7 +195,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         default:
             if (write_frames(r, u, t, err)) return -1;
         }
-        next(u, k, r->w->dt);
+        next(u, k, r->w);
     }
     return 0;
 }
@@ -230,7 +236,7 @@ static int save_due(struct run *r, struct outputs *u, int last, fl_err *err)
     if (!due && !told_to_save && !told_to_stop && !last) return 0;
     if (r->saves && r->saved_at == r->w->step) return 0;
     told_to_save = 0;
-    while (r->w->step >= u->at[AT_SAVE].due) next(u, AT_SAVE, r->w->dt);
+    while (r->w->step >= u->at[AT_SAVE].due) next(u, AT_SAVE, r->w);
     return save_write(r, u, err);
 }
 
@@ -248,7 +254,7 @@ static int whole_state(const fl_world *w)
 
 static void progress(const struct run *r, double begun, int last)
 {
-    const double t = (double)r->w->step * r->w->dt, wall = run_clock() - begun, end = r->scene->run.duration;
+    const double t = time_of(r), wall = run_clock() - begun, end = r->scene->run.duration;
     const double left = t > 0.0 ? wall / t * (end - t) : 0.0;
     fprintf(stderr, "\r%8.2f s of %g s   %6.2f x real time   %5.0f s left ", t, end,
             wall > 0.0 ? t / wall : 0.0, left);

@@ -23,7 +23,8 @@ struct run {
     double limit;      /* the critical step known before the run, 2/omega [s] */
     int32_t step_body; /* the body that set the automatic step, -1 */
     int64_t steps;
-    int64_t begun;    /* the step this program began with */
+    int64_t begun; /* the step this program began with, and its time [s] */
+    double begun_time;
     double wall;      /* [s] spent in steps */
     int64_t saves;    /* checkpoints written */
     int64_t saved_at; /* step of the last */
@@ -66,7 +67,7 @@ void run_step_size(struct run *r);
 void run_steps(struct run *r);
 
 /* Set a timer to its row k. */
-void run_timer(struct timer *t, int64_t k, double dt);
+void run_timer(struct timer *t, int64_t k, const fl_world *w);
 
 /* File number u->frame_file of the frames: the name itself, or NAME.k when there are several. */
 void run_frames_path(const struct run *r, const struct outputs *u, char path[FL_SCENE_PATH + 16]);

@@ -180,10 +180,10 @@ static int read_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
     for (int c = 0; c < TIMERS; c++) {
         if (word_i64(in, &k, err)) return -1;
         u->at[c].every = every[c];
-        run_timer(&u->at[c], k, r->w->dt);
+        run_timer(&u->at[c], k, r->w);
     }
     /* the next checkpoint comes after this one, also when its interval has been changed */
-    while (u->at[AT_SAVE].due <= r->w->step) run_timer(&u->at[AT_SAVE], u->at[AT_SAVE].k + 1, r->w->dt);
+    while (u->at[AT_SAVE].due <= r->w->step) run_timer(&u->at[AT_SAVE], u->at[AT_SAVE].k + 1, r->w);
     return fl_text_f64(in, "time of the last row", &u->last_row, err) ||
                    fl_text_i32(in, "file of the frames", 0, INT32_MAX, &u->frame_file, err) ||
                    fl_text_end(in, err)
@@ -251,10 +251,11 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
     if (err->code || read_place(r, u, mark, had, err)) return -1;
     run_steps(r);
     r->begun = r->w->step;
+    r->begun_time = fl_world_time(r->w);
     if (r->steps < r->w->step)
         return fl_fail(err, FL_USAGE,
                        "run.duration is %g s, and the checkpoint is of t = %g s: a later end was wanted",
-                       r->scene->run.duration, (double)r->w->step * r->w->dt);
+                       r->scene->run.duration, fl_world_time(r->w));
     for (int k = 0; k < TABLES; k++) { /* all of them are there, before one is touched */
         table_path(r, u, k, path);
         if (path[0] && !had[k])
