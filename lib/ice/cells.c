@@ -3,6 +3,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/rng.h"
+#include "geom/hilbert.h"
 #include "ice/cells.h"
 #include "shim/cgal_power.h"
 #include "shim/cgal_voronoi.h"
@@ -50,78 +51,142 @@ void fl_cells_sites(int32_t n, uint64_t seed, fl_vec2 lo, fl_vec2 hi, fl_vec2 *s
     fl_cells_sites_in(n, seed, &(fl_outline){.lo = lo, .hi = hi}, site);
 }
 
+/* The sites along Hilbert's curve, so that neighbours are near in memory; name is the number that the caller
+ * knows a site by.  It decides wherever an order does, so that no bit of a cell depends on that of the work.
+ */
+struct row {
+    int32_t *name;
+    fl_vec2 *site;
+    double *weight; /* NULL: all are 0 */
+    char *empty;
+    int32_t *near_first, *near;
+    int32_t *from, *count; /* where the cell lies in side and v, and its sides */
+    fl_side *side;
+    fl_vec2 *v;
+};
+
+static void row_free(struct row *r)
+{
+    free(r->name);
+    free(r->site);
+    free(r->weight);
+    free(r->empty);
+    free(r->near_first);
+    free(r->near);
+    free(r->from);
+    free(r->count);
+    free(r->side);
+    free(r->v);
+}
+
+static int row_make(struct row *r, int32_t n, const fl_vec2 *site, const double *weight, fl_err *err)
+{
+    if (!(r->name = fl_alloc(n, sizeof *r->name, err)) || !(r->site = fl_alloc(n, sizeof *r->site, err)) ||
+        !(r->empty = fl_alloc(n, 1, err)) || (weight && !(r->weight = fl_alloc(n, sizeof(double), err))) ||
+        !(r->near_first = fl_alloc((int64_t)n + 1, sizeof *r->near_first, err)) ||
+        !(r->from = fl_alloc(n, sizeof *r->from, err)) || !(r->count = fl_alloc(n, sizeof *r->count, err)) ||
+        fl_hilbert_order(n, site, r->name, err))
+        return -1;
+    for (int32_t k = 0; k < n; k++) {
+        r->site[k] = site[r->name[k]];
+        if (weight) r->weight[k] = weight[r->name[k]];
+    }
+    return weight ? fl_cgal_power_neighbours(n, r->site, r->weight, r->name, r->empty, r->near_first,
+                                             &r->near, err)
+                  : fl_cgal_neighbours(n, r->site, r->name, r->near_first, &r->near, err);
+}
+
 /* What is nearer, or of less power, to site i than to site j.  Always computed from the lower to the higher
- * index, so that both cells see one line. */
-static fl_side bisector(const fl_vec2 *site, const double *weight, int32_t i, int32_t j)
+ * name, so that both cells see one line. */
+static fl_side bisector(const struct row *r, int32_t i, int32_t j)
 {
-    const int32_t l = i < j ? i : j, h = i < j ? j : i;
-    const fl_vec2 a = site[l], b = site[h];
-    const double dx = b.x - a.x, dy = b.y - a.y, s = (i < j ? 1.0 : -1.0) / hypot(dx, dy);
+    const int rising = r->name[i] < r->name[j];
+    const int32_t l = rising ? i : j, h = rising ? j : i;
+    const fl_vec2 a = r->site[l], b = r->site[h];
+    const double dx = b.x - a.x, dy = b.y - a.y, s = (rising ? 1.0 : -1.0) / hypot(dx, dy);
     const double middle = dx * (0.5 * (a.x + b.x)) + dy * (0.5 * (a.y + b.y));
-    return (fl_side){s * dx, s * dy, s * (weight ? middle + 0.5 * (weight[l] - weight[h]) : middle), j};
+    return (fl_side){s * dx, s * dy, s * (r->weight ? middle + 0.5 * (r->weight[l] - r->weight[h]) : middle),
+                     r->name[j]};
 }
 
-/* A rectangle cut k times has at most 4 + k sides; that is the room each cell gets first. */
-static int32_t room(const fl_outline *in, const int32_t *near_first, int32_t i)
+/* A rectangle cut k times has at most 4 + k sides; with that room for each no cell runs into the next. */
+static int64_t room(const fl_outline *in, const struct row *r, int32_t k)
 {
-    return near_first[i] + (4 + in->n) * i;
+    return r->near_first[k] + (4 + (int64_t)in->n) * k;
 }
 
-static int neighbours(int32_t n, const fl_vec2 *site, const double *weight, char *empty, int32_t *first,
-                      int32_t **near, fl_err *err)
+/* Each thread puts its cells one behind the other, from where the room of its first one begins: memory that
+ * no cell needs stays untouched. */
+static void cut_all(struct row *r, int32_t n, const fl_outline *in, fl_vec2 lo, fl_vec2 hi)
 {
-    return weight ? fl_cgal_power_neighbours(n, site, weight, empty, first, near, err)
-                  : fl_cgal_neighbours(n, site, first, near, err);
+#pragma omp parallel
+    {
+        int32_t at = -1;
+#pragma omp for schedule(static)
+        for (int32_t k = 0; k < n; k++) {
+            if (at < 0) at = (int32_t)room(in, r, k);
+            fl_vec2 *v = r->v + at;
+            fl_side *side = r->side + at;
+            int32_t m = r->empty[k] ? 0 : 4;
+            fl_polygon_rectangle(lo, hi, v, side);
+            for (int32_t e = r->near_first[k]; e < r->near_first[k + 1] && m > 0; e++)
+                m = fl_polygon_cut(m, v, side, bisector(r, k, r->near[e]));
+            for (int32_t e = 0; e < in->n && m > 0; e++) m = fl_polygon_cut(m, v, side, wall(in, e));
+            r->from[k] = at;
+            r->count[k] = m < 3 ? 0 : m;
+            at += r->count[k];
+        }
+    }
+}
+
+/* The cells in the order of their names. */
+static int collect(fl_cells *c, const struct row *r, fl_err *err)
+{
+    const int32_t n = c->n;
+    for (int32_t k = 0; k < n; k++) c->first[r->name[k] + 1] = r->count[k];
+    for (int32_t i = 0; i < n; i++) {
+        if (c->first[i + 1] == 0 && !r->weight)
+            return fl_fail(err, FL_INPUT, "the cell of site %d vanishes: another site is too near", i);
+        c->first[i + 1] += c->first[i];
+    }
+    c->side = fl_alloc(c->first[n], sizeof *c->side, err);
+    c->v = fl_alloc(c->first[n], sizeof *c->v, err);
+    if (!c->side || !c->v) return -1;
+#pragma omp parallel for schedule(static)
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t to = c->first[r->name[k]];
+        memcpy(c->side + to, r->side + r->from[k], (size_t)r->count[k] * sizeof *c->side);
+        memcpy(c->v + to, r->v + r->from[k], (size_t)r->count[k] * sizeof *c->v);
+    }
+    return 0;
 }
 
 int fl_cells_build_in(fl_cells *out, int32_t n, const fl_vec2 *site, const double *weight,
                       const fl_outline *in, fl_err *err)
 {
     fl_cells c = {.n = n};
+    struct row r = {0};
     const double margin = in->n ? CLEAR * (in->hi.x - in->lo.x + in->hi.y - in->lo.y) : 0.0;
     const fl_vec2 lo = {in->lo.x - margin, in->lo.y - margin}, hi = {in->hi.x + margin, in->hi.y + margin};
-    int32_t *near_first = fl_alloc((int64_t)n + 1, sizeof *near_first, err), *near = NULL;
-    char *empty = fl_alloc(n, 1, err);
+    int32_t sides = 0, corners = 0;
     int rc = -1;
     c.first = fl_alloc((int64_t)n + 1, sizeof *c.first, err);
-    if (!near_first || !c.first || !empty || neighbours(n, site, weight, empty, near_first, &near, err))
-        goto done;
-    if (near_first[n] + (4 + (int64_t)in->n) * n > INT32_MAX) {
+    if (!c.first || row_make(&r, n, site, weight, err)) goto done;
+    if (room(in, &r, n) > INT32_MAX) {
         fl_fail(err, FL_INPUT, "%d cells in an outline of %d sides are too many, fewer were wanted", n,
                 in->n);
         goto done;
     }
-    c.side = fl_alloc(room(in, near_first, n), sizeof *c.side, err);
-    c.v = fl_alloc(room(in, near_first, n), sizeof *c.v, err);
-    if (!c.side || !c.v) goto done;
-#pragma omp parallel for schedule(static)
-    for (int32_t i = 0; i < n; i++) {
-        fl_vec2 *v = c.v + room(in, near_first, i);
-        fl_side *side = c.side + room(in, near_first, i);
-        int32_t m = empty[i] ? 0 : 4;
-        fl_polygon_rectangle(lo, hi, v, side);
-        for (int32_t k = near_first[i]; k < near_first[i + 1] && m > 0; k++)
-            m = fl_polygon_cut(m, v, side, bisector(site, weight, i, near[k]));
-        for (int32_t k = 0; k < in->n && m > 0; k++) m = fl_polygon_cut(m, v, side, wall(in, k));
-        c.first[i + 1] = m;
-    }
-    for (int32_t i = 0; i < n; i++) { /* close the gaps; the target never passes the source */
-        const int32_t m = c.first[i + 1] < 3 ? 0 : c.first[i + 1], from = room(in, near_first, i);
-        if (m == 0 && !weight) {
-            fl_fail(err, FL_INPUT, "the cell of site %d vanishes: another site is too near", i);
-            goto done;
-        }
-        memmove(c.v + c.first[i], c.v + from, (size_t)m * sizeof *c.v);
-        memmove(c.side + c.first[i], c.side + from, (size_t)m * sizeof *c.side);
-        c.first[i + 1] = c.first[i] + m;
-    }
+    if (fl_grow(&r.side, &sides, room(in, &r, n), sizeof *r.side, err) ||
+        fl_grow(&r.v, &corners, room(in, &r, n), sizeof *r.v, err))
+        goto done;
+    cut_all(&r, n, in, lo, hi);
+    if (collect(&c, &r, err)) goto done;
     *out = c;
     c = (fl_cells){0};
     rc = 0;
 done:
-    free(empty);
-    free(near_first);
-    free(near);
+    row_free(&r);
     fl_cells_free(&c);
     return rc;
 }

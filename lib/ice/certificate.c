@@ -3,6 +3,7 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "broad/bvh.h"
+#include "geom/hilbert.h"
 #include "ice/certificate.h"
 #include "shim/cgal_voronoi.h"
 
@@ -54,18 +55,29 @@ static void take(struct nearest *n, double gap, int32_t i, int32_t j)
     *n = (struct nearest){gap, i, j};
 }
 
-/* What floe i has to do with those of higher number that are near it. */
-static int look_round(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree, double reach, int32_t i,
-                      int32_t **near, int32_t *cap, int64_t *overlaps, struct nearest *n, fl_err *err)
+/* The floes along Hilbert's curve, in the order of which they are worked on: what is near a floe has been
+ * seen a moment before. */
+struct row {
+    const fl_floes *a;
+    int32_t *floe; /* [n] at place k */
+    fl_aabb *box;  /* [n] of it  [m] */
+    fl_bvh tree;
+};
+
+/* What the floe at place k has to do with those of higher places that are near it. */
+static int look_round(const struct row *r, double reach, int32_t k, int32_t **near, int32_t *cap,
+                      int64_t *overlaps, struct nearest *n, fl_err *err)
 {
-    const fl_aabb q = aabb_grow(box[i], reach);
+    const fl_floes *a = r->a;
+    const fl_aabb q = aabb_grow(r->box[k], reach);
     int32_t got;
-    while ((got = fl_bvh_query(tree, box, q, *near, *cap)) > *cap)
+    while ((got = fl_bvh_query(&r->tree, r->box, q, *near, *cap)) > *cap)
         if (fl_grow(near, cap, got, sizeof **near, err)) return -1;
-    for (int32_t k = 0; k < got; k++) {
-        const int32_t j = (*near)[k];
-        if (j <= i) continue;
-        if (aabb_meet(box[i], box[j]) && !apart(a, i, j)) {
+    for (int32_t e = 0; e < got; e++) {
+        const int32_t l = (*near)[e];
+        if (l <= k) continue;
+        const int32_t i = r->floe[k] < r->floe[l] ? r->floe[k] : r->floe[l], j = r->floe[k] + r->floe[l] - i;
+        if (aabb_meet(r->box[k], r->box[l]) && !apart(a, i, j)) {
             ++*overlaps;
             take(n, 0.0, i, j);
         } else {
@@ -77,8 +89,7 @@ static int look_round(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree,
 
 /* Pairs within reach of each other: count those not apart, find the nearest.  Touching boxes are within any
  * reach >= 0, so that each pass sees every overlap there is. */
-static int pass(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree, double reach, fl_certificate *out,
-                fl_err *err)
+static int pass(const struct row *r, double reach, fl_certificate *out, fl_err *err)
 {
     struct nearest best = {INFINITY, INT32_MAX, INT32_MAX};
     int64_t overlaps = 0;
@@ -89,9 +100,8 @@ static int pass(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree, doubl
         int32_t *near = NULL, cap = 0;
         fl_err why = {0};
 #pragma omp for schedule(static)
-        for (int32_t i = 0; i < a->n; i++)
-            if (!failed && look_round(a, box, tree, reach, i, &near, &cap, &overlaps, &mine, &why))
-                failed = 1;
+        for (int32_t k = 0; k < r->a->n; k++)
+            if (!failed && look_round(r, reach, k, &near, &cap, &overlaps, &mine, &why)) failed = 1;
         free(near);
 #pragma omp critical
         {
@@ -106,26 +116,43 @@ static int pass(const fl_floes *a, const fl_aabb *box, const fl_bvh *tree, doubl
     return failed ? -1 : 0;
 }
 
+static int row_make(struct row *r, fl_err *err)
+{
+    const int32_t n = r->a->n;
+    fl_vec2 *corner = fl_alloc(n, sizeof *corner, err);
+    int rc = -1;
+    r->floe = fl_alloc(n, sizeof *r->floe, err);
+    r->box = fl_alloc(n, sizeof *r->box, err);
+    if (!corner || !r->floe || !r->box) goto done;
+    for (int32_t i = 0; i < n; i++) corner[i] = outer(r->a, i)[0];
+    if (fl_hilbert_order(n, corner, r->floe, err)) goto done;
+    for (int32_t k = 0; k < n; k++) r->box[k] = box_of(r->a, r->floe[k]);
+    rc = fl_bvh_build(&r->tree, r->box, n, err);
+done:
+    free(corner);
+    return rc;
+}
+
 static int measure_pairs(const fl_floes *a, fl_certificate *out, fl_err *err)
 {
-    fl_aabb *box = fl_alloc(a->n, sizeof *box, err), all = aabb_empty();
-    fl_bvh tree = {0};
+    struct row r = {.a = a};
+    fl_aabb all = aabb_empty();
     /* Neighbours stand two insets apart: one pass finds the nearest, unless floes are few and far between. */
     double reach = 2.0 * a->inset * (1.0 + 1e-9), far;
     int rc = -1;
-    if (!box) goto done;
-    for (int32_t i = 0; i < a->n; i++) all = aabb_join(all, box[i] = box_of(a, i));
+    if (row_make(&r, err)) goto done;
+    for (int32_t k = 0; k < a->n; k++) all = aabb_join(all, r.box[k]);
     far = hypot(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
     if (!(reach > 1e-6 * far)) reach = 1e-6 * far;
-    if (fl_bvh_build(&tree, box, a->n, err)) goto done;
     for (;; reach *= 2.0) {
-        if (pass(a, box, &tree, reach, out, err)) goto done;
+        if (pass(&r, reach, out, err)) goto done;
         if (out->gap <= reach || reach > far) break;
     }
     rc = 0;
 done:
-    fl_bvh_free(&tree);
-    free(box);
+    fl_bvh_free(&r.tree);
+    free(r.box);
+    free(r.floe);
     return rc;
 }
 

@@ -23,8 +23,8 @@ using Face = CGAL::Regular_triangulation_face_base_2<Kernel>;
 using Regular = CGAL::Regular_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
 using Weighted = Kernel::Weighted_point_2;
 
-int neighbours(int32_t n, const fl_vec2 *site, const double *weight, char *empty, int32_t *first,
-               int32_t **near, fl_err *err)
+int neighbours(int32_t n, const fl_vec2 *site, const double *weight, const int32_t *name, char *empty,
+               int32_t *first, int32_t **near, fl_err *err)
 {
     std::vector<std::pair<Weighted, int32_t>> point;
     point.reserve(static_cast<size_t>(n));
@@ -53,16 +53,19 @@ int neighbours(int32_t n, const fl_vec2 *site, const double *weight, char *empty
         (*near)[--first[a]] = b;
         (*near)[--first[b]] = a;
     }
-    for (int32_t i = 0; i < n; i++) std::sort(*near + first[i], *near + first[i + 1]);
+    for (int32_t i = 0; i < n; i++)
+        std::sort(*near + first[i], *near + first[i + 1],
+                  [name](int32_t a, int32_t b) { return name[a] < name[b]; });
     return 0;
 }
 
 } // namespace
 
-extern "C" int fl_cgal_power_neighbours(int32_t n, const fl_vec2 *site, const double *weight, char *empty,
-                                        int32_t *first, int32_t **near, fl_err *err)
+extern "C" int fl_cgal_power_neighbours(int32_t n, const fl_vec2 *site, const double *weight,
+                                        const int32_t *name, char *empty, int32_t *first, int32_t **near,
+                                        fl_err *err)
 try {
-    return neighbours(n, site, weight, empty, first, near, err);
+    return neighbours(n, site, weight, name, empty, first, near, err);
 } catch (const std::bad_alloc &) {
     return fl_fail(err, FL_SYSTEM, "out of memory: the neighbours of %d sites", n);
 } catch (const std::exception &e) {

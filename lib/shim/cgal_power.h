@@ -16,13 +16,14 @@ extern "C" {
  * has no neighbours; so has the only one of all.
  *   site[n]      finite                                                              [m]
  *   weight[n]    finite; only differences matter                                    [m2]
+ *   name[n]      how the sites are called: all different
  *   empty[n]     out: 1 when the cell is empty
- *   first[n + 1] out: the neighbours of site i are (*near)[first[i] .. first[i + 1]), ascending
+ *   first[n + 1] out: the neighbours of site i are (*near)[first[i] .. first[i + 1]), by rising name
  *   near         out: freed with free()
  * Returns 0, or -1 with FL_SYSTEM or FL_NUMERIC.  n log n.
  * Source: Aurenhammer, SIAM J. Comput. 16 (1987) 78; CGAL, 2D Triangulations, Regular_triangulation_2. */
-int fl_cgal_power_neighbours(int32_t n, const fl_vec2 *site, const double *weight, char *empty,
-                             int32_t *first, int32_t **near, fl_err *err);
+int fl_cgal_power_neighbours(int32_t n, const fl_vec2 *site, const double *weight, const int32_t *name,
+                             char *empty, int32_t *first, int32_t **near, fl_err *err);
 
 #ifdef __cplusplus
 }

@@ -21,25 +21,29 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int32_t, Kernel>;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex>>;
 
-/* A site that CGAL took for another one has no vertex of its own. */
-int coincident(const Delaunay &dt, int32_t n, const fl_vec2 *site, fl_err *err)
+/* A site that CGAL took for another one has no vertex of its own: told is the one of least name. */
+int coincident(const Delaunay &dt, int32_t n, const fl_vec2 *site, const int32_t *name, fl_err *err)
 {
     std::vector<char> has(static_cast<size_t>(n), 0);
+    int32_t lost = -1;
     for (auto v = dt.finite_vertices_begin(); v != dt.finite_vertices_end(); ++v)
         has[static_cast<size_t>(v->info())] = 1;
-    const auto lost = static_cast<int32_t>(std::find(has.begin(), has.end(), 0) - has.begin());
-    const auto twin = dt.nearest_vertex(Kernel::Point_2(site[lost].x, site[lost].y));
-    return fl_fail(err, FL_INPUT, "sites %d and %d are the same point (%g, %g)", std::min(twin->info(), lost),
-                   std::max(twin->info(), lost), site[lost].x, site[lost].y);
+    for (int32_t i = 0; i < n; i++)
+        if (!has[static_cast<size_t>(i)] && (lost < 0 || name[i] < name[lost])) lost = i;
+    const int32_t a = name[lost];
+    const int32_t b = name[dt.nearest_vertex(Kernel::Point_2(site[lost].x, site[lost].y))->info()];
+    return fl_fail(err, FL_INPUT, "sites %d and %d are the same point (%g, %g)", std::min(a, b),
+                   std::max(a, b), site[lost].x, site[lost].y);
 }
 
-int neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, fl_err *err)
+int neighbours(int32_t n, const fl_vec2 *site, const int32_t *name, int32_t *first, int32_t **near,
+               fl_err *err)
 {
     std::vector<std::pair<Kernel::Point_2, int32_t>> point;
     point.reserve(static_cast<size_t>(n));
     for (int32_t i = 0; i < n; i++) point.emplace_back(Kernel::Point_2(site[i].x, site[i].y), i);
     Delaunay dt(point.begin(), point.end());
-    if (dt.number_of_vertices() != static_cast<size_t>(n)) return coincident(dt, n, site, err);
+    if (dt.number_of_vertices() != static_cast<size_t>(n)) return coincident(dt, n, site, name, err);
 
     /* CGAL inserts in an order that it draws at random; sorting makes the lists a function of the sites. */
     std::memset(first, 0, (static_cast<size_t>(n) + 1) * sizeof *first);
@@ -59,15 +63,18 @@ int neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, f
         (*near)[--first[a]] = b;
         (*near)[--first[b]] = a;
     }
-    for (int32_t i = 0; i < n; i++) std::sort(*near + first[i], *near + first[i + 1]);
+    for (int32_t i = 0; i < n; i++)
+        std::sort(*near + first[i], *near + first[i + 1],
+                  [name](int32_t a, int32_t b) { return name[a] < name[b]; });
     return 0;
 }
 
 } // namespace
 
-extern "C" int fl_cgal_neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, fl_err *err)
+extern "C" int fl_cgal_neighbours(int32_t n, const fl_vec2 *site, const int32_t *name, int32_t *first,
+                                  int32_t **near, fl_err *err)
 try {
-    return neighbours(n, site, first, near, err);
+    return neighbours(n, site, name, first, near, err);
 } catch (const std::bad_alloc &) {
     return fl_fail(err, FL_SYSTEM, "out of memory: the neighbours of %d sites", n);
 } catch (const std::exception &e) {

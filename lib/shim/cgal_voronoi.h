@@ -15,12 +15,15 @@ extern "C" {
  * half-planes nearer to i than to a neighbour overlap.  No circumcentre is computed, so that nothing is
  * rounded: a cell follows by cutting with bisectors, and its rounding is that of one cut.
  *   site[n]      finite
- *   first[n + 1] out: the neighbours of site i are (*near)[first[i] .. first[i + 1]), ascending
+ *   name[n]      how the sites are called: all different; it may be an order that is good to work in, given
+ *                to sites that have another order for whoever asks
+ *   first[n + 1] out: the neighbours of site i are (*near)[first[i] .. first[i + 1]), by rising name
  *   near         out: freed with free()
- * Returns 0, or -1 with FL_INPUT (two sites coincide, which ones) or FL_SYSTEM.  n log n.
+ * Returns 0, or -1 with FL_INPUT (two sites coincide, the names of which) or FL_SYSTEM.  n log n.
  * Source: CGAL, 2D Triangulations, Delaunay_triangulation_2 on the
  * Exact_predicates_inexact_constructions_kernel. */
-int fl_cgal_neighbours(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near, fl_err *err);
+int fl_cgal_neighbours(int32_t n, const fl_vec2 *site, const int32_t *name, int32_t *first, int32_t **near,
+                       fl_err *err);
 
 /* 1 when a, b, c turn left, -1 when they turn right, 0 when they lie on one line; exact.  Also 0 when there
  * is no memory for the exact arithmetic that a close decision takes. */

@@ -11,8 +11,36 @@ enum { N = 40 };
 
 static void neighbours_of(int32_t n, const fl_vec2 *site, int32_t *first, int32_t **near)
 {
+    int32_t name[N];
     fl_err err = {0};
-    assert_int_equal(fl_cgal_neighbours(n, site, first, near, &err), 0);
+    for (int32_t i = 0; i < n; i++) name[i] = i;
+    assert_int_equal(fl_cgal_neighbours(n, site, name, first, near, &err), 0);
+}
+
+/* Sites in another order, under their old names, have the same neighbours in the same order. */
+static void names_go_before_numbers(void **state)
+{
+    (void)state;
+    fl_vec2 site[N], other[N];
+    int32_t first[N + 1], *near = NULL, first_of[N + 1], *near_of = NULL, name[N];
+    fl_err err = {0};
+    for (int32_t i = 0; i < N; i++) {
+        fl_rng g = fl_rng_of(test_seed(), i, FL_RNG_TEST);
+        site[i] = (fl_vec2){fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1)};
+    }
+    for (int32_t k = 0; k < N; k++) {
+        name[k] = (7 * k + 3) % N; /* 7 and 40 have no common factor */
+        other[k] = site[name[k]];
+    }
+    neighbours_of(N, site, first, &near);
+    assert_int_equal(fl_cgal_neighbours(N, other, name, first_of, &near_of, &err), 0);
+    for (int32_t k = 0; k < N; k++) {
+        const int32_t i = name[k], n = first[i + 1] - first[i];
+        assert_int_equal(first_of[k + 1] - first_of[k], n);
+        for (int32_t e = 0; e < n; e++) assert_int_equal(name[near_of[first_of[k] + e]], near[first[i] + e]);
+    }
+    free(near);
+    free(near_of);
 }
 
 static void few_sites_and_sites_on_a_line(void **state)
@@ -83,22 +111,27 @@ static void two_sites_at_one_point_are_named(void **state)
 {
     (void)state;
     const fl_vec2 site[4] = {{0, 0}, {1, 0}, {0, 1}, {1, 0}};
+    const int32_t name[4] = {0, 1, 2, 3}, other[4] = {3, 2, 1, 0};
     int32_t first[5], *near = NULL;
     fl_err err = {0};
-    assert_int_equal(fl_cgal_neighbours(4, site, first, &near, &err), -1);
+    assert_int_equal(fl_cgal_neighbours(4, site, name, first, &near, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
     assert_string_equal(err.text, "sites 1 and 3 are the same point (1, 0)");
     assert_null(near);
+    err = (fl_err){0};
+    assert_int_equal(fl_cgal_neighbours(4, site, other, first, &near, &err), -1);
+    assert_string_equal(err.text, "sites 0 and 2 are the same point (1, 0)");
 }
 
 static void no_memory_is_told(void **state)
 {
     (void)state;
     const fl_vec2 site[3] = {{0, 0}, {1, 0}, {0, 1}};
+    const int32_t name[3] = {0, 1, 2};
     int32_t first[4], *near = NULL;
     fl_err err = {0};
     fl_mem_fail_after(0);
-    assert_int_equal(fl_cgal_neighbours(3, site, first, &near, &err), -1);
+    assert_int_equal(fl_cgal_neighbours(3, site, name, first, &near, &err), -1);
     fl_mem_fail_after(-1);
     assert_int_equal(err.code, FL_SYSTEM);
     assert_null(near);
@@ -124,7 +157,8 @@ static void turns_are_exact(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(few_sites_and_sites_on_a_line),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(names_go_before_numbers),
+                                       cmocka_unit_test(few_sites_and_sites_on_a_line),
                                        cmocka_unit_test(neighbours_are_those_with_an_empty_circle),
                                        cmocka_unit_test(two_sites_at_one_point_are_named),
                                        cmocka_unit_test(no_memory_is_told),
