@@ -1,11 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <omp.h>
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
 #include "ice/floes.h"
 
 enum { KEPT = 1, FIXED = 2, ROUNDS = 40, NEWTON = 60 };
+
+/* For one floe after the other, so that a thread stays in its cache; with room for the cell that has most
+ * sides. */
+struct scratch {
+    fl_side *line, *left; /* the cell's sides as moved, and those of the core */
+    fl_vec2 *corner;
+    unsigned char *state;
+};
 
 /* Everything by side lies at the cells' own offsets. */
 struct fit {
@@ -17,11 +26,10 @@ struct fit {
     double *area, *outline;  /* [n] of the outer polygon at the inset last asked for     [m2, m] */
     int32_t *count;          /* [n] sides of the floe                                            */
     fl_side *side;           /* sides of the floe; tag is the place in the cell                  */
-    fl_side *line, *left;    /* scratch: the cell's sides as moved, and those of the core        */
-    fl_vec2 *corner;         /* scratch                                                          */
-    unsigned char *state;    /* scratch                                                          */
-    double sharp;            /* cot(t / 2) for the angle t below which corners are cut off; 0: none are */
-    int32_t blunted;         /* corners cut off                                                  */
+    struct scratch *scratch; /* [threads]                                                        */
+    int threads;
+    double sharp;    /* cot(t / 2) for the angle t below which corners are cut off; 0: none are */
+    int32_t blunted; /* corners cut off                                                  */
 };
 
 static void fit_free(struct fit *f)
@@ -32,26 +40,48 @@ static void fit_free(struct fit *f)
     free(f->outline);
     free(f->count);
     free(f->side);
-    free(f->line);
-    free(f->left);
-    free(f->corner);
-    free(f->state);
+    for (int k = 0; k < f->threads && f->scratch; k++) {
+        free(f->scratch[k].line);
+        free(f->scratch[k].left);
+        free(f->scratch[k].corner);
+        free(f->scratch[k].state);
+    }
+    free(f->scratch);
+}
+
+static int scratch_alloc(struct fit *f, fl_err *err)
+{
+    int32_t most = 0;
+    for (int32_t i = 0; i < f->cells->n; i++) {
+        const int32_t m = f->cells->first[i + 1] - f->cells->first[i];
+        if (m > most) most = m;
+    }
+    f->threads = omp_get_max_threads();
+    if (!(f->scratch = fl_alloc(f->threads, sizeof *f->scratch, err))) return -1;
+    for (int k = 0; k < f->threads; k++) {
+        struct scratch *s = &f->scratch[k];
+        if (!(s->line = fl_alloc(most, sizeof *s->line, err)) ||
+            !(s->left = fl_alloc(most, sizeof *s->left, err)) ||
+            !(s->corner = fl_alloc(most, sizeof *s->corner, err)) || !(s->state = fl_alloc(most, 1, err)))
+            return -1;
+    }
+    return 0;
 }
 
 static int fit_alloc(struct fit *f, fl_err *err)
 {
-    const int32_t n = f->cells->n, all = f->cells->first[n];
+    const int32_t n = f->cells->n;
     return (f->inradius = fl_alloc(n, sizeof(double), err)) && (f->most = fl_alloc(n, sizeof(double), err)) &&
                    (f->area = fl_alloc(n, sizeof(double), err)) &&
                    (f->outline = fl_alloc(n, sizeof(double), err)) &&
                    (f->count = fl_alloc(n, sizeof(int32_t), err)) &&
-                   (f->side = fl_alloc(all, sizeof(fl_side), err)) &&
-                   (f->line = fl_alloc(all, sizeof(fl_side), err)) &&
-                   (f->left = fl_alloc(all, sizeof(fl_side), err)) &&
-                   (f->corner = fl_alloc(all, sizeof(fl_vec2), err)) && (f->state = fl_alloc(all, 1, err))
-               ? 0
+                   (f->side = fl_alloc(f->cells->first[n], sizeof(fl_side), err))
+               ? scratch_alloc(f, err)
                : -1;
 }
+
+/* That of the calling thread. */
+static const struct scratch *scratch_of(const struct fit *f) { return &f->scratch[omp_get_thread_num()]; }
 
 static double inset_of(const struct fit *f, int32_t i, double d)
 {
@@ -166,9 +196,10 @@ static int fit_floe(struct fit *f, int32_t i, double d)
 {
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first;
     const fl_side *cell = f->cells->side + first;
-    fl_side *line = f->line + first, *left = f->left + first;
-    fl_vec2 *corner = f->corner + first;
-    unsigned char *state = f->state + first;
+    const struct scratch *s = scratch_of(f);
+    fl_side *line = s->line, *left = s->left;
+    fl_vec2 *corner = s->corner;
+    unsigned char *state = s->state;
     const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
     for (int32_t e = 0; e < m; e++) {
         line[e] = cell[e];
@@ -201,7 +232,7 @@ static int still_fits(struct fit *f, int32_t i, double d)
 {
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first, n = f->count[i];
     const fl_side *side = f->side + first;
-    fl_vec2 *corner = f->corner + first;
+    fl_vec2 *corner = scratch_of(f)->corner;
     const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
     fl_polygon_corners(n, side, di + f->radius, corner);
     for (int32_t k = 0; k < n; k++) {
@@ -226,14 +257,15 @@ static double excess(struct fit *f, int raw, double d, double target, double *fa
     for (int32_t i = 0; i < n; i++) {
         const int32_t first = f->cells->first[i];
         const double di = inset_of(f, i, d);
-        fl_vec2 *v = f->corner + first;
+        fl_side *left = scratch_of(f)->left;
+        fl_vec2 *v = scratch_of(f)->corner;
         int32_t m = f->count[i];
         if (raw) {
             double depth;
             m = f->cells->first[i + 1] - first;
             memcpy(v, f->cells->v + first, (size_t)m * sizeof *v);
-            memcpy(f->left + first, f->cells->side + first, (size_t)m * sizeof *f->left);
-            m = fl_polygon_inset(m, v, f->left + first, di, &depth);
+            memcpy(left, f->cells->side + first, (size_t)m * sizeof *left);
+            m = fl_polygon_inset(m, v, left, di, &depth);
         } else {
             fl_polygon_corners(m, f->side + first, di, v);
         }
@@ -280,9 +312,10 @@ static int measure_cells(struct fit *f, double *total, double *hi, fl_err *err)
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < c->n; i++) {
         const int32_t first = c->first[i], m = c->first[i + 1] - first;
-        memcpy(f->corner + first, c->v + first, (size_t)m * sizeof *f->corner);
-        memcpy(f->left + first, c->side + first, (size_t)m * sizeof *f->left);
-        fl_polygon_inset(m, f->corner + first, f->left + first, INFINITY, &f->inradius[i]);
+        const struct scratch *s = scratch_of(f);
+        memcpy(s->corner, c->v + first, (size_t)m * sizeof *s->corner);
+        memcpy(s->left, c->side + first, (size_t)m * sizeof *s->left);
+        fl_polygon_inset(m, s->corner, s->left, INFINITY, &f->inradius[i]);
         f->most[i] = (1.0 - FL_FLOES_KEEP) * (f->inradius[i] - f->radius);
         f->area[i] = fl_polygon_area(m, c->v + first);
     }
@@ -309,13 +342,14 @@ static int no_room(const struct fit *f, int32_t i, fl_err *err)
 }
 
 /* Sides and inset in turn, until the sides chosen serve at the inset that they lead to.  The floes are to
- * cover `lost` [m2] more than asked for, since so much will be cut off their corners. */
-static int settle(struct fit *f, double concentration, double lost, double *d, fl_err *err)
+ * cover `lost` [m2] more than asked for, since so much will be cut off their corners; total and hi are those
+ * of measure_cells(). */
+static int settle(struct fit *f, double concentration, double total, double hi, double lost, double *d,
+                  fl_err *err)
 {
     const int32_t n = f->cells->n;
-    double total, hi, fall, over, target;
-    if (measure_cells(f, &total, &hi, err)) return -1;
-    target = concentration * total + lost;
+    const double target = concentration * total + lost;
+    double fall, over;
     over = excess(f, 1, hi, target, &fall);
     if (over > 0.0)
         return fl_fail(
@@ -386,11 +420,12 @@ static double lost_at(struct fit *f, double d, int32_t *corners)
 #pragma omp parallel for schedule(static) reduction(+ : all)
     for (int32_t i = 0; i < f->cells->n; i++) {
         const int32_t first = f->cells->first[i], n = f->count[i];
+        fl_vec2 *corner = scratch_of(f)->corner;
         double lost;
-        fl_polygon_corners(n, f->side + first, inset_of(f, i, d) + f->radius, f->corner + first);
+        fl_polygon_corners(n, f->side + first, inset_of(f, i, d) + f->radius, corner);
         f->area[i] = 0.0;
         for (int32_t k = 0; k < n; k++) {
-            all += blunt(f, n, f->side + first, f->corner + first, k, rho_of(f, i, d), &lost) > 0.0;
+            all += blunt(f, n, f->side + first, corner, k, rho_of(f, i, d), &lost) > 0.0;
             f->area[i] += lost;
         }
     }
@@ -401,11 +436,12 @@ static double lost_at(struct fit *f, double d, int32_t *corners)
 /* Sides and inset, and what is cut off at the inset to which that leads: it changes little with the inset. */
 static int settle_blunt(struct fit *f, double concentration, double *d, fl_err *err)
 {
-    double lost = 0.0;
+    double lost = 0.0, total, hi;
+    if (measure_cells(f, &total, &hi, err)) return -1;
     for (int round = 0; round < ROUNDS; round++) {
         double next;
         int32_t corners;
-        if (settle(f, concentration, lost, d, err)) return -1;
+        if (settle(f, concentration, total, hi, lost, d, err)) return -1;
         next = lost_at(f, *d, &corners);
         if (corners == f->blunted && fabs(next - lost) <= 1e-12 * lost) return 0;
         f->blunted = corners;
@@ -422,7 +458,7 @@ static int32_t core_at(const struct fit *f, int32_t i, double d, fl_vec2 *v)
 {
     const fl_side *side = f->side + f->cells->first[i];
     const int32_t n = f->count[i];
-    fl_vec2 *core = f->corner + f->cells->first[i];
+    fl_vec2 *core = scratch_of(f)->corner;
     int32_t m = 0;
     fl_polygon_corners(n, side, inset_of(f, i, d) + f->radius, core);
     for (int32_t k = 0; k < n; k++) {
@@ -496,14 +532,15 @@ done:
 static double area_at(struct fit *f, int raw, int32_t i, double d, double *outline)
 {
     const int32_t first = f->cells->first[i];
-    fl_vec2 *v = f->corner + first;
+    fl_side *left = scratch_of(f)->left;
+    fl_vec2 *v = scratch_of(f)->corner;
     int32_t m = f->count[i];
     double depth;
     if (raw) {
         m = f->cells->first[i + 1] - first;
         memcpy(v, f->cells->v + first, (size_t)m * sizeof *v);
-        memcpy(f->left + first, f->cells->side + first, (size_t)m * sizeof *f->left);
-        m = fl_polygon_inset(m, v, f->left + first, d, &depth);
+        memcpy(left, f->cells->side + first, (size_t)m * sizeof *left);
+        m = fl_polygon_inset(m, v, left, d, &depth);
     } else {
         fl_polygon_corners(m, f->side + first, d, v);
     }
