@@ -41,12 +41,21 @@ int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
     return 0;
 }
 
+int fl_bodies_add_mass(fl_bodies *b, fl_err *err)
+{
+    b->added = fl_alloc(b->total, sizeof *b->added, err);
+    b->flow = fl_alloc(b->total, sizeof *b->flow, err);
+    b->carried = fl_alloc(b->total, sizeof *b->carried, err);
+    return b->added && b->flow && b->carried ? 0 : -1;
+}
+
 void fl_bodies_free(fl_bodies *b)
 {
     for (int32_t i = 0; b->core && i < b->total; i++) fl_poly_free(&b->core[i]);
     free(b->x), free(b->v), free(b->L), free(b->q), free(b->R), free(b->w), free(b->f), free(b->t);
     free(b->m), free(b->invm), free(b->I), free(b->radius), free(b->bound), free(b->core), free(b->hold);
-    free(b->odometer), free(b->held);
+    free(b->odometer), free(b->held), free(b->added), free(b->flow);
+    free(b->carried);
     *b = (fl_bodies){0};
 }
 

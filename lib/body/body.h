@@ -37,11 +37,18 @@ typedef struct {
     uint8_t *hold;    /* FL_HOLD_X | ...                             */
     double *held;     /* work done by what holds the body so far [J] */
     double *odometer; /* path no point of the core exceeds: sum over steps of |v| dt + chord bound  [m] */
+    /* of bodies that move water with them; all NULL where none does */
+    fl_vec3 *added;  /* mass of that water, per body axis            [kg]  */
+    fl_vec3 *flow;   /* velocity of the water around                 [m/s] */
+    double *carried; /* work that water which flows did through it by turning the body so far [J] */
 } fl_bodies;
 
 /* Arrays for `total` bodies, the first n of which move; all zero but q = 1.  -1 with FL_SYSTEM. */
 int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err);
 void fl_bodies_free(fl_bodies *b);
+
+/* Room for added masses and what belongs to them, all zero.  -1 with FL_SYSTEM. */
+int fl_bodies_add_mass(fl_bodies *b, fl_err *err);
 
 /* R and w of body i from q and L. */
 void fl_body_derive(fl_bodies *b, int32_t i);
@@ -56,10 +63,29 @@ static inline fl_vec3 fl_body_turn(const fl_bodies *b, int32_t i, fl_vec3 t)
     return m3_mul(b->R[i], v3(s.x / I.x, s.y / I.y, s.z / I.z));
 }
 
-/* Kinetic energy [J]. */
+/* R (m + M_a) R^T v: the linear momentum of body i and the water that moves with it [kg m/s], for a velocity
+ * v. */
+static inline fl_vec3 fl_body_momentum(const fl_bodies *b, int32_t i, fl_vec3 v)
+{
+    if (!b->added) return v3_scale(b->m[i], v);
+    return v3_madd(m3_mul(b->R[i], v3_mul(b->added[i], m3_tmul(b->R[i], v))), b->m[i], v);
+}
+
+/* The velocity for which that is P: R (m + M_a)^-1 R^T P [m/s]. */
+static inline fl_vec3 fl_body_speed(const fl_bodies *b, int32_t i, fl_vec3 P)
+{
+    if (!b->added) return v3_scale(b->invm[i], P);
+    const fl_vec3 p = m3_tmul(b->R[i], P), a = b->added[i];
+    const double m = b->m[i];
+    return m3_mul(b->R[i], v3(p.x / (m + a.x), p.y / (m + a.y), p.z / (m + a.z)));
+}
+
+/* Kinetic energy, that of the water which moves with it included [J]. */
 static inline double fl_body_kinetic(const fl_bodies *b, int32_t i)
 {
-    return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + v3_dot(b->w[i], b->L[i]));
+    const double turning = v3_dot(b->w[i], b->L[i]);
+    if (b->added) return 0.5 * (v3_dot(b->v[i], fl_body_momentum(b, i, b->v[i])) + turning);
+    return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + turning);
 }
 
 /* Velocity of the material point at world position offset a from the centre of mass. */

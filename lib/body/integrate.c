@@ -24,7 +24,7 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt)
 void fl_kick(fl_bodies *b, int32_t i, double h)
 {
     const fl_vec3 v0 = b->v[i], w0 = b->w[i];
-    b->v[i] = v3_madd(v0, h * b->invm[i], b->f[i]);
+    b->v[i] = b->added ? v3_madd(v0, h, fl_body_speed(b, i, b->f[i])) : v3_madd(v0, h * b->invm[i], b->f[i]);
     b->L[i] = v3_madd(b->L[i], h, b->t[i]);
     b->w[i] = fl_body_turn(b, i, b->L[i]);
     if (b->hold[i]) fl_hold(b, i, v0, w0);
@@ -53,27 +53,49 @@ static void solve_spd(int k, double a[3][3], const double *y, double *x)
 
 static double component(fl_vec3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
-/* The turning part: w of the held axes given, of the free ones from what is left of L. */
-static void hold_turn(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
+/* The vector u whose held components are those given and whose free ones have the momentum Y = A u, where A
+ * has the diagonal `diag` in the axes of R.  hold: bit r for the world's axis r. */
+static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3 given, fl_vec3 Y)
 {
-    double Iw[3][3], a[3][3], y[3], s[3], w[3];
+    double A[3][3], a[3][3], y[3], s[3], u[3];
     int free_axis[3], k = 0;
     for (int r = 0; r < 3; r++) {
-        w[r] = hold & (unsigned)(FL_HOLD_RX << r) ? component(w_held, r) : 0.0;
-        if (!(hold & (unsigned)(FL_HOLD_RX << r))) free_axis[k++] = r;
+        u[r] = hold & 1u << r ? component(given, r) : 0.0;
+        if (!(hold & 1u << r)) free_axis[k++] = r;
         for (int c = 0; c < 3; c++) {
-            const double *ri = b->R[i].m[r], *rc = b->R[i].m[c];
-            Iw[r][c] = ri[0] * b->I[i].x * rc[0] + ri[1] * b->I[i].y * rc[1] + ri[2] * b->I[i].z * rc[2];
+            const double *ri = R->m[r], *rc = R->m[c];
+            A[r][c] = ri[0] * diag.x * rc[0] + ri[1] * diag.y * rc[1] + ri[2] * diag.z * rc[2];
         }
     }
     for (int r = 0; r < k; r++) {
-        const double *row = Iw[free_axis[r]];
-        y[r] = component(b->L[i], free_axis[r]) - row[0] * w[0] - row[1] * w[1] - row[2] * w[2];
+        const double *row = A[free_axis[r]];
+        y[r] = component(Y, free_axis[r]) - row[0] * u[0] - row[1] * u[1] - row[2] * u[2];
         for (int c = 0; c < k; c++) a[r][c] = row[free_axis[c]];
     }
     solve_spd(k, a, y, s);
-    for (int r = 0; r < k; r++) w[free_axis[r]] = s[r];
-    fl_body_spin(b, i, v3(w[0], w[1], w[2]));
+    for (int r = 0; r < k; r++) u[free_axis[r]] = s[r];
+    return v3(u[0], u[1], u[2]);
+}
+
+/* The turning part: w of the held axes given, of the free ones from what is left of L. */
+static void hold_turn(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
+{
+    fl_body_spin(b, i, solve_free(&b->R[i], b->I[i], hold / FL_HOLD_RX, w_held, b->L[i]));
+}
+
+/* The velocity of body i that has the momentum P, but for what is held. */
+static fl_vec3 hold_speed(const fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 P)
+{
+    const unsigned hold = b->hold[i] & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z);
+    const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]);
+    return hold ? solve_free(&b->R[i], v3_add(m, b->added[i]), hold, v_held, P) : fl_body_speed(b, i, P);
+}
+
+/* Work of an impulse of what holds: only along the held axes is it one, beyond rounding. */
+static double holding_straight(unsigned hold, fl_vec3 impulse, fl_vec3 v)
+{
+    return (hold & FL_HOLD_X ? impulse.x * v.x : 0.0) + (hold & FL_HOLD_Y ? impulse.y * v.y : 0.0) +
+           (hold & FL_HOLD_Z ? impulse.z * v.z : 0.0);
 }
 
 /* Work of a turning impulse of what holds: only along the held axes is it one, beyond rounding. */
@@ -109,11 +131,9 @@ static double chord(fl_quat q, fl_quat r)
     return 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
 }
 
-void fl_drift(fl_bodies *b, int32_t i, double dt)
+static void turn(fl_bodies *b, int32_t i, double dt)
 {
     const fl_quat q = b->q[i];
-    b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
-    b->odometer[i] += fabs(dt) * v3_norm(b->v[i]);
     if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) return;
     if (b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) {
         drift_held(b, i, dt);
@@ -124,10 +144,70 @@ void fl_drift(fl_bodies *b, int32_t i, double dt)
     b->odometer[i] += chord(q, b->q[i]) * b->bound[i];
 }
 
+/* Half a step straight on, with the moment of the water on a body that goes askew; P goes with the speed u
+ * through it. */
+static void go_straight(fl_bodies *b, int32_t i, double h, fl_vec3 P)
+{
+    const unsigned hold = b->hold[i];
+    const fl_vec3 v = b->v[i], w = b->w[i];
+    b->x[i] = v3_madd(b->x[i], h, v);
+    b->odometer[i] += fabs(h) * v3_norm(v);
+    b->L[i] = v3_madd(b->L[i], h, v3_cross(P, v3_sub(v, b->flow[i])));
+    b->w[i] = fl_body_turn(b, i, b->L[i]);
+    if (hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) {
+        const fl_vec3 L = b->L[i];
+        hold_turn(b, i, hold, w);
+        b->held[i] += holding(hold, v3_sub(b->L[i], L), w);
+    }
+}
+
+/* 1/2 U.M_a U */
+static double carried(const fl_bodies *b, int32_t i)
+{
+    const fl_vec3 u = m3_tmul(b->R[i], b->flow[i]);
+    return 0.5 * v3_dot(u, v3_mul(b->added[i], u));
+}
+
+static void drift_with_water(fl_bodies *b, int32_t i, double dt)
+{
+    const fl_vec3 U = b->flow[i], v = b->v[i];
+    const double before = carried(b, i);
+    fl_vec3 P = fl_body_momentum(b, i, v3_sub(v, U));
+    go_straight(b, i, 0.5 * dt, P);
+    turn(b, i, dt);
+    b->v[i] = v3_add(U, hold_speed(b, i, v3_sub(v, U), P));
+    if (b->hold[i]) {
+        const fl_vec3 now = fl_body_momentum(b, i, v3_sub(b->v[i], U));
+        b->held[i] += holding_straight(b->hold[i], v3_sub(now, P), v);
+        P = now;
+    }
+    b->carried[i] += carried(b, i) - before;
+    go_straight(b, i, 0.5 * dt, P);
+}
+
+void fl_drift(fl_bodies *b, int32_t i, double dt)
+{
+    if (b->added && i < b->n) {
+        drift_with_water(b, i, dt);
+        return;
+    }
+    b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
+    b->odometer[i] += fabs(dt) * v3_norm(b->v[i]);
+    turn(b, i, dt);
+}
+
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
 {
     const unsigned hold = b->hold[i];
     const fl_vec3 v = b->v[i], L = b->L[i];
+    if (b->added) {
+        const fl_vec3 P = fl_body_momentum(b, i, v);
+        b->v[i] = hold_speed(b, i, v_held, P);
+        if (hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) hold_turn(b, i, hold, w_held);
+        b->held[i] += holding_straight(hold, v3_sub(fl_body_momentum(b, i, b->v[i]), P), v_held) +
+                      holding(hold, v3_sub(b->L[i], L), w_held);
+        return;
+    }
     if (hold & FL_HOLD_X) b->v[i].x = v_held.x;
     if (hold & FL_HOLD_Y) b->v[i].y = v_held.y;
     if (hold & FL_HOLD_Z) b->v[i].z = v_held.z;

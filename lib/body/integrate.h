@@ -7,12 +7,21 @@
  * as axis 0 for dt/2, symmetric top (I1 everywhere, I2 about axis 2) for dt, axis 0 for dt/2.
  * Time-reversible, symplectic, order 2; L is untouched by the drift, so it is conserved to rounding. Source:
  * Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840, in the variant that joins a symmetric
- * top and one rotation. */
+ * top and one rotation.
+ *
+ * A body with added mass M_a, a diagonal matrix in its own axes, that goes with u = v - U through water of
+ * velocity U has the momentum P = R (m + M_a) R^T u, and the water turns it (Munk's moment):
+ *     dP/dt = F,   dL/dt = T + P x u,   H = 1/2 P.u + H_turn(L).
+ * While it does not turn P and u stay, so that part has the exact flow x += h v, L += h P x u; half of it,
+ * the rotation above with P and L kept, then the other half is order 2, time-reversible and symplectic. P and
+ * x x P + L (in water at rest) are conserved to rounding whatever the step.  Source: Lamb, Hydrodynamics
+ * (1932), art. 124.  Seen from where the water flows, turning M_a takes the work 1/2 U.(M_a' - M_a) U out of
+ * it or puts it in; it goes to carried[i]. */
 #ifndef FL_BODY_INTEGRATE_H
 #define FL_BODY_INTEGRATE_H
 #include "body/body.h"
 
-/* v += h f/m, L += h t of body i < n, but for what is held; renews w.
+/* v += h f/m (by the momentum, with added mass), L += h t of body i < n, but for what is held; renews w.
  *   h  [s], half a step */
 void fl_kick(fl_bodies *b, int32_t i, double h);
 
@@ -24,7 +33,8 @@ void fl_drift(fl_bodies *b, int32_t i, double dt);
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
 
 /* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
- * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w.
+ * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w; with added mass so P and
+ * v.
  * The impulse that this takes works at the held velocity; that work goes to held[i]. */
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held);
 

@@ -127,6 +127,8 @@ typedef struct {
     char profile_file[FL_SCENE_PATH]; /* of table; "": none */
     int32_t wave;                     /* 0, none, in this version */
     double drag_force_coef;           /* C of equation (8) */
+    fl_vec3 added_mass;               /* over the displaced mass, per body axis; -1: auto */
+    fl_vec3 added_inertia;            /* over the own moments of inertia; -1: auto */
     double drag_moment_coef;          /* C of equation (9) */
 } fl_scene_water;
 

@@ -156,6 +156,17 @@ static int check_current(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* Shares of what a body has: none is negative, but the -1 that stands for auto. */
+static int check_shares(const fl_scene *s, const char *key, fl_vec3 x, fl_err *err)
+{
+    const double all[] = {x.x, x.y, x.z};
+    for (int c = 0; c < 3; c++)
+        if (all[c] < 0.0 && all[c] != -1.0)
+            return fl_scene_fail(s, key, err, "%s of axis %d is %g, at least 0 or auto was wanted", key,
+                                 c + 1, all[c]);
+    return 0;
+}
+
 static int check_groups(const fl_scene *s, fl_err *err)
 {
     for (int32_t i = 0; i < s->n_group; i++) {
@@ -181,5 +192,9 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, was wanted",
                              s->run.dt, s->run.duration);
     if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
-    return check_boundary(s, err) || check_current(s, err) || check_groups(s, err) ? -1 : 0;
+    return check_boundary(s, err) || check_current(s, err) ||
+                   check_shares(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_shares(s, "water.added_inertia", s->water.added_inertia, err) || check_groups(s, err)
+               ? -1
+               : 0;
 }

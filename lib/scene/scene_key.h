@@ -35,7 +35,7 @@ enum fl_value_type {
 };
 
 /* What one number stands for in a vector of three. */
-enum fl_lone { FL_LONE_NOT, FL_LONE_X, FL_LONE_DOWN };
+enum fl_lone { FL_LONE_NOT, FL_LONE_X, FL_LONE_DOWN, FL_LONE_ALL };
 
 typedef struct {
     enum fl_section_id section;

@@ -251,6 +251,7 @@ static int read_vec3(const complaint *c, const char *text, fl_vec3 *out)
     if (n < 0) return -1;
     if (n == 3) *out = v3(x[0], x[1], x[2]);
     else if (c->key->lone == FL_LONE_X) *out = v3(x[0], 0, 0);
+    else if (c->key->lone == FL_LONE_ALL) *out = v3(x[0], x[0], x[0]);
     else if (x[0] >= 0.0) *out = v3(0, 0, -x[0]);
     else
         return wrong(c,

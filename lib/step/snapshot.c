@@ -138,6 +138,7 @@ static void body(traffic *t, fl_world *w, int32_t k)
     vec3(t, &b->f[k]);
     vec3(t, &b->t[k]);
     real(t, &b->held[k]);
+    if (b->added) real(t, &b->carried[k]);
     real(t, &b->odometer[k]);
     real(t, &w->odometer_found[k]);
     close_row(t);

@@ -9,7 +9,7 @@
  *     world     step found_at dt t0 step0 skin dt_critical critical_body dt_safe parts total sea pairs
  *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
  *     part ...  impulse, moment and peak of the loads interval
- *     body ...  x v L q w f t held odometer, odometer at the last search
+ *     body ...  x v L q w f t held, carried (with added mass alone), odometer, odometer at the last search
  *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown
  *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces */

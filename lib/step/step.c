@@ -237,6 +237,7 @@ void fl_step_ledger(fl_world *w)
         kinetic += fl_body_kinetic(b, i);
         gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
         held += b->held[i];
+        if (b->added) drag -= b->carried[i];
         if (w->sea.n) {
             if (w->sea.water) hydro += w->sea.energy[i];
             drag += w->sea.drained[i];

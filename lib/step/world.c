@@ -88,6 +88,22 @@ bad:
     return fl_fail(err, FL_INPUT, "%s: body %d: %s", s->ice.file, field->id[i], why.text);
 }
 
+static int anything(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }
+
+/* The water that body i moves along. */
+static void add_water(fl_world *w, int32_t i)
+{
+    const fl_scene_water *s = &w->scene->water;
+    fl_bodies *b = &w->b;
+    const fl_poly *p = b->core[i].nv <= 2 ? &b->core[i] : &w->sea.outer[i];
+    const fl_vec3 spin = b->w[i];
+    if (b->added)
+        b->added[i] =
+            fl_added_mass(p, fmin(b->m[i], s->density * w->sea.hull[i].volume), s->density, s->added_mass);
+    b->I[i] = v3_add(b->I[i], fl_added_inertia(p, b->I[i], s->density, s->added_inertia));
+    fl_body_spin(b, i, spin);
+}
+
 /* The sea's view of body i: what floats, and how far out it drags. */
 static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
 {
@@ -101,7 +117,10 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
     w->sea.outer[i] = *outer;
     *outer = (fl_poly){0};
     w->sea.reach[i] = round ? fl_drag_radius(core, w->b.radius[i]) : fl_drag_radius(&w->sea.outer[i], 0.0);
-    return fl_hull_make(&w->sea.hull[i], round ? core : &w->sea.outer[i], round ? w->b.radius[i] : 0.0, err);
+    if (fl_hull_make(&w->sea.hull[i], round ? core : &w->sea.outer[i], round ? w->b.radius[i] : 0.0, err))
+        return -1;
+    if (w->b.added || anything(w->scene->water.added_inertia)) add_water(w, i);
+    return 0;
 }
 
 /* The elastic walls' view of body i: what presses.  Its corners stand out farther than the dilated core, and
@@ -152,6 +171,7 @@ static int make_sea(fl_world *w, fl_err *err)
     if (s->water.profile == FL_PROFILE_TABLE && fl_current_read(&sea->current, s->water.profile_file, err))
         return -1;
     sea->breeze = s->wind.velocity;
+    if (sea->water && anything(s->water.added_mass) && fl_bodies_add_mass(&w->b, err)) return -1;
     return fl_sea_alloc(sea, w->n, err);
 }
 

@@ -16,6 +16,7 @@
 #include "narrow/places.h"
 #include "scene/field.h"
 #include "scene/scene.h"
+#include "water/added.h"
 #include "water/sea.h"
 
 /* A pair of materials, resolved. */

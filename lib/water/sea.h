@@ -21,6 +21,7 @@ typedef struct {
     double *wetted;  /* [n] at the last fl_sea_force() [m2]  */
     double *lift;    /* [n] buoyancy, at the last fl_sea_force() [N] */
     double *centre;  /* [n] height of the submerged centre over still water, at the last fl_sea_force() [m] */
+    fl_vec3 *flow;   /* [n] velocity of the water there [m/s] */
     double *energy;  /* [n] hydrostatic, at the last fl_sea_force() [J] */
     double *drained; /* [n] work that drag of the water has taken out [J] */
     double *blown;   /* [n] work that the wind has put in    [J] */
@@ -34,7 +35,7 @@ void fl_sea_free(fl_sea *s);
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
 /* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere. */
-void fl_sea_renew(fl_sea *s, const fl_bodies *b, int32_t i);
+void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i);
 
 /* Let the drag of water and wind act on body i for h seconds, position held: the exact decay of its
  * velocities by equations (8), (9) alone, first of the one fluid, then of the other.  Adds the work to

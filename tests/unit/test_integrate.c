@@ -298,9 +298,47 @@ static void a_driven_group_pays_for_what_it_pushes(void **state)
     assert_true(residual[1] < 0.5 * residual[0]); /* order 2, a quarter, over few steps */
 }
 
+/* Held directions keep their speed though water moves with the body, and the books close. */
+static void held_with_added_mass(void **state)
+{
+    (void)state;
+    const unsigned hold[] = {0,
+                             FL_HOLD_X,
+                             FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z,
+                             FL_HOLD_Z | FL_HOLD_RX,
+                             TURNS,
+                             FL_HOLD_Y | FL_HOLD_RY | FL_HOLD_RZ};
+    for (int k = 0; k < 6; k++) {
+        fl_rng g = fl_rng_of(test_seed(), 60 + k, FL_RNG_TEST);
+        fl_bodies b;
+        fl_err err = {0};
+        double off[2];
+        for (int fine = 0; fine < 2; fine++) {
+            g = fl_rng_of(test_seed(), 60 + k, FL_RNG_TEST);
+            random_body(&b, &g, v3(1, 2, 3), hold[k]);
+            assert_int_equal(fl_bodies_add_mass(&b, &err), 0);
+            b.added[0] = v3(0.3, 1.0, 5.0);
+            const fl_vec3 v = b.v[0];
+            const double start = fl_body_kinetic(&b, 0);
+            for (int s = 0; s < (fine ? 2000 : 1000); s++) {
+                fl_kick(&b, 0, fine ? 5e-4 : 1e-3); /* no force: what holds has nothing to do in it */
+                fl_drift(&b, 0, fine ? 1e-3 : 2e-3);
+            }
+            if (hold[k] & FL_HOLD_X) assert_true(b.v[0].x == v.x);
+            if (hold[k] & FL_HOLD_Y) assert_true(b.v[0].y == v.y);
+            if (hold[k] & FL_HOLD_Z) assert_true(b.v[0].z == v.z);
+            off[fine] = fabs(fl_body_kinetic(&b, 0) - b.held[0] - start);
+            assert_near_of(off[fine], 0.0, 1e-3, start);
+            fl_bodies_free(&b);
+        }
+        assert_true(off[1] < 0.6 * off[0] + 1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(held_with_added_mass),
         cmocka_unit_test(a_kick_changes_momenta_alone),
         cmocka_unit_test(a_symmetric_top_turns_exactly),
         cmocka_unit_test(a_drift_goes_back_the_way_it_came),

@@ -41,6 +41,7 @@ static double period(lab *l, int cycles, double (*y)(const fl_world *))
 }
 
 static double heave(const fl_world *w) { return w->b.x[0].z - REST; }
+static double pitch(const fl_world *w) { return w->b.R[0].m[0][2]; }
 static double roll(const fl_world *w) { return w->b.R[0].m[2][1]; }
 
 static void draft(void)
@@ -99,6 +100,116 @@ static void heaving(void)
     }
     verify_order("V49", "heave after 3.25 periods over the amplitude", h, late, 4, 2.0, 0.1);
     verify_order("V29", "energy, largest error over the energy put in", h, energy, 4, 2.0, 0.1);
+}
+
+static void heavier(void)
+{
+    static const double Ca[2] = {0.5, 1.0}, listed[2] = {2.302239, 2.658396};
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        const double T = 2 * PI * sqrt(DRAFT * (1 + Ca[k]) / G);
+        floe(&l, REST + 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        lab_setf(&l, "water.added_mass=0 0 %g", Ca[k]);
+        lab_make(&l, T / 400);
+        const double lift = l.w.sea.lift[0], got = period(&l, 10, heave);
+        verify_row("V49", k ? "added mass 1: period of heave [s]" : "added mass 0.5: period of heave [s]",
+                   got, T, 1e-4, VERIFY_REL);
+        verify_row("V49", "  as listed", got, listed[k], 1e-3, VERIFY_REL);
+        verify_row("V49", "  weight and lift are as without", lift + l.w.b.m[0] * -G,
+                   1025 * G * 100 * (DRAFT - 0.05) - 90000 * G, 1e-12 * lift, VERIFY_ABS);
+        lab_free(&l);
+    }
+    lab l;
+    floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_set(&l, "water.added_mass=auto");
+    lab_set(&l, "water.added_inertia=auto");
+    lab_make(&l, 0.01);
+    const double a = 10 / sqrt(PI);
+    verify_row("V49", "auto: heave, over the displaced, 4/3pi a/d", l.w.b.added[0].z / 90000,
+               4 / (3 * PI) * a / DRAFT, 1e-12, VERIFY_REL);
+    verify_row("V49", "auto: surge", l.w.b.added[0].x / 90000, 0.1, 1e-12, VERIFY_REL);
+    verify_row("V50", "auto: roll, 8/45 rho a^5 [kg m2]", l.w.b.I[0].x - 90000 * 101 / 12.0,
+               8 / 45.0 * 1025 * pow(a, 5), 1e-9, VERIFY_REL);
+    lab_free(&l);
+}
+
+/* A box far from everything, that moves water with it. */
+static void free_body(lab *l, fl_quat q, fl_vec3 v, fl_vec3 spin, const char *current)
+{
+    lab_start(l);
+    lab_set(l, "water.drag_force_coef=0");
+    lab_set(l, "water.drag_moment_coef=0");
+    lab_set(l, "water.added_mass=0.1 0.3 1.5");
+    lab_setf(l, "water.current=%s", current);
+    lab_box(l, v3(0, 0, -50), v3(5, 3, 0.5), 0.05, q, v, spin);
+}
+
+/* Kirchhoff's equations: the free motion of a body whose mass is not the same in all directions. */
+static void kirchhoff(void)
+{
+    const fl_quat q = q_of_vector(v3(0.3, -0.5, 0.2));
+    const fl_vec3 v = v3(1, 0.4, -0.6), spin = v3(0.02, 0.05, -0.04);
+    double h[4], off[4], energy[4], worst_P = 0.0, worst_J = 0.0;
+    fl_vec3 at[5];
+    for (int k = 4; k >= 0; k--) { /* the finest first: what the others are held against */
+        lab l;
+        const double dt = k < 4 ? 0.1 / (1 << k) : 0.1 / 128;
+        free_body(&l, q, v, spin, "0 0 0");
+        lab_make(&l, dt);
+        const fl_bodies *b = &l.w.b;
+        const fl_vec3 P = fl_body_momentum(b, 0, b->v[0]), J = v3_add(b->L[0], v3_cross(b->x[0], P));
+        const double start = fl_body_kinetic(b, 0);
+        double far = 0.0;
+        for (int s = 0; s < (int)(40 / dt + 0.5); s++) {
+            lab_run(&l, 1);
+            const fl_vec3 p = fl_body_momentum(b, 0, b->v[0]);
+            far = fmax(far, fabs(fl_body_kinetic(b, 0) - start) / start);
+            worst_P = fmax(worst_P, v3_norm(v3_sub(p, P)) / v3_norm(P));
+            worst_J = fmax(worst_J, v3_norm(v3_sub(v3_add(b->L[0], v3_cross(b->x[0], p)), J)) / v3_norm(J));
+        }
+        at[k] = b->x[0];
+        if (k < 4) {
+            h[k] = dt;
+            energy[k] = far;
+            off[k] = v3_norm(v3_sub(at[k], at[4]));
+        }
+        lab_free(&l);
+    }
+    verify_note(
+        "a free box with added mass 0.1, 0.3, 1.5 of the displaced, 40 s: it tumbles (Munk's moment)");
+    /* a rounding a step: 2^-52 of it at most */
+    const double rounding = 2.2e-16 * 40 / (0.1 / 128);
+    verify_below("K01", "momentum of body and water, largest change", worst_P, rounding);
+    verify_below("K01", "angular momentum about the origin", worst_J, rounding);
+    verify_order("K01", "energy, largest change", h, energy, 4, 2.0, 0.2);
+    verify_order("K01", "where it is after 40 s [m]", h, off, 4, 2.0, 0.2);
+
+    verify_note("going broadside it swings: w^2 = P^2 (1/M_a - 1/M_b) / I about the direction of P");
+    lab l;
+    free_body(&l, q_one(), v3(0, 0, 2), v3(0, 1e-5, 0), "0 0 0");
+    lab_make(&l, 0.01);
+    const double m = 900 * 60.0, P = (m + 1.5 * m) * 2, I = l.w.b.I[0].y;
+    const double swing = sqrt(P * P * (1 / (m + 0.1 * m) - 1 / (m + 1.5 * m)) / I);
+    verify_row("K02", "period of the swing [s]", period(&l, 5, pitch), 2 * PI / swing, 1e-5, VERIFY_REL);
+    lab_free(&l);
+
+    verify_note("in a steady current it does what it does in water at rest, seen from a boat that drifts");
+    lab still, moving;
+    free_body(&still, q, v, spin, "0 0 0");
+    free_body(&moving, q, v3_add(v, v3(0.7, -0.3, 0)), spin, "0.7 -0.3 0");
+    lab_make(&still, 0.02);
+    lab_make(&moving, 0.02);
+    lab_run(&still, 2000);
+    lab_run(&moving, 2000);
+    const fl_vec3 drift = v3_scale(40, v3(0.7, -0.3, 0));
+    verify_below("K03", "apart after 40 s [m]",
+                 v3_norm(v3_sub(v3_sub(moving.w.b.x[0], drift), still.w.b.x[0])), 1e-9);
+    fl_step_ledger(&moving.w);
+    fl_step_ledger(&still.w);
+    verify_row("K03", "energy residual [J]", moving.w.ledger.residual, still.w.ledger.residual,
+               1e-9 * moving.w.ledger.throughput, VERIFY_ABS);
+    lab_free(&still);
+    lab_free(&moving);
 }
 
 static void rolling(void)
@@ -339,6 +450,8 @@ int main(void)
     verify_begin("floating bodies");
     draft();
     heaving();
+    heavier();
+    kirchhoff();
     rolling();
     tumbling();
     drift();
