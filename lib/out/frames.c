@@ -80,3 +80,12 @@ void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice
         putc('\n', f);
     }
 }
+
+void fl_frames_moved(FILE *f, int32_t id, fl_vec3 x, fl_quat q)
+{
+    fprintf(f, "moved %d", id);
+    put3(f, x);
+    put(f, q.w);
+    put3(f, v3(q.x, q.y, q.z));
+    putc('\n', f);
+}

@@ -16,4 +16,8 @@ void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_po
  * ice = 0 leaves the bodies out. */
 void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice);
 
+/* And behind it, of a structure that does more than go one way:  moved ID X Y Z QW QX QY QZ, which takes a
+ * vertex v of part ID to x + R(q) v. */
+void fl_frames_moved(FILE *f, int32_t id, fl_vec3 x, fl_quat q);
+
 #endif

@@ -3,6 +3,8 @@
 #include "base/num.h"
 #include "out/tables.h"
 
+#define PI 3.14159265358979323846
+
 static void put(FILE *f, double x)
 {
     char text[FL_NUM_LEN];
@@ -31,12 +33,18 @@ void fl_rows_row(FILE *f, int n, const double *x)
     putc('\n', f);
 }
 
-void fl_loads_header(FILE *f, const char *history, const fl_by *by, double start)
+void fl_loads_header(FILE *f, const char *history, const fl_by *by, double start, enum fl_loads_moving moving)
 {
     char text[FL_NUM_LEN];
     fl_by_header(f, "loads", 1, history, by);
     if (start > 0.0) fprintf(f, "#start %s\n", fl_num_text(start, text));
-    fputs("t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts\n", f);
+    fputs("t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts", f);
+    if (moving) fputs("\tux[m]\tuy[m]\tuz[m]\tvx[m/s]\tvy[m/s]\tvz[m/s]\tax[m/s2]\tay[m/s2]\taz[m/s2]", f);
+    if (moving == FL_LOADS_TURNS)
+        fputs("\trx[deg]\try[deg]\trz[deg]\twx[rad/s]\twy[rad/s]\twz[rad/s]\tex[rad/s2]\tey[rad/s2]\tez[rad/"
+              "s2]",
+              f);
+    putc('\n', f);
 }
 
 void fl_hash_header(FILE *f, const char *history, const fl_by *by)
@@ -51,14 +59,18 @@ void fl_hash_row(FILE *f, double t, uint64_t hash)
 }
 
 void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
-                  int32_t contacts)
+                  int32_t contacts, enum fl_loads_moving moving, const fl_loads_motion *motion)
 {
     char text[FL_NUM_LEN];
     fprintf(f, "%s\t%s", fl_num_text(t, text), part);
     put3(f, force);
     put3(f, moment);
     put(f, peak);
-    fprintf(f, "\t%d\n", contacts);
+    fprintf(f, "\t%d", contacts);
+    if (moving) put3(f, motion->u), put3(f, motion->v), put3(f, motion->a);
+    if (moving == FL_LOADS_TURNS)
+        put3(f, v3_scale(180.0 / PI, motion->r)), put3(f, motion->w), put3(f, motion->e);
+    putc('\n', f);
 }
 
 void fl_state_header(FILE *f, const char *history, const fl_by *by)

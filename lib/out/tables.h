@@ -10,12 +10,23 @@
 #include "narrow/contact.h"
 #include "out/poses.h"
 
+/* Motion of a part at the end of an interval: of its reference point, displacement [m], velocity and
+ * acceleration, and of its turn, rotation vector [rad] (told in degrees), angular velocity and acceleration.
+ */
+typedef struct {
+    fl_vec3 u, v, a, r, w, e;
+} fl_loads_motion;
+
+/* Which columns of motion a table of loads has. */
+enum fl_loads_moving { FL_LOADS_STILL, FL_LOADS_MOVES, FL_LOADS_TURNS };
+
 /* start: when the first interval begins [s]; above 0 where a run is gone on with. */
-void fl_loads_header(FILE *f, const char *history, const fl_by *by, double start);
-/* force, moment: mean over the interval that ends at t, the moment about the world's origin; peak: largest
- * |force| of any step in it; contacts: bodies that touch the part at t. */
+void fl_loads_header(FILE *f, const char *history, const fl_by *by, double start,
+                     enum fl_loads_moving moving);
+/* force, moment: mean over the interval that ends at t, the moment about the reference point; peak: largest
+ * |force| of any step in it; contacts: bodies that touch the part at t; motion: NULL where FL_LOADS_STILL. */
 void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
-                  int32_t contacts);
+                  int32_t contacts, enum fl_loads_moving moving, const fl_loads_motion *motion);
 
 void fl_state_header(FILE *f, const char *history, const fl_by *by);
 /* The bodies that are there: position of the centre of mass; orientation against the pose at the start, q
@@ -33,6 +44,8 @@ void fl_hash_row(FILE *f, double t, uint64_t hash);
     "t[s]\tkinetic[J]\tgravity[J]\telastic[J]\thydrostatic[J]\tfriction[J]\tdamping[J]\tdrag[J]\twind[J]"    \
     "\tdrive[J]\t"                                                                                           \
     "residual[J]"
+/* and behind it, of a structure that moves by itself */
+#define FL_ENERGY_MOVING "\tstructure[J]\tspring[J]\tdamper[J]"
 
 void fl_contacts_header(FILE *f, const char *history, const fl_by *by);
 /* normal: component of the force on i along n, slide: the rest of it [N]. */

@@ -22,6 +22,7 @@ void fl_scene_free(fl_scene *scene)
     free(scene->material);
     free(scene->contact);
     free(scene->group);
+    free(scene->part);
     memset(scene, 0, sizeof *scene);
 }
 
@@ -36,6 +37,13 @@ int32_t fl_scene_find_group(const fl_scene *scene, const char *name)
 {
     for (int32_t i = 0; i < scene->n_group; i++)
         if (strcmp(scene->group[i].name, name) == 0) return i;
+    return -1;
+}
+
+int32_t fl_scene_find_part(const fl_scene *scene, const char *name)
+{
+    for (int32_t i = 0; i < scene->n_part; i++)
+        if (strcmp(scene->part[i].name, name) == 0) return i;
     return -1;
 }
 

@@ -99,13 +99,42 @@ typedef struct {
     int32_t shape;                /* enum fl_shape */
 } fl_scene_ice;
 
+/* How the structure, or a part of it by itself, moves: as it is told in the directions that are not free, by
+ * forces in those that are.  World axes; turns are about the reference point. */
+enum fl_between { FL_BETWEEN_CUBIC, FL_BETWEEN_LINEAR };
+typedef struct {
+    fl_vec3 reference; /* point that turns and moments are about, the centre of mass of what is free [m] */
+    fl_vec3 velocity;  /* [m/s] */
+    fl_vec3 spin;      /* [rad/s] */
+    char track[FL_SCENE_PATH]; /* "": none */
+    int32_t between;           /* enum fl_between: rows of the track */
+    uint32_t free;             /* FL_FIX_X | ...: directions left to forces */
+    double mass;               /* [kg]; 0: not given */
+    fl_vec3 inertia;           /* [kg m2] */
+    fl_vec3 stiffness;         /* [N/m] */
+    fl_vec3 turn_stiffness;    /* [N m/rad] */
+    fl_vec3 coupling;          /* C34, C35 [N], C45 [N m] */
+    fl_vec3 period;            /* in place of stiffness [s]; 0: no spring */
+    fl_vec3 damping;           /* [N s/m] */
+    fl_vec3 turn_damping;      /* [N m s] */
+    fl_vec3 damping_ratio;     /* in place of damping, of the critical */
+    int32_t hydrostatic;       /* 1: the stiffness that the sea gives to the mesh */
+} fl_scene_motion;
+
 typedef struct {
     fl_scene_head head;
     char file[FL_SCENE_PATH]; /* g_struct */
     char material[FL_SCENE_NAME];
-    double friction;  /* against everything; negative: auto */
-    fl_vec3 velocity; /* [m/s] */
+    double friction; /* against everything; negative: auto */
+    fl_scene_motion motion;
 } fl_scene_structure;
+
+/* A part that does not move as [structure] says. */
+typedef struct {
+    fl_scene_head head;
+    char name[FL_SCENE_NAME];
+    fl_scene_motion motion;
+} fl_scene_part;
 
 typedef struct {
     fl_scene_head head;
@@ -164,8 +193,9 @@ typedef struct {
     fl_scene_material *material; /* "ice" and "steel" are always there after fl_scene_check() */
     fl_scene_contact *contact;
     fl_scene_group *group;
-    int32_t n_material, n_contact, n_group;
-    int32_t cap_material, cap_contact, cap_group;
+    fl_scene_part *part;
+    int32_t n_material, n_contact, n_group, n_part;
+    int32_t cap_material, cap_contact, cap_group, cap_part;
     char **file; /* names of the files read, the scene first, then what it includes */
     int32_t n_file, cap_file;
 } fl_scene;
@@ -176,9 +206,10 @@ void fl_scene_start(fl_scene *scene);
 /* Accepts a zeroed scene and leaves one. */
 void fl_scene_free(fl_scene *scene);
 
-/* Index of the material or the group of that name, -1 when there is none. */
+/* Index of the material, the group or the [part] of that name, -1 when there is none. */
 int32_t fl_scene_find_material(const fl_scene *scene, const char *name);
 int32_t fl_scene_find_group(const fl_scene *scene, const char *name);
+int32_t fl_scene_find_part(const fl_scene *scene, const char *name);
 
 /* How a body of material a (an index) meets b: an index as well, or the structure, or the boundary.
  * Each member comes from the first of these places where it was given:

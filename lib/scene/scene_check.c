@@ -184,6 +184,82 @@ static int check_groups(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* "structure" or "part NAME", a dot and a key, for a complaint. */
+typedef struct {
+    const fl_scene *s;
+    const char *of;
+    fl_err *err;
+} motion_check;
+
+static int motion_fail(const motion_check *c, const char *name, const char *what)
+{
+    char key[3 * FL_SCENE_NAME];
+    snprintf(key, sizeof key, "%s.%s", c->of, name);
+    return fl_scene_fail(c->s, key, c->err, "%s: %s", key, what);
+}
+
+/* Values that bear on free directions: none below 0, none where a direction is not free. */
+static int free_only(const motion_check *c, const char *name, fl_vec3 x, uint32_t free)
+{
+    const double v[] = {x.x, x.y, x.z};
+    for (int k = 0; k < 3; k++) {
+        if (v[k] < 0.0) return motion_fail(c, name, "a value is below 0");
+        if (v[k] != 0.0 && !(free >> k & 1u))
+            return motion_fail(c, name, "a direction has a value that is not among the free ones");
+    }
+    return 0;
+}
+
+static int any(fl_vec3 x) { return x.x != 0.0 || x.y != 0.0 || x.z != 0.0; }
+
+static int check_motion(const motion_check *c, const fl_scene_motion *m)
+{
+    const uint32_t turns = m->free >> 3;
+    const double I[] = {m->inertia.x, m->inertia.y, m->inertia.z};
+    if (m->track[0] && (any(m->velocity) || any(m->spin)))
+        return motion_fail(c, "track", "velocity and spin are given as well, one of the two was wanted");
+    if (m->free && any(m->spin))
+        return motion_fail(c, "spin", "what is free is not spun, a structure without free was wanted");
+    if (free_only(c, "stiffness", m->stiffness, m->free) || free_only(c, "period", m->period, m->free) ||
+        free_only(c, "damping", m->damping, m->free) ||
+        free_only(c, "damping_ratio", m->damping_ratio, m->free) ||
+        free_only(c, "turn_stiffness", m->turn_stiffness, turns) ||
+        free_only(c, "turn_damping", m->turn_damping, turns) || free_only(c, "inertia", m->inertia, turns))
+        return -1;
+    if (any(m->period) && any(m->stiffness))
+        return motion_fail(c, "period", "stiffness is given as well, one of the two was wanted");
+    if (any(m->damping) && any(m->damping_ratio))
+        return motion_fail(c, "damping_ratio", "damping is given as well, one of the two was wanted");
+    if ((m->free & 7u) && m->mass == 0.0)
+        return motion_fail(c, "mass", "free directions have a mass, and none is given");
+    if (!(m->free & 7u) && m->mass != 0.0)
+        return motion_fail(c, "mass", "a mass bears on free directions, and none of x y z is free");
+    for (int k = 0; k < 3; k++)
+        if (turns >> k & 1u && !(I[k] > 0.0))
+            return motion_fail(c, "inertia", "every free turn has an inertia, above 0 was wanted");
+    if ((any(m->coupling) || m->hydrostatic) && !(m->free & (FL_FIX_Z | FL_FIX_RX | FL_FIX_RY)))
+        return motion_fail(c, m->hydrostatic ? "hydrostatic" : "coupling",
+                           "it bears on z, rx and ry, and none of them is free");
+    if (m->hydrostatic && !c->s->water.head.present)
+        return motion_fail(c, "hydrostatic", "there is no water: [water] was wanted");
+    return 0;
+}
+
+static int check_motions(const fl_scene *s, fl_err *err)
+{
+    motion_check c = {s, "structure", err};
+    if (s->structure.head.present && check_motion(&c, &s->structure.motion)) return -1;
+    for (int32_t i = 0; i < s->n_part; i++) {
+        char of[FL_SCENE_NAME + 8];
+        snprintf(of, sizeof of, "part %s", s->part[i].name);
+        c.of = of;
+        if (!s->structure.head.present)
+            return fl_scene_fail(s, of, err, "[%s] is a part of no structure: [structure] was wanted", of);
+        if (check_motion(&c, &s->part[i].motion)) return -1;
+    }
+    return 0;
+}
+
 int fl_scene_check(fl_scene *s, fl_err *err)
 {
     if (ensure_material(s, "ice", err) || ensure_material(s, "steel", err)) return -1;
@@ -194,7 +270,8 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
     return check_boundary(s, err) || check_current(s, err) ||
                    check_shares(s, "water.added_mass", s->water.added_mass, err) ||
-                   check_shares(s, "water.added_inertia", s->water.added_inertia, err) || check_groups(s, err)
+                   check_shares(s, "water.added_inertia", s->water.added_inertia, err) ||
+                   check_groups(s, err) || check_motions(s, err)
                ? -1
                : 0;
 }

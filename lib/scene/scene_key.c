@@ -24,9 +24,134 @@ const fl_section fl_section_table[FL_SECTIONS] = {
      "frozen faces between neighbours; absent, nothing is frozen together"},
     {"group", "[group NAME]", 1, offsetof(fl_scene, group), sizeof(fl_scene_group),
      "bodies of the ice file with that group, held or driven"},
+    {"part", "[part NAME]", 1, offsetof(fl_scene, part), sizeof(fl_scene_part),
+     "a part of the structure that moves by its own; the others move as [structure] says"},
 };
 
 #define AT(section, member) offsetof(fl_scene_##section, member)
+
+/* What [structure] and [part NAME] have in common: how a thing moves. */
+#define MOTION_KEYS(SECTION, OWNER)                                                                          \
+    {.section = SECTION,                                                                                     \
+     .key = "reference",                                                                                     \
+     .type = FL_VALUE_VEC3,                                                                                  \
+     .unit = FL_UNIT_LENGTH,                                                                                 \
+     .at = AT(OWNER, motion.reference),                                                                      \
+     .fallback = "0 0 0 m",                                                                                  \
+     .meaning =                                                                                              \
+         "point that turns and moments are about, the centre of mass of what is free; it moves along"},      \
+        {.section = SECTION,                                                                                 \
+         .key = "velocity",                                                                                  \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_SPEED,                                                                              \
+         .at = AT(OWNER, motion.velocity),                                                                   \
+         .fallback = "0 0 0 m/s",                                                                            \
+         .meaning = "constant velocity of the reference point"},                                             \
+        {.section = SECTION,                                                                                 \
+         .key = "spin",                                                                                      \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_SPIN,                                                                               \
+         .at = AT(OWNER, motion.spin),                                                                       \
+         .fallback = "0 0 0 rad/s",                                                                          \
+         .meaning = "constant angular velocity about the reference point"},                                  \
+        {.section = SECTION,                                                                                 \
+         .key = "track",                                                                                     \
+         .type = FL_VALUE_PATH,                                                                              \
+         .at = AT(OWNER, motion.track),                                                                      \
+         .fallback = "none",                                                                                 \
+         .special = "none",                                                                                  \
+         .meaning = "file of the displacement and turn of the reference point against time, in place of "    \
+                    "velocity and spin",                                                                     \
+         .source = "track(5)"},                                                                              \
+        {.section = SECTION,                                                                                 \
+         .key = "interpolation",                                                                             \
+         .type = FL_VALUE_WORD,                                                                              \
+         .at = AT(OWNER, motion.between),                                                                    \
+         .fallback = "cubic",                                                                                \
+         .choices = "cubic|linear",                                                                          \
+         .meaning =                                                                                          \
+             "between the rows of the track: cubic, with continuous velocity and acceleration, or linear",   \
+         .source = "cubic spline, de Boor (1978), ch. 4"},                                                   \
+        {.section = SECTION,                                                                                 \
+         .key = "free",                                                                                      \
+         .type = FL_VALUE_FIXED,                                                                             \
+         .at = AT(OWNER, motion.free),                                                                       \
+         .fallback = "none",                                                                                 \
+         .special = "none",                                                                                  \
+         .meaning = "directions x y z and turns rx ry rz, world axes, in which forces move it; weight and "  \
+                    "buoyancy at rest are in balance"},                                                      \
+        {.section = SECTION,                                                                                 \
+         .key = "mass",                                                                                      \
+         .type = FL_VALUE_F64,                                                                               \
+         .unit = FL_UNIT_MASS,                                                                               \
+         .at = AT(OWNER, motion.mass),                                                                       \
+         .fallback = "none",                                                                                 \
+         .special = "none",                                                                                  \
+         .range = "(0,inf)",                                                                                 \
+         .meaning = "mass, for free directions"},                                                            \
+        {.section = SECTION,                                                                                 \
+         .key = "inertia",                                                                                   \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_INERTIA,                                                                            \
+         .at = AT(OWNER, motion.inertia),                                                                    \
+         .fallback = "0 0 0 kg.m2",                                                                          \
+         .meaning = "moments of inertia about axes through the reference point, for free turns"},            \
+        {.section = SECTION,                                                                                 \
+         .key = "stiffness",                                                                                 \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_MOORING,                                                                            \
+         .at = AT(OWNER, motion.stiffness),                                                                  \
+         .fallback = "0 0 0 N/m",                                                                            \
+         .meaning = "springs that hold the free directions x y z to the given motion"},                      \
+        {.section = SECTION,                                                                                 \
+         .key = "turn_stiffness",                                                                            \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_TWIST,                                                                              \
+         .at = AT(OWNER, motion.turn_stiffness),                                                             \
+         .fallback = "0 0 0 N.m/rad",                                                                        \
+         .meaning = "springs that hold the free turns rx ry rz"},                                            \
+        {.section = SECTION,                                                                                 \
+         .key = "coupling",                                                                                  \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_ONE,                                                                                \
+         .at = AT(OWNER, motion.coupling),                                                                   \
+         .fallback = "0 0 0",                                                                                \
+         .meaning = "of the stiffness matrix C34 and C35 [N] between heave and roll, pitch, and C45 [N.m] "  \
+                    "between those"},                                                                        \
+        {.section = SECTION,                                                                                 \
+         .key = "period",                                                                                    \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_TIME,                                                                               \
+         .at = AT(OWNER, motion.period),                                                                     \
+         .fallback = "0 0 0 s",                                                                              \
+         .meaning = "natural periods without ice, in place of stiffness, k = m (2 pi/T)^2; 0 is no spring"}, \
+        {.section = SECTION,                                                                                 \
+         .key = "damping",                                                                                   \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_DAMPER,                                                                             \
+         .at = AT(OWNER, motion.damping),                                                                    \
+         .fallback = "0 0 0 N.s/m",                                                                          \
+         .meaning = "dashpots along the free directions x y z, against the given motion"},                   \
+        {.section = SECTION,                                                                                 \
+         .key = "turn_damping",                                                                              \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_SWIRL,                                                                              \
+         .at = AT(OWNER, motion.turn_damping),                                                               \
+         .fallback = "0 0 0 N.m.s",                                                                          \
+         .meaning = "dashpots of the free turns, about axes that turn with the structure"},                  \
+        {.section = SECTION,                                                                                 \
+         .key = "damping_ratio",                                                                             \
+         .type = FL_VALUE_VEC3,                                                                              \
+         .unit = FL_UNIT_ONE,                                                                                \
+         .at = AT(OWNER, motion.damping_ratio),                                                              \
+         .fallback = "0 0 0",                                                                                \
+         .meaning = "of the critical damping, in place of damping, c = 2 D sqrt(k m)"},                      \
+    {                                                                                                        \
+        .section = SECTION, .key = "hydrostatic", .type = FL_VALUE_WORD,                                     \
+        .at = AT(OWNER, motion.hydrostatic), .fallback = "none", .choices = "none|mesh",                     \
+        .meaning = "mesh adds the stiffness in z, rx, ry that the sea gives to the closed mesh at rest",     \
+        .source = "Faltinsen, Sea Loads (1990), ch. 3"                                                       \
+    }
 
 /* A field that is left out is 0: any range, no choices, no special word; .later marks what is not built. */
 const fl_key fl_key_table[] = {
@@ -410,40 +535,7 @@ const fl_key fl_key_table[] = {
      .range = "[0,1e6]",
      .meaning = "coefficient of friction against everything that touches the structure; auto is that of the "
                 "contact"},
-    {.section = FL_SEC_STRUCTURE,
-     .key = "velocity",
-     .type = FL_VALUE_VEC3,
-     .unit = FL_UNIT_SPEED,
-     .at = AT(structure, velocity),
-     .fallback = "0 0 0 m/s",
-     .meaning = "constant velocity"},
-    {.section = FL_SEC_STRUCTURE,
-     .key = "track",
-     .type = FL_VALUE_PATH,
-     .later = 1,
-     .meaning = "file of the velocity history"},
-    {.section = FL_SEC_STRUCTURE,
-     .key = "mass",
-     .type = FL_VALUE_F64,
-     .unit = FL_UNIT_MASS,
-     .later = 1,
-     .meaning = "mass of a structure that moves by itself"},
-    {.section = FL_SEC_STRUCTURE,
-     .key = "inertia",
-     .type = FL_VALUE_VEC3,
-     .later = 1,
-     .meaning = "moments of inertia of a structure that moves by itself"},
-    {.section = FL_SEC_STRUCTURE,
-     .key = "stiffness",
-     .type = FL_VALUE_VEC3,
-     .unit = FL_UNIT_SPRING,
-     .later = 1,
-     .meaning = "springs that hold it, per direction"},
-    {.section = FL_SEC_STRUCTURE,
-     .key = "damping",
-     .type = FL_VALUE_VEC3,
-     .later = 1,
-     .meaning = "dampers that hold it, per direction"},
+    MOTION_KEYS(FL_SEC_STRUCTURE, structure),
     {.section = FL_SEC_BOUNDARY,
      .key = "type",
      .type = FL_VALUE_WORDS,
@@ -723,6 +815,7 @@ const fl_key fl_key_table[] = {
      .at = AT(group, velocity),
      .fallback = "0 0 0 m/s",
      .meaning = "velocity in the fixed directions"},
+    MOTION_KEYS(FL_SEC_PART, part),
 };
 const int fl_key_count = sizeof fl_key_table / sizeof fl_key_table[0];
 

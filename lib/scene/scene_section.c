@@ -13,6 +13,7 @@ static void array_of(const fl_scene *scene, int section, void **array, int32_t *
     memcpy(array, (const char *)scene + fl_section_table[section].at, sizeof *array);
     *n = section == FL_SEC_MATERIAL  ? scene->n_material
          : section == FL_SEC_CONTACT ? scene->n_contact
+         : section == FL_SEC_PART    ? scene->n_part
                                      : scene->n_group;
 }
 
@@ -38,6 +39,7 @@ int32_t fl_section_named(const fl_scene *scene, int section, const char *a, cons
 {
     if (section == FL_SEC_MATERIAL) return fl_scene_find_material(scene, a);
     if (section == FL_SEC_GROUP) return fl_scene_find_group(scene, a);
+    if (section == FL_SEC_PART) return fl_scene_find_part(scene, a);
     if (section != FL_SEC_CONTACT) return 0;
     for (int32_t i = 0; i < scene->n_contact; i++) {
         const fl_scene_contact *c = &scene->contact[i];
@@ -53,9 +55,11 @@ int32_t fl_section_add(fl_scene *scene, int section, const char *a, const char *
     void *field = (char *)scene + t->at;
     int32_t *n = section == FL_SEC_MATERIAL  ? &scene->n_material
                  : section == FL_SEC_CONTACT ? &scene->n_contact
+                 : section == FL_SEC_PART    ? &scene->n_part
                                              : &scene->n_group;
     int32_t *cap = section == FL_SEC_MATERIAL  ? &scene->cap_material
                    : section == FL_SEC_CONTACT ? &scene->cap_contact
+                   : section == FL_SEC_PART    ? &scene->cap_part
                                                : &scene->cap_group;
     void *fresh;
     if (fl_grow(field, cap, *n + 1, t->size, err)) return -1;
@@ -64,6 +68,7 @@ int32_t fl_section_add(fl_scene *scene, int section, const char *a, const char *
     fl_section_defaults(section, a, fresh);
     if (section == FL_SEC_MATERIAL) strncpy(scene->material[*n - 1].name, a, FL_SCENE_NAME - 1);
     if (section == FL_SEC_GROUP) strncpy(scene->group[*n - 1].name, a, FL_SCENE_NAME - 1);
+    if (section == FL_SEC_PART) strncpy(scene->part[*n - 1].name, a, FL_SCENE_NAME - 1);
     if (section == FL_SEC_CONTACT) {
         strncpy(scene->contact[*n - 1].a, a, FL_SCENE_NAME - 1);
         strncpy(scene->contact[*n - 1].b, b, FL_SCENE_NAME - 1);

@@ -17,7 +17,13 @@ enum fl_unit_kind {
     FL_UNIT_BED,     /* N/m3 N/m^3 kN/m3 MN/m3 GN/m3 Pa/m kPa/m MPa/m GPa/m */
     FL_UNIT_DASHPOT, /* N.s/m3 N.s/m^3 kN.s/m3 MN.s/m3 */
     FL_UNIT_MASS,    /* kg g t */
-    FL_UNIT_ANGLE    /* deg rad */
+    FL_UNIT_ANGLE,   /* deg rad */
+    FL_UNIT_SPIN,    /* rad/s deg/s */
+    FL_UNIT_INERTIA, /* kg.m2 t.m2, also with ^2 */
+    FL_UNIT_MOORING, /* N/m kN/m MN/m GN/m */
+    FL_UNIT_DAMPER,  /* N.s/m kN.s/m MN.s/m, or kg/s */
+    FL_UNIT_TWIST,   /* N.m/rad kN.m/rad MN.m/rad GN.m/rad, or N.m: what a turn is held by */
+    FL_UNIT_SWIRL    /* N.m.s kN.m.s MN.m.s GN.m.s: what a turn is damped by */
 };
 
 /* Convert *x from the unit `word` to that of the kind, *x * mul / div with one rounding where either is 1, so

@@ -3,7 +3,9 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
+#include "base/par.h"
 #include "step/pairing.h"
+#include "step/ride.h"
 #include "step/search.h"
 #include "step/snapshot.h"
 
@@ -171,6 +173,46 @@ static void sea(traffic *t, fl_sea *s, int32_t i)
     close_row(t);
 }
 
+/* The track is read again from its file, so its hash stands for it. */
+static void mover(traffic *t, fl_world *w, int32_t k)
+{
+    fl_movers *m = &w->ride.m;
+    fl_bodies *b = &m->b;
+    const fl_track *tr = &m->motion[k].track;
+    uint64_t bits = FL_HASH_START;
+    if (tr->n)
+        bits = fl_hash(fl_hash(bits, tr->t, tr->n * (int64_t)sizeof *tr->t), tr->at,
+                       tr->n * (int64_t)sizeof *tr->at);
+    const uint64_t now = bits;
+    const char *word = "";
+    open_row(t, "mover");
+    if (t->f) fprintf(t->f, " %" PRIx64, bits);
+    else if (!t->err->code && fl_text_word(t->in, "hash", &word, t->err) == 0 &&
+             (hex(word, &bits) || bits != now))
+        fl_text_fail(t->in, t->err, "the rows of the track of %s are not those that the run had",
+                     fl_ride_name(w, k));
+    vec3(t, &b->x[k]);
+    vec3(t, &b->v[k]);
+    vec3(t, &b->L[k]);
+    real(t, &b->q[k].w);
+    real(t, &b->q[k].x);
+    real(t, &b->q[k].y);
+    real(t, &b->q[k].z);
+    vec3(t, &b->w[k]);
+    vec3(t, &b->f[k]);
+    vec3(t, &b->t[k]);
+    real(t, &b->held[k]);
+    vec3(t, &m->anchor[k]);
+    vec3(t, &m->pull[k]);
+    vec3(t, &m->spring[k]);
+    vec3(t, &m->twist[k]);
+    real(t, &m->stored[k]);
+    real(t, &m->damped[k]);
+    real(t, &m->given[k]);
+    close_row(t);
+    if (t->in) b->R[k] = q_matrix(b->q[k]);
+}
+
 /* What a pair remembers of its past. */
 static void memory(traffic *t, fl_pair *p)
 {
@@ -240,7 +282,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
     count(t, &w->step0);
     real(t, &w->skin);
     real(t, &w->dt_critical);
-    whole(t, -1, w->n - 1, &w->critical_body);
+    whole(t, -1, w->b.total + w->ride.m.n - 1, &w->critical_body);
     real(t, &w->dt_safe);
     whole(t, w->parts, w->parts, &parts);
     whole(t, w->b.total, w->b.total, &total);
@@ -260,6 +302,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
         close_row(t);
     }
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
+    for (int32_t k = 0; k < w->ride.m.n && !t->err->code; k++) mover(t, w, k);
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, i);
@@ -296,5 +339,6 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     const int more = fl_text_row(in, err);
     if (more > 0) fl_text_fail(in, err, "\"%.40s\" behind the last pair was not expected", in->field[0]);
     if (more) return -1;
+    if (w->ride.m.n) fl_ride_ready(w);
     return fl_search_index(w, err);
 }

@@ -10,6 +10,7 @@
  *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
  *     part ...  impulse, moment and peak of the loads interval
  *     body ...  x v L q w f t held, carried (with added mass alone), odometer, odometer at the last search
+ *     mover ... x v L q w f t held, what of its springs and dampers lasts, and the hash of its track
  *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown
  *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces */

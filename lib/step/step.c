@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
+#include <stdio.h>
 #include "base/mem.h"
 #include "base/par.h"
 #include "body/integrate.h"
 #include "step/interact.h"
+#include "step/ride.h"
 #include "step/search.h"
 #include "step/step.h"
 
@@ -52,6 +54,7 @@ static void survey_stiffness(fl_world *w)
             w->critical_body = i;
         }
     }
+    if (w->ride.m.n) fl_ride_survey(w);
 }
 
 static int finite3(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
@@ -63,12 +66,20 @@ static int check(fl_world *w, int survey, fl_err *err)
         if (!finite3(w->b.f[i]) || !finite3(w->b.t[i]) || !finite3(w->b.x[i]) || !finite3(w->b.v[i]))
             return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)", w->id[i],
                            (long long)w->step, fl_world_time(w));
-    if (survey && w->dt > w->dt_critical)
+    if (survey && w->dt > w->dt_critical) {
+        const int32_t i = w->critical_body;
+        char who[64];
+        if (i >= w->b.total) snprintf(who, sizeof who, "%s", fl_ride_name(w, i - w->b.total));
+        else snprintf(who, sizeof who, "body %d", w->id[i]);
         return fl_fail(err, FL_NUMERIC,
-                       "body %d: the step of %g s is above the critical %g s of its contacts in step %lld (t "
-                       "= %g s); set "
-                       "a smaller run.dt or run.safety",
-                       w->id[w->critical_body], w->dt, w->dt_critical, (long long)w->step, fl_world_time(w));
+                       "%s: the step of %g s is above the critical %g s of its contacts in step %lld (t = %g "
+                       "s); set a smaller run.dt or run.safety",
+                       who, w->dt, w->dt_critical, (long long)w->step, fl_world_time(w));
+    }
+    for (int32_t k = 0; k < w->ride.m.n; k++)
+        if (!finite3(w->ride.m.b.x[k]) || !finite3(w->ride.m.b.f[k]) || !finite3(w->ride.m.b.t[k]))
+            return fl_fail(err, FL_NUMERIC, "%s: not a finite number in step %lld (t = %g s)",
+                           fl_ride_name(w, k), (long long)w->step, fl_world_time(w));
     return 0;
 }
 
@@ -80,7 +91,8 @@ static void load_parts(fl_world *w, double h)
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t j = w->n + k, p = w->structure.piece[k].part;
         w->part_force[p] = v3_add(w->part_force[p], b->f[j]);
-        w->part_torque[p] = v3_add(w->part_torque[p], v3_add(b->t[j], v3_cross(b->x[j], b->f[j])));
+        w->part_torque[p] =
+            v3_add(w->part_torque[p], v3_add(b->t[j], v3_cross(v3_sub(b->x[j], w->part_about[p]), b->f[j])));
     }
     for (int32_t p = 0; p < w->parts; p++) {
         const double size = v3_norm(w->part_force[p]);
@@ -103,11 +115,16 @@ static double friction_power(const fl_bodies *b, const fl_pair *p)
     return -(v3_dot(p->fs, dv) + v3_dot(p->si, b->w[p->i]) + v3_dot(p->sj, b->w[p->j]));
 }
 
+/* Of what is told to move; what moves by itself has its own books, ride.h. */
 static double drive_power(const fl_world *w)
 {
     double power = 0.0;
-    for (int32_t k = w->n; k < w->b.total; k++)
-        if (w->structure.piece[k - w->n].part >= 0) power -= v3_dot(w->b.f[k], w->b.v[k]);
+    if (w->ride.m.n == 0) return 0.0;
+    for (int32_t k = 0; k < w->pieces; k++) {
+        const int32_t j = w->n + k, m = w->ride.of[k];
+        if (m < 0 || w->ride.m.motion[m].free) continue;
+        power -= v3_dot(w->b.f[j], w->b.v[j]) + v3_dot(w->b.t[j], w->b.w[j]);
+    }
     return power;
 }
 
@@ -163,11 +180,16 @@ int fl_step_start(fl_world *w, fl_err *err)
     if (fl_search(w, err)) return -1;
     contacts(w, 0.0, 1);
     for (int32_t k = 0; k < w->b.total; k++) gather(w, k);
+    if (w->ride.m.n) {
+        fl_ride_ready(w);
+        fl_ride_back(w, 0.0, 0.0);
+    }
     survey_stiffness(w);
     if (check(w, 1, err)) return -1;
     book(w, 0.5 * w->dt);
     fl_step_ledger(w);
-    w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic;
+    w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic +
+                      w->ledger.moving + w->ledger.spring;
     fl_step_ledger(w);
     return 0;
 }
@@ -176,14 +198,15 @@ int fl_step(fl_world *w, fl_err *err)
 {
     fl_bodies *b = &w->b;
     const double dt = w->dt, h = 0.5 * dt;
-    const int sea = w->sea.n > 0, survey = surveyed(w, w->step + 1);
+    const int sea = w->sea.n > 0, rides = w->ride.m.n > 0, survey = surveyed(w, w->step + 1);
 
     load_parts(w, h);
+    if (rides) fl_ride_out(w, fl_world_time(w));
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
         if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, 0);
         if (k < w->n) fl_kick(b, k, h);
-        fl_drift(b, k, dt);
+        if (!rides || k < w->n || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
     }
     w->step++;
     if (fl_search(w, err)) return -1;
@@ -193,6 +216,7 @@ int fl_step(fl_world *w, fl_err *err)
         gather(w, k);
         if (k < w->n) fl_kick(b, k, h);
     }
+    if (rides) fl_ride_back(w, fl_world_time(w), h);
     book(w, dt);
     account(w, dt);
     load_parts(w, h);
@@ -221,6 +245,7 @@ void fl_step_resize(fl_world *w, double dt, double t)
     w->t0 = t;
     w->step0 = w->step;
     w->dt = dt;
+    if (w->ride.m.n) fl_ride_ready(w);
 }
 
 /* --- what the books say ------------------------------------------------------------------------ */
@@ -260,12 +285,19 @@ void fl_step_ledger(fl_world *w)
     g->friction_now = g->friction + rubbed - spring; /* what the springs hold can still come back */
     g->drag = drag;
     g->wind = wind;
+    if (w->ride.m.n) {
+        const fl_ride_books r = fl_ride_ledger(w);
+        g->moving = r.kinetic;
+        g->spring = r.stored;
+        g->damper = r.damped;
+        held += r.given;
+    }
     const double drive = g->drive - h * drive_power(w) + held;
     g->drive_now = drive;
-    g->residual = kinetic + gravity + elastic + hydro - g->start + g->damping_now + g->friction_now + drag -
-                  wind - drive;
-    const double through =
-        fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) + fabs(drive) + kinetic;
+    g->residual = kinetic + gravity + elastic + hydro + g->moving + g->spring - g->start + g->damping_now +
+                  g->friction_now + drag + g->damper - wind - drive;
+    const double through = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
+                           fabs(drive) + kinetic + g->damper + g->moving;
     if (through > g->throughput) g->throughput = through;
 }
 

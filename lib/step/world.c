@@ -5,6 +5,7 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "step/pairing.h"
+#include "step/ride.h"
 #include "step/world.h"
 
 /* As many faces at rest on faces may a body have under it at once, as far as the step knows beforehand. */
@@ -253,7 +254,6 @@ static int place_pieces(fl_world *w, fl_err *err)
         w->b.R[j] = q_matrix(piece->q);
         w->material[j] = piece->kind == FL_PIECE_PLANE ? FL_SCENE_BOUNDARY : FL_SCENE_STRUCTURE;
         if (piece->kind == FL_PIECE_PLANE) continue;
-        w->b.v[j] = w->scene->structure.velocity;
         if (piece->kind == FL_PIECE_SHELL) { /* only its box is looked at, through the corners */
             fl_vec3 corner[8];
             const fl_aabb box = piece->shell.tree.node[0].box;
@@ -291,6 +291,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->part_moment = fl_alloc(w->parts, sizeof *w->part_moment, err);
     w->part_force = fl_alloc(w->parts, sizeof *w->part_force, err);
     w->part_torque = fl_alloc(w->parts, sizeof *w->part_torque, err);
+    w->part_about = fl_alloc(w->parts, sizeof *w->part_about, err);
     w->part_peak = fl_alloc(w->parts, sizeof *w->part_peak, err);
     w->scratch = fl_alloc(w->threads, sizeof *w->scratch, err);
     w->near_shell = fl_alloc(w->threads, sizeof *w->near_shell, err);
@@ -329,7 +330,7 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
         if (bad) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];
     }
-    if (place_pieces(w, err) || fl_pairing_laws(w, err)) goto fail;
+    if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_pairing_laws(w, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
     w->skin = w->n ? 0.1 * bound / w->n : 0.0;
     return 0;
@@ -354,7 +355,8 @@ void fl_world_free(fl_world *w)
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box);
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);
-    free(w->part_peak);
+    free(w->part_peak), free(w->part_about);
+    fl_ride_free(&w->ride);
     fl_pairs_free(&w->near);
     fl_sea_free(&w->sea);
     fl_bodies_free(&w->b);
@@ -391,9 +393,8 @@ static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, dou
     }
     const double size = w->b.bound[i] + w->b.radius[i], g = v3_norm(w->gravity);
     const double current = w->sea.water ? fl_current_most(&w->sea.current) : 0.0;
-    const double v2 =
-        fmax(v3_norm2(w->b.v[i]), fmax(current * current, v3_norm2(w->scene->structure.velocity))) +
-        2.0 * g * 0.1 * size;
+    const double v2 = fmax(v3_norm2(w->b.v[i]), fmax(current * current, w->ride.fastest * w->ride.fastest)) +
+                      2.0 * g * 0.1 * size;
     const double depth =
         fmin(pow(1.25 * w->b.m[i] * v2 / k, 0.4), w->b.radius[i] > 0.0 ? 0.3 * w->b.radius[i] : size);
     return 1.5 * k * sqrt(depth);
@@ -409,7 +410,7 @@ static double bed_slope(const fl_world *w, int32_t i)
 
 double fl_world_dt(const fl_world *w, int32_t *body)
 {
-    double most = 0.0, damp = 0.0;
+    double most = 0.0, damp = 0.0, ridden = 0.0;
     *body = -1;
     for (int32_t i = 0; i < w->n; i++) {
         const double places = w->b.core[i].nv > 1 ? FACES : 1.0;
@@ -424,7 +425,9 @@ double fl_world_dt(const fl_world *w, int32_t *body)
                 continue;
             }
             k = fl_pairing_stiffness(w, i, j, &n);
-            stiffest = fmax(stiffest, place_slope(w, i, j, k, n));
+            const double slope = place_slope(w, i, j, k, n);
+            stiffest = fmax(stiffest, slope);
+            if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
             damp = fmax(damp, fl_pairing_law(w, i, j)->chi);
         }
         /* two equal bodies on one spring: twice the compliance */
@@ -432,6 +435,13 @@ double fl_world_dt(const fl_world *w, int32_t *body)
         if (omega2 > most) {
             most = omega2;
             *body = i;
+        }
+    }
+    for (int32_t m = 0; m < w->ride.m.n; m++) {
+        const double omega2 = fl_ride_omega2(w, m, ridden);
+        if (omega2 > most) {
+            most = omega2;
+            *body = w->b.total + m;
         }
     }
     if (most == 0.0) return INFINITY;

@@ -6,6 +6,8 @@
 #define FL_STEP_WORLD_H
 #include "body/body.h"
 #include "bound/cell.h"
+#include "bound/flotation.h"
+#include "bound/mover.h"
 #include "bound/shell.h"
 #include "broad/pairs.h"
 #include "law/tangent.h"
@@ -68,6 +70,7 @@ typedef struct {
     double kinetic, gravity, elastic, hydrostatic; /* stores now; elastic with the springs of friction */
     double friction_now, damping_now, drag;        /* taken out since the start                        */
     double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
+    double moving, spring, damper; /* of a structure that moves by itself: in it, in its springs; taken out */
     double start, residual;
     double
         /* largest kinetic energy + |each of the works| so far: what the residual is held against */
@@ -84,12 +87,25 @@ typedef struct {
     fl_hull *hull;             /* [n]; NULL: no wall is elastic */
 } fl_beds;
 
+/* What of the structure moves, see ride.h; m.n = 0 and no memory where nothing does. */
+typedef struct {
+    fl_movers m;
+    int32_t *part;        /* [parts] its mover, -1: stands still */
+    int32_t *of;          /* [pieces + walls] the same */
+    fl_vec3 *arm;         /* [pieces + walls] from the reference to the piece, axes of the mover [m] */
+    fl_quat *turn;        /* [pieces + walls] axes of the piece in those of the mover */
+    double *slope;        /* [movers] of the contacts, for the survey [1/s2] */
+    fl_flotation *afloat; /* [movers] volume 0 where the sea was not asked */
+    double fastest;       /* bound of the told speeds [m/s] */
+} fl_ride;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
     int32_t n, pieces, walls;
     fl_structure structure;
     fl_cell cell;
+    fl_ride ride;
     fl_beds bed;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */
@@ -123,7 +139,8 @@ typedef struct {
     int64_t step0;
     fl_ledger ledger;
     fl_vec3 *part_impulse,
-        *part_moment;                  /* [parts] since the last loads row [N s], [N m s], about the origin */
+        *part_moment;                  /* [parts] since the last loads row [N s], [N m s], about part_about */
+    fl_vec3 *part_about;               /* [parts] reference point, now [m] */
     fl_vec3 *part_force, *part_torque; /* [parts] now                                                       */
     double *part_peak;                 /* [parts] largest |F| since the last row */
     int32_t parts;

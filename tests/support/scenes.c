@@ -42,12 +42,28 @@ static void put(lab *l, int32_t side, int32_t k)
 
 void scene_of_everything(lab *l, int32_t side, const char *law)
 {
-    static const char *const KEYS[] = {"material.ice.young=1 MPa",          "contact.friction=0.3",
-                                       "contact.restitution=0.4",           "run.gravity=9.81",
-                                       "boundary.type=rigid elastic rigid", "boundary.foundation=50 kN/m3",
-                                       "water.current=0.5 0.1 0",           "wind.velocity=8 0 0",
-                                       "structure.velocity=0.2 0 0",        "group.towed.fixed=x ry",
-                                       "group.towed.velocity=0.3 0 0",      "group.stiff.fixed=rx rz"};
+    static const char *const KEYS[] = {"material.ice.young=1 MPa",
+                                       "contact.friction=0.3",
+                                       "contact.restitution=0.4",
+                                       "run.gravity=9.81",
+                                       "boundary.type=rigid elastic rigid",
+                                       "boundary.foundation=50 kN/m3",
+                                       "water.current=0.5 0.1 0",
+                                       "wind.velocity=8 0 0",
+                                       "structure.velocity=0.2 0 0",
+                                       "group.towed.fixed=x ry",
+                                       "part.part_2.free=x z rx rz",
+                                       "part.part_2.mass=200",
+                                       "part.part_2.inertia=50 0 30",
+                                       "part.part_2.stiffness=1e4 0 2e4",
+                                       "part.part_2.turn_stiffness=1e3 0 1e3",
+                                       "part.part_2.damping=100 0 200",
+                                       "part.part_2.turn_damping=20 0 10",
+                                       "part.part_2.velocity=0 0.1 -0.1",
+                                       "part.part_3.spin=0 0 -0.2",
+                                       "part.part_3.velocity=0 0 -0.1",
+                                       "group.towed.velocity=0.3 0 0",
+                                       "group.stiff.fixed=rx rz"};
     const double half = 0.5 * side + 0.05, top = half + 0.02;
     const fl_vec3 hook[6] = {v3(-half, 0.3, 0), v3(-0.5, 0.3, 0), v3(-0.5, half, 0),
                              v3(-0.9, half, 0), v3(-0.9, 0.7, 0), v3(-half, 0.7, 0)};

@@ -231,8 +231,8 @@ static void words_of_the_manual_are_read_bare(void **state)
     assert_near(s.material[fl_scene_find_material(&s, "ice")].restitution, 0.4, 0);
     assert_near(s.material[fl_scene_find_material(&s, "ice")].friction, 0.2, 0);
     assert_near(s.structure.friction, 0.1, 0);
-    assert_near(s.structure.velocity.x, 0.1, 0);
-    assert_near(s.structure.velocity.y, -0.2, 0);
+    assert_near(s.structure.motion.velocity.x, 0.1, 0);
+    assert_near(s.structure.motion.velocity.y, -0.2, 0);
     for (int c = 0; c < 3; c++) assert_int_equal(s.boundary.type[c], FL_BOUND_RIGID);
     assert_near(s.water.depth, 20.0, 0);
     assert_near(s.water.current.x, 0.5, 0);

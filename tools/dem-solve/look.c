@@ -56,6 +56,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     /* Steps of this very scene tell the time better than any table. */
     const double begun = run_clock();
     double spent = 0.0;
+    char name[64];
     if (fl_step_start(w, err)) return -1;
     while (w->step < r->steps && (spent = run_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;
@@ -76,7 +77,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     stage(f, "holds", held > 0, "");
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,
             r->limit);
-    if (r->step_body >= 0) fprintf(f, ", set by body %d", w->id[r->step_body]);
+    if (r->step_body >= 0) fprintf(f, ", set by %s", run_body(w, r->step_body, name));
     fprintf(f, "\nmemory         %.1f MiB\n", mib_of(w));
     if (w->step)
         fprintf(f, "time           about %.0f s on %d threads, from %" PRId64 " steps of it\n",

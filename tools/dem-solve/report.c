@@ -10,11 +10,12 @@ void report_write(const struct run *r, FILE *f)
     const fl_ledger *g = &w->ledger;
     const double steps = (double)w->step, made = steps - (double)r->begun,
                  simulated = fl_world_time(w) - r->begun_time, touches = (double)w->touching_steps;
+    char name[64];
     const double scale = g->throughput > 0.0 ? g->throughput : 1.0;
     fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
     if (isfinite(w->dt_critical))
-        fprintf(f, "step over critical %.3g (smallest 2/omega seen: %.4g s, body %d)\n",
-                w->dt / w->dt_critical, w->dt_critical, w->id[w->critical_body]);
+        fprintf(f, "step over critical %.3g (smallest 2/omega seen: %.4g s, %s)\n", w->dt / w->dt_critical,
+                w->dt_critical, run_body(w, w->critical_body, name));
     else fprintf(f, "step over critical no contact was made\n");
     fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %d thread%s\n", simulated,
             r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, w->threads, w->threads == 1 ? "" : "s");

@@ -9,6 +9,7 @@
 #include "run.h"
 #include "save.h"
 #include "step/interact.h"
+#include "step/ride.h"
 #include "step/step.h"
 
 double run_clock(void)
@@ -23,6 +24,13 @@ int32_t run_partner(const fl_world *w, int32_t j)
     if (j < w->n) return w->id[j];
     const int32_t part = w->structure.piece[j - w->n].part;
     return part >= 0 ? -1 - part : -1 - w->parts - (j - w->n - w->pieces);
+}
+
+const char *run_body(const fl_world *w, int32_t k, char name[64])
+{
+    if (k >= w->b.total) snprintf(name, 64, "%s", fl_ride_name(w, k - w->b.total));
+    else snprintf(name, 64, "body %d", w->id[k]);
+    return name;
 }
 
 /* The first step at or after t: a row is due at the step that differs from its time by rounding alone. */
@@ -75,9 +83,12 @@ void run_header(struct run *r, struct outputs *u, int k)
     const fl_poses now = poses(r);
     FILE *f = u->table[k].f;
     switch (k) {
-    case AT_LOADS: fl_loads_header(f, r->history, r->by, u->last_row); break;
+    case AT_LOADS: fl_loads_header(f, r->history, r->by, u->last_row, fl_ride_columns(r->w)); break;
     case AT_STATE: fl_state_header(f, r->history, r->by); break;
-    case AT_ENERGY: fl_rows_header(f, "energy", r->history, r->by, FL_ENERGY_COLUMNS); break;
+    case AT_ENERGY:
+        fl_rows_header(f, "energy", r->history, r->by,
+                       fl_ride_free_ones(r->w) ? FL_ENERGY_COLUMNS FL_ENERGY_MOVING : FL_ENERGY_COLUMNS);
+        break;
     case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
     case AT_HASH: fl_hash_header(f, r->history, r->by); break;
     default: fl_frames_header(f, r->history, r->by, &now, r->surface);
@@ -113,8 +124,11 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
     fl_world *w = r->w;
     fl_out *loads = &u->table[AT_LOADS];
     const double length = t - u->last_row;
+    const enum fl_loads_moving moving = fl_ride_columns(w);
     for (int32_t p = 0; p < w->parts; p++) {
+        fl_loads_motion motion;
         int32_t touching = 0;
+        if (moving) fl_ride_tell(w, p, t, &motion);
         for (int32_t k = 0; k < w->pieces; k++) {
             const int32_t j = w->n + k;
             if (w->structure.piece[k].part != p) continue;
@@ -122,7 +136,7 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
                 touching += w->pair[w->inc[c]].n > 0;
         }
         fl_loads_row(loads->f, t, r->surface->part[p].name, v3_scale(1.0 / length, w->part_impulse[p]),
-                     v3_scale(1.0 / length, w->part_moment[p]), w->part_peak[p], touching);
+                     v3_scale(1.0 / length, w->part_moment[p]), w->part_peak[p], touching, moving, &motion);
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }
@@ -149,9 +163,34 @@ static void write_energy(struct run *r, struct outputs *u, double t)
     const fl_ledger *g = &r->w->ledger;
     fl_step_ledger(r->w);
     const double row[] = {
-        t,       g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
-        g->drag, g->wind,    g->drive_now, g->residual};
-    fl_rows_row(u->table[AT_ENERGY].f, (int)(sizeof row / sizeof *row), row);
+        t,       g->kinetic, g->gravity,   g->elastic,  g->hydrostatic, g->friction_now, g->damping_now,
+        g->drag, g->wind,    g->drive_now, g->residual, g->moving,      g->spring,       g->damper};
+    const int all = sizeof row / sizeof *row;
+    fl_rows_row(u->table[AT_ENERGY].f, fl_ride_free_ones(r->w) ? all : all - 3, row);
+}
+
+/* A structure that as a whole goes one way is told by that way, any other part by part. */
+static int one_way(const fl_world *w)
+{
+    return w->ride.m.n == 1 && w->scene->n_part == 0 && fl_ride_columns(w) == FL_LOADS_MOVES;
+}
+
+static fl_vec3 gone_one_way(const fl_world *w)
+{
+    if (!one_way(w)) return v3(0, 0, 0);
+    return v3_sub(w->ride.m.b.x[0], w->ride.m.motion[0].reference);
+}
+
+static void write_moved(const struct run *r, FILE *f)
+{
+    const fl_movers *v = &r->w->ride.m;
+    if (v->n == 0 || one_way(r->w)) return;
+    for (int32_t p = 0; p < r->w->parts; p++) {
+        const int32_t m = r->w->ride.part[p];
+        if (m < 0) continue;
+        fl_frames_moved(f, r->surface->part[p].id,
+                        v3_sub(v->b.x[m], m3_mul(v->b.R[m], v->motion[m].reference)), v->b.q[m]);
+    }
 }
 
 static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
@@ -170,7 +209,8 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         if (open_table(r, u, AT_FRAMES, path, err)) return -1;
         run_header(r, u, AT_FRAMES);
     }
-    fl_frames_frame(u->table[AT_FRAMES].f, t, &now, v3_scale(t, r->scene->structure.velocity), ice);
+    fl_frames_frame(u->table[AT_FRAMES].f, t, &now, gone_one_way(r->w), ice);
+    write_moved(r, u->table[AT_FRAMES].f);
     if (ice) next(u, AT_ICE, r->w);
     return 0;
 }

@@ -90,6 +90,9 @@ int look_probe(struct run *r, FILE *f, fl_err *err);
  * those. */
 int32_t run_partner(const fl_world *w, int32_t j);
 
+/* "body 7", or for a number behind all of them the part or structure that moves, into name. */
+const char *run_body(const fl_world *w, int32_t k, char name[64]);
+
 /* Seconds of a clock that only goes forward. */
 double run_clock(void);
 

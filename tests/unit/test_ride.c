@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What of a structure moves, by the sections of the scene. */
+#include "support/near.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "scene/scene_check.h"
+#include "step/ride.h"
+#include "support/lab.h"
+
+static const fl_vec3 ZERO = {0, 0, 0};
+
+static void three_parts(lab *l)
+{
+    lab_start(l);
+    lab_sphere(l, v3(100, 0, 0), 0.1, ZERO, ZERO);
+    lab_wall(l, v3(-1, -1, -1), v3(1, 1, 1), 1);
+    lab_cone(l, (fl_cone){v3(4, 0, -1), v3(4, 0, 1), 0.5, 0.5});
+    lab_cone(l, (fl_cone){v3(8, 0, -1), v3(8, 0, 1), 0.5, 0.5});
+}
+
+static void what_stands_still_has_no_mover(void **state)
+{
+    lab l;
+    (void)state;
+    three_parts(&l);
+    lab_make(&l, 1e-3);
+    assert_int_equal(l.w.ride.m.n, 0);
+    assert_null(l.w.ride.of);
+    assert_int_equal(fl_ride_columns(&l.w), FL_LOADS_STILL);
+    lab_free(&l);
+}
+
+static void each_part_moves_as_its_section_says(void **state)
+{
+    lab l;
+    fl_loads_motion m;
+    (void)state;
+    three_parts(&l);
+    lab_set(&l, "structure.velocity=1 0 0");
+    lab_set(&l, "part.part_2.velocity=0 2 0");
+    lab_set(&l, "part.part_3.reference=8 0 0"); /* nothing else: it stands */
+    lab_make(&l, 1e-3);
+    assert_int_equal(l.w.ride.m.n, 2);
+    assert_int_equal(fl_ride_columns(&l.w), FL_LOADS_MOVES);
+    lab_run(&l, 500);
+    assert_near(l.w.b.x[1].x, 0.5, 1e-12);
+    assert_near(l.w.b.x[2].y, 1.0, 1e-12);
+    assert_near(l.w.b.x[3].x, 8.0, 0);
+    fl_ride_tell(&l.w, 1, 0.5, &m);
+    assert_near(m.u.y, 1.0, 1e-12);
+    assert_near(m.v.y, 2.0, 1e-15);
+    fl_ride_tell(&l.w, 2, 0.5, &m);
+    assert_near(m.u.y, 0, 0);
+    assert_near(l.w.part_about[2].x, 8.0, 0);
+    assert_near(l.w.part_about[0].x, 0.5, 1e-12);
+    lab_free(&l);
+}
+
+/* A load on one that turns is told about its reference, wherever that is by now. */
+static void columns_tell_turn_and_acceleration(void **state)
+{
+    lab l;
+    fl_loads_motion m;
+    (void)state;
+    three_parts(&l);
+    lab_set(&l, "structure.spin=0 0 2");
+    lab_set(&l, "part.part_2.free=x");
+    lab_set(&l, "part.part_2.mass=2");
+    lab_set(&l, "part.part_2.stiffness=8 0 0");
+    lab_set(&l, "part.part_2.damping=1 0 0");
+    lab_make(&l, 1e-3);
+    assert_int_equal(fl_ride_columns(&l.w), FL_LOADS_TURNS);
+    l.w.ride.m.b.x[1].x = 0.5; /* from its reference, the origin */
+    lab_run(&l, 1);
+    fl_ride_tell(&l.w, 1, 1e-3, &m);
+    assert_near(m.a.x, (-8 * m.u.x - m.v.x) / 2, 1e-13);
+    lab_run(&l, 499);
+    fl_ride_tell(&l.w, 0, 0.5, &m);
+    assert_near(m.r.z, 1.0, 1e-13);
+    assert_near(m.w.z, 2.0, 1e-14);
+    assert_near_of(m.e.z, 0, 1e-9, 1.0);
+    lab_free(&l);
+}
+
+static void the_step_knows_mass_and_springs(void **state)
+{
+    double dt[2];
+    int32_t body = -1;
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        three_parts(&l);
+        lab_set(&l, "part.part_2.free=x");
+        lab_set(&l, "part.part_2.mass=1000");
+        lab_setf(&l, "part.part_2.stiffness=%g 0 0", k ? 1e13 : 1e3);
+        lab_make(&l, 0);
+        dt[k] = fl_world_dt(&l.w, &body);
+        if (k) {
+            assert_int_equal(body, l.w.b.total);
+            assert_string_equal(fl_ride_name(&l.w, 0), "part_2");
+        }
+        lab_free(&l);
+    }
+    assert_true(dt[1] < 0.1 * dt[0]);
+    assert_near(dt[1], 0.1 * 2.0 / sqrt(1e13 / 1000), 1e-2);
+}
+
+static void complaints(void **state)
+{
+    static const struct {
+        const char *set[4], *says;
+    } wrong[] = {
+        {{"structure.free=x"}, "structure.mass: free directions have a mass, and none is given"},
+        {{"structure.mass=1"}, "a mass bears on free directions, and none of x y z is free"},
+        {{"structure.free=rx"}, "every free turn has an inertia, above 0 was wanted"},
+        {{"structure.free=x", "structure.mass=1", "structure.stiffness=0 1 0"},
+         "a direction has a value that is not among the free ones"},
+        {{"structure.free=x", "structure.mass=1", "structure.damping=-1 0 0"}, "a value is below 0"},
+        {{"structure.free=x", "structure.mass=1", "structure.stiffness=1 0 0", "structure.period=1 0 0"},
+         "stiffness is given as well, one of the two was wanted"},
+        {{"structure.free=x", "structure.mass=1", "structure.damping=1 0 0", "structure.damping_ratio=1 0 0"},
+         "damping is given as well"},
+        {{"structure.free=x", "structure.mass=1", "structure.spin=0 0 1"}, "what is free is not spun"},
+        {{"structure.track=a", "structure.velocity=1 0 0"}, "velocity and spin are given as well"},
+        {{"structure.free=x", "structure.mass=1", "structure.hydrostatic=mesh"}, "it bears on z, rx and ry"},
+        {{"structure.free=z", "structure.mass=1", "structure.hydrostatic=mesh"}, "[water] was wanted"},
+        {{"structure.free=x", "structure.mass=1", "structure.coupling=1 0 0"}, "it bears on z, rx and ry"},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        lab l;
+        fl_err err = {0};
+        three_parts(&l);
+        lab_set(&l, "structure.file=lab");
+        for (int s = 0; s < 4 && wrong[k].set[s]; s++) lab_set(&l, wrong[k].set[s]);
+        assert_int_equal(fl_scene_check(&l.scene, &err), -1);
+        if (!strstr(err.text, wrong[k].says)) fail_msg("%s", err.text);
+        lab_free(&l);
+    }
+    lab l;
+    fl_err err = {0};
+    three_parts(&l);
+    lab_set(&l, "structure.file=lab");
+    lab_set(&l, "part.leg.velocity=1 0 0");
+    assert_int_equal(fl_scene_check(&l.scene, &err), 0);
+    assert_int_equal(fl_world_make(&l.w, &l.scene, &l.field, &l.surface, &err), -1);
+    if (!strstr(err.text, "there is no part leg in lab")) fail_msg("%s", err.text);
+    lab_free(&l);
+    lab_start(&l);
+    lab_sphere(&l, ZERO, 0.1, ZERO, ZERO);
+    lab_set(&l, "part.leg.velocity=1 0 0");
+    err = (fl_err){0};
+    assert_int_equal(fl_scene_check(&l.scene, &err), -1);
+    if (!strstr(err.text, "is a part of no structure")) fail_msg("%s", err.text);
+    lab_free(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_stands_still_has_no_mover),
+                                       cmocka_unit_test(each_part_moves_as_its_section_says),
+                                       cmocka_unit_test(columns_tell_turn_and_acceleration),
+                                       cmocka_unit_test(the_step_knows_mass_and_springs),
+                                       cmocka_unit_test(complaints)};
+    return cmocka_run_group_tests_name("ride", tests, NULL, NULL);
+}

@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A structure in motion: as told, on springs, and free among the ice. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include "step/ride.h"
+#include "support/lab.h"
+#include "support/verify.h"
+
+#define PI 3.14159265358979323846
+
+static const fl_vec3 ZERO = {0, 0, 0};
+
+/* A track as a file, and the scene's key for it. */
+static void track_of(lab *l, int n, const double *t, const double *x, const double *rz)
+{
+    char path[] = "/tmp/verify-track-XXXXXX";
+    const int fd = mkstemp(path);
+    FILE *f = fd < 0 ? NULL : fdopen(fd, "w");
+    if (!f) exit(1);
+    fprintf(f, "#track 1\nt[s]\tx[m]\trz[deg]\n");
+    for (int k = 0; k < n; k++) fprintf(f, "%.17g\t%.17g\t%.17g\n", t[k], x[k], rz ? rz[k] : 0.0);
+    fclose(f);
+    lab_setf(l, "structure.track=%s", path);
+}
+
+/* The track has been read. */
+static void make(lab *l, double dt)
+{
+    char path[FL_SCENE_PATH];
+    memcpy(path, l->scene.structure.motion.track, sizeof path);
+    lab_make(l, dt);
+    if (path[0]) unlink(path);
+}
+
+static void start(lab *l)
+{
+    lab_start(l);
+    lab_sphere(l, v3(1e3, 0, 0), 0.1, ZERO, ZERO); /* a world has ice */
+    lab_cone(l, (fl_cone){v3(0, 0, -1), v3(0, 0, 1), 0.5, 0.5});
+}
+
+/* --- as told --------------------------------------------------------------------------------- */
+
+/* Largest error of a track of n intervals against sin(2 t) and 0.5 sin(3 t): way, speed, place of a piece. */
+static void told_error(int n, const char *between, double *way, double *speed)
+{
+    enum { MOST = 161 };
+    double t[MOST], x[MOST], rz[MOST];
+    lab l;
+    start(&l);
+    for (int k = 0; k <= n; k++) {
+        t[k] = 2.0 * k / n;
+        x[k] = sin(2.0 * t[k]);
+        rz[k] = 0.5 * sin(3.0 * t[k]) * 180.0 / PI;
+    }
+    track_of(&l, n + 1, t, x, rz);
+    lab_setf(&l, "structure.interpolation=%s", between);
+    make(&l, 2e-3);
+    *way = *speed = 0.0;
+    for (int k = 1; k <= 1000; k++) {
+        lab_run(&l, 1);
+        const double now = 2e-3 * k;
+        if (now < 0.25 || now > 1.75) continue; /* the ends are of order 3 */
+        *way = fmax(*way, fabs(l.w.ride.m.b.x[0].x - sin(2.0 * now)));
+        *speed = fmax(*speed, fabs(l.w.ride.m.b.v[0].x - 2.0 * cos(2.0 * now)));
+        *speed = fmax(*speed, fabs(l.w.ride.m.b.w[0].z - 1.5 * cos(3.0 * now)));
+    }
+    lab_free(&l);
+}
+
+static void told(void)
+{
+    static const int N[3] = {40, 80, 160};
+    double h[3], way[3], speed[3], straight[3], none;
+    for (int k = 0; k < 3; k++) {
+        h[k] = 2.0 / N[k];
+        told_error(N[k], "cubic", &way[k], &speed[k]);
+        told_error(N[k], "linear", &straight[k], &none);
+    }
+    verify_note("a track of sin(2 t) and a turn of 0.5 sin(3 t), rows h apart; largest error inside");
+    verify_order("track", "cubic: way", h, way, 3, 4.0, 0.3);
+    verify_order("track", "cubic: velocity and spin", h, speed, 3, 3.0, 0.3);
+    verify_order("track", "linear: way", h, straight, 3, 2.0, 0.2);
+
+    lab l;
+    start(&l);
+    lab_set(&l, "structure.velocity=0.3 -0.1 0");
+    lab_set(&l, "structure.spin=0 0 2 rad/s");
+    lab_set(&l, "structure.reference=1 0 0");
+    lab_make(&l, 1e-3);
+    lab_run(&l, 3000);
+    const fl_vec3 at = v3(1 + 0.9 - cos(6.0), -0.3 - sin(6.0), -1);
+    verify_row("spin", "place of a piece after 6 rad about a point 1 m off [m]",
+               v3_norm(v3_sub(l.w.b.x[1], at)), 0.0, 1e-13, VERIFY_ABS);
+    const fl_vec3 speed_then = v3(0.3 + 2.0 * sin(6.0), -0.1 - 2.0 * cos(6.0), 0);
+    verify_row("spin", "its velocity [m/s]", v3_norm(v3_sub(l.w.b.v[1], speed_then)), 0.0, 1e-13, VERIFY_ABS);
+    lab_free(&l);
+}
+
+/* --- on springs ------------------------------------------------------------------------------ */
+
+/* Way of a mass at time s after the other end of its spring and dashpot has stepped by 1:
+ *     x = 1 - exp(-D w s) (cos wd s - D w/wd sin wd s),  wd = w sqrt(1 - D^2);
+ * the dashpot gives it the velocity 2 D w at once. */
+static double after_step(double D, double s)
+{
+    const double w = 2.0 * PI, wd = w * sqrt(1.0 - D * D);
+    return 1.0 - exp(-D * w * s) * (cos(wd * s) - D * w / wd * sin(wd * s));
+}
+
+/* Largest value of it. */
+static double overshoot(double D)
+{
+    double top = 0.0;
+    for (int k = 0; k < 100000; k++) top = fmax(top, after_step(D, 1e-5 * k));
+    return top;
+}
+
+/* A step of the spring's other end by 1 m, in one time step; D = 0 is the response to a load that is suddenly
+ * there.  Largest error of the way; its extremes and crossings. */
+static double stepped(double D, double dt, double *period, double *decrement, double *peak)
+{
+    const double t[4] = {-1, dt, 2 * dt, 1e3}, x[4] = {0, 0, 1, 1};
+    double worst = 0.0, before = 0.0, cross[2] = {0}, top = 0.0, bottom = 2.0;
+    int crossed = 0;
+    lab l;
+    start(&l);
+    track_of(&l, 4, t, x, NULL);
+    lab_set(&l, "structure.interpolation=linear");
+    lab_set(&l, "structure.free=x");
+    lab_set(&l, "structure.mass=1000");
+    lab_set(&l, "structure.period=1 0 0 s");
+    lab_setf(&l, "structure.damping_ratio=%.17g 0 0", D);
+    make(&l, dt);
+    const int64_t steps = (int64_t)lround(3.0 / dt);
+    for (int64_t k = 1; k <= steps; k++) {
+        lab_run(&l, 1);
+        const double now = l.w.ride.m.b.x[0].x, time = (double)k * dt;
+        const double exact = after_step(D, time - 1.5 * dt);
+        if (k > 2) worst = fmax(worst, fabs(now - exact));
+        if (before < 1.0 && now >= 1.0 && crossed < 2)
+            cross[crossed++] = time - dt * (now - 1.0) / (now - before);
+        if (now > top && crossed == 1) top = now;
+        if (crossed == 1 && now < bottom) bottom = now;
+        before = now;
+    }
+    *period = cross[1] - cross[0];
+    *peak = top;
+    *decrement = log((top - 1.0) / (1.0 - bottom)) * 2.0;
+    lab_free(&l);
+    return worst;
+}
+
+static void springs(void)
+{
+    double h[4], free_error[4], damped_error[4], period, decrement, peak;
+    verify_note("1000 kg on a spring of 1 s, damping ratio D; its other end steps by 1");
+    for (int k = 0; k < 4; k++) {
+        h[k] = 0.02 / (1 << k);
+        free_error[k] = stepped(0.0, h[k], &period, &decrement, &peak);
+        if (k == 3) {
+            verify_row("step", "dynamic factor, D = 0", peak, 2.0, 1e-4, VERIFY_REL);
+            verify_row("step", "period, D = 0 [s]", period, 1.0, 1e-4, VERIFY_REL);
+        }
+        damped_error[k] = stepped(0.05, h[k], &period, &decrement, &peak);
+    }
+    const double d = 0.05, root = sqrt(1.0 - d * d);
+    verify_row("step", "dynamic factor, D = 0.05", peak, overshoot(d), 1e-4, VERIFY_REL);
+    verify_row("step", "period, D = 0.05 [s]", period, 1.0 / root, 1e-4, VERIFY_REL);
+    verify_row("step", "logarithmic decrement, D = 0.05", decrement, 2.0 * PI * d / root, 2e-3, VERIFY_REL);
+    verify_order("step", "largest error of the way, D = 0", h, free_error, 4, 2.0, 0.2);
+    verify_order("step", "largest error of the way, D = 0.05", h, damped_error, 4, 2.0, 0.2);
+    stepped(0.9, 0.1, &period, &decrement, &peak);
+    verify_row("step", "D = 0.9, a tenth of a period a step: largest way", peak, overshoot(0.9), 5e-2,
+               VERIFY_REL);
+}
+
+/* The other end shakes with 1 m and frequency ratio r: what of it the mass does, when the start has faded. */
+static double shaken(double r, double D, double dt)
+{
+    enum { ROWS = 4001 };
+    static double t[ROWS], x[ROWS];
+    double top = 0.0, low = 0.0;
+    lab l;
+    start(&l);
+    for (int k = 0; k < ROWS; k++) {
+        t[k] = 0.01 * k;
+        x[k] = sin(2.0 * PI * r * t[k]);
+    }
+    track_of(&l, ROWS, t, x, NULL);
+    lab_set(&l, "structure.free=x");
+    lab_set(&l, "structure.mass=1000");
+    lab_set(&l, "structure.period=1 0 0 s");
+    lab_setf(&l, "structure.damping_ratio=%.17g 0 0", D);
+    make(&l, dt);
+    lab_run(&l, (int64_t)(30.0 / dt));
+    for (int64_t k = 0; k < (int64_t)(2.0 / r / dt); k++) {
+        lab_run(&l, 1);
+        top = fmax(top, l.w.ride.m.b.x[0].x);
+        low = fmin(low, l.w.ride.m.b.x[0].x);
+    }
+    lab_free(&l);
+    return 0.5 * (top - low);
+}
+
+static void harmonic(void)
+{
+    const double D = 0.1, R[4] = {0.5, 1.0, sqrt(2.0), 2.5};
+    verify_note(
+        "transmissibility of a spring and a dashpot, D = 0.1: sqrt((1 + 4 D2 r2)/((1 - r2)2 + 4 D2 r2))");
+    for (int k = 0; k < 4; k++) {
+        const double r2 = R[k] * R[k], drag = 4.0 * D * D * r2;
+        char what[64];
+        snprintf(what, sizeof what, "frequency ratio %.4g", R[k]);
+        verify_row("shaken", what, shaken(R[k], D, 2e-3), sqrt((1 + drag) / ((1 - r2) * (1 - r2) + drag)),
+                   1e-3, VERIFY_REL);
+    }
+}
+
+/* A dashpot alone, c h/m up to 1e6: v = v0 exp(-c t/m), never beyond zero. */
+static void dashpot(void)
+{
+    static const double C[3] = {1.0, 1e3, 1e6};
+    for (int k = 0; k < 3; k++) {
+        char what[96];
+        lab l;
+        start(&l);
+        lab_set(&l, "structure.free=x");
+        lab_set(&l, "structure.mass=1");
+        lab_setf(&l, "structure.damping=%g 0 0", C[k]);
+        lab_make(&l, 1.0);
+        l.w.ride.m.b.v[0].x = 1.0;
+        lab_run(&l, 2);
+        snprintf(what, sizeof what, "a dashpot of c t/m = %g: what is left of a speed of 1 m/s", 2.0 * C[k]);
+        verify_row("damper", what, l.w.ride.m.b.v[0].x, exp(-2.0 * C[k]), 1e-15, VERIFY_ABS);
+        fl_step_ledger(&l.w);
+        verify_row("damper", "  energy that it took [J]", l.w.ledger.damper, 0.5 - 0.5 * exp(-4.0 * C[k]),
+                   1e-15, VERIFY_ABS);
+        lab_free(&l);
+    }
+}
+
+/* --- a hull ---------------------------------------------------------------------------------- */
+
+/* Heave, roll and pitch of a closed box, afloat without ice, against 2 pi sqrt(m/C33), ... */
+static void hull(void)
+{
+    const double L = 20, B = 8, T = 2, D = 5, rho = 1025, g = 9.81, kg = 0.3, m = rho * L * B * T;
+    const fl_vec3 G = v3(3, -2, kg);
+    const double w = rho * g, zB = -0.5 * T - kg, V = L * B * T;
+    const double C[3] = {w * L * B, w * (L * B * B * B / 12 + V * zB), w * (B * L * L * L / 12 + V * zB)};
+    const double I[3] = {m, m * 9.0, m * 40.0};
+    static const char *const WHAT[3] = {"heave", "roll", "pitch"};
+    lab l;
+    start(&l);
+    fl_part *none = &l.surface.part[0];
+    none->nc = 0;
+    lab_wall(&l, v3(3 - L / 2, -2 - B / 2, -T), v3(3 + L / 2, -2 + B / 2, D - T), 3);
+    lab_set(&l, "water.density=1025");
+    lab_set(&l, "run.gravity=9.81");
+    lab_setf(&l, "structure.reference=%g %g %g", G.x, G.y, G.z);
+    lab_set(&l, "structure.free=z rx ry");
+    lab_setf(&l, "structure.mass=%.17g", m);
+    lab_setf(&l, "structure.inertia=%.17g %.17g 0", I[1], I[2]);
+    lab_set(&l, "structure.hydrostatic=mesh");
+    lab_make(&l, 2e-3);
+    const fl_flotation *f = &l.w.ride.afloat[0];
+    verify_row("hull", "displaced volume of a box [m3]", f->volume, V, 1e-13, VERIFY_REL);
+    verify_row("hull", "its centre of buoyancy over the keel [m]", f->buoyancy.z + kg + T, 0.5 * T, 1e-13,
+               VERIFY_REL);
+    for (int k = 0; k < 3; k++) {
+        char what[64];
+        snprintf(what, sizeof what, "C%d%d of the box", 3 + k, 3 + k);
+        verify_row("hull", what, l.w.ride.m.motion[0].K[2 + k][2 + k], C[k], 1e-12, VERIFY_REL);
+    }
+    for (int k = 0; k < 3; k++) { /* a small push, then the second zero crossing */
+        fl_bodies *b = &l.w.ride.m.b;
+        char what[64];
+        double before = 1.0, last = 0.0, first = 0.0;
+        int found = 0;
+        b->x[0] = G;
+        b->q[0] = q_one();
+        b->v[0] = v3(0, 0, k == 0 ? 0.01 : 0);
+        fl_body_derive(b, 0);
+        fl_body_spin(b, 0, v3(k == 1 ? 0.01 : 0, k == 2 ? 0.01 : 0, 0));
+        b->f[0] = b->t[0] = ZERO;
+        for (int64_t s = 1; found < 3 && s < 20000; s++) {
+            lab_run(&l, 1);
+            const double y = k == 0 ? b->x[0].z - kg : k == 1 ? b->q[0].x : b->q[0].y;
+            if (s > 1 && (y < 0.0) != (before < 0.0)) {
+                last = 2e-3 * ((double)s - y / (y - before));
+                if (found++ == 0) first = last;
+            }
+            before = y;
+        }
+        snprintf(what, sizeof what, "period of %s [s]", WHAT[k]);
+        verify_row("hull", what, last - first, 2.0 * PI * sqrt(I[k] / C[k]), 1e-5, VERIFY_REL);
+    }
+    lab_free(&l);
+}
+
+/* --- among the ice --------------------------------------------------------------------------- */
+
+static fl_vec3 momentum(const lab *l, fl_vec3 *turn)
+{
+    const fl_bodies *b = &l->w.b, *s = &l->w.ride.m.b;
+    fl_vec3 p = ZERO;
+    *turn = ZERO;
+    for (int32_t i = 0; i < l->w.n + l->w.ride.m.n; i++) {
+        const fl_bodies *a = i < l->w.n ? b : s;
+        const int32_t k = i < l->w.n ? i : i - l->w.n;
+        p = v3_madd(p, a->m[k], a->v[k]);
+        *turn = v3_add(*turn, v3_madd(a->L[k], a->m[k], v3_cross(a->x[k], a->v[k])));
+    }
+    return p;
+}
+
+/* Floes run into a box from all sides. */
+static void fleet(lab *l, double friction, double restitution)
+{
+    lab_start(l);
+    lab_setf(l, "contact.friction=%g", friction);
+    lab_setf(l, "contact.restitution=%g", restitution);
+    lab_set(l, "material.ice.young=1 MPa");
+    for (int k = 0; k < 8; k++) {
+        const double a = 2.0 * PI * k / 8 + 0.2, r = 3.0 + 0.1 * k;
+        lab_box(l, v3(r * cos(a), r * sin(a), 0.03 * k), v3(0.5, 0.4, 0.3), 0.05,
+                q_of_vector(v3(0.1, 0.05 * k, a)), v3(-cos(a + 0.1), -sin(a + 0.1), 0.02 * k),
+                v3(0.1, 0, 0.2));
+    }
+    lab_wall(l, v3(-1, -1, -1), v3(1, 1, 1), 2);
+}
+
+static void together(void)
+{
+    fl_vec3 turn0, turn;
+    lab l;
+    fleet(&l, 0.3, 0.4);
+    lab_set(&l, "structure.free=x y z rx ry rz");
+    lab_set(&l, "structure.mass=3000");
+    lab_set(&l, "structure.inertia=2500 2000 1500");
+    lab_make(&l, 0);
+    const fl_vec3 before = momentum(&l, &turn0);
+    const double size = 8.0 * l.w.b.m[0], arm = 3.0 * size;
+    lab_run(&l, (int64_t)(4.0 / l.w.dt));
+    const fl_vec3 after = momentum(&l, &turn);
+    verify_note("eight floes run into a box that is free; friction and restitution");
+    verify_true("free", "they have touched", l.w.touching_steps > 100);
+    verify_row("free", "linear momentum gained, over m v of the floes", v3_norm(v3_sub(after, before)) / size,
+               0.0, 1e-13, VERIFY_ABS);
+    verify_row("free", "angular momentum gained", v3_norm(v3_sub(turn, turn0)) / arm, 0.0, 1e-13, VERIFY_ABS);
+    verify_below("free", "the box is pushed [m/s]", 0.01 / v3_norm(l.w.ride.m.b.v[0]), 1.0);
+    lab_free(&l);
+}
+
+/* The ledger of a box on springs, turns and all; led along and damped as well. */
+static double residual(double safety, int damped)
+{
+    lab l;
+    fleet(&l, 0.0, 0.4);
+    lab_set(&l, "structure.mass=3000");
+    if (damped) {
+        lab_set(&l, "structure.velocity=0.2 0.1 0");
+        lab_set(&l, "structure.free=x z rx rz");
+        lab_set(&l, "structure.inertia=2500 0 1500");
+        lab_set(&l, "structure.stiffness=2e5 0 1e5");
+        lab_set(&l, "structure.turn_stiffness=1e5 0 1e5");
+        lab_set(&l, "structure.damping=1e4 0 1e4");
+        lab_set(&l, "structure.turn_damping=1e4 0 1e4");
+    } else {
+        lab_set(&l, "structure.free=x y z rx ry rz");
+        lab_set(&l, "structure.inertia=2500 2000 1500");
+        lab_set(&l, "structure.stiffness=2e5 1e5 1e5");
+        lab_set(&l, "structure.turn_stiffness=1e5 1e5 1e5 N.m");
+    }
+    lab_setf(&l, "run.safety=%g", safety);
+    lab_make(&l, 0);
+    lab_run(&l, (int64_t)(4.0 / l.w.dt));
+    fl_step_ledger(&l.w);
+    const double r = fabs(l.w.ledger.residual) / l.w.ledger.throughput;
+    lab_free(&l);
+    return r;
+}
+
+/* Told to go through the ice: what it puts in. */
+static double driven(double safety, int spin)
+{
+    lab l;
+    fleet(&l, 0.0, 0.4);
+    lab_set(&l, "structure.velocity=0.4 0.1 0");
+    if (spin) lab_set(&l, "structure.spin=0 0.3 0.5");
+    lab_setf(&l, "run.safety=%g", safety);
+    lab_make(&l, 0);
+    lab_run(&l, (int64_t)(4.0 / l.w.dt));
+    fl_step_ledger(&l.w);
+    const double r = fabs(l.w.ledger.residual) / l.w.ledger.throughput;
+    lab_free(&l);
+    return r;
+}
+
+static void ledger(void)
+{
+    double h[3], sprung[3], damped[3], told_to[3];
+    verify_note("eight floes with restitution 0.4 and the box: residual of the ledger over the throughput");
+    for (int k = 0; k < 3; k++) {
+        h[k] = 0.2 / (1 << k);
+        sprung[k] = residual(h[k], 0);
+        damped[k] = residual(h[k], 1);
+        told_to[k] = driven(h[k], 0);
+    }
+    verify_below("ledger", "on springs, 6 degrees of freedom, automatic step", sprung[1], 1e-3);
+    verify_order("ledger", "on springs", h, sprung, 3, 2.0, 0.5);
+    verify_below("ledger", "damped, its anchor moving, automatic step", damped[1], 1e-3);
+    verify_order("ledger", "damped, its anchor moving", h, damped, 3, 2.0, 0.5);
+    verify_below("ledger", "told to go, automatic step", told_to[1], 1e-3);
+    verify_order("ledger", "told to go", h, told_to, 3, 2.0, 0.5);
+    verify_below("ledger", "told to go and spin, automatic step", driven(0.1, 1), 1e-3);
+}
+
+int main(void)
+{
+    verify_begin("structures in motion");
+    told();
+    springs();
+    harmonic();
+    dashpot();
+    hull();
+    together();
+    ledger();
+    return verify_end();
+}
