@@ -120,3 +120,22 @@ void fl_contacts_row(FILE *f, double t, int32_t i, int32_t j, const fl_contact *
     put3(f, slide);
     putc('\n', f);
 }
+
+void fl_panels_header(FILE *f, const char *history, const fl_by *by, double start)
+{
+    char text[FL_NUM_LEN];
+    fl_by_header(f, "panels", 1, history, by);
+    if (start > 0.0) fprintf(f, "#start %s\n", fl_num_text(start, text));
+    fputs("t[s]\tpanel\tx[m]\ty[m]\tz[m]\tarea[m2]\tfx[N]\tfy[N]\tfz[N]\n", f);
+}
+
+void fl_panels_row(FILE *f, double t, const char *part, const char *name, fl_vec3 middle, double area,
+                   fl_vec3 force)
+{
+    char text[FL_NUM_LEN];
+    fprintf(f, "%s\t%s%s", fl_num_text(t, text), part, name);
+    put3(f, middle);
+    put(f, area);
+    put3(f, force);
+    putc('\n', f);
+}

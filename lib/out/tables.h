@@ -47,6 +47,11 @@ void fl_hash_row(FILE *f, double t, uint64_t hash);
 /* and behind it, of a structure that moves by itself */
 #define FL_ENERGY_MOVING "\tstructure[J]\tspring[J]\tdamper[J]"
 
+/* Loads on panels: panels(5).  name: of the part, then what tells its panels apart. */
+void fl_panels_header(FILE *f, const char *history, const fl_by *by, double start);
+void fl_panels_row(FILE *f, double t, const char *part, const char *name, fl_vec3 middle, double area,
+                   fl_vec3 force);
+
 void fl_contacts_header(FILE *f, const char *history, const fl_by *by);
 /* normal: component of the force on i along n, slide: the rest of it [N]. */
 void fl_contacts_row(FILE *f, double t, int32_t i, int32_t j, const fl_contact *c, double normal,

@@ -16,7 +16,7 @@
 #include "base/err.h"
 #include "geom/vec3.h"
 
-enum { FL_SCENE_NAME = 48, FL_SCENE_PATH = 1024, FL_SCENE_KEYS = 24 };
+enum { FL_SCENE_NAME = 48, FL_SCENE_PATH = 1024, FL_SCENE_KEYS = 32 };
 
 /* Where a value was given: line 0 says nowhere, the default stands; file is an index into scene.file,
  * or FL_SCENE_ARGUMENT for --set. */
@@ -63,7 +63,8 @@ typedef struct {
     double state_every, energy_every, contacts_every, hash_every;
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
-        hash[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
+        hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH],
+        checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {

@@ -7,6 +7,7 @@
 #include "law/normal.h"
 #include "narrow/nearest.h"
 #include "step/interact.h"
+#include "step/press.h"
 
 /* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
  * bound by the old direction lets it sleep for long enough. */
@@ -362,6 +363,7 @@ static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     all.moment = m3_mul(R, all.moment);
     rub(w, p, &all, chi, r, dt);
     p->energy += p->spring;
+    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note(w, p, s, factor, chi);
     return p->n = 1;
 }
 
@@ -453,6 +455,7 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     }
     rub(w, p, &all, 0.0, r, dt);
     p->energy += p->spring;
+    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note_one(w, p, c.p, c.n, c.area);
     p->n = 1;
     return 0;
 }

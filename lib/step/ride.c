@@ -300,6 +300,13 @@ enum fl_loads_moving fl_ride_columns(const fl_world *w)
     return most;
 }
 
+fl_vec3 fl_ride_place(const fl_world *w, int32_t part, fl_vec3 x)
+{
+    const fl_movers *v = &w->ride.m;
+    const int32_t m = w->ride.part[part];
+    return v3_add(v->b.x[m], m3_mul(v->b.R[m], v3_sub(x, v->motion[m].reference)));
+}
+
 int fl_ride_free_ones(const fl_world *w)
 {
     for (int32_t m = 0; m < w->ride.m.n; m++)

@@ -45,6 +45,9 @@ fl_ride_books fl_ride_ledger(const fl_world *w);
 enum fl_loads_moving fl_ride_columns(const fl_world *w);
 void fl_ride_tell(const fl_world *w, int32_t part, double t, fl_loads_motion *out);
 
+/* Where a point of a part that moves is now; x in the pose of the file. */
+fl_vec3 fl_ride_place(const fl_world *w, int32_t part, fl_vec3 x);
+
 /* Does something of the structure move by itself? */
 int fl_ride_free_ones(const fl_world *w);
 

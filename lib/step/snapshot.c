@@ -5,6 +5,7 @@
 #include "base/par.h"
 #include "base/par.h"
 #include "step/pairing.h"
+#include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
 #include "step/snapshot.h"
@@ -213,6 +214,73 @@ static void mover(traffic *t, fl_world *w, int32_t k)
     if (t->in) b->R[k] = q_matrix(b->q[k]);
 }
 
+/* Where the ice pressed last, and what the panels and events of the interval have so far. */
+static void mark(traffic *t, fl_world *w, fl_press_mark *m)
+{
+    open_row(t, "mark");
+    whole(t, 0, w->n - 1, &m->i);
+    whole(t, 0, w->parts - 1, &m->part);
+    whole(t, 0, w->press.panels - 1, &m->panel);
+    vec3(t, &m->f);
+    vec3(t, &m->n);
+    vec3(t, &m->at);
+    real(t, &m->normal);
+    real(t, &m->area);
+    real(t, &m->overlap);
+    close_row(t);
+}
+
+static void event(traffic *t, fl_world *w, fl_press_event *e)
+{
+    open_row(t, "event");
+    whole(t, INT32_MIN, INT32_MAX, &e->id);
+    whole(t, 0, w->parts - 1, &e->part);
+    vec3(t, &e->impulse);
+    vec3(t, &e->across);
+    vec3(t, &e->at);
+    real(t, &e->weight);
+    real(t, &e->area);
+    real(t, &e->overlap);
+    close_row(t);
+}
+
+static void pressed(traffic *t, fl_world *w)
+{
+    fl_press *s = &w->press;
+    int32_t panels = s->panels, loaded = 0;
+    for (int32_t k = 0; k < s->panels; k++) loaded += v3_norm2(s->impulse[k]) > 0.0;
+    open_row(t, "pressed");
+    whole(t, s->panels, s->panels, &panels);
+    whole(t, 0, s->panels, &loaded);
+    whole(t, 0, INT32_MAX, &s->n_now);
+    whole(t, 0, INT32_MAX, &s->events);
+    close_row(t);
+    const int32_t marks = s->n_now, events = s->events;
+    if (t->in) s->n_now = s->events = 0;
+    if (t->in && !t->err->code) fl_press_panels_end(w);
+    for (int32_t c = 0, k = -1; c < loaded && !t->err->code; c++) {
+        if (t->f) do
+                k++;
+            while (!(v3_norm2(s->impulse[k]) > 0.0));
+        open_row(t, "panel");
+        whole(t, k < 0 ? 0 : k, s->panels - 1, &k);
+        if (!t->err->code) vec3(t, &s->impulse[k]);
+        close_row(t);
+    }
+    for (int32_t k = 0; k < marks && !t->err->code; k++) { /* the numbers are hints: room comes as rows do */
+        if (t->in && fl_grow(&s->now, &s->now_cap, (int64_t)k + 1, sizeof *s->now, t->err)) return;
+        if (t->in) s->now[k] = (fl_press_mark){0};
+        mark(t, w, &s->now[k]);
+        s->n_now = k + 1;
+    }
+    for (int32_t k = 0; k < events && !t->err->code; k++) {
+        if (t->in && fl_grow(&s->event, &s->event_cap, (int64_t)k + 1, sizeof *s->event, t->err)) return;
+        if (t->in) s->event[k] = (fl_press_event){0};
+        event(t, w, &s->event[k]);
+        s->events = k + 1;
+    }
+}
+
 /* What a pair remembers of its past. */
 static void memory(traffic *t, fl_pair *p)
 {
@@ -303,6 +371,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
     }
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
     for (int32_t k = 0; k < w->ride.m.n && !t->err->code; k++) mover(t, w, k);
+    if (w->press.panels && !t->err->code) pressed(t, w);
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, i);

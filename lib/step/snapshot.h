@@ -11,6 +11,7 @@
  *     part ...  impulse, moment and peak of the loads interval
  *     body ...  x v L q w f t held, carried (with added mass alone), odometer, odometer at the last search
  *     mover ... x v L q w f t held, what of its springs and dampers lasts, and the hash of its track
+ *     pressed   what follows, where panels or events are asked for: panel, mark and event rows
  *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown
  *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces */

@@ -5,6 +5,7 @@
 #include "base/par.h"
 #include "body/integrate.h"
 #include "step/interact.h"
+#include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
 #include "step/step.h"
@@ -19,6 +20,14 @@ static void contacts(fl_world *w, double dt, int survey)
 {
 #pragma omp parallel for schedule(dynamic, 16)
     for (int32_t c = 0; c < w->n_pair; c++) fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
+}
+
+/* And where they press, when that is asked. */
+static int touch(fl_world *w, double dt, int survey, fl_err *err)
+{
+    if (w->press.panels) fl_press_clear(w);
+    contacts(w, dt, survey);
+    return w->press.panels ? fl_press_sort(w, err) : 0;
 }
 
 /* What acts on body k: weight, water, then its pairs in the order of the list, whichever thread takes it. */
@@ -178,7 +187,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     int32_t body;
     w->dt_safe = fl_world_dt(w, &body);
     if (fl_search(w, err)) return -1;
-    contacts(w, 0.0, 1);
+    if (touch(w, 0.0, 1, err)) return -1;
     for (int32_t k = 0; k < w->b.total; k++) gather(w, k);
     if (w->ride.m.n) {
         fl_ride_ready(w);
@@ -201,6 +210,7 @@ int fl_step(fl_world *w, fl_err *err)
     const int sea = w->sea.n > 0, rides = w->ride.m.n > 0, survey = surveyed(w, w->step + 1);
 
     load_parts(w, h);
+    if (w->press.panels && fl_press_add(w, h, err)) return -1;
     if (rides) fl_ride_out(w, fl_world_time(w));
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
@@ -210,7 +220,7 @@ int fl_step(fl_world *w, fl_err *err)
     }
     w->step++;
     if (fl_search(w, err)) return -1;
-    contacts(w, dt, survey);
+    if (touch(w, dt, survey, err)) return -1;
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
         gather(w, k);
@@ -220,6 +230,7 @@ int fl_step(fl_world *w, fl_err *err)
     book(w, dt);
     account(w, dt);
     load_parts(w, h);
+    if (w->press.panels && fl_press_add(w, h, err)) return -1;
     if (sea) {
 #pragma omp parallel for schedule(static)
         for (int32_t k = 0; k < w->n; k++) fl_sea_drag(&w->sea, b, k, h, 1);

@@ -5,6 +5,7 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "step/pairing.h"
+#include "step/press.h"
 #include "step/ride.h"
 #include "step/world.h"
 
@@ -330,7 +331,9 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
         if (bad) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];
     }
-    if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_pairing_laws(w, err)) goto fail;
+    if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
+        fl_pairing_laws(w, err))
+        goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
     w->skin = w->n ? 0.1 * bound / w->n : 0.0;
     return 0;
@@ -357,6 +360,7 @@ void fl_world_free(fl_world *w)
         free(w->part_torque);
     free(w->part_peak), free(w->part_about);
     fl_ride_free(&w->ride);
+    fl_press_free(&w->press);
     fl_pairs_free(&w->near);
     fl_sea_free(&w->sea);
     fl_bodies_free(&w->b);

@@ -99,6 +99,44 @@ typedef struct {
     double fastest;       /* bound of the told speeds [m/s] */
 } fl_ride;
 
+/* Where the ice presses, see press.h; panels = 0 and no memory where nobody asks. */
+typedef struct {
+    fl_vec3 v[3], middle; /* in the pose of the file; a cone has its middle three times [m] */
+    double area;          /* [m2] */
+    int32_t part;
+} fl_panel_place;
+
+/* One place of a contact. */
+typedef struct {
+    int32_t pair, turn, i, part, panel;
+    fl_vec3 f;      /* on the floe [N] */
+    fl_vec3 n, at;  /* from the structure to the floe; the point, world [m] */
+    double normal;  /* [N] */
+    double area;    /* of the whole contact [m2] */
+    double overlap; /* [m] */
+} fl_press_mark;
+
+typedef struct {
+    fl_press_mark *mark;
+    int32_t *list;
+    int32_t n, mark_cap, list_cap;
+} fl_press_notes;
+
+typedef struct fl_press_event fl_press_event;
+typedef struct {
+    int32_t panels, trees, threads;
+    fl_panel_place *panel; /* [panels] part by part, triangles before cones */
+    fl_aabb *box;          /* [panels] */
+    fl_vec3 *impulse;      /* [panels] of the interval [N s] */
+    int32_t *first;        /* [parts + 1] */
+    fl_bvh *tree;          /* [parts] over the triangles of each */
+    int32_t *cone;         /* [pieces + walls] panel of a cone, -1 for others */
+    fl_press_notes *noted; /* [threads] */
+    fl_press_mark *now;    /* [n_now] of all pairs, in their order */
+    fl_press_event *event; /* [events] of the interval, by floe and part */
+    int32_t n_now, now_cap, events, event_cap;
+} fl_press;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
@@ -106,6 +144,7 @@ typedef struct {
     fl_structure structure;
     fl_cell cell;
     fl_ride ride;
+    fl_press press;
     fl_beds bed;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */

@@ -60,6 +60,8 @@ void scene_of_everything(lab *l, int32_t side, const char *law)
                                        "part.part_2.damping=100 0 200",
                                        "part.part_2.turn_damping=20 0 10",
                                        "part.part_2.velocity=0 0.1 -0.1",
+                                       "output.panels=panels",
+                                       "output.events=events",
                                        "part.part_3.spin=0 0 -0.2",
                                        "part.part_3.velocity=0 0 -0.1",
                                        "group.towed.velocity=0.3 0 0",

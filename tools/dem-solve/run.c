@@ -9,6 +9,7 @@
 #include "run.h"
 #include "save.h"
 #include "step/interact.h"
+#include "step/press.h"
 #include "step/ride.h"
 #include "step/step.h"
 
@@ -91,6 +92,8 @@ void run_header(struct run *r, struct outputs *u, int k)
         break;
     case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
     case AT_HASH: fl_hash_header(f, r->history, r->by); break;
+    case AT_PANELS: fl_panels_header(f, r->history, r->by, u->last_row); break;
+    case AT_EVENTS: fl_contacts_header(f, r->history, r->by); break;
     default: fl_frames_header(f, r->history, r->by, &now, r->surface);
     }
 }
@@ -103,11 +106,13 @@ static int open_table(struct run *r, struct outputs *u, int k, const char *path,
 static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
-    const double every[TIMERS] = {s->loads_every, s->state_every,  s->energy_every, s->contacts_every,
-                                  s->hash_every,  s->frames_every, s->ice_every,    s->checkpoint_every};
+    const double every[TIMERS] = {s->loads_every, s->state_every,     s->energy_every, s->contacts_every,
+                                  s->hash_every,  s->frames_every,    s->loads_every,  s->loads_every,
+                                  s->ice_every,   s->checkpoint_every};
     char frames[FL_SCENE_PATH + 16];
     run_frames_path(r, u, frames);
-    const char *const path[TABLES] = {r->out, s->state, s->energy, s->contacts, s->hash, frames};
+    const char *const path[TABLES] = {r->out,  s->state, s->energy, s->contacts,
+                                      s->hash, frames,   s->panels, s->events};
     for (int k = 0; k < TABLES; k++)
         if (open_table(r, u, k, path[k], err)) return -1;
     for (int k = 0; k < TABLES; k++)
@@ -117,6 +122,43 @@ static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
         run_timer(&u->at[k], k == AT_LOADS || k == AT_SAVE, r->w);
     }
     return 0;
+}
+
+/* Triangles and cones by number within their part, where they are now. */
+static void write_panels(struct run *r, FILE *f, double t, double length)
+{
+    fl_world *w = r->w;
+    const fl_press *s = &w->press;
+    for (int32_t k = 0; k < s->panels; k++) {
+        const fl_panel_place *p = &s->panel[k];
+        char name[32];
+        fl_vec3 x = p->middle;
+        if (!(p->area > 0.0)) continue; /* a triangle without one has no pressure */
+        if (w->ride.m.n && w->ride.part[p->part] >= 0) x = fl_ride_place(w, p->part, x);
+        snprintf(name, sizeof name, ".%d", k - s->first[p->part] + 1);
+        fl_panels_row(f, t, r->surface->part[p->part].name, name, x, p->area,
+                      v3_scale(1.0 / length, s->impulse[k]));
+    }
+    fl_press_panels_end(w);
+}
+
+static void write_events(struct run *r, FILE *f, double t, double length)
+{
+    fl_world *w = r->w;
+    for (int32_t k = 0; k < w->press.events; k++) {
+        const fl_press_event *e = &w->press.event[k];
+        const fl_vec3 force = v3_scale(-1.0 / length, e->impulse); /* on the floe */
+        fl_contact c = {.gap = -e->overlap, .n = v3_unit(e->across)};
+        if (e->weight > 0.0) {
+            c.p = v3_scale(1.0 / e->weight, e->at);
+            c.area = e->area / e->weight;
+        }
+        if (!(v3_norm2(c.n) > 0.5)) c.n = v3_unit(force);
+        if (!(v3_norm2(c.n) > 0.5)) continue; /* no force at all */
+        const double normal = v3_dot(force, c.n);
+        fl_contacts_row(f, t, e->id, -1 - e->part, &c, normal, v3_madd(force, -normal, c.n));
+    }
+    fl_press_events_end(w);
 }
 
 static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
@@ -140,6 +182,8 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }
+    if (u->table[AT_PANELS].f) write_panels(r, u->table[AT_PANELS].f, t, length);
+    if (u->table[AT_EVENTS].f) write_events(r, u->table[AT_EVENTS].f, t, length);
     u->last_row = t;
     if (fflush(loads->f) == 0 && !ferror(loads->f)) return 0;
     return fl_fail(err, FL_SYSTEM, "%s: %s", loads->path ? loads->path : "<stdout>", strerror(errno));
@@ -223,7 +267,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
     const double t = time_of(r);
     const fl_poses now = poses(r);
     for (int k = 0; k < TABLES; k++) {
-        if (!u->table[k].f || r->w->step < u->at[k].due) continue;
+        if (!u->table[k].f || r->w->step < u->at[k].due || k == AT_PANELS || k == AT_EVENTS) continue;
         switch (k) {
         case AT_LOADS:
             if (write_loads(r, u, t, err)) return -1;

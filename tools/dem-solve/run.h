@@ -45,6 +45,8 @@ enum {
     AT_CONTACTS,
     AT_HASH,
     AT_FRAMES,
+    AT_PANELS, /* these two have the times of the loads */
+    AT_EVENTS,
     TABLES,
     AT_ICE = TABLES,
     AT_SAVE,

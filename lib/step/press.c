@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+#include "base/mem.h"
+#include "law/normal.h"
+#include "narrow/nearest.h"
+#include "step/press.h"
+
+#define PI 3.14159265358979323846
+
+/* --- panels ------------------------------------------------------------------------------------ */
+
+static void add_panel(fl_press *s, int32_t part, const fl_vec3 *v, fl_vec3 middle, double area)
+{
+    const int32_t k = s->panels++;
+    s->panel[k] = (fl_panel_place){.part = part, .middle = middle, .area = area};
+    s->box[k] = aabb_empty();
+    for (int c = 0; c < 3; c++) {
+        s->panel[k].v[c] = v ? v[c] : middle;
+        s->box[k] = aabb_add(s->box[k], s->panel[k].v[c]);
+    }
+}
+
+/* Cone k of a part: its side and its ends. */
+static double cone_area(const fl_cone *c)
+{
+    const double h = v3_norm(v3_sub(c->p1, c->p0)), slant = sqrt(h * h + (c->r0 - c->r1) * (c->r0 - c->r1));
+    return PI * ((c->r0 + c->r1) * slant + c->r0 * c->r0 + c->r1 * c->r1);
+}
+
+int fl_press_make(fl_world *w, const fl_surface *surface, fl_err *err)
+{
+    fl_press *s = &w->press;
+    const fl_scene_output *o = &w->scene->output;
+    int64_t n = 0;
+    if (!surface || (!o->panels[0] && !o->events[0])) return 0;
+    for (int32_t p = 0; p < surface->n; p++) n += surface->part[p].nt + surface->part[p].nc;
+    if (n > INT32_MAX) return fl_fail(err, FL_SYSTEM, "%.0f panels are too many", (double)n);
+    s->panel = fl_alloc(n, sizeof *s->panel, err);
+    s->box = fl_alloc(n, sizeof *s->box, err);
+    s->impulse = fl_alloc(n, sizeof *s->impulse, err);
+    s->first = fl_alloc(surface->n + 1, sizeof *s->first, err);
+    s->tree = fl_alloc(surface->n, sizeof *s->tree, err);
+    s->trees = surface->n;
+    s->noted = fl_alloc(w->threads, sizeof *s->noted, err);
+    s->threads = w->threads;
+    s->cone = fl_alloc(w->structure.n, sizeof *s->cone, err);
+    if (err->code) return -1;
+    for (int32_t p = 0; p < surface->n; p++) {
+        const fl_part *part = &surface->part[p];
+        for (int32_t t = 0; t < part->nt; t++) {
+            const int32_t *at = part->t[t].v;
+            const fl_vec3 v[3] = {part->v[at[0]], part->v[at[1]], part->v[at[2]]};
+            const fl_vec3 middle = v3_scale(1.0 / 3.0, v3_add(v[0], v3_add(v[1], v[2])));
+            add_panel(s, p, v, middle, 0.5 * v3_norm(v3_cross(v3_sub(v[1], v[0]), v3_sub(v[2], v[0]))));
+        }
+        if (part->nt && fl_bvh_build(&s->tree[p], s->box + s->first[p], part->nt, err)) return -1;
+        for (int32_t c = 0; c < part->nc; c++) {
+            const fl_cone *cone = &part->cone[c];
+            add_panel(s, p, NULL, v3_scale(0.5, v3_add(cone->p0, cone->p1)), cone_area(cone));
+        }
+        s->first[p + 1] = s->panels;
+    }
+    /* the cones of a part are pieces in their order, behind the one of its triangles */
+    for (int32_t k = 0, part = -1, c = 0; k < w->structure.n; k++) {
+        const fl_piece *piece = &w->structure.piece[k];
+        s->cone[k] = -1;
+        if (piece->kind != FL_PIECE_CONE) continue;
+        if (piece->part != part) part = piece->part, c = 0;
+        s->cone[k] = s->first[part] + surface->part[part].nt + c++;
+    }
+    return 0;
+}
+
+void fl_press_free(fl_press *s)
+{
+    for (int32_t t = 0; s->noted && t < s->threads; t++) free(s->noted[t].mark), free(s->noted[t].list);
+    for (int32_t p = 0; s->tree && p < s->trees; p++) fl_bvh_free(&s->tree[p]);
+    free(s->panel), free(s->box), free(s->impulse), free(s->first), free(s->tree), free(s->noted);
+    free(s->cone), free(s->now), free(s->event);
+    *s = (fl_press){0};
+}
+
+/* Squared distance of x from a triangle (Ericson 2005, 5.1.5: by the regions of its corners and sides). */
+static double triangle_distance2(const fl_vec3 v[3], fl_vec3 x)
+{
+    const fl_vec3 ab = v3_sub(v[1], v[0]), ac = v3_sub(v[2], v[0]), n = v3_cross(ab, ac);
+    double best = INFINITY;
+    int inside = v3_norm2(n) > 0.0;
+    for (int k = 0; k < 3; k++) {
+        const fl_vec3 a = v[k], e = v3_sub(v[(k + 1) % 3], a), ax = v3_sub(x, a);
+        const double length2 = v3_norm2(e);
+        double t = length2 > 0.0 ? v3_dot(ax, e) / length2 : 0.0;
+        t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+        const double d2 = v3_norm2(v3_madd(ax, -t, e));
+        if (d2 < best) best = d2;
+        if (v3_dot(v3_cross(e, ax), n) < 0.0) inside = 0;
+    }
+    if (inside) {
+        const double h = v3_dot(v3_sub(x, v[0]), n);
+        best = h * h / v3_norm2(n);
+    }
+    return best;
+}
+
+/* The panel of a part that is nearest to x, in the pose of the file; the first of several.  reach: none is
+ * much farther.  -1 when memory runs out. */
+static int32_t panel_at(fl_press_notes *notes, const fl_press *s, int32_t part, fl_vec3 x, double reach)
+{
+    const int32_t first = s->first[part];
+    const fl_bvh *tree = &s->tree[part];
+    fl_err lost = {0};
+    for (;; reach *= 4.0) {
+        const fl_aabb box = aabb_grow((fl_aabb){x, x}, reach);
+        int32_t n = fl_bvh_query(tree, s->box + first, box, notes->list, notes->list_cap), best = -1;
+        if (n > notes->list_cap) {
+            if (fl_grow(&notes->list, &notes->list_cap, n, sizeof *notes->list, &lost)) return -1;
+            n = fl_bvh_query(tree, s->box + first, box, notes->list, notes->list_cap);
+        }
+        double least = INFINITY;
+        for (int32_t k = 0; k < n; k++) {
+            const int32_t t = notes->list[k];
+            if (!(s->panel[first + t].area > 0.0)) continue; /* the table has no row for it */
+            const double d2 = triangle_distance2(s->panel[first + t].v, x);
+            if (d2 < least || (d2 == least && t < best)) least = d2, best = t;
+        }
+        if (best >= 0 && (least <= reach * reach || n == tree->n)) return first + best;
+        if (!(reach < 1e30)) return first;
+    }
+}
+
+/* --- what the threads find --------------------------------------------------------------------- */
+
+static fl_press_mark *new_mark(fl_world *w, const fl_pair *p, fl_press_notes *notes)
+{
+    fl_err lost = {0};
+    if (fl_grow(&notes->mark, &notes->mark_cap, (int64_t)notes->n + 1, sizeof *notes->mark, &lost)) {
+#pragma omp atomic write
+        w->failed = 1;
+        return NULL;
+    }
+    fl_press_mark *m = &notes->mark[notes->n++];
+    *m = (fl_press_mark){
+        .pair = (int32_t)(p - w->pair), .i = p->i, .part = w->structure.piece[p->j - w->n].part};
+    return m;
+}
+
+/* Place of a mark whose point is `at` in the frame of the piece: in the world, and on which panel. */
+static void put_mark(fl_world *w, const fl_pair *p, fl_press_notes *notes, fl_press_mark *m, fl_vec3 at,
+                     fl_vec3 n)
+{
+    const int32_t k = p->j - w->n;
+    const fl_piece *piece = &w->structure.piece[k];
+    const double reach = 2.0 * (p->overlap + w->b.radius[p->i]) + 1e-9 * piece->core.size;
+    m->at = v3_add(w->b.x[p->j], m3_mul(w->b.R[p->j], at));
+    m->n = m3_mul(w->b.R[p->j], n);
+    m->overlap = p->overlap;
+    m->panel = w->press.cone[k];
+    if (m->panel < 0)
+        m->panel = panel_at(notes, &w->press, piece->part, v3_add(piece->x, q_rotate(piece->q, at)), reach);
+    if (m->panel >= 0) return;
+#pragma omp atomic write
+    w->failed = 1;
+    m->panel = 0;
+}
+
+/* What of the force of the pair has no place goes to all of its marks in the ratio of their normal forces. */
+static void share_out(const fl_pair *p, fl_press_mark *m, int32_t n)
+{
+    fl_vec3 rest = p->f;
+    double sum = 0.0;
+    for (int32_t k = 0; k < n; k++) {
+        rest = v3_madd(rest, -m[k].normal, m[k].n);
+        sum += m[k].normal;
+    }
+    for (int32_t k = 0; k < n; k++) {
+        const double share = sum > 0.0 ? m[k].normal / sum : 1.0 / n;
+        m[k].f = v3_madd(v3_scale(m[k].normal, m[k].n), share, rest);
+    }
+}
+
+void fl_press_note(fl_world *w, const fl_pair *p, const fl_places *s, double scale, double chi)
+{
+    fl_press_notes *notes = &w->press.noted[omp_get_thread_num()];
+    const int32_t from = notes->n;
+    const int patch = p->exponent == 0.0;
+    double u = 0.0, du = 0.0;
+    for (int32_t k = 0; k < s->n; k++) u += s->place[k].u, du += s->place[k].du;
+    for (int32_t k = 0; k < s->n; k++) {
+        const fl_place *q = &s->place[k];
+        if (patch && q->u == 0.0) continue;
+        const double pull = patch ? q->du : fl_normal_power(q->overlap, p->exponent);
+        fl_press_mark *m = new_mark(w, p, notes);
+        if (!m) return;
+        m->normal = fl_normal_damped(scale * pull * v3_dot(q->n, q->across), chi, q->closing);
+        /* of an overlap s all over a face A, u = A s^4 and du = 4 A s^3: A = du^4/(256 u^3) */
+        m->area = patch ? du * du * du * du / (256.0 * u * u * u) : PI * w->b.radius[p->i] * q->overlap;
+        put_mark(w, p, notes, m, q->p, q->across);
+    }
+    if (notes->n > from) share_out(p, notes->mark + from, notes->n - from);
+}
+
+void fl_press_note_one(fl_world *w, const fl_pair *p, fl_vec3 at, fl_vec3 n, double area)
+{
+    fl_press_notes *notes = &w->press.noted[omp_get_thread_num()];
+    fl_press_mark *m = new_mark(w, p, notes);
+    if (!m) return;
+    put_mark(w, p, notes, m, at, n);
+    m->normal = v3_dot(p->f, m->n);
+    m->area = area;
+    m->f = p->f;
+}
+
+void fl_press_clear(fl_world *w)
+{
+    for (int32_t t = 0; t < w->threads; t++) w->press.noted[t].n = 0;
+}
+
+static int mark_order(const void *x, const void *y)
+{
+    const fl_press_mark *a = x, *b = y;
+    if (a->pair != b->pair) return a->pair < b->pair ? -1 : 1;
+    return (a->turn > b->turn) - (a->turn < b->turn);
+}
+
+/* All marks of a pair are of one thread, in their order. */
+int fl_press_sort(fl_world *w, fl_err *err)
+{
+    fl_press *s = &w->press;
+    int64_t n = 0;
+    for (int32_t t = 0; t < w->threads; t++) n += s->noted[t].n;
+    if (fl_grow(&s->now, &s->now_cap, n, sizeof *s->now, err)) return -1;
+    s->n_now = 0;
+    for (int32_t t = 0; t < w->threads; t++) {
+        for (int32_t k = 0; k < s->noted[t].n; k++) {
+            s->noted[t].mark[k].turn = k;
+            s->now[s->n_now++] = s->noted[t].mark[k];
+        }
+    }
+    if (s->n_now > 1) qsort(s->now, (size_t)s->n_now, sizeof *s->now, mark_order);
+    return 0;
+}
+
+/* --- what an interval has ---------------------------------------------------------------------- */
+
+/* The event of floe and part, in the order of both; a new one where there is none. */
+static fl_press_event *event_of(fl_press *s, int32_t id, int32_t part, fl_err *err)
+{
+    int32_t low = 0, high = s->events;
+    while (low < high) {
+        const int32_t k = low + (high - low) / 2;
+        const fl_press_event *e = &s->event[k];
+        if (e->id < id || (e->id == id && e->part < part)) low = k + 1;
+        else high = k;
+    }
+    if (low < s->events && s->event[low].id == id && s->event[low].part == part) return &s->event[low];
+    if (fl_grow(&s->event, &s->event_cap, (int64_t)s->events + 1, sizeof *s->event, err)) return NULL;
+    memmove(s->event + low + 1, s->event + low, (size_t)(s->events - low) * sizeof *s->event);
+    s->events++;
+    s->event[low] = (fl_press_event){.id = id, .part = part};
+    return &s->event[low];
+}
+
+int fl_press_add(fl_world *w, double h, fl_err *err)
+{
+    fl_press *s = &w->press;
+    for (int32_t k = 0; k < s->n_now; k++) {
+        const fl_press_mark *m = &s->now[k];
+        s->impulse[m->panel] = v3_madd(s->impulse[m->panel], -h, m->f);
+        if (!w->scene->output.events[0]) continue;
+        fl_press_event *e = event_of(s, w->id[m->i], m->part, err);
+        if (!e) return -1;
+        const double weight = h * (m->normal > 0.0 ? m->normal : 0.0);
+        e->impulse = v3_madd(e->impulse, -h, m->f);
+        e->across = v3_madd(e->across, weight, m->n);
+        e->at = v3_madd(e->at, weight, m->at);
+        e->weight += weight;
+        e->area += weight * m->area;
+        if (m->overlap > e->overlap) e->overlap = m->overlap;
+    }
+    return 0;
+}
+
+void fl_press_panels_end(fl_world *w)
+{
+    memset(w->press.impulse, 0, (size_t)w->press.panels * sizeof *w->press.impulse);
+}
+
+void fl_press_events_end(fl_world *w) { w->press.events = 0; }

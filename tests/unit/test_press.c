@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Panels and events have the load of their part, wherever and by whatever law the ice presses. */
+#include "support/near.h"
+#include <math.h>
+#include <stdio.h>
+#include "step/press.h"
+#include "support/lab.h"
+#include "support/scenes.h"
+
+static const fl_vec3 ZERO = {0, 0, 0};
+
+static fl_vec3 panels_of(const fl_world *w, int32_t part)
+{
+    fl_vec3 sum = ZERO;
+    for (int32_t k = w->press.first[part]; k < w->press.first[part + 1]; k++)
+        sum = v3_add(sum, w->press.impulse[k]);
+    return sum;
+}
+
+static fl_vec3 events_of(const fl_world *w, int32_t part)
+{
+    fl_vec3 sum = ZERO;
+    for (int32_t k = 0; k < w->press.events; k++)
+        if (w->press.event[k].part == part) sum = v3_add(sum, w->press.event[k].impulse);
+    return sum;
+}
+
+static void sums_are_the_load(void **state)
+{
+    static const char *const LAW[] = {"patch", "core", "manual", "manual-si"};
+    (void)state;
+    for (int law = 0; law < 4; law++) {
+        lab l;
+        double most = 0.0;
+        scene_of_everything(&l, 3, LAW[law]);
+        lab_set(&l, "output.panels=panels");
+        lab_set(&l, "output.events=events");
+        lab_make(&l, 0);
+        assert_int_equal(lab_run(&l, 200), 0);
+        for (int32_t p = 0; p < l.w.parts; p++) most = fmax(most, v3_norm(l.w.part_impulse[p]));
+        assert_true(most > 0.0);
+        for (int32_t p = 0; p < l.w.parts; p++) {
+            const fl_vec3 load = l.w.part_impulse[p];
+            assert_near_of(v3_norm(v3_sub(panels_of(&l.w, p), load)), 0.0, 1e-12, most);
+            assert_near_of(v3_norm(v3_sub(events_of(&l.w, p), load)), 0.0, 1e-12, most);
+        }
+        fl_press_panels_end(&l.w);
+        fl_press_events_end(&l.w);
+        assert_near(v3_norm(panels_of(&l.w, 0)), 0.0, 0);
+        assert_int_equal(l.w.press.events, 0);
+        lab_free(&l);
+    }
+}
+
+/* A ball on a face of 2 n^2 triangles loads the one it is over, also when the face has moved. */
+static void the_nearest_triangle_has_it(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        enum { N = 5 };
+        lab l;
+        lab_start(&l);
+        lab_sphere(&l, v3(0.37, 0.81, 0.09), 0.1, ZERO, ZERO);
+        lab_wall(&l, v3(-3, -3, -2), v3(2, 2, 0), N);
+        if (kind == 2) l.surface.part[0].nt -= 1; /* no longer closed: a shell */
+        lab_set(&l, "output.panels=panels");
+        if (kind == 1) lab_set(&l, "structure.velocity=1 0 0");
+        lab_make(&l, 1e-4);
+        assert_int_equal(lab_run(&l, kind == 1 ? 10 : 1), 0);
+        int32_t loaded = -1, count = 0;
+        for (int32_t k = 0; k < l.w.press.panels; k++)
+            if (v3_norm(l.w.press.impulse[k]) > 0.0) loaded = k, count++;
+        assert_int_equal(count, 1);
+        const fl_panel_place *p = &l.w.press.panel[loaded];
+        assert_near(p->area, 0.5, 1e-14);
+        for (int c = 0; c < 3; c++) { /* the cell from (0, 0) to (1, 1), its upper half */
+            assert_true(p->v[c].x > -1e-9 && p->v[c].x < 1 + 1e-9 && p->v[c].y > -1e-9 &&
+                        p->v[c].y < 1 + 1e-9);
+            assert_near(p->v[c].z, 0, 0);
+        }
+        assert_true(p->middle.y > p->middle.x);
+        assert_near(v3_norm(v3_sub(l.w.press.impulse[loaded], l.w.part_impulse[0])), 0.0, 0);
+        lab_free(&l);
+    }
+}
+
+/* A face that lies flat has its area; a cone is one panel. */
+static void an_event_has_its_area(void **state)
+{
+    lab l;
+    (void)state;
+    lab_start(&l);
+    lab_box(&l, v3(0, 0, 0.299), v3(0.6, 0.4, 0.3), 0.01, q_one(), ZERO, ZERO);
+    lab_sphere(&l, v3(4.46, 0, 0), 0.1, ZERO, ZERO);
+    lab_wall(&l, v3(-3, -3, -2), v3(3, 3, 0), 3);
+    lab_cone(&l, (fl_cone){v3(4, 0, -1), v3(4, 0, 1), 0.5, 0.25});
+    lab_set(&l, "output.events=events");
+    lab_make(&l, 1e-5);
+    assert_int_equal(lab_run(&l, 1), 0);
+    assert_int_equal(l.w.press.events, 2);
+    const fl_press_event *e = &l.w.press.event[0];
+    assert_int_equal(e->id, 1);
+    assert_int_equal(e->part, 0);
+    assert_near(e->area / e->weight, 1.18 * 0.78, 0.1);
+    assert_near_of(e->at.x / e->weight, 0.0, 1e-9, 1.0);
+    assert_near(e->overlap, 1e-3, 2e-2);
+    const fl_panel_place *cone = &l.w.press.panel[l.w.press.first[1]];
+    assert_int_equal(l.w.press.first[2] - l.w.press.first[1], 1);
+    assert_near(cone->area, 3.14159265358979 * (0.75 * sqrt(4 + 0.0625) + 0.25 + 0.0625), 1e-13);
+    lab_free(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_are_the_load),
+                                       cmocka_unit_test(the_nearest_triangle_has_it),
+                                       cmocka_unit_test(an_event_has_its_area)};
+    return cmocka_run_group_tests_name("press", tests, NULL, NULL);
+}
