@@ -5,6 +5,7 @@
 #include "run.h"
 #include "step/interact.h"
 #include "step/pairing.h"
+#include "step/ride.h"
 #include "step/search.h"
 #include "step/step.h"
 
@@ -70,6 +71,8 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     stage(f, "weight", v3_norm(w->gravity) > 0.0, "");
     stage(f, "contacts", 1, "");
     stage(f, "structure", w->pieces > 0, "");
+    stage(f, "moves", w->ride.m.n > 0, fl_ride_free_ones(w) ? "by itself, in its free directions" : "");
+    stage(f, "panels", w->press.panels > 0, "");
     stage(f, "walls", w->walls > 0, "");
     stage(f, "buoyancy", w->sea.water, "exact clipping of every body that floats");
     stage(f, "water drag", w->sea.water, "");

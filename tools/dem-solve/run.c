@@ -13,6 +13,9 @@
 #include "step/ride.h"
 #include "step/step.h"
 
+/* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
+#define RESTS 1e-3
+
 double run_clock(void)
 {
     struct timespec t;
@@ -363,6 +366,34 @@ static void warn_overlaps(const struct run *r)
             run_partner(w, w->pair[first].j));
 }
 
+/* A hull that does not float as it stands: told once, since its motion is one about that pose. */
+static void warn_hulls(const struct run *r)
+{
+    const fl_world *w = r->w;
+    for (int32_t k = 0; k < w->ride.m.n && !r->o->quiet; k++) {
+        const fl_flotation *f = &w->ride.afloat[k];
+        const fl_motion *m = &w->ride.m.motion[k];
+        const double water = w->scene->water.density * f->volume, size = cbrt(f->volume);
+        const char *name = fl_ride_name(w, k);
+        if (f->volume == 0.0) continue;
+        if (m->mass > 0.0 && fabs(m->mass - water) > RESTS * water)
+            fprintf(stderr,
+                    "dem-solve: warning: %s has %.6g kg and displaces %.6g kg of water: at rest it would lie "
+                    "%.3g m %s\n",
+                    name, m->mass, water, fabs(m->mass - water) / (w->scene->water.density * f->area),
+                    m->mass < water ? "higher" : "deeper");
+        if (hypot(f->buoyancy.x, f->buoyancy.y) > RESTS * size)
+            fprintf(
+                stderr,
+                "dem-solve: warning: the buoyancy of %s acts %.3g m in x and %.3g m in y from its reference "
+                "point: at rest it would lean\n",
+                name, f->buoyancy.x, f->buoyancy.y);
+        if ((m->free & FL_HOLD_RX && m->K[3][3] <= 0.0) || (m->free & FL_HOLD_RY && m->K[4][4] <= 0.0))
+            fprintf(stderr, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
+                    m->K[3][3], m->K[4][4]);
+    }
+}
+
 static int run_steps_of(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
     fl_world *w = r->w;
@@ -370,6 +401,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     if (!r->saved) {
         if (fl_step_start(w, err)) return -1;
         warn_overlaps(r);
+        warn_hulls(r);
         if (write_due(r, u, err)) return -1;
     }
     while (w->step < r->steps && !told_to_stop) {
