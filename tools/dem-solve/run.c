@@ -387,7 +387,8 @@ static void warn_hulls(const struct run *r)
                 stderr,
                 "dem-solve: warning: the buoyancy of %s acts %.3g m in x and %.3g m in y from its reference "
                 "point: at rest it would lean\n",
-                name, f->buoyancy.x, f->buoyancy.y);
+                name, fabs(f->buoyancy.x) > 1e-9 * size ? f->buoyancy.x : 0.0,
+                fabs(f->buoyancy.y) > 1e-9 * size ? f->buoyancy.y : 0.0);
         if ((m->free & FL_HOLD_RX && m->K[3][3] <= 0.0) || (m->free & FL_HOLD_RY && m->K[4][4] <= 0.0))
             fprintf(stderr, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
                     m->K[3][3], m->K[4][4]);
