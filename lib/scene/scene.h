@@ -159,14 +159,19 @@ typedef struct {
     double drag_force_coef;           /* C of equation (8) */
     fl_vec3 added_mass;               /* over the displaced mass, per body axis; -1: auto */
     fl_vec3 added_inertia;            /* over the own moments of inertia; -1: auto */
+    int32_t drag;                     /* manual, facet: enum fl_drag_law of water/sea.h */
+    double skin_coef, form_coef;      /* C_s and C_f of facet */
     double drag_moment_coef;          /* C of equation (9) */
 } fl_scene_water;
 
 typedef struct {
     fl_scene_head head;
     fl_vec3 velocity; /* at 10 m [m/s] */
+    double beaufort;  /* -1: none; then velocity counts */
+    double direction; /* that it blows to, from x towards y [deg]; with beaufort alone */
     double density;   /* of the air [kg/m3] */
-    double drag_coef;
+    int32_t drag;     /* as of water */
+    double drag_coef, form_coef;
 } fl_scene_wind;
 
 typedef struct {

@@ -156,6 +156,14 @@ static int check_current(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+static int check_wind(const fl_scene *s, fl_err *err)
+{
+    if (s->wind.head.present && s->wind.beaufort >= 0.0 && v3_norm(s->wind.velocity) > 0.0)
+        return fl_scene_fail(s, "wind.beaufort", err,
+                             "the wind is given twice: by wind.velocity and by wind.beaufort");
+    return 0;
+}
+
 /* Shares of what a body has: none is negative, but the -1 that stands for auto. */
 static int check_shares(const fl_scene *s, const char *key, fl_vec3 x, fl_err *err)
 {
@@ -268,7 +276,7 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, was wanted",
                              s->run.dt, s->run.duration);
     if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
-    return check_boundary(s, err) || check_current(s, err) ||
+    return check_boundary(s, err) || check_current(s, err) || check_wind(s, err) ||
                    check_shares(s, "water.added_mass", s->water.added_mass, err) ||
                    check_shares(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)

@@ -172,7 +172,17 @@ static int make_sea(fl_world *w, fl_err *err)
                      .exponent = s->water.profile_exponent};
     if (s->water.profile == FL_PROFILE_TABLE && fl_current_read(&sea->current, s->water.profile_file, err))
         return -1;
+    sea->sea_law = s->water.drag;
+    sea->sea_skin = s->water.skin_coef;
+    sea->sea_form = s->water.form_coef;
+    sea->air_law = s->wind.drag;
+    sea->air_form = s->wind.form_coef;
     sea->breeze = s->wind.velocity;
+    if (s->wind.beaufort >= 0.0) { /* Beaufort's scale, as words of the manual have it */
+        const double U = 0.836 * s->wind.beaufort * sqrt(s->wind.beaufort),
+                     a = s->wind.direction * 3.141592653589793 / 180.0;
+        sea->breeze = v3(U * cos(a), U * sin(a), 0);
+    }
     if (sea->water && anything(s->water.added_mass) && fl_bodies_add_mass(&w->b, err)) return -1;
     return fl_sea_alloc(sea, w->n, err);
 }
@@ -331,6 +341,7 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
         if (bad) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];
     }
+    if (fl_sea_alloc_pieces(&w->sea, err)) goto fail;
     if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
         fl_pairing_laws(w, err))
         goto fail;

@@ -3,6 +3,7 @@
 #define _GNU_SOURCE /* open_memstream */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include "support/near.h"
 #include "base/par.h"
 #include "step/snapshot.h"
@@ -108,11 +109,9 @@ static void threads_and_searches(void **state)
 
 static void laws(void **state)
 {
-    static const what IT[] = {{scene_of_everything, 3, "patch"},
-                              {scene_of_everything, 3, "core"},
-                              {scene_of_everything, 3, "manual"},
-                              {scene_of_everything, 3, "manual-si"},
-                              {scene_of_wraps, 3, "patch"}};
+    static const what IT[] = {{scene_of_everything, 3, "patch"},  {scene_of_everything, 3, "core"},
+                              {scene_of_everything, 3, "manual"}, {scene_of_everything, 3, "manual-si"},
+                              {scene_of_wraps, 3, "patch"},       {scene_of_seas, 3, "patch"}};
     const way how[] = {{1, 0, 1.0, 0, 0}, {2, 5, 1.0, 0, 0}, {1, 0, 0.1, 0, 0},
                        {2, 0, 4.0, 0, 0}, {1, 1, 1.0, 0, 0}, {2, 0, 1.0, 57, 1}};
     (void)state;

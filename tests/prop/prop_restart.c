@@ -48,11 +48,9 @@ static void any_step_is_a_place_to_stop(void **state)
     static const struct {
         void (*scene)(lab *l, int32_t side, const char *law);
         const char *law;
-    } IT[] = {{scene_of_everything, "patch"},
-              {scene_of_everything, "core"},
-              {scene_of_everything, "manual"},
-              {scene_of_everything, "manual-si"},
-              {scene_of_wraps, "patch"}};
+    } IT[] = {{scene_of_everything, "patch"},  {scene_of_everything, "core"},
+              {scene_of_everything, "manual"}, {scene_of_everything, "manual-si"},
+              {scene_of_wraps, "patch"},       {scene_of_seas, "patch"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         lab whole;

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/rng.h"
 #include "support/near.h"
 #include "support/shapes.h"
 #include "water/buoyancy.h"
 #include "water/current.h"
 #include "water/drag.h"
+#include "water/facet_drag.h"
 
 static const double PI = 3.141592653589793;
 
@@ -235,6 +237,62 @@ static void drag_never_reverses(void **state)
     assert_near(fl_drag_factor(1.0, 0.0, 1.0), 1.0, 0.0);
 }
 
+/* A box of 2 x 3 x 4 m wholly under water: areas, and the exact decay along each axis whatever the step; and
+ * never a gain, whatever the motion. */
+static void facets_drag_exactly_along_an_axis(void **state)
+{
+    (void)state;
+    fl_poly p;
+    fl_hull h;
+    fl_err err = {0};
+    fl_skin_piece piece[200];
+    const fl_vec3 m = v3(100, 200, 300), I = v3(50, 60, 70);
+    const double area[3] = {12, 8, 6};
+    assert_int_equal(fl_poly_box(&p, v3(1, 1.5, 2), &err), 0);
+    assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
+    assert_true(fl_skin_most(&h) <= 200);
+    const int32_t n = fl_skin_pieces(&h, v3(0, 0, 1), 10.0, 0, piece);
+    double total = 0.0;
+    for (int32_t k = 0; k < n; k++) total += piece[k].area;
+    assert_near(total, 52.0, 1e-14);
+    assert_int_equal(fl_skin_pieces(&h, v3(0, 0, 1), 10.0, 1, piece), 0);
+    fl_skin_pieces(&h, v3(0, 0, 1), 10.0, 0, piece);
+    for (int axis = 0; axis < 3; axis++) {
+        for (int e = -6; e < 12; e++) {
+            const double step = pow(10, e), speed = axis == 1 ? -3.0 : 3.0, mass = 100.0 * (axis + 1);
+            fl_vec3 v = v3(axis == 0 ? speed : 0, axis == 1 ? speed : 0, axis == 2 ? speed : 0), w = {0};
+            fl_facet_drag(n, piece, 2.0, 7.0, m, I, step, &v, &w);
+            const double c = 2.0 * (52.0 - 2 * area[axis]) + 7.0 * area[axis];
+            assert_near(v.x + v.y + v.z, speed / (1 + c / mass * 3.0 * step), 1e-12);
+            assert_near_of(v3_norm(w), 0.0, 1e-13, 1.0);
+        }
+    }
+    for (long k = 0; k < test_times(2000); k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        double x[6];
+        for (int j = 0; j < 6; j++) x[j] = fl_rng_normal(&g);
+        fl_vec3 v = v3(x[0], x[1], x[2]), w = v3(x[3], x[4], x[5]);
+        const double step = pow(10, fl_rng_in(&g, -9, 25));
+        const double before = v3_dot(v, v3_mul(m, v)) + v3_dot(w, v3_mul(I, w));
+        fl_facet_drag(n, piece, 2.0, 7.0, m, I, step, &v, &w);
+        const double after = v3_dot(v, v3_mul(m, v)) + v3_dot(w, v3_mul(I, w));
+        assert_true(after <= before * (1 + 1e-12));
+    }
+    /* what is wet and what is dry add up, wherever the water stands */
+    for (int k = -25; k <= 25; k++) {
+        const fl_vec3 up = v3_unit(v3(0.1 * k, 0.3, 1));
+        total = 0.0;
+        for (int dry = 0; dry < 2; dry++) {
+            const int32_t c = fl_skin_pieces(&h, up, 0.1 * k, dry, piece);
+            assert_true(c <= fl_skin_most(&h));
+            for (int32_t j = 0; j < c; j++) total += piece[j].area;
+        }
+        assert_near(total, 52.0, 1e-13);
+    }
+    fl_hull_free(&h);
+    fl_poly_free(&p);
+}
+
 static void currents_follow_their_profile(void **state)
 {
     (void)state;
@@ -291,6 +349,7 @@ int main(void)
         cmocka_unit_test(many_vertices),
         cmocka_unit_test(drag_laws),
         cmocka_unit_test(drag_never_reverses),
+        cmocka_unit_test(facets_drag_exactly_along_an_axis),
         cmocka_unit_test(currents_follow_their_profile),
         cmocka_unit_test(a_table_of_currents),
     };
