@@ -467,6 +467,22 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err)
     return 0;
 }
 
+int fl_poly_strip(fl_poly *p, fl_err *err)
+{
+    fl_poly q = {.nv = p->nv, .nf = p->nf, .size = p->size};
+    const size_t corners = (size_t)p->nv * sizeof *p->v, faces = ((size_t)p->nf + 1) * sizeof *p->first,
+                 loops = (size_t)p->first[p->nf] * sizeof *p->loop;
+    char *at = fl_alloc((int64_t)(corners + faces + loops), 1, err);
+    if (!at) return -1;
+    q.mem = at;
+    q.v = memcpy(at, p->v, corners);
+    q.first = memcpy(at + corners, p->first, faces);
+    q.loop = memcpy(at + corners + faces, p->loop, loops);
+    fl_poly_free(p);
+    *p = q;
+    return 0;
+}
+
 void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes)
 {
     for (int32_t v = 0; v < p->nv; v++) p->v[v] = m3_tmul(axes, v3_sub(p->v[v], o));

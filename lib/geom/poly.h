@@ -23,9 +23,9 @@ typedef struct {
     int32_t *loop;   /* [first[nf]] vertices of each face, counter-clockwise from outside */
     fl_edge *edge;   /* [ne], sorted by (a, b)                                       */
     double *bend;    /* [ne] angle between the outward normals of the two faces, in [0, pi]; 2 pi round a
-                     * segment                                                    [rad] */
+                      * segment                                                    [rad] */
     double *defect;  /* [nv] solid angle of the outward directions at the vertex: 2 pi less the angles of its
-                     * faces there (Gauss), 2 pi for the end of a segment, 4 pi for a point [sr] */
+                      * faces there (Gauss), 2 pi for the end of a segment, 4 pi for a point [sr] */
     int32_t *begin;  /* [nv + 1] offsets into beside                                 */
     int32_t *beside; /* [begin[nv]] the other ends of the edges of each vertex, ascending */
     double size;     /* largest side of the bounding box                          [m] */
@@ -60,6 +60,10 @@ int fl_poly_prism(fl_poly *p, int32_t n, const fl_vec3 *xy, double z0, double z1
 
 /* A copy of its own; to is overwritten, not freed.  -1 with FL_SYSTEM, to untouched. */
 int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err);
+
+/* Let go of all but corners and faces, v, first and loop: what a file holds, at a third of the memory.  ne is
+ * 0 then, the other arrays are NULL and size stays.  -1 with FL_SYSTEM, p untouched. */
+int fl_poly_strip(fl_poly *p, fl_err *err);
 
 /* The area vector of face f, area times outward normal [m^2]; exact under far offsets of the whole. */
 fl_vec3 fl_poly_area(const fl_poly *p, int32_t f);

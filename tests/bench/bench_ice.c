@@ -48,22 +48,26 @@ static double lap(double *since)
     return *since - before;
 }
 
+/* As voronoi-ice does: prisms are checked, and what only the file needs is kept of them. */
 static int add_bodies(fl_field *field, const fl_floes *a, fl_err *err)
 {
-    fl_vec3 xy[64];
+    fl_poly *core = fl_alloc(a->n, sizeof *core, err);
+    int bad = !core;
+#pragma omp parallel for schedule(static) reduction(| : bad)
     for (int32_t i = 0; i < a->n; i++) {
         const int32_t n = a->first[i + 1] - a->first[i];
-        fl_poly core = {0};
-        if (n > 64) return fl_fail(err, FL_NUMERIC, "floe %d has %d sides", i, n);
-        for (int32_t k = 0; k < n; k++)
+        fl_vec3 *xy = fl_alloc(n, sizeof *xy, &(fl_err){0});
+        for (int32_t k = 0; k < n && xy; k++)
             xy[k] = v3(a->core[a->first[i] + k].x, a->core[a->first[i] + k].y, 0.0);
-        if (fl_poly_prism(&core, n, xy, -0.4, 0.0, err)) return -1;
-        if (fl_field_add(field, i, RADIUS, &core, "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err)) {
-            fl_poly_free(&core);
-            return -1;
-        }
+        bad |= bad || !xy || fl_poly_prism(&core[i], n, xy, -0.4, 0.0, &(fl_err){0}) ||
+               fl_poly_strip(&core[i], &(fl_err){0});
+        free(xy);
     }
-    return 0;
+    for (int32_t i = 0; i < a->n && !bad; i++)
+        bad = fl_field_add(field, i, RADIUS, &core[i], "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err);
+    for (int32_t i = 0; i < a->n && core; i++) fl_poly_free(&core[i]);
+    free(core);
+    return bad ? fl_fail(err, FL_NUMERIC, "a floe is no prism") : 0;
 }
 
 static int write_file(const fl_field *field, double *bytes, fl_err *err)
@@ -119,11 +123,12 @@ static int make(struct row *r, uint64_t seed, fl_err *err)
     r->stage[2] += lap(&at);
     if (fl_certificate_make(&t, &a, err)) goto done;
     r->stage[3] += lap(&at);
+    r->cells = fmax(r->cells, fabs(sum_of_cells(&c, err) / total - 1.0));
+    fl_cells_free(&c);
     if (add_bodies(&field, &a, err)) goto done;
     r->stage[4] += lap(&at);
     if (write_file(&field, &bytes, err)) goto done;
     r->stage[5] += lap(&at);
-    r->cells = fmax(r->cells, fabs(sum_of_cells(&c, err) / total - 1.0));
     r->floes = fmax(r->floes, fabs(t.total / (CONCENTRATION * total) - 1.0));
     r->wrong += t.overlaps + t.bent;
     r->bytes += bytes;

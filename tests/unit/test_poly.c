@@ -383,6 +383,35 @@ static void memory_may_run_out(void **state)
     }
 }
 
+static void what_is_stripped_has_its_corners_and_faces(void **state)
+{
+    (void)state;
+    const fl_vec3 xy[5] = {{0, 0, 0}, {4, 0, 0}, {5, 3, 0}, {2, 5, 0}, {-1, 3, 0}};
+    fl_poly p = {0}, q = {0}, r = {0};
+    fl_err err = {0};
+    assert_int_equal(fl_poly_prism(&p, 5, xy, -1.0, 2.0, &err), 0);
+    assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
+    fl_mem_fail_after(0);
+    assert_int_equal(fl_poly_strip(&q, &err), -1);
+    fl_mem_fail_after(-1);
+    assert_int_equal(err.code, FL_SYSTEM);
+    assert_int_equal(q.ne, p.ne);
+    err = (fl_err){0};
+    assert_int_equal(fl_poly_strip(&q, &err), 0);
+    assert_int_equal(q.ne, 0);
+    assert_null(q.edge);
+    assert_near(q.size, p.size, 0.0);
+    /* what is left makes the whole again */
+    assert_int_equal(fl_poly_make(&r, q.nv, q.v, q.nf, q.first, q.loop, &err), 0);
+    assert_int_equal(r.ne, p.ne);
+    assert_memory_equal(r.v, p.v, (size_t)p.nv * sizeof *p.v);
+    assert_memory_equal(r.n, p.n, (size_t)p.nf * sizeof *p.n);
+    assert_memory_equal(r.edge, p.edge, (size_t)p.ne * sizeof *p.edge);
+    fl_poly_free(&p);
+    fl_poly_free(&q);
+    fl_poly_free(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -395,6 +424,7 @@ int main(void)
         cmocka_unit_test(straight_corners_and_shared_planes_are_fine),
         cmocka_unit_test(big_prisms_take_the_quick_way),
         cmocka_unit_test(copies_and_frames),
+        cmocka_unit_test(what_is_stripped_has_its_corners_and_faces),
         cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

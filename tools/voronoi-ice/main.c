@@ -27,7 +27,7 @@
 #include "water.h"
 
 struct field {
-    fl_cells cells;
+    fl_cells cells; /* but for their number gone once they are measured */
     fl_floes floes;
     int32_t *name;        /* [floes.n] number of the cell */
     double full;          /* covered area before floes were taken out [m2]             */
@@ -209,23 +209,50 @@ static int take_out(const struct options *o, struct field *a, fl_err *err)
 
 /* --- the file ------------------------------------------------------------------------------------------- */
 
-/* Prisms that float upright: still water is z = 0, the outer shape goes from -draft to thickness - draft. */
-static int add_floe(const struct options *o, const struct field *a, int32_t i, fl_vec3 *xy, fl_field *out,
-                    fl_err *err)
+/* Prisms that float upright: still water is z = 0, the outer shape goes from -draft to thickness - draft.
+ * What is checked once and then only written is stripped. */
+static int make_core(const struct options *o, const struct field *a, int32_t i, fl_poly *core, fl_err *err)
 {
     const int32_t first = a->floes.first[i], n = a->floes.first[i + 1] - first;
     const double h = depth_of(&a->depth, o, id_of(a, i)), draft = h * a->depth.ratio;
-    fl_poly core = {0};
+    fl_vec3 *xy = fl_alloc(n, sizeof *xy, err);
     fl_err why = {0};
+    int rc;
+    if (!xy) return -1;
     for (int32_t k = 0; k < n; k++) xy[k] = v3(a->floes.core[first + k].x, a->floes.core[first + k].y, 0.0);
-    if (fl_poly_prism(&core, n, xy, o->radius - draft + a->lift, h - draft - o->radius + a->lift, &why))
-        return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", id_of(a, i),
-                       why.text);
-    if (fl_field_add(out, id_of(a, i), o->radius, &core, o->material, NULL,
-                     v3(o->velocity.x, o->velocity.y, 0.0), v3(0, 0, 0), err) == 0)
-        return 0;
-    fl_poly_free(&core);
-    return -1;
+    rc = fl_poly_prism(core, n, xy, o->radius - draft + a->lift, h - draft - o->radius + a->lift, &why);
+    free(xy);
+    if (rc == 0) return fl_poly_strip(core, err);
+    return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", id_of(a, i), why.text);
+}
+
+static int add_floes(const struct options *o, const struct field *a, fl_field *out, fl_err *err)
+{
+    const int32_t n = a->floes.n;
+    const fl_vec3 v = v3(o->velocity.x, o->velocity.y, 0.0);
+    fl_poly *core = fl_alloc(n, sizeof *core, err);
+    int32_t bad = INT32_MAX;
+    int rc = -1;
+    if (!core) return -1;
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < n; i++) {
+        fl_err why = {0};
+        if (make_core(o, a, i, &core[i], &why) == 0) continue;
+#pragma omp critical
+        if (i < bad) { /* whichever thread comes first, the first floe is told */
+            bad = i;
+            *err = why;
+        }
+    }
+    if (bad < INT32_MAX) goto done;
+    for (int32_t i = 0; i < n; i++)
+        if (fl_field_add(out, id_of(a, i), o->radius, &core[i], o->material, NULL, v, v3(0, 0, 0), err))
+            goto done;
+    rc = 0;
+done:
+    for (int32_t i = 0; i < n; i++) fl_poly_free(&core[i]);
+    free(core);
+    return rc;
 }
 
 /* The common face of two prisms stands on the side they share, as high as both are there. */
@@ -257,14 +284,9 @@ static int write_field(struct options *o, const struct field *a, int32_t layers,
     fl_field out = {0};
     fl_out file = {0};
     fl_by by;
-    fl_vec3 *xy = NULL;
-    int32_t cap = 0;
     int rc = -1;
     for (int32_t k = 0; k < layers; k++)
-        for (int32_t i = 0; i < a[k].floes.n; i++)
-            if (fl_grow(&xy, &cap, a[k].floes.first[i + 1] - a[k].floes.first[i], sizeof *xy, err) ||
-                add_floe(o, &a[k], i, xy, &out, err))
-                goto done;
+        if (add_floes(o, &a[k], &out, err)) goto done;
     if (add_bonds(o, a, &out, err) || pile_add(&a->pile, o, &out, err)) goto done;
     options_id(o, &out);
     options_by(o, &by);
@@ -272,7 +294,6 @@ static int write_field(struct options *o, const struct field *a, int32_t layers,
     fl_field_write(file.f, &out, &by);
     rc = fl_out_close(&file, err);
 done:
-    free(xy);
     fl_field_free(&out);
     return rc;
 }
@@ -432,6 +453,13 @@ static int measure_depth(const struct options *o, struct field *a, fl_err *err)
     return rc;
 }
 
+static void forget_cells(struct field *a)
+{
+    const int32_t n = a->cells.n;
+    fl_cells_free(&a->cells);
+    a->cells.n = n;
+}
+
 static int make_layer(struct options *o, struct field *a, fl_err *err)
 {
     if (water_make(&a->water, o, err) || (o->sizes && sizing_ask(&a->sizing, o, a->water.area, err)))
@@ -443,7 +471,9 @@ static int make_layer(struct options *o, struct field *a, fl_err *err)
     if (o->ridges) tell(o, "piling up blocks");
     if (pile_make(&a->pile, o, err)) return -1;
     tell(o, "measuring");
-    return measure(o, a, err) || measure_depth(o, a, err) ? -1 : 0;
+    if (measure(o, a, err) || measure_depth(o, a, err)) return -1;
+    forget_cells(a);
+    return 0;
 }
 
 static void free_layer(struct field *a)
