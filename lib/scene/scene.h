@@ -42,6 +42,16 @@ enum fl_bound_type {
     FL_BOUND_PERIODIC,
     FL_BOUND_FREE
 }; /* manual's word - 1 */
+enum fl_error_of {
+    FL_ERROR_OF_IMPULSE,
+    FL_ERROR_OF_PEAK,
+    FL_ERROR_OF_FX,
+    FL_ERROR_OF_FY,
+    FL_ERROR_OF_FZ,
+    FL_ERROR_OF_MX,
+    FL_ERROR_OF_MY,
+    FL_ERROR_OF_MZ
+};
 enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
 
 typedef struct {
@@ -49,6 +59,8 @@ typedef struct {
     double duration;      /* [s] */
     double dt;            /* [s]; 0: auto */
     double safety;        /* fraction of the critical step, for dt = auto */
+    double error;         /* budget that chooses the step in place of safety; 0: none */
+    int32_t error_of;     /* enum fl_error_of */
     fl_vec3 gravity;      /* [m/s2] as a vector; the file's one number g is (0, 0, -g) */
     int32_t threads;      /* 0: auto, as many as OpenMP offers */
     int32_t search_every; /* steps between neighbour searches; 0: auto, when the skin is used up */

@@ -275,6 +275,9 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     if (s->run.dt > s->run.duration)
         return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, was wanted",
                              s->run.dt, s->run.duration);
+    if (s->run.error > 0.0 && s->run.dt > 0.0)
+        return fl_scene_fail(s, "run.error", err,
+                             "run.error is to choose the step, and run.dt gives it: one of them was wanted");
     if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
     return check_boundary(s, err) || check_current(s, err) || check_wind(s, err) ||
                    check_shares(s, "water.added_mass", s->water.added_mass, err) ||

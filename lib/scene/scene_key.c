@@ -185,9 +185,23 @@ const fl_key fl_key_table[] = {
     {.section = FL_SEC_RUN,
      .key = "error",
      .type = FL_VALUE_F64,
-     .later = 1,
-     .meaning = "energy error that the automatic step aims at, in place of safety",
-     .source = "as run.safety"},
+     .at = AT(run, error),
+     .fallback = "none",
+     .special = "none",
+     .range = "(0,1)",
+     .meaning =
+         "error that the load on the structure may have by the time step, over its size: the step is the "
+         "largest that keeps it, found by repeating short windows of the run with finer steps",
+     .source = "Richardson, Phil. Trans. A 226 (1927) 299"},
+    {.section = FL_SEC_RUN,
+     .key = "error_of",
+     .type = FL_VALUE_WORD,
+     .at = AT(run, error_of),
+     .fallback = "impulse",
+     .choices = "impulse|peak|fx|fy|fz|mx|my|mz",
+     .meaning =
+         "what run.error is of: the impulse of all the run, the largest force of a step, or the impulse of "
+         "one column of the loads; parts count by their sizes"},
     {.section = FL_SEC_RUN,
      .key = "gravity",
      .type = FL_VALUE_VEC3,

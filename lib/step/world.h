@@ -204,8 +204,9 @@ void fl_world_free(fl_world *w);
 /* Time now [s].  Steps are of one size, or change it at times that are known exactly. */
 static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(w->step - w->step0) * w->dt; }
 
-/* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the
- * stiffest face it can meet, at its most compliant vertex, lowered for damping (see world.c). */
+/* The automatic step [s], and the body that sets it: safety * 2/omega (under run.error the largest that
+ * damping allows), omega^2 bounded per body by the stiffest face it can meet, at its most compliant vertex,
+ * lowered for damping (see world.c). */
 double fl_world_dt(const fl_world *w, int32_t *body);
 
 #endif

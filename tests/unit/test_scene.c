@@ -293,7 +293,10 @@ static void each_complaint_names_file_and_line(void **state)
     refused("[run]\ndt = 1\n\n[run]\ndt = 2\n" ICE, ":5: run.dt was given on line 2 already");
     refused("gravity 9\n[run]\ngravity = 9\n" ICE, ":3: run.gravity was given on line 1 already");
     refused("#scene 2\n" ICE, ":1: scene version 2 is newer than this program, which reads up to 1");
-    refused("[run]\nerror = 0.1\n" ICE, ":2: run.error is not supported by this version");
+    refused("[run]\ndt = 1 ms\nerror = 0.1\n" ICE,
+            ":3: run.error is to choose the step, and run.dt gives it: one of them was wanted");
+    refused("[run]\nerror = 100%\n" ICE,
+            ":2: run.error is 100%, a value above 0 and below 1 was wanted");
     refused("[run]\nthreads = 2.5\n" ICE,
             ":2: run.threads is \"2.5\", a whole number from 1 to 1024 was wanted");
     refused(
@@ -540,7 +543,7 @@ static void explain_tells_all_there_is(void **state)
     text = explained("material ice.friction", &err, &rc);
     assert_int_equal(rc, 0);
     free(text);
-    text = explained("run.error", &err, &rc);
+    text = explained("bond.softening", &err, &rc);
     assert_non_null(strstr(text, "not supported by this version"));
     free(text);
     for (int s = 0; s < FL_SECTIONS; s++) {

@@ -125,6 +125,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
 {
     struct inputs in = {0};
     fl_world world = {0};
+    fl_budget budget = {0};
     char path[FL_SCENE_PATH];
     int32_t *at = NULL;
     int rc = -1;
@@ -142,7 +143,8 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     }
     at = fl_alloc(in.field.n, sizeof *at, err);
     if (!at || keep_texts(&in, surface, err) || fl_field_order(&in.field, at, err) ||
-        fl_world_make(&world, &in.scene, &in.field, surface, err))
+        fl_world_make(&world, &in.scene, &in.field, surface, err) ||
+        (in.scene.run.error > 0.0 && fl_budget_make(&budget, &in.scene, &in.field, surface, err)))
         goto done;
     fl_field_free(&in.field);
     struct run r = {.o = o,
@@ -155,7 +157,8 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                     .kept = in.kept,
                     .out = o->out ? o->out : "-",
                     .gzip = o->gzip,
-                    .w = &world};
+                    .w = &world,
+                    .budget = in.scene.run.error > 0.0 ? &budget : NULL};
     if (o->resume && !o->out) {
         const fl_restart_part *loads = fl_restart_find(&in.saved, "loads");
         snprintf(path, sizeof path, "%.*s",
@@ -178,6 +181,7 @@ done:
     free(in.history);
     fl_restart_free(&in.saved);
     fl_world_free(&world);
+    fl_budget_free(&budget);
     fl_surface_free(&in.surface);
     fl_field_free(&in.field);
     fl_scene_free(&in.scene);

@@ -3,6 +3,33 @@
 #include "run.h"
 #include "step/step.h"
 
+/* What was asked for, what was found, and what finding it cost. */
+static void budget_of(const struct run *r, FILE *f)
+{
+    static const char *const OF[] = {"impulse", "peak", "fx", "fy", "fz", "mx", "my", "mz"};
+    const fl_budget *g = r->budget;
+    const double far = fl_budget_horizon(g), window = g->every * g->rows;
+    const int32_t last = g->latest;
+    fprintf(f, "error budget       %.3g of the %s: ", g->goal, OF[g->of]);
+    if (last < 0) fprintf(f, "nothing was touched, the step is the largest there may be\n");
+    else
+        fprintf(f, "%.2g by estimate, of order %.2g; %" PRId64 " looks, steps of %.3g s to %.3g s\n",
+                fl_budget_estimate(g, r->w->dt), g->window[last].order, g->looks, g->shortest, g->longest);
+    fprintf(f, "                   found by %" PRId64 " steps besides, %.3g of all, in %.3g s\n", g->spent,
+            g->spent > 0 ? (double)g->spent / (double)(g->spent + r->w->step) : 0.0, r->look_wall);
+    if (far < r->scene->run.duration)
+        fprintf(
+            f,
+            "                   states that differ by a bit are apart after %.3g s: what the run as a whole "
+            "sums up to is one of many; the error is that of windows of %.3g s\n",
+            far, window);
+    else if (g->rate > 0.0)
+        fprintf(
+            f,
+            "                   states that differ by a bit are apart after %.3g s: the run is determined\n",
+            far);
+}
+
 /* Speed is never printed without its error: the two blocks belong together. */
 void report_write(const struct run *r, FILE *f)
 {
@@ -17,6 +44,7 @@ void report_write(const struct run *r, FILE *f)
         fprintf(f, "step over critical %.3g (smallest 2/omega seen: %.4g s, %s)\n", w->dt / w->dt_critical,
                 w->dt_critical, run_body(w, w->critical_body, name));
     else fprintf(f, "step over critical no contact was made\n");
+    if (r->budget) budget_of(r, f);
     fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %d thread%s\n", simulated,
             r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, w->threads, w->threads == 1 ? "" : "s");
     if (w->n && made > 0.0)

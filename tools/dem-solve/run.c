@@ -51,7 +51,9 @@ void run_step_size(struct run *r)
     const double automatic = fl_world_dt(r->w, &r->step_body);
     double dt = r->scene->run.dt;
     r->limit = automatic / safety;
-    if (dt <= 0.0) {
+    if (r->budget) {
+        dt = fl_budget_start(r->budget);
+    } else if (dt <= 0.0) {
         dt = fmin(automatic, fmin(every, r->scene->run.duration));
         dt = every / ceil(every / dt * (1.0 - 1e-12));
     }
@@ -395,6 +397,21 @@ static void warn_hulls(const struct run *r)
     }
 }
 
+/* At the end of a row of the loads the error budget may change the step, and with it when what is due. */
+static int look_after_step(struct run *r, struct outputs *u, fl_err *err)
+{
+    const int64_t row = u->at[AT_LOADS].k - 1;
+    const double dt = r->w->dt, begun = run_clock();
+    if (!r->budget || step_at(r->w, (double)row * u->at[AT_LOADS].every) != r->w->step) return 0;
+    if (fl_budget_look(r->budget, r->w, row, err)) return -1;
+    if (r->w->dt != dt) {
+        for (int k = 0; k < TIMERS; k++) run_timer(&u->at[k], u->at[k].k, r->w);
+        run_steps(r);
+    }
+    r->look_wall += run_clock() - begun;
+    return 0;
+}
+
 static int run_steps_of(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
     fl_world *w = r->w;
@@ -406,6 +423,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
         if (write_due(r, u, err)) return -1;
     }
     while (w->step < r->steps && !told_to_stop) {
+        if (look_after_step(r, u, err)) return -1;
         if (fl_step(w, err) || write_due(r, u, err) || save_due(r, u, 0, err)) return -1;
         if (show && w->step % 64 == 0) {
             const double now = run_clock();
@@ -436,7 +454,7 @@ int run_scene(struct run *r, fl_err *err)
         fl_err why = {0}; /* the failure of the run is what is told */
         save_write(r, &u, &why);
     }
-    r->wall = run_clock() - begun - r->save_wall;
+    r->wall = run_clock() - begun - r->save_wall - r->look_wall;
     if (show) progress(r, begun, 1);
     fl_step_ledger(r->w);
     /* Also after a failure of the run: the rows until then are good and keep their names. */

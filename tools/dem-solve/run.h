@@ -5,7 +5,7 @@
 #include "base/stream.h"
 #include "options.h"
 #include "out/restart.h"
-#include "step/world.h"
+#include "step/budget.h"
 
 /* What a run has in its hands. */
 struct run {
@@ -18,6 +18,7 @@ struct run {
     const fl_restart *saved;     /* the run goes on from here; NULL: it begins */
     const fl_restart_part *kept; /* [2] ice and structure as texts, for checkpoints */
     fl_world *w;
+    fl_budget *budget; /* NULL: the step is given or a fraction of the critical one */
     const char *out;   /* where the loads go */
     int gzip;          /* they are compressed */
     double limit;      /* the critical step known before the run, 2/omega [s] */
@@ -26,6 +27,7 @@ struct run {
     int64_t begun; /* the step this program began with, and its time [s] */
     double begun_time;
     double wall;      /* [s] spent in steps */
+    double look_wall; /* [s] spent in looking after the error budget */
     int64_t saves;    /* checkpoints written */
     int64_t saved_at; /* step of the last */
     double save_wall; /* [s] spent in them */

@@ -65,19 +65,21 @@ static void write_place(FILE *f, const struct run *r, const struct outputs *u, c
 
 int save_write(struct run *r, struct outputs *u, fl_err *err)
 {
-    enum { SCENE, ICE, STRUCTURE, PLACE, LOADS, STATE, PARTS };
+    enum { SCENE, ICE, STRUCTURE, PLACE, LOADS, STATE, BUDGET, PARTS };
     fl_restart_part part[PARTS] = {[SCENE] = {.name = "scene"},
                                    [ICE] = r->kept[0],
                                    [STRUCTURE] = r->kept[1],
                                    [PLACE] = {.name = "tables"},
                                    [LOADS] = {.name = "loads", .text = r->out, .n = (int64_t)strlen(r->out)},
-                                   [STATE] = {.name = "state"}};
+                                   [STATE] = {.name = "state"},
+                                   [BUDGET] = {.name = "budget"}};
     fl_mark mark[TABLES];
     char *text[PARTS] = {0}, *history = NULL;
     size_t n[PARTS] = {0};
     const double begun = run_clock();
     fl_scene scene = *r->scene; /* to be written; nothing in it is changed but this */
     int rc = -1;
+    if (!r->budget) part[BUDGET].name[0] = '\0';
     scene.run.threads = 0; /* they belong to the machine, and would be the only bytes that tell */
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f && fl_out_mark(&u->table[k], &mark[k], err)) return -1;
@@ -91,6 +93,7 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
         if (k == SCENE) fl_scene_write(f, &scene);
         if (k == PLACE) write_place(f, r, u, mark);
         if (k == STATE) fl_snapshot_write(f, r->w);
+        if (k == BUDGET) fl_budget_write(f, r->budget);
         if (text_end(f, &part[k], &n[k], err)) goto done;
         part[k].text = text[k];
     }
@@ -102,7 +105,8 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
     history[before + own] = '\n';
     if (!part[STRUCTURE].name[0]) /* a scene without one */
         memmove(&part[STRUCTURE], &part[STRUCTURE + 1], (PARTS - STRUCTURE - 1) * sizeof *part);
-    rc = fl_restart_write(r->scene->output.checkpoint, history, part, PARTS - !r->kept[1].name[0], err);
+    rc = fl_restart_write(r->scene->output.checkpoint, history, part,
+                          PARTS - !r->kept[1].name[0] - !r->budget, err);
 done:
     for (int k = 0; k < PARTS; k++) free(text[k]);
     free(history);
@@ -251,6 +255,10 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
     if (fl_restart_open(r->saved, "state", &in, err)) return -1;
     fl_snapshot_read(r->w, &in, err);
     fl_text_close(&in);
+    if (!err->code && r->budget && fl_restart_open(r->saved, "budget", &in, err) == 0) {
+        fl_budget_read(r->budget, &in, err);
+        fl_text_close(&in);
+    }
     if (err->code || read_place(r, u, mark, had, err)) return -1;
     run_steps(r);
     r->begun = r->w->step;

@@ -1,0 +1,549 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include <string.h>
+#include "base/expo.h"
+#include "base/mem.h"
+#include "base/num.h"
+#include "step/budget.h"
+#include "step/search.h"
+#include "step/snapshot.h"
+#include "step/step.h"
+
+/* The estimate itself is off by some; so much of the goal is used. */
+#define MARGIN 0.8
+/* A meeting of this much more momentum than any before is news. */
+#define NEWS 1.5
+/* Two steps nearer to one another than this are as good as one. */
+#define NEAR 1.2
+/* The momenta of floes may be off by more than the load: they are added up without regard to sign. */
+#define LOOSE 4.0
+/* Floes are moved by this share of their size where two states are to part: far above rounding, and far below
+ * what a contact yields by. */
+#define SHIFT 0x1p-26
+
+enum {
+    FLOES,            /* kinds of meetings: floe and floe, */
+    WALLS,            /* floe and wall, */
+    PARTS,            /* and so on: floe and part */
+    WINDOW = 64,      /* steps in a window at the least */
+    FOLLOW = 3,       /* windows an impact is followed for at the most */
+    ROUNDS = 8,       /* steps tried in one look at the most */
+    FINEST = 1 << 12, /* the largest step over the smallest there may be */
+    AGAIN = 10,       /* steps between looks over those of a look */
+    ALLOWED = 64,     /* windows of trials that are allowed at once, and */
+    SHARE = 3,        /* beyond them: steps of the run over steps of trials */
+    PARTING = 48      /* time so far over a window that measures how states part */
+};
+
+/* --- a trial ----------------------------------------------------------------------------------- */
+
+static int ends_alloc(fl_budget *g, fl_err *err)
+{
+    for (int k = 0; k < 3; k++) {
+        fl_budget_end *e = &g->end[k];
+        const struct {
+            void *array;
+            int32_t n;
+            size_t size;
+        } want[] = {{&e->impulse, g->trial.parts, sizeof *e->impulse},
+                    {&e->moment, g->trial.parts, sizeof *e->moment},
+                    {&e->peak, g->trial.parts, sizeof *e->peak},
+                    {&e->p, g->trial.n, sizeof *e->p},
+                    {&e->x, g->trial.n, sizeof *e->x}};
+        for (size_t a = 0; a < sizeof want / sizeof *want; a++) {
+            void *p = fl_alloc(want[a].n, want[a].size, err);
+            if (!p) return -1;
+            *(void **)want[a].array = p;
+        }
+    }
+    return 0;
+}
+
+static int take_state(fl_budget *g, fl_world *w, fl_err *err)
+{
+    free(g->text);
+    g->text = NULL;
+    FILE *f = open_memstream(&g->text, &g->n_text);
+    if (!f) return fl_fail(err, FL_SYSTEM, "out of memory for a trial");
+    fl_snapshot_write(f, w);
+    const int bad = ferror(f);
+    return fclose(f) || bad ? fl_fail(err, FL_SYSTEM, "out of memory for a trial") : 0;
+}
+
+static int kind_of(const fl_world *w, const fl_pair *p)
+{
+    if (p->j < w->n) return FLOES;
+    const int32_t part = w->structure.piece[p->j - w->n].part;
+    return part < 0 ? WALLS : PARTS + part;
+}
+
+/* The hardest meetings under way. */
+static void watch(fl_budget *g)
+{
+    const fl_world *w = &g->trial;
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        const fl_pair *p = &w->pair[c];
+        if (p->n == 0) continue;
+        const int kind = kind_of(w, p);
+        g->seen[kind] = fmax(g->seen[kind], p->mass * p->touch);
+    }
+}
+
+/* Is an impact on the structure under way, which has brought less than the momentum that meets there? */
+static int half_done(const fl_world *w)
+{
+    double meets = 0.0, brought = 0.0;
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        const fl_pair *p = &w->pair[c];
+        if (p->n && kind_of(w, p) >= PARTS) meets += p->mass * p->touch;
+    }
+    for (int32_t k = 0; k < w->parts; k++) brought += v3_norm(w->part_impulse[k]);
+    return meets > brought;
+}
+
+/* The state through `rows` rows of m steps each; rows < 0: through -rows, and further while an impact is
+ * under way; returns the number of rows.  shift: how far floes are moved before, in their own sizes.  -1 with
+ * FL_SYSTEM; a step above the critical one is told in the end. */
+static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_budget_end *end, fl_err *err)
+{
+    fl_world *w = &g->trial;
+    fl_text in = {0};
+    fl_err why = {0};
+    const int open = rows < 0;
+    int32_t last = open ? -rows : rows, row = 0;
+    if (fl_text_open_bytes(&in, "trial", g->text, (int64_t)g->n_text, err)) return -1;
+    const int bad = fl_snapshot_read(w, &in, err);
+    fl_text_close(&in);
+    if (bad) return -1;
+    for (int32_t i = 0; i < w->n && shift > 0.0; i++)
+        w->b.x[i].x += (i % 2 ? 1.0 : -1.0) * shift * (w->b.bound[i] + w->b.radius[i]);
+    fl_step_resize(w, g->every / m, fl_world_time(w));
+    const double before = w->impulse_size;
+    for (int32_t p = 0; p < w->parts; p++) {
+        w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
+        w->part_peak[p] = 0.0;
+    }
+    for (; row < last && !why.code; row++) {
+        for (int32_t k = 0; k < m && !why.code; k++) {
+            g->spent++;
+            if (fl_step(w, &why) == 0) watch(g);
+        }
+        if (open && row + 1 == last && last < -FOLLOW * rows && half_done(w)) last++;
+    }
+    if (why.code == FL_SYSTEM) {
+        *err = why;
+        return -1;
+    }
+    end->failed = why.code != 0;
+    end->taken = w->impulse_size - before;
+    for (int32_t p = 0; p < w->parts; p++) {
+        end->impulse[p] = w->part_impulse[p];
+        end->moment[p] = w->part_moment[p];
+        end->peak[p] = w->part_peak[p];
+    }
+    for (int32_t i = 0; i < w->n; i++) {
+        end->p[i] = v3_scale(w->b.m[i], w->b.v[i]);
+        end->x[i] = w->b.x[i];
+    }
+    return row;
+}
+
+/* --- what trials tell -------------------------------------------------------------------------- */
+
+/* The load that is asked for, of one part. */
+static fl_vec3 load_of(const fl_budget *g, const fl_budget_end *e, int32_t p)
+{
+    const fl_vec3 J = e->impulse[p], M = e->moment[p];
+    switch (g->of) {
+    case FL_ERROR_OF_IMPULSE: return J;
+    case FL_ERROR_OF_PEAK: return v3(e->peak[p], 0, 0);
+    case FL_ERROR_OF_FX: return v3(J.x, 0, 0);
+    case FL_ERROR_OF_FY: return v3(J.y, 0, 0);
+    case FL_ERROR_OF_FZ: return v3(J.z, 0, 0);
+    case FL_ERROR_OF_MX: return v3(M.x, 0, 0);
+    case FL_ERROR_OF_MY: return v3(M.y, 0, 0);
+    default: return v3(M.z, 0, 0);
+    }
+}
+
+/* |X - Y|, added up over the parts; Y NULL: |X|. *along: its part in the direction of X, signed. */
+static double apart(const fl_budget *g, const fl_budget_end *x, const fl_budget_end *y, double *along)
+{
+    double sum = 0.0;
+    *along = 0.0;
+    for (int32_t p = 0; p < g->trial.parts; p++) {
+        const fl_vec3 a = load_of(g, x, p), d = y ? v3_sub(load_of(g, y, p), a) : a;
+        const double size = v3_norm(a);
+        sum += v3_norm(d);
+        if (size > 0.0) *along += v3_dot(d, a) / size;
+    }
+    return sum;
+}
+
+/* By how much momenta differ, half of it: in a contact of two floes it counts twice. */
+static double astray(const fl_budget *g, const fl_budget_end *x, const fl_budget_end *y)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < g->trial.n; i++) sum += v3_norm(v3_sub(x->p[i], y->p[i]));
+    return 0.5 * sum;
+}
+
+/* e and p from the three differences. */
+static double richardson(double first, double second, double both, double *order)
+{
+    *order = 2.0;
+    if (first > 0.0 && second > 0.0) *order = fl_log(first / second) / fl_log(2.0);
+    *order = fmin(fmax(*order, 1.0), 2.0);
+    return both + second / (fl_pow(2.0, *order) - 1.0);
+}
+
+static void compare(const fl_budget *g, double h, fl_budget_window *v)
+{
+    const fl_budget_end *a = &g->end[0], *b = &g->end[1], *c = &g->end[2];
+    double none, along;
+    *v = (fl_budget_window){.h = h, .order = 2.0, .astray_order = 2.0};
+    if (c->failed) { /* nothing is known but that it is far too long */
+        v->off = v->astray = INFINITY;
+        v->size = v->impulse = 1.0;
+        return;
+    }
+    v->size = apart(g, c, NULL, &none);
+    v->impulse = c->taken;
+    const double second = apart(g, c, b, &none), both = apart(g, c, a, &along);
+    const double lost = astray(g, b, c), all = astray(g, a, c);
+    v->off = richardson(apart(g, b, a, &none), second, both, &v->order);
+    v->along = both > 0.0 ? along * v->off / both : 0.0;
+    v->astray = richardson(astray(g, a, b), lost, all, &v->astray_order);
+    if (a->failed || b->failed) v->off = v->astray = INFINITY;
+}
+
+/* --- the step that they ask for ---------------------------------------------------------------- */
+
+static double grown(double e, double order, double h, double from)
+{
+    return e > 0.0 && isfinite(e) ? e * fl_pow(h / from, order) : e;
+}
+
+double fl_budget_estimate(const fl_budget *g, double h)
+{
+    double along = 0.0, squares = 0.0, size = 0.0, most = 0.0, largest = 0.0;
+    for (int32_t k = 0; k < g->windows; k++) {
+        const fl_budget_window *v = &g->window[k];
+        const double e = grown(v->off, v->order, h, v->h);
+        along += v->off > 0.0 ? v->along * (e / v->off) : 0.0;
+        squares += e * e;
+        size += v->size;
+        if (v->size > 0.0) most = fmax(most, e);
+        largest = fmax(largest, v->size);
+    }
+    if (size <= 0.0) return 0.0;
+    if (g->of == FL_ERROR_OF_PEAK) return most / largest;
+    return isfinite(squares) ? fmax(fabs(along), sqrt(squares)) / size : INFINITY;
+}
+
+static double momenta_astray(const fl_budget *g, double h)
+{
+    double off = 0.0, size = 0.0;
+    for (int32_t k = 0; k < g->windows; k++) {
+        const fl_budget_window *v = &g->window[k];
+        off += grown(v->astray, v->astray_order, h, v->h);
+        size += v->impulse;
+    }
+    return size > 0.0 ? off / size : 0.0;
+}
+
+/* 1 is what is allowed. */
+static double strain(const fl_budget *g, double h)
+{
+    return fmax(fl_budget_estimate(g, h), momenta_astray(g, h) / LOOSE) / (MARGIN * g->goal);
+}
+
+/* Where the strain is 1: between h/4 and 4 h, by halving of the exponent. */
+static double wanted(const fl_budget *g, double h)
+{
+    double lo = -2.0, hi = 2.0;
+    for (int k = 0; k < 24; k++) {
+        const double mid = 0.5 * (lo + hi);
+        if (strain(g, h * fl_exp(mid * fl_log(2.0))) <= 1.0) lo = mid;
+        else hi = mid;
+    }
+    return h * fl_exp(lo * fl_log(2.0));
+}
+
+/* Steps in a row, so that they are of h at the most. */
+static int32_t steps_of(const fl_budget *g, double h)
+{
+    const double m = ceil(g->every / h * (1.0 - 1e-12)), most = (double)g->least * FINEST;
+    return (int32_t)fmin(fmax(m, g->least), most);
+}
+
+/* Try steps from m a row on; *m becomes what is to be taken.  end[0] is that of m already. */
+static int calibrate(fl_budget *g, int32_t *m, int32_t rows, fl_err *err)
+{
+    fl_budget_window *v, good = {0};
+    double passed = 0.0, refused = INFINITY;
+    g->latest = (g->latest + 1) % FL_BUDGET_LOOKS;
+    if (g->windows < FL_BUDGET_LOOKS) g->latest = g->windows++;
+    v = &g->window[g->latest];
+    for (int round = 0; round < ROUNDS; round++) {
+        const double h = g->every / *m;
+        for (int k = round ? 0 : 1; k < 3; k++)
+            if (trial(g, *m << k, rows, 0.0, &g->end[k], err) < 0) return -1;
+        compare(g, h, v);
+        double next;
+        if (strain(g, h) <= 1.0) {
+            passed = h;
+            good = *v;
+            next = wanted(g, h);
+            if (*m == g->least || next < NEAR * h || refused < NEAR * h) break;
+        } else {
+            refused = h;
+            next = wanted(g, h);
+            if (passed > 0.0 && refused < NEAR * passed) break;
+        }
+        if (next >= refused || next <= passed) next = passed > 0.0 ? sqrt(passed * refused) : 0.5 * refused;
+        const int32_t was = *m;
+        *m = steps_of(g, next);
+        if (*m == was) break;
+    }
+    if (passed > 0.0) {
+        *v = good;
+        *m = steps_of(g, passed);
+    }
+    return 0;
+}
+
+/* --- when to look ------------------------------------------------------------------------------ */
+
+/* May two things meet in the window to come, or touch already, as none did before? */
+static int something_new(const fl_budget *g, const fl_world *w)
+{
+    const fl_bodies *b = &w->b;
+    const double T = g->every * g->rows, fall = v3_norm(w->gravity) * T;
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        const fl_pair *p = &w->pair[c];
+        const double known = g->known[kind_of(w, p)];
+        double speed = p->touch;
+        if (p->n == 0) {
+            speed = v3_norm(v3_sub(b->v[p->i], b->v[p->j])) + v3_norm(b->w[p->i]) * b->bound[p->i] +
+                    v3_norm(b->w[p->j]) * b->bound[p->j];
+            /* speeds change on the way: half as much again, and by gravity */
+            if (p->asleep - b->odometer[p->i] - b->odometer[p->j] > T * (1.5 * speed + fall)) continue;
+        }
+        if (known < 0.0 || p->mass * speed > NEWS * known) return 1;
+    }
+    return 0;
+}
+
+/* List the pairs that may meet in the window to come; which ones are listed bears on no bit of a step. */
+static int list_far(const fl_budget *g, fl_world *w, fl_err *err)
+{
+    const fl_bodies *b = &w->b;
+    const double T = g->every * g->rows, fall = v3_norm(w->gravity) * T;
+    double most = 0.0, used = 0.0;
+    for (int32_t k = 0; k < b->total; k++) {
+        most = fmax(most, T * (1.5 * (v3_norm(b->v[k]) + v3_norm(b->w[k]) * b->bound[k]) + fall));
+        used = fmax(used, b->odometer[k] - w->odometer_found[k]);
+    }
+    if (2.0 * (most + used) <= w->skin) return 0;
+    w->skin = fmax(w->skin, 4.0 * most);
+    w->found_at = -1;
+    return fl_search(w, err);
+}
+
+static int afford(const fl_budget *g, const fl_world *w)
+{
+    return g->spent < w->step / SHARE + (int64_t)ALLOWED * g->rows * g->least;
+}
+
+/* Distance of two ends, root of the mean square. */
+static double distance(const fl_budget *g, const fl_budget_end *x, const fl_budget_end *y)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < g->trial.n; i++) sum += v3_norm2(v3_sub(x->x[i], y->x[i]));
+    return sqrt(sum / g->trial.n);
+}
+
+/* How fast states part that differ by little. */
+static int measure_parting(fl_budget *g, const fl_world *w, int64_t row, int32_t m, fl_err *err)
+{
+    const int32_t rows = (int32_t)fmax(g->rows, (double)(row / PARTING));
+    double start = 0.0;
+    for (int k = 0; k < 2; k++)
+        if (trial(g, m, rows, k ? SHIFT : 0.0, &g->end[k], err) < 0) return -1;
+    for (int32_t i = 0; i < w->n; i++) {
+        const double s = SHIFT * (w->b.bound[i] + w->b.radius[i]);
+        start += s * s;
+    }
+    start = sqrt(start / w->n);
+    const double end = distance(g, &g->end[0], &g->end[1]);
+    g->rate = end > start && isfinite(end) ? fl_log(end / start) / (g->every * rows) : 0.0;
+    g->part_next = 2.0 * g->every * (double)(row + rows);
+    if (g->rate * g->every * g->rows > 1.0) g->rows = (int32_t)fmax(1.0, 1.0 / (g->rate * g->every));
+    return 0;
+}
+
+double fl_budget_horizon(const fl_budget *g)
+{
+    return g->rate > 0.0 ? fl_log(g->goal * 0x1p52) / g->rate : INFINITY;
+}
+
+int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
+{
+    const double t = (double)row * g->every;
+    const int first = g->looked_at < 0;
+    int news = 0;
+    if (g->looked_at == w->step) return 0;
+    /* rows end on their very times, whatever the steps in them were */
+    w->t0 = t;
+    w->step0 = w->step;
+    if (row % g->rows) return 0;
+    const int due = !first && w->step - g->looked_at >= AGAIN * g->last_cost;
+    if (list_far(g, w, err)) return -1;
+    if (!due && !(something_new(g, w) && afford(g, w))) return 0;
+    int32_t m = steps_of(g, w->dt), rows;
+    const int64_t before = g->spent;
+    if (take_state(g, w, err)) return -1;
+    for (int32_t k = 0; k < PARTS + w->parts; k++) g->seen[k] = -1.0;
+    rows = trial(g, m, -g->rows, 0.0, &g->end[0], err);
+    if (rows < 0) return -1;
+    for (int32_t k = 0; k < PARTS + w->parts; k++) {
+        if (g->seen[k] < 0.0) continue;
+        if (g->known[k] < 0.0 || g->seen[k] > NEWS * g->known[k]) news = 1;
+    }
+    if (news || (due && g->end[0].taken > 0.0) || g->end[0].failed) {
+        if (calibrate(g, &m, rows, err)) return -1;
+        for (int32_t k = 0; k < PARTS + w->parts; k++) g->known[k] = fmax(g->known[k], g->seen[k]);
+        if (t >= g->part_next && measure_parting(g, w, row, m, err)) return -1;
+        g->looks++;
+    }
+    if (news || due) {
+        g->looked_at = w->step;
+        g->last_cost = g->spent - before;
+    }
+    if (m != steps_of(g, w->dt)) fl_step_resize(w, g->every / m, t);
+    g->shortest = g->shortest > 0.0 ? fmin(g->shortest, w->dt) : w->dt;
+    g->longest = fmax(g->longest, w->dt);
+    return 0;
+}
+
+/* --- made and kept ----------------------------------------------------------------------------- */
+
+int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
+                   fl_err *err)
+{
+    int32_t body;
+    *g = (fl_budget){.goal = scene->run.error,
+                     .of = scene->run.error_of,
+                     .every = scene->output.loads_every,
+                     .latest = -1,
+                     .looked_at = -1};
+    if (fl_world_make(&g->trial, scene, field, surface, err)) return -1;
+    const double most = fmin(fl_world_dt(&g->trial, &body), fmin(g->every, scene->run.duration));
+    g->least = (int32_t)fmin(ceil(g->every / most * (1.0 - 1e-12)), 1e5);
+    g->rows = (int32_t)ceil((double)WINDOW / g->least);
+    g->known = fl_alloc(PARTS + g->trial.parts, sizeof *g->known, err);
+    g->seen = fl_alloc(PARTS + g->trial.parts, sizeof *g->seen, err);
+    if (!g->known || !g->seen || ends_alloc(g, err)) {
+        fl_budget_free(g);
+        return -1;
+    }
+    for (int32_t k = 0; k < PARTS + g->trial.parts; k++) g->known[k] = -1.0;
+    return 0;
+}
+
+void fl_budget_free(fl_budget *g)
+{
+    fl_world_free(&g->trial);
+    for (int k = 0; k < 3; k++) {
+        fl_budget_end *e = &g->end[k];
+        free(e->impulse), free(e->moment), free(e->peak), free(e->p), free(e->x);
+    }
+    free(g->known), free(g->seen), free(g->text);
+    *g = (fl_budget){0};
+}
+
+double fl_budget_start(const fl_budget *g) { return g->every / g->least; }
+
+/* Numbers in the order of the rows; one list serves both ways, so that they cannot differ. */
+static int pass(FILE *f, fl_text *in, double *x, fl_err *err)
+{
+    char num[FL_NUM_LEN];
+    if (f) return fprintf(f, " %s", fl_num_text(*x, num)) < 0;
+    if (fl_text_f64(in, "number", x, err)) return -1;
+    return isfinite(*x) ? 0 : fl_text_fail(in, err, "not a finite number");
+}
+
+static int pass_count(FILE *f, fl_text *in, int64_t *x, fl_err *err)
+{
+    double d = (double)*x; /* steps stay far below 2^53 */
+    if (pass(f, in, &d, err)) return -1;
+    if (!(d >= -1.0 && d <= 0x1p53 && d == floor(d)))
+        return fl_text_fail(in, err, "%g found, a count was wanted", d);
+    *x = (int64_t)d;
+    return 0;
+}
+
+static int row_begin(FILE *f, fl_text *in, const char *name, fl_err *err)
+{
+    const char *word = "";
+    if (f) return fputs(name, f) < 0;
+    const int more = fl_text_row(in, err);
+    if (more < 0) return -1;
+    if (!more) return fl_text_fail(in, err, "the budget ends early, %s was wanted", name);
+    if (fl_text_word(in, "name of the row", &word, err)) return -1;
+    return strcmp(word, name) ? fl_text_fail(in, err, "\"%.40s\" found, %s was wanted", word, name) : 0;
+}
+
+static int row_end(FILE *f, fl_text *in, fl_err *err)
+{
+    return f ? putc('\n', f) == EOF : fl_text_end(in, err);
+}
+
+static int exchange(FILE *f, fl_text *in, fl_budget *g, fl_err *err)
+{
+    int64_t rows = g->rows, windows = g->windows, latest = g->latest;
+    int64_t *const count[] = {&rows, &windows, &latest, &g->looks, &g->looked_at, &g->spent, &g->last_cost};
+    double *const real[] = {&g->rate, &g->part_next, &g->shortest, &g->longest};
+    if (row_begin(f, in, "budget", err)) return -1;
+    for (size_t k = 0; k < sizeof count / sizeof *count; k++)
+        if (pass_count(f, in, count[k], err)) return -1;
+    for (size_t k = 0; k < sizeof real / sizeof *real; k++)
+        if (pass(f, in, real[k], err)) return -1;
+    if (row_end(f, in, err)) return -1;
+    if (rows < 1 || rows > WINDOW || windows < 0 || windows > FL_BUDGET_LOOKS || latest < -1 ||
+        latest >= windows)
+        return fl_text_fail(in, err, "this is no state of an error budget");
+    g->rows = (int32_t)rows, g->windows = (int32_t)windows, g->latest = (int32_t)latest;
+    if (row_begin(f, in, "known", err)) return -1;
+    for (int32_t k = 0; k < PARTS + g->trial.parts; k++)
+        if (pass(f, in, &g->known[k], err)) return -1;
+    if (row_end(f, in, err)) return -1;
+    for (int32_t c = 0; c < g->windows; c++) {
+        fl_budget_window *v = &g->window[c];
+        double *const all[] = {&v->h,     &v->off,    &v->order,        &v->size,
+                               &v->along, &v->astray, &v->astray_order, &v->impulse};
+        if (row_begin(f, in, "window", err)) return -1;
+        for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+            if (pass(f, in, all[k], err)) return -1;
+        if (row_end(f, in, err)) return -1;
+        if (!(v->h > 0.0 && v->order >= 1.0 && v->astray_order >= 1.0))
+            return fl_text_fail(in, err, "this is no window of an error budget");
+    }
+    return 0;
+}
+
+void fl_budget_write(FILE *f, const fl_budget *g)
+{
+    fl_err none = {0};
+    fl_budget copy = *g; /* the list is of what can be written to; nothing is */
+    exchange(f, NULL, &copy, &none);
+}
+
+int fl_budget_read(fl_budget *g, fl_text *in, fl_err *err)
+{
+    if (exchange(NULL, in, g, err)) return -1;
+    const int more = fl_text_row(in, err);
+    if (more > 0) fl_text_fail(in, err, "\"%.40s\" behind the budget was not expected", in->field[0]);
+    return more ? -1 : 0;
+}

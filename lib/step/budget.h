@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* budget.h -- the largest step that keeps a load within an error: run.error.
+ *
+ * The step is looked after at ends of rows of the loads, where whole steps end.  A look takes the state, puts
+ * it into a second world made from the same scene, and moves that through a window of some rows with steps
+ * h, h/2 and h/4.  With X the load of the window and d = |X(h) - X(h/2)|, d' = |X(h/2) - X(h/4)|,
+ *     order    p = log2(d/d'), kept in [1, 2],
+ *     error    e = |X(h) - X(h/4)| + d'/(2^p - 1),       e(h') = e (h'/h)^p            (Richardson)
+ * The step is the largest, among those that divide a row, for which all windows looked at together stay
+ * within the goal,
+ *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= MARGIN goal sum |X|,
+ * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
+ * it is the largest error against the largest peak.  Because what goes wrong between floes reaches the
+ * structure later, the momenta of the floes at the end of the window must be right, too, to four times the
+ * goal of the impulses they took.  The step that is taken has been tried itself.
+ *
+ * It is looked at the start; before two things may meet whose kind of meeting has not been seen with two
+ * thirds of that momentum (floe and floe, floe and each part of the structure, floe and wall); and again
+ * after ten times as many steps as the last look took.  An impact that is not over is followed by further
+ * rows.
+ *
+ * How far ahead a state tells anything is measured by two windows whose floes differ by SHIFT of their size:
+ *     rate = ln(distance at the end / at the start) / window,
+ * and windows stay shorter than 1/rate.  All of it follows from the states alone: same bits on any number of
+ * threads, and after a stop.  Source: Richardson, Phil. Trans. A 226 (1927) 299. */
+#ifndef FL_STEP_BUDGET_H
+#define FL_STEP_BUDGET_H
+#include <stdio.h>
+#include "base/text.h"
+#include "step/world.h"
+
+enum { FL_BUDGET_LOOKS = 32 }; /* the latest that are kept */
+
+/* What one window told. */
+typedef struct {
+    double h;                             /* step [s] */
+    double off, order, size;              /* e, p and |X| of the load that is asked for */
+    double along;                         /* s */
+    double astray, astray_order, impulse; /* the same of the momenta of the floes [N s] */
+} fl_budget_window;
+
+/* All of an end of a window, of one trial. */
+typedef struct {
+    fl_vec3 *impulse, *moment; /* [parts] */
+    double *peak;              /* [parts] */
+    fl_vec3 *p, *x;            /* [n] */
+    double taken;              /* impulses of all contacts [N s] */
+    int failed;                /* the step was above the critical one */
+} fl_budget_end;
+
+typedef struct {
+    double goal;   /* run.error */
+    int32_t of;    /* run.error_of: impulse, peak, fx, fy, fz, mx, my, mz */
+    double every;  /* interval of the loads, which steps divide [s] */
+    int32_t least; /* steps in it with the largest step there may be */
+    int32_t rows;  /* rows in a window */
+    fl_budget_window window[FL_BUDGET_LOOKS];
+    int32_t windows, latest;  /* how many there are, and where the last one is */
+    int64_t looks;            /* made so far */
+    int64_t looked_at;        /* step of the last, -1: none */
+    int64_t spent, last_cost; /* steps made in trials, and those of the last look */
+    double *known;            /* [2 + parts] momentum of the hardest meeting seen, by kind; -1: none [N s] */
+    double *seen;             /* [2 + parts] of the trial under way */
+    double rate;              /* at which near states part [1/s] */
+    double part_next;         /* when that is measured again [s] */
+    double shortest, longest; /* steps taken so far [s] */
+    fl_world trial;
+    fl_budget_end end[3];
+    char *text; /* the state looked at */
+    size_t n_text;
+} fl_budget;
+
+/* A second world of the scene, and no window yet.  -1 as fl_world_make(). */
+int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
+                   fl_err *err);
+void fl_budget_free(fl_budget *g); /* accepts a zeroed struct, leaves one */
+
+/* The step to start with [s]: the largest there may be. */
+double fl_budget_start(const fl_budget *g);
+
+/* Look, if there is reason to, at w, which is at the end of a row, at t = row * every; sets its step for the
+ * rows to come.  w has begun; calling twice in one step does nothing more.  -1 with FL_SYSTEM. */
+int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err);
+
+/* Error of the load by the windows so far, over its size, were all steps h; 0 before the first. */
+double fl_budget_estimate(const fl_budget *g, double h);
+
+/* When states that differ by a bit differ by the goal [s]; INFINITY: they do not part. */
+double fl_budget_horizon(const fl_budget *g);
+
+/* What it remembers, as rows of text, and back into what fl_budget_make() made.  -1 with FL_INPUT. */
+void fl_budget_write(FILE *f, const fl_budget *g);
+int fl_budget_read(fl_budget *g, fl_text *in, fl_err *err);
+
+#endif

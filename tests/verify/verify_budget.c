@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step chosen from an error budget: twenty scenes, each against itself at a sixteenth of the step. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "scene/scene_check.h"
+#include "support/lab.h"
+#include "support/verify.h"
+#include "step/budget.h"
+
+/* --- the scenes -------------------------------------------------------------------------------- */
+
+static const fl_vec3 NONE = {0, 0, 0};
+
+static void floe(lab *l, fl_vec3 x, double half, double turn, fl_vec3 v)
+{
+    lab_box(l, x, v3(half, half, 0.3), 0.05, q_about(2, turn), v, NONE);
+}
+
+static void plate(lab *l) { lab_wall(l, v3(-4, -4, -1), v3(4, 4, 0), 1); }
+static void post(lab *l, double x, double y, double r)
+{
+    lab_cone(l, (fl_cone){v3(x, y, -3), v3(x, y, 3), r, r});
+}
+static void slope(lab *l, double x, double y) { lab_cone(l, (fl_cone){v3(x, y, -2), v3(x, y, 2), 2.0, 0.5}); }
+
+static void dry(lab *l, double friction, double restitution)
+{
+    lab_setf(l, "contact.friction=%g", friction);
+    lab_setf(l, "contact.restitution=%g", restitution);
+}
+
+static void heavy(lab *l, double friction, double restitution)
+{
+    dry(l, friction, restitution);
+    lab_set(l, "run.gravity=9.81");
+    plate(l);
+}
+
+static void wet(lab *l, double speed, double friction, double restitution)
+{
+    dry(l, friction, restitution);
+    lab_set(l, "run.gravity=9.81");
+    lab_setf(l, "water.current=%g 0 0", speed);
+}
+
+static void ball_drops(lab *l) { heavy(l, 0, 1), lab_sphere(l, v3(0, 0, 0.54), 0.5, v3(0, 0, -0.3), NONE); }
+static void ball_drops_dead(lab *l)
+{
+    heavy(l, 0.3, 0.3), lab_sphere(l, v3(0, 0, 0.55), 0.5, v3(0.5, 0, -0.3), NONE);
+}
+static void box_drops_flat(lab *l) { heavy(l, 0.3, 0.5), floe(l, v3(0, 0, 0.33), 0.8, 0, v3(0, 0, -0.2)); }
+static void box_drops_on_edge(lab *l)
+{
+    heavy(l, 0.3, 0.4);
+    lab_box(l, v3(0, 0, 0.7), v3(0.5, 0.6, 0.3), 0.05, q_of_vector(v3(0, 0.5, 0.1)), v3(0.2, 0, -0.5), NONE);
+}
+static void box_slides(lab *l) { heavy(l, 0.2, 0.3), floe(l, v3(-1, 0, 0.3), 0.8, 0.2, v3(0.6, 0.1, 0)); }
+static void ball_rolls(lab *l)
+{
+    heavy(l, 0.2, 0.3), lab_sphere(l, v3(-1, 0, 0.5), 0.5, v3(0.8, 0, 0), v3(0, 0, 1));
+}
+static void head_on(lab *l) { dry(l, 0, 1), post(l, 2, 0, 1), floe(l, v3(-0.13, 0, 0), 1, 0, v3(1, 0, 0)); }
+static void off_centre(lab *l)
+{
+    dry(l, 0.3, 0.3), post(l, 2, 0.5, 1), floe(l, v3(-0.1, 0, 0), 1, 0.3, v3(1, 0.1, 0));
+}
+static void two_in_line(lab *l)
+{
+    dry(l, 0.2, 0.6), lab_wall(l, v3(2, -4, -2), v3(3, 4, 2), 1);
+    floe(l, v3(0.92, 0, 0), 1, 0, NONE), floe(l, v3(-1.2, 0.2, 0), 1, 0, v3(0.8, 0, 0));
+}
+static void three_in_line(lab *l)
+{
+    dry(l, 0, 0.8), post(l, 2, 0, 0.9);
+    for (int k = 0; k < 3; k++) floe(l, v3(-2.1 * k, 0.1 * k, 0), 1, 0.05 * k, v3(k == 2 ? 1.5 : 0, 0, 0));
+}
+static void against_slope(lab *l)
+{
+    dry(l, 0.1, 0.4), slope(l, 2, 0.2), floe(l, v3(-0.6, 0, 0), 0.9, 0.4, v3(0.8, 0, 0));
+}
+static void hook(lab *l)
+{
+    const fl_vec3 xy[6] = {v3(0, 0, 0), v3(3, 0, 0), v3(3, 1, 0), v3(1, 1, 0), v3(1, 3, 0), v3(0, 3, 0)};
+    lab_prism(l, 6, xy, -2, 2);
+}
+static void corner_in_hook(lab *l)
+{
+    dry(l, 0.3, 0.3), hook(l), floe(l, v3(2.03, 2.12, 0), 0.8, 0.3, v3(-0.5, -0.6, 0));
+}
+static void ball_in_hook(lab *l)
+{
+    dry(l, 0.1, 0.7), hook(l), lab_sphere(l, v3(1.7, 1.9, 0), 0.6, v3(-0.7, -1.0, 0), NONE);
+}
+static void balls_on_slope(lab *l)
+{
+    dry(l, 0.1, 0.9), slope(l, 2.5, 0);
+    lab_sphere(l, v3(0.3, 0.5, 0), 0.5, v3(1, 0, 0), NONE),
+        lab_sphere(l, v3(0.2, -0.6, 0.3), 0.5, v3(1.2, 0, 0), NONE);
+}
+static void pinched(lab *l)
+{
+    dry(l, 0.3, 0.2), post(l, 2, 1.5, 0.8), post(l, 2, -1.5, 0.8);
+    floe(l, v3(0.7, 0.02, 0), 1, 0.785, v3(1, 0, 0));
+}
+static void pressed(lab *l)
+{
+    wet(l, 1, 0.1, 0.3), post(l, 2, 0, 1), floe(l, v3(-0.22, 0.1, -0.02), 1, 0.2, v3(0.3, 0, 0));
+}
+static void pressed_flat(lab *l)
+{
+    wet(l, 0.8, 0.3, 0.3), lab_wall(l, v3(1, -4, -2), v3(2, 4, 2), 1);
+    floe(l, v3(-0.22, 0, -0.03), 1.2, 0.02, v3(0.4, 0, 0));
+}
+static void four_on_slope(lab *l)
+{
+    wet(l, 0.8, 0.1, 0.3), slope(l, 3, 0);
+    for (int k = 0; k < 4; k++)
+        floe(l, v3(0.7 - 1.9 * (k / 2), 0.95 - 1.9 * (k % 2), -0.03), 0.9, 0.02 * k, v3(0.6, 0, 0));
+}
+static void two_legs(lab *l)
+{
+    wet(l, 1, 0.2, 0.5), post(l, 2, 1, 0.5), post(l, 2, -1, 0.5);
+    floe(l, v3(0, 0.1, -0.03), 1.4, 0.1, v3(0.8, 0.1, 0));
+}
+static void field(lab *l)
+{
+    wet(l, 1, 0.2, 0.3), post(l, 3, 0.1, 0.8);
+    lab_set(l, "boundary.min=none -3.1 none"), lab_set(l, "boundary.max=none 3.1 none");
+    for (int k = 0; k < 9; k++)
+        floe(l, v3(1.1 - 2.05 * (k / 3), 2.05 * (k % 3 - 1), -0.03), 0.95, 0.04 * (k % 4), v3(0.7, 0, 0));
+}
+
+typedef struct {
+    const char *name;
+    void (*build)(lab *l);
+    double seconds;
+} scene;
+
+static const scene SCENE[] = {
+    {"a ball drops, elastic", ball_drops, 0.4}, {"a ball drops and slips", ball_drops_dead, 0.4},
+    {"a box drops flat", box_drops_flat, 0.4},  {"a box drops on its edge", box_drops_on_edge, 0.5},
+    {"a box slides", box_slides, 0.4},          {"a ball slips and rolls", ball_rolls, 0.4},
+    {"head on, elastic", head_on, 0.4},         {"off the centre", off_centre, 0.4},
+    {"two in line, a wall", two_in_line, 0.6},  {"three in line, a post", three_in_line, 0.6},
+    {"against a slope", against_slope, 0.6},    {"a corner in a hook", corner_in_hook, 0.6},
+    {"a ball in a hook", ball_in_hook, 0.6},    {"two balls, a slope", balls_on_slope, 0.6},
+    {"between two posts", pinched, 0.6},        {"current, a post", pressed, 0.6},
+    {"current, a wall", pressed_flat, 0.6},     {"current, four floes, a slope", four_on_slope, 0.5},
+    {"current, two legs", two_legs, 0.6},       {"current, nine floes, a post", field, 0.5}};
+enum { SCENES = sizeof SCENE / sizeof *SCENE, PARTS = 2 };
+
+/* --- a run ------------------------------------------------------------------------------------- */
+
+static const double EVERY = 0.02;
+
+typedef struct {
+    fl_vec3 J[PARTS];
+    double peak[PARTS];
+    double spent; /* steps of trials over those of the run */
+    double shortest, estimate;
+    int32_t least;
+} result;
+
+/* With m steps a row, or, m = 0, those that the budget chooses. */
+static result run(const scene *s, double goal, const char *of, int64_t m)
+{
+    lab l;
+    fl_budget g = {0};
+    fl_err err = {0};
+    result r = {0};
+    lab_start(&l);
+    lab_set(&l, "contact.softening=0.1");
+    lab_setf(&l, "output.loads_every=%.17g", EVERY);
+    if (m == 0) lab_setf(&l, "run.error=%.17g", goal), lab_setf(&l, "run.error_of=%s", of);
+    lab_setf(&l, "run.duration=%g", s->seconds);
+    s->build(&l);
+    if (m == 0) {
+        lab_set(&l, "structure.file=lab"); /* as lab_make() will */
+        if (fl_scene_check(&l.scene, &err) || fl_budget_make(&g, &l.scene, &l.field, &l.surface, &err))
+            exit(1);
+        r.least = g.least;
+    }
+    lab_make(&l, m ? EVERY / (double)m : fl_budget_start(&g));
+    for (int64_t row = 0; row < (int64_t)lround(s->seconds / EVERY); row++) {
+        if (m == 0 && fl_budget_look(&g, &l.w, row, &err)) exit(1);
+        if (lab_run(&l, (int64_t)lround(EVERY / l.w.dt))) break;
+    }
+    for (int32_t p = 0; p < l.w.parts; p++) r.J[p] = l.w.part_impulse[p], r.peak[p] = l.w.part_peak[p];
+    if (m == 0) {
+        r.spent = (double)g.spent / (double)l.w.step;
+        r.shortest = g.shortest;
+        r.estimate = fl_budget_estimate(&g, l.w.dt);
+    }
+    fl_budget_free(&g);
+    lab_free(&l);
+    return r;
+}
+
+static double error_of(const char *of, const result *a, const result *truth)
+{
+    double off = 0.0, size = 0.0;
+    const int peak = strcmp(of, "peak") == 0;
+    for (int p = 0; p < PARTS; p++) {
+        const double d = peak ? fabs(a->peak[p] - truth->peak[p]) : v3_norm(v3_sub(a->J[p], truth->J[p]));
+        const double all = peak ? truth->peak[p] : v3_norm(truth->J[p]);
+        off = peak ? fmax(off, d) : off + d;
+        size = peak ? fmax(size, all) : size + all;
+    }
+    return off / size;
+}
+
+/* One scene: 1 bit within the budget, 2 bit the step is long enough. */
+static int try(const scene *s, double goal, const char *of)
+{
+    const result chosen = run(s, goal, of, 0);
+    const int64_t m = lround(EVERY / chosen.shortest);
+    const result truth = run(s, goal, of, 16 * m);
+    const double e = error_of(of, &chosen, &truth);
+    /* The largest step that would have done: from the finest upwards, the last before one that fails. */
+    int64_t best = 4 * m;
+    for (double k = 4.0 * (double)m; k > 0.999 * chosen.least; k /= sqrt(sqrt(2.0))) {
+        const int64_t mk = lround(k);
+        const result it = run(s, goal, of, mk);
+        if (error_of(of, &it, &truth) > goal) break;
+        best = mk;
+    }
+    const double share = (double)best / (double)m;
+    verify_note("%-30s step %8.3g s  estimate %7.2g  true %7.2g  over the largest %5.2f  cost %5.2f %s%s%s",
+                s->name, chosen.shortest, chosen.estimate, e, share, chosen.spent, e <= goal ? "" : " OVER",
+                share >= 0.5 ? "" : " SHORT", m == chosen.least ? " (cap)" : "");
+    return (e <= goal) | (share >= 0.5) << 1;
+}
+
+int main(void)
+{
+    static const struct {
+        const char *id, *of;
+        double goal;
+        double short_of; /* steps that may be less than half of the largest that would do */
+    } TABLE[] = {{"E01", "impulse", 0.01, 1}, {"E02", "impulse", 0.003, 3}, {"E03", "peak", 0.01, 1}};
+    verify_begin("a step from an error budget");
+    for (size_t t = 0; t < sizeof TABLE / sizeof *TABLE; t++) {
+        int within = 0, longest = 0, n = 0;
+        verify_note("run.error = %g of the %s; (cap): no longer step is known to be stable beforehand",
+                    TABLE[t].goal, TABLE[t].of);
+        if (TABLE[t].short_of > 1.0)
+            verify_note(
+                "what one window is off by later ones may take back: a floe that comes to rest has given "
+                "all its momentum");
+        for (size_t k = 0; k < SCENES; k += verify_quick() ? 4 : 1) {
+            const int ok = try(&SCENE[k], TABLE[t].goal, TABLE[t].of);
+            within += ok & 1;
+            longest += ok >> 1;
+            n++;
+        }
+        verify_row(TABLE[t].id, "scenes within the budget, of all", within, n, 1, VERIFY_ABS);
+        verify_row(TABLE[t].id, "steps at least half the largest that would do", longest, n,
+                   TABLE[t].short_of, VERIFY_ABS);
+        if (verify_quick()) break;
+    }
+    return verify_end();
+}
