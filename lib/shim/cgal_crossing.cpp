@@ -14,7 +14,7 @@ using namespace shim;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int32_t>;
 
-enum meeting { APART, TOUCH, CROSS };
+enum meeting { APART = FL_APART, TOUCH = FL_TOUCHES, CROSS = FL_CROSSES };
 
 /* Three corners, those in common with the other triangle first. */
 struct corners {
@@ -95,13 +95,20 @@ meeting meet(corners a, corners b)
     return CROSS;
 }
 
+corners corners_at(const double *x)
+{
+    return corners{{Point(x[0], x[1], x[2]), Point(x[3], x[4], x[5]), Point(x[6], x[7], x[8])}};
+}
+
+bool without_area(const corners &c) { return CGAL::collinear(c.p[0], c.p[1], c.p[2]); }
+
 int count(const fl_soup *s, fl_crossing *c)
 {
     std::vector<Box> boxes;
     boxes.reserve(static_cast<std::size_t>(s->nt));
     for (int32_t t = 0; t < s->nt; t++) {
         const corners k = corners_of(s, t);
-        if (CGAL::collinear(k.p[0], k.p[1], k.p[2])) continue;
+        if (without_area(k)) continue;
         boxes.emplace_back(k.p[0].bbox() + k.p[1].bbox() + k.p[2].bbox(), t);
     }
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box &x, const Box &y) {
@@ -118,4 +125,12 @@ extern "C" int fl_cgal_crossings(const fl_soup *s, fl_crossing *c, fl_err *err)
 {
     *c = fl_crossing{0, 0};
     return guarded("search for crossings", s->nt, err, [&] { return count(s, c); });
+}
+
+extern "C" int fl_cgal_meet(const double *a, const double *b, fl_err *err)
+{
+    return caught("meeting", 2, err, [&]() -> int {
+        const corners p = corners_at(a), q = corners_at(b);
+        return without_area(p) || without_area(q) ? APART : meet(p, q);
+    });
 }

@@ -45,10 +45,9 @@ struct silence {
 
 /* Run work() -> int; whatever it throws becomes a sentence "WHAT of N triangles: ..." and -1. */
 template <class Work>
-int guarded(const char *what, int32_t n, fl_err *err, Work work)
+int caught(const char *what, int32_t n, fl_err *err, Work work)
 {
     try {
-        const silence at_end;
         return work();
     } catch (const std::bad_alloc &) {
         return fl_fail(err, FL_SYSTEM, "out of memory in the %s of %d triangles", what, n);
@@ -58,6 +57,14 @@ int guarded(const char *what, int32_t n, fl_err *err, Work work)
     } catch (...) {
         return fl_fail(err, FL_NUMERIC, "%s of %d triangles: an unknown failure", what, n);
     }
+}
+
+/* The same in silence.  CGAL's handlers are not of a thread: not for what several threads call at once. */
+template <class Work>
+int guarded(const char *what, int32_t n, fl_err *err, Work work)
+{
+    const silence at_end;
+    return caught(what, n, err, work);
 }
 
 inline void to_vectors(const fl_soup *s, std::vector<Point> &points, std::vector<Corners> &triangles)

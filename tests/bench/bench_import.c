@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_import.c -- struct-import on five million triangles (or as many as its argument says): a torus as a
- * binary STL, made on the fly.  Time of the whole import, with welding, orientation, the search for crossings
- * and the writing of a g_struct file, beside that of `wc` on the same file in the same run, the peak of
- * memory, and the error of the volume that is told.  Compare ratios, and those within one run only. */
+/* bench_import.c -- struct-import on five million triangles (or as many as its first argument says): a torus,
+ * made on the fly in each format (or in the one that the second argument names).  Time of the whole import,
+ * with welding, orientation, the search for crossings and the writing of a g_struct file, beside that of `wc`
+ * and, for text, of strtod() on every number of the same file in the same run; the peak of memory, and the
+ * error of the volume that is told.  Compare ratios, and those within one run only. */
+#define _DEFAULT_SOURCE /* wait4 */
 #include <fcntl.h>
 #include <math.h>
 #include <stdint.h>
@@ -10,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -26,45 +29,236 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void corner(int i, int n, int j, int m, float x[3])
+/* n times m quadrilaterals, each cut in two, on the torus: corner (i, j), both counted round, is vertex
+ * i m + j + 1 at x, rounded to float. */
+struct torus {
+    int n, m;
+};
+
+static void corner(const struct torus *t, int i, int j, float x[3])
 {
-    const double u = TWO_PI * (i % n) / n, v = TWO_PI * (j % m) / m, r = FAR + NEAR * cos(v);
+    const double u = TWO_PI * (i % t->n) / t->n, v = TWO_PI * (j % t->m) / t->m, r = FAR + NEAR * cos(v);
     x[0] = (float)(r * cos(u));
     x[1] = (float)(r * sin(u));
     x[2] = (float)(NEAR * sin(v));
 }
 
-/* n times m quadrilaterals as triangles; returns six times their volume, or nan. */
-static double make_torus(const char *path, int n, int m)
+static int vertices(const struct torus *t) { return t->n * t->m; }
+static int triangles(const struct torus *t) { return 2 * vertices(t); }
+static void vertex(const struct torus *t, int k, float x[3]) { corner(t, k / t->m, k % t->m, x); }
+
+/* Places of the corners of triangle k. */
+static void places(const struct torus *t, int k, int at[3][2])
 {
-    FILE *f = fopen(path, "wb");
-    const uint32_t count = 2 * (uint32_t)n * (uint32_t)m;
-    unsigned char head[84] = "binary STL", record[50] = {0};
+    const int i = k / 2 / t->m, j = k / 2 % t->m, half = k % 2;
+    const int place[3][2] = {{i, j}, {i + 1, j + half}, {i + 1 - half, j + 1}};
+    memcpy(at, place, sizeof place);
+}
+
+/* Their numbers from 0. */
+static void triangle(const struct torus *t, int k, int v[3])
+{
+    int at[3][2];
+    places(t, k, at);
+    for (int c = 0; c < 3; c++) v[c] = at[c][0] % t->n * t->m + at[c][1] % t->m;
+}
+
+/* Six times the volume, by Kahan's sum. */
+static double six_volumes(const struct torus *t)
+{
     double six = 0.0, carry = 0.0;
-    if (!f) return NAN;
-    for (int k = 0; k < 4; k++) head[80 + k] = (unsigned char)(count >> 8 * k);
+    for (int k = 0; k < triangles(t); k++) {
+        float x[3][3];
+        int at[3][2];
+        double d, next;
+        places(t, k, at);
+        for (int c = 0; c < 3; c++) corner(t, at[c][0], at[c][1], x[c]);
+        d = (double)x[0][0] * ((double)x[1][1] * (double)x[2][2] - (double)x[1][2] * (double)x[2][1]) +
+            (double)x[0][1] * ((double)x[1][2] * (double)x[2][0] - (double)x[1][0] * (double)x[2][2]) +
+            (double)x[0][2] * ((double)x[1][0] * (double)x[2][1] - (double)x[1][1] * (double)x[2][0]);
+        d -= carry;
+        next = six + d;
+        carry = (next - six) - d;
+        six = next;
+    }
+    return six;
+}
+
+/* --- the formats ---------------------------------------------------------------------------------------- */
+
+static void low_first(unsigned char *to, uint64_t x, int bytes)
+{
+    for (int k = 0; k < bytes; k++) to[k] = (unsigned char)(x >> 8 * k);
+}
+
+static void put_stl(FILE *f, const struct torus *t)
+{
+    unsigned char head[84] = "binary STL", record[50] = {0};
+    low_first(head + 80, (uint64_t)triangles(t), 4);
     fwrite(head, sizeof head, 1, f);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < m; j++)
-            for (int half = 0; half < 2; half++) {
-                float x[3][3];
-                double d, next;
-                corner(i, n, j, m, x[0]);
-                corner(i + 1, n, j + half, m, x[1]);
-                corner(i + 1 - half, n, j + 1, m, x[2]);
-                memcpy(record + 12, x, sizeof x);
-                fwrite(record, sizeof record, 1, f);
-                d = (double)x[0][0] *
-                        ((double)x[1][1] * (double)x[2][2] - (double)x[1][2] * (double)x[2][1]) +
-                    (double)x[0][1] *
-                        ((double)x[1][2] * (double)x[2][0] - (double)x[1][0] * (double)x[2][2]) +
-                    (double)x[0][2] * ((double)x[1][0] * (double)x[2][1] - (double)x[1][1] * (double)x[2][0]);
-                d -= carry; /* Kahan */
-                next = six + d;
-                carry = (next - six) - d;
-                six = next;
-            }
-    return fclose(f) == 0 ? six : (double)NAN;
+    for (int k = 0; k < triangles(t); k++) {
+        float x[3][3];
+        int at[3][2];
+        places(t, k, at);
+        for (int c = 0; c < 3; c++) corner(t, at[c][0], at[c][1], x[c]);
+        memcpy(record + 12, x, sizeof x);
+        fwrite(record, sizeof record, 1, f);
+    }
+}
+
+/* A row for each vertex and each triangle; with numbers when they are wanted, from 1. */
+static void put_rows(FILE *f, const struct torus *t, const char *vertex_row, const char *middle,
+                     const char *triangle_row, int base, int numbered)
+{
+    for (int k = 0; k < vertices(t); k++) {
+        float x[3];
+        vertex(t, k, x);
+        if (numbered) fprintf(f, vertex_row, k + 1, (double)x[0], (double)x[1], (double)x[2]);
+        else fprintf(f, vertex_row, (double)x[0], (double)x[1], (double)x[2]);
+    }
+    fprintf(f, "%s", middle);
+    for (int k = 0; k < triangles(t); k++) {
+        int v[3];
+        triangle(t, k, v);
+        if (numbered) fprintf(f, triangle_row, k + 1, v[0] + base, v[1] + base, v[2] + base);
+        else fprintf(f, triangle_row, v[0] + base, v[1] + base, v[2] + base);
+    }
+}
+
+static void put_obj(FILE *f, const struct torus *t)
+{
+    put_rows(f, t, "v %.9g %.9g %.9g\n", "", "f %d %d %d\n", 1, 0);
+}
+
+static void put_cdb(FILE *f, const struct torus *t)
+{
+    fprintf(f, "/PREP7\nET,1,181\nNBLOCK,6,SOLID,%d,%d\n(3i9,6e21.13e3)\n", vertices(t), vertices(t));
+    for (int k = 0; k < vertices(t); k++) {
+        float x[3];
+        vertex(t, k, x);
+        fprintf(f, "%9d%9d%9d%21.13E%21.13E%21.13E\n", k + 1, 0, 0, (double)x[0], (double)x[1], (double)x[2]);
+    }
+    fprintf(f, "N,R5.3,LOC,       -1,\nEBLOCK,19,SOLID,%d,%d\n(19i9)\n", triangles(t), triangles(t));
+    for (int k = 0; k < triangles(t); k++) {
+        int v[3];
+        triangle(t, k, v);
+        fprintf(f, "%9d%9d%9d%9d%9d%9d%9d%9d%9d%9d%9d%9d%9d%9d%9d\n", 1, 1, 1, 1, 0, 0, 0, 0, 4, 0, k + 1,
+                v[0] + 1, v[1] + 1, v[2] + 1, v[2] + 1);
+    }
+    fprintf(f, "%9d\nFINISH\n", -1);
+}
+
+static void put_inp(FILE *f, const struct torus *t)
+{
+    fprintf(f, "*NODE\n");
+    put_rows(f, t, "%d, %.9g, %.9g, %.9g\n", "*ELEMENT, TYPE=S3, ELSET=HULL\n", "%d, %d, %d, %d\n", 1, 1);
+}
+
+static void put_bdf(FILE *f, const struct torus *t)
+{
+    fprintf(f, "BEGIN BULK\n");
+    put_rows(f, t, "GRID,%d,,%.9g,%.9g,%.9g\n", "", "CTRIA3,%d,1,%d,%d,%d\n", 1, 1);
+    fprintf(f, "ENDDATA\n");
+}
+
+static void put_msh(FILE *f, const struct torus *t)
+{
+    char middle[100];
+    fprintf(f, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", vertices(t));
+    snprintf(middle, sizeof middle, "$EndNodes\n$Elements\n%d\n", triangles(t));
+    put_rows(f, t, "%d %.9g %.9g %.9g\n", middle, "%d 2 2 1 1 %d %d %d\n", 1, 1);
+    fprintf(f, "$EndElements\n");
+}
+
+static void put_vtk(FILE *f, const struct torus *t)
+{
+    char middle[100];
+    fprintf(f, "# vtk DataFile Version 3.0\ntorus\nASCII\nDATASET POLYDATA\nPOINTS %d float\n", vertices(t));
+    snprintf(middle, sizeof middle, "POLYGONS %d %d\n", triangles(t), 4 * triangles(t));
+    put_rows(f, t, "%.9g %.9g %.9g\n", middle, "3 %d %d %d\n", 0, 0);
+}
+
+/* Gmsh 4.1 in binary: one block of nodes, one of elements. */
+static void put_msh_binary(FILE *f, const struct torus *t)
+{
+    const uint64_t nv = (uint64_t)vertices(t), nt = (uint64_t)triangles(t);
+    unsigned char word[32];
+    fprintf(f, "$MeshFormat\n4.1 1 8\n");
+    low_first(word, 1, 4);
+    fwrite(word, 4, 1, f);
+    fprintf(f, "\n$EndMeshFormat\n$Nodes\n");
+    for (int k = 0; k < 4; k++) {
+        low_first(word, k == 1 || k == 3 ? nv : 1, 8);
+        fwrite(word, 8, 1, f);
+    }
+    low_first(word, 2, 4);
+    low_first(word + 4, 1, 4);
+    low_first(word + 8, 0, 4);
+    low_first(word + 12, nv, 8);
+    fwrite(word, 20, 1, f);
+    for (uint64_t k = 1; k <= nv; k++) {
+        low_first(word, k, 8);
+        fwrite(word, 8, 1, f);
+    }
+    for (int k = 0; k < vertices(t); k++) {
+        float x[3];
+        double d[3];
+        vertex(t, k, x);
+        for (int c = 0; c < 3; c++) d[c] = (double)x[c];
+        fwrite(d, sizeof d, 1, f);
+    }
+    fprintf(f, "\n$EndNodes\n$Elements\n");
+    for (int k = 0; k < 4; k++) {
+        low_first(word, k == 1 || k == 3 ? nt : 1, 8);
+        fwrite(word, 8, 1, f);
+    }
+    low_first(word, 2, 4);
+    low_first(word + 4, 1, 4);
+    low_first(word + 8, 2, 4);
+    low_first(word + 12, nt, 8);
+    fwrite(word, 20, 1, f);
+    for (int k = 0; k < triangles(t); k++) {
+        int v[3];
+        triangle(t, k, v);
+        low_first(word, (uint64_t)k + 1, 8);
+        for (int c = 0; c < 3; c++) low_first(word + 8 + 8 * c, (uint64_t)v[c] + 1, 8);
+        fwrite(word, 32, 1, f);
+    }
+    fprintf(f, "\n$EndElements\n");
+}
+
+static const struct format {
+    const char *name;
+    void (*put)(FILE *f, const struct torus *t);
+    int text;
+} FORMAT[] = {{"stl-binary", put_stl, 0}, {"msh-binary", put_msh_binary, 0},
+              {"obj", put_obj, 1},        {"vtk", put_vtk, 1},
+              {"msh", put_msh, 1},        {"inp", put_inp, 1},
+              {"bdf", put_bdf, 1},        {"cdb", put_cdb, 1}};
+enum { FORMATS = sizeof FORMAT / sizeof *FORMAT };
+
+/* Seconds to read a file by pieces and to convert each number in it; nan where it cannot be read. */
+static double read_numbers(const char *path)
+{
+    static char piece[(1 << 20) + 1];
+    const double start = now();
+    double sum = 0.0;
+    size_t have = 0, got;
+    FILE *f = fopen(path, "r");
+    if (!f) return NAN;
+    while ((got = fread(piece + have, 1, sizeof piece - 1 - have, f)) > 0) {
+        char *p = piece, *end = piece + have + got, *last = end;
+        *end = '\0';
+        while (last > piece && last[-1] != '\n') last--; /* whole lines */
+        while (p < last) {
+            if ((*p >= '0' && *p <= '9') || *p == '-' || *p == '.') sum += strtod(p, &p);
+            else p++;
+        }
+        have = (size_t)(end - last);
+        memmove(piece, last, have);
+    }
+    fclose(f);
+    return sum != 0.0 ? now() - start : (double)NAN;
 }
 
 /* Run a program with stdout and stderr into files; seconds, or nan. */
@@ -80,49 +274,84 @@ static double run(char *const argv[], const char *out, const char *said, double 
         if (o >= 0 && e >= 0 && dup2(o, 1) >= 0 && dup2(e, 2) >= 0) execvp(argv[0], argv);
         _exit(127);
     }
-    if (pid < 0 || waitpid(pid, &status, 0) != pid || status != 0) return NAN;
-    getrusage(RUSAGE_CHILDREN, &use);
+    if (pid < 0 || wait4(pid, &status, 0, &use) != pid || status != 0) return NAN;
     *gib = (double)use.ru_maxrss / 1048576.0;
     return now() - start;
 }
 
-/* Third number of the second row of the table: the volume. */
+/* Third number of the row under the first head of a table: the volume. */
 static double told_volume(const char *said)
 {
     char row[1000];
     double volume = NAN;
     FILE *f = fopen(said, "r");
-    if (f && fgets(row, sizeof row, f) && fgets(row, sizeof row, f) &&
-        sscanf(row, "%*s %*s %*s %lf", &volume) != 1)
-        volume = NAN;
+    while (f && fgets(row, sizeof row, f))
+        if (strncmp(row, "part ", 5) == 0) {
+            if (!fgets(row, sizeof row, f) || sscanf(row, "%*s %*s %*s %lf", &volume) != 1) volume = NAN;
+            break;
+        }
     if (f) fclose(f);
     return volume;
+}
+
+static double megabytes(const char *path)
+{
+    struct stat st;
+    return stat(path, &st) == 0 ? 1e-6 * (double)st.st_size : (double)NAN;
+}
+
+/* One format: a row of the table.  Was it read, and within the memory? */
+static int measure(const struct format *k, const struct torus *t, double volume, char *tool, const char *stem)
+{
+    char mesh[PATH + 20], out[PATH + 20], said[PATH + 20], number[40] = "-", ratio[40] = "-";
+    double count, import, error, size, gib = 0.0, none;
+    FILE *f;
+    snprintf(mesh, sizeof mesh, "%s.%s", stem, k->name);
+    snprintf(out, sizeof out, "%s.dat", stem);
+    snprintf(said, sizeof said, "%s.said", stem);
+    f = fopen(mesh, "wb");
+    if (!f) return 0;
+    k->put(f, t);
+    if (fclose(f) != 0) return 0;
+    size = megabytes(mesh);
+    count = run((char *[]){"wc", mesh, NULL}, out, said, &none);
+    if (k->text) {
+        const double numbers = read_numbers(mesh);
+        snprintf(number, sizeof number, "%.2f", numbers);
+        import = run((char *[]){tool, mesh, NULL}, out, said, &gib);
+        snprintf(ratio, sizeof ratio, "%.1f", import / numbers);
+    } else {
+        import = run((char *[]){tool, mesh, NULL}, out, said, &gib);
+    }
+    error = fabs(told_volume(said) - volume) / volume;
+    printf("%-10s\t%d\t%.0f\t%.2f\t%s\t%.2f\t%.1f\t%s\t%.2f\t%.2g\n", k->name, triangles(t), size, count,
+           number, import, import / count, ratio, gib, error);
+    fflush(stdout);
+    remove(mesh);
+    remove(out);
+    remove(said);
+    return gib < LIMIT && error < 1e-8; /* the table tells nine digits */
 }
 
 int main(int argc, char **argv)
 {
     const int want = argc > 1 ? atoi(argv[1]) : TRIANGLES;
-    const int m = (int)fmax(3.0, sqrt(want / 4.0)), n = (int)fmax(3.0, want / (2.0 * m));
+    const int m = (int)fmax(3.0, sqrt(want / 4.0));
+    const struct torus t = {(int)fmax(3.0, want / (2.0 * m)), m};
     const char *dir = getenv("TMPDIR"), *slash = strrchr(argv[0], '/');
-    char stl[PATH], out[PATH], said[PATH], tool[PATH];
-    double six, count, import, error, gib = 0.0, none;
-    int ok;
+    const double volume = six_volumes(&t) / 6.0;
+    char stem[PATH], tool[PATH];
+    int passed = 0, failed = 0;
     snprintf(tool, sizeof tool, "%.*s/../../bin/struct-import", slash ? (int)(slash - argv[0]) : 1,
              slash ? argv[0] : ".");
-    snprintf(stl, sizeof stl, "%s/floe-bench-%ld.stl", dir ? dir : "/tmp", (long)getpid());
-    snprintf(out, sizeof out, "%s/floe-bench-%ld.dat", dir ? dir : "/tmp", (long)getpid());
-    snprintf(said, sizeof said, "%s/floe-bench-%ld.said", dir ? dir : "/tmp", (long)getpid());
-    six = make_torus(stl, n, m);
-    count = run((char *[]){"wc", stl, NULL}, out, said, &none);
-    import = run((char *[]){tool, stl, NULL}, out, said, &gib);
-    error = fabs(told_volume(said) - six / 6.0) / (six / 6.0);
-    printf("triangles\tfile[MB]\twc[s]\timport[s]\timport/wc\tpeak[GiB]\terror of volume\n");
-    printf("%d\t%.0f\t%.2f\t%.2f\t%.1f\t%.2f\t%.2g\n", 2 * n * m, 1e-6 * (84.0 + 100.0 * n * m), count,
-           import, import / count, gib, error);
-    remove(stl);
-    remove(out);
-    remove(said);
-    ok = gib < LIMIT && error < 1e-8; /* the table tells nine digits */
-    printf("%d passed, %d failed\n", ok, !ok);
-    return !ok;
+    snprintf(stem, sizeof stem, "%s/floe-bench-%ld", dir ? dir : "/tmp", (long)getpid());
+    printf("format\ttriangles\tfile[MB]\twc[s]\tstrtod[s]\timport[s]\timport/wc\timport/strtod\tpeak[GiB]\t"
+           "error of volume\n");
+    for (int k = 0; k < FORMATS; k++) {
+        if (argc > 2 && strcmp(argv[2], FORMAT[k].name) != 0) continue;
+        if (measure(&FORMAT[k], &t, volume, tool, stem)) passed++;
+        else failed++;
+    }
+    printf("%d passed, %d failed\n", passed, failed);
+    return failed > 0 || passed == 0;
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/par.h"
 #include "base/stream.h"
 #include "geom/facet.h"
 #include "mesh/gstruct.h"
@@ -142,6 +144,7 @@ static int run(const struct options *o, fl_err *err)
     fl_surface s = {0};
     struct mended *m = NULL;
     int rc = -1;
+    if (o->threads) omp_set_num_threads(o->threads);
     if (collect(o, &s, err)) goto done;
     m = fl_alloc(s.n, sizeof *m, err);
     if (!m) goto done;
@@ -160,6 +163,7 @@ int main(int argc, char **argv)
 {
     struct options o;
     fl_err err = {0};
+    fl_par_wait_briefly(argv);
     int rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
     if (rc == 0 && !o.ended) rc = run(&o, &err);
     options_free(&o);

@@ -3,6 +3,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "mend.h"
+#include "mesh/crossing.h"
 #include "shim/cgal_distance.h"
 #include "shim/cgal_remesh.h"
 #include "shim/cgal_simplify.h"
@@ -80,12 +81,6 @@ static int repair(fl_part *p, int32_t holes, double size, fl_repair *did, fl_err
     return rc;
 }
 
-static int count_crossings(const fl_part *p, fl_crossing *c, fl_err *err)
-{
-    const fl_soup s = seen_as(p);
-    return fl_cgal_crossings(&s, c, err);
-}
-
 static int untangle(fl_part *p, struct mended *m, fl_err *err)
 {
     fl_soup s = {0};
@@ -93,7 +88,8 @@ static int untangle(fl_part *p, struct mended *m, fl_err *err)
     if (to_soup(p, &s, err) == 0 && fl_cgal_untangle(&s, &m->untangle, err) == 0) rc = 0;
     /* new corners were rounded, which may leave triangles of one line */
     if (rc == 0 && m->untangle.joined + m->untangle.rebuilt > 0)
-        rc = from_soup(p, &s, err) || repair(p, 0, 0.0, &m->repair, err) || count_crossings(p, &m->meet, err);
+        rc = from_soup(p, &s, err) || repair(p, 0, 0.0, &m->repair, err) ||
+             fl_part_crossings(p, &m->meet, err);
     fl_soup_free(&s);
     return rc ? -1 : 0;
 }
@@ -159,12 +155,12 @@ static int cure(fl_part *p, const struct options *o, struct mended *m, double bl
     if (fl_part_orient(p, &m->orient, err)) return -1;
     if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->left, err)) return -1;
     if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
-    if (count_crossings(p, &m->meet, err)) return -1;
+    if (fl_part_crossings(p, &m->meet, err)) return -1;
     if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
     if (p->nt == 0 || (o->simplify <= 0.0 && o->remesh <= 0.0)) return 0;
     if (o->simplify > 0.0 && simplify(p, o->simplify, blur, &m->simplified, err)) return -1;
     if (o->remesh > 0.0 && remesh(p, o, blur, err)) return -1;
-    return count_crossings(p, &m->meet, err);
+    return fl_part_crossings(p, &m->meet, err);
 }
 
 /* Can anything but welding have moved the surface? */

@@ -39,7 +39,7 @@ static const char HELP[] =
     "      --plot WHERE        draw three views, into FILE.png, FILE.svg or a folder (by gnuplot)\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the output\n"
-    "  -j, --threads N         threads; the import works on one whatever N is\n"
+    "  -j, --threads N         threads of the search for crossings; the result is the same for any number\n"
     "  -q, --quiet             no table and no warnings on standard error\n"
     "  -v, --verbose           more about what was mended\n"
     "  -h, --help              this text\n"

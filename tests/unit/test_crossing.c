@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include "base/mem.h"
+#include "base/rng.h"
+#include "mesh/crossing.h"
+#include "support/near.h"
+
+static fl_err err;
+static fl_part p;
+
+static int end(void **state)
+{
+    (void)state;
+    fl_part_free(&p);
+    return 0;
+}
+
+/* The search by all threads finds what the search of CGAL does, pair for pair of them. */
+static fl_crossing agree(void)
+{
+    const fl_soup s = {p.nv, p.nt, p.nv ? &p.v[0].x : NULL, p.nt ? p.t[0].v : NULL};
+    fl_crossing want, got;
+    if (fl_cgal_crossings(&s, &want, &err)) fail_msg("%s", err.text);
+    for (int threads = 1; threads <= 3; threads++) {
+        omp_set_num_threads(threads);
+        if (fl_part_crossings(&p, &got, &err)) fail_msg("%s", err.text);
+        assert_int_equal(got.crossings, want.crossings);
+        assert_int_equal(got.touching, want.touching);
+    }
+    return got;
+}
+
+static void vertex(double x, double y, double z)
+{
+    if (fl_surface_vertex(&p, v3(x, y, z), &err)) fail_msg("%s", err.text);
+}
+
+static void triangle(int32_t a, int32_t b, int32_t c)
+{
+    if (fl_surface_triangle(&p, a, b, c, &err)) fail_msg("%s", err.text);
+}
+
+/* Corners on a small lattice of whole numbers, turned or not, near the origin or far from it: pairs that
+ * share, touch, lie in one plane, cover each other, of no area. */
+static void it_finds_what_cgal_finds(void **state)
+{
+    int64_t crossings = 0, touching = 0;
+    for (int k = 0; k < test_times(30); k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        const int side = 2 + (int)(fl_rng_u64(&g) % 6), turned = k % 3 == 1, nv = 20 + k % 40;
+        const double far = k % 4 == 3 ? 1e6 : 0.0, size = k % 5 == 4 ? 1e-3 : 1.0;
+        fl_crossing c;
+        for (int v = 0; v < nv; v++) {
+            const double x = (double)(fl_rng_u64(&g) % (uint64_t)side),
+                         y = (double)(fl_rng_u64(&g) % (uint64_t)side);
+            const double z = k % 2 ? (double)(fl_rng_u64(&g) % (uint64_t)side) : 0.0;
+            if (turned) vertex(far + size * (0.6 * x - 0.8 * z), far + size * y, size * (0.8 * x + 0.6 * z));
+            else vertex(far + size * x, far + size * y, size * z);
+        }
+        for (int t = 0; t < 60; t++) {
+            const int32_t a = (int32_t)(fl_rng_u64(&g) % (uint64_t)nv), b = (a + 1 + t % (nv - 2)) % nv;
+            const int32_t d = (int32_t)(fl_rng_u64(&g) % (uint64_t)nv);
+            if (d != a && d != b) triangle(a, b, d);
+        }
+        c = agree();
+        crossings += c.crossings;
+        touching += c.touching;
+        end(state);
+    }
+    assert_true(crossings > 500 && touching > 50);
+}
+
+/* A sheet of n by n squares, each cut in two: flat, bent, rough; a second one through it at an angle. */
+static void sheet(int n, double bend, double rough, double tilt)
+{
+    const int32_t first = p.nv;
+    for (int i = 0; i <= n; i++)
+        for (int j = 0; j <= n; j++) {
+            fl_rng g = fl_rng_of(test_seed(), i * (n + 1) + j, FL_RNG_TEST);
+            const double x = 0.7 * i, y = 0.3 * (j - 0.5 * n) + 0.05 * i,
+                         z = bend * x * x + rough * fl_rng_in(&g, -1.0, 1.0);
+            vertex(x, y * cos(tilt) - z * sin(tilt), y * sin(tilt) + z * cos(tilt));
+        }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const int32_t a = first + i * (n + 1) + j, b = a + n + 1;
+            triangle(a, b, b + 1);
+            triangle(a, b + 1, a + 1);
+        }
+}
+
+static void sheets_are_sound_until_one_passes_through(void **state)
+{
+    static const double row[][3] = {{0, 0, 0}, {0, 0, 0.5}, {0.1, 0, 0}, {0, 0.05, 0.3}, {0.02, 0.2, 1.0}};
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fl_crossing c;
+        sheet(30, row[k][0], row[k][1], row[k][2]);
+        c = agree();
+        assert_int_equal(c.crossings, 0);
+        assert_int_equal(c.touching, 0);
+        sheet(20, 0.0, 0.01, row[k][2] + 0.7);
+        c = agree();
+        assert_true(c.crossings > 10);
+        end(state);
+    }
+}
+
+static void small_parts_and_no_memory(void **state)
+{
+    fl_crossing c;
+    int rc = -1;
+    assert_int_equal(fl_part_crossings(&p, &c, &err), 0);
+    vertex(0, 0, 0);
+    vertex(1, 0, 0);
+    vertex(0, 1, 0);
+    triangle(0, 1, 2);
+    assert_int_equal(agree().crossings, 0);
+    triangle(0, 2, 1); /* on the first */
+    assert_int_equal(agree().crossings, 1);
+    for (int k = 2; k < 40; k++) triangle(0, 1, 2);
+    assert_int_equal(agree().crossings, 40 * 39 / 2);
+    for (long fail = 0; rc; fail++) {
+        err = (fl_err){0};
+        fl_mem_fail_after(fail);
+        rc = fl_part_crossings(&p, &c, &err);
+        fl_mem_fail_after(-1);
+        assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
+    }
+    end(state);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(it_finds_what_cgal_finds, end),
+        cmocka_unit_test_teardown(sheets_are_sound_until_one_passes_through, end),
+        cmocka_unit_test_teardown(small_parts_and_no_memory, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
