@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hard cases that no other table holds, a line or two each.  The others are in
  *     verify_contact    H01 H02 H10 H11 H12 H14 H15 H16 H17
- *     verify_structure  H29 H30 (the rows of V30)
+ *     verify_structure  H29 (and the rows of V30)
+ *     verify_cone       H30 (V30 at any angle)
  *     verify_geometry   H23 H24        verify_floating  H25 H38        verify_ice  H05
  *     test_gjk          H03            test_poly, test_field, test_mass  H06 H07 H13
  *     dem-solve-errors  H37
