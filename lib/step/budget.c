@@ -32,7 +32,7 @@ enum {
     AGAIN = 10,       /* steps between looks over those of a look */
     ALLOWED = 64,     /* windows of trials that are allowed at once, and */
     SHARE = 3,        /* beyond them: steps of the run over steps of trials */
-    PARTING = 48      /* time so far over a window that measures how states part */
+    PARTING = 24      /* time so far over a window that measures how states part */
 };
 
 /* --- a trial ----------------------------------------------------------------------------------- */
@@ -115,8 +115,11 @@ static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_bud
     const int bad = fl_snapshot_read(w, &in, err);
     fl_text_close(&in);
     if (bad) return -1;
-    for (int32_t i = 0; i < w->n && shift > 0.0; i++)
-        w->b.x[i].x += (i % 2 ? 1.0 : -1.0) * shift * (w->b.bound[i] + w->b.radius[i]);
+    for (int32_t i = 0; i < w->n && shift > 0.0; i++) {
+        const double by = (i % 2 ? shift : -shift) * (w->b.bound[i] + w->b.radius[i]);
+        w->b.x[i].x += by;
+        w->b.v[i].x += by / (g->every * last);
+    }
     fl_step_resize(w, g->every / m, fl_world_time(w));
     const double before = w->impulse_size;
     for (int32_t p = 0; p < w->parts; p++) {
@@ -356,15 +359,19 @@ static int afford(const fl_budget *g, const fl_world *w)
     return g->spent < w->step / SHARE + (int64_t)ALLOWED * g->rows * g->least;
 }
 
-/* Distance of two ends, root of the mean square. */
-static double distance(const fl_budget *g, const fl_budget_end *x, const fl_budget_end *y)
+/* Distance of two ends, positions and what velocities amount to in time T: root of the mean square. */
+static double distance(const fl_budget *g, const fl_budget_end *x, const fl_budget_end *y, double T)
 {
     double sum = 0.0;
-    for (int32_t i = 0; i < g->trial.n; i++) sum += v3_norm2(v3_sub(x->x[i], y->x[i]));
+    for (int32_t i = 0; i < g->trial.n; i++) {
+        const fl_vec3 speed = v3_scale(g->trial.b.invm[i], v3_sub(x->p[i], y->p[i]));
+        sum += v3_norm2(v3_sub(x->x[i], y->x[i])) + T * T * v3_norm2(speed);
+    }
     return sqrt(sum / g->trial.n);
 }
 
-/* How fast states part that differ by little. */
+/* How fast states part that differ by little, beyond what they would in free flight: shifted by s, and as much
+ * again by their speed, to which the speed itself comes. */
 static int measure_parting(fl_budget *g, const fl_world *w, int64_t row, int32_t m, fl_err *err)
 {
     const int32_t rows = (int32_t)fmax(g->rows, (double)(row / PARTING));
@@ -373,11 +380,15 @@ static int measure_parting(fl_budget *g, const fl_world *w, int64_t row, int32_t
         if (trial(g, m, rows, k ? SHIFT : 0.0, &g->end[k], err) < 0) return -1;
     for (int32_t i = 0; i < w->n; i++) {
         const double s = SHIFT * (w->b.bound[i] + w->b.radius[i]);
-        start += s * s;
+        start += 5.0 * s * s;
     }
     start = sqrt(start / w->n);
-    const double end = distance(g, &g->end[0], &g->end[1]);
-    g->rate = end > start && isfinite(end) ? fl_log(end / start) / (g->every * rows) : 0.0;
+    const double end = distance(g, &g->end[0], &g->end[1], g->every * rows);
+    if (start > 0.0 && end > 0.0 && isfinite(end) && !g->end[1].failed) {
+        g->grown += fl_log(end / start);
+        g->grown_in += g->every * rows;
+    }
+    g->rate = g->grown > 0.0 ? g->grown / g->grown_in : 0.0;
     g->part_next = 2.0 * g->every * (double)(row + rows);
     if (g->rate * g->every * g->rows > 1.0) g->rows = (int32_t)fmax(1.0, 1.0 / (g->rate * g->every));
     return 0;
@@ -400,6 +411,9 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     if (row % g->rows) return 0;
     const int due = !first && w->step - g->looked_at >= AGAIN * g->last_cost;
     if (list_far(g, w, err)) return -1;
+    if (t > 0.0 && t >= g->part_next &&
+        (take_state(g, w, err) || measure_parting(g, w, row, steps_of(g, w->dt), err)))
+        return -1;
     if (!due && !(something_new(g, w) && afford(g, w))) return 0;
     int32_t m = steps_of(g, w->dt), rows;
     const int64_t before = g->spent;
@@ -414,7 +428,6 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     if (news || (due && g->end[0].taken > 0.0) || g->end[0].failed) {
         if (calibrate(g, &m, rows, err)) return -1;
         for (int32_t k = 0; k < PARTS + w->parts; k++) g->known[k] = fmax(g->known[k], g->seen[k]);
-        if (t >= g->part_next && measure_parting(g, w, row, m, err)) return -1;
         g->looks++;
     }
     if (news || due) {
@@ -504,7 +517,7 @@ static int exchange(FILE *f, fl_text *in, fl_budget *g, fl_err *err)
 {
     int64_t rows = g->rows, windows = g->windows, latest = g->latest;
     int64_t *const count[] = {&rows, &windows, &latest, &g->looks, &g->looked_at, &g->spent, &g->last_cost};
-    double *const real[] = {&g->rate, &g->part_next, &g->shortest, &g->longest};
+    double *const real[] = {&g->rate, &g->grown, &g->grown_in, &g->part_next, &g->shortest, &g->longest};
     if (row_begin(f, in, "budget", err)) return -1;
     for (size_t k = 0; k < sizeof count / sizeof *count; k++)
         if (pass_count(f, in, count[k], err)) return -1;

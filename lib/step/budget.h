@@ -19,10 +19,11 @@
  * after ten times as many steps as the last look took.  An impact that is not over is followed by further
  * rows.
  *
- * How far ahead a state tells anything is measured by two windows whose floes differ by SHIFT of their size:
- *     rate = ln(distance at the end / at the start) / window,
- * and windows stay shorter than 1/rate.  All of it follows from the states alone: same bits on any number of
- * threads, and after a stop.  Source: Richardson, Phil. Trans. A 226 (1927) 299. */
+ * How far ahead a state tells anything is measured, after a time and again after twice of it, by two windows
+ * T whose floes differ by a small shift s, and by s/T in speed: rate = ln(distance at the end / that of free
+ * flight) / T, averaged, where the distance is of positions and of speeds times T.  Windows stay shorter than
+ * 1/rate.  All of it follows from the states alone: same bits on any number of threads, and after a stop.
+ * Source: Richardson, Phil. Trans. A 226 (1927) 299. */
 #ifndef FL_STEP_BUDGET_H
 #define FL_STEP_BUDGET_H
 #include <stdio.h>
@@ -62,6 +63,7 @@ typedef struct {
     double *known;            /* [2 + parts] momentum of the hardest meeting seen, by kind; -1: none [N s] */
     double *seen;             /* [2 + parts] of the trial under way */
     double rate;              /* at which near states part [1/s] */
+    double grown, grown_in;   /* sum of the logarithms, and of the windows they are of [s] */
     double part_next;         /* when that is measured again [s] */
     double shortest, longest; /* steps taken so far [s] */
     fl_world trial;

@@ -232,6 +232,88 @@ static int try(const scene *s, double goal, const char *of)
     return (e <= goal) | (share >= 0.5) << 1;
 }
 
+/* --- how far ahead a state tells anything ------------------------------------------------------ */
+
+/* Square floes that fly about a post between walls, elastic: what is near parts. */
+static void billiards(lab *l)
+{
+    dry(l, 0, 1), post(l, 0, 0, 0.7);
+    lab_set(l, "boundary.min=-4.2 -4.2 none"), lab_set(l, "boundary.max=4.2 4.2 none");
+    for (int k = 0; k < 9; k++)
+        if (k != 4)
+            floe(l, v3(2.6 * (k % 3 - 1), 2.6 * (k / 3 - 1), 0), 0.9, 0.2 * k,
+                 v3(2.0 - 0.7 * (k % 4), 1.5 - 0.9 * (k % 3), 0));
+}
+
+static void billiards_made(lab *l, double seconds, double error)
+{
+    lab_start(l);
+    lab_set(l, "contact.softening=0.01");
+    lab_setf(l, "output.loads_every=%.17g", EVERY);
+    lab_setf(l, "run.duration=%g", seconds);
+    if (error > 0.0) lab_setf(l, "run.error=%g", error);
+    billiards(l);
+}
+
+/* Root of the mean square distance of the floes of two worlds. */
+static double distance(const fl_world *a, const fl_world *b)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < a->n; i++) sum += v3_norm2(v3_sub(a->b.x[i], b->b.x[i]));
+    return sqrt(sum / a->n);
+}
+
+/* How long two runs that are a bit apart at `from` take until they are `far` from one another. */
+static double parted(double from, double seconds, double dt, double far)
+{
+    lab a, b;
+    double t = 0.0;
+    billiards_made(&a, seconds, 0.0), billiards_made(&b, seconds, 0.0);
+    lab_make(&a, dt), lab_make(&b, dt);
+    if (lab_run(&a, (int64_t)(from / dt)) || lab_run(&b, (int64_t)(from / dt))) exit(1);
+    for (int32_t i = 0; i < b.w.n; i++) b.w.b.x[i].x = nextafter(b.w.b.x[i].x, INFINITY);
+    while (t < seconds && distance(&a.w, &b.w) < far) {
+        if (lab_run(&a, 16) || lab_run(&b, 16)) break;
+        t = fl_world_time(&a.w) - from;
+    }
+    lab_free(&a), lab_free(&b);
+    return t;
+}
+
+static void parting(void)
+{
+    const double goal = 0.01, seconds = verify_quick() ? 12.0 : 60.0;
+    lab l;
+    fl_budget g = {0};
+    fl_err err = {0};
+    billiards_made(&l, seconds, goal);
+    lab_set(&l, "structure.file=lab");
+    if (fl_scene_check(&l.scene, &err) || fl_budget_make(&g, &l.scene, &l.field, &l.surface, &err)) exit(1);
+    lab_make(&l, fl_budget_start(&g));
+    for (int64_t row = 0; row < (int64_t)lround(seconds / EVERY); row++) {
+        if (fl_budget_look(&g, &l.w, row, &err)) exit(1);
+        if (lab_run(&l, (int64_t)lround(EVERY / l.w.dt))) break;
+    }
+    const double told = fl_budget_horizon(&g);
+    verify_note("elastic floes about a post: states part at %.3g /s, horizon %.3g s, windows of %.3g s",
+                g.rate, told, g.every * g.rows);
+    if (!verify_quick()) {
+        double found = 0.0;
+        for (int k = 0; k < 4; k++) {
+            const double one = parted(0.25 * k * seconds, seconds, 2.0 * fl_budget_start(&g) / 3.0, goal);
+            verify_note("two runs a bit apart at %g s are %g m apart %.3g s later", 0.25 * k * seconds, goal,
+                        one);
+            found += 0.25 * one;
+        }
+        verify_row("E04", "log2 of the horizon over that of two runs a bit apart", log2(told / found), 0.0,
+                   1.0, VERIFY_ABS);
+    }
+    verify_true("E04", "the run as a whole is told to be undetermined", told < 60.0);
+    verify_below("E04", "length of windows times the rate", g.rate * g.every * g.rows, 1.0);
+    fl_budget_free(&g);
+    lab_free(&l);
+}
+
 int main(void)
 {
     static const struct {
@@ -259,5 +341,6 @@ int main(void)
                    TABLE[t].short_of, VERIFY_ABS);
         if (verify_quick()) break;
     }
+    parting();
     return verify_end();
 }
