@@ -55,8 +55,8 @@ static void any_angle(void)
     sphere_at("H30", "in the point itself", 1, 0, 2, v3(0, 0, 2), 0.1, ZERO);
 }
 
-/* For polyhedra a cone is a frustum of 96 sides with the cross-section of the circle: corners at f R, flats at
- * f R cos(pi/96), f^2 = (2 pi/96)/sin(2 pi/96).  A flat floe meets a corner, the corner of a floe a flat. */
+/* For polyhedra a cone is a frustum of 96 sides with the cross-section of the circle: corners at f R, flats
+ * at f R cos(pi/96), f^2 = (2 pi/96)/sin(2 pi/96).  A flat floe meets a corner, the corner of a floe a flat. */
 static void frustum(void)
 {
     const double R = 2.0, f = sqrt(2 * PI / FL_CONE_SIDES / sin(2 * PI / FL_CONE_SIDES)),
@@ -98,8 +98,8 @@ static void frustum(void)
     verify_below("cone", "face: mean error of the overlap over R (1 - cos(pi/96))", fabs(mean) / bound, 1.0);
 }
 
-/* 49 151 triangles that do not close, so that they are a shell, with a floe at the side.  Moved and turned with
- * the floe, they give the same force; the tree is the one that was built. */
+/* 49 151 triangles that do not close, so that they are a shell, with a floe at the side.  Moved and turned
+ * with the floe, they give the same force; the tree is the one that was built. */
 static void hull(void)
 {
     const int n = verify_quick() ? 16 : 64;
