@@ -1,20 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "base/mem.h"
+#include "base/wide.h"
 #include "narrow/areas.h"
 #include "narrow/overlap.h"
 
-/* Faces nearer to a right angle than this have no area over each other. */
-#define LEVEL 1e-6
 #define SAME 1e-13 /* of the size: how far below the other's plane still counts as on it */
 
-/* Symmetric rule of degree 4: points (1 - 2a, a, a) and turns of it; weights of a triangle of area 1. */
-static const double A4[2] = {0.44594849091596488632, 0.09157621350977074346};
-static const double W4[2] = {0.22338158967801146570, 0.10995174365532186764};
-/* The same of degree 5, and the middle with a weight of 9/40: for the rim, where the fade is linear. */
-static const double A5[2] = {0.47014206410511508977, 0.10128650732345633880};
-static const double W5[2] = {0.13239415278850618074, 0.12593918054482715260};
-#define MIDDLE 0.225
+/* Points of a triangle, exact for polynomials of degree 5: the middle, and two triples (1 - 2a, a, a). */
+#define A1 0.47014206410511508977
+#define A2 0.10128650732345633880
+enum { NODES = 7 };
+static const double NODE[NODES][3] = {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {1.0 - 2.0 * A1, A1, A1},
+                                      {A1, 1.0 - 2.0 * A1, A1},          {A1, A1, 1.0 - 2.0 * A1},
+                                      {1.0 - 2.0 * A2, A2, A2},          {A2, 1.0 - 2.0 * A2, A2},
+                                      {A2, A2, 1.0 - 2.0 * A2}};
+static const double WEIGHT[NODES] = {0.225,
+                                     0.13239415278850618074,
+                                     0.13239415278850618074,
+                                     0.13239415278850618074,
+                                     0.12593918054482715260,
+                                     0.12593918054482715260,
+                                     0.12593918054482715260};
 /* Gauss' three points on [0, 1] */
 static const double GAUSS[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
 static const double GAUSS_WEIGHT[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
@@ -44,20 +51,33 @@ static int32_t cut(const corner *p, const double *g, int32_t n, corner *out)
     return m;
 }
 
-/* Where the plane of f is, and F over it; and the sums over all nodes, relative to the corner `at` of the
+/* Triangles until there are enough to fill a register: corners, overlaps and fades there, areas. */
+typedef struct {
+    fl_wide x[3], y[3], s[3], fade[3], area;
+    int n;
+} batch;
+
+/* Sums over nodes of u, its derivatives, du s, the largest s; of du x, ..., about the first corner of the
  * first polygon: what is far away keeps its digits. */
+typedef struct {
+    fl_wide u, du, ddu, s, most, x, y, xx, xy, yy;
+} sums;
+
+/* Where the plane of f is, and F over it. */
 typedef struct {
     fl_places *w;
     const fl_side *own;
     fl_across at; /* origin and axes in the plane of f */
     fl_vec3 nf, nF;
-    double slope, half, R; /* -n_F.n_f; 1/2, or 1 for a plane */
+    double slope, half, R; /* c = -n_F.n_f; 1/2, or 1 for a plane */
+    double m, dm;          /* half of m(c), and its derivative */
     double c0, cx, cy;     /* fade, c0 + cx x + cy y */
     int begun;
-    double x0, y0;              /* the first corner */
-    double u, du, ddu, s, most; /* sums of u, its derivatives, du s; largest s */
-    double x, y, xx, xy, yy;    /* sums of du x ... */
-    fl_vec3 pull, turn;         /* of the rims: force, and moment about the first corner on the plane of f */
+    double x0, y0;      /* the first corner */
+    fl_vec3 pull, turn; /* of the rims, in the axes at.x, at.y, nf: force, and moment about the first corner
+                         * on the plane of f */
+    batch b;
+    sums sum;
 } footprint;
 
 static fl_vec3 lift(const footprint *q, double x, double y, double s)
@@ -66,58 +86,62 @@ static fl_vec3 lift(const footprint *q, double x, double y, double s)
     return v3_madd(v3_madd(o, x, q->at.x), y, q->at.y);
 }
 
-static void node(footprint *q, double x, double y, double s, double area)
+/* The triangles of b, and b is empty. */
+FL_WIDE_VERSIONS static void take(batch *b, sums *q)
 {
-    const double fade = q->c0 + q->cx * x + q->cy * y, k = area * fade, s2 = s * s;
-    if (s <= 0.0 || fade <= 0.0) return;
-    const double du = 4.0 * k * s2 * s;
-    x -= q->x0, y -= q->y0;
-    q->u += k * s2 * s2;
-    q->du += du;
-    q->ddu += 12.0 * k * s2;
-    q->s += du * s;
-    q->x += du * x;
-    q->y += du * y;
-    q->xx += du * x * x;
-    q->xy += du * x * y;
-    q->yy += du * y * y;
-    if (s > q->most) q->most = s;
+    for (int k = b->n; k < FL_LANES; k++) b->area[k] = 0.0;
+    for (int k = 0; k < NODES; k++) {
+        const double b0 = NODE[k][0], b1 = NODE[k][1], b2 = NODE[k][2];
+        const fl_wide x = b0 * b->x[0] + b1 * b->x[1] + b2 * b->x[2];
+        const fl_wide y = b0 * b->y[0] + b1 * b->y[1] + b2 * b->y[2];
+        const fl_wide to = b0 * b->s[0] + b1 * b->s[1] + b2 * b->s[2], s = FL_WIDE_WHERE(to > 0.0, to);
+        const fl_wide f = b0 * b->fade[0] + b1 * b->fade[1] + b2 * b->fade[2];
+        const fl_wide area = WEIGHT[k] * b->area * FL_WIDE_WHERE(f > 0.0, f), s2 = s * s, part = area * s2;
+        const fl_wide du = 4.0 * part * s;
+        const fl_wide here = FL_WIDE_WHERE(area > 0.0, s);
+        q->u += part * s2;
+        q->du += du;
+        q->ddu += 12.0 * part;
+        q->s += du * s;
+        q->x += du * x;
+        q->y += du * y;
+        q->xx += du * x * x;
+        q->xy += du * x * y;
+        q->yy += du * y * y;
+        q->most = FL_WIDE_CHOOSE(here > q->most, here, q->most);
+    }
+    b->n = 0;
 }
 
-static void triangle(footprint *q, corner a, corner b, corner c)
+static double fade(const footprint *q, double x, double y) { return q->c0 + q->cx * x + q->cy * y; }
+
+static void triangle(footprint *q, corner a, corner b, corner c, double area)
 {
-    const double area = 0.5 * fabs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
     const corner t[3] = {a, b, c};
-    if (area == 0.0) return;
-    const int flat = q->cx == 0.0 && q->cy == 0.0;
-    const double *at = flat ? A4 : A5, *weight = flat ? W4 : W5;
+    const int n = q->b.n++;
     for (int k = 0; k < 3; k++) {
-        const corner p = t[k], r = t[(k + 1) % 3], l = t[(k + 2) % 3];
-        for (int rule = 0; rule < 2; rule++) {
-            const double m = at[rule], o = 1.0 - 2.0 * m;
-            node(q, o * p.x + m * (r.x + l.x), o * p.y + m * (r.y + l.y), o * p.s + m * (r.s + l.s),
-                 weight[rule] * area);
-        }
+        q->b.x[k][n] = t[k].x - q->x0;
+        q->b.y[k][n] = t[k].y - q->y0;
+        q->b.s[k][n] = t[k].s;
+        q->b.fade[k][n] = fade(q, t[k].x, t[k].y);
     }
-    if (!flat)
-        node(q, (a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, (a.s + b.s + c.s) / 3.0, MIDDLE * area);
+    q->b.area[n] = area;
+    if (n + 1 == FL_LANES) take(&q->b, &q->sum);
 }
 
 /* Moving F outward over its own rim a b makes the area larger: the gradient of that. */
 static void rim(footprint *q, corner a, corner b, double turn)
 {
-    const double ex = b.x - a.x, ey = b.y - a.y, length = sqrt(ex * ex + ey * ey);
-    if (length == 0.0) return;
-    const fl_vec3 out = v3_scale(turn / length, v3_sub(v3_scale(ey, q->at.x), v3_scale(ex, q->at.y)));
+    const double ex = b.x - a.x, ey = b.y - a.y, nx = turn * ey,
+                 ny = -turn * ex; /* outward, as long as a b */
     for (int k = 0; k < 3; k++) {
         const double t = GAUSS[k], s = a.s + t * (b.s - a.s), s2 = s * s;
-        const double x = a.x + t * ex, y = a.y + t * ey, fade = q->c0 + q->cx * x + q->cy * y;
-        if (s <= 0.0 || fade <= 0.0) continue;
-        const fl_vec3 f = v3_scale(GAUSS_WEIGHT[k] * length * fade * s2 * s2, out);
-        fl_vec3 arm = v3_scale(q->R - s, q->nf);
-        arm = v3_madd(v3_madd(arm, x - q->x0, q->at.x), y - q->y0, q->at.y);
+        const double x = a.x + t * ex, y = a.y + t * ey, part = fade(q, x, y);
+        if (s <= 0.0 || part <= 0.0) continue;
+        const double c = GAUSS_WEIGHT[k] * part * s2 * s2;
+        const fl_vec3 f = v3(c * nx, c * ny, 0.0);
         q->pull = v3_add(q->pull, f);
-        q->turn = v3_add(q->turn, v3_cross(arm, f));
+        q->turn = v3_add(q->turn, v3_cross(v3(x - q->x0, y - q->y0, q->R - s), f));
     }
 }
 
@@ -145,8 +169,9 @@ static void integrate(footprint *q, const corner *p, int32_t n)
     if (!q->begun) q->x0 = p[0].x, q->y0 = p[0].y, q->begun = 1;
     for (int32_t k = 1; k + 1 < n; k++) {
         const corner a = p[0], b = p[k], c = p[k + 1];
-        twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        triangle(q, a, b, c);
+        const double part = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        twice += part;
+        if (part != 0.0) triangle(q, a, b, c, 0.5 * fabs(part));
     }
     const double turn = twice > 0.0 ? 1.0 : -1.0;
     for (int32_t k = 0; k < n; k++)
@@ -176,10 +201,8 @@ static void swap_corners(corner **a, corner **b)
     *a = *b, *b = c;
 }
 
-/* The corners of face f in its plane, rim[sides], and `inner`, those moved inward by the width of the rim,
- * which is at most `width` and leaves every side half its length.  Returns that width. */
-static double lay_rim(const footprint *q, const fl_side *other, int32_t f, double width, corner *rim,
-                      corner *inner)
+/* The corners of face f in its plane. */
+static void lay_side(const footprint *q, const fl_side *other, int32_t f, corner *rim)
 {
     const fl_poly *p = other->p;
     const int32_t *loop = p->loop + p->first[f], sides = p->first[f + 1] - p->first[f];
@@ -187,6 +210,12 @@ static double lay_rim(const footprint *q, const fl_side *other, int32_t f, doubl
         const fl_vec3 r = v3_sub(other->v[loop[c]], q->at.o);
         rim[c] = (corner){.x = v3_dot(q->at.x, r), .y = v3_dot(q->at.y, r)};
     }
+}
+
+/* `inner`: those corners moved inward by the width of the rim, which is at most `width` and leaves every side
+ * half its length.  Returns that width. */
+static double lay_rim(int32_t sides, double width, corner *rim, corner *inner)
+{
     for (int32_t c = 0; c < sides;
          c++) { /* s: length of the side that starts here; inner: its inward normal */
         const corner a = rim[c], b = rim[c + 1 < sides ? c + 1 : 0];
@@ -211,37 +240,45 @@ static double lay_rim(const footprint *q, const fl_side *other, int32_t f, doubl
 }
 
 /* The places of all nodes: all push along n_F, so that three with their sum, mean and second moments have the
- * same force, torque and spread.  They get the factor m = slope^2, by which a face fades out that is seen
- * ever more from the side; dm has a couple.  Then the pull of the rims. */
-static int put(const footprint *q)
+ * same force, torque and spread.  They get the factor m, whose
+ * change has a couple.  Then the pull of the rims. */
+static int put(footprint *q)
 {
     static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
-    const double m = q->half * q->slope * q->slope, side = q->own->side;
-    if (!(q->du > 0.0)) return 0;
-    const double x = q->x / q->du, y = q->y / q->du, s = q->s / q->du;
-    const double xx = q->xx / q->du - x * x, xy = q->xy / q->du - x * y, yy = q->yy / q->du - y * y;
+    const double m = q->m, side = q->own->side;
+    if (!q->begun) return 0;
+    if (q->b.n) take(&q->b, &q->sum);
+    const double u = fl_wide_sum(&q->sum.u), du = fl_wide_sum(&q->sum.du), ddu = fl_wide_sum(&q->sum.ddu);
+    if (!(du > 0.0)) return 0;
+    const double x = fl_wide_sum(&q->sum.x) / du, y = fl_wide_sum(&q->sum.y) / du;
+    const double s = fl_wide_sum(&q->sum.s) / du, xx = fl_wide_sum(&q->sum.xx) / du - x * x;
+    const double xy = fl_wide_sum(&q->sum.xy) / du - x * y, yy = fl_wide_sum(&q->sum.yy) / du - y * y;
     const double a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0, b = a > 0.0 ? 2.0 * xy / a : 0.0, c2 = 2.0 * yy - b * b,
                  c = c2 > 0.0 ? sqrt(c2) : 0.0;
+    double most = 0.0;
+    for (int k = 0; k < FL_LANES; k++) most = q->sum.most[k] > most ? q->sum.most[k] : most;
     /* s over F */
     const double sx = -v3_dot(q->nF, q->at.x) / q->slope, sy = -v3_dot(q->nF, q->at.y) / q->slope;
     for (int k = 0; k < 3; k++) {
         const double dx = a * COS[k], dy = b * COS[k] + c * SIN[k], sk = s + sx * dx + sy * dy;
         const fl_vec3 on = lift(q, q->x0 + x + dx, q->y0 + y + dy, sk);
-        if (fl_places_add(q->w, (fl_place){.overlap = q->most,
-                                           .u = m * q->u / 3.0,
-                                           .du = m * q->du / 3.0,
-                                           .ddu = m * q->ddu / 3.0,
+        if (fl_places_add(q->w, (fl_place){.overlap = most,
+                                           .u = m * u / 3.0,
+                                           .du = m * du / 3.0,
+                                           .ddu = m * ddu / 3.0,
                                            .n = v3_scale(-side / q->slope, q->nF),
                                            .across = v3_scale(side, q->nf),
                                            .p = v3_madd(on, q->own->r - 0.5 * sk, q->nF)}))
             return -1;
     }
-    q->w->couple = v3_madd(q->w->couple, 2.0 * side * q->half * q->slope * q->u, v3_cross(q->nF, q->nf));
-    const double pull = v3_norm(q->pull);
-    if (pull == 0.0) return 0;
-    q->w->couple = v3_madd(q->w->couple, -side * m, q->turn);
+    q->w->couple = v3_madd(q->w->couple, side * q->dm * u, v3_cross(q->nF, q->nf));
+    if (q->pull.x == 0.0 && q->pull.y == 0.0) return 0;
+    const fl_vec3 pull = v3_madd(v3_scale(q->pull.x, q->at.x), q->pull.y, q->at.y);
+    const fl_vec3 turn = v3_madd(v3_madd(v3_scale(q->turn.x, q->at.x), q->turn.y, q->at.y), q->turn.z, q->nf);
+    q->w->couple = v3_madd(q->w->couple, -side * m, turn);
+    const double size = v3_norm(pull);
     const fl_vec3 first = v3_madd(v3_madd(q->at.o, q->x0, q->at.x), q->y0, q->at.y);
-    return fl_places_add(q->w, (fl_place){.du = m * pull, .n = v3_scale(-side / pull, q->pull), .p = first});
+    return fl_places_add(q->w, (fl_place){.du = m * size, .n = v3_scale(-side / size, pull), .p = first});
 }
 
 static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, double behind,
@@ -275,11 +312,13 @@ static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, d
         swap_corners(&buffer[0], &buffer[1]);
     }
     corner *rim = buffer[3], *inner = rim + sides;
-    const double width = lay_rim(q, other, f, rim_width, rim, inner);
+    lay_side(q, other, f, rim);
     for (int32_t c = 0; c < sides && n > 2; c++) {
         const corner a = rim[c], b = rim[c + 1 < sides ? c + 1 : 0];
         n = left_of(&buffer[0], &buffer[1], g, n, a.x, a.y, b.x, b.y);
     }
+    if (n < 3) return 0;
+    const double width = rim_width > 0.0 ? lay_rim(sides, rim_width, rim, inner) : 0.0;
     for (int32_t c = 0; c < sides && n > 2 && width > 0.0; c++) { /* what lies in the rim of side c */
         const int32_t d = c + 1 < sides ? c + 1 : 0;
         const corner a = rim[c], b = rim[d], ai = inner[c], bi = inner[d];
@@ -306,12 +345,21 @@ static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, d
     return 0;
 }
 
+/* m = (1 - 4 sin^2)^2 of the angle between the faces, and 0 beyond 30 degrees.  0 where there is nothing. */
+static int turned(footprint *q)
+{
+    const double c = q->slope = -v3_dot(q->nf, q->nF), root = 4.0 * c * c - 3.0;
+    q->m = q->half * root * root;
+    q->dm = q->half * 16.0 * c * root;
+    return c > 0.0 && root > 0.0;
+}
+
 int fl_areas_face(fl_places *w, const fl_side *own, int32_t F, const fl_side *other, int32_t f, double R,
                   double behind, double rim)
 {
     footprint q = {.w = w, .own = own, .nf = other->n[f], .nF = own->n[F], .half = 0.5, .R = R, .c0 = 1.0};
-    q.slope = -v3_dot(q.nf, q.nF);
-    return q.slope < LEVEL || !over_face(&q, F, other, f, behind, rim) ? put(&q) : -1;
+    if (!turned(&q)) return 0;
+    return over_face(&q, F, other, f, behind, rim) ? -1 : put(&q);
 }
 
 int fl_areas_plane(fl_places *w, const fl_side *own, int32_t F, double R)
@@ -319,8 +367,7 @@ int fl_areas_plane(fl_places *w, const fl_side *own, int32_t F, double R)
     footprint q = {.w = w, .own = own, .nf = v3(0, 0, 1), .nF = own->n[F], .half = 1.0, .R = R, .c0 = 1.0};
     corner *buffer[4];
     double *g;
-    q.slope = -q.nF.z;
-    if (q.slope < LEVEL) return 0;
+    if (!turned(&q)) return 0;
     q.at = (fl_across){v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0)};
     int32_t n = lay(&q, F, 1, buffer, &g);
     if (n < 0) return -1;

@@ -9,6 +9,8 @@
 #define FL_NARROW_AREAS_H
 #include "narrow/places.h"
 
+#define FL_AREAS_COS 0.86602540378443865 /* of the angle between faces beyond which there is no area */
+
 /* The rim of f fades out linearly over `rim` (less where f is small): a face that leaves the rim of an equal
  * one all at once would bend W. Face F of `own` over face f of `other`.  -1 when memory runs out. */
 int fl_areas_face(fl_places *w, const fl_side *own, int32_t F, const fl_side *other, int32_t f, double R,

@@ -8,6 +8,9 @@
 /* Of the size: points on a plane may seem to be that far off it. */
 #define ROUNDING 1e-12
 
+/* So far back are rows and columns looked for. */
+enum { LATEST = 128 };
+
 /* Some points of `own`, the ends of a feature, and the box around them and all that they may move to. */
 typedef struct {
     const fl_vec3 *v;
@@ -18,17 +21,107 @@ typedef struct {
 
 typedef struct {
     fl_matches *l;
+    int way;
     const fl_side *own, *other;
     double R, behind, margin, turn;
 } search;
 
+/* Number of a column of the table; -1 when memory runs out.  What is not found among the latest is listed
+ * again. */
+static int32_t column(const search *s, int32_t v)
+{
+    fl_table *t = &s->l->table[s->way];
+    fl_err lost = {0};
+    for (int32_t k = t->vertices; k-- > 0 && k > t->vertices - LATEST;)
+        if (t->vertex[k] == v) return k;
+    if (fl_grow(&t->vertex, &t->vertex_cap, (int64_t)t->vertices + 1, sizeof *t->vertex, &lost)) return -1;
+    t->vertex[t->vertices] = v;
+    return t->vertices++;
+}
+
+static int32_t row(const search *s, int32_t f, int32_t a, int32_t b)
+{
+    fl_table *t = &s->l->table[s->way];
+    fl_err lost = {0};
+    for (int32_t k = t->planes; k-- > 0 && k > t->planes - LATEST;)
+        if (t->plane[k].f == f && t->plane[k].a == a && t->plane[k].b == b) return k;
+    if (fl_grow(&t->plane, &t->plane_cap, (int64_t)t->planes + 1, sizeof *t->plane, &lost)) return -1;
+    t->plane[t->planes] = (fl_plane){f, a, b};
+    return t->planes++;
+}
+
+static int push(fl_matches *l, int32_t side)
+{
+    fl_err lost = {0};
+    if (fl_grow(&l->side, &l->side_cap, (int64_t)l->sides + 1, sizeof *l->side, &lost)) return -1;
+    l->side[l->sides++] = side;
+    return 0;
+}
+
+/* It must be above a plane, or below.  The two sides of an edge ask the same row: all ask with the same
+ * number, so that nothing falls between two and nothing counts twice. */
+static int beyond(const search *s, fl_match *m, int32_t f, int32_t a, int32_t b, int below)
+{
+    const int turned = f >= 0 && a > b;
+    const int32_t r = turned ? row(s, f, b, a) : row(s, f, a, b);
+    m->n++;
+    return r < 0 ? -1 : push(s->l, 2 * r + (below != turned));
+}
+
+static int sides_of_face(const search *s, fl_match *m)
+{
+    const fl_poly *p = s->other->p;
+    const int32_t *loop = p->loop + p->first[m->other], n = p->first[m->other + 1] - p->first[m->other];
+    m->height = row(s, m->other, -1, -1);
+    for (int32_t c = 0, a = loop[n - 1]; c < n; a = loop[c++])
+        if (beyond(s, m, m->other, a, loop[c], 0)) return -1;
+    return m->height < 0 ? -1 : 0;
+}
+
+static int sides_of_edge(const search *s, fl_match *m)
+{
+    const fl_edge g = s->other->p->edge[m->other];
+    m->length = v3_norm(v3_sub(s->other->p->v[g.b], s->other->p->v[g.a])); /* the same bits in any pose */
+    return beyond(s, m, -1, g.a, g.b, 0) || beyond(s, m, -1, g.b, g.a, 0) ||
+                   (g.left >= 0 && beyond(s, m, g.left, g.a, g.b, 1)) ||
+                   (g.right >= 0 && beyond(s, m, g.right, g.b, g.a, 1))
+               ? -1
+               : 0;
+}
+
+static int sides_of_vertex(const search *s, fl_match *m)
+{
+    const fl_poly *p = s->other->p;
+    for (int32_t k = p->begin[m->other]; k < p->begin[m->other + 1]; k++)
+        if (beyond(s, m, -1, m->other, p->beside[k], 1)) return -1;
+    return 0;
+}
+
 static int add(const search *s, int kind, int32_t own, int32_t other)
 {
     fl_matches *l = s->l;
+    const fl_poly *p = s->own->p;
+    fl_match m = {
+        .kind = (int16_t)kind, .way = (int16_t)s->way, .own = own, .other = other, .first = l->sides};
     fl_err lost = {0};
-    if (l->n == l->cap && fl_grow(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c, &lost)) return -1;
-    l->c[l->n++] = (fl_match){(int16_t)kind, s->own->side < 0.0, own, other};
-    return 0;
+    if (fl_grow(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c, &lost)) return -1;
+    const int face = kind == FL_MATCH_VERTEX_FACE || kind == FL_MATCH_EDGE_FACE || kind == FL_MATCH_FACE_FACE;
+    const int edge = kind == FL_MATCH_VERTEX_EDGE || kind == FL_MATCH_EDGE_EDGE;
+    if (face ? sides_of_face(s, &m) : edge ? sides_of_edge(s, &m) : sides_of_vertex(s, &m)) return -1;
+    if (kind == FL_MATCH_FACE_FACE) {
+        for (int32_t k = p->first[own]; k < p->first[own + 1]; k++) {
+            const int32_t v = column(s, p->loop[k]);
+            if (v < 0 || push(l, v)) return -1;
+        }
+    } else if (kind >= FL_MATCH_EDGE_FACE) {
+        m.v[0] = column(s, p->edge[own].a);
+        m.v[1] = column(s, p->edge[own].b);
+        m.factor = fl_strips_factor(s->own, own, s->other->r);
+    } else {
+        m.v[0] = m.v[1] = column(s, own);
+    }
+    l->c[l->n++] = m;
+    return m.v[0] < 0 || m.v[1] < 0 ? -1 : 0;
 }
 
 static ends ends_of(const search *s, const int32_t *at, int32_t n)
@@ -112,6 +205,7 @@ static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach
     const fl_poly *p = s->own->p;
     for (int32_t k = 0; k < mine->edges; k++) {
         const int32_t at[2] = {p->edge[mine->edge[k]].a, p->edge[mine->edge[k]].b};
+        if (!(fl_strips_factor(s->own, mine->edge[k], s->other->r) > 0.0)) continue;
         const ends e = ends_of(s, at, 2);
         if (over_all(s, FL_MATCH_EDGE_FACE, mine->edge[k], &e, near)) return -1;
     }
@@ -120,7 +214,8 @@ static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach
         const ends e = ends_of(s, p->loop + p->first[F], p->first[F + 1] - p->first[F]);
         for (int32_t m = 0; m < near->faces; m++) {
             const int32_t f = near->face[m];
-            if (v3_dot(s->own->n[F], s->other->n[f]) > s->turn || !over_face(s, &e, f)) continue;
+            if (v3_dot(s->own->n[F], s->other->n[f]) > s->turn - FL_AREAS_COS || !over_face(s, &e, f))
+                continue;
             if (add(s, FL_MATCH_FACE_FACE, F, f)) return -1;
         }
     }
@@ -133,8 +228,9 @@ int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl
     const double least = 0.5 * (A->p->size < B->p->size ? A->p->size : B->p->size);
     const double turn = 2.0 * margin / least; /* of the two together */
     const double wide = margin + ROUNDING * (A->p->size + B->p->size);
-    const search of_a = {l, A, B, R, behind, wide, turn}, of_b = {l, B, A, R, behind, wide, turn};
-    l->n = 0;
+    const search of_a = {l, 0, A, B, R, behind, wide, turn}, of_b = {l, 1, B, A, R, behind, wide, turn};
+    l->n = l->sides = 0;
+    for (int k = 0; k < 2; k++) l->table[k].vertices = l->table[k].planes = 0;
     l->until = path + margin / (1.0 + (R + margin) / least);
     return vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
                    edges_and_faces(&of_b, b, a)
@@ -142,33 +238,9 @@ int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl
                : 0;
 }
 
-int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const fl_side *B, double R,
-                      double behind, double rim_a, double rim_b)
-{
-    fl_line line = {.edge = -1};
-    for (int32_t k = 0; k < l->n; k++) {
-        const fl_match *c = &l->c[k];
-        const fl_side *own = c->of_b ? B : A, *other = c->of_b ? A : B;
-        const int edge = c->kind >= FL_MATCH_EDGE_FACE && c->kind <= FL_MATCH_EDGE_VERTEX;
-        int rc = 0;
-        if (edge && (line.edge != c->own || line.own != own))
-            line = fl_strips_line(w, own, c->own, other->r, R);
-        switch (c->kind) {
-        case FL_MATCH_VERTEX_FACE: rc = fl_strips_vertex_face(w, own, c->own, other, c->other, R); break;
-        case FL_MATCH_VERTEX_EDGE: rc = fl_strips_vertex_edge(w, own, c->own, other, c->other, R); break;
-        case FL_MATCH_VERTEX_VERTEX: rc = fl_strips_vertex_vertex(w, own, c->own, other, c->other, R); break;
-        case FL_MATCH_EDGE_FACE: rc = fl_strips_edge_face(&line, other, c->other, behind); break;
-        case FL_MATCH_EDGE_EDGE: rc = fl_strips_edge_edge(&line, other, c->other); break;
-        case FL_MATCH_EDGE_VERTEX: rc = fl_strips_edge_vertex(&line, other, c->other); break;
-        default: rc = fl_areas_face(w, own, c->own, other, c->other, R, behind, c->of_b ? rim_a : rim_b);
-        }
-        if (rc) return -1;
-    }
-    return 0;
-}
-
 void fl_matches_free(fl_matches *l)
 {
-    free(l->c), free(l->wall);
+    for (int k = 0; k < 2; k++) free(l->table[k].vertex), free(l->table[k].plane);
+    free(l->c), free(l->side), free(l->wall);
     *l = (fl_matches){0};
 }

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* matches.h -- which feature of one core can have a place over which feature of the other.
  *
- * Most features of two touching cores have nothing to do with each other, and what does stays for many steps:
- * the list of those that do, or will before any point has moved by more than a margin, is made once and used
- * until then.  It only leaves out: a match that is listed in vain has no place, and those that have one come
- * in the same order whenever the list was made, so that not a bit depends on that. */
+ * A vertex, an edge or a face has a place over what lies in the prism over a face, the wedge over an edge or
+ * the cone over a vertex of the other core: where it is on the right side of some planes, all of which pass
+ * through edges of that core.  Many features share few planes, so that one table of heights of vertices over
+ * planes has all that is asked.
+ *   Most features of two touching cores have nothing to do with each other, and
+ * what does stays for many steps: the list of those that do, or will before any point has moved by more than
+ * a margin, is made once and used until then.  It only leaves out: a match that is listed in vain has no
+ * place, and those that have one come in the same order whenever the list was made, so that not a bit depends
+ * on that. */
 #ifndef FL_NARROW_MATCHES_H
 #define FL_NARROW_MATCHES_H
 #include <stdint.h>
@@ -20,15 +25,36 @@ typedef enum {
     FL_MATCH_FACE_FACE
 } fl_match_kind;
 
+/* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
+ * above; or, f = -1, at right angles to that edge in a, the side of b above. */
 typedef struct {
-    int16_t kind, of_b; /* enum fl_match_kind; whether `own` is B's */
+    int32_t f, a, b; /* a = -1: the face itself */
+} fl_plane;
+
+typedef struct {
+    int16_t kind, way;  /* enum fl_match_kind; 0: of A over B, 1: of B over A */
     int32_t own, other; /* numbers of the features */
+    int32_t v[2];       /* ends of an edge, or the vertex: columns of the table */
+    int32_t first,
+        n; /* fl_matches.side: what it must be beyond.  Of a face the columns of its corners follow */
+    int32_t height; /* row of the plane of the other face */
+    double factor;  /* of an edge, as fl_strips_factor() */
+    double length;  /* of the other edge [m] */
 } fl_match;
+
+/* The table of one way: heights of vertices of one core over planes of the other. */
+typedef struct {
+    int32_t *vertex;
+    fl_plane *plane;
+    int32_t vertices, planes, vertex_cap, plane_cap;
+} fl_table;
 
 /* Zeroed to start: nothing listed, and valid up to a path of 0. */
 struct fl_matches {
     fl_match *c;
-    int32_t n, cap;
+    int32_t *side; /* 2 row, or 2 row + 1 where below the plane is meant */
+    fl_table table[2];
+    int32_t n, cap, sides, side_cap;
     double until;  /* up to which path the list holds [m] */
     int32_t *wall; /* [walls] the caller's: faces of a surface that is not convex, in reach as long */
     int32_t walls, wall_cap;

@@ -17,13 +17,10 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
     return 0;
 }
 
-int fl_places_add(fl_places *w, fl_place place)
+int fl_places_room(fl_places *w)
 {
     fl_err lost = {0};
-    if (w->n == w->place_cap && fl_grow(&w->place, &w->place_cap, w->n + 1, sizeof *w->place, &lost))
-        return -1;
-    w->place[w->n++] = place;
-    return 0;
+    return fl_grow(&w->place, &w->place_cap, (int64_t)w->n + 1, sizeof *w->place, &lost);
 }
 
 int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, fl_vec3 n, double overlap)
@@ -164,6 +161,7 @@ int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance)
 void fl_places_free(fl_places *w)
 {
     fl_reach_free(&w->of_a), fl_reach_free(&w->of_b);
+    for (int k = 0; k < 2; k++) free(w->sheet[k].h), free(w->sheet[k].x), free(w->sheet[k].cutter);
     free(w->va), free(w->na), free(w->place), free(w->cut);
     *w = (fl_places){0};
 }

@@ -5,7 +5,8 @@
  *
  *     W = c sqrt(U),     c = E* beta / sqrt(pi),     U = sum over the features of both cores of
  *
- *     faces      1/2 m int s^4 dA          over a face of the other, m = (n.n')^2
+ *     faces      1/2 m int s^4 dA          over a face of the other, m = (1 - 4 sin^2)^2 of the
+ *                                              angle between them, 0 beyond 30 degrees
  *     edges      w L (256/315) sqrt(2 rho) int s^(9/2) dl
  *     vertices   w L (2 pi/5) rho s^5,                            L = 32/45 / beta^2,
  *
@@ -71,10 +72,18 @@ typedef struct {
 
 typedef struct fl_matches fl_matches; /* matches.h */
 
+/* A table of heights in work (matches.h). */
+typedef struct {
+    double *h, *x;
+    void *cutter;
+    int32_t h_cap, x_cap, cutter_cap;
+} fl_sheet;
+
 /* Scratch of one thread, and the places found.  Zeroed to start; grows as it must. */
 typedef struct {
     fl_vec3 *va, *na; /* vertices and normals of A in the frame of B; set by fl_places_enter() */
     fl_reach of_a, of_b;
+    fl_sheet sheet[2];
     fl_place *place;
     fl_vec3 couple; /* times dW/dU: a moment on A beside those of the forces, its opposite on B [m6] */
     fl_vec3 *cut;   /* of areas.c: polygons while they are cut */
@@ -109,7 +118,14 @@ double fl_places_measure(const fl_places *w);
 
 /* --- for those who put places together ------------------------------------------------------ */
 
-int fl_places_add(fl_places *w, fl_place place); /* -1 when memory runs out */
+int fl_places_room(fl_places *w); /* for one more; -1 when memory runs out */
+
+static inline int fl_places_add(fl_places *w, fl_place place)
+{
+    if (w->n == w->place_cap && fl_places_room(w)) return -1;
+    w->place[w->n++] = place;
+    return 0;
+}
 
 void fl_reach_free(fl_reach *r);
 

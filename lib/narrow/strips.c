@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stddef.h>
+#include "base/wide.h"
 #include "narrow/strips.h"
 
-/* Points closer to each other than this fraction of the size have no direction between them. */
-#define SAME 1e-13
+/* FL_STRIP_CURVED, rounded up to full registers. */
+enum { FL_STRIP_ROOM = (FL_STRIP_CURVED + FL_LANES - 1) / FL_LANES * FL_LANES };
 
 /* Rules for int_0^1 of s^(9/2) dt over a piece where s is curved, exact for polynomials of degree 19 times
  * ... */
 typedef struct {
-    double node[FL_STRIP_CURVED], weight[FL_STRIP_CURVED];
+    double node[FL_STRIP_ROOM], weight[FL_STRIP_ROOM]; /* the rest is 0 */
 } rule;
 
 /* ... 1: Gauss and Legendre; */
@@ -46,71 +47,15 @@ static const double NODE[FL_STRIP_NODES] = {0.03376524289842398609, 0.1693953067
                                               0.23395696728634552369, 0.23395696728634552369,
                                               0.18038078652406930378, 0.08566224618958517252};
 
-/* The part of a line, in [0, 1]. */
-typedef struct {
-    double lo, hi;
-} span;
-
-/* Keep of t what has a linear function >= 0, or < 0, from its values at the two ends. */
-static int keep(span *t, double a0, double a1, int inside)
-{
-    const int in0 = (a0 >= 0.0) == inside, in1 = (a1 >= 0.0) == inside;
-    if (in0 && in1) return 1;
-    if (!in0 && !in1) return 0;
-    const double at = a0 / (a0 - a1);
-    if (in1) t->lo = at > t->lo ? at : t->lo;
-    else t->hi = at < t->hi ? at : t->hi;
-    return t->lo < t->hi;
-}
-
-/* Prisms, wedges and cones share planes.  All ask with the same number, so that nothing falls between two and
- * nothing counts twice; and r on the plane itself, g.r = 0, is taken as a hair aside, for all of them to the
- * same side. */
-static double beyond(fl_vec3 g, fl_vec3 r)
-{
-    const double h = v3_dot(g, r);
-    return h != 0.0 ? h : 1e-300 * v3_dot(g, v3(0.5772156649, 0.4342944819, 0.6931471806));
-}
-
-/* Points to the left of the edge a b of a face with normal n: the same numbers, turned round, for the face on
- * the other side. */
-static fl_vec3 leftward(const fl_side *q, fl_vec3 n, int32_t a, int32_t b, fl_vec3 *from)
-{
-    *from = q->v[a < b ? a : b];
-    return v3_cross(n, v3_sub(q->v[a < b ? b : a], *from));
-}
-
-/* How far x is to the left of it, times a length. */
-static double left_of(const fl_side *q, fl_vec3 n, int32_t a, int32_t b, fl_vec3 x)
-{
-    fl_vec3 from;
-    const fl_vec3 g = leftward(q, n, a, b, &from);
-    const double h = beyond(g, v3_sub(x, from));
-    return a < b ? h : -h;
-}
-
-/* Keep of the line from x0 to x1 what is left of the edge, or what is not. */
-static int keep_left(span *t, const fl_side *q, fl_vec3 n, int32_t a, int32_t b, fl_vec3 x0, fl_vec3 x1,
-                     int left)
-{
-    fl_vec3 from;
-    const fl_vec3 g = leftward(q, n, a, b, &from);
-    const double h0 = beyond(g, v3_sub(x0, from)), h1 = beyond(g, v3_sub(x1, from));
-    return a < b ? keep(t, h0, h1, left) : keep(t, -h0, -h1, left);
-}
-
-/* How far x is beyond a towards b, times a length. */
-static double along(fl_vec3 a, fl_vec3 b, fl_vec3 x) { return beyond(v3_sub(b, a), v3_sub(x, a)); }
-
 static double root_of(double s) { return s > 0.0 ? sqrt(s) : 0.0; }
 
 /* Over a plane: d is linear and its direction one, so that two places have force and torque of all nodes, and
  * the second moment of the pressure.  Node k of a piece over which s goes from p^2 to q^2 has the root r = p
  * + (q - p) z at t = lo + (hi - lo) z (r + p)/(q + p): in z the integrand s^(9/2) dt is a polynomial of
  * degree 10. */
-static int piece_over_face(const fl_line *l, span t, double h0, double h1, fl_vec3 n)
+int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n)
 {
-    if (!keep(&t, l->R - h0, l->R - h1, 1)) return 0;
+    if (!fl_span_keep(&t, l->R - h0, l->R - h1)) return 0;
     const double p = root_of(l->R - h0 - t.lo * (h1 - h0)), q = root_of(l->R - h0 - t.hi * (h1 - h0));
     if (!(p + q > 0.0)) return 0;
     const double dt = t.hi - t.lo, k0 = l->factor * 2.0 * dt / (p + q);
@@ -146,55 +91,66 @@ static int piece_over_face(const fl_line *l, span t, double h0, double h1, fl_ve
  * piece. */
 typedef struct {
     const fl_line *l;
-    fl_vec3 q, u;                /* d = |q + t u| */
-    double small;                /* distances below it have no direction */
-    double from, over;           /* t of the first end; 1/(to - from), or 0 for a point */
-    double sum, du, ddu, s, far; /* of u, of its derivatives, of du s, of du (t - from)/(to - from) */
-    fl_vec3 f, ffar;
+    fl_vec3 q, u;      /* d = |q + t u| */
+    double small;      /* distances below it have no direction */
+    double from, over; /* t of the first end; 1/(to - from), or 0 for a point */
+    /* sums of u, of its derivatives, of du s, of du (t - from)/(to - from); of the force, and that times the
+     * latter */
+    fl_wide sum, du, ddu, s, far, f[3], ffar[3];
 } bundle;
 
-static void take(bundle *b, double t, double share)
+/* Nodes at a + k b of what lies at q + t u, with the shares w: into the sums. */
+FL_WIDE_VERSIONS static void take(bundle *b, const rule *g, double from, double dt)
 {
-    const fl_vec3 r = v3_madd(b->q, t, b->u);
-    const double d = v3_norm(r), s = b->l->R - d;
-    if (s <= 0.0 || d <= b->small) return;
-    const double k = b->l->factor * share * sqrt(s) * s * s, du = 4.5 * k * s, way = (t - b->from) * b->over;
-    const fl_vec3 f = v3_scale(du / d, r);
-    b->sum += k * s * s;
-    b->du += du;
-    b->ddu += 15.75 * k;
-    b->s += du * s;
-    b->f = v3_add(b->f, f);
-    b->far += way * du;
-    b->ffar = v3_madd(b->ffar, way, f);
+    const fl_vec3 q = b->q, u = b->u;
+    const double share = b->l->factor * fabs(dt), R = b->l->R, small = b->small;
+    for (int k = 0; k < FL_STRIP_ROOM; k += FL_LANES) {
+        const fl_wide t = from + dt * *(const fl_wide *)(g->node + k),
+                      weight = *(const fl_wide *)(g->weight + k);
+        const fl_wide x = q.x + t * u.x, y = q.y + t * u.y, z = q.z + t * u.z, d2 = x * x + y * y + z * z;
+        fl_wide d, root;
+        for (int l = 0; l < FL_LANES; l++) d[l] = sqrt(d2[l]);
+        const fl_wide_mask in = (d < R) & (d > small);
+        const fl_wide s = FL_WIDE_WHERE(in, R - d);
+        for (int l = 0; l < FL_LANES; l++) root[l] = sqrt(s[l]);
+        const fl_wide pull = share * weight * root * s * s, du = 4.5 * pull * s,
+                      way = (t - b->from) * b->over;
+        const fl_wide f = FL_WIDE_WHERE(in, du / d), far = way * f;
+        b->sum += pull * s * s;
+        b->du += du;
+        b->ddu += 15.75 * pull;
+        b->s += du * s;
+        b->far += way * du;
+        b->f[0] += f * x, b->f[1] += f * y, b->f[2] += f * z;
+        b->ffar[0] += far * x, b->ffar[1] += far * y, b->ffar[2] += far * z;
+    }
 }
 
 /* A piece t; zero_lo, zero_hi: s is 0 at that end. */
-static void gauss(bundle *b, span t, int zero_lo, int zero_hi)
+static void gauss(bundle *b, fl_span t, int zero_lo, int zero_hi)
 {
     const rule *g = zero_lo && zero_hi ? &BETWEEN_ZEROS : zero_lo || zero_hi ? &FROM_ZERO : &WHOLE;
-    const double from = zero_hi && !zero_lo ? t.hi : t.lo,
-                 dt = zero_hi && !zero_lo ? t.lo - t.hi : t.hi - t.lo;
-    for (int k = 0; k < FL_STRIP_CURVED; k++) take(b, from + dt * g->node[k], fabs(dt) * g->weight[k]);
+    if (zero_hi && !zero_lo) take(b, g, t.hi, t.lo - t.hi);
+    else take(b, g, t.lo, t.hi - t.lo);
 }
 
 /* The same where an end that is not 0 may be nearly so: the quarter next to it is a piece of its own. */
-static void gauss_over_point(bundle *b, span t, int zero_lo, int zero_hi)
+static void gauss_over_point(bundle *b, fl_span t, int zero_lo, int zero_hi)
 {
     const double R = b->l->R, quarter = 0.25 * (t.hi - t.lo), s0 = R - v3_norm(v3_madd(b->q, t.lo, b->u)),
                  s1 = R - v3_norm(v3_madd(b->q, t.hi, b->u)),
                  sm = R - v3_norm(v3_madd(b->q, 0.5 * (t.lo + t.hi), b->u));
     const double most = s0 > s1 ? (s0 > sm ? s0 : sm) : s1 > sm ? s1 : sm;
     const int near_lo = !zero_lo && s0 < 0.3 * most, near_hi = !zero_hi && s1 < 0.3 * most;
-    const span mid = {near_lo ? t.lo + quarter : t.lo, near_hi ? t.hi - quarter : t.hi};
-    if (near_lo) gauss(b, (span){t.lo, mid.lo}, 0, 0);
-    if (near_hi) gauss(b, (span){mid.hi, t.hi}, 0, 0);
+    const fl_span mid = {near_lo ? t.lo + quarter : t.lo, near_hi ? t.hi - quarter : t.hi};
+    if (near_lo) gauss(b, (fl_span){t.lo, mid.lo}, 0, 0);
+    if (near_hi) gauss(b, (fl_span){mid.hi, t.hi}, 0, 0);
     gauss(b, mid, zero_lo, zero_hi);
 }
 
 /* d^2 = uu ((t - m)^2 + a^2); half: s > 0 at |t - m| < half.  Where the overlap is large d is singular at
  * m +- i a, and pieces that grow threefold from m keep away. */
-static void graded(bundle *b, span t, int zero_lo, int zero_hi, double m, double a, double uu)
+static void graded(bundle *b, fl_span t, int zero_lo, int zero_hi, double m, double a, double uu)
 {
     const double bend = 1e-3 * b->l->R / sqrt(uu);
     for (int way = 0; way < 2; way++) {
@@ -205,29 +161,35 @@ static void graded(bundle *b, span t, int zero_lo, int zero_hi, double m, double
             if (last < 1.3 * to) to = last; /* no crumbs */
             const double lo = from > first ? from : first, hi = to < last ? to : last;
             if (!(lo < hi)) continue;
-            const span s = way ? (span){m + lo, m + hi} : (span){m - hi, m - lo};
+            const fl_span s = way ? (fl_span){m + lo, m + hi} : (fl_span){m - hi, m - lo};
             const int end = zero && hi == last;
             gauss_over_point(b, s, !way && end, way && end);
         }
     }
 }
 
-/* One place: the part `share` of the bundle with force f and scalar sum du, where it meets the point c. */
-static int tie(const bundle *b, double share, double du, fl_vec3 f, fl_vec3 c)
+/* One place: the part `share` of the bundle with force f and scalar sum du, where it meets the point c; s:
+ * mean overlap. */
+static int tie(const bundle *b, double share, double du, double s, fl_vec3 f, fl_vec3 c)
 {
-    const double size = v3_norm(f), s = b->s / b->du;
+    const double size = v3_norm(f);
     if (!(size > 0.0) || !(du > 0.0)) return 0;
     const fl_vec3 n = v3_scale(1.0 / size, f);
     return fl_places_add(b->l->w, (fl_place){.overlap = s,
-                                             .u = share * b->sum,
+                                             .u = share * fl_wide_sum(&b->sum),
                                              .du = du,
-                                             .ddu = share * b->ddu,
+                                             .ddu = share * fl_wide_sum(&b->ddu),
                                              .n = v3_scale(b->l->own->side / du, f),
                                              .across = v3_scale(b->l->own->side, n),
                                              .p = v3_madd(c, b->l->R - 0.5 * s - b->l->own->r, n)});
 }
 
-static int piece_over_point(const fl_line *l, span t, fl_vec3 c, const fl_vec3 *e, double small)
+static fl_vec3 sum3(const fl_wide a[3])
+{
+    return v3(fl_wide_sum(&a[0]), fl_wide_sum(&a[1]), fl_wide_sum(&a[2]));
+}
+
+int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *e, double small)
 {
     bundle b = {.l = l, .q = v3_sub(l->x0, c), .u = l->u, .small = small};
     double tau = 0.0, slope = 0.0;
@@ -255,123 +217,32 @@ static int piece_over_point(const fl_line *l, span t, fl_vec3 c, const fl_vec3 *
     b.over = slope != 0.0 ? 1.0 / (t.hi - t.lo) : 0.0;
     if (half <= 0.5 * a || !(uu > 0.0)) gauss_over_point(&b, t, zero_lo, zero_hi);
     else graded(&b, t, zero_lo, zero_hi, m, a, uu);
-    if (!(b.du > 0.0)) return 0;
-    if (slope == 0.0) return tie(&b, 1.0, b.du, b.f, e ? v3_madd(c, tau, *e) : c);
-    const double far = b.far / b.du;
-    return tie(&b, 1.0 - far, b.du - b.far, v3_sub(b.f, b.ffar), v3_madd(c, tau + t.lo * slope, *e)) ||
-                   tie(&b, far, b.far, b.ffar, v3_madd(c, tau + t.hi * slope, *e))
+    const double du = fl_wide_sum(&b.du);
+    if (!(du > 0.0)) return 0;
+    const double mean = fl_wide_sum(&b.s) / du;
+    const fl_vec3 f = sum3(b.f);
+    if (slope == 0.0) return tie(&b, 1.0, du, mean, f, e ? v3_madd(c, tau, *e) : c);
+    const double far = fl_wide_sum(&b.far), part = far / du;
+    const fl_vec3 ffar = sum3(b.ffar);
+    return tie(&b, 1.0 - part, du - far, mean, v3_sub(f, ffar), v3_madd(c, tau + t.lo * slope, *e)) ||
+                   tie(&b, part, far, mean, ffar, v3_madd(c, tau + t.hi * slope, *e))
                ? -1
                : 0;
 }
 
-fl_line fl_strips_line(fl_places *w, const fl_side *own, int32_t e, double other, double R)
+double fl_strips_factor(const fl_side *own, int32_t e, double other)
 {
-    const fl_poly *p = own->p;
-    const fl_vec3 x0 = own->v[p->edge[e].a], u = v3_sub(own->v[p->edge[e].b], x0);
-    const double sharp = p->bend[e] * FL_PLACE_SHARP_EDGE, length = v3_norm(u);
-    const double rho = fl_place_rho(own->r, other);
-    return (fl_line){.w = w,
-                     .own = own,
-                     .edge = e,
-                     .x0 = x0,
-                     .u = u,
-                     .length = length,
-                     .R = R,
-                     .factor = (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (256.0 / 315.0) *
-                               sqrt(2.0 * rho) * length};
-}
-
-static fl_vec3 end_of(const fl_line *l) { return l->own->v[l->own->p->edge[l->edge].b]; }
-
-int fl_strips_edge_face(const fl_line *l, const fl_side *other, int32_t f, double behind)
-{
-    const fl_poly *q = other->p;
-    const int32_t *loop = q->loop + q->first[f], n = q->first[f + 1] - q->first[f];
-    const fl_vec3 nf = other->n[f], o = other->v[loop[0]], x0 = l->x0, x1 = end_of(l);
-    const double h0 = v3_dot(nf, v3_sub(x0, o)), h1 = v3_dot(nf, v3_sub(x1, o)), small = SAME * q->size;
-    span t = {0.0, 1.0};
-    if (!(l->factor > 0.0)) return 0;
-    if ((h0 >= l->R && h1 >= l->R) || !keep(&t, h0 + behind + small, h1 + behind + small, 1)) return 0;
-    for (int32_t c = 0, a = loop[n - 1]; c < n; a = loop[c++])
-        if (!keep_left(&t, other, nf, a, loop[c], x0, x1, 1)) return 0;
-    return piece_over_face(l, t, h0, h1, nf);
-}
-
-int fl_strips_edge_edge(const fl_line *l, const fl_side *other, int32_t k)
-{
-    const fl_poly *q = other->p;
-    const fl_edge g = q->edge[k];
-    const fl_vec3 a = other->v[g.a], b = other->v[g.b], x0 = l->x0, x1 = end_of(l);
-    span t = {0.0, 1.0};
-    if (!(l->factor > 0.0) || !(q->bend[k] > 0.0)) return 0;
-    if (!keep(&t, along(a, b, x0), along(a, b, x1), 1)) return 0;
-    if (!keep(&t, along(b, a, x0), along(b, a, x1), 1)) return 0;
-    if (g.left >= 0 && !keep_left(&t, other, other->n[g.left], g.a, g.b, x0, x1, 0)) return 0;
-    if (g.right >= 0 && !keep_left(&t, other, other->n[g.right], g.b, g.a, x0, x1, 0)) return 0;
-    const fl_vec3 axis = v3_unit(v3_sub(b, a));
-    return piece_over_point(l, t, a, &axis, SAME * q->size);
-}
-
-int fl_strips_edge_vertex(const fl_line *l, const fl_side *other, int32_t v)
-{
-    const fl_poly *q = other->p;
-    const fl_vec3 c = other->v[v], x0 = l->x0, x1 = end_of(l);
-    span t = {0.0, 1.0};
-    if (!(l->factor > 0.0) || !(q->defect[v] > 0.0)) return 0;
-    for (int32_t m = q->begin[v]; m < q->begin[v + 1]; m++) {
-        const fl_vec3 b = other->v[q->beside[m]];
-        if (!keep(&t, along(c, b, x0), along(c, b, x1), 0)) return 0;
-    }
-    return piece_over_point(l, t, c, NULL, SAME * q->size);
-}
-
-/* Vertex v at r from the nearest point of an edge or a vertex. */
-static int vertex_over(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, fl_vec3 r, double R)
-{
-    const double d = v3_norm(r);
-    if (d >= R || d <= SAME * other->p->size) return 0;
-    return fl_places_vertex(w, own, other->r, v, v3_scale(1.0 / d, r), R - d);
-}
-
-int fl_strips_vertex_face(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t f,
-                          double R)
-{
-    const fl_poly *q = other->p;
-    const int32_t *loop = q->loop + q->first[f], n = q->first[f + 1] - q->first[f];
-    const fl_vec3 x = own->v[v];
-    const double h = v3_dot(other->n[f], v3_sub(x, other->v[loop[0]]));
-    if (h >= R || h < -SAME * q->size) return 0;
-    for (int32_t c = 0, a = loop[n - 1]; c < n; a = loop[c++])
-        if (left_of(other, other->n[f], a, loop[c], x) < 0.0) return 0;
-    return fl_places_vertex(w, own, other->r, v, other->n[f], R - h);
-}
-
-int fl_strips_vertex_edge(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t k,
-                          double R)
-{
-    const fl_edge g = other->p->edge[k];
-    const fl_vec3 a = other->v[g.a], b = other->v[g.b], x = own->v[v];
-    if (!(other->p->bend[k] > 0.0) || along(a, b, x) < 0.0 || along(b, a, x) < 0.0) return 0;
-    if (g.left >= 0 && left_of(other, other->n[g.left], g.a, g.b, x) >= 0.0) return 0;
-    if (g.right >= 0 && left_of(other, other->n[g.right], g.b, g.a, x) >= 0.0) return 0;
-    const fl_vec3 e = v3_unit(v3_sub(b, a)), r = v3_sub(x, a);
-    return vertex_over(w, own, v, other, v3_madd(r, -v3_dot(r, e), e), R);
-}
-
-int fl_strips_vertex_vertex(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t c,
-                            double R)
-{
-    const fl_poly *q = other->p;
-    const fl_vec3 x = own->v[v];
-    if (!(q->defect[c] > 0.0)) return 0;
-    for (int32_t m = q->begin[c]; m < q->begin[c + 1]; m++)
-        if (along(other->v[c], other->v[q->beside[m]], x) >= 0.0) return 0;
-    return vertex_over(w, own, v, other, v3_sub(x, other->v[c]), R);
+    const fl_edge g = own->p->edge[e];
+    const double sharp = own->p->bend[e] * FL_PLACE_SHARP_EDGE, rho = fl_place_rho(own->r, other);
+    return (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (256.0 / 315.0) * sqrt(2.0 * rho) *
+           v3_norm(v3_sub(own->p->v[g.b], own->p->v[g.a])); /* the same bits in any pose */
 }
 
 int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e, double R)
 {
-    const fl_line l = fl_strips_line(w, own, e, 0.0, R);
+    const fl_edge g = own->p->edge[e];
+    const fl_vec3 x0 = own->v[g.a], u = v3_sub(own->v[g.b], x0);
+    const fl_line l = {w, own, x0, u, fl_strips_factor(own, e, 0.0), R};
     if (!(l.factor > 0.0)) return 0;
-    return piece_over_face(&l, (span){0.0, 1.0}, l.x0.z, l.x0.z + l.u.z, v3(0, 0, 1));
+    return fl_strips_over_face(&l, (fl_span){0.0, 1.0}, x0.z, x0.z + u.z, v3(0, 0, 1));
 }

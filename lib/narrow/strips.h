@@ -12,32 +12,44 @@
 
 enum { FL_STRIP_NODES = 6, FL_STRIP_CURVED = 10 };
 
-/* An edge in work: from x0 along u, and what its integral is multiplied by. */
+/* A part of it, in [0, 1]. */
+typedef struct {
+    double lo, hi;
+} fl_span;
+
+/* Points closer to each other than this fraction of the size have no direction between them. */
+#define FL_SPAN_SAME 1e-13
+
+/* Keep of t what has a linear function >= 0, from its values at 0 and 1; 0 when nothing is left. */
+static inline int fl_span_keep(fl_span *t, double a0, double a1)
+{
+    const int in0 = a0 >= 0.0, in1 = a1 >= 0.0;
+    if (in0 && in1) return 1;
+    if (!in0 && !in1) return 0;
+    const double at = a0 / (a0 - a1);
+    if (in1) t->lo = at > t->lo ? at : t->lo;
+    else t->hi = at < t->hi ? at : t->hi;
+    return t->lo < t->hi;
+}
+
+/* An edge in work: from x0 along u; its places go into w. */
 typedef struct {
     fl_places *w;
     const fl_side *own;
-    int32_t edge;
     fl_vec3 x0, u;
-    double length, factor, R;
+    double factor; /* fl_strips_factor() */
+    double R;      /* reach */
 } fl_line;
 
-/* Edge e of `own`, places to go into w; other: radius of the other core, R: reach. */
-fl_line fl_strips_line(fl_places *w, const fl_side *own, int32_t e, double other, double R);
+/* What int_0^1 s^(9/2) dt of edge e of `own` is multiplied by; other: radius of the other core.  0 for edges
+ * without any. */
+double fl_strips_factor(const fl_side *own, int32_t e, double other);
 
-/* An edge over a face (whose prism reaches `behind` below it [m]), an edge, a vertex of `other`.  -1 when
+/* The part t of an edge over a face with normal n, h0 and h1 its heights at the two ends of the edge; and
+ * over the point c, or the line through c along the unit vector *axis, no nearer than `small`.  -1 when
  * memory runs out. */
-int fl_strips_edge_face(const fl_line *l, const fl_side *other, int32_t f, double behind);
-int fl_strips_edge_edge(const fl_line *l, const fl_side *other, int32_t g);
-int fl_strips_edge_vertex(const fl_line *l, const fl_side *other, int32_t v);
-
-/* Vertex v of `own` over a face, an edge, a vertex of `other`: a place when it lies in that prism, wedge,
- * cone.  Over a convex core it is in one; in an inner corner of a surface, in one for each wall. */
-int fl_strips_vertex_face(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t f,
-                          double R);
-int fl_strips_vertex_edge(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t g,
-                          double R);
-int fl_strips_vertex_vertex(fl_places *w, const fl_side *own, int32_t v, const fl_side *other, int32_t c,
-                            double R);
+int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n);
+int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *axis, double small);
 
 /* Edge e of `own` over the plane z = 0. */
 int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e, double R);

@@ -253,10 +253,13 @@ static void dropping(void)
     for (int k = 0; k < 4; k++) {
         h[k] = 0.4 / (1 << k);
         off[k] = 0.0;
-        for (int i = 0; i < 8; i++)
-            off[k] += fabs(bounce("patch", 0.003 * i, 0.02 - 0.004 * i, h[k]) - 1.0) / 8;
+        for (int i = 0; i < 16; i++)
+            off[k] += fabs(bounce("patch", 0.0015 * i, 0.02 - 0.002 * i, h[k]) - 1.0) / 16;
     }
-    verify_order("V40", "patch: mean |ratio - 1| against dt over the automatic", h, off, 4, 2.0, 0.3);
+    /* Between touch and release the step conserves an energy of its own.  What is left is made in the steps
+     * that begin and end a contact, of a vertex first: there W ~ s^(5/2) and s ~ h, and h^3 W''' ~ h^(5/2).
+     */
+    verify_order("V40", "patch: mean |ratio - 1| against dt over the automatic", h, off, 4, 2.5, 0.3);
 }
 
 /* --- the hard cases ---------------------------------------------------------------------------------------
