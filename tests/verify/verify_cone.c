@@ -56,7 +56,8 @@ static void any_angle(void)
 }
 
 /* For polyhedra a cone is a frustum of 96 sides with the cross-section of the circle: corners at f R, flats
- * at f R cos(pi/96), f^2 = (2 pi/96)/sin(2 pi/96).  A flat floe meets a corner, the corner of a floe a flat. */
+ * at f R cos(pi/96), f^2 = (2 pi/96)/sin(2 pi/96).  A flat floe meets a corner, the corner of a floe a
+ * flat. */
 static void frustum(void)
 {
     const double R = 2.0, f = sqrt(2 * PI / FL_CONE_SIDES / sin(2 * PI / FL_CONE_SIDES)),
