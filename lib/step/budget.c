@@ -9,8 +9,10 @@
 #include "step/snapshot.h"
 #include "step/step.h"
 
-/* The estimate itself is off by some; so much of the goal is used. */
+/* The estimate itself is off by some, and a peak is one value, in which nothing cancels: so much of the goal
+ * is used. */
 #define MARGIN 0.8
+#define MARGIN_PEAK 0.65
 /* A meeting of this much more momentum than any before is news. */
 #define NEWS 1.5
 /* Two steps nearer to one another than this are as good as one. */
@@ -258,7 +260,8 @@ static double momenta_astray(const fl_budget *g, double h)
 /* 1 is what is allowed. */
 static double strain(const fl_budget *g, double h)
 {
-    return fmax(fl_budget_estimate(g, h), momenta_astray(g, h) / LOOSE) / (MARGIN * g->goal);
+    return fmax(fl_budget_estimate(g, h), momenta_astray(g, h) / LOOSE) /
+           ((g->of == FL_ERROR_OF_PEAK ? MARGIN_PEAK : MARGIN) * g->goal);
 }
 
 /* Where the strain is 1: between h/4 and 4 h, by halving of the exponent. */
@@ -370,8 +373,8 @@ static double distance(const fl_budget *g, const fl_budget_end *x, const fl_budg
     return sqrt(sum / g->trial.n);
 }
 
-/* How fast states part that differ by little, beyond what they would in free flight: shifted by s, and as much
- * again by their speed, to which the speed itself comes. */
+/* How fast states part that differ by little, beyond what they would in free flight: shifted by s, and
+ * as much again by their speed, to which the speed itself comes. */
 static int measure_parting(fl_budget *g, const fl_world *w, int64_t row, int32_t m, fl_err *err)
 {
     const int32_t rows = (int32_t)fmax(g->rows, (double)(row / PARTING));

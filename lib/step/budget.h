@@ -8,11 +8,11 @@
  *     error    e = |X(h) - X(h/4)| + d'/(2^p - 1),       e(h') = e (h'/h)^p            (Richardson)
  * The step is the largest, among those that divide a row, for which all windows looked at together stay
  * within the goal,
- *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= MARGIN goal sum |X|,
+ *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.8 goal sum |X|,
  * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
- * it is the largest error against the largest peak.  Because what goes wrong between floes reaches the
- * structure later, the momenta of the floes at the end of the window must be right, too, to four times the
- * goal of the impulses they took.  The step that is taken has been tried itself.
+ * it is the largest error against the largest peak, and 0.65.  Because what goes wrong between floes reaches
+ * the structure later, the momenta of the floes at the end of the window must be right, too, to four times
+ * the goal of the impulses they took.  The step that is taken has been tried itself.
  *
  * It is looked at the start; before two things may meet whose kind of meeting has not been seen with two
  * thirds of that momentum (floe and floe, floe and each part of the structure, floe and wall); and again
