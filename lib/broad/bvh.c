@@ -60,12 +60,19 @@ static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int3
 
 int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err)
 {
+    return fl_bvh_build_some(t, box, n, 0, NULL, err);
+}
+
+int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const uint8_t *absent, fl_err *err)
+{
+    int32_t there = 0;
     if (fl_grow(&t->order, &t->order_cap, n, sizeof *t->order, err)) return -1;
     if (fl_grow(&t->node, &t->node_cap, 2 * (int64_t)n + 1, sizeof *t->node, err)) return -1;
-    t->n = n;
-    t->nodes = n > 0;
-    for (int32_t k = 0; k < n; k++) t->order[k] = k;
-    if (n > 0) split(t, box, 0, 0, n);
+    for (int32_t k = 0; k < n; k++)
+        if (!absent || k >= m || !absent[k]) t->order[there++] = k;
+    t->n = there;
+    t->nodes = there > 0;
+    if (there > 0) split(t, box, 0, 0, there);
     return 0;
 }
 

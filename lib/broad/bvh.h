@@ -24,6 +24,10 @@ typedef struct {
  * Returns 0, or -1 with FL_SYSTEM in err. */
 int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err);
 
+/* The same without the boxes k < m where absent[k] is not 0; absent NULL: with all. */
+int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const uint8_t *absent,
+                      fl_err *err);
+
 /* Indices k with box[k] meeting q (touching counts), in no particular order, into out[0 .. room); returns how
  * many there are, which may exceed room: then the caller makes room and asks again.  Cannot fail. */
 int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *out, int32_t room);

@@ -50,6 +50,7 @@ static int partners(const fl_pairs *p, const fl_aabb *box, int32_t i, int32_t to
     const fl_vec3 L = p->period;
     const fl_aabb b = box[i];
     s->keys = 0;
+    if (p->absent && p->absent[i]) return 0;
     if (!(L.x > 0.0 || L.y > 0.0 || L.z > 0.0)) {
         if (add_met(p, box, b, i, CENTRE, s, err)) return -1;
     } else if (p->tree.nodes) {
@@ -80,7 +81,7 @@ int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int
 {
     int failed = 0;
     const int wraps = p->period.x > 0.0 || p->period.y > 0.0 || p->period.z > 0.0;
-    if (fl_bvh_build(&p->tree, box, total - wide, err)) return -1;
+    if (fl_bvh_build_some(&p->tree, box, total - wide, n, p->absent, err)) return -1;
     if (fl_grow(&p->first, &p->first_cap, (int64_t)n + 1, sizeof *p->first, err)) return -1;
     /* Twice the same queries: the first counts, the second fills its stretch.  No thread waits for another.
      */

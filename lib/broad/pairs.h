@@ -10,6 +10,7 @@ typedef struct {
     int32_t *partner; /* [first[n]] j of the pairs of i, ascending; i < j                */
     int32_t *image;   /* [first[n]] which image of j meets i, rising; NULL without a period */
     fl_bvh tree;
+    const uint8_t *absent; /* [n] borrowed, or NULL */
     int32_t first_cap, partner_cap, image_cap;
 } fl_pairs;
 
@@ -19,6 +20,7 @@ typedef struct {
  * With a period i meets every image of j, box[j] moved by whole periods, up to 15 of them to each side, so
  * the boxes had better be brought together before; a body does not meet itself, and a wide box has no
  * images.
+ * Bodies k < n where p->absent[k] is not 0 are left out; absent NULL: none.
  * The lists are the same for any number of threads.  0, or -1 with FL_SYSTEM. */
 int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int32_t wide, fl_err *err);
 

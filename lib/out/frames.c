@@ -23,7 +23,7 @@ static void vertex(FILE *f, fl_vec3 x)
     putc('\n', f);
 }
 
-static void shape(FILE *f, const fl_poses *s, int32_t i)
+void fl_frames_shape(FILE *f, const fl_poses *s, int32_t i)
 {
     const fl_poly *p = &s->b->core[i];
     const fl_mat3 R = q_matrix(s->q0[i]);
@@ -42,7 +42,8 @@ void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_po
                       const fl_surface *surface)
 {
     fl_by_header(f, "animation", 1, history, by);
-    for (int32_t c = 0; c < s->b->n; c++) shape(f, s, fl_poses_body(s, c));
+    for (int32_t c = 0; c < s->b->n; c++)
+        if (fl_poses_body(s, c) >= 0) fl_frames_shape(f, s, fl_poses_body(s, c));
     for (int32_t k = 0; surface && k < surface->n; k++) {
         const fl_part *p = &surface->part[k];
         fprintf(f, "part %d %s\n", p->id, p->name);
@@ -67,6 +68,7 @@ void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice
     putc('\n', f);
     for (int32_t c = 0; ice && c < s->b->n; c++) {
         const int32_t i = fl_poses_body(s, c);
+        if (i < 0) continue;
         const fl_quat q = q_mul(s->b->q[i], q_conj(s->q0[i]));
         fprintf(f, "body %d", s->id[i]);
         put3(f, fl_poses_place(s, i));

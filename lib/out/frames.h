@@ -12,6 +12,9 @@
 void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_poses *s,
                       const fl_surface *surface);
 
+/* The record of one body that has come in since. */
+void fl_frames_shape(FILE *f, const fl_poses *s, int32_t i);
+
 /* One frame:  frame T   body ID X Y Z QW QX QY QZ ...   structure X Y Z, the way the structure has gone.
  * ice = 0 leaves the bodies out. */
 void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice);

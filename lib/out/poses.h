@@ -12,10 +12,15 @@ typedef struct {
     const fl_quat *q0;   /* axes at the start: orientations are told against them */
     const int32_t *at;   /* [b->n] the order; NULL: as they are */
     const fl_cell *cell; /* positions are told inside it; NULL: as they are */
+    const uint8_t *away; /* [b->n] places that are empty; NULL: none        */
 } fl_poses;
 
-/* The k-th body to be told. */
-static inline int32_t fl_poses_body(const fl_poses *p, int32_t k) { return p->at ? p->at[k] : k; }
+/* The k-th body to be told; -1: nobody is there. */
+static inline int32_t fl_poses_body(const fl_poses *p, int32_t k)
+{
+    const int32_t i = p->at ? p->at[k] : k;
+    return p->away && p->away[i] ? -1 : i;
+}
 
 static inline fl_vec3 fl_poses_place(const fl_poses *p, int32_t i)
 {

@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "base/text.h"
 
-enum { FL_RESTART_VERSION = 1, FL_RESTART_PARTS = 8 };
+enum { FL_RESTART_VERSION = 1, FL_RESTART_PARTS = 12 };
 
 typedef struct {
     char name[16];

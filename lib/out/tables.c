@@ -87,6 +87,7 @@ void fl_state_rows(FILE *f, double t, const fl_poses *p)
     fl_num_text(t, text);
     for (int32_t k = 0; k < p->b->n; k++) {
         const int32_t i = fl_poses_body(p, k);
+        if (i < 0) continue;
         const fl_quat q = q_mul(p->b->q[i], q_conj(p->q0[i]));
         fprintf(f, "%s\t%d", text, p->id[i]);
         put3(f, fl_poses_place(p, i));

@@ -42,7 +42,7 @@ void fl_hash_row(FILE *f, double t, uint64_t hash);
 
 #define FL_ENERGY_COLUMNS                                                                                    \
     "t[s]\tkinetic[J]\tgravity[J]\telastic[J]\thydrostatic[J]\tfriction[J]\tdamping[J]\tdrag[J]\twind[J]"    \
-    "\tdrive[J]\t"                                                                                           \
+    "\tdrive[J]\tcarried[J]\t"                                                                               \
     "residual[J]"
 /* and behind it, of a structure that moves by itself */
 #define FL_ENERGY_MOVING "\tstructure[J]\tspring[J]\tdamper[J]"

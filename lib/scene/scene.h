@@ -52,6 +52,7 @@ enum fl_error_of {
     FL_ERROR_OF_MY,
     FL_ERROR_OF_MZ
 };
+enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
 enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
 
 typedef struct {
@@ -151,10 +152,16 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    int32_t type[3];            /* enum fl_bound_type of x, y, z; an absent section is FL_BOUND_FREE */
-    fl_vec3 min, max;           /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
-    double stiffness;           /* of the springs against the boundary [N/m^n]; 0: auto */
-    double foundation, damping; /* of an elastic wall, per area [N/m3], [N s/m3] */
+    int32_t type[3];                 /* enum fl_bound_type of x, y, z; an absent section is FL_BOUND_FREE */
+    fl_vec3 min, max;                /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
+    double stiffness;                /* of the springs against the boundary [N/m^n]; 0: auto */
+    int32_t inflow;                  /* enum fl_inflow */
+    char inflow_file[FL_SCENE_PATH]; /* g-polys; "" not given */
+    int32_t inflow_from;             /* 0 -x, 1 x, 2 -y, 3 y: the bound */
+    double inflow_speed;             /* [m/s]; 0: auto, that of the current */
+    double inflow_pitch;             /* [m]; 0: auto, the length of the field */
+    int32_t room;                    /* floes there is room for besides those of the start; 0: auto */
+    double foundation, damping;      /* of an elastic wall, per area [N/m3], [N s/m3] */
 } fl_scene_boundary;
 
 typedef struct {

@@ -100,6 +100,27 @@ static int check_contacts(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+static int check_inflow(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->boundary;
+    const int axis = b->inflow_from / 2;
+    const double lo = axis ? b->min.y : b->min.x, hi = axis ? b->max.y : b->max.x;
+    const double current = axis ? s->water.current.y : s->water.current.x;
+    if (b->inflow == FL_INFLOW_FILE && b->inflow_file[0] == '\0')
+        return fl_scene_fail(s, "boundary.inflow", err,
+                             "boundary.inflow is file: inflow_file = FILE was wanted");
+    if (b->type[axis] != FL_BOUND_FREE || !isfinite(lo) || !isfinite(hi))
+        return fl_scene_fail(s, "boundary.inflow", err,
+                             "floes come in along %c, and leave: boundary.type of %c free, and its "
+                             "boundary.min and boundary.max, were wanted",
+                             'x' + axis, 'x' + axis);
+    if (b->inflow_speed <= 0.0 && !((b->inflow_from % 2 ? -current : current) > 0.0))
+        return fl_scene_fail(s, "boundary.inflow", err,
+                             "water.current does not go in there: boundary.inflow_speed, or another "
+                             "inflow_from, was wanted");
+    return 0;
+}
+
 static int check_boundary(const fl_scene *s, fl_err *err)
 {
     const double lo[] = {s->boundary.min.x, s->boundary.min.y, s->boundary.min.z};
@@ -131,7 +152,7 @@ static int check_boundary(const fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "boundary.type", err,
                              "z is periodic, and there is [water], which has one surface: one of the two was "
                              "wanted");
-    return 0;
+    return s->boundary.inflow == FL_INFLOW_NONE ? 0 : check_inflow(s, err);
 }
 
 static int check_current(const fl_scene *s, fl_err *err)

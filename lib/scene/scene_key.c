@@ -577,7 +577,7 @@ const fl_key fl_key_table[] = {
      .meaning =
          "what stands at the bounds, one word for all directions or one for each of x, y and z; rigid: "
          "walls; elastic: walls on springs and dashpots; periodic: what leaves at one bound comes in at the "
-         "other; free: nothing",
+         "other; free: nothing, floes that are wholly beyond a bound are taken out",
      .source = "DilatedDEM manual (2016), bound_type"},
     {.section = FL_SEC_BOUNDARY,
      .key = "min",
@@ -628,6 +628,62 @@ const fl_key fl_key_table[] = {
      .meaning = "dashpots of an elastic wall per area that presses into it; sqrt(density young) of the ice "
                 "takes a wave up without reflection",
      .source = "Lysmer & Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "inflow",
+     .type = FL_VALUE_WORD,
+     .at = AT(boundary, inflow),
+     .fallback = "none",
+     .choices = "none|ice|file",
+     .meaning =
+         "whether new floes come in, and which; ice: copies of the field of ice.file, again and again; "
+         "file: of that of inflow_file"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "inflow_file",
+     .type = FL_VALUE_PATH,
+     .at = AT(boundary, inflow_file),
+     .fallback = "none",
+     .special = "none",
+     .meaning = "the field of what comes in, a g-polys file, for inflow = file",
+     .source = "g-polys(5)"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "inflow_from",
+     .type = FL_VALUE_WORD,
+     .at = AT(boundary, inflow_from),
+     .fallback = "-x",
+     .choices = "-x|x|-y|y",
+     .meaning = "the bound the new floes come in through: the lower or the upper one of x or y; floes leave "
+                "through both"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "inflow_speed",
+     .type = FL_VALUE_F64,
+     .unit = FL_UNIT_SPEED,
+     .at = AT(boundary, inflow_speed),
+     .fallback = "auto",
+     .special = "auto",
+     .range = "(0,inf)",
+     .meaning = "speed of the ice that comes in, straight from its bound, whatever is in its way; auto is "
+                "that of water.current"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "inflow_pitch",
+     .type = FL_VALUE_F64,
+     .unit = FL_UNIT_LENGTH,
+     .at = AT(boundary, inflow_pitch),
+     .fallback = "auto",
+     .special = "auto",
+     .range = "(0,inf)",
+     .meaning = "distance of one copy of the field from the next, along the drift; auto is the length that "
+                "the floes take up; the length of the domain they were made for keeps their concentration"},
+    {.section = FL_SEC_BOUNDARY,
+     .key = "room",
+     .type = FL_VALUE_I32,
+     .at = AT(boundary, room),
+     .fallback = "auto",
+     .special = "auto",
+     .range = "[1,100000000]",
+     .meaning =
+         "how many floes there may be at a time besides those of the start; a floe for which there is "
+         "no room waits; auto is one and a quarter of what comes in over the length of the domain, and "
+         "a field besides"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive",
      .type = FL_VALUE_VEC3,

@@ -445,8 +445,8 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
 
 /* --- made and kept ----------------------------------------------------------------------------- */
 
-int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
-                   fl_err *err)
+int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, const fl_field *feed,
+                   const fl_surface *surface, fl_err *err)
 {
     int32_t body;
     *g = (fl_budget){.goal = scene->run.error,
@@ -454,7 +454,7 @@ int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, c
                      .every = scene->output.loads_every,
                      .latest = -1,
                      .looked_at = -1};
-    if (fl_world_make(&g->trial, scene, field, surface, err)) return -1;
+    if (fl_world_make_fed(&g->trial, scene, field, feed, surface, err)) return -1;
     const double most = fmin(fl_world_dt(&g->trial, &body), fmin(g->every, scene->run.duration));
     g->least = (int32_t)fmin(ceil(g->every / most * (1.0 - 1e-12)), 1e5);
     g->rows = (int32_t)ceil((double)WINDOW / g->least);

@@ -72,9 +72,9 @@ typedef struct {
     size_t n_text;
 } fl_budget;
 
-/* A second world of the scene, and no window yet.  -1 as fl_world_make(). */
-int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
-                   fl_err *err);
+/* A second world of the scene, and no window yet.  -1 as fl_world_make_fed(). */
+int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, const fl_field *feed,
+                   const fl_surface *surface, fl_err *err);
 void fl_budget_free(fl_budget *g); /* accepts a zeroed struct, leaves one */
 
 /* The step to start with [s]: the largest there may be. */

@@ -111,11 +111,12 @@ static void books(traffic *t, fl_world *w)
     real(t, &g->friction);
     real(t, &g->damping);
     real(t, &g->drive);
+    real(t, &g->carried);
     vec3(t, &w->imbalance);
     real(t, &w->impulse_size);
     real(t, &w->worst_overlap);
-    whole(t, -1, w->n - 1, &w->worst_i);
-    whole(t, -1, w->b.total - 1, &w->worst_j);
+    whole(t, -1, INT32_MAX, &w->worst_i);
+    whole(t, -INT32_MAX, INT32_MAX, &w->worst_j);
     count(t, &w->touching_steps);
     count(t, &w->searches);
     count(t, &w->deep_pairs);
@@ -124,6 +125,59 @@ static void books(traffic *t, fl_world *w)
     count(t, &w->deep_count.poor);
     count(t, &w->deep_count.capped);
     close_row(t);
+}
+
+static void byte(traffic *t, uint8_t hi, uint8_t *x)
+{
+    int32_t whole_one = *x;
+    whole(t, 0, hi, &whole_one);
+    *x = (uint8_t)whole_one;
+}
+
+/* Who has come and gone, and who stands in which place: a floe that came in is made again before its body is
+ * read. */
+static void coming(traffic *t, fl_world *w)
+{
+    fl_traffic *c = &w->traffic;
+    const int32_t feed = c->feed ? c->feed->n : 0;
+    open_row(t, "traffic");
+    count(t, &c->left);
+    count(t, &c->entered);
+    real(t, &c->mass_left);
+    real(t, &c->mass_entered);
+    vec3(t, &c->momentum_left);
+    vec3(t, &c->momentum_entered);
+    whole(t, 0, INT32_MAX, &c->next_id);
+    count(t, &c->waited);
+    count(t, &c->missed);
+    close_row(t);
+    for (int32_t k = 0; k < feed && !t->err->code; k++) {
+        open_row(t, "next");
+        count(t, &c->tile[k]);
+        close_row(t);
+    }
+    for (int32_t i = 0; i < w->n && !t->err->code; i++) {
+        int32_t floe = c->floe[i], id = w->id[i];
+        open_row(t, "place");
+        byte(t, 1, &c->away[i]);
+        whole(t, -1, feed - 1, &floe);
+        whole(t, 0, INT32_MAX, &id);
+        count(t, &c->born[i]);
+        byte(t, 1, &c->guided[i]);
+        close_row(t);
+        if (t->f || t->err->code) continue;
+        if (floe != c->floe[i] && (!c->feed || (floe < 0 && i >= c->ice->n))) {
+            fl_text_fail(t->in, t->err, "place %d has no floe of its own", i);
+            continue;
+        }
+        if (floe != c->floe[i] &&
+            fl_world_put(w, i, floe < 0 ? c->ice : c->feed, floe < 0 ? i : floe, t->err))
+            continue;
+        c->floe[i] = floe;
+        w->id[i] = id;
+        c->hold[i] = w->b.hold[i];
+        if (c->guided[i]) w->b.hold[i] = FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;
+    }
 }
 
 static void body(traffic *t, fl_world *w, int32_t k)
@@ -369,13 +423,14 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
         real(t, &w->part_peak[p]);
         close_row(t);
     }
+    if (w->traffic.away && !t->err->code) coming(t, w);
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
     for (int32_t k = 0; k < w->ride.m.n && !t->err->code; k++) mover(t, w, k);
     if (w->press.panels && !t->err->code) pressed(t, w);
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, i);
-        if (t->in && !t->err->code) fl_sea_renew(&w->sea, &w->b, i);
+        if (t->in && !t->err->code && !fl_world_away(w, i)) fl_sea_renew(&w->sea, &w->b, i);
     }
     return pairs;
 }

@@ -9,6 +9,7 @@
  *     world     step found_at dt t0 step0 skin dt_critical critical_body dt_safe parts total sea pairs
  *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
  *     part ...  impulse, moment and peak of the loads interval
+ *     traffic   who has come and gone; next ... of each floe that comes in; place ... who stands in it
  *     body ...  x v L q w f t held, carried (with added mass alone), odometer, odometer at the last search
  *     mover ... x v L q w f t held, what of its springs and dampers lasts, and the hash of its track
  *     pressed   what follows, where panels or events are asked for: panel, mark and event rows

@@ -9,6 +9,7 @@
 #include "step/ride.h"
 #include "step/search.h"
 #include "step/step.h"
+#include "step/traffic.h"
 
 /* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic
  * size; one that a longer step throws apart would be missed in between. */
@@ -30,12 +31,12 @@ static int touch(fl_world *w, double dt, int survey, fl_err *err)
     return w->press.panels ? fl_press_sort(w, err) : 0;
 }
 
-/* What acts on body k: weight, water, then its pairs in the order of the list, whichever thread takes it. */
-static void gather(fl_world *w, int32_t k)
+void fl_step_gather(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
     b->f[k] = b->t[k] = v3(0, 0, 0);
     if (k < w->n) {
+        if (fl_world_away(w, k)) return;
         b->f[k] = v3_scale(b->m[k], w->gravity);
         if (w->sea.water) fl_sea_force(&w->sea, b, k);
     }
@@ -137,21 +138,26 @@ static double drive_power(const fl_world *w)
     return power;
 }
 
-/* Book the works of the forces just found, at the velocities of the full step, for the two half kicks that
- * they give (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out.
- * The sums run over touching pairs in their order, so that no bit depends on which others are listed. */
-static void book(fl_world *w, double dt)
+fl_works fl_step_works(const fl_world *w)
 {
-    double damped = 0.0, rubbed = 0.0;
+    fl_works sum = {.drive = drive_power(w)};
     for (int32_t c = 0; c < w->n_pair; c++) {
         const fl_pair *p = &w->pair[c];
         if (p->n == 0) continue;
-        damped += damping_power(&w->b, p);
-        rubbed += friction_power(&w->b, p);
+        sum.damping += damping_power(&w->b, p);
+        sum.friction += friction_power(&w->b, p);
     }
-    w->ledger.damping += dt * damped;
-    w->ledger.friction += dt * rubbed;
-    w->ledger.drive += dt * drive_power(w);
+    return sum;
+}
+
+/* Book the works of the forces just found, at the velocities of the full step, for the two half kicks that
+ * they give (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out. */
+static void book(fl_world *w, double dt)
+{
+    const fl_works now = fl_step_works(w);
+    w->ledger.damping += dt * now.damping;
+    w->ledger.friction += dt * now.friction;
+    w->ledger.drive += dt * now.drive;
 }
 
 /* Overlaps, counts, and whether action is reaction. */
@@ -165,8 +171,8 @@ static void account(fl_world *w, double dt)
         const double R = b->radius[p->i] + b->radius[p->j], deep = R > 0.0 ? p->overlap / R : 0.0;
         if (deep > w->worst_overlap) {
             w->worst_overlap = deep;
-            w->worst_i = p->i;
-            w->worst_j = p->j;
+            w->worst_i = fl_world_name(w, p->i);
+            w->worst_j = fl_world_name(w, p->j);
         }
         w->impulse_size += dt * v3_norm(p->f);
         w->touching_steps++;
@@ -174,6 +180,7 @@ static void account(fl_world *w, double dt)
     for (int32_t k = 0; k < b->total; k++) {
         fl_vec3 f = b->f[k];
         if (k < w->n) {
+            if (fl_world_away(w, k)) continue;
             f = v3_madd(f, -b->m[k], w->gravity);
             if (w->sea.water) f.z -= w->sea.lift[k];
         }
@@ -188,7 +195,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     w->dt_safe = fl_world_dt(w, &body);
     if (fl_search(w, err)) return -1;
     if (touch(w, 0.0, 1, err)) return -1;
-    for (int32_t k = 0; k < w->b.total; k++) gather(w, k);
+    for (int32_t k = 0; k < w->b.total; k++) fl_step_gather(w, k);
     if (w->ride.m.n) {
         fl_ride_ready(w);
         fl_ride_back(w, 0.0, 0.0);
@@ -214,6 +221,7 @@ int fl_step(fl_world *w, fl_err *err)
     if (rides) fl_ride_out(w, fl_world_time(w));
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
+        if (k < w->n && fl_world_away(w, k)) continue;
         if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, 0);
         if (k < w->n) fl_kick(b, k, h);
         if (!rides || k < w->n || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
@@ -223,8 +231,8 @@ int fl_step(fl_world *w, fl_err *err)
     if (touch(w, dt, survey, err)) return -1;
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
-        gather(w, k);
-        if (k < w->n) fl_kick(b, k, h);
+        fl_step_gather(w, k);
+        if (k < w->n && !fl_world_away(w, k)) fl_kick(b, k, h);
     }
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     book(w, dt);
@@ -233,26 +241,18 @@ int fl_step(fl_world *w, fl_err *err)
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     if (sea) {
 #pragma omp parallel for schedule(static)
-        for (int32_t k = 0; k < w->n; k++) fl_sea_drag(&w->sea, b, k, h, 1);
+        for (int32_t k = 0; k < w->n; k++)
+            if (!fl_world_away(w, k)) fl_sea_drag(&w->sea, b, k, h, 1);
     }
     if (survey) survey_stiffness(w);
-    return check(w, survey, err);
+    if (check(w, survey, err)) return -1;
+    return w->traffic.away ? fl_traffic_step(w, err) : 0;
 }
 
 /* The half kick that lies ahead is booked already, and gets another length. */
 void fl_step_resize(fl_world *w, double dt, double t)
 {
-    const double more = 0.5 * (dt - w->dt);
-    double damped = 0.0, rubbed = 0.0;
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_pair *p = &w->pair[c];
-        if (p->n == 0) continue;
-        damped += damping_power(&w->b, p);
-        rubbed += friction_power(&w->b, p);
-    }
-    w->ledger.damping += more * damped;
-    w->ledger.friction += more * rubbed;
-    w->ledger.drive += more * drive_power(w);
+    book(w, 0.5 * (dt - w->dt));
     w->t0 = t;
     w->step0 = w->step;
     w->dt = dt;
@@ -270,12 +270,13 @@ void fl_step_ledger(fl_world *w)
     double damped = 0.0, rubbed = 0.0;
     const double h = 0.5 * w->dt; /* of the last works booked, the half kick that has not been given yet */
     for (int32_t i = 0; i < w->n; i++) {
-        kinetic += fl_body_kinetic(b, i);
-        gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
+        const int there = !fl_world_away(w, i);
+        if (there) kinetic += fl_body_kinetic(b, i);
+        if (there) gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
         held += b->held[i];
         if (b->added) drag -= b->carried[i];
         if (w->sea.n) {
-            if (w->sea.water) hydro += w->sea.energy[i];
+            if (w->sea.water && there) hydro += w->sea.energy[i];
             drag += w->sea.drained[i];
             wind += w->sea.blown[i];
         }
@@ -306,7 +307,7 @@ void fl_step_ledger(fl_world *w)
     const double drive = g->drive - h * drive_power(w) + held;
     g->drive_now = drive;
     g->residual = kinetic + gravity + elastic + hydro + g->moving + g->spring - g->start + g->damping_now +
-                  g->friction_now + drag + g->damper - wind - drive;
+                  g->friction_now + drag + g->damper - wind - drive - g->carried;
     const double through = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
                            fabs(drive) + kinetic + g->damper + g->moving;
     if (through > g->throughput) g->throughput = through;
@@ -317,6 +318,7 @@ uint64_t fl_step_hash(const fl_world *w)
     const fl_bodies *b = &w->b;
     uint64_t h = FL_HASH_START;
     for (int32_t i = 0; i < w->n; i++) {
+        if (fl_world_away(w, i)) continue;
         h = fl_hash(h, &b->x[i], sizeof b->x[i]);
         h = fl_hash(h, &b->q[i], sizeof b->q[i]);
         h = fl_hash(h, &b->v[i], sizeof b->v[i]);

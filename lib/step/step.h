@@ -18,6 +18,17 @@ int fl_step(fl_world *w, fl_err *err);
 /* From here on, steps of dt; t is what the clock shows now, fl_world_time() but for its rounding. [s] */
 void fl_step_resize(fl_world *w, double dt, double t);
 
+/* Force and torque on thing k into b.f[k], b.t[k]: weight, water, then its pairs in the order of the list,
+ * whichever thread takes it. */
+void fl_step_gather(fl_world *w, int32_t k);
+
+/* What damping and friction take out, and what moves as it is told puts in, per time [W].  The sums run over
+ * touching pairs in their order, so that no bit depends on which others are listed. */
+typedef struct {
+    double damping, friction, drive;
+} fl_works;
+fl_works fl_step_works(const fl_world *w);
+
 /* Stores, sinks and residual now, into w->ledger. */
 void fl_step_ledger(fl_world *w);
 

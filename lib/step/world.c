@@ -43,23 +43,23 @@ static void hold_body(fl_world *w, int32_t i, const char *group, fl_vec3 spin)
                     fixed & FL_HOLD_RZ ? 0.0 : spin.z));
 }
 
-/* Body i from the field: outer shape, mass, frame, start. */
-static int make_body(fl_world *w, const fl_field *field, int32_t i, fl_poly *outer, fl_err *err)
+/* Body i from the k-th of the field: outer shape, mass, frame, start. */
+static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_poly *outer, fl_err *err)
 {
     const fl_scene *s = w->scene;
     fl_bodies *b = &w->b;
-    const fl_poly *core = &field->core[i];
-    const double r = field->radius[i];
+    const fl_poly *core = &field->core[k];
+    const double r = field->radius[k];
     const int sharp = s->ice.shape == FL_SHAPE_SHARP && core->nf > 0;
     const char *material =
-        field->material[i] >= 0 ? field->materials.name[field->material[i]] : s->ice.material;
+        field->material[k] >= 0 ? field->materials.name[field->material[k]] : s->ice.material;
     fl_mass mass;
     fl_err why = {0};
-    w->id[i] = field->id[i];
+    w->id[i] = field->id[k];
     w->material[i] = fl_scene_find_material(s, material);
     if (w->material[i] < 0)
         return fl_fail(err, FL_INPUT, "%s: body %d: material %s is not in the scene", s->ice.file,
-                       field->id[i], material);
+                       field->id[k], material);
     if (sharp && (r > 0.0 ? fl_poly_offset(outer, core, r, &why) : fl_poly_copy(outer, core, &why))) goto bad;
     if (fl_mass_of(&mass, sharp ? outer : core, sharp ? 0.0 : r, &why)) goto bad;
 
@@ -69,7 +69,7 @@ static int make_body(fl_world *w, const fl_field *field, int32_t i, fl_poly *out
     b->I[i] = v3_scale(rho, mass.inertia);
     b->x[i] = mass.centre;
     b->q[i] = q_of_matrix(mass.axes);
-    b->v[i] = field->vel[i];
+    b->v[i] = field->vel[k];
     b->radius[i] = r;
     const fl_mat3 axes = q_matrix(b->q[i]);
     if (fl_poly_copy(&b->core[i], core, err)) return -1;
@@ -79,15 +79,15 @@ static int make_body(fl_world *w, const fl_field *field, int32_t i, fl_poly *out
     w->face[i] = largest_face(&b->core[i]);
     w->q0[i] = b->q[i];
     fl_body_derive(b, i);
-    fl_body_spin(b, i, field->spin[i]);
-    if (field->group[i] >= 0) hold_body(w, i, field->groups.name[field->group[i]], field->spin[i]);
+    fl_body_spin(b, i, field->spin[k]);
+    if (field->group[k] >= 0) hold_body(w, i, field->groups.name[field->group[k]], field->spin[k]);
     return 0;
 bad:
     if (why.code == FL_SYSTEM) {
         *err = why;
         return -1;
     }
-    return fl_fail(err, FL_INPUT, "%s: body %d: %s", s->ice.file, field->id[i], why.text);
+    return fl_fail(err, FL_INPUT, "%s: body %d: %s", s->ice.file, field->id[k], why.text);
 }
 
 static int anything(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }
@@ -309,8 +309,108 @@ static int make_arrays(fl_world *w, fl_err *err)
     return err->code ? -1 : 0;
 }
 
+/* Places for those that come: what comes in over the length of the domain, a quarter more where it is held
+ * up, and a field besides. */
+static int32_t room(const fl_scene_boundary *s, const fl_field *feed, double pitch)
+{
+    const double length = s->inflow_from / 2 ? s->max.y - s->min.y : s->max.x - s->min.x;
+    const double most = (double)feed->n * (1.25 * length / pitch + 1.0);
+    if (s->room > 0) return s->room > feed->n ? s->room : feed->n;
+    return (int32_t)fmin(ceil(most), 1e8);
+}
+
+/* How far along the drift the outermost points of a floe of a field stand: the larger (end = 1) or the
+ * smaller coordinate along it. */
+static double extent(const fl_traffic *t, const fl_field *field, int32_t k, double end)
+{
+    double most = -INFINITY;
+    for (int32_t v = 0; v < field->core[k].nv; v++) {
+        const fl_vec3 x = field->core[k].v[v];
+        most = fmax(most, end * t->sign * (t->axis ? x.y : x.x));
+    }
+    return end * (most + field->radius[k]);
+}
+
+/* What leaves and what comes, but for the arrays of all places. */
+static int plan_traffic(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_traffic *t = &w->traffic;
+    double front = -INFINITY, back = INFINITY;
+    t->feed = feed;
+    t->ice = field;
+    t->axis = s->inflow_from / 2;
+    t->sign = s->inflow_from % 2 ? -1.0 : 1.0;
+    t->entry = t->sign > 0.0 ? (t->axis ? s->min.y : s->min.x) : -(t->axis ? s->max.y : s->max.x);
+    t->speed = s->inflow_speed > 0.0
+                   ? s->inflow_speed
+                   : t->sign * (t->axis ? w->scene->water.current.y : w->scene->water.current.x);
+    for (int32_t k = 0; k < feed->n; k++) {
+        front = fmax(front, extent(t, feed, k, 1.0));
+        back = fmin(back, extent(t, feed, k, -1.0));
+    }
+    t->pitch = s->inflow_pitch > 0.0 ? s->inflow_pitch : front - back;
+    t->lag = fl_alloc(feed->n, sizeof *t->lag, err);
+    t->tile = fl_alloc(feed->n, sizeof *t->tile, err);
+    if (!t->lag || !t->tile) return -1;
+    for (int32_t k = 0; k < feed->n; k++) t->lag[k] = front - extent(t, feed, k, 1.0);
+    return 0;
+}
+
+static int make_traffic(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_traffic *t = &w->traffic;
+    const double far = INFINITY;
+    if (!s->head.present) return 0;
+    t->lo = v3(s->type[0] == FL_BOUND_FREE ? s->min.x : -far, s->type[1] == FL_BOUND_FREE ? s->min.y : -far,
+               s->type[2] == FL_BOUND_FREE ? s->min.z : -far);
+    t->hi = v3(s->type[0] == FL_BOUND_FREE ? s->max.x : far, s->type[1] == FL_BOUND_FREE ? s->max.y : far,
+               s->type[2] == FL_BOUND_FREE ? s->max.z : far);
+    const int leave =
+        t->lo.x > -far || t->lo.y > -far || t->lo.z > -far || t->hi.x < far || t->hi.y < far || t->hi.z < far;
+    if (!leave) return 0;
+    if (s->inflow != FL_INFLOW_NONE) {
+        if (feed->n == 0)
+            return fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", s->inflow_file);
+        if (plan_traffic(w, field, feed, err)) return -1;
+        w->n += room(s, feed, t->pitch);
+    }
+    t->away = fl_alloc(w->n, sizeof *t->away, err);
+    t->born = fl_alloc(w->n, sizeof *t->born, err);
+    t->floe = fl_alloc(w->n, sizeof *t->floe, err);
+    t->guided = fl_alloc(w->n, sizeof *t->guided, err);
+    t->hold = fl_alloc(w->n, sizeof *t->hold, err);
+    if (!t->away || !t->born || !t->floe || !t->guided || !t->hold) return -1;
+    for (int32_t i = 0; i < w->n; i++) t->floe[i] = -1;
+    for (int32_t i = 0; i < field->n; i++)
+        if (field->id[i] >= t->next_id) t->next_id = field->id[i] + 1;
+    return 0;
+}
+
+int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_err *err)
+{
+    fl_poly outer = {0};
+    fl_poly_free(&w->b.core[i]);
+    w->b.bound[i] = 0.0;
+    w->b.hold[i] = 0;
+    if (w->bed.hull) fl_hull_free(&w->bed.hull[i]), fl_poly_free(&w->bed.outer[i]);
+    if (w->sea.n) fl_hull_free(&w->sea.hull[i]), fl_poly_free(&w->sea.outer[i]);
+    const int bad = make_body(w, i, field, k, &outer, err) || (w->cell.wraps && fits_cell(w, i, err)) ||
+                    (w->bed.hull && make_bed(w, i, &outer, err)) ||
+                    (w->sea.n && make_hull(w, i, &outer, err));
+    fl_poly_free(&outer);
+    return bad ? -1 : 0;
+}
+
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
                   fl_err *err)
+{
+    return fl_world_make_fed(w, scene, field, field, surface, err);
+}
+
+int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_field *feed,
+                      const fl_surface *surface, fl_err *err)
 {
     double bound = 0.0;
     fl_err why = {0};
@@ -328,29 +428,39 @@ int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, con
     }
     if (make_walls(w, err)) goto fail;
     make_cell(w);
+    if (make_traffic(w, field, feed, err)) goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
         make_beds(w, err) || make_sea(w, err))
         goto fail;
-    for (int32_t i = 0; i < w->n; i++) {
-        fl_poly outer = {0};
-        const int bad = make_body(w, field, i, &outer, err) || (w->cell.wraps && fits_cell(w, i, err)) ||
-                        (w->bed.hull && make_bed(w, i, &outer, err)) ||
-                        (w->sea.n && make_hull(w, i, &outer, err));
-        fl_poly_free(&outer);
-        if (bad) goto fail;
+    for (int32_t i = 0; i < field->n; i++) {
+        if (fl_world_put(w, i, field, i, err)) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];
+    }
+    /* The places to come hold what can come, so that the step is chosen for that as well. */
+    for (int32_t i = field->n; i < w->n; i++) {
+        w->traffic.floe[i] = (i - field->n) % feed->n;
+        w->traffic.away[i] = 1;
+        if (fl_world_put(w, i, feed, w->traffic.floe[i], err)) goto fail;
     }
     if (fl_sea_alloc_pieces(&w->sea, err)) goto fail;
     if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
         fl_pairing_laws(w, err))
         goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
-    w->skin = w->n ? 0.1 * bound / w->n : 0.0;
+    w->skin = field->n ? 0.1 * bound / field->n : 0.0;
+    w->near.absent = w->traffic.away;
     return 0;
 fail:
     fl_world_free(w);
     return -1;
+}
+
+int32_t fl_world_name(const fl_world *w, int32_t k)
+{
+    if (k < w->n) return w->id[k];
+    const int32_t part = w->structure.piece[k - w->n].part;
+    return part >= 0 ? -1 - part : -1 - w->parts - (k - w->n - w->pieces);
 }
 
 void fl_world_free(fl_world *w)
@@ -364,6 +474,8 @@ void fl_world_free(fl_world *w)
         if (w->bed.outer) fl_poly_free(&w->bed.outer[i]);
     }
     free(w->bed.hull), free(w->bed.outer);
+    free(w->traffic.away), free(w->traffic.born), free(w->traffic.lag), free(w->traffic.tile);
+    free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
     for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
     free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box);

@@ -71,6 +71,7 @@ typedef struct {
     double friction_now, damping_now, drag;        /* taken out since the start                        */
     double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
     double moving, spring, damper; /* of a structure that moves by itself: in it, in its springs; taken out */
+    double carried;                /* put in by floes that came, less what left with others */
     double start, residual;
     double
         /* largest kinetic energy + |each of the works| so far: what the residual is held against */
@@ -137,6 +138,32 @@ typedef struct {
     int32_t n_now, now_cap, events, event_cap;
 } fl_press;
 
+/* Floes that leave, and floes that come in.  Every floe has a place in the arrays, [0, n); that of one that
+ * has left is empty and is taken again by one that comes, so memory is bounded by what is there at a time.
+ *
+ * What comes in is a field, copied again and again against the drift: an endless sheet that moves at one
+ * speed.  Copy m of floe k is due when its foremost point reaches the bound, at t = (lag[k] + m pitch) /
+ * speed. It is then given its place, and is guided: held in x, y and about z, so that it drifts as the sheet
+ * does whatever is in its way, until the last of it is inside. */
+typedef struct {
+    uint8_t *away;  /* [n] nobody is in this place; NULL: nobody leaves or comes, and the rest is not there */
+    fl_vec3 lo, hi; /* who is wholly beyond leaves [m]; infinite where nobody does */
+    int64_t *born;  /* [n] the step in which it came                               */
+    int64_t left, entered;
+    double mass_left, mass_entered;          /* [kg]    */
+    fl_vec3 momentum_left, momentum_entered; /* [kg m/s] */
+    const fl_field *feed,
+        *ice; /* borrowed: what comes in, and what stood there at first; NULL: nobody comes */
+    int axis; /* of the drift: 0 x, 1 y */
+    double sign, entry, speed, pitch; /* +1: upwards; the bound, times sign [m]; [m/s]; [m] */
+    double *lag;                      /* [feed->n] [m] */
+    int64_t *tile;                    /* [feed->n] m of the copy that is next */
+    int32_t *floe;                    /* [n] which of feed; -1: one of the ice file */
+    uint8_t *guided, *hold;           /* [n] whether; what else holds it afterwards */
+    int32_t next_id;
+    int64_t waited, missed; /* floes whose place was taken; that had to be given up a pitch later */
+} fl_traffic;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
@@ -146,6 +173,7 @@ typedef struct {
     fl_ride ride;
     fl_press press;
     fl_beds bed;
+    fl_traffic traffic;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */
     int32_t *material; /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */
@@ -172,7 +200,7 @@ typedef struct {
 
     double dt, dt_critical; /* dt_critical: the smallest 2/omega seen [s] */
     double dt_safe;         /* fl_world_dt() at the start; above it every step is looked at [s] */
-    int32_t critical_body;
+    int32_t critical_body;  /* id of the one that had it, -1 */
     int64_t step;
     double t0; /* the time of step `step0`, from which on steps are of dt [s] */
     int64_t step0;
@@ -186,7 +214,7 @@ typedef struct {
     fl_vec3 imbalance;   /* sum of all contact impulses, floes and held things together: 0 but for rounding */
     double impulse_size; /* sum of their sizes */
     double worst_overlap; /* largest overlap over the sum of the radii (or the radius of the floe) so far */
-    int32_t worst_i, worst_j;
+    int32_t worst_i, worst_j;     /* names of the two, -1 before there are any */
     int64_t touching_steps;       /* sum over steps of pairs in contact */
     int64_t searches, deep_pairs; /* neighbour searches; evaluations with overlapping cores */
     fl_deep_count deep_count;
@@ -199,10 +227,28 @@ typedef struct {
  * FL_NUMERIC. */
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
                   fl_err *err);
+
+/* The same where another field than that of the ice comes in: scene->boundary.inflow = file.  Where
+ * floes come in both fields are borrowed until fl_world_free(). */
+int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_field *feed,
+                      const fl_surface *surface, fl_err *err);
 void fl_world_free(fl_world *w);
 
 /* Time now [s].  Steps are of one size, or change it at times that are known exactly. */
 static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(w->step - w->step0) * w->dt; }
+/* Put floe k of a field into place i, whoever was there before: at the field's own pose, at rest in the
+ * books. -1 as fl_world_make(). */
+int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_err *err);
+
+/* The number by which tables call a thing: the id of a floe; -1 - part of the structure; walls after those.
+ */
+int32_t fl_world_name(const fl_world *w, int32_t k);
+
+/* Whether place i < n is empty. */
+static inline int fl_world_away(const fl_world *w, int32_t i)
+{
+    return w->traffic.away && w->traffic.away[i];
+}
 
 /* The automatic step [s], and the body that sets it: safety * 2/omega (under run.error the largest that
  * damping allows), omega^2 bounded per body by the stiffest face it can meet, at its most compliant vertex,

@@ -96,3 +96,14 @@ void scene_of_seas(lab *l, int32_t side, const char *law)
     scene_of_everything(l, side, law);
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
 }
+
+void scene_of_traffic(lab *l, int32_t side, const char *law)
+{
+    const double half = 0.5 * side - 0.4;
+    scene_of_everything(l, side, law);
+    lab_set(l, "boundary.type=free elastic rigid");
+    lab_setf(l, "boundary.min=%.17g %.17g %.17g", -half - 2.5, -half - 0.45, -half - 0.45);
+    lab_setf(l, "boundary.max=%.17g %.17g none", half - 0.85, half + 0.45);
+    lab_set(l, "boundary.inflow=ice");
+    lab_set(l, "boundary.inflow_speed=20 m/s");
+}

@@ -15,4 +15,7 @@ void scene_of_wraps(lab *l, int32_t side, const char *law);
 /* The same with a sheared current, drag on each facet of water and wind, and added mass. */
 void scene_of_seas(lab *l, int32_t side, const char *law);
 
+/* The same where nothing bounds the heap along x: floes leave there at once, and copies of it come in. */
+void scene_of_traffic(lab *l, int32_t side, const char *law);
+
 #endif

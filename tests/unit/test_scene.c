@@ -357,6 +357,14 @@ static void parts_are_held_against_each_other(void **state)
         "wanted");
     refused(ICE "[boundary]\ntype = periodic\nmin = 0 0 0\nmax = 1 1 1\n[water]\n",
             ":4: z is periodic, and there is [water], which has one surface: one of the two was wanted");
+    refused(ICE "[boundary]\ninflow = ice\nmin = 0 0 0\n",
+            ":4: floes come in along x, and leave: boundary.type of x free, and its boundary.min and "
+            "boundary.max, were wanted");
+    refused(
+        ICE "[boundary]\ntype = free\ninflow = ice\nmin = 0 0 0\nmax = 1 1 1\n",
+        ":5: water.current does not go in there: boundary.inflow_speed, or another inflow_from, was wanted");
+    refused(ICE "[boundary]\ntype = free\ninflow = file\nmin = 0 0 0\nmax = 1 1 1\n",
+            ":5: boundary.inflow is file: inflow_file = FILE was wanted");
     refused(ICE "[boundary]\n",
             ":3: a rigid boundary has no bounds: boundary.min or boundary.max was wanted");
     refused(ICE "[group a]\nfixed = x\nvelocity = 0 1 0\n",

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What bounds the ice: elastic walls against the oscillator that they are, the periodic cell against the same
- * without one. */
+ * without one, what leaves and comes in against its mass, momentum and energy. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include "base/rng.h"
 #include "scene/scene_check.h"
+#include "step/traffic.h"
 #include "support/lab.h"
 #include "support/verify.h"
 
@@ -313,6 +314,150 @@ static void too_large(void)
                 refused == 1 && taken == 1);
 }
 
+/* A cluster that flies apart, through free bounds: what has left carries what is missing. */
+static void leaving(void)
+{
+    enum { SIDE = 4 };
+    double size, mass = 0.0;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "contact.softening=0.02");
+    lab_set(&l, "boundary.type=free");
+    lab_set(&l, "boundary.min=-8 -8 -8");
+    lab_set(&l, "boundary.max=8 8 8");
+    for (int k = 0; k < SIDE * SIDE * SIDE; k++) {
+        fl_rng g = fl_rng_of(9, k, FL_RNG_TEST);
+        const fl_vec3 at =
+            v3(1.6 * (k % SIDE - 1.5), 1.6 * (k / SIDE % SIDE - 1.5), 1.6 * (k / SIDE / SIDE - 1.5));
+        const fl_vec3 v = v3(fl_rng_in(&g, -2.0, 2.0), fl_rng_in(&g, -2.0, 2.0), fl_rng_in(&g, -2.0, 2.0));
+        lab_box(&l, at, v3(0.6, 0.5, 0.4), 0.05, q_of_vector(v3(fl_rng_in(&g, -0.3, 0.3), 0.1, 0)), v, v);
+    }
+    lab_make(&l, 0.0);
+    const double start = lab_energy(&l);
+    const fl_vec3 p = momentum(&l.w, &size);
+    double kinetic = 0.0;
+    for (int32_t i = 0; i < l.w.n; i++) mass += l.w.b.m[i];
+    while (fl_traffic_there(&l.w) > 3 && fl_world_time(&l.w) < 40.0)
+        if (lab_run(&l, 100)) return;
+    kinetic = lab_energy(&l);
+    double there = 0.0, now;
+    fl_vec3 q = l.w.traffic.momentum_left;
+    for (int32_t i = 0; i < l.w.n; i++)
+        if (!fl_world_away(&l.w, i)) there += l.w.b.m[i], q = v3_madd(q, l.w.b.m[i], l.w.b.v[i]);
+    now = kinetic - l.w.ledger.carried;
+    verify_note("%lld of %d bodies have left in %.3g s", (long long)l.w.traffic.left, l.w.n,
+                fl_world_time(&l.w));
+    verify_row("B03", "bodies that leave: mass there and gone [kg]", there + l.w.traffic.mass_left, mass,
+               1e-13, VERIFY_REL);
+    verify_below("B03", "momentum there and gone, less that of the start, over its size",
+                 v3_norm(v3_sub(q, p)) / size, 1e-13);
+    verify_row("B03", "energy there and gone [J]", now, start, 1e-4, VERIFY_REL);
+    verify_true("B03", "all but three have left", l.w.traffic.left >= l.w.n - 3);
+    lab_free(&l);
+}
+
+enum { ACROSS = 4, ALONG = 5 };
+#define PITCH 15.0
+#define WIDTH 12.0
+
+/* A sheet of square floes of several sizes, 15 m of it, that comes in again and again through a channel 40 m
+ * long and periodic across. */
+static void sheet(lab *l, double speed)
+{
+    lab_start(l);
+    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.friction=0.3");
+    lab_set(l, "contact.restitution=0.3");
+    lab_set(l, "boundary.type=free periodic free");
+    lab_setf(l, "boundary.min=-20 %.17g none", -0.5 * WIDTH);
+    lab_setf(l, "boundary.max=20 %.17g none", 0.5 * WIDTH);
+    lab_set(l, "boundary.inflow=ice");
+    lab_setf(l, "boundary.inflow_speed=%.17g", speed);
+    lab_setf(l, "boundary.inflow_pitch=%.17g", PITCH);
+    for (int k = 0; k < ACROSS * ALONG; k++) {
+        fl_rng g = fl_rng_of(13, k, FL_RNG_TEST);
+        const double dx = PITCH / ALONG, dy = WIDTH / ACROSS, half = fl_rng_in(&g, 0.9, 1.35);
+        const fl_vec3 at = v3(-20.0 + dx * (k % ALONG + 0.5), dy * (k / ALONG + 0.5) - 0.5 * WIDTH, 0);
+        lab_box(l, at, v3(half, half, 0.25), 0.05, q_one(), v3(speed, 0, 0), ZERO);
+    }
+}
+
+/* Nothing in its way: as much comes in as the sheet brings, and in the long run it covers what it covers. */
+static void stream(void)
+{
+    const double speed = 1.0;
+    double tile = 0.0, covered = 0.0;
+    int64_t looks = 0;
+    int32_t most = 0;
+    lab l;
+    sheet(&l, speed);
+    lab_make(&l, 0.02);
+    for (int32_t i = 0; i < ACROSS * ALONG; i++) tile += l.w.b.m[i];
+    const double area = tile / (900.0 * 0.5), flux = speed * area / (PITCH * WIDTH) * WIDTH * 0.5 * 900.0;
+    while (fl_world_time(&l.w) < 300.0) {
+        if (lab_run(&l, 5)) return;
+        if (fl_world_time(&l.w) < 45.0) continue;
+        for (int32_t i = 0; i < l.w.n; i++)
+            if (!fl_world_away(&l.w, i) && fabs(l.w.b.x[i].x) <= 20.0) covered += l.w.b.m[i] / (900.0 * 0.5);
+        most = fl_traffic_there(&l.w) > most ? fl_traffic_there(&l.w) : most;
+        looks++;
+    }
+    const fl_traffic *t = &l.w.traffic;
+    verify_note("%lld floes came in and %lld left in 300 s; %d at a time, room for %d", (long long)t->entered,
+                (long long)t->left, most, l.w.n);
+    /* Every floe comes in once a pitch: after 20 of them no more is open than one copy of what is just due.
+     */
+    verify_row("B04", "mass that came in per time, over speed x concentration x width x thickness x density",
+               t->mass_entered / fl_world_time(&l.w) / flux, 1.0, 1.0 / (20.0 * ALONG), VERIFY_ABS);
+    verify_row("B04", "and in the long run it covers, over the concentration",
+               covered / (double)looks / (40.0 * WIDTH) / (area / (PITCH * WIDTH)), 1.0, 1e-3, VERIFY_ABS);
+    verify_row("B04", "floes that found their place taken", (double)t->waited, 0, 0, VERIFY_ABS);
+    verify_below("B04", "nothing touches: energy of contacts [J]",
+                 l.w.ledger.throughput > 0 ? l.w.impulse_size : 0, 0.0);
+    verify_true("B04", "places are taken again: more came than there is room for", t->entered > l.w.n);
+    lab_free(&l);
+}
+
+/* Against a cylinder, pushed by the sheet: the books close. */
+static void held_up(void)
+{
+    enum { STEPS = 3 };
+    double h[STEPS], err[STEPS];
+    const double seconds = verify_quick() ? 12.0 : 30.0;
+    for (int s = 0; s < STEPS; s++) {
+        lab l;
+        sheet(&l, 1.5);
+        lab_setf(&l, "run.safety=%.17g", 0.2 / (1 << s));
+        lab_set(&l, "contact.softening=0.002");
+        lab_cone(&l, (fl_cone){v3(2, 0.7, -2), v3(2, 0.7, 2), 1.5, 1.5});
+        lab_make(&l, 0.0);
+        h[s] = l.w.dt;
+        err[s] = 0.0;
+        while (fl_world_time(&l.w) < seconds) {
+            if (lab_run(&l, 50)) return;
+            fl_step_ledger(&l.w);
+            err[s] = fmax(err[s], fabs(l.w.ledger.residual));
+        }
+        const fl_traffic *t = &l.w.traffic;
+        err[s] /= l.w.ledger.throughput;
+        if (s == STEPS - 1) {
+            verify_note("%lld came in, %lld left, %lld found their place taken", (long long)t->entered,
+                        (long long)t->left, (long long)t->waited);
+            verify_note("of %.3g J turned over the sheet brought %.3g J and pushed with %.3g J; %.3g J were "
+                        "lost in contacts",
+                        l.w.ledger.throughput, l.w.ledger.carried, l.w.ledger.drive_now,
+                        l.w.ledger.friction_now + l.w.ledger.damping_now);
+            verify_true("B04", "there was something to push, and floes came and left",
+                        t->entered > 20 && t->left > 0 &&
+                            l.w.ledger.friction_now + l.w.ledger.damping_now > 0.0);
+        }
+        lab_free(&l);
+    }
+    verify_order("B04", "a sheet against a cylinder: residual over the throughput against the step [s]", h,
+                 err, STEPS, 2.0, 0.7);
+    verify_below("B04", "and at the smallest step", err[STEPS - 1], 2e-5);
+}
+
 int main(void)
 {
     verify_begin("boundaries");
@@ -325,5 +470,8 @@ int main(void)
     periodic_gas();
     shifted_gas();
     too_large();
+    leaving();
+    stream();
+    held_up();
     return verify_end();
 }

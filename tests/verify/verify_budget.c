@@ -177,7 +177,8 @@ static result run(const scene *s, double goal, const char *of, int64_t m)
     s->build(&l);
     if (m == 0) {
         lab_set(&l, "structure.file=lab"); /* as lab_make() will */
-        if (fl_scene_check(&l.scene, &err) || fl_budget_make(&g, &l.scene, &l.field, &l.surface, &err))
+        if (fl_scene_check(&l.scene, &err) ||
+            fl_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
             exit(1);
         r.least = g.least;
     }
@@ -288,7 +289,8 @@ static void parting(void)
     fl_err err = {0};
     billiards_made(&l, seconds, goal);
     lab_set(&l, "structure.file=lab");
-    if (fl_scene_check(&l.scene, &err) || fl_budget_make(&g, &l.scene, &l.field, &l.surface, &err)) exit(1);
+    if (fl_scene_check(&l.scene, &err) || fl_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
+        exit(1);
     lab_make(&l, fl_budget_start(&g));
     for (int64_t row = 0; row < (int64_t)lround(seconds / EVERY); row++) {
         if (fl_budget_look(&g, &l.w, row, &err)) exit(1);

@@ -18,7 +18,7 @@ int look_probe(struct run *r, FILE *f, fl_err *err)
     for (int32_t c = 0; c < w->n_pair; c++) {
         fl_contact k;
         if (!fl_interact_probe(w, &w->pair[c], r->o->probe, &k)) continue;
-        fl_contacts_row(f, 0.0, w->id[w->pair[c].i], run_partner(w, w->pair[c].j), &k, 0.0, v3(0, 0, 0));
+        fl_contacts_row(f, 0.0, w->id[w->pair[c].i], fl_world_name(w, w->pair[c].j), &k, 0.0, v3(0, 0, 0));
     }
     return 0;
 }
@@ -47,8 +47,10 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
 {
     static const char *const LAW[] = {"patch", "manual", "manual-si", "core"};
     fl_world *w = r->w;
-    int32_t spheres = 0, capsules = 0, held = 0, kind[4] = {0};
+    int32_t there = 0, spheres = 0, capsules = 0, held = 0, kind[4] = {0};
     for (int32_t i = 0; i < w->n; i++) {
+        if (fl_world_away(w, i)) continue;
+        there++;
         spheres += w->b.core[i].nv == 1;
         capsules += w->b.core[i].nv == 2;
         held += w->b.hold[i] != 0;
@@ -61,10 +63,11 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     if (fl_step_start(w, err)) return -1;
     while (w->step < r->steps && (spent = run_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;
-    fprintf(f, "bodies         %d: %d polyhedra, %d spheres, %d capsules\n", w->n, w->n - spheres - capsules,
-            spheres, capsules);
+    fprintf(f, "bodies         %d: %d polyhedra, %d spheres, %d capsules\n", there,
+            there - spheres - capsules, spheres, capsules);
     fprintf(f, "structure      %d parts: %d solids and plates, %d cones, %d shells; %d walls\n", w->parts,
             kind[FL_PIECE_SOLID], kind[FL_PIECE_CONE], kind[FL_PIECE_SHELL], w->walls);
+    if (w->traffic.feed) fprintf(f, "room           for %d more\n", w->n - there);
     fprintf(f, "near pairs     %d, search again after %.3g m\n", w->n_pair, w->skin);
     fprintf(f, "law            %s between like bodies\n", w->n ? LAW[fl_pairing_law(w, 0, 0)->kind] : "none");
     fprintf(f, "stages\n");
@@ -74,6 +77,9 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     stage(f, "moves", w->ride.m.n > 0, fl_ride_free_ones(w) ? "by itself, in its free directions" : "");
     stage(f, "panels", w->press.panels > 0, "");
     stage(f, "walls", w->walls > 0, "");
+    stage(f, "cell", w->cell.wraps, "space repeats itself");
+    stage(f, "outflow", w->traffic.away != NULL, "floes beyond a free bound are taken out");
+    stage(f, "inflow", w->traffic.feed != NULL, "");
     stage(f, "buoyancy", w->sea.water, "exact clipping of every body that floats");
     stage(f, "water drag", w->sea.water, "");
     stage(f, "wind", w->sea.wind, "");

@@ -77,11 +77,11 @@ static int act(struct run *r, fl_err *err)
 /* What a run is made from. */
 struct inputs {
     fl_scene scene;
-    fl_field field;
+    fl_field field, feed; /* feed: what comes in, of another file */
     fl_surface surface;
     fl_restart saved;
-    fl_restart_part kept[2];
-    char *text[2]; /* of kept, where it is owned */
+    fl_restart_part kept[KEPT];
+    char *text[KEPT]; /* of kept, where it is owned */
     char *history;
     fl_by by;
 };
@@ -90,13 +90,16 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
 {
     if (o->resume)
         return fl_restart_read(&in->saved, o->resume, err) ||
-                       save_inputs(&in->saved, o, &in->scene, &in->field, &in->surface, err) ||
+                       save_inputs(&in->saved, o, &in->scene, &in->field, &in->feed, &in->surface, err) ||
                        save_history(&in->saved, &in->history, &in->by, err)
                    ? -1
                    : 0;
     if (read_scene(&in->scene, o, err)) return -1;
     if (o->echo) return 0;
     if (fl_field_read(&in->field, in->scene.ice.file, err)) return -1;
+    if (in->scene.boundary.inflow == FL_INFLOW_FILE &&
+        fl_field_read(&in->feed, in->scene.boundary.inflow_file, err))
+        return -1;
     if (in->scene.structure.head.present && in->scene.structure.file[0] &&
         fl_gstruct_read(&in->surface, in->scene.structure.file, err))
         return -1;
@@ -107,17 +110,36 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
 /* The texts that checkpoints carry on: those of the checkpoint resumed from, or the inputs just read. */
 static int keep_texts(struct inputs *in, const fl_surface *surface, fl_err *err)
 {
-    static const char *const NAME[2] = {"ice", "structure"};
+    static const char *const NAME[KEPT] = {"ice", "structure", "inflow"};
     if (!in->scene.output.checkpoint[0]) return 0;
     if (!in->saved.data) {
-        const int rc = save_keep(in->kept, &in->field, surface, &in->by, err);
-        for (int k = 0; k < 2; k++) memcpy(&in->text[k], &in->kept[k].text, sizeof in->text[k]);
+        const int rc = save_keep(in->kept, &in->field, surface, &in->feed, &in->by, err);
+        for (int k = 0; k < KEPT; k++) memcpy(&in->text[k], &in->kept[k].text, sizeof in->text[k]);
         return rc;
     }
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < KEPT; k++) {
         const fl_restart_part *part = fl_restart_find(&in->saved, NAME[k]);
         if (part) in->kept[k] = *part;
     }
+    return 0;
+}
+
+/* Bring a field into the order of its places; where the k-th body has gone into *at, NULL: nobody asks. */
+static int order(fl_field *field, int32_t **at, fl_err *err)
+{
+    int32_t *to = fl_alloc(field->n, sizeof *to, err);
+    const int bad = !to || fl_field_order(field, to, err);
+    if (at) *at = to;
+    else free(to);
+    return bad ? -1 : 0;
+}
+
+/* The tables tell the bodies of the ice file first, in its order, then who has come in. */
+static int places(int32_t **at, int32_t n, int32_t all, fl_err *err)
+{
+    int32_t cap = n;
+    if (fl_grow(at, &cap, all, sizeof **at, err)) return -1;
+    for (int32_t i = n; i < all; i++) (*at)[i] = i;
     return 0;
 }
 
@@ -141,12 +163,15 @@ static int run(const struct options *o, int *stopped, fl_err *err)
         fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", in.scene.ice.file);
         goto done;
     }
-    at = fl_alloc(in.field.n, sizeof *at, err);
-    if (!at || keep_texts(&in, surface, err) || fl_field_order(&in.field, at, err) ||
-        fl_world_make(&world, &in.scene, &in.field, surface, err) ||
-        (in.scene.run.error > 0.0 && fl_budget_make(&budget, &in.scene, &in.field, surface, err)))
+    const int fed = in.scene.boundary.inflow != FL_INFLOW_NONE;
+    if (keep_texts(&in, surface, err) || order(&in.field, &at, err) ||
+        (in.feed.n && order(&in.feed, NULL, err)) ||
+        fl_world_make_fed(&world, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err) ||
+        places(&at, in.field.n, world.n, err) ||
+        (in.scene.run.error > 0.0 &&
+         fl_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err)))
         goto done;
-    fl_field_free(&in.field);
+    if (!fed) fl_field_free(&in.field);
     struct run r = {.o = o,
                     .scene = &in.scene,
                     .at = at,
@@ -176,14 +201,14 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                 in.scene.output.checkpoint[0] ? " goes on" : "");
 done:
     free(at);
-    free(in.text[0]);
-    free(in.text[1]);
+    for (int k = 0; k < KEPT; k++) free(in.text[k]);
     free(in.history);
     fl_restart_free(&in.saved);
     fl_world_free(&world);
     fl_budget_free(&budget);
     fl_surface_free(&in.surface);
     fl_field_free(&in.field);
+    fl_field_free(&in.feed);
     fl_scene_free(&in.scene);
     return rc;
 }

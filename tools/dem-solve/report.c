@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include "run.h"
 #include "step/step.h"
+#include "step/traffic.h"
 
 /* What was asked for, what was found, and what finding it cost. */
 static void budget_of(const struct run *r, FILE *f)
@@ -51,8 +52,8 @@ void report_write(const struct run *r, FILE *f)
         fprintf(f,
                 "                   %.0f ns a body-step, %.0f ns a contact-step (%.3g contacts at a time, "
                 "%" PRId64 " searches)\n",
-                1e9 * r->wall / made / w->n, touches > 0.0 ? 1e9 * r->wall / touches * (steps / made) : 0.0,
-                touches / steps, w->searches);
+                1e9 * r->wall / made / fl_traffic_there(w),
+                touches > 0.0 ? 1e9 * r->wall / touches * (steps / made) : 0.0, touches / steps, w->searches);
     if (r->saves)
         fprintf(f, "checkpoints        %" PRId64 " in %.3g s besides, the last at t = %.6g s\n", r->saves,
                 r->save_wall, fl_world_time(w));
@@ -61,9 +62,21 @@ void report_write(const struct run *r, FILE *f)
     fprintf(f, "momentum residual  %.2g of the contact impulses (%.3g N s of %.3g N s)\n",
             w->impulse_size > 0.0 ? v3_norm(w->imbalance) / w->impulse_size : 0.0, v3_norm(w->imbalance),
             w->impulse_size);
+    if (w->traffic.away) {
+        const fl_traffic *t = &w->traffic;
+        fprintf(f, "floes out          %" PRId64 " (%.4g kg)\n", t->left, t->mass_left);
+        if (t->feed) {
+            fprintf(f, "floes in           %" PRId64 " (%.4g kg), %.4g kg/s", t->entered, t->mass_entered,
+                    fl_world_time(w) > 0.0 ? t->mass_entered / fl_world_time(w) : 0.0);
+            if (t->waited) fprintf(f, "; %" PRId64 " found their place taken", t->waited);
+            if (t->missed) fprintf(f, ", %" PRId64 " never got one", t->missed);
+            fputc('\n', f);
+        }
+        fprintf(f, "floes there        %d of room for %d\n", fl_traffic_there(w), w->n);
+    }
     if (w->worst_i >= 0)
-        fprintf(f, "largest overlap    %.3g of the radii (body %d and %d)\n", w->worst_overlap,
-                w->id[w->worst_i], run_partner(w, w->worst_j));
+        fprintf(f, "largest overlap    %.3g of the radii (body %d and %d)\n", w->worst_overlap, w->worst_i,
+                w->worst_j);
     else fprintf(f, "largest overlap    0 of the radii\n");
     if (w->deep_pairs)
         fprintf(f,

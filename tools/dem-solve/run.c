@@ -23,17 +23,11 @@ double run_clock(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-int32_t run_partner(const fl_world *w, int32_t j)
-{
-    if (j < w->n) return w->id[j];
-    const int32_t part = w->structure.piece[j - w->n].part;
-    return part >= 0 ? -1 - part : -1 - w->parts - (j - w->n - w->pieces);
-}
-
 const char *run_body(const fl_world *w, int32_t k, char name[64])
 {
     if (k >= w->b.total) snprintf(name, 64, "%s", fl_ride_name(w, k - w->b.total));
-    else snprintf(name, 64, "body %d", w->id[k]);
+    else if (k >= 0) snprintf(name, 64, "body %d", w->id[k]);
+    else snprintf(name, 64, "a floe that has left");
     return name;
 }
 
@@ -81,7 +75,7 @@ void run_frames_path(const struct run *r, const struct outputs *u, char path[FL_
 /* The bodies as the tables tell them. */
 static fl_poses poses(const struct run *r)
 {
-    return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->at, &r->w->cell};
+    return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->at, &r->w->cell, r->w->traffic.away};
 }
 
 void run_header(struct run *r, struct outputs *u, int k)
@@ -202,7 +196,7 @@ static void write_contacts(struct run *r, struct outputs *u, double t)
         fl_contact k;
         if (p->n == 0 || !fl_interact_probe(w, p, 0.0, &k)) continue;
         const double normal = v3_dot(p->f, k.n);
-        fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], run_partner(w, p->j), &k, normal,
+        fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], fl_world_name(w, p->j), &k, normal,
                         v3_madd(p->f, -normal, k.n));
     }
 }
@@ -212,8 +206,9 @@ static void write_energy(struct run *r, struct outputs *u, double t)
     const fl_ledger *g = &r->w->ledger;
     fl_step_ledger(r->w);
     const double row[] = {
-        t,       g->kinetic, g->gravity,   g->elastic,  g->hydrostatic, g->friction_now, g->damping_now,
-        g->drag, g->wind,    g->drive_now, g->residual, g->moving,      g->spring,       g->damper};
+        t,        g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
+        g->drag,  g->wind,    g->drive_now, g->carried, g->residual,    g->moving,       g->spring,
+        g->damper};
     const int all = sizeof row / sizeof *row;
     fl_rows_row(u->table[AT_ENERGY].f, fl_ride_free_ones(r->w) ? all : all - 3, row);
 }
@@ -242,6 +237,18 @@ static void write_moved(const struct run *r, FILE *f)
     }
 }
 
+/* The shapes of floes that have come in since the last frame with ice. */
+static void write_newcomers(const struct run *r, const struct outputs *u, const fl_poses *now)
+{
+    const fl_traffic *t = &r->w->traffic;
+    struct timer last = u->at[AT_ICE];
+    if (!t->away || last.k == 0) return; /* the first frame is that of the header */
+    run_timer(&last, last.k - 1, r->w);
+    for (int32_t i = 0; i < r->w->n; i++)
+        if (!t->away[i] && t->born[i] > 0 && t->born[i] >= last.due)
+            fl_frames_shape(u->table[AT_FRAMES].f, now, i);
+}
+
 static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
@@ -258,6 +265,7 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         if (open_table(r, u, AT_FRAMES, path, err)) return -1;
         run_header(r, u, AT_FRAMES);
     }
+    if (ice) write_newcomers(r, u, &now);
     fl_frames_frame(u->table[AT_FRAMES].f, t, &now, gone_one_way(r->w), ice);
     write_moved(r, u->table[AT_FRAMES].f);
     if (ice) next(u, AT_ICE, r->w);
@@ -365,7 +373,7 @@ static void warn_overlaps(const struct run *r)
     fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
             found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
     fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[w->pair[first].i],
-            run_partner(w, w->pair[first].j));
+            fl_world_name(w, w->pair[first].j));
 }
 
 /* A hull that does not float as it stands: told once, since its motion is one about that pose. */

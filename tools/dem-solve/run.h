@@ -7,6 +7,9 @@
 #include "out/restart.h"
 #include "step/budget.h"
 
+/* Texts that a checkpoint carries on. */
+enum { KEPT = 3 };
+
 /* What a run has in its hands. */
 struct run {
     const struct options *o;
@@ -16,7 +19,7 @@ struct run {
     const char *history;       /* of the inputs; NULL: none */
     const fl_by *by;
     const fl_restart *saved;     /* the run goes on from here; NULL: it begins */
-    const fl_restart_part *kept; /* [2] ice and structure as texts, for checkpoints */
+    const fl_restart_part *kept; /* [KEPT] ice, structure and inflow as texts, for checkpoints */
     fl_world *w;
     fl_budget *budget; /* NULL: the step is given or a fraction of the critical one */
     const char *out;   /* where the loads go */
@@ -90,11 +93,8 @@ void report_write(const struct run *r, FILE *f);
 int look_plan(struct run *r, FILE *f, fl_err *err);
 int look_probe(struct run *r, FILE *f, fl_err *err);
 
-/* Number by which the contacts table calls partner j: its id, or -1 - part of the structure, walls after
- * those. */
-int32_t run_partner(const fl_world *w, int32_t j);
-
-/* "body 7", or for a number behind all of them the part or structure that moves, into name. */
+/* "body 7", or for a number behind all of them the part or structure that moves, or of a floe
+ * that has left (-1), into name. */
 const char *run_body(const fl_world *w, int32_t k, char name[64]);
 
 /* Seconds of a clock that only goes forward. */

@@ -30,19 +30,21 @@ static int text_end(FILE *f, fl_restart_part *part, const size_t *n, fl_err *err
     return 0;
 }
 
-int save_keep(fl_restart_part kept[2], const fl_field *field, const fl_surface *surface, const fl_by *by,
-              fl_err *err)
+int save_keep(fl_restart_part kept[KEPT], const fl_field *field, const fl_surface *surface,
+              const fl_field *feed, const fl_by *by, fl_err *err)
 {
-    for (int k = 0; k < 2; k++) {
+    static const char *const NAME[KEPT] = {"ice", "structure", "inflow"};
+    const int there[KEPT] = {1, surface != NULL, feed->n > 0};
+    for (int k = 0; k < KEPT; k++) {
         char *text = NULL;
         size_t n = 0;
         kept[k] = (fl_restart_part){.name = ""};
-        if (k && !surface) break;
-        snprintf(kept[k].name, sizeof kept[k].name, "%s", k ? "structure" : "ice");
+        if (!there[k]) continue;
+        snprintf(kept[k].name, sizeof kept[k].name, "%s", NAME[k]);
         FILE *f = open_memstream(&text, &n);
         if (!f) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
-        if (k) fl_gstruct_write(f, surface, by);
-        else fl_field_write(f, field, by);
+        if (k == 1) fl_gstruct_write(f, surface, by);
+        else fl_field_write(f, k ? feed : field, by);
         const int bad = text_end(f, &kept[k], &n, err);
         kept[k].text = text;
         if (bad) return -1;
@@ -65,10 +67,11 @@ static void write_place(FILE *f, const struct run *r, const struct outputs *u, c
 
 int save_write(struct run *r, struct outputs *u, fl_err *err)
 {
-    enum { SCENE, ICE, STRUCTURE, PLACE, LOADS, STATE, BUDGET, PARTS };
+    enum { SCENE, ICE, STRUCTURE, INFLOW, PLACE, LOADS, STATE, BUDGET, PARTS };
     fl_restart_part part[PARTS] = {[SCENE] = {.name = "scene"},
                                    [ICE] = r->kept[0],
                                    [STRUCTURE] = r->kept[1],
+                                   [INFLOW] = r->kept[2],
                                    [PLACE] = {.name = "tables"},
                                    [LOADS] = {.name = "loads", .text = r->out, .n = (int64_t)strlen(r->out)},
                                    [STATE] = {.name = "state"},
@@ -103,10 +106,10 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
     if (before) memcpy(history, r->history, before);
     memcpy(history + before, r->by->text, own);
     history[before + own] = '\n';
-    if (!part[STRUCTURE].name[0]) /* a scene without one */
-        memmove(&part[STRUCTURE], &part[STRUCTURE + 1], (PARTS - STRUCTURE - 1) * sizeof *part);
-    rc = fl_restart_write(r->scene->output.checkpoint, history, part,
-                          PARTS - !r->kept[1].name[0] - !r->budget, err);
+    int there = 0; /* a scene may be without some */
+    for (int k = 0; k < PARTS; k++)
+        if (part[k].name[0] && (k != BUDGET || r->budget)) part[there++] = part[k];
+    rc = fl_restart_write(r->scene->output.checkpoint, history, part, there, err);
 done:
     for (int k = 0; k < PARTS; k++) free(text[k]);
     free(history);
@@ -132,7 +135,7 @@ static int change(fl_scene *scene, const char *set, fl_err *err)
 }
 
 int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_field *field,
-                fl_surface *surface, fl_err *err)
+                fl_field *feed, fl_surface *surface, fl_err *err)
 {
     fl_text text = {0};
     if (fl_restart_open(saved, "scene", &text, err) || fl_scene_read_text(scene, &text, err)) return -1;
@@ -144,6 +147,9 @@ int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scen
     if (scene->output.until == duration)
         scene->output.until = scene->run.duration; /* it followed then, too */
     if (fl_restart_open(saved, "ice", &text, err) || fl_field_read_text(field, &text, err)) return -1;
+    if (fl_restart_find(saved, "inflow") &&
+        (fl_restart_open(saved, "inflow", &text, err) || fl_field_read_text(feed, &text, err)))
+        return -1;
     if (!fl_restart_find(saved, "structure")) return 0;
     return fl_restart_open(saved, "structure", &text, err) || fl_gstruct_read_text(surface, &text, err) ? -1
                                                                                                         : 0;

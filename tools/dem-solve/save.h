@@ -9,9 +9,10 @@
 #include "run.h"
 #include "scene/field.h"
 
-/* The inputs of a run that begins, as the texts r->kept for its checkpoints; the caller frees both .text. */
-int save_keep(fl_restart_part kept[2], const fl_field *field, const fl_surface *surface, const fl_by *by,
-              fl_err *err);
+/* The inputs of a run that begins, as the texts r->kept for its checkpoints; the caller frees each .text.
+ *   feed  the field of another file that comes in; empty: none */
+int save_keep(fl_restart_part kept[KEPT], const fl_field *field, const fl_surface *surface,
+              const fl_field *feed, const fl_by *by, fl_err *err);
 
 /* Write the checkpoint that the scene asks for; the tables are brought to the disk before.  -1 with
  * FL_SYSTEM: the last checkpoint is then as it was. */
@@ -20,7 +21,7 @@ int save_write(struct run *r, struct outputs *u, fl_err *err);
 /* From a checkpoint: the scene with what the command line changes of it, the ice and the structure.
  * -1 with FL_INPUT, FL_USAGE (--set of a key that would change the run) or FL_SYSTEM. */
 int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_field *field,
-                fl_surface *surface, fl_err *err);
+                fl_field *feed, fl_surface *surface, fl_err *err);
 
 /* Histories: the lines of the inputs into *history (owned by the caller), the run's own into by. */
 int save_history(const fl_restart *saved, char **history, fl_by *by, fl_err *err);
