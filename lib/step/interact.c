@@ -7,6 +7,7 @@
 #include "law/normal.h"
 #include "narrow/nearest.h"
 #include "step/interact.h"
+#include "step/stiff.h"
 #include "step/press.h"
 
 /* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
@@ -218,12 +219,6 @@ static void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const wrench *w, const
     *tj = v3_sub(*tj, moment);
 }
 
-static double compliance(const fl_bodies *b, int32_t i, fl_vec3 a, fl_vec3 n)
-{
-    const fl_vec3 t = v3_cross(a, n);
-    return b->invm[i] == 0.0 ? 0.0 : b->invm[i] + v3_dot(t, fl_body_turn(b, i, t));
-}
-
 static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec3 aj)
 {
     return v3_sub(fl_body_velocity(b, p->i, ai), fl_body_velocity(b, p->j, aj));
@@ -282,6 +277,23 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const re
     p->spring = fl_tangent_energy(&p->slip);
 }
 
+/* What the springs of friction add, where they stick, and the bounds of it all. */
+static void stiffen(const fl_world *w, fl_pair *p, const pressure *q, const relative *r, fl_stiff *si,
+                    fl_stiff *sj)
+{
+    const fl_bodies *b = &w->b;
+    if (p->slip.k > 0.0) {
+        const fl_vec3 n = v3_unit(q->direction), aj = v3_madd(q->at, 1.0 / q->normal, q->moment);
+        const fl_vec3 ai = v3_add(aj, r->off), none = v3(0, 0, 0);
+        fl_stiff_across(si, b, p->i, p->slip.k, n, ai);
+        fl_stiff_across(sj, b, p->j, p->slip.k, n, aj);
+        fl_stiff_add(si, b, p->i, p->slip.k_turn, none, n);
+        fl_stiff_add(sj, b, p->j, p->slip.k_turn, none, n);
+    }
+    p->stiff_i = fl_stiff_bound(si);
+    p->stiff_j = fl_stiff_bound(sj);
+}
+
 /* Forces of the places in s, by the potential: W = k phi(s) of the one place of a round thing or of `core`,
  * W = k sqrt(U) of `patch`.  Damping is the same factor for all places of a pair,
  *     chi = D / max(v_touch, sqrt(2 W / M)),
@@ -320,6 +332,7 @@ static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     const double stored = sqrt(2.0 * p->energy / p->mass), speed = p->touch > stored ? p->touch : stored;
     const double chi = speed > 0.0 ? p->law->chi / speed : 0.0;
     pressure all = {0};
+    fl_stiff si = {0}, sj = {0};
     wrench gradient = {0}, damping = {0}; /* of U, or of phi; [N] */
     for (int32_t k = 0; k < s->n; k++) {
         const fl_place *q = &s->place[k];
@@ -336,8 +349,8 @@ static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r
         all.slope += slope;
         if (survey) {
             const fl_vec3 n = m3_mul(R, q->across), pj = m3_mul(R, q->p);
-            p->stiff_i += slope * compliance(b, p->i, v3_add(pj, r->off), n);
-            p->stiff_j += slope * compliance(b, p->j, pj, n);
+            fl_stiff_add(&si, b, p->i, slope, n, v3_cross(v3_add(pj, r->off), n));
+            fl_stiff_add(&sj, b, p->j, slope, n, v3_cross(pj, n));
         }
     }
     if (patch) gradient.m = v3_add(gradient.m, s->couple);
@@ -348,10 +361,8 @@ static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r
         all.slope -= 0.5 * all.elastic * all.elastic / (scale * U);
         if (survey) {
             const double half = 0.5 / (scale * U);
-            p->stiff_i -=
-                half * (b->invm[p->i] * v3_norm2(p->f) + v3_dot(p->ti, fl_body_turn(b, p->i, p->ti)));
-            p->stiff_j -=
-                half * (b->invm[p->j] * v3_norm2(p->f) + v3_dot(p->tj, fl_body_turn(b, p->j, p->tj)));
+            fl_stiff_add(&si, b, p->i, -half, p->f, p->ti);
+            fl_stiff_add(&sj, b, p->j, -half, p->f, p->tj);
         }
     }
     add_sum(&p->fd, &p->di, &p->dj, &damping, &R, ai, aj);
@@ -362,6 +373,7 @@ static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     all.at = m3_mul(R, all.at);
     all.moment = m3_mul(R, all.moment);
     rub(w, p, &all, chi, r, dt);
+    if (survey) stiffen(w, p, &all, r, &si, &sj);
     p->energy += p->spring;
     if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note(w, p, s, factor, chi);
     return p->n = 1;
@@ -394,8 +406,12 @@ static int force_bed(fl_world *w, fl_pair *p, const relative *r, double dt, int 
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
     press(&all, elastic, normal, n, aj);
-    if (survey) p->stiff_i = all.slope * compliance(b, i, ai, n);
     rub(w, p, &all, 0.0, r, dt);
+    if (survey) { /* the waterplane behind the wall turns with the body: as stiff as at its farthest point */
+        fl_stiff si = {0}, sj = {0};
+        fl_stiff_add(&si, b, i, all.slope, n, v3_cross(ai, n));
+        stiffen(w, p, &all, r, &si, &sj);
+    }
     p->energy += p->spring;
     return p->n = 1;
 }
@@ -449,11 +465,13 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, nw), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, nw), ai, aj);
     press(&all, elastic, normal, nw, aj);
-    if (survey) {
-        p->stiff_i = slope * compliance(b, p->i, ai, nw);
-        p->stiff_j = slope * compliance(b, p->j, aj, nw);
-    }
     rub(w, p, &all, 0.0, r, dt);
+    if (survey) {
+        fl_stiff si = {0}, sj = {0};
+        fl_stiff_add(&si, b, p->i, slope, nw, v3_cross(ai, nw));
+        fl_stiff_add(&sj, b, p->j, slope, nw, v3_cross(aj, nw));
+        stiffen(w, p, &all, r, &si, &sj);
+    }
     p->energy += p->spring;
     if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note_one(w, p, c.p, c.n, c.area);
     p->n = 1;

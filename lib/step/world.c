@@ -535,7 +535,8 @@ static double bed_slope(const fl_world *w, int32_t i)
     return w->bed.stiffness * (core->nv > 2 ? largest_face(&w->bed.outer[i]) : 4.0 * r * (r + w->b.bound[i]));
 }
 
-double fl_world_dt(const fl_world *w, int32_t *body)
+/* omega^2 of the stiffest contact that anything can make, what makes it, and the largest chi. */
+static double stiffest_contact(const fl_world *w, int32_t *body, double *damping)
 {
     double most = 0.0, damp = 0.0, ridden = 0.0;
     *body = -1;
@@ -571,6 +572,22 @@ double fl_world_dt(const fl_world *w, int32_t *body)
             *body = w->b.total + m;
         }
     }
+    *damping = damp;
+    return most;
+}
+
+double fl_world_critical(const fl_world *w)
+{
+    int32_t body;
+    double damp;
+    const double most = stiffest_contact(w, &body, &damp);
+    return most > 0.0 ? 2.0 / sqrt(most) : INFINITY;
+}
+
+double fl_world_dt(const fl_world *w, int32_t *body)
+{
+    double damp;
+    const double most = stiffest_contact(w, body, &damp);
     if (most == 0.0) return INFINITY;
     /* The damping ratio stays below chi/2; explicit damping lowers the limit by sqrt(1 + z^2) - z.  A share
      * of that bounds what the scene asks for: half where nothing else looks after the error, more where it is

@@ -61,7 +61,7 @@ typedef struct {
     double energy;           /* elastic, normal and tangential [J]                    */
     double spring;           /* the tangential part of it [J]                         */
     double overlap;          /* largest [m]                                           */
-    double stiff_i, stiff_j; /* sum of k (1/m + (r x n).I^-1 (r x n)) over places [1/s2] */
+    double stiff_i, stiff_j; /* bounds of omega^2 of this contact for either, the other held [1/s2] */
 } fl_pair;
 
 /* Stores, sinks and sources of energy [J].  The residual is stores - start + taken out - put in: 0 but for
@@ -254,5 +254,8 @@ static inline int fl_world_away(const fl_world *w, int32_t i)
  * damping allows), omega^2 bounded per body by the stiffest face it can meet, at its most compliant vertex,
  * lowered for damping (see world.c). */
 double fl_world_dt(const fl_world *w, int32_t *body);
+
+/* What it is a part of: 2/omega, without damping [s]. */
+double fl_world_critical(const fl_world *w);
 
 #endif

@@ -41,10 +41,10 @@ void run_steps(struct run *r) { r->steps = step_at(r->w, r->scene->run.duration)
 
 void run_step_size(struct run *r)
 {
-    const double safety = r->scene->run.safety, every = r->scene->output.loads_every;
+    const double every = r->scene->output.loads_every;
     const double automatic = fl_world_dt(r->w, &r->step_body);
     double dt = r->scene->run.dt;
-    r->limit = automatic / safety;
+    r->limit = fl_world_critical(r->w);
     if (r->budget) {
         dt = fl_budget_start(r->budget);
     } else if (dt <= 0.0) {

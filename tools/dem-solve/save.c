@@ -15,10 +15,13 @@
 static const char *const TABLE[TABLES] = {"loads", "state",  "energy", "contacts",
                                           "hash",  "frames", "panels", "events"};
 
-/* Keys that may be changed under way: none of them bears on a step or a row. */
-static const char *const FREE_KEY[] = {"run.duration",  "run.threads",       "output.state",
-                                       "output.energy", "output.contacts",   "output.hash",
-                                       "output.frames", "output.checkpoint", "output.checkpoint_every"};
+/* Keys that may be changed under way: none of them bears on a step or a row, but for the first two, which give
+ * the run another step from here on. */
+enum { STEP_KEYS = 2 };
+static const char *const FREE_KEY[] = {
+    "run.dt",        "run.safety",        "run.duration",           "run.threads",
+    "output.state",  "output.energy",     "output.contacts",        "output.hash",
+    "output.frames", "output.checkpoint", "output.checkpoint_every"};
 
 /* --- write ------------------------------------------------------------------------------------- */
 
@@ -121,16 +124,21 @@ done:
 
 /* --- read -------------------------------------------------------------------------------------- */
 
-static int change(fl_scene *scene, const char *set, fl_err *err)
+/* Is the key of an assignment FREE_KEY[k]? */
+static int sets_key(const char *set, int k)
 {
     const size_t len = strcspn(set, "= ");
+    return strlen(FREE_KEY[k]) == len && strncmp(FREE_KEY[k], set, len) == 0;
+}
+
+static int change(fl_scene *scene, const char *set, fl_err *err)
+{
     const int keys = (int)(sizeof FREE_KEY / sizeof *FREE_KEY);
     for (int k = 0; k < keys; k++)
-        if (strlen(FREE_KEY[k]) == len && strncmp(FREE_KEY[k], set, len) == 0)
-            return fl_scene_set(scene, set, err);
+        if (sets_key(set, k)) return fl_scene_set(scene, set, err);
     return fl_fail(err, FL_USAGE,
                    "--set: \"%.60s\" would make another run of the one that is resumed; run.duration, "
-                   "run.threads and files of output may be changed",
+                   "run.threads, run.dt, run.safety and files of output may be changed",
                    set);
 }
 
@@ -252,15 +260,31 @@ static void table_path(const struct run *r, const struct outputs *u, int k, char
     else snprintf(path, FL_SCENE_PATH + 16, "%s", name[k]);
 }
 
+/* Another step from here on, where the command line asks for one: rows then come at the first step at or after
+ * their times. */
+static void change_step(struct run *r, double dt)
+{
+    int asked = 0;
+    for (int k = 0; k < r->o->sets; k++)
+        for (int c = 0; c < STEP_KEYS; c++) asked |= sets_key(r->o->set[k], c);
+    if (!asked || dt == r->w->dt) return;
+    if (!r->o->quiet)
+        fprintf(stderr, "dem-solve: note: from t = %.9g s on with steps of %.4g s instead of %.4g s\n",
+                fl_world_time(r->w), dt, r->w->dt);
+    fl_step_resize(r->w, dt, fl_world_time(r->w));
+}
+
 int save_restore(struct run *r, struct outputs *u, fl_err *err)
 {
     char path[FL_SCENE_PATH + 16];
     fl_mark mark[TABLES];
     fl_text in = {0};
     int had[TABLES] = {0}, fresh[TABLES] = {0};
+    const double dt = r->w->dt; /* as the scene asks for */
     if (fl_restart_open(r->saved, "state", &in, err)) return -1;
     fl_snapshot_read(r->w, &in, err);
     fl_text_close(&in);
+    if (!err->code) change_step(r, dt);
     if (!err->code && r->budget && fl_restart_open(r->saved, "budget", &in, err) == 0) {
         fl_budget_read(r->budget, &in, err);
         fl_text_close(&in);

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* stiff.h -- how stiff a contact is for one of its bodies: a bound of the square of the frequency that it
+ * gives.
+ *
+ * Motions are measured by the mass: with g = M^-1/2 (force, torque) of a unit force at a place, the stiffness
+ * of the contact is the 6 by 6 matrix K = sum k g g^T, and omega^2 is its largest eigenvalue. */
+#ifndef FL_STEP_STIFF_H
+#define FL_STEP_STIFF_H
+#include "body/body.h"
+
+typedef struct {
+    double a[6][6]; /* [1/s2] */
+} fl_stiff;
+
+/* K += k g g^T for the force f and torque t on body i; k may be negative.  f, t in world axes, k (f, t)^2 in
+ * [N/m].  Nothing for a body that is held. */
+void fl_stiff_add(fl_stiff *s, const fl_bodies *b, int32_t i, double k, fl_vec3 f, fl_vec3 t);
+
+/* A spring k in every direction across n, at the offset r from the centre of body i: friction that sticks. */
+void fl_stiff_across(fl_stiff *s, const fl_bodies *b, int32_t i, double k, fl_vec3 n, fl_vec3 r);
+
+/* |K^4|^(1/4), Frobenius' norm: not below the largest eigenvalue, and at most 6^(1/8) = 1.25 times it. */
+double fl_stiff_bound(const fl_stiff *s);
+
+#endif
