@@ -302,7 +302,76 @@ static void hull(void)
     lab_free(&l);
 }
 
-/* Heave and pitch that are coupled: the two modes of  K x = w^2 M x, and that a start in a mode stays in it. */
+/* Wigley's hull, y = B/2 (1 - (2x/L)^2) (1 - (z/T)^2) below the water, wall-sided to the deck above it, as a
+ * mesh of n by n quadrangles a side: V = 4/9 L B T, KB = 5/8 T, BM = 3 B^2/(35 T), int x^2 dA = L^3 B/30. */
+static double wigley_y(double u, double v) { return (1 - u * u) * (v < 0 ? 1 - v * v : 1); }
+
+static void wigley(int n, double L, double B, double T, fl_flotation *f)
+{
+    fl_surface surface = {0};
+    fl_err err = {0};
+    const int32_t k = fl_surface_add(&surface, "hull", 4, &err);
+    fl_part *p = &surface.part[k];
+    const int rows = n + 1;
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i <= n; i++)
+            for (int j = 0; j <= rows; j++) {
+                const double u = 2.0 * i / n - 1.0, v = j <= n ? (double)j / n - 1.0 : 0.3;
+                const double y = 0.5 * B * wigley_y(u, v);
+                fl_surface_vertex(p, v3(0.5 * L * u, side ? y : -y, T * v), &err);
+            }
+    const int32_t all = (n + 1) * (rows + 1);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < rows; j++) {
+            const int32_t a = i * (rows + 1) + j, b = a + rows + 1;
+            fl_surface_triangle(p, a, b, b + 1, &err), fl_surface_triangle(p, a, b + 1, a + 1, &err);
+            fl_surface_triangle(p, all + a, all + b + 1, all + b, &err);
+            fl_surface_triangle(p, all + a, all + a + 1, all + b + 1, &err);
+        }
+    for (int i = 0; i < n; i++) { /* keel and deck; stem and stern, where both sides have the same points */
+        const int32_t a = i * (rows + 1), b = a + rows + 1;
+        fl_surface_triangle(p, a, all + a, all + b, &err), fl_surface_triangle(p, a, all + b, b, &err);
+        fl_surface_triangle(p, a + rows, b + rows, all + b + rows, &err);
+        fl_surface_triangle(p, a + rows, all + b + rows, all + a + rows, &err);
+    }
+    for (int end = 0; end < 2; end++)
+        for (int j = 0; j < rows; j++) {
+            const int32_t a = end * n * (rows + 1) + j, b = all + a;
+            fl_surface_triangle(p, a, end ? b : a + 1, b + 1, &err);
+            fl_surface_triangle(p, a, b + 1, end ? a + 1 : b, &err);
+        }
+    *f = (fl_flotation){0};
+    if (fl_flotation_add(f, p, 0.0, ZERO, &err) || fl_flotation_end(f, 0.0, ZERO, &err))
+        printf("wigley: %s\n", err.text);
+    fl_surface_free(&surface);
+}
+
+static void wigleys(void)
+{
+    const double L = 30, B = 6, T = 2.5, V = 4.0 / 9 * L * B * T;
+    const double exact[4] = {V, -3.0 / 8 * T, 3 * B * B / (35 * T), L * L * L * B / 30};
+    static const char *const WHAT[4] = {"displaced volume [m3]", "centre of buoyancy under water [m]",
+                                        "BM [m]", "int x2 dA [m4]"};
+    double h[3], e[4][3], got[4];
+    for (int k = 0; k < 3; k++) {
+        fl_flotation f;
+        wigley(20 << k, L, B, T, &f);
+        h[k] = 1.0 / (20 << k);
+        got[0] = f.volume, got[1] = f.buoyancy.z, got[2] = f.yy / f.volume, got[3] = f.xx;
+        for (int c = 0; c < 4; c++) e[c][k] = fabs(got[c] / exact[c] - 1.0);
+    }
+    verify_note("Wigley's hull of 30 m, meshes of 20, 40 and 80 quadrangles a side each way: their exact "
+                "hydrostatics");
+    for (int c = 0; c < 4; c++) {
+        char what[64];
+        verify_row("hull", WHAT[c], got[c], exact[c], 1e-3, VERIFY_REL);
+        snprintf(what, sizeof what, "  against the mesh: %s", WHAT[c]);
+        verify_order("hull", what, h, e[c], 3, 2.0, 0.1);
+    }
+}
+
+/* Heave and pitch that are coupled: the two modes of  K x = w^2 M x, and that a start in a mode stays in
+ * it. */
 static void coupled(void)
 {
     const double m = 1000, I = 3000, C33 = 4e4, C55 = 1.5e5, C35 = -3e4;
@@ -580,6 +649,7 @@ int main(void)
     harmonic();
     dashpot();
     hull();
+    wigleys();
     coupled();
     rolling();
     tumbling();

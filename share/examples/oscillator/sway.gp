@@ -19,7 +19,7 @@ plot 'sway.dat' using 1:($2/1e3) with lines lc rgb '#3465a4' title 'on the cylin
 set xlabel 'time [s]'
 set ylabel 'displacement [mm]'
 set ytics 10
-plot 'fixed.dat' using 1:(1e3*$2) with lines lc rgb '#bbbbbb' title 'x, by the load on the cylinder at rest', \
+plot 'fixed.dat' using 1:(1e3*$2) with lines lc rgb '#bbbbbb' title 'x by the load at rest', \
      'sway.dat' using 1:(1e3*$3) with lines lc rgb '#cc0000' title 'x', \
      'sway.dat' using 1:(1e3*$4) with lines lc rgb '#3465a4' title 'y'
 unset multiplot
