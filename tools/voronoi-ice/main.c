@@ -187,6 +187,11 @@ static int meets_any(const struct options *o, const struct keep_out *s, int32_t 
     return 0;
 }
 
+static int takes_out(const struct options *o, const struct field *a)
+{
+    return o->keep_outs || a->water.gone.rings;
+}
+
 static int take_out(const struct options *o, struct field *a, fl_err *err)
 {
     char *gone = fl_alloc(a->floes.n, 1, err);
@@ -196,10 +201,13 @@ static int take_out(const struct options *o, struct field *a, fl_err *err)
         free(w);
         return -1;
     }
-    for (int32_t i = 0; i < a->floes.n; i++)
+    for (int32_t i = 0; i < a->floes.n; i++) {
+        const int32_t n = a->floes.first[i + 1] - a->floes.first[i];
+        const fl_vec2 *v = a->floes.outer + a->floes.first[i];
+        gone[i] = (char)water_takes(&a->water, n, v);
         for (int k = 0; k < o->keep_outs && !gone[i]; k++)
-            gone[i] = (char)meets_any(o, &o->keep_out[k], a->floes.first[i + 1] - a->floes.first[i],
-                                      a->floes.outer + a->floes.first[i], w);
+            gone[i] = (char)meets_any(o, &o->keep_out[k], n, v, w);
+    }
     fl_floes_drop(&a->floes, gone, a->name);
     free(gone);
     free(w);
@@ -314,7 +322,7 @@ static void certify_faces(const struct options *o, const struct field *a, struct
                 face_height(o, a, &f->face[k], &z);
     }
     certify_add(t, "bonded area [m2]", NOT_ASKED, area, NO_DISTANCE, 6, NULL);
-    if (o->keep_outs || a->water.on)
+    if (takes_out(o, a) || a->water.on)
         certify_add(t, "sides on no other [m]", NOT_ASKED, open, NO_DISTANCE, 6, NULL);
     else certify_add(t, "sides on no other [m]", outline, open, fabs(open - outline) / f->outline, 6, NULL);
 }
@@ -334,7 +342,7 @@ static void certify(const struct options *o, const struct field *a, struct certi
     if (o->periodic[0]) certify_add(t, "period along x [m]", NOT_ASKED, o->size.x, NO_DISTANCE, 10, NULL);
     if (o->periodic[1]) certify_add(t, "period along y [m]", NOT_ASKED, o->size.y, NO_DISTANCE, 10, NULL);
     water_certify(&a->water, o, t);
-    if (o->keep_outs) {
+    if (takes_out(o, a)) {
         certify_add(t, "floes kept out", NOT_ASKED, a->cells.n - a->floes.n, NO_DISTANCE, 10, NULL);
         certify_add(t, "floes left", NOT_ASKED, a->floes.n, NO_DISTANCE, 10, NULL);
         certify_add(t, "concentration, whole field", NOT_ASKED, a->covered / area, NO_DISTANCE, 6, NULL);
@@ -411,7 +419,7 @@ static int measure(const struct options *o, struct field *a, fl_err *err)
 {
     if (fl_certificate_make(&a->c, &a->floes, err)) return -1;
     a->full = a->covered = a->c.total;
-    if (o->keep_outs) {
+    if (takes_out(o, a)) {
         if (take_out(o, a, err) || fl_certificate_make(&a->c, &a->floes, err)) return -1;
         a->covered = a->c.total;
     }

@@ -49,7 +49,8 @@ static int add_lead(fl_domain *d, const double *x, fl_err *err)
 }
 
 /* What the ice would touch: the structure from the bottom of the ice to its top. */
-static int add_structure(struct water *w, const struct options *o, const char *path, fl_err *err)
+static int add_structure(struct water *w, fl_domain *d, const struct options *o, const char *path,
+                         fl_err *err)
 {
     const double draft = o->thickness * (o->ice_density / o->water_density);
     const double coarse = WATER_COARSE * sqrt(o->size.x * o->size.y / o->floes);
@@ -57,7 +58,7 @@ static int add_structure(struct water *w, const struct options *o, const char *p
     int32_t kept = 0;
     int rc;
     if (fl_gstruct_read(&s, path, err)) return -1;
-    rc = fl_section_keep_out(&w->d, &s, -draft, o->thickness - draft, o->margin, coarse, &kept, err);
+    rc = fl_section_keep_out(d, &s, -draft, o->thickness - draft, o->margin, coarse, &kept, err);
     w->kept += kept;
     fl_surface_free(&s);
     return rc;
@@ -78,30 +79,49 @@ static void centre(struct water *w, struct options *o)
     d->hi = (fl_vec2){d->hi.x - w->shift.x, d->hi.y - w->shift.y};
 }
 
+/* What is not ice in the field. */
+static int add_open(struct water *w, fl_domain *d, const struct options *o, fl_err *err)
+{
+    for (int k = 0; k < o->leads; k++)
+        if (add_lead(d, o->lead[k], err)) return -1;
+    for (int k = 0; k < o->ridges; k++) { /* the floes make room for sail and keel */
+        const double *r = o->ridge[k], x[5] = {r[0], r[1], r[2], r[3], fmax(r[5], r[7])};
+        if (add_lead(d, x, err)) return -1;
+    }
+    for (int k = 0; k < o->structures; k++)
+        if (add_structure(w, d, o, o->structure[k], err)) return -1;
+    return 0;
+}
+
 int water_make(struct water *w, struct options *o, fl_err *err)
 {
-    w->on = o->outline || o->disc[0] > 0.0 || o->leads || o->ridges || o->structures;
+    const int open = o->leads || o->ridges || o->structures;
+    w->on = o->outline || o->disc[0] > 0.0 || (open && !o->sizes);
     w->area = o->size.x * o->size.y;
     w->shift = (fl_vec2){o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
-    if (!w->on) return 0;
+    if (!w->on) return open ? add_open(w, &w->gone, o, err) : 0;
     if (o->outline         ? fl_domain_read(&w->d, o->outline, err)
         : o->disc[0] > 0.0 ? add_disc(&w->d, o, err)
                            : add_rectangle(&w->d, o, err))
         return -1;
     o->size = (fl_vec2){w->d.hi.x - w->d.lo.x, w->d.hi.y - w->d.lo.y};
-    for (int k = 0; k < o->leads; k++)
-        if (add_lead(&w->d, o->lead[k], err)) return -1;
-    for (int k = 0; k < o->ridges; k++) { /* the floes make room for sail and keel */
-        const double *r = o->ridge[k], x[5] = {r[0], r[1], r[2], r[3], fmax(r[5], r[7])};
-        if (add_lead(&w->d, x, err)) return -1;
-    }
-    for (int k = 0; k < o->structures; k++)
-        if (add_structure(w, o, o->structure[k], err)) return -1;
+    if (add_open(w, o->sizes ? &w->gone : &w->d, o, err)) return -1;
     centre(w, o);
     if (fl_domain_ready(&w->d, err)) return -1;
     if (fl_domain_convex(&w->d)) w->area = fl_polygon_area(w->d.corners, w->d.v);
-    else if (o->sizes)
-        return fl_fail(err, FL_INPUT, "--sizes needs water whose outline is convex, with nothing kept out");
+    else if (o->sizes) return fl_fail(err, FL_INPUT, "--sizes needs water whose outline is convex");
+    return 0;
+}
+
+int water_takes(const struct water *w, int32_t n, const fl_vec2 *v)
+{
+    for (int32_t r = 0; r < w->gone.rings; r++) {
+        const int32_t first = w->gone.first[r], m = w->gone.first[r + 1] - first;
+        fl_vec2 ring[FL_SECTION_MOST];
+        const int turned = fl_polygon_area(m, w->gone.v + first) < 0.0; /* all but the first are */
+        for (int32_t k = 0; k < m; k++) ring[k] = w->gone.v[first + (turned ? m - 1 - k : k)];
+        if (!fl_polygon_apart(n, v, m, ring)) return 1;
+    }
     return 0;
 }
 
@@ -179,6 +199,8 @@ done:
 
 void water_certify(const struct water *w, const struct options *o, struct certify *t)
 {
+    if (o->structures && !w->on)
+        certify_add(t, "parts of structures kept out", NOT_ASKED, w->kept, NO_DISTANCE, 10, NULL);
     if (!w->on) return;
     if (o->disc[0] > 0.0 && w->d.rings == 1) {
         const double asked = PI * o->disc[0] * o->disc[0];
@@ -194,6 +216,7 @@ void water_certify(const struct water *w, const struct options *o, struct certif
 void water_free(struct water *w)
 {
     fl_domain_free(&w->d);
+    fl_domain_free(&w->gone);
     free(w->id);
     *w = (struct water){0};
 }
