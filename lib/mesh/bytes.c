@@ -6,35 +6,126 @@
 #include "base/num.h"
 #include "mesh/bytes.h"
 
-enum { CHUNK = 1 << 16 };
-
 static const char BYTE_ORDER_MARK[] = "\xef\xbb\xbf";
+static int32_t window = FL_BYTES_HEAD;
+enum { LEAST = 1 << 17 }; /* bytes of memory: data may be handed on to fl_text, which reads as many at once */
 
-int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err)
+void fl_bytes_window(int32_t bytes) { window = bytes > 0 ? bytes : FL_BYTES_HEAD; }
+
+/* Length of the line end at p, 0 when there is none. */
+static int line_end(const char *p) { return *p == '\n' ? 1 : *p != '\r' ? 0 : p[1] == '\n' ? 2 : 1; }
+
+/* Behind the last line end that is known to be one: what comes after it is there, so that \r\n is not cut,
+ * and no backslash before it joins the next line on. */
+static int32_t last_end(const fl_bytes *b)
 {
-    int64_t k;
-    *b = (fl_bytes){0};
-    b->in = fl_in_open(path, err);
-    if (!b->in) return -1;
-    do {
-        if (b->n > INT32_MAX - CHUNK - 1) {
-            fl_fail(err, FL_INPUT, "%s: larger than 2 GiB", fl_in_name(b->in));
-            goto fail;
-        }
-        if (fl_grow(&b->data, &b->cap, (int64_t)b->n + CHUNK + 1, 1, err)) goto fail;
-        k = fl_in_read(b->in, b->data + b->n, CHUNK, err);
-        if (k < 0) goto fail;
+    if (b->ended) return b->n;
+    for (int32_t k = b->n - 1; k-- > b->pos;) {
+        const int width = line_end(b->data + k);
+        if (width == 0 || (k > b->pos && (b->data[k - 1] == '\\' || b->data[k - 1] == '\r'))) continue;
+        return k + width;
+    }
+    return b->pos;
+}
+
+/* Read on until n bytes are in data, or the file ends. */
+static int read_to(fl_bytes *b, int64_t n, fl_err *err)
+{
+    if (n > INT32_MAX - 1) n = INT32_MAX - 1;
+    if (fl_grow(&b->data, &b->cap, n > LEAST ? n + 1 : LEAST, 1, err)) return -1;
+    while (!b->ended && b->n < n) {
+        const int64_t k = fl_in_read(b->in, b->data + b->n, n - b->n, err);
+        if (k < 0) return -1;
+        b->ended = k == 0;
         b->n += (int32_t)k;
-    } while (k > 0);
-    if (b->n >= 3 && memcmp(b->data, BYTE_ORDER_MARK, 3) == 0) {
-        b->n -= 3;
-        memmove(b->data, b->data + 3, (size_t)b->n);
     }
     b->data[b->n] = '\0';
     return 0;
-fail:
+}
+
+/* Move the window on: at least n bytes from pos on, or all that there are. */
+static int move_on(fl_bytes *b, int64_t n, fl_err *err)
+{
+    const int32_t left = b->n - b->pos;
+    if (b->pos) memmove(b->data, b->data + b->pos, (size_t)left);
+    b->before += b->pos;
+    b->pos = 0;
+    b->n = left;
+    if (read_to(b, n > window ? n : window, err)) return -1;
+    b->safe = last_end(b);
+    return 0;
+}
+
+/* See that the line that begins at pos ends in data. */
+static int whole_line(fl_bytes *b, fl_err *err)
+{
+    while (!b->ended && b->pos >= b->safe) {
+        const int64_t left = b->n - b->pos;
+        if (left >= INT32_MAX - 1) return fl_bytes_fail(b, err, "a line of more than 2 GiB");
+        if (move_on(b, 2 * left, err)) return -1;
+    }
+    return 0;
+}
+
+int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err)
+{
+    *b = (fl_bytes){0};
+    b->in = fl_in_open(path, err);
+    if (!b->in) return -1;
+    if (read_to(b, window, err)) {
+        fl_bytes_free(b);
+        return -1;
+    }
+    if (b->n >= 3 && memcmp(b->data, BYTE_ORDER_MARK, 3) == 0) {
+        b->n -= 3;
+        memmove(b->data, b->data + 3, (size_t)b->n + 1);
+    }
+    b->safe = last_end(b);
+    return 0;
+}
+
+int fl_bytes_whole(fl_bytes *b, fl_err *err)
+{
+    while (!b->ended) {
+        if (b->n >= INT32_MAX - 1)
+            return fl_fail(err, FL_INPUT, "%s: larger than 2 GiB, which is the most for a file of this kind",
+                           fl_in_name(b->in));
+        if (read_to(b, 2 * (int64_t)b->n + window, err)) return -1;
+    }
+    b->safe = b->n;
+    return 0;
+}
+
+int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err)
+{
+    if (fl_bytes_open(b, path, err)) return -1;
+    if (fl_bytes_whole(b, err) == 0) return 0;
     fl_bytes_free(b);
     return -1;
+}
+
+int fl_bytes_take(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err)
+{
+    if (b->n - b->pos < n && !b->ended && move_on(b, n, err)) return -1;
+    if (b->n - b->pos < n) return 0;
+    *p = (const unsigned char *)b->data + b->pos;
+    b->pos += n;
+    return 1;
+}
+
+int fl_bytes_line(fl_bytes *b, char **start, int32_t *len, fl_err *err)
+{
+    if (whole_line(b, err)) return -1;
+    if (b->pos >= b->n) return 0;
+    b->line++;
+    *start = b->data + b->pos;
+    char *const end = *start + strcspn(*start, "\r\n");
+    if (*end == '\0' && end < b->data + b->n)
+        return fl_bytes_fail(b, err, "a zero byte: this is not a text file");
+    *len = (int32_t)(end - *start);
+    b->pos += *len + (end < b->data + b->n ? line_end(end) : 0);
+    *end = '\0';
+    return 1;
 }
 
 void fl_bytes_free(fl_bytes *b)
@@ -69,14 +160,14 @@ void fl_bytes_note(fl_bytes *b, const char *fmt, ...)
 
 static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 
-/* Length of the line end at p, 0 when there is none. */
-static int line_end(const char *p) { return *p == '\n' ? 1 : *p != '\r' ? 0 : p[1] == '\n' ? 2 : 1; }
-
 /* Cut the line at pos into words; pos moves to the next line. */
 static int cut_line(fl_bytes *b, fl_err *err)
 {
-    char *p = b->data + b->pos, *const end = b->data + b->n;
+    char *p, *end;
     b->words = b->next = 0;
+    if (whole_line(b, err)) return -1;
+    p = b->data + b->pos;
+    end = b->data + b->n;
     b->line++;
     for (;;) {
         char *start;
@@ -115,7 +206,7 @@ static int cut_line(fl_bytes *b, fl_err *err)
 
 int fl_bytes_row(fl_bytes *b, fl_err *err)
 {
-    while (b->pos < b->n) {
+    while (b->pos < b->n || !b->ended) {
         if (cut_line(b, err)) return -1;
         if (b->words) return 1;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bytes.h -- a whole mesh file in memory, to be looked at twice: as bytes, and as rows of words. */
+/* bytes.h -- a mesh file through a window: its head, to tell what it is, then as rows of words, as lines or
+ * as bytes, while what has been read makes room for what comes; or all of it at once. */
 #ifndef FL_MESH_BYTES_H
 #define FL_MESH_BYTES_H
 #include <stdint.h>
@@ -9,19 +10,42 @@
 enum { FL_MESH_NOTE = 4000 };
 
 typedef struct {
-    fl_in *in;  /* at its end */
+    fl_in *in;
     char *data; /* [n], and a zero byte after them; rows are cut in place */
     int32_t n, cap, pos;
-    int32_t line; /* of the current row; 0 in binary data */
-    char comment; /* opens a comment, '\0' for none */
-    char **field; /* words of the current row */
+    int32_t safe;   /* what begins before this place of data ends in data, continued lines too */
+    int ended;      /* nothing comes behind data */
+    int64_t before; /* bytes that have made room */
+    int32_t line;   /* of the current row; 0 in binary data */
+    char comment;   /* opens a comment, '\0' for none */
+    char **field;   /* words of the current row */
     int32_t words, next, field_cap;
     char note[FL_MESH_NOTE]; /* remarks for the user, each with its newline */
 } fl_bytes;
 
-/* Read all of path ("-" is standard input, gzip is unpacked); a UTF-8 byte order mark at its start is
- * dropped. 0, or -1 with FL_INPUT (missing, unreadable, larger than 2 GiB) or FL_SYSTEM. */
+/* Open path ("-" is standard input, gzip is unpacked) and read its head, of up to FL_BYTES_HEAD bytes; a
+ * UTF-8 byte order mark at its start is dropped. 0, or -1 with FL_INPUT (missing, unreadable) or FL_SYSTEM.
+ */
+enum { FL_BYTES_HEAD = 1 << 22 };
+int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err);
+
+/* Read all that is left, behind what is there: for kinds of files that are looked at here and there.  0, or
+ * -1 with FL_INPUT (larger than 2 GiB, unreadable) or FL_SYSTEM. */
+int fl_bytes_whole(fl_bytes *b, fl_err *err);
+
+/* Both. */
 int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err);
+
+/* For tests: a head and a window of so many bytes; 0 for those above. */
+void fl_bytes_window(int32_t bytes);
+
+/* The next n bytes into *p, where they stay until the next call of anything here: 1, 0 when the file ends
+ * before, or -1 with FL_INPUT or FL_SYSTEM. */
+int fl_bytes_take(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err);
+
+/* The next line into *start, ended by a zero byte in place of its end (\n, \r\n or \r) and its length into
+ * *len. 1, 0 at the end, -1 with FL_INPUT or FL_SYSTEM. */
+int fl_bytes_line(fl_bytes *b, char **start, int32_t *len, fl_err *err);
 
 /* Next row with words: skips blank ones and comments; \n, \r\n and \r end a line, and a backslash before the
  * end joins the next one on.  1, 0 at the end, -1 with err (a zero byte, no memory). */

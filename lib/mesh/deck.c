@@ -35,29 +35,28 @@ static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == 
 int fl_deck_line(fl_deck *d, fl_err *err)
 {
     fl_bytes *b = d->depth ? &d->included[d->depth - 1] : d->base;
-    char *start, *p, *end;
+    int32_t len;
+    int more;
     if (d->held) {
         d->held = 0;
         d->e->file = d->held_file;
         d->e->line = d->held_line;
         return 1;
     }
-    while (b->pos >= b->n) {
+    for (;;) {
+        const int32_t file = d->file[d->depth];
+        more = fl_bytes_line(b, &d->line, &len, err);
+        d->e->file = file;
+        d->e->line = b->line;
+        if (more < 0) return -1;
+        if (more > 0) break;
         if (d->depth == 0) return 0;
         fl_bytes_free(b);
         d->depth--;
         b = d->depth ? &d->included[d->depth - 1] : d->base;
     }
-    d->e->file = d->file[d->depth];
-    d->e->line = ++b->line;
-    start = b->data + b->pos;
-    p = start + strcspn(start, "\r\n");
-    end = b->data + b->n;
-    if (*p == '\0' && p < end) return fl_deck_fail(d, err, "a zero byte: this is not a text file");
-    b->pos = (int32_t)(p - b->data) + (p == end ? 0 : p[0] == '\r' && p[1] == '\n' ? 2 : 1);
-    while (p > start && is_blank(p[-1])) p--;
-    *p = '\0';
-    d->line = start;
+    while (len > 0 && is_blank(d->line[len - 1])) len--;
+    d->line[len] = '\0';
     return 1;
 }
 
@@ -72,7 +71,9 @@ int fl_deck_include(fl_deck *d, const char *path, fl_err *err)
 {
     const char *deck = d->e->files.name[d->file[0]], *slash = strrchr(deck, '/');
     const size_t folder = slash && path[0] != '/' ? (size_t)(slash - deck) + 1 : 0;
+    const int32_t here = d->e->file;
     char *whole = NULL;
+    int32_t file;
     int rc = -1;
     if (path[0] == '\0') return fl_deck_fail(d, err, "a file to include was wanted");
     if (d->depth == FL_DECK_DEPTH)
@@ -89,7 +90,11 @@ int fl_deck_include(fl_deck *d, const char *path, fl_err *err)
             fl_deck_fail(d, err, "\"%.60s\" is included in itself", path);
             goto done;
         }
-    if (fl_bytes_load(&d->included[d->depth], whole, err)) {
+    /* the names of files stay as long as the elements do */
+    if (fl_elements_file(d->e, whole, err)) goto done;
+    file = d->e->file;
+    d->e->file = here;
+    if (fl_bytes_open(&d->included[d->depth], d->e->files.name[file], err)) {
         if (err->code == FL_INPUT) {
             /* what fails is the file, but the line that wants it is what has to be mended */
             const fl_err why = *err;
@@ -98,11 +103,7 @@ int fl_deck_include(fl_deck *d, const char *path, fl_err *err)
         }
         goto done;
     }
-    if (fl_elements_file(d->e, whole, err)) {
-        fl_bytes_free(&d->included[d->depth]);
-        goto done;
-    }
-    d->file[++d->depth] = d->e->file;
+    d->e->file = d->file[++d->depth] = file;
     rc = 0;
 done:
     free(whole);

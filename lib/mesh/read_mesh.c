@@ -39,8 +39,7 @@ static void base_name(const char *path, char name[NAME])
     name[len] = '\0';
 }
 
-/* Hand the bytes on as the text they are: what is read so far is all there is, and the stream is at its end.
- * */
+/* Hand the bytes on as the text they are: what is read so far, and the stream behind it. */
 static int read_own(fl_surface *s, fl_bytes *b, fl_err *err)
 {
     fl_text text = {.in = b->in, .chunk = b->data, .have = b->n};
@@ -81,9 +80,9 @@ static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
     if (zero)
         return fl_bytes_fail(
             b, err,
-            "%d bytes of binary data: not a whole binary STL (84 + 50 n bytes), and no other "
+            "%d bytes of binary data%s: not a whole binary STL (84 + 50 n bytes), and no other "
             "kind that is known",
-            b->n);
+            b->n, b->ended ? "" : " and more");
     if (starts_with(b, "solid")) return fl_stl_read_ascii(s, b, name, err);
     if (fl_off_is(b)) return fl_off_read(s, b, name, err);
     if (fl_obj_is(b)) return fl_obj_read(s, b, name, err);
@@ -100,8 +99,10 @@ static int is_faces(const fl_bytes *b)
 
 static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
 {
-    if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
-    if (fl_vtx_is(b)) return fl_vtx_read(s, b, name, w, err);
+    const int msh = fl_msh_is(b), vtx = fl_vtx_is(b);
+    if ((msh || vtx || fl_vtk_is(b)) && fl_bytes_whole(b, err)) return -1;
+    if (msh) return fl_msh_read(s, b, name, w, err);
+    if (vtx) return fl_vtx_read(s, b, name, w, err);
     if (fl_vtk_is(b)) return fl_vtk_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
     if (fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);
@@ -172,7 +173,7 @@ int fl_mesh_read_some(fl_surface *s, const char *path, fl_wish *w, char *note, f
     int rc = -1;
     note[0] = '\0';
     base_name(path, name);
-    if (fl_bytes_load(&b, path, err) || read_any(&got, &b, name, w, err)) goto done;
+    if (fl_bytes_open(&b, path, err) || read_any(&got, &b, name, w, err)) goto done;
     drop_empty(&got, &b);
     if (got.n == 0 && !fl_wish_chooses(w)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);

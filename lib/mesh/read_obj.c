@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/names.h"
 #include "base/num.h"
 #include "geom/facet.h"
 #include "mesh/read_obj.h"
@@ -42,45 +43,45 @@ int fl_obj_is(const fl_bytes *b)
     return 0;
 }
 
-/* The word that opens a part in this file. */
-static const char *part_word(const fl_bytes *b)
-{
-    int objects = 0, groups = 0;
-    for (const char *p = b->data; p; p = next_line(p)) {
-        p = skip_blanks(p);
-        objects += starts(p, "o") && objects < 2;
-        groups += starts(p, "g") && groups < 1;
-    }
-    return objects >= 2 ? "o" : groups ? "g" : objects ? "o" : "usemtl";
-}
+/* Words that may open a part.  Which of them do is known at the end of the file: until then each change of
+ * one of them begins a run of triangles. */
+enum { OBJECT, GROUP, MATERIAL, WORDS };
+static const char *const opening[WORDS] = {"o", "g", "usemtl"};
 
 typedef struct {
-    fl_part pool;   /* all vertices of the file */
-    int32_t *owner; /* [pool.nv] part that saw the vertex last, plus one; 0 for none */
-    int32_t *local; /* [pool.nv] its index there */
-    int32_t owner_cap, local_cap;
+    int32_t t;    /* triangles of the pool before it */
+    int32_t name; /* of names; -1 for that of the file */
+    int8_t word;  /* that changed */
+} run;
+
+typedef struct {
+    fl_part pool;            /* all vertices and triangles of the file */
+    int32_t *owner;          /* [pool.nv] part that saw the vertex last, plus one; 0 for none */
+    int32_t *local;          /* [pool.nv] its index there */
     int32_t *loop, loop_cap; /* corners of the current face */
-    int32_t part;            /* current one, -1 before the first face */
+    fl_names names;
+    run *runs; /* [n] */
+    int32_t n, run_cap;
+    int32_t seen[WORDS];
     int32_t skipped;
 } state;
 
 static void state_free(state *o)
 {
     fl_part_free(&o->pool);
+    fl_names_free(&o->names);
     free(o->owner);
     free(o->local);
     free(o->loop);
+    free(o->runs);
 }
 
 static int read_vertex(state *o, const fl_bytes *b, fl_err *err)
 {
     fl_vec3 x = {0};
     if (fl_bytes_f64_at(b, 1, "x", &x.x, err) || fl_bytes_f64_at(b, 2, "y", &x.y, err) ||
-        fl_bytes_f64_at(b, 3, "z", &x.z, err) ||
-        fl_grow(&o->owner, &o->owner_cap, (int64_t)o->pool.nv + 1, sizeof *o->owner, err) ||
-        fl_grow(&o->local, &o->local_cap, (int64_t)o->pool.nv + 1, sizeof *o->local, err))
+        fl_bytes_f64_at(b, 3, "z", &x.z, err))
         return -1;
-    o->owner[o->pool.nv] = 0;
     return fl_surface_vertex(&o->pool, x, err);
 }
 
@@ -98,77 +99,118 @@ static int corner(const state *o, const fl_bytes *b, char *word, int32_t *v, fl_
     return 0;
 }
 
-/* See that the part has vertex v.  A part that comes back gets it twice: welding mends that. */
-static int bring(state *o, fl_part *p, int32_t v, fl_err *err)
-{
-    if (o->owner[v] == o->part + 1) return 0;
-    o->owner[v] = o->part + 1;
-    o->local[v] = p->nv;
-    return fl_surface_vertex(p, o->pool.v[v], err);
-}
-
-static int read_face(state *o, fl_surface *s, fl_bytes *b, fl_err *err)
+/* A face is cut up under the numbers of the file, which decide on ties, and not under those of a part. */
+static int read_face(state *o, fl_bytes *b, fl_err *err)
 {
     const int32_t n = b->words - 1;
-    fl_part *p = &s->part[o->part];
     if (n < 3) return fl_bytes_fail(b, err, "a face of %d corners, at least 3 were wanted", n);
     if (n > FL_FACET_CORNERS)
         return fl_bytes_fail(b, err, "a face of %d corners, at most %d were wanted", n, FL_FACET_CORNERS);
     if (fl_grow(&o->loop, &o->loop_cap, n, sizeof *o->loop, err)) return -1;
     for (int32_t k = 0; k < n; k++)
         if (corner(o, b, b->field[k + 1], &o->loop[k], err)) return -1;
-    /* Cut up under the numbers of the file, which decide on ties, and not under those of the part. */
-    o->pool.nt = 0;
-    if (fl_facet_polygon(&o->pool, n, o->loop, err)) return -1;
-    for (int32_t t = 0; t < o->pool.nt; t++) {
-        const int32_t *v = o->pool.t[t].v;
-        for (int k = 0; k < 3; k++)
-            if (bring(o, p, v[k], err)) return -1;
-        if (fl_surface_triangle(p, o->local[v[0]], o->local[v[1]], o->local[v[2]], err)) return -1;
+    return fl_facet_polygon(&o->pool, n, o->loop, err);
+}
+
+static int open_run(state *o, fl_bytes *b, int word, fl_err *err)
+{
+    run r = {o->pool.nt, -1, (int8_t)word};
+    if (fl_grow(&o->runs, &o->run_cap, (int64_t)o->n + 1, sizeof *o->runs, err)) return -1;
+    if (b->words > 1) { /* words lie one behind the other */
+        char *name = b->field[1], *end = b->field[b->words - 1];
+        end += strlen(end);
+        for (char *c = name; c < end; c++)
+            if (*c == '\0') *c = '_';
+        r.name = fl_names_add(&o->names, name, err);
+        if (r.name < 0) return -1;
     }
+    o->runs[o->n++] = r;
+    o->seen[word]++;
     return 0;
 }
 
-/* Open or reopen the part that the row names. */
-static int open_part(state *o, fl_surface *s, const fl_bytes *b, const char *name, fl_err *err)
-{
-    size_t len = strlen(name);
-    if (b && b->words > 1) { /* words lie one behind the other */
-        name = b->field[1];
-        len = (size_t)(b->field[b->words - 1] - name) + strlen(b->field[b->words - 1]);
-    }
-    o->part = fl_surface_find(s, name, len);
-    if (o->part < 0) o->part = fl_surface_add(s, name, len, err);
-    return o->part < 0 ? -1 : 0;
-}
-
-static int read_row(state *o, fl_surface *s, fl_bytes *b, const char *opens, const char *name, fl_err *err)
+static int read_row(state *o, fl_bytes *b, fl_err *err)
 {
     const char *word = b->field[0];
     if (strcmp(word, "v") == 0) return read_vertex(o, b, err);
-    if (strcmp(word, "f") == 0) {
-        if (o->part < 0 && open_part(o, s, NULL, name, err)) return -1;
-        return read_face(o, s, b, err);
-    }
-    if (strcmp(word, opens) == 0) return open_part(o, s, b, name, err);
+    if (strcmp(word, "f") == 0) return read_face(o, b, err);
+    for (int k = 0; k < WORDS; k++)
+        if (strcmp(word, opening[k]) == 0) return open_run(o, b, k, err);
     for (int k = 0; k < KNOWN; k++)
         if (strcmp(word, known[k]) == 0) return 0;
     o->skipped++;
     return 0;
 }
 
+/* --- parts ---------------------------------------------------------------------------------------------- */
+
+/* The part called so, which is added when new. */
+static int32_t part_called(fl_surface *s, const char *name, fl_err *err)
+{
+    const int32_t i = fl_surface_find(s, name, strlen(name));
+    return i >= 0 ? i : fl_surface_add(s, name, strlen(name), err);
+}
+
+/* Give triangles from .. to of the pool to a part.  One that comes back gets its vertices twice: welding
+ * mends that. */
+static int bring(state *o, fl_surface *s, int32_t part, int32_t from, int32_t to, fl_err *err)
+{
+    fl_part *p = &s->part[part];
+    for (int32_t t = from; t < to; t++) {
+        int32_t w[3];
+        for (int k = 0; k < 3; k++) {
+            const int32_t v = o->pool.t[t].v[k];
+            if (o->owner[v] != part + 1) {
+                o->owner[v] = part + 1;
+                o->local[v] = p->nv;
+                if (fl_surface_vertex(p, o->pool.v[v], err)) return -1;
+            }
+            w[k] = o->local[v];
+        }
+        if (fl_surface_triangle(p, w[0], w[1], w[2], err)) return -1;
+    }
+    return 0;
+}
+
+/* Deal the triangles out to the parts.  A file of one part is that part. */
+static int deal(state *o, fl_surface *s, const char *name, fl_err *err)
+{
+    const int word = o->seen[OBJECT] >= 2 ? OBJECT
+                     : o->seen[GROUP]     ? GROUP
+                     : o->seen[OBJECT]    ? OBJECT
+                                          : MATERIAL;
+    int32_t part = -1, from = 0;
+    o->owner = fl_alloc(o->pool.nv, sizeof *o->owner, err);
+    o->local = o->owner ? fl_alloc(o->pool.nv, sizeof *o->local, err) : NULL;
+    if (!o->local) return -1;
+    for (int32_t k = 0; k <= o->n; k++) {
+        const run *r = &o->runs[k];
+        const int32_t to = k < o->n ? r->t : o->pool.nt;
+        if (k < o->n && r->word != word) continue;
+        if (to > from) {
+            if (part < 0 && (part = part_called(s, name, err)) < 0) return -1;
+            if (bring(o, s, part, from, to, err)) return -1;
+        }
+        from = to;
+        if (k == o->n) break;
+        part = part_called(s, r->name < 0 ? name : o->names.name[r->name], err);
+        if (part < 0) return -1;
+    }
+    return 0;
+}
+
 int fl_obj_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
-    const char *opens = part_word(b);
-    state o = {.part = -1};
+    state o = {0};
     int more;
     b->comment = '#';
     while ((more = fl_bytes_row(b, err)) > 0)
-        if (read_row(&o, s, b, opens, name, err)) {
+        if (read_row(&o, b, err)) {
             more = -1;
             break;
         }
     if (more == 0 && o.skipped) fl_bytes_note(b, "%d rows of unknown words were passed over", o.skipped);
+    if (more == 0) more = deal(&o, s, name, err);
     state_free(&o);
     return more;
 }

@@ -184,9 +184,10 @@ static int read_header(ply *p, fl_err *err)
 
 static int read_binary(ply *p, type t, double *x, fl_err *err)
 {
-    fl_bytes *b = p->b;
     const int size = type_size[t];
+    const unsigned char *at;
     unsigned char raw[8];
+    int more;
     union {
         int8_t i8;
         uint8_t u8;
@@ -197,9 +198,10 @@ static int read_binary(ply *p, type t, double *x, fl_err *err)
         float f32;
         double f64;
     } u;
-    if (b->n - b->pos < size) return fl_bytes_fail(b, err, "the file ends inside the data");
-    for (int k = 0; k < size; k++) raw[k] = (unsigned char)b->data[b->pos + (p->swap ? size - 1 - k : k)];
-    b->pos += size;
+    more = fl_bytes_take(p->b, size, &at, err);
+    if (more == 0) fl_bytes_fail(p->b, err, "the file ends inside the data");
+    if (more <= 0) return -1;
+    for (int k = 0; k < size; k++) raw[k] = at[p->swap ? size - 1 - k : k];
     memcpy(&u, raw, (size_t)size);
     switch (t) {
     case I8: *x = u.i8; break;

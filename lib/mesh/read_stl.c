@@ -9,48 +9,69 @@ enum { HEAD = 84, RECORD = 50 };
 
 /* --- binary --------------------------------------------------------------------------------------------- */
 
-static uint32_t u32_at(const fl_bytes *b, int64_t at)
+static uint32_t u32_at(const unsigned char *p)
 {
-    const unsigned char *p = (const unsigned char *)b->data + at;
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
-static double f32_at(const fl_bytes *b, int64_t at)
+static double f32_at(const unsigned char *p)
 {
-    const uint32_t bits = u32_at(b, at);
+    const uint32_t bits = u32_at(p);
     float x;
     memcpy(&x, &bits, sizeof x);
     return (double)x;
 }
 
+/* How many triangles the head tells, -1 where there is none. */
+static int64_t told(const fl_bytes *b)
+{
+    return b->n < HEAD ? -1 : (int64_t)u32_at((const unsigned char *)b->data + 80);
+}
+
 int fl_stl_is_binary(const fl_bytes *b)
 {
-    if (b->n < HEAD) return 0;
-    if ((int64_t)b->n == HEAD + RECORD * (int64_t)u32_at(b, 80)) return 1;
-    return u32_at(b, 80) == 0 && b->n > HEAD && (b->n - HEAD) % RECORD == 0;
+    const int64_t n = told(b);
+    if (n < 0) return 0;
+    if (!b->ended) return memchr(b->data, '\0', (size_t)b->n) && (n == 0 || HEAD + RECORD * n > b->n);
+    return b->n == HEAD + RECORD * n || (n == 0 && b->n > HEAD && (b->n - HEAD) % RECORD == 0);
+}
+
+static int read_record(fl_bytes *b, const unsigned char *at, int32_t t, fl_part *p, fl_err *err)
+{
+    at += 12; /* behind the normal */
+    for (int k = 0; k < 3; k++, at += 12) {
+        const fl_vec3 x = v3(f32_at(at), f32_at(at + 4), f32_at(at + 8));
+        if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
+            return fl_bytes_fail(b, err, "triangle %d has the corner %g %g %g, finite numbers were wanted", t,
+                                 x.x, x.y, x.z);
+        if (fl_surface_vertex(p, x, err)) return -1;
+    }
+    return fl_surface_triangle(p, 3 * t, 3 * t + 1, 3 * t + 2, err);
 }
 
 int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
-    const int32_t n = (b->n - HEAD) / RECORD, i = fl_surface_add(s, name, strlen(name), err);
-    fl_part *p;
+    const int64_t want = told(b);
+    const int32_t i = fl_surface_add(s, name, strlen(name), err);
+    const unsigned char *at;
+    int32_t n = 0;
+    int more;
     if (i < 0) return -1;
-    p = &s->part[i];
-    if (n > 0 && u32_at(b, 80) == 0)
-        fl_bytes_note(b, "the header says no triangles, the size says %d: these were read", n);
-    for (int32_t t = 0; t < n; t++) {
-        const int64_t at = HEAD + RECORD * (int64_t)t + 12; /* behind the normal */
-        for (int k = 0; k < 3; k++) {
-            const fl_vec3 x =
-                v3(f32_at(b, at + 12 * k), f32_at(b, at + 12 * k + 4), f32_at(b, at + 12 * k + 8));
-            if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
-                return fl_bytes_fail(b, err,
-                                     "triangle %d of %d has the corner %g %g %g, finite numbers were wanted",
-                                     t, n, x.x, x.y, x.z);
-            if (fl_surface_vertex(p, x, err)) return -1;
-        }
-        if (fl_surface_triangle(p, 3 * t, 3 * t + 1, 3 * t + 2, err)) return -1;
+    b->pos = HEAD;
+    while ((more = fl_bytes_take(b, RECORD, &at, err)) > 0) {
+        if (n == INT32_MAX / 3) return fl_bytes_fail(b, err, "more than %d triangles", n);
+        if (read_record(b, at, n, &s->part[i], err)) return -1;
+        n++;
     }
+    if (more < 0) return -1;
+    if (b->pos < b->n || (want > 0 && n != want))
+        return fl_bytes_fail(
+            b, err,
+            "a binary STL of %lld triangles was wanted, of 84 + 50 n bytes: %d and %d bytes were "
+            "found",
+            (long long)want, n, b->n - b->pos);
+    if (n > 0 && want == 0)
+        fl_bytes_note(b, "the header says no triangles, the size says %d: these were read", n);
     return 0;
 }
 

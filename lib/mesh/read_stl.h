@@ -7,7 +7,8 @@
 
 /* Is this a binary STL?  80 bytes, a 32-bit count n, n records of 50 bytes: the size decides, not the first
  * word, which is "solid" in both kinds.  A file whose count was never filled in (0) is binary by its size
- * alone. */
+ * alone.  Of one that goes on behind the head of b zero bytes decide, and its size is looked at by the
+ * reader. */
 int fl_stl_is_binary(const fl_bytes *b);
 
 /* Add the triangles of b to s: one part called `name` from a binary file, a part a solid from an ASCII one,

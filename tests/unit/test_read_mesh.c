@@ -327,7 +327,7 @@ static void size_decides_on_binary(void **state)
     memset(text + 84 + 50 * 3 + 12, 0xff, 4); /* a nan */
     e = (fl_err){0};
     assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), note, &e), -1);
-    assert_non_null(strstr(e.text, ": triangle 3 of "));
+    assert_non_null(strstr(e.text, ": triangle 3 has "));
     free(text);
     fl_surface_free(&s);
     unlink(test_path("b"));

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "mesh/read_mesh.h"
+#include "support/mesh.h"
+#include "support/near.h"
+
+static fl_err err;
+static fl_bytes b;
+
+static int end(void **state)
+{
+    (void)state;
+    fl_bytes_window(0);
+    fl_bytes_free(&b);
+    return 0;
+}
+
+static void open_with(const char *text, size_t n, int32_t window)
+{
+    fl_bytes_free(&b);
+    err = (fl_err){0};
+    fl_bytes_window(window);
+    if (fl_bytes_open(&b, test_file("text", text, n), &err)) fail_msg("%s", err.text);
+}
+
+/* Rows are the same however little of the file is seen at once: line ends of all kinds, lines that go on, a
+ * byte order mark, no line end at the end. */
+static void rows_do_not_depend_on_the_window(void **state)
+{
+    (void)state;
+    static const char text[] = "\xef\xbb\xbf"
+                               "a b\r\n# no\r\n\r\nc \\\r\nd\\\n e\n\r\rf\rg \\\\ h\n#\n"
+                               "a_word_that_is_longer_than_the_window_is i\nlast";
+    static const char want[] =
+        "1:a,b 6:c,d,e 9:f 10:g,\\\\,h 12:a_word_that_is_longer_than_the_window_is,i 13:last ";
+    for (int32_t window = 3; window < 120; window++) {
+        char got[400] = "";
+        int more;
+        open_with(text, sizeof text - 1, window);
+        b.comment = '#';
+        while ((more = fl_bytes_row(&b, &err)) > 0) {
+            sprintf(got + strlen(got), "%d:", b.line);
+            for (int32_t k = 0; k < b.words; k++)
+                sprintf(got + strlen(got), "%s%s", b.field[k], k + 1 < b.words ? "," : " ");
+        }
+        assert_int_equal(more, 0);
+        assert_string_equal(got, want);
+    }
+}
+
+static void lines_and_bytes_do_not_either(void **state)
+{
+    (void)state;
+    static const char text[] = "one\r\ntwo \r\r\nthree\n\n12345678";
+    for (int32_t window = 1; window < 40; window++) {
+        static const char *const want[] = {"one", "two ", "", "three", ""};
+        const unsigned char *p;
+        open_with(text, sizeof text - 1, window);
+        for (int k = 0; k < 5; k++) {
+            char *line;
+            int32_t len;
+            assert_int_equal(fl_bytes_line(&b, &line, &len, &err), 1);
+            assert_string_equal(line, want[k]);
+            assert_int_equal(len, strlen(want[k]));
+        }
+        for (int k = 0; k < 4; k++) {
+            assert_int_equal(fl_bytes_take(&b, 2, &p, &err), 1);
+            assert_memory_equal(p, "12345678" + 2 * k, 2);
+        }
+        assert_int_equal(fl_bytes_take(&b, 1, &p, &err), 0);
+        assert_int_equal(b.before + b.pos, sizeof text - 1);
+    }
+}
+
+/* What a reader makes of a file does not depend on the window either. */
+static int same_through(const char *path, int32_t window)
+{
+    fl_surface whole = {0}, part = {0};
+    char note[FL_MESH_NOTE];
+    int same = -1;
+    err = (fl_err){0};
+    fl_bytes_window(0);
+    if (fl_mesh_read(&whole, path, note, &err) == 0) {
+        fl_bytes_window(window);
+        /* a small head may not tell what the file is */
+        if (fl_mesh_read(&part, path, note, &err) == 0) same = mesh_same(&whole, &part);
+    }
+    fl_surface_free(&whole);
+    fl_surface_free(&part);
+    return same;
+}
+
+static void meshes_do_not_depend_on_the_window(void **state)
+{
+    (void)state;
+    static const char *const kind[] = {"stl", "obj",     "off", "ply", "inp", "cdb",
+                                       "bdf", "gstruct", "msh", "vtk", "vtx"};
+    for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
+        char folder[100], path[400];
+        const struct dirent *e;
+        int same = 0;
+        snprintf(folder, sizeof folder, "tests/fuzz/%s", kind[k]);
+        DIR *d = opendir(folder);
+        assert_non_null(d);
+        while ((e = readdir(d)) != NULL) {
+            snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+            for (int32_t window = 100; e->d_name[0] == 'g' && window < 3000; window += window / 3) {
+                const int how = same_through(path, window);
+                if (how == 0) fail_msg("%s differs through a window of %d bytes", path, window);
+                same += how > 0;
+            }
+        }
+        closedir(d);
+        assert_true(same > 10);
+    }
+}
+
+static void without_memory_it_says_so(void **state)
+{
+    (void)state;
+    char *line;
+    int32_t len;
+    int rc = -1;
+    for (long fail = 0; rc; fail++) {
+        fl_bytes_free(&b);
+        err = (fl_err){0};
+        fl_bytes_window(4);
+        fl_mem_fail_after(fail);
+        rc = fl_bytes_open(&b, test_file("text", "a\nbcdefghijklmnopqrst\n", 22), &err);
+        for (int k = 0; rc == 0 && k < 2; k++) rc = fl_bytes_line(&b, &line, &len, &err) < 0;
+        fl_mem_fail_after(-1);
+        assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
+        assert_true(fail < 50);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(rows_do_not_depend_on_the_window, end),
+        cmocka_unit_test_teardown(lines_and_bytes_do_not_either, end),
+        cmocka_unit_test_teardown(meshes_do_not_depend_on_the_window, end),
+        cmocka_unit_test_teardown(without_memory_it_says_so, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
