@@ -14,11 +14,13 @@
 #define MARGIN 0.8
 #define MARGIN_PEAK 0.65
 /* A meeting of this much more momentum than any before is news. */
-#define NEWS 1.5
+#define NEWS 1.15
 /* Two steps nearer to one another than this are as good as one. */
 #define NEAR 1.2
-/* The momenta of floes may be off by more than the load: they are added up without regard to sign. */
+/* The momenta of floes may be off by more than the impulse, for they are added up without regard to sign; by
+ * less than a peak, to whose own error that of the speed it comes from is added. */
 #define LOOSE 4.0
+#define LOOSE_PEAK 0.5
 /* Floes are moved by this share of their size where two states are to part: far above rounding, and far below
  * what a contact yields by. */
 #define SHIFT 0x1p-26
@@ -260,8 +262,9 @@ static double momenta_astray(const fl_budget *g, double h)
 /* 1 is what is allowed. */
 static double strain(const fl_budget *g, double h)
 {
-    return fmax(fl_budget_estimate(g, h), momenta_astray(g, h) / LOOSE) /
-           ((g->of == FL_ERROR_OF_PEAK ? MARGIN_PEAK : MARGIN) * g->goal);
+    const int peak = g->of == FL_ERROR_OF_PEAK;
+    const double goal = (peak ? MARGIN_PEAK : MARGIN) * g->goal;
+    return fmax(fl_budget_estimate(g, h), momenta_astray(g, h) / (peak ? LOOSE_PEAK : LOOSE)) / goal;
 }
 
 /* Where the strain is 1: between h/4 and 4 h, by halving of the exponent. */

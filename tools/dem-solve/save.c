@@ -15,8 +15,8 @@
 static const char *const TABLE[TABLES] = {"loads", "state",  "energy", "contacts",
                                           "hash",  "frames", "panels", "events"};
 
-/* Keys that may be changed under way: none of them bears on a step or a row, but for the first two, which give
- * the run another step from here on. */
+/* Keys that may be changed under way: none of them bears on a step or a row, but for the first two, which
+ * give the run another step from here on. */
 enum { STEP_KEYS = 2 };
 static const char *const FREE_KEY[] = {
     "run.dt",        "run.safety",        "run.duration",           "run.threads",
@@ -260,8 +260,8 @@ static void table_path(const struct run *r, const struct outputs *u, int k, char
     else snprintf(path, FL_SCENE_PATH + 16, "%s", name[k]);
 }
 
-/* Another step from here on, where the command line asks for one: rows then come at the first step at or after
- * their times. */
+/* Another step from here on, where the command line asks for one: rows then come at the first step at or
+ * after their times. */
 static void change_step(struct run *r, double dt)
 {
     int asked = 0;
