@@ -45,6 +45,7 @@ void fl_hash_row(FILE *f, double t, uint64_t hash);
     "\tdrive[J]\tcarried[J]\t"                                                                               \
     "residual[J]"
 /* and behind it, of a structure that moves by itself */
+#define FL_ENERGY_WAVES "\twaves[J]"
 #define FL_ENERGY_MOVING "\tstructure[J]\tspring[J]\tdamper[J]"
 
 /* Loads on panels: panels(5).  name: of the part, then what tells its panels apart. */

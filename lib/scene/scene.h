@@ -53,6 +53,7 @@ enum fl_error_of {
     FL_ERROR_OF_MZ
 };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
+enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
 enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
 
 typedef struct {
@@ -174,13 +175,15 @@ typedef struct {
     double profile_exponent;          /* of power */
     double profile_depth;             /* [m]; 0: auto, the depth */
     char profile_file[FL_SCENE_PATH]; /* of table; "": none */
-    int32_t wave;                     /* 0, none, in this version */
-    double drag_force_coef;           /* C of equation (8) */
-    fl_vec3 added_mass;               /* over the displaced mass, per body axis; -1: auto */
-    fl_vec3 added_inertia;            /* over the own moments of inertia; -1: auto */
-    int32_t drag;                     /* manual, facet: enum fl_drag_law of water/sea.h */
-    double skin_coef, form_coef;      /* C_s and C_f of facet */
-    double drag_moment_coef;          /* C of equation (9) */
+    int32_t wave;                     /* enum fl_wave_kind */
+    double height, period, direction, gamma; /* [m], [s], [deg]; height and period 0: not given */
+    int32_t seed, components;
+    double drag_force_coef;      /* C of equation (8) */
+    fl_vec3 added_mass;          /* over the displaced mass, per body axis; -1: auto */
+    fl_vec3 added_inertia;       /* over the own moments of inertia; -1: auto */
+    int32_t drag;                /* manual, facet: enum fl_drag_law of water/sea.h */
+    double skin_coef, form_coef; /* C_s and C_f of facet */
+    double drag_moment_coef;     /* C of equation (9) */
 } fl_scene_water;
 
 typedef struct {

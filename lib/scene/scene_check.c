@@ -177,6 +177,32 @@ static int check_current(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* What holds for either kind of wave is said here; whether it would break, by the program. */
+static int check_waves(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_water *w = &s->water;
+    const fl_vec3 g = s->run.gravity;
+    if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
+    if (w->height == 0.0)
+        return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height was wanted");
+    if (w->period == 0.0)
+        return fl_scene_fail(s, "water.wave", err, "the waves have no period: water.period was wanted");
+    if (g.x != 0.0 || g.y != 0.0 || !(g.z < 0.0))
+        return fl_scene_fail(s, "run.gravity", err, "waves need weight: a run.gravity along -z was wanted");
+    if (!(0.5 * w->height < w->depth))
+        return fl_scene_fail(s, "water.height", err,
+                             "waves of %g m on water of %g m: less than twice the depth was wanted",
+                             w->height, w->depth);
+    const double turn = w->direction * 3.141592653589793 / 180.0, along[2] = {cos(turn), sin(turn)};
+    for (int c = 0; c < 2; c++)
+        if (s->boundary.head.present && s->boundary.type[c] == FL_BOUND_PERIODIC && fabs(along[c]) > 1e-9)
+            return fl_scene_fail(s, "water.wave", err,
+                                 "waves that run along %c do not repeat with a periodic boundary: another "
+                                 "boundary or water.direction was wanted",
+                                 'x' + c);
+    return 0;
+}
+
 static int check_wind(const fl_scene *s, fl_err *err)
 {
     if (s->wind.head.present && s->wind.beaufort >= 0.0 && v3_norm(s->wind.velocity) > 0.0)
@@ -300,7 +326,7 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "run.error", err,
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");
     if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
-    return check_boundary(s, err) || check_current(s, err) || check_wind(s, err) ||
+    return check_boundary(s, err) || check_current(s, err) || check_waves(s, err) || check_wind(s, err) ||
                    check_shares(s, "water.added_mass", s->water.added_mass, err) ||
                    check_shares(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)

@@ -225,6 +225,7 @@ static void sea(traffic *t, fl_sea *s, int32_t i)
     real(t, &s->energy[i]);
     real(t, &s->drained[i]);
     real(t, &s->blown[i]);
+    if (s->waves) real(t, &s->waved[i]);
     close_row(t);
 }
 
@@ -427,6 +428,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
     for (int32_t k = 0; k < w->ride.m.n && !t->err->code; k++) mover(t, w, k);
     if (w->press.panels && !t->err->code) pressed(t, w);
+    w->sea.time = fl_world_time(w);
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, i);

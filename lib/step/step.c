@@ -31,6 +31,14 @@ static int touch(fl_world *w, double dt, int survey, fl_err *err)
     return w->press.panels ? fl_press_sort(w, err) : 0;
 }
 
+/* In waves the work of the water is booked with the kick that it gives. */
+static void kick(fl_world *w, int32_t k, double h)
+{
+    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+    fl_kick(&w->b, k, h);
+    if (w->sea.waves) fl_sea_book(&w->sea, &w->b, k, h, v, spin);
+}
+
 void fl_step_gather(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
@@ -194,7 +202,7 @@ static void account(fl_world *w, double dt)
         if (k < w->n) {
             if (fl_world_away(w, k)) continue;
             f = v3_madd(f, -b->m[k], w->gravity);
-            if (w->sea.water) f.z -= w->sea.lift[k];
+            if (w->sea.water) f = v3_sub(f, fl_sea_push(&w->sea, k));
         }
         balance = v3_add(balance, f);
     }
@@ -205,6 +213,7 @@ int fl_step_start(fl_world *w, fl_err *err)
 {
     int32_t body;
     w->dt_safe = fl_world_dt(w, &body);
+    w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (touch(w, 0.0, 1, err)) return -1;
     for (int32_t k = 0; k < w->b.total; k++) fl_step_gather(w, k);
@@ -235,16 +244,17 @@ int fl_step(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < b->total; k++) {
         if (k < w->n && fl_world_away(w, k)) continue;
         if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, 0);
-        if (k < w->n) fl_kick(b, k, h);
+        if (k < w->n) kick(w, k, h);
         if (!rides || k < w->n || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
     }
     w->step++;
+    w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (touch(w, dt, survey, err)) return -1;
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
         fl_step_gather(w, k);
-        if (k < w->n && !fl_world_away(w, k)) fl_kick(b, k, h);
+        if (k < w->n && !fl_world_away(w, k)) kick(w, k, h);
     }
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     book(w, dt);
@@ -278,7 +288,7 @@ void fl_step_ledger(fl_world *w)
     const fl_bodies *b = &w->b;
     fl_ledger *g = &w->ledger;
     double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
-           held = 0.0;
+           held = 0.0, waves = 0.0;
     double damped = 0.0, rubbed = 0.0;
     const double h = 0.5 * w->dt; /* of the last works booked, the half kick that has not been given yet */
     for (int32_t i = 0; i < w->n; i++) {
@@ -291,6 +301,7 @@ void fl_step_ledger(fl_world *w)
             if (w->sea.water && there) hydro += w->sea.energy[i];
             drag += w->sea.drained[i];
             wind += w->sea.blown[i];
+            if (w->sea.waves) waves += w->sea.waved[i];
         }
     }
     for (int32_t c = 0; c < w->n_pair; c++) {
@@ -309,6 +320,7 @@ void fl_step_ledger(fl_world *w)
     g->friction_now = g->friction + rubbed - spring; /* what the springs hold can still come back */
     g->drag = drag;
     g->wind = wind;
+    g->waves = waves;
     if (w->ride.m.n) {
         const fl_ride_books r = fl_ride_ledger(w);
         g->moving = r.kinetic;
@@ -319,9 +331,9 @@ void fl_step_ledger(fl_world *w)
     const double drive = g->drive - h * drive_power(w) + held;
     g->drive_now = drive;
     g->residual = kinetic + gravity + elastic + hydro + g->moving + g->spring - g->start + g->damping_now +
-                  g->friction_now + drag + g->damper - wind - drive - g->carried;
+                  g->friction_now + drag + g->damper - wind - waves - drive - g->carried;
     const double through = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
-                           fabs(drive) + kinetic + g->damper + g->moving;
+                           fabs(waves) + fabs(drive) + kinetic + g->damper + g->moving;
     if (through > g->throughput) g->throughput = through;
 }
 

@@ -122,7 +122,7 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
     if (fl_hull_make(&w->sea.hull[i], round ? core : &w->sea.outer[i], round ? w->b.radius[i] : 0.0, err))
         return -1;
     if (w->b.added || anything(w->scene->water.added_inertia)) add_water(w, i);
-    return 0;
+    return fl_sea_fit(&w->sea, i, err);
 }
 
 /* The elastic walls' view of body i: what presses.  Its corners stand out farther than the dilated core, and
@@ -152,6 +152,20 @@ static int make_beds(fl_world *w, fl_err *err)
     w->bed.outer = fl_alloc(w->n, sizeof *w->bed.outer, err);
     w->bed.hull = fl_alloc(w->n, sizeof *w->bed.hull, err);
     return w->bed.outer && w->bed.hull ? 0 : -1;
+}
+
+static int make_waves(fl_world *w, fl_err *err)
+{
+    const fl_scene_water *s = &w->scene->water;
+    const double g = v3_norm(w->scene->run.gravity);
+    if (!s->head.present || s->wave == FL_WAVE_NONE) return 0;
+    if (s->wave == FL_WAVE_AIRY
+            ? fl_waves_airy(&w->sea.wave, s->height, s->period, s->direction, s->depth, g, err)
+            : fl_waves_jonswap(&w->sea.wave, s->height, s->period, s->gamma, s->components, (uint64_t)s->seed,
+                               s->direction, s->depth, g, err))
+        return -1;
+    w->sea.waves = 1;
+    return 0;
 }
 
 static int make_sea(fl_world *w, fl_err *err)
@@ -184,7 +198,7 @@ static int make_sea(fl_world *w, fl_err *err)
         sea->breeze = v3(U * cos(a), U * sin(a), 0);
     }
     if (sea->water && anything(s->water.added_mass) && fl_bodies_add_mass(&w->b, err)) return -1;
-    return fl_sea_alloc(sea, w->n, err);
+    return make_waves(w, err) || fl_sea_alloc(sea, w->n, w->threads, err) ? -1 : 0;
 }
 
 /* --- what is held ------------------------------------------------------------------------------ */
@@ -443,7 +457,6 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
         w->traffic.away[i] = 1;
         if (fl_world_put(w, i, feed, w->traffic.floe[i], err)) goto fail;
     }
-    if (fl_sea_alloc_pieces(&w->sea, err)) goto fail;
     if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
         fl_pairing_laws(w, err))
         goto fail;

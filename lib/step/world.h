@@ -70,6 +70,7 @@ typedef struct {
     double kinetic, gravity, elastic, hydrostatic; /* stores now; elastic with the springs of friction */
     double friction_now, damping_now, drag;        /* taken out since the start                        */
     double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
+    double waves;                                  /* and by waves, the work of buoyancy with it */
     double moving, spring, damper; /* of a structure that moves by itself: in it, in its springs; taken out */
     double carried;                /* put in by floes that came, less what left with others */
     double start, residual;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
 #include "base/mem.h"
 #include "water/sea.h"
 
-int fl_sea_alloc(fl_sea *s, int32_t n, fl_err *err)
+int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
 {
     s->n = n;
+    s->threads = threads;
     s->outer = fl_alloc(n, sizeof *s->outer, err);
     s->hull = fl_alloc(n, sizeof *s->hull, err);
     s->reach = fl_alloc(n, sizeof *s->reach, err);
@@ -15,33 +17,55 @@ int fl_sea_alloc(fl_sea *s, int32_t n, fl_err *err)
     s->flow = fl_alloc(n, sizeof *s->flow, err);
     s->drained = fl_alloc(n, sizeof *s->drained, err);
     s->blown = fl_alloc(n, sizeof *s->blown, err);
-    return s->outer && s->hull && s->reach && s->wetted && s->energy && s->lift && s->centre && s->flow &&
-                   s->drained && s->blown
-               ? 0
-               : -1;
+    if (!s->outer || !s->hull || !s->reach || !s->wetted || !s->energy || !s->lift || !s->centre ||
+        !s->flow || !s->drained || !s->blown)
+        return -1;
+    if ((s->water && s->sea_law == FL_DRAG_FACET) || (s->wind && s->air_law == FL_DRAG_FACET)) {
+        s->skin = fl_alloc(n, sizeof *s->skin, err);
+        if (!s->skin) return -1;
+    }
+    if (!s->waves) return 0;
+    s->tiles = fl_alloc(n, sizeof *s->tiles, err);
+    s->push = fl_alloc(n, sizeof *s->push, err);
+    s->turn = fl_alloc(n, sizeof *s->turn, err);
+    s->waved = fl_alloc(n, sizeof *s->waved, err);
+    return s->tiles && s->push && s->turn && s->waved ? 0 : -1;
 }
 
-int fl_sea_alloc_pieces(fl_sea *s, fl_err *err)
+static int fit_skin(fl_sea *s, int32_t i, fl_err *err)
 {
-    const int wet = s->water && s->sea_law == FL_DRAG_FACET, dry = s->wind && s->air_law == FL_DRAG_FACET;
-    if (!wet && !dry) return 0;
-    s->first = fl_alloc((int64_t)s->n + 1, sizeof *s->first, err);
-    if (!s->first) return -1;
-    for (int32_t i = 0; i < s->n; i++) s->first[i + 1] = s->first[i] + fl_skin_most(&s->hull[i]);
-    if (wet) {
-        s->wet = fl_alloc(s->first[s->n], sizeof *s->wet, err);
-        s->wets = fl_alloc(s->n, sizeof *s->wets, err);
-        if (!s->wet || !s->wets) return -1;
+    const fl_hull *h = &s->hull[i];
+    const int32_t most = fl_skin_most(h);
+    fl_skin *skin = &s->skin[i];
+    free(skin->wet), free(skin->dry);
+    *skin = (fl_skin){0};
+    if (h->p->nf == 0) return 0;
+    if (s->water && s->sea_law == FL_DRAG_FACET) {
+        skin->wet = fl_alloc(most, sizeof *skin->wet, err);
+        if (!skin->wet) return -1;
     }
-    if (dry) {
-        s->dry = fl_alloc(s->first[s->n], sizeof *s->dry, err);
-        s->dries = fl_alloc(s->n, sizeof *s->dries, err);
-        if (!s->dry || !s->dries) return -1;
+    if (s->wind && s->air_law == FL_DRAG_FACET) {
+        skin->dry = fl_alloc(most, sizeof *skin->dry, err);
+        if (!skin->dry) return -1;
         /* where there is no water to tell otherwise, all is dry */
-        for (int32_t i = 0; i < s->n; i++)
-            s->dries[i] = fl_skin_pieces(&s->hull[i], v3(0, 0, 1), -INFINITY, 1, s->dry + s->first[i]);
+        skin->dries = fl_skin_pieces(h, v3(0, 0, 1), -INFINITY, 1, skin->dry);
     }
     return 0;
+}
+
+int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err)
+{
+    if (s->skin && fit_skin(s, i, err)) return -1;
+    if (!s->waves) return 0;
+    const int32_t want = fl_wave_cells(&s->wave, s->reach[i] + s->wave.swing);
+    if (want > s->cells_each) {
+        fl_wave_near *cells = fl_alloc((int64_t)s->threads * want, sizeof *cells, err);
+        if (!cells) return -1;
+        free(s->cells);
+        s->cells = cells;
+        s->cells_each = want;
+    }
+    return fl_tiles_make(&s->tiles[i], &s->hull[i], &s->wave, err);
 }
 
 void fl_sea_free(fl_sea *s)
@@ -49,46 +73,135 @@ void fl_sea_free(fl_sea *s)
     for (int32_t i = 0; i < s->n; i++) {
         if (s->hull) fl_hull_free(&s->hull[i]);
         if (s->outer) fl_poly_free(&s->outer[i]);
+        if (s->tiles) fl_tiles_free(&s->tiles[i]);
+        if (s->skin) free(s->skin[i].wet), free(s->skin[i].dry);
     }
     free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->lift), free(s->energy);
     free(s->centre), free(s->flow), free(s->drained), free(s->blown);
-    free(s->first), free(s->wet), free(s->dry), free(s->wets), free(s->dries);
+    free(s->cells), free(s->push), free(s->turn), free(s->waved);
+    free(s->tiles), free(s->skin);
+    fl_waves_free(&s->wave);
     fl_current_free(&s->current);
     *s = (fl_sea){0};
 }
 
-/* Where the surface of body i is wet and dry, and how the water goes by there. */
-static void look_at_pieces(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level)
+/* Velocity of the waves at r from the origin of a body, and the acceleration; world axes. */
+static fl_vec3 orbital(const fl_sea *s, const fl_afloat *at, const fl_wave_around *around, fl_vec3 r,
+                       fl_vec3 *acceleration)
+{
+    const double x = at->s + v3_dot(at->along, r), z = at->z + v3_dot(at->up, r),
+                 zeta = fl_wave_stretch(&s->wave, z, fl_wave_over(around, x, NULL));
+    double u[2], a[2];
+    fl_wave_motion(&s->wave, fl_wave_at(around, x, zeta), x, zeta, u, a);
+    *acceleration = v3_madd(v3(0, 0, a[1]), a[0], s->wave.along);
+    return v3_madd(v3(0, 0, u[1]), u[0], s->wave.along);
+}
+
+/* Where the surface of body i is wet and dry, and how the water goes by there; around: NULL without waves. */
+static void look_at_pieces(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
+                           const fl_afloat *at, const fl_wave_around *around)
 {
     const fl_hull *h = &s->hull[i];
-    if (s->dry) s->dries[i] = fl_skin_pieces(h, up, level, 1, s->dry + s->first[i]);
-    if (!s->wet) return;
-    fl_skin_piece *wet = s->wet + s->first[i];
-    s->wets[i] = fl_skin_pieces(h, up, level, 0, wet);
-    if (s->current.kind == FL_PROFILE_UNIFORM) return;
-    for (int32_t k = 0; k < s->wets[i]; k++) {
-        const fl_vec3 u = fl_current_at(&s->current, v3_dot(up, wet[k].r) - level);
+    fl_skin *skin = &s->skin[i];
+    fl_skin_piece *wet = skin->wet;
+    if (skin->dry) skin->dries = fl_skin_pieces(h, up, level, 1, skin->dry);
+    if (!wet) return;
+    skin->wets = fl_skin_pieces(h, up, level, 0, wet);
+    if (s->current.kind == FL_PROFILE_UNIFORM && !around) return;
+    for (int32_t k = 0; k < skin->wets; k++) {
+        const double z = at->z + v3_dot(at->up, wet[k].r);
+        fl_vec3 u = fl_current_at(&s->current, z), none;
+        if (around) u = v3_add(u, orbital(s, at, around, wet[k].r, &none));
         wet[k].flow = m3_tmul(b->R[i], v3_sub(u, s->flow[i]));
     }
 }
 
-/* The water as it meets body i: force and moment about its centre, world axes. */
-static void look(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+/* Still water as it meets body i: force and moment about its centre, world axes. */
+static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]); /* transpose(R) e_z */
     const double level = s->level - b->x[i].z;
-    fl_wet wet;
+    const fl_afloat at = {.up = up, .z = -level};
+    fl_wet wet = {0};
     fl_vec3 turn;
-    fl_buoyancy(&s->hull[i], up, level, &wet);
+    /* one that is wholly dry or wet by far is told by its reach alone */
+    if (level >= s->reach[i])
+        wet =
+            (fl_wet){.volume = s->hull[i].volume, .centre = s->hull[i].centre, .wetted = s->hull[i].surface};
+    else if (level > -s->reach[i]) fl_buoyancy(&s->hull[i], up, level, &wet);
     s->wetted[i] = wet.wetted;
     s->centre[i] = v3_dot(up, wet.centre) - level;
     s->energy[i] = fl_buoyancy_force(&wet, up, level, s->weight, f, &turn);
     s->lift[i] = s->weight * wet.volume;
     s->flow[i] = fl_current_at(&s->current, s->centre[i]);
     if (b->added) b->flow[i] = s->flow[i];
-    if (s->first) look_at_pieces(s, b, i, up, level);
+    if (s->skin) look_at_pieces(s, b, i, up, level, &at, NULL);
     *f = v3(0, 0, s->lift[i]); /* R up is e_z */
     *t = m3_mul(b->R[i], turn);
+}
+
+/* How far body i reaches along a direction of its own axes. */
+static void extent(const fl_sea *s, int32_t i, fl_vec3 d, double *lo, double *hi)
+{
+    const fl_poly *p = s->hull[i].p;
+    const double r = s->hull[i].radius;
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    for (int32_t v = 0; v < p->nv; v++) {
+        const double x = v3_dot(d, p->v[v]);
+        *lo = fmin(*lo, x - r);
+        *hi = fmax(*hi, x + r);
+    }
+}
+
+/* A sea with waves as it meets body i. */
+static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+{
+    const fl_waves *w = &s->wave;
+    const fl_afloat at = {.up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]),
+                          .along = m3_tmul(b->R[i], w->along),
+                          .s = v3_dot(w->along, b->x[i]),
+                          .z = b->x[i].z - s->level};
+    const fl_hull *h = &s->hull[i];
+    fl_push p = {0};
+    fl_wave_around around;
+    *f = *t = v3(0, 0, 0);
+    if (at.z - s->reach[i] < w->crest) {
+        double s_lo, s_hi, z_lo, z_hi;
+        extent(s, i, at.along, &s_lo, &s_hi);
+        extent(s, i, at.up, &z_lo, &z_hi);
+        fl_wave_surround(w, at.s + s_lo, at.s + s_hi, at.z + z_lo - w->swing, at.z + z_hi + w->swing, s->time,
+                         s->cells + (int64_t)omp_get_thread_num() * s->cells_each, &around);
+        if (h->p->nf) fl_froude_solid(&s->tiles[i], h, w, &around, &at, s->weight, &p);
+        else fl_froude_round(h, w, &around, &at, s->weight, &p);
+    }
+    s->wetted[i] = p.wetted;
+    s->centre[i] = at.z + v3_dot(at.up, p.centre);
+    s->lift[i] = s->weight * p.volume;
+    s->flow[i] = fl_current_at(&s->current, s->centre[i]);
+    if (p.volume > 0.0) {
+        fl_vec3 a, up;
+        double level;
+        s->flow[i] = v3_add(s->flow[i], orbital(s, &at, &around, p.centre, &a));
+        *f = m3_mul(b->R[i], p.force);
+        *t = m3_mul(b->R[i], p.moment);
+        if (b->added) *f = v3_add(*f, m3_mul(b->R[i], v3_mul(b->added[i], m3_tmul(b->R[i], a))));
+        if (s->skin) {
+            fl_wave_plane(&around, &at, &up, &level);
+            look_at_pieces(s, b, i, up, level, &at, &around);
+        }
+    } else if (s->skin) {
+        look_at_pieces(s, b, i, at.up, -INFINITY, &at, NULL);
+    }
+    if (b->added) b->flow[i] = s->flow[i];
+    s->push[i] = *f;
+    s->turn[i] = *t;
+}
+
+static void look(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+{
+    if (s->waves) look_wavy(s, b, i, f, t);
+    else look_still(s, b, i, f, t);
 }
 
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
@@ -103,6 +216,12 @@ void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i)
 {
     fl_vec3 f, t;
     if (s->water) look(s, b, i, &f, &t);
+}
+
+void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0, fl_vec3 w0)
+{
+    s->waved[i] +=
+        0.5 * h * (v3_dot(s->push[i], v3_add(v0, b->v[i])) + v3_dot(s->turn[i], v3_add(w0, b->w[i])));
 }
 
 /* Decay of body i in a fluid that goes by with velocity c; returns the work done on the body. */
@@ -152,9 +271,9 @@ static double decay_of_pieces(fl_bodies *b, int32_t i, const fl_skin_piece *piec
 static void drag_of_water(fl_sea *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->water || s->wetted[i] <= 0.0) return;
-    if (s->wet && s->hull[i].p->nf)
+    if (s->skin && s->skin[i].wet)
         s->drained[i] -=
-            decay_of_pieces(b, i, s->wet + s->first[i], s->wets[i], 0.5 * s->sea.density * s->sea_skin,
+            decay_of_pieces(b, i, s->skin[i].wet, s->skin[i].wets, 0.5 * s->sea.density * s->sea_skin,
                             0.5 * s->sea.density * s->sea_form, s->flow[i], h);
     else s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], s->flow[i], h);
 }
@@ -164,9 +283,9 @@ static void drag_of_wind(fl_sea *s, fl_bodies *b, int32_t i, double h)
     if (!s->wind) return;
     const double dry = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
     if (!(dry > 0.0)) return;
-    if (s->dry && s->hull[i].p->nf)
+    if (s->skin && s->skin[i].dry)
         s->blown[i] +=
-            decay_of_pieces(b, i, s->dry + s->first[i], s->dries[i], 0.5 * s->air.density * s->air.force,
+            decay_of_pieces(b, i, s->skin[i].dry, s->skin[i].dries, 0.5 * s->air.density * s->air.force,
                             0.5 * s->air.density * s->air_form, s->breeze, h);
     else s->blown[i] += decay(b, i, &s->air, dry, s->reach[i], s->breeze, h);
 }

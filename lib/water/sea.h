@@ -7,9 +7,17 @@
 #include "water/current.h"
 #include "water/drag.h"
 #include "water/facet_drag.h"
+#include "water/froude.h"
 
 /* In the order of the choices of water.drag and wind.drag. */
 enum fl_drag_law { FL_DRAG_MANUAL, FL_DRAG_FACET };
+
+/* The pieces of one body's surface below and above the water, their flow against flow[i] and against the wind;
+ * NULL where the law of that fluid is another. */
+typedef struct {
+    fl_skin_piece *wet, *dry;
+    int32_t wets, dries; /* how many there are now */
+} fl_skin;
 
 typedef struct {
     int water, wind; /* which of the two there is; neither: nothing below is allocated or run */
@@ -32,20 +40,41 @@ typedef struct {
     double *energy;  /* [n] hydrostatic, at the last fl_sea_force() [J] */
     double *drained; /* [n] work that drag of the water has taken out [J] */
     double *blown;   /* [n] work that the wind has put in    [J] */
-    /* with the law facet alone */
-    int64_t *first;           /* [n + 1] pieces of body i at first[i]    */
-    fl_skin_piece *wet, *dry; /* those below and above the water, flow against flow[i], 0; NULL: none */
-    int32_t *wets, *dries;    /* [n] how many there are now              */
+    fl_skin *skin;   /* [n] with the law facet alone, of either fluid */
+    /* with waves alone */
+    int waves;
+    fl_waves wave;
+    fl_tiles *tiles;     /* [n] of the outer shapes */
+    double time;         /* of the next fl_sea_force(): set by the step [s] */
+    fl_wave_near *cells; /* [threads][cells_each] scratch */
+    int32_t cells_each, threads;
+    fl_vec3 *push, *turn; /* [n] force and moment of the water, world axes, at the last one [N], [N m] */
+    double *waved;        /* [n] work of those so far [J] */
 } fl_sea;
 
-/* Arrays for n bodies; hulls are made by the caller.  -1 with FL_SYSTEM. */
-int fl_sea_alloc(fl_sea *s, int32_t n, fl_err *err);
+/* Arrays for n bodies, for what water, wind, sea_law, air_law and waves ask; hulls are made by the caller, and
+ * fitted one by one.
+ *   threads   how many may call fl_sea_force() at once
+ * -1 with FL_SYSTEM. */
+int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err);
 void fl_sea_free(fl_sea *s);
 
-/* Room for the pieces of the law facet, once the hulls are made.  -1 with FL_SYSTEM. */
-int fl_sea_alloc_pieces(fl_sea *s, fl_err *err);
+/* What the law facet and waves need for body i, whose hull has been made or made anew; grows the scratch.  -1
+ * with FL_SYSTEM. */
+int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err);
 
-/* Add buoyancy to b->f[i], b->t[i]; renews wetted[i] and energy[i]. */
+/* Force of the water on body i at the last fl_sea_force(), but for drag [N]. */
+static inline fl_vec3 fl_sea_push(const fl_sea *s, int32_t i)
+{
+    return s->waves ? s->push[i] : v3(0, 0, s->lift[i]);
+}
+
+/* Book the work of push and turn in a kick of h seconds that took body i from v0, w0 to its speeds of now:
+ * h (F.(v0 + v) + T.(w0 + w)) / 2, which is exact. */
+void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0, fl_vec3 w0);
+
+/* Add buoyancy, in waves the pressure of the wave and what it does to the water that moves along, to b->f[i],
+ * b->t[i]; renews wetted[i] and energy[i] (0 in waves, whose work is booked instead). */
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
 /* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere. */

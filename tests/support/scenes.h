@@ -12,7 +12,7 @@ void scene_of_everything(lab *l, int32_t side, const char *law);
 /* The same in a cell that repeats itself along x and y, with nothing at its sides. */
 void scene_of_wraps(lab *l, int32_t side, const char *law);
 
-/* The same with a sheared current, drag on each facet of water and wind, and added mass. */
+/* The same with a sea of waves, a sheared current, drag on each facet of water and wind, and added mass. */
 void scene_of_seas(lab *l, int32_t side, const char *law);
 
 /* The same where nothing bounds the heap along x: floes leave there at once, and copies of it come in. */

@@ -39,8 +39,42 @@ static double mib_of(const fl_world *w)
     }
     bytes += total * (7 * sizeof(fl_vec3) + sizeof(fl_quat) + sizeof(fl_mat3) + sizeof(fl_poly) +
                       12 * sizeof(double));
+    for (int32_t k = 0; k < w->sea.n; k++) {
+        const double room = (double)fl_skin_most(&w->sea.hull[k]) * sizeof(fl_skin_piece);
+        if (w->sea.skin) bytes += room * (w->sea.skin[k].wet != NULL) + room * (w->sea.skin[k].dry != NULL);
+        if (w->sea.waves) bytes += w->sea.tiles[k].n * 76.0;
+    }
+    bytes += (double)w->threads * w->sea.cells_each * sizeof(fl_wave_near);
     bytes += w->n_pair * (sizeof(fl_pair) + 2.0 * sizeof(int32_t));
     return bytes / 1048576.0;
+}
+
+/* How the bodies stand in the water at the start: what is wholly out of it or under is not clipped. */
+static void sea_stages(const fl_world *w, char what[3][160])
+{
+    static const char *const PROFILE[] = {"at all depths", "by a power of the depth", "linear in the depth",
+                                          "by a table"};
+    const fl_scene_water *s = &w->scene->water;
+    int32_t dry = 0, under = 0;
+    what[0][0] = what[1][0] = what[2][0] = '\0';
+    if (!w->sea.water) return;
+    for (int32_t i = 0; i < w->n; i++) {
+        const double whole = w->sea.weight * w->sea.hull[i].volume;
+        dry += w->sea.lift[i] <= 0.0;
+        under += whole > 0.0 && w->sea.lift[i] >= whole * (1.0 - 1e-12);
+    }
+    snprintf(what[0], sizeof what[0], "%d %s at the surface, %d wholly under it, %d dry", w->n - dry - under,
+             w->sea.waves ? "integrated" : "clipped", under, dry);
+    if (fl_current_most(&w->sea.current) > 0.0)
+        snprintf(what[2], sizeof what[2], "%.3g m/s at most, %s", fl_current_most(&w->sea.current),
+                 PROFILE[s->profile]);
+    if (!w->sea.waves) return;
+    double breaking;
+    const double steep = fl_wave_steepness(s->height, s->period, s->depth, w->sea.wave.gravity, &breaking);
+    snprintf(what[1], sizeof what[1], "%s of %.3g m and %.3g s, %d train%s, %.3g m long, steepness %.3g%s",
+             s->wave == FL_WAVE_AIRY ? "airy" : "jonswap", s->height, s->period, w->sea.wave.n,
+             w->sea.wave.n == 1 ? "" : "s", s->height / steep, steep,
+             steep > breaking ? ": they would break" : "");
 }
 
 int look_plan(struct run *r, FILE *f, fl_err *err)
@@ -60,7 +94,9 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     const double begun = run_clock();
     double spent = 0.0;
     char name[64];
+    char what[3][160];
     if (fl_step_start(w, err)) return -1;
+    sea_stages(w, what);
     while (w->step < r->steps && (spent = run_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;
     fprintf(f, "bodies         %d: %d polyhedra, %d spheres, %d capsules\n", there,
@@ -80,9 +116,18 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     stage(f, "cell", w->cell.wraps, "space repeats itself");
     stage(f, "outflow", w->traffic.away != NULL, "floes beyond a free bound are taken out");
     stage(f, "inflow", w->traffic.feed != NULL, "");
-    stage(f, "buoyancy", w->sea.water, "exact clipping of every body that floats");
-    stage(f, "water drag", w->sea.water, "");
-    stage(f, "wind", w->sea.wind, "");
+    stage(f, "buoyancy", w->sea.water, what[0]);
+    stage(f, "waves", w->sea.waves, what[1]);
+    stage(f, "current", w->sea.water && fl_current_most(&w->sea.current) > 0.0, what[2]);
+    stage(f, "added mass", w->b.added != NULL, "");
+    stage(f, "water drag", w->sea.water,
+          !w->sea.water                     ? ""
+          : w->sea.sea_law == FL_DRAG_FACET ? "by facets"
+                                            : "of the whole");
+    stage(f, "wind", w->sea.wind,
+          !w->sea.wind                      ? ""
+          : w->sea.air_law == FL_DRAG_FACET ? "by facets"
+                                            : "of the whole");
     stage(f, "holds", held > 0, "");
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,
             r->limit);

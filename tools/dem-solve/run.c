@@ -78,6 +78,14 @@ static fl_poses poses(const struct run *r)
     return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->at, &r->w->cell, r->w->traffic.away};
 }
 
+static void energy_header(const struct run *r, FILE *f)
+{
+    char columns[400];
+    snprintf(columns, sizeof columns, "%s%s%s", FL_ENERGY_COLUMNS,
+             fl_ride_free_ones(r->w) ? FL_ENERGY_MOVING : "", r->w->sea.waves ? FL_ENERGY_WAVES : "");
+    fl_rows_header(f, "energy", r->history, r->by, columns);
+}
+
 void run_header(struct run *r, struct outputs *u, int k)
 {
     const fl_poses now = poses(r);
@@ -85,10 +93,7 @@ void run_header(struct run *r, struct outputs *u, int k)
     switch (k) {
     case AT_LOADS: fl_loads_header(f, r->history, r->by, u->last_row, fl_ride_columns(r->w)); break;
     case AT_STATE: fl_state_header(f, r->history, r->by); break;
-    case AT_ENERGY:
-        fl_rows_header(f, "energy", r->history, r->by,
-                       fl_ride_free_ones(r->w) ? FL_ENERGY_COLUMNS FL_ENERGY_MOVING : FL_ENERGY_COLUMNS);
-        break;
+    case AT_ENERGY: energy_header(r, f); break;
     case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
     case AT_HASH: fl_hash_header(f, r->history, r->by); break;
     case AT_PANELS: fl_panels_header(f, r->history, r->by, u->last_row); break;
@@ -205,12 +210,14 @@ static void write_energy(struct run *r, struct outputs *u, double t)
 {
     const fl_ledger *g = &r->w->ledger;
     fl_step_ledger(r->w);
-    const double row[] = {
-        t,        g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
-        g->drag,  g->wind,    g->drive_now, g->carried, g->residual,    g->moving,       g->spring,
-        g->damper};
-    const int all = sizeof row / sizeof *row;
-    fl_rows_row(u->table[AT_ENERGY].f, fl_ride_free_ones(r->w) ? all : all - 3, row);
+    double row[] = {
+        t,         g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
+        g->drag,   g->wind,    g->drive_now, g->carried, g->residual,    g->moving,       g->spring,
+        g->damper, g->waves};
+    int all = sizeof row / sizeof *row - 1;
+    if (!fl_ride_free_ones(r->w)) all -= 3;
+    if (r->w->sea.waves) row[all++] = g->waves;
+    fl_rows_row(u->table[AT_ENERGY].f, all, row);
 }
 
 /* A structure that as a whole goes one way is told by that way, any other part by part. */
@@ -420,6 +427,20 @@ static int look_after_step(struct run *r, struct outputs *u, fl_err *err)
     return 0;
 }
 
+/* A wave that would break is no linear one, and its loads are not those of any sea. */
+static void warn_waves(const struct run *r)
+{
+    const fl_scene_water *s = &r->scene->water;
+    double breaking;
+    if (!r->w->sea.waves || r->o->quiet) return;
+    const double steep = fl_wave_steepness(s->height, s->period, s->depth, r->w->sea.wave.gravity, &breaking);
+    if (steep > breaking)
+        fprintf(stderr,
+                "dem-solve: warning: waves of height over length %.3g, and they break above %.3g: such a sea "
+                "there is not\n",
+                steep, breaking);
+}
+
 static int run_steps_of(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
     fl_world *w = r->w;
@@ -427,6 +448,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     if (!r->saved) {
         if (fl_step_start(w, err)) return -1;
         warn_overlaps(r);
+        warn_waves(r);
         warn_hulls(r);
         if (write_due(r, u, err)) return -1;
     }

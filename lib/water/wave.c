@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/expo.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "water/wave.h"
+
+static const double PI = 3.141592653589793;
+
+/* What a series may leave out of a train, over its amplitude. */
+#define ENDING 1e-6
+
+/* x tanh x = y by Newton from above: the function is convex there, so the steps only fall. */
+double fl_wave_number(double omega, double depth, double gravity)
+{
+    const double deep = omega * omega / gravity, y = deep * depth;
+    if (!(y < 20.0)) return deep; /* tanh 20 is 1 to rounding */
+    double x = fmax(y, sqrt(y)) * 1.2;
+    for (int k = 0; k < 50; k++) {
+        const double t = tanh(x), step = (x * t - y) / (t + x * (1.0 - t * t));
+        x -= step;
+        if (fabs(step) <= 1e-16 * x) break;
+    }
+    return x / depth;
+}
+
+static void fill_train(const fl_waves *w, fl_wave_train *t, double omega, double a, double phase)
+{
+    const double kd2 = 2.0 * fl_wave_number(omega, w->depth, w->gravity) * w->depth;
+    *t = (fl_wave_train){.k = fl_wave_number(omega, w->depth, w->gravity),
+                         .omega = omega,
+                         .a = a,
+                         .phase = phase,
+                         .back = kd2 < 40.0 ? exp(-kd2) : 0.0};
+    t->share = w->gravity * t->k / omega;
+    t->gain = 1.0 / (1.0 + t->back);
+    t->power[0] = 1.0;
+    for (int m = 1; m < FL_WAVE_TERMS; m++) t->power[m] = t->power[m - 1] * t->k / m;
+}
+
+static int start(fl_waves *w, int32_t n, double direction, double depth, double gravity, fl_err *err)
+{
+    const double a = direction * PI / 180.0;
+    *w = (fl_waves){.n = n, .along = v3(cos(a), sin(a), 0), .depth = depth, .gravity = gravity};
+    w->train = fl_alloc(n, sizeof *w->train, err);
+    return w->train ? 0 : -1;
+}
+
+static void finish(fl_waves *w)
+{
+    w->top = w->train[w->n - 1].k;
+    w->most = w->train[(int32_t)(0.95 * (w->n - 1))].k;
+    double sum = 0.0;
+    for (int32_t j = 0; j < w->n; j++) {
+        w->crest += w->train[j].a;
+        sum += 0.5 * w->train[j].a * w->train[j].a;
+    }
+    w->swing = fmin(w->crest, 4.0 * sqrt(sum));
+}
+
+int fl_waves_airy(fl_waves *w, double height, double period, double direction, double depth, double gravity,
+                  fl_err *err)
+{
+    if (start(w, 1, direction, depth, gravity, err)) return -1;
+    fill_train(w, w->train, 2.0 * PI / period, 0.5 * height, 0.0);
+    finish(w);
+    return 0;
+}
+
+double fl_wave_jonswap(double f, double Hs, double Tp, double gamma)
+{
+    const double fp = 1.0 / Tp, x = f / fp, sigma = x <= 1.0 ? 0.07 : 0.09, off = (x - 1.0) / sigma;
+    if (!(f > 0.0)) return 0.0;
+    return 0.3125 * Hs * Hs / (fp * pow(x, 5)) * exp(-1.25 / (x * x * x * x)) *
+           pow(gamma, exp(-0.5 * off * off)) * (1.0 - 0.287 * log(gamma));
+}
+
+/* Parts of the peak frequency between which the energy of a sea is cut: 1e-67 and 0.4 % of it lie outside. */
+#define SLOWEST 0.3
+#define FASTEST 4.0
+enum { CELLS = 8192 };
+
+int fl_waves_jonswap(fl_waves *w, double Hs, double Tp, double gamma, int32_t n, uint64_t seed,
+                     double direction, double depth, double gravity, fl_err *err)
+{
+    const double a = 0.25 * Hs * sqrt(2.0 / n), df = (FASTEST - SLOWEST) / Tp / CELLS;
+    double *sum = fl_alloc(CELLS + 1, sizeof *sum, err); /* energy below the edge of each cell */
+    if (!sum || start(w, n, direction, depth, gravity, err)) {
+        free(sum);
+        return -1;
+    }
+    for (int c = 0; c < CELLS; c++)
+        sum[c + 1] = sum[c] + df * fl_wave_jonswap(SLOWEST / Tp + (c + 0.5) * df, Hs, Tp, gamma);
+    int c = 0;
+    for (int32_t j = 0; j < n; j++) {
+        fl_rng g = fl_rng_of(seed, j, FL_RNG_WAVE);
+        const double x = fl_rng_unit(&g), phase = 2.0 * PI * fl_rng_unit(&g);
+        const double want = (j + x) / n * sum[CELLS];
+        while (c < CELLS - 1 && sum[c + 1] < want) c++;
+        const double f = SLOWEST / Tp + df * (c + (want - sum[c]) / (sum[c + 1] - sum[c]));
+        fill_train(w, &w->train[j], 2.0 * PI * f, a, phase);
+    }
+    finish(w);
+    free(sum);
+    return 0;
+}
+
+/* --- the field around a place ------------------------------------------------------------------ */
+
+/* How many terms a train needs within the radius: until k^m r^m / m! is of no account. */
+static int terms_of(const fl_wave_train *t, double radius)
+{
+    const double x = t->k * radius;
+    double size = 1.0;
+    int m = 0;
+    while (m < FL_WAVE_TERMS && (size > ENDING || m < x)) {
+        m++;
+        size *= x / m;
+    }
+    return m < 2 ? 2 : m;
+}
+
+static void add(const double *restrict power, int terms, double re, double im, fl_wave_series *a)
+{
+    double *restrict x = a->re, *restrict y = a->im;
+#pragma omp simd
+    for (int m = 0; m < terms; m++) {
+        x[m] += power[m] * re;
+        y[m] += power[m] * im;
+    }
+}
+
+void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t, fl_wave_near *near)
+{
+    near->s = s;
+    near->z = z;
+    near->terms = terms_of(&w->train[w->n - 1], radius);
+    near->wall = w->train[0].back > 1e-12;
+    fl_wave_series *const all[4] = {&near->f, &near->u, &near->h, &near->v};
+    for (int k = 0; k < (near->wall ? 4 : 2); k++)
+        for (int m = 0; m < near->terms; m++) all[k]->re[m] = all[k]->im[m] = 0.0;
+    for (int32_t j = 0; j < w->n; j++) {
+        const fl_wave_train *train = &w->train[j];
+        const int terms = terms_of(train, radius);
+        double c, d;
+        fl_cos_sin(train->k * s - train->omega * t + train->phase, &c, &d);
+        const double down = z < 0.0 ? fl_exp(train->k * z) : 1.0, a = train->a * train->gain;
+        add(train->power, terms, a * down * c, a * down * d, &near->f);
+        add(train->power, terms, a * down * train->share * c, a * down * train->share * d, &near->u);
+        if (!near->wall) continue;
+        const double b = a * train->back * (z < 0.0 ? fl_exp(-train->k * z) : 1.0);
+        add(train->power, terms, b * c, b * d, &near->h);
+        add(train->power, terms, b * train->share * c, b * train->share * d, &near->v);
+    }
+    for (int k = 2; near->wall && k < 4; k++) /* (-k)^m */
+        for (int m = 1; m < near->terms; m += 2) {
+            all[k]->re[m] = -all[k]->re[m];
+            all[k]->im[m] = -all[k]->im[m];
+        }
+    /* on zeta = 0: f_m (i s)^m + h_m (-i s)^m, the real part; i^m is 1, i, -1, -i */
+    for (int m = 0; m < near->terms; m++) {
+        const double sign = m & 2 ? -1.0 : 1.0, re = near->f.re[m] + (near->wall ? near->h.re[m] : 0.0),
+                     im = near->f.im[m] - (near->wall ? near->h.im[m] : 0.0);
+        near->eta[m] = m & 1 ? -sign * im : sign * re;
+    }
+}
+
+double fl_wave_elevation(const fl_wave_near *near, double s, double *slope)
+{
+    const double x = s - near->s;
+    double y = 0.0, dy = 0.0;
+    for (int m = near->terms - 1; m >= 0; m--) {
+        if (slope) dy = dy * x + y;
+        y = y * x + near->eta[m];
+    }
+    if (slope) *slope = dy;
+    return y;
+}
+
+double fl_wave_stretch(const fl_waves *w, double z, double eta)
+{
+    if (z >= eta) return 0.0;
+    return w->depth < INFINITY ? (z - eta) * w->depth / (w->depth + eta) : z - eta;
+}
+
+/* sum a_m (x + i y)^m, and its derivative by that number (may be NULL) */
+static void series(const fl_wave_series *a, int terms, double x, double y, double value[2], double slope[2])
+{
+    double re = 0.0, im = 0.0, dre = 0.0, dim = 0.0;
+    for (int m = terms - 1; m >= 0; m--) {
+        if (slope) {
+            const double d = dre * x - dim * y + re;
+            dim = dre * y + dim * x + im;
+            dre = d;
+        }
+        const double r = re * x - im * y + a->re[m];
+        im = re * y + im * x + a->im[m];
+        re = r;
+    }
+    value[0] = re, value[1] = im;
+    if (slope) slope[0] = dre, slope[1] = dim;
+}
+
+double fl_wave_pressure(const fl_wave_near *near, double s, double zeta)
+{
+    double f[2], h[2] = {0, 0};
+    series(&near->f, near->terms, zeta - near->z, s - near->s, f, NULL);
+    if (near->wall) series(&near->h, near->terms, zeta - near->z, near->s - s, h, NULL);
+    return f[0] + h[0];
+}
+
+void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],
+                    double acceleration[2])
+{
+    const double x = zeta - near->z, y = s - near->s;
+    double f[2], df[2], h[2], dh[2] = {0, 0}, u[2], v[2] = {0, 0};
+    series(&near->f, near->terms, x, y, f, df);
+    series(&near->u, near->terms, x, y, u, NULL);
+    if (near->wall) {
+        series(&near->h, near->terms, x, -y, h, dh);
+        series(&near->v, near->terms, x, -y, v, NULL);
+    }
+    /* cos psi goes with the real, sin psi with the imaginary part; what comes back from the bottom has S of
+     * the other sign; P = Re f(c) + Re h(conj c), dc/ds = i */
+    velocity[0] = u[0] + v[0];
+    velocity[1] = u[1] - v[1];
+    acceleration[0] = -w->gravity * (-df[1] + dh[1]);
+    acceleration[1] = -w->gravity * (df[0] + dh[0]);
+}
+
+double fl_wave_steepness(double height, double period, double depth, double gravity, double *breaking)
+{
+    const double k = fl_wave_number(2.0 * PI / period, depth, gravity);
+    *breaking = 0.142 * (depth < INFINITY ? tanh(k * depth) : 1.0);
+    return height * k / (2.0 * PI);
+}
+
+void fl_waves_free(fl_waves *w)
+{
+    free(w->train);
+    *w = (fl_waves){0};
+}
