@@ -143,12 +143,9 @@ typedef struct {
     double volume, height, wetted;
 } sums;
 
-static void point(sums *S, fl_vec3 n, double nz, fl_vec3 x, double area)
+static void point(sums *S, fl_vec3 n, double nz, fl_vec3 x, double area, double z, double eta, double head)
 {
-    const double s = S->at->s + v3_dot(S->at->along, x), z = S->at->z + v3_dot(S->at->up, x);
-    const double eta = fl_wave_over(S->a, s, NULL), zeta = fl_wave_stretch(S->w, z, eta);
-    const double p = area * (fl_wave_pressure(fl_wave_at(S->a, s, zeta), s, zeta) - z);
-    const double v = area * (z - eta) * nz;
+    const double p = area * (head - z), v = area * (z - eta) * nz;
     const fl_vec3 f = v3_scale(p, n);
     S->force = v3_sub(S->force, f);
     S->moment = v3_sub(S->moment, v3_cross(x, f));
@@ -162,14 +159,36 @@ static void triangle(sums *S, int fine, fl_vec3 n, double nz, fl_vec3 a, fl_vec3
 {
     const double area = 0.5 * v3_dot(n, v3_cross(v3_sub(b, a), v3_sub(c, a)));
     const fl_vec3 v[3] = {a, b, c};
-    if (fine) point(S, n, nz, v3_scale(1.0 / 3.0, v3_add(a, v3_add(b, c))), 9.0 / 40.0 * area);
-    for (int r = 0; r < (fine ? 2 : 1); r++) {
-        const double weight = fine ? FIVE[r][0] : 1.0 / 3.0, own = fine ? FIVE[r][1] : 2.0 / 3.0;
-        const double other = 0.5 * (1.0 - own);
-        for (int k = 0; k < 3; k++)
-            point(S, n, nz, v3_madd(v3_scale(own, v[k]), other, v3_add(v[(k + 1) % 3], v[(k + 2) % 3])),
-                  weight * area);
+    fl_vec3 x[FL_WAVE_BATCH];
+    double part[FL_WAVE_BATCH], s[FL_WAVE_BATCH] = {0}, z[FL_WAVE_BATCH] = {0}, eta[FL_WAVE_BATCH],
+                                head[FL_WAVE_BATCH];
+    int m = 0;
+    if (fine) {
+        x[m] = v3_scale(1.0 / 3.0, v3_add(a, v3_add(b, c)));
+        part[m++] = 9.0 / 40.0;
     }
+    for (int r = 0; r < (fine ? 2 : 1); r++) {
+        const double own = fine ? FIVE[r][1] : 2.0 / 3.0, other = 0.5 * (1.0 - own);
+        for (int k = 0; k < 3; k++) {
+            x[m] = v3_madd(v3_scale(own, v[k]), other, v3_add(v[(k + 1) % 3], v[(k + 2) % 3]));
+            part[m++] = fine ? FIVE[r][0] : 1.0 / 3.0;
+        }
+    }
+    for (int j = 0; j < m; j++) {
+        s[j] = S->at->s + v3_dot(S->at->along, x[j]);
+        z[j] = S->at->z + v3_dot(S->at->up, x[j]);
+    }
+    for (int j = m; j < FL_WAVE_BATCH; j++) s[j] = s[0], z[j] = z[0];
+    if (S->a->columns == 1 && S->a->rows == 0) {
+        fl_wave_heads(S->w, S->a->cell, s, z, eta, head);
+    } else {
+        for (int j = 0; j < m; j++) {
+            eta[j] = fl_wave_over(S->a, s[j], NULL);
+            const double zeta = fl_wave_stretch(S->w, z[j], eta[j]);
+            head[j] = fl_wave_pressure(fl_wave_at(S->a, s[j], zeta), s[j], zeta);
+        }
+    }
+    for (int j = 0; j < m; j++) point(S, n, nz, x[j], part[j] * area, z[j], eta[j], head[j]);
 }
 
 /* The part of a panel below the wave: h[k] are the heights of its corners over the wave, in between they go

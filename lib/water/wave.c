@@ -208,6 +208,43 @@ double fl_wave_pressure(const fl_wave_near *near, double s, double zeta)
     return f[0] + h[0];
 }
 
+/* re += the real part of sum a_m (x + i y)^m, all places in step: a single sum waits for itself. */
+static void series_heads(const fl_wave_series *a, int terms, const double *restrict x,
+                         const double *restrict y, double *restrict head)
+{
+    double re[FL_WAVE_BATCH], im[FL_WAVE_BATCH];
+    for (int j = 0; j < FL_WAVE_BATCH; j++) re[j] = im[j] = 0.0;
+    for (int m = terms - 1; m >= 0; m--) {
+        const double c = a->re[m], d = a->im[m];
+#pragma omp simd
+        for (int j = 0; j < FL_WAVE_BATCH; j++) {
+            const double r = re[j] * x[j] - im[j] * y[j] + c;
+            im[j] = re[j] * y[j] + im[j] * x[j] + d;
+            re[j] = r;
+        }
+    }
+    for (int j = 0; j < FL_WAVE_BATCH; j++) head[j] += re[j];
+}
+
+void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s, const double *z, double *eta,
+                   double *head)
+{
+    double x[FL_WAVE_BATCH], y[FL_WAVE_BATCH];
+    for (int j = 0; j < FL_WAVE_BATCH; j++) {
+        y[j] = s[j] - near->s;
+        eta[j] = head[j] = 0.0;
+    }
+    for (int m = near->terms - 1; m >= 0; m--) {
+#pragma omp simd
+        for (int j = 0; j < FL_WAVE_BATCH; j++) eta[j] = eta[j] * y[j] + near->eta[m];
+    }
+    for (int j = 0; j < FL_WAVE_BATCH; j++) x[j] = fl_wave_stretch(w, z[j], eta[j]) - near->z;
+    series_heads(&near->f, near->terms, x, y, head);
+    if (!near->wall) return;
+    for (int j = 0; j < FL_WAVE_BATCH; j++) y[j] = -y[j];
+    series_heads(&near->h, near->terms, x, y, head);
+}
+
 void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],
                     double acceleration[2])
 {

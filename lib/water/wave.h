@@ -91,6 +91,11 @@ double fl_wave_stretch(const fl_waves *w, double z, double eta);
 /* P at s and the stretched height zeta [m]. */
 double fl_wave_pressure(const fl_wave_near *near, double s, double zeta);
 
+/* Both at FL_WAVE_BATCH places s, z (over still water) at once: elevation, and P at the stretched height. */
+enum { FL_WAVE_BATCH = 8 };
+void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s, const double *z, double *eta,
+                   double *head);
+
 /* Velocity and acceleration of the water there: along s and up [m/s], [m/s2]. */
 void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],
                     double acceleration[2]);
