@@ -12,7 +12,7 @@
 /* In the order of the choices of water.drag and wind.drag. */
 enum fl_drag_law { FL_DRAG_MANUAL, FL_DRAG_FACET };
 
-/* The pieces of one body's surface below and above the water, their flow against flow[i] and against the wind;
+/* The pieces of the surface of a body below and above the water, their flow against flow[i] and the wind;
  * NULL where the law of that fluid is another. */
 typedef struct {
     fl_skin_piece *wet, *dry;
@@ -52,8 +52,8 @@ typedef struct {
     double *waved;        /* [n] work of those so far [J] */
 } fl_sea;
 
-/* Arrays for n bodies, for what water, wind, sea_law, air_law and waves ask; hulls are made by the caller, and
- * fitted one by one.
+/* Arrays for n bodies, for what water, wind, sea_law, air_law and waves ask; the caller makes the hulls, which
+ * are fitted one by one.
  *   threads   how many may call fl_sea_force() at once
  * -1 with FL_SYSTEM. */
 int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err);
