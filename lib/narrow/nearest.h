@@ -11,6 +11,14 @@ typedef struct {
     fl_vec3 n; /* unit vector from p to x, or against it when d < 0: always outward */
 } fl_nearest;
 
+/* Points x and p. */
+static inline fl_nearest fl_nearest_point(fl_vec3 p, fl_vec3 x)
+{
+    const fl_vec3 r = v3_sub(x, p);
+    const double d = v3_norm(r);
+    return (fl_nearest){d, p, d > 0.0 ? v3_scale(1.0 / d, r) : v3(0, 0, 1)};
+}
+
 /* Point x and a convex polyhedron: outside the Euclidean distance, inside the largest n_f.x - c_f (<= 0),
  * which is continuous through zero.  Points, segments and flat polygons have no inside: d >= 0. */
 fl_nearest fl_nearest_poly(const fl_poly *p, fl_vec3 x);

@@ -22,6 +22,7 @@ typedef struct {
     fl_vec3 o, off;
 } relative;
 
+/* M is left out where A is a point: nothing of it turns. */
 static relative relate(const fl_world *w, const fl_pair *p)
 {
     const fl_bodies *b = &w->b;
@@ -32,6 +33,10 @@ static relative relate(const fl_world *w, const fl_pair *p)
     if (w->cell.wraps)
         r.off = v3_add(r.off, fl_cell_way(&w->cell, v3(p->image[0], p->image[1], p->image[2])));
     r.o = v3_neg(m3_tmul(*B, r.off));
+    if (b->core[i].nv == 1) {
+        r.M = (fl_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        return r;
+    }
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
             r.M.m[k][l] = B->m[0][k] * A->m[0][l] + B->m[1][k] * A->m[1][l] + B->m[2][k] * A->m[2][l];
@@ -52,6 +57,7 @@ static int point_places(fl_places *s, const fl_poly *b, const fl_piece *piece, f
     fl_nearest q;
     if (piece && piece->kind == FL_PIECE_PLANE) q = (fl_nearest){.d = x.z, .n = v3(0, 0, 1)};
     else if (piece && piece->kind == FL_PIECE_CONE) q = fl_nearest_cone(piece->r0, piece->r1, piece->h, x);
+    else if (b->nv == 1) q = fl_nearest_point(b->v[0], x);
     else q = fl_nearest_poly(b, x);
     *distance = q.d;
     return q.d < R ? fl_places_point(s, x, q.n, R - q.d, ra) : 0;
@@ -229,16 +235,15 @@ typedef struct {
     double normal;     /* sum of F with damping                                     [N] */
     double elastic;    /* and without                                               [N] */
     fl_vec3 direction; /* sum of F n                                                [N] */
-    fl_vec3 at;        /* the first place, relative to B's centre                   [m] */
+    fl_vec3 at;        /* a place, relative to B's centre                           [m] */
     fl_vec3 moment;    /* sum of F (p - at)                                       [N m] */
     double spread;     /* sum of F |p - at|^2; B's centre may be a thousand kilometres away [N m^2] */
     double slope;      /* dF/ds                                                   [N/m] */
 } pressure;
 
-static void press(pressure *q, double elastic, double normal, fl_vec3 n, fl_vec3 p)
+/* arm: of the place, from q->at. */
+static void press(pressure *q, double elastic, double normal, fl_vec3 n, fl_vec3 arm)
 {
-    if (q->elastic == 0.0) q->at = p;
-    const fl_vec3 arm = v3_sub(p, q->at);
     q->elastic += elastic;
     q->normal += normal;
     q->direction = v3_madd(q->direction, normal, n);
@@ -294,88 +299,120 @@ static void stiffen(const fl_world *w, fl_pair *p, const pressure *q, const rela
     p->stiff_j = fl_stiff_bound(sj);
 }
 
-/* Forces of the places in s, by the potential: W = k phi(s) of the one place of a round thing or of `core`,
- * W = k sqrt(U) of `patch`.  Damping is the same factor for all places of a pair,
+/* The same of a contact whose places push along n at the point of the pressure alone. */
+static void stiffen_one(const fl_world *w, fl_pair *p, const pressure *q, fl_vec3 n, const relative *r)
+{
+    fl_stiff si = {0}, sj = {0};
+    fl_stiff_add(&si, &w->b, p->i, q->slope, n, v3_cross(v3_add(q->at, r->off), n));
+    fl_stiff_add(&sj, &w->b, p->j, q->slope, n, v3_cross(q->at, n));
+    stiffen(w, p, q, r, &si, &sj);
+}
+
+/* Damping is the same factor for all places of a pair,
  *     chi = D / max(v_touch, sqrt(2 W / M)),
- * where v_touch is the largest approach speed of this touch, the mean over the pressure, and sqrt(2 W/M) the
- * speed that the stored energy W amounts to: in an impact it stays below v_touch, so restitution is that of
- * D; in a contact that was never an impact it keeps the damping ratio below D/2.  0 when nothing touches. */
-static int force_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey)
+ * where v_touch is the largest approach speed of this touch, now the given one, and sqrt(2 W/M) the speed
+ * that the stored energy W amounts to: in an impact it stays below v_touch, so restitution is that of D; in a
+ * contact that was never an impact it keeps the damping ratio below D/2. */
+static double damping_factor(fl_pair *p, double now)
+{
+    p->touch = p->n && p->touch > now ? p->touch : now;
+    const double stored = sqrt(2.0 * p->energy / p->mass), speed = p->touch > stored ? p->touch : stored;
+    return speed > 0.0 ? p->law->chi / speed : 0.0;
+}
+
+/* The one place of a round thing or of `core`: W = k phi(s). */
+static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative *r, double dt, int survey)
 {
     const fl_bodies *b = &w->b;
-    const fl_mat3 R = b->R[p->j];
-    const int patch = p->exponent == 0.0;
-    double U = 0.0, scale = 0.0, pressed = 0.0, met = 0.0;
-    if (s->n == 0) return 0;
-    if (patch) {
-        U = fl_places_measure(s);
-        p->energy = p->k * sqrt(U);
-        if (!(p->energy > 0.0)) return 0;
-        scale = 0.5 * p->energy / U;
-    } else {
-        p->energy = p->k * fl_normal_phi(s->place[0].overlap, p->exponent);
-    }
-    /* All in the frame of B and about the first place; the velocity of A against B is v + turn x arm. */
-    const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
-    const fl_vec3 v = m3_tmul(R, approach(b, p, ai, aj)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
+    const fl_place *q = &s->place[0];
+    const fl_vec3 n = m3_mul(b->R[p->j], q->n), aj = m3_mul(b->R[p->j], q->p), ai = v3_add(aj, r->off);
+    const double closing = -v3_dot(n, approach(b, p, ai, aj)),
+                 slope = p->k * fl_normal_slope(q->overlap, p->exponent);
+    p->overlap = q->overlap;
+    p->energy = p->k * fl_normal_phi(q->overlap, p->exponent);
+    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0);
+    const double elastic = p->k * fl_normal_power(q->overlap, p->exponent);
+    const double normal = fl_normal_damped(elastic, chi, closing);
+    add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
+    add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
+    pressure all = {.slope = slope, .at = aj};
+    press(&all, elastic, normal, n, v3(0, 0, 0));
+    rub(w, p, &all, chi, r, dt);
+    if (survey) stiffen_one(w, p, &all, n, r);
+    p->energy += p->spring;
+    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note(w, p, s, p->k, chi);
+    return p->n = 1;
+}
+
+/* The mean of the speeds at which places approach, over their pressure; each goes to its place.  Velocities
+ * of A against B in the frame of B, about the point at. */
+static double closing_speed(fl_pair *p, fl_places *s, fl_vec3 at, fl_vec3 v, fl_vec3 turn)
+{
+    double pressed = 0.0, met = 0.0;
     for (int32_t k = 0; k < s->n; k++) {
         fl_place *q = &s->place[k];
         if (q->overlap > p->overlap) p->overlap = q->overlap;
-        if (patch && q->u == 0.0) continue; /* the pull of a rim presses on nothing */
+        if (q->u == 0.0) continue; /* the pull of a rim presses on nothing */
         q->closing = -v3_dot(q->across, v3_add(v, v3_cross(turn, v3_sub(q->p, at))));
-        const double share = patch ? q->du : 1.0;
-        pressed += share;
-        if (q->closing > 0.0) met += share * q->closing;
+        pressed += q->du;
+        if (q->closing > 0.0) met += q->du * q->closing;
     }
-    const double now = pressed > 0.0 ? met / pressed : 0.0;
-    p->touch = p->n && p->touch > now ? p->touch : now;
-    const double stored = sqrt(2.0 * p->energy / p->mass), speed = p->touch > stored ? p->touch : stored;
-    const double chi = speed > 0.0 ? p->law->chi / speed : 0.0;
+    return pressed > 0.0 ? met / pressed : 0.0;
+}
+
+/* The places of `patch`: W = k sqrt(U), each with its share of dW/dU.  0 when nothing touches. */
+static int force_patch(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey)
+{
+    const fl_bodies *b = &w->b;
+    const fl_mat3 R = b->R[p->j];
+    const double U = s->n ? fl_places_measure(s) : 0.0;
+    p->energy = p->k * sqrt(U);
+    if (!(p->energy > 0.0)) return 0;
+    const double scale = 0.5 * p->energy / U;
+    const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
+    const double chi = damping_factor(p, closing_speed(p, s, at, m3_tmul(R, approach(b, p, ai, aj)),
+                                                       m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]))));
     pressure all = {0};
-    fl_stiff si = {0}, sj = {0};
-    wrench gradient = {0}, damping = {0}; /* of U, or of phi; [N] */
+    fl_stiff si, sj;
+    if (survey) si = sj = (fl_stiff){0};
+    wrench gradient = {0}, damping = {0}; /* of U; [N] */
     for (int32_t k = 0; k < s->n; k++) {
         const fl_place *q = &s->place[k];
         const fl_vec3 arm = v3_sub(q->p, at);
-        const double slope = patch ? scale * q->ddu : p->k * fl_normal_slope(q->overlap, p->exponent);
-        const double pull = patch ? q->du : fl_normal_power(q->overlap, p->exponent);
-        const double elastic = patch ? scale * pull : p->k * pull;
-        push(&gradient, v3_scale(pull, q->n), arm);
-        if (patch && q->u == 0.0) continue;
-        const double straight = elastic * v3_dot(q->n, q->across);
-        const double normal = fl_normal_damped(straight, chi, q->closing);
-        push(&damping, v3_scale(normal - straight, q->across), arm);
-        press(&all, straight, normal, q->across, q->p);
-        all.slope += slope;
+        push(&gradient, v3_scale(q->du, q->n), arm);
+        if (q->u == 0.0) continue;
+        const double elastic = scale * q->du * v3_dot(q->n, q->across);
+        const double normal = fl_normal_damped(elastic, chi, q->closing);
+        push(&damping, v3_scale(normal - elastic, q->across), arm);
+        press(&all, elastic, normal, q->across, arm);
+        all.slope += scale * q->ddu;
         if (survey) {
             const fl_vec3 n = m3_mul(R, q->across), pj = m3_mul(R, q->p);
-            fl_stiff_add(&si, b, p->i, slope, n, v3_cross(v3_add(pj, r->off), n));
-            fl_stiff_add(&sj, b, p->j, slope, n, v3_cross(pj, n));
+            fl_stiff_add(&si, b, p->i, scale * q->ddu, n, v3_cross(v3_add(pj, r->off), n));
+            fl_stiff_add(&sj, b, p->j, scale * q->ddu, n, v3_cross(pj, n));
         }
     }
-    if (patch) gradient.m = v3_add(gradient.m, s->couple);
-    const double factor = patch ? scale : p->k;
-    const wrench elastic = {v3_scale(factor, gradient.f), v3_scale(factor, gradient.m)};
+    gradient.m = v3_add(gradient.m, s->couple);
+    const wrench elastic = {v3_scale(scale, gradient.f), v3_scale(scale, gradient.m)};
     add_sum(&p->f, &p->ti, &p->tj, &elastic, &R, ai, aj);
-    if (patch) { /* the root bends down: W'' = scale (U'' - U'^2 / 2U) */
-        all.slope -= 0.5 * all.elastic * all.elastic / (scale * U);
-        if (survey) {
-            const double half = 0.5 / (scale * U);
-            fl_stiff_add(&si, b, p->i, -half, p->f, p->ti);
-            fl_stiff_add(&sj, b, p->j, -half, p->f, p->tj);
-        }
+    /* the root bends down: W'' = scale (U'' - U'^2 / 2U) */
+    all.slope -= 0.5 * all.elastic * all.elastic / (scale * U);
+    if (survey) {
+        const double half = 0.5 / (scale * U);
+        fl_stiff_add(&si, b, p->i, -half, p->f, p->ti);
+        fl_stiff_add(&sj, b, p->j, -half, p->f, p->tj);
     }
     add_sum(&p->fd, &p->di, &p->dj, &damping, &R, ai, aj);
     p->f = v3_add(p->f, p->fd);
     p->ti = v3_add(p->ti, p->di);
     p->tj = v3_add(p->tj, p->dj);
     all.direction = m3_mul(R, all.direction);
-    all.at = m3_mul(R, all.at);
+    all.at = aj;
     all.moment = m3_mul(R, all.moment);
     rub(w, p, &all, chi, r, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     p->energy += p->spring;
-    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note(w, p, s, factor, chi);
+    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note(w, p, s, scale, chi);
     return p->n = 1;
 }
 
@@ -402,10 +439,10 @@ static int force_bed(fl_world *w, fl_pair *p, const relative *r, double dt, int 
     const double closing = -v3_dot(n, approach(b, p, ai, aj)), elastic = w->bed.stiffness * wet.volume;
     double normal = elastic + w->bed.damping * wet.waterplane * closing;
     if (normal < 0.0) normal = 0.0;
-    pressure all = {.slope = w->bed.stiffness * wet.waterplane};
+    pressure all = {.slope = w->bed.stiffness * wet.waterplane, .at = aj};
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
-    press(&all, elastic, normal, n, aj);
+    press(&all, elastic, normal, n, v3(0, 0, 0));
     rub(w, p, &all, 0.0, r, dt);
     if (survey) { /* the waterplane behind the wall turns with the body: as stiff as at its farthest point */
         fl_stiff si = {0}, sj = {0};
@@ -458,20 +495,15 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     double normal = elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, closing);
     if (normal < 0.0) normal = 0.0;
     const double slope = k * fl_normal_slope(overlap, exponent);
-    pressure all = {.slope = slope};
+    pressure all = {.slope = slope, .at = aj};
     p->overlap = overlap;
     p->energy = k * fl_normal_phi(overlap, exponent);
     p->mode = c.mode;
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, nw), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, nw), ai, aj);
-    press(&all, elastic, normal, nw, aj);
+    press(&all, elastic, normal, nw, v3(0, 0, 0));
     rub(w, p, &all, 0.0, r, dt);
-    if (survey) {
-        fl_stiff si = {0}, sj = {0};
-        fl_stiff_add(&si, b, p->i, slope, nw, v3_cross(ai, nw));
-        fl_stiff_add(&sj, b, p->j, slope, nw, v3_cross(aj, nw));
-        stiffen(w, p, &all, r, &si, &sj);
-    }
+    if (survey) stiffen_one(w, p, &all, nw, r);
     p->energy += p->spring;
     if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note_one(w, p, c.p, c.n, c.area);
     p->n = 1;
@@ -500,7 +532,9 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
         if (p->n) return;
     } else {
         if (find_places(w, p, s, &w->near_shell[thread], &r, path, &distance)) goto failed;
-        if (force_places(w, p, s, &r, dt, survey)) return;
+        if (p->exponent > 0.0 ? s->n && force_one(w, p, s, &r, dt, survey)
+                              : force_patch(w, p, s, &r, dt, survey))
+            return;
     }
     p->slip = (fl_slip){0};
     p->n = 0;

@@ -83,6 +83,7 @@ static fl_pair look(fl_world *w, int32_t j, const fl_vec3 *axis)
         p.has_axis = 1;
     }
     fl_interact(w, &p, 0, 0.0, 0);
+    fl_pair_end(&p);
     assert_false(w->failed);
     return p;
 }

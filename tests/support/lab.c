@@ -182,6 +182,7 @@ fl_pair lab_look(fl_world *w, int32_t i, int32_t j)
     fl_pair p;
     fl_pair_start(w, &p, i, j);
     fl_interact(w, &p, 0, 0.0, 0);
+    fl_pair_end(&p);
     return p;
 }
 

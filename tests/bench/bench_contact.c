@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bench_contact.c -- what one contact costs in a step, by what touches what, beside how far its force is from
+ * the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
+ *     bench_contact               the table
+ *     bench_contact CASE N        N evaluations of one case, for a tool that counts instructions
+ * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm; they move by a hundredth of
+ * a millimetre between evaluations, as in a step of 0.1 ms at 0.1 m/s, so that the cost of finding features
+ * anew is in it.  Times are thread time of this machine now; compare rows of one run only. */
+#include <ccd/ccd.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include "step/interact.h"
+#include "support/lab.h"
+
+#define RADIUS 0.05
+#define OVERLAP 0.004
+#define STEP 1e-5 /* [m] */
+#define PI 3.14159265358979323846
+
+enum { CORNERS = 8, TIMES = 20000, CCD_TIMES = 4000 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* An upright octagon of half width 1.386 m between opposite sides, turned and moved. */
+static void octagon(lab *l, fl_vec3 at, double yaw, double tilt)
+{
+    fl_vec3 xy[CORNERS];
+    fl_poly p = {0};
+    fl_err err = {0};
+    const fl_quat q = q_mul(q_of_vector(v3(0, 0, yaw)), q_of_vector(v3(tilt, 0.7 * tilt, 0)));
+    for (int k = 0; k < CORNERS; k++) {
+        const double a = 2.0 * PI * (k + 0.5) / CORNERS;
+        xy[k] = v3(1.5 * cos(a), 1.5 * sin(a), 0);
+    }
+    if (fl_poly_prism(&p, CORNERS, xy, -0.2, 0.2, &err)) {
+        fprintf(stderr, "%s\n", err.text);
+        exit(1);
+    }
+    fl_poly_to_frame(&p, v3_neg(q_rotate(q_conj(q), at)), q_matrix(q_conj(q)));
+    lab_poly(l, &p, RADIUS, v3(0, 0, 0), v3(0, 0, 0));
+}
+
+typedef enum {
+    SPHERES,
+    SPHERE_ON_FLOE,
+    SIDE_ON_SIDE,
+    SIDE_TURNED,
+    SIDE_TILTED,
+    EDGE_ON_SIDE,
+    FLAT_ON_FLAT,
+    FLAT_TURNED,
+    FLOE_ON_PLANE,
+    FLOE_ON_CYLINDER,
+    FLOE_ON_MESH,
+    CASES
+} which;
+
+static const char *const NAME[CASES] = {"sphere on sphere",    "sphere on floe",     "side on side",
+                                        "side on side, 3 deg", "side, tilted 1 deg", "edge on side",
+                                        "flat on flat",        "flat, 30 deg, off",  "side on plane",
+                                        "side on cylinder",    "side on 2 triangles"};
+
+/* Two bodies, or one and what is held: pair 0 of the world touches. */
+static void make(lab *l, which c, const char *law)
+{
+    const double half = 1.5 * cos(PI / 8.0), near = 2.0 * RADIUS - OVERLAP, wall = RADIUS - OVERLAP;
+    lab_start(l);
+    lab_setf(l, "contact.law=%s", law);
+    lab_set(l, "contact.friction=0.3");
+    if (c == SPHERES || c == SPHERE_ON_FLOE) lab_sphere(l, v3(0, 0, 0), RADIUS, v3(0, 0, 0), v3(0, 0, 0));
+    else octagon(l, v3(0, 0, 0), 0.0, 0.0);
+    switch (c) {
+    case SPHERES: lab_sphere(l, v3(near, 0, 0), RADIUS, v3(0, 0, 0), v3(0, 0, 0)); break;
+    case SPHERE_ON_FLOE: octagon(l, v3(half + near, 0.1, 0.02), 0.0, 0.0); break;
+    case SIDE_ON_SIDE: octagon(l, v3(2.0 * half + near, 0.1, 0.02), 0.0, 0.0); break;
+    case SIDE_TURNED: octagon(l, v3(2.0 * half + near + 0.02, 0.1, 0.02), 3.0 * PI / 180.0, 0.0); break;
+    case SIDE_TILTED: octagon(l, v3(2.0 * half + near, 0.1, 0.02), 0.0, PI / 180.0); break;
+    case EDGE_ON_SIDE: octagon(l, v3(half + 1.5 + near, 0.1, 0.02), PI / 8.0, 0.0); break;
+    case FLAT_ON_FLAT: octagon(l, v3(0.3, 0.2, 0.4 + near), 0.2, 0.0); break;
+    case FLAT_TURNED: octagon(l, v3(1.3, 0.2, 0.4 + near), 0.5, 0.003); break;
+    case FLOE_ON_PLANE: lab_setf(l, "boundary.min=%.17g none none", -half - wall); break;
+    case FLOE_ON_CYLINDER:
+        lab_cone(l, (fl_cone){v3(half + wall + 1.5, 0.03, -3), v3(half + wall + 1.5, 0.03, 3), 1.5, 1.5});
+        break;
+    default: {
+        const double x = half + wall; /* an L of walls: not convex, a shell */
+        const fl_vec3 xy[6] = {v3(x, -9, 0),    v3(x + 9, -9, 0), v3(x + 9, 9, 0),
+                               v3(x - 5, 9, 0), v3(x - 5, 8, 0),  v3(x, 8, 0)};
+        lab_prism(l, 6, xy, -5, 5);
+    }
+    }
+    lab_make(l, 1e-9);
+}
+
+static fl_pair *touching(lab *l)
+{
+    for (int32_t c = 0; c < l->w.n_pair; c++)
+        if (l->w.pair[c].n) return &l->w.pair[c];
+    return NULL;
+}
+
+/* There and back again; path counts every step. */
+static void evaluate(lab *l, fl_pair *p, int times)
+{
+    fl_bodies *b = &l->w.b;
+    for (int k = 0; k < times; k++) {
+        const double way = k / 100 % 2 ? -STEP : STEP;
+        b->x[0].y += way;
+        b->odometer[0] += STEP;
+        fl_interact(&l->w, p, 0, 1e-9, 0);
+    }
+}
+
+static double energy_at(lab *l, const fl_pair *p, fl_vec3 d)
+{
+    fl_bodies *b = &l->w.b;
+    const fl_vec3 x = b->x[0];
+    b->x[0] = v3_add(x, d);
+    const double e = lab_look(&l->w, p->i, p->j).energy;
+    b->x[0] = x;
+    return e;
+}
+
+/* |F + grad W| / |F|, by central differences. */
+static double off_gradient(lab *l, const fl_pair *p)
+{
+    const double h = 1e-7;
+    const fl_vec3 f = lab_look(&l->w, p->i, p->j).f;
+    const fl_vec3 g = v3(energy_at(l, p, v3(h, 0, 0)) - energy_at(l, p, v3(-h, 0, 0)),
+                         energy_at(l, p, v3(0, h, 0)) - energy_at(l, p, v3(0, -h, 0)),
+                         energy_at(l, p, v3(0, 0, h)) - energy_at(l, p, v3(0, 0, -h)));
+    return v3_norm(v3_madd(f, 0.5 / h, g)) / v3_norm(f);
+}
+
+/* --- libccd on the same two dilated shapes ------------------------------------------------------------- */
+
+typedef struct {
+    const fl_bodies *b;
+    int32_t i;
+} shape;
+
+static void support(const void *obj, const ccd_vec3_t *dir, ccd_vec3_t *out)
+{
+    const shape *s = obj;
+    const fl_poly *p = &s->b->core[s->i];
+    const fl_vec3 d = v3(dir->v[0], dir->v[1], dir->v[2]), in = m3_tmul(s->b->R[s->i], d);
+    int32_t at = 0;
+    for (int32_t v = 1; v < p->nv; v++)
+        if (v3_dot(in, p->v[v]) > v3_dot(in, p->v[at])) at = v;
+    const fl_vec3 x =
+        v3_madd(v3_add(s->b->x[s->i], m3_mul(s->b->R[s->i], p->v[at])), s->b->radius[s->i] / v3_norm(d), d);
+    ccdVec3Set(out, x.x, x.y, x.z);
+}
+
+static void centre(const void *obj, ccd_vec3_t *out)
+{
+    const shape *s = obj;
+    ccdVec3Set(out, s->b->x[s->i].x, s->b->x[s->i].y, s->b->x[s->i].z);
+}
+
+/* Time of a query [s] and the error of its depth over the depth that the kernel sees; < 0 where it finds
+ * none. */
+static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
+{
+    const shape a = {&l->w.b, p->i}, b = {&l->w.b, p->j};
+    ccd_t ccd;
+    ccd_real_t depth = 0;
+    ccd_vec3_t dir, at;
+    int found = 0;
+    CCD_INIT(&ccd);
+    ccd.support1 = ccd.support2 = support;
+    ccd.center1 = ccd.center2 = centre;
+    ccd.max_iterations = 100;
+    ccd.epa_tolerance = ccd.mpr_tolerance = (ccd_real_t)1e-6;
+    const double begun = now();
+    for (int k = 0; k < CCD_TIMES; k++)
+        found = (mpr ? ccdMPRPenetration(&a, &b, &ccd, &depth, &dir, &at)
+                     : ccdGJKPenetration(&a, &b, &ccd, &depth, &dir, &at)) == 0;
+    const double spent = (now() - begun) / CCD_TIMES;
+    *error = found ? fabs((double)depth / lab_look(&l->w, p->i, p->j).overlap - 1.0) : -1.0;
+    return spent;
+}
+
+/* --- the table -------------------------------------------------------------------------------------------
+ */
+
+static int row(which c, const char *law)
+{
+    lab l;
+    make(&l, c, law);
+    fl_pair *p = touching(&l);
+    if (!p) return 1;
+    const double off = off_gradient(&l, p);
+    evaluate(&l, p, 200);
+    const double begun = now();
+    evaluate(&l, p, TIMES);
+    const double ns = 1e9 * (now() - begun) / TIMES;
+    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, p->matches.n, l.w.scratch[0].n, ns, off);
+    if (p->j < l.w.n && strcmp(law, "patch") == 0) {
+        double error[2], t[2];
+        for (int k = 0; k < 2; k++) t[k] = ask_ccd(&l, p, k, &error[k]);
+        printf(" %10.0f %10.1e %10.0f %10.1e", 1e9 * t[1], error[1], 1e9 * t[0], error[0]);
+    }
+    printf("\n");
+    const int bad = p->n == 0 || (strcmp(law, "patch") == 0 && !(off < 1e-5));
+    lab_free(&l);
+    return bad;
+}
+
+int main(int argc, char **argv)
+{
+    int bad = 0, rows = 0;
+    if (argc == 3) {
+        lab l;
+        make(&l, (which)atoi(argv[1]), "patch");
+        fl_pair *p = touching(&l);
+        if (p) evaluate(&l, p, atoi(argv[2]));
+        lab_free(&l);
+        return p == NULL;
+    }
+    printf("one contact, all of its forces with friction and damping; moved 0.01 mm between evaluations\n");
+    printf("%-20s %-10s %8s %8s %10s %12s %10s %10s %10s %10s\n", "contact", "law", "matches", "places", "ns",
+           "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off");
+    for (int c = 0; c < CASES; c++, rows++) bad += row((which)c, "patch");
+    static const char *const LAW[] = {"core", "manual-si"};
+    for (int k = 0; k < 2; k++) {
+        bad += row(SIDE_TURNED, LAW[k]) + row(FLAT_TURNED, LAW[k]);
+        rows += 2;
+    }
+    printf("%d passed, %d failed\n", rows - bad, bad);
+    return bad > 0;
+}
