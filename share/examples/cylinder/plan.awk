@@ -12,22 +12,31 @@ BEGIN {
 }
 /^#/ || NF == 0 { next }
 $1 == "shape" { shape = $2; radius[shape] = $3; n[shape] = 0; in_part = 0; next }
-$1 == "part" { in_part = ++parts; nv[in_part] = 0; next }
+$1 == "part" { in_part = ++parts; part[$2] = parts; nv[in_part] = 0; next }
 $1 == "v" && !in_part { k = n[shape]++; vx[shape, k] = $2; vy[shape, k] = $3; vz[shape, k] = $4; next }
-$1 == "v" { k = nv[in_part]++; px[in_part, k] = $2; py[in_part, k] = $3; next }
+$1 == "v" { k = nv[in_part]++; px[in_part, k] = $2; py[in_part, k] = $3; pz[in_part, k] = $4; next }
 $1 == "t" { k = ++triangles; of[k] = in_part; t1[k] = $2; t2[k] = $3; t3[k] = $4; next }
-$1 == "cone" { k = ++cones; cone[k] = $0; next }
+$1 == "cone" { k = ++cones; cone[k] = $0; cone_of[k] = in_part; next }
 $1 == "frame" { if (++frames > 1 && frame == "first") exit; t = $2; next }
 $1 == "body" { pose[$2] = $0; if (!($2 in seen)) { seen[$2] = 1; body[++bodies] = $2 }; next }
 $1 == "structure" { gone_x = $2; gone_y = $3; next }
+$1 == "moved" { moved[part[$2]] = $0; next }
 
-# x and y of corner k of body i, whose pose is split into p: the first two rows of the rotation matrix.
-function place(i, k,    w, a, b, c) {
+# Where x, y, z is in the pose p, split: the first two rows of the rotation matrix. Leaves at_x and at_y.
+function turn(x, y, z,    w, a, b, c) {
     w = p[6]; a = p[7]; b = p[8]; c = p[9]
-    hx[k] = p[3] + (1 - 2 * (b * b + c * c)) * vx[i, k] + 2 * (a * b - w * c) * vy[i, k]
-    hx[k] += 2 * (a * c + w * b) * vz[i, k]
-    hy[k] = p[4] + 2 * (a * b + w * c) * vx[i, k] + (1 - 2 * (a * a + c * c)) * vy[i, k]
-    hy[k] += 2 * (b * c - w * a) * vz[i, k]
+    at_x = p[3] + (1 - 2 * (b * b + c * c)) * x + 2 * (a * b - w * c) * y + 2 * (a * c + w * b) * z
+    at_y = p[4] + 2 * (a * b + w * c) * x + (1 - 2 * (a * a + c * c)) * y + 2 * (b * c - w * a) * z
+}
+# The same for a point of part q of the structure.
+function ride(q, x, y, z) {
+    split(q in moved ? moved[q] : "0 0 " gone_x " " gone_y " 0 1 0 0 0", p)
+    turn(x, y, z)
+}
+function place(i, k) {
+    turn(vx[i, k], vy[i, k], vz[i, k])
+    hx[k] = at_x
+    hy[k] = at_y
 }
 function sort(m,    a, b, x, y) {
     for (a = 1; a < m; a++) {
@@ -88,12 +97,17 @@ END {
     for (k = 1; k <= triangles; k++) {
         q = of[k]
         split(t1[k] " " t2[k] " " t3[k] " " t1[k], corner)
-        for (c = 1; c <= 4; c++) printf "%.4f %.4f\n", px[q, corner[c]] + gone_x, py[q, corner[c]] + gone_y
+        for (c = 1; c <= 4; c++) {
+            ride(q, px[q, corner[c]], py[q, corner[c]], pz[q, corner[c]])
+            printf "%.4f %.4f\n", at_x, at_y
+        }
         print ""
     }
     for (k = 1; k <= cones; k++) {
         split(cone[k], end)
-        ring(end[2] + gone_x, end[3] + gone_y, end[5])
-        ring(end[6] + gone_x, end[7] + gone_y, end[9])
+        ride(cone_of[k], end[2], end[3], end[4])
+        ring(at_x, at_y, end[5])
+        ride(cone_of[k], end[6], end[7], end[8])
+        ring(at_x, at_y, end[9])
     }
 }
