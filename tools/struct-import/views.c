@@ -14,7 +14,7 @@
 #include "views.h"
 
 /* [pixels] of the picture; panels share one scale, and stand so that equal coordinates line up. */
-enum { ROOM_U = 900, ROOM_V = 700, LEFT = 78, BETWEEN = 84, RIGHT = 24, TOP = 50, BOTTOM = 56, FINE = 2 };
+enum { ROOM_U = 900, ROOM_V = 700, LEFT = 78, BETWEEN = 96, RIGHT = 24, TOP = 50, BOTTOM = 68, FINE = 2 };
 enum { ROUND = 180, SHOWN = 14, COLOURS = 8 };
 static const double BEND = 25.0; /* degrees: a polygon of 14 sides and fewer has edges */
 static const double FLAT = 0.12; /* of the largest side: room that a flat structure gets across */
