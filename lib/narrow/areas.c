@@ -262,7 +262,8 @@ static int put(footprint *q)
     for (int k = 0; k < 3; k++) {
         const double dx = a * COS[k], dy = b * COS[k] + c * SIN[k], sk = s + sx * dx + sy * dy;
         const fl_vec3 on = lift(q, q->x0 + x + dx, q->y0 + y + dy, sk);
-        if (fl_places_add(q->w, (fl_place){.overlap = most,
+        if (fl_places_add(q->w, (fl_place){.stands = 3,
+                                           .overlap = most,
                                            .u = m * u / 3.0,
                                            .du = m * du / 3.0,
                                            .ddu = m * ddu / 3.0,

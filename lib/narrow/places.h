@@ -53,6 +53,8 @@ typedef struct {
     fl_vec3 across; /* unit, from B to A: what bodies approach along, and press */
     fl_vec3 p;      /* middle of the overlap, on the line of that force [m] */
     double closing; /* for the caller: speed of approach here [m/s] */
+    int32_t
+        stands; /* so many places in a row stand for one strip (2) or one area (3); 0: this one for itself */
 } fl_place;
 
 /* A core in the frame that both are looked at in.  Zero faces: a point or a segment. */

@@ -74,7 +74,8 @@ int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_ve
     for (int way = -1; way <= 1; way += 2) {
         const double at = t.lo + dt * (mean + way * spread), s = l->R - h0 - at * (h1 - h0);
         const fl_vec3 to = v3_scale(l->own->side, n);
-        if (fl_places_add(l->w, (fl_place){.overlap = s,
+        if (fl_places_add(l->w, (fl_place){.stands = 2,
+                                           .overlap = s,
                                            .u = 0.5 * u,
                                            .du = 0.5 * du,
                                            .ddu = 0.5 * ddu,

@@ -146,23 +146,32 @@ static fl_press_mark *new_mark(fl_world *w, const fl_pair *p, fl_press_notes *no
     return m;
 }
 
-/* Place of a mark whose point is `at` in the frame of the piece: in the world, and on which panel. */
-static void put_mark(fl_world *w, const fl_pair *p, fl_press_notes *notes, fl_press_mark *m, fl_vec3 at,
-                     fl_vec3 n)
+/* The panel under a point of the piece; -1 when memory runs out. */
+static int32_t panel_under(fl_world *w, const fl_pair *p, fl_press_notes *notes, fl_vec3 at)
 {
     const int32_t k = p->j - w->n;
     const fl_piece *piece = &w->structure.piece[k];
     const double reach = 2.0 * (p->overlap + w->b.radius[p->i]) + 1e-9 * piece->core.size;
+    if (w->press.cone[k] >= 0) return w->press.cone[k];
+    return panel_at(notes, &w->press, piece->part, v3_add(piece->x, q_rotate(piece->q, at)), reach);
+}
+
+/* Mark of a normal force at a point, both in the frame of the piece. */
+static fl_press_mark *put_mark(fl_world *w, const fl_pair *p, fl_press_notes *notes, int32_t panel,
+                               fl_vec3 at, fl_vec3 n)
+{
+    fl_press_mark *m = new_mark(w, p, notes);
+    if (!m) return NULL;
+    if (panel < 0) {
+#pragma omp atomic write
+        w->failed = 1;
+        panel = 0;
+    }
+    m->panel = panel;
     m->at = v3_add(w->b.x[p->j], m3_mul(w->b.R[p->j], at));
     m->n = m3_mul(w->b.R[p->j], n);
     m->overlap = p->overlap;
-    m->panel = w->press.cone[k];
-    if (m->panel < 0)
-        m->panel = panel_at(notes, &w->press, piece->part, v3_add(piece->x, q_rotate(piece->q, at)), reach);
-    if (m->panel >= 0) return;
-#pragma omp atomic write
-    w->failed = 1;
-    m->panel = 0;
+    return m;
 }
 
 /* What of the force of the pair has no place goes to all of its marks in the ratio of their normal forces. */
@@ -180,23 +189,155 @@ static void share_out(const fl_pair *p, fl_press_mark *m, int32_t n)
     }
 }
 
+/* Where one pressure acts: n places that stand for a strip (2) or for an area (3), see places.h. */
+typedef struct {
+    int32_t n;
+    fl_vec3 middle, e1, e2; /* the places are at middle +- e1, or at middle + e1 cos a + e2 sin a */
+    fl_vec3 across;
+    double normal, area; /* of all of them together; of the contact as a whole */
+} patch;
+
+/* Triangles that turn away from the contact by more than this, and those that lie apart, do not bear it. */
+#define FACING 0.5 /* cosine */
+
+/* A strip is a band this much wider than nothing, over its length: it shall lie on triangles. */
+#define BAND 0.01
+
+/* Corners of a triangle cut to a square. */
+typedef struct {
+    double u, v;
+} spot;
+
+static int32_t cut(spot *p, int32_t n, int axis, double side, double far)
+{
+    spot kept[8];
+    int32_t m = 0;
+    for (int32_t k = 0; k < n; k++) {
+        const spot a = p[k], b = p[(k + 1) % n];
+        const double ha = far - side * (axis ? a.v : a.u), hb = far - side * (axis ? b.v : b.u);
+        if (ha >= 0.0) kept[m++] = a;
+        if ((ha < 0.0) != (hb < 0.0)) {
+            const double t = ha / (ha - hb);
+            kept[m++] = (spot){a.u + t * (b.u - a.u), a.v + t * (b.v - a.v)};
+        }
+    }
+    memcpy(p, kept, (size_t)m * sizeof *p);
+    return m;
+}
+
+/* Area of the triangle within |u|, |v| <= far, and its centroid. */
+static double within(const spot t[3], double far, spot *middle)
+{
+    spot p[8] = {t[0], t[1], t[2]};
+    int32_t n = 3;
+    double twice = 0.0;
+    *middle = (spot){0};
+    for (int c = 0; c < 4 && n > 2; c++) n = cut(p, n, c / 2, c % 2 ? 1.0 : -1.0, far);
+    for (int32_t k = 2; k < n; k++) {
+        const double a =
+            (p[k - 1].u - p[0].u) * (p[k].v - p[0].v) - (p[k - 1].v - p[0].v) * (p[k].u - p[0].u);
+        twice += a;
+        middle->u += a * (p[0].u + p[k - 1].u + p[k].u) / 3.0;
+        middle->v += a * (p[0].v + p[k - 1].v + p[k].v) / 3.0;
+    }
+    if (twice == 0.0) return 0.0;
+    middle->u /= twice, middle->v /= twice;
+    return 0.5 * fabs(twice);
+}
+
+/* A pressure by itself, or on a cone. */
+static void press_at(fl_world *w, const fl_pair *p, fl_press_notes *notes, const patch *q)
+{
+    fl_press_mark *m = put_mark(w, p, notes, panel_under(w, p, notes, q->middle), q->middle, q->across);
+    if (!m) return;
+    m->normal = q->normal;
+    m->area = q->area;
+}
+
+/* An even pressure with the mean and the second moments of the places reaches sqrt(3) e1 both ways of a
+ * strip, and sqrt(3/2) (e1, e2) of a parallelogram.  Triangles have their share of its area. */
+static void spread(fl_world *w, const fl_pair *p, fl_press_notes *notes, const patch *q)
+{
+    const fl_press *s = &w->press;
+    const fl_piece *piece = &w->structure.piece[p->j - w->n];
+    const double far = q->n == 2 ? 1.7320508075688772 : 1.2247448713915890;
+    const double near = 2.0 * (p->overlap + w->b.radius[p->i]) + 1e-9 * piece->core.size;
+    const int32_t first = s->first[piece->part], from = notes->n;
+    const fl_vec3 m = v3_add(piece->x, q_rotate(piece->q, q->middle)), n = q_rotate(piece->q, q->across);
+    fl_vec3 e1 = q_rotate(piece->q, q->e1), e2 = q_rotate(piece->q, q->e2);
+    if (q->n == 2) e2 = v3_scale(BAND, v3_cross(n, e1));
+    /* u = r1.(x - m), v = r2.(x - m) of what lies in the plane of e1 and e2 */
+    const fl_vec3 c = v3_cross(e1, e2), r1 = v3_scale(1.0 / v3_norm2(c), v3_cross(e2, c)),
+                  r2 = v3_scale(1.0 / v3_norm2(c), v3_cross(c, e1));
+    const int plate = piece->core.nf == 2; /* has two sides */
+    fl_aabb box = aabb_empty();
+    double all = 0.0;
+    fl_err lost = {0};
+    if (s->cone[p->j - w->n] >= 0 || q->n == 1 || !(v3_norm2(c) > 0.0)) {
+        press_at(w, p, notes, q);
+        return;
+    }
+    for (int k = 0; k < 4; k++)
+        box = aabb_add(box, v3_madd(v3_madd(m, k & 1 ? far : -far, e1), k & 2 ? far : -far, e2));
+    box = aabb_grow(box, near);
+    const fl_bvh *tree = &s->tree[piece->part];
+    int32_t found = fl_bvh_query(tree, s->box + first, box, notes->list, notes->list_cap);
+    if (found > notes->list_cap) {
+        if (fl_grow(&notes->list, &notes->list_cap, found, sizeof *notes->list, &lost)) {
+#pragma omp atomic write
+            w->failed = 1;
+            return;
+        }
+        found = fl_bvh_query(tree, s->box + first, box, notes->list, notes->list_cap);
+    }
+    for (int32_t k = 0; k < found; k++) {
+        const int32_t panel = first + notes->list[k];
+        const fl_panel_place *t = &s->panel[panel];
+        const fl_vec3 a = v3_sub(t->v[0], m), b = v3_sub(t->v[1], m), d = v3_sub(t->v[2], m);
+        const fl_vec3 normal = v3_unit(v3_cross(v3_sub(b, a), v3_sub(d, a)));
+        const double facing = plate ? fabs(v3_dot(normal, n)) : v3_dot(normal, n);
+        if (!(facing > FACING) || fabs(v3_dot(normal, a)) > near) continue;
+        const spot uv[3] = {
+            {v3_dot(r1, a), v3_dot(r2, a)}, {v3_dot(r1, b), v3_dot(r2, b)}, {v3_dot(r1, d), v3_dot(r2, d)}};
+        spot middle;
+        const double area = within(uv, far, &middle);
+        if (!(area > 0.0)) continue;
+        fl_press_mark *mark = put_mark(
+            w, p, notes, panel, v3_madd(v3_madd(q->middle, middle.u, q->e1), middle.v, q->e2), q->across);
+        if (!mark) return;
+        mark->normal = area;
+        all += area;
+    }
+    for (int32_t k = from; k < notes->n; k++) {
+        notes->mark[k].normal *= q->normal / all;
+        notes->mark[k].area = q->area;
+    }
+    if (notes->n == from) press_at(w, p, notes, q);
+}
+
 void fl_press_note(fl_world *w, const fl_pair *p, const fl_places *s, double scale, double chi)
 {
     fl_press_notes *notes = &w->press.noted[omp_get_thread_num()];
     const int32_t from = notes->n;
-    const int patch = p->exponent == 0.0;
+    const int pair_patch = p->exponent == 0.0, shell = w->structure.piece[p->j - w->n].kind == FL_PIECE_SHELL;
     double u = 0.0, du = 0.0;
     for (int32_t k = 0; k < s->n; k++) u += s->place[k].u, du += s->place[k].du;
-    for (int32_t k = 0; k < s->n; k++) {
+    for (int32_t k = 0, n; k < s->n; k += n) {
         const fl_place *q = &s->place[k];
-        if (patch && q->u == 0.0) continue;
-        const double pull = patch ? q->du : fl_normal_power(q->overlap, p->exponent);
-        fl_press_mark *m = new_mark(w, p, notes);
-        if (!m) return;
-        m->normal = fl_normal_damped(scale * pull * v3_dot(q->n, q->across), chi, q->closing);
+        n = 1;
+        if (pair_patch && q->u == 0.0) continue;
+        if (q->stands && !shell) n = q->stands; /* the places of a shell are of one triangle each */
+        patch a = {.n = n, .across = q->across};
+        for (int32_t c = 0; c < n; c++) {
+            const double pull = pair_patch ? q[c].du : fl_normal_power(q->overlap, p->exponent);
+            a.normal += fl_normal_damped(scale * pull * v3_dot(q[c].n, q[c].across), chi, q[c].closing);
+            a.middle = v3_madd(a.middle, 1.0 / n, q[c].p);
+        }
+        if (n > 1) a.e1 = v3_sub(q[0].p, a.middle);
+        if (n > 2) a.e2 = v3_scale(0.57735026918962576, v3_sub(q[1].p, q[2].p));
         /* of an overlap s all over a face A, u = A s^4 and du = 4 A s^3: A = du^4/(256 u^3) */
-        m->area = patch ? du * du * du * du / (256.0 * u * u * u) : PI * w->b.radius[p->i] * q->overlap;
-        put_mark(w, p, notes, m, q->p, q->across);
+        a.area = pair_patch ? du * du * du * du / (256.0 * u * u * u) : PI * w->b.radius[p->i] * q->overlap;
+        spread(w, p, notes, &a);
     }
     if (notes->n > from) share_out(p, notes->mark + from, notes->n - from);
 }
@@ -204,9 +345,8 @@ void fl_press_note(fl_world *w, const fl_pair *p, const fl_places *s, double sca
 void fl_press_note_one(fl_world *w, const fl_pair *p, fl_vec3 at, fl_vec3 n, double area)
 {
     fl_press_notes *notes = &w->press.noted[omp_get_thread_num()];
-    fl_press_mark *m = new_mark(w, p, notes);
+    fl_press_mark *m = put_mark(w, p, notes, panel_under(w, p, notes, at), at, n);
     if (!m) return;
-    put_mark(w, p, notes, m, at, n);
     m->normal = v3_dot(p->f, m->n);
     m->area = area;
     m->f = p->f;

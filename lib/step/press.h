@@ -2,9 +2,12 @@
 /* press.h -- where the ice presses on the structure: on which panels, and from which floe.
  *
  * A panel is a triangle of the mesh, or a cone as a whole.  Every place of a contact has its own normal
- * force, at its point, and falls to the nearest panel; what is left of the force of the pair, friction and
- * what rims pull, is shared out in the ratio of the normal forces.  So the panels of a part have its load, to
- * rounding.  The same places, summed over the interval for each floe and part, are the events.
+ * force. Places that stand for a strip or for an area, places.h, are spread over it again, as an even
+ * pressure with their mean and second moments, and each triangle has the share that lies over it; others fall
+ * to the nearest one as a whole.  What is left of the force of the pair, friction and what rims pull, is
+ * shared out in the ratio of the normal forces.  So the panels of a part have its load, to rounding.  The
+ * same places, summed over the interval for each floe and part, are the events.
+ *
  * w->press.panels is 0 and nothing here is called where the scene asks for neither. */
 #ifndef FL_STEP_PRESS_H
 #define FL_STEP_PRESS_H

@@ -84,6 +84,41 @@ static void the_nearest_triangle_has_it(void **state)
     }
 }
 
+/* A face that lies flat on many triangles presses on all that are under it, and on no other. */
+static void a_face_is_spread(void **state)
+{
+    enum { N = 20 };
+    lab l;
+    double mean = 0.0, under = 0.0, least = INFINITY, most = 0.0;
+    fl_vec3 middle = ZERO;
+    (void)state;
+    lab_start(&l);
+    lab_box(&l, v3(0.1, -0.05, 0.299), v3(0.91, 0.61, 0.3), 0.01, q_one(), ZERO, ZERO);
+    lab_wall(&l, v3(-2, -2, -2), v3(2, 2, 0), N); /* triangles of 0.2 m, the face from -0.8, -0.65 on */
+    lab_set(&l, "output.panels=panels");
+    lab_make(&l, 1e-5);
+    assert_int_equal(lab_run(&l, 1), 0);
+    for (int32_t k = 0; k < l.w.press.panels; k++) {
+        const fl_panel_place *p = &l.w.press.panel[k];
+        const double pressure = l.w.press.impulse[k].z / p->area;
+        mean += l.w.press.impulse[k].z;
+        middle = v3_madd(middle, l.w.press.impulse[k].z, p->middle);
+        const double dx = fabs(p->middle.x - 0.1), dy = fabs(p->middle.y + 0.05);
+        if (p->middle.z < 0.0 || dx > 0.9 + 0.3 || dy > 0.6 + 0.3) assert_near(pressure, 0, 0);
+        else if (dx < 0.9 - 0.3 && dy < 0.6 - 0.3) {
+            under += p->area;
+            least = fmin(least, -pressure);
+            most = fmax(most, -pressure);
+        }
+    }
+    assert_true(under > 0.5);
+    assert_near(least, most, 1e-9); /* even */
+    assert_near(mean, l.w.part_impulse[0].z, 1e-12);
+    assert_near_of(middle.x / mean, 0.1, 0.02, 1.0);
+    assert_near_of(middle.y / mean, -0.05, 0.02, 1.0);
+    lab_free(&l);
+}
+
 /* A face that lies flat has its area; a cone is one panel. */
 static void an_event_has_its_area(void **state)
 {
@@ -112,8 +147,8 @@ static void an_event_has_its_area(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_are_the_load),
-                                       cmocka_unit_test(the_nearest_triangle_has_it),
-                                       cmocka_unit_test(an_event_has_its_area)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sums_are_the_load), cmocka_unit_test(the_nearest_triangle_has_it),
+        cmocka_unit_test(a_face_is_spread), cmocka_unit_test(an_event_has_its_area)};
     return cmocka_run_group_tests_name("press", tests, NULL, NULL);
 }
