@@ -11,8 +11,8 @@
  *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.8 goal sum |X|,
  * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
  * it is the largest error against the largest peak, and 0.65.  Because what goes wrong between floes reaches
- * the structure later, the momenta of the floes at the end of the window must be right, too, to four times (of
- * a peak, half) the goal of the impulses they took.  The step that is taken has been tried itself.
+ * the structure later, the momenta of the floes at the end of the window must be right, too, to four times
+ * (of a peak, half) the goal of the impulses they took.  The step that is taken has been tried itself.
  *
  * It is looked at the start; before two things may meet whose kind of meeting has not been seen with nearly
  * that momentum (floe and floe, floe and each part of the structure, floe and wall); and again after ten
