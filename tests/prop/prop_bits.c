@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/par.h"
 #include "step/snapshot.h"
+#include "support/bits.h"
 #include "support/scenes.h"
 
 /* How the same run may be made. */
@@ -16,22 +16,6 @@ typedef struct {
     int64_t stop;           /* goes on in another world from this step on; 0: never */
     int32_t then;           /* threads of that world */
 } way;
-
-/* State, books and loads, every bit of them. */
-static uint64_t digest(fl_world *w)
-{
-    const fl_ledger *g = &w->ledger;
-    fl_step_ledger(w);
-    const double books[] = {g->carried,      g->kinetic,       g->gravity,     g->elastic,     g->hydrostatic,
-                            g->friction_now, g->damping_now,   g->drag,        g->wind,        g->drive_now,
-                            g->residual,     g->throughput,    w->imbalance.x, w->imbalance.y, w->imbalance.z,
-                            w->impulse_size, w->worst_overlap, w->dt_critical};
-    uint64_t h = fl_hash(fl_step_hash(w), books, (int64_t)sizeof books);
-    h = fl_hash(h, w->part_impulse, w->parts * (int64_t)sizeof *w->part_impulse);
-    h = fl_hash(h, w->part_moment, w->parts * (int64_t)sizeof *w->part_moment);
-    h = fl_hash(h, w->part_peak, w->parts * (int64_t)sizeof *w->part_peak);
-    return fl_hash(h, &w->touching_steps, (int64_t)sizeof w->touching_steps);
-}
 
 /* What is run: a scene of so many bodies to a side under a law. */
 typedef struct {
@@ -74,7 +58,7 @@ static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touc
         l = m;
         assert_int_equal(lab_run(&l, steps - how->stop), 0);
     }
-    const uint64_t got = digest(&l.w);
+    const uint64_t got = bits_of(&l.w);
     if (it->scene == scene_of_traffic) assert_true(l.w.traffic.entered > 0 && l.w.traffic.left > 0);
     *touching = l.w.touching_steps;
     *searches = l.w.searches;
@@ -125,8 +109,14 @@ static void laws(void **state)
         compare(how, sizeof how / sizeof *how, &IT[k], 200, 1000);
 }
 
-int main(void)
+/* With an argument, the bits alone: what prop_width holds its own against. */
+int main(int argc, char **argv)
 {
+    char text[BITS_TEXT];
+    if (argc > 1 && strcmp(argv[1], "--bits") == 0) {
+        bits_of_scenes(text);
+        return fputs(text, stdout) == EOF;
+    }
     const struct CMUnitTest tests[] = {cmocka_unit_test(threads_and_searches), cmocka_unit_test(laws)};
     return cmocka_run_group_tests_name("bits", tests, NULL, NULL);
 }
