@@ -14,24 +14,44 @@ typedef struct {
     double area;    /* of the fan about hub      */
     fl_vec3 moment; /* int (x - hub) dA          */
     fl_skin_piece *out;
-    int32_t pieces;
+    int32_t pieces, spoke, first; /* the pieces towards the last corner and the first, -1: none yet */
 } outline;
 
-static void side(outline *o, fl_vec3 a, fl_vec3 b)
+/* Add to the piece *at half way to x from the hub, a new one where that is -1. */
+static void spoke(outline *o, int32_t *at, fl_vec3 x, double area)
+{
+    if (*at < 0) {
+        *at = o->pieces++;
+        o->out[*at] = (fl_skin_piece){.n = o->n, .r = v3_madd(o->hub, 0.5, x)};
+    }
+    o->out[*at].area += area;
+}
+
+static void side(outline *o, fl_vec3 a, fl_vec3 b, int closing)
 {
     const fl_vec3 x = v3_sub(a, o->hub), y = v3_sub(b, o->hub);
     const double area = 0.5 * v3_dot(o->n, v3_cross(x, y));
     o->area += area;
     o->moment = v3_madd(o->moment, area / 3.0, v3_add(x, y));
-    if (!o->out || !(area > 0.0)) return;
-    const fl_vec3 middle[3] = {v3_scale(0.5, x), v3_scale(0.5, y), v3_scale(0.5, v3_add(x, y))};
-    for (int k = 0; k < 3; k++)
-        o->out[o->pieces++] = (fl_skin_piece){.area = area / 3.0, .n = o->n, .r = v3_add(o->hub, middle[k])};
+    if (!o->out) return;
+    if (!(area > 0.0)) {
+        o->spoke = -1;
+        if (o->first == -1) o->first = -2; /* then the last triangle has no neighbour there */
+        return;
+    }
+    /* a third each to the middles of the two spokes, which neighbours share, and to that of the rim */
+    spoke(o, &o->spoke, x, area / 3.0);
+    if (o->first == -1) o->first = o->spoke;
+    int32_t next = closing && o->first >= 0 ? o->first : -1;
+    spoke(o, &next, y, area / 3.0);
+    o->spoke = next;
+    next = -1;
+    spoke(o, &next, v3_add(x, y), area / 3.0);
 }
 
 static void corner(outline *o, fl_vec3 x)
 {
-    if (o->corners++) side(o, o->last, x);
+    if (o->corners++) side(o, o->last, x, 0);
     else o->head = x;
     o->last = x;
 }
@@ -50,7 +70,7 @@ static void walk(const fl_poly *p, int32_t f, fl_vec3 up, double level, double s
         from = to;
         s0 = s1;
     }
-    if (o->corners > 2) side(o, o->last, o->head);
+    if (o->corners > 2) side(o, o->last, o->head, 1);
 }
 
 int32_t fl_skin_pieces(const fl_hull *h, fl_vec3 up, double level, int dry, fl_skin_piece *out)
@@ -62,8 +82,11 @@ int32_t fl_skin_pieces(const fl_hull *h, fl_vec3 up, double level, int dry, fl_s
         outline whole = {.n = p->n[f], .hub = h->middle[f]};
         walk(p, f, up, level, sign, &whole);
         if (whole.corners < 3 || !(whole.area > 0.0)) continue;
-        outline fan = {
-            .n = p->n[f], .hub = v3_madd(whole.hub, 1.0 / whole.area, whole.moment), .out = out + pieces};
+        outline fan = {.n = p->n[f],
+                       .hub = v3_madd(whole.hub, 1.0 / whole.area, whole.moment),
+                       .out = out + pieces,
+                       .spoke = -1,
+                       .first = -1};
         walk(p, f, up, level, sign, &fan);
         pieces += fan.pieces;
     }
