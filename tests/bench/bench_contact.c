@@ -3,6 +3,8 @@
  * the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
  *     bench_contact               the table
  *     bench_contact CASE N        N evaluations of one case, for a tool that counts instructions
+ *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
+ *                                 and the forces of one that slides off it, by law
  * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm; they move by a hundredth of
  * a millimetre between evaluations, as in a step of 0.1 ms at 0.1 m/s, so that the cost of finding features
  * anew is in it.  Times are thread time of this machine now; compare rows of one run only. */
@@ -214,9 +216,57 @@ static int row(which c, const char *law)
     return bad;
 }
 
+/* --- curves ------------------------------------------------------------------------------------------------
+ */
+
+static const char *const LAW[4] = {"patch", "core", "manual-si", "manual"};
+
+/* A box of 2 by 2 by 0.5 m on one of 4 by 4 by 0.5 m, 1 mm deep, tilted or moved along x. */
+static fl_pair boxes(const char *law, double tilt, double slide)
+{
+    lab l;
+    lab_start(&l);
+    lab_setf(&l, "contact.law=%s", law);
+    const fl_quat flat = q_of_vector(v3(0, 0, 0));
+    lab_box(&l, v3(slide, 0.0, 0.499), v3(1, 1, 0.25), RADIUS, q_of_vector(v3(0, tilt, 0)), v3(0, 0, 0),
+            v3(0, 0, 0));
+    lab_box(&l, v3(0, 0, 0), v3(2, 2, 0.25), RADIUS, flat, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-9);
+    const fl_pair p = lab_look(&l.w, 0, 1);
+    lab_free(&l);
+    return p;
+}
+
+static int curves(const char *dir)
+{
+    char name[512];
+    snprintf(name, sizeof name, "%s/tilt.tsv", dir);
+    FILE *f = fopen(name, "w");
+    if (!f) return 1;
+    for (int k = -200; k <= 200; k++) {
+        const double tilt = 1e-5 * k;
+        fprintf(f, "%g", tilt);
+        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], tilt, 0.0).ti.y);
+        fprintf(f, "\n");
+    }
+    int bad = fclose(f);
+    snprintf(name, sizeof name, "%s/slide.tsv", dir);
+    f = fopen(name, "w");
+    if (!f) return 1;
+    for (int k = 0; k <= 440; k++) {
+        const double slide = 0.8 + 0.005 * k;
+        fprintf(f, "%g", slide);
+        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], 0.0, slide).f.z);
+        fprintf(f, "\n");
+    }
+    bad |= fclose(f);
+    return bad != 0;
+}
+
 int main(int argc, char **argv)
 {
     int bad = 0, rows = 0;
+    if (argc == 3 && strcmp(argv[1], "curves") == 0) return curves(argv[2]);
     if (argc == 3) {
         lab l;
         make(&l, (which)atoi(argv[1]), "patch");
@@ -229,8 +279,7 @@ int main(int argc, char **argv)
     printf("%-20s %-10s %8s %8s %10s %12s %10s %10s %10s %10s\n", "contact", "law", "matches", "places", "ns",
            "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off");
     for (int c = 0; c < CASES; c++, rows++) bad += row((which)c, "patch");
-    static const char *const LAW[] = {"core", "manual-si"};
-    for (int k = 0; k < 2; k++) {
+    for (int k = 1; k < 3; k++) {
         bad += row(SIDE_TURNED, LAW[k]) + row(FLAT_TURNED, LAW[k]);
         rows += 2;
     }
