@@ -28,7 +28,7 @@ void bits_of_scenes(char text[BITS_TEXT])
     for (size_t k = 0; k < sizeof SCENE / sizeof *SCENE; k++) {
         lab l;
         SCENE[k](&l, 4, "patch");
-        lab_set(&l, "run.threads=2");
+        lab_set(&l, "run.threads=1");
         lab_make(&l, 0);
         if (lab_run(&l, 120)) at += snprintf(text + at, (size_t)(BITS_TEXT - at), "failed ");
         at += snprintf(text + at, (size_t)(BITS_TEXT - at), "%016" PRIx64 "\n", bits_of(&l.w));

@@ -6,7 +6,7 @@
 
 uint64_t bits_of(fl_world *w);
 
-/* Of some scenes with something of everything after some steps, two threads: as hexadecimal numbers, one a
+/* Of some scenes with something of everything after some steps: as hexadecimal numbers, one a
  * line, into text. */
 enum { BITS_TEXT = 200 };
 void bits_of_scenes(char text[BITS_TEXT]);
