@@ -137,20 +137,42 @@ static void put_disc(FILE *f, fl_vec3 p, double r)
     put(f, " ", r);
 }
 
+/* Vertices and triangles come in millions: their rows are put together here, and go out as one. */
+static void put_vertex(FILE *f, fl_vec3 x)
+{
+    const double c[3] = {x.x, x.y, x.z};
+    char row[2 + 3 * FL_NUM_LEN], *end = row;
+    *end++ = 'v';
+    for (int k = 0; k < 3; k++) {
+        *end++ = ' ';
+        end += strlen(fl_num_text(c[k], end));
+    }
+    *end++ = '\n';
+    fwrite(row, 1, (size_t)(end - row), f);
+}
+
+static void put_triangle(FILE *f, const fl_tri *t)
+{
+    char row[40], *end = row + sizeof row, *p = end;
+    *--p = '\n';
+    for (int k = 2; k >= 0; k--) { /* from the last digit on */
+        int32_t n = t->v[k];
+        do *--p = (char)('0' + n % 10);
+        while ((n /= 10) > 0);
+        *--p = ' ';
+    }
+    *--p = 't';
+    fwrite(p, 1, (size_t)(end - p), f);
+}
+
 void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by)
 {
     fl_by_header(f, "g_struct", FL_GSTRUCT_VERSION, s->history, by);
     for (int32_t i = 0; i < s->n; i++) {
         const fl_part *p = &s->part[i];
         fprintf(f, "part %d %s\n", p->id, p->name);
-        for (int32_t v = 0; v < p->nv; v++) {
-            put(f, "v ", p->v[v].x);
-            put(f, " ", p->v[v].y);
-            put(f, " ", p->v[v].z);
-            fputc('\n', f);
-        }
-        for (int32_t t = 0; t < p->nt; t++)
-            fprintf(f, "t %d %d %d\n", p->t[t].v[0], p->t[t].v[1], p->t[t].v[2]);
+        for (int32_t v = 0; v < p->nv; v++) put_vertex(f, p->v[v]);
+        for (int32_t t = 0; t < p->nt; t++) put_triangle(f, &p->t[t]);
         for (int32_t c = 0; c < p->nc; c++) {
             fputs("cone", f);
             put_disc(f, p->cone[c].p0, p->cone[c].r0);
