@@ -130,14 +130,19 @@ int fl_num_f64(const char *s, double *x)
     return 0;
 }
 
+/* Indices come in millions: no detour by the C library. */
 int fl_num_i32(const char *s, int32_t lo, int32_t hi, int32_t *x)
 {
-    char *end;
-    long v;
-    if (s[strspn(s, "+-0123456789")] != '\0') return -1;
-    errno = 0;
-    v = strtol(s, &end, 10);
-    if (end == s || *end || errno || v < lo || v > hi) return -1;
+    const int minus = *s == '-';
+    const char *digit = s + (minus || *s == '+');
+    int64_t v = 0;
+    if (*digit == '\0') return -1;
+    for (; *digit >= '0' && *digit <= '9'; digit++) {
+        v = 10 * v + (*digit - '0');
+        if (v > (int64_t)INT32_MAX + 1) return -1;
+    }
+    if (minus) v = -v;
+    if (*digit || v < lo || v > hi) return -1;
     *x = (int32_t)v;
     return 0;
 }

@@ -89,7 +89,8 @@ static int read_vertex(state *o, const fl_bytes *b, fl_err *err)
 static int corner(const state *o, const fl_bytes *b, char *word, int32_t *v, fl_err *err)
 {
     int32_t i = 0;
-    word[strcspn(word, "/")] = '\0';
+    char *slash = strchr(word, '/');
+    if (slash) *slash = '\0';
     if (fl_num_i32(word, -INT32_MAX, INT32_MAX, &i) || i == 0)
         return fl_bytes_fail(
             b, err, "vertex index \"%.40s\" was found, a whole number other than 0 was wanted", word);

@@ -2,8 +2,10 @@
 /* bench_import.c -- struct-import on five million triangles (or as many as its first argument says): a torus,
  * made on the fly in each format (or in the one that the second argument names).  Time of the whole import,
  * with welding, orientation, the search for crossings and the writing of a g_struct file, beside that of `wc`
- * and, for text, of strtod() on every number of the same file in the same run; the peak of memory, and the
- * error of the volume that is told.  Compare ratios, and those within one run only. */
+ * and, for text, of strtod() on every number of the same file in the same run; all in seconds of the
+ * processor, threads added up; the elapsed time, the peak of memory, and the error of the volume that is
+ * told. wc is the one of LC_ALL=C, which does not look for letters.  Compare ratios, and those within one run
+ * only. */
 #define _DEFAULT_SOURCE /* wait4 */
 #include <fcntl.h>
 #include <math.h>
@@ -237,11 +239,21 @@ static const struct format {
               {"bdf", put_bdf, 1},        {"cdb", put_cdb, 1}};
 enum { FORMATS = sizeof FORMAT / sizeof *FORMAT };
 
-/* Seconds to read a file by pieces and to convert each number in it; nan where it cannot be read. */
+static double seconds(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
+
+static double spent(void)
+{
+    struct rusage use;
+    getrusage(RUSAGE_SELF, &use);
+    return seconds(use.ru_utime) + seconds(use.ru_stime);
+}
+
+/* Seconds of the processor to read a file by pieces and to convert each number in it; nan where it cannot be
+ * read. */
 static double read_numbers(const char *path)
 {
     static char piece[(1 << 20) + 1];
-    const double start = now();
+    const double start = spent();
     double sum = 0.0;
     size_t have = 0, got;
     FILE *f = fopen(path, "r");
@@ -258,11 +270,12 @@ static double read_numbers(const char *path)
         memmove(piece, last, have);
     }
     fclose(f);
-    return sum != 0.0 ? now() - start : (double)NAN;
+    return sum != 0.0 ? spent() - start : (double)NAN;
 }
 
-/* Run a program with stdout and stderr into files; seconds, or nan. */
-static double run(char *const argv[], const char *out, const char *said, double *gib)
+/* Run a program with stdout and stderr into files; seconds by the clock, or nan.  *cpu becomes those of all
+ * its threads. */
+static double run(char *const argv[], const char *out, const char *said, double *gib, double *cpu)
 {
     const double start = now();
     struct rusage use;
@@ -276,6 +289,7 @@ static double run(char *const argv[], const char *out, const char *said, double 
     }
     if (pid < 0 || wait4(pid, &status, 0, &use) != pid || status != 0) return NAN;
     *gib = (double)use.ru_maxrss / 1048576.0;
+    *cpu = seconds(use.ru_utime) + seconds(use.ru_stime);
     return now() - start;
 }
 
@@ -304,7 +318,7 @@ static double megabytes(const char *path)
 static int measure(const struct format *k, const struct torus *t, double volume, char *tool, const char *stem)
 {
     char mesh[PATH + 20], out[PATH + 20], said[PATH + 20], number[40] = "-", ratio[40] = "-";
-    double count, import, error, size, gib = 0.0, none;
+    double count = NAN, elapsed, import = NAN, error, size, gib = 0.0, none;
     FILE *f;
     snprintf(mesh, sizeof mesh, "%s.%s", stem, k->name);
     snprintf(out, sizeof out, "%s.dat", stem);
@@ -314,18 +328,18 @@ static int measure(const struct format *k, const struct torus *t, double volume,
     k->put(f, t);
     if (fclose(f) != 0) return 0;
     size = megabytes(mesh);
-    count = run((char *[]){"wc", mesh, NULL}, out, said, &none);
+    run((char *[]){"wc", mesh, NULL}, out, said, &none, &count);
     if (k->text) {
         const double numbers = read_numbers(mesh);
         snprintf(number, sizeof number, "%.2f", numbers);
-        import = run((char *[]){tool, mesh, NULL}, out, said, &gib);
+        elapsed = run((char *[]){tool, mesh, NULL}, out, said, &gib, &import);
         snprintf(ratio, sizeof ratio, "%.1f", import / numbers);
     } else {
-        import = run((char *[]){tool, mesh, NULL}, out, said, &gib);
+        elapsed = run((char *[]){tool, mesh, NULL}, out, said, &gib, &import);
     }
     error = fabs(told_volume(said) - volume) / volume;
-    printf("%-10s\t%d\t%.0f\t%.2f\t%s\t%.2f\t%.1f\t%s\t%.2f\t%.2g\n", k->name, triangles(t), size, count,
-           number, import, import / count, ratio, gib, error);
+    printf("%-10s\t%d\t%.0f\t%.2f\t%s\t%.2f\t%.2f\t%.1f\t%s\t%.2f\t%.2g\n", k->name, triangles(t), size,
+           count, number, import, elapsed, import / count, ratio, gib, error);
     fflush(stdout);
     remove(mesh);
     remove(out);
@@ -342,10 +356,12 @@ int main(int argc, char **argv)
     const double volume = six_volumes(&t) / 6.0;
     char stem[PATH], tool[PATH];
     int passed = 0, failed = 0;
+    setenv("LC_ALL", "C", 1);
     snprintf(tool, sizeof tool, "%.*s/../../bin/struct-import", slash ? (int)(slash - argv[0]) : 1,
              slash ? argv[0] : ".");
     snprintf(stem, sizeof stem, "%s/floe-bench-%ld", dir ? dir : "/tmp", (long)getpid());
-    printf("format\ttriangles\tfile[MB]\twc[s]\tstrtod[s]\timport[s]\timport/wc\timport/strtod\tpeak[GiB]\t"
+    printf("format\ttriangles\tfile[MB]\twc[s]\tstrtod[s]\timport[s]\telapsed[s]\timport/wc\timport/"
+           "strtod\tpeak[GiB]\t"
            "error of volume\n");
     for (int k = 0; k < FORMATS; k++) {
         if (argc > 2 && strcmp(argv[2], FORMAT[k].name) != 0) continue;
