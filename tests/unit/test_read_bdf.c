@@ -2,63 +2,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "geom/patch.h"
-#include "mesh/read_mesh.h"
-#include "support/mesh.h"
-#include "support/near.h"
-
-static fl_err err;
-static fl_surface s;
-static char note[FL_MESH_NOTE];
+#include "support/decks.h"
 
 /* Corners 1 to 8 of a unit cube in free field. */
 #define CUBE                                                                                                 \
     "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\n"             \
     "GRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
 #define HEX "CHEXA,1,1,1,2,3,4,5,6,+\n+,7,8\n"
-
-static int setup(void **state)
-{
-    (void)state;
-    err = (fl_err){0};
-    s = (fl_surface){0};
-    return 0;
-}
-
-static int clear(void **state)
-{
-    (void)state;
-    fl_surface_free(&s);
-    err = (fl_err){0};
-    return 0;
-}
-
-static int read_text(const char *text)
-{
-    clear(NULL);
-    return fl_mesh_read(&s, test_file("deck.bdf", text, strlen(text)), note, &err);
-}
-
-static fl_quality reads(const char *text)
-{
-    fl_quality q;
-    if (read_text(text)) fail_msg("%s", err.text);
-    assert_true(mesh_sound(&s));
-    assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
-    return q;
-}
-
-static void refuses(const char *text, const char *why)
-{
-    if (read_text(text) == 0) fail_msg("read, but \"%s\" was wanted", why);
-    assert_int_equal(err.code, FL_INPUT);
-    if (!strstr(err.text, why)) fail_msg("\"%s\" is not in \"%s\"", why, err.text);
-}
-
-static void says(const char *what)
-{
-    if (!strstr(note, what)) fail_msg("\"%s\" is not in \"%s\"", what, note);
-}
 
 /* --- fields --------------------------------------------------------------------------------------------- */
 
@@ -93,14 +43,14 @@ static void fields_of_every_kind(void **state)
         assert_string_equal(s.part[0].name, "property_1");
         says("8 nodes; elements: hex8 1");
     }
-    refuses("GRID,1,,0.,0.,0.,,,,,7\n", "deck.bdf:1: 10 fields behind the name");
-    refuses("GRID,x\n", "deck.bdf:1: field 2 of GRID is \"x\", a whole number was wanted");
+    refuses("GRID,1,,0.,0.,0.,,,,,7\n", "deck:1: 10 fields behind the name");
+    refuses("GRID,x\n", "deck:1: field 2 of GRID is \"x\", a whole number was wanted");
     refuses("GRID\n", "field 2 of GRID is \"\", a number of 1 or more was wanted");
-    refuses("\n$ c\nGRID,1,,1.e999\n" HEX, "deck.bdf:3: field 4 of GRID is \"1.e999\", a number was wanted");
+    refuses("\n$ c\nGRID,1,,1.e999\n" HEX, "deck:3: field 4 of GRID is \"1.e999\", a number was wanted");
     refuses("GRID,1,-2\n", "field 3 of GRID is \"-2\", 0 or more was wanted");
-    refuses(CUBE "CHEXA,1,1,1,2,3,4,5,6\n", "deck.bdf:9: field 10 of CHEXA is \"\"");
+    refuses(CUBE "CHEXA,1,1,1,2,3,4,5,6\n", "deck:9: field 10 of CHEXA is \"\"");
     refuses(CUBE "CTRIA3,1,-1,1,2,3\n", "field 3 of CTRIA3 is \"-1\", a property was wanted");
-    refuses(CUBE "CTRIA3,1,1,1,2,9\n", "deck.bdf:9: the element wants node 9, which is defined nowhere");
+    refuses(CUBE "CTRIA3,1,1,1,2,9\n", "deck:9: the element wants node 9, which is defined nowhere");
     refuses(CUBE, "no triangles");
 }
 
@@ -139,7 +89,7 @@ static void elements_of_every_kind(void **state)
         "CELAS2,5,1.,1,1\nCONM2,6,1\nCBUSH,7,1,1\nCELAS2,8\nRBE2,9,1,123456,2,3,4\nPLOTEL,1,2,3\nCTRIAX6,10\n"
         "CSET1,3\nCMETHOD,1\n");
     says("passed over: CELAS2 2, CONM2 1, CBUSH 1, RBE2 1, PLOTEL 1, CTRIAX6 1");
-    refuses(CUBE HEX "=,*1,=,*1.,==\n", "deck.bdf:11: replication (=) is not read");
+    refuses(CUBE HEX "=,*1,=,*1.,==\n", "deck:11: replication (=) is not read");
     refuses("BEGIN SUPER=1\n" CUBE HEX, "BEGIN SUPER is not read");
 }
 
@@ -230,16 +180,15 @@ static void broken_systems(void **state)
     (void)state;
 #define TRI "CTRIA3,1,1,1,2,3\n"
     refuses("GRID,1,7\nGRID,2\nGRID,3\n" TRI,
-            "deck.bdf:1: grid 1 wants coordinate system 7, which is defined nowhere");
+            "deck:1: grid 1 wants coordinate system 7, which is defined nowhere");
     refuses("CORD2R,5,6,10.,0.,0.,10.,0.,1.\n,10.,1.,0.\nGRID,1,5\nGRID,2\nGRID,3\n" TRI,
-            "deck.bdf:1: coordinate system 6 is defined nowhere");
+            "deck:1: coordinate system 6 is defined nowhere");
     refuses("CORD2R,5,6,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2R,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,"
             "5\nGRID,2\nGRID,3\n" TRI,
             "is defined by itself");
     refuses("CORD1R,5,1,2,3\nGRID,1,5\nGRID,2,,1.\nGRID,3,,0.,1.\n" TRI,
-            "deck.bdf:2: grid 1 stands in a coordinate system that it defines");
-    refuses("CORD1R,5,2,3,4\nGRID,1,5\nGRID,2,,1.\nGRID,3,,0.,1.\n" TRI,
-            "deck.bdf:1: grid 4 is defined nowhere");
+            "deck:2: grid 1 stands in a coordinate system that it defines");
+    refuses("CORD1R,5,2,3,4\nGRID,1,5\nGRID,2,,1.\nGRID,3,,0.,1.\n" TRI, "deck:1: grid 4 is defined nowhere");
     refuses("CORD1R,5,2,3,2\nGRID,1,5\nGRID,2,,1.\nGRID,3,,0.,1.\n" TRI,
             "the points of coordinate system 5 lie on one line");
     refuses("CORD1R,5,2\nGRID,1,5\nGRID,2,,1.\nGRID,3,,0.,1.\n" TRI, "field 4 of CORD1R is \"\"");
@@ -276,8 +225,8 @@ static void files_are_included(void **state)
     refuses(deck, "neither STL"); /* without quotes it could be anything, so it does not tell the kind ... */
     snprintf(deck, sizeof deck, "BEGIN BULK\n" HEX "  INCLUDE %s\n", name);
     assert_near(reads(deck).volume, 1.0, 0.0); /* ... but is read */
-    refuses("INCLUDE 'none.bdf'\n", "deck.bdf:1: the included file is wanted here, but ");
-    refuses("INCLUDE 'none.bdf\n", "deck.bdf:1: the name of the file to include has no closing quote");
+    refuses("INCLUDE 'none.bdf'\n", "deck:1: the included file is wanted here, but ");
+    refuses("INCLUDE 'none.bdf\n", "deck:1: the name of the file to include has no closing quote");
     refuses("BEGIN BULK\nINCLUDE '\n'\n", "a file to include was wanted");
 }
 

@@ -2,33 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include "mesh/read_mesh.h"
-#include "support/mesh.h"
-#include "support/near.h"
-
-static fl_err err;
-static char note[FL_MESH_NOTE];
-static fl_surface s;
-
-static int read_some(const char *text, fl_wish *w)
-{
-    fl_surface_free(&s);
-    err = (fl_err){0};
-    return fl_mesh_read_some(&s, test_file("deck", text, strlen(text)), w, note, &err);
-}
-
-static void reads(const char *text)
-{
-    if (read_some(text, NULL)) fail_msg("%s", err.text);
-    assert_true(mesh_sound(&s));
-}
-
-static void refuses(const char *text, const char *why)
-{
-    assert_int_equal(read_some(text, NULL), -1);
-    assert_int_equal(err.code, FL_INPUT);
-    if (!strstr(err.text, why)) fail_msg("\"%s\" says nothing of \"%s\"", err.text, why);
-}
+#include "support/decks.h"
 
 static fl_aabb box(void) { return fl_surface_aabb(&s); }
 

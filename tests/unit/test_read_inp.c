@@ -2,80 +2,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "geom/patch.h"
 #include "mesh/inp_type.h"
 #include "mesh/read_inp.h"
-#include "mesh/read_mesh.h"
-#include "support/mesh.h"
-#include "support/near.h"
-
-static fl_err err;
-static fl_surface s;
-static char note[FL_MESH_NOTE];
+#include "support/decks.h"
 
 /* Eight corners of a unit cube, numbered 1 to 8, behind *NODE. */
 #define CUBE                                                                                                 \
     "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, "   \
     "1\n"
 #define HEX "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
-
-static int setup(void **state)
-{
-    (void)state;
-    err = (fl_err){0};
-    s = (fl_surface){0};
-    return 0;
-}
-
-static int clear(void **state)
-{
-    (void)state;
-    fl_surface_free(&s);
-    err = (fl_err){0};
-    return 0;
-}
-
-static int read_some(const char *text, fl_wish *w)
-{
-    clear(NULL);
-    return fl_mesh_read_some(&s, test_file("deck.inp", text, strlen(text)), w, note, &err);
-}
-
-static fl_quality reads(const char *text)
-{
-    fl_quality q;
-    if (read_some(text, NULL)) fail_msg("%s", err.text);
-    assert_true(mesh_sound(&s));
-    assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
-    return q;
-}
-
-/* What is like the pattern. */
-static fl_quality takes(const char *text, const char *pattern)
-{
-    const char *const list[] = {pattern};
-    char hit[1] = {0};
-    fl_wish w = {.pattern = list, .patterns = 1, .hit = hit};
-    fl_quality q;
-    if (read_some(text, &w)) fail_msg("%s: %s", pattern, err.text);
-    if (!hit[0]) fail_msg("nothing is like %s", pattern);
-    assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
-    return q;
-}
-
-static void refuses(const char *text, const char *why)
-{
-    const char *const list[] = {"*"};
-    fl_wish w = {.pattern = list, .patterns = 1};
-    if (read_some(text, &w) == 0) fail_msg("read, but \"%s\" was wanted", why);
-    assert_int_equal(err.code, FL_INPUT);
-    if (!strstr(err.text, why)) fail_msg("\"%s\" is not in \"%s\"", why, err.text);
-}
-
-static void says(const char *what)
-{
-    if (!strstr(note, what)) fail_msg("\"%s\" is not in \"%s\"", what, note);
-}
 
 /* --- lines ---------------------------------------------------------------------------------------------- */
 
@@ -119,9 +54,8 @@ static void elements_go_on(void **state)
     assert_int_equal(s.n, 1);
     assert_near(q.area, 2.0, 1e-15);
     refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n2, 5, 6, 7, 8\n",
-            "deck.inp:12: element 1 has more than 4 nodes");
-    refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n*STEP\n",
-            "deck.inp:11: element 1 has 3 nodes, 4 were wanted");
+            "deck:12: element 1 has more than 4 nodes");
+    refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n*STEP\n", "deck:11: element 1 has 3 nodes, 4 were wanted");
 }
 
 /* --- types ---------------------------------------------------------------------------------------------- */
@@ -237,8 +171,7 @@ static void sets_name_sets(void **state)
     assert_int_equal(s.n, 2);
     refuses(ROW "*ELSET, ELSET=A\n1, NONE\n", "\"A\" wants \"NONE\", which is defined nowhere");
     refuses(ROW "*ELSET, ELSET=A\nB\n*ELSET, ELSET=B\nC\n*ELSET, ELSET=C\nA\n", "\"A\" contains itself");
-    refuses(ROW "*ELSET, ELSET=A, GENERATE\n5, 1\n",
-            "deck.inp:30: from 5 to 1 by 1: a rising range was wanted");
+    refuses(ROW "*ELSET, ELSET=A, GENERATE\n5, 1\n", "deck:30: from 5 to 1 by 1: a rising range was wanted");
     refuses(ROW "*ELSET, GENERATE\n1, 5\n", "*ELSET wants ELSET=");
 }
 
@@ -419,9 +352,9 @@ static void broken_assemblies(void **state)
     refuses("*PART\n", "*PART wants NAME=");
     refuses("*INSTANCE, NAME=I, LIBRARY=old\n", "from an earlier analysis is not read");
     refuses(CUBE HEX "*ELSET, ELSET=A, INSTANCE=I\n1\n", "there is no instance I");
-    refuses("*PART, NAME=P\n*NODE\n1, x\n", "deck.inp:3: field 2 is \"x\", a number was wanted");
+    refuses("*PART, NAME=P\n*NODE\n1, x\n", "deck:3: field 2 is \"x\", a number was wanted");
     refuses(PART("P", "*NODE\n1\n2, 1\n*ELEMENT, TYPE=S3\n1, 1, 2, 7\n") "*INSTANCE, NAME=I, PART=P\n",
-            "deck.inp:6: the element wants node 7, which is defined nowhere");
+            "deck:6: the element wants node 7, which is defined nowhere");
 }
 
 /* --- coordinates and generation ------------------------------------------------------------------------- */
@@ -498,9 +431,9 @@ static void files_are_included(void **state)
     snprintf(deck, sizeof deck, "*NODE\n*INCLUDE, INPUT=\"%s\"\n9, 5, 5, 5\n" HEX, nodes);
     assert_near(reads(deck).volume, 1.0, 0.0);
     says("9 nodes");
-    refuses("*INCLUDE, INPUT=none.inp\n", "deck.inp:1: the included file is wanted here, but ");
+    refuses("*INCLUDE, INPUT=none.inp\n", "deck:1: the included file is wanted here, but ");
     refuses("*INCLUDE\n", "*INCLUDE wants INPUT=");
-    snprintf(deck, sizeof deck, "*INCLUDE, INPUT=%s\n", strrchr(test_path("deck.inp"), '/') + 1);
+    snprintf(deck, sizeof deck, "*INCLUDE, INPUT=%s\n", strrchr(test_path("deck"), '/') + 1);
     refuses(deck, "is included in itself");
 }
 
@@ -513,10 +446,10 @@ static void what_is_not_read_is_named(void **state)
         char deck[1000];
         snprintf(deck, sizeof deck, CUBE HEX "*%s\n1\n", word[k]);
         refuses(deck, "is not read: export the deck with all nodes and elements written out");
-        assert_non_null(strstr(err.text, "deck.inp:12: *"));
+        assert_non_null(strstr(err.text, "deck:12: *"));
     }
     refuses("*KEYWORD\n*NODE\n       1  0.0\n", "a deck of LS-DYNA is not read");
-    refuses("*NODE\n1, 0, 1e999\n", "deck.inp:2: field 3 is \"1e999\", a number was wanted");
+    refuses("*NODE\n1, 0, 1e999\n", "deck:2: field 3 is \"1e999\", a number was wanted");
     refuses("*NODE\n0, 0, 1\n", "field 1 is \"0\", a number of 1 or more was wanted");
     refuses("*NODE\n       1         0.0\n", "field 1 is ");
     refuses("*ELEMENT\n1, 1, 2, 3\n", "*ELEMENT wants TYPE=");

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* decks.h -- decks of finite elements written in a test, and what is read of them.  For one source file each:
+ * all of it is static. */
+#ifndef FL_TESTS_DECKS_H
+#define FL_TESTS_DECKS_H
+#include <string.h>
+#include "geom/patch.h"
+#include "mesh/read_mesh.h"
+#include "support/mesh.h"
+#include "support/near.h"
+
+static fl_err err;
+static fl_surface s; /* what was read last */
+static char note[FL_MESH_NOTE];
+
+static inline int setup(void **state)
+{
+    (void)state;
+    err = (fl_err){0};
+    s = (fl_surface){0};
+    return 0;
+}
+
+static inline int clear(void **state)
+{
+    (void)state;
+    fl_surface_free(&s);
+    err = (fl_err){0};
+    return 0;
+}
+
+/* The text as a file called "deck". */
+static inline int read_some(const char *text, fl_wish *w)
+{
+    clear(NULL);
+    return fl_mesh_read_some(&s, test_file("deck", text, strlen(text)), w, note, &err);
+}
+
+/* It is read, and this is how good it is. */
+static inline fl_quality reads(const char *text)
+{
+    fl_quality q;
+    if (read_some(text, NULL)) fail_msg("%s", err.text);
+    assert_true(mesh_sound(&s));
+    assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
+    return q;
+}
+
+/* What is like the pattern. */
+static inline fl_quality takes(const char *text, const char *pattern)
+{
+    const char *const list[] = {pattern};
+    char hit[1] = {0};
+    fl_wish w = {.pattern = list, .patterns = 1, .hit = hit};
+    fl_quality q;
+    if (read_some(text, &w)) fail_msg("%s: %s", pattern, err.text);
+    if (!hit[0]) fail_msg("nothing is like %s", pattern);
+    assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
+    return q;
+}
+
+/* It is refused as it is, or else when every part and set is asked for, and the sentence has this in it. */
+static inline void refuses(const char *text, const char *why)
+{
+    const char *const list[] = {"*"};
+    fl_wish w = {.pattern = list, .patterns = 1};
+    if (read_some(text, NULL) == 0 && read_some(text, &w) == 0) fail_msg("read, but \"%s\" was wanted", why);
+    assert_int_equal(err.code, FL_INPUT);
+    if (!strstr(err.text, why)) fail_msg("\"%s\" is not in \"%s\"", why, err.text);
+}
+
+/* A remark has this in it. */
+static inline void says(const char *what)
+{
+    if (!strstr(note, what)) fail_msg("\"%s\" is not in \"%s\"", what, note);
+}
+
+#endif
