@@ -76,7 +76,7 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
     const double mi = w->b.m[i], mj = w->b.m[j];
     *p = (fl_pair){.i = i, .j = j, .law = fl_pairing_law(w, i, j)};
     p->k = fl_pairing_stiffness(w, i, j, &p->exponent);
-    p->mass = w->b.invm[j] > 0.0 ? mi * mj / (mi + mj) : mi;
+    p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
 }
 
 void fl_pair_end(fl_pair *p) { fl_matches_free(&p->matches); }

@@ -167,8 +167,8 @@ int fl_ride_make(fl_world *w, const fl_surface *surface, fl_err *err)
         const fl_motion *motion = &r->m.motion[m];
         r->arm[k] = v3_sub(w->b.x[j], motion->reference);
         r->turn[k] = w->b.q[j];
-        if (motion->free) { /* the compliance of a place on it, but for turns: see fl_ride_survey() */
-            w->b.m[j] = r->m.b.m[m];
+        if (motion->free) { /* compliance of a place but for turns, see the survey; 1 where none is free */
+            w->b.m[j] = motion->free & 7u ? r->m.b.m[m] : 0.0;
             w->b.invm[j] = r->m.b.invm[m];
             w->b.I[j] = v3(INFINITY, INFINITY, INFINITY);
         }
@@ -247,12 +247,12 @@ void fl_ride_survey(fl_world *w)
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t m = r->of[k], j = w->n + k;
         if (m < 0 || !r->m.motion[m].free) continue;
-        double sum = 0.0; /* of slope/m */
+        double sum = 0.0; /* of slope times invm */
         for (int64_t c = w->inc_first[j]; c < w->inc_first[j + 1]; c++) {
             const fl_pair *p = &w->pair[w->inc[c]];
             if (p->n) sum += p->stiff_j;
         }
-        r->slope[m] += sum * r->m.b.m[m] * fl_motion_soft(&r->m.motion[m], arm_of(w, k));
+        r->slope[m] += sum / w->b.invm[j] * fl_motion_soft(&r->m.motion[m], arm_of(w, k));
     }
     for (int32_t m = 0; m < r->m.n; m++) {
         const double sum = 2.0 * r->slope[m] + fl_motion_stiff(&r->m.motion[m]);

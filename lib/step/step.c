@@ -348,5 +348,13 @@ uint64_t fl_step_hash(const fl_world *w)
         h = fl_hash(h, &b->v[i], sizeof b->v[i]);
         h = fl_hash(h, &b->L[i], sizeof b->L[i]);
     }
+    for (int32_t k = 0; k < w->ride.m.n; k++) {
+        const fl_bodies *m = &w->ride.m.b;
+        if (!w->ride.m.motion[k].free) continue;
+        h = fl_hash(h, &m->x[k], sizeof m->x[k]);
+        h = fl_hash(h, &m->q[k], sizeof m->q[k]);
+        h = fl_hash(h, &m->v[k], sizeof m->v[k]);
+        h = fl_hash(h, &m->L[k], sizeof m->L[k]);
+    }
     return h;
 }

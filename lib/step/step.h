@@ -32,7 +32,8 @@ fl_works fl_step_works(const fl_world *w);
 /* Stores, sinks and residual now, into w->ledger. */
 void fl_step_ledger(fl_world *w);
 
-/* Hash of positions, orientations, velocities and angular momenta of all floes. */
+/* Hash of positions, orientations, velocities and angular momenta of all floes, and of what of the structure
+ * moves by itself. */
 uint64_t fl_step_hash(const fl_world *w);
 
 #endif

@@ -531,6 +531,29 @@ static void bounce(void)
     }
 }
 
+/* A ball on a gate that turns about an axis: the mass that it meets is I/a^2. */
+static void gate(void)
+{
+    const double e = 0.4, m = 4.0 / 3.0 * PI * 0.125 * 900, a = 1.5, I = 0.7 * m * a * a, M = I / (a * a);
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "contact.restitution=0.4");
+    lab_set(&l, "material.ice.young=10 MPa");
+    lab_set(&l, "run.safety=0.02");
+    lab_sphere(&l, v3(-0.62, a, 0), 0.5, v3(1, 0, 0), ZERO);
+    lab_wall(&l, v3(-0.1, 0, -1), v3(0.1, 2, 1), 1);
+    lab_set(&l, "structure.free=rz");
+    lab_setf(&l, "structure.inertia=0 0 %.17g", I);
+    lab_make(&l, 0);
+    for (int64_t n = 0; n < 1000000 && (n < 10 || l.w.pair[0].n || l.w.touching_steps == 0); n++)
+        if (lab_run(&l, 1)) break;
+    verify_row("free", "a ball on a gate of 0.7 of its mass: its speed after", l.w.b.v[0].x,
+               (m - e * M) / (m + M), 3e-3, VERIFY_ABS);
+    verify_row("free", "  that of the gate [rad/s]", l.w.ride.m.b.w[0].z, -m * (1 + e) / (m + M) / a, 3e-3,
+               VERIFY_ABS);
+    lab_free(&l);
+}
+
 /* A structure that comes to the ice loads it as ice that comes to the structure. */
 static void galilei(void)
 {
@@ -654,6 +677,7 @@ int main(void)
     rolling();
     tumbling();
     bounce();
+    gate();
     galilei();
     together();
     ledger();
