@@ -9,6 +9,7 @@ BEGIN {
         bad = 2
         exit bad
     }
+    gone_x = gone_y = 0
 }
 /^#/ || NF == 0 { next }
 $1 == "shape" { shape = $2; radius[shape] = $3; n[shape] = 0; in_part = 0; next }
