@@ -162,6 +162,13 @@ typedef struct {
     double inflow_speed;             /* [m/s]; 0: auto, that of the current */
     double inflow_pitch;             /* [m]; 0: auto, the length of the field */
     int32_t room;                    /* floes there is room for besides those of the start; 0: auto */
+    fl_vec3 drive;                   /* velocity of an edge row of ice [m/s] */
+    char drive_group[FL_SCENE_NAME]; /* the floes that are driven; "": by drive_width */
+    double drive_width;              /* [m]; 0: none */
+    int32_t drive_edge;              /* 0 auto, else 1 + that of inflow_from */
+    uint32_t drive_fixed;            /* FL_FIX_X | ... */
+    double drive_spring;             /* [N/m] */
+    double drive_foundation;         /* [N/m3] */
     double foundation, damping;      /* of an elastic wall, per area [N/m3], [N s/m3] */
 } fl_scene_boundary;
 

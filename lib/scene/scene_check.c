@@ -100,6 +100,28 @@ static int check_contacts(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+static int check_drive(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->boundary;
+    const double v[] = {b->drive.x, b->drive.y, b->drive.z};
+    const int row = b->drive_width > 0.0, group = b->drive_group[0] != '\0';
+    if (row && group)
+        return fl_scene_fail(s, "boundary.drive_group", err,
+                             "drive_width and drive_group both say which floes are driven: one was wanted");
+    if (v3_norm(b->drive) > 0.0 && !row && !group)
+        return fl_scene_fail(s, "boundary.drive", err,
+                             "boundary.drive moves no floe: drive_width or drive_group was wanted");
+    if (row && b->drive_edge == 0 && !(fabs(v[0]) > 0.0 || fabs(v[1]) > 0.0))
+        return fl_scene_fail(s, "boundary.drive_width", err,
+                             "boundary.drive has no direction along x or y: drive_edge was wanted");
+    for (int c = 0; c < 3 && (row || group); c++)
+        if (v[c] != 0.0 && !(b->drive_fixed >> c & 1u))
+            return fl_scene_fail(s, "boundary.drive", err,
+                                 "boundary.drive along %c is %g m/s, and %c is not among drive_fixed",
+                                 'x' + c, v[c], 'x' + c);
+    return 0;
+}
+
 static int check_inflow(const fl_scene *s, fl_err *err)
 {
     const fl_scene_boundary *b = &s->boundary;
@@ -152,6 +174,7 @@ static int check_boundary(const fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "boundary.type", err,
                              "z is periodic, and there is [water], which has one surface: one of the two was "
                              "wanted");
+    if (check_drive(s, err)) return -1;
     return s->boundary.inflow == FL_INFLOW_NONE ? 0 : check_inflow(s, err);
 }
 

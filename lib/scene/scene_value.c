@@ -295,6 +295,10 @@ static int read_fixed(const complaint *c, const char *text, uint32_t *out)
 
 static int read_name(const complaint *c, const char *text, char *out)
 {
+    if (c->key->special && strcmp(text, c->key->special) == 0) {
+        out[0] = '\0';
+        return 0;
+    }
     if (!fl_value_is_name(text))
         return wrong(c, "is \"%.60s\", a name of letters, digits, _ + - and at most %d characters was wanted",
                      text, FL_SCENE_NAME - 1);

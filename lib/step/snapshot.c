@@ -170,10 +170,9 @@ static void coming(traffic *t, fl_world *w)
             fl_text_fail(t->in, t->err, "place %d has no floe of its own", i);
             continue;
         }
-        if (floe != c->floe[i] &&
-            fl_world_put(w, i, floe < 0 ? c->ice : c->feed, floe < 0 ? i : floe, t->err))
-            continue;
+        const int other = floe != c->floe[i];
         c->floe[i] = floe;
+        if (other && fl_world_put(w, i, floe < 0 ? c->ice : c->feed, floe < 0 ? i : floe, t->err)) continue;
         w->id[i] = id;
         c->hold[i] = w->b.hold[i];
         if (c->guided[i]) w->b.hold[i] = FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;

@@ -39,6 +39,14 @@ static void kick(fl_world *w, int32_t k, double h)
     if (w->sea.waves) fl_sea_book(&w->sea, &w->b, k, h, v, spin);
 }
 
+/* What the spring of a driven floe pulls it down with [N]. */
+static double spring_force(const fl_world *w, int32_t i)
+{
+    double drawn = 0.0;
+    const double k = fl_world_spring(w, i, &drawn);
+    return k * drawn;
+}
+
 void fl_step_gather(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
@@ -48,6 +56,7 @@ void fl_step_gather(fl_world *w, int32_t k)
         b->f[k] = v3_scale(b->m[k], w->gravity);
         if (w->sea.water) fl_sea_force(&w->sea, b, k);
     }
+    if (w->row.n && k < w->n) b->f[k].z -= spring_force(w, k);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         const fl_pair *p = &w->pair[w->inc[c]];
         if (p->n == 0) continue;
@@ -201,6 +210,7 @@ static void account(fl_world *w, double dt)
         fl_vec3 f = b->f[k];
         if (k < w->n) {
             if (fl_world_away(w, k)) continue;
+            if (w->row.n) f.z += spring_force(w, k);
             f = v3_madd(f, -b->m[k], w->gravity);
             if (w->sea.water) f = v3_sub(f, fl_sea_push(&w->sea, k));
         }
@@ -296,6 +306,11 @@ void fl_step_ledger(fl_world *w)
         if (there) kinetic += fl_body_kinetic(b, i);
         if (there) gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
         held += b->held[i];
+        if (w->row.n && there) {
+            double drawn = 0.0;
+            const double k = fl_world_spring(w, i, &drawn);
+            elastic += 0.5 * k * drawn * drawn;
+        }
         if (b->added) drag -= b->carried[i];
         if (w->sea.n) {
             if (w->sea.water && there) hydro += w->sea.energy[i];

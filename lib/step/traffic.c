@@ -123,6 +123,7 @@ static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     fl_traffic *t = &w->traffic;
     fl_bodies *b = &w->b;
     double front = -INFINITY;
+    t->floe[i] = k;
     if (fl_world_put(w, i, t->feed, k, err)) return -1;
     for (int32_t v = 0; v < b->core[i].nv; v++)
         front = fmax(front, along(t, v3_add(b->x[i], m3_mul(b->R[i], b->core[i].v[v]))));
@@ -131,7 +132,6 @@ static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : way, t->axis ? way : 0.0, 0.0));
     b->v[i] = drift;
     fl_body_spin(b, i, v3(0, 0, 0));
-    t->floe[i] = k;
     return 0;
 }
 

@@ -402,6 +402,58 @@ static int make_traffic(fl_world *w, const fl_field *field, const fl_field *feed
     return 0;
 }
 
+/* Which floes of the ice are driven. */
+static int make_row(fl_world *w, const fl_field *field, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    const double v = fabs(s->drive.x) >= fabs(s->drive.y) ? s->drive.x : s->drive.y;
+    const int auto_axis = fabs(s->drive.x) < fabs(s->drive.y);
+    /* the edge is where `sign` times the coordinate is least */
+    const fl_traffic edge = {.axis = s->drive_edge ? (s->drive_edge - 1) / 2 : auto_axis,
+                             .sign =
+                                 s->drive_edge ? (s->drive_edge % 2 ? 1.0 : -1.0) : (v > 0.0 ? 1.0 : -1.0)};
+    double back = INFINITY;
+    int some = 0;
+    if (!s->head.present || (s->drive_width <= 0.0 && !s->drive_group[0])) return 0;
+    w->row.in = fl_alloc(field->n, sizeof *w->row.in, err);
+    w->row.k = fl_alloc(field->n, sizeof *w->row.k, err);
+    w->row.rest = fl_alloc(field->n, sizeof *w->row.rest, err);
+    if (!w->row.in || !w->row.k || !w->row.rest) return -1;
+    w->row.n = field->n;
+    for (int32_t k = 0; k < field->n; k++) back = fmin(back, extent(&edge, field, k, -1.0));
+    for (int32_t k = 0; k < field->n; k++) {
+        const double middle = 0.5 * (extent(&edge, field, k, -1.0) + extent(&edge, field, k, 1.0));
+        const char *group = field->group[k] < 0 ? "" : field->groups.name[field->group[k]];
+        w->row.in[k] =
+            s->drive_group[0] ? strcmp(group, s->drive_group) == 0 : middle - back <= s->drive_width;
+        some |= w->row.in[k];
+    }
+    if (some) return 0;
+    if (s->drive_group[0])
+        return fl_fail(err, FL_INPUT, "%s: no body is of the group %s, which boundary.drive_group names",
+                       w->scene->ice.file, s->drive_group);
+    return fl_fail(err, FL_INPUT, "%s: no body is within %g m of the edge, boundary.drive_width",
+                   w->scene->ice.file, s->drive_width);
+}
+
+/* Drive the floe in place i. */
+static void drive_body(fl_world *w, int32_t i)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_bodies *b = &w->b;
+    const fl_vec3 spin = b->w[i];
+    const unsigned fixed = s->drive_fixed;
+    b->hold[i] = (uint8_t)fixed;
+    if (fixed & FL_HOLD_X) b->v[i].x = s->drive.x;
+    if (fixed & FL_HOLD_Y) b->v[i].y = s->drive.y;
+    if (fixed & FL_HOLD_Z) b->v[i].z = s->drive.z;
+    fl_body_spin(b, i,
+                 v3(fixed & FL_HOLD_RX ? 0.0 : spin.x, fixed & FL_HOLD_RY ? 0.0 : spin.y,
+                    fixed & FL_HOLD_RZ ? 0.0 : spin.z));
+    w->row.k[i] = fixed & FL_HOLD_Z ? 0.0 : s->drive_spring + s->drive_foundation * w->face[i];
+    w->row.rest[i] = b->x[i].z;
+}
+
 int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_err *err)
 {
     fl_poly outer = {0};
@@ -414,7 +466,9 @@ int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_er
                     (w->bed.hull && make_bed(w, i, &outer, err)) ||
                     (w->sea.n && make_hull(w, i, &outer, err));
     fl_poly_free(&outer);
-    return bad ? -1 : 0;
+    if (bad) return -1;
+    if (i < w->row.n && w->row.in[i] && !(w->traffic.away && w->traffic.floe[i] >= 0)) drive_body(w, i);
+    return 0;
 }
 
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
@@ -442,7 +496,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     }
     if (make_walls(w, err)) goto fail;
     make_cell(w);
-    if (make_traffic(w, field, feed, err)) goto fail;
+    if (make_traffic(w, field, feed, err) || make_row(w, field, err)) goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
         make_beds(w, err) || make_sea(w, err))
@@ -487,6 +541,7 @@ void fl_world_free(fl_world *w)
         if (w->bed.outer) fl_poly_free(&w->bed.outer[i]);
     }
     free(w->bed.hull), free(w->bed.outer);
+    free(w->row.in), free(w->row.k), free(w->row.rest);
     free(w->traffic.away), free(w->traffic.born), free(w->traffic.lag), free(w->traffic.tile);
     free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
     for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
@@ -572,7 +627,9 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *damping
             damp = fmax(damp, fl_pairing_law(w, i, j)->chi);
         }
         /* two equal bodies on one spring: twice the compliance */
-        const double omega2 = 2.0 * places * stiffest * softest(w, i);
+        double drawn;
+        const double omega2 =
+            2.0 * places * stiffest * softest(w, i) + fl_world_spring(w, i, &drawn) * w->b.invm[i];
         if (omega2 > most) {
             most = omega2;
             *body = i;

@@ -165,6 +165,14 @@ typedef struct {
     int64_t waited, missed; /* floes whose place was taken; that had to be given up a pitch later */
 } fl_traffic;
 
+/* The edge row of ice that is driven: held at a velocity, and on a spring in heave where that is free. */
+typedef struct {
+    int32_t n;    /* floes of the ice file, or 0: nobody is driven */
+    uint8_t *in;  /* [n] is driven */
+    double *k;    /* [n] spring [N/m]            */
+    double *rest; /* [n] the height it pulls to [m] */
+} fl_row;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
@@ -175,6 +183,7 @@ typedef struct {
     fl_press press;
     fl_beds bed;
     fl_traffic traffic;
+    fl_row row;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */
     int32_t *material; /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */
@@ -240,6 +249,15 @@ static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(
 /* Put floe k of a field into place i, whoever was there before: at the field's own pose, at rest in the
  * books. -1 as fl_world_make(). */
 int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_err *err);
+
+/* The spring of a driven floe in place i: its stiffness [N/m], 0 where there is none, and how far it is drawn
+ * upwards of its rest [m]. */
+static inline double fl_world_spring(const fl_world *w, int32_t i, double *drawn)
+{
+    if (i >= w->row.n || !w->row.in[i] || (w->traffic.away && w->traffic.floe[i] >= 0)) return 0.0;
+    *drawn = w->b.x[i].z - w->row.rest[i];
+    return w->row.k[i];
+}
 
 /* The number by which tables call a thing: the id of a floe; -1 - part of the structure; walls after those.
  */

@@ -107,4 +107,7 @@ void scene_of_traffic(lab *l, int32_t side, const char *law)
     lab_setf(l, "boundary.max=%.17g %.17g none", half - 0.85, half + 0.45);
     lab_set(l, "boundary.inflow=ice");
     lab_set(l, "boundary.inflow_speed=20 m/s");
+    lab_set(l, "boundary.drive=0.5 0 0");
+    lab_set(l, "boundary.drive_width=0.7");
+    lab_set(l, "boundary.drive_foundation=1 kN/m3");
 }

@@ -295,8 +295,7 @@ static void each_complaint_names_file_and_line(void **state)
     refused("#scene 2\n" ICE, ":1: scene version 2 is newer than this program, which reads up to 1");
     refused("[run]\ndt = 1 ms\nerror = 0.1\n" ICE,
             ":3: run.error is to choose the step, and run.dt gives it: one of them was wanted");
-    refused("[run]\nerror = 100%\n" ICE,
-            ":2: run.error is 100%, a value above 0 and below 1 was wanted");
+    refused("[run]\nerror = 100%\n" ICE, ":2: run.error is 100%, a value above 0 and below 1 was wanted");
     refused("[run]\nthreads = 2.5\n" ICE,
             ":2: run.threads is \"2.5\", a whole number from 1 to 1024 was wanted");
     refused(
@@ -357,6 +356,14 @@ static void parts_are_held_against_each_other(void **state)
         "wanted");
     refused(ICE "[boundary]\ntype = periodic\nmin = 0 0 0\nmax = 1 1 1\n[water]\n",
             ":4: z is periodic, and there is [water], which has one surface: one of the two was wanted");
+    refused(ICE "[boundary]\ntype = free\ndrive = 1\n",
+            ":5: boundary.drive moves no floe: drive_width or drive_group was wanted");
+    refused(ICE "[boundary]\ntype = free\ndrive_width = 1\n",
+            ":5: boundary.drive has no direction along x or y: drive_edge was wanted");
+    refused(ICE "[boundary]\ntype = free\ndrive = 1\ndrive_width = 1\ndrive_group = a\n",
+            ":7: drive_width and drive_group both say which floes are driven: one was wanted");
+    refused(ICE "[boundary]\ntype = free\ndrive = 1 0 1\ndrive_width = 1\n",
+            ":5: boundary.drive along z is 1 m/s, and z is not among drive_fixed");
     refused(ICE "[boundary]\ninflow = ice\nmin = 0 0 0\n",
             ":4: floes come in along x, and leave: boundary.type of x free, and its boundary.min and "
             "boundary.max, were wanted");

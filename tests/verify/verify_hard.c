@@ -6,8 +6,8 @@
  *     verify_geometry   H23 H24        verify_floating  H25 H38        verify_ice  H05
  *     test_gjk          H03            test_poly, test_field, test_mass  H06 H07 H13
  *     dem-solve-errors  H37
- * H21 and H22 (periodic), H32 and H33 (bonds), H39 (waves) wait for what they are about; H26, H27 and H36 are
- * long runs and in no table. */
+ *     verify_boundary   H21 H22   verify_crowd    H26 H27 H28 H31
+ * H32 and H33 (bonds) and H39 (waves) wait for what they are about; H36 is a long run and in no table. */
 #define _GNU_SOURCE /* open_memstream */
 #include <math.h>
 #include <stdio.h>
