@@ -70,7 +70,7 @@ static int beside(corners *a, const corners *b, int k, int l)
     return sum == n || sum == -n;
 }
 
-/* Lowest and highest certain value of g . (x - o) over the corners of c but k. */
+/* Lowest and highest value that g . (x - o) may have over the corners of c but k. */
 static void reach(const corners *c, int k, fl_vec3 g, fl_vec3 o, double *lo, double *hi)
 {
     const fl_vec3 size = sizes(g);
@@ -80,8 +80,8 @@ static void reach(const corners *c, int k, fl_vec3 g, fl_vec3 o, double *lo, dou
         if (i == k) continue;
         const fl_vec3 d = v3_sub(c->x[i], o);
         const double at = v3_dot(g, d), blur = BLUR * v3_dot(size, sizes(d)) + TINY;
-        *lo = fmin(*lo, at - blur);
-        *hi = fmax(*hi, at + blur);
+        *lo = at - blur < *lo ? at - blur : *lo;
+        *hi = at + blur > *hi ? at + blur : *hi;
     }
 }
 
@@ -99,25 +99,33 @@ static int fenced(const corners *a, const corners *b)
     return 0;
 }
 
-/* The sum of the directions from corner k to the other two, or of the ways there. */
-static fl_vec3 along(const corners *c, int k, int directions)
+/* Is g . d above zero for certain? */
+static int ahead(fl_vec3 g, fl_vec3 size, fl_vec3 d)
 {
-    const fl_vec3 a = v3_sub(c->x[(k + 1) % 3], c->x[k]), b = v3_sub(c->x[(k + 2) % 3], c->x[k]);
-    return directions ? v3_unit(v3_add(v3_unit(a), v3_unit(b))) : v3_add(a, b);
+    return v3_dot(g, d) > BLUR * v3_dot(size, sizes(d)) + TINY;
 }
 
-/* With corner i of a and j of b in common: does a plane through it have a before and b behind it? */
+/* Does the plane through a common corner at right angles to g have b1 and b2 before it and a1 and a2 behind?
+ */
+static int parts(fl_vec3 g, fl_vec3 a1, fl_vec3 a2, fl_vec3 b1, fl_vec3 b2)
+{
+    const fl_vec3 size = sizes(g), back = v3_neg(g);
+    return ahead(g, size, b1) && ahead(g, size, b2) && ahead(back, size, a1) && ahead(back, size, a2);
+}
+
+static const int NEXT[3] = {1, 2, 0};
+
+/* With corner i of a and j of b in common: is there a plane through it between the two?  Tried are those
+ * across the way from the middle of the one to that of the other, and from its direction to that. */
 static int parted(const corners *a, int i, const corners *b, int j)
 {
-    for (int directions = 0; directions < 2; directions++) {
-        const fl_vec3 g = v3_sub(along(b, j, directions), along(a, i, directions));
-        double a_lo, a_hi, b_lo, b_hi;
-        reach(a, i, g, a->x[i], &a_lo, &a_hi);
-        if (!(a_hi < 0.0)) continue;
-        reach(b, j, g, a->x[i], &b_lo, &b_hi);
-        if (b_lo > 0.0) return 1;
-    }
-    return 0;
+    const fl_vec3 o = a->x[i];
+    const fl_vec3 a1 = v3_sub(a->x[NEXT[i]], o), a2 = v3_sub(a->x[NEXT[NEXT[i]]], o);
+    const fl_vec3 b1 = v3_sub(b->x[NEXT[j]], o), b2 = v3_sub(b->x[NEXT[NEXT[j]]], o);
+    if (parts(v3_sub(v3_add(b1, b2), v3_add(a1, a2)), a1, a2, b1, b2)) return 1;
+    const fl_vec3 to_a = v3_unit(v3_add(v3_unit(a1), v3_unit(a2)));
+    const fl_vec3 to_b = v3_unit(v3_add(v3_unit(b1), v3_unit(b2)));
+    return parts(v3_sub(to_b, to_a), a1, a2, b1, b2);
 }
 
 /* With all but corner i of a and j of b in common: do they bend by less than a right angle? */
@@ -132,15 +140,15 @@ static int gentle(const corners *a, int i, const corners *b, int j)
 /* Are the two apart, but for the corners and edges they have in common, for certain? */
 static int apart(corners *a, corners *b)
 {
-    int i[3] = {0}, j[3] = {0}, n = 0, used = 0;
+    int i[3] = {0}, j[3] = {0}, n = 0;
     for (int k = 0; k < 3; k++)
-        for (int l = 0; l < 3; l++)
-            if (a->v[k] == b->v[l] && !(used >> l & 1)) {
-                i[n] = k;
-                j[n++] = l;
-                used |= 1 << l;
-                break;
-            }
+        for (int l = 0; l < 3; l++) {
+            if (a->v[k] != b->v[l]) continue;
+            if (n == 3) return 0; /* a corner that comes twice */
+            i[n] = k;
+            j[n++] = l;
+        }
+    if (n == 2 && (i[0] == i[1] || j[0] == j[1])) return 0;
     switch (n) {
     case 0: return beside(a, b, -1, -1) || beside(b, a, -1, -1) || fenced(a, b) || fenced(b, a);
     case 1: return parted(a, i[0], b, j[0]) || beside(a, b, j[0], -1) || beside(b, a, i[0], -1);

@@ -69,7 +69,8 @@ static void lines_and_bytes_do_not_either(void **state)
         }
         for (int k = 0; k < 4; k++) {
             assert_int_equal(fl_bytes_take(&b, 2, &p, &err), 1);
-            assert_memory_equal(p, "12345678" + 2 * k, 2);
+            assert_int_equal(p[0], '1' + 2 * k);
+            assert_int_equal(p[1], '2' + 2 * k);
         }
         assert_int_equal(fl_bytes_take(&b, 1, &p, &err), 0);
         assert_int_equal(b.before + b.pos, sizeof text - 1);
