@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene leaves out costs nothing: instructions of the time step, counted by valgrind's callgrind on the
- * dem-solve that was built beside this program.  Without valgrind there is nothing to count, and one row. */
+/* What a scene leaves out costs nothing: instructions of the time step, counted by the callgrind of valgrind on
+ * the dem-solve that was built beside this program.  Without valgrind there is nothing to count, and one row. */
 #define _GNU_SOURCE
 #include <stdio.h>
 #include <stdlib.h>
