@@ -16,7 +16,9 @@ static const fl_vec3 ZERO = {0, 0, 0};
 /* A track as a file, and the scene's key for it. */
 static void track_of(lab *l, int n, const double *t, const double *x, const double *rz)
 {
-    char path[] = "/tmp/verify-track-XXXXXX";
+    const char *tmp = getenv("TMPDIR");
+    char path[200];
+    snprintf(path, sizeof path, "%.150s/floe-track-XXXXXX", tmp && tmp[0] ? tmp : "/tmp");
     const int fd = mkstemp(path);
     FILE *f = fd < 0 ? NULL : fdopen(fd, "w");
     if (!f) exit(1);
