@@ -52,8 +52,8 @@ typedef struct {
     double *waved;        /* [n] work of those so far [J] */
 } fl_sea;
 
-/* Arrays for n bodies, for what water, wind, sea_law, air_law and waves ask; the caller makes the hulls, which
- * are fitted one by one.
+/* Arrays for n bodies, for what water, wind, sea_law, air_law and waves ask; the caller makes the hulls, and
+ * fits them one by one.
  *   threads   how many may call fl_sea_force() at once
  * -1 with FL_SYSTEM. */
 int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err);

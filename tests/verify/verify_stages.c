@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene leaves out costs nothing: instructions of the time step, counted by the callgrind of valgrind on
- * the dem-solve that was built beside this program.  Without valgrind there is nothing to count, and one row. */
+/* What a scene leaves out costs nothing: instructions of the time step of the dem-solve that was built beside
+ * this program, counted by callgrind.  Without valgrind there is nothing to count, and one row. */
 #define _GNU_SOURCE
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,7 +72,7 @@ int main(void)
                {"a sea of 100 trains", "--set water.wave=jonswap --set water.height=1 --set water.period=8"}};
     /* Nine floes apart, at their draft; the tenth far above, the eleventh far below. */
     char ice[4096] = "#g-polys 1\n", path_ice[256], path_scene[256];
-    cost c[5], far;
+    cost c[5] = {{0}}, far;
     verify_begin("stages: what a scene leaves out costs nothing");
     char *program = solver();
     if (!program || system("valgrind --version >/dev/null 2>&1") != 0) {
@@ -94,6 +94,7 @@ int main(void)
     snprintf(path_scene, sizeof path_scene, "%s", test_file("stages.scene", SCENE, strlen(SCENE)));
     for (int k = 0; k < 5; k++) {
         char what[120];
+        if (verify_quick() && (k == 2 || k == 4)) continue; /* each takes a second or two */
         const int bad = count(program, path_scene, path_ice, AT[k].set, &c[k]);
         verify_true("-", AT[k].name, !bad);
         if (bad) return verify_end();
@@ -102,14 +103,15 @@ int main(void)
     }
     verify_row("-", "files of the water floor that a dry step runs in", c[0].water, 0, 0, VERIFY_ABS);
     verify_true("-", "a calm one runs in some", c[1].water > 0);
-    verify_true("-", "each stage costs: dry < calm < facets < sea",
-                c[0].total < c[1].total && c[1].total < c[2].total && c[1].total < c[3].total &&
-                    c[3].total < c[4].total);
-    verify_true("-", "far over and far under water no clipping: less than half of calm",
-                count(program, path_scene, path_ice, "--set water.level=-50", &far) == 0 &&
-                    far.total < 0.5 * c[1].total &&
-                    count(program, path_scene, path_ice, "--set water.level=50", &far) == 0 &&
-                    far.total < 0.5 * c[1].total);
+    verify_true("-", "each stage costs: dry < calm < facets, wave < sea",
+                c[0].total < c[1].total && c[1].total < c[3].total &&
+                    (verify_quick() || (c[1].total < c[2].total && c[3].total < c[4].total)));
+    for (int k = 0; k < (verify_quick() ? 1 : 2); k++)
+        verify_true("-",
+                    k ? "far under it: less than half of calm" : "far over the water: less than half of calm",
+                    count(program, path_scene, path_ice, k ? "--set water.level=50" : "--set water.level=-50",
+                          &far) == 0 &&
+                        far.total < 0.5 * c[1].total);
     remove(path_ice);
     remove(path_scene);
     return verify_end();
