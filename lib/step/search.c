@@ -95,7 +95,18 @@ int fl_search_index(fl_world *w, fl_err *err)
         w->inc[w->inc_first[w->pair[c].j + 1]++] = c;
     }
     w->inc_first[0] = 0;
+    if (fl_grow(&w->hit, &w->hit_cap, w->n_pair, sizeof *w->hit, err)) return -1;
+    if (fl_grow(&w->live, &w->live_cap, w->n_pair, sizeof *w->live, err)) return -1;
+    for (int32_t c = 0; c < w->n_pair; c++) w->hit[c] = w->pair[c].n != 0;
+    fl_search_live(w);
     return 0;
+}
+
+void fl_search_live(fl_world *w)
+{
+    w->n_live = 0;
+    for (int32_t c = 0; c < w->n_pair; c++)
+        if (w->hit[c]) w->live[w->n_live++] = c;
 }
 
 int fl_search(fl_world *w, fl_err *err)

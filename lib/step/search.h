@@ -11,8 +11,11 @@
  * with FL_SYSTEM. */
 int fl_search(fl_world *w, fl_err *err);
 
-/* Renew w->inc, the pairs of each body in the order of the list, after the list has changed.  -1 with
- * FL_SYSTEM. */
+/* Renew w->inc, the pairs of each body in the order of the list, w->hit and w->live, after the list has
+ * changed.  -1 with FL_SYSTEM. */
 int fl_search_index(fl_world *w, fl_err *err);
+
+/* Renew w->live after w->hit has changed. */
+void fl_search_live(fl_world *w);
 
 #endif

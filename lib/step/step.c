@@ -20,7 +20,11 @@ static int surveyed(const fl_world *w, int64_t step) { return w->dt > w->dt_safe
 static void contacts(fl_world *w, double dt, int survey)
 {
 #pragma omp parallel for schedule(dynamic, 16)
-    for (int32_t c = 0; c < w->n_pair; c++) fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
+        w->hit[c] = w->pair[c].n != 0;
+    }
+    fl_search_live(w);
 }
 
 /* And where they press, when that is asked. */
@@ -58,8 +62,8 @@ void fl_step_gather(fl_world *w, int32_t k)
     }
     if (w->row.n && k < w->n) b->f[k].z -= spring_force(w, k);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
+        if (!w->hit[w->inc[c]]) continue;
         const fl_pair *p = &w->pair[w->inc[c]];
-        if (p->n == 0) continue;
         b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
         b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
     }
@@ -170,9 +174,8 @@ static double drive_power(const fl_world *w)
 fl_works fl_step_works(const fl_world *w)
 {
     fl_works sum = {.drive = drive_power(w)};
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_pair *p = &w->pair[c];
-        if (p->n == 0) continue;
+    for (int32_t c = 0; c < w->n_live; c++) {
+        const fl_pair *p = &w->pair[w->live[c]];
         sum.damping += damping_power(&w->b, p);
         sum.friction += friction_power(&w->b, p);
     }
@@ -194,9 +197,8 @@ static void account(fl_world *w, double dt)
 {
     const fl_bodies *b = &w->b;
     fl_vec3 balance = v3(0, 0, 0);
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_pair *p = &w->pair[c];
-        if (p->n == 0) continue;
+    for (int32_t c = 0; c < w->n_live; c++) {
+        const fl_pair *p = &w->pair[w->live[c]];
         const double R = b->radius[p->i] + b->radius[p->j], deep = R > 0.0 ? p->overlap / R : 0.0;
         if (deep > w->worst_overlap) {
             w->worst_overlap = deep;
@@ -319,9 +321,8 @@ void fl_step_ledger(fl_world *w)
             if (w->sea.waves) waves += w->sea.waved[i];
         }
     }
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_pair *p = &w->pair[c];
-        if (p->n == 0) continue;
+    for (int32_t c = 0; c < w->n_live; c++) {
+        const fl_pair *p = &w->pair[w->live[c]];
         damped -= h * damping_power(b, p);
         rubbed -= h * friction_power(b, p);
         elastic += p->energy;

@@ -546,6 +546,7 @@ void fl_world_free(fl_world *w)
     free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
     for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
     free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
+    free(w->hit), free(w->live);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box);
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);

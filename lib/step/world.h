@@ -199,6 +199,10 @@ typedef struct {
     int32_t n_pair, pair_cap;
     int64_t *inc_first; /* [total + 1] pairs of each body, ascending */
     int32_t *inc;       /* [2 n_pair] */
+    /* Which pairs touch, apart from the pairs themselves: most do not, and need not be looked at for it. */
+    uint8_t *hit;  /* [n_pair] */
+    int32_t *live; /* [n_live] those that do, ascending */
+    int32_t n_live, hit_cap, live_cap;
     int32_t inc_cap, inc_first_cap;
     double skin;            /* boxes are grown by half of it [m] */
     double *odometer_found; /* [total] odometers at the last search */

@@ -194,11 +194,14 @@ void lab_free(lab *l)
     fl_scene_free(&l->scene);
 }
 
-void lab_gas(lab *l, const char *law, double safety)
+void lab_gas(lab *l, const char *law, double safety) { lab_gas_on(l, law, safety, 1); }
+
+void lab_gas_on(lab *l, const char *law, double safety, int threads)
 {
     enum { SIDE = 14 };
     lab_start(l);
     lab_setf(l, "contact.law=%s", law);
+    lab_setf(l, "run.threads=%d", threads);
     lab_setf(l, "run.safety=%g", safety);
     lab_set(l, "contact.softening=0.02");
     lab_set(l, "boundary.type=rigid");

@@ -7,7 +7,8 @@
  *     test_gjk          H03            test_poly, test_field, test_mass  H06 H07 H13
  *     dem-solve-errors  H37
  *     verify_boundary   H21 H22   verify_crowd    H26 H27 H28 H31
- * H32 and H33 (bonds) and H39 (waves) wait for what they are about; H36 is a long run and in no table. */
+ *     bench_step        H36
+ * H32 and H33 (bonds) and H39 (waves) wait for what they are about. */
 #define _GNU_SOURCE /* open_memstream */
 #include <math.h>
 #include <stdio.h>
@@ -268,6 +269,81 @@ static void same_bits(void)
     verify_row("H35", "2 and 3 threads: runs with other bits", other, 0, 0, VERIFY_ABS);
 }
 
+/* --- H27: a jam -------------------------------------------------------------------------------- */
+
+enum { JAM = 24, NODES = 200 };
+
+/* What two neighbours, and the last and the plate, press with at overlaps of k steps of d. */
+static void springs(double d, double between[NODES], double plate[NODES])
+{
+    lab l;
+    lab_start(&l);
+    lab_wall(&l, v3(1.5, -2, -2), v3(2.5, 2, 2), 1);
+    for (int k = 0; k < 2; k++) lab_box(&l, v3(k, 0, 0), v3(0.5, 0.4, 0.2), 0.05, q_one(), ZERO, ZERO);
+    lab_make(&l, 1e-9);
+    const fl_quat q0 = l.w.b.q[0], q1 = l.w.b.q[1];
+    for (int k = 0; k < NODES; k++) {
+        lab_pose(&l.w, 0, v3(0, 0, 0), q0), lab_pose(&l.w, 1, v3(1.0 - k * d, 0, 0), q1);
+        between[k] = v3_norm(lab_look(&l.w, 0, 1).f);
+        lab_pose(&l.w, 1, v3(1.0 + k * d, 0, 0), q1);
+        plate[k] = v3_norm(lab_look(&l.w, 1, 2).f);
+    }
+    lab_free(&l);
+}
+
+static double pressed(const double table[NODES], double overlap, double d)
+{
+    const double at = overlap / d;
+    const int k = at < NODES - 2 ? (int)at : NODES - 2;
+    return overlap <= 0.0 ? 0.0 : table[k] + (at - k) * (table[k + 1] - table[k]);
+}
+
+/* A row of floes between a plate and one that is pushed: the wave that runs through is that of a chain of
+ * masses with those springs, and it comes as fast; then all are jammed and nothing goes through anything. */
+static void jam(void)
+{
+    static double between[NODES], plate[NODES];
+    const double speed = 0.05, d = 5e-4 / NODES; /* three times the overlap there is */
+    double u[JAM] = {0}, v[JAM] = {0}, a[JAM] = {0}, most = 0.0, off = 0.0, arrived = 0.0;
+    lab l;
+    springs(d, between, plate);
+    lab_start(&l);
+    lab_wall(&l, v3(JAM - 0.5, -2, -2), v3(JAM + 0.5, 2, 2), 1);
+    for (int k = 0; k < JAM; k++)
+        lab_box(&l, v3(k, 0, 0), v3(0.5, 0.4, 0.2), 0.05, q_one(), v3(k ? 0 : speed, 0, 0), ZERO);
+    lab_make(&l, 0);
+    l.w.b.hold[0] = FL_HOLD_X;
+    const double h = l.w.dt, m = l.w.b.m[1], k1 = between[NODES / 10] / (d * (NODES / 10));
+    const double travel = (JAM - 1) * sqrt(m / k1);
+    v[0] = speed;
+    const int64_t steps = (int64_t)(3.0 * travel / h);
+    for (int64_t s = 0; s < steps; s++) {
+        for (int k = 1; k < JAM; k++) v[k] += 0.5 * h * a[k];
+        for (int k = 0; k < JAM; k++) u[k] += h * v[k];
+        for (int k = 1; k < JAM; k++) {
+            const double right = k + 1 < JAM ? pressed(between, u[k] - u[k + 1], d) : pressed(plate, u[k], d);
+            a[k] = (pressed(between, u[k - 1] - u[k], d) - right) / m;
+            v[k] += 0.5 * h * a[k];
+        }
+        if (lab_run(&l, 1)) break;
+        const double force = v3_norm(l.w.part_force[0]), chain = pressed(plate, u[JAM - 1], d);
+        most = fmax(most, chain);
+        off = fmax(off, fabs(force - chain));
+        if (arrived == 0.0 && force > 0.5 * speed * sqrt(k1 * m)) arrived = fl_world_time(&l.w);
+    }
+    verify_note("%d floes in a row are pushed at %g m/s against a plate: %.3g m/s through the ice", JAM,
+                speed, (JAM - 1) / travel);
+    verify_row("H27", "force on the plate against a chain of masses, over the largest", off / most, 0.0, 1e-4,
+               VERIFY_ABS);
+    verify_row("H27", "arrival of half the first wave over length / speed", arrived / travel, 1.0, 0.1,
+               VERIFY_ABS);
+    verify_below("H27", "largest overlap over the radii", l.w.worst_overlap, 0.3);
+    int order = 1;
+    for (int k = 1; k < JAM; k++) order = order && l.w.b.x[k].x > l.w.b.x[k - 1].x + 0.9;
+    verify_true("H27", "every floe is where it was in the row", order);
+    lab_free(&l);
+}
+
 int main(void)
 {
     verify_begin("hard cases");
@@ -279,6 +355,7 @@ int main(void)
     far_away();
     pinched();
     limits_of_laws();
+    jam();
     same_bits();
     return verify_end();
 }
