@@ -30,7 +30,7 @@ typedef struct {
     int fine;      /* the rule of degree 5                         */
 } fl_tiles;
 
-/* Cut the faces of a hull so that no side of a panel is longer than 2/k, k the wave's `most`.  t is freed
+/* Cut the faces of a hull so that no side of a panel is longer than 3/k, k the wave's `most`.  t is freed
  * first.  -1 with FL_SYSTEM. */
 int fl_tiles_make(fl_tiles *t, const fl_hull *hull, const fl_waves *w, fl_err *err);
 void fl_tiles_free(fl_tiles *t); /* accepts a zeroed struct, leaves one */

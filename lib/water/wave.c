@@ -7,7 +7,7 @@
 static const double PI = 3.141592653589793;
 
 /* What a series may leave out of a train, over its amplitude. */
-#define ENDING 1e-6
+#define ENDING 1e-5
 
 /* x tanh x = y by Newton from above: the function is convex there, so the steps only fall. */
 double fl_wave_number(double omega, double depth, double gravity)

@@ -196,6 +196,55 @@ static void flat(void)
     lab_free(&b);
 }
 
+/* Forces on a box of length L at its draft in a sea of small waves, against the sum over its trains,
+ *     F_z = rho g B sum a e^(-kd) (2/k) sin(kL/2) cos psi,
+ *     F_x = rho g B sum a (1 - e^(-kd))/k 2 sin(kL/2) sin psi. */
+static void panels(void)
+{
+    static const struct {
+        const char *what;
+        double L, Tp, tolerance;
+        int n;
+    } cases[6] = {{"10 m in one wave of 14 m", 10, 3, 5e-4, 1}, {"10 m in one wave of 100 m", 10, 8, 1e-4, 1},
+                  {"10 m in a sea, Tp 8 s", 10, 8, 5e-4, 100},  {"10 m in a sea, Tp 5 s", 10, 5, 5e-4, 100},
+                  {"60 m in a sea, Tp 8 s", 60, 8, 5e-4, 100},  {"2 m in a sea, Tp 8 s", 2, 8, 5e-4, 100}};
+    for (int c = 0; c < 6; c++) {
+        const double L = cases[c].L, B = 4;
+        double off[2] = {0}, mean[2] = {0};
+        char what[80];
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "run.gravity=9.81");
+        lab_set(&l, cases[c].n > 1 ? "water.wave=jonswap" : "water.wave=airy");
+        lab_set(&l, "water.height=1e-5");
+        lab_setf(&l, "water.period=%g", cases[c].Tp);
+        for (int k = 0; k < 40; k++)
+            lab_box(&l, v3(137.3 * k, 6 * k, REST), v3(0.5 * L, 0.5 * B, 0.5), 0.05, q_one(), v3(0, 0, 0),
+                    v3(0, 0, 0));
+        lab_make(&l, 1e-3);
+        const fl_waves *w = &l.w.sea.wave;
+        for (int32_t k = 0; k < 40; k++) {
+            double F[2] = {0};
+            for (int32_t j = 0; j < w->n; j++) {
+                const fl_wave_train *t = &w->train[j];
+                const double psi = t->k * l.w.b.x[k].x + t->phase, fall = exp(-t->k * DRAFT);
+                const double both = 1025 * G * B * t->a * 2 / t->k * sin(0.5 * t->k * L);
+                F[0] += both * fall * cos(psi);
+                F[1] += both * (1 - fall) * sin(psi);
+            }
+            const double got[2] = {l.w.b.f[k].z, l.w.b.f[k].x};
+            for (int d = 0; d < 2; d++) {
+                off[d] += (got[d] - F[d]) * (got[d] - F[d]);
+                mean[d] += F[d] * F[d];
+            }
+        }
+        snprintf(what, sizeof what, "%s: lift off by, of its mean", cases[c].what);
+        verify_below("D8", what, sqrt(off[0] / mean[0]), cases[c].tolerance);
+        verify_below("D8", "  push off by", sqrt(off[1] / mean[1]), cases[c].tolerance);
+        lab_free(&l);
+    }
+}
+
 /* Amplitude of y(t) at omega, beside a free swing at omega_0: least squares of five functions. */
 static double amplitude(int n, const double *t, const double *y, double omega, double omega0)
 {
@@ -287,6 +336,7 @@ int main(void)
     series();
     spectrum();
     flat();
+    panels();
     follower();
     books();
     return verify_end();
