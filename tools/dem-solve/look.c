@@ -132,6 +132,11 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,
             r->limit);
     if (r->step_body >= 0) fprintf(f, ", set by %s", run_body(w, r->step_body, name));
+    if (r->budget)
+        fprintf(f,
+                "\nerror budget   %g of the load: the step is the largest there may be, and is chosen as the "
+                "run goes",
+                r->scene->run.error);
     fprintf(f, "\nmemory         %.1f MiB\n", mib_of(w));
     if (w->step)
         fprintf(f, "time           about %.0f s on %d threads, from %" PRId64 " steps of it\n",
