@@ -18,8 +18,13 @@ $1 == "v" && !in_part { k = n[shape]++; vx[shape, k] = $2; vy[shape, k] = $3; vz
 $1 == "v" { k = nv[in_part]++; px[in_part, k] = $2; py[in_part, k] = $3; pz[in_part, k] = $4; next }
 $1 == "t" { k = ++triangles; of[k] = in_part; t1[k] = $2; t2[k] = $3; t3[k] = $4; next }
 $1 == "cone" { k = ++cones; cone[k] = $0; cone_of[k] = in_part; next }
-$1 == "frame" { if (++frames > 1 && frame == "first") exit; t = $2; next }
-$1 == "body" { pose[$2] = $0; if (!($2 in seen)) { seen[$2] = 1; body[++bodies] = $2 }; next }
+$1 == "frame" { if (++frames > 1 && frame == "first") exit; t = $2; fresh = 1; next }
+$1 == "body" { # a frame tells all that are there, or none: then those of the frame before stand
+    if (fresh) bodies = fresh = 0
+    pose[$2] = $0
+    body[++bodies] = $2
+    next
+}
 $1 == "structure" { gone_x = $2; gone_y = $3; next }
 $1 == "moved" { moved[part[$2]] = $0; next }
 
