@@ -2,9 +2,9 @@
 #include "base/mem.h"
 #include "water/froude.h"
 
-/* Longest side of a panel, in 1/k, and up to what size of a body the rule of degree 2 will do: boxes of 2 to
- * 60 m in waves of 14 m and in seas then feel forces that are right to 3e-4 of their mean (verify_waves), where
- * 2 and 0.1 would cost up to twice the time for 5e-6, and 5 leaves 4e-3. */
+/* Longest side of a panel, in 1/k, and up to what size of a body the rule of degree 2 will do.  Boxes of 2 to
+ * 60 m in waves of 14 m and in seas then feel forces right to 3e-4 of their mean (verify_waves); 2 and 0.1
+ * would cost up to twice the time for 5e-6, and 5 leaves 4e-3. */
 #define LONGEST 3.0
 #define SMALL 0.3
 
