@@ -11,7 +11,7 @@
 
 /* The estimate itself is off by some, and a peak is one value, in which nothing cancels: so much of the goal
  * is used. */
-#define MARGIN 0.8
+#define MARGIN 0.95
 #define MARGIN_PEAK 0.65
 /* A meeting of this much more momentum than any before is news. */
 #define NEWS 1.15
@@ -32,6 +32,7 @@ enum {
     WINDOW = 64,      /* steps in a window at the least */
     FOLLOW = 3,       /* windows an impact is followed for at the most */
     ROUNDS = 8,       /* steps tried in one look at the most */
+    MOST = 100000,    /* steps in a row there may be with the largest step */
     FINEST = 1 << 12, /* the largest step over the smallest there may be */
     AGAIN = 10,       /* steps between looks over those of a look */
     ALLOWED = 64,     /* windows of trials that are allowed at once, and */
@@ -414,6 +415,12 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     /* rows end on their very times, whatever the steps in them were */
     w->t0 = t;
     w->step0 = w->step;
+    /* What touches may be stiffer together than what was known beforehand. */
+    if (w->dt > g->share * w->dt_critical) {
+        const int32_t fine = steps_of(g, g->share * w->dt_critical);
+        if (fine != steps_of(g, w->dt)) fl_step_resize(w, g->every / fine, t);
+        if (fine > g->least) g->least = fine < MOST ? fine : MOST;
+    }
     if (row % g->rows) return 0;
     const int due = !first && w->step - g->looked_at >= AGAIN * g->last_cost;
     if (list_far(g, w, err)) return -1;
@@ -459,7 +466,9 @@ int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, c
                      .looked_at = -1};
     if (fl_world_make_fed(&g->trial, scene, field, feed, surface, err)) return -1;
     const double most = fmin(fl_world_dt(&g->trial, &body), fmin(g->every, scene->run.duration));
-    g->least = (int32_t)fmin(ceil(g->every / most * (1.0 - 1e-12)), 1e5);
+    const double critical = fl_world_critical(&g->trial);
+    g->share = isfinite(critical) ? fl_world_dt(&g->trial, &body) / critical : 1.0;
+    g->least = (int32_t)fmin(ceil(g->every / most * (1.0 - 1e-12)), MOST);
     g->rows = (int32_t)ceil((double)WINDOW / g->least);
     g->known = fl_alloc(PARTS + g->trial.parts, sizeof *g->known, err);
     g->seen = fl_alloc(PARTS + g->trial.parts, sizeof *g->seen, err);
@@ -521,8 +530,9 @@ static int row_end(FILE *f, fl_text *in, fl_err *err)
 
 static int exchange(FILE *f, fl_text *in, fl_budget *g, fl_err *err)
 {
-    int64_t rows = g->rows, windows = g->windows, latest = g->latest;
-    int64_t *const count[] = {&rows, &windows, &latest, &g->looks, &g->looked_at, &g->spent, &g->last_cost};
+    int64_t rows = g->rows, windows = g->windows, latest = g->latest, least = g->least;
+    int64_t *const count[] = {&rows,         &windows,  &latest,       &g->looks,
+                              &g->looked_at, &g->spent, &g->last_cost, &least};
     double *const real[] = {&g->rate, &g->grown, &g->grown_in, &g->part_next, &g->shortest, &g->longest};
     if (row_begin(f, in, "budget", err)) return -1;
     for (size_t k = 0; k < sizeof count / sizeof *count; k++)
@@ -531,9 +541,10 @@ static int exchange(FILE *f, fl_text *in, fl_budget *g, fl_err *err)
         if (pass(f, in, real[k], err)) return -1;
     if (row_end(f, in, err)) return -1;
     if (rows < 1 || rows > WINDOW || windows < 0 || windows > FL_BUDGET_LOOKS || latest < -1 ||
-        latest >= windows)
+        latest >= windows || least < 1 || least > MOST)
         return fl_text_fail(in, err, "this is no state of an error budget");
     g->rows = (int32_t)rows, g->windows = (int32_t)windows, g->latest = (int32_t)latest;
+    g->least = (int32_t)least;
     if (row_begin(f, in, "known", err)) return -1;
     for (int32_t k = 0; k < PARTS + g->trial.parts; k++)
         if (pass(f, in, &g->known[k], err)) return -1;

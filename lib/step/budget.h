@@ -8,7 +8,7 @@
  *     error    e = |X(h) - X(h/4)| + d'/(2^p - 1),       e(h') = e (h'/h)^p            (Richardson)
  * The step is the largest, among those that divide a row, for which all windows looked at together stay
  * within the goal,
- *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.8 goal sum |X|,
+ *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.95 goal sum |X|,
  * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
  * it is the largest error against the largest peak, and 0.65.  Because what goes wrong between floes reaches
  * the structure later, the momenta of the floes at the end of the window must be right, too, to four times
@@ -52,6 +52,7 @@ typedef struct {
     double goal;   /* run.error */
     int32_t of;    /* run.error_of: impulse, peak, fx, fy, fz, mx, my, mz */
     double every;  /* interval of the loads, which steps divide [s] */
+    double share;  /* of the critical step that a step may be                 */
     int32_t least; /* steps in it with the largest step there may be */
     int32_t rows;  /* rows in a window */
     fl_budget_window window[FL_BUDGET_LOOKS];

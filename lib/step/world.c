@@ -7,6 +7,7 @@
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
+#include "step/stiff.h"
 #include "step/world.h"
 
 /* As many faces at rest on faces may a body have under it at once, as far as the step knows beforehand. */
@@ -577,6 +578,43 @@ static double softest(const fl_world *w, int32_t i)
     return most + w->b.invm[i];
 }
 
+/* The same of a contact that lies on a face, as stiff as the root of its area: the largest over faces f and
+ * shares s of their size, s times the largest eigenvalue of the mean of g g^T over the part of f that is s
+ * times as large and shares its farthest vertex.  All of a square plate is as soft as its mass alone, a
+ * corner of it a quarter more; the vertex itself, to which softest() gives the stiffness of all the face,
+ * would be seven times as soft. */
+static double softest_face(const fl_world *w, int32_t i)
+{
+    static const double SHARE[] = {1.0, 0.8, 0.6, 0.4, 0.25};
+    const fl_poly *p = &w->b.core[i];
+    double most = 0.0;
+    for (int32_t f = 0; f < p->nf; f++) {
+        const int32_t *loop = &p->loop[p->first[f]], nv = p->first[f + 1] - p->first[f];
+        const double area = v3_norm(fl_poly_area(p, f));
+        fl_vec3 far = p->v[loop[0]];
+        for (int32_t k = 1; k < nv; k++)
+            if (v3_norm2(v3_cross(p->v[loop[k]], p->n[f])) > v3_norm2(v3_cross(far, p->n[f])))
+                far = p->v[loop[k]];
+        for (size_t l = 0; l < sizeof SHARE / sizeof *SHARE && area > 0.0; l++) {
+            fl_stiff K = {0};
+            for (int32_t k = 1; k + 1 < nv;
+                 k++) { /* triangles; midpoints of sides are exact for what is squared */
+                const fl_vec3 c[3] = {p->v[loop[0]], p->v[loop[k]], p->v[loop[k + 1]]};
+                const double part = 0.5 * v3_norm(v3_cross(v3_sub(c[1], c[0]), v3_sub(c[2], c[0]))) / area;
+                for (int m = 0; m < 3; m++) {
+                    const fl_vec3 mid = v3_scale(0.5, v3_add(c[m], c[(m + 1) % 3]));
+                    const fl_vec3 r = v3_madd(far, SHARE[l], v3_sub(mid, far));
+                    const fl_vec3 t = v3_cross(r, p->n[f]);
+                    /* in the frame of the body */
+                    fl_stiff_add(&K, &w->b, i, part / 3.0, m3_mul(w->b.R[i], p->n[f]), m3_mul(w->b.R[i], t));
+                }
+            }
+            most = fmax(most, SHARE[l] * fl_stiff_bound(&K));
+        }
+    }
+    return most;
+}
+
 /* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact at the speed
  * that bodies have or will take from gravity and current over their own size, (5 M v^2/4 k)^(2/5). */
 static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, double exponent)
@@ -627,10 +665,13 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *damping
             if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
             damp = fmax(damp, fl_pairing_law(w, i, j)->chi);
         }
-        /* two equal bodies on one spring: twice the compliance */
+        /* Two equal bodies on one spring: twice the compliance.  Where the error is measured the step may be
+         * the largest that is stable; else it is to be a small share of it, and that of the more careful
+         * bound. */
+        const int faces = w->scene->run.error > 0.0 && w->face[i] > 0.0;
+        const double soft = faces ? softest_face(w, i) : softest(w, i);
         double drawn;
-        const double omega2 =
-            2.0 * places * stiffest * softest(w, i) + fl_world_spring(w, i, &drawn) * w->b.invm[i];
+        const double omega2 = 2.0 * places * stiffest * soft + fl_world_spring(w, i, &drawn) * w->b.invm[i];
         if (omega2 > most) {
             most = omega2;
             *body = i;
