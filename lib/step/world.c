@@ -626,7 +626,8 @@ static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, dou
         return 2.8 * k * sqrt(0.6 * sqrt(2.0 * r) * 2.0 * w->b.bound[i] * sqrt(0.3 * r));
     }
     const double size = w->b.bound[i] + w->b.radius[i], g = v3_norm(w->gravity);
-    const double current = w->sea.water ? fl_current_most(&w->sea.current) : 0.0;
+    double current = w->sea.water ? fl_current_most(&w->sea.current) : 0.0;
+    if (w->sea.waves) current += w->sea.wave.swing * w->sea.wave.train[w->sea.wave.n / 2].omega;
     const double v2 = fmax(v3_norm2(w->b.v[i]), fmax(current * current, w->ride.fastest * w->ride.fastest)) +
                       2.0 * g * 0.1 * size;
     const double depth =
