@@ -93,7 +93,7 @@ void scene_of_seas(lab *l, int32_t side, const char *law)
     static const char *const KEYS[] = {
         "water.drag=facet", "water.profile=linear",     "water.profile_depth=2", "water.added_mass=auto",
         "wind.drag=facet",  "water.added_inertia=auto", "water.wave=jonswap",    "water.height=0.3",
-        "water.period=3",   "water.components=20"};
+        "water.period=5",   "water.components=8"};
     scene_of_everything(l, side, law);
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
 }
