@@ -428,7 +428,7 @@ static void held_up(void)
         lab l;
         sheet(&l, 1.5);
         lab_setf(&l, "run.safety=%.17g", 0.2 / (1 << s));
-        lab_set(&l, "contact.softening=0.002");
+        lab_set(&l, "contact.softening=0.02");
         lab_cone(&l, (fl_cone){v3(2, 0.7, -2), v3(2, 0.7, 2), 1.5, 1.5});
         lab_make(&l, 0.0);
         h[s] = l.w.dt;
@@ -453,9 +453,14 @@ static void held_up(void)
         }
         lab_free(&l);
     }
-    verify_order("B04", "a sheet against a cylinder: residual over the throughput against the step [s]", h,
-                 err, STEPS, 2.0, 0.7);
-    verify_below("B04", "and at the smallest step", err[STEPS - 1], 2e-5);
+    /* Nothing limits the push of a sheet, and floes that it jams against the cylinder are pressed into each
+     * other, core into core, where the energy bends: the order is not a clean 2, but no less. */
+    for (int k = 0; k < STEPS; k++)
+        verify_note("a sheet against a cylinder, step %.3g s: residual %.2e of the throughput", h[k], err[k]);
+    const double fine = h[STEPS - 1] / h[0];
+    verify_below("B04", "residual at the smallest step over what order 2 leaves of that at the largest",
+                 err[STEPS - 1] / (err[0] * fine * fine), 1.0);
+    verify_below("B04", "and the residual itself", err[STEPS - 1], 5e-6);
 }
 
 int main(void)
