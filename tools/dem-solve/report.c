@@ -54,6 +54,7 @@ void report_write(const struct run *r, FILE *f)
                 "%" PRId64 " searches)\n",
                 1e9 * r->wall / made / fl_traffic_there(w),
                 touches > 0.0 ? 1e9 * r->wall / touches * (steps / made) : 0.0, touches / steps, w->searches);
+    fprintf(f, "processor          %.4g s, of all threads and all that was done\n", r->busy);
     if (r->saves)
         fprintf(f, "checkpoints        %" PRId64 " in %.3g s besides, the last at t = %.6g s\n", r->saves,
                 r->save_wall, fl_world_time(w));

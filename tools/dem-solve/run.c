@@ -23,6 +23,13 @@ double run_clock(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+double run_processor(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 const char *run_body(const fl_world *w, int32_t k, char name[64])
 {
     if (k >= w->b.total) snprintf(name, 64, "%s", fl_ride_name(w, k - w->b.total));
@@ -477,7 +484,7 @@ int run_scene(struct run *r, fl_err *err)
         return -1;
     }
     listen_to_signals(r);
-    const double begun = run_clock();
+    const double begun = run_clock(), busy = run_processor();
     const int rc = run_steps_of(r, &u, show, begun, err);
     if (rc && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
         whole_state(r->w)) {
@@ -485,6 +492,7 @@ int run_scene(struct run *r, fl_err *err)
         save_write(r, &u, &why);
     }
     r->wall = run_clock() - begun - r->save_wall - r->look_wall;
+    r->busy = run_processor() - busy;
     if (show) progress(r, begun, 1);
     fl_step_ledger(r->w);
     /* Also after a failure of the run: the rows until then are good and keep their names. */

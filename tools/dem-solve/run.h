@@ -30,6 +30,7 @@ struct run {
     int64_t begun; /* the step this program began with, and its time [s] */
     double begun_time;
     double wall;      /* [s] spent in steps */
+    double busy;      /* [s] of processors, all threads: steps, looks, checkpoints and tables */
     double look_wall; /* [s] spent in looking after the error budget */
     int64_t saves;    /* checkpoints written */
     int64_t saved_at; /* step of the last */
@@ -99,5 +100,8 @@ const char *run_body(const fl_world *w, int32_t k, char name[64]);
 
 /* Seconds of a clock that only goes forward. */
 double run_clock(void);
+
+/* Seconds that processors have worked for this program, of all threads together. */
+double run_processor(void);
 
 #endif
