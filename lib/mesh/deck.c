@@ -57,6 +57,7 @@ int fl_deck_line(fl_deck *d, fl_err *err)
     }
     while (len > 0 && is_blank(d->line[len - 1])) len--;
     d->line[len] = '\0';
+    d->len = len;
     return 1;
 }
 

@@ -17,7 +17,8 @@ typedef struct {
     fl_bytes included[FL_DECK_DEPTH];
     int32_t file[FL_DECK_DEPTH + 1]; /* of e->files, by depth */
     int depth, includes;
-    char *line;                   /* the current one, ended by a zero byte */
+    char *line; /* the current one, [len] and a zero byte */
+    int32_t len;
     int held;                     /* it is to come once more, */
     int32_t held_file, held_line; /* from there */
 } fl_deck;

@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/mem.h"
+#include "mesh/cdb_block.h"
+#include "mesh/cdb_routine.h"
+#include "mesh/columns.h"
+
+enum {
+    BODY = 11, /* columns of a row of EBLOCK,,SOLID before the nodes */
+    BARE = 5   /* the same without SOLID */
+};
+
+/* --- rows ----------------------------------------------------------------------------------------------- */
+
+static int read_format(fl_cdb *c, fl_columns *f, fl_err *err)
+{
+    const int more = fl_deck_line(&c->d, err);
+    if (more < 0) return -1;
+    if (more == 0) return fl_deck_fail(&c->d, err, "the file ends where a format line was wanted");
+    if (fl_columns_of(f, c->d.line) == 0) return 0;
+    return fl_deck_fail(&c->d, err, "\"%.60s\" was found, a format like (3i9,6e21.13) was wanted", c->d.line);
+}
+
+static int whole_at(fl_cdb *c, const fl_columns *f, int k, int64_t *x, fl_err *err)
+{
+    char text[FL_COLUMN_WIDTH];
+    if (fl_columns_whole(f, k, c->d.line, c->d.len, x) == 0) return 0;
+    return fl_deck_fail(&c->d, err, "column %d is \"%.40s\", a whole number was wanted", k + 1,
+                        fl_columns_text(f, k, c->d.line, c->d.len, text));
+}
+
+static int real_at(fl_cdb *c, const fl_columns *f, int k, double *x, fl_err *err)
+{
+    char text[FL_COLUMN_WIDTH];
+    if (fl_columns_real(f, k, c->d.line, c->d.len, x) == 0) return 0;
+    return fl_deck_fail(&c->d, err, "column %d is \"%.40s\", a finite number was wanted", k + 1,
+                        fl_columns_text(f, k, c->d.line, c->d.len, text));
+}
+
+/* Is column k blank, or beyond the end of the row? */
+static int is_blank(const fl_cdb *c, const fl_columns *f, int k)
+{
+    char text[FL_COLUMN_WIDTH];
+    return *fl_columns_text(f, k, c->d.line, c->d.len, text) == '\0';
+}
+
+/* Next row of a block: 1, or 0 at its end, which is a row of -1 or any command; that is left for later unless
+ * it is the N,R5.3,LOC,-1 that ends an NBLOCK.  A block that just stops was cut off. */
+static int block_row(fl_cdb *c, const char *block, fl_err *err)
+{
+    for (;;) {
+        const char *p;
+        const int more = fl_deck_line(&c->d, err);
+        if (more < 0) return -1;
+        if (more == 0) return fl_deck_fail(&c->d, err, "the file ends inside %s, which -1 was to end", block);
+        p = c->d.line + strspn(c->d.line, " \t\f\v");
+        if (*p == '\0') continue;
+        if (strcmp(p, "-1") == 0) return 0;
+        if (strchr("0123456789+-.", *p)) return 1;
+        if (strncasecmp(p, "N,", 2) != 0) fl_deck_hold(&c->d);
+        return 0;
+    }
+}
+
+/* Rows of numbers without an end mark: 1, or 0 at the next command or the end of the file. */
+static int free_row(fl_cdb *c, fl_err *err)
+{
+    for (;;) {
+        const int more = fl_deck_line(&c->d, err);
+        const char *p = more > 0 ? c->d.line + strspn(c->d.line, " \t\f\v") : "";
+        if (more <= 0) return more;
+        if (*p == '\0') continue;
+        if (strchr("0123456789+-.", *p)) return 1;
+        fl_deck_hold(&c->d);
+        return 0;
+    }
+}
+
+/* --- elements ------------------------------------------------------------------------------------------- */
+
+int fl_cdb_set_type(fl_cdb *c, int64_t slot, int32_t routine, int32_t key, fl_err *err)
+{
+    const int32_t k = fl_numbers_add(&c->slot, 0, slot, err);
+    if (k < 0 || fl_grow(&c->type, &c->type_cap, c->slot.n, sizeof *c->type, err)) return -1;
+    c->type[k] = (fl_cdb_type){routine, key, fl_cdb_family_of(routine, key)};
+    return 0;
+}
+
+int fl_cdb_add(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t real, fl_err *err)
+{
+    const int32_t slot = fl_numbers_find(&c->slot, 0, type);
+    const fl_cdb_type *t = slot < 0 ? NULL : &c->type[slot];
+    const int n = c->nodes;
+    int32_t k;
+    int shape;
+    if (!t)
+        return fl_deck_fail(&c->d, err, "element %lld is of type %lld, which no ET or ETBLOCK defines",
+                            (long long)id, (long long)type);
+    if (t->is == FL_CDB_NONE) {
+        char name[32];
+        snprintf(name, sizeof name, "routine %d", t->routine);
+        return fl_elements_skip(&c->e, name, err);
+    }
+    shape = fl_cdb_shape_of((fl_cdb_family)t->is, n);
+    if (shape < 0)
+        return fl_deck_fail(&c->d, err, "element %lld of routine %d has %d nodes, more were wanted",
+                            (long long)id, t->routine, n);
+    for (int i = n; i < FL_CDB_NODES; i++) c->node[i] = 0;
+    k = fl_elements_add(&c->e, 0, id, (enum fl_shape)shape, c->part, c->node, err);
+    if (k < 0) return -1;
+    if (t->is != FL_CDB_LINE && t->is != FL_CDB_CURVE) return 0;
+    return fl_cdb_section_line(&c->sections, (fl_cdb_line){k, t->routine, section, real}, err);
+}
+
+/* --- blocks --------------------------------------------------------------------------------------------- */
+
+/* Say so when a block does not hold what its head promised. */
+static void compare(fl_cdb *c, const char *block, const char *promise, int64_t n)
+{
+    int64_t x;
+    if (fl_deck_whole(promise, &x) == 0 && x > 0 && x != n)
+        fl_bytes_note(c->d.base, "%s is to hold %lld entries, and has %lld", block, (long long)x,
+                      (long long)n);
+}
+
+int fl_cdb_nblock(fl_cdb *c, fl_err *err)
+{
+    const char *promise = c->word[4];
+    fl_columns f;
+    int64_t n = 0;
+    int more;
+    if (read_format(c, &f, err)) return -1;
+    if (f.whole < 1 || f.whole == f.n)
+        return fl_deck_fail(&c->d, err, "a format of whole numbers and then reals was wanted for nodes");
+    while ((more = block_row(c, "NBLOCK", err)) > 0) {
+        int64_t id;
+        fl_vec3 x;
+        if (whole_at(c, &f, 0, &id, err) || real_at(c, &f, f.whole, &x.x, err) ||
+            real_at(c, &f, f.whole + 1, &x.y, err) || real_at(c, &f, f.whole + 2, &x.z, err))
+            return -1;
+        if (id == -1) break;
+        if (id < 1)
+            return fl_deck_fail(&c->d, err, "node %lld was found, a number of 1 or more was wanted",
+                                (long long)id);
+        if (fl_elements_node(&c->e, 0, id, x, err) < 0) return -1;
+        n++;
+    }
+    if (more < 0) return -1;
+    compare(c, "NBLOCK", promise, n);
+    return 0;
+}
+
+/* The nodes of a row from column `from` on, as many as are wanted (as are there, when want < 0). */
+static int take_nodes(fl_cdb *c, const fl_columns *f, int from, int64_t want, fl_err *err)
+{
+    for (int k = from; k < f->n && (want < 0 || c->nodes < want); k++) {
+        if (want < 0 && is_blank(c, f, k)) break;
+        if (c->nodes == FL_CDB_NODES)
+            return fl_deck_fail(&c->d, err, "more than %d nodes in an element", FL_CDB_NODES);
+        if (whole_at(c, f, k, &c->node[c->nodes], err)) return -1;
+        c->nodes++;
+    }
+    return 0;
+}
+
+/* Go on with the nodes of an element in the rows that follow. */
+static int more_nodes(fl_cdb *c, const fl_columns *f, int64_t id, int64_t want, fl_err *err)
+{
+    while (c->nodes < want) {
+        const int more = fl_deck_line(&c->d, err);
+        const char *p = more > 0 ? c->d.line + strspn(c->d.line, " \t") : "";
+        if (more < 0) return -1;
+        if (more == 0 || (*p && !strchr("0123456789+-", *p)))
+            return fl_deck_fail(&c->d, err, "element %lld ends after %d of its %lld nodes", (long long)id,
+                                c->nodes, (long long)want);
+        if (take_nodes(c, f, 0, want, err)) return -1;
+    }
+    return 0;
+}
+
+static int read_solid_row(fl_cdb *c, const fl_columns *f, fl_err *err)
+{
+    int64_t col[BODY];
+    int32_t line;
+    for (int k = 0; k < BODY; k++)
+        if (whole_at(c, f, k, &col[k], err)) return -1;
+    if (col[8] < 1 || col[8] > FL_CDB_NODES || col[10] < 1)
+        return fl_deck_fail(&c->d, err,
+                            "element %lld of %lld nodes was found, a number of 1 or more and 1 to %d nodes "
+                            "were wanted",
+                            (long long)col[10], (long long)col[8], FL_CDB_NODES);
+    line = c->e.line;
+    if (take_nodes(c, f, BODY, col[8], err) || more_nodes(c, f, col[10], col[8], err)) return -1;
+    c->e.line = line;
+    return fl_cdb_add(c, col[10], col[1], col[3], col[2], err);
+}
+
+/* Without the key SOLID nothing says how many nodes there are: those of a row, and of the next one for a
+ * brick of 20. */
+static int read_bare_row(fl_cdb *c, const fl_columns *f, fl_err *err)
+{
+    int64_t col[BARE];
+    int32_t slot, line;
+    for (int k = 0; k < BARE; k++)
+        if (whole_at(c, f, k, &col[k], err)) return -1;
+    if (col[0] < 1)
+        return fl_deck_fail(&c->d, err, "element %lld was found, a number of 1 or more was wanted",
+                            (long long)col[0]);
+    line = c->e.line;
+    slot = fl_numbers_find(&c->slot, 0, col[1]);
+    if (take_nodes(c, f, BARE, -1, err)) return -1;
+    if (slot >= 0 && c->type[slot].is == FL_CDB_BRICK && more_nodes(c, f, col[0], 20, err)) return -1;
+    c->e.line = line;
+    return fl_cdb_add(c, col[0], col[1], col[1], col[2], err);
+}
+
+int fl_cdb_eblock(fl_cdb *c, fl_err *err)
+{
+    const int solid = strcasecmp(c->word[2], "SOLID") == 0;
+    const char *promise = c->word[4];
+    fl_columns f;
+    int64_t n = 0;
+    int more;
+    if (read_format(c, &f, err)) return -1;
+    if (f.whole != f.n || f.n <= (solid ? BODY : BARE))
+        return fl_deck_fail(&c->d, err, "a format of more than %d whole numbers was wanted for elements",
+                            solid ? BODY : BARE);
+    while ((more = block_row(c, "EBLOCK", err)) > 0) {
+        int64_t first;
+        if (whole_at(c, &f, 0, &first, err)) return -1;
+        if (first == -1) break;
+        c->nodes = 0;
+        if (solid ? read_solid_row(c, &f, err) : read_bare_row(c, &f, err)) return -1;
+        n++;
+    }
+    if (more < 0) return -1;
+    c->nodes = 0; /* no EMORE goes on with these */
+    compare(c, "EBLOCK", promise, n);
+    return 0;
+}
+
+int fl_cdb_etblock(fl_cdb *c, fl_err *err)
+{
+    fl_columns f;
+    int more;
+    if (read_format(c, &f, err)) return -1;
+    if (f.whole < 2)
+        return fl_deck_fail(&c->d, err, "a format of whole numbers was wanted for element types");
+    while ((more = block_row(c, "ETBLOCK", err)) > 0) {
+        char text[FL_COLUMN_WIDTH];
+        int64_t slot, routine, key = 0;
+        if (whole_at(c, &f, 0, &slot, err)) return -1;
+        if (slot == -1) break;
+        if (whole_at(c, &f, 1, &routine, err)) return -1;
+        if (f.n > 2 && fl_deck_whole(fl_columns_text(&f, 2, c->d.line, c->d.len, text), &key))
+            key = 0; /* text columns: it may be a word */
+        if (slot < 1 || routine < 0 || routine > INT16_MAX || key < 0 || key > INT16_MAX)
+            return fl_deck_fail(&c->d, err, "type %lld of routine %lld was found", (long long)slot,
+                                (long long)routine);
+        if (fl_cdb_set_type(c, slot, (int32_t)routine, (int32_t)key, err)) return -1;
+    }
+    return more < 0 ? -1 : 0;
+}
+
+/* Real constants: number, count and up to six values; seven in the rows that follow. */
+int fl_cdb_rlblock(fl_cdb *c, fl_err *err)
+{
+    fl_columns head, tail;
+    int more;
+    if (read_format(c, &head, err)) return -1;
+    if (head.whole != 2 || head.n < 3)
+        return fl_deck_fail(&c->d, err, "a format like (2i8,6g16.9) was wanted for real constants");
+    if (read_format(c, &tail, err)) return -1;
+    while ((more = free_row(c, err)) > 0) {
+        int64_t id, n;
+        double first;
+        if (whole_at(c, &head, 0, &id, err) || whole_at(c, &head, 1, &n, err) ||
+            real_at(c, &head, 2, &first, err) || fl_cdb_section_real(&c->sections, id, first, err))
+            return -1;
+        for (n -= head.n - 2; n > 0; n -= tail.n) {
+            more = free_row(c, err);
+            if (more < 0) return -1;
+            if (more == 0)
+                return fl_deck_fail(&c->d, err, "real constants %lld end with %lld values missing",
+                                    (long long)id, (long long)n);
+        }
+    }
+    return more;
+}
+
+/* A component: numbers, of which a negative one ends the range that the one before began. */
+int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
+{
+    const int elements = strncasecmp(c->word[2], "ELEM", 4) == 0;
+    const char *promise = c->word[3], *name = c->word[1];
+    int64_t last = 0, n = 0, x;
+    int32_t set = -1;
+    fl_columns f;
+    int more;
+    if (!elements && strncasecmp(c->word[2], "NODE", 4) != 0)
+        return fl_deck_fail(&c->d, err, "a component of \"%.40s\" was found, ELEM or NODE was wanted",
+                            c->word[2]);
+    if (*name == '\0') return fl_deck_fail(&c->d, err, "the component has no name");
+    c->node_sets += !elements;
+    if (elements && (set = fl_names_add(&c->e.sets, name, err)) < 0) return -1;
+    if (read_format(c, &f, err)) return -1;
+    if (f.whole != f.n)
+        return fl_deck_fail(&c->d, err, "a format of whole numbers was wanted for a component");
+    while ((more = free_row(c, err)) > 0) {
+        for (int k = 0; k < f.n; k++) {
+            if (is_blank(c, &f, k)) break;
+            if (whole_at(c, &f, k, &x, err)) return -1;
+            if (x == 0 || (x < 0 && (last <= 0 || -x < last)))
+                return fl_deck_fail(&c->d, err,
+                                    "%lld was found after %lld, a number above 0 or the end of a "
+                                    "range was wanted",
+                                    (long long)x, (long long)last);
+            n++;
+            if (elements && x > 0 && fl_cdb_component_add(&c->components, set, x, x, err)) return -1;
+            if (elements && x < 0) c->components.in[c->components.n - 1].hi = -x;
+            last = x;
+        }
+    }
+    if (more < 0) return -1;
+    compare(c, "CMBLOCK", promise, n);
+    return 0;
+}
