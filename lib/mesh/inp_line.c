@@ -19,7 +19,12 @@ void fl_inp_end(fl_inp_line *r)
     *r = (fl_inp_line){0};
 }
 
-static const char *skip_blanks(const char *s) { return s + strspn(s, " \t\f\v"); }
+static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
+static const char *skip_blanks(const char *s)
+{
+    while (is_blank(*s)) s++;
+    return s;
+}
 
 static int is_keyword(const char *line) { return *skip_blanks(line) == '*'; }
 static int is_comment(const char *line)
@@ -160,15 +165,20 @@ int fl_inp_data(fl_inp_line *r, fl_err *err)
         return 0;
     }
     r->fields = 0;
-    for (;;) {
-        char *end = item_end(p, ',');
+    for (;;) { /* as item_end(), and without the blanks about it */
+        while (is_blank(*p)) p++;
+        char *const start = p, *end = p, *stop = p; /* stop: behind the last that is not blank */
+        int quoted = 0;
+        for (; *end && (quoted || *end != ','); end++) {
+            quoted ^= *end == '"';
+            if (!is_blank(*end)) stop = end + 1;
+        }
         const int last = *end == '\0';
-        *end = '\0';
-        p = fl_deck_trim(p);
-        r->more = last && *p == '\0' && r->fields > 0;
+        *stop = '\0';
+        r->more = last && stop == start && r->fields > 0;
         if (r->more) return 1;
         if (r->fields == FL_INP_FIELDS) return fl_inp_fail(r, err, "too many numbers on one line", "");
-        r->field[r->fields++] = unquoted(p);
+        r->field[r->fields++] = *start == '"' ? unquoted(start) : start;
         if (last) return 1;
         p = end + 1;
     }
