@@ -2,6 +2,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include "base/decimal.h"
 #include "base/mem.h"
 #include "base/num.h"
 #include "mesh/bytes.h"
@@ -113,6 +114,58 @@ int fl_bytes_take(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err)
     return 1;
 }
 
+int32_t fl_bytes_peek(fl_bytes *b, int32_t n, const char **p, fl_err *err)
+{
+    if (b->n - b->pos < n && !b->ended && move_on(b, n, err)) return -1;
+    *p = b->data + b->pos;
+    return b->n - b->pos < n ? b->n - b->pos : n;
+}
+
+int fl_bytes_skip(fl_bytes *b, int64_t n, fl_err *err)
+{
+    for (;;) {
+        const int32_t left = b->n - b->pos, k = n < left ? (int32_t)n : left;
+        b->pos += k;
+        n -= k;
+        if (n == 0) return 1;
+        if (b->ended) return 0;
+        if (move_on(b, 1, err)) return -1;
+    }
+}
+
+/* The first place from pos on where the mark stands as fl_bytes_seek() wants it, or from where on more of the
+ * file has to be seen. */
+static int32_t find_mark(const fl_bytes *b, const char *mark, int32_t len, int *found)
+{
+    const char *const end = b->data + b->n, *p = b->data + b->pos;
+    *found = 0;
+    while ((p = memchr(p, mark[0], (size_t)(end - p))) != NULL) {
+        if (end - p <= len && !b->ended) return (int32_t)(p - b->data);
+        /* a zero byte before it is a line end that was cut */
+        *found = end - p >= len && memcmp(p, mark, (size_t)len) == 0 && strchr(" \t\r\n", p[len]) &&
+                 (p == b->data ? b->before == 0 : strchr("\r\n", p[-1]) != NULL);
+        if (*found) return (int32_t)(p - b->data);
+        p++;
+    }
+    return b->n;
+}
+
+int fl_bytes_seek(fl_bytes *b, const char *mark, fl_err *err)
+{
+    const int32_t len = (int32_t)strlen(mark);
+    b->words = b->next = 0;
+    for (;;) {
+        int found;
+        const int32_t at = find_mark(b, mark, len, &found), keep = at > b->pos && !found;
+        if (b->line)
+            for (int32_t k = b->pos; k < at - keep; k++) b->line += b->data[k] == '\n';
+        b->pos = at - keep; /* the byte before the mark tells whether a line begins there */
+        if (found) return 1;
+        if (b->ended) return 0;
+        if (move_on(b, (int64_t)len + 2, err)) return -1;
+    }
+}
+
 int fl_bytes_line(fl_bytes *b, char **start, int32_t *len, fl_err *err)
 {
     if (whole_line(b, err)) return -1;
@@ -202,6 +255,50 @@ static int cut_line(fl_bytes *b, fl_err *err)
     }
     b->pos = (int32_t)(p - b->data);
     return 0;
+}
+
+/* Step over blanks and line ends. */
+static int skip_space(fl_bytes *b, fl_err *err)
+{
+    for (;;) {
+        const char *p = b->data + b->pos;
+        for (; is_blank(*p) || *p == '\r' || *p == '\n'; p++) b->line += *p == '\n';
+        b->pos = (int32_t)(p - b->data);
+        if (b->pos < b->n || b->ended) return 0;
+        if (move_on(b, 1, err)) return -1;
+    }
+}
+
+int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
+{
+    static const char ENDS[] = " \t\f\v\r\n";
+    enum { ENOUGH = 64, MOST = 1 << 20 }; /* bytes of most numbers, and of any word */
+    const char *end;
+    int32_t len;
+    if (skip_space(b, err)) return -1;
+    if (b->n - b->pos >= ENOUGH && (end = fl_decimal(b->data + b->pos, x)) != NULL && *end &&
+        strchr(ENDS, *end)) {
+        b->pos = (int32_t)(end - b->data);
+        return 1;
+    }
+    for (;;) {
+        len = (int32_t)strcspn(b->data + b->pos, ENDS);
+        if (b->pos + len < b->n || b->ended) break;
+        if (len > MOST) return fl_bytes_fail(b, err, "a word of more than %d bytes", MOST);
+        if (move_on(b, 2 * (int64_t)len + ENOUGH, err)) return -1;
+    }
+    const char *p = b->data + b->pos;
+    if (b->pos == b->n) return 0;
+    if (p[len] == '\0' && b->pos + len < b->n)
+        return fl_bytes_fail(b, err, "a zero byte: this is not a text file");
+    end = fl_decimal(p, x);
+    if (end != p + len) {
+        if (!any)
+            return fl_bytes_fail(b, err, "\"%.*s\" was found, a number was wanted", len < 40 ? len : 40, p);
+        *x = 0.0;
+    }
+    b->pos += len;
+    return 1;
 }
 
 int fl_bytes_row(fl_bytes *b, fl_err *err)

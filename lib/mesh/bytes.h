@@ -43,6 +43,17 @@ void fl_bytes_window(int32_t bytes);
  * before, or -1 with FL_INPUT or FL_SYSTEM. */
 int fl_bytes_take(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err);
 
+/* The same bytes without stepping over them, fewer where the file ends before: how many, or -1. */
+int32_t fl_bytes_peek(fl_bytes *b, int32_t n, const char **p, fl_err *err);
+
+/* Step over n bytes: 1, 0 when the file ends before, -1. */
+int fl_bytes_skip(fl_bytes *b, int64_t n, fl_err *err);
+
+/* Step to the next line that begins with mark, which a blank, a line end or the end of the file follows; of
+ * bytes that are no text it is one that a line end comes before.  Lines are counted where b->line is not 0.
+ * 1, 0 when there is none, -1. */
+int fl_bytes_seek(fl_bytes *b, const char *mark, fl_err *err);
+
 /* The next line into *start, ended by a zero byte in place of its end (\n, \r\n or \r) and its length into
  * *len. 1, 0 at the end, -1 with FL_INPUT or FL_SYSTEM. */
 int fl_bytes_line(fl_bytes *b, char **start, int32_t *len, fl_err *err);
@@ -50,6 +61,10 @@ int fl_bytes_line(fl_bytes *b, char **start, int32_t *len, fl_err *err);
 /* Next row with words: skips blank ones and comments; \n, \r\n and \r end a line, and a backslash before the
  * end joins the next one on.  1, 0 at the end, -1 with err (a zero byte, no memory). */
 int fl_bytes_row(fl_bytes *b, fl_err *err);
+
+/* The next number, behind blanks and line ends: 1, 0 at the end of the file, or -1 with FL_INPUT when that is
+ * no number; with `any` set it is then 0.  Lines that are stepped over are counted. */
+int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err);
 
 /* Next word, of this row or of the next: 1, 0 at the end, -1 with err. */
 int fl_bytes_word(fl_bytes *b, const char **word, fl_err *err);
@@ -64,6 +79,9 @@ int fl_bytes_fail(const fl_bytes *b, fl_err *err, const char *fmt, ...) __attrib
 
 /* Add a remark; what does not fit is dropped. */
 void fl_bytes_note(fl_bytes *b, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+
+/* How far into the file the next byte is. */
+static inline int64_t fl_bytes_place(const fl_bytes *b) { return b->before + b->pos; }
 
 void fl_bytes_free(fl_bytes *b); /* accepts a zeroed struct, leaves one */
 

@@ -99,10 +99,9 @@ static int is_faces(const fl_bytes *b)
 
 static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
 {
-    const int msh = fl_msh_is(b), vtx = fl_vtx_is(b);
-    if ((msh || vtx || fl_vtk_is(b)) && fl_bytes_whole(b, err)) return -1;
-    if (msh) return fl_msh_read(s, b, name, w, err);
-    if (vtx) return fl_vtx_read(s, b, name, w, err);
+    if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
+    /* arrays of an XML file may lie anywhere behind the tags, and several times in the same place */
+    if (fl_vtx_is(b)) return fl_bytes_whole(b, err) ? -1 : fl_vtx_read(s, b, name, w, err);
     if (fl_vtk_is(b)) return fl_vtk_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
     if (fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);

@@ -103,21 +103,32 @@ static int bad(const msh *m, fl_err *err, const char *fmt, ...)
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
     if (m->b->line) return fl_bytes_fail(m->b, err, "%s", what);
-    return fl_bytes_fail(m->b, err, "byte %d: %s", m->b->pos, what);
+    return fl_bytes_fail(m->b, err, "byte %lld: %s", (long long)fl_bytes_place(m->b), what);
 }
 
-/* The next n bytes as a number, the byte order being that of the file. */
+/* The number of n bytes at p, the byte order being that of the file. */
+static uint64_t number_at(const msh *m, const unsigned char *p, int n)
+{
+    uint64_t eight = 0;
+    uint32_t four = 0;
+    if (n == 8) {
+        memcpy(&eight, p, sizeof eight);
+        return m->swap ? __builtin_bswap64(eight) : eight;
+    }
+    memcpy(&four, p, sizeof four);
+    return m->swap ? __builtin_bswap32(four) : four;
+}
+
+static int cut_off(const msh *m, int more, fl_err *err)
+{
+    return more > 0 ? 0 : more < 0 ? -1 : bad(m, err, "the file ends inside the data");
+}
+
 static int raw(msh *m, int n, uint64_t *bits, fl_err *err)
 {
-    const uint16_t probe = 1;
-    const int little = (*(const unsigned char *)&probe == 1) != m->swap;
-    if (m->b->n - m->b->pos < n) return bad(m, err, "the file ends inside the data");
-    *bits = 0;
-    for (int k = 0; k < n; k++) {
-        const unsigned char byte = (unsigned char)m->b->data[m->b->pos + k];
-        *bits |= (uint64_t)byte << 8 * (little ? k : n - 1 - k);
-    }
-    m->b->pos += n;
+    const unsigned char *p = NULL;
+    if (cut_off(m, fl_bytes_take(m->b, n, &p, err), err)) return -1;
+    *bits = number_at(m, p, n);
     return 0;
 }
 
@@ -165,9 +176,8 @@ static int pass_over(msh *m, int is_real, int64_t n, fl_err *err)
     const char *w = "";
     if (m->binary) {
         const int size = is_real ? 8 : 4;
-        if (n < 0 || n > (m->b->n - m->b->pos) / size) return bad(m, err, "the file ends inside the data");
-        m->b->pos += (int32_t)n * size;
-        return 0;
+        if (n < 0 || n > INT64_MAX / size) return bad(m, err, "the file ends inside the data");
+        return cut_off(m, fl_bytes_skip(m->b, n * size, err), err);
     }
     for (i = 0; i < n; i++)
         if (word(m, "a number", &w, err)) return -1;
@@ -202,18 +212,6 @@ static int join(msh *m, int32_t *first, int32_t group, fl_err *err)
     return 0;
 }
 
-/* The text of a line: up to its end, which is passed. */
-static char *text_line(fl_bytes *b)
-{
-    char *p = b->data + b->pos;
-    const size_t n = strcspn(p, "\r\n");
-    b->pos += (int32_t)n;
-    if (b->pos < b->n) b->pos += p[n] == '\r' && p[n + 1] == '\n' ? 2 : 1;
-    p[n] = '\0';
-    b->line++;
-    return fl_deck_trim(p);
-}
-
 /* Rows: dimension tag "name", as text in a binary file too. */
 static int read_names(msh *m, fl_err *err)
 {
@@ -225,10 +223,12 @@ static int read_names(msh *m, fl_err *err)
     for (int64_t i = 0; i < n; i++) {
         char *p, *end;
         long dim, tag;
-        int32_t k;
+        int32_t k, len;
         do {
-            if (m->b->pos >= m->b->n) return bad(m, err, "the file ends after %lld names", (long long)i);
-            p = text_line(m->b);
+            const int more = fl_bytes_line(m->b, &p, &len, err);
+            if (more < 0) return -1;
+            if (more == 0) return bad(m, err, "the file ends after %lld names", (long long)i);
+            p = fl_deck_trim(p);
         } while (*p == '\0');
         dim = strtol(p, &end, 10);
         if (end == p || dim < 0 || dim >= DIMS) goto wrong;
@@ -493,21 +493,15 @@ static int read_format(msh *m, fl_err *err)
 /* Go on behind the line $End.. of a section. */
 static int leave(msh *m, const char *section, fl_err *err)
 {
-    fl_bytes *b = m->b;
     char mark[64];
-    const size_t n = (size_t)snprintf(mark, sizeof mark, "$End%.50s", section + 1);
-    for (char *p = b->data + b->pos; (p = memchr(p, '$', (size_t)(b->data + b->n - p))) != NULL; p++) {
-        if (strncmp(p, mark, n) != 0 || !strchr(" \t\r\n", p[n])) continue;
-        if (p > b->data && !strchr("\r\n", p[-1])) continue; /* a zero byte is an end of line that was cut */
-        if (b->line)
-            for (const char *q = b->data + b->pos; q < p; q++) b->line += *q == '\n';
-        b->pos = (int32_t)(p - b->data);
-        b->words = b->next = 0;
-        text_line(b);
-        if (m->binary) b->line = 0;
-        return 0;
-    }
-    return bad(m, err, "the file ends inside %.50s", section);
+    snprintf(mark, sizeof mark, "$End%.50s", section + 1);
+    const int more = fl_bytes_seek(m->b, mark, err);
+    if (more < 0) return -1;
+    if (more == 0) return bad(m, err, "the file ends inside %.50s", section);
+    if (fl_bytes_row(m->b, err) < 0) return -1;
+    m->b->next = m->b->words;
+    if (m->binary) m->b->line = 0;
+    return 0;
 }
 
 /* What is known of a section is read; its end mark must follow. */

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/decimal.h"
 #include "base/mem.h"
 #include "base/num.h"
 #include "mesh/read_vtk.h"
@@ -62,48 +61,70 @@ static int bad(const vtk *v, fl_err *err, const char *fmt, ...)
     va_start(ap, fmt);
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
-    if (v->binary) return fl_bytes_fail(v->b, err, "byte %d: %s", v->b->pos, what);
+    if (v->binary) return fl_bytes_fail(v->b, err, "byte %lld: %s", (long long)fl_bytes_place(v->b), what);
     return fl_bytes_fail(v->b, err, "%s", what);
 }
 
 /* --- lines and numbers ---------------------------------------------------------------------------------- */
 
-/* The next line as it is, without its end; NULL at the end of the file. */
-static const char *line(vtk *v, size_t *n)
+/* The next line that is not empty, cut into words; 1, 0 at the end, -1. */
+static int row(vtk *v, fl_err *err)
 {
-    fl_bytes *b = v->b;
-    const char *p = b->data + b->pos;
-    if (b->pos >= b->n) return NULL;
-    *n = strcspn(p, "\r\n");
-    b->pos += (int32_t)*n;
-    if (b->pos < b->n) b->pos += p[*n] == '\r' && p[*n + 1] == '\n' ? 2 : 1;
-    b->line++;
-    return p;
-}
-
-/* The next line that is not empty, cut into words; 1, or 0 at the end. */
-static int row(vtk *v)
-{
-    const char *p;
-    size_t n;
-    do {
-        p = line(v, &n);
-        if (!p) return 0;
-        v->words = 0;
+    v->words = 0;
+    while (v->words == 0) {
+        char *p;
+        int32_t n;
+        const int more = fl_bytes_line(v->b, &p, &n, err);
+        if (more <= 0) return more;
         while (v->words < WORDS) {
             size_t k = 0;
-            while (n && strchr(" \t", *p)) {
-                p++;
-                n--;
-            }
-            if (n == 0 || *p == '\0') break;
-            for (; n && *p != ' ' && *p != '\t'; p++, n--)
+            while (*p == ' ' || *p == '\t') p++;
+            if (*p == '\0') break;
+            for (; *p && *p != ' ' && *p != '\t'; p++)
                 if (k < WORD - 1) v->word[v->words][k++] = *p;
             v->word[v->words++][k] = '\0';
         }
-    } while (v->words == 0);
+    }
     for (int k = v->words; k < WORDS; k++) v->word[k][0] = '\0';
     return 1;
+}
+
+/* The next line that is not empty, which must be there. */
+static int wanted_row(vtk *v, const char *inside, fl_err *err)
+{
+    const int more = row(v, err);
+    return more > 0 ? 0 : more < 0 ? -1 : bad(v, err, "the file ends inside %s", inside);
+}
+
+/* Step over a line; an empty one is 0, as is the end of the file. */
+static int pass_line(vtk *v, fl_err *err)
+{
+    char *p;
+    int32_t n;
+    const int more = fl_bytes_line(v->b, &p, &n, err);
+    return more <= 0 ? more : n > 0;
+}
+
+/* METADATA goes on up to an empty line. */
+static int pass_metadata(vtk *v, fl_err *err)
+{
+    int more;
+    while ((more = pass_line(v, err)) > 0) {}
+    return more;
+}
+
+/* Does the next line that is not empty begin with this word?  What follows may be bytes: they are only looked
+ * at. */
+static int comes(vtk *v, const char *word, fl_err *err)
+{
+    enum { FAR = 400 }; /* more blanks and empty lines nobody writes */
+    const size_t len = strlen(word);
+    const char *p;
+    const int32_t n = fl_bytes_peek(v->b, FAR, &p, err);
+    if (n < 0) return -1;
+    const char *const end = p + n;
+    while (p < end && strchr(" \t\r\n", *p) && *p) p++;
+    return (size_t)(end - p) >= len && strncasecmp(p, word, len) == 0;
 }
 
 static int is(const vtk *v, const char *word) { return strcasecmp(v->word[0], word) == 0; }
@@ -147,64 +168,49 @@ static double binary_number(const unsigned char *p, const number_type *t)
     return x;
 }
 
-/* The next word of text that has lines; NULL at the end. */
-static const char *next_word(vtk *v)
+/* Room for n numbers behind those of a, which grow as they come. */
+static int room(fl_vtk_array *a, int64_t n, fl_err *err)
 {
-    fl_bytes *b = v->b;
-    const char *p = b->data + b->pos;
-    for (; *p && strchr(" \t\r\n\f\v", *p); p++) b->line += *p == '\n';
-    b->pos = (int32_t)(p - b->data);
-    return *p ? p : NULL;
+    return fl_grow(&a->x, &a->cap, a->n + n, sizeof *a->x, err);
 }
 
-static int text_number(vtk *v, int used, double *x, fl_err *err)
+static int binary_numbers(vtk *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_err *err)
 {
-    const char *p = next_word(v), *end;
-    if (!p) return bad(v, err, "the file ends inside the data");
-    end = fl_decimal(p, x);
-    if (!end || !strchr(" \t\r\n\f\v", *end)) {
-        const size_t n = strcspn(p, " \t\r\n\f\v");
-        if (used) return bad(v, err, "\"%.*s\" was found, a number was wanted", (int)(n < 40 ? n : 40), p);
-        end = p + n; /* nan and the like may stand where nobody looks */
-        *x = 0.0;
+    enum { AT_ONCE = 4096 };
+    const unsigned char *p = NULL;
+    int more = 1;
+    if (!a || t->bytes == 0) {
+        more = fl_bytes_skip(v->b, t->bytes ? n * t->bytes : (n + 7) / 8, err);
+        return more > 0 ? 0 : more < 0 ? -1 : bad(v, err, "the file ends inside the data");
     }
-    v->b->pos = (int32_t)(end - v->b->data);
+    while (n > 0) {
+        const int32_t k = n < AT_ONCE ? (int32_t)n : AT_ONCE;
+        more = fl_bytes_take(v->b, k * t->bytes, &p, err);
+        if (more < 0) return -1;
+        if (more == 0) return bad(v, err, "the file ends inside the data");
+        if (room(a, k, err)) return -1;
+        for (int32_t i = 0; i < k; i++) a->x[a->n++] = binary_number(p + (ptrdiff_t)i * t->bytes, t);
+        n -= k;
+    }
     return 0;
 }
 
-/* n numbers into a (NULL: nobody wants them).  A file that has fewer bytes than numbers was cut off, and is
- * refused before there is memory for them. */
+/* n numbers into a (NULL: nobody wants them).  Of a file that has fewer, only so many come. */
 static int numbers(vtk *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_err *err)
 {
-    const int64_t left = v->b->n - v->b->pos;
-    if (v->binary) {
-        const int64_t need = t->bytes ? n * t->bytes : (n + 7) / 8;
-        const unsigned char *p = (const unsigned char *)v->b->data + v->b->pos;
-        if (need > left)
-            return bad(v, err, "the file ends %lld bytes before the data do", (long long)(need - left));
-        if (a && t->bytes) {
-            a->x = fl_alloc(n, sizeof *a->x, err);
-            if (!a->x) return -1;
-            for (int64_t k = 0; k < n; k++) a->x[k] = binary_number(p + k * t->bytes, t);
-            a->n = n;
-        }
-        v->b->pos += (int32_t)need;
-        return 0;
-    }
+    if (v->binary) return binary_numbers(v, t, n, a, err);
     if (n == 0) return 0;
-    if (n > left) return bad(v, err, "the file ends inside the data");
     v->b->line++; /* the data begin in the next line */
-    if (a) {
-        a->x = fl_alloc(n, sizeof *a->x, err);
-        if (!a->x) return -1;
-        a->n = n;
-    }
     for (int64_t k = 0; k < n; k++) {
-        double ignored;
-        if (text_number(v, a != NULL, a ? &a->x[k] : &ignored, err)) return -1;
+        double x;
+        /* nan and the like may stand where nobody looks */
+        const int more = fl_bytes_real(v->b, a == NULL, &x, err);
+        if (more < 0 || (a && more && room(a, 1, err))) return -1;
+        if (more == 0) return bad(v, err, "the file ends inside the data");
+        if (a) a->x[a->n++] = x;
     }
-    line(v, &(size_t){0}); /* the rest of the last line, */
-    v->b->line--;          /* which is counted */
+    if (pass_line(v, err) < 0) return -1; /* the rest of the last line, */
+    v->b->line--;                         /* which is counted */
     return 0;
 }
 
@@ -257,7 +263,8 @@ static int read_offsets(vtk *v, cells *c, int64_t n, int64_t size, fl_err *err)
     if (numbers(v, t, n, &c->offset, err)) return -1;
     if (c->offset.x[0] != 0.0) return bad(v, err, "the first offset is %g, 0 was wanted", c->offset.x[0]);
     memmove(c->offset.x, c->offset.x + 1, (size_t)--c->offset.n * sizeof *c->offset.x);
-    if (!row(v) || !is(v, "CONNECTIVITY")) return bad(v, err, "CONNECTIVITY was wanted behind OFFSETS");
+    if (row(v, err) <= 0 || !is(v, "CONNECTIVITY"))
+        return err->code ? -1 : bad(v, err, "CONNECTIVITY was wanted behind OFFSETS");
     t = type_of(v->word[1]);
     if (!t) return bad(v, err, "connectivity of type \"%.40s\" was found", v->word[1]);
     return numbers(v, t, size, &c->corner, err);
@@ -266,15 +273,11 @@ static int read_offsets(vtk *v, cells *c, int64_t n, int64_t size, fl_err *err)
 static int read_cells(vtk *v, cells *c, fl_err *err)
 {
     fl_vtk_array all = {0};
-    int32_t pos, line_number;
     int64_t n, size;
-    int rc = -1;
+    int rc = -1, since;
     if (count(v, 1, &n, err) || count(v, 2, &size, err) || once(v, &c->offset, err)) return -1;
-    pos = v->b->pos;
-    line_number = v->b->line;
-    if (row(v) && is(v, "OFFSETS")) return read_offsets(v, c, n, size, err);
-    v->b->pos = pos;
-    v->b->line = line_number;
+    since = comes(v, "OFFSETS", err);
+    if (since) return since < 0 || row(v, err) < 0 ? -1 : read_offsets(v, c, n, size, err);
     if (numbers(v, type_of("int"), size, &all, err) == 0) rc = split(v, c, n, &all, err);
     free(all.x);
     return rc;
@@ -291,21 +294,25 @@ static int read_types(vtk *v, fl_err *err)
  * say how many bytes it has (3: one, 2: two, 1: four, 0: eight). */
 static int pass_strings(vtk *v, int64_t n, fl_err *err)
 {
-    size_t ignored;
-    for (int64_t k = 0; k < n; k++) {
+    int more = 1;
+    for (int64_t k = 0; more > 0 && k < n; k++) {
+        const unsigned char *p = NULL;
+        char *text;
+        int32_t len;
+        uint64_t length;
         if (!v->binary) {
-            if (!line(v, &ignored)) return bad(v, err, "the file ends inside the data");
+            more = fl_bytes_line(v->b, &text, &len, err);
             continue;
         }
-        const unsigned char *p = (const unsigned char *)v->b->data + v->b->pos;
-        const int64_t left = v->b->n - v->b->pos, bytes = left ? 8 >> (p[0] >> 6) : 1;
-        uint64_t length = left ? p[0] & 0x3f : 0;
-        for (int64_t i = 1; i < bytes && i < left; i++) length = length << 8 | p[i];
-        if (bytes > left || length > (uint64_t)(left - bytes))
-            return bad(v, err, "the file ends inside a string");
-        v->b->pos += (int32_t)(bytes + (int64_t)length);
+        more = fl_bytes_take(v->b, 1, &p, err);
+        if (more <= 0) break;
+        length = p[0] & 0x3f;
+        len = (8 >> (p[0] >> 6)) - 1;
+        more = fl_bytes_take(v->b, len, &p, err);
+        for (int32_t i = 0; more > 0 && i < len; i++) length = length << 8 | p[i];
+        if (more > 0) more = length > INT64_MAX ? 0 : fl_bytes_skip(v->b, (int64_t)length, err);
     }
-    return 0;
+    return more > 0 ? 0 : more < 0 ? -1 : bad(v, err, "the file ends inside a string");
 }
 
 /* An array of m columns of n values called name: kept when it says the parts of cells better than what was
@@ -332,11 +339,9 @@ static int read_field(vtk *v, fl_err *err)
     if (count(v, 2, &arrays, err)) return -1;
     for (int64_t k = 0; k < arrays; k++) {
         char name[WORD], type[WORD];
-        if (!row(v))
-            return bad(v, err, "the file ends after %lld of %lld arrays", (long long)k, (long long)arrays);
+        if (wanted_row(v, "a field", err)) return -1;
         if (is(v, "METADATA")) {
-            size_t length = 1;
-            while (length && line(v, &length)) {}
+            if (pass_metadata(v, err)) return -1;
             k--;
             continue;
         }
@@ -361,11 +366,8 @@ static int read_attribute(vtk *v, int64_t n, fl_err *err)
     memcpy(type, v->word[2], sizeof type);
     if (is(v, "SCALARS")) {
         if (v->words > 3 && count(v, 3, &m, err)) return -1;
-        const int32_t pos = v->b->pos, line_number = v->b->line;
-        if (!row(v) || !is(v, "LOOKUP_TABLE")) { /* it may be left out */
-            v->b->pos = pos;
-            v->b->line = line_number;
-        }
+        const int table = comes(v, "LOOKUP_TABLE", err); /* it may be left out */
+        if (table && (table < 0 || row(v, err) < 0)) return -1;
         return read_array(v, name, type, m, n, err);
     }
     if (is(v, "TEXTURE_COORDINATES")) {
@@ -388,9 +390,7 @@ static int read_attribute(vtk *v, int64_t n, fl_err *err)
 
 static int read_head(vtk *v, fl_err *err)
 {
-    size_t n;
-    line(v, &n);
-    if (!line(v, &n) || !row(v)) return bad(v, err, "the file ends inside its head");
+    if (pass_line(v, err) < 0 || pass_line(v, err) < 0 || wanted_row(v, "its head", err)) return -1;
     if (is(v, "BINARY")) v->binary = 1;
     else if (!is(v, "ASCII"))
         return bad(v, err, "\"%.40s\" was found, ASCII or BINARY was wanted", v->word[0]);
@@ -408,13 +408,12 @@ static int read_set(vtk *v, int *grid, fl_err *err)
 static int read_all(vtk *v, fl_err *err)
 {
     int64_t n = 0;
-    int grid = 0, sets = 0;
+    int grid = 0, sets = 0, more;
     if (read_head(v, err)) return -1;
-    while (row(v)) {
+    while ((more = row(v, err)) > 0) {
         int k = 0;
-        if (is(v, "METADATA")) { /* up to an empty line */
-            size_t length = 1;
-            while (length && line(v, &length)) {}
+        if (is(v, "METADATA")) {
+            if (pass_metadata(v, err)) return -1;
             continue;
         }
         while (k < LISTS && !is(v, LIST[k])) k++;
@@ -440,8 +439,8 @@ static int read_all(vtk *v, fl_err *err)
             return -1;
         }
     }
-    if (!v->g.point.x) return bad(v, err, "no POINTS");
-    return 0;
+    if (more < 0) return -1;
+    return v->g.point.x ? 0 : bad(v, err, "no POINTS");
 }
 
 /* Put the lists one behind the other. */

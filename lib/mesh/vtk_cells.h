@@ -9,6 +9,7 @@
 typedef struct {
     double *x; /* [n] */
     int64_t n;
+    int32_t cap;
 } fl_vtk_array;
 
 /* One mesh: points, and cells c whose corners are corner.x[last(c - 1) .. last(c)), last being offset.x[c]

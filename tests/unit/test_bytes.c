@@ -77,6 +77,52 @@ static void lines_and_bytes_do_not_either(void **state)
     }
 }
 
+/* Numbers, marks and bytes that are only looked at. */
+static void numbers_and_marks_do_not_either(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "  1.5\t-2e3\r\n\n 3 nan 0.0000000000000000000000000000000000000000000000000000000000000"
+        "0000000000000000000000000000000000000000000000000000000000000000000000000007\n"
+        "$E\n$EndXY\n x$EndX\n\001\002$EndX\n$EndX \nrest 7";
+    static const double want[] = {1.5, -2000.0, 3.0};
+    for (int32_t window = 1; window < 300; window += 1 + window / 40) {
+        const char *p;
+        char *line;
+        int32_t len;
+        double x;
+        open_with(text, sizeof text - 1, window);
+        b.line = 1;
+        for (int k = 0; k < 3; k++) {
+            assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 1);
+            assert_true(x == want[k]);
+        }
+        assert_int_equal(b.line, 3);
+        assert_int_equal(fl_bytes_real(&b, 1, &x, &err), 1); /* whatever it is */
+        assert_true(x == 0.0);
+        assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 1);
+        assert_near(x, 7e-137, 0.0);
+        assert_int_equal(fl_bytes_seek(&b, "$EndX", &err), 1);
+        assert_int_equal(b.line, 8);
+        assert_int_equal(fl_bytes_peek(&b, 10, &p, &err), 10);
+        assert_memory_equal(p, "$EndX \nres", 10);
+        assert_int_equal(fl_bytes_line(&b, &line, &len, &err), 1);
+        assert_string_equal(line, "$EndX ");
+        assert_int_equal(fl_bytes_peek(&b, 10, &p, &err), 6);
+        assert_int_equal(fl_bytes_skip(&b, 5, &err), 1);
+        assert_int_equal(fl_bytes_place(&b), sizeof text - 2);
+        assert_int_equal(fl_bytes_skip(&b, 2, &err), 0);
+        assert_int_equal(fl_bytes_seek(&b, "$EndX", &err), 0);
+        assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 0);
+        open_with("1 zwei", 6, window);
+        assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 1);
+        assert_int_equal(fl_bytes_real(&b, 0, &x, &err), -1);
+        assert_non_null(strstr(err.text, "\"zwei\" was found, a number was wanted"));
+        open_with("1\0", 2, window);
+        assert_int_equal(fl_bytes_real(&b, 1, &x, &err), -1);
+    }
+}
+
 /* What a reader makes of a file does not depend on the window either. */
 static int same_through(const char *path, int32_t window)
 {
@@ -144,6 +190,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(rows_do_not_depend_on_the_window, end),
         cmocka_unit_test_teardown(lines_and_bytes_do_not_either, end),
+        cmocka_unit_test_teardown(numbers_and_marks_do_not_either, end),
         cmocka_unit_test_teardown(meshes_do_not_depend_on_the_window, end),
         cmocka_unit_test_teardown(without_memory_it_says_so, end),
     };
