@@ -3,18 +3,35 @@
 #include "bound/shell.h"
 #include "narrow/nearest.h"
 
+/* Two distances within this fraction of the size are one: rounding of the coordinates. */
+#define SAME 1e-12
+
+static double box_distance2(const fl_aabb *b, fl_vec3 x)
+{
+    const double dx = fmax(fmax(b->lo.x - x.x, x.x - b->hi.x), 0.0),
+                 dy = fmax(fmax(b->lo.y - x.y, x.y - b->hi.y), 0.0),
+                 dz = fmax(fmax(b->lo.z - x.z, x.z - b->hi.z), 0.0);
+    return dx * dx + dy * dy + dz * dz;
+}
+
+/* Face f is not nearer to x than d, by its plane or by its box. */
+static int farther(const fl_poly *p, const fl_aabb *box, int32_t f, fl_vec3 x, double d)
+{
+    return fabs(v3_dot(p->n[f], x) - p->c[f]) > d || box_distance2(&box[f], x) > d * d;
+}
+
 /* Signed distance of x from the faces in the list.  Of faces whose nearest points agree within rounding (a
  * shared edge or corner) the one that x is most in front of tells the side: its plane passes between x and
  * the others. */
-static fl_nearest nearest_of(const fl_poly *p, const int32_t *face, int32_t n, fl_vec3 x)
+static fl_nearest nearest_of(const fl_poly *p, const fl_aabb *box, const int32_t *face, int32_t n, fl_vec3 x)
 {
     fl_nearest best = {.d = INFINITY};
     double front = 0.0;
-    const double same = 1e-12 * p->size;
+    const double same = SAME * p->size;
     for (int32_t k = 0; k < n; k++) {
         const int32_t f = face[k];
+        if (farther(p, box, f, x, best.d + 2.0 * same)) continue;
         const double s = v3_dot(p->n[f], x) - p->c[f];
-        if (fabs(s) > best.d + same) continue;
         const fl_nearest q = fl_nearest_face(p, f, x);
         if (q.d > best.d + same) continue;
         if (q.d < best.d - same || fabs(s) > fabs(front)) {
@@ -27,6 +44,21 @@ static fl_nearest nearest_of(const fl_poly *p, const int32_t *face, int32_t n, f
         best.n = v3_neg(best.n);
     }
     return best;
+}
+
+/* Is x behind the surface, or may it come there when it moves by the margin?  Not when it is farther off than
+ * that, and in front of every face that may become the nearest. */
+static int may_come_behind(const fl_poly *p, const fl_aabb *box, const int32_t *face, int32_t n, fl_vec3 x,
+                           double margin)
+{
+    const double d = nearest_of(p, box, face, n, x).d, most = d + 2.0 * margin;
+    if (d < margin) return 1;
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t f = face[k];
+        if (v3_dot(p->n[f], x) - p->c[f] >= margin || farther(p, box, f, x, most)) continue;
+        if (fl_nearest_face(p, f, x).d < most) return 1;
+    }
+    return 0;
 }
 
 static int32_t query(const fl_bvh *tree, const fl_aabb *box, fl_aabb q, int32_t **list, int32_t *cap)
@@ -81,16 +113,17 @@ static int around(fl_reach *r, const fl_poly *core, const fl_shell *sh, fl_aabb 
     return 0;
 }
 
-/* The vertices of the core: signed distances from the walls.  *behind is set when one is behind the surface;
- * the places of those are added here, or, for `single`, the place of the deepest. */
-static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_matches *l, double ra,
-                         int single, int *behind)
+/* The vertices of the core that may be behind the surface: signed distances from the walls.  *behind is set
+ * when one is; the places of those are added here, or, for `single`, the place of the deepest. */
+static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_aabb *box,
+                         const fl_matches *l, double ra, int single, int *behind)
 {
     fl_nearest deepest = {.d = ra};
     int32_t which = -1;
     *behind = 0;
-    for (int32_t v = 0; v < A->p->nv; v++) {
-        const fl_nearest q = nearest_of(B->p, l->wall, l->walls, w->va[v]);
+    for (int32_t k = l->walls; k < l->walls + l->shy; k++) {
+        const int32_t v = l->wall[k];
+        const fl_nearest q = nearest_of(B->p, box, l->wall, l->walls, w->va[v]);
         if (q.d < deepest.d) deepest = q, which = v;
         if (single || q.d >= 0.0) continue;
         *behind = 1;
@@ -99,20 +132,64 @@ static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const
     return single && which >= 0 ? fl_places_point(w, w->va[which], deepest.n, ra - deepest.d, ra) : 0;
 }
 
+/* Some face of the core has all of the points beyond it by `far`: they are farther than that from the core.
+ */
+static int beyond(const fl_side *A, const fl_side *B, const int32_t *at, int32_t n, double far)
+{
+    for (int32_t F = 0; F < A->p->nf; F++) {
+        const double level = v3_dot(A->n[F], A->v[A->p->loop[A->p->first[F]]]) + far;
+        int32_t k = 0;
+        while (k < n && v3_dot(A->n[F], B->v[at[k]]) > level) k++;
+        if (k == n) return 1;
+    }
+    return 0;
+}
+
+/* Leave of the walls what is within `far` of the core: the others only tell on which side its vertices are.
+ */
+static void leave_near(fl_reach *r, const fl_side *A, const fl_side *B, double far)
+{
+    const fl_poly *p = B->p;
+    int32_t n = 0;
+    for (int32_t k = 0; k < r->faces; k++) {
+        const int32_t f = r->face[k];
+        if (!beyond(A, B, p->loop + p->first[f], p->first[f + 1] - p->first[f], far)) r->face[n++] = f;
+    }
+    r->faces = n;
+    n = 0;
+    for (int32_t k = 0; k < r->edges; k++) {
+        const fl_edge e = p->edge[r->edge[k]];
+        if (!beyond(A, B, (const int32_t[2]){e.a, e.b}, 2, far)) r->edge[n++] = r->edge[k];
+    }
+    r->edges = n;
+    n = 0;
+    for (int32_t k = 0; k < r->vertices; k++)
+        if (!beyond(A, B, &r->vertex[k], 1, far)) r->vertex[n++] = r->vertex[k];
+    r->vertices = n;
+}
+
 /* The walls within reach, and what of them and of the core may have places, until the pair has moved by the
  * margin. */
 static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, const fl_side *B,
-                        const fl_shell *shell, double ra, double reach, fl_matches *l, double path)
+                        const fl_shell *shell, double ra, double reach, int single, fl_matches *l,
+                        double path)
 {
-    const double margin = FL_PLACE_MARGIN * ra;
+    const double margin = FL_PLACE_MARGIN * ra, same = SAME * (A->p->size + B->p->size);
     fl_reach *walls = &near->of_shell, *all = &near->of_core;
     fl_aabb box = aabb_empty();
     fl_err lost = {0};
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
     if (around(walls, B->p, shell, box, ra + margin, reach + margin)) return -1;
-    if (walls->faces && fl_grow(&l->wall, &l->wall_cap, walls->faces, sizeof *l->wall, &lost)) return -1;
+    if (walls->faces &&
+        fl_grow(&l->wall, &l->wall_cap, (int64_t)walls->faces + A->p->nv, sizeof *l->wall, &lost))
+        return -1;
     for (int32_t k = 0; k < walls->faces; k++) l->wall[k] = walls->face[k];
     l->walls = walls->faces;
+    l->shy = 0;
+    for (int32_t v = 0; v < A->p->nv && l->walls; v++)
+        if (single || may_come_behind(B->p, shell->box, l->wall, l->walls, w->va[v], margin + same))
+            l->wall[l->walls + l->shy++] = v;
+    leave_near(walls, A, B, ra + margin + same);
     return whole(all, A->p) || fl_matches_list(l, A, all, B, walls, ra, ra, margin, path) ? -1 : 0;
 }
 
@@ -125,13 +202,13 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     w->n = 0;
     w->couple = v3(0, 0, 0);
     *distance = reach;
-    if (path >= l->until && list_matches(w, near, &A, &B, &b->shell, ra, reach, l, path)) return -1;
+    if (path >= l->until && list_matches(w, near, &A, &B, &b->shell, ra, reach, single, l, path)) return -1;
     if (l->walls == 0) {
         l->until = path; /* what is not near now is not known later */
         return 0;
     }
     *distance = ra; /* something is near: no bound is claimed */
-    if (core_vertices(w, &A, &B, l, ra, single, &behind) || single) return single ? 0 : -1;
+    if (core_vertices(w, &A, &B, b->shell.box, l, ra, single, &behind) || single) return single ? 0 : -1;
     return fl_matches_places(w, l, &A, &B, ra, behind ? ra : 0.0, FL_PLACE_RIM * ra, 0.0);
 }
 

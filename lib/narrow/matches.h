@@ -56,8 +56,9 @@ struct fl_matches {
     fl_table table[2];
     int32_t n, cap, sides, side_cap;
     double until;  /* up to which path the list holds [m] */
-    int32_t *wall; /* [walls] the caller's: faces of a surface that is not convex, in reach as long */
-    int32_t walls, wall_cap;
+    int32_t *wall; /* [walls + shy] the caller's: faces of a surface that is not convex, in reach as long, and
+                    * vertices of A that may come behind it as long */
+    int32_t walls, shy, wall_cap;
 };
 
 /* List what of the features a of A and b of B can come within R of each other while no point moves by more
