@@ -3,6 +3,7 @@
 #include <ccd/ccd.h>
 #include <float.h>
 #include <math.h>
+#include "geom/dd.h"
 #include "narrow/descent.h"
 
 /* Widths nearer to each other than this fraction of the extent are equal: a few roundings of a support. */
@@ -14,6 +15,18 @@
 #define FACET_BAND 1e-3
 /* Vertices that touch the shifted plane, in extents: as in gjk.c. */
 #define PLANE_BAND 1e-10
+
+/* sin^2 of the angle of two edges below which their product is taken in pairs of doubles: in doubles it would
+ * turn by 2^-53 over the sine. */
+#define NEARLY_PARALLEL 1e-2
+/* And below which they are parallel: the facet that they make of the difference of the bodies is then too
+ * narrow to matter, and so is what any direction across one of them leaves out of the other, the sine
+ * times its length.  Pairs of doubles turn the product by 2^-104 over the sine, 1e-14 at most. */
+#define PARALLEL 1e-34
+/* Arcs that miss each other by less are tried all the same, which costs a support each and no more.  Normals
+ * are unit vectors that carry the rounding of their face over its least height: 1e-7 on one that is 1e-9
+ * of its body wide. */
+#define NEARLY_CROSSING 1e-6
 
 enum { SUPPORTS_MAX = 4000, CCD_STEPS = 200, NEAR_MAX = 64, FACE_MAX = 1024 };
 static const int64_t ALL_EDGE_PAIRS = 1 << 20;
@@ -66,23 +79,40 @@ static void try_faces(hunt *h)
 
 static fl_vec3 along(const fl_solid *s, const fl_edge *e) { return v3_sub(s->v[e->b], s->v[e->a]); }
 
-static void try_cross(hunt *h, const fl_edge *e, const fl_edge *f)
+/* The unit vector across two edges; zero when they are parallel. */
+static fl_vec3 across(const hunt *h, const fl_edge *e, const fl_edge *f)
 {
     const fl_vec3 l = along(h->a, e), m = along(h->b, f), n = v3_cross(l, m);
-    /* Parallel edges have no direction of their own; that of the next face serves. */
-    if (!(v3_norm2(n) > 1e-24 * v3_norm2(l) * v3_norm2(m))) return;
-    h->trying = (fl_overlap){.of = 0, .ea = v3_unit(l), .eb = v3_unit(m)};
-    try_direction(h, v3_unit(n));
-    try_direction(h, v3_neg(v3_unit(n)));
+    const double ll = v3_norm2(l), mm = v3_norm2(m);
+    if (v3_norm2(n) > NEARLY_PARALLEL * ll * mm) return v3_unit(n);
+    const fl_vec3 fine =
+        ddv_round(ddv_cross(ddv_diff(h->a->v[e->b], h->a->v[e->a]), ddv_diff(h->b->v[f->b], h->b->v[f->a])));
+    return v3_norm2(fine) > PARALLEL * ll * mm ? v3_unit(fine) : v3(0, 0, 0);
 }
 
-/* Do the arcs p q (an edge of a) and -r -s (an edge of b turned round) cross on the sphere of normals?  Only
- * then is the pair of edges a facet of the difference of the bodies. */
-static int arcs_cross(fl_vec3 p, fl_vec3 q, fl_vec3 r, fl_vec3 s)
+static void try_cross(hunt *h, const fl_edge *e, const fl_edge *f)
+{
+    const fl_vec3 n = across(h, e, f);
+    if (!(v3_norm2(n) > 0.0)) return; /* no direction of their own; that of the next face serves */
+    h->trying = (fl_overlap){.of = 0, .ea = v3_unit(along(h->a, e)), .eb = v3_unit(along(h->b, f))};
+    try_direction(h, n);
+    try_direction(h, v3_neg(n));
+}
+
+/* Both clearly on one side. */
+static int beside(double x, double y)
+{
+    return (x > NEARLY_CROSSING && y > NEARLY_CROSSING) || (x < -NEARLY_CROSSING && y < -NEARLY_CROSSING);
+}
+
+/* May the arcs p q (an edge of a) and -r -s (an edge of b turned round) cross on the sphere of normals?  Only
+ * then can the pair of edges be a facet of the difference of the bodies.  Each sign may be rounding, so
+ * that only those are left out that are clear. */
+static int arcs_may_cross(fl_vec3 p, fl_vec3 q, fl_vec3 r, fl_vec3 s)
 {
     const fl_vec3 c = v3_cross(q, p), d = v3_cross(s, r);
     const double rc = -v3_dot(r, c), sc = -v3_dot(s, c), pd = v3_dot(p, d), qd = v3_dot(q, d);
-    return rc * sc < 0.0 && pd * qd < 0.0 && rc * qd > 0.0;
+    return !beside(rc, sc) && !beside(pd, qd) && !beside(rc, -qd);
 }
 
 /* A body without volume has edges whose normals are opposite or missing: no arcs to speak of. */
@@ -96,7 +126,7 @@ static void try_edges(hunt *h)
         for (int32_t f = 0; f < q->ne; f++) {
             const fl_edge *ea = &p->edge[e], *eb = &q->edge[f];
             if (thin &&
-                !arcs_cross(h->a->n[ea->left], h->a->n[ea->right], h->b->n[eb->left], h->b->n[eb->right]))
+                !arcs_may_cross(h->a->n[ea->left], h->a->n[ea->right], h->b->n[eb->left], h->b->n[eb->right]))
                 continue;
             try_cross(h, ea, eb);
         }

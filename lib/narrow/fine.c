@@ -22,6 +22,7 @@ typedef struct {
 typedef struct {
     fl_dd d2;
     fl_ddv v;
+    double beyond; /* how far the other points of the simplex lie below the plane through v */
     int32_t n, k[4];
     double share[4]; /* v = sum of share[i] w[k[i]], shares sum to 1 */
 } fine_nearest;
@@ -75,11 +76,25 @@ static int fine_project(const fine_simplex *s, fine_nearest *c)
     return 1;
 }
 
-/* Tries every part of the simplex, so that no test of a sign can lose the nearest one.  held >= 0 is a
- * point that the right part is known to have; best->n is 0 when no such part is found. */
-static void fine_reduce(fine_simplex *s, int32_t held, fine_nearest *best)
+/* How far any point of the simplex lies below the plane across c->v through it, 0 for none. */
+static double below_plane(const fine_simplex *s, const fine_nearest *c)
 {
-    *best = (fine_nearest){.d2 = {INFINITY, 0.0}};
+    double most = 0.0;
+    for (int32_t k = 0; k < s->n; k++) {
+        const double t = ddv_dot(c->v, ddv_sub(s->w[c->k[0]], s->w[k])).h;
+        most = t > most ? t : most;
+    }
+    return most / sqrt(c->d2.h);
+}
+
+/* Tries every part of the simplex, so that no test of a sign can lose the nearest one.  It is the one whose
+ * plane leaves the least of the simplex below it: none, but for rounding, and linear in the error of its
+ * direction, whereas the distance sees only the square of that, which on cores of 1 that are 1e-11 apart
+ * is rounding up to 1e-11 rad.  A part nearer than touch ends the search.  held >= 0 is a point that the
+ * right part is known to have; best->n is 0 when no such part is found. */
+static void fine_reduce(fine_simplex *s, int32_t held, double touch, fine_nearest *best)
+{
+    *best = (fine_nearest){.d2 = {INFINITY, 0.0}, .beyond = INFINITY};
     for (int32_t set = 1; set < 1 << s->n; set++) {
         if (held >= 0 && !(set >> held & 1)) continue;
         fine_nearest c = {.n = 0};
@@ -87,7 +102,12 @@ static void fine_reduce(fine_simplex *s, int32_t held, fine_nearest *best)
             if (set >> k & 1) c.k[c.n++] = k;
         if (!fine_project(s, &c)) continue;
         c.d2 = ddv_dot(c.v, c.v);
-        if (best->n == 0 || dd_cmp(c.d2, best->d2) < 0.0) *best = c;
+        if (!(c.d2.h > touch * touch)) {
+            *best = c;
+            break;
+        }
+        c.beyond = below_plane(s, &c);
+        if (c.beyond < best->beyond) *best = c;
     }
     fine_simplex t = {.n = best->n};
     for (int32_t k = 0; k < t.n; k++) {
@@ -118,41 +138,46 @@ static int32_t fine_lowest(fl_core c, fl_ddv n, double size)
 
 int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *out)
 {
-    fine_simplex f = {.n = s->n};
-    fine_nearest now;
-    const double whole = size > 0.0 ? size : v3_norm(v3_sub(a.v[0], b.v[0]));
+    fine_simplex walk = {.n = s->n}, f;
+    fine_nearest next, now;
+    const double touch = TOUCH * (size > 0.0 ? size : v3_norm(v3_sub(a.v[0], b.v[0])));
     for (int32_t k = 0; k < s->n; k++) {
-        f.a[k] = s->a[k];
-        f.b[k] = s->b[k];
-        f.w[k] = ddv_diff(a.v[f.a[k]], b.v[f.b[k]]);
+        walk.a[k] = s->a[k];
+        walk.b[k] = s->b[k];
+        walk.w[k] = ddv_diff(a.v[walk.a[k]], b.v[walk.b[k]]);
     }
     int idle = 0;
-    fine_reduce(&f, -1, &now);
+    double least = INFINITY; /* what the plane of now leaves below it */
+    fine_reduce(&walk, -1, touch, &next);
+    f = walk;
+    now = next;
     for (int step = 0; step < STEPS; step++) {
-        const double len = sqrt(now.d2.h > 0.0 ? now.d2.h : 0.0);
-        if (!(len > TOUCH * whole)) {
+        const double len = sqrt(next.d2.h > 0.0 ? next.d2.h : 0.0);
+        if (!(len > touch)) {
+            f = walk;
+            now = next;
             out->overlap = 1;
             break;
         }
-        const fl_ddv dir = ddv_scale(dd_div(dd_of(1.0), dd_of(len)), now.v);
+        const fl_ddv dir = ddv_scale(dd_div(dd_of(1.0), dd_of(len)), next.v);
         const int32_t i = fine_lowest(a, dir, size),
                       j = fine_lowest(b, (fl_ddv){dd_neg(dir.x), dd_neg(dir.y), dd_neg(dir.z)}, size);
-        out->iterations++;
-        if (fl_simplex_has(f.n, f.a, f.b, i, j)) break;
         const fl_ddv w = ddv_diff(a.v[i], b.v[j]);
-        if (!(ddv_dot(dir, ddv_sub(f.w[0], w)).h > 0.0)) break;
-        fine_simplex t = f;
-        t.a[t.n] = i;
-        t.b[t.n] = j;
-        t.w[t.n++] = w;
-        fine_nearest next;
-        /* w lies below the plane through v, so the nearest part has w.  Where two parts are equally far to
-         * the last place it is still the one to go on with, some times. */
-        fine_reduce(&t, t.n - 1, &next);
-        if (next.n == 0) break;
-        if (!(dd_cmp(next.d2, now.d2) < 0.0) && (idle++ == IDLE || next.d2.h > now.d2.h * (1.0 + TIE))) break;
-        f = t;
-        now = next;
+        const double beyond = ddv_dot(dir, ddv_sub(walk.w[0], w)).h;
+        out->iterations++;
+        /* Where distances are equal to the last place, the walk goes on some times, and the best is kept. */
+        if (next.d2.h < now.d2.h * (1.0 - TIE) || beyond < least) {
+            f = walk;
+            now = next;
+            least = beyond;
+        } else if (idle++ == IDLE) break;
+        if (!(beyond > 0.0) || fl_simplex_has(walk.n, walk.a, walk.b, i, j)) break;
+        walk.a[walk.n] = i;
+        walk.b[walk.n] = j;
+        walk.w[walk.n++] = w;
+        /* w lies below the plane through v, so the nearest part has w. */
+        fine_reduce(&walk, walk.n - 1, touch, &next);
+        if (next.n == 0 || next.d2.h > now.d2.h * (1.0 + TIE)) break;
     }
     out->d = out->overlap ? 0.0 : sqrt(now.d2.h);
     out->n = out->overlap ? v3(0, 0, 0) : v3_unit(v3_scale(1.0 / out->d, ddv_round(now.v)));

@@ -12,13 +12,12 @@
 typedef struct {
     const fl_part *a, *b;
     int fine, found;
-    double enough, slack; /* coarse: slack that is rounding, slack of *out */
-    fl_dd d2;             /* fine: square of the distance of *out */
+    double enough, slack; /* slack that is rounding, slack of *out */
     fl_gap *out;
 } search;
 
 typedef struct {
-    fl_dd d2; /* fine only */
+    fl_ddv m; /* fine only: along n, of any length */
     double d;
     fl_vec3 n, pa, pb;
 } answer;
@@ -26,33 +25,36 @@ typedef struct {
 /* By division, not by a reciprocal: a direction along an axis comes out as one. */
 static fl_vec3 over(fl_vec3 a, double d) { return v3(a.x / d, a.y / d, a.z / d); }
 
+static fl_ddv negative(fl_ddv a) { return (fl_ddv){dd_neg(a.x), dd_neg(a.y), dd_neg(a.z)}; }
+
 static fl_ddv widen(fl_vec3 v) { return (fl_ddv){dd_of(v.x), dd_of(v.y), dd_of(v.z)}; }
 
-static double slack_of(const search *s, const int32_t *ka, const int32_t *kb, fl_vec3 n)
+/* Of p over q, along the answer. */
+static double height(const search *s, const answer *c, fl_vec3 p, fl_vec3 q)
+{
+    return s->fine ? ddv_dot(c->m, ddv_diff(p, q)).h : v3_dot(c->n, v3_sub(p, q));
+}
+
+static double slack_of(const search *s, const int32_t *ka, const int32_t *kb, const answer *c)
 {
     double sa = 0.0, sb = 0.0;
     for (int32_t k = 0; k < s->a->n; k++) {
-        const double t = v3_dot(n, v3_sub(s->a->v[ka[0]], s->a->v[k]));
+        const double t = height(s, c, s->a->v[ka[0]], s->a->v[k]);
         sa = t > sa ? t : sa;
     }
     for (int32_t k = 0; k < s->b->n; k++) {
-        const double t = v3_dot(n, v3_sub(s->b->v[k], s->b->v[kb[0]]));
+        const double t = height(s, c, s->b->v[k], s->b->v[kb[0]]);
         sb = t > sb ? t : sb;
     }
-    return sa + sb;
+    return s->fine ? (sa + sb) / v3_norm(ddv_round(c->m)) : sa + sb;
 }
 
 static void offer(search *s, int32_t na, const int32_t *ka, int32_t nb, const int32_t *kb, const answer *c)
 {
     if (!(c->d > 0.0) || !isfinite(c->d)) return;
-    if (s->fine) {
-        if (s->found && !(dd_cmp(c->d2, s->d2) < 0.0)) return;
-        s->d2 = c->d2;
-    } else {
-        const double slack = slack_of(s, ka, kb, c->n);
-        if (s->found && !(slack < s->slack)) return;
-        s->slack = slack;
-    }
+    const double slack = slack_of(s, ka, kb, c);
+    if (s->found && !(slack < s->slack)) return;
+    s->slack = slack;
     s->found = 1;
     fl_gap *g = s->out;
     g->d = c->d;
@@ -73,7 +75,10 @@ static void offer_vertex(search *s, int32_t i, int32_t n, const int32_t *k, int 
 {
     c.pa = swapped ? foot : p;
     c.pb = swapped ? p : foot;
-    if (swapped) c.n = v3_neg(c.n);
+    if (swapped) {
+        c.n = v3_neg(c.n);
+        c.m = negative(c.m);
+    }
     if (swapped) offer(s, n, k, 1, &i, &c);
     else offer(s, 1, &i, n, k, &c);
 }
@@ -84,10 +89,7 @@ static void try_points(search *s, int32_t i, int32_t j)
     const double d = v3_norm(w);
     if (!(d > 0.0)) return;
     answer c = {.d = d, .n = over(w, d), .pa = p, .pb = q};
-    if (s->fine) {
-        const fl_ddv e = ddv_diff(p, q);
-        c.d2 = ddv_dot(e, e);
-    }
+    if (s->fine) c.m = ddv_diff(p, q);
     offer(s, 1, &i, 1, &j, &c);
 }
 
@@ -113,7 +115,7 @@ static void try_vertex_edge(search *s, int32_t i, const int32_t *e, int swapped)
         const fl_ddv ww = ddv_madd(uu, dd_neg(tt), le);
         t = tt.h;
         w = ddv_round(ww);
-        c.d2 = ddv_dot(ww, ww);
+        c.m = ww;
     }
     if (!(t > 0.0 && t < 1.0)) return;
     c.d = v3_norm(w);
@@ -139,11 +141,11 @@ static int across(const search *s, fl_vec3 e1, fl_vec3 e0, fl_vec3 g1, fl_vec3 g
         if (!(len > 0.0)) return 0;
         const fl_dd high = ddv_dot(*m, ddv_diff(x, y));
         c->n = over(ddv_round(*m), len);
-        c->d2 = dd_div(dd_mul(high, high), ddv_dot(*m, *m));
         h = high.h / len;
     }
     c->d = fabs(h);
     if (h < 0.0) c->n = v3_neg(c->n);
+    if (s->fine) c->m = h < 0.0 ? negative(*m) : *m;
     return h != 0.0;
 }
 
@@ -197,10 +199,13 @@ int fl_parts_nearest(const fl_part *a, const fl_part *b, double size, int fine, 
 {
     static const int32_t side[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     const int32_t na = a->n, nb = b->n, ea = na == 3 ? 3 : na - 1, eb = nb == 3 ? 3 : nb - 1;
-    search s = {
-        .a = a, .b = b, .fine = fine, .enough = 0.5 * DBL_EPSILON * size, .slack = INFINITY, .out = out};
-    /* Higher dimensions first: most often one of them ends it.  In pairs of doubles all are tried, as the
-     * slack stays infinite. */
+    search s = {.a = a,
+                .b = b,
+                .fine = fine,
+                .enough = fine ? 0.0 : 0.5 * DBL_EPSILON * size,
+                .slack = INFINITY,
+                .out = out};
+    /* Higher dimensions first: most often one of them ends it. */
     for (int32_t i = 0; i < na && nb == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 0);
     for (int32_t i = 0; i < nb && na == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 1);
     for (int32_t e = 0; e < ea; e++)

@@ -23,6 +23,7 @@ enum pair_kind { PAIR_ORDINARY, PAIR_HOSTILE, PAIR_DEEP };
  * HOSTILE: shapes on an integer lattice with faces, edges and vertices that coincide or run parallel;
  * tilted by 0 or 1e-16 to 1e-3; plates and needles 100:1 to 1000:1; edges of 1e-9; the same body twice;
  * both carried off to 1e6 sizes; touching exactly.
+ * Cases are told by their numbers in tests of pairs that once failed; a new shape is a new kind.
  * DEEP: ordinary shapes put into each other, their origins up to a fifth of the size apart.
  * Returns 0; -1 when memory ran out or the shape was refused (said on stderr). */
 int pair_make(pair_case *q, uint64_t seed, int64_t k, enum pair_kind kind);

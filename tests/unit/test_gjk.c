@@ -11,6 +11,7 @@
 #include "narrow/deep.h"
 #include "narrow/gjk.h"
 #include "support/couples.h"
+#include "support/oracle.h"
 
 #define CORE(v) ((fl_core){(v), (int32_t)(sizeof(v) / sizeof *(v))})
 
@@ -278,6 +279,98 @@ static void many_vertices(void **state)
     assert_true(g.overlap);
 }
 
+/* Sine of the angle between the oracle's direction and n. */
+static double off(const oracle_gap *o, fl_vec3 n)
+{
+    const fl_vec3 h = v3((double)o->n[0], (double)o->n[1], (double)o->n[2]),
+                  l = v3((double)(o->n[0] - h.x), (double)(o->n[1] - h.y), (double)(o->n[2] - h.z));
+    return v3_norm(v3_add(v3_cross(h, n), v3_cross(l, n)));
+}
+
+static double best_off(const pair_case *q, const oracle_gap *o, fl_vec3 n)
+{
+    return fmin(off(o, n), (double)oracle_off(&q->a, &q->b, o, n));
+}
+
+/* The pairs that long runs of prop_gjk once got wrong, hostile ones of seed 1. */
+static void pairs_that_were_wrong(void **state)
+{
+    enum { DEPTH, NEAR, TIE };
+    static const struct {
+        int64_t k;
+        int why;
+    } row[] = {
+        /* Edges that are parallel to 1e-12 and less: their product in doubles turned by 1e-16 over that, and
+         * the depth was too large; or their arcs on the sphere of normals missed each other by rounding,
+         * and they were not tried. */
+        {458048, DEPTH},
+        {711408, DEPTH},
+        {1270896, DEPTH},
+        {1494208, DEPTH},
+        {2176576, DEPTH},
+        {3583920, DEPTH},
+        {3613184, DEPTH},
+        {3698352, DEPTH},
+        {5728144, DEPTH},
+        {6408064, DEPTH},
+        {6959744, DEPTH},
+        {8171888, DEPTH},
+        {8303424, DEPTH},
+        {8685600, DEPTH},
+        {9029424, DEPTH},
+        /* Cores 1e-12 to 1e-5 of their size apart: of the parts of the last simplex the nearest was taken,
+         * by distances that were equal to 106 bits, and n was off by the root of that. */
+        {753074, NEAR},
+        {3155974, NEAR},
+        {6599071, NEAR},
+        {9268217, NEAR},
+        /* Edges and faces that lie nearly on one line as seen along n: both directions held to the rounding
+         * of doubles, and which was found showed where the search began. */
+        {1295404, TIE},
+        {4806974, TIE},
+        {5188350, TIE},
+        {8062672, TIE},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        pair_case q;
+        assert_int_equal(pair_make(&q, 1, row[i].k, PAIR_HOSTILE), 0);
+        const fl_core a = fl_solid_core(&q.a), b = fl_solid_core(&q.b);
+        const double coarse = 8.0 * DBL_EPSILON * v3_norm(a.v[0]);
+        fl_gap g, back;
+        oracle_gap o;
+        oracle_distance(&q.a, &q.b, &o);
+        fl_gjk(a, b, NULL, &g);
+        fl_gjk(b, a, NULL, &back);
+        assert_int_equal(g.overlap, row[i].why == DEPTH);
+        if (row[i].why == DEPTH) {
+            fl_overlap deep;
+            fl_deep(&q.a, &q.b, NULL, &deep);
+            assert_true(fabs((double)(o.d + (real)deep.depth)) <= 1e-13 * q.size + coarse);
+            assert_true(fabs((double)(oracle_room(&q.a, &q.b, deep.n) + (real)deep.depth)) <= 2e-15 * q.size);
+        } else {
+            assert_true(fabs((double)(o.d - (real)g.d)) <= 1e-15 * q.size);
+            assert_true(fabs((double)(oracle_room(&q.a, &q.b, g.n) - (real)g.d)) <= 1e-15 * q.size);
+            if (o.d > 1e-9L * (real)q.size) assert_true(best_off(&q, &o, g.n) <= 1e-12);
+            assert_true(v3_norm(v3_add(back.n, g.n)) <= 1e-12);
+        }
+        for (int c = 0; c < 40; c++) { /* from wherever the search may begin */
+            fl_rng r = fl_rng_of(test_seed(), c, FL_RNG_TEST);
+            fl_gjk_cache start = {.n = 1 + c % 4};
+            for (int k = 0; k < start.n; k++) {
+                start.a[k] = (int32_t)(fl_rng_unit(&r) * a.n);
+                start.b[k] = (int32_t)(fl_rng_unit(&r) * b.n);
+            }
+            fl_gap w;
+            fl_gjk(a, b, &start, &w);
+            assert_int_equal(w.overlap, g.overlap);
+            assert_true(w.d == g.d);
+            assert_memory_equal(&w.n, &g.n, sizeof g.n);
+        }
+        pair_free(&q);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,6 +384,7 @@ int main(void)
         cmocka_unit_test(nearly_parallel_edges),
         cmocka_unit_test(far_from_the_origin),
         cmocka_unit_test(many_vertices),
+        cmocka_unit_test(pairs_that_were_wrong),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
