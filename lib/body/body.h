@@ -35,6 +35,7 @@ typedef struct {
     double *bound;    /* farthest core vertex from x       [m]       */
     fl_poly *core;    /* in the body frame                           */
     uint8_t *hold;    /* FL_HOLD_X | ...                             */
+    uint8_t *ball;    /* 1: alike in all directions, so that R stays 1 whatever q is */
     double *held;     /* work done by what holds the body so far [J] */
     double *odometer; /* path no point of the core exceeds: sum over steps of |v| dt + chord bound  [m] */
     /* of bodies that move water with them; all NULL where none does */
@@ -50,6 +51,13 @@ void fl_bodies_free(fl_bodies *b);
 /* Room for added masses and what belongs to them, all zero.  -1 with FL_SYSTEM. */
 int fl_bodies_add_mass(fl_bodies *b, fl_err *err);
 
+/* Whether body i, as it is, is alike in all directions: one point at its centre, equal moments, and equal
+ * added masses. */
+int fl_body_is_ball(const fl_bodies *b, int32_t i);
+
+/* R of body i from q: the axes of a ball are those of the world. */
+void fl_body_axes(fl_bodies *b, int32_t i);
+
 /* R and w of body i from q and L. */
 void fl_body_derive(fl_bodies *b, int32_t i);
 
@@ -59,7 +67,9 @@ void fl_body_spin(fl_bodies *b, int32_t i, fl_vec3 w);
 /* I^-1 t in world axes. */
 static inline fl_vec3 fl_body_turn(const fl_bodies *b, int32_t i, fl_vec3 t)
 {
-    const fl_vec3 s = m3_tmul(b->R[i], t), I = b->I[i];
+    const fl_vec3 I = b->I[i];
+    if (b->ball[i]) return v3(t.x / I.x, t.y / I.x, t.z / I.x);
+    const fl_vec3 s = m3_tmul(b->R[i], t);
     return m3_mul(b->R[i], v3(s.x / I.x, s.y / I.y, s.z / I.z));
 }
 

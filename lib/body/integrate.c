@@ -114,10 +114,10 @@ static void drift_held(fl_bodies *b, int32_t i, double dt)
     const fl_quat q = b->q[i];
     const fl_vec3 w = b->w[i], L = b->L[i];
     b->q[i] = q_mul(q_of_vector(v3_scale(0.5 * dt, w)), q);
-    b->R[i] = q_matrix(b->q[i]);
+    fl_body_axes(b, i);
     hold_turn(b, i, hold, w);
     b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
-    b->R[i] = q_matrix(b->q[i]);
+    fl_body_axes(b, i);
     b->L[i] = L;
     hold_turn(b, i, hold, w);
     b->held[i] += holding(hold, v3_sub(b->L[i], L), w);
@@ -137,6 +137,9 @@ static void turn(fl_bodies *b, int32_t i, double dt)
     if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) return;
     if (b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) {
         drift_held(b, i, dt);
+    } else if (b->ball[i]) { /* turns about L for ever, and nothing of it moves by that */
+        b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt / b->I[i].x, b->L[i])), q));
+        return;
     } else {
         b->q[i] = fl_drift_rotation(q, b->L[i], b->I[i], dt);
         fl_body_derive(b, i);
