@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/num.h"
 #include "step/budget.h"
+#include "step/balls.h"
 #include "step/search.h"
 #include "step/snapshot.h"
 #include "step/step.h"
@@ -86,8 +87,8 @@ static int kind_of(const fl_world *w, const fl_pair *p)
 static void watch(fl_budget *g)
 {
     const fl_world *w = &g->trial;
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_pair *p = &w->pair[c];
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         if (p->n == 0) continue;
         const int kind = kind_of(w, p);
         g->seen[kind] = fmax(g->seen[kind], p->mass * p->touch);
@@ -330,8 +331,8 @@ static int something_new(const fl_budget *g, const fl_world *w)
 {
     const fl_bodies *b = &w->b;
     const double T = g->every * g->rows, fall = v3_norm(w->gravity) * T;
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_pair *p = &w->pair[c];
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         const double known = g->known[kind_of(w, p)];
         double speed = p->touch;
         if (p->n == 0) {

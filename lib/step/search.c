@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "step/balls.h"
 #include "step/pairing.h"
 #include "step/search.h"
 
@@ -119,8 +120,10 @@ int fl_search(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < total; k++) w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin);
     if (w->cell.wraps) wrap_boxes(w);
     if (fl_pairs_find(&w->near, w->box, w->n, total, w->walls, err)) return -1;
+    if (fl_balls_list(w, image_of, err)) return -1;
 
-    const int64_t n = w->near.first[w->n];
+    const int64_t n = w->near.first[w->n] - w->balls.n;
+    int64_t to = 0;
     fl_pair *fresh = fl_alloc(n, sizeof *fresh, err);
     if (!fresh) return -1;
     int32_t at = 0;
@@ -128,14 +131,16 @@ int fl_search(fl_world *w, fl_err *err)
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
             int32_t image[3];
+            if (w->balls.n && fl_balls_are(w, i, j)) continue;
             image_of(w, k, i, j, image);
             while (at < n_old && order(&old[at], i, j, image) < 0) fl_pair_end(&old[at++]);
             if (at < n_old && order(&old[at], i, j, image) == 0) {
-                fresh[k] = old[at++];
+                fresh[to] = old[at++];
             } else {
-                fl_pair_start(w, &fresh[k], i, j);
-                memcpy(fresh[k].image, image, sizeof image);
+                fl_pair_start(w, &fresh[to], i, j);
+                memcpy(fresh[to].image, image, sizeof image);
             }
+            to++;
         }
     }
     while (at < n_old) fl_pair_end(&old[at++]);

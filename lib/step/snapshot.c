@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "base/par.h"
+#include "step/balls.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -198,7 +199,7 @@ static void body(traffic *t, fl_world *w, int32_t k)
     real(t, &b->odometer[k]);
     real(t, &w->odometer_found[k]);
     close_row(t);
-    if (t->in) b->R[k] = q_matrix(b->q[k]);
+    if (t->in) fl_body_axes(b, k);
 }
 
 /* The table of the current is not kept, but it must be the one that the run had. */
@@ -383,6 +384,10 @@ static void pair(traffic *t, fl_world *w, int32_t c)
             fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in rising order were wanted", i, j);
             return;
         }
+        if (fl_balls_are(w, i, j)) {
+            fl_text_fail(t->in, t->err, "pair %d and %d is of two spheres, a row \"ball\" was wanted", i, j);
+            return;
+        }
         fl_pair_start(w, p, i, j);
     }
     for (int axis = 0; w->cell.wraps && axis < 3; axis++) whole(t, -INT32_MAX, INT32_MAX, &p->image[axis]);
@@ -392,10 +397,45 @@ static void pair(traffic *t, fl_world *w, int32_t c)
     close_row(t);
 }
 
+/* A row of two spheres; in gives them back. */
+static void ball(traffic *t, fl_world *w, int32_t c, int32_t last[2])
+{
+    const fl_balls *s = &w->balls;
+    fl_ball_row r = {0};
+    int32_t i = 0, j = 0, hit = 0, image[3] = {0};
+    double n;
+    if (t->f) {
+        i = s->i[c], j = s->j[c], hit = s->hit[c], r = s->row[c];
+        if (s->image) memcpy(image, &s->image[3 * c], sizeof image);
+    }
+    open_row(t, "ball");
+    whole(t, 0, w->n - 1, &i);
+    whole(t, 0, w->n - 1, &j);
+    for (int axis = 0; w->cell.wraps && axis < 3; axis++) whole(t, -INT32_MAX, INT32_MAX, &image[axis]);
+    whole(t, 0, 1, &hit);
+    real(t, &r.touch);
+    vec3(t, &r.slip);
+    real(t, &r.stiff);
+    vec3(t, &r.rub);
+    real(t, &r.normal);
+    close_row(t);
+    if (t->f || t->err->code) return;
+    if (i >= j || i < last[0] || (i == last[0] && (w->cell.wraps ? j < last[1] : j <= last[1])) ||
+        !fl_balls_are(w, i, j)) {
+        fl_text_fail(t->in, t->err, "spheres %d and %d found, pairs of spheres in rising order were wanted",
+                     i, j);
+        return;
+    }
+    last[0] = i, last[1] = j;
+    r.k = fl_pairing_stiffness(w, i, j, &n);
+    fl_balls_push(w, i, j, image, hit, &r, t->err);
+}
+
 /* Everything but the pairs, whose number the first row tells. */
-static int32_t all_but_pairs(traffic *t, fl_world *w)
+static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
 {
     int32_t parts = w->parts, total = w->b.total, n_sea = w->sea.n, pairs = w->n_pair;
+    *balls = w->balls.n;
     open_row(t, "world");
     count(t, &w->step);
     count(t, &w->found_at);
@@ -410,6 +450,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w)
     whole(t, w->b.total, w->b.total, &total);
     whole(t, w->sea.n, w->sea.n, &n_sea);
     whole(t, 0, INT32_MAX, &pairs);
+    whole(t, 0, INT32_MAX, balls);
     close_row(t);
     if (t->in && !t->err->code &&
         !(w->step >= 0 && w->dt > 0.0 && isfinite(w->dt) && w->skin >= 0.0 && w->t0 >= 0.0 &&
@@ -440,15 +481,17 @@ void fl_snapshot_write(FILE *f, fl_world *w)
 {
     fl_err none = {0};
     traffic t = {.f = f, .err = &none};
-    all_but_pairs(&t, w);
+    int32_t balls;
+    all_but_pairs(&t, w, &balls);
     for (int32_t c = 0; c < w->n_pair; c++) pair(&t, w, c);
+    for (int32_t c = 0; c < balls; c++) ball(&t, w, c, NULL);
 }
 
 int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
 {
     traffic t = {.in = in, .err = err};
-    const int32_t pairs = all_but_pairs(&t, w);
-    int32_t cap = 0;
+    int32_t cap = 0, balls, last[2] = {-1, -1};
+    const int32_t pairs = all_but_pairs(&t, w, &balls);
     for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
     free(w->pair);
     w->pair = NULL;
@@ -460,10 +503,13 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
         pair(&t, w, c);
         w->n_pair = c + 1;
     }
+    w->balls.n = 0;
+    for (int32_t c = 0; c < balls && !err->code; c++) ball(&t, w, c, last);
     if (err->code) return -1;
     const int more = fl_text_row(in, err);
     if (more > 0) fl_text_fail(in, err, "\"%.40s\" behind the last pair was not expected", in->field[0]);
     if (more) return -1;
     if (w->ride.m.n) fl_ride_ready(w);
+    if ((w->balls.n || w->balls.bodies) && fl_balls_index(w, err)) return -1;
     return fl_search_index(w, err);
 }

@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "body/integrate.h"
+#include "step/balls.h"
 #include "step/interact.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -19,10 +20,15 @@ static int surveyed(const fl_world *w, int64_t step) { return w->dt > w->dt_safe
 /* Each thread takes the pairs as it can; each pair writes its own result. */
 static void contacts(fl_world *w, double dt, int survey)
 {
-#pragma omp parallel for schedule(dynamic, 16)
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
-        w->hit[c] = w->pair[c].n != 0;
+#pragma omp parallel
+    {
+#pragma omp for schedule(dynamic) nowait
+        for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, dt, survey);
+#pragma omp for schedule(dynamic, 16)
+        for (int32_t c = 0; c < w->n_pair; c++) {
+            fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
+            w->hit[c] = w->pair[c].n != 0;
+        }
     }
     fl_search_live(w);
 }
@@ -61,6 +67,7 @@ void fl_step_gather(fl_world *w, int32_t k)
         if (w->sea.water) fl_sea_force(&w->sea, b, k);
     }
     if (w->row.n && k < w->n) b->f[k].z -= spring_force(w, k);
+    if (w->balls.bodies && k < w->n) fl_balls_force(w, k, &b->f[k], &b->t[k]);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
         const fl_pair *p = &w->pair[w->inc[c]];
@@ -85,7 +92,7 @@ static double share_of(const fl_world *w, const fl_pair *p, int32_t i)
 static void survey_stiffness(fl_world *w)
 {
     for (int32_t i = 0; i < w->n; i++) {
-        double sum = 0.0;
+        double sum = w->balls.bodies ? fl_balls_stiff(w, i) : 0.0;
         for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
             const fl_pair *p = &w->pair[w->inc[c]];
             if (p->n) sum += share_of(w, p, i);
@@ -179,6 +186,7 @@ fl_works fl_step_works(const fl_world *w)
         sum.damping += damping_power(&w->b, p);
         sum.friction += friction_power(&w->b, p);
     }
+    if (w->balls.bodies) fl_balls_works(w, &sum.damping, &sum.friction);
     return sum;
 }
 
@@ -208,6 +216,16 @@ static void account(fl_world *w, double dt)
         w->impulse_size += dt * v3_norm(p->f);
         w->touching_steps++;
     }
+    if (w->balls.bodies) {
+        const fl_ball_count all = fl_balls_count(w);
+        if (all.worst > w->worst_overlap) {
+            w->worst_overlap = all.worst;
+            w->worst_i = w->id[w->balls.i[all.row]];
+            w->worst_j = w->id[w->balls.j[all.row]];
+        }
+        w->impulse_size += dt * all.force;
+        w->touching_steps += all.touching;
+    }
     for (int32_t k = 0; k < b->total; k++) {
         fl_vec3 f = b->f[k];
         if (k < w->n) {
@@ -228,6 +246,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (touch(w, 0.0, 1, err)) return -1;
+    for (int32_t k = 0; k < w->balls.bodies; k++) fl_balls_collect(w, k);
     for (int32_t k = 0; k < w->b.total; k++) fl_step_gather(w, k);
     if (w->ride.m.n) {
         fl_ride_ready(w);
@@ -265,6 +284,7 @@ int fl_step(fl_world *w, fl_err *err)
     if (touch(w, dt, survey, err)) return -1;
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
+        if (k < w->balls.bodies) fl_balls_collect(w, k);
         fl_step_gather(w, k);
         if (k < w->n && !fl_world_away(w, k)) kick(w, k, h);
     }
@@ -327,6 +347,13 @@ void fl_step_ledger(fl_world *w)
         rubbed -= h * friction_power(b, p);
         elastic += p->energy;
         spring += p->spring;
+    }
+    if (w->balls.bodies) {
+        double damping = 0.0, friction = 0.0;
+        fl_balls_works(w, &damping, &friction);
+        damped -= h * damping;
+        rubbed -= h * friction;
+        fl_balls_energy(w, &elastic, &spring);
     }
     g->kinetic = kinetic;
     g->gravity = gravity;

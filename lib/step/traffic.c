@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/mem.h"
 #include "narrow/gjk.h"
+#include "step/balls.h"
 #include "step/search.h"
 #include "step/pairing.h"
 #include "step/step.h"
@@ -64,7 +65,7 @@ static int drop_pairs(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < w->press.n_now; k++)
         if (!fl_world_away(w, w->press.now[k].i)) w->press.now[kept++] = w->press.now[k];
     w->press.n_now = kept;
-    if (fl_search_index(w, err)) return -1;
+    if (fl_search_index(w, err) || fl_balls_drop(w, err)) return -1;
     for (int32_t k = 0; k < w->b.total; k++)
         if (k >= w->n || !fl_world_away(w, k)) fl_step_gather(w, k);
     return 0;

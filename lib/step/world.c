@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
+#include "step/balls.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -461,6 +462,7 @@ int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_er
     fl_poly_free(&w->b.core[i]);
     w->b.bound[i] = 0.0;
     w->b.hold[i] = 0;
+    w->b.ball[i] = 0;
     if (w->bed.hull) fl_hull_free(&w->bed.hull[i]), fl_poly_free(&w->bed.outer[i]);
     if (w->sea.n) fl_hull_free(&w->sea.hull[i]), fl_poly_free(&w->sea.outer[i]);
     const int bad = make_body(w, i, field, k, &outer, err) || (w->cell.wraps && fits_cell(w, i, err)) ||
@@ -468,6 +470,8 @@ int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_er
                     (w->sea.n && make_hull(w, i, &outer, err));
     fl_poly_free(&outer);
     if (bad) return -1;
+    w->b.ball[i] = (uint8_t)fl_body_is_ball(&w->b, i);
+    fl_body_axes(&w->b, i);
     if (i < w->row.n && w->row.in[i] && !(w->traffic.away && w->traffic.floe[i] >= 0)) drive_body(w, i);
     return 0;
 }
@@ -548,6 +552,7 @@ void fl_world_free(fl_world *w)
     for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
     free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
     free(w->hit), free(w->live);
+    fl_balls_free(&w->balls);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box);
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);

@@ -18,6 +18,7 @@
 #include "narrow/places.h"
 #include "scene/field.h"
 #include "scene/scene.h"
+#include "step/ball.h"
 #include "water/added.h"
 #include "water/sea.h"
 
@@ -194,7 +195,8 @@ typedef struct {
     int32_t materials;
 
     fl_pairs near;
-    fl_aabb *box; /* [total] */
+    fl_aabb *box;   /* [total] */
+    fl_balls balls; /* near pairs of spheres; all others: */
     fl_pair *pair;
     int32_t n_pair, pair_cap;
     int64_t *inc_first; /* [total + 1] pairs of each body, ascending */

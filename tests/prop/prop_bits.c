@@ -89,11 +89,13 @@ static void threads_and_searches(void **state)
     const way how[] = {{1, 0, 1.0, 0, 0},  {2, 0, 1.0, 0, 0},  {3, 7, 1.0, 0, 0},  {8, 0, 0.2, 0, 0},
                        {16, 0, 3.0, 0, 0}, {2, 0, 1.0, 3, 16}, {16, 1, 1.0, 7, 3}, {3, 0, 0.3, 1, 8}};
     const way few[] = {{1, 0, 1.0, 0, 0}, {16, 0, 0.2, 0, 0}, {16, 1, 1.0, 7, 3}};
-    const what it[] = {
-        {scene_of_everything, 8, "patch"}, {scene_of_wraps, 8, "patch"}, {scene_of_traffic, 8, "patch"}};
+    const what it[] = {{scene_of_everything, 8, "patch"},
+                       {scene_of_wraps, 8, "patch"},
+                       {scene_of_traffic, 8, "patch"},
+                       {scene_of_balls, 8, "patch"}};
     (void)state;
     compare(how, sizeof how / sizeof *how, &it[0], 10, 2000);
-    for (int k = 1; k < 3; k++) compare(few, sizeof few / sizeof *few, &it[k], 10, 2000);
+    for (int k = 1; k < 4; k++) compare(few, sizeof few / sizeof *few, &it[k], 10, 2000);
 }
 
 static void laws(void **state)
@@ -101,7 +103,7 @@ static void laws(void **state)
     static const what IT[] = {{scene_of_everything, 3, "patch"},  {scene_of_everything, 3, "core"},
                               {scene_of_everything, 3, "manual"}, {scene_of_everything, 3, "manual-si"},
                               {scene_of_wraps, 3, "patch"},       {scene_of_seas, 3, "patch"},
-                              {scene_of_traffic, 3, "patch"}};
+                              {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"}};
     const way how[] = {{1, 0, 1.0, 0, 0}, {2, 5, 1.0, 0, 0}, {1, 0, 0.1, 0, 0},
                        {2, 0, 4.0, 0, 0}, {1, 1, 1.0, 0, 0}, {2, 0, 1.0, 57, 1}};
     (void)state;

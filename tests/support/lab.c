@@ -7,6 +7,7 @@
 #include "geom/facet.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
+#include "step/balls.h"
 #include "step/interact.h"
 #include "step/pairing.h"
 #include "support/lab.h"
@@ -184,6 +185,14 @@ fl_pair lab_look(fl_world *w, int32_t i, int32_t j)
     fl_interact(w, &p, 0, 0.0, 0);
     fl_pair_end(&p);
     return p;
+}
+
+fl_pair lab_pair(const lab *l, int32_t c)
+{
+    fl_pair_walk at = {.w = &l->w};
+    const fl_pair *p = fl_pair_next(&at);
+    for (int32_t k = 0; k < c && p; k++) p = fl_pair_next(&at);
+    return p ? *p : (fl_pair){0};
 }
 
 void lab_free(lab *l)

@@ -39,6 +39,8 @@ void lab_pose(fl_world *w, int32_t i, fl_vec3 x, fl_quat q);
 /* The pair (i, j), i < j, evaluated at the poses of now as one that never touched before; it remembers
  * nothing. */
 fl_pair lab_look(fl_world *w, int32_t i, int32_t j);
+/* The c-th near pair; one that does not touch where there are fewer. */
+fl_pair lab_pair(const lab *l, int32_t c);
 void lab_free(lab *l);
 
 #endif

@@ -88,6 +88,27 @@ void scene_of_wraps(lab *l, int32_t side, const char *law)
     lab_set(l, "boundary.type=periodic periodic rigid");
 }
 
+void scene_of_balls(lab *l, int32_t side, const char *law)
+{
+    const double half = 0.5 * side, middle = 0.5 * (side - 1);
+    lab_start(l);
+    lab_set(l, "material.ice.young=1 MPa");
+    lab_set(l, "contact.friction=0.3");
+    lab_set(l, "contact.restitution=0.4");
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "boundary.type=periodic periodic rigid");
+    if (law) lab_setf(l, "contact.law=%s", law);
+    lab_setf(l, "boundary.min=%.17g %.17g %.17g", -half, -half, -half);
+    lab_setf(l, "boundary.max=%.17g %.17g none", half, half);
+    for (int32_t k = 0; k < side * side * side; k++) {
+        fl_rng g = fl_rng_of(6, k, FL_RNG_TEST);
+        const fl_vec3 cell = v3(k % side - middle, k / side % side - middle, k / (side * side) - middle);
+        const fl_vec3 v = v3_scale(0.3, normal3(&g)), spin = v3_scale(0.5, normal3(&g));
+        if (k % 9 == 4) lab_box(l, cell, v3(0.45, 0.45, 0.45), 0.05, q_of_vector(spin), v, spin);
+        else lab_sphere(l, cell, k % 2 ? 0.52 : 0.47, v, spin);
+    }
+}
+
 void scene_of_seas(lab *l, int32_t side, const char *law)
 {
     static const char *const KEYS[] = {

@@ -15,6 +15,9 @@ void scene_of_wraps(lab *l, int32_t side, const char *law);
 /* The same with a sea of waves, a sheared current, drag on each facet of water and wind, and added mass. */
 void scene_of_seas(lab *l, int32_t side, const char *law);
 
+/* Spheres of two sizes in such a cell, one body in nine a box; laws as above. */
+void scene_of_balls(lab *l, int32_t side, const char *law);
+
 /* The same where nothing bounds the heap along x: floes leave there at once, and copies of it come in. */
 void scene_of_traffic(lab *l, int32_t side, const char *law);
 

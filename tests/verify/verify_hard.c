@@ -16,6 +16,7 @@
 #include "base/rng.h"
 #include "narrow/gjk.h"
 #include "step/snapshot.h"
+#include "step/balls.h"
 #include "support/lab.h"
 #include "support/scenes.h"
 #include "support/verify.h"
@@ -59,8 +60,9 @@ static void mass_ratio(void)
     const double ratio = l.w.b.m[1] / l.w.b.m[0];
     for (int64_t k = 0; k < 4000; k++) {
         if (lab_run(&l, 1)) break;
-        for (int32_t c = 0; c < l.w.n_pair; c++)
-            if (l.w.pair[c].n) most = fmax(most, l.w.pair[c].overlap / r);
+        fl_pair_walk at = {.w = &l.w};
+        for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;)
+            if (p->n) most = fmax(most, p->overlap / r);
     }
     verify_row("H08", "mass ratio of floe and pebble", ratio, 1e6, 1e-9, VERIFY_REL);
     verify_below("H08", "overlap of the pebble over its radius", most, 0.3);
@@ -86,8 +88,8 @@ static void size_ratio(void)
             const double d = v3_norm(v3_sub(l.w.b.x[i], l.w.b.x[j]));
             int listed = 0;
             if (d > l.w.b.radius[i] + l.w.b.radius[j]) continue;
-            for (int64_t c = l.w.inc_first[i]; c < l.w.inc_first[i + 1]; c++)
-                listed |= l.w.pair[l.w.inc[c]].i == i && l.w.pair[l.w.inc[c]].j == j;
+            const fl_balls *s = &l.w.balls;
+            for (int32_t c = s->first[i]; c < s->first[i + 1]; c++) listed |= s->j[c] == j;
             found++;
             missed += !listed;
         }

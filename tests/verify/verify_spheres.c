@@ -63,21 +63,21 @@ static impact collide(lab *l, int64_t most)
 {
     impact r = {0};
     double s[3] = {0}, f[3] = {0};
-    const fl_pair *p = &l->w.pair[0];
+    fl_pair p = lab_pair(l, 0);
     for (int64_t k = 0; k < most; k++) {
         if (lab_run(l, 1)) break;
-        p = &l->w.pair[0];
-        s[0] = s[1], s[1] = s[2], s[2] = p->n ? p->overlap : 0.0;
-        f[0] = f[1], f[1] = f[2], f[2] = p->n ? v3_norm(p->f) : 0.0;
+        p = lab_pair(l, 0);
+        s[0] = s[1], s[1] = s[2], s[2] = p.n ? p.overlap : 0.0;
+        f[0] = f[1], f[1] = f[2], f[2] = p.n ? v3_norm(p.f) : 0.0;
         if (s[1] >= s[0] && s[1] >= s[2]) r.depth = fmax(r.depth, peak(s));
         if (f[1] >= f[0] && f[1] >= f[2]) r.force = fmax(r.force, peak(f));
-        if (p->n == 0 && r.depth > 0.0) break;
+        if (p.n == 0 && r.depth > 0.0) break;
     }
     /* The end lies inside the last step: go back by the gap over the speed of separation. */
     const fl_bodies *b = &l->w.b;
-    const fl_vec3 n = p->j < l->w.n ? v3_unit(v3_sub(b->x[p->i], b->x[p->j])) : v3(0, 0, 1);
-    const double R = b->radius[p->i] + b->radius[p->j], gap = v3_dot(n, v3_sub(b->x[p->i], b->x[p->j])) - R,
-                 apart = v3_dot(n, v3_sub(b->v[p->i], b->v[p->j]));
+    const fl_vec3 n = p.j < l->w.n ? v3_unit(v3_sub(b->x[p.i], b->x[p.j])) : v3(0, 0, 1);
+    const double R = b->radius[p.i] + b->radius[p.j], gap = v3_dot(n, v3_sub(b->x[p.i], b->x[p.j])) - R,
+                 apart = v3_dot(n, v3_sub(b->v[p.i], b->v[p.j]));
     r.time = (double)l->w.step * l->w.dt - (apart > 0.0 ? gap / apart : 0.0);
     return r;
 }
@@ -131,8 +131,9 @@ static void V01(void)
         lab l;
         head_on(&l, &GLASS, "patch", R, v);
         lab_make(&l, h[k] = row[0].time / (50 << k));
-        const double kappa = l.w.pair[0].k, M = l.w.pair[0].mass,
-                     depth = pow(1.25 * M * 4.0 * v * v / kappa, 0.4), force = kappa * depth * sqrt(depth);
+        const fl_pair p = lab_pair(&l, 0);
+        const double kappa = p.k, M = p.mass, depth = pow(1.25 * M * 4.0 * v * v / kappa, 0.4),
+                     force = kappa * depth * sqrt(depth);
         error[k] = fabs(collide(&l, 200 << k).force / force - 1.0);
         lab_free(&l);
     }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/rng.h"
+#include "step/balls.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 #include "support/verify.h"
@@ -96,7 +97,7 @@ static void two_spheres(void)
     lab_sphere(&l, v3(0, 0, 0), 0.5, v3(0, 0, 0), v3(0, 0, 0));
     lab_sphere(&l, v3(0.99, 0, 0), 0.5, v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 1e-9);
-    const double k = 1.5 * l.w.pair[0].k * sqrt(0.01); /* of Hertz' law at 10 mm */
+    const double k = 1.5 * lab_pair(&l, 0).k * sqrt(0.01); /* of Hertz' law at 10 mm */
     verify_note(
         "two spheres pressed together by 10 mm, the only spring between them: 2/omega, omega^2 = 2 k/m");
     verify_row("S01", "critical step [s]", l.w.dt_critical, 2.0 / sqrt(2.0 * k / l.w.b.m[0]), 1e-10,
@@ -148,7 +149,8 @@ static void heap(const char *id, int32_t side, double squeeze)
         else lab_sphere(&l, v3_scale(squeeze, cell), 0.5, v3(0, 0, 0), v3(0, 0, 0));
     }
     lab_make(&l, 1e-9);
-    for (int32_t c = 0; c < l.w.n_pair; c++) touching += l.w.pair[c].n > 0;
+    fl_pair_walk at = {.w = &l.w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) touching += p->n > 0;
     verify_note("%d boxes and spheres in a heap, %lld contacts", l.w.n, (long long)touching);
     judge(id, &l, 1e-3, 4.0);
     lab_free(&l);

@@ -3,6 +3,7 @@
 #include "base/mem.h"
 #include "out/tables.h"
 #include "run.h"
+#include "step/balls.h"
 #include "step/interact.h"
 #include "step/pairing.h"
 #include "step/ride.h"
@@ -15,10 +16,11 @@ int look_probe(struct run *r, FILE *f, fl_err *err)
     w->skin = r->o->probe;
     if (fl_search(w, err)) return -1;
     fl_contacts_header(f, r->history, r->by);
-    for (int32_t c = 0; c < w->n_pair; c++) {
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         fl_contact k;
-        if (!fl_interact_probe(w, &w->pair[c], r->o->probe, &k)) continue;
-        fl_contacts_row(f, 0.0, w->id[w->pair[c].i], fl_world_name(w, w->pair[c].j), &k, 0.0, v3(0, 0, 0));
+        if (!fl_interact_probe(w, p, r->o->probe, &k)) continue;
+        fl_contacts_row(f, 0.0, w->id[p->i], fl_world_name(w, p->j), &k, 0.0, v3(0, 0, 0));
     }
     return 0;
 }
@@ -46,6 +48,7 @@ static double mib_of(const fl_world *w)
     }
     bytes += (double)w->threads * w->sea.cells_each * sizeof(fl_wave_near);
     bytes += w->n_pair * (sizeof(fl_pair) + 2.0 * sizeof(int32_t));
+    bytes += fl_balls_bytes(w);
     return bytes / 1048576.0;
 }
 
@@ -104,7 +107,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     fprintf(f, "structure      %d parts: %d solids and plates, %d cones, %d shells; %d walls\n", w->parts,
             kind[FL_PIECE_SOLID], kind[FL_PIECE_CONE], kind[FL_PIECE_SHELL], w->walls);
     if (w->traffic.feed) fprintf(f, "room           for %d more\n", w->n - there);
-    fprintf(f, "near pairs     %d, search again after %.3g m\n", w->n_pair, w->skin);
+    fprintf(f, "near pairs     %d, search again after %.3g m\n", w->n_pair + w->balls.n, w->skin);
     fprintf(f, "law            %s between like bodies\n", w->n ? LAW[fl_pairing_law(w, 0, 0)->kind] : "none");
     fprintf(f, "stages\n");
     stage(f, "weight", v3_norm(w->gravity) > 0.0, "");

@@ -8,6 +8,7 @@
 #include "out/tables.h"
 #include "run.h"
 #include "save.h"
+#include "step/balls.h"
 #include "step/interact.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -203,8 +204,8 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
 static void write_contacts(struct run *r, struct outputs *u, double t)
 {
     fl_world *w = r->w;
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_pair *p = &w->pair[c];
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         fl_contact k;
         if (p->n == 0 || !fl_interact_probe(w, p, 0.0, &k)) continue;
         const double normal = v3_dot(p->f, k.n);

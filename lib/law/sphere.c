@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include "base/wide.h"
+#include "law/sphere.h"
+
+/* Registers are filled to the end: what stands behind the last contact is computed too, and not used. */
+enum { FULL = 8 };
+static int32_t filled(int32_t m) { return (m + FULL - 1) / FULL * FULL; }
+
+/* No branches, so that the compiler puts several contacts side by side. */
+#define SIDE_BY_SIDE _Pragma("omp simd")
+
+FL_WIDE_VERSIONS static void stand(fl_spheres *restrict b, int32_t m)
+{
+    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    {
+        const double x = b->d[0][c], y = b->d[1][c], z = b->d[2][c];
+        const double d = sqrt(x * x + y * y + z * z), one = d > 0.0 ? 1.0 / d : 0.0;
+        const double s = b->ri[c] + b->rj[c] - d, root = sqrt(s > 0.0 ? s : 0.0);
+        b->n[0][c] = one * x;
+        b->n[1][c] = one * y;
+        b->n[2][c] = d > 0.0 ? one * z : 1.0;
+        b->overlap[c] = s;
+        b->elastic[c] = b->k[c] * (s * root);
+        b->slope[c] = b->k[c] * (1.5 * root);
+    }
+}
+
+FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
+{
+    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    {
+        const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c], s = b->overlap[c];
+        const double ux = b->u[0][c], uy = b->u[1][c], uz = b->u[2][c], elastic = b->elastic[c];
+        const double closing = -(nx * ux + ny * uy + nz * uz), last = b->touch[c];
+        const double now = closing > last ? closing : last, touch = now > 0.0 ? now : 0.0;
+        const double stored2 = 2.0 * (0.4 * s * elastic) * b->invm[c], touch2 = touch * touch;
+        const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
+        const double chi = speed > 0.0 ? b->chi[c] / speed : 0.0;
+        const double damped = elastic * (1.0 + chi * closing), normal = damped > 0.0 ? damped : 0.0;
+        /* how the surfaces go by each other */
+        const double ai = b->ri[c] - 0.5 * s, aj = b->rj[c] - 0.5 * s;
+        const double wix = b->wi[0][c], wiy = b->wi[1][c], wiz = b->wi[2][c];
+        const double wjx = b->wj[0][c], wjy = b->wj[1][c], wjz = b->wj[2][c];
+        const double rx = ai * wix + aj * wjx, ry = ai * wiy + aj * wjy, rz = ai * wiz + aj * wjz;
+        const double sx = ux - (ry * nz - rz * ny), sy = uy - (rz * nx - rx * nz),
+                     sz = uz - (rx * ny - ry * nx);
+        const double along = sx * nx + sy * ny + sz * nz;
+        const double vx = sx - along * nx, vy = sy - along * ny, vz = sz - along * nz;
+        const double twist = dt * (0.5 * ((wix + wjx) * nx + (wiy + wjy) * ny + (wiz + wjz) * nz));
+        /* the remembered force turns about n, lies down in the tangent plane, and falls with the stiffness */
+        const double px = b->slip[0][c], py = b->slip[1][c], pz = b->slip[2][c];
+        const double tx = px + twist * (ny * pz - nz * py), ty = py + twist * (nz * px - nx * pz),
+                     tz = pz + twist * (nx * py - ny * px);
+        const double off = tx * nx + ty * ny + tz * nz;
+        const double qx = tx - off * nx, qy = ty - off * ny, qz = tz - off * nz;
+        const double before = px * px + py * py + pz * pz, after = qx * qx + qy * qy + qz * qz;
+        const double keeps = after > 0.0 ? sqrt(before / after) : 1.0;
+        const double k = b->tangential[c] * b->slope[c], old = b->stiff[c];
+        const double share = k < old ? keeps * (k / old) : keeps;
+        const double fx = share * qx - (k * dt) * vx, fy = share * qy - (k * dt) * vy,
+                     fz = share * qz - (k * dt) * vz;
+        /* Coulomb's limit, for the spring and then for spring and damping */
+        const double limit = b->friction[c] * normal, limit2 = limit * limit;
+        const double size2 = fx * fx + fy * fy + fz * fz;
+        const int slides = size2 > limit2;
+        const double cut = slides ? limit / sqrt(size2) : 1.0;
+        const double ex = cut * fx, ey = cut * fy, ez = cut * fz;
+        const double g = slides ? 0.0 : b->tangential[c] * chi * elastic;
+        const double hx = ex - g * vx, hy = ey - g * vy, hz = ez - g * vz;
+        const double full2 = hx * hx + hy * hy + hz * hz;
+        const double trim = !slides && full2 > limit2 ? limit / sqrt(full2) : 1.0;
+        const int on = limit > 0.0 && b->tangential[c] > 0.0;
+        b->touch[c] = touch;
+        b->normal[c] = normal;
+        b->slip[0][c] = on ? ex : 0.0;
+        b->slip[1][c] = on ? ey : 0.0;
+        b->slip[2][c] = on ? ez : 0.0;
+        b->stiff[c] = on ? k : 0.0;
+        b->rub[0][c] = on ? trim * hx : 0.0;
+        b->rub[1][c] = on ? trim * hy : 0.0;
+        b->rub[2][c] = on ? trim * hz : 0.0;
+    }
+}
+
+FL_WIDE_VERSIONS static void arm(fl_spheres *restrict b, int32_t m)
+{
+    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    {
+        const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c], f = b->normal[c];
+        const double x = b->rub[0][c], y = b->rub[1][c], z = b->rub[2][c];
+        b->turn[0][c] = ny * z - nz * y;
+        b->turn[1][c] = nz * x - nx * z;
+        b->turn[2][c] = nx * y - ny * x;
+        b->size[c] = sqrt(f * f + (x * x + y * y + z * z));
+    }
+}
+
+void fl_spheres_meet(fl_spheres *b, int32_t m, double dt)
+{
+    const int32_t full = filled(m);
+    stand(b, full);
+    rub(b, full, dt);
+    arm(b, full);
+}
+
+void fl_spheres_place(fl_spheres *b, int32_t m)
+{
+    const int32_t full = filled(m);
+    stand(b, full);
+    arm(b, full);
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* sphere.h -- the contact of two spheres, many at a time: Hertz with the damping of Hunt and Crossley along
+ * the normal (normal.h), and the spring of tangent.h across it for a contact that is a point.
+ *
+ * With D = x_i - x_j, d = |D|, n = D / d, overlap s = r_i + r_j - d > 0, and arms a_i = r_i - s/2, a_j =
+ * r_j - s/2 from the centres to the middle of the overlap:
+ *     F_e = k s^(3/2),  W = 2/5 k s^(5/2),  chi = D_0 / max(v_touch, sqrt(2 W / M)),
+ *     F_n = F_e (1 + chi u_n) >= 0,   u_n = -n.(v_i - v_j),
+ *     v_t = (v_i - v_j) - (a_i w_i + a_j w_j) x n,
+ *     k_t = c 3/2 k sqrt(s),  g = c chi F_e,  F_t by tangent.h with the twist 1/2 n.(w_i + w_j),
+ * force on i F_n n + F_t, torques -a_i n x F_t and -a_j n x F_t. */
+#ifndef FL_LAW_SPHERE_H
+#define FL_LAW_SPHERE_H
+#include <stdint.h>
+
+enum { FL_SPHERES_MOST = 64 };
+
+/* One array a quantity.  Vectors are x, y, z. */
+typedef struct {
+    /* in */
+    double d[3][FL_SPHERES_MOST];  /* D                                        [m]     */
+    double u[3][FL_SPHERES_MOST];  /* v_i - v_j                                [m/s]   */
+    double wi[3][FL_SPHERES_MOST]; /* angular velocities                       [rad/s] */
+    double wj[3][FL_SPHERES_MOST];
+    double ri[FL_SPHERES_MOST]; /* radii                                    [m]     */
+    double rj[FL_SPHERES_MOST];
+    double invm[FL_SPHERES_MOST];       /* 1/M = 1/m_i + 1/m_j                      [1/kg]  */
+    double k[FL_SPHERES_MOST];          /*                                          [N/m^1.5] */
+    double friction[FL_SPHERES_MOST];   /* mu                                               */
+    double tangential[FL_SPHERES_MOST]; /* c                                                */
+    double chi[FL_SPHERES_MOST];        /* D_0                                              */
+    /* in and out */
+    double touch[FL_SPHERES_MOST];   /* v_touch, renewed with u_n                [m/s]   */
+    double slip[3][FL_SPHERES_MOST]; /* remembered force of the spring           [N]     */
+    double stiff[FL_SPHERES_MOST];   /* k_t that it was built with               [N/m]   */
+    /* out; in for fl_spheres_place() */
+    double rub[3][FL_SPHERES_MOST]; /* F_t                                      [N]     */
+    double normal[FL_SPHERES_MOST]; /* F_n                                      [N]     */
+    /* out */
+    double n[3][FL_SPHERES_MOST];    /* n; (0, 0, 1) where the centres are one           */
+    double overlap[FL_SPHERES_MOST]; /* s                                        [m]     */
+    double slope[FL_SPHERES_MOST];   /* 3/2 k sqrt(s)                            [N/m]   */
+    double elastic[FL_SPHERES_MOST]; /* F_e                                      [N]     */
+    double turn[3][FL_SPHERES_MOST]; /* n x F_t                                  [N]     */
+    double size[FL_SPHERES_MOST];    /* |F|                                      [N]     */
+} fl_spheres;
+
+/* The first m contacts, over a step of dt [s].  Each has bits of its own, whatever stands beside it and
+ * however wide the registers are. */
+void fl_spheres_meet(fl_spheres *b, int32_t m, double dt);
+
+/* Where they stand alone: n, overlap, slope, elastic, turn and size from d, radii, k, rub and normal; the
+ * same bits. */
+void fl_spheres_place(fl_spheres *b, int32_t m);
+
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ball.h -- what is kept of pairs of spheres, apart from all other pairs: a tenth of what those need.
+ *
+ * Rows are sorted by (i, j, image).  Bodies are taken in chunks of FL_BALLS_CHUNK by their number.  A chunk
+ * owns the rows of its bodies i and the sums of its bodies: what a row does to a j of the same chunk is added
+ * there at once, what it does to a j beyond goes to a slot of the row, which j adds up later.  Every sum so
+ * has one order, that of the rows, for any number of threads; a row that does not touch adds zeros, which
+ * change no bit, so that it does not matter which rows are listed. */
+#ifndef FL_STEP_BALL_H
+#define FL_STEP_BALL_H
+#include <stdint.h>
+#include "geom/vec3.h"
+
+enum { FL_BALLS_CHUNK = 256 };
+
+/* What a row remembers, and the forces that it gave last. */
+typedef struct {
+    double k;      /* kappa of Hertz                                                  [N/m^1.5] */
+    double touch;  /* largest approach speed of this touch                            [m/s]     */
+    fl_vec3 slip;  /* elastic part of the tangential force on i                       [N]       */
+    double stiff;  /* tangential stiffness that it was built with                     [N/m]     */
+    fl_vec3 rub;   /* tangential force on i, with damping                             [N]       */
+    double normal; /* normal force, with damping                                      [N]       */
+} fl_ball_row;
+
+/* Sums over the rows of one body; forces and torques on it, world axes. */
+typedef struct {
+    fl_vec3 elastic, damping, friction; /* [N]   */
+    fl_vec3 torque;                     /* [N m], of friction: nothing else has an arm */
+} fl_ball_sum;
+
+/* What the rows of a chunk tell. */
+typedef struct {
+    int64_t touching;
+    double force;           /* sum of |F| [N]                                            */
+    double worst;           /* largest overlap over the sum of the radii                 */
+    int32_t worst_row;      /* where that is, the first of them                          */
+    double damping, rubbed; /* what damping and friction take out of its bodies now  [W] */
+    double elastic, spring; /* energies of its rows [J]                                  */
+} fl_ball_tally;
+
+typedef struct {
+    int32_t n;        /* rows */
+    int32_t bodies;   /* as many as move; 0: no two spheres have been near yet, and the rest is not there */
+    int32_t *i, *j;   /* [n] */
+    int32_t *law;     /* [n] into fl_world.law */
+    int32_t *image;   /* [n][3]; NULL without a periodic cell */
+    uint8_t *hit;     /* [n] touches */
+    fl_ball_row *row; /* [n] */
+    int32_t *first;   /* [bodies + 1] rows of body i */
+    int32_t chunks;
+    int32_t *cross;       /* [chunks + 1] slots of the rows that leave a chunk, in their order */
+    int32_t *into;        /* [bodies + 1] offsets into slots */
+    int32_t *slots;       /* [cross[chunks]] the slots that body j has to add up, ascending */
+    fl_ball_sum *slot;    /* [cross[chunks]] */
+    fl_ball_sum *sum;     /* [bodies] */
+    fl_ball_tally *tally; /* [chunks] */
+    double *stiff;        /* [bodies] sum of bounds of omega^2, of the last survey [1/s2] */
+    double *stiff_slot;   /* [cross[chunks]] */
+    int32_t i_cap, j_cap, law_cap, image_cap, hit_cap, row_cap;
+} fl_balls;
+
+#endif

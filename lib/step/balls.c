@@ -1,0 +1,553 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/mem.h"
+#include "law/normal.h"
+#include "law/sphere.h"
+#include "step/balls.h"
+#include "step/pairing.h"
+
+int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
+{
+    if (j >= w->n || !w->b.ball[i] || !w->b.ball[j]) return 0;
+    const int32_t law = fl_pairing_law(w, i, j)->kind;
+    return law == FL_LAW_PATCH || law == FL_LAW_CORE;
+}
+
+/* --- which there are --------------------------------------------------------------------------- */
+
+void fl_balls_free(fl_balls *s)
+{
+    free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
+    free(s->first), free(s->cross), free(s->into), free(s->slots), free(s->slot);
+    free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
+    *s = (fl_balls){0};
+}
+
+/* Room for n rows; the arrays of bodies stay until the world ends. */
+static int rows_alloc(fl_balls *s, const fl_world *w, int64_t n, fl_err *err)
+{
+    if (n > INT32_MAX) return fl_fail(err, FL_SYSTEM, "out of memory: %lld pairs of spheres", (long long)n);
+    s->i = fl_alloc(n, sizeof *s->i, err);
+    s->j = fl_alloc(n, sizeof *s->j, err);
+    s->law = fl_alloc(n, sizeof *s->law, err);
+    s->hit = fl_alloc(n, sizeof *s->hit, err);
+    s->row = fl_alloc(n, sizeof *s->row, err);
+    if (!s->i || !s->j || !s->law || !s->hit || !s->row) return -1;
+    if (w->cell.wraps && !(s->image = fl_alloc(3 * n, sizeof *s->image, err))) return -1;
+    s->n = s->i_cap = s->j_cap = s->law_cap = s->hit_cap = s->row_cap = (int32_t)n;
+    s->image_cap = s->image ? 3 * s->n : 0;
+    return 0;
+}
+
+static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
+{
+    if (s->bodies) return 0;
+    s->chunks = (w->n + FL_BALLS_CHUNK - 1) / FL_BALLS_CHUNK;
+    s->first = fl_alloc((int64_t)w->n + 1, sizeof *s->first, err);
+    s->into = fl_alloc((int64_t)w->n + 1, sizeof *s->into, err);
+    s->cross = fl_alloc((int64_t)s->chunks + 1, sizeof *s->cross, err);
+    s->tally = fl_alloc(s->chunks, sizeof *s->tally, err);
+    s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
+    s->sum = fl_alloc(w->n, sizeof *s->sum, err);
+    if (!s->first || !s->into || !s->cross || !s->tally || !s->stiff || !s->sum) return -1;
+    s->bodies = w->n;
+    return 0;
+}
+
+/* Rows of body i, chunk by chunk of them. */
+static int32_t last_body(const fl_balls *s, int32_t a)
+{
+    const int32_t end = (a + 1) * FL_BALLS_CHUNK;
+    return end < s->bodies ? end : s->bodies;
+}
+
+/* Offsets and slots. */
+static int index_rows(fl_world *w, fl_err *err)
+{
+    fl_balls *s = &w->balls;
+    if (bodies_alloc(s, w, err)) return -1;
+    for (int32_t i = 0; i <= s->bodies; i++) s->first[i] = s->into[i] = 0;
+    for (int32_t c = 0; c < s->n; c++) s->first[s->i[c] + 1]++;
+    for (int32_t i = 0; i < s->bodies; i++) s->first[i + 1] += s->first[i];
+    int32_t slots = 0;
+    for (int32_t a = 0; a < s->chunks; a++) {
+        const int32_t end = last_body(s, a);
+        s->cross[a] = slots;
+        for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[end]; c++) {
+            if (s->j[c] < end) continue;
+            s->into[s->j[c] + 1]++;
+            slots++;
+        }
+    }
+    s->cross[s->chunks] = slots;
+    free(s->slots), free(s->slot), free(s->stiff_slot);
+    s->slots = fl_alloc(slots, sizeof *s->slots, err);
+    s->slot = fl_alloc(slots, sizeof *s->slot, err);
+    s->stiff_slot = fl_alloc(slots, sizeof *s->stiff_slot, err);
+    if (!s->slots || !s->slot || !s->stiff_slot) return -1;
+    for (int32_t j = 0; j < s->bodies; j++) s->into[j + 1] += s->into[j];
+    slots = 0;
+    for (int32_t a = 0; a < s->chunks; a++) { /* fills: into[j] goes from the start of j to that of j + 1 */
+        const int32_t end = last_body(s, a);
+        for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[end]; c++)
+            if (s->j[c] >= end) s->slots[s->into[s->j[c]]++] = slots++;
+    }
+    for (int32_t j = s->bodies; j > 0; j--) s->into[j] = s->into[j - 1];
+    s->into[0] = 0;
+    return 0;
+}
+
+static int compare(const fl_balls *s, int32_t c, int32_t j, const int32_t image[3])
+{
+    if (s->j[c] != j) return s->j[c] < j ? -1 : 1;
+    for (int axis = 0; s->image && axis < 3; axis++)
+        if (s->image[3 * c + axis] != image[axis]) return s->image[3 * c + axis] < image[axis] ? -1 : 1;
+    return 0;
+}
+
+/* The rows of body i from c on, with what those of before remember. */
+static void fill(const fl_world *w, fl_balls *s, int32_t i, int32_t c, fl_ball_image *image)
+{
+    const fl_balls *old = &w->balls;
+    int32_t at = old->bodies ? old->first[i] : 0;
+    const int32_t end = old->bodies ? old->first[i + 1] : 0;
+    for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
+        const int32_t j = w->near.partner[k];
+        int32_t cells[3] = {0};
+        double n;
+        if (!fl_balls_are(w, i, j)) continue;
+        image(w, k, i, j, cells);
+        while (at < end && compare(old, at, j, cells) < 0) at++;
+        s->i[c] = i;
+        s->j[c] = j;
+        s->law[c] = (int32_t)(fl_pairing_law(w, i, j) - w->law);
+        if (s->image) memcpy(&s->image[3 * c], cells, sizeof cells);
+        if (at < end && compare(old, at, j, cells) == 0) {
+            s->hit[c] = old->hit[at];
+            s->row[c] = old->row[at++];
+        } else {
+            s->row[c].k = fl_pairing_stiffness(w, i, j, &n);
+        }
+        c++;
+    }
+}
+
+int fl_balls_list(fl_world *w, fl_ball_image *image, fl_err *err)
+{
+    fl_balls fresh = {0}, *s = &w->balls;
+    int32_t *at = fl_alloc((int64_t)w->n + 1, sizeof *at, err);
+    if (!at) return -1;
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < w->n; i++)
+        for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++)
+            at[i + 1] += fl_balls_are(w, i, w->near.partner[k]);
+    int64_t n = 0;
+    for (int32_t i = 0; i < w->n; i++) n += at[i + 1], at[i + 1] = (int32_t)n;
+    if (n == 0 && !s->bodies) {
+        free(at);
+        return 0;
+    }
+    if (rows_alloc(&fresh, w, n, err)) {
+        fl_balls_free(&fresh);
+        free(at);
+        return -1;
+    }
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < w->n; i++)
+        if (at[i + 1] > at[i]) fill(w, &fresh, i, at[i], image);
+    free(at);
+    free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
+    s->i = fresh.i, s->j = fresh.j, s->law = fresh.law, s->image = fresh.image;
+    s->hit = fresh.hit, s->row = fresh.row, s->n = fresh.n;
+    s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
+    s->image_cap = fresh.image_cap, s->hit_cap = fresh.hit_cap, s->row_cap = fresh.row_cap;
+    return index_rows(w, err);
+}
+
+int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int hit, const fl_ball_row *row,
+                  fl_err *err)
+{
+    fl_balls *s = &w->balls;
+    const int64_t n = (int64_t)s->n + 1;
+    if (fl_grow(&s->i, &s->i_cap, n, sizeof *s->i, err) || fl_grow(&s->j, &s->j_cap, n, sizeof *s->j, err) ||
+        fl_grow(&s->law, &s->law_cap, n, sizeof *s->law, err) ||
+        fl_grow(&s->hit, &s->hit_cap, n, sizeof *s->hit, err) ||
+        fl_grow(&s->row, &s->row_cap, n, sizeof *s->row, err) ||
+        (w->cell.wraps && fl_grow(&s->image, &s->image_cap, 3 * n, sizeof *s->image, err)))
+        return -1;
+    s->i[s->n] = i;
+    s->j[s->n] = j;
+    s->law[s->n] = (int32_t)(fl_pairing_law(w, i, j) - w->law);
+    s->hit[s->n] = (uint8_t)hit;
+    s->row[s->n] = *row;
+    if (s->image) memcpy(&s->image[3 * s->n], image, 3 * sizeof *image);
+    s->n++;
+    return 0;
+}
+
+int fl_balls_drop(fl_world *w, fl_err *err)
+{
+    fl_balls *s = &w->balls;
+    int32_t kept = 0;
+    for (int32_t c = 0; c < s->n; c++) {
+        if (fl_world_away(w, s->i[c]) || fl_world_away(w, s->j[c])) continue;
+        s->i[kept] = s->i[c];
+        s->j[kept] = s->j[c];
+        s->law[kept] = s->law[c];
+        s->hit[kept] = s->hit[c];
+        s->row[kept] = s->row[c];
+        if (s->image) memmove(&s->image[3 * kept], &s->image[3 * c], 3 * sizeof *s->image);
+        kept++;
+    }
+    if (kept == s->n) return 0;
+    s->n = kept;
+    return fl_balls_index(w, err);
+}
+
+/* --- their forces ------------------------------------------------------------------------------ */
+
+/* A batch of touching rows in work. */
+typedef struct {
+    fl_spheres at;
+    int32_t row[FL_SPHERES_MOST], slot[FL_SPHERES_MOST]; /* slot < 0: j is of the chunk */
+    int32_t m;
+} batch;
+
+static inline void put(double a[3][FL_SPHERES_MOST], int32_t m, fl_vec3 v)
+{
+    a[0][m] = v.x;
+    a[1][m] = v.y;
+    a[2][m] = v.z;
+}
+
+static inline fl_vec3 get(double a[3][FL_SPHERES_MOST], int32_t m) { return v3(a[0][m], a[1][m], a[2][m]); }
+
+static inline fl_vec3 between(const fl_world *w, int32_t c)
+{
+    const fl_balls *s = &w->balls;
+    const fl_vec3 d = v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]);
+    if (!s->image) return d;
+    const int32_t *e = &s->image[3 * c];
+    return v3_sub(d, fl_cell_way(&w->cell, v3(e[0], e[1], e[2])));
+}
+
+/* What the batch needs beside D, to be evaluated; or to be placed again. */
+static void load(const fl_world *w, batch *t, int placed)
+{
+    const fl_balls *s = &w->balls;
+    const fl_bodies *b = &w->b;
+    fl_spheres *a = &t->at;
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m], i = s->i[c], j = s->j[c];
+        const fl_ball_row *r = &s->row[c];
+        a->ri[m] = b->radius[i];
+        a->rj[m] = b->radius[j];
+        a->k[m] = r->k;
+        if (placed) {
+            put(a->rub, m, r->rub);
+            a->normal[m] = r->normal;
+            continue;
+        }
+        const fl_touching *law = &w->law[s->law[c]];
+        put(a->u, m, v3_sub(b->v[i], b->v[j]));
+        put(a->wi, m, b->w[i]);
+        put(a->wj, m, b->w[j]);
+        a->invm[m] = b->invm[i] + b->invm[j];
+        a->friction[m] = law->friction;
+        a->tangential[m] = law->tangential;
+        a->chi[m] = law->chi;
+        a->touch[m] = r->touch;
+        put(a->slip, m, r->slip);
+        a->stiff[m] = r->stiff;
+    }
+}
+
+static void save(fl_world *w, batch *t)
+{
+    fl_spheres *a = &t->at;
+    for (int32_t m = 0; m < t->m; m++) {
+        fl_ball_row *r = &w->balls.row[t->row[m]];
+        r->touch = a->touch[m];
+        r->slip = get(a->slip, m);
+        r->stiff = a->stiff[m];
+        r->rub = get(a->rub, m);
+        r->normal = a->normal[m];
+    }
+}
+
+static inline void add(fl_ball_sum *s, double sign, fl_vec3 e, fl_vec3 d, fl_vec3 f, double arm, fl_vec3 turn)
+{
+    s->elastic = v3_madd(s->elastic, sign, e);
+    s->damping = v3_madd(s->damping, sign, d);
+    s->friction = v3_madd(s->friction, sign, f);
+    s->torque = v3_madd(s->torque, -arm, turn);
+}
+
+/* Their wrenches to the sums of the chunk, and to slots. */
+static void hand_out(fl_world *w, batch *t, fl_ball_tally *tally)
+{
+    fl_balls *s = &w->balls;
+    fl_spheres *a = &t->at;
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m];
+        const fl_vec3 n = get(a->n, m), rub = get(a->rub, m), turn = get(a->turn, m);
+        const fl_vec3 elastic = v3_scale(a->elastic[m], n),
+                      damping = v3_scale(a->normal[m] - a->elastic[m], n);
+        const double half = 0.5 * a->overlap[m], both = a->ri[m] + a->rj[m];
+        add(&s->sum[s->i[c]], 1.0, elastic, damping, rub, a->ri[m] - half, turn);
+        if (t->slot[m] < 0) {
+            add(&s->sum[s->j[c]], -1.0, elastic, damping, rub, a->rj[m] - half, turn);
+        } else {
+            s->slot[t->slot[m]] = (fl_ball_sum){0};
+            add(&s->slot[t->slot[m]], -1.0, elastic, damping, rub, a->rj[m] - half, turn);
+        }
+        tally->force += a->size[m];
+        if (a->overlap[m] > tally->worst * both) {
+            tally->worst = a->overlap[m] / both;
+            tally->worst_row = c;
+        }
+    }
+    tally->touching += t->m;
+}
+
+/* The springs of a contact are one along n and, where it sticks, two across it, at right angles to each other
+ * for a sphere in every way: its largest omega^2 is the larger of theirs. */
+static double bound(const fl_bodies *b, int32_t i, double along, double across, double arm)
+{
+    const double one = along * b->invm[i], two = across * (b->invm[i] + arm * arm / b->I[i].x);
+    return one > two ? one : two;
+}
+
+/* As share_of() of step.c says. */
+static void survey_batch(fl_world *w, batch *t)
+{
+    fl_balls *s = &w->balls;
+    const fl_spheres *a = &t->at;
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m], i = s->i[c], j = s->j[c];
+        const double half = 0.5 * a->overlap[m];
+        const double ki = bound(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half),
+                     kj = bound(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half), both = sqrt(ki * kj);
+        s->stiff[i] += ki + both;
+        if (t->slot[m] < 0) s->stiff[j] += kj + both;
+        else s->stiff_slot[t->slot[m]] = kj + both;
+    }
+}
+
+/* A row that touches no more forgets. */
+static void part(fl_balls *s, int32_t c, int32_t slot)
+{
+    const double k = s->row[c].k;
+    s->row[c] = (fl_ball_row){.k = k};
+    if (slot >= 0) s->slot[slot] = (fl_ball_sum){0};
+}
+
+/* dt < 0: nothing moves and nothing is evaluated, the sums are made again from what the rows hold. */
+static void take(fl_world *w, int32_t a, double dt, int survey)
+{
+    fl_balls *s = &w->balls;
+    const fl_bodies *b = &w->b;
+    const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a);
+    const int again = dt < 0.0;
+    int32_t slot = s->cross[a];
+    batch t;
+    t.m = 0;
+    s->tally[a] = (fl_ball_tally){.worst_row = -1};
+    memset(&s->sum[begin], 0, (size_t)(end - begin) * sizeof *s->sum);
+    if (survey) {
+        memset(&s->stiff[begin], 0, (size_t)(end - begin) * sizeof *s->stiff);
+        memset(&s->stiff_slot[slot], 0, (size_t)(s->cross[a + 1] - slot) * sizeof *s->stiff_slot);
+    }
+    for (int32_t c = s->first[begin];; c++) {
+        const int last = c == s->first[end];
+        if (t.m && (last || t.m == FL_SPHERES_MOST)) {
+            load(w, &t, again);
+            if (again) fl_spheres_place(&t.at, t.m);
+            else {
+                fl_spheres_meet(&t.at, t.m, dt);
+                save(w, &t);
+            }
+            hand_out(w, &t, &s->tally[a]);
+            if (survey) survey_batch(w, &t);
+            t.m = 0;
+        }
+        if (last) break;
+        const fl_vec3 d = between(w, c);
+        const double R = b->radius[s->i[c]] + b->radius[s->j[c]];
+        const int touches = again ? s->hit[c] : v3_norm2(d) < R * R;
+        const int32_t own = s->j[c] >= end ? slot++ : -1;
+        if (touches) {
+            put(t.at.d, t.m, d);
+            t.row[t.m] = c;
+            t.slot[t.m++] = own;
+        } else if (s->hit[c]) {
+            part(s, c, own);
+        }
+        s->hit[c] = (uint8_t)touches;
+    }
+}
+
+void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey) { take(w, a, dt, survey); }
+
+void fl_balls_collect(fl_world *w, int32_t k)
+{
+    fl_balls *s = &w->balls;
+    fl_ball_sum *sum = &s->sum[k];
+    for (int32_t c = s->into[k]; c < s->into[k + 1]; c++) {
+        const fl_ball_sum *in = &s->slot[s->slots[c]];
+        sum->elastic = v3_add(sum->elastic, in->elastic);
+        sum->damping = v3_add(sum->damping, in->damping);
+        sum->friction = v3_add(sum->friction, in->friction);
+        sum->torque = v3_add(sum->torque, in->torque);
+    }
+}
+
+double fl_balls_stiff(const fl_world *w, int32_t k)
+{
+    const fl_balls *s = &w->balls;
+    double sum = s->stiff[k];
+    for (int32_t c = s->into[k]; c < s->into[k + 1]; c++) sum += s->stiff_slot[s->slots[c]];
+    return sum;
+}
+
+int fl_balls_index(fl_world *w, fl_err *err)
+{
+    if (index_rows(w, err)) return -1;
+    for (int32_t a = 0; a < w->balls.chunks; a++) take(w, a, -1.0, 0);
+    for (int32_t k = 0; k < w->balls.bodies; k++) fl_balls_collect(w, k);
+    return 0;
+}
+
+/* --- their books ------------------------------------------------------------------------------- */
+
+/* Over a pair, F.(v_i - v_j) is the sum of what it gives to either; so the sums of the bodies tell as much as
+ * the rows. */
+void fl_balls_works(const fl_world *w, double *damping, double *friction)
+{
+    const fl_balls *s = &w->balls;
+    const fl_bodies *b = &w->b;
+#pragma omp parallel for schedule(static)
+    for (int32_t a = 0; a < s->chunks; a++) {
+        double damped = 0.0, rubbed = 0.0;
+        for (int32_t k = a * FL_BALLS_CHUNK; k < last_body(s, a); k++) {
+            const fl_ball_sum *q = &s->sum[k];
+            damped -= v3_dot(q->damping, b->v[k]);
+            rubbed -= v3_dot(q->friction, b->v[k]) + v3_dot(q->torque, b->w[k]);
+        }
+        s->tally[a].damping = damped;
+        s->tally[a].rubbed = rubbed;
+    }
+    for (int32_t a = 0; a < s->chunks; a++) {
+        *damping += s->tally[a].damping;
+        *friction += s->tally[a].rubbed;
+    }
+}
+
+static double overlap_of(const fl_world *w, int32_t c)
+{
+    const fl_balls *s = &w->balls;
+    return w->b.radius[s->i[c]] + w->b.radius[s->j[c]] - v3_norm(between(w, c));
+}
+
+/* Of the spring of friction of row c. */
+static double spring_of(const fl_ball_row *r)
+{
+    return r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0;
+}
+
+void fl_balls_energy(const fl_world *w, double *elastic, double *spring)
+{
+    const fl_balls *s = &w->balls;
+#pragma omp parallel for schedule(static)
+    for (int32_t a = 0; a < s->chunks; a++) {
+        double all = 0.0, springs = 0.0;
+        for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[last_body(s, a)]; c++) {
+            if (!s->hit[c]) continue;
+            const double held = spring_of(&s->row[c]);
+            all += s->row[c].k * fl_normal_phi(overlap_of(w, c), 1.5) + held;
+            springs += held;
+        }
+        s->tally[a].elastic = all;
+        s->tally[a].spring = springs;
+    }
+    for (int32_t a = 0; a < s->chunks; a++) {
+        *elastic += s->tally[a].elastic;
+        *spring += s->tally[a].spring;
+    }
+}
+
+fl_ball_count fl_balls_count(const fl_world *w)
+{
+    const fl_balls *s = &w->balls;
+    fl_ball_count all = {.row = -1};
+    for (int32_t a = 0; a < s->chunks; a++) {
+        const fl_ball_tally *t = &s->tally[a];
+        all.force += t->force;
+        all.touching += t->touching;
+        if (t->worst > all.worst) {
+            all.worst = t->worst;
+            all.row = t->worst_row;
+        }
+    }
+    return all;
+}
+
+double fl_balls_bytes(const fl_world *w)
+{
+    const fl_balls *s = &w->balls;
+    const double row = 3 * sizeof(int32_t) + sizeof *s->hit + sizeof *s->row, each = sizeof *s->sum,
+                 image = s->image ? 3 * sizeof(int32_t) : 0;
+    if (!s->bodies) return 0.0;
+    return s->n * (row + image) + s->cross[s->chunks] * (each + sizeof(int32_t) + sizeof(double)) +
+           s->bodies * (each + 2 * sizeof(int32_t) + sizeof(double));
+}
+
+/* --- as pairs like all others ------------------------------------------------------------------ */
+
+void fl_balls_pair(const fl_world *w, int32_t c, fl_pair *p)
+{
+    const fl_balls *s = &w->balls;
+    const fl_bodies *b = &w->b;
+    const fl_ball_row *r = &s->row[c];
+    const int32_t i = s->i[c], j = s->j[c];
+    const fl_vec3 d = between(w, c);
+    const double apart = v3_norm(d), over = b->radius[i] + b->radius[j] - apart;
+    fl_pair_start(w, p, i, j);
+    if (s->image) memcpy(p->image, &s->image[3 * c], sizeof p->image);
+    p->asleep = b->odometer[i] + b->odometer[j] + (over < 0.0 ? -over : 0.0);
+    p->n = s->hit[c];
+    if (!p->n) return;
+    const fl_vec3 n = apart > 0.0 ? v3_scale(1.0 / apart, d) : v3(0, 0, 1), turn = v3_cross(n, r->rub);
+    const double elastic = r->k * fl_normal_power(over, 1.5), half = 0.5 * over;
+    p->slip.force = r->slip;
+    p->slip.k = r->stiff;
+    p->touch = r->touch;
+    p->overlap = over;
+    p->fd = v3_scale(r->normal - elastic, n);
+    p->fs = r->rub;
+    p->si = p->ti = v3_scale(half - b->radius[i], turn);
+    p->sj = p->tj = v3_scale(half - b->radius[j], turn);
+    p->f = v3_madd(r->rub, r->normal, n);
+    p->spring = spring_of(r);
+    p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
+    const double slope = r->k * fl_normal_slope(over, 1.5);
+    p->stiff_i = bound(b, i, slope, r->stiff, b->radius[i] - half);
+    p->stiff_j = bound(b, j, slope, r->stiff, b->radius[j] - half);
+}
+
+/* Whether row c comes before pair p. */
+static int comes_first(const fl_balls *s, int32_t c, const fl_pair *p)
+{
+    return s->i[c] != p->i ? s->i[c] < p->i : s->j[c] < p->j; /* no pair is of both kinds */
+}
+
+const fl_pair *fl_pair_next(fl_pair_walk *at)
+{
+    const fl_world *w = at->w;
+    if (at->row < w->balls.n &&
+        (at->pair >= w->n_pair || comes_first(&w->balls, at->row, &w->pair[at->pair]))) {
+        fl_balls_pair(w, at->row++, &at->made);
+        return &at->made;
+    }
+    return at->pair < w->n_pair ? &w->pair[at->pair++] : NULL;
+}

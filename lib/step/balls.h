@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* balls.h -- pairs of spheres in a step; how they are kept is told in ball.h, their forces in law/sphere.h.
+ */
+#ifndef FL_STEP_BALLS_H
+#define FL_STEP_BALLS_H
+#include "step/world.h"
+
+/* Whether i and j < total are two spheres that meet here: both alike in all directions, by `patch` or `core`.
+ * All others, and these where there is no row for them, are pairs of w->pair. */
+int fl_balls_are(const fl_world *w, int32_t i, int32_t j);
+
+/* Rows for those of w->near that are such; image() tells which image of j is meant.  What a row of before
+ * remembers goes over.  -1 with FL_SYSTEM. */
+typedef void fl_ball_image(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t image[3]);
+int fl_balls_list(fl_world *w, fl_ball_image *image, fl_err *err);
+
+/* A row behind all others, for those who put together a world from what they read: i and then j do not fall;
+ * fl_balls_index() afterwards.  -1 with FL_SYSTEM. */
+int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int hit, const fl_ball_row *row,
+                  fl_err *err);
+
+/* End the rows of bodies that are away, and renew the sums of the others.  -1 with FL_SYSTEM. */
+int fl_balls_drop(fl_world *w, fl_err *err);
+
+/* Offsets, slots and sums of the rows at hand, from the forces that they hold.  -1 with FL_SYSTEM. */
+int fl_balls_index(fl_world *w, fl_err *err);
+
+/* The rows of chunk a, at the positions and velocities of now, over a step of dt [s]; survey: also bounds of
+ * omega^2.  Any thread may take any chunk; when all are done fl_balls_collect() gives each body k the rest of
+ * its sum, once. */
+void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey);
+void fl_balls_collect(fl_world *w, int32_t k);
+
+/* Sum of bounds of omega^2 of the contacts of body k, at the last survey [1/s2]. */
+double fl_balls_stiff(const fl_world *w, int32_t k);
+
+/* Force and torque on body k, added to f and t. */
+static inline void fl_balls_force(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t)
+{
+    const fl_ball_sum *s = &w->balls.sum[k];
+    *f = v3_add(*f, v3_add(v3_add(s->elastic, s->damping), s->friction));
+    *t = v3_add(*t, s->torque);
+}
+
+/* What damping and friction take out at the velocities of now [W]. */
+void fl_balls_works(const fl_world *w, double *damping, double *friction);
+
+/* Elastic energy of all rows, that of their springs of friction with it, and that of the springs alone [J].
+ */
+void fl_balls_energy(const fl_world *w, double *elastic, double *spring);
+
+/* Sum of |F| [N], touching rows, and the largest overlap over the sum of the radii with its row (-1: none) of
+ * the last touch. */
+typedef struct {
+    double force, worst;
+    int64_t touching;
+    int32_t row;
+} fl_ball_count;
+fl_ball_count fl_balls_count(const fl_world *w);
+
+/* Row c as a pair like all others, with its forces of the last touch. */
+void fl_balls_pair(const fl_world *w, int32_t c, fl_pair *p);
+
+/* All near pairs, those of spheres in their place, by (i, j, image): from {.w = w} on, NULL at the end.  What
+ * is returned holds until the next. */
+typedef struct {
+    const fl_world *w;
+    int32_t pair, row;
+    fl_pair made;
+} fl_pair_walk;
+const fl_pair *fl_pair_next(fl_pair_walk *at);
+
+/* Memory of rows, sums and slots [B]. */
+double fl_balls_bytes(const fl_world *w);
+
+void fl_balls_free(fl_balls *s);
+
+#endif

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "base/rng.h"
+#include "law/sphere.h"
+#include "step/balls.h"
+#include "step/interact.h"
+#include "step/pairing.h"
+#include "step/search.h"
+#include "support/lab.h"
+#include "support/near.h"
+#include "support/scenes.h"
+
+#define TOL 1e-11 /* rounding of coordinates of a few metres, over an overlap of centimetres */
+
+static void near3(fl_vec3 a, fl_vec3 b, double size)
+{
+    assert_near_of(v3_norm(v3_sub(a, b)), 0.0, TOL, size);
+}
+
+/* One row after another as the kernel of all other pairs sees it, through impact, sticking and sliding. */
+static void like_any_other_pair(void **state)
+{
+    int64_t touched = 0, slid = 0;
+    (void)state;
+    for (int k = 0; k < test_times(40); k++) {
+        lab l;
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        const double ra = fl_rng_in(&g, 0.1, 1.0), rb = fl_rng_in(&g, 0.1, 1.0);
+        fl_vec3 n = v3_unit(v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g)));
+        const fl_vec3 across = v3_scale(fl_rng_in(&g, 0.0, 2.0), v3_normal_to(n));
+        lab_start(&l);
+        lab_set(&l, "material.ice.young=1 MPa");
+        lab_setf(&l, "contact.friction=%g", fl_rng_in(&g, 0.0, 0.6));
+        lab_setf(&l, "contact.restitution=%g", fl_rng_in(&g, 0.2, 1.0));
+        lab_sphere(&l, v3_scale(1.001 * ra, n), ra, v3_madd(across, -1.0, n),
+                   v3_scale(fl_rng_in(&g, 0, 3), across));
+        lab_sphere(&l, v3_scale(-rb, n), rb, v3_scale(0.5, n), v3(1, fl_rng_in(&g, -2, 2), 0));
+        lab_make(&l, 0);
+        l.w.dt *= 0.2;
+        fl_pair other;
+        fl_pair_start(&l.w, &other, 0, 1);
+        for (int s = 0; s < 200; s++) {
+            /* the step without its end: contacts see the velocities in the middle */
+            fl_bodies *b = &l.w.b;
+            for (int i = 0; i < 2; i++) fl_kick(b, i, 0.5 * l.w.dt), fl_drift(b, i, l.w.dt);
+            fl_balls_touch(&l.w, 0, l.w.dt, 1);
+            fl_interact(&l.w, &other, 0, l.w.dt, 1);
+            const fl_pair p = lab_pair(&l, 0);
+            const double F = v3_norm(other.f), T = F * (ra + rb);
+            assert_int_equal(p.n, other.n);
+            if (p.n) {
+                near3(p.f, other.f, F), near3(p.fd, other.fd, F), near3(p.fs, other.fs, F);
+                near3(p.ti, other.ti, T), near3(p.tj, other.tj, T), near3(p.si, other.si, T);
+                near3(p.slip.force, other.slip.force, F);
+                assert_near_of(p.slip.k, other.slip.k, TOL, other.slip.k + 1.0);
+                assert_near(p.touch, other.touch, 1e-12);
+                assert_near_of(p.energy, other.energy, TOL, F * ra);
+                assert_near_of(p.spring, other.spring, TOL, F * ra);
+                /* a bound that is no more than Frobenius' fourth root above the largest eigenvalue */
+                assert_true(p.stiff_i <= other.stiff_i * (1 + TOL) && other.stiff_i <= 1.26 * p.stiff_i);
+                assert_true(p.stiff_j <= other.stiff_j * (1 + TOL) && other.stiff_j <= 1.26 * p.stiff_j);
+                slid += v3_norm(p.fs) >= 0.999 * p.law->friction *
+                                             v3_dot(v3_sub(p.f, p.fs), v3_unit(v3_sub(b->x[0], b->x[1])));
+                touched++;
+            }
+            for (int i = 0; i < 2; i++) {
+                b->f[i] = b->t[i] = v3(0, 0, 0);
+                fl_balls_collect(&l.w, i);
+                fl_balls_force(&l.w, i, &b->f[i], &b->t[i]);
+                fl_kick(b, i, 0.5 * l.w.dt);
+            }
+            near3(b->f[0], other.f, F + 1e-300), near3(b->t[1], other.tj, T + 1e-300);
+        }
+        fl_pair_end(&other);
+        lab_free(&l);
+    }
+    assert_true(touched > 20 * test_times(40) && slid > 0 && slid < touched);
+}
+
+/* Sums, works and counts over chunks against those over pairs. */
+static void sums_over_pairs(void **state)
+{
+    lab l;
+    (void)state;
+    scene_of_balls(&l, 9, "patch"); /* 729 bodies: three chunks */
+    lab_make(&l, 0);
+    assert_int_equal(lab_run(&l, 60), 0);
+    fl_world *w = &l.w;
+    assert_true(w->balls.chunks == 3 && w->balls.cross[3] > 100);
+    fl_vec3 *f = calloc((size_t)w->n, sizeof *f), *t = calloc((size_t)w->n, sizeof *t);
+    assert_true(f && t);
+    fl_pair_walk at = {.w = w};
+    double damping = 0.0, friction = 0.0, elastic = 0.0, spring = 0.0, size = 0.0, worst = 0.0, most = 0.0;
+    int64_t touching = 0;
+    int32_t i = -1, j = -1;
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
+        assert_true(p->i > i || (p->i == i && p->j >= j)); /* in order, with boxes between them */
+        i = p->i, j = p->j;
+        if (!fl_balls_are(w, p->i, p->j) || !p->n) continue;
+        const fl_vec3 dv = v3_sub(w->b.v[i], w->b.v[j]);
+        f[i] = v3_add(f[i], p->f), f[j] = v3_sub(f[j], p->f);
+        t[i] = v3_add(t[i], p->ti), t[j] = v3_add(t[j], p->tj);
+        damping -= v3_dot(p->fd, dv);
+        friction -= v3_dot(p->fs, dv) + v3_dot(p->si, w->b.w[i]) + v3_dot(p->sj, w->b.w[j]);
+        elastic += p->energy, spring += p->spring;
+        size += v3_norm(p->f), most = fmax(most, v3_norm(p->f));
+        worst = fmax(worst, p->overlap / (w->b.radius[i] + w->b.radius[j]));
+        touching++;
+    }
+    assert_true(touching > 500);
+    for (int32_t k = 0; k < w->n; k++) {
+        fl_vec3 fk = v3(0, 0, 0), tk = v3(0, 0, 0);
+        fl_balls_force(w, k, &fk, &tk);
+        near3(fk, f[k], most), near3(tk, t[k], most);
+    }
+    double d = 0.0, r = 0.0, e = 0.0, s = 0.0;
+    fl_balls_works(w, &d, &r), fl_balls_energy(w, &e, &s);
+    const fl_ball_count all = fl_balls_count(w);
+    assert_near_of(d, damping, TOL, most), assert_near_of(r, friction, TOL, most);
+    assert_near(e, elastic, 1e-11), assert_near(s, spring, 1e-11);
+    assert_near(all.force, size, 1e-11), assert_near(all.worst, worst, 1e-11);
+    assert_int_equal(all.touching, touching);
+    /* made again from what the rows hold: the same bits */
+    fl_err err = {0};
+    double d2 = 0.0, r2 = 0.0;
+    assert_int_equal(fl_balls_index(w, &err), 0);
+    fl_balls_works(w, &d2, &r2);
+    assert_true(d == d2 && r == r2);
+    /* and with other rows at hand, which do not touch */
+    w->skin *= 3.0, w->found_at = -1;
+    const int32_t rows = w->balls.n;
+    assert_int_equal(fl_search(w, &err), 0);
+    assert_true(w->balls.n > rows);
+    assert_int_equal(fl_balls_index(w, &err), 0);
+    d2 = r2 = 0.0;
+    fl_balls_works(w, &d2, &r2);
+    assert_true(d == d2 && r == r2);
+    free(f), free(t);
+    lab_free(&l);
+}
+
+/* Centres that are one push along z; contacts have the same bits wherever they stand in a batch. */
+static void batches(void **state)
+{
+    static fl_spheres a, b;
+    (void)state;
+    for (int c = 0; c < FL_SPHERES_MOST; c++) {
+        fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
+        double *const in[] = {&a.d[0][c],  &a.d[1][c],  &a.d[2][c],    &a.u[0][c],    &a.u[1][c],
+                              &a.u[2][c],  &a.wi[0][c], &a.wi[1][c],   &a.wi[2][c],   &a.wj[0][c],
+                              &a.wj[1][c], &a.wj[2][c], &a.slip[0][c], &a.slip[1][c], &a.slip[2][c]};
+        for (size_t k = 0; k < sizeof in / sizeof *in; k++)
+            *in[k] = c == 5 && k < 3 ? 0.0 : fl_rng_in(&g, -1, 1);
+        a.ri[c] = a.rj[c] = fl_rng_in(&g, 1, 2);
+        a.k[c] = a.invm[c] = a.friction[c] = a.tangential[c] = a.chi[c] = fl_rng_in(&g, 0.2, 1);
+        a.touch[c] = c % 2 ? 0.3 : 0.0;
+        a.stiff[c] = c % 3 ? 5.0 : 0.0;
+    }
+    for (int c = 0; c < FL_SPHERES_MOST; c++) {
+        const int to = (7 * c + 3) % FL_SPHERES_MOST;
+        const double *from = &a.d[0][c];
+        double *at = &b.d[0][to];
+        for (size_t k = 0; k < sizeof a / sizeof a.ri; k++)
+            at[k * FL_SPHERES_MOST] = from[k * FL_SPHERES_MOST];
+    }
+    fl_spheres_meet(&a, FL_SPHERES_MOST, 0.01);
+    fl_spheres_meet(&b, FL_SPHERES_MOST, 0.01);
+    for (int c = 0; c < FL_SPHERES_MOST; c++) {
+        const int to = (7 * c + 3) % FL_SPHERES_MOST;
+        assert_true(a.normal[c] == b.normal[to] && a.rub[1][c] == b.rub[1][to] &&
+                    a.turn[2][c] == b.turn[2][to]);
+        assert_true(isfinite(a.normal[c]) && isfinite(a.rub[0][c]) && isfinite(a.size[c]));
+    }
+    assert_true(a.n[0][5] == 0.0 && a.n[1][5] == 0.0 && a.n[2][5] == 1.0);
+}
+
+static void out_of_memory(void **state)
+{
+    (void)state;
+    for (long n = 0; n < 30; n++) {
+        lab l;
+        fl_err err = {0};
+        scene_of_balls(&l, 4, "patch");
+        lab_make(&l, 0);
+        l.w.skin *= 2.0, l.w.found_at = -1;
+        fl_mem_fail_after(n);
+        const int rc = fl_search(&l.w, &err);
+        fl_mem_fail_after(-1);
+        assert_true(rc == 0 || err.code == FL_SYSTEM);
+        lab_free(&l);
+        if (rc == 0) return;
+    }
+    fail();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
+                                       cmocka_unit_test(sums_over_pairs), cmocka_unit_test(batches),
+                                       cmocka_unit_test(out_of_memory)};
+    return cmocka_run_group_tests_name("balls", tests, NULL, NULL);
+}
