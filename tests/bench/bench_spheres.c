@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bench_spheres.c -- a pack of spheres that has come to rest under gravity, by Hertz and Mindlin with
+ * history: what a step costs for each body and for each contact, everything included, beside how well energy
+ * is kept and how deep spheres stand in one another; and what a body takes of memory with its pairs.
+ *     bench_spheres                        the table
+ *     bench_spheres STEPS                  so many steps of the smallest pack after it has been made, for a
+ *                                          tool that counts instructions: the count of contact-steps is told
+ *     bench_spheres THREADS TILES STEPS    one row
+ * A column of a thousand spheres of radii within a tenth of each other is poured into a cell that repeats
+ * itself and settles; larger packs are that one laid side by side.  Times are of the wall, the best of
+ * several windows on this machine now; compare rows of one run only. */
+#include <malloc.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include "base/rng.h"
+#include "step/search.h"
+#include "support/lab.h"
+
+#define RADIUS 0.05 /* mean [m] */
+#define PITCH 0.112 /* of the lattice that is let fall [m] */
+#define SETTLE 1.2  /* [s] */
+enum { SIDE = 10, COLUMN = SIDE * SIDE * SIDE, WINDOWS = 5 };
+
+typedef struct {
+    fl_vec3 x, v, w;
+    double r;
+} ball;
+
+static double now(clockid_t clock)
+{
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void keys(lab *l, int32_t tiles, int threads)
+{
+    lab_start(l);
+    lab_set(l, "material.ice.young=20 MPa");
+    lab_set(l, "contact.friction=0.4");
+    lab_set(l, "contact.restitution=0.3");
+    lab_set(l, "run.gravity=9.81");
+    lab_setf(l, "run.threads=%d", threads);
+    lab_set(l, "boundary.type=periodic periodic rigid");
+    lab_set(l, "boundary.min=0 0 0");
+    lab_setf(l, "boundary.max=%.17g %.17g none", PITCH * SIDE * tiles, PITCH * SIDE * tiles);
+}
+
+/* The column at rest. */
+static void pour(ball *b, double *dt)
+{
+    lab l;
+    keys(&l, 1, 1);
+    for (int32_t k = 0; k < COLUMN; k++) {
+        fl_rng g = fl_rng_of(3, k, FL_RNG_TEST);
+        const fl_vec3 at = v3(k % SIDE + 0.5, k / SIDE % SIDE + 0.5, k / (SIDE * SIDE) + 0.5);
+        const double r = RADIUS * fl_rng_in(&g, 0.9, 1.1);
+        const fl_vec3 v = v3(fl_rng_in(&g, -0.5, 0.5), fl_rng_in(&g, -0.5, 0.5), 0);
+        lab_sphere(&l, v3_scale(PITCH, at), r, v, v3(0, 0, 0));
+    }
+    lab_make(&l, 0.0);
+    *dt = l.w.dt;
+    if (lab_run(&l, (int64_t)(SETTLE / l.w.dt))) exit(1);
+    for (int32_t k = 0; k < COLUMN; k++) {
+        const fl_bodies *a = &l.w.b;
+        b[k] = (ball){a->x[k], a->v[k], a->w[k], a->radius[k]};
+        b[k].x = fl_cell_inside(&l.w.cell, b[k].x);
+    }
+    lab_free(&l);
+}
+
+/* The column, tiles by tiles times. */
+static void lay(lab *l, const ball *b, int32_t tiles, int threads, double dt)
+{
+    keys(l, tiles, threads);
+    for (int32_t t = 0; t < tiles * tiles; t++) {
+        const fl_vec3 by = v3(PITCH * SIDE * (t % tiles), PITCH * SIDE * (t / tiles), 0);
+        for (int32_t k = 0; k < COLUMN; k++) lab_sphere(l, v3_add(b[k].x, by), b[k].r, b[k].v, b[k].w);
+    }
+    lab_make(l, dt);
+}
+
+static double memory(void)
+{
+    const struct mallinfo2 m = mallinfo2();
+    return (double)m.uordblks + (double)m.hblkhd;
+}
+
+static int row(const ball *b, int32_t tiles, int threads, double dt, int64_t steps)
+{
+    lab l;
+    const double before = memory();
+    lay(&l, b, tiles, threads, dt);
+    lab_run(&l, 20);
+    const int32_t n = l.w.n;
+    double field = 0.0; /* what was read is not what the solver keeps */
+    for (int32_t i = 0; i < n; i++) field += (double)malloc_usable_size(l.field.core[i].mem);
+    const double bytes = (memory() - before - field) / n;
+    double best = INFINITY, cpu = INFINITY, contacts = 0.0;
+    for (int k = 0; k < WINDOWS; k++) {
+        const int64_t touched = l.w.touching_steps;
+        const double begun = now(CLOCK_MONOTONIC), used = now(CLOCK_PROCESS_CPUTIME_ID);
+        if (lab_run(&l, steps)) return 1;
+        best = fmin(best, (now(CLOCK_MONOTONIC) - begun) / (double)steps);
+        cpu = fmin(cpu, (now(CLOCK_PROCESS_CPUTIME_ID) - used) / (double)steps);
+        contacts = (double)(l.w.touching_steps - touched) / (double)steps;
+    }
+    l.w.found_at = -1;
+    fl_err err = {0};
+    const double begun = now(CLOCK_MONOTONIC);
+    if (fl_search(&l.w, &err)) return 1;
+    const double search = now(CLOCK_MONOTONIC) - begun;
+    fl_step_ledger(&l.w);
+    const fl_ledger *g = &l.w.ledger;
+    printf("%8d %7d %10.1f %12.1f %10.2f %10.2f %10.0f %10.0f %12.1e %12.1e\n", n, threads, 1e9 * best / n,
+           1e9 * best / contacts, cpu / best, contacts / n, 1e9 * search / n, bytes,
+           fabs(g->residual) / g->elastic, l.w.worst_overlap);
+    const int bad = !(fabs(g->residual) < 1e-3 * g->elastic && l.w.worst_overlap < 0.1);
+    lab_free(&l);
+    return bad;
+}
+
+static void head(void)
+{
+    printf("%8s %7s %10s %12s %10s %10s %10s %10s %12s %12s\n", "spheres", "threads", "ns/body", "ns/contact",
+           "cpu/wall", "contacts", "search", "memory", "residual", "overlap");
+    printf("%8s %7s %10s %12s %10s %10s %10s %10s %12s %12s\n", "", "", "and step", "and step", "", "a body",
+           "ns/body", "B/body", "/elastic", "/2R");
+}
+
+int main(int argc, char **argv)
+{
+    static ball b[COLUMN];
+    static const struct {
+        int32_t tiles, threads, steps;
+    } ROW[] = {{1, 1, 2000}, {3, 1, 200}, {10, 1, 20}, {32, 1, 4}, {1, 2, 2000}, {3, 2, 200}, {10, 2, 20}};
+    double dt;
+    int good = 0, bad = 0;
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    pour(b, &dt);
+    if (argc == 2) {
+        lab l;
+        lay(&l, b, 1, 1, dt);
+        const int64_t steps = atoi(argv[1]), before = l.w.touching_steps;
+        const int failed = lab_run(&l, steps);
+        printf("%lld\n", (long long)(l.w.touching_steps - before));
+        lab_free(&l);
+        return failed;
+    }
+    printf("spheres at rest, Hertz and Mindlin, friction 0.4, steps of %.3g s\n", dt);
+    head();
+    if (argc == 4) return row(b, atoi(argv[2]), atoi(argv[1]), dt, atoi(argv[3]));
+    for (size_t k = 0; k < sizeof ROW / sizeof *ROW; k++) {
+        if (row(b, ROW[k].tiles, ROW[k].threads, dt, ROW[k].steps)) bad++;
+        else good++;
+    }
+    printf("%d passed, %d failed\n", good, bad);
+    return bad > 0;
+}
