@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
+#include <string.h>
 #include "base/mem.h"
 #include "geom/facet.h"
 
@@ -197,14 +198,16 @@ static int quadrilateral(fl_part *p, const int32_t q[4], fl_err *err)
 
 int fl_facet_polygon(fl_part *p, int32_t n, const int32_t *loop, fl_err *err)
 {
+    enum { FEW = 16 };
     ring r = {.x = p->v};
-    int32_t *mem;
+    int32_t few[4 * FEW], *mem = few;
     int rc = -1;
     if (n == 3) { /* the common case needs no ring */
         if (loop[0] == loop[1] || loop[1] == loop[2] || loop[2] == loop[0]) return 0;
         return fl_surface_triangle(p, loop[0], loop[1], loop[2], err);
     }
-    mem = fl_alloc(4 * (int64_t)n, sizeof *mem, err);
+    if (n > FEW) mem = fl_alloc(4 * (int64_t)n, sizeof *mem, err);
+    else memset(few, 0, sizeof few);
     if (!mem) return -1;
     r.loop = mem;
     r.prev = mem + n;
@@ -227,6 +230,6 @@ int fl_facet_polygon(fl_part *p, int32_t n, const int32_t *loop, fl_err *err)
     for (int32_t k = 0; k < r.left; k++) mark(&r, k, turns_in(&r, k));
     rc = r.left == 4 && r.hollow == 0 ? quadrilateral(p, r.loop, err) : clip_ears(p, &r, err);
 done:
-    free(mem);
+    if (mem != few) free(mem);
     return rc;
 }

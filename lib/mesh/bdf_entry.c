@@ -33,8 +33,10 @@ static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == 
 
 static int includes(const char *line)
 {
-    const char *p = line + strspn(line, " \t");
-    return strncasecmp(p, "INCLUDE", 7) == 0 && p[7] && (is_blank(p[7]) || strchr("'\"=", p[7]));
+    const char *p = line;
+    while (*p == ' ' || *p == '\t') p++;
+    return (*p | 32) == 'i' && strncasecmp(p, "INCLUDE", 7) == 0 && p[7] &&
+           (is_blank(p[7]) || strchr("'\"=", p[7]));
 }
 
 /* The next line with something in it, cut at its comment: 1, 0 at the end, -1. */
@@ -116,7 +118,8 @@ static int free_fields(fl_bdf_entry *r, const char *line, fl_err *err)
     if (!star && fill(r, (r->fields + ROW - 1) / ROW * ROW, err)) return -1;
     const int had = r->fields;
     for (int k = 0; *p; k++) {
-        const size_t n = strcspn(++p, ",");
+        const char *const comma = strchr(++p, ',');
+        const size_t n = comma ? (size_t)(comma - p) : strlen(p);
         if (k < most && push(r, p, n, err)) return -1;
         if (k > most && strspn(p, " \t") < n)
             return fl_elements_fail(
@@ -169,7 +172,7 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
             if (include(r, err)) return -1;
             continue;
         }
-        if (strncasecmp(start, "ENDDATA", 7) == 0) return 0;
+        if ((*start | 32) == 'e' && strncasecmp(start, "ENDDATA", 7) == 0) return 0;
         if (goes_on(line)) continue; /* of an entry that was passed over */
         while (line[n] && !is_blank(line[n]) && line[n] != ',' && line[n] != '*' && n < FL_BDF_NAME - 1) {
             r->name[n] = (char)toupper((unsigned char)line[n]);

@@ -155,6 +155,14 @@ static int polygon(fl_skin *k, fl_part *p, int32_t target, int n, const int32_t 
 {
     int32_t sorted[8], loop[8] = {0}, v[8];
     int low = 0;
+    if (n == 3) { /* nothing to cut */
+        if (node[0] == node[1] || node[1] == node[2] || node[2] == node[0]) return 0;
+        for (int i = 1; i < 3; i++)
+            if (before(k->e, node[i], node[low])) low = i;
+        for (int i = 0; i < 3; i++)
+            if (bring(k, p, target, node[(low + i) % 3], &v[i], err)) return -1;
+        return fl_surface_triangle(p, v[0], v[1], v[2], err);
+    }
     for (int i = 0; i < n; i++) {
         int at = i;
         for (; at > 0 && before(k->e, node[i], sorted[at - 1]); at--) sorted[at] = sorted[at - 1];
