@@ -25,6 +25,9 @@ int main(int argc, char **argv)
 {
     fl_err err = {0};
     scene_of_everything(&world_of, 2, NULL);
+    /* a sphere that stands on another, and one beside */
+    lab_sphere(&world_of, v3(-0.5, -0.5, 0.35), 0.43, v3(0, 0, -0.2), v3(0, 0, 0));
+    lab_sphere(&world_of, v3(-0.5, -1.3, 0.0), 0.43, v3(0, 0, -0.2), v3(0, 0, 0));
     lab_set(&world_of, "structure.file=lab");
     if (fl_scene_check(&world_of.scene, &err)) return 1;
     return fuzz_main(argc, argv, "snapshot", fuzz_one);
