@@ -3,6 +3,7 @@
 #include "base/mem.h"
 #include "bound/structure.h"
 #include "geom/clip.h"
+#include "geom/mosaic.h"
 
 #define PI 3.14159265358979323846
 
@@ -364,66 +365,79 @@ static fl_edge sides_of(const flats *f, const int32_t *face_of, int32_t t, int32
     return other < 0 ? (fl_edge){a, b, one, -1} : (fl_edge){a, b, other, one};
 }
 
-/* A surface of triangles.  The block of a fl_poly is laid out by hand: it is not convex, so fl_poly_make()
- * is not asked. */
-static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
+/* The faces of a shell: convex tiles of its flat regions.  The block of a fl_poly is laid out by hand: it is
+ * not convex, so fl_poly_make() is not asked. */
+static int lay_out(fl_piece *piece, const flats *f, const fl_mosaic *tiles, fl_err *err)
 {
     const fl_part *p = f->p;
     const fl_aabb box = fl_part_aabb(p);
-    const size_t nv = (size_t)p->nv, nt = (size_t)p->nt;
+    const size_t nv = (size_t)p->nv, nt = (size_t)p->nt, nf = (size_t)tiles->n;
     fl_poly *core = &piece->core;
     fl_shell *sh = &piece->shell;
-    const size_t bytes = (nv + nt) * sizeof(fl_vec3) + (nt + nv + 3 * nt) * sizeof(double) +
-                         3 * nt * sizeof(fl_edge) + (4 * nt + 1 + nv + 1 + 6 * nt) * sizeof(int32_t);
+    const size_t sides = (size_t)tiles->first[nf];
+    const size_t bytes = (nv + nf) * sizeof(fl_vec3) + (nf + nv + 3 * nt) * sizeof(double) +
+                         3 * nt * sizeof(fl_edge) + (nf + 1 + sides + nv + 1 + 6 * nt) * sizeof(int32_t);
     char *mem = fl_alloc((int64_t)bytes, 1, err);
-    side *edge = fl_alloc(3 * (int64_t)p->nt, sizeof *edge, err);
-    bends *ends = fl_alloc(p->nv, sizeof *ends, err);
-    int32_t edges = 0, *face_of = fl_alloc(p->nt, sizeof *face_of, err);
     piece->kind = FL_PIECE_SHELL;
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
     core->mem = mem;
     sh->corner = fl_alloc(p->nv, sizeof *sh->corner, err);
-    sh->box = fl_alloc(p->nt, sizeof *sh->box, err);
+    sh->box = fl_alloc(tiles->n, sizeof *sh->box, err);
     sh->edge_box = fl_alloc(3 * (int64_t)p->nt, sizeof *sh->edge_box, err);
-    if (!mem || !edge || !ends || !face_of || !sh->corner || !sh->box || !sh->edge_box) {
-        free(edge), free(ends), free(face_of);
-        return -1;
-    }
+    if (!mem || !sh->corner || !sh->box || !sh->edge_box) return -1;
     core->v = (fl_vec3 *)mem;
     core->n = core->v + nv;
-    core->c = (double *)(core->n + nt);
-    core->bend = core->c + nt;
+    core->c = (double *)(core->n + nf);
+    core->bend = core->c + nf;
     core->defect = core->bend + 3 * nt;
     core->edge = (fl_edge *)(core->defect + nv);
     core->first = (int32_t *)(core->edge + 3 * nt);
-    core->loop = core->first + nt + 1;
-    core->begin = core->loop + 3 * nt;
+    core->loop = core->first + nf + 1;
+    core->begin = core->loop + sides;
     core->beside = core->begin + nv + 1;
     core->nv = p->nv;
+    core->nf = tiles->n;
     core->size = fmax(box.hi.x - box.lo.x, fmax(box.hi.y - box.lo.y, box.hi.z - box.lo.z));
     for (int32_t v = 0; v < p->nv; v++) core->v[v] = v3_sub(p->v[v], piece->x);
+    memcpy(core->first, tiles->first, (nf + 1) * sizeof *core->first);
+    memcpy(core->loop, tiles->loop, sides * sizeof *core->loop);
     for (int32_t t = 0; t < p->nt; t++) {
-        face_of[t] = -1;
         if (f->face[t] < 0) continue; /* no area */
-        const int32_t k = face_of[t] = core->nf++;
-        sh->box[k] = aabb_empty();
-        for (int c = 0; c < 3; c++) {
-            core->loop[3 * k + c] = p->t[t].v[c];
-            sh->box[k] = aabb_add(sh->box[k], core->v[p->t[t].v[c]]);
-        }
-        core->n[k] = f->fn[f->face[t]];
-        core->c[k] = f->fc[f->face[t]] - v3_dot(core->n[k], piece->x);
-        core->first[k + 1] = 3 * (k + 1);
         const double area = f->area[f->face[t]] += triangle_area(p, t);
         if (area > piece->face) piece->face = area;
     }
+    for (int32_t r = 0; r < core->nf; r++) {
+        const int32_t region = tiles->region[r];
+        sh->box[r] = aabb_empty();
+        for (int32_t k = core->first[r]; k < core->first[r + 1]; k++)
+            sh->box[r] = aabb_add(sh->box[r], core->v[core->loop[k]]);
+        core->n[r] = f->fn[region];
+        core->c[r] = f->fc[region] - v3_dot(core->n[r], piece->x);
+    }
+    return 0;
+}
+
+static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
+{
+    const fl_part *p = f->p;
+    fl_poly *core = &piece->core;
+    fl_shell *sh = &piece->shell;
+    fl_mosaic tiles = {0};
+    side *edge = fl_alloc(3 * (int64_t)p->nt, sizeof *edge, err);
+    bends *ends = fl_alloc(p->nv, sizeof *ends, err);
+    int32_t edges = 0;
+    int rc = -1;
+    if (!edge || !ends ||
+        fl_mosaic_make(&tiles, p->nv, p->v, p->nt, p->t, f->face, f->fn, f->mate, f->tol, err) ||
+        lay_out(piece, f, &tiles, err))
+        goto done;
     bent_edges(f, edge, &edges, ends);
     for (int32_t k = 0; k < edges; k++) { /* every straight run once, from its lower end */
         if (straight(p, ends, edge[k].a, f->tol) && straight(p, ends, edge[k].b, f->tol)) continue;
         for (int turn = 0; turn < 2; turn++) {
             const int32_t from = turn ? edge[k].b : edge[k].a;
             int32_t last = from, to = turn ? edge[k].a : edge[k].b;
-            const fl_edge sides = sides_of(f, face_of, edge[k].t, from, to);
+            const fl_edge sides = sides_of(f, tiles.of, edge[k].t, from, to);
             if (straight(p, ends, from, f->tol)) continue;
             while (straight(p, ends, to, f->tol)) {
                 const int32_t next = ends[to].v[0] == last ? ends[to].v[1] : ends[to].v[0];
@@ -437,12 +451,16 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
     }
     for (int32_t v = 0; v < p->nv; v++)
         if (ends[v].n && !straight(p, ends, v, f->tol)) sh->corner[sh->corners++] = v;
-    free(edge), free(ends), free(face_of);
     fl_poly_angles(core);
-    return fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
-                   fl_bvh_build(&sh->edges, sh->edge_box, core->ne, err)
-               ? -1
-               : 0;
+    for (int32_t v = 0; v < p->nv; v++) core->defect[v] -= PI * tiles.dropped[v];
+    rc = fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
+                 fl_bvh_build(&sh->edges, sh->edge_box, core->ne, err)
+             ? -1
+             : 0;
+done:
+    free(edge), free(ends);
+    fl_mosaic_free(&tiles);
+    return rc;
 }
 
 static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)

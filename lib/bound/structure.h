@@ -5,9 +5,9 @@
  * loads the ice the same whether it is 2 triangles or 20 000.  Then a part is
  *   a solid   when it is closed and convex: one convex polyhedron, the half-spaces of its faces;
  *   a plate   when it is one flat convex polygon;
- *   a shell   otherwise: faces, and of edges and vertices those where the surface bends, straight runs whole.
- * A truncated cone is a piece of its own: exact for spheres, an FL_CONE_SIDES-sided frustum of the same
- * cross-section for everything else. */
+ *   a shell   otherwise: those faces in convex tiles, and of edges and vertices those where the surface
+ * bends, straight runs whole. A truncated cone is a piece of its own: exact for spheres, an
+ * FL_CONE_SIDES-sided frustum of the same cross-section for everything else. */
 #ifndef FL_BOUND_STRUCTURE_H
 #define FL_BOUND_STRUCTURE_H
 #include "broad/bvh.h"
@@ -19,7 +19,8 @@ enum { FL_CONE_SIDES = 96 };
 
 typedef enum { FL_PIECE_SOLID, FL_PIECE_CONE, FL_PIECE_PLANE, FL_PIECE_SHELL } fl_piece_kind;
 
-/* The faces of a shell hold triangles; core.edge and corner[] only what bends or ends there. */
+/* The faces of a shell are convex tiles of its flat regions (geom/mosaic.h), of one triangle each where it is
+ * curved; core.edge and corner[] only what bends or ends there. */
 typedef struct {
     int32_t corners;
     int32_t *corner;   /* [corners] vertices of core where the surface bends */

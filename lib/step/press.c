@@ -319,14 +319,14 @@ void fl_press_note(fl_world *w, const fl_pair *p, const fl_places *s, double sca
 {
     fl_press_notes *notes = &w->press.noted[omp_get_thread_num()];
     const int32_t from = notes->n;
-    const int pair_patch = p->exponent == 0.0, shell = w->structure.piece[p->j - w->n].kind == FL_PIECE_SHELL;
+    const int pair_patch = p->exponent == 0.0;
     double u = 0.0, du = 0.0;
     for (int32_t k = 0; k < s->n; k++) u += s->place[k].u, du += s->place[k].du;
     for (int32_t k = 0, n; k < s->n; k += n) {
         const fl_place *q = &s->place[k];
         n = 1;
         if (pair_patch && q->u == 0.0) continue;
-        if (q->stands && !shell) n = q->stands; /* the places of a shell are of one triangle each */
+        if (q->stands) n = q->stands;
         patch a = {.n = n, .across = q->across};
         for (int32_t c = 0; c < n; c++) {
             const double pull = pair_patch ? q[c].du : fl_normal_power(q->overlap, p->exponent);

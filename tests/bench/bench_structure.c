@@ -58,14 +58,15 @@ static fl_part *part(lab *l)
 
 /* nu by nv patches, two triangles each; at(u, v) in [0, 1]^2, seen from outside u to the right, v up; closed:
  * round in u. */
-static void grid(fl_part *p, int nu, int nv, int closed, fl_vec3 (*at)(double, double, double), double x)
+static void grid(fl_part *p, int nu, int nv, int closed, fl_vec3 (*at)(double, double, double, double),
+                 double x, double out)
 {
     fl_err err = {0};
     const int columns = closed ? nu : nu + 1;
     const int32_t first = p->nv;
     for (int j = 0; j <= nv; j++)
         for (int i = 0; i < columns; i++)
-            if (fl_surface_vertex(p, at((double)i / nu, (double)j / nv, x), &err)) exit(1);
+            if (fl_surface_vertex(p, at((double)i / nu, (double)j / nv, x, out), &err)) exit(1);
     for (int j = 0; j < nv; j++) {
         for (int i = 0; i < nu; i++) {
             const int32_t a = first + j * columns + i, b = first + j * columns + (i + 1) % columns;
@@ -75,21 +76,34 @@ static void grid(fl_part *p, int nu, int nv, int closed, fl_vec3 (*at)(double, d
     }
 }
 
-/* A wall at x that looks along -x, and the wall at its end that goes back along x. */
-static fl_vec3 on_wall(double u, double v, double x) { return v3(x, 9.0 - 18.0 * u, -5.0 + 10.0 * v); }
-static fl_vec3 on_return(double u, double v, double x) { return v3(x + 9.0 * u, -9.0, -5.0 + 10.0 * v); }
+/* How far the chords of an arc of radius r lie within it, in the mean: corners so far out have the surface
+ * where the arc is. */
+static double chord(double r, double length) { return length * length / (12.0 * r); }
 
-/* About the axis through (x + ROUND, 0, 0): a cylinder, and a hull that is also round along it, radius 8 m.
- * The seams lie off the middle of the floe. */
-static fl_vec3 on_cylinder(double u, double v, double x)
+/* A wall at x that looks along -x, and the wall at its end that goes back along x. */
+static fl_vec3 on_wall(double u, double v, double x, double out)
+{
+    (void)out;
+    return v3(x, 9.0 - 18.0 * u, -5.0 + 10.0 * v);
+}
+static fl_vec3 on_return(double u, double v, double x, double out)
+{
+    (void)out;
+    return v3(x + 9.0 * u, -9.0, -5.0 + 10.0 * v);
+}
+
+/* About the axis through (x + ROUND, 0, 0): a cylinder, and a hull that is also round along it, radius 8 m,
+ * twisted. The seams lie off the middle of the floe. */
+static fl_vec3 on_cylinder(double u, double v, double x, double out)
 {
     const double a = 2.0 * PI * u + 0.003;
-    return v3(x + ROUND + ROUND * cos(a), ROUND * sin(a), -3.0 + 6.0 * v);
+    const double r = ROUND + out;
+    return v3(x + ROUND + r * cos(a), r * sin(a), -3.0 + 6.0 * v);
 }
-static fl_vec3 on_hull(double u, double v, double x)
+static fl_vec3 on_hull(double u, double v, double x, double out)
 {
-    const double a = 2.0 * PI * u + 0.003, z = -2.0 + 4.0 * v,
-                 r = ROUND - LONG + sqrt(LONG * LONG - (z - 0.01) * (z - 0.01));
+    const double a = 2.0 * PI * u - 0.3 * v, z = -2.0 + 4.0 * v,
+                 r = out + ROUND - LONG + sqrt(LONG * LONG - (z - 0.01) * (z - 0.01));
     return v3(x + ROUND + r * cos(a), r * sin(a), z);
 }
 
@@ -134,15 +148,18 @@ static void make(lab *l, const structure *c, int edge_on)
     switch (c->what) {
     case WALL: {
         fl_part *p = part(l);
-        grid(p, c->n, c->m, 0, on_wall, x);
-        grid(p, 1, c->m, 0, on_return, x);
+        grid(p, c->n, c->m, 0, on_wall, x, 0.0);
+        grid(p, 1, c->m, 0, on_return, x, 0.0);
         break;
     }
     case BLOCK: lab_wall(l, v3(x, -9, -5), v3(x + 9, 9, 5), c->n); break;
-    case HULL: grid(part(l), c->n, c->m, 1, on_hull, x); break;
+    case HULL:
+        grid(part(l), c->n, c->m, 1, on_hull, x,
+             chord(ROUND, 2.0 * PI * ROUND / c->n) + chord(LONG, 4.0 / c->m));
+        break;
     case CYLINDER: {
         fl_part *p = part(l);
-        grid(p, c->n, c->m, 1, on_cylinder, x);
+        grid(p, c->n, c->m, 1, on_cylinder, x, chord(ROUND, 2.0 * PI * ROUND / c->n));
         lids(p, c->n, c->m);
         break;
     }
