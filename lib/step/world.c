@@ -620,9 +620,26 @@ static double softest_face(const fl_world *w, int32_t i)
     return most;
 }
 
-/* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact at the speed
- * that bodies have or will take from gravity and current over their own size, (5 M v^2/4 k)^(2/5). */
-static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, double exponent)
+/* What a body may meet: the largest speed and mass there are.  A pebble at rest is run into and crushed. */
+typedef struct {
+    double speed2, mass;
+} worst;
+
+static worst worst_of(const fl_world *w)
+{
+    worst a = {0};
+    for (int32_t i = 0; i < w->n; i++) {
+        if (fl_world_away(w, i)) continue;
+        a.speed2 = fmax(a.speed2, v3_norm2(w->b.v[i]));
+        a.mass = fmax(a.mass, w->b.m[i]);
+    }
+    return a;
+}
+
+/* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact of the
+ * heaviest at the speed that bodies have or will take from gravity and current over their own size, (5 M
+ * v^2/4 k)^(2/5). */
+static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, double exponent, worst met)
 {
     if (exponent == 1.0) return k;
     if (exponent == 0.0) { /* a face; or the line of a segment at the largest overlap there should be */
@@ -633,10 +650,10 @@ static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, dou
     const double size = w->b.bound[i] + w->b.radius[i], g = v3_norm(w->gravity);
     double current = w->sea.water ? fl_current_most(&w->sea.current) : 0.0;
     if (w->sea.waves) current += w->sea.wave.swing * w->sea.wave.train[w->sea.wave.n / 2].omega;
-    const double v2 = fmax(v3_norm2(w->b.v[i]), fmax(current * current, w->ride.fastest * w->ride.fastest)) +
-                      2.0 * g * 0.1 * size;
+    const double v2 =
+        fmax(met.speed2, fmax(current * current, w->ride.fastest * w->ride.fastest)) + 2.0 * g * 0.1 * size;
     const double depth =
-        fmin(pow(1.25 * w->b.m[i] * v2 / k, 0.4), w->b.radius[i] > 0.0 ? 0.3 * w->b.radius[i] : size);
+        fmin(pow(1.25 * met.mass * v2 / k, 0.4), w->b.radius[i] > 0.0 ? 0.3 * w->b.radius[i] : size);
     return 1.5 * k * sqrt(depth);
 }
 
@@ -651,12 +668,13 @@ static double bed_slope(const fl_world *w, int32_t i)
 /* omega^2 of the stiffest contact that anything can make, what makes it, and the largest chi. */
 static double stiffest_contact(const fl_world *w, int32_t *body, double *damping)
 {
+    const worst met = worst_of(w);
     double most = 0.0, damp = 0.0, ridden = 0.0;
     *body = -1;
     for (int32_t i = 0; i < w->n; i++) {
         const double places = w->b.core[i].nv > 1 ? FACES : 1.0;
         double n, k = fl_pairing_stiffness(w, i, i, &n),
-                  stiffest = place_slope(w, i, i, k, n); /* one like itself */
+                  stiffest = place_slope(w, i, i, k, n, met); /* one like itself */
         damp = fmax(damp, fl_pairing_law(w, i, i)->chi);
         for (int32_t j = w->n; j < w->b.total; j++) {
             if (w->structure.piece[j - w->n].elastic) {
@@ -666,7 +684,7 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *damping
                 continue;
             }
             k = fl_pairing_stiffness(w, i, j, &n);
-            const double slope = place_slope(w, i, j, k, n);
+            const double slope = place_slope(w, i, j, k, n, met);
             stiffest = fmax(stiffest, slope);
             if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
             damp = fmax(damp, fl_pairing_law(w, i, j)->chi);

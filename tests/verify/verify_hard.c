@@ -69,6 +69,28 @@ static void mass_ratio(void)
     lab_free(&l);
 }
 
+/* A pebble at rest between the same floe, which comes, and a post: only what comes tells beforehand how hard
+ * it will be pressed.  The step is the automatic one. */
+static void crushed(void)
+{
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "contact.softening=0.1");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_box(&l, v3(-5.062, 0, 0), v3(5, 5, 0.5), 0.05, q_one(), v3(0.02, 0, 0), ZERO);
+    lab_sphere(&l, v3(-0.031, 0, 0), 0.03, ZERO, ZERO);
+    lab_cone(&l, (fl_cone){v3(0.5, 0, -1), v3(0.5, 0, 1), 0.5, 0.5});
+    lab_make(&l, 0);
+    const int ended = lab_run(&l, (int64_t)(0.3 / l.w.dt)) == 0;
+    fl_step_ledger(&l.w);
+    verify_true("H08", "crushed against a post: the run comes to its end",
+                ended && l.w.touching_steps > 1000);
+    verify_below("H08", "step over the smallest critical one", l.w.dt / l.w.dt_critical, 0.2);
+    verify_below("H08", "energy residual over the throughput",
+                 fabs(l.w.ledger.residual) / l.w.ledger.throughput, 1e-6);
+    lab_free(&l);
+}
+
 /* 300 spheres from 1 mm to 1 km: every pair that touches is listed. */
 static void size_ratio(void)
 {
@@ -351,6 +373,7 @@ int main(void)
     verify_begin("hard cases");
     thin_floe();
     mass_ratio();
+    crushed();
     size_ratio();
     bullet();
     drift();
