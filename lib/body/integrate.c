@@ -199,6 +199,23 @@ void fl_drift(fl_bodies *b, int32_t i, double dt)
     turn(b, i, dt);
 }
 
+void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
+{
+    const unsigned hold = b->hold[i];
+    const fl_vec3 rest = v3(0, 0, 0);
+    if (b->added) {
+        *a = hold_speed(b, i, rest, b->f[i]);
+    } else {
+        *a = v3_scale(b->invm[i], b->f[i]);
+        if (hold & FL_HOLD_X) a->x = 0.0;
+        if (hold & FL_HOLD_Y) a->y = 0.0;
+        if (hold & FL_HOLD_Z) a->z = 0.0;
+    }
+    *turn = hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)
+                ? solve_free(&b->R[i], b->I[i], hold / FL_HOLD_RX, rest, b->t[i])
+                : fl_body_turn(b, i, b->t[i]);
+}
+
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
 {
     const unsigned hold = b->hold[i];

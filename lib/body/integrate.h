@@ -32,6 +32,10 @@ void fl_drift(fl_bodies *b, int32_t i, double dt);
 /* The rotation part alone, of one body; for tests. */
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
 
+/* What the force and torque of now give body i: accelerations of v and w, none of what is held [m/s2],
+ * [rad/s2].  What turns without a torque is left out: w x L and, with added mass, P x u. */
+void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn);
+
 /* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
  * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w; with added mass so P and
  * v.

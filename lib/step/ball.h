@@ -35,7 +35,6 @@ typedef struct {
     double force;           /* sum of |F| [N]                                            */
     double worst;           /* largest overlap over the sum of the radii                 */
     int32_t worst_row;      /* where that is, the first of them                          */
-    double damping, rubbed; /* what damping and friction take out of its bodies now  [W] */
     double elastic, spring; /* energies of its rows [J]                                  */
 } fl_ball_tally;
 

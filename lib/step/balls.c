@@ -420,29 +420,6 @@ int fl_balls_index(fl_world *w, fl_err *err)
 
 /* --- their books ------------------------------------------------------------------------------- */
 
-/* Over a pair, F.(v_i - v_j) is the sum of what it gives to either; so the sums of the bodies tell as much as
- * the rows. */
-void fl_balls_works(const fl_world *w, double *damping, double *friction)
-{
-    const fl_balls *s = &w->balls;
-    const fl_bodies *b = &w->b;
-#pragma omp parallel for schedule(static)
-    for (int32_t a = 0; a < s->chunks; a++) {
-        double damped = 0.0, rubbed = 0.0;
-        for (int32_t k = a * FL_BALLS_CHUNK; k < last_body(s, a); k++) {
-            const fl_ball_sum *q = &s->sum[k];
-            damped -= v3_dot(q->damping, b->v[k]);
-            rubbed -= v3_dot(q->friction, b->v[k]) + v3_dot(q->torque, b->w[k]);
-        }
-        s->tally[a].damping = damped;
-        s->tally[a].rubbed = rubbed;
-    }
-    for (int32_t a = 0; a < s->chunks; a++) {
-        *damping += s->tally[a].damping;
-        *friction += s->tally[a].rubbed;
-    }
-}
-
 static double overlap_of(const fl_world *w, int32_t c)
 {
     const fl_balls *s = &w->balls;

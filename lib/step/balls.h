@@ -42,9 +42,6 @@ static inline void fl_balls_force(const fl_world *w, int32_t k, fl_vec3 *f, fl_v
     *t = v3_add(*t, s->torque);
 }
 
-/* What damping and friction take out at the velocities of now [W]. */
-void fl_balls_works(const fl_world *w, double *damping, double *friction);
-
 /* Elastic energy of all rows, that of their springs of friction with it, and that of the springs alone [J].
  */
 void fl_balls_energy(const fl_world *w, double *elastic, double *spring);

@@ -3,13 +3,13 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
-#include "base/par.h"
 #include "step/balls.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
 #include "step/snapshot.h"
+#include "step/works.h"
 
 /* A state on its way out (f) or in (in): one list of members serves both, so that they cannot differ. */
 typedef struct {
@@ -511,5 +511,7 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     if (more) return -1;
     if (w->ride.m.n) fl_ride_ready(w);
     if ((w->balls.n || w->balls.bodies) && fl_balls_index(w, err)) return -1;
-    return fl_search_index(w, err);
+    if (fl_search_index(w, err)) return -1;
+    for (int32_t k = 0; k < w->b.total; k++) fl_works_sum(w, k);
+    return 0;
 }

@@ -11,6 +11,7 @@
 #include "step/search.h"
 #include "step/step.h"
 #include "step/traffic.h"
+#include "step/works.h"
 
 /* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic
  * size; one that a longer step throws apart would be missed in between. */
@@ -41,12 +42,14 @@ static int touch(fl_world *w, double dt, int survey, fl_err *err)
     return w->press.panels ? fl_press_sort(w, err) : 0;
 }
 
-/* In waves the work of the water is booked with the kick that it gives. */
-static void kick(fl_world *w, int32_t k, double h)
+/* In waves the work of the water is booked with the kick that it gives.  What the kick changes goes to gain
+ * where contacts have pressed, for the works of those. */
+static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
 {
     const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
     fl_kick(&w->b, k, h);
     if (w->sea.waves) fl_sea_book(&w->sea, &w->b, k, h, v, spin);
+    if (w->was[k].n) *gain = (fl_gain){v3_sub(w->b.v[k], v), v3_sub(w->b.w[k], spin)};
 }
 
 /* What the spring of a driven floe pulls it down with [N]. */
@@ -61,18 +64,23 @@ void fl_step_gather(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
     b->f[k] = b->t[k] = v3(0, 0, 0);
+    if (w->sink[k].n) w->sink[k] = (fl_sink){0};
     if (k < w->n) {
         if (fl_world_away(w, k)) return;
         b->f[k] = v3_scale(b->m[k], w->gravity);
         if (w->sea.water) fl_sea_force(&w->sea, b, k);
     }
     if (w->row.n && k < w->n) b->f[k].z -= spring_force(w, k);
-    if (w->balls.bodies && k < w->n) fl_balls_force(w, k, &b->f[k], &b->t[k]);
+    if (w->balls.bodies && k < w->n) {
+        fl_balls_force(w, k, &b->f[k], &b->t[k]);
+        fl_works_add_balls(&w->sink[k], &w->balls.sum[k]);
+    }
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
         const fl_pair *p = &w->pair[w->inc[c]];
         b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
         b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
+        fl_works_add(&w->sink[k], p, p->i == k);
     }
 }
 
@@ -152,52 +160,13 @@ static void load_parts(fl_world *w, double h)
     }
 }
 
-/* What damping and friction take out, and what the held things put in, per time [W]. */
-static double damping_power(const fl_bodies *b, const fl_pair *p)
+/* Let what lies ahead be booked, or not. */
+static void ahead(fl_world *w, double sign)
 {
-    const fl_vec3 dv = v3_sub(b->v[p->i], b->v[p->j]);
-    return -(v3_dot(p->fd, dv) + v3_dot(p->di, b->w[p->i]) + v3_dot(p->dj, b->w[p->j]));
-}
-
-static double friction_power(const fl_bodies *b, const fl_pair *p)
-{
-    const fl_vec3 dv = v3_sub(b->v[p->i], b->v[p->j]);
-    return -(v3_dot(p->fs, dv) + v3_dot(p->si, b->w[p->i]) + v3_dot(p->sj, b->w[p->j]));
-}
-
-/* Of what is told to move; what moves by itself has its own books, ride.h. */
-static double drive_power(const fl_world *w)
-{
-    double power = 0.0;
-    if (w->ride.m.n == 0) return 0.0;
-    for (int32_t k = 0; k < w->pieces; k++) {
-        const int32_t j = w->n + k, m = w->ride.of[k];
-        if (m < 0 || w->ride.m.motion[m].free) continue;
-        power -= v3_dot(w->b.f[j], w->b.v[j]) + v3_dot(w->b.t[j], w->b.w[j]);
-    }
-    return power;
-}
-
-fl_works fl_step_works(const fl_world *w)
-{
-    fl_works sum = {.drive = drive_power(w)};
-    for (int32_t c = 0; c < w->n_live; c++) {
-        const fl_pair *p = &w->pair[w->live[c]];
-        sum.damping += damping_power(&w->b, p);
-        sum.friction += friction_power(&w->b, p);
-    }
-    if (w->balls.bodies) fl_balls_works(w, &sum.damping, &sum.friction);
-    return sum;
-}
-
-/* Book the works of the forces just found, at the velocities of the full step, for the two half kicks that
- * they give (the start gives one: dt/2).  The second of these lies ahead; fl_step_ledger() leaves it out. */
-static void book(fl_world *w, double dt)
-{
-    const fl_works now = fl_step_works(w);
-    w->ledger.damping += dt * now.damping;
-    w->ledger.friction += dt * now.friction;
-    w->ledger.drive += dt * now.drive;
+    const fl_works a = fl_works_ahead(w);
+    w->ledger.damping += sign * a.damping;
+    w->ledger.friction += sign * a.friction;
+    w->ledger.drive += sign * a.drive;
 }
 
 /* Overlaps, counts, and whether action is reaction. */
@@ -254,7 +223,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     }
     survey_stiffness(w);
     if (check(w, 1, err)) return -1;
-    book(w, 0.5 * w->dt);
+    ahead(w, 1.0);
     fl_step_ledger(w);
     w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic +
                       w->ledger.moving + w->ledger.spring;
@@ -270,12 +239,13 @@ int fl_step(fl_world *w, fl_err *err)
 
     load_parts(w, h);
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
+    fl_works_begin(w);
     if (rides) fl_ride_out(w, fl_world_time(w));
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < b->total; k++) {
         if (k < w->n && fl_world_away(w, k)) continue;
         if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, 0);
-        if (k < w->n) kick(w, k, h);
+        if (k < w->n) kick(w, k, h, &w->gain[k]);
         if (!rides || k < w->n || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
     }
     w->step++;
@@ -286,30 +256,30 @@ int fl_step(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < b->total; k++) {
         if (k < w->balls.bodies) fl_balls_collect(w, k);
         fl_step_gather(w, k);
-        if (k < w->n && !fl_world_away(w, k)) kick(w, k, h);
+        if (k >= w->n || fl_world_away(w, k)) continue;
+        fl_gain back;
+        kick(w, k, h, &back);
+        if (sea) fl_sea_drag(&w->sea, b, k, h, 1);
+        fl_works_take(w, k, &back);
     }
     if (rides) fl_ride_back(w, fl_world_time(w), h);
-    book(w, dt);
+    fl_works_book(w);
     account(w, dt);
     load_parts(w, h);
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
-    if (sea) {
-#pragma omp parallel for schedule(static)
-        for (int32_t k = 0; k < w->n; k++)
-            if (!fl_world_away(w, k)) fl_sea_drag(&w->sea, b, k, h, 1);
-    }
     if (survey) survey_stiffness(w);
     if (check(w, survey, err)) return -1;
     return w->traffic.away ? fl_traffic_step(w, err) : 0;
 }
 
-/* The half kick that lies ahead is booked already, and gets another length. */
+/* What lies ahead is booked already, and gets another length. */
 void fl_step_resize(fl_world *w, double dt, double t)
 {
-    book(w, 0.5 * (dt - w->dt));
+    ahead(w, -1.0);
     w->t0 = t;
     w->step0 = w->step;
     w->dt = dt;
+    ahead(w, 1.0);
     if (w->ride.m.n) fl_ride_ready(w);
 }
 
@@ -321,8 +291,7 @@ void fl_step_ledger(fl_world *w)
     fl_ledger *g = &w->ledger;
     double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
            held = 0.0, waves = 0.0;
-    double damped = 0.0, rubbed = 0.0;
-    const double h = 0.5 * w->dt; /* of the last works booked, the half kick that has not been given yet */
+    const fl_works lies_ahead = fl_works_ahead(w);
     for (int32_t i = 0; i < w->n; i++) {
         const int there = !fl_world_away(w, i);
         if (there) kinetic += fl_body_kinetic(b, i);
@@ -343,24 +312,17 @@ void fl_step_ledger(fl_world *w)
     }
     for (int32_t c = 0; c < w->n_live; c++) {
         const fl_pair *p = &w->pair[w->live[c]];
-        damped -= h * damping_power(b, p);
-        rubbed -= h * friction_power(b, p);
         elastic += p->energy;
         spring += p->spring;
     }
-    if (w->balls.bodies) {
-        double damping = 0.0, friction = 0.0;
-        fl_balls_works(w, &damping, &friction);
-        damped -= h * damping;
-        rubbed -= h * friction;
-        fl_balls_energy(w, &elastic, &spring);
-    }
+    if (w->balls.bodies) fl_balls_energy(w, &elastic, &spring);
     g->kinetic = kinetic;
     g->gravity = gravity;
     g->elastic = elastic;
     g->hydrostatic = hydro;
-    g->damping_now = g->damping + damped;
-    g->friction_now = g->friction + rubbed - spring; /* what the springs hold can still come back */
+    g->damping_now = g->damping - lies_ahead.damping;
+    g->friction_now =
+        g->friction - lies_ahead.friction - spring; /* what the springs hold can still come back */
     g->drag = drag;
     g->wind = wind;
     g->waves = waves;
@@ -371,7 +333,7 @@ void fl_step_ledger(fl_world *w)
         g->damper = r.damped;
         held += r.given;
     }
-    const double drive = g->drive - h * drive_power(w) + held;
+    const double drive = g->drive - lies_ahead.drive + held;
     g->drive_now = drive;
     g->residual = kinetic + gravity + elastic + hydro + g->moving + g->spring - g->start + g->damping_now +
                   g->friction_now + drag + g->damper - wind - waves - drive - g->carried;

@@ -11,8 +11,8 @@ int fl_step_start(fl_world *w, fl_err *err);
 /* From time t to t + dt:
  *     drag h, kick h, drift dt, forces, kick h, drag h,     h = dt/2.
  * Contacts see the velocities in the middle of the step.  Symmetric, order 2 (contact damping and friction:
- * order 1 in their own share).  -1 with FL_SYSTEM, or FL_NUMERIC when a number is not finite or the step is
- * above the critical one: body and step are named. */
+ * order 1 in their own share).  Works are booked by works.h.  -1 with FL_SYSTEM, or FL_NUMERIC when a number
+ * is not finite or the step is above the critical one: body and step are named. */
 int fl_step(fl_world *w, fl_err *err);
 
 /* From here on, steps of dt; t is what the clock shows now, fl_world_time() but for its rounding. [s] */
@@ -21,13 +21,6 @@ void fl_step_resize(fl_world *w, double dt, double t);
 /* Force and torque on thing k into b.f[k], b.t[k]: weight, water, then its pairs in the order of the list,
  * whichever thread takes it. */
 void fl_step_gather(fl_world *w, int32_t k);
-
-/* What damping and friction take out, and what moves as it is told puts in, per time [W].  The sums run over
- * touching pairs in their order, so that no bit depends on which others are listed. */
-typedef struct {
-    double damping, friction, drive;
-} fl_works;
-fl_works fl_step_works(const fl_world *w);
 
 /* Stores, sinks and residual now, into w->ledger. */
 void fl_step_ledger(fl_world *w);

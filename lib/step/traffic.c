@@ -6,6 +6,7 @@
 #include "step/pairing.h"
 #include "step/step.h"
 #include "step/traffic.h"
+#include "step/works.h"
 
 /* Copies stand where rounding puts them: neighbours that touch in the field may overlap by this fraction of
  * a floe's size, a million times the rounding of coordinates of a kilometre, and no contact feels it. */
@@ -44,6 +45,8 @@ static void take_out(fl_world *w, int32_t i)
     t->mass_left += b->m[i];
     t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
     b->v[i] = b->L[i] = b->w[i] = b->f[i] = b->t[i] = v3(0, 0, 0);
+    w->sink[i] = (fl_sink){0};
+    w->damped[i] = w->rubbed[i] = 0.0;
 }
 
 /* End the pairs of those that are away, and let their partners feel it. */
@@ -217,7 +220,6 @@ int fl_traffic_step(fl_world *w, fl_err *err)
 {
     fl_traffic *t = &w->traffic;
     fl_ledger *g = &w->ledger;
-    const double h = 0.5 * w->dt;
     fl_works before, after;
     int out = 0, came = 0;
     int32_t place = 0;
@@ -227,15 +229,15 @@ int fl_traffic_step(fl_world *w, fl_err *err)
     fl_step_ledger(w);
     const double residual = g->residual, throughput = g->throughput;
     if (out) {
-        /* The half kick that lies ahead is booked, and will not be given by the contacts that end. */
-        before = fl_step_works(w);
+        /* What lies ahead is booked, and will not be given by the contacts that end. */
+        before = fl_works_ahead(w);
         for (int32_t i = 0; i < w->n; i++)
             if (!t->away[i] && !t->guided[i] && beyond(w, i)) take_out(w, i);
         if (drop_pairs(w, err)) return -1;
-        after = fl_step_works(w);
-        g->damping -= h * (before.damping - after.damping);
-        g->friction -= h * (before.friction - after.friction);
-        g->drive -= h * (before.drive - after.drive);
+        after = fl_works_ahead(w);
+        g->damping -= before.damping - after.damping;
+        g->friction -= before.friction - after.friction;
+        g->drive -= before.drive - after.drive;
     }
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)
         if (let_in(w, k, &place, &came, err)) return -1;

@@ -314,6 +314,11 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->face = fl_alloc(total, sizeof *w->face, err);
     w->box = fl_alloc(total, sizeof *w->box, err);
     w->odometer_found = fl_alloc(total, sizeof *w->odometer_found, err);
+    w->sink = fl_alloc(total, sizeof *w->sink, err);
+    w->was = fl_alloc(total, sizeof *w->was, err);
+    w->gain = fl_alloc(total, sizeof *w->gain, err);
+    w->damped = fl_alloc(total, sizeof *w->damped, err);
+    w->rubbed = fl_alloc(total, sizeof *w->rubbed, err);
     w->part_impulse = fl_alloc(w->parts, sizeof *w->part_impulse, err);
     w->part_moment = fl_alloc(w->parts, sizeof *w->part_moment, err);
     w->part_force = fl_alloc(w->parts, sizeof *w->part_force, err);
@@ -557,6 +562,7 @@ void fl_world_free(fl_world *w)
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);
     free(w->part_peak), free(w->part_about);
+    free(w->sink), free(w->was), free(w->gain), free(w->damped), free(w->rubbed);
     fl_ride_free(&w->ride);
     fl_press_free(&w->press);
     fl_pairs_free(&w->near);

@@ -81,6 +81,18 @@ typedef struct {
     double friction, damping, drive; /* the works booked so far: with that of the half kick that lies ahead */
 } fl_ledger;
 
+/* What damping and friction of its contacts do to a thing: forces and torques about its centre, world axes.
+ */
+typedef struct {
+    fl_vec3 damping, damping_turn, friction, friction_turn;
+    int32_t n; /* with 0 all is 0 */
+} fl_sink;
+
+/* How its velocities change in a kick. */
+typedef struct {
+    fl_vec3 v, w;
+} fl_gain;
+
 /* Elastic walls: a foundation of springs and dashpots, which a body presses by what of it is behind the wall.
  * Winkler's pressure k_A x depth is that of a heavy fluid of specific weight k_A, so force, moment and energy
  * are those of buoyancy, exact for any attitude and one potential. */
@@ -206,9 +218,12 @@ typedef struct {
     int32_t *live; /* [n_live] those that do, ascending */
     int32_t n_live, hit_cap, live_cap;
     int32_t inc_cap, inc_first_cap;
-    double skin;            /* boxes are grown by half of it [m] */
-    double *odometer_found; /* [total] odometers at the last search */
-    int64_t found_at;       /* step of the last search, -1 before the first */
+    fl_sink *sink, *was;     /* [total] of the forces of now, and of those before; see works.h */
+    fl_gain *gain;           /* [total] of the first kick of a step */
+    double *damped, *rubbed; /* [total] taken out in the step [J] */
+    double skin;             /* boxes are grown by half of it [m] */
+    double *odometer_found;  /* [total] odometers at the last search */
+    int64_t found_at;        /* step of the last search, -1 before the first */
 
     fl_places *scratch;        /* [threads] */
     fl_shell_near *near_shell; /* [threads] */

@@ -650,6 +650,7 @@ static double driven(double safety, int spin)
 static void ledger(void)
 {
     double h[3], sprung[3], damped[3], told_to[3];
+    const double closed = 5e-6; /* of the throughput, at the automatic step */
     verify_note("eight floes with restitution 0.4 and the box: residual of the ledger over the throughput");
     for (int k = 0; k < 3; k++) {
         h[k] = 0.2 / (1 << k);
@@ -657,13 +658,15 @@ static void ledger(void)
         damped[k] = residual(h[k], 1);
         told_to[k] = driven(h[k], 0);
     }
-    verify_below("ledger", "on springs, 6 degrees of freedom, automatic step", sprung[1], 1e-3);
+    verify_below("ledger", "on springs, 6 degrees of freedom, automatic step", sprung[1], closed);
     verify_order("ledger", "on springs", h, sprung, 3, 2.0, 0.5);
-    verify_below("ledger", "damped, its anchor moving, automatic step", damped[1], 1e-3);
+    verify_below("ledger", "damped, its anchor moving, automatic step", damped[1], closed);
     verify_order("ledger", "damped, its anchor moving", h, damped, 3, 2.0, 0.5);
-    verify_below("ledger", "told to go, automatic step", told_to[1], 1e-3);
-    verify_order("ledger", "told to go", h, told_to, 3, 2.0, 0.5);
-    verify_below("ledger", "told to go and spin, automatic step", driven(0.1, 1), 1e-3);
+    /* of either sign, for nothing is left that goes one way */
+    verify_below("ledger", "told to go, automatic step", told_to[1], closed);
+    verify_below("ledger", "told to go, half of it", told_to[2], 0.5 * closed);
+    /* here cores overlap for a while, where the energy bends */
+    verify_below("ledger", "told to go and spin, automatic step", driven(0.1, 1), 1e-4);
 }
 
 int main(void)

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/par.h"
+#include "body/integrate.h"
+#include "step/works.h"
+
+static double power(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
+
+void fl_works_sum(fl_world *w, int32_t k)
+{
+    fl_sink s = {0};
+    if (w->balls.bodies && k < w->n) fl_works_add_balls(&s, &w->balls.sum[k]);
+    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
+        if (!w->hit[w->inc[c]]) continue;
+        const fl_pair *p = &w->pair[w->inc[c]];
+        fl_works_add(&s, p, p->i == k);
+    }
+    w->sink[k] = s;
+}
+
+void fl_works_take(fl_world *w, int32_t k, const fl_gain *back)
+{
+    const fl_sink *f0 = &w->was[k], *f1 = &w->sink[k];
+    double damped = 0.0, rubbed = 0.0;
+    if (f1->n) {
+        const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+        damped -= w->dt * power(f1->damping, f1->damping_turn, v, spin);
+        rubbed -= w->dt * power(f1->friction, f1->friction_turn, v, spin);
+    }
+    /* Where nothing pressed at the begin of the step F0 is 0, and a0 small against what F1 gives. */
+    if (f0->n) {
+        const fl_gain *first = &w->gain[k];
+        const double sixth = w->dt / 6.0; /* dt^2/12 over the dt/2 in which a kick gains */
+        damped -= sixth * (power(f1->damping, f1->damping_turn, first->v, first->w) -
+                           power(f0->damping, f0->damping_turn, back->v, back->w));
+        rubbed -= sixth * (power(f1->friction, f1->friction_turn, first->v, first->w) -
+                           power(f0->friction, f0->friction_turn, back->v, back->w));
+    }
+    w->damped[k] = damped;
+    w->rubbed[k] = rubbed;
+}
+
+/* Accelerations by the forces of now.  What is told to move has none that would follow a contact. */
+static fl_gain rate_of(const fl_world *w, int32_t k)
+{
+    fl_gain g = {0};
+    if (k < w->n) {
+        fl_body_rates(&w->b, k, &g.v, &g.w);
+    } else if (w->ride.m.n) {
+        const fl_bodies *mb = &w->ride.m.b;
+        const int32_t m = w->ride.of[k - w->n];
+        if (m < 0 || !w->ride.m.motion[m].free) return g;
+        fl_body_rates(mb, m, &g.v, &g.w);
+        g.v = v3_add(g.v, v3_cross(g.w, v3_sub(w->b.x[k], mb->x[m])));
+    }
+    return g;
+}
+
+static fl_gain gain_of(const fl_world *w, int32_t k)
+{
+    const fl_gain g = rate_of(w, k);
+    return (fl_gain){v3_scale(0.5 * w->dt, g.v), v3_scale(0.5 * w->dt, g.w)};
+}
+
+void fl_works_begin(fl_world *w)
+{
+    fl_sink *was = w->was;
+    w->was = w->sink;
+    w->sink = was;
+    for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) w->gain[k] = gain_of(w, k);
+}
+
+/* Of what is told to move; what moves by itself has its own books, ride.h. */
+static double drive_power(const fl_world *w)
+{
+    double sum = 0.0;
+    if (w->ride.m.n == 0) return 0.0;
+    for (int32_t k = 0; k < w->pieces; k++) {
+        const int32_t j = w->n + k, m = w->ride.of[k];
+        if (m < 0 || w->ride.m.motion[m].free) continue;
+        sum -= power(w->b.f[j], w->b.t[j], w->b.v[j], w->b.w[j]);
+    }
+    return sum;
+}
+
+void fl_works_book(fl_world *w)
+{
+    fl_ledger *g = &w->ledger;
+    for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) {
+        const fl_gain back = gain_of(w, k);
+        fl_works_take(w, k, &back);
+    }
+    g->damping += fl_par_sum(w->damped, w->b.total);
+    g->friction += fl_par_sum(w->rubbed, w->b.total);
+    g->drive += w->dt * drive_power(w);
+}
+
+fl_works fl_works_ahead(const fl_world *w)
+{
+    const double h = 0.5 * w->dt, sixth = w->dt * w->dt / 6.0;
+    fl_works sum = {.drive = h * drive_power(w)};
+    for (int32_t k = 0; k < w->b.total; k++) {
+        const fl_sink *s = &w->sink[k];
+        if (s->n == 0) continue;
+        const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+        const fl_gain a = rate_of(w, k);
+        sum.damping -= h * power(s->damping, s->damping_turn, v, spin) +
+                       sixth * power(s->damping, s->damping_turn, a.v, a.w);
+        sum.friction -= h * power(s->friction, s->friction_turn, v, spin) +
+                        sixth * power(s->friction, s->friction_turn, a.v, a.w);
+    }
+    return sum;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* works.h -- what damping and friction take out, and what moves as it is told puts in.
+ *
+ * With v = (x1 - x-1)/2dt, as kick, drift, kick has it at the ends of steps, x' = v - dt^2 x'''/6, and the
+ * sum of dt F.v misses the work of a force F that follows the motion by (omega dt)^2/6 of it, always to the
+ * same side.  From the accelerations a at both ends of a step (0, 1), which are known, the work of it is
+ *     W = dt/2 (F0.v0 + F1.v1) + dt^2/12 (F1.a0 - F0.a1) - dt^2/6 (F1.a1 - F0.a0),
+ * and the same of torques: of order 4 from the begin of a contact to its end.  In between a term
+ * -dt^2/12 (F1'.v1 - F0'.v0) is left out, which is gone when the contact is.  Derived from Euler and
+ * Maclaurin's sum of F.x' and, by parts, of F.x'''. */
+#ifndef FL_STEP_WORKS_H
+#define FL_STEP_WORKS_H
+#include "step/world.h"
+
+typedef struct {
+    double damping, friction, drive; /* [J] */
+} fl_works;
+
+/* Add what damping and friction of pair p do to one of its two. */
+static inline void fl_works_add(fl_sink *s, const fl_pair *p, int is_i)
+{
+    const double sign = is_i ? 1.0 : -1.0;
+    s->n++;
+    s->damping = v3_madd(s->damping, sign, p->fd);
+    s->damping_turn = v3_add(s->damping_turn, is_i ? p->di : p->dj);
+    s->friction = v3_madd(s->friction, sign, p->fs);
+    s->friction_turn = v3_add(s->friction_turn, is_i ? p->si : p->sj);
+}
+
+/* The same of all spheres that a sphere meets; n counts them as one. */
+static inline void fl_works_add_balls(fl_sink *s, const fl_ball_sum *q)
+{
+    if (v3_norm2(q->damping) + v3_norm2(q->friction) + v3_norm2(q->torque) == 0.0) return;
+    s->n++;
+    s->damping = v3_add(s->damping, q->damping);
+    s->friction = v3_add(s->friction, q->friction);
+    s->friction_turn = v3_add(s->friction_turn, q->torque);
+}
+
+/* Sum up what damping and friction do to thing k, over its touching pairs in their order, into sink[k]. */
+void fl_works_sum(fl_world *w, int32_t k);
+
+/* Before a step: sink[] becomes was[], and gain[] of the pieces of a structure that moves by itself is what
+ * the first kick will give them. */
+void fl_works_begin(fl_world *w);
+
+/* The works of the step that has ended in floe k, into damped[k] and rubbed[k]: sink[k] acts now and was[k]
+ * at its begin, gain[k] is what its first kick changed, `back` its last (neither is read where was[k].n is
+ * 0), velocities are those of now. */
+void fl_works_take(fl_world *w, int32_t k, const fl_gain *back);
+
+/* The same of what of the structure moves, and all of it into the ledger, with the half kick that lies ahead.
+ */
+void fl_works_book(fl_world *w);
+
+/* What of the booked lies ahead: dt/2 F1.v1, and the last term above for what comes after [J].  Booked less
+ * this is what has been done. */
+fl_works fl_works_ahead(const fl_world *w);
+
+#endif
