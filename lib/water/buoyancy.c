@@ -35,6 +35,7 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
         }
         out.middle[f] = v3_madd(a, 1.0 / out.area[f], g);
     }
+    if (!round) fl_prism_of(&out.prism, p);
     *h = out;
     return 0;
 }
@@ -328,7 +329,7 @@ void fl_buoyancy(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
 {
     if (h->p->nv == 1) sphere(h, up, level, wet);
     else if (h->p->nv == 2) capsule(h, up, level, wet);
-    else solid(h, up, level, wet);
+    else if (!(h->prism.area > 0.0) || !fl_prism_wet(&h->prism, up, level, wet)) solid(h, up, level, wet);
 }
 
 void fl_buoyancy_plane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane *w)

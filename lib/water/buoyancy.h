@@ -12,11 +12,13 @@
  * the apex, so its cone is flat and it is never built.  All terms are positive: nothing cancels.  Its area
  * follows from sum A n = 0 over a closed surface:
  *     A_w    = - sum_f A_f (n_f.up)
+ * A right prism that floats with both caps clear of the water has closed formulae (prism.h).
  * Source: the divergence theorem. */
 #ifndef FL_WATER_BUOYANCY_H
 #define FL_WATER_BUOYANCY_H
 #include "geom/mass.h"
 #include "geom/poly.h"
+#include "water/prism.h"
 
 /* One shape that can float, read-only once made. */
 typedef struct {
@@ -27,6 +29,7 @@ typedef struct {
     double surface;   /* whole                                       [m^2] */
     double *area;     /* [nf] of each face                           [m^2] */
     fl_vec3 *middle;  /* [nf] centroid of each face                    [m] */
+    fl_prism prism;   /* the same as a right prism, if it is one */
 } fl_hull;
 
 /* A solid (its sharp surface floats, radius is not used), or with radius > 0 a sphere (nv = 1) or a capsule
@@ -36,7 +39,7 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err);
 void fl_hull_free(fl_hull *h); /* accepts a zeroed struct, leaves one */
 
 /* The submerged part, in the body's axes. */
-typedef struct {
+typedef struct fl_wet {
     double volume;     /* V                                     [m^3] */
     fl_vec3 centre;    /* centre of buoyancy x_B; 0 when dry      [m] */
     double wetted;     /* wetted surface                        [m^2] */
