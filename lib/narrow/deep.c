@@ -256,7 +256,7 @@ static void find_points(const hunt *h, fl_overlap *out)
     for (int32_t k = 0; k < na; k++) pa[k] = v3_add(v3_sub(h->ca.v[va[k]], h->ca.v[0]), shift);
     for (int32_t k = 0; k < nb; k++) pb[k] = v3_add(v3_sub(h->cb.v[vb[k]], h->cb.v[0]), h->offset);
     fl_gap g;
-    fl_gjk((fl_core){pa, na}, (fl_core){pb, nb}, NULL, &g);
+    fl_gjk((fl_core){pa, na, NULL}, (fl_core){pb, nb, NULL}, NULL, &g);
     /* Of directions equally wide to rounding the one that was taken may not be the least, and then the two
      * points do not quite face each other: the middle is kept. */
     const fl_vec3 mid = v3_lerp(v3_sub(g.pa, shift), g.pb, 0.5);

@@ -15,7 +15,7 @@ typedef struct {
     double r;         /* [m]               */
 } fl_solid;
 
-static inline fl_core fl_solid_core(const fl_solid *s) { return (fl_core){s->v, s->p->nv}; }
+static inline fl_core fl_solid_core(const fl_solid *s) { return (fl_core){s->v, s->p->nv, s->p}; }
 
 /* What became of the proposals of libccd; add up over calls.  NULL where nobody asks. */
 typedef struct {

@@ -4,8 +4,13 @@
 
 enum { STEPS = 64 };
 
+/* Above the lowest, in sizes of its body, there may be a dent: the tolerance of fl_poly_make(), with a margin
+ * for what adds up over some faces. */
+#define DENT 4e-9
+
 double fl_core_extent(fl_core c)
 {
+    if (c.p) return c.p->size;
     double r2 = 0.0;
     for (int32_t i = 1; i < c.n; i++) {
         const double s = v3_norm2(v3_sub(c.v[i], c.v[0]));
@@ -27,6 +32,140 @@ int32_t fl_core_lowest(fl_core c, fl_vec3 dir, double *low)
     }
     *low = best;
     return at;
+}
+
+static double height(fl_core c, fl_vec3 dir, int32_t i) { return v3_dot(dir, v3_sub(c.v[i], c.v[0])); }
+
+static int knows_edges(fl_core c) { return c.p && c.p->beside && c.n > FL_CORE_FEW; }
+
+int32_t fl_core_downhill(fl_core c, fl_vec3 dir, int32_t from, double *low)
+{
+    if (!knows_edges(c)) return fl_core_lowest(c, dir, low);
+    int32_t at = from, before;
+    double best = height(c, dir, at);
+    do {
+        before = at;
+        for (int32_t k = c.p->begin[before]; k < c.p->begin[before + 1]; k++) {
+            const double h = height(c, dir, c.p->beside[k]);
+            if (h < best) {
+                best = h;
+                at = c.p->beside[k];
+            }
+        }
+    } while (at != before);
+    *low = best;
+    return at;
+}
+
+/* As fl_core_lowest(), with the heights kept. */
+static int32_t lowest_kept(fl_core c, fl_vec3 dir, int32_t from, fl_heights *h)
+{
+    if (c.n > FL_CORE_FEW) return fl_core_downhill(c, dir, from, &h->low);
+    int32_t at = 0;
+    double best = h->of[0] = 0.0;
+    for (int32_t i = 1; i < c.n; i++) {
+        const double s = h->of[i] = v3_dot(dir, v3_sub(c.v[i], c.v[0]));
+        if (s < best) {
+            best = s;
+            at = i;
+        }
+    }
+    h->low = best;
+    return at;
+}
+
+static int listed(int32_t n, const int32_t *at, int32_t i)
+{
+    for (int32_t k = 0; k < n; k++)
+        if (at[k] == i) return 1;
+    return 0;
+}
+
+/* The vertices that hang together with the lowest below low + reach, in any order; *low falls should one of
+ * them be lower than the foot of the hill.  FL_CORE_FEW + 1 for too many. */
+static int32_t hollow(fl_core c, fl_vec3 dir, int32_t from, double reach, int32_t *at, double *h, double *low,
+                      double *outside)
+{
+    int32_t n = 0;
+    at[n] = fl_core_downhill(c, dir, from, low);
+    h[n++] = *low;
+    *outside = INFINITY;
+    for (int32_t i = 0; i < n; i++)
+        for (int32_t k = c.p->begin[at[i]]; k < c.p->begin[at[i] + 1]; k++) {
+            const int32_t v = c.p->beside[k];
+            const double t = height(c, dir, v);
+            if (t > *low + reach) {
+                *outside = t < *outside ? t : *outside;
+                continue;
+            }
+            if (listed(n, at, v)) continue;
+            if (n == FL_CORE_FEW) return FL_CORE_FEW + 1;
+            *low = t < *low ? t : *low;
+            at[n] = v;
+            h[n++] = t;
+        }
+    return n;
+}
+
+/* fl_core_band() of a core that knows its edges. */
+static int32_t band_beside(fl_core c, fl_vec3 dir, int32_t from, double band, int32_t *at, double *above,
+                           double *clear)
+{
+    int32_t found[FL_CORE_FEW], k = 0;
+    double high[FL_CORE_FEW], low, outside;
+    const double dent = DENT * c.p->size;
+    const int32_t n =
+        hollow(c, dir, from, dent > 2.0 * band ? dent : 2.0 * band, found, high, &low, &outside);
+    if (n > FL_CORE_FEW) return n;
+    const double border = low + band;
+    double inside = low;
+    for (int32_t i = 0; i < n; i++) {
+        if (high[i] > border) {
+            outside = high[i] < outside ? high[i] : outside;
+            continue;
+        }
+        inside = high[i] > inside ? high[i] : inside;
+        int32_t j = k++;
+        for (; j > 0 && at[j - 1] > found[i]; j--) {
+            at[j] = at[j - 1];
+            above[j] = above[j - 1];
+        }
+        at[j] = found[i];
+        above[j] = high[i] - low;
+    }
+    *clear = outside - border < border - inside ? outside - border : border - inside;
+    return k;
+}
+
+int32_t fl_core_band(fl_core c, fl_vec3 dir, const fl_heights *h, int32_t from, double band, int32_t *at,
+                     double *above, double *clear)
+{
+    if (knows_edges(c)) return band_beside(c, dir, from, band, at, above, clear);
+    const int few = c.n <= FL_CORE_FEW;
+    fl_heights own;
+    if (few && !h) {
+        lowest_kept(c, dir, 0, &own);
+        h = &own;
+    }
+    double low, inside, outside = INFINITY;
+    if (few) low = h->low;
+    else fl_core_lowest(c, dir, &low);
+    const double border = low + band;
+    inside = low;
+    int32_t k = 0;
+    for (int32_t i = 0; i < c.n; i++) {
+        const double t = few ? h->of[i] : height(c, dir, i);
+        if (t > border) {
+            outside = t < outside ? t : outside;
+            continue;
+        }
+        if (k == FL_CORE_FEW) return FL_CORE_FEW + 1;
+        inside = t > inside ? t : inside;
+        at[k] = i;
+        above[k++] = t - low;
+    }
+    *clear = outside - border < border - inside ? outside - border : border - inside;
+    return k;
 }
 
 typedef struct {
@@ -147,9 +286,10 @@ void fl_simplex_start(fl_simplex *s, fl_core a, fl_core b, const fl_gjk_cache *c
     if (s->n == 0) push(s, a, b, 0, 0);
 }
 
-int fl_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_vec3 *v, int32_t *steps)
+int fl_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_vec3 *n, fl_heights *h, int32_t *steps)
 {
     nearest now;
+    int32_t i = s->a[0], j = s->b[0];
     if (reduce(s, &now)) {
         /* A stale start may be a flat or a wrong tetrahedron: no proof.  Begin again. */
         fl_simplex_start(s, a, b, 0);
@@ -157,15 +297,14 @@ int fl_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_vec3 *v, int
     }
     for (int step = 0; step < STEPS; step++) {
         const double d = sqrt(now.d2);
-        *v = now.v;
         if (!(d > FL_FINE_BELOW * size)) return 0;
-        const fl_vec3 n = v3_scale(1.0 / d, now.v);
-        double la, lb;
-        const int32_t i = fl_core_lowest(a, n, &la), j = fl_core_lowest(b, v3_neg(n), &lb);
+        *n = v3_scale(1.0 / d, now.v);
+        i = lowest_kept(a, *n, i, &h[0]);
+        j = lowest_kept(b, v3_neg(*n), j, &h[1]);
         ++*steps;
         /* How far the new pair of vertices lies below a pair that carries v. */
-        const double below =
-            v3_dot(n, v3_sub(a.v[s->a[0]], a.v[0])) - la - v3_dot(n, v3_sub(b.v[s->b[0]], b.v[0])) - lb;
+        const double below = v3_dot(*n, v3_sub(a.v[s->a[0]], a.v[0])) - h[0].low -
+                             v3_dot(*n, v3_sub(b.v[s->b[0]], b.v[0])) - h[1].low;
         if (below <= FL_SUPPORT_ROUNDING * size || fl_simplex_has(s->n, s->a, s->b, i, j)) return 1;
         fl_simplex t = *s;
         push(&t, a, b, i, j);

@@ -20,12 +20,36 @@ typedef struct {
     fl_vec3 w[4];
 } fl_simplex;
 
-/* Largest distance of a vertex from vertex 0 [m]. */
+/* Cores of up to this many vertices are looked at whole. */
+enum { FL_CORE_FEW = 64 };
+
+/* The length of a core to which rounding is relative [m]: its body's size, or the largest distance of a vertex
+ * from vertex 0. */
 double fl_core_extent(fl_core c);
 
 /* The vertex lowest along dir, the first of equals; *low is dir.(v - v[0]) of it.  Differences come first, so
  * that nothing is lost far from the origin. */
 int32_t fl_core_lowest(fl_core c, fl_vec3 dir, double *low);
+
+/* The same for cores of more than FL_CORE_FEW vertices that know their edges: downhill from vertex `from`,
+ * to where no neighbour is lower; of equals any.  On others as fl_core_lowest(). */
+int32_t fl_core_downhill(fl_core c, fl_vec3 dir, int32_t from, double *low);
+
+/* Heights dir.(v - v[0]) of the vertices of a core along the last direction looked at, where it has at most
+ * FL_CORE_FEW vertices. */
+typedef struct {
+    double low, of[FL_CORE_FEW];
+} fl_heights;
+
+/* The vertices within band of the lowest along dir, ascending, and above[], how far each is above it.
+ * What is below a height is in one piece on a convex body, so where edges are known only that piece and its
+ * neighbours are looked at, from vertex `from` on; a little more of it than the band, so that no dent that
+ * fl_poly_make() lets pass hides a lower vertex.
+ *   h      heights along dir, or NULL
+ *   clear  out: no vertex is as near as this to the border of the band                         [m]
+ * Returns how many, or FL_CORE_FEW + 1 for more than FL_CORE_FEW, and then at and above are not filled. */
+int32_t fl_core_band(fl_core c, fl_vec3 dir, const fl_heights *h, int32_t from, double band, int32_t *at,
+                     double *above, double *clear);
 
 /* The simplex to start from: the pairs of the cache as far as they exist, or vertex 0 of each; never
  * empty. */
@@ -34,12 +58,13 @@ void fl_simplex_start(fl_simplex *s, fl_core a, fl_core b, const fl_gjk_cache *c
 /* Does the list hold the pair (i, j)? */
 int fl_simplex_has(int32_t n, const int32_t *a, const int32_t *b, int32_t i, int32_t j);
 
-/* From simplex s to the nearest point *v of hull(a) - hull(b) to the origin; s ends as the points that
- * carry it.
+/* From simplex s to the nearest point of hull(a) - hull(b) to the origin; s ends as the points that carry it.
  *   size    sum of the extents                                                                  [m]
+ *   n       out: unit vector to that point
+ *   h[2]    out: heights of a along n, of b along -n
  *   steps   counts the supports
  * Returns 1; or 0 when doubles cannot tell: the cores may meet, are nearer than FL_FINE_BELOW size, or there
  * was no end after 64 supports.  s is good to go on from either way. */
-int fl_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_vec3 *v, int32_t *steps);
+int fl_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_vec3 *n, fl_heights *h, int32_t *steps);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "narrow/fine.h"
 #include <math.h>
+#include <stddef.h>
 #include "geom/dd.h"
 
 /* |v| below this fraction of the size is a touch.  The two edges of a lattice body that was turned are
@@ -119,18 +120,24 @@ static void fine_reduce(fine_simplex *s, int32_t held, double touch, fine_neares
 }
 
 /* As fl_core_lowest(), the ties of the doubles decided in pairs. */
-static int32_t fine_lowest(fl_core c, fl_ddv n, double size)
+static int32_t fine_lowest(fl_core c, fl_ddv n, int32_t from, double size)
 {
-    double low;
-    int32_t at = fl_core_lowest(c, ddv_round(n), &low);
-    const double border = low + FL_SUPPORT_ROUNDING * size;
+    int32_t near[FL_CORE_FEW];
+    double above[FL_CORE_FEW], clear;
+    const fl_vec3 dir = ddv_round(n);
+    const int32_t k = fl_core_band(c, dir, NULL, from, FL_SUPPORT_ROUNDING * size, near, above, &clear);
+    const int all = k > FL_CORE_FEW;
+    double low = 0.0;
+    int32_t at = all ? fl_core_lowest(c, dir, &low) : near[0];
     fl_dd best = ddv_dot(n, ddv_diff(c.v[at], c.v[0]));
-    for (int32_t i = 0; i < c.n; i++) {
-        if (i == at || v3_dot(ddv_round(n), v3_sub(c.v[i], c.v[0])) > border) continue;
-        const fl_dd s = ddv_dot(n, ddv_diff(c.v[i], c.v[0]));
+    for (int32_t i = 0; i < (all ? c.n : k); i++) {
+        const int32_t v = all ? i : near[i];
+        if (v == at || (all && v3_dot(dir, v3_sub(c.v[v], c.v[0])) > low + FL_SUPPORT_ROUNDING * size))
+            continue;
+        const fl_dd s = ddv_dot(n, ddv_diff(c.v[v], c.v[0]));
         if (dd_cmp(s, best) < 0.0) {
             best = s;
-            at = i;
+            at = v;
         }
     }
     return at;
@@ -147,6 +154,7 @@ int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *ou
         walk.w[k] = ddv_diff(a.v[walk.a[k]], b.v[walk.b[k]]);
     }
     int idle = 0;
+    int32_t i = s->a[0], j = s->b[0];
     double least = INFINITY; /* what the plane of now leaves below it */
     fine_reduce(&walk, -1, touch, &next);
     f = walk;
@@ -160,8 +168,8 @@ int fl_fine_descend(fl_core a, fl_core b, double size, fl_simplex *s, fl_gap *ou
             break;
         }
         const fl_ddv dir = ddv_scale(dd_div(dd_of(1.0), dd_of(len)), next.v);
-        const int32_t i = fine_lowest(a, dir, size),
-                      j = fine_lowest(b, (fl_ddv){dd_neg(dir.x), dd_neg(dir.y), dd_neg(dir.z)}, size);
+        i = fine_lowest(a, dir, i, size);
+        j = fine_lowest(b, (fl_ddv){dd_neg(dir.x), dd_neg(dir.y), dd_neg(dir.z)}, j, size);
         const fl_ddv w = ddv_diff(a.v[i], b.v[j]);
         const double beyond = ddv_dot(dir, ddv_sub(walk.w[0], w)).h;
         out->iterations++;

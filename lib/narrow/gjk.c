@@ -34,37 +34,13 @@
 /* Distances in pairs of doubles, found in two ways, agree far better, in extents. */
 #define FARTHER 1e-14
 
-/* Vertices of a supporting plane that are copied out; cores with more (the end of a fine cylinder) take
- * part whole. */
-enum { PLANE_MAX = 64, ROUNDS = 4 };
+/* Cores with more vertices on a plane (the end of a fine cylinder) take part whole. */
+enum { PLANE_MAX = FL_CORE_FEW, ROUNDS = 4 };
 
 typedef struct {
     fl_core a, b;
-    double ea, eb, size; /* extents and their sum */
+    double size; /* sum of the extents */
 } pair;
-
-/* The vertices of c within band of its lowest along n, ascending; PLANE_MAX + 1 for more than PLANE_MAX.
- * *low is the height of the lowest over vertex 0. */
-static int32_t plane_of(fl_core c, fl_vec3 n, double band, int32_t *at, double *low)
-{
-    double height[PLANE_MAX];
-    int32_t k = 0;
-    if (c.n <= PLANE_MAX) { /* each height once */
-        *low = height[0] = 0.0;
-        for (int32_t i = 1; i < c.n; i++) height[i] = v3_dot(n, v3_sub(c.v[i], c.v[0]));
-        for (int32_t i = 1; i < c.n; i++) *low = height[i] < *low ? height[i] : *low;
-        for (int32_t i = 0; i < c.n; i++)
-            if (height[i] <= *low + band) at[k++] = i;
-        return k;
-    }
-    fl_core_lowest(c, n, low);
-    for (int32_t i = 0; i < c.n; i++)
-        if (v3_dot(n, v3_sub(c.v[i], c.v[0])) <= *low + band) {
-            if (k == PLANE_MAX) return PLANE_MAX + 1;
-            at[k++] = i;
-        }
-    return k;
-}
 
 /* The vertices at[0 .. k) of c, sorted, each once; map gives their numbers in the whole core. */
 static fl_part part_of(fl_core c, int32_t k, const int32_t *at, const int32_t *map)
@@ -85,27 +61,64 @@ static fl_part part_of(fl_core c, int32_t k, const int32_t *at, const int32_t *m
     return f;
 }
 
-/* The vertices on the two supporting planes across n, and the cores that they make. */
+/* The vertices of a core on its supporting plane; k is PLANE_MAX + 1 for more than are listed. */
 typedef struct {
-    int32_t ka, kb, at[PLANE_MAX], bt[PLANE_MAX];
-    double low_a, low_b; /* heights of the planes over vertices 0 along n and -n */
+    int32_t k, at[PLANE_MAX];
+    double above[PLANE_MAX]; /* over the lowest                                */
+    double clear;            /* no vertex is as near to the border of the band */
+} plane;
+
+/* Both planes across n. */
+typedef struct {
+    plane a, b;
 } planes;
 
-static void find_planes(const pair *p, fl_vec3 n, planes *f)
+/* from: vertices where to begin to look */
+static void find_planes(const pair *p, fl_vec3 n, const fl_heights *h, const fl_simplex *from, planes *f)
 {
     const double band = PLANE_BAND * p->size;
-    f->ka = plane_of(p->a, n, band, f->at, &f->low_a);
-    f->kb = plane_of(p->b, v3_neg(n), band, f->bt, &f->low_b);
+    f->a.k = fl_core_band(p->a, n, h, from->a[0], band, f->a.at, f->a.above, &f->a.clear);
+    f->b.k =
+        fl_core_band(p->b, v3_neg(n), h ? h + 1 : NULL, from->b[0], band, f->b.at, f->b.above, &f->b.clear);
 }
 
-static int same_planes(const planes *f, const planes *g)
+static int whole(const planes *f) { return f->a.k > PLANE_MAX || f->b.k > PLANE_MAX; }
+
+static int same_plane(const plane *f, const plane *g)
 {
-    if (f->ka != g->ka || f->kb != g->kb) return 0;
-    for (int32_t k = 0; k < f->ka && f->ka <= PLANE_MAX; k++)
+    if (f->k != g->k) return 0;
+    for (int32_t k = 0; k < f->k && f->k <= PLANE_MAX; k++)
         if (f->at[k] != g->at[k]) return 0;
-    for (int32_t k = 0; k < f->kb && f->kb <= PLANE_MAX; k++)
-        if (f->bt[k] != g->bt[k]) return 0;
     return 1;
+}
+
+/* Would n turned by so much have the same vertices on its planes?  Two vertices are at most two extents, or
+ * the root of 3 of a box, apart. */
+static int keeps(const pair *p, const planes *f, double turn)
+{
+    const double shift = 4.0 * turn * p->size;
+    return !whole(f) && f->a.clear > shift && f->b.clear > shift;
+}
+
+/* The heights of the vertices on a plane along another n. */
+static void measure(fl_core c, fl_vec3 n, plane *f)
+{
+    double low = INFINITY;
+    for (int32_t i = 0; i < f->k; i++) {
+        f->above[i] = v3_dot(n, v3_sub(c.v[f->at[i]], c.v[f->at[0]]));
+        low = f->above[i] < low ? f->above[i] : low;
+    }
+    for (int32_t i = 0; i < f->k; i++) f->above[i] -= low;
+}
+
+/* How far vertex i is above the plane of its core. */
+static double over_plane(fl_core c, fl_vec3 n, const plane *f, int32_t i)
+{
+    double low;
+    for (int32_t k = 0; k < f->k && f->k <= PLANE_MAX; k++)
+        if (f->at[k] == i) return f->above[k];
+    fl_core_downhill(c, n, i, &low);
+    return v3_dot(n, v3_sub(c.v[i], c.v[0])) - low;
 }
 
 /* Nearest points from the vertices on the planes alone.  1, or 0 when more bits are needed. */
@@ -113,25 +126,26 @@ static int answer_on(const pair *p, const planes *f, int fine, fl_gap *out)
 {
     static const int32_t first[3] = {0, 1, 2};
     fl_vec3 va[PLANE_MAX], vb[PLANE_MAX];
-    const int whole = f->ka > PLANE_MAX || f->kb > PLANE_MAX;
+    const int all = whole(f);
     fl_core a = p->a, b = p->b;
-    if (!whole) {
-        for (int32_t k = 0; k < f->ka; k++) va[k] = a.v[f->at[k]];
-        for (int32_t k = 0; k < f->kb; k++) vb[k] = b.v[f->bt[k]];
-        a = (fl_core){va, f->ka};
-        b = (fl_core){vb, f->kb};
+    if (!all) {
+        for (int32_t k = 0; k < f->a.k; k++) va[k] = a.v[f->a.at[k]];
+        for (int32_t k = 0; k < f->b.k; k++) vb[k] = b.v[f->b.at[k]];
+        a = (fl_core){va, f->a.k, NULL};
+        b = (fl_core){vb, f->b.k, NULL};
     }
     fl_simplex s = {.n = 0};
     const int direct = a.n <= 3 && b.n <= 3 && a.n + b.n <= 4;
     if (!direct) {
-        fl_vec3 v;
+        fl_vec3 n;
+        fl_heights h[2];
         fl_simplex_start(&s, a, b, NULL);
         if (fine ? fl_fine_descend(a, b, p->size, &s, out)
-                 : !fl_descend(a, b, p->size, &s, &v, &out->iterations))
+                 : !fl_descend(a, b, p->size, &s, &n, h, &out->iterations))
             return 0;
     }
-    const fl_part fa = part_of(a, direct ? a.n : s.n, direct ? first : s.a, whole ? NULL : f->at),
-                  fb = part_of(b, direct ? b.n : s.n, direct ? first : s.b, whole ? NULL : f->bt);
+    const fl_part fa = part_of(a, direct ? a.n : s.n, direct ? first : s.a, all ? NULL : f->a.at),
+                  fb = part_of(b, direct ? b.n : s.n, direct ? first : s.b, all ? NULL : f->b.at);
     return fl_parts_nearest(&fa, &fb, p->size, fine, out);
 }
 
@@ -145,63 +159,71 @@ typedef struct {
     fl_vec3 x, y;
 } axes;
 
-/* Those of the vertices at[0 .. k) that lie on the plane of height low along n itself. */
-static int32_t spots_of(fl_core c, fl_vec3 n, const axes *t, double low, double band, int32_t k,
-                        const int32_t *at, fl_vec3 from, spot *out)
+static int32_t count_on(const plane *f, double band)
 {
     int32_t count = 0;
-    for (int32_t i = 0; i < k; i++) {
-        if (v3_dot(n, v3_sub(c.v[at[i]], c.v[0])) > low + band) continue;
-        const fl_vec3 r = v3_sub(c.v[at[i]], from);
-        out[count++] = (spot){v3_dot(t->x, r), v3_dot(t->y, r)};
-    }
+    for (int32_t i = 0; i < f->k; i++) count += f->above[i] <= band;
     return count;
 }
 
-/* How far the spots reach along (x, y). */
-static double reach(int32_t n, const spot *s, double x, double y)
+/* Those of the vertices of f that lie on the plane itself; sign -1 turns them round. */
+static void spots_of(fl_core c, const axes *t, double band, const plane *f, fl_vec3 from, double sign,
+                     spot *out)
 {
-    double most = -INFINITY;
-    for (int32_t i = 0; i < n; i++) {
-        const double t = x * s[i].x + y * s[i].y;
-        most = t > most ? t : most;
+    int32_t count = 0;
+    for (int32_t i = 0; i < f->k; i++) {
+        if (f->above[i] > band) continue;
+        const fl_vec3 r = v3_sub(c.v[f->at[i]], from);
+        out[count++] = (spot){sign * v3_dot(t->x, r), sign * v3_dot(t->y, r)};
     }
-    return most;
 }
 
-/* The least height of a triangle of three of the spots; 0 when two coincide. */
-static double least_height(int32_t n, const spot *s)
+/* Is every triangle of three of the spots higher than h? */
+static int are_high(int32_t n, const spot *s, double h)
 {
-    double least = INFINITY;
     for (int32_t i = 0; i < n; i++)
         for (int32_t j = 0; j < i; j++) {
-            const double x = s[i].x - s[j].x, y = s[i].y - s[j].y, len = sqrt(x * x + y * y);
+            const double x = s[i].x - s[j].x, y = s[i].y - s[j].y, least = h * h * (x * x + y * y);
             for (int32_t k = 0; k < n; k++) {
-                if (k == i || k == j) continue;
-                const double area = fabs(x * (s[k].y - s[j].y) - y * (s[k].x - s[j].x));
-                if (!(area > least * len)) least = len > 0.0 ? area / len : 0.0;
+                const double area = x * (s[k].y - s[j].y) - y * (s[k].x - s[j].x);
+                if (k != i && k != j && !(area * area > least)) return 0;
             }
         }
-    return least;
+    return 1;
 }
 
-/* How far P - Q, where Q is given as -Q, reaches about the origin across the sides of P and Q: the least
- * over them, and the lesser of the wider ways of each. */
-static void least_reach(const int32_t *k, spot (*s)[PLANE_MAX], double *least, double *width)
+/* How far spots reach along (x, y), most, and against it. */
+static void reach(int32_t n, const spot *s, double x, double y, double *along, double *against)
 {
-    *least = *width = INFINITY;
+    double high = x * s[0].x + y * s[0].y, low = high;
+    for (int32_t i = 1; i < n; i++) {
+        const double t = x * s[i].x + y * s[i].y;
+        high = t > high ? t : high;
+        low = t < low ? t : low;
+    }
+    *along += high;
+    *against -= low;
+}
+
+/* Of P and -Q: does P - Q reach farther than r from the origin across every side of P and Q, or, thin, less
+ * than w across one, both ways? */
+static int reaches(const int32_t *k, spot (*s)[PLANE_MAX], double r, double w)
+{
+    int far = 1;
     for (int side = 0; side < 2; side++)
         for (int32_t i = 0; i < k[side]; i++)
             for (int32_t j = 0; j < i; j++) {
                 const double ex = s[side][i].x - s[side][j].x, ey = s[side][i].y - s[side][j].y,
-                             len = sqrt(ex * ex + ey * ey);
-                if (!(len > 0.0)) continue;
-                const double x = ey / len, y = -ex / len;
-                const double one = reach(k[0], s[0], x, y) + reach(k[1], s[1], x, y),
-                             two = reach(k[0], s[0], -x, -y) + reach(k[1], s[1], -x, -y);
-                *least = fmin(*least, fmin(one, two));
-                *width = fmin(*width, fmax(one, two));
+                             ee = ex * ex + ey * ey;
+                if (!(ee > 0.0)) continue;
+                double one = 0.0, two = 0.0;
+                reach(k[side], s[side], ey, -ex, &one, &two);
+                reach(k[!side], s[!side], ey, -ex, &one, &two);
+                const double less = one < two ? one : two, more = one < two ? two : one;
+                if (more * more < w * w * ee) return 1;
+                far &= less > 0.0 && less * less > r * r * ee;
             }
+    return far;
 }
 
 /* Does rounding leave n as it is?  Seen along n the vertices on the planes make two polygons P and Q with the
@@ -213,60 +235,64 @@ static void least_reach(const int32_t *k, spot (*s)[PLANE_MAX], double *least, d
  * triangle, or two edges, make a plane that their formula has exactly, so there the question is only
  * whether the nearest points lie inside. Vertex and vertex, vertex and edge have nothing to tilt about but
  * what their formulae see; edges and faces that lie on one line to within a part of d neither. */
-static int stands_firm(const pair *p, const planes *g, const fl_gap *out, double beyond)
+static int stands_firm(const pair *p, const planes *f, const fl_gap *out, double beyond)
 {
-    spot s[2][PLANE_MAX];
-    int32_t k[2];
-    if (g->ka + g->kb <= 3) return 1;
-    if (g->ka > PLANE_MAX || g->kb > PLANE_MAX) return 0;
+    if (f->a.k + f->b.k <= 3) return 1;
+    if (whole(f)) return 0;
     const double on = ON_PLANE * p->size;
+    const int32_t k[2] = {count_on(&f->a, on), count_on(&f->b, on)};
+    if (k[0] + k[1] <= 3) return 1;
+    spot s[2][PLANE_MAX];
     axes t = {.x = v3_normal_to(out->n)};
     t.y = v3_cross(out->n, t.x);
     /* A vertex has no rounding of world coordinates, which that of a foot is above any other far off. */
     const int vertex = out->na == 1 || out->nb == 1;
     const fl_vec3 o = out->na == 1 ? out->pa : out->pb;
-    k[0] = spots_of(p->a, out->n, &t, g->low_a, on, g->ka, g->at, vertex ? o : out->pa, s[0]);
-    k[1] = spots_of(p->b, v3_neg(out->n), &t, g->low_b, on, g->kb, g->bt, o, s[1]);
-    if (k[0] + k[1] <= 3 && k[0] <= 2 && k[1] <= 2) return 1;
+    spots_of(p->a, &t, on, &f->a, vertex ? o : out->pa, 1.0, s[0]);
+    spots_of(p->b, &t, on, &f->b, o, -1.0, s[1]);
     const double coarse = vertex ? 0.0 : WORLD * v3_norm(o), uneven = (beyond + UNEVEN * p->size) / FIRM;
-    if ((k[0] == 1 || k[1] == 1) && least_height(k[k[0] == 1], s[k[0] == 1]) > uneven) return 1;
-    for (int32_t i = 0; i < k[1]; i++) s[1][i] = (spot){-s[1][i].x, -s[1][i].y};
-    double least, width;
-    least_reach(k, s, &least, &width);
-    return width < THIN * out->d || least > coarse + (k[0] + k[1] == 4 ? INSIDE * p->size : uneven);
+    if ((k[0] == 1 || k[1] == 1) && are_high(k[k[0] == 1], s[k[0] == 1], uneven)) return 1;
+    return reaches(k, s, coarse + (k[0] + k[1] == 4 ? INSIDE * p->size : uneven), THIN * out->d);
 }
 
-/* Stage 3 for the direction n.  The answer stands when along its own direction the same vertices lie on the
- * planes as it was made from, so that it is a function of them; a first n in doubles may be off by 1e-8,
- * since distances alone cannot tell, and then the better one that it leads to is used.  Returns 1, or 0
- * when more bits are needed. */
-static int settle(const pair *p, fl_vec3 n, int fine, fl_gap *out)
+/* Stage 3 for the direction n, along which h[2] has the heights if it is not NULL.  The answer stands when along
+ * its own direction the same vertices lie on the planes as it was made from, so that it is a function of
+ * them; a first n in doubles may be off by 1e-8, since distances alone cannot tell, and then the better one
+ * that it leads to is used.  Returns 1, or 0 when more bits are needed. */
+static int settle(const pair *p, fl_vec3 n, const fl_heights *h, const fl_simplex *from, int fine,
+                  fl_gap *out)
 {
-    planes f, g;
-    find_planes(p, n, &f);
-    for (int round = 0; round < ROUNDS; round++) {
-        if (!answer_on(p, &f, fine, out)) return 0;
+    planes f[2];
+    int now = 0;
+    find_planes(p, n, h, from, &f[now]);
+    for (int round = 0;; round++) {
+        if (round == ROUNDS || !answer_on(p, &f[now], fine, out)) return 0;
         if (fine) return 1; /* this n was right to the last place to begin with */
-        find_planes(p, out->n, &g);
-        if (same_planes(&f, &g)) break;
-        if (round == ROUNDS - 1) return 0;
-        f = g;
+        if (keeps(p, &f[now], v3_norm(v3_sub(out->n, n)))) {
+            measure(p->a, out->n, &f[now].a);
+            measure(p->b, v3_neg(out->n), &f[now].b);
+            break;
+        }
+        now = !now;
+        n = out->n;
+        find_planes(p, n, NULL, from, &f[now]);
+        if (same_plane(&f[0].a, &f[1].a) && same_plane(&f[0].b, &f[1].b)) break;
     }
     /* The proof: along the final direction no vertex at all lies beyond the two planes. */
-    const double beyond = v3_dot(out->n, v3_sub(p->a.v[out->ia[0]], p->a.v[0])) - g.low_a -
-                          v3_dot(out->n, v3_sub(p->b.v[out->ib[0]], p->b.v[0])) - g.low_b;
-    return beyond <= PROOF * p->size && stands_firm(p, &g, out, beyond > 0.0 ? beyond : 0.0);
+    const double beyond = over_plane(p->a, out->n, &f[now].a, out->ia[0]) +
+                          over_plane(p->b, v3_neg(out->n), &f[now].b, out->ib[0]);
+    return beyond <= PROOF * p->size && stands_firm(p, &f[now], out, beyond);
 }
 
 void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
 {
-    pair p = {a, b, fl_core_extent(a), fl_core_extent(b), 0.0};
+    const pair p = {a, b, fl_core_extent(a) + fl_core_extent(b)};
     fl_simplex s;
-    fl_vec3 v;
-    p.size = p.ea + p.eb;
+    fl_heights h[2];
+    fl_vec3 n;
     *out = (fl_gap){0};
     fl_simplex_start(&s, a, b, cache);
-    if (!fl_descend(a, b, p.size, &s, &v, &out->iterations) || !settle(&p, v3_unit(v), 0, out)) {
+    if (!fl_descend(a, b, p.size, &s, &n, h, &out->iterations) || !settle(&p, n, h, &s, 0, out)) {
         *out = (fl_gap){.iterations = out->iterations};
         if (!fl_fine_descend(a, b, p.size, &s, out)) {
             /* Doubles first here too, wherever they might do: which road was taken must not show in the
@@ -274,8 +300,8 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
              * kept, as it is should they come out farther apart; should the vertices on the planes meet,
              * the cores do. */
             const fl_gap own = *out;
-            if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, 0, out)) &&
-                (!settle(&p, own.n, 1, out) || out->d > own.d + FARTHER * p.size) && !out->overlap)
+            if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, NULL, &s, 0, out)) &&
+                (!settle(&p, own.n, NULL, &s, 1, out) || out->d > own.d + FARTHER * p.size) && !out->overlap)
                 *out = own;
         }
     }

@@ -3,13 +3,16 @@
 #ifndef FL_NARROW_GJK_H
 #define FL_NARROW_GJK_H
 #include <stdint.h>
-#include "geom/vec3.h"
+#include "geom/poly.h"
 
 /* The convex hull of n >= 1 points in world coordinates [m], borrowed.  The points may coincide, and may
- * lie on a line or in a plane; faces are not needed. */
+ * lie on a line or in a plane; faces are not needed.  p is the body whose vertices they are, wherever it
+ * has been moved to, or NULL: its size saves a look at all of them, and of more than 64 its edges lead to
+ * those that matter, so that a warm query costs what the vertices about the nearest points cost. */
 typedef struct {
     const fl_vec3 *v;
     int32_t n;
+    const fl_poly *p;
 } fl_core;
 
 /* Warm start: the pairs of vertices (a[k], b[k]) that the last query of this pair ended on.  Zeroed means
@@ -50,7 +53,7 @@ typedef struct {
  *    function of the cores: cold, warm and stale starts give the same bits, but for a vertex within
  *    rounding of that border, some 1 in 1 000 000 of hostile pairs.
  *
- * It ends.  Let E be the sum of the extents.  The simplex after a step holds the old nearest point v and the
+ * It ends.  Let E be the sum of the extents: of the largest distances from vertex 0.  The simplex after a step holds the old nearest point v and the
  * new vertex difference w, so its distance falls at least as far as along the segment from v to w:
  *   - as long as w lies below the plane through v the distance falls strictly, no simplex comes back, and of
  *     finitely many simplices the last is the nearest;
@@ -60,7 +63,7 @@ typedef struct {
  * less than 4e-16 of d^2 and at 4096 altogether, and stage 3 after 4 walks of each: below 9000 supports
  * in any case (148 are the most that 2e7 pairs took).
  *
- * Error, with L the larger of d and the extent of the cores: 1e-13 L in d, 1e-12 rad in n for d from 1e-9
+ * Error, with L the larger of d and the sizes of the cores (extents, or largest sides of their boxes): 1e-13 L in d, 1e-12 rad in n for d from 1e-9
  * L up.  Where the nearest points are not unique one is returned.
  *   cache  in: where to start; out: where the next query should.  NULL starts cold.
  * Cannot fail; all coordinates finite and below 1e100 in magnitude. */

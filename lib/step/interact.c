@@ -113,20 +113,20 @@ static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl
 }
 
 /* Direction between the cores in B's frame, p->axis, and a lower bound of their distance (negative:
- * penetration).  The direction of the last look serves while it still separates them by `enough`. */
+ * penetration).  The direction of the last look serves while it still separates them by `enough`; otherwise
+ * gap has the nearest points. */
 static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b, const fl_places *s,
-                    fl_mat3 M, double enough, fl_overlap *deep, double *distance)
+                    fl_mat3 M, double enough, fl_overlap *deep, fl_gap *gap, double *distance)
 {
     *distance = gap_along(s->va, a->nv, b, p->axis);
     *deep = (fl_overlap){0};
     p->deep = 0;
     if (p->has_axis && *distance > enough) return 0;
-    fl_gap gap;
-    fl_gjk((fl_core){s->va, a->nv}, (fl_core){b->v, b->nv}, &p->cache, &gap);
-    if (!gap.overlap) {
-        p->axis = gap.n;
+    fl_gjk((fl_core){s->va, a->nv, a}, (fl_core){b->v, b->nv, b}, &p->cache, gap);
+    if (!gap->overlap) {
+        p->axis = gap->n;
         p->has_axis = 1;
-        *distance = gap.d;
+        *distance = gap->d;
         return 0;
     }
     if (penetration(w, a, b, s, M, deep)) return -1;
@@ -166,13 +166,13 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
                                distance);
     const int core_law = p->law->kind == FL_LAW_CORE;
     fl_overlap deep;
+    fl_gap gap;
     /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
      * sleeps wants its distance. */
-    if (separate(w, p, A, B, s, r->M, core_law ? INFINITY : p->n ? 0.0 : NEARLY * R, &deep, distance))
+    if (separate(w, p, A, B, s, r->M, core_law ? INFINITY : p->n ? 0.0 : NEARLY * R, &deep, &gap, distance))
         return -1;
     if (*distance >= R) return 0;
     if (core_law) {
-        fl_gap gap;
         if (p->deep) {
             const double overlap = R - *distance;
             fl_vec3 x = v3(0, 0, 0);
@@ -183,13 +183,12 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
             }
             return fl_places_point(s, x, p->axis, overlap, ra);
         }
-        fl_gjk((fl_core){s->va, A->nv}, (fl_core){B->v, B->nv}, &p->cache, &gap);
         return fl_places_point(s, gap.pa, gap.n, R - gap.d, ra);
     }
     if (fl_places_find(s, A, B, ra, rb, p->axis, &deep, &p->matches, path)) return -1;
     if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
         p->has_axis = 0;
-        return separate(w, p, A, B, s, r->M, INFINITY, &deep, distance);
+        return separate(w, p, A, B, s, r->M, INFINITY, &deep, &gap, distance);
     }
     return 0;
 }

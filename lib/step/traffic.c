@@ -114,7 +114,8 @@ static int is_free(const fl_world *w, int32_t i, fl_err *err)
             is = -1;
             break;
         }
-        fl_gjk((fl_core){va, b->core[i].nv}, (fl_core){vb, b->core[k].nv}, NULL, &gap);
+        fl_gjk((fl_core){va, b->core[i].nv, &b->core[i]}, (fl_core){vb, b->core[k].nv, &b->core[k]}, NULL,
+               &gap);
         if (gap.overlap || gap.d < R - TOUCH * size) is = 0;
     }
     free(va), free(vb);

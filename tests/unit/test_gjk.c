@@ -13,7 +13,7 @@
 #include "support/couples.h"
 #include "support/oracle.h"
 
-#define CORE(v) ((fl_core){(v), (int32_t)(sizeof(v) / sizeof *(v))})
+#define CORE(v) ((fl_core){(v), (int32_t)(sizeof(v) / sizeof *(v)), NULL})
 
 static fl_gap gap_of(fl_core a, fl_core b)
 {
@@ -267,7 +267,7 @@ static void many_vertices(void **state)
         ring[i] = v3(cos(t), sin(t), 0.0);
         ring[N + i] = v3(cos(t), sin(t), 1.0);
     }
-    const fl_core drum = {ring, 2 * N};
+    const fl_core drum = {ring, 2 * N, NULL};
     const fl_vec3 p[] = {{0.3, 0.2, 1.5}}, t[] = {{-1, -1, 3}, {1, -1, 3}, {0, 1, 3}}, q[] = {{3, 0, 0.5}};
     fl_gap g = gap_of(CORE(p), drum);
     assert_near(g.d, 0.5, 1e-15);

@@ -34,7 +34,7 @@ static void thin_floe(void)
     for (int k = 0; k < 3; k++) {
         fl_gap g;
         const fl_vec3 q = v3(fmin(at[k].x, 5), fmin(at[k].y, 5), 0.05), off = v3_sub(at[k], q);
-        fl_gjk((fl_core){&at[k], 1}, (fl_core){p.v, p.nv}, NULL, &g);
+        fl_gjk((fl_core){&at[k], 1, NULL}, (fl_core){p.v, p.nv, &p}, NULL, &g);
         worst_d = fmax(worst_d, fabs(g.d - v3_norm(off)));
         worst_n = fmax(worst_n, v3_norm(v3_sub(g.n, v3_unit(off))));
     }
