@@ -31,7 +31,7 @@
 /* The same far from the origin, in distances from there. */
 #define WORLD 1e-15
 
-/* Distances in pairs of doubles, found in two ways, agree far better, in extents. */
+/* Distances in pairs of doubles, found in two ways, agree far better, in extents and distances. */
 #define FARTHER 1e-14
 
 /* Cores with more vertices on a plane (the end of a fine cylinder) take part whole. */
@@ -301,7 +301,8 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
              * the cores do. */
             const fl_gap own = *out;
             if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, NULL, &s, 0, out)) &&
-                (!settle(&p, own.n, NULL, &s, 1, out) || out->d > own.d + FARTHER * p.size) && !out->overlap)
+                (!settle(&p, own.n, NULL, &s, 1, out) || out->d > own.d + FARTHER * (p.size + own.d)) &&
+                !out->overlap)
                 *out = own;
         }
     }

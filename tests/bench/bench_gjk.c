@@ -4,7 +4,11 @@
  * pairs
  *   near      0.15 mm to 0.6 m apart, as the gaps of a field at 80 % are;
  *   flush     standing on one plane, side face to side face;
- * touching  the dilated shapes overlap by 5 % of the radii. Errors: largest of distance (or depth of the
+ * touching  the dilated shapes overlap by 5 % of the radii;
+ * large     two ellipsoids of ever more vertices, turning past each other by 1e-4 rad a frame: warm along their
+ *           edges, cold, and warm looking at all vertices.  Errors there are what the planes across the
+ *           direction found leave of the distance, in long double, and so no less than the true ones.
+ * Errors: largest of distance (or depth of the
  * dilated shapes) against brute force in long double [m], and of the direction [rad].  Times are thread
  * time of this machine now; compare rows of one run only. */
 #include <ccd/ccd.h>
@@ -204,6 +208,64 @@ static int row(const char *name, query *ask, motion *m, int measures)
     return isfinite(sum);
 }
 
+/* ---- many vertices ------------------------------------------------------------------------------------ */
+
+typedef struct {
+    pair_case q[FRAMES];
+    fl_gjk_cache cache;
+} globes;
+
+static int make_globes(globes *m, int32_t rings, int32_t around)
+{
+    *m = (globes){0};
+    for (int f = 0; f < FRAMES; f++) {
+        fl_poly p[2] = {{0}, {0}};
+        if (pair_globe(&p[0], rings, around, v3(1.0, 0.8, 0.6)) ||
+            pair_globe(&p[1], rings, around, v3(0.7, 1.0, 0.9)) || pair_take(&m->q[f], p[0], p[1])) {
+            fl_poly_free(&p[0]);
+            fl_poly_free(&p[1]);
+            return -1;
+        }
+        pair_place(&m->q[f], 0, v3(0, 0, 0), q_matrix(q_of_vector(v3(0.3 + 1e-4 * f, 0.2, 0.1))));
+        pair_place(&m->q[f], 1, v3(1.6, 1.1, 0.3), q_matrix(q_of_vector(v3(0.1, 0.7 - 1e-4 * f, 0.4))));
+    }
+    return 0;
+}
+
+static void ask_globes(globes *m, int f, int all, int keep, fl_gap *g)
+{
+    fl_core a = fl_solid_core(&m->q[f].a), b = fl_solid_core(&m->q[f].b);
+    if (all) a.p = b.p = NULL;
+    fl_gjk(a, b, keep ? &m->cache : NULL, g);
+}
+
+static double time_globes(globes *m, int times, int all, int keep)
+{
+    fl_gap g;
+    const double begun = now();
+    for (int r = 0; r < times; r++)
+        for (int f = 0; f < FRAMES; f++) ask_globes(m, r % 2 ? FRAMES - 1 - f : f, all, keep, &g);
+    return 1e9 * (now() - begun) / (times * FRAMES);
+}
+
+static int globe_row(int32_t rings, int32_t around)
+{
+    globes m;
+    if (make_globes(&m, rings, around)) return 0;
+    const int32_t n = rings * around + 2;
+    double worst = 0.0;
+    const double along = time_globes(&m, 400, 0, 1), cold_ = time_globes(&m, 100, 0, 0),
+                 all = time_globes(&m, 400000 / n / 10 + 2, 1, 1);
+    for (int f = 0; f < FRAMES; f++) {
+        fl_gap g;
+        ask_globes(&m, f, 0, 1, &g);
+        worst = fmax(worst, fabs((double)(oracle_room(&m.q[f].a, &m.q[f].b, g.n) - (real)g.d)));
+        pair_free(&m.q[f]);
+    }
+    printf("  %8d %10.0f %10.0f %10.0f %14.1e\n", n, along, cold_, all, worst);
+    return worst < 1e-13;
+}
+
 int main(void)
 {
     static const char *const title[] = {"near", "flush", "touching"};
@@ -224,6 +286,8 @@ int main(void)
             for (int f = 0; f < FRAMES; f++) pair_free(&m[k].q[f]);
     }
     free(m);
+    printf("large\n  %8s %10s %10s %10s %14s\n", "vertices", "warm ns", "cold ns", "all ns", "error [m]");
+    ok &= globe_row(4, 4) && globe_row(10, 10) && globe_row(31, 32) && globe_row(100, 100);
     printf("%d passed, %d failed\n", ok, !ok);
     return !ok;
 }

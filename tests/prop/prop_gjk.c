@@ -9,7 +9,11 @@
 #include "support/oracle.h"
 #include "support/couples.h"
 
-enum { CASES = 100000, THOROUGH = 16 }; /* every 16th pair against brute force; in long runs all that meet */
+enum {
+    CASES = 100000,
+    LARGE = 400,
+    THOROUGH = 16
+}; /* every 16th pair against brute force; in long runs all that meet */
 
 /* In units of the larger of distance and size: the double nearest to the distance, the differences of
  * coordinates, and a square root make a few roundings of 1.1e-16. */
@@ -56,7 +60,35 @@ static int same_answer(const fl_gap *a, const fl_gap *b)
              memcmp(a->ia, b->ia, sizeof a->ia) == 0 && memcmp(a->ib, b->ib, sizeof a->ib) == 0));
 }
 
-static const char *const name[] = {"ordinary", "hostile", "deep"};
+/* How far x is from the hull of n vertices of c, the nearest feature: it should be in it. */
+static double astray(fl_core c, int32_t n, const int32_t *i, fl_vec3 x)
+{
+    double best = INFINITY;
+    if (n == 3) {
+        const fl_vec3 e = v3_sub(c.v[i[1]], c.v[i[0]]), g = v3_sub(c.v[i[2]], c.v[i[0]]),
+                      r = v3_sub(x, c.v[i[0]]), m = v3_cross(e, g);
+        const double mm = v3_norm2(m), s = v3_dot(m, v3_cross(r, g)), t = v3_dot(m, v3_cross(e, r));
+        if (mm > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= mm) best = fabs(v3_dot(m, r)) / sqrt(mm);
+    }
+    for (int32_t k = 0; k < n; k++) {
+        const fl_vec3 p = c.v[i[k]], l = v3_sub(c.v[i[(k + 1) % n]], p), r = v3_sub(x, p);
+        const double ll = v3_norm2(l), s = ll > 0.0 ? fmin(fmax(v3_dot(r, l) / ll, 0.0), 1.0) : 0.0;
+        best = fmin(best, v3_norm(v3_madd(r, -s, l)));
+    }
+    return best;
+}
+
+/* Looked at without the body's edges, the same. */
+static int differs(const fl_gap *g, fl_core a, fl_core b, double size)
+{
+    fl_gap all;
+    a.p = b.p = NULL;
+    fl_gjk(a, b, NULL, &all);
+    return all.overlap != g->overlap || fabs(all.d - g->d) > DISTANCE_TOL * fmax(size, g->d) ||
+           (g->d > NEAR * size && v3_norm(v3_sub(all.n, g->n)) > NORMAL_TOL);
+}
+
+static const char *const name[] = {"ordinary", "hostile", "deep", "large"};
 
 static void compare(long k, enum pair_kind kind, struct tally *t)
 {
@@ -79,6 +111,10 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
         const fl_vec3 miss = v3_sub(v3_sub(v3_sub(g.pa, a.v[0]), v3_sub(g.pb, a.v[0])), v3_scale(g.d, g.n));
         bad |= room > DISTANCE_TOL || v3_norm(miss) > DISTANCE_TOL * scale + coarse;
         bad |= fabs(v3_norm(g.n) - 1.0) > 1e-15;
+        bad |= astray(a, g.na, g.ia, g.pa) > DISTANCE_TOL * size + coarse ||
+                       astray(b, g.nb, g.ib, g.pb) > DISTANCE_TOL * size + coarse
+                   ? 128
+                   : 0;
     }
     if (g.overlap) {
         /* Bodies that are apart are apart along a face normal or a product of edges, and fl_deep() finds
@@ -103,7 +139,14 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
                    : 0;
     }
     if (fabs(back.d - g.d) > DISTANCE_TOL * scale) bad |= 4;
-    if (k % THOROUGH == 0 || (g.overlap && test_times(1) > 1) || bad) {
+    if (kind == PAIR_LARGE) {
+        if (differs(&g, a, b, size)) bad |= 256;
+        if (bad)
+            print_error(
+                "seed %llu large case %ld: failed 0x%x; d %.17g, room %.1e, warm d %.17g, vertices %d "
+                "%d, features %d %d\n",
+                (unsigned long long)test_seed(), k, (unsigned)bad, g.d, room, warm.d, a.n, b.n, g.na, g.nb);
+    } else if (k % THOROUGH == 0 || (g.overlap && test_times(1) > 1) || bad) {
         oracle_gap o;
         oracle_distance(&q.a, &q.b, &o);
         ed = fabs((double)((g.overlap ? -(real)depth : (real)g.d) - o.d)) / scale;
@@ -176,10 +219,16 @@ static void depths_are_exact(void **state)
     run(PAIR_DEEP, CASES / 10);
 }
 
+static void large_pairs_are_exact(void **state)
+{
+    (void)state;
+    run(PAIR_LARGE, LARGE);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ordinary_pairs_are_exact),
-                                       cmocka_unit_test(hostile_pairs_are_exact),
-                                       cmocka_unit_test(depths_are_exact)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ordinary_pairs_are_exact), cmocka_unit_test(hostile_pairs_are_exact),
+        cmocka_unit_test(depths_are_exact), cmocka_unit_test(large_pairs_are_exact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

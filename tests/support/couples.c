@@ -170,6 +170,69 @@ static int hostile_shape(fl_poly *p, fl_rng *g, double near)
     }
 }
 
+/* All the quadrilaterals are flat. */
+int pair_globe(fl_poly *p, int32_t rings, int32_t around, fl_vec3 axis)
+{
+    const int32_t nv = rings * around + 2, nf = (rings + 1) * around, nl = 4 * nf;
+    fl_vec3 *v = malloc((size_t)nv * sizeof *v);
+    int32_t *first = malloc((size_t)(nf + 1 + nl) * sizeof *first), *loop = first + nf + 1, k = 0, f = 0;
+    int rc = -1;
+    if (!v || !first) goto done;
+    v[0] = v3(0, 0, -axis.z);
+    v[nv - 1] = v3(0, 0, axis.z);
+    for (int32_t r = 0; r < rings; r++)
+        for (int32_t i = 0; i < around; i++) {
+            const double up = PI * (r + 1) / (rings + 1), at = 2.0 * PI * i / around;
+            v[1 + r * around + i] =
+                v3(axis.x * sin(up) * cos(at), axis.y * sin(up) * sin(at), -axis.z * cos(up));
+        }
+    first[0] = 0;
+    for (int32_t r = 0; r <= rings; r++)
+        for (int32_t i = 0; i < around; i++) {
+            const int32_t j = (i + 1) % around, low = 1 + (r - 1) * around, high = 1 + r * around;
+            if (r == 0) {
+                const int32_t t[3] = {0, high + j, high + i};
+                memcpy(loop + k, t, sizeof t);
+            } else if (r == rings) {
+                const int32_t t[3] = {low + i, low + j, nv - 1};
+                memcpy(loop + k, t, sizeof t);
+            } else {
+                const int32_t q[4] = {low + i, low + j, high + j, high + i};
+                memcpy(loop + k, q, sizeof q);
+            }
+            k += r == 0 || r == rings ? 3 : 4;
+            first[++f] = k;
+        }
+    rc = make(p, nv, v, nf, first, loop);
+done:
+    free(v);
+    free(first);
+    return rc;
+}
+
+static int make_column(fl_poly *p, int32_t n, fl_vec3 axis)
+{
+    fl_err err = {0};
+    fl_vec3 *xy = malloc((size_t)n * sizeof *xy);
+    if (!xy) return -1;
+    for (int32_t i = 0; i < n; i++)
+        xy[i] = v3(axis.x * cos(2.0 * PI * i / n), axis.y * sin(2.0 * PI * i / n), 0);
+    const int rc = fl_poly_prism(p, n, xy, -axis.z, axis.z, &err);
+    if (rc) fprintf(stderr, "shape of a test pair refused: %s\n", err.text);
+    free(xy);
+    return rc;
+}
+
+/* Of about 4 to 10 000 vertices, as many small ones as large. */
+static int large_shape(fl_poly *p, fl_rng *g)
+{
+    const double n = log_in(g, 0.7, 4.0), thin = below(g, 3) ? 1.0 : 0.01;
+    const fl_vec3 axis = v3(thin * log_in(g, -0.5, 0.0), log_in(g, -0.5, 0.0), log_in(g, -0.5, 0.0));
+    if (below(g, 3) == 0) return make_column(p, (int32_t)fmax(3.0, 0.5 * n), v3(axis.z, axis.y, axis.x));
+    const int32_t around = (int32_t)fmax(3.0, sqrt(n) * fl_rng_in(g, 0.7, 1.4));
+    return pair_globe(p, (int32_t)fmax(1.0, (n - 2.0) / around), around, axis);
+}
+
 void pair_place(pair_case *q, int k, fl_vec3 o, fl_mat3 r)
 {
     const fl_poly *p = &q->p[k];
@@ -222,6 +285,23 @@ static int ordinary(pair_case *q, fl_rng *g, int deep)
     double gap = q->size * log_in(g, -9.0, what == 0 ? 3.0 : 0.0);
     if (what == 1) gap = -0.3 * gap;
     set_apart(q, n, gap);
+    return 0;
+}
+
+static int large(pair_case *q, fl_rng *g)
+{
+    if (large_shape(&q->p[0], g) || large_shape(&q->p[1], g) || make_room(q)) return -1;
+    const fl_mat3 one = q_matrix(q_one());
+    const int flush = below(g, 4) == 0, far = below(g, 6) == 0;
+    pair_place(q, 0, v3(0, 0, 0), flush ? one : some_turn(g));
+    pair_place(q, 1, v3_scale(0.3 * q->size, some_direction(g)), flush ? one : some_turn(g));
+    fl_vec3 n = flush ? v3(0, 0, 1) : some_direction(g);
+    if (!flush && below(g, 2)) n = q->n[0][below(g, q->p[0].nf)];
+    const double gap = q->size * log_in(g, -9.0, below(g, 5) ? 0.0 : 3.0);
+    set_apart(q, n, below(g, 8) ? gap : -0.3 * gap);
+    const fl_vec3 away = v3_scale(1e6 * q->size, some_direction(g));
+    for (int k = 0; k < 2 && far; k++)
+        for (int32_t i = 0; i < q->p[k].nv; i++) q->v[k][i] = v3_add(q->v[k][i], away);
     return 0;
 }
 
@@ -287,9 +367,11 @@ int pair_make(pair_case *q, uint64_t seed, int64_t k, enum pair_kind kind)
 {
     fl_rng g = fl_rng_of(seed, 3 * k + kind, FL_RNG_TEST);
     *q = (pair_case){0};
-    if ((kind == PAIR_HOSTILE ? hostile(q, &g) : ordinary(q, &g, kind == PAIR_DEEP)) == 0) return 0;
-    pair_free(q);
-    return -1;
+    const int rc = kind == PAIR_LARGE     ? large(q, &g)
+                   : kind == PAIR_HOSTILE ? hostile(q, &g)
+                                          : ordinary(q, &g, kind == PAIR_DEEP);
+    if (rc) pair_free(q);
+    return rc;
 }
 
 void pair_free(pair_case *q)

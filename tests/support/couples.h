@@ -14,7 +14,7 @@ typedef struct {
     double sharp; /* shortest edge of either over its body's size          */
 } pair_case;
 
-enum pair_kind { PAIR_ORDINARY, PAIR_HOSTILE, PAIR_DEEP };
+enum pair_kind { PAIR_ORDINARY, PAIR_HOSTILE, PAIR_DEEP, PAIR_LARGE };
 
 /* Case k of a seed.
  * ORDINARY: boxes, prisms, frusta, tetrahedra, octahedra, polygons, segments, points of any proportion up
@@ -25,12 +25,17 @@ enum pair_kind { PAIR_ORDINARY, PAIR_HOSTILE, PAIR_DEEP };
  * both carried off to 1e6 sizes; touching exactly.
  * Cases are told by their numbers in tests of pairs that once failed; a new shape is a new kind.
  * DEEP: ordinary shapes put into each other, their origins up to a fifth of the size apart.
+ * LARGE: ellipsoids and prisms of 4 to 10 000 vertices, plates 100:1 and needles among them, near and far as
+ * the ordinary ones, some flush, some 1e6 sizes away.
  * Returns 0; -1 when memory ran out or the shape was refused (said on stderr). */
 int pair_make(pair_case *q, uint64_t seed, int64_t k, enum pair_kind kind);
 void pair_free(pair_case *q);
 
 /* A pair of two given shapes, which it owns from now on, in their own axes.  -1 when memory ran out. */
 int pair_take(pair_case *q, fl_poly a, fl_poly b);
+
+/* An ellipsoid of half axes axis: poles on z, and rings of corners between them.  Returns as pair_make(). */
+int pair_globe(fl_poly *p, int32_t rings, int32_t around, fl_vec3 axis);
 
 /* Set the world pose of body k (0 or 1): x = o + R v, at unit scale. */
 void pair_place(pair_case *q, int k, fl_vec3 o, fl_mat3 r);
