@@ -42,6 +42,14 @@ $B/bin/$1: $(patsubst %.c,$B/%.o,$(wildcard tools/$1/*.c)) $B/libfloe-shim.a $B/
 	$$(CCALL) $$(LDFLAGS) -Wl,--start-group $$^ -Wl,--end-group $$(LIBS) $$(CGAL) -o $$@
 endef
 $(foreach t,$(TOOLS),$(eval $(call tool,$t)))
+# dem-solve for other vectors than those of the machine, for the ladder of bench/.
+$B/bench/plain.o: WIDTH = 0
+$B/bench/avx2.o: WIDTH = 1u<<10
+$B/bench/%.o: bench/width.c
+	@mkdir -p $(@D)
+	$(CCALL) -D'WIDTH=$(WIDTH)' -c $< -o $@
+$B/bench/dem-solve-%: $B/bench/%.o $(patsubst %.c,$B/%.o,$(wildcard tools/dem-solve/*.c)) $(SHIM) $B/libfloe.a
+	$(CCALL) $(LDFLAGS) -Wl,--start-group $^ -Wl,--end-group $(LIBS) $(CGAL) -o $@
 $B/tests/%: $B/tests/%.o $(SUPPORT) $(SHIM) $B/libfloe.a
 	$(CCALL) $(LDFLAGS) -Wl,--start-group $^ -Wl,--end-group -lcmocka $(LIBS) $(CGAL) -o $@
 $B/tests/%.o $(SUPPORT): CFLAGS += -Itests
@@ -63,6 +71,9 @@ readers: $(SHIM)
 		$(MAKE) --no-print-directory SAN=address,undefined OPT=-O0 SHIM=$(SHIM) corpora; \
 	else echo "readers: this compiler has no sanitizers, corpora are replayed without them" >&2; fi
 corpora: $(call test_of,fuzz)
+# Cost beside error over scenes and settings; FLOE_QUICK=1 takes a minute.
+ladder: all $(if $(filter x86_64,$(shell uname -m)),$B/bench/dem-solve-plain $B/bench/dem-solve-avx2)
+	@sh bench/ladder.sh $B
 golden-update: all
 	@sh tests/run.sh update $B
 lint:
@@ -78,6 +89,6 @@ install: all
 clean:
 	rm -rf build
 
-.PHONY: all tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install clean
+.PHONY: all ladder tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install clean
 .SECONDARY:
 -include $(wildcard $B/*/*/*.d $B/*/*/*/*.d)

@@ -30,7 +30,7 @@ verdict() # NAME STATUS
 
 floors()
 {
-    find Makefile config.mk .ci lib tools tests share -type f \( -name '*.[ch]' -o -name '*.cpp' -o -name '*.sh' \
+    find Makefile config.mk .ci lib tools tests share bench -type f \( -name '*.[ch]' -o -name '*.cpp' -o -name '*.sh' \
         -o -name '*.mk' -o -name Makefile -o -name '*.[157]' -o -path '.ci/*' \) | sort >"$scratch/files"
     [ -s "$scratch/files" ] || return 1
     xargs awk -f tests/lint/floors.awk <"$scratch/files"
@@ -113,7 +113,7 @@ else
 fi
 
 if command -v shellcheck >/dev/null; then
-    find share tests -name '*.sh' -exec shellcheck -s sh {} +
+    find share tests bench -name '*.sh' -exec shellcheck -s sh {} +
     verdict shell $?
 else
     skip shell "no shellcheck"

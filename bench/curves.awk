@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# curves.awk -- ladder.tsv to blocks that gnuplot finds by their names, what.scene.  Each begins with a point far
+# out of the picture, for gnuplot complains of a block that is empty.
+function open_block(b) { order[++blocks] = b; row[b, n[b] = 1] = "1e-9\t1e-9\n" }
+function put(b, line) { row[b, ++n[b]] = line }
+BEGIN { FS = "\t"; open_block("bodies"); open_block("spheres") }
+/^#/ || $1 == "scene" { next }
+!($1 in seen) {
+    seen[$1] = 1
+    split("step error core manual-si front threads", all, " ")
+    for (k = 1; k <= 6; k++) open_block(all[k] "." $1)
+}
+$10 == "-" { next }
+($2 == "step" || $2 == "error" || $2 == "law") && $14 != "-" {
+    put(($2 == "law" ? $4 : $2) "." $1, $20 "\t" 100 * ($14 > 1e-7 ? $14 : 1e-7) "\t" $3)
+    if ($22 == 1) put("front." $1, $20 "\t" 100 * ($14 > 1e-7 ? $14 : 1e-7))
+}
+$2 == "step" && $1 ~ /^(field|pack)/ && $3 == 0.2 { put($1 ~ /^field/ ? "bodies" : "spheres", $6 "\t" $12 "\t" $13) }
+$2 == "threads" { put("threads." $1, $5 "\t" (1 / $20)) }
+END {
+    for (i = 1; i <= blocks; i++) {
+        b = order[i]
+        for (k = 3; k <= n[b]; k++) # a front goes by its cost
+            for (j = k; b ~ /^front/ && j > 2 && row[b, j] + 0 < row[b, j - 1] + 0; j--) {
+                s = row[b, j]
+                row[b, j] = row[b, j - 1]
+                row[b, j - 1] = s
+            }
+        print "# " b ";" # so that no name begins with another
+        for (k = 1; k <= n[b]; k++) print row[b, k]
+        printf "\n\n"
+    }
+}
