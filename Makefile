@@ -72,7 +72,9 @@ readers: $(SHIM)
 	else echo "readers: this compiler has no sanitizers, corpora are replayed without them" >&2; fi
 corpora: $(call test_of,fuzz)
 # Cost beside error over scenes and settings; FLOE_QUICK=1 takes a minute.
-ladder: all $(if $(filter x86_64,$(shell uname -m)),$B/bench/dem-solve-plain $B/bench/dem-solve-avx2)
+WIDTHS = $(if $(filter x86_64,$(shell uname -m)),$B/bench/dem-solve-plain $B/bench/dem-solve-avx2)
+run-bench: $(WIDTHS)
+ladder: all $(WIDTHS)
 	@sh bench/ladder.sh $B
 golden-update: all
 	@sh tests/run.sh update $B
