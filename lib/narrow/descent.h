@@ -23,8 +23,8 @@ typedef struct {
 /* Cores of up to this many vertices are looked at whole. */
 enum { FL_CORE_FEW = 64 };
 
-/* The length of a core to which rounding is relative [m]: its body's size, or the largest distance of a vertex
- * from vertex 0. */
+/* The length of a core to which rounding is relative [m]: its body's size, or the largest distance of a
+ * vertex from vertex 0. */
 double fl_core_extent(fl_core c);
 
 /* The vertex lowest along dir, the first of equals; *low is dir.(v - v[0]) of it.  Differences come first, so

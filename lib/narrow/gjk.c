@@ -255,10 +255,10 @@ static int stands_firm(const pair *p, const planes *f, const fl_gap *out, double
     return reaches(k, s, coarse + (k[0] + k[1] == 4 ? INSIDE * p->size : uneven), THIN * out->d);
 }
 
-/* Stage 3 for the direction n, along which h[2] has the heights if it is not NULL.  The answer stands when along
- * its own direction the same vertices lie on the planes as it was made from, so that it is a function of
- * them; a first n in doubles may be off by 1e-8, since distances alone cannot tell, and then the better one
- * that it leads to is used.  Returns 1, or 0 when more bits are needed. */
+/* Stage 3 for the direction n, along which h[2] has the heights if it is not NULL.  The answer stands when
+ * along its own direction the same vertices lie on the planes as it was made from, so that it is a function
+ * of them; a first n in doubles may be off by 1e-8, since distances alone cannot tell, and then the better
+ * one that it leads to is used.  Returns 1, or 0 when more bits are needed. */
 static int settle(const pair *p, fl_vec3 n, const fl_heights *h, const fl_simplex *from, int fine,
                   fl_gap *out)
 {

@@ -53,8 +53,9 @@ typedef struct {
  *    function of the cores: cold, warm and stale starts give the same bits, but for a vertex within
  *    rounding of that border, some 1 in 1 000 000 of hostile pairs.
  *
- * It ends.  Let E be the sum of the extents: of the largest distances from vertex 0.  The simplex after a step holds the old nearest point v and the
- * new vertex difference w, so its distance falls at least as far as along the segment from v to w:
+ * It ends.  Let E be the sum of the extents: of the largest distances from vertex 0.  The simplex after a
+ * step holds the old nearest point v and the new vertex difference w, so its distance falls at least as far
+ * as along the segment from v to w:
  *   - as long as w lies below the plane through v the distance falls strictly, no simplex comes back, and of
  *     finitely many simplices the last is the nearest;
  *   - after k supports d_k^2 - d^2 <= 16 E^2 / (k + 2), the bound of the method of Frank and Wolfe for
@@ -63,8 +64,8 @@ typedef struct {
  * less than 4e-16 of d^2 and at 4096 altogether, and stage 3 after 4 walks of each: below 9000 supports
  * in any case (148 are the most that 2e7 pairs took).
  *
- * Error, with L the larger of d and the sizes of the cores (extents, or largest sides of their boxes): 1e-13 L in d, 1e-12 rad in n for d from 1e-9
- * L up.  Where the nearest points are not unique one is returned.
+ * Error, with L the larger of d and the sizes of the cores (extents, or largest sides of their boxes): 1e-13
+ * L in d, 1e-12 rad in n for d from 1e-9 L up.  Where the nearest points are not unique one is returned.
  *   cache  in: where to start; out: where the next query should.  NULL starts cold.
  * Cannot fail; all coordinates finite and below 1e100 in magnitude. */
 void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out);

@@ -165,7 +165,9 @@ static void try_vertex_triangle(search *s, int32_t i, int swapped)
     if (!across(s, t[1], t[0], t[2], t[0], p, t[0], &m, &c)) return;
     for (int32_t k = 0; k < 3; k++)
         if (!(turn(s, m, t[(k + 1) % 3], t[k], p, t[k]) > 0.0)) return;
-    offer_vertex(s, i, 3, all, swapped, c, p, v3_madd(p, -c.d, c.n));
+    /* Back onto the triangle, from which the rounding of d keeps the foot. */
+    const fl_vec3 foot = v3_madd(p, -c.d, c.n);
+    offer_vertex(s, i, 3, all, swapped, c, p, v3_madd(foot, -v3_dot(c.n, v3_sub(foot, t[0])), c.n));
 }
 
 static fl_vec3 foot_on(fl_vec3 p, fl_vec3 e0, fl_vec3 e1)

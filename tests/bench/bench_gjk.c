@@ -5,12 +5,11 @@
  *   near      0.15 mm to 0.6 m apart, as the gaps of a field at 80 % are;
  *   flush     standing on one plane, side face to side face;
  * touching  the dilated shapes overlap by 5 % of the radii;
- * large     two ellipsoids of ever more vertices, turning past each other by 1e-4 rad a frame: warm along their
- *           edges, cold, and warm looking at all vertices.  Errors there are what the planes across the
- *           direction found leave of the distance, in long double, and so no less than the true ones.
- * Errors: largest of distance (or depth of the
- * dilated shapes) against brute force in long double [m], and of the direction [rad].  Times are thread
- * time of this machine now; compare rows of one run only. */
+ * large     two ellipsoids of ever more vertices, turning past each other by 1e-4 rad a frame: warm along
+ * their edges, cold, and warm looking at all vertices.  Errors there are what the planes across the direction
+ * found leave of the distance, in long double, and so no less than the true ones. Errors: largest of distance
+ * (or depth of the dilated shapes) against brute force in long double [m], and of the direction [rad].  Times
+ * are thread time of this machine now; compare rows of one run only. */
 #include <ccd/ccd.h>
 #include <math.h>
 #include <stdio.h>

@@ -102,7 +102,7 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
     fl_gjk(b, a, NULL, &back);
     const double size = q.size, scale = fmax(size, g.d);
     /* World coordinates, and with them points and the flatness of faces, are this coarse. */
-    const double coarse = 8.0 * 2.220446049250313e-16 * v3_norm(a.v[0]);
+    const double coarse = 8.0 * 2.220446049250313e-16 * fmax(v3_norm(a.v[0]), v3_norm(b.v[0]));
     double depth = 0.0, room = 0.0, en = 0.0, ed = 0.0;
     int bad = !isfinite(g.d);
     if (!g.overlap) {
