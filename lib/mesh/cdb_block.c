@@ -5,7 +5,6 @@
 #include <strings.h>
 #include "base/mem.h"
 #include "mesh/cdb_block.h"
-#include "mesh/cdb_routine.h"
 #include "mesh/columns.h"
 
 enum {
@@ -104,7 +103,7 @@ int fl_cdb_add(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t rea
         snprintf(name, sizeof name, "routine %d", t->routine);
         return fl_elements_skip(&c->e, name, err);
     }
-    shape = fl_cdb_shape_of((fl_cdb_family)t->is, n);
+    shape = fl_cdb_shape_of(t->is, n);
     if (shape < 0)
         return fl_deck_fail(&c->d, err, "element %lld of routine %d has %d nodes, more were wanted",
                             (long long)id, t->routine, n);

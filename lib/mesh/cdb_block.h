@@ -4,6 +4,7 @@
 #define FL_MESH_CDB_BLOCK_H
 #include "base/names.h"
 #include "mesh/cdb_component.h"
+#include "mesh/cdb_routine.h"
 #include "mesh/cdb_section.h"
 #include "mesh/deck.h"
 
@@ -15,7 +16,7 @@ enum {
 /* What ET and KEYOPT make of an element type. */
 typedef struct {
     int32_t routine, key;
-    int is; /* fl_cdb_family */
+    fl_cdb_family is;
 } fl_cdb_type;
 
 typedef struct {

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* apart.h -- is there a plane between two triangles? */
+#ifndef FL_MESH_APART_H
+#define FL_MESH_APART_H
+#include "geom/surface.h"
+
+/* A triangle of a part, as the question wants it. */
+typedef struct {
+    int32_t t;
+    int known;        /* n and size, when they are asked for */
+    const int32_t *v; /* its vertices, in the part */
+    fl_vec3 x[3];
+    fl_vec3 n, size; /* (x1 - x0) x (x2 - x0), and the same of sizes, which bounds its rounding */
+} fl_corners;
+
+void fl_corners_of(const fl_part *p, int32_t t, fl_corners *c);
+
+/* Are the two apart, but for the corners and edges they have in common, for certain?  Tried are the planes of
+ * the two and those that stand upright on their edges, planes through a common corner, and at a common edge
+ * whether they bend by less than a right angle; what rounding may decide is not certain.  Returns 1, or 0
+ * for anything else.  Source: Shewchuk, Discrete & Comput. Geom. 18 (1997) 305, the bounds. */
+int fl_corners_apart(fl_corners *a, fl_corners *b);
+
+#endif
