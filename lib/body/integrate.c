@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/wide.h"
 #include "body/integrate.h"
 
 /* Rounding alone moves |q| from 1: one Newton step for 1/sqrt(|q|^2) takes it back. */
@@ -214,6 +215,82 @@ void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
     *turn = hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)
                 ? solve_free(&b->R[i], b->I[i], hold / FL_HOLD_RX, rest, b->t[i])
                 : fl_body_turn(b, i, b->t[i]);
+}
+
+/* --- balls, several at a time ------------------------------------------------------------------ */
+
+FL_WIDE_VERSIONS static void kick_plain(int32_t n, double h, const double *restrict invm,
+                                        const fl_vec3 *restrict I, const fl_vec3 *restrict f,
+                                        const fl_vec3 *restrict t, fl_vec3 *restrict v, fl_vec3 *restrict L,
+                                        fl_vec3 *restrict w)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < n; i++) {
+        const double s = h * invm[i], inertia = I[i].x;
+        v[i].x += s * f[i].x;
+        v[i].y += s * f[i].y;
+        v[i].z += s * f[i].z;
+        const double x = L[i].x + h * t[i].x, y = L[i].y + h * t[i].y, z = L[i].z + h * t[i].z;
+        L[i].x = x;
+        L[i].y = y;
+        L[i].z = z;
+        w[i].x = x / inertia;
+        w[i].y = y / inertia;
+        w[i].z = z / inertia;
+    }
+}
+
+FL_WIDE_VERSIONS static void drift_plain(int32_t n, double dt, const fl_vec3 *restrict I,
+                                         const fl_vec3 *restrict v, const fl_vec3 *restrict L,
+                                         fl_vec3 *restrict x, fl_quat *restrict q, double *restrict odometer)
+{
+    const double path = fabs(dt);
+#pragma omp simd
+    for (int32_t i = 0; i < n; i++) {
+        const double vx = v[i].x, vy = v[i].y, vz = v[i].z, Lx = L[i].x, Ly = L[i].y, Lz = L[i].z;
+        const double s = dt / I[i].x, rx = s * Lx, ry = s * Ly, rz = s * Lz;
+        const double half2 = 0.25 * (rx * rx + ry * ry + rz * rz);
+        const double c = 1.0 - q_versine(half2), k = 0.5 * q_sinc(half2);
+        const double hx = k * rx, hy = k * ry, hz = k * rz;
+        const double a = q[i].w, ax = q[i].x, ay = q[i].y, az = q[i].z;
+        const double bw = c * a - hx * ax - hy * ay - hz * az, bx = c * ax + hx * a + hy * az - hz * ay,
+                     by = c * ay - hx * az + hy * a + hz * ax, bz = c * az + hx * ay - hy * ax + hz * a;
+        const double one = 1.5 - 0.5 * (bw * bw + bx * bx + by * by + bz * bz);
+        const int turns = Lx != 0.0 || Ly != 0.0 || Lz != 0.0;
+        x[i].x += dt * vx;
+        x[i].y += dt * vy;
+        x[i].z += dt * vz;
+        odometer[i] += path * sqrt(vx * vx + vy * vy + vz * vz);
+        q[i].w = turns ? one * bw : a;
+        q[i].x = turns ? one * bx : ax;
+        q[i].y = turns ? one * by : ay;
+        q[i].z = turns ? one * bz : az;
+    }
+}
+
+/* The series of a turn needs no halving below half a radian, as in all but the wildest steps. */
+static int turns_little(int32_t n, double dt, const fl_vec3 *I, const fl_vec3 *L)
+{
+    double most = 0.0;
+    for (int32_t i = 0; i < n; i++) {
+        const double r = v3_norm2(L[i]) / (I[i].x * I[i].x);
+        most = r > most ? r : most;
+    }
+    return most * dt * dt < 0.99 * 4.0 * Q_HALF_TURN_MOST;
+}
+
+void fl_move_plain(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
+{
+    const int32_t n = to - from;
+    kick_plain(n, h, b->invm + from, b->I + from, b->f + from, b->t + from, b->v + from, b->L + from,
+               b->w + from);
+    if (dt == 0.0) return;
+    if (turns_little(n, dt, b->I + from, b->L + from)) {
+        drift_plain(n, dt, b->I + from, b->v + from, b->L + from, b->x + from, b->q + from,
+                    b->odometer + from);
+        return;
+    }
+    for (int32_t i = from; i < to; i++) fl_drift(b, i, dt);
 }
 
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)

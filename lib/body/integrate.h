@@ -29,6 +29,16 @@ void fl_kick(fl_bodies *b, int32_t i, double h);
  * the held components of w and the free ones of L stay, by the midpoint rule.  dt [s] */
 void fl_drift(fl_bodies *b, int32_t i, double dt);
 
+/* fl_kick() by h, and then fl_drift() by dt where that is not 0, of the bodies [from, to), all of which
+ * fl_body_plain() and move: the same bits, several bodies at a time. */
+void fl_move_plain(fl_bodies *b, int32_t from, int32_t to, double h, double dt);
+
+/* Whether body i is a ball that nothing holds, without added mass. */
+static inline int fl_body_plain(const fl_bodies *b, int32_t i)
+{
+    return b->ball[i] && !b->hold[i] && !b->added;
+}
+
 /* The rotation part alone, of one body; for tests. */
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
 

@@ -20,28 +20,16 @@ fl_quat q_of_matrix(fl_mat3 a)
 }
 
 /* cos x and sin(x)/x from x^2, for any x: the argument is halved until |x| <= 1/4 and doubled back by
- * cos 2x = 2 cos^2 x - 1, sinc 2x = sinc x cos x.  Steps turn bodies by far less than half a radian, so the
- * loop is seldom entered.  Series to x^14: the first term left out is below 1e-17 at 1/4. */
+ * 1 - cos 2x = 2 (1 - cos x) (1 + cos x), sinc 2x = sinc x cos x.  Steps turn bodies by far less than half a
+ * radian, so the loop is seldom entered. */
 static void cos_sinc(double x2, double *c, double *s)
 {
     int twice = 0;
-    while (x2 > 0.0625 && twice < 60) {
+    while (x2 > Q_HALF_TURN_MOST && twice < 60) {
         x2 *= 0.25;
         twice++;
     }
-    /* versine 1 - cos is what doubles without cancellation: V(2x) = 2 V (2 - V) */
-    double v = 1.0 / 479001600 - x2 / 87178291200.0;
-    v = 1.0 / 3628800 - x2 * v;
-    v = 1.0 / 40320 - x2 * v;
-    v = 1.0 / 720 - x2 * v;
-    v = 1.0 / 24 - x2 * v;
-    v = x2 * (1.0 / 2 - x2 * v);
-    double f = 1.0 / 39916800 - x2 / 6227020800.0;
-    f = 1.0 / 362880 - x2 * f;
-    f = 1.0 / 5040 - x2 * f;
-    f = 1.0 / 120 - x2 * f;
-    f = 1.0 / 6 - x2 * f;
-    f = 1.0 - x2 * f;
+    double v = q_versine(x2), f = q_sinc(x2);
     for (; twice > 0; twice--) {
         f *= 1.0 - v;
         v = 2.0 * v * (2.0 - v);

@@ -83,15 +83,27 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
     }
 }
 
-FL_WIDE_VERSIONS static void arm(fl_spheres *restrict b, int32_t m)
+FL_WIDE_VERSIONS static void tell(fl_spheres *restrict b, int32_t m)
 {
     SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
     {
         const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c], f = b->normal[c];
         const double x = b->rub[0][c], y = b->rub[1][c], z = b->rub[2][c];
-        b->turn[0][c] = ny * z - nz * y;
-        b->turn[1][c] = nz * x - nx * z;
-        b->turn[2][c] = nx * y - ny * x;
+        const double tx = nz * y - ny * z, ty = nx * z - nz * x, tz = ny * x - nx * y; /* F_t x n */
+        const double half = 0.5 * b->overlap[c], ai = b->ri[c] - half, aj = b->rj[c] - half;
+        const double elastic = b->elastic[c], damping = f - elastic;
+        b->push[0][c] = elastic * nx;
+        b->push[1][c] = elastic * ny;
+        b->push[2][c] = elastic * nz;
+        b->damping[0][c] = damping * nx;
+        b->damping[1][c] = damping * ny;
+        b->damping[2][c] = damping * nz;
+        b->ti[0][c] = ai * tx;
+        b->ti[1][c] = ai * ty;
+        b->ti[2][c] = ai * tz;
+        b->tj[0][c] = aj * tx;
+        b->tj[1][c] = aj * ty;
+        b->tj[2][c] = aj * tz;
         b->size[c] = sqrt(f * f + (x * x + y * y + z * z));
     }
 }
@@ -101,12 +113,12 @@ void fl_spheres_meet(fl_spheres *b, int32_t m, double dt)
     const int32_t full = filled(m);
     stand(b, full);
     rub(b, full, dt);
-    arm(b, full);
+    tell(b, full);
 }
 
 void fl_spheres_place(fl_spheres *b, int32_t m)
 {
     const int32_t full = filled(m);
     stand(b, full);
-    arm(b, full);
+    tell(b, full);
 }

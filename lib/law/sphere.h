@@ -37,12 +37,15 @@ typedef struct {
     double rub[3][FL_SPHERES_MOST]; /* F_t                                      [N]     */
     double normal[FL_SPHERES_MOST]; /* F_n                                      [N]     */
     /* out */
-    double n[3][FL_SPHERES_MOST];    /* n; (0, 0, 1) where the centres are one           */
-    double overlap[FL_SPHERES_MOST]; /* s                                        [m]     */
-    double slope[FL_SPHERES_MOST];   /* 3/2 k sqrt(s)                            [N/m]   */
-    double elastic[FL_SPHERES_MOST]; /* F_e                                      [N]     */
-    double turn[3][FL_SPHERES_MOST]; /* n x F_t                                  [N]     */
-    double size[FL_SPHERES_MOST];    /* |F|                                      [N]     */
+    double n[3][FL_SPHERES_MOST];       /* n; (0, 0, 1) where the centres are one           */
+    double overlap[FL_SPHERES_MOST];    /* s                                        [m]     */
+    double slope[FL_SPHERES_MOST];      /* 3/2 k sqrt(s)                            [N/m]   */
+    double elastic[FL_SPHERES_MOST];    /* F_e                                      [N]     */
+    double push[3][FL_SPHERES_MOST];    /* F_e n                                    [N]     */
+    double damping[3][FL_SPHERES_MOST]; /* (F_n - F_e) n                            [N]     */
+    double ti[3][FL_SPHERES_MOST];      /* torques of F_t, on i and j               [N m]   */
+    double tj[3][FL_SPHERES_MOST];
+    double size[FL_SPHERES_MOST]; /* |F|                                            [N]     */
 } fl_spheres;
 
 /* The first m contacts, over a step of dt [s].  Each has bits of its own, whatever stands beside it and

@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include "geom/vec3.h"
 
-enum { FL_BALLS_CHUNK = 256 };
+enum { FL_BALLS_CHUNK = 256, FL_BALLS_GROUP = 32 };
 
 /* What a row remembers, and the forces that it gave last. */
 typedef struct {
@@ -53,6 +53,7 @@ typedef struct {
     int32_t *slots;       /* [cross[chunks]] the slots that body j has to add up, ascending */
     fl_ball_sum *slot;    /* [cross[chunks]] */
     fl_ball_sum *sum;     /* [bodies] */
+    fl_ball_sum *was;     /* [bodies] of the step before */
     fl_ball_tally *tally; /* [chunks] */
     double *stiff;        /* [bodies] sum of bounds of omega^2, of the last survey [1/s2] */
     double *stiff_slot;   /* [cross[chunks]] */

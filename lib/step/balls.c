@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/wide.h"
 #include "law/normal.h"
 #include "law/sphere.h"
 #include "step/balls.h"
@@ -19,7 +21,7 @@ void fl_balls_free(fl_balls *s)
 {
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
     free(s->first), free(s->cross), free(s->into), free(s->slots), free(s->slot);
-    free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
+    free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
     *s = (fl_balls){0};
 }
 
@@ -49,7 +51,8 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->tally = fl_alloc(s->chunks, sizeof *s->tally, err);
     s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
-    if (!s->first || !s->into || !s->cross || !s->tally || !s->stiff || !s->sum) return -1;
+    s->was = fl_alloc(w->n, sizeof *s->was, err);
+    if (!s->first || !s->into || !s->cross || !s->tally || !s->stiff || !s->sum || !s->was) return -1;
     s->bodies = w->n;
     return 0;
 }
@@ -220,53 +223,75 @@ static inline void put(double a[3][FL_SPHERES_MOST], int32_t m, fl_vec3 v)
     a[2][m] = v.z;
 }
 
-static inline fl_vec3 get(double a[3][FL_SPHERES_MOST], int32_t m) { return v3(a[0][m], a[1][m], a[2][m]); }
+static inline fl_vec3 get(const double a[3][FL_SPHERES_MOST], int32_t m)
+{
+    return v3(a[0][m], a[1][m], a[2][m]);
+}
+
+/* D of the image that is meant, most often the one in the same cell. */
+static inline fl_vec3 seen(const fl_cell *cell, const int32_t *image, int32_t c, fl_vec3 d)
+{
+    if (!image) return d;
+    const int32_t *e = &image[3 * c];
+    return e[0] | e[1] | e[2] ? v3_sub(d, fl_cell_way(cell, v3(e[0], e[1], e[2]))) : d;
+}
 
 static inline fl_vec3 between(const fl_world *w, int32_t c)
 {
     const fl_balls *s = &w->balls;
-    const fl_vec3 d = v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]);
-    if (!s->image) return d;
-    const int32_t *e = &s->image[3 * c];
-    return v3_sub(d, fl_cell_way(&w->cell, v3(e[0], e[1], e[2])));
+    return seen(&w->cell, s->image, c, v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]));
 }
 
-/* What the batch needs beside D, to be evaluated; or to be placed again. */
-static void load(const fl_world *w, batch *t, int placed)
+/* What the batch needs beside D to be placed again, */
+static void load_forces(const fl_world *w, batch *t)
 {
     const fl_balls *s = &w->balls;
-    const fl_bodies *b = &w->b;
     fl_spheres *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m], i = s->i[c], j = s->j[c];
+        const int32_t c = t->row[m];
         const fl_ball_row *r = &s->row[c];
-        a->ri[m] = b->radius[i];
-        a->rj[m] = b->radius[j];
+        a->ri[m] = w->b.radius[s->i[c]];
+        a->rj[m] = w->b.radius[s->j[c]];
         a->k[m] = r->k;
-        if (placed) {
-            put(a->rub, m, r->rub);
-            a->normal[m] = r->normal;
-            continue;
-        }
-        const fl_touching *law = &w->law[s->law[c]];
-        put(a->u, m, v3_sub(b->v[i], b->v[j]));
-        put(a->wi, m, b->w[i]);
-        put(a->wj, m, b->w[j]);
-        a->invm[m] = b->invm[i] + b->invm[j];
+        put(a->rub, m, r->rub);
+        a->normal[m] = r->normal;
+    }
+}
+
+/* and to be evaluated. */
+static void load(const fl_world *w, batch *restrict t)
+{
+    const fl_ball_row *row = w->balls.row;
+    const int32_t *bi = w->balls.i, *bj = w->balls.j, *bl = w->balls.law;
+    const fl_touching *laws = w->law;
+    const fl_vec3 *v = w->b.v, *spin = w->b.w;
+    const double *radius = w->b.radius, *invm = w->b.invm;
+    fl_spheres *a = &t->at;
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m], i = bi[c], j = bj[c];
+        const fl_ball_row *r = &row[c];
+        const fl_touching *law = &laws[bl[c]];
+        a->ri[m] = radius[i];
+        a->rj[m] = radius[j];
+        a->invm[m] = invm[i] + invm[j];
+        put(a->u, m, v3_sub(v[i], v[j]));
+        put(a->wi, m, spin[i]);
+        put(a->wj, m, spin[j]);
         a->friction[m] = law->friction;
         a->tangential[m] = law->tangential;
         a->chi[m] = law->chi;
+        a->k[m] = r->k;
         a->touch[m] = r->touch;
         put(a->slip, m, r->slip);
         a->stiff[m] = r->stiff;
     }
 }
 
-static void save(fl_world *w, batch *t)
+static void save(fl_ball_row *restrict row, const batch *restrict t)
 {
-    fl_spheres *a = &t->at;
+    const fl_spheres *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        fl_ball_row *r = &w->balls.row[t->row[m]];
+        fl_ball_row *r = &row[t->row[m]];
         r->touch = a->touch[m];
         r->slip = get(a->slip, m);
         r->stiff = a->stiff[m];
@@ -275,38 +300,44 @@ static void save(fl_world *w, batch *t)
     }
 }
 
-static inline void add(fl_ball_sum *s, double sign, fl_vec3 e, fl_vec3 d, fl_vec3 f, double arm, fl_vec3 turn)
-{
-    s->elastic = v3_madd(s->elastic, sign, e);
-    s->damping = v3_madd(s->damping, sign, d);
-    s->friction = v3_madd(s->friction, sign, f);
-    s->torque = v3_madd(s->torque, -arm, turn);
-}
+/* A sum is three registers of four. */
+enum { PARTS = 3 };
+static_assert(sizeof(fl_ball_sum) == PARTS * sizeof(fl_wide), "a sum is twelve doubles");
 
 /* Their wrenches to the sums of the chunk, and to slots. */
-static void hand_out(fl_world *w, batch *t, fl_ball_tally *tally)
+FL_WIDE_VERSIONS static void hand_out(const int32_t *restrict bi, const int32_t *restrict bj,
+                                      fl_ball_sum *restrict sums, fl_ball_sum *restrict slots,
+                                      const batch *restrict t)
 {
-    fl_balls *s = &w->balls;
-    fl_spheres *a = &t->at;
+    const fl_spheres *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m];
-        const fl_vec3 n = get(a->n, m), rub = get(a->rub, m), turn = get(a->turn, m);
-        const fl_vec3 elastic = v3_scale(a->elastic[m], n),
-                      damping = v3_scale(a->normal[m] - a->elastic[m], n);
-        const double half = 0.5 * a->overlap[m], both = a->ri[m] + a->rj[m];
-        add(&s->sum[s->i[c]], 1.0, elastic, damping, rub, a->ri[m] - half, turn);
-        if (t->slot[m] < 0) {
-            add(&s->sum[s->j[c]], -1.0, elastic, damping, rub, a->rj[m] - half, turn);
-        } else {
-            s->slot[t->slot[m]] = (fl_ball_sum){0};
-            add(&s->slot[t->slot[m]], -1.0, elastic, damping, rub, a->rj[m] - half, turn);
-        }
-        tally->force += a->size[m];
+        const int32_t c = t->row[m], slot = t->slot[m];
+        const double ex = a->push[0][m], ey = a->push[1][m], ez = a->push[2][m];
+        const double dx = a->damping[0][m], dy = a->damping[1][m], dz = a->damping[2][m];
+        const double fx = a->rub[0][m], fy = a->rub[1][m], fz = a->rub[2][m];
+        const fl_wide one = {ex, ey, ez, dx}, two = {dy, dz, fx, fy};
+        const fl_wide on_i = {fz, a->ti[0][m], a->ti[1][m], a->ti[2][m]},
+                      on_j = {-fz, a->tj[0][m], a->tj[1][m], a->tj[2][m]};
+        fl_wide *i = (fl_wide *)&sums[bi[c]], *j = (fl_wide *)(slot < 0 ? &sums[bj[c]] : &slots[slot]);
+        i[0] += one, i[1] += two, i[2] += on_i;
+        if (slot < 0) j[0] -= one, j[1] -= two, j[2] += on_j;
+        else j[0] = -one, j[1] = -two, j[2] = on_j;
+    }
+}
+
+static void count(const batch *t, fl_ball_tally *tally)
+{
+    const fl_spheres *a = &t->at;
+    double force = tally->force;
+    for (int32_t m = 0; m < t->m; m++) {
+        const double both = a->ri[m] + a->rj[m];
+        force += a->size[m];
         if (a->overlap[m] > tally->worst * both) {
             tally->worst = a->overlap[m] / both;
-            tally->worst_row = c;
+            tally->worst_row = t->row[m];
         }
     }
+    tally->force = force;
     tally->touching += t->m;
 }
 
@@ -342,13 +373,37 @@ static void part(fl_balls *s, int32_t c, int32_t slot)
     if (slot >= 0) s->slot[slot] = (fl_ball_sum){0};
 }
 
-/* dt < 0: nothing moves and nothing is evaluated, the sums are made again from what the rows hold. */
+/* What is done with a batch; dt < 0: nothing moves and nothing is evaluated, the sums are made again from
+ * what the rows hold. */
+static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
+{
+    fl_balls *s = &w->balls;
+    if (dt < 0.0) {
+        load_forces(w, t);
+        fl_spheres_place(&t->at, t->m);
+    } else {
+        load(w, t);
+        fl_spheres_meet(&t->at, t->m, dt);
+        save(s->row, t);
+    }
+    hand_out(s->i, s->j, s->sum, s->slot, t);
+    count(t, &s->tally[a]);
+    if (survey) survey_batch(w, t);
+    t->m = 0;
+}
+
+/* Whether a row touches is nothing that could be foreseen, so nothing here branches on it: what is found is
+ * written down behind the last that counts, and counts or does not. */
 static void take(fl_world *w, int32_t a, double dt, int survey)
 {
     fl_balls *s = &w->balls;
-    const fl_bodies *b = &w->b;
-    const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a);
+    const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a), from = s->first[begin],
+                  to = s->first[end];
+    const int32_t *bi = s->i, *bj = s->j, *image = s->image;
+    const double *radius = w->b.radius;
+    const fl_vec3 *x = w->b.x;
     const int again = dt < 0.0;
+    uint8_t *hit = s->hit;
     int32_t slot = s->cross[a];
     batch t;
     t.m = 0;
@@ -358,33 +413,22 @@ static void take(fl_world *w, int32_t a, double dt, int survey)
         memset(&s->stiff[begin], 0, (size_t)(end - begin) * sizeof *s->stiff);
         memset(&s->stiff_slot[slot], 0, (size_t)(s->cross[a + 1] - slot) * sizeof *s->stiff_slot);
     }
-    for (int32_t c = s->first[begin];; c++) {
-        const int last = c == s->first[end];
-        if (t.m && (last || t.m == FL_SPHERES_MOST)) {
-            load(w, &t, again);
-            if (again) fl_spheres_place(&t.at, t.m);
-            else {
-                fl_spheres_meet(&t.at, t.m, dt);
-                save(w, &t);
-            }
-            hand_out(w, &t, &s->tally[a]);
-            if (survey) survey_batch(w, &t);
-            t.m = 0;
-        }
-        if (last) break;
-        const fl_vec3 d = between(w, c);
-        const double R = b->radius[s->i[c]] + b->radius[s->j[c]];
-        const int touches = again ? s->hit[c] : v3_norm2(d) < R * R;
-        const int32_t own = s->j[c] >= end ? slot++ : -1;
-        if (touches) {
-            put(t.at.d, t.m, d);
-            t.row[t.m] = c;
-            t.slot[t.m++] = own;
-        } else if (s->hit[c]) {
-            part(s, c, own);
-        }
-        s->hit[c] = (uint8_t)touches;
+    for (int32_t c = from; c < to; c++) {
+        const int32_t i = bi[c], j = bj[c], m = t.m;
+        const fl_vec3 d = seen(&w->cell, image, c, v3_sub(x[i], x[j]));
+        const double R = radius[i] + radius[j];
+        const int leaves = j >= end, was = hit[c], touches = again ? was : v3_norm2(d) < R * R;
+        const int32_t own = leaves ? slot : -1;
+        slot += leaves;
+        put(t.at.d, m, d);
+        t.row[m] = c;
+        t.slot[m] = own;
+        hit[c] = (uint8_t)touches;
+        if (was > touches) part(s, c, own);
+        t.m = m + touches;
+        if (t.m == FL_SPHERES_MOST) finish(w, a, &t, dt, survey);
     }
+    if (t.m) finish(w, a, &t, dt, survey);
 }
 
 void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey) { take(w, a, dt, survey); }
@@ -472,7 +516,7 @@ fl_ball_count fl_balls_count(const fl_world *w)
 double fl_balls_bytes(const fl_world *w)
 {
     const fl_balls *s = &w->balls;
-    const double row = 3 * sizeof(int32_t) + sizeof *s->hit + sizeof *s->row, each = sizeof *s->sum,
+    const double row = 3 * sizeof(int32_t) + sizeof *s->hit + sizeof *s->row, each = 2 * sizeof *s->sum,
                  image = s->image ? 3 * sizeof(int32_t) : 0;
     if (!s->bodies) return 0.0;
     return s->n * (row + image) + s->cross[s->chunks] * (each + sizeof(int32_t) + sizeof(double)) +

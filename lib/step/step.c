@@ -42,14 +42,14 @@ static int touch(fl_world *w, double dt, int survey, fl_err *err)
     return w->press.panels ? fl_press_sort(w, err) : 0;
 }
 
-/* In waves the work of the water is booked with the kick that it gives.  What the kick changes goes to gain
- * where contacts have pressed, for the works of those. */
+/* In waves the work of the water is booked with the kick that it gives.  What the kick changes goes to gain,
+ * for the works of contacts. */
 static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
 {
     const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
     fl_kick(&w->b, k, h);
     if (w->sea.waves) fl_sea_book(&w->sea, &w->b, k, h, v, spin);
-    if (w->was[k].n) *gain = (fl_gain){v3_sub(w->b.v[k], v), v3_sub(w->b.w[k], spin)};
+    *gain = (fl_gain){v3_sub(w->b.v[k], v), v3_sub(w->b.w[k], spin)};
 }
 
 /* What the spring of a driven floe pulls it down with [N]. */
@@ -71,16 +71,90 @@ void fl_step_gather(fl_world *w, int32_t k)
         if (w->sea.water) fl_sea_force(&w->sea, b, k);
     }
     if (w->row.n && k < w->n) b->f[k].z -= spring_force(w, k);
-    if (w->balls.bodies && k < w->n) {
-        fl_balls_force(w, k, &b->f[k], &b->t[k]);
-        fl_works_add_balls(&w->sink[k], &w->balls.sum[k]);
-    }
+    if (w->balls.bodies && k < w->n) { fl_balls_force(w, k, &b->f[k], &b->t[k]); }
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
         const fl_pair *p = &w->pair[w->inc[c]];
         b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
         b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
         fl_works_add(&w->sink[k], p, p->i == k);
+    }
+}
+
+/* --- bodies by groups, each in the hands of one thread ----------------------------------------- */
+
+static int32_t groups(const fl_world *w) { return (w->n + FL_BALLS_GROUP - 1) / FL_BALLS_GROUP; }
+
+static int32_t end_of(const fl_world *w, int32_t g)
+{
+    const int32_t end = (g + 1) * FL_BALLS_GROUP;
+    return end < w->n ? end : w->n;
+}
+
+/* Nothing more is to be done for it than to kick it and let it drift. */
+static int plain(const fl_world *w, int32_t k)
+{
+    return fl_body_plain(&w->b, k) && !w->sea.waves && !fl_world_away(w, k);
+}
+
+/* Kick by h and drift by dt (0: not at all); what is plain goes several at a time.  gain[0] is that of
+ * `from`. */
+static void move(fl_world *w, int32_t from, int32_t to, double h, double dt, fl_gain *gain)
+{
+    for (int32_t k = from; k < to; k++) {
+        int32_t end = k;
+        while (end < to && plain(w, end)) end++;
+        if (end > k) {
+            fl_move_plain(&w->b, k, end, h, dt);
+            k = end - 1;
+        } else if (!fl_world_away(w, k)) {
+            kick(w, k, h, &gain[k - from]);
+            if (dt != 0.0) fl_drift(&w->b, k, dt);
+        }
+    }
+}
+
+static int finite3(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
+
+/* What contacts push body i < n with. */
+static fl_vec3 pushed(const fl_world *w, int32_t i)
+{
+    fl_vec3 f = w->b.f[i];
+    if (w->row.n) f.z += spring_force(w, i);
+    f = v3_madd(f, -w->b.m[i], w->gravity);
+    return w->sea.water ? v3_sub(f, fl_sea_push(&w->sea, i)) : f;
+}
+
+/* What a kick by h gives to a plain body. */
+static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
+{
+    return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h / b->I[k].x, b->t[k])};
+}
+
+/* Forces on the bodies of group g, their kick by h (0 at the start: there is none), what the water takes, and
+ * what the books want of them.  The first kick of a plain body is known from the forces that it had. */
+static void end_group(fl_world *w, int32_t g, double h)
+{
+    fl_bodies *b = &w->b;
+    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
+    fl_gain first[FL_BALLS_GROUP], back[FL_BALLS_GROUP];
+    fl_group *own = &w->group[g];
+    *own = (fl_group){.lost = -1};
+    for (int32_t k = from; k < to; k++) {
+        first[k - from] = plain(w, k) ? gain_of(b, k, h) : w->gain[k];
+        if (w->balls.bodies) fl_balls_collect(w, k);
+        fl_step_gather(w, k);
+    }
+    if (h > 0.0) move(w, from, to, h, 0.0, back);
+    for (int32_t k = from; k < to; k++) {
+        if (own->lost < 0 && !(finite3(b->f[k]) && finite3(b->t[k]) && finite3(b->x[k]) && finite3(b->v[k])))
+            own->lost = k;
+        if (fl_world_away(w, k)) continue;
+        own->pushed = v3_add(own->pushed, pushed(w, k));
+        if (!(h > 0.0)) continue;
+        if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
+        if (plain(w, k)) back[k - from] = gain_of(b, k, h);
+        fl_works_take(w, k, &first[k - from], &back[k - from]);
     }
 }
 
@@ -115,15 +189,13 @@ static void survey_stiffness(fl_world *w)
     if (w->ride.m.n) fl_ride_survey(w);
 }
 
-static int finite3(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
-
 static int check(fl_world *w, int survey, fl_err *err)
 {
     if (w->failed) return fl_fail(err, FL_SYSTEM, "out of memory in step %lld", (long long)w->step);
-    for (int32_t i = 0; i < w->n; i++)
-        if (!finite3(w->b.f[i]) || !finite3(w->b.t[i]) || !finite3(w->b.x[i]) || !finite3(w->b.v[i]))
-            return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)", w->id[i],
-                           (long long)w->step, fl_world_time(w));
+    for (int32_t g = 0; g < groups(w); g++)
+        if (w->group[g].lost >= 0)
+            return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)",
+                           w->id[w->group[g].lost], (long long)w->step, fl_world_time(w));
     if (survey && w->dt > w->dt_critical) {
         const int32_t i = w->critical_body;
         char who[64];
@@ -195,16 +267,8 @@ static void account(fl_world *w, double dt)
         w->impulse_size += dt * all.force;
         w->touching_steps += all.touching;
     }
-    for (int32_t k = 0; k < b->total; k++) {
-        fl_vec3 f = b->f[k];
-        if (k < w->n) {
-            if (fl_world_away(w, k)) continue;
-            if (w->row.n) f.z += spring_force(w, k);
-            f = v3_madd(f, -b->m[k], w->gravity);
-            if (w->sea.water) f = v3_sub(f, fl_sea_push(&w->sea, k));
-        }
-        balance = v3_add(balance, f);
-    }
+    for (int32_t g = 0; g < groups(w); g++) balance = v3_add(balance, w->group[g].pushed);
+    for (int32_t k = w->n; k < b->total; k++) balance = v3_add(balance, b->f[k]);
     w->imbalance = v3_madd(w->imbalance, dt, balance);
 }
 
@@ -215,8 +279,8 @@ int fl_step_start(fl_world *w, fl_err *err)
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (touch(w, 0.0, 1, err)) return -1;
-    for (int32_t k = 0; k < w->balls.bodies; k++) fl_balls_collect(w, k);
-    for (int32_t k = 0; k < w->b.total; k++) fl_step_gather(w, k);
+    for (int32_t g = 0; g < groups(w); g++) end_group(w, g, 0.0);
+    for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
     if (w->ride.m.n) {
         fl_ride_ready(w);
         fl_ride_back(w, 0.0, 0.0);
@@ -242,25 +306,24 @@ int fl_step(fl_world *w, fl_err *err)
     fl_works_begin(w);
     if (rides) fl_ride_out(w, fl_world_time(w));
 #pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < b->total; k++) {
-        if (k < w->n && fl_world_away(w, k)) continue;
-        if (sea && k < w->n) fl_sea_drag(&w->sea, b, k, h, 0);
-        if (k < w->n) kick(w, k, h, &w->gain[k]);
-        if (!rides || k < w->n || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
+    for (int32_t g = 0; g < groups(w); g++) {
+        const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
+        for (int32_t k = from; k < to && sea; k++)
+            if (!fl_world_away(w, k)) fl_sea_drag(&w->sea, b, k, h, 0);
+        move(w, from, to, h, dt, &w->gain[from]);
     }
+    for (int32_t k = w->n; k < b->total; k++)
+        if (!rides || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
     w->step++;
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (touch(w, dt, survey, err)) return -1;
-#pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < b->total; k++) {
-        if (k < w->balls.bodies) fl_balls_collect(w, k);
-        fl_step_gather(w, k);
-        if (k >= w->n || fl_world_away(w, k)) continue;
-        fl_gain back;
-        kick(w, k, h, &back);
-        if (sea) fl_sea_drag(&w->sea, b, k, h, 1);
-        fl_works_take(w, k, &back);
+#pragma omp parallel
+    {
+#pragma omp for schedule(static) nowait
+        for (int32_t g = 0; g < groups(w); g++) end_group(w, g, h);
+#pragma omp for schedule(static)
+        for (int32_t k = w->n; k < b->total; k++) fl_step_gather(w, k);
     }
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     fl_works_book(w);

@@ -8,7 +8,6 @@ static double power(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(
 void fl_works_sum(fl_world *w, int32_t k)
 {
     fl_sink s = {0};
-    if (w->balls.bodies && k < w->n) fl_works_add_balls(&s, &w->balls.sum[k]);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
         const fl_pair *p = &w->pair[w->inc[c]];
@@ -17,7 +16,22 @@ void fl_works_sum(fl_world *w, int32_t k)
     w->sink[k] = s;
 }
 
-void fl_works_take(fl_world *w, int32_t k, const fl_gain *back)
+/* The works above of spheres, those of damping and of friction; nothing presses on them but what they meet.
+ */
+static void take_balls(const fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back,
+                       double *damped, double *rubbed)
+{
+    const fl_ball_sum *f0 = &w->balls.was[k], *f1 = &w->balls.sum[k];
+    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+    const double sixth = w->dt / 6.0;
+    *damped -= w->dt * v3_dot(f1->damping, v) +
+               sixth * (v3_dot(f1->damping, first->v) - v3_dot(f0->damping, back->v));
+    *rubbed -= w->dt * power(f1->friction, f1->torque, v, spin) +
+               sixth * (power(f1->friction, f1->torque, first->v, first->w) -
+                        power(f0->friction, f0->torque, back->v, back->w));
+}
+
+void fl_works_take(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back)
 {
     const fl_sink *f0 = &w->was[k], *f1 = &w->sink[k];
     double damped = 0.0, rubbed = 0.0;
@@ -28,13 +42,13 @@ void fl_works_take(fl_world *w, int32_t k, const fl_gain *back)
     }
     /* Where nothing pressed at the begin of the step F0 is 0, and a0 small against what F1 gives. */
     if (f0->n) {
-        const fl_gain *first = &w->gain[k];
         const double sixth = w->dt / 6.0; /* dt^2/12 over the dt/2 in which a kick gains */
         damped -= sixth * (power(f1->damping, f1->damping_turn, first->v, first->w) -
                            power(f0->damping, f0->damping_turn, back->v, back->w));
         rubbed -= sixth * (power(f1->friction, f1->friction_turn, first->v, first->w) -
                            power(f0->friction, f0->friction_turn, back->v, back->w));
     }
+    if (w->balls.bodies && k < w->n) take_balls(w, k, first, back, &damped, &rubbed);
     w->damped[k] = damped;
     w->rubbed[k] = rubbed;
 }
@@ -66,6 +80,9 @@ void fl_works_begin(fl_world *w)
     fl_sink *was = w->was;
     w->was = w->sink;
     w->sink = was;
+    fl_ball_sum *sum = w->balls.was;
+    w->balls.was = w->balls.sum;
+    w->balls.sum = sum;
     for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) w->gain[k] = gain_of(w, k);
 }
 
@@ -87,7 +104,7 @@ void fl_works_book(fl_world *w)
     fl_ledger *g = &w->ledger;
     for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) {
         const fl_gain back = gain_of(w, k);
-        fl_works_take(w, k, &back);
+        fl_works_take(w, k, &w->gain[k], &back);
     }
     g->damping += fl_par_sum(w->damped, w->b.total);
     g->friction += fl_par_sum(w->rubbed, w->b.total);
@@ -100,9 +117,17 @@ fl_works fl_works_ahead(const fl_world *w)
     fl_works sum = {.drive = h * drive_power(w)};
     for (int32_t k = 0; k < w->b.total; k++) {
         const fl_sink *s = &w->sink[k];
-        if (s->n == 0) continue;
+        const int meets = w->balls.bodies && k < w->n;
+        if (s->n == 0 && !meets) continue;
         const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
         const fl_gain a = rate_of(w, k);
+        if (meets) {
+            const fl_ball_sum *q = &w->balls.sum[k];
+            sum.damping -= h * v3_dot(q->damping, v) + sixth * v3_dot(q->damping, a.v);
+            sum.friction -=
+                h * power(q->friction, q->torque, v, spin) + sixth * power(q->friction, q->torque, a.v, a.w);
+        }
+        if (s->n == 0) continue;
         sum.damping -= h * power(s->damping, s->damping_turn, v, spin) +
                        sixth * power(s->damping, s->damping_turn, a.v, a.w);
         sum.friction -= h * power(s->friction, s->friction_turn, v, spin) +

@@ -27,27 +27,17 @@ static inline void fl_works_add(fl_sink *s, const fl_pair *p, int is_i)
     s->friction_turn = v3_add(s->friction_turn, is_i ? p->si : p->sj);
 }
 
-/* The same of all spheres that a sphere meets; n counts them as one. */
-static inline void fl_works_add_balls(fl_sink *s, const fl_ball_sum *q)
-{
-    if (v3_norm2(q->damping) + v3_norm2(q->friction) + v3_norm2(q->torque) == 0.0) return;
-    s->n++;
-    s->damping = v3_add(s->damping, q->damping);
-    s->friction = v3_add(s->friction, q->friction);
-    s->friction_turn = v3_add(s->friction_turn, q->torque);
-}
-
 /* Sum up what damping and friction do to thing k, over its touching pairs in their order, into sink[k]. */
 void fl_works_sum(fl_world *w, int32_t k);
 
-/* Before a step: sink[] becomes was[], and gain[] of the pieces of a structure that moves by itself is what
- * the first kick will give them. */
+/* Before a step: sink[] becomes was[], so it is with the sums of spheres, and gain[] of the pieces of a
+ * structure that moves by itself is what the first kick will give them. */
 void fl_works_begin(fl_world *w);
 
 /* The works of the step that has ended in floe k, into damped[k] and rubbed[k]: sink[k] acts now and was[k]
- * at its begin, gain[k] is what its first kick changed, `back` its last (neither is read where was[k].n is
- * 0), velocities are those of now. */
-void fl_works_take(fl_world *w, int32_t k, const fl_gain *back);
+ * at its begin, `first` is what its first kick changed, `back` its last (neither is read where nothing
+ * pressed at the begin), velocities are those of now.  Spheres that it meets come with their own sums. */
+void fl_works_take(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back);
 
 /* The same of what of the structure moves, and all of it into the ledger, with the half kick that lies ahead.
  */

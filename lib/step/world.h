@@ -186,6 +186,12 @@ typedef struct {
     double *rest; /* [n] the height it pulls to [m] */
 } fl_row;
 
+/* What a step tells of a group of bodies, FL_BALLS_GROUP in a row. */
+typedef struct {
+    fl_vec3 pushed; /* sum of the forces of contacts [N]                      */
+    int32_t lost;   /* the first that has a number which is not finite, or -1 */
+} fl_group;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
@@ -207,8 +213,9 @@ typedef struct {
     int32_t materials;
 
     fl_pairs near;
-    fl_aabb *box;   /* [total] */
-    fl_balls balls; /* near pairs of spheres; all others: */
+    fl_aabb *box;    /* [total] */
+    fl_group *group; /* [n / FL_BALLS_GROUP + 1] */
+    fl_balls balls;  /* near pairs of spheres; all others: */
     fl_pair *pair;
     int32_t n_pair, pair_cap;
     int64_t *inc_first; /* [total + 1] pairs of each body, ascending */

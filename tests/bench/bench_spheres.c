@@ -113,8 +113,8 @@ static int row(const ball *b, int32_t tiles, int threads, double dt, int64_t ste
     const double search = now(CLOCK_MONOTONIC) - begun;
     fl_step_ledger(&l.w);
     const fl_ledger *g = &l.w.ledger;
-    printf("%8d %7d %10.1f %12.1f %10.2f %10.2f %10.0f %10.0f %12.1e %12.1e\n", n, threads, 1e9 * best / n,
-           1e9 * best / contacts, cpu / best, contacts / n, 1e9 * search / n, bytes,
+    printf("%8d %7d %10.1f %12.1f %10.2f %10.2f %10.0f %10.0f %12.1e %12.1e\n", n, threads, 1e9 * cpu / n,
+           1e9 * cpu / contacts, 1e9 * best / contacts, contacts / n, 1e9 * search / n, bytes,
            fabs(g->residual) / g->elastic, l.w.worst_overlap);
     const int bad = !(fabs(g->residual) < 1e-3 * g->elastic && l.w.worst_overlap < 0.1);
     lab_free(&l);
@@ -124,7 +124,7 @@ static int row(const ball *b, int32_t tiles, int threads, double dt, int64_t ste
 static void head(void)
 {
     printf("%8s %7s %10s %12s %10s %10s %10s %10s %12s %12s\n", "spheres", "threads", "ns/body", "ns/contact",
-           "cpu/wall", "contacts", "search", "memory", "residual", "overlap");
+           "by clock", "contacts", "search", "memory", "residual", "overlap");
     printf("%8s %7s %10s %12s %10s %10s %10s %10s %12s %12s\n", "", "", "and step", "and step", "", "a body",
            "ns/body", "B/body", "/elastic", "/2R");
 }

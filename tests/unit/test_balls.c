@@ -177,8 +177,7 @@ static void batches(void **state)
     fl_spheres_meet(&b, FL_SPHERES_MOST, 0.01);
     for (int c = 0; c < FL_SPHERES_MOST; c++) {
         const int to = (7 * c + 3) % FL_SPHERES_MOST;
-        assert_true(a.normal[c] == b.normal[to] && a.rub[1][c] == b.rub[1][to] &&
-                    a.turn[2][c] == b.turn[2][to]);
+        assert_true(a.normal[c] == b.normal[to] && a.rub[1][c] == b.rub[1][to] && a.ti[2][c] == b.ti[2][to]);
         assert_true(isfinite(a.normal[c]) && isfinite(a.rub[0][c]) && isfinite(a.size[c]));
     }
     assert_true(a.n[0][5] == 0.0 && a.n[1][5] == 0.0 && a.n[2][5] == 1.0);
