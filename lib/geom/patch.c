@@ -168,39 +168,6 @@ static void patch_sums(const fl_part *p, const web *w, int32_t n, double *volume
     }
 }
 
-int fl_part_orient(fl_part *p, fl_orient *o, fl_err *err)
-{
-    web w;
-    *o = (fl_orient){0};
-    if (web_make(&w, p, err)) return -1;
-    for (int32_t t0 = 0; t0 < p->nt; t0++) {
-        double volume, kept, turned;
-        int flip;
-        patch g;
-        if (w.sign[t0] || repeats(&p->t[t0])) continue;
-        g = walk(&w, t0);
-        patch_sums(p, &w, g.n, &volume, &kept, &turned);
-        o->rimmed += g.rim;
-        o->twisted += g.twisted;
-        flip = turned > kept;
-        for (int32_t k = 0; k < g.n; k++) o->triangles += (w.sign[w.queue[k]] < 0) != flip;
-        if (!g.rim && !g.twisted && (flip ? -volume : volume) < 0.0) {
-            flip = !flip;
-            o->patches++;
-        }
-        for (int32_t k = 0; k < g.n; k++) {
-            int32_t *v = p->t[w.queue[k]].v;
-            if ((w.sign[w.queue[k]] < 0) != flip) {
-                const int32_t keep = v[1];
-                v[1] = v[2];
-                v[2] = keep;
-            }
-        }
-    }
-    web_free(&w);
-    return 0;
-}
-
 /* --- measures ------------------------------------------------------------------------------------------- */
 
 typedef struct {
@@ -239,7 +206,30 @@ static void add_part(sums *s, fl_quality *q, const fl_part *p, fl_vec3 o)
     for (int32_t c = 0; c < p->nc; c++) add_cone(s, &p->cone[c], o);
 }
 
-static int add_edges(fl_quality *q, const fl_part *p, fl_err *err)
+/* Turn the triangles of a patch that has been walked. */
+static void turn(fl_part *p, const web *w, const patch *g, double volume, double kept, double turned,
+                 fl_orient *o)
+{
+    int flip = turned > kept;
+    o->rimmed += g->rim;
+    o->twisted += g->twisted;
+    for (int32_t k = 0; k < g->n; k++) o->triangles += (w->sign[w->queue[k]] < 0) != flip;
+    if (!g->rim && !g->twisted && (flip ? -volume : volume) < 0.0) {
+        flip = !flip;
+        o->patches++;
+    }
+    for (int32_t k = 0; k < g->n; k++) {
+        int32_t *v = p->t[w->queue[k]].v;
+        if ((w->sign[w->queue[k]] < 0) != flip) {
+            const int32_t keep = v[1];
+            v[1] = v[2];
+            v[2] = keep;
+        }
+    }
+}
+
+/* Walk all patches: count edges and patches, and with o turn each patch once it is counted. */
+static int walk_all(fl_quality *q, const fl_part *p, fl_part *turned_over, fl_orient *o, fl_err *err)
 {
     web w;
     if (web_make(&w, p, err)) return -1;
@@ -255,36 +245,48 @@ static int add_edges(fl_quality *q, const fl_part *p, fl_err *err)
         patch_sums(p, &w, g.n, &volume, &kept, &turned);
         q->patches++;
         q->inverted += !g.rim && !g.twisted && turned == 0.0 && volume < 0.0;
+        if (o) turn(turned_over, &w, &g, volume, kept, turned, o);
     }
     web_free(&w);
     return 0;
 }
 
-static int measure(const fl_part *p, int32_t n, fl_quality *q, fl_err *err)
+/* Of n parts; with o, of one part, which is turned too. */
+static int measure(const fl_part *p, int32_t n, fl_part *turned_over, fl_quality *q, fl_orient *o,
+                   fl_err *err)
 {
     const fl_surface all = {.n = n, .part = (fl_part *)p};
     sums s = {0};
-    fl_vec3 o = {0};
+    fl_vec3 middle = {0};
     *q = (fl_quality){.closed = 1, .shortest = INFINITY, .box = fl_surface_aabb(&all)};
-    if (q->box.lo.x <= q->box.hi.x) o = v3_scale(0.5, v3_add(q->box.lo, q->box.hi));
+    if (q->box.lo.x <= q->box.hi.x) middle = v3_scale(0.5, v3_add(q->box.lo, q->box.hi));
     for (int32_t i = 0; i < n; i++) {
         q->vertices += p[i].nv;
         q->triangles += p[i].nt;
         q->cones += p[i].nc;
-        add_part(&s, q, &p[i], o);
-        if (p[i].nt && add_edges(q, &p[i], err)) return -1;
+        add_part(&s, q, &p[i], middle);
+        if (p[i].nt && walk_all(q, &p[i], turned_over, o, err)) return -1;
     }
     q->volume = s.volume;
     q->area = s.area;
-    q->centroid = o;
-    if (q->closed && s.volume != 0.0) q->centroid = v3_madd(o, 1.0 / s.volume, s.vc);
-    else if (s.area > 0.0) q->centroid = v3_madd(o, 1.0 / s.area, s.ac);
+    q->centroid = middle;
+    if (q->closed && s.volume != 0.0) q->centroid = v3_madd(middle, 1.0 / s.volume, s.vc);
+    else if (s.area > 0.0) q->centroid = v3_madd(middle, 1.0 / s.area, s.ac);
     return 0;
 }
 
-int fl_part_measure(const fl_part *p, fl_quality *q, fl_err *err) { return measure(p, 1, q, err); }
+int fl_part_measure(const fl_part *p, fl_quality *q, fl_err *err)
+{
+    return measure(p, 1, NULL, q, NULL, err);
+}
 
 int fl_surface_measure(const fl_surface *s, fl_quality *q, fl_err *err)
 {
-    return measure(s->part, s->n, q, err);
+    return measure(s->part, s->n, NULL, q, NULL, err);
+}
+
+int fl_part_orient(fl_part *p, fl_quality *came, fl_orient *o, fl_err *err)
+{
+    *o = (fl_orient){0};
+    return measure(p, 1, p, came, o, err);
 }

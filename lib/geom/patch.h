@@ -39,7 +39,10 @@ typedef struct {
 } fl_orient;
 
 /* Make each patch coherent by flood fill across edges of two triangles, then turn closed patches to positive
- * volume.  Cones need none of this.  Returns 0, or -1 with FL_SYSTEM. */
-int fl_part_orient(fl_part *p, fl_orient *o, fl_err *err);
+ * volume.  Cones need none of this.
+ *   came   what fl_part_measure() says of the part as it came.  Where nothing is turned (o->triangles and
+ *          o->patches are 0), of what it is now, too
+ * Returns 0, or -1 with FL_SYSTEM. */
+int fl_part_orient(fl_part *p, fl_quality *came, fl_orient *o, fl_err *err);
 
 #endif

@@ -22,35 +22,18 @@ static uint64_t hash_place(fl_vec3 x)
     return mix(u[0] * UINT64_C(0x9e3779b97f4a7c15) + mix(u[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + mix(u[2])));
 }
 
-/* to[v] = first vertex at the same place: an open table of those, at most half full. */
-static int merge_equal(const fl_part *p, int32_t *to, fl_err *err)
-{
-    uint64_t mask = 16;
-    int32_t *table;
-    while (mask < 2 * (uint64_t)p->nv) mask *= 2;
-    table = fl_alloc((int64_t)mask, sizeof *table, err); /* vertex plus one, 0 for free */
-    if (!table) return -1;
-    mask--;
-    for (int32_t v = 0; v < p->nv; v++) {
-        const fl_vec3 x = p->v[v];
-        uint64_t k = hash_place(x) & mask;
-        for (; table[k]; k = (k + 1) & mask) {
-            const fl_vec3 y = p->v[table[k] - 1];
-            if (x.x == y.x && x.y == y.y && x.z == y.z) break;
-        }
-        if (!table[k]) table[k] = v + 1;
-        to[v] = table[k] - 1;
-    }
-    free(table);
-    return 0;
-}
+/* Cells of this many tolerances, where edges are longer: then most points have all that is within tol of them
+ * in one cell, and few vertices share one. */
+static const double WIDE = 64.0;
 
-/* A hash of cells of side 2 tol, so that all within tol of a point lies in at most eight of them. */
+/* Vertices that stay, by the cell they lie in; of the others those that nobody else is in the place of, by
+ * their place. */
 typedef struct {
     fl_vec3 lo;
-    double cell;
+    double per; /* cells per length; 0 where only equal places count */
     uint64_t mask;
-    int32_t *head, *next; /* chains of vertices; -1 ends one */
+    int32_t *head, *gone; /* chains of vertices; -1 ends one.  gone is NULL until there is one */
+    int32_t *next;
 } grid;
 
 static uint64_t slot(const grid *g, int64_t ix, int64_t iy, int64_t iz)
@@ -61,14 +44,37 @@ static uint64_t slot(const grid *g, int64_t ix, int64_t iy, int64_t iz)
     return mix(h) & g->mask;
 }
 
-static int64_t cell_of(double x, double lo, double cell) { return (int64_t)floor((x - lo) / cell); }
+/* Never falls as x rises, so that what lies between two points lies between their cells. */
+static int64_t cell_of(double x, double lo, double per)
+{
+    const double c = (x - lo) * per;
+    const int64_t k = (int64_t)c;
+    return k - (c < (double)k);
+}
 
-/* Nearest vertex in the grid within tol of x, the lowest index on a tie; -1 for none. */
+static uint64_t own_slot(const grid *g, fl_vec3 x)
+{
+    if (g->per == 0.0) return hash_place(x) & g->mask;
+    return slot(g, cell_of(x.x, g->lo.x, g->per), cell_of(x.y, g->lo.y, g->per),
+                cell_of(x.z, g->lo.z, g->per));
+}
+
+static int same_place(fl_vec3 x, fl_vec3 y) { return x.x == y.x && x.y == y.y && x.z == y.z; }
+
+/* The vertex of a chain in the place x, -1 for none. */
+static int32_t twin_in(const int32_t *head, const grid *g, uint64_t k, const fl_part *p, fl_vec3 x)
+{
+    int32_t v = head[k];
+    while (v >= 0 && !same_place(p->v[v], x)) v = g->next[v];
+    return v;
+}
+
+/* Nearest vertex that stays within tol of x, the lowest index on a tie; -1 for none. */
 static int32_t nearest(const grid *g, const fl_part *p, fl_vec3 x, double tol, double *distance)
 {
-    const int64_t x0 = cell_of(x.x - tol, g->lo.x, g->cell), x1 = cell_of(x.x + tol, g->lo.x, g->cell);
-    const int64_t y0 = cell_of(x.y - tol, g->lo.y, g->cell), y1 = cell_of(x.y + tol, g->lo.y, g->cell);
-    const int64_t z0 = cell_of(x.z - tol, g->lo.z, g->cell), z1 = cell_of(x.z + tol, g->lo.z, g->cell);
+    const int64_t x0 = cell_of(x.x - tol, g->lo.x, g->per), x1 = cell_of(x.x + tol, g->lo.x, g->per);
+    const int64_t y0 = cell_of(x.y - tol, g->lo.y, g->per), y1 = cell_of(x.y + tol, g->lo.y, g->per);
+    const int64_t z0 = cell_of(x.z - tol, g->lo.z, g->per), z1 = cell_of(x.z + tol, g->lo.z, g->per);
     int32_t best = -1;
     double least = tol;
     for (int64_t i = x0; i <= x1; i++)
@@ -84,37 +90,57 @@ static int32_t nearest(const grid *g, const fl_part *p, fl_vec3 x, double tol, d
     return best;
 }
 
-static int merge_near(const fl_part *p, int32_t *to, fl_vec3 lo, fl_weld *w, fl_err *err)
+/* A vertex that goes, and that another one in its place will ask for. */
+static int remember(grid *g, int32_t v, fl_vec3 x, fl_err *err)
 {
-    grid g = {.lo = lo, .cell = 2.0 * w->tol, .mask = 16};
-    int32_t *mem;
-    while (g.mask < 2 * (uint64_t)p->nv) g.mask *= 2;
-    mem = fl_alloc((int64_t)g.mask + p->nv, sizeof *mem, err);
-    if (!mem) return -1;
-    g.head = mem;
-    g.next = mem + g.mask;
-    for (uint64_t k = 0; k < g.mask; k++) g.head[k] = -1;
-    g.mask--;
-    for (int32_t v = 0; v < p->nv; v++) {
-        double d;
-        int32_t u;
-        if (to[v] != v) {
-            to[v] = to[to[v]]; /* its twin came first, and may have moved since */
-            continue;
-        }
-        u = nearest(&g, p, p->v[v], w->tol, &d);
-        if (u >= 0) {
-            to[v] = u;
-            if (d > w->moved) w->moved = d;
-        } else {
-            const uint64_t k = slot(&g, cell_of(p->v[v].x, lo.x, g.cell), cell_of(p->v[v].y, lo.y, g.cell),
-                                    cell_of(p->v[v].z, lo.z, g.cell));
-            g.next[v] = g.head[k];
-            g.head[k] = v;
-        }
+    const uint64_t k = hash_place(x) & g->mask;
+    if (!g->gone) {
+        g->gone = fl_alloc((int64_t)g->mask + 1, sizeof *g->gone, err);
+        if (!g->gone) return -1;
+        memset(g->gone, -1, (size_t)(g->mask + 1) * sizeof *g->gone);
     }
-    free(mem);
+    g->next[v] = g->gone[k];
+    g->gone[k] = v;
     return 0;
+}
+
+static int merge_one(grid *g, const fl_part *p, int32_t v, int32_t *to, fl_weld *w, fl_err *err)
+{
+    const fl_vec3 x = p->v[v];
+    const uint64_t own = own_slot(g, x);
+    int32_t u = twin_in(g->head, g, own, p, x);
+    double d;
+    if (u < 0 && g->gone) u = twin_in(g->gone, g, hash_place(x) & g->mask, p, x);
+    to[v] = u >= 0 ? to[u] : v;
+    if (u >= 0) return 0;
+    u = w->tol > 0.0 ? nearest(g, p, x, w->tol, &d) : -1;
+    if (u < 0) {
+        g->next[v] = g->head[own];
+        g->head[own] = v;
+        return 0;
+    }
+    to[v] = u;
+    w->moved = fmax(w->moved, d);
+    return remember(g, v, x, err);
+}
+
+/* to[v] = the vertex that v becomes: that of the first one in the same place, or the nearest earlier one
+ * within tol, or itself. */
+static int merge(const fl_part *p, int32_t *to, fl_vec3 lo, double edge, fl_weld *w, fl_err *err)
+{
+    grid g = {.lo = lo, .mask = 16};
+    int rc = 0;
+    if (w->tol > 0.0) g.per = 1.0 / fmax(2.0 * w->tol, fmin(WIDE * w->tol, edge));
+    while (g.mask < 2 * (uint64_t)p->nv) g.mask *= 2;
+    g.head = fl_alloc((int64_t)g.mask + p->nv, sizeof *g.head, err);
+    if (!g.head) return -1;
+    g.next = g.head + g.mask;
+    memset(g.head, -1, (size_t)g.mask * sizeof *g.head);
+    g.mask--;
+    for (int32_t v = 0; rc == 0 && v < p->nv; v++) rc = merge_one(&g, p, v, to, w, err);
+    free(g.head);
+    free(g.gone);
+    return rc;
 }
 
 /* Put the vertices in the order of their first use, and drop the rest; index[nv] is scratch.  Returns how
@@ -141,17 +167,17 @@ static int32_t renumber(fl_part *p, int32_t *index, fl_vec3 *scratch)
 static double shortest_edge(const fl_part *p)
 {
     double least = INFINITY;
-    for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3; k++) {
-            const double l = v3_norm(v3_sub(p->v[p->t[t].v[k]], p->v[p->t[t].v[(k + 1) % 3]]));
-            if (l > 0.0 && l < least) least = l;
-        }
-    return least;
+    for (int32_t t = 0; t < p->nt; t++) {
+        const fl_vec3 a = p->v[p->t[t].v[0]], b = p->v[p->t[t].v[1]], c = p->v[p->t[t].v[2]];
+        const double l[3] = {v3_norm2(v3_sub(a, b)), v3_norm2(v3_sub(b, c)), v3_norm2(v3_sub(c, a))};
+        for (int k = 0; k < 3; k++)
+            if (l[k] > 0.0 && l[k] < least) least = l[k];
+    }
+    return sqrt(least);
 }
 
-static int choose_tol(const fl_part *p, double tol, double diagonal, fl_weld *w, fl_err *err)
+static int choose_tol(const fl_part *p, double tol, double diagonal, double edge, fl_weld *w, fl_err *err)
 {
-    const double edge = shortest_edge(p);
     if (tol > edge)
         return fl_fail(
             err, FL_INPUT,
@@ -162,10 +188,22 @@ static int choose_tol(const fl_part *p, double tol, double diagonal, fl_weld *w,
     return 0;
 }
 
+/* Has any triangle an index twice? */
+static int repeated(const fl_part *p)
+{
+    int any = 0;
+    for (int32_t t = 0; t < p->nt; t++) {
+        const int32_t *v = p->t[t].v;
+        any |= v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+    }
+    return any;
+}
+
 int fl_part_weld(fl_part *p, double tol, fl_weld *w, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(p);
     const double diagonal = p->nt ? v3_norm(v3_sub(box.hi, box.lo)) : 0.0;
+    const double edge = shortest_edge(p);
     int32_t *to = NULL, kept = 0;
     fl_vec3 *scratch = NULL;
     int rc = -1;
@@ -174,13 +212,17 @@ int fl_part_weld(fl_part *p, double tol, fl_weld *w, fl_err *err)
         return fl_fail(err, FL_INPUT, "part \"%.60s\": a box of %g m across is too large to measure",
                        p->name ? p->name : "", diagonal);
     }
-    if (choose_tol(p, tol, diagonal, w, err)) return -1;
+    if (choose_tol(p, tol, diagonal, edge, w, err)) return -1;
     scratch = fl_alloc(p->nv, sizeof *scratch, err);
     to = scratch ? fl_alloc(p->nv, sizeof *to, err) : NULL;
     if (!to) goto done;
     w->unused = renumber(p, to, scratch); /* the order of first use decides who stays */
-    if (merge_equal(p, to, err) || (w->tol > 0.0 && merge_near(p, to, box.lo, w, err))) goto done;
+    if (merge(p, to, box.lo, edge, w, err)) goto done;
     for (int32_t v = 0; v < p->nv; v++) w->merged += to[v] != v;
+    if (w->merged == 0 && !repeated(p)) {
+        rc = 0;
+        goto done;
+    }
     for (int32_t t = 0; t < p->nt; t++) {
         const int32_t a = to[p->t[t].v[0]], b = to[p->t[t].v[1]], c = to[p->t[t].v[2]];
         if (a != b && b != c && c != a) p->t[kept++] = (fl_tri){{a, b, c}};

@@ -64,8 +64,7 @@ static int is_tame(const fl_part *p, int32_t v, const int32_t *t, int n)
     const double blur = BLUR * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * most * most + TINY;
     for (int i = 0; i < n; i++)
         if (!(v3_dot(d, v3_cross(f.x[i], f.y[i])) > blur)) return 0;
-    /* Next to its first side sector 0 is there; the one that ends in that side is not; all others must not be.
-     */
+    /* Next to its first side sector 0 is there; the one that ends in that side is not; no other may be. */
     const fl_vec3 before = v3_cross(d, f.x[0]); /* d . (x x x0) = -before . x */
     for (int i = 1; i < n; i++) {
         if (f.b[i] == f.a[0]) continue;

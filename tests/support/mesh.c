@@ -89,7 +89,7 @@ static int mend(fl_part *p, fl_err *err)
     fl_quality q;
     fl_orient o;
     fl_weld w;
-    if (fl_part_weld(p, -1.0, &w, err) || fl_part_orient(p, &o, err) || fl_part_measure(p, &q, err))
+    if (fl_part_weld(p, -1.0, &w, err) || fl_part_orient(p, &q, &o, err) || fl_part_measure(p, &q, err))
         return -1;
     return q.inverted == 0 && q.incoherent <= 3 * o.twisted * (int64_t)p->nt ? 0 : 1;
 }

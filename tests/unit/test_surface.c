@@ -240,7 +240,8 @@ static void wrong_orientation_is_mended(void **state)
     for (int mask = 0; mask < 4096; mask += 7) {
         fl_surface s = {0};
         fl_part *p = part(&s);
-        fl_orient o;
+        fl_quality came;
+    fl_orient o;
         fl_quality q;
         int turned = 0;
         fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
@@ -252,7 +253,8 @@ static void wrong_orientation_is_mended(void **state)
         q = measured(p);
         assert_int_equal(q.incoherent > 0, turned % 12 > 0);
         assert_int_equal(q.inverted, turned == 12);
-        assert_int_equal(fl_part_orient(p, &o, &err), 0);
+        assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
+        assert_memory_equal(&came, &q, sizeof q); /* measured before it was turned */
         assert_int_equal(o.triangles, turned < 12 - turned ? turned : 12 - turned);
         assert_int_equal(o.rimmed + o.twisted, 0);
         if (turned != 6) assert_int_equal(o.patches, turned > 6);
@@ -268,6 +270,7 @@ static void open_patches_keep_the_side_of_most_area(void **state)
     static const double x[6][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}};
     fl_surface s = {0};
     fl_part *p = part(&s);
+    fl_quality came;
     fl_orient o;
     fl_quality q;
     (void)state;
@@ -276,7 +279,7 @@ static void open_patches_keep_the_side_of_most_area(void **state)
     fl_surface_triangle(p, 0, 2, 3, &err); /* up, small */
     fl_surface_triangle(p, 1, 2, 4, &err); /* down, large */
     fl_surface_triangle(p, 4, 2, 5, &err); /* down, large */
-    assert_int_equal(fl_part_orient(p, &o, &err), 0);
+    assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
     assert_int_equal(o.triangles, 2);
     assert_int_equal(o.rimmed, 1);
     assert_int_equal(o.patches, 0);
@@ -295,6 +298,7 @@ static void a_twisted_band_is_named(void **state)
     enum { N = 9 };
     fl_surface s = {0};
     fl_part *p = part(&s);
+    fl_quality came;
     fl_orient o;
     fl_quality q;
     (void)state;
@@ -310,7 +314,7 @@ static void a_twisted_band_is_named(void **state)
         fl_surface_triangle(p, a, b, d, &err);
         fl_surface_triangle(p, a, d, c, &err);
     }
-    assert_int_equal(fl_part_orient(p, &o, &err), 0);
+    assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
     assert_int_equal(o.twisted, 1);
     q = measured(p);
     assert_int_equal(q.patches, 1);
@@ -476,7 +480,7 @@ static void memory_may_run_out(void **state)
         fl_mem_fail_after(k);
         i = fl_surface_add(&s, "p", 1, &e);
         rc = i < 0 || fl_facet_cone(&s.part[i], &c, 12, &e) || fl_part_weld(&s.part[i], -1.0, &w, &e) ||
-             fl_part_orient(&s.part[i], &o, &e) || fl_surface_measure(&s, &q, &e);
+             fl_part_orient(&s.part[i], &q, &o, &e) || fl_surface_measure(&s, &q, &e);
         fl_mem_fail_after(-1);
         fl_surface_free(&s);
         assert_int_equal(rc, e.code != 0);

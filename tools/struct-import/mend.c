@@ -70,12 +70,15 @@ static int repair(fl_part *p, int32_t holes, double size, fl_repair *did, fl_err
 {
     fl_soup s = {0};
     fl_orient again;
+    fl_quality was;
     fl_repair more;
     int rc = -1;
     if (to_soup(p, &s, err) == 0 && fl_cgal_repair(&s, holes, size, &more, err) == 0 &&
         from_soup(p, &s, err) == 0) {
         add_repair(did, &more);
-        rc = more.bounding ? 0 : fl_part_orient(p, &again, err); /* a cavity looks inward, and is right so */
+        rc = more.bounding
+                 ? 0
+                 : fl_part_orient(p, &was, &again, err); /* a cavity looks inward, and is right so */
     }
     fl_soup_free(&s);
     return rc;
@@ -149,11 +152,9 @@ done:
     return rc;
 }
 
-/* Everything behind welding. */
+/* Everything behind welding and turning. */
 static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
 {
-    if (fl_part_orient(p, &m->orient, err)) return -1;
-    if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->left, err)) return -1;
     if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
     if (fl_part_crossings(p, &m->meet, err)) return -1;
     if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
@@ -169,7 +170,8 @@ static int may_move(const fl_quality *q, const struct options *o)
     return ailing(q, o) || o->repair || o->simplify > 0.0 || o->remesh > 0.0;
 }
 
-static int mend_triangles(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
+/* *same becomes 1 where the triangles are those that came, to the last bit of their corners. */
+static int mend_triangles(fl_part *p, const struct options *o, struct mended *m, int *same, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(p);
     const double blur = BLUR * v3_norm(v3_sub(box.hi, box.lo));
@@ -178,11 +180,15 @@ static int mend_triangles(fl_part *p, const struct options *o, struct mended *m,
     if (fl_part_weld(p, o->weld, &m->weld, err)) return -1;
     if (p->nt == 0 && p->nc == 0)
         return fl_fail(err, FL_INPUT, "part \"%.60s\": each of its triangles is a point or a line", p->name);
-    if (fl_part_measure(p, &m->left, err)) return -1;
+    if (o->raw ? fl_part_measure(p, &m->left, err) : fl_part_orient(p, &m->left, &m->orient, err)) return -1;
     m->came_closed = m->left.closed;
     m->strays = m->misses = m->weld.moved;
+    *same = m->weld.moved == 0.0 && m->weld.collapsed == 0;
     if (p->nt == 0 || o->raw) return 0;
+    *same = *same && m->orient.triangles + m->orient.patches == 0;
+    if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->left, err)) return -1;
     if (may_move(&m->left, o) && to_soup(p, &source, err)) return -1;
+    *same = *same && !source.nt;
     if (cure(p, o, m, blur, err)) goto done;
     if (p->nt == 0 && p->nc == 0) {
         fl_fail(err, FL_INPUT, "part \"%.60s\": nothing is left after repair", p->name);
@@ -204,7 +210,8 @@ int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
 {
     *m = (struct mended){
         .came_triangles = p->nt, .came = fl_moments_of(p, 1), .came_closed = 1, .doubled = p->doubled};
-    if (p->nt ? mend_triangles(p, o, m, err) : fl_part_measure(p, &m->left, err)) return -1;
-    m->went = fl_moments_of(p, 1);
+    int same = 0;
+    if (p->nt ? mend_triangles(p, o, m, &same, err) : fl_part_measure(p, &m->left, err)) return -1;
+    m->went = same ? m->came : fl_moments_of(p, 1);
     return 0;
 }
