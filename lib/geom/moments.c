@@ -1,38 +1,53 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/wide.h"
 #include "geom/dd.h"
 #include "geom/moments.h"
 
 static const double PI = 3.141592653589793238;
 
-/* About o: volume, area, first moments, and xx yy zz xy yz zx of the second. */
+/* Volume, area, first moments, and xx yy zz xy yz zx of the second, each in 106 bits; one more fills the
+ * lanes. */
+enum { VOLUME, AREA, FIRST, SECOND = FIRST + 3, TERMS = 12 };
+
 struct sums {
-    fl_vec3 o;
-    fl_dd volume, area, first[3], second[6];
+    fl_vec3 o;                 /* about this point */
+    double h[TERMS], l[TERMS]; /* as fl_dd has them */
 };
 
-static void add(fl_dd *sum, double x) { *sum = dd_add(*sum, dd_of(x)); }
-
-static void add3(fl_dd sum[3], double s, fl_vec3 x)
+/* Add a term to each sum, as dd_add() does with dd_of(x). */
+static inline void add_terms(double *restrict h, double *restrict l, const double *restrict x)
 {
-    add(&sum[0], s * x.x);
-    add(&sum[1], s * x.y);
-    add(&sum[2], s * x.z);
+#pragma omp simd
+    for (int k = 0; k < TERMS; k++) {
+        const fl_dd s = dd_sum(h[k], x[k]), u = dd_quick(s.h, s.l + l[k]);
+        h[k] = u.h;
+        l[k] = u.l;
+    }
 }
 
-static void add_triangle(struct sums *s, fl_vec3 p, fl_vec3 q, fl_vec3 r)
+FL_WIDE_VERSIONS static void add_triangles(struct sums *to, const fl_part *part)
 {
-    const fl_vec3 a = v3_sub(p, s->o), b = v3_sub(q, s->o), c = v3_sub(r, s->o);
-    const fl_vec3 n = v3_cross(v3_sub(q, p), v3_sub(r, p)), m = v3_add(a, v3_add(b, c));
-    const double d = v3_dot(a, n), k = d / 120.0;
-    add(&s->volume, d / 6.0);
-    add(&s->area, 0.5 * v3_norm(n));
-    add3(s->first, d / 24.0, m);
-    add(&s->second[0], k * (a.x * a.x + b.x * b.x + c.x * c.x + m.x * m.x));
-    add(&s->second[1], k * (a.y * a.y + b.y * b.y + c.y * c.y + m.y * m.y));
-    add(&s->second[2], k * (a.z * a.z + b.z * b.z + c.z * c.z + m.z * m.z));
-    add(&s->second[3], k * (a.x * a.y + b.x * b.y + c.x * c.y + m.x * m.y));
-    add(&s->second[4], k * (a.y * a.z + b.y * b.z + c.y * c.z + m.y * m.z));
-    add(&s->second[5], k * (a.z * a.x + b.z * b.x + c.z * c.x + m.z * m.x));
+    struct sums s = *to;
+    for (int32_t t = 0; t < part->nt; t++) {
+        const int32_t *v = part->t[t].v;
+        const fl_vec3 p = part->v[v[0]], q = part->v[v[1]], r = part->v[v[2]];
+        const fl_vec3 a = v3_sub(p, s.o), b = v3_sub(q, s.o), c = v3_sub(r, s.o);
+        const fl_vec3 n = v3_cross(v3_sub(q, p), v3_sub(r, p)), m = v3_add(a, v3_add(b, c));
+        const double d = v3_dot(a, n), e = d / 24.0, k = d / 120.0;
+        const double x[TERMS] = {[VOLUME] = d / 6.0,
+                                 [AREA] = 0.5 * v3_norm(n),
+                                 [FIRST] = e * m.x,
+                                 [FIRST + 1] = e * m.y,
+                                 [FIRST + 2] = e * m.z,
+                                 [SECOND] = k * (a.x * a.x + b.x * b.x + c.x * c.x + m.x * m.x),
+                                 [SECOND + 1] = k * (a.y * a.y + b.y * b.y + c.y * c.y + m.y * m.y),
+                                 [SECOND + 2] = k * (a.z * a.z + b.z * b.z + c.z * c.z + m.z * m.z),
+                                 [SECOND + 3] = k * (a.x * a.y + b.x * b.y + c.x * c.y + m.x * m.y),
+                                 [SECOND + 4] = k * (a.y * a.z + b.y * b.z + c.y * c.z + m.y * m.z),
+                                 [SECOND + 5] = k * (a.z * a.x + b.z * b.x + c.z * c.x + m.z * m.x)};
+        add_terms(s.h, s.l, x);
+    }
+    *to = s;
 }
 
 /* About its middle p0, with the axis u: along = int z^2 dV, across = int y^2 dV, and V z_C. */
@@ -46,15 +61,20 @@ static void add_cone(struct sums *s, const fl_cone *c)
     const double across =
         PI * h / 20.0 * (r * r * r * r + r * r * r * q + r * r * q * q + r * q * q * q + q * q * q * q);
     const double pk[3] = {p.x, p.y, p.z}, uk[3] = {u.x, u.y, u.z};
-    add(&s->volume, volume);
-    add(&s->area, PI * (r + q) * hypot(h, r - q) + PI * r * r + PI * q * q);
-    add3(s->first, volume, p);
-    add3(s->first, first, u);
+    /* two terms to each second moment and to each first one: along the axis, and by where it stands */
+    double x[2][TERMS] = {{[VOLUME] = volume,
+                           [AREA] = PI * (r + q) * hypot(h, r - q) + PI * r * r + PI * q * q,
+                           [FIRST] = volume * p.x,
+                           [FIRST + 1] = volume * p.y,
+                           [FIRST + 2] = volume * p.z},
+                          {[FIRST] = first * u.x, [FIRST + 1] = first * u.y, [FIRST + 2] = first * u.z}};
     for (int k = 0; k < 6; k++) {
         const int i = k % 3, j = k < 3 ? i : (i + 1) % 3;
-        add(&s->second[k], (along - across) * uk[i] * uk[j] + (i == j ? across : 0.0));
-        add(&s->second[k], first * (uk[i] * pk[j] + pk[i] * uk[j]) + volume * pk[i] * pk[j]);
+        x[0][SECOND + k] = (along - across) * uk[i] * uk[j] + (i == j ? across : 0.0);
+        x[1][SECOND + k] = first * (uk[i] * pk[j] + pk[i] * uk[j]) + volume * pk[i] * pk[j];
     }
+    add_terms(s->h, s->l, x[0]);
+    add_terms(s->h, s->l, x[1]);
 }
 
 fl_moments fl_moments_of(const fl_part *p, int32_t n)
@@ -68,20 +88,17 @@ fl_moments fl_moments_of(const fl_part *p, int32_t n)
     if (!(box.lo.x <= box.hi.x)) return m;
     s.o = v3_scale(0.5, v3_add(box.lo, box.hi));
     for (int32_t i = 0; i < n; i++) {
-        for (int32_t t = 0; t < p[i].nt; t++) {
-            const int32_t *v = p[i].t[t].v;
-            add_triangle(&s, p[i].v[v[0]], p[i].v[v[1]], p[i].v[v[2]]);
-        }
+        add_triangles(&s, &p[i]);
         for (int32_t j = 0; j < p[i].nc; j++) add_cone(&s, &p[i].cone[j]);
     }
-    m.volume = s.volume.h;
-    m.area = s.area.h;
-    if (m.volume != 0.0) c = v3_scale(1.0 / m.volume, v3(s.first[0].h, s.first[1].h, s.first[2].h));
+    m.volume = s.h[VOLUME];
+    m.area = s.h[AREA];
+    if (m.volume != 0.0) c = v3_scale(1.0 / m.volume, v3(s.h[FIRST], s.h[FIRST + 1], s.h[FIRST + 2]));
     m.centroid = v3_add(s.o, c);
     for (int i = 0; i < 3; i++) {
         const double x[3] = {c.x, c.y, c.z};
-        k[i] = s.second[i].h - m.volume * x[i] * x[i];
-        k[3 + i] = s.second[3 + i].h - m.volume * x[i] * x[(i + 1) % 3];
+        k[i] = s.h[SECOND + i] - m.volume * x[i] * x[i];
+        k[3 + i] = s.h[SECOND + 3 + i] - m.volume * x[i] * x[(i + 1) % 3];
     }
     trace = k[0] + k[1] + k[2];
     for (int i = 0; i < 3; i++) {
