@@ -28,8 +28,9 @@ enum { MOST_DIGITS = 17 };
 static const uint64_t TEN_16 = UINT64_C(10000000000000000);
 
 /* whole + fraction / 2^64, short by less than 2 units of fraction, to the nearest multiple of unit, in units;
- * unit is 1, 10 or 100.  Returns 0 when what is missing decides. */
-static int rounded(uint64_t whole, uint64_t fraction, uint64_t unit, uint64_t *out)
+ * unit is 1, 10 or 100.  Returns 0 when what is missing decides.  Inline, for units that the compiler knows.
+ */
+static inline int rounded(uint64_t whole, uint64_t fraction, uint64_t unit, uint64_t *out)
 {
     const uint64_t half = UINT64_C(1) << 63, rest = whole % unit, middle = unit / 2;
     uint64_t up;
@@ -47,12 +48,27 @@ static int rounded(uint64_t whole, uint64_t fraction, uint64_t unit, uint64_t *o
     return 1;
 }
 
+static const char PAIR[] =
+    "00010203040506070809101112131415161718192021222324252627282930313233343536373839404142434445"
+    "46474849505152535455565758596061626364656667686970717273747576777879808182838485868788899091"
+    "9293949596979899";
+
+/* The digits of d, two at a time from the last ones on. */
+static void put_digits(uint64_t d, int digits, char *to)
+{
+    while (digits > 1) {
+        memcpy(to + (digits -= 2), PAIR + 2 * (d % 100), 2);
+        d /= 100;
+    }
+    if (digits) to[0] = (char)('0' + d);
+}
+
 /* As "%.*g" prints d 10^(ten - digits + 1), d having that many digits. */
 static void put_text(char *p, int minus, uint64_t d, int digits, int ten)
 {
-    char digit[MOST_DIGITS];
+    char digit[MOST_DIGITS + 1];
     int n = digits;
-    for (int k = digits - 1; k >= 0; k--, d /= 10) digit[k] = (char)('0' + d % 10);
+    put_digits(d, digits, digit);
     while (n > 1 && digit[n - 1] == '0') n--;
     if (minus) *p++ = '-';
     if (ten < -4 || ten >= digits) {
@@ -66,27 +82,63 @@ static void put_text(char *p, int minus, uint64_t d, int digits, int ten)
         *p++ = (char)('0' + ten / 10 % 10);
         *p++ = (char)('0' + ten % 10);
     } else if (ten < 0) {
-        *p++ = '0';
-        *p++ = '.';
-        for (int k = ten; k < -1; k++) *p++ = '0';
-        for (int k = 0; k < n; k++) *p++ = digit[k];
+        memcpy(p, "0.000", 5);
+        p += 1 - ten;
+        memcpy(p, digit, (size_t)n);
+        p += n;
     } else {
-        for (int k = 0; k < n || k <= ten; k++) {
-            if (k == ten + 1) *p++ = '.';
-            *p++ = k < n ? digit[k] : '0';
+        const int whole = ten + 1; /* zeros that were taken off above are there yet */
+        memcpy(p, digit, (size_t)whole);
+        p += whole;
+        if (n > whole) {
+            *p++ = '.';
+            memcpy(p, digit + whole, (size_t)(n - whole));
+            p += n - whole;
         }
     }
     *p = '\0';
 }
 
+/* Does d, with the last `unit` of whole left out, read back as the x = m 2^e that whole and fraction are?  It
+ * does within half the distance of doubles from x, whole / 2 m, which is known here to some units of 2^-53 of
+ * itself.  1, 0, or -1 where that is too close to tell, or where doubles below x lie closer. */
+static inline int reads_back(uint64_t d, uint64_t unit, uint64_t whole, uint64_t fraction, uint64_t m)
+{
+    static const double CLOSE = 1e-9; /* millions of such units */
+    const double half = (double)whole / (2.0 * (double)m);
+    const double off = fabs((double)(int64_t)(whole - d * unit) + (double)fraction * 0x1p-64);
+    if (off > half + CLOSE * (half + 1.0)) return 0;
+    return m != UINT64_C(1) << 52 && off < half - CLOSE * (half + 1.0) ? 1 : -1;
+}
+
+/* Write x with so many digits if that reads back: 1, 0 if it does not, -1 if 128 bits do not settle it. */
+static inline int try_digits(double x, uint64_t whole, uint64_t fraction, uint64_t m, int ten, int digits,
+                             uint64_t unit, char *buf)
+{
+    uint64_t d;
+    double y;
+    int how = 1;
+    if (!rounded(whole, fraction, unit, &d)) return -1;
+    if (digits < MOST_DIGITS) how = reads_back(d, unit, whole, fraction, m);
+    if (d == 10 * TEN_16 / unit) { /* 9.99... to 10 */
+        d /= 10;
+        ten++;
+    }
+    if (how < 0) {
+        if (!fl_decimal_nearest(d, ten - digits + 1, &y)) return -1;
+        how = y == fabs(x);
+    }
+    if (how) put_text(buf, x < 0.0, d, digits, ten);
+    return how;
+}
+
 /* Returns 0 for numbers that 128 bits do not settle: subnormal ones, some exact halves, and few others. */
 static int quick_text(double x, char *buf)
 {
-    uint64_t bits, whole, fraction, unit = 100;
+    uint64_t bits, whole, fraction;
     memcpy(&bits, &x, sizeof bits);
     const int exponent = (int)(bits >> 52 & 0x7ff);
     const uint64_t m = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
-    const double size = fabs(x);
     if (exponent == 0 || exponent == 0x7ff) return 0;
     /* floor(log10 x), or one less: the slope is log10(2) from below, within 1e-6 over all exponents */
     int ten = (int)floor((exponent - 1023) * 0.30102999);
@@ -96,23 +148,10 @@ static int quick_text(double x, char *buf)
         if (!fl_decimal_scaled(m, exponent - 1075, 16 - ten, &whole, &fraction)) return 0;
     }
     if (whole < TEN_16 || whole >= 10 * TEN_16) return 0;
-    for (int digits = 15; digits <= MOST_DIGITS; digits++, unit /= 10) {
-        uint64_t d;
-        double y;
-        int at = ten;
-        if (!rounded(whole, fraction, unit, &d)) return 0;
-        if (d == 10 * TEN_16 / unit) { /* 9.99... to 10 */
-            d /= 10;
-            at++;
-        }
-        if (digits < MOST_DIGITS) {
-            if (!fl_decimal_nearest(d, at - digits + 1, &y)) return 0;
-            if (y != size) continue;
-        }
-        put_text(buf, x < 0.0, d, digits, at);
-        return 1;
-    }
-    return 0;
+    int how = try_digits(x, whole, fraction, m, ten, 15, 100, buf);
+    if (how == 0) how = try_digits(x, whole, fraction, m, ten, 16, 10, buf);
+    if (how == 0) how = try_digits(x, whole, fraction, m, ten, 17, 1, buf);
+    return how > 0;
 }
 
 char *fl_num_text(double x, char buf[FL_NUM_LEN])

@@ -137,32 +137,64 @@ static void put_disc(FILE *f, fl_vec3 p, double r)
     put(f, " ", r);
 }
 
-/* Vertices and triangles come in millions: their rows are put together here, and go out as one. */
-static void put_vertex(FILE *f, fl_vec3 x)
+/* Vertices and triangles come in millions: their rows are put together by all threads in blocks, which go out
+ * in order. */
+enum { ROW = 2 + 3 * FL_NUM_LEN, ROWS = 512, BLOCKS = 64 };
+typedef char *put_row(char *to, const fl_part *p, int32_t k);
+
+static char *put_vertex(char *to, const fl_part *p, int32_t k)
 {
-    const double c[3] = {x.x, x.y, x.z};
-    char row[2 + 3 * FL_NUM_LEN], *end = row;
-    *end++ = 'v';
-    for (int k = 0; k < 3; k++) {
-        *end++ = ' ';
-        end += strlen(fl_num_text(c[k], end));
+    const double c[3] = {p->v[k].x, p->v[k].y, p->v[k].z};
+    *to++ = 'v';
+    for (int i = 0; i < 3; i++) {
+        *to++ = ' ';
+        to += strlen(fl_num_text(c[i], to));
     }
-    *end++ = '\n';
-    fwrite(row, 1, (size_t)(end - row), f);
+    *to++ = '\n';
+    return to;
 }
 
-static void put_triangle(FILE *f, const fl_tri *t)
+static char *put_triangle(char *to, const fl_part *p, int32_t k)
 {
-    char row[40], *end = row + sizeof row, *p = end;
-    *--p = '\n';
-    for (int k = 2; k >= 0; k--) { /* from the last digit on */
-        int32_t n = t->v[k];
-        do *--p = (char)('0' + n % 10);
+    *to++ = 't';
+    for (int i = 0; i < 3; i++) {
+        char digit[10];
+        uint32_t n = (uint32_t)p->t[k].v[i];
+        int m = 0;
+        do digit[m++] = (char)('0' + n % 10);
         while ((n /= 10) > 0);
-        *--p = ' ';
+        *to++ = ' ';
+        while (m > 0) *to++ = digit[--m];
     }
-    *--p = 't';
-    fwrite(p, 1, (size_t)(end - p), f);
+    *to++ = '\n';
+    return to;
+}
+
+/* Rows from .. to of a part into a block; its length. */
+static size_t fill(char *block, put_row *row, const fl_part *p, int32_t from, int32_t to)
+{
+    char *end = block;
+    for (int32_t k = from; k < to; k++) end = row(end, p, k);
+    return (size_t)(end - block);
+}
+
+static void put_rows(FILE *f, put_row *row, const fl_part *p, int32_t n)
+{
+    char one[ROWS * ROW], *many = n > ROWS ? malloc((size_t)BLOCKS * ROWS * ROW) : NULL;
+    char *const block = many ? many : one; /* without memory there is one block at a time */
+    const int32_t blocks = many ? BLOCKS : 1;
+    size_t length[BLOCKS];
+    for (int64_t from = 0; from < n; from += (int64_t)blocks * ROWS) {
+        const int64_t left = (n - from + ROWS - 1) / ROWS;
+        const int32_t now = left < blocks ? (int32_t)left : blocks;
+#pragma omp parallel for schedule(static) if (now > 1)
+        for (int32_t b = 0; b < now; b++) {
+            const int64_t first = from + (int64_t)b * ROWS, last = first + ROWS < n ? first + ROWS : n;
+            length[b] = fill(block + (size_t)b * ROWS * ROW, row, p, (int32_t)first, (int32_t)last);
+        }
+        for (int32_t b = 0; b < now; b++) fwrite(block + (size_t)b * ROWS * ROW, 1, length[b], f);
+    }
+    free(many);
 }
 
 void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by)
@@ -171,8 +203,8 @@ void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by)
     for (int32_t i = 0; i < s->n; i++) {
         const fl_part *p = &s->part[i];
         fprintf(f, "part %d %s\n", p->id, p->name);
-        for (int32_t v = 0; v < p->nv; v++) put_vertex(f, p->v[v]);
-        for (int32_t t = 0; t < p->nt; t++) put_triangle(f, &p->t[t]);
+        put_rows(f, put_vertex, p, p->nv);
+        put_rows(f, put_triangle, p, p->nt);
         for (int32_t c = 0; c < p->nc; c++) {
             fputs("cone", f);
             put_disc(f, p->cone[c].p0, p->cone[c].r0);
