@@ -8,6 +8,9 @@
 #include "step/balls.h"
 #include "step/pairing.h"
 
+/* Rounding of coordinates a million sizes away may hide so much of a distance. */
+#define NEARLY 1e-9
+
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 {
     if (j >= w->n || !w->b.ball[i] || !w->b.ball[j]) return 0;
@@ -109,6 +112,15 @@ static int compare(const fl_balls *s, int32_t c, int32_t j, const int32_t image[
 }
 
 /* The rows of body i from c on, with what those of before remember. */
+/* Whether two spheres may touch before the next search: boxes meet across their corners too, where spheres
+ * are far apart. */
+static int within(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
+{
+    const double R = (w->b.radius[i] + w->b.radius[j] + w->skin) * (1.0 + NEARLY);
+    const fl_vec3 way = fl_cell_way(&w->cell, v3(image[0], image[1], image[2]));
+    return v3_norm2(v3_sub(v3_sub(w->b.x[i], w->b.x[j]), way)) < R * R;
+}
+
 static void fill(const fl_world *w, fl_balls *s, int32_t i, int32_t c, fl_ball_image *image)
 {
     const fl_balls *old = &w->balls;
@@ -120,6 +132,7 @@ static void fill(const fl_world *w, fl_balls *s, int32_t i, int32_t c, fl_ball_i
         double n;
         if (!fl_balls_are(w, i, j)) continue;
         image(w, k, i, j, cells);
+        if (!within(w, i, j, cells)) continue;
         while (at < end && compare(old, at, j, cells) < 0) at++;
         s->i[c] = i;
         s->j[c] = j;
@@ -135,15 +148,24 @@ static void fill(const fl_world *w, fl_balls *s, int32_t i, int32_t c, fl_ball_i
     }
 }
 
-int fl_balls_list(fl_world *w, fl_ball_image *image, fl_err *err)
+int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *err)
 {
     fl_balls fresh = {0}, *s = &w->balls;
+    int64_t near = 0;
     int32_t *at = fl_alloc((int64_t)w->n + 1, sizeof *at, err);
     if (!at) return -1;
-#pragma omp parallel for schedule(static)
-    for (int32_t i = 0; i < w->n; i++)
-        for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++)
-            at[i + 1] += fl_balls_are(w, i, w->near.partner[k]);
+#pragma omp parallel for schedule(static) reduction(+ : near)
+    for (int32_t i = 0; i < w->n; i++) {
+        for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
+            const int32_t j = w->near.partner[k];
+            int32_t cells[3] = {0};
+            if (!fl_balls_are(w, i, j)) continue;
+            image(w, k, i, j, cells);
+            at[i + 1] += within(w, i, j, cells);
+            near++;
+        }
+    }
+    *others = w->near.first[w->n] - near;
     int64_t n = 0;
     for (int32_t i = 0; i < w->n; i++) n += at[i + 1], at[i + 1] = (int32_t)n;
     if (n == 0 && !s->bodies) {

@@ -9,10 +9,12 @@
  * All others, and these where there is no row for them, are pairs of w->pair. */
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j);
 
-/* Rows for those of w->near that are such; image() tells which image of j is meant.  What a row of before
- * remembers goes over.  -1 with FL_SYSTEM. */
+/* Rows for those of w->near that are such and no farther apart than the skin; image() tells which image of j
+ * is meant.  What a row of before remembers goes over.
+ *   others  out: how many of w->near are not such
+ * -1 with FL_SYSTEM. */
 typedef void fl_ball_image(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t image[3]);
-int fl_balls_list(fl_world *w, fl_ball_image *image, fl_err *err);
+int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *err);
 
 /* A row behind all others, for those who put together a world from what they read: i and then j do not fall;
  * fl_balls_index() afterwards.  -1 with FL_SYSTEM. */

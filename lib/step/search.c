@@ -120,18 +120,16 @@ int fl_search(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < total; k++) w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin);
     if (w->cell.wraps) wrap_boxes(w);
     if (fl_pairs_find(&w->near, w->box, w->n, total, w->walls, err)) return -1;
-    if (fl_balls_list(w, image_of, err)) return -1;
-
-    const int64_t n = w->near.first[w->n] - w->balls.n;
-    int64_t to = 0;
+    int64_t n, to = 0;
+    if (fl_balls_list(w, image_of, &n, err)) return -1;
     fl_pair *fresh = fl_alloc(n, sizeof *fresh, err);
     if (!fresh) return -1;
     int32_t at = 0;
-    for (int32_t i = 0; i < w->n; i++) {
+    for (int32_t i = 0; i < w->n && n > 0; i++) {
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
             int32_t image[3];
-            if (w->balls.n && fl_balls_are(w, i, j)) continue;
+            if (fl_balls_are(w, i, j)) continue;
             image_of(w, k, i, j, image);
             while (at < n_old && order(&old[at], i, j, image) < 0) fl_pair_end(&old[at++]);
             if (at < n_old && order(&old[at], i, j, image) == 0) {

@@ -6,6 +6,7 @@
 #include "body/integrate.h"
 #include "step/balls.h"
 #include "step/interact.h"
+#include "step/plain.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
@@ -116,6 +117,20 @@ static void move(fl_world *w, int32_t from, int32_t to, double h, double dt, fl_
 
 static int finite3(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 
+/* The first of bodies [from, to) that has a number which is not finite, or -1: 0 x is 0 where x is one. */
+static int32_t first_lost(const fl_bodies *b, int32_t from, int32_t to)
+{
+    double zero = 0.0;
+    for (int32_t k = from; k < to; k++) {
+        const fl_vec3 f = b->f[k], t = b->t[k], x = b->x[k], v = b->v[k];
+        zero += 0.0 * (f.x + f.y + f.z) + 0.0 * (t.x + t.y + t.z) + 0.0 * (x.x + x.y + x.z) +
+                0.0 * (v.x + v.y + v.z);
+    }
+    for (int32_t k = from; k < to && zero != 0.0; k++)
+        if (!finite3(b->f[k]) || !finite3(b->t[k]) || !finite3(b->x[k]) || !finite3(b->v[k])) return k;
+    return -1;
+}
+
 /* What contacts push body i < n with. */
 static fl_vec3 pushed(const fl_world *w, int32_t i)
 {
@@ -140,6 +155,15 @@ static void end_group(fl_world *w, int32_t g, double h)
     fl_gain first[FL_BALLS_GROUP], back[FL_BALLS_GROUP];
     fl_group *own = &w->group[g];
     *own = (fl_group){.lost = -1};
+    if (h > 0.0 && fl_plain_group(w, from, to)) {
+        for (int32_t k = from; k < to; k++) {
+            fl_balls_collect(w, k);
+            if (w->sink[k].n) w->sink[k] = (fl_sink){0};
+        }
+        own->pushed = fl_plain_end(w, from, to, h);
+        own->lost = first_lost(b, from, to);
+        return;
+    }
     for (int32_t k = from; k < to; k++) {
         first[k - from] = plain(w, k) ? gain_of(b, k, h) : w->gain[k];
         if (w->balls.bodies) fl_balls_collect(w, k);
@@ -147,8 +171,6 @@ static void end_group(fl_world *w, int32_t g, double h)
     }
     if (h > 0.0) move(w, from, to, h, 0.0, back);
     for (int32_t k = from; k < to; k++) {
-        if (own->lost < 0 && !(finite3(b->f[k]) && finite3(b->t[k]) && finite3(b->x[k]) && finite3(b->v[k])))
-            own->lost = k;
         if (fl_world_away(w, k)) continue;
         own->pushed = v3_add(own->pushed, pushed(w, k));
         if (!(h > 0.0)) continue;
@@ -156,6 +178,7 @@ static void end_group(fl_world *w, int32_t g, double h)
         if (plain(w, k)) back[k - from] = gain_of(b, k, h);
         fl_works_take(w, k, &first[k - from], &back[k - from]);
     }
+    own->lost = first_lost(b, from, to);
 }
 
 /* omega^2 of all contacts together from those of each for each of its two bodies.  With g u the approach that
