@@ -45,6 +45,14 @@ static void hold_body(fl_world *w, int32_t i, const char *group, fl_vec3 spin)
                     fixed & FL_HOLD_RZ ? 0.0 : spin.z));
 }
 
+/* Something is wrong with the k-th body of the field: its file, the line of its record, its id. */
+static int fail_body(const fl_world *w, const fl_field *field, int32_t k, fl_err *err, const char *what)
+{
+    char line[16] = "";
+    if (field->line[k] > 0) snprintf(line, sizeof line, ":%d", field->line[k]);
+    return fl_fail(err, FL_INPUT, "%s%s: body %d: %s", w->scene->ice.file, line, field->id[k], what);
+}
+
 /* Body i from the k-th of the field: outer shape, mass, frame, start. */
 static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_poly *outer, fl_err *err)
 {
@@ -59,9 +67,11 @@ static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, f
     fl_err why = {0};
     w->id[i] = field->id[k];
     w->material[i] = fl_scene_find_material(s, material);
-    if (w->material[i] < 0)
-        return fl_fail(err, FL_INPUT, "%s: body %d: material %s is not in the scene", s->ice.file,
-                       field->id[k], material);
+    if (w->material[i] < 0) {
+        char what[400];
+        snprintf(what, sizeof what, "material %.350s is not in the scene", material);
+        return fail_body(w, field, k, err, what);
+    }
     if (sharp && (r > 0.0 ? fl_poly_offset(outer, core, r, &why) : fl_poly_copy(outer, core, &why))) goto bad;
     if (fl_mass_of(&mass, sharp ? outer : core, sharp ? 0.0 : r, &why)) goto bad;
 
@@ -89,7 +99,7 @@ bad:
         *err = why;
         return -1;
     }
-    return fl_fail(err, FL_INPUT, "%s: body %d: %s", s->ice.file, field->id[k], why.text);
+    return fail_body(w, field, k, err, why.text);
 }
 
 static int anything(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include "geom/dd.h"
 #include "narrow/gjk.h"
 #include "support/oracle.h"
 #include "support/couples.h"
@@ -65,10 +66,12 @@ static double astray(fl_core c, int32_t n, const int32_t *i, fl_vec3 x)
 {
     double best = INFINITY;
     if (n == 3) {
-        const fl_vec3 e = v3_sub(c.v[i[1]], c.v[i[0]]), g = v3_sub(c.v[i[2]], c.v[i[0]]),
-                      r = v3_sub(x, c.v[i[0]]), m = v3_cross(e, g);
-        const double mm = v3_norm2(m), s = v3_dot(m, v3_cross(r, g)), t = v3_dot(m, v3_cross(e, r));
-        if (mm > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= mm) best = fabs(v3_dot(m, r)) / sqrt(mm);
+        /* in pairs of doubles: doubles tilt the plane of a sliver */
+        const fl_ddv e = ddv_diff(c.v[i[1]], c.v[i[0]]), g = ddv_diff(c.v[i[2]], c.v[i[0]]),
+                     r = ddv_diff(x, c.v[i[0]]), m = ddv_cross(e, g);
+        const double mm = ddv_dot(m, m).h, s = ddv_dot(m, ddv_cross(r, g)).h,
+                     t = ddv_dot(m, ddv_cross(e, r)).h;
+        if (mm > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= mm) best = fabs(ddv_dot(m, r).h) / sqrt(mm);
     }
     for (int32_t k = 0; k < n; k++) {
         const fl_vec3 p = c.v[i[k]], l = v3_sub(c.v[i[(k + 1) % n]], p), r = v3_sub(x, p);
