@@ -190,7 +190,10 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
         if (single || may_come_behind(B->p, shell->box, l->wall, l->walls, w->va[v], margin + same))
             l->wall[l->walls + l->shy++] = v;
     leave_near(walls, A, B, ra + margin + same);
-    return whole(all, A->p) || fl_matches_list(l, A, all, B, walls, ra, ra, margin, path) ? -1 : 0;
+    return whole(all, A->p) || fl_matches_list(l, A, all, B, walls, ra, ra, margin, path) ||
+                   fl_footing_list(l, A, B)
+               ? -1
+               : 0;
 }
 
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
@@ -199,7 +202,7 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     const fl_poly *core = &b->core;
     const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {core, core->v, core->n, 0.0, -1.0};
     int behind;
-    w->n = 0;
+    w->n = w->shares = 0;
     w->couple = v3(0, 0, 0);
     *distance = reach;
     if (path >= l->until && list_matches(w, near, &A, &B, &b->shell, ra, reach, single, l, path)) return -1;
@@ -209,10 +212,13 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     }
     *distance = ra; /* something is near: no bound is claimed */
     if (core_vertices(w, &A, &B, b->shell.box, l, ra, single, &behind) || single) return single ? 0 : -1;
-    return fl_matches_places(w, l, &A, &B, ra, behind ? ra : 0.0, FL_PLACE_RIM * ra, 0.0);
+    fl_matches rest;
+    if (fl_footing_places(w, l, &near->footing, &A, &B, ra, FL_PLACE_RIM * ra, &rest)) return -1;
+    return fl_matches_places(w, &rest, &A, &B, ra, behind ? ra : 0.0, FL_PLACE_RIM * ra, 0.0);
 }
 
 void fl_shell_near_free(fl_shell_near *near)
 {
     fl_reach_free(&near->of_shell), fl_reach_free(&near->of_core);
+    fl_footing_work_free(&near->footing);
 }

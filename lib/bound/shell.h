@@ -8,11 +8,12 @@
 #ifndef FL_BOUND_SHELL_H
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"
-#include "narrow/matches.h"
+#include "narrow/footing.h"
 
-/* Scratch for the faces and edges in reach. */
+/* Scratch for the faces and edges in reach, and for what lies under a face. */
 typedef struct {
     fl_reach of_shell, of_core;
+    fl_footing_work footing;
 } fl_shell_near;
 
 /* All places of core a (radius ra) on the shell of piece b, as fl_places_find();

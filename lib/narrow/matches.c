@@ -3,6 +3,7 @@
 #include "base/mem.h"
 #include "geom/aabb.h"
 #include "narrow/areas.h"
+#include "narrow/footing.h"
 #include "narrow/strips.h"
 
 /* Of the size: points on a plane may seem to be that far off it. */
@@ -242,5 +243,6 @@ void fl_matches_free(fl_matches *l)
 {
     for (int k = 0; k < 2; k++) free(l->table[k].vertex), free(l->table[k].plane);
     free(l->c), free(l->side), free(l->wall);
+    fl_footing_free(l->footing);
     *l = (fl_matches){0};
 }

@@ -59,6 +59,7 @@ struct fl_matches {
     int32_t *wall; /* [walls + shy] the caller's: faces of a surface that is not convex, in reach as long, and
                     * vertices of A that may come behind it as long */
     int32_t walls, shy, wall_cap;
+    struct fl_footing *footing; /* of a surface: what may lie under a face of A (footing.h), or NULL */
 };
 
 /* List what of the features a of A and b of B can come within R of each other while no point moves by more

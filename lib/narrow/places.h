@@ -57,6 +57,15 @@ typedef struct {
         stands; /* so many places in a row stand for one strip (2) or one area (3); 0: this one for itself */
 } fl_place;
 
+/* Three places that stand for an area may be made of many features: one of those. */
+typedef struct {
+    int32_t place;  /* the first of the three                                         */
+    int32_t n;      /* 1: one triangle or a corner; 2: an edge; 3: a larger face      */
+    fl_vec3 p;      /* where the feature bears                                    [m] */
+    fl_vec3 e1, e2; /* 2: places at p +- e1 have its spread; 3: three at p + e1 cos a + e2 sin a [m] */
+    double force;   /* its part of du, along n                                   [m5] */
+} fl_share;
+
 /* A core in the frame that both are looked at in.  Zero faces: a point or a segment. */
 typedef struct {
     const fl_poly *p;
@@ -87,9 +96,11 @@ typedef struct {
     fl_reach of_a, of_b;
     fl_sheet sheet[2];
     fl_place *place;
-    fl_vec3 couple; /* times dW/dU: a moment on A beside those of the forces, its opposite on B [m6] */
-    fl_vec3 *cut;   /* of areas.c: polygons while they are cut */
-    int32_t n;      /* number of places */
+    fl_vec3 couple;  /* times dW/dU: a moment on A beside those of the forces, its opposite on B [m6] */
+    fl_vec3 *cut;    /* of areas.c: polygons while they are cut */
+    fl_share *share; /* of a surface (footing.h), in the order of place; only where apart is set */
+    int apart, shares, share_cap;
+    int32_t n; /* number of places */
     int32_t va_cap, na_cap, place_cap, cut_cap;
 } fl_places;
 

@@ -62,6 +62,7 @@ int fl_press_make(fl_world *w, const fl_surface *surface, fl_err *err)
         }
         s->first[p + 1] = s->panels;
     }
+    for (int32_t t = 0; t < w->threads; t++) w->scratch[t].apart = 1;
     /* the cones of a part are pieces in their order, behind the one of its triangles */
     for (int32_t k = 0, part = -1, c = 0; k < w->structure.n; k++) {
         const fl_piece *piece = &w->structure.piece[k];
@@ -315,12 +316,31 @@ static void spread(fl_world *w, const fl_pair *p, fl_press_notes *notes, const p
     if (notes->n == from) press_at(w, p, notes, q);
 }
 
+/* What a surface is known to bear feature by feature, from share[from] on; returns how many there are. */
+static int32_t apart(fl_world *w, const fl_pair *p, fl_press_notes *notes, const patch *all,
+                     const fl_places *s, int32_t from)
+{
+    int32_t n = 0;
+    double force = 0.0;
+    for (; from + n < s->shares && s->share[from + n].place == s->share[from].place; n++)
+        force += s->share[from + n].force;
+    for (int32_t k = from; k < from + n; k++) {
+        const fl_share *share = &s->share[k];
+        patch one = *all;
+        one.n = share->n, one.middle = share->p, one.e1 = share->e1, one.e2 = share->e2;
+        one.normal *= share->force / force;
+        spread(w, p, notes, &one);
+    }
+    return n;
+}
+
 void fl_press_note(fl_world *w, const fl_pair *p, const fl_places *s, double scale, double chi)
 {
     fl_press_notes *notes = &w->press.noted[omp_get_thread_num()];
     const int32_t from = notes->n;
-    const int pair_patch = p->exponent == 0.0;
+    const int pair_patch = p->exponent == 0.0, shell = w->structure.piece[p->j - w->n].kind == FL_PIECE_SHELL;
     double u = 0.0, du = 0.0;
+    int32_t share = 0;
     for (int32_t k = 0; k < s->n; k++) u += s->place[k].u, du += s->place[k].du;
     for (int32_t k = 0, n; k < s->n; k += n) {
         const fl_place *q = &s->place[k];
@@ -337,7 +357,9 @@ void fl_press_note(fl_world *w, const fl_pair *p, const fl_places *s, double sca
         if (n > 2) a.e2 = v3_scale(0.57735026918962576, v3_sub(q[1].p, q[2].p));
         /* of an overlap s all over a face A, u = A s^4 and du = 4 A s^3: A = du^4/(256 u^3) */
         a.area = pair_patch ? du * du * du * du / (256.0 * u * u * u) : PI * w->b.radius[p->i] * q->overlap;
-        spread(w, p, notes, &a);
+        if (shell && share < s->shares && s->share[share].place == k)
+            share += apart(w, p, notes, &a, s, share);
+        else spread(w, p, notes, &a);
     }
     if (notes->n > from) share_out(p, notes->mark + from, notes->n - from);
 }

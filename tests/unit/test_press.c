@@ -145,10 +145,52 @@ static void an_event_has_its_area(void **state)
     lab_free(&l);
 }
 
+/* A floe lies on a dome of triangles of 0.1 m: each bears where it is, so that panels together have the
+ * moment of the load, but for their own size. */
+static void a_dome_bears_triangle_by_triangle(void **state)
+{
+    enum { N = 40 };
+    (void)state;
+    lab l;
+    fl_err err = {0};
+    lab_start(&l);
+    lab_box(&l, v3(0.13, -0.05, 0.297), v3(1, 0.8, 0.3), 0.05, q_of_vector(v3(0.02, 0.01, 0)), ZERO, ZERO);
+    assert_true(fl_surface_add(&l.surface, "dome", 4, &err) == 0);
+    fl_part *part = &l.surface.part[0];
+    for (int j = 0; j <= N; j++) {
+        for (int i = 0; i <= N; i++) {
+            const double x = 4.0 * i / N - 2.0 + 0.07 * j / N, y = 4.0 * j / N - 2.0;
+            assert_int_equal(fl_surface_vertex(part, v3(x, y, -x * x / 16.0 - y * y / 10.0), &err), 0);
+        }
+    }
+    for (int j = 0; j < N; j++) {
+        for (int i = 0; i < N; i++) {
+            const int32_t a = j * (N + 1) + i, b = a + 1, c = b + N + 1, d = a + N + 1;
+            assert_int_equal(
+                fl_surface_triangle(part, a, b, c, &err) || fl_surface_triangle(part, a, c, d, &err), 0);
+        }
+    }
+    lab_set(&l, "output.panels=panels");
+    lab_make(&l, 1e-6);
+    assert_int_equal(lab_run(&l, 1), 0);
+    fl_vec3 moment = ZERO;
+    int loaded = 0;
+    for (int32_t k = 0; k < l.w.press.panels; k++) {
+        moment = v3_add(moment, v3_cross(l.w.press.panel[k].middle, l.w.press.impulse[k]));
+        loaded += l.w.press.impulse[k].z < 0.0;
+    }
+    const fl_vec3 load = l.w.part_impulse[0];
+    assert_near_of(v3_norm(v3_sub(panels_of(&l.w, 0), load)), 0.0, 1e-12, v3_norm(load));
+    assert_near_of(v3_norm(v3_sub(moment, l.w.part_moment[0])), 0.0, 0.01, v3_norm(load));
+    assert_in_range(loaded, 20, 200);
+    lab_free(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_are_the_load), cmocka_unit_test(the_nearest_triangle_has_it),
-        cmocka_unit_test(a_face_is_spread), cmocka_unit_test(an_event_has_its_area)};
+        cmocka_unit_test(a_face_is_spread), cmocka_unit_test(an_event_has_its_area),
+        cmocka_unit_test(a_dome_bears_triangle_by_triangle)};
     return cmocka_run_group_tests_name("press", tests, NULL, NULL);
 }

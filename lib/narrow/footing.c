@@ -1,0 +1,631 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "narrow/footing.h"
+#include <math.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/wide.h"
+#include "narrow/rules.h"
+
+#define PI 3.14159265358979323846
+
+/* A feature of B under F; corners of faces and ends of edges are numbers of the footing's vertices. */
+typedef struct {
+    int32_t f, first, n; /* the face, its corners in corner[first .. first + n) */
+    int32_t match[2];    /* F over f, f over F; -1 where it is not listed */
+} tile;
+typedef struct {
+    int32_t v[2], match;
+    double factor;
+} strip;
+typedef struct {
+    int32_t v, match;
+    double factor;
+} point;
+
+/* Where each of a face's features begin. */
+typedef struct {
+    int32_t F, tile, strip, point, vertex;
+} foot;
+
+struct fl_footing {
+    foot *foot; /* [feet + 1] */
+    tile *tile;
+    strip *strip;
+    point *point;
+    int32_t *corner;
+    int32_t *vertex; /* of B, ascending in each foot; padded there to full registers */
+    double *x;       /* their coordinates: x, y and z of a register's worth, and so on */
+    int32_t feet, foot_cap, tile_cap, strip_cap, point_cap, corners, corner_cap, vertex_cap, x_cap;
+};
+
+/* A match under F. */
+typedef struct {
+    int32_t F, kind, own, way, match; /* kind 0: a face, 1: an edge, 2: a vertex; own: of B */
+} key;
+
+static int key_order(const void *x, const void *y)
+{
+    const key *p = x, *q = y;
+    if (p->F != q->F) return p->F < q->F ? -1 : 1;
+    if (p->kind != q->kind) return p->kind < q->kind ? -1 : 1;
+    if (p->own != q->own) return p->own < q->own ? -1 : 1;
+    return p->way - q->way;
+}
+
+static int number_order(const void *x, const void *y)
+{
+    const int32_t a = *(const int32_t *)x, b = *(const int32_t *)y;
+    return (a > b) - (a < b);
+}
+
+/* Place of v in the ascending list. */
+static int32_t place_of(const int32_t *list, int32_t n, int32_t v)
+{
+    int32_t low = 0;
+    while (n > 1) {
+        const int32_t half = n / 2;
+        if (list[low + half] <= v) low += half;
+        n -= half;
+    }
+    return low;
+}
+
+/* The matches of faces, edges and corners of B with faces of A, by those faces. */
+static int32_t keys_of(const fl_matches *l, key *out)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < l->n; k++) {
+        const fl_match *m = &l->c[k];
+        if (m->kind == FL_MATCH_FACE_FACE)
+            out[n++] = m->way == 0 ? (key){m->own, 0, m->other, 0, k} : (key){m->other, 0, m->own, 1, k};
+        else if (m->way == 1 && m->kind == FL_MATCH_EDGE_FACE) out[n++] = (key){m->other, 1, m->own, 1, k};
+        else if (m->way == 1 && m->kind == FL_MATCH_VERTEX_FACE) out[n++] = (key){m->other, 2, m->own, 1, k};
+    }
+    return n;
+}
+
+/* Ends of an edge, a vertex, or the corners of a face. */
+static int32_t vertices_of(const fl_poly *p, const key *k, int32_t *out)
+{
+    if (k->kind == 2) {
+        out[0] = k->own;
+        return 1;
+    }
+    if (k->kind == 1) {
+        out[0] = p->edge[k->own].a, out[1] = p->edge[k->own].b;
+        return 2;
+    }
+    const int32_t n = p->first[k->own + 1] - p->first[k->own];
+    for (int32_t c = 0; c < n; c++) out[c] = p->loop[p->first[k->own] + c];
+    return n;
+}
+
+typedef struct {
+    fl_footing *o;
+    const fl_matches *l;
+    const fl_side *A, *B;
+    int32_t tiles, strips, points, vertices;
+} lister;
+
+/* The vertices of the keys of one face, each once. */
+static int list_vertices(lister *s, const key *k, int32_t n)
+{
+    fl_footing *o = s->o;
+    const fl_poly *p = s->B->p;
+    int64_t room = 0;
+    fl_err lost = {0};
+    for (int32_t c = 0; c < n; c++) room += k[c].kind == 0 ? p->first[k[c].own + 1] - p->first[k[c].own] : 2;
+    if (fl_grow(&o->vertex, &o->vertex_cap, s->vertices + room + FL_LANES, sizeof *o->vertex, &lost))
+        return -1;
+    int32_t *list = o->vertex + s->vertices, m = 0, kept = 0;
+    for (int32_t c = 0; c < n; c++) m += vertices_of(p, &k[c], list + m);
+    qsort(list, (size_t)m, sizeof *list, number_order);
+    for (int32_t c = 0; c < m; c++)
+        if (kept == 0 || list[c] != list[kept - 1]) list[kept++] = list[c];
+    while (kept % FL_LANES) list[kept] = list[kept - 1], kept++;
+    if (fl_grow(&o->x, &o->x_cap, 3 * ((int64_t)s->vertices + kept), sizeof *o->x, &lost)) return -1;
+    for (int32_t c = 0; c < kept; c++) {
+        double *x = o->x + 3 * (int64_t)(s->vertices + c / FL_LANES * FL_LANES) + c % FL_LANES;
+        const fl_vec3 v = s->B->v[list[c]];
+        x[0] = v.x, x[FL_LANES] = v.y, x[2 * FL_LANES] = v.z;
+    }
+    s->vertices += kept;
+    return 0;
+}
+
+static int list_tile(lister *s, const key *k, const int32_t *list, int32_t n)
+{
+    fl_footing *o = s->o;
+    const fl_poly *p = s->B->p;
+    const int32_t corners = p->first[k->own + 1] - p->first[k->own];
+    fl_err lost = {0};
+    if (fl_grow(&o->tile, &o->tile_cap, (int64_t)s->tiles + 1, sizeof *o->tile, &lost) ||
+        fl_grow(&o->corner, &o->corner_cap, (int64_t)o->corners + corners, sizeof *o->corner, &lost))
+        return -1;
+    tile *t = &o->tile[s->tiles++];
+    *t = (tile){k->own, o->corners, corners, {-1, -1}};
+    t->match[k->way] = k->match;
+    for (int32_t c = 0; c < corners; c++)
+        o->corner[o->corners++] = place_of(list, n, p->loop[p->first[k->own] + c]);
+    return 0;
+}
+
+/* One face of A: keys k[0 .. n). */
+static int list_foot(lister *s, const key *k, int32_t n)
+{
+    fl_footing *o = s->o;
+    const fl_poly *p = s->B->p;
+    const int32_t from = s->vertices;
+    fl_err lost = {0};
+    if (fl_grow(&o->foot, &o->foot_cap, (int64_t)o->feet + 2, sizeof *o->foot, &lost)) return -1;
+    o->foot[o->feet++] = (foot){k->F, s->tiles, s->strips, s->points, from};
+    if (list_vertices(s, k, n)) return -1;
+    const int32_t *list = o->vertex + from, all = s->vertices - from;
+    for (int32_t c = 0; c < n; c++) {
+        if (k[c].kind == 0) {
+            if (c > 0 && k[c - 1].kind == 0 && k[c - 1].own == k[c].own)
+                o->tile[s->tiles - 1].match[k[c].way] = k[c].match;
+            else if (list_tile(s, &k[c], list, all)) return -1;
+        } else if (k[c].kind == 1) {
+            if (fl_grow(&o->strip, &o->strip_cap, (int64_t)s->strips + 1, sizeof *o->strip, &lost)) return -1;
+            const fl_edge e = p->edge[k[c].own];
+            o->strip[s->strips++] = (strip){
+                {place_of(list, all, e.a), place_of(list, all, e.b)}, k[c].match, s->l->c[k[c].match].factor};
+        } else {
+            if (fl_grow(&o->point, &o->point_cap, (int64_t)s->points + 1, sizeof *o->point, &lost)) return -1;
+            const double sharp = fmax(p->defect[k[c].own] * FL_PLACE_SHARP_CORNER, 0.0);
+            o->point[s->points++] = (point){place_of(list, all, k[c].own), k[c].match,
+                                            (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (0.4 * PI) *
+                                                fl_place_rho(s->B->r, s->A->r)};
+        }
+    }
+    o->foot[o->feet] = (foot){-1, s->tiles, s->strips, s->points, s->vertices};
+    return 0;
+}
+
+int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
+{
+    fl_err lost = {0};
+    if (!l->footing) l->footing = fl_alloc(1, sizeof *l->footing, &lost);
+    key *k = fl_alloc(l->n, sizeof *k, &lost);
+    int rc = l->footing && k ? 0 : -1;
+    if (rc == 0) {
+        lister s = {.o = l->footing, .l = l, .A = A, .B = B};
+        const int32_t n = keys_of(l, k);
+        l->footing->feet = l->footing->corners = 0;
+        if (n > 1) qsort(k, (size_t)n, sizeof *k, key_order);
+        for (int32_t from = 0, to; from < n && rc == 0; from = to) {
+            for (to = from + 1; to < n && k[to].F == k[from].F; to++) {}
+            rc = list_foot(&s, k + from, to - from);
+        }
+    }
+    free(k);
+    return rc;
+}
+
+/* --- what lies under F now -------------------------------------------------------------------------------
+ */
+
+/* A side of F in its plane: a point and the inward unit normal. */
+typedef struct {
+    double x, y, nx, ny;
+} side;
+
+/* F: its plane, axes in it, and what is known of the vertices of the footing. */
+typedef struct {
+    fl_vec3 o, x, y, n;
+    const side *sides;
+    int32_t n_side;
+    double *X, *Y, *h, *clear; /* [vertices] in the plane, above it, and from the nearest side of F [m] */
+} ground;
+
+FL_WIDE_VERSIONS static void survey(const ground *g, const double *x, int32_t vertices)
+{
+    for (int32_t v = 0; v < vertices; v += FL_LANES) {
+        const double *at = x + 3 * (int64_t)v;
+        const fl_wide rx = *(const fl_wide *)at - g->o.x, ry = *(const fl_wide *)(at + FL_LANES) - g->o.y;
+        const fl_wide rz = *(const fl_wide *)(at + 2 * FL_LANES) - g->o.z;
+        const fl_wide X = g->x.x * rx + g->x.y * ry + g->x.z * rz,
+                      Y = g->y.x * rx + g->y.y * ry + g->y.z * rz;
+        fl_wide clear = INFINITY + 0.0 * X;
+        for (int32_t c = 0; c < g->n_side; c++) {
+            const side s = g->sides[c];
+            const fl_wide d = s.nx * (X - s.x) + s.ny * (Y - s.y);
+            clear = FL_WIDE_CHOOSE(d < clear, d, clear);
+        }
+        *(fl_wide *)(g->X + v) = X;
+        *(fl_wide *)(g->Y + v) = Y;
+        *(fl_wide *)(g->h + v) = g->n.x * rx + g->n.y * ry + g->n.z * rz;
+        *(fl_wide *)(g->clear + v) = clear;
+    }
+}
+
+/* Triangles, or pieces of edges, until there are enough to fill a register.  Of a triangle the corners, of a
+ * piece the first end, the way to the other, and the roots of s at both. */
+typedef struct {
+    fl_wide x[3], y[3], s[3];
+    fl_wide share;      /* area times m; of an edge its factor over the sum of the roots */
+    fl_wide gain;       /* force over du: 1, or 1/c */
+    fl_wide a[2], b[2]; /* the couple is a u + b du, along x and y */
+    int n;
+} batch;
+
+/* Sums of u, du and its derivative; of f = gain du and f times s and the places; and the couple. */
+typedef struct {
+    fl_wide u, du, ddu, f, s, x, y, xx, xy, yy, couple[2];
+} sums;
+
+#define ADD_NODE(q, U, DU, DDU, F, S, X, Y)                                                                  \
+    do {                                                                                                     \
+        const fl_wide fx_ = (F) * (X), fy_ = (F) * (Y);                                                      \
+        (q)->u += (U);                                                                                       \
+        (q)->du += (DU);                                                                                     \
+        (q)->ddu += (DDU);                                                                                   \
+        (q)->f += (F);                                                                                       \
+        (q)->s += (F) * (S);                                                                                 \
+        (q)->x += fx_;                                                                                       \
+        (q)->y += fy_;                                                                                       \
+        (q)->xx += fx_ * (X);                                                                                \
+        (q)->xy += fx_ * (Y);                                                                                \
+        (q)->yy += fy_ * (Y);                                                                                \
+    } while (0)
+
+FL_WIDE_VERSIONS static void take_triangles(batch *b, sums *q)
+{
+    fl_wide u = 0.0 * b->x[0], du = u;
+    for (int k = b->n; k < FL_LANES; k++) b->share[k] = 0.0;
+    for (int k = 0; k < FL_TRIANGLE_NODES; k++) {
+        const double b0 = FL_TRIANGLE_NODE[k][0], b1 = FL_TRIANGLE_NODE[k][1], b2 = FL_TRIANGLE_NODE[k][2];
+        const fl_wide x = b0 * b->x[0] + b1 * b->x[1] + b2 * b->x[2];
+        const fl_wide y = b0 * b->y[0] + b1 * b->y[1] + b2 * b->y[2];
+        const fl_wide s = b0 * b->s[0] + b1 * b->s[1] + b2 * b->s[2];
+        const fl_wide part = FL_TRIANGLE_WEIGHT[k] * b->share * s * s, pull = 4.0 * part * s,
+                      all = part * s * s;
+        const fl_wide f = pull * b->gain;
+        ADD_NODE(q, all, pull, 12.0 * part, f, s, x, y);
+        u += all;
+        du += pull;
+    }
+    for (int k = 0; k < 2; k++) q->couple[k] += b->a[k] * u + b->b[k] * du;
+    b->n = 0;
+}
+
+/* Node z of a piece where the root of s goes from p to q has the root r = p + (q - p) z at z (r + p)/(q + p)
+ * of its length, as in strips.c. */
+FL_WIDE_VERSIONS static void take_pieces(batch *b, sums *q)
+{
+    for (int k = b->n; k < FL_LANES; k++) b->share[k] = 0.0, b->s[0][k] = b->s[1][k] = 1.0;
+    const fl_wide p = b->s[0], way = b->s[1] - p, over = 1.0 / (p + b->s[1]);
+    for (int k = 0; k < FL_LINE_NODES; k++) {
+        const double z = FL_LINE_NODE[k];
+        const fl_wide r = p + way * z, at = z * (r + p) * over, s = r * r;
+        const fl_wide c = FL_LINE_WEIGHT[k] * b->share * over * s * s * s, pull = 4.5 * c * s;
+        ADD_NODE(q, c * s * s, pull, 15.75 * c, pull, s, b->x[0] + at * b->x[1], b->y[0] + at * b->y[1]);
+    }
+    b->n = 0;
+}
+
+typedef struct {
+    double x, y, s;
+} corner;
+
+/* What is common to the triangles of one face, one way. */
+typedef struct {
+    double share, gain, a[2], b[2];
+} kind;
+
+static void add_triangle(batch *b, sums *q, const kind *k, corner u, corner v, corner w)
+{
+    const double area = 0.5 * fabs((v.x - u.x) * (w.y - u.y) - (v.y - u.y) * (w.x - u.x));
+    const corner t[3] = {u, v, w};
+    const int n = b->n++;
+    for (int c = 0; c < 3; c++) b->x[c][n] = t[c].x, b->y[c][n] = t[c].y, b->s[c][n] = t[c].s;
+    b->share[n] = area * k->share;
+    b->gain[n] = k->gain;
+    for (int c = 0; c < 2; c++) b->a[c][n] = k->a[c], b->b[c][n] = k->b[c];
+    if (n + 1 == FL_LANES) take_triangles(b, q);
+}
+
+static corner between(corner in, corner out)
+{
+    const double t = in.s / (in.s - out.s);
+    return (corner){in.x + t * (out.x - in.x), in.y + t * (out.y - in.y), 0.0};
+}
+
+/* What of the triangle has s > 0. */
+static void add_above(batch *b, sums *q, const kind *k, corner u, corner v, corner w)
+{
+    const int n = (u.s > 0.0) + (v.s > 0.0) + (w.s > 0.0);
+    if (n == 0) return;
+    if (n == 3) {
+        add_triangle(b, q, k, u, v, w);
+        return;
+    }
+    while (n == 1 ? !(u.s > 0.0) : u.s > 0.0) { /* the odd one first */
+        const corner c = u;
+        u = v, v = w, w = c;
+    }
+    if (n == 1) {
+        add_triangle(b, q, k, u, between(u, v), between(u, w));
+        return;
+    }
+    const corner uv = between(v, u), uw = between(w, u);
+    add_triangle(b, q, k, uv, v, w);
+    add_triangle(b, q, k, uv, w, uw);
+}
+
+typedef struct {
+    fl_places *w;
+    const fl_side *A, *B;
+    const fl_footing *o;
+    uint8_t *skip;
+    ground g;
+    double R, rim, most;
+    batch triangles, pieces;
+    sums sum;
+} work;
+
+/* Where a sum bears and how it spreads: three places at x + a cos, y + b cos + c sin have its moments. */
+typedef struct {
+    double f, x, y, s, a, b, c;
+} spread;
+
+static spread spread_of(const sums *t)
+{
+    spread q = {.f = fl_wide_sum(&t->f)};
+    if (!(q.f > 0.0)) return q;
+    q.x = fl_wide_sum(&t->x) / q.f, q.y = fl_wide_sum(&t->y) / q.f, q.s = fl_wide_sum(&t->s) / q.f;
+    const double xx = fl_wide_sum(&t->xx) / q.f - q.x * q.x, xy = fl_wide_sum(&t->xy) / q.f - q.x * q.y;
+    const double yy = fl_wide_sum(&t->yy) / q.f - q.y * q.y;
+    q.a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0;
+    q.b = q.a > 0.0 ? 2.0 * xy / q.a : 0.0;
+    const double c2 = 2.0 * yy - q.b * q.b;
+    q.c = c2 > 0.0 ? sqrt(c2) : 0.0;
+    return q;
+}
+
+static fl_vec3 in_plane(const ground *g, double x, double y) { return v3_madd(v3_scale(x, g->x), y, g->y); }
+
+/* What a feature by itself has given, where somebody asks. */
+static int add_share(const work *q, const sums *t, int32_t n)
+{
+    fl_places *w = q->w;
+    const ground *g = &q->g;
+    const spread e = spread_of(t);
+    fl_err lost = {0};
+    if (!(e.f > 0.0)) return 0;
+    if (fl_grow(&w->share, &w->share_cap, (int64_t)w->shares + 1, sizeof *w->share, &lost)) return -1;
+    fl_share *share = &w->share[w->shares++];
+    *share = (fl_share){.place = w->n,
+                        .n = n,
+                        .p = v3_add(v3_madd(g->o, q->R - e.s, g->n), in_plane(g, e.x, e.y)),
+                        .force = e.f};
+    if (n == 3) share->e1 = in_plane(g, e.a, e.b), share->e2 = in_plane(g, 0.0, e.c);
+    else if (n == 2) /* along a line e.c is 0, or e.a and e.b are */
+        share->e1 = v3_scale(sqrt(0.5), in_plane(g, e.a, e.a > 0.0 ? e.b : e.c));
+    return 0;
+}
+
+/* Face f both ways: F over it, and it over F. */
+static void pour(const work *q, const tile *t, const kind way[2], batch *b, sums *sum)
+{
+    const ground *g = &q->g;
+    const int32_t *at = q->o->corner + t->first;
+    for (int k = 0; k < 2; k++) {
+        const double by = way[k].gain; /* 1/c, and 1 */
+        corner first = {0}, last = {0};
+        for (int32_t v = 0; v < t->n; v++) {
+            const corner x = {g->X[at[v]], g->Y[at[v]], q->R - by * g->h[at[v]]};
+            if (v == 0) first = x;
+            else if (v > 1) add_above(b, sum, &way[k], first, last, x);
+            last = x;
+        }
+    }
+}
+
+/* Face f of B, whole under F; 0 when it is not, -1 when memory runs out. */
+static int under(work *q, const tile *t)
+{
+    const ground *g = &q->g;
+    const int32_t *at = q->o->corner + t->first;
+    const fl_vec3 nf = q->B->n[t->f];
+    const double c = -v3_dot(g->n, nf), root = 4.0 * c * c - 3.0;
+    double clear = INFINITY, low = INFINITY;
+    for (int32_t k = 0; k < t->n; k++) {
+        clear = g->clear[at[k]] < clear ? g->clear[at[k]] : clear;
+        low = g->h[at[k]] < low ? g->h[at[k]] : low;
+    }
+    if (!(clear > q->rim) || low < 0.0) return 0;
+    if (!(c > 0.0 && root > 0.0)) return 1; /* nothing */
+    if (!(c * c * (clear - q->rim) * (clear - q->rim) > (1.0 - c * c) * q->R * q->R)) return 0;
+    if (low >= q->R) return 1;
+    if (q->R - low > q->most) q->most = q->R - low;
+    const double m = 0.5 * root * root, dm = 8.0 * c * root, over = 1.0 / c;
+    const fl_vec3 turn = v3_cross(g->n, nf);
+    const double tx = v3_dot(turn, g->x) / m, ty = v3_dot(turn, g->y) / m;
+    const double a0 = dm - 4.0 * m * over, b0 = m * q->R * over, a1 = dm + m * over;
+    /* areas are those seen along n_F, and f has 1/c of them */
+    const kind way[2] = {{m * over, over, {a0 * tx, a0 * ty}, {b0 * tx, b0 * ty}},
+                         {m, 1.0, {a1 * tx, a1 * ty}, {0, 0}}};
+    pour(q, t, way, &q->triangles, &q->sum);
+    if (!q->w->apart) return 1;
+    batch b = {.n = 0};
+    sums own = {.u = {0}};
+    pour(q, t, way, &b, &own);
+    if (b.n) take_triangles(&b, &own);
+    return add_share(q, &own, t->n == 3 ? 1 : 3) ? -1 : 1;
+}
+
+static void pour_strip(const work *q, const strip *e, double si, double sj, batch *b, sums *sum)
+{
+    const ground *g = &q->g;
+    const int32_t i = e->v[0], j = e->v[1];
+    const double lo = si > 0.0 ? 0.0 : si / (si - sj), hi = sj > 0.0 ? 1.0 : si / (si - sj);
+    const double dx = g->X[j] - g->X[i], dy = g->Y[j] - g->Y[i];
+    const int n = b->n++;
+    b->x[0][n] = g->X[i] + lo * dx, b->y[0][n] = g->Y[i] + lo * dy;
+    b->x[1][n] = (hi - lo) * dx, b->y[1][n] = (hi - lo) * dy;
+    b->s[0][n] = si > 0.0 ? sqrt(si) : 0.0;
+    b->s[1][n] = sj > 0.0 ? sqrt(sj) : 0.0;
+    b->share[n] = e->factor * 2.0 * (hi - lo);
+    if (n + 1 == FL_LANES) take_pieces(b, sum);
+}
+
+static int strip_under(work *q, const strip *e)
+{
+    const ground *g = &q->g;
+    const int32_t i = e->v[0], j = e->v[1];
+    if (!(g->clear[i] > q->rim && g->clear[j] > q->rim && g->h[i] >= 0.0 && g->h[j] >= 0.0)) return 0;
+    const double si = q->R - g->h[i], sj = q->R - g->h[j];
+    if (!(si > 0.0 || sj > 0.0)) return 1;
+    pour_strip(q, e, si, sj, &q->pieces, &q->sum);
+    if (!q->w->apart) return 1;
+    batch b = {.n = 0};
+    sums own = {.u = {0}};
+    pour_strip(q, e, si, sj, &b, &own);
+    take_pieces(&b, &own);
+    return add_share(q, &own, 2) ? -1 : 1;
+}
+
+/* Into the first lane. */
+static void pour_point(const work *q, const point *p, double s, sums *sum)
+{
+    const double x = q->g.X[p->v], y = q->g.Y[p->v], s3 = p->factor * s * s * s, f = 5.0 * s3 * s;
+    sum->u[0] += s3 * s * s;
+    sum->du[0] += f;
+    sum->ddu[0] += 20.0 * s3;
+    sum->f[0] += f;
+    sum->s[0] += f * s;
+    sum->x[0] += f * x, sum->y[0] += f * y;
+    sum->xx[0] += f * x * x, sum->xy[0] += f * x * y, sum->yy[0] += f * y * y;
+}
+
+static int point_under(work *q, const point *p)
+{
+    const ground *g = &q->g;
+    const double s = q->R - g->h[p->v];
+    if (!(g->clear[p->v] > q->rim && g->h[p->v] >= 0.0)) return 0;
+    if (!(s > 0.0)) return 1;
+    pour_point(q, p, s, &q->sum);
+    if (!q->w->apart) return 1;
+    sums own = {.u = {0}};
+    pour_point(q, p, s, &own);
+    return add_share(q, &own, 1) ? -1 : 1;
+}
+
+/* Three places with the force, the moment and the spread of all: those of areas.h. */
+static int put(work *q)
+{
+    static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
+    const ground *g = &q->g;
+    const sums *t = &q->sum;
+    if (q->triangles.n) take_triangles(&q->triangles, &q->sum);
+    if (q->pieces.n) take_pieces(&q->pieces, &q->sum);
+    const spread e = spread_of(t);
+    const double du = fl_wide_sum(&t->du);
+    if (!(e.f > 0.0)) return 0;
+    const fl_vec3 across = v3_neg(g->n), middle = v3_madd(g->o, q->R - 0.5 * e.s, g->n);
+    for (int k = 0; k < 3; k++) {
+        const double x = e.x + e.a * COS[k], y = e.y + e.b * COS[k] + e.c * SIN[k];
+        if (fl_places_add(q->w, (fl_place){.stands = 3,
+                                           .overlap = q->most,
+                                           .u = fl_wide_sum(&t->u) / 3.0,
+                                           .du = du / 3.0,
+                                           .ddu = fl_wide_sum(&t->ddu) / 3.0,
+                                           .n = v3_scale(e.f / du, across),
+                                           .across = across,
+                                           .p = v3_add(middle, in_plane(g, x, y))}))
+            return -1;
+    }
+    q->w->couple = v3_madd(q->w->couple, fl_wide_sum(&t->couple[0]), g->x);
+    q->w->couple = v3_madd(q->w->couple, fl_wide_sum(&t->couple[1]), g->y);
+    return 0;
+}
+
+/* The plane of F, its sides and the vertices under it.  room: for the sides and four numbers a vertex. */
+static void lay_ground(ground *g, const fl_side *A, int32_t F, const double *x, int32_t vertices,
+                       double *room)
+{
+    const fl_poly *p = A->p;
+    const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
+    side *sides = (side *)(void *)room;
+    g->n = A->n[F];
+    g->o = A->v[loop[0]];
+    g->x = v3_unit(v3_sub(A->v[loop[1]], g->o));
+    g->y = v3_cross(g->n, g->x);
+    for (int32_t c = 0; c < n; c++) {
+        const fl_vec3 a = v3_sub(A->v[loop[c]], g->o),
+                      e = v3_sub(A->v[loop[c + 1 < n ? c + 1 : 0]], A->v[loop[c]]);
+        const double ex = v3_dot(g->x, e), ey = v3_dot(g->y, e), over = 1.0 / sqrt(ex * ex + ey * ey);
+        sides[c] = (side){v3_dot(g->x, a), v3_dot(g->y, a), -over * ey, over * ex};
+    }
+    g->sides = sides;
+    g->n_side = n;
+    g->X = room + 4 * (int64_t)n;
+    g->Y = g->X + vertices;
+    g->h = g->Y + vertices;
+    g->clear = g->h + vertices;
+    survey(g, x, vertices);
+}
+
+static void mark(uint8_t *skip, int32_t match)
+{
+    if (match >= 0) skip[match] = 1;
+}
+
+int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, const fl_side *A,
+                      const fl_side *B, double R, double rim, fl_matches *rest)
+{
+    const fl_footing *o = l->footing;
+    fl_err lost = {0};
+    *rest = *l;
+    if (!o || o->feet == 0) return 0;
+    if (fl_grow(&room->skip, &room->skip_cap, l->n, sizeof *room->skip, &lost) ||
+        fl_grow(&room->left, &room->left_cap, l->n, sizeof *room->left, &lost))
+        return -1;
+    memset(room->skip, 0, (size_t)l->n);
+    for (int32_t k = 0; k < o->feet; k++) {
+        const foot *from = &o->foot[k], *to = from + 1;
+        const int32_t vertices = to->vertex - from->vertex;
+        const int64_t sides = A->p->first[from->F + 1] - A->p->first[from->F];
+        if (fl_grow(&room->number, &room->number_cap, 4 * (sides + vertices), sizeof *room->number, &lost))
+            return -1;
+        work q = {.w = w, .A = A, .B = B, .o = o, .skip = room->skip, .R = R, .rim = rim};
+        lay_ground(&q.g, A, from->F, o->x + 3 * (int64_t)from->vertex, vertices, room->number);
+        for (int32_t c = from->tile; c < to->tile; c++) {
+            const int is = under(&q, &o->tile[c]);
+            for (int way = 0; way < 2 && is > 0; way++) mark(q.skip, o->tile[c].match[way]);
+            if (is < 0) return -1;
+        }
+        for (int32_t c = from->strip; c < to->strip; c++) {
+            const int is = strip_under(&q, &o->strip[c]);
+            if (is > 0) mark(q.skip, o->strip[c].match);
+            if (is < 0) return -1;
+        }
+        for (int32_t c = from->point; c < to->point; c++) {
+            const int is = point_under(&q, &o->point[c]);
+            if (is > 0) mark(q.skip, o->point[c].match);
+            if (is < 0) return -1;
+        }
+        if (put(&q)) return -1;
+    }
+    rest->c = room->left;
+    rest->n = 0;
+    for (int32_t k = 0; k < l->n; k++)
+        if (!room->skip[k]) rest->c[rest->n++] = l->c[k];
+    return 0;
+}
+
+void fl_footing_free(fl_footing *o)
+{
+    if (!o) return;
+    free(o->foot), free(o->tile), free(o->strip), free(o->point), free(o->corner), free(o->vertex),
+        free(o->x);
+    free(o);
+}
+
+void fl_footing_work_free(fl_footing_work *room)
+{
+    free(room->number), free(room->skip), free(room->left);
+    *room = (fl_footing_work){0};
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* footing.h -- what of a surface of many small faces lies under the middle of a face F of a core.
+ *
+ * Where a face f of the surface B, an edge or a corner of it lies within the prism over a face F of the core
+ * A, farther from its sides than its fading rim is wide, nothing of it is cut by F, and F covers f whole.
+ * Then its parts of U (places.h) are integrals over f, its edge or its corner, which are fixed in B, of
+ * powers of s = R - h,   h = n_F.(x - p_F),          of f over F, of an edge and of a corner, and of s = R -
+ * h/c, c = -n_F.n_f,               of F over f, U = m(c) int s^4 c dA + m(c) int (R - h/c)^4 dA + ... h
+ * changes with a motion of A as if F pressed along its normal in x, so that all their forces have the
+ * direction of -n_F: one sum has the force and the moment of a thousand faces, eight or four at a time, and
+ * beside it stands the couple dU/dc n_F x n_f.  There is no rim to pull: by Gauss' theorem the pulls of the
+ * sides of f in areas.h are what its forces along n_f lack of those along n_F.  All this is exact where f is
+ * flat; corners off its plane count where they are.
+ *
+ * What is under F is asked anew at each evaluation, and the sums run in the order of features: not a bit
+ * depends on when the lists were made. */
+#ifndef FL_NARROW_FOOTING_H
+#define FL_NARROW_FOOTING_H
+#include "narrow/matches.h"
+
+typedef struct fl_footing fl_footing;
+
+/* Zeroed to start. */
+typedef struct {
+    double
+        *number; /* heights, places in the plane and distances from the sides of F, of all vertices; sides */
+    uint8_t *skip;  /* [l->n] what the footings have done */
+    fl_match *left; /* what is left of the matches */
+    int32_t number_cap, skip_cap, left_cap;
+} fl_footing_work;
+
+/* Sort out of the matches l of core A and surface B those that may lie under a face of A, into l->footing. -1
+ * when memory runs out. */
+int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B);
+
+/* The places of all that lies under faces of A now, added to w; *rest is l without the matches that this
+ * accounts for, and borrows from l and work.
+ *   rim  width of the fading rims of A's faces, at most [m]
+ * -1 when memory runs out. */
+int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *work, const fl_side *A,
+                      const fl_side *B, double R, double rim, fl_matches *rest);
+
+void fl_footing_free(fl_footing *o); /* takes NULL */
+void fl_footing_work_free(fl_footing_work *work);
+
+#endif

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* rules.h -- points and weights of numerical integration that several files use. */
+#ifndef FL_NARROW_RULES_H
+#define FL_NARROW_RULES_H
+
+/* Points of a triangle as shares of its corners, exact for polynomials of degree 5: the middle, and two
+ * triples (1 - 2a, a, a).  Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129. */
+enum { FL_TRIANGLE_NODES = 7 };
+#define FL_TRIANGLE_A 0.47014206410511508977
+#define FL_TRIANGLE_B 0.10128650732345633880
+static const double FL_TRIANGLE_NODE[FL_TRIANGLE_NODES][3] = {
+    {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0},
+    {1.0 - 2.0 * FL_TRIANGLE_A, FL_TRIANGLE_A, FL_TRIANGLE_A},
+    {FL_TRIANGLE_A, 1.0 - 2.0 * FL_TRIANGLE_A, FL_TRIANGLE_A},
+    {FL_TRIANGLE_A, FL_TRIANGLE_A, 1.0 - 2.0 * FL_TRIANGLE_A},
+    {1.0 - 2.0 * FL_TRIANGLE_B, FL_TRIANGLE_B, FL_TRIANGLE_B},
+    {FL_TRIANGLE_B, 1.0 - 2.0 * FL_TRIANGLE_B, FL_TRIANGLE_B},
+    {FL_TRIANGLE_B, FL_TRIANGLE_B, 1.0 - 2.0 * FL_TRIANGLE_B}};
+static const double FL_TRIANGLE_WEIGHT[FL_TRIANGLE_NODES] = {0.225,
+                                                             0.13239415278850618074,
+                                                             0.13239415278850618074,
+                                                             0.13239415278850618074,
+                                                             0.12593918054482715260,
+                                                             0.12593918054482715260,
+                                                             0.12593918054482715260};
+
+/* Gauss and Legendre on [0, 1], exact for polynomials of degree 11. */
+enum { FL_LINE_NODES = 6 };
+static const double FL_LINE_NODE[FL_LINE_NODES] = {0.03376524289842398609, 0.16939530676686774317,
+                                                   0.38069040695840154568, 0.61930959304159845432,
+                                                   0.83060469323313225683, 0.96623475710157601391};
+static const double FL_LINE_WEIGHT[FL_LINE_NODES] = {0.08566224618958517252, 0.18038078652406930378,
+                                                     0.23395696728634552369, 0.23395696728634552369,
+                                                     0.18038078652406930378, 0.08566224618958517252};
+
+#endif

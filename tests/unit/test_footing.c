@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What lies under the middle of a face is summed up apart, and comes to the same. */
+#include <math.h>
+#include "base/rng.h"
+#include "bound/shell.h"
+#include "support/near.h"
+
+#define RADIUS 0.05
+#define PI 3.14159265358979323846
+
+/* A sheet of n by n cells of 1 m that bends by 1/8 1/m one way and 1/5 1/m the other, convex or hollow, and
+ * is rough by `rough`. */
+static void sheet(fl_surface *s, int n, double hollow, double rough)
+{
+    fl_err err = {0};
+    assert_true(fl_surface_add(s, "sheet", 5, &err) == 0);
+    fl_part *p = &s->part[0];
+    for (int j = 0; j <= n; j++) {
+        for (int i = 0; i <= n; i++) {
+            fl_rng g = fl_rng_of(test_seed(), j * (n + 1) + i, FL_RNG_TEST);
+            const double x = 2.0 * i / n - 1.0 + 0.07 * j / n, y = 2.0 * j / n - 1.0;
+            const double z = -hollow * (x * x / 16.0 + y * y / 10.0) + fl_rng_in(&g, -rough, rough);
+            assert_int_equal(fl_surface_vertex(p, v3(x, y, z), &err), 0);
+        }
+    }
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i < n; i++) {
+            const int32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+            assert_int_equal(fl_surface_triangle(p, a, b, c, &err) || fl_surface_triangle(p, a, c, d, &err),
+                             0);
+        }
+    }
+}
+
+typedef struct {
+    double u, du, ddu;
+    fl_vec3 f, m;
+} sums;
+
+static sums sums_of(const fl_places *w)
+{
+    sums q = {.m = w->couple};
+    for (int32_t k = 0; k < w->n; k++) {
+        const fl_place *p = &w->place[k];
+        q.u += p->u;
+        q.du += p->u > 0.0 ? p->du : 0.0;
+        q.f = v3_madd(q.f, p->du, p->n);
+        q.m = v3_madd(q.m, p->du, v3_cross(p->p, p->n));
+    }
+    return q;
+}
+
+static void it_is_the_same(void **state)
+{
+    (void)state;
+    static const struct {
+        int n;
+        double hollow, rough;
+    } CASE[4] = {{40, 1.0, 0.0}, {60, 1.0, 1e-3}, {40, -0.3, 0.0}, {25, 0.0, 2e-3}};
+    fl_places w = {0};
+    fl_shell_near near = {0};
+    fl_err err = {0};
+    int saved = 0;
+    for (int c = 0; c < 4; c++) {
+        fl_surface surface = {0};
+        fl_structure st = {0};
+        sheet(&surface, CASE[c].n, CASE[c].hollow, CASE[c].rough);
+        assert_int_equal(fl_structure_build(&st, &surface, &err), 0);
+        const fl_piece *piece = &st.piece[0];
+        assert_int_equal(piece->kind, FL_PIECE_SHELL);
+        for (int k = 0; k < 40; k++) {
+            fl_rng g = fl_rng_of(test_seed(), 1000 * c + k, FL_RNG_TEST);
+            fl_poly box = {0};
+            fl_matches l = {0};
+            double distance;
+            assert_int_equal(fl_poly_box(&box, v3(fl_rng_in(&g, 0.2, 0.6), 0.4, 0.3), &err), 0);
+            const fl_quat q =
+                q_of_vector(v3(fl_rng_in(&g, -0.03, 0.03), fl_rng_in(&g, -0.03, 0.03), fl_rng_in(&g, -3, 3)));
+            const fl_vec3 at =
+                v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 0.3), 0.3 + fl_rng_in(&g, 0, 0.04));
+            assert_int_equal(fl_places_enter(&w, &box, q_matrix(q), v3_sub(at, piece->x)), 0);
+            w.apart = k % 2;
+            assert_int_equal(
+                fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, 0, &l, 0.0, &distance), 0);
+            const sums fast = sums_of(&w);
+            const int32_t places = w.n;
+            double shares = 0.0;
+            for (int32_t i = 0; i < w.shares; i++) {
+                shares += w.share[i].force;
+                assert_in_range(w.share[i].place, 0, w.n - 3);
+                assert_int_equal(w.place[w.share[i].place].stands, 3);
+            }
+            if (w.apart && w.shares) {
+                double all = 0.0;
+                for (int32_t i = 0; i < w.n; i++)
+                    for (int32_t s = 0; s < w.shares; s++)
+                        if (w.share[s].place == i && (s == 0 || w.share[s - 1].place != i))
+                            all += 3.0 * w.place[i].du * v3_norm(w.place[i].n);
+                assert_near(shares, all, 1e-12);
+            }
+            /* none behind the surface, or both would have its places */
+            if (l.shy == 0) {
+                const fl_side A = {&box, w.va, w.na, RADIUS, 1.0},
+                              B = {&piece->core, piece->core.v, piece->core.n, 0.0, -1.0};
+                w.n = 0;
+                w.couple = v3(0, 0, 0);
+                assert_int_equal(fl_matches_places(&w, &l, &A, &B, RADIUS, 0.0, FL_PLACE_RIM * RADIUS, 0.0),
+                                 0);
+                const sums slow = sums_of(&w);
+                /* of rough sheets some tiles of two triangles are flat within 1e-6 of the size only */
+                const double same = CASE[c].rough > 0.0 ? 3e-6 : 1e-12;
+                assert_near_of(fast.u, slow.u, same, slow.u);
+                assert_near_of(v3_norm(v3_sub(fast.f, slow.f)), 0.0, same, v3_norm(slow.f));
+                assert_near_of(v3_norm(v3_sub(fast.m, slow.m)), 0.0, same, v3_norm(slow.f));
+                saved += w.n - places;
+            }
+            fl_matches_free(&l);
+            fl_poly_free(&box);
+        }
+        fl_structure_free(&st);
+        fl_surface_free(&surface);
+    }
+    assert_true(saved > 1000);
+    fl_places_free(&w);
+    fl_shell_near_free(&near);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_the_same)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
