@@ -188,21 +188,25 @@ static void add_cone(sums *s, const fl_cone *c, fl_vec3 o)
 }
 
 /* Add part p to s, and its degenerate triangles and shortest edge to q. */
+static double lesser(double a, double b) { return a < b ? a : b; }
+
 static void add_part(sums *s, fl_quality *q, const fl_part *p, fl_vec3 o)
 {
+    double least = INFINITY; /* length of an edge, squared */
     for (int32_t t = 0; t < p->nt; t++) {
         const int32_t *v = p->t[t].v;
         const fl_vec3 a = v3_sub(p->v[v[0]], o), b = v3_sub(p->v[v[1]], o), c = v3_sub(p->v[v[2]], o);
         const fl_vec3 ab = v3_sub(b, a), ac = v3_sub(c, a), middle = v3_add(a, v3_add(b, c));
         const double twice = v3_norm(v3_cross(ab, ac)), six = v3_dot(a, v3_cross(b, c));
         const double l0 = v3_norm2(ab), l1 = v3_norm2(v3_sub(c, b)), l2 = v3_norm2(ac);
-        q->degenerate += repeats(&p->t[t]) || twice <= NO_AREA * fmax(l0, fmax(l1, l2));
-        q->shortest = fmin(q->shortest, sqrt(fmin(l0, fmin(l1, l2))));
+        q->degenerate += repeats(&p->t[t]) || twice <= NO_AREA * -lesser(-l0, lesser(-l1, -l2));
+        least = lesser(least, lesser(l0, lesser(l1, l2)));
         s->volume += six / 6.0;
         s->vc = v3_madd(s->vc, six / 24.0, middle);
         s->area += 0.5 * twice;
         s->ac = v3_madd(s->ac, twice / 6.0, middle);
     }
+    q->shortest = fmin(q->shortest, sqrt(least));
     for (int32_t c = 0; c < p->nc; c++) add_cone(s, &p->cone[c], o);
 }
 

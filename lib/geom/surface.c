@@ -78,11 +78,22 @@ fl_aabb fl_cone_aabb(const fl_cone *c)
     return aabb_add(aabb_add(b, v3_madd(c->p1, -c->r1, reach)), v3_madd(c->p1, c->r1, reach));
 }
 
+/* As aabb_add(), without calls of the C library: millions of corners go through here. */
+static inline void take_in(fl_aabb *b, fl_vec3 x)
+{
+    b->lo.x = x.x < b->lo.x ? x.x : b->lo.x;
+    b->lo.y = x.y < b->lo.y ? x.y : b->lo.y;
+    b->lo.z = x.z < b->lo.z ? x.z : b->lo.z;
+    b->hi.x = x.x > b->hi.x ? x.x : b->hi.x;
+    b->hi.y = x.y > b->hi.y ? x.y : b->hi.y;
+    b->hi.z = x.z > b->hi.z ? x.z : b->hi.z;
+}
+
 fl_aabb fl_part_aabb(const fl_part *p)
 {
     fl_aabb b = aabb_empty();
     for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3; k++) b = aabb_add(b, p->v[p->t[t].v[k]]);
+        for (int k = 0; k < 3; k++) take_in(&b, p->v[p->t[t].v[k]]);
     for (int32_t c = 0; c < p->nc; c++) b = aabb_join(b, fl_cone_aabb(&p->cone[c]));
     return b;
 }

@@ -213,6 +213,19 @@ void fl_bytes_note(fl_bytes *b, const char *fmt, ...)
 
 static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 
+/* What a word does not go on over, without a look at it. */
+static const unsigned char STOP[256] = {
+    ['\0'] = 1, [' '] = 1, ['\t'] = 1, ['\f'] = 1, ['\v'] = 1, ['\r'] = 1, ['\n'] = 1, ['\\'] = 1};
+
+/* The end of the word that begins at p. */
+static char *word_end(char *p)
+{
+    for (;; p++) {
+        while (!STOP[(unsigned char)*p]) p++;
+        if (*p != '\\' || line_end(p + 1)) return p;
+    }
+}
+
 /* Cut the line at pos into words; pos moves to the next line. */
 static int cut_line(fl_bytes *b, fl_err *err)
 {
@@ -241,9 +254,12 @@ static int cut_line(fl_bytes *b, fl_err *err)
             p += k;
             break;
         }
-        for (start = p; *p && !is_blank(*p) && !line_end(p) && !(*p == '\\' && line_end(p + 1)); p++) {}
+        start = p;
+        p = word_end(p);
         if (*p == '\0' && p < end) return fl_bytes_fail(b, err, "a zero byte: this is not a text file");
-        if (fl_grow(&b->field, &b->field_cap, (int64_t)b->words + 1, sizeof *b->field, err)) return -1;
+        if (b->words == b->field_cap &&
+            fl_grow(&b->field, &b->field_cap, (int64_t)b->words + 1, sizeof *b->field, err))
+            return -1;
         b->field[b->words++] = start;
         if (is_blank(*p)) *p++ = '\0';
         else if (*p == '\\') {

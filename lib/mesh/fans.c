@@ -16,6 +16,7 @@ typedef struct {
     int n;
     int32_t a[FL_FANS_MOST], b[FL_FANS_MOST];
     fl_vec3 x[FL_FANS_MOST], y[FL_FANS_MOST]; /* from the vertex to them */
+    fl_vec3 up[FL_FANS_MOST];                 /* x cross y */
 } fan;
 
 static double larger(double a, double b) { return a > b ? a : b; }
@@ -40,18 +41,18 @@ static int open_fan(const fl_part *p, int32_t v, const int32_t *t, int n, fan *f
     return 1;
 }
 
-/* Is every edge the first of one triangle and the second of one? */
-static int in_pairs(const fan *f)
+/* Does each triangle end in the edge in which one begins, round to the first one?  Going round in as many steps
+ * as there are triangles and not less meets every one of them, so that no two begin in the same edge. */
+static int goes_round(const fan *f)
 {
-    for (int i = 0; i < f->n; i++) {
-        int firsts = 0, seconds = 0;
-        for (int j = 0; j < f->n; j++) {
-            firsts += f->a[j] == f->a[i];
-            seconds += f->b[j] == f->a[i];
-        }
-        if (firsts != 1 || seconds != 1) return 0;
+    int at = 0;
+    for (int step = 1; step <= f->n; step++) {
+        int next = 0;
+        while (next < f->n && f->a[next] != f->b[at]) next++;
+        if (next == f->n || (next == 0) != (step == f->n)) return 0;
+        at = next;
     }
-    return 1;
+    return f->n > 0;
 }
 
 static int is_tame(const fl_part *p, int32_t v, const int32_t *t, int n)
@@ -59,18 +60,21 @@ static int is_tame(const fl_part *p, int32_t v, const int32_t *t, int n)
     fan f;
     fl_vec3 d = {0};
     double most;
-    if (n > FL_FANS_MOST || !open_fan(p, v, t, n, &f, &most) || !in_pairs(&f)) return 0;
-    for (int i = 0; i < n; i++) d = v3_add(d, v3_cross(f.x[i], f.y[i]));
+    if (n > FL_FANS_MOST || !open_fan(p, v, t, n, &f, &most) || !goes_round(&f)) return 0;
+    for (int i = 0; i < n; i++) {
+        f.up[i] = v3_cross(f.x[i], f.y[i]);
+        d = v3_add(d, f.up[i]);
+    }
     const double blur = BLUR * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * most * most + TINY;
     for (int i = 0; i < n; i++)
-        if (!(v3_dot(d, v3_cross(f.x[i], f.y[i])) > blur)) return 0;
+        if (!(v3_dot(d, f.up[i]) > blur)) return 0;
     /* Next to its first side sector 0 is there; the one that ends in that side is not; no other may be. */
     const fl_vec3 before = v3_cross(d, f.x[0]); /* d . (x x x0) = -before . x */
     for (int i = 1; i < n; i++) {
         if (f.b[i] == f.a[0]) continue;
         if (!(v3_dot(before, f.x[i]) > blur || v3_dot(before, f.y[i]) < -blur)) return 0;
     }
-    return n > 0;
+    return 1;
 }
 
 int fl_fans_tame(const fl_part *p, uint8_t *tame, fl_err *err)
