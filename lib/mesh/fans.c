@@ -41,8 +41,9 @@ static int open_fan(const fl_part *p, int32_t v, const int32_t *t, int n, fan *f
     return 1;
 }
 
-/* Does each triangle end in the edge in which one begins, round to the first one?  Going round in as many steps
- * as there are triangles and not less meets every one of them, so that no two begin in the same edge. */
+/* Does each triangle end in the edge in which one begins, round to the first one?  Going round in as many
+ * steps as there are triangles and not less meets every one of them, so that no two begin in the same edge.
+ */
 static int goes_round(const fan *f)
 {
     int at = 0;

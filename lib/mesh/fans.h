@@ -10,11 +10,11 @@
  *
  * Seen along some d, each triangle (v, a, b) at v is a sector from a to b of less than half a turn, and winds
  * one way when d . (a - v) x (b - v) > 0.  Where every edge at v is the beginning of one sector and the end
- * of one, and they are one ring, a turn about v leaves and enters sectors in pairs: their number over a
- * direction is the same for all directions.  If it is one anywhere, sectors have nothing in common but their sides, and triangles no
- * more than what lies above these: their common edges.  d is the sum of the normals, and the direction next
- * to the first side is looked at.  Rims, forks, twisted and folded fans are not tame, nor those of more than
- * FL_FANS_MOST triangles.
+ * of one, in one ring, a turn about v leaves and enters sectors in pairs: their number over a direction is
+ * the same for all directions.  If it is one anywhere, sectors have nothing in common but their sides, and
+ * triangles no more than what lies above these: their common edges.  d is the sum of the normals, and the
+ * direction next to the first side is looked at.  Rims, forks, twisted and folded fans are not tame, nor
+ * those of more than FL_FANS_MOST triangles.
  *   p      what is one point must be one vertex: weld first
  *   tame   [p->nv] out
  * Work is shared by all threads.  Returns 0, or -1 with FL_SYSTEM. */
