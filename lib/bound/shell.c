@@ -171,8 +171,7 @@ static void leave_near(fl_reach *r, const fl_side *A, const fl_side *B, double f
 /* The walls within reach, and what of them and of the core may have places, until the pair has moved by the
  * margin. */
 static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, const fl_side *B,
-                        const fl_shell *shell, double ra, double reach, int single, fl_matches *l,
-                        double path)
+                        const fl_shell *shell, double ra, double reach, int single, fl_matches *l)
 {
     const double margin = FL_PLACE_MARGIN * ra, same = SAME * (A->p->size + B->p->size);
     fl_reach *walls = &near->of_shell, *all = &near->of_core;
@@ -190,14 +189,14 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
         if (single || may_come_behind(B->p, shell->box, l->wall, l->walls, w->va[v], margin + same))
             l->wall[l->walls + l->shy++] = v;
     leave_near(walls, A, B, ra + margin + same);
-    return whole(all, A->p) || fl_matches_list(l, A, all, B, walls, ra, ra, margin, path) ||
+    return whole(all, A->p) || fl_matches_list(l, A, all, B, walls, ra, ra, margin, &w->M, w->o) ||
                    fl_footing_list(l, A, B)
                ? -1
                : 0;
 }
 
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
-                    double reach, int single, fl_matches *l, double path, double *distance)
+                    double reach, int single, fl_matches *l, double *distance)
 {
     const fl_poly *core = &b->core;
     const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {core, core->v, core->n, 0.0, -1.0};
@@ -205,9 +204,10 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     w->n = w->shares = 0;
     w->couple = v3(0, 0, 0);
     *distance = reach;
-    if (path >= l->until && list_matches(w, near, &A, &B, &b->shell, ra, reach, single, l, path)) return -1;
+    if (!fl_matches_hold(l, &w->M, w->o) && list_matches(w, near, &A, &B, &b->shell, ra, reach, single, l))
+        return -1;
     if (l->walls == 0) {
-        l->until = path; /* what is not near now is not known later */
+        l->shift2 = 0.0; /* what is not near now is not known later */
         return 0;
     }
     *distance = ra; /* something is near: no bound is claimed */

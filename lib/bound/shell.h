@@ -21,10 +21,10 @@ typedef struct {
  * when no face comes that near, else ra.
  *   reach   how far to look, >= ra [m]
  *   single  only the place of the deepest vertex, as `core` wants it
- *   l, path the matches of the pair and how far it has moved, as fl_places_find() wants them
+ *   l       the matches of the pair, as fl_places_find() wants them
  * -1 when memory runs out. */
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
-                    double reach, int single, fl_matches *l, double path, double *distance);
+                    double reach, int single, fl_matches *l, double *distance);
 void fl_shell_near_free(fl_shell_near *near);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include "narrow/matches.h"
 #include "base/mem.h"
 #include "geom/aabb.h"
@@ -224,15 +225,18 @@ static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach
 }
 
 int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
-                    double R, double behind, double margin, double path)
+                    double R, double behind, double margin, const fl_mat3 *M, fl_vec3 o)
 {
-    const double least = 0.5 * (A->p->size < B->p->size ? A->p->size : B->p->size);
-    const double turn = 2.0 * margin / least; /* of the two together */
+    double far = 0.0;
+    for (int32_t v = 0; v < A->p->nv; v++) far = fmax(far, v3_norm2(A->p->v[v]));
+    far = sqrt(far) + R + margin;
+    const double half = 0.5 * margin, turn = half / far; /* half of it for the shift, half for the turn */
     const double wide = margin + ROUNDING * (A->p->size + B->p->size);
     const search of_a = {l, 0, A, B, R, behind, wide, turn}, of_b = {l, 1, B, A, R, behind, wide, turn};
     l->n = l->sides = 0;
     for (int k = 0; k < 2; k++) l->table[k].vertices = l->table[k].planes = 0;
-    l->until = path + margin / (1.0 + (R + margin) / least);
+    l->M = *M, l->o = o;
+    l->shift2 = half * half, l->turn2 = turn * turn;
     return vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
                    edges_and_faces(&of_b, b, a)
                ? -1

@@ -49,26 +49,39 @@ typedef struct {
     int32_t vertices, planes, vertex_cap, plane_cap;
 } fl_table;
 
-/* Zeroed to start: nothing listed, and valid up to a path of 0. */
+/* Zeroed to start: nothing listed. */
 struct fl_matches {
     fl_match *c;
     int32_t *side; /* 2 row, or 2 row + 1 where below the plane is meant */
     fl_table table[2];
     int32_t n, cap, sides, side_cap;
-    double until;  /* up to which path the list holds [m] */
+    fl_mat3 M; /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
+    fl_vec3 o;
+    double shift2, turn2; /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
     int32_t *wall; /* [walls + shy] the caller's: faces of a surface that is not convex, in reach as long, and
                     * vertices of A that may come behind it as long */
     int32_t walls, shy, wall_cap;
     struct fl_footing *footing; /* of a surface: what may lie under a face of A (footing.h), or NULL */
 };
 
-/* List what of the features a of A and b of B can come within R of each other while no point moves by more
- * than `margin` [m] against the other core: vertices of A, then of B, then edges and faces of A, then of B,
- * each over faces, edges and vertices. behind  how far below a face its prism reaches [m] path    now; until
- * is set to it and what the margin allows.  A point within reach of a core that turns moves more than the
- * core's own points, as it is farther from the centre [m] -1 when memory runs out. */
+/* List what of the features a of A and b of B can come within R of each other while no point that matters
+ * moves by more than `margin` [m] against the other core: those of A, and those of B within reach of it,
+ * which are no farther from A's centre than A's own and the reach.
+ *   behind   how far below a face its prism reaches [m]
+ *   M, o     where A stands now
+ * -1 when memory runs out. */
 int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
-                    double R, double behind, double margin, double path);
+                    double R, double behind, double margin, const fl_mat3 *M, fl_vec3 o);
+
+/* It is still good where A stands now. */
+static inline int fl_matches_hold(const fl_matches *l, const fl_mat3 *M, fl_vec3 o)
+{
+    double turn2 = 0.0;
+    if (!(v3_norm2(v3_sub(o, l->o)) < l->shift2)) return 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) turn2 += (M->m[i][k] - l->M.m[i][k]) * (M->m[i][k] - l->M.m[i][k]);
+    return turn2 < l->turn2;
+}
 
 /* The places of all that is listed, added to w.  rim_a, rim_b: widths of the fading rims of the faces of A,
  * of B [m].  -1 when memory runs out. */

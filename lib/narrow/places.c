@@ -12,6 +12,7 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
     fl_err lost = {0};
     if (fl_grow(&w->va, &w->va_cap, a->nv, sizeof *w->va, &lost)) return -1;
     if (a->nf && fl_grow(&w->na, &w->na_cap, a->nf, sizeof *w->na, &lost)) return -1;
+    w->M = M, w->o = o;
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
     for (int32_t f = 0; f < a->nf; f++) w->na[f] = m3_mul(M, a->n[f]);
     return 0;
@@ -81,7 +82,7 @@ void fl_reach_free(fl_reach *r)
 }
 
 static int list_matches(fl_places *w, const fl_side *A, const fl_side *B, double R, fl_vec3 n, int deep,
-                        fl_matches *l, double path)
+                        fl_matches *l)
 {
     const double margin = deep ? 0.0 : FL_PLACE_MARGIN * R;
     double low = INFINITY, high = -INFINITY;
@@ -89,7 +90,7 @@ static int list_matches(fl_places *w, const fl_side *A, const fl_side *B, double
     for (int32_t v = 0; v < B->p->nv; v++) high = fmax(high, v3_dot(n, B->v[v]));
     return in_reach(&w->of_a, A, n, high + R + margin) ||
                    in_reach(&w->of_b, B, v3_neg(n), R + margin - low) ||
-                   fl_matches_list(l, A, &w->of_a, B, &w->of_b, R, 0.0, margin, path)
+                   fl_matches_list(l, A, &w->of_a, B, &w->of_b, R, 0.0, margin, &w->M, w->o)
                ? -1
                : 0;
 }
@@ -123,7 +124,7 @@ static int add_depth(fl_places *w, const fl_overlap *deep, double R)
 }
 
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, double rb, fl_vec3 n,
-                   const fl_overlap *deep, fl_matches *l, double path)
+                   const fl_overlap *deep, fl_matches *l)
 {
     const double depth = deep->depth, R = ra + rb + depth, rim = FL_PLACE_RIM * (ra + rb);
     const fl_vec3 out = v3_scale(depth, n);
@@ -132,10 +133,11 @@ int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, 
     w->couple = v3(0, 0, 0);
     if (depth > 0.0)
         for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(w->va[v], out);
-    if ((depth > 0.0 || path >= l->until) && list_matches(w, &A, &B, R, n, depth > 0.0, l, path)) return -1;
+    if ((depth > 0.0 || !fl_matches_hold(l, &w->M, w->o)) && list_matches(w, &A, &B, R, n, depth > 0.0, l))
+        return -1;
     if (fl_matches_places(w, l, &A, &B, R, 0.0, rim, rim)) return -1;
     if (depth == 0.0) return 0;
-    l->until = path; /* of cores that were moved */
+    l->shift2 = 0.0; /* of cores that were moved */
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_sub(w->va[v], out);
     return add_depth(w, deep, R);
 }

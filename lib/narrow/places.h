@@ -92,7 +92,9 @@ typedef struct {
 
 /* Scratch of one thread, and the places found.  Zeroed to start; grows as it must. */
 typedef struct {
-    fl_vec3 *va, *na; /* vertices and normals of A in the frame of B; set by fl_places_enter() */
+    fl_vec3 *va, *na; /* vertices and normals of A in the frame of B; set by fl_places_enter() with */
+    fl_mat3 M;        /* the frame of A in that of B, and */
+    fl_vec3 o;        /* its origin */
     fl_reach of_a, of_b;
     fl_sheet sheet[2];
     fl_place *place;
@@ -115,13 +117,11 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
  *           same, and one that separates the cores by nearly their distance is quick.
  *   deep    by how much the cores overlap, depth 0 when they do not; n is the way out then
  *   l       the matches of this pair, made anew when they are out of date
- *   path    bounds from above how far points of the two cores have moved against each other, but for a
- *           constant: it only grows                                                            [m]
  * Cores that overlap by D are looked at as if moved apart by D n, with s = R + D - d; D and the turning of n
  * have places of their own.
  * Points and directions are in the frame of B.  -1 when memory runs out. */
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, double rb, fl_vec3 n,
-                   const fl_overlap *deep, fl_matches *l, double path);
+                   const fl_overlap *deep, fl_matches *l);
 
 /* All places of A over the half-space z < 0 of the frame of B, and the least z of A's core. */
 int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance);

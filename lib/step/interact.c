@@ -139,7 +139,7 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
 
 /* Fill s with the places of the pair; *distance is a lower bound of the distance of the cores. */
 static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *near, const relative *r,
-                       double path, double *distance)
+                       double *distance)
 {
     const fl_bodies *b = &w->b;
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
@@ -162,8 +162,7 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
     if (piece && piece->kind == FL_PIECE_PLANE)
         return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance) : fl_places_plane(s, A, ra, distance);
     if (piece && piece->kind == FL_PIECE_SHELL)
-        return fl_shell_places(s, near, A, piece, ra, ra + w->skin, p->exponent > 0.0, &p->matches, path,
-                               distance);
+        return fl_shell_places(s, near, A, piece, ra, ra + w->skin, p->exponent > 0.0, &p->matches, distance);
     const int core_law = p->law->kind == FL_LAW_CORE;
     fl_overlap deep;
     fl_gap gap;
@@ -185,7 +184,7 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
         }
         return fl_places_point(s, gap.pa, gap.n, R - gap.d, ra);
     }
-    if (fl_places_find(s, A, B, ra, rb, p->axis, &deep, &p->matches, path)) return -1;
+    if (fl_places_find(s, A, B, ra, rb, p->axis, &deep, &p->matches)) return -1;
     if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
         p->has_axis = 0;
         return separate(w, p, A, B, s, r->M, INFINITY, &deep, &gap, distance);
@@ -530,7 +529,7 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
         if (force_manual(w, p, s, &r, dt, survey, &distance)) goto failed;
         if (p->n) return;
     } else {
-        if (find_places(w, p, s, &w->near_shell[thread], &r, path, &distance)) goto failed;
+        if (find_places(w, p, s, &w->near_shell[thread], &r, &distance)) goto failed;
         if (p->exponent > 0.0 ? s->n && force_one(w, p, s, &r, dt, survey)
                               : force_patch(w, p, s, &r, dt, survey))
             return;
