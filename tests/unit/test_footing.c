@@ -80,8 +80,8 @@ static void it_is_the_same(void **state)
                 v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 0.3), 0.3 + fl_rng_in(&g, 0, 0.04));
             assert_int_equal(fl_places_enter(&w, &box, q_matrix(q), v3_sub(at, piece->x)), 0);
             w.apart = k % 2;
-            assert_int_equal(
-                fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, 0, &l, 0.0, &distance), 0);
+            assert_int_equal(fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, 0, &l, &distance),
+                             0);
             const sums fast = sums_of(&w);
             const int32_t places = w.n;
             double shares = 0.0;
