@@ -3,7 +3,11 @@
 #include "base/mem.h"
 #include "broad/bvh.h"
 
-enum { LEAF = 4, DEPTH_MAX = 64 }; /* halving n < 2^31 ends after 30 levels */
+enum {
+    LEAF = 4,
+    DEPTH_MAX = 64, /* halving n < 2^31 ends after 30 levels */
+    TASK = 4096     /* boxes worth a thread's while */
+};
 
 static double centre(const fl_aabb *b, int axis)
 {
@@ -37,7 +41,22 @@ static void select_median(const fl_aabb *box, int axis, int32_t *order, int32_t 
     }
 }
 
-static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int32_t count)
+/* Nodes beneath one of n boxes.  Halves of a number differ by one at most, and so do theirs: every level knows
+ * two numbers, and both calls of a level find the same ones again. */
+static int32_t beneath(int32_t n, int32_t *other)
+{
+    int32_t less, more; /* of n / 2 and of n / 2 + 1 */
+    if (n < LEAF) {     /* n + 1 <= LEAF */
+        *other = 0;
+        return 0;
+    }
+    less = beneath(n / 2, &more);
+    *other = 2 + (n % 2 ? 2 * more : less + more);
+    return n <= LEAF ? 0 : 2 + (n % 2 ? less + more : 2 * less);
+}
+
+/* Large halves are handed to whichever thread is free; where a node lies follows from the numbers of boxes. */
+static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int32_t count, int32_t child)
 {
     fl_aabb all = aabb_empty(), mids = aabb_empty();
     for (int32_t k = first; k < first + count; k++) {
@@ -49,13 +68,15 @@ static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int3
     if (count <= LEAF) return;
     const fl_vec3 side = v3_sub(mids.hi, mids.lo);
     const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
-    const int32_t half = count / 2, child = t->nodes;
+    const int32_t half = count / 2;
+    int32_t more;
+    const int32_t next = child + 2 + beneath(half, &more);
     select_median(box, axis, t->order, first, first + half, first + count);
-    t->nodes += 2;
     t->node[at].first = child;
     t->node[at].count = 0;
-    split(t, box, child, first, half);
-    split(t, box, child + 1, first + half, count - half);
+#pragma omp task if (count > TASK)
+    split(t, box, child, first, half, child + 2);
+    split(t, box, child + 1, first + half, count - half, next);
 }
 
 int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err)
@@ -71,8 +92,12 @@ int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const
     for (int32_t k = 0; k < n; k++)
         if (!absent || k >= m || !absent[k]) t->order[there++] = k;
     t->n = there;
-    t->nodes = there > 0;
-    if (there > 0) split(t, box, 0, 0, there);
+    int32_t more;
+    t->nodes = there > 0 ? 1 + beneath(there, &more) : 0;
+    if (there == 0) return 0;
+#pragma omp parallel if (there > TASK)
+#pragma omp single
+    split(t, box, 0, 0, there, 1);
     return 0;
 }
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
 #include "base/mem.h"
 #include "broad/pairs.h"
 
 /* How many images of one body to each side of the middle another may meet, and the code of the middle. */
-enum { IMAGES = 15, CENTRE = 16 << 10 | 16 << 5 | 16 };
+enum { BLOCK = 64, IMAGES = 15, CENTRE = 16 << 10 | 16 << 5 | 16 };
 
 static int ascending(const void *a, const void *b)
 {
@@ -16,6 +17,8 @@ typedef struct {
     int32_t *met, met_cap;
     int64_t *key;
     int32_t key_cap, keys;
+    int64_t *all; /* of all bodies of a block */
+    int32_t all_cap, alls;
 } scratch;
 
 /* Add what of the tree, and of the wide boxes where the image is the middle one, meets q. */
@@ -77,43 +80,66 @@ static int partners(const fl_pairs *p, const fl_aabb *box, int32_t i, int32_t to
     return 0;
 }
 
+/* Partners of the bodies of block b, one after the other, and their numbers into p->first; NULL when memory
+ * runs out, then or before. */
+static int64_t *find_block(fl_pairs *p, const fl_aabb *box, int32_t b, int32_t n, int32_t total, int32_t wide,
+                           scratch *s, fl_err *err)
+{
+    int64_t *keys = NULL;
+    s->alls = 0;
+    for (int32_t i = b * BLOCK; i < n && i < (b + 1) * BLOCK; i++) {
+        if (err->code || partners(p, box, i, total, wide, s, err)) return NULL;
+        if (fl_grow(&s->all, &s->all_cap, (int64_t)s->alls + s->keys, sizeof *s->all, err)) return NULL;
+        memcpy(s->all + s->alls, s->key, (size_t)s->keys * sizeof *s->all);
+        s->alls += s->keys;
+        p->first[i + 1] = s->keys;
+    }
+    keys = fl_alloc(s->alls, sizeof *keys, err);
+    if (keys) memcpy(keys, s->all, (size_t)s->alls * sizeof *keys);
+    return keys;
+}
+
 int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int32_t wide, fl_err *err)
 {
     int failed = 0;
     const int wraps = p->period.x > 0.0 || p->period.y > 0.0 || p->period.z > 0.0;
     if (fl_bvh_build_some(&p->tree, box, total - wide, n, p->absent, err)) return -1;
     if (fl_grow(&p->first, &p->first_cap, (int64_t)n + 1, sizeof *p->first, err)) return -1;
-    /* Twice the same queries: the first counts, the second fills its stretch.  No thread waits for another.
-     */
-    for (int pass = 0; pass < 2; pass++) {
+    /* Each block of bodies keeps what it finds until all know where it belongs. */
+    const int32_t blocks = (n + BLOCK - 1) / BLOCK;
+    int64_t **found = fl_alloc(blocks, sizeof *found, err);
+    if (!found) return -1;
 #pragma omp parallel
-        {
-            scratch s = {0};
-            fl_err lost = {0};
-#pragma omp for schedule(dynamic, 64)
-            for (int32_t i = 0; i < n; i++) {
-                if (lost.code || partners(p, box, i, total, wide, &s, &lost)) continue;
-                if (pass == 0) p->first[i + 1] = s.keys;
-                else
-                    for (int32_t c = 0; c < s.keys; c++) {
-                        p->partner[p->first[i] + c] = (int32_t)(s.key[c] >> 32);
-                        if (wraps) p->image[p->first[i] + c] = (int32_t)(s.key[c] & 0x7fff);
-                    }
-            }
-            free(s.met), free(s.key);
-            if (lost.code) {
+    {
+        scratch s = {0};
+        fl_err lost = {0};
+#pragma omp for schedule(dynamic)
+        for (int32_t b = 0; b < blocks; b++) found[b] = find_block(p, box, b, n, total, wide, &s, &lost);
+        free(s.met), free(s.key), free(s.all);
+        if (lost.code) {
 #pragma omp atomic write
-                failed = 1;
+            failed = 1;
+        }
+    }
+    p->first[0] = 0;
+    for (int32_t i = 0; i < n && !failed; i++) p->first[i + 1] += p->first[i];
+    fl_err lost = {0};
+    failed = failed || fl_grow(&p->partner, &p->partner_cap, p->first[n], sizeof *p->partner, &lost) ||
+             (wraps && fl_grow(&p->image, &p->image_cap, p->first[n], sizeof *p->image, &lost));
+    if (!failed) {
+#pragma omp parallel for schedule(static)
+        for (int32_t b = 0; b < blocks; b++) {
+            const int64_t from = p->first[b * BLOCK];
+            const int64_t to = p->first[(b + 1) * BLOCK < n ? (b + 1) * BLOCK : n];
+            for (int64_t k = from; k < to; k++) {
+                p->partner[k] = (int32_t)(found[b][k - from] >> 32);
+                if (wraps) p->image[k] = (int32_t)(found[b][k - from] & 0x7fff);
             }
         }
-        if (failed) return fl_fail(err, FL_SYSTEM, "out of memory while searching neighbours");
-        if (pass == 1) break;
-        p->first[0] = 0;
-        for (int32_t i = 0; i < n; i++) p->first[i + 1] += p->first[i];
-        if (fl_grow(&p->partner, &p->partner_cap, p->first[n], sizeof *p->partner, err)) return -1;
-        if (wraps && fl_grow(&p->image, &p->image_cap, p->first[n], sizeof *p->image, err)) return -1;
     }
-    return 0;
+    for (int32_t b = 0; b < blocks; b++) free(found[b]);
+    free(found);
+    return failed ? fl_fail(err, FL_SYSTEM, "out of memory while searching neighbours") : 0;
 }
 
 int fl_pairs_image(int32_t image, int axis) { return (image >> (10 - 5 * axis) & 31) - 16; }

@@ -5,6 +5,9 @@
 #include "step/pairing.h"
 #include "step/search.h"
 
+/* Bodies enough to look at by several threads. */
+enum { MANY = 4096 };
+
 /* The box of body k: of its core in the world, dilated. */
 static fl_aabb box_of(const fl_world *w, int32_t k)
 {
@@ -70,10 +73,20 @@ static int stale(const fl_world *w)
     double first = 0.0, second = 0.0; /* the two that have moved most */
     if (w->found_at < 0) return 1;
     if (w->scene->run.search_every > 0 && w->step - w->found_at >= w->scene->run.search_every) return 1;
-    for (int32_t k = 0; k < w->b.total; k++) {
-        const double moved = w->b.odometer[k] - w->odometer_found[k];
-        if (moved > first) second = first, first = moved;
-        else if (moved > second) second = moved;
+#pragma omp parallel if (w->b.total > MANY)
+    {
+        double one = 0.0, two = 0.0;
+#pragma omp for schedule(static) nowait
+        for (int32_t k = 0; k < w->b.total; k++) {
+            const double moved = w->b.odometer[k] - w->odometer_found[k];
+            if (moved > one) two = one, one = moved;
+            else if (moved > two) two = moved;
+        }
+#pragma omp critical(fl_search_stale)
+        {
+            second = fmax(fmin(first, one), fmax(second, two));
+            first = fmax(first, one);
+        }
     }
     return first + second >= w->skin * (1.0 - 1e-6);
 }

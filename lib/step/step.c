@@ -193,21 +193,37 @@ static double share_of(const fl_world *w, const fl_pair *p, int32_t i)
     return own + sqrt(p->stiff_i * p->stiff_j);
 }
 
-/* The largest omega^2 of a body bounds the step from above. */
+/* 2/omega of body i < n by the contacts of the last survey. */
+static double limit_of(const fl_world *w, int32_t i)
+{
+    double sum = w->balls.bodies ? fl_balls_stiff(w, i) : 0.0;
+    for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
+        const fl_pair *p = &w->pair[w->inc[c]];
+        if (p->n) sum += share_of(w, p, i);
+    }
+    return sum > 0.0 ? 2.0 / sqrt(sum) : INFINITY;
+}
+
+/* The largest omega^2 of a body bounds the step from above; of equal ones the first body tells it. */
 static void survey_stiffness(fl_world *w)
 {
-    for (int32_t i = 0; i < w->n; i++) {
-        double sum = w->balls.bodies ? fl_balls_stiff(w, i) : 0.0;
-        for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
-            const fl_pair *p = &w->pair[w->inc[c]];
-            if (p->n) sum += share_of(w, p, i);
+    double least = w->dt_critical;
+    int32_t body = INT32_MAX;
+#pragma omp parallel
+    {
+        double own = least;
+        int32_t i_own = INT32_MAX;
+#pragma omp for schedule(static) nowait
+        for (int32_t i = 0; i < w->n; i++) {
+            const double limit = limit_of(w, i);
+            if (limit < own) own = limit, i_own = i;
         }
-        if (sum <= 0.0) continue;
-        const double limit = 2.0 / sqrt(sum);
-        if (limit < w->dt_critical) {
-            w->dt_critical = limit;
-            w->critical_body = i;
-        }
+#pragma omp critical(fl_step_survey)
+        if (own < least || (own == least && i_own < body)) least = own, body = i_own;
+    }
+    if (body < INT32_MAX) {
+        w->dt_critical = least;
+        w->critical_body = body;
     }
     if (w->ride.m.n) fl_ride_survey(w);
 }

@@ -3,8 +3,13 @@
  * between walls, by law and by fraction of the critical step.  Energy must stay, so its drift is the error.
  * Then what one order of all sums costs, against sums in the order in which threads come; what a floe costs
  * that touches nothing; and time for each body against their number. Times are of this machine now; compare
- * rows of one run only. */
+ * rows of one run only.
+ *     bench_step                       the tables
+ *     bench_step dry|water STEPS       so many steps of a hundred floes that touch nothing; tells how many
+ *                                      body-steps they were */
 #include <omp.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include "base/rng.h"
 #include "body/integrate.h"
@@ -165,10 +170,22 @@ static double cost(int32_t side, int spheres, double pitch, int water, int64_t s
     return bad ? INFINITY : each;
 }
 
-int main(void)
+/* Body-steps of floes that touch nothing, for a tool that counts instructions. */
+static int alone(const char *where, int64_t steps)
+{
+    lab l;
+    grid(&l, 10, 0, 4.0, strcmp(where, "water") == 0);
+    const int bad = lab_run(&l, steps);
+    printf("%lld\n", (long long)(steps * l.w.n));
+    lab_free(&l);
+    return bad;
+}
+
+int main(int argc, char **argv)
 {
     static const double SAFETY[] = {0.4, 0.2, 0.1, 0.05};
     static const char *const LAW[] = {"patch", "core", "manual-si", "manual"};
+    if (argc == 3) return alone(argv[1], atoi(argv[2]));
     setvbuf(stdout, NULL, _IOLBF, 0);
     printf("gas of 196 floes, elastic, no friction, 4 s, one thread\n");
     printf("%-10s %8s %10s %12s %15s %15s %14s %12s\n", "law", "safety", "dt[s]", "ns/body-step",

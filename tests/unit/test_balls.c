@@ -186,7 +186,7 @@ static void batches(void **state)
 static void out_of_memory(void **state)
 {
     (void)state;
-    for (long n = 0; n < 30; n++) {
+    for (long n = 0; n < 1000; n++) {
         lab l;
         fl_err err = {0};
         scene_of_balls(&l, 4, "patch");
