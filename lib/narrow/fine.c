@@ -12,8 +12,9 @@
 /* Reached by no walk that was seen; a bound for the proof that there is one. */
 enum { STEPS = 4096, IDLE = 16 };
 
-/* Squared distances this near to each other count as equal. */
-#define TIE 4e-16
+/* Squared distances this near to each other count as equal: the rounding on a sliver 1e-20 of its length
+ * wide. */
+#define TIE 1e-12
 
 typedef struct {
     int32_t n, a[4], b[4];
@@ -28,9 +29,58 @@ typedef struct {
     double share[4]; /* v = sum of share[i] w[k[i]], shares sum to 1 */
 } fine_nearest;
 
-/* Points without a length, an area or a volume are left to their parts: the square of 1e-29, the rounding
- * of a product of pairs of doubles with a margin. */
+/* Points without a length, an area or a volume are left to their parts.  A triangle this thin, squared, has
+ * the direction of its height to 1e-6; what leaving it out turns the normal by is its height over the
+ * distance. */
+#define THIN 1e-52
+/* A tetrahedron: 1e-29, the rounding of a product of pairs of doubles with a margin. */
 #define FLAT 1e-58
+
+static int project_segment(const fine_simplex *s, fine_nearest *c)
+{
+    const fl_ddv p = s->w[c->k[0]], e = ddv_sub(s->w[c->k[1]], p);
+    const fl_dd ee = ddv_dot(e, e), t = dd_neg(ddv_dot(p, e));
+    if (!(ee.h > 0.0) || !(t.h > 0.0) || !(dd_cmp(t, ee) < 0.0)) return 0;
+    const fl_dd x = dd_div(t, ee);
+    c->v = ddv_madd(p, x, e);
+    c->share[0] = 1.0 - x.h;
+    c->share[1] = x.h;
+    return 1;
+}
+
+/* First onto the line of the longest side, which leaves u, and then along the height h over it.  The error is
+ * 2^-104 of the points in u and of u in what follows over the slenderness; by the product of two sides it
+ * would be the points' over the slenderness, 1e-13 of a distance of 1e-11 on sides that are parallel to
+ * 1e-9. */
+static int project_triangle(const fine_simplex *s, fine_nearest *c)
+{
+    double longest = -1.0;
+    int i = 0, j = 1, k = 2;
+    for (int side = 0; side < 3; side++) {
+        const double l = v3_norm2(v3_sub(ddv_round(s->w[c->k[(side + 1) % 3]]), ddv_round(s->w[c->k[side]])));
+        if (l > longest) {
+            longest = l;
+            i = side;
+        }
+    }
+    j = (i + 1) % 3;
+    k = (i + 2) % 3;
+    const fl_ddv p = s->w[c->k[i]], e = ddv_sub(s->w[c->k[j]], p), g = ddv_sub(s->w[c->k[k]], p);
+    const fl_dd ee = ddv_dot(e, e);
+    if (!(ee.h > 0.0)) return 0;
+    const fl_dd foot = dd_div(ddv_dot(g, e), ee), t = dd_neg(dd_div(ddv_dot(p, e), ee));
+    const fl_ddv h = ddv_madd(g, dd_neg(foot), e), u = ddv_madd(p, t, e);
+    const fl_dd hh = ddv_dot(h, h);
+    if (!(hh.h > THIN * ee.h)) return 0;
+    const fl_dd y = dd_neg(dd_div(ddv_dot(u, h), hh)), x = dd_sub(t, dd_mul(y, foot)),
+                z = dd_sub(dd_sub(dd_of(1.0), x), y);
+    if (!(x.h > 0.0 && y.h > 0.0 && z.h > 0.0)) return 0;
+    c->v = ddv_madd(u, y, h);
+    c->share[i] = z.h;
+    c->share[j] = x.h;
+    c->share[k] = y.h;
+    return 1;
+}
 
 /* The point c->v of the affine hull of the points c->k[0 .. c->n) nearest to the origin, if it lies
  * inside them. */
@@ -40,32 +90,14 @@ static int fine_project(const fine_simplex *s, fine_nearest *c)
     c->share[0] = 1.0;
     c->v = p;
     if (c->n == 1) return 1;
-    const fl_ddv q = s->w[c->k[1]], e = ddv_sub(q, p);
-    const fl_dd ee = ddv_dot(e, e);
-    if (c->n == 2) {
-        const fl_dd t = dd_neg(ddv_dot(p, e));
-        if (!(ee.h > 0.0) || !(t.h > 0.0) || !(dd_cmp(t, ee) < 0.0)) return 0;
-        const fl_dd x = dd_div(t, ee);
-        c->v = ddv_madd(p, x, e);
-        c->share[0] = 1.0 - x.h;
-        c->share[1] = x.h;
-        return 1;
-    }
-    const fl_ddv r = s->w[c->k[2]], g = ddv_sub(r, p), m = ddv_cross(e, g);
-    const double gg = ddv_dot(g, g).h;
-    if (c->n == 3) {
-        const fl_dd mm = ddv_dot(m, m);
-        if (!(mm.h > FLAT * ee.h * gg)) return 0;
-        const double x[3] = {ddv_dot(m, ddv_cross(q, r)).h, ddv_dot(m, ddv_cross(r, p)).h,
-                             ddv_dot(m, ddv_cross(p, q)).h};
-        if (!(x[0] > 0.0 && x[1] > 0.0 && x[2] > 0.0)) return 0;
-        for (int32_t k = 0; k < 3; k++) c->share[k] = x[k] / mm.h;
-        c->v = ddv_scale(dd_div(ddv_dot(m, p), mm), m);
-        return 1;
-    }
+    if (c->n == 2) return project_segment(s, c);
+    if (c->n == 3) return project_triangle(s, c);
+    const fl_ddv q = s->w[c->k[1]], r = s->w[c->k[2]], e = ddv_sub(q, p), g = ddv_sub(r, p),
+                 m = ddv_cross(e, g);
+    const double ee = ddv_dot(e, e).h, gg = ddv_dot(g, g).h;
     const fl_ddv t = s->w[c->k[3]], h = ddv_sub(t, p);
     const double det = ddv_dot(m, h).h;
-    if (!(det * det > FLAT * ee.h * gg * ddv_dot(h, h).h)) return 0;
+    if (!(det * det > FLAT * ee * gg * ddv_dot(h, h).h)) return 0;
     /* Volumes of the four tetrahedra that the origin makes with the faces, over that of the whole. */
     const double x[4] = {ddv_dot(q, ddv_cross(r, t)).h / det, -ddv_dot(p, ddv_cross(r, t)).h / det,
                          ddv_dot(p, ddv_cross(q, t)).h / det, -ddv_dot(p, ddv_cross(q, r)).h / det};

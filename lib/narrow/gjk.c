@@ -284,6 +284,17 @@ static int settle(const pair *p, fl_vec3 n, const fl_heights *h, const fl_simple
     return beyond <= PROOF * p->size && stands_firm(p, &f[now], out, beyond);
 }
 
+/* What the walk in pairs of doubles found, with the vertices of its simplex as features. */
+static void own_answer(const pair *p, const fl_simplex *s, const fl_gap *own, fl_gap *out)
+{
+    const fl_part a = part_of(p->a, s->n, s->a, NULL), b = part_of(p->b, s->n, s->b, NULL);
+    *out = *own;
+    out->na = a.n;
+    out->nb = b.n;
+    for (int32_t k = 0; k < a.n; k++) out->ia[k] = a.i[k];
+    for (int32_t k = 0; k < b.n; k++) out->ib[k] = b.i[k];
+}
+
 void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
 {
     const pair p = {a, b, fl_core_extent(a) + fl_core_extent(b)};
@@ -303,7 +314,7 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
             if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, NULL, &s, 0, out)) &&
                 (!settle(&p, own.n, NULL, &s, 1, out) || out->d > own.d + FARTHER * (p.size + own.d)) &&
                 !out->overlap)
-                *out = own;
+                own_answer(&p, &s, &own, out);
         }
     }
     if (cache) {
