@@ -17,6 +17,7 @@
 #include "options.h"
 #include "views.h"
 #include "quality.h"
+#include "unite.h"
 
 /* Of a round solid in a format that knows triangles only; 0.2 % of its volume is lost. */
 enum { ROUND_FACETS = 64 };
@@ -122,12 +123,12 @@ done:
     return rc;
 }
 
-/* With --strict the answer is no when a part does not bound a body. */
+/* With --strict the answer is no when a part does not bound a body, by itself or together with others. */
 static int judge(const fl_surface *s, const struct mended *m, fl_err *err)
 {
     for (int32_t i = 0; i < s->n; i++) {
         const fl_quality *q = &m[i].left;
-        if (q->open || q->branched || q->incoherent)
+        if ((q->open && !m[i].fits) || q->branched || q->incoherent)
             return fl_fail(err, FL_NO,
                            "part \"%.60s\" is left with %d open, %d non-manifold and %d twisted edges",
                            s->part[i].name, q->open, q->branched, q->incoherent);
@@ -150,6 +151,7 @@ static int run(const struct options *o, fl_err *err)
     if (!m) goto done;
     for (int32_t i = 0; i < s.n; i++)
         if (mend(&s.part[i], o, &m[i], err)) goto done;
+    if (!o->raw && unite(&s, m, err)) goto done;
     if (report(o, &s, m, err) || write_out(o, &s, err)) goto done;
     if (o->plot && views(&s, o->plot, err)) goto done;
     rc = o->strict ? judge(&s, m, err) : 0;

@@ -22,6 +22,7 @@ struct mended {
     int32_t simplified; /* triangles less */
     fl_crossing meet;   /* what is left */
     fl_quality left;
+    int fits;              /* its open edges are those of other parts, and all of these close together */
     double strays, misses; /* no point of the result is farther from the source, and the other way [m] */
 };
 

@@ -101,7 +101,7 @@ static void details(const fl_part *p, const struct mended *m)
 static void warn(const char *name, const struct mended *m)
 {
     const int32_t twisted = m->orient.twisted, rimmed = m->orient.rimmed;
-    if (rimmed && m->left.open)
+    if (rimmed && m->left.open && !m->fits)
         fprintf(stderr,
                 "struct-import: warning: %s: open patches have no outside, they keep the side that most of "
                 "their area had\n",
@@ -124,6 +124,23 @@ static void warn_size(const struct options *o, fl_aabb box)
             o->unit ? "is the unit right?" : "the unit is unknown and was taken as m, --unit sets it");
 }
 
+/* Parts that are open by themselves and close together have a volume together. */
+static int32_t close_together(const fl_surface *s, const struct mended *m, fl_quality *sum)
+{
+    int32_t fits = 0, open = 0;
+    for (int32_t i = 0; i < s->n; i++) {
+        fits += m[i].fits;
+        open += !m[i].left.closed;
+    }
+    if (fits && fits == open) {
+        const fl_moments all = fl_moments_of(s->part, s->n);
+        sum->closed = 1;
+        sum->volume = all.volume;
+        sum->centroid = all.centroid;
+    }
+    return fits;
+}
+
 int report(const struct options *o, const fl_surface *s, const struct mended *m, fl_err *err)
 {
     struct mended sum = {0};
@@ -131,6 +148,7 @@ int report(const struct options *o, const fl_surface *s, const struct mended *m,
     if (s->n == 1) sum.left = m[0].left;
     else if (fl_surface_measure(s, &sum.left, err)) return -1;
     if (o->quiet) return 0;
+    const int32_t fits = close_together(s, m, &sum.left);
     for (int32_t i = 0; i < s->n; i++)
         if ((int)strlen(s->part[i].name) > width) width = (int)strlen(s->part[i].name);
     fprintf(stderr, "%-*s %9s %5s %13s %13s   %s   %s\n", width, "part", "triangles", "cones", "volume[m3]",
@@ -153,6 +171,7 @@ int report(const struct options *o, const fl_surface *s, const struct mended *m,
         if (o->verbose) details(&s->part[i], &m[i]);
         warn(s->part[i].name, &m[i]);
     }
+    if (fits) fprintf(stderr, "struct-import: %d open parts fit one another: together they close\n", fits);
     warn_size(o, sum.left.box);
     return 0;
 }
