@@ -45,7 +45,7 @@ $(foreach t,$(TOOLS),$(eval $(call tool,$t)))
 # dem-solve for other vectors than those of the machine, for the ladder of bench/.
 $B/bench/plain.o: WIDTH = 0
 $B/bench/avx2.o: WIDTH = 1u<<10
-$B/bench/%.o: bench/width.c
+$B/bench/%.o: bench/vectors.c
 	@mkdir -p $(@D)
 	$(CCALL) -D'WIDTH=$(WIDTH)' -c $< -o $@
 $B/bench/dem-solve-%: $B/bench/%.o $(patsubst %.c,$B/%.o,$(wildcard tools/dem-solve/*.c)) $(SHIM) $B/libfloe.a

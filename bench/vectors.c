@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* width.c -- what __cpu_model tells of the machine, defined anew: a program linked with this takes the
+/* vectors.c -- what __cpu_model tells of the machine, defined anew: a program linked with this takes the
  * functions of base/wide.h for the vectors that WIDTH names, 0 none, 1 << 10 those of AVX2. */
 struct processor {
     unsigned vendor, type, subtype, features[1];
