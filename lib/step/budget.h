@@ -5,7 +5,9 @@
  * it into a second world made from the same scene, and moves that through a window of some rows with steps
  * h, h/2 and h/4.  With X the load of the window and d = |X(h) - X(h/2)|, d' = |X(h/2) - X(h/4)|,
  *     order    p = log2(d/d'), kept in [1, 2],
- *     error    e = |X(h) - X(h/4)| + d'/(2^p - 1),       e(h') = e (h'/h)^p            (Richardson)
+ *     error    e = |X(h) - X(h/4)| + d',                 e(h') = e (h'/h)^p            (Richardson)
+ * where what is left of h/4 counts as of order 1: damping and friction are, and the rest is an eighth less.
+ * Where another step must be tried the order is known, h and h/2 do, and e = 2 d.
  * The step is the largest, among those that divide a row, for which all windows looked at together stay
  * within the goal,
  *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.95 goal sum |X|,
@@ -16,7 +18,9 @@
  *
  * It is looked at the start; before two things may meet whose kind of meeting has not been seen with nearly
  * that momentum (floe and floe, floe and each part of the structure, floe and wall); and again after ten
- * times as many steps as the last look took.  An impact that is not over is followed by further rows.
+ * times as many steps as the last look took.  Where things meet in a window it is made eight times as long:
+ * what an impact is off by, others may add to or take back, as a floe that comes to rest in the end has given
+ * all its momentum whatever became of the first impact.
  *
  * How far ahead a state tells anything is measured, after a time and again after twice of it, by two windows
  * T whose floes differ by a small shift s, and by s/T in speed: rate = ln(distance at the end / that of free

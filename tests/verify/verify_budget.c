@@ -324,16 +324,12 @@ int main(void)
         double over;     /* scenes that may be over their budget */
         double short_of; /* steps that may be less than half of the largest that would do */
     } TABLE[] = {
-        {"E01", "impulse", 0.01, 1, 1}, {"E02", "impulse", 0.003, 3, 4}, {"E03", "peak", 0.01, 2, 2}};
+        {"E01", "impulse", 0.01, 1, 1}, {"E02", "impulse", 0.003, 1, 1}, {"E03", "peak", 0.01, 1, 1}};
     verify_begin("a step from an error budget");
     for (size_t t = 0; t < sizeof TABLE / sizeof *TABLE; t++) {
         int within = 0, longest = 0, n = 0;
         verify_note("run.error = %g of the %s; (cap): no longer step is known to be stable beforehand",
                     TABLE[t].goal, TABLE[t].of);
-        if (TABLE[t].short_of > 1.0)
-            verify_note(
-                "what one window is off by later ones may take back: a floe that comes to rest has given "
-                "all its momentum");
         for (size_t k = 0; k < SCENES; k += verify_quick() ? 4 : 1) {
             const int ok = try(&SCENE[k], TABLE[t].goal, TABLE[t].of);
             within += ok & 1;
