@@ -111,8 +111,8 @@ make_scene() # NAME
 seconds() # NAME
 {
     case $1:$quick in
-    field-2000:0) echo 0.6 ;;
-    field-20000:0) echo 0.2 ;;
+    field-2000:0) echo 0.4 ;;
+    field-20000:0) echo 0.1 ;;
     field-2000:*) echo 0.1 ;;
     field-*:0 | field-20:*) echo 1.6 ;;
     field-*) echo 0.4 ;;
