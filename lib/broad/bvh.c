@@ -41,8 +41,8 @@ static void select_median(const fl_aabb *box, int axis, int32_t *order, int32_t 
     }
 }
 
-/* Nodes beneath one of n boxes.  Halves of a number differ by one at most, and so do theirs: every level knows
- * two numbers, and both calls of a level find the same ones again. */
+/* Nodes beneath one of n boxes.  Halves of a number differ by one at most, and so do theirs: every level
+ * knows two numbers, and both calls of a level find the same ones again. */
 static int32_t beneath(int32_t n, int32_t *other)
 {
     int32_t less, more; /* of n / 2 and of n / 2 + 1 */
@@ -55,7 +55,8 @@ static int32_t beneath(int32_t n, int32_t *other)
     return n <= LEAF ? 0 : 2 + (n % 2 ? less + more : 2 * less);
 }
 
-/* Large halves are handed to whichever thread is free; where a node lies follows from the numbers of boxes. */
+/* Large halves are handed to whichever thread is free; where a node lies follows from the numbers of boxes.
+ */
 static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int32_t count, int32_t child)
 {
     fl_aabb all = aabb_empty(), mids = aabb_empty();

@@ -3,7 +3,7 @@
  * history: what a step costs for each body and for each contact, everything included, beside how well energy
  * is kept and how deep spheres stand in one another; and what a body takes of memory with its pairs.
  *     bench_spheres                        the table
- *     bench_spheres STEPS                  so many steps of a thousand spheres in a lattice, for a tool that
+ *     bench_spheres count STEPS            so many steps of a thousand spheres in a lattice, for a tool that
  *                                          counts instructions; tells how many contact-steps they were
  *     bench_spheres THREADS TILES STEPS    one row
  * A column of a thousand spheres of radii within a tenth of each other is poured into a cell that repeats
@@ -154,7 +154,7 @@ int main(int argc, char **argv)
     double dt;
     int good = 0, bad = 0;
     setvbuf(stdout, NULL, _IOLBF, 0);
-    if (argc == 2) return count(b, atoi(argv[1]));
+    if (argc == 3) return count(b, atoi(argv[2]));
     pour(b, &dt);
     printf("spheres at rest, Hertz and Mindlin, friction 0.4, steps of %.3g s\n", dt);
     head();

@@ -2,28 +2,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # instructions.sh [update] -- instructions of one contact, counted by callgrind: the figure that does not
 # depend on how busy the machine is.  Beside it the one kept in instructions.txt, and how far it has risen;
-# `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.
-#   BENCH  where bench_contact lies
+# `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.  The cases by number are
+# those of bench_contact; `spheres` is a contact and step of spheres in a lattice, everything included, `dry`
+# and `water` a body and step of floes that touch nothing.
+#   BENCH  the folder where the benches lie
+#   ONLY   the one case that is counted
 set -e
 cd "$(dirname "$0")"
-BENCH=${BENCH:-../../build/tests/bench/bench_contact}
+BENCH=${BENCH:-../../build/tests/bench}
 FEW=200 MANY=1200 CASES=11
 kept=instructions.txt
 fresh=$(mktemp)
 trap 'rm -f "$fresh"' EXIT
 
-count() { # case times
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$BENCH" "$1" "$2" 2>&1 |
-        awk '/Collected/ { print $NF }'
+counted() { # program, its arguments: instructions, and of how many units, where the program tells them
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$BENCH/$1" "$2" "$3" 2>&1 |
+        awk '/^[0-9]+$/ { units = $1 } /Collected/ { print $NF, units }'
 }
 
-k=0
-while [ $k -lt $CASES ]; do
-    echo "$k $(count $k $FEW) $(count $k $MANY)"
-    k=$((k + 1))
-done | awk -v n=$((MANY - FEW)) '{ printf "%d %.0f\n", $1, ($3 - $2) / n }' > "$fresh"
+each() { # name, program, its argument, few, many, units between the two where the program does not tell
+    [ -z "$ONLY" ] || [ "$ONLY" = "$1" ] || return 0
+    echo "$(counted "$2" "$3" "$4") $(counted "$2" "$3" "$5")" | awk -v name="$1" -v n="$6" '
+        { printf "%s %.0f\n", name, n ? ($2 - $1) / n : ($3 - $1) / ($4 - $2) }'
+}
 
-[ "$1" = update ] && cp "$fresh" $kept
+all() {
+    k=0
+    while [ $k -lt $CASES ]; do
+        each $k bench_contact $k $FEW $MANY $((MANY - FEW))
+        k=$((k + 1))
+    done
+    each spheres bench_spheres count 20 120
+    each dry bench_step dry 20 120
+    each water bench_step water 20 120
+}
+all > "$fresh"
+
+if [ "$1" = update ]; then
+    awk 'NR == FNR { now[$1] = $2; next } { print $1, $1 in now ? now[$1] : $2; delete now[$1] }
+         END { for (k in now) print k, now[k] }' "$fresh" $kept > "$fresh.all"
+    mv "$fresh.all" $kept
+fi
 awk 'NR == FNR { kept[$1] = $2; next }
-     FNR == 1 { printf "%4s %12s %12s %7s\n", "case", "kept", "now", "ratio" }
-     { printf "%4d %12d %12d %7.3f\n", $1, kept[$1], $2, kept[$1] ? $2 / kept[$1] : 0 }' $kept "$fresh"
+     FNR == 1 { printf "%8s %12s %12s %7s\n", "case", "kept", "now", "ratio" }
+     { printf "%8s %12d %12d %7.3f\n", $1, kept[$1], $2, kept[$1] ? $2 / kept[$1] : 0 }' $kept "$fresh"
