@@ -4,6 +4,7 @@
 #include <strings.h>
 #include "base/mem.h"
 #include "mesh/bytes.h"
+#include "mesh/foreign.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_bdf.h"
 #include "mesh/read_cdb.h"
@@ -77,6 +78,7 @@ static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
     if (fl_stl_is_binary(b)) return fl_stl_read_binary(s, b, name, err);
     if (fl_ply_is(b)) return fl_ply_read(s, b, name, err);
     if (starts_with(b, "#g_struct")) return read_own(s, b, err);
+    if (!starts_with(b, "solid") && fl_foreign(b)) return fl_bytes_fail(b, err, "%s", fl_foreign(b));
     if (zero)
         return fl_bytes_fail(
             b, err,

@@ -254,6 +254,43 @@ static void files_add_up(void **state)
     unlink(test_path("a"));
 }
 
+/* Files of other kinds are named, with what to export instead. */
+static void what_is_foreign_is_named(void **state)
+{
+    static const struct {
+        const char *text;
+        size_t n; /* 0 for all of it */
+        const char *says;
+    } row[] = {
+        {"\r\nISO-10303-21;\nHEADER;\n", 0, ": a STEP file, which is geometry without a mesh: mesh it"},
+        {"**ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefg\n**PARASOLID !\"#\n", 0, ": a Parasolid file"},
+        {"                                                                        S      1\n", 0,
+         ": an IGES file"},
+        {"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", 0, ": a DXF drawing: export the surface as STL"},
+        {"glTF\2\0\0\0", 8, ": a glTF scene"},
+        {"{\"asset\": {\"version\": \"2.0\"}}", 0, ": a glTF scene"},
+        {"Kaydara FBX Binary  \0\x1a", 22, ": an FBX scene"},
+        {"PK\003\004\0\0", 6, ": a ZIP archive, as 3MF is"},
+        {"\211HDF\r\n\032\n", 0, ": an HDF5 file, as MED and CGNS are: export the mesh as Abaqus"},
+        {"CDF\001\0\0\0\0", 8, ": a NetCDF file"},
+        {"    -1\n  2411\n", 0, ": a universal file of I-DEAS"},
+        {"MeshVersionFormatted 2\n", 0, ": a MEDIT mesh"},
+        {"(0 \"fluent\")\n(2 3)\n", 0, ": a mesh of Fluent"},
+        {"$# comment\n*KEYWORD\n*NODE\n", 0, ": a deck of LS-DYNA: export it as"},
+        {"! a tower\n/prep7\nn,1,0,0,0\n", 0, ": commands of ANSYS without NBLOCK or EBLOCK"},
+        {"%PDF-1.4\n", 0, ": a PDF document"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fl_surface s = {0};
+        fl_err e = {0};
+        const size_t n = row[k].n ? row[k].n : strlen(row[k].text);
+        assert_int_equal(fl_mesh_read(&s, test_file("a", row[k].text, n), note, &e), -1);
+        assert_int_equal(e.code, FL_INPUT);
+        if (!strstr(e.text, row[k].says)) fail_msg("\"%s\" is not in \"%s\"", row[k].says, e.text);
+    }
+    unlink(test_path("a"));
+}
+
 static void each_fault_has_its_sentence(void **state)
 {
     static const struct {
@@ -341,6 +378,7 @@ int main(void)
                                        cmocka_unit_test(objects_groups_and_materials_are_parts),
                                        cmocka_unit_test(remarks_are_made),
                                        cmocka_unit_test(files_add_up),
+                                       cmocka_unit_test(what_is_foreign_is_named),
                                        cmocka_unit_test(each_fault_has_its_sentence),
                                        cmocka_unit_test(size_decides_on_binary)};
     return cmocka_run_group_tests(tests, NULL, NULL);
