@@ -165,7 +165,7 @@ int fl_decimal_scaled(uint64_t m, int e, int q, uint64_t *whole, uint64_t *fract
     const power *p = &five[q - LEAST];
     const int shift = __builtin_clzll(m);
     m <<= shift;
-    const wide product = (wide)m * p->hi + ((wide)m * p->lo >> 64);
+    const wide low = (wide)m * p->lo, product = (wide)m * p->hi + (low >> 64);
     /* x 10^q lies in (product .. product + 2) 2^-point: a unit for the low word that was dropped, another one
      * for the rest of the power.  At 65 bits below the point or more they are one unit of fraction, and what
      * is cut off there is the second. */
@@ -173,7 +173,8 @@ int fl_decimal_scaled(uint64_t m, int e, int q, uint64_t *whole, uint64_t *fract
     if (point < 65 || point > 127 || product >> point >> 62 || product >> point < (wide)1 << 50) return 0;
     *whole = (uint64_t)(product >> point);
     *fraction = (uint64_t)(product >> (point - 64));
-    return 1;
+    const int exact = q >= 0 && q <= EXACT_POWER && (uint64_t)low == 0;
+    return exact && (product & (((wide)1 << (point - 64)) - 1)) == 0 ? 2 : 1;
 }
 
 int fl_decimal_nearest(uint64_t w, int q, double *x)

@@ -21,7 +21,8 @@ const char *fl_decimal(const char *s, double *x);
 
 /* The other way, for x = m 2^e > 0 with m < 2^53: the whole part and the fraction of  x 10^q,
  *     x 10^q = whole + (fraction + d) / 2^64,   0 <= d < 2.
- * Returns 0 when q lies beyond -300 .. 308 or the whole part is not between 2^50 and 2^62; else 1. */
+ * Returns 0 when q lies beyond -300 .. 308 or the whole part is not between 2^50 and 2^62; 2 when d is 0 for
+ * certain; else 1. */
 int fl_decimal_scaled(uint64_t m, int e, int q, uint64_t *whole, uint64_t *fraction);
 
 /* *x = the double nearest to w 10^q, w > 0.  Returns 0 when 128 bits do not decide which it is; else 1. */

@@ -27,24 +27,25 @@ static char *library_text(double x, char *buf)
 enum { MOST_DIGITS = 17 };
 static const uint64_t TEN_16 = UINT64_C(10000000000000000);
 
-/* whole + fraction / 2^64, short by less than 2 units of fraction, to the nearest multiple of unit, in units;
- * unit is 1, 10 or 100.  Returns 0 when what is missing decides.  Inline, for units that the compiler knows.
- */
-static inline int rounded(uint64_t whole, uint64_t fraction, uint64_t unit, uint64_t *out)
+/* whole + fraction / 2^64, short by less than 2 units of fraction or exact, to the nearest multiple of unit,
+ * in units; halves go to the even one.  unit is 1, 10 or 100.  Returns 0 when what is missing decides.
+ * Inline, for units that the compiler knows. */
+static inline int rounded(uint64_t whole, uint64_t fraction, int exact, uint64_t unit, uint64_t *out)
 {
-    const uint64_t half = UINT64_C(1) << 63, rest = whole % unit, middle = unit / 2;
+    const uint64_t half = UINT64_C(1) << 63, rest = whole % unit, middle = unit / 2, down = whole / unit;
+    const uint64_t missing = exact ? 0 : 2;
     uint64_t up;
     if (unit == 1) {
-        if (fraction <= half && fraction + 2 > half) return 0;
-        up = fraction > half;
+        up = fraction > half || (exact && fraction == half && (down & 1));
+        if (!up && fraction <= half && fraction + missing > half) return 0;
     } else if (rest == middle) {
-        if (fraction == 0) return 0; /* halfway, or just above */
-        up = 1;
+        if (fraction == 0 && !exact) return 0; /* halfway, or just above */
+        up = fraction > 0 || (down & 1);
     } else {
-        if (rest + 1 == middle && fraction + 2 < fraction) return 0; /* just below halfway, or not */
+        if (rest + 1 == middle && fraction + missing < fraction) return 0; /* just below halfway, or not */
         up = rest > middle;
     }
-    *out = whole / unit + up;
+    *out = down + up;
     return 1;
 }
 
@@ -112,13 +113,13 @@ static inline int reads_back(uint64_t d, uint64_t unit, uint64_t whole, uint64_t
 }
 
 /* Write x with so many digits if that reads back: 1, 0 if it does not, -1 if 128 bits do not settle it. */
-static inline int try_digits(double x, uint64_t whole, uint64_t fraction, uint64_t m, int ten, int digits,
-                             uint64_t unit, char *buf)
+static inline int try_digits(double x, uint64_t whole, uint64_t fraction, int exact, uint64_t m, int ten,
+                             int digits, uint64_t unit, char *buf)
 {
     uint64_t d;
     double y;
     int how = 1;
-    if (!rounded(whole, fraction, unit, &d)) return -1;
+    if (!rounded(whole, fraction, exact, unit, &d)) return -1;
     if (digits < MOST_DIGITS) how = reads_back(d, unit, whole, fraction, m);
     if (d == 10 * TEN_16 / unit) { /* 9.99... to 10 */
         d /= 10;
@@ -142,15 +143,16 @@ static int quick_text(double x, char *buf)
     if (exponent == 0 || exponent == 0x7ff) return 0;
     /* floor(log10 x), or one less: the slope is log10(2) from below, within 1e-6 over all exponents */
     int ten = (int)floor((exponent - 1023) * 0.30102999);
-    if (!fl_decimal_scaled(m, exponent - 1075, 16 - ten, &whole, &fraction)) return 0;
-    if (whole >= 10 * TEN_16) {
+    int scaled = fl_decimal_scaled(m, exponent - 1075, 16 - ten, &whole, &fraction);
+    if (scaled && whole >= 10 * TEN_16) {
         ten++;
-        if (!fl_decimal_scaled(m, exponent - 1075, 16 - ten, &whole, &fraction)) return 0;
+        scaled = fl_decimal_scaled(m, exponent - 1075, 16 - ten, &whole, &fraction);
     }
+    if (!scaled) return 0;
     if (whole < TEN_16 || whole >= 10 * TEN_16) return 0;
-    int how = try_digits(x, whole, fraction, m, ten, 15, 100, buf);
-    if (how == 0) how = try_digits(x, whole, fraction, m, ten, 16, 10, buf);
-    if (how == 0) how = try_digits(x, whole, fraction, m, ten, 17, 1, buf);
+    int how = try_digits(x, whole, fraction, scaled == 2, m, ten, 15, 100, buf);
+    if (how == 0) how = try_digits(x, whole, fraction, scaled == 2, m, ten, 16, 10, buf);
+    if (how == 0) how = try_digits(x, whole, fraction, scaled == 2, m, ten, 17, 1, buf);
     return how > 0;
 }
 

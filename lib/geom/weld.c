@@ -104,10 +104,9 @@ static int remember(grid *g, int32_t v, fl_vec3 x, fl_err *err)
     return 0;
 }
 
-static int merge_one(grid *g, const fl_part *p, int32_t v, int32_t *to, fl_weld *w, fl_err *err)
+static int merge_one(grid *g, const fl_part *p, int32_t v, uint64_t own, int32_t *to, fl_weld *w, fl_err *err)
 {
     const fl_vec3 x = p->v[v];
-    const uint64_t own = own_slot(g, x);
     int32_t u = twin_in(g->head, g, own, p, x);
     double d;
     if (u < 0 && g->gone) u = twin_in(g->gone, g, hash_place(x) & g->mask, p, x);
@@ -128,7 +127,9 @@ static int merge_one(grid *g, const fl_part *p, int32_t v, int32_t *to, fl_weld 
  * within tol, or itself. */
 static int merge(const fl_part *p, int32_t *to, fl_vec3 lo, double edge, fl_weld *w, fl_err *err)
 {
+    enum { AHEAD = 8 }; /* the heads of chains lie all over the memory, and are asked for in time */
     grid g = {.lo = lo, .mask = 16};
+    uint64_t slots[AHEAD] = {0};
     int rc = 0;
     if (w->tol > 0.0) g.per = 1.0 / fmax(2.0 * w->tol, fmin(WIDE * w->tol, edge));
     while (g.mask < 2 * (uint64_t)p->nv) g.mask *= 2;
@@ -137,7 +138,11 @@ static int merge(const fl_part *p, int32_t *to, fl_vec3 lo, double edge, fl_weld
     g.next = g.head + g.mask;
     memset(g.head, -1, (size_t)g.mask * sizeof *g.head);
     g.mask--;
-    for (int32_t v = 0; rc == 0 && v < p->nv; v++) rc = merge_one(&g, p, v, to, w, err);
+    for (int64_t n = 0; rc == 0 && n < (int64_t)p->nv + AHEAD; n++) {
+        const uint64_t own = slots[n % AHEAD]; /* of the vertex AHEAD before */
+        if (n < p->nv) __builtin_prefetch(&g.head[slots[n % AHEAD] = own_slot(&g, p->v[n])]);
+        if (n >= AHEAD) rc = merge_one(&g, p, (int32_t)(n - AHEAD), own, to, w, err);
+    }
     free(g.head);
     free(g.gone);
     return rc;

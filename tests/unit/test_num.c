@@ -81,6 +81,8 @@ static void text_is_that_of_the_library(void **state)
         same_as_library(strtod(text, NULL));
         same_as_library(fl_rng_in(&g, -1e3, 1e3));
         same_as_library(round(fl_rng_in(&g, -1e6, 1e6)) / 1000.0);
+        for (double size = 1e-6; size < 1e9; size *= 10.0)
+            same_as_library((double)(float)fl_rng_in(&g, -size, size)); /* the last digit is often a half */
         same_as_library((double)(fl_rng_u64(&g) >> fl_rng_u64(&g) % 64));
         same_as_library(ldexp((double)(fl_rng_u64(&g) % 1000000), (int)(fl_rng_u64(&g) % 160) - 80));
     }
