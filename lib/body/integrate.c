@@ -268,6 +268,151 @@ FL_WIDE_VERSIONS static void drift_plain(int32_t n, double dt, const fl_vec3 *re
     }
 }
 
+/* The same of any body that nothing holds. */
+FL_WIDE_VERSIONS static void kick_free(int32_t n, double h, const double *restrict invm,
+                                       const fl_vec3 *restrict I, const fl_mat3 *restrict R,
+                                       const fl_vec3 *restrict f, const fl_vec3 *restrict t,
+                                       fl_vec3 *restrict v, fl_vec3 *restrict L, fl_vec3 *restrict w,
+                                       fl_vec3 (*restrict gain)[2])
+{
+#pragma omp simd
+    for (int32_t i = 0; i < n; i++) {
+        const double s = h * invm[i];
+        const double ux = v[i].x + s * f[i].x, uy = v[i].y + s * f[i].y, uz = v[i].z + s * f[i].z;
+        gain[i][0].x = ux - v[i].x;
+        gain[i][0].y = uy - v[i].y;
+        gain[i][0].z = uz - v[i].z;
+        v[i].x = ux;
+        v[i].y = uy;
+        v[i].z = uz;
+        const double x = L[i].x + h * t[i].x, y = L[i].y + h * t[i].y, z = L[i].z + h * t[i].z;
+        L[i].x = x;
+        L[i].y = y;
+        L[i].z = z;
+        const double a = (R[i].m[0][0] * x + R[i].m[1][0] * y + R[i].m[2][0] * z) / I[i].x,
+                     b = (R[i].m[0][1] * x + R[i].m[1][1] * y + R[i].m[2][1] * z) / I[i].y,
+                     c = (R[i].m[0][2] * x + R[i].m[1][2] * y + R[i].m[2][2] * z) / I[i].z;
+        const double wx = R[i].m[0][0] * a + R[i].m[0][1] * b + R[i].m[0][2] * c,
+                     wy = R[i].m[1][0] * a + R[i].m[1][1] * b + R[i].m[1][2] * c,
+                     wz = R[i].m[2][0] * a + R[i].m[2][1] * b + R[i].m[2][2] * c;
+        gain[i][1].x = wx - w[i].x;
+        gain[i][1].y = wy - w[i].y;
+        gain[i][1].z = wz - w[i].z;
+        w[i].x = wx;
+        w[i].y = wy;
+        w[i].z = wz;
+    }
+}
+
+/* Turns in work, one array a quantity. */
+enum { TURNS = 16 };
+typedef struct {
+    double q[4][TURNS], L[3][TURNS], I[3][TURNS];  /* q in and out */
+    double R[9][TURNS], w[3][TURNS], chord[TURNS]; /* out */
+} turns;
+
+/* fl_drift_rotation() with its three turns written out, R and w after it, and the chord of it. */
+FL_WIDE_VERSIONS static void turn_free(turns *restrict t, int32_t n, double dt)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < n; i++) {
+        const double Lx = t->L[0][i], Ly = t->L[1][i], Lz = t->L[2][i];
+        const double I0 = t->I[0][i], I1 = t->I[1][i], I2 = t->I[2][i];
+        const double a0 = 0.5 * dt * (1.0 / I0 - 1.0 / I1), a2 = dt * (1.0 / I2 - 1.0 / I1);
+        const double ow = t->q[0][i], ox = t->q[1][i], oy = t->q[2][i], oz = t->q[3][i];
+        /* about its first axis */
+        const double l0 =
+            (1 - 2 * (oy * oy + oz * oz)) * Lx + 2 * (ox * oy + ow * oz) * Ly + 2 * (ox * oz - ow * oy) * Lz;
+        const double r0 = a0 * l0, v0 = 0.25 * r0 * r0;
+        const double c0 = 1.0 - q_versine(v0), s0 = q_sinc(v0) * (0.5 * r0);
+        const double aw = ow * c0 - ox * s0, ax = ow * s0 + ox * c0, ay = oy * c0 + oz * s0,
+                     az = oz * c0 - oy * s0;
+        /* as a symmetric top: about its third axis, then about L */
+        const double l2 =
+            2 * (ax * az + aw * ay) * Lx + 2 * (ay * az - aw * ax) * Ly + (1 - 2 * (ax * ax + ay * ay)) * Lz;
+        const double r2 = a2 * l2, v2 = 0.25 * r2 * r2;
+        const double c2 = 1.0 - q_versine(v2), s2 = q_sinc(v2) * (0.5 * r2);
+        const double bw = aw * c2 - az * s2, bx = ax * c2 + ay * s2, by = ay * c2 - ax * s2,
+                     bz = az * c2 + aw * s2;
+        const double k = dt / I1, rx = k * Lx, ry = k * Ly, rz = k * Lz;
+        const double v1 = 0.25 * (rx * rx + ry * ry + rz * rz);
+        const double c1 = 1.0 - q_versine(v1), s1 = 0.5 * q_sinc(v1);
+        const double hx = s1 * rx, hy = s1 * ry, hz = s1 * rz;
+        const double dw = c1 * bw - hx * bx - hy * by - hz * bz, dx = c1 * bx + hx * bw + hy * bz - hz * by,
+                     dy = c1 * by - hx * bz + hy * bw + hz * bx, dz = c1 * bz + hx * by - hy * bx + hz * bw;
+        /* and about the first axis again */
+        const double l3 =
+            (1 - 2 * (dy * dy + dz * dz)) * Lx + 2 * (dx * dy + dw * dz) * Ly + 2 * (dx * dz - dw * dy) * Lz;
+        const double r3 = a0 * l3, v3fold = 0.25 * r3 * r3;
+        const double c3 = 1.0 - q_versine(v3fold), s3 = q_sinc(v3fold) * (0.5 * r3);
+        const double ew = dw * c3 - dx * s3, ex = dw * s3 + dx * c3, ey = dy * c3 + dz * s3,
+                     ez = dz * c3 - dy * s3;
+        const double one = 1.5 - 0.5 * (ew * ew + ex * ex + ey * ey + ez * ez);
+        const double qw = one * ew, qx = one * ex, qy = one * ey, qz = one * ez;
+        t->q[0][i] = qw;
+        t->q[1][i] = qx;
+        t->q[2][i] = qy;
+        t->q[3][i] = qz;
+        /* the vector part of q conj(old) */
+        const double fx = qx * ow - qw * ox - qy * oz + qz * oy, fy = qy * ow - qw * oy + qx * oz - qz * ox,
+                     fz = qz * ow - qw * oz - qx * oy + qy * ox;
+        t->chord[i] = 2.0 * sqrt(fx * fx + fy * fy + fz * fz);
+        const double xx = qx * qx, yy = qy * qy, zz = qz * qz, xy = qx * qy, xz = qx * qz, yz = qy * qz,
+                     wx = qw * qx, wy = qw * qy, wz = qw * qz;
+        const double m00 = 1 - 2 * (yy + zz), m01 = 2 * (xy - wz), m02 = 2 * (xz + wy), m10 = 2 * (xy + wz),
+                     m11 = 1 - 2 * (xx + zz), m12 = 2 * (yz - wx), m20 = 2 * (xz - wy), m21 = 2 * (yz + wx),
+                     m22 = 1 - 2 * (xx + yy);
+        t->R[0][i] = m00;
+        t->R[1][i] = m01;
+        t->R[2][i] = m02;
+        t->R[3][i] = m10;
+        t->R[4][i] = m11;
+        t->R[5][i] = m12;
+        t->R[6][i] = m20;
+        t->R[7][i] = m21;
+        t->R[8][i] = m22;
+        const double u0 = (m00 * Lx + m10 * Ly + m20 * Lz) / I0, u1 = (m01 * Lx + m11 * Ly + m21 * Lz) / I1,
+                     u2 = (m02 * Lx + m12 * Ly + m22 * Lz) / I2;
+        t->w[0][i] = m00 * u0 + m01 * u1 + m02 * u2;
+        t->w[1][i] = m10 * u0 + m11 * u1 + m12 * u2;
+        t->w[2][i] = m20 * u0 + m21 * u1 + m22 * u2;
+    }
+}
+
+/* The rotations of bodies [from, to), at most TURNS; one without momentum stays as it is. */
+static void turn_some(fl_bodies *b, int32_t from, int32_t to, double dt)
+{
+    turns t;
+    int32_t which[TURNS], n = 0;
+    for (int32_t i = from; i < to; i++) {
+        const fl_vec3 L = b->L[i], I = b->I[i];
+        const fl_quat q = b->q[i];
+        if (L.x == 0.0 && L.y == 0.0 && L.z == 0.0) continue;
+        t.L[0][n] = L.x, t.L[1][n] = L.y, t.L[2][n] = L.z;
+        t.I[0][n] = I.x, t.I[1][n] = I.y, t.I[2][n] = I.z;
+        t.q[0][n] = q.w, t.q[1][n] = q.x, t.q[2][n] = q.y, t.q[3][n] = q.z;
+        which[n++] = i;
+    }
+    if (n) turn_free(&t, n, dt);
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t i = which[k];
+        double *R = &b->R[i].m[0][0];
+        b->q[i] = (fl_quat){t.q[0][k], t.q[1][k], t.q[2][k], t.q[3][k]};
+        for (int c = 0; c < 9; c++) R[c] = t.R[c][k];
+        b->w[i] = v3(t.w[0][k], t.w[1][k], t.w[2][k]);
+        b->odometer[i] += t.chord[k] * b->bound[i];
+    }
+}
+
+static void drift_free(fl_bodies *b, int32_t from, int32_t to, double dt)
+{
+    for (int32_t i = from; i < to; i++) {
+        b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
+        b->odometer[i] += fabs(dt) * v3_norm(b->v[i]);
+    }
+    for (int32_t i = from; i < to; i += TURNS) turn_some(b, i, i + TURNS < to ? i + TURNS : to, dt);
+}
+
 /* The series of a turn needs no halving below half a radian, as in all but the wildest steps. */
 static int turns_little(int32_t n, double dt, const fl_vec3 *I, const fl_vec3 *L)
 {
@@ -279,18 +424,32 @@ static int turns_little(int32_t n, double dt, const fl_vec3 *I, const fl_vec3 *L
     return most * dt * dt < 0.99 * 4.0 * Q_HALF_TURN_MOST;
 }
 
-void fl_move_plain(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
+/* Bodies [from, to), all balls or none of them. */
+static void move_alike(fl_bodies *b, int32_t from, int32_t to, double h, double dt, fl_vec3 (*gain)[2])
 {
     const int32_t n = to - from;
-    kick_plain(n, h, b->invm + from, b->I + from, b->f + from, b->t + from, b->v + from, b->L + from,
-               b->w + from);
+    const int balls = b->ball[from];
+    if (balls)
+        kick_plain(n, h, b->invm + from, b->I + from, b->f + from, b->t + from, b->v + from, b->L + from,
+                   b->w + from);
+    else
+        kick_free(n, h, b->invm + from, b->I + from, b->R + from, b->f + from, b->t + from, b->v + from,
+                  b->L + from, b->w + from, gain);
     if (dt == 0.0) return;
-    if (turns_little(n, dt, b->I + from, b->L + from)) {
+    if (!turns_little(n, dt, b->I + from, b->L + from))
+        for (int32_t i = from; i < to; i++) fl_drift(b, i, dt);
+    else if (balls)
         drift_plain(n, dt, b->I + from, b->v + from, b->L + from, b->x + from, b->q + from,
                     b->odometer + from);
-        return;
+    else drift_free(b, from, to, dt);
+}
+
+void fl_move_free(fl_bodies *b, int32_t from, int32_t to, double h, double dt, fl_vec3 (*gain)[2])
+{
+    for (int32_t i = from, end; i < to; i = end) {
+        for (end = i + 1; end < to && b->ball[end] == b->ball[i];) end++;
+        move_alike(b, i, end, h, dt, gain + (i - from));
     }
-    for (int32_t i = from; i < to; i++) fl_drift(b, i, dt);
 }
 
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)

@@ -30,14 +30,15 @@ void fl_kick(fl_bodies *b, int32_t i, double h);
 void fl_drift(fl_bodies *b, int32_t i, double dt);
 
 /* fl_kick() by h, and then fl_drift() by dt where that is not 0, of the bodies [from, to), all of which
- * fl_body_plain() and move: the same bits, several bodies at a time. */
-void fl_move_plain(fl_bodies *b, int32_t from, int32_t to, double h, double dt);
+ * fl_body_free() and move, several at a time.  The state gets the bits that it gets one by one.
+ *   gain  out, [to - from][2], what the kick changed of v and w, but for balls; NULL where all are balls */
+void fl_move_free(fl_bodies *b, int32_t from, int32_t to, double h, double dt, fl_vec3 (*gain)[2]);
 
-/* Whether body i is a ball that nothing holds, without added mass. */
-static inline int fl_body_plain(const fl_bodies *b, int32_t i)
-{
-    return b->ball[i] && !b->hold[i] && !b->added;
-}
+/* Whether nothing holds body i, and it moves no water with it. */
+static inline int fl_body_free(const fl_bodies *b, int32_t i) { return !b->hold[i] && !b->added; }
+
+/* Whether it is a ball besides. */
+static inline int fl_body_plain(const fl_bodies *b, int32_t i) { return b->ball[i] && fl_body_free(b, i); }
 
 /* The rotation part alone, of one body; for tests. */
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);

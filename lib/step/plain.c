@@ -100,7 +100,7 @@ fl_vec3 fl_plain_end(fl_world *w, int32_t from, int32_t to, double h)
     gains q;
     fl_vec3 all = v3(0, 0, 0);
     force(&a, n, w->gravity, h, &q);
-    fl_move_plain(b, from, to, h, 0.0);
+    fl_move_free(b, from, to, h, 0.0, NULL);
     work(&a, n, w->dt, &q);
     for (int32_t k = 0; k < n; k++) all = v3_add(all, v3(q.pushed[0][k], q.pushed[1][k], q.pushed[2][k]));
     return all;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
 #include <omp.h>
 #include <stdio.h>
 #include "base/mem.h"
@@ -93,20 +94,24 @@ static int32_t end_of(const fl_world *w, int32_t g)
 }
 
 /* Nothing more is to be done for it than to kick it and let it drift. */
-static int plain(const fl_world *w, int32_t k)
+static int unbound(const fl_world *w, int32_t k)
 {
-    return fl_body_plain(&w->b, k) && !w->sea.waves && !fl_world_away(w, k);
+    return fl_body_free(&w->b, k) && !w->sea.waves && !fl_world_away(w, k);
 }
 
-/* Kick by h and drift by dt (0: not at all); what is plain goes several at a time.  gain[0] is that of
+/* Of a ball the kick needs not be kept: it is known from what acts. */
+static int plain(const fl_world *w, int32_t k) { return w->b.ball[k] && unbound(w, k); }
+
+/* Kick by h and drift by dt (0: not at all); what is unbound goes several at a time.  gain[0] is that of
  * `from`. */
 static void move(fl_world *w, int32_t from, int32_t to, double h, double dt, fl_gain *gain)
 {
+    static_assert(sizeof *gain == 2 * sizeof(fl_vec3), "a gain is two vectors");
     for (int32_t k = from; k < to; k++) {
         int32_t end = k;
-        while (end < to && plain(w, end)) end++;
+        while (end < to && unbound(w, end)) end++;
         if (end > k) {
-            fl_move_plain(&w->b, k, end, h, dt);
+            fl_move_free(&w->b, k, end, h, dt, (fl_vec3(*)[2])(void *)&gain[k - from]);
             k = end - 1;
         } else if (!fl_world_away(w, k)) {
             kick(w, k, h, &gain[k - from]);

@@ -335,10 +335,69 @@ static void held_with_added_mass(void **state)
     }
 }
 
+enum { SEVERAL = 53 };
+
+/* Tops, bricks and balls, some at rest, in `wild` some that spin by more than a radian a step. */
+static void crowd(fl_bodies *b, int wild)
+{
+    fl_err err = {0};
+    assert_int_equal(fl_bodies_alloc(b, SEVERAL, SEVERAL, &err), 0);
+    for (int32_t i = 0; i < SEVERAL; i++) {
+        fl_rng g = fl_rng_of(test_seed(), i, FL_RNG_TEST);
+        b->m[i] = fl_rng_in(&g, 1, 3);
+        b->invm[i] = 1.0 / b->m[i];
+        b->ball[i] = i % 7 > 4;
+        b->I[i] = b->ball[i]   ? v3(0.7, 0.7, 0.7)
+                  : i % 7 == 1 ? v3(1, 1, 2)
+                  : i % 7 == 2 ? v3(1, 2, 2)
+                               : v3(1, 2, 2.5);
+        b->bound[i] = b->ball[i] ? 0.0 : 1.5;
+        b->q[i] = shape_rotation(&g);
+        b->v[i] = random3(&g), b->f[i] = random3(&g), b->t[i] = random3(&g);
+        fl_body_derive(b, i);
+        const fl_vec3 spin = random3(&g);
+        if (i % 5) fl_body_spin(b, i, v3_scale(wild && i % 11 == 3 ? 500.0 : 1.0, spin));
+        else b->t[i] = v3(0, 0, 0);
+    }
+}
+
+static void several_at_a_time(void **state)
+{
+    (void)state;
+    for (int wild = 0; wild < 2; wild++) {
+        fl_bodies one, all;
+        static fl_vec3 gain[SEVERAL][2];
+        crowd(&one, wild), crowd(&all, wild);
+        for (int k = 0; k < 40; k++) {
+            for (int32_t i = 0; i < SEVERAL; i++) {
+                const fl_vec3 v = one.v[i], w = one.w[i];
+                fl_kick(&one, i, 0.005);
+                gain[i][0] = v3_sub(one.v[i], v), gain[i][1] = v3_sub(one.w[i], w);
+                fl_drift(&one, i, 0.01);
+            }
+            fl_vec3 other[SEVERAL][2];
+            fl_move_free(&all, 0, 20, 0.005, 0.01, other);
+            fl_move_free(&all, 20, SEVERAL, 0.005, 0.01, other + 20);
+            for (int32_t i = 0; i < SEVERAL; i++) {
+                assert_memory_equal(&one.x[i], &all.x[i], sizeof one.x[i]);
+                assert_memory_equal(&one.v[i], &all.v[i], sizeof one.v[i]);
+                assert_memory_equal(&one.L[i], &all.L[i], sizeof one.L[i]);
+                assert_memory_equal(&one.q[i], &all.q[i], sizeof one.q[i]);
+                assert_memory_equal(&one.R[i], &all.R[i], sizeof one.R[i]);
+                assert_memory_equal(&one.w[i], &all.w[i], sizeof one.w[i]);
+                assert_near(all.odometer[i], one.odometer[i], 1e-14);
+                if (!one.ball[i]) assert_memory_equal(gain[i], other[i], sizeof gain[i]);
+            }
+        }
+        fl_bodies_free(&one), fl_bodies_free(&all);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(held_with_added_mass),
+        cmocka_unit_test(several_at_a_time),
         cmocka_unit_test(a_kick_changes_momenta_alone),
         cmocka_unit_test(a_symmetric_top_turns_exactly),
         cmocka_unit_test(a_drift_goes_back_the_way_it_came),
