@@ -18,7 +18,7 @@
  *   p      what is one point must be one vertex: weld first
  *   tame   [p->nv] out
  * Work is shared by all threads.  Returns 0, or -1 with FL_SYSTEM. */
-enum { FL_FANS_MOST = 64 };
+enum { FL_FANS_MOST = 1 << 15 };
 int fl_fans_tame(const fl_part *p, uint8_t *tame, fl_err *err);
 
 #endif
