@@ -58,13 +58,15 @@ enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, 
 
 typedef struct {
     fl_scene_head head;
-    double duration;      /* [s] */
-    double dt;            /* [s]; 0: auto */
-    double safety;        /* fraction of the critical step, for dt = auto */
-    double error;         /* budget that chooses the step in place of safety; 0: none */
-    int32_t error_of;     /* enum fl_error_of */
-    fl_vec3 gravity;      /* [m/s2] as a vector; the file's one number g is (0, 0, -g) */
-    int32_t threads;      /* 0: auto, as many as OpenMP offers */
+    double duration;  /* [s] */
+    double dt;        /* [s]; 0: auto */
+    double safety;    /* fraction of the critical step, for dt = auto */
+    double error;     /* budget that chooses the step in place of safety; 0: none */
+    int32_t error_of; /* enum fl_error_of */
+    fl_vec3 gravity;  /* [m/s2] as a vector; the file's one number g is (0, 0, -g) */
+    int32_t threads;  /* 0: auto, as many as OpenMP offers */
+    double
+        sleep; /* largest error of a step of a floe that touches nothing, over its radius; 0: none sleeps */
     int32_t search_every; /* steps between neighbour searches; 0: auto, when the skin is used up */
 } fl_scene_run;
 

@@ -345,6 +345,11 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     if (s->run.dt > s->run.duration)
         return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, was wanted",
                              s->run.dt, s->run.duration);
+    if (s->run.error > 0.0 && s->run.sleep > 0.0)
+        return fl_scene_fail(
+            s, "run.sleep", err,
+            "run.error repeats windows with other steps, in which nobody sleeps: one of run.error "
+            "and run.sleep was wanted");
     if (s->run.error > 0.0 && s->run.dt > 0.0)
         return fl_scene_fail(s, "run.error", err,
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");

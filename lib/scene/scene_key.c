@@ -221,6 +221,18 @@ const fl_key fl_key_table[] = {
      .meaning = "number of threads; auto takes as many as OpenMP offers; the results are the same bytes for "
                 "any number"},
     {.section = FL_SEC_RUN,
+     .key = "sleep",
+     .type = FL_VALUE_F64,
+     .at = AT(run, sleep),
+     .fallback = "none",
+     .special = "none",
+     .range = "(0,0.01]",
+     .meaning =
+         "floes to which nothing happens take many steps at once: those that touch nothing, with an "
+         "error of each of at most this fraction of their radius, and those that lie still against each "
+         "other; none sleeps by default",
+     .source = "local error of the step"},
+    {.section = FL_SEC_RUN,
      .key = "search_every",
      .type = FL_VALUE_I32,
      .at = AT(run, search_every),

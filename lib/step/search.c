@@ -4,6 +4,7 @@
 #include "step/balls.h"
 #include "step/pairing.h"
 #include "step/search.h"
+#include "step/sleep.h"
 
 /* Bodies enough to look at by several threads. */
 enum { MANY = 4096 };
@@ -130,7 +131,10 @@ int fl_search(fl_world *w, fl_err *err)
     const int32_t n_old = w->n_pair;
     if (!stale(w)) return 0;
 #pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < total; k++) w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin);
+    for (int32_t k = 0; k < total; k++) {
+        const double way = fl_sleep_kind(w, k) == FL_COASTS ? w->sleep.nap[k].way : 0.0;
+        w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin + way);
+    }
     if (w->cell.wraps) wrap_boxes(w);
     if (fl_pairs_find(&w->near, w->box, w->n, total, w->walls, err)) return -1;
     int64_t n, to = 0;

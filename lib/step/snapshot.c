@@ -8,6 +8,7 @@
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
+#include "step/sleep.h"
 #include "step/snapshot.h"
 #include "step/works.h"
 
@@ -215,6 +216,29 @@ static void table_of(traffic *t, const fl_current *c)
              (hex(word, &bits) || bits != now))
         fl_text_fail(t->in, t->err, "the rows of water.profile_file are not those that the run had");
     close_row(t);
+}
+
+/* Who sleeps, and since when. */
+static void nap(traffic *t, fl_world *w, int32_t k)
+{
+    fl_nap *n = &w->sleep.nap[k];
+    open_row(t, "nap");
+    byte(t, FL_RESTS, &w->sleep.kind[k]);
+    count(t, &n->since);
+    count(t, &n->until);
+    real(t, &n->way);
+    real(t, &n->mark);
+    real(t, &n->drag);
+    real(t, &n->off);
+    real(t, &n->summed);
+    count(t, &n->coasted);
+    count(t, &n->rested);
+    count(t, &n->naps);
+    whole(t, 1, INT32_MAX, &n->span);
+    close_row(t);
+    if (t->in && !t->err->code && (n->since > w->step || n->way < 0.0))
+        fl_text_fail(t->in, t->err, "body %d sleeps since step %g of %g", w->id[k], (double)n->since,
+                     (double)w->step);
 }
 
 static void sea(traffic *t, fl_sea *s, int32_t i)
@@ -466,13 +490,22 @@ static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
     }
     if (w->traffic.away && !t->err->code) coming(t, w);
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
+    if (t->in) w->sleep.resting = 0;
+    for (int32_t k = 0; k < w->n && w->sleep.nap && !t->err->code; k++) {
+        nap(t, w, k);
+        if (t->in) w->sleep.resting += w->sleep.kind[k] == FL_RESTS;
+    }
     for (int32_t k = 0; k < w->ride.m.n && !t->err->code; k++) mover(t, w, k);
     if (w->press.panels && !t->err->code) pressed(t, w);
     w->sea.time = fl_world_time(w);
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, i);
-        if (t->in && !t->err->code && !fl_world_away(w, i)) fl_sea_renew(&w->sea, &w->b, i);
+        if (!t->in || t->err->code || fl_world_away(w, i)) continue;
+        if (fl_sleep_kind(w, i) != FL_AWAKE) /* what it meets is of then */
+            w->sea.time = fl_sleep_since(w, i);
+        fl_sea_renew(&w->sea, &w->b, i);
+        w->sea.time = fl_world_time(w);
     }
     return pairs;
 }

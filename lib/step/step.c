@@ -11,6 +11,7 @@
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
+#include "step/sleep.h"
 #include "step/step.h"
 #include "step/traffic.h"
 #include "step/works.h"
@@ -29,6 +30,7 @@ static void contacts(fl_world *w, double dt, int survey)
         for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, dt, survey);
 #pragma omp for schedule(dynamic, 16)
         for (int32_t c = 0; c < w->n_pair; c++) {
+            if (fl_sleep_frozen(w, &w->pair[c])) continue;
             fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
             w->hit[c] = w->pair[c].n != 0;
         }
@@ -62,25 +64,53 @@ static double spring_force(const fl_world *w, int32_t i)
     return k * drawn;
 }
 
-void fl_step_gather(fl_world *w, int32_t k)
+void fl_step_kick(fl_world *w, int32_t k, double h)
+{
+    fl_gain none;
+    kick(w, k, h, &none);
+}
+
+void fl_step_out(fl_world *w, int32_t k, double s)
+{
+    if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, 0.5 * s, 0);
+    fl_step_kick(w, k, 0.5 * s);
+    fl_drift(&w->b, k, s);
+}
+
+void fl_step_soft(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
-    b->f[k] = b->t[k] = v3(0, 0, 0);
-    if (w->sink[k].n) w->sink[k] = (fl_sink){0};
-    if (k < w->n) {
-        if (fl_world_away(w, k)) return;
-        b->f[k] = v3_scale(b->m[k], w->gravity);
-        if (w->sea.water) fl_sea_force(&w->sea, b, k);
-    }
-    if (w->row.n && k < w->n) b->f[k].z -= spring_force(w, k);
-    if (w->balls.bodies && k < w->n) { fl_balls_force(w, k, &b->f[k], &b->t[k]); }
+    b->f[k] = v3_scale(b->m[k], w->gravity);
+    b->t[k] = v3(0, 0, 0);
+    if (w->sea.water) fl_sea_force(&w->sea, b, k);
+    if (w->row.n) b->f[k].z -= spring_force(w, k);
+}
+
+int fl_step_press(fl_world *w, int32_t k)
+{
+    fl_bodies *b = &w->b;
+    fl_sink *sink = &w->sink[k];
+    if (sink->n) *sink = (fl_sink){0};
+    if (w->balls.bodies && k < w->n) fl_balls_force(w, k, &b->f[k], &b->t[k]);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
         const fl_pair *p = &w->pair[w->inc[c]];
         b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
         b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
-        fl_works_add(&w->sink[k], p, p->i == k);
+        fl_works_add(sink, p, p->i == k);
     }
+    return sink->n != 0;
+}
+
+void fl_step_gather(fl_world *w, int32_t k)
+{
+    w->b.f[k] = w->b.t[k] = v3(0, 0, 0);
+    if (fl_world_away(w, k) && k < w->n) {
+        w->sink[k] = (fl_sink){0};
+        return;
+    }
+    if (k < w->n) fl_step_soft(w, k);
+    fl_step_press(w, k);
 }
 
 /* --- bodies by groups, each in the hands of one thread ----------------------------------------- */
@@ -113,7 +143,7 @@ static void move(fl_world *w, int32_t from, int32_t to, double h, double dt, fl_
         if (end > k) {
             fl_move_free(&w->b, k, end, h, dt, (fl_vec3(*)[2])(void *)&gain[k - from]);
             k = end - 1;
-        } else if (!fl_world_away(w, k)) {
+        } else if (!fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE) {
             kick(w, k, h, &gain[k - from]);
             if (dt != 0.0) fl_drift(&w->b, k, dt);
         }
@@ -172,14 +202,17 @@ static void end_group(fl_world *w, int32_t g, double h)
     for (int32_t k = from; k < to; k++) {
         first[k - from] = plain(w, k) ? gain_of(b, k, h) : w->gain[k];
         if (w->balls.bodies) fl_balls_collect(w, k);
-        fl_step_gather(w, k);
+        if (fl_sleeps(w, k)) w->sink[k] = w->was[k]; /* what presses stays */
+        else if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_end(w, k);
+        else fl_step_gather(w, k);
     }
     if (h > 0.0) move(w, from, to, h, 0.0, back);
     for (int32_t k = from; k < to; k++) {
         if (fl_world_away(w, k)) continue;
         own->pushed = v3_add(own->pushed, pushed(w, k));
-        if (!(h > 0.0)) continue;
-        if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
+        if (!(h > 0.0) || fl_sleeps(w, k)) continue;
+        if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_ended(w, k);
+        else if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
         if (plain(w, k)) back[k - from] = gain_of(b, k, h);
         fl_works_take(w, k, &first[k - from], &back[k - from]);
     }
@@ -353,7 +386,7 @@ int fl_step(fl_world *w, fl_err *err)
     for (int32_t g = 0; g < groups(w); g++) {
         const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
         for (int32_t k = from; k < to && sea; k++)
-            if (!fl_world_away(w, k)) fl_sea_drag(&w->sea, b, k, h, 0);
+            if (!fl_world_away(w, k) && !fl_sleeps(w, k)) fl_sea_drag(&w->sea, b, k, h, 0);
         move(w, from, to, h, dt, &w->gain[from]);
     }
     for (int32_t k = w->n; k < b->total; k++)
@@ -361,7 +394,9 @@ int fl_step(fl_world *w, fl_err *err)
     w->step++;
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
+    if (w->sleep.nap) fl_sleep_rouse(w);
     if (touch(w, dt, survey, err)) return -1;
+    if (w->sleep.resting) fl_sleep_disturb(w);
 #pragma omp parallel
     {
 #pragma omp for schedule(static) nowait
@@ -376,7 +411,9 @@ int fl_step(fl_world *w, fl_err *err)
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     if (survey) survey_stiffness(w);
     if (check(w, survey, err)) return -1;
-    return w->traffic.away ? fl_traffic_step(w, err) : 0;
+    if (w->traffic.away && fl_traffic_step(w, err)) return -1;
+    if (w->sleep.nap) fl_sleep_lull(w);
+    return 0;
 }
 
 /* What lies ahead is booked already, and gets another length. */

@@ -22,6 +22,14 @@ void fl_step_resize(fl_world *w, double dt, double t);
  * whichever thread takes it. */
 void fl_step_gather(fl_world *w, int32_t k);
 
+/* Parts of a step, of floe k alone: drag s/2, kick s/2, drift s; force and torque of weight, water and
+ * springs; those of its pairs besides (1 when it touches anything, with what damping and friction do in
+ * sink[k]); a kick of h. */
+void fl_step_out(fl_world *w, int32_t k, double s);
+void fl_step_soft(fl_world *w, int32_t k);
+int fl_step_press(fl_world *w, int32_t k);
+void fl_step_kick(fl_world *w, int32_t k, double h);
+
 /* Stores, sinks and residual now, into w->ledger. */
 void fl_step_ledger(fl_world *w);
 

@@ -3,6 +3,7 @@
 #include "narrow/gjk.h"
 #include "step/balls.h"
 #include "step/search.h"
+#include "step/sleep.h"
 #include "step/pairing.h"
 #include "step/step.h"
 #include "step/traffic.h"
@@ -145,6 +146,7 @@ static void take_in(fl_world *w, int32_t i)
     fl_traffic *t = &w->traffic;
     fl_bodies *b = &w->b;
     t->away[i] = 0;
+    fl_sleep_new(w, i);
     t->guided[i] = 1;
     t->hold[i] = b->hold[i];
     b->hold[i] = FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;
@@ -227,6 +229,7 @@ int fl_traffic_step(fl_world *w, fl_err *err)
     if (t->feed) let_go(w);
     for (int32_t i = 0; i < w->n && !out; i++) out = !t->away[i] && !t->guided[i] && beyond(w, i);
     if (!out && !due(w)) return 0;
+    fl_sleep_look(w);
     fl_step_ledger(w);
     const double residual = g->residual, throughput = g->throughput;
     if (out) {
@@ -235,6 +238,7 @@ int fl_traffic_step(fl_world *w, fl_err *err)
         for (int32_t i = 0; i < w->n; i++)
             if (!t->away[i] && !t->guided[i] && beyond(w, i)) take_out(w, i);
         if (drop_pairs(w, err)) return -1;
+        fl_sleep_wake(w);
         after = fl_works_ahead(w);
         g->damping -= before.damping - after.damping;
         g->friction -= before.friction - after.friction;
@@ -245,5 +249,6 @@ int fl_traffic_step(fl_world *w, fl_err *err)
     fl_step_ledger(w);
     g->carried += g->residual - residual;
     g->throughput = throughput;
+    fl_sleep_back(w);
     return 0;
 }

@@ -8,6 +8,7 @@
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
+#include "step/sleep.h"
 #include "step/stiff.h"
 #include "step/world.h"
 
@@ -533,7 +534,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
         if (fl_world_put(w, i, feed, w->traffic.floe[i], err)) goto fail;
     }
     if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
-        fl_pairing_laws(w, err))
+        fl_sleep_make(w, err) || fl_pairing_laws(w, err))
         goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
     w->skin = field->n ? 0.1 * bound / field->n : 0.0;
@@ -575,6 +576,7 @@ void fl_world_free(fl_world *w)
     free(w->part_peak), free(w->part_about);
     free(w->sink), free(w->was), free(w->gain), free(w->damped), free(w->rubbed);
     fl_ride_free(&w->ride);
+    fl_sleep_free(&w->sleep);
     fl_press_free(&w->press);
     fl_pairs_free(&w->near);
     fl_sea_free(&w->sea);

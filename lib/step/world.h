@@ -93,6 +93,32 @@ typedef struct {
     fl_vec3 v, w;
 } fl_gain;
 
+/* Who is awake and who sleeps, see sleep.h; nap NULL where nobody does. */
+enum fl_nap_kind { FL_AWAKE, FL_COASTS, FL_RESTS, FL_ENDS, FL_QUIET };
+
+typedef struct {
+    int64_t since, until;    /* steps */
+    double way;              /* bound of its path in between, in the odometer already [m]      */
+    double mark;             /* odometer when the window of rest began, -1: there is none  [m] */
+    double drag;             /* rate at which drag changed the speed of its points last [m/s2] */
+    double off, summed;      /* largest error of a step over the radius so far, and all of it  */
+    fl_vec3 a, turn;         /* accelerations at the begin of the step that ends               */
+    int64_t coasted, rested; /* steps so far                                                   */
+    int64_t naps;            /* how often it has coasted                                       */
+    int32_t span;            /* steps that it may coast next                                   */
+} fl_nap;
+
+typedef struct fl_nap_image fl_nap_image;
+typedef struct {
+    double tol;
+    fl_nap *nap;         /* [n] */
+    uint8_t *kind;       /* [n] enum fl_nap_kind */
+    fl_nap_image *image; /* [n] */
+    int32_t *stack;      /* [n] */
+    int32_t resting;
+    double rise, slope; /* bounds of the speed and of the slope of the waves' surface [m/s] */
+} fl_sleep;
+
 /* Elastic walls: a foundation of springs and dashpots, which a body presses by what of it is behind the wall.
  * Winkler's pressure k_A x depth is that of a heavy fluid of specific weight k_A, so force, moment and energy
  * are those of buoyancy, exact for any attitude and one potential. */
@@ -203,6 +229,7 @@ typedef struct {
     fl_beds bed;
     fl_traffic traffic;
     fl_row row;
+    fl_sleep sleep;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */
     int32_t *material; /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */

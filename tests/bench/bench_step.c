@@ -15,6 +15,7 @@
 #include "body/integrate.h"
 #include "step/interact.h"
 #include "step/search.h"
+#include "step/sleep.h"
 #include "support/lab.h"
 
 static double now(void)
@@ -181,6 +182,50 @@ static int alone(const char *where, int64_t steps)
     return bad;
 }
 
+/* What a floe costs that sleeps, over one that is awake, and what it is off by: all of them adrift in the
+ * same water, or blocks that lie on a floor. */
+static double asleep(int rests, double sleep, lab *l)
+{
+    lab_start(l);
+    if (sleep > 0.0) lab_setf(l, "run.sleep=%g", sleep);
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "contact.softening=0.05");
+    if (rests) {
+        lab_set(l, "contact.friction=0.3");
+        lab_set(l, "contact.restitution=0.1");
+        lab_set(l, "boundary.type=free free rigid");
+        lab_set(l, "boundary.min=none none 0");
+    } else lab_set(l, "water.current=0.2 0 0");
+    for (int32_t k = 0; k < 900; k++) {
+        fl_rng g = fl_rng_of(4, k, FL_RNG_TEST);
+        const double v = rests ? 0.0 : 0.05;
+        lab_box(l, v3(2.0 * (k % 30), 2.0 * (k / 30), rests ? 0.2 : -0.151), v3(0.5, 0.5, 0.2), 0.03, q_one(),
+                v3(fl_rng_in(&g, -v, v), fl_rng_in(&g, -v, v), 0), v3(0, 0, 0));
+    }
+    lab_make(l, 4e-4);
+    lab_run(l, 4000); /* until they lie still */
+    const double begun = now();
+    const int bad = lab_run(l, 2000);
+    const double each = 1e9 * (now() - begun) / 2000 / l->w.n;
+    fl_sleep_look(&l->w);
+    return bad ? INFINITY : each;
+}
+
+static void sleeper(int rests, int *good, int *bad)
+{
+    lab off, on;
+    double most = 0.0;
+    const double awake = asleep(rests, 0.0, &off), sleeps = asleep(rests, 1e-5, &on);
+    for (int32_t k = 0; k < on.w.n; k++)
+        most = fmax(most, v3_norm(v3_sub(on.w.b.x[k], off.w.b.x[k])) / on.w.b.radius[k]);
+    printf("%-34s %8d bodies %8.0f ns a body-step awake, %6.1f ns asleep: %.3f; off by %.2g of the radius\n",
+           rests ? "blocks at rest, run.sleep 1e-5" : "floes adrift, run.sleep 1e-5", on.w.n, awake, sleeps,
+           sleeps / awake, most);
+    if (isfinite(awake + sleeps) && most < 1e-2) ++*good;
+    else ++*bad;
+    lab_free(&off), lab_free(&on);
+}
+
 int main(int argc, char **argv)
 {
     static const double SAFETY[] = {0.4, 0.2, 0.1, 0.05};
@@ -205,6 +250,8 @@ int main(int argc, char **argv)
     printf("\nbodies that touch nothing\n");
     const double far = cost(30, 0, 4.0, 0, 2000, "floes, dry");
     const double afloat = cost(30, 0, 4.0, 1, 500, "floes, in water");
+    sleeper(0, &good, &bad);
+    sleeper(1, &good, &bad);
     printf("\ntime against number\n");
     double first = 0.0, last = 0.0;
     for (int32_t side = 32; side <= 317; side *= 3)

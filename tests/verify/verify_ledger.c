@@ -4,15 +4,17 @@
 #include "base/rng.h"
 #include "support/lab.h"
 #include "support/verify.h"
+#include "step/sleep.h"
 
 enum { ROWS = 15, FLOES = 200 };
 
 /* 200 floes of 2.4 m in water, with speeds of their own, about a cylinder.  With a pitch of 3 m nothing
  * touches at first, at 2.8 m some floes begin in each other. */
-static void field(lab *l, double safety, int elastic, double pitch)
+static void field(lab *l, double safety, int elastic, double pitch, double sleep)
 {
     int32_t n = 0;
     lab_start(l);
+    if (sleep > 0.0) lab_setf(l, "run.sleep=%g", sleep);
     lab_set(l, "run.gravity=9.81");
     lab_set(l, "water.current=0.5 0 0");
     lab_setf(l, "contact.friction=%g", elastic ? 0.0 : 0.3);
@@ -47,22 +49,26 @@ static double off_at_start(const fl_world *w)
 
 typedef struct {
     double step, residual, lost, off; /* [s]; the others over the throughput */
+    double asleep;                    /* part of all steps of floes */
 } result;
 
 /* Largest residual of a run, what was lost in contacts, what the start is off by. */
-static result follow(double safety, int elastic, double pitch, double seconds)
+static result follow(double safety, int elastic, double pitch, double sleep, double seconds)
 {
     lab l;
     result r = {0};
-    field(&l, safety, elastic, pitch);
+    field(&l, safety, elastic, pitch, sleep);
     r.off = off_at_start(&l.w);
     const int64_t steps = (int64_t)ceil(seconds / l.w.dt);
     r.step = l.w.dt;
     for (int64_t k = 0; k < steps; k += 20) {
         if (lab_run(&l, steps - k < 20 ? steps - k : 20)) return (result){.residual = NAN};
+        fl_sleep_look(&l.w);
         fl_step_ledger(&l.w);
+        fl_sleep_back(&l.w);
         r.residual = fmax(r.residual, fabs(l.w.ledger.residual));
     }
+    r.asleep = (double)fl_sleep_counted(&l.w).coasted / ((double)l.w.step * l.w.n);
     const double all = l.w.ledger.throughput;
     r.lost = (l.w.ledger.friction_now + l.w.ledger.damping_now) / all;
     r.residual /= all;
@@ -97,7 +103,7 @@ int main(void)
     const double seconds = verify_quick() ? 0.45 : 1.5;
     verify_begin("the ledger of 200 floes");
     for (int k = 0; k < 3; k++) {
-        const result all = follow(safety[k], 0, apart, seconds);
+        const result all = follow(safety[k], 0, apart, 0.0, seconds);
         h[k] = all.step;
         r[k] = all.residual;
         verify_note("run.safety %g: residual %.3g of the throughput, %.3g of it lost in contacts", safety[k],
@@ -107,13 +113,18 @@ int main(void)
     /* Works are of order 4 from the begin of a contact to its end: what is left is of contacts under way, and
      * of the bend of the force within the step in which faces meet, of either sign. */
     verify_below("L01", "at the default step", r[1], 1e-6);
-    verify_below("L02", "the same without friction and damping", follow(0.1, 1, apart, seconds).residual,
+    verify_below("L02", "the same without friction and damping", follow(0.1, 1, apart, 0.0, seconds).residual,
                  1e-6);
-    const result begun = follow(0.1, 0, pressed, seconds);
+    const result begun = follow(0.1, 0, pressed, 0.0, seconds);
     verify_note("some begin in each other: %.3g, where such a start is off by up to %.3g", begun.residual,
                 begun.off);
     verify_below("L03", "the same when some begin in each other, over what such a start is off by, and 1e-6",
                  begun.residual / (begun.off + 1e-6), 1.0);
+    const result sleepy = follow(0.1, 0, apart, 1e-5, seconds);
+    verify_note("run.sleep 1e-5: %.3g of all steps of floes are taken many at once", sleepy.asleep);
+    /* they heave by 16 cm, and the energy of a heave of omega comes and goes by (omega s)^2/12 in steps of s
+     */
+    verify_below("L05", "the same with run.sleep = 1e-5", sleepy.residual, 1e-4);
     for (int k = 0; k < 3; k++) {
         h[k] = 4e-4 / (1 << k);
         r[k] = hit(h[k]);

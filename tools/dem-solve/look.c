@@ -132,6 +132,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
           : w->sea.air_law == FL_DRAG_FACET ? "by facets"
                                             : "of the whole");
     stage(f, "holds", held > 0, "");
+    stage(f, "sleep", w->sleep.nap != NULL, "floes to which nothing happens take many steps at once");
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,
             r->limit);
     if (r->step_body >= 0) fprintf(f, ", set by %s", run_body(w, r->step_body, name));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
 #include "run.h"
+#include "step/sleep.h"
 #include "step/step.h"
 #include "step/traffic.h"
 
@@ -55,6 +56,16 @@ void report_write(const struct run *r, FILE *f)
                 1e9 * r->wall / made / fl_traffic_there(w),
                 touches > 0.0 ? 1e9 * r->wall / touches * (steps / made) : 0.0, touches / steps, w->searches);
     fprintf(f, "processor          %.4g s, of all threads and all that was done\n", r->busy);
+    if (w->sleep.nap && w->step > 0 && w->n) {
+        const fl_sleep_count c = fl_sleep_counted(w);
+        const double all = steps * w->n;
+        fprintf(f,
+                "asleep             %.3g of all body-steps coasting, %.3g at a time, %.3g resting; off by "
+                "%.2g of "
+                "the radius at most (run.sleep %.3g), and %.2g in all\n",
+                (double)c.coasted / all, c.naps ? (double)c.coasted / (double)c.naps : 0.0,
+                (double)c.rested / all, c.off, w->sleep.tol, c.summed);
+    }
     if (r->saves)
         fprintf(f, "checkpoints        %" PRId64 " in %.3g s besides, the last at t = %.6g s\n", r->saves,
                 r->save_wall, fl_world_time(w));

@@ -12,6 +12,7 @@
 #include "step/interact.h"
 #include "step/press.h"
 #include "step/ride.h"
+#include "step/sleep.h"
 #include "step/step.h"
 
 /* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
@@ -294,8 +295,13 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
 {
     const double t = time_of(r);
     const fl_poses now = poses(r);
+    int asleep = 1; /* until a table asks for more than loads and contacts */
     for (int k = 0; k < TABLES; k++) {
         if (!u->table[k].f || r->w->step < u->at[k].due || k == AT_PANELS || k == AT_EVENTS) continue;
+        if (asleep && k != AT_LOADS && k != AT_CONTACTS) {
+            fl_sleep_look(r->w);
+            asleep = 0;
+        }
         switch (k) {
         case AT_LOADS:
             if (write_loads(r, u, t, err)) return -1;
@@ -309,6 +315,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         }
         next(u, k, r->w);
     }
+    if (!asleep) fl_sleep_back(r->w);
     return 0;
 }
 
@@ -495,6 +502,7 @@ int run_scene(struct run *r, fl_err *err)
     r->wall = run_clock() - begun - r->save_wall - r->look_wall;
     r->busy = run_processor() - busy;
     if (show) progress(r, begun, 1);
+    fl_sleep_look(r->w);
     fl_step_ledger(r->w);
     /* Also after a failure of the run: the rows until then are good and keep their names. */
     return close_outputs(&u, err) ? -1 : rc;

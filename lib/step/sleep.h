@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* sleep.h -- bodies to which nothing happens, taken over many steps at once: run.sleep = tol.
+ *
+ * A floe that touches nothing COASTS: what acts on it is smooth, and it takes one step of the same integrator
+ * over the time s since it fell asleep.  Nothing is foreseen but a bound of its path until then,
+ *     way = s (|v| + r w) + s^2 (|a| + r e)/2 + s^2 d,     w = |L|/I_min,  e = |T|/I_min,
+ * with r the reach of its core, a and T of the forces that the whole of that step begins with, and d the rate
+ * at which drag changed the speed of its points last: drag slows down, so twice that bounds it.  The way goes
+ * to the odometer at once; so a pair sleeps on only as long as the two cannot touch wherever in that time
+ * they are (fl_pair.asleep), and where that ends, or the time does, the floe is brought to the time of now
+ * before the pair is looked at.  A contact that begins then gives the impulse of one ordinary step.  What the
+ * longer step is off by is told by what acts at its end,
+ *     off = s^2/12 (|a1 - a0| + r |e1 - e0| + |d1 - d0|) + r (w s)^3/12,
+ * and s is chosen so that it stays below tol times the radius of the floe: at most doubled, and no longer
+ * than that or the next neighbour allows.
+ *
+ * Floes that touch each other REST when all of them went a path p, in the last WINDOW steps, of no more than
+ * a quarter of tol R: they are left where they are for WINDOW sqrt(tol R/p) steps, in which they would go tol
+ * R at the acceleration that explains p.  All that touch rest together, or none does; what comes to touch one
+ * of them wakes them all.  Nothing of their pairs is computed, and the forces of those stay.
+ *
+ * Awake stay: spheres that meet spheres (balls.h), guided floes, floes of radius 0, and those that touch what
+ * moves, or a structure whose panels are told.  Threads, stops and tables change no bit; the skin does, as it
+ * decides when a pair is looked at. */
+#ifndef FL_STEP_SLEEP_H
+#define FL_STEP_SLEEP_H
+#include "step/world.h"
+
+/* -1 with FL_SYSTEM. */
+int fl_sleep_make(fl_world *w, fl_err *err);
+void fl_sleep_free(fl_sleep *s);
+
+static inline enum fl_nap_kind fl_sleep_kind(const fl_world *w, int32_t k)
+{
+    return w->sleep.nap && k < w->n ? (enum fl_nap_kind)w->sleep.kind[k] : FL_AWAKE;
+}
+
+/* Whether k takes no part in this step. */
+static inline int fl_sleeps(const fl_world *w, int32_t k)
+{
+    const enum fl_nap_kind kind = fl_sleep_kind(w, k);
+    return kind == FL_COASTS || kind == FL_RESTS;
+}
+
+/* When k fell asleep [s]. */
+static inline double fl_sleep_since(const fl_world *w, int32_t k)
+{
+    return w->t0 + (double)(w->sleep.nap[k].since - w->step0) * w->dt;
+}
+
+/* A pair of which nothing is to be computed: it touches, and both rest, or one does and the other is fixed.
+ */
+int fl_sleep_frozen(const fl_world *w, const fl_pair *p);
+
+/* After the search at the end of a step: those who have coasted, or must not any longer, make the first half
+ * of their step and are FL_ENDS. */
+void fl_sleep_rouse(fl_world *w);
+
+/* The second half of the step of k, which is FL_ENDS; and that it is awake then. */
+void fl_sleep_end(fl_world *w, int32_t k);
+static inline void fl_sleep_ended(fl_world *w, int32_t k) { w->sleep.kind[k] = FL_AWAKE; }
+
+/* After the contacts: who rests and is touched by one who does not is awake, and all that touch him. */
+void fl_sleep_disturb(fl_world *w);
+
+/* At the end of a step: who wakes, and who falls asleep. */
+void fl_sleep_lull(fl_world *w);
+
+/* All who rest are awake: something has left. */
+void fl_sleep_wake(fl_world *w);
+
+/* Place i has another floe, awake. */
+void fl_sleep_new(fl_world *w, int32_t i);
+
+/* Bring those who coast to the time of now to be looked at, and back to where they fell asleep. */
+void fl_sleep_look(fl_world *w);
+void fl_sleep_back(fl_world *w);
+
+/* What it came to so far: steps of bodies that coasted and rested, how often one has coasted; over the
+ * radius, the largest error of one coasting, and the largest sum of those of a floe. */
+typedef struct {
+    int64_t coasted, rested, naps;
+    double off, summed;
+} fl_sleep_count;
+fl_sleep_count fl_sleep_counted(const fl_world *w);
+
+#endif

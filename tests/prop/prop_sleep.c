@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Floes that coast and rest: what they are off by, that no contact goes unnoticed, that they wake, and that
+ * threads, stops and looks change no bit. */
+#define _GNU_SOURCE /* open_memstream */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "support/near.h"
+#include "base/par.h"
+#include "base/rng.h"
+#include "narrow/gjk.h"
+#include "step/sleep.h"
+#include "step/snapshot.h"
+#include "support/lab.h"
+
+#define RADIUS 0.03
+
+enum { SIDE = 6, FLOES = SIDE * SIDE };
+
+static int threads = 1;
+
+enum sea { DRY, STILL, FACETS, WAVES, MASSES };
+
+/* Square floes of 1 m on a grid, each with a speed, a spin, a tilt and a height of its own. */
+static void floes(lab *l, enum sea sea, double pitch, double speed, uint64_t seed, double sleep)
+{
+    lab_start(l);
+    lab_setf(l, "run.threads=%d", threads);
+    if (sleep > 0.0) lab_setf(l, "run.sleep=%.17g", sleep);
+    lab_set(l, "contact.softening=0.001");
+    lab_set(l, "contact.friction=0.2");
+    lab_set(l, "contact.restitution=0.5");
+    if (sea != DRY) {
+        lab_set(l, "run.gravity=9.81");
+        lab_set(l, "water.current=0.2 0.1 0");
+    }
+    if (sea == FACETS) {
+        lab_set(l, "water.drag=facet");
+        lab_set(l, "wind.velocity=8 3 0");
+        lab_set(l, "wind.drag=facet");
+    }
+    if (sea == WAVES) {
+        lab_set(l, "water.wave=airy");
+        lab_set(l, "water.height=0.2");
+        lab_set(l, "water.period=4");
+        lab_set(l, "water.depth=20");
+    }
+    if (sea == MASSES) {
+        lab_set(l, "water.added_mass=0.1 0.1 0.6");
+        lab_set(l, "boundary.type=free periodic free");
+        lab_setf(l, "boundary.min=none %g none", -0.5 * pitch);
+        lab_setf(l, "boundary.max=none %g none", (SIDE - 0.5) * pitch);
+    }
+    for (int32_t k = 0; k < FLOES; k++) {
+        fl_rng g = fl_rng_of(seed, k, FL_RNG_TEST);
+        const fl_vec3 x =
+            v3(pitch * (k % SIDE), pitch * (k / SIDE), sea == DRY ? 0 : fl_rng_in(&g, -0.03, 0.01));
+        const fl_vec3 v = v3(fl_rng_in(&g, -speed, speed), fl_rng_in(&g, -speed, speed), 0);
+        const fl_vec3 tilt = v3(fl_rng_in(&g, -0.03, 0.03), fl_rng_in(&g, -0.03, 0.03), fl_rng_in(&g, -1, 1));
+        const double turn = sea == DRY ? 1.0 : 0.2;
+        const fl_vec3 spin = v3(0.1 * turn, fl_rng_in(&g, -turn, turn), fl_rng_in(&g, -turn, turn));
+        lab_box(l, x, v3(0.5, 0.4, 0.12), RADIUS, q_of_vector(tilt), v, spin);
+    }
+    lab_make(l, 0);
+}
+
+static double apart(const lab *a, const lab *b)
+{
+    double most = 0.0;
+    for (int32_t k = 0; k < FLOES; k++) {
+        const fl_quat d = q_mul(a->w.b.q[k], q_conj(b->w.b.q[k]));
+        const double turned = 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+        most = fmax(most, v3_norm(v3_sub(a->w.b.x[k], b->w.b.x[k])) + 0.6 * turned);
+    }
+    return most;
+}
+
+/* Where nothing touches each step is off by less than asked for, and a floe by no more than what all its
+ * steps are, each carried on by all that follow. */
+static void off_by_what_was_told(void **state)
+{
+    enum { STEPS = 500 };
+    const double tol[] = {1e-4, 1e-5};
+    (void)state;
+    for (int sea = DRY; sea <= MASSES; sea++) {
+        lab off;
+        floes(&off, (enum sea)sea, 4.0, 0.05, test_seed(), 0.0);
+        assert_int_equal(lab_run(&off, STEPS), 0);
+        assert_int_equal(off.w.touching_steps, 0);
+        for (int k = 0; k < 2; k++) {
+            lab on;
+            floes(&on, (enum sea)sea, 4.0, 0.05, test_seed(), tol[k]);
+            assert_int_equal(lab_run(&on, STEPS), 0);
+            const fl_sleep_count c = fl_sleep_counted(&on.w);
+            const double naps = (double)c.naps / FLOES;
+            fl_sleep_look(&on.w);
+            if (k == 0) assert_true((double)c.coasted > 0.9 * STEPS * FLOES && naps < STEPS / 4.0);
+            assert_true(c.off <= tol[k] && apart(&on, &off) <= RADIUS * (naps * c.summed + tol[k]));
+            lab_free(&on);
+        }
+        lab_free(&off);
+    }
+}
+
+/* The distance of cores i and j, in one cell. */
+static double distance(const fl_world *w, int32_t i, int32_t j)
+{
+    const fl_bodies *b = &w->b;
+    fl_vec3 a[16], c[16];
+    fl_gap gap;
+    for (int32_t v = 0; v < b->core[i].nv; v++) a[v] = m3_mul(b->R[i], b->core[i].v[v]);
+    for (int32_t v = 0; v < b->core[j].nv; v++)
+        c[v] = v3_add(v3_sub(b->x[j], b->x[i]), m3_mul(b->R[j], b->core[j].v[v]));
+    fl_gjk((fl_core){a, b->core[i].nv, NULL}, (fl_core){c, b->core[j].nv, NULL}, NULL, &gap);
+    return gap.overlap ? 0.0 : gap.d;
+}
+
+/* All pairs of all floes, looked at again and again: who overlaps touches, by the list of those who do. */
+static void no_contact_goes_unnoticed(void **state)
+{
+    int64_t touched = 0;
+    (void)state;
+    for (int sea = DRY; sea <= WAVES; sea += 1 + (sea == STILL)) {
+        lab l;
+        floes(&l, (enum sea)sea, 1.2, 0.5, test_seed() + (uint64_t)sea, 1e-4);
+        for (int look = 0; look < 24; look++) {
+            uint8_t live[FLOES][FLOES] = {{0}};
+            assert_int_equal(lab_run(&l, 41), 0);
+            for (int32_t c = 0; c < l.w.n_live; c++) {
+                const fl_pair *p = &l.w.pair[l.w.live[c]];
+                live[p->i][p->j] = 1;
+                touched++;
+            }
+            const uint64_t before = fl_step_hash(&l.w);
+            fl_sleep_look(&l.w);
+            for (int32_t i = 0; i < FLOES; i++)
+                for (int32_t j = i + 1; j < FLOES; j++)
+                    if (distance(&l.w, i, j) < 2.0 * RADIUS * (1.0 - 1e-9)) assert_true(live[i][j]);
+            fl_sleep_back(&l.w);
+            assert_true(fl_step_hash(&l.w) == before);
+        }
+        assert_true(fl_sleep_counted(&l.w).coasted > 1000);
+        lab_free(&l);
+    }
+    assert_true(touched > 100);
+}
+
+/* Five blocks on a floor, and one that slides into them when they rest. */
+static void heap(lab *l, double sleep)
+{
+    lab_start(l);
+    if (sleep > 0.0) lab_setf(l, "run.sleep=%.17g", sleep);
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.friction=0.4");
+    lab_set(l, "contact.restitution=0.1");
+    lab_set(l, "boundary.type=free free rigid");
+    lab_set(l, "boundary.min=none none 0");
+    for (int k = 0; k < 5; k++)
+        lab_box(l, v3(1.2 * (k % 3), 0, 0.25 + 0.5 * (k / 3)), v3(0.5, 0.5, 0.25), RADIUS, q_one(),
+                v3(0, 0, 0), v3(0, 0, 0));
+    lab_box(l, v3(4.6, 0, 0.25), v3(0.5, 0.5, 0.25), RADIUS, q_one(), v3(-5, 0, 0), v3(0, 0, 0));
+    lab_make(l, 0);
+}
+
+static void rest_and_wake(void **state)
+{
+    const double tol = 1e-3;
+    lab off, on;
+    int32_t most = 0, woken = 0;
+    (void)state;
+    heap(&off, 0.0);
+    heap(&on, tol);
+    for (int k = 0; k < 30; k++) {
+        const int32_t before = on.w.sleep.resting;
+        assert_int_equal(lab_run(&off, 160), 0);
+        assert_int_equal(lab_run(&on, 160), 0);
+        fl_sleep_look(&on.w);
+        for (int32_t i = 0; i < 5 && woken == 0; i++)
+            assert_true(v3_norm(v3_sub(on.w.b.x[i], off.w.b.x[i])) < 4.0 * tol * RADIUS);
+        fl_sleep_back(&on.w);
+        most = on.w.sleep.resting > most ? on.w.sleep.resting : most;
+        woken += on.w.sleep.resting == 0 && before >= 3;
+    }
+    const fl_sleep_count c = fl_sleep_counted(&on.w);
+    assert_true(most >= 3 && woken > 0 && c.rested > 1000);
+    assert_true(on.w.b.x[2].x < 2.4 - 0.01 && fabs(on.w.b.x[2].x - off.w.b.x[2].x) < 0.1);
+    lab_free(&on);
+    lab_free(&off);
+}
+
+static uint64_t everything(const fl_world *w) { return fl_hash(fl_step_hash(w), w->sleep.kind, w->n); }
+
+/* One thread, and two that stop on the way, one of them looked at all the time. */
+static void threads_stops_and_looks(void **state)
+{
+    (void)state;
+    for (int sea = DRY; sea <= MASSES + 1; sea++) {
+        uint64_t first = 0;
+        for (int way = 0; way < 3; way++) {
+            lab l, m;
+            fl_err err = {0};
+            fl_text in = {0};
+            char *text = NULL;
+            size_t n = 0;
+            threads = way ? 2 : 1;
+            for (int part = 0; part < 2; part++) {
+                if (sea > MASSES) heap(part ? &m : &l, 1e-3);
+                else floes(part ? &m : &l, (enum sea)sea, 1.2, 0.5, test_seed(), 1e-4);
+            }
+
+            const int64_t stop = sea > MASSES ? 901 : 251;
+            for (int64_t k = 0; k < stop; k += 10) {
+                assert_int_equal(lab_run(&l, k + 10 < stop ? 10 : stop - k), 0);
+                if (way != 2) continue;
+                fl_sleep_look(&l.w);
+                fl_step_ledger(&l.w);
+                fl_sleep_back(&l.w);
+            }
+            FILE *f = open_memstream(&text, &n);
+            assert_non_null(f);
+            fl_snapshot_write(f, &l.w);
+            assert_int_equal(fclose(f), 0);
+            assert_int_equal(fl_text_open_bytes(&in, "snapshot", text, (int64_t)n, &err), 0);
+            assert_int_equal(fl_snapshot_read(&m.w, &in, &err), 0);
+            fl_text_close(&in);
+            free(text);
+            assert_true(everything(&m.w) == everything(&l.w));
+            const fl_sleep_count c = fl_sleep_counted(&l.w);
+            assert_true(sea > MASSES ? c.rested > 0 : c.coasted > 0);
+            fl_world *go = way == 1 ? &m.w : &l.w;
+            for (int k = 0; k < 150; k++) assert_int_equal(fl_step(go, &err), 0);
+            if (way == 0) first = everything(go);
+            assert_true(everything(go) == first);
+            lab_free(&l);
+            lab_free(&m);
+        }
+    }
+    threads = 1;
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    fl_par_wait_briefly(argv); /* two threads, and tests at the same time */
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(off_by_what_was_told), cmocka_unit_test(no_contact_goes_unnoticed),
+        cmocka_unit_test(rest_and_wake), cmocka_unit_test(threads_stops_and_looks)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
