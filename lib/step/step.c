@@ -126,7 +126,7 @@ static int32_t end_of(const fl_world *w, int32_t g)
 /* Nothing more is to be done for it than to kick it and let it drift. */
 static int unbound(const fl_world *w, int32_t k)
 {
-    return fl_body_free(&w->b, k) && !w->sea.waves && !fl_world_away(w, k);
+    return fl_body_free(&w->b, k) && !w->sea.waves && !fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE;
 }
 
 /* Of a ball the kick needs not be kept: it is known from what acts. */
