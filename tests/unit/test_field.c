@@ -263,10 +263,37 @@ static void the_order_is_the_bodies_own(void **state)
     }
 }
 
+/* A large field: the same order however it was listed, and most neighbours within a few hundred places. */
+static void a_large_field_follows_a_curve(void **state)
+{
+    enum { SIDE = 80, N = SIDE * SIDE };
+    static int32_t place[2][N + 1], at[N];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        fl_field a = {0};
+        fl_err err = {0};
+        for (int32_t i = 0; i < N; i++) {
+            const int32_t c = k ? N - 1 - i : i;
+            const fl_vec3 x = v3(c % SIDE, c / SIDE, 0.1 * (c % 3));
+            fl_poly p = {0};
+            assert_int_equal(fl_poly_make(&p, 1, &x, 0, NULL, NULL, &err), 0);
+            assert_int_equal(fl_field_add(&a, c + 1, 0.5, &p, NULL, NULL, v3(0, 0, 0), v3(0, 0, 0), &err), 0);
+        }
+        assert_int_equal(fl_field_order(&a, at, &err), 0);
+        for (int32_t i = 0; i < N; i++) place[k][a.id[i]] = i;
+        fl_field_free(&a);
+    }
+    assert_memory_equal(place[0], place[1], sizeof place[0]);
+    int32_t near = 0;
+    for (int32_t c = 0; c + SIDE < N; c++) near += abs(place[0][c + 1 + SIDE] - place[0][c + 1]) < 256;
+    assert_true(near > 0.85 * N);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_field_is_read_whole),
                                        cmocka_unit_test(the_order_is_the_bodies_own),
+                                       cmocka_unit_test(a_large_field_follows_a_curve),
                                        cmocka_unit_test(what_is_written_reads_back),
                                        cmocka_unit_test(faults_are_told_with_their_line),
                                        cmocka_unit_test(bonds_are_read_sorted_and_written),
