@@ -119,6 +119,11 @@ static void books(traffic *t, fl_world *w)
     real(t, &w->worst_overlap);
     whole(t, -1, INT32_MAX, &w->worst_i);
     whole(t, -INT32_MAX, INT32_MAX, &w->worst_j);
+    real(t, &w->worst_time);
+    count(t, &w->half_steps);
+    whole(t, -INT32_MAX, INT32_MAX, &w->half_i);
+    whole(t, -INT32_MAX, INT32_MAX, &w->half_j);
+    real(t, &w->half_time);
     count(t, &w->touching_steps);
     count(t, &w->searches);
     count(t, &w->deep_pairs);

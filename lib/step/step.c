@@ -18,7 +18,12 @@
 
 /* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic
  * size; one that a longer step throws apart would be missed in between. */
-enum { SURVEY = 16 };
+enum { SURVEY = 16, WATCH = 16 };
+
+/* A residual of more than this of the throughput and of what the contacts store is no longer the error of the
+ * time integration, whose loads dem-solve(1) calls usable up to here, but a contact that makes energy. */
+#define MADE 1e-2
+
 static int surveyed(const fl_world *w, int64_t step) { return w->dt > w->dt_safe || step % SURVEY == 0; }
 
 /* Each thread takes the pairs as it can; each pair writes its own result. */
@@ -318,35 +323,62 @@ static void ahead(fl_world *w, double sign)
     w->ledger.drive += sign * a.drive;
 }
 
+/* The deepest overlap of a step, over the radii, and whose. */
+typedef struct {
+    double overlap;
+    int32_t i, j;
+} deepest;
+
 /* Overlaps, counts, and whether action is reaction. */
-static void account(fl_world *w, double dt)
+static void account(fl_world *w, double dt, deepest *d)
 {
     const fl_bodies *b = &w->b;
     fl_vec3 balance = v3(0, 0, 0);
+    *d = (deepest){.i = -1, .j = -1};
     for (int32_t c = 0; c < w->n_live; c++) {
         const fl_pair *p = &w->pair[w->live[c]];
         const double R = b->radius[p->i] + b->radius[p->j], deep = R > 0.0 ? p->overlap / R : 0.0;
-        if (deep > w->worst_overlap) {
-            w->worst_overlap = deep;
-            w->worst_i = fl_world_name(w, p->i);
-            w->worst_j = fl_world_name(w, p->j);
-        }
+        if (deep > d->overlap) *d = (deepest){deep, fl_world_name(w, p->i), fl_world_name(w, p->j)};
         w->impulse_size += dt * v3_norm(p->f);
         w->touching_steps++;
     }
     if (w->balls.bodies) {
         const fl_ball_count all = fl_balls_count(w);
-        if (all.worst > w->worst_overlap) {
-            w->worst_overlap = all.worst;
-            w->worst_i = w->id[w->balls.i[all.row]];
-            w->worst_j = w->id[w->balls.j[all.row]];
-        }
+        if (all.worst > d->overlap)
+            *d = (deepest){all.worst, w->id[w->balls.i[all.row]], w->id[w->balls.j[all.row]]};
         w->impulse_size += dt * all.force;
         w->touching_steps += all.touching;
+    }
+    if (d->overlap > w->worst_overlap) {
+        w->worst_overlap = d->overlap;
+        w->worst_i = d->i;
+        w->worst_j = d->j;
+        w->worst_time = fl_world_time(w);
+    }
+    if (d->overlap > FL_OVERLAP_HALF && !w->half_steps++) {
+        w->half_i = d->i;
+        w->half_j = d->j;
+        w->half_time = fl_world_time(w);
     }
     for (int32_t g = 0; g < groups(w); g++) balance = v3_add(balance, w->group[g].pushed);
     for (int32_t k = w->n; k < b->total; k++) balance = v3_add(balance, b->f[k]);
     w->imbalance = v3_madd(w->imbalance, dt, balance);
+}
+
+/* Overlaps past half the radii are deeper than any law is meant for, but as long as the books balance the run
+ * may go on: bodies that were put into one another come apart so.  It ends when the residual says that
+ * energy is being made, looked at every WATCH steps. */
+static int watch(fl_world *w, const deepest *d, fl_err *err)
+{
+    const fl_ledger *g = &w->ledger;
+    if (!(d->overlap > FL_OVERLAP_HALF) || w->step % WATCH) return 0;
+    fl_step_ledger(w);
+    const double scale = g->throughput + fabs(g->elastic);
+    if (!(g->residual > MADE * scale)) return 0;
+    return fl_fail(err, FL_NUMERIC,
+                   "body %d and %d: they overlap by %.3g of their radii, and energy is being made, %.3g J of "
+                   "%.3g J, in step %lld (t = %g s); set a smaller run.dt or stiffer contacts",
+                   d->i, d->j, d->overlap, g->residual, scale, (long long)w->step, fl_world_time(w));
 }
 
 int fl_step_start(fl_world *w, fl_err *err)
@@ -377,6 +409,7 @@ int fl_step(fl_world *w, fl_err *err)
     fl_bodies *b = &w->b;
     const double dt = w->dt, h = 0.5 * dt;
     const int sea = w->sea.n > 0, rides = w->ride.m.n > 0, survey = surveyed(w, w->step + 1);
+    deepest deep;
 
     load_parts(w, h);
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
@@ -406,11 +439,11 @@ int fl_step(fl_world *w, fl_err *err)
     }
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     fl_works_book(w);
-    account(w, dt);
+    account(w, dt, &deep);
     load_parts(w, h);
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     if (survey) survey_stiffness(w);
-    if (check(w, survey, err)) return -1;
+    if (check(w, survey, err) || watch(w, &deep, err)) return -1;
     if (w->traffic.away && fl_traffic_step(w, err)) return -1;
     if (w->sleep.nap) fl_sleep_lull(w);
     return 0;

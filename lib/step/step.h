@@ -12,7 +12,8 @@ int fl_step_start(fl_world *w, fl_err *err);
  *     drag h, kick h, drift dt, forces, kick h, drag h,     h = dt/2.
  * Contacts see the velocities in the middle of the step.  Symmetric, order 2 (contact damping and friction:
  * order 1 in their own share).  Works are booked by works.h.  -1 with FL_SYSTEM, or FL_NUMERIC when a number
- * is not finite or the step is above the critical one: body and step are named. */
+ * is not finite, the step is above the critical one, or overlaps past FL_OVERLAP_HALF make energy (the
+ * residual is more than 1 % of the throughput and of what contacts store): body and step are named. */
 int fl_step(fl_world *w, fl_err *err);
 
 /* From here on, steps of dt; t is what the clock shows now, fl_world_time() but for its rounding. [s] */

@@ -65,6 +65,9 @@ typedef struct {
     double stiff_i, stiff_j; /* bounds of omega^2 of this contact for either, the other held [1/s2] */
 } fl_pair;
 
+/* Overlaps past this part of the radii are counted: no law is meant for them, and beyond 1 the cores meet. */
+#define FL_OVERLAP_HALF 0.5
+
 /* Stores, sinks and sources of energy [J].  The residual is stores - start + taken out - put in: 0 but for
  * the error of the time integration. */
 typedef struct {
@@ -280,6 +283,10 @@ typedef struct {
     double impulse_size; /* sum of their sizes */
     double worst_overlap; /* largest overlap over the sum of the radii (or the radius of the floe) so far */
     int32_t worst_i, worst_j;     /* names of the two, -1 before there are any */
+    double worst_time;            /* when [s] */
+    int64_t half_steps;           /* steps in which an overlap was past FL_OVERLAP_HALF of the radii */
+    int32_t half_i, half_j;       /* who was so first */
+    double half_time;             /* and when [s] */
     int64_t touching_steps;       /* sum over steps of pairs in contact */
     int64_t searches, deep_pairs; /* neighbour searches; evaluations with overlapping cores */
     fl_deep_count deep_count;

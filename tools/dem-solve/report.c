@@ -87,9 +87,12 @@ void report_write(const struct run *r, FILE *f)
         fprintf(f, "floes there        %d of room for %d\n", fl_traffic_there(w), w->n);
     }
     if (w->worst_i >= 0)
-        fprintf(f, "largest overlap    %.3g of the radii (body %d and %d)\n", w->worst_overlap, w->worst_i,
-                w->worst_j);
+        fprintf(f, "largest overlap    %.3g of the radii (body %d and %d, t = %.6g s)\n", w->worst_overlap,
+                w->worst_i, w->worst_j, w->worst_time);
     else fprintf(f, "largest overlap    0 of the radii\n");
+    if (w->half_steps)
+        fprintf(f, "past half          %" PRId64 " steps, first body %d and %d at t = %.6g s\n",
+                w->half_steps, w->half_i, w->half_j, w->half_time);
     if (w->deep_pairs)
         fprintf(f,
                 "core overlaps      %" PRId64
