@@ -111,10 +111,9 @@ make_scene() # NAME
 seconds() # NAME
 {
     case $1:$quick in
-    field-2000:0) echo 0.4 ;;
-    field-20000:0) echo 0.1 ;;
-    field-2000:*) echo 0.1 ;;
-    field-*:0 | field-20:*) echo 1.6 ;;
+    field-200:0) echo 0.8 ;;
+    field-2000:0) echo 0.6 ;;
+    field-2000:*) echo 0.3 ;;
     field-*) echo 0.4 ;;
     *) awk '$1 == "duration" { print $3 * ($4 == "ms" ? 1e-3 : 1) }' "$bench/scenes/${1%-[0-9]*}.scene" ;;
     esac

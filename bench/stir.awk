@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# stir.awk -- floes of a field drift through eddies 6 m across, of 0.5 m/s: they meet soon and everywhere.
+# stir.awk -- floes of a field drift through eddies 6 m across, of 1 m/s: they meet soon and everywhere.
 /^poly/ { fresh = 1 }
 /^v / && fresh { x = $2; y = $3; fresh = 0 }
 /^vel/ {
     k = atan2(0, -1) / 6
-    printf "vel %.17g %.17g 0 0 0 0\n", $2 + 0.5 * sin(k * x) * cos(k * y), $3 - 0.5 * cos(k * x) * sin(k * y)
+    printf "vel %.17g %.17g 0 0 0 0\n", $2 + sin(k * x) * cos(k * y), $3 - cos(k * x) * sin(k * y)
     next
 }
 { print }
