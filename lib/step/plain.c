@@ -2,13 +2,12 @@
 #include "base/wide.h"
 #include "body/integrate.h"
 #include "step/plain.h"
+#include "step/sleep.h"
 
-int fl_plain_group(const fl_world *w, int32_t from, int32_t to)
+int fl_plain_is(const fl_world *w, int32_t k)
 {
-    if (!w->balls.bodies || w->sea.n || w->row.n || w->inc_first[from] != w->inc_first[to]) return 0;
-    for (int32_t k = from; k < to; k++)
-        if (!fl_body_plain(&w->b, k) || fl_world_away(w, k)) return 0;
-    return 1;
+    return w->balls.bodies && !w->sea.n && !w->row.n && w->inc_first[k] == w->inc_first[k + 1] &&
+           fl_body_plain(&w->b, k) && !fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE;
 }
 
 /* What the loops below read and write, from the first body of the group on. */
@@ -20,10 +19,9 @@ typedef struct {
     double *damped, *rubbed;
 } group;
 
-/* The gains of either kick, and what contacts push. */
+/* The gains of either kick. */
 typedef struct {
-    double v0[3][FL_BALLS_GROUP], w0[3][FL_BALLS_GROUP], v1[3][FL_BALLS_GROUP], w1[3][FL_BALLS_GROUP],
-        pushed[3][FL_BALLS_GROUP];
+    double v0[3][FL_BALLS_GROUP], w0[3][FL_BALLS_GROUP], v1[3][FL_BALLS_GROUP], w1[3][FL_BALLS_GROUP];
 } gains;
 
 FL_WIDE_VERSIONS static void force(const group *restrict a, int32_t n, fl_vec3 g, double h, gains *restrict q)
@@ -57,9 +55,6 @@ FL_WIDE_VERSIONS static void force(const group *restrict a, int32_t n, fl_vec3 g
         q->w1[0][k] = s2 * tx;
         q->w1[1][k] = s2 * ty;
         q->w1[2][k] = s2 * tz;
-        q->pushed[0][k] = x + -m[k] * g.x;
-        q->pushed[1][k] = y + -m[k] * g.y;
-        q->pushed[2][k] = z + -m[k] * g.z;
     }
 }
 
@@ -90,7 +85,7 @@ FL_WIDE_VERSIONS static void work(const group *restrict a, int32_t n, double dt,
     }
 }
 
-fl_vec3 fl_plain_end(fl_world *w, int32_t from, int32_t to, double h)
+void fl_plain_end(fl_world *w, int32_t from, int32_t to, double h)
 {
     fl_bodies *b = &w->b;
     const int32_t n = to - from;
@@ -98,10 +93,7 @@ fl_vec3 fl_plain_end(fl_world *w, int32_t from, int32_t to, double h)
                      w->balls.was + from, b->f + from,    b->t + from,      b->v + from,
                      b->L + from,         b->w + from,    w->damped + from, w->rubbed + from};
     gains q;
-    fl_vec3 all = v3(0, 0, 0);
     force(&a, n, w->gravity, h, &q);
     fl_move_free(b, from, to, h, 0.0, NULL);
     work(&a, n, w->dt, &q);
-    for (int32_t k = 0; k < n; k++) all = v3_add(all, v3(q.pushed[0][k], q.pushed[1][k], q.pushed[2][k]));
-    return all;
 }

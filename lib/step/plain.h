@@ -5,13 +5,13 @@
 #define FL_STEP_PLAIN_H
 #include "step/world.h"
 
-/* Whether bodies [from, to) are all such: plain (integrate.h), there, dry, not driven, and with no pair near
- * but spheres. */
-int fl_plain_group(const fl_world *w, int32_t from, int32_t to);
+/* Whether body k < n is such: plain (integrate.h), there, awake, dry, not driven, and with no pair near but
+ * spheres.
+ */
+int fl_plain_is(const fl_world *w, int32_t k);
 
 /* Forces from w->balls.sum, the kick by h = dt/2, and the works of the step (works.h) of such bodies, at most
- * FL_BALLS_GROUP; what fl_step() else does with them one by one.  Returns the sum of the forces of contacts.
- */
-fl_vec3 fl_plain_end(fl_world *w, int32_t from, int32_t to, double h);
+ * FL_BALLS_GROUP of them. */
+void fl_plain_end(fl_world *w, int32_t from, int32_t to, double h);
 
 #endif

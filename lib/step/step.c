@@ -193,29 +193,36 @@ static void end_group(fl_world *w, int32_t g, double h)
     fl_bodies *b = &w->b;
     const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
     fl_gain first[FL_BALLS_GROUP], back[FL_BALLS_GROUP];
+    uint8_t done[FL_BALLS_GROUP] = {0};
     fl_group *own = &w->group[g];
-    *own = (fl_group){.lost = -1};
-    if (h > 0.0 && fl_plain_group(w, from, to)) {
-        for (int32_t k = from; k < to; k++) {
-            fl_balls_collect(w, k);
-            if (w->sink[k].n) w->sink[k] = (fl_sink){0};
+    int32_t end;
+    for (int32_t k = from; k < to; k = end) {
+        for (end = k; h > 0.0 && end < to && fl_plain_is(w, end); end++) done[end - from] = 1;
+        for (int32_t i = k; i < end; i++) {
+            fl_balls_collect(w, i);
+            if (w->sink[i].n) w->sink[i] = (fl_sink){0};
         }
-        own->pushed = fl_plain_end(w, from, to, h);
-        own->lost = first_lost(b, from, to);
-        return;
-    }
-    for (int32_t k = from; k < to; k++) {
+        if (end > k) {
+            fl_plain_end(w, k, end, h);
+            continue;
+        }
+        end = k + 1;
         first[k - from] = plain(w, k) ? gain_of(b, k, h) : w->gain[k];
         if (w->balls.bodies) fl_balls_collect(w, k);
         if (fl_sleeps(w, k)) w->sink[k] = w->was[k]; /* what presses stays */
         else if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_end(w, k);
         else fl_step_gather(w, k);
     }
-    if (h > 0.0) move(w, from, to, h, 0.0, back);
+    for (int32_t k = from; k < to && h > 0.0; k = end) {
+        for (end = k; end < to && !done[end - from];) end++;
+        if (end > k) move(w, k, end, h, 0.0, &back[k - from]);
+        else end = k + 1;
+    }
+    *own = (fl_group){.lost = -1};
     for (int32_t k = from; k < to; k++) {
         if (fl_world_away(w, k)) continue;
         own->pushed = v3_add(own->pushed, pushed(w, k));
-        if (!(h > 0.0) || fl_sleeps(w, k)) continue;
+        if (done[k - from] || !(h > 0.0) || fl_sleeps(w, k)) continue;
         if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_ended(w, k);
         else if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
         if (plain(w, k)) back[k - from] = gain_of(b, k, h);
