@@ -120,7 +120,8 @@ static void look(const pair_case *q, tally *t)
     if (k < 0) return;
     if (k >= DECADES) k = DECADES - 1;
     double n = off(&o, g.n);
-    if (n > 1e-12) n = (double)oracle_off(&q->a, &q->b, &o, g.n);
+    /* Distances that long doubles cannot tell apart leave the oracle's own choice of features open. */
+    if (n > 1e-14) n = fmin(n, (double)oracle_off(&q->a, &q->b, &o, g.n));
     t->of_d[k] = fmax(t->of_d[k], d);
     t->of_n[k] = fmax(t->of_n[k], n);
     t->normal = fmax(t->normal, n);
