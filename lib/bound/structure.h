@@ -6,8 +6,10 @@
  *   a solid   when it is closed and convex: one convex polyhedron, the half-spaces of its faces;
  *   a plate   when it is one flat convex polygon;
  *   a shell   otherwise: those faces in convex tiles, and of edges and vertices those where the surface
- * bends, straight runs whole. A truncated cone is a piece of its own: exact for spheres, an
- * FL_CONE_SIDES-sided frustum of the same cross-section for everything else. */
+ * bends, straight runs whole. A truncated cone is a piece of its own.  It is exact for spheres, and under the
+ * law `patch` for polyhedra whose centre is farther from both its ends than twice their bounding radius
+ * (narrow/frustum.h); nearer to an end it becomes, by a smooth share of the energy, a frustum of
+ * FL_CONE_SIDES sides and the same cross-section, which it is for the other laws. */
 #ifndef FL_BOUND_STRUCTURE_H
 #define FL_BOUND_STRUCTURE_H
 #include "broad/bvh.h"

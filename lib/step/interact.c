@@ -5,6 +5,7 @@
 #include "law/damping.h"
 #include "law/manual.h"
 #include "law/normal.h"
+#include "narrow/frustum.h"
 #include "narrow/nearest.h"
 #include "step/interact.h"
 #include "step/stiff.h"
@@ -137,32 +138,68 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
     return 0;
 }
 
-/* Fill s with the places of the pair; *distance is a lower bound of the distance of the cores. */
-static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *near, const relative *r,
-                       double *distance)
+/* How much of U on a cone is that of the cone itself, the rest being that of its polygon: all where the ends
+ * are farther from the centre of A, at height z, than twice its bound and R, none where they are nearer than
+ * once.  *slope: its derivative after z [1/m]. */
+static double share_of_cone(const fl_piece *piece, double z, double bound, double R, double *slope)
+{
+    double share[2], change[2];
+    for (int end = 0; end < 2; end++) {
+        const double t = ((end ? piece->h - z : z) - bound - R) / bound, u = t <= 0.0   ? 0.0
+                                                                             : t >= 1.0 ? 1.0
+                                                                                        : t;
+        share[end] = u * u * u * (10.0 + u * (6.0 * u - 15.0));
+        change[end] = (end ? -30.0 : 30.0) * u * u * (1.0 - u) * (1.0 - u) / bound;
+    }
+    *slope = change[0] * share[1] + share[0] * change[1];
+    return share[0] * share[1];
+}
+
+/* Add the places on the cone itself.  Its polygon tells a direction that separates the two, the cone how far;
+ * what overlaps it is looked at every time. */
+static int cone_places(fl_pair *p, fl_places *s, const fl_poly *a, const fl_poly *b, const fl_piece *piece,
+                       double ra, double *distance)
+{
+    const fl_frustum cone = {piece->r0, piece->r1, piece->h};
+    p->deep = 0;
+    for (int again = 0; again < 2; again++) {
+        double low = INFINITY;
+        for (int32_t v = 0; v < a->nv; v++) low = fmin(low, v3_dot(p->axis, s->va[v]));
+        *distance = p->has_axis ? low - fl_frustum_reach(&cone, p->axis) : -INFINITY;
+        if (again || (p->has_axis && *distance > (p->n ? 0.0 : NEARLY * ra))) break;
+        fl_gap gap;
+        fl_gjk((fl_core){s->va, a->nv, a}, (fl_core){b->v, b->nv, b}, &p->cache, &gap);
+        p->has_axis = !gap.overlap;
+        p->deep = gap.overlap;
+        if (p->has_axis) p->axis = gap.n;
+    }
+    return *distance < ra ? fl_frustum_places(s, a, &cone, ra) : 0;
+}
+
+/* U = (1 - share) of the first n places + share of the others; where the share changes a force along the
+ * axis.
+ */
+static int blend(fl_places *s, int32_t n, fl_vec3 couple, double share, double slope, fl_vec3 centre)
+{
+    double u[2] = {0};
+    for (int32_t k = 0; k < s->n; k++) {
+        fl_place *q = &s->place[k];
+        const double part = k < n ? 1.0 - share : share;
+        u[k >= n] += q->u;
+        q->u *= part, q->du *= part, q->ddu *= part;
+    }
+    s->couple = v3_add(v3_scale(1.0 - share, couple), v3_scale(share, s->couple));
+    const double du = -slope * (u[1] - u[0]);
+    if (du == 0.0) return 0;
+    return fl_places_add(s, (fl_place){.du = fabs(du), .n = v3(0, 0, du > 0.0 ? 1.0 : -1.0), .p = centre});
+}
+
+/* The places of two convex cores in B's frame, A's entered. */
+static int convex_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double *distance)
 {
     const fl_bodies *b = &w->b;
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
-    const fl_piece *piece = piece_of(w, p->j);
     const double ra = b->radius[p->i], rb = b->radius[p->j], R = ra + rb;
-    s->n = 0;
-    if (A->nv == 1 && (!piece || piece->kind != FL_PIECE_SHELL))
-        return point_places(s, B, piece, r->o, ra, R, distance);
-    if (B->nv == 1 && !piece) { /* the point is B: look from A, then turn the place round */
-        if (point_places(s, A, NULL, v3_neg(m3_tmul(r->M, r->o)), rb, R, distance)) return -1;
-        if (s->n) {
-            const fl_vec3 n = v3_neg(m3_mul(r->M, s->place[0].n));
-            const double overlap = s->place[0].overlap;
-            s->n = 0;
-            return fl_places_point(s, v3_scale(R - overlap, n), n, overlap, ra);
-        }
-        return 0;
-    }
-    if (fl_places_enter(s, A, r->M, r->o)) return -1;
-    if (piece && piece->kind == FL_PIECE_PLANE)
-        return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance) : fl_places_plane(s, A, ra, distance);
-    if (piece && piece->kind == FL_PIECE_SHELL)
-        return fl_shell_places(s, near, A, piece, ra, ra + w->skin, p->exponent > 0.0, &p->matches, distance);
     const int core_law = p->law->kind == FL_LAW_CORE;
     fl_overlap deep;
     fl_gap gap;
@@ -190,6 +227,47 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
         return separate(w, p, A, B, s, r->M, INFINITY, &deep, &gap, distance);
     }
     return 0;
+}
+
+/* Fill s with the places of the pair; *distance is a lower bound of the distance of the cores. */
+static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *near, const relative *r,
+                       double *distance)
+{
+    const fl_bodies *b = &w->b;
+    const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
+    const fl_piece *piece = piece_of(w, p->j);
+    const double ra = b->radius[p->i], rb = b->radius[p->j], R = ra + rb;
+    s->n = 0;
+    if (A->nv == 1 && (!piece || piece->kind != FL_PIECE_SHELL))
+        return point_places(s, B, piece, r->o, ra, R, distance);
+    if (B->nv == 1 && !piece) { /* the point is B: look from A, then turn the place round */
+        if (point_places(s, A, NULL, v3_neg(m3_tmul(r->M, r->o)), rb, R, distance)) return -1;
+        if (s->n) {
+            const fl_vec3 n = v3_neg(m3_mul(r->M, s->place[0].n));
+            const double overlap = s->place[0].overlap;
+            s->n = 0;
+            return fl_places_point(s, v3_scale(R - overlap, n), n, overlap, ra);
+        }
+        return 0;
+    }
+    if (fl_places_enter(s, A, r->M, r->o)) return -1;
+    if (piece && piece->kind == FL_PIECE_PLANE)
+        return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance) : fl_places_plane(s, A, ra, distance);
+    if (piece && piece->kind == FL_PIECE_SHELL)
+        return fl_shell_places(s, near, A, piece, ra, ra + w->skin, p->exponent > 0.0, &p->matches, distance);
+    double share = 0.0, slope = 0.0, farther = INFINITY;
+    if (piece && piece->kind == FL_PIECE_CONE && p->exponent == 0.0)
+        share = share_of_cone(piece, r->o.z, b->bound[p->i], ra, &slope);
+    if (share < 1.0 && convex_places(w, p, s, r, distance)) return -1;
+    if (share == 0.0) return 0;
+    const int32_t n = s->n;
+    const int deep = p->deep;
+    const fl_vec3 couple = n ? s->couple : v3(0, 0, 0);
+    s->couple = v3(0, 0, 0);
+    if (cone_places(p, s, A, B, piece, ra, &farther)) return -1;
+    p->deep |= share < 1.0 ? deep : 0;
+    *distance = share < 1.0 ? fmin(*distance, farther) : farther;
+    return share < 1.0 ? blend(s, n, couple, share, slope, r->o) : 0;
 }
 
 /* --- the forces of it -------------------------------------------------------------------------- */

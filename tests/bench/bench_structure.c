@@ -163,7 +163,7 @@ static void make(lab *l, const structure *c, int edge_on)
         lids(p, c->n, c->m);
         break;
     }
-    default: lab_cone(l, (fl_cone){v3(x + ROUND, 0, -3), v3(x + ROUND, 0, 3), ROUND, ROUND});
+    default: lab_cone(l, (fl_cone){v3(x + ROUND, 0, -6), v3(x + ROUND, 0, 6), ROUND, ROUND});
     }
     lab_make(l, 1e-9);
 }
