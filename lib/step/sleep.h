@@ -42,6 +42,14 @@ static inline int fl_sleeps(const fl_world *w, int32_t k)
     return kind == FL_COASTS || kind == FL_RESTS;
 }
 
+/* Whether all of [from, to) coast: then nothing acts on them, or pushes. */
+static inline int fl_sleep_all(const fl_world *w, int32_t from, int32_t to)
+{
+    int32_t k = w->sleep.nap ? from : to + 1;
+    while (k < to && w->sleep.kind[k] == FL_COASTS) k++;
+    return k == to;
+}
+
 /* When k fell asleep [s]. */
 static inline double fl_sleep_since(const fl_world *w, int32_t k)
 {

@@ -195,6 +195,8 @@ static void end_group(fl_world *w, int32_t g, double h)
     fl_gain first[FL_BALLS_GROUP], back[FL_BALLS_GROUP];
     uint8_t done[FL_BALLS_GROUP] = {0};
     fl_group *own = &w->group[g];
+    *own = (fl_group){.lost = -1};
+    if (fl_sleep_all(w, from, to)) return;
     int32_t end;
     for (int32_t k = from; k < to; k = end) {
         for (end = k; h > 0.0 && end < to && fl_plain_is(w, end); end++) done[end - from] = 1;
@@ -209,8 +211,9 @@ static void end_group(fl_world *w, int32_t g, double h)
         end = k + 1;
         first[k - from] = plain(w, k) ? gain_of(b, k, h) : w->gain[k];
         if (w->balls.bodies) fl_balls_collect(w, k);
-        if (fl_sleeps(w, k)) w->sink[k] = w->was[k]; /* what presses stays */
-        else if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_end(w, k);
+        if (fl_sleeps(w, k)) {
+            if (w->sink[k].n || w->was[k].n) w->sink[k] = w->was[k]; /* what presses stays */
+        } else if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_end(w, k);
         else fl_step_gather(w, k);
     }
     for (int32_t k = from; k < to && h > 0.0; k = end) {
@@ -218,9 +221,8 @@ static void end_group(fl_world *w, int32_t g, double h)
         if (end > k) move(w, k, end, h, 0.0, &back[k - from]);
         else end = k + 1;
     }
-    *own = (fl_group){.lost = -1};
     for (int32_t k = from; k < to; k++) {
-        if (fl_world_away(w, k)) continue;
+        if (fl_world_away(w, k) || fl_sleep_kind(w, k) == FL_COASTS) continue;
         own->pushed = v3_add(own->pushed, pushed(w, k));
         if (done[k - from] || !(h > 0.0) || fl_sleeps(w, k)) continue;
         if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_ended(w, k);
@@ -425,6 +427,7 @@ int fl_step(fl_world *w, fl_err *err)
 #pragma omp parallel for schedule(static)
     for (int32_t g = 0; g < groups(w); g++) {
         const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
+        if (fl_sleep_all(w, from, to)) continue;
         for (int32_t k = from; k < to && sea; k++)
             if (!fl_world_away(w, k) && !fl_sleeps(w, k)) fl_sea_drag(&w->sea, b, k, h, 0);
         move(w, from, to, h, dt, &w->gain[from]);

@@ -196,14 +196,14 @@ static double asleep(int rests, double sleep, lab *l)
         lab_set(l, "boundary.type=free free rigid");
         lab_set(l, "boundary.min=none none 0");
     } else lab_set(l, "water.current=0.2 0 0");
-    for (int32_t k = 0; k < 900; k++) {
+    for (int32_t k = 0; k < (rests ? 100 : 900); k++) {
         fl_rng g = fl_rng_of(4, k, FL_RNG_TEST);
         const double v = rests ? 0.0 : 0.05;
         lab_box(l, v3(2.0 * (k % 30), 2.0 * (k / 30), rests ? 0.2 : -0.151), v3(0.5, 0.5, 0.2), 0.03, q_one(),
                 v3(fl_rng_in(&g, -v, v), fl_rng_in(&g, -v, v), 0), v3(0, 0, 0));
     }
-    lab_make(l, 4e-4);
-    lab_run(l, 4000); /* until they lie still */
+    lab_make(l, rests ? 0.0 : 4e-4);
+    lab_run(l, 8000); /* until they lie still */
     const double begun = now();
     const int bad = lab_run(l, 2000);
     const double each = 1e9 * (now() - begun) / 2000 / l->w.n;

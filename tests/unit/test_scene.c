@@ -295,6 +295,9 @@ static void each_complaint_names_file_and_line(void **state)
     refused("#scene 2\n" ICE, ":1: scene version 2 is newer than this program, which reads up to 1");
     refused("[run]\ndt = 1 ms\nerror = 0.1\n" ICE,
             ":3: run.error is to choose the step, and run.dt gives it: one of them was wanted");
+    refused("[run]\nsleep = 1e-5\nerror = 0.1\n" ICE,
+            ":2: run.error repeats windows with other steps, in which nobody sleeps: one of run.error and "
+            "run.sleep was wanted");
     refused("[run]\nerror = 100%\n" ICE, ":2: run.error is 100%, a value above 0 and below 1 was wanted");
     refused("[run]\nthreads = 2.5\n" ICE,
             ":2: run.threads is \"2.5\", a whole number from 1 to 1024 was wanted");
