@@ -71,7 +71,7 @@ readers: $(SHIM)
 		$(MAKE) --no-print-directory SAN=address,undefined OPT=-O0 SHIM=$(SHIM) corpora; \
 	else echo "readers: this compiler has no sanitizers, corpora are replayed without them" >&2; fi
 corpora: $(call test_of,fuzz)
-# Cost beside error over scenes and settings; FLOE_QUICK=1 takes a minute.
+# Cost beside error over scenes and settings; FLOE_QUICK=1 takes a minute or two.
 WIDTHS = $(if $(filter x86_64,$(shell uname -m)),$B/bench/dem-solve-plain $B/bench/dem-solve-avx2)
 run-bench: $(WIDTHS)
 ladder: all $(WIDTHS)

@@ -5,7 +5,7 @@
 #   OUT/choice.txt   for an error of 5 %, 1 % and 0.1 %: the longest step that kept it, scene by scene
 #   OUT/*.png        error against cost, cost against bodies, cost against threads (by gnuplot, where it is there)
 # What a run is: bench/README.md.  Ice, structures and tables of the runs stay in BUILD/ladder.
-#   FLOE_QUICK=1     fewer and shorter rows, a minute in all
+#   FLOE_QUICK=1     fewer and shorter rows, a minute or two in all
 #   SCENES='pair *'  patterns of the scenes that are wanted
 #   TIMES=3          times that a row is run, if one of them takes less than 3 s; the least counts
 set -u
