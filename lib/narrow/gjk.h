@@ -62,7 +62,7 @@ typedef struct {
  *     |v|^2 / 2 over a set of diameter 2 E (Jaggi 2013, theorem 1).
  * Rounding could break the first; so stage 1 stops at 64 supports, a walk in pairs at 16 steps that gain
  * less than 4e-16 of d^2 and at 4096 altogether, and stage 3 after 4 walks of each: below 9000 supports
- * in any case (148 are the most that 2e7 pairs took).
+ * in any case (105 are the most that the pairs of prop_gjk took).
  *
  * Error, with L the larger of d and the sizes of the cores (extents, or largest sides of their boxes): 1e-13
  * L in d, 1e-12 rad in n for d from 1e-9 L up.  Where the nearest points are not unique one is returned.
