@@ -90,12 +90,12 @@ static int64_t *find_block(fl_pairs *p, const fl_aabb *box, int32_t b, int32_t n
     for (int32_t i = b * BLOCK; i < n && i < (b + 1) * BLOCK; i++) {
         if (err->code || partners(p, box, i, total, wide, s, err)) return NULL;
         if (fl_grow(&s->all, &s->all_cap, (int64_t)s->alls + s->keys, sizeof *s->all, err)) return NULL;
-        memcpy(s->all + s->alls, s->key, (size_t)s->keys * sizeof *s->all);
+        if (s->keys) memcpy(s->all + s->alls, s->key, (size_t)s->keys * sizeof *s->all);
         s->alls += s->keys;
         p->first[i + 1] = s->keys;
     }
     keys = fl_alloc(s->alls, sizeof *keys, err);
-    if (keys) memcpy(keys, s->all, (size_t)s->alls * sizeof *keys);
+    if (keys && s->alls) memcpy(keys, s->all, (size_t)s->alls * sizeof *keys);
     return keys;
 }
 

@@ -5,6 +5,7 @@
  * that touches nothing; and time for each body against their number. Times are of this machine now; compare
  * rows of one run only.
  *     bench_step                       the tables
+ *     bench_step order THREADS         one order of all sums against any, alone
  *     bench_step dry|water STEPS       so many steps of a hundred floes that touch nothing; tells how many
  *                                      body-steps they were */
 #include <omp.h>
@@ -230,6 +231,7 @@ int main(int argc, char **argv)
 {
     static const double SAFETY[] = {0.4, 0.2, 0.1, 0.05};
     static const char *const LAW[] = {"patch", "core", "manual-si", "manual"};
+    if (argc == 3 && strcmp(argv[1], "order") == 0) return !order_of_sums(atoi(argv[2]));
     if (argc == 3) return alone(argv[1], atoi(argv[2]));
     setvbuf(stdout, NULL, _IOLBF, 0);
     printf("gas of 196 floes, elastic, no friction, 4 s, one thread\n");
