@@ -89,7 +89,7 @@ static void make(lab *l, which c, const char *law)
     case FLAT_TURNED: octagon(l, v3(1.3, 0.2, 0.4 + near), 0.5, 0.003); break;
     case FLOE_ON_PLANE: lab_setf(l, "boundary.min=%.17g none none", -half - wall); break;
     case FLOE_ON_CYLINDER:
-        lab_cone(l, (fl_cone){v3(half + wall + 1.5, 0.03, -3), v3(half + wall + 1.5, 0.03, 3), 1.5, 1.5});
+        lab_cone(l, (fl_cone){v3(half + wall + 1.5, 0.03, -6), v3(half + wall + 1.5, 0.03, 6), 1.5, 1.5});
         break;
     default: {
         const double x = half + wall; /* an L of walls: not convex, a shell */

@@ -3,7 +3,8 @@
 # instructions.sh [update] -- instructions of one contact, counted by callgrind: the figure that does not
 # depend on how busy the machine is.  Beside it the one kept in instructions.txt, and how far it has risen;
 # `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.  The cases by number are
-# those of bench_contact; `spheres` is a contact and step of spheres in a lattice, everything included, `dry`
+# those of bench_contact; `wall` of 20 000 triangles, `cylinder`, exact, and `hull` of 50 000 triangles are of
+# bench_structure; `spheres` is a contact and step of spheres in a lattice, everything included, `dry`
 # and `water` a body and step of floes that touch nothing.
 #   BENCH  the folder where the benches lie
 #   ONLY   the one case that is counted
@@ -32,6 +33,11 @@ all() {
         each $k bench_contact $k $FEW $MANY $((MANY - FEW))
         k=$((k + 1))
     done
+    each wall bench_structure 4 $FEW $MANY $((MANY - FEW))
+    each cylinder bench_structure 18 $FEW $MANY $((MANY - FEW))
+    each cylinder-edge bench_structure 19 $FEW $MANY $((MANY - FEW))
+    each hull bench_structure 24 $FEW $MANY $((MANY - FEW))
+    each hull-edge bench_structure 25 $FEW $MANY $((MANY - FEW))
     each spheres bench_spheres count 20 120
     each dry bench_step dry 20 120
     each water bench_step water 20 120
@@ -44,5 +50,5 @@ if [ "$1" = update ]; then
     mv "$fresh.all" $kept
 fi
 awk 'NR == FNR { kept[$1] = $2; next }
-     FNR == 1 { printf "%8s %12s %12s %7s\n", "case", "kept", "now", "ratio" }
-     { printf "%8s %12d %12d %7.3f\n", $1, kept[$1], $2, kept[$1] ? $2 / kept[$1] : 0 }' $kept "$fresh"
+     FNR == 1 { printf "%13s %12s %12s %7s\n", "case", "kept", "now", "ratio" }
+     { printf "%13s %12d %12d %7.3f\n", $1, kept[$1], $2, kept[$1] ? $2 / kept[$1] : 0 }' $kept "$fresh"
