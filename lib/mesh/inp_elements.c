@@ -37,18 +37,24 @@ static int32_t part_of(fl_inp_model *r, int32_t set, fl_err *err)
 }
 
 /* The numbers of one element: at least `least` of them and its own, over as many lines as it takes; more
- * where the line says that more come, up to `most`.  How many, 0 at the end of the data, -1. */
+ * where the line says that more come, up to `most`.  What stands behind them in a line that has the whole
+ * element is passed over, as CalculiX does, and told; in any other line it is an element of another type.
+ * How many, 0 at the end of the data, -1. */
 static int element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err *err)
 {
     int32_t line = 0;
     int n = 0;
     for (;;) {
-        const int more = fl_inp_data(&r->at, err);
+        const int more = fl_inp_data(&r->at, err), first = n == 0;
+        int wide = 0;
         if (more < 0) return -1;
         if (!more) break;
         line = r->e.line;
         for (int k = 0; k < r->at.fields; k++) {
-            if (n > most && r->at.field[k][0] == '\0') continue;
+            if (n > most && (first || r->at.field[k][0] == '\0')) {
+                wide |= r->at.field[k][0] != '\0';
+                continue;
+            }
             if (n > most)
                 return fl_deck_fail(&r->at.deck, err, "element %lld has more than %d nodes", (long long)id[0],
                                     most);
@@ -56,6 +62,7 @@ static int element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err
                 return -1;
             n++;
         }
+        r->wide += wide;
         /* a comma behind a full line says that more come; behind a complete element it says nothing */
         if (n > least && !(r->at.more && r->at.fields == FULL && n <= most)) return n;
     }

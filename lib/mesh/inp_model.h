@@ -26,6 +26,7 @@ typedef struct {
     fl_inp_part *part;       /* [parts] */
     fl_inp_section *section; /* [sections] */
     int32_t parts, part_cap, sections, section_cap, rooms, made;
+    int32_t wide;     /* elements with more nodes than their type has */
     const char *name; /* of elements without a set; borrowed */
     /* where what comes next goes */
     fl_elements *store; /* e or defs */

@@ -14,7 +14,8 @@ static int instance_of(fl_inp_model *r, int32_t *place, fl_err *err)
 {
     const char *name = fl_inp_param(&r->at, "INSTANCE");
     *place = -1;
-    if (!name) return 0;
+    /* a deck that was flattened may still name instances which it has no more */
+    if (!name || r->roster.places == 1) return 0;
     *place = fl_roster_find_place(&r->roster, name);
     return *place >= 0 ? 0 : fl_inp_fail(&r->at, err, "there is no instance ", name);
 }

@@ -2,21 +2,42 @@
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include "mesh/inp_assembly.h"
 #include "mesh/inp_elements.h"
 #include "mesh/inp_nodes.h"
 #include "mesh/inp_sets.h"
 #include "mesh/read_inp.h"
 
+static int is_keyword(const char *p)
+{
+    return p[0] == '*' && isalpha((unsigned char)p[1 + strspn(p + 1, " \t")]);
+}
+
+/* Is the keyword at p one that decks begin with? */
+static int begins_deck(const char *p)
+{
+    static const char *const first[] = {"HEADING", "PREPRINT", "NODE",   "ELEMENT",
+                                        "INCLUDE", "PART",     "RESTART"};
+    p += 1 + strspn(p + 1, " \t");
+    for (size_t k = 0; k < sizeof first / sizeof *first; k++) {
+        const size_t n = strlen(first[k]);
+        if (strncasecmp(p, first[k], n) == 0 && strchr(" \t,\r\n", p[n])) return 1;
+    }
+    return 0;
+}
+
 int fl_inp_is(const fl_bytes *b)
 {
     const char *p = b->data;
-    for (;;) {
+    int alone = 1; /* nothing but comments so far */
+    for (; *p; p += strspn(p, "\r\n")) {
         p += strspn(p, " \t\r\n\f\v");
-        if (p[0] != '*' || p[1] != '*') break;
+        if (is_keyword(p)) return alone || begins_deck(p);
+        alone &= p[0] == '\0' || p[0] == '*';
         p += strcspn(p, "\r\n");
     }
-    return p[0] == '*' && isalpha((unsigned char)p[1 + strspn(p + 1, " \t")]);
+    return 0;
 }
 
 static int refuse(fl_inp_model *r, fl_err *err)
@@ -85,6 +106,9 @@ int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err
         goto done;
     fl_deck_start(&r.at.deck, &r.e, b);
     if (read_keywords(&r, err) || fl_inp_place_rest(&r, err)) goto done;
+    if (r.wide)
+        fl_bytes_note(b, "%d elements list more nodes than their type has; those behind were passed over",
+                      r.wide);
     fl_elements_free(&r.defs); /* a large deck is not wanted three times over */
     free(b->data);
     b->data = NULL;

@@ -6,7 +6,8 @@
 #include "mesh/bytes.h"
 #include "mesh/wish.h"
 
-/* Is the first line that is neither blank nor a comment (**) a keyword? */
+/* Is the first line that is neither blank nor a comment (**) a keyword, or the first keyword behind other
+ * text one that decks begin with? */
 int fl_inp_is(const fl_bytes *b);
 
 /* Add the parts of a deck to s; b is emptied.  Flat decks and assemblies are read alike:

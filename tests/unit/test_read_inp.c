@@ -58,6 +58,20 @@ static void elements_go_on(void **state)
     refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n*STEP\n", "deck:11: element 1 has 3 nodes, 4 were wanted");
 }
 
+/* What CalculiX reads as well: a mark before the first comment, stars alone, nodes behind those of the type,
+ * instances that a flat deck names and has not. */
+static void decks_are_taken_as_calculix_does(void **state)
+{
+    (void)state;
+    fl_quality q = reads(">** a beam\n*\n" CUBE "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8, 1, 2,\n"
+                         "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n");
+    assert_true(q.closed && q.triangles == 12);
+    says("1 elements list more nodes than their type has; those behind were passed over");
+    q = takes("some words\n" CUBE HEX "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n", "A");
+    assert_true(q.closed && q.triangles == 12);
+    refuses("some words\n*G1, 2\n", "neither STL");
+}
+
 /* --- types ---------------------------------------------------------------------------------------------- */
 
 static void types_have_shapes(void **state)
@@ -351,7 +365,9 @@ static void broken_assemblies(void **state)
     refuses("*END INSTANCE\n", "*END INSTANCE without *INSTANCE");
     refuses("*PART\n", "*PART wants NAME=");
     refuses("*INSTANCE, NAME=I, LIBRARY=old\n", "from an earlier analysis is not read");
-    refuses(CUBE HEX "*ELSET, ELSET=A, INSTANCE=I\n1\n", "there is no instance I");
+    refuses("*PART, NAME=P\n" CUBE HEX "*END PART\n*INSTANCE, NAME=J, PART=P\n*END INSTANCE\n"
+            "*ELSET, ELSET=A, INSTANCE=I\n1\n",
+            "there is no instance I");
     refuses("*PART, NAME=P\n*NODE\n1, x\n", "deck:3: field 2 is \"x\", a number was wanted");
     refuses(PART("P", "*NODE\n1\n2, 1\n*ELEMENT, TYPE=S3\n1, 1, 2, 7\n") "*INSTANCE, NAME=I, PART=P\n",
             "deck:6: the element wants node 7, which is defined nowhere");
@@ -475,14 +491,23 @@ static void names_are_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(lines_of_every_kind),       TEST(elements_go_on),
-        TEST(types_have_shapes),         TEST(other_types_are_counted),
-        TEST(lines_have_radii),          TEST(sets_name_sets),
-        TEST(sets_of_sets_take_no_time), TEST(faces_are_where_the_manual_says),
-        TEST(surfaces_take_faces),       TEST(instances_are_moved_then_turned),
-        TEST(other_assemblies),          TEST(broken_assemblies),
-        TEST(systems_place_nodes),       TEST(meshes_are_generated),
-        TEST(files_are_included),        TEST(what_is_not_read_is_named),
+        TEST(lines_of_every_kind),
+        TEST(elements_go_on),
+        TEST(decks_are_taken_as_calculix_does),
+        TEST(types_have_shapes),
+        TEST(other_types_are_counted),
+        TEST(lines_have_radii),
+        TEST(sets_name_sets),
+        TEST(sets_of_sets_take_no_time),
+        TEST(faces_are_where_the_manual_says),
+        TEST(surfaces_take_faces),
+        TEST(instances_are_moved_then_turned),
+        TEST(other_assemblies),
+        TEST(broken_assemblies),
+        TEST(systems_place_nodes),
+        TEST(meshes_are_generated),
+        TEST(files_are_included),
+        TEST(what_is_not_read_is_named),
         TEST(names_are_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
