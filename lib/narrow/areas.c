@@ -4,24 +4,10 @@
 #include "base/wide.h"
 #include "narrow/areas.h"
 #include "narrow/overlap.h"
+#include "narrow/rules.h"
 
 #define SAME 1e-13 /* of the size: how far below the other's plane still counts as on it */
 
-/* Points of a triangle, exact for polynomials of degree 5: the middle, and two triples (1 - 2a, a, a). */
-#define A1 0.47014206410511508977
-#define A2 0.10128650732345633880
-enum { NODES = 7 };
-static const double NODE[NODES][3] = {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {1.0 - 2.0 * A1, A1, A1},
-                                      {A1, 1.0 - 2.0 * A1, A1},          {A1, A1, 1.0 - 2.0 * A1},
-                                      {1.0 - 2.0 * A2, A2, A2},          {A2, 1.0 - 2.0 * A2, A2},
-                                      {A2, A2, 1.0 - 2.0 * A2}};
-static const double WEIGHT[NODES] = {0.225,
-                                     0.13239415278850618074,
-                                     0.13239415278850618074,
-                                     0.13239415278850618074,
-                                     0.12593918054482715260,
-                                     0.12593918054482715260,
-                                     0.12593918054482715260};
 /* Gauss' three points on [0, 1] */
 static const double GAUSS[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
 static const double GAUSS_WEIGHT[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
@@ -90,13 +76,14 @@ static fl_vec3 lift(const footprint *q, double x, double y, double s)
 FL_WIDE_VERSIONS static void take(batch *b, sums *q)
 {
     for (int k = b->n; k < FL_LANES; k++) b->area[k] = 0.0;
-    for (int k = 0; k < NODES; k++) {
-        const double b0 = NODE[k][0], b1 = NODE[k][1], b2 = NODE[k][2];
+    for (int k = 0; k < FL_TRIANGLE_NODES; k++) {
+        const double b0 = FL_TRIANGLE_NODE[k][0], b1 = FL_TRIANGLE_NODE[k][1], b2 = FL_TRIANGLE_NODE[k][2];
         const fl_wide x = b0 * b->x[0] + b1 * b->x[1] + b2 * b->x[2];
         const fl_wide y = b0 * b->y[0] + b1 * b->y[1] + b2 * b->y[2];
         const fl_wide to = b0 * b->s[0] + b1 * b->s[1] + b2 * b->s[2], s = FL_WIDE_WHERE(to > 0.0, to);
         const fl_wide f = b0 * b->fade[0] + b1 * b->fade[1] + b2 * b->fade[2];
-        const fl_wide area = WEIGHT[k] * b->area * FL_WIDE_WHERE(f > 0.0, f), s2 = s * s, part = area * s2;
+        const fl_wide area = FL_TRIANGLE_WEIGHT[k] * b->area * FL_WIDE_WHERE(f > 0.0, f), s2 = s * s,
+                      part = area * s2;
         const fl_wide du = 4.0 * part * s;
         const fl_wide here = FL_WIDE_WHERE(area > 0.0, s);
         q->u += part * s2;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stddef.h>
 #include "base/wide.h"
+#include "narrow/rules.h"
 #include "narrow/strips.h"
 
 /* FL_STRIP_CURVED, rounded up to full registers. */
@@ -39,14 +40,6 @@ static const rule BETWEEN_ZEROS = {
      0.14134617137176341828, 0.14134617137176339052, 0.12989514518527181530, 0.10792078685204321842,
      0.07720332819769480659, 0.04023131503864110087}};
 
-/* Gauss and Legendre's, for pieces where s is linear. */
-static const double NODE[FL_STRIP_NODES] = {0.03376524289842398609, 0.16939530676686774317,
-                                            0.38069040695840154568, 0.61930959304159845432,
-                                            0.83060469323313225683, 0.96623475710157601391},
-                    WEIGHT[FL_STRIP_NODES] = {0.08566224618958517252, 0.18038078652406930378,
-                                              0.23395696728634552369, 0.23395696728634552369,
-                                              0.18038078652406930378, 0.08566224618958517252};
-
 static double root_of(double s) { return s > 0.0 ? sqrt(s) : 0.0; }
 
 /* Over a plane: d is linear and its direction one, so that two places have force and torque of all nodes, and
@@ -60,9 +53,9 @@ int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_ve
     if (!(p + q > 0.0)) return 0;
     const double dt = t.hi - t.lo, k0 = l->factor * 2.0 * dt / (p + q);
     double u = 0.0, du = 0.0, ddu = 0.0, first = 0.0, second = 0.0;
-    for (int k = 0; k < FL_STRIP_NODES; k++) {
-        const double z = NODE[k], r = p + (q - p) * z, at = z * (r + p) / (p + q), s = r * r;
-        const double c = k0 * WEIGHT[k] * s * s * s, pull = 4.5 * c * s;
+    for (int k = 0; k < FL_LINE_NODES; k++) {
+        const double z = FL_LINE_NODE[k], r = p + (q - p) * z, at = z * (r + p) / (p + q), s = r * r;
+        const double c = k0 * FL_LINE_WEIGHT[k] * s * s * s, pull = 4.5 * c * s;
         u += c * s * s;
         du += pull;
         ddu += 15.75 * c;

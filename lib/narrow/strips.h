@@ -4,13 +4,13 @@
  * Along a straight line the distance to a polyhedron changes its formula where the nearest feature does: at
  * the planes between the prisms over its faces, the wedges over its edges and the cones over its vertices.
  * The line is cut there and where s becomes 0, and each piece gets the points of a rule of Gauss that knows
- * about the root of s at such an end: FL_STRIP_NODES where s is linear, exact; else FL_STRIP_CURVED, within
- * 1e-8. */
+ * about the root of s at such an end: FL_LINE_NODES (rules.h) where s is linear, exact; else
+ * FL_STRIP_CURVED, within 1e-8. */
 #ifndef FL_NARROW_STRIPS_H
 #define FL_NARROW_STRIPS_H
 #include "narrow/places.h"
 
-enum { FL_STRIP_NODES = 6, FL_STRIP_CURVED = 10 };
+enum { FL_STRIP_CURVED = 10 };
 
 /* A part of it, in [0, 1]. */
 typedef struct {
