@@ -96,6 +96,58 @@ static int fail_at(const fl_text *in, int32_t line, fl_err *err, const char *sen
     return fl_text_fail(&there, err, "%s", sentence);
 }
 
+typedef struct {
+    fl_vec3 x;
+    int32_t k;
+} spot;
+
+static int by_place(const void *a, const void *b)
+{
+    const spot *s = a, *t = b;
+    if (s->x.x < t->x.x || s->x.x > t->x.x) return s->x.x < t->x.x ? -1 : 1;
+    if (s->x.y < t->x.y || s->x.y > t->x.y) return s->x.y < t->x.y ? -1 : 1;
+    if (s->x.z < t->x.z || s->x.z > t->x.z) return s->x.z < t->x.z ? -1 : 1;
+    return (s->k > t->k) - (s->k < t->k);
+}
+
+/* Corners of a solid that were written twice become one, at the first of its places; what is left of a face
+ * with fewer than three is left out. */
+static int merge_corners(struct body *b, fl_err *err)
+{
+    int32_t corners = 0, faces = 0, sides = 0;
+    spot *s = fl_alloc(b->nv, sizeof *s, err);
+    int32_t *to = fl_alloc(b->nv, sizeof *to, err);
+    if (!s || !to) {
+        free(s), free(to);
+        return -1;
+    }
+    for (int32_t k = 0; k < b->nv; k++) s[k] = (spot){b->v[k], k};
+    qsort(s, (size_t)b->nv, sizeof *s, by_place);
+    for (int32_t k = 0, first = 0; k < b->nv; k++) {
+        const fl_vec3 p = s[k].x, q = s[first].x;
+        if (p.x != q.x || p.y != q.y || p.z != q.z) first = k;
+        to[s[k].k] = s[first].k; /* never a later one */
+    }
+    for (int32_t k = 0; k < b->nv; k++) {
+        if (to[k] == k) b->v[corners] = b->v[k], to[k] = corners++;
+        else to[k] = to[to[k]];
+    }
+    for (int32_t f = 0, begin = 0; f < b->nf && corners < b->nv; f++) {
+        const int32_t end = b->first[f + 1], from = sides;
+        for (int32_t k = begin; k < end; k++) {
+            const int32_t c = to[b->loop[k]];
+            if (sides == from || b->loop[sides - 1] != c) b->loop[sides++] = c;
+        }
+        if (sides - from > 1 && b->loop[sides - 1] == b->loop[from]) sides--;
+        begin = end;
+        if (sides - from < 3) sides = from;
+        else b->first[++faces] = sides;
+    }
+    if (corners < b->nv) b->nv = corners, b->nf = faces;
+    free(s), free(to);
+    return 0;
+}
+
 /* The record is complete when its vertices and faces are there; then it becomes a body. */
 static int close_body(fl_field *a, struct body *b, const fl_text *in, fl_err *err)
 {
@@ -109,6 +161,7 @@ static int close_body(fl_field *a, struct body *b, const fl_text *in, fl_err *er
                  b->nv, b->nf, b->has_v, b->has_f);
         return fail_at(in, b->line, err, what);
     }
+    if (b->nf > 0 && merge_corners(b, err)) return -1;
     if (fl_poly_make(&core, b->nv, b->v, b->nf, b->first, b->loop, &why)) {
         if (why.code != FL_INPUT) return fl_fail(err, why.code, "%s", why.text);
         snprintf(what, sizeof what, "body %d: %.350s", b->id, why.text);

@@ -55,7 +55,8 @@ int fl_field_add_bond(fl_field *a, int32_t i, int32_t j, double area, double len
 
 /* Read a file ("-" is standard input, gzip is unpacked).  Checks the syntax, that ids differ, indices and
  * radii, that a bond names two bodies of the file, a pair once and with an area and a length, and through
- * fl_poly_make() that every core is closed, convex and the right way out.
+ * fl_poly_make() that every core is closed, convex and the right way out; corners of a core that coincide are
+ * one.
  * Returns 0, or -1 with FL_INPUT ("file:line: ...", for a core the line of its poly record and its id) or
  * FL_SYSTEM; out is untouched then. */
 int fl_field_read(fl_field *out, const char *path, fl_err *err);

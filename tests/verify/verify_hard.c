@@ -429,6 +429,33 @@ static int read_with(const char *numbers)
     return rc == 0 ? 0 : err.code == FL_INPUT && strstr(err.text, "bad.dat:") ? 1 : -1000;
 }
 
+/* A cube with a corner written twice, and one more in the middle of an edge. */
+static void corners_too_many(void)
+{
+    static const char CLEAN[] = "#g-polys 1\npoly 1 0.05 8 6\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n"
+                                "v 1 0 1\nv 1 1 1\nv 0 1 1\nf 4 0 3 2 1\nf 4 4 5 6 7\nf 4 0 1 5 4\n"
+                                "f 4 1 2 6 5\nf 4 2 3 7 6\nf 4 3 0 4 7\n";
+    static const char MORE[] = "#g-polys 1\npoly 1 0.05 10 7\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n"
+                               "v 1 0 1\nv 1 1 1\nv 0 1 1\nv 1 1 1\nv 0.5 0 0\nf 5 0 3 2 1 9\nf 5 4 5 6 8 7\n"
+                               "f 5 0 9 1 5 4\nf 4 1 2 8 5\nf 4 2 3 7 6\nf 4 3 0 4 7\nf 3 6 8 7\n";
+    fl_field f[2] = {{0}};
+    fl_mass m[2];
+    fl_err err = {0};
+    for (int k = 0; k < 2; k++) {
+        const char *text = k ? MORE : CLEAN;
+        if (fl_field_read(&f[k], test_file("cube.dat", text, strlen(text)), &err) ||
+            fl_mass_of(&m[k], &f[k].core[0], 0.05, &err)) {
+            fprintf(stderr, "%s\n", err.text);
+            exit(1);
+        }
+    }
+    verify_row("H07", "a corner twice and one on an edge: volume with the ball", m[1].volume, m[0].volume,
+               1e-15, VERIFY_REL);
+    verify_row("H07", "and moment of inertia", m[1].inertia.x, m[0].inertia.x, 1e-15, VERIFY_REL);
+    verify_row("H07", "corners left", f[1].core[0].nv, 9, 0, VERIFY_ABS);
+    for (int k = 0; k < 2; k++) fl_field_free(&f[k]);
+}
+
 static void bad_numbers(void)
 {
     static const char *const BAD[] = {"v 0 0 nan", "v 0 inf 0", "v 0,5 0 0",
@@ -457,6 +484,7 @@ int main(void)
     same_bits();
     parallel_planes();
     cores_without_volume();
+    corners_too_many();
     bad_numbers();
     verify_note(
         "H32 and H33 are of bonds, which there are none of yet; H36 is of time: bench_step, bench_spheres");
