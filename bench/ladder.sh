@@ -252,7 +252,7 @@ done
     echo "#by $(dem-solve --version)"
     model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1)
     echo "#processor ${model:-unknown}, $(uname -m), $cores cores"
-    echo "#compiler $("${CC:-cc}" --version | head -n 1)"
+    echo "#compiler $(sh -c "${CC:-cc} --version" | head -n 1)"
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the ladder itself being 1; least of $times"
     awk -f "$bench/table.awk" rows rows
 } >ladder.tsv
