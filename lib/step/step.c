@@ -17,14 +17,20 @@
 #include "step/works.h"
 
 /* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic
- * size; one that a longer step throws apart would be missed in between. */
+ * size; one that a longer step throws apart would be missed in between, so that these look more often, and
+ * those four times as long always. */
 enum { SURVEY = 16, WATCH = 16 };
 
 /* A residual of more than this of the throughput and of what the contacts store is no longer the error of the
  * time integration, whose loads dem-solve(1) calls usable up to here, but a contact that makes energy. */
 #define MADE 1e-2
 
-static int surveyed(const fl_world *w, int64_t step) { return w->dt > w->dt_safe || step % SURVEY == 0; }
+static int surveyed(const fl_world *w, int64_t step)
+{
+    const double over = w->dt > w->dt_safe ? w->dt / w->dt_safe : 1.0;
+    const int64_t every = (int64_t)(SURVEY / (over * over));
+    return every < 2 || step % every == 0;
+}
 
 /* Each thread takes the pairs as it can; each pair writes its own result. */
 static void contacts(fl_world *w, double dt, int survey)
