@@ -39,8 +39,9 @@ const char *fuzz_file(const unsigned char *data, size_t n);
  *    every run.  Their number is 400 when FLOE_QUICK is set, 4000 otherwise, or FLOE_FUZZ; fewer for files so
  *    long that this would take minutes;
  *  - the file as it is with allocation 0, 1, 2, ... and all after it failing, until none fails any more.
- * A reader is broken when it crashes, takes longer than 30 s, leaves rc and err at odds, reads what it must
- * refuse or the reverse, runs out of 2 GiB of memory, or goes on after an allocation failed.
+ * A reader is broken when it crashes, takes more than 30 s of processor time, leaves rc and err at odds,
+ * reads what it must refuse or the reverse, runs out of 2 GiB of memory, or goes on after an allocation
+ * failed.
  *
  *   program [FOLDER]           the corpus, tests/fuzz/<name> unless named
  *   program --print FILE M     write damaged copy M of FILE to standard output, to look at a failure
