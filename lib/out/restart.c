@@ -76,6 +76,7 @@ static int read_head(fl_restart *r, int64_t n, int64_t *at, fl_err *err)
         while (p && strncmp(p + 1, "#by ", 4) == 0) p = strchr(p + 1, '\n');
         if (!p) refuse(r, err, "the checkpoint is cut short");
     }
+    r->version = head.version;
     fl_text_close(&head);
     if (err->code) return -1;
     const char *first = strchr(r->data, '\n') + 1;
@@ -134,6 +135,16 @@ int fl_restart_read(fl_restart *r, const char *path, fl_err *err)
     }
     *r = got;
     return 0;
+}
+
+int fl_restart_current(const fl_restart *r, fl_err *err)
+{
+    if (r->version == FL_RESTART_VERSION) return 0;
+    return fl_fail(
+        err, FL_INPUT,
+        "%s:1: checkpoint version %d is older than this program, which goes on from version %d: the "
+        "program that wrote it, or a run from the start, was wanted",
+        r->path, r->version, FL_RESTART_VERSION);
 }
 
 void fl_restart_free(fl_restart *r)

@@ -6,7 +6,9 @@
 #include "base/err.h"
 #include "base/text.h"
 
-enum { FL_RESTART_VERSION = 1, FL_RESTART_PARTS = 12 };
+/* The number is raised, here alone, with every change of what the parts hold: a row or a member more, one
+ * less, another order, another meaning.  test_snapshot has the layout that it stands for. */
+enum { FL_RESTART_VERSION = 2, FL_RESTART_PARTS = 12 };
 
 typedef struct {
     char name[16];
@@ -17,14 +19,15 @@ typedef struct {
 typedef struct {
     char *data; /* the whole file, unpacked; owned */
     int32_t cap;
-    char *history;                          /* the "#by ..." lines; owned */
-    const char *path;                       /* borrowed */
+    char *history;    /* the "#by ..." lines; owned */
+    const char *path; /* borrowed */
+    int32_t version;
     fl_restart_part part[FL_RESTART_PARTS]; /* in the order of the file */
     int parts;
 } fl_restart;
 
 /* Write path, compressed:
- *     #checkpoint 1
+ *     #checkpoint 2
  *     #by ...                    history, complete lines
  *     part NAME BYTES            and so many bytes, for each part
  *     end HASH                   fl_hash() of all bytes before, 16 hexadecimal digits
@@ -37,6 +40,10 @@ int fl_restart_write(const char *path, const char *history, const fl_restart_par
  * is untouched then. */
 int fl_restart_read(fl_restart *r, const char *path, fl_err *err);
 void fl_restart_free(fl_restart *r);
+
+/* Are its parts those of this version?  What holds them together is read whatever their version, but a state
+ * has all that its program knew and nothing else, so that one from before is refused.  -1 with FL_INPUT. */
+int fl_restart_current(const fl_restart *r, fl_err *err);
 
 /* Open a part by name as a text, which the caller closes; messages tell the checkpoint's name.  -1 with
  * FL_INPUT when there is no such part, or FL_SYSTEM. */

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "base/par.h"
 #include "base/stream.h"
 #include "out/restart.h"
 #include "support/near.h"
@@ -84,7 +86,7 @@ static void others_are_refused(void **state)
     static const struct {
         const char *text, *says;
     } file[] = {{"#loads 1\nt\n", "this is a loads file"},
-                {"#checkpoint 2\n#by x\nend 0000000000000000\n", "newer than this program"},
+                {"#checkpoint 99\n#by x\nend 0000000000000000\n", "newer than this program"},
                 {"#checkpoint 1\n", "cut short"},
                 {"#checkpoint 1", "cut short"},
                 {"#checkpoint 1\n#by x\nend 0000000000000000\n", "damaged"},
@@ -98,6 +100,30 @@ static void others_are_refused(void **state)
         assert_int_equal(err.code, FL_INPUT);
         if (!strstr(err.text, file[k].says)) print_error("%s\n", err.text);
         assert_non_null(strstr(err.text, file[k].says));
+        unlink(path);
+    }
+}
+
+/* An older one holds together as ever, and is not gone on from. */
+static void an_older_one_tells_its_number(void **state)
+{
+    (void)state;
+    for (int old = 1; old >= 0; old--) {
+        fl_restart r = {0};
+        fl_err err = {0};
+        char text[80], number[40];
+        int n = snprintf(text, sizeof text, "#checkpoint %d\n#by x\npart state 4\nall\n",
+                         FL_RESTART_VERSION - old);
+        const uint64_t hash = fl_hash(FL_HASH_START, text, n);
+        n += snprintf(text + n, sizeof text - (size_t)n, "end %016" PRIx64 "\n", hash);
+        const char *path = test_file("old", text, (size_t)n);
+        assert_int_equal(fl_restart_read(&r, path, &err), 0);
+        assert_int_equal(r.version, FL_RESTART_VERSION - old);
+        assert_int_equal(fl_restart_current(&r, &err), -old);
+        snprintf(number, sizeof number, "version %d is older", FL_RESTART_VERSION - old);
+        if (old) assert_int_equal(err.code, FL_INPUT);
+        if (old) assert_non_null(strstr(err.text, number));
+        fl_restart_free(&r);
         unlink(path);
     }
 }
@@ -131,6 +157,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(damage_is_found),
-        cmocka_unit_test(others_are_refused), cmocka_unit_test(the_last_one_stays)};
+        cmocka_unit_test(others_are_refused), cmocka_unit_test(an_older_one_tells_its_number),
+        cmocka_unit_test(the_last_one_stays)};
     return cmocka_run_group_tests_name("restart file", tests, NULL, NULL);
 }

@@ -89,7 +89,7 @@ struct inputs {
 static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
 {
     if (o->resume)
-        return fl_restart_read(&in->saved, o->resume, err) ||
+        return fl_restart_read(&in->saved, o->resume, err) || fl_restart_current(&in->saved, err) ||
                        save_inputs(&in->saved, o, &in->scene, &in->field, &in->feed, &in->surface, err) ||
                        save_history(&in->saved, &in->history, &in->by, err)
                    ? -1

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The layout of a state, and the number of the checkpoint that stands for it. */
+#include "support/near.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "out/restart.h"
+#include "step/budget.h"
+#include "step/snapshot.h"
+#include "support/scenes.h"
+
+/* Name and number of words of each kind of row.  A pair that remembers vertices has a count of them before
+ * them, and one that touches has its forces as well: "pair" is one that does neither, in a space that repeats
+ * itself or not. */
+static const char LAYOUT[] = "ball 13|ball 16|body 26|body 27|books 27|budget 15|event 15|known 6|mark 16|"
+                             "mover 40|nap 13|next 2|pair 19|pair 22|panel 5|part 8|place 6|pressed 5|"
+                             "sea 6|sea 7|traffic 14|window 9|world 15|";
+enum { LAYOUT_IS_OF = 2, KINDS = 64 };
+
+typedef struct {
+    char row[KINDS][24];
+    int n;
+} rows;
+
+static int by_name(const void *a, const void *b) { return strcmp(a, b); }
+
+static void note(rows *all, const char *name, int words)
+{
+    char row[24];
+    snprintf(row, sizeof row, "%.15s %d|", name, words);
+    for (int k = 0; k < all->n; k++)
+        if (strcmp(all->row[k], row) == 0) return;
+    assert_true(all->n < KINDS);
+    memcpy(all->row[all->n++], row, sizeof row);
+}
+
+static void rows_of(rows *all, char *text, size_t n, int wraps)
+{
+    enum { FORCES = 9 * 3 + 5, WORDS = 64 };
+    fl_text in = {0};
+    fl_err err = {0};
+    int more;
+    assert_int_equal(fl_text_open_bytes(&in, "state", text, (int64_t)n, &err), 0);
+    while ((more = fl_text_row(&in, &err)) > 0) {
+        const int images = wraps ? 3 : 0;
+        char name[16];
+        int words = (int)in.n;
+        snprintf(name, sizeof name, "%s", in.field[0]);
+        if (strcmp(name, "pair") == 0) {
+            words -= 2 * atoi(in.field[10 + images]);
+            if (atoi(in.field[3 + images])) words -= FORCES;
+        }
+        note(all, name, words);
+    }
+    assert_int_equal(more, 0);
+    fl_text_close(&in);
+    free(text);
+}
+
+static void state_of(rows *all, lab *l, int wraps)
+{
+    char *text = NULL;
+    size_t n = 0;
+    lab_make(l, 0);
+    assert_int_equal(lab_run(l, 12), 0);
+    FILE *f = open_memstream(&text, &n);
+    fl_snapshot_write(f, &l->w);
+    fclose(f);
+    rows_of(all, text, n, wraps);
+    lab_free(l);
+}
+
+static void budget_of(rows *all)
+{
+    fl_budget g = {.trial = {.parts = 3}, .rows = 1, .least = 1, .windows = 1};
+    g.window[0] = (fl_budget_window){.h = 1.0, .order = 1.0, .astray_order = 1.0};
+    double known[5] = {0};
+    char *text = NULL;
+    size_t n = 0;
+    g.known = known;
+    FILE *f = open_memstream(&text, &n);
+    fl_budget_write(f, &g);
+    fclose(f);
+    rows_of(all, text, n, 0);
+}
+
+/* Whoever changes the layout raises FL_RESTART_VERSION, and writes both down here. */
+static void a_layout_has_its_number(void **state)
+{
+    static rows all;
+    char found[KINDS * 24] = "";
+    lab l;
+    (void)state;
+    scene_of_everything(&l, 2, NULL), lab_set(&l, "run.sleep=1e-3"), state_of(&all, &l, 0);
+    scene_of_seas(&l, 2, NULL), state_of(&all, &l, 0);
+    scene_of_traffic(&l, 2, NULL), state_of(&all, &l, 0);
+    scene_of_wraps(&l, 3, NULL), state_of(&all, &l, 1);
+    scene_of_balls(&l, 3, NULL), state_of(&all, &l, 1);
+    scene_of_balls(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), state_of(&all, &l, 0);
+    budget_of(&all);
+    qsort(all.row, (size_t)all.n, sizeof *all.row, by_name);
+    for (int k = 0; k < all.n; k++) strcat(found, all.row[k]);
+    assert_string_equal(found, LAYOUT);
+    assert_int_equal(FL_RESTART_VERSION, LAYOUT_IS_OF);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_layout_has_its_number)};
+    return cmocka_run_group_tests_name("state of a world", tests, NULL, NULL);
+}
