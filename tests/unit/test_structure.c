@@ -219,7 +219,7 @@ static void what_is_not_convex_is_a_shell_without_seams(void **state)
     const fl_piece *q = &st.piece[0];
     assert_int_equal(q->kind, FL_PIECE_SHELL);
     assert_int_equal(q->core.nf, 6 + 2 * 2); /* the L in two */
-    assert_int_equal(q->core.ne, 18); /* of the solid: 6 + 6 + 6, none inside a face */
+    assert_int_equal(q->core.ne, 18);        /* of the solid: 6 + 6 + 6, none inside a face */
     assert_int_equal(q->shell.corners, 12);
     fl_structure_free(&st);
     lab_free(&l);

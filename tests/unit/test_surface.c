@@ -241,7 +241,7 @@ static void wrong_orientation_is_mended(void **state)
         fl_surface s = {0};
         fl_part *p = part(&s);
         fl_quality came;
-    fl_orient o;
+        fl_orient o;
         fl_quality q;
         int turned = 0;
         fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
