@@ -3,7 +3,7 @@
 # run.sh check|verify|bench|update BUILD -- run the tests that lie built under BUILD.
 #   check    floors, man pages against --help, unit, prop, fuzz, golden, the quick part of verify, and each corpus of
 #            fuzz as it is under the sanitizers, where BUILD/san has the programs
-#   verify   every verification program in full, with its table
+#   verify   every verification program in full, with its table, and a line for each hard case
 #   bench    every benchmark, one at a time, and the ladder of bench/, which renews bench/results
 #   update   rewrite what the golden cases expect; CASE='name*' limits it to some of them
 # One line a program, the output of those that failed, and at the end "N passed, N failed" alone.
@@ -181,5 +181,6 @@ while read -r k label; do
     printf '%-32s %d passed, %d failed%s\n' "$label" "$1" "$2" "$note"
 done <"$scratch/list"
 wait $crew
+[ "$what" = verify ] && cat "$scratch"/*.out | awk -f tests/hard.awk
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

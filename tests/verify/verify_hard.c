@@ -6,14 +6,17 @@
  *     verify_geometry   H23 H24        verify_floating  H25 H38        verify_ice  H05
  *     verify_boundary   H21 H22   verify_crowd    H26 H27 H28 H31
  *     bench_step, bench_spheres  H36, which is of time
- * H32 and H33 (bonds) and H39 (waves) wait for what they are about. */
+ * H32 and H33 (bonds) wait for what they are about. */
 #define _GNU_SOURCE /* open_memstream */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/rng.h"
+#include "geom/facet.h"
 #include "geom/mass.h"
+#include "geom/patch.h"
+#include "geom/surface.h"
 #include "narrow/gjk.h"
 #include "step/snapshot.h"
 #include "step/balls.h"
@@ -21,6 +24,7 @@
 #include "support/near.h"
 #include "support/scenes.h"
 #include "support/verify.h"
+#include "water/wave.h"
 
 #define PI 3.14159265358979323846
 
@@ -468,6 +472,61 @@ static void bad_numbers(void)
                0, 0, VERIFY_ABS);
 }
 
+/* A wave a tenth below the height at which it breaks, and one a tenth above: in deep water, and where the
+ * ground is near. */
+static void breaking_waves(void)
+{
+    const double depth[2] = {(double)INFINITY, 2.0};
+    double first[2];
+    for (int k = 0; k < 2; k++) {
+        double limit;
+        const double one = fl_wave_steepness(1.0, 3.0, depth[k], 9.81, &limit);
+        const double below = fl_wave_steepness(0.9 * limit / one, 3.0, depth[k], 9.81, &limit);
+        const double above = fl_wave_steepness(1.1 * limit / one, 3.0, depth[k], 9.81, &limit);
+        first[k] = limit;
+        verify_true("H39",
+                    k ? "2 m of water: a tenth steeper than what breaks is, a tenth less is not"
+                      : "deep water: a tenth steeper than what breaks is, a tenth less is not",
+                    below < limit && above > limit);
+    }
+    verify_row("H39", "steepness that breaks in deep water", first[0], 0.14, 0.02, VERIFY_REL);
+    verify_below("H39", "and in 2 m over that", first[1] / first[0], 0.99);
+}
+
+/* A box with any of its triangles turned inside out. */
+static void turned_triangles(void)
+{
+    double worst = 0.0;
+    int left = 0, unequal = 0;
+    for (int mask = 0; mask < 4096; mask += 5) {
+        fl_surface s = {0};
+        fl_quality came, q;
+        fl_orient o;
+        fl_err err = {0};
+        const int32_t at = fl_surface_add(&s, "box", 1, &err);
+        int turned = 0;
+        if (at < 0) exit(1);
+        fl_part *p = &s.part[at];
+        if (fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err)) exit(1);
+        for (int t = 0; t < p->nt; t++)
+            if (mask >> t & 1) {
+                const int32_t v = p->t[t].v[1];
+                p->t[t].v[1] = p->t[t].v[2];
+                p->t[t].v[2] = v;
+                turned++;
+            }
+        if (fl_part_orient(p, &came, &o, &err) || fl_part_measure(p, &q, &err)) exit(1);
+        worst = fmax(worst, fabs(q.volume - 1.0));
+        left += q.incoherent + q.inverted;
+        unequal += o.triangles != (turned < p->nt - turned ? turned : p->nt - turned);
+        fl_surface_free(&s);
+    }
+    verify_below("H40", "a box, any of its triangles turned: error of the volume", worst, 1e-15);
+    verify_row("H40", "edges and boxes still the wrong way round", left, 0, 0, VERIFY_ABS);
+    verify_row("H40", "and turned back were as many as had been turned, or the rest", unequal, 0, 0,
+               VERIFY_ABS);
+}
+
 int main(void)
 {
     verify_begin("hard cases");
@@ -486,6 +545,8 @@ int main(void)
     cores_without_volume();
     corners_too_many();
     bad_numbers();
+    breaking_waves();
+    turned_triangles();
     verify_note(
         "H32 and H33 are of bonds, which there are none of yet; H36 is of time: bench_step, bench_spheres");
     return verify_end();
