@@ -7,6 +7,7 @@
 #include "law/normal.h"
 #include "narrow/frustum.h"
 #include "narrow/nearest.h"
+#include "step/bearing.h"
 #include "step/interact.h"
 #include "step/stiff.h"
 #include "step/press.h"
@@ -279,24 +280,13 @@ static void add_wrench(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, fl_vec3 force, fl_v
     *tj = v3_sub(*tj, v3_cross(aj, force));
 }
 
-/* A force and its moment about a point, in the frame of B. */
-typedef struct {
-    fl_vec3 f, m;
-} wrench;
-
-static void push(wrench *w, fl_vec3 force, fl_vec3 arm)
+/* A force and its moment about a point, in the frame of B and times scale; the point is ai from A's centre and
+ * aj from B's, in world axes. */
+static void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const fl_wrench *w, double scale, const fl_mat3 *R,
+                    fl_vec3 ai, fl_vec3 aj)
 {
-    w->f = v3_add(w->f, force);
-    w->m = v3_add(w->m, v3_cross(arm, force));
-}
-
-/* The same as forces and torques of the pair; the point is ai from A's centre and aj from B's, in world axes.
- */
-static void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const wrench *w, const fl_mat3 *R, fl_vec3 ai,
-                    fl_vec3 aj)
-{
-    const fl_vec3 moment = m3_mul(*R, w->m);
-    add_wrench(f, ti, tj, m3_mul(*R, w->f), ai, aj);
+    const fl_vec3 moment = v3_scale(scale, m3_mul(*R, w->m));
+    add_wrench(f, ti, tj, v3_scale(scale, m3_mul(*R, w->f)), ai, aj);
     *ti = v3_add(*ti, moment);
     *tj = v3_sub(*tj, moment);
 }
@@ -420,75 +410,64 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
     return p->n = 1;
 }
 
-/* The mean of the speeds at which places approach, over their pressure; each goes to its place.  Velocities
- * of A against B in the frame of B, about the point at. */
-static double closing_speed(fl_pair *p, fl_places *s, fl_vec3 at, fl_vec3 v, fl_vec3 turn)
+/* How stiff the places of a contact make it; the root in W bends down: W'' = scale (U'' - U'^2 / 2U). */
+static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s, const relative *r,
+                         double scale, double U, fl_stiff *si, fl_stiff *sj)
 {
-    double pressed = 0.0, met = 0.0;
+    const fl_bodies *b = &w->b;
+    const fl_mat3 R = b->R[p->j];
+    const double half = 0.5 / (scale * U);
+    *si = *sj = (fl_stiff){0};
     for (int32_t k = 0; k < s->n; k++) {
-        fl_place *q = &s->place[k];
-        if (q->overlap > p->overlap) p->overlap = q->overlap;
-        if (q->u == 0.0) continue; /* the pull of a rim presses on nothing */
-        q->closing = -v3_dot(q->across, v3_add(v, v3_cross(turn, v3_sub(q->p, at))));
-        pressed += q->du;
-        if (q->closing > 0.0) met += q->du * q->closing;
+        const fl_place *q = &s->place[k];
+        if (q->u == 0.0) continue;
+        const fl_vec3 n = m3_mul(R, q->across), pj = m3_mul(R, q->p);
+        fl_stiff_add(si, b, p->i, scale * q->ddu, n, v3_cross(v3_add(pj, r->off), n));
+        fl_stiff_add(sj, b, p->j, scale * q->ddu, n, v3_cross(pj, n));
     }
-    return pressed > 0.0 ? met / pressed : 0.0;
+    fl_stiff_add(si, b, p->i, -half, p->f, p->ti);
+    fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
 
-/* The places of `patch`: W = k sqrt(U), each with its share of dW/dU.  0 when nothing touches. */
+/* The places of `patch`: W = k sqrt(U), each with its share of dW/dU.  1 when they touch, 0 when nothing does,
+ * -1 when memory runs out. */
 static int force_patch(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey)
 {
     const fl_bodies *b = &w->b;
     const fl_mat3 R = b->R[p->j];
-    const double U = s->n ? fl_places_measure(s) : 0.0;
-    p->energy = p->k * sqrt(U);
-    if (!(p->energy > 0.0)) return 0;
-    const double scale = 0.5 * p->energy / U;
+    if (s->n == 0) return 0;
     const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
-    const double chi = damping_factor(p, closing_speed(p, s, at, m3_tmul(R, approach(b, p, ai, aj)),
-                                                       m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]))));
-    pressure all = {0};
+    fl_bearing q;
+    if (fl_bearing_sum(s, m3_tmul(R, approach(b, p, ai, aj)), m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j])), &q))
+        return -1;
+    p->overlap = q.overlap;
+    p->energy = p->k * sqrt(q.u);
+    if (!(p->energy > 0.0)) return 0;
+    const double scale = 0.5 * p->energy / q.u;
+    const double chi = damping_factor(p, q.pressed > 0.0 ? q.met / q.pressed : 0.0);
+    fl_bearing_damp(s, chi, &q);
+    q.gradient.m = v3_add(q.gradient.m, s->couple);
+    add_sum(&p->f, &p->ti, &p->tj, &q.gradient, scale, &R, ai, aj);
     fl_stiff si, sj;
-    if (survey) si = sj = (fl_stiff){0};
-    wrench gradient = {0}, damping = {0}; /* of U; [N] */
-    for (int32_t k = 0; k < s->n; k++) {
-        const fl_place *q = &s->place[k];
-        const fl_vec3 arm = v3_sub(q->p, at);
-        push(&gradient, v3_scale(q->du, q->n), arm);
-        if (q->u == 0.0) continue;
-        const double elastic = scale * q->du * v3_dot(q->n, q->across);
-        const double normal = fl_normal_damped(elastic, chi, q->closing);
-        push(&damping, v3_scale(normal - elastic, q->across), arm);
-        press(&all, elastic, normal, q->across, arm);
-        all.slope += scale * q->ddu;
-        if (survey) {
-            const fl_vec3 n = m3_mul(R, q->across), pj = m3_mul(R, q->p);
-            fl_stiff_add(&si, b, p->i, scale * q->ddu, n, v3_cross(v3_add(pj, r->off), n));
-            fl_stiff_add(&sj, b, p->j, scale * q->ddu, n, v3_cross(pj, n));
-        }
-    }
-    gradient.m = v3_add(gradient.m, s->couple);
-    const wrench elastic = {v3_scale(scale, gradient.f), v3_scale(scale, gradient.m)};
-    add_sum(&p->f, &p->ti, &p->tj, &elastic, &R, ai, aj);
-    /* the root bends down: W'' = scale (U'' - U'^2 / 2U) */
-    all.slope -= 0.5 * all.elastic * all.elastic / (scale * U);
-    if (survey) {
-        const double half = 0.5 / (scale * U);
-        fl_stiff_add(&si, b, p->i, -half, p->f, p->ti);
-        fl_stiff_add(&sj, b, p->j, -half, p->f, p->tj);
-    }
-    add_sum(&p->fd, &p->di, &p->dj, &damping, &R, ai, aj);
+    if (survey) survey_patch(w, p, s, r, scale, q.u, &si, &sj);
+    add_sum(&p->fd, &p->di, &p->dj, &q.damping, scale, &R, ai, aj);
     p->f = v3_add(p->f, p->fd);
     p->ti = v3_add(p->ti, p->di);
     p->tj = v3_add(p->tj, p->dj);
-    all.direction = m3_mul(R, all.direction);
-    all.at = aj;
-    all.moment = m3_mul(R, all.moment);
+    const pressure all = {.normal = scale * q.normal,
+                          .elastic = scale * q.elastic,
+                          .direction = v3_scale(scale, m3_mul(R, q.direction)),
+                          .at = aj,
+                          .moment = v3_scale(scale, m3_mul(R, q.moment)),
+                          .spread = scale * q.spread,
+                          .slope = scale * (q.ddu - 0.5 * q.elastic * q.elastic / q.u)};
     rub(w, p, &all, chi, r, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     p->energy += p->spring;
-    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note(w, p, s, scale, chi);
+    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) {
+        for (int32_t k = 0; k < s->n; k++) s->place[k].closing = fl_bearing_closing(s, k);
+        fl_press_note(w, p, s, scale, chi);
+    }
     return p->n = 1;
 }
 
@@ -608,9 +587,10 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
         if (p->n) return;
     } else {
         if (find_places(w, p, s, &w->near_shell[thread], &r, &distance)) goto failed;
-        if (p->exponent > 0.0 ? s->n && force_one(w, p, s, &r, dt, survey)
-                              : force_patch(w, p, s, &r, dt, survey))
-            return;
+        const int touch = p->exponent == 0.0 ? force_patch(w, p, s, &r, dt, survey)
+                                             : s->n && force_one(w, p, s, &r, dt, survey);
+        if (touch < 0) goto failed;
+        if (touch) return;
     }
     p->slip = (fl_slip){0};
     p->n = 0;

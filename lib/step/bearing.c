@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/mem.h"
+#include "base/wide.h"
+#include "step/bearing.h"
+
+/* What the second sums need of four places. */
+typedef struct {
+    fl_wide closing, e, across[3], arm[3];
+} lane;
+
+/* One number of four places: no detour by narrow stores, for which a wide load would wait. */
+#define GATHER(p, member) ((fl_wide){p[0]->member, p[1]->member, p[2]->member, p[3]->member})
+
+#define CROSS(out, a, b)                                                                                     \
+    do {                                                                                                     \
+        out[0] = a[1] * b[2] - a[2] * b[1];                                                                  \
+        out[1] = a[2] * b[0] - a[0] * b[2];                                                                  \
+        out[2] = a[0] * b[1] - a[1] * b[0];                                                                  \
+    } while (0)
+
+static fl_vec3 sum3(const fl_wide a[3])
+{
+    return v3(fl_wide_sum(&a[0]), fl_wide_sum(&a[1]), fl_wide_sum(&a[2]));
+}
+
+FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, fl_vec3 turn, lane *t,
+                                   fl_bearing *q)
+{
+    static const fl_place NONE = {0};
+    const fl_vec3 at = place[0].p;
+    const fl_wide zero = {0};
+    fl_wide u = zero, ddu = zero, most = zero, pressed = zero, met = zero, elastic = zero;
+    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
+    for (int32_t k = 0; k < n; k += FL_LANES, t++) {
+        const fl_place *p[FL_LANES];
+        for (int l = 0; l < FL_LANES; l++) p[l] = k + l < n ? &place[k + l] : &NONE;
+        const fl_wide ux = GATHER(p, u), overlap = GATHER(p, overlap), all = GATHER(p, du);
+        const fl_wide nx = GATHER(p, n.x), ny = GATHER(p, n.y), nz = GATHER(p, n.z);
+        const fl_wide pull[3] = {all * nx, all * ny, all * nz};
+        const fl_wide_mask presses = ux != 0.0;
+        const fl_wide du = FL_WIDE_WHERE(presses, all), curve = GATHER(p, ddu);
+        fl_wide moment[3], *arm = t->arm, *across = t->across;
+        arm[0] = GATHER(p, p.x) - at.x, arm[1] = GATHER(p, p.y) - at.y, arm[2] = GATHER(p, p.z) - at.z;
+        across[0] = GATHER(p, across.x), across[1] = GATHER(p, across.y), across[2] = GATHER(p, across.z);
+        CROSS(moment, arm, pull);
+        for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
+        const fl_wide vx = v.x + (turn.y * arm[2] - turn.z * arm[1]);
+        const fl_wide vy = v.y + (turn.z * arm[0] - turn.x * arm[2]);
+        const fl_wide vz = v.z + (turn.x * arm[1] - turn.y * arm[0]);
+        const fl_wide closing = -(across[0] * vx + across[1] * vy + across[2] * vz);
+        const fl_wide e = du * (nx * across[0] + ny * across[1] + nz * across[2]);
+        t->closing = closing, t->e = e;
+        u += ux;
+        ddu += FL_WIDE_WHERE(presses, curve);
+        pressed += du;
+        met += du * FL_WIDE_WHERE(closing > 0.0, closing);
+        elastic += e;
+        most = FL_WIDE_CHOOSE(overlap > most, overlap, most);
+    }
+    q->u = fl_wide_sum(&u), q->ddu = fl_wide_sum(&ddu);
+    q->pressed = fl_wide_sum(&pressed), q->met = fl_wide_sum(&met), q->elastic = fl_wide_sum(&elastic);
+    q->gradient = (fl_wrench){sum3(f), sum3(m)};
+    q->overlap = 0.0;
+    for (int l = 0; l < FL_LANES; l++) q->overlap = most[l] > q->overlap ? most[l] : q->overlap;
+}
+
+FL_WIDE_VERSIONS static void second(const lane *t, int32_t n, double chi, fl_bearing *q)
+{
+    const fl_wide zero = {0};
+    fl_wide normal = zero, spread = zero, way[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
+    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
+    for (int32_t k = 0; k < n; k += FL_LANES, t++) {
+        const fl_wide e = t->e, to = e * (1.0 + chi * t->closing), p = FL_WIDE_WHERE(to > 0.0, to);
+        const fl_wide more = p - e, *arm = t->arm, *across = t->across;
+        const fl_wide pull[3] = {more * across[0], more * across[1], more * across[2]};
+        fl_wide moment[3];
+        CROSS(moment, arm, pull);
+        normal += p;
+        for (int c = 0; c < 3; c++) {
+            way[c] += p * across[c];
+            at[c] += p * arm[c];
+            f[c] += pull[c];
+            m[c] += moment[c];
+        }
+        spread += p * (arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
+    }
+    q->normal = fl_wide_sum(&normal), q->spread = fl_wide_sum(&spread);
+    q->direction = sum3(way), q->moment = sum3(at);
+    q->damping = (fl_wrench){sum3(f), sum3(m)};
+}
+
+int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
+{
+    fl_err lost = {0};
+    *q = (fl_bearing){0};
+    if (s->n == 0) return 0;
+    if (fl_grow(&s->lane, &s->lane_cap, s->n / FL_LANES + 1, sizeof(lane), &lost)) return -1;
+    first(s->place, s->n, v, turn, s->lane, q);
+    return 0;
+}
+
+void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q)
+{
+    if (s->n > 0) second(s->lane, s->n, chi, q);
+}
+
+double fl_bearing_closing(const fl_places *s, int32_t k)
+{
+    const lane *t = s->lane;
+    return t[k / FL_LANES].closing[k % FL_LANES];
+}

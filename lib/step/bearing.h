@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bearing.h -- the sums over the places of a contact that its forces are made of, several places at a time.
+ *
+ * With du the pull of a place on U along n, e = du n.across its share of the pressure, c the speed at which the
+ * bodies approach there, and arm its offset from the first place, all in the frame of B:
+ *     gradient   sum du n, sum arm x du n                    the force of W, over dW/dU
+ *     pressed    sum of du, and met, of du c where c > 0     the speed that damping asks for
+ *     f(e)       sum of f, f across, f arm, f |arm|^2        with f = max(0, e (1 + chi c)), what presses
+ *     f - e      sum of it times across, arm x across        what damping adds
+ * The pull of rims, u = 0, is part of the gradient alone. */
+#ifndef FL_STEP_BEARING_H
+#define FL_STEP_BEARING_H
+#include "narrow/places.h"
+
+/* Force and moment. */
+typedef struct {
+    fl_vec3 f, m;
+} fl_wrench;
+
+typedef struct {
+    double u, ddu;       /* sums of u and of ddu                                    [m6], [m4] */
+    double overlap;      /* the largest                                                    [m] */
+    double pressed, met; /* [m5], [m6/s] */
+    double elastic;      /* sum of e                                                      [m5] */
+    fl_wrench gradient;  /* [m5], [m6] */
+    double normal;       /* sum of f                                                      [m5] */
+    fl_vec3 direction;   /* sum of f across                                               [m5] */
+    fl_vec3 moment;      /* sum of f arm                                                  [m6] */
+    double spread;       /* sum of f |arm|^2                                              [m7] */
+    fl_wrench damping;   /* [m5], [m6] */
+} fl_bearing;
+
+/* All but the last five; v, turn: velocities of A against B at the first place.  -1 when memory runs out. */
+int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q);
+
+/* The last five, after fl_bearing_sum() of the same places; chi [s/m]. */
+void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q);
+
+/* The speed at which the bodies approach at place k, after fl_bearing_sum() [m/s]. */
+double fl_bearing_closing(const fl_places *s, int32_t k);
+
+#endif
