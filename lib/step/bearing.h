@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* bearing.h -- the sums over the places of a contact that its forces are made of, several places at a time.
  *
- * With du the pull of a place on U along n, e = du n.across its share of the pressure, c the speed at which the
- * bodies approach there, and arm its offset from the first place, all in the frame of B:
- *     gradient   sum du n, sum arm x du n                    the force of W, over dW/dU
- *     pressed    sum of du, and met, of du c where c > 0     the speed that damping asks for
- *     f(e)       sum of f, f across, f arm, f |arm|^2        with f = max(0, e (1 + chi c)), what presses
- *     f - e      sum of it times across, arm x across        what damping adds
- * The pull of rims, u = 0, is part of the gradient alone. */
+ * With du the pull of a place on U along n, e = du n.across its share of the pressure, c the speed at which
+ * the bodies approach there, and arm its offset from the first place, all in the frame of B: gradient   sum
+ * du n, sum arm x du n                    the force of W, over dW/dU pressed    sum of du, and met, of du c
+ * where c > 0     the speed that damping asks for f(e)       sum of f, f across, f arm, f |arm|^2        with
+ * f = max(0, e (1 + chi c)), what presses f - e      sum of it times across, arm x across        what damping
+ * adds The pull of rims, u = 0, is part of the gradient alone. */
 #ifndef FL_STEP_BEARING_H
 #define FL_STEP_BEARING_H
 #include "narrow/places.h"

@@ -280,8 +280,8 @@ static void add_wrench(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, fl_vec3 force, fl_v
     *tj = v3_sub(*tj, v3_cross(aj, force));
 }
 
-/* A force and its moment about a point, in the frame of B and times scale; the point is ai from A's centre and
- * aj from B's, in world axes. */
+/* A force and its moment about a point, in the frame of B and times scale; the point is ai from A's centre
+ * and aj from B's, in world axes. */
 static void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const fl_wrench *w, double scale, const fl_mat3 *R,
                     fl_vec3 ai, fl_vec3 aj)
 {
@@ -429,8 +429,8 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
 
-/* The places of `patch`: W = k sqrt(U), each with its share of dW/dU.  1 when they touch, 0 when nothing does,
- * -1 when memory runs out. */
+/* The places of `patch`: W = k sqrt(U), each with its share of dW/dU.  1 when they touch, 0 when nothing
+ * does, -1 when memory runs out. */
 static int force_patch(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey)
 {
     const fl_bodies *b = &w->b;
