@@ -141,3 +141,44 @@ int fl_corners_apart(fl_corners *a, fl_corners *b)
     default: return 0;
     }
 }
+
+/* --- bundles -------------------------------------------------------------------------------------------- */
+
+/* Sum of the normals: of what is nearly one plane, across it; of a sector of a cone, away from the rest. */
+static fl_vec3 across(const fl_part *p, const int32_t *t, int n)
+{
+    fl_vec3 g = {0};
+    for (int i = 0; i < n; i++) {
+        const int32_t *v = p->t[t[i]].v;
+        const fl_vec3 o = p->v[v[0]];
+        g = v3_add(g, v3_cross(v3_sub(p->v[v[1]], o), v3_sub(p->v[v[2]], o)));
+    }
+    return g;
+}
+
+/* Lowest and highest value that g . (x - o) may have over the corners of the triangles. */
+static void reach_of(const fl_part *p, const int32_t *t, int n, fl_vec3 g, fl_vec3 o, double *lo, double *hi)
+{
+    const fl_vec3 size = sizes(g);
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++) {
+            const fl_vec3 d = v3_sub(p->v[p->t[t[i]].v[k]], o);
+            const double at = v3_dot(g, d), blur = BLUR * v3_dot(size, sizes(d)) + TINY;
+            *lo = at - blur < *lo ? at - blur : *lo;
+            *hi = at + blur > *hi ? at + blur : *hi;
+        }
+}
+
+int fl_bundles_apart(const fl_part *p, const int32_t *a, int na, const int32_t *b, int nb)
+{
+    const fl_vec3 o = p->v[p->t[a[0]].v[0]], g[2] = {across(p, a, na), across(p, b, nb)};
+    for (int k = 0; k < 2; k++) {
+        double a_lo, a_hi, b_lo, b_hi;
+        reach_of(p, a, na, g[k], o, &a_lo, &a_hi);
+        reach_of(p, b, nb, g[k], o, &b_lo, &b_hi);
+        if (a_lo > b_hi || b_lo > a_hi) return 1;
+    }
+    return 0;
+}

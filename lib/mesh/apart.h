@@ -21,4 +21,10 @@ void fl_corners_of(const fl_part *p, int32_t t, fl_corners *c);
  * for anything else.  Source: Shewchuk, Discrete & Comput. Geom. 18 (1997) 305, the bounds. */
 int fl_corners_apart(fl_corners *a, fl_corners *b);
 
+/* Is there a plane between the triangles a[na] and b[nb] of p, so that no two have a point in common, for
+ * certain?  Tried are those across the sum of the normals of either: of sectors of a cone or of a cylinder,
+ * whose boxes are all in one another, these lie between any two that are no neighbours.  Returns 1, or 0 for
+ * anything else. */
+int fl_bundles_apart(const fl_part *p, const int32_t *a, int na, const int32_t *b, int nb);
+
 #endif

@@ -177,12 +177,13 @@ static inline unsigned shares_of(const names *o, const int32_t v[3])
     return (unsigned)bits;
 }
 
-/* Boxes of the triangles in their order, and level by level those of eight triangles, of eight boxes, ... up
- * to one octet. */
+/* Boxes of the triangles in their order, and level by level those of eight triangles (a leaf), of eight
+ * leaves (a block), ... up to one octet. */
 typedef struct {
     const fl_part *p;
     int32_t *order;       /* [p->nt] */
     names *name;          /* [n[0]] */
+    int32_t *hub;         /* [n[1]] the tame vertex of all triangles of a block, STRANGE for none */
     octet *level[LEVELS]; /* [n[l]] */
     int32_t n[LEVELS];
     int levels; /* two or more */
@@ -192,6 +193,7 @@ static void forest_free(forest *f)
 {
     free(f->order);
     free(f->name);
+    free(f->hub);
     free(f->level[0]);
     *f = (forest){0};
 }
@@ -237,6 +239,24 @@ static int forest_name(forest *f, fl_err *err)
     return bad ? -1 : 0;
 }
 
+/* A vertex that is tame and belongs to all triangles of block i, STRANGE for none. */
+static int32_t hub_of(const forest *f, int32_t i)
+{
+    enum { MOST = LANES * LANES };
+    const int32_t from = MOST * i, to = f->p->nt - from < MOST ? f->p->nt : from + MOST;
+    for (int c = 0; c < 3; c++) {
+        const int32_t v = f->name[from / LANES].v[c][0];
+        int32_t at = v == STRANGE ? to + 1 : from + 1;
+        for (; at < to; at++) {
+            const names *o = &f->name[at / LANES];
+            const int k = at % LANES;
+            if (o->v[0][k] != v && o->v[1][k] != v && o->v[2][k] != v) break;
+        }
+        if (at == to) return v;
+    }
+    return STRANGE;
+}
+
 static int forest_make(forest *f, const fl_part *p, fl_err *err)
 {
     const fl_aabb all = fl_part_aabb(p);
@@ -251,10 +271,13 @@ static int forest_make(forest *f, const fl_part *p, fl_err *err)
     if (!(f->order = fl_alloc(p->nt, sizeof *f->order, err)) ||
         order_triangles(f, all.lo, fmax(wide.x, fmax(wide.y, wide.z)), err) ||
         !(f->name = fl_alloc(f->n[0], sizeof *f->name, err)) || forest_name(f, err) ||
+        !(f->hub = fl_alloc(f->n[1], sizeof *f->hub, err)) ||
         !(f->level[0] = fl_alloc(octets, sizeof *f->level[0], err))) {
         forest_free(f);
         return -1;
     }
+#pragma omp parallel for schedule(static)
+    for (int32_t i = 0; i < f->n[1]; i++) f->hub[i] = hub_of(f, i);
     for (int l = 0; l < f->levels; l++) {
         const int32_t under = l ? f->n[l - 1] : p->nt;
         if (l) f->level[l] = f->level[l - 1] + f->n[l - 1];
@@ -309,12 +332,26 @@ static void one_by_one(const forest *f, int32_t i, int k, int32_t j, unsigned hi
     }
 }
 
+/* Looked at together is what has so many pairs left: that takes as long as half of these. */
+enum { MANY = 12 };
+
+/* Is there a plane between bundles i and j of `many` triangles? */
+static int bundles_apart(const forest *f, int32_t many, int32_t i, int32_t j)
+{
+    const int32_t n = f->p->nt, ni = n - many * i, nj = n - many * j;
+    return i != j && fl_bundles_apart(f->p, f->order + many * i, ni < many ? ni : many, f->order + many * j,
+                                      nj < many ? nj : many);
+}
+
 /* The triangles of leaf i against those of leaf j >= i.  Two that have a tame vertex in common do not cross.
  */
 __attribute__((always_inline)) static inline void leaves(const forest *f, int32_t i, int32_t j, tally *sum)
 {
     const octet *own = &f->level[0][i], *there = &f->level[0][j];
     const box all = box_in(&f->level[1][j / LANES], j % LANES);
+    unsigned hits[LANES];
+    int32_t who[LANES];
+    int n = 0, pairs = 0;
     for (unsigned mine = meets_of(own, &all); mine; mine &= mine - 1) {
         const int k = __builtin_ctz(mine);
         const box b = box_in(own, k);
@@ -327,31 +364,68 @@ __attribute__((always_inline)) static inline void leaves(const forest *f, int32_
             if (v[c] == STRANGE) v[c] = STRANGER; /* which is nobody's name */
         }
         hit &= ~shares_of(&f->name[j], v);
-        if (hit) one_by_one(f, i, k, j, hit, sum);
+        if (!hit) continue;
+        hits[n] = hit;
+        who[n++] = k;
+        pairs += __builtin_popcount(hit);
+    }
+    if (pairs > MANY && bundles_apart(f, LANES, i, j)) return;
+    for (int k = 0; k < n; k++) one_by_one(f, i, who[k], j, hits[k], sum);
+}
+
+/* The leaves of block i against those of block j >= i.  In a fan of very many triangles most blocks have one
+ * hub. */
+__attribute__((always_inline)) static inline void blocks(const forest *f, int32_t i, int32_t j, tally *sum)
+{
+    const octet *own = &f->level[1][i], *there = &f->level[1][j];
+    unsigned hits[LANES] = {0}, mine = ~(~0u << LANES);
+    int pairs = 0;
+    if (f->hub[i] != STRANGE && f->hub[i] == f->hub[j]) return;
+    if (i != j) {
+        const box all = box_in(&f->level[2][j / LANES], j % LANES);
+        mine = meets_of(own, &all);
+    }
+    for (unsigned left = mine; left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        const box b = box_in(own, k);
+        hits[k] = meets_of(there, &b);
+        if (i == j) hits[k] &= ~0u << k;
+        pairs += __builtin_popcount(hits[k]);
+    }
+    if (pairs > MANY && bundles_apart(f, LANES * LANES, i, j)) return;
+    for (; mine; mine &= mine - 1) {
+        const int k = __builtin_ctz(mine);
+        for (unsigned hit = hits[k]; hit; hit &= hit - 1)
+            leaves(f, LANES * i + k, LANES * j + __builtin_ctz(hit), sum);
     }
 }
 
-/* Of leaf i all pairs with itself and with leaves behind it. */
+/* Of block i all pairs with itself and with blocks behind it. */
 FL_WIDE_VERSIONS static void around(const forest *f, int32_t i, tally *sum)
 {
     struct {
         int32_t k;
         int level;
     } stack[LEVELS * LANES];
-    const box b = box_in(&f->level[1][i / LANES], i % LANES);
+    box b;
     int top = 0;
+    if (f->levels == 2) {
+        blocks(f, 0, 0, sum);
+        return;
+    }
+    b = box_in(&f->level[2][i / LANES], i % LANES);
     stack[top].k = 0;
     stack[top++].level = f->levels - 1;
     while (top > 0) {
         const int32_t k = stack[--top].k;
         const int l = stack[top].level;
-        const int32_t first = i >> STEP * (l - 1); /* of the level beneath, that leaf i lies in */
+        const int32_t first = i >> STEP * (l - 2); /* of the level beneath, that block i lies in */
         unsigned hit = meets_of(&f->level[l][k], &b);
         if (first > LANES * k) hit &= ~0u << (first - LANES * k);
         for (; hit; hit &= hit - 1) {
             const int32_t c = LANES * k + __builtin_ctz(hit);
-            if (l == 1) {
-                leaves(f, i, c, sum);
+            if (l == 2) {
+                blocks(f, i, c, sum);
             } else {
                 stack[top].k = c;
                 stack[top++].level = l - 1;
@@ -370,8 +444,8 @@ int fl_part_crossings(const fl_part *p, fl_crossing *c, fl_err *err)
     *c = (fl_crossing){0, 0};
     if (p->nt == 0) return 0;
     if (forest_make(&f, p, err)) return -1;
-#pragma omp parallel for schedule(dynamic, 256) reduction(+ : crossings, touching)
-    for (int32_t i = 0; i < f.n[0]; i++) {
+#pragma omp parallel for schedule(dynamic, 32) reduction(+ : crossings, touching)
+    for (int32_t i = 0; i < f.n[1]; i++) {
         tally sum = {0};
         around(&f, i, &sum);
         crossings += sum.crossings;

@@ -42,49 +42,116 @@ static int open_fan(const fl_part *p, int32_t v, const int32_t *t, int n, petal 
     return 1;
 }
 
-/* Does each triangle end in the edge in which one begins, round to the first one?  Going round in as many
- * steps as there are triangles and not less meets every one of them, so that no two begin in the same edge.
- * The search begins where it ended: many files go round, too. */
-static int goes_round(const petal *f, int n)
+/* The petals by the vertex in which they begin, where they are many. */
+typedef struct {
+    int32_t a;
+    int at;
+} beginning;
+
+static int by_vertex(const void *pa, const void *pb)
 {
-    int at = 0;
-    for (int step = 1; step <= n; step++) {
-        int next = at, left = n;
-        do next = next + 1 < n ? next + 1 : 0;
-        while (f[next].a != f[at].b && --left > 0);
-        if (left == 0 || (next == 0) != (step == n)) return 0;
-        at = next;
-    }
-    return n > 0;
+    const beginning *x = pa, *y = pb;
+    return x->a != y->a ? (x->a < y->a ? -1 : 1) : x->at - y->at;
 }
 
-static int lies_open(const fl_part *p, int32_t v, const int32_t *t, int n, petal *f)
+/* A petal that begins where this one ends, -1 for none; the same one whenever it is asked for.  Of few the
+ * search begins behind this one: many files go round, too. */
+static int next_of(const petal *f, int n, const beginning *sorted, int at)
+{
+    const int32_t v = f[at].b;
+    int lo = 0, hi = n, left = n;
+    if (sorted) {
+        while (lo < hi) {
+            const int mid = lo + (hi - lo) / 2;
+            if (sorted[mid].a < v) lo = mid + 1;
+            else hi = mid;
+        }
+        return lo < n && sorted[lo].a == v ? sorted[lo].at : -1;
+    }
+    do at = at + 1 < n ? at + 1 : 0;
+    while (f[at].a != v && --left > 0);
+    return left > 0 ? at : -1;
+}
+
+/* A petal that begins where none ends, -1 for none; met[n] is scratch. */
+static int start_of(const petal *f, int n, const beginning *sorted, uint8_t *met)
+{
+    for (int i = 0; i < n; i++) met[i] = 0;
+    for (int i = 0; i < n; i++) {
+        const int next = next_of(f, n, sorted, i);
+        if (next >= 0) met[next] = 1;
+    }
+    for (int i = 0; i < n; i++)
+        if (!met[i]) return i;
+    return -1;
+}
+
+/* Does each triangle end in the edge in which one begins, round to the first one, or on to an end?  Going
+ * round in as many steps as there are triangles and not less meets every one of them, and so does a walk that
+ * ends after that many: one that met a triangle twice would never end.  Returns the first one, -1 for no. */
+static int goes_round(const petal *f, int n, const beginning *sorted, uint8_t *met)
+{
+    int first = 0, at = 0, steps = 1;
+    for (; steps <= n; steps++) {
+        at = next_of(f, n, sorted, at);
+        if (at <= 0) break;
+    }
+    if (at == 0) return steps == n ? 0 : -1;
+    if (at > 0) return -1;
+    first = at = start_of(f, n, sorted, met);
+    for (steps = 0; at >= 0 && steps <= n; steps++) at = next_of(f, n, sorted, at);
+    return steps == n ? first : -1;
+}
+
+static int lies_open(const petal *f, int n, int first, double most)
 {
     fl_vec3 d = {0};
-    double most;
-    if (!open_fan(p, v, t, n, f, &most) || !goes_round(f, n)) return 0;
     for (int i = 0; i < n; i++) d = v3_add(d, f[i].up);
     const double blur = BLUR * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * most * most + TINY;
     for (int i = 0; i < n; i++)
         if (!(v3_dot(d, f[i].up) > blur)) return 0;
-    /* Next to its first side sector 0 is there; the one that ends in that side is not; no other may be. */
-    const fl_vec3 before = v3_cross(d, f[0].x); /* d . (x x x0) = -before . x */
-    for (int i = 1; i < n; i++) {
-        if (f[i].b == f[0].a) continue;
+    /* Next to its first side the first sector is there; one that ends in that side is not; no other may be.
+     */
+    const fl_vec3 before = v3_cross(d, f[first].x); /* d . (x x x0) = -before . x */
+    for (int i = 0; i < n; i++) {
+        if (i == first || f[i].b == f[first].a) continue;
         if (!(v3_dot(before, f[i].x) > blur || v3_dot(before, f[i].y) < -blur)) return 0;
     }
     return 1;
 }
 
+/* A flower of many. */
+typedef struct {
+    petal *f;
+    beginning *sorted;
+    uint8_t *met;
+} garden;
+
 static int is_tame(const fl_part *p, int32_t v, const int32_t *t, int n)
 {
-    petal few[FEW], *f = few;
-    int tame;
-    if (n > FL_FANS_MOST) return 0;
-    if (n > FEW) f = malloc((size_t)n * sizeof *f);
-    if (!f) return 0; /* which is always right, and takes time */
-    tame = lies_open(p, v, t, n, f);
-    if (f != few) free(f);
+    petal few[FEW];
+    uint8_t met[FEW];
+    garden g = {few, NULL, met};
+    double most;
+    int tame = 0, first;
+    if (n < 1 || n > FL_FANS_MOST) return 0;
+    if (n > FEW) { /* without memory the answer is no, which is always right, and takes time */
+        g.f = malloc((size_t)n * sizeof *g.f);
+        g.sorted = malloc((size_t)n * sizeof *g.sorted);
+        g.met = malloc((size_t)n);
+        if (!g.f || !g.sorted || !g.met) goto done;
+    }
+    if (!open_fan(p, v, t, n, g.f, &most)) goto done;
+    for (int i = 0; i < n && g.sorted; i++) g.sorted[i] = (beginning){g.f[i].a, i};
+    if (g.sorted) qsort(g.sorted, (size_t)n, sizeof *g.sorted, by_vertex);
+    first = goes_round(g.f, n, g.sorted, g.met);
+    tame = first >= 0 && lies_open(g.f, n, first, most);
+done:
+    if (n > FEW) {
+        free(g.f);
+        free(g.sorted);
+        free(g.met);
+    }
     return tame;
 }
 

@@ -11,14 +11,15 @@
  * Seen along some d, each triangle (v, a, b) at v is a sector from a to b of less than half a turn, and winds
  * one way when d . (a - v) x (b - v) > 0.  Where every edge at v is the beginning of one sector and the end
  * of one, in one ring, a turn about v leaves and enters sectors in pairs: their number over a direction is
- * the same for all directions.  If it is one anywhere, sectors have nothing in common but their sides, and
- * triangles no more than what lies above these: their common edges.  d is the sum of the normals, and the
- * direction next to the first side is looked at.  Rims, forks, twisted and folded fans are not tame, nor
- * those of more than FL_FANS_MOST triangles.
+ * the same for all directions.  Where they form a chain from one rim to another, as at the rim of a plate, it
+ * is one more from the first side on to the last one than elsewhere.  If it is one behind the first side,
+ * sectors have nothing in common but their sides, and triangles no more than what lies above these: their
+ * common edges.  d is the sum of the normals, and the direction next to the first side is looked at.  Forks,
+ * twisted and folded fans are not tame, nor those of more than FL_FANS_MOST triangles.
  *   p      what is one point must be one vertex: weld first
  *   tame   [p->nv] out
  * Work is shared by all threads.  Returns 0, or -1 with FL_SYSTEM. */
-enum { FL_FANS_MOST = 1 << 15 };
+enum { FL_FANS_MOST = 1 << 18 };
 int fl_fans_tame(const fl_part *p, uint8_t *tame, fl_err *err);
 
 #endif

@@ -5,6 +5,7 @@
 #include "mesh/crossing.h"
 #include "support/near.h"
 
+static const double TWO_PI = 6.283185307179586477;
 static fl_err err;
 static fl_part p;
 
@@ -105,6 +106,60 @@ static void sheets_are_sound_until_one_passes_through(void **state)
     }
 }
 
+/* The mantle of a cone of n facets about an axis through o at an angle to the vertical, from a circle of
+ * radius r up to one of radius q, or with q = 0 to a tip; with a bottom of n more when it is wanted. */
+static void cone(int n, fl_vec3 o, double tilt, double r, double q, double height, int bottom)
+{
+    const int32_t first = p.nv;
+    for (int k = 0; k < 2 * n; k++) {
+        const double a = TWO_PI * (k % n) / n, at = k < n ? r : q, z = k < n ? 0.0 : height;
+        const double x = at * cos(a);
+        vertex(o.x + x * cos(tilt) + z * sin(tilt), o.y + at * sin(a), o.z + z * cos(tilt) - x * sin(tilt));
+    }
+    vertex(o.x, o.y, o.z);
+    for (int k = 0; k < n; k++) {
+        const int32_t a = first + k, b = first + (k + 1) % n;
+        if (q > 0.0) triangle(b, b + n, a + n);
+        triangle(a, b, q > 0.0 ? a + n : first + n);
+        if (bottom) triangle(b, a, first + 2 * n);
+    }
+}
+
+/* Slivers whose boxes are all in one another, which are looked at in bundles; and what passes through them,
+ * lies on them or touches them is found all the same. */
+static void cones_are_sound_until_something_passes_through(void **state)
+{
+    static const double tilt[] = {0.0, 0.3, 0.9553}; /* the last one: along a diagonal */
+    for (size_t k = 0; k < sizeof tilt / sizeof *tilt; k++)
+        for (int tip = 0; tip < 2; tip++) {
+            const fl_vec3 o = v3(3.0 * (double)k, 2.0, 1.0);
+            const double q = tip ? 0.0 : 0.4;
+            fl_crossing c;
+            cone(190, o, tilt[k], 2.0, q, 5.0, 1);
+            c = agree();
+            assert_int_equal(c.crossings + c.touching, 0);
+            cone(40, v3(o.x + 0.5, o.y, o.z + 0.5), tilt[k] + 0.5, 0.7, 0.6, 6.0, 0);
+            assert_true(agree().crossings > 100);
+            end(state);
+            cone(190, o, tilt[k], 2.0, q, 5.0, 1);
+            cone(190, v3(o.x + 0.03, o.y + 0.02, o.z - 0.1), tilt[k], 2.0, q, 5.0,
+                 0); /* beside itself by little */
+            assert_true(agree().crossings > 100);
+            end(state);
+        }
+}
+
+/* Of 40 000 triangles, which looked at pair by pair would be more than 10^8 of them. */
+static void large_cones_take_no_time(void **state)
+{
+    fl_crossing c;
+    cone(20000, v3(0, 0, 0), 0.0, 5.0, 0.0, 10.0, 1);
+    cone(20000, v3(0, 0, -20.0), 0.0, 5.0, 1.0, 10.0, 0);
+    if (fl_part_crossings(&p, &c, &err)) fail_msg("%s", err.text);
+    assert_int_equal(c.crossings + c.touching, 0);
+    end(state);
+}
+
 static void small_parts_and_no_memory(void **state)
 {
     fl_crossing c;
@@ -134,6 +189,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(it_finds_what_cgal_finds, end),
         cmocka_unit_test_teardown(sheets_are_sound_until_one_passes_through, end),
+        cmocka_unit_test_teardown(cones_are_sound_until_something_passes_through, end),
+        cmocka_unit_test_teardown(large_cones_take_no_time, end),
         cmocka_unit_test_teardown(small_parts_and_no_memory, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

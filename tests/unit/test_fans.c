@@ -50,7 +50,7 @@ static void flowers_are_tame(void **state)
         ring(n, 1, 0.0, 0.0);
         look();
         assert_int_equal(tame[0], 1);
-        for (int k = 1; k <= n; k++) assert_int_equal(tame[k], 0); /* they lie on the rim */
+        for (int k = 1; k <= n; k++) assert_int_equal(tame[k], 1); /* two on the rim, side by side */
         ring(n, 1, -0.1, n % 2 ? -0.1 : 0.2);
         look();
         assert_int_equal(tame[0], 1);
@@ -71,7 +71,10 @@ static void large_flowers_are_tame(void **state)
     }
     look();
     assert_int_equal(tame[0], 1);
-    p.nt--;
+    p.nt--; /* a gap */
+    look();
+    assert_int_equal(tame[0], 1);
+    p.t[p.nt - 2] = p.t[0]; /* one twice, one not */
     look();
     assert_int_equal(tame[0], 0);
     ring(FL_FANS_MOST + 1, 1, 0.0, 0.0);
@@ -89,9 +92,7 @@ static void others_are_not(void **state)
         assert_int_equal(tame[0], 0);
     }
     ring(6, 1, 0.0, 0.0);
-    p.nt--; /* a gap */
-    look();
-    assert_int_equal(tame[0], 0);
+    p.nt--;
     triangle(0, 1, 6); /* closed the wrong way */
     look();
     assert_int_equal(tame[0], 0);
@@ -110,6 +111,44 @@ static void others_are_not(void **state)
     assert_int_equal(tame[0], 0);
     ring(6, 1, 0.0, 0.0);
     p.v[2] = v3(2.0, 0.0, 0.0); /* without area */
+    look();
+    assert_int_equal(tame[0], 0);
+}
+
+/* Sectors side by side from one rim to another, in any order. */
+static void chains_are_tame(void **state)
+{
+    (void)state;
+    for (int n = 3; n < 150; n += 1 + n / 20)
+        for (int gap = 1; gap < n; gap += 1 + gap / 4) {
+            ring(n, 1, 0.0, 0.0);
+            p.nt -= gap;
+            for (int t = p.nt - 1; t > 0; t--) {
+                const int u = 7 * t % (t + 1);
+                const fl_tri swap = p.t[t];
+                p.t[t] = p.t[u];
+                p.t[u] = (fl_tri){{swap.v[2], swap.v[0], swap.v[1]}};
+            }
+            look();
+            assert_int_equal(tame[0], 1);
+        }
+}
+
+/* Two corners where one was: a chain that ends above its beginning, or behind it, covers it. */
+static void slits_are_not(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        ring(8, 1, 0.0, 0.0);
+        const double a = (k - 2) * 0.1;
+        vertex(cos(a), sin(a), 0.0);
+        p.t[7].v[2] = 9; /* instead of corner 1, in whose place it is for a = 0 */
+        look();
+        assert_int_equal(tame[0], a < -0.05);
+    }
+    ring(6, 1, 0.0, 0.0); /* two chains */
+    p.t[1] = p.t[--p.nt];
+    p.t[3] = p.t[--p.nt];
     look();
     assert_int_equal(tame[0], 0);
 }
@@ -137,6 +176,7 @@ static void the_tame_do_not_cross(void **state)
             p.t[t] = p.t[u];
             p.t[u] = (fl_tri){{swap.v[1], swap.v[2], swap.v[0]}};
         }
+        if (k % 4 == 3 && n > 4) p.nt -= 1 + k % 2; /* a chain, or two */
         look();
         is += tame[0];
         is_not += !tame[0];
@@ -168,6 +208,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(flowers_are_tame, end),
         cmocka_unit_test_teardown(large_flowers_are_tame, end),
+        cmocka_unit_test_teardown(chains_are_tame, end),
+        cmocka_unit_test_teardown(slits_are_not, end),
         cmocka_unit_test_teardown(others_are_not, end),
         cmocka_unit_test_teardown(the_tame_do_not_cross, end),
         cmocka_unit_test_teardown(without_memory_it_says_so, end),
