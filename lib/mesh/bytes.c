@@ -292,8 +292,8 @@ int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
     const char *end;
     int32_t len;
     if (skip_space(b, err)) return -1;
-    if (b->n - b->pos >= ENOUGH && (end = fl_decimal(b->data + b->pos, x)) != NULL && *end &&
-        strchr(ENDS, *end)) {
+    if (b->n - b->pos >= ENOUGH && (end = fl_decimal(b->data + b->pos, x)) != NULL &&
+        (is_blank(*end) || *end == '\n' || *end == '\r')) {
         b->pos = (int32_t)(end - b->data);
         return 1;
     }

@@ -149,32 +149,42 @@ static void put_box(octet *o, int k, const box *b)
 
 static const int32_t BIT[LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
 
+/* The bits of all lanes.  (As a reduction of the loop before it this becomes eight steps one after the other.)
+ */
+static inline unsigned together(const int32_t bits[LANES])
+{
+    uint64_t two[LANES / 2], all;
+    memcpy(two, bits, sizeof two);
+    all = (two[0] | two[1]) | (two[2] | two[3]);
+    return (unsigned)(all | all >> 32);
+}
+
 /* A bit for each of the eight that a box meets. */
 static inline unsigned meets_of(const octet *o, const box *b)
 {
-    int32_t bits = 0;
-#pragma omp simd reduction(| : bits)
+    int32_t bits[LANES];
+#pragma omp simd
     for (int k = 0; k < LANES; k++) {
         const int32_t hit = (o->lo[0][k] <= b->hi[0]) & (o->hi[0][k] >= b->lo[0]) &
                             (o->lo[1][k] <= b->hi[1]) & (o->hi[1][k] >= b->lo[1]) &
                             (o->lo[2][k] <= b->hi[2]) & (o->hi[2][k] >= b->lo[2]);
-        bits |= -hit & BIT[k];
+        bits[k] = -hit & BIT[k];
     }
-    return (unsigned)bits;
+    return together(bits);
 }
 
 /* A bit for each of the eight that has one of three vertices. */
 static inline unsigned shares_of(const names *o, const int32_t v[3])
 {
-    int32_t bits = 0;
-#pragma omp simd reduction(| : bits)
+    int32_t bits[LANES];
+#pragma omp simd
     for (int k = 0; k < LANES; k++) {
         const int32_t hit = (o->v[0][k] == v[0]) | (o->v[1][k] == v[0]) | (o->v[2][k] == v[0]) |
                             (o->v[0][k] == v[1]) | (o->v[1][k] == v[1]) | (o->v[2][k] == v[1]) |
                             (o->v[0][k] == v[2]) | (o->v[1][k] == v[2]) | (o->v[2][k] == v[2]);
-        bits |= -hit & BIT[k];
+        bits[k] = -hit & BIT[k];
     }
-    return (unsigned)bits;
+    return together(bits);
 }
 
 /* Boxes of the triangles in their order, and level by level those of eight triangles (a leaf), of eight
@@ -332,8 +342,8 @@ static void one_by_one(const forest *f, int32_t i, int k, int32_t j, unsigned hi
     }
 }
 
-/* Looked at together is what has so many pairs left: that takes as long as half of these. */
-enum { MANY = 12 };
+/* Looked at together is what has half of its pairs left, or more: neighbours in a sheet have fewer. */
+enum { MANY = LANES * LANES / 2 };
 
 /* Is there a plane between bundles i and j of `many` triangles? */
 static int bundles_apart(const forest *f, int32_t many, int32_t i, int32_t j)
@@ -369,7 +379,7 @@ __attribute__((always_inline)) static inline void leaves(const forest *f, int32_
         who[n++] = k;
         pairs += __builtin_popcount(hit);
     }
-    if (pairs > MANY && bundles_apart(f, LANES, i, j)) return;
+    if (pairs >= MANY && bundles_apart(f, LANES, i, j)) return;
     for (int k = 0; k < n; k++) one_by_one(f, i, who[k], j, hits[k], sum);
 }
 
@@ -392,7 +402,7 @@ __attribute__((always_inline)) static inline void blocks(const forest *f, int32_
         if (i == j) hits[k] &= ~0u << k;
         pairs += __builtin_popcount(hits[k]);
     }
-    if (pairs > MANY && bundles_apart(f, LANES * LANES, i, j)) return;
+    if (pairs >= MANY && bundles_apart(f, LANES * LANES, i, j)) return;
     for (; mine; mine &= mine - 1) {
         const int k = __builtin_ctz(mine);
         for (unsigned hit = hits[k]; hit; hit &= hit - 1)

@@ -205,7 +205,7 @@ static int numbers(vtk *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_
         double x;
         /* nan and the like may stand where nobody looks */
         const int more = fl_bytes_real(v->b, a == NULL, &x, err);
-        if (more < 0 || (a && more && room(a, 1, err))) return -1;
+        if (more < 0 || (a && more && a->n == a->cap && room(a, 1, err))) return -1;
         if (more == 0) return bad(v, err, "the file ends inside the data");
         if (a) a->x[a->n++] = x;
     }
@@ -230,25 +230,24 @@ static int read_points(vtk *v, fl_err *err)
     return numbers(v, t, 3 * n, &v->g.point, err);
 }
 
-/* "n c0 c1 ..." for each cell, in one array. */
-static int split(vtk *v, cells *c, int64_t n, const fl_vtk_array *all, fl_err *err)
+/* "n c0 c1 ..." for each cell, in one array: the counts go, and the corners move up. */
+static int split(vtk *v, cells *c, int64_t n, fl_err *err)
 {
+    double *x = c->corner.x;
+    const int64_t all = c->corner.n;
     int64_t k = 0, to = 0;
-    if (n > all->n)
-        return bad(v, err, "%lld cells do not fit into %lld numbers", (long long)n, (long long)all->n);
+    if (n > all) return bad(v, err, "%lld cells do not fit into %lld numbers", (long long)n, (long long)all);
     c->offset.x = fl_alloc(n, sizeof *c->offset.x, err);
-    c->corner.x = fl_alloc(all->n, sizeof *c->corner.x, err);
-    if (!c->offset.x || !c->corner.x) return -1;
+    if (!c->offset.x) return -1;
     for (int64_t i = 0; i < n; i++) {
-        const double m = k < all->n ? all->x[k++] : -1.0;
-        if (!(m >= 0.0 && m <= (double)(all->n - k)) || m != floor(m))
+        const double m = k < all ? x[k++] : -1.0;
+        if (!(m >= 0.0 && m <= (double)(all - k)) || m != floor(m))
             return bad(v, err, "cell %lld of %lld does not fit into the %lld numbers of all cells",
-                       (long long)i, (long long)n, (long long)all->n);
-        for (int64_t j = 0; j < (int64_t)m; j++) c->corner.x[to++] = all->x[k++];
+                       (long long)i, (long long)n, (long long)all);
+        for (int64_t j = 0; j < (int64_t)m; j++) x[to++] = x[k++];
         c->offset.x[i] = (double)to;
     }
-    if (k != all->n)
-        return bad(v, err, "%lld numbers are left behind the last cell", (long long)(all->n - k));
+    if (k != all) return bad(v, err, "%lld numbers are left behind the last cell", (long long)(all - k));
     c->offset.n = n;
     c->corner.n = to;
     return 0;
@@ -272,15 +271,12 @@ static int read_offsets(vtk *v, cells *c, int64_t n, int64_t size, fl_err *err)
 
 static int read_cells(vtk *v, cells *c, fl_err *err)
 {
-    fl_vtk_array all = {0};
     int64_t n, size;
-    int rc = -1, since;
+    int since;
     if (count(v, 1, &n, err) || count(v, 2, &size, err) || once(v, &c->offset, err)) return -1;
     since = comes(v, "OFFSETS", err);
     if (since) return since < 0 || row(v, err) < 0 ? -1 : read_offsets(v, c, n, size, err);
-    if (numbers(v, type_of("int"), size, &all, err) == 0) rc = split(v, c, n, &all, err);
-    free(all.x);
-    return rc;
+    return numbers(v, type_of("int"), size, &c->corner, err) || split(v, c, n, err) ? -1 : 0;
 }
 
 static int read_types(vtk *v, fl_err *err)
@@ -443,24 +439,35 @@ static int read_all(vtk *v, fl_err *err)
     return v->g.point.x ? 0 : bad(v, err, "no POINTS");
 }
 
-/* Put the lists one behind the other. */
+/* Put the lists one behind the other; one alone stays where it is. */
 static int join(vtk *v, fl_err *err)
 {
     int64_t n = 0, corners = 0;
+    int some = 0;
     for (int k = 0; k < LISTS; k++) {
         n += v->list[k].offset.n;
         corners += v->list[k].corner.n;
+        some += v->list[k].offset.n > 0;
     }
-    v->g.corner.x = fl_alloc(corners, sizeof *v->g.corner.x, err);
-    v->g.offset.x = fl_alloc(n, sizeof *v->g.offset.x, err);
     v->g.type.x = fl_alloc(n, sizeof *v->g.type.x, err);
-    if (!v->g.corner.x || !v->g.offset.x || !v->g.type.x) return -1;
+    if (!v->g.type.x) return -1;
+    if (some != 1) {
+        v->g.corner.x = fl_alloc(corners, sizeof *v->g.corner.x, err);
+        v->g.offset.x = fl_alloc(n, sizeof *v->g.offset.x, err);
+        if (!v->g.corner.x || !v->g.offset.x) return -1;
+    }
     for (int k = 0; k < LISTS; k++) {
-        const cells *c = &v->list[k];
-        for (int64_t i = 0; i < c->offset.n; i++) {
-            v->g.offset.x[v->g.offset.n++] = (double)v->g.corner.n + c->offset.x[i];
-            v->g.type.x[v->g.type.n++] = (double)CELL_OF[k];
+        cells *c = &v->list[k];
+        for (int64_t i = 0; i < c->offset.n; i++) v->g.type.x[v->g.type.n++] = (double)CELL_OF[k];
+        if (c->offset.n == 0) continue;
+        if (some == 1) {
+            v->g.corner = c->corner;
+            v->g.offset = c->offset;
+            c->corner.x = c->offset.x = NULL;
+            continue;
         }
+        for (int64_t i = 0; i < c->offset.n; i++)
+            v->g.offset.x[v->g.offset.n++] = (double)v->g.corner.n + c->offset.x[i];
         if (c->corner.n)
             memcpy(v->g.corner.x + v->g.corner.n, c->corner.x, (size_t)c->corner.n * sizeof(double));
         v->g.corner.n += c->corner.n;
@@ -512,6 +519,7 @@ int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err
         fl_vtk_add(&e, &v.g, 0, &names, name, &coarse, err))
         goto done;
     if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
+    fl_vtk_grid_free(&v.g); /* its elements have all of it */
     rc = fl_elements_surface(&e, s, b, w, err);
 done:
     for (int k = 0; k < LISTS; k++) {

@@ -86,7 +86,7 @@ typedef struct {
     fl_elements *e;
     const fl_vtk_grid *g;
     int32_t scope, *coarse;
-    int32_t part;     /* of the cell at hand */
+    int32_t part;     /* of the cell at hand, -1 before the first */
     double last_part; /* its number in the file */
     int64_t *node;    /* numbers of the nodes of the cell at hand */
     int32_t nodes, node_cap;
@@ -234,6 +234,7 @@ static int part_of(adder *a, int64_t cell, const fl_vtk_names *v, const char *na
     char text[80];
     double x;
     if (a->g->part.n == 0) {
+        if (a->part >= 0) return 0;
         a->part = fl_names_add(&a->e->parts, name, err);
         return a->part < 0 ? -1 : 0;
     }
@@ -386,7 +387,7 @@ static int add_points(adder *a, fl_err *err)
 int fl_vtk_add(fl_elements *e, const fl_vtk_grid *g, int32_t scope, const fl_vtk_names *v, const char *name,
                int32_t *coarse, fl_err *err)
 {
-    adder a = {.e = e, .g = g, .scope = scope, .coarse = coarse, .last_part = NAN};
+    adder a = {.e = e, .g = g, .scope = scope, .coarse = coarse, .part = -1, .last_part = NAN};
     int polyhedra = 0, rc = -1;
     e->line = 0;
     if (g->type.n != g->offset.n || (g->part.n && g->part.n != g->type.n))
