@@ -149,7 +149,8 @@ static void put_box(octet *o, int k, const box *b)
 
 static const int32_t BIT[LANES] = {1, 2, 4, 8, 16, 32, 64, 128};
 
-/* The bits of all lanes.  (As a reduction of the loop before it this becomes eight steps one after the other.)
+/* The bits of all lanes.  (As a reduction of the loop before it this becomes eight steps one after the
+ * other.)
  */
 static inline unsigned together(const int32_t bits[LANES])
 {
