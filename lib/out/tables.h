@@ -47,6 +47,8 @@ void fl_hash_row(FILE *f, double t, uint64_t hash);
 /* and behind it, of a structure that moves by itself */
 #define FL_ENERGY_WAVES "\twaves[J]"
 #define FL_ENERGY_MOVING "\tstructure[J]\tspring[J]\tdamper[J]"
+/* and behind all that, where floes are frozen together */
+#define FL_ENERGY_BONDS "\tbond[J]\tfracture[J]"
 
 /* Loads on panels: panels(5).  name: of the part, then what tells its panels apart. */
 void fl_panels_header(FILE *f, const char *history, const fl_by *by, double start);

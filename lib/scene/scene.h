@@ -205,10 +205,21 @@ typedef struct {
     double drag_coef, form_coef;
 } fl_scene_wind;
 
+/* What becomes of a bond that is too long for its fracture energy, bond/bond.h. */
+enum fl_softening { FL_SOFTENING_KEEP, FL_SOFTENING_STRETCH, FL_SOFTENING_WEAKEN };
+
 typedef struct {
     fl_scene_head head;
-    int32_t on;                             /* always 0 in this version */
-    double normal_strength, shear_strength; /* [Pa] */
+    int32_t on;
+    double young;                           /* [Pa]; 0: auto, of the materials */
+    double poisson;                         /* negative: auto, of the materials */
+    double normal_strength, shear_strength; /* [Pa]; INFINITY: never */
+    double friction;
+    double energy, shear_energy; /* [J/m2]; 0: breaks at once; shear_energy negative: auto, as energy */
+    int32_t mixing;
+    int32_t softening; /* enum fl_softening */
+    double stretch;    /* separation at the end over that at the peak, at least, of stretch */
+    double damping;    /* of the critical, of the two bodies on their bond */
 } fl_scene_bond;
 
 typedef struct {

@@ -245,6 +245,30 @@ static int check_shares(const fl_scene *s, const char *key, fl_vec3 x, fl_err *e
     return 0;
 }
 
+static int check_bonds(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_bond *b = &s->bond;
+    if (!b->head.present || !b->on) return 0;
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(
+            s, "run.sleep", err,
+            "floes that are frozen together do not sleep: one of run.sleep and bond.on was wanted");
+    if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
+        return fl_scene_fail(
+            s, "boundary.inflow", err,
+            "floes that come in are frozen to nothing: one of boundary.inflow and bond.on was "
+            "wanted");
+    if (b->softening != FL_SOFTENING_KEEP && b->energy == 0.0)
+        return fl_scene_fail(
+            s, "bond.softening", err,
+            "softening bears on a fracture energy, and there is none: bond.energy was wanted");
+    if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
+        return fl_scene_fail(
+            s, "bond.softening", err,
+            "softening = weaken lowers both strengths, and one is none: a number was wanted");
+    return 0;
+}
+
 static int check_groups(const fl_scene *s, fl_err *err)
 {
     for (int32_t i = 0; i < s->n_group; i++) {
@@ -355,7 +379,7 @@ int fl_scene_check(fl_scene *s, fl_err *err)
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");
     if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
     return check_boundary(s, err) || check_current(s, err) || check_waves(s, err) || check_wind(s, err) ||
-                   check_shares(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_bonds(s, err) || check_shares(s, "water.added_mass", s->water.added_mass, err) ||
                    check_shares(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)
                ? -1

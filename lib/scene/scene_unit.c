@@ -92,6 +92,11 @@ static const struct unit {
     {FL_UNIT_SWIRL, "kN.m.s", 1e3, 1},
     {FL_UNIT_SWIRL, "MN.m.s", 1e6, 1},
     {FL_UNIT_SWIRL, "GN.m.s", 1e9, 1},
+    {FL_UNIT_SURFACE, "J/m2", 1, 1},
+    {FL_UNIT_SURFACE, "J/m^2", 1, 1},
+    {FL_UNIT_SURFACE, "kJ/m2", 1e3, 1},
+    {FL_UNIT_SURFACE, "kJ/m^2", 1e3, 1},
+    {FL_UNIT_SURFACE, "N/m", 1, 1},
 };
 enum { N_UNIT = sizeof units / sizeof units[0] };
 

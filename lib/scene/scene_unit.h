@@ -23,7 +23,8 @@ enum fl_unit_kind {
     FL_UNIT_MOORING, /* N/m kN/m MN/m GN/m */
     FL_UNIT_DAMPER,  /* N.s/m kN.s/m MN.s/m, or kg/s */
     FL_UNIT_TWIST,   /* N.m/rad kN.m/rad MN.m/rad GN.m/rad, or N.m: what a turn is held by */
-    FL_UNIT_SWIRL    /* N.m.s kN.m.s MN.m.s GN.m.s: what a turn is damped by */
+    FL_UNIT_SWIRL,   /* N.m.s kN.m.s MN.m.s GN.m.s: what a turn is damped by */
+    FL_UNIT_SURFACE  /* J/m2 J/m^2 kJ/m2 kJ/m^2 N/m: what it takes to make a surface */
 };
 
 /* Convert *x from the unit `word` to that of the kind, *x * mul / div with one rounding where either is 1, so

@@ -8,6 +8,7 @@
 #include "narrow/frustum.h"
 #include "narrow/nearest.h"
 #include "step/bearing.h"
+#include "step/frozen.h"
 #include "step/interact.h"
 #include "step/stiff.h"
 #include "step/press.h"
@@ -200,7 +201,7 @@ static int convex_places(fl_world *w, fl_pair *p, fl_places *s, const relative *
 {
     const fl_bodies *b = &w->b;
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
-    const double ra = b->radius[p->i], rb = b->radius[p->j], R = ra + rb;
+    const double ra = p->keep * b->radius[p->i], rb = p->keep * b->radius[p->j], R = ra + rb;
     const int core_law = p->law->kind == FL_LAW_CORE;
     fl_overlap deep;
     fl_gap gap;
@@ -237,7 +238,7 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
     const fl_bodies *b = &w->b;
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
     const fl_piece *piece = piece_of(w, p->j);
-    const double ra = b->radius[p->i], rb = b->radius[p->j], R = ra + rb;
+    const double ra = p->keep * b->radius[p->i], rb = p->keep * b->radius[p->j], R = ra + rb;
     s->n = 0;
     if (A->nv == 1 && (!piece || piece->kind != FL_PIECE_SHELL))
         return point_places(s, B, piece, r->o, ra, R, distance);
@@ -515,7 +516,7 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     const fl_bodies *b = &w->b;
     const fl_touching *law = p->law;
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
-    const double ra = b->radius[p->i], rb = b->radius[p->j];
+    const double ra = p->keep * b->radius[p->i], rb = p->keep * b->radius[p->j];
     fl_err lost = {0};
     if (fl_places_enter(s, A, r->M, r->o)) return -1;
     fl_vec3 *n = fl_alloc(A->nf, sizeof *n, &lost);
@@ -571,6 +572,7 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
     const double path = b->odometer[p->i] + b->odometer[p->j];
     if (p->n == 0 && path < p->asleep) return;
     const double R = b->radius[p->i] + b->radius[p->j];
+    const int first = p->bond && p->keep == 0.0 && p->n == 0; /* look since its bond ended */
     const relative r = relate(w, p);
     fl_places *s = &w->scratch[thread];
     double distance = 0.0;
@@ -584,18 +586,22 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
         distance += R; /* what sleeps is told by the distance of the cores */
     } else if (manual) {
         if (force_manual(w, p, s, &r, dt, survey, &distance)) goto failed;
-        if (p->n) return;
+        if (p->n) goto touches;
     } else {
         if (find_places(w, p, s, &w->near_shell[thread], &r, &distance)) goto failed;
         const int touch = p->exponent == 0.0 ? force_patch(w, p, s, &r, dt, survey)
                                              : s->n && force_one(w, p, s, &r, dt, survey);
         if (touch < 0) goto failed;
-        if (touch) return;
+        if (touch) goto touches;
     }
     p->slip = (fl_slip){0};
     p->n = 0;
     p->touch = 0.0;
+    if (p->bond && p->keep < 1.0) fl_frozen_return(w, p, R, distance);
     p->asleep = path + (distance > R ? distance - R : 0.0) * (1.0 - 1e-9);
+    return;
+touches:
+    if (first) fl_frozen_meet(w, p);
     return;
 failed:
 #pragma omp atomic write

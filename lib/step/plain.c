@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/wide.h"
 #include "body/integrate.h"
+#include "step/frozen.h"
 #include "step/plain.h"
 #include "step/sleep.h"
 
 int fl_plain_is(const fl_world *w, int32_t k)
 {
-    return w->balls.bodies && !w->sea.n && !w->row.n && w->inc_first[k] == w->inc_first[k + 1] &&
-           fl_body_plain(&w->b, k) && !fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE;
+    return w->balls.bodies && !fl_frozen_at(w, k) && !w->sea.n && !w->row.n &&
+           w->inc_first[k] == w->inc_first[k + 1] && fl_body_plain(&w->b, k) && !fl_world_away(w, k) &&
+           fl_sleep_kind(w, k) == FL_AWAKE;
 }
 
 /* What the loops below read and write, from the first body of the group on. */

@@ -2,6 +2,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "step/balls.h"
+#include "step/frozen.h"
 #include "step/pairing.h"
 #include "step/search.h"
 #include "step/sleep.h"
@@ -148,12 +149,14 @@ int fl_search(fl_world *w, fl_err *err)
             int32_t image[3];
             if (fl_balls_are(w, i, j)) continue;
             image_of(w, k, i, j, image);
+            if (fl_frozen_stands(w, i, j, image)) continue;
             while (at < n_old && order(&old[at], i, j, image) < 0) fl_pair_end(&old[at++]);
             if (at < n_old && order(&old[at], i, j, image) == 0) {
                 fresh[to] = old[at++];
             } else {
                 fl_pair_start(w, &fresh[to], i, j);
                 memcpy(fresh[to].image, image, sizeof image);
+                fl_frozen_enter(w, &fresh[to]);
             }
             to++;
         }
@@ -161,7 +164,7 @@ int fl_search(fl_world *w, fl_err *err)
     while (at < n_old) fl_pair_end(&old[at++]);
     free(old);
     w->pair = fresh;
-    w->n_pair = (int32_t)n;
+    w->n_pair = (int32_t)to;
     for (int32_t k = 0; k < total; k++) w->odometer_found[k] = w->b.odometer[k];
     w->found_at = w->step;
     w->searches++;

@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "step/balls.h"
+#include "step/frozen.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -420,9 +421,43 @@ static void pair(traffic *t, fl_world *w, int32_t c)
         fl_pair_start(w, p, i, j);
     }
     for (int axis = 0; w->cell.wraps && axis < 3; axis++) whole(t, -INT32_MAX, INT32_MAX, &p->image[axis]);
+    if (t->in && !t->err->code && fl_frozen_stands(w, i, j, p->image))
+        fl_text_fail(t->in, t->err, "pair %d and %d found, and their bond stands", i, j);
+    if (t->in && !t->err->code) fl_frozen_enter(w, p);
     whole(t, 0, 1, &p->n);
     memory(t, p);
     if (p->n) forces(t, p);
+    close_row(t);
+}
+
+/* A bond: its past, and what acts of it.  Separations follow from where the bodies are; the face and its law
+ * from the scene. */
+static void bond(traffic *t, fl_world *w, int32_t k)
+{
+    fl_bond *c = &w->frozen.bond[k];
+    fl_vec3 *const all[] = {&c->f, &c->ti, &c->tj, &c->fd, &c->di, &c->dj, &c->fs, &c->si, &c->sj};
+    open_row(t, "bond");
+    whole(t, FL_BOND_WHOLE, FL_BOND_ENDED, &c->state);
+    real(t, &c->worn);
+    real(t, &c->spent);
+    real(t, &c->handed);
+    real(t, &c->store);
+    real(t, &c->spring);
+    real(t, &w->frozen.keep[k]);
+    for (int e = 0; e < 9; e++) vec3(t, all[e]);
+    for (int e = 0; e < FL_BOND_POINTS; e++) {
+        fl_bond_point *p = &c->point[e];
+        if (t->in) *p = (fl_bond_point){0};
+        if (c->state == FL_BOND_WHOLE || t->err->code) continue;
+        real(t, &p->d);
+        real(t, &p->first);
+        real(t, &p->last);
+        real(t, &p->slip[0]);
+        real(t, &p->slip[1]);
+        if (t->in && !t->err->code && !(p->d >= 0.0 && p->d <= 1.0 && p->first >= 0.0 && p->last >= p->first))
+            fl_text_fail(t->in, t->err, "damage %g between %g and %g is none of a bond", p->d, p->first,
+                         p->last);
+    }
     close_row(t);
 }
 
@@ -501,6 +536,8 @@ static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
         if (t->in) w->sleep.resting += w->sleep.kind[k] == FL_RESTS;
     }
     for (int32_t k = 0; k < w->ride.m.n && !t->err->code; k++) mover(t, w, k);
+    for (int32_t k = 0; k < w->frozen.n && !t->err->code; k++) bond(t, w, k);
+    if (t->in && !t->err->code) fl_frozen_look(w);
     if (w->press.panels && !t->err->code) pressed(t, w);
     w->sea.time = fl_world_time(w);
     if (w->sea.current.n) table_of(t, &w->sea.current);

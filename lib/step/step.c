@@ -6,6 +6,7 @@
 #include "base/par.h"
 #include "body/integrate.h"
 #include "step/balls.h"
+#include "step/frozen.h"
 #include "step/interact.h"
 #include "step/plain.h"
 #include "step/press.h"
@@ -39,6 +40,8 @@ static void contacts(fl_world *w, double dt, int survey)
     {
 #pragma omp for schedule(dynamic) nowait
         for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, dt, survey);
+#pragma omp for schedule(static) nowait
+        for (int32_t k = 0; k < w->frozen.n; k++) fl_frozen_touch(w, k);
 #pragma omp for schedule(dynamic, 16)
         for (int32_t c = 0; c < w->n_pair; c++) {
             if (fl_sleep_frozen(w, &w->pair[c])) continue;
@@ -47,6 +50,10 @@ static void contacts(fl_world *w, double dt, int survey)
         }
     }
     fl_search_live(w);
+    if (w->frozen.ended) { /* there is a pair to be found */
+        w->found_at = -1;
+        w->frozen.ended = 0;
+    }
 }
 
 /* And where they press, when that is asked. */
@@ -110,6 +117,7 @@ int fl_step_press(fl_world *w, int32_t k)
         b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
         fl_works_add(sink, p, p->i == k);
     }
+    if (fl_frozen_at(w, k)) fl_frozen_press(w, k, &b->f[k], &b->t[k], sink);
     return sink->n != 0;
 }
 
@@ -254,7 +262,7 @@ static double share_of(const fl_world *w, const fl_pair *p, int32_t i)
 /* 2/omega of body i < n by the contacts of the last survey. */
 static double limit_of(const fl_world *w, int32_t i)
 {
-    double sum = w->balls.bodies ? fl_balls_stiff(w, i) : 0.0;
+    double sum = (w->balls.bodies ? fl_balls_stiff(w, i) : 0.0) + fl_frozen_now(w, i);
     for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
         const fl_pair *p = &w->pair[w->inc[c]];
         if (p->n) sum += share_of(w, p, i);
@@ -414,7 +422,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     ahead(w, 1.0);
     fl_step_ledger(w);
     w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic +
-                      w->ledger.moving + w->ledger.spring;
+                      w->ledger.moving + w->ledger.spring + w->ledger.bond;
     fl_step_ledger(w);
     return 0;
 }
@@ -509,6 +517,10 @@ void fl_step_ledger(fl_world *w)
         spring += p->spring;
     }
     if (w->balls.bodies) fl_balls_energy(w, &elastic, &spring);
+    const fl_frozen_books frozen = fl_frozen_ledger(w);
+    g->bond = frozen.store;
+    g->fracture = frozen.spent;
+    spring += frozen.spring - frozen.handed;
     g->kinetic = kinetic;
     g->gravity = gravity;
     g->elastic = elastic;
@@ -528,10 +540,11 @@ void fl_step_ledger(fl_world *w)
     }
     const double drive = g->drive - lies_ahead.drive + held;
     g->drive_now = drive;
-    g->residual = kinetic + gravity + elastic + hydro + g->moving + g->spring - g->start + g->damping_now +
-                  g->friction_now + drag + g->damper - wind - waves - drive - g->carried;
+    g->residual = kinetic + gravity + elastic + hydro + g->moving + g->spring + g->bond + g->fracture -
+                  g->start + g->damping_now + g->friction_now + drag + g->damper - wind - waves - drive -
+                  g->carried;
     const double through = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
-                           fabs(waves) + fabs(drive) + kinetic + g->damper + g->moving;
+                           fabs(waves) + fabs(drive) + kinetic + g->damper + g->moving + fabs(g->fracture);
     if (through > g->throughput) g->throughput = through;
 }
 

@@ -2,6 +2,7 @@
 #include "base/mem.h"
 #include "narrow/gjk.h"
 #include "step/balls.h"
+#include "step/frozen.h"
 #include "step/search.h"
 #include "step/sleep.h"
 #include "step/pairing.h"
@@ -54,6 +55,7 @@ static void take_out(fl_world *w, int32_t i)
 static int drop_pairs(fl_world *w, fl_err *err)
 {
     int32_t kept = 0;
+    fl_frozen_drop(w);
     for (int32_t c = 0; c < w->n_pair; c++) {
         fl_pair *p = &w->pair[c];
         const int32_t i = p->i, j = p->j;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/par.h"
 #include "body/integrate.h"
+#include "step/frozen.h"
 #include "step/works.h"
 
 static double power(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
@@ -13,6 +14,7 @@ void fl_works_sum(fl_world *w, int32_t k)
         const fl_pair *p = &w->pair[w->inc[c]];
         fl_works_add(&s, p, p->i == k);
     }
+    if (fl_frozen_at(w, k)) fl_frozen_sink(w, k, &s);
     w->sink[k] = s;
 }
 

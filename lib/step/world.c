@@ -5,6 +5,7 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "step/balls.h"
+#include "step/frozen.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -534,7 +535,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
         if (fl_world_put(w, i, feed, w->traffic.floe[i], err)) goto fail;
     }
     if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
-        fl_sleep_make(w, err) || fl_pairing_laws(w, err))
+        fl_sleep_make(w, err) || fl_pairing_laws(w, err) || fl_frozen_make(w, field, err))
         goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
     w->skin = field->n ? 0.1 * bound / field->n : 0.0;
@@ -577,6 +578,7 @@ void fl_world_free(fl_world *w)
     free(w->sink), free(w->was), free(w->gain), free(w->damped), free(w->rubbed);
     fl_ride_free(&w->ride);
     fl_sleep_free(&w->sleep);
+    fl_frozen_free(&w->frozen);
     fl_press_free(&w->press);
     fl_pairs_free(&w->near);
     fl_sea_free(&w->sea);
@@ -714,7 +716,8 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *damping
         const int faces = w->scene->run.error > 0.0 && w->face[i] > 0.0;
         const double soft = faces ? softest_face(w, i) : softest(w, i);
         double drawn;
-        const double omega2 = 2.0 * places * stiffest * soft + fl_world_spring(w, i, &drawn) * w->b.invm[i];
+        const double omega2 = 2.0 * places * stiffest * soft + fl_world_spring(w, i, &drawn) * w->b.invm[i] +
+                              fl_frozen_most(w, i);
         if (omega2 > most) {
             most = omega2;
             *body = i;
@@ -727,6 +730,7 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *damping
             *body = w->b.total + m;
         }
     }
+    for (int32_t k = 0; k < w->frozen.n; k++) damp = fmax(damp, w->frozen.bond[k].damping * sqrt(most));
     *damping = damp;
     return most;
 }

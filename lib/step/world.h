@@ -5,6 +5,7 @@
 #ifndef FL_STEP_WORLD_H
 #define FL_STEP_WORLD_H
 #include "body/body.h"
+#include "bond/bond.h"
 #include "bound/cell.h"
 #include "bound/flotation.h"
 #include "bound/mover.h"
@@ -54,6 +55,8 @@ typedef struct {
     double exponent;        /* n; 0 for `patch` */
     double mass;            /* reduced [kg]                                          */
     double touch;           /* largest approach speed of this touch [m/s]            */
+    int32_t bond;           /* 1 + number of the bond that stood here, 0: there was none; frozen.h */
+    double keep;            /* so much of its radii counts: 1, but after a bond */
     const fl_touching *law; /* borrowed */
     /* of the last evaluation; world axes, torques about the two centres */
     fl_vec3 f, ti, tj;       /* force on i (on j its opposite), torques               */
@@ -76,6 +79,7 @@ typedef struct {
     double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
     double waves;                                  /* and by waves, the work of buoyancy with it */
     double moving, spring, damper; /* of a structure that moves by itself: in it, in its springs; taken out */
+    double bond, fracture;         /* in bonds; taken out by their damage */
     double carried;                /* put in by floes that came, less what left with others */
     double start, residual;
     double
@@ -215,6 +219,19 @@ typedef struct {
     double *rest; /* [n] the height it pulls to [m] */
 } fl_row;
 
+/* Faces frozen together, see frozen.h; n = 0 and no memory where nothing is. */
+typedef struct {
+    int32_t n;
+    fl_bond *bond;  /* [n] by (i, j) */
+    int32_t *image; /* [3 n] j is where it is, moved by so many lengths of the cell */
+    double *keep;   /* [n] of the pair that an ended bond leaves, see there; 0: not looked at yet */
+    double *stiff;  /* [2 n] shares of omega^2 of i and of j [1/s2] */
+    double *most;   /* [bodies] omega^2 by all its bonds [1/s2] */
+    int64_t *first; /* [bodies + 1] */
+    int32_t *of;    /* [2 n] bonds of each body, ascending */
+    int ended;      /* a bond ended in this step */
+} fl_frozen;
+
 /* What a step tells of a group of bodies, FL_BALLS_GROUP in a row. */
 typedef struct {
     fl_vec3 pushed; /* sum of the forces of contacts [N]                      */
@@ -233,6 +250,7 @@ typedef struct {
     fl_traffic traffic;
     fl_row row;
     fl_sleep sleep;
+    fl_frozen frozen;
     fl_sea sea;        /* water and wind; n = 0 where there are none */
     int32_t *id;       /* [n] as in the ice file                 */
     int32_t *material; /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */

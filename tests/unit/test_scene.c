@@ -246,7 +246,9 @@ static void words_of_the_manual_are_read_bare(void **state)
     refused("bound_type 3\n" ICE,
             ":1: a periodic boundary has no bounds: boundary.min or boundary.max was wanted");
     refused("windvel 18\n" ICE, ":1: windvel is \"18\", a Beaufort number from 0 to 17 was wanted");
-    refused("isbonding 1\n" ICE, ":1: bond.on = true is not supported by this version");
+    good(&s, "isbonding 1\n" ICE);
+    assert_int_equal(s.bond.on, 1);
+    fl_scene_free(&s);
     refused("\ngravitiy 9\n" ICE,
             ":2: \"gravitiy\" before the first section is not a word of the manual, nearest is \"gravity\"");
     refused("output file numbers = 9\n" ICE,
@@ -509,6 +511,27 @@ static void included_files_are_overruled_by_the_scene(void **state)
     assert_int_equal(err.code, FL_INPUT);
 }
 
+/* What goes with bonds, and what does not. */
+static void bonds_are_checked(void **state)
+{
+    fl_scene s;
+    (void)state;
+    good(&s, ICE "[bond]\non = true\nnormal_strength = none\nenergy = 12 J/m2\n");
+    assert_true(isinf(s.bond.normal_strength) && s.bond.young == 0.0 && s.bond.poisson < 0.0);
+    assert_near(s.bond.energy, 12.0, 0);
+    assert_true(s.bond.shear_energy < 0.0 && s.bond.mixing == 2);
+    fl_scene_free(&s);
+    refused(ICE "[bond]\non = true\n[run]\nsleep = 0.01\n",
+            ":6: floes that are frozen together do not sleep: one of run.sleep and bond.on was wanted");
+    refused(ICE "[bond]\non = true\n[boundary]\ntype = free\nmin = 0 none none\nmax = 9 none none\ninflow = "
+                "ice\ninflow_speed = 1\n",
+            ":9: floes that come in are frozen to nothing: one of boundary.inflow and bond.on was wanted");
+    refused(ICE "[bond]\non = true\nsoftening = stretch\n",
+            ":5: softening bears on a fracture energy, and there is none: bond.energy was wanted");
+    refused(ICE "[bond]\non = true\nenergy = 10\nnormal_strength = none\nsoftening = weaken\n",
+            ":7: softening = weaken lowers both strengths, and one is none: a number was wanted");
+}
+
 static void what_is_written_reads_back(void **state)
 {
     fl_scene s, t;
@@ -562,7 +585,7 @@ static void explain_tells_all_there_is(void **state)
     assert_int_equal(rc, 0);
     free(text);
     text = explained("bond.softening", &err, &rc);
-    assert_non_null(strstr(text, "not supported by this version"));
+    assert_non_null(strstr(text, "one of keep, stretch, weaken\n"));
     free(text);
     for (int s = 0; s < FL_SECTIONS; s++) {
         text = explained(fl_section_table[s].name, &err, &rc);
@@ -626,6 +649,7 @@ int main(void)
         cmocka_unit_test(a_failed_set_changes_nothing),
         cmocka_unit_test(pairs_take_the_nearest_word),
         cmocka_unit_test(included_files_are_overruled_by_the_scene),
+        cmocka_unit_test(bonds_are_checked),
         cmocka_unit_test(what_is_written_reads_back),
         cmocka_unit_test(explain_tells_all_there_is),
         cmocka_unit_test(the_manual_page_lists_every_key),

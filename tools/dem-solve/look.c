@@ -48,7 +48,7 @@ static double mib_of(const fl_world *w)
     }
     bytes += (double)w->threads * w->sea.cells_each * sizeof(fl_wave_near);
     bytes += w->n_pair * (sizeof(fl_pair) + 2.0 * sizeof(int32_t));
-    bytes += fl_balls_bytes(w);
+    bytes += fl_balls_bytes(w) + w->frozen.n * (sizeof(fl_bond) + 8.0 * sizeof(double));
     return bytes / 1048576.0;
 }
 
@@ -97,7 +97,10 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     const double begun = run_clock();
     double spent = 0.0;
     char name[64];
-    char what[3][160];
+    char what[4][160] = {{0}};
+    if (w->frozen.n)
+        snprintf(what[3], sizeof what[3], "%d faces frozen together, %d bonds a body", w->frozen.n,
+                 (2 * w->frozen.n + there / 2) / there);
     if (fl_step_start(w, err)) return -1;
     sea_stages(w, what);
     while (w->step < r->steps && (spent = run_clock() - begun) < 0.5)
@@ -131,6 +134,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
           !w->sea.wind                      ? ""
           : w->sea.air_law == FL_DRAG_FACET ? "by facets"
                                             : "of the whole");
+    stage(f, "bonds", w->frozen.n > 0, what[3]);
     stage(f, "holds", held > 0, "");
     stage(f, "sleep", w->sleep.nap != NULL, "floes to which nothing happens take many steps at once");
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,

@@ -192,6 +192,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
         r.out = path;
     }
     run_step_size(&r);
+    if (!o->quiet && world.frozen.n) report_bonds(&world, stderr);
     rc = act(&r, err);
     *stopped = r.stopped;
     if (r.stopped && !o->quiet)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
 #include "run.h"
+#include "step/frozen.h"
 #include "step/sleep.h"
 #include "step/step.h"
 #include "step/traffic.h"
@@ -30,6 +31,26 @@ static void budget_of(const struct run *r, FILE *f)
             f,
             "                   states that differ by a bit are apart after %.3g s: the run is determined\n",
             far);
+}
+
+static void bonds_of(const fl_world *w, FILE *f)
+{
+    const fl_frozen_count n = fl_frozen_counted(w);
+    const int32_t open = n.state[FL_BOND_BROKEN] + n.state[FL_BOND_ENDED];
+    fprintf(f, "bonds              %d whole, %d damaged, %d broken of %d: %.4g m2 of crack, %.4g J\n",
+            n.state[FL_BOND_WHOLE], n.state[FL_BOND_HURT], open, w->frozen.n, n.area, w->ledger.fracture);
+}
+
+void report_bonds(const fl_world *w, FILE *f)
+{
+    const fl_frozen_count n = fl_frozen_counted(w);
+    const fl_scene_bond *s = &w->scene->bond;
+    if (n.coarse == 0) return;
+    fprintf(f,
+            "dem-solve: note: %d of %d bonds store more than the %.4g J/m2 of bond.energy at their strength: "
+            "the longest is %.3g m, and the limit is %.3g m; a crack takes %.4g J/m2 in the mean%s\n",
+            n.coarse, w->frozen.n, s->energy, n.longest, n.limit, n.energy,
+            s->softening == FL_SOFTENING_STRETCH ? "" : " (see bond.softening)");
 }
 
 /* Speed is never printed without its error: the two blocks belong together. */
@@ -74,6 +95,7 @@ void report_write(const struct run *r, FILE *f)
     fprintf(f, "momentum residual  %.2g of the contact impulses (%.3g N s of %.3g N s)\n",
             w->impulse_size > 0.0 ? v3_norm(w->imbalance) / w->impulse_size : 0.0, v3_norm(w->imbalance),
             w->impulse_size);
+    if (w->frozen.n) bonds_of(w, f);
     if (w->traffic.away) {
         const fl_traffic *t = &w->traffic;
         fprintf(f, "floes out          %" PRId64 " (%.4g kg)\n", t->left, t->mass_left);

@@ -90,8 +90,9 @@ static fl_poses poses(const struct run *r)
 static void energy_header(const struct run *r, FILE *f)
 {
     char columns[400];
-    snprintf(columns, sizeof columns, "%s%s%s", FL_ENERGY_COLUMNS,
-             fl_ride_free_ones(r->w) ? FL_ENERGY_MOVING : "", r->w->sea.waves ? FL_ENERGY_WAVES : "");
+    snprintf(columns, sizeof columns, "%s%s%s%s", FL_ENERGY_COLUMNS,
+             fl_ride_free_ones(r->w) ? FL_ENERGY_MOVING : "", r->w->sea.waves ? FL_ENERGY_WAVES : "",
+             r->w->frozen.n ? FL_ENERGY_BONDS : "");
     fl_rows_header(f, "energy", r->history, r->by, columns);
 }
 
@@ -219,13 +220,16 @@ static void write_energy(struct run *r, struct outputs *u, double t)
 {
     const fl_ledger *g = &r->w->ledger;
     fl_step_ledger(r->w);
-    double row[] = {
-        t,         g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
-        g->drag,   g->wind,    g->drive_now, g->carried, g->residual,    g->moving,       g->spring,
-        g->damper, g->waves};
-    int all = sizeof row / sizeof *row - 1;
-    if (!fl_ride_free_ones(r->w)) all -= 3;
+    double row[18] = {
+        t,        g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
+        g->drag,  g->wind,    g->drive_now, g->carried, g->residual,    g->moving,       g->spring,
+        g->damper};
+    int all = fl_ride_free_ones(r->w) ? 15 : 12;
     if (r->w->sea.waves) row[all++] = g->waves;
+    if (r->w->frozen.n) {
+        row[all++] = g->bond;
+        row[all++] = g->fracture;
+    }
     fl_rows_row(u->table[AT_ENERGY].f, all, row);
 }
 

@@ -90,6 +90,9 @@ int run_scene(struct run *r, fl_err *err);
 /* report.c */
 void report_write(const struct run *r, FILE *f);
 
+/* A line about bonds that are too long for their fracture energy; nothing where none is. */
+void report_bonds(const fl_world *w, FILE *f);
+
 /* look.c: --plan and --probe */
 int look_plan(struct run *r, FILE *f, fl_err *err);
 int look_probe(struct run *r, FILE *f, fl_err *err);

@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include "support/near.h"
+#include "base/rng.h"
+#include "body/integrate.h"
+#include "bond/bond.h"
+#include "bond/shared.h"
+
+#define PI 3.14159265358979323846
+
+static const fl_vec3 ZERO = {0, 0, 0};
+
+/* Two bodies of no shape, 1 m apart along x, with a face of 0.4 by 0.6 m between them; E = 1 GPa, G = 0.4
+ * GPa. */
+typedef struct {
+    fl_bodies b;
+    fl_bond c;
+} two;
+
+static void two_make(two *t)
+{
+    fl_err err = {0};
+    *t = (two){0};
+    assert_int_equal(fl_bodies_alloc(&t->b, 2, 2, &err), 0);
+    for (int k = 0; k < 2; k++) {
+        t->b.x[k] = v3(k, 0, 0);
+        t->b.q[k] = (fl_quat){1, 0, 0, 0};
+        t->b.m[k] = 900, t->b.invm[k] = 1.0 / 900, t->b.I[k] = v3(100, 120, 150);
+        fl_body_derive(&t->b, k);
+    }
+    t->c = (fl_bond){.i = 0,
+                     .j = 1,
+                     .area = 0.24,
+                     .length = 1,
+                     .kn = 1e9,
+                     .ks = 4e8,
+                     .tension = 1e6,
+                     .cohesion = 8e5,
+                     .friction = 0.3,
+                     .mixing = 2};
+    fl_bond_place(&t->c, &t->b, ZERO, v3(0.5, 0, 0), v3(1, 0, 0), v3(0, 0.2, 0), v3(0, 0, 0.3));
+}
+
+static void two_free(two *t) { fl_bodies_free(&t->b); }
+
+static fl_vec3 some(fl_rng *g, double size)
+{
+    return v3(fl_rng_in(g, -size, size), fl_rng_in(g, -size, size), fl_rng_in(g, -size, size));
+}
+
+/* Turn body k by the small angle v, and move it by u. */
+static void shift(two *t, int k, fl_vec3 u, fl_vec3 v)
+{
+    const double a = v3_norm(v);
+    t->b.x[k] = v3_add(t->b.x[k], u);
+    if (a > 0.0) {
+        const fl_vec3 e = v3_scale(sin(0.5 * a) / a, v);
+        t->b.q[k] = q_mul((fl_quat){cos(0.5 * a), e.x, e.y, e.z}, t->b.q[k]);
+    }
+    fl_body_derive(&t->b, k);
+}
+
+/* Any state of damage, without slip: the energy is then a function of the poses. */
+static void hurt(two *t, fl_rng *g)
+{
+    for (int k = 0; k < FL_BOND_POINTS; k++) {
+        t->c.point[k].d = fl_rng_in(g, 0, 1);
+        t->c.point[k].first = 1e9, t->c.point[k].last = 2e9; /* and no more of it */
+    }
+    t->c.friction = 0.0;
+}
+
+/* Force and torques are the slope of the energy, at separations and turns of all sizes. */
+static void force_is_the_gradient(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 200; n++) {
+        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        const double size = n % 2 ? 1e-3 : 0.3, h = 1e-4 * size;
+        two t;
+        two_make(&t);
+        hurt(&t, &g);
+        t.c.tension = t.c.cohesion = INFINITY;
+        for (int k = 0; k < 2; k++) shift(&t, k, some(&g, size), some(&g, size));
+        fl_bond_force(&t.c, &t.b, ZERO);
+        const fl_vec3 f = t.c.f, ti = t.c.ti, tj = t.c.tj, u = some(&g, 1), v = some(&g, 1);
+        const double store = t.c.store, scale = v3_norm(f) + v3_norm(ti) + v3_norm(tj);
+        for (int k = 0; k < 2; k++) {
+            double W[2];
+            for (int e = 0; e < 2; e++) {
+                two s = t;
+                fl_err err = {0};
+                assert_int_equal(fl_bodies_alloc(&s.b, 2, 2, &err), 0);
+                for (int l = 0; l < 2; l++) {
+                    s.b.x[l] = t.b.x[l], s.b.q[l] = t.b.q[l], s.b.I[l] = t.b.I[l];
+                    shift(&s, l, ZERO, ZERO);
+                }
+                const double way = e ? h : -h;
+                shift(&s, k, v3_scale(way, u), v3_scale(way, v));
+                fl_bond_force(&s.c, &s.b, ZERO);
+                W[e] = s.c.store;
+                two_free(&s);
+            }
+            const double power = k ? -v3_dot(f, u) + v3_dot(tj, v) : v3_dot(f, u) + v3_dot(ti, v);
+            assert_near_of(-(W[1] - W[0]) / (2 * h), power, 1e-5, scale);
+        }
+        assert_true(store > 0.0);
+        two_free(&t);
+    }
+}
+
+/* Moments about any point cancel; nothing acts where the pair moved as one; both turn along. */
+static void the_pair_is_free(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 200; n++) {
+        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        two t;
+        two_make(&t);
+        t.c.tension = 1e5; /* some points break, some rub */
+        t.c.energy[0] = 200, t.c.energy[1] = 300;
+        t.c.damping = 1e-4;
+        for (int k = 0; k < 2; k++) {
+            shift(&t, k, some(&g, 2e-4), some(&g, 2e-4));
+            t.b.w[k] = some(&g, 1), t.b.v[k] = some(&g, 1);
+        }
+        fl_bond_force(&t.c, &t.b, ZERO);
+        const fl_vec3 turn = some(&g, 3),
+                      sum = v3_add(v3_add(t.c.ti, t.c.tj), v3_cross(v3_sub(t.b.x[0], t.b.x[1]), t.c.f));
+        assert_near_of(v3_norm(sum), 0, 1e-13, v3_norm(t.c.f) + v3_norm(t.c.ti));
+        /* the same, turned and moved as a whole, has the same force turned */
+        fl_bond was = t.c;
+        const fl_quat q = q_unit((fl_quat){1, turn.x, turn.y, turn.z});
+        for (int k = 0; k < 2; k++) {
+            t.b.x[k] = v3_add(q_rotate(q, t.b.x[k]), v3(3, -7, 2));
+            t.b.v[k] = q_rotate(q, t.b.v[k]);
+            t.b.q[k] = q_mul(q, t.b.q[k]);
+            t.b.L[k] = ZERO;
+            const fl_vec3 w = q_rotate(q, t.b.w[k]);
+            fl_body_derive(&t.b, k);
+            t.b.w[k] = w;
+        }
+        fl_bond_force(&t.c, &t.b, ZERO);
+        assert_near_of(v3_norm(v3_sub(t.c.f, q_rotate(q, was.f))), 0, 1e-9, v3_norm(was.f));
+        assert_near_of(v3_norm(v3_sub(t.c.ti, q_rotate(q, was.ti))), 0, 1e-9, v3_norm(was.ti));
+        two_free(&t);
+        two_make(&t);
+        for (int k = 0; k < 2; k++) {
+            t.b.x[k] = v3_add(q_rotate(q, t.b.x[k]), v3(3, -7, 2));
+            t.b.q[k] = q;
+            fl_body_derive(&t.b, k);
+        }
+        fl_bond_force(&t.c, &t.b, ZERO);
+        assert_near_of(v3_norm(t.c.f), 0, 1e-14, t.c.kn * t.c.area * 10.0);
+        two_free(&t);
+    }
+}
+
+/* Small motions: E A/l, G A/l, E I/l and G (Iy + Iz)/l of a bar of the face's section. */
+static void springs_are_those_of_the_section(void **state)
+{
+    (void)state;
+    const double h = 1e-7, A = 0.24, Iy = 0.4 * 0.6 * 0.6 * 0.6 / 12, Iz = 0.6 * 0.4 * 0.4 * 0.4 / 12;
+    static const fl_vec3 U[2] = {{1, 0, 0}, {0, 1, 0}};
+    const double want[2] = {1e9 * A, 4e8 * A};
+    for (int k = 0; k < 2; k++) {
+        two t;
+        two_make(&t);
+        shift(&t, 1, v3_scale(h, U[k]), ZERO);
+        fl_bond_force(&t.c, &t.b, ZERO);
+        assert_near(v3_dot(t.c.f, U[k]) / h, want[k], 1e-8);
+        two_free(&t);
+    }
+    static const fl_vec3 V[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const double moment[3] = {4e8 * (Iy + Iz), 1e9 * Iy, 1e9 * Iz};
+    for (int k = 0; k < 3; k++) {
+        two t;
+        two_make(&t);
+        const fl_vec3 v = v3_scale(h, V[k]);
+        /* about the centre of the face, half on either side */
+        shift(&t, 1, v3_cross(v3_scale(0.5, v), v3(0.5, 0, 0)), v3_scale(0.5, v));
+        shift(&t, 0, v3_cross(v3_scale(-0.5, v), v3(-0.5, 0, 0)), v3_scale(-0.5, v));
+        fl_bond_force(&t.c, &t.b, ZERO);
+        assert_near(v3_dot(t.c.ti, V[k]) / h, moment[k], 1e-6);
+        assert_near(v3_dot(t.c.tj, V[k]) / h, -moment[k], 1e-6);
+        two_free(&t);
+    }
+}
+
+/* Pressed, sheared until it has failed all over: the pressing force never changes, the shear comes down to
+ * friction; then it opens, and is ended without a force. */
+static void crack_presses_on(void **state)
+{
+    (void)state;
+    two t;
+    two_make(&t);
+    t.c.energy[0] = t.c.energy[1] = 2000;
+    shift(&t, 1, v3(-1e-3, 0, 0), ZERO);
+    fl_bond_force(&t.c, &t.b, ZERO);
+    const double N = -t.c.f.x;
+    assert_near(N, 1e9 * 1e-3 * 0.24, 1e-12);
+    int broken = 0;
+    double before = 0.0;
+    for (int k = 0; k < 20000; k++) {
+        shift(&t, 1, v3(0, 1e-6, 0), ZERO);
+        assert_int_equal(fl_bond_force(&t.c, &t.b, ZERO), 0);
+        if (!broken && t.c.state == FL_BOND_BROKEN) {
+            broken = 1;
+            before = t.c.f.x;
+            assert_near(t.c.f.x, -N, 1e-12);
+            assert_near(t.c.f.y, 0.3 * N, 1e-12);
+        }
+    }
+    assert_true(broken);
+    /* it has slid 2 cm of 40: so much has worn off */
+    assert_near(t.c.f.x, before * (1 - 0.02 / 0.4), 1e-9);
+    const double store = t.c.store;
+    assert_true(store > 0.0);
+    shift(&t, 1, v3(1e-3 + 1e-9, 0, 0), ZERO);
+    assert_int_equal(fl_bond_force(&t.c, &t.b, ZERO), 1);
+    assert_int_equal(t.c.state, FL_BOND_ENDED);
+    assert_near(v3_norm(t.c.f), 0, 0);
+    assert_int_equal(fl_bond_force(&t.c, &t.b, ZERO), 0);
+    two_free(&t);
+}
+
+/* What is taken out is what the work put in and the store does not hold: on a random way of steps. */
+static void books_balance(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 50; n++) {
+        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        two t;
+        two_make(&t);
+        t.c.energy[0] = n % 3 ? 600 : 0, t.c.energy[1] = n % 3 ? 900 : 0;
+        t.c.friction = n % 2 ? 0.3 : 0.0;
+        double work = 0.0, most = 0.0;
+        fl_bond_force(&t.c, &t.b, ZERO);
+        fl_vec3 u = v3_scale(2e-6, v3_unit(some(&g, 1)));
+        u.x = fabs(u.x); /* it opens: while it closes on the way, a kink has no exact trapezium */
+        for (int k = 0; k < 20000; k++) {
+            const fl_vec3 f0 = t.c.f;
+            shift(&t, 1, u, ZERO);
+            const int ended = fl_bond_force(&t.c, &t.b, ZERO);
+            work += 0.5 * v3_dot(v3_add(f0, t.c.f), u);
+            most = fmax(most, work);
+            if (ended) break;
+        }
+        assert_int_equal(t.c.state, FL_BOND_ENDED);
+        /* friction does nothing while it is open; shear along one way is of straight lines */
+        assert_near_of(work, t.c.store + t.c.spring + t.c.spent + t.c.handed - t.c.spring, 1e-9, most);
+        if (t.c.energy[0] > 0.0) {
+            const double share =
+                t.c.ks * (u.y * u.y + u.z * u.z) / (t.c.kn * u.x * u.x + t.c.ks * (u.y * u.y + u.z * u.z));
+            assert_near(t.c.spent / t.c.area, 600 + 300 * share * share, 1e-4);
+        }
+        two_free(&t);
+    }
+}
+
+/* Strength, energy and limit in mode I. */
+static void sizes_are_told(void **state)
+{
+    (void)state;
+    two t;
+    two_make(&t);
+    assert_near(fl_bond_limit(1e9, 10, 0.7e6), 0.040816, 1e-4);
+    assert_near(fl_bond_energy(&t.c), 500, 1e-12); /* brittle: what is stored */
+    t.c.energy[0] = 600;
+    assert_near(fl_bond_energy(&t.c), 600, 1e-12);
+    t.c.energy[0] = 10;
+    assert_near(fl_bond_energy(&t.c), 500, 1e-12);
+    t.c.stretch = 1.5;
+    assert_near(fl_bond_energy(&t.c), 750, 1e-12);
+    assert_near(fl_bond_worst(&t.c), 0, 0);
+    t.c.point[4].d = 0.5;
+    assert_near(fl_bond_worst(&t.c), 0.5, 0);
+    assert_near(fl_bond_mean(&t.c), 0.5 * 16.0 / 36.0, 1e-14);
+    /* turned by more than a right angle it is no face any more */
+    shift(&t, 1, ZERO, v3(0, 0, 0.6 * PI));
+    assert_int_equal(fl_bond_force(&t.c, &t.b, ZERO), 1);
+    assert_int_equal(t.c.state, FL_BOND_ENDED);
+    two_free(&t);
+}
+
+/* Two boxes side by side, one lower and shifted: the rectangle they share; and what shares nothing. */
+static void faces_are_found(void **state)
+{
+    (void)state;
+    fl_poly p = {0}, q = {0};
+    fl_err err = {0};
+    fl_shared s;
+    const fl_mat3 one = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    assert_int_equal(fl_poly_box(&p, v3(1, 2, 0.5), &err), 0);
+    assert_int_equal(fl_poly_box(&q, v3(1, 2, 0.5), &err), 0);
+    fl_poly_to_frame(&q, v3(-2, -1, -0.2), one);
+    assert_int_equal(fl_shared_find(&p, &q, ZERO, v3(1, 0, 0), &s, &err), 1);
+    assert_near(s.area, 3 * 0.8, 1e-14);
+    assert_near_of(v3_norm(v3_sub(s.x, v3(1, 0.5, 0.1))), 0, 1e-14, 1);
+    assert_near_of(v3_norm(v3_sub(s.n, v3(1, 0, 0))), 0, 1e-14, 1);
+    assert_near(v3_norm(s.a), 0.4, 1e-13);
+    assert_near(v3_norm(s.b), 1.5, 1e-13);
+    assert_near(fabs(s.a.z), 0.4, 1e-13);
+    assert_near(fabs(s.b.y), 1.5, 1e-13);
+    /* a whole cell away */
+    assert_int_equal(fl_shared_find(&p, &q, v3(10, 0, 0), v3(1, 0, 0), &s, &err), 0);
+    assert_int_equal(fl_shared_find(&p, &q, v3(0, 0, 0.9), v3(1, 0, 0), &s, &err), 0); /* an edge, no face */
+    assert_int_equal(fl_shared_find(&p, &q, v3(0.1, 0, 0), v3(1, 0, 0), &s, &err), 0);
+    fl_poly_free(&p);
+    fl_poly_free(&q);
+    fl_shared_disc(PI, v3(1, 2, 3), v3(0, 0, 1), &s);
+    assert_near(PI * v3_norm2(s.a) / 3.0, PI / 4.0, 1e-14); /* A h^2/3 = pi r^4/4 */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(force_is_the_gradient),
+        cmocka_unit_test(the_pair_is_free),
+        cmocka_unit_test(springs_are_those_of_the_section),
+        cmocka_unit_test(crack_presses_on),
+        cmocka_unit_test(books_balance),
+        cmocka_unit_test(sizes_are_told),
+        cmocka_unit_test(faces_are_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
