@@ -7,6 +7,7 @@
 #include <string.h>
 #include "support/near.h"
 #include "scene/field_order.h"
+#include "step/frozen.h"
 #include "step/snapshot.h"
 #include "support/bits.h"
 #include "support/scenes.h"
@@ -44,6 +45,10 @@ static void renumber(fl_field *a)
         SWAP(fl_poly, a->core, i, j);
         SWAP(fl_vec3, a->vel, i, j);
         SWAP(fl_vec3, a->spin, i, j);
+    }
+    for (int32_t k = 0; k < a->bonds; k++) { /* fl_field_order() sorts them */
+        fl_field_bond *d = &a->bond[k];
+        d->i = a->n - 1 - d->i, d->j = a->n - 1 - d->j;
     }
 }
 
@@ -89,6 +94,10 @@ static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touc
     }
     const uint64_t got = bits_of(&l.w);
     if (it->scene == scene_of_traffic) assert_true(l.w.traffic.entered > 0 && l.w.traffic.left > 0);
+    if (it->scene == scene_of_bonds && steps >= 200) {
+        const fl_frozen_count c = fl_frozen_counted(&l.w);
+        assert_true(c.state[FL_BOND_HURT] > 0 && c.state[FL_BOND_BROKEN] > 0 && c.state[FL_BOND_ENDED] > 0);
+    }
     *touching = l.w.touching_steps;
     *searches = l.w.searches;
     lab_free(&l);
@@ -108,8 +117,8 @@ static void compare(const way *how, int ways, const what *it, int64_t steps, int
         fewest = searches < fewest ? searches : fewest;
         most = searches > most ? searches : most;
     }
-    /* the searches did differ, but for those that every newcomer asks for */
-    assert_true(most > (it->scene == scene_of_traffic ? 1 : 4) * fewest);
+    /* the searches did differ, but for those that every newcomer and every end of a bond asks for */
+    assert_true(most > (it->scene == scene_of_traffic || it->scene == scene_of_bonds ? 1 : 4) * fewest);
 }
 
 /* 512 bodies: enough for 16 threads. */
@@ -123,10 +132,11 @@ static void threads_and_searches(void **state)
     const what it[] = {{scene_of_everything, 8, "patch"},
                        {scene_of_wraps, 8, "patch"},
                        {scene_of_traffic, 8, "patch"},
-                       {scene_of_balls, 8, "patch"}};
+                       {scene_of_balls, 8, "patch"},
+                       {scene_of_bonds, 8, "patch"}};
     (void)state;
     compare(how, sizeof how / sizeof *how, &it[0], 10, 2000);
-    for (int k = 1; k < 4; k++) compare(few, sizeof few / sizeof *few, &it[k], 10, 2000);
+    for (int k = 1; k < 5; k++) compare(few, sizeof few / sizeof *few, &it[k], 10, k < 4 ? 2000 : 200);
 }
 
 static void laws(void **state)
@@ -134,7 +144,8 @@ static void laws(void **state)
     static const what IT[] = {{scene_of_everything, 3, "patch"},  {scene_of_everything, 3, "core"},
                               {scene_of_everything, 3, "manual"}, {scene_of_everything, 3, "manual-si"},
                               {scene_of_wraps, 3, "patch"},       {scene_of_seas, 3, "patch"},
-                              {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"}};
+                              {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"},
+                              {scene_of_bonds, 3, "patch"},       {scene_of_bonds, 3, "manual"}};
     const way how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                        {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                        {1, 0, 1.0, 0, 0, 1}};

@@ -9,10 +9,11 @@ uint64_t bits_of(fl_world *w)
 {
     const fl_ledger *g = &w->ledger;
     fl_step_ledger(w);
-    const double books[] = {g->carried,      g->kinetic,       g->gravity,     g->elastic,     g->hydrostatic,
-                            g->friction_now, g->damping_now,   g->drag,        g->wind,        g->drive_now,
-                            g->residual,     g->throughput,    w->imbalance.x, w->imbalance.y, w->imbalance.z,
-                            w->impulse_size, w->worst_overlap, w->dt_critical};
+    const double books[] = {g->bond,        g->fracture,     g->carried,       g->kinetic,
+                            g->gravity,     g->elastic,      g->hydrostatic,   g->friction_now,
+                            g->damping_now, g->drag,         g->wind,          g->drive_now,
+                            g->residual,    g->throughput,   w->imbalance.x,   w->imbalance.y,
+                            w->imbalance.z, w->impulse_size, w->worst_overlap, w->dt_critical};
     uint64_t h = fl_hash(fl_step_hash(w), books, (int64_t)sizeof books);
     h = fl_hash(h, w->part_impulse, w->parts * (int64_t)sizeof *w->part_impulse);
     h = fl_hash(h, w->part_moment, w->parts * (int64_t)sizeof *w->part_moment);

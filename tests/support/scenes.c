@@ -109,6 +109,62 @@ void scene_of_balls(lab *l, int32_t side, const char *law)
     }
 }
 
+/* The bodies next to k that have larger numbers, along x, y and z; along x the last one meets the first. */
+static void freeze(lab *l, int32_t side, int32_t k, fl_vec3 cell)
+{
+    const int32_t wide = side + 1, x = k % wide, y = k / wide % side, z = k / (wide * side);
+    const int32_t next[3] = {x + 1 < wide ? k + 1 : k + 1 - wide, y + 1 < side ? k + wide : -1,
+                             z + 2 < side ? k + wide * side : -1};
+    fl_err err = {0};
+    for (int e = 0; e < 3; e++) {
+        if (next[e] < 0) continue;
+        const int round = k % 7 == 3 || next[e] % 7 == 3;
+        const fl_vec3 at = v3_add(cell, v3(e == 0 ? 0.5 : 0.0, e == 1 ? 0.5 : 0.0, e == 2 ? 0.5 : 0.0));
+        if (fl_field_add_bond(&l->field, k, next[e], round ? 0.7 : 1.0, 1.0, at, &err)) exit(1);
+    }
+}
+
+void scene_of_bonds(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"material.ice.young=10 MPa",
+                                       "contact.friction=0.3",
+                                       "contact.restitution=0.4",
+                                       "run.gravity=9.81",
+                                       "bond.on=true",
+                                       "bond.normal_strength=10 kPa",
+                                       "bond.energy=8",
+                                       "bond.shear_strength=12 kPa",
+                                       "bond.shear_energy=10",
+                                       "bond.damping=0.02",
+                                       "group.towed.fixed=x ry",
+                                       "group.towed.velocity=0.3 0 0"};
+    const int32_t row = side + 1;
+    const double wide = 0.5 * row, half = 0.5 * side;
+    lab_start(l);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    lab_set(l, "boundary.type=periodic rigid rigid");
+    lab_setf(l, "boundary.min=%.17g %.17g %.17g", -wide, -half - 0.01, -half + 0.001);
+    lab_setf(l, "boundary.max=%.17g %.17g none", wide, half + 0.01);
+    for (int32_t k = 0; k < row * side * (side - 1); k++) {
+        fl_rng g = fl_rng_of(7, k, FL_RNG_TEST);
+        fl_err err = {0};
+        fl_poly p = {0};
+        const fl_vec3 cell =
+            v3(k % row - wide + 0.5, k / row % side - half + 0.5, k / (row * side) - half + 0.5);
+        const fl_vec3 v = v3_scale(0.4, normal3(&g)), spin = v3_scale(0.4, normal3(&g)), none = v3(0, 0, 0);
+        const int round = k % 7 == 3;
+        if ((round ? fl_poly_make(&p, 1, &none, 0, NULL, NULL, &err)
+                   : fl_poly_box(&p, v3(0.45, 0.45, 0.45), &err)))
+            exit(1);
+        shape_move(&p, q_one(), cell);
+        if (fl_field_add(&l->field, k + 1, round ? 0.5 : 0.05, &p, NULL, k % 11 == 5 ? "towed" : NULL, v,
+                         spin, &err))
+            exit(1);
+        freeze(l, side, k, cell);
+    }
+}
+
 void scene_of_seas(lab *l, int32_t side, const char *law)
 {
     static const char *const KEYS[] = {
