@@ -18,7 +18,8 @@ void scene_of_seas(lab *l, int32_t side, const char *law);
 /* Spheres of two sizes in such a cell, one body in nine a box; laws as above. */
 void scene_of_balls(lab *l, int32_t side, const char *law);
 
-/* side + 1 by side by side - 1 boxes and spheres that are frozen together, and at once torn apart; space repeats itself along x. */
+/* side + 1 by side by side - 1 boxes and spheres that are frozen together, and at once torn apart; space
+ * repeats itself along x. */
 void scene_of_bonds(lab *l, int32_t side, const char *law);
 
 /* The same where nothing bounds the heap along x: floes leave there at once, and copies of it come in. */
