@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#define _GNU_SOURCE /* fopencookie */
+#define _GNU_SOURCE /* fopencookie, flock */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -220,17 +221,53 @@ static int name_out(fl_out *out, const char *path, int *direct, fl_err *err)
     return fl_fail(err, FL_SYSTEM, "out of memory");
 }
 
+/* Open tmp for one writer alone; made where it is not there, if `make`.  The lock goes with the last
+ * descriptor, however the program ends, and stays with the file through a rename: by the time it is had the
+ * name may be that of another file, which is then tried.  Where files cannot be locked there is none.  The
+ * descriptor, or -1. */
+static int open_alone(fl_out *out, int make, fl_err *err)
+{
+    for (;;) {
+        struct stat ours, named;
+        const int fd = open(out->tmp, O_RDWR | (make ? O_CREAT : 0) | O_CLOEXEC, 0666);
+        if (fd < 0) {
+            fl_fail(err, FL_SYSTEM, "%s: %s", out->path, strerror(errno));
+            return -1;
+        }
+        if (flock(fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {
+            fl_fail(err, FL_SYSTEM,
+                    "%s: something else writes it already, another run or another output of this one",
+                    out->path);
+            close(fd);
+            return -1;
+        }
+        if (fstat(fd, &ours) == 0 && stat(out->tmp, &named) == 0 && ours.st_dev == named.st_dev &&
+            ours.st_ino == named.st_ino)
+            return fd;
+        close(fd);
+        if (!make) {
+            fl_fail(err, FL_SYSTEM, "%s: it was taken away while it was opened", out->path);
+            return -1;
+        }
+    }
+}
+
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err)
 {
     int fd = STDOUT_FILENO, direct;
     *out = (fl_out){0};
     if (strcmp(path, "-") != 0) {
         if (name_out(out, path, &direct, err)) return -1;
-        fd = open(direct ? out->path : out->tmp, (direct ? O_WRONLY : O_RDWR) | O_CREAT | O_TRUNC | O_CLOEXEC,
-                  0666);
-        if (fd < 0) {
+        if (direct) fd = open(out->path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        else fd = open_alone(out, 1, err);
+        if (fd >= 0 && !direct && ftruncate(fd, 0)) {
             fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
-            free(out->tmp);
+            close(fd);
+            goto fail;
+        }
+        if (fd < 0) {
+            if (direct) fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
+            free(out->tmp); /* it is another's, or none */
             out->tmp = NULL;
             goto fail;
         }
@@ -268,6 +305,7 @@ int fl_out_close(fl_out *out, fl_err *err)
     const char *name = out->path ? out->path : "<stdout>";
     if (!out->f) return 0;
     int bad = settle(out) != 0, why = errno;
+    const int alone = out->tmp ? dup(fd_of(out)) : -1; /* the lock, until the file has its name */
     zipper *z = out->gz;
     if (out->f != stdout && fclose(out->f) != 0 && !bad) bad = 1, why = errno;
     out->f = NULL;
@@ -278,12 +316,12 @@ int fl_out_close(fl_out *out, fl_err *err)
         out->gz = NULL;
     }
     if (!bad && out->tmp && rename(out->tmp, out->path) != 0) bad = 1, why = errno;
+    if (bad && out->tmp && !out->keep) unlink(out->tmp);
+    if (alone >= 0) close(alone);
     if (bad) fl_fail(err, FL_SYSTEM, "%s: %s", name, why ? strerror(why) : "could not write all of it");
-    else if (out->tmp) {
-        sync_folder(out->path);
-        free(out->tmp);
-        out->tmp = NULL;
-    }
+    else if (out->tmp) sync_folder(out->path);
+    free(out->tmp); /* renamed, kept, or gone: no longer ours to remove */
+    out->tmp = NULL;
     fl_out_abort(out);
     return bad ? -1 : 0;
 }
@@ -291,13 +329,13 @@ int fl_out_close(fl_out *out, fl_err *err)
 void fl_out_abort(fl_out *out)
 {
     zipper *z = out->gz;
+    if (out->tmp && !out->keep) unlink(out->tmp); /* while the lock is held */
     if (out->f && out->f != stdout) fclose(out->f);
     if (z) {
         zip_end(z);
         if (z->fd != STDOUT_FILENO) close(z->fd);
         free(z);
     }
-    if (out->tmp && !out->keep) unlink(out->tmp);
     free(out->tmp);
     free(out->path);
     *out = (fl_out){0};
@@ -393,9 +431,15 @@ int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, 
         out->keep = 1;
         if (which < 0) no_holder(out, err);
         if (which < 0) goto fail;
-        if (which == 1 && rename(out->path, out->tmp)) goto system;
-        fd = open(out->tmp, O_RDWR | O_CLOEXEC);
-        if (fd < 0) goto system;
+        if (which == 1) { /* what has the other name may be that of a run under way */
+            const int other = open_alone(out, 1, err);
+            if (other < 0) goto fail;
+            const int bad = rename(out->path, out->tmp);
+            close(other);
+            if (bad) goto system;
+        }
+        fd = open_alone(out, 0, err);
+        if (fd < 0) goto fail;
     }
     if (ftruncate(fd, mark->at) || lseek(fd, mark->at, SEEK_SET) < 0) {
         fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));

@@ -43,7 +43,9 @@ typedef struct {
 enum { FL_MARK_TAIL = 4096 };
 
 /* Open path for writing ("-" is standard output); gzip compresses, 2 faster and less.  A link is followed,
- * and a device or a pipe (/dev/null, a fifo) is written to directly.  FL_SYSTEM in err on failure. */
+ * and a device or a pipe (/dev/null, a fifo) is written to directly.  What is unfinished, PATH.part, is
+ * locked, and a file that something else writes at the same time is refused and left alone.  FL_SYSTEM in err
+ * on failure. */
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err);
 
 /* Flush, sync, and give the file its final name, which is synced too.  -1 with FL_SYSTEM in err when anything

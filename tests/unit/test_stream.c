@@ -390,6 +390,30 @@ static void to_standard_output(void **state)
 }
 
 /* Written in two runs, the first of which went on after its mark and then failed, ended or was killed. */
+/* The mark of a program that was killed a little later. */
+static fl_mark written_and_killed(const char *path, int gz)
+{
+    fl_mark mark = {0};
+    int way[2];
+    assert_int_equal(pipe(way), 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        fl_out out = {0};
+        fl_err err = {0};
+        if (fl_out_open(&out, path, gz, &err)) _exit(1);
+        fwrite(sample, 1, 100000, out.f);
+        if (fl_out_mark(&out, &mark, &err) || write(way[1], &mark, sizeof mark) != sizeof mark) _exit(1);
+        fwrite("lost", 1, 4, out.f);
+        fflush(out.f);
+        raise(SIGKILL);
+    }
+    assert_int_equal(read(way[0], &mark, sizeof mark), sizeof mark);
+    assert_int_equal(waitpid(child, NULL, 0), child);
+    close(way[0]), close(way[1]);
+    return mark;
+}
+
 static void gone_on_with_at_a_mark(void **state)
 {
     (void)state;
@@ -402,14 +426,16 @@ static void gone_on_with_at_a_mark(void **state)
             fl_mark mark;
             int fresh = 1;
             snprintf(part, sizeof part, "%s.part", path);
-            assert_int_equal(fl_out_open(&out, path, gz, &err), 0);
-            fwrite(sample, 1, 100000, out.f);
-            assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
+            if (end == 2) mark = written_and_killed(path, gz);
+            else {
+                assert_int_equal(fl_out_open(&out, path, gz, &err), 0);
+                fwrite(sample, 1, 100000, out.f);
+                assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
+                fwrite("lost", 1, 4, out.f);
+            }
             assert_true(gz ? mark.at > 0 : mark.at == 100000);
-            fwrite("lost", 1, 4, out.f);
             if (end == 0) fl_out_abort(&out); /* keeps PATH.part, as a mark speaks of it */
-            else if (end == 1) assert_int_equal(fl_out_close(&out, &err), 0);
-            else assert_int_equal(fflush(out.f), 0);
+            if (end == 1) assert_int_equal(fl_out_close(&out, &err), 0);
             assert_int_equal(access(end == 1 ? path : part, F_OK), 0);
             assert_int_equal(fl_out_marked(path, &mark, &err), 0);
             assert_int_equal(fl_out_resume(&again, path, gz, &mark, &fresh, &err), 0);
@@ -419,7 +445,6 @@ static void gone_on_with_at_a_mark(void **state)
             assert_int_equal(fl_out_close(&again, &err), 0);
             expect_sample(path, 1);
             assert_int_equal(access(part, F_OK), -1);
-            if (end == 2) fl_out_abort(&out);
             unlink(path);
         }
     }
@@ -463,6 +488,57 @@ static void another_file_is_not_gone_on_with(void **state)
     unlink(path);
 }
 
+/* The first n bytes of the sample, and no more. */
+static void holds(const char *path, int64_t n)
+{
+    static unsigned char got[SIZE];
+    fl_err err = {0};
+    assert_int_equal(slurp(path, got, sizeof got, 65536, &err), n);
+    assert_memory_equal(got, sample, (size_t)n);
+}
+
+/* The second writer of a file is told so, and the first does not notice; the next one has it. */
+static void one_writer_at_a_time(void **state)
+{
+    (void)state;
+    for (int gz = 0; gz < 2; gz++) {
+        const char *path = test_path("shared");
+        fl_out first = {0}, second = {0}, third = {0};
+        fl_err err = {0}, none = {0};
+        fl_mark mark;
+        int fresh;
+        assert_int_equal(fl_out_open(&first, path, gz, &none), 0);
+        fwrite(sample, 1, 5000, first.f);
+        assert_int_equal(fl_out_mark(&first, &mark, &none), 0);
+        assert_int_equal(fl_out_open(&second, path, gz, &err), -1);
+        assert_int_equal(err.code, FL_SYSTEM);
+        assert_non_null(strstr(err.text, "something else writes it already"));
+        err = (fl_err){0};
+        assert_int_equal(fl_out_resume(&second, path, gz, &mark, &fresh, &err), -1);
+        assert_int_equal(err.code, FL_SYSTEM);
+        assert_non_null(strstr(err.text, "something else writes it already"));
+        fwrite(sample + 5000, 1, 5000, first.f);
+        assert_int_equal(fl_out_close(&first, &none), 0);
+        holds(path, 10000);
+        /* the finished one is taken up by one, and then by no other */
+        assert_int_equal(fl_out_resume(&second, path, gz, &mark, &fresh, &none), 0);
+        err = (fl_err){0};
+        assert_int_equal(fl_out_open(&third, path, gz, &err), -1);
+        assert_non_null(strstr(err.text, "something else writes it already"));
+        fwrite(sample + 5000, 1, 50, second.f);
+        assert_int_equal(fl_out_close(&second, &none), 0);
+        holds(path, 5050);
+        /* what was dropped leaves nothing locked */
+        assert_int_equal(fl_out_open(&first, path, gz, &none), 0);
+        fl_out_abort(&first);
+        assert_int_equal(fl_out_open(&second, path, gz, &none), 0);
+        fwrite(sample, 1, 10, second.f);
+        assert_int_equal(fl_out_close(&second, &none), 0);
+        holds(path, 10);
+        unlink(path);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(plain_and_gzip),
@@ -476,6 +552,7 @@ int main(void)
                                        cmocka_unit_test(full_disk),
                                        cmocka_unit_test(devices_and_links_stay),
                                        cmocka_unit_test(into_a_fifo),
+                                       cmocka_unit_test(one_writer_at_a_time),
                                        cmocka_unit_test(gone_on_with_at_a_mark),
                                        cmocka_unit_test(another_file_is_not_gone_on_with),
                                        cmocka_unit_test(to_standard_output)};
