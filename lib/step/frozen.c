@@ -10,6 +10,9 @@
 /* Centres nearer than this of the size of their face, along its normal, have no length between them. */
 #define FLAT 1e-6
 
+/* All six directions. */
+enum { HELD = 63 };
+
 /* --- which there are --------------------------------------------------------------------------- */
 
 static fl_vec3 way_of(const fl_world *w, int32_t k)
@@ -132,13 +135,14 @@ static int index_bonds(fl_world *w, fl_err *err)
     return 0;
 }
 
-/* The springs of bond c, for one of its bodies. */
+/* The springs of bond c, for one of its bodies; none for one that nothing moves. */
 static void stiffen(const fl_world *w, const fl_bond *c, int is_i, double share, fl_stiff *out)
 {
     const fl_bodies *b = &w->b;
     const int32_t k = is_i ? c->i : c->j;
     const fl_mat3 R = b->R[k];
     const fl_vec3 n = m3_mul(R, is_i ? c->ni : c->nj);
+    if (b->hold[k] == HELD) return;
     for (int at = 0; at < FL_BOND_POINTS; at++) {
         double xi, eta;
         const double wa = share * fl_bond_point_at(at, &xi, &eta) * c->area;
