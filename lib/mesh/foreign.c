@@ -27,6 +27,8 @@ static const struct {
     {"MeshVersionFormatted", 0, "a MEDIT mesh: " DECK},
     {"MeshVersionUnformatted", 0, "a MEDIT mesh: " DECK},
     {"#RADIOSS", 0, "a deck of Radioss: " DECK},
+    {"version https://git-lfs", 0,
+     "a pointer of Git LFS to the file, and not the file: git lfs pull brings it"},
     {"%PDF", 0, "a PDF document, where a mesh was wanted"},
 };
 

@@ -209,7 +209,12 @@ static void cut(reader *c)
     while (n < FL_CDB_WORDS) c->k.word[n++] = none;
 }
 
-static int is(const reader *c, const char *word) { return strcasecmp(c->k.word[0], word) == 0; }
+/* A command, in full or cut behind its fourth letter or later: CDWRITE itself writes KEYOP. */
+static int is(const reader *c, const char *word)
+{
+    const size_t n = strlen(c->k.word[0]), full = strlen(word);
+    return (n == full || (n >= 4 && n < full)) && strncasecmp(c->k.word[0], word, n) == 0;
+}
 
 static int remember(reader *c, int64_t *x, int k)
 {

@@ -176,12 +176,12 @@ int fl_mesh_read_some(fl_surface *s, const char *path, fl_wish *w, char *note, f
     base_name(path, name);
     if (fl_bytes_open(&b, path, err) || read_any(&got, &b, name, w, err)) goto done;
     drop_empty(&got, &b);
+    memcpy(note, b.note, FL_MESH_NOTE);
     if (got.n == 0 && !fl_wish_chooses(w)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);
         goto done;
     }
     if (append(s, &got, err)) goto done;
-    memcpy(note, b.note, FL_MESH_NOTE);
     rc = 0;
 done:
     fl_surface_free(&got);

@@ -151,6 +151,21 @@ static void single_commands_work_beside_blocks(void **state)
     assert_int_equal(s.part[0].nt, 12);
 }
 
+/* As CDWRITE and Workbench write them. */
+static void commands_may_be_cut(void **state)
+{
+    (void)state;
+    reads("ET,        1,200\nKEYOP,        1, 1,       10\n" NODES "EBLOCK,19,SOLID,9,1\n(19i4)\n"
+          "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7   8\n  -1\n");
+    assert_int_equal(s.part[0].nt, 12);
+    reads("et,1,200\nkeyo,1,1,6\n" NODES "en,1,1,2,3,4\n");
+    assert_int_equal(s.part[0].nt, 2);
+    reads("et,1,95\n" NODES "e,1,2,3,4,5,6,7,8\nemor\n");
+    assert_int_equal(s.part[0].nt, 12);
+    reads("et,1,188\nsect,1,beam,csolid\nsecd,0.5\nsecn,1\n" NODES "e,1,2\n");
+    assert_near(s.part[0].cone[0].r0, 0.5, 0.0);
+}
+
 static void bad_decks_are_told_where_and_why(void **state)
 {
     (void)state;
@@ -200,6 +215,7 @@ int main(void)
         cmocka_unit_test(counts_are_only_told),
         cmocka_unit_test(lines_have_the_radius_of_their_section),
         cmocka_unit_test(single_commands_work_beside_blocks),
+        cmocka_unit_test(commands_may_be_cut),
         cmocka_unit_test(bad_decks_are_told_where_and_why),
         cmocka_unit_test(release),
     };
