@@ -363,6 +363,7 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
         for (int32_t i = first[t]; !bad && i < first[t + 1]; i++) bad = add_element(k, &p, t, list[i], err);
         for (int32_t i = pick_first[t]; !bad && i < pick_first[t + 1]; i++)
             bad = add_pick(k, &p, &k->pick[pick_list[i]], err);
+        if (!bad) bad = fl_part_straighten(&p, &k->straight, err);
         if (!bad && (p.nt || p.nc)) {
             const int32_t at = fl_surface_add(s, name_of(e, t), strlen(name_of(e, t)), err);
             bad = at < 0;
@@ -388,6 +389,10 @@ done:
 
 void fl_skin_tell(const fl_skin *k, fl_bytes *b)
 {
+    char aside[100] = "";
+    if (k->straight.off > 0.0)
+        snprintf(aside, sizeof aside, ", at most %.3g from where they were, in the unit of the file",
+                 k->straight.off);
     if (k->curved)
         fl_bytes_note(
             b,
@@ -395,6 +400,9 @@ void fl_skin_tell(const fl_skin *k, fl_bytes *b)
             "unit of the file; --subdivide keeps them",
             k->curved, k->sagitta);
     if (k->bare) fl_bytes_note(b, "%d lines without a section radius or a length were passed over", k->bare);
+    if (k->straight.lines)
+        fl_bytes_note(b, "%d lines that go straight on became %d%s", k->straight.lines, k->straight.left,
+                      aside);
     if (k->left)
         fl_bytes_note(b, "%d solids are numbered left-handed; their faces were turned outward", k->left);
     if (k->flat) fl_bytes_note(b, "%d solids have no volume", k->flat);

@@ -4,6 +4,7 @@
 #ifndef FL_MESH_SKIN_H
 #define FL_MESH_SKIN_H
 #include "mesh/elements.h"
+#include "mesh/straight.h"
 
 enum { FL_SKIN_MET = 1 << 7 }; /* six faces at most: the highest bit is free */
 
@@ -37,6 +38,7 @@ typedef struct {
     int32_t twins;          /* elements on the nodes of another one */
     int32_t covered, taken; /* shells on faces that others bring; that brought the face of a solid */
     int32_t between;        /* shells between two solids */
+    fl_straight straight;   /* lines that were joined */
 } fl_skin;
 
 /* Start with every element going nowhere.  -1 with FL_SYSTEM. */
