@@ -139,12 +139,20 @@ static void rub(const fl_bond *c, fl_bond_point *p, const double s[3], double kn
     e[0] = e0, e[1] = e1;
 }
 
-/* How much of the pressing part of a crack is gone. */
-static double wear(const fl_bond *c, const standing *q)
+/* How much of the two sides still faces the other. */
+static double facing(const fl_bond *c, const standing *q)
 {
     const double a = positive(1.0 - fabs(q->s[1]) / (2.0 * v3_norm(c->ai))),
                  b = positive(1.0 - fabs(q->s[2]) / (2.0 * v3_norm(c->bi)));
-    const double u = q->cosine < TURNED ? q->cosine / TURNED : 1.0, now = 1.0 - a * b * u;
+    return a * b * (q->cosine < TURNED ? q->cosine / TURNED : 1.0);
+}
+
+/* How much of the pressing part is gone. */
+static double wear(const fl_bond *c, const standing *q)
+{
+    double now = 0.0;
+    if (c->state == FL_BOND_BROKEN) now = c->held > 0.0 ? 1.0 - facing(c, q) / c->held : 1.0;
+    else if (q->cosine < TURNED) now = 1.0 - q->cosine / TURNED;
     return now > c->worn ? now : c->worn;
 }
 
@@ -246,18 +254,15 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
     standing q;
     traction elastic = {0}, friction = {0};
-    double turn[2] = {0}, half[3] = {0}, store = 0.0, spring = 0.0, more = 0.0;
+    double turn[2] = {0}, half[3] = {0}, store = 0.0, spring = 0.0;
     int hurt = 0, failed = 0, open = 0;
     if (c->state == FL_BOND_ENDED) return 0;
     if (!stand(c, b, way, &q)) {
         fl_bond_end(c);
         return 1;
     }
-    if (c->state == FL_BOND_BROKEN || q.cosine < TURNED) {
-        const double worn = c->state == FL_BOND_BROKEN ? wear(c, &q) : fmax(c->worn, 1.0 - q.cosine / TURNED);
-        more = worn - c->worn;
-        c->worn = worn;
-    }
+    const double worn = wear(c, &q), more = worn - c->worn;
+    c->worn = worn;
     calm(c);
     const double pressing = c->kn * (1.0 - c->worn);
     for (int k = 0; k < FL_BOND_POINTS; k++) {
@@ -290,6 +295,7 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
         failed += d == 1.0;
         open += s[0] >= 0.0;
     }
+    if (c->state != FL_BOND_BROKEN && failed == FL_BOND_POINTS) c->held = facing(c, &q);
     if (c->state != FL_BOND_BROKEN)
         c->state = failed == FL_BOND_POINTS ? FL_BOND_BROKEN : hurt ? FL_BOND_HURT : FL_BOND_WHOLE;
     c->store = store;

@@ -30,9 +30,10 @@
  *
  * Crack.  A face that has failed all over goes on as a crack until it is open at all points or has slid off
  * its partner; then it is ended, and carries no force at that moment.  Its pressing part wears off,
- *     c = 1 - (1 - |s_1|/a)(1 - |s_2|/b) u,
- * a, b the sides, s_1, s_2 the slip of the centre, and u falls from 1 to 0 as the normals turn apart from 60
- * to 90 degrees; c never falls.  Turned by more than 90 degrees any face is ended.
+ *     c = 1 - h/h_0,     h = (1 - |s_1|/a)(1 - |s_2|/b) u,
+ * a, b the sides, s_1, s_2 the slip of the centre, u falling from 1 to 0 as the normals turn apart from 60 to
+ * 90 degrees, and h_0 what h was when the face failed; c never falls.  Turned by more than 90 degrees any
+ * face is ended.
  *
  * Books.  A step of kick, drift, kick takes the work (F0 + F1).(s1 - s0)/2, so what a growing d takes out of
  * a point is w A (d1 - d0)/2 (k_n <s_n0><s_n1> + k_s s_t0.s_t1), exactly what is missing from the energy
@@ -82,6 +83,7 @@ typedef struct {
     double damping;   /* dashpot over spring, of what is not damaged       [s]           */
     /* its past */
     int32_t state; /* enum fl_bond_state                                              */
+    double held;   /* h_0, 0 before it has failed */
     double worn;   /* c                                                               */
     double spent;  /* taken out by damage and wear so far               [J]           */
     double handed; /* and given to the springs of friction              [J]           */

@@ -438,6 +438,7 @@ static void bond(traffic *t, fl_world *w, int32_t k)
     fl_vec3 *const all[] = {&c->f, &c->ti, &c->tj, &c->fd, &c->di, &c->dj, &c->fs, &c->si, &c->sj};
     open_row(t, "bond");
     whole(t, FL_BOND_WHOLE, FL_BOND_ENDED, &c->state);
+    real(t, &c->held);
     real(t, &c->worn);
     real(t, &c->spent);
     real(t, &c->handed);
