@@ -190,6 +190,27 @@ static void put_vtk(FILE *f, const struct torus *t)
     put_rows(f, t, "%.9g %.9g %.9g\n", middle, "3 %d %d %d\n", 0, 0);
 }
 
+static void put_vtp(FILE *f, const struct torus *t)
+{
+    static const char ARRAY[] =
+        "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n",
+                      END[] = "</DataArray>\n";
+    char middle[400];
+    int n = 0;
+    fprintf(f,
+            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+            "<Piece NumberOfPoints=\"%d\" NumberOfPolys=\"%d\">\n<Points>\n",
+            vertices(t), triangles(t));
+    fprintf(f, ARRAY, "Float32", "Points", 3);
+    n = snprintf(middle, sizeof middle, "%s</Points>\n<Polys>\n", END);
+    snprintf(middle + n, sizeof middle - (size_t)n, ARRAY, "Int32", "connectivity", 1);
+    put_rows(f, t, "%.9g %.9g %.9g\n", middle, "%d %d %d\n", 0, 0);
+    fputs(END, f);
+    fprintf(f, ARRAY, "Int32", "offsets", 1);
+    for (int k = 1; k <= triangles(t); k++) fprintf(f, "%d\n", 3 * k);
+    fprintf(f, "%s</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n", END);
+}
+
 /* Gmsh 4.1 in binary: one block of nodes, one of elements. */
 static void put_msh_binary(FILE *f, const struct torus *t)
 {
@@ -245,8 +266,9 @@ static const struct format {
     int text;
 } FORMAT[] = {{"stl-binary", put_stl, 0}, {"msh-binary", put_msh_binary, 0},
               {"obj", put_obj, 1},        {"vtk", put_vtk, 1},
-              {"msh", put_msh, 1},        {"inp", put_inp, 1},
-              {"bdf", put_bdf, 1},        {"cdb", put_cdb, 1}};
+              {"vtp", put_vtp, 1},        {"msh", put_msh, 1},
+              {"inp", put_inp, 1},        {"bdf", put_bdf, 1},
+              {"cdb", put_cdb, 1}};
 enum { FORMATS = sizeof FORMAT / sizeof *FORMAT };
 
 static double seconds(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
