@@ -216,12 +216,13 @@ static void dash(fl_bond *c, const fl_bodies *b, const standing *q)
     double r[3], ru[3], rv[3], half[3] = {0};
     rates(c, b, q, r, ru, rv);
     for (int k = 0; k < FL_BOND_POINTS; k++) {
-        double xi, eta, x[3];
+        double xi, eta, x[3], s[3];
         const fl_bond_point *p = &c->point[k];
         const double scale = fl_bond_point_at(k, &xi, &eta) * c->area * c->damping * (1.0 - p->d);
         for (int e = 0; e < 3; e++) x[e] = scale * (e ? c->ks : c->kn) * (r[e] + xi * ru[e] + eta * rv[e]);
         add(&t, xi, eta, x[0], x[1], x[2]);
-        add_moment(half, p->s, x[0], x[1], x[2]);
+        separation(q, xi, eta, s);
+        add_moment(half, s, x[0], x[1], x[2]);
     }
     between(q, &t, half, &c->fd, &c->di, &c->dj);
 }
@@ -239,23 +240,90 @@ void fl_bond_end(fl_bond *c)
     c->state = FL_BOND_ENDED;
 }
 
+/* What is kept of a look. */
+static void keep(fl_bond *c, const standing *q)
+{
+    for (int e = 0; e < 3; e++) c->s[e] = q->s[e], c->su[e] = q->su[e], c->sv[e] = q->sv[e];
+}
+
 void fl_bond_look(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
     standing q;
-    if (c->state == FL_BOND_ENDED || !stand(c, b, way, &q)) return;
-    for (int k = 0; k < FL_BOND_POINTS; k++) {
-        double xi, eta;
-        fl_bond_point_at(k, &xi, &eta);
-        separation(&q, xi, eta, c->point[k].s);
+    if (c->state != FL_BOND_ENDED && stand(c, b, way, &q)) keep(c, &q);
+}
+
+/* What the points come to. */
+typedef struct {
+    traction elastic, friction;
+    double turn[2], half[3]; /* for the turn of m; the moment of friction */
+    int hurt, failed, open;  /* points */
+} result;
+
+/* Whether no point of a whole face can have reached its strength: the largest opening and shear that any may
+ * have, and no help of pressure. */
+static int holds(const fl_bond *c, const standing *q)
+{
+    const double open = positive(q->s[0] + fabs(q->su[0]) + fabs(q->sv[0])),
+                 x = fabs(q->s[1]) + fabs(q->su[1]) + fabs(q->sv[1]),
+                 y = fabs(q->s[2]) + fabs(q->su[2]) + fabs(q->sv[2]);
+    const double sigma = c->kn * open, tau2 = c->ks * c->ks * (x * x + y * y), T = c->tension * c->tension,
+                 C = c->cohesion * c->cohesion;
+    return sigma * sigma / T + tau2 / C < 1.0 - 1e-9;
+}
+
+/* The sums over the points of a whole face: the weights have sum 1, and 1/3 with the square of a coordinate. */
+static void whole(fl_bond *c, const standing *q, result *out)
+{
+    double square[3];
+    for (int e = 0; e < 3; e++) {
+        const double k = c->area * (e ? c->ks : c->kn);
+        out->elastic.f[e] = k * q->s[e];
+        out->elastic.fu[e] = k / 3.0 * q->su[e];
+        out->elastic.fv[e] = k / 3.0 * q->sv[e];
+        square[e] = q->s[e] * q->s[e] + (q->su[e] * q->su[e] + q->sv[e] * q->sv[e]) / 3.0;
     }
+    for (int e = 0; e < 2; e++)
+        out->turn[e] = c->area * (c->kn - c->ks) *
+                       (q->s[0] * q->s[e + 1] + (q->su[0] * q->su[e + 1] + q->sv[0] * q->sv[e + 1]) / 3.0);
+    c->store = 0.5 * c->area * (c->kn * square[0] + c->ks * (square[1] + square[2]));
+}
+
+/* Point k: what a look does to it, and what it gives.  more: what has worn off since the last. */
+static void look_at(fl_bond *c, const standing *q, int k, double more, result *out)
+{
+    fl_bond_point *p = &c->point[k];
+    double xi, eta, s[3], before[3];
+    const double wa = fl_bond_point_at(k, &xi, &eta) * c->area, pressing = c->kn * (1.0 - c->worn);
+    separation(q, xi, eta, s);
+    for (int e = 0; e < 3; e++) before[e] = c->s[e] + xi * c->su[e] + eta * c->sv[e];
+    const double d = damage(c, p, s), grown = d - p->d, shear2 = s[1] * before[1] + s[2] * before[2];
+    if (grown > 0.0)
+        c->spent += 0.5 * wa * grown * (c->kn * positive(s[0]) * positive(before[0]) + c->ks * shear2);
+    if (more > 0.0) c->spent += 0.5 * wa * more * c->kn * positive(-s[0]) * positive(-before[0]);
+    p->d = d;
+    const double kn = s[0] > 0.0 ? (1.0 - d) * c->kn : pressing, ks = (1.0 - d) * c->ks;
+    add(&out->elastic, xi, eta, wa * kn * s[0], wa * ks * s[1], wa * ks * s[2]);
+    c->store += 0.5 * wa * (kn * s[0] * s[0] + ks * (s[1] * s[1] + s[2] * s[2]));
+    out->turn[0] += wa * (kn - ks) * s[0] * s[1];
+    out->turn[1] += wa * (kn - ks) * s[0] * s[2];
+    out->hurt += d > 0.0;
+    out->failed += d == 1.0;
+    out->open += s[0] >= 0.0;
+    if (d == 0.0) return;
+    double e[2];
+    rub(c, p, s, pressing, e);
+    const double k_rub = wa * d * c->ks, held = 0.5 * wa * c->ks * (e[0] * e[0] + e[1] * e[1]);
+    add(&out->friction, xi, eta, 0.0, k_rub * e[0], k_rub * e[1]);
+    add_moment(out->half, s, 0.0, k_rub * e[0], k_rub * e[1]);
+    c->spring += d * held;
+    c->handed += grown * held;
+    c->spent -= grown * held;
 }
 
 int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
     standing q;
-    traction elastic = {0}, friction = {0};
-    double turn[2] = {0}, half[3] = {0}, store = 0.0, spring = 0.0;
-    int hurt = 0, failed = 0, open = 0;
+    result r = {0};
     if (c->state == FL_BOND_ENDED) return 0;
     if (!stand(c, b, way, &q)) {
         fl_bond_end(c);
@@ -264,53 +332,25 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
     const double worn = wear(c, &q), more = worn - c->worn;
     c->worn = worn;
     calm(c);
-    const double pressing = c->kn * (1.0 - c->worn);
-    for (int k = 0; k < FL_BOND_POINTS; k++) {
-        fl_bond_point *p = &c->point[k];
-        double xi, eta, s[3];
-        const double wa = fl_bond_point_at(k, &xi, &eta) * c->area;
-        separation(&q, xi, eta, s);
-        const double d = damage(c, p, s), grown = d - p->d, now2 = s[1] * p->s[1] + s[2] * p->s[2];
-        if (grown > 0.0)
-            c->spent += 0.5 * wa * grown * (c->kn * positive(s[0]) * positive(p->s[0]) + c->ks * now2);
-        if (more > 0.0) c->spent += 0.5 * wa * more * c->kn * positive(-s[0]) * positive(-p->s[0]);
-        p->d = d;
-        const double kn = s[0] > 0.0 ? (1.0 - d) * c->kn : pressing, ks = (1.0 - d) * c->ks;
-        add(&elastic, xi, eta, wa * kn * s[0], wa * ks * s[1], wa * ks * s[2]);
-        store += 0.5 * wa * (kn * s[0] * s[0] + ks * (s[1] * s[1] + s[2] * s[2]));
-        turn[0] += wa * (kn - ks) * s[0] * s[1];
-        turn[1] += wa * (kn - ks) * s[0] * s[2];
-        if (d > 0.0) {
-            double e[2];
-            rub(c, p, s, pressing, e);
-            const double k_rub = wa * d * c->ks, held = 0.5 * wa * c->ks * (e[0] * e[0] + e[1] * e[1]);
-            add(&friction, xi, eta, 0.0, k_rub * e[0], k_rub * e[1]);
-            add_moment(half, s, 0.0, k_rub * e[0], k_rub * e[1]);
-            spring += d * held;
-            c->handed += grown * held;
-            c->spent -= grown * held;
-        }
-        for (int e = 0; e < 3; e++) p->s[e] = s[e];
-        hurt += d > 0.0;
-        failed += d == 1.0;
-        open += s[0] >= 0.0;
-    }
-    if (c->state != FL_BOND_BROKEN && failed == FL_BOND_POINTS) c->held = facing(c, &q);
+    if (c->state == FL_BOND_WHOLE && worn == 0.0 && holds(c, &q)) whole(c, &q, &r);
+    else
+        for (int k = 0; k < FL_BOND_POINTS; k++) look_at(c, &q, k, more, &r);
+    keep(c, &q);
+    if (c->state != FL_BOND_BROKEN && r.failed == FL_BOND_POINTS) c->held = facing(c, &q);
     if (c->state != FL_BOND_BROKEN)
-        c->state = failed == FL_BOND_POINTS ? FL_BOND_BROKEN : hurt ? FL_BOND_HURT : FL_BOND_WHOLE;
-    c->store = store;
-    c->spring = spring;
-    if (c->state == FL_BOND_BROKEN && (open == FL_BOND_POINTS || c->worn >= 1.0)) {
+        c->state = r.failed == FL_BOND_POINTS ? FL_BOND_BROKEN : r.hurt ? FL_BOND_HURT : FL_BOND_WHOLE;
+    if (c->state == FL_BOND_BROKEN && (r.open == FL_BOND_POINTS || c->worn >= 1.0)) {
         fl_bond_end(c);
         return 1;
     }
-    const double tilt[3] = {0.0, turn[0] / q.length, turn[1] / q.length};
+    const double tilt[3] = {0.0, r.turn[0] / q.length, r.turn[1] / q.length};
     const fl_vec3 across = world(&q, tilt);
-    apart(&q, &elastic, &c->f, &c->ti, &c->tj);
+    apart(&q, &r.elastic, &c->f, &c->ti, &c->tj);
     c->ti = v3_sub(c->ti, v3_cross(q.n[0], across));
     c->tj = v3_sub(c->tj, v3_cross(q.n[1], across));
-    if (hurt) between(&q, &friction, half, &c->fs, &c->si, &c->sj);
+    if (r.hurt) between(&q, &r.friction, r.half, &c->fs, &c->si, &c->sj);
     if (c->damping > 0.0) dash(c, b, &q);
+    if (!r.hurt && !(c->damping > 0.0)) return 0;
     c->f = v3_add(c->f, v3_add(c->fs, c->fd));
     c->ti = v3_add(c->ti, v3_add(c->si, c->di));
     c->tj = v3_add(c->tj, v3_add(c->sj, c->dj));

@@ -61,7 +61,6 @@ typedef struct {
     double d;           /* damage, 0 to 1                                                  */
     double first, last; /* lambda_c and lambda_f, once damage has begun      [sqrt(J)/m]   */
     double slip[2];     /* g along the two directions of the face            [m]           */
-    double s[3];        /* separation of the last look: opening and shear    [m]           */
 } fl_bond_point;
 
 typedef struct {
@@ -88,6 +87,8 @@ typedef struct {
     double spent;  /* taken out by damage and wear so far               [J]           */
     double handed; /* and given to the springs of friction              [J]           */
     fl_bond_point point[FL_BOND_POINTS];
+    double s[3], su[3], sv[3]; /* separation at the last look: of the centre, and its change along a and b;
+                                * opening, then shear along two directions [m] */
     /* of the last look; world axes, torques about the two centres */
     fl_vec3 f, ti, tj;  /* force on i (on j its opposite), torques           [N], [N m]    */
     fl_vec3 fd, di, dj; /* the part of damping                                             */

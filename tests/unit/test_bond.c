@@ -187,6 +187,40 @@ static void springs_are_those_of_the_section(void **state)
     }
 }
 
+/* A whole face far from its strength is summed in closed form, one near it point by point: the same. */
+static void sums_are_of_the_points(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 100; n++) {
+        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        two t;
+        fl_bond near;
+        two_make(&t);
+        t.c.friction = 1.0;
+        for (int k = 0; k < 2; k++) shift(&t, k, some(&g, 1e-3), some(&g, 1e-3));
+        t.c.tension = t.c.cohesion = INFINITY;
+        near = t.c;
+        fl_bond_force(&t.c, &t.b, ZERO);
+        /* what opens and what shears the most are hardly ever the same point, nor is it pressed there */
+        double lo = 1e3, hi = 1e9;
+        for (int k = 0; k < 60; k++) {
+            fl_bond c = near;
+            c.tension = c.cohesion = sqrt(lo * hi);
+            fl_bond_force(&c, &t.b, ZERO);
+            if (c.state == FL_BOND_WHOLE) hi = c.tension;
+            else lo = c.tension;
+        }
+        near.tension = near.cohesion = hi;
+        fl_bond_force(&near, &t.b, ZERO);
+        assert_int_equal(near.state, FL_BOND_WHOLE);
+        assert_near_of(v3_norm(v3_sub(near.f, t.c.f)), 0, 1e-13, t.c.kn * t.c.area * 1e-3);
+        assert_near_of(v3_norm(v3_sub(near.ti, t.c.ti)), 0, 1e-13, t.c.kn * t.c.area * 1e-3);
+        assert_near_of(v3_norm(v3_sub(near.tj, t.c.tj)), 0, 1e-13, t.c.kn * t.c.area * 1e-3);
+        assert_near(near.store, t.c.store, 1e-13);
+        two_free(&t);
+    }
+}
+
 /* Pressed, sheared until it has failed all over: the pressing force never changes, the shear comes down to
  * friction; then it opens, and is ended without a force. */
 static void crack_presses_on(void **state)
@@ -319,6 +353,7 @@ int main(void)
         cmocka_unit_test(force_is_the_gradient),
         cmocka_unit_test(the_pair_is_free),
         cmocka_unit_test(springs_are_those_of_the_section),
+        cmocka_unit_test(sums_are_of_the_points),
         cmocka_unit_test(crack_presses_on),
         cmocka_unit_test(books_balance),
         cmocka_unit_test(sizes_are_told),
