@@ -271,7 +271,8 @@ static int holds(const fl_bond *c, const standing *q)
     return sigma * sigma / T + tau2 / C < 1.0 - 1e-9;
 }
 
-/* The sums over the points of a whole face: the weights have sum 1, and 1/3 with the square of a coordinate. */
+/* The sums over the points of a whole face: the weights have sum 1, and 1/3 with the square of a
+ * coordinate. */
 static void whole(fl_bond *c, const standing *q, result *out)
 {
     double square[3];
