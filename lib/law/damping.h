@@ -10,6 +10,25 @@
  * for every exponent, stiffness, mass and number of places.  0 for e >= 1. */
 double fl_damping_crossley(double e);
 
+/* The most that an impact of D stores, as the speed it amounts to over that of the impact: sqrt(2 W_max/M)/v.
+ * From u du/(1 + chi u) = -dW/M: its square is 2 (1/D - ln(1 + D)/D^2), whatever the potential; 1 for D = 0.
+ */
+double fl_damping_stored(double D);
+
+/* A contact that is pressed together slowly is no impact: with chi = D/max(v_touch, c sqrt(2 W/M)) its
+ * damping ratio is D/(2 c), which the step must follow.  So c = 1 up to a ratio of 2.5, that is down to e =
+ * 0.2; below the ratio stays there, or is that which the impact itself reaches, D fl_damping_stored(D)/2,
+ * where that is more.  c fl_damping_stored(D) <= 1, so that in an impact v_touch is the larger one, and e
+ * holds. */
+double fl_damping_rest(double D);
+
+/* What damping leaves of the largest stable step 2/omega of a scheme that has the speed of half a step ago:
+ * K dt^2 + 2 C dt <= 4.  Of a ratio z: sqrt(1 + z^2) - z.  Of Hunt and Crossley with c as above: the least of
+ * that at rest, and of an impact, where with s and u in shares of v/omega and v the stiffness is 1 + D u, the
+ * damping D s, and s^2 = 2 (1 - u)/D - 2 ln[(1 + D)/(1 + D u)]/D^2. */
+double fl_damping_left(double z);
+double fl_damping_crossley_left(double D);
+
 /* Linear, F = k s + 2 zeta sqrt(M k) s', the contact ending when F reaches 0: zeta of restitution e.
  * Source: Schwager & Poeschel, Granular Matter 9 (2007) 465. */
 double fl_damping_linear(double e);

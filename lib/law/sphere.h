@@ -4,7 +4,7 @@
  *
  * With D = x_i - x_j, d = |D|, n = D / d, overlap s = r_i + r_j - d > 0, and arms a_i = r_i - s/2, a_j =
  * r_j - s/2 from the centres to the middle of the overlap:
- *     F_e = k s^(3/2),  W = 2/5 k s^(5/2),  chi = D_0 / max(v_touch, sqrt(2 W / M)),
+ *     F_e = k s^(3/2),  W = 2/5 k s^(5/2),  chi = D_0 / max(v_touch, c sqrt(2 W / M)),
  *     F_n = F_e (1 + chi u_n) >= 0,   u_n = -n.(v_i - v_j),
  *     v_t = (v_i - v_j) - (a_i w_i + a_j w_j) x n,
  *     k_t = c 3/2 k sqrt(s),  g = c chi F_e,  F_t by tangent.h with the twist 1/2 n.(w_i + w_j),
@@ -25,7 +25,7 @@ typedef struct {
     double wj[3][FL_SPHERES_MOST];
     double ri[FL_SPHERES_MOST]; /* radii                                    [m]     */
     double rj[FL_SPHERES_MOST];
-    double invm[FL_SPHERES_MOST];       /* 1/M = 1/m_i + 1/m_j                      [1/kg]  */
+    double invm[FL_SPHERES_MOST];       /* c^2/M = c^2 (1/m_i + 1/m_j), damping.h   [1/kg]  */
     double k[FL_SPHERES_MOST];          /*                                          [N/m^1.5] */
     double friction[FL_SPHERES_MOST];   /* mu                                               */
     double tangential[FL_SPHERES_MOST]; /* c                                                */

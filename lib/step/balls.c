@@ -295,7 +295,7 @@ static void load(const fl_world *w, batch *restrict t)
         const fl_touching *law = &laws[bl[c]];
         a->ri[m] = radius[i];
         a->rj[m] = radius[j];
-        a->invm[m] = invm[i] + invm[j];
+        a->invm[m] = law->rest * law->rest * (invm[i] + invm[j]); /* of nothing but the stored energy */
         put(a->u, m, v3_sub(v[i], v[j]));
         put(a->wi, m, spin[i]);
         put(a->wj, m, spin[j]);

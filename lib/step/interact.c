@@ -376,14 +376,15 @@ static void stiffen_one(const fl_world *w, fl_pair *p, const pressure *q, fl_vec
 }
 
 /* Damping is the same factor for all places of a pair,
- *     chi = D / max(v_touch, sqrt(2 W / M)),
+ *     chi = D / max(v_touch, c sqrt(2 W / M)),
  * where v_touch is the largest approach speed of this touch, now the given one, and sqrt(2 W/M) the speed
- * that the stored energy W amounts to: in an impact it stays below v_touch, so restitution is that of D; in a
- * contact that was never an impact it keeps the damping ratio below D/2. */
+ * that the stored energy W amounts to, with c of fl_damping_rest(): in an impact it stays below v_touch, so
+ * restitution is that of D; in a contact that was never an impact the damping ratio stays below D/(2 c). */
 static double damping_factor(fl_pair *p, double now)
 {
     p->touch = p->n && p->touch > now ? p->touch : now;
-    const double stored = sqrt(2.0 * p->energy / p->mass), speed = p->touch > stored ? p->touch : stored;
+    const double stored = p->law->rest * sqrt(2.0 * p->energy / p->mass);
+    const double speed = p->touch > stored ? p->touch : stored;
     return speed > 0.0 ? p->law->chi / speed : 0.0;
 }
 

@@ -33,6 +33,10 @@ int fl_pairing_laws(fl_world *w, fl_err *err)
                                                   : FL_SCENE_BOUNDARY;
             const fl_scene_contact t = fl_scene_pair(s, a, b);
             const double given = t.damping;
+            const double D = given >= 0.0 ? given : fl_damping_crossley(t.restitution);
+            const double zeta = given >= 0.0 ? given : fl_damping_linear(t.restitution);
+            const double alpha = given >= 0.0 ? given : fl_damping_tsuji(t.restitution);
+            const int manual = t.law == FL_LAW_MANUAL || t.law == FL_LAW_MANUAL_SI;
             w->law[a * (w->materials + 2) + c] = (fl_touching){
                 .kind = t.law,
                 .exponent = t.exponent,
@@ -41,9 +45,12 @@ int fl_pairing_laws(fl_world *w, fl_err *err)
                 .softening = t.softening,
                 .friction = t.friction,
                 .tangential = t.tangential,
-                .chi = given >= 0.0 ? given : fl_damping_crossley(t.restitution),
-                .zeta = given >= 0.0 ? given : fl_damping_linear(t.restitution),
-                .alpha = given >= 0.0 ? given : fl_damping_tsuji(t.restitution),
+                .chi = D,
+                .rest = fl_damping_rest(D),
+                .zeta = zeta,
+                .alpha = alpha,
+                /* Tsuji's ratio is C/(2 sqrt(K M)) = alpha/(2 sqrt(3/2)) */
+                .left = manual ? fl_damping_left(fmax(zeta, alpha / sqrt(6.0))) : fl_damping_crossley_left(D),
                 .literal2 = t.literal2,
                 .literal18 = t.literal18,
             };

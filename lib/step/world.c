@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
+#include "law/damping.h"
 #include "step/balls.h"
 #include "step/frozen.h"
 #include "step/pairing.h"
@@ -686,29 +687,31 @@ static double bed_slope(const fl_world *w, int32_t i)
     return w->bed.stiffness * (core->nv > 2 ? largest_face(&w->bed.outer[i]) : 4.0 * r * (r + w->b.bound[i]));
 }
 
-/* omega^2 of the stiffest contact that anything can make, what makes it, and the largest chi. */
-static double stiffest_contact(const fl_world *w, int32_t *body, double *damping)
+/* omega^2 of the stiffest contact that anything can make, what makes it, and the least that damping leaves of
+ * its critical step. */
+static double stiffest_contact(const fl_world *w, int32_t *body, double *left)
 {
     const worst met = worst_of(w);
-    double most = 0.0, damp = 0.0, ridden = 0.0;
+    double most = 0.0, least = 1.0, ridden = 0.0;
     *body = -1;
     for (int32_t i = 0; i < w->n; i++) {
         const double places = w->b.core[i].nv > 1 ? FACES : 1.0;
         double n, k = fl_pairing_stiffness(w, i, i, &n),
                   stiffest = place_slope(w, i, i, k, n, met); /* one like itself */
-        damp = fmax(damp, fl_pairing_law(w, i, i)->chi);
+        least = fmin(least, fl_pairing_law(w, i, i)->left);
         for (int32_t j = w->n; j < w->b.total; j++) {
             if (w->structure.piece[j - w->n].elastic) {
                 const double slope = bed_slope(w, i); /* the damping ratio is c/k omega/2 */
                 stiffest = fmax(stiffest, slope);
-                damp = fmax(damp, w->bed.damping / w->bed.stiffness * sqrt(slope * w->b.invm[i]));
+                least = fmin(least, fl_damping_left(0.5 * w->bed.damping / w->bed.stiffness *
+                                                    sqrt(slope * w->b.invm[i])));
                 continue;
             }
             k = fl_pairing_stiffness(w, i, j, &n);
             const double slope = place_slope(w, i, j, k, n, met);
             stiffest = fmax(stiffest, slope);
             if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
-            damp = fmax(damp, fl_pairing_law(w, i, j)->chi);
+            least = fmin(least, fl_pairing_law(w, i, j)->left);
         }
         /* Two equal bodies on one spring: twice the compliance.  Where the error is measured the step may be
          * the largest that is stable; else it is to be a small share of it, and that of the more careful
@@ -730,28 +733,39 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *damping
             *body = w->b.total + m;
         }
     }
-    for (int32_t k = 0; k < w->frozen.n; k++) damp = fmax(damp, w->frozen.bond[k].damping * sqrt(most));
-    *damping = damp;
+    for (int32_t k = 0; k < w->frozen.n; k++)
+        least = fmin(least, fl_damping_left(0.5 * w->frozen.bond[k].damping * sqrt(most)));
+    *left = least;
     return most;
+}
+
+/* A share of the limit that damping leaves bounds what the scene asks for: half where nothing else looks
+ * after the error, more where it is measured. */
+static double share_of(const fl_world *w, double left)
+{
+    if (w->scene->run.error > 0.0) return 0.8 * left;
+    return fmin(w->scene->run.safety, 0.5 * left);
 }
 
 double fl_world_critical(const fl_world *w)
 {
     int32_t body;
-    double damp;
-    const double most = stiffest_contact(w, &body, &damp);
+    double left;
+    const double most = stiffest_contact(w, &body, &left);
     return most > 0.0 ? 2.0 / sqrt(most) : INFINITY;
 }
 
 double fl_world_dt(const fl_world *w, int32_t *body)
 {
-    double damp;
-    const double most = stiffest_contact(w, body, &damp);
+    double left;
+    const double most = stiffest_contact(w, body, &left);
     if (most == 0.0) return INFINITY;
-    /* The damping ratio stays below chi/2; explicit damping lowers the limit by sqrt(1 + z^2) - z.  A share
-     * of that bounds what the scene asks for: half where nothing else looks after the error, more where it is
-     * measured. */
-    const int measured = w->scene->run.error > 0.0;
-    const double z = 0.5 * damp, limit = (measured ? 0.8 : 0.5) * (sqrt(1.0 + z * z) - z);
-    return (measured ? limit : fmin(w->scene->run.safety, limit)) * 2.0 / sqrt(most);
+    return share_of(w, left) * 2.0 / sqrt(most);
+}
+
+double fl_world_damped(const fl_world *w)
+{
+    int32_t body;
+    double left;
+    return stiffest_contact(w, &body, &left) > 0.0 ? left : 1.0;
 }

@@ -33,7 +33,9 @@ typedef struct {
     double friction;    /* mu                                                */
     double tangential;  /* k_t over the tangent stiffness of the place       */
     double chi;         /* D = chi v_impact of patch and core                */
+    double rest;        /* c of fl_damping_rest()                            */
     double zeta, alpha; /* of the manual's laws                              */
+    double left;        /* what damping leaves of the critical step          */
     int32_t literal2, literal18;
 } fl_touching;
 
@@ -356,5 +358,9 @@ double fl_world_dt(const fl_world *w, int32_t *body);
 
 /* What it is a part of: 2/omega, without damping [s]. */
 double fl_world_critical(const fl_world *w);
+
+/* The share of that which is stable with the most damping that a contact can have: sqrt(1 + z^2) - z of its
+ * damping ratio z. */
+double fl_world_damped(const fl_world *w);
 
 #endif

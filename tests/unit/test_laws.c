@@ -66,6 +66,32 @@ static void damping_solves_its_equation(void **state)
     assert_near(fl_damping_linear_e(1.0 + 1e-8), exp(-2.0), 1e-6);
 }
 
+/* An impact of unit speed on a spring, du/ds = -s (1 + D u)/u, stores what the closure says; the floor of a
+ * slow contact never cuts into it, and the ratio that it leaves is what it says. */
+static void a_slow_contact_is_damped_as_an_impact_at_the_most(void **state)
+{
+    (void)state;
+    for (int k = 0; k <= 100; k++) {
+        const double e = 0.01 * k, D = fl_damping_crossley(e), c = fl_damping_rest(D),
+                     at = fl_damping_stored(D);
+        double s = 0.0, u = 1.0;
+        const double h = 2e-4 / (1.0 + D);
+        while (u > 0.0) { /* midpoint rule in time */
+            const double us = u - 0.5 * h * s * (1.0 + D * u), ss = s + 0.5 * h * u;
+            s += h * us;
+            u -= h * ss * (1.0 + D * us);
+        }
+        assert_near(at, s, 1e-6);
+        assert_true(c >= 1.0 && c * at <= 1.0 + 1e-15);
+        assert_near(0.5 * D / c, fmin(0.5 * D, fmax(2.5, 0.5 * D * at)), 1e-14);
+        if (e >= 0.2) assert_true(c == 1.0);
+        assert_true(fl_damping_crossley_left(D) <= fl_damping_left(0.5 * D / c));
+        assert_true(fl_damping_crossley_left(D) > 0.9 * fl_damping_left(0.5 * D / c));
+    }
+    assert_near(fl_damping_stored(0.0), 1.0, 0.0);
+    assert_near(fl_damping_stored(0.9999e-4), fl_damping_stored(1.0001e-4), 1e-8);
+}
+
 /* --- material, normal
  * --------------------------------------------------------------------------------------- */
 
@@ -363,6 +389,7 @@ int main(void)
         cmocka_unit_test(damping_is_that_of_the_table),
         cmocka_unit_test(damping_of_every_restitution_is_finite),
         cmocka_unit_test(damping_solves_its_equation),
+        cmocka_unit_test(a_slow_contact_is_damped_as_an_impact_at_the_most),
         cmocka_unit_test(material_gives_hertz_and_punch),
         cmocka_unit_test(normal_powers_derive_from_one_another),
         cmocka_unit_test(manual_modes_are_those_of_the_table),

@@ -96,7 +96,6 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     /* Steps of this very scene tell the time better than any table. */
     const double begun = run_clock();
     double spent = 0.0;
-    char name[64];
     char what[4][160] = {{0}};
     if (w->frozen.n)
         snprintf(what[3], sizeof what[3], "%d faces frozen together, %d bonds a body", w->frozen.n,
@@ -139,7 +138,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     stage(f, "sleep", w->sleep.nap != NULL, "floes to which nothing happens take many steps at once");
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,
             r->limit);
-    if (r->step_body >= 0) fprintf(f, ", set by %s", run_body(w, r->step_body, name));
+    fprintf(f, "\nset by         %s", r->step_by);
     if (r->budget)
         fprintf(f,
                 "\nerror budget   %g of the load: the step is the largest there may be, and is chosen as the "

@@ -63,6 +63,7 @@ void report_write(const struct run *r, FILE *f)
     char name[64];
     const double scale = g->throughput > 0.0 ? g->throughput : 1.0;
     fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
+    fprintf(f, "set by             %s\n", r->step_by);
     if (isfinite(w->dt_critical))
         fprintf(f, "step over critical %.3g (smallest 2/omega seen: %.4g s, %s)\n", w->dt / w->dt_critical,
                 w->dt_critical, run_body(w, w->critical_body, name));

@@ -48,12 +48,33 @@ static int64_t step_at(const fl_world *w, double t)
 
 void run_steps(struct run *r) { r->steps = step_at(r->w, r->scene->run.duration); }
 
+/* What the step comes from, for --plan and the report alike. */
+static void step_origin(struct run *r, double automatic)
+{
+    const fl_scene_run *s = &r->scene->run;
+    const double left = fl_world_damped(r->w), every = r->scene->output.loads_every;
+    char name[64], *to = r->step_by;
+    const size_t n = sizeof r->step_by;
+    if (r->budget)
+        snprintf(to, n, "run.error, up to %.3g of the critical %.4g s", automatic / r->limit, r->limit);
+    else if (s->dt > 0.0) snprintf(to, n, "run.dt");
+    else if (automatic >= fmin(every, s->duration))
+        snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
+    else if (automatic < s->safety * r->limit)
+        snprintf(to, n, "damping, half of the %.3g that it leaves of the critical %.4g s", left, r->limit);
+    else snprintf(to, n, "run.safety, %.3g of the critical %.4g s", s->safety, r->limit);
+    if (s->dt > 0.0 || r->step_body < 0 || automatic >= fmin(every, s->duration)) return;
+    const size_t used = strlen(to);
+    snprintf(to + used, n - used, " of %s", run_body(r->w, r->step_body, name));
+}
+
 void run_step_size(struct run *r)
 {
     const double every = r->scene->output.loads_every;
     const double automatic = fl_world_dt(r->w, &r->step_body);
     double dt = r->scene->run.dt;
     r->limit = fl_world_critical(r->w);
+    step_origin(r, automatic);
     if (r->budget) {
         dt = fl_budget_start(r->budget);
     } else if (dt <= 0.0) {

@@ -26,6 +26,7 @@ struct run {
     int gzip;          /* they are compressed */
     double limit;      /* the critical step known before the run, 2/omega [s] */
     int32_t step_body; /* the body that set the automatic step, -1 */
+    char step_by[160]; /* what the step comes from */
     int64_t steps;
     int64_t begun; /* the step this program began with, and its time [s] */
     double begun_time;
