@@ -33,6 +33,9 @@ void fl_raster_free(fl_raster *r)
     *r = (fl_raster){0};
 }
 
+/* Of a pixel: faces that lie in one another differ by rounding, and would be drawn in specks of both. */
+static const double TIE = 1e-6;
+
 static double along(fl_vec3 x, int axis) { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
 
 /* In pixels, the depth too: centres of pixels have whole coordinates. */
@@ -64,7 +67,7 @@ static void fill(fl_raster *r, int32_t part, fl_vec3 a, fl_vec3 b, fl_vec3 c)
             const double p = turn(b, c, u, v) / area, q = turn(c, a, u, v) / area, s = 1.0 - p - q;
             const int64_t k = (int64_t)v * r->w + u;
             const double depth = (p * a.z + q * b.z + s * c.z) * r->pixel;
-            if (p < 0.0 || q < 0.0 || s < 0.0 || !(depth > r->depth[k])) continue;
+            if (p < 0.0 || q < 0.0 || s < 0.0 || !(depth > r->depth[k] + TIE * r->pixel)) continue;
             r->depth[k] = depth;
             r->part[k] = part;
             r->light[k] = light < 1.0f ? light : 1.0f;

@@ -26,7 +26,8 @@ int fl_raster_start(fl_raster *r, fl_view_axes axes, int32_t w, int32_t h, doubl
                     fl_err *err);
 
 /* Draw the triangles of s: each pixel shows the nearest one over its centre, whatever their order, and
- * triangles that pass through each other show where they do.  Cones are not drawn: give them facets. */
+ * triangles that pass through each other show where they do; of those in one place to a millionth of a pixel
+ * the first one is seen.  Cones are not drawn: give them facets. */
 void fl_raster_fill(fl_raster *r, const fl_surface *s);
 
 /* Then draw edges where they are not hidden: rims, edges of more than two triangles, and those at which the

@@ -77,6 +77,28 @@ static void a_ring_of_beams_hides_as_it_must(void **state)
     }
 }
 
+static fl_vec3 slope(double x, double y) { return v3(x, y, 0.1 / 3 + 0.0731 * x + 0.0377 * y); }
+
+/* Two faces in one plane, which differ by rounding: the first one is seen, everywhere. */
+static void of_faces_in_one_place_the_first_is_seen(void **state)
+{
+    fl_surface s = {0};
+    fl_raster r;
+    int64_t seen[2] = {0};
+    (void)state;
+    triangle(&s, slope(-1.1, -0.9), slope(1.3, -0.7), slope(0.3, 1.7));
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(fl_raster_start(&r, (fl_view_axes){0, 1, 2, 1}, 400, 400, -2, -2, 0.01, &err), 0);
+        fl_raster_fill(&r, &s);
+        for (int i = 0; i < 400 * 400; i++) seen[k] += r.part[i] == 0;
+        fl_raster_free(&r);
+        triangle(&s, slope(-2.1, -2.7), slope(2.9, -1.3), slope(-0.2, 2.9));
+    }
+    assert_true(seen[0] > 10000);
+    assert_int_equal(seen[1], seen[0]);
+    fl_surface_free(&s);
+}
+
 /* Two that pass through each other show where they do; an edge behind a face is not drawn. */
 static void what_lies_behind_is_hidden(void **state)
 {
@@ -103,8 +125,8 @@ static void what_lies_behind_is_hidden(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_shows_its_faces),
-                                       cmocka_unit_test(a_ring_of_beams_hides_as_it_must),
-                                       cmocka_unit_test(what_lies_behind_is_hidden)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_faces_in_one_place_the_first_is_seen), cmocka_unit_test(a_box_shows_its_faces),
+        cmocka_unit_test(a_ring_of_beams_hides_as_it_must), cmocka_unit_test(what_lies_behind_is_hidden)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
