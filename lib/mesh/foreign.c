@@ -29,6 +29,8 @@ static const struct {
     {"#RADIOSS", 0, "a deck of Radioss: " DECK},
     {"version https://git-lfs", 0,
      "a pointer of Git LFS to the file, and not the file: git lfs pull brings it"},
+    {"\377\376", 2, "text in UTF-16: save it as UTF-8 or ASCII"},
+    {"\376\377", 2, "text in UTF-16: save it as UTF-8 or ASCII"},
     {"%PDF", 0, "a PDF document, where a mesh was wanted"},
 };
 

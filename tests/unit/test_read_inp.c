@@ -146,6 +146,13 @@ static void lines_have_radii(void **state)
     assert_near(s.part[0].cone[0].r0, 0.5, 0.0);
     assert_near(s.part[1].cone[0].r1, 0.5, 0.0);
     assert_near(s.part[2].cone[0].r1, 1.0, 1e-15);
+    /* a leg in pieces, numbered this way and that, with a brace at the joint */
+    reads("*NODE\n1, 0, 0, -9\n2, 0, 0, 0\n3, 0, 0, 4\n4, 5\n5, 0, 0, 6\n*ELEMENT, TYPE=B31, ELSET=A\n"
+          "1, 1, 2\n2, 3, 2\n3, 2, 4\n4, 3, 5\n*BEAM SECTION, SECTION=CIRC, ELSET=A\n.5\n");
+    says("3 lines that go straight on became 1\n");
+    assert_int_equal(s.part[0].nc, 2);
+    assert_near(s.part[0].cone[0].p0.z, -9.0, 0.0);
+    assert_near(s.part[0].cone[0].p1.z, 6.0, 0.0);
     refuses(
         "*NODE\n1\n2, 1\n*ELEMENT, TYPE=B31, ELSET=A\n1, 1, 2\n*BEAM SECTION, SECTION=CIRC, ELSET=A\n-1\n",
         "a radius of -1, 0 or more was wanted");

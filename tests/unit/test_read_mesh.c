@@ -267,6 +267,7 @@ static void what_is_foreign_is_named(void **state)
         {"                                                                        S      1\n", 0,
          ": an IGES file"},
         {"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", 0, ": a DXF drawing: export the surface as STL"},
+        {"\377\376v\0 \0000\0\n\0", 10, ": text in UTF-16: save it as UTF-8"},
         {"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", 0, ": a pointer of Git LFS"},
         {"glTF\2\0\0\0", 8, ": a glTF scene"},
         {"{\"asset\": {\"version\": \"2.0\"}}", 0, ": a glTF scene"},
