@@ -769,3 +769,20 @@ double fl_world_damped(const fl_world *w)
     double left;
     return stiffest_contact(w, &body, &left) > 0.0 ? left : 1.0;
 }
+
+double fl_world_peak_off(const fl_world *w)
+{
+    const double r = isfinite(w->dt_critical) ? w->dt / w->dt_critical : 0.0;
+    double D = 0.0;
+    for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
+        const fl_touching *law = &w->law[k];
+        const int manual = law->kind == FL_LAW_MANUAL || law->kind == FL_LAW_MANUAL_SI;
+        D = fmax(D, manual ? 2.0 * law->zeta : law->chi);
+    }
+    return 0.35 * D * r / (1.0 + 0.5 * D) + 0.5 * r * r;
+}
+
+double fl_world_impulse_off(const fl_world *w)
+{
+    return isfinite(w->dt_critical) ? 0.3 * w->dt / w->dt_critical : 0.0;
+}

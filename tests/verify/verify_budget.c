@@ -7,6 +7,7 @@
 #include "support/lab.h"
 #include "support/verify.h"
 #include "step/budget.h"
+#include "step/step.h"
 
 /* --- the scenes -------------------------------------------------------------------------------- */
 
@@ -233,6 +234,49 @@ static int try(const scene *s, double goal, const char *of)
     return (e <= goal) | (share >= 0.5) << 1;
 }
 
+/* --- without a budget -------------------------------------------------------------------------- */
+
+/* What is told of the automatic step, which costs nothing, against steps of a sixteenth: 1 bit the peak is no
+ * worse than 1.6 times it, 2 bit and not better than a quarter of it, 4 bit the impulse is within its bound.
+ */
+static int told(const scene *s)
+{
+    result r[2] = {0};
+    double peak = 0.0, impulse = 0.0;
+    for (int fine = 0; fine < 2; fine++) {
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "contact.softening=0.1");
+        lab_setf(&l, "run.duration=%g", s->seconds);
+        s->build(&l);
+        lab_make(&l, 0);
+        const int64_t m = (int64_t)ceil(s->seconds / l.w.dt) * (fine ? 16 : 1);
+        fl_step_resize(&l.w, s->seconds / (double)m, 0.0);
+        if (lab_run(&l, m)) exit(1);
+        for (int32_t p = 0; p < l.w.parts; p++)
+            r[fine].J[p] = l.w.part_impulse[p], r[fine].peak[p] = l.w.part_peak[p];
+        if (!fine) peak = fl_world_peak_off(&l.w), impulse = fl_world_impulse_off(&l.w);
+        lab_free(&l);
+    }
+    const double is = error_of("peak", &r[0], &r[1]), was = error_of("impulse", &r[0], &r[1]);
+    verify_note("%-30s peak: told %7.2g  true %7.2g   impulse: told %7.2g  true %7.2g", s->name, peak, is,
+                impulse, was);
+    return (is <= 1.6 * peak) | (is >= 0.25 * peak) << 1 | (was <= impulse) << 2;
+}
+
+static void without(void)
+{
+    int n = 0, worse = 0, better = 0, over = 0;
+    verify_note("what the report tells of the automatic step");
+    for (size_t k = 0; k < SCENES; k += verify_quick() ? 4 : 1, n++) {
+        const int ok = told(&SCENE[k]);
+        worse += !(ok & 1), better += !(ok & 2), over += !(ok & 4);
+    }
+    verify_row("E05", "peaks off by more than 1.6 of what is told", worse, 0, 0, VERIFY_ABS);
+    verify_row("E05", "peaks off by less than a quarter of it", better, 0, 0.25 * n, VERIFY_ABS);
+    verify_row("E05", "impulses off by more than what is told", over, 0, 0, VERIFY_ABS);
+}
+
 /* --- how far ahead a state tells anything ------------------------------------------------------ */
 
 /* Square floes that fly about a post between walls, elastic: what is near parts. */
@@ -341,6 +385,7 @@ int main(void)
                    TABLE[t].short_of, VERIFY_ABS);
         if (verify_quick()) break;
     }
+    without();
     parting();
     return verify_end();
 }

@@ -69,6 +69,12 @@ void report_write(const struct run *r, FILE *f)
                 w->dt_critical, run_body(w, w->critical_body, name));
     else fprintf(f, "step over critical no contact was made\n");
     if (r->budget) budget_of(r, f);
+    else if (isfinite(w->dt_critical))
+        fprintf(f,
+                "error of the step  about %.2g of a peak, %.2g of the impulse at the most: by the step over "
+                "critical and "
+                "the restitution, not measured (run.error does)\n",
+                fl_world_peak_off(w), fl_world_impulse_off(w));
     fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %d thread%s\n", simulated,
             r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, w->threads, w->threads == 1 ? "" : "s");
     if (w->n && made > 0.0)
