@@ -358,6 +358,21 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
     return 0;
 }
 
+fl_bond_load fl_bond_loaded(const fl_bond *c, const fl_bodies *b, fl_vec3 way)
+{
+    const fl_vec3 ri = m3_mul(b->R[c->i], c->pi), rj = m3_mul(b->R[c->j], c->pj),
+                  n = v3_add(m3_mul(b->R[c->i], c->ni), m3_mul(b->R[c->j], c->nj));
+    const fl_vec3 off = v3_sub(v3_add(v3_add(b->x[c->j], way), rj), v3_add(b->x[c->i], ri)),
+                  arm = v3_madd(ri, 0.5, off);
+    fl_bond_load out = {.x = v3_add(b->x[c->i], arm)};
+    if (c->state == FL_BOND_ENDED || !(v3_norm2(n) > 0.0)) return out;
+    const fl_vec3 m = v3_unit(n);
+    out.tension = v3_dot(c->f, m);
+    out.shear = v3_norm(v3_madd(c->f, -out.tension, m));
+    out.moment = v3_norm(v3_sub(c->ti, v3_cross(arm, c->f)));
+    return out;
+}
+
 double fl_bond_worst(const fl_bond *c)
 {
     double most = 0.0;

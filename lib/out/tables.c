@@ -122,6 +122,25 @@ void fl_contacts_row(FILE *f, double t, int32_t i, int32_t j, const fl_contact *
     putc('\n', f);
 }
 
+void fl_bonds_header(FILE *f, const char *history, const fl_by *by)
+{
+    fl_rows_header(f, "bonds", history, by,
+                   "t[s]\ti\tj\tstate\tdamage\tfn[N]\tfs[N]\tm[N.m]\tarea[m2]\tx[m]\ty[m]\tz[m]");
+}
+
+void fl_bonds_row(FILE *f, double t, const fl_bonds_line *b)
+{
+    char text[FL_NUM_LEN];
+    fprintf(f, "%s\t%d\t%d\t%s", fl_num_text(t, text), b->i, b->j, b->state);
+    put(f, b->damage);
+    put(f, b->tension);
+    put(f, b->shear);
+    put(f, b->moment);
+    put(f, b->area);
+    put3(f, b->x);
+    putc('\n', f);
+}
+
 void fl_panels_header(FILE *f, const char *history, const fl_by *by, double start)
 {
     char text[FL_NUM_LEN];

@@ -50,6 +50,16 @@ void fl_hash_row(FILE *f, double t, uint64_t hash);
 /* and behind all that, where floes are frozen together */
 #define FL_ENERGY_BONDS "\tbond[J]\tfracture[J]"
 
+/* Frozen faces: bonds(5).  state: whole, damaged, broken or ended. */
+typedef struct {
+    int32_t i, j;
+    const char *state;
+    double damage, tension, shear, moment, area;
+    fl_vec3 x;
+} fl_bonds_line;
+void fl_bonds_header(FILE *f, const char *history, const fl_by *by);
+void fl_bonds_row(FILE *f, double t, const fl_bonds_line *b);
+
 /* Loads on panels: panels(5).  name: of the part, then what tells its panels apart. */
 void fl_panels_header(FILE *f, const char *history, const fl_by *by, double start);
 void fl_panels_row(FILE *f, double t, const char *part, const char *name, fl_vec3 middle, double area,

@@ -76,10 +76,10 @@ typedef struct {
     double loads_every;
     double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
     int32_t files;                         /* number of files the frames are split over */
-    double state_every, energy_every, contacts_every, hash_every;
+    double state_every, energy_every, contacts_every, hash_every, bonds_every;
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
-        hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH],
+        hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
         checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 

@@ -27,6 +27,7 @@ static void fill_in(fl_scene *s)
     follow(o, "energy_every", &o->energy_every, o->loads_every);
     follow(o, "contacts_every", &o->contacts_every, o->loads_every);
     follow(o, "hash_every", &o->hash_every, o->loads_every);
+    follow(o, "bonds_every", &o->bonds_every, o->loads_every);
 }
 
 /* A material that a key names.  key is the whole address, for the line to tell. */
@@ -59,10 +60,12 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames", "output.state",  "output.energy", "output.contacts",
-                               "output.hash",   "output.panels", "output.events", "output.checkpoint"};
-    const char *const path[] = {s->output.frames, s->output.state,  s->output.energy, s->output.contacts,
-                                s->output.hash,   s->output.panels, s->output.events, s->output.checkpoint};
+    const char *const key[] = {"output.frames",   "output.state", "output.energy",
+                               "output.contacts", "output.hash",  "output.panels",
+                               "output.events",   "output.bonds", "output.checkpoint"};
+    const char *const path[] = {s->output.frames,   s->output.state, s->output.energy,
+                                s->output.contacts, s->output.hash,  s->output.panels,
+                                s->output.events,   s->output.bonds, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
@@ -248,7 +251,10 @@ static int check_shares(const fl_scene *s, const char *key, fl_vec3 x, fl_err *e
 static int check_bonds(const fl_scene *s, fl_err *err)
 {
     const fl_scene_bond *b = &s->bond;
-    if (!b->head.present || !b->on) return 0;
+    const int on = b->head.present && b->on;
+    if (!on && s->output.bonds[0])
+        return fl_scene_fail(s, "output.bonds", err, "nothing is frozen together: bond.on = true was wanted");
+    if (!on) return 0;
     if (s->run.sleep > 0.0)
         return fl_scene_fail(
             s, "run.sleep", err,

@@ -315,6 +315,13 @@ void fl_frozen_look(fl_world *w)
     for (int32_t k = 0; k < w->frozen.n; k++) fl_bond_look(&w->frozen.bond[k], &w->b, way_of(w, k));
 }
 
+fl_bond_load fl_frozen_load(const fl_world *w, int32_t k)
+{
+    fl_bond_load out = fl_bond_loaded(&w->frozen.bond[k], &w->b, way_of(w, k));
+    out.x = fl_cell_inside(&w->cell, out.x);
+    return out;
+}
+
 fl_frozen_books fl_frozen_ledger(const fl_world *w)
 {
     fl_frozen_books sum = {0};

@@ -59,6 +59,9 @@ double fl_frozen_now(const fl_world *w, int32_t k);
 /* End the bonds of those that are away. */
 void fl_frozen_drop(fl_world *w);
 
+/* What acts across bond k; the place in the cell, where there is one. */
+fl_bond_load fl_frozen_load(const fl_world *w, int32_t k);
+
 /* Separations at the poses of now, after a state has been read. */
 void fl_frozen_look(fl_world *w);
 

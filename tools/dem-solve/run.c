@@ -9,6 +9,7 @@
 #include "run.h"
 #include "save.h"
 #include "step/balls.h"
+#include "step/frozen.h"
 #include "step/interact.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -129,6 +130,7 @@ void run_header(struct run *r, struct outputs *u, int k)
     case AT_HASH: fl_hash_header(f, r->history, r->by); break;
     case AT_PANELS: fl_panels_header(f, r->history, r->by, u->last_row); break;
     case AT_EVENTS: fl_contacts_header(f, r->history, r->by); break;
+    case AT_BONDS: fl_bonds_header(f, r->history, r->by); break;
     default: fl_frames_header(f, r->history, r->by, &now, r->surface);
     }
 }
@@ -141,13 +143,13 @@ static int open_table(struct run *r, struct outputs *u, int k, const char *path,
 static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
-    const double every[TIMERS] = {s->loads_every, s->state_every,     s->energy_every, s->contacts_every,
-                                  s->hash_every,  s->frames_every,    s->loads_every,  s->loads_every,
-                                  s->ice_every,   s->checkpoint_every};
+    const double every[TIMERS] = {s->loads_every, s->state_every,  s->energy_every,    s->contacts_every,
+                                  s->hash_every,  s->frames_every, s->loads_every,     s->loads_every,
+                                  s->bonds_every, s->ice_every,    s->checkpoint_every};
     char frames[FL_SCENE_PATH + 16];
     run_frames_path(r, u, frames);
-    const char *const path[TABLES] = {r->out,  s->state, s->energy, s->contacts,
-                                      s->hash, frames,   s->panels, s->events};
+    const char *const path[TABLES] = {r->out, s->state,  s->energy, s->contacts, s->hash,
+                                      frames, s->panels, s->events, s->bonds};
     for (int k = 0; k < TABLES; k++)
         if (open_table(r, u, k, path[k], err)) return -1;
     for (int k = 0; k < TABLES; k++)
@@ -234,6 +236,20 @@ static void write_contacts(struct run *r, struct outputs *u, double t)
         const double normal = v3_dot(p->f, k.n);
         fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], fl_world_name(w, p->j), &k, normal,
                         v3_madd(p->f, -normal, k.n));
+    }
+}
+
+static void write_bonds(struct run *r, struct outputs *u, double t)
+{
+    static const char *const STATE[] = {"whole", "damaged", "broken", "ended"};
+    const fl_world *w = r->w;
+    for (int32_t k = 0; k < w->frozen.n; k++) {
+        const fl_bond *c = &w->frozen.bond[k];
+        const fl_bond_load q = fl_frozen_load(w, k);
+        if (fl_world_away(w, c->i) || fl_world_away(w, c->j)) continue;
+        fl_bonds_row(u->table[AT_BONDS].f, t,
+                     &(fl_bonds_line){w->id[c->i], w->id[c->j], STATE[c->state], fl_bond_mean(c), q.tension,
+                                      q.shear, q.moment, c->area, q.x});
     }
 }
 
@@ -334,6 +350,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         case AT_STATE: fl_state_rows(u->table[k].f, t, &now); break;
         case AT_ENERGY: write_energy(r, u, t); break;
         case AT_CONTACTS: write_contacts(r, u, t); break;
+        case AT_BONDS: write_bonds(r, u, t); break;
         case AT_HASH: fl_hash_row(u->table[k].f, t, fl_step_hash(r->w)); break;
         default:
             if (write_frames(r, u, t, err)) return -1;

@@ -54,6 +54,7 @@ enum {
     AT_FRAMES,
     AT_PANELS, /* these two have the times of the loads */
     AT_EVENTS,
+    AT_BONDS,
     TABLES,
     AT_ICE = TABLES,
     AT_SAVE,

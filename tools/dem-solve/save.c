@@ -12,8 +12,8 @@
 #include "step/snapshot.h"
 #include "step/step.h"
 
-static const char *const TABLE[TABLES] = {"loads", "state",  "energy", "contacts",
-                                          "hash",  "frames", "panels", "events"};
+static const char *const TABLE[TABLES] = {"loads",  "state",  "energy", "contacts", "hash",
+                                          "frames", "panels", "events", "bonds"};
 
 /* Keys that may be changed under way: none of them bears on a step or a row, but for the first two, which
  * give the run another step from here on. */
@@ -193,9 +193,9 @@ static int word_i64(fl_text *in, int64_t *x, fl_err *err)
 static int read_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
 {
     const fl_scene_output *s = &r->scene->output;
-    const double every[TIMERS] = {s->loads_every, s->state_every,     s->energy_every, s->contacts_every,
-                                  s->hash_every,  s->frames_every,    s->loads_every,  s->loads_every,
-                                  s->ice_every,   s->checkpoint_every};
+    const double every[TIMERS] = {s->loads_every, s->state_every,  s->energy_every,    s->contacts_every,
+                                  s->hash_every,  s->frames_every, s->loads_every,     s->loads_every,
+                                  s->bonds_every, s->ice_every,    s->checkpoint_every};
     int64_t k;
     for (int c = 0; c < TIMERS; c++) {
         if (word_i64(in, &k, err)) return -1;
@@ -254,8 +254,8 @@ static int read_place(struct run *r, struct outputs *u, fl_mark mark[TABLES], in
 static void table_path(const struct run *r, const struct outputs *u, int k, char path[FL_SCENE_PATH + 16])
 {
     const fl_scene_output *s = &r->scene->output;
-    const char *const name[TABLES] = {r->out,  s->state, s->energy, s->contacts,
-                                      s->hash, "",       s->panels, s->events};
+    const char *const name[TABLES] = {r->out, s->state,  s->energy, s->contacts, s->hash,
+                                      "",     s->panels, s->events, s->bonds};
     if (k == AT_FRAMES) run_frames_path(r, u, path);
     else snprintf(path, FL_SCENE_PATH + 16, "%s", name[k]);
 }
