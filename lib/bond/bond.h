@@ -112,8 +112,9 @@ void fl_bond_look(fl_bond *c, const fl_bodies *b, fl_vec3 way);
 /* End it: no force any more. */
 void fl_bond_end(fl_bond *c);
 
-/* What acts across the face at the last look: tension (below 0: pressure), shear, and moment about its centre, as
- * sizes but for the first; and the centre x, in the middle between the two sides [N], [N m], [m]. */
+/* What acts across the face at the last look: tension (below 0: pressure), shear, and moment about its
+ * centre, as sizes but for the first; and the centre x, in the middle between the two sides [N], [N m], [m].
+ */
 typedef struct {
     double tension, shear, moment;
     fl_vec3 x;
