@@ -18,8 +18,24 @@ typedef int64_t fl_wide_mask __attribute__((vector_size(FL_LANES * sizeof(int64_
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                           \
     !defined(__SANITIZE_THREAD__)
 #define FL_WIDE_VERSIONS __attribute__((target_clones("avx512f", "avx2", "default")))
+#define FL_FOUR_VERSIONS __attribute__((target_clones("avx2", "default"))) /* where fl_wide is the width */
 #else
 #define FL_WIDE_VERSIONS
+#define FL_FOUR_VERSIONS
+#endif
+
+/* Part of a function of several versions, in each as wide as that is. */
+#define FL_WIDE_PART __attribute__((always_inline)) static inline
+
+/* Four doubles from a on, to read or to write. */
+#define FL_FOUR(a) (*(const fl_wide *)(const void *)(a))
+#define FL_FOUR_INTO(a) (*(fl_wide *)(void *)(a))
+
+/* Before a loop over lanes, whose registers then need not lie in memory. */
+#ifdef __clang__
+#define FL_WIDE_UNROLL _Pragma("unroll")
+#else
+#define FL_WIDE_UNROLL _Pragma("GCC unroll 4")
 #endif
 
 /* By lanes: a where m, else 0;  a where m, else b.  Macros, since a function that takes a register which the
@@ -27,8 +43,46 @@ typedef int64_t fl_wide_mask __attribute__((vector_size(FL_LANES * sizeof(int64_
 #define FL_WIDE_WHERE(m, a) ((fl_wide)((m) & (fl_wide_mask)(a)))
 #define FL_WIDE_CHOOSE(m, a, b) ((fl_wide)(((m) & (fl_wide_mask)(a)) | (~(m) & (fl_wide_mask)(b))))
 
+/* Four registers that are the rows of a matrix become its columns. */
+FL_WIDE_PART void fl_wide_transpose(fl_wide r[FL_LANES])
+{
+    const fl_wide a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6),
+                  b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7),
+                  c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6),
+                  d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+    r[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+    r[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+    r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+    r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+/* Four vectors of three that follow each other from a on: their x, y and z. */
+FL_WIDE_PART void fl_wide_from_triples(fl_wide v[3], const void *a)
+{
+    const double *at = (const double *)a;
+    const fl_wide p = FL_FOUR(at), q = FL_FOUR(at + 4), r = FL_FOUR(at + 8);
+    const fl_wide xy = __builtin_shufflevector(p, q, 0, 1, 6, 7),
+                  zx = __builtin_shufflevector(p, r, 2, 3, 4, 5),
+                  yz = __builtin_shufflevector(q, r, 0, 1, 6, 7);
+    v[0] = __builtin_shufflevector(xy, zx, 0, 5, 2, 7);
+    v[1] = __builtin_shufflevector(xy, yz, 1, 4, 3, 6);
+    v[2] = __builtin_shufflevector(zx, yz, 0, 5, 2, 7);
+}
+
+/* And back. */
+FL_WIDE_PART void fl_wide_to_triples(void *a, const fl_wide v[3])
+{
+    double *at = (double *)a;
+    const fl_wide xy = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6),
+                  zx = __builtin_shufflevector(v[2], v[0], 0, 5, 2, 7),
+                  yz = __builtin_shufflevector(v[1], v[2], 1, 5, 3, 7);
+    FL_FOUR_INTO(at) = __builtin_shufflevector(xy, zx, 0, 1, 4, 5);
+    FL_FOUR_INTO(at + 4) = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    FL_FOUR_INTO(at + 8) = __builtin_shufflevector(zx, yz, 2, 3, 6, 7);
+}
+
 /* Sum of the lanes, in their order. */
-static inline double fl_wide_sum(const fl_wide *a)
+FL_WIDE_PART double fl_wide_sum(const fl_wide *a)
 {
     double sum = 0.0;
     for (int k = 0; k < FL_LANES; k++) sum += (*a)[k];

@@ -16,7 +16,7 @@ int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
         {&b->bound, sizeof *b->bound}, {&b->core, sizeof *b->core}, {&b->hold, sizeof *b->hold},
         {&b->ball, sizeof *b->ball},   {&b->held, sizeof *b->held}, {&b->odometer, sizeof *b->odometer}};
     for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
-        void *p = fl_alloc(total, want[k].size, err);
+        void *p = fl_alloc((int64_t)total + 1, want[k].size, err); /* four numbers of the last x are there */
         if (!p) {
             fl_bodies_free(b);
             return -1;

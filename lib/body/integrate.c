@@ -219,52 +219,96 @@ void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
 
 /* --- balls, several at a time ------------------------------------------------------------------ */
 
-FL_WIDE_VERSIONS static void kick_plain(int32_t n, double h, const double *restrict invm,
-                                        const fl_vec3 *restrict I, const fl_vec3 *restrict f,
-                                        const fl_vec3 *restrict t, fl_vec3 *restrict v, fl_vec3 *restrict L,
-                                        fl_vec3 *restrict w)
+/* From the first of them on. */
+typedef struct {
+    const double *invm;
+    const fl_vec3 *I, *f, *t;
+    fl_vec3 *v, *L, *w, *x;
+    fl_quat *q;
+    double *odometer;
+} plain;
+
+#define NORM2(a) (a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+
+/* Kick and drift of the four from the k-th on; whether they did turn: by more than the series is for they do
+ * not. */
+FL_WIDE_PART int move_four(const plain *a, int32_t k, double h, double dt)
 {
-#pragma omp simd
-    for (int32_t i = 0; i < n; i++) {
-        const double s = h * invm[i], inertia = I[i].x;
-        v[i].x += s * f[i].x;
-        v[i].y += s * f[i].y;
-        v[i].z += s * f[i].z;
-        const double x = L[i].x + h * t[i].x, y = L[i].y + h * t[i].y, z = L[i].z + h * t[i].z;
-        L[i].x = x;
-        L[i].y = y;
-        L[i].z = z;
-        w[i].x = x / inertia;
-        w[i].y = y / inertia;
-        w[i].z = z / inertia;
+    const fl_wide s = h * FL_FOUR(&a->invm[k]);
+    fl_wide I[3], f[3], t[3], v[3], L[3], w[3], r[3], x[3], q[4];
+    fl_wide_from_triples(I, &a->I[k]);
+    fl_wide_from_triples(f, &a->f[k]);
+    fl_wide_from_triples(t, &a->t[k]);
+    fl_wide_from_triples(v, &a->v[k]);
+    fl_wide_from_triples(L, &a->L[k]);
+    const fl_wide turns = dt / I[0];
+    FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
+    {
+        v[c] += s * f[c];
+        L[c] += h * t[c];
+        w[c] = L[c] / I[0];
+        r[c] = turns * L[c];
     }
+    fl_wide_to_triples(&a->v[k], v);
+    fl_wide_to_triples(&a->L[k], L);
+    fl_wide_to_triples(&a->w[k], w);
+    if (dt == 0.0) return 1;
+    const fl_wide half2 = 0.25 * NORM2(r), room = Q_HALF_TURN_MOST - half2;
+    const double least = fmin(fmin(room[0], room[1]), fmin(room[2], room[3]));
+    if (!(least >= 0.0)) return 0;
+    /* 1 - cos and sin(x)/x as in quat.h */
+    fl_wide cosine = 1.0 / 479001600 - half2 * (1.0 / 87178291200.0);
+    fl_wide sine = 1.0 / 39916800 - half2 * (1.0 / 6227020800.0);
+    cosine = 1.0 / 3628800 - half2 * cosine, sine = 1.0 / 362880 - half2 * sine;
+    cosine = 1.0 / 40320 - half2 * cosine, sine = 1.0 / 5040 - half2 * sine;
+    cosine = 1.0 / 720 - half2 * cosine, sine = 1.0 / 120 - half2 * sine;
+    cosine = 1.0 / 24 - half2 * cosine, sine = 1.0 / 6 - half2 * sine;
+    cosine = half2 * (1.0 / 2 - half2 * cosine), sine = 1.0 - half2 * sine;
+    const fl_wide c = 1.0 - cosine, d = 0.5 * sine, hx = d * r[0], hy = d * r[1], hz = d * r[2];
+    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) q[l] = FL_FOUR(&a->q[k + l]);
+    fl_wide_transpose(q);
+    const fl_wide qw = q[0], qx = q[1], qy = q[2], qz = q[3];
+    q[0] = c * qw - hx * qx - hy * qy - hz * qz;
+    q[1] = c * qx + hx * qw + hy * qz - hz * qy;
+    q[2] = c * qy - hx * qz + hy * qw + hz * qx;
+    q[3] = c * qz + hx * qy - hy * qx + hz * qw;
+    const fl_wide one = 1.5 - 0.5 * (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) q[l] *= one;
+    fl_wide_transpose(q);
+    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++)
+    {
+        if (L[0][l] != 0.0 || L[1][l] != 0.0 || L[2][l] != 0.0) FL_FOUR_INTO(&a->q[k + l]) = q[l];
+    }
+    const fl_wide speed2 = NORM2(v);
+    fl_wide_from_triples(x, &a->x[k]);
+    FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++) x[axis] += dt * v[axis];
+    fl_wide_to_triples(&a->x[k], x);
+    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) a->odometer[k + l] += fabs(dt) * sqrt(speed2[l]);
+    return 1;
 }
 
-FL_WIDE_VERSIONS static void drift_plain(int32_t n, double dt, const fl_vec3 *restrict I,
-                                         const fl_vec3 *restrict v, const fl_vec3 *restrict L,
-                                         fl_vec3 *restrict x, fl_quat *restrict q, double *restrict odometer)
+/* The first of n, a multiple of four, that do not turn as the others do, or n; up to it all are done, and its
+ * four are kicked. */
+FL_FOUR_VERSIONS static int32_t move_plain(const plain *restrict a, int32_t from, int32_t n, double h,
+                                           double dt)
 {
-    const double path = fabs(dt);
-#pragma omp simd
-    for (int32_t i = 0; i < n; i++) {
-        const double vx = v[i].x, vy = v[i].y, vz = v[i].z, Lx = L[i].x, Ly = L[i].y, Lz = L[i].z;
-        const double s = dt / I[i].x, rx = s * Lx, ry = s * Ly, rz = s * Lz;
-        const double half2 = 0.25 * (rx * rx + ry * ry + rz * rz);
-        const double c = 1.0 - q_versine(half2), k = 0.5 * q_sinc(half2);
-        const double hx = k * rx, hy = k * ry, hz = k * rz;
-        const double a = q[i].w, ax = q[i].x, ay = q[i].y, az = q[i].z;
-        const double bw = c * a - hx * ax - hy * ay - hz * az, bx = c * ax + hx * a + hy * az - hz * ay,
-                     by = c * ay - hx * az + hy * a + hz * ax, bz = c * az + hx * ay - hy * ax + hz * a;
-        const double one = 1.5 - 0.5 * (bw * bw + bx * bx + by * by + bz * bz);
-        const int turns = Lx != 0.0 || Ly != 0.0 || Lz != 0.0;
-        x[i].x += dt * vx;
-        x[i].y += dt * vy;
-        x[i].z += dt * vz;
-        odometer[i] += path * sqrt(vx * vx + vy * vy + vz * vz);
-        q[i].w = turns ? one * bw : a;
-        q[i].x = turns ? one * bx : ax;
-        q[i].y = turns ? one * by : ay;
-        q[i].z = turns ? one * bz : az;
+    for (int32_t k = from; k < n; k += FL_LANES)
+        if (!move_four(a, k, h, dt)) return k;
+    return n;
+}
+
+static void move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
+{
+    const int32_t n = to - from, four = n - n % FL_LANES;
+    const plain a = {b->invm + from, b->I + from, b->f + from, b->t + from, b->v + from,
+                     b->L + from,    b->w + from, b->x + from, b->q + from, b->odometer + from};
+    for (int32_t k = 0; k < four;) {
+        const int32_t wild = move_plain(&a, k, four, h, dt);
+        for (k = wild; k < four && k < wild + FL_LANES; k++) fl_drift(b, from + k, dt);
+    }
+    for (int32_t k = four; k < n; k++) {
+        fl_kick(b, from + k, h);
+        if (dt != 0.0) fl_drift(b, from + k, dt);
     }
 }
 
@@ -424,31 +468,23 @@ static int turns_little(int32_t n, double dt, const fl_vec3 *I, const fl_vec3 *L
     return most * dt * dt < 0.99 * 4.0 * Q_HALF_TURN_MOST;
 }
 
-/* Bodies [from, to), all balls or none of them. */
-static void move_alike(fl_bodies *b, int32_t from, int32_t to, double h, double dt, fl_vec3 (*gain)[2])
+static void move_others(fl_bodies *b, int32_t from, int32_t to, double h, double dt, fl_vec3 (*gain)[2])
 {
     const int32_t n = to - from;
-    const int balls = b->ball[from];
-    if (balls)
-        kick_plain(n, h, b->invm + from, b->I + from, b->f + from, b->t + from, b->v + from, b->L + from,
-                   b->w + from);
-    else
-        kick_free(n, h, b->invm + from, b->I + from, b->R + from, b->f + from, b->t + from, b->v + from,
-                  b->L + from, b->w + from, gain);
+    kick_free(n, h, b->invm + from, b->I + from, b->R + from, b->f + from, b->t + from, b->v + from,
+              b->L + from, b->w + from, gain);
     if (dt == 0.0) return;
-    if (!turns_little(n, dt, b->I + from, b->L + from))
+    if (turns_little(n, dt, b->I + from, b->L + from)) drift_free(b, from, to, dt);
+    else
         for (int32_t i = from; i < to; i++) fl_drift(b, i, dt);
-    else if (balls)
-        drift_plain(n, dt, b->I + from, b->v + from, b->L + from, b->x + from, b->q + from,
-                    b->odometer + from);
-    else drift_free(b, from, to, dt);
 }
 
 void fl_move_free(fl_bodies *b, int32_t from, int32_t to, double h, double dt, fl_vec3 (*gain)[2])
 {
     for (int32_t i = from, end; i < to; i = end) {
         for (end = i + 1; end < to && b->ball[end] == b->ball[i];) end++;
-        move_alike(b, i, end, h, dt, gain + (i - from));
+        if (b->ball[i]) move_balls(b, i, end, h, dt);
+        else move_others(b, i, end, h, dt, gain + (i - from));
     }
 }
 

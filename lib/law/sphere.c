@@ -55,31 +55,29 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
         const double off = tx * nx + ty * ny + tz * nz;
         const double qx = tx - off * nx, qy = ty - off * ny, qz = tz - off * nz;
         const double before = px * px + py * py + pz * pz, after = qx * qx + qy * qy + qz * qz;
-        const double keeps = after > 0.0 ? sqrt(before / after) : 1.0;
         const double k = b->tangential[c] * b->slope[c], old = b->stiff[c];
-        const double share = k < old ? keeps * (k / old) : keeps;
+        const double less = k < old ? k : 1.0, than = after * (k < old ? old : 1.0);
+        const double share = sqrt(before * after) * less / (than > 0.0 ? than : 1.0);
         const double fx = share * qx - (k * dt) * vx, fy = share * qy - (k * dt) * vy,
                      fz = share * qz - (k * dt) * vz;
-        /* Coulomb's limit, for the spring and then for spring and damping */
+        /* Coulomb's limit, for the spring and, where that sticks, for spring and damping: never for both */
         const double limit = b->friction[c] * normal, limit2 = limit * limit;
-        const double size2 = fx * fx + fy * fy + fz * fz;
-        const int slides = size2 > limit2;
-        const double cut = slides ? limit / sqrt(size2) : 1.0;
-        const double ex = cut * fx, ey = cut * fy, ez = cut * fz;
+        const int slides = fx * fx + fy * fy + fz * fz > limit2;
         const double g = slides ? 0.0 : b->tangential[c] * chi * elastic;
-        const double hx = ex - g * vx, hy = ey - g * vy, hz = ez - g * vz;
-        const double full2 = hx * hx + hy * hy + hz * hz;
-        const double trim = !slides && full2 > limit2 ? limit / sqrt(full2) : 1.0;
+        const double gx = fx - g * vx, gy = fy - g * vy, gz = fz - g * vz;
+        const double full2 = gx * gx + gy * gy + gz * gz;
+        const double cut = full2 > limit2 ? limit / sqrt(full2) : 1.0;
+        const double hx = cut * gx, hy = cut * gy, hz = cut * gz;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
         b->touch[c] = touch;
         b->normal[c] = normal;
-        b->slip[0][c] = on ? ex : 0.0;
-        b->slip[1][c] = on ? ey : 0.0;
-        b->slip[2][c] = on ? ez : 0.0;
+        b->slip[0][c] = on ? (slides ? hx : fx) : 0.0;
+        b->slip[1][c] = on ? (slides ? hy : fy) : 0.0;
+        b->slip[2][c] = on ? (slides ? hz : fz) : 0.0;
         b->stiff[c] = on ? k : 0.0;
-        b->rub[0][c] = on ? trim * hx : 0.0;
-        b->rub[1][c] = on ? trim * hy : 0.0;
-        b->rub[2][c] = on ? trim * hz : 0.0;
+        b->rub[0][c] = on ? hx : 0.0;
+        b->rub[1][c] = on ? hy : 0.0;
+        b->rub[2][c] = on ? hz : 0.0;
     }
 }
 

@@ -11,17 +11,19 @@
  * force on i F_n n + F_t, torques -a_i n x F_t and -a_j n x F_t. */
 #ifndef FL_LAW_SPHERE_H
 #define FL_LAW_SPHERE_H
+#include <stdalign.h>
 #include <stdint.h>
 
-/* Two registers of eight; many more would push each other out of the fastest cache. */
-enum { FL_SPHERES_MOST = 16 };
+/* What is written one by one is read eight at a time: by then it should have reached the fastest cache, and
+ * all of it should still be there. */
+enum { FL_SPHERES_MOST = 32 };
 
 /* One array a quantity.  Vectors are x, y, z. */
 typedef struct {
     /* in */
-    double d[3][FL_SPHERES_MOST];  /* D                                        [m]     */
-    double u[3][FL_SPHERES_MOST];  /* v_i - v_j                                [m/s]   */
-    double wi[3][FL_SPHERES_MOST]; /* angular velocities                       [rad/s] */
+    alignas(64) double d[3][FL_SPHERES_MOST]; /* D                             [m]     */
+    double u[3][FL_SPHERES_MOST];             /* v_i - v_j                                [m/s]   */
+    double wi[3][FL_SPHERES_MOST];            /* angular velocities                       [rad/s] */
     double wj[3][FL_SPHERES_MOST];
     double ri[FL_SPHERES_MOST]; /* radii                                    [m]     */
     double rj[FL_SPHERES_MOST];

@@ -13,14 +13,15 @@
 
 enum { FL_BALLS_CHUNK = 256, FL_BALLS_GROUP = 32 };
 
-/* What a row remembers, and the forces that it gave last. */
+/* What a row remembers, and the forces that it gave last.  Vectors stand before a number, so that either two
+ * are one register of four. */
 typedef struct {
-    double k;      /* kappa of Hertz                                                  [N/m^1.5] */
-    double touch;  /* largest approach speed of this touch                            [m/s]     */
     fl_vec3 slip;  /* elastic part of the tangential force on i                       [N]       */
     double stiff;  /* tangential stiffness that it was built with                     [N/m]     */
     fl_vec3 rub;   /* tangential force on i, with damping                             [N]       */
     double normal; /* normal force, with damping                                      [N]       */
+    double touch;  /* largest approach speed of this touch                            [m/s]     */
+    double k;      /* kappa of Hertz                                                  [N/m^1.5] */
 } fl_ball_row;
 
 /* Sums over the rows of one body; forces and torques on it, world axes. */
@@ -47,7 +48,11 @@ typedef struct {
     uint8_t *hit;     /* [n] touches */
     fl_ball_row *row; /* [n] */
     int32_t *first;   /* [bodies + 1] rows of body i */
+    int32_t *beyond;  /* [bodies] row c of body i that leaves its chunk has slot c - beyond[i] */
     int32_t chunks;
+    int32_t *source;      /* [chunks] the first chunk with a row that leads there */
+    uint8_t *ended;       /* [chunks] scratch of a step */
+    uint8_t *moved;       /* [n] j is of another cell; NULL without a periodic cell */
     int32_t *cross;       /* [chunks + 1] slots of the rows that leave a chunk, in their order */
     int32_t *into;        /* [bodies + 1] offsets into slots */
     int32_t *slots;       /* [cross[chunks]] the slots that body j has to add up, ascending */

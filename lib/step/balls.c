@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <assert.h>
+#include <stdalign.h>
+#include <stddef.h>
 #include <string.h>
 #include "base/mem.h"
 #include "base/wide.h"
@@ -23,7 +25,8 @@ int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 void fl_balls_free(fl_balls *s)
 {
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
-    free(s->first), free(s->cross), free(s->into), free(s->slots), free(s->slot);
+    free(s->first), free(s->beyond), free(s->source), free(s->ended), free(s->moved), free(s->cross),
+        free(s->into), free(s->slots), free(s->slot);
     free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
     *s = (fl_balls){0};
 }
@@ -50,12 +53,17 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->chunks = (w->n + FL_BALLS_CHUNK - 1) / FL_BALLS_CHUNK;
     s->first = fl_alloc((int64_t)w->n + 1, sizeof *s->first, err);
     s->into = fl_alloc((int64_t)w->n + 1, sizeof *s->into, err);
+    s->beyond = fl_alloc(w->n, sizeof *s->beyond, err);
+    s->source = fl_alloc(s->chunks, sizeof *s->source, err);
+    s->ended = fl_alloc(s->chunks, sizeof *s->ended, err);
     s->cross = fl_alloc((int64_t)s->chunks + 1, sizeof *s->cross, err);
     s->tally = fl_alloc(s->chunks, sizeof *s->tally, err);
     s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->was = fl_alloc(w->n, sizeof *s->was, err);
-    if (!s->first || !s->into || !s->cross || !s->tally || !s->stiff || !s->sum || !s->was) return -1;
+    if (!s->first || !s->into || !s->beyond || !s->source || !s->ended || !s->cross || !s->tally ||
+        !s->stiff || !s->sum || !s->was)
+        return -1;
     s->bodies = w->n;
     return 0;
 }
@@ -76,21 +84,29 @@ static int index_rows(fl_world *w, fl_err *err)
     for (int32_t c = 0; c < s->n; c++) s->first[s->i[c] + 1]++;
     for (int32_t i = 0; i < s->bodies; i++) s->first[i + 1] += s->first[i];
     int32_t slots = 0;
+    for (int32_t a = 0; a < s->chunks; a++) s->source[a] = INT32_MAX;
     for (int32_t a = 0; a < s->chunks; a++) {
         const int32_t end = last_body(s, a);
         s->cross[a] = slots;
+        if (s->source[a] > a) s->source[a] = a;
         for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[end]; c++) {
             if (s->j[c] < end) continue;
+            int32_t *source = &s->source[s->j[c] / FL_BALLS_CHUNK];
+            if (a < *source) *source = a;
             s->into[s->j[c] + 1]++;
-            slots++;
+            s->beyond[s->i[c]] = c - slots++; /* the same for all of i that leave: they are its last */
         }
     }
     s->cross[s->chunks] = slots;
-    free(s->slots), free(s->slot), free(s->stiff_slot);
+    free(s->slots), free(s->slot), free(s->stiff_slot), free(s->moved);
+    s->moved = NULL;
     s->slots = fl_alloc(slots, sizeof *s->slots, err);
     s->slot = fl_alloc(slots, sizeof *s->slot, err);
     s->stiff_slot = fl_alloc(slots, sizeof *s->stiff_slot, err);
-    if (!s->slots || !s->slot || !s->stiff_slot) return -1;
+    if (s->image) s->moved = fl_alloc(s->n, sizeof *s->moved, err);
+    if (!s->slots || !s->slot || !s->stiff_slot || (s->image && !s->moved)) return -1;
+    for (int32_t c = 0; s->image && c < s->n; c++)
+        s->moved[c] = s->image[3 * c] || s->image[3 * c + 1] || s->image[3 * c + 2];
     for (int32_t j = 0; j < s->bodies; j++) s->into[j + 1] += s->into[j];
     slots = 0;
     for (int32_t a = 0; a < s->chunks; a++) { /* fills: into[j] goes from the start of j to that of j + 1 */
@@ -231,24 +247,17 @@ int fl_balls_drop(fl_world *w, fl_err *err)
 
 /* --- their forces ------------------------------------------------------------------------------ */
 
-/* A batch of touching rows in work. */
+/* Rows looked at together, and touching rows in work. */
+enum { BLOCK = 16 };
+static_assert(FL_SPHERES_MOST == 2 * BLOCK, "what a block finds has room behind what is not a block yet");
+
 typedef struct {
     fl_spheres at;
-    int32_t row[FL_SPHERES_MOST], slot[FL_SPHERES_MOST]; /* slot < 0: j is of the chunk */
+    int32_t row[FL_SPHERES_MOST]; /* filled to the end of a register */
+    int32_t law[FL_SPHERES_MOST]; /* whose numbers stand there */
+    double rest2[FL_SPHERES_MOST];
     int32_t m;
 } batch;
-
-static inline void put(double a[3][FL_SPHERES_MOST], int32_t m, fl_vec3 v)
-{
-    a[0][m] = v.x;
-    a[1][m] = v.y;
-    a[2][m] = v.z;
-}
-
-static inline fl_vec3 get(const double a[3][FL_SPHERES_MOST], int32_t m)
-{
-    return v3(a[0][m], a[1][m], a[2][m]);
-}
 
 /* D of the image that is meant, most often the one in the same cell. */
 static inline fl_vec3 seen(const fl_cell *cell, const int32_t *image, int32_t c, fl_vec3 d)
@@ -264,61 +273,162 @@ static inline fl_vec3 between(const fl_world *w, int32_t c)
     return seen(&w->cell, s->image, c, v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]));
 }
 
+/* The slot of row c, which leaves the chunk that ends before body `end`; -1 of one that does not. */
+static inline int32_t slot_of(const fl_balls *s, int32_t c, int32_t end)
+{
+    return s->j[c] >= end ? c - s->beyond[s->i[c]] : -1;
+}
+
+/* D of m rows as if there were no images, and radii. */
+FL_FOUR_VERSIONS static void apart(double (*restrict d)[FL_SPHERES_MOST], double *restrict ri,
+                                   double *restrict rj, const int32_t *restrict row, int32_t m,
+                                   const int32_t *restrict bi, const int32_t *restrict bj,
+                                   const fl_vec3 *restrict x, const double *restrict radius)
+{
+    for (int32_t k = 0; k < m; k += FL_LANES) {
+        fl_wide v[FL_LANES];
+        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
+        {
+            const int32_t i = bi[row[k + l]], j = bj[row[k + l]];
+            v[l] = FL_FOUR(&x[i]) - FL_FOUR(&x[j]);
+            ri[k + l] = radius[i];
+            rj[k + l] = radius[j];
+        }
+        fl_wide_transpose(v);
+        FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++) FL_FOUR_INTO(&d[axis][k]) = v[axis];
+    }
+}
+
+/* The same with images. */
+static void place(const fl_world *w, double (*d)[FL_SPHERES_MOST], double *ri, double *rj, int32_t *row,
+                  int32_t m)
+{
+    const fl_balls *s = &w->balls;
+    for (int32_t k = m; k % FL_LANES; k++) row[k] = row[m - 1];
+    apart(d, ri, rj, row, m, s->i, s->j, w->b.x, w->b.radius);
+    const uint8_t *away = s->moved;
+    for (int32_t k = 0; away && k < m; k++) {
+        if (!away[row[k]]) continue;
+        const fl_vec3 moved = seen(&w->cell, s->image, row[k], v3(d[0][k], d[1][k], d[2][k]));
+        d[0][k] = moved.x;
+        d[1][k] = moved.y;
+        d[2][k] = moved.z;
+    }
+}
+
+/* A block of rows: D, and |D|^2 - (r_i + r_j)^2. */
+typedef struct {
+    alignas(64) double d[3][FL_SPHERES_MOST], ri[BLOCK], rj[BLOCK], gap[BLOCK];
+    int32_t row[BLOCK];
+} block;
+
+FL_WIDE_VERSIONS static void gaps(block *restrict q)
+{
+#pragma omp simd
+    for (int32_t k = 0; k < BLOCK; k++) {
+        const double x = q->d[0][k], y = q->d[1][k], z = q->d[2][k], R = q->ri[k] + q->rj[k];
+        q->gap[k] = x * x + y * y + z * z - R * R;
+    }
+}
+
 /* What the batch needs beside D to be placed again, */
 static void load_forces(const fl_world *w, batch *t)
 {
-    const fl_balls *s = &w->balls;
     fl_spheres *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m];
-        const fl_ball_row *r = &s->row[c];
-        a->ri[m] = w->b.radius[s->i[c]];
-        a->rj[m] = w->b.radius[s->j[c]];
+        const fl_ball_row *r = &w->balls.row[t->row[m]];
         a->k[m] = r->k;
-        put(a->rub, m, r->rub);
+        a->rub[0][m] = r->rub.x;
+        a->rub[1][m] = r->rub.y;
+        a->rub[2][m] = r->rub.z;
         a->normal[m] = r->normal;
     }
 }
 
 /* and to be evaluated. */
-static void load(const fl_world *w, batch *restrict t)
+typedef struct {
+    const int32_t *i, *j;
+    const fl_ball_row *row;
+    const fl_vec3 *v, *w;
+    const double *invm;
+} source;
+
+FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
 {
-    const fl_ball_row *row = w->balls.row;
-    const int32_t *bi = w->balls.i, *bj = w->balls.j, *bl = w->balls.law;
-    const fl_touching *laws = w->law;
-    const fl_vec3 *v = w->b.v, *spin = w->b.w;
-    const double *radius = w->b.radius, *invm = w->b.invm;
+    static_assert(offsetof(fl_ball_row, stiff) == sizeof(fl_vec3), "a spring is a register of four");
+    const int32_t *bi = s->i, *bj = s->j;
+    const fl_ball_row *row = s->row;
+    const fl_vec3 *v = s->v, *spin = s->w;
+    const double *invm = s->invm;
+    const int32_t n = t->m;
     fl_spheres *a = &t->at;
-    for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m], i = bi[c], j = bj[c];
-        const fl_ball_row *r = &row[c];
-        const fl_touching *law = &laws[bl[c]];
-        a->ri[m] = radius[i];
-        a->rj[m] = radius[j];
-        a->invm[m] = law->rest * law->rest * (invm[i] + invm[j]); /* of nothing but the stored energy */
-        put(a->u, m, v3_sub(v[i], v[j]));
-        put(a->wi, m, spin[i]);
-        put(a->wj, m, spin[j]);
-        a->friction[m] = law->friction;
-        a->tangential[m] = law->tangential;
-        a->chi[m] = law->chi;
-        a->k[m] = r->k;
-        a->touch[m] = r->touch;
-        put(a->slip, m, r->slip);
-        a->stiff[m] = r->stiff;
+    for (int32_t m = 0; m < n; m += FL_LANES) {
+        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES];
+        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
+        {
+            const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
+            const fl_ball_row *r = &row[c];
+            u[l] = FL_FOUR(&v[i]) - FL_FOUR(&v[j]);
+            p[l] = FL_FOUR(&spin[i]);
+            q[l] = FL_FOUR(&spin[j]);
+            h[l] = FL_FOUR(&r->slip);
+            a->invm[m + l] = t->rest2[m + l] * (invm[i] + invm[j]); /* for nothing but the stored energy */
+            a->touch[m + l] = r->touch;
+            a->k[m + l] = r->k;
+        }
+        fl_wide_transpose(u);
+        fl_wide_transpose(p);
+        fl_wide_transpose(q);
+        fl_wide_transpose(h);
+        FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++)
+        {
+            FL_FOUR_INTO(&a->u[axis][m]) = u[axis];
+            FL_FOUR_INTO(&a->wi[axis][m]) = p[axis];
+            FL_FOUR_INTO(&a->wj[axis][m]) = q[axis];
+            FL_FOUR_INTO(&a->slip[axis][m]) = h[axis];
+        }
+        FL_FOUR_INTO(&a->stiff[m]) = h[3];
     }
 }
 
-static void save(fl_ball_row *restrict row, const batch *restrict t)
+/* Most often there is one law, and its numbers stand there from the contacts before. */
+static void load_laws(const fl_world *w, batch *t)
 {
-    const fl_spheres *a = &t->at;
+    const int32_t *bl = w->balls.law;
+    fl_spheres *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        fl_ball_row *r = &row[t->row[m]];
-        r->touch = a->touch[m];
-        r->slip = get(a->slip, m);
-        r->stiff = a->stiff[m];
-        r->rub = get(a->rub, m);
-        r->normal = a->normal[m];
+        const int32_t l = bl[t->row[m]];
+        if (l == t->law[m]) continue;
+        const fl_touching *law = &w->law[l];
+        t->law[m] = l;
+        a->friction[m] = law->friction;
+        a->tangential[m] = law->tangential;
+        a->chi[m] = law->chi;
+        t->rest2[m] = law->rest * law->rest;
+    }
+}
+
+FL_FOUR_VERSIONS static void save(fl_ball_row *restrict row, const batch *restrict t)
+{
+    static_assert(offsetof(fl_ball_row, normal) == offsetof(fl_ball_row, rub) + sizeof(fl_vec3),
+                  "see ball.h");
+    const fl_spheres *a = &t->at;
+    const int32_t n = t->m;
+    for (int32_t m = 0; m < n; m += FL_LANES) {
+        fl_wide h[] = {FL_FOUR(&a->slip[0][m]), FL_FOUR(&a->slip[1][m]), FL_FOUR(&a->slip[2][m]),
+                       FL_FOUR(&a->stiff[m])};
+        fl_wide f[] = {FL_FOUR(&a->rub[0][m]), FL_FOUR(&a->rub[1][m]), FL_FOUR(&a->rub[2][m]),
+                       FL_FOUR(&a->normal[m])};
+        fl_wide_transpose(h);
+        fl_wide_transpose(f);
+        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
+        {
+            if (m + l >= n) break;
+            fl_ball_row *r = &row[t->row[m + l]];
+            FL_FOUR_INTO(&r->slip) = h[l];
+            FL_FOUR_INTO(&r->rub) = f[l];
+            r->touch = a->touch[m + l];
+        }
     }
 }
 
@@ -326,24 +436,52 @@ static void save(fl_ball_row *restrict row, const batch *restrict t)
 enum { PARTS = 3 };
 static_assert(sizeof(fl_ball_sum) == PARTS * sizeof(fl_wide), "a sum is twelve doubles");
 
-/* Their wrenches to the sums of the chunk, and to slots. */
-FL_WIDE_VERSIONS static void hand_out(const int32_t *restrict bi, const int32_t *restrict bj,
-                                      fl_ball_sum *restrict sums, fl_ball_sum *restrict slots,
-                                      const batch *restrict t)
+/* Their wrenches to the sums of the chunk that ends before body `end`, and to slots: what stands in a slot
+ * does not count.  Which of the two it is cannot be foreseen, so nothing branches on it. */
+FL_FOUR_VERSIONS static void hand_out(const fl_balls *restrict s, const batch *restrict t, int32_t end)
 {
     const fl_spheres *a = &t->at;
-    for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m], slot = t->slot[m];
-        const double ex = a->push[0][m], ey = a->push[1][m], ez = a->push[2][m];
-        const double dx = a->damping[0][m], dy = a->damping[1][m], dz = a->damping[2][m];
-        const double fx = a->rub[0][m], fy = a->rub[1][m], fz = a->rub[2][m];
-        const fl_wide one = {ex, ey, ez, dx}, two = {dy, dz, fx, fy};
-        const fl_wide on_i = {fz, a->ti[0][m], a->ti[1][m], a->ti[2][m]},
-                      on_j = {-fz, a->tj[0][m], a->tj[1][m], a->tj[2][m]};
-        fl_wide *i = (fl_wide *)&sums[bi[c]], *j = (fl_wide *)(slot < 0 ? &sums[bj[c]] : &slots[slot]);
-        i[0] += one, i[1] += two, i[2] += on_i;
-        if (slot < 0) j[0] -= one, j[1] -= two, j[2] += on_j;
-        else j[0] = -one, j[1] = -two, j[2] = on_j;
+    const int32_t *bi = s->i, *bj = s->j, *beyond = s->beyond, n = t->m;
+    fl_ball_sum *sums = s->sum, *slots = s->slot;
+    for (int32_t m = 0; m < n; m += FL_LANES) {
+        fl_wide one[] = {FL_FOUR(&a->push[0][m]), FL_FOUR(&a->push[1][m]), FL_FOUR(&a->push[2][m]),
+                         FL_FOUR(&a->damping[0][m])};
+        fl_wide two[] = {FL_FOUR(&a->damping[1][m]), FL_FOUR(&a->damping[2][m]), FL_FOUR(&a->rub[0][m]),
+                         FL_FOUR(&a->rub[1][m])};
+        fl_wide on_i[] = {FL_FOUR(&a->rub[2][m]), FL_FOUR(&a->ti[0][m]), FL_FOUR(&a->ti[1][m]),
+                          FL_FOUR(&a->ti[2][m])};
+        fl_wide on_j[] = {-on_i[0], FL_FOUR(&a->tj[0][m]), FL_FOUR(&a->tj[1][m]), FL_FOUR(&a->tj[2][m])};
+        fl_wide_transpose(one);
+        fl_wide_transpose(two);
+        fl_wide_transpose(on_i);
+        fl_wide_transpose(on_j);
+        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
+        {
+            if (m + l >= n) break;
+            const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
+            const int64_t own = j < end ? -1 : 0;
+            const fl_wide_mask adds = {own, own, own, own};
+            fl_wide *on = (fl_wide *)&sums[i], *off = (fl_wide *)(own ? &sums[j] : &slots[c - beyond[i]]);
+            on[0] += one[l], on[1] += two[l], on[2] += on_i[l];
+            off[0] = FL_WIDE_WHERE(adds, off[0]) - one[l];
+            off[1] = FL_WIDE_WHERE(adds, off[1]) - two[l];
+            off[2] = FL_WIDE_WHERE(adds, off[2]) + on_j[l];
+        }
+    }
+}
+
+FL_FOUR_VERSIONS static void collect(fl_ball_sum *restrict sums, const fl_ball_sum *restrict slot,
+                                     const int32_t *restrict slots, const int32_t *restrict into,
+                                     int32_t from, int32_t to)
+{
+    for (int32_t k = from; k < to; k++) {
+        fl_wide *sum = (fl_wide *)&sums[k], a = sum[0], b = sum[1], c = sum[2];
+        if (into[k] == into[k + 1]) continue;
+        for (int32_t at = into[k]; at < into[k + 1]; at++) {
+            const fl_wide *in = (const fl_wide *)&slot[slots[at]];
+            a += in[0], b += in[1], c += in[2];
+        }
+        sum[0] = a, sum[1] = b, sum[2] = c;
     }
 }
 
@@ -372,7 +510,7 @@ static double bound(const fl_bodies *b, int32_t i, double along, double across, 
 }
 
 /* As share_of() of step.c says. */
-static void survey_batch(fl_world *w, batch *t)
+static void survey_batch(fl_world *w, const batch *t, int32_t end)
 {
     fl_balls *s = &w->balls;
     const fl_spheres *a = &t->at;
@@ -382,8 +520,8 @@ static void survey_batch(fl_world *w, batch *t)
         const double ki = bound(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half),
                      kj = bound(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half), both = sqrt(ki * kj);
         s->stiff[i] += ki + both;
-        if (t->slot[m] < 0) s->stiff[j] += kj + both;
-        else s->stiff_slot[t->slot[m]] = kj + both;
+        if (j < end) s->stiff[j] += kj + both;
+        else s->stiff_slot[slot_of(s, c, end)] = kj + both;
     }
 }
 
@@ -400,72 +538,87 @@ static void part(fl_balls *s, int32_t c, int32_t slot)
 static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
 {
     fl_balls *s = &w->balls;
+    const fl_bodies *b = &w->b;
+    const int32_t end = last_body(s, a);
+    if (t->m == 0) return;
+    place(w, t->at.d, t->at.ri, t->at.rj, t->row, t->m);
     if (dt < 0.0) {
         load_forces(w, t);
         fl_spheres_place(&t->at, t->m);
     } else {
-        load(w, t);
+        const source from = {s->i, s->j, s->row, b->v, b->w, b->invm};
+        load_laws(w, t);
+        load(&from, t);
         fl_spheres_meet(&t->at, t->m, dt);
         save(s->row, t);
     }
-    hand_out(s->i, s->j, s->sum, s->slot, t);
+    hand_out(s, t, end);
     count(t, &s->tally[a]);
-    if (survey) survey_batch(w, t);
+    if (survey) survey_batch(w, t, end);
     t->m = 0;
 }
 
-/* Whether a row touches is nothing that could be foreseen, so nothing here branches on it: what is found is
- * written down behind the last that counts, and counts or does not. */
+/* Whether a row touches is nothing that could be foreseen, so nothing here branches on it: it is written down
+ * behind the last that does, and counts or does not.  That it begins to, or ends, is rare. */
 static void take(fl_world *w, int32_t a, double dt, int survey)
 {
     fl_balls *s = &w->balls;
     const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a), from = s->first[begin],
-                  to = s->first[end];
-    const int32_t *bi = s->i, *bj = s->j, *image = s->image;
-    const double *radius = w->b.radius;
-    const fl_vec3 *x = w->b.x;
-    const int again = dt < 0.0;
+                  to = s->first[end], cross = s->cross[a];
     uint8_t *hit = s->hit;
-    int32_t slot = s->cross[a];
     batch t;
+    block q = {0};
+    memset(t.law, -1, sizeof t.law);
     t.m = 0;
     s->tally[a] = (fl_ball_tally){.worst_row = -1};
     memset(&s->sum[begin], 0, (size_t)(end - begin) * sizeof *s->sum);
     if (survey) {
         memset(&s->stiff[begin], 0, (size_t)(end - begin) * sizeof *s->stiff);
-        memset(&s->stiff_slot[slot], 0, (size_t)(s->cross[a + 1] - slot) * sizeof *s->stiff_slot);
+        memset(&s->stiff_slot[cross], 0, (size_t)(s->cross[a + 1] - cross) * sizeof *s->stiff_slot);
     }
-    for (int32_t c = from; c < to; c++) {
-        const int32_t i = bi[c], j = bj[c], m = t.m;
-        const fl_vec3 d = seen(&w->cell, image, c, v3_sub(x[i], x[j]));
-        const double R = radius[i] + radius[j];
-        const int leaves = j >= end, was = hit[c], touches = again ? was : v3_norm2(d) < R * R;
-        const int32_t own = leaves ? slot : -1;
-        slot += leaves;
-        put(t.at.d, m, d);
-        t.row[m] = c;
-        t.slot[m] = own;
-        hit[c] = (uint8_t)touches;
-        if (was > touches) part(s, c, own);
-        t.m = m + touches;
-        if (t.m == FL_SPHERES_MOST) finish(w, a, &t, dt, survey);
+    for (int32_t first = from; first < to; first += BLOCK) {
+        const int32_t n = to - first < BLOCK ? to - first : BLOCK;
+        int32_t m = t.m;
+        if (dt < 0.0) {
+            for (int32_t k = 0; k < n; k++) q.gap[k] = hit[first + k] ? -1.0 : 1.0;
+        } else {
+            for (int32_t k = 0; k < n; k++) q.row[k] = first + k;
+            place(w, q.d, q.ri, q.rj, q.row, n);
+            gaps(&q);
+        }
+        for (int32_t k = 0; k < n; k++) {
+            const int32_t c = first + k;
+            const int touches = q.gap[k] < 0.0;
+            t.row[m] = c;
+            m += touches;
+            if (hit[c] == touches) continue;
+            if (hit[c]) part(s, c, slot_of(s, c, end));
+            hit[c] = (uint8_t)touches;
+        }
+        t.m = m;
+        if (m >= BLOCK) finish(w, a, &t, dt, survey);
     }
-    if (t.m) finish(w, a, &t, dt, survey);
+    finish(w, a, &t, dt, survey);
 }
 
 void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey) { take(w, a, dt, survey); }
 
-void fl_balls_collect(fl_world *w, int32_t k)
+void fl_balls_collect(fl_world *w, int32_t from, int32_t to)
 {
-    fl_balls *s = &w->balls;
-    fl_ball_sum *sum = &s->sum[k];
-    for (int32_t c = s->into[k]; c < s->into[k + 1]; c++) {
-        const fl_ball_sum *in = &s->slot[s->slots[c]];
-        sum->elastic = v3_add(sum->elastic, in->elastic);
-        sum->damping = v3_add(sum->damping, in->damping);
-        sum->friction = v3_add(sum->friction, in->friction);
-        sum->torque = v3_add(sum->torque, in->torque);
+    collect(w->balls.sum, w->balls.slot, w->balls.slots, w->balls.into, from, to);
+}
+
+int32_t fl_balls_share(const fl_world *w, int t, int parts)
+{
+    const fl_balls *s = &w->balls;
+    const int64_t all = (int64_t)s->n + s->bodies;
+    int32_t lo = 0, hi = s->chunks; /* the first with as many rows and bodies before it as belong to others */
+    while (lo < hi) {
+        const int32_t a = (lo + hi) / 2, k = a * FL_BALLS_CHUNK;
+        if (((int64_t)s->first[k] + k) * parts < all * t) lo = a + 1;
+        else hi = a;
     }
+    return lo;
 }
 
 double fl_balls_stiff(const fl_world *w, int32_t k)
@@ -480,7 +633,7 @@ int fl_balls_index(fl_world *w, fl_err *err)
 {
     if (index_rows(w, err)) return -1;
     for (int32_t a = 0; a < w->balls.chunks; a++) take(w, a, -1.0, 0);
-    for (int32_t k = 0; k < w->balls.bodies; k++) fl_balls_collect(w, k);
+    fl_balls_collect(w, 0, w->balls.bodies);
     return 0;
 }
 
@@ -542,7 +695,7 @@ double fl_balls_bytes(const fl_world *w)
                  image = s->image ? 3 * sizeof(int32_t) : 0;
     if (!s->bodies) return 0.0;
     return s->n * (row + image) + s->cross[s->chunks] * (each + sizeof(int32_t) + sizeof(double)) +
-           s->bodies * (each + 2 * sizeof(int32_t) + sizeof(double));
+           s->bodies * (each + 3 * sizeof(int32_t) + sizeof(double));
 }
 
 /* --- as pairs like all others ------------------------------------------------------------------ */

@@ -28,10 +28,13 @@ int fl_balls_drop(fl_world *w, fl_err *err);
 int fl_balls_index(fl_world *w, fl_err *err);
 
 /* The rows of chunk a, at the positions and velocities of now, over a step of dt [s]; survey: also bounds of
- * omega^2.  Any thread may take any chunk; when all are done fl_balls_collect() gives each body k the rest of
- * its sum, once. */
+ * omega^2.  Any thread may take any chunk; when all are done fl_balls_collect() gives the bodies [from, to)
+ * the rest of their sums, once. */
 void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey);
-void fl_balls_collect(fl_world *w, int32_t k);
+void fl_balls_collect(fl_world *w, int32_t from, int32_t to);
+
+/* The first chunk of part t of `parts`, of about equal work; of t = parts that behind the last. */
+int32_t fl_balls_share(const fl_world *w, int t, int parts);
 
 /* Sum of bounds of omega^2 of the contacts of body k, at the last survey [1/s2]. */
 double fl_balls_stiff(const fl_world *w, int32_t k);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
 #include "base/wide.h"
 #include "body/integrate.h"
 #include "step/frozen.h"
@@ -12,90 +13,119 @@ int fl_plain_is(const fl_world *w, int32_t k)
            fl_sleep_kind(w, k) == FL_AWAKE;
 }
 
-/* What the loops below read and write, from the first body of the group on. */
+/* What the loop below reads and writes, from the first body of the group on. */
 typedef struct {
     const double *m, *invm;
-    const fl_vec3 *I;
+    const fl_vec3 *I, *x;
     const fl_ball_sum *sum, *was;
     fl_vec3 *f, *t, *v, *L, *w;
     double *damped, *rubbed;
 } group;
 
-/* The gains of either kick. */
+/* The twelve numbers of four sums, one register each. */
 typedef struct {
-    double v0[3][FL_BALLS_GROUP], w0[3][FL_BALLS_GROUP], v1[3][FL_BALLS_GROUP], w1[3][FL_BALLS_GROUP];
-} gains;
+    fl_wide elastic[3], damping[3], friction[3], torque[3];
+} sums;
+static_assert(sizeof(sums) == 12 * sizeof(fl_wide) && sizeof(fl_ball_sum) == 12 * sizeof(double), "alike");
 
-FL_WIDE_VERSIONS static void force(const group *restrict a, int32_t n, fl_vec3 g, double h, gains *restrict q)
+FL_WIDE_PART void load(sums *q, const fl_ball_sum *s)
 {
-    const double *m = a->m, *invm = a->invm;
-    const fl_vec3 *I = a->I;
-    const fl_ball_sum *s = a->sum;
-    fl_vec3 *f = a->f, *t = a->t;
-#pragma omp simd
-    for (int32_t k = 0; k < n; k++) {
-        const double s1 = h * invm[k], s2 = h / I[k].x;
-        q->v0[0][k] = s1 * f[k].x;
-        q->v0[1][k] = s1 * f[k].y;
-        q->v0[2][k] = s1 * f[k].z;
-        q->w0[0][k] = s2 * t[k].x;
-        q->w0[1][k] = s2 * t[k].y;
-        q->w0[2][k] = s2 * t[k].z;
-        const double x = m[k] * g.x + (s[k].elastic.x + s[k].damping.x + s[k].friction.x),
-                     y = m[k] * g.y + (s[k].elastic.y + s[k].damping.y + s[k].friction.y),
-                     z = m[k] * g.z + (s[k].elastic.z + s[k].damping.z + s[k].friction.z);
-        const double tx = 0.0 + s[k].torque.x, ty = 0.0 + s[k].torque.y, tz = 0.0 + s[k].torque.z;
-        f[k].x = x;
-        f[k].y = y;
-        f[k].z = z;
-        t[k].x = tx;
-        t[k].y = ty;
-        t[k].z = tz;
-        q->v1[0][k] = s1 * x;
-        q->v1[1][k] = s1 * y;
-        q->v1[2][k] = s1 * z;
-        q->w1[0][k] = s2 * tx;
-        q->w1[1][k] = s2 * ty;
-        q->w1[2][k] = s2 * tz;
+    fl_wide *to = &q->elastic[0];
+    FL_WIDE_UNROLL for (int part = 0; part < 3; part++)
+    {
+        fl_wide r[FL_LANES];
+        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) r[l] =
+            FL_FOUR((const double *)&s[l] + FL_LANES * part);
+        fl_wide_transpose(r);
+        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) to[FL_LANES * part + l] = r[l];
     }
 }
 
-FL_WIDE_VERSIONS static void work(const group *restrict a, int32_t n, double dt, const gains *restrict q)
+#define DOT(a, b) (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+
+FL_FOUR_VERSIONS static double end_all(const group *restrict a, int32_t n, fl_vec3 gravity, double dt,
+                                       double h)
 {
-    const fl_ball_sum *s1 = a->sum, *s0 = a->was;
-    const fl_vec3 *v = a->v, *w = a->w;
-    const double sixth = dt / 6.0;
-    double *damped = a->damped, *rubbed = a->rubbed;
-#pragma omp simd
-    for (int32_t k = 0; k < n; k++) {
-        const double ax = q->v0[0][k], ay = q->v0[1][k], az = q->v0[2][k], bx = q->v1[0][k], by = q->v1[1][k],
-                     bz = q->v1[2][k];
-        const double dx = s1[k].damping.x, dy = s1[k].damping.y, dz = s1[k].damping.z;
-        const double fx = s1[k].friction.x, fy = s1[k].friction.y, fz = s1[k].friction.z;
-        const double tx = s1[k].torque.x, ty = s1[k].torque.y, tz = s1[k].torque.z;
-        const double now = dx * v[k].x + dy * v[k].y + dz * v[k].z, before = dx * ax + dy * ay + dz * az;
-        const double then = s0[k].damping.x * bx + s0[k].damping.y * by + s0[k].damping.z * bz;
-        damped[k] = 0.0 - (dt * now + sixth * (before - then));
-        const double rub =
-            (fx * v[k].x + fy * v[k].y + fz * v[k].z) + (tx * w[k].x + ty * w[k].y + tz * w[k].z);
-        const double rub0 =
-            (fx * ax + fy * ay + fz * az) + (tx * q->w0[0][k] + ty * q->w0[1][k] + tz * q->w0[2][k]);
-        const double rub1 =
-            (s0[k].friction.x * bx + s0[k].friction.y * by + s0[k].friction.z * bz) +
-            (s0[k].torque.x * q->w1[0][k] + s0[k].torque.y * q->w1[1][k] + s0[k].torque.z * q->w1[2][k]);
-        rubbed[k] = 0.0 - (dt * rub + sixth * (rub0 - rub1));
+    const double g[3] = {gravity.x, gravity.y, gravity.z}, sixth = dt / 6.0;
+    fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    for (int32_t k = 0; k < n; k += FL_LANES) {
+        const fl_wide m = FL_FOUR(&a->m[k]), invm = FL_FOUR(&a->invm[k]);
+        const double *x = (const double *)&a->x[k];
+        fl_wide I[3], f[3], t[3], v[3], L[3], w[3];
+        sums s1, s0;
+        fl_wide_from_triples(I, &a->I[k]);
+        fl_wide_from_triples(f, &a->f[k]);
+        fl_wide_from_triples(t, &a->t[k]);
+        fl_wide_from_triples(v, &a->v[k]);
+        fl_wide_from_triples(L, &a->L[k]);
+        load(&s1, &a->sum[k]);
+        load(&s0, &a->was[k]);
+        const fl_wide by = h * invm, turns = h / I[0];
+        fl_wide v0[3], w0[3], v1[3], w1[3]; /* the gains of either kick */
+        FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
+        {
+            v0[c] = by * f[c];
+            w0[c] = turns * t[c];
+            f[c] = m * g[c] + (s1.elastic[c] + s1.damping[c] + s1.friction[c]);
+            t[c] = 0.0 + s1.torque[c];
+            v1[c] = by * f[c];
+            w1[c] = turns * t[c];
+            v[c] += v1[c];
+            L[c] += h * t[c];
+            w[c] = L[c] / I[0];
+        }
+        fl_wide_to_triples(&a->f[k], f);
+        fl_wide_to_triples(&a->t[k], t);
+        fl_wide_to_triples(&a->v[k], v);
+        fl_wide_to_triples(&a->L[k], L);
+        fl_wide_to_triples(&a->w[k], w);
+        FL_FOUR_INTO(&a->damped[k]) =
+            0.0 - (dt * DOT(s1.damping, v) + sixth * (DOT(s1.damping, v0) - DOT(s0.damping, v1)));
+        FL_FOUR_INTO(&a->rubbed[k]) = 0.0 - (dt * (DOT(s1.friction, v) + DOT(s1.torque, w)) +
+                                             sixth * ((DOT(s1.friction, v0) + DOT(s1.torque, w0)) -
+                                                      (DOT(s0.friction, v1) + DOT(s0.torque, w1))));
+        zero += 0.0 * (FL_FOUR(x) + FL_FOUR(x + 4) + FL_FOUR(x + 8)) + 0.0 * (f[0] + f[1] + f[2]) +
+                0.0 * (t[0] + t[1] + t[2]) + 0.0 * (v[0] + v[1] + v[2]);
     }
+    return fl_wide_sum(&zero);
 }
 
-void fl_plain_end(fl_world *w, int32_t from, int32_t to, double h)
+/* What is left of a group behind its last four, with others that are nothing beside it. */
+typedef struct {
+    double m[FL_LANES], invm[FL_LANES], damped[FL_LANES], rubbed[FL_LANES];
+    fl_vec3 I[FL_LANES], x[FL_LANES], f[FL_LANES], t[FL_LANES], v[FL_LANES], L[FL_LANES], w[FL_LANES];
+    fl_ball_sum sum[FL_LANES], was[FL_LANES];
+} rest;
+
+static double end_rest(const group *a, int32_t from, int32_t n, fl_vec3 gravity, double dt, double h)
+{
+    rest r = {0};
+    const group of = {r.m, r.invm, r.I, r.x, r.sum, r.was, r.f, r.t, r.v, r.L, r.w, r.damped, r.rubbed};
+    for (int32_t l = 0; l < FL_LANES; l++) r.I[l] = v3(1, 1, 1);
+    for (int32_t l = 0; l < n; l++) {
+        const int32_t k = from + l;
+        r.m[l] = a->m[k], r.invm[l] = a->invm[k];
+        r.I[l] = a->I[k], r.x[l] = a->x[k], r.f[l] = a->f[k], r.t[l] = a->t[k], r.v[l] = a->v[k],
+        r.L[l] = a->L[k];
+        r.sum[l] = a->sum[k], r.was[l] = a->was[k];
+    }
+    const double zero = end_all(&of, FL_LANES, gravity, dt, h);
+    for (int32_t l = 0; l < n; l++) {
+        const int32_t k = from + l;
+        a->f[k] = r.f[l], a->t[k] = r.t[l], a->v[k] = r.v[l], a->L[k] = r.L[l], a->w[k] = r.w[l];
+        a->damped[k] = r.damped[l], a->rubbed[k] = r.rubbed[l];
+    }
+    return zero;
+}
+
+int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h)
 {
     fl_bodies *b = &w->b;
-    const int32_t n = to - from;
-    const group a = {b->m + from,         b->invm + from, b->I + from,      w->balls.sum + from,
-                     w->balls.was + from, b->f + from,    b->t + from,      b->v + from,
-                     b->L + from,         b->w + from,    w->damped + from, w->rubbed + from};
-    gains q;
-    force(&a, n, w->gravity, h, &q);
-    fl_move_free(b, from, to, h, 0.0, NULL);
-    work(&a, n, w->dt, &q);
+    const group a = {b->m + from,         b->invm + from,   b->I + from,     b->x + from, w->balls.sum + from,
+                     w->balls.was + from, b->f + from,      b->t + from,     b->v + from, b->L + from,
+                     b->w + from,         w->damped + from, w->rubbed + from};
+    const int32_t n = to - from, left = n % FL_LANES;
+    double zero = end_all(&a, n - left, w->gravity, w->dt, h);
+    if (left) zero += end_rest(&a, n - left, left, w->gravity, w->dt, h);
+    return zero == 0.0; /* 0 x is 0 where x is finite */
 }

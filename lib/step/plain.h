@@ -10,8 +10,8 @@
  */
 int fl_plain_is(const fl_world *w, int32_t k);
 
-/* Forces from w->balls.sum, the kick by h = dt/2, and the works of the step (works.h) of such bodies, at most
- * FL_BALLS_GROUP of them. */
-void fl_plain_end(fl_world *w, int32_t from, int32_t to, double h);
+/* Forces from w->balls.sum, the kick by h = dt/2, and the works of the step (works.h) of such bodies.
+ * Returns whether all of their numbers are finite. */
+int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h);
 
 #endif

@@ -2,6 +2,7 @@
 #include <assert.h>
 #include <omp.h>
 #include <stdio.h>
+#include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
 #include "body/integrate.h"
@@ -22,6 +23,9 @@
  * those four times as long always. */
 enum { SURVEY = 16, WATCH = 16 };
 
+/* Held things whose contacts one thread adds up before others have begun. */
+enum { FEW = 64 };
+
 /* A residual of more than this of the throughput and of what the contacts store is no longer the error of the
  * time integration, whose loads dem-solve(1) calls usable up to here, but a contact that makes energy. */
 #define MADE 1e-2
@@ -34,26 +38,36 @@ static int surveyed(const fl_world *w, int64_t step)
 }
 
 /* Each thread takes the pairs as it can; each pair writes its own result. */
+static void contacts_of_pairs(fl_world *w, double dt, int survey)
+{
+#pragma omp for schedule(static) nowait
+    for (int32_t k = 0; k < w->frozen.n; k++) fl_frozen_touch(w, k);
+#pragma omp for schedule(dynamic, 16)
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        if (fl_sleep_frozen(w, &w->pair[c])) continue;
+        fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
+        w->hit[c] = w->pair[c].n != 0;
+    }
+}
+
+static void contacts_told(fl_world *w)
+{
+    fl_search_live(w);
+    if (w->frozen.ended) { /* there is a pair to be found */
+        w->found_at = -1;
+        w->frozen.ended = 0;
+    }
+}
+
 static void contacts(fl_world *w, double dt, int survey)
 {
 #pragma omp parallel
     {
 #pragma omp for schedule(dynamic) nowait
         for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, dt, survey);
-#pragma omp for schedule(static) nowait
-        for (int32_t k = 0; k < w->frozen.n; k++) fl_frozen_touch(w, k);
-#pragma omp for schedule(dynamic, 16)
-        for (int32_t c = 0; c < w->n_pair; c++) {
-            if (fl_sleep_frozen(w, &w->pair[c])) continue;
-            fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
-            w->hit[c] = w->pair[c].n != 0;
-        }
+        contacts_of_pairs(w, dt, survey);
     }
-    fl_search_live(w);
-    if (w->frozen.ended) { /* there is a pair to be found */
-        w->found_at = -1;
-        w->frozen.ended = 0;
-    }
+    contacts_told(w);
 }
 
 /* And where they press, when that is asked. */
@@ -209,22 +223,23 @@ static void end_group(fl_world *w, int32_t g, double h)
     fl_gain first[FL_BALLS_GROUP], back[FL_BALLS_GROUP];
     uint8_t done[FL_BALLS_GROUP] = {0};
     fl_group *own = &w->group[g];
+    const int clean = own->clean; /* what presses lies in one of two arrays, which take turns */
     *own = (fl_group){.lost = -1};
     if (fl_sleep_all(w, from, to)) return;
-    int32_t end;
+    int32_t end, finite = 0, many = 0;
+    if (w->balls.bodies) fl_balls_collect(w, from, to);
     for (int32_t k = from; k < to; k = end) {
-        for (end = k; h > 0.0 && end < to && fl_plain_is(w, end); end++) done[end - from] = 1;
-        for (int32_t i = k; i < end; i++) {
-            fl_balls_collect(w, i);
+        for (end = k; h > 0.0 && end < to && fl_plain_is(w, end);) end++;
+        memset(&done[k - from], 1, (size_t)(end - k));
+        for (int32_t i = k; i < end && clean < 2; i++)
             if (w->sink[i].n) w->sink[i] = (fl_sink){0};
-        }
         if (end > k) {
-            fl_plain_end(w, k, end, h);
+            many += end - k;
+            if (fl_plain_end(w, k, end, h)) finite += end - k;
             continue;
         }
         end = k + 1;
         first[k - from] = plain(w, k) ? gain_of(b, k, h) : w->gain[k];
-        if (w->balls.bodies) fl_balls_collect(w, k);
         if (fl_sleeps(w, k)) {
             if (w->sink[k].n || w->was[k].n) w->sink[k] = w->was[k]; /* what presses stays */
         } else if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_end(w, k);
@@ -236,15 +251,57 @@ static void end_group(fl_world *w, int32_t g, double h)
         else end = k + 1;
     }
     for (int32_t k = from; k < to; k++) {
+        if (done[k - from]) {
+            own->pushed = v3_add(own->pushed, v3_madd(b->f[k], -b->m[k], w->gravity));
+            continue;
+        }
         if (fl_world_away(w, k) || fl_sleep_kind(w, k) == FL_COASTS) continue;
         own->pushed = v3_add(own->pushed, pushed(w, k));
-        if (done[k - from] || !(h > 0.0) || fl_sleeps(w, k)) continue;
+        if (!(h > 0.0) || fl_sleeps(w, k)) continue;
         if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_ended(w, k);
         else if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
         if (plain(w, k)) back[k - from] = gain_of(b, k, h);
         fl_works_take(w, k, &first[k - from], &back[k - from]);
     }
-    own->lost = first_lost(b, from, to);
+    if (many == to - from) own->clean = clean < 2 ? clean + 1 : 2;
+    if (finite < to - from) own->lost = first_lost(b, from, to);
+}
+
+/* --- contacts and ends of a step in one go ----------------------------------------------------- */
+
+static_assert(FL_BALLS_CHUNK % FL_BALLS_GROUP == 0, "a chunk is made of groups");
+
+static void end_chunk(fl_world *w, int32_t a, double h)
+{
+    const int32_t each = FL_BALLS_CHUNK / FL_BALLS_GROUP, all = groups(w);
+    for (int32_t g = a * each; g < (a + 1) * each && g < all; g++) end_group(w, g, h);
+}
+
+/* Rows of a chunk lead to it and to those behind it.  So, when a thread takes a run of chunks in their order,
+ * a chunk to which no row from before the run leads can end its step at once, with all that belongs to it
+ * still at hand; the others do when all have been touched.  Four numbers are read for a vector, of the body
+ * behind it too, so that the chunk behind one that waits has to wait as well. */
+static void touch_and_end(fl_world *w, double dt, int survey)
+{
+    const fl_balls *s = &w->balls;
+#pragma omp parallel
+    {
+        contacts_of_pairs(w, dt, survey);
+        const int32_t from = fl_balls_share(w, omp_get_thread_num(), omp_get_num_threads()),
+                      to = fl_balls_share(w, omp_get_thread_num() + 1, omp_get_num_threads());
+        int waits = from > 0;
+        for (int32_t a = from; a < to; a++) {
+            const int led = s->source[a] < from;
+            fl_balls_touch(w, a, dt, survey);
+            s->ended[a] = !(waits || led);
+            if (s->ended[a]) end_chunk(w, a, 0.5 * dt);
+            waits = led;
+        }
+#pragma omp barrier
+        for (int32_t a = from; a < to; a++)
+            if (!s->ended[a]) end_chunk(w, a, 0.5 * dt);
+    }
+    contacts_told(w);
 }
 
 /* omega^2 of all contacts together from those of each for each of its two bodies.  With g u the approach that
@@ -452,15 +509,16 @@ int fl_step(fl_world *w, fl_err *err)
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (w->sleep.nap) fl_sleep_rouse(w);
-    if (touch(w, dt, survey, err)) return -1;
-    if (w->sleep.resting) fl_sleep_disturb(w);
-#pragma omp parallel
-    {
-#pragma omp for schedule(static) nowait
+    if (w->balls.bodies && !w->sleep.nap && !w->press.panels) {
+        touch_and_end(w, dt, survey);
+    } else {
+        if (touch(w, dt, survey, err)) return -1;
+        if (w->sleep.resting) fl_sleep_disturb(w);
+#pragma omp parallel for schedule(static)
         for (int32_t g = 0; g < groups(w); g++) end_group(w, g, h);
-#pragma omp for schedule(static)
-        for (int32_t k = w->n; k < b->total; k++) fl_step_gather(w, k);
     }
+#pragma omp parallel for schedule(static) if (b->total - w->n > FEW)
+    for (int32_t k = w->n; k < b->total; k++) fl_step_gather(w, k);
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     fl_works_book(w);
     account(w, dt, &deep);

@@ -238,6 +238,7 @@ typedef struct {
 typedef struct {
     fl_vec3 pushed; /* sum of the forces of contacts [N]                      */
     int32_t lost;   /* the first that has a number which is not finite, or -1 */
+    int clean;      /* for so many steps nothing but spheres has pressed; 2: sink and was are 0 */
 } fl_group;
 
 typedef struct {

@@ -65,7 +65,7 @@ static void like_any_other_pair(void **state)
             }
             for (int i = 0; i < 2; i++) {
                 b->f[i] = b->t[i] = v3(0, 0, 0);
-                fl_balls_collect(&l.w, i);
+                fl_balls_collect(&l.w, i, i + 1);
                 fl_balls_force(&l.w, i, &b->f[i], &b->t[i]);
                 fl_kick(b, i, 0.5 * l.w.dt);
             }
