@@ -6,6 +6,7 @@
 #include "step/interact.h"
 #include "step/pairing.h"
 #include "step/search.h"
+#include "support/bits.h"
 #include "support/lab.h"
 #include "support/near.h"
 #include "support/scenes.h"
@@ -183,6 +184,38 @@ static void batches(void **state)
     assert_true(a.n[0][5] == 0.0 && a.n[1][5] == 0.0 && a.n[2][5] == 1.0);
 }
 
+/* Chunks that end their step at once, and those that wait for what others lead to them, by thread. */
+static void whichever_share(void **state)
+{
+    uint64_t first = 0;
+    (void)state;
+    for (int threads = 1; threads <= 3; threads++) {
+        lab l;
+        scene_of_balls(&l, 10, "patch"); /* 1000 bodies: four chunks */
+        lab_setf(&l, "run.threads=%d", threads);
+        lab_make(&l, 0);
+        assert_int_equal(lab_run(&l, 15), 0);
+        const fl_balls *s = &l.w.balls;
+        assert_int_equal(s->chunks, 4);
+        int32_t waited = 0, to = 0;
+        for (int t = 0; t < threads; t++) {
+            assert_int_equal(fl_balls_share(&l.w, t, threads), to);
+            to = fl_balls_share(&l.w, t + 1, threads);
+        }
+        assert_int_equal(to, s->chunks);
+        for (int32_t a = 0; a < s->chunks; a++) {
+            assert_in_range(s->source[a], 0, a);
+            waited += !s->ended[a];
+        }
+        if (threads == 1) assert_int_equal(waited, 0);
+        else assert_true(waited >= threads - 1);
+        const uint64_t bits = bits_of(&l.w);
+        if (threads == 1) first = bits;
+        assert_true(bits == first);
+        lab_free(&l);
+    }
+}
+
 static void out_of_memory(void **state)
 {
     (void)state;
@@ -206,6 +239,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
                                        cmocka_unit_test(sums_over_pairs), cmocka_unit_test(batches),
-                                       cmocka_unit_test(out_of_memory)};
+                                       cmocka_unit_test(whichever_share), cmocka_unit_test(out_of_memory)};
     return cmocka_run_group_tests_name("balls", tests, NULL, NULL);
 }
