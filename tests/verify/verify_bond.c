@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Faces frozen together: beams of blocks, strengths, energies (V61 to V66). */
+/* Faces frozen together: beams of blocks, strengths, energies (V61 to V66), a floating beam (V69). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -340,6 +340,45 @@ static void bending(void)
     lab_free(&l);
 }
 
+/* A long floating beam of unit width, lifted at its end: l = (4 E I/rho g)^1/4, the largest moment is pi l/4
+ * from the end, where it breaks at P = 0.68 sigma (rho g h^5/E)^1/4.  Ice of 0.1 GPa and 50 kPa, so that the
+ * end stays in the water. */
+static void floating(void)
+{
+    const double h = 0.23, E = 1e8, s = 5e4, rho = 1035, g = 9.81;
+    const double l0 = pow(4 * E * h * h * h / 12 / (rho * g), 0.25), at = 0.25 * PI * l0,
+                 heave = sqrt(rho * g / 900 / h);
+    const double P = 0.68 * s * pow(rho * g * pow(h, 5) / E, 0.25);
+    const int32_t cells = verify_quick() ? 6 : 10, n = (int32_t)(cells * 4.2 / (0.25 * PI));
+    const double d = at / cells;
+    double load = 0.0, where = 0.0;
+    lab l;
+    start(&l);
+    lab_set(&l, "material.ice.young=0.1 GPa");
+    lab_set(&l, "bond.normal_strength=50 kPa");
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "water.density=1035");
+    lab_set(&l, "water.drag_force_coef=0");
+    lab_setf(&l, "water.level=%.17g", h * 900 / rho - 0.5 * h);
+    bar(&l, n, n * d, 1.0, h, 0.01);
+    lab_make(&l, 0);
+    fl_step_resize(&l.w, 2.5 * l.w.dt, 0.0);
+    while (where == 0.0 && load < 2 * P) {
+        load = P * fl_world_time(&l.w) / 6.0;
+        push(&l, 0, v3(0, 0, load), v3(0, 0, 0));
+        step(&l);
+        push(&l, 0, v3(0, 0, load), v3(0, 0, 0));
+        calm(&l, 0.4 * heave);
+        for (int32_t k = 0; k + 1 < n; k++)
+            if (l.w.frozen.bond[k].state != FL_BOND_WHOLE) where = (k + 1) * d;
+    }
+    verify_row("V69", "floating beam: place of the crack over pi l/4", where / at, 1.0, 1.0 / cells + 1e-9,
+               VERIFY_REL);
+    verify_row("V69", "floating beam: load at the end over 0.68 sigma (rho g h^5/E)^1/4", load / P, 1.0, 3e-2,
+               VERIFY_REL);
+    lab_free(&l);
+}
+
 int main(void)
 {
     verify_begin("bonds");
@@ -349,5 +388,6 @@ int main(void)
     bending();
     tension();
     cycle();
+    floating();
     return verify_end();
 }
