@@ -127,7 +127,6 @@ static int compare(const fl_balls *s, int32_t c, int32_t j, const int32_t image[
     return 0;
 }
 
-/* The rows of body i from c on, with what those of before remember. */
 /* Whether two spheres may touch before the next search: boxes meet across their corners too, where spheres
  * are far apart. */
 static int within(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
@@ -137,7 +136,9 @@ static int within(const fl_world *w, int32_t i, int32_t j, const int32_t image[3
     return v3_norm2(v3_sub(v3_sub(w->b.x[i], w->b.x[j]), way)) < R * R;
 }
 
-static void fill(const fl_world *w, fl_balls *s, int32_t i, int32_t c, fl_ball_image *image)
+/* The rows of body i from c on, with what those of before remember. */
+static void fill(const fl_world *w, fl_balls *s, const uint8_t *listed, int32_t i, int32_t c,
+                 fl_ball_image *image)
 {
     const fl_balls *old = &w->balls;
     int32_t at = old->bodies ? old->first[i] : 0;
@@ -146,9 +147,8 @@ static void fill(const fl_world *w, fl_balls *s, int32_t i, int32_t c, fl_ball_i
         const int32_t j = w->near.partner[k];
         int32_t cells[3] = {0};
         double n;
-        if (!fl_balls_are(w, i, j)) continue;
+        if (!listed[k]) continue;
         image(w, k, i, j, cells);
-        if (!within(w, i, j, cells)) continue;
         while (at < end && compare(old, at, j, cells) < 0) at++;
         s->i[c] = i;
         s->j[c] = j;
@@ -169,7 +169,8 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
     fl_balls fresh = {0}, *s = &w->balls;
     int64_t near = 0;
     int32_t *at = fl_alloc((int64_t)w->n + 1, sizeof *at, err);
-    if (!at) return -1;
+    uint8_t *listed = fl_alloc(w->near.first[w->n], sizeof *listed, err);
+    if (!at || !listed) goto fail;
 #pragma omp parallel for schedule(static) reduction(+ : near)
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
@@ -177,7 +178,8 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
             int32_t cells[3] = {0};
             if (!fl_balls_are(w, i, j)) continue;
             image(w, k, i, j, cells);
-            at[i + 1] += within(w, i, j, cells);
+            listed[k] = (uint8_t)within(w, i, j, cells);
+            at[i + 1] += listed[k];
             near++;
         }
     }
@@ -185,24 +187,24 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
     int64_t n = 0;
     for (int32_t i = 0; i < w->n; i++) n += at[i + 1], at[i + 1] = (int32_t)n;
     if (n == 0 && !s->bodies) {
-        free(at);
+        free(at), free(listed);
         return 0;
     }
-    if (rows_alloc(&fresh, w, n, err)) {
-        fl_balls_free(&fresh);
-        free(at);
-        return -1;
-    }
+    if (rows_alloc(&fresh, w, n, err)) goto fail;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < w->n; i++)
-        if (at[i + 1] > at[i]) fill(w, &fresh, i, at[i], image);
-    free(at);
+        if (at[i + 1] > at[i]) fill(w, &fresh, listed, i, at[i], image);
+    free(at), free(listed);
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
     s->i = fresh.i, s->j = fresh.j, s->law = fresh.law, s->image = fresh.image;
     s->hit = fresh.hit, s->row = fresh.row, s->n = fresh.n;
     s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
     s->image_cap = fresh.image_cap, s->hit_cap = fresh.hit_cap, s->row_cap = fresh.row_cap;
     return index_rows(w, err);
+fail:
+    fl_balls_free(&fresh);
+    free(at), free(listed);
+    return -1;
 }
 
 int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int hit, const fl_ball_row *row,

@@ -43,7 +43,8 @@ static void wrap_boxes(fl_world *w)
 {
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < w->b.total - w->walls; k++) {
-        const fl_vec3 way = fl_cell_way(&w->cell, fl_cell_of(&w->cell, w->b.x[k]));
+        w->home[k] = fl_cell_of(&w->cell, w->b.x[k]);
+        const fl_vec3 way = fl_cell_way(&w->cell, w->home[k]);
         w->box[k] = (fl_aabb){v3_sub(w->box[k].lo, way), v3_sub(w->box[k].hi, way)};
     }
     w->near.period = w->cell.length;
@@ -54,7 +55,7 @@ static void image_of(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t
 {
     image[0] = image[1] = image[2] = 0;
     if (!w->cell.wraps || j >= w->b.total - w->walls) return;
-    const fl_vec3 ci = fl_cell_of(&w->cell, w->b.x[i]), cj = fl_cell_of(&w->cell, w->b.x[j]);
+    const fl_vec3 ci = w->home[i], cj = w->home[j];
     const double own[3] = {ci.x - cj.x, ci.y - cj.y, ci.z - cj.z};
     for (int axis = 0; axis < 3; axis++)
         image[axis] = fl_pairs_image(w->near.image[k], axis) + (int32_t)own[axis];

@@ -327,6 +327,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->face = fl_alloc(total, sizeof *w->face, err);
     w->box = fl_alloc(total, sizeof *w->box, err);
     w->group = fl_alloc(w->n / FL_BALLS_GROUP + 1, sizeof *w->group, err);
+    if (w->cell.wraps && !(w->home = fl_alloc(total, sizeof *w->home, err))) return -1;
     w->odometer_found = fl_alloc(total, sizeof *w->odometer_found, err);
     w->sink = fl_alloc(total, sizeof *w->sink, err);
     w->was = fl_alloc(total, sizeof *w->was, err);
@@ -572,7 +573,8 @@ void fl_world_free(fl_world *w)
     free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
     free(w->hit), free(w->live);
     fl_balls_free(&w->balls);
-    free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->group);
+    free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->home);
+    free(w->group);
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);
     free(w->part_peak), free(w->part_about);

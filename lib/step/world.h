@@ -265,6 +265,7 @@ typedef struct {
 
     fl_pairs near;
     fl_aabb *box;    /* [total] */
+    fl_vec3 *home;   /* [total] the cell that each was in at the last search; NULL where nothing wraps */
     fl_group *group; /* [n / FL_BALLS_GROUP + 1] */
     fl_balls balls;  /* near pairs of spheres; all others: */
     fl_pair *pair;
