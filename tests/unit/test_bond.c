@@ -75,7 +75,7 @@ static void force_is_the_gradient(void **state)
 {
     (void)state;
     for (int n = 0; n < 200; n++) {
-        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        fl_rng g = fl_rng_of(test_seed(), n, FL_RNG_TEST);
         const double size = n % 2 ? 1e-3 : 0.3, h = 1e-4 * size;
         two t;
         two_make(&t);
@@ -114,7 +114,7 @@ static void the_pair_is_free(void **state)
 {
     (void)state;
     for (int n = 0; n < 200; n++) {
-        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        fl_rng g = fl_rng_of(test_seed(), n, FL_RNG_TEST);
         two t;
         two_make(&t);
         t.c.tension = 1e5; /* some points break, some rub */
@@ -192,7 +192,7 @@ static void sums_are_of_the_points(void **state)
 {
     (void)state;
     for (int n = 0; n < 100; n++) {
-        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        fl_rng g = fl_rng_of(test_seed(), n, FL_RNG_TEST);
         two t;
         fl_bond near;
         two_make(&t);
@@ -264,7 +264,7 @@ static void books_balance(void **state)
 {
     (void)state;
     for (int n = 0; n < 50; n++) {
-        fl_rng g = fl_rng_of(test_seed(), (uint64_t)n, FL_RNG_TEST);
+        fl_rng g = fl_rng_of(test_seed(), n, FL_RNG_TEST);
         two t;
         two_make(&t);
         t.c.energy[0] = n % 3 ? 600 : 0, t.c.energy[1] = n % 3 ? 900 : 0;
