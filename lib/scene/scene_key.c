@@ -153,7 +153,7 @@ const fl_section fl_section_table[FL_SECTIONS] = {
         .source = "Faltinsen, Sea Loads (1990), ch. 3"                                                       \
     }
 
-/* A field that is left out is 0: any range, no choices, no special word; .later marks what is not built. */
+/* A field that is left out is 0: any range, no choices, no special word. */
 const fl_key fl_key_table[] = {
     {.section = FL_SEC_RUN,
      .key = "duration",

@@ -49,9 +49,8 @@ typedef struct {
     const char *special;  /* a word that stands for `value`: auto, none; NULL: none */
     double value;
     const char *range;   /* interval, "(0,1]", of a number; NULL: any */
-    const char *choices; /* "patch|manual", for a number its values; '!' before one that is not supported */
+    const char *choices; /* "patch|manual", for a number its values */
     enum fl_lone lone;
-    int later;                    /* the key is known, and refused until a program honours it */
     const char *meaning, *source; /* source: NULL for a choice that is the user's */
 } fl_key;
 

@@ -84,7 +84,6 @@ void fl_section_defaults(int section, const char *name, void *fresh)
         const int steel = key->steel && strcmp(name, "steel") == 0;
         char why[200];
         int rc;
-        if (key->later) continue;
         rc = fl_value_read(key, steel ? key->steel : key->fallback, "", fresh, why, sizeof why);
         assert(rc == 0); /* the table is ours; test_scene reads every default */
         (void)rc;

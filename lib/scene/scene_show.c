@@ -12,7 +12,7 @@ static void write_section(FILE *f, int section, const char *names, const void *a
     char text[FL_VALUE_TEXT];
     fprintf(f, "\n[%s%s]\n", fl_section_table[section].name, names);
     for (int k = first; k < fl_key_first(section + 1); k++)
-        if (!fl_key_table[k].later && !(given_only && head->key[k - first].line == 0))
+        if (!(given_only && head->key[k - first].line == 0))
             fprintf(f, "%s = %s\n", fl_key_table[k].key, fl_value_text(&fl_key_table[k], at, text));
 }
 
@@ -43,13 +43,12 @@ void fl_scene_write(FILE *f, const fl_scene *scene)
     }
 }
 
-/* "a|!b|c": what a version offers, and what it does not yet. */
+/* "a|b|c" */
 static void explain_choices(FILE *f, const char *choices)
 {
     while (*choices) {
         const size_t len = strcspn(choices, "|");
-        const int later = choices[0] == '!';
-        fprintf(f, " %.*s%s", (int)len - later, choices + later, later ? " (not in this version)" : "");
+        fprintf(f, " %.*s", (int)len, choices);
         choices += len + (choices[len] == '|');
         if (*choices) fputc(',', f);
     }
@@ -83,10 +82,8 @@ static void explain_key(FILE *f, const fl_key *k)
     fprintf(f, "  value    ");
     explain_type(f, k);
     fprintf(f, "\n");
-    if (k->later) fprintf(f, "  not supported by this version\n");
-    else
-        fprintf(f, "  default  %s%s%s%s\n", k->fallback, k->steel ? " (steel: " : "",
-                k->steel ? k->steel : "", k->steel ? ")" : "");
+    fprintf(f, "  default  %s%s%s%s\n", k->fallback, k->steel ? " (steel: " : "", k->steel ? k->steel : "",
+            k->steel ? ")" : "");
     for (int w = 0; w < fl_manual_count; w++)
         if (fl_manual_table[w].section == k->section && strcmp(fl_manual_table[w].key, k->key) == 0)
             fprintf(f, "  manual   %s\n", fl_manual_table[w].word);

@@ -75,51 +75,45 @@ static int out_of_range(const complaint *c, const char *text)
                  si[0] ? " " : "", si);
 }
 
-/* Cut "a|!b|c" apart; open[k] tells whether a choice has no '!'.  Returns their number. */
-static int cut_choices(const char *choices, char word[N_CHOICE][16], int open[N_CHOICE])
+/* Cut "a|b|c" apart.  Returns their number. */
+static int cut_choices(const char *choices, char word[N_CHOICE][16])
 {
     int n = 0;
     while (*choices && n < N_CHOICE) {
         const size_t len = strcspn(choices, "|");
-        open[n] = choices[0] != '!';
-        snprintf(word[n], sizeof word[n], "%.*s", (int)(len - !open[n]), choices + !open[n]);
-        n++;
+        snprintf(word[n++], sizeof *word, "%.*s", (int)len, choices);
         choices += len + (choices[len] == '|');
     }
     return n;
 }
 
-static int wrong_choice(const complaint *c, const char *text, char word[N_CHOICE][16], const int *open, int n)
+static int wrong_choice(const complaint *c, const char *text, char word[N_CHOICE][16], int n)
 {
     char all[160];
     const char *list[N_CHOICE];
     size_t len = 0;
-    int kept = 0;
-    for (int k = 0; k < n; k++)
-        if (open[k]) {
-            len += (size_t)snprintf(all + len, sizeof all - len, " %s", word[k]);
-            list[kept++] = word[k];
-        }
+    for (int k = 0; k < n; k++) {
+        len += (size_t)snprintf(all + len, sizeof all - len, " %s", word[k]);
+        list[k] = word[k];
+    }
     return wrong(c, "is \"%.60s\", one of%s was wanted, nearest is %s", text, all,
-                 fl_text_nearest(text, list, kept));
+                 fl_text_nearest(text, list, n));
 }
 
 static int read_word(const complaint *c, const char *text, int32_t *out)
 {
     char word[N_CHOICE][16];
-    int open[N_CHOICE];
-    const int n = cut_choices(c->key->choices, word, open);
+    const int n = cut_choices(c->key->choices, word);
     if (strcmp(word[0], "false") == 0) { /* a switch: the manual writes 0 and 1 */
         if (!strcmp(text, "0") || !strcmp(text, "no") || !strcmp(text, "off")) text = "false";
         if (!strcmp(text, "1") || !strcmp(text, "yes") || !strcmp(text, "on")) text = "true";
     }
     for (int k = 0; k < n; k++)
         if (strcmp(text, word[k]) == 0) {
-            if (!open[k]) return wrong(c, "= %s is not supported by this version", word[k]);
             *out = k;
             return 0;
         }
-    return wrong_choice(c, text, word, open, n);
+    return wrong_choice(c, text, word, n);
 }
 
 /* One word for all three, or three. */
@@ -235,10 +229,10 @@ static int read_f64(const complaint *c, const char *text, double *out)
     if (read_numbers(c, text, x) < 0) return -1;
     if (c->key->choices) {
         char word[N_CHOICE][16];
-        int open[N_CHOICE], hit = 0;
-        const int n = cut_choices(c->key->choices, word, open);
-        for (int k = 0; k < n; k++) hit |= open[k] && strtod(word[k], NULL) == x[0];
-        if (!hit) return wrong_choice(c, text, word, open, n);
+        int hit = 0;
+        const int n = cut_choices(c->key->choices, word);
+        for (int k = 0; k < n; k++) hit |= strtod(word[k], NULL) == x[0];
+        if (!hit) return wrong_choice(c, text, word, n);
     }
     *out = x[0];
     return 0;
@@ -338,7 +332,6 @@ int fl_value_read(const fl_key *key, const char *text, const char *folder, void 
 {
     const complaint c = {key, why, why_size};
     void *at = (char *)section + key->at;
-    if (key->later) return wrong(&c, "is not supported by this version");
     if (text[0] == '\0') return wrong(&c, "has no value");
     switch (key->type) {
     case FL_VALUE_F64: return read_f64(&c, text, at);
@@ -365,7 +358,7 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
     const void *at = (const char *)section + key->at;
     const char *si = fl_unit_si(key->unit);
     char word[N_CHOICE][16];
-    int open[N_CHOICE], len = 0, all_special = 0;
+    int len = 0, all_special = 0;
     double x[3] = {0};
     int32_t i, three[3];
     uint32_t bits;
@@ -389,11 +382,11 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
         break;
     case FL_VALUE_WORD:
         memcpy(&i, at, sizeof i);
-        if (i >= 0 && i < cut_choices(key->choices, word, open)) snprintf(buf, FL_VALUE_TEXT, "%s", word[i]);
+        if (i >= 0 && i < cut_choices(key->choices, word)) snprintf(buf, FL_VALUE_TEXT, "%s", word[i]);
         break;
     case FL_VALUE_WORDS:
         memcpy(three, at, sizeof three);
-        cut_choices(key->choices, word, open);
+        cut_choices(key->choices, word);
         for (int k = 0; k < (three[0] == three[1] && three[1] == three[2] ? 1 : 3); k++)
             len += snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, "%s%s", k ? " " : "", word[three[k]]);
         break;

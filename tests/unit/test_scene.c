@@ -75,7 +75,6 @@ static void every_default_reads_back(void **state)
         assert_int_equal(fl_key_find((int)key->section, key->key), k);
         assert_true(k - fl_key_first((int)key->section) < FL_SCENE_KEYS);
         assert_true(k == 0 || fl_key_table[k - 1].section <= key->section);
-        if (key->later) continue;
         assert_true(key->at >= sizeof(fl_scene_head) && key->at < fl_section_table[key->section].size);
         for (int steel = 0; steel < 2; steel++) {
             const char *word = steel && key->steel ? key->steel : key->fallback;
@@ -622,8 +621,7 @@ static void the_manual_page_lists_every_key(void **state)
         if (!from) fail_msg("scene.5 lacks the line %s", heading);
         to = strstr(from + 1, "\n.Ss ");
         if (!to) to = strstr(from + 1, "\n.Sh ");
-        if (key->later) snprintf(entry, sizeof entry, "\n.It Cm %s\n", key->key);
-        else snprintf(entry, sizeof entry, "\n.It Cm %s , No default %s\n", key->key, key->fallback);
+        snprintf(entry, sizeof entry, "\n.It Cm %s , No default %s\n", key->key, key->fallback);
         at = strstr(from, entry);
         if (!at || (to && at > to)) fail_msg("under %s scene.5 lacks the line %s", heading, entry + 1);
     }
