@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
 #include "geom/surface.h"
@@ -17,34 +18,88 @@ static int same_name(const char *cleaned, const char *name, size_t len)
     return cleaned[len] == '\0';
 }
 
-int32_t fl_surface_find(const fl_surface *s, const char *name, size_t len)
+enum { FEW = 256 }; /* bytes of most names */
+
+/* Part i, if it still has that name, or the one that has it now. */
+static int32_t find_from(const fl_surface *s, int32_t i, const char *name, size_t len)
 {
-    for (int32_t i = 0; i < s->n; i++)
+    if (i < s->n && same_name(s->part[i].name, name, len)) return i;
+    for (i = 0; i < s->n; i++)
         if (same_name(s->part[i].name, name, len)) return i;
     return -1;
+}
+
+int32_t fl_surface_find(const fl_surface *s, const char *name, size_t len)
+{
+    char few[FEW], *word = len < FEW ? few : malloc(len + 1);
+    int32_t k;
+    if (!word || s->met.n == 0) { /* names that came another way */
+        if (word != few) free(word);
+        return find_from(s, 0, name, len);
+    }
+    for (size_t i = 0; i < len; i++) word[i] = clean(name, i);
+    word[len] = '\0';
+    k = fl_names_find(&s->met, word);
+    if (word != few) free(word);
+    return k < 0 ? -1 : find_from(s, s->at[k], name, len);
+}
+
+/* Above the ids there are. */
+static int32_t new_id(fl_surface *s)
+{
+    if (s->n != s->had) s->counted = s->next_id = 0; /* some left, and others may be in their places */
+    for (; s->counted < s->n; s->counted++) {
+        const int32_t id = s->part[s->counted].id;
+        if (id >= s->next_id && id < INT32_MAX) s->next_id = id + 1;
+    }
+    return s->next_id;
+}
+
+/* Remember where the part of a name is. */
+static int remember(fl_surface *s, const char *word, int32_t i, fl_err *err)
+{
+    const int64_t n = (int64_t)s->met.n + 1;
+    int32_t k;
+    if (fl_grow(&s->at, &s->at_cap, n, sizeof *s->at, err) ||
+        fl_grow(&s->more, &s->more_cap, n, sizeof *s->more, err))
+        return -1;
+    if (fl_names_find(&s->met, word) < 0) s->more[n - 1] = 0;
+    k = fl_names_add(&s->met, word, err);
+    if (k >= 0) s->at[k] = i;
+    return k < 0 ? -1 : 0;
+}
+
+/* Put "_2", "_3" ... behind a word of length len until nobody has it.  Behind the first few the search goes
+ * on where it ended: thousands of parts may come with one name. */
+static void make_free(fl_surface *s, char *word, size_t len)
+{
+    enum { FIRST = 2, LAST = 9 };
+    const int32_t base = s->met.n ? fl_names_find(&s->met, word) : -1;
+    for (int32_t k = FIRST; fl_surface_find(s, word, strlen(word)) >= 0; k++) {
+        if (k > LAST && base >= 0 && k < s->more[base]) k = s->more[base];
+        snprintf(word + len, 12, "_%d", k);
+        if (base >= 0) s->more[base] = k;
+    }
 }
 
 int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err)
 {
     const size_t room = len + 16; /* for "part" or the longest "_N" */
-    fl_part *p;
-    int32_t id = 0;
     char *word = fl_alloc((int64_t)room, 1, err);
-    if (!word || fl_grow(&s->part, &s->cap, s->n + 1, sizeof *s->part, err)) {
-        free(word);
-        return -1;
-    }
+    if (!word || fl_grow(&s->part, &s->cap, s->n + 1, sizeof *s->part, err)) goto failed;
     for (size_t k = 0; k < len; k++) word[k] = clean(name, k);
     if (len == 0) {
         memcpy(word, "part", 4);
         len = 4;
     }
-    for (int32_t k = 2; fl_surface_find(s, word, strlen(word)) >= 0; k++) snprintf(word + len, 12, "_%d", k);
-    for (int32_t i = 0; i < s->n; i++)
-        if (s->part[i].id >= id && s->part[i].id < INT32_MAX) id = s->part[i].id + 1;
-    p = &s->part[s->n];
-    *p = (fl_part){.name = word, .id = id};
-    return s->n++;
+    make_free(s, word, len);
+    if (remember(s, word, s->n, err)) goto failed;
+    s->part[s->n] = (fl_part){.name = word, .id = new_id(s)};
+    s->had = ++s->n;
+    return s->n - 1;
+failed:
+    free(word);
+    return -1;
 }
 
 int fl_surface_vertex(fl_part *p, fl_vec3 x, fl_err *err)
@@ -122,5 +177,8 @@ void fl_surface_free(fl_surface *s)
     for (int32_t i = 0; i < s->n; i++) fl_part_free(&s->part[i]);
     free(s->part);
     free(s->history);
+    fl_names_free(&s->met);
+    free(s->at);
+    free(s->more);
     *s = (fl_surface){0};
 }

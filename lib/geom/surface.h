@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include "base/err.h"
+#include "base/names.h"
 #include "geom/aabb.h"
 #include "geom/vec3.h"
 
@@ -34,7 +35,16 @@ typedef struct {
     int32_t n, cap;
     fl_part *part; /* [n]; moves when a part is added */
     char *history; /* the "#by ..." lines of the file it came from, NULL for none */
+    fl_names met;  /* names that fl_surface_add() gave: one that is not among them is nobody's */
+    int32_t *at;   /* [met.n] where the part of that name was */
+    int32_t *more; /* [met.n] the name with this number behind it was free, 0 when nobody asked */
+    int32_t at_cap, more_cap;
+    int32_t had, counted,
+        next_id; /* n when a part was added last; next_id is above the ids of 0 .. counted */
 } fl_surface;
+
+/* Thousands of parts are found at once as long as their names are given by fl_surface_add(); they may leave,
+ * change places and hand on their names.  The id of a part may be set before the next one is added. */
 
 /* Add an empty part; its id is the largest so far plus one (0 first).  Of name[0 .. len) every byte up to
  * the blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name that is taken gets "_2",

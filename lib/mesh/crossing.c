@@ -15,9 +15,10 @@ enum {
     LANES = 8, /* triangles of a leaf, leaves of a box of the next level, and so on */
     STEP = 3,  /* its power of two */
     LEVELS = 12,
-    BITS = 21,  /* of a coordinate along the curve */
-    DIGIT = 11, /* bits, of the sort */
-    PASSES = 4  /* of the sort: what differs below them is sorted by itself */
+    BITS = 21,   /* of a coordinate along the curve */
+    DIGIT = 11,  /* bits, of the sort */
+    PASSES = 4,  /* of the sort: what differs below them is sorted by itself */
+    ALONE = 2048 /* triangles for which one thread does: waking the others takes longer */
 };
 
 typedef struct {
@@ -215,7 +216,7 @@ static int order_triangles(forest *f, fl_vec3 o, double side, fl_err *err)
     const double cells = side > 0.0 ? (1 << BITS) / side : 0.0;
     place *at = fl_alloc(n, sizeof *at, err), *other = at ? fl_alloc(n, sizeof *other, err) : NULL;
     if (other) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n > ALONE)
         for (int32_t t = 0; t < n; t++) {
             const int32_t *v = f->p->t[t].v;
             const fl_vec3 middle =
@@ -239,7 +240,7 @@ static int forest_name(forest *f, fl_err *err)
     uint8_t *tame = fl_alloc(f->p->nv, 1, err);
     const int bad = !tame || fl_fans_tame(f->p, tame, err);
     if (!bad) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (f->p->nt > ALONE)
         for (int32_t at = 0; at < f->p->nt; at++)
             for (int c = 0; c < 3; c++) {
                 const int32_t v = f->p->t[f->order[at]].v[c];
@@ -287,12 +288,12 @@ static int forest_make(forest *f, const fl_part *p, fl_err *err)
         forest_free(f);
         return -1;
     }
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (p->nt > ALONE)
     for (int32_t i = 0; i < f->n[1]; i++) f->hub[i] = hub_of(f, i);
     for (int l = 0; l < f->levels; l++) {
         const int32_t under = l ? f->n[l - 1] : p->nt;
         if (l) f->level[l] = f->level[l - 1] + f->n[l - 1];
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (p->nt > ALONE)
         for (int32_t i = 0; i < f->n[l]; i++)
             for (int k = 0; k < LANES; k++) {
                 const int32_t at = LANES * i + k;
@@ -455,7 +456,7 @@ int fl_part_crossings(const fl_part *p, fl_crossing *c, fl_err *err)
     *c = (fl_crossing){0, 0};
     if (p->nt == 0) return 0;
     if (forest_make(&f, p, err)) return -1;
-#pragma omp parallel for schedule(dynamic, 32) reduction(+ : crossings, touching)
+#pragma omp parallel for schedule(dynamic, 32) reduction(+ : crossings, touching) if (p->nt > ALONE)
     for (int32_t i = 0; i < f.n[1]; i++) {
         tally sum = {0};
         around(&f, i, &sum);

@@ -168,7 +168,7 @@ int fl_fans_tame(const fl_part *p, uint8_t *tame, fl_err *err)
     for (int32_t v = 1; v <= p->nv; v++) first[v] += first[v - 1];
     for (int32_t t = p->nt; t-- > 0;)
         for (int k = 0; k < 3; k++) list[--first[p->t[t].v[k]]] = t;
-#pragma omp parallel for schedule(dynamic, 4096)
+#pragma omp parallel for schedule(dynamic, 4096) if (p->nv > 4096)
     for (int32_t v = 0; v < p->nv; v++) {
         const int64_t n = first[v + 1] - first[v];
         tame[v] = (uint8_t)is_tame(p, v, list + first[v], n > FL_FANS_MOST ? FL_FANS_MOST + 1 : (int)n);

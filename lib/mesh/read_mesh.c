@@ -136,16 +136,20 @@ static int append(fl_surface *to, fl_surface *from, fl_err *err)
         history = fl_alloc((int64_t)(old + more + 1), 1, err);
         if (!history) return -1;
     }
-    for (int32_t i = 0; i < from->n; i++)
-        if (fl_surface_add(to, from->part[i].name, strlen(from->part[i].name), err) < 0) {
-            while (to->n > had) fl_part_free(&to->part[--to->n]);
-            free(history);
-            return -1;
+    for (int32_t i = 0; i < from->n; i++) {
+        const int32_t k = fl_surface_add(to, from->part[i].name, strlen(from->part[i].name), err);
+        if (k >= 0) {
+            if (had == 0) to->part[k].id = from->part[i].id; /* the first file keeps its numbers */
+            continue;
         }
+        while (to->n > had) fl_part_free(&to->part[--to->n]);
+        free(history);
+        return -1;
+    }
     for (int32_t i = 0; i < from->n; i++) {
         fl_part *p = &to->part[had + i], *q = &from->part[i];
         char *name = p->name;
-        const int32_t id = had == 0 ? q->id : p->id; /* the first file keeps its numbers */
+        const int32_t id = p->id;
         free(q->name);
         *p = *q;
         p->name = name;

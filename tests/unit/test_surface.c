@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <math.h>
 #include <string.h>
 #include "base/mem.h"
@@ -490,9 +491,39 @@ static void memory_may_run_out(void **state)
     }
 }
 
+/* Thousands of parts of one name, and of names of their own; one that left is nobody's, and one that took the
+ * place of another is found there. */
+static void thousands_of_names_are_kept_apart(void **state)
+{
+    enum { N = 3000 };
+    fl_surface s = {0};
+    char name[40];
+    (void)state;
+    for (int k = 0; k < N; k++) {
+        assert_int_equal(fl_surface_add(&s, "bolt", 4, &err), 2 * k);
+        snprintf(name, sizeof name, "nut %d", k);
+        assert_int_equal(fl_surface_add(&s, name, strlen(name), &err), 2 * k + 1);
+    }
+    assert_string_equal(s.part[2].name, "bolt_2");
+    assert_string_equal(s.part[2 * N - 2].name, "bolt_3000");
+    assert_int_equal(s.part[2 * N - 1].id, 2 * N - 1);
+    assert_int_equal(fl_surface_find(&s, "nut_2999", 8), 2 * N - 1);
+    assert_int_equal(fl_surface_find(&s, "nut_3000", 8), -1);
+    fl_part_free(&s.part[5]); /* the last one takes its place */
+    s.part[5] = s.part[--s.n];
+    assert_int_equal(fl_surface_find(&s, "nut 2999", 8), 5);
+    assert_int_equal(fl_surface_find(&s, "nut 2", 5), -1);
+    assert_int_equal(fl_surface_add(&s, "nut 2", 5, &err), 2 * N - 1);
+    assert_string_equal(s.part[s.n - 1].name, "nut_2");
+    assert_int_equal(s.part[s.n - 1].id, 2 * N);
+    assert_int_equal(fl_surface_find(&s, "nut 2", 5), s.n - 1);
+    fl_surface_free(&s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(names_are_one_word_and_unique),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(thousands_of_names_are_kept_apart),
+                                       cmocka_unit_test(names_are_one_word_and_unique),
                                        cmocka_unit_test(box_is_exact_far_from_the_origin),
                                        cmocka_unit_test(tetrahedron_is_exact),
                                        cmocka_unit_test(facets_have_the_volume_of_their_prism),
