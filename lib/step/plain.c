@@ -90,7 +90,7 @@ FL_FOUR_VERSIONS static double end_all(const group *restrict a, int32_t n, fl_ve
     return fl_wide_sum(&zero);
 }
 
-/* What is left of a group behind its last four, with others that are nothing beside it. */
+/* What is left of a group behind its last four, the last of it until there are four. */
 typedef struct {
     double m[FL_LANES], invm[FL_LANES], damped[FL_LANES], rubbed[FL_LANES];
     fl_vec3 I[FL_LANES], x[FL_LANES], f[FL_LANES], t[FL_LANES], v[FL_LANES], L[FL_LANES], w[FL_LANES];
@@ -99,11 +99,10 @@ typedef struct {
 
 static double end_rest(const group *a, int32_t from, int32_t n, fl_vec3 gravity, double dt, double h)
 {
-    rest r = {0};
+    rest r;
     const group of = {r.m, r.invm, r.I, r.x, r.sum, r.was, r.f, r.t, r.v, r.L, r.w, r.damped, r.rubbed};
-    for (int32_t l = 0; l < FL_LANES; l++) r.I[l] = v3(1, 1, 1);
-    for (int32_t l = 0; l < n; l++) {
-        const int32_t k = from + l;
+    for (int32_t l = 0; l < FL_LANES; l++) {
+        const int32_t k = from + (l < n ? l : n - 1);
         r.m[l] = a->m[k], r.invm[l] = a->invm[k];
         r.I[l] = a->I[k], r.x[l] = a->x[k], r.f[l] = a->f[k], r.t[l] = a->t[k], r.v[l] = a->v[k],
         r.L[l] = a->L[k];
