@@ -429,6 +429,7 @@ static void account(fl_world *w, double dt, deepest *d)
         w->impulse_size += dt * all.force;
         w->touching_steps += all.touching;
     }
+    for (int32_t k = 0; k < w->frozen.n; k++) w->impulse_size += dt * v3_norm(w->frozen.bond[k].f);
     if (d->overlap > w->worst_overlap) {
         w->worst_overlap = d->overlap;
         w->worst_i = d->i;
