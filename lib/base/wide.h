@@ -81,12 +81,12 @@ FL_WIDE_PART void fl_wide_to_triples(void *a, const fl_wide v[3])
     FL_FOUR_INTO(at + 8) = __builtin_shufflevector(zx, yz, 2, 3, 6, 7);
 }
 
-/* Sum of the lanes, in their order. */
+/* Sum of the lanes: (0 + 2) + (1 + 3). */
 FL_WIDE_PART double fl_wide_sum(const fl_wide *a)
 {
-    double sum = 0.0;
-    for (int k = 0; k < FL_LANES; k++) sum += (*a)[k];
-    return sum;
+    typedef double half __attribute__((vector_size(FL_LANES / 2 * sizeof(double)), aligned(8), may_alias));
+    const half sum = __builtin_shufflevector(*a, *a, 0, 1) + __builtin_shufflevector(*a, *a, 2, 3);
+    return sum[0] + sum[1];
 }
 
 #endif

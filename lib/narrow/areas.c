@@ -4,50 +4,49 @@
 #include "base/wide.h"
 #include "narrow/areas.h"
 #include "narrow/overlap.h"
-#include "narrow/rules.h"
 
 #define SAME 1e-13 /* of the size: how far below the other's plane still counts as on it */
+/* Of the sum of its parts: less is what rounding leaves of parts that cancel. */
+#define NOTHING 1e-13
+
+enum { NODES = 3 };
 
 /* Gauss' three points on [0, 1] */
-static const double GAUSS[3] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
-static const double GAUSS_WEIGHT[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+static const double GAUSS[NODES] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
+static const double GAUSS_WEIGHT[NODES] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
-/* A corner of the cut polygon: plane coordinates and overlap; the side that starts here is part of F's own
- * rim or not. */
+/* A corner of F over the plane of f: plane coordinates and overlap; the side that starts here is part of F's
+ * own rim (1) or not (0). */
 typedef struct {
     double x, y, s, own;
 } corner;
 
-/* Keep of poly[n] what has g >= 0, g[k] at corner k; sides along the cut are not F's own. */
-static int32_t cut(const corner *p, const double *g, int32_t n, corner *out)
-{
-    int32_t m = 0;
-    for (int32_t k = 0; k < n; k++) {
-        const int32_t next = k + 1 < n ? k + 1 : 0;
-        const int in = g[k] >= 0.0, then = g[next] >= 0.0;
-        if (in) out[m++] = p[k];
-        if (in != then) {
-            const double t = g[k] / (g[k] - g[next]);
-            const corner a = p[k], b = p[next];
-            out[m] = (corner){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.s + t * (b.s - a.s), a.own};
-            if (in) out[m].own = 0.0;
-            m++;
-        }
-    }
-    return m;
-}
-
-/* Triangles until there are enough to fill a register: corners, overlaps and fades there, areas. */
+/* Numbers of the sides of f, one array each, counter-clockwise: where side c starts, its direction, its
+ * length; D, the way to the inner rim from its first corner for each unit of width, and the part of it along
+ * the side.  One more at the end is the first again. */
 typedef struct {
-    fl_wide x[3], y[3], s[3], fade[3], area;
-    int n;
-} batch;
+    double *x, *y, *ux, *uy, *length, *Dx, *Dy, *tan;
+    fl_wide *lo, *hi; /* part of the inner rim that lies in F, along the side; lo >= hi: none */
+    int32_t n, room;  /* room: rounded up to full registers */
+    double width;
+} outline;
 
-/* Sums over nodes of u, its derivatives, du s, the largest s; of du x, ..., about the first corner of the
- * first polygon: what is far away keeps its digits. */
+/* Sums over an area, by lanes and about the lane's origin: of s^3 times 1, x, y, xx, xy, yy, of s^2, all with
+ * the fade; of the sizes of the parts of the first; the largest s. */
 typedef struct {
-    fl_wide u, du, ddu, s, most, x, y, xx, xy, yy;
+    fl_wide m, x, y, xx, xy, yy, q, parts, most;
 } sums;
+
+/* A piece of border, by lanes: from (x, y) by (dx, dy), seen from the lane's origin; overlap from s by ds,
+ * fade from w by dw. */
+typedef struct {
+    fl_wide x, y, dx, dy, s, ds, w, dw;
+} piece;
+
+/* All of it, about the first corner, so that what is far away keeps its digits. */
+typedef struct {
+    double m, x, y, xx, xy, yy, q, u, parts, most; /* u: of s^4 */
+} total;
 
 /* Where the plane of f is, and F over it. */
 typedef struct {
@@ -56,15 +55,392 @@ typedef struct {
     fl_across at; /* origin and axes in the plane of f */
     fl_vec3 nf, nF;
     double slope, half, R; /* c = -n_F.n_f; 1/2, or 1 for a plane */
+    double sx, sy;         /* slopes of s over F */
     double m, dm;          /* half of m(c), and its derivative */
-    double c0, cx, cy;     /* fade, c0 + cx x + cy y */
-    int begun;
-    double x0, y0;      /* the first corner */
+    corner *p;             /* [n + 1] F, counter-clockwise, the first again at the end */
+    int32_t n;
+    fl_wide *from, *to; /* [n] part of each side of F that is in a rim */
+    double *in, *out;   /* [n] and inside all rims */
+    total sum;
     fl_vec3 pull, turn; /* of the rims, in the axes at.x, at.y, nf: force, and moment about the first corner
                          * on the plane of f */
-    batch b;
-    sums sum;
 } footprint;
+
+#define LARGER(a, b) FL_WIDE_CHOOSE((a) > (b), a, b)
+#define SMALLER(a, b) FL_WIDE_CHOOSE((a) < (b), a, b)
+
+static inline int any(const fl_wide_mask *m) { return ((*m)[0] | (*m)[1] | (*m)[2] | (*m)[3]) != 0; }
+
+static inline double most_of(const fl_wide *a)
+{
+    const double b = (*a)[0] > (*a)[2] ? (*a)[0] : (*a)[2], c = (*a)[1] > (*a)[3] ? (*a)[1] : (*a)[3];
+    return b > c ? b : c;
+}
+
+static inline double least_of(const fl_wide *a)
+{
+    const double b = (*a)[0] < (*a)[2] ? (*a)[0] : (*a)[2], c = (*a)[1] < (*a)[3] ? (*a)[1] : (*a)[3];
+    return b < c ? b : c;
+}
+
+/* The triangles from the origin to pieces of border, of what is linear in the triangle with the values A and
+ * B at the origin and at the border: int s^3 w rho^k dA = cross int_0^1 dt int_0^1 rho^(k+1) (A (1 - rho) + B
+ * rho)^3 w drho, in rho closed, in t by Gauss' rule: exact but for the second moments of rims.  faded: the
+ * origin lies where w is 0, so that w is rho times that at the border; else w = 1. */
+static inline __attribute__((always_inline)) void fan(sums *q, const piece *p, const fl_wide *at,
+                                                      const fl_wide_mask *counted, int faded)
+{
+    const fl_wide_mask valid = *counted;
+    const fl_wide A = *at, A2 = A * A, A3 = A2 * A, cross = FL_WIDE_WHERE(valid, p->x * p->dy - p->y * p->dx);
+    const fl_wide from = FL_WIDE_WHERE(valid, p->s), end = FL_WIDE_WHERE(valid, p->s + p->ds), zero = {0};
+    fl_wide sum = zero;
+    for (int k = 0; k < NODES; k++) {
+        const double z = GAUSS[k];
+        const fl_wide B = p->s + z * p->ds, x = p->x + z * p->dx, y = p->y + z * p->dy;
+        const fl_wide share = GAUSS_WEIGHT[k] * cross;
+        fl_wide c = share, i0, i1, i2, j;
+        if (faded) {
+            c *= p->w + z * p->dw;
+            i0 = (((10.0 * B + 6.0 * A) * B + 3.0 * A2) * B + A3) * (1.0 / 60.0);
+            i1 = (((20.0 * B + 10.0 * A) * B + 4.0 * A2) * B + A3) * (1.0 / 140.0);
+            i2 = (((35.0 * B + 15.0 * A) * B + 5.0 * A2) * B + A3) * (1.0 / 280.0);
+            j = ((6.0 * B + 3.0 * A) * B + A2) * (1.0 / 30.0);
+        } else {
+            i0 = (((4.0 * B + 3.0 * A) * B + 2.0 * A2) * B + A3) * (1.0 / 20.0);
+            i1 = (((10.0 * B + 6.0 * A) * B + 3.0 * A2) * B + A3) * (1.0 / 60.0);
+            i2 = (((20.0 * B + 10.0 * A) * B + 4.0 * A2) * B + A3) * (1.0 / 140.0);
+            j = ((3.0 * B + 2.0 * A) * B + A2) * (1.0 / 12.0);
+        }
+        const fl_wide c1 = c * i1, c2 = c * i2, cx = c2 * x;
+        sum += c * i0;
+        q->x += c1 * x;
+        q->y += c1 * y;
+        q->xx += cx * x;
+        q->xy += cx * y;
+        q->yy += c2 * y * y;
+        q->q += c * j;
+    }
+    q->m += sum;
+    q->parts += LARGER(sum, -sum);
+    q->most = LARGER(LARGER(q->most, from), end);
+}
+
+/* The sums of four lanes with origins (x, y), where the overlap is s, into those of all. */
+static inline __attribute__((always_inline)) void gather(footprint *f, const sums *q, const fl_wide *o)
+{
+    total *t = &f->sum;
+    const fl_wide x = o[0], y = o[1], s = o[2];
+    const fl_wide u = s * q->m + f->sx * q->x + f->sy * q->y, mx = x * q->m, my = y * q->m;
+    const fl_wide X = q->x + mx, Y = q->y + my, XX = q->xx + x * (q->x + X), XY = q->xy + x * q->y + y * X;
+    const fl_wide YY = q->yy + y * (q->y + Y);
+    t->m += fl_wide_sum(&q->m), t->q += fl_wide_sum(&q->q), t->u += fl_wide_sum(&u);
+    t->x += fl_wide_sum(&X), t->y += fl_wide_sum(&Y);
+    t->xx += fl_wide_sum(&XX), t->xy += fl_wide_sum(&XY), t->yy += fl_wide_sum(&YY);
+    t->parts += fl_wide_sum(&q->parts);
+    for (int l = 0; l < FL_LANES; l++) t->most = q->most[l] > t->most ? q->most[l] : t->most;
+}
+
+/* Moving F outward over its own rim makes the area larger: the gradient of that.  Side k of F, and over it
+ * the integrals of s^4 and of s^4 times the share of the way along it, both with the fade. */
+static void rim(footprint *f, int32_t k, double all, double far)
+{
+    const corner a = f->p[k], b = f->p[k + 1], o = f->p[0];
+    const double ex = b.x - a.x, ey = b.y - a.y, rx = all * (a.x - o.x) + far * ex,
+                 ry = all * (a.y - o.y) + far * ey, rz = all * (f->R - a.s) - far * (b.s - a.s);
+    f->pull = v3_add(f->pull, v3(all * ey, -all * ex, 0.0));
+    f->turn = v3_add(f->turn, v3(rz * ex, rz * ey, -(rx * ex + ry * ey)));
+}
+
+/* int s^4 dt over a piece of a side, with the fade, and of that times t, which runs from t0 by dt; dt: what
+ * is counted. */
+static inline __attribute__((always_inline)) void along(const piece *p, const fl_wide *t0, const fl_wide *dt,
+                                                        fl_wide *all, fl_wide *far)
+{
+    fl_wide sum = {0}, more = {0};
+    for (int k = 0; k < NODES; k++) {
+        const double z = GAUSS[k];
+        const fl_wide s = p->s + z * p->ds, s2 = s * s;
+        const fl_wide c = GAUSS_WEIGHT[k] * *dt * (p->w + z * p->dw) * s2 * s2;
+        sum += c;
+        more += c * (*t0 + z * *dt);
+    }
+    *all = sum, *far = more;
+}
+
+/* LOAD: one by one, since a wide load would wait for the narrow stores before it. */
+
+/* The rims of sides [c, c + FL_LANES) of f, and how much of the sides of F they leave. */
+static inline __attribute__((always_inline)) void rims(footprint *f, const outline *g, int32_t c)
+{
+#define LOAD(a, at) ((fl_wide){g->a[at], g->a[(at) + 1], g->a[(at) + 2], g->a[(at) + 3]})
+    const fl_wide zero = {0}, one = 1.0 + zero, never = INFINITY + zero;
+    const fl_wide ax = LOAD(x, c), ay = LOAD(y, c), ux = LOAD(ux, c), uy = LOAD(uy, c),
+                  length = LOAD(length, c);
+    const fl_wide bx = LOAD(x, c + 1), by = LOAD(y, c + 1), Dx = LOAD(Dx, c), Dy = LOAD(Dy, c);
+    const fl_wide Ex = LOAD(Dx, c + 1), Ey = LOAD(Dy, c + 1), ta = LOAD(tan, c), tb = LOAD(tan, c + 1);
+    /* a lane without a side is left by all */
+    const fl_wide W = FL_WIDE_CHOOSE(length > 0.0, g->width + zero, zero - 3.0);
+    const fl_wide d0 = FL_WIDE_CHOOSE(length > 0.0, ax * uy - ay * ux, zero - 1.0), l0 = -(ax * ux + ay * uy);
+    const fl_wide a0 = ay * Dx - ax * Dy, b0 = by * Ex - bx * Ey;
+    const int32_t n = f->n;
+    const corner *p = f->p;
+    fl_wide_mask reached = zero != 0.0;
+    for (int32_t k = 0; k < n; k++) reached |= p[k].y * ux - p[k].x * uy + d0 < W;
+    g->lo[c / FL_LANES] = one, g->hi[c / FL_LANES] = zero;
+    if (!any(&reached)) return;
+    /* distance from the side and along it, on which side of the two lines to the inner rim: of the last
+     * corner */
+    fl_wide d = p[0].y * ux - p[0].x * uy + d0, l = p[0].x * ux + p[0].y * uy + l0;
+    fl_wide a = (p[0].x * Dy - p[0].y * Dx) + a0, b = (p[0].y * Ex - p[0].x * Ey) - b0;
+    fl_wide in_lo = never, in_hi = -never, a_lo = never, a_hi = -never, b_lo = never, b_hi = -never,
+            foot = zero;
+    fl_wide_mask some = zero != 0.0;
+    for (int32_t k = 0; k < n; k++) {
+        const corner q = p[k + 1];
+        const fl_wide e = q.y * ux - q.x * uy + d0, m = q.x * ux + q.y * uy + l0;
+        const fl_wide h = (q.x * Dy - q.y * Dx) + a0, i = (q.y * Ex - q.x * Ey) - b0;
+        const fl_wide gap = d - W, gaq = e - W, de = e - d, dl = m - l;
+        /* what counts as on the one side of a line for one counts as on the other for its neighbour */
+        const fl_wide_mask dp = d >= 0.0, dq = e >= 0.0, wp = gap >= 0.0, wq = gaq >= 0.0, ap = a >= 0.0,
+                           aq = h >= 0.0, bp = b > 0.0, bq = i > 0.0;
+        const fl_wide td = d / (d - e), tw = gap / (gap - gaq), ta_ = a / (a - h), tb_ = b / (b - i);
+        const fl_wide_mask crosses = wp ^ wq, crosses_a = ap ^ aq, crosses_b = bp ^ bq;
+        fl_wide t0 = LARGER(FL_WIDE_WHERE(~dp, td), FL_WIDE_WHERE(wp, tw));
+        fl_wide t1 = SMALLER(FL_WIDE_CHOOSE(dq, one, td), FL_WIDE_CHOOSE(wq, tw, one));
+        t0 = LARGER(t0, LARGER(FL_WIDE_WHERE(~ap, ta_), FL_WIDE_WHERE(~bp, tb_)));
+        t1 = SMALLER(t1, SMALLER(FL_WIDE_CHOOSE(aq, one, ta_), FL_WIDE_CHOOSE(bq, one, tb_)));
+        const fl_wide_mask here = (t0 < t1) & ~(wp & wq) & (bp | bq);
+        f->from[k] = FL_WIDE_WHERE(here, t0), f->to[k] = FL_WIDE_WHERE(here, t1);
+        some |= here;
+        const fl_wide i0 = FL_WIDE_WHERE(~wp, tw), i1 = FL_WIDE_CHOOSE(wq, one, tw);
+        const double most = most_of(&i0), least = least_of(&i1);
+        f->in[k] = most > f->in[k] ? most : f->in[k];
+        f->out[k] = least < f->out[k] ? least : f->out[k];
+        const fl_wide at = l + tw * dl, at_a = d + ta_ * de, at_b = d + tb_ * de;
+        in_lo = SMALLER(in_lo, FL_WIDE_CHOOSE(crosses, at, never));
+        in_hi = LARGER(in_hi, FL_WIDE_CHOOSE(crosses, at, -never));
+        a_lo = SMALLER(a_lo, FL_WIDE_CHOOSE(crosses_a, at_a, never));
+        a_hi = LARGER(a_hi, FL_WIDE_CHOOSE(crosses_a, at_a, -never));
+        b_lo = SMALLER(b_lo, FL_WIDE_CHOOSE(crosses_b, at_b, never));
+        b_hi = LARGER(b_hi, FL_WIDE_CHOOSE(crosses_b, at_b, -never));
+        foot = FL_WIDE_CHOOSE(here, l + t0 * dl, foot);
+        d = e, l = m, a = h, b = i;
+    }
+    in_lo = LARGER(in_lo, ta * W), in_hi = SMALLER(in_hi, length - tb * W);
+    a_lo = LARGER(a_lo, zero), a_hi = SMALLER(a_hi, W);
+    b_lo = LARGER(b_lo, zero), b_hi = SMALLER(b_hi, W);
+    const fl_wide_mask inner = in_lo < in_hi, living = some | inner, first = a_lo < a_hi, last = b_lo < b_hi;
+    in_lo = FL_WIDE_WHERE(inner, in_lo), in_hi = FL_WIDE_WHERE(inner, in_hi);
+    b_lo = FL_WIDE_WHERE(last, b_lo), b_hi = FL_WIDE_WHERE(last, b_hi);
+    g->lo[c / FL_LANES] = in_lo, g->hi[c / FL_LANES] = in_hi;
+    if (!(g->width > 0.0) || !any(&living)) return;
+    /* the origins: on the side, in the corner where a border to the next rim ends, which then counts for
+     * nothing, or at the foot of something that is in the rim */
+    const fl_wide_mask both = first & last;
+    foot = FL_WIDE_CHOOSE(some, foot, in_lo);
+    foot = FL_WIDE_CHOOSE(last, length, FL_WIDE_WHERE(living, foot));
+    foot = FL_WIDE_CHOOSE(first, zero, foot);
+    const fl_wide ox = ax + foot * ux, oy = ay + foot * uy, per = 1.0 / W;
+    const fl_wide s = p[0].s + f->sx * (ox - p[0].x) + f->sy * (oy - p[0].y);
+    sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    for (int32_t k = 0; k < n; k++) {
+        const fl_wide t0 = f->from[k], dt = f->to[k] - t0;
+        const fl_wide_mask here = dt > 0.0;
+        if (!any(&here)) continue;
+        const double ex = p[k + 1].x - p[k].x, ey = p[k + 1].y - p[k].y, es = p[k + 1].s - p[k].s;
+        const fl_wide w0 = p[k].y * ux - p[k].x * uy + d0, dw = ey * ux - ex * uy;
+        const piece b1 = {
+            p[k].x + t0 * ex - ox, p[k].y + t0 * ey - oy, dt * ex, dt * ey, p[k].s + t0 * es, dt * es,
+            per * (w0 + t0 * dw),  per * (dt * dw)};
+        fan(&sum, &b1, &s, &here, 1);
+        if (!(p[k].own > 0.0)) continue;
+        fl_wide all, far;
+        along(&b1, &t0, &dt, &all, &far);
+        rim(f, k, fl_wide_sum(&all), fl_wide_sum(&far));
+    }
+    if (any(&inner)) {
+        const fl_wide x = (in_hi - foot) * ux - W * uy, y = (in_hi - foot) * uy + W * ux, dl = in_lo - in_hi;
+        const fl_wide dx = dl * ux, dy = dl * uy;
+        const piece b1 = {x, y, dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy, one, zero};
+        fan(&sum, &b1, &s, &inner, 1);
+    }
+    if (any(&both)) {
+        const fl_wide x = bx + b_lo * Ex - ox, y = by + b_lo * Ey - oy, dl = b_hi - b_lo, dx = dl * Ex,
+                      dy = dl * Ey;
+        const piece b1 = {x,          y,       dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy,
+                          per * b_lo, per * dl};
+        fan(&sum, &b1, &s, &both, 1);
+    }
+    gather(f, &sum, (const fl_wide[3]){ox - p[0].x, oy - p[0].y, s});
+}
+
+/* Where the sums over what lies inside all rims begin: a point of it.  0 where there is nothing. */
+static inline int inside_from(const footprint *f, const outline *g, double *x, double *y)
+{
+    const corner *p = f->p;
+    for (int32_t k = 0; k < f->n; k++) {
+        if (!(f->in[k] < f->out[k])) continue;
+        *x = p[k].x + f->in[k] * (p[k + 1].x - p[k].x), *y = p[k].y + f->in[k] * (p[k + 1].y - p[k].y);
+        return 1;
+    }
+    for (int32_t c = 0; c < g->n; c++) {
+        const double l = g->lo[c / FL_LANES][c % FL_LANES];
+        if (!(l < g->hi[c / FL_LANES][c % FL_LANES])) continue;
+        *x = g->x[c] + l * g->ux[c] - g->width * g->uy[c], *y = g->y[c] + l * g->uy[c] + g->width * g->ux[c];
+        return 1;
+    }
+    return 0;
+}
+
+/* What lies inside all rims. */
+static inline __attribute__((always_inline)) void inside(footprint *f, const outline *g)
+{
+    const corner *p = f->p;
+    const fl_wide zero = {0}, one = 1.0 + zero;
+    double ox, oy;
+    if (!inside_from(f, g, &ox, &oy)) return;
+    const double s = p[0].s + f->sx * (ox - p[0].x) + f->sy * (oy - p[0].y);
+    const fl_wide A = s + zero, W = g->width + zero;
+    sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    for (int32_t k = 0; k < f->n; k += FL_LANES) {
+        const corner *r = p + k;
+#define FOUR(m, i) ((fl_wide){r[i].m, r[i + 1].m, r[i + 2].m, r[i + 3].m})
+        const double *i = f->in + k, *o = f->out + k;
+        const fl_wide in = {i[0], i[1], i[2], i[3]}, out = {o[0], o[1], o[2], o[3]};
+        const fl_wide_mask here = in < out;
+        const fl_wide t0 = FL_WIDE_WHERE(here, in), dt = FL_WIDE_WHERE(here, out) - t0;
+        const fl_wide x = FOUR(x, 0), y = FOUR(y, 0), z = FOUR(s, 0);
+        const fl_wide ex = FOUR(x, 1) - x, ey = FOUR(y, 1) - y, ez = FOUR(s, 1) - z;
+        const piece b1 = {x + t0 * ex - ox, y + t0 * ey - oy, dt * ex, dt * ey,
+                          z + t0 * ez,      dt * ez,          one,     zero};
+        fan(&sum, &b1, &A, &here, 0);
+        fl_wide all, far;
+        along(&b1, &t0, &dt, &all, &far);
+        for (int l = 0; l < FL_LANES && k + l < f->n; l++)
+            if (r[l].own > 0.0 && here[l]) rim(f, k + l, all[l], far[l]);
+#undef FOUR
+    }
+    for (int32_t c = 0; c < g->n; c += FL_LANES) {
+        const fl_wide ux = LOAD(ux, c), uy = LOAD(uy, c), lo = g->lo[c / FL_LANES],
+                      dl = g->hi[c / FL_LANES] - lo;
+        const fl_wide_mask here = dl > 0.0;
+        if (!any(&here)) continue;
+        const fl_wide x = LOAD(x, c) + lo * ux - W * uy - ox, y = LOAD(y, c) + lo * uy + W * ux - oy;
+        const fl_wide dx = dl * ux, dy = dl * uy;
+        const piece b1 = {x, y, dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy, one, zero};
+        fan(&sum, &b1, &A, &here, 0);
+    }
+    gather(f, &sum, (const fl_wide[3]){ox - p[0].x + zero, oy - p[0].y + zero, A});
+}
+
+/* Directions, inner rim and so on of the sides of f, whose corners are laid.  The rim is at most `width` wide
+ * and leaves every side half its length. */
+static inline __attribute__((always_inline)) void lay_sides(outline *g, double width)
+{
+    const int32_t n = g->n;
+    for (int32_t c = 0; c < n; c += FL_LANES) {
+        const fl_wide ex = LOAD(x, c + 1) - LOAD(x, c), ey = LOAD(y, c + 1) - LOAD(y, c),
+                      l2 = ex * ex + ey * ey;
+        fl_wide l;
+        for (int k = 0; k < FL_LANES; k++) l[k] = sqrt(l2[k]);
+        *(fl_wide *)(g->length + c) = l, *(fl_wide *)(g->ux + c) = ex / l, *(fl_wide *)(g->uy + c) = ey / l;
+    }
+    for (int32_t c = n; c < g->room; c++) g->length[c] = g->ux[c] = g->uy[c] = 0.0;
+    g->ux[-1] = g->ux[n - 1], g->uy[-1] = g->uy[n - 1];
+    for (int32_t c = 0; c < n; c += FL_LANES) {
+        const fl_wide ux = LOAD(ux, c), uy = LOAD(uy, c), vx = LOAD(ux, c - 1), vy = LOAD(uy, c - 1);
+        const fl_wide k = 1.0 / (1.0 + (ux * vx + uy * vy)), turn = k * (vx * uy - vy * ux);
+        *(fl_wide *)(g->Dx + c) = -k * (vy + uy), *(fl_wide *)(g->Dy + c) = k * (vx + ux);
+        *(fl_wide *)(g->tan + c) = LARGER(turn, -turn);
+    }
+    g->Dx[n] = g->Dx[0], g->Dy[n] = g->Dy[0], g->tan[n] = g->tan[0];
+    for (int32_t c = 0; c < n && width > 0.0; c++) {
+        const double most = 0.5 * g->length[c] / (g->tan[c] + g->tan[c + 1]);
+        width = width < most ? width : most;
+    }
+    g->width = width;
+}
+
+FL_WIDE_VERSIONS static void cover(footprint *f, outline *g, double width)
+{
+    for (int32_t k = 0; k < f->n + FL_LANES; k++)
+        f->in[k] = k < f->n ? 0.0 : 1.0, f->out[k] = k < f->n ? 1.0 : 0.0;
+    if (g->n > 0) lay_sides(g, width);
+    for (int32_t c = 0; c < g->n; c += FL_LANES) rims(f, g, c);
+    inside(f, g);
+}
+#undef LOAD
+
+/* Keep of poly[n] what has g >= 0 at its corners; sides along the cut are not F's own. */
+static int32_t cut(const corner *p, double s0, double sign, int32_t n, corner *out)
+{
+    int32_t m = 0;
+    double g = sign * (p[0].s - s0);
+    for (int32_t k = 0; k < n; k++) {
+        const corner a = p[k], b = p[k + 1 < n ? k + 1 : 0];
+        const double h = sign * (b.s - s0);
+        const int in = g >= 0.0, then = h >= 0.0;
+        if (in) out[m++] = a;
+        if (in != then) {
+            const double t = g / (g - h);
+            out[m++] = (corner){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), s0, in ? 0.0 : a.own};
+        }
+        g = h;
+    }
+    return m;
+}
+
+/* Room for a face with n corners over one with `sides`, and where all of it lies. */
+static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spare)
+{
+    const fl_poly *p = f->own->p;
+    const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
+    const int64_t most = n + 2 * FL_LANES, room = (sides + FL_LANES - 1) / FL_LANES * FL_LANES,
+                  each = room + 2 * FL_LANES;
+    fl_err lost = {0};
+    if (fl_grow(&f->w->cut, &f->w->cut_cap, (8 + 8 + 2) * most / 3 + (8 * each + 2 * room) / 3 + 2,
+                sizeof *f->w->cut, &lost))
+        return -1;
+    double *at = (double *)(void *)f->w->cut;
+    f->p = (corner *)(void *)at, at += 4 * most;
+    *spare = (corner *)(void *)at, at += 4 * most;
+    f->from = (fl_wide *)(void *)at, at += 4 * most;
+    f->to = (fl_wide *)(void *)at, at += 4 * most;
+    f->in = at, at += most;
+    f->out = at, at += most;
+    *g = (outline){.n = sides, .room = (int32_t)room};
+    double **const of[8] = {&g->x, &g->y, &g->ux, &g->uy, &g->length, &g->Dx, &g->Dy, &g->tan};
+    for (int k = 0; k < 8; k++, at += each) *of[k] = at + 1; /* ux and uy have a number before the first */
+    g->lo = (fl_wide *)(void *)at, at += room;
+    g->hi = (fl_wide *)(void *)at;
+    f->sx = -v3_dot(f->nF, f->at.x) / f->slope, f->sy = -v3_dot(f->nF, f->at.y) / f->slope;
+    for (int32_t k = 0; k < n; k++) { /* from above, F is seen from behind */
+        const fl_vec3 r = v3_sub(f->own->v[loop[n - 1 - k]], f->at.o);
+        f->p[k] = (corner){v3_dot(f->at.x, r), v3_dot(f->at.y, r), f->R - v3_dot(f->nf, r), 1.0};
+    }
+    f->n = n;
+    return 0;
+}
+
+/* Leave of F what has 0 <= s <= floor: 0 where that is nothing. */
+static int trim(footprint *f, double floor, corner *spare)
+{
+    double most = -INFINITY, least = INFINITY;
+    for (int32_t k = 0; k < f->n; k++) {
+        most = f->p[k].s > most ? f->p[k].s : most;
+        least = f->p[k].s < least ? f->p[k].s : least;
+    }
+    if (most <= 0.0 || least > floor) return 0;
+    for (int way = 0; way < 2; way++) {
+        if (way ? most <= floor : least >= 0.0) continue;
+        f->n = way ? cut(f->p, floor, -1.0, f->n, spare) : cut(f->p, 0.0, 1.0, f->n, spare);
+        corner *const swap = f->p;
+        f->p = spare, spare = swap;
+    }
+    if (f->n < 3) return 0;
+    for (int32_t k = 0; k < FL_LANES; k++) f->p[f->n + k] = f->p[k == 0 ? 0 : f->n];
+    return 1;
+}
 
 static fl_vec3 lift(const footprint *q, double x, double y, double s)
 {
@@ -72,265 +448,39 @@ static fl_vec3 lift(const footprint *q, double x, double y, double s)
     return v3_madd(v3_madd(o, x, q->at.x), y, q->at.y);
 }
 
-/* The triangles of b, and b is empty. */
-FL_WIDE_VERSIONS static void take(batch *b, sums *q)
-{
-    for (int k = b->n; k < FL_LANES; k++) b->area[k] = 0.0;
-    for (int k = 0; k < FL_TRIANGLE_NODES; k++) {
-        const double b0 = FL_TRIANGLE_NODE[k][0], b1 = FL_TRIANGLE_NODE[k][1], b2 = FL_TRIANGLE_NODE[k][2];
-        const fl_wide x = b0 * b->x[0] + b1 * b->x[1] + b2 * b->x[2];
-        const fl_wide y = b0 * b->y[0] + b1 * b->y[1] + b2 * b->y[2];
-        const fl_wide to = b0 * b->s[0] + b1 * b->s[1] + b2 * b->s[2], s = FL_WIDE_WHERE(to > 0.0, to);
-        const fl_wide f = b0 * b->fade[0] + b1 * b->fade[1] + b2 * b->fade[2];
-        const fl_wide area = FL_TRIANGLE_WEIGHT[k] * b->area * FL_WIDE_WHERE(f > 0.0, f), s2 = s * s,
-                      part = area * s2;
-        const fl_wide du = 4.0 * part * s;
-        const fl_wide here = FL_WIDE_WHERE(area > 0.0, s);
-        q->u += part * s2;
-        q->du += du;
-        q->ddu += 12.0 * part;
-        q->s += du * s;
-        q->x += du * x;
-        q->y += du * y;
-        q->xx += du * x * x;
-        q->xy += du * x * y;
-        q->yy += du * y * y;
-        q->most = FL_WIDE_CHOOSE(here > q->most, here, q->most);
-    }
-    b->n = 0;
-}
-
-static double fade(const footprint *q, double x, double y) { return q->c0 + q->cx * x + q->cy * y; }
-
-static void triangle(footprint *q, corner a, corner b, corner c, double area)
-{
-    const corner t[3] = {a, b, c};
-    const int n = q->b.n++;
-    for (int k = 0; k < 3; k++) {
-        q->b.x[k][n] = t[k].x - q->x0;
-        q->b.y[k][n] = t[k].y - q->y0;
-        q->b.s[k][n] = t[k].s;
-        q->b.fade[k][n] = fade(q, t[k].x, t[k].y);
-    }
-    q->b.area[n] = area;
-    if (n + 1 == FL_LANES) take(&q->b, &q->sum);
-}
-
-/* Moving F outward over its own rim a b makes the area larger: the gradient of that. */
-static void rim(footprint *q, corner a, corner b, double turn)
-{
-    const double ex = b.x - a.x, ey = b.y - a.y, nx = turn * ey,
-                 ny = -turn * ex; /* outward, as long as a b */
-    for (int k = 0; k < 3; k++) {
-        const double t = GAUSS[k], s = a.s + t * (b.s - a.s), s2 = s * s;
-        const double x = a.x + t * ex, y = a.y + t * ey, part = fade(q, x, y);
-        if (s <= 0.0 || part <= 0.0) continue;
-        const double c = GAUSS_WEIGHT[k] * part * s2 * s2;
-        const fl_vec3 f = v3(c * nx, c * ny, 0.0);
-        q->pull = v3_add(q->pull, f);
-        q->turn = v3_add(q->turn, v3_cross(v3(x - q->x0, y - q->y0, q->R - s), f));
-    }
-}
-
-/* The polygon of F over the plane of f, before any cut, in the first of four buffers that have room for
- * `more` cuts; g gets room for the values of a cutting function. */
-static int32_t lay(footprint *q, int32_t F, int64_t more, corner *buffer[4], double **g)
-{
-    const fl_poly *p = q->own->p;
-    const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
-    const int64_t room = n + more;
-    fl_err lost = {0};
-    if (fl_grow(&q->w->cut, &q->w->cut_cap, 6 * room, sizeof *q->w->cut, &lost)) return -1;
-    for (int k = 0; k < 4; k++) buffer[k] = (corner *)(void *)q->w->cut + k * room;
-    *g = (double *)(void *)(buffer[3] + room);
-    for (int32_t k = 0; k < n; k++) {
-        const fl_vec3 r = v3_sub(q->own->v[loop[k]], q->at.o);
-        buffer[0][k] = (corner){v3_dot(q->at.x, r), v3_dot(q->at.y, r), q->R - v3_dot(q->nf, r), 1.0};
-    }
-    return n;
-}
-
-static void integrate(footprint *q, const corner *p, int32_t n)
-{
-    double twice = 0.0;
-    if (!q->begun) q->x0 = p[0].x, q->y0 = p[0].y, q->begun = 1;
-    for (int32_t k = 1; k + 1 < n; k++) {
-        const corner a = p[0], b = p[k], c = p[k + 1];
-        const double part = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        twice += part;
-        if (part != 0.0) triangle(q, a, b, c, 0.5 * fabs(part));
-    }
-    const double turn = twice > 0.0 ? 1.0 : -1.0;
-    for (int32_t k = 0; k < n; k++)
-        if (p[k].own > 0.0) rim(q, p[k], p[k + 1 < n ? k + 1 : 0], turn);
-}
-
-/* Keep of *now what lies left of the line from (ax, ay) to (bx, by). */
-static int32_t left_of(corner **now, corner **spare, double *g, int32_t n, double ax, double ay, double bx,
-                       double by)
-{
-    const double ex = bx - ax, ey = by - ay;
-    int out = 0;
-    for (int32_t k = 0; k < n; k++) {
-        g[k] = ex * ((*now)[k].y - ay) - ey * ((*now)[k].x - ax);
-        out |= g[k] < 0.0;
-    }
-    if (!out) return n;
-    n = cut(*now, g, n, *spare);
-    corner *swap = *now;
-    *now = *spare, *spare = swap;
-    return n;
-}
-
-static void swap_corners(corner **a, corner **b)
-{
-    corner *const c = *a;
-    *a = *b, *b = c;
-}
-
-/* The corners of face f in its plane. */
-static void lay_side(const footprint *q, const fl_side *other, int32_t f, corner *rim)
-{
-    const fl_poly *p = other->p;
-    const int32_t *loop = p->loop + p->first[f], sides = p->first[f + 1] - p->first[f];
-    for (int32_t c = 0; c < sides; c++) {
-        const fl_vec3 r = v3_sub(other->v[loop[c]], q->at.o);
-        rim[c] = (corner){.x = v3_dot(q->at.x, r), .y = v3_dot(q->at.y, r)};
-    }
-}
-
-/* `inner`: those corners moved inward by the width of the rim, which is at most `width` and leaves every side
- * half its length.  Returns that width. */
-static double lay_rim(int32_t sides, double width, corner *rim, corner *inner)
-{
-    for (int32_t c = 0; c < sides;
-         c++) { /* s: length of the side that starts here; inner: its inward normal */
-        const corner a = rim[c], b = rim[c + 1 < sides ? c + 1 : 0];
-        const double ex = b.x - a.x, ey = b.y - a.y;
-        rim[c].s = sqrt(ex * ex + ey * ey);
-        inner[c].x = -ey / rim[c].s, inner[c].y = ex / rim[c].s;
-    }
-    for (int32_t c = 0; c < sides; c++) { /* own: tan of half the turn */
-        const corner in = inner[c > 0 ? c - 1 : sides - 1], out = inner[c];
-        rim[c].own = fabs(in.x * out.y - in.y * out.x) / (1.0 + in.x * out.x + in.y * out.y);
-    }
-    for (int32_t c = 0; c < sides; c++)
-        width = fmin(width, 0.5 * rim[c].s / (rim[c].own + rim[c + 1 < sides ? c + 1 : 0].own));
-    corner before = inner[sides - 1];
-    for (int32_t c = 0; c < sides; c++) {
-        const corner n = inner[c];
-        const double k = width / (1.0 + before.x * n.x + before.y * n.y);
-        inner[c].x = rim[c].x + k * (before.x + n.x), inner[c].y = rim[c].y + k * (before.y + n.y);
-        before = n;
-    }
-    return width;
-}
-
-/* The places of all nodes: all push along n_F, so that three with their sum, mean and second moments have the
- * same force, torque and spread.  They get the factor m, whose
- * change has a couple.  Then the pull of the rims. */
+/* The places of it: all push along n_F, so that three with their sum, mean and second moments have the same
+ * force, torque and spread.  They get the factor m, whose change has a couple.  Then the pull of the rims. */
 static int put(footprint *q)
 {
     static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
+    const total *t = &q->sum;
     const double m = q->m, side = q->own->side;
-    if (!q->begun) return 0;
-    if (q->b.n) take(&q->b, &q->sum);
-    const double u = fl_wide_sum(&q->sum.u), du = fl_wide_sum(&q->sum.du), ddu = fl_wide_sum(&q->sum.ddu);
-    if (!(du > 0.0)) return 0;
-    const double x = fl_wide_sum(&q->sum.x) / du, y = fl_wide_sum(&q->sum.y) / du;
-    const double s = fl_wide_sum(&q->sum.s) / du, xx = fl_wide_sum(&q->sum.xx) / du - x * x;
-    const double xy = fl_wide_sum(&q->sum.xy) / du - x * y, yy = fl_wide_sum(&q->sum.yy) / du - y * y;
+    if (!(t->m > NOTHING * t->parts)) return 0;
+    const double each = 1.0 / t->m, x = t->x * each, y = t->y * each, s = t->u * each;
+    const double xx = t->xx * each - x * x, xy = t->xy * each - x * y, yy = t->yy * each - y * y;
     const double a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0, b = a > 0.0 ? 2.0 * xy / a : 0.0, c2 = 2.0 * yy - b * b,
                  c = c2 > 0.0 ? sqrt(c2) : 0.0;
-    double most = 0.0;
-    for (int k = 0; k < FL_LANES; k++) most = q->sum.most[k] > most ? q->sum.most[k] : most;
-    /* s over F */
-    const double sx = -v3_dot(q->nF, q->at.x) / q->slope, sy = -v3_dot(q->nF, q->at.y) / q->slope;
+    const double x0 = q->p[0].x, y0 = q->p[0].y;
+    fl_place one = {.stands = 3,
+                    .overlap = t->most,
+                    .u = m * t->u / 3.0,
+                    .du = m * 4.0 * t->m / 3.0,
+                    .ddu = m * 12.0 * t->q / 3.0,
+                    .n = v3_scale(-side / q->slope, q->nF),
+                    .across = v3_scale(side, q->nf)};
     for (int k = 0; k < 3; k++) {
-        const double dx = a * COS[k], dy = b * COS[k] + c * SIN[k], sk = s + sx * dx + sy * dy;
-        const fl_vec3 on = lift(q, q->x0 + x + dx, q->y0 + y + dy, sk);
-        if (fl_places_add(q->w, (fl_place){.stands = 3,
-                                           .overlap = most,
-                                           .u = m * u / 3.0,
-                                           .du = m * du / 3.0,
-                                           .ddu = m * ddu / 3.0,
-                                           .n = v3_scale(-side / q->slope, q->nF),
-                                           .across = v3_scale(side, q->nf),
-                                           .p = v3_madd(on, q->own->r - 0.5 * sk, q->nF)}))
-            return -1;
+        const double dx = a * COS[k], dy = b * COS[k] + c * SIN[k], sk = s + q->sx * dx + q->sy * dy;
+        one.p = v3_madd(lift(q, x0 + x + dx, y0 + y + dy, sk), q->own->r - 0.5 * sk, q->nF);
+        if (fl_places_add(q->w, one)) return -1;
     }
-    q->w->couple = v3_madd(q->w->couple, side * q->dm * u, v3_cross(q->nF, q->nf));
+    q->w->couple = v3_madd(q->w->couple, side * q->dm * t->u, v3_cross(q->nF, q->nf));
     if (q->pull.x == 0.0 && q->pull.y == 0.0) return 0;
     const fl_vec3 pull = v3_madd(v3_scale(q->pull.x, q->at.x), q->pull.y, q->at.y);
     const fl_vec3 turn = v3_madd(v3_madd(v3_scale(q->turn.x, q->at.x), q->turn.y, q->at.y), q->turn.z, q->nf);
-    q->w->couple = v3_madd(q->w->couple, -side * m, turn);
+    q->w->couple = v3_madd(q->w->couple, -side * q->m, turn);
     const double size = v3_norm(pull);
-    const fl_vec3 first = v3_madd(v3_madd(q->at.o, q->x0, q->at.x), q->y0, q->at.y);
-    return fl_places_add(q->w, (fl_place){.du = m * size, .n = v3_scale(-side / size, pull), .p = first});
-}
-
-static int over_face(footprint *q, int32_t F, const fl_side *other, int32_t f, double behind,
-                     double rim_width)
-{
-    const fl_poly *p = other->p;
-    const int32_t sides = p->first[f + 1] - p->first[f];
-    const double floor = q->R + behind + SAME * p->size;
-    corner *buffer[4];
-    double *g;
-    /* axes that turn with f: which three places stand for the nodes hangs on them */
-    const fl_vec3 o = other->v[p->loop[p->first[f]]],
-                  x = v3_unit(v3_sub(other->v[p->loop[p->first[f] + 1]], o));
-    q->at = (fl_across){o, x, v3_cross(q->nf, x)};
-    int32_t n = lay(q, F, 2 * (int64_t)sides + 6, buffer, &g);
-    if (n < 0) return -1;
-    double most = -INFINITY, least = INFINITY;
-    for (int32_t k = 0; k < n; k++) {
-        most = buffer[0][k].s > most ? buffer[0][k].s : most;
-        least = buffer[0][k].s < least ? buffer[0][k].s : least;
-    }
-    if (most <= 0.0 || least > floor) return 0;
-    if (least < 0.0) {
-        for (int32_t k = 0; k < n; k++) g[k] = buffer[0][k].s;
-        n = cut(buffer[0], g, n, buffer[1]);
-        swap_corners(&buffer[0], &buffer[1]);
-    }
-    if (most > floor) {
-        for (int32_t k = 0; k < n; k++) g[k] = floor - buffer[0][k].s;
-        n = cut(buffer[0], g, n, buffer[1]);
-        swap_corners(&buffer[0], &buffer[1]);
-    }
-    corner *rim = buffer[3], *inner = rim + sides;
-    lay_side(q, other, f, rim);
-    for (int32_t c = 0; c < sides && n > 2; c++) {
-        const corner a = rim[c], b = rim[c + 1 < sides ? c + 1 : 0];
-        n = left_of(&buffer[0], &buffer[1], g, n, a.x, a.y, b.x, b.y);
-    }
-    if (n < 3) return 0;
-    const double width = rim_width > 0.0 ? lay_rim(sides, rim_width, rim, inner) : 0.0;
-    for (int32_t c = 0; c < sides && n > 2 && width > 0.0; c++) { /* what lies in the rim of side c */
-        const int32_t d = c + 1 < sides ? c + 1 : 0;
-        const corner a = rim[c], b = rim[d], ai = inner[c], bi = inner[d];
-        int32_t m = n, reached = 0;
-        for (int32_t k = 0; k < n; k++) /* by a corner nearer to the side than its rim is wide */
-            reached |=
-                (b.x - a.x) * (buffer[0][k].y - a.y) - (b.y - a.y) * (buffer[0][k].x - a.x) < width * a.s;
-        if (!reached) continue;
-        for (int32_t k = 0; k < n; k++) buffer[2][k] = buffer[0][k];
-        m = left_of(&buffer[2], &buffer[1], g, m, bi.x, bi.y, ai.x, ai.y);
-        if (m > 2) m = left_of(&buffer[2], &buffer[1], g, m, b.x, b.y, bi.x, bi.y);
-        if (m > 2) m = left_of(&buffer[2], &buffer[1], g, m, ai.x, ai.y, a.x, a.y);
-        const double k = 1.0 / (a.s * width);
-        q->cx = -(b.y - a.y) * k, q->cy = (b.x - a.x) * k;
-        q->c0 = -(q->cx * a.x + q->cy * a.y);
-        if (m > 2) integrate(q, buffer[2], m);
-    }
-    q->c0 = 1.0, q->cx = q->cy = 0.0;
-    for (int32_t c = 0; c < sides && n > 2 && width > 0.0; c++) {
-        const corner a = inner[c], b = inner[c + 1 < sides ? c + 1 : 0];
-        n = left_of(&buffer[0], &buffer[1], g, n, a.x, a.y, b.x, b.y);
-    }
-    if (n > 2) integrate(q, buffer[0], n);
-    return 0;
+    const fl_vec3 first = v3_madd(v3_madd(q->at.o, x0, q->at.x), y0, q->at.y);
+    return fl_places_add(q->w, (fl_place){.du = q->m * size, .n = v3_scale(-side / size, pull), .p = first});
 }
 
 /* m = (1 - 4 sin^2)^2 of the angle between the faces, and 0 beyond 30 degrees.  0 where there is nothing. */
@@ -343,24 +493,38 @@ static int turned(footprint *q)
 }
 
 int fl_areas_face(fl_places *w, const fl_side *own, int32_t F, const fl_side *other, int32_t f, double R,
-                  double behind, double rim)
+                  double behind, double width)
 {
-    footprint q = {.w = w, .own = own, .nf = other->n[f], .nF = own->n[F], .half = 0.5, .R = R, .c0 = 1.0};
+    const fl_poly *p = other->p;
+    const int32_t *loop = p->loop + p->first[f], sides = p->first[f + 1] - p->first[f];
+    footprint q = {.w = w, .own = own, .nf = other->n[f], .nF = own->n[F], .half = 0.5, .R = R};
+    outline g;
+    corner *spare;
     if (!turned(&q)) return 0;
-    return over_face(&q, F, other, f, behind, rim) ? -1 : put(&q);
+    /* axes that turn with f: which three places stand for the area hangs on them */
+    const fl_vec3 o = other->v[loop[0]], x = v3_unit(v3_sub(other->v[loop[1]], o));
+    q.at = (fl_across){o, x, v3_cross(q.nf, x)};
+    if (lay(&q, F, sides, &g, &spare)) return -1;
+    if (!trim(&q, R + behind + SAME * p->size, spare)) return 0;
+    for (int32_t c = 0; c < g.room + FL_LANES; c++) g.x[c] = g.y[c] = g.Dx[c] = g.Dy[c] = g.tan[c] = 0.0;
+    for (int32_t c = 0; c < sides; c++) {
+        const fl_vec3 r = v3_sub(other->v[loop[c]], o);
+        g.x[c] = v3_dot(q.at.x, r), g.y[c] = v3_dot(q.at.y, r);
+    }
+    g.x[sides] = g.x[0], g.y[sides] = g.y[0];
+    cover(&q, &g, width);
+    return put(&q);
 }
 
 int fl_areas_plane(fl_places *w, const fl_side *own, int32_t F, double R)
 {
-    footprint q = {.w = w, .own = own, .nf = v3(0, 0, 1), .nF = own->n[F], .half = 1.0, .R = R, .c0 = 1.0};
-    corner *buffer[4];
-    double *g;
+    footprint q = {.w = w, .own = own, .nf = v3(0, 0, 1), .nF = own->n[F], .half = 1.0, .R = R};
+    outline g;
+    corner *spare;
     if (!turned(&q)) return 0;
     q.at = (fl_across){v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0)};
-    int32_t n = lay(&q, F, 1, buffer, &g);
-    if (n < 0) return -1;
-    for (int32_t k = 0; k < n; k++) g[k] = buffer[0][k].s;
-    n = cut(buffer[0], g, n, buffer[1]);
-    if (n > 2) integrate(&q, buffer[1], n);
+    if (lay(&q, F, 0, &g, &spare)) return -1;
+    if (!trim(&q, INFINITY, spare)) return 0;
+    cover(&q, &g, 0.0);
     return put(&q);
 }

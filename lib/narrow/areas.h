@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* areas.h -- the places of faces: 1/2 int s^4 dA of one face over another (places.h).
  *
- * Face F is projected along the normal n_f of f onto the plane of f and cut with f and with s > 0; there
- * s = R - h, h the height of F over that plane, is linear.  Six points to a triangle integrate the fourth
- * power exactly (Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129).  Where F's own rim is the border,
- * moving F moves the border: two more terms of the gradient, which have no energy of their own. */
+ * Face F is projected along the normal n_f of f onto the plane of f and cut with s > 0; there s = R - h, h
+ * the height of F over that plane, is linear.  What of it lies over f is not cut out: the integral over a
+ * polygon is a sum over its border,
+ *     int g dA = sum over pieces p0 p1 of (p0 x p1) int_0^1 dt int_0^1 rho g(o + rho (p(t) - o)) drho,
+ * o an origin near by, and the border is the parts of the sides of F that lie in f and the parts of the sides
+ * of f that lie in F.  In rho the integrals are closed, in t Gauss' three points are exact for s^4, s^3 and
+ * the first moments.  What of a side of f lies in F is told by where the sides of F cross it, so that the
+ * border closes to rounding whatever is parallel to what.  Where F's own rim is the border, moving F moves
+ * it: two more terms of the gradient, which have no energy of their own. */
 #ifndef FL_NARROW_AREAS_H
 #define FL_NARROW_AREAS_H
 #include "narrow/places.h"

@@ -5,7 +5,7 @@
  * the planes between the prisms over its faces, the wedges over its edges and the cones over its vertices.
  * The line is cut there and where s becomes 0, and each piece gets the points of a rule of Gauss that knows
  * about the root of s at such an end: FL_LINE_NODES (rules.h) where s is linear, exact; else
- * FL_STRIP_CURVED, within 1e-8. */
+ * 8, or FL_STRIP_CURVED where the overlap is large, within 1e-8. */
 #ifndef FL_NARROW_STRIPS_H
 #define FL_NARROW_STRIPS_H
 #include "narrow/places.h"

@@ -107,8 +107,9 @@ static void it_is_the_same(void **state)
                 assert_int_equal(fl_matches_places(&w, &l, &A, &B, RADIUS, 0.0, FL_PLACE_RIM * RADIUS, 0.0),
                                  0);
                 const sums slow = sums_of(&w);
-                /* of rough sheets some tiles of two triangles are flat within 1e-6 of the size only */
-                const double same = CASE[c].rough > 0.0 ? 3e-6 : 1e-12;
+                /* of rough sheets some tiles of two triangles are flat within 1e-6 of the size only, so that
+                 * a face is not quite the plane that it is taken for */
+                const double same = CASE[c].rough > 0.0 ? 5e-5 : 1e-12;
                 assert_near_of(fast.u, slow.u, same, slow.u);
                 assert_near_of(v3_norm(v3_sub(fast.f, slow.f)), 0.0, same, v3_norm(slow.f));
                 assert_near_of(v3_norm(v3_sub(fast.m, slow.m)), 0.0, same, v3_norm(slow.f));
