@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 #include "narrow/matches.h"
 #include "base/mem.h"
 #include "geom/aabb.h"
@@ -21,8 +23,21 @@ typedef struct {
     fl_aabb box;
 } ends;
 
+/* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
+ * above; or, f = -1, at right angles to that edge in a, the side of b above. */
+typedef struct {
+    int32_t f, a, b; /* a = -1: the face itself */
+} plane;
+
+/* Those of a table, in its order. */
+typedef struct {
+    plane *plane;
+    int32_t cap;
+} planes;
+
 typedef struct {
     fl_matches *l;
+    planes *named;
     int way;
     const fl_side *own, *other;
     double R, behind, margin, turn;
@@ -41,15 +56,27 @@ static int32_t column(const search *s, int32_t v)
     return t->vertices++;
 }
 
+static fl_cut cut_of(const fl_poly *p, const plane *q)
+{
+    const fl_vec3 from = q->a < 0 ? p->v[p->loop[p->first[q->f]]] : p->v[q->a];
+    const fl_vec3 u = q->a < 0 ? v3(0, 0, 0) : v3_sub(p->v[q->b], from);
+    const fl_vec3 g = q->a < 0 ? p->n[q->f] : q->f < 0 ? u : v3_cross(p->n[q->f], u);
+    return (fl_cut){g, v3_dot(g, from)};
+}
+
 static int32_t row(const search *s, int32_t f, int32_t a, int32_t b)
 {
     fl_table *t = &s->l->table[s->way];
+    planes *named = &s->named[s->way];
     fl_err lost = {0};
-    for (int32_t k = t->planes; k-- > 0 && k > t->planes - LATEST;)
-        if (t->plane[k].f == f && t->plane[k].a == a && t->plane[k].b == b) return k;
-    if (fl_grow(&t->plane, &t->plane_cap, (int64_t)t->planes + 1, sizeof *t->plane, &lost)) return -1;
-    t->plane[t->planes] = (fl_plane){f, a, b};
-    return t->planes++;
+    for (int32_t k = t->cuts; k-- > 0 && k > t->cuts - LATEST;)
+        if (named->plane[k].f == f && named->plane[k].a == a && named->plane[k].b == b) return k;
+    if (fl_grow(&t->cut, &t->cut_cap, (int64_t)t->cuts + 1, sizeof *t->cut, &lost) ||
+        fl_grow(&named->plane, &named->cap, (int64_t)t->cuts + 1, sizeof *named->plane, &lost))
+        return -1;
+    named->plane[t->cuts] = (plane){f, a, b};
+    t->cut[t->cuts] = cut_of(s->other->p, &named->plane[t->cuts]);
+    return t->cuts++;
 }
 
 static int push(fl_matches *l, int32_t side)
@@ -224,6 +251,74 @@ static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach
     return 0;
 }
 
+/* Once each: mark[0 .. nv) for the vertices, mark[nv .. nv + nf) for the faces. */
+static int use(fl_matches *l, uint8_t *mark, int32_t at, int32_t number)
+{
+    fl_err lost = {0};
+    if (mark[at]) return 0;
+    mark[at] = 1;
+    const int32_t n = l->used_v + l->used_f;
+    if (fl_grow(&l->used, &l->used_cap, (int64_t)n + 1, sizeof *l->used, &lost)) return -1;
+    l->used[n] = number;
+    return 0;
+}
+
+enum feature { VERTEX, EDGE, FACE };
+
+static enum feature own_of(const fl_match *m)
+{
+    return m->kind <= FL_MATCH_VERTEX_VERTEX ? VERTEX : m->kind <= FL_MATCH_EDGE_VERTEX ? EDGE : FACE;
+}
+
+static enum feature other_of(const fl_match *m)
+{
+    if (m->kind == FL_MATCH_VERTEX_VERTEX || m->kind == FL_MATCH_EDGE_VERTEX) return VERTEX;
+    return m->kind == FL_MATCH_VERTEX_EDGE || m->kind == FL_MATCH_EDGE_EDGE ? EDGE : FACE;
+}
+
+/* Vertices of A that the list speaks of, then faces. */
+static int list_used(fl_matches *l, const fl_poly *p)
+{
+    fl_err lost = {0};
+    uint8_t *mark = fl_alloc((int64_t)p->nv + p->nf, sizeof *mark, &lost);
+    int rc = mark ? 0 : -1;
+    l->used_v = l->used_f = 0;
+    for (int faces = 0; faces < 2; faces++) {
+        for (int32_t k = 0; k < l->n && rc == 0; k++) {
+            const fl_match *m = &l->c[k];
+            const enum feature of = m->way ? other_of(m) : own_of(m);
+            const int32_t i = m->way ? m->other : m->own;
+            const int32_t edge[2] = {of == EDGE ? p->edge[i].a : i, of == EDGE ? p->edge[i].b : i};
+            const int32_t *at = of == FACE ? p->loop + p->first[i] : edge;
+            const int32_t n = of == FACE ? p->first[i + 1] - p->first[i] : 2;
+            for (int32_t c = 0; c < n && rc == 0 && !faces; c++) {
+                const int fresh = !mark[at[c]];
+                rc = use(l, mark, at[c], at[c]);
+                l->used_v += fresh;
+            }
+            if (faces && of == FACE) {
+                const int fresh = !mark[p->nv + i];
+                rc = use(l, mark, p->nv + i, i);
+                l->used_f += fresh;
+            }
+        }
+    }
+    free(mark);
+    return rc;
+}
+
+/* Give back what an array has been grown by in vain: a list lasts. */
+static void trim(void *array, int32_t *cap, int32_t n, size_t size)
+{
+    void *old, *less;
+    if (n == 0 || n == *cap) return;
+    memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T, as in fl_grow() */
+    less = realloc(old, (size_t)n * size);
+    if (!less) return;
+    memcpy(array, &less, sizeof less);
+    *cap = n;
+}
+
 int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
                     double R, double behind, double margin, const fl_mat3 *M, fl_vec3 o)
 {
@@ -232,21 +327,33 @@ int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl
     far = sqrt(far) + R + margin;
     const double half = 0.5 * margin, turn = half / far; /* half of it for the shift, half for the turn */
     const double wide = margin + ROUNDING * (A->p->size + B->p->size);
-    const search of_a = {l, 0, A, B, R, behind, wide, turn}, of_b = {l, 1, B, A, R, behind, wide, turn};
-    l->n = l->sides = 0;
-    for (int k = 0; k < 2; k++) l->table[k].vertices = l->table[k].planes = 0;
+    planes named[2] = {{0}};
+    const search of_a = {l, named, 0, A, B, R, behind, wide, turn},
+                 of_b = {l, named, 1, B, A, R, behind, wide, turn};
+    l->n = l->sides = l->clear = 0;
+    for (int k = 0; k < 2; k++) l->table[k].vertices = l->table[k].cuts = 0;
     l->M = *M, l->o = o;
     l->shift2 = half * half, l->turn2 = turn * turn;
-    return vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
-                   edges_and_faces(&of_b, b, a)
-               ? -1
-               : 0;
+    const int rc = vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
+                           edges_and_faces(&of_b, b, a) || list_used(l, A->p)
+                       ? -1
+                       : 0;
+    for (int k = 0; k < 2; k++) free(named[k].plane);
+    if (rc) l->shift2 = 0.0; /* half a list */
+    trim(&l->c, &l->cap, l->n, sizeof *l->c);
+    trim(&l->side, &l->side_cap, l->sides, sizeof *l->side);
+    trim(&l->used, &l->used_cap, l->used_v + l->used_f, sizeof *l->used);
+    for (int k = 0; k < 2; k++) {
+        trim(&l->table[k].cut, &l->table[k].cut_cap, l->table[k].cuts, sizeof *l->table[k].cut);
+        trim(&l->table[k].vertex, &l->table[k].vertex_cap, l->table[k].vertices, sizeof *l->table[k].vertex);
+    }
+    return rc;
 }
 
 void fl_matches_free(fl_matches *l)
 {
-    for (int k = 0; k < 2; k++) free(l->table[k].vertex), free(l->table[k].plane);
-    free(l->c), free(l->side), free(l->wall);
+    for (int k = 0; k < 2; k++) free(l->table[k].vertex), free(l->table[k].cut);
+    free(l->c), free(l->side), free(l->used), free(l->wall);
     fl_footing_free(l->footing);
     *l = (fl_matches){0};
 }

@@ -4,7 +4,7 @@
  * A vertex, an edge or a face has a place over what lies in the prism over a face, the wedge over an edge or
  * the cone over a vertex of the other core: where it is on the right side of some planes, all of which pass
  * through edges of that core.  Many features share few planes, so that one table of heights of vertices over
- * planes has all that is asked.
+ * planes has all that is asked.  Planes are kept as numbers in the frame of their own core.
  *   Most features of two touching cores have nothing to do with each other, and
  * what does stays for many steps: the list of those that do, or will before any point has moved by more than
  * a margin, is made once and used until then.  It only leaves out: a match that is listed in vain has no
@@ -25,12 +25,6 @@ typedef enum {
     FL_MATCH_FACE_FACE
 } fl_match_kind;
 
-/* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
- * above; or, f = -1, at right angles to that edge in a, the side of b above. */
-typedef struct {
-    int32_t f, a, b; /* a = -1: the face itself */
-} fl_plane;
-
 typedef struct {
     int16_t kind, way;  /* enum fl_match_kind; 0: of A over B, 1: of B over A */
     int32_t own, other; /* numbers of the features */
@@ -42,11 +36,17 @@ typedef struct {
     double length;  /* of the other edge [m] */
 } fl_match;
 
+/* A plane of a core in the core's own frame: h = g.x - c, a length times a length but for planes of faces. */
+typedef struct {
+    fl_vec3 g;
+    double c;
+} fl_cut;
+
 /* The table of one way: heights of vertices of one core over planes of the other. */
 typedef struct {
     int32_t *vertex;
-    fl_plane *plane;
-    int32_t vertices, planes, vertex_cap, plane_cap;
+    fl_cut *cut;
+    int32_t vertices, cuts, vertex_cap, cut_cap;
 } fl_table;
 
 /* Zeroed to start: nothing listed. */
@@ -54,8 +54,10 @@ struct fl_matches {
     fl_match *c;
     int32_t *side; /* 2 row, or 2 row + 1 where below the plane is meant */
     fl_table table[2];
-    int32_t n, cap, sides, side_cap;
-    fl_mat3 M; /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
+    int32_t *used; /* [used_v + used_f] vertices and faces of A that the list speaks of */
+    int32_t n, cap, sides, side_cap, used_v, used_f, used_cap;
+    int32_t clear; /* the cores do not meet while it holds */
+    fl_mat3 M;     /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
     fl_vec3 o;
     double shift2, turn2; /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
     int32_t *wall; /* [walls + shy] the caller's: faces of a surface that is not convex, in reach as long, and
@@ -83,8 +85,11 @@ static inline int fl_matches_hold(const fl_matches *l, const fl_mat3 *M, fl_vec3
     return turn2 < l->turn2;
 }
 
-/* The places of all that is listed, added to w.  rim_a, rim_b: widths of the fading rims of the faces of A,
- * of B [m].  -1 when memory runs out. */
+/* Enter of A what the list speaks of, as fl_places_enter().  -1 when memory runs out. */
+int fl_matches_enter(fl_places *w, const fl_matches *l, const fl_poly *a, fl_mat3 M, fl_vec3 o);
+
+/* The places of all that is listed, added to w, where A has been entered.  rim_a, rim_b: widths of the fading
+ * rims of the faces of A, of B [m].  -1 when memory runs out. */
 int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const fl_side *B, double R,
                       double behind, double rim_a, double rim_b);
 

@@ -5,32 +5,18 @@
 #include "narrow/matches.h"
 #include "narrow/strips.h"
 
-/* A plane in numbers: h = g.(x - from), a length times a length but for planes of faces; what lies on it is
- * taken as a hair aside, for all who ask to the same side. */
-typedef struct {
-    fl_vec3 from, g;
-    double hair;
-} cutter;
-
-static cutter cutter_of(const fl_side *q, const fl_plane *p)
-{
-    if (p->a < 0) return (cutter){q->v[q->p->loop[q->p->first[p->f]]], q->n[p->f], 0.0};
-    const fl_vec3 from = q->v[p->a], u = v3_sub(q->v[p->b], from), g = p->f < 0 ? u : v3_cross(q->n[p->f], u);
-    return (cutter){from, g, 1e-300 * v3_dot(g, v3(0.5772156649, 0.4342944819, 0.6931471806))};
-}
-
-/* Rows of heights, `columns` each, a multiple of FL_LANES, of points x, y, z. */
-FL_WIDE_VERSIONS static void heights(const cutter *c, int32_t rows, const double *x, const double *y,
+/* Rows of heights, `columns` each, a multiple of FL_LANES, of points x, y, z.  What lies on a plane is taken
+ * as a hair aside, for all who ask to the same side. */
+FL_WIDE_VERSIONS static void heights(const fl_cut *cut, int32_t rows, const double *x, const double *y,
                                      const double *z, int32_t columns, double *h)
 {
     for (int32_t k = 0; k < rows; k++) {
-        const cutter p = c[k];
+        const fl_cut p = cut[k];
+        const double hair = 1e-300 * (0.5772156649 * p.g.x + 0.4342944819 * p.g.y + 0.6931471806 * p.g.z);
         for (int32_t v = 0; v < columns; v += FL_LANES) {
             const fl_wide X = *(const fl_wide *)(x + v), Y = *(const fl_wide *)(y + v);
             const fl_wide Z = *(const fl_wide *)(z + v);
-            const fl_wide at = p.g.x * (X - p.from.x) + p.g.y * (Y - p.from.y) + p.g.z * (Z - p.from.z);
-            const fl_wide hair = p.hair + 0.0 * at;
-            *(fl_wide *)(h + (int64_t)k * columns + v) = FL_WIDE_CHOOSE(at != 0.0, at, hair);
+            *(fl_wide *)(h + (int64_t)k * columns + v) = (p.g.x * X + p.g.y * Y + p.g.z * Z - p.c) + hair;
         }
     }
 }
@@ -41,22 +27,28 @@ typedef struct {
     int32_t columns;
 } filled;
 
-static int fill(fl_sheet *s, const fl_table *t, const fl_side *own, const fl_side *other, filled *out)
+/* way 0: vertices of A as they are, entered, over planes of B; 1: those of B, in the frame of A, over planes
+ * of A. */
+static int fill(fl_places *w, const fl_table *t, int way, const fl_vec3 *own, filled *out)
 {
+    fl_sheet *s = &w->sheet[way];
     const int32_t columns = (t->vertices + FL_LANES - 1) / FL_LANES * FL_LANES;
     fl_err lost = {0};
     if (fl_grow(&s->x, &s->x_cap, 3 * (int64_t)columns, sizeof *s->x, &lost) ||
-        fl_grow(&s->cutter, &s->cutter_cap, t->planes, sizeof(cutter), &lost) ||
-        fl_grow(&s->h, &s->h_cap, (int64_t)t->planes * columns, sizeof *s->h, &lost))
+        fl_grow(&s->h, &s->h_cap, (int64_t)t->cuts * columns, sizeof *s->h, &lost))
         return -1;
-    cutter *c = s->cutter;
     double *x = s->x, *y = x + columns, *z = y + columns;
-    for (int32_t k = 0; k < columns; k++) {
-        const fl_vec3 v = own->v[t->vertex[k < t->vertices ? k : 0]];
-        x[k] = v.x, y[k] = v.y, z[k] = v.z;
+    for (int32_t k = 0; k < columns; k += FL_LANES) {
+        fl_vec3 v[FL_LANES];
+        for (int l = 0; l < FL_LANES; l++) {
+            const fl_vec3 r = own[t->vertex[k + l < t->vertices ? k + l : k]];
+            v[l] = way ? m3_tmul(w->M, v3_sub(r, w->o)) : r;
+        }
+        *(fl_wide *)(x + k) = (fl_wide){v[0].x, v[1].x, v[2].x, v[3].x};
+        *(fl_wide *)(y + k) = (fl_wide){v[0].y, v[1].y, v[2].y, v[3].y};
+        *(fl_wide *)(z + k) = (fl_wide){v[0].z, v[1].z, v[2].z, v[3].z};
     }
-    for (int32_t k = 0; k < t->planes; k++) c[k] = cutter_of(other, &t->plane[k]);
-    heights(c, t->planes, x, y, z, columns, s->h);
+    heights(t->cut, t->cuts, x, y, z, columns, s->h);
     *out = (filled){s->h, columns};
     return 0;
 }
@@ -161,12 +153,24 @@ static int face(const meeting *q, const fl_match *m)
     return fl_areas_face(q->w, q->own, m->own, q->other, m->other, q->R, q->behind, q->rim);
 }
 
+int fl_matches_enter(fl_places *w, const fl_matches *l, const fl_poly *a, fl_mat3 M, fl_vec3 o)
+{
+    if (fl_places_size(w, a)) return -1;
+    w->M = M, w->o = o;
+    for (int32_t k = 0; k < l->used_v; k++) {
+        const int32_t v = l->used[k];
+        w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
+    }
+    for (int32_t k = l->used_v; k < l->used_v + l->used_f; k++)
+        w->na[l->used[k]] = m3_mul(M, a->n[l->used[k]]);
+    return 0;
+}
+
 int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const fl_side *B, double R,
                       double behind, double rim_a, double rim_b)
 {
     filled f[2];
-    if (fill(&w->sheet[0], &l->table[0], A, B, &f[0]) || fill(&w->sheet[1], &l->table[1], B, A, &f[1]))
-        return -1;
+    if (fill(w, &l->table[0], 0, A->v, &f[0]) || fill(w, &l->table[1], 1, B->v, &f[1])) return -1;
     const meeting way[2] = {{w, l, A, B, f[0].h, f[0].columns, R, behind, rim_b},
                             {w, l, B, A, f[1].h, f[1].columns, R, behind, rim_a}};
     for (int32_t k = 0; k < l->n; k++) {

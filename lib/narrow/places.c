@@ -7,11 +7,18 @@
 
 #define PI 3.14159265358979323846
 
-int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
+int fl_places_size(fl_places *w, const fl_poly *a)
 {
     fl_err lost = {0};
-    if (fl_grow(&w->va, &w->va_cap, a->nv, sizeof *w->va, &lost)) return -1;
-    if (a->nf && fl_grow(&w->na, &w->na_cap, a->nf, sizeof *w->na, &lost)) return -1;
+    return fl_grow(&w->va, &w->va_cap, a->nv, sizeof *w->va, &lost) ||
+                   (a->nf && fl_grow(&w->na, &w->na_cap, a->nf, sizeof *w->na, &lost))
+               ? -1
+               : 0;
+}
+
+int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
+{
+    if (fl_places_size(w, a)) return -1;
     w->M = M, w->o = o;
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
     for (int32_t f = 0; f < a->nf; f++) w->na[f] = m3_mul(M, a->n[f]);
@@ -88,11 +95,11 @@ static int list_matches(fl_places *w, const fl_side *A, const fl_side *B, double
     double low = INFINITY, high = -INFINITY;
     for (int32_t v = 0; v < A->p->nv; v++) low = fmin(low, v3_dot(n, A->v[v]));
     for (int32_t v = 0; v < B->p->nv; v++) high = fmax(high, v3_dot(n, B->v[v]));
-    return in_reach(&w->of_a, A, n, high + R + margin) ||
-                   in_reach(&w->of_b, B, v3_neg(n), R + margin - low) ||
-                   fl_matches_list(l, A, &w->of_a, B, &w->of_b, R, 0.0, margin, &w->M, w->o)
-               ? -1
-               : 0;
+    if (in_reach(&w->of_a, A, n, high + R + margin) || in_reach(&w->of_b, B, v3_neg(n), R + margin - low) ||
+        fl_matches_list(l, A, &w->of_a, B, &w->of_b, R, 0.0, margin, &w->M, w->o))
+        return -1;
+    l->clear = !deep && low - high > margin;
+    return 0;
 }
 
 /* What the shift by D n adds to the gradient of U.  A place of direction m changes by
@@ -131,15 +138,30 @@ int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, 
     const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {b, b->v, b->n, rb, -1.0};
     w->n = 0;
     w->couple = v3(0, 0, 0);
-    if (depth > 0.0)
+    const fl_vec3 o = w->o;
+    if (depth > 0.0) {
         for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(w->va[v], out);
+        w->o = v3_add(o, out);
+    }
     if ((depth > 0.0 || !fl_matches_hold(l, &w->M, w->o)) && list_matches(w, &A, &B, R, n, depth > 0.0, l))
         return -1;
     if (fl_matches_places(w, l, &A, &B, R, 0.0, rim, rim)) return -1;
     if (depth == 0.0) return 0;
     l->shift2 = 0.0; /* of cores that were moved */
+    w->o = o;
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_sub(w->va[v], out);
     return add_depth(w, deep, R);
+}
+
+int fl_places_known(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, double rb, fl_mat3 M,
+                    fl_vec3 o, const fl_matches *l)
+{
+    const double rim = FL_PLACE_RIM * (ra + rb);
+    if (fl_matches_enter(w, l, a, M, o)) return -1;
+    const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {b, b->v, b->n, rb, -1.0};
+    w->n = 0;
+    w->couple = v3(0, 0, 0);
+    return fl_matches_places(w, l, &A, &B, ra + rb, 0.0, rim, rim);
 }
 
 int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance)
@@ -163,7 +185,7 @@ int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance)
 void fl_places_free(fl_places *w)
 {
     fl_reach_free(&w->of_a), fl_reach_free(&w->of_b);
-    for (int k = 0; k < 2; k++) free(w->sheet[k].h), free(w->sheet[k].x), free(w->sheet[k].cutter);
+    for (int k = 0; k < 2; k++) free(w->sheet[k].h), free(w->sheet[k].x);
     free(w->va), free(w->na), free(w->place), free(w->cut), free(w->lane), free(w->share);
     *w = (fl_places){0};
 }

@@ -86,8 +86,7 @@ typedef struct fl_matches fl_matches; /* matches.h */
 /* A table of heights in work (matches.h). */
 typedef struct {
     double *h, *x;
-    void *cutter;
-    int32_t h_cap, x_cap, cutter_cap;
+    int32_t h_cap, x_cap;
 } fl_sheet;
 
 /* Scratch of one thread, and the places found.  Zeroed to start; grows as it must. */
@@ -111,6 +110,9 @@ typedef struct {
  */
 int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
 
+/* Room for those of A; -1 when memory runs out. */
+int fl_places_size(fl_places *w, const fl_poly *a);
+
 /* All places of two cores that do not overlap, in a fixed order, after fl_places_enter().
  *   a, b    cores in their own frames
  *   ra, rb  dilation radii                                                                     [m]
@@ -123,6 +125,11 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
  * Points and directions are in the frame of B.  -1 when memory runs out. */
 int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, double rb, fl_vec3 n,
                    const fl_overlap *deep, fl_matches *l);
+
+/* The same where l holds, M and o being as fl_places_enter() has them, and tells that the cores do not meet;
+ * A need not have been entered. */
+int fl_places_known(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, double rb, fl_mat3 M,
+                    fl_vec3 o, const fl_matches *l);
 
 /* All places of A over the half-space z < 0 of the frame of B, and the least z of A's core. */
 int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance);

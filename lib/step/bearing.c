@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stddef.h>
 #include "base/mem.h"
 #include "base/wide.h"
 #include "step/bearing.h"
@@ -8,8 +9,27 @@ typedef struct {
     fl_wide closing, e, across[3], arm[3];
 } lane;
 
-/* One number of four places: no detour by narrow stores, for which a wide load would wait. */
-#define GATHER(p, member) ((fl_wide){p[0]->member, p[1]->member, p[2]->member, p[3]->member})
+/* Four numbers in a row of four places: rows to columns, in registers, since a wide load would wait for
+ * narrow stores.
+ */
+#define COLUMNS(p, member, a, b, c, d)                                                                       \
+    do {                                                                                                     \
+        const fl_wide r0 = *(const fl_wide *)&(p)[0].member, r1 = *(const fl_wide *)&(p)[1].member;          \
+        const fl_wide r2 = *(const fl_wide *)&(p)[2].member, r3 = *(const fl_wide *)&(p)[3].member;          \
+        const fl_wide lo = __builtin_shufflevector(r0, r1, 0, 4, 2, 6);                                      \
+        const fl_wide hi = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);                                      \
+        const fl_wide lo2 = __builtin_shufflevector(r2, r3, 0, 4, 2, 6);                                     \
+        const fl_wide hi2 = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);                                     \
+        a = __builtin_shufflevector(lo, lo2, 0, 1, 4, 5);                                                    \
+        b = __builtin_shufflevector(hi, hi2, 0, 1, 4, 5);                                                    \
+        c = __builtin_shufflevector(lo, lo2, 2, 3, 6, 7);                                                    \
+        d = __builtin_shufflevector(hi, hi2, 2, 3, 6, 7);                                                    \
+    } while (0)
+
+_Static_assert(offsetof(fl_place, ddu) == offsetof(fl_place, overlap) + 24 &&
+                   offsetof(fl_place, across) == offsetof(fl_place, n) + 24 &&
+                   offsetof(fl_place, p) == offsetof(fl_place, across) + 24,
+               "COLUMNS reads four numbers in a row");
 
 #define CROSS(out, a, b)                                                                                     \
     do {                                                                                                     \
@@ -26,22 +46,27 @@ static fl_vec3 sum3(const fl_wide a[3])
 FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, fl_vec3 turn, lane *t,
                                    fl_bearing *q)
 {
-    static const fl_place NONE = {0};
     const fl_vec3 at = place[0].p;
     const fl_wide zero = {0};
     fl_wide u = zero, ddu = zero, most = zero, pressed = zero, met = zero, elastic = zero;
     fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
     for (int32_t k = 0; k < n; k += FL_LANES, t++) {
-        const fl_place *p[FL_LANES];
-        for (int l = 0; l < FL_LANES; l++) p[l] = k + l < n ? &place[k + l] : &NONE;
-        const fl_wide ux = GATHER(p, u), overlap = GATHER(p, overlap), all = GATHER(p, du);
-        const fl_wide nx = GATHER(p, n.x), ny = GATHER(p, n.y), nz = GATHER(p, n.z);
+        const fl_place *p = place + k;
+        fl_place last[FL_LANES];
+        if (n - k < FL_LANES) { /* and places without any pull */
+            for (int l = 0; l < FL_LANES; l++) last[l] = k + l < n ? p[l] : (fl_place){0};
+            p = last;
+        }
+        fl_wide overlap, ux, all, curve, nx, ny, nz, *arm = t->arm, *across = t->across;
+        COLUMNS(p, overlap, overlap, ux, all, curve);
+        COLUMNS(p, n, nx, ny, nz, across[0]);
+        COLUMNS(p, across.y, across[1], across[2], arm[0], arm[1]);
+        arm[0] -= at.x, arm[1] -= at.y;
+        arm[2] = (fl_wide){p[0].p.z, p[1].p.z, p[2].p.z, p[3].p.z} - at.z;
         const fl_wide pull[3] = {all * nx, all * ny, all * nz};
         const fl_wide_mask presses = ux != 0.0;
-        const fl_wide du = FL_WIDE_WHERE(presses, all), curve = GATHER(p, ddu);
-        fl_wide moment[3], *arm = t->arm, *across = t->across;
-        arm[0] = GATHER(p, p.x) - at.x, arm[1] = GATHER(p, p.y) - at.y, arm[2] = GATHER(p, p.z) - at.z;
-        across[0] = GATHER(p, across.x), across[1] = GATHER(p, across.y), across[2] = GATHER(p, across.z);
+        const fl_wide du = FL_WIDE_WHERE(presses, all);
+        fl_wide moment[3];
         CROSS(moment, arm, pull);
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
         const fl_wide vx = v.x + (turn.y * arm[2] - turn.z * arm[1]);

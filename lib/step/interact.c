@@ -10,12 +10,16 @@
 #include "step/bearing.h"
 #include "step/frozen.h"
 #include "step/interact.h"
+#include "step/pairing.h"
 #include "step/stiff.h"
 #include "step/press.h"
 
 /* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
  * bound by the old direction lets it sleep for long enough. */
 #define NEARLY 1.02
+
+/* Farther apart than this multiple of its reach, a pair forgets which of its features may touch. */
+#define FAR 2.0
 
 /* Where the two stand to one another.  Everything is computed relative to B, so that nothing depends on
  * where the world's origin is: o and M take A's frame to B's, off is the world vector from A's centre to
@@ -196,6 +200,14 @@ static int blend(fl_places *s, int32_t n, fl_vec3 couple, double share, double s
     return fl_places_add(s, (fl_place){.du = fabs(du), .n = v3(0, 0, du > 0.0 ? 1.0 : -1.0), .p = centre});
 }
 
+/* The list of a pair, which only pairs that come within reach have.  NULL when memory runs out. */
+static fl_matches *matches_of(fl_pair *p)
+{
+    fl_err lost = {0};
+    if (!p->matches) p->matches = fl_alloc(1, sizeof *p->matches, &lost);
+    return p->matches;
+}
+
 /* The places of two convex cores in B's frame, A's entered. */
 static int convex_places(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double *distance)
 {
@@ -223,7 +235,8 @@ static int convex_places(fl_world *w, fl_pair *p, fl_places *s, const relative *
         }
         return fl_places_point(s, gap.pa, gap.n, R - gap.d, ra);
     }
-    if (fl_places_find(s, A, B, ra, rb, p->axis, &deep, &p->matches)) return -1;
+    fl_matches *const l = matches_of(p);
+    if (!l || fl_places_find(s, A, B, ra, rb, p->axis, &deep, l)) return -1;
     if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
         p->has_axis = 0;
         return separate(w, p, A, B, s, r->M, INFINITY, &deep, &gap, distance);
@@ -252,11 +265,19 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
         }
         return 0;
     }
+    if (p->n && p->exponent == 0.0 && (!piece || piece->kind == FL_PIECE_SOLID) && p->matches &&
+        p->matches->clear && fl_matches_hold(p->matches, &r->M, r->o)) {
+        if (fl_places_known(s, A, B, ra, rb, r->M, r->o, p->matches)) return -1;
+        p->deep = 0;
+        if (s->n) return 0;
+    }
     if (fl_places_enter(s, A, r->M, r->o)) return -1;
     if (piece && piece->kind == FL_PIECE_PLANE)
         return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance) : fl_places_plane(s, A, ra, distance);
     if (piece && piece->kind == FL_PIECE_SHELL)
-        return fl_shell_places(s, near, A, piece, ra, ra + w->skin, p->exponent > 0.0, &p->matches, distance);
+        return matches_of(p) ? fl_shell_places(s, near, A, piece, ra, ra + w->skin, p->exponent > 0.0,
+                                               p->matches, distance)
+                             : -1;
     double share = 0.0, slope = 0.0, farther = INFINITY;
     if (piece && piece->kind == FL_PIECE_CONE && p->exponent == 0.0)
         share = share_of_cone(piece, r->o.z, b->bound[p->i], ra, &slope);
@@ -599,6 +620,7 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
     p->n = 0;
     p->touch = 0.0;
     if (p->bond && p->keep < 1.0) fl_frozen_return(w, p, R, distance);
+    if (distance > FAR * R) fl_pair_end(p);
     p->asleep = path + (distance > R ? distance - R : 0.0) * (1.0 - 1e-9);
     return;
 touches:

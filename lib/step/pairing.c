@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include "base/mem.h"
 #include "law/damping.h"
 #include "law/material.h"
@@ -86,4 +87,9 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
     p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
 }
 
-void fl_pair_end(fl_pair *p) { fl_matches_free(&p->matches); }
+void fl_pair_end(fl_pair *p)
+{
+    if (p->matches) fl_matches_free(p->matches);
+    free(p->matches);
+    p->matches = NULL;
+}

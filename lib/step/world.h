@@ -46,7 +46,7 @@ typedef struct {
     int32_t image[3];       /* j is where it is, moved by so many lengths of the cell */
     int32_t n;              /* touching                                              */
     fl_slip slip;           /* what friction remembers                               */
-    fl_matches matches;     /* which features may touch; can be made again at any time */
+    fl_matches *matches;    /* which features may touch, or NULL; can be made again at any time */
     fl_gjk_cache cache;     /* where the distance query starts                       */
     fl_mode mode;           /* of the manual's laws                                  */
     int32_t deep;           /* the cores overlap                                     */

@@ -204,7 +204,8 @@ static int row(which c, const char *law)
     const double begun = now();
     evaluate(&l, p, TIMES);
     const double ns = 1e9 * (now() - begun) / TIMES;
-    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, p->matches.n, l.w.scratch[0].n, ns, off);
+    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, p->matches ? p->matches->n : 0,
+           l.w.scratch[0].n, ns, off);
     if (p->j < l.w.n && strcmp(law, "patch") == 0) {
         double error[2], t[2];
         for (int k = 0; k < 2; k++) t[k] = ask_ccd(&l, p, k, &error[k]);

@@ -222,7 +222,7 @@ static int run(const structure *c, int edge_on, found *out)
         const double ns = 1e9 * (now() - begun) / TIMES;
         out->ns = ns < out->ns ? ns : out->ns;
     }
-    out->matches = p.matches.n;
+    out->matches = p.matches ? p.matches->n : 0;
     out->places = l.w.scratch[0].n;
     const int bad = p.n == 0 || !(out->off < 1e-5);
     fl_pair_end(&p);
