@@ -18,9 +18,9 @@
 #define NEWS 1.15
 /* Two steps nearer to one another than this are as good as one. */
 #define NEAR 1.2
-/* The momenta of floes may be off by more than the impulse, for they are added up without regard to sign; by
- * less than a peak, to whose own error that of the speed it comes from is added. */
-#define LOOSE 4.0
+/* Momenta of floes may be off by as much as the load, of what they took; where a peak is asked for by half of
+ * it, since to its own error that of the speed it comes from is added. */
+#define LOOSE 1.0
 #define LOOSE_PEAK 0.5
 /* Floes are moved by this share of their size where two states are to part: far above rounding, and far below
  * what a contact yields by. */
@@ -31,7 +31,9 @@ enum {
     WALLS,            /* floe and wall, */
     PARTS,            /* and so on: floe and part */
     WINDOW = 64,      /* steps in a window at the least */
-    FOLLOW = 8,       /* windows that what meets in the first of them is followed for */
+    FOLLOW = 10,      /* windows that what meets in the first of them is followed for, */
+    BEFORE = 8,       /* and where in them the load is looked at as well: */
+    MARKS = 2,        /* looks */
     ROUNDS = 8,       /* steps tried in one look at the most */
     MOST = 100000,    /* steps in a row there may be with the largest step */
     FINEST = 1 << 12, /* the largest step over the smallest there may be */
@@ -51,9 +53,9 @@ static int ends_alloc(fl_budget *g, fl_err *err)
             void *array;
             int32_t n;
             size_t size;
-        } want[] = {{&e->impulse, g->trial.parts, sizeof *e->impulse},
-                    {&e->moment, g->trial.parts, sizeof *e->moment},
-                    {&e->peak, g->trial.parts, sizeof *e->peak},
+        } want[] = {{&e->impulse, MARKS * g->trial.parts, sizeof *e->impulse},
+                    {&e->moment, MARKS * g->trial.parts, sizeof *e->moment},
+                    {&e->peak, MARKS * g->trial.parts, sizeof *e->peak},
                     {&e->p, g->trial.n, sizeof *e->p},
                     {&e->x, g->trial.n, sizeof *e->x}};
         for (size_t a = 0; a < sizeof want / sizeof *want; a++) {
@@ -102,6 +104,22 @@ static int32_t reach_of(const fl_budget *g)
     return (int32_t)fmax(g->rows, fmin(parting, (double)FOLLOW * g->rows));
 }
 
+/* The row behind which the load is looked at. */
+static int32_t mark_row(const fl_budget *g, int32_t rows, int32_t c)
+{
+    return c == 0 && rows > BEFORE * g->rows ? BEFORE * g->rows : rows;
+}
+
+static void mark(const fl_budget *g, fl_budget_end *end, int32_t c)
+{
+    const fl_world *w = &g->trial;
+    for (int32_t p = 0; p < w->parts; p++) {
+        end->impulse[c * w->parts + p] = w->part_impulse[p];
+        end->moment[c * w->parts + p] = w->part_moment[p];
+        end->peak[c * w->parts + p] = w->part_peak[p];
+    }
+}
+
 /* The state through `rows` rows of m steps each; rows < 0: through -rows, and as many again up to FOLLOW
  * times where anything met or touched in them; returns the number of rows.  shift: how far floes are moved
  * before, in their own sizes.  -1 with FL_SYSTEM; a step above the critical one is told in the end. */
@@ -133,6 +151,8 @@ static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_bud
             if (fl_step(w, &why) == 0) watch(g);
         }
         if (open && row + 1 == -rows && w->impulse_size > before) last = reach_of(g);
+        for (int32_t c = 0; c < MARKS; c++)
+            if (row + 1 == mark_row(g, last, c)) mark(g, end, c);
     }
     if (why.code == FL_SYSTEM) {
         *err = why;
@@ -140,11 +160,6 @@ static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_bud
     }
     end->failed = why.code != 0;
     end->taken = w->impulse_size - before;
-    for (int32_t p = 0; p < w->parts; p++) {
-        end->impulse[p] = w->part_impulse[p];
-        end->moment[p] = w->part_moment[p];
-        end->peak[p] = w->part_peak[p];
-    }
     for (int32_t i = 0; i < w->n; i++) {
         end->p[i] = v3_scale(w->b.m[i], w->b.v[i]);
         end->x[i] = w->b.x[i];
@@ -170,18 +185,36 @@ static fl_vec3 load_of(const fl_budget *g, const fl_budget_end *e, int32_t p)
     }
 }
 
-/* |X - Y|, added up over the parts; Y NULL: |X|. *along: its part in the direction of X, signed. */
-static double apart(const fl_budget *g, const fl_budget_end *x, const fl_budget_end *y, double *along)
+/* |X - Y| at a mark, added up over the parts; Y NULL: |X|.  *along: its part in the direction of X. */
+static double apart_at(const fl_budget *g, int32_t c, const fl_budget_end *x, const fl_budget_end *y,
+                       double *along)
 {
     double sum = 0.0;
     *along = 0.0;
-    for (int32_t p = 0; p < g->trial.parts; p++) {
+    for (int32_t p = c * g->trial.parts; p < (c + 1) * g->trial.parts; p++) {
         const fl_vec3 a = load_of(g, x, p), d = y ? v3_sub(load_of(g, y, p), a) : a;
         const double size = v3_norm(a);
         sum += v3_norm(d);
         if (size > 0.0) *along += v3_dot(d, a) / size;
     }
     return sum;
+}
+
+/* The larger one of both marks, each relative to the load until then and times that of the last: what is off
+ * in the middle of a hit is made good by the next one, and at one time alone may be nothing by chance. */
+static double apart(const fl_budget *g, const fl_budget_end *x, const fl_budget_end *y, double *along)
+{
+    double most = 0.0, none, one;
+    const double whole = apart_at(g, MARKS - 1, x, NULL, &none);
+    *along = 0.0;
+    if (!y) return whole;
+    for (int32_t c = 0; c < MARKS; c++) {
+        const double size = apart_at(g, c, x, NULL, &none);
+        const double rel = size > 0.0 ? apart_at(g, c, x, y, &one) / size : 0.0;
+        if (size > 0.0) *along += one / size * whole / MARKS;
+        most = fmax(most, rel);
+    }
+    return whole * most;
 }
 
 /* By how much momenta differ, half of it: in a contact of two floes it counts twice. */
@@ -371,7 +404,7 @@ static int list_far(const fl_budget *g, fl_world *w, fl_err *err)
 
 static int afford(const fl_budget *g, const fl_world *w)
 {
-    return g->spent < w->step / SHARE + (int64_t)ALLOWED * g->rows * g->least;
+    return g->spent < w->step / SHARE + (int64_t)ALLOWED * g->rows * steps_of(g, w->dt);
 }
 
 /* Distance of two ends, positions and what velocities amount to in time T: root of the mean square. */

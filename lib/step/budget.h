@@ -13,14 +13,15 @@
  *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.95 goal sum |X|,
  * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
  * it is the largest error against the largest peak, and 0.65.  Because what goes wrong between floes reaches
- * the structure later, the momenta of the floes at the end of the window must be right, too, to four times
- * (of a peak, half) the goal of the impulses they took.  The step that is taken has been tried itself.
+ * the structure later, the momenta of the floes at the end of the window must be right, too, to the goal (of
+ * a peak, half of it) of the impulses they took.  The step that is taken has been tried itself.
  *
  * It is looked at the start; before two things may meet whose kind of meeting has not been seen with nearly
  * that momentum (floe and floe, floe and each part of the structure, floe and wall); and again after ten
- * times as many steps as the last look took.  Where things meet in a window it is made eight times as long:
- * what an impact is off by, others may add to or take back, as a floe that comes to rest in the end has given
- * all its momentum whatever became of the first impact.
+ * times as many steps as the last look took.  Where things meet in a window it is made ten times as long, and
+ * looked at after eight and after ten of them, of which the larger error counts: what an impact is off by,
+ * others may add to or take back, as a floe that comes to rest in the end has given all its momentum whatever
+ * became of the first impact.
  *
  * How far ahead a state tells anything is measured, after a time and again after twice of it, by two windows
  * T whose floes differ by a small shift s, and by s/T in speed: rate = ln(distance at the end / that of free
@@ -45,8 +46,8 @@ typedef struct {
 
 /* All of an end of a window, of one trial. */
 typedef struct {
-    fl_vec3 *impulse, *moment; /* [parts] */
-    double *peak;              /* [parts] */
+    fl_vec3 *impulse, *moment; /* [looks][parts] */
+    double *peak;              /* [looks][parts] */
     fl_vec3 *p, *x;            /* [n] */
     double taken;              /* impulses of all contacts [N s] */
     int failed;                /* the step was above the critical one */

@@ -367,8 +367,11 @@ int main(void)
         double goal;
         double over;     /* scenes that may be over their budget */
         double short_of; /* steps that may be less than half of the largest that would do */
-    } TABLE[] = {
-        {"E01", "impulse", 0.01, 1, 1}, {"E02", "impulse", 0.003, 1, 1}, {"E03", "peak", 0.01, 1, 1}};
+    } TABLE[] = {{"E01", "impulse", 0.01, 1, 1},
+                 {"E02", "impulse", 0.003, 1, 1},
+                 {"E03", "peak", 0.01, 1, 1},
+                 {"E06", "impulse", 0.001, 1, 1},
+                 {"E07", "impulse", 0.0005, 1, 1}};
     verify_begin("a step from an error budget");
     for (size_t t = 0; t < sizeof TABLE / sizeof *TABLE; t++) {
         int within = 0, longest = 0, n = 0;
