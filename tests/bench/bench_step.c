@@ -6,6 +6,8 @@
  * rows of one run only.
  *     bench_step                       the tables
  *     bench_step order THREADS         one order of all sums against any, alone
+ *     bench_step one|any STEPS         so many steps of the gas with sums in one order, or in any; tells how
+ *                                      many body-steps they were
  *     bench_step dry|water STEPS       so many steps of a hundred floes that touch nothing; tells how many
  *                                      body-steps they were */
 #include <omp.h>
@@ -109,12 +111,19 @@ static int bare_step(fl_world *w, int ordered)
     return 0;
 }
 
-/* Best of many windows, the two ways in turn, so that what else the machine does meets both. */
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Many windows, the two ways in turn, so that what else the machine does meets both: the best of each, and of
+ * the ratios of neighbours the middle and the quarters. */
 static int order_of_sums(int threads)
 {
-    enum { WINDOWS = 24, STEPS = 200 };
+    enum { WINDOWS = 48, STEPS = 100 };
     lab l[2];
-    double best[2] = {INFINITY, INFINITY}, energy = 0.0;
+    double best[2] = {INFINITY, INFINITY}, energy = 0.0, took[2] = {0}, ratio[WINDOWS];
     for (int k = 0; k < 2; k++) {
         lab_gas_on(&l[k], "patch", 0.1, threads);
         lab_run(&l[k], 2000); /* until contacts are as many as later */
@@ -124,14 +133,18 @@ static int order_of_sums(int threads)
         const double begun = wall();
         for (int s = 0; s < STEPS; s++)
             if (bare_step(&l[r % 2].w, r % 2)) return 0;
-        best[r % 2] = fmin(best[r % 2], (wall() - begun) / STEPS);
+        took[r % 2] = (wall() - begun) / STEPS;
+        best[r % 2] = fmin(best[r % 2], took[r % 2]);
+        if (r % 2) ratio[r / 2] = took[1] / took[0];
     }
+    qsort(ratio, WINDOWS, sizeof *ratio, by_size);
     omp_set_num_threads(1);
     const double drift = lab_energy(&l[0]) / energy - 1.0, drift1 = lab_energy(&l[1]) / energy - 1.0;
-    printf("%d thread%s    one order %8.2f us a step, energy drift %9.2g    any order %8.2f us, %9.2g    one "
-           "over any "
-           "%.3f\n",
-           threads, threads > 1 ? "s" : " ", 1e6 * best[1], drift1, 1e6 * best[0], drift, best[1] / best[0]);
+    printf("%d thread%s    one order %8.2f us a step, energy drift %9.2g    any order %8.2f us, %9.2g\n",
+           threads, threads > 1 ? "s" : " ", 1e6 * best[1], drift1, 1e6 * best[0], drift);
+    printf("             one over any %.3f of the best, %.3f in the middle of %d turns, %.3f to %.3f in half "
+           "of them\n",
+           best[1] / best[0], ratio[WINDOWS / 2], WINDOWS, ratio[WINDOWS / 4], ratio[3 * WINDOWS / 4]);
     lab_free(&l[0]), lab_free(&l[1]);
     return fabs(drift) < 1e-3 && fabs(drift1) < 1e-3;
 }
@@ -176,6 +189,15 @@ static double cost(int32_t side, int spheres, double pitch, int water, int64_t s
 static int alone(const char *where, int64_t steps)
 {
     lab l;
+    const int one = strcmp(where, "one") == 0;
+    if (one || strcmp(where, "any") == 0) {
+        int bad = 0;
+        lab_gas_on(&l, "patch", 0.1, 1);
+        for (int64_t k = 0; k < steps && !bad; k++) bad = bare_step(&l.w, one);
+        printf("%lld\n", (long long)(steps * l.w.n));
+        lab_free(&l);
+        return bad;
+    }
     grid(&l, 10, 0, 4.0, strcmp(where, "water") == 0);
     const int bad = lab_run(&l, steps);
     printf("%lld\n", (long long)(steps * l.w.n));
