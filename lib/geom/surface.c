@@ -77,8 +77,8 @@ static void make_free(fl_surface *s, char *word, size_t len)
     const int32_t base = s->met.n ? fl_names_find(&s->met, word) : -1;
     for (int32_t k = FIRST; fl_surface_find(s, word, strlen(word)) >= 0; k++) {
         if (k > LAST && base >= 0 && k < s->more[base]) k = s->more[base];
-        snprintf(word + len, 12, "_%d", k);
-        if (base >= 0) s->more[base] = k;
+        snprintf(word + len, 16, "_%d", k);
+        if (base >= 0 && k > s->more[base]) s->more[base] = k;
     }
 }
 
