@@ -5,7 +5,6 @@
  *     verify_cone       H30 (V30 at any angle)
  *     verify_geometry   H23 H24        verify_floating  H25 H38        verify_ice  H05
  *     verify_boundary   H21 H22   verify_crowd    H26 H27 H28 H31
- *     bench_step, bench_spheres  H36, which is of time
  */
 #define _GNU_SOURCE /* open_memstream */
 #include <math.h>
@@ -18,6 +17,7 @@
 #include "geom/patch.h"
 #include "geom/surface.h"
 #include "narrow/gjk.h"
+#include "scene/field_order.h"
 #include "step/frozen.h"
 #include "step/snapshot.h"
 #include "step/balls.h"
@@ -625,6 +625,67 @@ static void broken_pressed(int round)
     lab_free(&l);
 }
 
+/* Bodies that fly about in a square or a cube which repeats itself, at the same density whatever their number:
+ * what a step looks at and does for each of them. */
+typedef struct {
+    double near, touch, search; /* pairs listed and in contact, a body; searches a step */
+} work;
+
+static work crowd(int spheres, int32_t side, int32_t steps)
+{
+    const double pitch = spheres ? 0.104 : 2.02;
+    const int32_t high = spheres ? 10 : 1;
+    lab l;
+    work k = {0};
+    lab_start(&l);
+    lab_set(&l, "run.threads=2");
+    lab_set(&l, spheres ? "material.ice.young=20 MPa" : "contact.softening=0.02");
+    lab_set(&l, "boundary.type=periodic");
+    lab_set(&l, "boundary.min=0 0 0");
+    lab_setf(&l, "boundary.max=%.17g %.17g %.17g", side * pitch, side * pitch, spheres ? high * pitch : 9.0);
+    for (int32_t c = 0; c < side * side * high; c++) {
+        fl_rng g = fl_rng_of(9, c, FL_RNG_TEST);
+        const fl_vec3 at = v3((c % side + 0.5) * pitch, (c / side % side + 0.5) * pitch,
+                              spheres ? (c / (side * side) + 0.5) * pitch : 4.5);
+        const double v = spheres ? 0.2 : 1.0, r = 0.05 * fl_rng_in(&g, 0.9, 1.0);
+        const fl_vec3 way = v3(fl_rng_in(&g, -v, v), fl_rng_in(&g, -v, v), 0);
+        if (spheres) lab_sphere(&l, at, r, way, ZERO);
+        else lab_box(&l, at, v3(1, 1, 0.25), r, q_about(2, fl_rng_in(&g, -0.005, 0.005)), way, ZERO);
+    }
+    fl_err err = {0};
+    int32_t *order = malloc((size_t)l.field.n * sizeof *order);
+    if (!order || fl_field_order(&l.field, order, &err)) exit(1); /* as dem-solve does */
+    free(order);
+    lab_make(&l, 0);
+    const int64_t begun = l.w.searches;
+    if (lab_run(&l, steps)) exit(1);
+    fl_pair_walk at = {.w = &l.w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) k.near += 1.0 / l.w.n;
+    k.touch = (double)l.w.touching_steps / l.w.n / steps;
+    k.search = (double)(l.w.searches - begun) / steps;
+    lab_free(&l);
+    return k;
+}
+
+/* The time itself is in bench_step and bench_spheres: it must not decide a test. */
+static void huge_counts(void)
+{
+    const int32_t most = verify_quick() ? 4 : 100;
+    for (int spheres = 0; spheres < 2; spheres++) {
+        char what[80];
+        const int32_t few = spheres ? 10 : 32, steps = spheres ? 400 : verify_quick() ? 100 : 200;
+        const work a = crowd(spheres, few, steps),
+                   b = crowd(spheres, (int32_t)(few * sqrt(most) + 0.5), steps);
+        const char *name = spheres ? "spheres" : "floes";
+        snprintf(what, sizeof what, "%s, 1000 and %d: near pairs a body, ratio", name, 1000 * most);
+        verify_row("H36", what, b.near / a.near, 1, 0.2, VERIFY_ABS);
+        snprintf(what, sizeof what, "%s: contacts a body-step (%.2g), ratio", name, a.touch);
+        verify_row("H36", what, b.touch / a.touch, 1, 0.2, VERIFY_ABS);
+        snprintf(what, sizeof what, "%s: searches a step (%.2g), ratio", name, a.search);
+        verify_row("H36", what, b.search / a.search, 1, 0.2, VERIFY_ABS);
+    }
+}
+
 int main(void)
 {
     verify_begin("hard cases");
@@ -649,6 +710,6 @@ int main(void)
     bad_numbers();
     breaking_waves();
     turned_triangles();
-    verify_note("H36 is of time: bench_step, bench_spheres");
+    huge_counts();
     return verify_end();
 }
