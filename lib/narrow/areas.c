@@ -142,7 +142,7 @@ static inline __attribute__((always_inline)) void gather(footprint *f, const sum
 
 /* Moving F outward over its own rim makes the area larger: the gradient of that.  Side k of F, and over it
  * the integrals of s^4 and of s^4 times the share of the way along it, both with the fade. */
-static void rim(footprint *f, int32_t k, double all, double far)
+static inline __attribute__((always_inline)) void rim(footprint *f, int32_t k, double all, double far)
 {
     const corner a = f->p[k], b = f->p[k + 1], o = f->p[0];
     const double ex = b.x - a.x, ey = b.y - a.y, rx = all * (a.x - o.x) + far * ex,

@@ -50,8 +50,7 @@ static void octagon(lab *l, fl_vec3 at, double yaw, double tilt)
 }
 
 typedef enum {
-    SPHERES,
-    SPHERE_ON_FLOE,
+    SPHERE_ON_FLOE = 1, /* spheres on spheres go their own way: bench_spheres */
     SIDE_ON_SIDE,
     SIDE_TURNED,
     SIDE_TILTED,
@@ -64,10 +63,17 @@ typedef enum {
     CASES
 } which;
 
-static const char *const NAME[CASES] = {"sphere on sphere",    "sphere on floe",     "side on side",
-                                        "side on side, 3 deg", "side, tilted 1 deg", "edge on side",
-                                        "flat on flat",        "flat, 30 deg, off",  "side on plane",
-                                        "side on cylinder",    "side on 2 triangles"};
+static const char *const NAME[CASES] = {NULL,
+                                        "sphere on floe",
+                                        "side on side",
+                                        "side on side, 3 deg",
+                                        "side, tilted 1 deg",
+                                        "edge on side",
+                                        "flat on flat",
+                                        "flat, 30 deg, off",
+                                        "side on plane",
+                                        "side on cylinder",
+                                        "side on 2 triangles"};
 
 /* Two bodies, or one and what is held: pair 0 of the world touches. */
 static void make(lab *l, which c, const char *law)
@@ -76,10 +82,9 @@ static void make(lab *l, which c, const char *law)
     lab_start(l);
     lab_setf(l, "contact.law=%s", law);
     lab_set(l, "contact.friction=0.3");
-    if (c == SPHERES || c == SPHERE_ON_FLOE) lab_sphere(l, v3(0, 0, 0), RADIUS, v3(0, 0, 0), v3(0, 0, 0));
+    if (c == SPHERE_ON_FLOE) lab_sphere(l, v3(0, 0, 0), RADIUS, v3(0, 0, 0), v3(0, 0, 0));
     else octagon(l, v3(0, 0, 0), 0.0, 0.0);
     switch (c) {
-    case SPHERES: lab_sphere(l, v3(near, 0, 0), RADIUS, v3(0, 0, 0), v3(0, 0, 0)); break;
     case SPHERE_ON_FLOE: octagon(l, v3(half + near, 0.1, 0.02), 0.0, 0.0); break;
     case SIDE_ON_SIDE: octagon(l, v3(2.0 * half + near, 0.1, 0.02), 0.0, 0.0); break;
     case SIDE_TURNED: octagon(l, v3(2.0 * half + near + 0.02, 0.1, 0.02), 3.0 * PI / 180.0, 0.0); break;
@@ -279,7 +284,7 @@ int main(int argc, char **argv)
     printf("one contact, all of its forces with friction and damping; moved 0.01 mm between evaluations\n");
     printf("%-20s %-10s %8s %8s %10s %12s %10s %10s %10s %10s\n", "contact", "law", "matches", "places", "ns",
            "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off");
-    for (int c = 0; c < CASES; c++, rows++) bad += row((which)c, "patch");
+    for (int c = SPHERE_ON_FLOE; c < CASES; c++, rows++) bad += row((which)c, "patch");
     for (int k = 1; k < 3; k++) {
         bad += row(SIDE_TURNED, LAW[k]) + row(FLAT_TURNED, LAW[k]);
         rows += 2;

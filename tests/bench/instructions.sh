@@ -29,7 +29,7 @@ each() { # name, program, its argument, few, many, units between the two where t
 }
 
 all() {
-    k=0
+    k=1
     while [ $k -lt $CASES ]; do
         each $k bench_contact $k $FEW $MANY $((MANY - FEW))
         k=$((k + 1))
