@@ -171,10 +171,10 @@ static void rest_and_wake(void **state)
     (void)state;
     heap(&off, 0.0);
     heap(&on, tol);
-    for (int k = 0; k < 30; k++) {
+    for (int k = 0; k < 300; k++) {
         const int32_t before = on.w.sleep.resting;
-        assert_int_equal(lab_run(&off, 160), 0);
-        assert_int_equal(lab_run(&on, 160), 0);
+        assert_int_equal(lab_run(&off, 16), 0);
+        assert_int_equal(lab_run(&on, 16), 0);
         fl_sleep_look(&on.w);
         for (int32_t i = 0; i < 5 && woken == 0; i++)
             assert_true(v3_norm(v3_sub(on.w.b.x[i], off.w.b.x[i])) < 4.0 * tol * RADIUS);
