@@ -5,7 +5,7 @@
 
 /* Rounding leaves up to about 4 x 2^-53 of the longest side squared in a cross product that should be zero.
  * */
-static const double NO_AREA = 1e-15;
+static const double NO_AREA = 1e-15, NO_VOLUME = 1e-10;
 
 static const double PI = 3.141592653589793238;
 
@@ -154,18 +154,24 @@ static patch walk(web *w, int32_t t0)
     return g;
 }
 
-/* Volume and area of the signed triangles of a patch, the volume about a corner of the patch itself. */
+/* Volume and area of the signed triangles of a patch, the volume about a corner of the patch itself, over the
+ * sum of the sizes of what it is added up of: what is less than NO_VOLUME of that may be rounding, whose sign
+ * another order of the triangles changes. */
 static void patch_sums(const fl_part *p, const web *w, int32_t n, double *volume, double *kept,
                        double *turned)
 {
+    double sizes = 0.0;
     const fl_vec3 o = p->v[p->t[w->queue[0]].v[0]];
     *volume = *kept = *turned = 0.0;
     for (int32_t k = 0; k < n; k++) {
         const int32_t t = w->queue[k], *v = p->t[t].v;
         const fl_vec3 a = v3_sub(p->v[v[0]], o), b = v3_sub(p->v[v[1]], o), c = v3_sub(p->v[v[2]], o);
-        *volume += w->sign[t] * v3_dot(a, v3_cross(b, c)) / 6.0;
+        const double six = v3_dot(a, v3_cross(b, c));
+        *volume += w->sign[t] * six;
+        sizes += fabs(six);
         *(w->sign[t] > 0 ? kept : turned) += 0.5 * v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a)));
     }
+    if (sizes > 0.0) *volume /= sizes;
 }
 
 /* --- measures ------------------------------------------------------------------------------------------- */
@@ -218,7 +224,7 @@ static void turn(fl_part *p, const web *w, const patch *g, double volume, double
     o->rimmed += g->rim;
     o->twisted += g->twisted;
     for (int32_t k = 0; k < g->n; k++) o->triangles += (w->sign[w->queue[k]] < 0) != flip;
-    if (!g->rim && !g->twisted && (flip ? -volume : volume) < 0.0) {
+    if (!g->rim && !g->twisted && (flip ? -volume : volume) < -0.5 * NO_VOLUME) {
         flip = !flip;
         o->patches++;
     }
@@ -248,7 +254,7 @@ static int walk_all(fl_quality *q, const fl_part *p, fl_part *turned_over, fl_or
         g = walk(&w, t0);
         patch_sums(p, &w, g.n, &volume, &kept, &turned);
         q->patches++;
-        q->inverted += !g.rim && !g.twisted && turned == 0.0 && volume < 0.0;
+        q->inverted += !g.rim && !g.twisted && turned == 0.0 && volume < -NO_VOLUME;
         if (o) turn(turned_over, &w, &g, volume, kept, turned, o);
     }
     web_free(&w);
