@@ -8,6 +8,7 @@
 #define SAME 1e-13 /* of the size: how far below the other's plane still counts as on it */
 /* Of the sum of its parts: less is what rounding leaves of parts that cancel. */
 #define NOTHING 1e-13
+#define ALIKE 0.99 /* what holds for integrals is taken to hold for their sums above this */
 
 enum { NODES = 3 };
 
@@ -455,17 +456,21 @@ static int put(footprint *q)
     static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
     const total *t = &q->sum;
     const double m = q->m, side = q->own->side;
-    if (!(t->m > NOTHING * t->parts)) return 0;
-    const double each = 1.0 / t->m, x = t->x * each, y = t->y * each, s = t->u * each;
+    if (!(t->m > NOTHING * t->parts && t->most > 0.0)) return 0;
+    /* no s is above the largest, and (int s^3)^2 <= int s^2 int s^4: rounding, which is all there is where s
+     * is as small as that, must not make a contact stiffer than any */
+    const double sq = t->q > ALIKE * t->m / t->most ? t->q : t->m / t->most;
+    const double least = t->m * (t->m / sq), su = t->u > ALIKE * least ? t->u : least;
+    const double each = 1.0 / t->m, x = t->x * each, y = t->y * each, s = su * each;
     const double xx = t->xx * each - x * x, xy = t->xy * each - x * y, yy = t->yy * each - y * y;
     const double a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0, b = a > 0.0 ? 2.0 * xy / a : 0.0, c2 = 2.0 * yy - b * b,
                  c = c2 > 0.0 ? sqrt(c2) : 0.0;
     const double x0 = q->p[0].x, y0 = q->p[0].y;
     fl_place one = {.stands = 3,
                     .overlap = t->most,
-                    .u = m * t->u / 3.0,
+                    .u = m * su / 3.0,
                     .du = m * 4.0 * t->m / 3.0,
-                    .ddu = m * 12.0 * t->q / 3.0,
+                    .ddu = m * 12.0 * sq / 3.0,
                     .n = v3_scale(-side / q->slope, q->nF),
                     .across = v3_scale(side, q->nf)};
     for (int k = 0; k < 3; k++) {
@@ -473,7 +478,7 @@ static int put(footprint *q)
         one.p = v3_madd(lift(q, x0 + x + dx, y0 + y + dy, sk), q->own->r - 0.5 * sk, q->nF);
         if (fl_places_add(q->w, one)) return -1;
     }
-    q->w->couple = v3_madd(q->w->couple, side * q->dm * t->u, v3_cross(q->nF, q->nf));
+    q->w->couple = v3_madd(q->w->couple, side * q->dm * su, v3_cross(q->nF, q->nf));
     if (q->pull.x == 0.0 && q->pull.y == 0.0) return 0;
     const fl_vec3 pull = v3_madd(v3_scale(q->pull.x, q->at.x), q->pull.y, q->at.y);
     const fl_vec3 turn = v3_madd(v3_madd(v3_scale(q->turn.x, q->at.x), q->turn.y, q->at.y), q->turn.z, q->nf);
