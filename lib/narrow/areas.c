@@ -8,7 +8,7 @@
 #define SAME 1e-13 /* of the size: how far below the other's plane still counts as on it */
 /* Of the sum of its parts: less is what rounding leaves of parts that cancel. */
 #define NOTHING 1e-13
-#define ALIKE 0.99 /* what holds for integrals is taken to hold for their sums above this */
+#define ALIKE 0.5 /* what holds for integrals is taken to hold for their sums above this */
 
 enum { NODES = 3 };
 
@@ -456,11 +456,10 @@ static int put(footprint *q)
     static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
     const total *t = &q->sum;
     const double m = q->m, side = q->own->side;
-    if (!(t->m > NOTHING * t->parts && t->most > 0.0)) return 0;
-    /* no s is above the largest, and (int s^3)^2 <= int s^2 int s^4: rounding, which is all there is where s
-     * is as small as that, must not make a contact stiffer than any */
-    const double sq = t->q > ALIKE * t->m / t->most ? t->q : t->m / t->most;
-    const double least = t->m * (t->m / sq), su = t->u > ALIKE * least ? t->u : least;
+    if (!(t->m > NOTHING * t->parts && t->q > 0.0)) return 0;
+    /* (int s^3)^2 <= int s^2 int s^4: where rounding is all there is, it must not make a contact stiffer than
+     * any */
+    const double least = t->m * (t->m / t->q), su = t->u > ALIKE * least ? t->u : least;
     const double each = 1.0 / t->m, x = t->x * each, y = t->y * each, s = su * each;
     const double xx = t->xx * each - x * x, xy = t->xy * each - x * y, yy = t->yy * each - y * y;
     const double a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0, b = a > 0.0 ? 2.0 * xy / a : 0.0, c2 = 2.0 * yy - b * b,
@@ -470,7 +469,7 @@ static int put(footprint *q)
                     .overlap = t->most,
                     .u = m * su / 3.0,
                     .du = m * 4.0 * t->m / 3.0,
-                    .ddu = m * 12.0 * sq / 3.0,
+                    .ddu = m * 12.0 * t->q / 3.0,
                     .n = v3_scale(-side / q->slope, q->nF),
                     .across = v3_scale(side, q->nf)};
     for (int k = 0; k < 3; k++) {
