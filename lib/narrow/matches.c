@@ -15,12 +15,14 @@
 /* So far back are rows and columns looked for. */
 enum { LATEST = 128 };
 
-/* Some points of `own`, the ends of a feature, and the box around them and all that they may move to. */
+/* Some points of `own`, the ends of a feature, and the box around them and all that they may move to; of an
+ * edge the part that is beyond all that was asked so far. */
 typedef struct {
     const fl_vec3 *v;
     const int32_t *at;
     int32_t n;
     fl_aabb box;
+    fl_span left;
 } ends;
 
 /* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
@@ -155,19 +157,36 @@ static int add(const search *s, int kind, int32_t own, int32_t other)
 
 static ends ends_of(const search *s, const int32_t *at, int32_t n)
 {
-    ends e = {s->own->v, at, n, aabb_empty()};
+    ends e = {s->own->v, at, n, aabb_empty(), {0.0, 1.0}};
     for (int32_t k = 0; k < n; k++) e.box = aabb_add(e.box, s->own->v[at[k]]);
     e.box = aabb_grow(e.box, s->R + s->margin);
     return e;
 }
 
-/* Some point is beyond the plane through `from` with normal g, or may come there. */
-static int reaches(const search *s, const ends *e, fl_vec3 from, fl_vec3 g)
+/* Some point is beyond the plane through `from` with normal g, or may come there; of an edge one that was
+ * beyond all before.  The margin has room for the rounding of where the edge is cut. */
+static int reaches(const search *s, ends *e, fl_vec3 from, fl_vec3 g)
 {
     const double enough = -s->margin * v3_norm(g);
+    if (e->n == 2)
+        return fl_span_keep(&e->left, v3_dot(g, v3_sub(e->v[e->at[0]], from)) - enough,
+                            v3_dot(g, v3_sub(e->v[e->at[1]], from)) - enough);
     for (int32_t k = 0; k < e->n; k++)
         if (v3_dot(g, v3_sub(e->v[e->at[k]], from)) >= enough) return 1;
     return 0;
+}
+
+/* What is left of an edge, or a vertex, comes within R of the point c, or of the line through it along u, or
+ * may. */
+static int nears(const search *s, const ends *e, fl_vec3 c, fl_vec3 u)
+{
+    const fl_vec3 x = e->v[e->at[0]], way = v3_sub(e->v[e->at[e->n - 1]], x);
+    const double uu = v3_norm2(u), each = uu > 0.0 ? 1.0 / uu : 0.0, far = s->R + s->margin;
+    const fl_vec3 r = v3_sub(x, c), q = v3_madd(r, -each * v3_dot(r, u), u),
+                  w = v3_madd(way, -each * v3_dot(way, u), u);
+    const double ww = v3_norm2(w), t = ww > 0.0 ? -v3_dot(q, w) / ww : 0.0;
+    const double at = t < e->left.lo ? e->left.lo : t > e->left.hi ? e->left.hi : t;
+    return v3_norm2(v3_madd(q, at, w)) < far * far;
 }
 
 static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
@@ -175,8 +194,9 @@ static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
     return v3_cross(q->n[f], v3_sub(q->v[b], q->v[a]));
 }
 
-static int over_face(const search *s, const ends *e, int32_t f)
+static int over_face(const search *s, const ends *own, int32_t f)
 {
+    ends part = *own, *const e = &part;
     const fl_poly *p = s->other->p;
     const fl_vec3 *v = s->other->v, n = s->other->n[f];
     const int32_t *loop = p->loop + p->first[f], sides = p->first[f + 1] - p->first[f];
@@ -187,25 +207,28 @@ static int over_face(const search *s, const ends *e, int32_t f)
     return 1;
 }
 
-static int over_edge(const search *s, const ends *e, int32_t k)
+static int over_edge(const search *s, const ends *own, int32_t k)
 {
+    ends part = *own, *const e = &part;
     const fl_edge g = s->other->p->edge[k];
     const fl_vec3 a = s->other->v[g.a], b = s->other->v[g.b], u = v3_sub(b, a);
     if (!(s->other->p->bend[k] > 0.0)) return 0;
     if (!aabb_meet(e->box, aabb_add((fl_aabb){a, a}, b))) return 0;
     if (!reaches(s, e, a, u) || !reaches(s, e, b, v3_neg(u))) return 0;
     if (g.left >= 0 && !reaches(s, e, a, v3_neg(leftward(s->other, g.left, g.a, g.b)))) return 0;
-    return g.right < 0 || reaches(s, e, a, leftward(s->other, g.right, g.a, g.b));
+    if (g.right >= 0 && !reaches(s, e, a, leftward(s->other, g.right, g.a, g.b))) return 0;
+    return nears(s, e, a, u);
 }
 
-static int over_vertex(const search *s, const ends *e, int32_t v)
+static int over_vertex(const search *s, const ends *own, int32_t v)
 {
+    ends part = *own, *const e = &part;
     const fl_poly *p = s->other->p;
     const fl_vec3 c = s->other->v[v];
     if (!(p->defect[v] > 0.0) || !aabb_meet(e->box, (fl_aabb){c, c})) return 0;
     for (int32_t m = p->begin[v]; m < p->begin[v + 1]; m++)
         if (!reaches(s, e, c, v3_sub(c, s->other->v[p->beside[m]]))) return 0;
-    return 1;
+    return nears(s, e, c, v3(0, 0, 0));
 }
 
 /* Feature `own` over all of the others. */
