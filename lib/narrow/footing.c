@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/wide.h"
 #include "narrow/rules.h"
+#include "narrow/strips.h"
 
 #define PI 3.14159265358979323846
 
@@ -206,6 +207,12 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
 /* --- what lies under F now -------------------------------------------------------------------------------
  */
 
+/* Of the width of the rim of F: what is nearer to a side than that is not told to be on one side of it. */
+#define HAIR 1e-6
+/* The same where the neighbour of F asks by itself, edges and corners: an edge that crosses a side between
+ * two ends so far off it is cut by both within 1e-11 of its length in the same place. */
+#define NEAR 1e-3
+
 /* A side of F in its plane: a point and the inward unit normal. */
 typedef struct {
     double x, y, nx, ny;
@@ -216,6 +223,7 @@ typedef struct {
     fl_vec3 o, x, y, n;
     const side *sides;
     int32_t n_side;
+    double rim;                /* width of the fading rim [m] */
     double *X, *Y, *h, *clear; /* [vertices] in the plane, above it, and from the nearest side of F [m] */
 } ground;
 
@@ -305,6 +313,49 @@ FL_WIDE_VERSIONS static void take_pieces(batch *b, sums *q)
     b->n = 0;
 }
 
+/* Triangles in the rim of F, where a share w of them counts that falls to 0 on the side with the inward normal
+ * (mx, my). */
+typedef struct {
+    fl_wide x[3], y[3], s[3], w[3];
+    fl_wide share, mx, my, a[2];
+    int n;
+} band;
+
+/* Force on A of what moves with the sides of F, and its moment about the origin of the ground, along its x, y
+ * and n. */
+typedef struct {
+    fl_vec3 f, m;
+} pulls;
+
+/* Moving a side by dx adds s^4 dx/rim at each point in the rim: there, at the height R - s. */
+FL_WIDE_VERSIONS static void take_band(band *b, double R, double rim, sums *q, pulls *pull)
+{
+    fl_wide u = 0.0 * b->x[0], p = u, px = u, py = u, ps = u;
+    for (int k = b->n; k < FL_LANES; k++) b->share[k] = 0.0;
+    for (int k = 0; k < FL_TRIANGLE_NODES; k++) {
+        const double b0 = FL_TRIANGLE_NODE[k][0], b1 = FL_TRIANGLE_NODE[k][1], b2 = FL_TRIANGLE_NODE[k][2];
+        const fl_wide x = b0 * b->x[0] + b1 * b->x[1] + b2 * b->x[2];
+        const fl_wide y = b0 * b->y[0] + b1 * b->y[1] + b2 * b->y[2];
+        const fl_wide s = b0 * b->s[0] + b1 * b->s[1] + b2 * b->s[2];
+        const fl_wide w = b0 * b->w[0] + b1 * b->w[1] + b2 * b->w[2];
+        const fl_wide part = FL_TRIANGLE_WEIGHT[k] * b->share * s * s, all = part * s * s, part_w = part * w,
+                      f = 4.0 * part_w * s;
+        ADD_NODE(q, all * w, f, 12.0 * part_w, f, s, x, y);
+        u += all * w;
+        p += all;
+        px += all * x;
+        py += all * y;
+        ps += all * s;
+    }
+    for (int k = 0; k < 2; k++) q->couple[k] += b->a[k] * u;
+    const double each = 1.0 / rim;
+    const fl_wide mx = each * b->mx, my = each * b->my, ph = R * p - ps;
+    const fl_wide fx = mx * p, fy = my * p, tx = ph * my, ty = ph * mx, tz = px * my - py * mx;
+    pull->f = v3_add(pull->f, v3(fl_wide_sum(&fx), fl_wide_sum(&fy), 0.0));
+    pull->m = v3_add(pull->m, v3(-fl_wide_sum(&tx), fl_wide_sum(&ty), fl_wide_sum(&tz)));
+    b->n = 0;
+}
+
 typedef struct {
     double x, y, s;
 } corner;
@@ -360,9 +411,11 @@ typedef struct {
     const fl_footing *o;
     uint8_t *skip;
     ground g;
-    double R, rim, most;
+    double R, most;
     batch triangles, pieces;
+    band bands;
     sums sum;
+    pulls pull;
 } work;
 
 /* Where a sum bears and how it spreads: three places at x + a cos, y + b cos + c sin have its moments. */
@@ -423,7 +476,180 @@ static void pour(const work *q, const tile *t, const kind way[2], batch *b, sums
     }
 }
 
-/* Face f of B, whole under F; 0 when it is not, -1 when memory runs out. */
+/* --- faces over a side of F --- */
+
+/* A convex piece of a face as F sees it.  d: how far within a side of F. */
+typedef struct {
+    double x, y, s, d;
+} spot;
+
+enum { PIECE = 16, TILE = PIECE - 4 }; /* corners of a piece, and of a face that is cut: each cut adds one */
+
+static spot part_way(const spot *a, const spot *b, double t)
+{
+    return (spot){a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), a->s + t * (b->s - a->s),
+                  a->d + t * (b->d - a->d)};
+}
+
+/* What has s >= 0. */
+static int wet(const spot *p, int n, spot *out)
+{
+    int m = 0;
+    for (int k = 0; k < n; k++) {
+        const spot *a = &p[k], *b = &p[k + 1 < n ? k + 1 : 0];
+        if (a->s >= 0.0) out[m++] = *a;
+        if ((a->s >= 0.0) == (b->s >= 0.0)) continue;
+        out[m] = part_way(a, b, a->s / (a->s - b->s));
+        out[m++].s = 0.0;
+    }
+    return m;
+}
+
+/* What has d >= level, and what has not unless `out` is NULL; *cut: where in `in` the cut begins, -1: none.
+ */
+static int part_at(const spot *p, int n, double level, spot *in, spot *out, int *left, int *cut)
+{
+    int m = 0, l = 0;
+    *cut = -1;
+    for (int k = 0; k < n; k++) {
+        const spot *a = &p[k], *b = &p[k + 1 < n ? k + 1 : 0];
+        const double da = a->d - level, db = b->d - level;
+        if (da >= 0.0) in[m++] = *a;
+        else if (out) out[l++] = *a;
+        if ((da >= 0.0) == (db >= 0.0)) continue;
+        spot at = part_way(a, b, da / (da - db));
+        at.d = level;
+        if (da >= 0.0) *cut = m;
+        in[m++] = at;
+        if (out) out[l++] = at;
+    }
+    if (left) *left = l;
+    return m;
+}
+
+static corner seen(const spot *p) { return (corner){p->x, p->y, p->s}; }
+
+static void pour_fan(const spot *p, int n, const kind *way, batch *b, sums *sum)
+{
+    for (int k = 2; k < n; k++) add_triangle(b, sum, way, seen(&p[0]), seen(&p[k - 1]), seen(&p[k]));
+}
+
+/* Where sums go. */
+typedef struct {
+    batch *b;
+    band *r;
+    sums *sum;
+    pulls *pull;
+} basin;
+
+static void pour_band(const work *q, const spot *p, int n, const kind *way, const side *m, const basin *to)
+{
+    band *const r = to->r;
+    const double each = 1.0 / q->g.rim;
+    for (int k = 2; k < n; k++) {
+        const spot *t[3] = {&p[0], &p[k - 1], &p[k]};
+        const int l = r->n++;
+        for (int c = 0; c < 3; c++)
+            r->x[c][l] = t[c]->x, r->y[c][l] = t[c]->y, r->s[c][l] = t[c]->s, r->w[c][l] = each * t[c]->d;
+        r->share[l] =
+            0.5 * way->share *
+            fabs((t[1]->x - t[0]->x) * (t[2]->y - t[0]->y) - (t[1]->y - t[0]->y) * (t[2]->x - t[0]->x));
+        r->mx[l] = m->nx, r->my[l] = m->ny;
+        for (int c = 0; c < 2; c++) r->a[c][l] = way->a[c];
+        if (l + 1 == FL_LANES) take_band(r, q->R, q->g.rim, to->sum, to->pull);
+    }
+}
+
+/* A face f as it is seen from F: its normal there, and what its parts count for both ways. */
+typedef struct {
+    double nx, ny, c;
+    kind way[2]; /* F over f, f over F */
+} facet;
+
+/* The side of F ends the part of F over f, along the line from a to b: s^4 for each length that it moves out
+ * across n_f, where it is, (nx, ny) t from what is below it on f. */
+static void pour_end(const work *q, const facet *f, const side *m, const spot *a, const spot *b, pulls *pull)
+{
+    const double over = 1.0 / f->c, slope = (f->nx * m->nx + f->ny * m->ny) * over;
+    const double gx = m->nx + slope * over * f->nx, gy = m->ny + slope * over * f->ny;
+    const double dx = b->x - a->x, dy = b->y - a->y, s = a->s, z = b->s, s2 = s * s;
+    const double all = f->way[0].share * sqrt((dx * dx + dy * dy) / (gx * gx + gy * gy)) * (1.0 / 30.0);
+    const double p = 6.0 * all * (s2 * s2 + z * (s2 * s + z * (s2 + z * (s + z)))),
+                 far = all * (s2 * s2 + z * (2.0 * s2 * s + z * (3.0 * s2 + z * (4.0 * s + 5.0 * z))));
+    const double x0 = a->x + (q->R - s) * f->nx, y0 = a->y + (q->R - s) * f->ny;
+    const double rx = p * x0 + far * (dx - (z - s) * f->nx), ry = p * y0 + far * (dy - (z - s) * f->ny);
+    pull->f = v3_add(pull->f, v3(p * m->nx, p * m->ny, p * slope));
+    pull->m = v3_add(pull->m, v3(ry * slope, -rx * slope, rx * m->ny - ry * m->nx));
+}
+
+/* The piece p of f, s > 0, over side m of F, d being distances from it. */
+static double pour_over_side(const work *q, const facet *f, const side *m, const spot *p, int n,
+                             const basin *to)
+{
+    spot in[PIECE], out[PIECE], deep[PIECE];
+    const double over = 1.0 / f->c, slope = (f->nx * m->nx + f->ny * m->ny) * over;
+    int inside, outside, cut;
+    double most = 0.0;
+    /* f over F */
+    inside = part_at(p, n, 0.0, in, NULL, NULL, &cut);
+    for (int k = 0; k < inside; k++) most = in[k].s > most ? in[k].s : most;
+    inside = part_at(in, inside, q->g.rim, deep, out, &outside, &cut);
+    pour_fan(deep, inside, &f->way[1], to->b, to->sum);
+    pour_band(q, out, outside, &f->way[1], m, to);
+    /* F over f: d of what of F is above it along n_f */
+    for (int k = 0; k < n; k++) {
+        const double t = (q->R - p[k].s) * over;
+        deep[k] = (spot){p[k].x, p[k].y, q->R - t, p[k].d + slope * (q->R - p[k].s)};
+    }
+    inside = part_at(deep, n, 0.0, in, NULL, NULL, &cut);
+    if (cut >= 0) {
+        spot a = in[cut], b = in[cut + 1 < inside ? cut + 1 : 0];
+        if (a.s < 0.0 && b.s > 0.0) a = part_way(&a, &b, a.s / (a.s - b.s)), a.s = 0.0;
+        else if (b.s < 0.0 && a.s > 0.0) b = part_way(&b, &a, b.s / (b.s - a.s)), b.s = 0.0;
+        if (a.s > 0.0 || b.s > 0.0) pour_end(q, f, m, &a, &b, to->pull);
+    }
+    for (int k = 0; k < inside; k++) {
+        if (in[k].s >= 0.0) {
+            most = in[k].s > most ? in[k].s : most;
+            continue;
+        }
+        inside = wet(in, inside, deep);
+        pour_fan(deep, inside, &f->way[0], to->b, to->sum);
+        return most;
+    }
+    pour_fan(in, inside, &f->way[0], to->b, to->sum);
+    return most;
+}
+
+/* The piece p of f, s > 0, and the only side of F that it is over: 1; 0: there are more, or one that it
+ * touches within a hair; -1: it is beyond a side. */
+static int side_of(const ground *g, const facet *f, const spot *p, int n, double R, int32_t *only)
+{
+    const double over = 1.0 / f->c, hair = HAIR * g->rim;
+    *only = -1;
+    int found = 1;
+    for (int32_t c = 0; c < g->n_side; c++) {
+        const side m = g->sides[c];
+        const double slope = (f->nx * m.nx + f->ny * m.ny) * over;
+        double least = INFINITY, most = -INFINITY;
+        int touches = 0;
+        for (int k = 0; k < n; k++) {
+            const double d = m.nx * (p[k].x - m.x) + m.ny * (p[k].y - m.y), e = d + slope * (R - p[k].s);
+            const double inner = d - g->rim, lower = inner < e ? inner : e, upper = d > e ? d : e;
+            least = lower < least ? lower : least;
+            most = upper > most ? upper : most;
+            touches |= fabs(e) < hair;
+        }
+        if (most <= -hair) return -1;
+        if (least >= hair) continue;
+        if (*only >= 0 || touches) found = 0;
+        *only = c;
+    }
+    return found;
+}
+
+/* Face f of B over F, or both where it is over the one side of F; 0 when it is not, -1 when memory runs out.
+ */
 static int under(work *q, const tile *t)
 {
     const ground *g = &q->g;
@@ -435,54 +661,106 @@ static int under(work *q, const tile *t)
         clear = g->clear[at[k]] < clear ? g->clear[at[k]] : clear;
         low = g->h[at[k]] < low ? g->h[at[k]] : low;
     }
-    if (!(clear > q->rim) || low < 0.0) return 0;
-    if (!(c > 0.0 && root > 0.0)) return 1; /* nothing */
-    if (!(c * c * (clear - q->rim) * (clear - q->rim) > (1.0 - c * c) * q->R * q->R)) return 0;
-    if (low >= q->R) return 1;
-    if (q->R - low > q->most) q->most = q->R - low;
+    if (low < 0.0) return 0;
+    if (!(c > 0.0 && root > 0.0) || low >= q->R) return 1; /* nothing */
     const double m = 0.5 * root * root, dm = 8.0 * c * root, over = 1.0 / c;
     const fl_vec3 turn = v3_cross(g->n, nf);
     const double tx = v3_dot(turn, g->x) / m, ty = v3_dot(turn, g->y) / m;
     const double a0 = dm - 4.0 * m * over, b0 = m * q->R * over, a1 = dm + m * over;
     /* areas are those seen along n_F, and f has 1/c of them */
-    const kind way[2] = {{m * over, over, {a0 * tx, a0 * ty}, {b0 * tx, b0 * ty}},
-                         {m, 1.0, {a1 * tx, a1 * ty}, {0, 0}}};
-    pour(q, t, way, &q->triangles, &q->sum);
+    const facet f = {
+        v3_dot(nf, g->x),
+        v3_dot(nf, g->y),
+        c,
+        {{m * over, over, {a0 * tx, a0 * ty}, {b0 * tx, b0 * ty}}, {m, 1.0, {a1 * tx, a1 * ty}, {0, 0}}}};
+    const double in = clear - g->rim;
+    if (in > 0.0 && c * c * in * in > (1.0 - c * c) * q->R * q->R) {
+        if (q->R - low > q->most) q->most = q->R - low;
+        pour(q, t, f.way, &q->triangles, &q->sum);
+        if (!q->w->apart) return 1;
+        batch b = {.n = 0};
+        sums own = {.u = {0}};
+        pour(q, t, f.way, &b, &own);
+        if (b.n) take_triangles(&b, &own);
+        return add_share(q, &own, t->n == 3 ? 1 : 3) ? -1 : 1;
+    }
+    spot all[PIECE], dry[PIECE], *p = all;
+    int n = t->n, deep = 1;
+    int32_t only;
+    if (n > TILE) return 0;
+    for (int k = 0; k < n; k++) {
+        all[k] = (spot){g->X[at[k]], g->Y[at[k]], q->R - g->h[at[k]], 0.0};
+        deep &= all[k].s > 0.0;
+    }
+    if (!deep) n = wet(all, n, dry), p = dry;
+    const int one = side_of(g, &f, p, n, q->R, &only);
+    if (one <= 0) return one < 0;
+    if (only < 0) only = 0;
+    const side *m1 = &g->sides[only];
+    for (int k = 0; k < n; k++) p[k].d = m1->nx * (p[k].x - m1->x) + m1->ny * (p[k].y - m1->y);
+    const basin to = {&q->triangles, &q->bands, &q->sum, &q->pull};
+    const double most = pour_over_side(q, &f, m1, p, n, &to);
+    if (most > q->most) q->most = most;
     if (!q->w->apart) return 1;
     batch b = {.n = 0};
+    band r = {.n = 0};
     sums own = {.u = {0}};
-    pour(q, t, way, &b, &own);
+    pulls none = {0};
+    const basin apart = {&b, &r, &own, &none};
+    pour_over_side(q, &f, m1, p, n, &apart);
     if (b.n) take_triangles(&b, &own);
-    return add_share(q, &own, t->n == 3 ? 1 : 3) ? -1 : 1;
+    if (r.n) take_band(&r, q->R, g->rim, &own, &none);
+    return add_share(q, &own, 3) ? -1 : 1;
 }
 
-static void pour_strip(const work *q, const strip *e, double si, double sj, batch *b, sums *sum)
+/* The part [lo, hi] of an edge. */
+static void pour_strip(const work *q, const strip *e, fl_span t, double si, double sj, batch *b, sums *sum)
 {
     const ground *g = &q->g;
     const int32_t i = e->v[0], j = e->v[1];
-    const double lo = si > 0.0 ? 0.0 : si / (si - sj), hi = sj > 0.0 ? 1.0 : si / (si - sj);
     const double dx = g->X[j] - g->X[i], dy = g->Y[j] - g->Y[i];
+    const double lo = si + t.lo * (sj - si), hi = si + t.hi * (sj - si);
     const int n = b->n++;
-    b->x[0][n] = g->X[i] + lo * dx, b->y[0][n] = g->Y[i] + lo * dy;
-    b->x[1][n] = (hi - lo) * dx, b->y[1][n] = (hi - lo) * dy;
-    b->s[0][n] = si > 0.0 ? sqrt(si) : 0.0;
-    b->s[1][n] = sj > 0.0 ? sqrt(sj) : 0.0;
-    b->share[n] = e->factor * 2.0 * (hi - lo);
+    b->x[0][n] = g->X[i] + t.lo * dx, b->y[0][n] = g->Y[i] + t.lo * dy;
+    b->x[1][n] = (t.hi - t.lo) * dx, b->y[1][n] = (t.hi - t.lo) * dy;
+    b->s[0][n] = lo > 0.0 ? sqrt(lo) : 0.0;
+    b->s[1][n] = hi > 0.0 ? sqrt(hi) : 0.0;
+    b->share[n] = e->factor * 2.0 * (t.hi - t.lo);
     if (n + 1 == FL_LANES) take_pieces(b, sum);
+}
+
+/* Leave of t what is within the sides of F: 1; 0: nothing; -1: a side is too near an end to tell. */
+static int within_sides(const ground *g, int32_t i, int32_t j, fl_span *t)
+{
+    const double near = NEAR * g->rim;
+    int some = 1;
+    if (g->clear[i] > near && g->clear[j] > near) return 1;
+    for (int32_t c = 0; c < g->n_side; c++) {
+        const side m = g->sides[c];
+        const double a = m.nx * (g->X[i] - m.x) + m.ny * (g->Y[i] - m.y),
+                     b = m.nx * (g->X[j] - m.x) + m.ny * (g->Y[j] - m.y);
+        if (fabs(a) < near || fabs(b) < near) return -1;
+        some = some && fl_span_keep(t, a, b);
+    }
+    return some;
 }
 
 static int strip_under(work *q, const strip *e)
 {
     const ground *g = &q->g;
     const int32_t i = e->v[0], j = e->v[1];
-    if (!(g->clear[i] > q->rim && g->clear[j] > q->rim && g->h[i] >= 0.0 && g->h[j] >= 0.0)) return 0;
+    if (!(g->h[i] >= 0.0 && g->h[j] >= 0.0)) return 0;
     const double si = q->R - g->h[i], sj = q->R - g->h[j];
     if (!(si > 0.0 || sj > 0.0)) return 1;
-    pour_strip(q, e, si, sj, &q->pieces, &q->sum);
+    fl_span t = {si > 0.0 ? 0.0 : si / (si - sj), sj > 0.0 ? 1.0 : si / (si - sj)};
+    const int in = within_sides(g, i, j, &t);
+    if (in <= 0) return in == 0;
+    if (!(si + t.lo * (sj - si) > 0.0 || si + t.hi * (sj - si) > 0.0)) return 1;
+    pour_strip(q, e, t, si, sj, &q->pieces, &q->sum);
     if (!q->w->apart) return 1;
     batch b = {.n = 0};
     sums own = {.u = {0}};
-    pour_strip(q, e, si, sj, &b, &own);
+    pour_strip(q, e, t, si, sj, &b, &own);
     take_pieces(&b, &own);
     return add_share(q, &own, 2) ? -1 : 1;
 }
@@ -504,8 +782,8 @@ static int point_under(work *q, const point *p)
 {
     const ground *g = &q->g;
     const double s = q->R - g->h[p->v];
-    if (!(g->clear[p->v] > q->rim && g->h[p->v] >= 0.0)) return 0;
-    if (!(s > 0.0)) return 1;
+    if (!(fabs(g->clear[p->v]) > NEAR * g->rim && g->h[p->v] >= 0.0)) return 0;
+    if (!(g->clear[p->v] > 0.0 && s > 0.0)) return 1;
     pour_point(q, p, s, &q->sum);
     if (!q->w->apart) return 1;
     sums own = {.u = {0}};
@@ -521,6 +799,7 @@ static int put(work *q)
     const sums *t = &q->sum;
     if (q->triangles.n) take_triangles(&q->triangles, &q->sum);
     if (q->pieces.n) take_pieces(&q->pieces, &q->sum);
+    if (q->bands.n) take_band(&q->bands, q->R, g->rim, &q->sum, &q->pull);
     const spread e = spread_of(t);
     const double du = fl_wide_sum(&t->du);
     if (!(e.f > 0.0)) return 0;
@@ -539,16 +818,39 @@ static int put(work *q)
     }
     q->w->couple = v3_madd(q->w->couple, fl_wide_sum(&t->couple[0]), g->x);
     q->w->couple = v3_madd(q->w->couple, fl_wide_sum(&t->couple[1]), g->y);
-    return 0;
+    const fl_vec3 pull = v3_madd(in_plane(g, q->pull.f.x, q->pull.f.y), q->pull.f.z, g->n);
+    const double size = v3_norm(pull);
+    if (!(size > 0.0)) return 0;
+    q->w->couple = v3_add(q->w->couple, v3_madd(in_plane(g, q->pull.m.x, q->pull.m.y), q->pull.m.z, g->n));
+    return fl_places_add(q->w, (fl_place){.du = size, .n = v3_scale(1.0 / size, pull), .p = g->o});
 }
 
-/* The plane of F, its sides and the vertices under it.  room: for the sides and four numbers a vertex. */
-static void lay_ground(ground *g, const fl_side *A, int32_t F, const double *x, int32_t vertices,
+/* Of the rims of a polygon the widest that leaves each side half its length, rim at most: as in areas.c. */
+static double rim_within(const side *s, const double *length, int32_t n, double rim)
+{
+    double last = 0.0, first = 0.0;
+    for (int32_t c = 0; c <= n; c++) {
+        const side u = s[c < n ? c : 0], v = s[c > 0 ? c - 1 : n - 1];
+        const double turn = fabs(v.nx * u.ny - v.ny * u.nx) / (1.0 + (v.nx * u.nx + v.ny * u.ny));
+        if (c == 0) first = turn;
+        else {
+            const double most = 0.5 * length[c - 1] / (last + (c < n ? turn : first));
+            rim = rim < most ? rim : most;
+        }
+        last = turn;
+    }
+    return rim;
+}
+
+/* The plane of F, its sides and the vertices under it.  room: for the sides, their lengths and four numbers a
+ * vertex. */
+static void lay_ground(ground *g, const fl_side *A, int32_t F, const double *x, int32_t vertices, double rim,
                        double *room)
 {
     const fl_poly *p = A->p;
     const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
     side *sides = (side *)(void *)room;
+    double *length = room + 4 * (int64_t)n;
     g->n = A->n[F];
     g->o = A->v[loop[0]];
     g->x = v3_unit(v3_sub(A->v[loop[1]], g->o));
@@ -556,12 +858,15 @@ static void lay_ground(ground *g, const fl_side *A, int32_t F, const double *x, 
     for (int32_t c = 0; c < n; c++) {
         const fl_vec3 a = v3_sub(A->v[loop[c]], g->o),
                       e = v3_sub(A->v[loop[c + 1 < n ? c + 1 : 0]], A->v[loop[c]]);
-        const double ex = v3_dot(g->x, e), ey = v3_dot(g->y, e), over = 1.0 / sqrt(ex * ex + ey * ey);
+        const double ex = v3_dot(g->x, e), ey = v3_dot(g->y, e), far = sqrt(ex * ex + ey * ey),
+                     over = 1.0 / far;
+        length[c] = far;
         sides[c] = (side){v3_dot(g->x, a), v3_dot(g->y, a), -over * ey, over * ex};
     }
     g->sides = sides;
     g->n_side = n;
-    g->X = room + 4 * (int64_t)n;
+    g->rim = rim_within(sides, length, n, rim);
+    g->X = length + n;
     g->Y = g->X + vertices;
     g->h = g->Y + vertices;
     g->clear = g->h + vertices;
@@ -588,10 +893,10 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
         const foot *from = &o->foot[k], *to = from + 1;
         const int32_t vertices = to->vertex - from->vertex;
         const int64_t sides = A->p->first[from->F + 1] - A->p->first[from->F];
-        if (fl_grow(&room->number, &room->number_cap, 4 * (sides + vertices), sizeof *room->number, &lost))
+        if (fl_grow(&room->number, &room->number_cap, 5 * sides + 4 * vertices, sizeof *room->number, &lost))
             return -1;
-        work q = {.w = w, .A = A, .B = B, .o = o, .skip = room->skip, .R = R, .rim = rim};
-        lay_ground(&q.g, A, from->F, o->x + 3 * (int64_t)from->vertex, vertices, room->number);
+        work q = {.w = w, .A = A, .B = B, .o = o, .skip = room->skip, .R = R};
+        lay_ground(&q.g, A, from->F, o->x + 3 * (int64_t)from->vertex, vertices, rim, room->number);
         for (int32_t c = from->tile; c < to->tile; c++) {
             const int is = under(&q, &o->tile[c]);
             for (int way = 0; way < 2 && is > 0; way++) mark(q.skip, o->tile[c].match[way]);

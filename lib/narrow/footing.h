@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* footing.h -- what of a surface of many small faces lies under the middle of a face F of a core.
+/* footing.h -- what of a surface of many small faces lies under a face F of a core.
  *
  * Where a face f of the surface B, an edge or a corner of it lies within the prism over a face F of the core
  * A, farther from its sides than its fading rim is wide, nothing of it is cut by F, and F covers f whole.
@@ -11,6 +11,13 @@
  * beside it stands the couple dU/dc n_F x n_f.  There is no rim to pull: by Gauss' theorem the pulls of the
  * sides of f in areas.h are what its forces along n_f lack of those along n_F.  All this is exact where f is
  * flat; corners off its plane count where they are.
+ *
+ * Where f lies over one side of F, with the inward normal m there and d = m.(x - p_m), it is cut: to d >= 0
+ * for f over F, which fades as d/rim to the side, and to g = d + (h/c) m.n_f >= 0 for F over f.  That gives
+ * forces that move with the side, m s^4/rim for each area of the rim and (m + n_F m.n_f/c) s^4/|grad g| for
+ * each length of the border g = 0 there at x + n_f h/c, and no more than that: one more place has their sum.
+ * Edges are cut at any sides.  What is over two sides of F, or within a hair of one, is left to areas.h and
+ * strips.h.
  *
  * What is under F is asked anew at each evaluation, and the sums run in the order of features: not a bit
  * depends on when the lists were made. */
