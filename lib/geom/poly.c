@@ -530,6 +530,17 @@ void fl_poly_angles(fl_poly *p)
     }
 }
 
+double fl_poly_bytes(const fl_poly *p)
+{
+    const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
+    if (!p->mem) return 0.0;
+    size_t sum = nv * sizeof *p->v + (p->n ? nf * (sizeof *p->n + sizeof *p->c) : 0) +
+                 (p->bend ? nv * sizeof *p->defect + ne * sizeof *p->bend : 0);
+    if (p->first) sum += (nf + 1 + (size_t)p->first[nf]) * sizeof(int32_t);
+    if (p->edge) sum += ne * sizeof *p->edge + (nv + 1 + 2 * ne) * sizeof(int32_t);
+    return (double)sum;
+}
+
 fl_aabb fl_poly_aabb(const fl_poly *p)
 {
     fl_aabb box = aabb_empty();

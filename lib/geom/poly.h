@@ -79,6 +79,9 @@ double fl_poly_bend(const fl_poly *p, int32_t e);
  * axes, which must be a rotation, become the axes. */
 void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
 
+/* What its arrays take of memory. */
+double fl_poly_bytes(const fl_poly *p);
+
 fl_aabb fl_poly_aabb(const fl_poly *p);
 void fl_poly_free(fl_poly *p); /* accepts a zeroed struct, leaves one */
 

@@ -380,3 +380,13 @@ void fl_matches_free(fl_matches *l)
     fl_footing_free(l->footing);
     *l = (fl_matches){0};
 }
+
+double fl_matches_bytes(const fl_matches *l)
+{
+    size_t sum = sizeof *l + (size_t)l->cap * sizeof *l->c +
+                 ((size_t)l->side_cap + (size_t)l->used_cap + (size_t)l->wall_cap) * sizeof(int32_t);
+    for (int k = 0; k < 2; k++)
+        sum +=
+            (size_t)l->table[k].vertex_cap * sizeof(int32_t) + (size_t)l->table[k].cut_cap * sizeof(fl_cut);
+    return (double)sum;
+}

@@ -93,6 +93,9 @@ int fl_matches_enter(fl_places *w, const fl_matches *l, const fl_poly *a, fl_mat
 int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const fl_side *B, double R,
                       double behind, double rim_a, double rim_b);
 
+/* What it takes of memory. */
+double fl_matches_bytes(const fl_matches *l);
+
 void fl_matches_free(fl_matches *l);
 
 #endif

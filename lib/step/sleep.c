@@ -53,6 +53,14 @@ void fl_sleep_new(fl_world *w, int32_t i)
     w->sleep.kind[i] = FL_AWAKE;
 }
 
+double fl_sleep_bytes(const fl_world *w)
+{
+    const fl_sleep *s = &w->sleep;
+    return s->nap ? (double)w->n *
+                        (double)(sizeof *s->nap + sizeof *s->image + sizeof *s->kind + sizeof *s->stack)
+                  : 0.0;
+}
+
 void fl_sleep_free(fl_sleep *s)
 {
     free(s->nap), free(s->kind), free(s->image), free(s->stack);

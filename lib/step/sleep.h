@@ -28,6 +28,8 @@
 
 /* -1 with FL_SYSTEM. */
 int fl_sleep_make(fl_world *w, fl_err *err);
+/* What it takes of memory. */
+double fl_sleep_bytes(const fl_world *w);
 void fl_sleep_free(fl_sleep *s);
 
 static inline enum fl_nap_kind fl_sleep_kind(const fl_world *w, int32_t k)

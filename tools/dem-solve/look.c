@@ -4,6 +4,7 @@
 #include "out/tables.h"
 #include "run.h"
 #include "step/balls.h"
+#include "step/footprint.h"
 #include "step/interact.h"
 #include "step/pairing.h"
 #include "step/ride.h"
@@ -28,28 +29,6 @@ int look_probe(struct run *r, FILE *f, fl_err *err)
 static void stage(FILE *f, const char *name, int on, const char *what)
 {
     fprintf(f, "  %-12s %-4s %s\n", name, on ? "yes" : "no", what);
-}
-
-static double mib_of(const fl_world *w)
-{
-    double bytes = 0.0;
-    const double total = w->b.total;
-    for (int32_t k = 0; k < w->b.total; k++) {
-        const fl_poly *p = &w->b.core[k];
-        bytes += p->nv * 24.0 + p->nf * 36.0 + p->ne * 16.0 + (p->nf ? p->first[p->nf] * 4.0 : 0.0);
-        if (k < w->sea.n) bytes += w->sea.outer[k].nv * 24.0 + w->sea.outer[k].nf * 68.0;
-    }
-    bytes += total * (7 * sizeof(fl_vec3) + sizeof(fl_quat) + sizeof(fl_mat3) + sizeof(fl_poly) +
-                      12 * sizeof(double));
-    for (int32_t k = 0; k < w->sea.n; k++) {
-        const double room = (double)fl_skin_most(&w->sea.hull[k]) * sizeof(fl_skin_piece);
-        if (w->sea.skin) bytes += room * (w->sea.skin[k].wet != NULL) + room * (w->sea.skin[k].dry != NULL);
-        if (w->sea.waves) bytes += w->sea.tiles[k].n * 76.0;
-    }
-    bytes += (double)w->threads * w->sea.cells_each * sizeof(fl_wave_near);
-    bytes += w->n_pair * (sizeof(fl_pair) + 2.0 * sizeof(int32_t));
-    bytes += fl_balls_bytes(w) + w->frozen.n * (sizeof(fl_bond) + 8.0 * sizeof(double));
-    return bytes / 1048576.0;
 }
 
 /* How the bodies stand in the water at the start: what is wholly out of it or under is not clipped. */
@@ -144,7 +123,8 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
                 "\nerror budget   %g of the load: the step is the largest there may be, and is chosen as the "
                 "run goes",
                 r->scene->run.error);
-    fprintf(f, "\nmemory         %.1f MiB\n", mib_of(w));
+    const fl_footprint bytes = fl_footprint_of(w);
+    fprintf(f, "\nmemory         %.1f MiB\n", fl_footprint_sum(&bytes) / 1048576.0);
     if (w->step)
         fprintf(f, "time           about %.0f s on %d threads, from %" PRId64 " steps of it\n",
                 spent / (double)w->step * (double)r->steps, w->threads, w->step);

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* footprint.h -- what a world takes of memory, by kind: arrays and blocks as long as they were asked for,
+ * without what the allocator adds and without what was read (fields, scene). */
+#ifndef FL_STEP_FOOTPRINT_H
+#define FL_STEP_FOOTPRINT_H
+#include "step/world.h"
+
+typedef struct {
+    double bodies; /* state, forces, works and books of bodies                                   [B] */
+    double shapes; /* cores                                                                         */
+    double water;  /* outer shapes and hulls, what water and wind keep                              */
+    double search; /* boxes, their tree, lists of who is near and who touches                       */
+    double pairs;  /* near pairs, but for                                                           */
+    double lists;  /* which of their features may touch                                             */
+    double balls;  /* pairs of spheres                                                              */
+    double others; /* structure, bonds, sleep, panels, traffic, scratch of the threads              */
+} fl_footprint;
+
+fl_footprint fl_footprint_of(const fl_world *w);
+double fl_footprint_sum(const fl_footprint *b);
+
+#endif

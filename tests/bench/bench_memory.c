@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bench_memory.c -- what a floe takes of memory with its pairs, by kind, while a field of floes at 80 % is
+ * stirred until they touch everywhere: dry, and in water.  "allocated" is what the allocator says that all of
+ * it takes, so that nothing is left out; what was read is not in it.  Beside it stand the pairs and the
+ * contacts of a floe, the largest overlap, and a number that tells the final states apart.
+ *     bench_memory [FLOES]     2000 if not said */
+#include <malloc.h>
+#include <stdlib.h>
+#include "scene/field_order.h"
+#include "step/footprint.h"
+#include "support/lab.h"
+#include "support/voronoi.h"
+
+#define CONCENTRATION 0.8
+#define RADIUS 0.05
+#define AREA 12.5   /* of the field, for a floe [m2] */
+#define EDDY 6.0    /* [m] */
+#define STIRRED 1.0 /* [m/s] */
+#define END 1.0     /* [s] */
+#define PI 3.14159265358979323846
+
+enum { LOOKS = 4 };
+
+static void must(int rc, const fl_err *err)
+{
+    if (rc == 0) return;
+    printf("bench_memory: %s\n", err->text);
+    exit(1);
+}
+
+static double memory(void)
+{
+    const struct mallinfo2 m = mallinfo2();
+    return (double)m.uordblks + (double)m.hblkhd;
+}
+
+/* In eddies. */
+static void field(lab *l, int32_t n)
+{
+    fl_poly *core = calloc((size_t)n, sizeof *core);
+    if (!core) exit(1);
+    voronoi_cores(core, n, AREA, CONCENTRATION, RADIUS, -0.4, 0.0);
+    for (int32_t i = 0; i < n; i++) {
+        const double x = PI / EDDY * core[i].v[0].x, y = PI / EDDY * core[i].v[0].y;
+        lab_poly(l, &core[i], RADIUS, v3(STIRRED * sin(x) * cos(y), -STIRRED * cos(x) * sin(y), 0),
+                 v3(0, 0, 0));
+    }
+    free(core);
+}
+
+static int row(int32_t n, int water)
+{
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "contact.softening=0.025");
+    lab_set(&l, "contact.friction=0.3");
+    lab_set(&l, "contact.restitution=0.1");
+    if (water) lab_set(&l, "run.gravity=9.81"), lab_set(&l, "water.current=0.5 0 0");
+    field(&l, n);
+    fl_err err = {0};
+    int32_t *at = malloc((size_t)n * sizeof *at);
+    if (!at) exit(1);
+    must(fl_field_order(&l.field, at, &err), &err); /* as dem-solve does */
+    free(at);
+    const double before = memory();
+    lab_make(&l, 0.0);
+    int bad = 0;
+    for (int k = 0; k <= LOOKS && !bad; k++) {
+        const int64_t to = (int64_t)(END * k / LOOKS / l.w.dt), touched = l.w.touching_steps;
+        const int64_t steps = to - l.w.step;
+        bad = lab_run(&l, steps);
+        const fl_footprint b = fl_footprint_of(&l.w);
+        const double all = memory() - before, sum = fl_footprint_sum(&b);
+        printf("%-6s %6d %6.2f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %10.0f %6.2f %8.2f %9.1e %016llx\n",
+               water ? "water" : "dry", n, fl_world_time(&l.w), b.bodies / n, b.shapes / n, b.water / n,
+               b.search / n, b.pairs / n, b.lists / n, sum / n, all / n, (double)l.w.n_pair / n,
+               steps ? (double)(l.w.touching_steps - touched) / (double)steps / n : 0.0, l.w.worst_overlap,
+               (unsigned long long)fl_step_hash(&l.w));
+        bad |= !(all >= sum && all < 1.25 * sum);
+    }
+    lab_free(&l);
+    return bad;
+}
+
+int main(int argc, char **argv)
+{
+    const int32_t n = argc > 1 ? atoi(argv[1]) : 2000;
+    int good = 0, bad = 0;
+    if (n < 100) return 1;
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    printf(
+        "bytes for a floe: arrays of bodies, cores, water, search, near pairs, matches of their features\n");
+    printf("%-6s %6s %6s %7s %7s %7s %7s %7s %7s %7s %10s %6s %8s %9s\n", "", "floes", "t[s]", "bodies",
+           "shapes", "water", "search", "pairs", "lists", "all", "allocated", "near", "touching",
+           "overlap/2R");
+    for (int water = 0; water < 2; water++) {
+        if (row(n, water)) bad++;
+        else good++;
+    }
+    printf("%d passed, %d failed\n", good, bad);
+    return bad > 0;
+}
