@@ -29,10 +29,9 @@ void fl_kick(fl_bodies *b, int32_t i, double h);
  * the held components of w and the free ones of L stay, by the midpoint rule.  dt [s] */
 void fl_drift(fl_bodies *b, int32_t i, double dt);
 
-/* fl_kick() by h, and then fl_drift() by dt where that is not 0, of the bodies [from, to), all of which
- * fl_body_free() and move, several at a time.  The state gets the bits that it gets one by one.
- *   gain  out, [to - from][2], what the kick changed of v and w, but for balls; NULL where all are balls */
-void fl_move_free(fl_bodies *b, int32_t from, int32_t to, double h, double dt, fl_vec3 (*gain)[2]);
+/* fl_kick() by h, and then fl_drift() by dt where that is not 0, of the bodies [from, to), all of which are
+ * balls, fl_body_free() and move, several at a time.  The state gets the bits that it gets one by one. */
+void fl_move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt);
 
 /* Whether nothing holds body i, and it moves no water with it. */
 static inline int fl_body_free(const fl_bodies *b, int32_t i) { return !b->hold[i] && !b->added; }

@@ -34,6 +34,7 @@ static inline fl_vec3 v3_unit(fl_vec3 a)
 static inline fl_vec3 v3_mul(fl_vec3 a, fl_vec3 b) { return v3(a.x * b.x, a.y * b.y, a.z * b.z); }
 /* a + t (b - a) */
 static inline fl_vec3 v3_lerp(fl_vec3 a, fl_vec3 b, double t) { return v3_madd(a, t, v3_sub(b, a)); }
+static inline int v3_finite(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 /* A unit vector at right angles to the unit vector n, chosen by its smallest component. */
 static inline fl_vec3 v3_normal_to(fl_vec3 n)
 {

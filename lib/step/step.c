@@ -8,8 +8,8 @@
 #include "body/integrate.h"
 #include "step/balls.h"
 #include "step/frozen.h"
+#include "step/group.h"
 #include "step/interact.h"
-#include "step/plain.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
@@ -78,16 +78,6 @@ static int touch(fl_world *w, double dt, int survey, fl_err *err)
     return w->press.panels ? fl_press_sort(w, err) : 0;
 }
 
-/* In waves the work of the water is booked with the kick that it gives.  What the kick changes goes to gain,
- * for the works of contacts. */
-static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
-{
-    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-    fl_kick(&w->b, k, h);
-    if (w->sea.waves) fl_sea_book(&w->sea, &w->b, k, h, v, spin);
-    *gain = (fl_gain){v3_sub(w->b.v[k], v), v3_sub(w->b.w[k], spin)};
-}
-
 /* What the spring of a driven floe pulls it down with [N]. */
 static double spring_force(const fl_world *w, int32_t i)
 {
@@ -96,10 +86,12 @@ static double spring_force(const fl_world *w, int32_t i)
     return k * drawn;
 }
 
+/* In waves the work of the water is booked with the kick that it gives. */
 void fl_step_kick(fl_world *w, int32_t k, double h)
 {
-    fl_gain none;
-    kick(w, k, h, &none);
+    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+    fl_kick(&w->b, k, h);
+    if (w->sea.waves) fl_sea_book(&w->sea, &w->b, k, h, v, spin);
 }
 
 void fl_step_out(fl_world *w, int32_t k, double s)
@@ -146,135 +138,14 @@ void fl_step_gather(fl_world *w, int32_t k)
     fl_step_press(w, k);
 }
 
-/* --- bodies by groups, each in the hands of one thread ----------------------------------------- */
-
-static int32_t groups(const fl_world *w) { return (w->n + FL_BALLS_GROUP - 1) / FL_BALLS_GROUP; }
-
-static int32_t end_of(const fl_world *w, int32_t g)
-{
-    const int32_t end = (g + 1) * FL_BALLS_GROUP;
-    return end < w->n ? end : w->n;
-}
-
-/* Nothing more is to be done for it than to kick it and let it drift. */
-static int unbound(const fl_world *w, int32_t k)
-{
-    return fl_body_free(&w->b, k) && !w->sea.waves && !fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE;
-}
-
-/* Of a ball the kick needs not be kept: it is known from what acts. */
-static int plain(const fl_world *w, int32_t k) { return w->b.ball[k] && unbound(w, k); }
-
-/* Kick by h and drift by dt (0: not at all); what is unbound goes several at a time.  gain[0] is that of
- * `from`. */
-static void move(fl_world *w, int32_t from, int32_t to, double h, double dt, fl_gain *gain)
-{
-    static_assert(sizeof *gain == 2 * sizeof(fl_vec3), "a gain is two vectors");
-    for (int32_t k = from; k < to; k++) {
-        int32_t end = k;
-        while (end < to && unbound(w, end)) end++;
-        if (end > k) {
-            fl_move_free(&w->b, k, end, h, dt, (fl_vec3(*)[2])(void *)&gain[k - from]);
-            k = end - 1;
-        } else if (!fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE) {
-            kick(w, k, h, &gain[k - from]);
-            if (dt != 0.0) fl_drift(&w->b, k, dt);
-        }
-    }
-}
-
-static int finite3(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
-
-/* The first of bodies [from, to) that has a number which is not finite, or -1: 0 x is 0 where x is one. */
-static int32_t first_lost(const fl_bodies *b, int32_t from, int32_t to)
-{
-    double zero = 0.0;
-    for (int32_t k = from; k < to; k++) {
-        const fl_vec3 f = b->f[k], t = b->t[k], x = b->x[k], v = b->v[k];
-        zero += 0.0 * (f.x + f.y + f.z) + 0.0 * (t.x + t.y + t.z) + 0.0 * (x.x + x.y + x.z) +
-                0.0 * (v.x + v.y + v.z);
-    }
-    for (int32_t k = from; k < to && zero != 0.0; k++)
-        if (!finite3(b->f[k]) || !finite3(b->t[k]) || !finite3(b->x[k]) || !finite3(b->v[k])) return k;
-    return -1;
-}
-
-/* What contacts push body i < n with. */
-static fl_vec3 pushed(const fl_world *w, int32_t i)
-{
-    fl_vec3 f = w->b.f[i];
-    if (w->row.n) f.z += spring_force(w, i);
-    f = v3_madd(f, -w->b.m[i], w->gravity);
-    return w->sea.water ? v3_sub(f, fl_sea_push(&w->sea, i)) : f;
-}
-
-/* What a kick by h gives to a plain body. */
-static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
-{
-    return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h / b->I[k].x, b->t[k])};
-}
-
-/* Forces on the bodies of group g, their kick by h (0 at the start: there is none), what the water takes, and
- * what the books want of them.  The first kick of a plain body is known from the forces that it had. */
-static void end_group(fl_world *w, int32_t g, double h)
-{
-    fl_bodies *b = &w->b;
-    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
-    fl_gain first[FL_BALLS_GROUP], back[FL_BALLS_GROUP];
-    uint8_t done[FL_BALLS_GROUP] = {0};
-    fl_group *own = &w->group[g];
-    const int clean = own->clean; /* what presses lies in one of two arrays, which take turns */
-    *own = (fl_group){.lost = -1};
-    if (fl_sleep_all(w, from, to)) return;
-    int32_t end, finite = 0, many = 0;
-    if (w->balls.bodies) fl_balls_collect(w, from, to);
-    for (int32_t k = from; k < to; k = end) {
-        for (end = k; h > 0.0 && end < to && fl_plain_is(w, end);) end++;
-        memset(&done[k - from], 1, (size_t)(end - k));
-        for (int32_t i = k; i < end && clean < 2; i++)
-            if (w->sink[i].n) w->sink[i] = (fl_sink){0};
-        if (end > k) {
-            many += end - k;
-            if (fl_plain_end(w, k, end, h)) finite += end - k;
-            continue;
-        }
-        end = k + 1;
-        first[k - from] = plain(w, k) ? gain_of(b, k, h) : w->gain[k];
-        if (fl_sleeps(w, k)) {
-            if (w->sink[k].n || w->was[k].n) w->sink[k] = w->was[k]; /* what presses stays */
-        } else if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_end(w, k);
-        else fl_step_gather(w, k);
-    }
-    for (int32_t k = from; k < to && h > 0.0; k = end) {
-        for (end = k; end < to && !done[end - from];) end++;
-        if (end > k) move(w, k, end, h, 0.0, &back[k - from]);
-        else end = k + 1;
-    }
-    for (int32_t k = from; k < to; k++) {
-        if (done[k - from]) {
-            own->pushed = v3_add(own->pushed, v3_madd(b->f[k], -b->m[k], w->gravity));
-            continue;
-        }
-        if (fl_world_away(w, k) || fl_sleep_kind(w, k) == FL_COASTS) continue;
-        own->pushed = v3_add(own->pushed, pushed(w, k));
-        if (!(h > 0.0) || fl_sleeps(w, k)) continue;
-        if (fl_sleep_kind(w, k) == FL_ENDS) fl_sleep_ended(w, k);
-        else if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
-        if (plain(w, k)) back[k - from] = gain_of(b, k, h);
-        fl_works_take(w, k, &first[k - from], &back[k - from]);
-    }
-    if (many == to - from) own->clean = clean < 2 ? clean + 1 : 2;
-    if (finite < to - from) own->lost = first_lost(b, from, to);
-}
-
 /* --- contacts and ends of a step in one go ----------------------------------------------------- */
 
 static_assert(FL_BALLS_CHUNK % FL_BALLS_GROUP == 0, "a chunk is made of groups");
 
 static void end_chunk(fl_world *w, int32_t a, double h)
 {
-    const int32_t each = FL_BALLS_CHUNK / FL_BALLS_GROUP, all = groups(w);
-    for (int32_t g = a * each; g < (a + 1) * each && g < all; g++) end_group(w, g, h);
+    const int32_t each = FL_BALLS_CHUNK / FL_BALLS_GROUP, all = fl_groups(w);
+    for (int32_t g = a * each; g < (a + 1) * each && g < all; g++) fl_group_end(w, g, h);
 }
 
 /* Rows of a chunk lead to it and to those behind it.  So, when a thread takes a run of chunks in their order,
@@ -354,7 +225,7 @@ static void survey_stiffness(fl_world *w)
 static int check(fl_world *w, int survey, fl_err *err)
 {
     if (w->failed) return fl_fail(err, FL_SYSTEM, "out of memory in step %lld", (long long)w->step);
-    for (int32_t g = 0; g < groups(w); g++)
+    for (int32_t g = 0; g < fl_groups(w); g++)
         if (w->group[g].lost >= 0)
             return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)",
                            w->id[w->group[g].lost], (long long)w->step, fl_world_time(w));
@@ -369,7 +240,7 @@ static int check(fl_world *w, int survey, fl_err *err)
                        who, w->dt, w->dt_critical, (long long)w->step, fl_world_time(w));
     }
     for (int32_t k = 0; k < w->ride.m.n; k++)
-        if (!finite3(w->ride.m.b.x[k]) || !finite3(w->ride.m.b.f[k]) || !finite3(w->ride.m.b.t[k]))
+        if (!v3_finite(w->ride.m.b.x[k]) || !v3_finite(w->ride.m.b.f[k]) || !v3_finite(w->ride.m.b.t[k]))
             return fl_fail(err, FL_NUMERIC, "%s: not a finite number in step %lld (t = %g s)",
                            fl_ride_name(w, k), (long long)w->step, fl_world_time(w));
     return 0;
@@ -441,7 +312,7 @@ static void account(fl_world *w, double dt, deepest *d)
         w->half_j = d->j;
         w->half_time = fl_world_time(w);
     }
-    for (int32_t g = 0; g < groups(w); g++) balance = v3_add(balance, w->group[g].pushed);
+    for (int32_t g = 0; g < fl_groups(w); g++) balance = v3_add(balance, w->group[g].pushed);
     for (int32_t k = w->n; k < b->total; k++) balance = v3_add(balance, b->f[k]);
     w->imbalance = v3_madd(w->imbalance, dt, balance);
 }
@@ -469,7 +340,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (touch(w, 0.0, 1, err)) return -1;
-    for (int32_t g = 0; g < groups(w); g++) end_group(w, g, 0.0);
+    for (int32_t g = 0; g < fl_groups(w); g++) fl_group_end(w, g, 0.0);
     for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
     if (w->ride.m.n) {
         fl_ride_ready(w);
@@ -489,7 +360,7 @@ int fl_step(fl_world *w, fl_err *err)
 {
     fl_bodies *b = &w->b;
     const double dt = w->dt, h = 0.5 * dt;
-    const int sea = w->sea.n > 0, rides = w->ride.m.n > 0, survey = surveyed(w, w->step + 1);
+    const int rides = w->ride.m.n > 0, survey = surveyed(w, w->step + 1);
     deepest deep;
 
     load_parts(w, h);
@@ -497,13 +368,7 @@ int fl_step(fl_world *w, fl_err *err)
     fl_works_begin(w);
     if (rides) fl_ride_out(w, fl_world_time(w));
 #pragma omp parallel for schedule(static)
-    for (int32_t g = 0; g < groups(w); g++) {
-        const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
-        if (fl_sleep_all(w, from, to)) continue;
-        for (int32_t k = from; k < to && sea; k++)
-            if (!fl_world_away(w, k) && !fl_sleeps(w, k)) fl_sea_drag(&w->sea, b, k, h, 0);
-        move(w, from, to, h, dt, &w->gain[from]);
-    }
+    for (int32_t g = 0; g < fl_groups(w); g++) fl_group_begin(w, g, h, dt);
     for (int32_t k = w->n; k < b->total; k++)
         if (!rides || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
     w->step++;
@@ -516,7 +381,7 @@ int fl_step(fl_world *w, fl_err *err)
         if (touch(w, dt, survey, err)) return -1;
         if (w->sleep.resting) fl_sleep_disturb(w);
 #pragma omp parallel for schedule(static)
-        for (int32_t g = 0; g < groups(w); g++) end_group(w, g, h);
+        for (int32_t g = 0; g < fl_groups(w); g++) fl_group_end(w, g, h);
     }
 #pragma omp parallel for schedule(static) if (b->total - w->n > FEW)
     for (int32_t k = w->n; k < b->total; k++) fl_step_gather(w, k);

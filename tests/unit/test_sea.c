@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support/near.h"
 #include <math.h>
+#include "step/step.h"
 #include "support/lab.h"
+#include "support/shapes.h"
+#include "water/calm.h"
 
 /* A box of 10 x 10 x 1 m with its centre at z, in water of 1025 kg/m3. */
 static void floe(lab *l, double z, fl_vec3 v, fl_vec3 spin)
@@ -163,6 +166,80 @@ static void a_scene_without_water_allocates_none(void **state)
     lab_free(&l);
 }
 
+enum { SEVERAL = 45 };
+
+/* Prisms and others: afloat the right way up or turned over, askew, deep under, high above; some at rest. */
+static void flotsam(lab *l, int wind, int shear)
+{
+    lab_start(l);
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "water.current=0.5 0.1 0");
+    if (shear) lab_set(l, "water.profile=linear");
+    if (shear) lab_set(l, "water.profile_depth=3");
+    if (wind) lab_set(l, "wind.velocity=8 -3 0");
+    for (int32_t k = 0; k < SEVERAL; k++) {
+        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+        fl_poly p = {0};
+        if (k % 6 == 5) shape_random_polytope(&p, &g, 4);
+        else shape_random_prism(&p, &g);
+        const fl_vec3 upright = v3_scale(0.05, shape_direction(&g));
+        const fl_quat q = k % 4 == 3   ? shape_rotation(&g)
+                          : k % 4 == 2 ? q_mul(q_of_vector(upright), (fl_quat){0, 1, 0, 0})
+                                       : q_of_vector(upright);
+        const double z = k % 9 == 7 ? -9.0 : k % 9 == 8 ? 9.0 : fl_rng_in(&g, -0.1, 0.1);
+        shape_move(&p, q, v3(20.0 * k, 0, z));
+        const fl_vec3 v = shape_direction(&g), spin = shape_direction(&g);
+        lab_poly(l, &p, 0.01, k % 7 ? v : v3(0.5, 0.1, 0), k % 5 ? spin : v3(0, 0, 0));
+    }
+    lab_make(l, 1e-3);
+}
+
+static void same_bits(const void *a, const void *b, size_t bytes) { assert_memory_equal(a, b, bytes); }
+
+static void several_meet_the_sea_as_one_does(void **state)
+{
+    (void)state;
+    int32_t afloat = 0;
+    for (int way = 0; way < 8; way++) {
+        const double h = way & 4 ? 0.3 : 1e-3;
+        const size_t numbers = SEVERAL * sizeof(double), vectors = SEVERAL * sizeof(fl_vec3);
+        lab l, m;
+        flotsam(&l, way & 1, way & 2), flotsam(&m, way & 1, way & 2);
+        fl_world *one = &l.w, *all = &m.w;
+        for (int32_t k = 0; k < SEVERAL; k++) {
+            fl_step_soft(one, k);
+            fl_sea_drag(&one->sea, &one->b, k, h, 0);
+            fl_sea_drag(&one->sea, &one->b, k, h, 1);
+        }
+        for (int32_t from = 0, n; from < SEVERAL; from += n) {
+            int32_t left[FL_FEW];
+            fl_few s;
+            n = 1 + (from + way) % FL_FEW;
+            if (n > SEVERAL - from) n = SEVERAL - from;
+            fl_few_take(&s, &all->b, from, n);
+            fl_few_weigh(&s, all->gravity);
+            const int32_t others = fl_calm_force(&all->sea, &all->b, &s, left);
+            fl_few_put_forces(&s, &all->b);
+            for (int32_t k = 0; k < others; k++) fl_step_soft(all, from + left[k]);
+            fl_calm_drag(&all->sea, &all->b, &s, h, 0);
+            fl_calm_drag(&all->sea, &all->b, &s, h, 1);
+            fl_few_put_speeds(&s, &all->b);
+            afloat += n - others;
+        }
+        same_bits(one->b.f, all->b.f, vectors), same_bits(one->b.t, all->b.t, vectors);
+        same_bits(one->b.v, all->b.v, vectors), same_bits(one->b.w, all->b.w, vectors);
+        same_bits(one->b.L, all->b.L, vectors), same_bits(one->sea.flow, all->sea.flow, vectors);
+        same_bits(one->sea.wetted, all->sea.wetted, numbers),
+            same_bits(one->sea.lift, all->sea.lift, numbers);
+        same_bits(one->sea.centre, all->sea.centre, numbers);
+        same_bits(one->sea.energy, all->sea.energy, numbers);
+        same_bits(one->sea.drained, all->sea.drained, numbers);
+        same_bits(one->sea.blown, all->sea.blown, numbers);
+        lab_free(&l), lab_free(&m);
+    }
+    assert_true(afloat > 8 * SEVERAL / 8 && afloat < 8 * SEVERAL / 4 * 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -172,6 +249,7 @@ int main(void)
         cmocka_unit_test(wind_takes_hold_of_what_is_dry),
         cmocka_unit_test(what_is_held_is_not_dragged),
         cmocka_unit_test(round_bodies_float_round),
+        cmocka_unit_test(several_meet_the_sea_as_one_does),
         cmocka_unit_test(a_scene_without_water_allocates_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

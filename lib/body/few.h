@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* few.h -- a few bodies side by side, one array a quantity, so that the formulae of integrate.h take several
+ * at a time.  Each body gets the bits that it gets there: fl_kick() and fl_drift() of bodies that
+ * fl_body_free() and are no balls.
+ *
+ *     fl_few_take(), fl_few_take_forces(), fl_few_take_pose();
+ *     fl_few_kick(), fl_few_drift();
+ *     fl_few_put_speeds(), fl_few_put_pose()
+ *
+ * What is taken and not put back stays as it was. */
+#ifndef FL_BODY_FEW_H
+#define FL_BODY_FEW_H
+#include "base/wide.h"
+#include "body/body.h"
+
+enum { FL_FEW = 16 };
+
+typedef struct {
+    int32_t from, n; /* bodies [from, from + n), n <= FL_FEW */
+    _Alignas(64) double m[FL_FEW];
+    double invm[FL_FEW], I[3][FL_FEW]; /* what they are, as in body.h */
+    double v[3][FL_FEW], L[3][FL_FEW], w[3][FL_FEW];
+    double R[9][FL_FEW]; /* row by row */
+    double f[3][FL_FEW], t[3][FL_FEW];
+    double x[3][FL_FEW], q[4][FL_FEW], odometer[FL_FEW], bound[FL_FEW];
+    double dv[3][FL_FEW], dw[3][FL_FEW]; /* what the last kick changed of v and w */
+} fl_few;
+
+/* m, invm, I, R, v, L and w of bodies [from, from + n). */
+void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n);
+
+/* Of the same: f and t; x, q, odometer and bound. */
+void fl_few_take_forces(fl_few *s, const fl_bodies *b);
+void fl_few_take_pose(fl_few *s, const fl_bodies *b);
+
+/* f and t of the k-th of them. */
+static inline void fl_few_take_force(fl_few *s, const fl_bodies *b, int32_t k)
+{
+    const fl_vec3 f = b->f[s->from + k], t = b->t[s->from + k];
+    s->f[0][k] = f.x, s->f[1][k] = f.y, s->f[2][k] = f.z;
+    s->t[0][k] = t.x, s->t[1][k] = t.y, s->t[2][k] = t.z;
+}
+
+/* Weight and nothing else: f = m g, t = 0. */
+void fl_few_weigh(fl_few *s, fl_vec3 gravity);
+
+/* As fl_kick(). */
+void fl_few_kick(fl_few *s, double h);
+
+/* As fl_drift().  Returns 1; or 0 and nothing is changed when one of them turns by more than a radian or so
+ * in dt, for which the series here is not made. */
+int fl_few_drift(fl_few *s, double dt);
+
+void fl_few_put_forces(const fl_few *s, fl_bodies *b); /* f, t */
+void fl_few_put_speeds(const fl_few *s, fl_bodies *b); /* v, L, w */
+void fl_few_put_pose(const fl_few *s, fl_bodies *b);   /* x, q, R, odometer */
+
+/* Between vectors that follow each other and arrays of their components. */
+FL_WIDE_PART void fl_few_split(double (*to)[FL_FEW], const fl_vec3 *a, int32_t n)
+{
+    int32_t k = 0;
+    for (; k + FL_LANES <= n; k += FL_LANES) {
+        fl_wide v[3];
+        fl_wide_from_triples(v, &a[k]);
+        FL_WIDE_UNROLL for (int c = 0; c < 3; c++) FL_FOUR_INTO(&to[c][k]) = v[c];
+    }
+    for (; k < n; k++) to[0][k] = a[k].x, to[1][k] = a[k].y, to[2][k] = a[k].z;
+}
+
+FL_WIDE_PART void fl_few_join(fl_vec3 *a, const double (*from)[FL_FEW], int32_t n)
+{
+    int32_t k = 0;
+    for (; k + FL_LANES <= n; k += FL_LANES) {
+        const fl_wide v[3] = {FL_FOUR(&from[0][k]), FL_FOUR(&from[1][k]), FL_FOUR(&from[2][k])};
+        fl_wide_to_triples(&a[k], v);
+    }
+    for (; k < n; k++) a[k] = v3(from[0][k], from[1][k], from[2][k]);
+}
+
+/* The same of four numbers of each of n structs of so many bytes. */
+FL_WIDE_PART void fl_few_split4(double (*to)[FL_FEW], const void *a, size_t bytes, int32_t n)
+{
+    const char *at = (const char *)a;
+    int32_t k = 0;
+    for (; k + FL_LANES <= n; k += FL_LANES, at += FL_LANES * bytes) {
+        fl_wide r[FL_LANES];
+        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(at + (size_t)l * bytes);
+        fl_wide_transpose(r);
+        FL_WIDE_UNROLL for (int c = 0; c < FL_LANES; c++) FL_FOUR_INTO(&to[c][k]) = r[c];
+    }
+    for (; k < n; k++, at += bytes)
+        for (int c = 0; c < FL_LANES; c++) to[c][k] = FL_FOUR(at)[c];
+}
+
+FL_WIDE_PART void fl_few_join4(void *a, size_t bytes, const double (*from)[FL_FEW], int32_t n)
+{
+    char *at = (char *)a;
+    int32_t k = 0;
+    for (; k + FL_LANES <= n; k += FL_LANES, at += FL_LANES * bytes) {
+        fl_wide r[FL_LANES];
+        FL_WIDE_UNROLL for (int c = 0; c < FL_LANES; c++) r[c] = FL_FOUR(&from[c][k]);
+        fl_wide_transpose(r);
+        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(at + (size_t)l * bytes) = r[l];
+    }
+    for (; k < n; k++, at += bytes)
+        for (int c = 0; c < FL_LANES; c++) ((double *)(void *)at)[c] = from[c][k];
+}
+
+#endif

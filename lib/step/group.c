@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "body/few.h"
+#include "body/integrate.h"
+#include "step/balls.h"
+#include "step/frozen.h"
+#include "step/group.h"
+#include "step/plain.h"
+#include "step/sleep.h"
+#include "step/step.h"
+#include "step/works.h"
+#include "water/calm.h"
+
+static int32_t end_of(const fl_world *w, int32_t g)
+{
+    const int32_t end = (g + 1) * FL_BALLS_GROUP;
+    return end < w->n ? end : w->n;
+}
+
+/* Nothing more is to be done for it than to kick it and let it drift. */
+static int unbound(const fl_world *w, int32_t k)
+{
+    return fl_body_free(&w->b, k) && !w->sea.waves && !fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE;
+}
+
+/* Behind the last of those from k on that are unbound, and balls as k is; k itself where it is not. */
+static int32_t alike(const fl_world *w, int32_t k, int32_t to)
+{
+    const uint8_t ball = w->b.ball[k];
+    while (k < to && w->b.ball[k] == ball && unbound(w, k)) k++;
+    return k;
+}
+
+/* Something may press on it now; and something did before the step began, so that its first kick counts for
+ * the works of contacts. */
+static int presses(const fl_world *w, int32_t k)
+{
+    return w->sink[k].n || w->balls.bodies || fl_frozen_at(w, k);
+}
+
+static int pressed(const fl_world *w, int32_t k) { return w->was[k].n || w->balls.bodies; }
+
+static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
+{
+    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+    fl_step_kick(w, k, h);
+    *gain = (fl_gain){v3_sub(w->b.v[k], v), v3_sub(w->b.w[k], spin)};
+}
+
+/* What a kick by h gives to a ball that is unbound. */
+static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
+{
+    return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h / b->I[k].x, b->t[k])};
+}
+
+/* What the last kick gave to body k of a few. */
+static fl_gain gain_among(const fl_few *s, int32_t k)
+{
+    return (fl_gain){v3(s->dv[0][k], s->dv[1][k], s->dv[2][k]), v3(s->dw[0][k], s->dw[1][k], s->dw[2][k])};
+}
+
+/* --- the first half ---------------------------------------------------------------------------- */
+
+/* At most FL_FEW floes that are unbound. */
+static void begin_few(fl_world *w, int32_t from, int32_t n, double h, double dt)
+{
+    fl_bodies *b = &w->b;
+    fl_sea *sea = &w->sea;
+    const int calm = fl_calm_goes(sea);
+    fl_few s;
+    for (int32_t k = from; k < from + n && sea->n && !calm; k++) fl_sea_drag(sea, b, k, h, 0);
+    fl_few_take(&s, b, from, n);
+    fl_few_take_forces(&s, b);
+    fl_few_take_pose(&s, b);
+    if (calm) fl_calm_drag(sea, b, &s, h, 0);
+    fl_few_kick(&s, h);
+    for (int32_t k = 0; k < n; k++)
+        if (pressed(w, from + k)) w->gain[from + k] = gain_among(&s, k);
+    const int done = fl_few_drift(&s, dt);
+    fl_few_put_speeds(&s, b);
+    if (done) fl_few_put_pose(&s, b);
+    for (int32_t k = from; k < from + n && !done; k++) fl_drift(b, k, dt);
+}
+
+static void begin_balls(fl_world *w, int32_t from, int32_t to, double h, double dt)
+{
+    for (int32_t k = from; k < to && w->sea.n; k++) fl_sea_drag(&w->sea, &w->b, k, h, 0);
+    fl_move_balls(&w->b, from, to, h, dt);
+}
+
+static void begin_one(fl_world *w, int32_t k, double h, double dt)
+{
+    if (fl_world_away(w, k) || fl_sleep_kind(w, k) != FL_AWAKE) return;
+    if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
+    kick(w, k, h, &w->gain[k]);
+    fl_drift(&w->b, k, dt);
+}
+
+void fl_group_begin(fl_world *w, int32_t g, double h, double dt)
+{
+    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
+    int32_t end;
+    if (fl_sleep_all(w, from, to)) return;
+    for (int32_t k = from; k < to; k = end) {
+        end = alike(w, k, to);
+        if (end == k) begin_one(w, end++, h, dt);
+        else if (w->b.ball[k]) begin_balls(w, k, end, h, dt);
+        else
+            for (int32_t i = k; i < end; i += FL_FEW)
+                begin_few(w, i, end - i < FL_FEW ? end - i : FL_FEW, h, dt);
+    }
+}
+
+/* --- the second -------------------------------------------------------------------------------- */
+
+/* What contacts push body i < n with. */
+static fl_vec3 pushed(const fl_world *w, int32_t i)
+{
+    double drawn = 0.0;
+    fl_vec3 f = w->b.f[i];
+    const double k = w->row.n ? fl_world_spring(w, i, &drawn) : 0.0;
+    if (w->row.n) f.z += k * drawn;
+    f = v3_madd(f, -w->b.m[i], w->gravity);
+    return w->sea.water ? v3_sub(f, fl_sea_push(&w->sea, i)) : f;
+}
+
+/* After all of it; what nothing presses has no works of contacts, and its push is 0. */
+static void book(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back, fl_group *own)
+{
+    w->damped[k] = w->rubbed[k] = 0.0;
+    if (presses(w, k)) own->pushed = v3_add(own->pushed, pushed(w, k));
+    if (presses(w, k) || pressed(w, k)) fl_works_take(w, k, first, back);
+}
+
+/* The forces of a few, in the books of the bodies and in their own. */
+static void find_forces(fl_world *w, fl_few *s)
+{
+    int32_t left[FL_FEW], others = 0;
+    if (w->row.n || (w->sea.water && !fl_calm_goes(&w->sea))) {
+        for (int32_t k = 0; k < s->n; k++) left[others++] = k;
+    } else {
+        fl_few_weigh(s, w->gravity);
+        if (w->sea.water) others = fl_calm_force(&w->sea, &w->b, s, left);
+        fl_few_put_forces(s, &w->b);
+    }
+    for (int32_t k = 0; k < others; k++) {
+        fl_step_soft(w, s->from + left[k]);
+        fl_few_take_force(s, &w->b, left[k]);
+    }
+    for (int32_t k = 0; k < s->n; k++) {
+        fl_step_press(w, s->from + k);
+        if (presses(w, s->from + k)) fl_few_take_force(s, &w->b, k);
+    }
+}
+
+static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *own)
+{
+    fl_bodies *b = &w->b;
+    fl_sea *sea = &w->sea;
+    const int calm = fl_calm_goes(sea);
+    fl_few s;
+    fl_few_take(&s, b, from, n);
+    find_forces(w, &s);
+    fl_few_kick(&s, h);
+    if (calm) fl_calm_drag(sea, b, &s, h, 1);
+    fl_few_put_speeds(&s, b);
+    for (int32_t k = 0; k < n; k++) {
+        if (sea->n && !calm) fl_sea_drag(sea, b, from + k, h, 1);
+        const fl_gain back = gain_among(&s, k);
+        book(w, from + k, &w->gain[from + k], &back, own);
+    }
+}
+
+/* Of a ball the first kick is known from the forces that it had. */
+static void end_balls(fl_world *w, int32_t from, int32_t to, double h, fl_group *own)
+{
+    fl_bodies *b = &w->b;
+    fl_gain first[FL_BALLS_GROUP];
+    for (int32_t k = from; k < to; k++) {
+        first[k - from] = gain_of(b, k, h);
+        fl_step_gather(w, k);
+    }
+    fl_move_balls(b, from, to, h, 0.0);
+    for (int32_t k = from; k < to; k++) {
+        const fl_gain back = gain_of(b, k, h);
+        if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
+        book(w, k, &first[k - from], &back, own);
+    }
+}
+
+static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
+{
+    const enum fl_nap_kind kind = fl_sleep_kind(w, k);
+    fl_gain back = {0};
+    if (fl_sleeps(w, k)) {
+        if (w->sink[k].n || w->was[k].n) w->sink[k] = w->was[k]; /* what presses stays */
+    } else if (kind == FL_ENDS) fl_sleep_end(w, k);
+    else fl_step_gather(w, k);
+    if (fl_world_away(w, k) || kind == FL_COASTS) return;
+    if (!(h > 0.0) || kind == FL_RESTS) {
+        if (presses(w, k)) own->pushed = v3_add(own->pushed, pushed(w, k));
+        return;
+    }
+    if (kind == FL_ENDS) {
+        fl_sleep_ended(w, k);
+    } else {
+        kick(w, k, h, &back);
+        if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 1);
+    }
+    book(w, k, &w->gain[k], &back, own);
+}
+
+/* Spheres that plain.h knows, from k on; behind the last. */
+static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group *own, int clean, int *finite)
+{
+    int32_t end = k;
+    while (h > 0.0 && end < to && fl_plain_is(w, end)) end++;
+    for (int32_t i = k; i < end && clean < 2; i++)
+        if (w->sink[i].n) w->sink[i] = (fl_sink){0};
+    if (end > k && !fl_plain_end(w, k, end, h)) *finite = 0;
+    for (int32_t i = k; i < end; i++)
+        own->pushed = v3_add(own->pushed, v3_madd(w->b.f[i], -w->b.m[i], w->gravity));
+    return end;
+}
+
+/* Whether n numbers are all finite: 0 x is 0 where x is. */
+FL_WIDE_VERSIONS static int all_finite(const double *restrict a, int32_t n)
+{
+    double zero = 0.0;
+#pragma omp simd reduction(+ : zero)
+    for (int32_t k = 0; k < n; k++) zero += 0.0 * a[k];
+    return zero == 0.0;
+}
+
+/* The first of bodies [from, to) that has a number which is not finite, or -1. */
+static int32_t first_lost(const fl_bodies *b, int32_t from, int32_t to)
+{
+    const int32_t n = 3 * (to - from);
+    if (all_finite(&b->f[from].x, n) && all_finite(&b->t[from].x, n) && all_finite(&b->x[from].x, n) &&
+        all_finite(&b->v[from].x, n))
+        return -1;
+    for (int32_t k = from; k < to; k++)
+        if (!v3_finite(b->f[k]) || !v3_finite(b->t[k]) || !v3_finite(b->x[k]) || !v3_finite(b->v[k]))
+            return k;
+    return -1;
+}
+
+void fl_group_end(fl_world *w, int32_t g, double h)
+{
+    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
+    fl_group *own = &w->group[g];
+    const int clean = own->clean; /* what presses lies in one of two arrays, which take turns */
+    int32_t end, many = 0;
+    int finite = 1;
+    *own = (fl_group){.lost = -1};
+    if (fl_sleep_all(w, from, to)) return;
+    if (w->balls.bodies) fl_balls_collect(w, from, to);
+    for (int32_t k = from; k < to; k = end) {
+        end = end_plain(w, k, to, h, own, clean, &finite);
+        many += end - k;
+        if (end > k) continue;
+        end = h > 0.0 ? alike(w, k, to) : k;
+        if (end == k) end_one(w, end++, h, own);
+        else if (w->b.ball[k]) end_balls(w, k, end, h, own);
+        else
+            for (int32_t i = k; i < end; i += FL_FEW)
+                end_few(w, i, end - i < FL_FEW ? end - i : FL_FEW, h, own);
+    }
+    if (many == to - from) own->clean = clean < 2 ? clean + 1 : 2;
+    if (!finite || many < to - from) own->lost = first_lost(&w->b, from, to);
+}

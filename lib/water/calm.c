@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
+#include <stddef.h>
+#include "water/calm.h"
+
+/* A fluid that goes by: the surface that it meets, r_eff, and its velocity. */
+typedef struct {
+    _Alignas(64) double area[FL_FEW];
+    double reach[FL_FEW], c[3][FL_FEW];
+} met;
+
+/* decay() of sea.c, where nothing is held and no water moved along; what it does is added to work[], times
+ * sign. */
+FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, const met *restrict by,
+                                   const double *restrict held, double h, double sign, double *restrict work)
+{
+    const double push = 0.5 * fluid->force * fluid->density, turn = 0.5 * fluid->moment * fluid->density;
+    const int turns = fluid->moment > 0.0;
+#pragma omp simd
+    for (int32_t i = 0; i < a->n; i++) {
+        const double m = a->m[i], vx = a->v[0][i], vy = a->v[1][i], vz = a->v[2][i], wx = a->w[0][i],
+                     wy = a->w[1][i], wz = a->w[2][i], Lx = a->L[0][i], Ly = a->L[1][i], Lz = a->L[2][i],
+                     area = by->area[i], r = by->reach[i];
+        const double turning = wx * Lx + wy * Ly + wz * Lz, spin2 = wx * wx + wy * wy + wz * wz;
+        const double before = 0.5 * (m * (vx * vx + vy * vy + vz * vz) + turning) - held[i];
+        const double cx = by->c[0][i], cy = by->c[1][i], cz = by->c[2][i];
+        const double ux = vx - cx, uy = vy - cy, uz = vz - cz, speed = sqrt(ux * ux + uy * uy + uz * uz);
+        const double slow = 1.0 / (1.0 + push * area / m * speed * h);
+        const int spins = turns && spin2 > 0.0;
+        const double inertia = turning / (spins ? spin2 : 1.0);
+        const double calm = 1.0 / (1.0 + turn * area * r * r * r / (spins ? inertia : 1.0) * sqrt(spin2) * h);
+        const int meets = area > 0.0;
+        const double stays = meets && spins ? calm : 1.0;
+        const double px = meets ? cx + slow * ux : vx, py = meets ? cy + slow * uy : vy,
+                     pz = meets ? cz + slow * uz : vz;
+        const double lx = stays * Lx, ly = stays * Ly, lz = stays * Lz, sx = stays * wx, sy = stays * wy,
+                     sz = stays * wz;
+        const double after =
+            0.5 * (m * (px * px + py * py + pz * pz) + (sx * lx + sy * ly + sz * lz)) - held[i];
+        a->v[0][i] = px, a->v[1][i] = py, a->v[2][i] = pz;
+        a->L[0][i] = lx, a->L[1][i] = ly, a->L[2][i] = lz;
+        a->w[0][i] = sx, a->w[1][i] = sy, a->w[2][i] = sz;
+        work[i] += sign * (after - before);
+    }
+}
+
+FL_FOUR_VERSIONS static void meet_water(met *by, const fl_sea *s, const fl_few *a)
+{
+    for (int32_t k = 0; k < a->n; k++) {
+        by->area[k] = s->wetted[a->from + k];
+        by->reach[k] = s->reach[a->from + k];
+    }
+    fl_few_split(by->c, s->flow + a->from, a->n);
+}
+
+static void meet_wind(met *by, const fl_sea *s, const fl_few *a)
+{
+    for (int32_t k = 0; k < a->n; k++) {
+        const int32_t i = a->from + k;
+        by->area[k] = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
+        by->reach[k] = s->reach[i];
+        by->c[0][k] = s->breeze.x, by->c[1][k] = s->breeze.y, by->c[2][k] = s->breeze.z;
+    }
+}
+
+void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, double h, int back)
+{
+    met by;
+    for (int turn = 0; turn < 2; turn++) { /* the wind first when on the way back */
+        if (turn == back && s->water) {
+            meet_water(&by, s, a);
+            decay(a, &s->sea, &by, b->held + a->from, h, -1.0, s->drained + a->from);
+        } else if (turn != back && s->wind) {
+            meet_wind(&by, s, a);
+            decay(a, &s->air, &by, b->held + a->from, h, 1.0, s->blown + a->from);
+        }
+    }
+}
+
+/* Right prisms, one array a number, in the order of fl_prism: read by that order. */
+enum {
+    AREA,
+    O,
+    A = O + 3,
+    B = A + 3,
+    E = B + 3,
+    Z0 = E + 3,
+    Z1,
+    JAA,
+    JAB,
+    JBB,
+    ROUND,
+    GA,
+    GB,
+    FAR2,
+    NUMBERS
+};
+static_assert(offsetof(fl_prism, o) == O * sizeof(double) && offsetof(fl_prism, e) == E * sizeof(double) &&
+                  offsetof(fl_prism, jaa) == JAA * sizeof(double) &&
+                  offsetof(fl_prism, far2) == FAR2 * sizeof(double),
+              "as fl_prism has them");
+
+typedef struct {
+    _Alignas(64) double p[NUMBERS][FL_FEW];
+    double level[FL_FEW], reach[FL_FEW]; /* of the water over the origin; r_eff */
+    double floats[FL_FEW];               /* out: 1 where all of it holds, 0 */
+} prisms;
+
+FL_FOUR_VERSIONS static void take(prisms *q, const fl_sea *s, const fl_bodies *b, const fl_few *a)
+{
+    const fl_hull *h = &s->hull[a->from];
+    const double *first = &h->prism.area;
+    for (int32_t c = 0; c < NUMBERS; c += 4) { /* the last four begin early, so as not to read beyond */
+        const int32_t at = c + 4 <= NUMBERS ? c : NUMBERS - 4;
+        fl_few_split4(q->p + at, first + at, sizeof *h, a->n);
+    }
+    for (int32_t k = 0; k < a->n; k++) {
+        q->level[k] = s->level - b->x[a->from + k].z;
+        q->reach[k] = s->reach[a->from + k];
+    }
+}
+
+/* fl_prism_wet(), fl_buoyancy_force() and what look_still() of sea.c makes of them. */
+FL_WIDE_VERSIONS static void look(prisms *restrict q, fl_few *restrict a, double weight,
+                                  double *restrict wetted, double *restrict lift, double *restrict centre,
+                                  double *restrict energy)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < a->n; i++) {
+        const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i], level = q->level[i];
+        const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], bx = q->p[B][i],
+                     by = q->p[B + 1][i], bz = q->p[B + 2][i], ex = q->p[E][i], ey = q->p[E + 1][i],
+                     ez = q->p[E + 2][i], ox = q->p[O][i], oy = q->p[O + 1][i], oz = q->p[O + 2][i];
+        const double area = q->p[AREA][i], jab = q->p[JAB][i];
+        const double along = ux * ex + uy * ey + uz * ez;
+        const int over = along < 0.0; /* turned over: seen along -e */
+        const double ue = over ? -along : along, sign = over ? -1.0 : 1.0,
+                     z0 = over ? -q->p[Z1][i] : q->p[Z0][i], z1 = over ? -q->p[Z0][i] : q->p[Z1][i];
+        const double by_ue = ue > 0.1 ? ue : 1.0;
+        const double sa = -(ux * ax + uy * ay + uz * az) / by_ue, sb = -(ux * bx + uy * by + uz * bz) / by_ue;
+        const double zw = (level - (ux * ox + uy * oy + uz * oz)) / by_ue, wet0 = zw - z0, dry0 = z1 - zw;
+        const double least = wet0 < dry0 ? wet0 : dry0;
+        const int floats = area > 0.0 && ue > 0.1 && level < q->reach[i] && level > -q->reach[i] &&
+                           least > 0.0 && least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
+        const double ja = q->p[JAA][i] * sa + jab * sb, jb = jab * sa + q->p[JBB][i] * sb;
+        const double volume = area * wet0, per = 1.0 / (floats ? volume : 1.0);
+        const double mz = 0.5 * (area * wet0 * (zw + z0) + sa * ja + sb * jb);
+        const double pa = per * ja, pb = per * jb, pe = sign * per * mz;
+        const double cx = ox + pa * ax + pb * bx + pe * ex, cy = oy + pa * ay + pb * by + pe * ey,
+                     cz = oz + pa * az + pb * bz + pe * ez;
+        const double over_water = ux * cx + uy * cy + uz * cz - level, push = weight * volume;
+        const double fx = push * ux, fy = push * uy, fz = push * uz;
+        const double tx = cy * fz - cz * fy, ty = cz * fx - cx * fz, tz = cx * fy - cy * fx;
+        q->floats[i] = floats ? 1.0 : 0.0;
+        wetted[i] = area + q->p[ROUND][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]);
+        lift[i] = push;
+        centre[i] = over_water;
+        energy[i] = -weight * volume * over_water;
+        a->f[0][i] += 0.0;
+        a->f[1][i] += 0.0;
+        a->f[2][i] += push;
+        a->t[0][i] += a->R[0][i] * tx + a->R[1][i] * ty + a->R[2][i] * tz;
+        a->t[1][i] += a->R[3][i] * tx + a->R[4][i] * ty + a->R[5][i] * tz;
+        a->t[2][i] += a->R[6][i] * tx + a->R[7][i] * ty + a->R[8][i] * tz;
+    }
+}
+
+int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
+{
+    prisms q;
+    const int32_t from = a->from;
+    int32_t others = 0;
+    take(&q, s, b, a);
+    look(&q, a, s->weight, s->wetted + from, s->lift + from, s->centre + from, s->energy + from);
+    for (int32_t k = 0; k < a->n; k++) {
+        if (q.floats[k] > 0.0) s->flow[from + k] = fl_current_at(&s->current, s->centre[from + k]);
+        else left[others++] = k;
+    }
+    return others;
+}
