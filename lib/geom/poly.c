@@ -89,6 +89,13 @@ fl_vec3 fl_poly_area(const fl_poly *p, int32_t f)
     return v3_scale(0.5, s);
 }
 
+double fl_poly_largest(const fl_poly *p)
+{
+    double area = 0.0;
+    for (int32_t f = 0; f < p->nf; f++) area = fmax(area, v3_norm(fl_poly_area(p, f)));
+    return area;
+}
+
 static double plane_offset(const fl_poly *p, int32_t f)
 {
     double c = -INFINITY;

@@ -68,6 +68,9 @@ int fl_poly_strip(fl_poly *p, fl_err *err);
 /* The area vector of face f, area times outward normal [m^2]; exact under far offsets of the whole. */
 fl_vec3 fl_poly_area(const fl_poly *p, int32_t f);
 
+/* The area of the largest face, 0 without any [m^2]. */
+double fl_poly_largest(const fl_poly *p);
+
 /* Fill bend, defect, begin and beside from the rest; bend is negative for edges that bend inward, which only
  * surfaces that are not convex have, and pi for those with one face. */
 void fl_poly_angles(fl_poly *p);

@@ -6,6 +6,7 @@
 #include "base/num.h"
 #include "step/budget.h"
 #include "step/balls.h"
+#include "step/critical.h"
 #include "step/search.h"
 #include "step/snapshot.h"
 #include "step/step.h"

@@ -7,6 +7,7 @@
 #include "base/par.h"
 #include "body/integrate.h"
 #include "step/balls.h"
+#include "step/critical.h"
 #include "step/frozen.h"
 #include "step/group.h"
 #include "step/interact.h"

@@ -4,31 +4,19 @@
 #include "base/mem.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
-#include "law/damping.h"
 #include "step/balls.h"
 #include "step/frozen.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/sleep.h"
-#include "step/stiff.h"
 #include "step/world.h"
-
-/* As many faces at rest on faces may a body have under it at once, as far as the step knows beforehand. */
-#define FACES 2.0
 
 /* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its
  * end. */
 enum { BODIES_A_THREAD = 32 };
 
 /* --- bodies ------------------------------------------------------------------------------------ */
-
-static double largest_face(const fl_poly *p)
-{
-    double area = 0.0;
-    for (int32_t f = 0; f < p->nf; f++) area = fmax(area, v3_norm(fl_poly_area(p, f)));
-    return area;
-}
 
 /* What the scene says of the body's group: directions it holds, and the velocity it holds them at.  A turn
  * that is held is held at no spin. */
@@ -91,7 +79,7 @@ static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, f
     fl_poly_to_frame(&b->core[i], b->x[i], axes);
     if (sharp) fl_poly_to_frame(outer, b->x[i], axes);
     for (int32_t v = 0; v < core->nv; v++) b->bound[i] = fmax(b->bound[i], v3_norm(b->core[i].v[v]));
-    w->face[i] = largest_face(&b->core[i]);
+    w->face[i] = fl_poly_largest(&b->core[i]);
     w->q0[i] = b->q[i];
     fl_body_derive(b, i);
     fl_body_spin(b, i, field->spin[k]);
@@ -308,7 +296,7 @@ static int place_pieces(fl_world *w, fl_err *err)
             w->face[j] = piece->face;
         } else {
             if (fl_poly_copy(&w->b.core[j], &piece->core, err)) return -1;
-            w->face[j] = largest_face(&piece->core);
+            w->face[j] = fl_poly_largest(&piece->core);
         }
         for (int32_t v = 0; v < w->b.core[j].nv; v++)
             w->b.bound[j] = fmax(w->b.bound[j], v3_norm(w->b.core[j].v[v]));
@@ -588,203 +576,4 @@ void fl_world_free(fl_world *w)
     fl_bodies_free(&w->b);
     fl_structure_free(&w->structure);
     *w = (fl_world){0};
-}
-
-/* Largest compliance of a core's vertices along the normals of their faces, 1/m + (v x n).I^-1 (v x n)
- * [1/kg]. */
-static double softest(const fl_world *w, int32_t i)
-{
-    const fl_poly *p = &w->b.core[i];
-    const fl_vec3 I = w->b.I[i];
-    double most = 0.0;
-    for (int32_t f = 0; f < p->nf; f++) {
-        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) {
-            const fl_vec3 t = v3_cross(p->v[p->loop[k]], p->n[f]);
-            most = fmax(most, t.x * t.x / I.x + t.y * t.y / I.y + t.z * t.z / I.z);
-        }
-    }
-    if (p->nf == 0 && p->nv == 2) most = w->b.bound[i] * w->b.bound[i] / I.x;
-    return most + w->b.invm[i];
-}
-
-/* The same of a contact that lies on a face, as stiff as the root of its area: the largest over faces f and
- * shares s of their size, s times the largest eigenvalue of the mean of g g^T over the part of f that is s
- * times as large and shares its farthest vertex.  All of a square plate is as soft as its mass alone, a
- * corner of it a quarter more; the vertex itself, to which softest() gives the stiffness of all the face,
- * would be seven times as soft. */
-static double softest_face(const fl_world *w, int32_t i)
-{
-    static const double SHARE[] = {1.0, 0.8, 0.6, 0.4, 0.25};
-    const fl_poly *p = &w->b.core[i];
-    double most = 0.0;
-    for (int32_t f = 0; f < p->nf; f++) {
-        const int32_t *loop = &p->loop[p->first[f]], nv = p->first[f + 1] - p->first[f];
-        const double area = v3_norm(fl_poly_area(p, f));
-        fl_vec3 far = p->v[loop[0]];
-        for (int32_t k = 1; k < nv; k++)
-            if (v3_norm2(v3_cross(p->v[loop[k]], p->n[f])) > v3_norm2(v3_cross(far, p->n[f])))
-                far = p->v[loop[k]];
-        for (size_t l = 0; l < sizeof SHARE / sizeof *SHARE && area > 0.0; l++) {
-            fl_stiff K = {0};
-            for (int32_t k = 1; k + 1 < nv;
-                 k++) { /* triangles; midpoints of sides are exact for what is squared */
-                const fl_vec3 c[3] = {p->v[loop[0]], p->v[loop[k]], p->v[loop[k + 1]]};
-                const double part = 0.5 * v3_norm(v3_cross(v3_sub(c[1], c[0]), v3_sub(c[2], c[0]))) / area;
-                for (int m = 0; m < 3; m++) {
-                    const fl_vec3 mid = v3_scale(0.5, v3_add(c[m], c[(m + 1) % 3]));
-                    const fl_vec3 r = v3_madd(far, SHARE[l], v3_sub(mid, far));
-                    const fl_vec3 t = v3_cross(r, p->n[f]);
-                    /* in the frame of the body */
-                    fl_stiff_add(&K, &w->b, i, part / 3.0, m3_mul(w->b.R[i], p->n[f]), m3_mul(w->b.R[i], t));
-                }
-            }
-            most = fmax(most, SHARE[l] * fl_stiff_bound(&K));
-        }
-    }
-    return most;
-}
-
-/* What a body may meet: the largest speed and mass there are.  A pebble at rest is run into and crushed. */
-typedef struct {
-    double speed2, mass;
-} worst;
-
-static worst worst_of(const fl_world *w)
-{
-    worst a = {0};
-    for (int32_t i = 0; i < w->n; i++) {
-        if (fl_world_away(w, i)) continue;
-        a.speed2 = fmax(a.speed2, v3_norm2(w->b.v[i]));
-        a.mass = fmax(a.mass, w->b.m[i]);
-    }
-    return a;
-}
-
-/* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact of the
- * heaviest at the speed that bodies have or will take from gravity and current over their own size, (5 M
- * v^2/4 k)^(2/5). */
-static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, double exponent, worst met)
-{
-    if (exponent == 1.0) return k;
-    if (exponent == 0.0) { /* a face; or the line of a segment at the largest overlap there should be */
-        const double other = w->face[j], r = w->b.radius[i];
-        if (w->face[i] > 0.0) return 2.0 * k * sqrt(other > 0.0 && other < w->face[i] ? other : w->face[i]);
-        return 2.8 * k * sqrt(0.6 * sqrt(2.0 * r) * 2.0 * w->b.bound[i] * sqrt(0.3 * r));
-    }
-    const double size = w->b.bound[i] + w->b.radius[i], g = v3_norm(w->gravity);
-    double current = w->sea.water ? fl_current_most(&w->sea.current) : 0.0;
-    if (w->sea.waves) current += w->sea.wave.swing * w->sea.wave.train[w->sea.wave.n / 2].omega;
-    const double v2 =
-        fmax(met.speed2, fmax(current * current, w->ride.fastest * w->ride.fastest)) + 2.0 * g * 0.1 * size;
-    const double depth =
-        fmin(pow(1.25 * met.mass * v2 / k, 0.4), w->b.radius[i] > 0.0 ? 0.3 * w->b.radius[i] : size);
-    return 1.5 * k * sqrt(depth);
-}
-
-/* What an elastic wall puts under the largest face of body i [N/m]. */
-static double bed_slope(const fl_world *w, int32_t i)
-{
-    const fl_poly *core = &w->b.core[i];
-    const double r = w->b.radius[i];
-    return w->bed.stiffness * (core->nv > 2 ? largest_face(&w->bed.outer[i]) : 4.0 * r * (r + w->b.bound[i]));
-}
-
-/* omega^2 of the stiffest contact that anything can make, what makes it, and the least that damping leaves of
- * its critical step. */
-static double stiffest_contact(const fl_world *w, int32_t *body, double *left)
-{
-    const worst met = worst_of(w);
-    double most = 0.0, least = 1.0, ridden = 0.0;
-    *body = -1;
-    for (int32_t i = 0; i < w->n; i++) {
-        const double places = w->b.core[i].nv > 1 ? FACES : 1.0;
-        double n, k = fl_pairing_stiffness(w, i, i, &n),
-                  stiffest = place_slope(w, i, i, k, n, met); /* one like itself */
-        least = fmin(least, fl_pairing_law(w, i, i)->left);
-        for (int32_t j = w->n; j < w->b.total; j++) {
-            if (w->structure.piece[j - w->n].elastic) {
-                const double slope = bed_slope(w, i); /* the damping ratio is c/k omega/2 */
-                stiffest = fmax(stiffest, slope);
-                least = fmin(least, fl_damping_left(0.5 * w->bed.damping / w->bed.stiffness *
-                                                    sqrt(slope * w->b.invm[i])));
-                continue;
-            }
-            k = fl_pairing_stiffness(w, i, j, &n);
-            const double slope = place_slope(w, i, j, k, n, met);
-            stiffest = fmax(stiffest, slope);
-            if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
-            least = fmin(least, fl_pairing_law(w, i, j)->left);
-        }
-        /* Two equal bodies on one spring: twice the compliance.  Where the error is measured the step may be
-         * the largest that is stable; else it is to be a small share of it, and that of the more careful
-         * bound. */
-        const int faces = w->scene->run.error > 0.0 && w->face[i] > 0.0;
-        const double soft = faces ? softest_face(w, i) : softest(w, i);
-        double drawn;
-        const double omega2 = 2.0 * places * stiffest * soft + fl_world_spring(w, i, &drawn) * w->b.invm[i] +
-                              fl_frozen_most(w, i);
-        if (omega2 > most) {
-            most = omega2;
-            *body = i;
-        }
-    }
-    for (int32_t m = 0; m < w->ride.m.n; m++) {
-        const double omega2 = fl_ride_omega2(w, m, ridden);
-        if (omega2 > most) {
-            most = omega2;
-            *body = w->b.total + m;
-        }
-    }
-    for (int32_t k = 0; k < w->frozen.n; k++)
-        least = fmin(least, fl_damping_left(0.5 * w->frozen.bond[k].damping * sqrt(most)));
-    *left = least;
-    return most;
-}
-
-/* A share of the limit that damping leaves bounds what the scene asks for: half where nothing else looks
- * after the error, more where it is measured. */
-static double share_of(const fl_world *w, double left)
-{
-    if (w->scene->run.error > 0.0) return 0.8 * left;
-    return fmin(w->scene->run.safety, 0.5 * left);
-}
-
-double fl_world_critical(const fl_world *w)
-{
-    int32_t body;
-    double left;
-    const double most = stiffest_contact(w, &body, &left);
-    return most > 0.0 ? 2.0 / sqrt(most) : INFINITY;
-}
-
-double fl_world_dt(const fl_world *w, int32_t *body)
-{
-    double left;
-    const double most = stiffest_contact(w, body, &left);
-    if (most == 0.0) return INFINITY;
-    return share_of(w, left) * 2.0 / sqrt(most);
-}
-
-double fl_world_damped(const fl_world *w)
-{
-    int32_t body;
-    double left;
-    return stiffest_contact(w, &body, &left) > 0.0 ? left : 1.0;
-}
-
-double fl_world_peak_off(const fl_world *w)
-{
-    const double r = isfinite(w->dt_critical) ? w->dt / w->dt_critical : 0.0;
-    double D = 0.0;
-    for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
-        const fl_touching *law = &w->law[k];
-        const int manual = law->kind == FL_LAW_MANUAL || law->kind == FL_LAW_MANUAL_SI;
-        D = fmax(D, manual ? 2.0 * law->zeta : law->chi);
-    }
-    return 0.35 * D * r / (1.0 + 0.5 * D) + 0.5 * r * r;
-}
-
-double fl_world_impulse_off(const fl_world *w)
-{
-    return isfinite(w->dt_critical) ? 0.3 * w->dt / w->dt_critical : 0.0;
 }

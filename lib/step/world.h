@@ -289,8 +289,8 @@ typedef struct {
     int32_t threads;
 
     double dt, dt_critical; /* dt_critical: the smallest 2/omega seen [s] */
-    double dt_safe;         /* fl_world_dt() at the start; above it every step is looked at [s] */
-    int32_t critical_body;  /* id of the one that had it, -1 */
+    double dt_safe; /* fl_world_dt() of critical.h at the start; above it every step is looked at [s] */
+    int32_t critical_body; /* id of the one that had it, -1 */
     int64_t step;
     double t0; /* the time of step `step0`, from which on steps are of dt [s] */
     int64_t step0;
@@ -352,29 +352,5 @@ static inline int fl_world_away(const fl_world *w, int32_t i)
 {
     return w->traffic.away && w->traffic.away[i];
 }
-
-/* The automatic step [s], and the body that sets it: safety * 2/omega (under run.error the largest that
- * damping allows), omega^2 bounded per body by the stiffest face it can meet, at its most compliant vertex,
- * lowered for damping (see world.c). */
-double fl_world_dt(const fl_world *w, int32_t *body);
-
-/* What it is a part of: 2/omega, without damping [s]. */
-double fl_world_critical(const fl_world *w);
-
-/* The share of that which is stable with the most damping that a contact can have: sqrt(1 + z^2) - z of its
- * damping ratio z. */
-double fl_world_damped(const fl_world *w);
-
-/* What steps of dt are off by, without a look at any other step; 0 before the first contact.  With r = dt
- * over the smallest critical step seen and D = chi v_impact of the most damped law,
- *     peak of a hit   0.35 D r/(1 + D/2) + r^2/2,
- *     impulse         0.3 r at the most.
- * Damping is that of the speed half a step ago, and in a spring that is struck this differs by up to omega v
- * dt/2 = r v, a share D r of the force where D is small; a half-wave seen at intervals of dt is low by up to
- * (omega dt/2)^2/2.  The two numbers are fitted to the 20 scenes of verify_budget, in which the truth is 0.25
- * to 1.5 times that.  The impulse has no such law: it was off by 0.28 r where friction decided on the way,
- * and by 1e-8 r where all came to rest. */
-double fl_world_peak_off(const fl_world *w);
-double fl_world_impulse_off(const fl_world *w);
 
 #endif

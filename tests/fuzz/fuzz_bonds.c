@@ -1,25 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state of bodies that are, or were, frozen together. */
 #include "scene/scene_check.h"
-#include "step/snapshot.h"
 #include "support/fuzz.h"
 #include "support/scenes.h"
+#include "support/state.h"
 
 static lab world_of; /* what every state is read into a fresh world of */
 
-static int fuzz_one(const unsigned char *data, size_t n)
-{
-    fl_err err = {0};
-    fl_text in = {0};
-    fl_world w = {0};
-    int rc = -1;
-    if (fl_world_make(&w, &world_of.scene, &world_of.field, NULL, &err) == 0) {
-        if (fl_text_open(&in, fuzz_file(data, n), &err) == 0) rc = fl_snapshot_read(&w, &in, &err);
-        fl_text_close(&in);
-    }
-    fl_world_free(&w);
-    return fuzz_verdict(rc, &err);
-}
+static int fuzz_one(const unsigned char *data, size_t n) { return state_fuzz(&world_of, data, n); }
 
 int main(int argc, char **argv)
 {

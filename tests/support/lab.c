@@ -8,6 +8,7 @@
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
 #include "step/balls.h"
+#include "step/critical.h"
 #include "step/interact.h"
 #include "step/pairing.h"
 #include "support/lab.h"

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "scene/scene_check.h"
+#include "step/critical.h"
 #include "step/ride.h"
 #include "support/lab.h"
 

@@ -7,6 +7,7 @@
 #include "support/lab.h"
 #include "support/verify.h"
 #include "step/budget.h"
+#include "step/critical.h"
 #include "step/step.h"
 
 /* --- the scenes -------------------------------------------------------------------------------- */

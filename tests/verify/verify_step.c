@@ -5,6 +5,7 @@
 #include "base/rng.h"
 #include "law/damping.h"
 #include "step/balls.h"
+#include "step/critical.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 #include "support/verify.h"

@@ -9,6 +9,7 @@
 #include "run.h"
 #include "save.h"
 #include "step/balls.h"
+#include "step/critical.h"
 #include "step/frozen.h"
 #include "step/interact.h"
 #include "step/press.h"
