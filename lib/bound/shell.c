@@ -173,7 +173,7 @@ static void leave_near(fl_reach *r, const fl_side *A, const fl_side *B, double f
 static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, const fl_side *B,
                         const fl_shell *shell, double ra, double reach, int single, fl_matches *l)
 {
-    const double margin = FL_PLACE_MARGIN * ra, same = SAME * (A->p->size + B->p->size);
+    const double margin = fl_matches_margin(l, ra), same = SAME * (A->p->size + B->p->size);
     fl_reach *walls = &near->of_shell, *all = &near->of_core;
     fl_aabb box = aabb_empty();
     fl_err lost = {0};

@@ -330,6 +330,13 @@ static int list_used(fl_matches *l, const fl_poly *p)
     return rc;
 }
 
+/* Margins over R: the first, before the way from look to look is known, and bounds of those after.  PRICE:
+ * of a list, over what a look costs more for a margin of R; by counts of instructions, side on side. */
+#define FIRST 0.05
+#define LEAST 0.01
+#define MOST 0.3
+#define PRICE 4.0
+
 /* Give back what an array has been grown by in vain: a list lasts. */
 static void trim(void *array, int32_t *cap, int32_t n, size_t size)
 {
@@ -340,6 +347,13 @@ static void trim(void *array, int32_t *cap, int32_t n, size_t size)
     if (!less) return;
     memcpy(array, &less, sizeof less);
     *cap = n;
+}
+
+double fl_matches_margin(const fl_matches *l, double R)
+{
+    if (!(l->margin > 0.0)) return FIRST * R;
+    const double best = sqrt(PRICE * R * l->margin / (double)l->uses);
+    return best < LEAST * R ? LEAST * R : best > MOST * R ? MOST * R : best;
 }
 
 int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
@@ -357,6 +371,7 @@ int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl
     for (int k = 0; k < 2; k++) l->table[k].vertices = l->table[k].cuts = 0;
     l->M = *M, l->o = o;
     l->shift2 = half * half, l->turn2 = turn * turn;
+    l->margin = margin, l->uses = 1;
     const int rc = vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
                            edges_and_faces(&of_b, b, a) || list_used(l, A->p)
                        ? -1

@@ -60,11 +60,18 @@ struct fl_matches {
     fl_mat3 M;     /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
     fl_vec3 o;
     double shift2, turn2; /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
+    double margin;        /* it was listed for [m] */
+    int64_t uses;         /* looks since then */
     int32_t *wall; /* [walls + shy] the caller's: faces of a surface that is not convex, in reach as long, and
                     * vertices of A that may come behind it as long */
     int32_t walls, shy, wall_cap;
     struct fl_footing *footing; /* of a surface: what may lie under a face of A (footing.h), or NULL */
 };
+
+/* The margin to list with next [m], from how soon the last one was used up: a list costs as much as some
+ * looks at it, and each of these the more, the farther it reaches; the sum is least where the margin is the
+ * root of R times the way from look to look.  R is the reach; nothing but the cost depends on it. */
+double fl_matches_margin(const fl_matches *l, double R);
 
 /* List what of the features a of A and b of B can come within R of each other while no point that matters
  * moves by more than `margin` [m] against the other core: those of A, and those of B within reach of it,
@@ -75,14 +82,16 @@ struct fl_matches {
 int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
                     double R, double behind, double margin, const fl_mat3 *M, fl_vec3 o);
 
-/* It is still good where A stands now. */
-static inline int fl_matches_hold(const fl_matches *l, const fl_mat3 *M, fl_vec3 o)
+/* It is still good where A stands now, and is counted as used. */
+static inline int fl_matches_hold(fl_matches *l, const fl_mat3 *M, fl_vec3 o)
 {
     double turn2 = 0.0;
     if (!(v3_norm2(v3_sub(o, l->o)) < l->shift2)) return 0;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) turn2 += (M->m[i][k] - l->M.m[i][k]) * (M->m[i][k] - l->M.m[i][k]);
-    return turn2 < l->turn2;
+    if (!(turn2 < l->turn2)) return 0;
+    l->uses++;
+    return 1;
 }
 
 /* Enter of A what the list speaks of, as fl_places_enter().  -1 when memory runs out. */

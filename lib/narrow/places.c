@@ -91,7 +91,7 @@ void fl_reach_free(fl_reach *r)
 static int list_matches(fl_places *w, const fl_side *A, const fl_side *B, double R, fl_vec3 n, int deep,
                         fl_matches *l)
 {
-    const double margin = deep ? 0.0 : FL_PLACE_MARGIN * R;
+    const double margin = deep ? 0.0 : fl_matches_margin(l, R);
     double low = INFINITY, high = -INFINITY;
     for (int32_t v = 0; v < A->p->nv; v++) low = fmin(low, v3_dot(n, A->v[v]));
     for (int32_t v = 0; v < B->p->nv; v++) high = fmax(high, v3_dot(n, B->v[v]));

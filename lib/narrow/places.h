@@ -35,9 +35,8 @@
 #include "geom/poly.h"
 #include "narrow/deep.h"
 
-#define FL_PLACE_RIM 0.1     /* width of the fading rim of a face, over R */
-#define FL_PLACE_MARGIN 0.05 /* how far cores may move before their features are sorted out anew, over R */
-#define FL_PLACE_BETA 1.02   /* of a polygonal punch: circle 1, square 1.012, triangle 1.034 */
+#define FL_PLACE_RIM 0.1   /* width of the fading rim of a face, over R */
+#define FL_PLACE_BETA 1.02 /* of a polygonal punch: circle 1, square 1.012, triangle 1.034 */
 #define FL_PLACE_ROUND (32.0 / 45.0 / (FL_PLACE_BETA * FL_PLACE_BETA)) /* L */
 #define FL_PLACE_SHARP_EDGE 4.0   /* w = bend times this [1/rad], at most 1 */
 #define FL_PLACE_SHARP_CORNER 2.0 /* w = defect times this [1/sr], at most 1 */

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A list of matches is made for as far as is worth it, and what it leaves out bears on no bit. */
+#include <math.h>
+#include <string.h>
+#include "base/rng.h"
+#include "narrow/matches.h"
+#include "narrow/overlap.h"
+#include "support/near.h"
+#include "support/shapes.h"
+
+#define RADIUS 0.05
+#define R (2.0 * RADIUS)
+
+static uint64_t bits(uint64_t sum, double x)
+{
+    uint64_t b;
+    memcpy(&b, &x, sizeof b);
+    return (sum ^ b) * 0x100000001b3u;
+}
+
+/* The places of a where it stands at x, turned by q, over b; their bits. */
+static uint64_t look(fl_places *w, const fl_poly *a, const fl_poly *b, fl_quat q, fl_vec3 x, fl_matches *l)
+{
+    const fl_overlap apart = {0};
+    uint64_t sum = 0;
+    assert_int_equal(fl_places_enter(w, a, q_matrix(q), x), 0);
+    assert_int_equal(fl_places_find(w, a, b, RADIUS, RADIUS, v3(1, 0, 0), &apart, l), 0);
+    for (int32_t k = 0; k < w->n; k++) {
+        const fl_place *p = &w->place[k];
+        sum = bits(bits(bits(bits(sum, p->u), p->du), p->p.x), p->n.y);
+    }
+    return sum;
+}
+
+/* Two boxes side by side, one of which slides and turns, at first slowly. */
+static void what_is_left_out_bears_on_no_bit(void **state)
+{
+    (void)state;
+    fl_places w = {0};
+    fl_poly a = {0}, b = {0};
+    fl_matches kept = {0};
+    fl_err err = {0};
+    int lists = 0, places = 0;
+    assert_int_equal(fl_poly_box(&a, v3(0.5, 0.6, 0.2), &err) || fl_poly_box(&b, v3(0.5, 0.7, 0.25), &err),
+                     0);
+    double y = -1.0;
+    for (int k = 0; k < 400; k++) {
+        const fl_vec3 x = v3(1.0 + 0.9 * R + 0.005 * sin(0.1 * k), y, 0.01 * cos(0.05 * k));
+        const fl_quat q = q_of_vector(v3(1e-3 * sin(0.3 * k), 1e-3 * cos(0.2 * k), 2e-3 * sin(0.02 * k)));
+        fl_matches fresh = {0};
+        y += 2e-5 * k;
+        const uint64_t once = look(&w, &a, &b, q, x, &fresh);
+        assert_true(look(&w, &a, &b, q, x, &kept) == once);
+        fl_matches_free(&fresh);
+        lists += kept.uses == 1;
+        places += w.n;
+    }
+    assert_in_range(lists, 10, 200);
+    assert_true(places > 4000);
+    fl_matches_free(&kept);
+    fl_places_free(&w);
+    fl_poly_free(&a), fl_poly_free(&b);
+}
+
+/* At a steady v from look to look the list is used up after margin/(2 v) of them, half of it being for turns:
+ * the margin becomes the root of 4 R 2 v, between its bounds. */
+static void the_margin_follows_the_motion(void **state)
+{
+    (void)state;
+    static const double SPEED[] = {1e-6, 1e-5, 1e-4, 5e-4, 2e-3, 0.05}; /* over R */
+    fl_places w = {0};
+    fl_poly a = {0}, b = {0};
+    fl_err err = {0};
+    assert_int_equal(fl_poly_box(&a, v3(0.5, 0.5, 0.2), &err) || fl_poly_box(&b, v3(0.5, 9.0, 0.2), &err), 0);
+    for (size_t s = 0; s < sizeof SPEED / sizeof *SPEED; s++) {
+        const double v = SPEED[s] * R, best = fmin(fmax(sqrt(8.0 * R * v), 0.01 * R), 0.3 * R);
+        fl_matches l = {0};
+        double margin = 0.0;
+        int found = 0;
+        assert_true(fl_matches_margin(&l, R) > 0.0);
+        for (int lists = 0, k = 0; lists < 8 && k < 100000; k++) {
+            const double y = v * k - 4.0;
+            look(&w, &a, &b, (fl_quat){1, 0, 0, 0}, v3(1.0 + 0.9 * R, y, 0), &l);
+            lists += l.uses == 1;
+            margin = l.margin, found = w.n;
+            if (v * k > 8.0) break;
+        }
+        assert_true(found > 0);
+        assert_true(margin > 0.7 * best && margin < 1.4 * best);
+        fl_matches_free(&l);
+    }
+    fl_places_free(&w);
+    fl_poly_free(&a), fl_poly_free(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_bears_on_no_bit),
+                                       cmocka_unit_test(the_margin_follows_the_motion)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
