@@ -30,16 +30,16 @@ static int32_t corners(const sheet *s, const fl_poly *p, int32_t f, fl_vec3 way,
     return n;
 }
 
-static fl_side side(fl_vec2 a, fl_vec2 b)
+static fl_polygon_side side(fl_vec2 a, fl_vec2 b)
 {
     const double dx = b.x - a.x, dy = b.y - a.y, l = sqrt(dx * dx + dy * dy);
-    fl_side s = {dy / l, -dx / l, 0.0, 0};
+    fl_polygon_side s = {dy / l, -dx / l, 0.0, 0};
     s.c = s.nx * a.x + s.ny * a.y;
     return s;
 }
 
 /* Cut v[n] by all sides of cut[m]; what is left, in place. */
-static int32_t clip(int32_t n, fl_vec2 *v, fl_side *sides, int32_t m, const fl_vec2 *cut)
+static int32_t clip(int32_t n, fl_vec2 *v, fl_polygon_side *sides, int32_t m, const fl_vec2 *cut)
 {
     for (int32_t k = 0; k < n; k++) sides[k] = side(v[k], v[(k + 1) % n]);
     for (int32_t k = 0; k < m && n > 0; k++) n = fl_polygon_cut(n, v, sides, side(cut[k], cut[(k + 1) % m]));
@@ -75,7 +75,7 @@ static void measure(const sheet *s, int32_t n, const fl_vec2 *v, fl_shared *out)
 
 /* The common part of face f of p and face g of q, when it is larger than what out has. */
 static void common(const fl_poly *p, int32_t f, const fl_poly *q, int32_t g, fl_vec3 way, fl_vec3 x,
-                   fl_vec2 *v, fl_side *sides, fl_shared *out)
+                   fl_vec2 *v, fl_polygon_side *sides, fl_shared *out)
 {
     const fl_vec3 n = p->n[f], e = v3_normal_to(n);
     const sheet s = {x, n, e, v3_cross(n, e)};
@@ -99,7 +99,7 @@ int fl_shared_find(const fl_poly *p, const fl_poly *q, fl_vec3 way, fl_vec3 x, f
     const int64_t room = (int64_t)most(p) + most(q) + 1;
     const double near = AGREE * (p->size < q->size ? p->size : q->size);
     fl_vec2 *v = fl_alloc(2 * room, sizeof *v, err);
-    fl_side *sides = fl_alloc(room, sizeof *sides, err);
+    fl_polygon_side *sides = fl_alloc(room, sizeof *sides, err);
     fl_shared best = {0};
     if (!v || !sides) {
         free(v), free(sides);

@@ -37,23 +37,23 @@ fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v)
     return (fl_vec2){v[0].x + m.x / (3.0 * twice), v[0].y + m.y / (3.0 * twice)};
 }
 
-void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_side *side)
+void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_polygon_side *side)
 {
     v[0] = (fl_vec2){lo.x, hi.y};
     v[1] = lo;
     v[2] = (fl_vec2){hi.x, lo.y};
     v[3] = hi;
-    side[0] = (fl_side){-1.0, 0.0, -lo.x, -1};
-    side[1] = (fl_side){0.0, -1.0, -lo.y, -2};
-    side[2] = (fl_side){1.0, 0.0, hi.x, -3};
-    side[3] = (fl_side){0.0, 1.0, hi.y, -4};
+    side[0] = (fl_polygon_side){-1.0, 0.0, -lo.x, -1};
+    side[1] = (fl_polygon_side){0.0, -1.0, -lo.y, -2};
+    side[2] = (fl_polygon_side){1.0, 0.0, hi.x, -3};
+    side[3] = (fl_polygon_side){0.0, 1.0, hi.y, -4};
 }
 
-static void reverse(fl_vec2 *v, fl_side *side, int32_t a, int32_t b)
+static void reverse(fl_vec2 *v, fl_polygon_side *side, int32_t a, int32_t b)
 {
     for (; a < b; a++, b--) {
         const fl_vec2 p = v[a];
-        const fl_side s = side[a];
+        const fl_polygon_side s = side[a];
         v[a] = v[b];
         side[a] = side[b];
         v[b] = p;
@@ -62,7 +62,7 @@ static void reverse(fl_vec2 *v, fl_side *side, int32_t a, int32_t b)
 }
 
 /* Make entry k the first. */
-static void rotate(int32_t n, fl_vec2 *v, fl_side *side, int32_t k)
+static void rotate(int32_t n, fl_vec2 *v, fl_polygon_side *side, int32_t k)
 {
     if (k == 0) return;
     reverse(v, side, 0, k - 1);
@@ -76,11 +76,11 @@ static fl_vec2 crossing(fl_vec2 a, fl_vec2 b, double beyond_a, double beyond_b)
     return (fl_vec2){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
-int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_side *side, fl_side h)
+int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_polygon_side *side, fl_polygon_side h)
 {
     int32_t in = -1, m = 0;
     fl_vec2 last, home;
-    fl_side back;
+    fl_polygon_side back;
     double s_in, s_out, s_last, s_home;
     for (int32_t k = 0; k < n; k++) {
         const int inside = fl_side_beyond(h, v[k]) <= 0.0;
@@ -110,28 +110,31 @@ int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_side *side, fl_side h)
     return m >= 3 ? m : 0;
 }
 
-fl_vec2 fl_side_meet(fl_side a, fl_side b, double d)
+fl_vec2 fl_side_meet(fl_polygon_side a, fl_polygon_side b, double d)
 {
     const double s = 1.0 / fl_side_sin(a, b), ca = a.c - d, cb = b.c - d;
     return (fl_vec2){s * (ca * b.ny - cb * a.ny), s * (a.nx * cb - b.nx * ca)};
 }
 
-void fl_polygon_corners(int32_t n, const fl_side *side, double d, fl_vec2 *v)
+void fl_polygon_corners(int32_t n, const fl_polygon_side *side, double d, fl_vec2 *v)
 {
     for (int32_t k = 0; k < n; k++) v[k] = fl_side_meet(side[k ? k - 1 : n - 1], side[k], d);
 }
 
 /* tan of half the turn from a to b */
-static double half_tan(fl_side a, fl_side b) { return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b)); }
+static double half_tan(fl_polygon_side a, fl_polygon_side b)
+{
+    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
+}
 
-int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_side *side, double d, double *depth)
+int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d, double *depth)
 {
     double t = 0.0;
     while (n >= 3) {
         int32_t gone = 0;
         double soon = INFINITY;
         for (int32_t k = 0; k < n; k++) {
-            const fl_side before = side[k ? k - 1 : n - 1], after = side[k + 1 < n ? k + 1 : 0];
+            const fl_polygon_side before = side[k ? k - 1 : n - 1], after = side[k + 1 < n ? k + 1 : 0];
             const fl_vec2 e = sub(v[k + 1 < n ? k + 1 : 0], v[k]);
             const double length = e.y * side[k].nx - e.x * side[k].ny;
             const double left = length / (half_tan(before, side[k]) + half_tan(side[k], after));

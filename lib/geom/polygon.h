@@ -14,15 +14,15 @@ typedef struct {
 typedef struct {
     double nx, ny, c;
     int32_t tag; /* the caller's; carried along */
-} fl_side;
+} fl_polygon_side;
 
-static inline double fl_side_beyond(fl_side s, fl_vec2 p) { return s.nx * p.x + s.ny * p.y - s.c; }
+static inline double fl_side_beyond(fl_polygon_side s, fl_vec2 p) { return s.nx * p.x + s.ny * p.y - s.c; }
 /* Sine and cosine of the angle by which the outline turns from side a to side b. */
-static inline double fl_side_sin(fl_side a, fl_side b) { return a.nx * b.ny - a.ny * b.nx; }
-static inline double fl_side_cos(fl_side a, fl_side b) { return a.nx * b.nx + a.ny * b.ny; }
+static inline double fl_side_sin(fl_polygon_side a, fl_polygon_side b) { return a.nx * b.ny - a.ny * b.nx; }
+static inline double fl_side_cos(fl_polygon_side a, fl_polygon_side b) { return a.nx * b.nx + a.ny * b.ny; }
 
 /* Where the lines of a and b meet when both are moved inward by d; fl_side_sin(a, b) != 0. */
-fl_vec2 fl_side_meet(fl_side a, fl_side b, double d);
+fl_vec2 fl_side_meet(fl_polygon_side a, fl_polygon_side b, double d);
 
 /* Area (positive when counter-clockwise) and length of the outline of v[n].  Products are taken from v[0], so
  * that a polygon far from the origin loses nothing. */
@@ -31,15 +31,15 @@ double fl_polygon_outline(int32_t n, const fl_vec2 *v);
 fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v); /* area > 0 */
 
 /* The rectangle lo .. hi: v[4], side[4] with tags -1 (left), -2 (bottom), -3 (right), -4 (top). */
-void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_side *side);
+void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_polygon_side *side);
 
 /* Cut away what lies beyond the half-plane h, in place; v and side have room for n + 1.
  * Returns the number of sides left, 0 when nothing is. */
-int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_side *side, fl_side h);
+int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_polygon_side *side, fl_polygon_side h);
 
 /* Corners of the polygon whose sides are moved inward by d: v[k] is where side[k - 1] and side[k] meet.
  * Neighbouring sides must turn left by less than pi. */
-void fl_polygon_corners(int32_t n, const fl_side *side, double d, fl_vec2 *v);
+void fl_polygon_corners(int32_t n, const fl_polygon_side *side, double d, fl_vec2 *v);
 
 /* Move all sides inward by d >= 0 and drop those that vanish on the way.  While the polygon shrinks by t,
  * side k loses  t (tan(a/2) + tan(b/2)),  a and b being the turns at its ends; the side that is first to
@@ -48,7 +48,7 @@ void fl_polygon_corners(int32_t n, const fl_side *side, double d, fl_vec2 *v);
  *   side   in and out; c stays that of t = 0
  *   depth  out: d, or the radius of the largest inscribed circle when that is smaller
  * Returns the number of sides left, 0 when the polygon has vanished. */
-int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_side *side, double d, double *depth);
+int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d, double *depth);
 
 /* Corners of the polygon v[n] with its sides moved outward by r >= 0; corners stay sharp. */
 void fl_polygon_outset(int32_t n, const fl_vec2 *v, double r, fl_vec2 *out);

@@ -18,11 +18,11 @@ double fl_outline_area(const fl_outline *a)
 }
 
 /* Side k of the polygon. */
-static fl_side wall(const fl_outline *a, int32_t k)
+static fl_polygon_side wall(const fl_outline *a, int32_t k)
 {
     const fl_vec2 p = a->v[k], q = a->v[k + 1 < a->n ? k + 1 : 0];
     const double dx = q.x - p.x, dy = q.y - p.y, s = 1.0 / hypot(dx, dy);
-    return (fl_side){s * dy, -s * dx, s * (dy * p.x - dx * p.y), -5 - k};
+    return (fl_polygon_side){s * dy, -s * dx, s * (dy * p.x - dx * p.y), -5 - k};
 }
 
 int fl_outline_holds(const fl_outline *a, fl_vec2 p, double within)
@@ -61,7 +61,7 @@ struct row {
     char *empty;
     int32_t *near_first, *near;
     int32_t *from, *count; /* where the cell lies in side and v, and its sides */
-    fl_side *side;
+    fl_polygon_side *side;
     fl_vec2 *v;
 };
 
@@ -98,15 +98,15 @@ static int row_make(struct row *r, int32_t n, const fl_vec2 *site, const double 
 
 /* What is nearer, or of less power, to site i than to site j.  Always computed from the lower to the higher
  * name, so that both cells see one line. */
-static fl_side bisector(const struct row *r, int32_t i, int32_t j)
+static fl_polygon_side bisector(const struct row *r, int32_t i, int32_t j)
 {
     const int rising = r->name[i] < r->name[j];
     const int32_t l = rising ? i : j, h = rising ? j : i;
     const fl_vec2 a = r->site[l], b = r->site[h];
     const double dx = b.x - a.x, dy = b.y - a.y, s = (rising ? 1.0 : -1.0) / hypot(dx, dy);
     const double middle = dx * (0.5 * (a.x + b.x)) + dy * (0.5 * (a.y + b.y));
-    return (fl_side){s * dx, s * dy, s * (r->weight ? middle + 0.5 * (r->weight[l] - r->weight[h]) : middle),
-                     r->name[j]};
+    return (fl_polygon_side){
+        s * dx, s * dy, s * (r->weight ? middle + 0.5 * (r->weight[l] - r->weight[h]) : middle), r->name[j]};
 }
 
 /* A rectangle cut k times has at most 4 + k sides; with that room for each no cell runs into the next. */
@@ -126,7 +126,7 @@ static void cut_all(struct row *r, int32_t n, const fl_outline *in, fl_vec2 lo, 
         for (int32_t k = 0; k < n; k++) {
             if (at < 0) at = (int32_t)room(in, r, k);
             fl_vec2 *v = r->v + at;
-            fl_side *side = r->side + at;
+            fl_polygon_side *side = r->side + at;
             int32_t m = r->empty[k] ? 0 : 4;
             fl_polygon_rectangle(lo, hi, v, side);
             for (int32_t e = r->near_first[k]; e < r->near_first[k + 1] && m > 0; e++)

@@ -14,9 +14,9 @@
  * circle, a side as short as rounding may be there for one of the two cells only. */
 typedef struct {
     int32_t n;
-    int32_t *first; /* [n + 1]        */
-    fl_side *side;  /* [first[n]] [m] */
-    fl_vec2 *v;     /* [first[n]] [m] */
+    int32_t *first;        /* [n + 1]        */
+    fl_polygon_side *side; /* [first[n]] [m] */
+    fl_vec2 *v;            /* [first[n]] [m] */
 } fl_cells;
 
 /* What is divided: the rectangle lo .. hi, or, with n > 0, the convex polygon v[n], counter-clockwise, of

@@ -157,10 +157,10 @@ struct pool {
     int32_t n, at, cap, first_cap, v_cap, side_cap;
     int32_t *first; /* [n + 1] */
     fl_vec2 *v;
-    fl_side *side;
+    fl_polygon_side *side;
 };
 
-static int pool_add(struct pool *p, int32_t n, const fl_vec2 *v, const fl_side *side, fl_err *err)
+static int pool_add(struct pool *p, int32_t n, const fl_vec2 *v, const fl_polygon_side *side, fl_err *err)
 {
     if (fl_grow(&p->first, &p->first_cap, (int64_t)p->n + 2, sizeof *p->first, err) ||
         fl_grow(&p->v, &p->v_cap, (int64_t)p->at + n, sizeof *p->v, err) ||
@@ -189,18 +189,18 @@ struct cutting {
     int32_t area_cap, gone_cap, dropped;
     struct near near, ray;
     fl_vec2 *v; /* scratch */
-    fl_side *side;
+    fl_polygon_side *side;
     int32_t v_cap, side_cap;
 };
 
-static fl_side line_of(fl_vec2 p, fl_vec2 q, int32_t tag)
+static fl_polygon_side line_of(fl_vec2 p, fl_vec2 q, int32_t tag)
 {
     const double dx = q.x - p.x, dy = q.y - p.y, s = 1.0 / hypot(dx, dy);
-    return (fl_side){s * dy, -s * dx, s * (dy * p.x - dx * p.y), tag};
+    return (fl_polygon_side){s * dy, -s * dx, s * (dy * p.x - dx * p.y), tag};
 }
 
 /* Length of the part of p q that lies inside the polygon by more than touch. */
-static double length_in(int32_t n, const fl_side *side, fl_vec2 p, fl_vec2 q, double touch)
+static double length_in(int32_t n, const fl_polygon_side *side, fl_vec2 p, fl_vec2 q, double touch)
 {
     double from = 0.0, to = 1.0;
     for (int32_t k = 0; k < n && from < to; k++) {
@@ -213,7 +213,7 @@ static double length_in(int32_t n, const fl_side *side, fl_vec2 p, fl_vec2 q, do
 }
 
 /* The side of the domain that runs through a piece for the longest way, -1 when none does. */
-static int32_t longest(const struct cutting *c, int32_t n, const fl_side *side)
+static int32_t longest(const struct cutting *c, int32_t n, const fl_polygon_side *side)
 {
     int32_t at = -1;
     double best = c->touch;
@@ -231,7 +231,8 @@ static int32_t longest(const struct cutting *c, int32_t n, const fl_side *side)
 }
 
 /* A piece that nothing runs through is inside or outside as a whole. */
-static int finish(struct cutting *c, int32_t i, int32_t n, fl_vec2 *v, fl_side *side, int cut, fl_err *err)
+static int finish(struct cutting *c, int32_t i, int32_t n, fl_vec2 *v, fl_polygon_side *side, int cut,
+                  fl_err *err)
 {
     const double area = fl_polygon_area(n, v);
     double depth = INFINITY;
@@ -281,11 +282,11 @@ static int cut_cell(struct cutting *c, const fl_cells *cells, int32_t i, fl_err 
         }
         for (int half = 0; half < 2; half++) {
             fl_vec2 p, q, *v = c->v + half * (n + 1);
-            fl_side *side = c->side + half * (n + 1), h;
+            fl_polygon_side *side = c->side + half * (n + 1), h;
             int32_t left;
             side_of(c->d, along, &p, &q);
             h = line_of(p, q, -5 - along);
-            if (half) h = (fl_side){-h.nx, -h.ny, -h.c, h.tag};
+            if (half) h = (fl_polygon_side){-h.nx, -h.ny, -h.c, h.tag};
             memcpy(v, todo->v + todo->first[t], (size_t)n * sizeof *v);
             memcpy(side, todo->side + todo->first[t], (size_t)n * sizeof *side);
             left = fl_polygon_cut(n, v, side, h);

@@ -21,10 +21,10 @@ static struct polygon outer(const fl_floes *a, int32_t i)
 static fl_vec2 next(struct polygon p, int32_t k) { return p.v[k + 1 < p.n ? k + 1 : 0]; }
 
 /* The line through two corners, with the outward normal. */
-static fl_side line(fl_vec2 p, fl_vec2 q)
+static fl_polygon_side line(fl_vec2 p, fl_vec2 q)
 {
     const double s = 1.0 / hypot(q.x - p.x, q.y - p.y), nx = s * (q.y - p.y), ny = -s * (q.x - p.x);
-    return (fl_side){nx, ny, nx * p.x + ny * p.y, 0};
+    return (fl_polygon_side){nx, ny, nx * p.x + ny * p.y, 0};
 }
 
 /* Depth of the overlap by the sides of a: the side that has the other polygon least far behind it. */
@@ -32,7 +32,7 @@ static double depth(struct polygon a, struct polygon b)
 {
     double most = -INFINITY;
     for (int32_t k = 0; k < a.n; k++) {
-        const fl_side s = line(a.v[k], next(a, k));
+        const fl_polygon_side s = line(a.v[k], next(a, k));
         double least = INFINITY;
         for (int32_t j = 0; j < b.n; j++) least = fmin(least, fl_side_beyond(s, b.v[j]));
         most = fmax(most, least);

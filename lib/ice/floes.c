@@ -11,7 +11,7 @@ enum { KEPT = 1, FIXED = 2, ROUNDS = 40, NEWTON = 60 };
 /* For one floe after the other, so that a thread stays in its cache; with room for the cell that has most
  * sides. */
 struct scratch {
-    fl_side *line, *left; /* the cell's sides as moved, and those of the core */
+    fl_polygon_side *line, *left; /* the cell's sides as moved, and those of the core */
     fl_vec2 *corner;
     unsigned char *state;
 };
@@ -25,7 +25,7 @@ struct fit {
     double *inradius, *most; /* [n] of the cell, and the largest inset it may have            [m] */
     double *area, *outline;  /* [n] of the outer polygon at the inset last asked for     [m2, m] */
     int32_t *count;          /* [n] sides of the floe                                            */
-    fl_side *side;           /* sides of the floe; tag is the place in the cell                  */
+    fl_polygon_side *side;   /* sides of the floe; tag is the place in the cell                  */
     struct scratch *scratch; /* [threads]                                                        */
     int threads;
     double sharp;    /* cot(t / 2) for the angle t below which corners are cut off; 0: none are */
@@ -75,7 +75,7 @@ static int fit_alloc(struct fit *f, fl_err *err)
                    (f->area = fl_alloc(n, sizeof(double), err)) &&
                    (f->outline = fl_alloc(n, sizeof(double), err)) &&
                    (f->count = fl_alloc(n, sizeof(int32_t), err)) &&
-                   (f->side = fl_alloc(f->cells->first[n], sizeof(fl_side), err))
+                   (f->side = fl_alloc(f->cells->first[n], sizeof(fl_polygon_side), err))
                ? scratch_alloc(f, err)
                : -1;
 }
@@ -91,12 +91,16 @@ static double inset_of(const struct fit *f, int32_t i, double d)
 
 /* --- the sides of one floe ------------------------------------------------------------------------------ */
 
-static double half_tan(fl_side a, fl_side b) { return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b)); }
+static double half_tan(fl_polygon_side a, fl_polygon_side b)
+{
+    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
+}
 
 /* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
  * from the corner of a and b to the inscribed circle leave rho (tan + tan) at depth of the circle: half of it
  * stays clear. */
-static double least_side(const struct fit *f, fl_side a, fl_side e, fl_side b, double rho)
+static double least_side(const struct fit *f, fl_polygon_side a, fl_polygon_side e, fl_polygon_side b,
+                         double rho)
 {
     const double clear = 0.5 * (half_tan(a, e) + half_tan(e, b));
     return rho * (clear < f->least ? clear : f->least);
@@ -104,8 +108,8 @@ static double least_side(const struct fit *f, fl_side a, fl_side e, fl_side b, d
 
 /* The outer corner of a and b at inset d must stay inside the cell by `spare`: how far is it beyond that,
  * against the cell's sides between the two, and against which? */
-static double beyond(const fl_side *cell, int32_t m, fl_side a, fl_side b, double d, double spare,
-                     int32_t *worst)
+static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b, double d,
+                     double spare, int32_t *worst)
 {
     const fl_vec2 w = fl_side_meet(a, b, d);
     double most = -INFINITY;
@@ -120,11 +124,11 @@ static double beyond(const fl_side *cell, int32_t m, fl_side a, fl_side b, doubl
 }
 
 /* Let side e pass between the core's sides a and b, so deep that its own length is the least one. */
-static void cut_corner(const struct fit *f, fl_side *line, unsigned char *state, int32_t e, fl_side a,
-                       fl_side b, double inset, double rho)
+static void cut_corner(const struct fit *f, fl_polygon_side *line, unsigned char *state, int32_t e,
+                       fl_polygon_side a, fl_polygon_side b, double inset, double rho)
 {
     const fl_vec2 q = fl_side_meet(a, b, inset);
-    const fl_side s = line[e];
+    const fl_polygon_side s = line[e];
     const double per_depth = fl_side_cos(a, s) / fl_side_sin(a, s) + fl_side_cos(s, b) / fl_side_sin(s, b);
     line[e].c = s.nx * q.x + s.ny * q.y - least_side(f, a, s, b, rho) / per_depth + inset;
     state[e] = KEPT | FIXED;
@@ -137,8 +141,8 @@ static double length(const fl_vec2 *v, int32_t k, int32_t n)
 }
 
 /* The core of the sides kept so far, in left and corner; those that vanish are kept no more. */
-static int32_t core_of(const fl_side *line, unsigned char *state, int32_t m, double inset, fl_side *left,
-                       fl_vec2 *corner)
+static int32_t core_of(const fl_polygon_side *line, unsigned char *state, int32_t m, double inset,
+                       fl_polygon_side *left, fl_vec2 *corner)
 {
     int32_t k = 0;
     double depth;
@@ -153,13 +157,13 @@ static int32_t core_of(const fl_side *line, unsigned char *state, int32_t m, dou
 
 /* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were
  * cut after it and took of its length; a quarter may go before it is cut again. */
-static int32_t find_short(const struct fit *f, const unsigned char *state, int32_t n, const fl_side *left,
-                          const fl_vec2 *corner, double rho)
+static int32_t find_short(const struct fit *f, const unsigned char *state, int32_t n,
+                          const fl_polygon_side *left, const fl_vec2 *corner, double rho)
 {
     int32_t at = -1;
     double least = INFINITY;
     for (int32_t k = 0; k < n; k++) {
-        const fl_side a = left[k ? k - 1 : n - 1], b = left[k + 1 < n ? k + 1 : 0];
+        const fl_polygon_side a = left[k ? k - 1 : n - 1], b = left[k + 1 < n ? k + 1 : 0];
         const double limit =
             state[left[k].tag] & FIXED ? 0.75 * least_side(f, a, left[k], b, rho) : f->few * rho;
         const double l = length(corner, k, n);
@@ -172,13 +176,13 @@ static int32_t find_short(const struct fit *f, const unsigned char *state, int32
 }
 
 /* One short side: drop it, cut it deeper, or leave it for good.  Returns 0 when there was none. */
-static int mend_short(const struct fit *f, const fl_side *cell, int32_t m, fl_side *line,
-                      unsigned char *state, int32_t n, const fl_side *left, const fl_vec2 *corner, double d,
-                      double rho)
+static int mend_short(const struct fit *f, const fl_polygon_side *cell, int32_t m, fl_polygon_side *line,
+                      unsigned char *state, int32_t n, const fl_polygon_side *left, const fl_vec2 *corner,
+                      double d, double rho)
 {
     const int32_t at = find_short(f, state, n, left, corner, rho);
     int32_t e, worst = 0;
-    fl_side a, b;
+    fl_polygon_side a, b;
     if (at < 0) return 0;
     e = left[at].tag;
     a = left[at ? at - 1 : n - 1];
@@ -195,9 +199,9 @@ static int mend_short(const struct fit *f, const fl_side *cell, int32_t m, fl_si
 static int fit_floe(struct fit *f, int32_t i, double d)
 {
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first;
-    const fl_side *cell = f->cells->side + first;
+    const fl_polygon_side *cell = f->cells->side + first;
     const struct scratch *s = scratch_of(f);
-    fl_side *line = s->line, *left = s->left;
+    fl_polygon_side *line = s->line, *left = s->left;
     fl_vec2 *corner = s->corner;
     unsigned char *state = s->state;
     const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
@@ -212,7 +216,7 @@ static int fit_floe(struct fit *f, int32_t i, double d)
         int changed = 0;
         if (n == 0) return -1;
         for (int32_t k = 0; k < n; k++) {
-            const fl_side a = left[k], b = left[k + 1 < n ? k + 1 : 0];
+            const fl_polygon_side a = left[k], b = left[k + 1 < n ? k + 1 : 0];
             int32_t e = 0;
             if (beyond(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
                 cut_corner(f, line, state, e, a, b, di + f->radius, rho);
@@ -231,12 +235,12 @@ static int fit_floe(struct fit *f, int32_t i, double d)
 static int still_fits(struct fit *f, int32_t i, double d)
 {
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first, n = f->count[i];
-    const fl_side *side = f->side + first;
+    const fl_polygon_side *side = f->side + first;
     fl_vec2 *corner = scratch_of(f)->corner;
     const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
     fl_polygon_corners(n, side, di + f->radius, corner);
     for (int32_t k = 0; k < n; k++) {
-        const fl_side a = side[k ? k - 1 : n - 1], b = side[k + 1 < n ? k + 1 : 0];
+        const fl_polygon_side a = side[k ? k - 1 : n - 1], b = side[k + 1 < n ? k + 1 : 0];
         const fl_vec2 p = corner[k], q = corner[k + 1 < n ? k + 1 : 0];
         int32_t e = 0;
         if ((q.y - p.y) * side[k].nx - (q.x - p.x) * side[k].ny < 0.5 * least_side(f, a, side[k], b, rho))
@@ -257,7 +261,7 @@ static double excess(struct fit *f, int raw, double d, double target, double *fa
     for (int32_t i = 0; i < n; i++) {
         const int32_t first = f->cells->first[i];
         const double di = inset_of(f, i, d);
-        fl_side *left = scratch_of(f)->left;
+        fl_polygon_side *left = scratch_of(f)->left;
         fl_vec2 *v = scratch_of(f)->corner;
         int32_t m = f->count[i];
         if (raw) {
@@ -390,8 +394,8 @@ static int settle(struct fit *f, double concentration, double total, double hi, 
  * that this would take more than a quarter of a side.  *lost is the triangle that the outer polygon loses:
  * its corner is r / sin(t / 2) away from that of the core, t being the angle, and the new side r, so that
  * it is cut at a depth of h + r (1 / sin(t / 2) - 1) when the core is at h, whatever the inset. */
-static double blunt(const struct fit *f, int32_t n, const fl_side *side, const fl_vec2 *core, int32_t k,
-                    double rho, double *lost)
+static double blunt(const struct fit *f, int32_t n, const fl_polygon_side *side, const fl_vec2 *core,
+                    int32_t k, double rho, double *lost)
 {
     const int32_t before = k ? k - 1 : n - 1;
     /* the sides turn by pi - t, and tan((pi - t) / 2) = cot(t / 2) */
@@ -456,7 +460,7 @@ static int settle_blunt(struct fit *f, double concentration, double *d, fl_err *
 /* The core of floe i at inset d, about the origin; v has room for twice its sides.  Returns their number. */
 static int32_t core_at(const struct fit *f, int32_t i, double d, fl_vec2 *v)
 {
-    const fl_side *side = f->side + f->cells->first[i];
+    const fl_polygon_side *side = f->side + f->cells->first[i];
     const int32_t n = f->count[i];
     fl_vec2 *core = scratch_of(f)->corner;
     int32_t m = 0;
@@ -464,7 +468,7 @@ static int32_t core_at(const struct fit *f, int32_t i, double d, fl_vec2 *v)
     for (int32_t k = 0; k < n; k++) {
         double lost;
         const double along = blunt(f, n, side, core, k, rho_of(f, i, d), &lost);
-        const fl_side a = side[k ? k - 1 : n - 1], b = side[k];
+        const fl_polygon_side a = side[k ? k - 1 : n - 1], b = side[k];
         if (!(along > 0.0)) {
             v[m++] = core[k];
             continue;
@@ -488,7 +492,7 @@ static int collect(const struct fit *f, double d, fl_vec2 shift, fl_floes *a, fl
     a->outer = fl_alloc(room, sizeof *a->outer, err);
     if (!a->first || !a->core || !a->outer) return -1;
     for (int32_t i = 0; i < c->n; i++) {
-        const fl_side *side = f->side + c->first[i];
+        const fl_polygon_side *side = f->side + c->first[i];
         fl_vec2 *core = a->core + a->first[i];
         const int32_t m = core_at(f, i, d, core);
         a->first[i + 1] = a->first[i] + m;
@@ -532,7 +536,7 @@ done:
 static double area_at(struct fit *f, int raw, int32_t i, double d, double *outline)
 {
     const int32_t first = f->cells->first[i];
-    fl_side *left = scratch_of(f)->left;
+    fl_polygon_side *left = scratch_of(f)->left;
     fl_vec2 *v = scratch_of(f)->corner;
     int32_t m = f->count[i];
     double depth;

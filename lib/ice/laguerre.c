@@ -475,7 +475,7 @@ static void ask(struct fitted *s)
 }
 
 static struct model model_of(const fl_cells *c, int32_t i, double inset, double radius, double got,
-                             fl_vec2 *v, fl_side *side)
+                             fl_vec2 *v, fl_polygon_side *side)
 {
     const int32_t first = c->first[i], n = c->first[i + 1] - first;
     struct model m = {.area = fl_polygon_area(n, c->v + first),
@@ -498,7 +498,7 @@ static struct model model_of(const fl_cells *c, int32_t i, double inset, double 
 static int learn(struct fitted *s, const fl_cells *c, const fl_floes *a, fl_err *err)
 {
     fl_vec2 *v = fl_alloc(c->first[c->n], sizeof *v, err);
-    fl_side *side = fl_alloc(c->first[c->n], sizeof *side, err);
+    fl_polygon_side *side = fl_alloc(c->first[c->n], sizeof *side, err);
     if (v && side) {
 #pragma omp parallel for schedule(static)
         for (int32_t i = 0; i < s->n; i++)

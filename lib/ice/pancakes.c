@@ -17,12 +17,12 @@ enum { STEPS = 120 };
 struct dough {
     const fl_cells *cells;
     int32_t sides;
-    double radius, reach; /* R, and R / cos(2 pi / S) */
-    double *rho;          /* [n] */
-    double *area;         /* [n] of the outer polygons */
-    fl_vec2 *v, *outer;   /* scratch: the cell's corners, and sides a floe */
-    fl_side *side;        /* scratch */
-    fl_vec2 *core;        /* [n sides] */
+    double radius, reach;  /* R, and R / cos(2 pi / S) */
+    double *rho;           /* [n] */
+    double *area;          /* [n] of the outer polygons */
+    fl_vec2 *v, *outer;    /* scratch: the cell's corners, and sides a floe */
+    fl_polygon_side *side; /* scratch */
+    fl_vec2 *core;         /* [n sides] */
 };
 
 static double inset_of(const struct dough *p, int32_t i, double d)

@@ -87,7 +87,7 @@ static int keep_out(fl_domain *d, const struct reach *r, double margin, double c
                     fl_err *err)
 {
     const int n = r->any ? sides_for(0.5 * hypot(r->x1 - r->x0, r->y1 - r->y0) + margin, coarse) : 0;
-    fl_side side[FL_SECTION_MOST + 4];
+    fl_polygon_side side[FL_SECTION_MOST + 4];
     fl_vec2 v[FL_SECTION_MOST + 4];
     int32_t m = 4;
     if (!r->any) return 0;
@@ -99,7 +99,8 @@ static int keep_out(fl_domain *d, const struct reach *r, double margin, double c
     for (int k = 0; k < n; k++) {
         const fl_vec2 u = direction(k * (FL_SECTION_MOST / n));
         if (4 * k % n == 0) continue;
-        m = fl_polygon_cut(m, v, side, (fl_side){u.x, u.y, r->far[k * (FL_SECTION_MOST / n)] + margin, 0});
+        m = fl_polygon_cut(m, v, side,
+                           (fl_polygon_side){u.x, u.y, r->far[k * (FL_SECTION_MOST / n)] + margin, 0});
     }
     if (fl_domain_add(d, m, v, err)) return -1;
     (*kept)++;

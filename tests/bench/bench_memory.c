@@ -6,10 +6,11 @@
  *     bench_memory [FLOES]     2000 if not said */
 #include <malloc.h>
 #include <stdlib.h>
+#include "ice/cells.h"
+#include "ice/floes.h"
 #include "scene/field_order.h"
 #include "step/footprint.h"
 #include "support/lab.h"
-#include "support/voronoi.h"
 
 #define CONCENTRATION 0.8
 #define RADIUS 0.05
@@ -19,7 +20,7 @@
 #define END 1.0     /* [s] */
 #define PI 3.14159265358979323846
 
-enum { LOOKS = 4 };
+enum { SMOOTH = 2, LOOKS = 4 };
 
 static void must(int rc, const fl_err *err)
 {
@@ -34,12 +35,45 @@ static double memory(void)
     return (double)m.uordblks + (double)m.hblkhd;
 }
 
+/* Cores of floes as voronoi-ice makes them: prisms over cells of n sites, smoothed twice. */
+static void voronoi(fl_poly *out, int32_t n)
+{
+    const double half = 0.5 * sqrt(AREA * n);
+    const fl_vec2 lo = {-half, -half}, hi = {half, half};
+    fl_vec2 *site = malloc((size_t)n * sizeof *site);
+    fl_cells c = {0};
+    fl_floes a = {0};
+    fl_err err = {0};
+    if (!site) exit(1);
+    fl_cells_sites(n, 1, lo, hi, site);
+    must(fl_cells_build(&c, n, site, lo, hi, &err), &err);
+    for (int k = 0; k < SMOOTH; k++) {
+        fl_cells_centroids(&c, site);
+        fl_cells_free(&c);
+        must(fl_cells_build(&c, n, site, lo, hi, &err), &err);
+    }
+    must(fl_floes_make(&a, &c, CONCENTRATION, RADIUS, (fl_vec2){0, 0}, &err), &err);
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t corners = a.first[i + 1] - a.first[i];
+        fl_vec3 *xy = malloc((size_t)corners * sizeof *xy);
+        if (!xy) exit(1);
+        for (int32_t k = 0; k < corners; k++) {
+            const fl_vec2 v = a.core[a.first[i] + k];
+            xy[k] = v3(v.x, v.y, 0);
+        }
+        must(fl_poly_prism(&out[i], corners, xy, -0.4, 0.0, &err), &err);
+        free(xy);
+    }
+    free(site);
+    fl_floes_free(&a), fl_cells_free(&c);
+}
+
 /* In eddies. */
 static void field(lab *l, int32_t n)
 {
     fl_poly *core = calloc((size_t)n, sizeof *core);
     if (!core) exit(1);
-    voronoi_cores(core, n, AREA, CONCENTRATION, RADIUS, -0.4, 0.0);
+    voronoi(core, n);
     for (int32_t i = 0; i < n; i++) {
         const double x = PI / EDDY * core[i].v[0].x, y = PI / EDDY * core[i].v[0].y;
         lab_poly(l, &core[i], RADIUS, v3(STIRRED * sin(x) * cos(y), -STIRRED * cos(x) * sin(y), 0),

@@ -7,24 +7,24 @@
 enum { MANY = 64 };
 #define PI 3.14159265358979323846
 
-static double half_tan_sum(int32_t n, const fl_side *side)
+static double half_tan_sum(int32_t n, const fl_polygon_side *side)
 {
     double sum = 0.0;
     for (int32_t k = 0; k < n; k++) {
-        const fl_side a = side[k], b = side[(k + 1) % n];
+        const fl_polygon_side a = side[k], b = side[(k + 1) % n];
         sum += tan(0.5 * atan2(fl_side_sin(a, b), fl_side_cos(a, b)));
     }
     return sum;
 }
 
 /* A rectangle cut by random lines that leave its centre. */
-static int32_t random_polygon(fl_rng *g, fl_vec2 *v, fl_side *side)
+static int32_t random_polygon(fl_rng *g, fl_vec2 *v, fl_polygon_side *side)
 {
     int32_t n = 4;
     fl_polygon_rectangle((fl_vec2){-1.0, -1.0}, (fl_vec2){1.0, 1.0}, v, side);
     for (int k = 0; k < 12; k++) {
         const double t = fl_rng_in(g, 0.0, 2.0 * PI);
-        n = fl_polygon_cut(n, v, side, (fl_side){cos(t), sin(t), fl_rng_in(g, 0.3, 1.3), k});
+        n = fl_polygon_cut(n, v, side, (fl_polygon_side){cos(t), sin(t), fl_rng_in(g, 0.3, 1.3), k});
     }
     return n;
 }
@@ -44,17 +44,18 @@ static void cuts_through_corners_leave_no_empty_side(void **state)
 {
     (void)state;
     fl_vec2 v[6];
-    fl_side side[6];
+    fl_polygon_side side[6];
     const double r = sqrt(0.5);
     fl_polygon_rectangle((fl_vec2){0.0, 0.0}, (fl_vec2){2.0, 2.0}, v, side);
-    assert_int_equal(fl_polygon_cut(4, v, side, (fl_side){1.0, 0.0, 2.0, 9}), 4); /* along a side */
-    assert_int_equal(fl_polygon_cut(4, v, side, (fl_side){r, r, 2.0 * r * 1.5 + r, 9}),
-                     4);                                                       /* touches (2, 2) */
-    assert_int_equal(fl_polygon_cut(4, v, side, (fl_side){r, -r, 0.0, 9}), 3); /* the diagonal */
+    assert_int_equal(fl_polygon_cut(4, v, side, (fl_polygon_side){1.0, 0.0, 2.0, 9}), 4); /* along a side */
+    assert_int_equal(fl_polygon_cut(4, v, side, (fl_polygon_side){r, r, 2.0 * r * 1.5 + r, 9}),
+                     4);                                                               /* touches (2, 2) */
+    assert_int_equal(fl_polygon_cut(4, v, side, (fl_polygon_side){r, -r, 0.0, 9}), 3); /* the diagonal */
     assert_true(fl_polygon_area(3, v) == 2.0);
-    assert_int_equal(fl_polygon_cut(3, v, side, (fl_side){0.0, -1.0, -2.0, 9}), 0); /* touches one corner */
+    assert_int_equal(fl_polygon_cut(3, v, side, (fl_polygon_side){0.0, -1.0, -2.0, 9}),
+                     0); /* touches one corner */
     fl_polygon_rectangle((fl_vec2){0.0, 0.0}, (fl_vec2){2.0, 2.0}, v, side);
-    assert_int_equal(fl_polygon_cut(4, v, side, (fl_side){1.0, 0.0, -0.5, 9}), 0);
+    assert_int_equal(fl_polygon_cut(4, v, side, (fl_polygon_side){1.0, 0.0, -0.5, 9}), 0);
 }
 
 /* Each side's two corners lie on its line, and what is cut off and what is left add up. */
@@ -64,7 +65,7 @@ static void two_halves_add_up(void **state)
     for (int i = 0; i < test_times(2000); i++) {
         fl_rng g = fl_rng_of(test_seed(), i, FL_RNG_TEST);
         fl_vec2 v[MANY], w[MANY];
-        fl_side a[MANY], b[MANY];
+        fl_polygon_side a[MANY], b[MANY];
         int32_t n = random_polygon(&g, v, a), m = n;
         const double all = fl_polygon_area(n, v), t = fl_rng_in(&g, 0.0, 2.0 * PI),
                      c = fl_rng_in(&g, -0.3, 0.3);
@@ -72,8 +73,8 @@ static void two_halves_add_up(void **state)
             w[k] = v[k];
             b[k] = a[k];
         }
-        n = fl_polygon_cut(n, v, a, (fl_side){cos(t), sin(t), c, 50});
-        m = fl_polygon_cut(m, w, b, (fl_side){-cos(t), -sin(t), -c, 51});
+        n = fl_polygon_cut(n, v, a, (fl_polygon_side){cos(t), sin(t), c, 50});
+        m = fl_polygon_cut(m, w, b, (fl_polygon_side){-cos(t), -sin(t), -c, 51});
         assert_near_of(fl_polygon_area(n, v) + fl_polygon_area(m, w), all, 4e-15, 4.0);
         for (int32_t k = 0; k < n; k++) {
             assert_near_of(fl_side_beyond(a[k], v[k]), 0.0, 4e-15, 1.0);
@@ -85,7 +86,7 @@ static void two_halves_add_up(void **state)
 struct shape {
     int32_t n;
     fl_vec2 v[MANY];
-    fl_side side[MANY];
+    fl_polygon_side side[MANY];
 };
 
 /* Until the first side goes, A(d) = A - P d + d^2 sum tan(turn / 2). */
@@ -151,7 +152,7 @@ static void inscribed_circles_are_known(void **state)
 {
     (void)state;
     fl_vec2 v[MANY];
-    fl_side side[MANY];
+    fl_polygon_side side[MANY];
     double depth;
     int32_t n = 4;
     fl_polygon_rectangle((fl_vec2){-3.0, 5.0}, (fl_vec2){4.0, 7.0}, v, side);
@@ -159,12 +160,12 @@ static void inscribed_circles_are_known(void **state)
     assert_near(depth, 1.0, 1e-15);
     fl_polygon_rectangle((fl_vec2){0.0, 0.0}, (fl_vec2){3.0, 4.0}, v,
                          side); /* the 3-4-5 triangle: radius 1 */
-    n = fl_polygon_cut(4, v, side, (fl_side){0.8, 0.6, 2.4, 9});
+    n = fl_polygon_cut(4, v, side, (fl_polygon_side){0.8, 0.6, 2.4, 9});
     assert_int_equal(n, 3);
     assert_int_equal(fl_polygon_inset(n, v, side, 2.0, &depth), 0);
     assert_near(depth, 1.0, 1e-15);
     fl_polygon_rectangle((fl_vec2){0.0, 0.0}, (fl_vec2){3.0, 4.0}, v, side);
-    n = fl_polygon_cut(4, v, side, (fl_side){0.8, 0.6, 2.4, 9});
+    n = fl_polygon_cut(4, v, side, (fl_polygon_side){0.8, 0.6, 2.4, 9});
     assert_int_equal(fl_polygon_inset(n, v, side, 0.5, &depth), 3);
     assert_near(fl_polygon_area(3, v), 1.5, 1e-15); /* a quarter of 6 */
     assert_true(depth == 0.5);
@@ -177,11 +178,11 @@ static void a_short_side_goes_when_its_length_is_used_up(void **state)
     const double r = sqrt(0.5), e = 0.1, goes = e / (2.0 * tan(PI / 8.0));
     for (int k = 0; k < 2; k++) {
         fl_vec2 v[6];
-        fl_side side[6];
+        fl_polygon_side side[6];
         double depth;
         const double d = goes * (k ? 1.0 + 1e-9 : 1.0 - 1e-9);
         fl_polygon_rectangle((fl_vec2){-1.0, -1.0}, (fl_vec2){1.0, 1.0}, v, side);
-        assert_int_equal(fl_polygon_cut(4, v, side, (fl_side){r, r, sqrt(2.0) - 0.5 * e, 9}), 5);
+        assert_int_equal(fl_polygon_cut(4, v, side, (fl_polygon_side){r, r, sqrt(2.0) - 0.5 * e, 9}), 5);
         assert_int_equal(fl_polygon_inset(5, v, side, d, &depth), k ? 4 : 5);
     }
 }
@@ -192,7 +193,7 @@ static void outset_undoes_inset(void **state)
     for (int i = 0; i < test_times(1000); i++) {
         fl_rng g = fl_rng_of(test_seed(), i, FL_RNG_TEST);
         fl_vec2 v[MANY], w[MANY];
-        fl_side a[MANY];
+        fl_polygon_side a[MANY];
         double depth;
         const double d = fl_rng_in(&g, 0.0, 0.2);
         const int32_t n = fl_polygon_inset(random_polygon(&g, v, a), v, a, d, &depth);
