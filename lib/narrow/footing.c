@@ -263,6 +263,132 @@ typedef struct {
     fl_wide u, du, ddu, f, s, x, y, xx, xy, yy, couple[2];
 } sums;
 
+/* Over triangles, for each of their area: of s^4, s^3, s^2, and of f = k s^3 times 1, x, y, xx, xy, yy. */
+typedef struct {
+    fl_wide u, du, ddu, f, x, y, xx, xy, yy;
+} means;
+
+/* The corners are c, the middle c[0] + c[1] + c[2] over 3, and node k of a triple with share a of two corners
+ * and 1 - 2 a of the third at a (c[0] + c[1] + c[2]) + (1 - 3 a) c[k]. */
+#define TRIPLE(a, sum, c) ((a) * (sum) + (1.0 - 3.0 * (a)) * (c))
+
+#define ADD_MEAN(t, weight, S, K, X, Y)                                                                      \
+    do {                                                                                                     \
+        const fl_wide p2_ = (weight) * ((S) * (S)), p3_ = p2_ * (S), f_ = (K)*p3_, fx_ = f_ * (X),           \
+                      fy_ = f_ * (Y);                                                                        \
+        (t).ddu += p2_, (t).du += p3_, (t).u += p3_ * (S);                                                   \
+        (t).f += f_, (t).x += fx_, (t).y += fy_;                                                             \
+        (t).xx += fx_ * (X), (t).xy += fx_ * (Y), (t).yy += fy_ * (Y);                                       \
+    } while (0)
+
+/* Both ways at once: means of each, f of their sum. */
+#define ADD_BOTH(p, q, weight, S, Z, K, L, X, Y)                                                             \
+    do {                                                                                                     \
+        const fl_wide p2_ = (weight) * ((S) * (S)), p3_ = p2_ * (S), q2_ = (weight) * ((Z) * (Z)),           \
+                      q3_ = q2_ * (Z), f_ = (K)*p3_ + (L)*q3_, fx_ = f_ * (X), fy_ = f_ * (Y);               \
+        (p).ddu += p2_, (p).du += p3_, (p).u += p3_ * (S);                                                   \
+        (q).ddu += q2_, (q).du += q3_, (q).u += q3_ * (Z);                                                   \
+        (p).f += f_, (p).x += fx_, (p).y += fy_;                                                             \
+        (p).xx += fx_ * (X), (p).xy += fx_ * (Y), (p).yy += fy_ * (Y);                                       \
+    } while (0)
+
+static const double TRIPLE_SHARE[2] = {FL_TRIANGLE_A, FL_TRIANGLE_B};
+
+FL_WIDE_VERSIONS static void take_triangles(batch *b, sums *q)
+{
+    for (int k = b->n; k < FL_LANES; k++) b->share[k] = 0.0;
+    const fl_wide zero = {0}, *const x = b->x, *const y = b->y, *const s = b->s, gain = b->gain,
+                  share = b->share;
+    const fl_wide sx = x[0] + x[1] + x[2], sy = y[0] + y[1] + y[2], ss = s[0] + s[1] + s[2];
+    const fl_wide mx = sx * (1.0 / 3.0), my = sy * (1.0 / 3.0), ms = ss * (1.0 / 3.0),
+                  k3 = 4.0 * share * gain;
+    means t = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    ADD_MEAN(t, FL_TRIANGLE_WEIGHT[0], ms, k3, mx, my);
+    for (int c = 0; c < 2; c++) {
+        const double a = TRIPLE_SHARE[c], w = FL_TRIANGLE_WEIGHT[1 + 3 * c];
+        FL_WIDE_UNROLL
+        for (int k = 0; k < 3; k++)
+            ADD_MEAN(t, w, TRIPLE(a, ss, s[k]), k3, TRIPLE(a, sx, x[k]), TRIPLE(a, sy, y[k]));
+    }
+    const fl_wide u = share * t.u, du = 4.0 * share * t.du;
+    q->u += u, q->du += du, q->ddu += 12.0 * share * t.ddu;
+    q->f += t.f, q->s += 4.0 * gain * u, q->x += t.x, q->y += t.y, q->xx += t.xx, q->xy += t.xy,
+        q->yy += t.yy;
+    for (int k = 0; k < 2; k++) q->couple[k] += b->a[k] * u + b->b[k] * du;
+    b->n = 0;
+}
+
+/* Numbers of four vertices: of corner c of each. */
+#define FOUR_OF(a, v, c) ((fl_wide){(a)[(v)[0][c]], (a)[(v)[1][c]], (a)[(v)[2][c]], (a)[(v)[3][c]]})
+
+/* Triangles, faces of B wholly under F and s > 0 both ways; list: their numbers. */
+typedef struct {
+    const int32_t *list;
+    const tile *tile;
+    const int32_t *corner;
+    const fl_vec3 *n; /* normals of B */
+    int32_t count;
+    double R;
+} tiling;
+
+FL_WIDE_VERSIONS static void take_tiling(const ground *g, const tiling *o, sums *q)
+{
+    const double R = o->R;
+    const fl_wide zero = {0};
+    sums all = *q;
+    for (int32_t from = 0; from < o->count; from += FL_LANES) {
+        const int32_t *at[FL_LANES];
+        const tile *t[FL_LANES];
+        for (int l = 0; l < FL_LANES; l++) {
+            t[l] = &o->tile[o->list[from + l < o->count ? from + l : from]];
+            at[l] = o->corner + t[l]->first;
+        }
+        const fl_wide x0 = FOUR_OF(g->X, at, 0), x1 = FOUR_OF(g->X, at, 1), x2 = FOUR_OF(g->X, at, 2);
+        const fl_wide y0 = FOUR_OF(g->Y, at, 0), y1 = FOUR_OF(g->Y, at, 1), y2 = FOUR_OF(g->Y, at, 2);
+        const fl_wide h0 = FOUR_OF(g->h, at, 0), h1 = FOUR_OF(g->h, at, 1), h2 = FOUR_OF(g->h, at, 2);
+        const fl_vec3 *const n0 = &o->n[t[0]->f], *const n1 = &o->n[t[1]->f], *const n2 = &o->n[t[2]->f],
+                             *const n3 = &o->n[t[3]->f];
+        const fl_wide nx = {n0->x, n1->x, n2->x, n3->x};
+        const fl_wide ny = {n0->y, n1->y, n2->y, n3->y};
+        const fl_wide nz = {n0->z, n1->z, n2->z, n3->z};
+        const fl_wide c = -(g->n.x * nx + g->n.y * ny + g->n.z * nz), over = 1.0 / c;
+        /* n_F x n_f along x and y */
+        const fl_wide ax = -(g->y.x * nx + g->y.y * ny + g->y.z * nz),
+                      ay = g->x.x * nx + g->x.y * ny + g->x.z * nz;
+        const fl_wide root = 4.0 * c * c - 3.0, dm = 8.0 * c * root;
+        fl_wide area = 0.5 * ((x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0));
+        area = FL_WIDE_CHOOSE(area < 0.0, -area, area);
+        for (int l = 0; l < FL_LANES; l++)
+            if (from + l >= o->count) area[l] = 0.0;
+        const fl_wide m = 0.5 * root * root, share = area * m, share_f = share * over;
+        const fl_wide k3 = 4.0 * share, k3_f = 4.0 * share_f * over;
+        const fl_wide s0 = R - h0, s1 = R - h1, s2 = R - h2, z0 = R - over * h0, z1 = R - over * h1,
+                      z2 = R - over * h2;
+        const fl_wide sx = x0 + x1 + x2, sy = y0 + y1 + y2, ss = s0 + s1 + s2, sz = z0 + z1 + z2;
+        means p = {zero, zero, zero, zero, zero, zero, zero, zero, zero}, r = p;
+        const fl_wide mx = sx * (1.0 / 3.0), my = sy * (1.0 / 3.0), ms = ss * (1.0 / 3.0),
+                      mz = sz * (1.0 / 3.0);
+        ADD_BOTH(p, r, FL_TRIANGLE_WEIGHT[0], ms, mz, k3, k3_f, mx, my);
+        for (int i = 0; i < 2; i++) {
+            const double a = TRIPLE_SHARE[i], w = FL_TRIANGLE_WEIGHT[1 + 3 * i];
+            ADD_BOTH(p, r, w, TRIPLE(a, ss, s0), TRIPLE(a, sz, z0), k3, k3_f, TRIPLE(a, sx, x0),
+                     TRIPLE(a, sy, y0));
+            ADD_BOTH(p, r, w, TRIPLE(a, ss, s1), TRIPLE(a, sz, z1), k3, k3_f, TRIPLE(a, sx, x1),
+                     TRIPLE(a, sy, y1));
+            ADD_BOTH(p, r, w, TRIPLE(a, ss, s2), TRIPLE(a, sz, z2), k3, k3_f, TRIPLE(a, sx, x2),
+                     TRIPLE(a, sy, y2));
+        }
+        const fl_wide u = share * p.u, v = share_f * r.u, du = 4.0 * share * p.du, dv = 4.0 * share_f * r.du;
+        all.u += u + v, all.du += du + dv, all.ddu += 12.0 * (share * p.ddu + share_f * r.ddu);
+        all.f += p.f, all.s += 4.0 * (u + over * v);
+        all.x += p.x, all.y += p.y, all.xx += p.xx, all.xy += p.xy, all.yy += p.yy;
+        /* over m: (dm + m/c) u; (dm - 4 m/c) v + (m R/c) dv */
+        const fl_wide part = dm / m, turn = (part + over) * u + (part - 4.0 * over) * v + R * over * dv;
+        all.couple[0] += ax * turn, all.couple[1] += ay * turn;
+    }
+    *q = all;
+}
+
 #define ADD_NODE(q, U, DU, DDU, F, S, X, Y)                                                                  \
     do {                                                                                                     \
         const fl_wide fx_ = (F) * (X), fy_ = (F) * (Y);                                                      \
@@ -278,30 +404,11 @@ typedef struct {
         (q)->yy += fy_ * (Y);                                                                                \
     } while (0)
 
-FL_WIDE_VERSIONS static void take_triangles(batch *b, sums *q)
-{
-    fl_wide u = 0.0 * b->x[0], du = u;
-    for (int k = b->n; k < FL_LANES; k++) b->share[k] = 0.0;
-    for (int k = 0; k < FL_TRIANGLE_NODES; k++) {
-        const double b0 = FL_TRIANGLE_NODE[k][0], b1 = FL_TRIANGLE_NODE[k][1], b2 = FL_TRIANGLE_NODE[k][2];
-        const fl_wide x = b0 * b->x[0] + b1 * b->x[1] + b2 * b->x[2];
-        const fl_wide y = b0 * b->y[0] + b1 * b->y[1] + b2 * b->y[2];
-        const fl_wide s = b0 * b->s[0] + b1 * b->s[1] + b2 * b->s[2];
-        const fl_wide part = FL_TRIANGLE_WEIGHT[k] * b->share * s * s, pull = 4.0 * part * s,
-                      all = part * s * s;
-        const fl_wide f = pull * b->gain;
-        ADD_NODE(q, all, pull, 12.0 * part, f, s, x, y);
-        u += all;
-        du += pull;
-    }
-    for (int k = 0; k < 2; k++) q->couple[k] += b->a[k] * u + b->b[k] * du;
-    b->n = 0;
-}
-
 /* Node z of a piece where the root of s goes from p to q has the root r = p + (q - p) z at z (r + p)/(q + p)
  * of its length, as in strips.c. */
-FL_WIDE_VERSIONS static void take_pieces(batch *b, sums *q)
+FL_WIDE_VERSIONS static void take_pieces(batch *b, sums *out)
 {
+    sums all = *out, *const q = &all;
     for (int k = b->n; k < FL_LANES; k++) b->share[k] = 0.0, b->s[0][k] = b->s[1][k] = 1.0;
     const fl_wide p = b->s[0], way = b->s[1] - p, over = 1.0 / (p + b->s[1]);
     for (int k = 0; k < FL_LINE_NODES; k++) {
@@ -310,11 +417,51 @@ FL_WIDE_VERSIONS static void take_pieces(batch *b, sums *q)
         const fl_wide c = FL_LINE_WEIGHT[k] * b->share * over * s * s * s, pull = 4.5 * c * s;
         ADD_NODE(q, c * s * s, pull, 15.75 * c, pull, s, b->x[0] + at * b->x[1], b->y[0] + at * b->y[1]);
     }
+    *out = all;
     b->n = 0;
 }
 
-/* Triangles in the rim of F, where a share w of them counts that falls to 0 on the side with the inward normal
- * (mx, my). */
+/* Edges of B within F and s > 0 at both ends, of which `list` has the numbers. */
+typedef struct {
+    const int32_t *list;
+    const strip *strip;
+    int32_t count;
+    double R;
+} lattice;
+
+FL_WIDE_VERSIONS static void take_lattice(const ground *g, const lattice *o, sums *out)
+{
+    sums all = *out, *const q = &all;
+    for (int32_t from = 0; from < o->count; from += FL_LANES) {
+        const strip *e[FL_LANES];
+        const int32_t *at[FL_LANES];
+        for (int l = 0; l < FL_LANES; l++) {
+            e[l] = &o->strip[o->list[from + l < o->count ? from + l : from]];
+            at[l] = e[l]->v;
+        }
+        const fl_wide x0 = FOUR_OF(g->X, at, 0), x1 = FOUR_OF(g->X, at, 1);
+        const fl_wide y0 = FOUR_OF(g->Y, at, 0), y1 = FOUR_OF(g->Y, at, 1);
+        const fl_wide h0 = FOUR_OF(g->h, at, 0), h1 = FOUR_OF(g->h, at, 1);
+        fl_wide factor = {e[0]->factor, e[1]->factor, e[2]->factor, e[3]->factor};
+        for (int l = 0; l < FL_LANES; l++)
+            if (from + l >= o->count) factor[l] = 0.0;
+        fl_wide p = o->R - h0, r1 = o->R - h1;
+        for (int l = 0; l < FL_LANES; l++) p[l] = sqrt(p[l]);
+        for (int l = 0; l < FL_LANES; l++) r1[l] = sqrt(r1[l]);
+        const fl_wide way = r1 - p, over = 1.0 / (p + r1), share = 2.0 * factor * over, dx = x1 - x0,
+                      dy = y1 - y0;
+        for (int k = 0; k < FL_LINE_NODES; k++) {
+            const double z = FL_LINE_NODE[k];
+            const fl_wide r = p + way * z, far = z * (r + p) * over, s = r * r;
+            const fl_wide c = FL_LINE_WEIGHT[k] * share * s * s * s, pull = 4.5 * c * s;
+            ADD_NODE(q, c * s * s, pull, 15.75 * c, pull, s, x0 + far * dx, y0 + far * dy);
+        }
+    }
+    *out = all;
+}
+
+/* Triangles in the rim of F, where a share w of them counts that falls to 0 on the side with the inward
+ * normal (mx, my). */
 typedef struct {
     fl_wide x[3], y[3], s[3], w[3];
     fl_wide share, mx, my, a[2];
@@ -416,6 +563,8 @@ typedef struct {
     band bands;
     sums sum;
     pulls pull;
+    int32_t *whole, *wholes; /* tiles and strips that need no cut */
+    int32_t n_whole, n_wholes;
 } work;
 
 /* Where a sum bears and how it spreads: three places at x + a cos, y + b cos + c sin have its moments. */
@@ -656,10 +805,11 @@ static int under(work *q, const tile *t)
     const int32_t *at = q->o->corner + t->first;
     const fl_vec3 nf = q->B->n[t->f];
     const double c = -v3_dot(g->n, nf), root = 4.0 * c * c - 3.0;
-    double clear = INFINITY, low = INFINITY;
+    double clear = INFINITY, low = INFINITY, high = 0.0;
     for (int32_t k = 0; k < t->n; k++) {
         clear = g->clear[at[k]] < clear ? g->clear[at[k]] : clear;
         low = g->h[at[k]] < low ? g->h[at[k]] : low;
+        high = g->h[at[k]] > high ? g->h[at[k]] : high;
     }
     if (low < 0.0) return 0;
     if (!(c > 0.0 && root > 0.0) || low >= q->R) return 1; /* nothing */
@@ -676,7 +826,8 @@ static int under(work *q, const tile *t)
     const double in = clear - g->rim;
     if (in > 0.0 && c * c * in * in > (1.0 - c * c) * q->R * q->R) {
         if (q->R - low > q->most) q->most = q->R - low;
-        pour(q, t, f.way, &q->triangles, &q->sum);
+        if (t->n == 3 && over * high < q->R) q->whole[q->n_whole++] = (int32_t)(t - q->o->tile);
+        else pour(q, t, f.way, &q->triangles, &q->sum);
         if (!q->w->apart) return 1;
         batch b = {.n = 0};
         sums own = {.u = {0}};
@@ -752,11 +903,18 @@ static int strip_under(work *q, const strip *e)
     if (!(g->h[i] >= 0.0 && g->h[j] >= 0.0)) return 0;
     const double si = q->R - g->h[i], sj = q->R - g->h[j];
     if (!(si > 0.0 || sj > 0.0)) return 1;
+    const double near = NEAR * g->rim;
+    const int whole = g->clear[i] > near && g->clear[j] > near && si > 0.0 && sj > 0.0;
+    if (whole && !q->w->apart) {
+        q->wholes[q->n_wholes++] = (int32_t)(e - q->o->strip);
+        return 1;
+    }
     fl_span t = {si > 0.0 ? 0.0 : si / (si - sj), sj > 0.0 ? 1.0 : si / (si - sj)};
     const int in = within_sides(g, i, j, &t);
     if (in <= 0) return in == 0;
     if (!(si + t.lo * (sj - si) > 0.0 || si + t.hi * (sj - si) > 0.0)) return 1;
-    pour_strip(q, e, t, si, sj, &q->pieces, &q->sum);
+    if (whole) q->wholes[q->n_wholes++] = (int32_t)(e - q->o->strip);
+    else pour_strip(q, e, t, si, sj, &q->pieces, &q->sum);
     if (!q->w->apart) return 1;
     batch b = {.n = 0};
     sums own = {.u = {0}};
@@ -797,6 +955,10 @@ static int put(work *q)
     static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
     const ground *g = &q->g;
     const sums *t = &q->sum;
+    const tiling floor = {q->whole, q->o->tile, q->o->corner, q->B->n, q->n_whole, q->R};
+    const lattice lines = {q->wholes, q->o->strip, q->n_wholes, q->R};
+    take_tiling(g, &floor, &q->sum);
+    take_lattice(g, &lines, &q->sum);
     if (q->triangles.n) take_triangles(&q->triangles, &q->sum);
     if (q->pieces.n) take_pieces(&q->pieces, &q->sum);
     if (q->bands.n) take_band(&q->bands, q->R, g->rim, &q->sum, &q->pull);
@@ -895,7 +1057,17 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
         const int64_t sides = A->p->first[from->F + 1] - A->p->first[from->F];
         if (fl_grow(&room->number, &room->number_cap, 5 * sides + 4 * vertices, sizeof *room->number, &lost))
             return -1;
-        work q = {.w = w, .A = A, .B = B, .o = o, .skip = room->skip, .R = R};
+        const int32_t tiles = to->tile - from->tile, strips = to->strip - from->strip;
+        if (fl_grow(&room->whole, &room->whole_cap, (int64_t)tiles + strips, sizeof *room->whole, &lost))
+            return -1;
+        work q = {.w = w,
+                  .A = A,
+                  .B = B,
+                  .o = o,
+                  .skip = room->skip,
+                  .R = R,
+                  .whole = room->whole,
+                  .wholes = room->whole + tiles};
         lay_ground(&q.g, A, from->F, o->x + 3 * (int64_t)from->vertex, vertices, rim, room->number);
         for (int32_t c = from->tile; c < to->tile; c++) {
             const int is = under(&q, &o->tile[c]);
@@ -931,6 +1103,6 @@ void fl_footing_free(fl_footing *o)
 
 void fl_footing_work_free(fl_footing_work *room)
 {
-    free(room->number), free(room->skip), free(room->left);
+    free(room->number), free(room->skip), free(room->left), free(room->whole);
     *room = (fl_footing_work){0};
 }
