@@ -11,6 +11,7 @@
 extern "C" {
 #include "base/mem.h"
 }
+#include "shim/cgal_planar.hpp"
 #include "shim/cgal_power.h"
 
 namespace
@@ -34,29 +35,7 @@ int neighbours(int32_t n, const fl_vec2 *site, const double *weight, const int32
 
     std::memset(empty, 1, static_cast<size_t>(n));
     for (auto v = rt.finite_vertices_begin(); v != rt.finite_vertices_end(); ++v) empty[v->info()] = 0;
-
-    /* The order of insertion is drawn at random; sorting makes the lists a function of the sites. */
-    std::memset(first, 0, (static_cast<size_t>(n) + 1) * sizeof *first);
-    for (auto e = rt.finite_edges_begin(); e != rt.finite_edges_end(); ++e) {
-        first[e->first->vertex(rt.ccw(e->second))->info()]++;
-        first[e->first->vertex(rt.cw(e->second))->info()]++;
-    }
-    for (int32_t i = 0, sum = 0; i <= n; i++) { /* counts to ends: each list is filled from behind */
-        sum += first[i];
-        first[i] = sum;
-    }
-    *near = static_cast<int32_t *>(fl_alloc(first[n], sizeof **near, err));
-    if (!*near) return -1;
-    for (auto e = rt.finite_edges_begin(); e != rt.finite_edges_end(); ++e) {
-        const int32_t a = e->first->vertex(rt.ccw(e->second))->info();
-        const int32_t b = e->first->vertex(rt.cw(e->second))->info();
-        (*near)[--first[a]] = b;
-        (*near)[--first[b]] = a;
-    }
-    for (int32_t i = 0; i < n; i++)
-        std::sort(*near + first[i], *near + first[i + 1],
-                  [name](int32_t a, int32_t b) { return name[a] < name[b]; });
-    return 0;
+    return shim::neighbours(rt, n, name, first, near, err);
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 extern "C" {
 #include "base/mem.h"
 }
+#include "shim/cgal_planar.hpp"
 #include "shim/cgal_voronoi.h"
 
 namespace
@@ -44,29 +45,7 @@ int neighbours(int32_t n, const fl_vec2 *site, const int32_t *name, int32_t *fir
     for (int32_t i = 0; i < n; i++) point.emplace_back(Kernel::Point_2(site[i].x, site[i].y), i);
     Delaunay dt(point.begin(), point.end());
     if (dt.number_of_vertices() != static_cast<size_t>(n)) return coincident(dt, n, site, name, err);
-
-    /* CGAL inserts in an order that it draws at random; sorting makes the lists a function of the sites. */
-    std::memset(first, 0, (static_cast<size_t>(n) + 1) * sizeof *first);
-    for (auto e = dt.finite_edges_begin(); e != dt.finite_edges_end(); ++e) {
-        first[e->first->vertex(dt.ccw(e->second))->info()]++;
-        first[e->first->vertex(dt.cw(e->second))->info()]++;
-    }
-    for (int32_t i = 0, sum = 0; i <= n; i++) { /* counts to ends: each list is filled from behind */
-        sum += first[i];
-        first[i] = sum;
-    }
-    *near = static_cast<int32_t *>(fl_alloc(first[n], sizeof **near, err));
-    if (!*near) return -1;
-    for (auto e = dt.finite_edges_begin(); e != dt.finite_edges_end(); ++e) {
-        const int32_t a = e->first->vertex(dt.ccw(e->second))->info();
-        const int32_t b = e->first->vertex(dt.cw(e->second))->info();
-        (*near)[--first[a]] = b;
-        (*near)[--first[b]] = a;
-    }
-    for (int32_t i = 0; i < n; i++)
-        std::sort(*near + first[i], *near + first[i + 1],
-                  [name](int32_t a, int32_t b) { return name[a] < name[b]; });
-    return 0;
+    return shim::neighbours(dt, n, name, first, near, err);
 }
 
 } // namespace
