@@ -12,6 +12,7 @@ double fl_par_sum(const double *x, int64_t n)
     for (int64_t b = 0; b < n; b += BLOCK) {
         const int64_t end = b + BLOCK < n ? b + BLOCK : n;
         double part = 0.0;
+#pragma GCC unroll 8
         for (int64_t k = b; k < end; k++) part += x[k];
         total += part;
     }

@@ -1,71 +1,136 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <string.h>
 #include "body/few.h"
+
+/* What is left behind the last four goes one by one. */
+static void split_one(double (*to)[FL_FEW], fl_vec3 a, int32_t k)
+{
+    to[0][k] = a.x, to[1][k] = a.y, to[2][k] = a.z;
+}
+
+static fl_vec3 join_one(const double (*from)[FL_FEW], int32_t k)
+{
+    return v3(from[0][k], from[1][k], from[2][k]);
+}
+
+static void split_matrix(double (*to)[FL_FEW], const fl_mat3 *R, int32_t k)
+{
+    for (int c = 0; c < 9; c++) to[c][k] = R->m[c / 3][c % 3];
+}
 
 FL_FOUR_VERSIONS void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
 {
-    const size_t some = (size_t)n * sizeof(double);
+    const double *m = b->m + from, *invm = b->invm + from;
+    const fl_vec3 *I = b->I + from, *v = b->v + from, *L = b->L + from, *w = b->w + from;
+    const fl_mat3 *R = b->R + from;
+    int32_t k = 0;
     s->from = from;
     s->n = n;
-    memcpy(s->m, b->m + from, some);
-    memcpy(s->invm, b->invm + from, some);
-    fl_few_split(s->I, b->I + from, n);
-    fl_few_split(s->v, b->v + from, n);
-    fl_few_split(s->L, b->L + from, n);
-    fl_few_split(s->w, b->w + from, n);
-    fl_few_split4(s->R, &b->R[from].m[0][0], sizeof *b->R, n);
-    fl_few_split4(s->R + 4, &b->R[from].m[1][1], sizeof *b->R, n);
-    for (int32_t k = 0; k < n; k++) s->R[8][k] = b->R[from + k].m[2][2];
+    for (; k + FL_LANES <= n; k += FL_LANES) {
+        const fl_wide last = {R[k].m[2][2], R[k + 1].m[2][2], R[k + 2].m[2][2], R[k + 3].m[2][2]};
+        FL_FOUR_INTO(&s->m[k]) = FL_FOUR(&m[k]);
+        FL_FOUR_INTO(&s->invm[k]) = FL_FOUR(&invm[k]);
+        fl_few_split(s->I, I, k);
+        fl_few_split(s->v, v, k);
+        fl_few_split(s->L, L, k);
+        fl_few_split(s->w, w, k);
+        fl_few_split4(s->R, &R->m[0][0], sizeof *R, k);
+        fl_few_split4(s->R + 4, &R->m[1][1], sizeof *R, k);
+        FL_FOUR_INTO(&s->R[8][k]) = last;
+    }
+    for (; k < n; k++) {
+        s->m[k] = m[k], s->invm[k] = invm[k];
+        split_one(s->I, I[k], k), split_one(s->v, v[k], k);
+        split_one(s->L, L[k], k), split_one(s->w, w[k], k);
+        split_matrix(s->R, &R[k], k);
+    }
 }
 
 FL_FOUR_VERSIONS void fl_few_take_forces(fl_few *s, const fl_bodies *b)
 {
-    fl_few_split(s->f, b->f + s->from, s->n);
-    fl_few_split(s->t, b->t + s->from, s->n);
+    const fl_vec3 *f = b->f + s->from, *t = b->t + s->from;
+    int32_t k = 0;
+    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+        fl_few_split(s->f, f, k);
+        fl_few_split(s->t, t, k);
+    }
+    for (; k < s->n; k++) split_one(s->f, f[k], k), split_one(s->t, t[k], k);
 }
 
 FL_FOUR_VERSIONS void fl_few_take_pose(fl_few *s, const fl_bodies *b)
 {
-    const size_t some = (size_t)s->n * sizeof(double);
-    fl_few_split(s->x, b->x + s->from, s->n);
-    fl_few_split4(s->q, b->q + s->from, sizeof *b->q, s->n);
-    memcpy(s->odometer, b->odometer + s->from, some);
-    memcpy(s->bound, b->bound + s->from, some);
+    const fl_vec3 *x = b->x + s->from;
+    const fl_quat *q = b->q + s->from;
+    const double *odometer = b->odometer + s->from, *bound = b->bound + s->from;
+    int32_t k = 0;
+    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+        fl_few_split(s->x, x, k);
+        fl_few_split4(s->q, q, sizeof *q, k);
+        FL_FOUR_INTO(&s->odometer[k]) = FL_FOUR(&odometer[k]);
+        FL_FOUR_INTO(&s->bound[k]) = FL_FOUR(&bound[k]);
+    }
+    for (; k < s->n; k++) {
+        split_one(s->x, x[k], k);
+        s->q[0][k] = q[k].w, s->q[1][k] = q[k].x, s->q[2][k] = q[k].y, s->q[3][k] = q[k].z;
+        s->odometer[k] = odometer[k], s->bound[k] = bound[k];
+    }
 }
 
 FL_FOUR_VERSIONS void fl_few_put_forces(const fl_few *s, fl_bodies *b)
 {
-    fl_few_join(b->f + s->from, s->f, s->n);
-    fl_few_join(b->t + s->from, s->t, s->n);
+    fl_vec3 *f = b->f + s->from, *t = b->t + s->from;
+    int32_t k = 0;
+    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+        fl_few_join(f, s->f, k);
+        fl_few_join(t, s->t, k);
+    }
+    for (; k < s->n; k++) f[k] = join_one(s->f, k), t[k] = join_one(s->t, k);
 }
 
 FL_FOUR_VERSIONS void fl_few_put_speeds(const fl_few *s, fl_bodies *b)
 {
-    fl_few_join(b->v + s->from, s->v, s->n);
-    fl_few_join(b->L + s->from, s->L, s->n);
-    fl_few_join(b->w + s->from, s->w, s->n);
+    fl_vec3 *v = b->v + s->from, *L = b->L + s->from, *w = b->w + s->from;
+    int32_t k = 0;
+    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+        fl_few_join(v, s->v, k);
+        fl_few_join(L, s->L, k);
+        fl_few_join(w, s->w, k);
+    }
+    for (; k < s->n; k++) v[k] = join_one(s->v, k), L[k] = join_one(s->L, k), w[k] = join_one(s->w, k);
 }
 
 FL_FOUR_VERSIONS void fl_few_put_pose(const fl_few *s, fl_bodies *b)
 {
+    fl_vec3 *x = b->x + s->from;
+    fl_quat *q = b->q + s->from;
     fl_mat3 *R = b->R + s->from;
-    fl_few_join(b->x + s->from, s->x, s->n);
-    fl_few_join4(b->q + s->from, sizeof *b->q, s->q, s->n);
-    fl_few_join4(&R->m[0][0], sizeof *R, s->R, s->n);
-    fl_few_join4(&R->m[1][1], sizeof *R, s->R + 4, s->n);
-    for (int32_t k = 0; k < s->n; k++) R[k].m[2][2] = s->R[8][k];
-    memcpy(b->odometer + s->from, s->odometer, (size_t)s->n * sizeof(double));
+    double *odometer = b->odometer + s->from;
+    int32_t k = 0;
+    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+        fl_few_join(x, s->x, k);
+        fl_few_join4(q, sizeof *q, s->q, k);
+        fl_few_join4(&R->m[0][0], sizeof *R, s->R, k);
+        fl_few_join4(&R->m[1][1], sizeof *R, s->R + 4, k);
+        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) R[k + l].m[2][2] = s->R[8][k + l];
+        FL_FOUR_INTO(&odometer[k]) = FL_FOUR(&s->odometer[k]);
+    }
+    for (; k < s->n; k++) {
+        x[k] = join_one(s->x, k);
+        q[k] = (fl_quat){s->q[0][k], s->q[1][k], s->q[2][k], s->q[3][k]};
+        for (int c = 0; c < 9; c++) R[k].m[c / 3][c % 3] = s->R[c][k];
+        odometer[k] = s->odometer[k];
+    }
 }
 
-FL_WIDE_VERSIONS void fl_few_weigh(fl_few *s, fl_vec3 gravity)
+FL_WIDE_VERSIONS void fl_few_weigh(fl_few *restrict s, fl_vec3 gravity)
 {
-    const double g[3] = {gravity.x, gravity.y, gravity.z};
-    for (int c = 0; c < 3; c++) {
 #pragma omp simd
-        for (int32_t i = 0; i < s->n; i++) {
-            s->f[c][i] = s->m[i] * g[c];
-            s->t[c][i] = 0.0;
-        }
+    for (int32_t i = 0; i < s->n; i++) {
+        s->f[0][i] = s->m[i] * gravity.x;
+        s->f[1][i] = s->m[i] * gravity.y;
+        s->f[2][i] = s->m[i] * gravity.z;
+        s->t[0][i] = 0.0;
+        s->t[1][i] = 0.0;
+        s->t[2][i] = 0.0;
     }
 }
 

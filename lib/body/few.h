@@ -55,55 +55,37 @@ void fl_few_put_forces(const fl_few *s, fl_bodies *b); /* f, t */
 void fl_few_put_speeds(const fl_few *s, fl_bodies *b); /* v, L, w */
 void fl_few_put_pose(const fl_few *s, fl_bodies *b);   /* x, q, R, odometer */
 
-/* Between vectors that follow each other and arrays of their components. */
-FL_WIDE_PART void fl_few_split(double (*to)[FL_FEW], const fl_vec3 *a, int32_t n)
+/* Of vectors that follow each other the four from the k-th on to arrays of their components, and back. */
+FL_WIDE_PART void fl_few_split(double (*to)[FL_FEW], const fl_vec3 *a, int32_t k)
 {
-    int32_t k = 0;
-    for (; k + FL_LANES <= n; k += FL_LANES) {
-        fl_wide v[3];
-        fl_wide_from_triples(v, &a[k]);
-        FL_WIDE_UNROLL for (int c = 0; c < 3; c++) FL_FOUR_INTO(&to[c][k]) = v[c];
-    }
-    for (; k < n; k++) to[0][k] = a[k].x, to[1][k] = a[k].y, to[2][k] = a[k].z;
+    fl_wide v[3];
+    fl_wide_from_triples(v, &a[k]);
+    FL_WIDE_UNROLL for (int c = 0; c < 3; c++) FL_FOUR_INTO(&to[c][k]) = v[c];
 }
 
-FL_WIDE_PART void fl_few_join(fl_vec3 *a, const double (*from)[FL_FEW], int32_t n)
+FL_WIDE_PART void fl_few_join(fl_vec3 *a, const double (*from)[FL_FEW], int32_t k)
 {
-    int32_t k = 0;
-    for (; k + FL_LANES <= n; k += FL_LANES) {
-        const fl_wide v[3] = {FL_FOUR(&from[0][k]), FL_FOUR(&from[1][k]), FL_FOUR(&from[2][k])};
-        fl_wide_to_triples(&a[k], v);
-    }
-    for (; k < n; k++) a[k] = v3(from[0][k], from[1][k], from[2][k]);
+    const fl_wide v[3] = {FL_FOUR(&from[0][k]), FL_FOUR(&from[1][k]), FL_FOUR(&from[2][k])};
+    fl_wide_to_triples(&a[k], v);
 }
 
-/* The same of four numbers of each of n structs of so many bytes. */
-FL_WIDE_PART void fl_few_split4(double (*to)[FL_FEW], const void *a, size_t bytes, int32_t n)
+/* The same of four numbers of each of structs of so many bytes. */
+FL_WIDE_PART void fl_few_split4(double (*to)[FL_FEW], const void *a, size_t bytes, int32_t k)
 {
-    const char *at = (const char *)a;
-    int32_t k = 0;
-    for (; k + FL_LANES <= n; k += FL_LANES, at += FL_LANES * bytes) {
-        fl_wide r[FL_LANES];
-        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(at + (size_t)l * bytes);
-        fl_wide_transpose(r);
-        FL_WIDE_UNROLL for (int c = 0; c < FL_LANES; c++) FL_FOUR_INTO(&to[c][k]) = r[c];
-    }
-    for (; k < n; k++, at += bytes)
-        for (int c = 0; c < FL_LANES; c++) to[c][k] = FL_FOUR(at)[c];
+    const char *at = (const char *)a + (size_t)k * bytes;
+    fl_wide r[FL_LANES];
+    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(at + (size_t)l * bytes);
+    fl_wide_transpose(r);
+    FL_WIDE_UNROLL for (int c = 0; c < FL_LANES; c++) FL_FOUR_INTO(&to[c][k]) = r[c];
 }
 
-FL_WIDE_PART void fl_few_join4(void *a, size_t bytes, const double (*from)[FL_FEW], int32_t n)
+FL_WIDE_PART void fl_few_join4(void *a, size_t bytes, const double (*from)[FL_FEW], int32_t k)
 {
-    char *at = (char *)a;
-    int32_t k = 0;
-    for (; k + FL_LANES <= n; k += FL_LANES, at += FL_LANES * bytes) {
-        fl_wide r[FL_LANES];
-        FL_WIDE_UNROLL for (int c = 0; c < FL_LANES; c++) r[c] = FL_FOUR(&from[c][k]);
-        fl_wide_transpose(r);
-        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(at + (size_t)l * bytes) = r[l];
-    }
-    for (; k < n; k++, at += bytes)
-        for (int c = 0; c < FL_LANES; c++) ((double *)(void *)at)[c] = from[c][k];
+    char *at = (char *)a + (size_t)k * bytes;
+    fl_wide r[FL_LANES];
+    FL_WIDE_UNROLL for (int c = 0; c < FL_LANES; c++) r[c] = FL_FOUR(&from[c][k]);
+    fl_wide_transpose(r);
+    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(at + (size_t)l * bytes) = r[l];
 }
 
 #endif

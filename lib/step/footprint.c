@@ -60,7 +60,7 @@ static double search(const fl_world *w)
     return ARRAY(w->box, total) + ARRAY(w->home, total) + ARRAY(w->odometer_found, total) +
            ARRAY(p->first, p->first_cap) + ARRAY(p->partner, p->partner_cap) + ARRAY(p->image, p->image_cap) +
            tree(&p->tree) + ARRAY(w->inc_first, w->inc_first_cap) + ARRAY(w->inc, w->inc_cap) +
-           ARRAY(w->hit, w->hit_cap) + ARRAY(w->live, w->live_cap);
+           ARRAY(w->hit, w->hit_cap) + ARRAY(w->live, w->live_cap) + ARRAY(w->met, total);
 }
 
 static double others(const fl_world *w)

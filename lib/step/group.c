@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
 #include "body/few.h"
 #include "body/integrate.h"
 #include "step/balls.h"
@@ -16,25 +17,27 @@ static int32_t end_of(const fl_world *w, int32_t g)
     return end < w->n ? end : w->n;
 }
 
-/* Nothing more is to be done for it than to kick it and let it drift. */
-static int unbound(const fl_world *w, int32_t k)
-{
-    return fl_body_free(&w->b, k) && !w->sea.waves && !fl_world_away(w, k) && fl_sleep_kind(w, k) == FL_AWAKE;
-}
-
-/* Behind the last of those from k on that are unbound, and balls as k is; k itself where it is not. */
+/* Behind the last of those from k on with which nothing more is to be done than to kick them and let them
+ * drift, and that are balls as k is; k itself where it is none of those. */
 static int32_t alike(const fl_world *w, int32_t k, int32_t to)
 {
-    const uint8_t ball = w->b.ball[k];
-    while (k < to && w->b.ball[k] == ball && unbound(w, k)) k++;
-    return k;
+    const uint8_t *ball = w->b.ball, *hold = w->b.hold, *away = w->traffic.away, *kind = w->sleep.kind;
+    int32_t end = k;
+    if (w->b.added || w->sea.waves) return k;
+    for (const int first = ball[k]; end < to && !(hold[end] | (ball[end] ^ first));) end++;
+    for (int32_t i = k; away && i < end; i++)
+        if (away[i]) end = i;
+    for (int32_t i = k; kind && i < end; i++)
+        if (kind[i] != FL_AWAKE) end = i;
+    return end;
 }
 
 /* Something may press on it now; and something did before the step began, so that its first kick counts for
- * the works of contacts. */
+ * the works of contacts.  Where spheres meet, contacts and ends of steps are not apart (step.c), and so it is
+ * not known yet who has met another. */
 static int presses(const fl_world *w, int32_t k)
 {
-    return w->sink[k].n || w->balls.bodies || fl_frozen_at(w, k);
+    return w->met[k] || w->balls.bodies || fl_frozen_at(w, k);
 }
 
 static int pressed(const fl_world *w, int32_t k) { return w->was[k].n || w->balls.bodies; }
@@ -123,15 +126,26 @@ static fl_vec3 pushed(const fl_world *w, int32_t i)
     return w->sea.water ? v3_sub(f, fl_sea_push(&w->sea, i)) : f;
 }
 
-/* After all of it; what nothing presses has no works of contacts, and its push is 0. */
-static void book(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back, fl_group *own)
+/* What nothing presses has no works of contacts, and its push is 0. */
+static void push(const fl_world *w, int32_t k, fl_group *own)
 {
-    w->damped[k] = w->rubbed[k] = 0.0;
     if (presses(w, k)) own->pushed = v3_add(own->pushed, pushed(w, k));
-    if (presses(w, k) || pressed(w, k)) fl_works_take(w, k, first, back);
 }
 
-/* The forces of a few, in the books of the bodies and in their own. */
+/* Which of a few have more to do than what the water asks, 0 the first: something presses on them, or has
+ * left them something to forget. */
+static int32_t find_busy(const fl_world *w, int32_t from, int32_t n, int32_t busy[FL_FEW])
+{
+    const int all = w->balls.bodies || w->frozen.n;
+    const uint8_t *met = w->met + from;
+    const fl_sink *sink = w->sink + from, *was = w->was + from;
+    int32_t many = 0;
+    for (int32_t k = 0; k < n; k++)
+        if (all || met[k] || sink[k].n || was[k].n) busy[many++] = k;
+    return many;
+}
+
+/* What acts on a few but their contacts, in the arrays of the bodies and in their own. */
 static void find_forces(fl_world *w, fl_few *s)
 {
     int32_t left[FL_FEW], others = 0;
@@ -146,10 +160,6 @@ static void find_forces(fl_world *w, fl_few *s)
         fl_step_soft(w, s->from + left[k]);
         fl_few_take_force(s, &w->b, left[k]);
     }
-    for (int32_t k = 0; k < s->n; k++) {
-        fl_step_press(w, s->from + k);
-        if (presses(w, s->from + k)) fl_few_take_force(s, &w->b, k);
-    }
 }
 
 static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *own)
@@ -157,16 +167,26 @@ static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *ow
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
     const int calm = fl_calm_goes(sea);
+    int32_t busy[FL_FEW];
+    const int32_t many = find_busy(w, from, n, busy);
     fl_few s;
     fl_few_take(&s, b, from, n);
     find_forces(w, &s);
+    for (int32_t k = 0; k < many; k++) {
+        fl_step_press(w, from + busy[k]);
+        fl_few_take_force(&s, b, busy[k]);
+    }
     fl_few_kick(&s, h);
     if (calm) fl_calm_drag(sea, b, &s, h, 1);
     fl_few_put_speeds(&s, b);
-    for (int32_t k = 0; k < n; k++) {
-        if (sea->n && !calm) fl_sea_drag(sea, b, from + k, h, 1);
-        const fl_gain back = gain_among(&s, k);
-        book(w, from + k, &w->gain[from + k], &back, own);
+    for (int32_t k = from; k < from + n && sea->n && !calm; k++) fl_sea_drag(sea, b, k, h, 1);
+    memset(w->damped + from, 0, (size_t)n * sizeof *w->damped);
+    memset(w->rubbed + from, 0, (size_t)n * sizeof *w->rubbed);
+    for (int32_t k = 0; k < many; k++) {
+        const int32_t i = from + busy[k];
+        const fl_gain back = gain_among(&s, busy[k]);
+        push(w, i, own);
+        fl_works_take(w, i, &w->gain[i], &back);
     }
 }
 
@@ -183,7 +203,8 @@ static void end_balls(fl_world *w, int32_t from, int32_t to, double h, fl_group 
     for (int32_t k = from; k < to; k++) {
         const fl_gain back = gain_of(b, k, h);
         if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
-        book(w, k, &first[k - from], &back, own);
+        push(w, k, own);
+        fl_works_take(w, k, &first[k - from], &back);
     }
 }
 
@@ -196,17 +217,15 @@ static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
     } else if (kind == FL_ENDS) fl_sleep_end(w, k);
     else fl_step_gather(w, k);
     if (fl_world_away(w, k) || kind == FL_COASTS) return;
-    if (!(h > 0.0) || kind == FL_RESTS) {
-        if (presses(w, k)) own->pushed = v3_add(own->pushed, pushed(w, k));
-        return;
-    }
+    push(w, k, own);
+    if (!(h > 0.0) || kind == FL_RESTS) { return; }
     if (kind == FL_ENDS) {
         fl_sleep_ended(w, k);
     } else {
         kick(w, k, h, &back);
         if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 1);
     }
-    book(w, k, &w->gain[k], &back, own);
+    fl_works_take(w, k, &w->gain[k], &back);
 }
 
 /* Spheres that plain.h knows, from k on; behind the last. */
@@ -222,22 +241,21 @@ static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group 
     return end;
 }
 
-/* Whether n numbers are all finite: 0 x is 0 where x is. */
-FL_WIDE_VERSIONS static int all_finite(const double *restrict a, int32_t n)
+/* Whether n numbers of each of four arrays are finite: 0 x is 0 where x is.  What overflows only in the sum
+ * of four is told as well, and looked at again. */
+FL_WIDE_VERSIONS static int all_finite(const double *restrict a, const double *restrict b,
+                                       const double *restrict c, const double *restrict d, int32_t n)
 {
     double zero = 0.0;
 #pragma omp simd reduction(+ : zero)
-    for (int32_t k = 0; k < n; k++) zero += 0.0 * a[k];
+    for (int32_t k = 0; k < n; k++) zero += 0.0 * ((a[k] + b[k]) + (c[k] + d[k]));
     return zero == 0.0;
 }
 
 /* The first of bodies [from, to) that has a number which is not finite, or -1. */
 static int32_t first_lost(const fl_bodies *b, int32_t from, int32_t to)
 {
-    const int32_t n = 3 * (to - from);
-    if (all_finite(&b->f[from].x, n) && all_finite(&b->t[from].x, n) && all_finite(&b->x[from].x, n) &&
-        all_finite(&b->v[from].x, n))
-        return -1;
+    if (all_finite(&b->f[from].x, &b->t[from].x, &b->x[from].x, &b->v[from].x, 3 * (to - from))) return -1;
     for (int32_t k = from; k < to; k++)
         if (!v3_finite(b->f[k]) || !v3_finite(b->t[k]) || !v3_finite(b->x[k]) || !v3_finite(b->v[k]))
             return k;

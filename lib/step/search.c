@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/wide.h"
 #include "step/balls.h"
 #include "step/frozen.h"
 #include "step/pairing.h"
@@ -71,11 +72,25 @@ static int order(const fl_pair *p, int32_t i, int32_t j, const int32_t image[3])
     return 0;
 }
 
+/* Whether some of n odometers shows more than `far` beyond what it did. */
+FL_WIDE_VERSIONS static int gone(int32_t n, const double *restrict now, const double *restrict found,
+                                 double far)
+{
+    double many = 0.0;
+#pragma omp simd reduction(+ : many)
+    for (int32_t k = 0; k < n; k++) many += now[k] - found[k] > far ? 1.0 : 0.0;
+    return many > 0.0;
+}
+
 static int stale(const fl_world *w)
 {
+    const double room = w->skin * (1.0 - 1e-6);
     double first = 0.0, second = 0.0; /* the two that have moved most */
     if (w->found_at < 0) return 1;
     if (w->scene->run.search_every > 0 && w->step - w->found_at >= w->scene->run.search_every) return 1;
+    /* two that have not gone half of it have not gone all of it */
+    if (w->b.total <= MANY && room > 0.0 && !gone(w->b.total, w->b.odometer, w->odometer_found, 0.49 * room))
+        return 0;
 #pragma omp parallel if (w->b.total > MANY)
     {
         double one = 0.0, two = 0.0;
@@ -91,7 +106,7 @@ static int stale(const fl_world *w)
             first = fmax(first, one);
         }
     }
-    return first + second >= w->skin * (1.0 - 1e-6);
+    return first + second >= room;
 }
 
 int fl_search_index(fl_world *w, fl_err *err)
@@ -122,8 +137,12 @@ int fl_search_index(fl_world *w, fl_err *err)
 void fl_search_live(fl_world *w)
 {
     w->n_live = 0;
-    for (int32_t c = 0; c < w->n_pair; c++)
-        if (w->hit[c]) w->live[w->n_live++] = c;
+    memset(w->met, 0, (size_t)w->b.total);
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        if (!w->hit[c]) continue;
+        w->live[w->n_live++] = c;
+        w->met[w->pair[c].i] = w->met[w->pair[c].j] = 1;
+    }
 }
 
 int fl_search(fl_world *w, fl_err *err)

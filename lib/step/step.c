@@ -60,15 +60,43 @@ static void contacts_told(fl_world *w)
     }
 }
 
+static void all_contacts(fl_world *w, double dt, int survey)
+{
+#pragma omp for schedule(dynamic) nowait
+    for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, dt, survey);
+    contacts_of_pairs(w, dt, survey);
+}
+
+/* To call up a team of one takes as long as three floes do for a step. */
 static void contacts(fl_world *w, double dt, int survey)
 {
+    if (w->threads == 1) {
+        all_contacts(w, dt, survey);
+    } else {
 #pragma omp parallel
-    {
-#pragma omp for schedule(dynamic) nowait
-        for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, dt, survey);
-        contacts_of_pairs(w, dt, survey);
+        all_contacts(w, dt, survey);
     }
     contacts_told(w);
+}
+
+/* Either half of a step. */
+static void all_groups(fl_world *w, int end, double h, double dt)
+{
+#pragma omp for schedule(static)
+    for (int32_t g = 0; g < fl_groups(w); g++) {
+        if (end) fl_group_end(w, g, h);
+        else fl_group_begin(w, g, h, dt);
+    }
+}
+
+static void bodies(fl_world *w, int end, double h, double dt)
+{
+    if (w->threads == 1) {
+        all_groups(w, end, h, dt);
+    } else {
+#pragma omp parallel
+        all_groups(w, end, h, dt);
+    }
 }
 
 /* And where they press, when that is asked. */
@@ -137,6 +165,16 @@ void fl_step_gather(fl_world *w, int32_t k)
     }
     if (k < w->n) fl_step_soft(w, k);
     fl_step_press(w, k);
+}
+
+static void gather_held(fl_world *w)
+{
+    if (w->b.total - w->n <= FEW) {
+        for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
+        return;
+    }
+#pragma omp parallel for schedule(static)
+    for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
 }
 
 /* --- contacts and ends of a step in one go ----------------------------------------------------- */
@@ -368,8 +406,7 @@ int fl_step(fl_world *w, fl_err *err)
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     fl_works_begin(w);
     if (rides) fl_ride_out(w, fl_world_time(w));
-#pragma omp parallel for schedule(static)
-    for (int32_t g = 0; g < fl_groups(w); g++) fl_group_begin(w, g, h, dt);
+    bodies(w, 0, h, dt);
     for (int32_t k = w->n; k < b->total; k++)
         if (!rides || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
     w->step++;
@@ -381,11 +418,9 @@ int fl_step(fl_world *w, fl_err *err)
     } else {
         if (touch(w, dt, survey, err)) return -1;
         if (w->sleep.resting) fl_sleep_disturb(w);
-#pragma omp parallel for schedule(static)
-        for (int32_t g = 0; g < fl_groups(w); g++) fl_group_end(w, g, h);
+        bodies(w, 1, h, 0.0);
     }
-#pragma omp parallel for schedule(static) if (b->total - w->n > FEW)
-    for (int32_t k = w->n; k < b->total; k++) fl_step_gather(w, k);
+    gather_held(w);
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     fl_works_book(w);
     account(w, dt, &deep);

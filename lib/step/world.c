@@ -320,6 +320,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->sink = fl_alloc(total, sizeof *w->sink, err);
     w->was = fl_alloc(total, sizeof *w->was, err);
     w->gain = fl_alloc(total, sizeof *w->gain, err);
+    w->met = fl_alloc(total, sizeof *w->met, err);
     w->damped = fl_alloc(total, sizeof *w->damped, err);
     w->rubbed = fl_alloc(total, sizeof *w->rubbed, err);
     w->part_impulse = fl_alloc(w->parts, sizeof *w->part_impulse, err);
@@ -559,7 +560,7 @@ void fl_world_free(fl_world *w)
     free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
     for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
     free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
-    free(w->hit), free(w->live);
+    free(w->hit), free(w->live), free(w->met);
     fl_balls_free(&w->balls);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->home);
     free(w->group);

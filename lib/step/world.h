@@ -275,6 +275,7 @@ typedef struct {
     /* Which pairs touch, apart from the pairs themselves: most do not, and need not be looked at for it. */
     uint8_t *hit;  /* [n_pair] */
     int32_t *live; /* [n_live] those that do, ascending */
+    uint8_t *met;  /* [total] is of one of those */
     int32_t n_live, hit_cap, live_cap;
     int32_t inc_cap, inc_first_cap;
     fl_sink *sink, *was;     /* [total] of the forces of now, and of those before; see works.h */

@@ -3,15 +3,10 @@
 #include <stddef.h>
 #include "water/calm.h"
 
-/* A fluid that goes by: the surface that it meets, r_eff, and its velocity. */
-typedef struct {
-    _Alignas(64) double area[FL_FEW];
-    double reach[FL_FEW], c[3][FL_FEW];
-} met;
-
-/* decay() of sea.c, where nothing is held and no water moved along; what it does is added to work[], times
- * sign. */
-FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, const met *restrict by,
+/* decay() of sea.c, where nothing is held and no water moved along, by the surface that the fluid meets,
+ * r_eff, and its velocity; what it does is added to work[], times sign. */
+FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, const double *restrict surface,
+                                   const double *restrict reach, double (*restrict c)[FL_FEW],
                                    const double *restrict held, double h, double sign, double *restrict work)
 {
     const double push = 0.5 * fluid->force * fluid->density, turn = 0.5 * fluid->moment * fluid->density;
@@ -20,10 +15,10 @@ FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, co
     for (int32_t i = 0; i < a->n; i++) {
         const double m = a->m[i], vx = a->v[0][i], vy = a->v[1][i], vz = a->v[2][i], wx = a->w[0][i],
                      wy = a->w[1][i], wz = a->w[2][i], Lx = a->L[0][i], Ly = a->L[1][i], Lz = a->L[2][i],
-                     area = by->area[i], r = by->reach[i];
+                     area = surface[i], r = reach[i];
         const double turning = wx * Lx + wy * Ly + wz * Lz, spin2 = wx * wx + wy * wy + wz * wz;
         const double before = 0.5 * (m * (vx * vx + vy * vy + vz * vz) + turning) - held[i];
-        const double cx = by->c[0][i], cy = by->c[1][i], cz = by->c[2][i];
+        const double cx = c[0][i], cy = c[1][i], cz = c[2][i];
         const double ux = vx - cx, uy = vy - cy, uz = vz - cz, speed = sqrt(ux * ux + uy * uy + uz * uz);
         const double slow = 1.0 / (1.0 + push * area / m * speed * h);
         const int spins = turns && spin2 > 0.0;
@@ -44,37 +39,37 @@ FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, co
     }
 }
 
-FL_FOUR_VERSIONS static void meet_water(met *by, const fl_sea *s, const fl_few *a)
+FL_WIDE_VERSIONS static void alike(double (*restrict c)[FL_FEW], fl_vec3 u, int32_t n)
 {
-    for (int32_t k = 0; k < a->n; k++) {
-        by->area[k] = s->wetted[a->from + k];
-        by->reach[k] = s->reach[a->from + k];
-    }
-    fl_few_split(by->c, s->flow + a->from, a->n);
+#pragma omp simd
+    for (int32_t i = 0; i < n; i++) c[0][i] = u.x, c[1][i] = u.y, c[2][i] = u.z;
 }
 
-static void meet_wind(met *by, const fl_sea *s, const fl_few *a)
+static void water(fl_sea *s, const fl_bodies *b, fl_few *a, double h)
 {
-    for (int32_t k = 0; k < a->n; k++) {
-        const int32_t i = a->from + k;
-        by->area[k] = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
-        by->reach[k] = s->reach[i];
-        by->c[0][k] = s->breeze.x, by->c[1][k] = s->breeze.y, by->c[2][k] = s->breeze.z;
-    }
+    const int32_t from = a->from;
+    _Alignas(64) double c[3][FL_FEW];
+    if (s->current.kind == FL_PROFILE_UNIFORM) alike(c, s->current.velocity, a->n);
+    for (int32_t k = 0; k < a->n && s->current.kind != FL_PROFILE_UNIFORM; k++)
+        c[0][k] = s->flow[from + k].x, c[1][k] = s->flow[from + k].y, c[2][k] = s->flow[from + k].z;
+    decay(a, &s->sea, s->wetted + from, s->reach + from, c, b->held + from, h, -1.0, s->drained + from);
+}
+
+static void wind(fl_sea *s, const fl_bodies *b, fl_few *a, double h)
+{
+    const int32_t from = a->from;
+    _Alignas(64) double c[3][FL_FEW], dry[FL_FEW];
+    alike(c, s->breeze, a->n);
+    for (int32_t k = 0; k < a->n; k++)
+        dry[k] = s->hull[from + k].surface - (s->water ? s->wetted[from + k] : 0.0);
+    decay(a, &s->air, dry, s->reach + from, c, b->held + from, h, 1.0, s->blown + from);
 }
 
 void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, double h, int back)
 {
-    met by;
-    for (int turn = 0; turn < 2; turn++) { /* the wind first when on the way back */
-        if (turn == back && s->water) {
-            meet_water(&by, s, a);
-            decay(a, &s->sea, &by, b->held + a->from, h, -1.0, s->drained + a->from);
-        } else if (turn != back && s->wind) {
-            meet_wind(&by, s, a);
-            decay(a, &s->air, &by, b->held + a->from, h, 1.0, s->blown + a->from);
-        }
-    }
+    if (back && s->wind) wind(s, b, a, h);
+    if (s->water) water(s, b, a, h);
+    if (!back && s->wind) wind(s, b, a, h);
 }
 
 /* Right prisms, one array a number, in the order of fl_prism: read by that order. */
@@ -102,30 +97,39 @@ static_assert(offsetof(fl_prism, o) == O * sizeof(double) && offsetof(fl_prism, 
 
 typedef struct {
     _Alignas(64) double p[NUMBERS][FL_FEW];
-    double level[FL_FEW], reach[FL_FEW]; /* of the water over the origin; r_eff */
-    double floats[FL_FEW];               /* out: 1 where all of it holds, 0 */
+    double level[FL_FEW];  /* of the water over the origin */
+    double floats[FL_FEW]; /* out: 1 where all of it holds, 0 */
 } prisms;
 
 FL_FOUR_VERSIONS static void take(prisms *q, const fl_sea *s, const fl_bodies *b, const fl_few *a)
 {
-    const fl_hull *h = &s->hull[a->from];
-    const double *first = &h->prism.area;
-    for (int32_t c = 0; c < NUMBERS; c += 4) { /* the last four begin early, so as not to read beyond */
-        const int32_t at = c + 4 <= NUMBERS ? c : NUMBERS - 4;
-        fl_few_split4(q->p + at, first + at, sizeof *h, a->n);
+    const int32_t from = a->from, n = a->n;
+    const fl_hull *h = &s->hull[from];
+    const fl_vec3 *x = b->x + from;
+    const double level = s->level;
+    int32_t k = 0;
+    for (; k + FL_LANES <= n; k += FL_LANES) {
+        const double *first = &h->prism.area;
+        const fl_wide z = {x[k].z, x[k + 1].z, x[k + 2].z, x[k + 3].z};
+        for (int c = 0; c + 4 <= NUMBERS; c += 4) fl_few_split4(q->p + c, first + c, sizeof *h, k);
+        /* the last four begin early, so as not to read beyond */
+        fl_few_split4(q->p + NUMBERS - 4, first + NUMBERS - 4, sizeof *h, k);
+        FL_FOUR_INTO(&q->level[k]) = level - z;
     }
-    for (int32_t k = 0; k < a->n; k++) {
-        q->level[k] = s->level - b->x[a->from + k].z;
-        q->reach[k] = s->reach[a->from + k];
+    for (; k < n; k++) {
+        for (int c = 0; c < NUMBERS; c++) q->p[c][k] = (&h[k].prism.area)[c];
+        q->level[k] = level - x[k].z;
     }
 }
 
-/* fl_prism_wet(), fl_buoyancy_force() and what look_still() of sea.c makes of them. */
-FL_WIDE_VERSIONS static void look(prisms *restrict q, fl_few *restrict a, double weight,
-                                  double *restrict wetted, double *restrict lift, double *restrict centre,
-                                  double *restrict energy)
+/* fl_prism_wet(), fl_buoyancy_force() and what look_still() of sea.c makes of them; returns how many float as
+ * prisms do. */
+FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, double weight,
+                                    const double *restrict reach, double *restrict wetted,
+                                    double *restrict lift, double *restrict centre, double *restrict energy)
 {
-#pragma omp simd
+    double afloat = 0.0;
+#pragma omp simd reduction(+ : afloat)
     for (int32_t i = 0; i < a->n; i++) {
         const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i], level = q->level[i];
         const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], bx = q->p[B][i],
@@ -140,8 +144,8 @@ FL_WIDE_VERSIONS static void look(prisms *restrict q, fl_few *restrict a, double
         const double sa = -(ux * ax + uy * ay + uz * az) / by_ue, sb = -(ux * bx + uy * by + uz * bz) / by_ue;
         const double zw = (level - (ux * ox + uy * oy + uz * oz)) / by_ue, wet0 = zw - z0, dry0 = z1 - zw;
         const double least = wet0 < dry0 ? wet0 : dry0;
-        const int floats = area > 0.0 && ue > 0.1 && level < q->reach[i] && level > -q->reach[i] &&
-                           least > 0.0 && least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
+        const int floats = area > 0.0 && ue > 0.1 && level < reach[i] && level > -reach[i] && least > 0.0 &&
+                           least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
         const double ja = q->p[JAA][i] * sa + jab * sb, jb = jab * sa + q->p[JBB][i] * sb;
         const double volume = area * wet0, per = 1.0 / (floats ? volume : 1.0);
         const double mz = 0.5 * (area * wet0 * (zw + z0) + sa * ja + sb * jb);
@@ -151,7 +155,9 @@ FL_WIDE_VERSIONS static void look(prisms *restrict q, fl_few *restrict a, double
         const double over_water = ux * cx + uy * cy + uz * cz - level, push = weight * volume;
         const double fx = push * ux, fy = push * uy, fz = push * uz;
         const double tx = cy * fz - cz * fy, ty = cz * fx - cx * fz, tz = cx * fy - cy * fx;
-        q->floats[i] = floats ? 1.0 : 0.0;
+        const double one = floats ? 1.0 : 0.0;
+        q->floats[i] = one;
+        afloat += one;
         wetted[i] = area + q->p[ROUND][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]);
         lift[i] = push;
         centre[i] = over_water;
@@ -163,6 +169,7 @@ FL_WIDE_VERSIONS static void look(prisms *restrict q, fl_few *restrict a, double
         a->t[1][i] += a->R[3][i] * tx + a->R[4][i] * ty + a->R[5][i] * tz;
         a->t[2][i] += a->R[6][i] * tx + a->R[7][i] * ty + a->R[8][i] * tz;
     }
+    return afloat;
 }
 
 int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
@@ -171,10 +178,15 @@ int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_
     const int32_t from = a->from;
     int32_t others = 0;
     take(&q, s, b, a);
-    look(&q, a, s->weight, s->wetted + from, s->lift + from, s->centre + from, s->energy + from);
-    for (int32_t k = 0; k < a->n; k++) {
-        if (q.floats[k] > 0.0) s->flow[from + k] = fl_current_at(&s->current, s->centre[from + k]);
-        else left[others++] = k;
+    const double afloat = look(&q, a, s->weight, s->reach + from, s->wetted + from, s->lift + from,
+                               s->centre + from, s->energy + from);
+    if (s->current.kind == FL_PROFILE_UNIFORM) {
+        for (int32_t k = 0; k < a->n; k++) s->flow[from + k] = s->current.velocity;
+    } else {
+        for (int32_t k = 0; k < a->n; k++)
+            s->flow[from + k] = fl_current_at(&s->current, s->centre[from + k]);
     }
+    for (int32_t k = 0; k < a->n && afloat < a->n; k++)
+        if (!(q.floats[k] > 0.0)) left[others++] = k;
     return others;
 }
