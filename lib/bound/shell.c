@@ -189,7 +189,7 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
         if (single || may_come_behind(B->p, shell->box, l->wall, l->walls, w->va[v], margin + same))
             l->wall[l->walls + l->shy++] = v;
     leave_near(walls, A, B, ra + margin + same);
-    return whole(all, A->p) || fl_matches_list(l, A, all, B, walls, ra, ra, margin, &w->M, w->o) ||
+    return whole(all, A->p) || fl_matches_list(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_footing_list(l, A, B)
                ? -1
                : 0;

@@ -36,12 +36,14 @@ struct fl_footing {
     int32_t *corner;
     int32_t *vertex; /* of B, ascending in each foot; padded there to full registers */
     double *x;       /* their coordinates: x, y and z of a register's worth, and so on */
-    int32_t feet, foot_cap, tile_cap, strip_cap, point_cap, corners, corner_cap, vertex_cap, x_cap;
+    int32_t *row;    /* [matches] where each begins in the list */
+    int32_t row_cap, feet, foot_cap, tile_cap, strip_cap, point_cap, corners, corner_cap, vertex_cap, x_cap;
 };
 
 /* A match under F. */
 typedef struct {
     int32_t F, kind, own, way, match; /* kind 0: a face, 1: an edge, 2: a vertex; own: of B */
+    double factor;                    /* of an edge */
 } key;
 
 static int key_order(const void *x, const void *y)
@@ -71,16 +73,26 @@ static int32_t place_of(const int32_t *list, int32_t n, int32_t v)
     return low;
 }
 
-/* The matches of faces, edges and corners of B with faces of A, by those faces. */
-static int32_t keys_of(const fl_matches *l, key *out)
+/* The matches of faces, edges and corners of B with faces of A, by those faces; row: where each match
+ * begins. */
+static int32_t keys_of(const fl_matches *l, int32_t *row, key *out)
 {
     int32_t n = 0;
-    for (int32_t k = 0; k < l->n; k++) {
-        const fl_match *m = &l->c[k];
-        if (m->kind == FL_MATCH_FACE_FACE)
-            out[n++] = m->way == 0 ? (key){m->own, 0, m->other, 0, k} : (key){m->other, 0, m->own, 1, k};
-        else if (m->way == 1 && m->kind == FL_MATCH_EDGE_FACE) out[n++] = (key){m->other, 1, m->own, 1, k};
-        else if (m->way == 1 && m->kind == FL_MATCH_VERTEX_FACE) out[n++] = (key){m->other, 2, m->own, 1, k};
+    const void *whole = fl_matches_whole(l);
+    int32_t at = fl_matches_begin(l);
+    for (int32_t k = 0; k < l->n; k++, at = fl_match_next(whole, l->wide, at)) {
+        const int32_t head = fl_matches_get(whole, l->wide, at), way = fl_match_way(head);
+        const int32_t own = fl_matches_get(whole, l->wide, at + FL_MATCH_OWN);
+        const int32_t other = fl_matches_get(whole, l->wide, at + FL_MATCH_OTHER);
+        const int kind = fl_match_kind_of(head);
+        row[k] = at;
+        if (kind == FL_MATCH_FACE_FACE)
+            out[n++] = way == 0 ? (key){own, 0, other, 0, k, 0.0} : (key){other, 0, own, 1, k, 0.0};
+        else if (way == 1 && kind == FL_MATCH_VERTEX_FACE) out[n++] = (key){other, 2, own, 1, k, 0.0};
+        else if (way == 1 && kind == FL_MATCH_EDGE_FACE) {
+            const int32_t factor = fl_matches_get(whole, l->wide, at + FL_MATCH_FACTOR);
+            out[n++] = (key){other, 1, own, 1, k, fl_matches_numbers(l)[factor]};
+        }
     }
     return n;
 }
@@ -170,8 +182,8 @@ static int list_foot(lister *s, const key *k, int32_t n)
         } else if (k[c].kind == 1) {
             if (fl_grow(&o->strip, &o->strip_cap, (int64_t)s->strips + 1, sizeof *o->strip, &lost)) return -1;
             const fl_edge e = p->edge[k[c].own];
-            o->strip[s->strips++] = (strip){
-                {place_of(list, all, e.a), place_of(list, all, e.b)}, k[c].match, s->l->c[k[c].match].factor};
+            o->strip[s->strips++] =
+                (strip){{place_of(list, all, e.a), place_of(list, all, e.b)}, k[c].match, k[c].factor};
         } else {
             if (fl_grow(&o->point, &o->point_cap, (int64_t)s->points + 1, sizeof *o->point, &lost)) return -1;
             const double sharp = fmax(p->defect[k[c].own] * FL_PLACE_SHARP_CORNER, 0.0);
@@ -189,10 +201,12 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
     fl_err lost = {0};
     if (!l->footing) l->footing = fl_alloc(1, sizeof *l->footing, &lost);
     key *k = fl_alloc(l->n, sizeof *k, &lost);
-    int rc = l->footing && k ? 0 : -1;
+    int rc = l->footing && k && !fl_grow(&l->footing->row, &l->footing->row_cap, l->n, sizeof(int32_t), &lost)
+                 ? 0
+                 : -1;
     if (rc == 0) {
         lister s = {.o = l->footing, .l = l, .A = A, .B = B};
-        const int32_t n = keys_of(l, k);
+        const int32_t n = keys_of(l, l->footing->row, k);
         l->footing->feet = l->footing->corners = 0;
         if (n > 1) qsort(k, (size_t)n, sizeof *k, key_order);
         for (int32_t from = 0, to; from < n && rc == 0; from = to) {
@@ -1086,10 +1100,10 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
         }
         if (put(&q)) return -1;
     }
-    rest->c = room->left;
-    rest->n = 0;
+    rest->choice = room->left;
+    rest->chosen = 0;
     for (int32_t k = 0; k < l->n; k++)
-        if (!room->skip[k]) rest->c[rest->n++] = l->c[k];
+        if (!room->skip[k]) room->left[rest->chosen++] = o->row[k];
     return 0;
 }
 
@@ -1097,7 +1111,7 @@ void fl_footing_free(fl_footing *o)
 {
     if (!o) return;
     free(o->foot), free(o->tile), free(o->strip), free(o->point), free(o->corner), free(o->vertex),
-        free(o->x);
+        free(o->x), free(o->row);
     free(o);
 }
 

@@ -32,7 +32,7 @@ typedef struct {
     double
         *number; /* heights, places in the plane and distances from the sides of F, of all vertices; sides */
     uint8_t *skip;  /* [l->n] what the footings have done */
-    fl_match *left; /* what is left of the matches */
+    int32_t *left;  /* rows of the matches that are left */
     int32_t *whole; /* numbers of faces and edges that are whole under F */
     int32_t number_cap, skip_cap, left_cap, whole_cap;
 } fl_footing_work;

@@ -31,15 +31,38 @@ typedef struct {
     int32_t f, a, b; /* a = -1: the face itself */
 } plane;
 
-/* Those of a table, in its order. */
+/* A match, and the table of one way, while they are listed. */
 typedef struct {
-    plane *plane;
-    int32_t cap;
-} planes;
+    int32_t kind, way, own, other;
+    int32_t v[2];     /* columns */
+    int32_t first, n; /* sides; columns of corners follow */
+    int32_t corners, height, factor, length;
+} match;
 
 typedef struct {
-    fl_matches *l;
-    planes *named;
+    int32_t *vertex;
+    plane *plane;
+    int32_t vertices, planes, vertex_cap, plane_cap;
+} table;
+
+/* A number, and of which feature it is. */
+typedef struct {
+    double number;
+    int32_t edge;
+    int16_t way, length; /* the length of an edge of the other; else the factor of an own one */
+} known;
+
+typedef struct fl_draft {
+    match *c;
+    int32_t *side, *used;
+    known *known;
+    uint8_t *mark;
+    table table[2];
+    int32_t n, cap, sides, side_cap, used_v, used_f, used_cap, numbers, known_cap, mark_cap;
+} draft;
+
+typedef struct {
+    draft *l;
     int way;
     const fl_side *own, *other;
     double R, behind, margin, turn;
@@ -49,7 +72,7 @@ typedef struct {
  * again. */
 static int32_t column(const search *s, int32_t v)
 {
-    fl_table *t = &s->l->table[s->way];
+    table *t = &s->l->table[s->way];
     fl_err lost = {0};
     for (int32_t k = t->vertices; k-- > 0 && k > t->vertices - LATEST;)
         if (t->vertex[k] == v) return k;
@@ -68,20 +91,33 @@ static fl_cut cut_of(const fl_poly *p, const plane *q)
 
 static int32_t row(const search *s, int32_t f, int32_t a, int32_t b)
 {
-    fl_table *t = &s->l->table[s->way];
-    planes *named = &s->named[s->way];
+    table *t = &s->l->table[s->way];
     fl_err lost = {0};
-    for (int32_t k = t->cuts; k-- > 0 && k > t->cuts - LATEST;)
-        if (named->plane[k].f == f && named->plane[k].a == a && named->plane[k].b == b) return k;
-    if (fl_grow(&t->cut, &t->cut_cap, (int64_t)t->cuts + 1, sizeof *t->cut, &lost) ||
-        fl_grow(&named->plane, &named->cap, (int64_t)t->cuts + 1, sizeof *named->plane, &lost))
-        return -1;
-    named->plane[t->cuts] = (plane){f, a, b};
-    t->cut[t->cuts] = cut_of(s->other->p, &named->plane[t->cuts]);
-    return t->cuts++;
+    for (int32_t k = t->planes; k-- > 0 && k > t->planes - LATEST;)
+        if (t->plane[k].f == f && t->plane[k].a == a && t->plane[k].b == b) return k;
+    if (fl_grow(&t->plane, &t->plane_cap, (int64_t)t->planes + 1, sizeof *t->plane, &lost)) return -1;
+    t->plane[t->planes] = (plane){f, a, b};
+    return t->planes++;
 }
 
-static int push(fl_matches *l, int32_t side)
+/* Which of the numbers is the factor of an own edge, or the length of one of the other. */
+static int32_t number(const search *s, int32_t edge, int length)
+{
+    draft *l = s->l;
+    fl_err lost = {0};
+    for (int32_t k = l->numbers; k-- > 0 && k > l->numbers - LATEST;)
+        if (l->known[k].edge == edge && l->known[k].way == s->way && l->known[k].length == length) return k;
+    if (fl_grow(&l->known, &l->known_cap, (int64_t)l->numbers + 1, sizeof *l->known, &lost)) return -1;
+    const fl_poly *p = s->other->p;
+    const double x = length
+                         /* the same bits in any pose */
+                         ? v3_norm(v3_sub(p->v[p->edge[edge].b], p->v[p->edge[edge].a]))
+                         : fl_strips_factor(s->own, edge, s->other->r);
+    l->known[l->numbers] = (known){x, edge, (int16_t)s->way, (int16_t)length};
+    return l->numbers++;
+}
+
+static int push(draft *l, int32_t side)
 {
     fl_err lost = {0};
     if (fl_grow(&l->side, &l->side_cap, (int64_t)l->sides + 1, sizeof *l->side, &lost)) return -1;
@@ -91,7 +127,7 @@ static int push(fl_matches *l, int32_t side)
 
 /* It must be above a plane, or below.  The two sides of an edge ask the same row: all ask with the same
  * number, so that nothing falls between two and nothing counts twice. */
-static int beyond(const search *s, fl_match *m, int32_t f, int32_t a, int32_t b, int below)
+static int beyond(const search *s, match *m, int32_t f, int32_t a, int32_t b, int below)
 {
     const int turned = f >= 0 && a > b;
     const int32_t r = turned ? row(s, f, b, a) : row(s, f, a, b);
@@ -99,7 +135,7 @@ static int beyond(const search *s, fl_match *m, int32_t f, int32_t a, int32_t b,
     return r < 0 ? -1 : push(s->l, 2 * r + (below != turned));
 }
 
-static int sides_of_face(const search *s, fl_match *m)
+static int sides_of_face(const search *s, match *m)
 {
     const fl_poly *p = s->other->p;
     const int32_t *loop = p->loop + p->first[m->other], n = p->first[m->other + 1] - p->first[m->other];
@@ -109,18 +145,18 @@ static int sides_of_face(const search *s, fl_match *m)
     return m->height < 0 ? -1 : 0;
 }
 
-static int sides_of_edge(const search *s, fl_match *m)
+static int sides_of_edge(const search *s, match *m)
 {
     const fl_edge g = s->other->p->edge[m->other];
-    m->length = v3_norm(v3_sub(s->other->p->v[g.b], s->other->p->v[g.a])); /* the same bits in any pose */
-    return beyond(s, m, -1, g.a, g.b, 0) || beyond(s, m, -1, g.b, g.a, 0) ||
+    m->length = number(s, m->other, 1);
+    return m->length < 0 || beyond(s, m, -1, g.a, g.b, 0) || beyond(s, m, -1, g.b, g.a, 0) ||
                    (g.left >= 0 && beyond(s, m, g.left, g.a, g.b, 1)) ||
                    (g.right >= 0 && beyond(s, m, g.right, g.b, g.a, 1))
                ? -1
                : 0;
 }
 
-static int sides_of_vertex(const search *s, fl_match *m)
+static int sides_of_vertex(const search *s, match *m)
 {
     const fl_poly *p = s->other->p;
     for (int32_t k = p->begin[m->other]; k < p->begin[m->other + 1]; k++)
@@ -130,16 +166,16 @@ static int sides_of_vertex(const search *s, fl_match *m)
 
 static int add(const search *s, int kind, int32_t own, int32_t other)
 {
-    fl_matches *l = s->l;
+    draft *l = s->l;
     const fl_poly *p = s->own->p;
-    fl_match m = {
-        .kind = (int16_t)kind, .way = (int16_t)s->way, .own = own, .other = other, .first = l->sides};
+    match m = {.kind = kind, .way = s->way, .own = own, .other = other, .first = l->sides};
     fl_err lost = {0};
     if (fl_grow(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c, &lost)) return -1;
     const int face = kind == FL_MATCH_VERTEX_FACE || kind == FL_MATCH_EDGE_FACE || kind == FL_MATCH_FACE_FACE;
     const int edge = kind == FL_MATCH_VERTEX_EDGE || kind == FL_MATCH_EDGE_EDGE;
     if (face ? sides_of_face(s, &m) : edge ? sides_of_edge(s, &m) : sides_of_vertex(s, &m)) return -1;
     if (kind == FL_MATCH_FACE_FACE) {
+        m.corners = p->first[own + 1] - p->first[own];
         for (int32_t k = p->first[own]; k < p->first[own + 1]; k++) {
             const int32_t v = column(s, p->loop[k]);
             if (v < 0 || push(l, v)) return -1;
@@ -147,12 +183,12 @@ static int add(const search *s, int kind, int32_t own, int32_t other)
     } else if (kind >= FL_MATCH_EDGE_FACE) {
         m.v[0] = column(s, p->edge[own].a);
         m.v[1] = column(s, p->edge[own].b);
-        m.factor = fl_strips_factor(s->own, own, s->other->r);
+        m.factor = number(s, own, 0);
     } else {
         m.v[0] = m.v[1] = column(s, own);
     }
     l->c[l->n++] = m;
-    return m.v[0] < 0 || m.v[1] < 0 ? -1 : 0;
+    return m.v[0] < 0 || m.v[1] < 0 || m.factor < 0 ? -1 : 0;
 }
 
 static ends ends_of(const search *s, const int32_t *at, int32_t n)
@@ -275,11 +311,11 @@ static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach
 }
 
 /* Once each: mark[0 .. nv) for the vertices, mark[nv .. nv + nf) for the faces. */
-static int use(fl_matches *l, uint8_t *mark, int32_t at, int32_t number)
+static int use(draft *l, int32_t at, int32_t number)
 {
     fl_err lost = {0};
-    if (mark[at]) return 0;
-    mark[at] = 1;
+    if (l->mark[at]) return 0;
+    l->mark[at] = 1;
     const int32_t n = l->used_v + l->used_f;
     if (fl_grow(&l->used, &l->used_cap, (int64_t)n + 1, sizeof *l->used, &lost)) return -1;
     l->used[n] = number;
@@ -288,47 +324,126 @@ static int use(fl_matches *l, uint8_t *mark, int32_t at, int32_t number)
 
 enum feature { VERTEX, EDGE, FACE };
 
-static enum feature own_of(const fl_match *m)
+static enum feature own_of(const match *m)
 {
     return m->kind <= FL_MATCH_VERTEX_VERTEX ? VERTEX : m->kind <= FL_MATCH_EDGE_VERTEX ? EDGE : FACE;
 }
 
-static enum feature other_of(const fl_match *m)
+static enum feature other_of(const match *m)
 {
     if (m->kind == FL_MATCH_VERTEX_VERTEX || m->kind == FL_MATCH_EDGE_VERTEX) return VERTEX;
     return m->kind == FL_MATCH_VERTEX_EDGE || m->kind == FL_MATCH_EDGE_EDGE ? EDGE : FACE;
 }
 
 /* Vertices of A that the list speaks of, then faces. */
-static int list_used(fl_matches *l, const fl_poly *p)
+static int list_used(draft *l, const fl_poly *p)
 {
     fl_err lost = {0};
-    uint8_t *mark = fl_alloc((int64_t)p->nv + p->nf, sizeof *mark, &lost);
-    int rc = mark ? 0 : -1;
+    if (fl_grow(&l->mark, &l->mark_cap, (int64_t)p->nv + p->nf, sizeof *l->mark, &lost)) return -1;
+    memset(l->mark, 0, (size_t)p->nv + (size_t)p->nf);
     l->used_v = l->used_f = 0;
     for (int faces = 0; faces < 2; faces++) {
-        for (int32_t k = 0; k < l->n && rc == 0; k++) {
-            const fl_match *m = &l->c[k];
+        for (int32_t k = 0; k < l->n; k++) {
+            const match *m = &l->c[k];
             const enum feature of = m->way ? other_of(m) : own_of(m);
             const int32_t i = m->way ? m->other : m->own;
             const int32_t edge[2] = {of == EDGE ? p->edge[i].a : i, of == EDGE ? p->edge[i].b : i};
             const int32_t *at = of == FACE ? p->loop + p->first[i] : edge;
             const int32_t n = of == FACE ? p->first[i + 1] - p->first[i] : 2;
-            for (int32_t c = 0; c < n && rc == 0 && !faces; c++) {
-                const int fresh = !mark[at[c]];
-                rc = use(l, mark, at[c], at[c]);
+            for (int32_t c = 0; c < n && !faces; c++) {
+                const int fresh = !l->mark[at[c]];
+                if (use(l, at[c], at[c])) return -1;
                 l->used_v += fresh;
             }
             if (faces && of == FACE) {
-                const int fresh = !mark[p->nv + i];
-                rc = use(l, mark, p->nv + i, i);
+                const int fresh = !l->mark[p->nv + i];
+                if (use(l, p->nv + i, i)) return -1;
                 l->used_f += fresh;
             }
         }
     }
-    free(mark);
-    return rc;
+    return 0;
 }
+
+/* --- the block --------------------------------------------------------------------------------- */
+
+/* Whole numbers on their way into a block; without one they are counted, and the largest is found. */
+typedef struct {
+    uint16_t *narrow;
+    int32_t *wide;
+    int64_t n;
+    int32_t most;
+} whole;
+
+static void put(whole *to, int32_t x)
+{
+    if (to->narrow) to->narrow[to->n] = (uint16_t)x;
+    if (to->wide) to->wide[to->n] = x;
+    if (x > to->most) to->most = x;
+    to->n++;
+}
+
+static void put_match(whole *to, const draft *d, const match *m)
+{
+    const int edge = m->kind >= FL_MATCH_EDGE_FACE && m->kind <= FL_MATCH_EDGE_VERTEX;
+    const enum feature over = other_of(m);
+    const int32_t *side = d->side + m->first, columns = fl_matches_columns(d->table[m->way].vertices);
+    put(to, m->kind | m->way << 3 | m->n << 4);
+    put(to, m->own);
+    put(to, m->other);
+    put(to, m->kind == FL_MATCH_FACE_FACE ? m->corners : m->v[0]);
+    if (edge) put(to, m->v[1]), put(to, m->factor);
+    if (over != VERTEX) put(to, over == FACE ? columns * m->height : m->length);
+    for (int32_t k = 0; k < m->n; k++) put(to, columns * (side[k] & ~1) | (side[k] & 1));
+    for (int32_t k = 0; k < m->corners; k++) put(to, side[m->n + k]);
+}
+
+static void put_all(whole *to, const draft *d)
+{
+    for (int way = 0; way < 2; way++)
+        for (int32_t k = 0; k < d->table[way].vertices; k++) put(to, d->table[way].vertex[k]);
+    for (int32_t k = 0; k < d->used_v + d->used_f; k++) put(to, d->used[k]);
+    for (int32_t k = 0; k < d->n; k++) put_match(to, d, &d->c[k]);
+}
+
+/* What has been drafted, in a block as long as it must be. */
+static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *b)
+{
+    whole count = {0};
+    fl_err lost = {0};
+    for (int way = 0; way < 2; way++) { /* heights are told by numbers of 32 bits, times two */
+        const table *t = &d->table[way];
+        if (t->planes > INT32_MAX / 2 / (t->vertices + FL_LANES)) return -1;
+    }
+    put_all(&count, d);
+    const int wide = count.most > UINT16_MAX;
+    const int64_t planes = (int64_t)d->table[0].planes + d->table[1].planes,
+                  bytes = planes * (int64_t)sizeof(fl_cut) + d->numbers * (int64_t)sizeof(double) +
+                          count.n * (int64_t)(wide ? sizeof(int32_t) : sizeof(uint16_t));
+    if (l->size < bytes || l->size > bytes + bytes / 4) { /* a list lasts: nothing is kept in vain */
+        free(l->block);
+        l->block = NULL;
+        l->size = 0;
+        if (fl_grow(&l->block, &l->size, bytes, 1, &lost)) return -1;
+    }
+    fl_cut *cut = l->block;
+    for (int way = 0; way < 2; way++) {
+        const table *t = &d->table[way];
+        for (int32_t k = 0; k < t->planes; k++) *cut++ = cut_of(way ? a : b, &t->plane[k]);
+        l->cuts[way] = t->planes;
+        l->vertices[way] = t->vertices;
+    }
+    double *number = (double *)(void *)cut;
+    for (int32_t k = 0; k < d->numbers; k++) *number++ = d->known[k].number;
+    l->numbers = d->numbers;
+    l->used_v = d->used_v, l->used_f = d->used_f;
+    l->n = d->n;
+    l->wide = (int16_t)wide;
+    put_all(&(whole){.narrow = wide ? NULL : (void *)number, .wide = wide ? (void *)number : NULL}, d);
+    return 0;
+}
+
+/* --- the list ---------------------------------------------------------------------------------- */
 
 /* Margins over R: the first, before the way from look to look is known, and bounds of those after.  PRICE:
  * of a list, over what a look costs more for a margin of R; by counts of instructions, side on side. */
@@ -337,18 +452,6 @@ static int list_used(fl_matches *l, const fl_poly *p)
 #define MOST 0.3
 #define PRICE 4.0
 
-/* Give back what an array has been grown by in vain: a list lasts. */
-static void trim(void *array, int32_t *cap, int32_t n, size_t size)
-{
-    void *old, *less;
-    if (n == 0 || n == *cap) return;
-    memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T, as in fl_grow() */
-    less = realloc(old, (size_t)n * size);
-    if (!less) return;
-    memcpy(array, &less, sizeof less);
-    *cap = n;
-}
-
 double fl_matches_margin(const fl_matches *l, double R)
 {
     if (!(l->margin > 0.0)) return FIRST * R;
@@ -356,52 +459,47 @@ double fl_matches_margin(const fl_matches *l, double R)
     return best < LEAST * R ? LEAST * R : best > MOST * R ? MOST * R : best;
 }
 
-int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
-                    double R, double behind, double margin, const fl_mat3 *M, fl_vec3 o)
+int fl_matches_list(fl_matches *l, fl_places *w, const fl_side *A, const fl_reach *a, const fl_side *B,
+                    const fl_reach *b, double R, double behind, double margin)
 {
     double far = 0.0;
+    fl_err lost = {0};
+    l->shift2 = 0.0; /* half a list */
+    l->n = l->clear = 0;
+    if (!w->draft && !(w->draft = fl_alloc(1, sizeof *w->draft, &lost))) return -1;
     for (int32_t v = 0; v < A->p->nv; v++) far = fmax(far, v3_norm2(A->p->v[v]));
     far = sqrt(far) + R + margin;
     const double half = 0.5 * margin, turn = half / far; /* half of it for the shift, half for the turn */
     const double wide = margin + ROUNDING * (A->p->size + B->p->size);
-    planes named[2] = {{0}};
-    const search of_a = {l, named, 0, A, B, R, behind, wide, turn},
-                 of_b = {l, named, 1, B, A, R, behind, wide, turn};
-    l->n = l->sides = l->clear = 0;
-    for (int k = 0; k < 2; k++) l->table[k].vertices = l->table[k].cuts = 0;
-    l->M = *M, l->o = o;
+    draft *d = w->draft;
+    const search of_a = {d, 0, A, B, R, behind, wide, turn}, of_b = {d, 1, B, A, R, behind, wide, turn};
+    d->n = d->sides = d->numbers = 0;
+    for (int k = 0; k < 2; k++) d->table[k].vertices = d->table[k].planes = 0;
+    if (vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
+        edges_and_faces(&of_b, b, a) || list_used(d, A->p) || pack(l, d, A->p, B->p))
+        return -1;
+    l->M = w->M, l->o = w->o;
     l->shift2 = half * half, l->turn2 = turn * turn;
     l->margin = margin, l->uses = 1;
-    const int rc = vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
-                           edges_and_faces(&of_b, b, a) || list_used(l, A->p)
-                       ? -1
-                       : 0;
-    for (int k = 0; k < 2; k++) free(named[k].plane);
-    if (rc) l->shift2 = 0.0; /* half a list */
-    trim(&l->c, &l->cap, l->n, sizeof *l->c);
-    trim(&l->side, &l->side_cap, l->sides, sizeof *l->side);
-    trim(&l->used, &l->used_cap, l->used_v + l->used_f, sizeof *l->used);
-    for (int k = 0; k < 2; k++) {
-        trim(&l->table[k].cut, &l->table[k].cut_cap, l->table[k].cuts, sizeof *l->table[k].cut);
-        trim(&l->table[k].vertex, &l->table[k].vertex_cap, l->table[k].vertices, sizeof *l->table[k].vertex);
-    }
-    return rc;
+    return 0;
+}
+
+void fl_draft_free(draft *d)
+{
+    if (!d) return;
+    for (int k = 0; k < 2; k++) free(d->table[k].vertex), free(d->table[k].plane);
+    free(d->c), free(d->side), free(d->used), free(d->known), free(d->mark);
+    free(d);
 }
 
 void fl_matches_free(fl_matches *l)
 {
-    for (int k = 0; k < 2; k++) free(l->table[k].vertex), free(l->table[k].cut);
-    free(l->c), free(l->side), free(l->used), free(l->wall);
+    free(l->block), free(l->wall);
     fl_footing_free(l->footing);
     *l = (fl_matches){0};
 }
 
 double fl_matches_bytes(const fl_matches *l)
 {
-    size_t sum = sizeof *l + (size_t)l->cap * sizeof *l->c +
-                 ((size_t)l->side_cap + (size_t)l->used_cap + (size_t)l->wall_cap) * sizeof(int32_t);
-    for (int k = 0; k < 2; k++)
-        sum +=
-            (size_t)l->table[k].vertex_cap * sizeof(int32_t) + (size_t)l->table[k].cut_cap * sizeof(fl_cut);
-    return (double)sum;
+    return (double)(sizeof *l + (size_t)l->size + (size_t)l->wall_cap * sizeof(int32_t));
 }

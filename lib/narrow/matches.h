@@ -13,6 +13,7 @@
 #ifndef FL_NARROW_MATCHES_H
 #define FL_NARROW_MATCHES_H
 #include <stdint.h>
+#include "base/wide.h"
 #include "narrow/places.h"
 
 typedef enum {
@@ -25,48 +26,94 @@ typedef enum {
     FL_MATCH_FACE_FACE
 } fl_match_kind;
 
-typedef struct {
-    int16_t kind, way;  /* enum fl_match_kind; 0: of A over B, 1: of B over A */
-    int32_t own, other; /* numbers of the features */
-    int32_t v[2];       /* ends of an edge, or the vertex: columns of the table */
-    int32_t first,
-        n; /* fl_matches.side: what it must be beyond.  Of a face the columns of its corners follow */
-    int32_t height; /* row of the plane of the other face */
-    double factor;  /* of an edge, as fl_strips_factor() */
-    double length;  /* of the other edge [m] */
-} fl_match;
-
 /* A plane of a core in the core's own frame: h = g.x - c, a length times a length but for planes of faces. */
 typedef struct {
     fl_vec3 g;
     double c;
 } fl_cut;
 
-/* The table of one way: heights of vertices of one core over planes of the other. */
-typedef struct {
-    int32_t *vertex;
-    fl_cut *cut;
-    int32_t vertices, cuts, vertex_cap, cut_cap;
-} fl_table;
+/* A list lies in one block: planes, numbers, and whole numbers of 16 bits each, or of 32 where one of them
+ * would not fit.  A match is a row of those:
+ *     kind + 8 way + 16 sides     way 0: of A over B, 1: of B over A
+ *     own, other                  numbers of the features
+ *     column                      of the vertex, or the first of an edge; of a face how many corners it has
+ *     column, factor              of an edge: its second, and which number is its fl_strips_factor()
+ *     row or length               over a face the row of its plane; over an edge which number is its length
+ *     side ...                    2 row, or 2 row + 1 where below the plane is meant: what it must be beyond
+ *     column ...                  of a face those of its corners
+ * Rows and columns are those of the tables of heights, of vertices of one core over planes of the other; a
+ * row is told by where it begins in its table, so that the row and the column add up to the place. */
+enum { FL_MATCH_HEAD, FL_MATCH_OWN, FL_MATCH_OTHER, FL_MATCH_COLUMN, FL_MATCH_SECOND, FL_MATCH_FACTOR };
 
 /* Zeroed to start: nothing listed. */
 struct fl_matches {
-    fl_match *c;
-    int32_t *side; /* 2 row, or 2 row + 1 where below the plane is meant */
-    fl_table table[2];
-    int32_t *used; /* [used_v + used_f] vertices and faces of A that the list speaks of */
-    int32_t n, cap, sides, side_cap, used_v, used_f, used_cap;
-    int32_t clear; /* the cores do not meet while it holds */
-    fl_mat3 M;     /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
+    void *block;
+    int32_t size; /* of the block [B] */
+    int32_t n;
+    int32_t cuts[2], vertices[2], numbers; /* of the tables of the two ways; factors and lengths */
+    int32_t used_v, used_f;                /* vertices and faces of A that the list speaks of */
+    int16_t wide;                          /* whole numbers of 32 bits */
+    int16_t clear;                         /* the cores do not meet while it holds */
+    fl_mat3 M; /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
     fl_vec3 o;
-    double shift2, turn2; /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
-    double margin;        /* it was listed for [m] */
-    int64_t uses;         /* looks since then */
+    double shift2, turn2;  /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
+    double margin;         /* it was listed for [m] */
+    int64_t uses;          /* looks since then */
+    const int32_t *choice; /* [chosen] borrowed: where the rows begin that count, or NULL: all do */
+    int32_t chosen;
     int32_t *wall; /* [walls + shy] the caller's: faces of a surface that is not convex, in reach as long, and
                     * vertices of A that may come behind it as long */
     int32_t walls, shy, wall_cap;
     struct fl_footing *footing; /* of a surface: what may lie under a face of A (footing.h), or NULL */
 };
+
+/* So long is a row of so many vertices: full registers. */
+static inline int32_t fl_matches_columns(int32_t vertices)
+{
+    return (vertices + FL_LANES - 1) / FL_LANES * FL_LANES;
+}
+
+static inline const fl_cut *fl_matches_cuts(const fl_matches *l, int way)
+{
+    return (const fl_cut *)l->block + (way ? l->cuts[0] : 0);
+}
+
+static inline const double *fl_matches_numbers(const fl_matches *l)
+{
+    return (const double *)(const void *)(fl_matches_cuts(l, 1) + l->cuts[1]);
+}
+
+/* The whole numbers: columns of way 0, of way 1, what is used of A, rows of matches. */
+static inline const void *fl_matches_whole(const fl_matches *l) { return fl_matches_numbers(l) + l->numbers; }
+
+/* The k-th of them; `wide` as in the list. */
+static inline int32_t fl_matches_get(const void *whole, int wide, int64_t k)
+{
+    return wide ? ((const int32_t *)whole)[k] : ((const uint16_t *)whole)[k];
+}
+
+/* Where the rows begin. */
+static inline int32_t fl_matches_begin(const fl_matches *l)
+{
+    return l->vertices[0] + l->vertices[1] + l->used_v + l->used_f;
+}
+
+/* Of a row its kind, its sides and the numbers before them; the row behind one that begins at k. */
+static inline int fl_match_kind_of(int32_t head) { return head & 7; }
+static inline int fl_match_way(int32_t head) { return head >> 3 & 1; }
+static inline int32_t fl_match_sides(int32_t head) { return head >> 4; }
+static inline int fl_match_fixed(int kind)
+{
+    static const uint8_t FIXED[] = {5, 5, 4, 7, 7, 6, 5};
+    return FIXED[kind];
+}
+static inline int32_t fl_match_next(const void *whole, int wide, int32_t k)
+{
+    const int32_t head = fl_matches_get(whole, wide, k);
+    const int kind = fl_match_kind_of(head);
+    const int32_t corners = kind == FL_MATCH_FACE_FACE ? fl_matches_get(whole, wide, k + FL_MATCH_COLUMN) : 0;
+    return k + fl_match_fixed(kind) + fl_match_sides(head) + corners;
+}
 
 /* The margin to list with next [m], from how soon the last one was used up: a list costs as much as some
  * looks at it, and each of these the more, the farther it reaches; the sum is least where the margin is the
@@ -77,10 +124,10 @@ double fl_matches_margin(const fl_matches *l, double R);
  * moves by more than `margin` [m] against the other core: those of A, and those of B within reach of it,
  * which are no farther from A's centre than A's own and the reach.
  *   behind   how far below a face its prism reaches [m]
- *   M, o     where A stands now
+ *   w        where A has been entered; holds what is in work
  * -1 when memory runs out. */
-int fl_matches_list(fl_matches *l, const fl_side *A, const fl_reach *a, const fl_side *B, const fl_reach *b,
-                    double R, double behind, double margin, const fl_mat3 *M, fl_vec3 o);
+int fl_matches_list(fl_matches *l, fl_places *w, const fl_side *A, const fl_reach *a, const fl_side *B,
+                    const fl_reach *b, double R, double behind, double margin);
 
 /* It is still good where A stands now, and is counted as used. */
 static inline int fl_matches_hold(fl_matches *l, const fl_mat3 *M, fl_vec3 o)
@@ -106,5 +153,6 @@ int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const
 double fl_matches_bytes(const fl_matches *l);
 
 void fl_matches_free(fl_matches *l);
+void fl_draft_free(struct fl_draft *d); /* of fl_places; takes NULL */
 
 #endif

@@ -21,165 +21,212 @@ FL_WIDE_VERSIONS static void heights(const fl_cut *cut, int32_t rows, const doub
     }
 }
 
-/* A table that is filled. */
-typedef struct {
-    const double *h;
-    int32_t columns;
-} filled;
-
 /* way 0: vertices of A as they are, entered, over planes of B; 1: those of B, in the frame of A, over planes
  * of A. */
-static int fill(fl_places *w, const fl_table *t, int way, const fl_vec3 *own, filled *out)
+static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, const double **out)
 {
     fl_sheet *s = &w->sheet[way];
-    const int32_t columns = (t->vertices + FL_LANES - 1) / FL_LANES * FL_LANES;
+    const int32_t vertices = l->vertices[way], from = way ? l->vertices[0] : 0, cuts = l->cuts[way];
+    const int32_t columns = fl_matches_columns(vertices);
+    const void *whole = fl_matches_whole(l);
+    const int wide = l->wide;
     fl_err lost = {0};
     if (fl_grow(&s->x, &s->x_cap, 3 * (int64_t)columns, sizeof *s->x, &lost) ||
-        fl_grow(&s->h, &s->h_cap, (int64_t)t->cuts * columns, sizeof *s->h, &lost))
+        fl_grow(&s->h, &s->h_cap, (int64_t)cuts * columns, sizeof *s->h, &lost))
         return -1;
     double *x = s->x, *y = x + columns, *z = y + columns;
     for (int32_t k = 0; k < columns; k += FL_LANES) {
         fl_vec3 v[FL_LANES];
-        for (int l = 0; l < FL_LANES; l++) {
-            const fl_vec3 r = own[t->vertex[k + l < t->vertices ? k + l : k]];
-            v[l] = way ? m3_tmul(w->M, v3_sub(r, w->o)) : r;
+        for (int c = 0; c < FL_LANES; c++) {
+            const fl_vec3 r = own[fl_matches_get(whole, wide, from + (k + c < vertices ? k + c : k))];
+            v[c] = way ? m3_tmul(w->M, v3_sub(r, w->o)) : r;
         }
         *(fl_wide *)(x + k) = (fl_wide){v[0].x, v[1].x, v[2].x, v[3].x};
         *(fl_wide *)(y + k) = (fl_wide){v[0].y, v[1].y, v[2].y, v[3].y};
         *(fl_wide *)(z + k) = (fl_wide){v[0].z, v[1].z, v[2].z, v[3].z};
     }
-    heights(t->cut, t->cuts, x, y, z, columns, s->h);
-    *out = (filled){s->h, columns};
+    heights(fl_matches_cuts(l, way), cuts, x, y, z, columns, s->h);
+    *out = s->h;
     return 0;
 }
 
 /* Everything that a match needs. */
 typedef struct {
     fl_places *w;
-    const fl_matches *l;
+    const double *number;
     const fl_side *own, *other;
     const double *h; /* of this way */
-    int32_t columns;
     double R, behind, rim;
 } meeting;
 
-/* A vertex lies beyond all the sides. */
-static int beyond_all(const meeting *q, const fl_match *m)
+/* A row of the list, in work. */
+typedef const void *row;
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE int32_t get(row r, int wide, int32_t k) { return fl_matches_get(r, wide, k); }
+
+/* A vertex lies beyond all n sides, which begin behind the first fixed numbers. */
+INLINE int beyond_all(const meeting *q, row r, int wide, int fixed, int32_t n, int32_t v)
 {
-    const int32_t *side = q->l->side + m->first;
-    for (int32_t k = 0; k < m->n; k++) {
-        const double h = q->h[(side[k] >> 1) * q->columns + m->v[0]];
-        if (side[k] & 1 ? h > 0.0 : h < 0.0) return 0;
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t side = get(r, wide, fixed + k);
+        const double h = q->h[(side >> 1) + v];
+        if (side & 1 ? h > 0.0 : h < 0.0) return 0;
     }
     return 1;
 }
 
 /* Keep of an edge what lies beyond all the sides. */
-static int keep_beyond(const meeting *q, const fl_match *m, fl_span *t)
+INLINE int keep_beyond(const meeting *q, row r, int wide, int fixed, int32_t n, int32_t v0, int32_t v1,
+                       fl_span *t)
 {
-    const int32_t *side = q->l->side + m->first;
-    for (int32_t k = 0; k < m->n; k++) {
-        const double *h = q->h + (side[k] >> 1) * q->columns;
-        const double h0 = h[m->v[0]], h1 = h[m->v[1]];
-        if (!(side[k] & 1 ? fl_span_keep(t, -h0, -h1) : fl_span_keep(t, h0, h1))) return 0;
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t side = get(r, wide, fixed + k);
+        const double *h = q->h + (side >> 1), h0 = h[v0], h1 = h[v1];
+        if (!(side & 1 ? fl_span_keep(t, -h0, -h1) : fl_span_keep(t, h0, h1))) return 0;
     }
     return 1;
 }
 
-/* Vertex at r from the nearest point of an edge or a vertex. */
-static int vertex_at(const meeting *q, const fl_match *m, fl_vec3 r)
+/* Vertex v at r from the nearest point of an edge or a vertex. */
+static int vertex_at(const meeting *q, int32_t v, fl_vec3 r)
 {
     const double d = v3_norm(r);
     if (d >= q->R || d <= FL_SPAN_SAME * q->other->p->size) return 0;
-    return fl_places_vertex(q->w, q->own, q->other->r, m->own, v3_scale(1.0 / d, r), q->R - d);
+    return fl_places_vertex(q->w, q->own, q->other->r, v, v3_scale(1.0 / d, r), q->R - d);
 }
 
-static int vertex(const meeting *q, const fl_match *m)
+INLINE int vertex(const meeting *q, row r, int wide, int kind, int32_t n)
 {
     const fl_poly *p = q->other->p;
-    if (m->kind == FL_MATCH_VERTEX_FACE) {
-        const double h = q->h[m->height * q->columns + m->v[0]];
-        if (h >= q->R || h < -FL_SPAN_SAME * p->size || !beyond_all(q, m)) return 0;
-        return fl_places_vertex(q->w, q->own, q->other->r, m->own, q->other->n[m->other], q->R - h);
+    const int32_t own = get(r, wide, FL_MATCH_OWN), other = get(r, wide, FL_MATCH_OTHER),
+                  v = get(r, wide, FL_MATCH_COLUMN);
+    if (kind == FL_MATCH_VERTEX_FACE) {
+        const double h = q->h[get(r, wide, FL_MATCH_COLUMN + 1) + v];
+        if (h >= q->R || h < -FL_SPAN_SAME * p->size || !beyond_all(q, r, wide, 5, n, v)) return 0;
+        return fl_places_vertex(q->w, q->own, q->other->r, own, q->other->n[other], q->R - h);
     }
-    if (!beyond_all(q, m)) return 0;
-    if (m->kind == FL_MATCH_VERTEX_VERTEX)
-        return vertex_at(q, m, v3_sub(q->own->v[m->own], q->other->v[m->other]));
-    const fl_edge g = p->edge[m->other];
-    const fl_vec3 a = q->other->v[g.a], e = v3_scale(1.0 / m->length, v3_sub(q->other->v[g.b], a));
-    const fl_vec3 r = v3_sub(q->own->v[m->own], a);
-    return vertex_at(q, m, v3_madd(r, -v3_dot(r, e), e));
+    if (!beyond_all(q, r, wide, kind == FL_MATCH_VERTEX_VERTEX ? 4 : 5, n, v)) return 0;
+    if (kind == FL_MATCH_VERTEX_VERTEX) return vertex_at(q, own, v3_sub(q->own->v[own], q->other->v[other]));
+    const fl_edge g = p->edge[other];
+    const double length = q->number[get(r, wide, FL_MATCH_COLUMN + 1)];
+    const fl_vec3 a = q->other->v[g.a], e = v3_scale(1.0 / length, v3_sub(q->other->v[g.b], a));
+    const fl_vec3 way = v3_sub(q->own->v[own], a);
+    return vertex_at(q, own, v3_madd(way, -v3_dot(way, e), e));
 }
 
-static int edge(const meeting *q, const fl_match *m)
+INLINE int edge(const meeting *q, row r, int wide, int kind, int32_t n)
 {
     const fl_poly *p = q->other->p;
-    const fl_edge g = q->own->p->edge[m->own];
-    const fl_vec3 x0 = q->own->v[g.a], u = v3_sub(q->own->v[g.b], x0);
+    const int32_t own = get(r, wide, FL_MATCH_OWN), other = get(r, wide, FL_MATCH_OTHER),
+                  v0 = get(r, wide, FL_MATCH_COLUMN), v1 = get(r, wide, FL_MATCH_SECOND);
     const double small = FL_SPAN_SAME * p->size;
-    const fl_line line = {q->w, q->own, x0, u, m->factor, q->R};
+    double h0 = 0.0, h1 = 0.0;
     fl_span t = {0.0, 1.0};
-    if (m->kind == FL_MATCH_EDGE_FACE) {
-        const double *h = q->h + m->height * q->columns, h0 = h[m->v[0]], h1 = h[m->v[1]];
-        const double below = q->behind + small;
+    if (kind == FL_MATCH_EDGE_FACE) {
+        const double *h = q->h + get(r, wide, FL_MATCH_FACTOR + 1), below = q->behind + small;
+        h0 = h[v0], h1 = h[v1];
         if ((h0 >= q->R && h1 >= q->R) || !fl_span_keep(&t, h0 + below, h1 + below)) return 0;
-        return keep_beyond(q, m, &t) ? fl_strips_over_face(&line, t, h0, h1, q->other->n[m->other]) : 0;
     }
-    if (!keep_beyond(q, m, &t)) return 0;
-    if (m->kind == FL_MATCH_EDGE_VERTEX)
-        return fl_strips_over_point(&line, t, q->other->v[m->other], NULL, small);
-    const fl_edge o = p->edge[m->other];
-    const fl_vec3 a = q->other->v[o.a], e = v3_scale(1.0 / m->length, v3_sub(q->other->v[o.b], a));
+    if (!keep_beyond(q, r, wide, kind == FL_MATCH_EDGE_VERTEX ? 6 : 7, n, v0, v1, &t)) return 0;
+    const fl_edge g = q->own->p->edge[own];
+    const fl_vec3 x0 = q->own->v[g.a], u = v3_sub(q->own->v[g.b], x0);
+    const fl_line line = {q->w, q->own, x0, u, q->number[get(r, wide, FL_MATCH_FACTOR)], q->R};
+    if (kind == FL_MATCH_EDGE_FACE) return fl_strips_over_face(&line, t, h0, h1, q->other->n[other]);
+    if (kind == FL_MATCH_EDGE_VERTEX) return fl_strips_over_point(&line, t, q->other->v[other], NULL, small);
+    const fl_edge o = p->edge[other];
+    const double length = q->number[get(r, wide, FL_MATCH_FACTOR + 1)];
+    const fl_vec3 a = q->other->v[o.a], e = v3_scale(1.0 / length, v3_sub(q->other->v[o.b], a));
     return fl_strips_over_point(&line, t, a, &e, small);
 }
 
 /* A face none of whose corners is within reach and above the other, or all of whose corners are beyond one of
  * its sides, has no area there. */
-static int face(const meeting *q, const fl_match *m)
+INLINE int face(const meeting *q, row r, int wide, int32_t sides)
 {
-    const fl_poly *p = q->own->p;
-    const int32_t n = p->first[m->own + 1] - p->first[m->own];
-    const int32_t *side = q->l->side + m->first, *corner = side + m->n;
-    const double *h = q->h + m->height * q->columns;
+    const int32_t n = get(r, wide, FL_MATCH_COLUMN), height = get(r, wide, FL_MATCH_COLUMN + 1);
+    const double *h = q->h + height;
     int near = 0;
-    for (int32_t c = 0; c < n; c++) near |= h[corner[c]] < q->R;
+    for (int32_t c = 0; c < n; c++) near |= h[get(r, wide, 5 + sides + c)] < q->R;
     if (!near) return 0;
-    for (int32_t k = 0; k < m->n; k++) {
-        const double *g = q->h + (side[k] >> 1) * q->columns, sign = side[k] & 1 ? -1.0 : 1.0;
+    for (int32_t k = 0; k < sides; k++) {
+        const int32_t side = get(r, wide, 5 + k);
+        const double *g = q->h + (side >> 1), sign = side & 1 ? -1.0 : 1.0;
         int in = 0;
-        for (int32_t c = 0; c < n; c++) in |= sign * g[corner[c]] > 0.0;
+        for (int32_t c = 0; c < n; c++) in |= sign * g[get(r, wide, 5 + sides + c)] > 0.0;
         if (!in) return 0;
     }
-    return fl_areas_face(q->w, q->own, m->own, q->other, m->other, q->R, q->behind, q->rim);
+    return fl_areas_face(q->w, q->own, get(r, wide, FL_MATCH_OWN), q->other, get(r, wide, FL_MATCH_OTHER),
+                         q->R, q->behind, q->rim);
 }
 
 int fl_matches_enter(fl_places *w, const fl_matches *l, const fl_poly *a, fl_mat3 M, fl_vec3 o)
 {
     if (fl_places_size(w, a)) return -1;
     w->M = M, w->o = o;
-    for (int32_t k = 0; k < l->used_v; k++) {
-        const int32_t v = l->used[k];
+    const void *whole = fl_matches_whole(l);
+    const int32_t from = l->vertices[0] + l->vertices[1];
+    for (int32_t k = from; k < from + l->used_v; k++) {
+        const int32_t v = fl_matches_get(whole, l->wide, k);
         w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
     }
-    for (int32_t k = l->used_v; k < l->used_v + l->used_f; k++)
-        w->na[l->used[k]] = m3_mul(M, a->n[l->used[k]]);
+    for (int32_t k = from + l->used_v; k < from + l->used_v + l->used_f; k++) {
+        const int32_t f = fl_matches_get(whole, l->wide, k);
+        w->na[f] = m3_mul(M, a->n[f]);
+    }
+    return 0;
+}
+
+INLINE int all_rows(const meeting way[2], const fl_matches *l, int wide)
+{
+    const size_t each = wide ? sizeof(int32_t) : sizeof(uint16_t);
+    const char *r = (const char *)fl_matches_whole(l) + (size_t)fl_matches_begin(l) * each;
+    for (int32_t k = 0; k < l->n; k++) {
+        const row now = r;
+        const int32_t head = get(now, wide, FL_MATCH_HEAD), n = fl_match_sides(head);
+        const int kind = fl_match_kind_of(head);
+        const meeting *q = &way[fl_match_way(head)];
+        int bad;
+        switch (kind) {
+        case FL_MATCH_VERTEX_FACE:
+        case FL_MATCH_VERTEX_EDGE: r += (size_t)(5 + n) * each, bad = vertex(q, now, wide, kind, n); break;
+        case FL_MATCH_VERTEX_VERTEX: r += (size_t)(4 + n) * each, bad = vertex(q, now, wide, kind, n); break;
+        case FL_MATCH_EDGE_FACE:
+        case FL_MATCH_EDGE_EDGE: r += (size_t)(7 + n) * each, bad = edge(q, now, wide, kind, n); break;
+        case FL_MATCH_EDGE_VERTEX: r += (size_t)(6 + n) * each, bad = edge(q, now, wide, kind, n); break;
+        default: r += (size_t)(5 + n + get(now, wide, FL_MATCH_COLUMN)) * each; bad = face(q, now, wide, n);
+        }
+        if (bad) return -1;
+    }
+    return 0;
+}
+
+/* Those that the caller has chosen. */
+INLINE int some_rows(const meeting way[2], const fl_matches *l, int wide)
+{
+    const size_t each = wide ? sizeof(int32_t) : sizeof(uint16_t);
+    for (int32_t k = 0; k < l->chosen; k++) {
+        const row r = (const char *)fl_matches_whole(l) + (size_t)l->choice[k] * each;
+        const int32_t head = get(r, wide, FL_MATCH_HEAD), n = fl_match_sides(head);
+        const int kind = fl_match_kind_of(head);
+        const meeting *q = &way[fl_match_way(head)];
+        if (kind <= FL_MATCH_VERTEX_VERTEX ? vertex(q, r, wide, kind, n)
+            : kind <= FL_MATCH_EDGE_VERTEX ? edge(q, r, wide, kind, n)
+                                           : face(q, r, wide, n))
+            return -1;
+    }
     return 0;
 }
 
 int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const fl_side *B, double R,
                       double behind, double rim_a, double rim_b)
 {
-    filled f[2];
-    if (fill(w, &l->table[0], 0, A->v, &f[0]) || fill(w, &l->table[1], 1, B->v, &f[1])) return -1;
-    const meeting way[2] = {{w, l, A, B, f[0].h, f[0].columns, R, behind, rim_b},
-                            {w, l, B, A, f[1].h, f[1].columns, R, behind, rim_a}};
-    for (int32_t k = 0; k < l->n; k++) {
-        const fl_match *m = &l->c[k];
-        const meeting *q = &way[m->way];
-        if (m->kind <= FL_MATCH_VERTEX_VERTEX ? vertex(q, m)
-            : m->kind <= FL_MATCH_EDGE_VERTEX ? edge(q, m)
-                                              : face(q, m))
-            return -1;
-    }
-    return 0;
+    const double *h[2];
+    if (fill(w, l, 0, A->v, &h[0]) || fill(w, l, 1, B->v, &h[1])) return -1;
+    const double *number = fl_matches_numbers(l);
+    const meeting way[2] = {{w, number, A, B, h[0], R, behind, rim_b},
+                            {w, number, B, A, h[1], R, behind, rim_a}};
+    if (l->choice) return l->wide ? some_rows(way, l, 1) : some_rows(way, l, 0);
+    return l->wide ? all_rows(way, l, 1) : all_rows(way, l, 0);
 }

@@ -96,7 +96,7 @@ static int list_matches(fl_places *w, const fl_side *A, const fl_side *B, double
     for (int32_t v = 0; v < A->p->nv; v++) low = fmin(low, v3_dot(n, A->v[v]));
     for (int32_t v = 0; v < B->p->nv; v++) high = fmax(high, v3_dot(n, B->v[v]));
     if (in_reach(&w->of_a, A, n, high + R + margin) || in_reach(&w->of_b, B, v3_neg(n), R + margin - low) ||
-        fl_matches_list(l, A, &w->of_a, B, &w->of_b, R, 0.0, margin, &w->M, w->o))
+        fl_matches_list(l, w, A, &w->of_a, B, &w->of_b, R, 0.0, margin))
         return -1;
     l->clear = !deep && low - high > margin;
     return 0;
@@ -187,5 +187,6 @@ void fl_places_free(fl_places *w)
     fl_reach_free(&w->of_a), fl_reach_free(&w->of_b);
     for (int k = 0; k < 2; k++) free(w->sheet[k].h), free(w->sheet[k].x);
     free(w->va), free(w->na), free(w->place), free(w->cut), free(w->lane), free(w->share);
+    fl_draft_free(w->draft);
     *w = (fl_places){0};
 }

@@ -93,9 +93,47 @@ static void the_margin_follows_the_motion(void **state)
     fl_poly_free(&a), fl_poly_free(&b);
 }
 
+/* A box on the cap of a prism of many corners, whose numbers need 32 bits: the measure of the contact is that
+ * on a prism of four. */
+static void many_sides_are_as_few(void **state)
+{
+    (void)state;
+    enum { MANY = 4200 };
+    static fl_vec3 xy[MANY];
+    const fl_vec3 square[4] = {{2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, {-2, -2, 0}};
+    const fl_quat q = q_of_vector(v3(1e-3, -2e-3, 0.7));
+    fl_places w = {0};
+    fl_poly a = {0}, few = {0}, many = {0};
+    fl_matches l = {0}, m = {0};
+    fl_err err = {0};
+    for (int k = 0; k < MANY; k++) {
+        const double t = 2.0 * 3.14159265358979323846 * k / MANY;
+        xy[k] = v3(2.0 * cos(t), 2.0 * sin(t), 0);
+    }
+    assert_int_equal(fl_poly_box(&a, v3(0.5, 0.6, 0.2), &err) ||
+                         fl_poly_prism(&few, 4, square, -1, 0, &err) ||
+                         fl_poly_prism(&many, MANY, xy, -1, 0, &err),
+                     0);
+    const fl_vec3 x = v3(0.1, 0.2, 0.2 + 0.9 * R), up = v3(0, 0, 1);
+    const fl_overlap apart = {0};
+    assert_int_equal(fl_places_enter(&w, &a, q_matrix(q), x), 0);
+    assert_int_equal(fl_places_find(&w, &a, &few, RADIUS, RADIUS, up, &apart, &l), 0);
+    const double u = fl_places_measure(&w);
+    const int32_t places = w.n;
+    assert_int_equal(fl_places_find(&w, &a, &many, RADIUS, RADIUS, up, &apart, &m), 0);
+    assert_true(u > 0.0 && !l.wide && m.wide);
+    assert_near(fl_places_measure(&w), u, 1e-12);
+    assert_int_equal(w.n, places);
+    assert_true(fl_matches_bytes(&l) < 3000.0);
+    fl_matches_free(&l), fl_matches_free(&m);
+    fl_places_free(&w);
+    fl_poly_free(&a), fl_poly_free(&few), fl_poly_free(&many);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_bears_on_no_bit),
-                                       cmocka_unit_test(the_margin_follows_the_motion)};
+                                       cmocka_unit_test(the_margin_follows_the_motion),
+                                       cmocka_unit_test(many_sides_are_as_few)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
