@@ -226,6 +226,11 @@ static double share_of(const fl_world *w, const fl_pair *p, int32_t i)
     return own + sqrt(p->stiff_i * p->stiff_j);
 }
 
+static int touched(const fl_world *w, int32_t i)
+{
+    return w->met[i] || w->balls.bodies || fl_frozen_at(w, i);
+}
+
 /* 2/omega of body i < n by the contacts of the last survey. */
 static double limit_of(const fl_world *w, int32_t i)
 {
@@ -248,6 +253,7 @@ static void survey_stiffness(fl_world *w)
         int32_t i_own = INT32_MAX;
 #pragma omp for schedule(static) nowait
         for (int32_t i = 0; i < w->n; i++) {
+            if (!touched(w, i)) continue;
             const double limit = limit_of(w, i);
             if (limit < own) own = limit, i_own = i;
         }

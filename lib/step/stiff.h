@@ -9,7 +9,7 @@
 #include "body/body.h"
 
 typedef struct {
-    double a[6][6]; /* [1/s2] */
+    double a[6][8]; /* of each row the last two numbers are 0 [1/s2] */
 } fl_stiff;
 
 /* K += k g g^T for the force f and torque t on body i; k may be negative.  f, t in world axes, k (f, t)^2 in
