@@ -466,6 +466,11 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err)
     memcpy(p.edge, from->edge, (size_t)p.ne * sizeof *p.edge);
     memcpy(p.first, from->first, ((size_t)p.nf + 1) * sizeof *p.first);
     memcpy(p.loop, from->loop, (size_t)nl * sizeof *p.loop);
+    if (!from->bend) { /* it was without angles */
+        fl_poly_angles(&p);
+        *to = p;
+        return 0;
+    }
     memcpy(p.bend, from->bend, (size_t)p.ne * sizeof *p.bend);
     memcpy(p.defect, from->defect, (size_t)p.nv * sizeof *p.defect);
     memcpy(p.begin, from->begin, ((size_t)p.nv + 1) * sizeof *p.begin);
@@ -541,10 +546,10 @@ double fl_poly_bytes(const fl_poly *p)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
     if (!p->mem) return 0.0;
-    size_t sum = nv * sizeof *p->v + (p->n ? nf * (sizeof *p->n + sizeof *p->c) : 0) +
+    size_t sum = (p->v ? nv * sizeof *p->v : 0) + (p->n ? nf * (sizeof *p->n + sizeof *p->c) : 0) +
                  (p->bend ? nv * sizeof *p->defect + ne * sizeof *p->bend : 0);
-    if (p->first) sum += (nf + 1 + (size_t)p->first[nf]) * sizeof(int32_t);
-    if (p->edge) sum += ne * sizeof *p->edge + (nv + 1 + 2 * ne) * sizeof(int32_t);
+    if (p->first && !p->shared) sum += (nf + 1 + (size_t)p->first[nf]) * sizeof(int32_t);
+    if (p->edge && !p->shared) sum += ne * sizeof *p->edge + (nv + 1 + 2 * ne) * sizeof(int32_t);
     return (double)sum;
 }
 

@@ -101,7 +101,7 @@ fl_footprint fl_footprint_of(const fl_world *w)
                       .search = search(w),
                       .balls = fl_balls_bytes(w),
                       .others = others(w)};
-    b.shapes = ARRAY(w->b.core, w->b.total);
+    b.shapes = ARRAY(w->b.core, w->b.total) + fl_topologies_bytes(&w->alike);
     for (int32_t k = 0; k < w->b.total; k++) b.shapes += fl_poly_bytes(&w->b.core[k]);
     b.pairs = ARRAY(w->pair, w->n_pair);
     for (int32_t c = 0; c < w->n_pair; c++)

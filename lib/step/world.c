@@ -84,7 +84,7 @@ static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, f
     fl_body_derive(b, i);
     fl_body_spin(b, i, field->spin[k]);
     if (field->group[k] >= 0) hold_body(w, i, field->groups.name[field->group[k]], field->spin[k]);
-    return 0;
+    return fl_topologies_share(&w->alike, &b->core[i], 1, err);
 bad:
     if (why.code == FL_SYSTEM) {
         *err = why;
@@ -119,6 +119,7 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
                        "%s: body %d: ice.shape = round has no hydrostatics of a polyhedron; use sharp with "
                        "[water] or [wind]",
                        w->scene->ice.file, w->id[i]);
+    if (!round && fl_topologies_share(&w->alike, outer, 0, err)) return -1;
     w->sea.outer[i] = *outer;
     *outer = (fl_poly){0};
     w->sea.reach[i] = round ? fl_drag_radius(core, w->b.radius[i]) : fl_drag_radius(&w->sea.outer[i], 0.0);
@@ -575,6 +576,7 @@ void fl_world_free(fl_world *w)
     fl_pairs_free(&w->near);
     fl_sea_free(&w->sea);
     fl_bodies_free(&w->b);
+    fl_topologies_free(&w->alike);
     fl_structure_free(&w->structure);
     *w = (fl_world){0};
 }

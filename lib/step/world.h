@@ -17,6 +17,7 @@
 #include "narrow/deep.h"
 #include "narrow/gjk.h"
 #include "narrow/places.h"
+#include "geom/topology.h"
 #include "scene/field.h"
 #include "scene/scene.h"
 #include "step/ball.h"
@@ -244,6 +245,7 @@ typedef struct {
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
+    fl_topologies alike; /* of cores and outer shapes */
     int32_t n, pieces, walls;
     fl_structure structure;
     fl_cell cell;

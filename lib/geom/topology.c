@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "base/par.h"
+#include "geom/topology.h"
+
+static size_t loops(const fl_poly *p) { return (size_t)p->first[p->nf]; }
+
+/* Edges and what is beside a vertex follow from the faces. */
+static uint64_t key_of(const fl_poly *p)
+{
+    const int32_t size[2] = {p->nv, p->nf};
+    uint64_t h = fl_hash(FL_HASH_START, size, sizeof size);
+    h = fl_hash(h, p->first, (p->nf + (int64_t)1) * (int64_t)sizeof *p->first);
+    return fl_hash(h, p->loop, (int64_t)(loops(p) * sizeof *p->loop));
+}
+
+/* Give p the arrays of a kind. */
+static void borrow(fl_poly *p, const fl_topology *t)
+{
+    p->edge = t->mem;
+    p->first = (int32_t *)(void *)(p->edge + t->ne);
+    p->loop = p->first + t->nf + 1;
+    p->begin = p->loop + p->first[t->nf];
+    p->beside = p->begin + t->nv + 1;
+    p->shared = 1;
+}
+
+static int alike(const fl_topology *t, const fl_poly *p)
+{
+    if (t->nv != p->nv || t->nf != p->nf || t->ne != p->ne) return 0;
+    const int32_t *first = (const int32_t *)(const void *)((const fl_edge *)t->mem + t->ne);
+    const size_t faces = (size_t)p->nf + 1;
+    return memcmp(first, p->first, faces * sizeof *first) == 0 &&
+           memcmp(first + faces, p->loop, loops(p) * sizeof *first) == 0;
+}
+
+/* Where a kind with this key begins to be looked for. */
+static int32_t slot_of(const fl_topologies *t, uint64_t key) { return (int32_t)(key % (uint64_t)t->slots); }
+
+static int32_t next_to(const fl_topologies *t, int32_t s) { return s + 1 < t->slots ? s + 1 : 0; }
+
+static int make_room(fl_topologies *t, fl_err *err)
+{
+    if (fl_grow(&t->kind, &t->kind_cap, (int64_t)t->n + 1, sizeof *t->kind, err)) return -1;
+    if (2 * (int64_t)t->n + 2 <= t->slots) return 0;
+    const int64_t slots = t->slots ? 2 * (int64_t)t->slots : 64;
+    int32_t *fresh = slots <= INT32_MAX ? fl_alloc(slots, sizeof *fresh, err) : NULL;
+    if (!fresh) return err->code ? -1 : fl_fail(err, FL_SYSTEM, "out of memory: %d shapes", t->n);
+    free(t->slot);
+    t->slot = fresh;
+    t->slots = (int32_t)slots;
+    for (int32_t k = 0; k < t->n; k++) {
+        int32_t s = slot_of(t, t->kind[k].key);
+        while (t->slot[s]) s = next_to(t, s);
+        t->slot[s] = k + 1;
+    }
+    return 0;
+}
+
+/* The kind of p, which is added where there is none. */
+static const fl_topology *kind_of(fl_topologies *t, const fl_poly *p, fl_err *err)
+{
+    const uint64_t key = key_of(p);
+    if (make_room(t, err)) return NULL;
+    int32_t s = slot_of(t, key);
+    for (; t->slot[s]; s = next_to(t, s)) {
+        const fl_topology *k = &t->kind[t->slot[s] - 1];
+        if (k->key == key && alike(k, p)) return k;
+    }
+    const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne, nl = loops(p);
+    fl_topology k = {.key = key, .nv = p->nv, .nf = p->nf, .ne = p->ne};
+    const size_t whole = nf + 1 + nl + nv + 1 + 2 * ne;
+    if (fl_grow(&k.mem, &k.bytes, (int64_t)(ne * sizeof *p->edge + whole * sizeof(int32_t)), 1, err))
+        return NULL;
+    char *at = k.mem;
+    at = (char *)memcpy(at, p->edge, ne * sizeof *p->edge) + ne * sizeof *p->edge;
+    at = (char *)memcpy(at, p->first, (nf + 1) * sizeof *p->first) + (nf + 1) * sizeof *p->first;
+    at = (char *)memcpy(at, p->loop, nl * sizeof *p->loop) + nl * sizeof *p->loop;
+    at = (char *)memcpy(at, p->begin, (nv + 1) * sizeof *p->begin) + (nv + 1) * sizeof *p->begin;
+    memcpy(at, p->beside, 2 * ne * sizeof *p->beside);
+    t->kind[t->n] = k;
+    t->slot[s] = ++t->n;
+    return &t->kind[t->n - 1];
+}
+
+int fl_topologies_share(fl_topologies *t, fl_poly *p, int angles, fl_err *err)
+{
+    const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
+    const fl_topology *kind = kind_of(t, p, err);
+    fl_poly q = *p;
+    int32_t bytes = 0;
+    q.mem = NULL;
+    if (!kind || fl_grow(&q.mem, &bytes,
+                         (int64_t)((nv + nf) * sizeof *q.v + nf * sizeof *q.c +
+                                   (angles ? (ne + nv) * sizeof *q.bend : 0)),
+                         1, err))
+        return -1;
+    q.v = memcpy(q.mem, p->v, nv * sizeof *q.v);
+    q.n = memcpy(q.v + nv, p->n, nf * sizeof *q.n);
+    q.c = memcpy(q.n + nf, p->c, nf * sizeof *q.c);
+    q.bend = angles ? memcpy(q.c + nf, p->bend, ne * sizeof *q.bend) : NULL;
+    q.defect = angles ? memcpy(q.bend + ne, p->defect, nv * sizeof *q.defect) : NULL;
+    borrow(&q, kind);
+    fl_poly_free(p);
+    *p = q;
+    return 0;
+}
+
+double fl_topologies_bytes(const fl_topologies *t)
+{
+    size_t sum = (size_t)t->kind_cap * sizeof *t->kind + (size_t)t->slots * sizeof *t->slot;
+    for (int32_t k = 0; k < t->n; k++) sum += (size_t)t->kind[k].bytes;
+    return (double)sum;
+}
+
+void fl_topologies_free(fl_topologies *t)
+{
+    for (int32_t k = 0; k < t->n; k++) free(t->kind[k].mem);
+    free(t->kind), free(t->slot);
+    *t = (fl_topologies){0};
+}

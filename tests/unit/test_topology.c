@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/mem.h"
+#include "geom/topology.h"
+#include "support/near.h"
+
+static void prism(fl_poly *p, int n, double size)
+{
+    fl_vec3 xy[200];
+    fl_err err = {0};
+    for (int k = 0; k < n; k++) {
+        const double t = 2.0 * 3.14159265358979323846 * k / n;
+        xy[k] = v3(size * cos(t), size * sin(t), 0);
+    }
+    assert_int_equal(fl_poly_prism(p, n, xy, -size, size, &err), 0);
+}
+
+static void same(const fl_poly *p, const fl_poly *q)
+{
+    const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
+    assert_int_equal(p->nv, q->nv);
+    assert_int_equal(p->nf, q->nf);
+    assert_int_equal(p->ne, q->ne);
+    assert_memory_equal(p->v, q->v, nv * sizeof *p->v);
+    if (nf) assert_memory_equal(p->n, q->n, nf * sizeof *p->n);
+    if (nf) assert_memory_equal(p->c, q->c, nf * sizeof *p->c);
+    assert_memory_equal(p->first, q->first, (nf + 1) * sizeof *p->first);
+    if (nf) assert_memory_equal(p->loop, q->loop, (size_t)p->first[nf] * sizeof *p->loop);
+    if (ne) assert_memory_equal(p->edge, q->edge, ne * sizeof *p->edge);
+    if (ne) assert_memory_equal(p->bend, q->bend, ne * sizeof *p->bend);
+    assert_memory_equal(p->defect, q->defect, nv * sizeof *p->defect);
+    assert_memory_equal(p->begin, q->begin, (nv + 1) * sizeof *p->begin);
+    if (ne) assert_memory_equal(p->beside, q->beside, 2 * ne * sizeof *p->beside);
+}
+
+/* Of 3 to 190 corners, each three times: more kinds than the table begins with. */
+static void like_ones_share_and_nothing_else_changes(void **state)
+{
+    (void)state;
+    enum { KINDS = 188, TIMES = 3, N = KINDS * TIMES };
+    static fl_poly p[N], q[N];
+    fl_topologies t = {0};
+    fl_err err = {0};
+    double apart = 0.0, together = 0.0;
+    for (int k = 0; k < N; k++) {
+        prism(&p[k], 3 + k % KINDS, 1.0 + k);
+        assert_int_equal(fl_poly_copy(&q[k], &p[k], &err), 0);
+        apart += fl_poly_bytes(&q[k]);
+        assert_int_equal(fl_topologies_share(&t, &q[k], 1, &err), 0);
+        same(&p[k], &q[k]);
+        together += fl_poly_bytes(&q[k]);
+    }
+    assert_int_equal(t.n, KINDS);
+    for (int k = KINDS; k < N; k++) assert_ptr_equal(q[k].loop, q[k - KINDS].loop);
+    assert_true(together + fl_topologies_bytes(&t) < 0.75 * apart);
+    for (int k = 0; k < N; k++) {
+        fl_poly r = {0};
+        same(&p[k], &q[k]); /* whatever came after */
+        assert_int_equal(fl_poly_copy(&r, &q[k], &err), 0);
+        same(&p[k], &r);
+        fl_poly_free(&p[k]), fl_poly_free(&q[k]), fl_poly_free(&r);
+    }
+    fl_topologies_free(&t);
+}
+
+/* Without angles: a copy has them again. */
+static void points_segments_and_outer_shapes(void **state)
+{
+    (void)state;
+    const fl_vec3 v[2] = {{1, 2, 3}, {4, 5, 6}};
+    fl_topologies t = {0};
+    fl_err err = {0};
+    for (int nv = 1; nv <= 3; nv++) {
+        fl_poly p = {0}, q = {0}, r = {0};
+        if (nv < 3) assert_int_equal(fl_poly_make(&p, nv, v, 0, NULL, NULL, &err), 0);
+        else prism(&p, 5, 2.0);
+        assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
+        assert_int_equal(fl_topologies_share(&t, &q, 0, &err), 0);
+        assert_null(q.bend);
+        assert_null(q.defect);
+        assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
+        same(&p, &r);
+        fl_poly_free(&p), fl_poly_free(&q), fl_poly_free(&r);
+    }
+    assert_int_equal(t.n, 3);
+    fl_topologies_free(&t);
+}
+
+static void without_memory_all_stays(void **state)
+{
+    (void)state;
+    fl_topologies t = {0};
+    fl_poly p = {0}, q = {0};
+    fl_err err = {0};
+    int refused = 0;
+    prism(&p, 6, 1.0), prism(&q, 6, 1.0);
+    for (long k = 0; k < 10; k++) {
+        fl_err lost = {0};
+        fl_mem_fail_after(k);
+        const int rc = fl_topologies_share(&t, &q, 1, &lost);
+        fl_mem_fail_after(-1);
+        same(&p, &q);
+        if (rc == 0) break;
+        assert_int_equal(lost.code, FL_SYSTEM);
+        refused++;
+    }
+    assert_true(refused >= 2);
+    assert_int_equal(q.shared, 1);
+    assert_int_equal(fl_topologies_share(&t, &q, 1, &err), 0); /* again */
+    same(&p, &q);
+    fl_poly_free(&p), fl_poly_free(&q);
+    fl_topologies_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(like_ones_share_and_nothing_else_changes),
+                                       cmocka_unit_test(points_segments_and_outer_shapes),
+                                       cmocka_unit_test(without_memory_all_stays)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
