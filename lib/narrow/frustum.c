@@ -5,6 +5,7 @@
 #include "narrow/areas.h"
 #include "narrow/nearest.h"
 #include "narrow/rules.h"
+#include "narrow/slant.h"
 #include "narrow/strips.h"
 
 /* Halvings in search of where s ends: the length of a double. */
@@ -110,6 +111,25 @@ static double end_of(const shape *c, const line *l, double in, double out)
     return in;
 }
 
+/* The same where the side alone is in reach of [lo, hi], so that p(t)^2 - rho(t)^2 is A t^2 + 2 B t + C: what
+ * is inside lies between its zeros.  -1 where it may not. */
+static int inside_side(const shape *c, const line *l, double *lo, double *hi, int zero[2])
+{
+    const double up = c->R * c->nz, z0 = l->z0 + *lo * l->dz - up, z1 = l->z0 + *hi * l->dz - up;
+    if (!(fmin(z0, z1) >= 0.0 && fmax(z0, z1) <= c->h)) return -1;
+    const double grow = (c->r1 - c->r0) / c->h, p0 = c->r0 + (l->z0 - up) * grow + c->R * c->nr,
+                 p1 = grow * l->dz;
+    const double A = p1 * p1 - l->g, B = p0 * p1 - l->b, C = p0 * p0 - l->a, left = B * B - A * C;
+    if (!(A < 0.0)) return -1;
+    if (!(left > 0.0)) return 0;
+    const double q = -B - copysign(sqrt(left), B), t0 = q / A, t1 = C / q;
+    const double from = t0 < t1 ? t0 : t1, to = t0 < t1 ? t1 : t0;
+    zero[0] = from > *lo, zero[1] = to < *hi;
+    if (zero[0]) *lo = from;
+    if (zero[1]) *hi = to;
+    return *lo < *hi;
+}
+
 /* Keep of [lo, hi] what is inside; zero[] tells which ends are where s ends.  0 when nothing is left. */
 static int inside(const shape *c, const line *l, double *lo, double *hi, int zero[2])
 {
@@ -119,6 +139,8 @@ static int inside(const shape *c, const line *l, double *lo, double *hi, int zer
     in = in < a ? a : in > b ? b : in;
     if (fmin(z0, z1) >= c->h + c->R || fmax(z0, z1) <= -c->R) return 0;
     if (l->a + in * (2.0 * l->b + in * l->g) >= wide * wide) return 0;
+    const int known = inside_side(c, l, lo, hi, zero);
+    if (known >= 0) return known;
     const int lo_in = depth(c, l, a) > 0.0, hi_in = depth(c, l, b) > 0.0;
     zero[0] = !lo_in, zero[1] = !hi_in;
     if (lo_in && hi_in) return 1;
@@ -324,10 +346,81 @@ static int zone_in_row(const void *what, double y)
     return cosine > FL_AREAS_COS ? 1 + d.zone : 0;
 }
 
-static void add_line(face *q, double x, double width)
+/* --- rows beside the slant side --------------------------------------------------------------------------
+ *
+ * With b the point of the row that is nearest to the axis, K = b.n_F, L = b.ex, T = ez.ex,
+ *     n = (nr K q + nz nFz) n_F + (nr L q + nz T) ex + nr q y ey,     c = -n.n_F,
+ *     e = ez x er = T y q n_F - nFz y q ex + (nFz L - T K) q ey,
+ * so that what add_point() sums up is made of the sums of slant.h. */
+
+/* The row at x from y = lo to hi, K and L as above, added to what is summed over the face. */
+static void add_row_sums(face *q, double x, const fl_slant_row *p, double K, double L)
+{
+    const double nr = q->c->nr, nz = q->c->nz, T = q->ex.z, nFz = q->n.z;
+    const double X = v3_dot(q->ex, v3_madd(v3_sub(v3_scale(q->level, q->n), q->sum.o), x, q->ex));
+    sums *t = &q->sum;
+    fl_slant_row_sums r;
+    fl_slant_row_sum(p, &r);
+    t->u += r.u, t->du += r.du, t->ddu += r.ddu, t->ds += r.ds;
+    t->most = r.most > t->most ? r.most : t->most;
+    t->sx += X * r.du, t->sxx += X * X * r.du;
+    t->sy += r.dy, t->sxy += X * r.dy, t->syy += r.dyy;
+    /* the force along n_F, ex and ey, and that times y */
+    const double fn = nr * (K * r.dq + T * T * r.kyy) + nz * nFz * r.du;
+    const double fx = nr * (L * r.dq - T * nFz * r.kyy) + nz * T * r.du;
+    const double fy = nr * (r.dqy + T * (nFz * L - T * K) * r.ky);
+    const double fny = nr * (K * r.dqy + T * T * r.kyyy) + nz * nFz * r.dy;
+    const double fxy = nr * (L * r.dqy - T * nFz * r.kyyy) + nz * T * r.dy;
+    t->f = v3_madd(v3_madd(v3_madd(t->f, fn, q->n), fx, q->ex), fy, q->ey);
+    t->m = v3_madd(v3_madd(v3_madd(t->m, X * fy - fxy, q->n), fny, q->ex), -X * fn, q->ey);
+    t->couple = v3_madd(v3_madd(t->couple, nr * L * r.kq + nz * T * r.k, q->ey), -nr * r.kqy, q->ex);
+}
+
+/* The part of a row where the side is nearest and faces F: c falls or rises with |y|.  0 where that is not
+ * known. */
+static int add_row(face *q, double x, double z, double h2, double lo, double hi, double width)
+{
+    const shape *c = q->c;
+    const double h = sqrt(h2), out = c->nr * (h - c->r0) + c->nz * z;
+    if (!(out > -z && out > z - c->h)) return 0; /* inside, an end may be nearer */
+    const fl_vec3 b = v3_madd(v3_scale(q->level, q->n), x, q->ex);
+    const double K = b.x * q->n.x + b.y * q->n.y, L = b.x * q->ex.x + b.y * q->ex.y;
+    fl_slant_row p = {.h2 = h2,
+                      .s0 = c->R - c->nz * z + c->nr * c->r0,
+                      .nr = c->nr,
+                      .c0 = -c->nz * q->n.z,
+                      .ck = c->nr * K,
+                      .lo = lo,
+                      .hi = hi,
+                      .area = width};
+    const double need = FL_AREAS_COS - p.c0, far = lo < 0.0 ? fmax(-lo, hi) : hi,
+                 near = lo > 0.0   ? lo
+                        : hi < 0.0 ? -hi
+                                   : 0.0;
+    const int at_near = -p.ck > need * sqrt(h2 + near * near), at_far = -p.ck > need * sqrt(h2 + far * far);
+    if (!at_near && !at_far) return 1;
+    if (at_near && at_far) {
+        add_row_sums(q, x, &p, K, L);
+        return 1;
+    }
+    const double rho = -p.ck / need, y = sqrt(fmax(rho * rho - h2, 0.0));
+    for (int half = 0; half < 2; half++) {
+        const double from = at_near ? (half ? 0.0 : -y)
+                            : half  ? y
+                                    : -INFINITY,
+                     to = at_near ? (half ? y : 0.0)
+                          : half  ? INFINITY
+                                  : -y;
+        p.lo = from > lo ? from : lo, p.hi = to < hi ? to : hi;
+        if (p.lo < p.hi) add_row_sums(q, x, &p, K, L);
+    }
+    return 1;
+}
+
+static void add_line(face *q, double x, double width, int side)
 {
     const line *l = &q->axis;
-    const double p = profile(q->c, l->z0 + x * l->dz), h2 = l->a + x * (2.0 * l->b + x * l->g);
+    const double z = l->z0 + x * l->dz, p = profile(q->c, z), h2 = l->a + x * (2.0 * l->b + x * l->g);
     double lo, hi;
     stretches parts;
     if (!(p > 0.0) || !(p * p > h2)) return;
@@ -336,10 +429,10 @@ static void add_line(face *q, double x, double width)
     lo = lo > -far ? lo : -far;
     hi = hi < far ? hi : far;
     if (!(lo < hi)) return;
+    if (side && add_row(q, x, z, h2 > 0.0 ? h2 : 0.0, lo, hi, width)) return;
     const row r = {q, x};
-    if (!(lo < hi)) return;
     cut_zones(&parts, zone_in_row, &r, 0.0, far); /* they depend on |y| alone */
-    if (parts.n == 1) {                           /* as nearly always */
+    if (parts.n == 1) {
         for (int k = 0; k < FL_LONG_NODES && parts.s[0].zone; k++)
             add_point(q, x, lo + FL_LONG_NODE[k] * (hi - lo), width * FL_LONG_WEIGHT[k] * (hi - lo));
         return;
@@ -398,6 +491,14 @@ static int turned_away(const face *q, double lo, double hi)
     return most <= FL_AREAS_COS;
 }
 
+/* Seen from its plane alone, no part of F faces the side, and the ends are out of reach:
+ *     c rho = -nr n_F.b - nz nFz rho,   n_F.b = level - nFz z. */
+static int faces_away(const shape *c, fl_vec3 n, double level, double low, double high)
+{
+    const double far = c->R * fabs(c->nz), K0 = level - n.z * low, K1 = level - n.z * high;
+    return low >= far && high <= c->h - far && -c->nz * n.z <= FL_AREAS_COS && K0 >= 0.0 && K1 >= 0.0;
+}
+
 /* Least squared distance of the line from the axis. */
 static double nearest2(const line *l, double lo, double hi)
 {
@@ -415,10 +516,17 @@ static int over_face(fl_places *w, const fl_side *A, int32_t F, const shape *c)
     double lo = INFINITY, hi = -INFINITY, low = INFINITY, high = -INFINITY, at[BREAKS];
     int zero[2];
     fl_err lost = {0};
+    for (int32_t k = 0; k < n; k++) {
+        const double z = A->v[loop[k]].z;
+        low = z < low ? z : low;
+        high = z > high ? z : high;
+    }
+    q.level = v3_dot(q.n, A->v[loop[0]]);
+    if (low >= c->h + c->R || high <= -c->R || faces_away(c, q.n, q.level, low, high)) return 0;
     if (fl_grow(&w->cut, &w->cut_cap, n, sizeof *w->cut, &lost)) return -1;
+    low = INFINITY, high = -INFINITY;
     q.ex = v3_norm(tilt) > SMALL ? v3_unit(tilt) : v3_normal_to(q.n);
     q.ey = v3_cross(q.n, q.ex);
-    q.level = v3_dot(q.n, A->v[loop[0]]);
     for (int32_t k = 0; k < n; k++) {
         const double x = v3_dot(q.ex, A->v[loop[k]]), y = v3_dot(q.ey, A->v[loop[k]]);
         w->cut[k] = v3(x, y, 0);
@@ -458,13 +566,13 @@ static int over_face(fl_places *w, const fl_side *A, int32_t F, const shape *c)
     for (int32_t b = 0; b + 1 < breaks; b++) {
         const int ends[2] = {zero[0] && b == 0, zero[1] && b + 2 == breaks};
         const double x0 = at[b], width = at[b + 1] - x0;
-        const int panels = on_side(&q, x0, at[b + 1]) ? 1 : PANELS;
+        const int side = on_side(&q, x0, at[b + 1]), panels = side ? 1 : PANELS;
         if (!(width > SMALL * (hi - lo))) continue;
         for (int k = 0; k < panels * FL_LONG_NODES; k++) {
             double t;
             const double u = (k / FL_LONG_NODES + FL_LONG_NODE[k % FL_LONG_NODES]) / panels,
                          dt = bunch(u, ends, &t);
-            add_line(&q, x0 + t * width, FL_LONG_WEIGHT[k % FL_LONG_NODES] / panels * dt * width);
+            add_line(&q, x0 + t * width, FL_LONG_WEIGHT[k % FL_LONG_NODES] / panels * dt * width, side);
         }
     }
     return put(w, &q.sum, 3, A->r);
@@ -472,6 +580,23 @@ static int over_face(fl_places *w, const fl_side *A, int32_t F, const shape *c)
 
 /* --- edges -----------------------------------------------------------------------------------------------
  */
+
+/* Added to what is summed over the edge, whose middle is q->o. */
+static void add_walk(sums *q, const shape *c, fl_vec3 u, const fl_slant_edge *p)
+{
+    fl_slant_edge_sums r;
+    fl_slant_edge_sum(p, &r);
+    const double length = v3_dot(q->x, u);
+    q->u += r.u, q->du += r.du, q->ddu += r.ddu, q->ds += r.ds;
+    q->most = r.most > q->most ? r.most : q->most;
+    q->sx += length * r.dt, q->sxx += length * length * r.dtt;
+    /* of d n and of d n times t; where the middle lies from the axis, and u across it */
+    const fl_vec3 o = v3(q->o.x, q->o.y, 0), a = v3(u.x, u.y, 0), nz = v3(0, 0, c->nz);
+    const fl_vec3 f = v3_madd(v3_scale(c->nr, v3_madd(v3_scale(r.dq, o), r.dqt, a)), r.du, nz);
+    const fl_vec3 ft = v3_madd(v3_scale(c->nr, v3_madd(v3_scale(r.dqt, o), r.dqtt, a)), r.dt, nz);
+    q->f = v3_add(q->f, f);
+    q->m = v3_add(q->m, v3_cross(u, ft));
+}
 
 static void add_piece(sums *q, const shape *c, fl_vec3 a, fl_vec3 u, double factor, double from, double width,
                       const int zero[2])
@@ -502,19 +627,48 @@ static int zone_in_walk(const void *what, double t)
     return field_at(r->c, sqrt(at.x * at.x + at.y * at.y), at.z).zone;
 }
 
+/* From t = lo to hi the side is nearest, also to what lies inside. */
+static int along_side(const shape *c, const line *l, double lo, double hi)
+{
+    const double z0 = l->z0 + lo * l->dz, z1 = l->z0 + hi * l->dz, far = c->R * fabs(c->nz);
+    const double low = fmin(z0, z1), high = fmax(z0, z1), rho = sqrt(fmax(nearest2(l, lo, hi), 0.0));
+    const double out = c->nr * (rho - c->r0) + fmin(c->nz * z0, c->nz * z1);
+    return low >= far && high <= c->h - far && out > -low && out > high - c->h;
+}
+
 static int over_edge(fl_places *w, const fl_side *A, int32_t e, const shape *c)
 {
+    static const double BUNCH[2][2][3] = {{{1, 0, 0}, {2, -1, 0}}, {{0, 1, 0}, {0, 3, -2}}}; /* as bunch() */
     const fl_edge g = A->p->edge[e];
     const fl_vec3 a = A->v[g.a], u = v3_sub(A->v[g.b], a);
-    const double factor = fl_strips_factor(A, e, 0.0);
     const line l = line_of(a, u);
     double lo = 0.0, hi = 1.0, at[BREAKS];
     int zero[2];
-    if (!(factor > 0.0) || !inside(c, &l, &lo, &hi, zero)) return 0;
-    sums q = {.o = v3_madd(a, 0.5 * (lo + hi), u), .x = v3_unit(u)};
+    if (!inside(c, &l, &lo, &hi, zero)) return 0;
+    const double factor = fl_strips_factor(A, e, 0.0);
+    if (!(factor > 0.0)) return 0;
+    const double middle = 0.5 * (lo + hi);
+    sums q = {.o = v3_madd(a, middle, u), .x = v3_unit(u)};
+    const int halves = zero[0] && zero[1] ? 2 : 1;
+    if (along_side(c, &l, lo, hi)) {
+        fl_slant_edge p = {.a = l.a,
+                           .b = l.b,
+                           .g = l.g,
+                           .s0 = c->R + c->nr * c->r0 - c->nz * l.z0,
+                           .s1 = -c->nz * l.dz,
+                           .nr = c->nr};
+        p.middle = middle, p.factor = factor, p.width = (hi - lo) / halves;
+        for (int k = 0; k < halves; k++) {
+            const double *bunched = BUNCH[zero[0] && k == 0][zero[1] && k + 1 == halves];
+            p.from = k ? middle : lo;
+            p.c[0] = bunched[0], p.c[1] = bunched[1], p.c[2] = bunched[2];
+            add_walk(&q, c, u, &p);
+        }
+        return put(w, &q, 2, A->r);
+    }
     int32_t n = changes(c, &l, lo, hi, at);
     at[n++] = lo, at[n++] = hi;
-    if (zero[0] && zero[1]) at[n++] = 0.5 * (lo + hi);
+    if (halves == 2) at[n++] = middle;
     rising(at, n);
     const walk r = {c, a, u};
     for (int32_t k = 0; k + 1 < n; k++) {
