@@ -137,8 +137,7 @@ static int may_have_left(const fl_world *w, int32_t k)
 static int may_touch(const fl_world *w, int32_t k)
 {
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-        const fl_pair *p = &w->pair[w->inc[c]];
-        if (p->n || w->b.odometer[p->i] + w->b.odometer[p->j] >= p->asleep) return 1;
+        if (!fl_world_apart(w, &w->pair[w->inc[c]])) return 1;
     }
     return 0;
 }

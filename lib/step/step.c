@@ -45,9 +45,10 @@ static void contacts_of_pairs(fl_world *w, double dt, int survey)
     for (int32_t k = 0; k < w->frozen.n; k++) fl_frozen_touch(w, k);
 #pragma omp for schedule(dynamic, 16)
     for (int32_t c = 0; c < w->n_pair; c++) {
-        if (fl_sleep_frozen(w, &w->pair[c])) continue;
-        fl_interact(w, &w->pair[c], omp_get_thread_num(), dt, survey);
-        w->hit[c] = w->pair[c].n != 0;
+        fl_pair *const p = &w->pair[c];
+        if (fl_world_apart(w, p) || fl_sleep_frozen(w, p)) continue; /* and it did not touch before */
+        fl_interact_awake(w, p, omp_get_thread_num(), dt, survey);
+        w->hit[c] = p->n != 0;
     }
 }
 

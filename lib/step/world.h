@@ -350,6 +350,12 @@ static inline double fl_world_spring(const fl_world *w, int32_t i, double *drawn
  */
 int32_t fl_world_name(const fl_world *w, int32_t k);
 
+/* Whether a pair still cannot touch since it was last looked at. */
+static inline int fl_world_apart(const fl_world *w, const fl_pair *p)
+{
+    return p->n == 0 && w->b.odometer[p->i] + w->b.odometer[p->j] < p->asleep;
+}
+
 /* Whether place i < n is empty. */
 static inline int fl_world_away(const fl_world *w, int32_t i)
 {
