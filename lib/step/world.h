@@ -275,7 +275,7 @@ typedef struct {
     int64_t *inc_first; /* [total + 1] pairs of each body, ascending */
     int32_t *inc;       /* [2 n_pair] */
     /* Which pairs touch, apart from the pairs themselves: most do not, and need not be looked at for it. */
-    uint8_t *hit;  /* [n_pair] */
+    uint8_t *hit;  /* [n_pair] 1: touches, else 0 */
     int32_t *live; /* [n_live] those that do, ascending */
     uint8_t *met;  /* [total] is of one of those */
     int32_t n_live, hit_cap, live_cap;
