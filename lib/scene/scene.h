@@ -193,6 +193,7 @@ typedef struct {
     int32_t drag;                /* manual, facet: enum fl_drag_law of water/sea.h */
     double skin_coef, form_coef; /* C_s and C_f of facet */
     double drag_moment_coef;     /* C of equation (9) */
+    int32_t every;               /* steps between two looks at the water */
 } fl_scene_water;
 
 typedef struct {

@@ -380,6 +380,11 @@ int fl_scene_check(fl_scene *s, fl_err *err)
             s, "run.sleep", err,
             "run.error repeats windows with other steps, in which nobody sleeps: one of run.error "
             "and run.sleep was wanted");
+    if (s->water.head.present && s->water.every > 1 && s->run.sleep > 0.0)
+        return fl_scene_fail(
+            s, "water.every", err,
+            "floes that sleep under run.sleep meet the water when they wake: water.every = 1 "
+            "was wanted");
     if (s->run.error > 0.0 && s->run.dt > 0.0)
         return fl_scene_fail(s, "run.error", err,
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");

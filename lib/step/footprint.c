@@ -41,7 +41,7 @@ static double water(const fl_sea *s)
                  ARRAY(s->flow, s->n) + ARRAY(s->energy, s->n) + ARRAY(s->drained, s->n) +
                  ARRAY(s->blown, s->n) + ARRAY(s->skin, s->n) + ARRAY(s->tiles, s->n) +
                  ARRAY(s->cells, (double)s->threads * s->cells_each) + ARRAY(s->push, s->n) +
-                 ARRAY(s->turn, s->n) + ARRAY(s->waved, s->n);
+                 ARRAY(s->turn, s->n) + ARRAY(s->waved, s->n) + ARRAY(s->held, s->n);
     for (int32_t i = 0; i < s->n; i++) {
         sum += fl_poly_bytes(&s->outer[i]) + hull(&s->hull[i]);
         if (s->skin) {

@@ -256,6 +256,12 @@ static void sea(traffic *t, fl_sea *s, int32_t i)
     real(t, &s->drained[i]);
     real(t, &s->blown[i]);
     if (s->waves) real(t, &s->waved[i]);
+    if (s->held) {
+        fl_sea_held *h = &s->held[i];
+        vec3(t, &h->df), vec3(t, &h->dt), vec3(t, &h->dflow), vec3(t, &h->x);
+        real(t, &h->q.w), real(t, &h->q.x), real(t, &h->q.y), real(t, &h->q.z);
+        real(t, &h->when);
+    }
     close_row(t);
 }
 
@@ -544,6 +550,10 @@ static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, i);
+        if (t->in && !t->err->code && w->sea.held && !fl_world_away(w, i) &&
+            !(w->sea.held[i].when <= w->sea.time))
+            fl_text_fail(t->in, t->err, "a look at the water at %g s is none that has been",
+                         w->sea.held[i].when);
         if (!t->in || t->err->code || fl_world_away(w, i)) continue;
         if (fl_sleep_kind(w, i) != FL_AWAKE) /* what it meets is of then */
             w->sea.time = fl_sleep_since(w, i);

@@ -14,7 +14,8 @@
  *     mover ... x v L q w f t held, what of its springs and dampers lasts, and the hash of its track
  *     pressed   what follows, where panels or events are asked for: panel, mark and event rows
  *     current   hash of its table, where there is one
- *     sea ...   wetted lift energy drained blown, waved with waves alone
+ *     sea ...   wetted lift energy drained blown, waved with waves alone;
+ *               with water.every what of the last look is needed, fl_sea_held
  *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces */
 #ifndef FL_STEP_SNAPSHOT_H
 #define FL_STEP_SNAPSHOT_H

@@ -418,6 +418,7 @@ int fl_step(fl_world *w, fl_err *err)
         if (!rides || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
     w->step++;
     w->sea.time = fl_world_time(w);
+    w->sea.looks = w->sea.every < 2 || w->step % w->sea.every == 0;
     if (fl_search(w, err)) return -1;
     if (w->sleep.nap) fl_sleep_rouse(w);
     if (w->balls.bodies && !w->sleep.nap && !w->press.panels) {
@@ -435,6 +436,7 @@ int fl_step(fl_world *w, fl_err *err)
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     if (survey) survey_stiffness(w);
     if (check(w, survey, err) || watch(w, &deep, err)) return -1;
+    w->sea.looks = 1; /* whoever is put anywhere between two steps is looked at */
     if (w->traffic.away && fl_traffic_step(w, err)) return -1;
     if (w->sleep.nap) fl_sleep_lull(w);
     return 0;
@@ -472,7 +474,8 @@ void fl_step_ledger(fl_world *w)
         }
         if (b->added) drag -= b->carried[i];
         if (w->sea.n) {
-            if (w->sea.water && there) hydro += w->sea.energy[i];
+            if (w->sea.water && there)
+                hydro += w->sea.held && !w->sea.waves ? fl_sea_energy(&w->sea, b, i) : w->sea.energy[i];
             drag += w->sea.drained[i];
             wind += w->sea.blown[i];
             if (w->sea.waves) waves += w->sea.waved[i];

@@ -178,6 +178,7 @@ static int make_sea(fl_world *w, fl_err *err)
     fl_sea *sea = &w->sea;
     if (!s->water.head.present && !s->wind.head.present) return 0;
     sea->water = s->water.head.present;
+    sea->every = s->water.every;
     sea->wind = s->wind.head.present;
     sea->level = s->water.level;
     sea->weight = s->water.density * v3_norm(s->run.gravity);

@@ -20,6 +20,11 @@ int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
     if (!s->outer || !s->hull || !s->reach || !s->wetted || !s->energy || !s->lift || !s->centre ||
         !s->flow || !s->drained || !s->blown)
         return -1;
+    if (s->water && s->every > 1) {
+        s->held = fl_alloc(n, sizeof *s->held, err);
+        if (!s->held) return -1;
+        s->looks = 1;
+    }
     if ((s->water && s->sea_law == FL_DRAG_FACET) || (s->wind && s->air_law == FL_DRAG_FACET)) {
         s->skin = fl_alloc(n, sizeof *s->skin, err);
         if (!s->skin) return -1;
@@ -55,6 +60,7 @@ static int fit_skin(fl_sea *s, int32_t i, fl_err *err)
 
 int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err)
 {
+    if (s->held) s->held[i] = (fl_sea_held){.when = INFINITY};
     if (s->skin && fit_skin(s, i, err)) return -1;
     if (!s->waves) return 0;
     const int32_t want = fl_wave_cells(&s->wave, s->reach[i] + s->wave.swing);
@@ -79,7 +85,7 @@ void fl_sea_free(fl_sea *s)
     free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->lift), free(s->energy);
     free(s->centre), free(s->flow), free(s->drained), free(s->blown);
     free(s->cells), free(s->push), free(s->turn), free(s->waved);
-    free(s->tiles), free(s->skin);
+    free(s->tiles), free(s->skin), free(s->held);
     fl_waves_free(&s->wave);
     fl_current_free(&s->current);
     *s = (fl_sea){0};
@@ -116,19 +122,34 @@ static void look_at_pieces(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up,
     }
 }
 
+/* What is below still water; one that is wholly dry or wet by far is told by its reach alone.  up is
+ * transpose(R) e_z. */
+static fl_wet wet_of(const fl_sea *s, int32_t i, fl_vec3 up, double level)
+{
+    const fl_hull *h = &s->hull[i];
+    fl_wet wet = {0};
+    if (level >= s->reach[i]) wet = (fl_wet){.volume = h->volume, .centre = h->centre, .wetted = h->surface};
+    else if (level > -s->reach[i]) fl_buoyancy(h, up, level, &wet);
+    return wet;
+}
+
+double fl_sea_energy(const fl_sea *s, const fl_bodies *b, int32_t i)
+{
+    const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]);
+    const double level = s->level - b->x[i].z;
+    const fl_wet wet = wet_of(s, i, up, level);
+    fl_vec3 f, turn;
+    return fl_buoyancy_force(&wet, up, level, s->weight, &f, &turn);
+}
+
 /* Still water as it meets body i: force and moment about its centre, world axes. */
 static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
-    const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]); /* transpose(R) e_z */
+    const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]);
     const double level = s->level - b->x[i].z;
     const fl_afloat at = {.up = up, .z = -level};
-    fl_wet wet = {0};
+    const fl_wet wet = wet_of(s, i, up, level);
     fl_vec3 turn;
-    /* one that is wholly dry or wet by far is told by its reach alone */
-    if (level >= s->reach[i])
-        wet =
-            (fl_wet){.volume = s->hull[i].volume, .centre = s->hull[i].centre, .wetted = s->hull[i].surface};
-    else if (level > -s->reach[i]) fl_buoyancy(&s->hull[i], up, level, &wet);
     s->wetted[i] = wet.wetted;
     s->centre[i] = v3_dot(up, wet.centre) - level;
     s->energy[i] = fl_buoyancy_force(&wet, up, level, s->weight, f, &turn);
@@ -198,16 +219,46 @@ static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t
     s->turn[i] = *t;
 }
 
+/* From then to now. */
+static fl_vec3 slope(fl_vec3 now, fl_vec3 then, double past)
+{
+    return v3_scale(1.0 / past, v3_sub(now, then));
+}
+
 static void look(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     if (s->waves) look_wavy(s, b, i, f, t);
     else look_still(s, b, i, f, t);
+    if (!s->held) return;
+    fl_sea_held *h = &s->held[i];
+    const double past = s->time - h->when;
+    if (past > 0.0) {
+        h->df = slope(*f, h->f, past);
+        h->dt = slope(*t, h->t, past);
+        h->dflow = slope(s->flow[i], h->flow, past);
+    }
+    h->f = *f, h->t = *t, h->flow = s->flow[i];
+    h->x = b->x[i], h->q = b->q[i], h->when = s->time;
+}
+
+/* What there would be to see by now. */
+static void go_on(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+{
+    const fl_sea_held *h = &s->held[i];
+    const double past = s->time - h->when;
+    *f = v3_madd(h->f, past, h->df);
+    *t = v3_madd(h->t, past, h->dt);
+    s->flow[i] = v3_madd(h->flow, past, h->dflow);
+    if (b->added) b->flow[i] = s->flow[i];
+    if (s->waves) s->push[i] = *f, s->turn[i] = *t;
+    else s->lift[i] = f->z;
 }
 
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
 {
     fl_vec3 f, t;
-    look(s, b, i, &f, &t);
+    if (s->held && !s->looks) go_on(s, b, i, &f, &t);
+    else look(s, b, i, &f, &t);
     b->f[i] = v3_add(b->f[i], f);
     b->t[i] = v3_add(b->t[i], t);
 }
@@ -215,7 +266,20 @@ void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)
 void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i)
 {
     fl_vec3 f, t;
-    if (s->water) look(s, b, i, &f, &t);
+    if (!s->water) return;
+    if (!s->held) {
+        look(s, b, i, &f, &t);
+        return;
+    }
+    const fl_vec3 x = b->x[i];
+    const fl_quat q = b->q[i];
+    const fl_mat3 R = b->R[i];
+    const double now = s->time;
+    b->x[i] = s->held[i].x, b->q[i] = s->held[i].q, s->time = s->held[i].when;
+    fl_body_axes(b, i);
+    look(s, b, i, &f, &t);
+    b->x[i] = x, b->q[i] = q, b->R[i] = R, s->time = now;
+    go_on(s, b, i, &f, &t);
 }
 
 void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0, fl_vec3 w0)

@@ -19,6 +19,19 @@ typedef struct {
     int32_t wets, dries; /* how many there are now */
 } fl_skin;
 
+/* The last look at what the water does to a body, and how it went on from the one before: where not every
+ * step is a look,
+ *     F(t) = F + (t - when) dF,     dF = (F - F') / (when - when'),
+ * so moment and velocity too, off by (when - when')^2 d2F/dt2 at most.  Wetted surface and facets stay as
+ * they were seen.  A body that was not seen before has dF = 0. */
+typedef struct {
+    fl_vec3 f, t, flow;    /* force, moment about the centre, velocity of the water; world axes */
+    fl_vec3 df, dt, dflow; /* over a second */
+    fl_vec3 x;             /* where the body was [m] */
+    fl_quat q;
+    double when; /* [s]; INFINITY: not seen yet */
+} fl_sea_held;
+
 typedef struct {
     int water, wind; /* which of the two there is; neither: nothing below is allocated or run */
     double level;    /* z of the still water           [m]   */
@@ -41,11 +54,14 @@ typedef struct {
     double *drained; /* [n] work that drag of the water has taken out [J] */
     double *blown;   /* [n] work that the wind has put in    [J] */
     fl_skin *skin;   /* [n] with the law facet alone, of either fluid */
+    int every;       /* steps between two looks; above 1: */
+    int looks;       /* whether the next fl_sea_force() is one: set by the step */
+    fl_sea_held *held; /* [n], or NULL */
+    double time;       /* of the next fl_sea_force(): set by the step [s] */
     /* with waves alone */
     int waves;
     fl_waves wave;
     fl_tiles *tiles;     /* [n] of the outer shapes */
-    double time;         /* of the next fl_sea_force(): set by the step [s] */
     fl_wave_near *cells; /* [threads][cells_each] scratch */
     int32_t cells_each, threads;
     fl_vec3 *push, *turn; /* [n] force and moment of the water, world axes, at the last one [N], [N m] */
@@ -74,11 +90,15 @@ static inline fl_vec3 fl_sea_push(const fl_sea *s, int32_t i)
 void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0, fl_vec3 w0);
 
 /* Add buoyancy, in waves the pressure of the wave and what it does to the water that moves along, to b->f[i],
- * b->t[i]; renews wetted[i] and energy[i] (0 in waves, whose work is booked instead). */
+ * b->t[i]; renews wetted[i] and energy[i] (0 in waves, whose work is booked instead), where it is a look. */
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
-/* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere. */
+/* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere; with
+ * held[i], as it was left there by the last look. */
 void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i);
+
+/* Hydrostatic energy of body i in still water where it is now; touches nothing [J]. */
+double fl_sea_energy(const fl_sea *s, const fl_bodies *b, int32_t i);
 
 /* Let the drag of water and wind act on body i for h seconds, position held: the decay of its
  * velocities by equations (8), (9) alone, exact, or by facet_drag.h, first of the one fluid, then of the

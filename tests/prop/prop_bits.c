@@ -145,7 +145,8 @@ static void laws(void **state)
                               {scene_of_everything, 3, "manual"}, {scene_of_everything, 3, "manual-si"},
                               {scene_of_wraps, 3, "patch"},       {scene_of_seas, 3, "patch"},
                               {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"},
-                              {scene_of_bonds, 3, "patch"},       {scene_of_bonds, 3, "manual"}};
+                              {scene_of_bonds, 3, "patch"},       {scene_of_bonds, 3, "manual"},
+                              {scene_of_looks, 3, "patch"},       {scene_of_glances, 3, "patch"}};
     const way how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                        {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                        {1, 0, 1.0, 0, 0, 1}};

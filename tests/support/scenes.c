@@ -175,6 +175,20 @@ void scene_of_seas(lab *l, int32_t side, const char *law)
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
 }
 
+void scene_of_looks(lab *l, int32_t side, const char *law)
+{
+    scene_of_everything(l, side, law);
+    lab_set(l, "water.every=4");
+    lab_set(l, "water.profile=linear");
+    lab_set(l, "water.profile_depth=2");
+}
+
+void scene_of_glances(lab *l, int32_t side, const char *law)
+{
+    scene_of_seas(l, side, law);
+    lab_set(l, "water.every=7");
+}
+
 void scene_of_traffic(lab *l, int32_t side, const char *law)
 {
     const double half = 0.5 * side - 0.4;

@@ -15,6 +15,10 @@ void scene_of_wraps(lab *l, int32_t side, const char *law);
 /* The same with a sea of waves, a sheared current, drag on each facet of water and wind, and added mass. */
 void scene_of_seas(lab *l, int32_t side, const char *law);
 
+/* scene_of_everything() in a sheared current, and scene_of_seas(), where few steps are looks at the water. */
+void scene_of_looks(lab *l, int32_t side, const char *law);
+void scene_of_glances(lab *l, int32_t side, const char *law);
+
 /* Spheres of two sizes in such a cell, one body in nine a box; laws as above. */
 void scene_of_balls(lab *l, int32_t side, const char *law);
 

@@ -299,6 +299,9 @@ static void each_complaint_names_file_and_line(void **state)
     refused("[run]\nsleep = 1e-5\nerror = 0.1\n" ICE,
             ":2: run.error repeats windows with other steps, in which nobody sleeps: one of run.error and "
             "run.sleep was wanted");
+    refused("[run]\nsleep = 1e-5\n[water]\nevery = 2\n" ICE,
+            ":4: floes that sleep under run.sleep meet the water when they wake: water.every = 1 was wanted");
+    refused("[water]\nevery = 0\n" ICE, ":2: water.every is \"0\", a whole number from 1 to 1000 was wanted");
     refused("[run]\nerror = 100%\n" ICE, ":2: run.error is 100%, a value above 0 and below 1 was wanted");
     refused("[run]\nthreads = 2.5\n" ICE,
             ":2: run.threads is \"2.5\", a whole number from 1 to 1024 was wanted");

@@ -329,6 +329,44 @@ static void books(void)
     verify_order("V29", "a floe in a sea, 10 s: residual over throughput", h, residual, 4, 2.0, 0.5);
 }
 
+/* A floe that is thrown askew into a sea, or into still water, and the water is not looked at in each step:
+ * against the run that looks at it always, with the same steps. */
+static void looks(int sea)
+{
+    enum { MOST = 400, STEPS = 8000 };
+    const char *KEYS[] = {"water.current=0.3 0 0", "water.wave=jonswap", "water.height=0.5", "water.period=5",
+                          "water.components=20"};
+    static fl_vec3 path[STEPS / MOST];
+    double h[4], off[4], opened[4];
+    for (int c = -1; c < 4; c++) {
+        const int every = c < 0 ? 1 : MOST >> (c + 1);
+        lab l;
+        double still = 0.0;
+        floe(&l, KEYS, sea ? 5 : 1);
+        lab_set(&l, "water.drag_force_coef=0.005");
+        lab_set(&l, "water.drag_moment_coef=0.002");
+        lab_setf(&l, "water.every=%d", every);
+        lab_box(&l, v3(0, 0, REST + 0.03), v3(2, 1.5, 0.5), 0.05, q_of_vector(v3(0.02, 0.04, 0)), v3(0, 0, 0),
+                v3(0, 0, 0));
+        lab_make(&l, 2e-4);
+        if (c >= 0) h[c] = every * l.w.dt, off[c] = 0.0;
+        for (int s = 0; s < STEPS / MOST; s++) {
+            if (lab_run(&l, MOST)) exit(1);
+            fl_step_ledger(&l.w);
+            still = fmax(still, fabs(l.w.ledger.residual) / l.w.ledger.throughput);
+            if (c < 0) path[s] = l.w.b.x[0];
+            else off[c] = fmax(off[c], v3_norm(v3_sub(l.w.b.x[0], path[s])));
+        }
+        if (c >= 0) opened[c] = still;
+        else verify_note("residual over throughput when each step is a look: %.2g", still);
+        lab_free(&l);
+    }
+    verify_order("V29", sea ? "seldom looks at a sea: way [m]" : "seldom looks at still water: way [m]", h,
+                 off, 4, 2.0, 0.3);
+    if (sea) verify_below("V29", "  residual over throughput, the largest", fmax(opened[0], opened[3]), 5e-6);
+    else verify_order("V29", "  residual over throughput", h, opened, 4, 2.0, 0.3);
+}
+
 int main(void)
 {
     verify_begin("waves");
@@ -339,5 +377,7 @@ int main(void)
     panels();
     follower();
     books();
+    looks(0);
+    looks(1);
     return verify_end();
 }
