@@ -187,6 +187,19 @@ static void coming(traffic *t, fl_world *w)
     }
 }
 
+/* Where something stands; a state that was told holds a turn, to rounding. */
+static void pose(traffic *t, fl_vec3 *x, fl_quat *q)
+{
+    vec3(t, x);
+    real(t, &q->w);
+    real(t, &q->x);
+    real(t, &q->y);
+    real(t, &q->z);
+    const double size = q->w * q->w + q->x * q->x + q->y * q->y + q->z * q->z;
+    if (t->in && !t->err->code && !(v3_finite(*x) && fabs(size - 1.0) < 1e-9))
+        fl_text_fail(t->in, t->err, "a place or a turn that is none");
+}
+
 static void body(traffic *t, fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
@@ -258,8 +271,8 @@ static void sea(traffic *t, fl_sea *s, int32_t i)
     if (s->waves) real(t, &s->waved[i]);
     if (s->held) {
         fl_sea_held *h = &s->held[i];
-        vec3(t, &h->df), vec3(t, &h->dt), vec3(t, &h->dflow), vec3(t, &h->x);
-        real(t, &h->q.w), real(t, &h->q.x), real(t, &h->q.y), real(t, &h->q.z);
+        vec3(t, &h->df), vec3(t, &h->dt), vec3(t, &h->dflow);
+        pose(t, &h->x, &h->q);
         real(t, &h->when);
     }
     close_row(t);

@@ -3,6 +3,8 @@
 #include "base/mem.h"
 #include "water/sea.h"
 
+static const fl_sea_held unseen = {.q = {1, 0, 0, 0}, .when = INFINITY};
+
 int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
 {
     s->n = n;
@@ -23,6 +25,7 @@ int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
     if (s->water && s->every > 1) {
         s->held = fl_alloc(n, sizeof *s->held, err);
         if (!s->held) return -1;
+        for (int32_t i = 0; i < n; i++) s->held[i] = unseen;
         s->looks = 1;
     }
     if ((s->water && s->sea_law == FL_DRAG_FACET) || (s->wind && s->air_law == FL_DRAG_FACET)) {
@@ -60,7 +63,7 @@ static int fit_skin(fl_sea *s, int32_t i, fl_err *err)
 
 int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err)
 {
-    if (s->held) s->held[i] = (fl_sea_held){.when = INFINITY};
+    if (s->held) s->held[i] = unseen;
     if (s->skin && fit_skin(s, i, err)) return -1;
     if (!s->waves) return 0;
     const int32_t want = fl_wave_cells(&s->wave, s->reach[i] + s->wave.swing);

@@ -118,7 +118,11 @@ static void compare(const way *how, int ways, const what *it, int64_t steps, int
         most = searches > most ? searches : most;
     }
     /* the searches did differ, but for those that every newcomer and every end of a bond asks for */
-    assert_true(most > (it->scene == scene_of_traffic || it->scene == scene_of_bonds ? 1 : 4) * fewest);
+    assert_true(most >
+                (it->scene == scene_of_traffic || it->scene == scene_of_visits || it->scene == scene_of_bonds
+                     ? 1
+                     : 4) *
+                    fewest);
 }
 
 /* 512 bodies: enough for 16 threads. */
@@ -146,7 +150,8 @@ static void laws(void **state)
                               {scene_of_wraps, 3, "patch"},       {scene_of_seas, 3, "patch"},
                               {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"},
                               {scene_of_bonds, 3, "patch"},       {scene_of_bonds, 3, "manual"},
-                              {scene_of_looks, 3, "patch"},       {scene_of_glances, 3, "patch"}};
+                              {scene_of_looks, 3, "patch"},       {scene_of_glances, 3, "patch"},
+                              {scene_of_visits, 3, "patch"}};
     const way how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                        {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                        {1, 0, 1.0, 0, 0, 1}};

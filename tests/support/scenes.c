@@ -202,3 +202,9 @@ void scene_of_traffic(lab *l, int32_t side, const char *law)
     lab_set(l, "boundary.drive_width=0.7");
     lab_set(l, "boundary.drive_foundation=1 kN/m3");
 }
+
+void scene_of_visits(lab *l, int32_t side, const char *law)
+{
+    scene_of_traffic(l, side, law);
+    lab_set(l, "water.every=5");
+}

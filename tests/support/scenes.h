@@ -28,5 +28,7 @@ void scene_of_bonds(lab *l, int32_t side, const char *law);
 
 /* The same where nothing bounds the heap along x: floes leave there at once, and copies of it come in. */
 void scene_of_traffic(lab *l, int32_t side, const char *law);
+/* And few steps are looks at the water. */
+void scene_of_visits(lab *l, int32_t side, const char *law);
 
 #endif
