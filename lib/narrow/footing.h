@@ -24,17 +24,18 @@
 #ifndef FL_NARROW_FOOTING_H
 #define FL_NARROW_FOOTING_H
 #include "narrow/matches.h"
+#include "narrow/tread.h"
 
 typedef struct fl_footing fl_footing;
 
 /* Zeroed to start. */
 typedef struct {
-    double
-        *number; /* heights, places in the plane and distances from the sides of F, of all vertices; sides */
-    uint8_t *skip;  /* [l->n] what the footings have done */
-    int32_t *left;  /* rows of the matches that are left */
-    int32_t *whole; /* numbers of faces and edges that are whole under F */
-    int32_t number_cap, skip_cap, left_cap, whole_cap;
+    double *number;    /* of vertices and sides of F (tread.h), and the parts of edges */
+    uint8_t *skip;     /* [l->n] what the footings have done */
+    int32_t *left;     /* rows of the matches that are left */
+    int32_t *list;     /* numbers of faces and edges */
+    fl_tread_cut *cut; /* faces that are cut */
+    int32_t number_cap, skip_cap, left_cap, list_cap, cut_cap;
 } fl_footing_work;
 
 /* Sort out of the matches l of core A and surface B those that may lie under a face of A, into l->footing. -1
