@@ -17,30 +17,35 @@ static int32_t end_of(const fl_world *w, int32_t g)
     return end < w->n ? end : w->n;
 }
 
+/* Behind the last of a[k], a[k + 1], ... that is x; eight at a time as long as they are. */
+static int32_t run_of(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
+{
+    const uint64_t all = UINT64_C(0x0101010101010101) * x;
+    for (; k + 8 <= to; k += 8) {
+        uint64_t eight;
+        memcpy(&eight, &a[k], sizeof eight);
+        if (eight != all) break;
+    }
+    while (k < to && a[k] == x) k++;
+    return k;
+}
+
 /* Behind the last of those from k on with which nothing more is to be done than to kick them and let them
  * drift, and that are balls as k is; k itself where it is none of those. */
 static int32_t alike(const fl_world *w, int32_t k, int32_t to)
 {
-    const uint8_t *ball = w->b.ball, *hold = w->b.hold, *away = w->traffic.away, *kind = w->sleep.kind;
-    int32_t end = k;
     if (w->b.added || w->sea.waves) return k;
-    for (const int first = ball[k]; end < to && !(hold[end] | (ball[end] ^ first));) end++;
-    for (int32_t i = k; away && i < end; i++)
-        if (away[i]) end = i;
-    for (int32_t i = k; kind && i < end; i++)
-        if (kind[i] != FL_AWAKE) end = i;
-    return end;
+    to = run_of(w->b.ball, w->b.ball[k], k, run_of(w->b.hold, 0, k, to));
+    if (w->traffic.away) to = run_of(w->traffic.away, 0, k, to);
+    return w->sleep.kind ? run_of(w->sleep.kind, FL_AWAKE, k, to) : to;
 }
 
-/* Something may press on it now; and something did before the step began, so that its first kick counts for
- * the works of contacts.  Where spheres meet, contacts and ends of steps are not apart (step.c), and so it is
- * not known yet who has met another. */
+/* Something may press on it now.  Where spheres meet, contacts and ends of steps are not apart (step.c), and
+ * so it is not known yet who has met another. */
 static int presses(const fl_world *w, int32_t k)
 {
     return w->met[k] || w->balls.bodies || fl_frozen_at(w, k);
 }
-
-static int pressed(const fl_world *w, int32_t k) { return w->was[k].n || w->balls.bodies; }
 
 static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
 {
@@ -76,8 +81,10 @@ static void begin_few(fl_world *w, int32_t from, int32_t n, double h, double dt)
     fl_few_take_pose(&s, b);
     if (calm) fl_calm_drag(sea, b, &s, h, 0);
     fl_few_kick(&s, h);
+    const fl_sink *was = w->was + from;
+    const int all = w->balls.bodies;
     for (int32_t k = 0; k < n; k++)
-        if (pressed(w, from + k)) w->gain[from + k] = gain_among(&s, k);
+        if (all || was[k].n) w->gain[from + k] = gain_among(&s, k);
     const int done = fl_few_drift(&s, dt);
     fl_few_put_speeds(&s, b);
     if (done) fl_few_put_pose(&s, b);

@@ -243,23 +243,31 @@ static double limit_of(const fl_world *w, int32_t i)
     return sum > 0.0 ? 2.0 / sqrt(sum) : INFINITY;
 }
 
+/* The least limit below that, and whose. */
+static void survey_bodies(const fl_world *w, double *least, int32_t *body)
+{
+    double own = w->dt_critical;
+    int32_t i_own = INT32_MAX;
+#pragma omp for schedule(static) nowait
+    for (int32_t i = 0; i < w->n; i++) {
+        if (!touched(w, i)) continue;
+        const double limit = limit_of(w, i);
+        if (limit < own) own = limit, i_own = i;
+    }
+#pragma omp critical(fl_step_survey)
+    if (own < *least || (own == *least && i_own < *body)) *least = own, *body = i_own;
+}
+
 /* The largest omega^2 of a body bounds the step from above; of equal ones the first body tells it. */
 static void survey_stiffness(fl_world *w)
 {
     double least = w->dt_critical;
     int32_t body = INT32_MAX;
+    if (w->threads == 1) {
+        survey_bodies(w, &least, &body);
+    } else {
 #pragma omp parallel
-    {
-        double own = least;
-        int32_t i_own = INT32_MAX;
-#pragma omp for schedule(static) nowait
-        for (int32_t i = 0; i < w->n; i++) {
-            if (!touched(w, i)) continue;
-            const double limit = limit_of(w, i);
-            if (limit < own) own = limit, i_own = i;
-        }
-#pragma omp critical(fl_step_survey)
-        if (own < least || (own == least && i_own < body)) least = own, body = i_own;
+        survey_bodies(w, &least, &body);
     }
     if (body < INT32_MAX) {
         w->dt_critical = least;
