@@ -734,7 +734,7 @@ void fl_balls_pair(const fl_world *w, int32_t c, fl_pair *p)
 }
 
 /* Whether row c comes before pair p. */
-static int comes_first(const fl_balls *s, int32_t c, const fl_pair *p)
+static int comes_first(const fl_balls *s, int32_t c, const fl_near *p)
 {
     return s->i[c] != p->i ? s->i[c] < p->i : s->j[c] < p->j; /* no pair is of both kinds */
 }
@@ -747,5 +747,8 @@ const fl_pair *fl_pair_next(fl_pair_walk *at)
         fl_balls_pair(w, at->row++, &at->made);
         return &at->made;
     }
-    return at->pair < w->n_pair ? &w->pair[at->pair++] : NULL;
+    if (at->pair >= w->n_pair) return NULL;
+    const fl_near *q = &w->pair[at->pair++];
+    if (!q->full) fl_near_pair(w, q, &at->made);
+    return q->full ? q->full : &at->made;
 }

@@ -103,9 +103,12 @@ fl_footprint fl_footprint_of(const fl_world *w)
                       .others = others(w)};
     b.shapes = ARRAY(w->b.core, w->b.total) + fl_topologies_bytes(&w->alike);
     for (int32_t k = 0; k < w->b.total; k++) b.shapes += fl_poly_bytes(&w->b.core[k]);
-    b.pairs = ARRAY(w->pair, w->n_pair);
-    for (int32_t c = 0; c < w->n_pair; c++)
-        if (w->pair[c].matches) b.lists += fl_matches_bytes(w->pair[c].matches);
+    b.pairs = ARRAY(w->pair, w->n_pair) + ARRAY(w->contacts.block, w->contacts.cap) +
+              (double)w->contacts.blocks * FL_PAIR_BLOCK * (double)sizeof(fl_pair_slot);
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        const fl_pair *p = w->pair[c].full;
+        if (p && p->matches) b.lists += fl_matches_bytes(p->matches);
+    }
     return b;
 }
 

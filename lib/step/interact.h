@@ -13,7 +13,7 @@
 void fl_interact_awake(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey); /* for the next */
 static inline void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
 {
-    if (fl_world_apart(w, p)) return;
+    if (p->n == 0 && w->b.odometer[p->i] + w->b.odometer[p->j] < p->asleep) return;
     fl_interact_awake(w, p, thread, dt, survey);
 }
 

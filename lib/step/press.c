@@ -142,8 +142,7 @@ static fl_press_mark *new_mark(fl_world *w, const fl_pair *p, fl_press_notes *no
         return NULL;
     }
     fl_press_mark *m = &notes->mark[notes->n++];
-    *m = (fl_press_mark){
-        .pair = (int32_t)(p - w->pair), .i = p->i, .part = w->structure.piece[p->j - w->n].part};
+    *m = (fl_press_mark){.pair = p->at, .i = p->i, .part = w->structure.piece[p->j - w->n].part};
     return m;
 }
 

@@ -249,8 +249,8 @@ void fl_ride_survey(fl_world *w)
         if (m < 0 || !r->m.motion[m].free) continue;
         double sum = 0.0; /* of slope times invm */
         for (int64_t c = w->inc_first[j]; c < w->inc_first[j + 1]; c++) {
-            const fl_pair *p = &w->pair[w->inc[c]];
-            if (p->n) sum += p->stiff_j;
+            const fl_near *p = &w->pair[w->inc[c]];
+            if (p->n) sum += p->full->stiff_j;
         }
         r->slope[m] += sum / w->b.invm[j] * fl_motion_soft(&r->m.motion[m], arm_of(w, k));
     }

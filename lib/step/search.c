@@ -63,7 +63,7 @@ static void image_of(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t
 }
 
 /* -1, 0, 1: pair p comes before (i, j, image), is it, or comes after it. */
-static int order(const fl_pair *p, int32_t i, int32_t j, const int32_t image[3])
+static int order(const fl_near *p, int32_t i, int32_t j, const int32_t image[3])
 {
     if (p->i != i) return p->i < i ? -1 : 1;
     if (p->j != j) return p->j < j ? -1 : 1;
@@ -146,10 +146,19 @@ void fl_search_live(fl_world *w)
     }
 }
 
+/* Where a bond has ended the pair remembers it. */
+static int left_by_bond(fl_world *w, fl_near *q)
+{
+    fl_pair p;
+    fl_near_pair(w, q, &p);
+    fl_frozen_enter(w, &p);
+    return fl_near_keep(w, q, &p);
+}
+
 int fl_search(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
-    fl_pair *old = w->pair;
+    fl_near *old = w->pair;
     const int32_t n_old = w->n_pair;
     if (!stale(w)) return 0;
 #pragma omp parallel for schedule(static)
@@ -161,7 +170,7 @@ int fl_search(fl_world *w, fl_err *err)
     if (fl_pairs_find(&w->near, w->box, w->n, total, w->walls, err)) return -1;
     int64_t n, to = 0;
     if (fl_balls_list(w, image_of, &n, err)) return -1;
-    fl_pair *fresh = fl_alloc(n, sizeof *fresh, err);
+    fl_near *fresh = fl_alloc(n, sizeof *fresh, err);
     if (!fresh) return -1;
     int32_t at = 0;
     for (int32_t i = 0; i < w->n && n > 0; i++) {
@@ -171,18 +180,17 @@ int fl_search(fl_world *w, fl_err *err)
             if (fl_balls_are(w, i, j)) continue;
             image_of(w, k, i, j, image);
             if (fl_frozen_stands(w, i, j, image)) continue;
-            while (at < n_old && order(&old[at], i, j, image) < 0) fl_pair_end(&old[at++]);
+            while (at < n_old && order(&old[at], i, j, image) < 0) fl_near_end(w, &old[at++]);
             if (at < n_old && order(&old[at], i, j, image) == 0) {
                 fresh[to] = old[at++];
             } else {
-                fl_pair_start(w, &fresh[to], i, j);
-                memcpy(fresh[to].image, image, sizeof image);
-                fl_frozen_enter(w, &fresh[to]);
+                fl_near_start(&fresh[to], i, j, image);
+                if (w->frozen.n && left_by_bond(w, &fresh[to])) w->failed = 1;
             }
             to++;
         }
     }
-    while (at < n_old) fl_pair_end(&old[at++]);
+    while (at < n_old) fl_near_end(w, &old[at++]);
     free(old);
     w->pair = fresh;
     w->n_pair = (int32_t)to;

@@ -219,7 +219,7 @@ static double time_left(const fl_world *w, int32_t k, double left, double speed)
 {
     const fl_bodies *b = &w->b;
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-        const fl_pair *p = &w->pair[w->inc[c]];
+        const fl_near *p = &w->pair[w->inc[c]];
         const int32_t o = p->i == k ? p->j : p->i;
         const double other = v3_norm(b->v[o]) + b->bound[o] * v3_norm(b->w[o]),
                      gap = p->asleep - b->odometer[p->i] - b->odometer[p->j];
@@ -322,7 +322,7 @@ static int still(const fl_world *w, int32_t j)
            !(w->press.panels && j < w->n + w->pieces);
 }
 
-int fl_sleep_frozen(const fl_world *w, const fl_pair *p)
+int fl_sleep_frozen(const fl_world *w, const fl_near *p)
 {
     if (p->n == 0 || fl_sleep_kind(w, p->i) != FL_RESTS) return 0;
     return p->j >= w->n ? still(w, p->j) : fl_sleep_kind(w, p->j) == FL_RESTS;
@@ -347,7 +347,7 @@ static void spread(fl_world *w, int32_t n, enum fl_nap_kind kind)
     while (n > 0) {
         const int32_t k = s->stack[--n];
         for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-            const fl_pair *p = &w->pair[w->inc[c]];
+            const fl_near *p = &w->pair[w->inc[c]];
             const int32_t o = p->i == k ? p->j : p->i;
             if (!p->n || o >= w->n || s->kind[o] != (uint8_t)kind) continue;
             rise(w, o);
@@ -367,7 +367,7 @@ static void wake(fl_world *w, int32_t k)
 void fl_sleep_disturb(fl_world *w)
 {
     for (int32_t c = 0; c < w->n_live && w->sleep.resting; c++) {
-        const fl_pair *p = &w->pair[w->live[c]];
+        const fl_near *p = &w->pair[w->live[c]];
         const int rests = fl_sleep_kind(w, p->i) == FL_RESTS;
         if (p->j < w->n && rests != (fl_sleep_kind(w, p->j) == FL_RESTS)) wake(w, rests ? p->i : p->j);
         else if (rests && p->j >= w->n && !still(w, p->j)) wake(w, p->i);
@@ -404,7 +404,7 @@ static void let_rest(fl_world *w)
     int32_t n = 0;
     find_quiet(w);
     for (int32_t c = 0; c < w->n_live; c++) {
-        const fl_pair *p = &w->pair[w->live[c]];
+        const fl_near *p = &w->pair[w->live[c]];
         const int32_t ends[2] = {p->i, p->j};
         for (int e = 0; e < 2; e++) {
             const int32_t k = ends[e], o = ends[1 - e];

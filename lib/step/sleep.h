@@ -60,7 +60,7 @@ static inline double fl_sleep_since(const fl_world *w, int32_t k)
 
 /* A pair of which nothing is to be computed: it touches, and both rest, or one does and the other is fixed.
  */
-int fl_sleep_frozen(const fl_world *w, const fl_pair *p);
+int fl_sleep_frozen(const fl_world *w, const fl_near *p);
 
 /* After the search at the end of a step: those who have coasted, or must not any longer, make the first half
  * of their step and are FL_ENDS. */

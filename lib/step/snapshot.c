@@ -421,13 +421,15 @@ static void forces(traffic *t, fl_pair *p)
 
 static void pair(traffic *t, fl_world *w, int32_t c)
 {
-    fl_pair *p = &w->pair[c];
+    fl_near *near = &w->pair[c];
+    fl_pair made = {0}, *p = near->full ? near->full : &made;
+    if (t->f && p == &made) fl_near_pair(w, near, p);
     int32_t i = p->i, j = p->j;
     open_row(t, "pair");
     whole(t, 0, w->n - 1, &i);
     whole(t, 0, w->b.total - 1, &j);
     if (t->in) {
-        const fl_pair *q = c > 0 ? p - 1 : NULL;
+        const fl_near *q = c > 0 ? near - 1 : NULL;
         if (t->err->code) return;
         if (i >= j || (q && (q->i > i || (q->i == i && (w->cell.wraps ? q->j > j : q->j >= j))))) {
             fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in rising order were wanted", i, j);
@@ -447,6 +449,9 @@ static void pair(traffic *t, fl_world *w, int32_t c)
     memory(t, p);
     if (p->n) forces(t, p);
     close_row(t);
+    if (!t->in || t->err->code) return;
+    fl_near_start(near, i, j, p->image);
+    if (fl_near_keep(w, near, p)) fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", i, j);
 }
 
 /* A bond: its past, and what acts of it.  Separations follow from where the bodies are; the face and its law
@@ -591,14 +596,11 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     traffic t = {.in = in, .err = err};
     int32_t cap = 0, balls, last[2] = {-1, -1};
     const int32_t pairs = all_but_pairs(&t, w, &balls);
-    for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
-    free(w->pair);
-    w->pair = NULL;
-    w->n_pair = 0;
+    fl_near_free(w);
     /* The number is a hint: room comes as rows do. */
     for (int32_t c = 0; c < pairs && !err->code; c++) {
         if (fl_grow(&w->pair, &cap, (int64_t)c + 1, sizeof *w->pair, err)) return -1;
-        w->pair[c] = (fl_pair){0};
+        w->pair[c] = (fl_near){0};
         pair(&t, w, c);
         w->n_pair = c + 1;
     }

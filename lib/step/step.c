@@ -10,7 +10,7 @@
 #include "step/critical.h"
 #include "step/frozen.h"
 #include "step/group.h"
-#include "step/interact.h"
+#include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
@@ -45,10 +45,10 @@ static void contacts_of_pairs(fl_world *w, double dt, int survey)
     for (int32_t k = 0; k < w->frozen.n; k++) fl_frozen_touch(w, k);
 #pragma omp for schedule(dynamic, 16)
     for (int32_t c = 0; c < w->n_pair; c++) {
-        fl_pair *const p = &w->pair[c];
+        const fl_near *const p = &w->pair[c];
         if (fl_world_apart(w, p) || fl_sleep_frozen(w, p)) continue; /* and it did not touch before */
-        fl_interact_awake(w, p, omp_get_thread_num(), dt, survey);
-        w->hit[c] = p->n != 0;
+        fl_near_awake(w, c, omp_get_thread_num(), dt, survey);
+        w->hit[c] = p->n;
     }
 }
 
@@ -148,7 +148,7 @@ int fl_step_press(fl_world *w, int32_t k)
     if (w->balls.bodies && k < w->n) fl_balls_force(w, k, &b->f[k], &b->t[k]);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
-        const fl_pair *p = &w->pair[w->inc[c]];
+        const fl_pair *p = w->pair[w->inc[c]].full;
         b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
         b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
         fl_works_add(sink, p, p->i == k);
@@ -237,8 +237,8 @@ static double limit_of(const fl_world *w, int32_t i)
 {
     double sum = (w->balls.bodies ? fl_balls_stiff(w, i) : 0.0) + fl_frozen_now(w, i);
     for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
-        const fl_pair *p = &w->pair[w->inc[c]];
-        if (p->n) sum += share_of(w, p, i);
+        const fl_near *q = &w->pair[w->inc[c]];
+        if (q->n) sum += share_of(w, q->full, i);
     }
     return sum > 0.0 ? 2.0 / sqrt(sum) : INFINITY;
 }
@@ -341,7 +341,7 @@ static void account(fl_world *w, double dt, deepest *d)
     fl_vec3 balance = v3(0, 0, 0);
     *d = (deepest){.i = -1, .j = -1};
     for (int32_t c = 0; c < w->n_live; c++) {
-        const fl_pair *p = &w->pair[w->live[c]];
+        const fl_pair *p = w->pair[w->live[c]].full;
         const double R = b->radius[p->i] + b->radius[p->j], deep = R > 0.0 ? p->overlap / R : 0.0;
         if (deep > d->overlap) *d = (deepest){deep, fl_world_name(w, p->i), fl_world_name(w, p->j)};
         w->impulse_size += dt * v3_norm(p->f);
@@ -490,7 +490,7 @@ void fl_step_ledger(fl_world *w)
         }
     }
     for (int32_t c = 0; c < w->n_live; c++) {
-        const fl_pair *p = &w->pair[w->live[c]];
+        const fl_pair *p = w->pair[w->live[c]].full;
         elastic += p->energy;
         spring += p->spring;
     }

@@ -57,13 +57,13 @@ static int drop_pairs(fl_world *w, fl_err *err)
     int32_t kept = 0;
     fl_frozen_drop(w);
     for (int32_t c = 0; c < w->n_pair; c++) {
-        fl_pair *p = &w->pair[c];
+        fl_near *p = &w->pair[c];
         const int32_t i = p->i, j = p->j;
         if (!fl_world_away(w, i) && !(j < w->n && fl_world_away(w, j))) {
             w->pair[kept++] = *p;
             continue;
         }
-        fl_pair_end(p);
+        fl_near_end(w, p);
         p->n = 0;
     }
     w->n_pair = kept;

@@ -11,7 +11,7 @@ void fl_works_sum(fl_world *w, int32_t k)
     fl_sink s = {0};
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
-        const fl_pair *p = &w->pair[w->inc[c]];
+        const fl_pair *p = w->pair[w->inc[c]].full;
         fl_works_add(&s, p, p->i == k);
     }
     if (fl_frozen_at(w, k)) fl_frozen_sink(w, k, &s);

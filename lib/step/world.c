@@ -560,8 +560,8 @@ void fl_world_free(fl_world *w)
     free(w->row.in), free(w->row.k), free(w->row.rest);
     free(w->traffic.away), free(w->traffic.born), free(w->traffic.lag), free(w->traffic.tile);
     free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
-    for (int32_t c = 0; c < w->n_pair; c++) fl_pair_end(&w->pair[c]);
-    free(w->pair), free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
+    fl_near_free(w);
+    free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
     free(w->hit), free(w->live), free(w->met);
     fl_balls_free(&w->balls);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->home);

@@ -40,8 +40,9 @@ typedef struct {
     int32_t literal2, literal18;
 } fl_touching;
 
-/* Two things that are near.  What is new here and lasts from step to step, or is new in fl_world, goes into
- * snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit. */
+/* A contact of two things.  What is new here and lasts from step to step, or is new in fl_world, goes into
+ * snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit; what lasts while they
+ * do not touch goes into fl_near too. */
 typedef struct {
     int32_t i, j;           /* i moves, i < j                                        */
     int32_t image[3];       /* j is where it is, moved by so many lengths of the cell */
@@ -65,11 +66,39 @@ typedef struct {
     fl_vec3 f, ti, tj;       /* force on i (on j its opposite), torques               */
     fl_vec3 fd, di, dj;      /* the part of damping                                   */
     fl_vec3 fs, si, sj;      /* the part of friction                                  */
+    int32_t at;              /* place in fl_world.pair */
     double energy;           /* elastic, normal and tangential [J]                    */
     double spring;           /* the tangential part of it [J]                         */
     double overlap;          /* largest [m]                                           */
     double stiff_i, stiff_j; /* bounds of omega^2 of this contact for either, the other held [1/s2] */
 } fl_pair;
+
+/* Two things that are near: what is known of them while they do not touch, and their contact where they do,
+ * or did a moment ago, or are left by a bond.  Most near pairs do not touch for most of the time. */
+typedef struct {
+    int32_t i, j;     /* i moves, i < j */
+    int32_t image[3]; /* as in fl_pair, like all that follows */
+    uint8_t n : 1, deep : 1, has_axis : 1, cached : 3;
+    uint8_t mode;
+    double asleep;
+    fl_vec3 axis;
+    uint16_t a[4], b[4]; /* of the cache */
+    fl_pair *full;       /* or NULL; where there is one it knows better, but for n, deep and asleep */
+} fl_near;
+
+/* Room for contacts: what one leaves the next one takes. */
+typedef union fl_pair_slot {
+    fl_pair pair;
+    union fl_pair_slot *next;
+} fl_pair_slot;
+
+typedef struct {
+    fl_pair_slot **block; /* [blocks] of FL_PAIR_BLOCK each */
+    fl_pair_slot *free;
+    int32_t blocks, cap;
+} fl_pair_store;
+
+enum { FL_PAIR_BLOCK = 32 };
 
 /* Overlaps past this part of the radii are counted: no law is meant for them, and beyond 1 the cores meet. */
 #define FL_OVERLAP_HALF 0.5
@@ -270,7 +299,8 @@ typedef struct {
     fl_vec3 *home;   /* [total] the cell that each was in at the last search; NULL where nothing wraps */
     fl_group *group; /* [n / FL_BALLS_GROUP + 1] */
     fl_balls balls;  /* near pairs of spheres; all others: */
-    fl_pair *pair;
+    fl_near *pair;
+    fl_pair_store contacts;
     int32_t n_pair, pair_cap;
     int64_t *inc_first; /* [total + 1] pairs of each body, ascending */
     int32_t *inc;       /* [2 n_pair] */
@@ -351,7 +381,7 @@ static inline double fl_world_spring(const fl_world *w, int32_t i, double *drawn
 int32_t fl_world_name(const fl_world *w, int32_t k);
 
 /* Whether a pair still cannot touch since it was last looked at. */
-static inline int fl_world_apart(const fl_world *w, const fl_pair *p)
+static inline int fl_world_apart(const fl_world *w, const fl_near *p)
 {
     return p->n == 0 && w->b.odometer[p->i] + w->b.odometer[p->j] < p->asleep;
 }

@@ -109,7 +109,7 @@ static void make(lab *l, which c, const char *law)
 static fl_pair *touching(lab *l)
 {
     for (int32_t c = 0; c < l->w.n_pair; c++)
-        if (l->w.pair[c].n) return &l->w.pair[c];
+        if (l->w.pair[c].n) return l->w.pair[c].full;
     return NULL;
 }
 

@@ -16,7 +16,7 @@
 #include <time.h>
 #include "base/rng.h"
 #include "body/integrate.h"
-#include "step/interact.h"
+#include "step/pairing.h"
 #include "step/search.h"
 #include "step/sleep.h"
 #include "support/lab.h"
@@ -73,7 +73,7 @@ static void collect(fl_world *w, int32_t k)
     fl_bodies *b = &w->b;
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
-        const fl_pair *p = &w->pair[w->inc[c]];
+        const fl_pair *p = w->pair[w->inc[c]].full;
         b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
         b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
     }
@@ -95,10 +95,10 @@ static int bare_step(fl_world *w, int ordered)
     if (fl_search(w, &err)) return -1;
 #pragma omp parallel for schedule(dynamic, 16)
     for (int32_t c = 0; c < w->n_pair; c++) {
-        fl_pair *p = &w->pair[c];
-        fl_interact(w, p, omp_get_thread_num(), w->dt, 0);
-        w->hit[c] = p->n != 0;
-        if (ordered || p->n == 0) continue;
+        if (!fl_world_apart(w, &w->pair[c])) fl_near_awake(w, c, omp_get_thread_num(), w->dt, 0);
+        w->hit[c] = w->pair[c].n;
+        if (ordered || !w->hit[c]) continue;
+        const fl_pair *p = w->pair[c].full;
         scatter(b, p->i, 1.0, p->f, p->ti);
         scatter(b, p->j, -1.0, p->f, p->tj);
     }

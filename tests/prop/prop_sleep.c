@@ -127,7 +127,7 @@ static void no_contact_goes_unnoticed(void **state)
             uint8_t live[FLOES][FLOES] = {{0}};
             assert_int_equal(lab_run(&l, 41), 0);
             for (int32_t c = 0; c < l.w.n_live; c++) {
-                const fl_pair *p = &l.w.pair[l.w.live[c]];
+                const fl_pair *p = l.w.pair[l.w.live[c]].full;
                 live[p->i][p->j] = 1;
                 touched++;
             }

@@ -366,7 +366,7 @@ static void frictionless_boxes(void)
     lab_run(&l, steps);
     verify_row("H02", "without friction aligned boxes part, rate [1/s]",
                acosh(l.w.b.x[1].x / start) / ((double)steps * l.w.dt),
-               parting_rate(l.w.pair[0].k, l.w.b.m[1] * G), 1e-3, VERIFY_REL);
+               parting_rate(l.w.pair[0].full->k, l.w.b.m[1] * G), 1e-3, VERIFY_REL);
     lab_free(&l);
 }
 
@@ -566,7 +566,7 @@ static void slope(void)
     const double settled = l.w.b.x[0].x;
     lab_run(&l, steps);
     /* k_t is tangential times the normal stiffness of what carries: at least that of the face, 2 c sqrt(A) */
-    const fl_pair *p = &l.w.pair[0];
+    const fl_pair *p = l.w.pair[0].full;
     const double kt = 2.0 * p->k * sqrt(1.8 * 0.8) * p->law->tangential,
                  bound = mu * 900 * 2 * G * cos(angle) / kt + 1e-6;
     verify_note("a box on a slope of 20 degrees, mu = 0.5, %ld steps", (long)steps);

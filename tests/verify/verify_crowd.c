@@ -117,8 +117,8 @@ static void rafting(double tilt)
         most = fmax(most, fabs(l.w.ledger.residual));
         for (int32_t c = 0; c < l.w.n_pair; c++) {
             if (l.w.pair[c].n == 0) continue;
-            deepest = fmax(deepest, l.w.pair[c].overlap / 0.1);
-            force = fmax(force, v3_norm(l.w.pair[c].f));
+            deepest = fmax(deepest, l.w.pair[c].full->overlap / 0.1);
+            force = fmax(force, v3_norm(l.w.pair[c].full->f));
         }
     }
     /* the middle of the nose, below, against the faces of the other, 0.25 m from its middle */
@@ -176,7 +176,7 @@ static void jamming(void)
         jammed = push;
         for (int32_t c = 0; c < l.w.n_pair; c++)
             if (l.w.pair[c].n)
-                deepest = fmax(deepest, l.w.pair[c].overlap /
+                deepest = fmax(deepest, l.w.pair[c].full->overlap /
                                             (l.w.b.radius[l.w.pair[c].i] + l.w.b.radius[l.w.pair[c].j]));
     }
     fl_step_ledger(&l.w);

@@ -286,7 +286,7 @@ static void stand(int sudden, double end)
     on_slope(&l, v3(0.5, 0.5, height), 0.05, sudden ? slope : 0.0, mu, 0.3);
     lab_make(&l, 0);
     const fl_vec3 down = m3_tmul(l.w.b.R[0], v3(0, 0, -1));
-    const double kt = 0.824 * 2.0 * l.w.pair[0].k * 0.9, most = mu * l.w.b.m[0] * G / kt,
+    const double kt = 0.824 * 2.0 * l.w.pair[0].full->k * 0.9, most = mu * l.w.b.m[0] * G / kt,
                  swing = G * sin(slope) * sqrt(l.w.b.m[0] / kt), start = base(&l, height, down);
     const int64_t tilting = sudden ? 0 : (int64_t)(1.0 / l.w.dt), half = (int64_t)(0.5 * end / l.w.dt);
     for (int64_t k = 1; k <= tilting; k++) {

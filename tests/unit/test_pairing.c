@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Near pairs have room of their own while they touch, and not for long after. */
+#include <string.h>
+#include "base/mem.h"
+#include "step/footprint.h"
+#include "step/pairing.h"
+#include "support/lab.h"
+#include "support/near.h"
+
+/* Two floes that bounce off each other; the first is run into. */
+static void two(lab *l, const char *more)
+{
+    lab_start(l);
+    lab_set(l, "contact.softening=0.05");
+    if (more) lab_set(l, more);
+    lab_box(l, v3(0, 0, 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_box(l, v3(1.02, 0.3, 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(-1, 0, 0), v3(0, 0, 0));
+    lab_make(l, 2e-4);
+}
+
+static void room_comes_and_goes(void **state)
+{
+    (void)state;
+    lab l;
+    two(&l, NULL);
+    int had = 0, freed = 0;
+    for (int k = 0; k < 600; k++) {
+        assert_int_equal(lab_run(&l, 1), 0);
+        if (l.w.n_pair == 0) break; /* they have parted for good */
+        const fl_near *q = &l.w.pair[0];
+        if (q->n) {
+            assert_non_null(q->full);
+            assert_int_equal(q->full->n, 1);
+            assert_int_equal(q->full->at, 0);
+            assert_true(q->full->energy > 0.0);
+            assert_non_null(q->full->matches);
+            had++;
+        } else {
+            freed += had && !q->full;
+        }
+    }
+    assert_true(had > 10);
+    assert_true(freed > 0);
+    assert_int_equal(l.w.contacts.blocks, 1);
+    int32_t spare = 0;
+    for (const fl_pair_slot *s = l.w.contacts.free; s; s = s->next) spare++;
+    assert_int_equal(spare, FL_PAIR_BLOCK);
+    lab_free(&l);
+}
+
+/* A pair with and without room of its own is the same pair. */
+static void nothing_is_forgotten_that_lasts(void **state)
+{
+    (void)state;
+    lab l;
+    fl_pair p, q;
+    two(&l, NULL);
+    lab_run(&l, 3); /* not yet there, but looked at */
+    fl_near *near = &l.w.pair[0];
+    assert_null(near->full);
+    assert_true(near->has_axis);
+    fl_near_pair(&l.w, near, &p);
+    assert_int_equal(fl_near_keep(&l.w, near, &p), 0);
+    assert_null(near->full);
+    fl_near_pair(&l.w, near, &q);
+    assert_memory_equal(&p.axis, &q.axis, sizeof p.axis);
+    assert_memory_equal(&p.cache, &q.cache, sizeof p.cache);
+    assert_true(p.asleep == q.asleep && p.k == q.k && p.mass == q.mass && p.law == q.law);
+    assert_int_equal(p.has_axis, q.has_axis);
+    p.n = 1, p.overlap = 0.25;
+    assert_int_equal(fl_near_keep(&l.w, near, &p), 0);
+    assert_non_null(near->full);
+    assert_true(near->full->overlap == 0.25);
+    fl_near_end(&l.w, near);
+    near->n = 0;
+    lab_free(&l);
+}
+
+static void without_memory_the_step_says_so(void **state)
+{
+    (void)state;
+    lab l;
+    fl_err err = {0};
+    two(&l, NULL);
+    int rc = 0;
+    for (int k = 0; k < 600 && rc == 0; k++) {
+        const int soon = l.w.n_pair && !l.w.pair[0].full;
+        if (soon) fl_mem_fail_after(0);
+        rc = fl_step(&l.w, &err);
+        fl_mem_fail_after(-1);
+    }
+    assert_int_equal(rc, -1);
+    assert_int_equal(err.code, FL_SYSTEM);
+    lab_free(&l);
+}
+
+/* Twice the bodies take as much again, between bounds that a core and its arrays have. */
+static void the_footprint_follows_the_bodies(void **state)
+{
+    (void)state;
+    double all[2];
+    for (int c = 0; c < 2; c++) {
+        lab l;
+        lab_start(&l);
+        for (int k = 0; k < 64 + 64 * c; k++)
+            lab_box(&l, v3(5.0 * k, 0, 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        lab_make(&l, 2e-4);
+        const fl_footprint b = fl_footprint_of(&l.w);
+        all[c] = fl_footprint_sum(&b);
+        assert_true(b.pairs + b.lists == 0.0);
+        assert_true(b.bodies / l.w.n > 500.0 && b.shapes / l.w.n > 500.0);
+        lab_free(&l);
+    }
+    assert_true(all[1] - all[0] > 64 * 1000.0 && all[1] - all[0] < 64 * 2000.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(room_comes_and_goes),
+                                       cmocka_unit_test(nothing_is_forgotten_that_lasts),
+                                       cmocka_unit_test(without_memory_the_step_says_so),
+                                       cmocka_unit_test(the_footprint_follows_the_bodies)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
