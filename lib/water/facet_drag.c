@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/wide.h"
 #include "water/facet_drag.h"
 
 int32_t fl_skin_most(const fl_hull *h)
@@ -117,42 +118,108 @@ static void solve6(double a[6][6], double *x)
     }
 }
 
+/* What pieces add up to: h sum D U and h sum r x D U, then h K, its lower half row by row. */
+enum { TURN = 3, MATRIX = 6, SUMS = MATRIX + 21 };
+
+/* Of four pieces a number each. */
+typedef struct {
+    fl_wide area, n[3], r[3], U[3];
+} pieces;
+
+FL_WIDE_PART void take(pieces *p, const fl_skin_piece *at)
+{
+    fl_wide a[FL_LANES], b[FL_LANES], c[FL_LANES];
+    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++)
+    {
+        a[l] = FL_FOUR(&at[l].area); /* and n */
+        b[l] = FL_FOUR(&at[l].r);
+        c[l] = FL_FOUR(&at[l].r.z); /* and flow */
+    }
+    fl_wide_transpose(a);
+    fl_wide_transpose(b);
+    fl_wide_transpose(c);
+    p->area = a[0];
+    FL_WIDE_UNROLL for (int k = 0; k < 3; k++) p->n[k] = a[k + 1], p->U[k] = c[k + 1];
+    p->r[0] = b[0], p->r[1] = b[1], p->r[2] = c[0];
+}
+
+FL_WIDE_PART void to_roots(fl_wide *x)
+{
+    double a[FL_LANES];
+    FL_FOUR_INTO(a) = *x;
+#pragma omp simd
+    for (int l = 0; l < FL_LANES; l++) a[l] = sqrt(a[l]);
+    *x = FL_FOUR(a);
+}
+
+#define DOT(a, b) (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+
+/* Four pieces, into sums of four each.  skin, form: times h. */
+FL_WIDE_PART void add_four(const fl_skin_piece *at, double skin, double form, fl_vec3 v, fl_vec3 w,
+                           fl_wide *sum)
+{
+    pieces p;
+    take(&p, at);
+    const fl_wide *m = p.n, *r = p.r, *U = p.U;
+    const fl_wide u[3] = {v.x + (w.y * r[2] - w.z * r[1]) - U[0], v.y + (w.z * r[0] - w.x * r[2]) - U[1],
+                          v.z + (w.x * r[1] - w.y * r[0]) - U[2]};
+    const fl_wide un = DOT(u, m), t[3] = {u[0] - un * m[0], u[1] - un * m[1], u[2] - un * m[2]};
+    fl_wide ut = DOT(t, t);
+    to_roots(&ut);
+    const fl_wide s = skin * p.area * ut, b = form * p.area * FL_WIDE_WHERE(un > 0.0, un) - s,
+                  bU = b * DOT(m, U);
+    const fl_wide q[3] = {r[1] * m[2] - r[2] * m[1], r[2] * m[0] - r[0] * m[2], r[0] * m[1] - r[1] * m[0]};
+    const fl_wide d[3] = {s * U[0] + bU * m[0], s * U[1] + bU * m[1], s * U[2] + bU * m[2]};
+    const fl_wide g[6] = {m[0], m[1], m[2], q[0], q[1], q[2]}, sr[3] = {s * r[0], s * r[1], s * r[2]};
+    FL_WIDE_UNROLL for (int i = 0; i < 3; i++) sum[i] += d[i];
+    sum[TURN] += r[1] * d[2] - r[2] * d[1];
+    sum[TURN + 1] += r[2] * d[0] - r[0] * d[2];
+    sum[TURN + 2] += r[0] * d[1] - r[1] * d[0];
+    fl_wide *row = sum + MATRIX;
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; row += ++i) {
+        const fl_wide bg = b * g[i];
+#pragma GCC unroll 6
+        for (int j = 0; j <= i; j++) row[j] += bg * g[j];
+    }
+    fl_wide *a0 = sum + MATRIX, *a1 = a0 + 1, *a2 = a1 + 2, *a3 = a2 + 3, *a4 = a3 + 4, *a5 = a4 + 5;
+    a0[0] += s, a1[1] += s, a2[2] += s;
+    a3[1] -= sr[2], a3[2] += sr[1]; /* (e_i x r).e_j */
+    a4[0] += sr[2], a4[2] -= sr[0];
+    a5[0] -= sr[1], a5[1] += sr[0];
+    a3[3] += sr[1] * r[1] + sr[2] * r[2]; /* r.r - r r^T */
+    a4[3] -= sr[1] * r[0], a4[4] += sr[0] * r[0] + sr[2] * r[2];
+    a5[3] -= sr[2] * r[0], a5[4] -= sr[2] * r[1], a5[5] += sr[0] * r[0] + sr[1] * r[1];
+}
+
+FL_FOUR_VERSIONS static void add_up(int32_t n, const fl_skin_piece *piece, double skin, double form,
+                                    fl_vec3 v, fl_vec3 w, double out[SUMS])
+{
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    fl_wide sum[SUMS];
+    fl_skin_piece rest[FL_LANES] = {{0}};
+    int32_t k = 0;
+    for (int c = 0; c < SUMS; c++) sum[c] = zero;
+    for (; k + FL_LANES <= n; k += FL_LANES) add_four(&piece[k], skin, form, v, w, sum);
+    for (int32_t l = 0; k + l < n; l++) rest[l] = piece[k + l];
+    if (k < n) add_four(rest, skin, form, v, w, sum);
+    for (int c = 0; c < SUMS; c++) out[c] = fl_wide_sum(&sum[c]);
+}
+
 /* Each speed over the root of its mass: then the matrix is 1 + what drag adds, and the root in solve6() is of
  * numbers of at least 1, whatever the units and however strong the drag. */
 void fl_facet_drag(int32_t n, const fl_skin_piece *piece, double skin, double form, fl_vec3 mass,
                    fl_vec3 inertia, double h, fl_vec3 *v, fl_vec3 *w)
 {
-    const double M[6] = {mass.x, mass.y, mass.z, inertia.x, inertia.y, inertia.z};
-    double a[6][6] = {{0}}, x[6], root[6];
-    fl_vec3 push = {0}, turn = {0};
-    for (int32_t k = 0; k < n; k++) {
-        const fl_vec3 r = piece[k].r, m = piece[k].n, U = piece[k].flow;
-        const fl_vec3 u = v3_sub(v3_add(*v, v3_cross(*w, r)), U);
-        const double un = v3_dot(u, m), ut = v3_norm(v3_madd(u, -un, m));
-        const double s = h * skin * piece[k].area * ut, b = h * form * piece[k].area * fmax(un, 0.0) - s;
-        const fl_vec3 q = v3_cross(r, m), d = v3_add(v3_scale(s, U), v3_scale(b * v3_dot(m, U), m));
-        const double g[6] = {m.x, m.y, m.z, q.x, q.y, q.z};
-        const double rr = v3_norm2(r), e[3] = {r.x, r.y, r.z};
-        push = v3_add(push, d);
-        turn = v3_add(turn, v3_cross(r, d));
-        for (int i = 0; i < 6; i++)
-            for (int j = 0; j <= i; j++) a[i][j] += b * g[i] * g[j];
-        for (int i = 0; i < 3; i++) {
-            a[i][i] += s;
-            for (int j = 0; j <= i; j++) a[3 + i][3 + j] -= s * e[i] * e[j];
-            a[3 + i][3 + i] += s * rr;
-        }
-        /* (e_i x r).e_j */
-        a[3][1] += -s * r.z, a[3][2] += s * r.y;
-        a[4][0] += s * r.z, a[4][2] += -s * r.x;
-        a[5][0] += -s * r.y, a[5][1] += s * r.x;
-    }
-    const double y[6] = {v->x, v->y, v->z, w->x, w->y, w->z},
-                 p[6] = {push.x, push.y, push.z, turn.x, turn.y, turn.z};
-    for (int i = 0; i < 6; i++) {
+    const double M[6] = {mass.x, mass.y, mass.z, inertia.x, inertia.y, inertia.z},
+                 y[6] = {v->x, v->y, v->z, w->x, w->y, w->z};
+    double a[6][6], x[6], root[6], sum[SUMS];
+    const double *row = sum + MATRIX;
+    add_up(n, piece, h * skin, h * form, *v, *w, sum);
+    for (int i = 0; i < 6; row += ++i) {
         root[i] = sqrt(M[i]);
-        x[i] = (M[i] * y[i] + p[i]) / root[i];
-        for (int j = 0; j <= i; j++) a[i][j] /= root[i] * root[j];
+        x[i] = (M[i] * y[i] + sum[i]) / root[i];
+        for (int j = 0; j <= i; j++) a[i][j] = row[j] / (root[i] * root[j]);
         a[i][i] += 1.0;
     }
     solve6(a, x);
