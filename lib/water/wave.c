@@ -2,6 +2,7 @@
 #include "base/expo.h"
 #include "base/mem.h"
 #include "base/rng.h"
+#include "base/wide.h"
 #include "water/wave.h"
 
 static const double PI = 3.141592653589793;
@@ -208,41 +209,51 @@ double fl_wave_pressure(const fl_wave_near *near, double s, double zeta)
     return f[0] + h[0];
 }
 
-/* re += the real part of sum a_m (x + i y)^m, all places in step: a single sum waits for itself. */
-static void series_heads(const fl_wave_series *a, int terms, const double *restrict x,
-                         const double *restrict y, double *restrict head)
+enum { PARTS = FL_WAVE_BATCH / FL_LANES };
+
+/* head += the real part of sum a_m (x + i y)^m, all places in step: a single sum waits for itself. */
+FL_WIDE_PART void series_heads(const fl_wave_series *a, int terms, const fl_wide *x, const fl_wide *y,
+                               fl_wide *head)
 {
-    double re[FL_WAVE_BATCH], im[FL_WAVE_BATCH];
-    for (int j = 0; j < FL_WAVE_BATCH; j++) re[j] = im[j] = 0.0;
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    fl_wide re[PARTS] = {zero, zero}, im[PARTS] = {zero, zero};
     for (int m = terms - 1; m >= 0; m--) {
         const double c = a->re[m], d = a->im[m];
-#pragma omp simd
-        for (int j = 0; j < FL_WAVE_BATCH; j++) {
-            const double r = re[j] * x[j] - im[j] * y[j] + c;
-            im[j] = re[j] * y[j] + im[j] * x[j] + d;
-            re[j] = r;
+        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++)
+        {
+            const fl_wide r = re[k] * x[k] - im[k] * y[k] + c;
+            im[k] = re[k] * y[k] + im[k] * x[k] + d;
+            re[k] = r;
         }
     }
-    for (int j = 0; j < FL_WAVE_BATCH; j++) head[j] += re[j];
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) head[k] += re[k];
 }
 
-void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s, const double *z, double *eta,
-                   double *head)
+FL_FOUR_VERSIONS void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s,
+                                    const double *z, double *eta, double *head)
 {
-    double x[FL_WAVE_BATCH], y[FL_WAVE_BATCH];
-    for (int j = 0; j < FL_WAVE_BATCH; j++) {
-        y[j] = s[j] - near->s;
-        eta[j] = head[j] = 0.0;
-    }
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    const double depth = w->depth;
+    fl_wide x[PARTS], y[PARTS], over[PARTS] = {zero, zero}, sum[PARTS] = {zero, zero};
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) y[k] = FL_FOUR(&s[FL_LANES * k]) - near->s;
     for (int m = near->terms - 1; m >= 0; m--) {
-#pragma omp simd
-        for (int j = 0; j < FL_WAVE_BATCH; j++) eta[j] = eta[j] * y[j] + near->eta[m];
+        const double c = near->eta[m];
+        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) over[k] = over[k] * y[k] + c;
     }
-    for (int j = 0; j < FL_WAVE_BATCH; j++) x[j] = fl_wave_stretch(w, z[j], eta[j]) - near->z;
-    series_heads(&near->f, near->terms, x, y, head);
-    if (!near->wall) return;
-    for (int j = 0; j < FL_WAVE_BATCH; j++) y[j] = -y[j];
-    series_heads(&near->h, near->terms, x, y, head);
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) /* as fl_wave_stretch() */
+    {
+        fl_wide below = FL_FOUR(&z[FL_LANES * k]) - over[k];
+        const fl_wide_mask wet = below < 0.0;
+        if (depth < INFINITY) below = below * depth / (depth + over[k]);
+        x[k] = FL_WIDE_WHERE(wet, below) - near->z;
+        FL_FOUR_INTO(&eta[FL_LANES * k]) = over[k];
+    }
+    series_heads(&near->f, near->terms, x, y, sum);
+    if (near->wall) {
+        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) y[k] = -y[k];
+        series_heads(&near->h, near->terms, x, y, sum);
+    }
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) FL_FOUR_INTO(&head[FL_LANES * k]) = sum[k];
 }
 
 void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],
