@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/mem.h"
+#include "base/wide.h"
 #include "water/froude.h"
 
 /* Longest side of a panel, in 1/k, and up to what size of a body the rule of degree 2 will do.  Boxes of 2 to
@@ -130,78 +131,111 @@ void fl_wave_plane(const fl_wave_around *a, const fl_afloat *at, fl_vec3 *up, do
 
 /* --- the sums ---------------------------------------------------------------------------------- */
 
-/* Radon's rule of degree 5 and the rule of degree 2 with points inside: weights and the coordinates of the
- * first corner; the other two share the rest. */
+/* Radon's rule of degree 5 and the rule of degree 2 with points inside: weights, and the shares of the three
+ * corners in each point; what is left of a batch weighs nothing. */
 #define SQRT15 3.872983346207417
-static const double FIVE[2][2] = {{(155.0 - SQRT15) / 1200.0, (9.0 + 2.0 * SQRT15) / 21.0},
-                                  {(155.0 + SQRT15) / 1200.0, (9.0 - 2.0 * SQRT15) / 21.0}};
+#define W1 ((155.0 - SQRT15) / 1200.0)
+#define W2 ((155.0 + SQRT15) / 1200.0)
+#define O1 ((9.0 + 2.0 * SQRT15) / 21.0)
+#define O2 ((9.0 - 2.0 * SQRT15) / 21.0)
+#define R1 (0.5 * (1.0 - O1))
+#define R2 (0.5 * (1.0 - O2))
+#define T (1.0 / 3.0)
+#define S (1.0 / 6.0)
+static const double RULE[2][4][FL_WAVE_BATCH] = {{{T, T, T, 0, 0, 0, 0, 0},
+                                                  {4 * S, S, S, T, T, T, T, T},
+                                                  {S, 4 * S, S, T, T, T, T, T},
+                                                  {S, S, 4 * S, T, T, T, T, T}},
+                                                 {{9.0 / 40.0, W1, W1, W1, W2, W2, W2, 0},
+                                                  {T, O1, R1, R1, O2, R2, R2, T},
+                                                  {T, R1, O1, R1, R2, O2, R2, T},
+                                                  {T, R1, R1, O1, R2, R2, O2, T}}};
+#undef S
+#undef T
+static const int POINTS[2] = {3, 7};
+/* Of what is summed up lane by lane. */
+typedef double lanes[FL_LANES];
 
 typedef struct {
     const fl_waves *w;
     const fl_wave_around *a;
     const fl_afloat *at;
-    fl_vec3 force, moment, first; /* int p n, int x x p n over rho g; int x (z - eta) n_z */
-    double volume, height, wetted;
+    fl_vec3 force, moment;                  /* int p n, int x x p n over rho g */
+    lanes first[3], volume, height, wetted; /* int x (z - eta) n_z, ... */
 } sums;
-
-static void point(sums *S, fl_vec3 n, double nz, fl_vec3 x, double area, double z, double eta, double head)
-{
-    const double p = area * (head - z), v = area * (z - eta) * nz;
-    const fl_vec3 f = v3_scale(p, n);
-    S->force = v3_sub(S->force, f);
-    S->moment = v3_sub(S->moment, v3_cross(x, f));
-    S->volume += v;
-    S->first = v3_madd(S->first, v, x);
-    S->height += 0.5 * v * (z + eta);
-    S->wetted += area;
-}
 
 /* The cell of the surface that all m points lie in, NULL where there is none. */
 static const fl_wave_near *shared_cell(const sums *S, int m, const double *s, const double *z)
 {
     const fl_wave_near *cell = column(S->a, s[0]);
-    for (int j = 1; j < m; j++)
+    for (int j = 1; j < m && S->a->columns > 1; j++)
         if (column(S->a, s[j]) != cell) return NULL;
     for (int j = 0; S->a->rows && j < m; j++)
         if (z[j] - S->w->swing < -S->a->half) return NULL;
     return cell;
 }
 
+/* The points of a triangle: in the body's axes, along the wave and over still water. */
+typedef struct {
+    double x[3][FL_WAVE_BATCH], s[FL_WAVE_BATCH], z[FL_WAVE_BATCH];
+} points;
+
+FL_FOUR_VERSIONS static void spread(const fl_afloat *at, int fine, fl_vec3 a, fl_vec3 b, fl_vec3 c, points *p)
+{
+    const double(*rule)[FL_WAVE_BATCH] = RULE[fine];
+    for (int k = 0; k < FL_WAVE_BATCH; k += FL_LANES) {
+        const fl_wide ca = FL_FOUR(&rule[1][k]), cb = FL_FOUR(&rule[2][k]), cc = FL_FOUR(&rule[3][k]),
+                      x = ca * a.x + cb * b.x + cc * c.x, y = ca * a.y + cb * b.y + cc * c.y,
+                      z = ca * a.z + cb * b.z + cc * c.z;
+        FL_FOUR_INTO(&p->x[0][k]) = x;
+        FL_FOUR_INTO(&p->x[1][k]) = y;
+        FL_FOUR_INTO(&p->x[2][k]) = z;
+        FL_FOUR_INTO(&p->s[k]) = at->s + (at->along.x * x + at->along.y * y + at->along.z * z);
+        FL_FOUR_INTO(&p->z[k]) = at->z + (at->up.x * x + at->up.y * y + at->up.z * z);
+    }
+}
+
+/* Book them: p = area (head - z) presses at each of them along -n. */
+FL_FOUR_VERSIONS static void book(sums *S, const points *p, int fine, double area, fl_vec3 n, double nz,
+                                  const double *eta, const double *head)
+{
+    fl_wide press = {0.0, 0.0, 0.0, 0.0}, arm[3] = {press, press, press};
+    for (int k = 0; k < FL_WAVE_BATCH; k += FL_LANES) {
+        const fl_wide part = area * FL_FOUR(&RULE[fine][0][k]), z = FL_FOUR(&p->z[k]), e = FL_FOUR(&eta[k]),
+                      f = part * (FL_FOUR(&head[k]) - z), v = part * (z - e) * nz;
+        press += f;
+        FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
+        {
+            const fl_wide x = FL_FOUR(&p->x[c][k]);
+            arm[c] += f * x;
+            FL_FOUR_INTO(S->first[c]) += v * x;
+        }
+        FL_FOUR_INTO(S->volume) += v;
+        FL_FOUR_INTO(S->height) += 0.5 * v * (z + e);
+        FL_FOUR_INTO(S->wetted) += part;
+    }
+    S->force = v3_madd(S->force, -fl_wide_sum(&press), n);
+    S->moment =
+        v3_sub(S->moment, v3_cross(v3(fl_wide_sum(&arm[0]), fl_wide_sum(&arm[1]), fl_wide_sum(&arm[2])), n));
+}
+
 static void triangle(sums *S, int fine, fl_vec3 n, double nz, fl_vec3 a, fl_vec3 b, fl_vec3 c)
 {
     const double area = 0.5 * v3_dot(n, v3_cross(v3_sub(b, a), v3_sub(c, a)));
-    const fl_vec3 v[3] = {a, b, c};
-    fl_vec3 x[FL_WAVE_BATCH];
-    double part[FL_WAVE_BATCH], s[FL_WAVE_BATCH] = {0}, z[FL_WAVE_BATCH] = {0}, eta[FL_WAVE_BATCH],
-                                head[FL_WAVE_BATCH];
-    int m = 0;
-    if (fine) {
-        x[m] = v3_scale(1.0 / 3.0, v3_add(a, v3_add(b, c)));
-        part[m++] = 9.0 / 40.0;
-    }
-    for (int r = 0; r < (fine ? 2 : 1); r++) {
-        const double own = fine ? FIVE[r][1] : 2.0 / 3.0, other = 0.5 * (1.0 - own);
-        for (int k = 0; k < 3; k++) {
-            x[m] = v3_madd(v3_scale(own, v[k]), other, v3_add(v[(k + 1) % 3], v[(k + 2) % 3]));
-            part[m++] = fine ? FIVE[r][0] : 1.0 / 3.0;
-        }
-    }
-    for (int j = 0; j < m; j++) {
-        s[j] = S->at->s + v3_dot(S->at->along, x[j]);
-        z[j] = S->at->z + v3_dot(S->at->up, x[j]);
-    }
-    for (int j = m; j < FL_WAVE_BATCH; j++) s[j] = s[0], z[j] = z[0];
-    const fl_wave_near *one = shared_cell(S, m, s, z);
+    points p;
+    double eta[FL_WAVE_BATCH], head[FL_WAVE_BATCH];
+    spread(S->at, fine, a, b, c, &p);
+    const fl_wave_near *one = shared_cell(S, POINTS[fine], p.s, p.z);
     if (one) {
-        fl_wave_heads(S->w, one, s, z, eta, head);
+        fl_wave_heads(S->w, one, p.s, p.z, eta, head);
     } else {
-        for (int j = 0; j < m; j++) {
-            eta[j] = fl_wave_over(S->a, s[j], NULL);
-            const double zeta = fl_wave_stretch(S->w, z[j], eta[j]);
-            head[j] = fl_wave_pressure(fl_wave_at(S->a, s[j], zeta), s[j], zeta);
+        for (int j = 0; j < FL_WAVE_BATCH; j++) {
+            eta[j] = fl_wave_over(S->a, p.s[j], NULL);
+            const double zeta = fl_wave_stretch(S->w, p.z[j], eta[j]);
+            head[j] = fl_wave_pressure(fl_wave_at(S->a, p.s[j], zeta), p.s[j], zeta);
         }
     }
-    for (int j = 0; j < m; j++) point(S, n, nz, x[j], part[j] * area, z[j], eta[j], head[j]);
+    book(S, &p, fine, area, n, nz, eta, head);
 }
 
 /* The part of a panel below the wave: h[k] are the heights of its corners over the wave, in between they go
@@ -220,6 +254,8 @@ static void panel(sums *S, int fine, fl_vec3 n, double nz, const fl_vec3 *v, con
     for (int k = 1; k + 1 < m; k++) triangle(S, fine, n, nz, out[0], out[k], out[k + 1]);
 }
 
+static double all(const double *a) { return (a[0] + a[2]) + (a[1] + a[3]); }
+
 void fl_froude_solid(const fl_tiles *tiles, const fl_hull *h, const fl_waves *w, const fl_wave_around *a,
                      const fl_afloat *at, double weight, fl_push *push)
 {
@@ -236,14 +272,15 @@ void fl_froude_solid(const fl_tiles *tiles, const fl_hull *h, const fl_waves *w,
         for (int c = 0; c < 3; c++) over[c] -= fl_wave_over(a, at->s + v3_dot(at->along, v[c]), NULL);
         panel(&S, tiles->fine, n, nz, v, over);
     }
+    const double volume = all(S.volume);
     *push = (fl_push){.force = v3_scale(weight, S.force),
                       .moment = v3_scale(weight, S.moment),
-                      .volume = S.volume > 0.0 ? S.volume : 0.0,
-                      .wetted = S.wetted};
-    if (!(S.volume > 0.0)) return;
+                      .volume = volume > 0.0 ? volume : 0.0,
+                      .wetted = all(S.wetted)};
+    if (!(volume > 0.0)) return;
     /* the sum is right along the water; up it takes the place of what the height says */
-    const fl_vec3 c = v3_scale(1.0 / S.volume, S.first);
-    push->centre = v3_madd(c, S.height / S.volume - at->z - v3_dot(at->up, c), at->up);
+    const fl_vec3 c = v3_scale(1.0 / volume, v3(all(S.first[0]), all(S.first[1]), all(S.first[2])));
+    push->centre = v3_madd(c, all(S.height) / volume - at->z - v3_dot(at->up, c), at->up);
 }
 
 void fl_froude_round(const fl_hull *h, const fl_waves *w, const fl_wave_around *a, const fl_afloat *at,
