@@ -229,7 +229,8 @@ static void triangle(sums *S, int fine, fl_vec3 n, double nz, fl_vec3 a, fl_vec3
     if (one) {
         fl_wave_heads(S->w, one, p.s, p.z, eta, head);
     } else {
-        for (int j = 0; j < FL_WAVE_BATCH; j++) {
+        for (int j = 0; j < FL_WAVE_BATCH; j++) eta[j] = head[j] = 0.0;
+        for (int j = 0; j < POINTS[fine]; j++) {
             eta[j] = fl_wave_over(S->a, p.s[j], NULL);
             const double zeta = fl_wave_stretch(S->w, p.z[j], eta[j]);
             head[j] = fl_wave_pressure(fl_wave_at(S->a, p.s[j], zeta), p.s[j], zeta);
@@ -254,6 +255,20 @@ static void panel(sums *S, int fine, fl_vec3 n, double nz, const fl_vec3 *v, con
     for (int k = 1; k + 1 < m; k++) triangle(S, fine, n, nz, out[0], out[k], out[k + 1]);
 }
 
+/* Heights of three corners over the wave, from those over still water. */
+static void lower(const fl_wave_around *a, const fl_afloat *at, const fl_vec3 *v, double over[3])
+{
+    double s[FL_LANES], eta[FL_LANES];
+    for (int c = 0; c < 3; c++) s[c] = at->s + v3_dot(at->along, v[c]);
+    s[3] = s[0];
+    const fl_wave_near *one = column(a, s[0]);
+    if (a->columns == 1 || (one == column(a, s[1]) && one == column(a, s[2])))
+        fl_wave_elevations(one, s, eta);
+    else
+        for (int c = 0; c < 3; c++) eta[c] = fl_wave_over(a, s[c], NULL);
+    for (int c = 0; c < 3; c++) over[c] -= eta[c];
+}
+
 static double all(const double *a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 void fl_froude_solid(const fl_tiles *tiles, const fl_hull *h, const fl_waves *w, const fl_wave_around *a,
@@ -269,7 +284,7 @@ void fl_froude_solid(const fl_tiles *tiles, const fl_hull *h, const fl_waves *w,
             low = fmin(low, over[c]);
         }
         if (low >= w->crest) continue;
-        for (int c = 0; c < 3; c++) over[c] -= fl_wave_over(a, at->s + v3_dot(at->along, v[c]), NULL);
+        lower(a, at, v, over);
         panel(&S, tiles->fine, n, nz, v, over);
     }
     const double volume = all(S.volume);

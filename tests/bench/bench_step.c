@@ -8,8 +8,10 @@
  *     bench_step order THREADS         one order of all sums against any, alone
  *     bench_step one|any STEPS         so many steps of the gas with sums in one order, or in any; tells how
  *                                      many body-steps they were
- *     bench_step dry|water STEPS       so many steps of a hundred floes that touch nothing; tells how many
- *                                      body-steps they were */
+ *     bench_step dry|water|waves|facets STEPS
+ *                                      so many steps of a hundred floes that touch nothing: dry, in still
+ *                                      water, in waves, in still water with drag on each facet; tells how
+ *                                      many body-steps they were */
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -151,11 +153,16 @@ static int order_of_sums(int threads)
 
 /* --- bodies that touch nothing, and many of them ----------------------------------------------- */
 
+enum sea { DRY, STILL, WAVES, FACETS };
+
 /* Floes or spheres on a square grid, with a pitch that lets a few of them meet. */
-static void grid(lab *l, int32_t side, int spheres, double pitch, int water)
+static void grid(lab *l, int32_t side, int spheres, double pitch, enum sea water)
 {
     lab_start(l);
-    if (water) lab_set(l, "run.gravity=9.81"), lab_set(l, "water.current=0.2 0 0");
+    if (water != DRY) lab_set(l, "run.gravity=9.81"), lab_set(l, "water.current=0.2 0 0");
+    if (water == WAVES) lab_set(l, "water.wave=airy"), lab_set(l, "water.height=0.2");
+    if (water == WAVES) lab_set(l, "water.period=4"), lab_set(l, "water.depth=20");
+    if (water == FACETS) lab_set(l, "water.drag=facet");
     lab_set(l, "contact.softening=0.05");
     for (int32_t k = 0; k < side * side; k++) {
         fl_rng g = fl_rng_of(4, k, FL_RNG_TEST);
@@ -167,7 +174,7 @@ static void grid(lab *l, int32_t side, int spheres, double pitch, int water)
     lab_make(l, 2e-4);
 }
 
-static double cost(int32_t side, int spheres, double pitch, int water, int64_t steps, const char *what)
+static double cost(int32_t side, int spheres, double pitch, enum sea water, int64_t steps, const char *what)
 {
     lab l;
     grid(&l, side, spheres, pitch, water);
@@ -198,7 +205,11 @@ static int alone(const char *where, int64_t steps)
         lab_free(&l);
         return bad;
     }
-    grid(&l, 10, 0, 4.0, strcmp(where, "water") == 0);
+    grid(&l, 10, 0, 4.0,
+         strcmp(where, "water") == 0    ? STILL
+         : strcmp(where, "waves") == 0  ? WAVES
+         : strcmp(where, "facets") == 0 ? FACETS
+                                        : DRY);
     const int bad = lab_run(&l, steps);
     printf("%lld\n", (long long)(steps * l.w.n));
     lab_free(&l);
@@ -312,18 +323,19 @@ int main(int argc, char **argv)
         else bad++;
     }
     printf("\nbodies that touch nothing\n");
-    const double far = cost(30, 0, 4.0, 0, 2000, "floes, dry");
-    const double afloat = cost(30, 0, 4.0, 1, 500, "floes, in water");
+    const double far = cost(30, 0, 4.0, DRY, 2000, "floes, dry");
+    const double afloat = cost(30, 0, 4.0, STILL, 500, "floes, in water");
     sleeper(0, &good, &bad);
     sleeper(1, &good, &bad);
     glances(&good, &bad);
     printf("\ntime against number\n");
     double first = 0.0, last = 0.0;
     for (int32_t side = 32; side <= 317; side *= 3)
-        last = cost(side, 0, 1.02, 0, side > 200 ? 20 : 200, "floes"), first = first > 0.0 ? first : last;
+        last = cost(side, 0, 1.02, DRY, side > 200 ? 20 : 200, "floes"), first = first > 0.0 ? first : last;
     double one = 0.0, million = 0.0;
     for (int32_t side = 100; side <= 1000; side *= 10)
-        million = cost(side, 1, 0.9995, 0, side > 500 ? 10 : 200, "spheres"), one = one > 0.0 ? one : million;
+        million = cost(side, 1, 0.9995, DRY, side > 500 ? 10 : 200, "spheres"),
+        one = one > 0.0 ? one : million;
     printf("the largest number over the smallest: floes %.2f, spheres %.2f\n", last / first, million / one);
     if (isfinite(far + afloat + first + last + one + million)) good++;
     else bad++;
