@@ -30,6 +30,9 @@ struct fl_footing {
     int32_t *vertex; /* of B, ascending in each foot; padded there to full registers */
     double *x;       /* their coordinates: x, y and z of a register's worth, and so on */
     int32_t *row;    /* [matches] where each begins in the list */
+    uint8_t *mine;   /* [matches] 1 + its way where the footing has it, else 0 */
+    int32_t *cut[2]; /* numbers of the planes that the others ask about, of each way */
+    int32_t cuts[2], cut_cap[2], mine_cap;
     int32_t row_cap, feet, foot_cap, tile_cap, strip_cap, point_cap, corners, corner_cap, vertex_cap, x_cap;
 };
 
@@ -106,6 +109,38 @@ static int32_t keys_of(const fl_matches *l, const fl_side *A, const fl_side *B, 
         }
     }
     return n;
+}
+
+/* The planes that matches ask about which are not of the footing. */
+static int list_cuts(fl_footing *o, const fl_matches *l)
+{
+    const void *whole = fl_matches_whole(l);
+    const int32_t columns[2] = {fl_matches_columns(l->vertices[0]), fl_matches_columns(l->vertices[1])};
+    fl_err lost = {0};
+    uint8_t *asked = fl_alloc((int64_t)l->cuts[0] + l->cuts[1] + 1, sizeof *asked, &lost);
+    int rc = asked ? 0 : -1;
+    for (int way = 0; way < 2 && rc == 0; way++)
+        rc = fl_grow(&o->cut[way], &o->cut_cap[way], (int64_t)l->cuts[way] + 1, sizeof(int32_t), &lost);
+    for (int32_t k = 0; k < l->n && rc == 0; k++) {
+        const int32_t head = fl_matches_get(whole, l->wide, o->row[k]), way = fl_match_way(head);
+        const int kind = fl_match_kind_of(head);
+        const int plane =
+            kind == FL_MATCH_VERTEX_FACE || kind == FL_MATCH_EDGE_FACE || kind == FL_MATCH_FACE_FACE;
+        const int32_t from = o->row[k] + fl_match_fixed(kind);
+        if (o->mine[k]) continue;
+        for (int32_t c = -plane; c < fl_match_sides(head); c++) {
+            /* the plane of the face is the last of the fixed numbers */
+            const int32_t at = fl_matches_get(whole, l->wide, from + c);
+            asked[(way ? l->cuts[0] : 0) + (c < 0 ? at : at >> 1) / columns[way]] = 1;
+        }
+    }
+    for (int way = 0; way < 2 && rc == 0; way++) {
+        o->cuts[way] = 0;
+        for (int32_t k = 0; k < l->cuts[way]; k++)
+            if (asked[(way ? l->cuts[0] : 0) + k]) o->cut[way][o->cuts[way]++] = k;
+    }
+    free(asked);
+    return rc;
 }
 
 /* Ends of an edge, a vertex, or the corners of a face. */
@@ -211,19 +246,24 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
 {
     fl_err lost = {0};
     if (!l->footing) l->footing = fl_alloc(1, sizeof *l->footing, &lost);
+    fl_footing *const o = l->footing;
     key *k = fl_alloc(l->n, sizeof *k, &lost);
-    int rc = l->footing && k && !fl_grow(&l->footing->row, &l->footing->row_cap, l->n, sizeof(int32_t), &lost)
+    int rc = o && k && !fl_grow(&o->row, &o->row_cap, l->n, sizeof *o->row, &lost) &&
+                     !fl_grow(&o->mine, &o->mine_cap, l->n, sizeof *o->mine, &lost)
                  ? 0
                  : -1;
     if (rc == 0) {
-        lister s = {.o = l->footing, .l = l, .A = A, .B = B};
-        const int32_t n = keys_of(l, A, B, l->footing->row, k);
-        l->footing->feet = l->footing->corners = 0;
+        lister s = {.o = o, .l = l, .A = A, .B = B};
+        const int32_t n = keys_of(l, A, B, o->row, k);
+        for (int32_t c = 0; c < l->n; c++) o->mine[c] = 0;
+        for (int32_t c = 0; c < n; c++) o->mine[k[c].match] = (uint8_t)(1 + k[c].way);
+        o->feet = o->corners = 0;
         if (n > 1) qsort(k, (size_t)n, sizeof *k, key_order);
         for (int32_t from = 0, to; from < n && rc == 0; from = to) {
             for (to = from + 1; to < n && k[to].F == k[from].F; to++) {}
             rc = list_foot(&s, k + from, to - from);
         }
+        if (rc == 0 && n > 0) rc = list_cuts(o, l);
     }
     free(k);
     return rc;
@@ -569,10 +609,14 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
         lay_ground(&q.g, A, from->F, o->x + 3 * (int64_t)from->vertex, vertices, rim, room->number);
         if (foot_places(&q, from)) return -1;
     }
-    rest->choice = room->left;
-    rest->chosen = 0;
-    for (int32_t k = 0; k < l->n; k++)
-        if (!room->skip[k]) room->left[rest->chosen++] = o->row[k];
+    fl_choice *const c = &room->choice;
+    *c = (fl_choice){.at = room->left, .cut = {o->cut[0], o->cut[1]}, .cuts = {o->cuts[0], o->cuts[1]}};
+    for (int32_t k = 0; k < l->n; k++) {
+        if (room->skip[k]) continue;
+        room->left[c->n++] = o->row[k];
+        if (o->mine[k]) c->cut[o->mine[k] - 1] = NULL; /* that asks about more */
+    }
+    rest->choice = c;
     return 0;
 }
 
@@ -580,7 +624,7 @@ void fl_footing_free(fl_footing *o)
 {
     if (!o) return;
     free(o->foot), free(o->tile), free(o->strip), free(o->point), free(o->corner), free(o->vertex),
-        free(o->x), free(o->row);
+        free(o->x), free(o->row), free(o->mine), free(o->cut[0]), free(o->cut[1]);
     free(o);
 }
 

@@ -32,7 +32,8 @@ typedef struct fl_footing fl_footing;
 typedef struct {
     double *number;    /* of vertices and sides of F (tread.h), and the parts of edges */
     uint8_t *skip;     /* [l->n] what the footings have done */
-    int32_t *left;     /* rows of the matches that are left */
+    int32_t *left;     /* where the rows of the matches begin that are left */
+    fl_choice choice;  /* those */
     int32_t *list;     /* numbers of faces and edges */
     fl_tread_cut *cut; /* faces that are cut */
     int32_t number_cap, skip_cap, left_cap, list_cap, cut_cap;

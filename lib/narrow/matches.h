@@ -45,6 +45,13 @@ typedef struct {
  * row is told by where it begins in its table, so that the row and the column add up to the place. */
 enum { FL_MATCH_HEAD, FL_MATCH_OWN, FL_MATCH_OTHER, FL_MATCH_COLUMN, FL_MATCH_SECOND, FL_MATCH_FACTOR };
 
+/* Some of the rows of a list. */
+typedef struct {
+    const int32_t *at;     /* [n] where they begin */
+    const int32_t *cut[2]; /* [cuts] numbers of the planes of each way that they ask about, or NULL: any */
+    int32_t n, cuts[2];
+} fl_choice;
+
 /* Zeroed to start: nothing listed. */
 struct fl_matches {
     void *block;
@@ -56,11 +63,10 @@ struct fl_matches {
     int16_t clear;                         /* the cores do not meet while it holds */
     fl_mat3 M; /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
     fl_vec3 o;
-    double shift2, turn2;  /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
-    double margin;         /* it was listed for [m] */
-    int64_t uses;          /* looks since then */
-    const int32_t *choice; /* [chosen] borrowed: where the rows begin that count, or NULL: all do */
-    int32_t chosen;
+    double shift2, turn2;    /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
+    double margin;           /* it was listed for [m] */
+    int64_t uses;            /* looks since then */
+    const fl_choice *choice; /* borrowed: the rows that count, or NULL: all do */
     int32_t *wall; /* [walls + shy] the caller's: faces of a surface that is not convex, in reach as long, and
                     * vertices of A that may come behind it as long */
     int32_t walls, shy, wall_cap;

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stddef.h>
 #include "base/mem.h"
 #include "base/wide.h"
 #include "narrow/areas.h"
 #include "narrow/matches.h"
 #include "narrow/strips.h"
 
-/* Rows of heights, `columns` each, a multiple of FL_LANES, of points x, y, z.  What lies on a plane is taken
- * as a hair aside, for all who ask to the same side. */
-FL_WIDE_VERSIONS static void heights(const fl_cut *cut, int32_t rows, const double *x, const double *y,
-                                     const double *z, int32_t columns, double *h)
+/* Rows of heights, all or those in the list, `columns` each, a multiple of FL_LANES, of points x, y, z.  What
+ * lies on a plane is taken as a hair aside, for all who ask to the same side. */
+FL_WIDE_VERSIONS static void heights(const fl_cut *cut, const int32_t *list, int32_t rows, const double *x,
+                                     const double *y, const double *z, int32_t columns, double *h)
 {
-    for (int32_t k = 0; k < rows; k++) {
+    for (int32_t c = 0; c < rows; c++) {
+        const int32_t k = list ? list[c] : c;
         const fl_cut p = cut[k];
         const double hair = 1e-300 * (0.5772156649 * p.g.x + 0.4342944819 * p.g.y + 0.6931471806 * p.g.z);
         for (int32_t v = 0; v < columns; v += FL_LANES) {
@@ -45,7 +47,8 @@ static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, 
         *(fl_wide *)(y + k) = (fl_wide){v[0].y, v[1].y, v[2].y, v[3].y};
         *(fl_wide *)(z + k) = (fl_wide){v[0].z, v[1].z, v[2].z, v[3].z};
     }
-    heights(fl_matches_cuts(l, way), cuts, x, y, z, columns, s->h);
+    const int32_t *list = l->choice ? l->choice->cut[way] : NULL;
+    heights(fl_matches_cuts(l, way), list, list ? l->choice->cuts[way] : cuts, x, y, z, columns, s->h);
     *out = s->h;
     return 0;
 }
@@ -206,8 +209,8 @@ INLINE int all_rows(const meeting way[2], const fl_matches *l, int wide)
 INLINE int some_rows(const meeting way[2], const fl_matches *l, int wide)
 {
     const size_t each = wide ? sizeof(int32_t) : sizeof(uint16_t);
-    for (int32_t k = 0; k < l->chosen; k++) {
-        const row r = (const char *)fl_matches_whole(l) + (size_t)l->choice[k] * each;
+    for (int32_t k = 0; k < l->choice->n; k++) {
+        const row r = (const char *)fl_matches_whole(l) + (size_t)l->choice->at[k] * each;
         const int32_t head = get(r, wide, FL_MATCH_HEAD), n = fl_match_sides(head);
         const int kind = fl_match_kind_of(head);
         const meeting *q = &way[fl_match_way(head)];

@@ -229,10 +229,10 @@ FL_WIDE_PART int keep(const spot *p, int n, int axis, double level, spot *in, sp
     return m;
 }
 
-/* Put a piece into store; *most: of all its numbers. */
+/* Put a piece into store; *most, where that is not NULL: of all its numbers. */
 FL_WIDE_PART void put(store *b, const spot *p, int n, const spot *kind, const spot *turn, spot *most)
 {
-    for (int k = 0; k < n; k++) *most = LARGER(p[k], *most);
+    for (int k = 0; k < n && most; k++) *most = LARGER(p[k], *most);
     for (int k = 2; k < n; k++) {
         const int i = b->n++;
         b->corner[i][0] = p[0], b->corner[i][1] = p[k - 1], b->corner[i][2] = p[k];
@@ -267,74 +267,66 @@ FL_WIDE_PART void end(const fl_tread *g, const facet *f, const fl_tread_side *m,
     pull->m = v3_add(pull->m, v3(ry * slope, -rx * slope, rx * m->ny - ry * m->nx));
 }
 
-/* How far x, y at height h is within the side, or what of F is above it. */
-FL_WIDE_PART double far_within(const fl_tread_side *m, double slope, double R, const spot *p)
+/* One way of the piece p of f, s = R - h > 0, over no side of F or one, d being how far it is within. */
+FL_WIDE_PART void over_one(const fl_tread *g, const facet *f, int below, const fl_tread_side *m, spot *p,
+                           int n, store *plain, store *faded, spot *most, fl_tread_pull *pull)
 {
-    return m->nx * ((*p)[0] - m->x) + m->ny * ((*p)[1] - m->y) + slope * (R - (*p)[S]);
+    spot in[PIECE], out[PIECE], rest[PIECE];
+    int cut, left;
+    if (below) {
+        if (m) {
+            n = keep(p, n, D, 0.0, in, NULL, &left, &cut);
+            if (n < 3) return;
+            n = keep(in, n, D, g->rim, rest, out, &left, &cut);
+            spot normal = f->turn;
+            normal[2] = m->nx, normal[3] = m->ny;
+            put(faded, out, left, &f->kind[1], &normal, most);
+            p = rest;
+        }
+        put(plain, p, n, &f->kind[1], &f->turn, most);
+        return;
+    }
+    /* of what of F is above it */
+    const double slope = m ? (f->nx * m->nx + f->ny * m->ny) * f->over : 0.0;
+    double least = 0.0;
+    for (int k = 0; k < n; k++) {
+        const double h = g->R - p[k][S], s = g->R - h * f->over;
+        p[k][D] += slope * h, p[k][S] = s;
+        least = s < least ? s : least;
+    }
+    if (m) {
+        n = keep(p, n, D, 0.0, in, NULL, &left, &cut);
+        if (n < 3) return;
+        if (cut >= 0) end(g, f, m, &in[cut], &in[cut + 1 < n ? cut + 1 : 0], pull);
+        p = in;
+    }
+    if (least < 0.0) {
+        n = keep(p, n, S, 0.0, rest, NULL, &left, &cut);
+        p = rest;
+    }
+    put(plain, p, n, &f->kind[0], &f->turn, most);
 }
 
-/* One way of the piece p of f, s = R - h > 0, over the sides of F: where two are equally far it is parted,
- * and each part is over one. */
-FL_WIDE_PART void part(const fl_tread *g, const facet *f, int below, const fl_tread_cut *c, const spot *p,
-                       int n, store *plain, store *faded, spot *most, fl_tread_pull *pull)
+/* Over two sides: where they are equally far, seen this way, it is parted, and each part is over one.  d: of
+ * the first. */
+FL_WIDE_PART void over_two(const fl_tread *g, const facet *f, int below, const fl_tread_side *const m[2],
+                           const spot *p, int n, store *plain, store *faded, spot *most, fl_tread_pull *pull)
 {
-    spot split[2][PIECE], in[PIECE], out[PIECE], all[PIECE], wet[PIECE];
-    int count[2] = {n, 0}, cut, left;
-    const spot *from[2] = {p, split[1]};
+    spot all[PIECE], part[2][PIECE];
     double slope[2] = {0.0, 0.0};
-    const int sides = c->sides;
-    for (int k = 0; k < sides && !below; k++) {
-        const fl_tread_side *m = &g->side[c->side[k]];
-        slope[k] = (f->nx * m->nx + f->ny * m->ny) * f->over;
+    int count[2], cut;
+    for (int k = 0; k < 2 && !below; k++) slope[k] = (f->nx * m[k]->nx + f->ny * m[k]->ny) * f->over;
+    for (int k = 0; k < n; k++) {
+        const double d = m[1]->nx * (p[k][0] - m[1]->x) + m[1]->ny * (p[k][1] - m[1]->y);
+        all[k] = p[k];
+        all[k][D] = d - p[k][D] + (slope[1] - slope[0]) * (g->R - p[k][S]);
     }
-    if (sides == 2) { /* what is farther from the first is over the second */
-        for (int k = 0; k < n; k++) {
-            all[k] = p[k];
-            all[k][D] = far_within(&g->side[c->side[1]], slope[1], g->R, &p[k]) -
-                        far_within(&g->side[c->side[0]], slope[0], g->R, &p[k]);
-        }
-        count[0] = keep(all, n, D, 0.0, split[0], split[1], &count[1], &cut);
-        from[0] = split[0];
-    }
-    for (int i = 0; i < (sides == 2 ? 2 : 1); i++) {
-        int k, m = count[i];
-        double least = 0.0;
-        const fl_tread_side *side = &g->side[c->side[i]];
-        if (m < 3) continue;
-        for (k = 0; k < m; k++) {
-            all[k] = from[i][k];
-            all[k][D] = sides ? far_within(side, slope[i], g->R, &from[i][k]) : 0.0;
-        }
-        if (below) {
-            if (sides == 0) {
-                put(plain, all, m, &f->kind[1], &f->turn, most);
-                continue;
-            }
-            m = keep(all, m, D, 0.0, in, NULL, &left, &cut);
-            if (m < 3) continue;
-            m = keep(in, m, D, g->rim, all, out, &left, &cut);
-            spot normal = f->turn;
-            normal[2] = side->nx, normal[3] = side->ny;
-            put(plain, all, m, &f->kind[1], &f->turn, most);
-            put(faded, out, left, &f->kind[1], &normal, most);
-            continue;
-        }
-        for (k = 0; k < m; k++) {
-            all[k][S] = g->R - (g->R - all[k][S]) * f->over;
-            least = all[k][S] < least ? all[k][S] : least;
-        }
-        const spot *r = all;
-        if (sides) {
-            m = keep(all, m, D, 0.0, in, NULL, &left, &cut);
-            if (m < 3) continue;
-            if (cut >= 0) end(g, f, side, &in[cut], &in[cut + 1 < m ? cut + 1 : 0], pull);
-            r = in;
-        }
-        if (least < 0.0) {
-            m = keep(r, m, S, 0.0, wet, NULL, &left, &cut);
-            r = wet;
-        }
-        put(plain, r, m, &f->kind[0], &f->turn, most);
+    count[0] = keep(all, n, D, 0.0, part[0], part[1], &count[1], &cut);
+    for (int i = 0; i < 2; i++) {
+        if (count[i] < 3) continue;
+        for (int k = 0; k < count[i]; k++)
+            part[i][k][D] = m[i]->nx * (part[i][k][0] - m[i]->x) + m[i]->ny * (part[i][k][1] - m[i]->y);
+        over_one(g, f, below, m[i], part[i], count[i], plain, faded, most, pull);
     }
 }
 
@@ -347,6 +339,7 @@ FL_WIDE_VERSIONS void fl_tread_parts(const fl_tread *g, const fl_tread_tile *til
     fl_tread_sums all = *sum;
     fl_tread_pull pulls = *pull;
     spot top = zero;
+    top[S] = *most;
     plain.n = faded.n = 0;
     for (int32_t k = 0; k <= count; k++) {
         const int last = k == count, more = last ? 0 : tile[list[k].tile].n;
@@ -368,15 +361,27 @@ FL_WIDE_VERSIONS void fl_tread_parts(const fl_tread *g, const fl_tread_tile *til
                 spot p[PIECE], dry[PIECE];
                 const int32_t v[3] = {at[0], at[e - 1], at[e]};
                 int n = 3, left, cut, wet = 1;
+                const double *const d =
+                    list[k].sides ? g->within + (int64_t)list[k].side[0] * g->vertices : NULL;
+                spot *rise = NULL; /* where it may have the largest s of all */
                 for (int i = 0; i < 3; i++) {
                     const double s = g->R - g->h[v[i]];
-                    p[i] = (spot){g->X[v[i]], g->Y[v[i]], s, 0.0};
+                    p[i] = (spot){g->X[v[i]], g->Y[v[i]], s, d ? d[v[i]] : 0.0};
                     wet &= s > 0.0;
+                    if (s > top[S]) rise = &top;
                 }
                 if (!wet) n = keep(p, 3, S, 0.0, dry, NULL, &left, &cut);
                 if (n < 3) continue;
-                for (int below = 0; below < 2; below++)
-                    part(g, &f, below, &list[k], wet ? p : dry, n, &plain, &faded, &top, &pulls);
+                spot *const r = wet ? p : dry;
+                if (list[k].sides == 2) {
+                    const fl_tread_side *const m[2] = {&g->side[list[k].side[0]], &g->side[list[k].side[1]]};
+                    for (int below = 1; below >= 0; below--)
+                        over_two(g, &f, below, m, r, n, &plain, &faded, rise, &pulls);
+                } else {
+                    const fl_tread_side *const m = list[k].sides ? &g->side[list[k].side[0]] : NULL;
+                    for (int below = 1; below >= 0; below--)
+                        over_one(g, &f, below, m, r, n, &plain, &faded, rise, &pulls);
+                }
             }
             if (last || plain.n > STORE - MOST) {
                 int i = 0;
@@ -402,7 +407,7 @@ FL_WIDE_VERSIONS void fl_tread_parts(const fl_tread *g, const fl_tread_tile *til
     }
     *sum = all;
     *pull = pulls;
-    *most = top[S] > *most ? top[S] : *most;
+    *most = top[S];
 }
 
 /* --- edges -----------------------------------------------------------------------------------------------
