@@ -337,6 +337,84 @@ static void impacts(void)
     }
 }
 
+/* --- a hull */
+
+/* A sheet that looks along z and bends away by 1/8 and 1/5 of 1/m, of 2 n^2 triangles on 3 m by 3 m. */
+static void sheet(lab *l, int n)
+{
+    fl_err err = {0};
+    if (fl_surface_add(&l->surface, "hull", 4, &err) < 0) exit(1);
+    fl_part *p = &l->surface.part[0];
+    for (int j = 0; j <= n; j++) {
+        for (int i = 0; i <= n; i++) {
+            const double x = 3.0 * i / n - 1.5 + 0.01 * j / n, y = 3.0 * j / n - 1.5;
+            if (fl_surface_vertex(p, v3(x, y, -x * x / 16.0 - y * y / 10.0), &err)) exit(1);
+        }
+    }
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i < n; i++) {
+            const int32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+            if (fl_surface_triangle(p, a, b, c, &err) || fl_surface_triangle(p, a, c, d, &err)) exit(1);
+        }
+    }
+}
+
+/* Half the change of the energy where the floe moves by +- d and turns by +- turn. */
+static double rises(lab *l, fl_vec3 x, fl_quat q, fl_vec3 d, fl_vec3 turn)
+{
+    double e[2];
+    for (int k = 0; k < 2; k++) {
+        const double way = k ? -1.0 : 1.0;
+        lab_pose(&l->w, 0, v3_madd(x, way, d), q_mul(q_of_vector(v3_scale(way, turn)), q));
+        e[k] = lab_look(&l->w, 0, 1).energy;
+    }
+    lab_pose(&l->w, 0, x, q);
+    return 0.5 * (e[0] - e[1]);
+}
+
+/* Force and moment against the gradient of the energy: with a side on it, an edge, a corner. */
+static void hull(void)
+{
+    static const struct {
+        const char *what;
+        fl_vec3 turn;
+        int middle;
+    } POSE[4] = {{"a side", {0.004, -0.003, 0.3}, 1},
+                 {"a side, aslant,", {0.06, 0.02, 0.1}, 1},
+                 {"an edge", {0.5, 0.005, 0.0}, 0},
+                 {"a corner", {0.5, 0.45, 0.2}, 0}};
+    static const double h =
+        1e-7; /* what is left of strips as narrow as that over edges is 1e-6 of the force */
+    for (int k = 0; k < 4; k++) {
+        lab l;
+        char what[96];
+        const fl_quat q = q_of_vector(POSE[k].turn);
+        const fl_mat3 M = q_matrix(q);
+        /* of a side that bears with its middle, or of the lowest corner */
+        const double low =
+            POSE[k].middle ? 0.35 : 0.35 * (fabs(M.m[2][0]) + fabs(M.m[2][1]) + fabs(M.m[2][2]));
+        double df = 0.0, dm = 0.0;
+        lab_start(&l);
+        lab_box(&l, v3(0, 0, 5), v3(0.4, 0.4, 0.4), 0.05, q_one(), ZERO, ZERO);
+        sheet(&l, 120);
+        lab_make(&l, 1e-9);
+        const fl_vec3 x = v3(0.013, 0.007, low + 0.044), axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        lab_pose(&l.w, 0, x, q);
+        const fl_pair now = lab_look(&l.w, 0, 1);
+        for (int c = 0; c < 3; c++) {
+            const fl_vec3 d = v3_scale(h, axis[c]);
+            df = fmax(df, fabs(v3_dot(now.f, axis[c]) + rises(&l, x, q, d, ZERO) / h));
+            dm = fmax(dm, fabs(v3_dot(now.ti, axis[c]) + rises(&l, x, q, ZERO, d) / h));
+        }
+        const double size = v3_norm(now.f);
+        if (!(size > 1e3)) df = NAN; /* it does not touch */
+        snprintf(what, sizeof what, "%s of a floe on 28 800 triangles: F + grad W, over F", POSE[k].what);
+        verify_below("H29", what, df / size, 1e-5);
+        verify_below("H29", "  moment + dW/d turn, over F 1 m", dm / size, 1e-5);
+        lab_free(&l);
+    }
+}
+
 int main(void)
 {
     verify_begin("structures");
@@ -346,5 +424,6 @@ int main(void)
     rounded();
     corners();
     impacts();
+    hull();
     return verify_end();
 }
