@@ -8,8 +8,8 @@
 #define RADIUS 0.05
 #define PI 3.14159265358979323846
 
-/* A sheet of n by n cells on 2 m that bends by 1/8 1/m one way and 1/5 1/m the other, convex or hollow, and is
- * rough by `rough`; its seams lean by `lean`. */
+/* A sheet of n by n cells on 2 m that bends by 1/8 1/m one way and 1/5 1/m the other, convex or hollow, and
+ * is rough by `rough`; its seams lean by `lean`. */
 static void sheet(fl_surface *s, int n, double hollow, double rough, double lean)
 {
     fl_err err = {0};
