@@ -55,3 +55,9 @@ int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err)
     *cap = (int32_t)n;
     return 0;
 }
+
+int fl_grow_mute(void *array, int32_t *cap, int64_t want, size_t size)
+{
+    fl_err lost = {0};
+    return fl_grow(array, cap, want, size, &lost);
+}

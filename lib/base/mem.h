@@ -16,6 +16,13 @@ void *fl_alloc(int64_t n, size_t size, fl_err *err);
  * Returns 0, or -1 with FL_SYSTEM in err. */
 int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err);
 
+/* The same without a sentence, for what is asked again and again and mostly has room. */
+int fl_grow_mute(void *array, int32_t *cap, int64_t want, size_t size);
+static inline int fl_room(void *array, int32_t *cap, int64_t want, size_t size)
+{
+    return want <= *cap ? 0 : fl_grow_mute(array, cap, want, size);
+}
+
 /* For tests: let the n-th allocation from now, and all after it, fail; n < 0 switches this off. */
 void fl_mem_fail_after(long n);
 /* How many allocations failed that way since the last call of it. */

@@ -89,12 +89,14 @@ int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const
 {
     int32_t there = 0;
     if (fl_grow(&t->order, &t->order_cap, n, sizeof *t->order, err)) return -1;
-    if (fl_grow(&t->node, &t->node_cap, 2 * (int64_t)n + 1, sizeof *t->node, err)) return -1;
     for (int32_t k = 0; k < n; k++)
         if (!absent || k >= m || !absent[k]) t->order[there++] = k;
     t->n = there;
     int32_t more;
-    t->nodes = there > 0 ? 1 + beneath(there, &more) : 0;
+    const int32_t nodes = there > 0 ? 1 + beneath(there, &more) : 0;
+    t->nodes = 0;
+    if (fl_grow(&t->node, &t->node_cap, nodes, sizeof *t->node, err)) return -1;
+    t->nodes = nodes;
     if (there == 0) return 0;
 #pragma omp parallel if (there > TASK)
 #pragma omp single

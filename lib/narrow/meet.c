@@ -32,9 +32,8 @@ static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, 
     const int32_t columns = fl_matches_columns(vertices);
     const void *whole = fl_matches_whole(l);
     const int wide = l->wide;
-    fl_err lost = {0};
-    if (fl_grow(&s->x, &s->x_cap, 3 * (int64_t)columns, sizeof *s->x, &lost) ||
-        fl_grow(&s->h, &s->h_cap, (int64_t)cuts * columns, sizeof *s->h, &lost))
+    if (fl_room(&s->x, &s->x_cap, 3 * (int64_t)columns, sizeof *s->x) ||
+        fl_room(&s->h, &s->h_cap, (int64_t)cuts * columns, sizeof *s->h))
         return -1;
     double *x = s->x, *y = x + columns, *z = y + columns;
     for (int32_t k = 0; k < columns; k += FL_LANES) {

@@ -9,9 +9,8 @@
 
 int fl_places_size(fl_places *w, const fl_poly *a)
 {
-    fl_err lost = {0};
-    return fl_grow(&w->va, &w->va_cap, a->nv, sizeof *w->va, &lost) ||
-                   (a->nf && fl_grow(&w->na, &w->na_cap, a->nf, sizeof *w->na, &lost))
+    return fl_room(&w->va, &w->va_cap, a->nv, sizeof *w->va) ||
+                   fl_room(&w->na, &w->na_cap, a->nf, sizeof *w->na)
                ? -1
                : 0;
 }

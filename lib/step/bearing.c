@@ -116,10 +116,9 @@ FL_WIDE_VERSIONS static void second(const lane *t, int32_t n, double chi, fl_bea
 
 int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
 {
-    fl_err lost = {0};
     *q = (fl_bearing){0};
     if (s->n == 0) return 0;
-    if (fl_grow(&s->lane, &s->lane_cap, s->n / FL_LANES + 1, sizeof(lane), &lost)) return -1;
+    if (fl_room(&s->lane, &s->lane_cap, s->n / FL_LANES + 1, sizeof(lane))) return -1;
     first(s->place, s->n, v, turn, s->lane, q);
     return 0;
 }
