@@ -73,7 +73,7 @@ static void begin_few(fl_world *w, int32_t from, int32_t n, double h, double dt)
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
-    const int calm = fl_calm_goes(sea);
+    const int calm = sea->n && fl_calm_goes(sea);
     fl_few s;
     for (int32_t k = from; k < from + n && sea->n && !calm; k++) fl_sea_drag(sea, b, k, h, 0);
     fl_few_take(&s, b, from, n);
@@ -173,7 +173,7 @@ static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *ow
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
-    const int calm = fl_calm_goes(sea);
+    const int calm = sea->n && fl_calm_goes(sea);
     int32_t busy[FL_FEW];
     const int32_t many = find_busy(w, from, n, busy);
     fl_few s;

@@ -45,9 +45,18 @@ FL_WIDE_VERSIONS static void alike(double (*restrict c)[FL_FEW], fl_vec3 u, int3
     for (int32_t i = 0; i < n; i++) c[0][i] = u.x, c[1][i] = u.y, c[2][i] = u.z;
 }
 
+FL_WIDE_VERSIONS static int meets(const double *restrict area, int32_t n)
+{
+    double many = 0.0;
+#pragma omp simd reduction(+ : many)
+    for (int32_t i = 0; i < n; i++) many += area[i] > 0.0 ? 1.0 : 0.0;
+    return many > 0.0;
+}
+
 static void water(fl_sea *s, const fl_bodies *b, fl_few *a, double h)
 {
     const int32_t from = a->from;
+    if (!meets(s->wetted + from, a->n)) return;
     _Alignas(64) double c[3][FL_FEW];
     if (s->current.kind == FL_PROFILE_UNIFORM) alike(c, s->current.velocity, a->n);
     for (int32_t k = 0; k < a->n && s->current.kind != FL_PROFILE_UNIFORM; k++)
@@ -101,25 +110,19 @@ typedef struct {
     double floats[FL_FEW]; /* out: 1 where all of it holds, 0 */
 } prisms;
 
-FL_FOUR_VERSIONS static void take(prisms *q, const fl_sea *s, const fl_bodies *b, const fl_few *a)
+FL_FOUR_VERSIONS static void take(prisms *q, const fl_sea *s, const fl_few *a)
 {
     const int32_t from = a->from, n = a->n;
     const fl_hull *h = &s->hull[from];
-    const fl_vec3 *x = b->x + from;
-    const double level = s->level;
     int32_t k = 0;
     for (; k + FL_LANES <= n; k += FL_LANES) {
         const double *first = &h->prism.area;
-        const fl_wide z = {x[k].z, x[k + 1].z, x[k + 2].z, x[k + 3].z};
         for (int c = 0; c + 4 <= NUMBERS; c += 4) fl_few_split4(q->p + c, first + c, sizeof *h, k);
         /* the last four begin early, so as not to read beyond */
         fl_few_split4(q->p + NUMBERS - 4, first + NUMBERS - 4, sizeof *h, k);
-        FL_FOUR_INTO(&q->level[k]) = level - z;
     }
-    for (; k < n; k++) {
+    for (; k < n; k++)
         for (int c = 0; c < NUMBERS; c++) q->p[c][k] = (&h[k].prism.area)[c];
-        q->level[k] = level - x[k].z;
-    }
 }
 
 /* fl_prism_wet(), fl_buoyancy_force() and what look_still() of sea.c makes of them; returns how many float as
@@ -172,20 +175,104 @@ FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, doub
     return afloat;
 }
 
-int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
+/* Where all of them are, told by their reach alone: -1 wholly out of the water, 1 wholly in, 0 neither. */
+FL_WIDE_VERSIONS static int far(const double *restrict level, const double *restrict reach, int32_t n)
 {
-    prisms q;
+    double out = 0.0, in = 0.0;
+#pragma omp simd reduction(+ : out, in)
+    for (int32_t i = 0; i < n; i++) {
+        out += level[i] <= -reach[i] ? 1.0 : 0.0;
+        in += level[i] >= reach[i] ? 1.0 : 0.0;
+    }
+    return out == n ? -1 : in == n;
+}
+
+/* The same as look() makes where all of each is out of the water, but for the zeros that it adds; */
+FL_WIDE_VERSIONS static void look_out(const double *restrict level, int32_t n, double weight,
+                                      double *restrict wetted, double *restrict lift, double *restrict centre,
+                                      double *restrict energy)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < n; i++) {
+        wetted[i] = 0.0;
+        lift[i] = 0.0;
+        centre[i] = -level[i];
+        energy[i] = -weight * 0.0 * -level[i];
+    }
+}
+
+/* and where all of it is in. */
+typedef struct {
+    _Alignas(64) double volume[FL_FEW];
+    double c[3][FL_FEW];
+} wholes;
+
+FL_WIDE_VERSIONS static void look_in(const wholes *restrict q, const double *restrict level,
+                                     fl_few *restrict a, double weight, double *restrict lift,
+                                     double *restrict centre, double *restrict energy)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < a->n; i++) {
+        const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i];
+        const double cx = q->c[0][i], cy = q->c[1][i], cz = q->c[2][i];
+        const double over_water = ux * cx + uy * cy + uz * cz - level[i], push = weight * q->volume[i];
+        const double fx = push * ux, fy = push * uy, fz = push * uz;
+        const double tx = cy * fz - cz * fy, ty = cz * fx - cx * fz, tz = cx * fy - cy * fx;
+        lift[i] = push;
+        centre[i] = over_water;
+        energy[i] = -weight * q->volume[i] * over_water;
+        a->f[2][i] += push;
+        a->t[0][i] += a->R[0][i] * tx + a->R[1][i] * ty + a->R[2][i] * tz;
+        a->t[1][i] += a->R[3][i] * tx + a->R[4][i] * ty + a->R[5][i] * tz;
+        a->t[2][i] += a->R[6][i] * tx + a->R[7][i] * ty + a->R[8][i] * tz;
+    }
+}
+
+static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in)
+{
+    const int32_t from = a->from, n = a->n;
+    double *lift = s->lift + from, *centre = s->centre + from, *energy = s->energy + from;
+    if (!in) {
+        look_out(level, n, s->weight, s->wetted + from, lift, centre, energy);
+        return;
+    }
+    wholes q;
+    for (int32_t k = 0; k < n; k++) {
+        const fl_hull *h = &s->hull[from + k];
+        s->wetted[from + k] = h->surface;
+        q.volume[k] = h->volume;
+        q.c[0][k] = h->centre.x, q.c[1][k] = h->centre.y, q.c[2][k] = h->centre.z;
+    }
+    look_in(&q, level, a, s->weight, lift, centre, energy);
+}
+
+static void flow(fl_sea *s, const fl_few *a)
+{
     const int32_t from = a->from;
-    int32_t others = 0;
-    take(&q, s, b, a);
-    const double afloat = look(&q, a, s->weight, s->reach + from, s->wetted + from, s->lift + from,
-                               s->centre + from, s->energy + from);
     if (s->current.kind == FL_PROFILE_UNIFORM) {
         for (int32_t k = 0; k < a->n; k++) s->flow[from + k] = s->current.velocity;
     } else {
         for (int32_t k = 0; k < a->n; k++)
             s->flow[from + k] = fl_current_at(&s->current, s->centre[from + k]);
     }
+}
+
+int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
+{
+    prisms q;
+    const int32_t from = a->from;
+    int32_t others = 0;
+    for (int32_t k = 0; k < a->n; k++) q.level[k] = s->level - b->x[from + k].z;
+    const int away = far(q.level, s->reach + from, a->n);
+    if (away) {
+        look_from_far(s, q.level, a, away > 0);
+        flow(s, a);
+        return 0;
+    }
+    take(&q, s, a);
+    const double afloat = look(&q, a, s->weight, s->reach + from, s->wetted + from, s->lift + from,
+                               s->centre + from, s->energy + from);
+    flow(s, a);
     for (int32_t k = 0; k < a->n && afloat < a->n; k++)
         if (!(q.floats[k] > 0.0)) left[others++] = k;
     return others;

@@ -6,8 +6,8 @@
 #include "body/few.h"
 #include "water/sea.h"
 
-/* Whether there is something, and of that kind. */
-static inline int fl_calm_goes(const fl_sea *s) { return s->n && !s->waves && !s->skin; }
+/* Whether a sea that there is, is of that kind. */
+static inline int fl_calm_goes(const fl_sea *s) { return !s->waves && !s->skin; }
 
 /* fl_sea_drag(). */
 void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, double h, int back);
