@@ -34,7 +34,6 @@ typedef struct {
  * 1 - 2 a of the third at a times the sum and 1 - 3 a times the third. */
 #define TRIPLE(a, sum, c) ((a) * (sum) + (1.0 - 3.0 * (a)) * (c))
 
-/* w: what counts of it at the node. */
 #define ADD_MEAN(t, weight, S, K, X, Y)                                                                      \
     do {                                                                                                     \
         const fl_wide p2_ = (weight) * ((S) * (S)), p3_ = p2_ * (S), f_ = (K)*p3_, fx_ = f_ * (X),           \
@@ -128,15 +127,14 @@ FL_WIDE_VERSIONS void fl_tread_whole(const fl_tread *g, const fl_tread_tile *til
 typedef fl_wide spot;
 enum { S = 2, D = 3 };
 
-enum {
-    PIECE = 8,
-    STORE = 64,
-    MOST = 20
-}; /* corners of a piece, triangles in store, those of one face at most */
+/* A cut leaves as many corners as there are on its side and as there are crossings: of a triangle 4 at most,
+ * and, were rounding to make it cross every side, 6, 9 and 13 of what is cut again: 11 triangles, both ways
+ * and on two sides. */
+enum { PIECE = 13, MOST = 4 * (PIECE - 2), STORE = 2 * MOST };
 
 /* Triangles that wait for their sums.  kind: share for the area seen from F, force over du, and what u and du
- * have of the couple along (turn[0], turn[1]); rim: the inward normal of the side that a share d/rim counts
- * to. */
+ * have of the couple along (turn[0], turn[1]); turn[2] and turn[3]: the
+ * inward normal of the side that a share d/rim counts to. */
 typedef struct {
     spot corner[STORE][3], kind[STORE], turn[STORE];
     int n;
@@ -201,6 +199,20 @@ FL_WIDE_PART void take(store *b, int at, int faded, const fl_tread *g, fl_tread_
     q->u += u, q->du += du, q->s += 4.0 * gain * u;
     const fl_wide couple = kind[2] * u + kind[3] * du;
     q->couple[0] += turn[0] * couple, q->couple[1] += turn[1] * couple;
+}
+
+/* Sum up what waits, four by four, once there may be no room for the next face, and all of it at the last. */
+FL_WIDE_PART void drain(store *b, int is_faded, int last, const fl_tread *g, fl_tread_sums *q,
+                        fl_tread_pull *pull)
+{
+    int i = 0;
+    if (!last && b->n <= STORE - MOST) return;
+    for (; i < b->n && (last || i + FL_LANES <= b->n); i += FL_LANES) take(b, i, is_faded, g, q, pull);
+    b->n = b->n > i ? b->n - i : 0;
+    for (int l = 0; l < b->n; l++) {
+        for (int c = 0; c < 3; c++) b->corner[l][c] = b->corner[i + l][c];
+        b->kind[l] = b->kind[i + l], b->turn[l] = b->turn[i + l];
+    }
 }
 
 /* What has a number of its corners, axis, at least level, into in, and the rest into out where that is not
@@ -383,26 +395,8 @@ FL_WIDE_VERSIONS void fl_tread_parts(const fl_tread *g, const fl_tread_tile *til
                         over_one(g, &f, below, m, r, n, &plain, &faded, rise, &pulls);
                 }
             }
-            if (last || plain.n > STORE - MOST) {
-                int i = 0;
-                for (; i < plain.n && (last || i + FL_LANES <= plain.n); i += FL_LANES)
-                    take(&plain, i, 0, g, &all, &pulls);
-                plain.n = plain.n > i ? plain.n - i : 0;
-                for (int l = 0; l < plain.n; l++) {
-                    for (int c = 0; c < 3; c++) plain.corner[l][c] = plain.corner[i + l][c];
-                    plain.kind[l] = plain.kind[i + l], plain.turn[l] = plain.turn[i + l];
-                }
-            }
-            if (last || faded.n > STORE - MOST) {
-                int i = 0;
-                for (; i < faded.n && (last || i + FL_LANES <= faded.n); i += FL_LANES)
-                    take(&faded, i, 1, g, &all, &pulls);
-                faded.n = faded.n > i ? faded.n - i : 0;
-                for (int l = 0; l < faded.n; l++) {
-                    for (int c = 0; c < 3; c++) faded.corner[l][c] = faded.corner[i + l][c];
-                    faded.kind[l] = faded.kind[i + l], faded.turn[l] = faded.turn[i + l];
-                }
-            }
+            drain(&plain, 0, last, g, &all, &pulls);
+            drain(&faded, 1, last, g, &all, &pulls);
         }
     }
     *sum = all;
