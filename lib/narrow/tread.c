@@ -133,8 +133,8 @@ enum { S = 2, D = 3 };
 enum { PIECE = 13, MOST = 4 * (PIECE - 2), STORE = 2 * MOST };
 
 /* Triangles that wait for their sums.  kind: share for the area seen from F, force over du, and what u and du
- * have of the couple along (turn[0], turn[1]); turn[2] and turn[3]: the inward normal of the side that a share
- * d/rim counts to. */
+ * have of the couple along (turn[0], turn[1]); turn[2] and turn[3]: the inward normal of the side to which
+ * a share d/rim counts. */
 typedef struct {
     spot corner[STORE][3], kind[STORE], turn[STORE];
     int n;
