@@ -589,7 +589,7 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     return 0;
 }
 
-void fl_interact_awake(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
+void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
 {
     const fl_bodies *b = &w->b;
     const double path = b->odometer[p->i] + b->odometer[p->j];

@@ -8,14 +8,9 @@
  *   thread   whose scratch to use
  *   dt       the step just drifted, over which places have slipped [s]; 0 at the start
  *   survey   also compute stiff_i, stiff_j
- * A pair that sleeps (too far apart to touch since it was last looked at) returns at once.  A pair that runs
- * out of memory sets w->failed. */
-void fl_interact_awake(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey); /* for the next */
-static inline void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
-{
-    if (p->n == 0 && w->b.odometer[p->i] + w->b.odometer[p->j] < p->asleep) return;
-    fl_interact_awake(w, p, thread, dt, survey);
-}
+ * Of those that are too far apart to touch since they were last looked at, fl_world_apart(), nothing needs to
+ * be asked.  A pair that runs out of memory sets w->failed. */
+void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey);
 
 /* The signed contact of a pair as the probe tells it: gap and mode by narrow/contact.h, in world axes
  * relative to the world's origin, the point inside the cell.  Returns 0 where a kind has no such contact

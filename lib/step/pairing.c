@@ -203,7 +203,7 @@ void fl_near_awake(fl_world *w, int32_t c, int32_t thread, double dt, int survey
     fl_pair made, *p = q->full;
     if (!p) fl_near_pair(w, q, p = &made);
     p->at = c;
-    fl_interact_awake(w, p, thread, dt, survey);
+    fl_interact(w, p, thread, dt, survey);
     if (fl_near_keep(w, q, p)) {
 #pragma omp atomic write
         w->failed = 1;
