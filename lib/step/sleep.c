@@ -281,7 +281,7 @@ void fl_sleep_look(fl_world *w)
                                      .odometer = b->odometer[k],
                                      .carried = b->added ? b->carried[k] : 0.0,
                                      .drained = w->sea.n ? w->sea.drained[k] : 0.0,
-                                     .blown = w->sea.n ? w->sea.blown[k] : 0.0,
+                                     .blown = w->sea.blown ? w->sea.blown[k] : 0.0,
                                      .waved = w->sea.waves ? w->sea.waved[k] : 0.0,
                                      .nap = s->nap[k]};
         const double t = seconds(w, k);
@@ -306,7 +306,8 @@ void fl_sleep_back(fl_world *w)
         s->nap[k] = m->nap;
         if (b->added) b->carried[k] = m->carried;
         if (!w->sea.n) continue;
-        w->sea.drained[k] = m->drained, w->sea.blown[k] = m->blown;
+        w->sea.drained[k] = m->drained;
+        if (w->sea.blown) w->sea.blown[k] = m->blown;
         if (w->sea.waves) w->sea.waved[k] = m->waved;
         w->sea.time = fl_sleep_since(w, k);
         fl_sea_renew(&w->sea, b, k);

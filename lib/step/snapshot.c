@@ -260,14 +260,16 @@ static void nap(traffic *t, fl_world *w, int32_t k)
                      (double)w->step);
 }
 
-static void sea(traffic *t, fl_sea *s, int32_t i)
+static void sea(traffic *t, fl_sea *s, const fl_bodies *b, int32_t i)
 {
+    double energy = s->water && !s->waves ? fl_sea_energy(s, b, i) : 0.0,
+           none = 0.0; /* told, and not needed */
     open_row(t, "sea");
     real(t, &s->wetted[i]);
     real(t, &s->lift[i]);
-    real(t, &s->energy[i]);
+    real(t, &energy);
     real(t, &s->drained[i]);
-    real(t, &s->blown[i]);
+    real(t, s->blown ? &s->blown[i] : &none);
     if (s->waves) real(t, &s->waved[i]);
     if (s->held) {
         fl_sea_held *h = &s->held[i];
@@ -567,7 +569,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
     w->sea.time = fl_world_time(w);
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
-        sea(t, &w->sea, i);
+        sea(t, &w->sea, &w->b, i);
         if (t->in && !t->err->code && w->sea.held && !fl_world_away(w, i) &&
             !(w->sea.held[i].when <= w->sea.time))
             fl_text_fail(t->in, t->err, "a look at the water at %g s is none that has been",

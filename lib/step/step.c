@@ -482,10 +482,9 @@ void fl_step_ledger(fl_world *w)
         }
         if (b->added) drag -= b->carried[i];
         if (w->sea.n) {
-            if (w->sea.water && there)
-                hydro += w->sea.held && !w->sea.waves ? fl_sea_energy(&w->sea, b, i) : w->sea.energy[i];
+            if (w->sea.water && !w->sea.waves && there) hydro += fl_sea_energy(&w->sea, b, i);
             drag += w->sea.drained[i];
-            wind += w->sea.blown[i];
+            if (w->sea.blown) wind += w->sea.blown[i];
             if (w->sea.waves) waves += w->sea.waved[i];
         }
     }

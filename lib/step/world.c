@@ -95,12 +95,11 @@ bad:
 
 static int anything(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }
 
-/* The water that body i moves along. */
-static void add_water(fl_world *w, int32_t i)
+/* The water that body i, of shape p, moves along. */
+static void add_water(fl_world *w, int32_t i, const fl_poly *p)
 {
     const fl_scene_water *s = &w->scene->water;
     fl_bodies *b = &w->b;
-    const fl_poly *p = b->core[i].nv <= 2 ? &b->core[i] : &w->sea.outer[i];
     const fl_vec3 spin = b->w[i];
     if (b->added)
         b->added[i] =
@@ -120,12 +119,9 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
                        "[water] or [wind]",
                        w->scene->ice.file, w->id[i]);
     if (!round && fl_topologies_share(&w->alike, outer, 0, err)) return -1;
-    w->sea.outer[i] = *outer;
-    *outer = (fl_poly){0};
-    w->sea.reach[i] = round ? fl_drag_radius(core, w->b.radius[i]) : fl_drag_radius(&w->sea.outer[i], 0.0);
-    if (fl_hull_make(&w->sea.hull[i], round ? core : &w->sea.outer[i], round ? w->b.radius[i] : 0.0, err))
-        return -1;
-    if (w->b.added || anything(w->scene->water.added_inertia)) add_water(w, i);
+    if (fl_sea_dress(&w->sea, i, round ? NULL : outer, core, w->b.radius[i], err)) return -1;
+    if (w->b.added || anything(w->scene->water.added_inertia))
+        add_water(w, i, round ? core : w->sea.outer[i] ? w->sea.outer[i] : outer);
     return fl_sea_fit(&w->sea, i, err);
 }
 
@@ -475,7 +471,7 @@ int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_er
     w->b.hold[i] = 0;
     w->b.ball[i] = 0;
     if (w->bed.hull) fl_hull_free(&w->bed.hull[i]), fl_poly_free(&w->bed.outer[i]);
-    if (w->sea.n) fl_hull_free(&w->sea.hull[i]), fl_poly_free(&w->sea.outer[i]);
+    if (w->sea.n) fl_sea_bare(&w->sea, i);
     const int bad = make_body(w, i, field, k, &outer, err) || (w->cell.wraps && fits_cell(w, i, err)) ||
                     (w->bed.hull && make_bed(w, i, &outer, err)) ||
                     (w->sea.n && make_hull(w, i, &outer, err));

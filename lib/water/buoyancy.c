@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
+#include <string.h>
 #include "base/mem.h"
 #include "geom/dilate.h"
 #include "water/buoyancy.h"
@@ -40,6 +41,68 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
     return 0;
 }
 
+/* Vertices that a few numbers each are kept of while one shape is looked at. */
+enum { KEPT = 64 };
+
+/* A shape whose faces stand r out from those of a right prism with its long edges along e. */
+struct standing {
+    fl_poly p;
+    fl_vec3 v[KEPT];
+    double c[KEPT];
+};
+
+static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec3 e, double r)
+{
+    fl_vec3 *v = to->v;
+    const int32_t *first = core->first, *loop = core->loop;
+    to->p = *core;
+    to->p.v = v;
+    to->p.c = to->c;
+    for (int32_t k = 0; k < core->nv; k++) v[k] = v3(0, 0, 0);
+    for (int32_t f = 0; f < core->nf; f++) {
+        const fl_vec3 n = core->n[f];
+        to->c[f] = core->c[f] + r;
+        for (int32_t k = first[f]; k < first[f + 1] && fabs(v3_dot(e, n)) < 0.5; k++)
+            v[loop[k]] = v3_add(v[loop[k]], n);
+    }
+    for (int32_t f = 0; f < core->nf; f++) {
+        const fl_vec3 n = core->n[f];
+        if (fabs(v3_dot(e, n)) < 0.5) continue;
+        for (int32_t k = first[f]; k < first[f + 1]; k++) { /* |n_1 + n_2|^2 = 2 (1 + n_1.n_2) */
+            const fl_vec3 sides = v[loop[k]];
+            v[loop[k]] = v3_madd(v3_madd(core->v[loop[k]], r, n), 2.0 * r / v3_norm2(sides), sides);
+        }
+    }
+    return &to->p;
+}
+
+/* The shape that floats. */
+static const fl_poly *shape_of(const fl_hull *h, struct standing *room)
+{
+    return h->area || h->p->nf == 0 ? h->p : stand_out(room, h->p, h->prism.e, h->radius);
+}
+
+#define OFF 1e-12 /* of the size */
+
+int fl_hull_by_core(fl_hull *h, const fl_poly *core, double r)
+{
+    const fl_poly *p = h->p;
+    struct standing room;
+    if (!(h->prism.area > 0.0) || p->nv > KEPT || core->nv != p->nv || core->nf != p->nf) return 0;
+    const int32_t loops = p->first[p->nf];
+    if (memcmp(core->first, p->first, ((size_t)p->nf + 1) * sizeof *p->first) != 0 ||
+        memcmp(core->loop, p->loop, (size_t)loops * sizeof *p->loop) != 0)
+        return 0;
+    const fl_poly *q = stand_out(&room, core, h->prism.e, r);
+    for (int32_t v = 0; v < p->nv; v++) /* no number is worse than any */
+        if (!(v3_norm(v3_sub(p->v[v], q->v[v])) <= OFF * p->size)) return 0;
+    free(h->middle), free(h->area);
+    h->middle = NULL, h->area = NULL;
+    h->p = core;
+    h->radius = r;
+    return 1;
+}
+
 void fl_hull_free(fl_hull *h)
 {
     free(h->middle);
@@ -49,7 +112,6 @@ void fl_hull_free(fl_hull *h)
 
 /* The water plane, and the heights of the vertices over it when there are few enough to keep: every face of a
  * vertex asks for its height. */
-enum { KEPT = 64 };
 struct water {
     fl_vec3 up;
     double level, s[KEPT];
@@ -69,42 +131,68 @@ struct part {
     int cut;
 };
 
+/* A fan of triangles over its first corner, as its corners come. */
+struct fan {
+    fl_vec3 n, apex, hub, rim;
+    int have;
+};
+
+static inline void open_to(struct fan *fan, struct part *out, fl_vec3 corner)
+{
+    const fl_vec3 x = v3_sub(corner, fan->apex);
+    if (fan->have >= 2) {
+        const double tri = 0.5 * v3_dot(fan->n, v3_cross(v3_sub(fan->rim, fan->hub), v3_sub(x, fan->hub)));
+        out->area += tri;
+        out->moment = v3_madd(out->moment, tri / 3.0, v3_add(v3_add(fan->hub, fan->rim), x));
+    }
+    if (fan->have == 0) fan->hub = x;
+    fan->rim = x;
+    fan->have++;
+}
+
 /* Walk round face f and keep what is wet, as a fan over its first wet corner: no list of corners is needed.
  * A crossing is always computed from its wet end, so that the two faces of an edge find the same point. */
 static struct part clip_face(const fl_poly *p, int32_t f, const struct water *w, fl_vec3 apex)
 {
     const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
     struct part out = {0};
-    fl_vec3 hub = {0}, rim = {0}, from = p->v[at[m - 1]];
+    struct fan fan = {.n = p->n[f], .apex = apex};
+    fl_vec3 from = p->v[at[m - 1]];
     double s0 = over(p, at[m - 1], w);
-    int have = 0;
     for (int32_t k = 0; k < m; k++) {
         const fl_vec3 to = p->v[at[k]];
         const double s1 = over(p, at[k], w);
         const int wet0 = s0 <= 0.0, wet1 = s1 <= 0.0;
-        fl_vec3 corner[2];
-        int n = 0;
         if (wet0 && !wet1) {
-            out.leave = corner[n++] = v3_lerp(from, to, s0 / (s0 - s1));
+            out.leave = v3_lerp(from, to, s0 / (s0 - s1));
             out.cut = 1;
+            open_to(&fan, &out, out.leave);
         } else if (!wet0 && wet1) {
-            out.enter = corner[n++] = v3_lerp(to, from, s1 / (s1 - s0));
+            out.enter = v3_lerp(to, from, s1 / (s1 - s0));
+            open_to(&fan, &out, out.enter);
         }
-        if (wet1) corner[n++] = to;
-        for (int i = 0; i < n; i++) {
-            const fl_vec3 x = v3_sub(corner[i], apex);
-            if (have >= 2) {
-                const double tri = 0.5 * v3_dot(p->n[f], v3_cross(v3_sub(rim, hub), v3_sub(x, hub)));
-                out.area += tri;
-                out.moment = v3_madd(out.moment, tri / 3.0, v3_add(v3_add(hub, rim), x));
-            }
-            if (have == 0) hub = x;
-            rim = x;
-            have++;
-        }
+        if (wet1) open_to(&fan, &out, to);
         from = to;
         s0 = s1;
     }
+    return out;
+}
+
+/* The same of a face that is wet all over. */
+static struct part whole_face(const fl_poly *p, int32_t f, fl_vec3 apex)
+{
+    const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
+    const fl_vec3 hub = p->v[at[0]], n = p->n[f], by = v3_sub(hub, apex);
+    fl_vec3 rim = v3_sub(p->v[at[1]], hub);
+    struct part out = {0};
+    for (int32_t k = 2; k < m; k++) {
+        const fl_vec3 x = v3_sub(p->v[at[k]], hub);
+        const double tri = 0.5 * v3_dot(n, v3_cross(rim, x));
+        out.area += tri;
+        out.moment = v3_madd(out.moment, tri / 3.0, v3_add(rim, x));
+        rim = x;
+    }
+    out.moment = v3_madd(out.moment, out.area, by);
     return out;
 }
 
@@ -137,7 +225,8 @@ static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct water *w
 
 static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
 {
-    const fl_poly *p = h->p;
+    struct standing room;
+    const fl_poly *p = shape_of(h, &room);
     fl_vec3 apex, sum = {0};
     double v3fold = 0.0, wetted = 0.0, plane = 0.0;
     struct water water;
@@ -150,14 +239,15 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
     for (int32_t f = 0; f < p->nf; f++) {
         int32_t below = 0;
         const int32_t m = p->first[f + 1] - p->first[f];
-        double area = h->area[f];
+        double area;
         fl_vec3 moment;
         for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) below += over(p, p->loop[k], &water) <= 0.0;
         if (below == 0) continue;
-        if (below == m) {
+        if (below == m && h->area) {
+            area = h->area[f];
             moment = v3_scale(area, v3_sub(h->middle[f], apex));
         } else {
-            const struct part part = clip_face(p, f, &water, apex);
+            const struct part part = below == m ? whole_face(p, f, apex) : clip_face(p, f, &water, apex);
             area = part.area;
             moment = part.moment;
         }
@@ -334,7 +424,8 @@ void fl_buoyancy(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
 
 void fl_buoyancy_plane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane *w)
 {
-    const fl_poly *p = h->p;
+    struct standing room;
+    const fl_poly *p = shape_of(h, &room);
     double xx[3][3] = {{0}};
     fl_vec3 apex, sum = {0};
     struct water water;

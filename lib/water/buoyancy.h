@@ -23,13 +23,14 @@
 /* One shape that can float, read-only once made. */
 typedef struct {
     const fl_poly *p; /* borrowed; origin at the body's centre of mass [m] */
-    double radius;    /* of a sphere or capsule (p->nv <= 2), else 0   [m] */
-    double volume;    /* whole                                       [m^3] */
-    fl_vec3 centre;   /* its centroid                                  [m] */
-    double surface;   /* whole                                       [m^2] */
-    double *area;     /* [nf] of each face                           [m^2] */
-    fl_vec3 *middle;  /* [nf] centroid of each face                    [m] */
-    fl_prism prism;   /* the same as a right prism, if it is one */
+    double radius;   /* of a sphere or capsule (p->nv <= 2); how far the shape's faces stand out from those of
+                       * p, after fl_hull_by_core(); else 0            [m] */
+    double volume;   /* whole                                       [m^3] */
+    fl_vec3 centre;  /* its centroid                                  [m] */
+    double surface;  /* whole                                       [m^2] */
+    double *area;    /* [nf] of each face; NULL after fl_hull_by_core() [m^2] */
+    fl_vec3 *middle; /* [nf] centroid of each face, or NULL           [m] */
+    fl_prism prism;  /* the same as a right prism, if it is one */
 } fl_hull;
 
 /* A solid (its sharp surface floats, radius is not used), or with radius > 0 a sphere (nv = 1) or a capsule
@@ -37,6 +38,14 @@ typedef struct {
  * FL_SYSTEM. */
 int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err);
 void fl_hull_free(fl_hull *h); /* accepts a zeroed struct, leaves one */
+
+/* Let h, the hull of a right prism, know its corners from those of the core that it was made from by faces r
+ * further out: a corner of the core is moved by
+ *     r (n_cap + (n_1 + n_2) / (1 + n_1.n_2)),
+ * n_1 and n_2 being the normals of its two sides.  h borrows core instead of its shape, which may go then.
+ * Returns 1; or 0, and h is as it was, where the two are not alike in their faces, where there are more than
+ * 64 corners, or where one of them would be off by more than 1e-12 of the size. */
+int fl_hull_by_core(fl_hull *h, const fl_poly *core, double r);
 
 /* The submerged part, in the body's axes. */
 typedef struct fl_wet {

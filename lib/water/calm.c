@@ -58,8 +58,8 @@ static void water(fl_sea *s, const fl_bodies *b, fl_few *a, double h)
     const int32_t from = a->from;
     if (!meets(s->wetted + from, a->n)) return;
     _Alignas(64) double c[3][FL_FEW];
-    if (s->current.kind == FL_PROFILE_UNIFORM) alike(c, s->current.velocity, a->n);
-    for (int32_t k = 0; k < a->n && s->current.kind != FL_PROFILE_UNIFORM; k++)
+    if (!s->flow) alike(c, s->current.velocity, a->n);
+    for (int32_t k = 0; k < a->n && s->flow; k++)
         c[0][k] = s->flow[from + k].x, c[1][k] = s->flow[from + k].y, c[2][k] = s->flow[from + k].z;
     decay(a, &s->sea, s->wetted + from, s->reach + from, c, b->held + from, h, -1.0, s->drained + from);
 }
@@ -129,7 +129,7 @@ FL_FOUR_VERSIONS static void take(prisms *q, const fl_sea *s, const fl_few *a)
  * prisms do. */
 FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, double weight,
                                     const double *restrict reach, double *restrict wetted,
-                                    double *restrict lift, double *restrict centre, double *restrict energy)
+                                    double *restrict lift, double *restrict centre)
 {
     double afloat = 0.0;
 #pragma omp simd reduction(+ : afloat)
@@ -164,7 +164,6 @@ FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, doub
         wetted[i] = area + q->p[ROUND][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]);
         lift[i] = push;
         centre[i] = over_water;
-        energy[i] = -weight * volume * over_water;
         a->f[0][i] += 0.0;
         a->f[1][i] += 0.0;
         a->f[2][i] += push;
@@ -188,16 +187,14 @@ FL_WIDE_VERSIONS static int far(const double *restrict level, const double *rest
 }
 
 /* The same as look() makes where all of each is out of the water, but for the zeros that it adds; */
-FL_WIDE_VERSIONS static void look_out(const double *restrict level, int32_t n, double weight,
-                                      double *restrict wetted, double *restrict lift, double *restrict centre,
-                                      double *restrict energy)
+FL_WIDE_VERSIONS static void look_out(const double *restrict level, int32_t n, double *restrict wetted,
+                                      double *restrict lift, double *restrict centre)
 {
 #pragma omp simd
     for (int32_t i = 0; i < n; i++) {
         wetted[i] = 0.0;
         lift[i] = 0.0;
         centre[i] = -level[i];
-        energy[i] = -weight * 0.0 * -level[i];
     }
 }
 
@@ -209,7 +206,7 @@ typedef struct {
 
 FL_WIDE_VERSIONS static void look_in(const wholes *restrict q, const double *restrict level,
                                      fl_few *restrict a, double weight, double *restrict lift,
-                                     double *restrict centre, double *restrict energy)
+                                     double *restrict centre)
 {
 #pragma omp simd
     for (int32_t i = 0; i < a->n; i++) {
@@ -220,7 +217,6 @@ FL_WIDE_VERSIONS static void look_in(const wholes *restrict q, const double *res
         const double tx = cy * fz - cz * fy, ty = cz * fx - cx * fz, tz = cx * fy - cy * fx;
         lift[i] = push;
         centre[i] = over_water;
-        energy[i] = -weight * q->volume[i] * over_water;
         a->f[2][i] += push;
         a->t[0][i] += a->R[0][i] * tx + a->R[1][i] * ty + a->R[2][i] * tz;
         a->t[1][i] += a->R[3][i] * tx + a->R[4][i] * ty + a->R[5][i] * tz;
@@ -228,12 +224,12 @@ FL_WIDE_VERSIONS static void look_in(const wholes *restrict q, const double *res
     }
 }
 
-static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in)
+static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in, double *centre)
 {
     const int32_t from = a->from, n = a->n;
-    double *lift = s->lift + from, *centre = s->centre + from, *energy = s->energy + from;
+    double *lift = s->lift + from;
     if (!in) {
-        look_out(level, n, s->weight, s->wetted + from, lift, centre, energy);
+        look_out(level, n, s->wetted + from, lift, centre);
         return;
     }
     wholes q;
@@ -243,36 +239,31 @@ static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in)
         q.volume[k] = h->volume;
         q.c[0][k] = h->centre.x, q.c[1][k] = h->centre.y, q.c[2][k] = h->centre.z;
     }
-    look_in(&q, level, a, s->weight, lift, centre, energy);
+    look_in(&q, level, a, s->weight, lift, centre);
 }
 
-static void flow(fl_sea *s, const fl_few *a)
+static void flow(fl_sea *s, const fl_few *a, const double *centre)
 {
-    const int32_t from = a->from;
-    if (s->current.kind == FL_PROFILE_UNIFORM) {
-        for (int32_t k = 0; k < a->n; k++) s->flow[from + k] = s->current.velocity;
-    } else {
-        for (int32_t k = 0; k < a->n; k++)
-            s->flow[from + k] = fl_current_at(&s->current, s->centre[from + k]);
-    }
+    for (int32_t k = 0; k < a->n && s->flow; k++)
+        s->flow[a->from + k] = fl_current_at(&s->current, centre[k]);
 }
 
 int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
 {
     prisms q;
+    _Alignas(64) double centre[FL_FEW]; /* height of the submerged centres over still water [m] */
     const int32_t from = a->from;
     int32_t others = 0;
     for (int32_t k = 0; k < a->n; k++) q.level[k] = s->level - b->x[from + k].z;
     const int away = far(q.level, s->reach + from, a->n);
     if (away) {
-        look_from_far(s, q.level, a, away > 0);
-        flow(s, a);
+        look_from_far(s, q.level, a, away > 0, centre);
+        flow(s, a, centre);
         return 0;
     }
     take(&q, s, a);
-    const double afloat = look(&q, a, s->weight, s->reach + from, s->wetted + from, s->lift + from,
-                               s->centre + from, s->energy + from);
-    flow(s, a);
+    const double afloat = look(&q, a, s->weight, s->reach + from, s->wetted + from, s->lift + from, centre);
+    flow(s, a, centre);
     for (int32_t k = 0; k < a->n && afloat < a->n; k++)
         if (!(q.floats[k] > 0.0)) left[others++] = k;
     return others;

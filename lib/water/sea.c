@@ -13,15 +13,17 @@ int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
     s->hull = fl_alloc(n, sizeof *s->hull, err);
     s->reach = fl_alloc(n, sizeof *s->reach, err);
     s->wetted = fl_alloc(n, sizeof *s->wetted, err);
-    s->energy = fl_alloc(n, sizeof *s->energy, err);
     s->lift = fl_alloc(n, sizeof *s->lift, err);
-    s->centre = fl_alloc(n, sizeof *s->centre, err);
-    s->flow = fl_alloc(n, sizeof *s->flow, err);
     s->drained = fl_alloc(n, sizeof *s->drained, err);
-    s->blown = fl_alloc(n, sizeof *s->blown, err);
-    if (!s->outer || !s->hull || !s->reach || !s->wetted || !s->energy || !s->lift || !s->centre ||
-        !s->flow || !s->drained || !s->blown)
-        return -1;
+    if (!s->outer || !s->hull || !s->reach || !s->wetted || !s->lift || !s->drained) return -1;
+    if (s->waves || s->current.kind != FL_PROFILE_UNIFORM) {
+        s->flow = fl_alloc(n, sizeof *s->flow, err);
+        if (!s->flow) return -1;
+    }
+    if (s->wind) {
+        s->blown = fl_alloc(n, sizeof *s->blown, err);
+        if (!s->blown) return -1;
+    }
     if (s->water && s->every > 1) {
         s->held = fl_alloc(n, sizeof *s->held, err);
         if (!s->held) return -1;
@@ -77,16 +79,43 @@ int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err)
     return fl_tiles_make(&s->tiles[i], &s->hull[i], &s->wave, err);
 }
 
+void fl_sea_bare(fl_sea *s, int32_t i)
+{
+    if (s->hull) fl_hull_free(&s->hull[i]);
+    if (s->outer[i]) fl_poly_free(s->outer[i]);
+    free(s->outer[i]);
+    s->outer[i] = NULL;
+}
+
+int fl_sea_dress(fl_sea *s, int32_t i, fl_poly *outer, const fl_poly *core, double r, fl_err *err)
+{
+    if (!outer) {
+        s->reach[i] = fl_drag_radius(core, r);
+        return fl_hull_make(&s->hull[i], core, r, err);
+    }
+    s->reach[i] = fl_drag_radius(outer, 0.0);
+    if (fl_hull_make(&s->hull[i], outer, 0.0, err)) return -1;
+    if (!s->waves && !s->skin && fl_hull_by_core(&s->hull[i], core, r)) return 0;
+    s->outer[i] = fl_alloc(1, sizeof *s->outer[i], err);
+    if (!s->outer[i]) {
+        fl_hull_free(&s->hull[i]);
+        return -1;
+    }
+    *s->outer[i] = *outer;
+    *outer = (fl_poly){0};
+    s->hull[i].p = s->outer[i];
+    return 0;
+}
+
 void fl_sea_free(fl_sea *s)
 {
     for (int32_t i = 0; i < s->n; i++) {
-        if (s->hull) fl_hull_free(&s->hull[i]);
-        if (s->outer) fl_poly_free(&s->outer[i]);
+        if (s->outer) fl_sea_bare(s, i);
         if (s->tiles) fl_tiles_free(&s->tiles[i]);
         if (s->skin) free(s->skin[i].wet), free(s->skin[i].dry);
     }
-    free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->lift), free(s->energy);
-    free(s->centre), free(s->flow), free(s->drained), free(s->blown);
+    free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->lift);
+    free(s->flow), free(s->drained), free(s->blown);
     free(s->cells), free(s->push), free(s->turn), free(s->waved);
     free(s->tiles), free(s->skin), free(s->held);
     fl_waves_free(&s->wave);
@@ -121,7 +150,7 @@ static void look_at_pieces(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up,
         const double z = at->z + v3_dot(at->up, wet[k].r);
         fl_vec3 u = fl_current_at(&s->current, z), none;
         if (around) u = v3_add(u, orbital(s, at, around, wet[k].r, &none));
-        wet[k].flow = m3_tmul(b->R[i], v3_sub(u, s->flow[i]));
+        wet[k].flow = m3_tmul(b->R[i], v3_sub(u, fl_sea_flow(s, i)));
     }
 }
 
@@ -154,11 +183,10 @@ static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *
     const fl_wet wet = wet_of(s, i, up, level);
     fl_vec3 turn;
     s->wetted[i] = wet.wetted;
-    s->centre[i] = v3_dot(up, wet.centre) - level;
-    s->energy[i] = fl_buoyancy_force(&wet, up, level, s->weight, f, &turn);
+    fl_buoyancy_force(&wet, up, level, s->weight, f, &turn);
     s->lift[i] = s->weight * wet.volume;
-    s->flow[i] = fl_current_at(&s->current, s->centre[i]);
-    if (b->added) b->flow[i] = s->flow[i];
+    if (s->flow) s->flow[i] = fl_current_at(&s->current, v3_dot(up, wet.centre) - level);
+    if (b->added) b->flow[i] = fl_sea_flow(s, i);
     if (s->skin) look_at_pieces(s, b, i, up, level, &at, NULL);
     *f = v3(0, 0, s->lift[i]); /* R up is e_z */
     *t = m3_mul(b->R[i], turn);
@@ -200,9 +228,8 @@ static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t
         else fl_froude_round(h, w, &around, &at, s->weight, &p);
     }
     s->wetted[i] = p.wetted;
-    s->centre[i] = at.z + v3_dot(at.up, p.centre);
     s->lift[i] = s->weight * p.volume;
-    s->flow[i] = fl_current_at(&s->current, s->centre[i]);
+    s->flow[i] = fl_current_at(&s->current, at.z + v3_dot(at.up, p.centre));
     if (p.volume > 0.0) {
         fl_vec3 a, up;
         double level;
@@ -238,9 +265,9 @@ static void look(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
     if (past > 0.0) {
         h->df = slope(*f, h->f, past);
         h->dt = slope(*t, h->t, past);
-        h->dflow = slope(s->flow[i], h->flow, past);
+        h->dflow = slope(fl_sea_flow(s, i), h->flow, past);
     }
-    h->f = *f, h->t = *t, h->flow = s->flow[i];
+    h->f = *f, h->t = *t, h->flow = fl_sea_flow(s, i);
     h->x = b->x[i], h->q = b->q[i], h->when = s->time;
 }
 
@@ -251,8 +278,8 @@ static void go_on(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
     const double past = s->time - h->when;
     *f = v3_madd(h->f, past, h->df);
     *t = v3_madd(h->t, past, h->dt);
-    s->flow[i] = v3_madd(h->flow, past, h->dflow);
-    if (b->added) b->flow[i] = s->flow[i];
+    if (s->flow) s->flow[i] = v3_madd(h->flow, past, h->dflow);
+    if (b->added) b->flow[i] = fl_sea_flow(s, i);
     if (s->waves) s->push[i] = *f, s->turn[i] = *t;
     else s->lift[i] = f->z;
 }
@@ -341,8 +368,8 @@ static void drag_of_water(fl_sea *s, fl_bodies *b, int32_t i, double h)
     if (s->skin && s->skin[i].wet)
         s->drained[i] -=
             decay_of_pieces(b, i, s->skin[i].wet, s->skin[i].wets, 0.5 * s->sea.density * s->sea_skin,
-                            0.5 * s->sea.density * s->sea_form, s->flow[i], h);
-    else s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], s->flow[i], h);
+                            0.5 * s->sea.density * s->sea_form, fl_sea_flow(s, i), h);
+    else s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], fl_sea_flow(s, i), h);
 }
 
 static void drag_of_wind(fl_sea *s, fl_bodies *b, int32_t i, double h)

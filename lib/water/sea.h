@@ -43,19 +43,18 @@ typedef struct {
     fl_current current;
     fl_vec3 breeze; /* velocity of the wind [m/s] */
     int32_t n;
-    fl_poly *outer;  /* [n] sharp outer shapes, body frames; empty where the core floats as it is */
-    fl_hull *hull;   /* [n]                                  */
-    double *reach;   /* [n] r_eff of equation (9)     [m]    */
-    double *wetted;  /* [n] at the last fl_sea_force() [m2]  */
-    double *lift;    /* [n] buoyancy, at the last fl_sea_force() [N] */
-    double *centre;  /* [n] height of the submerged centre over still water, at the last fl_sea_force() [m] */
-    fl_vec3 *flow;   /* [n] velocity of the water there [m/s] */
-    double *energy;  /* [n] hydrostatic, at the last fl_sea_force() [J] */
-    double *drained; /* [n] work that drag of the water has taken out [J] */
-    double *blown;   /* [n] work that the wind has put in    [J] */
-    fl_skin *skin;   /* [n] with the law facet alone, of either fluid */
-    int every;       /* steps between two looks; above 1: */
-    int looks;       /* whether the next fl_sea_force() is one: set by the step */
+    fl_poly **outer;   /* [n] sharp outer shapes, body frames; NULL where the core floats, or tells it */
+    fl_hull *hull;     /* [n]                                  */
+    double *reach;     /* [n] r_eff of equation (9)     [m]    */
+    double *wetted;    /* [n] at the last fl_sea_force() [m2]  */
+    double *lift;      /* [n] buoyancy, at the last fl_sea_force() [N] */
+    fl_vec3 *flow;     /* [n] velocity of the water at the submerged centre [m/s]; NULL where it is that of a
+                      * uniform current */
+    double *drained;   /* [n] work that drag of the water has taken out [J] */
+    double *blown;     /* [n] work that the wind has put in [J]; NULL without wind */
+    fl_skin *skin;     /* [n] with the law facet alone, of either fluid */
+    int every;         /* steps between two looks; above 1: */
+    int looks;         /* whether the next fl_sea_force() is one: set by the step */
     fl_sea_held *held; /* [n], or NULL */
     double time;       /* of the next fl_sea_force(): set by the step [s] */
     /* with waves alone */
@@ -75,6 +74,16 @@ typedef struct {
 int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err);
 void fl_sea_free(fl_sea *s);
 
+/* The hull of body i and its reach.
+ *   outer  its sharp outer shape, taken over and left empty where the core does not tell it
+ *          (fl_hull_by_core()); NULL where the core floats, a sphere or a capsule
+ *   core   of the body, which has to stay where it is as long as the hull; r: its dilation radius [m]
+ * -1 with FL_INPUT or FL_SYSTEM, as fl_hull_make(). */
+int fl_sea_dress(fl_sea *s, int32_t i, fl_poly *outer, const fl_poly *core, double r, fl_err *err);
+
+/* Take that away again; accepts a body without. */
+void fl_sea_bare(fl_sea *s, int32_t i);
+
 /* What the law facet and waves need for body i, whose hull has been made or made anew; grows the scratch.  -1
  * with FL_SYSTEM. */
 int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err);
@@ -85,19 +94,26 @@ static inline fl_vec3 fl_sea_push(const fl_sea *s, int32_t i)
     return s->waves ? s->push[i] : v3(0, 0, s->lift[i]);
 }
 
+/* Velocity of the water that body i meets, at the last fl_sea_force() [m/s]. */
+static inline fl_vec3 fl_sea_flow(const fl_sea *s, int32_t i)
+{
+    return s->flow ? s->flow[i] : s->current.velocity;
+}
+
 /* Book the work of push and turn in a kick of h seconds that took body i from v0, w0 to its speeds of now:
  * h (F.(v0 + v) + T.(w0 + w)) / 2, which is exact. */
 void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0, fl_vec3 w0);
 
 /* Add buoyancy, in waves the pressure of the wave and what it does to the water that moves along, to b->f[i],
- * b->t[i]; renews wetted[i] and energy[i] (0 in waves, whose work is booked instead), where it is a look. */
+ * b->t[i]; renews wetted[i], lift[i] and flow[i], where it is a look. */
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
 /* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere; with
  * held[i], as it was left there by the last look. */
 void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i);
 
-/* Hydrostatic energy of body i in still water where it is now; touches nothing [J]. */
+/* Hydrostatic energy of body i in still water where it is now; touches nothing [J].  In waves their work is
+ * booked instead. */
 double fl_sea_energy(const fl_sea *s, const fl_bodies *b, int32_t i);
 
 /* Let the drag of water and wind act on body i for h seconds, position held: the decay of its

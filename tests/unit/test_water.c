@@ -2,6 +2,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/rng.h"
+#include "geom/clip.h"
 #include "support/near.h"
 #include "support/shapes.h"
 #include "water/buoyancy.h"
@@ -126,6 +127,68 @@ static void prisms_have_closed_formulae(void **state)
         fl_poly_free(&p);
     }
     assert_true(used > left / 4 && left > used / 4);
+}
+
+/* A hull that knows its corners from the core floats as the one that has them, however it lies. */
+static void a_hull_by_its_core(void **state)
+{
+    (void)state;
+    for (int t = 0; t < test_times(2000); t++) {
+        fl_rng g = fl_rng_of(test_seed(), t, FL_RNG_TEST);
+        fl_poly core, outer;
+        fl_hull h, by;
+        fl_wet w, known;
+        fl_waterplane a, b;
+        fl_err err = {0};
+        const double r = t % 5 ? fl_rng_in(&g, 0.01, 0.3) : 0.0;
+        some_prism(&core, &g, 3 + t % 14);
+        assert_int_equal(r > 0.0 ? fl_poly_offset(&outer, &core, r, &err) : fl_poly_copy(&outer, &core, &err),
+                         0);
+        assert_int_equal(fl_hull_make(&h, &outer, 0.0, &err), 0);
+        assert_int_equal(fl_hull_make(&by, &outer, 0.0, &err), 0);
+        assert_int_equal(fl_hull_by_core(&by, &core, r + 1e-9), 0);
+        assert_true(by.p == &outer && by.area);
+        assert_int_equal(fl_hull_by_core(&by, &core, r), 1);
+        assert_true(by.p == &core && !by.area && !by.middle);
+        const fl_vec3 up = v3_unit(v3(fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1)));
+        const double level = v3_dot(up, h.centre) + fl_rng_in(&g, -2, 2);
+        fl_buoyancy(&h, up, level, &w);
+        fl_buoyancy(&by, up, level, &known);
+        assert_near_of(w.volume, known.volume, 1e-12, h.volume);
+        assert_near_of(w.wetted, known.wetted, 1e-12, h.surface);
+        assert_near_of(w.waterplane, known.waterplane, 1e-12, h.surface);
+        assert_near_of(v3_norm(v3_sub(w.centre, known.centre)) * w.volume, 0.0, 1e-12, outer.size * h.volume);
+        fl_buoyancy_plane(&h, up, level, &a);
+        fl_buoyancy_plane(&by, up, level, &b);
+        assert_near_of(a.area, b.area, 1e-12, h.surface);
+        assert_near_of(m3_col(a.second, 0).x, m3_col(b.second, 0).x, 1e-12, h.surface * h.surface);
+        fl_hull_free(&h), fl_hull_free(&by);
+        fl_poly_free(&core), fl_poly_free(&outer);
+    }
+}
+
+/* One with more corners than are looked at so, and one that is no prism, keep their own. */
+static void hulls_that_need_their_own(void **state)
+{
+    (void)state;
+    fl_vec3 xy[33];
+    fl_poly p;
+    fl_hull h;
+    fl_err err = {0};
+    for (int32_t n = 32; n <= 33; n++) {
+        for (int k = 0; k < n; k++) xy[k] = v3(cos(2.0 * PI * k / n), sin(2.0 * PI * k / n), 0);
+        assert_int_equal(fl_poly_prism(&p, n, xy, 0, 1, &err), 0);
+        assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
+        assert_int_equal(fl_hull_by_core(&h, &p, 0.0), n == 32);
+        fl_hull_free(&h), fl_poly_free(&p);
+    }
+    const fl_vec3 corner[4] = {v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0), v3(0, 0, 1)};
+    const int32_t first[5] = {0, 3, 6, 9, 12}, loop[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    assert_int_equal(fl_poly_make(&p, 4, corner, 4, first, loop, &err), 0);
+    assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
+    assert_int_equal(fl_hull_by_core(&h, &p, 0.0), 0);
+    assert_non_null(h.area);
+    fl_hull_free(&h), fl_poly_free(&p);
 }
 
 /* A box is a prism three ways, and floats as the flattest; what is no right prism is not taken for one. */
@@ -421,6 +484,8 @@ int main(void)
         cmocka_unit_test(upright_box),
         cmocka_unit_test(plane_through_faces),
         cmocka_unit_test(prisms_have_closed_formulae),
+        cmocka_unit_test(a_hull_by_its_core),
+        cmocka_unit_test(hulls_that_need_their_own),
         cmocka_unit_test(what_is_a_prism),
         cmocka_unit_test(plane_through_vertices),
         cmocka_unit_test(spheres_and_capsules),
