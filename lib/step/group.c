@@ -248,6 +248,13 @@ static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group 
     return end;
 }
 
+/* Of balls [k, to), k none that plain.h knows, the first that it does. */
+static int32_t before_plain(const fl_world *w, int32_t k, int32_t to)
+{
+    while (++k < to && !fl_plain_is(w, k)) {}
+    return k;
+}
+
 /* Whether n numbers of each of four arrays are finite: 0 x is 0 where x is.  What overflows only in the sum
  * of four is told as well, and looked at again. */
 FL_WIDE_VERSIONS static int all_finite(const double *restrict a, const double *restrict b,
@@ -284,6 +291,7 @@ void fl_group_end(fl_world *w, int32_t g, double h)
         many += end - k;
         if (end > k) continue;
         end = h > 0.0 ? alike(w, k, to) : k;
+        if (end > k && w->b.ball[k]) end = before_plain(w, k, end);
         if (end == k) end_one(w, end++, h, own);
         else if (w->b.ball[k]) end_balls(w, k, end, h, own);
         else
