@@ -14,6 +14,8 @@ enum { FL_LANES = 4 };
 typedef double fl_wide __attribute__((vector_size(FL_LANES * sizeof(double)), aligned(8), may_alias));
 typedef int64_t fl_wide_mask __attribute__((vector_size(FL_LANES * sizeof(int64_t)), aligned(8), may_alias));
 
+typedef double fl_two __attribute__((vector_size(2 * sizeof(double)), aligned(8), may_alias));
+
 /* A function compiled for several widths, of which the loader takes the one that fits the machine. */
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                           \
     !defined(__SANITIZE_THREAD__)

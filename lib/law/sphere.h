@@ -16,7 +16,7 @@
 
 /* What is written one by one is read eight at a time: by then it should have reached the fastest cache, and
  * all of it should still be there. */
-enum { FL_SPHERES_MOST = 32 };
+enum { FL_SPHERES_MOST = 40 };
 
 /* One array a quantity.  Vectors are x, y, z. */
 typedef struct {

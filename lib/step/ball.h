@@ -24,6 +24,12 @@ typedef struct {
     double k;      /* kappa of Hertz                                                  [N/m^1.5] */
 } fl_ball_row;
 
+/* From a body to an image of it [m]. */
+typedef struct {
+    fl_vec3 by;
+    double none;
+} fl_ball_way;
+
 /* Sums over the rows of one body; forces and torques on it, world axes. */
 typedef struct {
     fl_vec3 elastic, damping, friction; /* [N]   */
@@ -44,15 +50,18 @@ typedef struct {
     int32_t bodies;   /* as many as move; 0: no two spheres have been near yet, and the rest is not there */
     int32_t *i, *j;   /* [n] */
     int32_t *law;     /* [n] into fl_world.law */
+    int32_t one_law;  /* of all rows; -1: there are several */
     int32_t *image;   /* [n][3]; NULL without a periodic cell */
     uint8_t *hit;     /* [n] touches */
     fl_ball_row *row; /* [n] */
     int32_t *first;   /* [bodies + 1] rows of body i */
-    int32_t *beyond;  /* [bodies] row c of body i that leaves its chunk has slot c - beyond[i] */
+    int32_t *to;      /* [n] where j adds up: j, or of a row that leaves its chunk ~slot */
     int32_t chunks;
     int32_t *source;      /* [chunks] the first chunk with a row that leads there */
     uint8_t *ended;       /* [chunks] scratch of a step */
-    uint8_t *moved;       /* [n] j is of another cell; NULL without a periodic cell */
+    fl_ball_way *way;     /* [ways] 0 is that of j itself */
+    uint8_t *by;          /* [n] which of them */
+    int32_t ways;         /* 0: there are more than a byte can tell */
     int32_t *cross;       /* [chunks + 1] slots of the rows that leave a chunk, in their order */
     int32_t *into;        /* [bodies + 1] offsets into slots */
     int32_t *slots;       /* [cross[chunks]] the slots that body j has to add up, ascending */

@@ -13,6 +13,8 @@
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
 
+enum { MOST_WAYS = 256 };
+
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 {
     if (j >= w->n || !w->b.ball[i] || !w->b.ball[j]) return 0;
@@ -25,7 +27,7 @@ int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 void fl_balls_free(fl_balls *s)
 {
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
-    free(s->first), free(s->beyond), free(s->source), free(s->ended), free(s->moved), free(s->cross),
+    free(s->first), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by), free(s->cross),
         free(s->into), free(s->slots), free(s->slot);
     free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
     *s = (fl_balls){0};
@@ -53,7 +55,6 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->chunks = (w->n + FL_BALLS_CHUNK - 1) / FL_BALLS_CHUNK;
     s->first = fl_alloc((int64_t)w->n + 1, sizeof *s->first, err);
     s->into = fl_alloc((int64_t)w->n + 1, sizeof *s->into, err);
-    s->beyond = fl_alloc(w->n, sizeof *s->beyond, err);
     s->source = fl_alloc(s->chunks, sizeof *s->source, err);
     s->ended = fl_alloc(s->chunks, sizeof *s->ended, err);
     s->cross = fl_alloc((int64_t)s->chunks + 1, sizeof *s->cross, err);
@@ -61,8 +62,8 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->was = fl_alloc(w->n, sizeof *s->was, err);
-    if (!s->first || !s->into || !s->beyond || !s->source || !s->ended || !s->cross || !s->tally ||
-        !s->stiff || !s->sum || !s->was)
+    if (!s->first || !s->into || !s->source || !s->ended || !s->cross || !s->tally || !s->stiff || !s->sum ||
+        !s->was)
         return -1;
     s->bodies = w->n;
     return 0;
@@ -75,6 +76,38 @@ static int32_t last_body(const fl_balls *s, int32_t a)
     return end < s->bodies ? end : s->bodies;
 }
 
+static fl_vec3 way_of(const fl_cell *cell, const int32_t e[3])
+{
+    return fl_cell_way(cell, v3(e[0], e[1], e[2]));
+}
+
+/* Images of rows are few: from any of them to where j is. */
+static int find_ways(fl_balls *s, const fl_cell *cell, fl_err *err)
+{
+    int32_t from[MOST_WAYS] = {0}; /* the first row with it; of the 0 none */
+    free(s->way), free(s->by);
+    s->way = fl_alloc(MOST_WAYS, sizeof *s->way, err);
+    s->by = fl_alloc(s->n, sizeof *s->by, err);
+    s->ways = 1;
+    if (!s->way || !s->by) return -1;
+    for (int32_t c = 0, k = 0; s->image && c < s->n; c++) {
+        const int32_t *e = &s->image[3 * c];
+        if (!(e[0] | e[1] | e[2])) continue;
+        if (k == 0 || memcmp(e, &s->image[3 * from[k]], 3 * sizeof *e) != 0)
+            for (k = 1; k < s->ways && memcmp(e, &s->image[3 * from[k]], 3 * sizeof *e) != 0;) k++;
+        if (k == MOST_WAYS) {
+            s->ways = 0;
+            return 0;
+        }
+        if (k == s->ways) {
+            from[s->ways++] = c;
+            s->way[k].by = way_of(cell, e);
+        }
+        s->by[c] = (uint8_t)k;
+    }
+    return 0;
+}
+
 /* Offsets and slots. */
 static int index_rows(fl_world *w, fl_err *err)
 {
@@ -84,29 +117,30 @@ static int index_rows(fl_world *w, fl_err *err)
     for (int32_t c = 0; c < s->n; c++) s->first[s->i[c] + 1]++;
     for (int32_t i = 0; i < s->bodies; i++) s->first[i + 1] += s->first[i];
     int32_t slots = 0;
+    free(s->to);
+    if (!(s->to = fl_alloc(s->n, sizeof *s->to, err))) return -1;
     for (int32_t a = 0; a < s->chunks; a++) s->source[a] = INT32_MAX;
     for (int32_t a = 0; a < s->chunks; a++) {
         const int32_t end = last_body(s, a);
         s->cross[a] = slots;
         if (s->source[a] > a) s->source[a] = a;
         for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[end]; c++) {
-            if (s->j[c] < end) continue;
+            s->to[c] = s->j[c] < end ? s->j[c] : ~slots++;
+            if (s->to[c] >= 0) continue;
             int32_t *source = &s->source[s->j[c] / FL_BALLS_CHUNK];
             if (a < *source) *source = a;
             s->into[s->j[c] + 1]++;
-            s->beyond[s->i[c]] = c - slots++; /* the same for all of i that leave: they are its last */
         }
     }
     s->cross[s->chunks] = slots;
-    free(s->slots), free(s->slot), free(s->stiff_slot), free(s->moved);
-    s->moved = NULL;
+    free(s->slots), free(s->slot), free(s->stiff_slot);
     s->slots = fl_alloc(slots, sizeof *s->slots, err);
     s->slot = fl_alloc(slots, sizeof *s->slot, err);
     s->stiff_slot = fl_alloc(slots, sizeof *s->stiff_slot, err);
-    if (s->image) s->moved = fl_alloc(s->n, sizeof *s->moved, err);
-    if (!s->slots || !s->slot || !s->stiff_slot || (s->image && !s->moved)) return -1;
-    for (int32_t c = 0; s->image && c < s->n; c++)
-        s->moved[c] = s->image[3 * c] || s->image[3 * c + 1] || s->image[3 * c + 2];
+    if (!s->slots || !s->slot || !s->stiff_slot || find_ways(s, &w->cell, err)) return -1;
+    s->one_law = s->n > 0 ? s->law[0] : -1;
+    for (int32_t c = 0; c < s->n; c++)
+        if (s->law[c] != s->one_law) s->one_law = -1;
     for (int32_t j = 0; j < s->bodies; j++) s->into[j + 1] += s->into[j];
     slots = 0;
     for (int32_t a = 0; a < s->chunks; a++) { /* fills: into[j] goes from the start of j to that of j + 1 */
@@ -249,14 +283,16 @@ int fl_balls_drop(fl_world *w, fl_err *err)
 
 /* --- their forces ------------------------------------------------------------------------------ */
 
-/* Rows looked at together, and touching rows in work. */
-enum { BLOCK = 16 };
-static_assert(FL_SPHERES_MOST == 2 * BLOCK, "what a block finds has room behind what is not a block yet");
+/* Touching rows are worked on when there are so many. */
+enum { BLOCK = 32 };
+static_assert(BLOCK + FL_LANES <= FL_SPHERES_MOST,
+              "what four rows add has room behind what is not a block yet");
 
 typedef struct {
     fl_spheres at;
-    int32_t row[FL_SPHERES_MOST]; /* filled to the end of a register */
-    int32_t law[FL_SPHERES_MOST]; /* whose numbers stand there */
+    double d[FL_SPHERES_MOST][FL_LANES]; /* D and something, as they are found */
+    int32_t row[FL_SPHERES_MOST];        /* filled to the end of a register */
+    int32_t law[FL_SPHERES_MOST];        /* whose numbers stand there */
     double rest2[FL_SPHERES_MOST];
     int32_t m;
 } batch;
@@ -266,7 +302,7 @@ static inline fl_vec3 seen(const fl_cell *cell, const int32_t *image, int32_t c,
 {
     if (!image) return d;
     const int32_t *e = &image[3 * c];
-    return e[0] | e[1] | e[2] ? v3_sub(d, fl_cell_way(cell, v3(e[0], e[1], e[2]))) : d;
+    return e[0] | e[1] | e[2] ? v3_sub(d, way_of(cell, e)) : d;
 }
 
 static inline fl_vec3 between(const fl_world *w, int32_t c)
@@ -275,70 +311,85 @@ static inline fl_vec3 between(const fl_world *w, int32_t c)
     return seen(&w->cell, s->image, c, v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]));
 }
 
-/* The slot of row c, which leaves the chunk that ends before body `end`; -1 of one that does not. */
-static inline int32_t slot_of(const fl_balls *s, int32_t c, int32_t end)
+/* Those of the rows from c on that have begun to touch or ended it, bit by bit: one that ends forgets. */
+static void turn_over(fl_balls *s, int32_t c, uint32_t turned)
 {
-    return s->j[c] >= end ? c - s->beyond[s->i[c]] : -1;
+    for (; turned; turned >>= 1, c++) {
+        if (!(turned & 1)) continue;
+        if (s->hit[c]) s->row[c] = (fl_ball_row){.k = s->row[c].k};
+        s->hit[c] ^= 1;
+    }
 }
 
-/* D of m rows as if there were no images, and radii. */
-FL_FOUR_VERSIONS static void apart(double (*restrict d)[FL_SPHERES_MOST], double *restrict ri,
-                                   double *restrict rj, const int32_t *restrict row, int32_t m,
-                                   const int32_t *restrict bi, const int32_t *restrict bj,
-                                   const fl_vec3 *restrict x, const double *restrict radius)
+/* Row c by itself: whether |D|^2 < (r_i + r_j)^2, and D to the end of the batch. */
+static int look_one(const fl_world *w, batch *t, int32_t c)
 {
-    for (int32_t k = 0; k < m; k += FL_LANES) {
-        fl_wide v[FL_LANES];
+    const fl_vec3 d = between(w, c);
+    const double R = w->b.radius[w->balls.i[c]] + w->b.radius[w->balls.j[c]];
+    t->row[t->m] = c;
+    t->d[t->m][0] = d.x, t->d[t->m][1] = d.y, t->d[t->m][2] = d.z;
+    return v3_norm2(d) - R * R < 0.0;
+}
+
+/* What the loop below reads and writes. */
+typedef struct {
+    fl_world *w;
+    const int32_t *i, *j;
+    const fl_ball_way *way;
+    const uint8_t *by, *hit;
+    const fl_vec3 *x;
+    const double *radius;
+} seeker;
+
+/* Rows [c, to), four at a time, until the batch is a block or less than four are left: behind the last.
+ * Whether a row touches is nothing that could be foreseen, so nothing here branches on it: it is written down
+ * behind the last that does, and counts or does not.  That it begins to, or ends, is rare. */
+FL_FOUR_VERSIONS static int32_t look(const seeker *restrict s, batch *restrict t, int32_t c, int32_t to)
+{
+    const int32_t *bi = s->i, *bj = s->j;
+    const fl_vec3 *x = s->x;
+    const double *radius = s->radius;
+    const uint8_t *hit = s->hit, *by = s->by;
+    const fl_ball_way *way = s->way;
+    int32_t m = t->m;
+    for (; c + FL_LANES <= to && m < BLOCK; c += FL_LANES) {
+        fl_wide v[FL_LANES], R;
+        uint32_t turned = 0;
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
         {
-            const int32_t i = bi[row[k + l]], j = bj[row[k + l]];
-            v[l] = FL_FOUR(&x[i]) - FL_FOUR(&x[j]);
-            ri[k + l] = radius[i];
-            rj[k + l] = radius[j];
+            const int32_t i = bi[c + l], j = bj[c + l];
+            v[l] = (FL_FOUR(&x[i]) - FL_FOUR(&x[j])) - FL_FOUR(&way[by[c + l]]);
+            R[l] = radius[i] + radius[j];
         }
-        fl_wide_transpose(v);
-        FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++) FL_FOUR_INTO(&d[axis][k]) = v[axis];
+        fl_wide d[] = {v[0], v[1], v[2], v[3]};
+        fl_wide_transpose(d);
+        const fl_wide gap = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - R * R;
+        const fl_wide_mask touches = gap < 0.0;
+        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
+        {
+            const uint32_t one = (uint32_t)touches[l] & 1;
+            t->row[m] = c + l;
+            FL_FOUR_INTO(t->d[m]) = v[l];
+            m += (int32_t)one;
+            turned |= (one ^ hit[c + l]) << l;
+        }
+        if (turned) turn_over(&s->w->balls, c, turned);
     }
+    t->m = m;
+    return c;
 }
 
-/* The same with images. */
-static void place(const fl_world *w, double (*d)[FL_SPHERES_MOST], double *ri, double *rj, int32_t *row,
-                  int32_t m)
-{
-    const fl_balls *s = &w->balls;
-    for (int32_t k = m; k % FL_LANES; k++) row[k] = row[m - 1];
-    apart(d, ri, rj, row, m, s->i, s->j, w->b.x, w->b.radius);
-    const uint8_t *away = s->moved;
-    for (int32_t k = 0; away && k < m; k++) {
-        if (!away[row[k]]) continue;
-        const fl_vec3 moved = seen(&w->cell, s->image, row[k], v3(d[0][k], d[1][k], d[2][k]));
-        d[0][k] = moved.x;
-        d[1][k] = moved.y;
-        d[2][k] = moved.z;
-    }
-}
-
-/* A block of rows: D, and |D|^2 - (r_i + r_j)^2. */
-typedef struct {
-    alignas(64) double d[3][FL_SPHERES_MOST], ri[BLOCK], rj[BLOCK], gap[BLOCK];
-    int32_t row[BLOCK];
-} block;
-
-FL_WIDE_VERSIONS static void gaps(block *restrict q)
-{
-#pragma omp simd
-    for (int32_t k = 0; k < BLOCK; k++) {
-        const double x = q->d[0][k], y = q->d[1][k], z = q->d[2][k], R = q->ri[k] + q->rj[k];
-        q->gap[k] = x * x + y * y + z * z - R * R;
-    }
-}
-
-/* What the batch needs beside D to be placed again, */
+/* What the batch needs to be placed again, */
 static void load_forces(const fl_world *w, batch *t)
 {
+    const fl_balls *s = &w->balls;
     fl_spheres *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        const fl_ball_row *r = &w->balls.row[t->row[m]];
+        const int32_t c = t->row[m];
+        const fl_ball_row *r = &s->row[c];
+        for (int axis = 0; axis < 3; axis++) a->d[axis][m] = t->d[m][axis];
+        a->ri[m] = w->b.radius[s->i[c]];
+        a->rj[m] = w->b.radius[s->j[c]];
         a->k[m] = r->k;
         a->rub[0][m] = r->rub.x;
         a->rub[1][m] = r->rub.y;
@@ -352,20 +403,24 @@ typedef struct {
     const int32_t *i, *j;
     const fl_ball_row *row;
     const fl_vec3 *v, *w;
-    const double *invm;
+    const double *invm, *radius;
 } source;
 
 FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
 {
     static_assert(offsetof(fl_ball_row, stiff) == sizeof(fl_vec3), "a spring is a register of four");
+    static_assert(offsetof(fl_ball_row, k) == offsetof(fl_ball_row, touch) + sizeof(double), "one of two");
     const int32_t *bi = s->i, *bj = s->j;
     const fl_ball_row *row = s->row;
     const fl_vec3 *v = s->v, *spin = s->w;
-    const double *invm = s->invm;
+    const double *invm = s->invm, *radius = s->radius;
     const int32_t n = t->m;
     fl_spheres *a = &t->at;
+    for (int32_t k = n; k % FL_LANES; k++) t->row[k] = t->row[n - 1];
     for (int32_t m = 0; m < n; m += FL_LANES) {
-        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES];
+        fl_wide d[] = {FL_FOUR(t->d[m]), FL_FOUR(t->d[m + 1]), FL_FOUR(t->d[m + 2]), FL_FOUR(t->d[m + 3])};
+        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES], both, ri, rj;
+        fl_two last[FL_LANES];
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
         {
             const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
@@ -374,16 +429,26 @@ FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
             p[l] = FL_FOUR(&spin[i]);
             q[l] = FL_FOUR(&spin[j]);
             h[l] = FL_FOUR(&r->slip);
-            a->invm[m + l] = t->rest2[m + l] * (invm[i] + invm[j]); /* for nothing but the stored energy */
-            a->touch[m + l] = r->touch;
-            a->k[m + l] = r->k;
+            both[l] = invm[i] + invm[j];
+            ri[l] = radius[i];
+            rj[l] = radius[j];
+            last[l] = *(const fl_two *)(const void *)&r->touch;
         }
+        const fl_wide even = __builtin_shufflevector(last[0], last[2], 0, 1, 2, 3),
+                      odd = __builtin_shufflevector(last[1], last[3], 0, 1, 2, 3);
+        FL_FOUR_INTO(&a->touch[m]) = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+        FL_FOUR_INTO(&a->k[m]) = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+        FL_FOUR_INTO(&a->invm[m]) = FL_FOUR(&t->rest2[m]) * both; /* for nothing but the stored energy */
+        FL_FOUR_INTO(&a->ri[m]) = ri;
+        FL_FOUR_INTO(&a->rj[m]) = rj;
+        fl_wide_transpose(d);
         fl_wide_transpose(u);
         fl_wide_transpose(p);
         fl_wide_transpose(q);
         fl_wide_transpose(h);
         FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++)
         {
+            FL_FOUR_INTO(&a->d[axis][m]) = d[axis];
             FL_FOUR_INTO(&a->u[axis][m]) = u[axis];
             FL_FOUR_INTO(&a->wi[axis][m]) = p[axis];
             FL_FOUR_INTO(&a->wj[axis][m]) = q[axis];
@@ -393,21 +458,22 @@ FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
     }
 }
 
-/* Most often there is one law, and its numbers stand there from the contacts before. */
+static void load_law(const fl_world *w, batch *t, int32_t m, int32_t l)
+{
+    const fl_touching *law = &w->law[l];
+    t->law[m] = l;
+    t->at.friction[m] = law->friction;
+    t->at.tangential[m] = law->tangential;
+    t->at.chi[m] = law->chi;
+    t->rest2[m] = law->rest * law->rest;
+}
+
+/* Where there is not one law for all, most often the numbers stand there from the contacts before. */
 static void load_laws(const fl_world *w, batch *t)
 {
-    const int32_t *bl = w->balls.law;
-    fl_spheres *a = &t->at;
-    for (int32_t m = 0; m < t->m; m++) {
-        const int32_t l = bl[t->row[m]];
-        if (l == t->law[m]) continue;
-        const fl_touching *law = &w->law[l];
-        t->law[m] = l;
-        a->friction[m] = law->friction;
-        a->tangential[m] = law->tangential;
-        a->chi[m] = law->chi;
-        t->rest2[m] = law->rest * law->rest;
-    }
+    const int32_t *law = w->balls.law;
+    for (int32_t m = 0; m < t->m; m++)
+        if (law[t->row[m]] != t->law[m]) load_law(w, t, m, law[t->row[m]]);
 }
 
 FL_FOUR_VERSIONS static void save(fl_ball_row *restrict row, const batch *restrict t)
@@ -438,37 +504,64 @@ FL_FOUR_VERSIONS static void save(fl_ball_row *restrict row, const batch *restri
 enum { PARTS = 3 };
 static_assert(sizeof(fl_ball_sum) == PARTS * sizeof(fl_wide), "a sum is twelve doubles");
 
-/* Their wrenches to the sums of the chunk that ends before body `end`, and to slots: what stands in a slot
- * does not count.  Which of the two it is cannot be foreseen, so nothing branches on it. */
-FL_FOUR_VERSIONS static void hand_out(const fl_balls *restrict s, const batch *restrict t, int32_t end)
+/* In pieces that need no string instruction. */
+static void clear(fl_ball_sum *s, int32_t n)
 {
-    const fl_spheres *a = &t->at;
-    const int32_t *bi = s->i, *bj = s->j, *beyond = s->beyond, n = t->m;
+    enum { PIECE = 16 };
+    for (; n > PIECE; n -= PIECE, s += PIECE) memset(s, 0, PIECE * sizeof *s);
+    memset(s, 0, (size_t)n * sizeof *s);
+}
+
+/* What four contacts do, each a row: to i and j alike but for the sign, and to either. */
+typedef struct {
+    fl_wide one[FL_LANES], two[FL_LANES], on_i[FL_LANES], on_j[FL_LANES];
+} wrenches;
+
+FL_WIDE_PART void find_wrenches(wrenches *q, const fl_spheres *a, int32_t m)
+{
+    q->one[0] = FL_FOUR(&a->push[0][m]), q->one[1] = FL_FOUR(&a->push[1][m]);
+    q->one[2] = FL_FOUR(&a->push[2][m]), q->one[3] = FL_FOUR(&a->damping[0][m]);
+    q->two[0] = FL_FOUR(&a->damping[1][m]), q->two[1] = FL_FOUR(&a->damping[2][m]);
+    q->two[2] = FL_FOUR(&a->rub[0][m]), q->two[3] = FL_FOUR(&a->rub[1][m]);
+    q->on_i[0] = FL_FOUR(&a->rub[2][m]), q->on_i[1] = FL_FOUR(&a->ti[0][m]);
+    q->on_i[2] = FL_FOUR(&a->ti[1][m]), q->on_i[3] = FL_FOUR(&a->ti[2][m]);
+    q->on_j[0] = -q->on_i[0], q->on_j[1] = FL_FOUR(&a->tj[0][m]);
+    q->on_j[2] = FL_FOUR(&a->tj[1][m]), q->on_j[3] = FL_FOUR(&a->tj[2][m]);
+    fl_wide_transpose(q->one);
+    fl_wide_transpose(q->two);
+    fl_wide_transpose(q->on_i);
+    fl_wide_transpose(q->on_j);
+}
+
+/* The l-th of them to the sum of i, and to that of j or to a slot.  Which of the two cannot be foreseen, so
+ * nothing branches on it. */
+FL_WIDE_PART void hand_one(fl_ball_sum *sums, fl_ball_sum *slots, int32_t i, int32_t to, const wrenches *q,
+                           int32_t l)
+{
+    const int32_t beyond = to < 0 ? -1 : 0;
+    const uintptr_t which = ((uintptr_t)sums ^ (uintptr_t)slots) & (uintptr_t)(intptr_t)beyond;
+    fl_wide *on = (fl_wide *)&sums[i],
+            *off = (fl_wide *)&((fl_ball_sum *)((uintptr_t)sums ^ which))[to ^ beyond];
+    on[0] += q->one[l], on[1] += q->two[l], on[2] += q->on_i[l];
+    off[0] -= q->one[l], off[1] -= q->two[l], off[2] += q->on_j[l];
+}
+
+/* The wrenches of the batch. */
+FL_FOUR_VERSIONS static void hand_out(const fl_balls *restrict s, const batch *restrict t)
+{
+    const int32_t *bi = s->i, *bto = s->to, *row = t->row, n = t->m;
     fl_ball_sum *sums = s->sum, *slots = s->slot;
-    for (int32_t m = 0; m < n; m += FL_LANES) {
-        fl_wide one[] = {FL_FOUR(&a->push[0][m]), FL_FOUR(&a->push[1][m]), FL_FOUR(&a->push[2][m]),
-                         FL_FOUR(&a->damping[0][m])};
-        fl_wide two[] = {FL_FOUR(&a->damping[1][m]), FL_FOUR(&a->damping[2][m]), FL_FOUR(&a->rub[0][m]),
-                         FL_FOUR(&a->rub[1][m])};
-        fl_wide on_i[] = {FL_FOUR(&a->rub[2][m]), FL_FOUR(&a->ti[0][m]), FL_FOUR(&a->ti[1][m]),
-                          FL_FOUR(&a->ti[2][m])};
-        fl_wide on_j[] = {-on_i[0], FL_FOUR(&a->tj[0][m]), FL_FOUR(&a->tj[1][m]), FL_FOUR(&a->tj[2][m])};
-        fl_wide_transpose(one);
-        fl_wide_transpose(two);
-        fl_wide_transpose(on_i);
-        fl_wide_transpose(on_j);
+    int32_t m = 0;
+    for (; m + FL_LANES <= n; m += FL_LANES) {
+        wrenches q;
+        find_wrenches(&q, &t->at, m);
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
-        {
-            if (m + l >= n) break;
-            const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
-            const int64_t own = j < end ? -1 : 0;
-            const fl_wide_mask adds = {own, own, own, own};
-            fl_wide *on = (fl_wide *)&sums[i], *off = (fl_wide *)(own ? &sums[j] : &slots[c - beyond[i]]);
-            on[0] += one[l], on[1] += two[l], on[2] += on_i[l];
-            off[0] = FL_WIDE_WHERE(adds, off[0]) - one[l];
-            off[1] = FL_WIDE_WHERE(adds, off[1]) - two[l];
-            off[2] = FL_WIDE_WHERE(adds, off[2]) + on_j[l];
-        }
+            hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
+    }
+    if (m < n) {
+        wrenches q;
+        find_wrenches(&q, &t->at, m);
+        for (int32_t l = 0; m + l < n; l++) hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
     }
 }
 
@@ -487,20 +580,30 @@ FL_FOUR_VERSIONS static void collect(fl_ball_sum *restrict sums, const fl_ball_s
     }
 }
 
+/* Whether one of the first m, or of those that fill the register behind them, is deeper than so much of the
+ * sum of the radii. */
+FL_WIDE_VERSIONS static int deeper(const fl_spheres *a, int32_t m, double most)
+{
+    int any = 0;
+#pragma omp simd reduction(| : any)
+    for (int32_t k = 0; k < m; k++) any |= a->overlap[k] > most * (a->ri[k] + a->rj[k]);
+    return any;
+}
+
 static void count(const batch *t, fl_ball_tally *tally)
 {
     const fl_spheres *a = &t->at;
     double force = tally->force;
-    for (int32_t m = 0; m < t->m; m++) {
-        const double both = a->ri[m] + a->rj[m];
-        force += a->size[m];
-        if (a->overlap[m] > tally->worst * both) {
-            tally->worst = a->overlap[m] / both;
-            tally->worst_row = t->row[m];
-        }
-    }
+    for (int32_t m = 0; m < t->m; m++) force += a->size[m];
     tally->force = force;
     tally->touching += t->m;
+    if (!deeper(a, t->m, tally->worst)) return;
+    for (int32_t m = 0; m < t->m; m++) {
+        const double both = a->ri[m] + a->rj[m];
+        if (!(a->overlap[m] > tally->worst * both)) continue;
+        tally->worst = a->overlap[m] / both;
+        tally->worst_row = t->row[m];
+    }
 }
 
 /* The springs of a contact are one along n and, where it sticks, two across it, at right angles to each other
@@ -512,95 +615,82 @@ static double bound(const fl_bodies *b, int32_t i, double along, double across, 
 }
 
 /* As share_of() of step.c says. */
-static void survey_batch(fl_world *w, const batch *t, int32_t end)
+static void survey_batch(fl_world *w, const batch *t)
 {
     fl_balls *s = &w->balls;
     const fl_spheres *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m], i = s->i[c], j = s->j[c];
+        const int32_t c = t->row[m], i = s->i[c], j = s->j[c], to = s->to[c];
         const double half = 0.5 * a->overlap[m];
         const double ki = bound(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half),
                      kj = bound(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half), both = sqrt(ki * kj);
         s->stiff[i] += ki + both;
-        if (j < end) s->stiff[j] += kj + both;
-        else s->stiff_slot[slot_of(s, c, end)] = kj + both;
+        if (to >= 0) s->stiff[j] += kj + both;
+        else s->stiff_slot[~to] = kj + both;
     }
 }
 
-/* A row that touches no more forgets. */
-static void part(fl_balls *s, int32_t c, int32_t slot)
-{
-    const double k = s->row[c].k;
-    s->row[c] = (fl_ball_row){.k = k};
-    if (slot >= 0) s->slot[slot] = (fl_ball_sum){0};
-}
-
-/* What is done with a batch; dt < 0: nothing moves and nothing is evaluated, the sums are made again from
- * what the rows hold. */
+/* What is done with the batch, which then is empty; dt < 0: nothing moves and nothing is evaluated, the sums
+ * are made again from what the rows hold. */
 static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
 {
     fl_balls *s = &w->balls;
     const fl_bodies *b = &w->b;
-    const int32_t end = last_body(s, a);
-    if (t->m == 0) return;
-    place(w, t->at.d, t->at.ri, t->at.rj, t->row, t->m);
     if (dt < 0.0) {
         load_forces(w, t);
         fl_spheres_place(&t->at, t->m);
     } else {
-        const source from = {s->i, s->j, s->row, b->v, b->w, b->invm};
-        load_laws(w, t);
+        const source from = {s->i, s->j, s->row, b->v, b->w, b->invm, b->radius};
+        if (s->one_law < 0) load_laws(w, t);
         load(&from, t);
         fl_spheres_meet(&t->at, t->m, dt);
         save(s->row, t);
     }
-    hand_out(s, t, end);
+    hand_out(s, t);
     count(t, &s->tally[a]);
-    if (survey) survey_batch(w, t, end);
+    if (survey) survey_batch(w, t);
     t->m = 0;
 }
 
-/* Whether a row touches is nothing that could be foreseen, so nothing here branches on it: it is written down
- * behind the last that does, and counts or does not.  That it begins to, or ends, is rare. */
+/* And of the first BLOCK of it; the others move up. */
+static void finish_block(fl_world *w, int32_t a, batch *t, double dt, int survey)
+{
+    const int32_t more = t->m - BLOCK;
+    if (more < 0) return;
+    t->m = BLOCK;
+    finish(w, a, t, dt, survey);
+    memcpy(t->d, t->d[BLOCK], (size_t)more * sizeof *t->d);
+    memcpy(t->row, &t->row[BLOCK], (size_t)more * sizeof *t->row);
+    t->m = more;
+}
+
 static void take(fl_world *w, int32_t a, double dt, int survey)
 {
     fl_balls *s = &w->balls;
-    const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a), from = s->first[begin],
-                  to = s->first[end], cross = s->cross[a];
-    uint8_t *hit = s->hit;
+    const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a), to = s->first[end], cross = s->cross[a];
+    const seeker by = {w, s->i, s->j, s->way, s->by, s->hit, w->b.x, w->b.radius};
+    const int wide = dt >= 0.0 && s->ways;
     batch t;
-    block q = {0};
     memset(t.law, -1, sizeof t.law);
+    for (int32_t m = 0; s->one_law >= 0 && m < FL_SPHERES_MOST; m++) load_law(w, &t, m, s->one_law);
     t.m = 0;
     s->tally[a] = (fl_ball_tally){.worst_row = -1};
-    memset(&s->sum[begin], 0, (size_t)(end - begin) * sizeof *s->sum);
+    clear(&s->sum[begin], end - begin);
+    clear(&s->slot[cross], s->cross[a + 1] - cross);
     if (survey) {
         memset(&s->stiff[begin], 0, (size_t)(end - begin) * sizeof *s->stiff);
         memset(&s->stiff_slot[cross], 0, (size_t)(s->cross[a + 1] - cross) * sizeof *s->stiff_slot);
     }
-    for (int32_t first = from; first < to; first += BLOCK) {
-        const int32_t n = to - first < BLOCK ? to - first : BLOCK;
-        int32_t m = t.m;
-        if (dt < 0.0) {
-            for (int32_t k = 0; k < n; k++) q.gap[k] = hit[first + k] ? -1.0 : 1.0;
-        } else {
-            for (int32_t k = 0; k < n; k++) q.row[k] = first + k;
-            place(w, q.d, q.ri, q.rj, q.row, n);
-            gaps(&q);
+    for (int32_t c = s->first[begin]; c < to;) {
+        if (wide) c = look(&by, &t, c, to);
+        for (; c < to && t.m < BLOCK && (!wide || to - c < FL_LANES); c++) {
+            const uint8_t touches = (uint8_t)look_one(w, &t, c);
+            if (dt >= 0.0 && touches != s->hit[c]) turn_over(s, c, 1);
+            t.m += s->hit[c];
         }
-        for (int32_t k = 0; k < n; k++) {
-            const int32_t c = first + k;
-            const int touches = q.gap[k] < 0.0;
-            t.row[m] = c;
-            m += touches;
-            if (hit[c] == touches) continue;
-            if (hit[c]) part(s, c, slot_of(s, c, end));
-            hit[c] = (uint8_t)touches;
-        }
-        t.m = m;
-        if (m >= BLOCK) finish(w, a, &t, dt, survey);
+        finish_block(w, a, &t, dt, survey);
     }
-    finish(w, a, &t, dt, survey);
+    if (t.m) finish(w, a, &t, dt, survey);
 }
 
 void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey) { take(w, a, dt, survey); }

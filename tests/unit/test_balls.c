@@ -216,6 +216,42 @@ static void whichever_share(void **state)
     }
 }
 
+/* Pairs above one another, the second of the k-th k cells away: as if it were in this one.  In turns so
+ * many ways that a byte tells them, and more. */
+static void whichever_image(void **state)
+{
+    enum { PAIRS = 300 };
+    static fl_vec3 f[2 * PAIRS];
+    double most = 0.0;
+    (void)state;
+    for (int cells = 0; cells <= PAIRS; cells += PAIRS / 2) {
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "material.ice.young=1 MPa");
+        lab_set(&l, "boundary.type=periodic free free");
+        lab_set(&l, "boundary.min=0 none none");
+        lab_set(&l, "boundary.max=16 none none"); /* cells that add without rounding */
+        for (int k = 0; k < PAIRS; k++) {
+            const double far = cells ? 16.0 * (k % cells) : 0.0;
+            lab_sphere(&l, v3(1, 0, 3.0 * k), 0.5, v3(0.125, 0, 0), v3(0, 0, 0));
+            lab_sphere(&l, v3(1.984375 + far, 0, 3.0 * k), 0.5, v3(-0.125, 0, 0), v3(0, 0, 0));
+        }
+        lab_make(&l, 1e-4);
+        assert_int_equal(lab_run(&l, 5), 0);
+        const fl_balls *s = &l.w.balls;
+        assert_int_equal(s->n, PAIRS);
+        assert_int_equal(s->ways, cells == 0 ? 1 : cells < PAIRS ? cells : 0);
+        for (int32_t i = 0; i < l.w.n; i++) {
+            fl_vec3 F = v3(0, 0, 0), T = v3(0, 0, 0);
+            fl_balls_force(&l.w, i, &F, &T);
+            if (cells == 0) f[i] = F, most = fmax(most, v3_norm(F));
+            assert_near_of(v3_norm(v3_sub(F, f[i])), 0.0, 1e-9, most); /* 5000 m of an overlap of 16 mm */
+        }
+        assert_true(most > 0.0);
+        lab_free(&l);
+    }
+}
+
 static void out_of_memory(void **state)
 {
     (void)state;
@@ -238,7 +274,10 @@ static void out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
-                                       cmocka_unit_test(sums_over_pairs), cmocka_unit_test(batches),
-                                       cmocka_unit_test(whichever_share), cmocka_unit_test(out_of_memory)};
+                                       cmocka_unit_test(sums_over_pairs),
+                                       cmocka_unit_test(batches),
+                                       cmocka_unit_test(whichever_share),
+                                       cmocka_unit_test(whichever_image),
+                                       cmocka_unit_test(out_of_memory)};
     return cmocka_run_group_tests_name("balls", tests, NULL, NULL);
 }
