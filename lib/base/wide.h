@@ -33,11 +33,11 @@ typedef double fl_two __attribute__((vector_size(2 * sizeof(double)), aligned(8)
 #define FL_FOUR(a) (*(const fl_wide *)(const void *)(a))
 #define FL_FOUR_INTO(a) (*(fl_wide *)(void *)(a))
 
-/* Before a loop over lanes, whose registers then need not lie in memory. */
+/* Before a loop over lanes, or over a few registers, which then need not lie in memory. */
 #ifdef __clang__
 #define FL_WIDE_UNROLL _Pragma("unroll")
 #else
-#define FL_WIDE_UNROLL _Pragma("GCC unroll 4")
+#define FL_WIDE_UNROLL _Pragma("GCC unroll 8")
 #endif
 
 /* By lanes: a where m, else 0;  a where m, else b.  Macros, since a function that takes a register which the

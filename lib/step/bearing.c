@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stddef.h>
 #include "base/mem.h"
 #include "base/wide.h"
 #include "step/bearing.h"
 
-/* What the second sums need of four places. */
+/* What later sums need of four places. */
 typedef struct {
-    fl_wide closing, e, across[3], arm[3];
+    fl_wide closing, e, curve, across[3], arm[3];
 } lane;
 
 /* Four numbers in a row of four places: rows to columns, in registers, since a wide load would wait for
@@ -65,7 +66,7 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, 
         arm[2] = (fl_wide){p[0].p.z, p[1].p.z, p[2].p.z, p[3].p.z} - at.z;
         const fl_wide pull[3] = {all * nx, all * ny, all * nz};
         const fl_wide_mask presses = ux != 0.0;
-        const fl_wide du = FL_WIDE_WHERE(presses, all);
+        const fl_wide du = FL_WIDE_WHERE(presses, all), bent = FL_WIDE_WHERE(presses, curve);
         fl_wide moment[3];
         CROSS(moment, arm, pull);
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
@@ -74,9 +75,9 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, 
         const fl_wide vz = v.z + (turn.x * arm[1] - turn.y * arm[0]);
         const fl_wide closing = -(across[0] * vx + across[1] * vy + across[2] * vz);
         const fl_wide e = du * (nx * across[0] + ny * across[1] + nz * across[2]);
-        t->closing = closing, t->e = e;
+        t->closing = closing, t->e = e, t->curve = bent;
         u += ux;
-        ddu += FL_WIDE_WHERE(presses, curve);
+        ddu += bent;
         pressed += du;
         met += du * FL_WIDE_WHERE(closing > 0.0, closing);
         elastic += e;
@@ -114,6 +115,35 @@ FL_WIDE_VERSIONS static void second(const lane *t, int32_t n, double chi, fl_bea
     q->damping = (fl_wrench){sum3(f), sum3(m)};
 }
 
+/* Four vectors, each turned by R. */
+#define TURN(out, R, a)                                                                                      \
+    do {                                                                                                     \
+        for (int c = 0; c < 3; c++) out[c] = (R).m[c][0] * a[0] + (R).m[c][1] * a[1] + (R).m[c][2] * a[2];   \
+    } while (0)
+
+/* Sums of k g g^T, g = (across, M (arm + a) x across): the upper triangle, row by row. */
+FL_WIDE_VERSIONS static void third(const lane *t, int32_t n, fl_mat3 R, fl_mat3 M, fl_vec3 a, double sum[21])
+{
+    fl_wide all[21];
+    for (int m = 0; m < 21; m++) all[m] = (fl_wide){0};
+    for (int32_t k = 0; k < n; k += FL_LANES, t++) {
+        fl_wide g[6], arm[3], moment[3];
+        TURN(g, R, t->across);
+        TURN(arm, R, t->arm);
+        arm[0] += a.x, arm[1] += a.y, arm[2] += a.z;
+        CROSS(moment, arm, g);
+        TURN((g + 3), M, moment);
+        int m = 0;
+        FL_WIDE_UNROLL
+        for (int r = 0; r < 6; r++) {
+            const fl_wide kg = t->curve * g[r];
+            FL_WIDE_UNROLL
+            for (int c = r; c < 6; c++, m++) all[m] += kg * g[c];
+        }
+    }
+    for (int m = 0; m < 21; m++) sum[m] = fl_wide_sum(&all[m]);
+}
+
 int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
 {
     *q = (fl_bearing){0};
@@ -126,6 +156,23 @@ int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
 void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q)
 {
     if (s->n > 0) second(s->lane, s->n, chi, q);
+}
+
+void fl_bearing_stiff(const fl_places *s, fl_mat3 R, const fl_bodies *b, int32_t i, fl_vec3 a, double scale,
+                      fl_stiff *K)
+{
+    *K = (fl_stiff){0};
+    if (b->invm[i] == 0.0 || s->n == 0) return;
+    const fl_vec3 I = b->I[i];
+    const double by[3] = {1.0 / sqrt(I.x), 1.0 / sqrt(I.y), 1.0 / sqrt(I.z)}, light = sqrt(b->invm[i]);
+    fl_mat3 M;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) M.m[r][c] = by[r] * b->R[i].m[c][r];
+    double sum[21];
+    third(s->lane, s->n, R, M, a, sum);
+    for (int r = 0, m = 0; r < 6; r++)
+        for (int c = r; c < 6; c++, m++)
+            K->a[r][c] = K->a[c][r] = scale * (r < 3 ? light : 1.0) * (c < 3 ? light : 1.0) * sum[m];
 }
 
 double fl_bearing_closing(const fl_places *s, int32_t k)

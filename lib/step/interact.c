@@ -434,21 +434,15 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
     return p->n = 1;
 }
 
-/* How stiff the places of a contact make it; the root in W bends down: W'' = scale (U'' - U'^2 / 2U). */
-static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s, const relative *r,
+/* How stiff the places of a contact make it; the root in W bends down: W'' = scale (U'' - U'^2 / 2U).
+ * ai, aj: the first place from the centres. */
+static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s, fl_vec3 ai, fl_vec3 aj,
                          double scale, double U, fl_stiff *si, fl_stiff *sj)
 {
     const fl_bodies *b = &w->b;
-    const fl_mat3 R = b->R[p->j];
     const double half = 0.5 / (scale * U);
-    *si = *sj = (fl_stiff){0};
-    for (int32_t k = 0; k < s->n; k++) {
-        const fl_place *q = &s->place[k];
-        if (q->u == 0.0) continue;
-        const fl_vec3 n = m3_mul(R, q->across), pj = m3_mul(R, q->p);
-        fl_stiff_add(si, b, p->i, scale * q->ddu, n, v3_cross(v3_add(pj, r->off), n));
-        fl_stiff_add(sj, b, p->j, scale * q->ddu, n, v3_cross(pj, n));
-    }
+    fl_bearing_stiff(s, b->R[p->j], b, p->i, ai, scale, si);
+    fl_bearing_stiff(s, b->R[p->j], b, p->j, aj, scale, sj);
     fl_stiff_add(si, b, p->i, -half, p->f, p->ti);
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
@@ -473,7 +467,7 @@ static int force_patch(fl_world *w, fl_pair *p, fl_places *s, const relative *r,
     q.gradient.m = v3_add(q.gradient.m, s->couple);
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, scale, &R, ai, aj);
     fl_stiff si, sj;
-    if (survey) survey_patch(w, p, s, r, scale, q.u, &si, &sj);
+    if (survey) survey_patch(w, p, s, ai, aj, scale, q.u, &si, &sj);
     add_sum(&p->fd, &p->di, &p->dj, &q.damping, scale, &R, ai, aj);
     p->f = v3_add(p->f, p->fd);
     p->ti = v3_add(p->ti, p->di);
