@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums over the places of a contact, four at a time, are those over one after the other. */
+#include <math.h>
+#include "base/mem.h"
+#include "base/rng.h"
+#include "step/bearing.h"
+#include "support/near.h"
+
+static fl_vec3 some(fl_rng *g) { return v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g)); }
+
+static fl_quat turned(fl_rng *g)
+{
+    return q_unit((fl_quat){fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g)});
+}
+
+/* n places, of which every fifth is the pull of a rim. */
+static void fill(fl_places *s, int32_t n, fl_rng *g)
+{
+    s->n = n;
+    assert_int_equal(fl_room(&s->place, &s->place_cap, n, sizeof *s->place), 0);
+    for (int32_t k = 0; k < n; k++)
+        s->place[k] = (fl_place){.overlap = fl_rng_unit(g),
+                                 .u = k % 5 == 4 ? 0.0 : fl_rng_unit(g),
+                                 .du = fl_rng_unit(g),
+                                 .ddu = fl_rng_unit(g),
+                                 .n = some(g),
+                                 .across = v3_unit(some(g)),
+                                 .p = some(g)};
+}
+
+static void stiffness_is_that_of_each_place(void **state)
+{
+    (void)state;
+    fl_rng g = fl_rng_of(test_seed(), 0, 1);
+    fl_bodies b;
+    fl_places s = {0};
+    fl_err err = {0};
+    assert_int_equal(fl_bodies_alloc(&b, 2, 3, &err), 0);
+    for (int32_t i = 0; i < 2; i++) {
+        b.m[i] = 3.0 + i, b.invm[i] = 1.0 / b.m[i], b.I[i] = v3(0.5, 1.5 + i, 2.0), b.q[i] = turned(&g);
+        fl_body_derive(&b, i);
+    }
+    for (int32_t n = 1; n < 14; n++) {
+        const fl_mat3 R = q_matrix(turned(&g));
+        const fl_vec3 a = some(&g);
+        fl_bearing q;
+        fill(&s, n, &g);
+        assert_int_equal(fl_bearing_sum(&s, some(&g), some(&g), &q), 0);
+        for (int32_t i = 0; i < 3; i++) {
+            fl_stiff K, L = {0};
+            double most = 0.0;
+            fl_bearing_stiff(&s, R, &b, i, a, 2.5, &K);
+            for (int32_t k = 0; k < n; k++) {
+                const fl_place *p = &s.place[k];
+                const fl_vec3 f = m3_mul(R, p->across), r = m3_mul(R, v3_sub(p->p, s.place[0].p));
+                if (p->u > 0.0) fl_stiff_add(&L, &b, i, 2.5 * p->ddu, f, v3_cross(v3_add(r, a), f));
+            }
+            for (int r = 0; r < 6; r++) most = fmax(most, L.a[r][r]);
+            assert_true(i < 2 ? most > 0.0 : most == 0.0); /* what is held has none */
+            for (int r = 0; r < 6; r++)
+                for (int c = 0; c < 8; c++) assert_near_of(K.a[r][c], L.a[r][c], 1e-14, most);
+        }
+    }
+    fl_places_free(&s);
+    fl_bodies_free(&b);
+}
+
+static void force_is_that_of_each_place(void **state)
+{
+    (void)state;
+    fl_rng g = fl_rng_of(test_seed(), 0, 2);
+    fl_places s = {0};
+    for (int32_t n = 1; n < 14; n++) {
+        const fl_vec3 v = some(&g), turn = some(&g);
+        const double chi = 0.3;
+        double u = 0.0, pressed = 0.0, normal = 0.0, size = 0.0;
+        fl_vec3 f = v3(0, 0, 0), m = f, more = f;
+        fl_bearing q;
+        fill(&s, n, &g);
+        assert_int_equal(fl_bearing_sum(&s, v, turn, &q), 0);
+        fl_bearing_damp(&s, chi, &q);
+        for (int32_t k = 0; k < n; k++) {
+            const fl_place *p = &s.place[k];
+            const fl_vec3 arm = v3_sub(p->p, s.place[0].p), pull = v3_scale(p->du, p->n);
+            const double closing = -v3_dot(p->across, v3_add(v, v3_cross(turn, arm))),
+                         e = p->u > 0.0 ? v3_dot(pull, p->across) : 0.0,
+                         now = fmax(0.0, e * (1.0 + chi * closing));
+            assert_near_of(fl_bearing_closing(&s, k), closing, 1e-14, 1.0 + fabs(closing) + v3_norm(arm));
+            f = v3_add(f, pull), m = v3_add(m, v3_cross(arm, pull));
+            more = v3_madd(more, now - e, p->across);
+            u += p->u, pressed += p->u > 0.0 ? p->du : 0.0, normal += now;
+            size += (1.0 + v3_norm(arm)) * v3_norm(pull) * (1.0 + fabs(closing));
+        }
+        assert_near(q.u, u, 1e-14);
+        assert_near(q.pressed, pressed, 1e-14);
+        assert_near_of(q.normal, normal, 1e-14, size);
+        assert_near_of(v3_norm(v3_sub(q.gradient.f, f)), 0.0, 1e-14, size);
+        assert_near_of(v3_norm(v3_sub(q.gradient.m, m)), 0.0, 1e-14, size);
+        assert_near_of(v3_norm(v3_sub(q.damping.f, more)), 0.0, 1e-14, size);
+    }
+    fl_places_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(force_is_that_of_each_place),
+                                       cmocka_unit_test(stiffness_is_that_of_each_place)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
