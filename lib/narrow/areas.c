@@ -398,9 +398,8 @@ static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spar
     const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
     const int64_t most = n + 2 * FL_LANES, room = (sides + FL_LANES - 1) / FL_LANES * FL_LANES,
                   each = room + 2 * FL_LANES;
-    fl_err lost = {0};
-    if (fl_grow(&f->w->cut, &f->w->cut_cap, (8 + 8 + 2) * most / 3 + (8 * each + 2 * room) / 3 + 2,
-                sizeof *f->w->cut, &lost))
+    if (fl_room(&f->w->cut, &f->w->cut_cap, (8 + 8 + 2) * most / 3 + (8 * each + 2 * room) / 3 + 2,
+                sizeof *f->w->cut))
         return -1;
     double *at = (double *)(void *)f->w->cut;
     f->p = (corner *)(void *)at, at += 4 * most;

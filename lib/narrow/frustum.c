@@ -515,7 +515,6 @@ static int over_face(fl_places *w, const fl_side *A, int32_t F, const shape *c)
     const fl_vec3 tilt = v3_madd(v3(0, 0, 1), -q.n.z, q.n);
     double lo = INFINITY, hi = -INFINITY, low = INFINITY, high = -INFINITY, at[BREAKS];
     int zero[2];
-    fl_err lost = {0};
     for (int32_t k = 0; k < n; k++) {
         const double z = A->v[loop[k]].z;
         low = z < low ? z : low;
@@ -523,7 +522,7 @@ static int over_face(fl_places *w, const fl_side *A, int32_t F, const shape *c)
     }
     q.level = v3_dot(q.n, A->v[loop[0]]);
     if (low >= c->h + c->R || high <= -c->R || faces_away(c, q.n, q.level, low, high)) return 0;
-    if (fl_grow(&w->cut, &w->cut_cap, n, sizeof *w->cut, &lost)) return -1;
+    if (fl_room(&w->cut, &w->cut_cap, n, sizeof *w->cut)) return -1;
     low = INFINITY, high = -INFINITY;
     q.ex = v3_norm(tilt) > SMALL ? v3_unit(tilt) : v3_normal_to(q.n);
     q.ey = v3_cross(q.n, q.ex);

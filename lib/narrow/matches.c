@@ -4,26 +4,13 @@
 #include <string.h>
 #include "narrow/matches.h"
 #include "base/mem.h"
-#include "geom/aabb.h"
 #include "narrow/areas.h"
 #include "narrow/footing.h"
 #include "narrow/strips.h"
+#include "narrow/within.h"
 
 /* Of the size: points on a plane may seem to be that far off it. */
 #define ROUNDING 1e-12
-
-/* So far back are rows and columns looked for. */
-enum { LATEST = 128 };
-
-/* Some points of `own`, the ends of a feature, and the box around them and all that they may move to; of an
- * edge the part that is beyond all that was asked so far. */
-typedef struct {
-    const fl_vec3 *v;
-    const int32_t *at;
-    int32_t n;
-    fl_aabb box;
-    fl_span left;
-} ends;
 
 /* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
  * above; or, f = -1, at right angles to that edge in a, the side of b above. */
@@ -45,40 +32,81 @@ typedef struct {
     int32_t vertices, planes, vertex_cap, plane_cap;
 } table;
 
-/* A number, and of which feature it is. */
+/* The number that a vertex, a plane or an edge of one way has in list `list`; else nothing is in the slot. */
 typedef struct {
-    double number;
-    int32_t edge;
-    int16_t way, length; /* the length of an edge of the other; else the factor of an own one */
-} known;
+    uint64_t what, ends; /* way, kind and f; a and b */
+    int32_t list, number;
+} slot;
+
+enum { SLOTS = 256 };
 
 typedef struct fl_draft {
     match *c;
     int32_t *side, *used;
-    known *known;
+    double *known; /* the numbers of the list */
     uint8_t *mark;
     table table[2];
-    int32_t n, cap, sides, side_cap, used_v, used_f, used_cap, numbers, known_cap, mark_cap;
+    fl_within within[2];
+    slot *slot;
+    int32_t n, cap, sides, side_cap, used_v, used_f, used_cap, numbers, known_cap, mark_cap, slots, filled,
+        lists;
+    int32_t asked[2]; /* the first feature of what has been asked of each way, or -1 */
 } draft;
 
 typedef struct {
     draft *l;
     int way;
-    const fl_side *own, *other;
-    double R, behind, margin, turn;
+    fl_question of;
 } search;
 
-/* Number of a column of the table; -1 when memory runs out.  What is not found among the latest is listed
- * again. */
+/* --- numbers of what is drafted -------------------------------------------------------------------- */
+
+enum { COLUMN, ROW, FACTOR, LENGTH };
+
+static slot *slot_of(const draft *d, uint64_t what, uint64_t ends)
+{
+    const uint64_t mix = (what * 0x9E3779B97F4A7C15u ^ ends) * 0xC2B2AE3D27D4EB4Fu;
+    for (uint64_t at = mix >> 40;; at++) {
+        slot *t = &d->slot[at & (uint64_t)(d->slots - 1)];
+        if (t->list != d->lists || (t->what == what && t->ends == ends)) return t;
+    }
+}
+
+/* Twice as many slots: a power of two, at most half of which are full. */
+static int more_slots(draft *d)
+{
+    const int32_t old = d->slots, many = old > 0 ? 2 * old : SLOTS;
+    slot *const was = d->slot;
+    fl_err lost = {0};
+    if (many < 0 || !(d->slot = fl_alloc(many, sizeof *d->slot, &lost))) return d->slot = was, -1;
+    d->slots = many;
+    for (int32_t k = 0; k < old; k++)
+        if (was[k].list == d->lists) *slot_of(d, was[k].what, was[k].ends) = was[k];
+    free(was);
+    return 0;
+}
+
+/* Where the number of something of this list is kept, -1 until it has one; NULL when memory runs out. */
+static int32_t *number_of(const search *s, int what, int32_t f, int32_t a, int32_t b)
+{
+    draft *d = s->l;
+    if (2 * d->filled >= d->slots && more_slots(d)) return NULL;
+    const uint64_t key = (uint64_t)(uint32_t)f << 32 | (uint32_t)(2 * what + s->way),
+                   ends = (uint64_t)(uint32_t)a << 32 | (uint32_t)b;
+    slot *t = slot_of(d, key, ends);
+    if (t->list != d->lists) *t = (slot){key, ends, d->lists, -1}, d->filled++;
+    return &t->number;
+}
+
+/* The column of a vertex; -1 when memory runs out. */
 static int32_t column(const search *s, int32_t v)
 {
     table *t = &s->l->table[s->way];
-    fl_err lost = {0};
-    for (int32_t k = t->vertices; k-- > 0 && k > t->vertices - LATEST;)
-        if (t->vertex[k] == v) return k;
-    if (fl_grow(&t->vertex, &t->vertex_cap, (int64_t)t->vertices + 1, sizeof *t->vertex, &lost)) return -1;
+    int32_t *k = number_of(s, COLUMN, v, 0, 0);
+    if (!k || *k >= 0) return k ? *k : -1;
+    if (fl_room(&t->vertex, &t->vertex_cap, (int64_t)t->vertices + 1, sizeof *t->vertex)) return -1;
     t->vertex[t->vertices] = v;
-    return t->vertices++;
+    return *k = t->vertices++;
 }
 
 static fl_cut cut_of(const fl_poly *p, const plane *q)
@@ -92,35 +120,31 @@ static fl_cut cut_of(const fl_poly *p, const plane *q)
 static int32_t row(const search *s, int32_t f, int32_t a, int32_t b)
 {
     table *t = &s->l->table[s->way];
-    fl_err lost = {0};
-    for (int32_t k = t->planes; k-- > 0 && k > t->planes - LATEST;)
-        if (t->plane[k].f == f && t->plane[k].a == a && t->plane[k].b == b) return k;
-    if (fl_grow(&t->plane, &t->plane_cap, (int64_t)t->planes + 1, sizeof *t->plane, &lost)) return -1;
+    int32_t *k = number_of(s, ROW, f, a, b);
+    if (!k || *k >= 0) return k ? *k : -1;
+    if (fl_room(&t->plane, &t->plane_cap, (int64_t)t->planes + 1, sizeof *t->plane)) return -1;
     t->plane[t->planes] = (plane){f, a, b};
-    return t->planes++;
+    return *k = t->planes++;
 }
 
 /* Which of the numbers is the factor of an own edge, or the length of one of the other. */
 static int32_t number(const search *s, int32_t edge, int length)
 {
     draft *l = s->l;
-    fl_err lost = {0};
-    for (int32_t k = l->numbers; k-- > 0 && k > l->numbers - LATEST;)
-        if (l->known[k].edge == edge && l->known[k].way == s->way && l->known[k].length == length) return k;
-    if (fl_grow(&l->known, &l->known_cap, (int64_t)l->numbers + 1, sizeof *l->known, &lost)) return -1;
-    const fl_poly *p = s->other->p;
-    const double x = length
-                         /* the same bits in any pose */
-                         ? v3_norm(v3_sub(p->v[p->edge[edge].b], p->v[p->edge[edge].a]))
-                         : fl_strips_factor(s->own, edge, s->other->r);
-    l->known[l->numbers] = (known){x, edge, (int16_t)s->way, (int16_t)length};
-    return l->numbers++;
+    int32_t *k = number_of(s, length ? LENGTH : FACTOR, edge, 0, 0);
+    if (!k || *k >= 0) return k ? *k : -1;
+    if (fl_room(&l->known, &l->known_cap, (int64_t)l->numbers + 1, sizeof *l->known)) return -1;
+    const fl_poly *p = s->of.other->p;
+    l->known[l->numbers] = length
+                               /* the same bits in any pose */
+                               ? v3_norm(v3_sub(p->v[p->edge[edge].b], p->v[p->edge[edge].a]))
+                               : fl_strips_factor(s->of.own, edge, s->of.other->r);
+    return *k = l->numbers++;
 }
 
 static int push(draft *l, int32_t side)
 {
-    fl_err lost = {0};
-    if (fl_grow(&l->side, &l->side_cap, (int64_t)l->sides + 1, sizeof *l->side, &lost)) return -1;
+    if (fl_room(&l->side, &l->side_cap, (int64_t)l->sides + 1, sizeof *l->side)) return -1;
     l->side[l->sides++] = side;
     return 0;
 }
@@ -137,7 +161,7 @@ static int beyond(const search *s, match *m, int32_t f, int32_t a, int32_t b, in
 
 static int sides_of_face(const search *s, match *m)
 {
-    const fl_poly *p = s->other->p;
+    const fl_poly *p = s->of.other->p;
     const int32_t *loop = p->loop + p->first[m->other], n = p->first[m->other + 1] - p->first[m->other];
     m->height = row(s, m->other, -1, -1);
     for (int32_t c = 0, a = loop[n - 1]; c < n; a = loop[c++])
@@ -147,7 +171,7 @@ static int sides_of_face(const search *s, match *m)
 
 static int sides_of_edge(const search *s, match *m)
 {
-    const fl_edge g = s->other->p->edge[m->other];
+    const fl_edge g = s->of.other->p->edge[m->other];
     m->length = number(s, m->other, 1);
     return m->length < 0 || beyond(s, m, -1, g.a, g.b, 0) || beyond(s, m, -1, g.b, g.a, 0) ||
                    (g.left >= 0 && beyond(s, m, g.left, g.a, g.b, 1)) ||
@@ -158,7 +182,7 @@ static int sides_of_edge(const search *s, match *m)
 
 static int sides_of_vertex(const search *s, match *m)
 {
-    const fl_poly *p = s->other->p;
+    const fl_poly *p = s->of.other->p;
     for (int32_t k = p->begin[m->other]; k < p->begin[m->other + 1]; k++)
         if (beyond(s, m, -1, m->other, p->beside[k], 1)) return -1;
     return 0;
@@ -167,10 +191,9 @@ static int sides_of_vertex(const search *s, match *m)
 static int add(const search *s, int kind, int32_t own, int32_t other)
 {
     draft *l = s->l;
-    const fl_poly *p = s->own->p;
+    const fl_poly *p = s->of.own->p;
     match m = {.kind = kind, .way = s->way, .own = own, .other = other, .first = l->sides};
-    fl_err lost = {0};
-    if (fl_grow(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c, &lost)) return -1;
+    if (fl_room(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c)) return -1;
     const int face = kind == FL_MATCH_VERTEX_FACE || kind == FL_MATCH_EDGE_FACE || kind == FL_MATCH_FACE_FACE;
     const int edge = kind == FL_MATCH_VERTEX_EDGE || kind == FL_MATCH_EDGE_EDGE;
     if (face ? sides_of_face(s, &m) : edge ? sides_of_edge(s, &m) : sides_of_vertex(s, &m)) return -1;
@@ -191,121 +214,62 @@ static int add(const search *s, int kind, int32_t own, int32_t other)
     return m.v[0] < 0 || m.v[1] < 0 || m.factor < 0 ? -1 : 0;
 }
 
-static ends ends_of(const search *s, const int32_t *at, int32_t n)
-{
-    ends e = {s->own->v, at, n, aabb_empty(), {0.0, 1.0}};
-    for (int32_t k = 0; k < n; k++) e.box = aabb_add(e.box, s->own->v[at[k]]);
-    e.box = aabb_grow(e.box, s->R + s->margin);
-    return e;
-}
+/* So many questions whether a feature comes over another are asked together. */
+#define TOGETHER (1 << 20)
 
-/* Some point is beyond the plane through `from` with normal g, or may come there; of an edge one that was
- * beyond all before.  The margin has room for the rounding of where the edge is cut. */
-static int reaches(const search *s, ends *e, fl_vec3 from, fl_vec3 g)
+/* The features numbered from `begin` to `end`, vertices first, then edges, then faces. */
+static fl_reach part_of(const fl_reach *r, int32_t begin, int32_t end)
 {
-    const double enough = -s->margin * v3_norm(g);
-    if (e->n == 2)
-        return fl_span_keep(&e->left, v3_dot(g, v3_sub(e->v[e->at[0]], from)) - enough,
-                            v3_dot(g, v3_sub(e->v[e->at[1]], from)) - enough);
-    for (int32_t k = 0; k < e->n; k++)
-        if (v3_dot(g, v3_sub(e->v[e->at[k]], from)) >= enough) return 1;
-    return 0;
-}
-
-/* What is left of an edge, or a vertex, comes within R of the point c, or of the line through it along u, or
- * may. */
-static int nears(const search *s, const ends *e, fl_vec3 c, fl_vec3 u)
-{
-    const fl_vec3 x = e->v[e->at[0]], way = v3_sub(e->v[e->at[e->n - 1]], x);
-    const double uu = v3_norm2(u), each = uu > 0.0 ? 1.0 / uu : 0.0, far = s->R + s->margin;
-    const fl_vec3 r = v3_sub(x, c), q = v3_madd(r, -each * v3_dot(r, u), u),
-                  w = v3_madd(way, -each * v3_dot(way, u), u);
-    const double ww = v3_norm2(w), t = ww > 0.0 ? -v3_dot(q, w) / ww : 0.0;
-    const double at = t < e->left.lo ? e->left.lo : t > e->left.hi ? e->left.hi : t;
-    return v3_norm2(v3_madd(q, at, w)) < far * far;
-}
-
-static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
-{
-    return v3_cross(q->n[f], v3_sub(q->v[b], q->v[a]));
-}
-
-static int over_face(const search *s, const ends *own, int32_t f)
-{
-    ends part = *own, *const e = &part;
-    const fl_poly *p = s->other->p;
-    const fl_vec3 *v = s->other->v, n = s->other->n[f];
-    const int32_t *loop = p->loop + p->first[f], sides = p->first[f + 1] - p->first[f];
-    if (!reaches(s, e, v3_madd(v[loop[0]], s->R, n), v3_neg(n))) return 0;
-    if (!reaches(s, e, v3_madd(v[loop[0]], -s->behind, n), n)) return 0;
-    for (int32_t c = 0, a = loop[sides - 1]; c < sides; a = loop[c++])
-        if (!reaches(s, e, v[a], leftward(s->other, f, a, loop[c]))) return 0;
-    return 1;
-}
-
-static int over_edge(const search *s, const ends *own, int32_t k)
-{
-    ends part = *own, *const e = &part;
-    const fl_edge g = s->other->p->edge[k];
-    const fl_vec3 a = s->other->v[g.a], b = s->other->v[g.b], u = v3_sub(b, a);
-    if (!(s->other->p->bend[k] > 0.0)) return 0;
-    if (!aabb_meet(e->box, aabb_add((fl_aabb){a, a}, b))) return 0;
-    if (!reaches(s, e, a, u) || !reaches(s, e, b, v3_neg(u))) return 0;
-    if (g.left >= 0 && !reaches(s, e, a, v3_neg(leftward(s->other, g.left, g.a, g.b)))) return 0;
-    if (g.right >= 0 && !reaches(s, e, a, leftward(s->other, g.right, g.a, g.b))) return 0;
-    return nears(s, e, a, u);
-}
-
-static int over_vertex(const search *s, const ends *own, int32_t v)
-{
-    ends part = *own, *const e = &part;
-    const fl_poly *p = s->other->p;
-    const fl_vec3 c = s->other->v[v];
-    if (!(p->defect[v] > 0.0) || !aabb_meet(e->box, (fl_aabb){c, c})) return 0;
-    for (int32_t m = p->begin[v]; m < p->begin[v + 1]; m++)
-        if (!reaches(s, e, c, v3_sub(c, s->other->v[p->beside[m]]))) return 0;
-    return nears(s, e, c, v3(0, 0, 0));
-}
-
-/* Feature `own` over all of the others. */
-static int over_all(const search *s, int kind, int32_t own, const ends *e, const fl_reach *near)
-{
-    for (int32_t k = 0; k < near->faces; k++)
-        if (over_face(s, e, near->face[k]) && add(s, kind, own, near->face[k])) return -1;
-    for (int32_t k = 0; k < near->edges; k++)
-        if (over_edge(s, e, near->edge[k]) && add(s, kind + 1, own, near->edge[k])) return -1;
-    for (int32_t k = 0; k < near->vertices; k++)
-        if (over_vertex(s, e, near->vertex[k]) && add(s, kind + 2, own, near->vertex[k])) return -1;
-    return 0;
-}
-
-static int vertices(const search *s, const fl_reach *mine, const fl_reach *near)
-{
-    for (int32_t k = 0; k < mine->vertices; k++) {
-        const ends e = ends_of(s, &mine->vertex[k], 1);
-        if (over_all(s, FL_MATCH_VERTEX_FACE, mine->vertex[k], &e, near)) return -1;
+    const int32_t n[3] = {r->vertices, r->edges, r->faces};
+    int32_t at[3], many[3], before = 0;
+    for (int k = 0; k < 3; before += n[k++]) {
+        const int32_t from = begin - before, to = end - before;
+        at[k] = from < 0 ? 0 : from > n[k] ? n[k] : from;
+        many[k] = (to < 0 ? 0 : to > n[k] ? n[k] : to) - at[k];
     }
-    return 0;
+    return (fl_reach){.vertex = r->vertex + at[0],
+                      .edge = r->edge + at[1],
+                      .face = r->face + at[2],
+                      .vertices = many[0],
+                      .edges = many[1],
+                      .faces = many[2]};
 }
 
-static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach *near)
+/* Whether own feature o comes over each of the others; NULL when memory runs out. */
+static const uint8_t *hits_of(const search *s, const fl_reach *mine, int32_t o, const fl_reach *near)
 {
-    const fl_poly *p = s->own->p;
-    for (int32_t k = 0; k < mine->edges; k++) {
-        const int32_t at[2] = {p->edge[mine->edge[k]].a, p->edge[mine->edge[k]].b};
-        if (!(fl_strips_factor(s->own, mine->edge[k], s->other->r) > 0.0)) continue;
-        const ends e = ends_of(s, at, 2);
-        if (over_all(s, FL_MATCH_EDGE_FACE, mine->edge[k], &e, near)) return -1;
+    const int32_t owns = mine->vertices + mine->edges + mine->faces,
+                  many = TOGETHER / (near->faces + near->edges + near->vertices + 1) + 1,
+                  begin = o - o % many, end = owns - begin < many ? owns : begin + many;
+    fl_within *t = &s->l->within[s->way];
+    if (s->l->asked[s->way] != begin) {
+        const fl_reach part = part_of(mine, begin, end);
+        if (fl_within_find(t, &s->of, &part, near)) return NULL;
+        s->l->asked[s->way] = begin;
     }
-    for (int32_t k = 0; k < mine->faces; k++) {
-        const int32_t F = mine->face[k];
-        const ends e = ends_of(s, p->loop + p->first[F], p->first[F + 1] - p->first[F]);
-        for (int32_t m = 0; m < near->faces; m++) {
-            const int32_t f = near->face[m];
-            if (v3_dot(s->own->n[F], s->other->n[f]) > s->turn - FL_AREAS_COS || !over_face(s, &e, f))
-                continue;
-            if (add(s, FL_MATCH_FACE_FACE, F, f)) return -1;
-        }
+    return t->hit + (int64_t)(o - begin) * t->others;
+}
+
+/* Own features from `begin` to `end`, numbered like that, over all of the others. */
+static int some_over(const search *s, const fl_reach *mine, int32_t begin, int32_t end, const fl_reach *near)
+{
+    const int32_t edges = mine->vertices, faces = edges + mine->edges;
+    for (int32_t o = begin; o < end; o++) {
+        const int kind = o < edges   ? FL_MATCH_VERTEX_FACE
+                         : o < faces ? FL_MATCH_EDGE_FACE
+                                     : FL_MATCH_FACE_FACE;
+        const int32_t own = o < edges   ? mine->vertex[o]
+                            : o < faces ? mine->edge[o - edges]
+                                        : mine->face[o - faces];
+        const uint8_t *hit = hits_of(s, mine, o, near);
+        if (!hit) return -1;
+        if (kind == FL_MATCH_EDGE_FACE && !(fl_strips_factor(s->of.own, own, s->of.other->r) > 0.0)) continue;
+        for (int32_t k = 0; k < near->faces; k++)
+            if (*hit++ && add(s, kind, own, near->face[k])) return -1;
+        for (int32_t k = 0; k < near->edges; k++)
+            if (*hit++ && add(s, kind + 1, own, near->edge[k])) return -1;
+        for (int32_t k = 0; k < near->vertices; k++)
+            if (*hit++ && add(s, kind + 2, own, near->vertex[k])) return -1;
     }
     return 0;
 }
@@ -313,11 +277,10 @@ static int edges_and_faces(const search *s, const fl_reach *mine, const fl_reach
 /* Once each: mark[0 .. nv) for the vertices, mark[nv .. nv + nf) for the faces. */
 static int use(draft *l, int32_t at, int32_t number)
 {
-    fl_err lost = {0};
     if (l->mark[at]) return 0;
     l->mark[at] = 1;
     const int32_t n = l->used_v + l->used_f;
-    if (fl_grow(&l->used, &l->used_cap, (int64_t)n + 1, sizeof *l->used, &lost)) return -1;
+    if (fl_room(&l->used, &l->used_cap, (int64_t)n + 1, sizeof *l->used)) return -1;
     l->used[n] = number;
     return 0;
 }
@@ -338,8 +301,7 @@ static enum feature other_of(const match *m)
 /* Vertices of A that the list speaks of, then faces. */
 static int list_used(draft *l, const fl_poly *p)
 {
-    fl_err lost = {0};
-    if (fl_grow(&l->mark, &l->mark_cap, (int64_t)p->nv + p->nf, sizeof *l->mark, &lost)) return -1;
+    if (fl_room(&l->mark, &l->mark_cap, (int64_t)p->nv + p->nf, sizeof *l->mark)) return -1;
     memset(l->mark, 0, (size_t)p->nv + (size_t)p->nf);
     l->used_v = l->used_f = 0;
     for (int faces = 0; faces < 2; faces++) {
@@ -410,7 +372,6 @@ static void put_all(whole *to, const draft *d)
 static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *b)
 {
     whole count = {0};
-    fl_err lost = {0};
     for (int way = 0; way < 2; way++) { /* heights are told by numbers of 32 bits, times two */
         const table *t = &d->table[way];
         if (t->planes > INT32_MAX / 2 / (t->vertices + FL_LANES)) return -1;
@@ -424,7 +385,7 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
         free(l->block);
         l->block = NULL;
         l->size = 0;
-        if (fl_grow(&l->block, &l->size, bytes, 1, &lost)) return -1;
+        if (fl_room(&l->block, &l->size, bytes, 1)) return -1;
     }
     fl_cut *cut = l->block;
     for (int way = 0; way < 2; way++) {
@@ -434,7 +395,7 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
         l->vertices[way] = t->vertices;
     }
     double *number = (double *)(void *)cut;
-    for (int32_t k = 0; k < d->numbers; k++) *number++ = d->known[k].number;
+    for (int32_t k = 0; k < d->numbers; k++) *number++ = d->known[k];
     l->numbers = d->numbers;
     l->used_v = d->used_v, l->used_f = d->used_f;
     l->n = d->n;
@@ -450,7 +411,7 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
 #define FIRST 0.05
 #define LEAST 0.01
 #define MOST 0.3
-#define PRICE 4.0
+#define PRICE 6.0
 
 double fl_matches_margin(const fl_matches *l, double R)
 {
@@ -459,24 +420,43 @@ double fl_matches_margin(const fl_matches *l, double R)
     return best < LEAST * R ? LEAST * R : best > MOST * R ? MOST * R : best;
 }
 
+/* Nothing yet; no list has number 0, which new slots have. */
+static int begin_draft(draft *d)
+{
+    if (d->lists == INT32_MAX || d->slots == 0) {
+        free(d->slot);
+        d->slot = NULL;
+        d->slots = d->lists = 0;
+        if (more_slots(d)) return -1;
+    }
+    d->lists++;
+    d->filled = d->n = d->sides = d->numbers = 0;
+    for (int k = 0; k < 2; k++) d->table[k].vertices = d->table[k].planes = 0, d->asked[k] = -1;
+    return 0;
+}
+
 int fl_matches_list(fl_matches *l, fl_places *w, const fl_side *A, const fl_reach *a, const fl_side *B,
                     const fl_reach *b, double R, double behind, double margin)
 {
     double far = 0.0;
-    fl_err lost = {0};
     l->shift2 = 0.0; /* half a list */
     l->n = l->clear = 0;
-    if (!w->draft && !(w->draft = fl_alloc(1, sizeof *w->draft, &lost))) return -1;
+    if (!w->draft) {
+        fl_err lost = {0};
+        if (!(w->draft = fl_alloc(1, sizeof *w->draft, &lost))) return -1;
+    }
     for (int32_t v = 0; v < A->p->nv; v++) far = fmax(far, v3_norm2(A->p->v[v]));
     far = sqrt(far) + R + margin;
     const double half = 0.5 * margin, turn = half / far; /* half of it for the shift, half for the turn */
     const double wide = margin + ROUNDING * (A->p->size + B->p->size);
     draft *d = w->draft;
-    const search of_a = {d, 0, A, B, R, behind, wide, turn}, of_b = {d, 1, B, A, R, behind, wide, turn};
-    d->n = d->sides = d->numbers = 0;
-    for (int k = 0; k < 2; k++) d->table[k].vertices = d->table[k].planes = 0;
-    if (vertices(&of_a, a, b) || vertices(&of_b, b, a) || edges_and_faces(&of_a, a, b) ||
-        edges_and_faces(&of_b, b, a) || list_used(d, A->p) || pack(l, d, A->p, B->p))
+    const search of_a = {d, 0, {A, B, R, behind, wide, turn - FL_AREAS_COS}},
+                 of_b = {d, 1, {B, A, R, behind, wide, turn - FL_AREAS_COS}};
+    const int32_t last_a = a->vertices + a->edges + a->faces, last_b = b->vertices + b->edges + b->faces;
+    if (begin_draft(d)) return -1;
+    if (some_over(&of_a, a, 0, a->vertices, b) || some_over(&of_b, b, 0, b->vertices, a) ||
+        some_over(&of_a, a, a->vertices, last_a, b) || some_over(&of_b, b, b->vertices, last_b, a) ||
+        list_used(d, A->p) || pack(l, d, A->p, B->p))
         return -1;
     l->M = w->M, l->o = w->o;
     l->shift2 = half * half, l->turn2 = turn * turn;
@@ -488,7 +468,8 @@ void fl_draft_free(draft *d)
 {
     if (!d) return;
     for (int k = 0; k < 2; k++) free(d->table[k].vertex), free(d->table[k].plane);
-    free(d->c), free(d->side), free(d->used), free(d->known), free(d->mark);
+    free(d->c), free(d->side), free(d->used), free(d->known), free(d->mark), free(d->slot);
+    fl_within_free(&d->within[0]), fl_within_free(&d->within[1]);
     free(d);
 }
 

@@ -26,8 +26,7 @@ int fl_places_enter(fl_places *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
 
 int fl_places_room(fl_places *w)
 {
-    fl_err lost = {0};
-    return fl_grow(&w->place, &w->place_cap, (int64_t)w->n + 1, sizeof *w->place, &lost);
+    return fl_room(&w->place, &w->place_cap, (int64_t)w->n + 1, sizeof *w->place);
 }
 
 int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, fl_vec3 n, double overlap)
@@ -61,11 +60,10 @@ double fl_places_measure(const fl_places *w)
 static int in_reach(fl_reach *r, const fl_side *a, fl_vec3 n, double limit)
 {
     const fl_poly *p = a->p;
-    fl_err lost = {0};
     r->vertices = r->edges = r->faces = 0;
-    if (fl_grow(&r->vertex, &r->vertex_cap, p->nv, sizeof *r->vertex, &lost) ||
-        (p->ne && fl_grow(&r->edge, &r->edge_cap, p->ne, sizeof *r->edge, &lost)) ||
-        (p->nf && fl_grow(&r->face, &r->face_cap, p->nf, sizeof *r->face, &lost)))
+    if (fl_room(&r->vertex, &r->vertex_cap, p->nv, sizeof *r->vertex) ||
+        fl_room(&r->edge, &r->edge_cap, p->ne, sizeof *r->edge) ||
+        fl_room(&r->face, &r->face_cap, p->nf, sizeof *r->face))
         return -1;
     for (int32_t v = 0; v < p->nv; v++)
         if (v3_dot(n, a->v[v]) < limit) r->vertex[r->vertices++] = v;

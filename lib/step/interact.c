@@ -204,8 +204,10 @@ static int blend(fl_places *s, int32_t n, fl_vec3 couple, double share, double s
 /* The list of a pair, which only pairs that come within reach have.  NULL when memory runs out. */
 static fl_matches *matches_of(fl_pair *p)
 {
-    fl_err lost = {0};
-    if (!p->matches) p->matches = fl_alloc(1, sizeof *p->matches, &lost);
+    if (!p->matches) {
+        fl_err lost = {0};
+        p->matches = fl_alloc(1, sizeof *p->matches, &lost);
+    }
     return p->matches;
 }
 

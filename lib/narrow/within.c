@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "narrow/within.h"
+#include "base/mem.h"
+#include "base/wide.h"
+#include "narrow/strips.h"
+
+/* Above it is g.x >= c, some margin included. */
+typedef struct fl_bound {
+    fl_vec3 g;
+    double c;
+} bound;
+
+/* One feature of the other: planes, and the line along `axis` through `from`, or the point, of which all that
+ * counts is within reach; of a face axis is the normal. */
+typedef struct {
+    int32_t bounds;
+    int line;
+    fl_vec3 from, axis;
+} target;
+
+/* Number of own vertex v; -1 when memory runs out.  What `at` knows from another search is not believed. */
+static int32_t number(fl_within *w, int32_t *n, int32_t v)
+{
+    const int32_t k = w->at[v];
+    if (k < *n && w->vertex[k] == v) return k;
+    if (fl_room(&w->vertex, &w->vertex_cap, (int64_t)*n + 1, sizeof *w->vertex)) return -1;
+    w->vertex[*n] = v;
+    return w->at[v] = (*n)++;
+}
+
+static int put_corner(fl_within *w, int32_t *corners, int32_t *n, int32_t v)
+{
+    if (fl_room(&w->corner, &w->corner_cap, (int64_t)*corners + 1, sizeof *w->corner)) return -1;
+    return (w->corner[(*corners)++] = number(w, n, v)) < 0 ? -1 : 0;
+}
+
+static int32_t owns_of(const fl_reach *mine) { return mine->vertices + mine->edges + mine->faces; }
+
+/* Own features by their corners: number of vertices, or -1. */
+static int32_t gather(fl_within *w, const fl_question *s, const fl_reach *mine)
+{
+    const fl_poly *p = s->own->p;
+    const int32_t known = w->at_cap;
+    int32_t n = 0, corners = 0, k = 0;
+    if (fl_room(&w->at, &w->at_cap, p->nv, sizeof *w->at) ||
+        fl_room(&w->first, &w->first_cap, (int64_t)owns_of(mine) + 1, sizeof *w->first))
+        return -1;
+    memset(w->at + known, 0, (size_t)(w->at_cap - known) * sizeof *w->at);
+    for (int32_t m = 0; m < mine->vertices; m++) {
+        w->first[k++] = corners;
+        if (put_corner(w, &corners, &n, mine->vertex[m])) return -1;
+    }
+    for (int32_t m = 0; m < mine->edges; m++) {
+        const fl_edge e = p->edge[mine->edge[m]];
+        w->first[k++] = corners;
+        if (put_corner(w, &corners, &n, e.a) || put_corner(w, &corners, &n, e.b)) return -1;
+    }
+    for (int32_t m = 0; m < mine->faces; m++) {
+        w->first[k++] = corners;
+        for (int32_t c = p->first[mine->face[m]]; c < p->first[mine->face[m] + 1]; c++)
+            if (put_corner(w, &corners, &n, p->loop[c])) return -1;
+    }
+    w->first[k] = corners;
+    const int32_t wide = (n + FL_LANES - 1) / FL_LANES * FL_LANES;
+    if (fl_room(&w->x, &w->x_cap, 3 * (int64_t)wide, sizeof *w->x)) return -1;
+    for (int32_t v = 0; v < wide; v++) {
+        const fl_vec3 x = s->own->v[w->vertex[v < n ? v : n - 1]];
+        w->x[v] = x.x, w->x[wide + v] = x.y, w->x[2 * wide + v] = x.z;
+    }
+    return n;
+}
+
+/* Heights over each plane, and of each vertex the least; 0 where some plane has no vertex above it. */
+FL_WIDE_VERSIONS static int heights(const bound *b, int32_t bounds, const double *x, int32_t wide, double *h,
+                                    double *least)
+{
+    for (int32_t k = 0; k < bounds; k++, b++) {
+        fl_wide_mask some = {0, 0, 0, 0};
+        for (int32_t v = 0; v < wide; v += FL_LANES, h += FL_LANES) {
+            const fl_wide now = b->g.x * FL_FOUR(&x[v]) + b->g.y * FL_FOUR(&x[wide + v]) +
+                                b->g.z * FL_FOUR(&x[2 * wide + v]) - b->c;
+            const fl_wide low = k == 0 ? now : FL_FOUR(&least[v]);
+            FL_FOUR_INTO(h) = now;
+            FL_FOUR_INTO(&least[v]) = FL_WIDE_CHOOSE(now < low, now, low);
+            some |= now >= 0.0;
+        }
+        if (!(some[0] | some[1] | some[2] | some[3])) return 0;
+    }
+    return 1;
+}
+
+static void above(bound **b, const fl_question *s, fl_vec3 from, fl_vec3 g)
+{
+    *(*b)++ = (bound){g, v3_dot(g, from) - s->margin * v3_norm(g)};
+}
+
+static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
+{
+    return v3_cross(q->n[f], v3_sub(q->v[b], q->v[a]));
+}
+
+static target over_face(bound *to, const fl_question *s, int32_t f)
+{
+    const fl_side *q = s->other;
+    const int32_t *loop = q->p->loop + q->p->first[f], sides = q->p->first[f + 1] - q->p->first[f];
+    const fl_vec3 n = q->n[f], from = q->v[loop[0]];
+    bound *b = to;
+    above(&b, s, v3_madd(from, s->R, n), v3_neg(n));
+    above(&b, s, v3_madd(from, -s->behind, n), n);
+    for (int32_t c = 0, a = loop[sides - 1]; c < sides; a = loop[c++])
+        above(&b, s, q->v[a], leftward(q, f, a, loop[c]));
+    return (target){(int32_t)(b - to), 0, from, n};
+}
+
+static target over_edge(bound *to, const fl_question *s, int32_t e)
+{
+    const fl_side *q = s->other;
+    const fl_edge g = q->p->edge[e];
+    const fl_vec3 a = q->v[g.a], b = q->v[g.b], u = v3_sub(b, a);
+    bound *t = to;
+    above(&t, s, a, u);
+    above(&t, s, b, v3_neg(u));
+    if (g.left >= 0) above(&t, s, a, v3_neg(leftward(q, g.left, g.a, g.b)));
+    if (g.right >= 0) above(&t, s, a, leftward(q, g.right, g.a, g.b));
+    return (target){(int32_t)(t - to), 1, a, u};
+}
+
+static target over_vertex(bound *to, const fl_question *s, int32_t v)
+{
+    const fl_poly *p = s->other->p;
+    const fl_vec3 c = s->other->v[v];
+    bound *b = to;
+    for (int32_t m = p->begin[v]; m < p->begin[v + 1]; m++)
+        above(&b, s, c, v3_sub(c, s->other->v[p->beside[m]]));
+    return (target){(int32_t)(b - to), 1, c, v3(0, 0, 0)};
+}
+
+/* What is left of an edge, or a vertex, comes within reach of the line or the point, or may. */
+static int nears(const fl_question *s, const target *t, fl_vec3 x, fl_vec3 end, fl_span left)
+{
+    const fl_vec3 u = t->axis, way = v3_sub(end, x);
+    const double uu = v3_norm2(u), each = uu > 0.0 ? 1.0 / uu : 0.0, far = s->R + s->margin;
+    const fl_vec3 r = v3_sub(x, t->from), q = v3_madd(r, -each * v3_dot(r, u), u),
+                  w = v3_madd(way, -each * v3_dot(way, u), u);
+    const double ww = v3_norm2(w), to = ww > 0.0 ? -v3_dot(q, w) / ww : 0.0;
+    const double at = to < left.lo ? left.lo : to > left.hi ? left.hi : to;
+    return v3_norm2(v3_madd(q, at, w)) < far * far;
+}
+
+/* A point of the edge from corner a to b is above all planes: the part left of it. */
+static int edge_above(const double *h, int32_t bounds, int32_t wide, int32_t a, int32_t b, fl_span *left)
+{
+    *left = (fl_span){0.0, 1.0};
+    for (int32_t k = 0; k < bounds; k++, h += wide)
+        if (!fl_span_keep(left, h[a], h[b])) return 0;
+    return 1;
+}
+
+/* Some corner is above each plane. */
+static int face_above(const double *h, int32_t bounds, int32_t wide, const int32_t *corner, int32_t n)
+{
+    for (int32_t k = 0; k < bounds; k++, h += wide) {
+        int32_t c = 0;
+        while (c < n && !(h[corner[c]] >= 0.0)) c++;
+        if (c == n) return 0;
+    }
+    return 1;
+}
+
+/* Column k of the hits: own vertices, edges and, where it is a face, faces over one of the other. */
+static void ask(fl_within *w, const fl_question *s, const fl_reach *mine, const target *t, int32_t k,
+                int32_t n)
+{
+    const int32_t wide = (n + FL_LANES - 1) / FL_LANES * FL_LANES, m = t->bounds;
+    const fl_vec3 *x = s->own->v;
+    uint8_t *hit = w->hit + k;
+    double *h = w->h, *least = h + (int64_t)m * wide;
+    const int32_t *c = w->corner, *first = w->first + mine->vertices + mine->edges;
+    fl_span left = {0.0, 1.0};
+    if (!heights(w->bound, m, w->x, wide, h, least)) return;
+    for (int32_t o = 0; o < mine->vertices; o++, c++, hit += w->others)
+        if (least[*c] >= 0.0) *hit = !t->line || nears(s, t, x[w->vertex[*c]], x[w->vertex[*c]], left);
+    for (int32_t o = 0; o < mine->edges; o++, c += 2, hit += w->others)
+        if (edge_above(h, m, wide, c[0], c[1], &left))
+            *hit = !t->line || nears(s, t, x[w->vertex[c[0]]], x[w->vertex[c[1]]], left);
+    for (int32_t o = 0; o < mine->faces && !t->line; o++, first++, hit += w->others)
+        *hit = v3_dot(s->own->n[mine->face[o]], t->axis) <= s->turned &&
+               face_above(h, m, wide, w->corner + first[0], first[1] - first[0]);
+}
+
+/* Room for the planes of a feature that has as many. */
+static int room(fl_within *w, int32_t n, int64_t bounds)
+{
+    return fl_room(&w->bound, &w->bound_cap, bounds, sizeof *w->bound) ||
+           fl_room(&w->h, &w->h_cap, (bounds + 1) * (n + FL_LANES), sizeof *w->h);
+}
+
+int fl_within_find(fl_within *w, const fl_question *s, const fl_reach *mine, const fl_reach *near)
+{
+    const fl_poly *p = s->other->p;
+    const int32_t owns = owns_of(mine);
+    int32_t k = 0;
+    w->others = near->faces + near->edges + near->vertices;
+    if (owns == 0 || w->others == 0) return 0;
+    const int32_t n = gather(w, s, mine);
+    const int64_t hits = (int64_t)owns * w->others;
+    if (n < 0 || fl_room(&w->hit, &w->hit_cap, hits, sizeof *w->hit)) return -1;
+    memset(w->hit, 0, (size_t)hits);
+    for (int32_t m = 0; m < near->faces; m++, k++) {
+        const int32_t f = near->face[m];
+        if (room(w, n, 2 + (int64_t)p->first[f + 1] - p->first[f])) return -1;
+        const target t = over_face(w->bound, s, f);
+        ask(w, s, mine, &t, k, n);
+    }
+    for (int32_t m = 0; m < near->edges; m++, k++) {
+        if (!(p->bend[near->edge[m]] > 0.0)) continue;
+        if (room(w, n, 4)) return -1;
+        const target t = over_edge(w->bound, s, near->edge[m]);
+        ask(w, s, mine, &t, k, n);
+    }
+    for (int32_t m = 0; m < near->vertices; m++, k++) {
+        const int32_t v = near->vertex[m];
+        if (!(p->defect[v] > 0.0)) continue;
+        if (room(w, n, p->begin[v + 1] - p->begin[v])) return -1;
+        const target t = over_vertex(w->bound, s, v);
+        ask(w, s, mine, &t, k, n);
+    }
+    return 0;
+}
+
+void fl_within_free(fl_within *w)
+{
+    free(w->hit), free(w->vertex), free(w->at), free(w->corner), free(w->first), free(w->x), free(w->h);
+    free(w->bound);
+    *w = (fl_within){0};
+}

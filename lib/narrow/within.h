@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* within.h -- which features of one core can come to lie over which of the other, and within reach of it.
+ *
+ * Over a face, an edge or a vertex is where some planes say so (matches.h), so that the heights of a few
+ * vertices over a few planes tell it of all features at once: of a vertex none may be below, of a face one
+ * corner must be above each, of an edge a point must be above all of them.  Each height has room for a
+ * margin, by which points may move. */
+#ifndef FL_NARROW_WITHIN_H
+#define FL_NARROW_WITHIN_H
+#include "narrow/places.h"
+
+/* What is asked: features of `own`, with the reach R above the other's, `behind` below its faces, and the
+ * margin [m]; faces whose normals meet by an angle whose cosine is not above `turned`. */
+typedef struct {
+    const fl_side *own, *other;
+    double R, behind, margin, turned;
+} fl_question;
+
+/* Zeroed to start; grows as it must.  hit[o * others + k]: own feature o, vertices first, then edges, then
+ * faces, as they are numbered in `mine`, may come over feature k of `near`, faces first, then edges, then
+ * vertices.  Faces are asked about faces alone. */
+typedef struct {
+    uint8_t *hit;
+    int32_t others;
+    /* in work: vertices of the own features, their coordinates one after the other, and heights */
+    int32_t *vertex, *at, *corner, *first;
+    double *x, *h;
+    struct fl_bound *bound;
+    int32_t hit_cap, vertex_cap, at_cap, corner_cap, first_cap, x_cap, h_cap, bound_cap;
+} fl_within;
+
+/* -1 when memory runs out. */
+int fl_within_find(fl_within *w, const fl_question *s, const fl_reach *mine, const fl_reach *near);
+
+void fl_within_free(fl_within *w);
+
+#endif
