@@ -11,14 +11,11 @@
 /* A feature of B under F; corners of faces and ends of edges are numbers of the footing's vertices. */
 typedef fl_tread_tile tile;
 typedef fl_tread_edge strip;
-typedef struct {
-    int32_t v, match;
-    double factor;
-} point;
+typedef fl_tread_corner point;
 
 /* Where each of a face's features begin. */
 typedef struct {
-    int32_t F, tile, strip, point, vertex;
+    int32_t F, tile, strip, point, vertex, four, end;
 } foot;
 
 struct fl_footing {
@@ -27,13 +24,18 @@ struct fl_footing {
     strip *strip;
     point *point;
     int32_t *corner;
-    int32_t *vertex; /* of B, ascending in each foot; padded there to full registers */
-    double *x;       /* their coordinates: x, y and z of a register's worth, and so on */
-    int32_t *row;    /* [matches] where each begins in the list */
-    uint8_t *mine;   /* [matches] 1 + its way where the footing has it, else 0 */
-    int32_t *cut[2]; /* numbers of the planes that the others ask about, of each way */
-    int32_t cuts[2], cut_cap[2], mine_cap;
+    fl_tread_four *four; /* the tiles by fours; */
+    int32_t *of_four;    /* numbers of their corners, and */
+    int32_t *end;        /* of the ends of strips, by fours */
+    int32_t *vertex;     /* of B, ascending in each foot; padded there to full registers */
+    double *x;           /* their coordinates: x, y and z of a register's worth, and so on */
+    int32_t *row;        /* [matches] where each begins in the list */
+    uint8_t *mine;       /* [matches] 1 + its way where the footing has it, else 0 */
+    int32_t *others;     /* where the rows begin that it has not */
+    int32_t *cut[2];     /* numbers of the planes that the others ask about, of each way */
+    int32_t cuts[2], cut_cap[2], mine_cap, other, others_cap;
     int32_t row_cap, feet, foot_cap, tile_cap, strip_cap, point_cap, corners, corner_cap, vertex_cap, x_cap;
+    int32_t fours, four_cap, of_fours, of_four_cap, ends, end_cap;
 };
 
 /* A match under F. */
@@ -209,6 +211,41 @@ static int list_tile(lister *s, const key *k, const int32_t *list, int32_t n)
     return 0;
 }
 
+/* Tiles and strips from here on, by fours. */
+static int list_fours(lister *s, const foot *from)
+{
+    fl_footing *o = s->o;
+    fl_err lost = {0};
+    for (int32_t c = from->tile; c < s->tiles; c += FL_LANES) {
+        const tile *t[FL_LANES];
+        int32_t most = 0;
+        for (int l = 0; l < FL_LANES; l++) {
+            t[l] = &o->tile[c + l < s->tiles ? c + l : c];
+            most = t[l]->n > most ? t[l]->n : most;
+        }
+        if (fl_grow(&o->four, &o->four_cap, (int64_t)o->fours + 1, sizeof *o->four, &lost) ||
+            fl_grow(&o->of_four, &o->of_four_cap, o->of_fours + FL_LANES * (int64_t)most, sizeof *o->of_four,
+                    &lost))
+            return -1;
+        fl_tread_four *const four = &o->four[o->fours++];
+        four->first = o->of_fours, four->most = most;
+        for (int l = 0; l < FL_LANES; l++) {
+            const fl_vec3 n = s->B->n[t[l]->f];
+            four->n[0][l] = n.x, four->n[1][l] = n.y, four->n[2][l] = n.z;
+        }
+        for (int32_t k = 0; k < most; k++)
+            for (int l = 0; l < FL_LANES; l++)
+                o->of_four[o->of_fours++] = o->corner[t[l]->first + (k < t[l]->n ? k : 0)];
+    }
+    for (int32_t c = from->strip; c < s->strips; c += FL_LANES) {
+        if (fl_grow(&o->end, &o->end_cap, (int64_t)o->ends + 2 * FL_LANES, sizeof *o->end, &lost)) return -1;
+        for (int way = 0; way < 2; way++)
+            for (int l = 0; l < FL_LANES; l++)
+                o->end[o->ends++] = o->strip[c + l < s->strips ? c + l : c].v[way];
+    }
+    return 0;
+}
+
 /* One face of A: keys k[0 .. n). */
 static int list_foot(lister *s, const key *k, int32_t n)
 {
@@ -217,7 +254,7 @@ static int list_foot(lister *s, const key *k, int32_t n)
     const int32_t from = s->vertices;
     fl_err lost = {0};
     if (fl_grow(&o->foot, &o->foot_cap, (int64_t)o->feet + 2, sizeof *o->foot, &lost)) return -1;
-    o->foot[o->feet++] = (foot){k->F, s->tiles, s->strips, s->points, from};
+    o->foot[o->feet++] = (foot){k->F, s->tiles, s->strips, s->points, from, o->fours, o->ends};
     if (list_vertices(s, k, n)) return -1;
     const int32_t *list = o->vertex + from, all = s->vertices - from;
     for (int32_t c = 0; c < n; c++) {
@@ -238,7 +275,8 @@ static int list_foot(lister *s, const key *k, int32_t n)
                                                 fl_place_rho(s->B->r, s->A->r)};
         }
     }
-    o->foot[o->feet] = (foot){-1, s->tiles, s->strips, s->points, s->vertices};
+    if (list_fours(s, &o->foot[o->feet - 1])) return -1;
+    o->foot[o->feet] = (foot){-1, s->tiles, s->strips, s->points, s->vertices, o->fours, o->ends};
     return 0;
 }
 
@@ -249,7 +287,8 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
     fl_footing *const o = l->footing;
     key *k = fl_alloc(l->n, sizeof *k, &lost);
     int rc = o && k && !fl_grow(&o->row, &o->row_cap, l->n, sizeof *o->row, &lost) &&
-                     !fl_grow(&o->mine, &o->mine_cap, l->n, sizeof *o->mine, &lost)
+                     !fl_grow(&o->mine, &o->mine_cap, l->n, sizeof *o->mine, &lost) &&
+                     !fl_grow(&o->others, &o->others_cap, l->n, sizeof *o->others, &lost)
                  ? 0
                  : -1;
     if (rc == 0) {
@@ -257,7 +296,9 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
         const int32_t n = keys_of(l, A, B, o->row, k);
         for (int32_t c = 0; c < l->n; c++) o->mine[c] = 0;
         for (int32_t c = 0; c < n; c++) o->mine[k[c].match] = (uint8_t)(1 + k[c].way);
-        o->feet = o->corners = 0;
+        o->feet = o->corners = o->other = o->fours = o->of_fours = o->ends = 0;
+        for (int32_t c = 0; c < l->n; c++)
+            if (!o->mine[c]) o->others[o->other++] = o->row[c];
         if (n > 1) qsort(k, (size_t)n, sizeof *k, key_order);
         for (int32_t from = 0, to; from < n && rc == 0; from = to) {
             for (to = from + 1; to < n && k[to].F == k[from].F; to++) {}
@@ -272,32 +313,28 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
 /* --- what lies under F now -------------------------------------------------------------------------------
  */
 
-/* Of the width of the rim of F: what is nearer to a side than that is not told to be on one side of it. */
-#define HAIR 1e-6
-/* The same where the neighbour of F asks by itself, edges and corners: an edge that crosses a side between
- * two ends so far off it is cut by both within 1e-11 of its length in the same place. */
-#define NEAR 1e-3
-
-static void mark(uint8_t *skip, int32_t match)
-{
-    if (match >= 0) skip[match] = 1;
-}
-
 typedef struct {
     fl_places *w;
     const fl_side *A, *B;
     const fl_footing *o;
-    uint8_t *skip;
+    fl_footing_work *room;
+    int32_t matches; /* listed */
+    int open;        /* room->open is laid, for one of those is left */
     fl_tread g;
-    double most;
     fl_tread_sums sum;
     fl_tread_pull pull;
-    /* faces and edges that need no cut, and that do */
-    int32_t *face, *edge, *piece;
-    fl_tread_cut *cut;
-    double *span;
-    int32_t faces, edges, pieces, cuts;
+    fl_tread_sorted face;
+    double most; /* the largest s */
 } work;
+
+/* A match that the footing has is to be told by others. */
+static void leave(work *q, int32_t match)
+{
+    if (match < 0) return;
+    if (!q->open) memset(q->room->open, 0, (size_t)q->matches);
+    q->open = 1;
+    q->room->open[match] = 1;
+}
 
 /* Where a sum bears and how it spreads: three places at x + a cos, y + b cos + c sin have its moments. */
 typedef struct {
@@ -340,134 +377,40 @@ static int add_share(const work *q, const fl_tread_sums *t, int32_t n)
     return 0;
 }
 
-/* The sides of F that a face, or what of F is above it, may be over: returns how many, at most two, -1 where
- * it is beyond one, and -2 where there are more, or one that a corner is within a hair of.
- *   nf, c  its normal, and -n.nf */
-static int sides_of(const fl_tread *g, const tile *t, const int32_t *at, fl_vec3 nf, double c,
-                    int32_t sides[2])
+/* What each feature by itself has given, where somebody asks: faces, edges, corners. */
+static int faces_apart(const work *q, const tile *tiles)
 {
-    const double over = 1.0 / c, slack = g->R * over * sqrt(1.0 - c * c < 0.0 ? 0.0 : 1.0 - c * c),
-                 hair = HAIR * g->rim;
-    int found = 0;
-    for (int32_t i = 0; i < g->sides; i++) {
-        const double *d = g->within + (int64_t)i * g->vertices;
-        double least = INFINITY, most = -INFINITY;
-        for (int32_t k = 0; k < t->n; k++) {
-            least = d[at[k]] < least ? d[at[k]] : least;
-            most = d[at[k]] > most ? d[at[k]] : most;
-        }
-        if (most < -slack - hair) return -1;
-        if (least > g->rim + slack + hair) continue;
-        if (found == 2) return -2;
-        const fl_tread_side m = g->side[i];
-        const double slope = (v3_dot(nf, g->x) * m.nx + v3_dot(nf, g->y) * m.ny) * over;
-        for (int32_t k = 0; k < t->n; k++)
-            if (fabs(d[at[k]] + slope * g->h[at[k]]) < hair) return -2;
-        sides[found++] = i;
+    const fl_tread_sorted *f = &q->face;
+    for (int32_t k = 0; k < f->wholes + f->cuts; k++) {
+        const int whole = k < f->wholes;
+        const fl_tread_cut cut = whole ? (fl_tread_cut){.tile = f->whole[k]} : f->cut[k - f->wholes];
+        fl_tread_sums own = {.u = {0}};
+        fl_tread_pull none = {0};
+        double most = 0.0;
+        fl_tread_parts(&q->g, tiles, q->o->corner, q->B->n, &cut, 1, &own, &none, &most);
+        if (add_share(q, &own, whole ? 1 : 3)) return -1;
     }
-    return found;
+    return 0;
 }
 
-/* Face f of B, as far as it is over F; 0 when that is to be told by others, -1 when memory runs out. */
-static int under(work *q, const tile *t)
+static int edges_apart(const work *q, int32_t pieces)
 {
-    const fl_tread *g = &q->g;
-    const int32_t *at = q->o->corner + t->first, number = (int32_t)(t - q->o->tile);
-    double clear = INFINITY, low = INFINITY, high = 0.0;
-    for (int32_t k = 0; k < t->n; k++) {
-        const double c = g->clear[at[k]], h = g->h[at[k]];
-        clear = c < clear ? c : clear;
-        low = h < low ? h : low;
-        high = h > high ? h : high;
+    for (int32_t k = 0; k < pieces; k++) {
+        fl_tread_sums own = {.u = {0}};
+        fl_tread_pieces(&q->g, &q->room->piece[k], 1, &own);
+        if (add_share(q, &own, 2)) return -1;
     }
-    if (low < 0.0) return 0;
-    if (low >= g->R) return 1; /* nothing */
-    const fl_vec3 nf = q->B->n[t->f];
-    const double c = -v3_dot(g->n, nf), in = clear - g->rim;
-    if (!(c > 0.0 && 4.0 * c * c > 3.0)) return 1;
-    fl_tread_cut cut = {.tile = number};
-    const int whole = in > 0.0 && c * c * in * in > (1.0 - c * c) * g->R * g->R;
-    if (!whole) {
-        cut.sides = sides_of(g, t, at, nf, c, cut.side);
-        if (cut.sides < 0) return cut.sides == -1;
-    }
-    if (whole && t->n == 3 && high < c * g->R) {
-        q->face[q->faces++] = number;
-        if (g->R - low > q->most) q->most = g->R - low;
-    } else {
-        q->cut[q->cuts++] = cut;
-    }
-    if (!q->w->apart) return 1;
-    fl_tread_sums own = {.u = {0}};
-    fl_tread_pull none = {0};
-    double most = 0.0;
-    fl_tread_parts(g, q->o->tile, q->o->corner, q->B->n, &cut, 1, &own, &none, &most);
-    return add_share(q, &own, whole && t->n == 3 ? 1 : 3) ? -1 : 1;
+    return 0;
 }
 
-/* Leave of t what is within the sides of F: 1; 0: nothing; -1: a side is too near an end to tell. */
-static int within_sides(const fl_tread *g, int32_t i, int32_t j, fl_span *t)
+static int corners_apart(const work *q, const point *p, const int32_t *list, int32_t n)
 {
-    const double near = NEAR * g->rim;
-    int some = 1;
-    for (int32_t c = 0; c < g->sides; c++) {
-        const double *d = g->within + (int64_t)c * g->vertices;
-        if (fabs(d[i]) < near || fabs(d[j]) < near) return -1;
-        some = some && fl_span_keep(t, d[i], d[j]);
+    for (int32_t k = 0; k < n; k++) {
+        fl_tread_sums own = {.u = {0}};
+        fl_tread_corners(&q->g, p, &list[k], 1, &own);
+        if (add_share(q, &own, 1)) return -1;
     }
-    return some;
-}
-
-static int strip_under(work *q, const strip *e)
-{
-    const fl_tread *g = &q->g;
-    const int32_t i = e->v[0], j = e->v[1], number = (int32_t)(e - q->o->strip);
-    if (!(g->h[i] >= 0.0 && g->h[j] >= 0.0)) return 0;
-    const double si = g->R - g->h[i], sj = g->R - g->h[j], near = NEAR * g->rim;
-    fl_span t = {0.0, 1.0};
-    const int in = g->clear[i] > near && g->clear[j] > near, whole = in && si > 0.0 && sj > 0.0;
-    if (whole) {
-        q->edge[q->edges++] = number;
-    } else {
-        if (!(si > 0.0 || sj > 0.0)) return 1;
-        t = (fl_span){si > 0.0 ? 0.0 : si / (si - sj), sj > 0.0 ? 1.0 : si / (si - sj)};
-        const int some = in ? 1 : within_sides(g, i, j, &t);
-        if (some <= 0) return some == 0;
-        if (!(si + t.lo * (sj - si) > 0.0 || si + t.hi * (sj - si) > 0.0)) return 1;
-        q->span[2 * q->pieces] = t.lo, q->span[2 * q->pieces + 1] = t.hi;
-        q->piece[q->pieces++] = number;
-    }
-    if (!q->w->apart) return 1;
-    fl_tread_sums own = {.u = {0}};
-    const double span[2] = {t.lo, t.hi};
-    fl_tread_pieces(g, q->o->strip, &number, span, 1, &own);
-    return add_share(q, &own, 2) ? -1 : 1;
-}
-
-/* Into the first lane. */
-static void pour_point(const fl_tread *g, const point *p, double s, fl_tread_sums *sum)
-{
-    const double x = g->X[p->v], y = g->Y[p->v], s3 = p->factor * s * s * s, f = 5.0 * s3 * s;
-    sum->u[0] += s3 * s * s;
-    sum->du[0] += f;
-    sum->ddu[0] += 20.0 * s3;
-    sum->f[0] += f;
-    sum->s[0] += f * s;
-    sum->x[0] += f * x, sum->y[0] += f * y;
-    sum->xx[0] += f * x * x, sum->xy[0] += f * x * y, sum->yy[0] += f * y * y;
-}
-
-static int point_under(work *q, const point *p)
-{
-    const fl_tread *g = &q->g;
-    const double s = g->R - g->h[p->v], clear = g->clear[p->v];
-    if (!(fabs(clear) > NEAR * g->rim && g->h[p->v] >= 0.0)) return 0;
-    if (!(clear > 0.0 && s > 0.0)) return 1;
-    pour_point(g, p, s, &q->sum);
-    if (!q->w->apart) return 1;
-    fl_tread_sums own = {.u = {0}};
-    pour_point(g, p, s, &own);
-    return add_share(q, &own, 1) ? -1 : 1;
+    return 0;
 }
 
 /* Three places with the force, the moment and the spread of all: those of areas.h; and what pulls at the
@@ -477,12 +420,7 @@ static int put(work *q)
 {
     static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
     const fl_tread *g = &q->g;
-    const fl_footing *o = q->o;
     const fl_tread_sums *t = &q->sum;
-    fl_tread_whole(g, o->tile, o->corner, q->B->n, q->face, q->faces, &q->sum);
-    fl_tread_edges(g, o->strip, q->edge, q->edges, &q->sum);
-    if (q->pieces) fl_tread_pieces(g, o->strip, q->piece, q->span, q->pieces, &q->sum);
-    if (q->cuts) fl_tread_parts(g, o->tile, o->corner, q->B->n, q->cut, q->cuts, &q->sum, &q->pull, &q->most);
     const spread e = spread_of(t);
     const double du = fl_wide_sum(&t->du);
     if (!(e.f > 0.0)) return 0;
@@ -526,7 +464,7 @@ static double rim_within(const fl_tread_side *s, const double *length, int32_t n
 }
 
 /* The plane of F, its sides and the vertices under it.  room: five numbers for each side, and for each vertex
- * four and as many as there are sides. */
+ * four and as many as there are sides, in full registers. */
 static void lay_ground(fl_tread *g, const fl_side *A, int32_t F, const double *x, int32_t vertices,
                        double rim, double *room)
 {
@@ -550,34 +488,76 @@ static void lay_ground(fl_tread *g, const fl_side *A, int32_t F, const double *x
     g->sides = n;
     g->vertices = vertices;
     g->rim = rim_within(side, length, n, rim);
-    g->X = length + n;
-    g->Y = g->X + vertices;
-    g->h = g->Y + vertices;
-    g->clear = g->h + vertices;
-    g->within = g->clear + vertices;
+    g->vertex = (fl_tread_vertex *)(void *)(length + n);
+    g->within = (double *)(void *)(g->vertex + vertices);
     fl_tread_survey(g, x);
+}
+
+/* Faces under F, edges and corners: their sums.  -1 when memory runs out. */
+static int faces_under(work *q, const tile *t, const fl_tread_four *four, int32_t n)
+{
+    const fl_footing *o = q->o;
+    fl_tread_sorted *f = &q->face;
+    uint8_t *const is = q->room->is;
+    if (fl_tread_sort(&q->g, t, four, o->of_four, n, f, is))
+        for (int32_t k = 0; k < n; k++)
+            if (is[k] & FL_TREAD_LEFT) leave(q, t[k].match[0]), leave(q, t[k].match[1]);
+    q->most = f->most;
+    if (f->wholes) fl_tread_whole(&q->g, t, o->corner, q->B->n, f->whole, f->wholes, &q->sum);
+    if (f->cuts) fl_tread_parts(&q->g, t, o->corner, q->B->n, f->cut, f->cuts, &q->sum, &q->pull, &q->most);
+    return q->w->apart ? faces_apart(q, t) : 0;
+}
+
+static int edges_under(work *q, const strip *e, const int32_t *end, int32_t n)
+{
+    int32_t pieces = 0;
+    uint8_t *const is = q->room->is;
+    if (fl_tread_sort_edges(&q->g, e, end, n, q->room->piece, &pieces, is))
+        for (int32_t k = 0; k < n; k++)
+            if (is[k] & FL_TREAD_LEFT) leave(q, e[k].match);
+    if (pieces) fl_tread_pieces(&q->g, q->room->piece, pieces, &q->sum);
+    return q->w->apart ? edges_apart(q, pieces) : 0;
+}
+
+static int corners_under(work *q, const point *p, int32_t n)
+{
+    const fl_tread *g = &q->g;
+    const double near = FL_TREAD_NEAR * g->rim;
+    int32_t *const list = q->room->list, some = 0;
+    for (int32_t k = 0; k < n; k++) {
+        const fl_tread_vertex v = g->vertex[p[k].v];
+        if (!(fabs(v.clear) > near && v.h >= 0.0)) leave(q, p[k].match);
+        else if (v.clear > 0.0 && v.h < g->R) list[some++] = k;
+    }
+    if (some) fl_tread_corners(g, p, list, some, &q->sum);
+    return q->w->apart ? corners_apart(q, p, list, some) : 0;
 }
 
 /* What lies under a face: everything from `from` to the next. */
 static int foot_places(work *q, const foot *from)
 {
     const foot *to = from + 1;
-    for (int32_t c = from->tile; c < to->tile; c++) {
-        const int is = under(q, &q->o->tile[c]);
-        for (int way = 0; way < 2 && is > 0; way++) mark(q->skip, q->o->tile[c].match[way]);
-        if (is < 0) return -1;
+    const fl_footing *o = q->o;
+    return faces_under(q, o->tile + from->tile, o->four + from->four, to->tile - from->tile) ||
+                   edges_under(q, o->strip + from->strip, o->end + from->end, to->strip - from->strip) ||
+                   corners_under(q, o->point + from->point, to->point - from->point)
+               ? -1
+               : put(q);
+}
+
+/* The matches that are left, in their order. */
+static void choose(const work *q, int32_t n, fl_choice *c)
+{
+    const fl_footing *o = q->o;
+    *c = (fl_choice){
+        .at = o->others, .cut = {o->cut[0], o->cut[1]}, .n = o->other, .cuts = {o->cuts[0], o->cuts[1]}};
+    if (!q->open) return;
+    c->at = q->room->left, c->n = 0;
+    for (int32_t k = 0; k < n; k++) {
+        if (o->mine[k] && !q->room->open[k]) continue;
+        q->room->left[c->n++] = o->row[k];
+        if (o->mine[k]) c->cut[o->mine[k] - 1] = NULL; /* that asks about more */
     }
-    for (int32_t c = from->strip; c < to->strip; c++) {
-        const int is = strip_under(q, &q->o->strip[c]);
-        if (is > 0) mark(q->skip, q->o->strip[c].match);
-        if (is < 0) return -1;
-    }
-    for (int32_t c = from->point; c < to->point; c++) {
-        const int is = point_under(q, &q->o->point[c]);
-        if (is > 0) mark(q->skip, q->o->point[c].match);
-        if (is < 0) return -1;
-    }
-    return put(q);
 }
 
 int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, const fl_side *A,
@@ -587,36 +567,33 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
     fl_err lost = {0};
     *rest = *l;
     if (!o || o->feet == 0) return 0;
-    if (fl_grow(&room->skip, &room->skip_cap, l->n, sizeof *room->skip, &lost) ||
+    if (fl_grow(&room->open, &room->open_cap, l->n, sizeof *room->open, &lost) ||
         fl_grow(&room->left, &room->left_cap, l->n, sizeof *room->left, &lost))
         return -1;
-    memset(room->skip, 0, (size_t)l->n);
+    work q = {.w = w, .A = A, .B = B, .o = o, .room = room, .matches = l->n};
     for (int32_t k = 0; k < o->feet; k++) {
         const foot *from = &o->foot[k], *to = from + 1;
         const int32_t vertices = to->vertex - from->vertex, tiles = to->tile - from->tile,
-                      strips = to->strip - from->strip;
+                      strips = to->strip - from->strip, points = to->point - from->point;
         const int64_t sides = A->p->first[from->F + 1] - A->p->first[from->F];
-        const int64_t numbers = 5 * sides + (4 + sides) * vertices;
-        if (fl_grow(&room->number, &room->number_cap, numbers + 2 * (int64_t)strips, sizeof *room->number,
+        const int64_t within = (sides + FL_LANES - 1) / FL_LANES * FL_LANES;
+        if (fl_grow(&room->number, &room->number_cap, 5 * sides + (4 + within) * vertices,
+                    sizeof *room->number, &lost) ||
+            fl_grow(&room->is, &room->is_cap, tiles > strips ? tiles : strips, sizeof *room->is, &lost) ||
+            fl_grow(&room->list, &room->list_cap, tiles > points ? tiles : points, sizeof *room->list,
                     &lost) ||
-            fl_grow(&room->list, &room->list_cap, (int64_t)tiles + 2 * (int64_t)strips, sizeof *room->list,
-                    &lost) ||
-            fl_grow(&room->cut, &room->cut_cap, tiles, sizeof *room->cut, &lost))
+            fl_grow(&room->cut, &room->cut_cap, tiles, sizeof *room->cut, &lost) ||
+            fl_grow(&room->piece, &room->piece_cap, strips, sizeof *room->piece, &lost))
             return -1;
-        work q = {.w = w, .A = A, .B = B, .o = o, .skip = room->skip, .g = {.R = R}, .cut = room->cut};
-        q.face = room->list, q.edge = q.face + tiles, q.piece = q.edge + strips;
-        q.span = room->number + numbers;
+        q.g = (fl_tread){.R = R};
+        q.sum = (fl_tread_sums){.u = {0}};
+        q.pull = (fl_tread_pull){0};
+        q.face = (fl_tread_sorted){.whole = room->list, .cut = room->cut};
         lay_ground(&q.g, A, from->F, o->x + 3 * (int64_t)from->vertex, vertices, rim, room->number);
         if (foot_places(&q, from)) return -1;
     }
-    fl_choice *const c = &room->choice;
-    *c = (fl_choice){.at = room->left, .cut = {o->cut[0], o->cut[1]}, .cuts = {o->cuts[0], o->cuts[1]}};
-    for (int32_t k = 0; k < l->n; k++) {
-        if (room->skip[k]) continue;
-        room->left[c->n++] = o->row[k];
-        if (o->mine[k]) c->cut[o->mine[k] - 1] = NULL; /* that asks about more */
-    }
-    rest->choice = c;
+    choose(&q, l->n, &room->choice);
+    rest->choice = &room->choice;
     return 0;
 }
 
@@ -624,12 +601,14 @@ void fl_footing_free(fl_footing *o)
 {
     if (!o) return;
     free(o->foot), free(o->tile), free(o->strip), free(o->point), free(o->corner), free(o->vertex),
-        free(o->x), free(o->row), free(o->mine), free(o->cut[0]), free(o->cut[1]);
+        free(o->x), free(o->row), free(o->mine), free(o->others), free(o->four), free(o->of_four),
+        free(o->end), free(o->cut[0]), free(o->cut[1]);
     free(o);
 }
 
 void fl_footing_work_free(fl_footing_work *room)
 {
-    free(room->number), free(room->skip), free(room->left), free(room->list), free(room->cut);
+    free(room->number), free(room->is), free(room->open), free(room->left), free(room->list),
+        free(room->piece), free(room->cut);
     *room = (fl_footing_work){0};
 }

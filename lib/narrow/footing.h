@@ -30,13 +30,15 @@ typedef struct fl_footing fl_footing;
 
 /* Zeroed to start. */
 typedef struct {
-    double *number;    /* of vertices and sides of F (tread.h), and the parts of edges */
-    uint8_t *skip;     /* [l->n] what the footings have done */
-    int32_t *left;     /* where the rows of the matches begin that are left */
+    double *number;    /* of vertices and sides of F (tread.h) */
+    uint8_t *is;       /* what has been made of faces or edges */
+    uint8_t *open;     /* [l->n] what the footings have, but have left */
+    int32_t *left;     /* where the rows of the matches begin that are left, where some of those are */
     fl_choice choice;  /* those */
-    int32_t *list;     /* numbers of faces and edges */
+    int32_t *list;     /* numbers of faces or corners */
     fl_tread_cut *cut; /* faces that are cut */
-    int32_t number_cap, skip_cap, left_cap, list_cap, cut_cap;
+    fl_tread_piece *piece;
+    int32_t number_cap, is_cap, open_cap, left_cap, list_cap, cut_cap, piece_cap;
 } fl_footing_work;
 
 /* Sort out of the matches l of core A and surface B those that may lie under a face of A, into l->footing. -1

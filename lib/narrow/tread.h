@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tread.h -- sums over what of a surface lies under a plane face F, as footing.h has them: faces that are
- * whole under F, faces that s = 0 or a side of F cuts, and edges, four at a time.
+/* tread.h -- what of a surface lies under a plane face F, and sums over it, as footing.h has them: faces that
+ * are whole under F, faces that s = 0 or a side of F cuts, edges and corners, four at a time.
  *
  * Heights h are over F, against its normal n; x and y are places in its plane.  s = R - h, and s = R - h/c
  * for what of F lies over a face f, c = -n.n_f. */
@@ -14,16 +14,30 @@ typedef struct {
     double x, y, nx, ny;
 } fl_tread_side;
 
+/* A vertex under F: where it is, its height, and how far it is within the side that it is least within [m].
+ */
+typedef struct {
+    double x, y, h, clear;
+} fl_tread_vertex;
+
 /* F, and what is known of the vertices under it: arrays by their numbers, padded to full registers [m]. */
 typedef struct {
     fl_vec3 o, x, y, n; /* origin, axes */
     double R, rim;      /* reach, width of the fading rim [m] */
     const fl_tread_side *side;
     int32_t sides, vertices;
-    double *X, *Y, *h;
-    double *within; /* how far within side c vertex v is: within[c vertices + v] */
-    double *clear;  /* the least of those */
+    fl_tread_vertex *vertex;
+    double *within; /* how far within side c vertex v is: within[(c/4 vertices + v) 4 + c%4] */
 } fl_tread;
+
+/* Of the width of the rim of F: what is nearer to a side than that is not told to be on one side of it. */
+#define FL_TREAD_HAIR 1e-6
+/* The same where the neighbour of F asks by itself, edges and corners: an edge that crosses a side between
+ * two ends so far off it is cut by both within 1e-11 of its length in the same place. */
+#define FL_TREAD_NEAR 1e-3
+
+/* Bits of is[], what has been made of a feature: it must be left to areas.h and strips.h. */
+enum { FL_TREAD_LEFT = 1 };
 
 /* A face f of the surface: its number, its corners corner[first .. first + n), and the matches of F over f
  * and of f over F, -1 where they are not listed. */
@@ -31,11 +45,30 @@ typedef struct {
     int32_t f, first, n, match[2];
 } fl_tread_tile;
 
+/* Four of those in a row: their normals, by axes, and the numbers of their corners, corner k of the four at
+ * first + 4 k; a face with fewer than `most`, and one that is not there, has its first again. */
+typedef struct {
+    double n[3][FL_LANES];
+    int32_t first, most;
+} fl_tread_four;
+
 /* An edge: the numbers of its ends, its match, and fl_strips_factor(). */
 typedef struct {
     int32_t v[2], match;
     double factor;
 } fl_tread_edge;
+
+/* A part of one, from lo to hi of its length. */
+typedef struct {
+    int32_t v[2];
+    double factor, lo, hi;
+} fl_tread_piece;
+
+/* A corner of the surface: its number, its match, and what s^5 is multiplied by. */
+typedef struct {
+    int32_t v, match;
+    double factor;
+} fl_tread_corner;
 
 /* A face that is cut: its number, and the sides of F that it may be over, at most two. */
 typedef struct {
@@ -53,11 +86,29 @@ typedef struct {
     fl_vec3 f, m;
 } fl_tread_pull;
 
+/* Faces with something under F: numbers of triangles that are whole under it, with s > 0 both ways, and
+ * faces that are cut or have more corners; most: the largest s of the triangles, where that is more. */
+typedef struct {
+    int32_t *whole;
+    fl_tread_cut *cut;
+    int32_t wholes, cuts;
+    double most;
+} fl_tread_sorted;
+
 /* Fill the arrays; x: coordinates of the vertices, x, y and z of a register's worth, and so on. */
 void fl_tread_survey(const fl_tread *g, const double *x);
 
-/* Triangles tile[list[k]], k < count, that are whole under F, with s > 0 both ways; normal: of the surface.
- */
+/* Sort tile[0 .. count), which are four[0 .. (count + 3)/4), into out, which has room for them; is[count]:
+ * what has been made of each.  Returns whether any is left. */
+int fl_tread_sort(const fl_tread *g, const fl_tread_tile *tile, const fl_tread_four *four,
+                  const int32_t *corner, int32_t count, fl_tread_sorted *out, uint8_t *is);
+
+/* Numbers of what of edges is under F, with s > 0, into out, which has room for all; end: of the edges, the
+ * first ends of four and their second ones, and so on, the last again where there are no more. */
+int fl_tread_sort_edges(const fl_tread *g, const fl_tread_edge *edge, const int32_t *end, int32_t count,
+                        fl_tread_piece *out, int32_t *pieces, uint8_t *is);
+
+/* Triangles tile[list[k]], k < count, that are whole under F; normal: of the surface. */
 void fl_tread_whole(const fl_tread *g, const fl_tread_tile *tile, const int32_t *corner,
                     const fl_vec3 *normal, const int32_t *list, int32_t count, fl_tread_sums *sum);
 
@@ -66,12 +117,11 @@ void fl_tread_parts(const fl_tread *g, const fl_tread_tile *tile, const int32_t 
                     const fl_vec3 *normal, const fl_tread_cut *list, int32_t count, fl_tread_sums *sum,
                     fl_tread_pull *pull, double *most);
 
-/* Edges edge[list[k]] with s > 0 at both ends, whole under F. */
-void fl_tread_edges(const fl_tread *g, const fl_tread_edge *edge, const int32_t *list, int32_t count,
-                    fl_tread_sums *sum);
+/* Parts of edges. */
+void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *piece, int32_t count, fl_tread_sums *sum);
 
-/* The parts span[2 k] to span[2 k + 1] of edges edge[list[k]], s >= 0. */
-void fl_tread_pieces(const fl_tread *g, const fl_tread_edge *edge, const int32_t *list, const double *span,
-                     int32_t count, fl_tread_sums *sum);
+/* Corners corner[list[k]], with s > 0. */
+void fl_tread_corners(const fl_tread *g, const fl_tread_corner *corner, const int32_t *list, int32_t count,
+                      fl_tread_sums *sum);
 
 #endif
