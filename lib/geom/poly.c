@@ -466,8 +466,12 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err)
     memcpy(p.edge, from->edge, (size_t)p.ne * sizeof *p.edge);
     memcpy(p.first, from->first, ((size_t)p.nf + 1) * sizeof *p.first);
     memcpy(p.loop, from->loop, (size_t)nl * sizeof *p.loop);
-    if (!from->bend) { /* it was without angles */
+    if (!from->bend) { /* it was without angles, or has a few */
         fl_poly_angles(&p);
+        for (int32_t e = 0; e < p.ne; e++)
+            if (fl_poly_edge(from, e) < FL_POLY_BLUNT_EDGE) p.bend[e] = fl_poly_edge(from, e);
+        for (int32_t v = 0; v < p.nv; v++)
+            if (fl_poly_corner(from, v) < FL_POLY_BLUNT_CORNER) p.defect[v] = fl_poly_corner(from, v);
         *to = p;
         return 0;
     }
@@ -547,7 +551,8 @@ double fl_poly_bytes(const fl_poly *p)
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
     if (!p->mem) return 0.0;
     size_t sum = (p->v ? nv * sizeof *p->v : 0) + (p->n ? nf * (sizeof *p->n + sizeof *p->c) : 0) +
-                 (p->bend ? nv * sizeof *p->defect + ne * sizeof *p->bend : 0);
+                 (p->bend ? nv * sizeof *p->defect + ne * sizeof *p->bend : 0) +
+                 (size_t)p->blunts * (sizeof(double) + sizeof(int32_t));
     if (p->first && !p->shared) sum += (nf + 1 + (size_t)p->first[nf]) * sizeof(int32_t);
     if (p->edge && !p->shared) sum += ne * sizeof *p->edge + (nv + 1 + 2 * ne) * sizeof(int32_t);
     return (double)sum;

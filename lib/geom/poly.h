@@ -16,7 +16,8 @@ typedef struct {
 
 typedef struct {
     int32_t nv, nf, ne;
-    int32_t shared;  /* first, loop, edge, begin and beside are borrowed (topology.h) */
+    int16_t shared;  /* first, loop, edge, begin and beside are borrowed (topology.h) */
+    int16_t blunts;  /* angles that are kept where bend and defect are NULL            */
     fl_vec3 *v;      /* [nv] vertices                                            [m] */
     fl_vec3 *n;      /* [nf] outward unit normals                                    */
     double *c;       /* [nf] plane offsets, n.x = c, largest over the face's vertices [m] */
@@ -24,9 +25,9 @@ typedef struct {
     int32_t *loop;   /* [first[nf]] vertices of each face, counter-clockwise from outside */
     fl_edge *edge;   /* [ne], sorted by (a, b)                                       */
     double *bend;    /* [ne] angle between the outward normals of the two faces, in [0, pi]; 2 pi round a
-                      * segment                                                    [rad] */
+                      * segment                                                    [rad]; or NULL: see below */
     double *defect;  /* [nv] solid angle of the outward directions at the vertex: 2 pi less the angles of its
-                      * faces there (Gauss), 2 pi for the end of a segment, 4 pi for a point [sr] */
+                      * faces there (Gauss), 2 pi for the end of a segment, 4 pi for a point [sr]; NULL: so */
     int32_t *begin;  /* [nv + 1] offsets into beside                                 */
     int32_t *beside; /* [begin[nv]] the other ends of the edges of each vertex, ascending */
     double size;     /* largest side of the bounding box                          [m] */
@@ -82,6 +83,33 @@ double fl_poly_bend(const fl_poly *p, int32_t e);
 /* Move and turn in place: x becomes transpose(axes) (x - o), so that o becomes the origin and the columns of
  * axes, which must be a rotation, become the axes. */
 void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
+
+/* Contact asks how blunt an edge or a vertex is, and counts all alike that are sharper than so much. */
+#define FL_POLY_BLUNT_EDGE 0.25  /* [rad] */
+#define FL_POLY_BLUNT_CORNER 0.5 /* [sr]  */
+
+/* The angle of edge k, or of vertex k - ne, one of a few that are kept behind c, the numbers behind them; or
+ * `sharp` where it is none of those. */
+static inline double fl_poly_kept(const fl_poly *p, int32_t k, double sharp)
+{
+    const double *angle = p->c + p->nf;
+    const int32_t *of = (const int32_t *)(const void *)(angle + p->blunts);
+    for (int32_t c = 0; c < p->blunts; c++)
+        if (of[c] == k) return angle[c];
+    return sharp;
+}
+
+/* bend[e], or at least FL_POLY_BLUNT_EDGE where it is no less. */
+static inline double fl_poly_edge(const fl_poly *p, int32_t e)
+{
+    return p->bend ? p->bend[e] : fl_poly_kept(p, e, FL_POLY_BLUNT_EDGE);
+}
+
+/* defect[v], or at least FL_POLY_BLUNT_CORNER where it is no less. */
+static inline double fl_poly_corner(const fl_poly *p, int32_t v)
+{
+    return p->defect ? p->defect[v] : fl_poly_kept(p, p->ne + v, FL_POLY_BLUNT_CORNER);
+}
 
 /* What its arrays take of memory. */
 double fl_poly_bytes(const fl_poly *p);

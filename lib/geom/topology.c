@@ -85,23 +85,47 @@ static const fl_topology *kind_of(fl_topologies *t, const fl_poly *p, fl_err *er
     return &t->kind[t->n - 1];
 }
 
+/* More angles than this are not looked through. */
+enum { FEW = 8 };
+
+/* The angles that somebody may ask for, and of which edge or vertex; FEW + 1 where there are more. */
+static int16_t blunt(const fl_poly *p, double angle[FEW], int32_t of[FEW])
+{
+    int16_t n = 0;
+    for (int32_t k = 0; k < p->ne + p->nv; k++) {
+        const double a = k < p->ne ? fl_poly_edge(p, k) : fl_poly_corner(p, k - p->ne);
+        if (a >= (k < p->ne ? FL_POLY_BLUNT_EDGE : FL_POLY_BLUNT_CORNER)) continue;
+        if (n == FEW) return FEW + 1;
+        angle[n] = a;
+        of[n++] = k;
+    }
+    return n;
+}
+
 int fl_topologies_share(fl_topologies *t, fl_poly *p, int angles, fl_err *err)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
     const fl_topology *kind = kind_of(t, p, err);
     fl_poly q = *p;
-    int32_t bytes = 0;
+    double angle[FEW];
+    int32_t of[FEW], bytes = 0;
+    const int16_t few = angles ? blunt(p, angle, of) : 0;
+    const int all = few > FEW;
+    const size_t kept = all ? 0 : (size_t)few;
     q.mem = NULL;
+    q.blunts = (int16_t)kept;
     if (!kind || fl_grow(&q.mem, &bytes,
-                         (int64_t)((nv + nf) * sizeof *q.v + nf * sizeof *q.c +
-                                   (angles ? (ne + nv) * sizeof *q.bend : 0)),
+                         (int64_t)((nv + nf) * sizeof *q.v + nf * sizeof *q.c + kept * sizeof *angle +
+                                   kept * sizeof *of + (all ? (ne + nv) * sizeof *q.bend : 0)),
                          1, err))
         return -1;
     q.v = memcpy(q.mem, p->v, nv * sizeof *q.v);
     q.n = memcpy(q.v + nv, p->n, nf * sizeof *q.n);
     q.c = memcpy(q.n + nf, p->c, nf * sizeof *q.c);
-    q.bend = angles ? memcpy(q.c + nf, p->bend, ne * sizeof *q.bend) : NULL;
-    q.defect = angles ? memcpy(q.bend + ne, p->defect, nv * sizeof *q.defect) : NULL;
+    memcpy(q.c + nf, angle, kept * sizeof *angle);
+    memcpy(q.c + nf + kept, of, kept * sizeof *of);
+    q.bend = all ? memcpy(q.c + nf, p->bend, ne * sizeof *q.bend) : NULL;
+    q.defect = all ? memcpy(q.bend + ne, p->defect, nv * sizeof *q.defect) : NULL;
     borrow(&q, kind);
     fl_poly_free(p);
     *p = q;

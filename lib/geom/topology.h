@@ -20,7 +20,8 @@ typedef struct {
 } fl_topologies;
 
 /* Let p have first, loop, edge, begin and beside of t, which has to outlive it, and give back its own.
- *   angles  0: bend and defect as well, which become NULL
+ *   angles  0: bend and defect as well, which become NULL, and nobody may ask for an angle; 1: those of them
+ *           that are not blunt, where eight at most are: fl_poly_edge() and fl_poly_corner() tell them all
  * -1 with FL_SYSTEM, p as it was. */
 int fl_topologies_share(fl_topologies *t, fl_poly *p, int angles, fl_err *err);
 

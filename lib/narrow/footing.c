@@ -269,7 +269,7 @@ static int list_foot(lister *s, const key *k, int32_t n)
                 (strip){{place_of(list, all, e.a), place_of(list, all, e.b)}, k[c].match, k[c].factor};
         } else {
             if (fl_grow(&o->point, &o->point_cap, (int64_t)s->points + 1, sizeof *o->point, &lost)) return -1;
-            const double sharp = fmax(p->defect[k[c].own] * FL_PLACE_SHARP_CORNER, 0.0);
+            const double sharp = fmax(fl_poly_corner(p, k[c].own) * FL_PLACE_SHARP_CORNER, 0.0);
             o->point[s->points++] = (point){place_of(list, all, k[c].own), k[c].match,
                                             (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (0.4 * PI) *
                                                 fl_place_rho(s->B->r, s->A->r)};

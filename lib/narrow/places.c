@@ -31,7 +31,7 @@ int fl_places_room(fl_places *w)
 
 int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, fl_vec3 n, double overlap)
 {
-    const double sharp = own->p->defect[v] * FL_PLACE_SHARP_CORNER, s2 = overlap * overlap;
+    const double sharp = fl_poly_corner(own->p, v) * FL_PLACE_SHARP_CORNER, s2 = overlap * overlap;
     const double k = (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (0.4 * PI) * fl_place_rho(own->r, other);
     if (!(k > 0.0)) return 0;
     return fl_places_add(w, (fl_place){.overlap = overlap,

@@ -38,8 +38,8 @@
 #define FL_PLACE_RIM 0.1   /* width of the fading rim of a face, over R */
 #define FL_PLACE_BETA 1.02 /* of a polygonal punch: circle 1, square 1.012, triangle 1.034 */
 #define FL_PLACE_ROUND (32.0 / 45.0 / (FL_PLACE_BETA * FL_PLACE_BETA)) /* L */
-#define FL_PLACE_SHARP_EDGE 4.0   /* w = bend times this [1/rad], at most 1 */
-#define FL_PLACE_SHARP_CORNER 2.0 /* w = defect times this [1/sr], at most 1 */
+#define FL_PLACE_SHARP_EDGE (1.0 / FL_POLY_BLUNT_EDGE)     /* w = bend times this [1/rad], at most 1 */
+#define FL_PLACE_SHARP_CORNER (1.0 / FL_POLY_BLUNT_CORNER) /* w = defect times this [1/sr], at most 1 */
 
 /* A part of U that pulls along one line: a vertex, or a piece of an edge or of a face, of which two or three
  * have the force, the torque and the spread. */

@@ -269,7 +269,7 @@ int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *
 double fl_strips_factor(const fl_side *own, int32_t e, double other)
 {
     const fl_edge g = own->p->edge[e];
-    const double sharp = own->p->bend[e] * FL_PLACE_SHARP_EDGE, rho = fl_place_rho(own->r, other);
+    const double sharp = fl_poly_edge(own->p, e) * FL_PLACE_SHARP_EDGE, rho = fl_place_rho(own->r, other);
     return (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (256.0 / 315.0) * sqrt(2.0 * rho) *
            v3_norm(v3_sub(own->p->v[g.b], own->p->v[g.a])); /* the same bits in any pose */
 }

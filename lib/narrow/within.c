@@ -215,14 +215,14 @@ int fl_within_find(fl_within *w, const fl_question *s, const fl_reach *mine, con
         ask(w, s, mine, &t, k, n);
     }
     for (int32_t m = 0; m < near->edges; m++, k++) {
-        if (!(p->bend[near->edge[m]] > 0.0)) continue;
+        if (!(fl_poly_edge(p, near->edge[m]) > 0.0)) continue;
         if (room(w, n, 4)) return -1;
         const target t = over_edge(w->bound, s, near->edge[m]);
         ask(w, s, mine, &t, k, n);
     }
     for (int32_t m = 0; m < near->vertices; m++, k++) {
         const int32_t v = near->vertex[m];
-        if (!(p->defect[v] > 0.0)) continue;
+        if (!(fl_poly_corner(p, v) > 0.0)) continue;
         if (room(w, n, p->begin[v + 1] - p->begin[v])) return -1;
         const target t = over_vertex(w->bound, s, v);
         ask(w, s, mine, &t, k, n);

@@ -27,8 +27,12 @@ static void same(const fl_poly *p, const fl_poly *q)
     assert_memory_equal(p->first, q->first, (nf + 1) * sizeof *p->first);
     if (nf) assert_memory_equal(p->loop, q->loop, (size_t)p->first[nf] * sizeof *p->loop);
     if (ne) assert_memory_equal(p->edge, q->edge, ne * sizeof *p->edge);
-    if (ne) assert_memory_equal(p->bend, q->bend, ne * sizeof *p->bend);
-    assert_memory_equal(p->defect, q->defect, nv * sizeof *p->defect);
+    for (int32_t e = 0; e < p->ne; e++)
+        assert_true(fmin(fl_poly_edge(p, e), FL_POLY_BLUNT_EDGE) ==
+                    fmin(fl_poly_edge(q, e), FL_POLY_BLUNT_EDGE));
+    for (int32_t v = 0; v < p->nv; v++)
+        assert_true(fmin(fl_poly_corner(p, v), FL_POLY_BLUNT_CORNER) ==
+                    fmin(fl_poly_corner(q, v), FL_POLY_BLUNT_CORNER));
     assert_memory_equal(p->begin, q->begin, (nv + 1) * sizeof *p->begin);
     if (ne) assert_memory_equal(p->beside, q->beside, 2 * ne * sizeof *p->beside);
 }
@@ -86,6 +90,42 @@ static void points_segments_and_outer_shapes(void **state)
     fl_topologies_free(&t);
 }
 
+/* A prism all of whose angles are sharp, one of which four angles are not, and one that has too many. */
+static void few_angles_are_kept(void **state)
+{
+    (void)state;
+    const double turn[3] = {1.0, 0.3, 0.2}, PI = 3.14159265358979323846;
+    fl_topologies t = {0};
+    fl_err err = {0};
+    for (int way = 0; way < 4; way++) {
+        fl_poly p = {0}, q = {0};
+        if (way < 3) { /* a kite: from one side of a corner to the other its edge turns so much */
+            const double a = turn[way], b = (2.0 * PI - a) / 3.0;
+            fl_vec3 xy[4] = {{0, 0, 0}, {1, 0, 0}};
+            double at = 0.0;
+            for (int k = 1; k < 3; k++) {
+                at += k == 1 ? a : b;
+                xy[k + 1] = v3_madd(xy[k], k == 1 ? 1.0 : 1.2, v3(cos(at), sin(at), 0));
+            }
+            assert_int_equal(fl_poly_prism(&p, 4, xy, -0.5, 0.5, &err), 0);
+        } else prism(&p, 20, 1.0);
+        assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
+        assert_int_equal(fl_topologies_share(&t, &q, 1, &err), 0);
+        int blunt = 0;
+        for (int32_t e = 0; e < p.ne; e++) blunt += p.bend[e] < FL_POLY_BLUNT_EDGE;
+        for (int32_t v = 0; v < p.nv; v++) blunt += p.defect[v] < FL_POLY_BLUNT_CORNER;
+        assert_int_equal(blunt, way == 3 ? 40 : way == 2 ? 3 : way == 1 ? 2 : 0);
+        assert_int_equal(q.blunts, way == 3 ? 0 : blunt);
+        assert_true(!q.bend == (way < 3) && !q.defect == (way < 3));
+        same(&p, &q);
+        fl_poly r = {0};
+        assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
+        same(&p, &r);
+        fl_poly_free(&p), fl_poly_free(&q), fl_poly_free(&r);
+    }
+    fl_topologies_free(&t);
+}
+
 static void without_memory_all_stays(void **state)
 {
     (void)state;
@@ -116,6 +156,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(like_ones_share_and_nothing_else_changes),
                                        cmocka_unit_test(points_segments_and_outer_shapes),
+                                       cmocka_unit_test(few_angles_are_kept),
                                        cmocka_unit_test(without_memory_all_stays)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
