@@ -25,7 +25,7 @@ typedef struct {
     int32_t *loop;   /* [first[nf]] vertices of each face, counter-clockwise from outside */
     fl_edge *edge;   /* [ne], sorted by (a, b)                                       */
     double *bend;    /* [ne] angle between the outward normals of the two faces, in [0, pi]; 2 pi round a
-                      * segment                                                    [rad]; or NULL: see below */
+                      * segment                                                    [rad]; or NULL */
     double *defect;  /* [nv] solid angle of the outward directions at the vertex: 2 pi less the angles of its
                       * faces there (Gauss), 2 pi for the end of a segment, 4 pi for a point [sr]; NULL: so */
     int32_t *begin;  /* [nv + 1] offsets into beside                                 */

@@ -203,10 +203,11 @@ int fl_within_find(fl_within *w, const fl_question *s, const fl_reach *mine, con
     const int32_t owns = owns_of(mine);
     int32_t k = 0;
     w->others = near->faces + near->edges + near->vertices;
-    if (owns == 0 || w->others == 0) return 0;
-    const int32_t n = gather(w, s, mine);
     const int64_t hits = (int64_t)owns * w->others;
-    if (n < 0 || fl_room(&w->hit, &w->hit_cap, hits, sizeof *w->hit)) return -1;
+    if (fl_room(&w->hit, &w->hit_cap, hits + 1, sizeof *w->hit)) return -1; /* there is a place for none */
+    if (hits == 0) return 0;
+    const int32_t n = gather(w, s, mine);
+    if (n < 0) return -1;
     memset(w->hit, 0, (size_t)hits);
     for (int32_t m = 0; m < near->faces; m++, k++) {
         const int32_t f = near->face[m];
