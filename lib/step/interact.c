@@ -18,9 +18,9 @@
  * bound by the old direction lets it sleep for long enough. */
 #define NEARLY 1.02
 
-/* Farther apart than this multiple of its reach, a pair forgets which of its features may touch: they were
- * listed when it was within reach, and it has come farther since than most lists are good for. */
-#define FAR 1.05
+/* Farther apart than this multiple of its reach, a pair forgets which of its features may touch: a contact
+ * that chatters opens by less, and one that comes back later is listed anew for as much as four looks. */
+#define FAR 1.003
 
 /* Where the two stand to one another.  Everything is computed relative to B, so that nothing depends on
  * where the world's origin is: o and M take A's frame to B's, off is the world vector from A's centre to
