@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "body/integrate.h"
+#include "step/awake.h"
 #include "step/balls.h"
 #include "step/critical.h"
 #include "step/frozen.h"
@@ -38,18 +39,12 @@ static int surveyed(const fl_world *w, int64_t step)
     return every < 2 || step % every == 0;
 }
 
-/* Each thread takes the pairs as it can; each pair writes its own result. */
+/* Each pair writes its own result. */
 static void contacts_of_pairs(fl_world *w, double dt, int survey)
 {
 #pragma omp for schedule(static) nowait
     for (int32_t k = 0; k < w->frozen.n; k++) fl_frozen_touch(w, k);
-#pragma omp for schedule(dynamic, 16)
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        const fl_near *const p = &w->pair[c];
-        if (fl_world_apart(w, p) || fl_sleep_frozen(w, p)) continue; /* and it did not touch before */
-        fl_near_awake(w, c, omp_get_thread_num(), dt, survey);
-        w->hit[c] = p->n;
-    }
+    fl_awake_look(w, dt, survey);
 }
 
 static void contacts_told(fl_world *w)
@@ -71,6 +66,7 @@ static void all_contacts(fl_world *w, double dt, int survey)
 /* To call up a team of one takes as long as three floes do for a step. */
 static void contacts(fl_world *w, double dt, int survey)
 {
+    fl_awake_share(w);
     if (w->threads == 1) {
         all_contacts(w, dt, survey);
     } else {
@@ -195,9 +191,11 @@ static void end_chunk(fl_world *w, int32_t a, double h)
 static void touch_and_end(fl_world *w, double dt, int survey)
 {
     const fl_balls *s = &w->balls;
+    fl_awake_share(w);
 #pragma omp parallel
     {
         contacts_of_pairs(w, dt, survey);
+#pragma omp barrier
         const int32_t from = fl_balls_share(w, omp_get_thread_num(), omp_get_num_threads()),
                       to = fl_balls_share(w, omp_get_thread_num() + 1, omp_get_num_threads());
         int waits = from > 0;

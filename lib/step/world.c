@@ -328,6 +328,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->part_about = fl_alloc(w->parts, sizeof *w->part_about, err);
     w->part_peak = fl_alloc(w->parts, sizeof *w->part_peak, err);
     w->scratch = fl_alloc(w->threads, sizeof *w->scratch, err);
+    w->share = fl_alloc(w->threads, sizeof *w->share, err);
     w->near_shell = fl_alloc(w->threads, sizeof *w->near_shell, err);
     return err->code ? -1 : 0;
 }
@@ -558,7 +559,7 @@ void fl_world_free(fl_world *w)
     free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
     fl_near_free(w);
     free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell);
-    free(w->hit), free(w->live), free(w->met);
+    free(w->hit), free(w->live), free(w->met), free(w->share);
     fl_balls_free(&w->balls);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->home);
     free(w->group);

@@ -271,6 +271,12 @@ typedef struct {
     int clean;      /* for so many steps nothing but spheres has pressed; 2: sink and was are 0 */
 } fl_group;
 
+/* Near pairs that one thread takes, awake.h; a line of the cache for each. */
+typedef struct {
+    _Alignas(64) int32_t next;
+    int32_t end;
+} fl_portion;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
@@ -309,6 +315,7 @@ typedef struct {
     int32_t *live; /* [n_live] those that do, ascending */
     uint8_t *met;  /* [total] is of one of those */
     int32_t n_live, hit_cap, live_cap;
+    fl_portion *share; /* [threads] */
     int32_t inc_cap, inc_first_cap;
     fl_sink *sink, *was;     /* [total] of the forces of now, and of those before; see works.h */
     fl_gain *gain;           /* [total] of the first kick of a step */

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <omp.h>
+#include "step/awake.h"
+#include "step/pairing.h"
+#include "step/sleep.h"
+
+/* So many near pairs are taken at a time: of those one or so is awake.
+ *
+ * Tried and left: to fetch what the pairs to come need (contact, list, cores, 5 KB each) while the present
+ * one is computed.  With 2 000 and with 20 000 floes it changed the time of contacts by less than 0.5 %: a
+ * contact computes for 6 us, and what it waits for comes side by side. */
+enum { BLOCK = 16 };
+
+void fl_awake_share(fl_world *w)
+{
+    const int64_t live = w->n_live;
+    for (int32_t t = 0; t < w->threads; t++) {
+        w->share[t].next = t == 0     ? 0
+                           : live > 0 ? w->live[live * t / w->threads]
+                                      : (int32_t)((int64_t)w->n_pair * t / w->threads);
+        if (t > 0) w->share[t - 1].end = w->share[t].next;
+    }
+    w->share[w->threads - 1].end = w->n_pair;
+}
+
+/* The first of a block of a share, which is then taken. */
+static int32_t take(fl_portion *s)
+{
+    int32_t c;
+#pragma omp atomic capture
+    {
+        c = s->next;
+        s->next += BLOCK;
+    }
+    return c;
+}
+
+static void look(fl_world *w, int32_t from, int32_t to, int32_t thread, double dt, int survey)
+{
+    for (int32_t c = from; c < to; c++) {
+        const fl_near *const p = &w->pair[c];
+        if (fl_world_apart(w, p) || fl_sleep_frozen(w, p)) continue; /* and it did not touch before */
+        fl_near_awake(w, c, thread, dt, survey);
+        w->hit[c] = p->n;
+    }
+}
+
+void fl_awake_look(fl_world *w, double dt, int survey)
+{
+    const int32_t thread = omp_get_thread_num();
+    for (int32_t k = 0; k < w->threads; k++) {
+        fl_portion *const s = &w->share[(thread + k) % w->threads];
+        for (int32_t c = take(s); c < s->end; c = take(s))
+            look(w, c, s->end < c + BLOCK ? s->end : c + BLOCK, thread, dt, survey);
+    }
+}
