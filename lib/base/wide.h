@@ -19,8 +19,13 @@ typedef double fl_two __attribute__((vector_size(2 * sizeof(double)), aligned(8)
 /* A function compiled for several widths, of which the loader takes the one that fits the machine. */
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                           \
     !defined(__SANITIZE_THREAD__)
+#if defined(__clang__) || __GNUC__ < 12
 #define FL_WIDE_VERSIONS __attribute__((target_clones("avx512f", "avx2", "default")))
 #define FL_FOUR_VERSIONS __attribute__((target_clones("avx2", "default"))) /* where fl_wide is the width */
+#else /* registers of masks, and twice as many of four numbers */
+#define FL_WIDE_VERSIONS __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#define FL_FOUR_VERSIONS FL_WIDE_VERSIONS
+#endif
 #else
 #define FL_WIDE_VERSIONS
 #define FL_FOUR_VERSIONS
