@@ -144,11 +144,17 @@ int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int
 
 int fl_pairs_image(int32_t image, int axis) { return (image >> (10 - 5 * axis) & 31) - 16; }
 
-void fl_pairs_free(fl_pairs *p)
+void fl_pairs_drop(fl_pairs *p)
 {
     fl_bvh_free(&p->tree);
     free(p->first);
     free(p->partner);
     free(p->image);
+    *p = (fl_pairs){.period = p->period, .absent = p->absent};
+}
+
+void fl_pairs_free(fl_pairs *p)
+{
+    fl_pairs_drop(p);
     *p = (fl_pairs){0};
 }

@@ -55,12 +55,10 @@ static double water(const fl_sea *s)
 
 static double search(const fl_world *w)
 {
-    const fl_pairs *p = &w->near;
     const int32_t total = w->b.total;
-    return ARRAY(w->box, total) + ARRAY(w->home, total) + ARRAY(w->odometer_found, total) +
-           ARRAY(p->first, p->first_cap) + ARRAY(p->partner, p->partner_cap) + ARRAY(p->image, p->image_cap) +
-           tree(&p->tree) + ARRAY(w->inc_first, w->inc_first_cap) + ARRAY(w->inc, w->inc_cap) +
-           ARRAY(w->hit, w->hit_cap) + ARRAY(w->live, w->live_cap) + ARRAY(w->met, total);
+    return ARRAY(w->odometer_found, total) + ARRAY(w->inc_first, w->inc_first_cap) +
+           ARRAY(w->inc, w->inc_cap) + ARRAY(w->hit, w->hit_cap) + ARRAY(w->live, w->live_cap) +
+           ARRAY(w->met, total);
 }
 
 static double others(const fl_world *w)
@@ -100,7 +98,8 @@ fl_footprint fl_footprint_of(const fl_world *w)
                       .water = w->sea.n ? water(&w->sea) : 0.0,
                       .search = search(w),
                       .balls = fl_balls_bytes(w),
-                      .others = others(w)};
+                      .others = others(w),
+                      .passing = w->passing};
     b.shapes = ARRAY(w->b.core, w->b.total) + fl_topologies_bytes(&w->alike);
     for (int32_t k = 0; k < w->b.total; k++) b.shapes += fl_poly_bytes(&w->b.core[k]);
     b.pairs = ARRAY(w->pair, w->n_pair) + ARRAY(w->contacts.block, w->contacts.cap) +

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <string.h>
 #include "base/mem.h"
 #include "base/wide.h"
@@ -109,11 +110,27 @@ static int stale(const fl_world *w)
     return first + second >= room;
 }
 
+/* Room for n elements of an array that is filled anew: as much as there is, where that is neither too little
+ * nor a quarter too much. */
+static int fit(void *array, int32_t *cap, int64_t n, size_t size, fl_err *err)
+{
+    void *old;
+    if (n <= *cap && *cap - n <= n / 4) return 0;
+    memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T */
+    free(old);
+    void *const fresh = fl_alloc(n + n / 8, size, err);
+    memcpy(array, &fresh, sizeof fresh);
+    *cap = fresh ? (int32_t)(n + n / 8) : 0;
+    return fresh ? 0 : -1;
+}
+
 int fl_search_index(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
-    if (fl_grow(&w->inc_first, &w->inc_first_cap, (int64_t)total + 1, sizeof *w->inc_first, err)) return -1;
-    if (fl_grow(&w->inc, &w->inc_cap, 2 * (int64_t)w->n_pair, sizeof *w->inc, err)) return -1;
+    if (w->n_pair > INT32_MAX / 4)
+        return fl_fail(err, FL_SYSTEM, "out of memory: %d pairs are near each other", w->n_pair);
+    if (fit(&w->inc_first, &w->inc_first_cap, (int64_t)total + 1, sizeof *w->inc_first, err)) return -1;
+    if (fit(&w->inc, &w->inc_cap, 2 * (int64_t)w->n_pair, sizeof *w->inc, err)) return -1;
     for (int32_t k = 0; k <= total; k++) w->inc_first[k] = 0;
     for (int32_t c = 0; c < w->n_pair; c++) {
         w->inc_first[w->pair[c].i + 1]++;
@@ -127,8 +144,7 @@ int fl_search_index(fl_world *w, fl_err *err)
         w->inc[w->inc_first[w->pair[c].j + 1]++] = c;
     }
     w->inc_first[0] = 0;
-    if (fl_grow(&w->hit, &w->hit_cap, w->n_pair, sizeof *w->hit, err)) return -1;
-    if (fl_grow(&w->live, &w->live_cap, w->n_pair, sizeof *w->live, err)) return -1;
+    if (fit(&w->hit, &w->hit_cap, w->n_pair, sizeof *w->hit, err)) return -1;
     for (int32_t c = 0; c < w->n_pair; c++) w->hit[c] = w->pair[c].n != 0;
     fl_search_live(w);
     return 0;
@@ -141,6 +157,10 @@ void fl_search_live(fl_world *w)
     memset(w->met, 0, (size_t)w->b.total);
     for (; at < end && (at = memchr(at, 1, (size_t)(end - at))); at++) { /* few of the near ones touch */
         const int32_t c = (int32_t)(at - w->hit);
+        if (fl_room(&w->live, &w->live_cap, (int64_t)w->n_live + 1, sizeof *w->live)) {
+            w->failed = 1;
+            return;
+        }
         w->live[w->n_live++] = c;
         w->met[w->pair[c].i] = w->met[w->pair[c].j] = 1;
     }
@@ -155,12 +175,39 @@ static int left_by_bond(fl_world *w, fl_near *q)
     return fl_near_keep(w, q, &p);
 }
 
-int fl_search(fl_world *w, fl_err *err)
+/* What near pairs are found by goes when they are: the boxes and their tree, */
+static void drop_boxes(fl_world *w)
+{
+    const fl_bvh *t = &w->near.tree;
+    w->passing = (double)((size_t)w->b.total * sizeof *w->box + (size_t)t->node_cap * sizeof *t->node +
+                          (size_t)t->order_cap * sizeof *t->order);
+    free(w->box);
+    w->box = NULL;
+    fl_bvh_free(&w->near.tree);
+}
+
+/* and the lists, which lie beside the boxes first and beside the pairs that there were then. */
+static void drop_lists(fl_world *w, int32_t pairs)
+{
+    const fl_pairs *p = &w->near;
+    const double were = (double)((size_t)pairs * sizeof *w->pair);
+    const size_t lists =
+        (size_t)p->first_cap * sizeof *p->first + (size_t)p->partner_cap * sizeof *p->partner +
+        (size_t)p->image_cap * sizeof *p->image + (w->home ? (size_t)w->b.total * sizeof *w->home : 0);
+    w->passing = fmax(w->passing, were) + (double)lists;
+    free(w->home);
+    w->home = NULL;
+    fl_pairs_drop(&w->near);
+}
+
+static int find(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
     fl_near *old = w->pair;
     const int32_t n_old = w->n_pair;
-    if (!stale(w)) return 0;
+    w->box = fl_alloc(total, sizeof *w->box, err);
+    if (w->cell.wraps) w->home = fl_alloc(total, sizeof *w->home, err);
+    if (!w->box || (w->cell.wraps && !w->home)) return -1;
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < total; k++) {
         const double way = fl_sleep_kind(w, k) == FL_COASTS ? w->sleep.nap[k].way : 0.0;
@@ -169,6 +216,7 @@ int fl_search(fl_world *w, fl_err *err)
     if (w->cell.wraps) wrap_boxes(w);
     if (fl_pairs_find(&w->near, w->box, w->n, total, w->walls, err)) return -1;
     int64_t n, to = 0;
+    drop_boxes(w);
     if (fl_balls_list(w, image_of, &n, err)) return -1;
     fl_near *fresh = fl_alloc(n, sizeof *fresh, err);
     if (!fresh) return -1;
@@ -194,6 +242,18 @@ int fl_search(fl_world *w, fl_err *err)
     free(old);
     w->pair = fresh;
     w->n_pair = (int32_t)to;
+    return 0;
+}
+
+int fl_search(fl_world *w, fl_err *err)
+{
+    const int32_t total = w->b.total;
+    if (!stale(w)) return 0;
+    const int32_t pairs = w->n_pair;
+    const int rc = find(w, err);
+    if (w->box) drop_boxes(w);
+    drop_lists(w, pairs);
+    if (rc) return -1;
     for (int32_t k = 0; k < total; k++) w->odometer_found[k] = w->b.odometer[k];
     w->found_at = w->step;
     w->searches++;

@@ -311,9 +311,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->q0 = fl_alloc(w->n, sizeof *w->q0, err);
     w->material = fl_alloc(total, sizeof *w->material, err);
     w->face = fl_alloc(total, sizeof *w->face, err);
-    w->box = fl_alloc(total, sizeof *w->box, err);
     w->group = fl_alloc(w->n / FL_BALLS_GROUP + 1, sizeof *w->group, err);
-    if (w->cell.wraps && !(w->home = fl_alloc(total, sizeof *w->home, err))) return -1;
     w->odometer_found = fl_alloc(total, sizeof *w->odometer_found, err);
     w->sink = fl_alloc(total, sizeof *w->sink, err);
     w->was = fl_alloc(total, sizeof *w->was, err);

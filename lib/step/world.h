@@ -301,14 +301,14 @@ typedef struct {
     int32_t materials;
 
     fl_pairs near;
-    fl_aabb *box;    /* [total] */
-    fl_vec3 *home;   /* [total] the cell that each was in at the last search; NULL where nothing wraps */
+    fl_aabb *box;    /* [total] while neighbours are searched, NULL else, like */
+    fl_vec3 *home;   /* [total] the cell that each is in, where something wraps */
     fl_group *group; /* [n / FL_BALLS_GROUP + 1] */
     fl_balls balls;  /* near pairs of spheres; all others: */
     fl_near *pair;
     fl_pair_store contacts;
     int32_t n_pair, pair_cap;
-    int64_t *inc_first; /* [total + 1] pairs of each body, ascending */
+    int32_t *inc_first; /* [total + 1] pairs of each body, ascending */
     int32_t *inc;       /* [2 n_pair] */
     /* Which pairs touch, apart from the pairs themselves: most do not, and need not be looked at for it. */
     uint8_t *hit;  /* [n_pair] 1: touches, else 0 */
@@ -323,6 +323,7 @@ typedef struct {
     double skin;             /* boxes are grown by half of it [m] */
     double *odometer_found;  /* [total] odometers at the last search */
     int64_t found_at;        /* step of the last search, -1 before the first */
+    double passing;          /* what it took of memory, while it lasted [B] */
 
     fl_places *scratch;        /* [threads] */
     fl_shell_near *near_shell; /* [threads] */

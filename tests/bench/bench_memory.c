@@ -3,6 +3,7 @@
  * stirred until they touch everywhere: dry, and in water.  "allocated" is what the allocator says that all of
  * it takes, so that nothing is left out; what was read is not in it.  Beside it stand the pairs and the
  * contacts of a floe, the largest overlap, and a number that tells the final states apart.
+ * A search takes more while it lasts, which is `search+`.
  *     bench_memory [FLOES]     2000 if not said */
 #include <malloc.h>
 #include <stdlib.h>
@@ -105,9 +106,11 @@ static int row(int32_t n, int water)
         bad = lab_run(&l, steps);
         const fl_footprint b = fl_footprint_of(&l.w);
         const double all = memory() - before, sum = fl_footprint_sum(&b);
-        printf("%-6s %6d %6.2f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %10.0f %6.2f %8.2f %9.1e %016llx\n",
+        printf("%-6s %6d %6.2f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %10.0f %7.0f %6.2f %8.2f %9.1e "
+               "%016llx\n",
                water ? "water" : "dry", n, fl_world_time(&l.w), b.bodies / n, b.shapes / n, b.water / n,
-               b.search / n, b.pairs / n, b.lists / n, sum / n, all / n, (double)l.w.n_pair / n,
+               b.search / n, b.pairs / n, b.lists / n, sum / n, all / n, b.passing / n,
+               (double)l.w.n_pair / n,
                steps ? (double)(l.w.touching_steps - touched) / (double)steps / n : 0.0, l.w.worst_overlap,
                (unsigned long long)fl_step_hash(&l.w));
         bad |= !(all >= sum && all < 1.25 * sum);
@@ -124,8 +127,8 @@ int main(int argc, char **argv)
     setvbuf(stdout, NULL, _IOLBF, 0);
     printf(
         "bytes for a floe: arrays of bodies, cores, water, search, near pairs, matches of their features\n");
-    printf("%-6s %6s %6s %7s %7s %7s %7s %7s %7s %7s %10s %6s %8s %9s\n", "", "floes", "t[s]", "bodies",
-           "shapes", "water", "search", "pairs", "lists", "all", "allocated", "near", "touching",
+    printf("%-6s %6s %6s %7s %7s %7s %7s %7s %7s %7s %10s %7s %6s %8s %9s\n", "", "floes", "t[s]", "bodies",
+           "shapes", "water", "search", "pairs", "lists", "all", "allocated", "search+", "near", "touching",
            "overlap/2R");
     for (int water = 0; water < 2; water++) {
         if (row(n, water)) bad++;

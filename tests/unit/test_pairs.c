@@ -66,6 +66,32 @@ static void finds_what_brute_force_finds(void **state)
     fl_pairs_free(&p);
 }
 
+/* What has been let go of is found again, in the same space and without the same. */
+static void what_is_dropped_comes_again(void **state)
+{
+    (void)state;
+    fl_rng g = fl_rng_of(test_seed(), 7, FL_RNG_TEST);
+    fl_aabb *box = scene(&g, 200, 10, 1);
+    uint8_t away[200] = {[3] = 1, [150] = 1};
+    fl_pairs p = {.period = v3(40, 0, 0), .absent = away};
+    fl_err err = {0};
+    assert_int_equal(fl_pairs_find(&p, box, 200, 211, 1, &err), 0);
+    const int64_t n = p.first[200];
+    int32_t *partner = malloc((size_t)n * sizeof *partner);
+    assert_non_null(partner);
+    memcpy(partner, p.partner, (size_t)n * sizeof *partner);
+    fl_pairs_drop(&p);
+    fl_pairs_drop(&p);
+    assert_true(!p.first && !p.partner && !p.image && !p.tree.node && p.absent == away);
+    assert_near(p.period.x, 40.0, 0.0);
+    assert_int_equal(fl_pairs_find(&p, box, 200, 211, 1, &err), 0);
+    assert_true(p.first[200] == n);
+    assert_memory_equal(p.partner, partner, (size_t)n * sizeof *partner);
+    fl_pairs_free(&p);
+    assert_null(p.absent);
+    free(partner), free(box);
+}
+
 static void threads_give_the_same_lists(void **state)
 {
     const int32_t n = 1500, held = 20, wide = 2;
@@ -195,6 +221,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_what_brute_force_finds),
         cmocka_unit_test(finds_images),
+        cmocka_unit_test(what_is_dropped_comes_again),
         cmocka_unit_test(threads_give_the_same_lists),
         cmocka_unit_test(misses_none_at_a_size_ratio_of_a_million),
         cmocka_unit_test(runs_out_of_memory_in_peace),
