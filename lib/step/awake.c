@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include "step/awake.h"
+#include "step/leans.h"
 #include "step/pairing.h"
 #include "step/sleep.h"
 
@@ -35,11 +36,16 @@ static int32_t take(fl_portion *s)
     return c;
 }
 
-static void look(fl_world *w, int32_t from, int32_t to, int32_t thread, double dt, int survey)
+/* Spheres that lean on a wall, and did at the last look, go into q. */
+static void look(fl_world *w, fl_leans *q, int32_t from, int32_t to, int32_t thread, double dt, int survey)
 {
     for (int32_t c = from; c < to; c++) {
         const fl_near *const p = &w->pair[c];
         if (fl_world_apart(w, p) || fl_sleep_frozen(w, p)) continue; /* and it did not touch before */
+        if (fl_leans_add(w, q, c)) {
+            if (q->n == FL_SPHERES_MOST) fl_leans_touch(w, q, dt, survey);
+            continue;
+        }
         fl_near_awake(w, c, thread, dt, survey);
         w->hit[c] = p->n;
     }
@@ -48,9 +54,12 @@ static void look(fl_world *w, int32_t from, int32_t to, int32_t thread, double d
 void fl_awake_look(fl_world *w, double dt, int survey)
 {
     const int32_t thread = omp_get_thread_num();
+    fl_leans q;
+    q.n = 0;
     for (int32_t k = 0; k < w->threads; k++) {
         fl_portion *const s = &w->share[(thread + k) % w->threads];
         for (int32_t c = take(s); c < s->end; c = take(s))
-            look(w, c, s->end < c + BLOCK ? s->end : c + BLOCK, thread, dt, survey);
+            look(w, &q, c, s->end < c + BLOCK ? s->end : c + BLOCK, thread, dt, survey);
     }
+    fl_leans_touch(w, &q, dt, survey);
 }

@@ -9,6 +9,7 @@
 #include "law/sphere.h"
 #include "step/balls.h"
 #include "step/pairing.h"
+#include "step/stiff.h"
 
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
@@ -606,14 +607,6 @@ static void count(const batch *t, fl_ball_tally *tally)
     }
 }
 
-/* The springs of a contact are one along n and, where it sticks, two across it, at right angles to each other
- * for a sphere in every way: its largest omega^2 is the larger of theirs. */
-static double bound(const fl_bodies *b, int32_t i, double along, double across, double arm)
-{
-    const double one = along * b->invm[i], two = across * (b->invm[i] + arm * arm / b->I[i].x);
-    return one > two ? one : two;
-}
-
 /* As share_of() of step.c says. */
 static void survey_batch(fl_world *w, const batch *t)
 {
@@ -622,8 +615,9 @@ static void survey_batch(fl_world *w, const batch *t)
     for (int32_t m = 0; m < t->m; m++) {
         const int32_t c = t->row[m], i = s->i[c], j = s->j[c], to = s->to[c];
         const double half = 0.5 * a->overlap[m];
-        const double ki = bound(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half),
-                     kj = bound(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half), both = sqrt(ki * kj);
+        const double ki = fl_stiff_point(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half),
+                     kj = fl_stiff_point(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half),
+                     both = sqrt(ki * kj);
         s->stiff[i] += ki + both;
         if (to >= 0) s->stiff[j] += kj + both;
         else s->stiff_slot[~to] = kj + both;
@@ -819,8 +813,8 @@ void fl_balls_pair(const fl_world *w, int32_t c, fl_pair *p)
     p->spring = spring_of(r);
     p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
     const double slope = r->k * fl_normal_slope(over, 1.5);
-    p->stiff_i = bound(b, i, slope, r->stiff, b->radius[i] - half);
-    p->stiff_j = bound(b, j, slope, r->stiff, b->radius[j] - half);
+    p->stiff_i = fl_stiff_point(b, i, slope, r->stiff, b->radius[i] - half);
+    p->stiff_j = fl_stiff_point(b, j, slope, r->stiff, b->radius[j] - half);
 }
 
 /* Whether row c comes before pair p. */

@@ -22,4 +22,13 @@ void fl_stiff_across(fl_stiff *s, const fl_bodies *b, int32_t i, double k, fl_ve
 /* |K^4|^(1/4), Frobenius' norm: not below the largest eigenvalue, and at most 6^(1/8) = 1.25 times it. */
 double fl_stiff_bound(const fl_stiff *s);
 
+/* Of a sphere that touches in one point the springs are one along n and, where it sticks, two across it, at
+ * right angles to each other in every way: the largest omega^2 is the larger of theirs [1/s2].  along,
+ * across: their stiffness [N/m];  arm: from the centre of body i, not held, to the point [m]. */
+static inline double fl_stiff_point(const fl_bodies *b, int32_t i, double along, double across, double arm)
+{
+    const double one = along * b->invm[i], two = across * (b->invm[i] + arm * arm / b->I[i].x);
+    return one > two ? one : two;
+}
+
 #endif

@@ -4,6 +4,7 @@
 #include "law/sphere.h"
 #include "step/balls.h"
 #include "step/interact.h"
+#include "step/leans.h"
 #include "step/pairing.h"
 #include "step/search.h"
 #include "support/bits.h"
@@ -76,6 +77,79 @@ static void like_any_other_pair(void **state)
         lab_free(&l);
     }
     assert_true(touched > 20 * test_times(40) && slid > 0 && slid < touched);
+}
+
+/* Spheres that roll, slide and bounce on a floor: one step as leans.h takes it, and as all other pairs go. */
+static void leaning_like_any_other_pair(void **state)
+{
+    int64_t touched = 0, slid = 0;
+    (void)state;
+    for (int k = 0; k < test_times(20); k++) {
+        lab l;
+        fl_rng g = fl_rng_of(test_seed(), 100 + k, FL_RNG_TEST);
+        const double r = fl_rng_in(&g, 0.1, 1.0);
+        lab_start(&l);
+        lab_set(&l, "material.ice.young=1 MPa");
+        lab_set(&l, "run.gravity=9.81");
+        lab_setf(&l, "contact.friction=%g", k % 5 ? fl_rng_in(&g, 0.0, 0.6) : 0.0);
+        lab_setf(&l, "contact.restitution=%g", fl_rng_in(&g, 0.2, 1.0));
+        lab_set(&l, "boundary.type=free free rigid");
+        lab_set(&l, "boundary.min=none none -3");
+        lab_sphere(&l, v3(7, -5, r - 3.0), r, v3(fl_rng_in(&g, 0, 2), 0.3, -1.0),
+                   v3(1, fl_rng_in(&g, -3, 3), 2));
+        lab_make(&l, 0);
+        fl_world *w = &l.w;
+        for (int s = 0; s < 200; s++) {
+            assert_int_equal(lab_run(&l, 1), 0);
+            fl_leans q = {.n = 0};
+            if (w->n_pair == 0 || !w->pair[0].n) continue;
+            fl_pair *p = w->pair[0].full, other = *p;
+            fl_interact(w, &other, 0, w->dt, 1);
+            if (!fl_leans_add(w, &q, 0)) continue;
+            fl_leans_touch(w, &q, w->dt, 1);
+            const double F = v3_norm(other.f), T = F * 10.0;
+            assert_int_equal(q.n, 0);
+            near3(p->f, other.f, F), near3(p->fd, other.fd, F), near3(p->fs, other.fs, F);
+            near3(p->ti, other.ti, T), near3(p->tj, other.tj, T), near3(p->di, other.di, T);
+            near3(p->dj, other.dj, T), near3(p->si, other.si, T), near3(p->sj, other.sj, T);
+            near3(p->slip.force, other.slip.force, F);
+            assert_near_of(p->slip.k, other.slip.k, TOL, other.slip.k + 1.0);
+            assert_near(p->touch, other.touch, 1e-12), assert_near(p->overlap, other.overlap, 1e-9);
+            assert_near_of(p->energy, other.energy, TOL, F * r);
+            assert_near_of(p->spring, other.spring, TOL, F * r);
+            assert_true(p->stiff_i <= other.stiff_i * (1 + TOL) && other.stiff_i <= 1.26 * p->stiff_i);
+            assert_true(p->stiff_j == 0.0 && other.stiff_j == 0.0);
+            slid += p->law->friction > 0.0 && v3_norm(p->fs) >= 0.999 * p->law->friction * fabs(p->f.z);
+            touched++;
+        }
+        lab_free(&l);
+    }
+    assert_true(touched > 20 * test_times(20) && slid > 0 && slid < touched);
+}
+
+/* Behind a wall is not where a sphere leans on it, nor on a wall that it has not met. */
+static void leaning_or_not(void **state)
+{
+    lab l;
+    fl_leans q = {.n = 0};
+    (void)state;
+    lab_start(&l);
+    lab_set(&l, "material.ice.young=1 MPa");
+    lab_set(&l, "boundary.type=free free rigid");
+    lab_set(&l, "boundary.min=none none 0");
+    lab_sphere(&l, v3(0, 0, 0.99), 1.0, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-4);
+    assert_int_equal(l.w.n_pair, 1);
+    assert_int_equal(fl_leans_add(&l.w, &q, 0), 1);
+    l.w.b.x[0].z = -0.01;
+    assert_int_equal(fl_leans_add(&l.w, &q, 0), 0);
+    l.w.b.x[0].z = 1.0;
+    assert_int_equal(fl_leans_add(&l.w, &q, 0), 0);
+    l.w.b.x[0].z = 0.99, l.w.pair[0].n = 0;
+    assert_int_equal(fl_leans_add(&l.w, &q, 0), 0);
+    l.w.pair[0].n = 1;
+    assert_int_equal(q.n, 1);
+    lab_free(&l);
 }
 
 /* What damping and friction of the sums take out at the velocities of now [W]. */
@@ -274,6 +348,8 @@ static void out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
+                                       cmocka_unit_test(leaning_like_any_other_pair),
+                                       cmocka_unit_test(leaning_or_not),
                                        cmocka_unit_test(sums_over_pairs),
                                        cmocka_unit_test(batches),
                                        cmocka_unit_test(whichever_share),
