@@ -242,10 +242,79 @@ static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group 
     while (h > 0.0 && end < to && fl_plain_is(w, end)) end++;
     for (int32_t i = k; i < end && clean < 2; i++)
         if (w->sink[i].n) w->sink[i] = (fl_sink){0};
-    if (end > k && !fl_plain_end(w, k, end, h)) *finite = 0;
+    if (end > k && !fl_plain_end(w, k, end, h, NULL)) *finite = 0;
     for (int32_t i = k; i < end; i++)
         own->pushed = v3_add(own->pushed, v3_madd(w->b.f[i], -w->b.m[i], w->gravity));
     return end;
+}
+
+/* The pair of body k that touches: -1 where none does, -2 where there are several. */
+static int32_t one_pair(const fl_world *w, int32_t k)
+{
+    int32_t found = -1;
+    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++)
+        if (w->hit[w->inc[c]]) found = found == -1 ? w->inc[c] : -2;
+    return found;
+}
+
+/* A body of a group on which one pair presses, or none (-1) but one did at the begin of the step. */
+typedef struct {
+    int32_t k, pair;
+    fl_gain first;
+} leaning;
+
+/* Those of them; -1 where more than one pair presses on a body. */
+static int32_t find_leaning(const fl_world *w, int32_t from, int32_t to, int clean, leaning *at)
+{
+    int32_t n = 0;
+    if (clean && w->inc_first[from] == w->inc_first[to]) return 0;
+    for (int32_t k = from; k < to; k++) {
+        const int32_t pair = one_pair(w, k);
+        if (pair == -2) return -1;
+        if (pair >= 0 || (!clean && w->was[k].n)) at[n++] = (leaning){.k = k, .pair = pair};
+    }
+    return n;
+}
+
+/* What such pairs press with, and what their damping and friction do. */
+static void press_leaning(fl_world *w, int32_t from, double h, leaning *at, int32_t n, fl_plain_press *more)
+{
+    memset(more->has, 0, sizeof more->has);
+    for (int32_t l = 0; l < n; l++) {
+        const int32_t k = at[l].k;
+        at[l].first = gain_of(&w->b, k, h);
+        if (at[l].pair < 0) continue;
+        const fl_pair *p = w->pair[at[l].pair].full;
+        const int is_i = p->i == k;
+        more->has[k - from] = -1;
+        more->f[k - from] = v3_scale(is_i ? 1.0 : -1.0, p->f);
+        more->t[k - from] = is_i ? p->ti : p->tj;
+        fl_works_add(&w->sink[k], p, is_i);
+    }
+}
+
+/* A group that is of spheres alone, dry, each with one pair at most that is not of spheres; 0 where it is
+ * not. */
+static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group *own, int clean, int *finite)
+{
+    leaning at[FL_BALLS_GROUP];
+    fl_plain_press more;
+    if (!w->balls.bodies || !w->b.ball[from] || w->sea.n || w->row.n || w->frozen.n || !(h > 0.0)) return 0;
+    if (alike(w, from, to) < to) return 0;
+    const int32_t n = find_leaning(w, from, to, clean, at);
+    if (n < 0) return 0;
+    for (int32_t k = from; k < to && clean < 2; k++)
+        if (w->sink[k].n) w->sink[k] = (fl_sink){0};
+    if (n) press_leaning(w, from, h, at, n, &more);
+    *finite = fl_plain_end(w, from, to, h, n ? &more : NULL);
+    for (int32_t l = 0; l < n; l++) {
+        const fl_gain back = gain_of(&w->b, at[l].k, h);
+        fl_works_take(w, at[l].k, &at[l].first, &back);
+    }
+    for (int32_t k = from; k < to; k++)
+        own->pushed = v3_add(own->pushed, v3_madd(w->b.f[k], -w->b.m[k], w->gravity));
+    own->clean = n ? 0 : clean < 2 ? clean + 1 : 2;
+    return 1;
 }
 
 /* Of balls [k, to), k none that plain.h knows, the first that it does. */
@@ -286,6 +355,10 @@ void fl_group_end(fl_world *w, int32_t g, double h)
     *own = (fl_group){.lost = -1};
     if (fl_sleep_all(w, from, to)) return;
     if (w->balls.bodies) fl_balls_collect(w, from, to);
+    if (end_spheres(w, from, to, h, own, clean, &finite)) {
+        if (!finite) own->lost = first_lost(&w->b, from, to);
+        return;
+    }
     for (int32_t k = from; k < to; k = end) {
         end = end_plain(w, k, to, h, own, clean, &finite);
         many += end - k;

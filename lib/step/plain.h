@@ -6,12 +6,19 @@
 #include "step/world.h"
 
 /* Whether body k < n is such: plain (integrate.h), there, awake, dry, not driven, and with no pair near but
- * spheres.
- */
+ * spheres. */
 int fl_plain_is(const fl_world *w, int32_t k);
 
-/* Forces from w->balls.sum, the kick by h = dt/2, and the works of the step (works.h) of such bodies.
+/* What presses on bodies of a group besides, counted from its first: has is -1 where something does and 0
+ * elsewhere, where f and t are not looked at. */
+typedef struct {
+    int64_t has[FL_BALLS_GROUP];
+    fl_vec3 f[FL_BALLS_GROUP], t[FL_BALLS_GROUP]; /* [N], [N m] */
+} fl_plain_press;
+
+/* Forces from w->balls.sum, and from more where that is not NULL, the kick by h = dt/2, and the works of the
+ * step (works.h) but for those of more, of such bodies, no more than a group.
  * Returns whether all of their numbers are finite. */
-int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h);
+int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, const fl_plain_press *more);
 
 #endif
