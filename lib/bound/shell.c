@@ -213,8 +213,11 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     *distance = ra; /* something is near: no bound is claimed */
     if (core_vertices(w, &A, &B, b->shell.box, l, ra, single, &behind) || single) return single ? 0 : -1;
     fl_matches rest;
-    if (fl_footing_places(w, l, &near->footing, &A, &B, ra, FL_PLACE_RIM * ra, &rest)) return -1;
-    return fl_matches_places(w, &rest, &A, &B, ra, behind ? ra : 0.0, FL_PLACE_RIM * ra, 0.0);
+    const double far = behind ? ra : 0.0, rim = FL_PLACE_RIM * ra;
+    return fl_footing_places(w, l, &near->footing, &A, &B, ra, far, rim, &rest) ||
+                   fl_matches_places(w, &rest, &A, &B, ra, far, rim, 0.0)
+               ? -1
+               : 0;
 }
 
 void fl_shell_near_free(fl_shell_near *near)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/mem.h"
+#include "narrow/hems.h"
 #include "narrow/strips.h"
 #include "narrow/tread.h"
 
@@ -18,6 +19,8 @@ typedef struct {
     int32_t F, tile, strip, point, vertex, four, end;
 } foot;
 
+enum { OF_HEMS = 3 };
+
 struct fl_footing {
     foot *foot; /* [feet + 1] */
     tile *tile;
@@ -30,9 +33,10 @@ struct fl_footing {
     int32_t *vertex;     /* of B, ascending in each foot; padded there to full registers */
     double *x;           /* their coordinates: x, y and z of a register's worth, and so on */
     int32_t *row;        /* [matches] where each begins in the list */
-    uint8_t *mine;       /* [matches] 1 + its way where the footing has it, else 0 */
-    int32_t *others;     /* where the rows begin that it has not */
-    int32_t *cut[2];     /* numbers of the planes that the others ask about, of each way */
+    uint8_t *mine;       /* [matches] 1 + its way where the footing has it, OF_HEMS where they do, else 0 */
+    fl_hems hems;
+    int32_t *others; /* where the rows begin that it has not */
+    int32_t *cut[2]; /* numbers of the planes that the others ask about, of each way */
     int32_t cuts[2], cut_cap[2], mine_cap, other, others_cap;
     int32_t row_cap, feet, foot_cap, tile_cap, strip_cap, point_cap, corners, corner_cap, vertex_cap, x_cap;
     int32_t fours, four_cap, of_fours, of_four_cap, ends, end_cap;
@@ -297,6 +301,7 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
         for (int32_t c = 0; c < l->n; c++) o->mine[c] = 0;
         for (int32_t c = 0; c < n; c++) o->mine[k[c].match] = (uint8_t)(1 + k[c].way);
         o->feet = o->corners = o->other = o->fours = o->of_fours = o->ends = 0;
+        rc = fl_hems_list(&o->hems, l, o->row, A, B, o->mine, OF_HEMS);
         for (int32_t c = 0; c < l->n; c++)
             if (!o->mine[c]) o->others[o->other++] = o->row[c];
         if (n > 1) qsort(k, (size_t)n, sizeof *k, key_order);
@@ -304,7 +309,7 @@ int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B)
             for (to = from + 1; to < n && k[to].F == k[from].F; to++) {}
             rc = list_foot(&s, k + from, to - from);
         }
-        if (rc == 0 && n > 0) rc = list_cuts(o, l);
+        if (rc == 0) rc = list_cuts(o, l);
     }
     free(k);
     return rc;
@@ -561,12 +566,12 @@ static void choose(const work *q, int32_t n, fl_choice *c)
 }
 
 int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, const fl_side *A,
-                      const fl_side *B, double R, double rim, fl_matches *rest)
+                      const fl_side *B, double R, double behind, double rim, fl_matches *rest)
 {
     const fl_footing *o = l->footing;
     fl_err lost = {0};
     *rest = *l;
-    if (!o || o->feet == 0) return 0;
+    if (!o) return 0;
     if (fl_grow(&room->open, &room->open_cap, l->n, sizeof *room->open, &lost) ||
         fl_grow(&room->left, &room->left_cap, l->n, sizeof *room->left, &lost))
         return -1;
@@ -594,12 +599,13 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
     }
     choose(&q, l->n, &room->choice);
     rest->choice = &room->choice;
-    return 0;
+    return fl_hems_places(&o->hems, w, A, B, R, behind);
 }
 
 void fl_footing_free(fl_footing *o)
 {
     if (!o) return;
+    fl_hems_free(&o->hems);
     free(o->foot), free(o->tile), free(o->strip), free(o->point), free(o->corner), free(o->vertex),
         free(o->x), free(o->row), free(o->mine), free(o->others), free(o->four), free(o->of_four),
         free(o->end), free(o->cut[0]), free(o->cut[1]);

@@ -45,12 +45,13 @@ typedef struct {
  * when memory runs out. */
 int fl_footing_list(fl_matches *l, const fl_side *A, const fl_side *B);
 
-/* The places of all that lies under faces of A now, added to w; *rest is l without the matches that this
- * accounts for, and borrows from l and work.
+/* The places of all that lies under faces of A now, and of hems.h, added to w; *rest is l without the matches
+ * that this accounts for, and borrows from l and work.
+ *   behind   as in matches.h [m]
  *   rim  width of the fading rims of A's faces, at most [m]
  * -1 when memory runs out. */
 int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *work, const fl_side *A,
-                      const fl_side *B, double R, double rim, fl_matches *rest);
+                      const fl_side *B, double R, double behind, double rim, fl_matches *rest);
 
 void fl_footing_free(fl_footing *o); /* takes NULL */
 void fl_footing_work_free(fl_footing_work *work);

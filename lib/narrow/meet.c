@@ -225,6 +225,7 @@ int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const
                       double behind, double rim_a, double rim_b)
 {
     const double *h[2];
+    if (l->choice && l->choice->n == 0) return 0;
     if (fill(w, l, 0, A->v, &h[0]) || fill(w, l, 1, B->v, &h[1])) return -1;
     const double *number = fl_matches_numbers(l);
     const meeting way[2] = {{w, number, A, B, h[0], R, behind, rim_b},

@@ -221,25 +221,14 @@ static int tie(const fl_line *l, const sums *q, double share, double du, double 
 
 /* The forces all meet the point or the line, at tau + t slope, so that one place has their resultant, or two
  * at the ends of the span. */
-int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *e, double small)
+int fl_strips_at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c, const fl_vec3 *e, double small)
 {
-    fl_vec3 q = v3_sub(l->x0, c), u = l->u;
-    double tau = 0.0, slope = 0.0;
-    if (e) {
-        tau = v3_dot(q, *e), slope = v3_dot(u, *e);
-        q = v3_madd(q, -tau, *e);
-        u = v3_madd(u, -slope, *e);
-    }
+    const fl_vec3 q = at->q, u = at->u;
+    fl_span t = at->t;
     bundle b;
-    b.uu = v3_norm2(u), b.R = l->R, b.small = small, b.n = 0, b.longer = 1;
-    const double m = b.uu > 0.0 ? -v3_dot(q, u) / b.uu : 0.0;
-    q = v3_madd(q, m, u); /* what is nearest */
-    b.least2 = v3_norm2(q);
-    const double free2 = l->R * l->R - b.least2;
-    if (!(free2 > 0.0)) return 0;
-    t.lo -= m, t.hi -= m;
+    b.uu = at->uu, b.least2 = at->least2, b.R = l->R, b.small = small, b.n = 0, b.longer = 1;
     if (b.uu > 0.0) {
-        const double half = sqrt(free2 / b.uu), a = sqrt(b.least2 / b.uu);
+        const double half = sqrt((l->R * l->R - b.least2) / b.uu), a = sqrt(b.least2 / b.uu);
         const int zero_lo = -half > t.lo, zero_hi = half < t.hi;
         if (zero_lo) t.lo = -half;
         if (zero_hi) t.hi = half;
@@ -255,15 +244,33 @@ int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *
     if (!(sum.du > 0.0)) return 0;
     const double mean = sum.u / sum.du;
     const fl_vec3 f = v3_madd(v3_scale(sum.f, q), sum.fx, u);
-    if (slope == 0.0) return tie(l, &sum, 1.0, sum.du, mean, f, e ? v3_madd(c, tau, *e) : c);
+    if (at->slope == 0.0) return tie(l, &sum, 1.0, sum.du, mean, f, e ? v3_madd(c, at->tau, *e) : c);
     const double over = 1.0 / (t.hi - t.lo), far = over * (sum.far - t.lo * sum.du), part_far = far / sum.du;
     const fl_vec3 ffar =
         v3_madd(v3_scale(over * (sum.fx - t.lo * sum.f), q), over * (sum.fxx - t.lo * sum.fx), u);
     return tie(l, &sum, 1.0 - part_far, sum.du - far, mean, v3_sub(f, ffar),
-               v3_madd(c, tau + (m + t.lo) * slope, *e)) ||
-                   tie(l, &sum, part_far, far, mean, ffar, v3_madd(c, tau + (m + t.hi) * slope, *e))
+               v3_madd(c, at->tau + (at->m + t.lo) * at->slope, *e)) ||
+                   tie(l, &sum, part_far, far, mean, ffar,
+                       v3_madd(c, at->tau + (at->m + t.hi) * at->slope, *e))
                ? -1
                : 0;
+}
+
+int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *e, double small)
+{
+    fl_strip_foot at = {.t = t, .q = v3_sub(l->x0, c), .u = l->u};
+    if (e) {
+        at.tau = v3_dot(at.q, *e), at.slope = v3_dot(at.u, *e);
+        at.q = v3_madd(at.q, -at.tau, *e);
+        at.u = v3_madd(at.u, -at.slope, *e);
+    }
+    at.uu = v3_norm2(at.u);
+    at.m = at.uu > 0.0 ? -v3_dot(at.q, at.u) / at.uu : 0.0;
+    at.q = v3_madd(at.q, at.m, at.u); /* what is nearest */
+    at.least2 = v3_norm2(at.q);
+    if (!(l->R * l->R - at.least2 > 0.0)) return 0;
+    at.t.lo -= at.m, at.t.hi -= at.m;
+    return fl_strips_at_foot(l, &at, c, e, small);
 }
 
 double fl_strips_factor(const fl_side *own, int32_t e, double other)

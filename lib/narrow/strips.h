@@ -41,6 +41,15 @@ typedef struct {
     double R;      /* reach */
 } fl_line;
 
+/* An edge that has its foot on a line or a point: the part of it that counts, from where it is nearest; m,
+ * where that is; tau + t slope, where the line is met; q and u, the nearest point and the way across the
+ * line, and their squares. */
+typedef struct {
+    fl_span t;
+    double m, tau, slope, uu, least2;
+    fl_vec3 q, u;
+} fl_strip_foot;
+
 /* What int_0^1 s^(9/2) dt of edge e of `own` is multiplied by; other: radius of the other core.  0 for edges
  * without any. */
 double fl_strips_factor(const fl_side *own, int32_t e, double other);
@@ -50,6 +59,10 @@ double fl_strips_factor(const fl_side *own, int32_t e, double other);
  * memory runs out. */
 int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n);
 int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *axis, double small);
+
+/* The same where the foot is known and within R; x0 and u of l are not asked for. */
+int fl_strips_at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c, const fl_vec3 *axis,
+                      double small);
 
 /* Edge e of `own` over the plane z = 0. */
 int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e, double R);

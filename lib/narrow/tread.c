@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "narrow/tread.h"
 #include <math.h>
+#include "narrow/roots.h"
 #include "narrow/rules.h"
 
 /* How far within side c and those after it, up to four. */
@@ -614,9 +615,8 @@ FL_WIDE_VERSIONS void fl_tread_parts(const fl_tread *g, const fl_tread_tile *til
 /* --- edges and corners -----------------------------------------------------------------------------------
  */
 
-/* Where the root of s goes from p to q, node z has the root r = p + (q - p) z at z (r + p)/(q + p) of the
- * length, as in strips.c.  The place along the edge is linear in that, so that three sums have the moments;
- * that of s^5 is the one of u. */
+/* The place along the edge is linear in that along the length, so that three sums have the moments; that of
+ * s^5 is the one of u. */
 FL_WIDE_VERSIONS void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *piece, int32_t count,
                                       fl_tread_sums *sum)
 {
@@ -641,21 +641,16 @@ FL_WIDE_VERSIONS void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *p
         FL_WIDE_UNROLL
         for (int l = 0; l < FL_LANES; l++) q[l] = sqrt(q[l]);
         const fl_wide_mask some = p + q > 0.0;
-        const fl_wide way = q - p, over = FL_WIDE_WHERE(some, 1.0 / (p + q)), part = hi - lo,
+        const fl_wide over = FL_WIDE_WHERE(some, 1.0 / (p + q)), part = hi - lo,
                       share = 2.0 * factor * part * over;
-        fl_wide c0 = zero, c1 = zero, c2 = zero, first = zero, second = zero;
-        for (int k = 0; k < FL_LINE_NODES; k++) {
-            const double z = FL_LINE_NODE[k];
-            const fl_wide r = p + way * z, far = z * (r + p), s = r * r;
-            const fl_wide c = FL_LINE_WEIGHT[k] * (s * s * s), f = c * s, ff = f * far;
-            c0 += c, c1 += f, c2 += f * s, first += ff, second += ff * far;
-        }
-        const fl_wide force = 4.5 * share, f = force * c1, Dx = v1[X] - v0[X], Dy = v1[Y] - v0[Y];
+        fl_roots r;
+        fl_roots_sum(&p, &q, &r);
+        const fl_wide force = 4.5 * share, f = force * r.du, Dx = v1[X] - v0[X], Dy = v1[Y] - v0[Y];
         const fl_wide x = v0[X] + lo * Dx, y = v0[Y] + lo * Dy, dx = over * part * Dx, dy = over * part * Dy;
-        const fl_wide f1 = force * first, f2 = force * second, fx = f * x + f1 * dx, fy = f * y + f1 * dy;
+        const fl_wide f1 = force * r.first, f2 = force * r.second, fx = f * x + f1 * dx, fy = f * y + f1 * dy;
         const fl_wide gx = f1 * x + f2 * dx, gy = f1 * y + f2 * dy; /* of the force times far, x and far, y */
-        all.u += share * c2, all.du += f, all.ddu += 15.75 * share * c0;
-        all.f += f, all.s += force * c2, all.x += fx, all.y += fy;
+        all.u += share * r.u, all.du += f, all.ddu += 15.75 * share * r.ddu;
+        all.f += f, all.s += force * r.u, all.x += fx, all.y += fy;
         all.xx += fx * x + gx * dx, all.xy += fx * y + gx * dy, all.yy += fy * y + gy * dy;
     }
     *sum = all;

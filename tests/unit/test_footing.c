@@ -147,8 +147,56 @@ static void it_is_the_same(void **state)
     fl_shell_near_free(&near);
 }
 
+/* Looked at with a list that was made for another pose, and with one for this: every bit. */
+static void lists_leave_no_trace(void **state)
+{
+    (void)state;
+    fl_places w = {0};
+    fl_shell_near near = {0};
+    fl_surface surface = {0};
+    fl_structure st = {0};
+    fl_poly box = {0};
+    fl_err err = {0};
+    int moved = 0;
+    sheet(&surface, 40, 1.0, 0.0, 0.07);
+    assert_int_equal(fl_structure_build(&st, &surface, &err), 0);
+    assert_int_equal(fl_poly_box(&box, v3(0.5, 0.3, 0.3), &err), 0);
+    const fl_piece *piece = &st.piece[0];
+    for (int k = 0; k < test_times(60); k++) {
+        fl_rng g = fl_rng_of(test_seed(), 7000 + k, FL_RNG_TEST);
+        fl_matches old = {0}, new = {0};
+        const fl_quat q =
+            q_of_vector(v3(fl_rng_in(&g, -0.03, 0.03), fl_rng_in(&g, -0.03, 0.03), fl_rng_in(&g, -3, 3)));
+        const fl_vec3 at = v3_sub(
+            v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 0.3), 0.3 + fl_rng_in(&g, 0, 0.04)), piece->x);
+        sums seen[2];
+        int32_t places[2];
+        double distance;
+        for (int way = 0; way < 3; way++) { /* elsewhere, here with the same list, here with another */
+            fl_matches *l = way < 2 ? &old : &new;
+            const fl_vec3 x = way ? at : v3_add(at, v3(4e-4, -3e-4, 2e-4));
+            assert_int_equal(fl_places_enter(&w, &box, q_matrix(q), x), 0);
+            assert_int_equal(fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, 0, l, &distance),
+                             0);
+            if (way) seen[way - 1] = sums_of(&w), places[way - 1] = w.n;
+        }
+        moved += old.n != new.n;
+        assert_int_equal(places[0], places[1]);
+        assert_memory_equal(&seen[0], &seen[1], sizeof seen[0]);
+        fl_matches_free(&old);
+        fl_matches_free(&new);
+    }
+    assert_true(moved > 0); /* or nothing has been shown */
+    fl_poly_free(&box);
+    fl_structure_free(&st);
+    fl_surface_free(&surface);
+    fl_places_free(&w);
+    fl_shell_near_free(&near);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_the_same)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_the_same),
+                                       cmocka_unit_test(lists_leave_no_trace)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
