@@ -145,21 +145,43 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
     return 0;
 }
 
-/* How much of U on a cone is that of the cone itself, the rest being that of its polygon: all where the ends
- * are farther from the centre of A, at height z, than twice its bound and R, none where they are nearer than
- * once.  *slope: its derivative after z [1/m]. */
-static double share_of_cone(const fl_piece *piece, double z, double bound, double R, double *slope)
+/* How much of U on a cone is that of the cone itself, the rest being that of its polygon, and its
+ * derivatives: after the height z of the centre of A, and after a turn of A. */
+typedef struct {
+    double cone, slope; /* [1/m] */
+    fl_vec3 turn;       /* [1/rad] */
+} part_of_cone;
+
+/* How far A reaches along the axis of the cone from its centre, at most, and what that changes by as A turns:
+ * the ellipsoid around the box of A along its own axes, sqrt(3 sum (a.d)^2), which bends smoothly. */
+static double reach_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
 {
-    double share[2], change[2];
+    fl_vec3 box = v3(0, 0, 0);
+    for (int32_t v = 0; v < a->nv; v++)
+        box = v3(fmax(box.x, fabs(a->v[v].x)), fmax(box.y, fabs(a->v[v].y)), fmax(box.z, fabs(a->v[v].z)));
+    const fl_vec3 d = v3_mul(box, v3(M->m[2][0], M->m[2][1], M->m[2][2]));
+    const double e = sqrt(3.0 * v3_norm2(d));
+    const fl_vec3 g = m3_mul(*M, v3_scale(e > 0.0 ? 3.0 / e : 0.0, v3_mul(box, d)));
+    *turn = v3_cross(g, v3(0, 0, 1));
+    return e;
+}
+
+/* All where the ends are farther from the centre of A than twice its reach and R together, none where they
+ * are nearer than once. */
+static part_of_cone share_of_cone(const fl_piece *piece, const fl_poly *a, const relative *r, double R)
+{
+    fl_vec3 turn;
+    const double z = r->o.z, size = reach_along(a, &r->M, &turn) + R;
+    double share[2], along[2], by_size[2];
     for (int end = 0; end < 2; end++) {
-        const double t = ((end ? piece->h - z : z) - bound - R) / bound, u = t <= 0.0   ? 0.0
-                                                                             : t >= 1.0 ? 1.0
-                                                                                        : t;
+        const double t = (end ? piece->h - z : z) / size - 1.0, u = t <= 0.0 ? 0.0 : t >= 1.0 ? 1.0 : t;
+        const double bend = 30.0 * u * u * (1.0 - u) * (1.0 - u) / size;
         share[end] = u * u * u * (10.0 + u * (6.0 * u - 15.0));
-        change[end] = (end ? -30.0 : 30.0) * u * u * (1.0 - u) * (1.0 - u) / bound;
+        along[end] = end ? -bend : bend;
+        by_size[end] = -bend * (t + 1.0);
     }
-    *slope = change[0] * share[1] + share[0] * change[1];
-    return share[0] * share[1];
+    return (part_of_cone){share[0] * share[1], along[0] * share[1] + share[0] * along[1],
+                          v3_scale(by_size[0] * share[1] + share[0] * by_size[1], turn)};
 }
 
 /* Add the places on the cone itself.  Its polygon tells a direction that separates the two, the cone how far;
@@ -184,19 +206,19 @@ static int cone_places(fl_pair *p, fl_places *s, const fl_poly *a, const fl_poly
 }
 
 /* U = (1 - share) of the first n places + share of the others; where the share changes a force along the
- * axis.
- */
-static int blend(fl_places *s, int32_t n, fl_vec3 couple, double share, double slope, fl_vec3 centre)
+ * axis, and a couple. */
+static int blend(fl_places *s, int32_t n, fl_vec3 couple, const part_of_cone *of, fl_vec3 centre)
 {
     double u[2] = {0};
     for (int32_t k = 0; k < s->n; k++) {
         fl_place *q = &s->place[k];
-        const double part = k < n ? 1.0 - share : share;
+        const double part = k < n ? 1.0 - of->cone : of->cone;
         u[k >= n] += q->u;
         q->u *= part, q->du *= part, q->ddu *= part;
     }
-    s->couple = v3_add(v3_scale(1.0 - share, couple), v3_scale(share, s->couple));
-    const double du = -slope * (u[1] - u[0]);
+    const double more = u[1] - u[0], du = -of->slope * more;
+    s->couple = v3_add(v3_scale(1.0 - of->cone, couple), v3_scale(of->cone, s->couple));
+    s->couple = v3_madd(s->couple, -more, of->turn);
     if (du == 0.0) return 0;
     return fl_places_add(s, (fl_place){.du = fabs(du), .n = v3(0, 0, du > 0.0 ? 1.0 : -1.0), .p = centre});
 }
@@ -281,19 +303,19 @@ static int find_places(fl_world *w, fl_pair *p, fl_places *s, fl_shell_near *nea
         return matches_of(p) ? fl_shell_places(s, near, A, piece, ra, ra + w->skin, p->exponent > 0.0,
                                                p->matches, distance)
                              : -1;
-    double share = 0.0, slope = 0.0, farther = INFINITY;
-    if (piece && piece->kind == FL_PIECE_CONE && p->exponent == 0.0)
-        share = share_of_cone(piece, r->o.z, b->bound[p->i], ra, &slope);
-    if (share < 1.0 && convex_places(w, p, s, r, distance)) return -1;
-    if (share == 0.0) return 0;
+    double farther = INFINITY;
+    part_of_cone of = {0};
+    if (piece && piece->kind == FL_PIECE_CONE && p->exponent == 0.0) of = share_of_cone(piece, A, r, ra);
+    if (of.cone < 1.0 && convex_places(w, p, s, r, distance)) return -1;
+    if (of.cone == 0.0) return 0;
     const int32_t n = s->n;
     const int deep = p->deep;
     const fl_vec3 couple = n ? s->couple : v3(0, 0, 0);
     s->couple = v3(0, 0, 0);
     if (cone_places(p, s, A, B, piece, ra, &farther)) return -1;
-    p->deep |= share < 1.0 ? deep : 0;
-    *distance = share < 1.0 ? fmin(*distance, farther) : farther;
-    return share < 1.0 ? blend(s, n, couple, share, slope, r->o) : 0;
+    p->deep |= of.cone < 1.0 ? deep : 0;
+    *distance = of.cone < 1.0 ? fmin(*distance, farther) : farther;
+    return of.cone < 1.0 ? blend(s, n, couple, &of, r->o) : 0;
 }
 
 /* --- the forces of it -------------------------------------------------------------------------- */

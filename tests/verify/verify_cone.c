@@ -106,7 +106,7 @@ static double energy_at(lab *l, fl_vec3 x, fl_quat q)
  * and where they do not. */
 static void gradient(void)
 {
-    const double shape[4][3] = {{2.0, 2.0, 4.0}, {2.0, 2.0, 1.4}, {3.0, 1.5, 5.0}, {0.4, 0.4, 4.0}};
+    const double shape[4][3] = {{2.0, 2.0, 4.0}, {2.0, 2.0, 0.75}, {3.0, 1.5, 5.0}, {0.4, 0.4, 4.0}};
     const char *const NAME[4] = {"a cylinder", "a short cylinder, partly its polygon", "a cone", "a pole"};
     for (int c = 0; c < 4; c++) {
         double worst = 0.0;
@@ -178,7 +178,7 @@ static void thrown(void)
     for (int c = 0; c < 3; c++) {
         char what[96];
         lab l;
-        const double half = c == 1 ? 1.4 : 4.0;
+        const double half = c == 1 ? 0.8 : 4.0;
         lab_start(&l);
         lab_box(&l, v3(2.7, 0.1, 0.05), v3(0.5, 0.4, 0.3), 0.05, q_of_vector(v3(0.3, -0.2, 0.4)),
                 v3(-1, 0.1, 0.2), v3(0.2, 0.1, -0.3));
