@@ -295,6 +295,16 @@ static void own_answer(const pair *p, const fl_simplex *s, const fl_gap *own, fl
     for (int32_t k = 0; k < b.n; k++) out->ib[k] = b.i[k];
 }
 
+static void keep(fl_gjk_cache *cache, const fl_simplex *s)
+{
+    if (!cache) return;
+    cache->n = s->n;
+    for (int32_t k = 0; k < s->n; k++) {
+        cache->a[k] = s->a[k];
+        cache->b[k] = s->b[k];
+    }
+}
+
 void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
 {
     const pair p = {a, b, fl_core_extent(a) + fl_core_extent(b)};
@@ -317,11 +327,16 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
                 own_answer(&p, &s, &own, out);
         }
     }
-    if (cache) {
-        cache->n = s.n;
-        for (int32_t k = 0; k < s.n; k++) {
-            cache->a[k] = s.a[k];
-            cache->b[k] = s.b[k];
-        }
-    }
+    keep(cache, &s);
+}
+
+int fl_gjk_direction(fl_core a, fl_core b, fl_gjk_cache *cache, fl_vec3 *n)
+{
+    fl_simplex s;
+    fl_heights h[2];
+    int32_t steps = 0;
+    fl_simplex_start(&s, a, b, cache);
+    const int found = fl_descend(a, b, fl_core_extent(a) + fl_core_extent(b), &s, n, h, &steps);
+    keep(cache, &s);
+    return found;
 }

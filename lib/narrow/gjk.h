@@ -70,4 +70,8 @@ typedef struct {
  * Cannot fail; all coordinates finite and below 1e100 in magnitude. */
 void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out);
 
+/* Stage 1 alone, for whom a direction will do that separates the cores by nearly their distance: n, unit
+ * vector from b to a.  Returns 0 where doubles cannot tell one. */
+int fl_gjk_direction(fl_core a, fl_core b, fl_gjk_cache *cache, fl_vec3 *n);
+
 #endif

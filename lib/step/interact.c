@@ -122,7 +122,7 @@ static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl
 
 /* Direction between the cores in B's frame, p->axis, and a lower bound of their distance (negative:
  * penetration).  The direction of the last look serves while it still separates them by `enough`; otherwise
- * gap has the nearest points. */
+ * gap has the nearest points, where it is not NULL. */
 static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b, const fl_places *s,
                     fl_mat3 M, double enough, fl_overlap *deep, fl_gap *gap, double *distance)
 {
@@ -130,7 +130,18 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
     *deep = (fl_overlap){0};
     p->deep = 0;
     if (p->has_axis && *distance > enough) return 0;
-    fl_gjk((fl_core){s->va, a->nv, a}, (fl_core){b->v, b->nv, b}, &p->cache, gap);
+    const fl_core A = {s->va, a->nv, a}, B = {b->v, b->nv, b};
+    fl_gap exact;
+    if (!gap) {
+        fl_vec3 n;
+        if (fl_gjk_direction(A, B, &p->cache, &n) && (*distance = gap_along(s->va, a->nv, b, n)) > 0.0) {
+            p->axis = n;
+            p->has_axis = 1;
+            return 0;
+        }
+        gap = &exact;
+    }
+    fl_gjk(A, B, &p->cache, gap);
     if (!gap->overlap) {
         p->axis = gap->n;
         p->has_axis = 1;
@@ -244,7 +255,11 @@ static int convex_places(fl_world *w, fl_pair *p, fl_places *s, const relative *
     fl_gap gap;
     /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
      * sleeps wants its distance. */
-    if (separate(w, p, A, B, s, r->M, core_law ? INFINITY : p->n ? 0.0 : NEARLY * R, &deep, &gap, distance))
+    if (separate(w, p, A, B, s, r->M,
+                 core_law ? INFINITY
+                 : p->n   ? 0.0
+                          : NEARLY * R,
+                 &deep, core_law ? &gap : NULL, distance))
         return -1;
     if (*distance >= R) return 0;
     if (core_law) {
@@ -264,7 +279,7 @@ static int convex_places(fl_world *w, fl_pair *p, fl_places *s, const relative *
     if (!l || fl_places_find(s, A, B, ra, rb, p->axis, &deep, l)) return -1;
     if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
         p->has_axis = 0;
-        return separate(w, p, A, B, s, r->M, INFINITY, &deep, &gap, distance);
+        return separate(w, p, A, B, s, r->M, INFINITY, &deep, NULL, distance);
     }
     return 0;
 }
