@@ -30,8 +30,9 @@ static double bodies(const fl_world *w)
            ARRAY(b->bound, total) + ARRAY(b->hold, total) + ARRAY(b->ball, total) + ARRAY(b->held, total) +
            ARRAY(b->odometer, total) + ARRAY(b->added, total) + ARRAY(b->flow, total) +
            ARRAY(b->carried, total) + ARRAY(w->id, n) + ARRAY(w->material, total) + ARRAY(w->face, total) +
-           ARRAY(w->q0, n) + ARRAY(w->group, n / FL_BALLS_GROUP + 1) + ARRAY(w->sink, total) +
-           ARRAY(w->was, total) + ARRAY(w->gain, total) + ARRAY(w->damped, total) + ARRAY(w->rubbed, total);
+           ARRAY(w->q0, n) + ARRAY(w->group, n / FL_BALLS_GROUP + 1) + ARRAY(w->sink.place, total) +
+           ARRAY(w->was.place, total) + ARRAY(w->sink.at, w->sink.cap) + ARRAY(w->was.at, w->was.cap) +
+           ARRAY(w->gain, w->gain_cap) + ARRAY(w->damped, total) + ARRAY(w->rubbed, total);
 }
 
 static double water(const fl_sea *s)

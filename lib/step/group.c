@@ -81,10 +81,9 @@ static void begin_few(fl_world *w, int32_t from, int32_t n, double h, double dt)
     fl_few_take_pose(&s, b);
     if (calm) fl_calm_drag(sea, b, &s, h, 0);
     fl_few_kick(&s, h);
-    const fl_sink *was = w->was + from;
-    const int all = w->balls.bodies;
+    const int32_t *was = w->was.place + from;
     for (int32_t k = 0; k < n; k++)
-        if (all || was[k].n) w->gain[from + k] = gain_among(&s, k);
+        if (was[k]) w->gain[was[k]] = gain_among(&s, k);
     const int done = fl_few_drift(&s, dt);
     fl_few_put_speeds(&s, b);
     if (done) fl_few_put_pose(&s, b);
@@ -101,7 +100,8 @@ static void begin_one(fl_world *w, int32_t k, double h, double dt)
 {
     if (fl_world_away(w, k) || fl_sleep_kind(w, k) != FL_AWAKE) return;
     if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
-    kick(w, k, h, &w->gain[k]);
+    fl_gain gain, *const kept = fl_works_gain(w, k);
+    kick(w, k, h, kept ? kept : &gain);
     fl_drift(&w->b, k, dt);
 }
 
@@ -145,10 +145,15 @@ static int32_t find_busy(const fl_world *w, int32_t from, int32_t n, int32_t bus
 {
     const int all = w->balls.bodies || w->frozen.n;
     const uint8_t *met = w->met + from;
-    const fl_sink *sink = w->sink + from, *was = w->was + from;
+    const int32_t *sink = w->sink.place + from, *was = w->was.place + from;
     int32_t many = 0;
+    if (!w->sink.all && !w->was.all) {
+        for (int32_t k = 0; k < n; k++)
+            if (sink[k] | was[k]) busy[many++] = k;
+        return many;
+    }
     for (int32_t k = 0; k < n; k++)
-        if (all || met[k] || sink[k].n || was[k].n) busy[many++] = k;
+        if (all || met[k] || w->sink.at[sink[k]].n || w->was.at[was[k]].n) busy[many++] = k;
     return many;
 }
 
@@ -193,7 +198,7 @@ static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *ow
         const int32_t i = from + busy[k];
         const fl_gain back = gain_among(&s, busy[k]);
         push(w, i, own);
-        fl_works_take(w, i, &w->gain[i], &back);
+        fl_works_take(w, i, fl_works_gain(w, i), &back);
     }
 }
 
@@ -220,7 +225,8 @@ static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
     const enum fl_nap_kind kind = fl_sleep_kind(w, k);
     fl_gain back = {0};
     if (fl_sleeps(w, k)) {
-        if (w->sink[k].n || w->was[k].n) w->sink[k] = w->was[k]; /* what presses stays */
+        if (fl_works_now(w, k)->n || fl_works_was(w, k)->n)
+            *fl_works_now(w, k) = *fl_works_was(w, k); /* what presses stays */
     } else if (kind == FL_ENDS) fl_sleep_end(w, k);
     else fl_step_gather(w, k);
     if (fl_world_away(w, k) || kind == FL_COASTS) return;
@@ -232,7 +238,7 @@ static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
         kick(w, k, h, &back);
         if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 1);
     }
-    fl_works_take(w, k, &w->gain[k], &back);
+    fl_works_take(w, k, fl_works_gain(w, k), &back);
 }
 
 /* Spheres that plain.h knows, from k on; behind the last. */
@@ -240,8 +246,7 @@ static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group 
 {
     int32_t end = k;
     while (h > 0.0 && end < to && fl_plain_is(w, end)) end++;
-    for (int32_t i = k; i < end && clean < 2; i++)
-        if (w->sink[i].n) w->sink[i] = (fl_sink){0};
+    for (int32_t i = k; i < end && clean < 2; i++) fl_works_clear(w, i);
     if (end > k && !fl_plain_end(w, k, end, h, NULL)) *finite = 0;
     for (int32_t i = k; i < end; i++)
         own->pushed = v3_add(own->pushed, v3_madd(w->b.f[i], -w->b.m[i], w->gravity));
@@ -271,7 +276,7 @@ static int32_t find_leaning(const fl_world *w, int32_t from, int32_t to, int cle
     for (int32_t k = from; k < to; k++) {
         const int32_t pair = one_pair(w, k);
         if (pair == -2) return -1;
-        if (pair >= 0 || (!clean && w->was[k].n)) at[n++] = (leaning){.k = k, .pair = pair};
+        if (pair >= 0 || (!clean && fl_works_was(w, k)->n)) at[n++] = (leaning){.k = k, .pair = pair};
     }
     return n;
 }
@@ -289,7 +294,7 @@ static void press_leaning(fl_world *w, int32_t from, double h, leaning *at, int3
         more->has[k - from] = -1;
         more->f[k - from] = v3_scale(is_i ? 1.0 : -1.0, p->f);
         more->t[k - from] = is_i ? p->ti : p->tj;
-        fl_works_add(&w->sink[k], p, is_i);
+        fl_works_add(fl_works_now(w, k), p, is_i);
     }
 }
 
@@ -303,8 +308,7 @@ static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group
     if (alike(w, from, to) < to) return 0;
     const int32_t n = find_leaning(w, from, to, clean, at);
     if (n < 0) return 0;
-    for (int32_t k = from; k < to && clean < 2; k++)
-        if (w->sink[k].n) w->sink[k] = (fl_sink){0};
+    for (int32_t k = from; k < to && clean < 2; k++) fl_works_clear(w, k);
     if (n) press_leaning(w, from, h, at, n, &more);
     *finite = fl_plain_end(w, from, to, h, n ? &more : NULL);
     for (int32_t l = 0; l < n; l++) {

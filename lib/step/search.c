@@ -8,6 +8,7 @@
 #include "step/pairing.h"
 #include "step/search.h"
 #include "step/sleep.h"
+#include "step/works.h"
 
 /* Bodies enough to look at by several threads. */
 enum { MANY = 4096 };
@@ -164,6 +165,7 @@ void fl_search_live(fl_world *w)
         w->live[w->n_live++] = c;
         w->met[w->pair[c].i] = w->met[w->pair[c].j] = 1;
     }
+    fl_works_place(w);
 }
 
 /* Where a bond has ended the pair remembers it. */

@@ -4,6 +4,7 @@
 #include "body/integrate.h"
 #include "step/sleep.h"
 #include "step/step.h"
+#include "step/works.h"
 
 enum {
     WINDOW = 64,      /* steps over which it is seen whether a floe rests */
@@ -240,7 +241,8 @@ static int may_sleep(const fl_world *w, int32_t k)
 /* Steps that floe k may coast from now on; 0: none. */
 static int32_t span_of(const fl_world *w, int32_t k)
 {
-    if (w->sleep.kind[k] != FL_AWAKE || w->sink[k].n || w->was[k].n || !may_sleep(w, k)) return 0;
+    if (w->sleep.kind[k] != FL_AWAKE || fl_works_now(w, k)->n || fl_works_was(w, k)->n || !may_sleep(w, k))
+        return 0;
     double left = fmin(w->sleep.nap[k].span, within(w, k) / w->dt);
     if (left < LEAST) return 0;
     left = time_left(w, k, left, way_of(w, k, left * w->dt) / (left * w->dt));
@@ -391,7 +393,7 @@ static void find_quiet(fl_world *w)
         const double path = w->b.odometer[k] - nap->mark, most = s->tol * w->b.radius[k];
         const int seen = nap->mark >= 0.0;
         nap->mark = w->b.odometer[k];
-        if (!seen || path > 0.25 * most || !may_sleep(w, k) || w->sink[k].n == 0) continue;
+        if (!seen || path > 0.25 * most || !may_sleep(w, k) || fl_works_now(w, k)->n == 0) continue;
         const double windows = path > 0.0 ? sqrt(most / path) : LONGEST;
         nap->since = w->step;
         nap->until = w->step + WINDOW * (int64_t)(windows < LONGEST ? windows : LONGEST);

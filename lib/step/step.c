@@ -139,7 +139,7 @@ void fl_step_soft(fl_world *w, int32_t k)
 int fl_step_press(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
-    fl_sink *sink = &w->sink[k];
+    fl_sink *sink = fl_works_now(w, k);
     if (sink->n) *sink = (fl_sink){0};
     if (w->balls.bodies && k < w->n) fl_balls_force(w, k, &b->f[k], &b->t[k]);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
@@ -157,7 +157,7 @@ void fl_step_gather(fl_world *w, int32_t k)
 {
     w->b.f[k] = w->b.t[k] = v3(0, 0, 0);
     if (fl_world_away(w, k) && k < w->n) {
-        w->sink[k] = (fl_sink){0};
+        fl_works_clear(w, k);
         return;
     }
     if (k < w->n) fl_step_soft(w, k);

@@ -1,10 +1,87 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/mem.h"
 #include "base/par.h"
 #include "body/integrate.h"
 #include "step/frozen.h"
 #include "step/works.h"
 
 static double power(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
+
+/* Zeroed room for `want` elements where there is none for n; what is there stays.  -1 when memory runs out.
+ */
+static int room(void *array, int32_t *cap, int32_t n, int32_t want, size_t size)
+{
+    fl_err lost = {0};
+    void *old;
+    if (n <= *cap) return 0;
+    void *const fresh = fl_alloc(want, size, &lost);
+    if (!fresh) return -1;
+    memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T */
+    if (old) memcpy(fresh, old, (size_t)*cap * size);
+    free(old);
+    memcpy(array, &fresh, sizeof fresh);
+    *cap = want;
+    return 0;
+}
+
+/* Sinks 0 to n, and gains; of some an eighth more, as they come and go. */
+static int more(fl_world *w, fl_sinks *s, int32_t n)
+{
+    const int32_t want = n < w->b.total ? 1 + n + n / 8 : 1 + n;
+    return room(&s->at, &s->cap, n + 1, want, sizeof *s->at) ||
+                   room(&w->gain, &w->gain_cap, n + 1, want, sizeof *w->gain)
+               ? -1
+               : 0;
+}
+
+int fl_works_make(fl_world *w, fl_err *err)
+{
+    const int32_t total = w->b.total;
+    w->sink.place = fl_alloc(total, sizeof *w->sink.place, err);
+    w->was.place = fl_alloc(total, sizeof *w->was.place, err);
+    w->damped = fl_alloc(total, sizeof *w->damped, err);
+    w->rubbed = fl_alloc(total, sizeof *w->rubbed, err);
+    if (!w->sink.place || !w->was.place || !w->damped || !w->rubbed) return -1;
+    return more(w, &w->sink, 0) || more(w, &w->was, 0) ? fl_fail(err, FL_SYSTEM, "out of memory") : 0;
+}
+
+void fl_works_free(fl_world *w)
+{
+    free(w->sink.place), free(w->was.place), free(w->sink.at), free(w->was.at);
+    free(w->gain), free(w->damped), free(w->rubbed);
+}
+
+/* Those that touch, in the order in which they come. */
+static int32_t place_some(const fl_world *w, int32_t *place)
+{
+    int32_t n = 0;
+    memset(place, 0, (size_t)w->b.total * sizeof *place);
+    for (int32_t c = 0; c < w->n_live; c++) {
+        const fl_near *p = &w->pair[w->live[c]];
+        if (!place[p->i]) place[p->i] = ++n;
+        if (!place[p->j]) place[p->j] = ++n;
+    }
+    return n;
+}
+
+static int all_have_one(const fl_world *w) { return w->balls.bodies || w->frozen.n || w->sleep.nap; }
+
+void fl_works_place(fl_world *w)
+{
+    fl_sinks *s = &w->sink;
+    const int all = all_have_one(w);
+    const int32_t total = w->b.total;
+    if (all && s->all) return;
+    if (more(w, s, all ? total : place_some(w, s->place))) {
+        memset(s->place, 0, (size_t)total * sizeof *s->place);
+        w->failed = 1;
+        return;
+    }
+    for (int32_t k = 0; k < total && all; k++) s->place[k] = k + 1;
+    if (all) memset(s->at, 0, (size_t)s->cap * sizeof *s->at);
+    s->all = all;
+}
 
 void fl_works_sum(fl_world *w, int32_t k)
 {
@@ -15,7 +92,8 @@ void fl_works_sum(fl_world *w, int32_t k)
         fl_works_add(&s, p, p->i == k);
     }
     if (fl_frozen_at(w, k)) fl_frozen_sink(w, k, &s);
-    w->sink[k] = s;
+    if (s.n) *fl_works_now(w, k) = s;
+    else fl_works_clear(w, k);
 }
 
 /* The works above of spheres, those of damping and of friction; nothing presses on them but what they meet.
@@ -35,8 +113,10 @@ static void take_balls(const fl_world *w, int32_t k, const fl_gain *first, const
 
 void fl_works_take(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back)
 {
-    const fl_sink *f0 = &w->was[k], *f1 = &w->sink[k];
+    const fl_sink *f0 = fl_works_was(w, k), *f1 = fl_works_now(w, k);
+    static const fl_gain none = {{0, 0, 0}, {0, 0, 0}};
     double damped = 0.0, rubbed = 0.0;
+    if (!first) first = &none;
     if (f1->n) {
         const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
         damped -= w->dt * power(f1->damping, f1->damping_turn, v, spin);
@@ -79,13 +159,17 @@ static fl_gain gain_of(const fl_world *w, int32_t k)
 
 void fl_works_begin(fl_world *w)
 {
-    fl_sink *was = w->was;
+    const fl_sinks was = w->was;
     w->was = w->sink;
     w->sink = was;
+    if (all_have_one(w)) fl_works_place(w); /* where spheres meet, steps end before it is told who touches */
     fl_ball_sum *sum = w->balls.was;
     w->balls.was = w->balls.sum;
     w->balls.sum = sum;
-    for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) w->gain[k] = gain_of(w, k);
+    for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) {
+        fl_gain *const gain = fl_works_gain(w, k);
+        if (gain) *gain = gain_of(w, k);
+    }
 }
 
 /* Of what is told to move; what moves by itself has its own books, ride.h. */
@@ -106,7 +190,7 @@ void fl_works_book(fl_world *w)
     fl_ledger *g = &w->ledger;
     for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) {
         const fl_gain back = gain_of(w, k);
-        fl_works_take(w, k, &w->gain[k], &back);
+        fl_works_take(w, k, fl_works_gain(w, k), &back);
     }
     g->damping += fl_par_sum(w->damped, w->b.total);
     g->friction += fl_par_sum(w->rubbed, w->b.total);
@@ -118,7 +202,7 @@ fl_works fl_works_ahead(const fl_world *w)
     const double h = 0.5 * w->dt, sixth = w->dt * w->dt / 6.0;
     fl_works sum = {.drive = h * drive_power(w)};
     for (int32_t k = 0; k < w->b.total; k++) {
-        const fl_sink *s = &w->sink[k];
+        const fl_sink *s = fl_works_now(w, k);
         const int meets = w->balls.bodies && k < w->n;
         if (s->n == 0 && !meets) continue;
         const fl_vec3 v = w->b.v[k], spin = w->b.w[k];

@@ -27,16 +27,45 @@ static inline void fl_works_add(fl_sink *s, const fl_pair *p, int is_i)
     s->friction_turn = v3_add(s->friction_turn, is_i ? p->si : p->sj);
 }
 
-/* Sum up what damping and friction do to thing k, over its touching pairs in their order, into sink[k]. */
+/* What acts on thing k now, and what did before; n = 0 where nothing does or did. */
+static inline fl_sink *fl_works_now(const fl_world *w, int32_t k) { return &w->sink.at[w->sink.place[k]]; }
+static inline const fl_sink *fl_works_was(const fl_world *w, int32_t k)
+{
+    return &w->was.at[w->was.place[k]];
+}
+
+/* Room for the gain of the first kick of k; NULL where nobody will ask for it. */
+static inline fl_gain *fl_works_gain(const fl_world *w, int32_t k)
+{
+    return w->was.place[k] ? &w->gain[w->was.place[k]] : NULL;
+}
+
+/* Nothing acts on thing k any longer. */
+static inline void fl_works_clear(const fl_world *w, int32_t k)
+{
+    fl_sink *s = fl_works_now(w, k);
+    if (s->n) *s = (fl_sink){0};
+}
+
+/* Arrays for total things, with nothing in them.  -1 with FL_SYSTEM. */
+int fl_works_make(fl_world *w, fl_err *err);
+void fl_works_free(fl_world *w);
+
+/* A sink for each that is of a pair that touches now, w->live; w->failed when memory runs out.  What was in
+ * those of now has lost all sense where not all have one. */
+void fl_works_place(fl_world *w);
+
+/* Sum up what damping and friction do to thing k, over its touching pairs in their order, into its sink. */
 void fl_works_sum(fl_world *w, int32_t k);
 
-/* Before a step: sink[] becomes was[], so it is with the sums of spheres, and gain[] of the pieces of a
- * structure that moves by itself is what the first kick will give them. */
+/* Before a step: sink becomes was, so it is with the sums of spheres, and the gains of pieces of a structure
+ * that moves by itself are what the first kick will give them. */
 void fl_works_begin(fl_world *w);
 
-/* The works of the step that has ended in floe k, into damped[k] and rubbed[k]: sink[k] acts now and was[k]
- * at its begin, `first` is what its first kick changed, `back` its last (neither is read where nothing
- * pressed at the begin), velocities are those of now.  Spheres that it meets come with their own sums. */
+/* The works of the step that has ended in floe k, into damped[k] and rubbed[k]: sink acts now and was at its
+ * begin, `first` is what its first kick changed, `back` its last (neither is read where nothing pressed at
+ * the begin, and `first` may be NULL then), velocities are those of now.  Spheres that it meets come with
+ * their own sums. */
 void fl_works_take(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back);
 
 /* The same of what of the structure moves, and all of it into the ledger, with the half kick that lies ahead.

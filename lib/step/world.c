@@ -10,6 +10,7 @@
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/sleep.h"
+#include "step/works.h"
 #include "step/world.h"
 
 /* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its
@@ -313,12 +314,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->face = fl_alloc(total, sizeof *w->face, err);
     w->group = fl_alloc(w->n / FL_BALLS_GROUP + 1, sizeof *w->group, err);
     w->odometer_found = fl_alloc(total, sizeof *w->odometer_found, err);
-    w->sink = fl_alloc(total, sizeof *w->sink, err);
-    w->was = fl_alloc(total, sizeof *w->was, err);
-    w->gain = fl_alloc(total, sizeof *w->gain, err);
     w->met = fl_alloc(total, sizeof *w->met, err);
-    w->damped = fl_alloc(total, sizeof *w->damped, err);
-    w->rubbed = fl_alloc(total, sizeof *w->rubbed, err);
     w->part_impulse = fl_alloc(w->parts, sizeof *w->part_impulse, err);
     w->part_moment = fl_alloc(w->parts, sizeof *w->part_moment, err);
     w->part_force = fl_alloc(w->parts, sizeof *w->part_force, err);
@@ -510,7 +506,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     if (make_traffic(w, field, feed, err) || make_row(w, field, err)) goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
-        make_beds(w, err) || make_sea(w, err))
+        fl_works_make(w, err) || make_beds(w, err) || make_sea(w, err))
         goto fail;
     for (int32_t i = 0; i < field->n; i++) {
         if (fl_world_put(w, i, field, i, err)) goto fail;
@@ -564,7 +560,7 @@ void fl_world_free(fl_world *w)
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);
     free(w->part_peak), free(w->part_about);
-    free(w->sink), free(w->was), free(w->gain), free(w->damped), free(w->rubbed);
+    fl_works_free(w);
     fl_ride_free(&w->ride);
     fl_sleep_free(&w->sleep);
     fl_frozen_free(&w->frozen);

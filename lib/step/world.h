@@ -127,6 +127,16 @@ typedef struct {
     int32_t n; /* with 0 all is 0 */
 } fl_sink;
 
+/* Those of all that are pressed.  A body has the sink at[place[k]]; at[0] is of all that nothing presses on,
+ * and stays 0.  Few touch at a time: only they have one of their own, but where spheres meet, faces are
+ * frozen together or somebody sleeps; then place[k] = k + 1. */
+typedef struct {
+    int32_t *place; /* [total] */
+    fl_sink *at;    /* [cap] */
+    int32_t cap;
+    int all; /* every body has one */
+} fl_sinks;
+
 /* How its velocities change in a kick. */
 typedef struct {
     fl_vec3 v, w;
@@ -317,8 +327,9 @@ typedef struct {
     int32_t n_live, hit_cap, live_cap;
     fl_portion *share; /* [threads] */
     int32_t inc_cap, inc_first_cap;
-    fl_sink *sink, *was;     /* [total] of the forces of now, and of those before; see works.h */
-    fl_gain *gain;           /* [total] of the first kick of a step */
+    fl_sinks sink, was; /* of the forces of now, and of those before; see works.h */
+    fl_gain *gain;      /* [gain_cap] of the first kick of a step, at was.place[k]; 0: of nobody */
+    int32_t gain_cap;
     double *damped, *rubbed; /* [total] taken out in the step [J] */
     double skin;             /* boxes are grown by half of it [m] */
     double *odometer_found;  /* [total] odometers at the last search */
