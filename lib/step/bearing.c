@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <math.h>
 #include <stddef.h>
 #include "base/mem.h"
 #include "base/wide.h"
@@ -115,24 +114,16 @@ FL_WIDE_VERSIONS static void second(const lane *t, int32_t n, double chi, fl_bea
     q->damping = (fl_wrench){sum3(f), sum3(m)};
 }
 
-/* Four vectors, each turned by R. */
-#define TURN(out, R, a)                                                                                      \
-    do {                                                                                                     \
-        for (int c = 0; c < 3; c++) out[c] = (R).m[c][0] * a[0] + (R).m[c][1] * a[1] + (R).m[c][2] * a[2];   \
-    } while (0)
+/* Numbers of the upper triangle of six rows, n and arm x n. */
+enum { SPRINGS = 21 };
 
-/* Sums of k g g^T, g = (across, M (arm + a) x across): the upper triangle, row by row. */
-FL_WIDE_VERSIONS static void third(const lane *t, int32_t n, fl_mat3 R, fl_mat3 M, fl_vec3 a, double sum[21])
+FL_WIDE_VERSIONS static void third(const lane *t, int32_t n, double sum[SPRINGS])
 {
-    fl_wide all[21];
-    for (int m = 0; m < 21; m++) all[m] = (fl_wide){0};
+    fl_wide all[SPRINGS];
+    for (int m = 0; m < SPRINGS; m++) all[m] = (fl_wide){0};
     for (int32_t k = 0; k < n; k += FL_LANES, t++) {
-        fl_wide g[6], arm[3], moment[3];
-        TURN(g, R, t->across);
-        TURN(arm, R, t->arm);
-        arm[0] += a.x, arm[1] += a.y, arm[2] += a.z;
-        CROSS(moment, arm, g);
-        TURN((g + 3), M, moment);
+        fl_wide g[6] = {t->across[0], t->across[1], t->across[2]};
+        CROSS((g + 3), t->arm, t->across);
         int m = 0;
         FL_WIDE_UNROLL
         for (int r = 0; r < 6; r++) {
@@ -141,7 +132,7 @@ FL_WIDE_VERSIONS static void third(const lane *t, int32_t n, fl_mat3 R, fl_mat3 
             for (int c = r; c < 6; c++, m++) all[m] += kg * g[c];
         }
     }
-    for (int m = 0; m < 21; m++) sum[m] = fl_wide_sum(&all[m]);
+    for (int m = 0; m < SPRINGS; m++) sum[m] = fl_wide_sum(&all[m]);
 }
 
 int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
@@ -158,21 +149,17 @@ void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q)
     if (s->n > 0) second(s->lane, s->n, chi, q);
 }
 
-void fl_bearing_stiff(const fl_places *s, fl_mat3 R, const fl_bodies *b, int32_t i, fl_vec3 a, double scale,
-                      fl_stiff *K)
+void fl_bearing_springs(const fl_places *s, fl_springs *q)
 {
-    *K = (fl_stiff){0};
-    if (b->invm[i] == 0.0 || s->n == 0) return;
-    const fl_vec3 I = b->I[i];
-    const double by[3] = {1.0 / sqrt(I.x), 1.0 / sqrt(I.y), 1.0 / sqrt(I.z)}, light = sqrt(b->invm[i]);
-    fl_mat3 M;
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) M.m[r][c] = by[r] * b->R[i].m[c][r];
-    double sum[21];
-    third(s->lane, s->n, R, M, a, sum);
+    double sum[SPRINGS];
+    *q = (fl_springs){0};
+    third(s->lane, s->n, sum);
     for (int r = 0, m = 0; r < 6; r++)
-        for (int c = r; c < 6; c++, m++)
-            K->a[r][c] = K->a[c][r] = scale * (r < 3 ? light : 1.0) * (c < 3 ? light : 1.0) * sum[m];
+        for (int c = r; c < 6; c++, m++) {
+            if (c < 3) q->across[r][c] = q->across[c][r] = sum[m];
+            else if (r < 3) q->mixed[c - 3][r] = sum[m];
+            else q->turning[r - 3][c - 3] = q->turning[c - 3][r - 3] = sum[m];
+        }
 }
 
 double fl_bearing_closing(const fl_places *s, int32_t k)

@@ -36,10 +36,8 @@ int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q);
 /* The last five, after fl_bearing_sum() of the same places; chi [s/m]. */
 void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q);
 
-/* How stiff the places that press make it for body i, after fl_bearing_sum(): springs of scale times ddu
- * along `across`.  R turns the frame of B into the world; a: the first place from the centre of i. */
-void fl_bearing_stiff(const fl_places *s, fl_mat3 R, const fl_bodies *b, int32_t i, fl_vec3 a, double scale,
-                      fl_stiff *K);
+/* ddu along `across` at arm of the places that press, after fl_bearing_sum() [m4]. */
+void fl_bearing_springs(const fl_places *s, fl_springs *q);
 
 /* The speed at which the bodies approach at place k, after fl_bearing_sum() [m/s]. */
 double fl_bearing_closing(const fl_places *s, int32_t k);

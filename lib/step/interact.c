@@ -480,8 +480,11 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s
 {
     const fl_bodies *b = &w->b;
     const double half = 0.5 / (scale * U);
-    fl_bearing_stiff(s, b->R[p->j], b, p->i, ai, scale, si);
-    fl_bearing_stiff(s, b->R[p->j], b, p->j, aj, scale, sj);
+    fl_springs q;
+    fl_bearing_springs(s, &q);
+    *si = *sj = (fl_stiff){0};
+    fl_stiff_springs(si, b, p->i, scale, &q, b->R[p->j], ai);
+    fl_stiff_springs(sj, b, p->j, scale, &q, b->R[p->j], aj);
     fl_stiff_add(si, b, p->i, -half, p->f, p->ti);
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }

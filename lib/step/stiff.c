@@ -22,6 +22,70 @@ void fl_stiff_add(fl_stiff *s, const fl_bodies *b, int32_t i, double k, fl_vec3 
     add(s->a, k, v3_scale(sqrt(b->invm[i]), f), v3(u.x / sqrt(I.x), u.y / sqrt(I.y), u.z / sqrt(I.z)));
 }
 
+typedef double square3[3][4]; /* rows, the last number 0 */
+
+/* out = x y + more, out is neither. */
+FL_WIDE_PART void product(square3 out, const double (*x)[4], const double (*y)[4], const double (*more)[4])
+{
+    FL_WIDE_UNROLL
+    for (int r = 0; r < 3; r++) {
+        fl_wide row = x[r][0] * FL_FOUR(y[0]) + x[r][1] * FL_FOUR(y[1]) + x[r][2] * FL_FOUR(y[2]);
+        if (more) row += FL_FOUR(more[r]);
+        FL_FOUR_INTO(out[r]) = row;
+    }
+}
+
+FL_WIDE_PART void transpose(square3 out, const double (*x)[4])
+{
+    fl_wide r[4] = {FL_FOUR(x[0]), FL_FOUR(x[1]), FL_FOUR(x[2]), {0}};
+    fl_wide_transpose(r);
+    for (int k = 0; k < 3; k++) FL_FOUR_INTO(out[k]) = r[k];
+}
+
+/* A spring turns the body by t = r x n + a x n = r x n + A n.  M: what measures moments in the body's axes, of
+ * those of the springs. */
+FL_FOUR_VERSIONS static void springs(rows K, double scale, double light, const fl_springs *q, const square3 A,
+                                     const square3 Rt, const square3 Mt)
+{
+    square3 At, M, R, D, Dt, E, one, two;
+    transpose(At, A);
+    transpose(M, Mt);
+    transpose(R, Rt);
+    product(D, A, q->across, q->mixed); /* sum of k t n^T */
+    transpose(Dt, (const double(*)[4])D);
+    product(one, q->mixed, (const double(*)[4])At, q->turning);
+    product(E, A, (const double(*)[4])Dt, (const double(*)[4])one); /* of k t t^T */
+    product(one, (const double(*)[4])M, (const double(*)[4])E, NULL);
+    product(E, (const double(*)[4])one, Mt, NULL);
+    product(one, (const double(*)[4])M, (const double(*)[4])D, NULL);
+    product(D, (const double(*)[4])one, Rt, NULL);
+    transpose(Dt, (const double(*)[4])D);
+    product(one, (const double(*)[4])R, q->across, NULL);
+    product(two, (const double(*)[4])one, Rt, NULL);
+    const double mixing = scale * light, moving = mixing * light;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            K[r][c] += moving * two[r][c];
+            K[r][3 + c] += mixing * Dt[r][c];
+            K[3 + r][c] += mixing * D[r][c];
+            K[3 + r][3 + c] += scale * E[r][c];
+        }
+}
+
+void fl_stiff_springs(fl_stiff *s, const fl_bodies *b, int32_t i, double scale, const fl_springs *q,
+                      fl_mat3 R, fl_vec3 a)
+{
+    if (b->invm[i] == 0.0) return;
+    const fl_vec3 I = b->I[i], o = m3_tmul(R, a);
+    const double by[3] = {1.0 / sqrt(I.x), 1.0 / sqrt(I.y), 1.0 / sqrt(I.z)};
+    const square3 A = {{0.0, -o.z, o.y}, {o.z, 0.0, -o.x}, {-o.y, o.x, 0.0}};
+    square3 Rt = {{0}}, own = {{0}}, Mt;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) Rt[r][c] = R.m[c][r], own[r][c] = b->R[i].m[r][c] * by[c];
+    product(Mt, (const double(*)[4])Rt, (const double(*)[4])own, NULL);
+    springs(s->a, scale, sqrt(b->invm[i]), q, A, (const double(*)[4])Rt, (const double(*)[4])Mt);
+}
+
 void fl_stiff_across(fl_stiff *s, const fl_bodies *b, int32_t i, double k, fl_vec3 n, fl_vec3 r)
 {
     const fl_vec3 e = v3_normal_to(n), d = v3_cross(n, e);

@@ -12,6 +12,18 @@ typedef struct {
     double a[6][8]; /* of each row the last two numbers are 0 [1/s2] */
 } fl_stiff;
 
+/* Springs k along n at offsets r from one point, as their sums over k n n^T, k (r x n) n^T and
+ * k (r x n) (r x n)^T, rows of the second being those of r x n; of each row the last number is 0.
+ * [N/m], [N], [N m] */
+typedef struct {
+    double across[3][4], mixed[3][4], turning[3][4];
+} fl_springs;
+
+/* K += scale times such springs in axes that R turns into the world's, about the offset a from the centre of
+ * body i, world axes.  Nothing for a body that is held. */
+void fl_stiff_springs(fl_stiff *s, const fl_bodies *b, int32_t i, double scale, const fl_springs *q,
+                      fl_mat3 R, fl_vec3 a);
+
 /* K += k g g^T for the force f and torque t on body i; k may be negative.  f, t in world axes, k (f, t)^2 in
  * [N/m].  Nothing for a body that is held. */
 void fl_stiff_add(fl_stiff *s, const fl_bodies *b, int32_t i, double k, fl_vec3 f, fl_vec3 t);

@@ -45,11 +45,13 @@ static void stiffness_is_that_of_each_place(void **state)
         const fl_vec3 a = some(&g);
         fl_bearing q;
         fill(&s, n, &g);
+        fl_springs springs;
         assert_int_equal(fl_bearing_sum(&s, some(&g), some(&g), &q), 0);
+        fl_bearing_springs(&s, &springs);
         for (int32_t i = 0; i < 3; i++) {
-            fl_stiff K, L = {0};
+            fl_stiff K = {0}, L = {0};
             double most = 0.0;
-            fl_bearing_stiff(&s, R, &b, i, a, 2.5, &K);
+            fl_stiff_springs(&K, &b, i, 2.5, &springs, R, a);
             for (int32_t k = 0; k < n; k++) {
                 const fl_place *p = &s.place[k];
                 const fl_vec3 f = m3_mul(R, p->across), r = m3_mul(R, v3_sub(p->p, s.place[0].p));
