@@ -42,7 +42,7 @@ FL_WIDE_PART void transpose(square3 out, const double (*x)[4])
     for (int k = 0; k < 3; k++) FL_FOUR_INTO(out[k]) = r[k];
 }
 
-/* A spring turns the body by t = r x n + a x n = r x n + A n.  M: what measures moments in the body's axes, of
+/* A spring turns the body by t = r x n + a x n = r x n + A n.  M measures moments in the axes of the body, of
  * those of the springs. */
 FL_FOUR_VERSIONS static void springs(rows K, double scale, double light, const fl_springs *q, const square3 A,
                                      const square3 Rt, const square3 Mt)
