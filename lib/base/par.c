@@ -6,10 +6,23 @@
 
 enum { BLOCK = 1024 };
 
+/* Whole blocks side by side: one alone would wait for each sum before the next. */
+static double eight(const double *x, double total)
+{
+    double part[8] = {0};
+    for (int64_t k = 0; k < BLOCK; k++)
+#pragma GCC unroll 8
+        for (int64_t b = 0; b < 8; b++) part[b] += x[b * BLOCK + k];
+    for (int b = 0; b < 8; b++) total += part[b];
+    return total;
+}
+
 double fl_par_sum(const double *x, int64_t n)
 {
     double total = 0.0;
-    for (int64_t b = 0; b < n; b += BLOCK) {
+    int64_t at = 0;
+    for (; at + 8 * BLOCK <= n; at += 8 * BLOCK) total = eight(&x[at], total);
+    for (int64_t b = at; b < n; b += BLOCK) {
         const int64_t end = b + BLOCK < n ? b + BLOCK : n;
         double part = 0.0;
 #pragma GCC unroll 8

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
+#include <string.h>
+#include "base/mem.h"
 #include "step/awake.h"
 #include "step/leans.h"
 #include "step/pairing.h"
@@ -22,6 +24,7 @@ void fl_awake_share(fl_world *w)
         if (t > 0) w->share[t - 1].end = w->share[t].next;
     }
     w->share[w->threads - 1].end = w->n_pair;
+    memset(w->met, 0, (size_t)w->b.total);
 }
 
 /* The first of a block of a share, which is then taken. */
@@ -36,18 +39,32 @@ static int32_t take(fl_portion *s)
     return c;
 }
 
+/* Several threads may have a body in hand, and a wall most of the time. */
+static void meet(uint8_t *met)
+{
+    uint8_t has;
+#pragma omp atomic read
+    has = *met;
+    if (has) return;
+#pragma omp atomic write
+    *met = 1;
+}
+
 /* Spheres that lean on a wall, and did at the last look, go into q. */
 static void look(fl_world *w, fl_leans *q, int32_t from, int32_t to, int32_t thread, double dt, int survey)
 {
     for (int32_t c = from; c < to; c++) {
         const fl_near *const p = &w->pair[c];
-        if (fl_world_apart(w, p) || fl_sleep_frozen(w, p)) continue; /* and it did not touch before */
-        if (fl_leans_add(w, q, c)) {
+        if (fl_world_apart(w, p)) continue; /* and it did not touch before */
+        if (fl_sleep_frozen(w, p)) {
+            /* forces stay */
+        } else if (fl_leans_add(w, q, c)) {
             if (q->n == FL_SPHERES_MOST) fl_leans_touch(w, q, dt, survey);
-            continue;
+        } else {
+            fl_near_awake(w, c, thread, dt, survey);
+            w->hit[c] = p->n;
         }
-        fl_near_awake(w, c, thread, dt, survey);
-        w->hit[c] = p->n;
+        if (p->n) meet(&w->met[p->i]), meet(&w->met[p->j]);
     }
 }
 
@@ -62,4 +79,31 @@ void fl_awake_look(fl_world *w, double dt, int survey)
             look(w, &q, c, s->end < c + BLOCK ? s->end : c + BLOCK, thread, dt, survey);
     }
     fl_leans_touch(w, &q, dt, survey);
+}
+
+/* Few touch: eight are passed over at a time. */
+void fl_awake_told(fl_world *w)
+{
+    const uint8_t *const hit = w->hit;
+    const int32_t all = w->n_pair;
+    int32_t n = 0, c = 0;
+    for (; c + 8 <= all; c += 8) {
+        uint64_t eight;
+        memcpy(&eight, &hit[c], sizeof eight);
+        if (eight == 0) continue;
+        if (fl_room(&w->live, &w->live_cap, (int64_t)n + 8, sizeof *w->live)) break;
+        for (int32_t k = c; k < c + 8; k++) {
+            w->live[n] = k;
+            n += hit[k];
+        }
+    }
+    for (; c < all; c++) {
+        if (!hit[c]) continue;
+        if (fl_room(&w->live, &w->live_cap, (int64_t)n + 1, sizeof *w->live)) {
+            w->failed = 1;
+            break;
+        }
+        w->live[n++] = c;
+    }
+    w->n_live = n;
 }

@@ -10,11 +10,14 @@
 #define FL_STEP_AWAKE_H
 #include "step/world.h"
 
-/* Before the threads begin: the shares. */
+/* Before the threads begin: the shares; nothing has met. */
 void fl_awake_share(fl_world *w);
 
-/* All near pairs that may touch, as fl_near_awake(), and w->hit of them; by every thread of a team.  Others
- * may still be at theirs when it returns. */
+/* All near pairs that may touch, as fl_near_awake(), w->hit of them and w->met; by every thread of a team.
+ * Others may still be at theirs when it returns. */
 void fl_awake_look(fl_world *w, double dt, int survey);
+
+/* When all have done: w->live; w->failed where there is no room for it. */
+void fl_awake_told(fl_world *w);
 
 #endif

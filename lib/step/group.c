@@ -105,11 +105,9 @@ static void begin_one(fl_world *w, int32_t k, double h, double dt)
     fl_drift(&w->b, k, dt);
 }
 
-void fl_group_begin(fl_world *w, int32_t g, double h, double dt)
+static void begin(fl_world *w, int32_t from, int32_t to, double h, double dt)
 {
-    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
     int32_t end;
-    if (fl_sleep_all(w, from, to)) return;
     for (int32_t k = from; k < to; k = end) {
         end = alike(w, k, to);
         if (end == k) begin_one(w, end++, h, dt);
@@ -118,6 +116,30 @@ void fl_group_begin(fl_world *w, int32_t g, double h, double dt)
             for (int32_t i = k; i < end; i += FL_FEW)
                 begin_few(w, i, end - i < FL_FEW ? end - i : FL_FEW, h, dt);
     }
+}
+
+/* The longest way and the next. */
+FL_WIDE_VERSIONS static void farthest(int32_t n, const double *restrict now, const double *restrict found,
+                                      double *restrict moved)
+{
+    double one = 0.0, two = 0.0, many = 0.0;
+#pragma omp simd reduction(max : one)
+    for (int32_t k = 0; k < n; k++) one = now[k] - found[k] > one ? now[k] - found[k] : one;
+#pragma omp simd reduction(max : two) reduction(+ : many)
+    for (int32_t k = 0; k < n; k++) {
+        const double way = now[k] - found[k];
+        many += way == one ? 1.0 : 0.0;
+        two = way < one && way > two ? way : two;
+    }
+    moved[0] = one;
+    moved[1] = many > 1.0 ? one : two;
+}
+
+void fl_group_begin(fl_world *w, int32_t g, double h, double dt)
+{
+    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
+    if (!fl_sleep_all(w, from, to)) begin(w, from, to, h, dt);
+    farthest(to - from, w->b.odometer + from, w->odometer_found + from, w->group[g].moved);
 }
 
 /* --- the second -------------------------------------------------------------------------------- */

@@ -10,7 +10,7 @@
 static inline int32_t fl_groups(const fl_world *w) { return (w->n + FL_BALLS_GROUP - 1) / FL_BALLS_GROUP; }
 
 /* Drag and kick of h and drift of dt of those of group g that move in this step; gain[] of those that
- * something presses is what the kick changes. */
+ * something presses is what the kick changes, and moved of w->group[g] how far they have come. */
 void fl_group_begin(fl_world *w, int32_t g, double h, double dt);
 
 /* Forces on the bodies of group g, their kick of h (0 at the start: there is none), what the water takes, and

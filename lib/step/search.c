@@ -2,16 +2,13 @@
 #include <math.h>
 #include <string.h>
 #include "base/mem.h"
-#include "base/wide.h"
 #include "step/balls.h"
 #include "step/frozen.h"
+#include "step/group.h"
 #include "step/pairing.h"
 #include "step/search.h"
 #include "step/sleep.h"
 #include "step/works.h"
-
-/* Bodies enough to look at by several threads. */
-enum { MANY = 4096 };
 
 /* The box of body k: of its core in the world, dilated. */
 static fl_aabb box_of(const fl_world *w, int32_t k)
@@ -74,41 +71,24 @@ static int order(const fl_near *p, int32_t i, int32_t j, const int32_t image[3])
     return 0;
 }
 
-/* Whether some of n odometers shows more than `far` beyond what it did. */
-FL_WIDE_VERSIONS static int gone(int32_t n, const double *restrict now, const double *restrict found,
-                                 double far)
+/* The two longest ways so far, and another. */
+static void longest(double first[2], double moved)
 {
-    double many = 0.0;
-#pragma omp simd reduction(+ : many)
-    for (int32_t k = 0; k < n; k++) many += now[k] - found[k] > far ? 1.0 : 0.0;
-    return many > 0.0;
+    if (moved > first[0]) first[1] = first[0], first[0] = moved;
+    else if (moved > first[1]) first[1] = moved;
 }
 
-static int stale(const fl_world *w)
+/* told: by the groups, of the floes. */
+static int stale(const fl_world *w, int told)
 {
-    const double room = w->skin * (1.0 - 1e-6);
-    double first = 0.0, second = 0.0; /* the two that have moved most */
+    double first[2] = {0.0, 0.0};
     if (w->found_at < 0) return 1;
     if (w->scene->run.search_every > 0 && w->step - w->found_at >= w->scene->run.search_every) return 1;
-    /* two that have not gone half of it have not gone all of it */
-    if (w->b.total <= MANY && room > 0.0 && !gone(w->b.total, w->b.odometer, w->odometer_found, 0.49 * room))
-        return 0;
-#pragma omp parallel if (w->b.total > MANY)
-    {
-        double one = 0.0, two = 0.0;
-#pragma omp for schedule(static) nowait
-        for (int32_t k = 0; k < w->b.total; k++) {
-            const double moved = w->b.odometer[k] - w->odometer_found[k];
-            if (moved > one) two = one, one = moved;
-            else if (moved > two) two = moved;
-        }
-#pragma omp critical(fl_search_stale)
-        {
-            second = fmax(fmin(first, one), fmax(second, two));
-            first = fmax(first, one);
-        }
-    }
-    return first + second >= room;
+    for (int32_t g = 0; g < fl_groups(w) && told; g++)
+        longest(first, w->group[g].moved[0]), longest(first, w->group[g].moved[1]);
+    for (int32_t k = told ? w->n : 0; k < w->b.total; k++)
+        longest(first, w->b.odometer[k] - w->odometer_found[k]);
+    return first[0] + first[1] >= w->skin * (1.0 - 1e-6);
 }
 
 /* Room for n elements of an array that is filled anew: as much as there is, where that is neither too little
@@ -247,10 +227,9 @@ static int find(fl_world *w, fl_err *err)
     return 0;
 }
 
-int fl_search(fl_world *w, fl_err *err)
+static int renew(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
-    if (!stale(w)) return 0;
     const int32_t pairs = w->n_pair;
     const int rc = find(w, err);
     if (w->box) drop_boxes(w);
@@ -261,3 +240,7 @@ int fl_search(fl_world *w, fl_err *err)
     w->searches++;
     return fl_search_index(w, err);
 }
+
+int fl_search(fl_world *w, fl_err *err) { return stale(w, 0) ? renew(w, err) : 0; }
+
+int fl_search_told(fl_world *w, fl_err *err) { return stale(w, 1) ? renew(w, err) : 0; }

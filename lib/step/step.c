@@ -25,8 +25,11 @@
  * those four times as long always. */
 enum { SURVEY = 16, WATCH = 16 };
 
-/* Held things whose contacts one thread adds up before others have begun. */
-enum { FEW = 64 };
+/* Held things of which a thread adds up the contacts at a time. */
+enum { HELD = 8 };
+
+/* Contacts that are on their way to the processor while another is booked, which takes far less time. */
+enum { ON_WAY = 8 };
 
 /* A residual of more than this of the throughput and of what the contacts store is no longer the error of the
  * time integration, whose loads dem-solve(1) calls usable up to here, but a contact that makes energy. */
@@ -49,7 +52,7 @@ static void contacts_of_pairs(fl_world *w, double dt, int survey)
 
 static void contacts_told(fl_world *w)
 {
-    fl_search_live(w);
+    fl_awake_told(w);
     if (w->frozen.ended) { /* there is a pair to be found */
         w->found_at = -1;
         w->frozen.ended = 0;
@@ -76,14 +79,17 @@ static void contacts(fl_world *w, double dt, int survey)
     contacts_told(w);
 }
 
-/* Either half of a step. */
+/* Either half of a step, and in the second what held things feel. */
 static void all_groups(fl_world *w, int end, double h, double dt)
 {
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int32_t g = 0; g < fl_groups(w); g++) {
         if (end) fl_group_end(w, g, h);
         else fl_group_begin(w, g, h, dt);
     }
+    if (!end) return;
+#pragma omp for schedule(dynamic, HELD) nowait
+    for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
 }
 
 static void bodies(fl_world *w, int end, double h, double dt)
@@ -164,16 +170,6 @@ void fl_step_gather(fl_world *w, int32_t k)
     fl_step_press(w, k);
 }
 
-static void gather_held(fl_world *w)
-{
-    if (w->b.total - w->n <= FEW) {
-        for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
-        return;
-    }
-#pragma omp parallel for schedule(static)
-    for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
-}
-
 /* --- contacts and ends of a step in one go ----------------------------------------------------- */
 
 static_assert(FL_BALLS_CHUNK % FL_BALLS_GROUP == 0, "a chunk is made of groups");
@@ -209,6 +205,8 @@ static void touch_and_end(fl_world *w, double dt, int survey)
 #pragma omp barrier
         for (int32_t a = from; a < to; a++)
             if (!s->ended[a]) end_chunk(w, a, 0.5 * dt);
+#pragma omp for schedule(dynamic, HELD) nowait
+        for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
     }
     contacts_told(w);
 }
@@ -339,6 +337,11 @@ static void account(fl_world *w, double dt, deepest *d)
     fl_vec3 balance = v3(0, 0, 0);
     *d = (deepest){.i = -1, .j = -1};
     for (int32_t c = 0; c < w->n_live; c++) {
+        if (c + 2 * ON_WAY < w->n_live) __builtin_prefetch(&w->pair[w->live[c + 2 * ON_WAY]].full);
+        if (c + ON_WAY < w->n_live) {
+            const fl_pair *next = w->pair[w->live[c + ON_WAY]].full;
+            __builtin_prefetch(&next->f), __builtin_prefetch(&next->overlap);
+        }
         const fl_pair *p = w->pair[w->live[c]].full;
         const double R = b->radius[p->i] + b->radius[p->j], deep = R > 0.0 ? p->overlap / R : 0.0;
         if (deep > d->overlap) *d = (deepest){deep, fl_world_name(w, p->i), fl_world_name(w, p->j)};
@@ -425,7 +428,7 @@ int fl_step(fl_world *w, fl_err *err)
     w->step++;
     w->sea.time = fl_world_time(w);
     w->sea.looks = w->sea.every < 2 || w->step % w->sea.every == 0;
-    if (fl_search(w, err)) return -1;
+    if (fl_search_told(w, err)) return -1;
     if (w->sleep.nap) fl_sleep_rouse(w);
     if (w->balls.bodies && !w->sleep.nap && !w->press.panels) {
         touch_and_end(w, dt, survey);
@@ -434,7 +437,6 @@ int fl_step(fl_world *w, fl_err *err)
         if (w->sleep.resting) fl_sleep_disturb(w);
         bodies(w, 1, h, 0.0);
     }
-    gather_held(w);
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     fl_works_book(w);
     account(w, dt, &deep);

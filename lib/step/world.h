@@ -276,9 +276,10 @@ typedef struct {
 
 /* What a step tells of a group of bodies, FL_BALLS_GROUP in a row. */
 typedef struct {
-    fl_vec3 pushed; /* sum of the forces of contacts [N]                      */
-    int32_t lost;   /* the first that has a number which is not finite, or -1 */
-    int clean;      /* for so many steps nothing but spheres has pressed; 2: sink and was are 0 */
+    fl_vec3 pushed;  /* sum of the forces of contacts [N]                      */
+    int32_t lost;    /* the first that has a number which is not finite, or -1 */
+    int clean;       /* for so many steps nothing but spheres has pressed; 2: sink and was are 0 */
+    double moved[2]; /* the longest ways since the last search, after the first half of a step [m] */
 } fl_group;
 
 /* Near pairs that one thread takes, awake.h; a line of the cache for each. */
