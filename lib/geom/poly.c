@@ -462,10 +462,10 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err)
     if (lay_out(&p, nl, err)) return -1;
     memcpy(p.v, from->v, (size_t)p.nv * sizeof *p.v);
     memcpy(p.n, from->n, (size_t)p.nf * sizeof *p.n);
-    memcpy(p.c, from->c, (size_t)p.nf * sizeof *p.c);
     memcpy(p.edge, from->edge, (size_t)p.ne * sizeof *p.edge);
     memcpy(p.first, from->first, ((size_t)p.nf + 1) * sizeof *p.first);
     memcpy(p.loop, from->loop, (size_t)nl * sizeof *p.loop);
+    for (int32_t f = 0; f < p.nf; f++) p.c[f] = from->c ? from->c[f] : plane_offset(&p, f);
     if (!from->bend) { /* it was without angles, or has a few */
         fl_poly_angles(&p);
         for (int32_t e = 0; e < p.ne; e++)
@@ -550,7 +550,8 @@ double fl_poly_bytes(const fl_poly *p)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
     if (!p->mem) return 0.0;
-    size_t sum = (p->v ? nv * sizeof *p->v : 0) + (p->n ? nf * (sizeof *p->n + sizeof *p->c) : 0) +
+    size_t sum = (p->v ? nv * sizeof *p->v : 0) + (p->n ? nf * sizeof *p->n : 0) +
+                 (p->c ? nf * sizeof *p->c : 0) +
                  (p->bend ? nv * sizeof *p->defect + ne * sizeof *p->bend : 0) +
                  (size_t)p->blunts * (sizeof(double) + sizeof(int32_t));
     if (p->first && !p->shared) sum += (nf + 1 + (size_t)p->first[nf]) * sizeof(int32_t);

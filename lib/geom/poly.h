@@ -20,7 +20,7 @@ typedef struct {
     int16_t blunts;  /* angles that are kept where bend and defect are NULL            */
     fl_vec3 *v;      /* [nv] vertices                                            [m] */
     fl_vec3 *n;      /* [nf] outward unit normals                                    */
-    double *c;       /* [nf] plane offsets, n.x = c, largest over the face's vertices [m] */
+    double *c;       /* [nf] plane offsets, n.x = c, largest over the face's vertices [m]; or NULL */
     int32_t *first;  /* [nf + 1] offsets into loop                                   */
     int32_t *loop;   /* [first[nf]] vertices of each face, counter-clockwise from outside */
     fl_edge *edge;   /* [ne], sorted by (a, b)                                       */
@@ -88,11 +88,11 @@ void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
 #define FL_POLY_BLUNT_EDGE 0.25  /* [rad] */
 #define FL_POLY_BLUNT_CORNER 0.5 /* [sr]  */
 
-/* The angle of edge k, or of vertex k - ne, one of a few that are kept behind c, the numbers behind them; or
+/* The angle of edge k, or of vertex k - ne, one of a few that are kept behind n, the numbers behind them; or
  * `sharp` where it is none of those. */
 static inline double fl_poly_kept(const fl_poly *p, int32_t k, double sharp)
 {
-    const double *angle = p->c + p->nf;
+    const double *angle = (const double *)(const void *)(p->n + p->nf);
     const int32_t *of = (const int32_t *)(const void *)(angle + p->blunts);
     for (int32_t c = 0; c < p->blunts; c++)
         if (of[c] == k) return angle[c];

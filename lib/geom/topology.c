@@ -102,30 +102,34 @@ static int16_t blunt(const fl_poly *p, double angle[FEW], int32_t of[FEW])
     return n;
 }
 
-int fl_topologies_share(fl_topologies *t, fl_poly *p, int angles, fl_err *err)
+int fl_topologies_share(fl_topologies *t, fl_poly *p, unsigned keep, fl_err *err)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
     const fl_topology *kind = kind_of(t, p, err);
     fl_poly q = *p;
     double angle[FEW];
     int32_t of[FEW], bytes = 0;
-    const int16_t few = angles ? blunt(p, angle, of) : 0;
+    const int16_t few = keep & FL_KEEP_ANGLES ? blunt(p, angle, of) : 0;
     const int all = few > FEW;
-    const size_t kept = all ? 0 : (size_t)few;
+    const size_t kept = all ? 0 : (size_t)few, offsets = keep & FL_KEEP_OFFSETS ? nf : 0;
     q.mem = NULL;
     q.blunts = (int16_t)kept;
     if (!kind || fl_grow(&q.mem, &bytes,
-                         (int64_t)((nv + nf) * sizeof *q.v + nf * sizeof *q.c + kept * sizeof *angle +
-                                   kept * sizeof *of + (all ? (ne + nv) * sizeof *q.bend : 0)),
+                         (int64_t)((nv + nf) * sizeof *q.v + offsets * sizeof *q.c +
+                                   (all ? (ne + nv) * sizeof *q.bend : 0) + kept * sizeof *angle +
+                                   (kept + 1) / 2 * 2 * sizeof *of),
                          1, err))
         return -1;
     q.v = memcpy(q.mem, p->v, nv * sizeof *q.v);
     q.n = memcpy(q.v + nv, p->n, nf * sizeof *q.n);
-    q.c = memcpy(q.n + nf, p->c, nf * sizeof *q.c);
-    memcpy(q.c + nf, angle, kept * sizeof *angle);
-    memcpy(q.c + nf + kept, of, kept * sizeof *of);
-    q.bend = all ? memcpy(q.c + nf, p->bend, ne * sizeof *q.bend) : NULL;
-    q.defect = all ? memcpy(q.bend + ne, p->defect, nv * sizeof *q.defect) : NULL;
+    double *at = (double *)(void *)(q.n + nf);
+    memcpy(at, angle, kept * sizeof *angle);
+    memcpy(at += kept, of, kept * sizeof *of);
+    at += (kept + 1) / 2;
+    q.bend = all ? memcpy(at, p->bend, ne * sizeof *at) : NULL;
+    q.defect = all ? memcpy(at + ne, p->defect, nv * sizeof *at) : NULL;
+    at += all ? ne + nv : 0;
+    q.c = offsets || nf == 0 ? memcpy(at, p->c, offsets * sizeof *at) : NULL;
     borrow(&q, kind);
     fl_poly_free(p);
     *p = q;

@@ -19,11 +19,16 @@ typedef struct {
     int32_t n, slots, kind_cap;
 } fl_topologies;
 
+enum {
+    FL_KEEP_ANGLES = 1, /* those that are sharp go where eight at most are not: fl_poly_edge() and
+                         * fl_poly_corner() tell them all; without, nobody may ask for an angle */
+    FL_KEEP_OFFSETS = 2 /* else c becomes NULL */
+};
+
 /* Let p have first, loop, edge, begin and beside of t, which has to outlive it, and give back its own.
- *   angles  0: bend and defect as well, which become NULL, and nobody may ask for an angle; 1: those of them
- *           that are not blunt, where eight at most are: fl_poly_edge() and fl_poly_corner() tell them all
+ *   keep  FL_KEEP_..., of what there is
  * -1 with FL_SYSTEM, p as it was. */
-int fl_topologies_share(fl_topologies *t, fl_poly *p, int angles, fl_err *err);
+int fl_topologies_share(fl_topologies *t, fl_poly *p, unsigned keep, fl_err *err);
 
 /* What they take of memory. */
 double fl_topologies_bytes(const fl_topologies *t);

@@ -85,7 +85,8 @@ static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, f
     fl_body_derive(b, i);
     fl_body_spin(b, i, field->spin[k]);
     if (field->group[k] >= 0) hold_body(w, i, field->groups.name[field->group[k]], field->spin[k]);
-    return fl_topologies_share(&w->alike, &b->core[i], 1, err);
+    return fl_topologies_share(&w->alike, &b->core[i],
+                               w->points ? FL_KEEP_ANGLES | FL_KEEP_OFFSETS : FL_KEEP_ANGLES, err);
 bad:
     if (why.code == FL_SYSTEM) {
         *err = why;
@@ -119,7 +120,7 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
                        "%s: body %d: ice.shape = round has no hydrostatics of a polyhedron; use sharp with "
                        "[water] or [wind]",
                        w->scene->ice.file, w->id[i]);
-    if (!round && fl_topologies_share(&w->alike, outer, 0, err)) return -1;
+    if (!round && fl_topologies_share(&w->alike, outer, FL_KEEP_OFFSETS, err)) return -1;
     if (fl_sea_dress(&w->sea, i, round ? NULL : outer, core, w->b.radius[i], err)) return -1;
     if (w->b.added || anything(w->scene->water.added_inertia))
         add_water(w, i, round ? core : w->sea.outer[i] ? w->sea.outer[i] : outer);
@@ -458,6 +459,13 @@ static void drive_body(fl_world *w, int32_t i)
     w->row.rest[i] = b->x[i].z;
 }
 
+static int has_points(const fl_field *f)
+{
+    for (int32_t k = 0; k < f->n; k++)
+        if (f->core[k].nv == 1) return 1;
+    return 0;
+}
+
 int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_err *err)
 {
     fl_poly outer = {0};
@@ -508,6 +516,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
         fl_works_make(w, err) || make_beds(w, err) || make_sea(w, err))
         goto fail;
+    w->points = has_points(field) || has_points(feed);
     for (int32_t i = 0; i < field->n; i++) {
         if (fl_world_put(w, i, field, i, err)) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];

@@ -292,6 +292,7 @@ typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
     fl_topologies alike; /* of cores and outer shapes */
+    int points;          /* some core is a point: they ask others for the offsets of their faces */
     int32_t n, pieces, walls;
     fl_structure structure;
     fl_cell cell;

@@ -61,7 +61,6 @@ static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec
     for (int32_t k = 0; k < core->nv; k++) v[k] = v3(0, 0, 0);
     for (int32_t f = 0; f < core->nf; f++) {
         const fl_vec3 n = core->n[f];
-        to->c[f] = core->c[f] + r;
         for (int32_t k = first[f]; k < first[f + 1] && fabs(v3_dot(e, n)) < 0.5; k++)
             v[loop[k]] = v3_add(v[loop[k]], n);
     }
@@ -73,6 +72,7 @@ static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec
             v[loop[k]] = v3_madd(v3_madd(core->v[loop[k]], r, n), 2.0 * r / v3_norm2(sides), sides);
         }
     }
+    for (int32_t f = 0; f < core->nf; f++) to->c[f] = v3_dot(core->n[f], v[loop[first[f]]]);
     return &to->p;
 }
 

@@ -50,7 +50,7 @@ static void like_ones_share_and_nothing_else_changes(void **state)
         prism(&p[k], 3 + k % KINDS, 1.0 + k);
         assert_int_equal(fl_poly_copy(&q[k], &p[k], &err), 0);
         apart += fl_poly_bytes(&q[k]);
-        assert_int_equal(fl_topologies_share(&t, &q[k], 1, &err), 0);
+        assert_int_equal(fl_topologies_share(&t, &q[k], FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &err), 0);
         same(&p[k], &q[k]);
         together += fl_poly_bytes(&q[k]);
     }
@@ -79,7 +79,7 @@ static void points_segments_and_outer_shapes(void **state)
         if (nv < 3) assert_int_equal(fl_poly_make(&p, nv, v, 0, NULL, NULL, &err), 0);
         else prism(&p, 5, 2.0);
         assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
-        assert_int_equal(fl_topologies_share(&t, &q, 0, &err), 0);
+        assert_int_equal(fl_topologies_share(&t, &q, FL_KEEP_OFFSETS, &err), 0);
         assert_null(q.bend);
         assert_null(q.defect);
         assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
@@ -110,7 +110,7 @@ static void few_angles_are_kept(void **state)
             assert_int_equal(fl_poly_prism(&p, 4, xy, -0.5, 0.5, &err), 0);
         } else prism(&p, 20, 1.0);
         assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
-        assert_int_equal(fl_topologies_share(&t, &q, 1, &err), 0);
+        assert_int_equal(fl_topologies_share(&t, &q, FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &err), 0);
         int blunt = 0;
         for (int32_t e = 0; e < p.ne; e++) blunt += p.bend[e] < FL_POLY_BLUNT_EDGE;
         for (int32_t v = 0; v < p.nv; v++) blunt += p.defect[v] < FL_POLY_BLUNT_CORNER;
@@ -119,6 +119,12 @@ static void few_angles_are_kept(void **state)
         assert_true(!q.bend == (way < 3) && !q.defect == (way < 3));
         same(&p, &q);
         fl_poly r = {0};
+        assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
+        same(&p, &r);
+        fl_poly_free(&q), fl_poly_free(&r);
+        assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
+        assert_int_equal(fl_topologies_share(&t, &q, FL_KEEP_ANGLES, &err), 0); /* and without offsets */
+        assert_null(q.c);
         assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
         same(&p, &r);
         fl_poly_free(&p), fl_poly_free(&q), fl_poly_free(&r);
@@ -137,7 +143,7 @@ static void without_memory_all_stays(void **state)
     for (long k = 0; k < 10; k++) {
         fl_err lost = {0};
         fl_mem_fail_after(k);
-        const int rc = fl_topologies_share(&t, &q, 1, &lost);
+        const int rc = fl_topologies_share(&t, &q, FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &lost);
         fl_mem_fail_after(-1);
         same(&p, &q);
         if (rc == 0) break;
@@ -146,7 +152,7 @@ static void without_memory_all_stays(void **state)
     }
     assert_true(refused >= 2);
     assert_int_equal(q.shared, 1);
-    assert_int_equal(fl_topologies_share(&t, &q, 1, &err), 0); /* again */
+    assert_int_equal(fl_topologies_share(&t, &q, FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &err), 0); /* again */
     same(&p, &q);
     fl_poly_free(&p), fl_poly_free(&q);
     fl_topologies_free(&t);
