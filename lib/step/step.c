@@ -53,6 +53,7 @@ static void contacts_of_pairs(fl_world *w, double dt, int survey)
 static void contacts_told(fl_world *w)
 {
     fl_awake_told(w);
+    fl_works_place(w);
     if (w->frozen.ended) { /* there is a pair to be found */
         w->found_at = -1;
         w->frozen.ended = 0;
