@@ -14,7 +14,7 @@
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
 
-enum { MOST_WAYS = 256 };
+enum { MOST_WAYS = 256, LINE = 64 /* bytes that are fetched at a time */ };
 
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 {
@@ -340,11 +340,13 @@ typedef struct {
     const uint8_t *by, *hit;
     const fl_vec3 *x;
     const double *radius;
+    const fl_ball_row *row;
 } seeker;
 
 /* Rows [c, to), four at a time, until the batch is a block or less than four are left: behind the last.
  * Whether a row touches is nothing that could be foreseen, so nothing here branches on it: it is written down
- * behind the last that does, and counts or does not.  That it begins to, or ends, is rare. */
+ * behind the last that does, and counts or does not.  That it begins to, or ends, is rare.  What rows
+ * remember is sent for here, and has come when the batch is full. */
 FL_FOUR_VERSIONS static int32_t look(const seeker *restrict s, batch *restrict t, int32_t c, int32_t to)
 {
     const int32_t *bi = s->i, *bj = s->j;
@@ -356,6 +358,9 @@ FL_FOUR_VERSIONS static int32_t look(const seeker *restrict s, batch *restrict t
     for (; c + FL_LANES <= to && m < BLOCK; c += FL_LANES) {
         fl_wide v[FL_LANES], R;
         uint32_t turned = 0;
+        const char *rows = (const char *)&s->row[c];
+        FL_WIDE_UNROLL for (size_t at = 0; at < FL_LANES * sizeof *s->row; at += LINE)
+            __builtin_prefetch(rows + at, 1);
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
         {
             const int32_t i = bi[c + l], j = bj[c + l];
@@ -662,7 +667,7 @@ static void take(fl_world *w, int32_t a, double dt, int survey)
 {
     fl_balls *s = &w->balls;
     const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a), to = s->first[end], cross = s->cross[a];
-    const seeker by = {w, s->i, s->j, s->way, s->by, s->hit, w->b.x, w->b.radius};
+    const seeker by = {w, s->i, s->j, s->way, s->by, s->hit, w->b.x, w->b.radius, s->row};
     const int wide = dt >= 0.0 && s->ways;
     batch t;
     memset(t.law, -1, sizeof t.law);
