@@ -571,7 +571,7 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
     const fl_footing *o = l->footing;
     fl_err lost = {0};
     *rest = *l;
-    if (!o) return 0;
+    if (!o || (o->feet == 0 && o->hems.n == 0)) return 0;
     if (fl_grow(&room->open, &room->open_cap, l->n, sizeof *room->open, &lost) ||
         fl_grow(&room->left, &room->left_cap, l->n, sizeof *room->left, &lost))
         return -1;
