@@ -121,7 +121,6 @@ static int32_t keys_of(const fl_matches *l, const fl_side *A, const fl_side *B, 
 static int list_cuts(fl_footing *o, const fl_matches *l)
 {
     const void *whole = fl_matches_whole(l);
-    const int32_t columns[2] = {fl_matches_columns(l->vertices[0]), fl_matches_columns(l->vertices[1])};
     fl_err lost = {0};
     uint8_t *asked = fl_alloc((int64_t)l->cuts[0] + l->cuts[1] + 1, sizeof *asked, &lost);
     int rc = asked ? 0 : -1;
@@ -137,7 +136,7 @@ static int list_cuts(fl_footing *o, const fl_matches *l)
         for (int32_t c = -plane; c < fl_match_sides(head); c++) {
             /* the plane of the face is the last of the fixed numbers */
             const int32_t at = fl_matches_get(whole, l->wide, from + c);
-            asked[(way ? l->cuts[0] : 0) + (c < 0 ? at : at >> 1) / columns[way]] = 1;
+            asked[(way ? l->cuts[0] : 0) + (c < 0 ? at : at >> 1)] = 1;
         }
     }
     for (int way = 0; way < 2 && rc == 0; way++) {

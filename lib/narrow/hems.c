@@ -51,12 +51,11 @@ static void put_match(fl_hem *h, int32_t lane, const fl_matches *l, int32_t at, 
     const int32_t head = fl_matches_get(whole, wide, at), n = fl_match_sides(head), way = fl_match_way(head);
     const int32_t own = fl_matches_get(whole, wide, at + FL_MATCH_OWN),
                   other = fl_matches_get(whole, wide, at + FL_MATCH_OTHER);
-    const int32_t columns = fl_matches_columns(l->vertices[way]),
-                  last = at + fl_match_fixed(fl_match_kind_of(head));
+    const int32_t last = at + fl_match_fixed(fl_match_kind_of(head));
     const fl_cut *cut = fl_matches_cuts(l, way);
     for (int32_t k = 0; k < PLANES; k++) {
         const int32_t side = k < n ? fl_matches_get(whole, wide, last + k) : 0;
-        put_plane(h, lane, k, k < n ? &cut[(side >> 1) / columns] : NULL, side & 1 ? -1.0 : 1.0);
+        put_plane(h, lane, k, k < n ? &cut[side >> 1] : NULL, side & 1 ? -1.0 : 1.0);
     }
     const fl_edge a = A->p->edge[way == 0 ? own : other];
     h->end[0][lane] = a.a, h->end[1][lane] = a.b;
@@ -64,7 +63,7 @@ static void put_match(fl_hem *h, int32_t lane, const fl_matches *l, int32_t at, 
     const int32_t more = fl_matches_get(whole, wide, last - 1);
     h->each[lane] = 0.0;
     if (h->kind == OVER_FACE) {
-        put_plane(h, lane, PLANES - 1, &cut[more / columns], 1.0);
+        put_plane(h, lane, PLANES - 1, &cut[more], 1.0);
         return;
     }
     const fl_edge b = B->p->edge[way == 0 ? other : own];

@@ -331,17 +331,18 @@ static int list_used(draft *l, const fl_poly *p)
 
 /* Whole numbers on their way into a block; without one they are counted, and the largest is found. */
 typedef struct {
-    uint16_t *narrow;
-    int32_t *wide;
+    void *at;
+    int wide; /* as in the list */
     int64_t n;
     int32_t most;
 } whole;
 
 static void put(whole *to, int32_t x)
 {
-    if (to->narrow) to->narrow[to->n] = (uint16_t)x;
-    if (to->wide) to->wide[to->n] = x;
-    if (x > to->most) to->most = x;
+    if (!to->at) to->most = x > to->most ? x : to->most;
+    else if (to->wide == 0) ((uint8_t *)to->at)[to->n] = (uint8_t)x;
+    else if (to->wide == 1) ((uint16_t *)to->at)[to->n] = (uint16_t)x;
+    else ((int32_t *)to->at)[to->n] = x;
     to->n++;
 }
 
@@ -349,15 +350,14 @@ static void put_match(whole *to, const draft *d, const match *m)
 {
     const int edge = m->kind >= FL_MATCH_EDGE_FACE && m->kind <= FL_MATCH_EDGE_VERTEX;
     const enum feature over = other_of(m);
-    const int32_t *side = d->side + m->first, columns = fl_matches_columns(d->table[m->way].vertices);
+    const int32_t *side = d->side + m->first;
     put(to, m->kind | m->way << 3 | m->n << 4);
     put(to, m->own);
     put(to, m->other);
     put(to, m->kind == FL_MATCH_FACE_FACE ? m->corners : m->v[0]);
     if (edge) put(to, m->v[1]), put(to, m->factor);
-    if (over != VERTEX) put(to, over == FACE ? columns * m->height : m->length);
-    for (int32_t k = 0; k < m->n; k++) put(to, columns * (side[k] & ~1) | (side[k] & 1));
-    for (int32_t k = 0; k < m->corners; k++) put(to, side[m->n + k]);
+    if (over != VERTEX) put(to, over == FACE ? m->height : m->length);
+    for (int32_t k = 0; k < m->n + m->corners; k++) put(to, side[k]);
 }
 
 static void put_all(whole *to, const draft *d)
@@ -372,15 +372,15 @@ static void put_all(whole *to, const draft *d)
 static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *b)
 {
     whole count = {0};
-    for (int way = 0; way < 2; way++) { /* heights are told by numbers of 32 bits, times two */
+    for (int way = 0; way < 2; way++) { /* heights are told by numbers of 32 bits */
         const table *t = &d->table[way];
         if (t->planes > INT32_MAX / 2 / (t->vertices + FL_LANES)) return -1;
     }
     put_all(&count, d);
-    const int wide = count.most > UINT16_MAX;
+    const int wide = count.most <= UINT8_MAX ? 0 : count.most <= UINT16_MAX ? 1 : 2;
     const int64_t planes = (int64_t)d->table[0].planes + d->table[1].planes,
                   bytes = planes * (int64_t)sizeof(fl_cut) + d->numbers * (int64_t)sizeof(double) +
-                          count.n * (int64_t)(wide ? sizeof(int32_t) : sizeof(uint16_t));
+                          (count.n << wide);
     if (l->size < bytes || l->size > bytes + bytes / 4) { /* a list lasts: nothing is kept in vain */
         free(l->block);
         l->block = NULL;
@@ -400,7 +400,7 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
     l->used_v = d->used_v, l->used_f = d->used_f;
     l->n = d->n;
     l->wide = (int16_t)wide;
-    put_all(&(whole){.narrow = wide ? NULL : (void *)number, .wide = wide ? (void *)number : NULL}, d);
+    put_all(&(whole){.at = number, .wide = wide}, d);
     return 0;
 }
 

@@ -32,8 +32,8 @@ typedef struct {
     double c;
 } fl_cut;
 
-/* A list lies in one block: planes, numbers, and whole numbers of 16 bits each, or of 32 where one of them
- * would not fit.  A match is a row of those:
+/* A list lies in one block: planes, numbers, and whole numbers of 8 bits each, or of 16 or 32 where one of
+ * them would not fit.  A match is a row of those:
  *     kind + 8 way + 16 sides     way 0: of A over B, 1: of B over A
  *     own, other                  numbers of the features
  *     column                      of the vertex, or the first of an edge; of a face how many corners it has
@@ -41,8 +41,7 @@ typedef struct {
  *     row or length               over a face the row of its plane; over an edge which number is its length
  *     side ...                    2 row, or 2 row + 1 where below the plane is meant: what it must be beyond
  *     column ...                  of a face those of its corners
- * Rows and columns are those of the tables of heights, of vertices of one core over planes of the other; a
- * row is told by where it begins in its table, so that the row and the column add up to the place. */
+ * Rows and columns are those of the tables of heights, of vertices of one core over planes of the other. */
 enum { FL_MATCH_HEAD, FL_MATCH_OWN, FL_MATCH_OTHER, FL_MATCH_COLUMN, FL_MATCH_SECOND, FL_MATCH_FACTOR };
 
 /* Some of the rows of a list. */
@@ -59,7 +58,7 @@ struct fl_matches {
     int32_t n;
     int32_t cuts[2], vertices[2], numbers; /* of the tables of the two ways; factors and lengths */
     int32_t used_v, used_f;                /* vertices and faces of A that the list speaks of */
-    int16_t wide;                          /* whole numbers of 32 bits */
+    int16_t wide;                          /* whole numbers of 8 bits, 1: of 16, 2: of 32 */
     int16_t clear;                         /* the cores do not meet while it holds */
     fl_mat3 M; /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
     fl_vec3 o;
@@ -95,7 +94,9 @@ static inline const void *fl_matches_whole(const fl_matches *l) { return fl_matc
 /* The k-th of them; `wide` as in the list. */
 static inline int32_t fl_matches_get(const void *whole, int wide, int64_t k)
 {
-    return wide ? ((const int32_t *)whole)[k] : ((const uint16_t *)whole)[k];
+    return wide == 0   ? ((const uint8_t *)whole)[k]
+           : wide == 1 ? ((const uint16_t *)whole)[k]
+                       : ((const int32_t *)whole)[k];
 }
 
 /* Where the rows begin. */

@@ -57,7 +57,8 @@ typedef struct {
     fl_places *w;
     const double *number;
     const fl_side *own, *other;
-    const double *h; /* of this way */
+    const double *h; /* of this way, */
+    size_t columns;  /* so many a row */
     double R, behind, rim;
 } meeting;
 
@@ -68,12 +69,15 @@ typedef const void *row;
 
 INLINE int32_t get(row r, int wide, int32_t k) { return fl_matches_get(r, wide, k); }
 
+/* Heights over plane k. */
+INLINE const double *row_of(const meeting *q, int32_t k) { return q->h + (uint32_t)k * q->columns; }
+
 /* A vertex lies beyond all n sides, which begin behind the first fixed numbers. */
 INLINE int beyond_all(const meeting *q, row r, int wide, int fixed, int32_t n, int32_t v)
 {
     for (int32_t k = 0; k < n; k++) {
         const int32_t side = get(r, wide, fixed + k);
-        const double h = q->h[(side >> 1) + v];
+        const double h = row_of(q, side >> 1)[v];
         if (side & 1 ? h > 0.0 : h < 0.0) return 0;
     }
     return 1;
@@ -85,7 +89,7 @@ INLINE int keep_beyond(const meeting *q, row r, int wide, int fixed, int32_t n, 
 {
     for (int32_t k = 0; k < n; k++) {
         const int32_t side = get(r, wide, fixed + k);
-        const double *h = q->h + (side >> 1), h0 = h[v0], h1 = h[v1];
+        const double *h = row_of(q, side >> 1), h0 = h[v0], h1 = h[v1];
         if (!(side & 1 ? fl_span_keep(t, -h0, -h1) : fl_span_keep(t, h0, h1))) return 0;
     }
     return 1;
@@ -105,7 +109,7 @@ INLINE int vertex(const meeting *q, row r, int wide, int kind, int32_t n)
     const int32_t own = get(r, wide, FL_MATCH_OWN), other = get(r, wide, FL_MATCH_OTHER),
                   v = get(r, wide, FL_MATCH_COLUMN);
     if (kind == FL_MATCH_VERTEX_FACE) {
-        const double h = q->h[get(r, wide, FL_MATCH_COLUMN + 1) + v];
+        const double h = row_of(q, get(r, wide, FL_MATCH_COLUMN + 1))[v];
         if (h >= q->R || h < -FL_SPAN_SAME * p->size || !beyond_all(q, r, wide, 5, n, v)) return 0;
         return fl_places_vertex(q->w, q->own, q->other->r, own, q->other->n[other], q->R - h);
     }
@@ -127,7 +131,7 @@ INLINE int edge(const meeting *q, row r, int wide, int kind, int32_t n)
     double h0 = 0.0, h1 = 0.0;
     fl_span t = {0.0, 1.0};
     if (kind == FL_MATCH_EDGE_FACE) {
-        const double *h = q->h + get(r, wide, FL_MATCH_FACTOR + 1), below = q->behind + small;
+        const double *h = row_of(q, get(r, wide, FL_MATCH_FACTOR + 1)), below = q->behind + small;
         h0 = h[v0], h1 = h[v1];
         if ((h0 >= q->R && h1 >= q->R) || !fl_span_keep(&t, h0 + below, h1 + below)) return 0;
     }
@@ -148,13 +152,13 @@ INLINE int edge(const meeting *q, row r, int wide, int kind, int32_t n)
 INLINE int face(const meeting *q, row r, int wide, int32_t sides)
 {
     const int32_t n = get(r, wide, FL_MATCH_COLUMN), height = get(r, wide, FL_MATCH_COLUMN + 1);
-    const double *h = q->h + height;
+    const double *h = row_of(q, height);
     int near = 0;
     for (int32_t c = 0; c < n; c++) near |= h[get(r, wide, 5 + sides + c)] < q->R;
     if (!near) return 0;
     for (int32_t k = 0; k < sides; k++) {
         const int32_t side = get(r, wide, 5 + k);
-        const double *g = q->h + (side >> 1), sign = side & 1 ? -1.0 : 1.0;
+        const double *g = row_of(q, side >> 1), sign = side & 1 ? -1.0 : 1.0;
         int in = 0;
         for (int32_t c = 0; c < n; c++) in |= sign * g[get(r, wide, 5 + sides + c)] > 0.0;
         if (!in) return 0;
@@ -182,7 +186,7 @@ int fl_matches_enter(fl_places *w, const fl_matches *l, const fl_poly *a, fl_mat
 
 INLINE int all_rows(const meeting way[2], const fl_matches *l, int wide)
 {
-    const size_t each = wide ? sizeof(int32_t) : sizeof(uint16_t);
+    const size_t each = (size_t)1 << wide;
     const char *r = (const char *)fl_matches_whole(l) + (size_t)fl_matches_begin(l) * each;
     for (int32_t k = 0; k < l->n; k++) {
         const row now = r;
@@ -207,7 +211,7 @@ INLINE int all_rows(const meeting way[2], const fl_matches *l, int wide)
 /* Those that the caller has chosen. */
 INLINE int some_rows(const meeting way[2], const fl_matches *l, int wide)
 {
-    const size_t each = wide ? sizeof(int32_t) : sizeof(uint16_t);
+    const size_t each = (size_t)1 << wide;
     for (int32_t k = 0; k < l->choice->n; k++) {
         const row r = (const char *)fl_matches_whole(l) + (size_t)l->choice->at[k] * each;
         const int32_t head = get(r, wide, FL_MATCH_HEAD), n = fl_match_sides(head);
@@ -228,8 +232,12 @@ int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const
     if (l->choice && l->choice->n == 0) return 0;
     if (fill(w, l, 0, A->v, &h[0]) || fill(w, l, 1, B->v, &h[1])) return -1;
     const double *number = fl_matches_numbers(l);
-    const meeting way[2] = {{w, number, A, B, h[0], R, behind, rim_b},
-                            {w, number, B, A, h[1], R, behind, rim_a}};
-    if (l->choice) return l->wide ? some_rows(way, l, 1) : some_rows(way, l, 0);
-    return l->wide ? all_rows(way, l, 1) : all_rows(way, l, 0);
+    const meeting way[2] = {
+        {w, number, A, B, h[0], (size_t)fl_matches_columns(l->vertices[0]), R, behind, rim_b},
+        {w, number, B, A, h[1], (size_t)fl_matches_columns(l->vertices[1]), R, behind, rim_a}};
+    if (l->choice)
+        return l->wide == 0   ? some_rows(way, l, 0)
+               : l->wide == 1 ? some_rows(way, l, 1)
+                              : some_rows(way, l, 2);
+    return l->wide == 0 ? all_rows(way, l, 0) : l->wide == 1 ? all_rows(way, l, 1) : all_rows(way, l, 2);
 }
