@@ -7,10 +7,7 @@
 
 static double tree(const fl_bvh *t) { return ARRAY(t->node, t->node_cap) + ARRAY(t->order, t->order_cap); }
 
-static double hull(const fl_hull *h)
-{
-    return h->p ? ARRAY(h->area, h->p->nf) + ARRAY(h->middle, h->p->nf) : 0.0;
-}
+static double hull(const fl_hull *h) { return h->p ? ARRAY(h->area, 4 * h->p->nf) : 0.0; }
 
 static double scratch(const fl_places *s)
 {

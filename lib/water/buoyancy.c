@@ -17,12 +17,8 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
     out.centre = m.centre;
     out.surface = fl_dilate_area(p, out.radius);
     if (!round) {
-        out.middle = fl_alloc(p->nf, sizeof *out.middle, err);
-        out.area = fl_alloc(p->nf, sizeof *out.area, err);
-        if (!out.middle || !out.area) {
-            fl_hull_free(&out);
-            return -1;
-        }
+        out.area = fl_alloc(4 * (int64_t)p->nf, sizeof *out.area, err);
+        if (!out.area) return -1;
     }
     for (int32_t f = 0; !round && f < p->nf; f++) {
         const fl_vec3 a = p->v[p->loop[p->first[f]]];
@@ -34,7 +30,7 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
             g = v3_madd(g, tri / 3.0, v3_add(b, c));
             b = c;
         }
-        out.middle[f] = v3_madd(a, 1.0 / out.area[f], g);
+        fl_hull_middles(&out)[f] = v3_madd(a, 1.0 / out.area[f], g);
     }
     if (!round) fl_prism_of(&out.prism, p);
     *h = out;
@@ -96,8 +92,8 @@ int fl_hull_by_core(fl_hull *h, const fl_poly *core, double r)
     const fl_poly *q = stand_out(&room, core, h->prism.e, r);
     for (int32_t v = 0; v < p->nv; v++) /* no number is worse than any */
         if (!(v3_norm(v3_sub(p->v[v], q->v[v])) <= OFF * p->size)) return 0;
-    free(h->middle), free(h->area);
-    h->middle = NULL, h->area = NULL;
+    free(h->area);
+    h->area = NULL;
     h->p = core;
     h->radius = r;
     return 1;
@@ -105,7 +101,6 @@ int fl_hull_by_core(fl_hull *h, const fl_poly *core, double r)
 
 void fl_hull_free(fl_hull *h)
 {
-    free(h->middle);
     free(h->area);
     *h = (fl_hull){0};
 }
@@ -245,7 +240,7 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
         if (below == 0) continue;
         if (below == m && h->area) {
             area = h->area[f];
-            moment = v3_scale(area, v3_sub(h->middle[f], apex));
+            moment = v3_scale(area, v3_sub(fl_hull_middles(h)[f], apex));
         } else {
             const struct part part = below == m ? whole_face(p, f, apex) : clip_face(p, f, &water, apex);
             area = part.area;

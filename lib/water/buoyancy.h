@@ -23,15 +23,18 @@
 /* One shape that can float, read-only once made. */
 typedef struct {
     const fl_poly *p; /* borrowed; origin at the body's centre of mass [m] */
-    double radius;   /* of a sphere or capsule (p->nv <= 2); how far the shape's faces stand out from those of
+    double radius;  /* of a sphere or capsule (p->nv <= 2); how far the shape's faces stand out from those of
                        * p, after fl_hull_by_core(); else 0            [m] */
-    double volume;   /* whole                                       [m^3] */
-    fl_vec3 centre;  /* its centroid                                  [m] */
-    double surface;  /* whole                                       [m^2] */
-    double *area;    /* [nf] of each face; NULL after fl_hull_by_core() [m^2] */
-    fl_vec3 *middle; /* [nf] centroid of each face, or NULL           [m] */
-    fl_prism prism;  /* the same as a right prism, if it is one */
+    double volume;  /* whole                                       [m^3] */
+    fl_vec3 centre; /* its centroid                                  [m] */
+    double surface; /* whole                                       [m^2] */
+    double *area;   /* [4 nf] area of each face, and 3 numbers each of its centroid; NULL after
+                      * fl_hull_by_core()                      [m^2], [m] */
+    fl_prism prism; /* the same as a right prism, if it is one */
 } fl_hull;
+
+/* [nf] centroids of the faces [m]. */
+static inline fl_vec3 *fl_hull_middles(const fl_hull *h) { return (fl_vec3 *)(void *)(h->area + h->p->nf); }
 
 /* A solid (its sharp surface floats, radius is not used), or with radius > 0 a sphere (nv = 1) or a capsule
  * (nv = 2).  0, or -1 and h untouched, with FL_INPUT (a flat polygon; a sphere or capsule without radius) or

@@ -82,23 +82,7 @@ void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, double h, int back)
 }
 
 /* Right prisms, one array a number, in the order of fl_prism: read by that order. */
-enum {
-    AREA,
-    O,
-    A = O + 3,
-    B = A + 3,
-    E = B + 3,
-    Z0 = E + 3,
-    Z1,
-    JAA,
-    JAB,
-    JBB,
-    ROUND,
-    GA,
-    GB,
-    FAR2,
-    NUMBERS
-};
+enum { AREA, O, A = O + 3, E = A + 3, Z0 = E + 3, Z1, JAA, JAB, JBB, ROUND, GA, GB, FAR2, NUMBERS };
 static_assert(offsetof(fl_prism, o) == O * sizeof(double) && offsetof(fl_prism, e) == E * sizeof(double) &&
                   offsetof(fl_prism, jaa) == JAA * sizeof(double) &&
                   offsetof(fl_prism, far2) == FAR2 * sizeof(double),
@@ -135,9 +119,10 @@ FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, doub
 #pragma omp simd reduction(+ : afloat)
     for (int32_t i = 0; i < a->n; i++) {
         const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i], level = q->level[i];
-        const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], bx = q->p[B][i],
-                     by = q->p[B + 1][i], bz = q->p[B + 2][i], ex = q->p[E][i], ey = q->p[E + 1][i],
-                     ez = q->p[E + 2][i], ox = q->p[O][i], oy = q->p[O + 1][i], oz = q->p[O + 2][i];
+        const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], ex = q->p[E][i],
+                     ey = q->p[E + 1][i], ez = q->p[E + 2][i], ox = q->p[O][i], oy = q->p[O + 1][i],
+                     oz = q->p[O + 2][i];
+        const double bx = ey * az - ez * ay, by = ez * ax - ex * az, bz = ex * ay - ey * ax;
         const double area = q->p[AREA][i], jab = q->p[JAB][i];
         const double along = ux * ex + uy * ey + uz * ez;
         const int over = along < 0.0; /* turned over: seen along -e */

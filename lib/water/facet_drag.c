@@ -80,7 +80,7 @@ int32_t fl_skin_pieces(const fl_hull *h, fl_vec3 up, double level, int dry, fl_s
     const double sign = dry ? -1.0 : 1.0;
     int32_t pieces = 0;
     for (int32_t f = 0; f < p->nf; f++) {
-        outline whole = {.n = p->n[f], .hub = h->middle[f]};
+        outline whole = {.n = p->n[f], .hub = fl_hull_middles(h)[f]};
         walk(p, f, up, level, sign, &whole);
         if (whole.corners < 3 || !(whole.area > 0.0)) continue;
         outline fan = {.n = p->n[f],

@@ -41,7 +41,7 @@ static int32_t cap(const fl_poly *p, fl_vec3 e)
 static void section(fl_prism *q, const fl_poly *p, int32_t f)
 {
     const int32_t *loop = p->loop + p->first[f], n = p->first[f + 1] - p->first[f];
-    const fl_vec3 hub = p->v[loop[0]];
+    const fl_vec3 hub = p->v[loop[0]], b = v3_cross(q->e, q->a);
     double area = 0.0, ma = 0.0, mb = 0.0, length = 0.0, la = 0.0, lb = 0.0;
     for (int way = 0; way < 2; way++) { /* first the centroid, then all about it */
         const double oa = way ? ma : 0.0, ob = way ? mb : 0.0;
@@ -49,8 +49,8 @@ static void section(fl_prism *q, const fl_poly *p, int32_t f)
         q->jaa = q->jab = q->jbb = q->far2 = length = la = lb = 0.0;
         for (int32_t k = 0; k < n; k++) {
             const fl_vec3 u = v3_sub(p->v[loop[k]], hub), v = v3_sub(p->v[loop[k + 1 < n ? k + 1 : 0]], hub);
-            const double xa = v3_dot(q->a, u) - oa, xb = v3_dot(q->b, u) - ob;
-            const double ya = v3_dot(q->a, v) - oa, yb = v3_dot(q->b, v) - ob;
+            const double xa = v3_dot(q->a, u) - oa, xb = v3_dot(b, u) - ob;
+            const double ya = v3_dot(q->a, v) - oa, yb = v3_dot(b, v) - ob;
             const double twice = xa * yb - xb * ya, side = v3_norm(v3_sub(v, u));
             a2 += twice;
             sa += twice * (xa + ya) / 3.0;
@@ -69,7 +69,7 @@ static void section(fl_prism *q, const fl_poly *p, int32_t f)
     q->area = area;
     q->perimeter = length;
     q->ga = la / length, q->gb = lb / length;
-    q->o = v3_madd(v3_madd(hub, ma, q->a), mb, q->b);
+    q->o = v3_madd(v3_madd(hub, ma, q->a), mb, b);
     q->o = v3_madd(q->o, -v3_dot(q->e, q->o), q->e);
 }
 
@@ -88,7 +88,6 @@ void fl_prism_of(fl_prism *out, const fl_poly *p)
         *out = (fl_prism){.e = p->n[top], .z0 = low, .z1 = low + length};
         const fl_vec3 x = fabs(e.x) < 0.6 ? v3(1, 0, 0) : v3(0, 1, 0);
         out->a = v3_unit(v3_cross(out->e, x));
-        out->b = v3_cross(out->e, out->a);
         section(out, p, top);
     }
 }
@@ -98,7 +97,8 @@ int fl_prism_wet(const fl_prism *p, fl_vec3 up, double level, struct fl_wet *wet
     double ue = v3_dot(up, p->e), z0 = p->z0, z1 = p->z1, sign = 1.0;
     if (ue < 0.0) ue = -ue, sign = -1.0, z0 = -p->z1, z1 = -p->z0; /* turned over: seen along -e */
     if (!(ue > 0.1)) return 0;
-    const double sa = -v3_dot(up, p->a) / ue, sb = -v3_dot(up, p->b) / ue;
+    const fl_vec3 b = v3_cross(p->e, p->a);
+    const double sa = -v3_dot(up, p->a) / ue, sb = -v3_dot(up, b) / ue;
     const double zw = (level - v3_dot(up, p->o)) / ue, wet0 = zw - z0, dry0 = z1 - zw;
     const double least = wet0 < dry0 ? wet0 : dry0;
     if (!(least > 0.0) || !(least * least > (sa * sa + sb * sb) * p->far2)) return 0;
@@ -106,7 +106,7 @@ int fl_prism_wet(const fl_prism *p, fl_vec3 up, double level, struct fl_wet *wet
     const double volume = p->area * wet0, per = 1.0 / volume;
     const double mz = 0.5 * (p->area * wet0 * (zw + z0) + sa * ja + sb * jb);
     wet->volume = volume;
-    wet->centre = v3_madd(v3_madd(v3_madd(p->o, per * ja, p->a), per * jb, p->b), sign * per * mz, p->e);
+    wet->centre = v3_madd(v3_madd(v3_madd(p->o, per * ja, p->a), per * jb, b), sign * per * mz, p->e);
     wet->wetted = p->area + p->perimeter * (wet0 + sa * p->ga + sb * p->gb);
     wet->waterplane = p->area / ue;
     return 1;

@@ -15,10 +15,10 @@
 #include "geom/poly.h"
 
 typedef struct {
-    double area;          /* A; 0: not a right prism                              [m^2] */
-    fl_vec3 o;            /* on the line of the centroids, z = 0                    [m] */
-    fl_vec3 a, b, e;      /* unit, at right angles: axes of q, and the long one */
-    double z0, z1;        /* [m] */
+    double area;   /* A; 0: not a right prism                              [m^2] */
+    fl_vec3 o;     /* on the line of the centroids, z = 0                    [m] */
+    fl_vec3 a, e;  /* unit, at right angles: the first axis of q, and the long one; e x a is the second */
+    double z0, z1; /* [m] */
     double jaa, jab, jbb; /* J                                                    [m^4] */
     double perimeter;     /* P                                                      [m] */
     double ga, gb;        /* g                                                      [m] */

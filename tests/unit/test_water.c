@@ -111,7 +111,8 @@ static void prisms_have_closed_formulae(void **state)
         const fl_prism as = h.prism;
         const double tilt = 0.3 * fl_rng_in(&g, 0, 1) * fl_rng_in(&g, 0, 1), to = fl_rng_in(&g, 0, 2.0 * PI);
         const fl_vec3 e = v3_scale(t % 2 ? -1.0 : 1.0, as.e);
-        const fl_vec3 up = v3_unit(v3_madd(v3_madd(e, tilt * cos(to), as.a), tilt * sin(to), as.b));
+        const fl_vec3 up =
+            v3_unit(v3_madd(v3_madd(e, tilt * cos(to), as.a), tilt * sin(to), v3_cross(as.e, as.a)));
         const double middle = v3_dot(up, v3_madd(as.o, 0.5 * (as.z0 + as.z1), as.e));
         const double level = middle + fl_rng_in(&g, -0.3, 0.3);
         fl_buoyancy(&h, up, level, &w);
@@ -149,7 +150,7 @@ static void a_hull_by_its_core(void **state)
         assert_int_equal(fl_hull_by_core(&by, &core, r + 1e-9), 0);
         assert_true(by.p == &outer && by.area);
         assert_int_equal(fl_hull_by_core(&by, &core, r), 1);
-        assert_true(by.p == &core && !by.area && !by.middle);
+        assert_true(by.p == &core && !by.area);
         const fl_vec3 up = v3_unit(v3(fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1)));
         const double level = v3_dot(up, h.centre) + fl_rng_in(&g, -2, 2);
         fl_buoyancy(&h, up, level, &w);
@@ -303,12 +304,12 @@ static void what_cannot_float(void **state)
         assert_near(h.radius, 7.0, 0.0);
         fl_poly_free(&p);
     }
-    for (int after = 0; after < 2; after++) {
+    {
         fl_err err = {0};
         fl_poly p;
         fl_hull h = {0};
         assert_int_equal(fl_poly_box(&p, v3(1, 1, 1), &err), 0);
-        fl_mem_fail_after(after);
+        fl_mem_fail_after(0);
         assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), -1);
         fl_mem_fail_after(-1);
         assert_int_equal(err.code, FL_SYSTEM);
