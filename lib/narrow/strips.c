@@ -221,7 +221,8 @@ static int tie(const fl_line *l, const sums *q, double share, double du, double 
 
 /* The forces all meet the point or the line, at tau + t slope, so that one place has their resultant, or two
  * at the ends of the span. */
-int fl_strips_at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c, const fl_vec3 *e, double small)
+static inline __attribute__((always_inline)) int at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c,
+                                                         const fl_vec3 *e, double small)
 {
     const fl_vec3 q = at->q, u = at->u;
     fl_span t = at->t;
@@ -270,7 +271,12 @@ int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *
     at.least2 = v3_norm2(at.q);
     if (!(l->R * l->R - at.least2 > 0.0)) return 0;
     at.t.lo -= at.m, at.t.hi -= at.m;
-    return fl_strips_at_foot(l, &at, c, e, small);
+    return at_foot(l, &at, c, e, small);
+}
+
+int fl_strips_at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c, const fl_vec3 *e, double small)
+{
+    return at_foot(l, at, c, e, small);
 }
 
 double fl_strips_factor(const fl_side *own, int32_t e, double other)
