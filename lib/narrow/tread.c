@@ -237,34 +237,55 @@ FL_WIDE_VERSIONS int fl_tread_sort_edges(const fl_tread *g, const fl_tread_edge 
 /* --- whole triangles -------------------------------------------------------------------------------------
  */
 
-/* Over triangles, for each of their area: of s^4, s^3, s^2, and of f = k s^3 times 1, x, y, xx, xy, yy. */
+/* Means over a triangle with s = a, b, c at its corners, by their complete symmetric sums h_k of degree k,
+ * in which no number is subtracted:
+ *     mean s^k = 2 k!/(k+2)! h_k(a, b, c),   mean s^k l_a = 2 k!/(k+3)! h_k(a, b, c, a),
+ *     mean s^k l_a l_b = 2 k!/(k+4)! h_k(a, b, c, a, b),
+ * where l_a is the share of the first corner, and so on; h_k(.., b) = h_k(..) + b h_(k-1)(.., b).  Of s^2,
+ * s^3 and s^4; and 60 and 420 times those of s^3 with one share and with two. */
 typedef struct {
-    fl_wide u, du, ddu, f, x, y, xx, xy, yy;
-} means;
+    fl_wide s2, s3, s4, a, b, c, ab, ac, bc;
+} powers;
 
-/* The corners are c, the middle their sum over 3, and the nodes of a triple with share a of two corners and
- * 1 - 2 a of the third at a times the sum and 1 - 3 a times the third. */
-#define TRIPLE(a, sum, c) ((a) * (sum) + (1.0 - 3.0 * (a)) * (c))
+FL_WIDE_PART void powers_of(const fl_wide *s0, const fl_wide *s1, const fl_wide *s2, powers *out)
+{
+    const fl_wide a = *s0, b = *s1, c = *s2, a2 = a * a;
+    const fl_wide e1 = a + b, e2 = a2 + b * e1, e3 = a2 * a + b * e2, e4 = a2 * a2 + b * e3;
+    const fl_wide h1 = e1 + c, h2 = e2 + c * h1, h3 = e3 + c * h2, h4 = e4 + c * h3;
+    const fl_wide a1 = h1 + a, a_2 = h2 + a * a1, b1 = h1 + b, b_2 = h2 + b * b1;
+    out->s2 = h2 * (1.0 / 6.0), out->s3 = h3 * 0.1, out->s4 = h4 * (1.0 / 15.0);
+    out->a = h3 + a * a_2, out->b = h3 + b * b_2, out->c = h3 + c * (h2 + c * (h1 + c));
+    out->ab = out->a + b * (a_2 + b * (a1 + b)), out->ac = out->a + c * (a_2 + c * (a1 + c));
+    out->bc = out->b + c * (b_2 + c * (b1 + c));
+}
 
-/* Both ways at once: means of each, f of their sum. */
-#define ADD_BOTH(p, q, weight, S, Z, K, L, X, Y)                                                             \
-    do {                                                                                                     \
-        const fl_wide p2_ = (weight) * ((S) * (S)), p3_ = p2_ * (S), q2_ = (weight) * ((Z) * (Z)),           \
-                      q3_ = q2_ * (Z), f_ = (K)*p3_ + (L)*q3_, fx_ = f_ * (X), fy_ = f_ * (Y);               \
-        (p).ddu += p2_, (p).du += p3_, (p).u += p3_ * (S);                                                   \
-        (q).ddu += q2_, (q).du += q3_, (q).u += q3_ * (Z);                                                   \
-        (p).f += f_, (p).x += fx_, (p).y += fy_;                                                             \
-        (p).xx += fx_ * (X), (p).xy += fx_ * (Y), (p).yy += fy_ * (Y);                                       \
-    } while (0)
+/* Means of s^3 times x, y, xx, xy and yy. */
+typedef struct {
+    fl_wide x, y, xx, xy, yy;
+} moments;
 
-static const double TRIPLE_SHARE[2] = {FL_TRIANGLE_A, FL_TRIANGLE_B};
+/* sum w_i x_i^2 - sum w_ij (x_i - x_j)^2, with w_i the sum of all w_ij. */
+FL_WIDE_PART void moments_of(const powers *k, const fl_wide *p, const fl_wide *q, const fl_wide *r,
+                             moments *out)
+{
+    const double one = 1.0 / 60.0, two = 1.0 / 420.0;
+    const fl_wide ax = k->a * p[X], bx = k->b * q[X], cx = k->c * r[X], ay = k->a * p[Y], by = k->b * q[Y],
+                  cy = k->c * r[Y];
+    const fl_wide Dx = p[X] - q[X], Ex = p[X] - r[X], Fx = q[X] - r[X], Dy = p[Y] - q[Y], Ey = p[Y] - r[Y],
+                  Fy = q[Y] - r[Y];
+    const fl_wide abx = k->ab * Dx, acx = k->ac * Ex, bcx = k->bc * Fx;
+    out->x = one * (ax + bx + cx), out->y = one * (ay + by + cy);
+    out->xx = one * (ax * p[X] + bx * q[X] + cx * r[X]) - two * (abx * Dx + acx * Ex + bcx * Fx);
+    out->xy = one * (ax * p[Y] + bx * q[Y] + cx * r[Y]) - two * (abx * Dy + acx * Ey + bcx * Fy);
+    out->yy = one * (ay * p[Y] + by * q[Y] + cy * r[Y]) -
+              two * (k->ab * Dy * Dy + k->ac * Ey * Ey + k->bc * Fy * Fy);
+}
 
 FL_WIDE_VERSIONS void fl_tread_whole(const fl_tread *g, const fl_tread_tile *tile, const int32_t *corner,
                                      const fl_vec3 *normal, const int32_t *list, int32_t count,
                                      fl_tread_sums *sum)
 {
     const double R = g->R;
-    const fl_wide zero = {0};
     fl_tread_sums all = *sum;
     for (int32_t from = 0; from < count; from += FL_LANES) {
         const int32_t *at[FL_LANES];
@@ -295,24 +316,19 @@ FL_WIDE_VERSIONS void fl_tread_whole(const fl_tread *g, const fl_tread_tile *til
         const fl_wide k3 = 4.0 * share, k3_f = 4.0 * share_f * over;
         const fl_wide s0 = R - h0, s1 = R - h1, s2 = R - h2, z0 = R - over * h0, z1 = R - over * h1,
                       z2 = R - over * h2;
-        const fl_wide sx = x0 + x1 + x2, sy = y0 + y1 + y2, ss = s0 + s1 + s2, sz = z0 + z1 + z2;
-        const fl_wide mx = sx * (1.0 / 3.0), my = sy * (1.0 / 3.0), ms = ss * (1.0 / 3.0),
-                      mz = sz * (1.0 / 3.0);
-        means p = {zero, zero, zero, zero, zero, zero, zero, zero, zero}, r = p;
-        ADD_BOTH(p, r, FL_TRIANGLE_WEIGHT[0], ms, mz, k3, k3_f, mx, my);
-        for (int i = 0; i < 2; i++) {
-            const double a = TRIPLE_SHARE[i], w = FL_TRIANGLE_WEIGHT[1 + 3 * i];
-            ADD_BOTH(p, r, w, TRIPLE(a, ss, s0), TRIPLE(a, sz, z0), k3, k3_f, TRIPLE(a, sx, x0),
-                     TRIPLE(a, sy, y0));
-            ADD_BOTH(p, r, w, TRIPLE(a, ss, s1), TRIPLE(a, sz, z1), k3, k3_f, TRIPLE(a, sx, x1),
-                     TRIPLE(a, sy, y1));
-            ADD_BOTH(p, r, w, TRIPLE(a, ss, s2), TRIPLE(a, sz, z2), k3, k3_f, TRIPLE(a, sx, x2),
-                     TRIPLE(a, sy, y2));
-        }
-        const fl_wide u = share * p.u, v = share_f * r.u, du = 4.0 * share * p.du, dv = 4.0 * share_f * r.du;
-        all.u += u + v, all.du += du + dv, all.ddu += 12.0 * (share * p.ddu + share_f * r.ddu);
-        all.f += p.f, all.s += 4.0 * (u + over * v);
-        all.x += p.x, all.y += p.y, all.xx += p.xx, all.xy += p.xy, all.yy += p.yy;
+        powers p, r, both;
+        moments t;
+        powers_of(&s0, &s1, &s2, &p);
+        powers_of(&z0, &z1, &z2, &r);
+        both.a = k3 * p.a + k3_f * r.a, both.b = k3 * p.b + k3_f * r.b, both.c = k3 * p.c + k3_f * r.c;
+        both.ab = k3 * p.ab + k3_f * r.ab, both.ac = k3 * p.ac + k3_f * r.ac;
+        both.bc = k3 * p.bc + k3_f * r.bc;
+        moments_of(&both, v0, v1, v2, &t);
+        const fl_wide u = share * p.s4, v = share_f * r.s4, du = 4.0 * share * p.s3,
+                      dv = 4.0 * share_f * r.s3;
+        all.u += u + v, all.du += du + dv, all.ddu += 12.0 * (share * p.s2 + share_f * r.s2);
+        all.f += k3 * p.s3 + k3_f * r.s3, all.s += 4.0 * (u + over * v);
+        all.x += t.x, all.y += t.y, all.xx += t.xx, all.xy += t.xy, all.yy += t.yy;
         /* over m: (dm + m/c) u; (dm - 4 m/c) v + (m R/c) dv */
         const fl_wide part = dm / m, turn = (part + over) * u + (part - 4.0 * over) * v + R * over * dv;
         all.couple[0] += ax * turn, all.couple[1] += ay * turn;
@@ -376,22 +392,15 @@ typedef struct {
 
 #define AREA(a, b, c) (0.5 * (((b)[X] - (a)[X]) * ((c)[Y] - (a)[Y]) - ((b)[Y] - (a)[Y]) * ((c)[X] - (a)[X])))
 
-FL_WIDE_PART void add_plain(heap *t, const fl_wide *a, const fl_wide *b, const fl_wide *c)
+FL_WIDE_PART void add_plain(heap *t, const fl_wide *p, const fl_wide *q, const fl_wide *r)
 {
-    const fl_wide turned = AREA(a, b, c), area = SIZE(turned), sx = a[X] + b[X] + c[X],
-                  sy = a[Y] + b[Y] + c[Y], ss = a[S] + b[S] + c[S];
-    const fl_wide w = FL_TRIANGLE_WEIGHT[0] * area, mx = sx * (1.0 / 3.0), my = sy * (1.0 / 3.0),
-                  ms = ss * (1.0 / 3.0);
-    ADD_NODE(t, w, ms, mx, my);
-    FL_WIDE_UNROLL
-    for (int i = 0; i < 2; i++) {
-        const double at = TRIPLE_SHARE[i];
-        const fl_wide v = FL_TRIANGLE_WEIGHT[1 + 3 * i] * area, kx = at * sx, ky = at * sy, ks = at * ss;
-        const double left = 1.0 - 3.0 * at;
-        ADD_NODE(t, v, ks + left * a[S], kx + left * a[X], ky + left * a[Y]);
-        ADD_NODE(t, v, ks + left * b[S], kx + left * b[X], ky + left * b[Y]);
-        ADD_NODE(t, v, ks + left * c[S], kx + left * c[X], ky + left * c[Y]);
-    }
+    const fl_wide turned = AREA(p, q, r), area = SIZE(turned);
+    powers k;
+    moments m;
+    powers_of(&p[S], &q[S], &r[S], &k);
+    moments_of(&k, p, q, r, &m);
+    t->ddu += area * k.s2, t->du += area * k.s3, t->u += area * k.s4;
+    t->x += area * m.x, t->y += area * m.y, t->xx += area * m.xx, t->xy += area * m.xy, t->yy += area * m.yy;
 }
 
 /* With shares at the corners that go from 0 to 1. */
