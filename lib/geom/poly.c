@@ -504,7 +504,8 @@ void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes)
     for (int32_t v = 0; v < p->nv; v++) p->v[v] = m3_tmul(axes, v3_sub(p->v[v], o));
     for (int32_t f = 0; f < p->nf; f++) {
         p->n[f] = m3_tmul(axes, p->n[f]);
-        p->c[f] = plane_offset(p, f); /* from the moved vertices: c - n.o would cancel far from the origin */
+        /* from the moved vertices: c - n.o would cancel far from the origin */
+        if (p->c) p->c[f] = plane_offset(p, f);
     }
     p->size = size_of(p);
 }

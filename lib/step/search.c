@@ -128,7 +128,7 @@ int fl_search_index(fl_world *w, fl_err *err)
     if (fit(&w->hit, &w->hit_cap, w->n_pair, sizeof *w->hit, err)) return -1;
     for (int32_t c = 0; c < w->n_pair; c++) w->hit[c] = w->pair[c].n != 0;
     fl_search_live(w);
-    return 0;
+    return w->failed ? fl_fail(err, FL_SYSTEM, "out of memory") : 0;
 }
 
 void fl_search_live(fl_world *w)
