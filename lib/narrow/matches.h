@@ -5,11 +5,11 @@
  * the cone over a vertex of the other core: where it is on the right side of some planes, all of which pass
  * through edges of that core.  Many features share few planes, so that one table of heights of vertices over
  * planes has all that is asked.  Planes are kept as numbers in the frame of their own core.
- *   Most features of two touching cores have nothing to do with each other, and
- * what does stays for many steps: the list of those that do, or will before any point has moved by more than
- * a margin, is made once and used until then.  It only leaves out: a match that is listed in vain has no
- * place, and those that have one come in the same order whenever the list was made, so that not a bit depends
- * on that. */
+ *
+ * Most features of two touching cores have nothing to do with each other, and what does stays for many steps:
+ * the list of those that do, or will before any point has moved by more than a margin, is made once and used
+ * until then.  It only leaves out: a match that is listed in vain has no place, and those that have one come
+ * in the same order whenever the list was made, so that not a bit depends on that. */
 #ifndef FL_NARROW_MATCHES_H
 #define FL_NARROW_MATCHES_H
 #include <stdint.h>
