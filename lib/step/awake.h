@@ -17,7 +17,7 @@ void fl_awake_share(fl_world *w);
  * Others may still be at theirs when it returns. */
 void fl_awake_look(fl_world *w, double dt, int survey);
 
-/* When all have done: w->live; w->failed where there is no room for it. */
+/* When w->hit is known of all: w->live; w->failed where there is no room for it. */
 void fl_awake_told(fl_world *w);
 
 #endif

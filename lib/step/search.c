@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/mem.h"
+#include "step/awake.h"
 #include "step/balls.h"
 #include "step/frozen.h"
 #include "step/group.h"
@@ -133,17 +134,11 @@ int fl_search_index(fl_world *w, fl_err *err)
 
 void fl_search_live(fl_world *w)
 {
-    const uint8_t *at = w->hit, *const end = at + w->n_pair;
-    w->n_live = 0;
+    fl_awake_told(w);
     memset(w->met, 0, (size_t)w->b.total);
-    for (; at < end && (at = memchr(at, 1, (size_t)(end - at))); at++) { /* few of the near ones touch */
-        const int32_t c = (int32_t)(at - w->hit);
-        if (fl_room(&w->live, &w->live_cap, (int64_t)w->n_live + 1, sizeof *w->live)) {
-            w->failed = 1;
-            return;
-        }
-        w->live[w->n_live++] = c;
-        w->met[w->pair[c].i] = w->met[w->pair[c].j] = 1;
+    for (int32_t k = 0; k < w->n_live; k++) {
+        const fl_near *p = &w->pair[w->live[k]];
+        w->met[p->i] = w->met[p->j] = 1;
     }
     fl_works_place(w);
 }

@@ -18,7 +18,7 @@ int fl_search_told(fl_world *w, fl_err *err);
  * changed.  -1 with FL_SYSTEM. */
 int fl_search_index(fl_world *w, fl_err *err);
 
-/* Renew w->live after w->hit has changed. */
+/* Renew w->live, w->met and what w->sink has for them after w->hit has changed. */
 void fl_search_live(fl_world *w);
 
 #endif
