@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
+#include "base/wide.h"
 #include "body/few.h"
 #include "body/integrate.h"
 #include "step/balls.h"
@@ -118,21 +119,24 @@ static void begin(fl_world *w, int32_t from, int32_t to, double h, double dt)
     }
 }
 
-/* The longest way and the next. */
+/* The longest way and the next: of each lane, then of all. */
 FL_WIDE_VERSIONS static void farthest(int32_t n, const double *restrict now, const double *restrict found,
                                       double *restrict moved)
 {
-    double one = 0.0, two = 0.0, many = 0.0;
-#pragma omp simd reduction(max : one)
-    for (int32_t k = 0; k < n; k++) one = now[k] - found[k] > one ? now[k] - found[k] : one;
-#pragma omp simd reduction(max : two) reduction(+ : many)
-    for (int32_t k = 0; k < n; k++) {
-        const double way = now[k] - found[k];
-        many += way == one ? 1.0 : 0.0;
-        two = way < one && way > two ? way : two;
+    fl_wide one = {0}, two = {0};
+    double first[2] = {0.0, 0.0};
+    int32_t k = 0;
+    for (; k + FL_LANES <= n; k += FL_LANES) {
+        const fl_wide way = FL_FOUR(&now[k]) - FL_FOUR(&found[k]);
+        const fl_wide_mask longer = way > one;
+        const fl_wide less = FL_WIDE_CHOOSE(longer, one, way);
+        one = FL_WIDE_CHOOSE(longer, way, one);
+        two = FL_WIDE_CHOOSE(less > two, less, two);
     }
-    moved[0] = one;
-    moved[1] = many > 1.0 ? one : two;
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) fl_longest(first, one[l]), fl_longest(first, two[l]);
+    for (; k < n; k++) fl_longest(first, now[k] - found[k]);
+    moved[0] = first[0], moved[1] = first[1];
 }
 
 void fl_group_begin(fl_world *w, int32_t g, double h, double dt)

@@ -9,6 +9,13 @@
 /* How many there are. */
 static inline int32_t fl_groups(const fl_world *w) { return (w->n + FL_BALLS_GROUP - 1) / FL_BALLS_GROUP; }
 
+/* The two longest ways so far, and another. */
+static inline void fl_longest(double first[2], double moved)
+{
+    if (moved > first[0]) first[1] = first[0], first[0] = moved;
+    else if (moved > first[1]) first[1] = moved;
+}
+
 /* Drag and kick of h and drift of dt of those of group g that move in this step; gain[] of those that
  * something presses is what the kick changes, and moved of w->group[g] how far they have come. */
 void fl_group_begin(fl_world *w, int32_t g, double h, double dt);

@@ -72,13 +72,6 @@ static int order(const fl_near *p, int32_t i, int32_t j, const int32_t image[3])
     return 0;
 }
 
-/* The two longest ways so far, and another. */
-static void longest(double first[2], double moved)
-{
-    if (moved > first[0]) first[1] = first[0], first[0] = moved;
-    else if (moved > first[1]) first[1] = moved;
-}
-
 /* told: by the groups, of the floes. */
 static int stale(const fl_world *w, int told)
 {
@@ -86,9 +79,9 @@ static int stale(const fl_world *w, int told)
     if (w->found_at < 0) return 1;
     if (w->scene->run.search_every > 0 && w->step - w->found_at >= w->scene->run.search_every) return 1;
     for (int32_t g = 0; g < fl_groups(w) && told; g++)
-        longest(first, w->group[g].moved[0]), longest(first, w->group[g].moved[1]);
+        fl_longest(first, w->group[g].moved[0]), fl_longest(first, w->group[g].moved[1]);
     for (int32_t k = told ? w->n : 0; k < w->b.total; k++)
-        longest(first, w->b.odometer[k] - w->odometer_found[k]);
+        fl_longest(first, w->b.odometer[k] - w->odometer_found[k]);
     return first[0] + first[1] >= w->skin * (1.0 - 1e-6);
 }
 
