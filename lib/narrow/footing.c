@@ -177,17 +177,15 @@ static int list_vertices(lister *s, const key *k, int32_t n)
     fl_footing *o = s->o;
     const fl_poly *p = s->B->p;
     int64_t room = 0;
-    fl_err lost = {0};
     for (int32_t c = 0; c < n; c++) room += k[c].kind == 0 ? p->first[k[c].own + 1] - p->first[k[c].own] : 2;
-    if (fl_grow(&o->vertex, &o->vertex_cap, s->vertices + room + FL_LANES, sizeof *o->vertex, &lost))
-        return -1;
+    if (fl_room(&o->vertex, &o->vertex_cap, s->vertices + room + FL_LANES, sizeof *o->vertex)) return -1;
     int32_t *list = o->vertex + s->vertices, m = 0, kept = 0;
     for (int32_t c = 0; c < n; c++) m += vertices_of(p, &k[c], list + m);
     qsort(list, (size_t)m, sizeof *list, number_order);
     for (int32_t c = 0; c < m; c++)
         if (kept == 0 || list[c] != list[kept - 1]) list[kept++] = list[c];
     while (kept % FL_LANES) list[kept] = list[kept - 1], kept++;
-    if (fl_grow(&o->x, &o->x_cap, 3 * ((int64_t)s->vertices + kept), sizeof *o->x, &lost)) return -1;
+    if (fl_room(&o->x, &o->x_cap, 3 * ((int64_t)s->vertices + kept), sizeof *o->x)) return -1;
     for (int32_t c = 0; c < kept; c++) {
         double *x = o->x + 3 * (int64_t)(s->vertices + c / FL_LANES * FL_LANES) + c % FL_LANES;
         const fl_vec3 v = s->B->v[list[c]];
@@ -202,9 +200,8 @@ static int list_tile(lister *s, const key *k, const int32_t *list, int32_t n)
     fl_footing *o = s->o;
     const fl_poly *p = s->B->p;
     const int32_t corners = p->first[k->own + 1] - p->first[k->own];
-    fl_err lost = {0};
-    if (fl_grow(&o->tile, &o->tile_cap, (int64_t)s->tiles + 1, sizeof *o->tile, &lost) ||
-        fl_grow(&o->corner, &o->corner_cap, (int64_t)o->corners + corners, sizeof *o->corner, &lost))
+    if (fl_room(&o->tile, &o->tile_cap, (int64_t)s->tiles + 1, sizeof *o->tile) ||
+        fl_room(&o->corner, &o->corner_cap, (int64_t)o->corners + corners, sizeof *o->corner))
         return -1;
     tile *t = &o->tile[s->tiles++];
     *t = (tile){k->own, o->corners, corners, {-1, -1}};
@@ -218,7 +215,6 @@ static int list_tile(lister *s, const key *k, const int32_t *list, int32_t n)
 static int list_fours(lister *s, const foot *from)
 {
     fl_footing *o = s->o;
-    fl_err lost = {0};
     for (int32_t c = from->tile; c < s->tiles; c += FL_LANES) {
         const tile *t[FL_LANES];
         int32_t most = 0;
@@ -226,9 +222,8 @@ static int list_fours(lister *s, const foot *from)
             t[l] = &o->tile[c + l < s->tiles ? c + l : c];
             most = t[l]->n > most ? t[l]->n : most;
         }
-        if (fl_grow(&o->four, &o->four_cap, (int64_t)o->fours + 1, sizeof *o->four, &lost) ||
-            fl_grow(&o->of_four, &o->of_four_cap, o->of_fours + FL_LANES * (int64_t)most, sizeof *o->of_four,
-                    &lost))
+        if (fl_room(&o->four, &o->four_cap, (int64_t)o->fours + 1, sizeof *o->four) ||
+            fl_room(&o->of_four, &o->of_four_cap, o->of_fours + FL_LANES * (int64_t)most, sizeof *o->of_four))
             return -1;
         fl_tread_four *const four = &o->four[o->fours++];
         four->first = o->of_fours, four->most = most;
@@ -241,7 +236,7 @@ static int list_fours(lister *s, const foot *from)
                 o->of_four[o->of_fours++] = o->corner[t[l]->first + (k < t[l]->n ? k : 0)];
     }
     for (int32_t c = from->strip; c < s->strips; c += FL_LANES) {
-        if (fl_grow(&o->end, &o->end_cap, (int64_t)o->ends + 2 * FL_LANES, sizeof *o->end, &lost)) return -1;
+        if (fl_room(&o->end, &o->end_cap, (int64_t)o->ends + 2 * FL_LANES, sizeof *o->end)) return -1;
         for (int way = 0; way < 2; way++)
             for (int l = 0; l < FL_LANES; l++)
                 o->end[o->ends++] = o->strip[c + l < s->strips ? c + l : c].v[way];
@@ -255,8 +250,7 @@ static int list_foot(lister *s, const key *k, int32_t n)
     fl_footing *o = s->o;
     const fl_poly *p = s->B->p;
     const int32_t from = s->vertices;
-    fl_err lost = {0};
-    if (fl_grow(&o->foot, &o->foot_cap, (int64_t)o->feet + 2, sizeof *o->foot, &lost)) return -1;
+    if (fl_room(&o->foot, &o->foot_cap, (int64_t)o->feet + 2, sizeof *o->foot)) return -1;
     o->foot[o->feet++] = (foot){k->F, s->tiles, s->strips, s->points, from, o->fours, o->ends};
     if (list_vertices(s, k, n)) return -1;
     const int32_t *list = o->vertex + from, all = s->vertices - from;
@@ -266,12 +260,12 @@ static int list_foot(lister *s, const key *k, int32_t n)
                 o->tile[s->tiles - 1].match[k[c].way] = k[c].match;
             else if (list_tile(s, &k[c], list, all)) return -1;
         } else if (k[c].kind == 1) {
-            if (fl_grow(&o->strip, &o->strip_cap, (int64_t)s->strips + 1, sizeof *o->strip, &lost)) return -1;
+            if (fl_room(&o->strip, &o->strip_cap, (int64_t)s->strips + 1, sizeof *o->strip)) return -1;
             const fl_edge e = p->edge[k[c].own];
             o->strip[s->strips++] =
                 (strip){{place_of(list, all, e.a), place_of(list, all, e.b)}, k[c].match, k[c].factor};
         } else {
-            if (fl_grow(&o->point, &o->point_cap, (int64_t)s->points + 1, sizeof *o->point, &lost)) return -1;
+            if (fl_room(&o->point, &o->point_cap, (int64_t)s->points + 1, sizeof *o->point)) return -1;
             const double sharp = fmax(fl_poly_corner(p, k[c].own) * FL_PLACE_SHARP_CORNER, 0.0);
             o->point[s->points++] = (point){place_of(list, all, k[c].own), k[c].match,
                                             (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (0.4 * PI) *
@@ -367,9 +361,8 @@ static int add_share(const work *q, const fl_tread_sums *t, int32_t n)
     fl_places *w = q->w;
     const fl_tread *g = &q->g;
     const spread e = spread_of(t);
-    fl_err lost = {0};
     if (!(e.f > 0.0)) return 0;
-    if (fl_grow(&w->share, &w->share_cap, (int64_t)w->shares + 1, sizeof *w->share, &lost)) return -1;
+    if (fl_room(&w->share, &w->share_cap, (int64_t)w->shares + 1, sizeof *w->share)) return -1;
     fl_share *share = &w->share[w->shares++];
     *share = (fl_share){.place = w->n,
                         .n = n,
@@ -568,11 +561,10 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
                       const fl_side *B, double R, double behind, double rim, fl_matches *rest)
 {
     const fl_footing *o = l->footing;
-    fl_err lost = {0};
     *rest = *l;
     if (!o || (o->feet == 0 && o->hems.n == 0)) return 0;
-    if (fl_grow(&room->open, &room->open_cap, l->n, sizeof *room->open, &lost) ||
-        fl_grow(&room->left, &room->left_cap, l->n, sizeof *room->left, &lost))
+    if (fl_room(&room->open, &room->open_cap, l->n, sizeof *room->open) ||
+        fl_room(&room->left, &room->left_cap, l->n, sizeof *room->left))
         return -1;
     work q = {.w = w, .A = A, .B = B, .o = o, .room = room, .matches = l->n};
     for (int32_t k = 0; k < o->feet; k++) {
@@ -581,13 +573,12 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
                       strips = to->strip - from->strip, points = to->point - from->point;
         const int64_t sides = A->p->first[from->F + 1] - A->p->first[from->F];
         const int64_t within = (sides + FL_LANES - 1) / FL_LANES * FL_LANES;
-        if (fl_grow(&room->number, &room->number_cap, 5 * sides + (4 + within) * vertices,
-                    sizeof *room->number, &lost) ||
-            fl_grow(&room->is, &room->is_cap, tiles > strips ? tiles : strips, sizeof *room->is, &lost) ||
-            fl_grow(&room->list, &room->list_cap, tiles > points ? tiles : points, sizeof *room->list,
-                    &lost) ||
-            fl_grow(&room->cut, &room->cut_cap, tiles, sizeof *room->cut, &lost) ||
-            fl_grow(&room->piece, &room->piece_cap, strips, sizeof *room->piece, &lost))
+        if (fl_room(&room->number, &room->number_cap, 5 * sides + (4 + within) * vertices,
+                    sizeof *room->number) ||
+            fl_room(&room->is, &room->is_cap, tiles > strips ? tiles : strips, sizeof *room->is) ||
+            fl_room(&room->list, &room->list_cap, tiles > points ? tiles : points, sizeof *room->list) ||
+            fl_room(&room->cut, &room->cut_cap, tiles, sizeof *room->cut) ||
+            fl_room(&room->piece, &room->piece_cap, strips, sizeof *room->piece))
             return -1;
         q.g = (fl_tread){.R = R};
         q.sum = (fl_tread_sums){.u = {0}};

@@ -111,12 +111,11 @@ static int32_t panel_at(fl_press_notes *notes, const fl_press *s, int32_t part, 
 {
     const int32_t first = s->first[part];
     const fl_bvh *tree = &s->tree[part];
-    fl_err lost = {0};
     for (;; reach *= 4.0) {
         const fl_aabb box = aabb_grow((fl_aabb){x, x}, reach);
         int32_t n = fl_bvh_query(tree, s->box + first, box, notes->list, notes->list_cap), best = -1;
         if (n > notes->list_cap) {
-            if (fl_grow(&notes->list, &notes->list_cap, n, sizeof *notes->list, &lost)) return -1;
+            if (fl_room(&notes->list, &notes->list_cap, n, sizeof *notes->list)) return -1;
             n = fl_bvh_query(tree, s->box + first, box, notes->list, notes->list_cap);
         }
         double least = INFINITY;
@@ -135,8 +134,7 @@ static int32_t panel_at(fl_press_notes *notes, const fl_press *s, int32_t part, 
 
 static fl_press_mark *new_mark(fl_world *w, const fl_pair *p, fl_press_notes *notes)
 {
-    fl_err lost = {0};
-    if (fl_grow(&notes->mark, &notes->mark_cap, (int64_t)notes->n + 1, sizeof *notes->mark, &lost)) {
+    if (fl_room(&notes->mark, &notes->mark_cap, (int64_t)notes->n + 1, sizeof *notes->mark)) {
 #pragma omp atomic write
         w->failed = 1;
         return NULL;
@@ -272,7 +270,6 @@ static void spread(fl_world *w, const fl_pair *p, fl_press_notes *notes, const p
     const int plate = piece->core.nf == 2; /* has two sides */
     fl_aabb box = aabb_empty();
     double all = 0.0;
-    fl_err lost = {0};
     if (s->cone[p->j - w->n] >= 0 || q->n == 1 || !(v3_norm2(c) > 0.0)) {
         press_at(w, p, notes, q);
         return;
@@ -283,7 +280,7 @@ static void spread(fl_world *w, const fl_pair *p, fl_press_notes *notes, const p
     const fl_bvh *tree = &s->tree[piece->part];
     int32_t found = fl_bvh_query(tree, s->box + first, box, notes->list, notes->list_cap);
     if (found > notes->list_cap) {
-        if (fl_grow(&notes->list, &notes->list_cap, found, sizeof *notes->list, &lost)) {
+        if (fl_room(&notes->list, &notes->list_cap, found, sizeof *notes->list)) {
 #pragma omp atomic write
             w->failed = 1;
             return;
