@@ -104,9 +104,10 @@ typedef struct {
     double softening;                        /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
     double tangential;                       /* kt / kn */
     double friction, restitution;            /* negative in scene.contact: auto, from the materials */
-    double damping;                          /* overrides what restitution asks for: chi v_impact of `patch`
+    double surrogate; /* tolerance of the force between looks, over the force; 0: a look in every step */
+    double damping;   /* overrides what restitution asks for: chi v_impact of `patch`
                                                 and `core`, zeta of `manual`; negative: auto */
-    int32_t literal2, literal18;             /* equations (2), (18) of the manual as printed */
+    int32_t literal2, literal18; /* equations (2), (18) of the manual as printed */
 } fl_scene_contact;
 
 typedef struct {

@@ -385,6 +385,12 @@ int fl_scene_check(fl_scene *s, fl_err *err)
             s, "water.every", err,
             "floes that sleep under run.sleep meet the water when they wake: water.every = 1 "
             "was wanted");
+    for (int32_t i = 0; i < s->n_contact; i++)
+        if (s->run.error > 0.0 && s->contact[i].surrogate > 0.0)
+            return fl_scene_fail(
+                s, "contact.surrogate", err,
+                "run.error tells the error of the step by steps of other sizes, which a surrogate would "
+                "blur: one of run.error and contact.surrogate was wanted");
     if (s->run.error > 0.0 && s->run.dt > 0.0)
         return fl_scene_fail(s, "run.error", err,
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");

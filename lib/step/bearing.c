@@ -4,9 +4,10 @@
 #include "base/wide.h"
 #include "step/bearing.h"
 
-/* What later sums need of four places. */
+/* What later sums need of four places; of those that are kept also e as it was, and in place of curve, ddu, a
+ * quarter of ddu/du, for pressures that grow as s^3 to s^4. */
 typedef struct {
-    fl_wide closing, e, curve, across[3], arm[3];
+    fl_wide closing, e, du, curve, across[3], arm[3], was;
 } lane;
 
 /* Four numbers in a row of four places: rows to columns, in registers, since a wide load would wait for
@@ -37,6 +38,15 @@ _Static_assert(offsetof(fl_place, ddu) == offsetof(fl_place, overlap) + 24 &&
         out[1] = a[2] * b[0] - a[0] * b[2];                                                                  \
         out[2] = a[0] * b[1] - a[1] * b[0];                                                                  \
     } while (0)
+
+/* How fast, or how far, places of A move into B. */
+FL_WIDE_PART void inward(fl_wide *out, const fl_wide across[3], const fl_wide arm[3], fl_vec3 v, fl_vec3 turn)
+{
+    const fl_wide vx = v.x + (turn.y * arm[2] - turn.z * arm[1]);
+    const fl_wide vy = v.y + (turn.z * arm[0] - turn.x * arm[2]);
+    const fl_wide vz = v.z + (turn.x * arm[1] - turn.y * arm[0]);
+    *out = -(across[0] * vx + across[1] * vy + across[2] * vz);
+}
 
 static fl_vec3 sum3(const fl_wide a[3])
 {
@@ -69,12 +79,10 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, 
         fl_wide moment[3];
         CROSS(moment, arm, pull);
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
-        const fl_wide vx = v.x + (turn.y * arm[2] - turn.z * arm[1]);
-        const fl_wide vy = v.y + (turn.z * arm[0] - turn.x * arm[2]);
-        const fl_wide vz = v.z + (turn.x * arm[1] - turn.y * arm[0]);
-        const fl_wide closing = -(across[0] * vx + across[1] * vy + across[2] * vz);
+        fl_wide closing;
+        inward(&closing, across, arm, v, turn);
         const fl_wide e = du * (nx * across[0] + ny * across[1] + nz * across[2]);
-        t->closing = closing, t->e = e, t->curve = bent;
+        t->closing = closing, t->e = e, t->du = du, t->curve = bent;
         u += ux;
         ddu += bent;
         pressed += du;
@@ -89,12 +97,12 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, 
     for (int l = 0; l < FL_LANES; l++) q->overlap = most[l] > q->overlap ? most[l] : q->overlap;
 }
 
-FL_WIDE_VERSIONS static void second(const lane *t, int32_t n, double chi, fl_bearing *q)
+FL_WIDE_VERSIONS static void second(const lane *t, int32_t lanes, double chi, fl_bearing *q)
 {
     const fl_wide zero = {0};
     fl_wide normal = zero, spread = zero, way[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
     fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
-    for (int32_t k = 0; k < n; k += FL_LANES, t++) {
+    for (int32_t k = 0; k < lanes; k++, t++) {
         const fl_wide e = t->e, to = e * (1.0 + chi * t->closing), p = FL_WIDE_WHERE(to > 0.0, to);
         const fl_wide more = p - e, *arm = t->arm, *across = t->across;
         const fl_wide pull[3] = {more * across[0], more * across[1], more * across[2]};
@@ -146,7 +154,7 @@ int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
 
 void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q)
 {
-    if (s->n > 0) second(s->lane, s->n, chi, q);
+    if (s->n > 0) second(s->lane, (s->n + FL_LANES - 1) / FL_LANES, chi, q);
 }
 
 void fl_bearing_springs(const fl_places *s, fl_springs *q)
@@ -161,6 +169,64 @@ void fl_bearing_springs(const fl_places *s, fl_springs *q)
             else q->turning[r - 3][c - 3] = q->turning[c - 3][r - 3] = sum[m];
         }
 }
+
+/* --- what is kept of a look -------------------------------------------------------------------- */
+
+FL_WIDE_VERSIONS static void keep(const lane *t, int32_t lanes, lane *out)
+{
+    const fl_wide one = 1.0 + (fl_wide){0};
+    for (int32_t k = 0; k < lanes; k++, t++, out++) {
+        const fl_wide_mask presses = t->du > 0.0;
+        *out = *t;
+        out->was = t->e;
+        out->curve = FL_WIDE_WHERE(presses, 0.25 * t->curve / FL_WIDE_CHOOSE(presses, t->du, one));
+    }
+}
+
+FL_WIDE_VERSIONS static void recall(lane *t, int32_t lanes, fl_vec3 way, fl_vec3 turned, fl_vec3 v,
+                                    fl_vec3 turn, fl_bearing *q, fl_wrench *all)
+{
+    const fl_wide zero = {0};
+    fl_wide pressed = zero, met = zero, elastic = zero;
+    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
+    for (int32_t k = 0; k < lanes; k++, t++) {
+        fl_wide in, closing, moment[3];
+        inward(&in, t->across, t->arm, way, turned);
+        inward(&closing, t->across, t->arm, v, turn);
+        const fl_wide more = 1.0 + t->curve * in, rest = FL_WIDE_WHERE(more > 0.0, more), two = rest * rest;
+        const fl_wide grown = two * two, du = grown * t->du, e = grown * t->was;
+        CROSS(moment, t->arm, t->across);
+        t->closing = closing, t->e = e;
+        for (int c = 0; c < 3; c++) f[c] += e * t->across[c], m[c] += e * moment[c];
+        pressed += du;
+        met += du * FL_WIDE_WHERE(closing > 0.0, closing);
+        elastic += e;
+    }
+    *q = (fl_bearing){
+        .pressed = fl_wide_sum(&pressed), .met = fl_wide_sum(&met), .elastic = fl_wide_sum(&elastic)};
+    *all = (fl_wrench){sum3(f), sum3(m)};
+}
+
+int fl_bearing_keep(const fl_places *s, fl_pads *pads)
+{
+    pads->n = (s->n + FL_LANES - 1) / FL_LANES;
+    if (fl_room(&pads->lane, &pads->cap, pads->n, sizeof(lane))) return -1;
+    keep(s->lane, pads->n, pads->lane);
+    return 0;
+}
+
+void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn,
+                       fl_bearing *q, fl_wrench *all)
+{
+    recall(pads->lane, pads->n, way, turned, v, turn, q, all);
+}
+
+void fl_bearing_damp_kept(const fl_pads *pads, double chi, fl_bearing *q)
+{
+    second(pads->lane, pads->n, chi, q);
+}
+
+double fl_pads_bytes(const fl_pads *pads) { return (double)pads->cap * (double)sizeof(lane); }
 
 double fl_bearing_closing(const fl_places *s, int32_t k)
 {

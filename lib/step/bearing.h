@@ -2,11 +2,12 @@
 /* bearing.h -- the sums over the places of a contact that its forces are made of, several places at a time.
  *
  * With du the pull of a place on U along n, e = du n.across its share of the pressure, c the speed at which
- * the bodies approach there, and arm its offset from the first place, all in the frame of B: gradient   sum
- * du n, sum arm x du n                    the force of W, over dW/dU pressed    sum of du, and met, of du c
- * where c > 0     the speed that damping asks for f(e)       sum of f, f across, f arm, f |arm|^2        with
- * f = max(0, e (1 + chi c)), what presses f - e      sum of it times across, arm x across        what damping
- * adds The pull of rims, u = 0, is part of the gradient alone. */
+ * the bodies approach there, and arm its offset from the first place, all in the frame of B:
+ *     gradient      sum of du n and of arm x du n: the force of W over dW/dU
+ *     pressed, met  sum of du, and of du c where c > 0: the speed that damping asks for
+ *     f(e)          sum of f, f across, f arm and f |arm|^2, f = max(0, e (1 + chi c)): what presses
+ *     damping       sum of f - e times across and arm x across: what damping adds
+ * The pull of rims, u = 0, is part of the gradient alone. */
 #ifndef FL_STEP_BEARING_H
 #define FL_STEP_BEARING_H
 #include "narrow/places.h"
@@ -38,6 +39,26 @@ void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q);
 
 /* ddu along `across` at arm of the places that press, after fl_bearing_sum() [m4]. */
 void fl_bearing_springs(const fl_places *s, fl_springs *q);
+
+/* The places of a look, to be asked again when A has moved a little: where and along what they press is kept,
+ * how much follows from ddu.  Zeroed to start; lane is freed with free(). */
+typedef struct {
+    void *lane;
+    int32_t n, cap;
+} fl_pads;
+
+/* After fl_bearing_sum().  -1 when memory runs out. */
+int fl_bearing_keep(const fl_places *s, fl_pads *pads);
+
+/* What fl_bearing_sum() would say now that A has moved by `way` at the first place and has `turned`, to the
+ * first order.  u, ddu, overlap and gradient are left 0; all: the sums of e across and of arm x e across. */
+void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn,
+                       fl_bearing *q, fl_wrench *all);
+
+/* Then fl_bearing_damp() of them. */
+void fl_bearing_damp_kept(const fl_pads *pads, double chi, fl_bearing *q);
+
+double fl_pads_bytes(const fl_pads *pads);
 
 /* The speed at which the bodies approach at place k, after fl_bearing_sum() [m/s]. */
 double fl_bearing_closing(const fl_places *s, int32_t k);

@@ -449,6 +449,12 @@ static double damping_factor(fl_pair *p, double now)
     return speed > 0.0 ? p->law->chi / speed : 0.0;
 }
 
+/* Whether panels want to know all places of it. */
+static int noted(const fl_world *w, const fl_pair *p)
+{
+    return w->press.panels && p->j >= w->n && p->j < w->n + w->pieces;
+}
+
 /* The one place of a round thing or of `core`: W = k phi(s). */
 static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative *r, double dt, int survey)
 {
@@ -469,7 +475,7 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
     rub(w, p, &all, chi, r, dt);
     if (survey) stiffen_one(w, p, &all, n, r);
     p->energy += p->spring;
-    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note(w, p, s, p->k, chi);
+    if (noted(w, p)) fl_press_note(w, p, s, p->k, chi);
     return p->n = 1;
 }
 
@@ -489,44 +495,137 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
 
-/* The places of `patch`: W = k sqrt(U), each with its share of dW/dU.  1 when they touch, 0 when nothing
- * does, -1 when memory runs out. */
-static int force_patch(fl_world *w, fl_pair *p, fl_places *s, const relative *r, double dt, int survey)
+/* What damping and friction add to the elastic force of `patch`.  q: of places, times scale; it is about aj
+ * from B's centre; slope: dF/ds. */
+static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale, double slope, double chi,
+                     const relative *r, fl_vec3 aj, double dt)
+{
+    const fl_mat3 *R = &w->b.R[p->j];
+    add_sum(&p->fd, &p->di, &p->dj, &q->damping, scale, R, v3_add(aj, r->off), aj);
+    p->f = v3_add(p->f, p->fd);
+    p->ti = v3_add(p->ti, p->di);
+    p->tj = v3_add(p->tj, p->dj);
+    const pressure all = {.normal = scale * q->normal,
+                          .elastic = scale * q->elastic,
+                          .direction = v3_scale(scale, m3_mul(*R, q->direction)),
+                          .at = aj,
+                          .moment = v3_scale(scale, m3_mul(*R, q->moment)),
+                          .spread = scale * q->spread,
+                          .slope = slope};
+    rub(w, p, &all, chi, r, dt);
+    return all;
+}
+
+/* --- what is told without a look --------------------------------------------------------------- */
+
+/* A touching pair may be told of: it has been looked at, and nobody wants to know its places. */
+static int told(fl_world *w, fl_pair *p, const relative *r, fl_told *t)
+{
+    if (!p->n || !p->surrogate || !p->surrogate->live || noted(w, p)) return 0;
+    fl_surrogate_tell(p->surrogate, &r->M, r->o, t);
+    return 1;
+}
+
+/* The forces of a contact as its surrogate tells them.  0 where it has to be looked at. */
+static int force_told(fl_world *w, fl_pair *p, const fl_told *t, const relative *r, double dt, int survey)
+{
+    const fl_bodies *b = &w->b;
+    const fl_surrogate *s = p->surrogate;
+    const fl_mat3 R = b->R[p->j];
+    if (!fl_surrogate_holds(s, t)) return 0;
+    const fl_vec3 aj = m3_mul(R, s->first), ai = v3_add(aj, r->off), at = m3_mul(R, t->at);
+    const fl_vec3 v = m3_tmul(R, approach(b, p, ai, aj)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
+    fl_bearing q;
+    fl_vec3 shift;
+    double scale;
+    if (!fl_surrogate_bear(s, t, v, turn, &q, &scale, &shift)) return 0;
+    p->overlap = q.overlap;
+    p->energy = t->energy;
+    const double chi = damping_factor(p, q.met / q.pressed);
+    fl_bearing_damp_kept(&s->pads, chi, &q);
+    fl_surrogate_shift(shift, &q);
+    add_sum(&p->f, &p->ti, &p->tj, &q.gradient, 1.0, &R, v3_add(at, r->off), at);
+    bear(w, p, &q, scale, s->slope * t->root, chi, r, aj, dt);
+    if (survey) p->stiff_i = t->root * s->slope * s->stiff_i, p->stiff_j = t->root * s->slope * s->stiff_j;
+    p->energy += p->spring;
+    return 1;
+}
+
+/* After a look.  t: what was told for this pose, or NULL. */
+static int renew(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, const fl_seen *seen)
+{
+    fl_surrogate_count *count = &w->told[thread];
+    const int near = t && fl_surrogate_nearly(p->surrogate, t);
+    fl_err lost = {0};
+    if (!p->surrogate && !(p->surrogate = fl_alloc(1, sizeof *p->surrogate, &lost))) return -1;
+    if (p->deep || p->keep != 1.0) {
+        p->surrogate->live = 0;
+        return 0;
+    }
+    const double off = fl_surrogate_look(p->surrogate, t, seen, p->law->surrogate);
+    if (off < 0.0) return -1;
+    if (!near) return 0;
+    count->looked++;
+    count->off += off > p->law->surrogate;
+    count->worst = off > count->worst ? off : count->worst;
+    return 0;
+}
+
+/* --- what is found by a look ------------------------------------------------------------------- */
+
+/* W = k sqrt(U) of the places summed up in q, which gets their couple. */
+static fl_seen seen_of(const fl_pair *p, const fl_places *s, const relative *r, fl_bearing *q)
+{
+    const double energy = p->k * sqrt(q->u), scale = 0.5 * energy / q->u;
+    q->gradient.m = v3_add(q->gradient.m, s->couple);
+    return (fl_seen){.M = &r->M,
+                     .o = r->o,
+                     .places = s,
+                     .q = q,
+                     .scale = scale,
+                     .energy = energy,
+                     .slope = scale * (q->ddu - 0.5 * q->elastic * q->elastic / q->u)};
+}
+
+/* The places of `patch`: W = k sqrt(U), each with its share of dW/dU; t as in renew().  1 when they touch, 0
+ * when nothing does, -1 when memory runs out. */
+static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, const relative *r,
+                       double dt, int survey)
 {
     const fl_bodies *b = &w->b;
     const fl_mat3 R = b->R[p->j];
+    fl_places *s = &w->scratch[thread];
+    const int carried = p->law->surrogate > 0.0 && !noted(w, p);
     if (s->n == 0) return 0;
     const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
     fl_bearing q;
     if (fl_bearing_sum(s, m3_tmul(R, approach(b, p, ai, aj)), m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j])), &q))
         return -1;
+    if (!(q.u > 0.0)) return 0;
+    fl_seen seen = seen_of(p, s, r, &q);
     p->overlap = q.overlap;
-    p->energy = p->k * sqrt(q.u);
-    if (!(p->energy > 0.0)) return 0;
-    const double scale = 0.5 * p->energy / q.u;
+    p->energy = seen.energy;
     const double chi = damping_factor(p, q.pressed > 0.0 ? q.met / q.pressed : 0.0);
     fl_bearing_damp(s, chi, &q);
-    q.gradient.m = v3_add(q.gradient.m, s->couple);
-    add_sum(&p->f, &p->ti, &p->tj, &q.gradient, scale, &R, ai, aj);
+    add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
+    const fl_vec3 elastic = p->f;
     fl_stiff si, sj;
-    if (survey) survey_patch(w, p, s, ai, aj, scale, q.u, &si, &sj);
-    add_sum(&p->fd, &p->di, &p->dj, &q.damping, scale, &R, ai, aj);
-    p->f = v3_add(p->f, p->fd);
-    p->ti = v3_add(p->ti, p->di);
-    p->tj = v3_add(p->tj, p->dj);
-    const pressure all = {.normal = scale * q.normal,
-                          .elastic = scale * q.elastic,
-                          .direction = v3_scale(scale, m3_mul(R, q.direction)),
-                          .at = aj,
-                          .moment = v3_scale(scale, m3_mul(R, q.moment)),
-                          .spread = scale * q.spread,
-                          .slope = scale * (q.ddu - 0.5 * q.elastic * q.elastic / q.u)};
-    rub(w, p, &all, chi, r, dt);
+    survey |= carried && !t;
+    if (survey) survey_patch(w, p, s, ai, aj, seen.scale, q.u, &si, &sj);
+    const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
+    if (carried) {
+        const double speed = v3_dot(v3_unit(elastic), approach(b, p, ai, aj));
+        seen.radii = b->radius[p->i] + b->radius[p->j];
+        /* the force that the energy of the motion would give, W growing as the square of it */
+        seen.toward = sqrt(1.0 + 0.5 * p->mass * speed * speed / p->energy);
+        seen.stiff_i = p->stiff_i, seen.stiff_j = p->stiff_j;
+        if (renew(w, p, thread, t, &seen)) return -1;
+    }
     p->energy += p->spring;
-    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) {
+    if (noted(w, p)) {
         for (int32_t k = 0; k < s->n; k++) s->place[k].closing = fl_bearing_closing(s, k);
-        fl_press_note(w, p, s, scale, chi);
+        fl_press_note(w, p, s, seen.scale, chi);
     }
     return p->n = 1;
 }
@@ -620,7 +719,7 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     rub(w, p, &all, 0.0, r, dt);
     if (survey) stiffen_one(w, p, &all, nw, r);
     p->energy += p->spring;
-    if (w->press.panels && p->j >= w->n && p->j < w->n + w->pieces) fl_press_note_one(w, p, c.p, c.n, c.area);
+    if (noted(w, p)) fl_press_note_one(w, p, c.p, c.n, c.area);
     p->n = 1;
     return 0;
 }
@@ -646,8 +745,14 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
         if (force_manual(w, p, s, &r, dt, survey, &distance)) goto failed;
         if (p->n) goto touches;
     } else {
+        fl_told t;
+        const int known = told(w, p, &r, &t);
+        if (known && force_told(w, p, &t, &r, dt, survey)) {
+            w->told[thread].told++;
+            return;
+        }
         if (find_places(w, p, s, &w->near_shell[thread], &r, &distance)) goto failed;
-        const int touch = p->exponent == 0.0 ? force_patch(w, p, s, &r, dt, survey)
+        const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, known ? &t : NULL, &r, dt, survey)
                                              : s->n && force_one(w, p, s, &r, dt, survey);
         if (touch < 0) goto failed;
         if (touch) goto touches;
@@ -655,6 +760,7 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
     p->slip = (fl_slip){0};
     p->n = 0;
     p->touch = 0.0;
+    if (p->surrogate) p->surrogate->live = 0;
     if (p->bond && p->keep < 1.0) fl_frozen_return(w, p, R, distance);
     if (distance > FAR * R) fl_pair_end(p);
     p->asleep = path + (distance > R ? distance - R : 0.0) * (1.0 - 1e-9);
@@ -665,6 +771,20 @@ touches:
 failed:
 #pragma omp atomic write
     w->failed = 1;
+}
+
+int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o)
+{
+    const relative r = {.M = *M, .o = o};
+    fl_places *s = &w->scratch[0];
+    double distance = 0.0;
+    fl_bearing q;
+    if (find_places(w, p, s, &w->near_shell[0], &r, &distance)) return -1;
+    if (s->n == 0) return 0;
+    if (fl_bearing_sum(s, v3(0, 0, 0), v3(0, 0, 0), &q)) return -1;
+    if (!(q.u > 0.0)) return 0;
+    const fl_seen seen = seen_of(p, s, &r, &q);
+    return fl_surrogate_fill(p->surrogate, &seen);
 }
 
 int fl_interact_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out)

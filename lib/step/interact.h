@@ -17,4 +17,8 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
  * within reach. */
 int fl_interact_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out);
 
+/* Look again at a pair with a surrogate as it stood when it was looked at last, M and o taking i to j, and
+ * tell its surrogate what is found; what it has learnt is there already.  -1 when memory runs out. */
+int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o);
+
 #endif

@@ -25,6 +25,7 @@ static int32_t column(const fl_world *w, int32_t material)
 int fl_pairing_laws(fl_world *w, fl_err *err)
 {
     const fl_scene *s = w->scene;
+    int asked = 0;
     w->materials = s->n_material;
     w->law = fl_alloc((int64_t)w->materials * (w->materials + 2), sizeof *w->law, err);
     if (!w->law) return -1;
@@ -51,14 +52,17 @@ int fl_pairing_laws(fl_world *w, fl_err *err)
                 .rest = fl_damping_rest(D),
                 .zeta = zeta,
                 .alpha = alpha,
+                .surrogate = manual ? 0.0 : t.surrogate,
                 /* Tsuji's ratio is C/(2 sqrt(K M)) = alpha/(2 sqrt(3/2)) */
                 .left = manual ? fl_damping_left(fmax(zeta, alpha / sqrt(6.0))) : fl_damping_crossley_left(D),
                 .literal2 = t.literal2,
                 .literal18 = t.literal18,
             };
+            asked |= w->law[a * (w->materials + 2) + c].surrogate > 0.0;
         }
     }
-    return 0;
+    if (asked) w->told = fl_alloc(w->threads, sizeof *w->told, err);
+    return asked && !w->told ? -1 : 0;
 }
 
 const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j)
@@ -91,8 +95,10 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 void fl_pair_end(fl_pair *p)
 {
     if (p->matches) fl_matches_free(p->matches);
-    free(p->matches);
+    fl_surrogate_free(p->surrogate);
+    free(p->matches), free(p->surrogate);
     p->matches = NULL;
+    p->surrogate = NULL;
 }
 
 /* --- near pairs and their contacts ------------------------------------------------------------- */
@@ -180,7 +186,7 @@ void fl_near_end(fl_world *w, fl_near *q)
  * vertices that the cache of the query of distances does not fit. */
 static int wants_own(const fl_world *w, const fl_pair *p)
 {
-    return p->n || p->matches || p->bond || w->b.core[p->i].nv > UINT16_MAX ||
+    return p->n || p->matches || p->surrogate || p->bond || w->b.core[p->i].nv > UINT16_MAX ||
            w->b.core[p->j].nv > UINT16_MAX;
 }
 

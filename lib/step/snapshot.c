@@ -5,6 +5,7 @@
 #include "base/par.h"
 #include "step/balls.h"
 #include "step/frozen.h"
+#include "step/interact.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -133,6 +134,20 @@ static void books(traffic *t, fl_world *w)
     count(t, &w->deep_count.poor);
     count(t, &w->deep_count.capped);
     close_row(t);
+}
+
+static void told(traffic *t, fl_world *w)
+{
+    fl_surrogate_count all = fl_surrogate_sum(w->told, w->threads);
+    open_row(t, "told");
+    count(t, &all.told);
+    count(t, &all.looked);
+    count(t, &all.off);
+    real(t, &all.worst);
+    close_row(t);
+    if (!t->in || t->err->code) return;
+    for (int32_t k = 0; k < w->threads; k++) w->told[k] = (fl_surrogate_count){0};
+    w->told[0] = all;
 }
 
 static void byte(traffic *t, uint8_t hi, uint8_t *x)
@@ -387,6 +402,18 @@ static void pressed(traffic *t, fl_world *w)
     }
 }
 
+/* Rows at right angles, of length 1. */
+static int turns(const fl_mat3 *M)
+{
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++) {
+            double sum = k == l ? -1.0 : 0.0;
+            for (int m = 0; m < 3; m++) sum += M->m[k][m] * M->m[l][m];
+            if (!(fabs(sum) < 1e-9)) return 0;
+        }
+    return 1;
+}
+
 /* What a pair remembers of its past. */
 static void memory(traffic *t, fl_pair *p)
 {
@@ -421,6 +448,37 @@ static void forces(traffic *t, fl_pair *p)
     real(t, &p->stiff_j);
 }
 
+/* What a contact remembers of its last look; all else follows from how the two stood then. */
+static void look(traffic *t, fl_surrogate *s)
+{
+    whole(t, 0, 1, &s->live);
+    if (!s->live) return;
+    for (int k = 0; k < 9; k++) real(t, &s->M.m[k / 3][k % 3]);
+    vec3(t, &s->o);
+    vec3(t, &s->own);
+    real(t, &s->arm);
+    real(t, &s->reach);
+    real(t, &s->stiff_i);
+    real(t, &s->stiff_j);
+    for (int r = 0; r < 6; r++)
+        for (int k = r; k < 6; k++) {
+            real(t, &s->learnt[r][k]);
+            s->learnt[k][r] = s->learnt[r][k];
+        }
+    if (t->in && !t->err->code && !(turns(&s->M) && s->arm > 0.0 && s->reach >= 0.0))
+        fl_text_fail(t->in, t->err, "a look at a contact that is none");
+}
+
+/* The surrogate that was read gets what it looked at. */
+static void look_again(fl_world *w, fl_pair *p, const fl_surrogate *seen, fl_err *err)
+{
+    p->surrogate = fl_alloc(1, sizeof *p->surrogate, err);
+    if (!p->surrogate) return;
+    *p->surrogate = *seen;
+    if (fl_interact_again(w, p, &seen->M, seen->o))
+        fl_fail(err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
+}
+
 static void pair(traffic *t, fl_world *w, int32_t c)
 {
     fl_near *near = &w->pair[c];
@@ -450,10 +508,14 @@ static void pair(traffic *t, fl_world *w, int32_t c)
     whole(t, 0, 1, &p->n);
     memory(t, p);
     if (p->n) forces(t, p);
+    fl_surrogate seen = {0};
+    if (t->f && p->surrogate) seen = *p->surrogate;
+    if (p->n && p->law->surrogate > 0.0) look(t, &seen);
     close_row(t);
     if (!t->in || t->err->code) return;
     fl_near_start(near, i, j, p->image);
     if (fl_near_keep(w, near, p)) fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", i, j);
+    else if (seen.live) look_again(w, near->full, &seen, t->err);
 }
 
 /* A bond: its past, and what acts of it.  Separations follow from where the bodies are; the face and its law
@@ -548,6 +610,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
           isfinite(w->t0) && w->step0 >= 0 && w->step0 <= w->step))
         fl_text_fail(t->in, t->err, "step %g of %g s is no state of a run", (double)w->step, w->dt);
     books(t, w);
+    if (w->told) told(t, w);
     for (int32_t p = 0; p < w->parts && !t->err->code; p++) {
         open_row(t, "part");
         vec3(t, &w->part_impulse[p]);

@@ -8,6 +8,7 @@
  * leading zeros left out, so that every bit survives, on any machine.  Rows:
  *     world     step found_at dt t0 step0 skin dt_critical critical_body dt_safe parts total sea pairs
  *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
+ *     told      how often surrogates told a force, and how well, where there are some
  *     part ...  impulse, moment and peak of the loads interval
  *     traffic   who has come and gone; next ... of each floe that comes in; place ... who stands in it
  *     body ...  x v L q w f t held, carried (with added mass alone), odometer, odometer at the last search
@@ -16,7 +17,8 @@
  *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown, waved with waves alone;
  *               with water.every what of the last look is needed, fl_sea_held
- *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces */
+ *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces,
+ *               and with contact.surrogate where it was looked at last and what was learnt */
 #ifndef FL_STEP_SNAPSHOT_H
 #define FL_STEP_SNAPSHOT_H
 #include <stdio.h>

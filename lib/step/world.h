@@ -21,6 +21,7 @@
 #include "scene/field.h"
 #include "scene/scene.h"
 #include "step/ball.h"
+#include "step/surrogate.h"
 #include "water/added.h"
 #include "water/sea.h"
 
@@ -36,6 +37,7 @@ typedef struct {
     double chi;         /* D = chi v_impact of patch and core                */
     double rest;        /* c of fl_damping_rest()                            */
     double zeta, alpha; /* of the manual's laws                              */
+    double surrogate;   /* tolerance of surrogate.h; 0: none                 */
     double left;        /* what damping leaves of the critical step          */
     int32_t literal2, literal18;
 } fl_touching;
@@ -44,24 +46,25 @@ typedef struct {
  * snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit; what lasts while they
  * do not touch goes into fl_near too. */
 typedef struct {
-    int32_t i, j;           /* i moves, i < j                                        */
-    int32_t image[3];       /* j is where it is, moved by so many lengths of the cell */
-    int32_t n;              /* touching                                              */
-    fl_slip slip;           /* what friction remembers                               */
-    fl_matches *matches;    /* which features may touch, or NULL; can be made again at any time */
-    fl_gjk_cache cache;     /* where the distance query starts                       */
-    fl_mode mode;           /* of the manual's laws                                  */
-    int32_t deep;           /* the cores overlap                                     */
-    int32_t has_axis;       /* axis has been set                                     */
-    fl_vec3 axis;           /* from j to i in the frame of j: separates the cores, or did */
-    double asleep;          /* while the odometers add up to less, it cannot touch [m] */
-    double k;               /* stiffness of one place [N/m^n]; of `patch`, c in W = c sqrt(U) [N/m2] */
-    double exponent;        /* n; 0 for `patch` */
-    double mass;            /* reduced [kg]                                          */
-    double touch;           /* largest approach speed of this touch [m/s]            */
-    int32_t bond;           /* 1 + number of the bond that stood here, 0: there was none; frozen.h */
-    double keep;            /* so much of its radii counts: 1, but after a bond */
-    const fl_touching *law; /* borrowed */
+    int32_t i, j;            /* i moves, i < j                                        */
+    int32_t image[3];        /* j is where it is, moved by so many lengths of the cell */
+    int32_t n;               /* touching                                              */
+    fl_slip slip;            /* what friction remembers                               */
+    fl_matches *matches;     /* which features may touch, or NULL; can be made again at any time */
+    fl_surrogate *surrogate; /* NULL until there is one */
+    fl_gjk_cache cache;      /* where the distance query starts                       */
+    fl_mode mode;            /* of the manual's laws                                  */
+    int32_t deep;            /* the cores overlap                                     */
+    int32_t has_axis;        /* axis has been set                                     */
+    fl_vec3 axis;            /* from j to i in the frame of j: separates the cores, or did */
+    double asleep;           /* while the odometers add up to less, it cannot touch [m] */
+    double k;                /* stiffness of one place [N/m^n]; of `patch`, c in W = c sqrt(U) [N/m2] */
+    double exponent;         /* n; 0 for `patch` */
+    double mass;             /* reduced [kg]                                          */
+    double touch;            /* largest approach speed of this touch [m/s]            */
+    int32_t bond;            /* 1 + number of the bond that stood here, 0: there was none; frozen.h */
+    double keep;             /* so much of its radii counts: 1, but after a bond */
+    const fl_touching *law;  /* borrowed */
     /* of the last evaluation; world axes, torques about the two centres */
     fl_vec3 f, ti, tj;       /* force on i (on j its opposite), torques               */
     fl_vec3 fd, di, dj;      /* the part of damping                                   */
@@ -339,6 +342,7 @@ typedef struct {
     double passing;          /* what it took of memory, while it lasted [B] */
 
     fl_places *scratch;        /* [threads] */
+    fl_surrogate_count *told;  /* [threads], NULL where nothing has a surrogate */
     fl_shell_near *near_shell; /* [threads] */
     int32_t threads;
 

@@ -98,6 +98,8 @@ static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touc
         const fl_frozen_count c = fl_frozen_counted(&l.w);
         assert_true(c.state[FL_BOND_HURT] > 0 && c.state[FL_BOND_BROKEN] > 0 && c.state[FL_BOND_ENDED] > 0);
     }
+    if (it->scene == scene_of_surrogates)
+        assert_true(10 * fl_surrogate_sum(l.w.told, l.w.threads).told > l.w.touching_steps);
     *touching = l.w.touching_steps;
     *searches = l.w.searches;
     lab_free(&l);
@@ -151,7 +153,7 @@ static void laws(void **state)
                               {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"},
                               {scene_of_bonds, 3, "patch"},       {scene_of_bonds, 3, "manual"},
                               {scene_of_looks, 3, "patch"},       {scene_of_glances, 3, "patch"},
-                              {scene_of_visits, 3, "patch"}};
+                              {scene_of_visits, 3, "patch"},      {scene_of_surrogates, 3, "patch"}};
     const way how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                        {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                        {1, 0, 1.0, 0, 0, 1}};

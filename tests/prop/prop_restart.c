@@ -52,7 +52,8 @@ static void any_step_is_a_place_to_stop(void **state)
         {scene_of_everything, "patch"},     {scene_of_everything, "core"}, {scene_of_everything, "manual"},
         {scene_of_everything, "manual-si"}, {scene_of_wraps, "patch"},     {scene_of_seas, "patch"},
         {scene_of_balls, "patch"},          {scene_of_traffic, "patch"},   {scene_of_bonds, "patch"},
-        {scene_of_looks, "patch"},          {scene_of_glances, "patch"},   {scene_of_visits, "patch"}};
+        {scene_of_looks, "patch"},          {scene_of_glances, "patch"},   {scene_of_visits, "patch"},
+        {scene_of_surrogates, "patch"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         lab whole;

@@ -204,14 +204,9 @@ void lab_free(lab *l)
     fl_scene_free(&l->scene);
 }
 
-void lab_gas(lab *l, const char *law, double safety) { lab_gas_on(l, law, safety, 1); }
-
-void lab_gas_on(lab *l, const char *law, double safety, int threads)
+static void fill_gas(lab *l, double safety)
 {
     enum { SIDE = 14 };
-    lab_start(l);
-    lab_setf(l, "contact.law=%s", law);
-    lab_setf(l, "run.threads=%d", threads);
     lab_setf(l, "run.safety=%g", safety);
     lab_set(l, "contact.softening=0.02");
     lab_set(l, "boundary.type=rigid");
@@ -225,4 +220,22 @@ void lab_gas_on(lab *l, const char *law, double safety, int threads)
         lab_box(l, at, v3(half, half, 0.25), 0.05, q_about(2, a), v, v3(0, 0, fl_rng_in(&g, -0.2, 0.2)));
     }
     lab_make(l, 0.0);
+}
+
+void lab_gas(lab *l, const char *law, double safety) { lab_gas_on(l, law, safety, 1); }
+
+void lab_gas_on(lab *l, const char *law, double safety, int threads)
+{
+    lab_start(l);
+    lab_setf(l, "contact.law=%s", law);
+    lab_setf(l, "run.threads=%d", threads);
+    fill_gas(l, safety);
+}
+
+void lab_gas_told(lab *l, double safety, double surrogate)
+{
+    lab_start(l);
+    lab_setf(l, "contact.surrogate=%g", surrogate);
+    lab_set(l, "run.threads=1");
+    fill_gas(l, safety);
 }

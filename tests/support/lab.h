@@ -34,6 +34,7 @@ double lab_energy(lab *l); /* all stores */
  * damping, made and ready. */
 void lab_gas(lab *l, const char *law, double safety);
 void lab_gas_on(lab *l, const char *law, double safety, int threads);
+void lab_gas_told(lab *l, double safety, double surrogate); /* by contact.surrogate, law patch */
 /* Put body i where it is wanted, at rest. */
 void lab_pose(fl_world *w, int32_t i, fl_vec3 x, fl_quat q);
 /* The pair (i, j), i < j, evaluated at the poses of now as one that never touched before; it remembers

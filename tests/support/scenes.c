@@ -183,6 +183,12 @@ void scene_of_looks(lab *l, int32_t side, const char *law)
     lab_set(l, "water.profile_depth=2");
 }
 
+void scene_of_surrogates(lab *l, int32_t side, const char *law)
+{
+    scene_of_everything(l, side, law);
+    lab_set(l, "contact.surrogate=0.01");
+}
+
 void scene_of_glances(lab *l, int32_t side, const char *law)
 {
     scene_of_seas(l, side, law);

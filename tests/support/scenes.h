@@ -19,6 +19,9 @@ void scene_of_seas(lab *l, int32_t side, const char *law);
 void scene_of_looks(lab *l, int32_t side, const char *law);
 void scene_of_glances(lab *l, int32_t side, const char *law);
 
+/* scene_of_everything() where contacts that have moved little are told and not looked at. */
+void scene_of_surrogates(lab *l, int32_t side, const char *law);
+
 /* Spheres of two sizes in such a cell, one body in nine a box; laws as above. */
 void scene_of_balls(lab *l, int32_t side, const char *law);
 

@@ -95,6 +95,14 @@ void report_write(const struct run *r, FILE *f)
                 (double)c.coasted / all, c.naps ? (double)c.coasted / (double)c.naps : 0.0,
                 (double)c.rested / all, c.off, w->sleep.tol, c.summed);
     }
+    if (w->told && touches > 0.0) {
+        const fl_surrogate_count c = fl_surrogate_sum(w->told, w->threads);
+        fprintf(f,
+                "surrogate          %.3g of all contact-steps without a look; the force of looks off by more "
+                "than "
+                "told in %.2g of them, by %.2g of the force at most\n",
+                (double)c.told / touches, c.looked ? (double)c.off / (double)c.looked : 0.0, c.worst);
+    }
     if (r->saves)
         fprintf(f, "checkpoints        %" PRId64 " in %.3g s besides, the last at t = %.6g s\n", r->saves,
                 r->save_wall, fl_world_time(w));

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* surrogate.h -- the force of a contact that has moved little, from what it was when last looked at.
+ *
+ * The places of a contact of faces take microseconds, and from one step to the next hardly anything about
+ * them changes.  What they give, though, is the gradient of one energy W, and W hangs on six numbers alone:
+ * on how A stands to B.  So between two looks a contact may be carried by an expansion of W, which is a
+ * potential as well and keeps energy as the law does, but for what W differs by at the next look.
+ *
+ *     q = (u, a w)     way of a point of A in the contact since the look, and the turn of A: w is half the
+ *                      skew part of D = M M0^T, a a length of the contact; frame of B            [m]
+ *     z = 1 + g.q + q.H q/2,     W = W0 z^p
+ *     force on A -dW/du,  moment about the point -J^T dW/dw,  J = (tr D - D)/2 turns turns into w
+ *
+ * p is the power of the overlap that W grows with: 2 under a face, 9/4 along an edge, 5/2 at a corner, by
+ * W W''/W'^2 = (p - 1)/p along the force.  Then z is nearly the overlap over that of the look and straight in
+ * q, and what is left out is of third order in the bends of z alone.
+ *
+ * H is what the places tell (fl_bearing_springs()), and what they do not: how they move over the two bodies
+ * as these slide and turn, some with A, some with B, some with where two edges cross.  That part is learnt,
+ * as a part of the force: where a look finds the slope of z r off after q, the smallest change of a symmetric
+ * matrix that explains it is added, (r q^T + q r^T)/q.q - (r.q) q q^T/(q.q)^2 (Powell 1970, in Rosen,
+ * Mangasarian & Ritter, Nonlinear Programming, 31).
+ *
+ * How far a contact goes until the next look is chosen by what the last one found: the force is off as the
+ * square of the way, so reach = way sqrt(tolerance / off) / 2.  Off is the error of force and moment over a,
+ * over the force; while the bodies approach or part, over the force that the energy of this motion would
+ * give.  It is measured at the end of each way, where it is largest.
+ *
+ * Damping and friction go by the places of the last look, each pressing by what ddu makes of its way since,
+ * all of them times one factor that gives them the force that is told; where force and moment put the centre
+ * of the pressure elsewhere they are all moved there. */
+#ifndef FL_STEP_SURROGATE_H
+#define FL_STEP_SURROGATE_H
+#include "geom/mat3.h"
+#include "step/bearing.h"
+
+/* Three of a force or a way, three of a moment or a turn; the last two are 0. */
+typedef double fl_six[8];
+
+typedef struct {
+    int live; /* there is something to be asked */
+    /* of the last look */
+    fl_mat3 M;
+    fl_vec3 o;                            /* how A stood to B                             */
+    fl_vec3 at;                           /* the point, frame of B                    [m] */
+    double overlap, energy, force, slope; /* the largest [m], W [J], its slope [N], dF/ds along it [N/m] */
+    int32_t quarter;                      /* p = 2 + quarter / 4                          */
+    fl_six g, H[6];                       /* [1/m], [1/m2]                                */
+    fl_pads pads;                         /* what pressed,                                */
+    fl_vec3 first, off;                   /* the first place of it, frame of B; its centre lies so far from
+                                           * where force and moment are                   [m] */
+    double pressure;                      /* sum of its e                             [N] */
+    /* since the bodies touch */
+    fl_vec3 own;             /* the point, frame of A                                 [m] */
+    double arm;              /* a                                                     [m] */
+    double reach;            /* how far A may go until the next look, over the overlap    */
+    fl_six learnt[6];        /* of H, times p W over the force                      [1/m] */
+    double stiff_i, stiff_j; /* as in fl_pair, over the slope; of the last survey  [1/kg] */
+} fl_surrogate;
+
+/* What one tells for a pose. */
+typedef struct {
+    fl_six q, rise; /* [m]; dz/dq [1/m] */
+    double way;     /* |u| + a |w| [m]  */
+    double z, root; /* z^(p - 2)        */
+    fl_vec3 at, w;
+    fl_wrench gradient;   /* on A, about at, frame of B */
+    double energy, share; /* force over that of the look */
+} fl_told;
+
+/* What a look has found.  The gradient has the couple of the places, too. */
+typedef struct {
+    const fl_mat3 *M; /* of A to B, with */
+    fl_vec3 o;
+    const fl_places *places; /* after fl_bearing_sum() */
+    const fl_bearing *q;
+    double scale, energy, slope; /* dW/dU, W, and as in fl_surrogate */
+    double radii;                /* sum of the two [m] */
+    double toward;               /* the force that its motion comes to, over the force */
+    double stiff_i, stiff_j;     /* 0: not asked [1/s2] */
+} fl_seen;
+
+/* How often one was asked, and how well it told; one for each thread. */
+typedef struct {
+    _Alignas(64) int64_t told; /* contact-steps without a look              */
+    int64_t looked;            /* looks within twice its reach              */
+    int64_t off;               /* that found more than the tolerance        */
+    double worst;              /* most that was found                       */
+} fl_surrogate_count;
+
+/* Those of all threads. */
+fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t threads);
+
+/* For the pose M, o of A in the frame of B, as fl_places_enter() has it. */
+void fl_surrogate_tell(const fl_surrogate *s, const fl_mat3 *M, fl_vec3 o, fl_told *t);
+
+/* Whether that is near enough. */
+int fl_surrogate_holds(const fl_surrogate *s, const fl_told *t);
+
+/* Or so near that the error there tells of that where it held: within twice its reach. */
+int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t);
+
+/* The sums of fl_bearing_sum() but for u, ddu and dW/dU, for velocities of A against B at s->first, where its
+ * gradient is not about but at t->at; fl_bearing_damp_kept() may follow.  *scale: what they all have to be
+ * multiplied by, but the gradient; *shift: the centre is so far from where they have it.  0 where the contact
+ * has to be looked at. */
+int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, fl_bearing *q,
+                      double *scale, fl_vec3 *shift);
+
+/* After that: the same moved there. */
+void fl_surrogate_shift(fl_vec3 shift, fl_bearing *q);
+
+/* Begin anew from what was found; t: what s had told for this pose, NULL where it could not be asked.
+ * Returns by how much it was off, or -1 when memory runs out. */
+double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen, double tolerance);
+
+/* The rest of that: what follows from what was found, where own, arm, reach, what was learnt and the
+ * stiffness are known.  -1 when memory runs out. */
+int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen);
+
+void fl_surrogate_free(fl_surrogate *s);
+
+#endif

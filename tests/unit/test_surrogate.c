@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a surrogate tells, against what a look finds. */
+#include <math.h>
+#include "base/rng.h"
+#include "step/interact.h"
+#include "step/pairing.h"
+#include "support/lab.h"
+#include "support/near.h"
+
+static const fl_vec3 ZERO = {0, 0, 0};
+
+/* Ways in which one box lies on another. */
+enum { FACE, SHIFTED, EDGE, CORNER, CROSSED, KINDS };
+
+#define DEPTH 2e-3 /* overlap [m] */
+
+/* Two boxes of which the upper one, as it is turned, has been lowered until they overlap. */
+static void two(lab *l, int kind)
+{
+    static const struct {
+        double x, y;
+        fl_vec3 turn;
+    } HOW[KINDS] = {{0.05, 0.03, {0, 0, 0}},
+                    {0.6, 0.3, {1e-3, -2e-3, 0.4}},
+                    {0.2, 0.1, {0.02, 0.6, 0}},
+                    {0.1, 0.05, {0.6, -0.4, 0.1}},
+                    {0.9, 0.1, {0.3, 0.785, 0.2}}};
+    lab_start(l);
+    lab_set(l, "contact.surrogate=0.01");
+    lab_box(l, ZERO, v3(0.5, 0.5, 0.5), 0.05, q_one(), ZERO, ZERO);
+    lab_box(l, v3(HOW[kind].x, HOW[kind].y, 3), v3(0.5, 0.5, 0.5), 0.05, q_of_vector(HOW[kind].turn), ZERO,
+            ZERO);
+    lab_make(l, 1e-9);
+    double lo = 0.0, hi = 3.0; /* of the height: too deep, and not enough */
+    for (int k = 0; k < 60; k++) {
+        l->w.b.x[1].z = 0.5 * (lo + hi);
+        if (lab_look(&l->w, 0, 1).overlap > DEPTH) lo = l->w.b.x[1].z;
+        else hi = l->w.b.x[1].z;
+    }
+}
+
+/* A way to go: of the upper box, and its turn times the length of the surrogate. */
+typedef struct {
+    fl_vec3 u, w;
+} way;
+
+static way some(fl_rng *g)
+{
+    const way a = {v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g)),
+                   v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g))};
+    const double each = 1.0 / sqrt(v3_norm2(a.u) + v3_norm2(a.w));
+    return (way){v3_scale(each, a.u), v3_scale(each, a.w)};
+}
+
+/* The upper box gone by h along a from x and q, turned about the point of the surrogate, which is A's. */
+static void go(lab *l, const fl_surrogate *s, fl_vec3 x, fl_quat q, way a, double h)
+{
+    const fl_quat turn = q_of_vector(v3_scale(h / s->arm, a.w));
+    fl_bodies *b = &l->w.b;
+    const fl_vec3 point = v3_add(b->x[0], m3_mul(b->R[0], s->own));
+    b->q[1] = q_mul(turn, q);
+    b->x[1] = v3_madd(v3_add(point, q_rotate(turn, v3_sub(x, point))), h, a.u);
+    fl_body_derive(b, 1);
+}
+
+/* How the lower box, A, stands to the upper one, B. */
+static fl_vec3 pose(const lab *l, fl_mat3 *M)
+{
+    const fl_bodies *b = &l->w.b;
+    for (int k = 0; k < 3; k++) {
+        const fl_vec3 c = m3_tmul(b->R[1], m3_col(b->R[0], k));
+        M->m[0][k] = c.x, M->m[1][k] = c.y, M->m[2][k] = c.z;
+    }
+    return m3_tmul(b->R[1], v3_sub(b->x[0], b->x[1]));
+}
+
+/* By how much the force and the moment that are told are off, over the force. */
+static double off(lab *l, const fl_surrogate *s)
+{
+    fl_mat3 M;
+    fl_told t;
+    const fl_vec3 o = pose(l, &M);
+    fl_surrogate_tell(s, &M, o, &t);
+    const fl_pair p = lab_look(&l->w, 0, 1);
+    const fl_mat3 R = l->w.b.R[1];
+    const fl_vec3 f = m3_mul(R, t.gradient.f);
+    const fl_vec3 at = v3_add(l->w.b.x[1], m3_mul(R, t.at)), arm = v3_sub(at, l->w.b.x[0]);
+    const fl_vec3 m = v3_sub(p.ti, v3_cross(arm, p.f)); /* about the point */
+    const double df = v3_norm(v3_sub(f, p.f)), dm = v3_norm(v3_sub(m3_mul(R, t.gradient.m), m)) / s->arm;
+    return fmax(df, dm) / v3_norm(p.f);
+}
+
+static void what_is_told_is_a_potential(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 0, 3);
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        lab l;
+        fl_pair p;
+        two(&l, kind);
+        const fl_vec3 x = l.w.b.x[1];
+        const fl_quat q = l.w.b.q[1];
+        fl_pair_start(&l.w, &p, 0, 1);
+        for (int k = 0; k < 3; k++) { /* looks, which teach */
+            if (k) go(&l, p.surrogate, x, q, some(&g), 0.05 * DEPTH), p.surrogate->reach = 0.0;
+            fl_interact(&l.w, &p, 0, 0.0, 0);
+            assert_true(p.n && p.surrogate && p.surrogate->live);
+        }
+        for (int k = 0; k < 12; k++) {
+            const way to = some(&g), along = some(&g);
+            const double h = 1e-4 * DEPTH;
+            fl_told t[3];
+            for (int e = 0; e < 3; e++) { /* by h along a second way, both ways */
+                fl_mat3 M;
+                go(&l, p.surrogate, x, q, to, 0.2 * DEPTH);
+                const fl_vec3 x2 = l.w.b.x[1];
+                const fl_quat q2 = l.w.b.q[1];
+                go(&l, p.surrogate, x2, q2, along, e == 0 ? 0.0 : e == 1 ? -h : h);
+                const fl_vec3 o = pose(&l, &M);
+                fl_surrogate_tell(p.surrogate, &M, o, &t[e]);
+            }
+            go(&l, p.surrogate, x, q, to, 0.2 * DEPTH);
+            const fl_mat3 R = l.w.b.R[1];
+            const fl_vec3 f = m3_mul(R, t[0].gradient.f), m = m3_mul(R, t[0].gradient.m);
+            /* what B goes, A goes the other way */
+            const double work = -h * (v3_dot(f, along.u) + v3_dot(m, along.w) / p.surrogate->arm);
+            assert_near_of(t[2].energy - t[1].energy, -2.0 * work, 1e-7,
+                           h * (v3_norm(t[0].gradient.f) + v3_norm(t[0].gradient.m) / p.surrogate->arm));
+        }
+        fl_pair_end(&p);
+        lab_free(&l);
+    }
+}
+
+/* At the look it tells what was found; further along a way that it has been taught the error falls with the
+ * square of what is left of the way. */
+static void a_look_teaches(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 0, 4);
+    double log_ratio = 0.0, better = 0.0;
+    int many = 0;
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int k = 0; k < 20; k++) {
+            lab l;
+            fl_pair p;
+            const way a = some(&g);
+            double e[3], untaught;
+            two(&l, kind);
+            const fl_vec3 x = l.w.b.x[1];
+            const fl_quat q = l.w.b.q[1];
+            fl_pair_start(&l.w, &p, 0, 1);
+            fl_interact(&l.w, &p, 0, 0.0, 0);
+            fl_surrogate *const s = p.surrogate;
+            assert_true(off(&l, s) < 1e-9);
+            go(&l, s, x, q, a, 0.04 * DEPTH);
+            untaught = off(&l, s);
+            go(&l, s, x, q, a, -0.02 * DEPTH);
+            s->reach = 0.0;
+            fl_interact(&l.w, &p, 0, 0.0, 0);
+            assert_true(off(&l, s) < 1e-9);
+            for (int c = 0; c < 3; c++) {
+                go(&l, s, x, q, a, (0.04 * (1 << c) - 0.02) * DEPTH);
+                e[c] = off(&l, s);
+            }
+            go(&l, s, x, q, a, 0.0);
+            better += log2(untaught / fmax(off(&l, s), 1e-12)) / (20.0 * KINDS);
+            if (e[0] > 1e-7) log_ratio += log2(e[1] / e[0]), many++;
+            fl_pair_end(&p);
+            lab_free(&l);
+        }
+    assert_true(many > 40);
+    assert_true(log_ratio / many > 1.6 && better > 3.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
+                                       cmocka_unit_test(a_look_teaches)};
+    return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
+}
