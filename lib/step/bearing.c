@@ -4,10 +4,9 @@
 #include "base/wide.h"
 #include "step/bearing.h"
 
-/* What later sums need of four places; of those that are kept also e as it was, and in place of curve, ddu, a
- * quarter of ddu/du, for pressures that grow as s^3 to s^4. */
+/* What later sums need of four places. */
 typedef struct {
-    fl_wide closing, e, du, curve, across[3], arm[3], was;
+    fl_wide closing, e, du, curve, across[3], arm[3];
 } lane;
 
 /* Four numbers in a row of four places: rows to columns, in registers, since a wide load would wait for
@@ -170,63 +169,112 @@ void fl_bearing_springs(const fl_places *s, fl_springs *q)
         }
 }
 
-/* --- what is kept of a look -------------------------------------------------------------------- */
+/* --- what is kept of a look ------------------------------------------------------------------- */
 
-FL_WIDE_VERSIONS static void keep(const lane *t, int32_t lanes, lane *out)
+typedef double eight __attribute__((vector_size(64), aligned(8), may_alias));
+typedef int64_t eight_mask __attribute__((vector_size(64), aligned(8), may_alias));
+
+#define WHERE(m, a) ((eight)((m) & (eight_mask)(a)))
+
+/* Of eight places; rate: a quarter of ddu/du, for pressures that grow as s^3 to s^4. */
+typedef struct {
+    eight e, du, rate, across[3], arm[3];
+} pad;
+
+/* The sums over eight places of four numbers each. */
+FL_WIDE_PART void fold(double out[4], const eight *a, const eight *b, const eight *c, const eight *d)
 {
-    const fl_wide one = 1.0 + (fl_wide){0};
-    for (int32_t k = 0; k < lanes; k++, t++, out++) {
-        const fl_wide_mask presses = t->du > 0.0;
-        *out = *t;
-        out->was = t->e;
-        out->curve = FL_WIDE_WHERE(presses, 0.25 * t->curve / FL_WIDE_CHOOSE(presses, t->du, one));
-    }
+    const eight *const of[4] = {a, b, c, d};
+    fl_wide r[4];
+    FL_WIDE_UNROLL
+    for (int k = 0; k < 4; k++)
+        r[k] = __builtin_shufflevector(*of[k], *of[k], 0, 1, 2, 3) +
+               __builtin_shufflevector(*of[k], *of[k], 4, 5, 6, 7);
+    fl_wide_transpose(r);
+    FL_FOUR_INTO(out) = (r[0] + r[1]) + (r[2] + r[3]);
 }
 
-FL_WIDE_VERSIONS static void recall(lane *t, int32_t lanes, fl_vec3 way, fl_vec3 turned, fl_vec3 v,
-                                    fl_vec3 turn, fl_bearing *q, fl_wrench *all)
+FL_WIDE_VERSIONS static void recall(const pad *p, int32_t n, fl_vec3 way, fl_vec3 turned, fl_vec3 v,
+                                    fl_vec3 turn, double chi, fl_bearing *q, fl_vec3 *at)
 {
-    const fl_wide zero = {0};
-    fl_wide pressed = zero, met = zero, elastic = zero;
-    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
-    for (int32_t k = 0; k < lanes; k++, t++) {
-        fl_wide in, closing, moment[3];
-        inward(&in, t->across, t->arm, way, turned);
-        inward(&closing, t->across, t->arm, v, turn);
-        const fl_wide more = 1.0 + t->curve * in, rest = FL_WIDE_WHERE(more > 0.0, more), two = rest * rest;
-        const fl_wide grown = two * two, du = grown * t->du, e = grown * t->was;
-        CROSS(moment, t->arm, t->across);
-        t->closing = closing, t->e = e;
-        for (int c = 0; c < 3; c++) f[c] += e * t->across[c], m[c] += e * moment[c];
+    const eight zero = {0};
+    eight pressed = zero, met = zero, elastic = zero, normal = zero, spread = zero;
+    eight all[3] = {zero, zero, zero}, moment[3] = {zero, zero, zero}, still[3] = {zero, zero, zero};
+    eight f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
+    for (int32_t k = 0; k < n; k++, p++) {
+        const eight ax = p->across[0], ay = p->across[1], az = p->across[2];
+        const eight x = p->arm[0], y = p->arm[1], z = p->arm[2];
+        const eight tx = y * az - z * ay, ty = z * ax - x * az, tz = x * ay - y * ax; /* arm x across */
+        const eight in =
+            (ax * way.x + ay * way.y + az * way.z) + (tx * turned.x + ty * turned.y + tz * turned.z);
+        const eight closing = -((ax * v.x + ay * v.y + az * v.z) + (tx * turn.x + ty * turn.y + tz * turn.z));
+        const eight more = 1.0 - p->rate * in, rest = WHERE(more > 0.0, more), two = rest * rest;
+        const eight grown = two * two, du = grown * p->du, e = grown * p->e;
+        const eight to = e * (1.0 + chi * closing), press = WHERE(to > 0.0, to), add = press - e;
         pressed += du;
-        met += du * FL_WIDE_WHERE(closing > 0.0, closing);
+        met += du * WHERE(closing > 0.0, closing);
         elastic += e;
+        normal += press;
+        spread += press * (x * x + y * y + z * z);
+        all[0] += press * ax, all[1] += press * ay, all[2] += press * az;
+        moment[0] += press * x, moment[1] += press * y, moment[2] += press * z;
+        still[0] += e * x, still[1] += e * y, still[2] += e * z;
+        f[0] += add * ax, f[1] += add * ay, f[2] += add * az;
+        m[0] += add * tx, m[1] += add * ty, m[2] += add * tz;
     }
-    *q = (fl_bearing){
-        .pressed = fl_wide_sum(&pressed), .met = fl_wide_sum(&met), .elastic = fl_wide_sum(&elastic)};
-    *all = (fl_wrench){sum3(f), sum3(m)};
+    double s[5][4];
+    fold(s[0], &pressed, &met, &elastic, &normal);
+    fold(s[1], &all[0], &all[1], &all[2], &spread);
+    fold(s[2], &moment[0], &moment[1], &moment[2], &zero);
+    fold(s[3], &f[0], &f[1], &f[2], &m[0]);
+    fold(s[4], &still[0], &still[1], &still[2], &m[1]);
+    double last[4];
+    fold(last, &m[2], &zero, &zero, &zero);
+    *q = (fl_bearing){.pressed = s[0][0],
+                      .met = s[0][1],
+                      .elastic = s[0][2],
+                      .normal = s[0][3],
+                      .direction = v3(s[1][0], s[1][1], s[1][2]),
+                      .spread = s[1][3],
+                      .moment = v3(s[2][0], s[2][1], s[2][2]),
+                      .damping = {v3(s[3][0], s[3][1], s[3][2]), v3(s[3][3], s[4][3], last[0])}};
+    *at = v3(s[4][0], s[4][1], s[4][2]);
+}
+
+/* Two lanes, of which the second may be none. */
+FL_WIDE_VERSIONS static void keep(const lane *t, int32_t lanes, pad *out)
+{
+    static const lane none;
+    const eight zero = {0}, one = 1.0 + zero;
+#define JOIN(a) __builtin_shufflevector(t[k].a, next->a, 0, 1, 2, 3, 4, 5, 6, 7)
+    for (int32_t k = 0; k < lanes; k += 2, out++) {
+        const lane *next = k + 1 < lanes ? t + k + 1 : &none;
+        const eight du = JOIN(du), curve = JOIN(curve);
+        const eight_mask presses = du > 0.0;
+        out->e = JOIN(e), out->du = du;
+        out->rate =
+            WHERE(presses, 0.25 * curve / (eight)((presses & (eight_mask)du) | (~presses & (eight_mask)one)));
+        for (int c = 0; c < 3; c++) out->across[c] = JOIN(across[c]), out->arm[c] = JOIN(arm[c]);
+    }
+#undef JOIN
 }
 
 int fl_bearing_keep(const fl_places *s, fl_pads *pads)
 {
-    pads->n = (s->n + FL_LANES - 1) / FL_LANES;
-    if (fl_room(&pads->lane, &pads->cap, pads->n, sizeof(lane))) return -1;
-    keep(s->lane, pads->n, pads->lane);
+    const int32_t lanes = (s->n + FL_LANES - 1) / FL_LANES;
+    pads->n = (lanes + 1) / 2;
+    if (fl_room(&pads->pad, &pads->cap, pads->n, sizeof(pad))) return -1;
+    keep(s->lane, lanes, pads->pad);
     return 0;
 }
 
-void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn,
-                       fl_bearing *q, fl_wrench *all)
+void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn, double chi,
+                       fl_bearing *q, fl_vec3 *at)
 {
-    recall(pads->lane, pads->n, way, turned, v, turn, q, all);
+    recall(pads->pad, pads->n, way, turned, v, turn, chi, q, at);
 }
 
-void fl_bearing_damp_kept(const fl_pads *pads, double chi, fl_bearing *q)
-{
-    second(pads->lane, pads->n, chi, q);
-}
-
-double fl_pads_bytes(const fl_pads *pads) { return (double)pads->cap * (double)sizeof(lane); }
+double fl_pads_bytes(const fl_pads *pads) { return (double)pads->cap * (double)sizeof(pad); }
 
 double fl_bearing_closing(const fl_places *s, int32_t k)
 {

@@ -41,22 +41,19 @@ void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q);
 void fl_bearing_springs(const fl_places *s, fl_springs *q);
 
 /* The places of a look, to be asked again when A has moved a little: where and along what they press is kept,
- * how much follows from ddu.  Zeroed to start; lane is freed with free(). */
+ * how much follows from ddu.  Zeroed to start; pad is freed with free(). */
 typedef struct {
-    void *lane;
+    void *pad;
     int32_t n, cap;
 } fl_pads;
 
 /* After fl_bearing_sum().  -1 when memory runs out. */
 int fl_bearing_keep(const fl_places *s, fl_pads *pads);
 
-/* What fl_bearing_sum() would say now that A has moved by `way` at the first place and has `turned`, to the
- * first order.  u, ddu, overlap and gradient are left 0; all: the sums of e across and of arm x e across. */
-void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn,
-                       fl_bearing *q, fl_wrench *all);
-
-/* Then fl_bearing_damp() of them. */
-void fl_bearing_damp_kept(const fl_pads *pads, double chi, fl_bearing *q);
+/* What fl_bearing_sum() and fl_bearing_damp() would say now that A has moved by `way` at the first place and
+ * has `turned`, to the first order; u, ddu, overlap and gradient are left 0.  *at: the sum of e arm. */
+void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn, double chi,
+                       fl_bearing *q, fl_vec3 *at);
 
 double fl_pads_bytes(const fl_pads *pads);
 

@@ -536,14 +536,15 @@ static int force_told(fl_world *w, fl_pair *p, const fl_told *t, const relative 
     const fl_vec3 aj = m3_mul(R, s->first), ai = v3_add(aj, r->off), at = m3_mul(R, t->at);
     const fl_vec3 v = m3_tmul(R, approach(b, p, ai, aj)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
     fl_bearing q;
-    fl_vec3 shift;
     double scale;
-    if (!fl_surrogate_bear(s, t, v, turn, &q, &scale, &shift)) return 0;
-    p->overlap = q.overlap;
     p->energy = t->energy;
-    const double chi = damping_factor(p, q.met / q.pressed);
-    fl_bearing_damp_kept(&s->pads, chi, &q);
-    fl_surrogate_shift(shift, &q);
+    double chi = damping_factor(p, 0.0); /* it does not often approach faster than ever */
+    if (!fl_surrogate_bear(s, t, v, turn, chi, &q, &scale)) return 0;
+    if (q.met > p->touch * q.pressed) {
+        chi = damping_factor(p, q.met / q.pressed);
+        fl_surrogate_bear(s, t, v, turn, chi, &q, &scale);
+    }
+    p->overlap = q.overlap;
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, 1.0, &R, v3_add(at, r->off), at);
     bear(w, p, &q, scale, s->slope * t->root, chi, r, aj, dt);
     if (survey) p->stiff_i = t->root * s->slope * s->stiff_i, p->stiff_j = t->root * s->slope * s->stiff_j;

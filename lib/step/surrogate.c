@@ -31,9 +31,10 @@ static double dot(const fl_six a, const fl_six b)
 }
 
 /* out = more + A x of a symmetric matrix. */
-FL_FOUR_VERSIONS static void product(fl_six out, const fl_six *A, const fl_six x, const fl_six more)
+FL_WIDE_PART void product(fl_six out, const fl_six *A, const fl_six x, const fl_six more)
 {
     fl_wide a = FL_FOUR(more), b = FL_FOUR(more + 4);
+    FL_WIDE_UNROLL
     for (int k = 0; k < 6; k++) {
         a += x[k] * FL_FOUR(&A[k][0]);
         b += x[k] * FL_FOUR(&A[k][4]);
@@ -67,7 +68,7 @@ fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t thr
     return all;
 }
 
-void fl_surrogate_tell(const fl_surrogate *s, const fl_mat3 *M, fl_vec3 o, fl_told *t)
+FL_FOUR_VERSIONS void fl_surrogate_tell(const fl_surrogate *s, const fl_mat3 *M, fl_vec3 o, fl_told *t)
 {
     const fl_mat3 *N = &s->M;
     double D[3][3], trace;
@@ -101,38 +102,32 @@ static int within(const fl_surrogate *s, const fl_told *t, double reach)
 int fl_surrogate_holds(const fl_surrogate *s, const fl_told *t) { return within(s, t, s->reach); }
 int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t) { return within(s, t, 2.0 * s->reach); }
 
-/* Where along the plane of the pressures their force acts, from the point that the wrench is about. */
-static fl_vec3 centre(const fl_wrench *a)
-{
-    const fl_vec3 n = v3_unit(a->f);
-    return v3_scale(1.0 / v3_dot(n, a->f), v3_cross(n, a->m));
-}
-
 static fl_wrench moved(const fl_wrench *a, fl_vec3 from)
 {
     return (fl_wrench){a->f, v3_add(a->m, v3_cross(from, a->f))};
 }
 
-int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, fl_bearing *q,
-                      double *scale, fl_vec3 *shift)
+/* Where along the plane of the pressures a force acts, from the point that the wrench is about. */
+static fl_vec3 centre(const fl_wrench *a) { return v3_scale(1.0 / v3_norm2(a->f), v3_cross(a->f, a->m)); }
+
+int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, double chi,
+                      fl_bearing *q, double *scale)
 {
     const fl_vec3 way = v3_add(low(t->q), v3_cross(t->w, v3_sub(s->first, s->at)));
-    fl_wrench all;
-    fl_bearing_recall(&s->pads, way, t->w, v, turn, q, &all);
+    fl_vec3 at;
+    fl_bearing_recall(&s->pads, way, t->w, v, turn, chi, q, &at);
     if (!(q->elastic > 0.0)) return 0;
-    const fl_wrench told = moved(&t->gradient, v3_sub(t->at, s->first));
-    *scale = t->share * s->pressure / q->elastic;
-    *shift = v3_add(v3_sub(centre(&told), centre(&all)), s->off);
+    const double each = 1.0 / q->elastic;
+    *scale = t->share * s->pressure * each;
     q->overlap = s->overlap * t->z;
     q->gradient = t->gradient;
+    /* the pressures move to where force and moment want them */
+    const fl_wrench told = moved(&t->gradient, v3_sub(t->at, s->first));
+    const fl_vec3 by = v3_add(v3_madd(centre(&told), -each, at), s->off);
+    q->spread += 2.0 * v3_dot(by, q->moment) + q->normal * v3_norm2(by);
+    q->moment = v3_madd(q->moment, q->normal, by);
+    q->damping.m = v3_add(q->damping.m, v3_cross(by, q->damping.f));
     return 1;
-}
-
-void fl_surrogate_shift(fl_vec3 shift, fl_bearing *q)
-{
-    q->spread += 2.0 * v3_dot(shift, q->moment) + q->normal * v3_norm2(shift);
-    q->moment = v3_madd(q->moment, q->normal, shift);
-    q->damping.m = v3_add(q->damping.m, v3_cross(shift, q->damping.f));
 }
 
 /* --- looks ------------------------------------------------------------------------------------- */
@@ -214,7 +209,7 @@ static void begin(fl_surrogate *s, const fl_seen *seen)
 }
 
 /* H and p of the springs, of what was learnt, and of the slope of W. */
-static void bend(fl_surrogate *s, const fl_seen *seen, const fl_six slope, fl_vec3 from)
+FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl_six slope, fl_vec3 from)
 {
     const double W = seen->energy, force = s->force;
     fl_springs springs;
@@ -251,7 +246,7 @@ int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     const fl_bearing *q = seen->q;
     const fl_wrench gradient = {q->gradient.f, q->gradient.m};
     fl_bearing still;
-    fl_wrench all;
+    fl_vec3 mean;
     fl_six slope;
     s->live = 0;
     s->force = slope_of(s, seen, slope);
@@ -261,10 +256,10 @@ int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     s->first = seen->places->place[0].p;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope;
     bend(s, seen, slope, v3_sub(s->first, s->at));
-    fl_bearing_recall(&s->pads, NONE, NONE, NONE, NONE, &still, &all);
+    fl_bearing_recall(&s->pads, NONE, NONE, NONE, NONE, 0.0, &still, &mean);
     if (!(still.elastic > 0.0)) return 0;
     s->pressure = seen->scale * still.elastic;
-    s->off = v3_sub(centre(&all), centre(&gradient));
+    s->off = v3_madd(v3_neg(centre(&gradient)), 1.0 / still.elastic, mean);
     s->live = 1;
     return 0;
 }
@@ -289,5 +284,5 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
 
 void fl_surrogate_free(fl_surrogate *s)
 {
-    if (s) free(s->pads.lane);
+    if (s) free(s->pads.pad);
 }

@@ -100,15 +100,11 @@ int fl_surrogate_holds(const fl_surrogate *s, const fl_told *t);
 /* Or so near that the error there tells of that where it held: within twice its reach. */
 int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t);
 
-/* The sums of fl_bearing_sum() but for u, ddu and dW/dU, for velocities of A against B at s->first, where its
- * gradient is not about but at t->at; fl_bearing_damp_kept() may follow.  *scale: what they all have to be
- * multiplied by, but the gradient; *shift: the centre is so far from where they have it.  0 where the contact
- * has to be looked at. */
-int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, fl_bearing *q,
-                      double *scale, fl_vec3 *shift);
-
-/* After that: the same moved there. */
-void fl_surrogate_shift(fl_vec3 shift, fl_bearing *q);
+/* The sums of fl_bearing_sum() and fl_bearing_damp() but for u, ddu and dW/dU, for velocities of A against B
+ * at s->first, which they are about; the gradient is that of t.  *scale: what the others have to be multiplied
+ * by.  0 where the contact has to be looked at. */
+int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, double chi,
+                      fl_bearing *q, double *scale);
 
 /* Begin anew from what was found; t: what s had told for this pose, NULL where it could not be asked.
  * Returns by how much it was off, or -1 when memory runs out. */

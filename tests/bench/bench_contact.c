@@ -2,12 +2,14 @@
 /* bench_contact.c -- what one contact costs in a step, by what touches what, beside how far its force is from
  * the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
  *     bench_contact               the table
- *     bench_contact CASE N        N evaluations of one case, for a tool that counts instructions
+ *     bench_contact CASE N [TOL]  N evaluations of one case, for a tool that counts instructions; by
+ *                                 surrogates of that tolerance
  *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
  *                                 and the forces of one that slides off it, by law
  * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm; they move by a hundredth of
  * a millimetre between evaluations, as in a step of 0.1 ms at 0.1 m/s, so that the cost of finding features
- * anew is in it.  Times are thread time of this machine now; compare rows of one run only. */
+ * anew is in it.  "told" is the same with contact.surrogate, its looks included, and how far the force of a
+ * step is off at most.  Times are thread time of this machine now; compare rows of one run only. */
 #include <ccd/ccd.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +20,8 @@
 
 #define RADIUS 0.05
 #define OVERLAP 0.004
-#define STEP 1e-5 /* [m] */
+#define STEP 1e-5      /* [m] */
+#define TOLERANCE 1e-3 /* of contacts by surrogates */
 #define PI 3.14159265358979323846
 
 enum { CORNERS = 8, TIMES = 20000, CCD_TIMES = 4000 };
@@ -76,11 +79,12 @@ static const char *const NAME[CASES] = {NULL,
                                         "side on 2 triangles"};
 
 /* Two bodies, or one and what is held: pair 0 of the world touches. */
-static void make(lab *l, which c, const char *law)
+static void make(lab *l, which c, const char *law, double surrogate)
 {
     const double half = 1.5 * cos(PI / 8.0), near = 2.0 * RADIUS - OVERLAP, wall = RADIUS - OVERLAP;
     lab_start(l);
     lab_setf(l, "contact.law=%s", law);
+    lab_setf(l, "contact.surrogate=%g", surrogate);
     lab_set(l, "contact.friction=0.3");
     if (c == SPHERE_ON_FLOE) lab_sphere(l, v3(0, 0, 0), RADIUS, v3(0, 0, 0), v3(0, 0, 0));
     else octagon(l, v3(0, 0, 0), 0.0, 0.0);
@@ -113,14 +117,19 @@ static fl_pair *touching(lab *l)
     return NULL;
 }
 
-/* There and back again; path counts every step. */
-static void evaluate(lab *l, fl_pair *p, int times)
+/* There and back again, sliding and, by a fifth of it, pressing; path counts every step. */
+static void go(lab *l, int k)
 {
     fl_bodies *b = &l->w.b;
+    b->x[0].y += k / 100 % 2 ? -STEP : STEP;
+    b->x[0].x += k / 70 % 2 ? -0.2 * STEP : 0.2 * STEP;
+    b->odometer[0] += 1.2 * STEP;
+}
+
+static void evaluate(lab *l, fl_pair *p, int times)
+{
     for (int k = 0; k < times; k++) {
-        const double way = k / 100 % 2 ? -STEP : STEP;
-        b->x[0].y += way;
-        b->odometer[0] += STEP;
+        go(l, k);
         fl_interact(&l->w, p, 0, 1e-9, 0);
     }
 }
@@ -198,10 +207,36 @@ static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
 /* --- the table -------------------------------------------------------------------------------------------
  */
 
+/* The same by surrogates: time of a step [s], how many of the steps are looks, and by how much the force is
+ * off at most, of itself. */
+static double told(which c, double tolerance, double *looks, double *off)
+{
+    lab l;
+    make(&l, c, "patch", tolerance);
+    fl_pair *p = touching(&l);
+    *looks = 1.0, *off = INFINITY;
+    if (!p) return INFINITY;
+    evaluate(&l, p, 200);
+    const int64_t before = l.w.told[0].told;
+    const double begun = now();
+    evaluate(&l, p, TIMES);
+    const double spent = (now() - begun) / TIMES;
+    *looks = 1.0 - (double)(l.w.told[0].told - before) / TIMES;
+    *off = 0.0;
+    for (int k = 0; k < 400; k++) {
+        go(&l, k);
+        fl_interact(&l.w, p, 0, 1e-9, 0);
+        const fl_vec3 f = lab_look(&l.w, p->i, p->j).f;
+        *off = fmax(*off, v3_norm(v3_sub(v3_sub(p->f, v3_add(p->fs, p->fd)), f)) / v3_norm(f));
+    }
+    lab_free(&l);
+    return spent;
+}
+
 static int row(which c, const char *law)
 {
     lab l;
-    make(&l, c, law);
+    make(&l, c, law, 0.0);
     fl_pair *p = touching(&l);
     if (!p) return 1;
     const double off = off_gradient(&l, p);
@@ -215,6 +250,13 @@ static int row(which c, const char *law)
         double error[2], t[2];
         for (int k = 0; k < 2; k++) t[k] = ask_ccd(&l, p, k, &error[k]);
         printf(" %10.0f %10.1e %10.0f %10.1e", 1e9 * t[1], error[1], 1e9 * t[0], error[0]);
+    } else if (strcmp(law, "patch") == 0) {
+        printf(" %10s %10s %10s %10s", "", "", "", "");
+    }
+    if (p->exponent == 0.0 && strcmp(law, "patch") == 0) {
+        double looks, most;
+        const double t = told(c, TOLERANCE, &looks, &most);
+        printf(" %8.0f %8.3f %9.1e", 1e9 * t, looks, most);
     }
     printf("\n");
     const int bad = p->n == 0 || (strcmp(law, "patch") == 0 && !(off < 1e-5));
@@ -273,17 +315,18 @@ int main(int argc, char **argv)
 {
     int bad = 0, rows = 0;
     if (argc == 3 && strcmp(argv[1], "curves") == 0) return curves(argv[2]);
-    if (argc == 3) {
+    if (argc == 3 || argc == 4) {
         lab l;
-        make(&l, (which)atoi(argv[1]), "patch");
+        make(&l, (which)atoi(argv[1]), "patch", argc == 4 ? atof(argv[3]) : 0.0);
         fl_pair *p = touching(&l);
         if (p) evaluate(&l, p, atoi(argv[2]));
         lab_free(&l);
         return p == NULL;
     }
     printf("one contact, all of its forces with friction and damping; moved 0.01 mm between evaluations\n");
-    printf("%-20s %-10s %8s %8s %10s %12s %10s %10s %10s %10s\n", "contact", "law", "matches", "places", "ns",
-           "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off");
+    printf("%-20s %-10s %8s %8s %10s %12s %10s %10s %10s %10s %8s %8s %9s\n", "contact", "law", "matches",
+           "places", "ns", "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off", "told[ns]", "looks",
+           "F off");
     for (int c = SPHERE_ON_FLOE; c < CASES; c++, rows++) bad += row((which)c, "patch");
     for (int k = 1; k < 3; k++) {
         bad += row(SIDE_TURNED, LAW[k]) + row(FLAT_TURNED, LAW[k]);

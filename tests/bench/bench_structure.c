@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* bench_structure.c -- what a floe that touches a structure costs in a step, by how finely the structure is
  * cut up and by what it is, beside how far its force is from the gradient of its energy and from the force of
- * the same shape in another form. bench_structure             the table bench_structure CASE N      N
- * evaluations of one case, for a tool that counts instructions The floe: an octagonal prism of 3 m, 0.4 m
- * thick, radius 50 mm, that overlaps by 4 mm, flat-on (one of its sides lies on the structure) or edge-on (an
- * upright edge does); it moves by a hundredth of a millimetre between evaluations, as in a step of 0.1 ms at
- * 0.1 m/s, so that the cost of finding features anew is in it. Times are thread time of this machine now, the
- * least of several turns; the ratios are to the wall of 2 triangles, flat-on, in the same run. */
+ * the same shape in another form.
+ *     bench_structure             the table
+ *     bench_structure CASE N      N evaluations of one case, for a tool that counts instructions
+ * The floe: an octagonal prism of 3 m, 0.4 m thick, radius 50 mm, that overlaps by 4 mm, flat-on (one of its
+ * sides lies on the structure) or edge-on (an upright edge does); it moves by a hundredth of a millimetre
+ * between evaluations, as in a step of 0.1 ms at 0.1 m/s, so that the cost of finding features anew is in it.
+ * "told" is the same with contact.surrogate.  Times are thread time of this machine now, the least of several
+ * turns; the ratios are to the wall of 2 triangles, flat-on, in the same run. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,9 +19,10 @@
 
 #define RADIUS 0.05
 #define OVERLAP 0.004
-#define STEP 1e-5 /* [m] */
-#define ROUND 4.0 /* radius of hull and cylinder [m] */
-#define LONG 8.0  /* of the hull along its axis [m] */
+#define STEP 1e-5      /* [m] */
+#define TOLERANCE 1e-3 /* of contacts by surrogates */
+#define ROUND 4.0      /* radius of hull and cylinder [m] */
+#define LONG 8.0       /* of the hull along its axis [m] */
 #define PI 3.14159265358979323846
 
 enum { CORNERS = 8, TIMES = 2000, TURNS = 5 };
@@ -139,11 +142,12 @@ static const structure CASE[] = {
 };
 enum { CASES = sizeof CASE / sizeof *CASE };
 
-static void make(lab *l, const structure *c, int edge_on)
+static void make(lab *l, const structure *c, int edge_on, double surrogate)
 {
     const double half = edge_on ? 1.5 : 1.5 * cos(PI / 8.0), x = half + RADIUS - OVERLAP;
     lab_start(l);
     lab_set(l, "contact.friction=0.3");
+    lab_setf(l, "contact.surrogate=%g", surrogate);
     floe(l, edge_on);
     switch (c->what) {
     case WALL: {
@@ -168,14 +172,19 @@ static void make(lab *l, const structure *c, int edge_on)
     lab_make(l, 1e-9);
 }
 
-/* There and back again; path counts every step. */
-static void evaluate(lab *l, fl_pair *p, int times)
+/* There and back again, sliding and, by a fifth of it, pressing; path counts every step. */
+static void go(lab *l, int k)
 {
     fl_bodies *b = &l->w.b;
+    b->x[0].y += k / 100 % 2 ? -STEP : STEP;
+    b->x[0].x += k / 70 % 2 ? -0.2 * STEP : 0.2 * STEP;
+    b->odometer[0] += 1.2 * STEP;
+}
+
+static void evaluate(lab *l, fl_pair *p, int times)
+{
     for (int k = 0; k < times; k++) {
-        const double way = k / 100 % 2 ? -STEP : STEP;
-        b->x[0].y += way;
-        b->odometer[0] += STEP;
+        go(l, k);
         fl_interact(&l->w, p, 0, 1e-9, 0);
     }
 }
@@ -203,13 +212,42 @@ static double off_gradient(lab *l, fl_vec3 f)
 typedef struct {
     double f; /* size of the force [N] */
     double ns, off;
+    double told, looks, told_off; /* the same by surrogates: ns, part of the steps, |F| off at most */
     int32_t triangles, matches, places;
 } found;
+
+/* The same with contact.surrogate. */
+static void told(const structure *c, int edge_on, found *out)
+{
+    lab l;
+    fl_pair p;
+    make(&l, c, edge_on, TOLERANCE);
+    fl_pair_start(&l.w, &p, 0, 1);
+    evaluate(&l, &p, 200);
+    out->told = INFINITY;
+    const int64_t before = l.w.told[0].told;
+    for (int k = 0; k < TURNS; k++) {
+        const double begun = now();
+        evaluate(&l, &p, TIMES);
+        const double ns = 1e9 * (now() - begun) / TIMES;
+        out->told = ns < out->told ? ns : out->told;
+    }
+    out->looks = 1.0 - (double)(l.w.told[0].told - before) / (TURNS * TIMES);
+    out->told_off = 0.0;
+    for (int k = 0; k < 400; k++) {
+        go(&l, k);
+        fl_interact(&l.w, &p, 0, 1e-9, 0);
+        const fl_vec3 f = lab_look(&l.w, 0, 1).f;
+        out->told_off = fmax(out->told_off, v3_norm(v3_sub(v3_sub(p.f, v3_add(p.fs, p.fd)), f)) / v3_norm(f));
+    }
+    fl_pair_end(&p);
+    lab_free(&l);
+}
 
 static int run(const structure *c, int edge_on, found *out)
 {
     lab l;
-    make(&l, c, edge_on);
+    make(&l, c, edge_on, 0.0);
     const fl_vec3 f = lab_look(&l.w, 0, 1).f;
     fl_pair p;
     *out = (found){
@@ -227,6 +265,7 @@ static int run(const structure *c, int edge_on, found *out)
     const int bad = p.n == 0 || !(out->off < 1e-5);
     fl_pair_end(&p);
     lab_free(&l);
+    told(c, edge_on, out);
     return bad;
 }
 
@@ -239,7 +278,7 @@ int main(int argc, char **argv)
         lab l;
         fl_pair p;
         if (c < 0 || c >= 2 * CASES) return 2;
-        make(&l, &CASE[c / 2], c % 2);
+        make(&l, &CASE[c / 2], c % 2, 0.0);
         fl_pair_start(&l.w, &p, 0, 1);
         evaluate(&l, &p, atoi(argv[2]));
         bad = p.n == 0;
@@ -249,14 +288,16 @@ int main(int argc, char **argv)
     }
     printf(
         "a floe on a structure, all forces with friction and damping; moved 0.01 mm between evaluations\n");
-    printf("%-18s %9s %5s %8s %7s %9s %8s %11s %10s %11s\n", "structure", "triangles", "on", "matches",
-           "places", "ns", "of first", "F + grad W", "|F| [N]", "off another");
+    printf("%-18s %9s %5s %8s %7s %9s %8s %11s %9s %7s %8s %10s %11s\n", "structure", "triangles", "on",
+           "matches", "places", "ns", "of first", "F + grad W", "told[ns]", "looks", "F off", "|F| [N]",
+           "off another");
     for (int e = 0; e < 2; e++) {
         for (int c = 0; c < CASES; c++) bad += run(&CASE[c], e, &all[e][c]);
         for (int c = 0; c < CASES; c++) {
             const found *q = &all[e][c];
-            printf("%-18s %9d %5s %8d %7d %9.0f %8.2f %11.1e %10.4g", CASE[c].name, q->triangles,
-                   e ? "edge" : "flat", q->matches, q->places, q->ns, q->ns / all[0][0].ns, q->off, q->f);
+            printf("%-18s %9d %5s %8d %7d %9.0f %8.2f %11.1e %9.0f %7.3f %8.1e %10.4g", CASE[c].name,
+                   q->triangles, e ? "edge" : "flat", q->matches, q->places, q->ns, q->ns / all[0][0].ns,
+                   q->off, q->told, q->looks, q->told_off, q->f);
             if (CASE[c].like >= 0) printf(" %11.1e", q->f / all[e][CASE[c].like].f - 1.0);
             printf("\n");
         }
