@@ -94,6 +94,30 @@ static void without_memory_the_step_says_so(void **state)
     lab_free(&l);
 }
 
+/* Wherever it runs out on the way through a hit, of which a surrogate tells a part. */
+static void without_memory_a_surrogate_says_so(void **state)
+{
+    (void)state;
+    int rc = -1;
+    long after = 0;
+    for (; rc; after++) {
+        lab l;
+        fl_err err = {0};
+        two(&l, "contact.surrogate=0.01");
+        lab_run(&l, 3);
+        assert_null(l.w.pair[0].full);
+        rc = 0;
+        fl_mem_fail_after(after);
+        for (int k = 0; k < 600 && rc == 0; k++) rc = fl_step(&l.w, &err);
+        assert_int_equal(fl_mem_refused() > 0, rc == -1);
+        fl_mem_fail_after(-1);
+        assert_int_equal(err.code, rc ? FL_SYSTEM : FL_DONE);
+        if (rc == 0) assert_true(fl_surrogate_sum(l.w.told, 1).told > 10);
+        lab_free(&l);
+    }
+    assert_true(after > 3);
+}
+
 /* Twice the bodies take as much again, between bounds that a core and its arrays have. */
 static void the_footprint_follows_the_bodies(void **state)
 {
@@ -118,6 +142,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(room_comes_and_goes),
                                        cmocka_unit_test(nothing_is_forgotten_that_lasts),
+                                       cmocka_unit_test(without_memory_a_surrogate_says_so),
                                        cmocka_unit_test(without_memory_the_step_says_so),
                                        cmocka_unit_test(the_footprint_follows_the_bodies)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The state of contacts that are told and not looked at. */
+#include "scene/scene_check.h"
+#include "support/fuzz.h"
+#include "support/scenes.h"
+#include "support/state.h"
+
+static lab world_of; /* what every state is read into a fresh world of */
+
+static int fuzz_one(const unsigned char *data, size_t n) { return state_fuzz(&world_of, data, n); }
+
+int main(int argc, char **argv)
+{
+    fl_err err = {0};
+    scene_of_surrogates(&world_of, 2, NULL);
+    lab_set(&world_of, "structure.file=lab");
+    if (fl_scene_check(&world_of.scene, &err)) return 1;
+    return fuzz_main(argc, argv, "surrogate", fuzz_one);
+}
