@@ -37,8 +37,9 @@ trap 'rm -rf "$scratch"' EXIT
             name = substr($0, 1, 20); sub(/ +$/, "", name)
             n = split(substr($0, 22), x, " ")
             print name, "force, " x[1], "floe", x[4], x[5]
-            if (n > 5) print name, "depth, MPR", "libccd", x[6], x[7]
-            if (n > 7) print name, "depth, EPA", "libccd", x[8], x[9]
+            if (n > 9) print name, "force, surrogate", "floe", x[10], x[12]
+            if (n > 5 && x[6] != "-") print name, "depth, MPR", "libccd", x[6], x[7]
+            if (n > 7 && x[8] != "-") print name, "depth, EPA", "libccd", x[8], x[9]
         }' "$scratch/contact"
 } >"$scratch/kernel.tsv"
 cp "$scratch/kernel.tsv" "$out/kernel.tsv" || exit 4

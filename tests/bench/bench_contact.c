@@ -251,7 +251,7 @@ static int row(which c, const char *law)
         for (int k = 0; k < 2; k++) t[k] = ask_ccd(&l, p, k, &error[k]);
         printf(" %10.0f %10.1e %10.0f %10.1e", 1e9 * t[1], error[1], 1e9 * t[0], error[0]);
     } else if (strcmp(law, "patch") == 0) {
-        printf(" %10s %10s %10s %10s", "", "", "", "");
+        printf(" %10s %10s %10s %10s", "-", "-", "-", "-");
     }
     if (p->exponent == 0.0 && strcmp(law, "patch") == 0) {
         double looks, most;
