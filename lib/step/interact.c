@@ -611,7 +611,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
     const fl_vec3 elastic = p->f;
     fl_stiff si, sj;
-    survey |= carried && !t;
+    survey |= carried; /* what is told until the next look is surveyed, too */
     if (survey) survey_patch(w, p, s, ai, aj, seen.scale, q.u, &si, &sj);
     const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);

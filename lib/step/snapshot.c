@@ -449,9 +449,9 @@ static void forces(traffic *t, fl_pair *p)
 }
 
 /* What a contact remembers of its last look; all else follows from how the two stood then. */
-static void look(traffic *t, fl_surrogate *s)
+static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
 {
-    whole(t, 0, 1, &s->live);
+    whole(t, 0, p->exponent == 0.0, &s->live);
     if (!s->live) return;
     for (int k = 0; k < 9; k++) real(t, &s->M.m[k / 3][k % 3]);
     vec3(t, &s->o);
@@ -465,7 +465,8 @@ static void look(traffic *t, fl_surrogate *s)
             real(t, &s->learnt[r][k]);
             s->learnt[k][r] = s->learnt[r][k];
         }
-    if (t->in && !t->err->code && !(turns(&s->M) && s->arm > 0.0 && s->reach >= 0.0))
+    if (t->in && !t->err->code &&
+        !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST))
         fl_text_fail(t->in, t->err, "a look at a contact that is none");
 }
 
@@ -475,6 +476,8 @@ static void look_again(fl_world *w, fl_pair *p, const fl_surrogate *seen, fl_err
     p->surrogate = fl_alloc(1, sizeof *p->surrogate, err);
     if (!p->surrogate) return;
     *p->surrogate = *seen;
+    p->surrogate->live = 0;
+    p->surrogate->less = sqrt(sqrt(p->law->surrogate));
     if (fl_interact_again(w, p, &seen->M, seen->o))
         fl_fail(err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
 }
@@ -510,7 +513,7 @@ static void pair(traffic *t, fl_world *w, int32_t c)
     if (p->n) forces(t, p);
     fl_surrogate seen = {0};
     if (t->f && p->surrogate) seen = *p->surrogate;
-    if (p->n && p->law->surrogate > 0.0) look(t, &seen);
+    if (p->n && p->law->surrogate > 0.0) look(t, p, &seen);
     close_row(t);
     if (!t->in || t->err->code) return;
     fl_near_start(near, i, j, p->image);

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
+#include <string.h>
 #include "base/wide.h"
 #include "step/surrogate.h"
 
-#define FIRST 0.05  /* reach of a contact that is new; */
-#define MOST 10.0   /* of any; */
-#define SHORTER 0.2 /* and by how much one look changes it */
+#define FIRST 0.3   /* reach of a contact that is new, over the root of the tolerance; */
+#define SHORTER 0.2 /* by how much one look changes it */
 #define LONGER 3.0
 #define SAFE 0.5
-#define LESS 0.5    /* z falls or rises by this much at most */
-#define WITHIN 0.01 /* of the tolerance: too little to learn from */
+#define WITHIN 0.01 /* so much of the tolerance is too little to learn from, */
+#define BEYOND 10.0 /* and so much tells of something new: what was learnt is forgotten */
+#define WIDER 2.0   /* the length grows with the contact by such steps */
+#define NET 0.5     /* less than this of the pressures left as force: they oppose each other */
 
 static const fl_vec3 NONE = {0, 0, 0};
 
@@ -96,7 +98,7 @@ FL_FOUR_VERSIONS void fl_surrogate_tell(const fl_surrogate *s, const fl_mat3 *M,
 
 static int within(const fl_surrogate *s, const fl_told *t, double reach)
 {
-    return t->way <= reach * s->overlap && t->z > 1.0 - LESS && t->z < 1.0 + LESS;
+    return t->way <= reach * s->overlap && t->z > 1.0 - s->less && t->z < 1.0 + s->less;
 }
 
 int fl_surrogate_holds(const fl_surrogate *s, const fl_told *t) { return within(s, t, s->reach); }
@@ -191,21 +193,40 @@ static double compare(fl_surrogate *s, const fl_told *t, const fl_six slope, dou
     const double off = t->z > 0.0 ? sqrt(dot(far, far)) / most : 1.0;
     double longer = off > 0.0 ? SAFE * sqrt(tolerance / off) * t->way / (s->reach * s->overlap) : LONGER;
     longer = longer > LONGER ? LONGER : longer < SHORTER ? SHORTER : longer;
-    s->reach = longer * s->reach < MOST ? longer * s->reach : MOST;
-    if (z > 0.0 && off > WITHIN * tolerance) learn(s, t->q, r, p * W / (z * force));
+    s->reach = longer * s->reach < FL_SURROGATE_MOST ? longer * s->reach : FL_SURROGATE_MOST;
+    if (off > BEYOND * tolerance) memset(s->learnt, 0, sizeof s->learnt);
+    else if (z > 0.0 && off > WITHIN * tolerance) learn(s, t->q, r, p * W / (z * force));
     return off;
 }
 
+/* How far the pressures lie from their centre, in the mean. */
+static double spread_of(const fl_bearing *q)
+{
+    const double all = q->spread / q->normal - v3_norm2(q->moment) / (q->normal * q->normal);
+    return all > 0.0 ? sqrt(all) : 0.0;
+}
+
 /* A contact that is new: the point is the centre of the pressure, and stays with A from now on. */
-static void begin(fl_surrogate *s, const fl_seen *seen)
+static void begin(fl_surrogate *s, const fl_seen *seen, double tolerance)
 {
     const fl_bearing *q = seen->q;
+    const double spread = spread_of(q);
+    const fl_vec3 centre = v3_madd(seen->places->place[0].p, 1.0 / q->normal, q->moment);
     const fl_pads pads = s->pads;
-    const fl_vec3 mean = v3_scale(1.0 / q->normal, q->moment);
-    const double spread2 = q->spread / q->normal - v3_norm2(mean),
-                 spread = spread2 > 0.0 ? sqrt(spread2) : 0.0;
-    *s = (fl_surrogate){.pads = pads, .reach = FIRST, .arm = spread > seen->radii ? spread : seen->radii};
-    s->own = m3_tmul(*seen->M, v3_sub(v3_add(seen->places->place[0].p, mean), seen->o));
+    *s = (fl_surrogate){.pads = pads, .reach = FIRST * sqrt(tolerance)};
+    s->less = sqrt(sqrt(tolerance));
+    s->arm = spread > seen->radii ? spread : seen->radii;
+    s->own = m3_tmul(*seen->M, v3_sub(centre, seen->o));
+}
+
+/* A contact that began at a corner may be one of faces now. */
+static void widen(fl_surrogate *s, const fl_bearing *q)
+{
+    const double spread = q->normal > 0.0 ? spread_of(q) : 0.0, part = s->arm / spread;
+    if (!(spread > WIDER * s->arm)) return;
+    for (int r = 0; r < 6; r++)
+        for (int c = 0; c < 6; c++) s->learnt[r][c] *= (r < 3 ? 1.0 : part) * (c < 3 ? 1.0 : part);
+    s->arm = spread;
 }
 
 /* H and p of the springs, of what was learnt, and of the slope of W. */
@@ -259,6 +280,7 @@ int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     fl_bearing_recall(&s->pads, NONE, NONE, NONE, NONE, 0.0, &still, &mean);
     if (!(still.elastic > 0.0)) return 0;
     s->pressure = seen->scale * still.elastic;
+    if (!(s->force > NET * s->pressure)) return 0;
     s->off = v3_madd(v3_neg(centre(&gradient)), 1.0 / still.elastic, mean);
     s->live = 1;
     return 0;
@@ -271,10 +293,11 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
     if (t) {
         const double force = slope_of(s, seen, slope);
         if (force > 0.0) off = compare(s, t, slope, force, seen->energy, seen->toward, tolerance);
+        widen(s, seen->q);
     } else {
         s->live = 0;
         if (!(seen->q->normal > 0.0)) return 0.0;
-        begin(s, seen);
+        begin(s, seen, tolerance);
     }
     if (fl_surrogate_fill(s, seen)) return -1.0;
     if (s->live && (seen->stiff_i > 0.0 || seen->stiff_j > 0.0))

@@ -24,7 +24,10 @@
  * How far a contact goes until the next look is chosen by what the last one found: the force is off as the
  * square of the way, so reach = way sqrt(tolerance / off) / 2.  Off is the error of force and moment over a,
  * over the force; while the bodies approach or part, over the force that the energy of this motion would
- * give.  It is measured at the end of each way, where it is largest.
+ * give.  It is measured at the end of each way, where it is largest.  Besides, z changes by tolerance^(1/4)
+ * at the most: what W is off by grows with the third power of it, and has one sign in every bounce.  Where a
+ * look finds far more than was asked for, the contact has become another one, and what was learnt is
+ * forgotten.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
  *
  * Damping and friction go by the places of the last look, each pressing by what ddu makes of its way since,
  * all of them times one factor that gives them the force that is told; where force and moment put the centre
@@ -36,6 +39,8 @@
 
 /* Three of a force or a way, three of a moment or a turn; the last two are 0. */
 typedef double fl_six[8];
+
+#define FL_SURROGATE_MOST 10.0 /* of reach */
 
 typedef struct {
     int live; /* there is something to be asked */
@@ -54,6 +59,7 @@ typedef struct {
     fl_vec3 own;             /* the point, frame of A                                 [m] */
     double arm;              /* a                                                     [m] */
     double reach;            /* how far A may go until the next look, over the overlap    */
+    double less;             /* by how much z may fall or rise                            */
     fl_six learnt[6];        /* of H, times p W over the force                      [1/m] */
     double stiff_i, stiff_j; /* as in fl_pair, over the slope; of the last survey  [1/kg] */
 } fl_surrogate;
@@ -101,8 +107,8 @@ int fl_surrogate_holds(const fl_surrogate *s, const fl_told *t);
 int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t);
 
 /* The sums of fl_bearing_sum() and fl_bearing_damp() but for u, ddu and dW/dU, for velocities of A against B
- * at s->first, which they are about; the gradient is that of t.  *scale: what the others have to be multiplied
- * by.  0 where the contact has to be looked at. */
+ * at s->first, which they are about; the gradient is that of t.  *scale: what the others have to be
+ * multiplied by.  0 where the contact has to be looked at. */
 int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, double chi,
                       fl_bearing *q, double *scale);
 

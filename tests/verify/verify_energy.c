@@ -123,11 +123,62 @@ static void sliding_off(void)
     lab_free(&l);
 }
 
+/* A box that falls on a plane and bounces for ever: energy won or lost over all that it has, after 50 or more
+ * bounces.  A surrogate must not win at each. */
+static double bounces(double surrogate)
+{
+    lab l;
+    lab_start(&l);
+    lab_setf(&l, "contact.surrogate=%g", surrogate);
+    lab_set(&l, "material.ice.young=10 MPa");
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "boundary.type=free free rigid");
+    lab_set(&l, "boundary.min=none none 0");
+    lab_box(&l, v3(0, 0, 0.5005), v3(0.5, 0.4, 0.5), 0.05, q_one(), ZERO, ZERO);
+    lab_make(&l, 0.0);
+    const double start = lab_energy(&l), height = l.w.b.m[0] * 9.81 * 5e-4;
+    const int bad = lab_run(&l, (int64_t)(2.0 / l.w.dt));
+    const double end = lab_energy(&l);
+    lab_free(&l);
+    return bad ? NAN : fabs(end - start) / height;
+}
+
+/* A box in a slot between two walls, which press it from both sides: work of friction while it falls. */
+static double slot(double surrogate)
+{
+    static const double half = 0.4999;
+    const fl_vec3 xy[8] = {v3(-2, -2, 0),   v3(2, -2, 0),     v3(2, 1, 0),     v3(half, 1, 0),
+                           v3(half, -1, 0), v3(-half, -1, 0), v3(-half, 1, 0), v3(-2, 1, 0)};
+    lab l;
+    lab_start(&l);
+    lab_setf(&l, "contact.surrogate=%g", surrogate);
+    lab_set(&l, "contact.friction=0.2");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_set(&l, "material.ice.young=10 MPa");
+    lab_set(&l, "run.safety=0.2");
+    lab_prism(&l, 8, xy, -50, 5);
+    lab_box(&l, v3(1e-5, 0, 0), v3(0.5, 0.4, 0.5), 0.05, q_one(), v3(0.001, 0, -1), ZERO);
+    lab_make(&l, 0.0);
+    const int bad = lab_run(&l, (int64_t)(0.4 / l.w.dt));
+    fl_step_ledger(&l.w);
+    const double work = l.w.ledger.friction_now;
+    lab_free(&l);
+    return bad ? NAN : work;
+}
+
+static void surrogates(void)
+{
+    verify_note("contacts that are told and not looked at, tolerance 0.001");
+    verify_below("surrogate", "a box bounces for 2 s: energy won, over that of a fall", bounces(1e-3), 0.01);
+    verify_row("surrogate", "a box in a slot: work of friction [J]", slot(1e-3), slot(0.0), 1e-2, VERIFY_REL);
+}
+
 int main(void)
 {
     verify_begin("contacts by one potential");
     areas();
     sliding_off();
     gas();
+    surrogates();
     return verify_end();
 }
