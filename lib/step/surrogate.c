@@ -123,8 +123,13 @@ int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec
     *scale = t->share * s->pressure * each;
     q->overlap = s->overlap * t->z;
     q->gradient = t->gradient;
-    /* the pressures move to where force and moment want them */
     const fl_wrench told = moved(&t->gradient, v3_sub(t->at, s->first));
+    if (!(q->normal > 0.0) &&
+        *scale > 0.0) { /* all would pull: damping takes all of the force, and no more */
+        q->damping = (fl_wrench){v3_scale(-1.0 / *scale, told.f), v3_scale(-1.0 / *scale, told.m)};
+        return 1;
+    }
+    /* the pressures move to where force and moment want them */
     const fl_vec3 by = v3_add(v3_madd(centre(&told), -each, at), s->off);
     q->spread += 2.0 * v3_dot(by, q->moment) + q->normal * v3_norm2(by);
     q->moment = v3_madd(q->moment, q->normal, by);
