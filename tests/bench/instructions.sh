@@ -4,10 +4,10 @@
 # depend on how busy the machine is.  Beside it the one kept in instructions.txt, and how far it has risen;
 # `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.  The cases by number are
 # those of bench_contact; `wall` of 20 000 triangles, `cylinder`, exact, and `hull` of 50 000 triangles are of
-# bench_structure; `spheres` is a contact and step of spheres in a lattice, everything included, `dry`, `water`,
-# `waves` and `facets` a body and step of floes that touch nothing.  `sums-one` and `sums-any` are a body and step
-# of floes that do, with all sums in one order and in the order in which contacts come, which locks every sum it
-# adds to.
+# bench_structure; `told` are cases of bench_contact by surrogates of 1e-3, looks included; `spheres` is a
+# contact and step of spheres in a lattice, everything included, `dry`, `water`, `waves` and `facets` a body and
+# step of floes that touch nothing.  `sums-one` and `sums-any` are a body and step of floes that do, with all sums
+# in one order and in the order in which contacts come, which locks every sum it adds to.
 #   BENCH  the folder where the benches lie
 #   ONLY   the one case that is counted
 set -e
@@ -19,13 +19,13 @@ fresh=$(mktemp)
 trap 'rm -f "$fresh"' EXIT
 
 counted() { # program, its arguments: instructions, and of how many units, where the program tells them
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$BENCH/$1" "$2" "$3" 2>&1 |
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$BENCH/$1" "$2" "$3" ${4:+"$4"} 2>&1 |
         awk '/^[0-9]+$/ { units = $1 } /Collected/ { print $NF, units }'
 }
 
-each() { # name, program, its argument, few, many, units between the two where the program does not tell
+each() { # name, program, its argument, few, many, units between the two where the program does not tell, tolerance
     [ -z "$ONLY" ] || [ "$ONLY" = "$1" ] || return 0
-    echo "$(counted "$2" "$3" "$4") $(counted "$2" "$3" "$5")" | awk -v name="$1" -v n="$6" '
+    echo "$(counted "$2" "$3" "$4" "$7") $(counted "$2" "$3" "$5" "$7")" | awk -v name="$1" -v n="$6" '
         { printf "%s %.0f\n", name, n ? ($2 - $1) / n : ($3 - $1) / ($4 - $2) }'
 }
 
@@ -35,6 +35,7 @@ all() {
         each $k bench_contact $k $FEW $MANY $((MANY - FEW))
         k=$((k + 1))
     done
+    for k in 2 5 6; do each told-$k bench_contact $k 4000 6000 2000 0.001; done
     each wall bench_structure 4 $FEW $MANY $((MANY - FEW))
     each cylinder bench_structure 18 $FEW $MANY $((MANY - FEW))
     each cylinder-edge bench_structure 19 $FEW $MANY $((MANY - FEW))
