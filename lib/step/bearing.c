@@ -171,25 +171,15 @@ void fl_bearing_springs(const fl_places *s, fl_springs *q)
 
 /* --- what is kept of a look ------------------------------------------------------------------- */
 
-typedef double eight __attribute__((vector_size(64), aligned(8), may_alias));
-typedef int64_t eight_mask __attribute__((vector_size(64), aligned(8), may_alias));
-
-#define WHERE(m, a) ((eight)((m) & (eight_mask)(a)))
-
-/* Of eight places; rate: a quarter of ddu/du, for pressures that grow as s^3 to s^4. */
+/* Of four places; rate: a quarter of ddu/du, for pressures that grow as s^3 to s^4. */
 typedef struct {
-    eight e, du, rate, across[3], arm[3];
+    fl_wide e, du, rate, across[3], arm[3];
 } pad;
 
-/* The sums over eight places of four numbers each. */
-FL_WIDE_PART void fold(double out[4], const eight *a, const eight *b, const eight *c, const eight *d)
+/* The sums over the lanes of four numbers. */
+FL_WIDE_PART void fold(double out[4], const fl_wide *a, const fl_wide *b, const fl_wide *c, const fl_wide *d)
 {
-    const eight *const of[4] = {a, b, c, d};
-    fl_wide r[4];
-    FL_WIDE_UNROLL
-    for (int k = 0; k < 4; k++)
-        r[k] = __builtin_shufflevector(*of[k], *of[k], 0, 1, 2, 3) +
-               __builtin_shufflevector(*of[k], *of[k], 4, 5, 6, 7);
+    fl_wide r[4] = {*a, *b, *c, *d};
     fl_wide_transpose(r);
     FL_FOUR_INTO(out) = (r[0] + r[1]) + (r[2] + r[3]);
 }
@@ -197,22 +187,23 @@ FL_WIDE_PART void fold(double out[4], const eight *a, const eight *b, const eigh
 FL_WIDE_VERSIONS static void recall(const pad *p, int32_t n, fl_vec3 way, fl_vec3 turned, fl_vec3 v,
                                     fl_vec3 turn, double chi, fl_bearing *q, fl_vec3 *at)
 {
-    const eight zero = {0};
-    eight pressed = zero, met = zero, elastic = zero, normal = zero, spread = zero;
-    eight all[3] = {zero, zero, zero}, moment[3] = {zero, zero, zero}, still[3] = {zero, zero, zero};
-    eight f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
+    const fl_wide zero = {0};
+    fl_wide pressed = zero, met = zero, elastic = zero, normal = zero, spread = zero;
+    fl_wide all[3] = {zero, zero, zero}, moment[3] = {zero, zero, zero}, still[3] = {zero, zero, zero};
+    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
     for (int32_t k = 0; k < n; k++, p++) {
-        const eight ax = p->across[0], ay = p->across[1], az = p->across[2];
-        const eight x = p->arm[0], y = p->arm[1], z = p->arm[2];
-        const eight tx = y * az - z * ay, ty = z * ax - x * az, tz = x * ay - y * ax; /* arm x across */
-        const eight in =
+        const fl_wide ax = p->across[0], ay = p->across[1], az = p->across[2];
+        const fl_wide x = p->arm[0], y = p->arm[1], z = p->arm[2];
+        const fl_wide tx = y * az - z * ay, ty = z * ax - x * az, tz = x * ay - y * ax; /* arm x across */
+        const fl_wide in =
             (ax * way.x + ay * way.y + az * way.z) + (tx * turned.x + ty * turned.y + tz * turned.z);
-        const eight closing = -((ax * v.x + ay * v.y + az * v.z) + (tx * turn.x + ty * turn.y + tz * turn.z));
-        const eight more = 1.0 - p->rate * in, rest = WHERE(more > 0.0, more), two = rest * rest;
-        const eight grown = two * two, du = grown * p->du, e = grown * p->e;
-        const eight to = e * (1.0 + chi * closing), press = WHERE(to > 0.0, to), add = press - e;
+        const fl_wide closing =
+            -((ax * v.x + ay * v.y + az * v.z) + (tx * turn.x + ty * turn.y + tz * turn.z));
+        const fl_wide more = 1.0 - p->rate * in, rest = FL_WIDE_WHERE(more > 0.0, more), two = rest * rest;
+        const fl_wide grown = two * two, du = grown * p->du, e = grown * p->e;
+        const fl_wide to = e * (1.0 + chi * closing), press = FL_WIDE_WHERE(to > 0.0, to), add = press - e;
         pressed += du;
-        met += du * WHERE(closing > 0.0, closing);
+        met += du * FL_WIDE_WHERE(closing > 0.0, closing);
         elastic += e;
         normal += press;
         spread += press * (x * x + y * y + z * z);
@@ -241,30 +232,22 @@ FL_WIDE_VERSIONS static void recall(const pad *p, int32_t n, fl_vec3 way, fl_vec
     *at = v3(s[4][0], s[4][1], s[4][2]);
 }
 
-/* Two lanes, of which the second may be none. */
 FL_WIDE_VERSIONS static void keep(const lane *t, int32_t lanes, pad *out)
 {
-    static const lane none;
-    const eight zero = {0}, one = 1.0 + zero;
-#define JOIN(a) __builtin_shufflevector(t[k].a, next->a, 0, 1, 2, 3, 4, 5, 6, 7)
-    for (int32_t k = 0; k < lanes; k += 2, out++) {
-        const lane *next = k + 1 < lanes ? t + k + 1 : &none;
-        const eight du = JOIN(du), curve = JOIN(curve);
-        const eight_mask presses = du > 0.0;
-        out->e = JOIN(e), out->du = du;
-        out->rate =
-            WHERE(presses, 0.25 * curve / (eight)((presses & (eight_mask)du) | (~presses & (eight_mask)one)));
-        for (int c = 0; c < 3; c++) out->across[c] = JOIN(across[c]), out->arm[c] = JOIN(arm[c]);
+    const fl_wide zero = {0}, one = 1.0 + zero;
+    for (int32_t k = 0; k < lanes; k++, t++, out++) {
+        const fl_wide_mask presses = t->du > 0.0;
+        out->e = t->e, out->du = t->du;
+        out->rate = FL_WIDE_WHERE(presses, 0.25 * t->curve / FL_WIDE_CHOOSE(presses, t->du, one));
+        for (int c = 0; c < 3; c++) out->across[c] = t->across[c], out->arm[c] = t->arm[c];
     }
-#undef JOIN
 }
 
 int fl_bearing_keep(const fl_places *s, fl_pads *pads)
 {
-    const int32_t lanes = (s->n + FL_LANES - 1) / FL_LANES;
-    pads->n = (lanes + 1) / 2;
+    pads->n = (s->n + FL_LANES - 1) / FL_LANES;
     if (fl_room(&pads->pad, &pads->cap, pads->n, sizeof(pad))) return -1;
-    keep(s->lane, lanes, pads->pad);
+    keep(s->lane, pads->n, pads->pad);
     return 0;
 }
 
