@@ -124,10 +124,15 @@ int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec
     q->overlap = s->overlap * t->z;
     q->gradient = t->gradient;
     const fl_wrench told = moved(&t->gradient, v3_sub(t->at, s->first));
-    if (!(q->normal > 0.0) &&
-        *scale > 0.0) { /* all would pull: damping takes all of the force, and no more */
+    if (!(*scale > 0.0)) return 0;
+    if (!(q->normal > 0.0)) { /* all would pull: damping takes all of the force, and no more */
         q->damping = (fl_wrench){v3_scale(-1.0 / *scale, told.f), v3_scale(-1.0 / *scale, told.m)};
         return 1;
+    }
+    if (q->normal < q->elastic) { /* and as much of what the force has beside the pressures */
+        const fl_vec3 pressed = v3_sub(q->direction, q->damping.f);
+        const fl_vec3 beside = v3_sub(v3_scale(1.0 / *scale, told.f), pressed);
+        q->damping.f = v3_madd(q->damping.f, q->normal * each - 1.0, beside);
     }
     /* the pressures move to where force and moment want them */
     const fl_vec3 by = v3_add(v3_madd(centre(&told), -each, at), s->off);
