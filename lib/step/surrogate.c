@@ -125,14 +125,11 @@ int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec
     q->gradient = t->gradient;
     const fl_wrench told = moved(&t->gradient, v3_sub(t->at, s->first));
     if (!(*scale > 0.0)) return 0;
-    if (!(q->normal > 0.0)) { /* all would pull: damping takes all of the force, and no more */
-        q->damping = (fl_wrench){v3_scale(-1.0 / *scale, told.f), v3_scale(-1.0 / *scale, told.m)};
-        return 1;
-    }
-    if (q->normal < q->elastic) { /* and as much of what the force has beside the pressures */
+    if (q->normal < q->elastic) { /* damping must not leave what the force is off from the pressures by */
         const fl_vec3 pressed = v3_sub(q->direction, q->damping.f);
-        const fl_vec3 beside = v3_sub(v3_scale(1.0 / *scale, told.f), pressed);
-        q->damping.f = v3_madd(q->damping.f, q->normal * each - 1.0, beside);
+        const fl_vec3 beside = v3_madd(told.f, -t->share, s->beside);
+        const fl_vec3 off = v3_sub(v3_scale(1.0 / *scale, beside), pressed);
+        q->damping.f = v3_madd(q->damping.f, q->normal * each - 1.0, off);
     }
     /* the pressures move to where force and moment want them */
     const fl_vec3 by = v3_add(v3_madd(centre(&told), -each, at), s->off);
@@ -289,6 +286,7 @@ int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     bend(s, seen, slope, v3_sub(s->first, s->at));
     fl_bearing_recall(&s->pads, NONE, NONE, NONE, NONE, 0.0, &still, &mean);
     if (!(still.elastic > 0.0)) return 0;
+    s->beside = v3_scale(seen->scale, v3_sub(gradient.f, still.direction));
     s->pressure = seen->scale * still.elastic;
     if (!(s->force > NET * s->pressure)) return 0;
     s->off = v3_madd(v3_neg(centre(&gradient)), 1.0 / still.elastic, mean);

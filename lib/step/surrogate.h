@@ -54,6 +54,7 @@ typedef struct {
     fl_pads pads;                         /* what pressed,                                */
     fl_vec3 first, off;                   /* the first place of it, frame of B; its centre lies so far from
                                            * where force and moment are                   [m] */
+    fl_vec3 beside;                       /* of the force, what is not pressures      [N] */
     double pressure;                      /* sum of its e                             [N] */
     /* since the bodies touch */
     fl_vec3 own;             /* the point, frame of A                                 [m] */
