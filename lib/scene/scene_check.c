@@ -94,6 +94,12 @@ static int check_contacts(const fl_scene *s, fl_err *err)
         if ((c->literal2 || c->literal18) && in_force != FL_LAW_MANUAL && in_force != FL_LAW_MANUAL_SI)
             return fl_scene_fail(s, key, err, "literal%d bears on law = manual and manual-si alone",
                                  c->literal2 ? 2 : 18);
+        snprintf(key, sizeof key, "%s.surrogate", at);
+        if (s->run.error > 0.0 && c->surrogate > 0.0)
+            return fl_scene_fail(s, key, err,
+                                 "run.error tells the error of the step by steps of other sizes, which a "
+                                 "surrogate would blur: one of run.error and surrogate in [%s] was wanted",
+                                 at);
         if (i == all) continue;
         if (known_material(s, at, c->a, 1, err) || known_material(s, at, c->b, 1, err)) return -1;
         if (fl_scene_find_material(s, c->a) < 0 && fl_scene_find_material(s, c->b) < 0)
@@ -385,12 +391,6 @@ int fl_scene_check(fl_scene *s, fl_err *err)
             s, "water.every", err,
             "floes that sleep under run.sleep meet the water when they wake: water.every = 1 "
             "was wanted");
-    for (int32_t i = 0; i < s->n_contact; i++)
-        if (s->run.error > 0.0 && s->contact[i].surrogate > 0.0)
-            return fl_scene_fail(
-                s, "contact.surrogate", err,
-                "run.error tells the error of the step by steps of other sizes, which a surrogate would "
-                "blur: one of run.error and contact.surrogate was wanted");
     if (s->run.error > 0.0 && s->run.dt > 0.0)
         return fl_scene_fail(s, "run.error", err,
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");

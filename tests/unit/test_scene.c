@@ -301,6 +301,16 @@ static void each_complaint_names_file_and_line(void **state)
             "run.sleep was wanted");
     refused("[run]\nsleep = 1e-5\n[water]\nevery = 2\n" ICE,
             ":4: floes that sleep under run.sleep meet the water when they wake: water.every = 1 was wanted");
+    refused("[run]\nerror = 0.1\n[contact]\nsurrogate = 0.001\n" ICE,
+            ":4: run.error tells the error of the step by steps of other sizes, which a surrogate would "
+            "blur: one "
+            "of run.error and surrogate in [contact] was wanted");
+    refused("[run]\nerror = 0.1\n[contact ice boundary]\nsurrogate = 0.001\n" ICE,
+            ":4: run.error tells the error of the step by steps of other sizes, which a surrogate would "
+            "blur: one "
+            "of run.error and surrogate in [contact ice boundary] was wanted");
+    refused("[contact]\nsurrogate = 0.5\n" ICE,
+            ":2: contact.surrogate is 0.5, a value at least 0 and at most 0.1 was wanted");
     refused("[water]\nevery = 0\n" ICE, ":2: water.every is \"0\", a whole number from 1 to 1000 was wanted");
     refused("[run]\nerror = 100%\n" ICE, ":2: run.error is 100%, a value above 0 and below 1 was wanted");
     refused("[run]\nthreads = 2.5\n" ICE,
