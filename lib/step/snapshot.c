@@ -477,7 +477,7 @@ static void look_again(fl_world *w, fl_pair *p, const fl_surrogate *seen, fl_err
     if (!p->surrogate) return;
     *p->surrogate = *seen;
     p->surrogate->live = 0;
-    p->surrogate->less = sqrt(sqrt(p->law->surrogate));
+    p->surrogate->less = fl_surrogate_less(p->law->surrogate);
     if (fl_interact_again(w, p, &seen->M, seen->o))
         fl_fail(err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
 }

@@ -221,7 +221,7 @@ static void begin(fl_surrogate *s, const fl_seen *seen, double tolerance)
     const fl_vec3 centre = v3_madd(seen->places->place[0].p, 1.0 / q->normal, q->moment);
     const fl_pads pads = s->pads;
     *s = (fl_surrogate){.pads = pads, .reach = FIRST * sqrt(tolerance)};
-    s->less = sqrt(sqrt(tolerance));
+    s->less = fl_surrogate_less(tolerance);
     s->arm = spread > seen->radii ? spread : seen->radii;
     s->own = m3_tmul(*seen->M, v3_sub(centre, seen->o));
 }

@@ -95,6 +95,9 @@ typedef struct {
     double worst;              /* most that was found                       */
 } fl_surrogate_count;
 
+/* By how much z may fall or rise. */
+static inline double fl_surrogate_less(double tolerance) { return sqrt(sqrt(tolerance)); }
+
 /* Those of all threads. */
 fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t threads);
 
