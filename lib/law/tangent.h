@@ -40,6 +40,14 @@ typedef struct {
 fl_vec3 fl_tangent_force(fl_slip *s, const fl_rubbing *c, fl_vec3 v, double spin, double twist, double dt,
                          double *moment);
 
+/* The stiffness was taken for another all the time, and is `by` times as large: the springs have not been
+ * unloaded, they keep their forces. */
+static inline void fl_tangent_remeasured(fl_slip *s, double by)
+{
+    s->k *= by;
+    s->k_turn *= by;
+}
+
 /* Energy held by the springs, F^2 / 2k + M^2 / 2 k_turn [J]. */
 static inline double fl_tangent_energy(const fl_slip *s)
 {

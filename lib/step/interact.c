@@ -546,8 +546,8 @@ static int force_told(fl_world *w, fl_pair *p, const fl_told *t, const relative 
     }
     p->overlap = q.overlap;
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, 1.0, &R, v3_add(at, r->off), at);
-    bear(w, p, &q, scale, s->slope * t->root, chi, r, aj, dt);
-    if (survey) p->stiff_i = t->root * s->slope * s->stiff_i, p->stiff_j = t->root * s->slope * s->stiff_j;
+    bear(w, p, &q, scale, t->slope, chi, r, aj, dt);
+    if (survey) p->stiff_i = t->slope * s->stiff_i, p->stiff_j = t->slope * s->stiff_j;
     p->energy += p->spring;
     return 1;
 }
@@ -613,6 +613,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     fl_stiff si, sj;
     survey |= carried; /* what is told until the next look is surveyed, too */
     if (survey) survey_patch(w, p, s, ai, aj, seen.scale, q.u, &si, &sj);
+    if (t && fl_surrogate_nearly(p->surrogate, t)) fl_tangent_remeasured(&p->slip, seen.slope / t->slope);
     const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     if (carried) {

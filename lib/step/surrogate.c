@@ -85,15 +85,15 @@ FL_FOUR_VERSIONS void fl_surrogate_tell(const fl_surrogate *s, const fl_mat3 *M,
     t->way = v3_norm(u) + s->arm * v3_norm(t->w);
     product(t->rise, s->H, t->q, s->g);
     t->z = 1.0 + 0.5 * (dot(s->g, t->q) + dot(t->rise, t->q));
-    t->root = root_of(t->z, s->quarter);
-    t->energy = s->energy * t->z * t->z * t->root;
-    const double pull = -power_of(s) * s->energy * t->z * t->root;
+    const double root = root_of(t->z, s->quarter), pull = -power_of(s) * s->energy * t->z * root;
+    t->energy = s->energy * t->z * t->z * root;
     const fl_vec3 g = v3_scale(pull * s->arm, high(t->rise));
     t->gradient.f = v3_scale(pull, low(t->rise));
     t->gradient.m = v3(0.5 * (trace * g.x - (D[0][0] * g.x + D[1][0] * g.y + D[2][0] * g.z)),
                        0.5 * (trace * g.y - (D[0][1] * g.x + D[1][1] * g.y + D[2][1] * g.z)),
                        0.5 * (trace * g.z - (D[0][2] * g.x + D[1][2] * g.y + D[2][2] * g.z)));
     t->share = v3_norm(t->gradient.f) / s->force;
+    t->slope = s->slope * t->share * t->share * s->energy / t->energy;
 }
 
 static int within(const fl_surrogate *s, const fl_told *t, double reach)
@@ -193,7 +193,7 @@ static double compare(fl_surrogate *s, const fl_told *t, const fl_six slope, dou
     const double p = power_of(s), z = depth(s, W), most = toward * (force > s->force ? force : s->force);
     fl_six now, r, far;
     put(now, low(slope), v3_sub(high(slope), turn)); /* J^-T to the first order */
-    const double pull = p * s->energy * t->z * t->root;
+    const double pull = p * t->energy / t->z;
     for (int k = 0; k < 6; k++)
         far[k] = now[k] - pull * t->rise[k], r[k] = now[k] * (z / (p * W)) - t->rise[k];
     far[6] = far[7] = 0.0;

@@ -69,10 +69,11 @@ typedef struct {
 typedef struct {
     fl_six q, rise; /* [m]; dz/dq [1/m] */
     double way;     /* |u| + a |w| [m]  */
-    double z, root; /* z^(p - 2)        */
+    double z;
     fl_vec3 at, w;
     fl_wrench gradient;   /* on A, about at, frame of B */
     double energy, share; /* force over that of the look */
+    double slope;         /* dF/ds along it, as F^2/W [N/m] */
 } fl_told;
 
 /* What a look has found.  The gradient has the couple of the places, too. */

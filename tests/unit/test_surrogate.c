@@ -27,6 +27,7 @@ static void two(lab *l, int kind)
                     {0.9, 0.1, {0.3, 0.785, 0.2}}};
     lab_start(l);
     lab_set(l, "contact.surrogate=0.01");
+    lab_set(l, "contact.friction=0.3");
     lab_box(l, ZERO, v3(0.5, 0.5, 0.5), 0.05, q_one(), ZERO, ZERO);
     lab_box(l, v3(HOW[kind].x, HOW[kind].y, 3), v3(0.5, 0.5, 0.5), 0.05, q_of_vector(HOW[kind].turn), ZERO,
             ZERO);
@@ -132,6 +133,41 @@ static void what_is_told_is_a_potential(void **state)
     }
 }
 
+/* The slope that friction goes by follows the contact: a twentieth of the overlap away it is off by much less
+ * than it has changed. */
+static void the_slope_is_told(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 0, 5);
+    double mean = 0.0;
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        double off = 0.0, changed = 0.0; /* sums */
+        lab l;
+        fl_pair p;
+        two(&l, kind);
+        const fl_vec3 x = l.w.b.x[1];
+        const fl_quat q = l.w.b.q[1];
+        fl_pair_start(&l.w, &p, 0, 1);
+        fl_interact(&l.w, &p, 0, 0.0, 0);
+        const double first = p.slip.k;
+        assert_true(first > 0.0);
+        for (int k = 0; k < 50; k++) {
+            fl_mat3 M;
+            fl_told t;
+            go(&l, p.surrogate, x, q, some(&g), 0.05 * DEPTH);
+            const fl_vec3 o = pose(&l, &M);
+            fl_surrogate_tell(p.surrogate, &M, o, &t);
+            const double now = lab_look(&l.w, 0, 1).slip.k;
+            off += fabs(t.slope / p.surrogate->slope * first - now);
+            changed += fabs(now - first);
+        }
+        mean += off / changed / KINDS;
+        fl_pair_end(&p);
+        lab_free(&l);
+    }
+    assert_true(mean < 0.5);
+}
+
 /* At the look it tells what was found; further along a way that it has been taught the error falls with the
  * square of what is left of the way. */
 static void a_look_teaches(void **state)
@@ -176,6 +212,6 @@ static void a_look_teaches(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
-                                       cmocka_unit_test(a_look_teaches)};
+                                       cmocka_unit_test(the_slope_is_told), cmocka_unit_test(a_look_teaches)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }
