@@ -8,13 +8,23 @@ int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
     const struct {
         void *array;
         size_t size;
-    } want[] = {
-        {&b->x, sizeof *b->x},         {&b->v, sizeof *b->v},       {&b->L, sizeof *b->L},
-        {&b->q, sizeof *b->q},         {&b->R, sizeof *b->R},       {&b->w, sizeof *b->w},
-        {&b->f, sizeof *b->f},         {&b->t, sizeof *b->t},       {&b->m, sizeof *b->m},
-        {&b->invm, sizeof *b->invm},   {&b->I, sizeof *b->I},       {&b->radius, sizeof *b->radius},
-        {&b->bound, sizeof *b->bound}, {&b->core, sizeof *b->core}, {&b->hold, sizeof *b->hold},
-        {&b->ball, sizeof *b->ball},   {&b->held, sizeof *b->held}, {&b->odometer, sizeof *b->odometer}};
+    } want[] = {{&b->x, sizeof *b->x},
+                {&b->v, sizeof *b->v},
+                {&b->L, sizeof *b->L},
+                {&b->q, sizeof *b->q},
+                {&b->w, sizeof *b->w},
+                {&b->f, sizeof *b->f},
+                {&b->t, sizeof *b->t},
+                {&b->m, sizeof *b->m},
+                {&b->invm, sizeof *b->invm},
+                {&b->I, sizeof *b->I},
+                {&b->radius, sizeof *b->radius},
+                {&b->bound, sizeof *b->bound},
+                {&b->core, sizeof *b->core},
+                {&b->hold, sizeof *b->hold},
+                {&b->ball, sizeof *b->ball},
+                {&b->held, sizeof *b->held},
+                {&b->odometer, sizeof *b->odometer}};
     for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
         void *p = fl_alloc((int64_t)total + 1, want[k].size, err); /* four numbers of the last x are there */
         if (!p) {
@@ -25,7 +35,6 @@ int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
     }
     for (int32_t i = 0; i < total; i++) {
         b->q[i] = q_one();
-        b->R[i] = q_matrix(b->q[i]);
         b->I[i] = v3(1, 1, 1);
     }
     return 0;
@@ -42,7 +51,7 @@ int fl_bodies_add_mass(fl_bodies *b, fl_err *err)
 void fl_bodies_free(fl_bodies *b)
 {
     for (int32_t i = 0; b->core && i < b->total; i++) fl_poly_free(&b->core[i]);
-    free(b->x), free(b->v), free(b->L), free(b->q), free(b->R), free(b->w), free(b->f), free(b->t);
+    free(b->x), free(b->v), free(b->L), free(b->q), free(b->w), free(b->f), free(b->t);
     free(b->m), free(b->invm), free(b->I), free(b->radius), free(b->bound), free(b->core), free(b->hold);
     free(b->ball), free(b->odometer), free(b->held), free(b->added), free(b->flow);
     free(b->carried);
@@ -56,17 +65,12 @@ int fl_body_is_ball(const fl_bodies *b, int32_t i)
            a.y == a.z;
 }
 
-void fl_body_axes(fl_bodies *b, int32_t i) { b->R[i] = q_matrix(b->ball[i] ? q_one() : b->q[i]); }
-
-void fl_body_derive(fl_bodies *b, int32_t i)
-{
-    fl_body_axes(b, i);
-    b->w[i] = fl_body_turn(b, i, b->L[i]);
-}
+void fl_body_derive(fl_bodies *b, int32_t i) { b->w[i] = fl_body_turn(b, i, b->L[i]); }
 
 void fl_body_spin(fl_bodies *b, int32_t i, fl_vec3 w)
 {
-    const fl_vec3 s = m3_tmul(b->R[i], w), I = b->I[i];
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_vec3 s = m3_tmul(R, w), I = b->I[i];
     b->w[i] = w;
-    b->L[i] = m3_mul(b->R[i], v3(I.x * s.x, I.y * s.y, I.z * s.z));
+    b->L[i] = m3_mul(R, v3(I.x * s.x, I.y * s.y, I.z * s.z));
 }

@@ -24,7 +24,6 @@ typedef struct {
     fl_vec3 *L; /* angular momentum, world axes            [kg m2/s] */
     fl_quat *q; /* body axes to world                                */
     /* derived from the state */
-    fl_mat3 *R; /* matrix of q                                       */
     fl_vec3 *w; /* angular velocity, world axes            [rad/s]   */
     /* what acts, world axes, about the centre of mass */
     fl_vec3 *f, *t; /* [N], [N m] */
@@ -55,10 +54,14 @@ int fl_bodies_add_mass(fl_bodies *b, fl_err *err);
  * added masses. */
 int fl_body_is_ball(const fl_bodies *b, int32_t i);
 
-/* R of body i from q: the axes of a ball are those of the world. */
-void fl_body_axes(fl_bodies *b, int32_t i);
+/* R of body i: its axes in the world; those of a ball are the world's.  Made from q whenever it is asked for,
+ * in 40 instructions: to keep it would cost a body that touches nothing more than that. */
+static inline fl_mat3 fl_body_axes(const fl_bodies *b, int32_t i)
+{
+    return q_matrix(b->ball[i] ? q_one() : b->q[i]);
+}
 
-/* R and w of body i from q and L. */
+/* w of body i from q and L. */
 void fl_body_derive(fl_bodies *b, int32_t i);
 
 /* Set L so that body i turns with angular velocity w (world axes). */
@@ -69,8 +72,9 @@ static inline fl_vec3 fl_body_turn(const fl_bodies *b, int32_t i, fl_vec3 t)
 {
     const fl_vec3 I = b->I[i];
     if (b->ball[i]) return v3(t.x / I.x, t.y / I.x, t.z / I.x);
-    const fl_vec3 s = m3_tmul(b->R[i], t);
-    return m3_mul(b->R[i], v3(s.x / I.x, s.y / I.y, s.z / I.z));
+    const fl_mat3 R = q_matrix(b->q[i]);
+    const fl_vec3 s = m3_tmul(R, t);
+    return m3_mul(R, v3(s.x / I.x, s.y / I.y, s.z / I.z));
 }
 
 /* R (m + M_a) R^T v: the linear momentum of body i and the water that moves with it [kg m/s], for a velocity
@@ -78,16 +82,18 @@ static inline fl_vec3 fl_body_turn(const fl_bodies *b, int32_t i, fl_vec3 t)
 static inline fl_vec3 fl_body_momentum(const fl_bodies *b, int32_t i, fl_vec3 v)
 {
     if (!b->added) return v3_scale(b->m[i], v);
-    return v3_madd(m3_mul(b->R[i], v3_mul(b->added[i], m3_tmul(b->R[i], v))), b->m[i], v);
+    const fl_mat3 R = fl_body_axes(b, i);
+    return v3_madd(m3_mul(R, v3_mul(b->added[i], m3_tmul(R, v))), b->m[i], v);
 }
 
 /* The velocity for which that is P: R (m + M_a)^-1 R^T P [m/s]. */
 static inline fl_vec3 fl_body_speed(const fl_bodies *b, int32_t i, fl_vec3 P)
 {
     if (!b->added) return v3_scale(b->invm[i], P);
-    const fl_vec3 p = m3_tmul(b->R[i], P), a = b->added[i];
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_vec3 p = m3_tmul(R, P), a = b->added[i];
     const double m = b->m[i];
-    return m3_mul(b->R[i], v3(p.x / (m + a.x), p.y / (m + a.y), p.z / (m + a.z)));
+    return m3_mul(R, v3(p.x / (m + a.x), p.y / (m + a.y), p.z / (m + a.z)));
 }
 
 /* Kinetic energy, that of the water which moves with it included [J]. */

@@ -12,37 +12,49 @@ static fl_vec3 join_one(const double (*from)[FL_FEW], int32_t k)
     return v3(from[0][k], from[1][k], from[2][k]);
 }
 
-static void split_matrix(double (*to)[FL_FEW], const fl_mat3 *R, int32_t k)
+/* q_matrix() */
+FL_WIDE_VERSIONS static void find_axes(fl_few *restrict s)
 {
-    for (int c = 0; c < 9; c++) to[c][k] = R->m[c / 3][c % 3];
+#pragma omp simd
+    for (int32_t i = 0; i < s->n; i++) {
+        const double w = s->q[0][i], x = s->q[1][i], y = s->q[2][i], z = s->q[3][i];
+        const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z, wx = w * x,
+                     wy = w * y, wz = w * z;
+        s->R[0][i] = 1 - 2 * (yy + zz), s->R[1][i] = 2 * (xy - wz), s->R[2][i] = 2 * (xz + wy);
+        s->R[3][i] = 2 * (xy + wz), s->R[4][i] = 1 - 2 * (xx + zz), s->R[5][i] = 2 * (yz - wx);
+        s->R[6][i] = 2 * (xz - wy), s->R[7][i] = 2 * (yz + wx), s->R[8][i] = 1 - 2 * (xx + yy);
+    }
 }
 
-FL_FOUR_VERSIONS void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
+FL_FOUR_VERSIONS static void take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
 {
     const double *m = b->m + from, *invm = b->invm + from;
     const fl_vec3 *I = b->I + from, *v = b->v + from, *L = b->L + from, *w = b->w + from;
-    const fl_mat3 *R = b->R + from;
+    const fl_quat *q = b->q + from;
     int32_t k = 0;
     s->from = from;
     s->n = n;
     for (; k + FL_LANES <= n; k += FL_LANES) {
-        const fl_wide last = {R[k].m[2][2], R[k + 1].m[2][2], R[k + 2].m[2][2], R[k + 3].m[2][2]};
         FL_FOUR_INTO(&s->m[k]) = FL_FOUR(&m[k]);
         FL_FOUR_INTO(&s->invm[k]) = FL_FOUR(&invm[k]);
         fl_few_split(s->I, I, k);
         fl_few_split(s->v, v, k);
         fl_few_split(s->L, L, k);
         fl_few_split(s->w, w, k);
-        fl_few_split4(s->R, &R->m[0][0], sizeof *R, k);
-        fl_few_split4(s->R + 4, &R->m[1][1], sizeof *R, k);
-        FL_FOUR_INTO(&s->R[8][k]) = last;
+        fl_few_split4(s->q, q, sizeof *q, k);
     }
     for (; k < n; k++) {
         s->m[k] = m[k], s->invm[k] = invm[k];
         split_one(s->I, I[k], k), split_one(s->v, v[k], k);
         split_one(s->L, L[k], k), split_one(s->w, w[k], k);
-        split_matrix(s->R, &R[k], k);
+        s->q[0][k] = q[k].w, s->q[1][k] = q[k].x, s->q[2][k] = q[k].y, s->q[3][k] = q[k].z;
     }
+}
+
+void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
+{
+    take(s, b, from, n);
+    find_axes(s);
 }
 
 FL_FOUR_VERSIONS void fl_few_take_forces(fl_few *s, const fl_bodies *b)
@@ -59,18 +71,15 @@ FL_FOUR_VERSIONS void fl_few_take_forces(fl_few *s, const fl_bodies *b)
 FL_FOUR_VERSIONS void fl_few_take_pose(fl_few *s, const fl_bodies *b)
 {
     const fl_vec3 *x = b->x + s->from;
-    const fl_quat *q = b->q + s->from;
     const double *odometer = b->odometer + s->from, *bound = b->bound + s->from;
     int32_t k = 0;
     for (; k + FL_LANES <= s->n; k += FL_LANES) {
         fl_few_split(s->x, x, k);
-        fl_few_split4(s->q, q, sizeof *q, k);
         FL_FOUR_INTO(&s->odometer[k]) = FL_FOUR(&odometer[k]);
         FL_FOUR_INTO(&s->bound[k]) = FL_FOUR(&bound[k]);
     }
     for (; k < s->n; k++) {
         split_one(s->x, x[k], k);
-        s->q[0][k] = q[k].w, s->q[1][k] = q[k].x, s->q[2][k] = q[k].y, s->q[3][k] = q[k].z;
         s->odometer[k] = odometer[k], s->bound[k] = bound[k];
     }
 }
@@ -102,21 +111,16 @@ FL_FOUR_VERSIONS void fl_few_put_pose(const fl_few *s, fl_bodies *b)
 {
     fl_vec3 *x = b->x + s->from;
     fl_quat *q = b->q + s->from;
-    fl_mat3 *R = b->R + s->from;
     double *odometer = b->odometer + s->from;
     int32_t k = 0;
     for (; k + FL_LANES <= s->n; k += FL_LANES) {
         fl_few_join(x, s->x, k);
         fl_few_join4(q, sizeof *q, s->q, k);
-        fl_few_join4(&R->m[0][0], sizeof *R, s->R, k);
-        fl_few_join4(&R->m[1][1], sizeof *R, s->R + 4, k);
-        FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) R[k + l].m[2][2] = s->R[8][k + l];
         FL_FOUR_INTO(&odometer[k]) = FL_FOUR(&s->odometer[k]);
     }
     for (; k < s->n; k++) {
         x[k] = join_one(s->x, k);
         q[k] = (fl_quat){s->q[0][k], s->q[1][k], s->q[2][k], s->q[3][k]};
-        for (int c = 0; c < 9; c++) R[k].m[c / 3][c % 3] = s->R[c][k];
         odometer[k] = s->odometer[k];
     }
 }
@@ -240,15 +244,6 @@ FL_WIDE_VERSIONS static void drift(fl_few *restrict s, double dt)
         const double m00 = 1 - 2 * (yy + zz), m01 = 2 * (xy - wz), m02 = 2 * (xz + wy), m10 = 2 * (xy + wz),
                      m11 = 1 - 2 * (xx + zz), m12 = 2 * (yz - wx), m20 = 2 * (xz - wy), m21 = 2 * (yz + wx),
                      m22 = 1 - 2 * (xx + yy);
-        s->R[0][i] = m00;
-        s->R[1][i] = m01;
-        s->R[2][i] = m02;
-        s->R[3][i] = m10;
-        s->R[4][i] = m11;
-        s->R[5][i] = m12;
-        s->R[6][i] = m20;
-        s->R[7][i] = m21;
-        s->R[8][i] = m22;
         const double u0 = (m00 * Lx + m10 * Ly + m20 * Lz) / I0, u1 = (m01 * Lx + m11 * Ly + m21 * Lz) / I1,
                      u2 = (m02 * Lx + m12 * Ly + m22 * Lz) / I2;
         s->w[0][i] = m00 * u0 + m01 * u1 + m02 * u2;

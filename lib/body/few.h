@@ -20,16 +20,16 @@ typedef struct {
     _Alignas(64) double m[FL_FEW];
     double invm[FL_FEW], I[3][FL_FEW]; /* what they are, as in body.h */
     double v[3][FL_FEW], L[3][FL_FEW], w[3][FL_FEW];
-    double R[9][FL_FEW]; /* row by row */
+    double q[4][FL_FEW], R[9][FL_FEW]; /* R row by row, as it was when they were taken */
     double f[3][FL_FEW], t[3][FL_FEW];
-    double x[3][FL_FEW], q[4][FL_FEW], odometer[FL_FEW], bound[FL_FEW];
+    double x[3][FL_FEW], odometer[FL_FEW], bound[FL_FEW];
     double dv[3][FL_FEW], dw[3][FL_FEW]; /* what the last kick changed of v and w */
 } fl_few;
 
-/* m, invm, I, R, v, L and w of bodies [from, from + n). */
+/* m, invm, I, q, v, L and w of bodies [from, from + n), and R. */
 void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n);
 
-/* Of the same: f and t; x, q, odometer and bound. */
+/* Of the same: f and t; x, odometer and bound. */
 void fl_few_take_forces(fl_few *s, const fl_bodies *b);
 void fl_few_take_pose(fl_few *s, const fl_bodies *b);
 
@@ -53,7 +53,7 @@ int fl_few_drift(fl_few *s, double dt);
 
 void fl_few_put_forces(const fl_few *s, fl_bodies *b); /* f, t */
 void fl_few_put_speeds(const fl_few *s, fl_bodies *b); /* v, L, w */
-void fl_few_put_pose(const fl_few *s, fl_bodies *b);   /* x, q, R, odometer */
+void fl_few_put_pose(const fl_few *s, fl_bodies *b);   /* x, q, odometer */
 
 /* Of vectors that follow each other the four from the k-th on to arrays of their components, and back. */
 FL_WIDE_PART void fl_few_split(double (*to)[FL_FEW], const fl_vec3 *a, int32_t k)

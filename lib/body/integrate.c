@@ -81,7 +81,8 @@ static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3
 /* The turning part: w of the held axes given, of the free ones from what is left of L. */
 static void hold_turn(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
 {
-    fl_body_spin(b, i, solve_free(&b->R[i], b->I[i], hold / FL_HOLD_RX, w_held, b->L[i]));
+    const fl_mat3 R = fl_body_axes(b, i);
+    fl_body_spin(b, i, solve_free(&R, b->I[i], hold / FL_HOLD_RX, w_held, b->L[i]));
 }
 
 /* The velocity of body i that has the momentum P, but for what is held. */
@@ -89,7 +90,8 @@ static fl_vec3 hold_speed(const fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3
 {
     const unsigned hold = b->hold[i] & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z);
     const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]);
-    return hold ? solve_free(&b->R[i], v3_add(m, b->added[i]), hold, v_held, P) : fl_body_speed(b, i, P);
+    const fl_mat3 R = fl_body_axes(b, i);
+    return hold ? solve_free(&R, v3_add(m, b->added[i]), hold, v_held, P) : fl_body_speed(b, i, P);
 }
 
 /* Work of an impulse of what holds: only along the held axes is it one, beyond rounding. */
@@ -115,10 +117,8 @@ static void drift_held(fl_bodies *b, int32_t i, double dt)
     const fl_quat q = b->q[i];
     const fl_vec3 w = b->w[i], L = b->L[i];
     b->q[i] = q_mul(q_of_vector(v3_scale(0.5 * dt, w)), q);
-    fl_body_axes(b, i);
     hold_turn(b, i, hold, w);
     b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
-    fl_body_axes(b, i);
     b->L[i] = L;
     hold_turn(b, i, hold, w);
     b->held[i] += holding(hold, v3_sub(b->L[i], L), w);
@@ -168,7 +168,7 @@ static void go_straight(fl_bodies *b, int32_t i, double h, fl_vec3 P)
 /* 1/2 U.M_a U */
 static double carried(const fl_bodies *b, int32_t i)
 {
-    const fl_vec3 u = m3_tmul(b->R[i], b->flow[i]);
+    const fl_vec3 u = m3_tmul(fl_body_axes(b, i), b->flow[i]);
     return 0.5 * v3_dot(u, v3_mul(b->added[i], u));
 }
 
@@ -204,6 +204,7 @@ void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
 {
     const unsigned hold = b->hold[i];
     const fl_vec3 rest = v3(0, 0, 0);
+    const fl_mat3 R = fl_body_axes(b, i);
     if (b->added) {
         *a = hold_speed(b, i, rest, b->f[i]);
     } else {
@@ -213,7 +214,7 @@ void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
         if (hold & FL_HOLD_Z) a->z = 0.0;
     }
     *turn = hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)
-                ? solve_free(&b->R[i], b->I[i], hold / FL_HOLD_RX, rest, b->t[i])
+                ? solve_free(&R, b->I[i], hold / FL_HOLD_RX, rest, b->t[i])
                 : fl_body_turn(b, i, b->t[i]);
 }
 

@@ -27,7 +27,7 @@ double fl_bond_energy(const fl_bond *c)
 
 void fl_bond_place(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl_vec3 n, fl_vec3 a, fl_vec3 h)
 {
-    const fl_mat3 Ri = b->R[c->i], Rj = b->R[c->j];
+    const fl_mat3 Ri = fl_body_axes(b, c->i), Rj = fl_body_axes(b, c->j);
     c->pi = m3_tmul(Ri, v3_sub(x, b->x[c->i]));
     c->pj = m3_tmul(Rj, v3_sub(v3_sub(x, way), b->x[c->j]));
     c->ni = m3_tmul(Ri, n), c->nj = m3_tmul(Rj, n);
@@ -59,7 +59,7 @@ static fl_vec3 world(const standing *q, const double x[3])
 /* 0 where the sides have turned away from each other, and there is no frame. */
 static int stand(const fl_bond *c, const fl_bodies *b, fl_vec3 way, standing *q)
 {
-    const fl_mat3 R[2] = {b->R[c->i], b->R[c->j]};
+    const fl_mat3 R[2] = {fl_body_axes(b, c->i), fl_body_axes(b, c->j)};
     const fl_vec3 p[2] = {c->pi, c->pj}, u[2] = {c->ai, c->aj}, v[2] = {c->bi, c->bj}, n[2] = {c->ni, c->nj};
     for (int k = 0; k < 2; k++) {
         q->r[k] = m3_mul(R[k], p[k]);
@@ -360,8 +360,9 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 
 fl_bond_load fl_bond_loaded(const fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
-    const fl_vec3 ri = m3_mul(b->R[c->i], c->pi), rj = m3_mul(b->R[c->j], c->pj),
-                  n = v3_add(m3_mul(b->R[c->i], c->ni), m3_mul(b->R[c->j], c->nj));
+    const fl_mat3 Ri = fl_body_axes(b, c->i), Rj = fl_body_axes(b, c->j);
+    const fl_vec3 ri = m3_mul(Ri, c->pi), rj = m3_mul(Rj, c->pj),
+                  n = v3_add(m3_mul(Ri, c->ni), m3_mul(Rj, c->nj));
     const fl_vec3 off = v3_sub(v3_add(v3_add(b->x[c->j], way), rj), v3_add(b->x[c->i], ri)),
                   arm = v3_madd(ri, 0.5, off);
     fl_bond_load out = {.x = v3_add(b->x[c->i], arm)};

@@ -97,7 +97,6 @@ int fl_movers_start(fl_movers *v, double t, fl_err *err)
         }
         b->x[k] = v3_add(m->reference, x.x);
         b->q[k] = q_of_vector(x.r);
-        b->R[k] = q_matrix(b->q[k]);
         b->v[k] = v->pull[k] = rate.x;
         b->w[k] = turning(x.r, rate.r);
         v->anchor[k] = x.x;
@@ -134,8 +133,9 @@ void fl_mover_damp(fl_movers *v, int32_t k)
     }
     if (m->free & TURNS && any(m->ct)) {
         const double before = v3_dot(b->w[k], b->L[k]);
-        const fl_vec3 own = m3_tmul(b->R[k], b->L[k]), f = v->fade_turn[k], w = b->w[k];
-        b->L[k] = m3_mul(b->R[k], v3(f.x * own.x, f.y * own.y, f.z * own.z));
+        const fl_mat3 R = fl_body_axes(b, k);
+        const fl_vec3 own = m3_tmul(R, b->L[k]), f = v->fade_turn[k], w = b->w[k];
+        b->L[k] = m3_mul(R, v3(f.x * own.x, f.y * own.y, f.z * own.z));
         b->w[k] = fl_body_turn(b, k, b->L[k]);
         if (b->hold[k] & TURNS) fl_hold(b, k, b->v[k], w);
         v->damped[k] += 0.5 * (before - v3_dot(b->w[k], b->L[k]));
@@ -180,7 +180,6 @@ void fl_mover_out(fl_movers *v, int32_t k, double t, double dt)
     b->w[k] = turning(middle.r, rate.r);
     if (!any(x.r) && !any(b->w[k])) return;
     b->q[k] = q_of_vector(x.r);
-    b->R[k] = q_matrix(b->q[k]);
 }
 
 void fl_mover_pull(fl_movers *v, int32_t k)
@@ -236,8 +235,9 @@ void fl_mover_acceleration(const fl_movers *v, int32_t k, double t, fl_vec3 *a, 
         *turn = v3_madd(turning(x.r, second.r), 0.5 / h, v3_sub(late, early));
         return;
     }
-    const fl_vec3 slip = v3_sub(b->v[k], v->pull[k]), own = m3_tmul(b->R[k], b->w[k]);
-    const fl_vec3 drag = m3_mul(b->R[k], v3(m->ct.x * own.x, m->ct.y * own.y, m->ct.z * own.z));
+    const fl_mat3 R = fl_body_axes(b, k);
+    const fl_vec3 slip = v3_sub(b->v[k], v->pull[k]), own = m3_tmul(R, b->w[k]);
+    const fl_vec3 drag = m3_mul(R, v3(m->ct.x * own.x, m->ct.y * own.y, m->ct.z * own.z));
     const fl_vec3 torque = v3_sub(v3_sub(b->t[k], drag), v3_cross(b->w[k], b->L[k]));
     *turn = m->free & TURNS ? fl_body_turn(b, k, torque) : v3(0, 0, 0);
     for (int c = 0; c < 3; c++) {

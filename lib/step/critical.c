@@ -36,6 +36,7 @@ static double softest_face(const fl_world *w, int32_t i)
 {
     static const double SHARE[] = {1.0, 0.8, 0.6, 0.4, 0.25};
     const fl_poly *p = &w->b.core[i];
+    const fl_mat3 R = fl_body_axes(&w->b, i);
     double most = 0.0;
     for (int32_t f = 0; f < p->nf; f++) {
         const int32_t *loop = &p->loop[p->first[f]], nv = p->first[f + 1] - p->first[f];
@@ -55,7 +56,7 @@ static double softest_face(const fl_world *w, int32_t i)
                     const fl_vec3 r = v3_madd(far, SHARE[l], v3_sub(mid, far));
                     const fl_vec3 t = v3_cross(r, p->n[f]);
                     /* in the frame of the body */
-                    fl_stiff_add(&K, &w->b, i, part / 3.0, m3_mul(w->b.R[i], p->n[f]), m3_mul(w->b.R[i], t));
+                    fl_stiff_add(&K, &w->b, i, part / 3.0, m3_mul(R, p->n[f]), m3_mul(R, t));
                 }
             }
             most = fmax(most, SHARE[l] * fl_stiff_bound(&K));

@@ -140,7 +140,7 @@ static void stiffen(const fl_world *w, const fl_bond *c, int is_i, double share,
 {
     const fl_bodies *b = &w->b;
     const int32_t k = is_i ? c->i : c->j;
-    const fl_mat3 R = b->R[k];
+    const fl_mat3 R = fl_body_axes(b, k);
     const fl_vec3 n = m3_mul(R, is_i ? c->ni : c->nj);
     if (b->hold[k] == HELD) return;
     for (int at = 0; at < FL_BOND_POINTS; at++) {
@@ -198,10 +198,7 @@ int fl_frozen_make(fl_world *w, const fl_field *field, fl_err *err)
     s->n = field->bonds;
     for (int32_t k = 0; k < s->n; k++) {
         const int32_t of[2] = {s->bond[k].i, s->bond[k].j};
-        for (int e = 0; e < 2; e++) {
-            w->b.ball[of[e]] = 0;
-            fl_body_axes(&w->b, of[e]);
-        }
+        for (int e = 0; e < 2; e++) w->b.ball[of[e]] = 0;
     }
     return index_bonds(w, err) || measure(w, err) ? -1 : 0;
 }

@@ -23,10 +23,10 @@
 #define FAR 1.003
 
 /* Where the two stand to one another.  Everything is computed relative to B, so that nothing depends on
- * where the world's origin is: o and M take A's frame to B's, off is the world vector from A's centre to
- * B's. */
+ * where the world's origin is: o and M take A's frame to B's, R B's to the world's, off is the world vector
+ * from A's centre to B's. */
 typedef struct {
-    fl_mat3 M;
+    fl_mat3 M, R;
     fl_vec3 o, off;
 } relative;
 
@@ -35,8 +35,8 @@ static relative relate(const fl_world *w, const fl_pair *p)
 {
     const fl_bodies *b = &w->b;
     const int32_t i = p->i, j = p->j;
-    const fl_mat3 *A = &b->R[i], *B = &b->R[j];
-    relative r;
+    relative r = {.R = fl_body_axes(b, j)};
+    const fl_mat3 *B = &r.R;
     r.off = v3_sub(b->x[j], b->x[i]);
     if (w->cell.wraps)
         r.off = v3_add(r.off, fl_cell_way(&w->cell, v3(p->image[0], p->image[1], p->image[2])));
@@ -45,9 +45,10 @@ static relative relate(const fl_world *w, const fl_pair *p)
         r.M = (fl_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         return r;
     }
+    const fl_mat3 A = fl_body_axes(b, i);
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
-            r.M.m[k][l] = B->m[0][k] * A->m[0][l] + B->m[1][k] * A->m[1][l] + B->m[2][k] * A->m[2][l];
+            r.M.m[k][l] = B->m[0][k] * A.m[0][l] + B->m[1][k] * A.m[1][l] + B->m[2][k] * A.m[2][l];
     return r;
 }
 
@@ -460,7 +461,7 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
 {
     const fl_bodies *b = &w->b;
     const fl_place *q = &s->place[0];
-    const fl_vec3 n = m3_mul(b->R[p->j], q->n), aj = m3_mul(b->R[p->j], q->p), ai = v3_add(aj, r->off);
+    const fl_vec3 n = m3_mul(r->R, q->n), aj = m3_mul(r->R, q->p), ai = v3_add(aj, r->off);
     const double closing = -v3_dot(n, approach(b, p, ai, aj)),
                  slope = p->k * fl_normal_slope(q->overlap, p->exponent);
     p->overlap = q->overlap;
@@ -481,16 +482,16 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
 
 /* How stiff the places of a contact make it; the root in W bends down: W'' = scale (U'' - U'^2 / 2U).
  * ai, aj: the first place from the centres. */
-static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s, fl_vec3 ai, fl_vec3 aj,
-                         double scale, double U, fl_stiff *si, fl_stiff *sj)
+static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s, fl_mat3 R, fl_vec3 ai,
+                         fl_vec3 aj, double scale, double U, fl_stiff *si, fl_stiff *sj)
 {
     const fl_bodies *b = &w->b;
     const double half = 0.5 / (scale * U);
     fl_springs q;
     fl_bearing_springs(s, &q);
     *si = *sj = (fl_stiff){0};
-    fl_stiff_springs(si, b, p->i, scale, &q, b->R[p->j], ai);
-    fl_stiff_springs(sj, b, p->j, scale, &q, b->R[p->j], aj);
+    fl_stiff_springs(si, b, p->i, scale, &q, R, ai);
+    fl_stiff_springs(sj, b, p->j, scale, &q, R, aj);
     fl_stiff_add(si, b, p->i, -half, p->f, p->ti);
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
@@ -500,7 +501,7 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s
 static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale, double slope, double chi,
                      const relative *r, fl_vec3 aj, double dt)
 {
-    const fl_mat3 *R = &w->b.R[p->j];
+    const fl_mat3 *R = &r->R;
     add_sum(&p->fd, &p->di, &p->dj, &q->damping, scale, R, v3_add(aj, r->off), aj);
     p->f = v3_add(p->f, p->fd);
     p->ti = v3_add(p->ti, p->di);
@@ -531,7 +532,7 @@ static int force_told(fl_world *w, fl_pair *p, const fl_told *t, const relative 
 {
     const fl_bodies *b = &w->b;
     const fl_surrogate *s = p->surrogate;
-    const fl_mat3 R = b->R[p->j];
+    const fl_mat3 R = r->R;
     if (!fl_surrogate_holds(s, t)) return 0;
     const fl_vec3 aj = m3_mul(R, s->first), ai = v3_add(aj, r->off), at = m3_mul(R, t->at);
     const fl_vec3 v = m3_tmul(R, approach(b, p, ai, aj)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
@@ -594,7 +595,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
                        double dt, int survey)
 {
     const fl_bodies *b = &w->b;
-    const fl_mat3 R = b->R[p->j];
+    const fl_mat3 R = r->R;
     fl_places *s = &w->scratch[thread];
     const int carried = p->law->surrogate > 0.0 && !noted(w, p);
     if (s->n == 0) return 0;
@@ -612,7 +613,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     const fl_vec3 elastic = p->f;
     fl_stiff si, sj;
     survey |= carried; /* what is told until the next look is surveyed, too */
-    if (survey) survey_patch(w, p, s, ai, aj, seen.scale, q.u, &si, &sj);
+    if (survey) survey_patch(w, p, s, R, ai, aj, seen.scale, q.u, &si, &sj);
     if (t && fl_surrogate_nearly(p->surrogate, t)) fl_tangent_remeasured(&p->slip, seen.slope / t->slope);
     const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
@@ -638,8 +639,9 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
 static int force_bed(fl_world *w, fl_pair *p, const relative *r, double dt, int survey, double *distance)
 {
     const fl_bodies *b = &w->b;
-    const int32_t i = p->i, j = p->j;
-    const fl_vec3 n = m3_col(b->R[j], 2), up = m3_tmul(b->R[i], n);
+    const int32_t i = p->i;
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_vec3 n = m3_col(r->R, 2), up = m3_tmul(R, n);
     const double level = v3_dot(n, r->off); /* of the wall over the centre of A */
     const fl_hull *hull = &w->bed.hull[i];
     double low = INFINITY;
@@ -651,7 +653,7 @@ static int force_bed(fl_world *w, fl_pair *p, const relative *r, double dt, int 
     fl_buoyancy(hull, up, level, &wet);
     if (wet.volume <= 0.0) return 0;
     p->energy = fl_buoyancy_force(&wet, up, level, w->bed.stiffness, &force, &moment);
-    const fl_vec3 ai = m3_mul(b->R[i], wet.centre), aj = v3_sub(ai, r->off);
+    const fl_vec3 ai = m3_mul(R, wet.centre), aj = v3_sub(ai, r->off);
     const double closing = -v3_dot(n, approach(b, p, ai, aj)), elastic = w->bed.stiffness * wet.volume;
     double normal = elastic + w->bed.damping * wet.waterplane * closing;
     if (normal < 0.0) normal = 0.0;
@@ -703,7 +705,7 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     double exponent, k = fl_manual_stiffness(&mc, law->modulus, overlap, law->kind == FL_LAW_MANUAL_SI,
                                              law->literal18, &exponent);
     k = law->stiffness > 0.0 ? law->stiffness : law->softening * k;
-    const fl_vec3 nw = m3_mul(b->R[p->j], c.n), aj = m3_mul(b->R[p->j], c.p), ai = v3_add(aj, r->off);
+    const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
     const fl_vec3 u = approach(b, p, ai, aj);
     const double closing = -v3_dot(nw, u);
     const double mass = law->literal2 && b->invm[p->j] > 0.0 ? b->m[p->i] + b->m[p->j] : p->mass;
@@ -824,9 +826,9 @@ int fl_interact_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *o
         fl_contact_find(&a, &bb, FL_MODE_NONE, NULL, NULL, out);
         free(n);
     }
-    out->n = m3_mul(b->R[j], out->n);
+    out->n = m3_mul(r.R, out->n);
     /* b->x[j] where j is no image: the bits of a scene without a cell */
-    out->p = v3_add(w->cell.wraps ? v3_add(b->x[i], r.off) : b->x[j], m3_mul(b->R[j], out->p));
+    out->p = v3_add(w->cell.wraps ? v3_add(b->x[i], r.off) : b->x[j], m3_mul(r.R, out->p));
     out->p = fl_cell_inside(&w->cell, out->p);
     return out->gap < reach;
 }

@@ -31,7 +31,7 @@ int fl_leans_add(const fl_world *w, fl_leans *q, int32_t c)
     const fl_bodies *b = &w->b;
     const int32_t i = near->i, j = near->j;
     if (j < w->n + w->pieces || !near->n || !b->ball[i] || w->structure.piece[j - w->n].elastic) return 0;
-    const fl_vec3 n = m3_col(b->R[j], 2);
+    const fl_vec3 n = m3_col(fl_body_axes(b, j), 2);
     const double z = v3_dot(n, v3_sub(b->x[i], b->x[j]));
     if (!(z > 0.0 && z < b->radius[i]) || near->full->bond) return 0;
     near->full->at = c;

@@ -166,8 +166,9 @@ static fl_press_mark *put_mark(fl_world *w, const fl_pair *p, fl_press_notes *no
         panel = 0;
     }
     m->panel = panel;
-    m->at = v3_add(w->b.x[p->j], m3_mul(w->b.R[p->j], at));
-    m->n = m3_mul(w->b.R[p->j], n);
+    const fl_mat3 R = fl_body_axes(&w->b, p->j);
+    m->at = v3_add(w->b.x[p->j], m3_mul(R, at));
+    m->n = m3_mul(R, n);
     m->overlap = p->overlap;
     return m;
 }

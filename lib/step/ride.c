@@ -131,10 +131,9 @@ static void place(fl_world *w, int32_t k)
     const int32_t m = r->of[k], j = w->n + k;
     const fl_bodies *mb = &r->m.b;
     fl_bodies *b = &w->b;
-    const fl_vec3 arm = m3_mul(mb->R[m], r->arm[k]);
+    const fl_vec3 arm = m3_mul(fl_body_axes(mb, m), r->arm[k]);
     b->x[j] = v3_add(mb->x[m], arm);
     b->q[j] = q_mul(mb->q[m], r->turn[k]);
-    b->R[j] = q_matrix(b->q[j]);
     b->v[j] = v3_add(mb->v[m], v3_cross(mb->w[m], arm));
     b->w[j] = mb->w[m];
 }
@@ -304,7 +303,7 @@ fl_vec3 fl_ride_place(const fl_world *w, int32_t part, fl_vec3 x)
 {
     const fl_movers *v = &w->ride.m;
     const int32_t m = w->ride.part[part];
-    return v3_add(v->b.x[m], m3_mul(v->b.R[m], v3_sub(x, v->motion[m].reference)));
+    return v3_add(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v3_sub(x, v->motion[m].reference)));
 }
 
 int fl_ride_free_ones(const fl_world *w)

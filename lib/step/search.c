@@ -16,10 +16,11 @@ static fl_aabb box_of(const fl_world *w, int32_t k)
 {
     const fl_bodies *b = &w->b;
     const fl_poly *core = &b->core[k];
+    const fl_mat3 R = fl_body_axes(b, k);
     fl_aabb box = aabb_empty();
     if (k < w->n && fl_world_away(w, k)) return box;
     if (k >= w->n && w->structure.piece[k - w->n].kind == FL_PIECE_PLANE) { /* the half-space behind a wall */
-        const fl_vec3 n = m3_col(b->R[k], 2), x = b->x[k];
+        const fl_vec3 n = m3_col(R, 2), x = b->x[k];
         box = (fl_aabb){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
         if (n.x > 0.5) box.hi.x = x.x;
         if (n.x < -0.5) box.lo.x = x.x;
@@ -31,11 +32,10 @@ static fl_aabb box_of(const fl_world *w, int32_t k)
     }
     if (k < w->n && w->bed.hull && core->nv > 2) { /* sharp corners stand out from the dilated core */
         const fl_poly *outer = &w->bed.outer[k];
-        for (int32_t v = 0; v < outer->nv; v++)
-            box = aabb_add(box, v3_add(b->x[k], m3_mul(b->R[k], outer->v[v])));
+        for (int32_t v = 0; v < outer->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(R, outer->v[v])));
         return box;
     }
-    for (int32_t v = 0; v < core->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(b->R[k], core->v[v])));
+    for (int32_t v = 0; v < core->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(R, core->v[v])));
     return aabb_grow(box, b->radius[k]);
 }
 

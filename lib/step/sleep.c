@@ -17,7 +17,6 @@ enum {
 struct fl_nap_image {
     fl_vec3 x, v, L, w, f, t;
     fl_quat q;
-    fl_mat3 R;
     double held, odometer, carried, drained, blown, waved;
     fl_nap nap;
 };
@@ -278,7 +277,6 @@ void fl_sleep_look(fl_world *w)
                                      .f = b->f[k],
                                      .t = b->t[k],
                                      .q = b->q[k],
-                                     .R = b->R[k],
                                      .held = b->held[k],
                                      .odometer = b->odometer[k],
                                      .carried = b->added ? b->carried[k] : 0.0,
@@ -303,8 +301,7 @@ void fl_sleep_back(fl_world *w)
         const fl_nap_image *m = &s->image[k];
         if (s->kind[k] != FL_COASTS) continue;
         b->x[k] = m->x, b->v[k] = m->v, b->L[k] = m->L, b->w[k] = m->w, b->f[k] = m->f, b->t[k] = m->t;
-        b->q[k] = m->q, b->R[k] = m->R;
-        b->held[k] = m->held, b->odometer[k] = m->odometer;
+        b->q[k] = m->q, b->held[k] = m->held, b->odometer[k] = m->odometer;
         s->nap[k] = m->nap;
         if (b->added) b->carried[k] = m->carried;
         if (!w->sea.n) continue;

@@ -234,7 +234,6 @@ static void body(traffic *t, fl_world *w, int32_t k)
     real(t, &b->odometer[k]);
     real(t, &w->odometer_found[k]);
     close_row(t);
-    if (t->in) fl_body_axes(b, k);
 }
 
 /* The table of the current is not kept, but it must be the one that the run had. */
@@ -332,7 +331,6 @@ static void mover(traffic *t, fl_world *w, int32_t k)
     real(t, &m->damped[k]);
     real(t, &m->given[k]);
     close_row(t);
-    if (t->in) b->R[k] = q_matrix(b->q[k]);
 }
 
 /* Where the ice pressed last, and what the panels and events of the interval have so far. */

@@ -18,7 +18,7 @@ FL_FOUR_VERSIONS static void add(rows a, double k, fl_vec3 f, fl_vec3 t)
 void fl_stiff_add(fl_stiff *s, const fl_bodies *b, int32_t i, double k, fl_vec3 f, fl_vec3 t)
 {
     if (b->invm[i] == 0.0) return;
-    const fl_vec3 u = m3_tmul(b->R[i], t), I = b->I[i];
+    const fl_vec3 u = m3_tmul(fl_body_axes(b, i), t), I = b->I[i];
     add(s->a, k, v3_scale(sqrt(b->invm[i]), f), v3(u.x / sqrt(I.x), u.y / sqrt(I.y), u.z / sqrt(I.z)));
 }
 
@@ -78,10 +78,11 @@ void fl_stiff_springs(fl_stiff *s, const fl_bodies *b, int32_t i, double scale, 
     if (b->invm[i] == 0.0) return;
     const fl_vec3 I = b->I[i], o = m3_tmul(R, a);
     const double by[3] = {1.0 / sqrt(I.x), 1.0 / sqrt(I.y), 1.0 / sqrt(I.z)};
+    const fl_mat3 own_axes = fl_body_axes(b, i);
     const square3 A = {{0.0, -o.z, o.y}, {o.z, 0.0, -o.x}, {-o.y, o.x, 0.0}};
     square3 Rt = {{0}}, own = {{0}}, Mt;
     for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) Rt[r][c] = R.m[c][r], own[r][c] = b->R[i].m[r][c] * by[c];
+        for (int c = 0; c < 3; c++) Rt[r][c] = R.m[c][r], own[r][c] = own_axes.m[r][c] * by[c];
     product(Mt, (const double(*)[4])Rt, (const double(*)[4])own, NULL);
     springs(s->a, scale, sqrt(b->invm[i]), q, A, (const double(*)[4])Rt, (const double(*)[4])Mt);
 }

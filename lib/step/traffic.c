@@ -84,8 +84,9 @@ static int around(const fl_world *w, int32_t k, fl_vec3 origin, fl_vec3 **v, int
 {
     const fl_poly *p = &w->b.core[k];
     const fl_vec3 x = v3_sub(w->b.x[k], origin);
+    const fl_mat3 R = fl_body_axes(&w->b, k);
     if (fl_grow(v, cap, p->nv, sizeof **v, err)) return -1;
-    for (int32_t n = 0; n < p->nv; n++) (*v)[n] = v3_add(x, m3_mul(w->b.R[k], p->v[n]));
+    for (int32_t n = 0; n < p->nv; n++) (*v)[n] = v3_add(x, m3_mul(R, p->v[n]));
     return 0;
 }
 
@@ -133,8 +134,9 @@ static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     double front = -INFINITY;
     t->floe[i] = k;
     if (fl_world_put(w, i, t->feed, k, err)) return -1;
+    const fl_mat3 R = fl_body_axes(b, i);
     for (int32_t v = 0; v < b->core[i].nv; v++)
-        front = fmax(front, along(t, v3_add(b->x[i], m3_mul(b->R[i], b->core[i].v[v]))));
+        front = fmax(front, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
     const double way = t->sign * (t->entry + in - front - b->radius[i]);
     const fl_vec3 drift = v3(t->axis ? 0.0 : t->sign * t->speed, t->axis ? t->sign * t->speed : 0.0, 0.0);
     b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : way, t->axis ? way : 0.0, 0.0));
@@ -202,8 +204,9 @@ static void let_go(fl_world *w)
     for (int32_t i = 0; i < w->n; i++) {
         if (!t->guided[i] || t->away[i]) continue;
         double last = INFINITY;
+        const fl_mat3 R = fl_body_axes(b, i);
         for (int32_t v = 0; v < b->core[i].nv; v++)
-            last = fmin(last, along(t, v3_add(b->x[i], m3_mul(b->R[i], b->core[i].v[v]))));
+            last = fmin(last, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
         if (last - b->radius[i] < t->entry) continue;
         t->guided[i] = 0;
         b->hold[i] = t->hold[i];

@@ -279,7 +279,6 @@ static int place_pieces(fl_world *w, fl_err *err)
         const int32_t j = w->n + k;
         w->b.x[j] = piece->x;
         w->b.q[j] = piece->q;
-        w->b.R[j] = q_matrix(piece->q);
         w->material[j] = piece->kind == FL_PIECE_PLANE ? FL_SCENE_BOUNDARY : FL_SCENE_STRUCTURE;
         if (piece->kind == FL_PIECE_PLANE) continue;
         if (piece->kind == FL_PIECE_SHELL) { /* only its box is looked at, through the corners */
@@ -481,7 +480,6 @@ int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_er
     fl_poly_free(&outer);
     if (bad) return -1;
     w->b.ball[i] = (uint8_t)fl_body_is_ball(&w->b, i);
-    fl_body_axes(&w->b, i);
     if (i < w->row.n && w->row.in[i] && !(w->traffic.away && w->traffic.floe[i] >= 0)) drive_body(w, i);
     return 0;
 }

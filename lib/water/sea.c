@@ -146,13 +146,17 @@ static void look_at_pieces(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up,
     if (!wet) return;
     skin->wets = fl_skin_pieces(h, up, level, 0, wet);
     if (s->current.kind == FL_PROFILE_UNIFORM && !around) return;
+    const fl_mat3 R = fl_body_axes(b, i);
     for (int32_t k = 0; k < skin->wets; k++) {
         const double z = at->z + v3_dot(at->up, wet[k].r);
         fl_vec3 u = fl_current_at(&s->current, z), none;
         if (around) u = v3_add(u, orbital(s, at, around, wet[k].r, &none));
-        wet[k].flow = m3_tmul(b->R[i], v3_sub(u, fl_sea_flow(s, i)));
+        wet[k].flow = m3_tmul(R, v3_sub(u, fl_sea_flow(s, i)));
     }
 }
+
+/* e_z of the world in the frame of a body with these axes. */
+static fl_vec3 upward(fl_mat3 R) { return v3(R.m[2][0], R.m[2][1], R.m[2][2]); }
 
 /* What is below still water; one that is wholly dry or wet by far is told by its reach alone.  up is
  * transpose(R) e_z. */
@@ -167,7 +171,7 @@ static fl_wet wet_of(const fl_sea *s, int32_t i, fl_vec3 up, double level)
 
 double fl_sea_energy(const fl_sea *s, const fl_bodies *b, int32_t i)
 {
-    const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]);
+    const fl_vec3 up = upward(fl_body_axes(b, i));
     const double level = s->level - b->x[i].z;
     const fl_wet wet = wet_of(s, i, up, level);
     fl_vec3 f, turn;
@@ -177,7 +181,8 @@ double fl_sea_energy(const fl_sea *s, const fl_bodies *b, int32_t i)
 /* Still water as it meets body i: force and moment about its centre, world axes. */
 static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
-    const fl_vec3 up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]);
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_vec3 up = upward(R);
     const double level = s->level - b->x[i].z;
     const fl_afloat at = {.up = up, .z = -level};
     const fl_wet wet = wet_of(s, i, up, level);
@@ -189,7 +194,7 @@ static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *
     if (b->added) b->flow[i] = fl_sea_flow(s, i);
     if (s->skin) look_at_pieces(s, b, i, up, level, &at, NULL);
     *f = v3(0, 0, s->lift[i]); /* R up is e_z */
-    *t = m3_mul(b->R[i], turn);
+    *t = m3_mul(R, turn);
 }
 
 /* How far body i reaches along a direction of its own axes. */
@@ -210,8 +215,9 @@ static void extent(const fl_sea *s, int32_t i, fl_vec3 d, double *lo, double *hi
 static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_waves *w = &s->wave;
-    const fl_afloat at = {.up = v3(b->R[i].m[2][0], b->R[i].m[2][1], b->R[i].m[2][2]),
-                          .along = m3_tmul(b->R[i], w->along),
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_afloat at = {.up = upward(R),
+                          .along = m3_tmul(R, w->along),
                           .s = v3_dot(w->along, b->x[i]),
                           .z = b->x[i].z - s->level};
     const fl_hull *h = &s->hull[i];
@@ -234,9 +240,9 @@ static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t
         fl_vec3 a, up;
         double level;
         s->flow[i] = v3_add(s->flow[i], orbital(s, &at, &around, p.centre, &a));
-        *f = m3_mul(b->R[i], p.force);
-        *t = m3_mul(b->R[i], p.moment);
-        if (b->added) *f = v3_add(*f, m3_mul(b->R[i], v3_mul(b->added[i], m3_tmul(b->R[i], a))));
+        *f = m3_mul(R, p.force);
+        *t = m3_mul(R, p.moment);
+        if (b->added) *f = v3_add(*f, m3_mul(R, v3_mul(b->added[i], m3_tmul(R, a))));
         if (s->skin) {
             fl_wave_plane(&around, &at, &up, &level);
             look_at_pieces(s, b, i, up, level, &at, &around);
@@ -303,12 +309,10 @@ void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i)
     }
     const fl_vec3 x = b->x[i];
     const fl_quat q = b->q[i];
-    const fl_mat3 R = b->R[i];
     const double now = s->time;
     b->x[i] = s->held[i].x, b->q[i] = s->held[i].q, s->time = s->held[i].when;
-    fl_body_axes(b, i);
     look(s, b, i, &f, &t);
-    b->x[i] = x, b->q[i] = q, b->R[i] = R, s->time = now;
+    b->x[i] = x, b->q[i] = q, s->time = now;
     go_on(s, b, i, &f, &t);
 }
 
@@ -329,10 +333,11 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
     if (b->added) {
         /* each axis with its own mass: the step that is implicit in u and frozen in |u|, which is the exact
          * decay along an axis, and slows the others down whatever the step */
-        const fl_vec3 a = b->added[i], p = m3_tmul(b->R[i], u);
+        const fl_mat3 R = fl_body_axes(b, i);
+        const fl_vec3 a = b->added[i], p = m3_tmul(R, u);
         const double m = b->m[i], s = kappa * m * speed * h;
-        b->v[i] = v3_add(c, m3_mul(b->R[i], v3(p.x / (1.0 + s / (m + a.x)), p.y / (1.0 + s / (m + a.y)),
-                                               p.z / (1.0 + s / (m + a.z)))));
+        b->v[i] = v3_add(c, m3_mul(R, v3(p.x / (1.0 + s / (m + a.x)), p.y / (1.0 + s / (m + a.y)),
+                                         p.z / (1.0 + s / (m + a.z)))));
     } else {
         b->v[i] = v3_madd(c, fl_drag_factor(kappa, speed, h), u);
     }
@@ -353,11 +358,12 @@ static double decay_of_pieces(fl_bodies *b, int32_t i, const fl_skin_piece *piec
 {
     const double before = fl_body_kinetic(b, i) - b->held[i], m = b->m[i];
     const fl_vec3 v0 = b->v[i], w0 = b->w[i], I = b->I[i], a = b->added ? b->added[i] : v3(0, 0, 0);
-    fl_vec3 v = m3_tmul(b->R[i], v3_sub(v0, c)), w = m3_tmul(b->R[i], w0);
+    const fl_mat3 R = fl_body_axes(b, i);
+    fl_vec3 v = m3_tmul(R, v3_sub(v0, c)), w = m3_tmul(R, w0);
     fl_facet_drag(n, piece, skin, form, v3(m + a.x, m + a.y, m + a.z), I, h, &v, &w);
-    b->v[i] = v3_add(c, m3_mul(b->R[i], v));
-    b->w[i] = m3_mul(b->R[i], w);
-    b->L[i] = m3_mul(b->R[i], v3_mul(I, w));
+    b->v[i] = v3_add(c, m3_mul(R, v));
+    b->w[i] = m3_mul(R, w);
+    b->L[i] = m3_mul(R, v3_mul(I, w));
     if (b->hold[i]) fl_hold(b, i, v0, w0);
     return fl_body_kinetic(b, i) - b->held[i] - before;
 }

@@ -166,12 +166,12 @@ static void support(const void *obj, const ccd_vec3_t *dir, ccd_vec3_t *out)
 {
     const shape *s = obj;
     const fl_poly *p = &s->b->core[s->i];
-    const fl_vec3 d = v3(dir->v[0], dir->v[1], dir->v[2]), in = m3_tmul(s->b->R[s->i], d);
+    const fl_vec3 d = v3(dir->v[0], dir->v[1], dir->v[2]), in = m3_tmul(fl_body_axes(s->b, s->i), d);
     int32_t at = 0;
     for (int32_t v = 1; v < p->nv; v++)
         if (v3_dot(in, p->v[v]) > v3_dot(in, p->v[at])) at = v;
-    const fl_vec3 x =
-        v3_madd(v3_add(s->b->x[s->i], m3_mul(s->b->R[s->i], p->v[at])), s->b->radius[s->i] / v3_norm(d), d);
+    const fl_vec3 x = v3_madd(v3_add(s->b->x[s->i], m3_mul(fl_body_axes(s->b, s->i), p->v[at])),
+                              s->b->radius[s->i] / v3_norm(d), d);
     ccdVec3Set(out, x.x, x.y, x.z);
 }
 

@@ -94,14 +94,11 @@ static double energy_moved(fl_world *w, int32_t i, int32_t j, fl_vec3 d, fl_vec3
 {
     const fl_vec3 x = w->b.x[i];
     const fl_quat q = w->b.q[i];
-    const fl_mat3 R = w->b.R[i];
     shift(w, i, d);
     w->b.q[i] = q_mul(q_of_vector(turn), q);
-    w->b.R[i] = q_matrix(w->b.q[i]);
     const double e = look(w, j, NULL).energy;
     w->b.x[i] = x;
     w->b.q[i] = q;
-    w->b.R[i] = R;
     return e;
 }
 
@@ -129,7 +126,6 @@ static void align(fl_world *w, int32_t j, fl_rng *g)
 {
     const double tilt = pow(10.0, fl_rng_in(g, -5.0, -1.0));
     w->b.q[0] = q_mul(q_of_vector(v3_scale(tilt, shape_direction(g))), w->b.q[j]);
-    w->b.R[0] = q_matrix(w->b.q[0]);
 }
 
 /* Move body 0 from afar onto j until they overlap by the share u of R; of u > 1 the cores overlap.  0 when

@@ -108,9 +108,9 @@ static double distance(const fl_world *w, int32_t i, int32_t j)
     const fl_bodies *b = &w->b;
     fl_vec3 a[16], c[16];
     fl_gap gap;
-    for (int32_t v = 0; v < b->core[i].nv; v++) a[v] = m3_mul(b->R[i], b->core[i].v[v]);
+    for (int32_t v = 0; v < b->core[i].nv; v++) a[v] = m3_mul(fl_body_axes(b, i), b->core[i].v[v]);
     for (int32_t v = 0; v < b->core[j].nv; v++)
-        c[v] = v3_add(v3_sub(b->x[j], b->x[i]), m3_mul(b->R[j], b->core[j].v[v]));
+        c[v] = v3_add(v3_sub(b->x[j], b->x[i]), m3_mul(fl_body_axes(b, j), b->core[j].v[v]));
     fl_gjk((fl_core){a, b->core[i].nv, NULL}, (fl_core){c, b->core[j].nv, NULL}, NULL, &gap);
     return gap.overlap ? 0.0 : gap.d;
 }

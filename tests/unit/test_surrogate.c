@@ -58,7 +58,7 @@ static void go(lab *l, const fl_surrogate *s, fl_vec3 x, fl_quat q, way a, doubl
 {
     const fl_quat turn = q_of_vector(v3_scale(h / s->arm, a.w));
     fl_bodies *b = &l->w.b;
-    const fl_vec3 point = v3_add(b->x[0], m3_mul(b->R[0], s->own));
+    const fl_vec3 point = v3_add(b->x[0], m3_mul(fl_body_axes(b, 0), s->own));
     b->q[1] = q_mul(turn, q);
     b->x[1] = v3_madd(v3_add(point, q_rotate(turn, v3_sub(x, point))), h, a.u);
     fl_body_derive(b, 1);
@@ -69,10 +69,10 @@ static fl_vec3 pose(const lab *l, fl_mat3 *M)
 {
     const fl_bodies *b = &l->w.b;
     for (int k = 0; k < 3; k++) {
-        const fl_vec3 c = m3_tmul(b->R[1], m3_col(b->R[0], k));
+        const fl_vec3 c = m3_tmul(fl_body_axes(b, 1), m3_col(fl_body_axes(b, 0), k));
         M->m[0][k] = c.x, M->m[1][k] = c.y, M->m[2][k] = c.z;
     }
-    return m3_tmul(b->R[1], v3_sub(b->x[0], b->x[1]));
+    return m3_tmul(fl_body_axes(b, 1), v3_sub(b->x[0], b->x[1]));
 }
 
 /* By how much the force and the moment that are told are off, over the force. */
@@ -83,7 +83,7 @@ static double off(lab *l, const fl_surrogate *s)
     const fl_vec3 o = pose(l, &M);
     fl_surrogate_tell(s, &M, o, &t);
     const fl_pair p = lab_look(&l->w, 0, 1);
-    const fl_mat3 R = l->w.b.R[1];
+    const fl_mat3 R = fl_body_axes(&l->w.b, 1);
     const fl_vec3 f = m3_mul(R, t.gradient.f);
     const fl_vec3 at = v3_add(l->w.b.x[1], m3_mul(R, t.at)), arm = v3_sub(at, l->w.b.x[0]);
     const fl_vec3 m = v3_sub(p.ti, v3_cross(arm, p.f)); /* about the point */
@@ -121,7 +121,7 @@ static void what_is_told_is_a_potential(void **state)
                 fl_surrogate_tell(p.surrogate, &M, o, &t[e]);
             }
             go(&l, p.surrogate, x, q, to, 0.2 * DEPTH);
-            const fl_mat3 R = l.w.b.R[1];
+            const fl_mat3 R = fl_body_axes(&l.w.b, 1);
             const fl_vec3 f = m3_mul(R, t[0].gradient.f), m = m3_mul(R, t[0].gradient.m);
             /* what B goes, A goes the other way */
             const double work = -h * (v3_dot(f, along.u) + v3_dot(m, along.w) / p.surrogate->arm);

@@ -88,11 +88,11 @@ static double bent_by(int32_t n)
     for (int64_t k = 0; k < steps; k++) {
         push(&l, n, v3(0, 0, -P), tip);
         step(&l);
-        tip = v3_add(l.w.b.x[n], m3_mul(l.w.b.R[n], m3_tmul(q_matrix(l.w.q0[n]), arm)));
+        tip = v3_add(l.w.b.x[n], m3_mul(fl_body_axes(&l.w.b, n), m3_tmul(q_matrix(l.w.q0[n]), arm)));
         push(&l, n, v3(0, 0, -P), tip);
         calm(&l, 2.0 * omega);
     }
-    tip = v3_add(l.w.b.x[n], m3_mul(l.w.b.R[n], m3_tmul(q_matrix(l.w.q0[n]), arm)));
+    tip = v3_add(l.w.b.x[n], m3_mul(fl_body_axes(&l.w.b, n), m3_tmul(q_matrix(l.w.q0[n]), arm)));
     lab_free(&l);
     return -tip.z;
 }

@@ -40,7 +40,7 @@ static double off_at_start(const fl_world *w)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < w->n; i++) {
-        const fl_vec3 turn = m3_tmul(w->b.R[i], w->b.t[i]), I = w->b.I[i];
+        const fl_vec3 turn = m3_tmul(fl_body_axes(&w->b, i), w->b.t[i]), I = w->b.I[i];
         sum += v3_norm2(w->b.f[i]) * w->b.invm[i] + turn.x * turn.x / I.x + turn.y * turn.y / I.y +
                turn.z * turn.z / I.z;
     }

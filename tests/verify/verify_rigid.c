@@ -42,7 +42,7 @@ static int one_body(fl_bodies *b, fl_vec3 I, fl_vec3 w, double m)
     return 0;
 }
 
-static fl_vec3 body_spin(const fl_bodies *b) { return m3_tmul(b->R[0], b->w[0]); }
+static fl_vec3 body_spin(const fl_bodies *b) { return m3_tmul(fl_body_axes(b, 0), b->w[0]); }
 
 static double apart(fl_vec3 a, fl_vec3 b) { return v3_norm(v3_sub(a, b)); }
 
@@ -75,7 +75,7 @@ static void V15(void)
             verify_row("V15", "q_z", sign * q.z, turn.z, 1e-4, VERIFY_ABS);
         }
         /* from the world: what the body turns with, not what was stored */
-        const fl_vec3 wi = body_spin(&b), L = m3_mul(b.R[0], v3_mul(b.I[0], wi));
+        const fl_vec3 wi = body_spin(&b), L = m3_mul(fl_body_axes(&b, 0), v3_mul(b.I[0], wi));
         verify_below("V15", "|dL|/L", apart(L, L0) / v3_norm(L0), 1e-12);
         fl_bodies_free(&b);
     }
@@ -113,7 +113,7 @@ static void V16(void)
         worst = fmax(worst, fabs(fl_body_kinetic(&b, 0) / E0 - 1.0));
     }
     const fl_quat q = b.q[0];
-    const fl_vec3 L = m3_mul(b.R[0], v3_mul(b.I[0], body_spin(&b)));
+    const fl_vec3 L = m3_mul(fl_body_axes(&b, 0), v3_mul(b.I[0], body_spin(&b)));
     verify_note("%lld steps of 0.02 s", (long long)steps);
     verify_below("V16", "largest |dE|/E on the way", worst, 1e-5);
     verify_below("V16", "|dE|/E at the end", fabs(fl_body_kinetic(&b, 0) / E0 - 1.0), 1e-5);
@@ -146,9 +146,10 @@ static void V18(void)
         for (int s = 0; s < steps; s++) {
             fl_kick(&b, 0, 0.5 * h[k]);
             fl_drift(&b, 0, h[k]);
-            b.t[0] = v3_scale(-2.0, v3_cross(m3_col(b.R[0], 0), v3(0, 0, 1)));
+            b.t[0] = v3_scale(-2.0, v3_cross(m3_col(fl_body_axes(&b, 0), 0), v3(0, 0, 1)));
             fl_kick(&b, 0, 0.5 * h[k]);
-            worst = fmax(worst, fabs((fl_body_kinetic(&b, 0) + 2.0 * m3_col(b.R[0], 0).z) / E0 - 1.0));
+            worst = fmax(worst,
+                         fabs((fl_body_kinetic(&b, 0) + 2.0 * m3_col(fl_body_axes(&b, 0), 0).z) / E0 - 1.0));
         }
         const fl_vec3 s = body_spin(&b), w = v3(s.y, s.z, s.x);
         error[k] = apart(w, want);
@@ -274,7 +275,7 @@ static void V24(void)
 /* Where the middle of the base stands, along the slope. */
 static double base(const lab *l, double height, fl_vec3 down)
 {
-    return l->w.b.x[0].x + height * m3_mul(l->w.b.R[0], down).x;
+    return l->w.b.x[0].x + height * m3_mul(fl_body_axes(&l->w.b, 0), down).x;
 }
 
 /* sudden: the slope is there from the start and the springs along it are not, so that the block sets itself
@@ -285,7 +286,7 @@ static void stand(int sudden, double end)
     lab l;
     on_slope(&l, v3(0.5, 0.5, height), 0.05, sudden ? slope : 0.0, mu, 0.3);
     lab_make(&l, 0);
-    const fl_vec3 down = m3_tmul(l.w.b.R[0], v3(0, 0, -1));
+    const fl_vec3 down = m3_tmul(fl_body_axes(&l.w.b, 0), v3(0, 0, -1));
     const double kt = 0.824 * 2.0 * l.w.pair[0].full->k * 0.9, most = mu * l.w.b.m[0] * G / kt,
                  swing = G * sin(slope) * sqrt(l.w.b.m[0] / kt), start = base(&l, height, down);
     const int64_t tilting = sudden ? 0 : (int64_t)(1.0 / l.w.dt), half = (int64_t)(0.5 * end / l.w.dt);
@@ -346,7 +347,7 @@ static void rocking(lab *l, double tilt, double restitution, int bars)
 
 static double tilt_of(const fl_bodies *b, const fl_vec3 up) /* about y, of the axis that was up */
 {
-    const fl_vec3 a = m3_mul(b->R[0], up);
+    const fl_vec3 a = m3_mul(fl_body_axes(b, 0), up);
     return atan2(a.x, a.z);
 }
 
@@ -359,7 +360,7 @@ static double fall(lab *l, double tilt, int bars, fl_vec3 *up, double *upright, 
 {
     rocking(l, tilt, 0.01, bars);
     lab_make(l, 0);
-    *up = m3_tmul(l->w.b.R[0], q_rotate(q_of_vector(v3(0, tilt, 0)), v3(0, 0, 1)));
+    *up = m3_tmul(fl_body_axes(&l->w.b, 0), q_rotate(q_of_vector(v3(0, tilt, 0)), v3(0, 0, 1)));
     *upright = l->w.b.m[0] * G * 1.0; /* its centre at half of 2 m */
     double before = tilt, now = tilt;
     while (now > 0.0) {

@@ -45,7 +45,7 @@ static double energy(const fl_world *w, const motion *u)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < w->n; i++) {
-        const fl_vec3 t = m3_tmul(w->b.R[i], u->turn[i]), I = w->b.I[i];
+        const fl_vec3 t = m3_tmul(fl_body_axes(&w->b, i), u->turn[i]), I = w->b.I[i];
         sum += w->b.m[i] * v3_norm2(u->shift[i]) + I.x * t.x * t.x + I.y * t.y * t.y + I.z * t.z * t.z;
     }
     return sum;

@@ -257,7 +257,7 @@ static void corners(void)
         if (what > 0) { /* its vertex that is farthest towards -x - y */
             double low = INFINITY;
             for (int32_t v = 0; v < l.w.b.core[0].nv; v++) {
-                const fl_vec3 x = m3_mul(l.w.b.R[0], l.w.b.core[0].v[v]);
+                const fl_vec3 x = m3_mul(fl_body_axes(&l.w.b, 0), l.w.b.core[0].v[v]);
                 if (x.x + x.y < low) low = x.x + x.y, w.tip = x;
             }
         }

@@ -291,7 +291,7 @@ static void write_moved(const struct run *r, FILE *f)
         const int32_t m = r->w->ride.part[p];
         if (m < 0) continue;
         fl_frames_moved(f, r->surface->part[p].id,
-                        v3_sub(v->b.x[m], m3_mul(v->b.R[m], v->motion[m].reference)), v->b.q[m]);
+                        v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference)), v->b.q[m]);
     }
 }
 
