@@ -114,7 +114,7 @@ void fl_near_pair(const fl_world *w, const fl_near *q, fl_pair *p)
     for (int axis = 0; axis < 3; axis++) p->image[axis] = q->image[axis];
     p->deep = q->deep;
     p->has_axis = q->has_axis;
-    p->axis = q->axis;
+    p->axis = v3(q->axis[0], q->axis[1], q->axis[2]);
     p->asleep = q->asleep;
     p->mode = (fl_mode)q->mode;
     p->cache.n = q->cached;
@@ -164,15 +164,26 @@ static void let_go(fl_world *w, fl_near *q)
     }
 }
 
+_Static_assert(sizeof(fl_near) == 64, "a near pair is a line of the cache");
+
+/* a in single precision, not longer than 1; the same again where it is that already. */
+static void short_axis(float *axis, fl_vec3 a)
+{
+    const float f[3] = {(float)a.x, (float)a.y, (float)a.z};
+    const int longer = (double)f[0] * f[0] + (double)f[1] * f[1] + (double)f[2] * f[2] > 1.0;
+    const double less = longer ? 1.0 - 0x1p-22 : 1.0;
+    axis[0] = (float)(less * a.x), axis[1] = (float)(less * a.y), axis[2] = (float)(less * a.z);
+}
+
 /* Keep of p what lasts while it does not touch. */
 static void leave(fl_world *w, fl_near *q, const fl_pair *p)
 {
     tell(q, p);
     q->has_axis = p->has_axis != 0;
-    q->axis = p->axis;
+    short_axis(q->axis, p->axis);
     q->mode = (uint8_t)p->mode;
     q->cached = (uint8_t)(p->cache.n & 7);
-    for (int k = 0; k < 4; k++) q->a[k] = (uint16_t)p->cache.a[k], q->b[k] = (uint16_t)p->cache.b[k];
+    for (int k = 0; k < 4; k++) q->a[k] = (uint8_t)p->cache.a[k], q->b[k] = (uint8_t)p->cache.b[k];
     let_go(w, q);
 }
 
@@ -186,8 +197,8 @@ void fl_near_end(fl_world *w, fl_near *q)
  * vertices that the cache of the query of distances does not fit. */
 static int wants_own(const fl_world *w, const fl_pair *p)
 {
-    return p->n || p->matches || p->surrogate || p->bond || w->b.core[p->i].nv > UINT16_MAX ||
-           w->b.core[p->j].nv > UINT16_MAX;
+    return p->n || p->matches || p->surrogate || p->bond || w->b.core[p->i].nv > UINT8_MAX ||
+           w->b.core[p->j].nv > UINT8_MAX;
 }
 
 int fl_near_keep(fl_world *w, fl_near *q, fl_pair *p)

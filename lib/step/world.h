@@ -84,9 +84,9 @@ typedef struct {
     uint8_t n : 1, deep : 1, has_axis : 1, cached : 3;
     uint8_t mode;
     double asleep;
-    fl_vec3 axis;
-    uint16_t a[4], b[4]; /* of the cache */
-    fl_pair *full;       /* or NULL; where there is one it knows better, but for n, deep and asleep */
+    float axis[3];      /* no longer than 1: gaps along it are bounds */
+    uint8_t a[4], b[4]; /* of the cache */
+    fl_pair *full;      /* or NULL; where there is one it knows better, but for n, deep and asleep */
 } fl_near;
 
 /* Room for contacts: what one leaves the next one takes. */
