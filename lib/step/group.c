@@ -165,6 +165,18 @@ static void push(const fl_world *w, int32_t k, fl_group *own)
     if (presses(w, k)) own->pushed = v3_add(own->pushed, pushed(w, k));
 }
 
+/* Body by body in their order, whichever way they go: the sum has the same bits. */
+static void book(fl_group *own, fl_works q)
+{
+    own->damped += q.damping;
+    own->rubbed += q.friction;
+}
+
+static void book_plain(fl_group *own, const fl_plain_works *q, int32_t n)
+{
+    for (int32_t k = 0; k < n; k++) own->damped += q->damped[k], own->rubbed += q->rubbed[k];
+}
+
 /* Which of a few have more to do than what the water asks, 0 the first: something presses on them, or has
  * left them something to forget. */
 static int32_t find_busy(const fl_world *w, int32_t from, int32_t n, int32_t busy[FL_FEW])
@@ -218,13 +230,11 @@ static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *ow
     if (calm) fl_calm_drag(sea, b, &s, h, 1);
     fl_few_put_speeds(&s, b);
     for (int32_t k = from; k < from + n && sea->n && !calm; k++) fl_sea_drag(sea, b, k, h, 1);
-    memset(w->damped + from, 0, (size_t)n * sizeof *w->damped);
-    memset(w->rubbed + from, 0, (size_t)n * sizeof *w->rubbed);
     for (int32_t k = 0; k < many; k++) {
         const int32_t i = from + busy[k];
         const fl_gain back = gain_among(&s, busy[k]);
         push(w, i, own);
-        fl_works_take(w, i, fl_works_gain(w, i), &back);
+        book(own, fl_works_take(w, i, fl_works_gain(w, i), &back));
     }
 }
 
@@ -242,7 +252,7 @@ static void end_balls(fl_world *w, int32_t from, int32_t to, double h, fl_group 
         const fl_gain back = gain_of(b, k, h);
         if (w->sea.n) fl_sea_drag(&w->sea, b, k, h, 1);
         push(w, k, own);
-        fl_works_take(w, k, &first[k - from], &back);
+        book(own, fl_works_take(w, k, &first[k - from], &back));
     }
 }
 
@@ -264,16 +274,18 @@ static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
         kick(w, k, h, &back);
         if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 1);
     }
-    fl_works_take(w, k, fl_works_gain(w, k), &back);
+    book(own, fl_works_take(w, k, fl_works_gain(w, k), &back));
 }
 
 /* Spheres that plain.h knows, from k on; behind the last. */
 static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group *own, int clean, int *finite)
 {
+    fl_plain_works works;
     int32_t end = k;
     while (h > 0.0 && end < to && fl_plain_is(w, end)) end++;
     for (int32_t i = k; i < end && clean < 2; i++) fl_works_clear(w, i);
-    if (end > k && !fl_plain_end(w, k, end, h, NULL)) *finite = 0;
+    if (end > k && !fl_plain_end(w, k, end, h, NULL, &works)) *finite = 0;
+    book_plain(own, &works, end - k);
     for (int32_t i = k; i < end; i++)
         own->pushed = v3_add(own->pushed, v3_madd(w->b.f[i], -w->b.m[i], w->gravity));
     return end;
@@ -329,6 +341,7 @@ static void press_leaning(fl_world *w, int32_t from, double h, leaning *at, int3
 static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group *own, int clean, int *finite)
 {
     leaning at[FL_BALLS_GROUP];
+    fl_plain_works works;
     fl_plain_press more;
     if (!w->balls.bodies || !w->b.ball[from] || w->sea.n || w->row.n || w->frozen.n || !(h > 0.0)) return 0;
     if (alike(w, from, to) < to) return 0;
@@ -336,11 +349,13 @@ static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group
     if (n < 0) return 0;
     for (int32_t k = from; k < to && clean < 2; k++) fl_works_clear(w, k);
     if (n) press_leaning(w, from, h, at, n, &more);
-    *finite = fl_plain_end(w, from, to, h, n ? &more : NULL);
+    *finite = fl_plain_end(w, from, to, h, n ? &more : NULL, &works);
     for (int32_t l = 0; l < n; l++) {
         const fl_gain back = gain_of(&w->b, at[l].k, h);
-        fl_works_take(w, at[l].k, &at[l].first, &back);
+        const fl_works all = fl_works_take(w, at[l].k, &at[l].first, &back);
+        works.damped[at[l].k - from] = all.damping, works.rubbed[at[l].k - from] = all.friction;
     }
+    book_plain(own, &works, to - from);
     for (int32_t k = from; k < to; k++)
         own->pushed = v3_add(own->pushed, v3_madd(w->b.f[k], -w->b.m[k], w->gravity));
     own->clean = n ? 0 : clean < 2 ? clean + 1 : 2;

@@ -140,13 +140,13 @@ static double end_rest(const group *a, int32_t from, int32_t n, fl_vec3 gravity,
     return zero;
 }
 
-int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, const fl_plain_press *more)
+int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, const fl_plain_press *more,
+                 fl_plain_works *works)
 {
     fl_bodies *b = &w->b;
-    const group a = {
-        b->m + from,         b->invm + from,   b->I + from,      b->x + from, w->balls.sum + from,
-        w->balls.was + from, b->f + from,      b->t + from,      b->v + from, b->L + from,
-        b->w + from,         w->damped + from, w->rubbed + from, more};
+    const group a = {b->m + from,         b->invm + from, b->I + from,   b->x + from, w->balls.sum + from,
+                     w->balls.was + from, b->f + from,    b->t + from,   b->v + from, b->L + from,
+                     b->w + from,         works->damped,  works->rubbed, more};
     const int32_t n = to - from, left = n % FL_LANES;
     double zero = end_all(&a, n - left, w->gravity, w->dt, h);
     if (left) zero += end_rest(&a, n - left, left, w->gravity, w->dt, h);

@@ -16,9 +16,15 @@ typedef struct {
     fl_vec3 f[FL_BALLS_GROUP], t[FL_BALLS_GROUP]; /* [N], [N m] */
 } fl_plain_press;
 
+/* What damping and friction take out of each in the step [J]. */
+typedef struct {
+    double damped[FL_BALLS_GROUP], rubbed[FL_BALLS_GROUP];
+} fl_plain_works;
+
 /* Forces from w->balls.sum, and from more where that is not NULL, the kick by h = dt/2, and the works of the
  * step (works.h) but for those of more, of such bodies, no more than a group.
  * Returns whether all of their numbers are finite. */
-int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, const fl_plain_press *more);
+int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, const fl_plain_press *more,
+                 fl_plain_works *works);
 
 #endif

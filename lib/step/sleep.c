@@ -257,7 +257,6 @@ static void let_coast(fl_world *w, int32_t k, int32_t span)
     nap->way = way_of(w, k, span * w->dt) * (1.0 + 1e-9);
     nap->mark = -1.0;
     w->b.odometer[k] += nap->way;
-    w->damped[k] = w->rubbed[k] = 0.0;
 }
 
 /* --- looked at -------------------------------------------------------------------------------- */
@@ -419,7 +418,6 @@ static void let_rest(fl_world *w)
         if (s->kind[k] != FL_QUIET) continue;
         s->kind[k] = FL_RESTS;
         s->resting++;
-        w->damped[k] = w->rubbed[k] = 0.0;
     }
 }
 

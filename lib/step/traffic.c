@@ -48,7 +48,6 @@ static void take_out(fl_world *w, int32_t i)
     t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
     b->v[i] = b->L[i] = b->w[i] = b->f[i] = b->t[i] = v3(0, 0, 0);
     fl_works_clear(w, i);
-    w->damped[i] = w->rubbed[i] = 0.0;
 }
 
 /* End the pairs of those that are away, and let their partners feel it. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
-#include "base/par.h"
 #include "body/integrate.h"
 #include "step/frozen.h"
+#include "step/group.h"
 #include "step/works.h"
 
 static double power(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
@@ -40,16 +40,14 @@ int fl_works_make(fl_world *w, fl_err *err)
     const int32_t total = w->b.total;
     w->sink.place = fl_alloc(total, sizeof *w->sink.place, err);
     w->was.place = fl_alloc(total, sizeof *w->was.place, err);
-    w->damped = fl_alloc(total, sizeof *w->damped, err);
-    w->rubbed = fl_alloc(total, sizeof *w->rubbed, err);
-    if (!w->sink.place || !w->was.place || !w->damped || !w->rubbed) return -1;
+    if (!w->sink.place || !w->was.place) return -1;
     return more(w, &w->sink, 0) || more(w, &w->was, 0) ? fl_fail(err, FL_SYSTEM, "out of memory") : 0;
 }
 
 void fl_works_free(fl_world *w)
 {
     free(w->sink.place), free(w->was.place), free(w->sink.at), free(w->was.at);
-    free(w->gain), free(w->damped), free(w->rubbed);
+    free(w->gain);
 }
 
 /* Those that touch, in their order; not by their pairs, which are far apart in memory. */
@@ -96,41 +94,39 @@ void fl_works_sum(fl_world *w, int32_t k)
 
 /* The works above of spheres, those of damping and of friction; nothing presses on them but what they meet.
  */
-static void take_balls(const fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back,
-                       double *damped, double *rubbed)
+static void take_balls(const fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back, fl_works *q)
 {
     const fl_ball_sum *f0 = &w->balls.was[k], *f1 = &w->balls.sum[k];
     const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
     const double sixth = w->dt / 6.0;
-    *damped -= w->dt * v3_dot(f1->damping, v) +
-               sixth * (v3_dot(f1->damping, first->v) - v3_dot(f0->damping, back->v));
-    *rubbed -= w->dt * power(f1->friction, f1->torque, v, spin) +
-               sixth * (power(f1->friction, f1->torque, first->v, first->w) -
-                        power(f0->friction, f0->torque, back->v, back->w));
+    q->damping -= w->dt * v3_dot(f1->damping, v) +
+                  sixth * (v3_dot(f1->damping, first->v) - v3_dot(f0->damping, back->v));
+    q->friction -= w->dt * power(f1->friction, f1->torque, v, spin) +
+                   sixth * (power(f1->friction, f1->torque, first->v, first->w) -
+                            power(f0->friction, f0->torque, back->v, back->w));
 }
 
-void fl_works_take(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back)
+fl_works fl_works_take(const fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back)
 {
     const fl_sink *f0 = fl_works_was(w, k), *f1 = fl_works_now(w, k);
     static const fl_gain none = {{0, 0, 0}, {0, 0, 0}};
-    double damped = 0.0, rubbed = 0.0;
+    fl_works q = {0};
     if (!first) first = &none;
     if (f1->n) {
         const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-        damped -= w->dt * power(f1->damping, f1->damping_turn, v, spin);
-        rubbed -= w->dt * power(f1->friction, f1->friction_turn, v, spin);
+        q.damping -= w->dt * power(f1->damping, f1->damping_turn, v, spin);
+        q.friction -= w->dt * power(f1->friction, f1->friction_turn, v, spin);
     }
     /* Where nothing pressed at the begin of the step F0 is 0, and a0 small against what F1 gives. */
     if (f0->n) {
         const double sixth = w->dt / 6.0; /* dt^2/12 over the dt/2 in which a kick gains */
-        damped -= sixth * (power(f1->damping, f1->damping_turn, first->v, first->w) -
-                           power(f0->damping, f0->damping_turn, back->v, back->w));
-        rubbed -= sixth * (power(f1->friction, f1->friction_turn, first->v, first->w) -
-                           power(f0->friction, f0->friction_turn, back->v, back->w));
+        q.damping -= sixth * (power(f1->damping, f1->damping_turn, first->v, first->w) -
+                              power(f0->damping, f0->damping_turn, back->v, back->w));
+        q.friction -= sixth * (power(f1->friction, f1->friction_turn, first->v, first->w) -
+                               power(f0->friction, f0->friction_turn, back->v, back->w));
     }
-    if (w->balls.bodies && k < w->n) take_balls(w, k, first, back, &damped, &rubbed);
-    w->damped[k] = damped;
-    w->rubbed[k] = rubbed;
+    if (w->balls.bodies && k < w->n) take_balls(w, k, first, back, &q);
+    return q;
 }
 
 /* Accelerations by the forces of now.  What is told to move has none that would follow a contact. */
@@ -186,12 +182,16 @@ static double drive_power(const fl_world *w)
 void fl_works_book(fl_world *w)
 {
     fl_ledger *g = &w->ledger;
+    fl_works sum = {0};
+    for (int32_t k = 0; k < fl_groups(w); k++)
+        sum.damping += w->group[k].damped, sum.friction += w->group[k].rubbed;
     for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) {
         const fl_gain back = gain_of(w, k);
-        fl_works_take(w, k, fl_works_gain(w, k), &back);
+        const fl_works q = fl_works_take(w, k, fl_works_gain(w, k), &back);
+        sum.damping += q.damping, sum.friction += q.friction;
     }
-    g->damping += fl_par_sum(w->damped, w->b.total);
-    g->friction += fl_par_sum(w->rubbed, w->b.total);
+    g->damping += sum.damping;
+    g->friction += sum.friction;
     g->drive += w->dt * drive_power(w);
 }
 

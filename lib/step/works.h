@@ -62,13 +62,12 @@ void fl_works_sum(fl_world *w, int32_t k);
  * that moves by itself are what the first kick will give them. */
 void fl_works_begin(fl_world *w);
 
-/* The works of the step that has ended in floe k, into damped[k] and rubbed[k]: sink acts now and was at its
- * begin, `first` is what its first kick changed, `back` its last (neither is read where nothing pressed at
+/* The works of the step that has ended in thing k: sink acts now and was at its begin, `first` is what its first kick changed, `back` its last (neither is read where nothing pressed at
  * the begin, and `first` may be NULL then), velocities are those of now.  Spheres that it meets come with
  * their own sums. */
-void fl_works_take(fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back);
+fl_works fl_works_take(const fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back);
 
-/* The same of what of the structure moves, and all of it into the ledger, with the half kick that lies ahead.
+/* Those of all groups and of what of the structure moves into the ledger, with the half kick that lies ahead.
  */
 void fl_works_book(fl_world *w);
 

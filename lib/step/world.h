@@ -279,10 +279,11 @@ typedef struct {
 
 /* What a step tells of a group of bodies, FL_BALLS_GROUP in a row. */
 typedef struct {
-    fl_vec3 pushed;  /* sum of the forces of contacts [N]                      */
-    int32_t lost;    /* the first that has a number which is not finite, or -1 */
-    int clean;       /* for so many steps nothing but spheres has pressed; 2: sink and was are 0 */
-    double moved[2]; /* the longest ways since the last search, after the first half of a step [m] */
+    fl_vec3 pushed;        /* sum of the forces of contacts [N]                      */
+    double damped, rubbed; /* taken out by damping and friction in the step [J] */
+    int32_t lost;          /* the first that has a number which is not finite, or -1 */
+    int clean;             /* for so many steps nothing but spheres has pressed; 2: sink and was are 0 */
+    double moved[2];       /* the longest ways since the last search, after the first half of a step [m] */
 } fl_group;
 
 /* Near pairs that one thread takes, awake.h; a line of the cache for each. */
@@ -335,11 +336,10 @@ typedef struct {
     fl_sinks sink, was; /* of the forces of now, and of those before; see works.h */
     fl_gain *gain;      /* [gain_cap] of the first kick of a step, at was.place[k]; 0: of nobody */
     int32_t gain_cap;
-    double *damped, *rubbed; /* [total] taken out in the step [J] */
-    double skin;             /* boxes are grown by half of it [m] */
-    double *odometer_found;  /* [total] odometers at the last search */
-    int64_t found_at;        /* step of the last search, -1 before the first */
-    double passing;          /* what it took of memory, while it lasted [B] */
+    double skin;            /* boxes are grown by half of it [m] */
+    double *odometer_found; /* [total] odometers at the last search */
+    int64_t found_at;       /* step of the last search, -1 before the first */
+    double passing;         /* what it took of memory, while it lasted [B] */
 
     fl_places *scratch;        /* [threads] */
     fl_surrogate_count *told;  /* [threads], NULL where nothing has a surrogate */
