@@ -380,12 +380,11 @@ static int lay_out(fl_piece *piece, const flats *f, const fl_mosaic *tiles, fl_e
     char *mem = fl_alloc((int64_t)bytes, 1, err);
     piece->kind = FL_PIECE_SHELL;
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
-    core->mem = mem;
+    core->v = (fl_vec3 *)mem;
     sh->corner = fl_alloc(p->nv, sizeof *sh->corner, err);
     sh->box = fl_alloc(tiles->n, sizeof *sh->box, err);
     sh->edge_box = fl_alloc(3 * (int64_t)p->nt, sizeof *sh->edge_box, err);
     if (!mem || !sh->corner || !sh->box || !sh->edge_box) return -1;
-    core->v = (fl_vec3 *)mem;
     core->n = core->v + nv;
     core->c = (double *)(core->n + nf);
     core->bend = core->c + nf;

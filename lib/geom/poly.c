@@ -37,7 +37,6 @@ static int lay_out(fl_poly *p, int32_t nl, fl_err *err)
                          ne * sizeof(fl_edge) + (nf + 1 + (size_t)nl + nv + 1 + 2 * ne) * sizeof(int32_t);
     char *at = fl_alloc((int64_t)bytes, 1, err);
     if (!at) return -1;
-    p->mem = at;
     p->v = (fl_vec3 *)(void *)at;
     p->n = p->v + nv;
     p->c = (double *)(void *)(p->n + nf);
@@ -490,7 +489,6 @@ int fl_poly_strip(fl_poly *p, fl_err *err)
                  loops = (size_t)p->first[p->nf] * sizeof *p->loop;
     char *at = fl_alloc((int64_t)(corners + faces + loops), 1, err);
     if (!at) return -1;
-    q.mem = at;
     q.v = memcpy(at, p->v, corners);
     q.first = memcpy(at + corners, p->first, faces);
     q.loop = memcpy(at + corners + faces, p->loop, loops);
@@ -550,7 +548,7 @@ void fl_poly_angles(fl_poly *p)
 double fl_poly_bytes(const fl_poly *p)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
-    if (!p->mem) return 0.0;
+    if (!p->v) return 0.0;
     size_t sum = (p->v ? nv * sizeof *p->v : 0) + (p->n ? nf * sizeof *p->n : 0) +
                  (p->c ? nf * sizeof *p->c : 0) +
                  (p->bend ? nv * sizeof *p->defect + ne * sizeof *p->bend : 0) +
@@ -569,6 +567,6 @@ fl_aabb fl_poly_aabb(const fl_poly *p)
 
 void fl_poly_free(fl_poly *p)
 {
-    free(p->mem);
+    free(p->v);
     *p = (fl_poly){0};
 }

@@ -18,7 +18,7 @@ typedef struct {
     int32_t nv, nf, ne;
     int16_t shared;  /* first, loop, edge, begin and beside are borrowed (topology.h) */
     int16_t blunts;  /* angles that are kept where bend and defect are NULL            */
-    fl_vec3 *v;      /* [nv] vertices                                            [m] */
+    fl_vec3 *v;      /* [nv] vertices; the block that they begin holds all arrays that are not shared [m] */
     fl_vec3 *n;      /* [nf] outward unit normals                                    */
     double *c;       /* [nf] plane offsets, n.x = c, largest over the face's vertices [m]; or NULL */
     int32_t *first;  /* [nf + 1] offsets into loop                                   */
@@ -31,7 +31,6 @@ typedef struct {
     int32_t *begin;  /* [nv + 1] offsets into beside                                 */
     int32_t *beside; /* [begin[nv]] the other ends of the edges of each vertex, ascending */
     double size;     /* largest side of the bounding box                          [m] */
-    void *mem;       /* the one block that all the arrays lie in that are not shared */
 } fl_poly;
 
 /* Build from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and never below what

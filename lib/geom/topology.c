@@ -112,15 +112,15 @@ int fl_topologies_share(fl_topologies *t, fl_poly *p, unsigned keep, fl_err *err
     const int16_t few = keep & FL_KEEP_ANGLES ? blunt(p, angle, of) : 0;
     const int all = few > FEW;
     const size_t kept = all ? 0 : (size_t)few, offsets = keep & FL_KEEP_OFFSETS ? nf : 0;
-    q.mem = NULL;
+    q.v = NULL;
     q.blunts = (int16_t)kept;
-    if (!kind || fl_grow(&q.mem, &bytes,
+    if (!kind || fl_grow(&q.v, &bytes,
                          (int64_t)((nv + nf) * sizeof *q.v + offsets * sizeof *q.c +
                                    (all ? (ne + nv) * sizeof *q.bend : 0) + kept * sizeof *angle +
                                    (kept + 1) / 2 * 2 * sizeof *of),
                          1, err))
         return -1;
-    q.v = memcpy(q.mem, p->v, nv * sizeof *q.v);
+    memcpy(q.v, p->v, nv * sizeof *q.v);
     q.n = memcpy(q.v + nv, p->n, nf * sizeof *q.n);
     double *at = (double *)(void *)(q.n + nf);
     memcpy(at, angle, kept * sizeof *angle);

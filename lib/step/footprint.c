@@ -34,14 +34,15 @@ static double bodies(const fl_world *w)
 
 static double water(const fl_sea *s)
 {
-    double sum = ARRAY(s->outer, s->n) + ARRAY(s->hull, s->n) + ARRAY(s->reach, s->n) +
-                 ARRAY(s->wetted, s->n) + ARRAY(s->lift, s->n) + ARRAY(s->flow, s->n) +
-                 ARRAY(s->drained, s->n) + ARRAY(s->blown, s->n) + ARRAY(s->skin, s->n) +
-                 ARRAY(s->tiles, s->n) + ARRAY(s->cells, (double)s->threads * s->cells_each) +
-                 ARRAY(s->push, s->n) + ARRAY(s->turn, s->n) + ARRAY(s->waved, s->n) + ARRAY(s->held, s->n);
+    double sum = ARRAY(s->hull, s->n) + ARRAY(s->reach, s->n) + ARRAY(s->wetted, s->n) +
+                 ARRAY(s->lift, s->n) + ARRAY(s->flow, s->n) + ARRAY(s->drained, s->n) +
+                 ARRAY(s->blown, s->n) + ARRAY(s->skin, s->n) + ARRAY(s->tiles, s->n) +
+                 ARRAY(s->cells, (double)s->threads * s->cells_each) + ARRAY(s->push, s->n) +
+                 ARRAY(s->turn, s->n) + ARRAY(s->waved, s->n) + ARRAY(s->held, s->n);
     for (int32_t i = 0; i < s->n; i++) {
         sum += hull(&s->hull[i]);
-        if (s->outer[i]) sum += (double)sizeof *s->outer[i] + fl_poly_bytes(s->outer[i]);
+        const fl_poly *const outer = fl_sea_outer(s, i);
+        if (outer) sum += (double)sizeof *outer + fl_poly_bytes(outer);
         if (s->skin) {
             const int32_t most = fl_skin_most(&s->hull[i]);
             sum += ARRAY(s->skin[i].wet, most) + ARRAY(s->skin[i].dry, most);

@@ -123,7 +123,7 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
     if (!round && fl_topologies_share(&w->alike, outer, FL_KEEP_OFFSETS, err)) return -1;
     if (fl_sea_dress(&w->sea, i, round ? NULL : outer, core, w->b.radius[i], err)) return -1;
     if (w->b.added || anything(w->scene->water.added_inertia))
-        add_water(w, i, round ? core : w->sea.outer[i] ? w->sea.outer[i] : outer);
+        add_water(w, i, round ? core : fl_sea_outer(&w->sea, i) ? fl_sea_outer(&w->sea, i) : outer);
     return fl_sea_fit(&w->sea, i, err);
 }
 
@@ -288,9 +288,9 @@ static int place_pieces(fl_world *w, fl_err *err)
                 corner[c] =
                     v3(c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z);
             fl_poly *p = &w->b.core[j];
-            p->mem = fl_alloc(8, sizeof(fl_vec3), err);
-            if (!p->mem) return -1;
-            p->v = memcpy(p->mem, corner, sizeof corner);
+            p->v = fl_alloc(8, sizeof *p->v, err);
+            if (!p->v) return -1;
+            memcpy(p->v, corner, sizeof corner);
             p->nv = 8;
             w->face[j] = piece->face;
         } else {

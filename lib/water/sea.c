@@ -9,13 +9,12 @@ int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
 {
     s->n = n;
     s->threads = threads;
-    s->outer = fl_alloc(n, sizeof *s->outer, err);
     s->hull = fl_alloc(n, sizeof *s->hull, err);
     s->reach = fl_alloc(n, sizeof *s->reach, err);
     s->wetted = fl_alloc(n, sizeof *s->wetted, err);
     s->lift = fl_alloc(n, sizeof *s->lift, err);
     s->drained = fl_alloc(n, sizeof *s->drained, err);
-    if (!s->outer || !s->hull || !s->reach || !s->wetted || !s->lift || !s->drained) return -1;
+    if (!s->hull || !s->reach || !s->wetted || !s->lift || !s->drained) return -1;
     if (s->waves || s->current.kind != FL_PROFILE_UNIFORM) {
         s->flow = fl_alloc(n, sizeof *s->flow, err);
         if (!s->flow) return -1;
@@ -81,10 +80,10 @@ int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err)
 
 void fl_sea_bare(fl_sea *s, int32_t i)
 {
-    if (s->hull) fl_hull_free(&s->hull[i]);
-    if (s->outer[i]) fl_poly_free(s->outer[i]);
-    free(s->outer[i]);
-    s->outer[i] = NULL;
+    fl_poly *const outer = fl_sea_outer(s, i);
+    fl_hull_free(&s->hull[i]);
+    if (outer) fl_poly_free(outer);
+    free(outer);
 }
 
 int fl_sea_dress(fl_sea *s, int32_t i, fl_poly *outer, const fl_poly *core, double r, fl_err *err)
@@ -96,25 +95,25 @@ int fl_sea_dress(fl_sea *s, int32_t i, fl_poly *outer, const fl_poly *core, doub
     s->reach[i] = fl_drag_radius(outer, 0.0);
     if (fl_hull_make(&s->hull[i], outer, 0.0, err)) return -1;
     if (!s->waves && !s->skin && fl_hull_by_core(&s->hull[i], core, r)) return 0;
-    s->outer[i] = fl_alloc(1, sizeof *s->outer[i], err);
-    if (!s->outer[i]) {
+    fl_poly *const own = fl_alloc(1, sizeof *own, err);
+    if (!own) {
         fl_hull_free(&s->hull[i]);
         return -1;
     }
-    *s->outer[i] = *outer;
+    *own = *outer;
     *outer = (fl_poly){0};
-    s->hull[i].p = s->outer[i];
+    s->hull[i].p = own;
     return 0;
 }
 
 void fl_sea_free(fl_sea *s)
 {
     for (int32_t i = 0; i < s->n; i++) {
-        if (s->outer) fl_sea_bare(s, i);
+        if (s->hull) fl_sea_bare(s, i);
         if (s->tiles) fl_tiles_free(&s->tiles[i]);
         if (s->skin) free(s->skin[i].wet), free(s->skin[i].dry);
     }
-    free(s->outer), free(s->hull), free(s->reach), free(s->wetted), free(s->lift);
+    free(s->hull), free(s->reach), free(s->wetted), free(s->lift);
     free(s->flow), free(s->drained), free(s->blown);
     free(s->cells), free(s->push), free(s->turn), free(s->waved);
     free(s->tiles), free(s->skin), free(s->held);

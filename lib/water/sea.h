@@ -43,8 +43,7 @@ typedef struct {
     fl_current current;
     fl_vec3 breeze; /* velocity of the wind [m/s] */
     int32_t n;
-    fl_poly **outer;   /* [n] sharp outer shapes, body frames; NULL where the core floats, or tells it */
-    fl_hull *hull;     /* [n]                                  */
+    fl_hull *hull;     /* [n] */
     double *reach;     /* [n] r_eff of equation (9)     [m]    */
     double *wetted;    /* [n] at the last fl_sea_force() [m2]  */
     double *lift;      /* [n] buoyancy, at the last fl_sea_force() [N] */
@@ -66,6 +65,13 @@ typedef struct {
     fl_vec3 *push, *turn; /* [n] force and moment of the water, world axes, at the last one [N], [N m] */
     double *waved;        /* [n] work of those so far [J] */
 } fl_sea;
+
+/* The sharp outer shape of body i, in its frame, which the sea has taken over; NULL where the core floats, or
+ * tells it. */
+static inline fl_poly *fl_sea_outer(const fl_sea *s, int32_t i)
+{
+    return s->hull[i].area ? (fl_poly *)s->hull[i].p : NULL;
+}
 
 /* Arrays for n bodies, for what water, wind, sea_law, air_law and waves ask; the caller makes the hulls, and
  * fits them one by one.

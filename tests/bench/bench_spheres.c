@@ -101,7 +101,7 @@ static int row(const ball *b, int32_t tiles, int threads, double dt, int64_t ste
     lab_run(&l, 20);
     const int32_t n = l.w.n;
     double field = 0.0; /* what was read is not what the solver keeps */
-    for (int32_t i = 0; i < n; i++) field += (double)malloc_usable_size(l.field.core[i].mem);
+    for (int32_t i = 0; i < n; i++) field += (double)malloc_usable_size(l.field.core[i].v);
     const double bytes = (memory() - before - field) / n;
     double best = INFINITY, cpu = INFINITY, contacts = 0.0;
     for (int k = 0; k < WINDOWS; k++) {

@@ -25,14 +25,14 @@ static void planes_beside_the_body(void **state)
     fl_err err = {0};
     fl_poly p;
     box(&p, 0.5, 0.5, 0.5);
-    const void *mem = p.mem;
+    const void *at = p.v;
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), 0.7, &err), 0);
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), 0.5, &err), 0); /* along a face */
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), 0.5 - 4e-13, &err), 0);
-    assert_ptr_equal(p.mem, mem);
+    assert_ptr_equal(p.v, at);
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), -0.5, &err), 0); /* leaves the lower face only */
     assert_int_equal(p.nv, 0);
-    assert_null(p.mem);
+    assert_null(p.v);
     box(&p, 0.5, 0.5, 0.5);
     assert_int_equal(fl_poly_cut(&p, v3_unit(v3(1, 1, 1)), -0.8660254037844386, &err), 0); /* one corner */
     assert_int_equal(p.nv, 0);

@@ -54,7 +54,7 @@ static void cube_has_its_parts(void **state)
         assert_near(v3_dot(fl_poly_area(&p, f), n[f]), 1.0, 1e-15);
     }
     fl_poly_free(&p);
-    assert_null(p.mem);
+    assert_null(p.v);
     fl_poly_free(&p);
 }
 
