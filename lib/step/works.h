@@ -62,9 +62,9 @@ void fl_works_sum(fl_world *w, int32_t k);
  * that moves by itself are what the first kick will give them. */
 void fl_works_begin(fl_world *w);
 
-/* The works of the step that has ended in thing k: sink acts now and was at its begin, `first` is what its first kick changed, `back` its last (neither is read where nothing pressed at
- * the begin, and `first` may be NULL then), velocities are those of now.  Spheres that it meets come with
- * their own sums. */
+/* The works of the step that has ended in thing k: sink acts now and was at its begin, `first` is what its
+ * first kick changed, `back` its last (neither is read where nothing pressed at the begin, and `first` may be
+ * NULL then), velocities are those of now.  Spheres that it meets come with their own sums. */
 fl_works fl_works_take(const fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back);
 
 /* Those of all groups and of what of the structure moves into the ledger, with the half kick that lies ahead.

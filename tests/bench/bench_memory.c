@@ -20,6 +20,7 @@
 #define STIRRED 1.0 /* [m/s] */
 #define END 1.0     /* [s] */
 #define PI 3.14159265358979323846
+#define MOST 2048.0 /* bytes of a floe with its pairs, at any time: what is wanted */
 
 enum { SMOOTH = 2, LOOKS = 4 };
 
@@ -113,6 +114,7 @@ static int row(int32_t n, int water)
                (double)l.w.n_pair / n,
                steps ? (double)(l.w.touching_steps - touched) / (double)steps / n : 0.0, l.w.worst_overlap,
                (unsigned long long)fl_step_hash(&l.w));
+        bad |= sum > MOST * n;
         bad |= !(all > 0.98 * sum && all < 1.25 * sum); /* small blocks at hand were counted before */
     }
     lab_free(&l);
