@@ -480,18 +480,16 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
     return p->n = 1;
 }
 
-/* How stiff the places of a contact make it; the root in W bends down: W'' = scale (U'' - U'^2 / 2U).
+/* How stiff the springs of a contact's places make it; the root in W bends down: W'' = scale (U'' - U'^2 / 2U).
  * ai, aj: the first place from the centres. */
-static void survey_patch(const fl_world *w, const fl_pair *p, const fl_places *s, fl_mat3 R, fl_vec3 ai,
+static void survey_patch(const fl_world *w, const fl_pair *p, const fl_springs *q, fl_mat3 R, fl_vec3 ai,
                          fl_vec3 aj, double scale, double U, fl_stiff *si, fl_stiff *sj)
 {
     const fl_bodies *b = &w->b;
     const double half = 0.5 / (scale * U);
-    fl_springs q;
-    fl_bearing_springs(s, &q);
     *si = *sj = (fl_stiff){0};
-    fl_stiff_springs(si, b, p->i, scale, &q, R, ai);
-    fl_stiff_springs(sj, b, p->j, scale, &q, R, aj);
+    fl_stiff_springs(si, b, p->i, scale, q, R, ai);
+    fl_stiff_springs(sj, b, p->j, scale, q, R, aj);
     fl_stiff_add(si, b, p->i, -half, p->f, p->ti);
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
@@ -526,6 +524,8 @@ static int told(fl_world *w, fl_pair *p, const relative *r, fl_told *t)
     fl_surrogate_tell(p->surrogate, &r->M, r->o, t);
     return 1;
 }
+
+#define OFTEN 4
 
 /* The forces of a contact as its surrogate tells them.  0 where it has to be looked at. */
 static int force_told(fl_world *w, fl_pair *p, const fl_told *t, const relative *r, double dt, int survey)
@@ -612,8 +612,10 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
     const fl_vec3 elastic = p->f;
     fl_stiff si, sj;
-    survey |= carried; /* what is told until the next look is surveyed, too */
-    if (survey) survey_patch(w, p, s, R, ai, aj, seen.scale, q.u, &si, &sj);
+    if (survey || carried) fl_bearing_springs(s, &seen.springs);
+    /* what is told until the next look is surveyed, too, with what one look in OFTEN has found */
+    survey |= carried && (!t || w->step % OFTEN == 0);
+    if (survey) survey_patch(w, p, &seen.springs, R, ai, aj, seen.scale, q.u, &si, &sj);
     if (t && fl_surrogate_nearly(p->surrogate, t)) fl_tangent_remeasured(&p->slip, seen.slope / t->slope);
     const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
@@ -787,7 +789,8 @@ int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o)
     if (s->n == 0) return 0;
     if (fl_bearing_sum(s, v3(0, 0, 0), v3(0, 0, 0), &q)) return -1;
     if (!(q.u > 0.0)) return 0;
-    const fl_seen seen = seen_of(p, s, &r, &q);
+    fl_seen seen = seen_of(p, s, &r, &q);
+    fl_bearing_springs(s, &seen.springs);
     return fl_surrogate_fill(p->surrogate, &seen);
 }
 

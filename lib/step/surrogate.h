@@ -82,6 +82,7 @@ typedef struct {
     fl_vec3 o;
     const fl_places *places; /* after fl_bearing_sum() */
     const fl_bearing *q;
+    fl_springs springs;          /* of the places */
     double scale, energy, slope; /* dW/dU, W, and as in fl_surrogate */
     double radii;                /* sum of the two [m] */
     double toward;               /* the force that its motion comes to, over the force */
