@@ -15,6 +15,8 @@ typedef struct {
 /* No gravity, no damping, no friction, one thread; keys as for --set ("material.ice.young=1 GPa").  Failures
  * end the program with the sentence: a test that cannot set up its world has failed. */
 void lab_start(lab *l);
+/* contact.surrogate of all labs, FLOE_SURROGATE of the environment; else 0: contacts are looked at. */
+double lab_told(void);
 void lab_set(lab *l, const char *assignment);
 void lab_setf(lab *l, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 void lab_box(lab *l, fl_vec3 centre, fl_vec3 outer_half, double radius, fl_quat q, fl_vec3 v, fl_vec3 spin);
