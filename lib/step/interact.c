@@ -22,6 +22,9 @@
  * that chatters opens by less, and one that comes back later is listed anew for as much as four looks. */
 #define FAR 1.003
 
+/* One look in so many at a contact that is told asks how stiff it is. */
+#define OFTEN 4
+
 /* Where the two stand to one another.  Everything is computed relative to B, so that nothing depends on
  * where the world's origin is: o and M take A's frame to B's, R B's to the world's, off is the world vector
  * from A's centre to B's. */
@@ -35,8 +38,9 @@ static relative relate(const fl_world *w, const fl_pair *p)
 {
     const fl_bodies *b = &w->b;
     const int32_t i = p->i, j = p->j;
-    relative r = {.R = fl_body_axes(b, j)};
+    relative r;
     const fl_mat3 *B = &r.R;
+    r.R = fl_body_axes(b, j);
     r.off = v3_sub(b->x[j], b->x[i]);
     if (w->cell.wraps)
         r.off = v3_add(r.off, fl_cell_way(&w->cell, v3(p->image[0], p->image[1], p->image[2])));
@@ -480,7 +484,7 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
     return p->n = 1;
 }
 
-/* How stiff the springs of a contact's places make it; the root in W bends down: W'' = scale (U'' - U'^2 / 2U).
+/* How stiff the springs of its places make a contact; the root in W bends down, W'' = scale (U'' - U'^2/2U).
  * ai, aj: the first place from the centres. */
 static void survey_patch(const fl_world *w, const fl_pair *p, const fl_springs *q, fl_mat3 R, fl_vec3 ai,
                          fl_vec3 aj, double scale, double U, fl_stiff *si, fl_stiff *sj)
@@ -524,8 +528,6 @@ static int told(fl_world *w, fl_pair *p, const relative *r, fl_told *t)
     fl_surrogate_tell(p->surrogate, &r->M, r->o, t);
     return 1;
 }
-
-#define OFTEN 4
 
 /* The forces of a contact as its surrogate tells them.  0 where it has to be looked at. */
 static int force_told(fl_world *w, fl_pair *p, const fl_told *t, const relative *r, double dt, int survey)
@@ -612,15 +614,16 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
     const fl_vec3 elastic = p->f;
     fl_stiff si, sj;
-    if (survey || carried) fl_bearing_springs(s, &seen.springs);
-    /* what is told until the next look is surveyed, too, with what one look in OFTEN has found */
-    survey |= carried && (!t || w->step % OFTEN == 0);
-    if (survey) survey_patch(w, p, &seen.springs, R, ai, aj, seen.scale, q.u, &si, &sj);
+    fl_springs springs;
+    if (survey || carried) fl_bearing_springs(s, &springs);
+    survey |= carried && (!t || w->step % OFTEN == 0); /* what is told is surveyed, too */
+    if (survey) survey_patch(w, p, &springs, R, ai, aj, seen.scale, q.u, &si, &sj);
     if (t && fl_surrogate_nearly(p->surrogate, t)) fl_tangent_remeasured(&p->slip, seen.slope / t->slope);
     const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     if (carried) {
         const double speed = v3_dot(v3_unit(elastic), approach(b, p, ai, aj));
+        seen.springs = &springs;
         seen.radii = b->radius[p->i] + b->radius[p->j];
         /* the force that the energy of the motion would give, W growing as the square of it */
         seen.toward = sqrt(1.0 + 0.5 * p->mass * speed * speed / p->energy);
@@ -790,7 +793,9 @@ int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o)
     if (fl_bearing_sum(s, v3(0, 0, 0), v3(0, 0, 0), &q)) return -1;
     if (!(q.u > 0.0)) return 0;
     fl_seen seen = seen_of(p, s, &r, &q);
-    fl_bearing_springs(s, &seen.springs);
+    fl_springs springs;
+    fl_bearing_springs(s, &springs);
+    seen.springs = &springs;
     return fl_surrogate_fill(p->surrogate, &seen);
 }
 

@@ -240,7 +240,7 @@ static void widen(fl_surrogate *s, const fl_bearing *q)
 FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl_six slope, fl_vec3 from)
 {
     const double W = seen->energy, force = s->force;
-    about(s->H, &seen->springs, seen->scale, from, s->arm);
+    about(s->H, seen->springs, seen->scale, from, s->arm);
     add(s->H, -0.5 / W, slope, slope); /* the root in W bends down, as in survey_patch() */
     fl_six along, bent;
     put(along, v3_scale(1.0 / force, low(slope)), NONE);

@@ -29,6 +29,8 @@
  * look finds far more than was asked for, the contact has become another one, and what was learnt is
  * forgotten.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
  *
+ * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W.
+ *
  * Damping and friction go by the places of the last look, each pressing by what ddu makes of its way since,
  * all of them times one factor that gives them the force that is told; where force and moment put the centre
  * of the pressure elsewhere they are all moved there. */
@@ -82,7 +84,7 @@ typedef struct {
     fl_vec3 o;
     const fl_places *places; /* after fl_bearing_sum() */
     const fl_bearing *q;
-    fl_springs springs;          /* of the places */
+    const fl_springs *springs;   /* of the places */
     double scale, energy, slope; /* dW/dU, W, and as in fl_surrogate */
     double radii;                /* sum of the two [m] */
     double toward;               /* the force that its motion comes to, over the force */
