@@ -34,7 +34,7 @@ typedef struct {
     double *bound;    /* farthest core vertex from x       [m]       */
     fl_poly *core;    /* in the body frame                           */
     uint8_t *hold;    /* FL_HOLD_X | ...                             */
-    uint8_t *ball;    /* 1: alike in all directions, so that R stays 1 whatever q is */
+    uint8_t *ball;    /* 1: alike in all directions, its axes are the world's whatever q is */
     double *held;     /* work done by what holds the body so far [J] */
     double *odometer; /* path no point of the core exceeds: sum over steps of |v| dt + chord bound  [m] */
     /* of bodies that move water with them; all NULL where none does */

@@ -25,7 +25,7 @@
  *   h  [s], half a step */
 void fl_kick(fl_bodies *b, int32_t i, double h);
 
-/* x += dt v and the rotation above of body i < total; renews R, w and the odometer.  Where turns are held,
+/* x += dt v and the rotation above of body i < total; renews w and the odometer.  Where turns are held,
  * the held components of w and the free ones of L stay, by the midpoint rule.  dt [s] */
 void fl_drift(fl_bodies *b, int32_t i, double dt);
 
