@@ -90,8 +90,9 @@ static fl_vec3 hold_speed(const fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3
 {
     const unsigned hold = b->hold[i] & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z);
     const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]);
+    if (!hold) return fl_body_speed(b, i, P);
     const fl_mat3 R = fl_body_axes(b, i);
-    return hold ? solve_free(&R, v3_add(m, b->added[i]), hold, v_held, P) : fl_body_speed(b, i, P);
+    return solve_free(&R, v3_add(m, b->added[i]), hold, v_held, P);
 }
 
 /* Work of an impulse of what holds: only along the held axes is it one, beyond rounding. */
@@ -204,7 +205,6 @@ void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
 {
     const unsigned hold = b->hold[i];
     const fl_vec3 rest = v3(0, 0, 0);
-    const fl_mat3 R = fl_body_axes(b, i);
     if (b->added) {
         *a = hold_speed(b, i, rest, b->f[i]);
     } else {
@@ -213,9 +213,12 @@ void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
         if (hold & FL_HOLD_Y) a->y = 0.0;
         if (hold & FL_HOLD_Z) a->z = 0.0;
     }
-    *turn = hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)
-                ? solve_free(&R, b->I[i], hold / FL_HOLD_RX, rest, b->t[i])
-                : fl_body_turn(b, i, b->t[i]);
+    if (!(hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ))) {
+        *turn = fl_body_turn(b, i, b->t[i]);
+        return;
+    }
+    const fl_mat3 R = fl_body_axes(b, i);
+    *turn = solve_free(&R, b->I[i], hold / FL_HOLD_RX, rest, b->t[i]);
 }
 
 /* --- balls, several at a time ------------------------------------------------------------------ */

@@ -22,8 +22,9 @@
  * that chatters opens by less, and one that comes back later is listed anew for as much as four looks. */
 #define FAR 1.003
 
-/* One look in so many at a contact that is told asks how stiff it is. */
-#define OFTEN 4
+/* Whether looks at contacts that are told ask in this step how stiff they are: one step in four, in no rhythm
+ * that looks might have. */
+static int asks(const fl_world *w) { return (uint32_t)w->step * UINT32_C(2654435761) >> 30 == 0; }
 
 /* Where the two stand to one another.  Everything is computed relative to B, so that nothing depends on
  * where the world's origin is: o and M take A's frame to B's, R B's to the world's, off is the world vector
@@ -616,9 +617,10 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     fl_stiff si, sj;
     fl_springs springs;
     if (survey || carried) fl_bearing_springs(s, &springs);
-    survey |= carried && (!t || w->step % OFTEN == 0); /* what is told is surveyed, too */
+    survey |= carried && (!t || asks(w));
     if (survey) survey_patch(w, p, &springs, R, ai, aj, seen.scale, q.u, &si, &sj);
-    if (t && fl_surrogate_nearly(p->surrogate, t)) fl_tangent_remeasured(&p->slip, seen.slope / t->slope);
+    if (t && fl_surrogate_nearly(p->surrogate, t) && fabs(seen.slope - t->slope) < 0.5 * t->slope)
+        fl_tangent_remeasured(&p->slip, seen.slope / t->slope);
     const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     if (carried) {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
+#include <string.h>
+#include <math.h>
+#include <stdint.h>
 #include "base/mem.h"
 #include "law/damping.h"
 #include "law/material.h"
@@ -164,15 +167,18 @@ static void let_go(fl_world *w, fl_near *q)
     }
 }
 
-_Static_assert(sizeof(fl_near) == 64, "a near pair is a line of the cache");
+_Static_assert(sizeof(fl_near) <= 64, "a near pair is a line of the cache");
 
-/* a in single precision, not longer than 1; the same again where it is that already. */
-static void short_axis(float *axis, fl_vec3 a)
+/* x to single precision, towards 0: an axis of such gets no longer, and stays what it is the next time.  By
+ * its bits: a compiler may take a number to float and back for nothing. */
+static double shorter(double x)
 {
-    const float f[3] = {(float)a.x, (float)a.y, (float)a.z};
-    const int longer = (double)f[0] * f[0] + (double)f[1] * f[1] + (double)f[2] * f[2] > 1.0;
-    const double less = longer ? 1.0 - 0x1p-22 : 1.0;
-    axis[0] = (float)(less * a.x), axis[1] = (float)(less * a.y), axis[2] = (float)(less * a.z);
+    uint64_t bits;
+    if (!(fabs(x) >= 0x1p-126)) return 0.0;
+    memcpy(&bits, &x, sizeof bits);
+    bits &= ~UINT64_C(0x1fffffff);
+    memcpy(&x, &bits, sizeof bits);
+    return x;
 }
 
 /* Keep of p what lasts while it does not touch. */
@@ -180,7 +186,7 @@ static void leave(fl_world *w, fl_near *q, const fl_pair *p)
 {
     tell(q, p);
     q->has_axis = p->has_axis != 0;
-    short_axis(q->axis, p->axis);
+    q->axis[0] = (float)p->axis.x, q->axis[1] = (float)p->axis.y, q->axis[2] = (float)p->axis.z;
     q->mode = (uint8_t)p->mode;
     q->cached = (uint8_t)(p->cache.n & 7);
     for (int k = 0; k < 4; k++) q->a[k] = (uint8_t)p->cache.a[k], q->b[k] = (uint8_t)p->cache.b[k];
@@ -203,6 +209,8 @@ static int wants_own(const fl_world *w, const fl_pair *p)
 
 int fl_near_keep(fl_world *w, fl_near *q, fl_pair *p)
 {
+    if (!p->n) /* whether it has room of its own or not: a state that is read tells only one of the two */
+        p->axis = v3(shorter(p->axis.x), shorter(p->axis.y), shorter(p->axis.z));
     if (!wants_own(w, p)) {
         leave(w, q, p);
     } else if (p == q->full) {

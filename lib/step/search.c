@@ -16,9 +16,9 @@ static fl_aabb box_of(const fl_world *w, int32_t k)
 {
     const fl_bodies *b = &w->b;
     const fl_poly *core = &b->core[k];
-    const fl_mat3 R = fl_body_axes(b, k);
     fl_aabb box = aabb_empty();
     if (k < w->n && fl_world_away(w, k)) return box;
+    const fl_mat3 R = fl_body_axes(b, k);
     if (k >= w->n && w->structure.piece[k - w->n].kind == FL_PIECE_PLANE) { /* the half-space behind a wall */
         const fl_vec3 n = m3_col(R, 2), x = b->x[k];
         box = (fl_aabb){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};

@@ -28,8 +28,8 @@ typedef struct {
     double volume;  /* whole                                       [m^3] */
     fl_vec3 centre; /* its centroid                                  [m] */
     double surface; /* whole                                       [m^2] */
-    double *area;   /* [4 nf] area of each face, and 3 numbers each of its centroid; NULL after
-                      * fl_hull_by_core()                      [m^2], [m] */
+    double *area; /* [4 nf] area of each face, and 3 numbers each of its centroid; NULL of a sphere or capsule
+                      * and after fl_hull_by_core()            [m^2], [m] */
     fl_prism prism; /* the same as a right prism, if it is one */
 } fl_hull;
 

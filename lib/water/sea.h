@@ -81,7 +81,8 @@ int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err);
 void fl_sea_free(fl_sea *s);
 
 /* The hull of body i and its reach.
- *   outer  its sharp outer shape, taken over and left empty where the core does not tell it
+ *   outer  its sharp outer shape, taken over and left empty where the core does not tell it; NULL of a sphere
+ *          or capsule, and of these alone: a hull with areas has a shape of its own
  *          (fl_hull_by_core()); NULL where the core floats, a sphere or a capsule
  *   core   of the body, which has to stay where it is as long as the hull; r: its dilation radius [m]
  * -1 with FL_INPUT or FL_SYSTEM, as fl_hull_make(). */

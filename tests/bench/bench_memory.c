@@ -3,7 +3,8 @@
  * stirred until they touch everywhere: dry, and in water.  "allocated" is what the allocator says that all of
  * it takes, so that nothing is left out; what was read is not in it.  Beside it stand the pairs and the
  * contacts of a floe, the largest overlap, and a number that tells the final states apart.
- * A search takes more while it lasts, which is `search+`.
+ * A search takes more while it lasts, which is `search+`.  Fails where a floe takes more than 2 048 bytes
+ * with its pairs.
  *     bench_memory [FLOES]     2000 if not said */
 #include <malloc.h>
 #include <stdlib.h>

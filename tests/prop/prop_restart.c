@@ -85,6 +85,40 @@ static void any_step_is_a_place_to_stop(void **state)
     }
 }
 
+/* Read and written again it is the same, also of pairs that have just let go of each other. */
+static void a_state_stays_what_it_is(void **state)
+{
+    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_everything, scene_of_wraps,
+                                                                     scene_of_surrogates, scene_of_seas};
+    (void)state;
+    for (size_t k = 0; k < sizeof SCENE / sizeof *SCENE; k++) {
+        lab whole;
+        int64_t loose = 0;
+        SCENE[k](&whole, 3, "patch");
+        lab_make(&whole, 0);
+        assert_int_equal(lab_run(&whole, 60), 0);
+        for (int step = 0; step < 60; step++) {
+            lab l;
+            fl_err err = {0};
+            size_t n = 0;
+            int now = 0;
+            assert_int_equal(lab_run(&whole, 1), 0);
+            for (int32_t c = 0; c < whole.w.n_pair; c++) now += whole.w.pair[c].full && !whole.w.pair[c].n;
+            if (now == 0) continue;
+            loose += now;
+            SCENE[k](&l, 3, "patch");
+            lab_make(&l, 0);
+            char *text = snapshot(&whole.w, &n);
+            assert_int_equal(put_back(&l.w, text, n, &err), 0);
+            free(text);
+            same(&whole.w, &l.w, "patch", whole.w.step);
+            lab_free(&l);
+        }
+        assert_true(loose > 10);
+        lab_free(&whole);
+    }
+}
+
 static void what_is_no_state_is_refused(void **state)
 {
     static const struct {
@@ -141,6 +175,7 @@ static void what_is_no_state_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(any_step_is_a_place_to_stop),
+                                       cmocka_unit_test(a_state_stays_what_it_is),
                                        cmocka_unit_test(what_is_no_state_is_refused)};
     return cmocka_run_group_tests_name("restart", tests, NULL, NULL);
 }
