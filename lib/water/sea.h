@@ -2,6 +2,7 @@
 /* sea.h -- water and wind on all bodies: buoyancy as a force, drag as a decay of velocity. */
 #ifndef FL_WATER_SEA_H
 #define FL_WATER_SEA_H
+#include <stddef.h>
 #include "body/integrate.h"
 #include "water/buoyancy.h"
 #include "water/current.h"
