@@ -239,16 +239,21 @@ FL_WIDE_VERSIONS static void drift(fl_few *restrict s, double dt)
         const double fx = qx * ow - qw * ox - qy * oz + qz * oy, fy = qy * ow - qw * oy + qx * oz - qz * ox,
                      fz = qz * ow - qw * oz - qx * oy + qy * ox;
         s->odometer[i] = gone + 2.0 * sqrt(fx * fx + fy * fy + fz * fz) * s->bound[i];
-        const double xx = qx * qx, yy = qy * qy, zz = qz * qz, xy = qx * qy, xz = qx * qz, yz = qy * qz,
-                     wx = qw * qx, wy = qw * qy, wz = qw * qz;
-        const double m00 = 1 - 2 * (yy + zz), m01 = 2 * (xy - wz), m02 = 2 * (xz + wy), m10 = 2 * (xy + wz),
-                     m11 = 1 - 2 * (xx + zz), m12 = 2 * (yz - wx), m20 = 2 * (xz - wy), m21 = 2 * (yz + wx),
-                     m22 = 1 - 2 * (xx + yy);
-        const double u0 = (m00 * Lx + m10 * Ly + m20 * Lz) / I0, u1 = (m01 * Lx + m11 * Ly + m21 * Lz) / I1,
-                     u2 = (m02 * Lx + m12 * Ly + m22 * Lz) / I2;
-        s->w[0][i] = m00 * u0 + m01 * u1 + m02 * u2;
-        s->w[1][i] = m10 * u0 + m11 * u1 + m12 * u2;
-        s->w[2][i] = m20 * u0 + m21 * u1 + m22 * u2;
+    }
+}
+
+/* fl_body_turn() of L */
+FL_WIDE_VERSIONS static void find_spins(fl_few *restrict s)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->n; i++) {
+        const double x = s->L[0][i], y = s->L[1][i], z = s->L[2][i];
+        const double a = (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z) / s->I[0][i],
+                     b = (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z) / s->I[1][i],
+                     c = (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z) / s->I[2][i];
+        s->w[0][i] = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c;
+        s->w[1][i] = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c;
+        s->w[2][i] = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
     }
 }
 
@@ -256,5 +261,7 @@ int fl_few_drift(fl_few *s, double dt)
 {
     if (wild(s, dt) > 0.0) return 0;
     drift(s, dt);
+    find_axes(s);
+    find_spins(s);
     return 1;
 }

@@ -20,7 +20,7 @@ typedef struct {
     _Alignas(64) double m[FL_FEW];
     double invm[FL_FEW], I[3][FL_FEW]; /* what they are, as in body.h */
     double v[3][FL_FEW], L[3][FL_FEW], w[3][FL_FEW];
-    double q[4][FL_FEW], R[9][FL_FEW]; /* R row by row, as it was when they were taken */
+    double q[4][FL_FEW], R[9][FL_FEW]; /* R row by row */
     double f[3][FL_FEW], t[3][FL_FEW];
     double x[3][FL_FEW], odometer[FL_FEW], bound[FL_FEW];
     double dv[3][FL_FEW], dw[3][FL_FEW]; /* what the last kick changed of v and w */

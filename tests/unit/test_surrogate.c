@@ -40,6 +40,15 @@ static void two(lab *l, int kind)
     }
 }
 
+/* Two boxes, their pair, and where the upper one is. */
+static void lay(lab *l, fl_pair *p, int kind, fl_vec3 *x, fl_quat *q)
+{
+    two(l, kind);
+    *x = l->w.b.x[1];
+    *q = l->w.b.q[1];
+    fl_pair_start(&l->w, p, 0, 1);
+}
+
 /* A way to go: of the upper box, and its turn times the length of the surrogate. */
 typedef struct {
     fl_vec3 u, w;
@@ -98,10 +107,9 @@ static void what_is_told_is_a_potential(void **state)
     for (int kind = 0; kind < KINDS; kind++) {
         lab l;
         fl_pair p;
-        two(&l, kind);
-        const fl_vec3 x = l.w.b.x[1];
-        const fl_quat q = l.w.b.q[1];
-        fl_pair_start(&l.w, &p, 0, 1);
+        fl_vec3 x;
+        fl_quat q;
+        lay(&l, &p, kind, &x, &q);
         for (int k = 0; k < 3; k++) { /* looks, which teach */
             if (k) go(&l, p.surrogate, x, q, some(&g), 0.05 * DEPTH), p.surrogate->reach = 0.0;
             fl_interact(&l.w, &p, 0, 0.0, 0);
@@ -144,10 +152,9 @@ static void the_slope_is_told(void **state)
         double off = 0.0, changed = 0.0; /* sums */
         lab l;
         fl_pair p;
-        two(&l, kind);
-        const fl_vec3 x = l.w.b.x[1];
-        const fl_quat q = l.w.b.q[1];
-        fl_pair_start(&l.w, &p, 0, 1);
+        fl_vec3 x;
+        fl_quat q;
+        lay(&l, &p, kind, &x, &q);
         fl_interact(&l.w, &p, 0, 0.0, 0);
         const double first = p.slip.k;
         assert_true(first > 0.0);
@@ -182,10 +189,9 @@ static void a_look_teaches(void **state)
             fl_pair p;
             const way a = some(&g);
             double e[3], untaught;
-            two(&l, kind);
-            const fl_vec3 x = l.w.b.x[1];
-            const fl_quat q = l.w.b.q[1];
-            fl_pair_start(&l.w, &p, 0, 1);
+            fl_vec3 x;
+            fl_quat q;
+            lay(&l, &p, kind, &x, &q);
             fl_interact(&l.w, &p, 0, 0.0, 0);
             fl_surrogate *const s = p.surrogate;
             assert_true(off(&l, s) < 1e-9);
