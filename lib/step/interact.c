@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/wide.h"
 #include "bound/shell.h"
 #include "law/damping.h"
 #include "law/manual.h"
@@ -15,8 +16,15 @@
 #include "step/press.h"
 
 /* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
- * bound by the old direction lets it sleep for long enough. */
+ * bound by the old direction lets it sleep for long enough.  One that hovers nearer than that is awake in
+ * nearly every step: it asks in one of so many, and else believes the bound that it does not touch. */
 #define NEARLY 1.02
+enum { HOVERS = 8 };
+
+static double believed(const fl_world *w, int32_t i, int32_t j)
+{
+    return (w->step + i + j) % HOVERS ? 1.0 : NEARLY;
+}
 
 /* Farther apart than this multiple of its reach, a pair forgets which of its features may touch: a contact
  * that chatters opens by less, and one that comes back later is listed anew for as much as four looks. */
@@ -34,6 +42,19 @@ typedef struct {
     fl_vec3 o, off;
 } relative;
 
+/* From i to j, or to the image of it that is meant. */
+static fl_vec3 between(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
+{
+    const fl_vec3 off = v3_sub(w->b.x[j], w->b.x[i]);
+    return w->cell.wraps ? v3_add(off, fl_cell_way(&w->cell, v3(image[0], image[1], image[2]))) : off;
+}
+
+/* How far cores that are so far apart may go before they can touch. */
+static double sleep_for(double distance, double R)
+{
+    return distance > R ? (distance - R) * (1.0 - 1e-9) : 0.0;
+}
+
 /* M is left out where A is a point: nothing of it turns. */
 static relative relate(const fl_world *w, const fl_pair *p)
 {
@@ -42,9 +63,7 @@ static relative relate(const fl_world *w, const fl_pair *p)
     relative r;
     const fl_mat3 *B = &r.R;
     r.R = fl_body_axes(b, j);
-    r.off = v3_sub(b->x[j], b->x[i]);
-    if (w->cell.wraps)
-        r.off = v3_add(r.off, fl_cell_way(&w->cell, v3(p->image[0], p->image[1], p->image[2])));
+    r.off = between(w, i, j, p->image);
     r.o = v3_neg(m3_tmul(*B, r.off));
     if (b->core[i].nv == 1) {
         r.M = (fl_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -87,19 +106,31 @@ static int lowest_place(fl_places *s, int32_t nv, double ra, double *distance)
     return x.z < ra ? fl_places_point(s, x, v3(0, 0, 1), ra - x.z, ra) : 0;
 }
 
+/* The least n.v of m points. */
+FL_WIDE_VERSIONS static double lowest(const fl_vec3 *v, int32_t m, fl_vec3 n)
+{
+    fl_wide least = {INFINITY, INFINITY, INFINITY, INFINITY};
+    double low = INFINITY;
+    int32_t k = 0;
+    for (; k + FL_LANES <= m; k += FL_LANES) {
+        fl_wide x[3];
+        fl_wide_from_triples(x, &v[k]);
+        const fl_wide h = n.x * x[0] + n.y * x[1] + n.z * x[2];
+        least = FL_WIDE_CHOOSE(h < least, h, least);
+    }
+    for (; k < m; k++) {
+        const double h = n.x * v[k].x + n.y * v[k].y + n.z * v[k].z;
+        low = h < low ? h : low;
+    }
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) low = least[l] < low ? least[l] : low;
+    return low;
+}
+
 /* Width of the gap that the planes across n leave between the cores: a lower bound of their distance. */
 static double gap_along(const fl_vec3 *va, int32_t na, const fl_poly *b, fl_vec3 n)
 {
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t v = 0; v < na; v++) {
-        const double h = v3_dot(n, va[v]);
-        low = h < low ? h : low;
-    }
-    for (int32_t v = 0; v < b->nv; v++) {
-        const double h = v3_dot(n, b->v[v]);
-        high = h > high ? h : high;
-    }
-    return low - high;
+    return lowest(va, na, n) + lowest(b->v, b->nv, v3_neg(n));
 }
 
 /* Normals of A in B's frame, for the rare case of overlapping cores; the scratch of places holds its
@@ -264,7 +295,7 @@ static int convex_places(fl_world *w, fl_pair *p, fl_places *s, const relative *
     if (separate(w, p, A, B, s, r->M,
                  core_law ? INFINITY
                  : p->n   ? 0.0
-                          : NEARLY * R,
+                          : believed(w, p->i, p->j) * R,
                  &deep, core_law ? &gap : NULL, distance))
         return -1;
     if (*distance >= R) return 0;
@@ -735,6 +766,26 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     return 0;
 }
 
+int fl_interact_apart(const fl_world *w, fl_near *q)
+{
+    const fl_bodies *b = &w->b;
+    const int32_t i = q->i, j = q->j;
+    const fl_poly *A = &b->core[i], *B = &b->core[j];
+    const fl_piece *piece = piece_of(w, j);
+    const double R = b->radius[i] + b->radius[j];
+    if (q->full || !q->has_axis || A->nv == 1 || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID) ||
+        fl_pairing_law(w, i, j)->kind != FL_LAW_PATCH)
+        return 0;
+    const fl_vec3 axis = v3(q->axis[0], q->axis[1], q->axis[2]), n = m3_mul(fl_body_axes(b, j), axis);
+    const double apart = -v3_dot(n, between(w, i, j, q->image)),
+                 distance = lowest(A->v, A->nv, m3_tmul(fl_body_axes(b, i), n)) + apart +
+                            lowest(B->v, B->nv, v3_neg(axis));
+    if (!(distance > believed(w, i, j) * R)) return 0;
+    q->deep = 0;
+    q->asleep = b->odometer[i] + b->odometer[j] + sleep_for(distance, R);
+    return 1;
+}
+
 void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
 {
     const fl_bodies *b = &w->b;
@@ -774,7 +825,7 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
     if (p->surrogate) p->surrogate->live = 0;
     if (p->bond && p->keep < 1.0) fl_frozen_return(w, p, R, distance);
     if (distance > FAR * R) fl_pair_end(p);
-    p->asleep = path + (distance > R ? distance - R : 0.0) * (1.0 - 1e-9);
+    p->asleep = path + sleep_for(distance, R);
     return;
 touches:
     if (first) fl_frozen_meet(w, p);

@@ -4,6 +4,10 @@
 #define FL_STEP_INTERACT_H
 #include "step/world.h"
 
+/* Whether the direction of the last look still keeps two without a contact farther apart than they reach, as
+ * it does most often; then nothing else of them has to be known, and q->asleep is renewed. */
+int fl_interact_apart(const fl_world *w, fl_near *q);
+
 /* Evaluate pair p at the positions and velocities of the bodies: its wrenches, energies and memory.
  *   thread   whose scratch to use
  *   dt       the step just drifted, over which places have slipped [s]; 0 at the start

@@ -226,6 +226,7 @@ void fl_near_awake(fl_world *w, int32_t c, int32_t thread, double dt, int survey
 {
     fl_near *q = &w->pair[c];
     fl_pair made, *p = q->full;
+    if (fl_interact_apart(w, q)) return;
     if (!p) fl_near_pair(w, q, p = &made);
     p->at = c;
     fl_interact(w, p, thread, dt, survey);
