@@ -3,6 +3,7 @@
  * Below FL_RESTITUTION_LEAST the closures diverge; smaller values are taken as that. */
 #ifndef FL_LAW_DAMPING_H
 #define FL_LAW_DAMPING_H
+#include <math.h>
 
 #define FL_RESTITUTION_LEAST 0.01
 
@@ -21,6 +22,13 @@ double fl_damping_stored(double D);
  * where that is more.  c fl_damping_stored(D) <= 1, so that in an impact v_touch is the larger one, and e
  * holds. */
 double fl_damping_rest(double D);
+
+/* chi of an impact that has approached by `touch` at the most, D and c of its law, W stored, M reduced. */
+static inline double fl_damping_chi(double D, double c, double touch, double energy, double mass)
+{
+    const double stored = c * sqrt(2.0 * energy / mass), speed = touch > stored ? touch : stored;
+    return speed > 0.0 ? D / speed : 0.0;
+}
 
 /* What damping leaves of the largest stable step 2/omega of a scheme that has the speed of half a step ago:
  * K dt^2 + 2 C dt <= 4.  Of a ratio z: sqrt(1 + z^2) - z.  Of Hunt and Crossley with c as above: the least of

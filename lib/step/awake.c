@@ -6,6 +6,7 @@
 #include "step/leans.h"
 #include "step/pairing.h"
 #include "step/sleep.h"
+#include "step/told.h"
 
 /* So many near pairs are taken at a time: of those one or so is awake.
  *
@@ -50,19 +51,62 @@ static void meet(uint8_t *met)
     *met = 1;
 }
 
-/* Spheres that lean on a wall, and did at the last look, go into q. */
-static void look(fl_world *w, fl_leans *q, int32_t from, int32_t to, int32_t thread, double dt, int survey)
+/* Contacts that may be told of, until there are enough for all lanes. */
+typedef struct {
+    fl_pair *pair[FL_TOLD];
+    int n;
+} carried;
+
+/* What one thread has in hand. */
+typedef struct {
+    fl_leans leans;
+    carried told;
+    int32_t thread;
+    double dt;
+    int survey;
+} hand;
+
+static void by_look(fl_world *w, const hand *h, int32_t c, const fl_told *t)
+{
+    const fl_near *const p = &w->pair[c];
+    fl_near_awake(w, c, h->thread, t, h->dt, h->survey);
+    w->hit[c] = p->n;
+    if (p->n) meet(&w->met[p->i]), meet(&w->met[p->j]);
+}
+
+/* Tell of those in hand, and look at those that have gone too far for it. */
+static void tell(fl_world *w, hand *h)
+{
+    carried *const q = &h->told;
+    uint8_t done[FL_TOLD];
+    fl_told t[FL_TOLD];
+    if (q->n) fl_told_touch(w, q->pair, q->n, h->dt, h->survey, done, t);
+    for (int k = 0; k < q->n; k++) {
+        const fl_pair *const p = q->pair[k];
+        if (!done[k]) by_look(w, h, p->at, &t[k]);
+        else w->told[h->thread].told++, meet(&w->met[p->i]), meet(&w->met[p->j]);
+    }
+    q->n = 0;
+}
+
+/* Spheres that lean on a wall, and did at the last look, and contacts that may be told of are gathered. */
+static void look(fl_world *w, hand *h, int32_t from, int32_t to)
 {
     for (int32_t c = from; c < to; c++) {
         const fl_near *const p = &w->pair[c];
         if (fl_world_apart(w, p)) continue; /* and it did not touch before */
         if (fl_sleep_frozen(w, p)) {
             /* forces stay */
-        } else if (fl_leans_add(w, q, c)) {
-            if (q->n == FL_SPHERES_MOST) fl_leans_touch(w, q, dt, survey);
+        } else if (fl_leans_add(w, &h->leans, c)) {
+            if (h->leans.n == FL_SPHERES_MOST) fl_leans_touch(w, &h->leans, h->dt, h->survey);
+        } else if (p->full && fl_told_of(w, p->full)) {
+            p->full->at = c;
+            h->told.pair[h->told.n++] = p->full;
+            if (h->told.n == FL_TOLD) tell(w, h);
+            continue;
         } else {
-            fl_near_awake(w, c, thread, dt, survey);
-            w->hit[c] = p->n;
+            by_look(w, h, c, NULL);
+            continue;
         }
         if (p->n) meet(&w->met[p->i]), meet(&w->met[p->j]);
     }
@@ -71,14 +115,15 @@ static void look(fl_world *w, fl_leans *q, int32_t from, int32_t to, int32_t thr
 void fl_awake_look(fl_world *w, double dt, int survey)
 {
     const int32_t thread = omp_get_thread_num();
-    fl_leans q;
-    q.n = 0;
+    hand h; /* large: not cleared */
+    h.thread = thread, h.dt = dt, h.survey = survey, h.leans.n = h.told.n = 0;
     for (int32_t k = 0; k < w->threads; k++) {
         fl_portion *const s = &w->share[(thread + k) % w->threads];
         for (int32_t c = take(s); c < s->end; c = take(s))
-            look(w, &q, c, s->end < c + BLOCK ? s->end : c + BLOCK, thread, dt, survey);
+            look(w, &h, c, s->end < c + BLOCK ? s->end : c + BLOCK);
     }
-    fl_leans_touch(w, &q, dt, survey);
+    tell(w, &h);
+    fl_leans_touch(w, &h.leans, dt, survey);
 }
 
 /* Few touch: eight are passed over at a time. */

@@ -14,6 +14,7 @@
 #include "step/pairing.h"
 #include "step/stiff.h"
 #include "step/press.h"
+#include "step/told.h"
 
 /* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
  * bound by the old direction lets it sleep for long enough.  One that hovers nearer than that is awake in
@@ -42,13 +43,6 @@ typedef struct {
     fl_vec3 o, off;
 } relative;
 
-/* From i to j, or to the image of it that is meant. */
-static fl_vec3 between(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
-{
-    const fl_vec3 off = v3_sub(w->b.x[j], w->b.x[i]);
-    return w->cell.wraps ? v3_add(off, fl_cell_way(&w->cell, v3(image[0], image[1], image[2]))) : off;
-}
-
 /* How far cores that are so far apart may go before they can touch. */
 static double sleep_for(double distance, double R)
 {
@@ -63,7 +57,7 @@ static relative relate(const fl_world *w, const fl_pair *p)
     relative r;
     const fl_mat3 *B = &r.R;
     r.R = fl_body_axes(b, j);
-    r.off = between(w, i, j, p->image);
+    r.off = fl_world_way(w, i, j, p->image);
     r.o = v3_neg(m3_tmul(*B, r.off));
     if (b->core[i].nv == 1) {
         r.M = (fl_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -481,15 +475,7 @@ static void stiffen_one(const fl_world *w, fl_pair *p, const pressure *q, fl_vec
 static double damping_factor(fl_pair *p, double now)
 {
     p->touch = p->n && p->touch > now ? p->touch : now;
-    const double stored = p->law->rest * sqrt(2.0 * p->energy / p->mass);
-    const double speed = p->touch > stored ? p->touch : stored;
-    return speed > 0.0 ? p->law->chi / speed : 0.0;
-}
-
-/* Whether panels want to know all places of it. */
-static int noted(const fl_world *w, const fl_pair *p)
-{
-    return w->press.panels && p->j >= w->n && p->j < w->n + w->pieces;
+    return fl_damping_chi(p->law->chi, p->law->rest, p->touch, p->energy, p->mass);
 }
 
 /* The one place of a round thing or of `core`: W = k phi(s). */
@@ -512,7 +498,7 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const relative
     rub(w, p, &all, chi, r, dt);
     if (survey) stiffen_one(w, p, &all, n, r);
     p->energy += p->spring;
-    if (noted(w, p)) fl_press_note(w, p, s, p->k, chi);
+    if (fl_press_wants(w, p)) fl_press_note(w, p, s, p->k, chi);
     return p->n = 1;
 }
 
@@ -549,42 +535,6 @@ static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale,
                           .slope = slope};
     rub(w, p, &all, chi, r, dt);
     return all;
-}
-
-/* --- what is told without a look --------------------------------------------------------------- */
-
-/* A touching pair may be told of: it has been looked at, and nobody wants to know its places. */
-static int told(fl_world *w, fl_pair *p, const relative *r, fl_told *t)
-{
-    if (!p->n || !p->surrogate || !p->surrogate->live || noted(w, p)) return 0;
-    fl_surrogate_tell(p->surrogate, &r->M, r->o, t);
-    return 1;
-}
-
-/* The forces of a contact as its surrogate tells them.  0 where it has to be looked at. */
-static int force_told(fl_world *w, fl_pair *p, const fl_told *t, const relative *r, double dt, int survey)
-{
-    const fl_bodies *b = &w->b;
-    const fl_surrogate *s = p->surrogate;
-    const fl_mat3 R = r->R;
-    if (!fl_surrogate_holds(s, t)) return 0;
-    const fl_vec3 aj = m3_mul(R, s->first), ai = v3_add(aj, r->off), at = m3_mul(R, t->at);
-    const fl_vec3 v = m3_tmul(R, approach(b, p, ai, aj)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
-    fl_bearing q;
-    double scale;
-    p->energy = t->energy;
-    double chi = damping_factor(p, 0.0); /* it does not often approach faster than ever */
-    if (!fl_surrogate_bear(s, t, v, turn, chi, &q, &scale)) return 0;
-    if (q.met > p->touch * q.pressed) {
-        chi = damping_factor(p, q.met / q.pressed);
-        fl_surrogate_bear(s, t, v, turn, chi, &q, &scale);
-    }
-    p->overlap = q.overlap;
-    add_sum(&p->f, &p->ti, &p->tj, &q.gradient, 1.0, &R, v3_add(at, r->off), at);
-    bear(w, p, &q, scale, t->slope, chi, r, aj, dt);
-    if (survey) p->stiff_i = t->slope * s->stiff_i, p->stiff_j = t->slope * s->stiff_j;
-    p->energy += p->spring;
-    return 1;
 }
 
 /* After a look.  t: what was told for this pose, or NULL. */
@@ -631,7 +581,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     const fl_bodies *b = &w->b;
     const fl_mat3 R = r->R;
     fl_places *s = &w->scratch[thread];
-    const int carried = p->law->surrogate > 0.0 && !noted(w, p);
+    const int carried = p->law->surrogate > 0.0 && !fl_press_wants(w, p);
     if (s->n == 0) return 0;
     const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
     fl_bearing q;
@@ -664,7 +614,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
         if (renew(w, p, thread, t, &seen)) return -1;
     }
     p->energy += p->spring;
-    if (noted(w, p)) {
+    if (fl_press_wants(w, p)) {
         for (int32_t k = 0; k < s->n; k++) s->place[k].closing = fl_bearing_closing(s, k);
         fl_press_note(w, p, s, seen.scale, chi);
     }
@@ -761,7 +711,7 @@ static int force_manual(fl_world *w, fl_pair *p, fl_places *s, const relative *r
     rub(w, p, &all, 0.0, r, dt);
     if (survey) stiffen_one(w, p, &all, nw, r);
     p->energy += p->spring;
-    if (noted(w, p)) fl_press_note_one(w, p, c.p, c.n, c.area);
+    if (fl_press_wants(w, p)) fl_press_note_one(w, p, c.p, c.n, c.area);
     p->n = 1;
     return 0;
 }
@@ -777,7 +727,7 @@ int fl_interact_apart(const fl_world *w, fl_near *q)
         fl_pairing_law(w, i, j)->kind != FL_LAW_PATCH)
         return 0;
     const fl_vec3 axis = v3(q->axis[0], q->axis[1], q->axis[2]), n = m3_mul(fl_body_axes(b, j), axis);
-    const double apart = -v3_dot(n, between(w, i, j, q->image)),
+    const double apart = -v3_dot(n, fl_world_way(w, i, j, q->image)),
                  distance = lowest(A->v, A->nv, m3_tmul(fl_body_axes(b, i), n)) + apart +
                             lowest(B->v, B->nv, v3_neg(axis));
     if (!(distance > believed(w, i, j) * R)) return 0;
@@ -787,6 +737,16 @@ int fl_interact_apart(const fl_world *w, fl_near *q)
 }
 
 void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
+{
+    const int known = fl_told_of(w, p);
+    uint8_t done = 0;
+    fl_told t;
+    if (known) fl_told_touch(w, &p, 1, dt, survey, &done, &t);
+    if (done) w->told[thread].told++;
+    else fl_interact_look(w, p, thread, known ? &t : NULL, dt, survey);
+}
+
+void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, double dt, int survey)
 {
     const fl_bodies *b = &w->b;
     const double path = b->odometer[p->i] + b->odometer[p->j];
@@ -807,14 +767,8 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
         if (force_manual(w, p, s, &r, dt, survey, &distance)) goto failed;
         if (p->n) goto touches;
     } else {
-        fl_told t;
-        const int known = told(w, p, &r, &t);
-        if (known && force_told(w, p, &t, &r, dt, survey)) {
-            w->told[thread].told++;
-            return;
-        }
         if (find_places(w, p, s, &w->near_shell[thread], &r, &distance)) goto failed;
-        const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, known ? &t : NULL, &r, dt, survey)
+        const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, t, &r, dt, survey)
                                              : s->n && force_one(w, p, s, &r, dt, survey);
         if (touch < 0) goto failed;
         if (touch) goto touches;

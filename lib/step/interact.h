@@ -16,6 +16,9 @@ int fl_interact_apart(const fl_world *w, fl_near *q);
  * be asked.  A pair that runs out of memory sets w->failed. */
 void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey);
 
+/* The same by a look; t: what was told for this pose, or NULL. */
+void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, double dt, int survey);
+
 /* The signed contact of a pair as the probe tells it: gap and mode by narrow/contact.h, in world axes
  * relative to the world's origin, the point inside the cell.  Returns 0 where a kind has no such contact
  * within reach. */

@@ -222,14 +222,14 @@ int fl_near_keep(fl_world *w, fl_near *q, fl_pair *p)
     return 0;
 }
 
-void fl_near_awake(fl_world *w, int32_t c, int32_t thread, double dt, int survey)
+void fl_near_awake(fl_world *w, int32_t c, int32_t thread, const fl_told *t, double dt, int survey)
 {
     fl_near *q = &w->pair[c];
     fl_pair made, *p = q->full;
     if (fl_interact_apart(w, q)) return;
     if (!p) fl_near_pair(w, q, p = &made);
     p->at = c;
-    fl_interact(w, p, thread, dt, survey);
+    fl_interact_look(w, p, thread, t, dt, survey);
     if (fl_near_keep(w, q, p)) {
 #pragma omp atomic write
         w->failed = 1;

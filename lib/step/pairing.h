@@ -33,8 +33,8 @@ int fl_near_keep(fl_world *w, fl_near *q, fl_pair *p);
 /* Free what it has of its own. */
 void fl_near_end(fl_world *w, fl_near *q);
 
-/* Of the c-th near pair the forces of now, as fl_interact(). */
-void fl_near_awake(fl_world *w, int32_t c, int32_t thread, double dt, int survey);
+/* Of the c-th near pair the forces of now, as fl_interact_look(). */
+void fl_near_awake(fl_world *w, int32_t c, int32_t thread, const fl_told *t, double dt, int survey);
 
 /* End all near pairs of a world. */
 void fl_near_free(fl_world *w);

@@ -28,6 +28,12 @@ struct fl_press_event {
 int fl_press_make(fl_world *w, const fl_surface *surface, fl_err *err);
 void fl_press_free(fl_press *s);
 
+/* Whether panels want to know all places of pair p. */
+static inline int fl_press_wants(const fl_world *w, const fl_pair *p)
+{
+    return w->press.panels && p->j >= w->n && p->j < w->n + w->pieces;
+}
+
 /* For pair p of a floe and a piece, evaluated just now by the calling thread: its places.
  *   scale  force of a place per unit of its pull: of `patch` dW/dU, else the stiffness
  *   chi    damping factor [s/m]

@@ -53,12 +53,11 @@ static void add(fl_six *A, double s, const fl_six x, const fl_six y)
 }
 
 /* z^(p - 2), the powers being quarters. */
-static double root_of(double z, int32_t quarter)
+static inline double root_of(double z, double power)
 {
-    return quarter == 0 ? 1.0 : quarter == 1 ? sqrt(sqrt(z)) : sqrt(z);
+    const double root = sqrt(z);
+    return power == 2.0 ? 1.0 : power == 2.25 ? sqrt(root) : root;
 }
-
-static double power_of(const fl_surrogate *s) { return 2.0 + 0.25 * s->quarter; }
 
 fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t threads)
 {
@@ -70,39 +69,113 @@ fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t thr
     return all;
 }
 
-FL_FOUR_VERSIONS void fl_surrogate_tell(const fl_surrogate *s, const fl_mat3 *M, fl_vec3 o, fl_told *t)
+/* --- what they tell ---------------------------------------------------------------------------- */
+
+enum { BLOCKS = FL_SURROGATE_ROWS / FL_LANES };
+_Static_assert(FL_SURROGATE_ROWS % FL_LANES == 0 && FL_TOLD % FL_LANES == 0, "taken by four");
+
+FL_FOUR_VERSIONS void fl_surrogate_lay(fl_tellers *b, const fl_surrogate *const *s, int n)
 {
-    const fl_mat3 *N = &s->M;
-    double D[3][3], trace;
-    for (int k = 0; k < 3; k++)
-        for (int l = 0; l < 3; l++)
-            D[k][l] = M->m[k][0] * N->m[l][0] + M->m[k][1] * N->m[l][1] + M->m[k][2] * N->m[l][2];
-    trace = D[0][0] + D[1][1] + D[2][2];
-    t->at = v3_add(o, m3_mul(*M, s->own));
-    t->w = v3(0.5 * (D[2][1] - D[1][2]), 0.5 * (D[0][2] - D[2][0]), 0.5 * (D[1][0] - D[0][1]));
-    const fl_vec3 u = v3_sub(t->at, s->at);
-    put(t->q, u, v3_scale(s->arm, t->w));
-    t->way = v3_norm(u) + s->arm * v3_norm(t->w);
-    product(t->rise, s->H, t->q, s->g);
-    t->z = 1.0 + 0.5 * (dot(s->g, t->q) + dot(t->rise, t->q));
-    const double root = root_of(t->z, s->quarter), pull = -power_of(s) * s->energy * t->z * root;
-    t->energy = s->energy * t->z * t->z * root;
-    const fl_vec3 g = v3_scale(pull * s->arm, high(t->rise));
-    t->gradient.f = v3_scale(pull, low(t->rise));
-    t->gradient.m = v3(0.5 * (trace * g.x - (D[0][0] * g.x + D[1][0] * g.y + D[2][0] * g.z)),
-                       0.5 * (trace * g.y - (D[0][1] * g.x + D[1][1] * g.y + D[2][1] * g.z)),
-                       0.5 * (trace * g.z - (D[0][2] * g.x + D[1][2] * g.y + D[2][2] * g.z)));
-    t->share = v3_norm(t->gradient.f) / s->force;
-    t->slope = s->slope * t->share * t->share * s->energy / t->energy;
+    for (int k = 0; k < FL_TOLD; k += FL_LANES) {
+        const double *of[FL_LANES];
+        FL_WIDE_UNROLL
+        for (int l = 0; l < FL_LANES; l++) of[l] = &s[k + l < n ? k + l : 0]->g[0];
+        for (int row = 0; row < FL_SURROGATE_ROWS; row += FL_LANES) {
+            fl_wide r[FL_LANES];
+            FL_WIDE_UNROLL
+            for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(of[l] + row);
+            fl_wide_transpose(r);
+            FL_WIDE_UNROLL
+            for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&b->s[row + l].a[k]) = r[l];
+        }
+    }
 }
 
-static int within(const fl_surrogate *s, const fl_told *t, double reach)
+#define OF(member) (b->s + FL_SURROGATE_ROW(member))
+
+/* How A has moved since the look: q, and the turns' J^T. */
+FL_WIDE_VERSIONS static void go(fl_tellers *restrict b, fl_lane *restrict J)
 {
-    return t->way <= reach * s->overlap && t->z > 1.0 - s->less && t->z < 1.0 + s->less;
+    const fl_lane *M = OF(M);
+#pragma omp simd
+    for (int k = 0; k < FL_TOLD; k++) {
+        const fl_vec3 x = fl_lane3(b->M, k), y = fl_lane3(b->M + 3, k), z = fl_lane3(b->M + 6, k);
+        const fl_vec3 X = fl_lane3(M, k), Y = fl_lane3(M + 3, k), Z = fl_lane3(M + 6, k);
+        const double xx = v3_dot(x, X), xy = v3_dot(x, Y), xz = v3_dot(x, Z);
+        const double yx = v3_dot(y, X), yy = v3_dot(y, Y), yz = v3_dot(y, Z);
+        const double zx = v3_dot(z, X), zy = v3_dot(z, Y), zz = v3_dot(z, Z);
+        const double arm = OF(arm)->a[k], half = 0.5 * (xx + yy + zz);
+        const fl_vec3 own = fl_lane3(OF(own), k), w = v3(0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy));
+        const fl_vec3 at = v3_add(fl_lane3(b->o, k), v3(v3_dot(x, own), v3_dot(y, own), v3_dot(z, own)));
+        const fl_vec3 u = v3_sub(at, fl_lane3(OF(at), k));
+        fl_lane3_put(b->at, k, at);
+        fl_lane3_put(b->w, k, w);
+        fl_lane3_put(b->q, k, u);
+        fl_lane3_put(b->q + 3, k, v3_scale(arm, w));
+        b->way.a[k] = v3_norm(u) + arm * v3_norm(w);
+        fl_lane3_put(J, k, v3(half - 0.5 * xx, -0.5 * yx, -0.5 * zx));
+        fl_lane3_put(J + 3, k, v3(-0.5 * xy, half - 0.5 * yy, -0.5 * zy));
+        fl_lane3_put(J + 6, k, v3(-0.5 * xz, -0.5 * yz, half - 0.5 * zz));
+    }
 }
 
-int fl_surrogate_holds(const fl_surrogate *s, const fl_told *t) { return within(s, t, s->reach); }
-int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t) { return within(s, t, 2.0 * s->reach); }
+FL_WIDE_VERSIONS static void rise(fl_tellers *restrict b)
+{
+    for (int r = 0; r < 6; r++) {
+        const fl_lane *g = OF(g) + r, *H = OF(H) + 8 * r;
+#pragma omp simd
+        for (int k = 0; k < FL_TOLD; k++)
+            b->rise[r].a[k] =
+                g->a[k] + ((H[0].a[k] * b->q[0].a[k] + H[1].a[k] * b->q[1].a[k] + H[2].a[k] * b->q[2].a[k]) +
+                           (H[3].a[k] * b->q[3].a[k] + H[4].a[k] * b->q[4].a[k] + H[5].a[k] * b->q[5].a[k]));
+    }
+}
+
+FL_WIDE_VERSIONS static void pull(fl_tellers *restrict b, const fl_lane *restrict J)
+{
+#pragma omp simd
+    for (int k = 0; k < FL_TOLD; k++) {
+        const fl_vec3 u = fl_lane3(b->q, k), w = fl_lane3(b->q + 3, k);
+        const fl_vec3 by = fl_lane3(b->rise, k), turn = fl_lane3(b->rise + 3, k);
+        const double z = 1.0 + 0.5 * ((v3_dot(fl_lane3(OF(g), k), u) + v3_dot(fl_lane3(OF(g) + 3, k), w)) +
+                                      (v3_dot(by, u) + v3_dot(turn, w)));
+        const double p = OF(power)->a[k], W = OF(energy)->a[k], root = root_of(z, p),
+                     each = -p * W * z * root;
+        const double energy = W * z * z * root;
+        const fl_vec3 f = v3_scale(each, by), g = v3_scale(each * OF(arm)->a[k], turn);
+        const double share = v3_norm(f) / OF(force)->a[k];
+        b->z.a[k] = z;
+        b->energy.a[k] = energy;
+        b->share.a[k] = share;
+        b->slope.a[k] = OF(slope)->a[k] * share * share * W / energy;
+        fl_lane3_put(b->f, k, f);
+        fl_lane3_put(
+            b->m, k,
+            v3(v3_dot(fl_lane3(J, k), g), v3_dot(fl_lane3(J + 3, k), g), v3_dot(fl_lane3(J + 6, k), g)));
+    }
+}
+
+void fl_surrogate_tell(fl_tellers *b)
+{
+    _Alignas(64) fl_lane J[9]; /* of a turn the moment is -J^T of its slope, row by row */
+    go(b, J);
+    rise(b);
+    pull(b, J);
+}
+
+fl_told fl_surrogate_told(const fl_tellers *b, int k)
+{
+    fl_told t = {.way = b->way.a[k],
+                 .z = b->z.a[k],
+                 .at = fl_lane3(b->at, k),
+                 .w = fl_lane3(b->w, k),
+                 .gradient = {fl_lane3(b->f, k), fl_lane3(b->m, k)},
+                 .energy = b->energy.a[k],
+                 .share = b->share.a[k],
+                 .slope = b->slope.a[k]};
+    for (int r = 0; r < 6; r++) t.q[r] = b->q[r].a[k], t.rise[r] = b->rise[r].a[k];
+    return t;
+}
 
 static fl_wrench moved(const fl_wrench *a, fl_vec3 from)
 {
@@ -111,33 +184,6 @@ static fl_wrench moved(const fl_wrench *a, fl_vec3 from)
 
 /* Where along the plane of the pressures a force acts, from the point that the wrench is about. */
 static fl_vec3 centre(const fl_wrench *a) { return v3_scale(1.0 / v3_norm2(a->f), v3_cross(a->f, a->m)); }
-
-int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, double chi,
-                      fl_bearing *q, double *scale)
-{
-    const fl_vec3 way = v3_add(low(t->q), v3_cross(t->w, v3_sub(s->first, s->at)));
-    fl_vec3 at;
-    fl_bearing_recall(&s->pads, way, t->w, v, turn, chi, q, &at);
-    if (!(q->elastic > 0.0)) return 0;
-    const double each = 1.0 / q->elastic;
-    *scale = t->share * s->pressure * each;
-    q->overlap = s->overlap * t->z;
-    q->gradient = t->gradient;
-    const fl_wrench told = moved(&t->gradient, v3_sub(t->at, s->first));
-    if (!(*scale > 0.0)) return 0;
-    if (q->normal < q->elastic) { /* damping must not leave what the force is off from the pressures by */
-        const fl_vec3 pressed = v3_sub(q->direction, q->damping.f);
-        const fl_vec3 beside = v3_madd(told.f, -t->share, s->beside);
-        const fl_vec3 off = v3_sub(v3_scale(1.0 / *scale, beside), pressed);
-        q->damping.f = v3_madd(q->damping.f, q->normal * each - 1.0, off);
-    }
-    /* the pressures move to where force and moment want them */
-    const fl_vec3 by = v3_add(v3_madd(centre(&told), -each, at), s->off);
-    q->spread += 2.0 * v3_dot(by, q->moment) + q->normal * v3_norm2(by);
-    q->moment = v3_madd(q->moment, q->normal, by);
-    q->damping.m = v3_add(q->damping.m, v3_cross(by, q->damping.f));
-    return 1;
-}
 
 /* --- looks ------------------------------------------------------------------------------------- */
 
@@ -166,10 +212,10 @@ static void about(fl_six *out, const fl_springs *s, double scale, fl_vec3 a, dou
 /* z of which the p-th power is W over that of the look, by Newton's steps. */
 static double depth(const fl_surrogate *s, double W)
 {
-    const double p = power_of(s), want = W / s->energy;
+    const double p = s->power, want = W / s->energy;
     double z = want < 1.0 ? 0.5 * (1.0 + want) : want < 4.0 ? 1.0 + 0.4 * (want - 1.0) : sqrt(want);
     for (int k = 0; k < 4; k++) {
-        const double slope = z * root_of(z, s->quarter);
+        const double slope = z * root_of(z, s->power);
         z -= (z * slope - want) / (p * slope);
         if (!(z > 0.0)) return 0.0;
     }
@@ -190,7 +236,7 @@ static double compare(fl_surrogate *s, const fl_told *t, const fl_six slope, dou
                       double toward, double tolerance)
 {
     const fl_vec3 turn = v3_scale(0.5, v3_cross(t->w, high(slope)));
-    const double p = power_of(s), z = depth(s, W), most = toward * (force > s->force ? force : s->force);
+    const double p = s->power, z = depth(s, W), most = toward * (force > s->force ? force : s->force);
     fl_six now, r, far;
     put(now, low(slope), v3_sub(high(slope), turn)); /* J^-T to the first order */
     const double pull = p * t->energy / t->z;
@@ -246,8 +292,8 @@ FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl
     put(along, v3_scale(1.0 / force, low(slope)), NONE);
     product(bent, (const fl_six *)s->H, along, (fl_six){0});
     const double curve = W * dot(along, bent) / (force * force);
-    s->quarter = curve < 1.0 - 1.0 / 2.125 ? 0 : curve < 1.0 - 1.0 / 2.375 ? 1 : 2;
-    const double p = power_of(s), each = 1.0 / (p * W);
+    s->power = curve < 1.0 - 1.0 / 2.125 ? 2.0 : curve < 1.0 - 1.0 / 2.375 ? 2.25 : 2.5;
+    const double p = s->power, each = 1.0 / (p * W);
     for (int r = 0; r < 6; r++) {
         s->g[r] = each * slope[r];
         for (int l = 0; l < 6; l++) s->H[r][l] = each * (s->H[r][l] + force * s->learnt[r][l]);

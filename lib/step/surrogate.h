@@ -36,6 +36,7 @@
  * of the pressure elsewhere they are all moved there. */
 #ifndef FL_STEP_SURROGATE_H
 #define FL_STEP_SURROGATE_H
+#include <stddef.h>
 #include "geom/mat3.h"
 #include "step/bearing.h"
 
@@ -46,25 +47,26 @@ typedef double fl_six[8];
 
 typedef struct {
     int live; /* there is something to be asked */
-    /* of the last look */
-    fl_mat3 M;
-    fl_vec3 o;                            /* how A stood to B                             */
+    /* of the last look; from here on in doubles, which fl_surrogate_lay() takes in a row */
+    fl_six g, H[6];                       /* [1/m], [1/m2]                                */
+    fl_mat3 M;                            /* how A stood to B,                            */
+    fl_vec3 o;                            /* and where                                [m] */
     fl_vec3 at;                           /* the point, frame of B                    [m] */
     double overlap, energy, force, slope; /* the largest [m], W [J], its slope [N], dF/ds along it [N/m] */
-    int32_t quarter;                      /* p = 2 + quarter / 4                          */
-    fl_six g, H[6];                       /* [1/m], [1/m2]                                */
-    fl_pads pads;                         /* what pressed,                                */
-    fl_vec3 first, off;                   /* the first place of it, frame of B; its centre lies so far from
-                                           * where force and moment are                   [m] */
+    double power;                         /* p, by quarters                               */
+    fl_vec3 first, off;                   /* the first place of what pressed, frame of B; its centre lies so
+                                           * far from where force and moment are      [m] */
     fl_vec3 beside;                       /* of the force, what is not pressures      [N] */
     double pressure;                      /* sum of its e                             [N] */
     /* since the bodies touch */
-    fl_vec3 own;             /* the point, frame of A                                 [m] */
-    double arm;              /* a                                                     [m] */
-    double reach;            /* how far A may go until the next look, over the overlap    */
-    double less;             /* by how much z may fall or rise                            */
+    fl_vec3 own;  /* the point, frame of A                                 [m] */
+    double arm;   /* a                                                     [m] */
+    double reach; /* how far A may go until the next look, over the overlap    */
+    double less;  /* by how much z may fall or rise                            */
+    /* what is not taken along */
     fl_six learnt[6];        /* of H, times p W over the force                      [1/m] */
     double stiff_i, stiff_j; /* as in fl_pair, over the slope; of the last survey  [1/kg] */
+    fl_pads pads;            /* what pressed                                              */
 } fl_surrogate;
 
 /* What one tells for a pose. */
@@ -77,6 +79,31 @@ typedef struct {
     double energy, share; /* force over that of the look */
     double slope;         /* dF/ds along it, as F^2/W [N/m] */
 } fl_told;
+
+/* Several side by side, one array a number. */
+enum {
+    FL_TOLD = 8,
+    FL_SURROGATE_ROWS = (offsetof(fl_surrogate, learnt) - offsetof(fl_surrogate, g)) / sizeof(double)
+};
+typedef struct {
+    double a[FL_TOLD];
+} fl_lane;
+
+typedef struct {
+    _Alignas(64) fl_lane s[FL_SURROGATE_ROWS]; /* surrogates, number by number     */
+    fl_lane M[9], o[3];                        /* in: the pose of A in the frame of B, M row by row */
+    fl_lane q[6], rise[6], way, z, at[3], w[3], f[3], m[3], energy, share, slope; /* out: fl_told */
+} fl_tellers;
+
+/* Its place among the rows of s. */
+#define FL_SURROGATE_ROW(member)                                                                             \
+    ((offsetof(fl_surrogate, member) - offsetof(fl_surrogate, g)) / sizeof(double))
+
+static inline fl_vec3 fl_lane3(const fl_lane *a, int k) { return v3(a[0].a[k], a[1].a[k], a[2].a[k]); }
+static inline void fl_lane3_put(fl_lane *a, int k, fl_vec3 v)
+{
+    a[0].a[k] = v.x, a[1].a[k] = v.y, a[2].a[k] = v.z;
+}
 
 /* What a look has found.  The gradient has the couple of the places, too. */
 typedef struct {
@@ -105,20 +132,26 @@ static inline double fl_surrogate_less(double tolerance) { return sqrt(sqrt(tole
 /* Those of all threads. */
 fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t threads);
 
-/* For the pose M, o of A in the frame of B, as fl_places_enter() has it. */
-void fl_surrogate_tell(const fl_surrogate *s, const fl_mat3 *M, fl_vec3 o, fl_told *t);
+/* n <= FL_TOLD of them side by side; all lanes are filled, what is behind the last is one of them. */
+void fl_surrogate_lay(fl_tellers *b, const fl_surrogate *const *s, int n);
 
-/* Whether that is near enough. */
-int fl_surrogate_holds(const fl_surrogate *s, const fl_told *t);
+/* What they tell for the poses M, o of A in the frame of B, as fl_places_enter() has them. */
+void fl_surrogate_tell(fl_tellers *b);
 
-/* Or so near that the error there tells of that where it held: within twice its reach. */
-int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t);
+/* What the k-th has told. */
+fl_told fl_surrogate_told(const fl_tellers *b, int k);
 
-/* The sums of fl_bearing_sum() and fl_bearing_damp() but for u, ddu and dW/dU, for velocities of A against B
- * at s->first, which they are about; the gradient is that of t.  *scale: what the others have to be
- * multiplied by.  0 where the contact has to be looked at. */
-int fl_surrogate_bear(const fl_surrogate *s, const fl_told *t, fl_vec3 v, fl_vec3 turn, double chi,
-                      fl_bearing *q, double *scale);
+/* Whether that is within so many times of what it may go, 1: near enough to be told. */
+static inline int fl_surrogate_within(const fl_surrogate *s, double way, double z, double reaches)
+{
+    return way <= reaches * s->reach * s->overlap && z > 1.0 - s->less && z < 1.0 + s->less;
+}
+
+/* Or so near that the error there tells of that where it held. */
+static inline int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t)
+{
+    return fl_surrogate_within(s, t->way, t->z, 2.0);
+}
 
 /* Begin anew from what was found; t: what s had told for this pose, NULL where it could not be asked.
  * Returns by how much it was off, or -1 when memory runs out. */

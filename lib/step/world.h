@@ -405,6 +405,13 @@ static inline double fl_world_spring(const fl_world *w, int32_t i, double *drawn
  */
 int32_t fl_world_name(const fl_world *w, int32_t k);
 
+/* From thing i to j, or to the image of it that is meant [m]. */
+static inline fl_vec3 fl_world_way(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
+{
+    const fl_vec3 way = v3_sub(w->b.x[j], w->b.x[i]);
+    return w->cell.wraps ? v3_add(way, fl_cell_way(&w->cell, v3(image[0], image[1], image[2]))) : way;
+}
+
 /* Whether a pair still cannot touch since it was last looked at. */
 static inline int fl_world_apart(const fl_world *w, const fl_near *p)
 {

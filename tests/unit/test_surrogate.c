@@ -84,13 +84,29 @@ static fl_vec3 pose(const lab *l, fl_mat3 *M)
     return m3_tmul(fl_body_axes(b, 1), v3_sub(b->x[0], b->x[1]));
 }
 
+/* What it tells for that, in the k-th lane, the others being of some other pose. */
+static fl_told told_in(const lab *l, const fl_surrogate *s, int lane)
+{
+    const fl_surrogate *all[FL_TOLD];
+    fl_tellers b;
+    fl_mat3 M;
+    const fl_vec3 o = pose(l, &M);
+    for (int k = 0; k < FL_TOLD; k++) {
+        all[k] = s;
+        fl_lane3_put(b.o, k, v3_scale(k == lane ? 1.0 : 1.0 + 1e-3 * k, o));
+        for (int r = 0; r < 3; r++) fl_lane3_put(b.M + 3 * r, k, v3(M.m[r][0], M.m[r][1], M.m[r][2]));
+    }
+    fl_surrogate_lay(&b, all, FL_TOLD);
+    fl_surrogate_tell(&b);
+    return fl_surrogate_told(&b, lane);
+}
+
+static fl_told told_of(const lab *l, const fl_surrogate *s) { return told_in(l, s, 0); }
+
 /* By how much the force and the moment that are told are off, over the force. */
 static double off(lab *l, const fl_surrogate *s)
 {
-    fl_mat3 M;
-    fl_told t;
-    const fl_vec3 o = pose(l, &M);
-    fl_surrogate_tell(s, &M, o, &t);
+    const fl_told t = told_of(l, s);
     const fl_pair p = lab_look(&l->w, 0, 1);
     const fl_mat3 R = fl_body_axes(&l->w.b, 1);
     const fl_vec3 f = m3_mul(R, t.gradient.f);
@@ -120,13 +136,11 @@ static void what_is_told_is_a_potential(void **state)
             const double h = 1e-4 * DEPTH;
             fl_told t[3];
             for (int e = 0; e < 3; e++) { /* by h along a second way, both ways */
-                fl_mat3 M;
                 go(&l, p.surrogate, x, q, to, 0.2 * DEPTH);
                 const fl_vec3 x2 = l.w.b.x[1];
                 const fl_quat q2 = l.w.b.q[1];
                 go(&l, p.surrogate, x2, q2, along, e == 0 ? 0.0 : e == 1 ? -h : h);
-                const fl_vec3 o = pose(&l, &M);
-                fl_surrogate_tell(p.surrogate, &M, o, &t[e]);
+                t[e] = told_of(&l, p.surrogate);
             }
             go(&l, p.surrogate, x, q, to, 0.2 * DEPTH);
             const fl_mat3 R = fl_body_axes(&l.w.b, 1);
@@ -135,6 +149,28 @@ static void what_is_told_is_a_potential(void **state)
             const double work = -h * (v3_dot(f, along.u) + v3_dot(m, along.w) / p.surrogate->arm);
             assert_near_of(t[2].energy - t[1].energy, -2.0 * work, 1e-7,
                            h * (v3_norm(t[0].gradient.f) + v3_norm(t[0].gradient.m) / p.surrogate->arm));
+        }
+        fl_pair_end(&p);
+        lab_free(&l);
+    }
+}
+
+/* What is told has the same bits in every lane. */
+static void lanes_are_alike(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        lab l;
+        fl_pair p;
+        fl_vec3 x;
+        fl_quat q;
+        lay(&l, &p, kind, &x, &q);
+        fl_interact(&l.w, &p, 0, 0.0, 0);
+        go(&l, p.surrogate, x, q, (way){v3(0.3, 0.5, 0.2), v3(0.4, -0.5, 0.4)}, 0.1 * DEPTH);
+        const fl_told one = told_of(&l, p.surrogate);
+        for (int k = 1; k < FL_TOLD; k++) {
+            const fl_told other = told_in(&l, p.surrogate, k);
+            assert_memory_equal(&one, &other, sizeof one);
         }
         fl_pair_end(&p);
         lab_free(&l);
@@ -159,11 +195,8 @@ static void the_slope_is_told(void **state)
         const double first = p.slip.k;
         assert_true(first > 0.0);
         for (int k = 0; k < 50; k++) {
-            fl_mat3 M;
-            fl_told t;
             go(&l, p.surrogate, x, q, some(&g), 0.05 * DEPTH);
-            const fl_vec3 o = pose(&l, &M);
-            fl_surrogate_tell(p.surrogate, &M, o, &t);
+            const fl_told t = told_of(&l, p.surrogate);
             const double now = lab_look(&l.w, 0, 1).slip.k;
             off += fabs(t.slope / p.surrogate->slope * first - now);
             changed += fabs(now - first);
@@ -218,6 +251,7 @@ static void a_look_teaches(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
-                                       cmocka_unit_test(the_slope_is_told), cmocka_unit_test(a_look_teaches)};
+                                       cmocka_unit_test(lanes_are_alike), cmocka_unit_test(the_slope_is_told),
+                                       cmocka_unit_test(a_look_teaches)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }
