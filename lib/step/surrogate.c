@@ -46,10 +46,14 @@ FL_WIDE_PART void product(fl_six out, const fl_six *A, const fl_six x, const fl_
 }
 
 /* A += s (x y^T + y x^T) */
-static void add(fl_six *A, double s, const fl_six x, const fl_six y)
+FL_FOUR_VERSIONS static void add(fl_six *A, double s, const fl_six x, const fl_six y)
 {
-    for (int r = 0; r < 6; r++)
-        for (int c = 0; c < 6; c++) A[r][c] += s * (x[r] * y[c] + y[r] * x[c]);
+    const fl_wide x0 = FL_FOUR(x), x4 = FL_FOUR(x + 4), y0 = FL_FOUR(y), y4 = FL_FOUR(y + 4);
+    FL_WIDE_UNROLL
+    for (int r = 0; r < 6; r++) {
+        FL_FOUR_INTO(&A[r][0]) += s * (x[r] * y0 + y[r] * x0);
+        FL_FOUR_INTO(&A[r][4]) += s * (x[r] * y4 + y[r] * x4);
+    }
 }
 
 /* z^(p - 2), the powers being quarters. */
@@ -242,7 +246,7 @@ static double compare(fl_surrogate *s, const fl_told *t, const fl_six slope, dou
     const double pull = p * t->energy / t->z;
     for (int k = 0; k < 6; k++)
         far[k] = now[k] - pull * t->rise[k], r[k] = now[k] * (z / (p * W)) - t->rise[k];
-    far[6] = far[7] = 0.0;
+    far[6] = far[7] = r[6] = r[7] = 0.0;
     const double off = t->z > 0.0 ? sqrt(dot(far, far)) / most : 1.0;
     double longer = off > 0.0 ? SAFE * sqrt(tolerance / off) * t->way / (s->reach * s->overlap) : LONGER;
     longer = longer > LONGER ? LONGER : longer < SHORTER ? SHORTER : longer;
