@@ -1,0 +1,82 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# jam.sh [BUILD [OUT]] -- does contact.surrogate bias a jam?  share/examples/cylinder in pairs of runs, one
+# without and one with 1e-3, each pair with another restitution and step, by the programs of BUILD/bin.
+#   OUT/jam.tsv   a row a run; its head names the machine.  OUT is bench/results
+# and prints means, standard errors and paired differences, as jam.awk has them of that table.
+#   PAIRS=57      half a minute of a processor each
+#   JOBS=2        pairs at a time, one thread each
+#   FLOE_QUICK=1  3 pairs of 8 s, a few seconds in all
+# Restitution is 0.28 to 0.32 and the step 0.38 to 0.57 ms, for pair n by the fractions of n/g and n/g^2 with
+# g^3 = g + 1: points that fill the square evenly however many are taken; 12 pairs are the first 12 of 57.
+set -u
+LC_ALL=C
+export LC_ALL
+bench=$(cd "$(dirname "$0")" && pwd) || exit 4
+fail() { echo "jam.sh: $*" >&2; exit 4; }
+
+# pair N SECONDS: both runs of that pair, and their rows.
+if [ "${1-}" = pair ]; then # as xargs calls it, in the folder of the runs
+    n=$2 seconds=$3
+    # shellcheck disable=SC2046 # two numbers
+    set -- $(awk -v n="$n" 'BEGIN {
+        g = 1.32471795724474602596
+        e = n / g; dt = n / (g * g)
+        printf "%.4f %.4f", 0.28 + 0.04 * (e - int(e)), 0.38 + 0.19 * (dt - int(dt)) }')
+    for tol in 0 1e-3; do
+        name=$n-$tol
+        echo "pair $n, tolerance $tol: restitution $1, $2 ms" >&2
+        dem-solve -q -j 1 --ice g-polys.dat --structure g_struct.dat --set run.duration="$seconds" \
+            --set run.dt="$2 ms" --set contact.restitution="$1" --set contact.surrogate=$tol \
+            --set output.state=none --set output.frames=none \
+            --set output.energy="$name.energy" --set output.energy_every="$seconds" \
+            --report "$name.report" -o "$name.loads" scene 2>"$name.err" ||
+            fail "pair $n, $tol: $(cat "$name.err")"
+        awk -v first="$n $tol $1" -v ms="$2" -v seconds="$seconds" '
+            FNR == 1 { split("", col) }
+            /^energy residual/ { residual = $3 }
+            /^processor/ { cpu = $2 }
+            /^state hash/ { hash = $3 }
+            /^#/ || FILENAME ~ /report$/ { next }
+            !("t[s]" in col) { for (k = 1; k <= NF; k++) col[$k] = k; next }
+            "part" in col { J += $col["fx[N]"] * ($1 - before); before = $1; next }
+            { friction = $col["friction[J]"]; damping = $col["damping[J]"] }
+            END {
+                gsub(" ", "\t", first)
+                printf "%s\t%.7g\t%.6g\t%.6g\t%.6g\t", first, ms / 1e3, J / 1e3, friction / 1e3, damping / 1e3
+                printf "%s\t%.4g\t%s\n", residual, cpu / seconds, hash
+            }' "$name.report" "$name.loads" "$name.energy" >"$name.row"
+        rm "$name.loads" "$name.energy"
+    done
+    exit 0
+fi
+
+build=$(cd "${1:-$bench/../build}" && pwd) || exit 4
+out=${2:-$bench/results}
+mkdir -p "$out" "$build/jam" || exit 4
+out=$(cd "$out" && pwd)
+PATH=$build/bin:$PATH
+if [ "${FLOE_QUICK:-0}" = 0 ]; then pairs=${PAIRS:-57} seconds=60; else pairs=${PAIRS:-3} seconds=8; fi
+here=$build/jam/$$
+mkdir -p "$here" && cd "$here" || exit 4
+trap 'rm -rf "$here"' EXIT
+trap 'exit 130' INT TERM HUP
+
+example=$bench/../share/examples/cylinder
+make -s -C "$example" BIN="$build/bin" OUT="$here" "$here/g-polys.dat" "$here/g_struct.dat" >made 2>&1 ||
+    fail "$(cat made)"
+cp "$example/cylinder.scene" scene || exit 4
+awk -v n="$pairs" -v s="$seconds" 'BEGIN { for (k = 1; k <= n; k++) print "pair", k, s }' >list
+xargs -L 1 -P "${JOBS:-2}" sh "$bench/jam.sh" <list || fail "not all pairs ran"
+{
+    echo '#jam 1'
+    echo "#by $(dem-solve --version)"
+    echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
+    echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the runs themselves being ${JOBS:-2}"
+    echo "#seconds $seconds"
+    printf 'pair\ttolerance\trestitution\tdt[s]\timpulse[kN.s]\tfriction[kJ]\tdamping[kJ]\t'
+    printf 'energy\tcost[s/s]\thash\n'
+    while read -r _ n _; do cat "$n-0.row" "$n-1e-3.row"; done <list
+} >jam.tsv
+cp jam.tsv "$out" || exit 4
+awk -f "$bench/jam.awk" jam.tsv
