@@ -3,18 +3,19 @@
  * the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
  *     bench_contact               the table
  *     bench_contact CASE N [TOL]  N evaluations of one case, for a tool that counts instructions; by
- *                                 surrogates of that tolerance
+ *                                 surrogates of that tolerance N of one of eight
  *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
  *                                 and the forces of one that slides off it, by law
  * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm; they move by a hundredth of
  * a millimetre between evaluations, as in a step of 0.1 ms at 0.1 m/s, so that the cost of finding features
- * anew is in it.  "told" is the same with contact.surrogate, its looks included, and how far the force of a
- * step is off at most.  Times are thread time of this machine now; compare rows of one run only. */
+ * anew is in it.  "told" is the same with contact.surrogate for one of eight such contacts, which are told of
+ * together, looks included, and how far the force of a step is off at most.  Times are thread time of this machine now; compare rows of one run only. */
 #include <ccd/ccd.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include "step/awake.h"
 #include "step/interact.h"
 #include "support/lab.h"
 
@@ -22,9 +23,10 @@
 #define OVERLAP 0.004
 #define STEP 1e-5      /* [m] */
 #define TOLERANCE 1e-3 /* of contacts by surrogates */
+#define PITCH 50.0     /* of contacts above each other [m] */
 #define PI 3.14159265358979323846
 
-enum { CORNERS = 8, TIMES = 20000, CCD_TIMES = 4000 };
+enum { CORNERS = 8, EIGHT = 8, TIMES = 20000, CCD_TIMES = 4000 };
 
 static double now(void)
 {
@@ -78,35 +80,42 @@ static const char *const NAME[CASES] = {NULL,
                                         "side on cylinder",
                                         "side on 2 triangles"};
 
-/* Two bodies, or one and what is held: pair 0 of the world touches. */
-static void make(lab *l, which c, const char *law, double surrogate)
+/* Two bodies, or one and what is held, at a height of their own. */
+static void put(lab *l, which c, double z)
 {
     const double half = 1.5 * cos(PI / 8.0), near = 2.0 * RADIUS - OVERLAP, wall = RADIUS - OVERLAP;
-    lab_start(l);
-    lab_setf(l, "contact.law=%s", law);
-    lab_setf(l, "contact.surrogate=%g", surrogate);
-    lab_set(l, "contact.friction=0.3");
-    if (c == SPHERE_ON_FLOE) lab_sphere(l, v3(0, 0, 0), RADIUS, v3(0, 0, 0), v3(0, 0, 0));
-    else octagon(l, v3(0, 0, 0), 0.0, 0.0);
+    if (c == SPHERE_ON_FLOE) lab_sphere(l, v3(0, 0, z), RADIUS, v3(0, 0, 0), v3(0, 0, 0));
+    else octagon(l, v3(0, 0, z), 0.0, 0.0);
     switch (c) {
-    case SPHERE_ON_FLOE: octagon(l, v3(half + near, 0.1, 0.02), 0.0, 0.0); break;
-    case SIDE_ON_SIDE: octagon(l, v3(2.0 * half + near, 0.1, 0.02), 0.0, 0.0); break;
-    case SIDE_TURNED: octagon(l, v3(2.0 * half + near + 0.02, 0.1, 0.02), 3.0 * PI / 180.0, 0.0); break;
-    case SIDE_TILTED: octagon(l, v3(2.0 * half + near, 0.1, 0.02), 0.0, PI / 180.0); break;
-    case EDGE_ON_SIDE: octagon(l, v3(half + 1.5 + near, 0.1, 0.02), PI / 8.0, 0.0); break;
-    case FLAT_ON_FLAT: octagon(l, v3(0.3, 0.2, 0.4 + near), 0.2, 0.0); break;
-    case FLAT_TURNED: octagon(l, v3(1.3, 0.2, 0.4 + near), 0.5, 0.003); break;
+    case SPHERE_ON_FLOE: octagon(l, v3(half + near, 0.1, z + 0.02), 0.0, 0.0); break;
+    case SIDE_ON_SIDE: octagon(l, v3(2.0 * half + near, 0.1, z + 0.02), 0.0, 0.0); break;
+    case SIDE_TURNED: octagon(l, v3(2.0 * half + near + 0.02, 0.1, z + 0.02), 3.0 * PI / 180.0, 0.0); break;
+    case SIDE_TILTED: octagon(l, v3(2.0 * half + near, 0.1, z + 0.02), 0.0, PI / 180.0); break;
+    case EDGE_ON_SIDE: octagon(l, v3(half + 1.5 + near, 0.1, z + 0.02), PI / 8.0, 0.0); break;
+    case FLAT_ON_FLAT: octagon(l, v3(0.3, 0.2, z + 0.4 + near), 0.2, 0.0); break;
+    case FLAT_TURNED: octagon(l, v3(1.3, 0.2, z + 0.4 + near), 0.5, 0.003); break;
     case FLOE_ON_PLANE: lab_setf(l, "boundary.min=%.17g none none", -half - wall); break;
     case FLOE_ON_CYLINDER:
-        lab_cone(l, (fl_cone){v3(half + wall + 1.5, 0.03, -6), v3(half + wall + 1.5, 0.03, 6), 1.5, 1.5});
+        lab_cone(l,
+                 (fl_cone){v3(half + wall + 1.5, 0.03, z - 6), v3(half + wall + 1.5, 0.03, z + 6), 1.5, 1.5});
         break;
     default: {
         const double x = half + wall; /* an L of walls: not convex, a shell */
         const fl_vec3 xy[6] = {v3(x, -9, 0),    v3(x + 9, -9, 0), v3(x + 9, 9, 0),
                                v3(x - 5, 9, 0), v3(x - 5, 8, 0),  v3(x, 8, 0)};
-        lab_prism(l, 6, xy, -5, 5);
+        lab_prism(l, 6, xy, z - 5, z + 5);
     }
     }
+}
+
+/* One such contact above the other. */
+static void make(lab *l, which c, const char *law, double surrogate, int copies)
+{
+    lab_start(l);
+    lab_setf(l, "contact.law=%s", law);
+    lab_setf(l, "contact.surrogate=%g", surrogate);
+    lab_set(l, "contact.friction=0.3");
+    for (int k = 0; k < copies; k++) put(l, c, PITCH * k);
     lab_make(l, 1e-9);
 }
 
@@ -118,19 +127,31 @@ static fl_pair *touching(lab *l)
 }
 
 /* There and back again, sliding and, by a fifth of it, pressing; path counts every step. */
-static void go(lab *l, int k)
+static void go(lab *l, int32_t i, int k)
 {
     fl_bodies *b = &l->w.b;
-    b->x[0].y += k / 100 % 2 ? -STEP : STEP;
-    b->x[0].x += k / 70 % 2 ? -0.2 * STEP : 0.2 * STEP;
-    b->odometer[0] += 1.2 * STEP;
+    b->x[i].y += k / 100 % 2 ? -STEP : STEP;
+    b->x[i].x += k / 70 % 2 ? -0.2 * STEP : 0.2 * STEP;
+    b->odometer[i] += 1.2 * STEP;
 }
 
 static void evaluate(lab *l, fl_pair *p, int times)
 {
     for (int k = 0; k < times; k++) {
-        go(l, k);
+        go(l, p->i, k);
         fl_interact(&l->w, p, 0, 1e-9, 0);
+    }
+}
+
+/* All contacts, as a step takes them. */
+static void evaluate_all(lab *l, int times)
+{
+    fl_world *w = &l->w;
+    for (int k = 0; k < times; k++) {
+        for (int32_t c = 0; c < w->n_pair; c++)
+            if (w->pair[c].n) go(l, w->pair[c].i, k);
+        fl_awake_share(w);
+        fl_awake_look(w, 1e-9, 0);
     }
 }
 
@@ -212,20 +233,19 @@ static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
 static double told(which c, double tolerance, double *looks, double *off)
 {
     lab l;
-    make(&l, c, "patch", tolerance);
+    make(&l, c, "patch", tolerance, EIGHT);
     fl_pair *p = touching(&l);
     *looks = 1.0, *off = INFINITY;
     if (!p) return INFINITY;
-    evaluate(&l, p, 200);
+    evaluate_all(&l, 200);
     const int64_t before = l.w.told[0].told;
     const double begun = now();
-    evaluate(&l, p, TIMES);
-    const double spent = (now() - begun) / TIMES;
-    *looks = 1.0 - (double)(l.w.told[0].told - before) / TIMES;
+    evaluate_all(&l, TIMES);
+    const double spent = (now() - begun) / TIMES / EIGHT;
+    *looks = 1.0 - (double)(l.w.told[0].told - before) / TIMES / EIGHT;
     *off = 0.0;
     for (int k = 0; k < 400; k++) {
-        go(&l, k);
-        fl_interact(&l.w, p, 0, 1e-9, 0);
+        evaluate_all(&l, 1);
         const fl_vec3 f = lab_look(&l.w, p->i, p->j).f;
         *off = fmax(*off, v3_norm(v3_sub(v3_sub(p->f, v3_add(p->fs, p->fd)), f)) / v3_norm(f));
     }
@@ -236,7 +256,7 @@ static double told(which c, double tolerance, double *looks, double *off)
 static int row(which c, const char *law)
 {
     lab l;
-    make(&l, c, law, 0.0);
+    make(&l, c, law, 0.0, 1);
     fl_pair *p = touching(&l);
     if (!p) return 1;
     const double off = off_gradient(&l, p);
@@ -317,9 +337,10 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "curves") == 0) return curves(argv[2]);
     if (argc == 3 || argc == 4) {
         lab l;
-        make(&l, (which)atoi(argv[1]), "patch", argc == 4 ? atof(argv[3]) : 0.0);
+        make(&l, (which)atoi(argv[1]), "patch", argc == 4 ? atof(argv[3]) : 0.0, argc == 4 ? EIGHT : 1);
         fl_pair *p = touching(&l);
-        if (p) evaluate(&l, p, atoi(argv[2]));
+        if (p && argc == 4) evaluate_all(&l, atoi(argv[2]) / EIGHT);
+        else if (p) evaluate(&l, p, atoi(argv[2]));
         lab_free(&l);
         return p == NULL;
     }

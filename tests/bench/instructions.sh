@@ -4,10 +4,11 @@
 # depend on how busy the machine is.  Beside it the one kept in instructions.txt, and how far it has risen;
 # `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.  The cases by number are
 # those of bench_contact; `wall` of 20 000 triangles, `cylinder`, exact, and `hull` of 50 000 triangles are of
-# bench_structure; `told` are cases of bench_contact by surrogates of 1e-3, looks included; `spheres` is a
-# contact and step of spheres in a lattice, everything included, `dry`, `water`, `waves` and `facets` a body and
-# step of floes that touch nothing.  `sums-one` and `sums-any` are a body and step of floes that do, with all sums
-# in one order and in the order in which contacts come, which locks every sum it adds to.
+# bench_structure; `told` are cases of bench_contact by surrogates of 1e-3, one of eight, looks included;
+# `spheres` is a contact and step of spheres in a lattice, everything included, `dry`, `water`, `waves` and
+# `facets` a body and step of floes that touch nothing.  `sums-one` and `sums-any` are a body and step of floes
+# that do, with all sums in one order and in the order in which contacts come, which locks every sum it adds
+# to.
 #   BENCH  the folder where the benches lie
 #   ONLY   the one case that is counted
 set -e
