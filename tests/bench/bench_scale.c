@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* bench_scale.c -- what a contact, a body and a search cost among 1 000, 10 000 and 100 000 floes at 80 %,
+ * dry, which eddies have stirred for the same time, until there is a contact for five floes: law patch, one
+ * thread.
+ *   ns a contact   all contacts once, in the order of a step and behind a step, when the cache holds what the
+ *                  bodies have left in it; whoever does not touch sleeps then, and is passed over
+ *   emptied        the same when the cache has been filled with something else
+ *   ns a body      what a step takes besides; pairs that came near are looked at in it
+ *   ns a search    of all, for a body: boxes, near pairs, their lists
+ *   bytes          that last, of a floe with its pairs
+ *   over           ns a contact over those of the first row
+ * Beside them stand the energy residual over the throughput, the largest overlap, and the hash of the state.
+ * Rows take turns; times are of processors and the least, those of a body the middle of differences.  Fails
+ * where a contact costs more than 1.5 times as much in the last row as in the first, where what is of a body
+ * does, or where the energy is off by 1e-4. */
+#include <stdlib.h>
+#include <time.h>
+#include "step/awake.h"
+#include "step/footprint.h"
+#include "step/search.h"
+#include "support/eddies.h"
+
+#define STIRRED 2.0 /* [m/s] */
+#define END 0.2     /* [s] */
+#define MOST 1.5    /* the last row over the first: what is wanted */
+#define OFF 1e-4
+
+enum {
+    ROWS = 3,
+    FEWEST = 1000, /* floes */
+    PARTS = 100,   /* of the last row, of FEWEST each */
+    TURNS = 6,
+    STEPS = 5,
+    CACHE = 64 << 20 /* more than there is [B] */
+};
+
+typedef struct {
+    int32_t n;
+    lab l;
+    double contact[PARTS], emptied[PARTS], search; /* of one contact, of all bodies [s] */
+    double rest[TURNS * STEPS];                    /* of a step without its contacts, for a body [s] */
+    int steps, bad;
+} field;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void start(field *f, int32_t n)
+{
+    f->n = n;
+    f->search = INFINITY;
+    for (int p = 0; p < PARTS; p++) f->contact[p] = f->emptied[p] = INFINITY;
+    eddies_start(&f->l, n, STIRRED);
+    lab_make(&f->l, 0.0);
+    f->bad = lab_run(&f->l, (int64_t)(END / f->l.w.dt));
+}
+
+/* The first near pair of floe i or of one behind it. */
+static int32_t first_of(const fl_world *w, int32_t i)
+{
+    int32_t c = 0, end = w->n_pair;
+    while (c < end) {
+        const int32_t middle = c + (end - c) / 2;
+        if (w->pair[middle].i < i) c = middle + 1;
+        else end = middle;
+    }
+    return c;
+}
+
+static int32_t touching(const fl_world *w, int32_t part)
+{
+    int32_t n = 0;
+    for (int32_t c = first_of(w, part * FEWEST), end = first_of(w, (part + 1) * FEWEST); c < end; c++)
+        n += w->hit[c];
+    return n;
+}
+
+/* All contacts at the poses of now; returns how long they took.  No time goes by, but friction and damping
+ * are shown speeds that a step would not show them: the state is good for this alone.  Each thousand floes
+ * has a least of its own, of one contact: so it is of as much at a time in every row, as long as the machine
+ * leaves it alone. */
+static double look(field *f, double *least)
+{
+    fl_world *const w = &f->l.w;
+    double all = 0.0;
+    for (int32_t p = 0; p < f->n / FEWEST; p++) {
+        w->share[0] = (fl_portion){.next = first_of(w, p * FEWEST), .end = first_of(w, (p + 1) * FEWEST)};
+        const double begun = now();
+        fl_awake_look(w, 0.0, 0);
+        const double took = now() - begun;
+        least[p] = fmin(least[p], took / touching(w, p));
+        all += took;
+    }
+    return all;
+}
+
+static double of_all(const field *f, const double *least)
+{
+    double sum = 0.0;
+    for (int32_t p = 0; p < f->n / FEWEST; p++) sum += least[p] * touching(&f->l.w, p);
+    return sum / f->l.w.n_live;
+}
+
+static void empty_cache(void)
+{
+    static volatile char other[CACHE];
+    for (size_t k = 0; k < 2 * (size_t)CACHE; k += 64) other[k % CACHE]++; /* once leaves some of it */
+}
+
+/* Whether the lists are made anew now or later bears on no bit. */
+static double search(field *f)
+{
+    fl_err err = {0};
+    f->l.w.found_at = -1;
+    const double begun = now();
+    f->bad |= fl_search(&f->l.w, &err) != 0;
+    return now() - begun;
+}
+
+/* The search comes first: other rows have had the cache. */
+static void turn(field *f)
+{
+    fl_world *const w = &f->l.w;
+    f->search = fmin(f->search, search(f));
+    for (int k = 0; k < STEPS && !f->bad; k++) {
+        const int64_t searches = w->searches;
+        const double begun = now();
+        f->bad |= lab_run(&f->l, 1) != 0;
+        const double step = now() - begun, contacts = look(f, f->contact);
+        if (w->searches == searches) f->rest[f->steps++] = (step - contacts) / f->n;
+    }
+    empty_cache();
+    look(f, f->emptied);
+}
+
+int main(void)
+{
+    static field row[ROWS];
+    double contact[ROWS], body[ROWS], bytes[ROWS];
+    int good = 0, bad = 0;
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    for (int32_t k = 0, n = FEWEST; k < ROWS; k++, n *= 10) start(&row[k], n);
+    for (int k = 0; k < TURNS * ROWS; k++) turn(&row[k % ROWS]);
+    printf("%7s %6s %9s %5s %13s %8s %10s %12s %6s %5s %9s %11s\n", "floes", "t[s]", "touching", "near",
+           "ns a contact", "emptied", "ns a body", "ns a search", "bytes", "over", "residual", "overlap/2R");
+    for (int k = 0; k < ROWS; k++) {
+        field *const f = &row[k];
+        fl_world *const w = &f->l.w;
+        const fl_footprint b = fl_footprint_of(w);
+        fl_step_ledger(w);
+        const double residual = fabs(w->ledger.residual) / w->ledger.throughput;
+        contact[k] = of_all(f, f->contact);
+        qsort(f->rest, (size_t)f->steps, sizeof *f->rest, by_size);
+        body[k] = f->steps ? f->rest[f->steps / 2] : INFINITY;
+        bytes[k] = fl_footprint_sum(&b) / f->n;
+        printf("%7d %6.3f %9.3f %5.2f %13.0f %8.0f %10.0f %12.0f %6.0f %5.2f %9.1e %11.2f %016llx\n", f->n,
+               fl_world_time(w), (double)w->n_live / f->n, (double)w->n_pair / f->n, 1e9 * contact[k],
+               1e9 * of_all(f, f->emptied), 1e9 * body[k], 1e9 * f->search / f->n, bytes[k],
+               contact[k] / contact[0], residual, w->worst_overlap, (unsigned long long)fl_step_hash(w));
+        if (!f->bad && residual < OFF) good++;
+        else bad++;
+    }
+    const field *const last = &row[ROWS - 1];
+    if (contact[ROWS - 1] <= MOST * contact[0]) good++;
+    else bad++;
+    if (body[ROWS - 1] <= MOST * body[0] && bytes[ROWS - 1] <= MOST * bytes[0] &&
+        last->search / last->n <= MOST * row[0].search / row[0].n)
+        good++;
+    else bad++;
+    for (int k = 0; k < ROWS; k++) lab_free(&row[k].l);
+    printf("%d passed, %d failed\n", good, bad);
+    return bad > 0;
+}
