@@ -4,7 +4,8 @@
 #   check    floors, man pages against --help, unit, prop, fuzz, golden, the quick part of verify, and each corpus of
 #            fuzz as it is under the sanitizers, where BUILD/san has the programs
 #   verify   every verification program in full, with its table, and a line for each hard case
-#   bench    every benchmark, one at a time, and what of bench/ renews bench/results: the kernel, surrogates and the ladder
+#   bench    every benchmark, one at a time, and what of bench/ renews bench/results: the kernel, surrogates,
+#            peers and the ladder
 #   update   rewrite what the golden cases expect; CASE='name*' limits it to some of them
 # One line a program, the output of those that failed, and at the end "N passed, N failed" alone.
 # Status 0, or 1 when something failed.  A program that crashes, hangs (FLOE_TIMEOUT seconds, else 600; 3600 for
@@ -153,6 +154,7 @@ bench)
     programs bench
     add bench/kernel "exec sh bench/kernel.sh '$build'"
     add bench/surrogate "exec sh bench/surrogate.sh '$build'"
+    add bench/peers "exec sh bench/peers.sh '$build'"
     add bench/ladder "exec sh bench/ladder.sh '$build'"
     ;;
 esac

@@ -6,6 +6,9 @@
  *     bench_spheres count STEPS            so many steps of a thousand spheres in a lattice, for a tool that
  *                                          counts instructions; tells how many contact-steps they were
  *     bench_spheres THREADS TILES STEPS    one row
+ *     bench_spheres pack TILES STEPS PARTS what so many steps, each cut into parts, make of the pack (0: the
+ *                                          pack): a row with the number of spheres, the step that is cut and
+ *                                          the length of the cell; a row a sphere, radius, x, v, w
  * A column of a thousand spheres of radii within a tenth of each other is poured into a cell that repeats
  * itself and settles; larger packs are that one laid side by side.  Times are of the
  * processors, the best of several windows on this machine now, and once more by the clock for the contact;
@@ -73,13 +76,19 @@ static void pour(ball *b, double *dt)
 }
 
 /* The column, tiles by tiles times. */
-static void lay(lab *l, const ball *b, int32_t tiles, int threads, double dt)
+static void set(lab *l, const ball *b, int32_t tiles, int threads)
 {
     keys(l, tiles, threads);
     for (int32_t t = 0; t < tiles * tiles; t++) {
         const fl_vec3 by = v3(PITCH * SIDE * (t % tiles), PITCH * SIDE * (t / tiles), 0);
         for (int32_t k = 0; k < COLUMN; k++) lab_sphere(l, v3_add(b[k].x, by), b[k].r, b[k].v, b[k].w);
     }
+}
+
+/* The same, ready to run. */
+static void lay(lab *l, const ball *b, int32_t tiles, int threads, double dt)
+{
+    set(l, b, tiles, threads);
     fl_err err = {0};
     int32_t *at = malloc((size_t)l->field.n * sizeof *at);
     if (!at || fl_field_order(&l->field, at, &err)) exit(1); /* as dem-solve does */
@@ -122,7 +131,7 @@ static int row(const ball *b, int32_t tiles, int threads, double dt, int64_t ste
     }
     fl_step_ledger(&l.w);
     const fl_ledger *g = &l.w.ledger;
-    printf("%8d %7d %10.1f %12.1f %10.2f %10.2f %10.0f %10.0f %12.1e %12.1e\n", n, threads, 1e9 * cpu / n,
+    printf("%8d %7d %10.1f %12.1f %10.2f %10.4f %10.0f %10.0f %12.1e %12.1e\n", n, threads, 1e9 * cpu / n,
            1e9 * cpu / contacts, 1e9 * best / contacts, contacts / n, 1e9 * search / n, bytes,
            fabs(g->residual) / g->elastic, l.w.worst_overlap);
     const int bad = !(fabs(g->residual) < 1e-3 * g->elastic && l.w.worst_overlap < 0.1);
@@ -154,6 +163,24 @@ static int count(ball *b, int64_t steps)
     return failed;
 }
 
+/* The pack, or what steps make of it, each cut into parts; spheres in the order in which they were laid. */
+static int tell(const ball *b, int32_t tiles, double dt, int64_t steps, int64_t parts)
+{
+    lab l;
+    set(&l, b, tiles, 1);
+    lab_make(&l, dt / (double)parts);
+    const int failed = lab_run(&l, steps * parts);
+    const fl_bodies *a = &l.w.b;
+    printf("%d %.17g %.17g\n", l.w.n, dt, PITCH * SIDE * tiles);
+    for (int32_t k = 0; k < l.w.n; k++) {
+        const fl_vec3 x = fl_cell_inside(&l.w.cell, a->x[k]), v = a->v[k], w = a->w[k];
+        printf("%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", a->radius[k], x.x, x.y, x.z,
+               v.x, v.y, v.z, w.x, w.y, w.z);
+    }
+    lab_free(&l);
+    return failed;
+}
+
 int main(int argc, char **argv)
 {
     static ball b[COLUMN];
@@ -165,6 +192,7 @@ int main(int argc, char **argv)
     setvbuf(stdout, NULL, _IOLBF, 0);
     if (argc == 3) return count(b, atoi(argv[2]));
     pour(b, &dt);
+    if (argc == 5) return tell(b, atoi(argv[2]), dt, atoi(argv[3]), atoi(argv[4]));
     printf("spheres at rest, Hertz and Mindlin, friction 0.4, steps of %.3g s\n", dt);
     head();
     if (argc == 4) return row(b, atoi(argv[2]), atoi(argv[1]), dt, atoi(argv[3]));

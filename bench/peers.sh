@@ -1,0 +1,167 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# peers.sh [BUILD [OUT]] -- the pack of bench_spheres beside other programs that know Hertz and Mindlin,
+# LAMMPS (lmp) and LIGGGHTS (liggghts), in turns on one thread: time of a contact and step, and its error.
+#   OUT/peers.tsv   a row for each pack and program; its head names the machine.  OUT is bench/results
+# A program that is not there has no rows; where neither is, the table stays as it is.  What the columns are,
+# and in what the programs differ: bench/README.md.  The scene is in peers.lmp and peers.lig.
+#   FLOE_QUICK=1        the pack of 1 000, once, in shorter windows
+#   TURNS=3             how often each program runs, one after the other, by each of three skins of the peers'
+#                       lists of neighbours; the least window of all counts, and the skin that had it is told
+set -u
+LC_ALL=C OMP_NUM_THREADS=1
+export LC_ALL OMP_NUM_THREADS
+bench=$(cd "$(dirname "$0")" && pwd) || exit 4
+fail() { echo "peers.sh: $*" >&2; exit 4; }
+
+build=$(cd "${1:-$bench/../build}" && pwd) || exit 4
+out=${2:-$bench/results}
+mkdir -p "$out" || exit 4
+out=$(cd "$out" && pwd)
+quick=${FLOE_QUICK:-0}
+[ "$quick" = 0 ] && turns=${TURNS:-3} packs='1 3 10' || turns=${TURNS:-1} packs=1
+peers=
+for p in lmp liggghts; do
+    if command -v $p >/dev/null; then
+        peers="$peers $p"
+    else
+        echo "peers.sh: there is no $p, its rows are left out" >&2
+    fi
+done
+[ "$peers" ] || exit 0
+here=$(mktemp -d "${TMPDIR:-/tmp}/floe-peers.XXXXXX") && cd "$here" || exit 4
+trap 'rm -rf "$here"' EXIT
+TMPDIR=$here # MPI leaves things there
+export TMPDIR
+trap 'exit 130' INT TERM HUP
+spheres=$build/tests/bench/bench_spheres
+
+# A pack as LAMMPS and LIGGGHTS read it.
+data()
+{
+    awk 'NR == 1 {
+            printf "pack\n\n%d atoms\n2 atom types\n\n", $1
+            printf "0 %s xlo xhi\n0 %s ylo yhi\n-0.2 2 zlo zhi\n\nAtoms\n\n", $3, $3
+            next
+        }
+        {
+            print NR - 1, 1, sprintf("%.17g", 2 * $1), 917, $2, $3, $4
+            v[NR - 1] = $5 " " $6 " " $7 " " $8 " " $9 " " $10
+        }
+        END { printf "\nVelocities\n\n"; for (k = 1; k < NR; k++) print k, v[k] }' "$1"
+}
+
+# peer PROGRAM TILES SKIN WINDOWS STEPS PARTS: windows of steps, each step cut in parts; leaves log and state.
+peer()
+{
+    [ "$1" = lmp ] && deck=$bench/peers.lmp || deck=$bench/peers.lig
+    dt=$(awk -v parts="$6" 'NR == 1 { printf "%.17g", $2 / parts; exit }' "pack.$2")
+    "$1" -in "$deck" -log none -var data "data.$2" -var skin "$3" -var dt "$dt" -var windows "$4" \
+        -var steps $(($5 * $6)) -var state state >log 2>&1 </dev/null || fail "$1: $(tail -n 2 log)"
+}
+
+# What is in state: pairs that touch, and spheres that touch the floor.
+contacts() { awk 'NF == 5 && !/^ITEM/ { n += $5 / 2 + ($4 < $1) } END { print n }' state; }
+
+# One row to rows: spheres, program, skin, ns of the least window, contacts.
+time_own() # TILES STEPS
+{
+    "$spheres" 1 "$1" "$2" >log || fail "bench_spheres: $(tail -n 1 log)"
+    awk 'END { printf "%d\tfloe\t-\t%s\t%.0f\n", $1, $5, $1 * $6 }' log >>rows
+}
+time_peer() # PROGRAM TILES SKIN WINDOWS STEPS
+{
+    peer "$@" 1
+    awk -v n="$(head -n 1 "pack.$2")" -v p="$1" -v skin="$3" -v contacts="$(contacts)" '
+        /^Loop time/ && $9 > 0 { t = $4 / $9; least = least == "" || t < least ? t : least }
+        END { printf "%d\t%s\t%s\t%.2f\t%.0f\n", n, p, skin, 1e9 * least / contacts, contacts }' log >>rows
+}
+
+# miss A B: the root mean square of what places in A miss of those in B, over what B moved since the start.
+miss()
+{
+    awk -v side="$(awk '{ print $3; exit }' pack.1)" '
+        function image(d) { return d - side * int(d / side + (d < 0 ? -0.5 : 0.5)) }
+        FNR == 1 { file++; n = 0 }
+        NF < 5 || /^ITEM/ { next }
+        {
+            n++
+            for (k = 2; k < 5; k++) {
+                x[file, n, k] = $k
+                if (file == 3) {
+                    off += image(x[1, n, k] - $k) ^ 2
+                    moved += image(x[2, n, k] - $k) ^ 2
+                }
+            }
+        }
+        END { printf "%.2g", sqrt(off / moved) }' "$1" pack.1 "$2"
+}
+
+# states PROGRAM: what it makes of the pack in 400 steps, and in steps cut in 2 and in 16 parts.
+states()
+{
+    for parts in 1 2 16; do
+        if [ "$1" = floe ]; then
+            "$spheres" pack 1 400 $parts >state || fail "bench_spheres: no state"
+        else
+            peer "$1" 1 0.005 1 400 $parts
+        fi
+        mv state "$1.$parts"
+    done
+}
+
+for tiles in $packs; do
+    "$spheres" pack "$tiles" 0 1 >"pack.$tiles" || fail "bench_spheres: no pack"
+    data "pack.$tiles" >"data.$tiles"
+done
+: >rows
+turn=0
+while [ $turn -lt "$turns" ]; do
+    turn=$((turn + 1))
+    for tiles in $packs; do
+        case $tiles:$quick in
+        1:0) steps=200 windows=40 ;;
+        3:*) steps=50 windows=40 ;;
+        10:*) steps=10 windows=40 ;;
+        *) steps=50 windows=10 ;;
+        esac
+        for skin in 0.002 0.005 0.01; do # each has its best; all have as many windows
+            time_own "$tiles" $steps
+            for p in $peers; do time_peer "$p" "$tiles" $skin $windows $steps; done
+        done
+    done
+done
+for p in floe $peers; do
+    states "$p"
+    printf '%s\t%s\t%s\t%s\n' "$p" "$(miss "$p.1" "$p.16")" "$(miss "$p.2" "$p.16")" "$(miss "$p.16" floe.16)"
+done >errors
+
+version() # PROGRAM
+{
+    case $1 in
+    floe) "$build/bin/dem-solve" --version | sed 's/^[^ ]* //' ;;
+    lmp) lmp -h | sed -n 's/^Large-scale.*Simulator - //p' ;;
+    liggghts) liggghts -h | sed -n 's/.*LIGGGHTS-PUBLIC \([^,]*\),.*/\1/p' ;;
+    esac 2>/dev/null | head -n 1
+}
+for p in floe $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >versions
+{
+    echo '#peers 1'
+    echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
+    echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the programs being 1; $turns turns"
+    printf 'spheres\tprogram\tversion\tskin[m]\tns\tratio\tcontacts\terror\terror_half\tapart\n'
+    awk 'BEGIN { FS = OFS = "\t" }
+        FILENAME == "versions" { version[$1] = $2; next }
+        FILENAME == "errors" { error[$1] = $2 OFS $3 OFS $4; next }
+        !(($1, $2) in ns) { list[++n] = $1 SUBSEP $2 }
+        !(($1, $2) in ns) || $4 < ns[$1, $2] { ns[$1, $2] = $4; rest[$1, $2] = $5; skin[$1, $2] = $3 }
+        END {
+            for (k = 1; k <= n; k++) {
+                split(list[k], of, SUBSEP)
+                print of[1], of[2], version[of[2]], skin[list[k]], ns[list[k]],
+                    sprintf("%.2f", ns[list[k]] / ns[of[1], "floe"]), rest[list[k]], error[of[2]]
+            }
+        }' versions errors rows
+} >peers.tsv
+cp peers.tsv "$out/peers.tsv" || exit 4
+cat peers.tsv
