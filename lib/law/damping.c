@@ -47,13 +47,15 @@ double fl_damping_rest(double D)
 
 double fl_damping_left(double z) { return sqrt(1.0 + z * z) - z; }
 
-double fl_damping_crossley_left(double D)
+double fl_damping_crossley_left(double D, double times)
 {
     enum { PLACES = 64 }; /* on the way, which is flat where it is least: a part in a thousand */
-    double least = fl_damping_left(0.5 * D / fl_damping_rest(D));
+    const double more = sqrt(times);
+    double least = fl_damping_left(0.5 * D / fl_damping_rest(D) * more);
     for (int k = 0; k <= PLACES && D > 0.0; k++) {
         const double u = (double)k / PLACES, K = 1.0 + D * u;
-        const double s2 = 2.0 * ((1.0 - u) - log((1.0 + D) / K) / D) / D, C = D * sqrt(s2 > 0.0 ? s2 : 0.0);
+        const double s2 = 2.0 * ((1.0 - u) - log((1.0 + D) / K) / D) / D,
+                     C = D * sqrt(s2 > 0.0 ? s2 : 0.0) * more;
         const double dt = 0.5 * (sqrt(C * C + 4.0 * K) - C) / K;
         least = dt < least ? dt : least;
     }

@@ -33,9 +33,10 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
 /* What damping leaves of the largest stable step 2/omega of a scheme that has the speed of half a step ago:
  * K dt^2 + 2 C dt <= 4.  Of a ratio z: sqrt(1 + z^2) - z.  Of Hunt and Crossley with c as above: the least of
  * that at rest, and of an impact, where with s and u in shares of v/omega and v the stiffness is 1 + D u, the
- * damping D s, and s^2 = 2 (1 - u)/D - 2 ln[(1 + D)/(1 + D u)]/D^2. */
+ * damping D s, and s^2 = 2 (1 - u)/D - 2 ln[(1 + D)/(1 + D u)]/D^2.  times: of what is so many times as stiff
+ * and as damped, what that leaves of its own 2/omega. */
 double fl_damping_left(double z);
-double fl_damping_crossley_left(double D);
+double fl_damping_crossley_left(double D, double times);
 
 /* Linear, F = k s + 2 zeta sqrt(M k) s', the contact ending when F reaches 0: zeta of restitution e.
  * Source: Schwager & Poeschel, Granular Matter 9 (2007) 465. */

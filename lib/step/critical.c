@@ -111,6 +111,24 @@ static double bed_slope(const fl_world *w, int32_t i)
            (core->nv > 2 ? fl_poly_largest(&w->bed.outer[i]) : 4.0 * r * (r + w->b.bound[i]));
 }
 
+/* How many times as stiff, and as damped, a contact of body i is that is shaken across in place of along:
+ * what is round turns by it, 1 + m r^2/I of the spring of friction.  Of others the corner that is hit turns
+ * as much (softest()). */
+static double shaken(const fl_world *w, int32_t i, const fl_touching *law)
+{
+    const fl_bodies *b = &w->b;
+    const double r = b->radius[i];
+    if (b->core[i].nv > 1 || !(law->friction > 0.0)) return 1.0;
+    return fmax(1.0, law->tangential * (1.0 + b->m[i] * r * r / b->I[i].x));
+}
+
+/* What damping leaves of its critical step. */
+static double left_of(const fl_touching *law, double times)
+{
+    const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE;
+    return times > 1.0 && closed ? fl_damping_crossley_left(law->chi, times) : law->left;
+}
+
 /* omega^2 of the stiffest contact that anything can make, what makes it, and the least that damping leaves of
  * its critical step. */
 static double stiffest_contact(const fl_world *w, int32_t *body, double *left)
@@ -122,7 +140,9 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *left)
         const double places = w->b.core[i].nv > 1 ? FACES : 1.0;
         double n, k = fl_pairing_stiffness(w, i, i, &n),
                   stiffest = place_slope(w, i, i, k, n, met); /* one like itself */
-        least = fmin(least, fl_pairing_law(w, i, i)->left);
+        double times = shaken(w, i, fl_pairing_law(w, i, i));
+        stiffest *= times;
+        least = fmin(least, left_of(fl_pairing_law(w, i, i), times));
         for (int32_t j = w->n; j < w->b.total; j++) {
             if (w->structure.piece[j - w->n].elastic) {
                 const double slope = bed_slope(w, i); /* the damping ratio is c/k omega/2 */
@@ -133,9 +153,10 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *left)
             }
             k = fl_pairing_stiffness(w, i, j, &n);
             const double slope = place_slope(w, i, j, k, n, met);
-            stiffest = fmax(stiffest, slope);
+            times = shaken(w, i, fl_pairing_law(w, i, j));
+            stiffest = fmax(stiffest, times * slope);
             if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
-            least = fmin(least, fl_pairing_law(w, i, j)->left);
+            least = fmin(least, left_of(fl_pairing_law(w, i, j), times));
         }
         /* Two equal bodies on one spring: twice the compliance.  Where the error is measured the step may be
          * the largest that is stable; else it is to be a small share of it, and that of the more careful

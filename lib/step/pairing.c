@@ -57,7 +57,8 @@ int fl_pairing_laws(fl_world *w, fl_err *err)
                 .alpha = alpha,
                 .surrogate = t.law == FL_LAW_PATCH ? t.surrogate : 0.0,
                 /* Tsuji's ratio is C/(2 sqrt(K M)) = alpha/(2 sqrt(3/2)) */
-                .left = manual ? fl_damping_left(fmax(zeta, alpha / sqrt(6.0))) : fl_damping_crossley_left(D),
+                .left = manual ? fl_damping_left(fmax(zeta, alpha / sqrt(6.0)))
+                               : fl_damping_crossley_left(D, 1.0),
                 .literal2 = t.literal2,
                 .literal18 = t.literal18,
             };

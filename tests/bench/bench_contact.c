@@ -9,7 +9,8 @@
  * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm; they move by a hundredth of
  * a millimetre between evaluations, as in a step of 0.1 ms at 0.1 m/s, so that the cost of finding features
  * anew is in it.  "told" is the same with contact.surrogate for one of eight such contacts, which are told of
- * together, looks included, and how far the force of a step is off at most.  Times are thread time of this machine now; compare rows of one run only. */
+ * together, looks included, and how far the force of a step is off at most.  Times are thread time of this
+ * machine now; compare rows of one run only. */
 #include <ccd/ccd.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -160,13 +160,15 @@ static void heap(const char *id, int32_t side, double squeeze)
 
 /* --- with damping ------------------------------------------------------------------------------ */
 
-/* A body on a wall, at rest under its weight and damped by the restitution e. */
-static void resting(lab *l, int box, double e)
+/* A body on a wall, at rest under its weight and damped by the restitution e; rough, if it is to be pushed
+ * across. */
+static void resting(lab *l, int box, int across, double e)
 {
     lab_start(l);
     lab_set(l, "run.gravity=9.81"), lab_set(l, "boundary.min=none none 0");
     lab_setf(l, "contact.restitution=%g", e);
     lab_set(l, "contact.stiffness=5e6");
+    lab_setf(l, "contact.friction=%g", across ? 0.5 : 0.0);
     if (box) lab_box(l, v3(0, 0, 0.2), v3(0.5, 0.4, 0.2), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
     else lab_sphere(l, v3(0, 0, 0.499), 0.5, v3(0, 0, 0), v3(0, 0, 0));
     lab_make(l, 1e-9);
@@ -176,37 +178,43 @@ static void resting(lab *l, int box, double e)
     }
 }
 
-/* Whether a push dies away in steps of dt. */
-static int dies(int box, double e, double share)
+/* How fast it leaves the wall, or slides on it at `arm` below its centre. */
+static double rate(const fl_bodies *b, double arm, int across)
+{
+    return across ? b->v[0].x - arm * b->w[0].y : b->v[0].z;
+}
+
+/* Whether a push, against the wall or across, dies away in steps of dt. */
+static int dies(int box, int across, double e, double share)
 {
     lab l;
     double most = 0.0;
     const double push = 1e-9;
-    resting(&l, box, e);
-    l.w.b.v[0].z += push;
+    resting(&l, box, across, e);
+    *(across ? &l.w.b.v[0].x : &l.w.b.v[0].z) += push;
     fl_step_resize(&l.w, share * l.w.dt_critical, fl_world_time(&l.w));
     for (int k = 0; k < 400 && most < 1e3 * push; k++) {
         if (lab_run(&l, 10)) exit(1);
-        most = fmax(most, fabs(l.w.b.v[0].z));
+        most = fmax(most, fabs(rate(&l.w.b, box ? 0.2 : 0.5, across)));
     }
     lab_free(&l);
     return most < 1e3 * push;
 }
 
-static void damped(const char *id, int box, double e)
+static void damped(const char *id, int box, int across, double e)
 {
     lab l;
     double lo = 0.02, hi = 1.0;
-    resting(&l, box, e);
+    resting(&l, box, across, e);
     const double bound = fl_world_damped(&l.w);
     lab_free(&l);
     for (int k = 0; k < 12; k++) {
         const double mid = sqrt(lo * hi);
-        if (dies(box, e, mid)) lo = mid;
+        if (dies(box, across, e, mid)) lo = mid;
         else hi = mid;
     }
-    verify_note("a %s at rest, e = %g: stable up to %.3g of 2/omega, the bound says %.3g",
-                box ? "box" : "ball", e, lo, bound);
+    verify_note("a %s at rest, e = %g, pushed %s: stable up to %.3g of 2/omega, the bound says %.3g",
+                box ? "box" : "ball", e, across ? "across" : "down", lo, bound);
     verify_below(id, "the bound of the damped step over the largest that is stable", bound / hi, 1.0 + 1e-3);
     verify_below(id, "the largest that is stable over the bound", lo / bound, 2.3);
 }
@@ -214,7 +222,7 @@ static void damped(const char *id, int box, double e)
 /* The largest step of an impact, where 1 + D u and D s are its stiffness and damping: K dt^2 + 2 C dt = 4. */
 static void struck(const char *id, double e)
 {
-    const double D = fl_damping_crossley(e), bound = fl_damping_crossley_left(D);
+    const double D = fl_damping_crossley(e), bound = fl_damping_crossley_left(D, 1.0);
     double least = INFINITY;
     for (int k = 0; k <= 1000; k++) { /* s^2 from u du/(1 + D u) = -s ds */
         const double u = 1e-3 * k, s2 = 2.0 * ((1.0 - u) - log((1.0 + D) / (1.0 + D * u)) / D) / D;
@@ -238,8 +246,10 @@ int main(void)
     static const double E[] = {0.0, 0.05, 0.2};
     for (size_t k = 0; k < sizeof E / sizeof *E; k++) {
         struck("S07", E[k]);
-        damped("S08", 0, E[k]);
-        damped("S09", 1, E[k]);
+        damped("S08", 0, 0, E[k]);
+        damped("S09", 1, 0, E[k]);
+        damped("S10", 0, 1, E[k]);
+        damped("S11", 1, 1, E[k]);
     }
     return verify_end();
 }
