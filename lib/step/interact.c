@@ -22,9 +22,15 @@
 #define NEARLY 1.02
 enum { HOVERS = 8 };
 
+/* A number without the rhythm that steps and pairs may have. */
+static uint32_t mixed(int64_t step, int32_t k)
+{
+    return ((uint32_t)step * UINT32_C(2654435761) + (uint32_t)k * UINT32_C(0x9e3779b1)) >> 16;
+}
+
 static double believed(const fl_world *w, int32_t i, int32_t j)
 {
-    return (w->step + i + j) % HOVERS ? 1.0 : NEARLY;
+    return mixed(w->step, i + j) % HOVERS ? 1.0 : NEARLY;
 }
 
 /* Farther apart than this multiple of its reach, a pair forgets which of its features may touch: a contact
@@ -723,16 +729,22 @@ int fl_interact_apart(const fl_world *w, fl_near *q)
     const fl_poly *A = &b->core[i], *B = &b->core[j];
     const fl_piece *piece = piece_of(w, j);
     const double R = b->radius[i] + b->radius[j];
-    if (q->full || !q->has_axis || A->nv == 1 || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID) ||
-        fl_pairing_law(w, i, j)->kind != FL_LAW_PATCH)
+    fl_pair *const p = q->full; /* it has let go a moment ago */
+    if ((p ? p->n || p->bond || !p->has_axis : !q->has_axis) || A->nv == 1 || B->nv == 1 ||
+        (piece && piece->kind != FL_PIECE_SOLID) || fl_pairing_law(w, i, j)->kind != FL_LAW_PATCH)
         return 0;
-    const fl_vec3 axis = v3(q->axis[0], q->axis[1], q->axis[2]), n = m3_mul(fl_body_axes(b, j), axis);
+    const fl_vec3 axis = p ? p->axis : v3(q->axis[0], q->axis[1], q->axis[2]),
+                  n = m3_mul(fl_body_axes(b, j), axis);
     const double apart = -v3_dot(n, fl_world_way(w, i, j, q->image)),
                  distance = lowest(A->v, A->nv, m3_tmul(fl_body_axes(b, i), n)) + apart +
                             lowest(B->v, B->nv, v3_neg(axis));
     if (!(distance > believed(w, i, j) * R)) return 0;
     q->deep = 0;
     q->asleep = b->odometer[i] + b->odometer[j] + sleep_for(distance, R);
+    if (!p) return 1;
+    p->deep = 0;
+    p->asleep = q->asleep;
+    if (distance > FAR * R) fl_pair_end(p);
     return 1;
 }
 

@@ -4,8 +4,9 @@
 #define FL_STEP_INTERACT_H
 #include "step/world.h"
 
-/* Whether the direction of the last look still keeps two without a contact farther apart than they reach, as
- * it does most often; then nothing else of them has to be known, and q->asleep is renewed. */
+/* Whether the direction of the last look still keeps two that do not touch farther apart than they reach, as
+ * it does most often; then nothing else of them has to be known, and q->asleep is renewed.  A contact that
+ * has let go is renewed as well, and forgets its features where it has gone far enough. */
 int fl_interact_apart(const fl_world *w, fl_near *q);
 
 /* Evaluate pair p at the positions and velocities of the bodies: its wrenches, energies and memory.

@@ -227,7 +227,10 @@ void fl_near_awake(fl_world *w, int32_t c, int32_t thread, const fl_told *t, dou
 {
     fl_near *q = &w->pair[c];
     fl_pair made, *p = q->full;
-    if (fl_interact_apart(w, q)) return;
+    if (fl_interact_apart(w, q)) {
+        if (p) fl_near_keep(w, q, p); /* what has no room of its own needs none */
+        return;
+    }
     if (!p) fl_near_pair(w, q, p = &made);
     p->at = c;
     fl_interact_look(w, p, thread, t, dt, survey);

@@ -85,7 +85,8 @@ static void any_step_is_a_place_to_stop(void **state)
     }
 }
 
-/* Read and written again it is the same, also of pairs that have just let go of each other. */
+/* Read and written again it is the same, also of pairs that have just let go of each other; and a step later.
+ */
 static void a_state_stays_what_it_is(void **state)
 {
     void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_everything, scene_of_wraps,
@@ -111,6 +112,9 @@ static void a_state_stays_what_it_is(void **state)
             char *text = snapshot(&whole.w, &n);
             assert_int_equal(put_back(&l.w, text, n, &err), 0);
             free(text);
+            same(&whole.w, &l.w, "patch", whole.w.step);
+            assert_int_equal(lab_run(&whole, 1), 0);
+            assert_int_equal(lab_run(&l, 1), 0);
             same(&whole.w, &l.w, "patch", whole.w.step);
             lab_free(&l);
         }
