@@ -78,12 +78,21 @@ fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t thr
 enum { BLOCKS = FL_SURROGATE_ROWS / FL_LANES };
 _Static_assert(FL_SURROGATE_ROWS % FL_LANES == 0 && FL_TOLD % FL_LANES == 0, "taken by four");
 
+_Static_assert(offsetof(fl_surrogate, learnt) ==
+                   offsetof(fl_surrogate, g) + FL_SURROGATE_ROWS * sizeof(double),
+               "nothing but doubles in between");
+
+static const double *rows_of(const fl_surrogate *s)
+{
+    return (const double *)(const void *)((const char *)s + offsetof(fl_surrogate, g));
+}
+
 FL_FOUR_VERSIONS void fl_surrogate_lay(fl_tellers *b, const fl_surrogate *const *s, int n)
 {
     for (int k = 0; k < FL_TOLD; k += FL_LANES) {
         const double *of[FL_LANES];
         FL_WIDE_UNROLL
-        for (int l = 0; l < FL_LANES; l++) of[l] = &s[k + l < n ? k + l : 0]->g[0];
+        for (int l = 0; l < FL_LANES; l++) of[l] = rows_of(s[k + l < n ? k + l : 0]);
         for (int row = 0; row < FL_SURROGATE_ROWS; row += FL_LANES) {
             fl_wide r[FL_LANES];
             FL_WIDE_UNROLL
@@ -126,7 +135,7 @@ FL_WIDE_VERSIONS static void go(fl_tellers *restrict b, fl_lane *restrict J)
 FL_WIDE_VERSIONS static void rise(fl_tellers *restrict b)
 {
     for (int r = 0; r < 6; r++) {
-        const fl_lane *g = OF(g) + r, *H = OF(H) + 8 * r;
+        const fl_lane *g = OF(g) + r, *H = OF(H) + (size_t)r * (sizeof(fl_six) / sizeof(double));
 #pragma omp simd
         for (int k = 0; k < FL_TOLD; k++)
             b->rise[r].a[k] =

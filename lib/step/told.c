@@ -132,7 +132,9 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         /* damping must not leave what the force is off from the pressures by */
         const fl_vec3 beside = v3_madd(f, -b->s.share.a[k], fl_lane3(OF(beside), k));
         const fl_vec3 rest = v3_sub(v3_scale(1.0 / scale, beside), v3_sub(direction, fd));
-        fd = v3_madd(fd, normal < elastic ? normal * each - 1.0 : 0.0, rest);
+        const fl_vec3 less = v3_madd(fd, normal * each - 1.0, rest);
+        fd = v3(normal < elastic ? less.x : fd.x, normal < elastic ? less.y : fd.y,
+                normal < elastic ? less.z : fd.z);
         /* the pressures move to where force and moment want them */
         const fl_vec3 told = v3_add(m, v3_cross(v3_sub(point, first), f));
         const fl_vec3 by = v3_add(v3_madd(centre(f, told), -each, fl_lane3(b->at, k)), fl_lane3(OF(off), k));
