@@ -8,7 +8,7 @@
 #   JOBS=2        pairs at a time, one thread each
 #   FLOE_QUICK=1  3 pairs of 8 s, a few seconds in all
 # Restitution is 0.28 to 0.32 and the step 0.38 to 0.57 ms, for pair n by the fractions of n/g and n/g^2 with
-# g^3 = g + 1: points that fill the square evenly however many are taken; 12 pairs are the first 12 of 57.
+# g^3 = g + 1: points that fill the square evenly however many are taken; fewer pairs are the first of 57.
 set -u
 LC_ALL=C
 export LC_ALL

@@ -160,8 +160,8 @@ static double stiffest_contact(const fl_world *w, int32_t *body, double *left)
         for (int32_t j = w->n; j < w->b.total; j++) {
             times = shaken(w, i, law = fl_pairing_law(w, i, j));
             if (w->structure.piece[j - w->n].elastic) {
-                const double slope =
-                    bed_slope(w, i); /* the damping ratio is c/k omega/2, across there is none */
+                /* the damping ratio is c/k omega/2; across there is none */
+                const double slope = bed_slope(w, i);
                 stiffest = fmax(stiffest, times * slope);
                 least = fmin(least, fl_damping_left(0.5 * w->bed.damping / w->bed.stiffness *
                                                     sqrt(slope * w->b.invm[i])));

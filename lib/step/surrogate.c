@@ -195,9 +195,6 @@ static fl_wrench moved(const fl_wrench *a, fl_vec3 from)
     return (fl_wrench){a->f, v3_add(a->m, v3_cross(from, a->f))};
 }
 
-/* Where along the plane of the pressures a force acts, from the point that the wrench is about. */
-static fl_vec3 centre(const fl_wrench *a) { return v3_scale(1.0 / v3_norm2(a->f), v3_cross(a->f, a->m)); }
-
 /* --- looks ------------------------------------------------------------------------------------- */
 
 /* Sums of springs about one point, about another that it is `a` away from, turns times `arm`: t = r x n + a x
@@ -346,7 +343,7 @@ int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     s->beside = v3_scale(seen->scale, v3_sub(gradient.f, still.direction));
     s->pressure = seen->scale * still.elastic;
     if (!(s->force > NET * s->pressure)) return 0;
-    s->off = v3_madd(v3_neg(centre(&gradient)), 1.0 / still.elastic, mean);
+    s->off = v3_madd(v3_neg(fl_surrogate_centre(gradient.f, gradient.m)), 1.0 / still.elastic, mean);
     s->live = 1;
     return 0;
 }

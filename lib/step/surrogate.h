@@ -126,6 +126,12 @@ typedef struct {
     double worst;              /* most that was found                       */
 } fl_surrogate_count;
 
+/* Where along the plane of the pressures a force acts, from the point that the moment is about [m]. */
+static inline fl_vec3 fl_surrogate_centre(fl_vec3 f, fl_vec3 m)
+{
+    return v3_scale(1.0 / v3_norm2(f), v3_cross(f, m));
+}
+
 /* By how much z may fall or rise. */
 static inline double fl_surrogate_less(double tolerance) { return sqrt(sqrt(tolerance)); }
 

@@ -114,9 +114,6 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
     }
 }
 
-/* Where along the plane of the pressures a force acts, from the point that the moment is about. */
-FL_WIDE_PART fl_vec3 centre(fl_vec3 f, fl_vec3 m) { return v3_scale(1.0 / v3_norm2(f), v3_cross(f, m)); }
-
 /* The force of W and what damping adds to it; and what friction sees. */
 FL_WIDE_VERSIONS static void bear(batch *restrict b)
 {
@@ -137,7 +134,8 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
                 normal < elastic ? less.z : fd.z);
         /* the pressures move to where force and moment want them */
         const fl_vec3 told = v3_add(m, v3_cross(v3_sub(point, first), f));
-        const fl_vec3 by = v3_add(v3_madd(centre(f, told), -each, fl_lane3(b->at, k)), fl_lane3(OF(off), k));
+        const fl_vec3 by =
+            v3_add(v3_madd(fl_surrogate_centre(f, told), -each, fl_lane3(b->at, k)), fl_lane3(OF(off), k));
         const double spread = b->spread.a[k] + 2.0 * v3_dot(by, moment) + normal * v3_norm2(by);
         moment = v3_madd(moment, normal, by);
         md = v3_add(md, v3_cross(by, fd));
