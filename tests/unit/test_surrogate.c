@@ -40,13 +40,35 @@ static void two(lab *l, int kind)
     }
 }
 
-/* Two boxes, their pair, and where the upper one is. */
-static void lay(lab *l, fl_pair *p, int kind, fl_vec3 *x, fl_quat *q)
+/* Two boxes, their pair, which has been looked at, and where the upper one was laid. */
+typedef struct {
+    lab l;
+    fl_pair p;
+    fl_vec3 x;
+    fl_quat q;
+} laid;
+
+/* A look, however near the last one was. */
+static void look(laid *a)
 {
-    two(l, kind);
-    *x = l->w.b.x[1];
-    *q = l->w.b.q[1];
-    fl_pair_start(&l->w, p, 0, 1);
+    if (a->p.surrogate) a->p.surrogate->reach = 0.0;
+    fl_interact(&a->l.w, &a->p, 0, 0.0, 0);
+    assert_true(a->p.n && a->p.surrogate && a->p.surrogate->live);
+}
+
+static void lay(laid *a, int kind)
+{
+    two(&a->l, kind);
+    a->x = a->l.w.b.x[1];
+    a->q = a->l.w.b.q[1];
+    fl_pair_start(&a->l.w, &a->p, 0, 1);
+    look(a);
+}
+
+static void take_up(laid *a)
+{
+    fl_pair_end(&a->p);
+    lab_free(&a->l);
 }
 
 /* A way to go: of the upper box, and its turn times the length of the surrogate. */
@@ -63,15 +85,19 @@ static way some(fl_rng *g)
 }
 
 /* The upper box gone by h along a from x and q, turned about the point of the surrogate, which is A's. */
-static void go(lab *l, const fl_surrogate *s, fl_vec3 x, fl_quat q, way a, double h)
+static void go_from(laid *l, fl_vec3 x, fl_quat q, way a, double h)
 {
+    const fl_surrogate *s = l->p.surrogate;
     const fl_quat turn = q_of_vector(v3_scale(h / s->arm, a.w));
-    fl_bodies *b = &l->w.b;
+    fl_bodies *b = &l->l.w.b;
     const fl_vec3 point = v3_add(b->x[0], m3_mul(fl_body_axes(b, 0), s->own));
     b->q[1] = q_mul(turn, q);
     b->x[1] = v3_madd(v3_add(point, q_rotate(turn, v3_sub(x, point))), h, a.u);
     fl_body_derive(b, 1);
 }
+
+/* The same from where it was laid. */
+static void go(laid *l, way a, double h) { go_from(l, l->x, l->q, a, h); }
 
 /* How the lower box, A, stands to the upper one, B. */
 static fl_vec3 pose(const lab *l, fl_mat3 *M)
@@ -85,14 +111,14 @@ static fl_vec3 pose(const lab *l, fl_mat3 *M)
 }
 
 /* What it tells for that, in the k-th lane, the others being of some other pose. */
-static fl_told told_in(const lab *l, const fl_surrogate *s, int lane)
+static fl_told told_in(const laid *l, int lane)
 {
     const fl_surrogate *all[FL_TOLD];
     fl_tellers b;
     fl_mat3 M;
-    const fl_vec3 o = pose(l, &M);
+    const fl_vec3 o = pose(&l->l, &M);
     for (int k = 0; k < FL_TOLD; k++) {
-        all[k] = s;
+        all[k] = l->p.surrogate;
         fl_lane3_put(b.o, k, v3_scale(k == lane ? 1.0 : 1.0 + 1e-3 * k, o));
         for (int r = 0; r < 3; r++) fl_lane3_put(b.M + 3 * r, k, v3(M.m[r][0], M.m[r][1], M.m[r][2]));
     }
@@ -101,18 +127,20 @@ static fl_told told_in(const lab *l, const fl_surrogate *s, int lane)
     return fl_surrogate_told(&b, lane);
 }
 
-static fl_told told_of(const lab *l, const fl_surrogate *s) { return told_in(l, s, 0); }
+static fl_told told_of(const laid *l) { return told_in(l, 0); }
 
 /* By how much the force and the moment that are told are off, over the force. */
-static double off(lab *l, const fl_surrogate *s)
+static double off(laid *l)
 {
-    const fl_told t = told_of(l, s);
-    const fl_pair p = lab_look(&l->w, 0, 1);
-    const fl_mat3 R = fl_body_axes(&l->w.b, 1);
+    fl_world *w = &l->l.w;
+    const fl_told t = told_of(l);
+    const fl_pair p = lab_look(w, 0, 1);
+    const fl_mat3 R = fl_body_axes(&w->b, 1);
     const fl_vec3 f = m3_mul(R, t.gradient.f);
-    const fl_vec3 at = v3_add(l->w.b.x[1], m3_mul(R, t.at)), arm = v3_sub(at, l->w.b.x[0]);
+    const fl_vec3 at = v3_add(w->b.x[1], m3_mul(R, t.at)), arm = v3_sub(at, w->b.x[0]);
     const fl_vec3 m = v3_sub(p.ti, v3_cross(arm, p.f)); /* about the point */
-    const double df = v3_norm(v3_sub(f, p.f)), dm = v3_norm(v3_sub(m3_mul(R, t.gradient.m), m)) / s->arm;
+    const double df = v3_norm(v3_sub(f, p.f)),
+                 dm = v3_norm(v3_sub(m3_mul(R, t.gradient.m), m)) / l->p.surrogate->arm;
     return fmax(df, dm) / v3_norm(p.f);
 }
 
@@ -121,37 +149,32 @@ static void what_is_told_is_a_potential(void **state)
     fl_rng g = fl_rng_of(test_seed(), 0, 3);
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        lab l;
-        fl_pair p;
-        fl_vec3 x;
-        fl_quat q;
-        lay(&l, &p, kind, &x, &q);
-        for (int k = 0; k < 3; k++) { /* looks, which teach */
-            if (k) go(&l, p.surrogate, x, q, some(&g), 0.05 * DEPTH), p.surrogate->reach = 0.0;
-            fl_interact(&l.w, &p, 0, 0.0, 0);
-            assert_true(p.n && p.surrogate && p.surrogate->live);
+        laid l;
+        lay(&l, kind);
+        const fl_bodies *b = &l.l.w.b;
+        for (int k = 0; k < 2; k++) { /* looks, which teach */
+            go(&l, some(&g), 0.05 * DEPTH);
+            look(&l);
         }
         for (int k = 0; k < 12; k++) {
             const way to = some(&g), along = some(&g);
             const double h = 1e-4 * DEPTH;
             fl_told t[3];
             for (int e = 0; e < 3; e++) { /* by h along a second way, both ways */
-                go(&l, p.surrogate, x, q, to, 0.2 * DEPTH);
-                const fl_vec3 x2 = l.w.b.x[1];
-                const fl_quat q2 = l.w.b.q[1];
-                go(&l, p.surrogate, x2, q2, along, e == 0 ? 0.0 : e == 1 ? -h : h);
-                t[e] = told_of(&l, p.surrogate);
+                go(&l, to, 0.2 * DEPTH);
+                go_from(&l, b->x[1], b->q[1], along, e == 0 ? 0.0 : e == 1 ? -h : h);
+                t[e] = told_of(&l);
             }
-            go(&l, p.surrogate, x, q, to, 0.2 * DEPTH);
-            const fl_mat3 R = fl_body_axes(&l.w.b, 1);
+            go(&l, to, 0.2 * DEPTH);
+            const fl_mat3 R = fl_body_axes(b, 1);
+            const double arm = l.p.surrogate->arm;
             const fl_vec3 f = m3_mul(R, t[0].gradient.f), m = m3_mul(R, t[0].gradient.m);
             /* what B goes, A goes the other way */
-            const double work = -h * (v3_dot(f, along.u) + v3_dot(m, along.w) / p.surrogate->arm);
+            const double work = -h * (v3_dot(f, along.u) + v3_dot(m, along.w) / arm);
             assert_near_of(t[2].energy - t[1].energy, -2.0 * work, 1e-7,
-                           h * (v3_norm(t[0].gradient.f) + v3_norm(t[0].gradient.m) / p.surrogate->arm));
+                           h * (v3_norm(t[0].gradient.f) + v3_norm(t[0].gradient.m) / arm));
         }
-        fl_pair_end(&p);
-        lab_free(&l);
+        take_up(&l);
     }
 }
 
@@ -160,20 +183,15 @@ static void lanes_are_alike(void **state)
 {
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        lab l;
-        fl_pair p;
-        fl_vec3 x;
-        fl_quat q;
-        lay(&l, &p, kind, &x, &q);
-        fl_interact(&l.w, &p, 0, 0.0, 0);
-        go(&l, p.surrogate, x, q, (way){v3(0.3, 0.5, 0.2), v3(0.4, -0.5, 0.4)}, 0.1 * DEPTH);
-        const fl_told one = told_of(&l, p.surrogate);
+        laid l;
+        lay(&l, kind);
+        go(&l, (way){v3(0.3, 0.5, 0.2), v3(0.4, -0.5, 0.4)}, 0.1 * DEPTH);
+        const fl_told one = told_of(&l);
         for (int k = 1; k < FL_TOLD; k++) {
-            const fl_told other = told_in(&l, p.surrogate, k);
+            const fl_told other = told_in(&l, k);
             assert_memory_equal(&one, &other, sizeof one);
         }
-        fl_pair_end(&p);
-        lab_free(&l);
+        take_up(&l);
     }
 }
 
@@ -186,24 +204,19 @@ static void the_slope_is_told(void **state)
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         double off = 0.0, changed = 0.0; /* sums */
-        lab l;
-        fl_pair p;
-        fl_vec3 x;
-        fl_quat q;
-        lay(&l, &p, kind, &x, &q);
-        fl_interact(&l.w, &p, 0, 0.0, 0);
-        const double first = p.slip.k;
+        laid l;
+        lay(&l, kind);
+        const double first = l.p.slip.k;
         assert_true(first > 0.0);
         for (int k = 0; k < 50; k++) {
-            go(&l, p.surrogate, x, q, some(&g), 0.05 * DEPTH);
-            const fl_told t = told_of(&l, p.surrogate);
-            const double now = lab_look(&l.w, 0, 1).slip.k;
-            off += fabs(t.slope / p.surrogate->slope * first - now);
+            go(&l, some(&g), 0.05 * DEPTH);
+            const fl_told t = told_of(&l);
+            const double now = lab_look(&l.l.w, 0, 1).slip.k;
+            off += fabs(t.slope / l.p.surrogate->slope * first - now);
             changed += fabs(now - first);
         }
         mean += off / changed / KINDS;
-        fl_pair_end(&p);
-        lab_free(&l);
+        take_up(&l);
     }
     assert_true(mean < 0.5);
 }
@@ -218,31 +231,24 @@ static void a_look_teaches(void **state)
     (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < 20; k++) {
-            lab l;
-            fl_pair p;
+            laid l;
             const way a = some(&g);
             double e[3], untaught;
-            fl_vec3 x;
-            fl_quat q;
-            lay(&l, &p, kind, &x, &q);
-            fl_interact(&l.w, &p, 0, 0.0, 0);
-            fl_surrogate *const s = p.surrogate;
-            assert_true(off(&l, s) < 1e-9);
-            go(&l, s, x, q, a, 0.04 * DEPTH);
-            untaught = off(&l, s);
-            go(&l, s, x, q, a, -0.02 * DEPTH);
-            s->reach = 0.0;
-            fl_interact(&l.w, &p, 0, 0.0, 0);
-            assert_true(off(&l, s) < 1e-9);
+            lay(&l, kind);
+            assert_true(off(&l) < 1e-9);
+            go(&l, a, 0.04 * DEPTH);
+            untaught = off(&l);
+            go(&l, a, -0.02 * DEPTH);
+            look(&l);
+            assert_true(off(&l) < 1e-9);
             for (int c = 0; c < 3; c++) {
-                go(&l, s, x, q, a, (0.04 * (1 << c) - 0.02) * DEPTH);
-                e[c] = off(&l, s);
+                go(&l, a, (0.04 * (1 << c) - 0.02) * DEPTH);
+                e[c] = off(&l);
             }
-            go(&l, s, x, q, a, 0.0);
-            better += log2(untaught / fmax(off(&l, s), 1e-12)) / (20.0 * KINDS);
+            go(&l, a, 0.0);
+            better += log2(untaught / fmax(off(&l), 1e-12)) / (20.0 * KINDS);
             if (e[0] > 1e-7) log_ratio += log2(e[1] / e[0]), many++;
-            fl_pair_end(&p);
-            lab_free(&l);
+            take_up(&l);
         }
     assert_true(many > 40);
     assert_true(log_ratio / many > 1.6 && better > 3.0);
