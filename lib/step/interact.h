@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* interact.h -- one pair of things: where they touch, and the forces of it. */
+/* interact.h -- the forces of one pair of things, where they touch. */
 #ifndef FL_STEP_INTERACT_H
 #define FL_STEP_INTERACT_H
 #include "step/world.h"
-
-/* Whether the direction of the last look still keeps two that do not touch farther apart than they reach, as
- * it does most often; then nothing else of them has to be known, and q->asleep is renewed.  A contact that
- * has let go is renewed as well, and forgets its features where it has gone far enough. */
-int fl_interact_apart(const fl_world *w, fl_near *q);
 
 /* Evaluate pair p at the positions and velocities of the bodies: its wrenches, energies and memory.
  *   thread   whose scratch to use
@@ -19,11 +14,6 @@ void fl_interact(fl_world *w, fl_pair *p, int32_t thread, double dt, int survey)
 
 /* The same by a look; t: what was told for this pose, or NULL. */
 void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, double dt, int survey);
-
-/* The signed contact of a pair as the probe tells it: gap and mode by narrow/contact.h, in world axes
- * relative to the world's origin, the point inside the cell.  Returns 0 where a kind has no such contact
- * within reach. */
-int fl_interact_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out);
 
 /* Look again at a pair with a surrogate as it stood when it was looked at last, M and o taking i to j, and
  * tell its surrogate what is found; what it has learnt is there already.  -1 when memory runs out. */

@@ -8,6 +8,7 @@
 #include "law/material.h"
 #include "step/interact.h"
 #include "step/pairing.h"
+#include "step/stance.h"
 
 /* The one place of `core` is this much softer than a face: what a corner of one would be. */
 #define FACE_OF_CORE 6.0
@@ -227,7 +228,7 @@ void fl_near_awake(fl_world *w, int32_t c, int32_t thread, const fl_told *t, dou
 {
     fl_near *q = &w->pair[c];
     fl_pair made, *p = q->full;
-    if (fl_interact_apart(w, q)) {
+    if (fl_stance_apart(w, q)) {
         if (p) fl_near_keep(w, q, p); /* what has no room of its own needs none */
         return;
     }

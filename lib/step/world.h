@@ -405,6 +405,12 @@ static inline double fl_world_spring(const fl_world *w, int32_t i, double *drawn
  */
 int32_t fl_world_name(const fl_world *w, int32_t k);
 
+/* The piece or wall that thing j is, NULL where it is a floe. */
+static inline const fl_piece *fl_world_piece(const fl_world *w, int32_t j)
+{
+    return j < w->n ? NULL : &w->structure.piece[j - w->n];
+}
+
 /* From thing i to j, or to the image of it that is meant [m]. */
 static inline fl_vec3 fl_world_way(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
 {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "narrow/places.h"
-#include "step/interact.h"
+#include "step/stance.h"
 #include "support/lab.h"
 #include "support/sweep.h"
 #include "support/verify.h"
@@ -375,7 +375,7 @@ static double signed_distance(lab *l)
 {
     fl_contact c;
     const fl_pair p = {.i = 0, .j = 1};
-    fl_interact_probe(&l->w, &p, INFINITY, &c);
+    fl_stance_probe(&l->w, &p, INFINITY, &c);
     return c.d;
 }
 

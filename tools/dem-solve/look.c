@@ -5,10 +5,10 @@
 #include "run.h"
 #include "step/balls.h"
 #include "step/footprint.h"
-#include "step/interact.h"
 #include "step/pairing.h"
 #include "step/ride.h"
 #include "step/search.h"
+#include "step/stance.h"
 #include "step/step.h"
 
 int look_probe(struct run *r, FILE *f, fl_err *err)
@@ -20,7 +20,7 @@ int look_probe(struct run *r, FILE *f, fl_err *err)
     fl_pair_walk at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         fl_contact k;
-        if (!fl_interact_probe(w, p, r->o->probe, &k)) continue;
+        if (!fl_stance_probe(w, p, r->o->probe, &k)) continue;
         fl_contacts_row(f, 0.0, w->id[p->i], fl_world_name(w, p->j), &k, 0.0, v3(0, 0, 0));
     }
     return 0;

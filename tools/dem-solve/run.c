@@ -11,10 +11,10 @@
 #include "step/balls.h"
 #include "step/critical.h"
 #include "step/frozen.h"
-#include "step/interact.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/sleep.h"
+#include "step/stance.h"
 #include "step/step.h"
 
 /* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
@@ -233,7 +233,7 @@ static void write_contacts(struct run *r, struct outputs *u, double t)
     fl_pair_walk at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         fl_contact k;
-        if (p->n == 0 || !fl_interact_probe(w, p, 0.0, &k)) continue;
+        if (p->n == 0 || !fl_stance_probe(w, p, 0.0, &k)) continue;
         const double normal = v3_dot(p->f, k.n);
         fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], fl_world_name(w, p->j), &k, normal,
                         v3_madd(p->f, -normal, k.n));
