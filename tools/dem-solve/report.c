@@ -60,7 +60,8 @@ void report_write(const struct run *r, FILE *f)
     const fl_world *w = r->w;
     const fl_ledger *g = &w->ledger;
     const double steps = (double)w->step, made = steps - (double)r->begun,
-                 simulated = fl_world_time(w) - r->begun_time, touches = (double)w->touching_steps;
+                 simulated = fl_world_time(w) - r->begun_time, touches = (double)w->touching_steps,
+                 since = touches - (double)r->begun_touching;
     char name[64];
     const double scale = g->throughput > 0.0 ? g->throughput : 1.0;
     fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
@@ -82,8 +83,8 @@ void report_write(const struct run *r, FILE *f)
         fprintf(f,
                 "                   %.0f ns a body-step, %.0f ns a contact-step (%.3g contacts at a time, "
                 "%" PRId64 " searches)\n",
-                1e9 * r->wall / made / fl_traffic_there(w),
-                touches > 0.0 ? 1e9 * r->wall / touches * (steps / made) : 0.0, touches / steps, w->searches);
+                1e9 * r->wall / made / fl_traffic_there(w), since > 0.0 ? 1e9 * r->wall / since : 0.0,
+                since / made, w->searches);
     fprintf(f, "processor          %.4g s, of all threads and all that was done\n", r->busy);
     if (w->sleep.nap && w->step > 0 && w->n) {
         const fl_sleep_count c = fl_sleep_counted(w);

@@ -28,8 +28,9 @@ struct run {
     int32_t step_body; /* the body that set the automatic step, -1 */
     char step_by[160]; /* what the step comes from */
     int64_t steps;
-    int64_t begun; /* the step this program began with, and its time [s] */
+    int64_t begun; /* the step this program began with, its time [s], and the contact-steps until then */
     double begun_time;
+    int64_t begun_touching;
     double wall;      /* [s] spent in steps */
     double busy;      /* [s] of processors, all threads: steps, looks, checkpoints and tables */
     double look_wall; /* [s] spent in looking after the error budget */

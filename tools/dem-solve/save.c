@@ -293,6 +293,7 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
     run_steps(r);
     r->begun = r->w->step;
     r->begun_time = fl_world_time(r->w);
+    r->begun_touching = r->w->touching_steps;
     if (r->steps < r->w->step)
         return fl_fail(err, FL_USAGE,
                        "run.duration is %g s, and the checkpoint is of t = %g s: a later end was wanted",
