@@ -1,0 +1,141 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# late.sh [BUILD [OUT]] -- what a contact costs late in a jam, without surrogates and with 1e-3: after 40 s of
+# share/examples/cylinder one second more, in steps of 0.1 ms, by the programs of BUILD/bin.  One thread.
+#   OUT/late.tsv   a row for each start and tolerance; its head names the machine.  OUT is bench/results
+# What a start is and what the columns are: bench/README.md.
+#   TURNS=3        how often the tolerances are run, one after the other; the least time of each counts
+#   FLOE_QUICK=1   0.1 s after 8 s, once
+set -u
+LC_ALL=C
+export LC_ALL
+bench=$(cd "$(dirname "$0")" && pwd) || exit 4
+fail() { echo "late.sh: $*" >&2; exit 4; }
+
+build=$(cd "${1:-$bench/../build}" && pwd) || exit 4
+out=${2:-$bench/results}
+mkdir -p "$out" "$build/late" || exit 4
+out=$(cd "$out" && pwd)
+PATH=$build/bin:$PATH
+if [ "${FLOE_QUICK:-0}" = 0 ]; then
+    after=40 more=1 turns=${TURNS:-3}
+else
+    after=8 more=0.1 turns=${TURNS:-1}
+fi
+until=$(awk -v a=$after -v b=$more 'BEGIN { print a + b }')
+here=$build/late/$$
+mkdir -p "$here" && cd "$here" || exit 4
+trap 'rm -rf "$here"' EXIT
+trap 'exit 130' INT TERM HUP
+
+# solve NAME OPTION...: one run; leaves NAME.report.
+solve()
+{
+    name=$1
+    shift
+    dem-solve -q -j 1 --report "$name.report" "$@" 2>err || fail "$name: $(cat err)"
+}
+
+# begin NAME ICE TOLERANCE OPTION...: one from the start; leaves NAME.loads and NAME.energy, too.
+begin()
+{
+    name=$1 ice=$2 tol=$3
+    shift 3
+    solve "$name" --ice "$ice" --structure g_struct.dat --set contact.surrogate="$tol" \
+        --set output.frames=none --set output.energy="$name.energy" -o "$name.loads" "$@" scene
+}
+
+# second START TOLERANCE: the second in question.
+second()
+{
+    case $1 in
+    checkpoint) # what was written after it is cut off, so this can be done again
+        solve "$1-$2" --resume "$2.checkpoint" --set run.duration="$until" --set run.dt=0.0001 \
+            --set output.checkpoint=none
+        ;;
+    state)
+        begin "$1-$2" later.dat "$2" --set run.duration=$more --set run.dt=0.0001 --set output.state=none
+        ;;
+    esac
+}
+
+# Time of a contact and step on the clock [ns].
+cost() { awk '/ns a contact-step/ { print $5 }' "$1"; }
+
+# row START TOLERANCE: what its least run took, and what it did in the second.  What is told of a run that
+# goes on is of all of it: what was told before is taken away.
+row()
+{
+    before=/dev/null since=0
+    [ "$1" = checkpoint ] && before=before-$2.report since=$after
+    awk -v first="$1 $2" -v since="$since" '
+        /^steps/ { done = steps; steps = $2 }
+        /ns a contact-step/ { ns = $5; contacts = substr($9, 2); all += (steps - done) * contacts }
+        /^surrogate/ { earlier = told; told = $2 * all }
+        /^processor/ { cpu = $2 }
+        /^state hash/ { hash = $3 }
+        FNR == 1 { split("", col) }
+        /^#/ || FILENAME ~ /(report|best)$/ { next }
+        !("t[s]" in col) { for (k = 1; k <= NF; k++) col[$k] = k; next }
+        "part" in col { if ($1 > since + 1e-6) J += $col["fx[N]"] * ($1 - t); t = $1; next }
+        {
+            residual = $col["residual[J]"]; lost = $col["friction[J]"] + $col["damping[J]"]
+            if ($1 < since + 1e-6) { residual0 = residual; lost0 = lost }
+        }
+        END {
+            gsub(" ", "\t", first)
+            off = residual - residual0
+            n = (steps - done) * contacts
+            printf "%s\t%s\t%.2f\t%.7g\t", first, contacts, (told - earlier) / n, J / 1e3
+            printf "%.2g\t", (off < 0 ? -off : off) / (lost - lost0)
+            printf "%.4g\t%.4g\t%s\n", ns / 1e3, 1e6 * cpu / n, hash
+        }' "$before" "$1-$2.best" "$1-$2.loads" "$1-$2.energy"
+}
+
+example=$bench/../share/examples/cylinder
+make -s -C "$example" BIN="$build/bin" OUT="$here" "$here/g-polys.dat" "$here/g_struct.dat" >made 2>&1 ||
+    fail "$(cat made)"
+cp "$example/cylinder.scene" scene || exit 4
+for tol in 0 1e-3; do
+    echo "tolerance $tol: the first $after s" >&2
+    begin "checkpoint-$tol" g-polys.dat $tol --set run.duration=$after --set output.state="$tol.state" \
+        --set output.state_every=$after --set output.checkpoint="$tol.checkpoint" \
+        --set output.checkpoint_every=$after
+    mv "checkpoint-$tol.report" "before-$tol.report"
+done
+awk -f "$bench/later.awk" 0.state g-polys.dat >later.dat || exit 4
+
+turn=0
+while [ $turn -lt "$turns" ]; do
+    turn=$((turn + 1))
+    echo "turn $turn: $more s, four times" >&2
+    for start in checkpoint state; do
+        for tol in 0 1e-3; do
+            run=$start-$tol
+            second $start $tol
+            if [ ! -f "$run.best" ] || [ "$(cost "$run.report")" -lt "$(cost "$run.best")" ]; then
+                mv "$run.report" "$run.best"
+            fi
+        done
+    done
+done
+for start in checkpoint state; do
+    for tol in 0 1e-3; do row $start $tol; done
+done >rows
+{
+    echo '#late 1'
+    echo "#by $(dem-solve --version)"
+    echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
+    load=$(uptime | sed 's/.*: //')
+    echo "#load $load over 1, 5 and 15 minutes, the runs themselves being 1; least of $turns turns"
+    echo "#seconds $more after $after"
+    printf 'start\ttolerance\tcontacts\ttold\timpulse[kN.s]\town_impulse\tenergy\t'
+    printf 'contact_step[us]\tprocessor[us]\tratio\thash\n'
+    awk 'BEGIN { FS = OFS = "\t" }
+        { own = "-" }
+        $2 == 0 { base = $7; J = $5 }
+        $2 > 0 && $1 == "state" && J { own = sprintf("%.2g", ($5 > J ? $5 - J : J - $5) / J) }
+        { print $1, $2, $3, $4, $5, own, $6, $7, $8, sprintf("%.2f", $7 / base), $9 }' rows
+} >late.tsv
+cp late.tsv "$out" || exit 4
+cut -f 1-10 late.tsv | grep -v '^#'
