@@ -41,8 +41,7 @@ static int32_t alike(const fl_world *w, int32_t k, int32_t to)
     return w->sleep.kind ? run_of(w->sleep.kind, FL_AWAKE, k, to) : to;
 }
 
-/* Something may press on it now.  Where spheres meet, contacts and ends of steps are not apart (step.c), and
- * so it is not known yet who has met another. */
+/* Something may press on it now.  Which spheres met another is not written down. */
 static int presses(const fl_world *w, int32_t k)
 {
     return w->met[k] || w->balls.bodies || fl_frozen_at(w, k);
@@ -181,7 +180,7 @@ static void book_plain(fl_group *own, const fl_plain_works *q, int32_t n)
  * left them something to forget. */
 static int32_t find_busy(const fl_world *w, int32_t from, int32_t n, int32_t busy[FL_FEW])
 {
-    const int all = w->balls.bodies || w->frozen.n;
+    const int all = w->frozen.n > 0;
     const uint8_t *met = w->met + from;
     const int32_t *sink = w->sink.place + from, *was = w->was.place + from;
     int32_t many = 0;
@@ -278,12 +277,11 @@ static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
 }
 
 /* Spheres that plain.h knows, from k on; behind the last. */
-static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group *own, int clean, int *finite)
+static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group *own, int *finite)
 {
     fl_plain_works works;
     int32_t end = k;
     while (h > 0.0 && end < to && fl_plain_is(w, end)) end++;
-    for (int32_t i = k; i < end && clean < 2; i++) fl_works_clear(w, i);
     if (end > k && !fl_plain_end(w, k, end, h, NULL, &works)) *finite = 0;
     book_plain(own, &works, end - k);
     for (int32_t i = k; i < end; i++)
@@ -307,14 +305,15 @@ typedef struct {
 } leaning;
 
 /* Those of them; -1 where more than one pair presses on a body. */
-static int32_t find_leaning(const fl_world *w, int32_t from, int32_t to, int clean, leaning *at)
+static int32_t find_leaning(const fl_world *w, int32_t from, int32_t to, leaning *at)
 {
+    const int32_t *sink = w->sink.place, *was = w->was.place;
     int32_t n = 0;
-    if (clean && w->inc_first[from] == w->inc_first[to]) return 0;
     for (int32_t k = from; k < to; k++) {
+        if (!(sink[k] | was[k])) continue;
         const int32_t pair = one_pair(w, k);
         if (pair == -2) return -1;
-        if (pair >= 0 || (!clean && fl_works_was(w, k)->n)) at[n++] = (leaning){.k = k, .pair = pair};
+        at[n++] = (leaning){.k = k, .pair = pair};
     }
     return n;
 }
@@ -332,22 +331,22 @@ static void press_leaning(fl_world *w, int32_t from, double h, leaning *at, int3
         more->has[k - from] = -1;
         more->f[k - from] = v3_scale(is_i ? 1.0 : -1.0, p->f);
         more->t[k - from] = is_i ? p->ti : p->tj;
+        fl_works_clear(w, k);
         fl_works_add(fl_works_now(w, k), p, is_i);
     }
 }
 
 /* A group that is of spheres alone, dry, each with one pair at most that is not of spheres; 0 where it is
  * not. */
-static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group *own, int clean, int *finite)
+static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group *own, int *finite)
 {
     leaning at[FL_BALLS_GROUP];
     fl_plain_works works;
     fl_plain_press more;
-    if (!w->balls.bodies || !w->b.ball[from] || w->sea.n || w->row.n || w->frozen.n || !(h > 0.0)) return 0;
+    if (!w->balls.bodies || !w->b.ball[from] || w->sea.n || w->row.n || w->sink.all || !(h > 0.0)) return 0;
     if (alike(w, from, to) < to) return 0;
-    const int32_t n = find_leaning(w, from, to, clean, at);
+    const int32_t n = find_leaning(w, from, to, at);
     if (n < 0) return 0;
-    for (int32_t k = from; k < to && clean < 2; k++) fl_works_clear(w, k);
     if (n) press_leaning(w, from, h, at, n, &more);
     *finite = fl_plain_end(w, from, to, h, n ? &more : NULL, &works);
     for (int32_t l = 0; l < n; l++) {
@@ -358,7 +357,6 @@ static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group
     book_plain(own, &works, to - from);
     for (int32_t k = from; k < to; k++)
         own->pushed = v3_add(own->pushed, v3_madd(w->b.f[k], -w->b.m[k], w->gravity));
-    own->clean = n ? 0 : clean < 2 ? clean + 1 : 2;
     return 1;
 }
 
@@ -394,18 +392,17 @@ void fl_group_end(fl_world *w, int32_t g, double h)
 {
     const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
     fl_group *own = &w->group[g];
-    const int clean = own->clean; /* what presses lies in one of two arrays, which take turns */
     int32_t end, many = 0;
     int finite = 1;
     *own = (fl_group){.lost = -1};
     if (fl_sleep_all(w, from, to)) return;
     if (w->balls.bodies) fl_balls_collect(w, from, to);
-    if (end_spheres(w, from, to, h, own, clean, &finite)) {
+    if (end_spheres(w, from, to, h, own, &finite)) {
         if (!finite) own->lost = first_lost(&w->b, from, to);
         return;
     }
     for (int32_t k = from; k < to; k = end) {
-        end = end_plain(w, k, to, h, own, clean, &finite);
+        end = end_plain(w, k, to, h, own, &finite);
         many += end - k;
         if (end > k) continue;
         end = h > 0.0 ? alike(w, k, to) : k;
@@ -416,6 +413,5 @@ void fl_group_end(fl_world *w, int32_t g, double h)
             for (int32_t i = k; i < end; i += FL_FEW)
                 end_few(w, i, end - i < FL_FEW ? end - i : FL_FEW, h, own);
     }
-    if (many == to - from) own->clean = clean < 2 ? clean + 1 : 2;
     if (!finite || many < to - from) own->lost = first_lost(&w->b, from, to);
 }

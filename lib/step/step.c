@@ -193,6 +193,8 @@ static void touch_and_end(fl_world *w, double dt, int survey)
     {
         contacts_of_pairs(w, dt, survey);
 #pragma omp barrier
+#pragma omp single
+        contacts_told(w);
         const int32_t from = fl_balls_share(w, omp_get_thread_num(), omp_get_num_threads()),
                       to = fl_balls_share(w, omp_get_thread_num() + 1, omp_get_num_threads());
         int waits = from > 0;
@@ -209,7 +211,6 @@ static void touch_and_end(fl_world *w, double dt, int survey)
 #pragma omp for schedule(dynamic, HELD) nowait
         for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
     }
-    contacts_told(w);
 }
 
 /* omega^2 of all contacts together from those of each for each of its two bodies.  With g u the approach that

@@ -61,7 +61,7 @@ static int32_t place_some(const fl_world *w, int32_t *place)
     return n;
 }
 
-static int all_have_one(const fl_world *w) { return w->balls.bodies || w->frozen.n || w->sleep.nap; }
+static int all_have_one(const fl_world *w) { return w->frozen.n || w->sleep.nap; }
 
 void fl_works_place(fl_world *w)
 {
@@ -156,7 +156,7 @@ void fl_works_begin(fl_world *w)
     const fl_sinks was = w->was;
     w->was = w->sink;
     w->sink = was;
-    if (all_have_one(w)) fl_works_place(w); /* where spheres meet, steps end before it is told who touches */
+    if (all_have_one(w)) fl_works_place(w);
     fl_ball_sum *sum = w->balls.was;
     w->balls.was = w->balls.sum;
     w->balls.sum = sum;

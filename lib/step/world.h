@@ -131,8 +131,8 @@ typedef struct {
 } fl_sink;
 
 /* Those of all that are pressed.  A body has the sink at[place[k]]; at[0] is of all that nothing presses on,
- * and stays 0.  Few touch at a time: only they have one of their own, but where spheres meet, faces are
- * frozen together or somebody sleeps; then place[k] = k + 1. */
+ * and stays 0.  Few touch at a time: only they have one of their own, but where faces are frozen together or
+ * somebody sleeps; then place[k] = k + 1.  Spheres have sums of their own for what spheres do to them. */
 typedef struct {
     int32_t *place; /* [total] */
     fl_sink *at;    /* [cap] */
@@ -282,7 +282,6 @@ typedef struct {
     fl_vec3 pushed;        /* sum of the forces of contacts [N]                      */
     double damped, rubbed; /* taken out by damping and friction in the step [J] */
     int32_t lost;          /* the first that has a number which is not finite, or -1 */
-    int clean;             /* for so many steps nothing but spheres has pressed; 2: sink and was are 0 */
     double moved[2];       /* the longest ways since the last search, after the first half of a step [m] */
 } fl_group;
 
