@@ -24,6 +24,17 @@ typedef struct {
     double k;      /* kappa of Hertz                                                  [N/m^1.5] */
 } fl_ball_row;
 
+/* What rows see of a body, in two lines of the cache: its motion at the contacts of a step.  Bodies are far
+ * apart to the rows that they are the j of, and wait in as many places as there are arrays. */
+typedef struct {
+    fl_vec3 x; /* [m]     */
+    double r;  /* [m]     */
+    fl_vec3 v; /* [m/s]   */
+    double invm;
+    fl_vec3 w;    /* [rad/s] */
+    double r_too; /* r, where that is wanted beside w */
+} fl_ball_seen;
+
 /* From a body to an image of it [m]. */
 typedef struct {
     fl_vec3 by;
@@ -55,6 +66,7 @@ typedef struct {
     uint8_t *hit;     /* [n] touches */
     fl_ball_row *row; /* [n] */
     int32_t *first;   /* [bodies + 1] rows of body i */
+    fl_ball_seen *seen; /* [bodies] */
     int32_t *to;      /* [n] where j adds up: j, or of a row that leaves its chunk ~slot */
     int32_t chunks;
     int32_t *source;      /* [chunks] the first chunk with a row that leads there */

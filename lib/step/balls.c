@@ -14,7 +14,11 @@
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
 
-enum { MOST_WAYS = 256, LINE = 64 /* bytes that are fetched at a time */ };
+enum {
+    MOST_WAYS = 256,
+    LINE = 64,  /* bytes that are fetched at a time */
+    AHEAD = 32, /* rows whose bodies j are on their way */
+};
 
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 {
@@ -28,7 +32,7 @@ int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 void fl_balls_free(fl_balls *s)
 {
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
-    free(s->first), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by), free(s->cross),
+    free(s->first), free(s->seen), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by), free(s->cross),
         free(s->into), free(s->slots), free(s->slot);
     free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
     *s = (fl_balls){0};
@@ -56,6 +60,7 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->chunks = (w->n + FL_BALLS_CHUNK - 1) / FL_BALLS_CHUNK;
     s->first = fl_alloc((int64_t)w->n + 1, sizeof *s->first, err);
     s->into = fl_alloc((int64_t)w->n + 1, sizeof *s->into, err);
+    s->seen = fl_alloc(w->n, sizeof *s->seen, err);
     s->source = fl_alloc(s->chunks, sizeof *s->source, err);
     s->ended = fl_alloc(s->chunks, sizeof *s->ended, err);
     s->cross = fl_alloc((int64_t)s->chunks + 1, sizeof *s->cross, err);
@@ -63,7 +68,7 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->was = fl_alloc(w->n, sizeof *s->was, err);
-    if (!s->first || !s->into || !s->source || !s->ended || !s->cross || !s->tally || !s->stiff || !s->sum ||
+    if (!s->first || !s->into || !s->seen || !s->source || !s->ended || !s->cross || !s->tally || !s->stiff || !s->sum ||
         !s->was)
         return -1;
     s->bodies = w->n;
@@ -235,7 +240,9 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
     s->hit = fresh.hit, s->row = fresh.row, s->n = fresh.n;
     s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
     s->image_cap = fresh.image_cap, s->hit_cap = fresh.hit_cap, s->row_cap = fresh.row_cap;
-    return index_rows(w, err);
+    if (index_rows(w, err)) return -1;
+    fl_balls_show(w, 0, w->n);
+    return 0;
 fail:
     fl_balls_free(&fresh);
     free(at), free(listed);
@@ -332,15 +339,30 @@ static int look_one(const fl_world *w, batch *t, int32_t c)
     return v3_norm2(d) - R * R < 0.0;
 }
 
+void fl_balls_show(fl_world *w, int32_t from, int32_t to)
+{
+    const fl_bodies *b = &w->b;
+    fl_ball_seen *seen = w->balls.seen;
+    for (int32_t k = from; k < to; k++)
+        seen[k] =
+            (fl_ball_seen){b->x[k], b->radius[k], b->v[k], b->invm[k], b->w[k], b->radius[k]};
+}
+
+/* The difference a - b of vectors, and the sum of the numbers behind them. */
+FL_WIDE_PART void compare_two(fl_wide *d, const void *a, const void *b)
+{
+    *d = __builtin_shufflevector(FL_FOUR(a) - FL_FOUR(b), FL_FOUR(a) + FL_FOUR(b), 0, 1, 2, 7);
+}
+
 /* What the loop below reads and writes. */
 typedef struct {
     fl_world *w;
     const int32_t *i, *j;
     const fl_ball_way *way;
     const uint8_t *by, *hit;
-    const fl_vec3 *x;
-    const double *radius;
+    const fl_ball_seen *seen;
     const fl_ball_row *row;
+    int32_t n; /* rows there are */
 } seeker;
 
 /* Rows [c, to), four at a time, until the batch is a block or less than four are left: behind the last.
@@ -350,26 +372,27 @@ typedef struct {
 FL_FOUR_VERSIONS static int32_t look(const seeker *restrict s, batch *restrict t, int32_t c, int32_t to)
 {
     const int32_t *bi = s->i, *bj = s->j;
-    const fl_vec3 *x = s->x;
-    const double *radius = s->radius;
+    const fl_ball_seen *seen = s->seen;
     const uint8_t *hit = s->hit, *by = s->by;
     const fl_ball_way *way = s->way;
     int32_t m = t->m;
     for (; c + FL_LANES <= to && m < BLOCK; c += FL_LANES) {
-        fl_wide v[FL_LANES], R;
+        fl_wide v[FL_LANES];
         uint32_t turned = 0;
         const char *rows = (const char *)&s->row[c];
+        const int32_t *far = &bj[c + AHEAD + FL_LANES <= s->n ? c + AHEAD : c];
         FL_WIDE_UNROLL for (size_t at = 0; at < FL_LANES * sizeof *s->row; at += LINE)
             __builtin_prefetch(rows + at, 1);
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
         {
             const int32_t i = bi[c + l], j = bj[c + l];
-            v[l] = (FL_FOUR(&x[i]) - FL_FOUR(&x[j])) - FL_FOUR(&way[by[c + l]]);
-            R[l] = radius[i] + radius[j];
+            compare_two(&v[l], &seen[i].x, &seen[j].x);
+            v[l] -= FL_FOUR(&way[by[c + l]]);
+            __builtin_prefetch(&seen[far[l]].x), __builtin_prefetch(&seen[far[l]].r_too);
         }
         fl_wide d[] = {v[0], v[1], v[2], v[3]};
         fl_wide_transpose(d);
-        const fl_wide gap = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - R * R;
+        const fl_wide gap = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - d[3] * d[3];
         const fl_wide_mask touches = gap < 0.0;
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
         {
@@ -408,8 +431,7 @@ static void load_forces(const fl_world *w, batch *t)
 typedef struct {
     const int32_t *i, *j;
     const fl_ball_row *row;
-    const fl_vec3 *v, *w;
-    const double *invm, *radius;
+    const fl_ball_seen *seen;
 } source;
 
 FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
@@ -418,35 +440,28 @@ FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
     static_assert(offsetof(fl_ball_row, k) == offsetof(fl_ball_row, touch) + sizeof(double), "one of two");
     const int32_t *bi = s->i, *bj = s->j;
     const fl_ball_row *row = s->row;
-    const fl_vec3 *v = s->v, *spin = s->w;
-    const double *invm = s->invm, *radius = s->radius;
+    const fl_ball_seen *seen = s->seen;
     const int32_t n = t->m;
     fl_spheres *a = &t->at;
     for (int32_t k = n; k % FL_LANES; k++) t->row[k] = t->row[n - 1];
     for (int32_t m = 0; m < n; m += FL_LANES) {
         fl_wide d[] = {FL_FOUR(t->d[m]), FL_FOUR(t->d[m + 1]), FL_FOUR(t->d[m + 2]), FL_FOUR(t->d[m + 3])};
-        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES], both, ri, rj;
+        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES];
         fl_two last[FL_LANES];
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
         {
             const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
             const fl_ball_row *r = &row[c];
-            u[l] = FL_FOUR(&v[i]) - FL_FOUR(&v[j]);
-            p[l] = FL_FOUR(&spin[i]);
-            q[l] = FL_FOUR(&spin[j]);
+            compare_two(&u[l], &seen[i].v, &seen[j].v);
+            p[l] = FL_FOUR(&seen[i].w);
+            q[l] = FL_FOUR(&seen[j].w);
             h[l] = FL_FOUR(&r->slip);
-            both[l] = invm[i] + invm[j];
-            ri[l] = radius[i];
-            rj[l] = radius[j];
             last[l] = *(const fl_two *)(const void *)&r->touch;
         }
         const fl_wide even = __builtin_shufflevector(last[0], last[2], 0, 1, 2, 3),
                       odd = __builtin_shufflevector(last[1], last[3], 0, 1, 2, 3);
         FL_FOUR_INTO(&a->touch[m]) = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
         FL_FOUR_INTO(&a->k[m]) = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
-        FL_FOUR_INTO(&a->invm[m]) = FL_FOUR(&t->rest2[m]) * both; /* for nothing but the stored energy */
-        FL_FOUR_INTO(&a->ri[m]) = ri;
-        FL_FOUR_INTO(&a->rj[m]) = rj;
         fl_wide_transpose(d);
         fl_wide_transpose(u);
         fl_wide_transpose(p);
@@ -461,6 +476,9 @@ FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
             FL_FOUR_INTO(&a->slip[axis][m]) = h[axis];
         }
         FL_FOUR_INTO(&a->stiff[m]) = h[3];
+        FL_FOUR_INTO(&a->invm[m]) = FL_FOUR(&t->rest2[m]) * u[3]; /* for nothing but the stored energy */
+        FL_FOUR_INTO(&a->ri[m]) = p[3];
+        FL_FOUR_INTO(&a->rj[m]) = q[3];
     }
 }
 
@@ -510,12 +528,14 @@ FL_FOUR_VERSIONS static void save(fl_ball_row *restrict row, const batch *restri
 enum { PARTS = 3 };
 static_assert(sizeof(fl_ball_sum) == PARTS * sizeof(fl_wide), "a sum is twelve doubles");
 
-/* In pieces that need no string instruction. */
-static void clear(fl_ball_sum *s, int32_t n)
+/* Without the string instruction that a compiler makes of it, which takes longer than all else here. */
+FL_FOUR_VERSIONS static void clear(fl_ball_sum *s, int32_t n)
 {
-    enum { PIECE = 16 };
-    for (; n > PIECE; n -= PIECE, s += PIECE) memset(s, 0, PIECE * sizeof *s);
-    memset(s, 0, (size_t)n * sizeof *s);
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    for (int32_t k = 0; k < n; k++) {
+        volatile fl_wide *sum = (volatile fl_wide *)&s[k];
+        sum[0] = sum[1] = sum[2] = zero;
+    }
 }
 
 /* What four contacts do, each a row: to i and j alike but for the sign, and to either. */
@@ -634,12 +654,11 @@ static void survey_batch(fl_world *w, const batch *t)
 static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
 {
     fl_balls *s = &w->balls;
-    const fl_bodies *b = &w->b;
     if (dt < 0.0) {
         load_forces(w, t);
         fl_spheres_place(&t->at, t->m);
     } else {
-        const source from = {s->i, s->j, s->row, b->v, b->w, b->invm, b->radius};
+        const source from = {s->i, s->j, s->row, s->seen};
         if (s->one_law < 0) load_laws(w, t);
         load(&from, t);
         fl_spheres_meet(&t->at, t->m, dt);
@@ -667,7 +686,7 @@ static void take(fl_world *w, int32_t a, double dt, int survey)
 {
     fl_balls *s = &w->balls;
     const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a), to = s->first[end], cross = s->cross[a];
-    const seeker by = {w, s->i, s->j, s->way, s->by, s->hit, w->b.x, w->b.radius, s->row};
+    const seeker by = {w, s->i, s->j, s->way, s->by, s->hit, s->seen, s->row, s->n};
     const int wide = dt >= 0.0 && s->ways;
     batch t;
     memset(t.law, -1, sizeof t.law);

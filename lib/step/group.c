@@ -142,6 +142,7 @@ void fl_group_begin(fl_world *w, int32_t g, double h, double dt)
 {
     const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
     if (!fl_sleep_all(w, from, to)) begin(w, from, to, h, dt);
+    if (w->balls.bodies) fl_balls_show(w, from, to);
     farthest(to - from, w->b.odometer + from, w->odometer_found + from, w->group[g].moved);
 }
 
