@@ -57,17 +57,17 @@ typedef struct {
 } fl_ball_tally;
 
 typedef struct {
-    int32_t n;        /* rows */
-    int32_t bodies;   /* as many as move; 0: no two spheres have been near yet, and the rest is not there */
-    int32_t *i, *j;   /* [n] */
-    int32_t *law;     /* [n] into fl_world.law */
-    int32_t one_law;  /* of all rows; -1: there are several */
-    int32_t *image;   /* [n][3]; NULL without a periodic cell */
-    uint8_t *hit;     /* [n] touches */
-    fl_ball_row *row; /* [n] */
-    int32_t *first;   /* [bodies + 1] rows of body i */
+    int32_t n;          /* rows */
+    int32_t bodies;     /* as many as move; 0: no two spheres have been near yet, and the rest is not there */
+    int32_t *i, *j;     /* [n] */
+    int32_t *law;       /* [n] into fl_world.law */
+    int32_t one_law;    /* of all rows; -1: there are several */
+    int32_t *image;     /* [n][3]; NULL without a periodic cell */
+    uint8_t *hit;       /* [n] touches */
+    fl_ball_row *row;   /* [n] */
+    int32_t *first;     /* [bodies + 1] rows of body i */
     fl_ball_seen *seen; /* [bodies] */
-    int32_t *to;      /* [n] where j adds up: j, or of a row that leaves its chunk ~slot */
+    int32_t *to;        /* [n] where j adds up: j, or of a row that leaves its chunk ~slot */
     int32_t chunks;
     int32_t *source;      /* [chunks] the first chunk with a row that leads there */
     uint8_t *ended;       /* [chunks] scratch of a step */

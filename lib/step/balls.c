@@ -17,7 +17,7 @@
 enum {
     MOST_WAYS = 256,
     LINE = 64,  /* bytes that are fetched at a time */
-    AHEAD = 32, /* rows whose bodies j are on their way */
+    AHEAD = 64, /* rows whose bodies j are on their way */
 };
 
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
@@ -32,8 +32,8 @@ int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
 void fl_balls_free(fl_balls *s)
 {
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
-    free(s->first), free(s->seen), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by), free(s->cross),
-        free(s->into), free(s->slots), free(s->slot);
+    free(s->first), free(s->seen), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by),
+        free(s->cross), free(s->into), free(s->slots), free(s->slot);
     free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
     *s = (fl_balls){0};
 }
@@ -68,8 +68,8 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->was = fl_alloc(w->n, sizeof *s->was, err);
-    if (!s->first || !s->into || !s->seen || !s->source || !s->ended || !s->cross || !s->tally || !s->stiff || !s->sum ||
-        !s->was)
+    if (!s->first || !s->into || !s->seen || !s->source || !s->ended || !s->cross || !s->tally || !s->stiff ||
+        !s->sum || !s->was)
         return -1;
     s->bodies = w->n;
     return 0;
@@ -342,10 +342,9 @@ static int look_one(const fl_world *w, batch *t, int32_t c)
 void fl_balls_show(fl_world *w, int32_t from, int32_t to)
 {
     const fl_bodies *b = &w->b;
-    fl_ball_seen *seen = w->balls.seen;
+    fl_ball_seen *const seen = w->balls.seen;
     for (int32_t k = from; k < to; k++)
-        seen[k] =
-            (fl_ball_seen){b->x[k], b->radius[k], b->v[k], b->invm[k], b->w[k], b->radius[k]};
+        seen[k] = (fl_ball_seen){b->x[k], b->radius[k], b->v[k], b->invm[k], b->w[k], b->radius[k]};
 }
 
 /* The difference a - b of vectors, and the sum of the numbers behind them. */
@@ -801,11 +800,12 @@ fl_ball_count fl_balls_count(const fl_world *w)
 double fl_balls_bytes(const fl_world *w)
 {
     const fl_balls *s = &w->balls;
-    const double row = 3 * sizeof(int32_t) + sizeof *s->hit + sizeof *s->row, each = 2 * sizeof *s->sum,
-                 image = s->image ? 3 * sizeof(int32_t) : 0;
+    const double row = 4 * sizeof(int32_t) + sizeof *s->hit + sizeof *s->by + sizeof *s->row,
+                 image = s->image ? 3 * sizeof(int32_t) : 0,
+                 slot = sizeof *s->slot + sizeof *s->slots + sizeof *s->stiff_slot,
+                 body = 2 * sizeof *s->sum + sizeof *s->seen + 2 * sizeof(int32_t) + sizeof *s->stiff;
     if (!s->bodies) return 0.0;
-    return s->n * (row + image) + s->cross[s->chunks] * (each + sizeof(int32_t) + sizeof(double)) +
-           s->bodies * (each + 3 * sizeof(int32_t) + sizeof(double));
+    return s->n * (row + image) + s->cross[s->chunks] * slot + s->bodies * body;
 }
 
 /* --- as pairs like all others ------------------------------------------------------------------ */

@@ -183,8 +183,8 @@ static void end_chunk(fl_world *w, int32_t a, double h)
 
 /* Rows of a chunk lead to it and to those behind it.  So, when a thread takes a run of chunks in their order,
  * a chunk to which no row from before the run leads can end its step at once, with all that belongs to it
- * still at hand; the others do when all have been touched.  Four numbers are read for a vector, of the body
- * behind it too, so that the chunk behind one that waits has to wait as well. */
+ * still at hand; the others do when all have been touched.  Rows look at what they were shown, not at bodies
+ * that have gone on already. */
 static void touch_and_end(fl_world *w, double dt, int survey)
 {
     const fl_balls *s = &w->balls;
@@ -197,13 +197,10 @@ static void touch_and_end(fl_world *w, double dt, int survey)
         contacts_told(w);
         const int32_t from = fl_balls_share(w, omp_get_thread_num(), omp_get_num_threads()),
                       to = fl_balls_share(w, omp_get_thread_num() + 1, omp_get_num_threads());
-        int waits = from > 0;
         for (int32_t a = from; a < to; a++) {
-            const int led = s->source[a] < from;
             fl_balls_touch(w, a, dt, survey);
-            s->ended[a] = !(waits || led);
+            s->ended[a] = s->source[a] >= from;
             if (s->ended[a]) end_chunk(w, a, 0.5 * dt);
-            waits = led;
         }
 #pragma omp barrier
         for (int32_t a = from; a < to; a++)
@@ -431,7 +428,10 @@ int fl_step(fl_world *w, fl_err *err)
     w->sea.time = fl_world_time(w);
     w->sea.looks = w->sea.every < 2 || w->step % w->sea.every == 0;
     if (fl_search_told(w, err)) return -1;
-    if (w->sleep.nap) fl_sleep_rouse(w);
+    if (w->sleep.nap) {
+        fl_sleep_rouse(w);
+        if (w->balls.bodies) fl_balls_show(w, 0, w->n);
+    }
     if (w->balls.bodies && !w->sleep.nap && !w->press.panels) {
         touch_and_end(w, dt, survey);
     } else {

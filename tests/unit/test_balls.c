@@ -45,6 +45,7 @@ static void like_any_other_pair(void **state)
             /* the step without its end: contacts see the velocities in the middle */
             fl_bodies *b = &l.w.b;
             for (int i = 0; i < 2; i++) fl_kick(b, i, 0.5 * l.w.dt), fl_drift(b, i, l.w.dt);
+            fl_balls_show(&l.w, 0, 2);
             fl_balls_touch(&l.w, 0, l.w.dt, 1);
             fl_interact(&l.w, &other, 0, l.w.dt, 1);
             const fl_pair p = lab_pair(&l, 0);
