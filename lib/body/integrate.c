@@ -258,8 +258,8 @@ FL_WIDE_PART int move_four(const plain *a, int32_t k, double h, double dt)
     fl_wide_to_triples(&a->w[k], w);
     if (dt == 0.0) return 1;
     const fl_wide half2 = 0.25 * NORM2(r), room = Q_HALF_TURN_MOST - half2;
-    const double least = fmin(fmin(room[0], room[1]), fmin(room[2], room[3]));
-    if (!(least >= 0.0)) return 0;
+    const fl_wide_mask known = room >= 0.0;
+    if (!(known[0] & known[1] & known[2] & known[3])) return 0;
     /* 1 - cos and sin(x)/x as in quat.h */
     fl_wide cosine = 1.0 / 479001600 - half2 * (1.0 / 87178291200.0);
     fl_wide sine = 1.0 / 39916800 - half2 * (1.0 / 6227020800.0);

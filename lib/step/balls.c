@@ -615,12 +615,21 @@ FL_WIDE_VERSIONS static int deeper(const fl_spheres *a, int32_t m, double most)
     return any;
 }
 
+/* Of the first m, lane by lane. */
+FL_FOUR_VERSIONS static double all_sizes(const fl_spheres *a, int32_t m)
+{
+    fl_wide sum = {0.0, 0.0, 0.0, 0.0};
+    double rest = 0.0;
+    int32_t k = 0;
+    for (; k + FL_LANES <= m; k += FL_LANES) sum += FL_FOUR(&a->size[k]);
+    for (; k < m; k++) rest += a->size[k];
+    return fl_wide_sum(&sum) + rest;
+}
+
 static void count(const batch *t, fl_ball_tally *tally)
 {
     const fl_spheres *a = &t->at;
-    double force = tally->force;
-    for (int32_t m = 0; m < t->m; m++) force += a->size[m];
-    tally->force = force;
+    tally->force += all_sizes(a, t->m);
     tally->touching += t->m;
     if (!deeper(a, t->m, tally->worst)) return;
     for (int32_t m = 0; m < t->m; m++) {
