@@ -30,8 +30,9 @@ int fl_balls_index(fl_world *w, fl_err *err);
 /* Let rows see where bodies [from, to) are and how they move: whenever that has changed, before a touch. */
 void fl_balls_show(fl_world *w, int32_t from, int32_t to);
 
-/* The rows of chunk a, by what they see of bodies, over a step of dt [s]; survey: also bounds of omega^2.  Any thread may take any chunk; when all are done fl_balls_collect() gives the bodies [from, to)
- * the rest of their sums, once. */
+/* The rows of chunk a, by what they see of bodies, over a step of dt [s]; survey: also bounds of omega^2.
+ * Any thread may take any chunk; when all are done fl_balls_collect() gives the bodies [from, to) the rest of
+ * their sums, once. */
 void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey);
 void fl_balls_collect(fl_world *w, int32_t from, int32_t to);
 
