@@ -3,7 +3,6 @@
 #include <string.h>
 #include "base/mem.h"
 #include "step/awake.h"
-#include "step/leans.h"
 #include "step/pairing.h"
 #include "step/sleep.h"
 #include "step/told.h"
@@ -59,7 +58,6 @@ typedef struct {
 
 /* What one thread has in hand. */
 typedef struct {
-    fl_leans leans;
     carried told;
     int32_t thread;
     double dt;
@@ -89,7 +87,7 @@ static void tell(fl_world *w, hand *h)
     q->n = 0;
 }
 
-/* Spheres that lean on a wall, and did at the last look, and contacts that may be told of are gathered. */
+/* Contacts that may be told of are gathered. */
 static void look(fl_world *w, hand *h, int32_t from, int32_t to)
 {
     for (int32_t c = from; c < to; c++) {
@@ -97,8 +95,6 @@ static void look(fl_world *w, hand *h, int32_t from, int32_t to)
         if (fl_world_apart(w, p)) continue; /* and it did not touch before */
         if (fl_sleep_frozen(w, p)) {
             /* forces stay */
-        } else if (fl_leans_add(w, &h->leans, c)) {
-            if (h->leans.n == FL_SPHERES_MOST) fl_leans_touch(w, &h->leans, h->dt, h->survey);
         } else if (p->full && fl_told_of(w, p->full)) {
             p->full->at = c;
             h->told.pair[h->told.n++] = p->full;
@@ -116,14 +112,13 @@ void fl_awake_look(fl_world *w, double dt, int survey)
 {
     const int32_t thread = omp_get_thread_num();
     hand h; /* large: not cleared */
-    h.thread = thread, h.dt = dt, h.survey = survey, h.leans.n = h.told.n = 0;
+    h.thread = thread, h.dt = dt, h.survey = survey, h.told.n = 0;
     for (int32_t k = 0; k < w->threads; k++) {
         fl_portion *const s = &w->share[(thread + k) % w->threads];
         for (int32_t c = take(s); c < s->end; c = take(s))
             look(w, &h, c, s->end < c + BLOCK ? s->end : c + BLOCK);
     }
     tell(w, &h);
-    fl_leans_touch(w, &h.leans, dt, survey);
 }
 
 /* Few touch: eight are passed over at a time. */

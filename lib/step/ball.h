@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ball.h -- what is kept of pairs of spheres, apart from all other pairs: a tenth of what those need.
+/* ball.h -- what is kept of pairs of spheres, and of spheres on walls, apart from all other pairs: a tenth of
+ * what those need.
  *
  * Rows are sorted by (i, j, image).  Bodies are taken in chunks of FL_BALLS_CHUNK by their number.  A chunk
  * owns the rows of its bodies i and the sums of its bodies: what a row does to a j of the same chunk is added
- * there at once, what it does to a j beyond goes to a slot of the row, which j adds up later.  Every sum so
+ * there at once, what it does to a j beyond goes to a slot of the row, which j adds up later.  Behind its rows
+ * come those of its bodies and walls.  Every sum so
  * has one order, that of the rows, for any number of threads; a row that does not touch adds zeros, which
  * change no bit, so that it does not matter which rows are listed. */
 #ifndef FL_STEP_BALL_H
@@ -23,6 +25,14 @@ typedef struct {
     double touch;  /* largest approach speed of this touch                            [m/s]     */
     double k;      /* kappa of Hertz                                                  [N/m^1.5] */
 } fl_ball_row;
+
+/* A sphere and a wall, leans.h. */
+typedef struct {
+    int32_t i, j;
+    int32_t law; /* into fl_world.law */
+    int32_t hit; /* touches */
+    fl_ball_row row;
+} fl_ball_lean;
 
 /* What rows see of a body, in two lines of the cache: its motion at the contacts of a step.  Bodies are far
  * apart to the rows that they are the j of, and wait in as many places as there are arrays. */
@@ -52,7 +62,7 @@ typedef struct {
     int64_t touching;
     double force;           /* sum of |F| [N]                                            */
     double worst;           /* largest overlap over the sum of the radii                 */
-    int32_t worst_row;      /* where that is, the first of them                          */
+    int32_t worst_row;      /* where that is, the first of them; of a wall ~row          */
     double elastic, spring; /* energies of its rows [J]                                  */
 } fl_ball_tally;
 
@@ -83,6 +93,9 @@ typedef struct {
     fl_ball_tally *tally; /* [chunks] */
     double *stiff;        /* [bodies] sum of bounds of omega^2, of the last survey [1/s2] */
     double *stiff_slot;   /* [cross[chunks]] */
+    fl_ball_lean *lean;   /* [leans] by (i, j) */
+    int32_t *lean_first;  /* [chunks + 1] those of a chunk */
+    int32_t leans, lean_cap;
     int32_t i_cap, j_cap, law_cap, image_cap, hit_cap, row_cap;
 } fl_balls;
 

@@ -8,24 +8,29 @@
 #include "law/normal.h"
 #include "law/sphere.h"
 #include "step/balls.h"
+#include "step/leans.h"
 #include "step/pairing.h"
 #include "step/stiff.h"
 
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
 
+enum { ROW = 1, LEAN = 2 }; /* how a near pair is listed */
 enum {
     MOST_WAYS = 256,
     LINE = 64,  /* bytes that are fetched at a time */
     AHEAD = 64, /* rows whose bodies j are on their way */
 };
 
-int fl_balls_are(const fl_world *w, int32_t i, int32_t j)
+/* Two spheres. */
+static int meet(const fl_world *w, int32_t i, int32_t j)
 {
     if (j >= w->n || !w->b.ball[i] || !w->b.ball[j]) return 0;
     const int32_t law = fl_pairing_law(w, i, j)->kind;
     return law == FL_LAW_PATCH || law == FL_LAW_CORE;
 }
+
+int fl_balls_are(const fl_world *w, int32_t i, int32_t j) { return meet(w, i, j) || fl_leans_are(w, i, j); }
 
 /* --- which there are --------------------------------------------------------------------------- */
 
@@ -35,6 +40,7 @@ void fl_balls_free(fl_balls *s)
     free(s->first), free(s->seen), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by),
         free(s->cross), free(s->into), free(s->slots), free(s->slot);
     free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
+    free(s->lean), free(s->lean_first);
     *s = (fl_balls){0};
 }
 
@@ -65,11 +71,12 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->ended = fl_alloc(s->chunks, sizeof *s->ended, err);
     s->cross = fl_alloc((int64_t)s->chunks + 1, sizeof *s->cross, err);
     s->tally = fl_alloc(s->chunks, sizeof *s->tally, err);
+    s->lean_first = fl_alloc((int64_t)s->chunks + 1, sizeof *s->lean_first, err);
     s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->was = fl_alloc(w->n, sizeof *s->was, err);
-    if (!s->first || !s->into || !s->seen || !s->source || !s->ended || !s->cross || !s->tally || !s->stiff ||
-        !s->sum || !s->was)
+    if (!s->lean_first || !s->first || !s->into || !s->seen || !s->source || !s->ended || !s->cross ||
+        !s->tally || !s->stiff || !s->sum || !s->was)
         return -1;
     s->bodies = w->n;
     return 0;
@@ -156,6 +163,7 @@ static int index_rows(fl_world *w, fl_err *err)
     }
     for (int32_t j = s->bodies; j > 0; j--) s->into[j] = s->into[j - 1];
     s->into[0] = 0;
+    fl_leans_index(s);
     return 0;
 }
 
@@ -187,7 +195,7 @@ static void fill(const fl_world *w, fl_balls *s, const uint8_t *listed, int32_t 
         const int32_t j = w->near.partner[k];
         int32_t cells[3] = {0};
         double n;
-        if (!listed[k]) continue;
+        if (listed[k] != ROW) continue;
         image(w, k, i, j, cells);
         while (at < end && compare(old, at, j, cells) < 0) at++;
         s->i[c] = i;
@@ -207,30 +215,30 @@ static void fill(const fl_world *w, fl_balls *s, const uint8_t *listed, int32_t 
 int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *err)
 {
     fl_balls fresh = {0}, *s = &w->balls;
-    int64_t near = 0;
+    int64_t near = 0, lean = 0;
     int32_t *at = fl_alloc((int64_t)w->n + 1, sizeof *at, err);
     uint8_t *listed = fl_alloc(w->near.first[w->n], sizeof *listed, err);
     if (!at || !listed) goto fail;
-#pragma omp parallel for schedule(static) reduction(+ : near)
+#pragma omp parallel for schedule(static) reduction(+ : near, lean)
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
             int32_t cells[3] = {0};
-            if (!fl_balls_are(w, i, j)) continue;
+            if (fl_leans_are(w, i, j)) listed[k] = LEAN, lean++;
+            if (!meet(w, i, j)) continue;
             image(w, k, i, j, cells);
-            listed[k] = (uint8_t)within(w, i, j, cells);
-            at[i + 1] += listed[k];
+            if (within(w, i, j, cells)) listed[k] = ROW, at[i + 1]++;
             near++;
         }
     }
-    *others = w->near.first[w->n] - near;
+    *others = w->near.first[w->n] - near - lean;
     int64_t n = 0;
     for (int32_t i = 0; i < w->n; i++) n += at[i + 1], at[i + 1] = (int32_t)n;
-    if (n == 0 && !s->bodies) {
+    if (n + lean == 0 && !s->bodies) {
         free(at), free(listed);
         return 0;
     }
-    if (rows_alloc(&fresh, w, n, err)) goto fail;
+    if (rows_alloc(&fresh, w, n, err) || fl_leans_list(w, listed, LEAN, err)) goto fail;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < w->n; i++)
         if (at[i + 1] > at[i]) fill(w, &fresh, listed, i, at[i], image);
@@ -254,6 +262,7 @@ int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int
 {
     fl_balls *s = &w->balls;
     const int64_t n = (int64_t)s->n + 1;
+    if (j >= w->n) return fl_leans_push(w, i, j, hit, row, err);
     if (fl_grow(&s->i, &s->i_cap, n, sizeof *s->i, err) || fl_grow(&s->j, &s->j_cap, n, sizeof *s->j, err) ||
         fl_grow(&s->law, &s->law_cap, n, sizeof *s->law, err) ||
         fl_grow(&s->hit, &s->hit_cap, n, sizeof *s->hit, err) ||
@@ -284,7 +293,7 @@ int fl_balls_drop(fl_world *w, fl_err *err)
         if (s->image) memmove(&s->image[3 * kept], &s->image[3 * c], 3 * sizeof *s->image);
         kept++;
     }
-    if (kept == s->n) return 0;
+    if (!fl_leans_drop(w) && kept == s->n) return 0;
     s->n = kept;
     return fl_balls_index(w, err);
 }
@@ -717,6 +726,7 @@ static void take(fl_world *w, int32_t a, double dt, int survey)
         finish_block(w, a, &t, dt, survey);
     }
     if (t.m) finish(w, a, &t, dt, survey);
+    if (s->leans) fl_leans_touch(w, a, dt, survey);
 }
 
 void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey) { take(w, a, dt, survey); }
@@ -763,12 +773,6 @@ static double overlap_of(const fl_world *w, int32_t c)
     return w->b.radius[s->i[c]] + w->b.radius[s->j[c]] - v3_norm(between(w, c));
 }
 
-/* Of the spring of friction of row c. */
-static double spring_of(const fl_ball_row *r)
-{
-    return r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0;
-}
-
 void fl_balls_energy(const fl_world *w, double *elastic, double *spring)
 {
     const fl_balls *s = &w->balls;
@@ -777,10 +781,11 @@ void fl_balls_energy(const fl_world *w, double *elastic, double *spring)
         double all = 0.0, springs = 0.0;
         for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[last_body(s, a)]; c++) {
             if (!s->hit[c]) continue;
-            const double held = spring_of(&s->row[c]);
+            const double held = fl_ball_spring(&s->row[c]);
             all += s->row[c].k * fl_normal_phi(overlap_of(w, c), 1.5) + held;
             springs += held;
         }
+        fl_leans_energy(w, a, &all, &springs);
         s->tally[a].elastic = all;
         s->tally[a].spring = springs;
     }
@@ -793,15 +798,20 @@ void fl_balls_energy(const fl_world *w, double *elastic, double *spring)
 fl_ball_count fl_balls_count(const fl_world *w)
 {
     const fl_balls *s = &w->balls;
-    fl_ball_count all = {.row = -1};
+    fl_ball_count all = {.i = -1, .j = -1};
+    int32_t row = -1;
     for (int32_t a = 0; a < s->chunks; a++) {
         const fl_ball_tally *t = &s->tally[a];
         all.force += t->force;
         all.touching += t->touching;
         if (t->worst > all.worst) {
             all.worst = t->worst;
-            all.row = t->worst_row;
+            row = t->worst_row;
         }
+    }
+    if (all.worst > 0.0) {
+        all.i = row < 0 ? s->lean[~row].i : s->i[row];
+        all.j = row < 0 ? s->lean[~row].j : s->j[row];
     }
     return all;
 }
@@ -814,12 +824,14 @@ double fl_balls_bytes(const fl_world *w)
                  slot = sizeof *s->slot + sizeof *s->slots + sizeof *s->stiff_slot,
                  body = 2 * sizeof *s->sum + sizeof *s->seen + 2 * sizeof(int32_t) + sizeof *s->stiff;
     if (!s->bodies) return 0.0;
-    return s->n * (row + image) + s->cross[s->chunks] * slot + s->bodies * body;
+    return s->n * (row + image) + s->leans * (double)sizeof *s->lean + s->cross[s->chunks] * slot +
+           s->bodies * body;
 }
 
 /* --- as pairs like all others ------------------------------------------------------------------ */
 
-void fl_balls_pair(const fl_world *w, int32_t c, fl_pair *p)
+/* Row c with its forces of the last touch. */
+static void pair_of(const fl_world *w, int32_t c, fl_pair *p)
 {
     const fl_balls *s = &w->balls;
     const fl_bodies *b = &w->b;
@@ -843,26 +855,40 @@ void fl_balls_pair(const fl_world *w, int32_t c, fl_pair *p)
     p->si = p->ti = v3_scale(half - b->radius[i], turn);
     p->sj = p->tj = v3_scale(half - b->radius[j], turn);
     p->f = v3_madd(r->rub, r->normal, n);
-    p->spring = spring_of(r);
+    p->spring = fl_ball_spring(r);
     p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
     const double slope = r->k * fl_normal_slope(over, 1.5);
     p->stiff_i = fl_stiff_point(b, i, slope, r->stiff, b->radius[i] - half);
     p->stiff_j = fl_stiff_point(b, j, slope, r->stiff, b->radius[j] - half);
 }
 
-/* Whether row c comes before pair p. */
+/* Walls come after all spheres. */
+int32_t fl_ball_next(const fl_world *w, fl_ball_walk *at)
+{
+    const fl_balls *s = &w->balls;
+    if (at->lean >= s->leans || (at->row < s->n && s->i[at->row] <= s->lean[at->lean].i)) return at->row++;
+    return ~at->lean++;
+}
+
+/* Whether row c, as fl_ball_next() tells it, comes before pair p. */
 static int comes_first(const fl_balls *s, int32_t c, const fl_near *p)
 {
-    return s->i[c] != p->i ? s->i[c] < p->i : s->j[c] < p->j; /* no pair is of both kinds */
+    const int32_t i = c < 0 ? s->lean[~c].i : s->i[c], j = c < 0 ? s->lean[~c].j : s->j[c];
+    return i != p->i ? i < p->i : j < p->j; /* no pair is of both kinds */
 }
 
 const fl_pair *fl_pair_next(fl_pair_walk *at)
 {
     const fl_world *w = at->w;
-    if (at->row < w->balls.n &&
-        (at->pair >= w->n_pair || comes_first(&w->balls, at->row, &w->pair[at->pair]))) {
-        fl_balls_pair(w, at->row++, &at->made);
-        return &at->made;
+    fl_ball_walk next = at->rows;
+    if (next.row + next.lean < fl_balls_rows(w)) {
+        const int32_t c = fl_ball_next(w, &next);
+        if (at->pair >= w->n_pair || comes_first(&w->balls, c, &w->pair[at->pair])) {
+            at->rows = next;
+            if (c < 0) fl_leans_pair(w, ~c, &at->made);
+            else pair_of(w, c, &at->made);
+            return &at->made;
+        }
     }
     if (at->pair >= w->n_pair) return NULL;
     const fl_near *q = &w->pair[at->pair++];

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* balls.h -- pairs of spheres in a step; how they are kept is told in ball.h, their forces in law/sphere.h.
- */
+/* balls.h -- pairs of spheres in a step, those with walls (leans.h) among them; how they are kept is told in
+ * ball.h, their forces in law/sphere.h. */
 #ifndef FL_STEP_BALLS_H
 #define FL_STEP_BALLS_H
 #include "step/world.h"
 
-/* Whether i and j < total are two spheres that meet here: both alike in all directions, by `patch` or `core`.
- * All others, and these where there is no row for them, are pairs of w->pair. */
+/* Whether i and j < total meet here, by `patch` or `core`: two spheres, that is bodies alike in all directions,
+ * or one and a rigid wall of the boundary.  All others are pairs of w->pair. */
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j);
 
 /* Rows for those of w->near that are such and no farther apart than the skin; image() tells which image of j
@@ -17,7 +17,7 @@ typedef void fl_ball_image(const fl_world *w, int64_t k, int32_t i, int32_t j, i
 int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *err);
 
 /* A row behind all others, for those who put together a world from what they read: i and then j do not fall;
- * fl_balls_index() afterwards.  -1 with FL_SYSTEM. */
+ * fl_balls_index() afterwards.  Walls have no image.  -1 with FL_SYSTEM. */
 int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int hit, const fl_ball_row *row,
                   fl_err *err);
 
@@ -54,23 +54,37 @@ static inline void fl_balls_force(const fl_world *w, int32_t k, fl_vec3 *f, fl_v
  */
 void fl_balls_energy(const fl_world *w, double *elastic, double *spring);
 
-/* Sum of |F| [N], touching rows, and the largest overlap over the sum of the radii with its row (-1: none) of
- * the last touch. */
+/* Of a sphere's row the energy of the spring of friction [J]. */
+static inline double fl_ball_spring(const fl_ball_row *r)
+{
+    return r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0;
+}
+
+/* Sum of |F| [N], touching rows, and the largest overlap over the sum of the radii with whose it is (-1:
+ * nobody's) of the last touch. */
 typedef struct {
     double force, worst;
     int64_t touching;
-    int32_t row;
+    int32_t i, j;
 } fl_ball_count;
 fl_ball_count fl_balls_count(const fl_world *w);
 
-/* Row c as a pair like all others, with its forces of the last touch. */
-void fl_balls_pair(const fl_world *w, int32_t c, fl_pair *p);
+/* How many rows there are. */
+static inline int32_t fl_balls_rows(const fl_world *w) { return w->balls.n + w->balls.leans; }
+
+/* All rows by (i, j, image), from {0} on: what comes next, of two spheres, or of a sphere and a wall ~c; none
+ * are left after fl_balls_rows() of them. */
+typedef struct {
+    int32_t row, lean;
+} fl_ball_walk;
+int32_t fl_ball_next(const fl_world *w, fl_ball_walk *at);
 
 /* All near pairs, those of spheres in their place, by (i, j, image): from {.w = w} on, NULL at the end.  What
  * is returned holds until the next. */
 typedef struct {
     const fl_world *w;
-    int32_t pair, row;
+    int32_t pair;
+    fl_ball_walk rows;
     fl_pair made;
 } fl_pair_walk;
 const fl_pair *fl_pair_next(fl_pair_walk *at);

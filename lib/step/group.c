@@ -283,78 +283,24 @@ static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group 
     fl_plain_works works;
     int32_t end = k;
     while (h > 0.0 && end < to && fl_plain_is(w, end)) end++;
-    if (end > k && !fl_plain_end(w, k, end, h, NULL, &works)) *finite = 0;
+    if (end > k && !fl_plain_end(w, k, end, h, &works)) *finite = 0;
     book_plain(own, &works, end - k);
     for (int32_t i = k; i < end; i++)
         own->pushed = v3_add(own->pushed, v3_madd(w->b.f[i], -w->b.m[i], w->gravity));
     return end;
 }
 
-/* The pair of body k that touches: -1 where none does, -2 where there are several. */
-static int32_t one_pair(const fl_world *w, int32_t k)
-{
-    int32_t found = -1;
-    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++)
-        if (w->hit[w->inc[c]]) found = found == -1 ? w->inc[c] : -2;
-    return found;
-}
-
-/* A body of a group on which one pair presses, or none (-1) but one did at the begin of the step. */
-typedef struct {
-    int32_t k, pair;
-    fl_gain first;
-} leaning;
-
-/* Those of them; -1 where more than one pair presses on a body. */
-static int32_t find_leaning(const fl_world *w, int32_t from, int32_t to, leaning *at)
-{
-    const int32_t *sink = w->sink.place, *was = w->was.place;
-    int32_t n = 0;
-    for (int32_t k = from; k < to; k++) {
-        if (!(sink[k] | was[k])) continue;
-        const int32_t pair = one_pair(w, k);
-        if (pair == -2) return -1;
-        at[n++] = (leaning){.k = k, .pair = pair};
-    }
-    return n;
-}
-
-/* What such pairs press with, and what their damping and friction do. */
-static void press_leaning(fl_world *w, int32_t from, double h, leaning *at, int32_t n, fl_plain_press *more)
-{
-    memset(more->has, 0, sizeof more->has);
-    for (int32_t l = 0; l < n; l++) {
-        const int32_t k = at[l].k;
-        at[l].first = gain_of(&w->b, k, h);
-        if (at[l].pair < 0) continue;
-        const fl_pair *p = w->pair[at[l].pair].full;
-        const int is_i = p->i == k;
-        more->has[k - from] = -1;
-        more->f[k - from] = v3_scale(is_i ? 1.0 : -1.0, p->f);
-        more->t[k - from] = is_i ? p->ti : p->tj;
-        fl_works_clear(w, k);
-        fl_works_add(fl_works_now(w, k), p, is_i);
-    }
-}
-
-/* A group that is of spheres alone, dry, each with one pair at most that is not of spheres; 0 where it is
+/* A group that is of spheres alone, dry, on which nothing but spheres and walls presses or did; 0 where it is
  * not. */
 static int end_spheres(fl_world *w, int32_t from, int32_t to, double h, fl_group *own, int *finite)
 {
-    leaning at[FL_BALLS_GROUP];
+    const int32_t *sink = w->sink.place, *was = w->was.place;
     fl_plain_works works;
-    fl_plain_press more;
+    int32_t pressed = 0;
     if (!w->balls.bodies || !w->b.ball[from] || w->sea.n || w->row.n || w->sink.all || !(h > 0.0)) return 0;
-    if (alike(w, from, to) < to) return 0;
-    const int32_t n = find_leaning(w, from, to, at);
-    if (n < 0) return 0;
-    if (n) press_leaning(w, from, h, at, n, &more);
-    *finite = fl_plain_end(w, from, to, h, n ? &more : NULL, &works);
-    for (int32_t l = 0; l < n; l++) {
-        const fl_gain back = gain_of(&w->b, at[l].k, h);
-        const fl_works all = fl_works_take(w, at[l].k, &at[l].first, &back);
-        works.damped[at[l].k - from] = all.damping, works.rubbed[at[l].k - from] = all.friction;
-    }
+    for (int32_t k = from; k < to; k++) pressed |= sink[k] | was[k];
+    if (pressed || alike(w, from, to) < to) return 0;
+    *finite = fl_plain_end(w, from, to, h, &works);
     book_plain(own, &works, to - from);
     for (int32_t k = from; k < to; k++)
         own->pushed = v3_add(own->pushed, v3_madd(w->b.f[k], -w->b.m[k], w->gravity));

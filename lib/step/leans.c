@@ -1,74 +1,244 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <string.h>
+#include "base/mem.h"
 #include "law/normal.h"
+#include "law/sphere.h"
+#include "step/balls.h"
 #include "step/leans.h"
+#include "step/pairing.h"
 #include "step/stiff.h"
 
-static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_pair *p, fl_vec3 d)
+int fl_leans_are(const fl_world *w, int32_t i, int32_t j)
+{
+    if (j < w->n + w->pieces || !w->b.ball[i] || w->structure.piece[j - w->n].elastic) return 0;
+    const int32_t law = fl_pairing_law(w, i, j)->kind;
+    return law == FL_LAW_PATCH || law == FL_LAW_CORE;
+}
+
+/* --- which there are --------------------------------------------------------------------------- */
+
+int fl_leans_push(fl_world *w, int32_t i, int32_t j, int hit, const fl_ball_row *row, fl_err *err)
+{
+    fl_balls *s = &w->balls;
+    if (fl_grow(&s->lean, &s->lean_cap, (int64_t)s->leans + 1, sizeof *s->lean, err)) return -1;
+    s->lean[s->leans++] = (fl_ball_lean){
+        .i = i, .j = j, .law = (int32_t)(fl_pairing_law(w, i, j) - w->law), .hit = hit, .row = *row};
+    return 0;
+}
+
+static int before(const fl_ball_lean *a, int32_t i, int32_t j) { return a->i != i ? a->i < i : a->j < j; }
+
+int fl_leans_list(fl_world *w, const uint8_t *listed, uint8_t which, fl_err *err)
+{
+    fl_balls *s = &w->balls;
+    fl_ball_lean *const old = s->lean;
+    const int32_t n_old = s->leans;
+    int32_t at = 0, rc = 0;
+    s->lean = NULL, s->leans = s->lean_cap = 0;
+    for (int32_t i = 0; i < w->n && !rc; i++) {
+        for (int64_t k = w->near.first[i]; k < w->near.first[i + 1] && !rc; k++) {
+            const int32_t j = w->near.partner[k];
+            double n;
+            if (listed[k] != which) continue;
+            while (at < n_old && before(&old[at], i, j)) at++;
+            if (at < n_old && old[at].i == i && old[at].j == j) {
+                rc = fl_leans_push(w, i, j, old[at].hit, &old[at].row, err);
+            } else {
+                const fl_ball_row fresh = {.k = fl_pairing_stiffness(w, i, j, &n)};
+                rc = fl_leans_push(w, i, j, 0, &fresh, err);
+            }
+        }
+    }
+    free(old);
+    return rc;
+}
+
+int fl_leans_drop(fl_world *w)
+{
+    fl_balls *s = &w->balls;
+    int32_t kept = 0;
+    for (int32_t c = 0; c < s->leans; c++)
+        if (!fl_world_away(w, s->lean[c].i)) s->lean[kept++] = s->lean[c];
+    const int dropped = kept < s->leans;
+    s->leans = kept;
+    return dropped;
+}
+
+void fl_leans_index(fl_balls *s)
+{
+    int32_t c = 0;
+    for (int32_t a = 0; a < s->chunks; a++) {
+        s->lean_first[a] = c;
+        while (c < s->leans && s->lean[c].i < (a + 1) * FL_BALLS_CHUNK) c++;
+    }
+    s->lean_first[s->chunks] = c;
+}
+
+/* --- their forces ------------------------------------------------------------------------------ */
+
+/* Normal of wall j, away from what is behind it, and height of i over it. */
+static fl_vec3 normal_of(const fl_world *w, int32_t j) { return m3_col(fl_body_axes(&w->b, j), 2); }
+static double height(const fl_world *w, int32_t i, int32_t j, fl_vec3 n)
+{
+    return v3_dot(n, v3_sub(w->b.x[i], w->b.x[j]));
+}
+
+/* The m-th of some: a centre behind the wall, whose foot would be on the wrong side of it, finds a sphere in
+ * place of the wall that is as far below as it takes. */
+static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean *c, fl_vec3 n, double z)
 {
     const fl_bodies *b = &w->b;
-    const fl_touching *law = p->law;
-    const fl_vec3 u = v3_sub(b->v[p->i], b->v[p->j]), spin = b->w[p->i];
+    const fl_touching *law = &w->law[c->law];
+    const fl_ball_row *r = &c->row;
+    const double radius = b->radius[c->i], below = z > 0.0 ? 0.0 : radius - 2.0 * z;
+    const fl_vec3 d = v3_scale(z + below, n), u = b->v[c->i], spin = b->w[c->i];
     a->d[0][m] = d.x, a->d[1][m] = d.y, a->d[2][m] = d.z;
     a->u[0][m] = u.x, a->u[1][m] = u.y, a->u[2][m] = u.z;
     a->wi[0][m] = spin.x, a->wi[1][m] = spin.y, a->wi[2][m] = spin.z;
     a->wj[0][m] = a->wj[1][m] = a->wj[2][m] = 0.0;
-    a->ri[m] = b->radius[p->i];
-    a->rj[m] = 0.0;
-    a->invm[m] = law->rest * law->rest * b->invm[p->i];
-    a->k[m] = p->k;
+    a->ri[m] = radius;
+    a->rj[m] = below;
+    a->invm[m] = law->rest * law->rest * b->invm[c->i];
+    a->k[m] = r->k;
     a->friction[m] = law->friction;
     a->tangential[m] = law->tangential;
     a->chi[m] = law->chi;
-    a->touch[m] = p->touch;
-    a->slip[0][m] = p->slip.force.x, a->slip[1][m] = p->slip.force.y, a->slip[2][m] = p->slip.force.z;
-    a->stiff[m] = p->slip.k;
-}
-
-int fl_leans_add(const fl_world *w, fl_leans *q, int32_t c)
-{
-    const fl_near *near = &w->pair[c];
-    const fl_bodies *b = &w->b;
-    const int32_t i = near->i, j = near->j;
-    if (j < w->n + w->pieces || !near->n || !b->ball[i] || w->structure.piece[j - w->n].elastic) return 0;
-    const fl_vec3 n = m3_col(fl_body_axes(b, j), 2);
-    const double z = v3_dot(n, v3_sub(b->x[i], b->x[j]));
-    if (!(z > 0.0 && z < b->radius[i]) || near->full->bond) return 0;
-    near->full->at = c;
-    load(w, &q->at, q->n, near->full, v3_scale(z, n));
-    q->pair[q->n++] = near->full;
-    return 1;
+    a->touch[m] = r->touch;
+    a->slip[0][m] = r->slip.x, a->slip[1][m] = r->slip.y, a->slip[2][m] = r->slip.z;
+    a->stiff[m] = r->stiff;
+    a->rub[0][m] = r->rub.x, a->rub[1][m] = r->rub.y, a->rub[2][m] = r->rub.z;
+    a->normal[m] = r->normal;
 }
 
 static fl_vec3 vector(const double a[3][FL_SPHERES_MOST], int32_t m) { return v3(a[0][m], a[1][m], a[2][m]); }
 
-static void save(const fl_world *w, const fl_spheres *a, int32_t m, fl_pair *p, int survey)
+static void save(fl_ball_row *r, const fl_spheres *a, int32_t m)
 {
+    r->slip = vector(a->slip, m);
+    r->stiff = a->stiff[m];
+    r->rub = vector(a->rub, m);
+    r->normal = a->normal[m];
+    r->touch = a->touch[m];
+}
+
+static void hand_out(fl_ball_sum *sum, const fl_spheres *a, int32_t m)
+{
+    sum->elastic = v3_add(sum->elastic, vector(a->push, m));
+    sum->damping = v3_add(sum->damping, vector(a->damping, m));
+    sum->friction = v3_add(sum->friction, vector(a->rub, m));
+    sum->torque = v3_add(sum->torque, vector(a->ti, m));
+}
+
+static void count(fl_ball_tally *t, const fl_spheres *a, int32_t m, int32_t c)
+{
+    const double deep = a->overlap[m] / a->ri[m];
+    t->force += a->size[m];
+    t->touching++;
+    if (deep > t->worst) t->worst = deep, t->worst_row = ~c;
+}
+
+static void finish(fl_world *w, int32_t chunk, fl_spheres *a, const int32_t *row, int32_t n, double dt,
+                   int survey)
+{
+    fl_balls *s = &w->balls;
+    if (dt < 0.0) fl_spheres_place(a, n);
+    else fl_spheres_meet(a, n, dt);
+    for (int32_t m = 0; m < n; m++) {
+        fl_ball_lean *const c = &s->lean[row[m]];
+        if (dt >= 0.0) save(&c->row, a, m);
+        hand_out(&s->sum[c->i], a, m);
+        count(&s->tally[chunk], a, m, row[m]);
+        if (survey)
+            s->stiff[c->i] +=
+                fl_stiff_point(&w->b, c->i, a->slope[m], a->stiff[m], a->ri[m] - 0.5 * a->overlap[m]);
+    }
+}
+
+void fl_leans_touch(fl_world *w, int32_t a, double dt, int survey)
+{
+    fl_balls *s = &w->balls;
+    fl_spheres at;
+    int32_t row[FL_SPHERES_MOST], n = 0;
+    for (int32_t c = s->lean_first[a]; c < s->lean_first[a + 1]; c++) {
+        fl_ball_lean *const l = &s->lean[c];
+        const fl_vec3 up = normal_of(w, l->j);
+        const double z = height(w, l->i, l->j, up);
+        const int touches = z < w->b.radius[l->i];
+        if (dt >= 0.0 && touches != l->hit) {
+            if (l->hit) l->row = (fl_ball_row){.k = l->row.k};
+            l->hit = touches;
+        }
+        if (!l->hit) continue;
+        load(w, &at, n, l, up, z);
+        row[n++] = c;
+        if (n < FL_SPHERES_MOST) continue;
+        finish(w, a, &at, row, n, dt, survey);
+        n = 0;
+    }
+    if (n) finish(w, a, &at, row, n, dt, survey);
+}
+
+/* On the sphere. */
+static fl_vec3 force_of(const fl_ball_row *r, fl_vec3 n) { return v3_madd(r->rub, r->normal, n); }
+
+/* Middle of the overlap, from the wall's point. */
+static fl_vec3 middle(const fl_world *w, const fl_ball_lean *c, fl_vec3 n)
+{
+    const double r = w->b.radius[c->i], over = r - height(w, c->i, c->j, n);
+    return v3_madd(v3_sub(w->b.x[c->i], w->b.x[c->j]), 0.5 * over - r, n);
+}
+
+void fl_leans_press(const fl_world *w, int32_t j, fl_vec3 *f, fl_vec3 *t)
+{
+    const fl_balls *s = &w->balls;
+    const fl_vec3 n = normal_of(w, j);
+    for (int32_t c = 0; c < s->leans; c++) {
+        const fl_ball_lean *const l = &s->lean[c];
+        if (l->j != j || !l->hit) continue;
+        const fl_vec3 F = force_of(&l->row, n);
+        *f = v3_sub(*f, F);
+        *t = v3_sub(*t, v3_cross(middle(w, l, n), F));
+    }
+}
+
+void fl_leans_energy(const fl_world *w, int32_t a, double *all, double *springs)
+{
+    const fl_balls *s = &w->balls;
+    for (int32_t c = s->lean_first[a]; c < s->lean_first[a + 1]; c++) {
+        const fl_ball_lean *const l = &s->lean[c];
+        if (!l->hit) continue;
+        const double over = w->b.radius[l->i] - height(w, l->i, l->j, normal_of(w, l->j)),
+                     held = fl_ball_spring(&l->row);
+        *all += l->row.k * fl_normal_phi(over, 1.5) + held;
+        *springs += held;
+    }
+}
+
+void fl_leans_pair(const fl_world *w, int32_t c, fl_pair *p)
+{
+    const fl_ball_lean *const l = &w->balls.lean[c];
+    const fl_ball_row *const r = &l->row;
     const fl_bodies *b = &w->b;
-    const fl_vec3 n = vector(a->n, m), zero = v3(0, 0, 0);
-    const double over = a->overlap[m], arm = a->ri[m] - 0.5 * over;
-    const fl_vec3 at = v3_madd(v3_sub(b->x[p->i], b->x[p->j]), -arm, n); /* from the wall's point */
-    p->slip = (fl_slip){.force = vector(a->slip, m), .k = a->stiff[m]};
-    p->touch = a->touch[m];
+    const fl_vec3 n = normal_of(w, l->j);
+    const double radius = b->radius[l->i], over = radius - height(w, l->i, l->j, n),
+                 arm = radius - 0.5 * over;
+    fl_pair_start(w, p, l->i, l->j);
+    p->asleep = b->odometer[l->i] + b->odometer[l->j] + (over < 0.0 ? -over : 0.0);
+    p->n = l->hit;
+    if (!p->n) return;
+    const double slope = r->k * fl_normal_slope(over, 1.5);
+    const fl_vec3 at = middle(w, l, n);
+    p->slip.force = r->slip;
+    p->slip.k = r->stiff;
+    p->touch = r->touch;
     p->overlap = over;
-    p->fd = vector(a->damping, m);
-    p->fs = vector(a->rub, m);
-    p->f = v3_madd(p->fs, a->normal[m], n);
-    p->di = zero;
-    p->ti = p->si = vector(a->ti, m);
+    p->fd = v3_scale(r->normal - r->k * fl_normal_power(over, 1.5), n);
+    p->fs = r->rub;
+    p->f = force_of(r, n);
+    p->si = p->ti = v3_scale(-arm, v3_cross(n, r->rub));
     p->tj = v3_neg(v3_cross(at, p->f));
     p->dj = v3_neg(v3_cross(at, p->fd));
     p->sj = v3_neg(v3_cross(at, p->fs));
-    p->spring = fl_tangent_energy(&p->slip);
-    p->energy = p->k * fl_normal_phi(over, 1.5) + p->spring;
-    p->stiff_i = survey ? fl_stiff_point(b, p->i, a->slope[m], a->stiff[m], arm) : 0.0;
-    p->stiff_j = 0.0;
-}
-
-void fl_leans_touch(const fl_world *w, fl_leans *q, double dt, int survey)
-{
-    if (q->n == 0) return;
-    fl_spheres_meet(&q->at, q->n, dt);
-    for (int32_t m = 0; m < q->n; m++) save(w, &q->at, m, q->pair[m], survey);
-    q->n = 0;
+    p->spring = fl_ball_spring(r);
+    p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
+    p->stiff_i = fl_stiff_point(b, l->i, slope, r->stiff, arm);
 }

@@ -1,27 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* leans.h -- spheres that lean on walls of the boundary, many at a time by law/sphere.h.
- *
- * They are pairs like all others; only their forces are found together.  To the law a wall that stands still
- * is a sphere of no radius at the foot of the centre x_i, D = z n with the height z of the centre over the
- * wall. */
+/* leans.h -- spheres that lean on rigid walls of the boundary: rows as those of two spheres, ball.h, with the
+ * wall in place of the second.  To law/sphere.h a wall that stands still is a sphere of no radius at the foot
+ * of the centre x_i, D = z n with the height z of the centre over the wall and its normal n. */
 #ifndef FL_STEP_LEANS_H
 #define FL_STEP_LEANS_H
-#include "law/sphere.h"
 #include "step/world.h"
 
-/* Pairs of w->pair in work.  */
-typedef struct {
-    fl_spheres at;
-    fl_pair *pair[FL_SPHERES_MOST];
-    int32_t n;
-} fl_leans;
+/* Whether i < n and j are a sphere and such a wall, by `patch` or `core`. */
+int fl_leans_are(const fl_world *w, int32_t i, int32_t j);
 
-/* Whether pair c is a sphere that touched a rigid wall at the last look and touches it now, its centre before
- * the wall: then it is added to q, which has room.  All others are for fl_near_awake(). */
-int fl_leans_add(const fl_world *w, fl_leans *q, int32_t c);
+/* Rows for those of w->near that are such, by listed[k]; what a row of before remembers goes over.  -1 with
+ * FL_SYSTEM. */
+int fl_leans_list(fl_world *w, const uint8_t *listed, uint8_t which, fl_err *err);
 
-/* Forces, torques, energies and, for a survey, stiffness of those of q, as fl_interact() over a step of dt
- * [s] leaves them behind in their pairs; q is empty then. */
-void fl_leans_touch(const fl_world *w, fl_leans *q, double dt, int survey);
+/* A row behind all others; fl_leans_index() afterwards.  -1 with FL_SYSTEM. */
+int fl_leans_push(fl_world *w, int32_t i, int32_t j, int hit, const fl_ball_row *row, fl_err *err);
+
+/* End the rows of bodies that are away; whether there were any. */
+int fl_leans_drop(fl_world *w);
+
+/* Which are of which chunk. */
+void fl_leans_index(fl_balls *s);
+
+/* Those of chunk a over a step of dt [s], dt < 0: placed again, by what they hold; into the sums, the tally
+ * and, for a survey, the stiffness of the chunk. */
+void fl_leans_touch(fl_world *w, int32_t a, double dt, int survey);
+
+/* Add what those that lean on wall j do to it. */
+void fl_leans_press(const fl_world *w, int32_t j, fl_vec3 *f, fl_vec3 *t);
+
+/* Elastic energy of those of chunk a, that of their springs of friction with it, and that of the springs alone,
+ * added [J]. */
+void fl_leans_energy(const fl_world *w, int32_t a, double *all, double *springs);
+
+/* Row c as a pair like all others, with its forces of the last touch. */
+void fl_leans_pair(const fl_world *w, int32_t c, fl_pair *p);
 
 #endif

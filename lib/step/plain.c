@@ -21,7 +21,6 @@ typedef struct {
     const fl_ball_sum *sum, *was;
     fl_vec3 *f, *t, *v, *L, *w;
     double *damped, *rubbed;
-    const fl_plain_press *more; /* or NULL */
 } group;
 
 /* The twelve numbers of four sums, one register each. */
@@ -40,20 +39,6 @@ FL_WIDE_PART void load(sums *q, const fl_ball_sum *s)
             FL_FOUR((const double *)&s[l] + FL_LANES * part);
         fl_wide_transpose(r);
         FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) to[FL_LANES * part + l] = r[l];
-    }
-}
-
-FL_WIDE_PART void press_more(fl_wide f[3], fl_wide t[3], const fl_plain_press *more, int32_t k)
-{
-    fl_wide_mask has;
-    fl_wide F[3], T[3];
-    memcpy(&has, &more->has[k], sizeof has);
-    fl_wide_from_triples(F, &more->f[k]);
-    fl_wide_from_triples(T, &more->t[k]);
-    FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
-    {
-        f[c] = FL_WIDE_CHOOSE(has, f[c] + F[c], f[c]);
-        t[c] = FL_WIDE_CHOOSE(has, t[c] + T[c], t[c]);
     }
 }
 
@@ -85,7 +70,6 @@ FL_FOUR_VERSIONS static double end_all(const group *restrict a, int32_t n, fl_ve
             f[c] = m * g[c] + (s1.elastic[c] + s1.damping[c] + s1.friction[c]);
             t[c] = 0.0 + s1.torque[c];
         }
-        if (a->more) press_more(f, t, a->more, k);
         FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
         {
             v1[c] = by * f[c];
@@ -120,16 +104,13 @@ typedef struct {
 static double end_rest(const group *a, int32_t from, int32_t n, fl_vec3 gravity, double dt, double h)
 {
     rest r;
-    fl_plain_press more;
-    const group of = {r.m, r.invm, r.I, r.x, r.sum,    r.was,    r.f,
-                      r.t, r.v,    r.L, r.w, r.damped, r.rubbed, a->more ? &more : NULL};
+    const group of = {r.m, r.invm, r.I, r.x, r.sum, r.was, r.f, r.t, r.v, r.L, r.w, r.damped, r.rubbed};
     for (int32_t l = 0; l < FL_LANES; l++) {
         const int32_t k = from + (l < n ? l : n - 1);
         r.m[l] = a->m[k], r.invm[l] = a->invm[k];
         r.I[l] = a->I[k], r.x[l] = a->x[k], r.f[l] = a->f[k], r.t[l] = a->t[k], r.v[l] = a->v[k],
         r.L[l] = a->L[k];
         r.sum[l] = a->sum[k], r.was[l] = a->was[k];
-        if (a->more) more.has[l] = a->more->has[k], more.f[l] = a->more->f[k], more.t[l] = a->more->t[k];
     }
     const double zero = end_all(&of, FL_LANES, gravity, dt, h);
     for (int32_t l = 0; l < n; l++) {
@@ -140,13 +121,12 @@ static double end_rest(const group *a, int32_t from, int32_t n, fl_vec3 gravity,
     return zero;
 }
 
-int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, const fl_plain_press *more,
-                 fl_plain_works *works)
+int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, fl_plain_works *works)
 {
     fl_bodies *b = &w->b;
-    const group a = {b->m + from,         b->invm + from, b->I + from,   b->x + from, w->balls.sum + from,
-                     w->balls.was + from, b->f + from,    b->t + from,   b->v + from, b->L + from,
-                     b->w + from,         works->damped,  works->rubbed, more};
+    const group a = {b->m + from,         b->invm + from, b->I + from,  b->x + from, w->balls.sum + from,
+                     w->balls.was + from, b->f + from,    b->t + from,  b->v + from, b->L + from,
+                     b->w + from,         works->damped,  works->rubbed};
     const int32_t n = to - from, left = n % FL_LANES;
     double zero = end_all(&a, n - left, w->gravity, w->dt, h);
     if (left) zero += end_rest(&a, n - left, left, w->gravity, w->dt, h);

@@ -497,7 +497,7 @@ static void pair(traffic *t, fl_world *w, int32_t c)
             return;
         }
         if (fl_balls_are(w, i, j)) {
-            fl_text_fail(t->in, t->err, "pair %d and %d is of two spheres, a row \"ball\" was wanted", i, j);
+            fl_text_fail(t->in, t->err, "pair %d and %d is of spheres, a row \"ball\" was wanted", i, j);
             return;
         }
         fl_pair_start(w, p, i, j);
@@ -551,20 +551,23 @@ static void bond(traffic *t, fl_world *w, int32_t k)
     close_row(t);
 }
 
-/* A row of two spheres; in gives them back. */
+/* A row of two spheres, or of one and wall ~c; in gives them back. */
 static void ball(traffic *t, fl_world *w, int32_t c, int32_t last[2])
 {
     const fl_balls *s = &w->balls;
     fl_ball_row r = {0};
     int32_t i = 0, j = 0, hit = 0, image[3] = {0};
     double n;
-    if (t->f) {
+    if (t->f && c < 0) {
+        const fl_ball_lean *const l = &s->lean[~c];
+        i = l->i, j = l->j, hit = l->hit, r = l->row;
+    } else if (t->f) {
         i = s->i[c], j = s->j[c], hit = s->hit[c], r = s->row[c];
         if (s->image) memcpy(image, &s->image[3 * c], sizeof image);
     }
     open_row(t, "ball");
     whole(t, 0, w->n - 1, &i);
-    whole(t, 0, w->n - 1, &j);
+    whole(t, 0, w->b.total - 1, &j);
     for (int axis = 0; w->cell.wraps && axis < 3; axis++) whole(t, -INT32_MAX, INT32_MAX, &image[axis]);
     whole(t, 0, 1, &hit);
     real(t, &r.touch);
@@ -589,7 +592,7 @@ static void ball(traffic *t, fl_world *w, int32_t c, int32_t last[2])
 static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
 {
     int32_t parts = w->parts, total = w->b.total, n_sea = w->sea.n, pairs = w->n_pair;
-    *balls = w->balls.n;
+    *balls = fl_balls_rows(w);
     open_row(t, "world");
     count(t, &w->step);
     count(t, &w->found_at);
@@ -654,7 +657,8 @@ void fl_snapshot_write(FILE *f, fl_world *w)
     int32_t balls;
     all_but_pairs(&t, w, &balls);
     for (int32_t c = 0; c < w->n_pair; c++) pair(&t, w, c);
-    for (int32_t c = 0; c < balls; c++) ball(&t, w, c, NULL);
+    fl_ball_walk at = {0};
+    for (int32_t c = 0; c < balls; c++) ball(&t, w, fl_ball_next(w, &at), NULL);
 }
 
 int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
@@ -670,14 +674,14 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
         pair(&t, w, c);
         w->n_pair = c + 1;
     }
-    w->balls.n = 0;
+    w->balls.n = w->balls.leans = 0;
     for (int32_t c = 0; c < balls && !err->code; c++) ball(&t, w, c, last);
     if (err->code) return -1;
     const int more = fl_text_row(in, err);
     if (more > 0) fl_text_fail(in, err, "\"%.40s\" behind the last pair was not expected", in->field[0]);
     if (more) return -1;
     if (w->ride.m.n) fl_ride_ready(w);
-    if ((w->balls.n || w->balls.bodies) && fl_balls_index(w, err)) return -1;
+    if ((fl_balls_rows(w) || w->balls.bodies) && fl_balls_index(w, err)) return -1;
     if (fl_search_index(w, err)) return -1;
     for (int32_t k = 0; k < w->b.total; k++) fl_works_sum(w, k);
     return 0;

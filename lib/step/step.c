@@ -11,6 +11,7 @@
 #include "step/critical.h"
 #include "step/frozen.h"
 #include "step/group.h"
+#include "step/leans.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
@@ -149,6 +150,7 @@ int fl_step_press(fl_world *w, int32_t k)
     fl_sink *sink = fl_works_now(w, k);
     if (sink->n) *sink = (fl_sink){0};
     if (w->balls.bodies && k < w->n) fl_balls_force(w, k, &b->f[k], &b->t[k]);
+    if (w->balls.leans && k >= w->n + w->pieces) fl_leans_press(w, k, &b->f[k], &b->t[k]);
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
         if (!w->hit[w->inc[c]]) continue;
         const fl_pair *p = w->pair[w->inc[c]].full;
@@ -350,7 +352,7 @@ static void account(fl_world *w, double dt, deepest *d)
     if (w->balls.bodies) {
         const fl_ball_count all = fl_balls_count(w);
         if (all.worst > d->overlap)
-            *d = (deepest){all.worst, w->id[w->balls.i[all.row]], w->id[w->balls.j[all.row]]};
+            *d = (deepest){all.worst, fl_world_name(w, all.i), fl_world_name(w, all.j)};
         w->impulse_size += dt * all.force;
         w->touching_steps += all.touching;
     }

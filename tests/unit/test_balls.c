@@ -80,7 +80,35 @@ static void like_any_other_pair(void **state)
     assert_true(touched > 20 * test_times(40) && slid > 0 && slid < touched);
 }
 
-/* Spheres that roll, slide and bounce on a floor: one step as leans.h takes it, and as all other pairs go. */
+/* One step of the only sphere and wall as leans.h takes it, and as all other pairs go; whether they touch. */
+static int step_both(fl_world *w, fl_pair *p, fl_pair *other)
+{
+    assert_int_equal(w->balls.leans, 1);
+    fl_leans_pair(w, 0, other);
+    fl_interact(w, other, 0, w->dt, 1);
+    fl_balls_show(w, 0, 1);
+    fl_balls_touch(w, 0, w->dt, 1);
+    fl_leans_pair(w, 0, p);
+    assert_int_equal(p->n, other->n);
+    return p->n;
+}
+
+static void same(const fl_pair *p, const fl_pair *other, double r, double far)
+{
+    const double F = v3_norm(other->f), T = F * far;
+    near3(p->f, other->f, F), near3(p->fd, other->fd, F), near3(p->fs, other->fs, F);
+    near3(p->ti, other->ti, T), near3(p->tj, other->tj, T), near3(p->di, other->di, T);
+    near3(p->dj, other->dj, T), near3(p->si, other->si, T), near3(p->sj, other->sj, T);
+    near3(p->slip.force, other->slip.force, F);
+    assert_near_of(p->slip.k, other->slip.k, TOL, other->slip.k + 1.0);
+    assert_near(p->touch, other->touch, 1e-12), assert_near(p->overlap, other->overlap, 1e-9);
+    assert_near_of(p->energy, other->energy, TOL, F * r);
+    assert_near_of(p->spring, other->spring, TOL, F * r);
+    assert_true(p->stiff_i <= other->stiff_i * (1 + TOL) && other->stiff_i <= 1.26 * p->stiff_i);
+    assert_true(p->stiff_j == 0.0 && other->stiff_j == 0.0);
+}
+
+/* Spheres that roll, slide and bounce on a floor. */
 static void leaning_like_any_other_pair(void **state)
 {
     int64_t touched = 0, slid = 0;
@@ -101,56 +129,78 @@ static void leaning_like_any_other_pair(void **state)
         lab_make(&l, 0);
         fl_world *w = &l.w;
         for (int s = 0; s < 200; s++) {
+            fl_pair p, other;
             assert_int_equal(lab_run(&l, 1), 0);
-            fl_leans q = {.n = 0};
-            if (w->n_pair == 0 || !w->pair[0].n) continue;
-            fl_pair *p = w->pair[0].full, other = *p;
-            fl_interact(w, &other, 0, w->dt, 1);
-            if (!fl_leans_add(w, &q, 0)) continue;
-            fl_leans_touch(w, &q, w->dt, 1);
-            const double F = v3_norm(other.f), T = F * 10.0;
-            assert_int_equal(q.n, 0);
-            near3(p->f, other.f, F), near3(p->fd, other.fd, F), near3(p->fs, other.fs, F);
-            near3(p->ti, other.ti, T), near3(p->tj, other.tj, T), near3(p->di, other.di, T);
-            near3(p->dj, other.dj, T), near3(p->si, other.si, T), near3(p->sj, other.sj, T);
-            near3(p->slip.force, other.slip.force, F);
-            assert_near_of(p->slip.k, other.slip.k, TOL, other.slip.k + 1.0);
-            assert_near(p->touch, other.touch, 1e-12), assert_near(p->overlap, other.overlap, 1e-9);
-            assert_near_of(p->energy, other.energy, TOL, F * r);
-            assert_near_of(p->spring, other.spring, TOL, F * r);
-            assert_true(p->stiff_i <= other.stiff_i * (1 + TOL) && other.stiff_i <= 1.26 * p->stiff_i);
-            assert_true(p->stiff_j == 0.0 && other.stiff_j == 0.0);
-            slid += p->law->friction > 0.0 && v3_norm(p->fs) >= 0.999 * p->law->friction * fabs(p->f.z);
-            touched++;
+            if (w->balls.leans == 0) continue;
+            if (step_both(w, &p, &other)) {
+                const double F = v3_norm(other.f);
+                fl_vec3 f = v3(0, 0, 0), t = v3(0, 0, 0);
+                same(&p, &other, r, 10.0);
+                fl_leans_press(w, 1, &f, &t);
+                near3(f, v3_neg(other.f), F), near3(t, other.tj, 10.0 * F);
+                f = t = v3(0, 0, 0);
+                fl_balls_force(w, 0, &f, &t);
+                near3(f, other.f, F), near3(t, other.ti, F);
+                slid += p.law->friction > 0.0 && v3_norm(p.fs) >= 0.999 * p.law->friction * fabs(p.f.z);
+                touched++;
+            }
+            fl_pair_end(&other);
         }
         lab_free(&l);
     }
     assert_true(touched > 20 * test_times(20) && slid > 0 && slid < touched);
 }
 
-/* Behind a wall is not where a sphere leans on it, nor on a wall that it has not met. */
-static void leaning_or_not(void **state)
+/* A centre on the wall and behind it is pushed out as one before it; whoever lets go forgets. */
+static void leaning_deep_and_not(void **state)
 {
     lab l;
-    fl_leans q = {.n = 0};
+    fl_pair p, other;
     (void)state;
     lab_start(&l);
     lab_set(&l, "material.ice.young=1 MPa");
+    lab_set(&l, "contact.friction=0.3");
     lab_set(&l, "boundary.type=free free rigid");
     lab_set(&l, "boundary.min=none none 0");
-    lab_sphere(&l, v3(0, 0, 0.99), 1.0, v3(0, 0, 0), v3(0, 0, 0));
+    lab_sphere(&l, v3(0, 0, 0.99), 1.0, v3(0.1, 0, -0.1), v3(0, 0, 0));
     lab_make(&l, 1e-4);
-    assert_int_equal(l.w.n_pair, 1);
-    assert_int_equal(fl_leans_add(&l.w, &q, 0), 1);
-    l.w.b.x[0].z = -0.01;
-    assert_int_equal(fl_leans_add(&l.w, &q, 0), 0);
-    l.w.b.x[0].z = 1.0;
-    assert_int_equal(fl_leans_add(&l.w, &q, 0), 0);
-    l.w.b.x[0].z = 0.99, l.w.pair[0].n = 0;
-    assert_int_equal(fl_leans_add(&l.w, &q, 0), 0);
-    l.w.pair[0].n = 1;
-    assert_int_equal(q.n, 1);
+    assert_true(l.w.n_pair == 0 && l.w.balls.leans == 1);
+    static const double HEIGHT[] = {0.99, 0.5, 1e-9, 0.0, -1e-9, -0.5, -1.0, -3.0};
+    for (size_t k = 0; k < sizeof HEIGHT / sizeof *HEIGHT; k++) {
+        l.w.b.x[0].z = HEIGHT[k];
+        assert_true(step_both(&l.w, &p, &other));
+        same(&p, &other, 1.0, 10.0);
+        assert_near_of(p.overlap, 1.0 - HEIGHT[k], TOL, 1.0);
+        fl_pair_end(&other);
+    }
+    assert_true(l.w.balls.lean[0].row.stiff > 0.0);
+    l.w.b.x[0].z = 1.01;
+    assert_false(step_both(&l.w, &p, &other));
+    assert_true(l.w.balls.lean[0].row.stiff == 0.0 && l.w.balls.lean[0].row.touch == 0.0);
+    fl_pair_end(&other);
     lab_free(&l);
+}
+
+/* What is no matter of Hertz' goes as all other pairs: other laws, elastic walls. */
+static void leaning_on_what(void **state)
+{
+    static const char *const KEYS[] = {"contact.law=core", "contact.law=manual",
+                                       "boundary.type=free free elastic"};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "material.ice.young=1 MPa");
+        lab_set(&l, "boundary.type=free free rigid");
+        lab_set(&l, "boundary.min=none none 0");
+        if (k == 2) lab_set(&l, "boundary.stiffness=1e6");
+        lab_set(&l, KEYS[k]);
+        lab_sphere(&l, v3(0, 0, 0.99), 1.0, v3(0, 0, 0), v3(0, 0, 0));
+        lab_make(&l, 1e-4);
+        assert_int_equal(l.w.balls.leans, k == 0);
+        assert_int_equal(l.w.n_pair, k != 0);
+        lab_free(&l);
+    }
 }
 
 /* What damping and friction of the sums take out at the velocities of now [W]. */
@@ -173,7 +223,7 @@ static void sums_over_pairs(void **state)
     assert_int_equal(lab_run(&l, 60), 0);
     fl_world *w = &l.w;
     assert_true(w->balls.chunks == 3 && w->balls.cross[3] > 100);
-    fl_vec3 *f = calloc((size_t)w->n, sizeof *f), *t = calloc((size_t)w->n, sizeof *t);
+    fl_vec3 *f = calloc((size_t)w->b.total, sizeof *f), *t = calloc((size_t)w->b.total, sizeof *t);
     assert_true(f && t);
     fl_pair_walk at = {.w = w};
     double damping = 0.0, friction = 0.0, elastic = 0.0, spring = 0.0, size = 0.0, worst = 0.0, most = 0.0;
@@ -348,13 +398,11 @@ static void out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
-                                       cmocka_unit_test(leaning_like_any_other_pair),
-                                       cmocka_unit_test(leaning_or_not),
-                                       cmocka_unit_test(sums_over_pairs),
-                                       cmocka_unit_test(batches),
-                                       cmocka_unit_test(whichever_share),
-                                       cmocka_unit_test(whichever_image),
-                                       cmocka_unit_test(out_of_memory)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(like_any_other_pair),  cmocka_unit_test(leaning_like_any_other_pair),
+        cmocka_unit_test(leaning_deep_and_not), cmocka_unit_test(leaning_on_what),
+        cmocka_unit_test(sums_over_pairs),      cmocka_unit_test(batches),
+        cmocka_unit_test(whichever_share),      cmocka_unit_test(whichever_image),
+        cmocka_unit_test(out_of_memory)};
     return cmocka_run_group_tests_name("balls", tests, NULL, NULL);
 }

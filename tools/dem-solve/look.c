@@ -88,7 +88,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     fprintf(f, "structure      %d parts: %d solids and plates, %d cones, %d shells; %d walls\n", w->parts,
             kind[FL_PIECE_SOLID], kind[FL_PIECE_CONE], kind[FL_PIECE_SHELL], w->walls);
     if (w->traffic.feed) fprintf(f, "room           for %d more\n", w->n - there);
-    fprintf(f, "near pairs     %d, search again after %.3g m\n", w->n_pair + w->balls.n, w->skin);
+    fprintf(f, "near pairs     %d, search again after %.3g m\n", w->n_pair + fl_balls_rows(w), w->skin);
     fprintf(f, "law            %s between like bodies\n", w->n ? LAW[fl_pairing_law(w, 0, 0)->kind] : "none");
     fprintf(f, "stages\n");
     stage(f, "weight", v3_norm(w->gravity) > 0.0, "");
