@@ -326,6 +326,12 @@ static int32_t steps_of(const fl_budget *g, double h)
     return (int32_t)fmin(fmax(m, g->least), most);
 }
 
+/* Steps in a row with the largest step that is taken. */
+static int32_t fewest(const fl_budget *g)
+{
+    return (int32_t)fmin(ceil(g->least / g->across * (1.0 - 1e-12)), (double)g->least * FINEST);
+}
+
 /* Try steps from m a row on; *m becomes what is to be taken.  end[0] is that of m already. */
 static int calibrate(fl_budget *g, int32_t *m, int32_t rows, fl_err *err)
 {
@@ -458,9 +464,10 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     w->t0 = t;
     w->step0 = w->step;
     /* What touches may be stiffer together than what was known beforehand. */
-    if (w->dt > g->share * w->dt_critical) {
+    if (w->dt > g->across * g->share * w->dt_critical) {
         const int32_t fine = steps_of(g, g->share * w->dt_critical);
-        if (fine != steps_of(g, w->dt)) fl_step_resize(w, g->every / fine, t);
+        const int32_t taken = steps_of(g, g->across * g->share * w->dt_critical);
+        if (taken != steps_of(g, w->dt)) fl_step_resize(w, g->every / taken, t);
         if (fine > g->least) g->least = fine < MOST ? fine : MOST;
     }
     if (row % g->rows) return 0;
@@ -472,6 +479,7 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     if (!due && !(something_new(g, w) && afford(g, w))) return 0;
     int32_t m = steps_of(g, w->dt), rows;
     const int64_t before = g->spent;
+    if (m <= fewest(g)) m = g->least; /* not what was found, then, but the largest there may be */
     if (take_state(g, w, err)) return -1;
     for (int32_t k = 0; k < PARTS + w->parts; k++) g->seen[k] = -1.0;
     rows = trial(g, m, -g->rows, 0.0, &g->end[0], err);
@@ -489,6 +497,7 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
         g->looked_at = w->step;
         g->last_cost = g->spent - before;
     }
+    if (m < fewest(g)) m = fewest(g);
     if (m != steps_of(g, w->dt)) fl_step_resize(w, g->every / m, t);
     g->shortest = g->shortest > 0.0 ? fmin(g->shortest, w->dt) : w->dt;
     g->longest = fmax(g->longest, w->dt);
@@ -510,6 +519,7 @@ int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, c
     const double most = fmin(fl_world_dt(&g->trial, &body), fmin(g->every, scene->run.duration));
     const double critical = fl_world_critical(&g->trial);
     g->share = isfinite(critical) ? fl_world_dt(&g->trial, &body) / critical : 1.0;
+    g->across = fl_world_across(&g->trial);
     g->least = (int32_t)fmin(ceil(g->every / most * (1.0 - 1e-12)), MOST);
     g->rows = (int32_t)ceil((double)WINDOW / g->least);
     g->known = fl_alloc(PARTS + g->trial.parts, sizeof *g->known, err);
@@ -533,7 +543,7 @@ void fl_budget_free(fl_budget *g)
     *g = (fl_budget){0};
 }
 
-double fl_budget_start(const fl_budget *g) { return g->every / g->least; }
+double fl_budget_start(const fl_budget *g) { return g->every / fewest(g); }
 
 /* Numbers in the order of the rows; one list serves both ways, so that they cannot differ. */
 static int pass(FILE *f, fl_text *in, double *x, fl_err *err)

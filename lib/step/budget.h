@@ -14,7 +14,9 @@
  * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
  * it is the largest error against the largest peak, and 0.65.  Because what goes wrong between floes reaches
  * the structure later, the momenta of the floes at the end of the window must be right, too, to the goal (of
- * a peak, half of it) of the impulses they took.  The step that is taken has been tried itself.
+ * a peak, half of it) of the impulses they took.  The step that is taken has been tried itself, or is
+ * shorter: what is shaken across on an edge is stable up to fl_world_across() of the largest that is tried,
+ * and a window may see nothing of that.
  *
  * It is looked at the start; before two things may meet whose kind of meeting has not been seen with nearly
  * that momentum (floe and floe, floe and each part of the structure, floe and wall); and again after ten
@@ -57,8 +59,9 @@ typedef struct {
     double goal;   /* run.error */
     int32_t of;    /* run.error_of: impulse, peak, fx, fy, fz, mx, my, mz */
     double every;  /* interval of the loads, which steps divide [s] */
-    double share;  /* of the critical step that a step may be                 */
-    int32_t least; /* steps in it with the largest step there may be */
+    double share;  /* of the critical step that a step of a trial may be */
+    double across; /* and so much of that one that is taken */
+    int32_t least; /* steps in it with the largest step a trial may have */
     int32_t rows;  /* rows in a window */
     fl_budget_window window[FL_BUDGET_LOOKS];
     int32_t windows, latest;  /* how many there are, and where the last one is */

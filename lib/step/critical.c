@@ -111,16 +111,42 @@ static double bed_slope(const fl_world *w, int32_t i)
            (core->nv > 2 ? fl_poly_largest(&w->bed.outer[i]) : 4.0 * r * (r + w->b.bound[i]));
 }
 
-/* How many times as stiff, and as damped, a contact of body i is that is shaken across in place of along:
- * what is round turns by it, 1 + m r^2/I of the spring of friction.  Others are not asked: the corner that is
- * hit turns as well (softest()), but what damping leaves of a box that is pushed across where it stands on a
- * narrow end is up to 1.6 times less than fl_damping_left() says. */
-static double shaken(const fl_world *w, int32_t i, const fl_touching *law)
+/* The largest 1 + m d^2/I of the edges of body i, at a distance d from its centre, I about the line through
+ * it along the edge; of a segment of its ends, or of the line along it.  4 of any edge of a box without
+ * radius. */
+static double shakiest(const fl_world *w, int32_t i)
+{
+    const fl_bodies *b = &w->b;
+    const fl_poly *p = &b->core[i];
+    const fl_vec3 I = b->I[i]; /* ascending: a segment lies along x */
+    const double r = b->radius[i], end = b->bound[i] + r;
+    double most = p->nf > 0 ? 0.0 : fmax(r * r / I.x, end * end / I.z);
+    for (int32_t e = 0; e < p->ne && p->nf > 0; e++) {
+        const fl_vec3 a = p->v[p->edge[e].a], t = v3_unit(v3_sub(p->v[p->edge[e].b], a));
+        const double d = v3_norm(v3_cross(t, a)) + r;
+        most = fmax(most, d * d * (t.x * t.x / I.x + t.y * t.y / I.y + t.z * t.z / I.z));
+    }
+    return 1.0 + b->m[i] * most;
+}
+
+/* How much more way body i gives across a contact than along it, since it turns as well: 1 + m r^2/I of what
+ * is round.  Others turn as much where they stand on a narrow end or an edge, or lean; the critical step of
+ * the contacts there are knows of that, but what damping leaves of it is down to 0.55 of law->left (S12 to
+ * S18 of verify_step).  A face at the height h has 1 + m h^2/I, which is less than its edges have; a corner
+ * has up to 7, but does not touch alone.  Half of law->left, which automatic steps keep to, is below all
+ * that: it is 0 but where edges are asked for. */
+static double turning(const fl_world *w, int32_t i, int edges)
 {
     const fl_bodies *b = &w->b;
     const double r = b->radius[i];
-    if (b->core[i].nv > 1 || !(law->friction > 0.0)) return 1.0;
-    return fmax(1.0, law->tangential * (1.0 + b->m[i] * r * r / b->I[i].x));
+    if (b->core[i].nv < 2) return 1.0 + b->m[i] * r * r / b->I[i].x;
+    return edges ? shakiest(w, i) : 0.0;
+}
+
+/* How many times as stiff, and as damped, a contact is that is shaken across in place of along. */
+static double shaken(const fl_touching *law, double turns)
+{
+    return law->friction > 0.0 ? fmax(1.0, law->tangential * turns) : 1.0;
 }
 
 /* The most that was asked for of some laws: what is left falls with it, and logarithms are in it. */
@@ -142,34 +168,36 @@ static void leave(const fl_world *w, asked *before, const fl_touching *law, doub
 }
 
 /* omega^2 of the stiffest contact that anything can make, what makes it, and the least that damping leaves of
- * its critical step. */
-static double stiffest_contact(const fl_world *w, int32_t *body, double *left)
+ * its critical step, on edges as well or not. */
+static double stiffest_contact(const fl_world *w, int edges, int32_t *body, double *left)
 {
     const worst met = worst_of(w);
     double most = 0.0, least = 1.0, ridden = 0.0;
     asked before[ASKED] = {0};
     *body = -1;
     for (int32_t i = 0; i < w->n; i++) {
-        const double places = w->b.core[i].nv > 1 ? FACES : 1.0;
+        const int round = w->b.core[i].nv < 2;
+        const double places = round ? 1.0 : FACES, turns = turning(w, i, edges);
         double n, k = fl_pairing_stiffness(w, i, i, &n),
                   stiffest = place_slope(w, i, i, k, n, met); /* one like itself */
         const fl_touching *law = fl_pairing_law(w, i, i);
-        double times = shaken(w, i, law);
-        stiffest *= times;
+        double times = shaken(law, turns);
+        stiffest *= round ? times : 1.0;
         leave(w, before, law, times, &least);
         for (int32_t j = w->n; j < w->b.total; j++) {
-            times = shaken(w, i, law = fl_pairing_law(w, i, j));
+            times = shaken(law = fl_pairing_law(w, i, j), turns);
+            const double stiffer = round ? times : 1.0;
             if (w->structure.piece[j - w->n].elastic) {
                 /* the damping ratio is c/k omega/2; across there is none */
                 const double slope = bed_slope(w, i);
-                stiffest = fmax(stiffest, times * slope);
+                stiffest = fmax(stiffest, stiffer * slope);
                 least = fmin(least, fl_damping_left(0.5 * w->bed.damping / w->bed.stiffness *
                                                     sqrt(slope * w->b.invm[i])));
                 continue;
             }
             k = fl_pairing_stiffness(w, i, j, &n);
             const double slope = place_slope(w, i, j, k, n, met);
-            stiffest = fmax(stiffest, times * slope);
+            stiffest = fmax(stiffest, stiffer * slope);
             if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
             leave(w, before, law, times, &least);
         }
@@ -211,14 +239,14 @@ double fl_world_critical(const fl_world *w)
 {
     int32_t body;
     double left;
-    const double most = stiffest_contact(w, &body, &left);
+    const double most = stiffest_contact(w, 0, &body, &left);
     return most > 0.0 ? 2.0 / sqrt(most) : INFINITY;
 }
 
 double fl_world_dt(const fl_world *w, int32_t *body)
 {
     double left;
-    const double most = stiffest_contact(w, body, &left);
+    const double most = stiffest_contact(w, 0, body, &left);
     if (most == 0.0) return INFINITY;
     return share_of(w, left) * 2.0 / sqrt(most);
 }
@@ -227,7 +255,16 @@ double fl_world_damped(const fl_world *w)
 {
     int32_t body;
     double left;
-    return stiffest_contact(w, &body, &left) > 0.0 ? left : 1.0;
+    return stiffest_contact(w, 0, &body, &left) > 0.0 ? left : 1.0;
+}
+
+double fl_world_across(const fl_world *w)
+{
+    int32_t body;
+    double along, left;
+    if (stiffest_contact(w, 0, &body, &along) == 0.0) return 1.0;
+    stiffest_contact(w, 1, &body, &left);
+    return left / along;
 }
 
 double fl_world_peak_off(const fl_world *w)

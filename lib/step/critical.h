@@ -14,8 +14,12 @@ double fl_world_dt(const fl_world *w, int32_t *body);
 double fl_world_critical(const fl_world *w);
 
 /* The share of that which is stable with the most damping that a contact can have: sqrt(1 + z^2) - z of its
- * damping ratio z. */
+ * damping ratio z; of what is round and rough across, too. */
 double fl_world_damped(const fl_world *w);
+
+/* What is left of that where all that is rough is shaken across, standing on its end or an edge: 0.55 for
+ * boxes, if damping is strong, and 1 for balls.  The half that automatic steps keep to is below it. */
+double fl_world_across(const fl_world *w);
 
 /* What steps of dt are off by, without a look at any other step; 0 before the first contact.  With r = dt
  * over the smallest critical step seen and D = chi v_impact of the most damped law,

@@ -182,7 +182,7 @@ static result run(const scene *s, double goal, const char *of, int64_t m)
         if (fl_scene_check(&l.scene, &err) ||
             fl_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
             exit(1);
-        r.least = g.least;
+        r.least = (int32_t)lround(g.every / fl_budget_start(&g));
     }
     lab_make(&l, m ? EVERY / (double)m : fl_budget_start(&g));
     for (int64_t row = 0; row < (int64_t)lround(s->seconds / EVERY); row++) {

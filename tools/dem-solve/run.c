@@ -58,7 +58,8 @@ static void step_origin(struct run *r, double automatic)
     char name[64], *to = r->step_by;
     const size_t n = sizeof r->step_by;
     if (r->budget)
-        snprintf(to, n, "run.error, up to %.3g of the critical %.4g s", automatic / r->limit, r->limit);
+        snprintf(to, n, "run.error, up to %.3g of the critical %.4g s",
+                 r->budget->across * automatic / r->limit, r->limit);
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
