@@ -4,10 +4,9 @@
  *
  * Rows are sorted by (i, j, image).  Bodies are taken in chunks of FL_BALLS_CHUNK by their number.  A chunk
  * owns the rows of its bodies i and the sums of its bodies: what a row does to a j of the same chunk is added
- * there at once, what it does to a j beyond goes to a slot of the row, which j adds up later.  Behind its rows
- * come those of its bodies and walls.  Every sum so
- * has one order, that of the rows, for any number of threads; a row that does not touch adds zeros, which
- * change no bit, so that it does not matter which rows are listed. */
+ * there at once, what it does to a j beyond goes to a slot of the row, which j adds up later; the rows of its
+ * bodies and walls come last.  Every sum so has one order, that of the rows, for any number of threads; a row
+ * that does not touch adds zeros, which change no bit, so that it does not matter which rows are listed. */
 #ifndef FL_STEP_BALL_H
 #define FL_STEP_BALL_H
 #include <stdint.h>

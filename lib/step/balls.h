@@ -5,8 +5,8 @@
 #define FL_STEP_BALLS_H
 #include "step/world.h"
 
-/* Whether i and j < total meet here, by `patch` or `core`: two spheres, that is bodies alike in all directions,
- * or one and a rigid wall of the boundary.  All others are pairs of w->pair. */
+/* Whether i and j < total meet here, by `patch` or `core`: two spheres, that is bodies alike in all
+ * directions, or one and a rigid wall of the boundary.  All others are pairs of w->pair. */
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j);
 
 /* Rows for those of w->near that are such and no farther apart than the skin; image() tells which image of j

@@ -29,8 +29,8 @@ void fl_leans_touch(fl_world *w, int32_t a, double dt, int survey);
 /* Add what those that lean on wall j do to it. */
 void fl_leans_press(const fl_world *w, int32_t j, fl_vec3 *f, fl_vec3 *t);
 
-/* Elastic energy of those of chunk a, that of their springs of friction with it, and that of the springs alone,
- * added [J]. */
+/* Elastic energy of those of chunk a, that of their springs of friction with it, and that of the springs
+ * alone, added [J]. */
 void fl_leans_energy(const fl_world *w, int32_t a, double *all, double *springs);
 
 /* Row c as a pair like all others, with its forces of the last touch. */

@@ -14,8 +14,8 @@ typedef struct {
     double damped[FL_BALLS_GROUP], rubbed[FL_BALLS_GROUP];
 } fl_plain_works;
 
-/* Forces from w->balls.sum, the kick by h = dt/2, and the works of the step (works.h), of such bodies, a group
- * at the most.  Returns whether all of their numbers are finite. */
+/* Forces from w->balls.sum, the kick by h = dt/2, and the works of the step (works.h), of such bodies, a
+ * group at the most.  Returns whether all of their numbers are finite. */
 int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, fl_plain_works *works);
 
 #endif
