@@ -28,4 +28,12 @@ void fl_mem_fail_after(long n);
 /* How many allocations failed that way since the last call of it. */
 long fl_mem_refused(void);
 
+/* Send for n bytes from a on, which may as well not be there: they are on their way while other things are
+ * done. */
+static inline void fl_fetch(const void *a, size_t n)
+{
+    enum { LINE = 64 };
+    for (size_t at = 0; at < n; at += LINE) __builtin_prefetch((const char *)a + at);
+}
+
 #endif

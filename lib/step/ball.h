@@ -33,6 +33,11 @@ typedef struct {
     fl_ball_row row;
 } fl_ball_lean;
 
+/* What those of a chunk do to a wall: force, and torque about its point, world axes. */
+typedef struct {
+    fl_vec3 f, t; /* [N], [N m] */
+} fl_ball_load;
+
 /* What rows see of a body, in two lines of the cache: its motion at the contacts of a step.  Bodies are far
  * apart to the rows that they are the j of, and wait in as many places as there are arrays. */
 typedef struct {
@@ -94,6 +99,7 @@ typedef struct {
     double *stiff_slot;   /* [cross[chunks]] */
     fl_ball_lean *lean;   /* [leans] by (i, j) */
     int32_t *lean_first;  /* [chunks + 1] those of a chunk */
+    fl_ball_load *load;   /* [chunks][walls] */
     int32_t leans, lean_cap;
     int32_t i_cap, j_cap, law_cap, image_cap, hit_cap, row_cap;
 } fl_balls;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
+#include "base/mem.h"
 #include "base/wide.h"
 #include "body/few.h"
 #include "body/integrate.h"
@@ -343,7 +344,10 @@ void fl_group_end(fl_world *w, int32_t g, double h)
     int finite = 1;
     *own = (fl_group){.lost = -1};
     if (fl_sleep_all(w, from, to)) return;
-    if (w->balls.bodies) fl_balls_collect(w, from, to);
+    if (w->balls.bodies) {
+        fl_fetch(&w->balls.was[to], FL_BALLS_GROUP * sizeof *w->balls.was); /* of the group behind it */
+        fl_balls_collect(w, from, to);
+    }
     if (end_spheres(w, from, to, h, own, &finite)) {
         if (!finite) own->lost = first_lost(&w->b, from, to);
         return;

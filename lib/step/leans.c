@@ -136,31 +136,65 @@ static void count(fl_ball_tally *t, const fl_spheres *a, int32_t m, int32_t c)
     if (deep > t->worst) t->worst = deep, t->worst_row = ~c;
 }
 
-static void finish(fl_world *w, int32_t chunk, fl_spheres *a, const int32_t *row, int32_t n, double dt,
-                   int survey)
+/* On the sphere. */
+static fl_vec3 force_of(const fl_ball_row *r, fl_vec3 n) { return v3_madd(r->rub, r->normal, n); }
+
+/* Middle of the overlap, from the wall's point. */
+static fl_vec3 middle(const fl_world *w, const fl_ball_lean *c, fl_vec3 n, double over)
+{
+    return v3_madd(v3_sub(w->b.x[c->i], w->b.x[c->j]), 0.5 * over - w->b.radius[c->i], n);
+}
+
+static void press(const fl_world *w, fl_ball_load *load, const fl_ball_lean *c, fl_vec3 n, double over)
+{
+    const fl_vec3 F = force_of(&c->row, n);
+    load->f = v3_sub(load->f, F);
+    load->t = v3_sub(load->t, v3_cross(middle(w, c, n, over), F));
+}
+
+/* What those of chunk a do to wall j. */
+static fl_ball_load *load_of(const fl_world *w, int32_t a, int32_t j)
+{
+    return &w->balls.load[a * w->walls + (j - w->n - w->pieces)];
+}
+
+/* Rows of a chunk in work. */
+typedef struct {
+    fl_spheres at;
+    int32_t row[FL_SPHERES_MOST];
+    fl_vec3 n[FL_SPHERES_MOST];
+    int32_t m;
+} batch;
+
+static void finish(fl_world *w, int32_t chunk, batch *q, double dt, int survey)
 {
     fl_balls *s = &w->balls;
-    if (dt < 0.0) fl_spheres_place(a, n);
-    else fl_spheres_meet(a, n, dt);
-    for (int32_t m = 0; m < n; m++) {
-        fl_ball_lean *const c = &s->lean[row[m]];
+    fl_spheres *a = &q->at;
+    if (dt < 0.0) fl_spheres_place(a, q->m);
+    else fl_spheres_meet(a, q->m, dt);
+    for (int32_t m = 0; m < q->m; m++) {
+        fl_ball_lean *const c = &s->lean[q->row[m]];
         if (dt >= 0.0) save(&c->row, a, m);
         hand_out(&s->sum[c->i], a, m);
-        count(&s->tally[chunk], a, m, row[m]);
+        press(w, load_of(w, chunk, c->j), c, q->n[m], a->overlap[m]);
+        count(&s->tally[chunk], a, m, q->row[m]);
         if (survey)
             s->stiff[c->i] +=
                 fl_stiff_point(&w->b, c->i, a->slope[m], a->stiff[m], a->ri[m] - 0.5 * a->overlap[m]);
     }
+    q->m = 0;
 }
 
 void fl_leans_touch(fl_world *w, int32_t a, double dt, int survey)
 {
     fl_balls *s = &w->balls;
-    fl_spheres at;
-    int32_t row[FL_SPHERES_MOST], n = 0;
-    for (int32_t c = s->lean_first[a]; c < s->lean_first[a + 1]; c++) {
+    batch q; /* large: not cleared */
+    fl_vec3 up = v3(0, 0, 0);
+    q.m = 0;
+    for (int32_t k = 0; k < w->walls; k++) s->load[a * w->walls + k] = (fl_ball_load){0};
+    for (int32_t c = s->lean_first[a], wall = -1; c < s->lean_first[a + 1]; c++) {
         fl_ball_lean *const l = &s->lean[c];
-        const fl_vec3 up = normal_of(w, l->j);
+        if (l->j != wall) up = normal_of(w, wall = l->j);
         const double z = height(w, l->i, l->j, up);
         const int touches = z < w->b.radius[l->i];
         if (dt >= 0.0 && touches != l->hit) {
@@ -168,35 +202,20 @@ void fl_leans_touch(fl_world *w, int32_t a, double dt, int survey)
             l->hit = touches;
         }
         if (!l->hit) continue;
-        load(w, &at, n, l, up, z);
-        row[n++] = c;
-        if (n < FL_SPHERES_MOST) continue;
-        finish(w, a, &at, row, n, dt, survey);
-        n = 0;
+        load(w, &q.at, q.m, l, up, z);
+        q.n[q.m] = up;
+        q.row[q.m++] = c;
+        if (q.m == FL_SPHERES_MOST) finish(w, a, &q, dt, survey);
     }
-    if (n) finish(w, a, &at, row, n, dt, survey);
-}
-
-/* On the sphere. */
-static fl_vec3 force_of(const fl_ball_row *r, fl_vec3 n) { return v3_madd(r->rub, r->normal, n); }
-
-/* Middle of the overlap, from the wall's point. */
-static fl_vec3 middle(const fl_world *w, const fl_ball_lean *c, fl_vec3 n)
-{
-    const double r = w->b.radius[c->i], over = r - height(w, c->i, c->j, n);
-    return v3_madd(v3_sub(w->b.x[c->i], w->b.x[c->j]), 0.5 * over - r, n);
+    if (q.m) finish(w, a, &q, dt, survey);
 }
 
 void fl_leans_press(const fl_world *w, int32_t j, fl_vec3 *f, fl_vec3 *t)
 {
-    const fl_balls *s = &w->balls;
-    const fl_vec3 n = normal_of(w, j);
-    for (int32_t c = 0; c < s->leans; c++) {
-        const fl_ball_lean *const l = &s->lean[c];
-        if (l->j != j || !l->hit) continue;
-        const fl_vec3 F = force_of(&l->row, n);
-        *f = v3_sub(*f, F);
-        *t = v3_sub(*t, v3_cross(middle(w, l, n), F));
+    for (int32_t a = 0; a < w->balls.chunks; a++) {
+        const fl_ball_load *const load = load_of(w, a, j);
+        *f = v3_add(*f, load->f);
+        *t = v3_add(*t, load->t);
     }
 }
 
@@ -226,7 +245,7 @@ void fl_leans_pair(const fl_world *w, int32_t c, fl_pair *p)
     p->n = l->hit;
     if (!p->n) return;
     const double slope = r->k * fl_normal_slope(over, 1.5);
-    const fl_vec3 at = middle(w, l, n);
+    const fl_vec3 at = middle(w, l, n, over);
     p->slip.force = r->slip;
     p->slip.k = r->stiff;
     p->touch = r->touch;
