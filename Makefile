@@ -13,7 +13,8 @@ CGAL  = -lstdc++ -lgmp -lmpfr
 LIBOBJ   = $(patsubst %.c,$B/%.o,$(wildcard lib/*/*.c))
 SHIMOBJ  = $(patsubst %.cpp,$B/%.o,$(wildcard lib/shim/*.cpp))
 SHIM     = $B/libfloe-shim.a
-SUPPORT  = $(patsubst %.c,$B/%.o,$(wildcard tests/support/*.c))
+SUPPORT  = $B/libsupport.a
+HELPOBJ  = $(patsubst %.c,$B/%.o,$(wildcard tests/support/*.c))
 test_of  = $(patsubst tests/$1/%.c,$B/tests/$1/%,$(wildcard tests/$1/*.c))
 TESTS    = $(foreach k,unit prop fuzz verify bench,$(call test_of,$k))
 
@@ -34,6 +35,9 @@ $B/libfloe.a: $(LIBOBJ)
 $B/libfloe-shim.a: $(SHIMOBJ)
 	@rm -f $@
 	ar rcs $@ $^
+$(SUPPORT): $(HELPOBJ)
+	@rm -f $@
+	ar rcs $@ $^
 
 # A program is the .c files of its folder on the two libraries; what it does not use is not linked.
 define tool
@@ -52,7 +56,7 @@ $B/bench/dem-solve-%: $B/bench/%.o $(patsubst %.c,$B/%.o,$(wildcard tools/dem-so
 	$(CCALL) $(LDFLAGS) -Wl,--start-group $^ -Wl,--end-group $(LIBS) $(CGAL) -o $@
 $B/tests/%: $B/tests/%.o $(SUPPORT) $(SHIM) $B/libfloe.a
 	$(CCALL) $(LDFLAGS) -Wl,--start-group $^ -Wl,--end-group -lcmocka $(LIBS) $(CGAL) -o $@
-$B/tests/%.o $(SUPPORT): CFLAGS += -Itests
+$B/tests/%.o $(HELPOBJ): CFLAGS += -Itests
 
 # setup installs what is missing (Debian, Ubuntu) or names it; then the real work runs in a second make.
 setup:
