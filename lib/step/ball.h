@@ -72,7 +72,7 @@ typedef struct {
 
 typedef struct {
     int32_t n;          /* rows */
-    int32_t bodies;     /* as many as move; 0: no two spheres have been near yet, and the rest is not there */
+    int32_t bodies;     /* as many as move; 0: there has been no row yet, and the rest is not there */
     int32_t *i, *j;     /* [n] */
     int32_t *law;       /* [n] into fl_world.law */
     int32_t one_law;    /* of all rows; -1: there are several */

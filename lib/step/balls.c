@@ -15,7 +15,6 @@
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
 
-enum { ROW = 1, LEAN = 2 }; /* how a near pair is listed */
 enum {
     MOST_WAYS = 256,
     AHEAD = 64,   /* rows whose bodies j are on their way */
@@ -197,7 +196,7 @@ static void fill(const fl_world *w, fl_balls *s, const uint8_t *listed, int32_t 
         const int32_t j = w->near.partner[k];
         int32_t cells[3] = {0};
         double n;
-        if (listed[k] != ROW) continue;
+        if (!listed[k]) continue;
         image(w, k, i, j, cells);
         while (at < end && compare(old, at, j, cells) < 0) at++;
         s->i[c] = i;
@@ -226,10 +225,11 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
             int32_t cells[3] = {0};
-            if (fl_leans_are(w, i, j)) listed[k] = LEAN, lean++;
+            lean += fl_leans_are(w, i, j);
             if (!meet(w, i, j)) continue;
             image(w, k, i, j, cells);
-            if (within(w, i, j, cells)) listed[k] = ROW, at[i + 1]++;
+            listed[k] = (uint8_t)within(w, i, j, cells);
+            at[i + 1] += listed[k];
             near++;
         }
     }
@@ -240,7 +240,7 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
         free(at), free(listed);
         return 0;
     }
-    if (rows_alloc(&fresh, w, n, err) || fl_leans_list(w, listed, LEAN, err)) goto fail;
+    if (rows_alloc(&fresh, w, n, err) || fl_leans_list(w, lean, err)) goto fail;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < w->n; i++)
         if (at[i + 1] > at[i]) fill(w, &fresh, listed, i, at[i], image);
@@ -831,6 +831,28 @@ double fl_balls_bytes(const fl_world *w)
 
 /* --- as pairs like all others ------------------------------------------------------------------ */
 
+void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, int hit, fl_vec3 n,
+                  double over, fl_pair *p)
+{
+    const fl_bodies *b = &w->b;
+    const double arm = b->radius[i] - 0.5 * over;
+    fl_pair_start(w, p, i, j);
+    p->asleep = b->odometer[i] + b->odometer[j] + (over < 0.0 ? -over : 0.0);
+    p->n = hit;
+    if (!hit) return;
+    p->slip.force = r->slip;
+    p->slip.k = r->stiff;
+    p->touch = r->touch;
+    p->overlap = over;
+    p->fd = v3_scale(r->normal - r->k * fl_normal_power(over, 1.5), n);
+    p->fs = r->rub;
+    p->f = v3_madd(r->rub, r->normal, n);
+    p->si = p->ti = v3_scale(-arm, v3_cross(n, r->rub));
+    p->spring = fl_ball_spring(r);
+    p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
+    p->stiff_i = fl_stiff_point(b, i, r->k * fl_normal_slope(over, 1.5), r->stiff, arm);
+}
+
 /* Row c with its forces of the last touch. */
 static void pair_of(const fl_world *w, int32_t c, fl_pair *p)
 {
@@ -839,28 +861,14 @@ static void pair_of(const fl_world *w, int32_t c, fl_pair *p)
     const fl_ball_row *r = &s->row[c];
     const int32_t i = s->i[c], j = s->j[c];
     const fl_vec3 d = between(w, c);
-    const double apart = v3_norm(d), over = b->radius[i] + b->radius[j] - apart;
-    fl_pair_start(w, p, i, j);
+    const double apart = v3_norm(d), over = b->radius[i] + b->radius[j] - apart,
+                 arm = b->radius[j] - 0.5 * over;
+    const fl_vec3 n = apart > 0.0 ? v3_scale(1.0 / apart, d) : v3(0, 0, 1);
+    fl_ball_pair(w, i, j, r, s->hit[c], n, over, p);
     if (s->image) memcpy(p->image, &s->image[3 * c], sizeof p->image);
-    p->asleep = b->odometer[i] + b->odometer[j] + (over < 0.0 ? -over : 0.0);
-    p->n = s->hit[c];
     if (!p->n) return;
-    const fl_vec3 n = apart > 0.0 ? v3_scale(1.0 / apart, d) : v3(0, 0, 1), turn = v3_cross(n, r->rub);
-    const double elastic = r->k * fl_normal_power(over, 1.5), half = 0.5 * over;
-    p->slip.force = r->slip;
-    p->slip.k = r->stiff;
-    p->touch = r->touch;
-    p->overlap = over;
-    p->fd = v3_scale(r->normal - elastic, n);
-    p->fs = r->rub;
-    p->si = p->ti = v3_scale(half - b->radius[i], turn);
-    p->sj = p->tj = v3_scale(half - b->radius[j], turn);
-    p->f = v3_madd(r->rub, r->normal, n);
-    p->spring = fl_ball_spring(r);
-    p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
-    const double slope = r->k * fl_normal_slope(over, 1.5);
-    p->stiff_i = fl_stiff_point(b, i, slope, r->stiff, b->radius[i] - half);
-    p->stiff_j = fl_stiff_point(b, j, slope, r->stiff, b->radius[j] - half);
+    p->sj = p->tj = v3_scale(-arm, v3_cross(n, r->rub));
+    p->stiff_j = fl_stiff_point(b, j, r->k * fl_normal_slope(over, 1.5), r->stiff, arm);
 }
 
 /* Walls come after all spheres. */

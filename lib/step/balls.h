@@ -9,8 +9,8 @@
  * directions, or one and a rigid wall of the boundary.  All others are pairs of w->pair. */
 int fl_balls_are(const fl_world *w, int32_t i, int32_t j);
 
-/* Rows for those of w->near that are such and no farther apart than the skin; image() tells which image of j
- * is meant.  What a row of before remembers goes over.
+/* Rows for those of w->near that are such, spheres that are no farther apart than the skin; image() tells
+ * which image of j is meant.  What a row of before remembers goes over.
  *   others  out: how many of w->near are not such
  * -1 with FL_SYSTEM. */
 typedef void fl_ball_image(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t image[3]);
@@ -59,6 +59,11 @@ static inline double fl_ball_spring(const fl_ball_row *r)
 {
     return r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0;
 }
+
+/* A row of i and j as a pair like all others, at that overlap along n, from j to i: all but its image, and
+ * what it does to j. */
+void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, int hit, fl_vec3 n,
+                  double over, fl_pair *p);
 
 /* Sum of |F| [N], touching rows, and the largest overlap over the sum of the radii with whose it is (-1:
  * nobody's) of the last touch. */

@@ -454,6 +454,14 @@ double fl_budget_horizon(const fl_budget *g)
     return g->rate > 0.0 ? fl_log(g->goal * 0x1p52) / g->rate : INFINITY;
 }
 
+/* From now on so many a row. */
+static void take_steps(fl_budget *g, fl_world *w, int32_t m, double t)
+{
+    if (m != steps_of(g, w->dt)) fl_step_resize(w, g->every / m, t);
+    g->shortest = g->shortest > 0.0 ? fmin(g->shortest, w->dt) : w->dt;
+    g->longest = fmax(g->longest, w->dt);
+}
+
 int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
 {
     const double t = (double)row * g->every;
@@ -467,7 +475,7 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     if (w->dt > g->across * g->share * w->dt_critical) {
         const int32_t fine = steps_of(g, g->share * w->dt_critical);
         const int32_t taken = steps_of(g, g->across * g->share * w->dt_critical);
-        if (taken != steps_of(g, w->dt)) fl_step_resize(w, g->every / taken, t);
+        take_steps(g, w, taken, t);
         if (fine > g->least) g->least = fine < MOST ? fine : MOST;
     }
     if (row % g->rows) return 0;
@@ -498,9 +506,7 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
         g->last_cost = g->spent - before;
     }
     if (m < fewest(g)) m = fewest(g);
-    if (m != steps_of(g, w->dt)) fl_step_resize(w, g->every / m, t);
-    g->shortest = g->shortest > 0.0 ? fmin(g->shortest, w->dt) : w->dt;
-    g->longest = fmax(g->longest, w->dt);
+    take_steps(g, w, m, t);
     return 0;
 }
 

@@ -257,9 +257,22 @@ static void end_balls(fl_world *w, int32_t from, int32_t to, double h, fl_group 
     }
 }
 
+/* What the first kick gave to body k, before forces are those of the end of the step.  Of spheres it is asked
+ * for whoever presses on them, and nobody has kept it where only spheres do. */
+static fl_gain first_of(const fl_world *w, int32_t k, double h)
+{
+    const fl_gain *const kept = fl_works_gain(w, k);
+    fl_gain g = {0};
+    if (kept) return *kept;
+    if (!w->balls.bodies || !w->b.ball[k]) return g;
+    fl_body_rates(&w->b, k, &g.v, &g.w);
+    return (fl_gain){v3_scale(h, g.v), v3_scale(h, g.w)};
+}
+
 static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
 {
     const enum fl_nap_kind kind = fl_sleep_kind(w, k);
+    const fl_gain first = first_of(w, k, h);
     fl_gain back = {0};
     if (fl_sleeps(w, k)) {
         if (fl_works_now(w, k)->n || fl_works_was(w, k)->n)
@@ -275,7 +288,7 @@ static void end_one(fl_world *w, int32_t k, double h, fl_group *own)
         kick(w, k, h, &back);
         if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 1);
     }
-    book(own, fl_works_take(w, k, fl_works_gain(w, k), &back));
+    book(own, fl_works_take(w, k, &first, &back));
 }
 
 /* Spheres that plain.h knows, from k on; behind the last. */
@@ -284,6 +297,7 @@ static int32_t end_plain(fl_world *w, int32_t k, int32_t to, double h, fl_group 
     fl_plain_works works;
     int32_t end = k;
     while (h > 0.0 && end < to && fl_plain_is(w, end)) end++;
+    for (int32_t i = k; i < end && w->sink.all; i++) fl_works_clear(w, i);
     if (end > k && !fl_plain_end(w, k, end, h, &works)) *finite = 0;
     book_plain(own, &works, end - k);
     for (int32_t i = k; i < end; i++)

@@ -27,29 +27,35 @@ int fl_leans_push(fl_world *w, int32_t i, int32_t j, int hit, const fl_ball_row 
 
 static int before(const fl_ball_lean *a, int32_t i, int32_t j) { return a->i != i ? a->i < i : a->j < j; }
 
-int fl_leans_list(fl_world *w, const uint8_t *listed, uint8_t which, fl_err *err)
+int fl_leans_list(fl_world *w, int64_t n, fl_err *err)
 {
     fl_balls *s = &w->balls;
     fl_ball_lean *const old = s->lean;
     const int32_t n_old = s->leans;
-    int32_t at = 0, rc = 0;
-    s->lean = NULL, s->leans = s->lean_cap = 0;
-    for (int32_t i = 0; i < w->n && !rc; i++) {
-        for (int64_t k = w->near.first[i]; k < w->near.first[i + 1] && !rc; k++) {
+    int32_t at = 0;
+    if (n > INT32_MAX) return fl_fail(err, FL_SYSTEM, "out of memory: %lld spheres at walls", (long long)n);
+    s->leans = s->lean_cap = 0;
+    if (!(s->lean = fl_alloc(n, sizeof *s->lean, err))) {
+        free(old);
+        return -1;
+    }
+    s->lean_cap = (int32_t)n;
+    for (int32_t i = 0; i < w->n; i++) {
+        for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
-            double n;
-            if (listed[k] != which) continue;
+            double exponent;
+            if (!fl_leans_are(w, i, j)) continue;
             while (at < n_old && before(&old[at], i, j)) at++;
             if (at < n_old && old[at].i == i && old[at].j == j) {
-                rc = fl_leans_push(w, i, j, old[at].hit, &old[at].row, err);
+                s->lean[s->leans++] = old[at];
             } else {
-                const fl_ball_row fresh = {.k = fl_pairing_stiffness(w, i, j, &n)};
-                rc = fl_leans_push(w, i, j, 0, &fresh, err);
+                const fl_ball_row fresh = {.k = fl_pairing_stiffness(w, i, j, &exponent)};
+                fl_leans_push(w, i, j, 0, &fresh, err);
             }
         }
     }
     free(old);
-    return rc;
+    return 0;
 }
 
 int fl_leans_drop(fl_world *w)
@@ -80,6 +86,11 @@ static fl_vec3 normal_of(const fl_world *w, int32_t j) { return m3_col(fl_body_a
 static double height(const fl_world *w, int32_t i, int32_t j, fl_vec3 n)
 {
     return v3_dot(n, v3_sub(w->b.x[i], w->b.x[j]));
+}
+
+static double overlap(const fl_world *w, const fl_ball_lean *c, fl_vec3 n)
+{
+    return w->b.radius[c->i] - height(w, c->i, c->j, n);
 }
 
 /* The m-th of some: a centre behind the wall, whose foot would be on the wrong side of it, finds a sphere in
@@ -225,9 +236,8 @@ void fl_leans_energy(const fl_world *w, int32_t a, double *all, double *springs)
     for (int32_t c = s->lean_first[a]; c < s->lean_first[a + 1]; c++) {
         const fl_ball_lean *const l = &s->lean[c];
         if (!l->hit) continue;
-        const double over = w->b.radius[l->i] - height(w, l->i, l->j, normal_of(w, l->j)),
-                     held = fl_ball_spring(&l->row);
-        *all += l->row.k * fl_normal_phi(over, 1.5) + held;
+        const double held = fl_ball_spring(&l->row);
+        *all += l->row.k * fl_normal_phi(overlap(w, l, normal_of(w, l->j)), 1.5) + held;
         *springs += held;
     }
 }
@@ -235,29 +245,12 @@ void fl_leans_energy(const fl_world *w, int32_t a, double *all, double *springs)
 void fl_leans_pair(const fl_world *w, int32_t c, fl_pair *p)
 {
     const fl_ball_lean *const l = &w->balls.lean[c];
-    const fl_ball_row *const r = &l->row;
-    const fl_bodies *b = &w->b;
     const fl_vec3 n = normal_of(w, l->j);
-    const double radius = b->radius[l->i], over = radius - height(w, l->i, l->j, n),
-                 arm = radius - 0.5 * over;
-    fl_pair_start(w, p, l->i, l->j);
-    p->asleep = b->odometer[l->i] + b->odometer[l->j] + (over < 0.0 ? -over : 0.0);
-    p->n = l->hit;
-    if (!p->n) return;
-    const double slope = r->k * fl_normal_slope(over, 1.5);
+    const double over = overlap(w, l, n);
     const fl_vec3 at = middle(w, l, n, over);
-    p->slip.force = r->slip;
-    p->slip.k = r->stiff;
-    p->touch = r->touch;
-    p->overlap = over;
-    p->fd = v3_scale(r->normal - r->k * fl_normal_power(over, 1.5), n);
-    p->fs = r->rub;
-    p->f = force_of(r, n);
-    p->si = p->ti = v3_scale(-arm, v3_cross(n, r->rub));
+    fl_ball_pair(w, l->i, l->j, &l->row, l->hit, n, over, p);
+    if (!p->n) return;
     p->tj = v3_neg(v3_cross(at, p->f));
     p->dj = v3_neg(v3_cross(at, p->fd));
     p->sj = v3_neg(v3_cross(at, p->fs));
-    p->spring = fl_ball_spring(r);
-    p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
-    p->stiff_i = fl_stiff_point(b, l->i, slope, r->stiff, arm);
 }

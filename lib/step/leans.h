@@ -9,9 +9,9 @@
 /* Whether i < n and j are a sphere and such a wall, by `patch` or `core`. */
 int fl_leans_are(const fl_world *w, int32_t i, int32_t j);
 
-/* Rows for those of w->near that are such, by listed[k]; what a row of before remembers goes over.  -1 with
+/* Rows for those of w->near that are such, n of them; what a row of before remembers goes over.  -1 with
  * FL_SYSTEM. */
-int fl_leans_list(fl_world *w, const uint8_t *listed, uint8_t which, fl_err *err);
+int fl_leans_list(fl_world *w, int64_t n, fl_err *err);
 
 /* A row behind all others; fl_leans_index() afterwards.  -1 with FL_SYSTEM. */
 int fl_leans_push(fl_world *w, int32_t i, int32_t j, int hit, const fl_ball_row *row, fl_err *err);

@@ -5,8 +5,8 @@
 #define FL_STEP_PLAIN_H
 #include "step/world.h"
 
-/* Whether body k < n is such: plain (integrate.h), there, awake, dry, not driven, and with no pair near but
- * spheres and walls. */
+/* Whether body k < n is such: plain (integrate.h), there, dry, not driven, and with none near but what it has
+ * rows with (ball.h), nor pressed by others when the step began. */
 int fl_plain_is(const fl_world *w, int32_t k);
 
 /* What damping and friction take out of each in the step [J]. */

@@ -430,10 +430,7 @@ int fl_step(fl_world *w, fl_err *err)
     w->sea.time = fl_world_time(w);
     w->sea.looks = w->sea.every < 2 || w->step % w->sea.every == 0;
     if (fl_search_told(w, err)) return -1;
-    if (w->sleep.nap) {
-        fl_sleep_rouse(w);
-        if (w->balls.bodies) fl_balls_show(w, 0, w->n);
-    }
+    if (w->sleep.nap) fl_sleep_rouse(w); /* no sphere, which rows would have to see */
     if (w->balls.bodies && !w->sleep.nap && !w->press.panels) {
         touch_and_end(w, dt, survey);
     } else {

@@ -166,7 +166,6 @@ void fl_works_begin(fl_world *w)
     const fl_sinks was = w->was;
     w->was = w->sink;
     w->sink = was;
-    if (all_have_one(w)) fl_works_place(w);
     fl_ball_sum *sum = w->balls.was;
     w->balls.was = w->balls.sum;
     w->balls.sum = sum;

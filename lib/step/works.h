@@ -63,8 +63,8 @@ void fl_works_sum(fl_world *w, int32_t k);
 void fl_works_begin(fl_world *w);
 
 /* The works of the step that has ended in thing k: sink acts now and was at its begin, `first` is what its
- * first kick changed, `back` its last (neither is read where nothing pressed at the begin, and `first` may be
- * NULL then), velocities are those of now.  Spheres that it meets come with their own sums. */
+ * first kick changed, `back` its last, velocities are those of now.  Where nothing pressed at the begin
+ * neither is read, and `first` may be NULL; but of spheres both always are, for the sums of their rows. */
 fl_works fl_works_take(const fl_world *w, int32_t k, const fl_gain *first, const fl_gain *back);
 
 /* Those of all groups and of what of the structure moves into the ledger, with the half kick that lies ahead.

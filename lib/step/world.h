@@ -132,7 +132,7 @@ typedef struct {
 
 /* Those of all that are pressed.  A body has the sink at[place[k]]; at[0] is of all that nothing presses on,
  * and stays 0.  Few touch at a time: only they have one of their own, but where faces are frozen together or
- * somebody sleeps; then place[k] = k + 1.  Spheres have sums of their own for what spheres do to them. */
+ * somebody sleeps; then place[k] = k + 1.  What rows do to spheres is in their own sums, ball.h. */
 typedef struct {
     int32_t *place; /* [total] */
     fl_sink *at;    /* [cap] */

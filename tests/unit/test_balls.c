@@ -181,7 +181,7 @@ static void leaning_deep_and_not(void **state)
     lab_free(&l);
 }
 
-/* What is no matter of Hertz' goes as all other pairs: other laws, elastic walls. */
+/* By the manual's laws, and on elastic walls, spheres are pairs as all others. */
 static void leaning_on_what(void **state)
 {
     static const char *const KEYS[] = {"contact.law=core", "contact.law=manual",
@@ -273,6 +273,50 @@ static void sums_over_pairs(void **state)
     assert_true(d == d2 && r == r2);
     free(f), free(t);
     lab_free(&l);
+}
+
+/* Spheres that do not go several at a time, since something holds some of them, or water goes with them, or
+ * waves: their books close as those of all others do, by the order of the step. */
+static void one_by_one(void **state)
+{
+    static const char *const KEYS[][2] = {{"group.some.fixed=rx", NULL},
+                                          {"group.some.fixed=z", NULL},
+                                          {"water.level=0", "water.added_mass=auto"},
+                                          {"water.level=0", "water.wave=airy"}};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        lab l;
+        fl_err err = {0};
+        lab_start(&l);
+        lab_set(&l, "material.ice.young=1 MPa");
+        lab_set(&l, "contact.friction=0.3");
+        lab_set(&l, "contact.restitution=0.4");
+        lab_set(&l, "run.gravity=9.81");
+        lab_set(&l, "run.safety=0.2");
+        lab_set(&l, "boundary.type=rigid rigid rigid");
+        lab_set(&l, "boundary.min=-2.05 -2.05 -2.05");
+        lab_set(&l, "boundary.max=2.05 2.05 none");
+        for (int e = 0; e < 2 && KEYS[k][e]; e++) lab_set(&l, KEYS[k][e]);
+        if (k == 3) lab_set(&l, "water.height=0.2"), lab_set(&l, "water.period=2");
+        for (int32_t i = 0; i < 64; i++) {
+            fl_rng g = fl_rng_of(6, i, FL_RNG_TEST);
+            const fl_vec3 at = v3(i % 4 - 1.5, i / 4 % 4 - 1.5, i / 16 - 1.5), spin = v3(2.0, -1.0, i % 3);
+            const fl_vec3 v = v3(fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1));
+            fl_poly p = {0};
+            assert_int_equal(fl_poly_make(&p, 1, &at, 0, NULL, NULL, &err), 0);
+            assert_int_equal(fl_field_add(&l.field, i + 1, i % 2 ? 0.5 : 0.47, &p, NULL,
+                                          k < 2 && i % 3 == 0 ? "some" : NULL, v, spin, &err),
+                             0);
+        }
+        if (k < 2) lab_set(&l, "group.some.velocity=0 0 0");
+        lab_make(&l, 0.0);
+        assert_int_equal(lab_run(&l, 200), 0);
+        assert_true(l.w.touching_steps > 200 * 20);
+        fl_step_ledger(&l.w);
+        const fl_ledger *g = &l.w.ledger;
+        assert_true(fabs(g->residual) < 1e-4 * g->throughput);
+        lab_free(&l);
+    }
 }
 
 /* Centres that are one push along z; contacts have the same bits wherever they stand in a batch. */
@@ -398,11 +442,15 @@ static void out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(like_any_other_pair),  cmocka_unit_test(leaning_like_any_other_pair),
-        cmocka_unit_test(leaning_deep_and_not), cmocka_unit_test(leaning_on_what),
-        cmocka_unit_test(sums_over_pairs),      cmocka_unit_test(batches),
-        cmocka_unit_test(whichever_share),      cmocka_unit_test(whichever_image),
-        cmocka_unit_test(out_of_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
+                                       cmocka_unit_test(leaning_like_any_other_pair),
+                                       cmocka_unit_test(leaning_deep_and_not),
+                                       cmocka_unit_test(leaning_on_what),
+                                       cmocka_unit_test(one_by_one),
+                                       cmocka_unit_test(sums_over_pairs),
+                                       cmocka_unit_test(batches),
+                                       cmocka_unit_test(whichever_share),
+                                       cmocka_unit_test(whichever_image),
+                                       cmocka_unit_test(out_of_memory)};
     return cmocka_run_group_tests_name("balls", tests, NULL, NULL);
 }
