@@ -11,7 +11,7 @@
 #define FACES 2.0
 
 /* Largest compliance of a core's vertices along the normals of their faces, 1/m + (v x n).I^-1 (v x n)
- * [1/kg]. */
+ * [1/kg]; of a segment's ends across it, which turns it about y or z. */
 static double softest(const fl_world *w, int32_t i)
 {
     const fl_poly *p = &w->b.core[i];
@@ -23,7 +23,7 @@ static double softest(const fl_world *w, int32_t i)
             most = fmax(most, t.x * t.x / I.x + t.y * t.y / I.y + t.z * t.z / I.z);
         }
     }
-    if (p->nf == 0 && p->nv == 2) most = w->b.bound[i] * w->b.bound[i] / I.x;
+    if (p->nv == 2) most = w->b.bound[i] * w->b.bound[i] / I.y; /* ascending: it lies along x */
     return most + w->b.invm[i];
 }
 

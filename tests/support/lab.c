@@ -76,6 +76,15 @@ void lab_sphere(lab *l, fl_vec3 centre, double radius, fl_vec3 v, fl_vec3 spin)
     lab_poly(l, &p, radius, v, spin);
 }
 
+void lab_capsule(lab *l, fl_vec3 centre, fl_vec3 half, double radius)
+{
+    fl_err err = {0};
+    fl_poly p = {0};
+    const fl_vec3 end[2] = {v3_sub(centre, half), v3_add(centre, half)};
+    must(fl_poly_make(&p, 2, end, 0, NULL, NULL, &err), &err);
+    lab_poly(l, &p, radius, v3(0, 0, 0), v3(0, 0, 0));
+}
+
 static fl_part *part(lab *l)
 {
     fl_err err = {0};

@@ -21,6 +21,8 @@ void lab_set(lab *l, const char *assignment);
 void lab_setf(lab *l, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 void lab_box(lab *l, fl_vec3 centre, fl_vec3 outer_half, double radius, fl_quat q, fl_vec3 v, fl_vec3 spin);
 void lab_sphere(lab *l, fl_vec3 centre, double radius, fl_vec3 v, fl_vec3 spin);
+/* At rest; its core reaches from centre - half to centre + half. */
+void lab_capsule(lab *l, fl_vec3 centre, fl_vec3 half, double radius);
 void lab_poly(lab *l, fl_poly *core, double radius, fl_vec3 v, fl_vec3 spin); /* takes the core */
 /* A part of the structure: a box of triangles, n by n on its top face, or a cone. */
 void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n);

@@ -158,6 +158,25 @@ static void heap(const char *id, int32_t side, double squeeze)
     lab_free(&l);
 }
 
+/* A capsule between two blocks that press a share of its length at one end: what the step starts from. */
+static void pinched(const char *id, double half, double share)
+{
+    const double r = 0.1, gap = 0.7 * r, from = half - 2.0 * half * share, to = half + 3.0 * r;
+    lab l;
+    lab_start(&l);
+    lab_capsule(&l, v3(0, 0, 0), v3(half, 0, 0), r);
+    lab_wall(&l, v3(from, -to, gap), v3(to, to, gap + 1.0), 1);
+    lab_wall(&l, v3(from, -to, -gap - 1.0), v3(to, to, -gap), 1);
+    lab_make(&l, 1e-9);
+    const double stable = 2.0 / highest(&l.w, r), bound = fl_world_critical(&l.w);
+    lab_free(&l);
+    verify_note("a capsule %g times as long as thick, pressed at %g of its length: stable up to %.3g of what "
+                "the step starts from",
+                half / r + 1.0, share, stable / bound);
+    verify_below(id, "what the step starts from over the largest that is stable", bound / stable, 1.0);
+    verify_below(id, "the largest that is stable over what the step starts from", stable / bound, 4.0);
+}
+
 /* --- with damping ------------------------------------------------------------------------------ */
 
 /* What lies on a wall: a ball, or a box; turned by so much about y it leans at another wall, or at a step. */
@@ -300,6 +319,10 @@ int main(void)
     stack("S04", 8, 2e-3);
     heap("S05", 3, 0.98);
     if (!verify_quick()) heap("S06", 5, 0.97);
+    pinched("S19", 0.1, 0.02);
+    pinched("S19", 0.4, 0.02);
+    pinched("S19", 1.6, 0.02);
+    pinched("S19", 1.6, 0.25);
     static const double E[] = {0.0, 0.05, 0.2};
     for (size_t k = 0; k < sizeof E / sizeof *E; k++) {
         struck("S07", E[k]);
