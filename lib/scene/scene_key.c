@@ -498,8 +498,8 @@ const fl_key fl_key_table[] = {
      .fallback = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "the kappa of a whole face in the law patch, of the one place in the law core; auto takes it "
-                "from the moduli",
+     .meaning = "the kappa of a whole face in the law patch, of the one place in the law core, of Hertz' law "
+                "[N/m^1.5] for spheres and for the ends of capsules; auto takes it from the moduli",
      .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for what is round"},
     {.section = FL_SEC_CONTACT,
      .key = "softening",

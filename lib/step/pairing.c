@@ -75,6 +75,17 @@ const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j)
     return &w->law[w->material[i] * (w->materials + 2) + column(w, w->material[j])];
 }
 
+/* c of `patch` from the kappa that was given: that of the modulus which makes kappa the stiffness of a whole
+ * face, or of what is round: of a capsule's end. */
+static double given_patch(const fl_world *w, int32_t i, int32_t j, double area)
+{
+    const fl_bodies *b = &w->b;
+    const double kappa = fl_pairing_law(w, i, j)->stiffness;
+    if (b->core[i].nv > 2 && (j >= w->n || b->core[j].nv > 2)) return 0.5 * kappa / sqrt(area);
+    const double modulus = kappa / fl_material_hertz(1.0, fl_material_radius(b->radius[i], b->radius[j]));
+    return 0.5 * fl_material_punch(modulus, 1.0);
+}
+
 double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent)
 {
     const fl_bodies *b = &w->b;
@@ -83,7 +94,7 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
     const int round = b->core[i].nv <= line || (j < w->n && b->core[j].nv <= line);
     const double area = w->face[j] > 0.0 && w->face[j] < w->face[i] ? w->face[j] : w->face[i];
     *exponent = round ? 1.5 : law->kind == FL_LAW_CORE ? law->exponent : 0.0;
-    if (law->stiffness > 0.0) return *exponent > 0.0 ? law->stiffness : 0.5 * law->stiffness / sqrt(area);
+    if (law->stiffness > 0.0) return *exponent > 0.0 ? law->stiffness : given_patch(w, i, j, area);
     if (*exponent == 0.0) return 0.5 * law->softening * fl_material_punch(law->modulus, 1.0);
     if (*exponent == 1.0) return law->softening * fl_material_punch(law->modulus, area) / FACE_OF_CORE;
     return law->softening * fl_material_hertz(law->modulus, fl_material_radius(b->radius[i], b->radius[j]));

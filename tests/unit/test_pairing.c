@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Near pairs have room of their own while they touch, and not for long after. */
+#include <math.h>
 #include <string.h>
 #include "base/mem.h"
+#include "law/material.h"
 #include "step/footprint.h"
 #include "step/pairing.h"
 #include "support/lab.h"
@@ -76,6 +78,60 @@ static void nothing_is_forgotten_that_lasts(void **state)
     lab_free(&l);
 }
 
+/* Boxes, capsules and a sphere over a wall, in every order of two. */
+static void all_kinds(lab *l, double stiffness)
+{
+    lab_start(l);
+    lab_set(l, "boundary.min=none none 0");
+    if (stiffness > 0.0) lab_setf(l, "contact.stiffness=%.17g", stiffness);
+    lab_box(l, v3(0, 0, 1), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_capsule(l, v3(2, 0, 1), v3(0.3, 0, 0), 0.1);
+    lab_sphere(l, v3(4, 0, 1), 0.2, v3(0, 0, 0), v3(0, 0, 0));
+    lab_capsule(l, v3(6, 0, 1), v3(0.3, 0, 0), 0.15);
+    lab_box(l, v3(8, 0, 1), v3(0.4, 0.3, 0.2), 0.07, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(l, 1e-6);
+}
+
+/* What auto takes, given, is auto: of a face, or Hertz' where one of the two is round. */
+static void stiffness_is_given_to_all_kinds(void **state)
+{
+    (void)state;
+    lab l, told;
+    all_kinds(&l, 0.0);
+    const fl_bodies *b = &l.w.b;
+    for (int32_t i = 0; i < l.w.n; i++) {
+        for (int32_t j = i + 1; j < b->total; j++) {
+            double n, m;
+            const int face = b->core[i].nv > 2 && (j == l.w.n || b->core[j].nv > 2);
+            const double k = fl_pairing_stiffness(&l.w, i, j, &n), E = fl_pairing_law(&l.w, i, j)->modulus;
+            const double area = j == l.w.n ? l.w.face[i] : fmin(l.w.face[i], l.w.face[j]);
+            const double R = fl_material_radius(b->radius[i], b->radius[j]);
+            all_kinds(&told, face ? fl_material_punch(E, area) : fl_material_hertz(E, R));
+            assert_true(fabs(fl_pairing_stiffness(&told.w, i, j, &m) / k - 1.0) < 1e-14);
+            assert_true(m == n);
+            lab_free(&told);
+        }
+    }
+    lab_free(&l);
+}
+
+/* kappa s^(3/2), as that of a sphere. */
+static void a_capsule_stands_on_its_end(void **state)
+{
+    (void)state;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "boundary.min=none none 0");
+    lab_set(&l, "contact.stiffness=1e6");
+    lab_capsule(&l, v3(0, 0, 0.399), v3(0, 0, 0.3), 0.1);
+    lab_sphere(&l, v3(2, 0, 0.099), 0.1, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-6);
+    const double force = 1e6 * pow(1e-3, 1.5);
+    assert_true(fabs(l.w.b.f[0].z - force) < 1e-2 * force);
+    assert_true(fabs(l.w.b.f[1].z - force) < 1e-9 * force);
+    lab_free(&l);
+}
+
 static void without_memory_the_step_says_so(void **state)
 {
     (void)state;
@@ -142,6 +198,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(room_comes_and_goes),
                                        cmocka_unit_test(nothing_is_forgotten_that_lasts),
+                                       cmocka_unit_test(stiffness_is_given_to_all_kinds),
+                                       cmocka_unit_test(a_capsule_stands_on_its_end),
                                        cmocka_unit_test(without_memory_a_surrogate_says_so),
                                        cmocka_unit_test(without_memory_the_step_says_so),
                                        cmocka_unit_test(the_footprint_follows_the_bodies)};
