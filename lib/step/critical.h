@@ -7,7 +7,8 @@
 
 /* The automatic step [s], and the body that sets it: safety * 2/omega (under run.error the largest that
  * damping allows), omega^2 bounded per body by the stiffest face it can meet, at its most compliant vertex,
- * lowered for damping. */
+ * lowered for damping: to half of what that of one contact leaves, or to what it leaves where bodies are held
+ * between many (S20 to S24 of verify_step). */
 double fl_world_dt(const fl_world *w, int32_t *body);
 
 /* What it is a part of: 2/omega, without damping [s]. */
@@ -17,8 +18,9 @@ double fl_world_critical(const fl_world *w);
  * damping ratio z; of what is round and rough across, too. */
 double fl_world_damped(const fl_world *w);
 
-/* What is left of that where all that is rough is shaken across, standing on its end or an edge: 0.55 for
- * boxes, if damping is strong, and 1 for balls.  The half that automatic steps keep to is below it. */
+/* What is left of that where all that is rough is shaken across, standing on its end or an edge, and balls
+ * are held between others: 0.55 for boxes, if damping is strong, and 0.7 for balls.  Automatic steps are
+ * below it. */
 double fl_world_across(const fl_world *w);
 
 /* What steps of dt are off by, without a look at any other step; 0 before the first contact.  With r = dt

@@ -310,6 +310,101 @@ static void struck(const char *id, double e)
     verify_below(id, "the least of an impact over the bound", least / bound, 2.3);
 }
 
+/* --- with damping, between many ------------------------------------------------------------------ */
+
+/* So many alike in each direction of a cell that repeats itself, each pressed into the next by a millimetre;
+ * in a direction with one nothing touches. */
+typedef struct {
+    const char *name;
+    fl_vec3 half; /* of a box; 0: spheres of 0.1 m, of which a layer lies in the gaps of the one before */
+    int count[3];
+} heaped;
+
+static const heaped PACK = {"spheres with twelve neighbours", {0, 0, 0}, {5, 6, 3}},
+                    SHEET = {"spheres with six neighbours", {0, 0, 0}, {5, 6, 1}},
+                    CUBES = {"cubes", {0.2, 0.2, 0.2}, {4, 4, 4}},
+                    FLOES = {"square floes", {0.2, 0.2, 0.1}, {4, 4, 1}},
+                    SLABS = {"slabs in a stack", {0.5, 0.4, 0.2}, {1, 1, 7}},
+                    PILLARS = {"pillars in a row", {0.25, 0.25, 1.0}, {9, 1, 1}};
+
+enum { APART = 5 }; /* [m] cell where nothing repeats */
+
+static void heap_up(lab *l, const heaped *h, double friction, double e)
+{
+    const double s = 1e-3, r = 0.1, d = 2.0 * r - s;
+    const int boxes = h->half.x > 0.0, *n = h->count;
+    const fl_vec3 by =
+        boxes ? v3_sub(v3_scale(2.0, h->half), v3(s, s, s)) : v3(d, d * sqrt(0.75), d * sqrt(2.0 / 3.0));
+    lab_start(l);
+    lab_setf(l, "contact.restitution=%g", e);
+    lab_setf(l, "contact.friction=%g", friction);
+    if (boxes) lab_set(l, "contact.stiffness=5e6");
+    lab_set(l, "boundary.type=periodic");
+    lab_set(l, "boundary.min=0 0 0");
+    lab_setf(l, "boundary.max=%.17g %.17g %.17g", n[0] > 1 ? n[0] * by.x : APART,
+             n[1] > 1 ? n[1] * by.y : APART, n[2] > 1 ? n[2] * by.z : APART);
+    for (int k = 0; k < n[0] * n[1] * n[2]; k++) {
+        const int x = k % n[0], y = k / n[0] % n[1], z = k / (n[0] * n[1]);
+        const fl_vec3 at = v3((x + 0.25) * by.x, (y + 0.25) * by.y, (z + 0.25) * by.z);
+        const double aside = 0.5 * (y % 2) + 0.5 * (z % 3), along = (z % 3) / 3.0;
+        if (boxes) lab_box(l, at, h->half, 0.03, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        else lab_sphere(l, v3_add(at, v3(aside * d, along * by.y, 0)), r, v3(0, 0, 0), v3(0, 0, 0));
+    }
+    lab_make(l, 1e-12);
+}
+
+/* The step that runs take by themselves; of spheres that have been at these overlaps foreseen. */
+static double automatic(lab *l, const heaped *h, int measured)
+{
+    fl_world *w = &l->w;
+    int32_t body;
+    if (h->half.x == 0.0) w->b.v[0].x = sqrt(0.8 * lab_look(w, 0, 1).k * pow(1e-3, 2.5) / w->b.m[0]);
+    lab_set(l, measured ? "run.error=0.01" : "run.error=none");
+    const double dt = fl_world_dt(w, &body), share = dt / fl_world_critical(w) * fl_world_across(w);
+    w->b.v[0].x = 0.0;
+    return measured ? share * w->dt_critical : dt;
+}
+
+/* Whether a push of all in all directions dies away where they have been laid, and never came near. */
+static int all_die(const heaped *h, double friction, double e, double dt)
+{
+    const double push = 1e-9;
+    double most = 0.0;
+    lab l;
+    heap_up(&l, h, friction, e);
+    fl_world *w = &l.w;
+    for (int32_t i = 0; i < w->n; i++) {
+        fl_rng g = fl_rng_of(7, i, FL_RNG_TEST);
+        w->b.v[i] = v3(push * fl_rng_normal(&g), push * fl_rng_normal(&g), push * fl_rng_normal(&g));
+    }
+    fl_step_resize(w, dt, fl_world_time(w));
+    for (int k = 0; k < 60 && most < 1e3 * push; k++) {
+        if (lab_run(&l, 10)) exit(1);
+        for (int32_t i = 0; i < w->n; i++) most = fmax(most, v3_norm(w->b.v[i]));
+    }
+    lab_free(&l);
+    return most < 1e3 * push;
+}
+
+static void between_many(const char *id, const heaped *h, double friction, double e)
+{
+    lab l;
+    heap_up(&l, h, friction, e);
+    const double taken = automatic(&l, h, 0), most = automatic(&l, h, 1);
+    double lo = 0.2 * taken, hi = l.w.dt_critical;
+    lab_free(&l);
+    while (hi > 1.02 * lo) {
+        const double mid = sqrt(lo * hi);
+        if (all_die(h, friction, e, mid)) lo = mid;
+        else hi = mid;
+    }
+    verify_note("%s pressed into one another, friction %g, e = %g: stable up to %.3g of the automatic step, "
+                "%.3g of that with run.error",
+                h->name, friction, e, lo / taken, lo / most);
+    verify_below(id, "the automatic step over the largest that is stable", taken / lo, 1.0);
+    verify_below(id, "that with run.error over the largest that is stable", most / lo, 1.0);
+}
+
 int main(void)
 {
     verify_begin("the largest stable step");
@@ -334,6 +429,17 @@ int main(void)
         shaken("S13", &UPRIGHT, E[k]);
         shaken("S14", &CUBE, E[k]);
         shaken("S15", &PILLAR, E[k]);
+    }
+    static const double MANY[] = {0.0, 0.2, 0.3, 0.5};
+    for (size_t k = 0; k < sizeof MANY / sizeof *MANY; k++) {
+        if (verify_quick() && k % 2) continue;
+        between_many("S20", &PACK, 0.5, MANY[k]);
+        between_many("S20", &PACK, 0.0, MANY[k]);
+        between_many("S21", &SHEET, 0.5, MANY[k]);
+        between_many("S22", &CUBES, 0.5, MANY[k]);
+        between_many("S23", &FLOES, 0.5, MANY[k]);
+        between_many("S24", &SLABS, 0.5, MANY[k]);
+        between_many("S24", &PILLARS, 0.5, MANY[k]);
     }
     if (!verify_quick()) {
         shaken("S16", &POST, 0.0);

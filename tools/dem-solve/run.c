@@ -50,6 +50,14 @@ static int64_t step_at(const fl_world *w, double t)
 
 void run_steps(struct run *r) { r->steps = step_at(r->w, r->scene->run.duration); }
 
+/* Half of what damping leaves, or less where many contacts are damped at once. */
+static void damped_origin(char *to, size_t n, double share, double left, double limit)
+{
+    if (share > 0.499 * left)
+        snprintf(to, n, "damping, half of the %.3g that it leaves of the critical %.4g s", left, limit);
+    else snprintf(to, n, "damping by many contacts, %.3g of the critical %.4g s", share, limit);
+}
+
 /* What the step comes from, for --plan and the report alike. */
 static void step_origin(struct run *r, double automatic)
 {
@@ -63,8 +71,7 @@ static void step_origin(struct run *r, double automatic)
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
-    else if (automatic < s->safety * r->limit)
-        snprintf(to, n, "damping, half of the %.3g that it leaves of the critical %.4g s", left, r->limit);
+    else if (automatic < s->safety * r->limit) damped_origin(to, n, automatic / r->limit, left, r->limit);
     else snprintf(to, n, "run.safety, %.3g of the critical %.4g s", s->safety, r->limit);
     if (s->dt > 0.0 || r->step_body < 0 || automatic >= fmin(every, s->duration)) return;
     const size_t used = strlen(to);
