@@ -605,7 +605,7 @@ static void stack(int n, const char *young)
     lab_wall(&l, v3(-5, -5, -1), v3(5, 5, 0), 1);
     lab_make(&l, 0.0);
     /* Released 1 % above where it will come to rest.  The period of the lowest wave grows as n, and what it
-     * loses in one falls as 1/n: it dies out in some n^2 steps, times 30. */
+     * loses in one falls as 1/n: it dies out in some n^2 steps, times 40. */
     const double m = l.w.b.m[0];
     double sum = 0.0, kinetic = 0.0;
     double *down = calloc((size_t)n, sizeof *down);
@@ -613,7 +613,7 @@ static void stack(int n, const char *young)
     for (int k = 0; k < n; k++) down[k] = sum += sinking(&l, k, k ? k - 1 : n, (n - k) * m * G);
     for (int k = 0; k < n; k++) l.w.b.x[k].z -= 0.99 * down[k];
     free(down);
-    lab_run(&l, n < 20 ? 20000 : 300000);
+    lab_run(&l, n < 20 ? 20000 : 400000);
     fl_step_ledger(&l.w);
     kinetic = l.w.ledger.kinetic / (n * m * G * sum);
     const double sunk = n - 0.5 - l.w.b.x[n - 1].z;
