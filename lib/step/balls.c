@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <assert.h>
-#include <stdalign.h>
-#include <stddef.h>
 #include <string.h>
 #include "base/mem.h"
-#include "base/wide.h"
 #include "law/normal.h"
-#include "law/sphere.h"
 #include "step/balls.h"
 #include "step/leans.h"
 #include "step/pairing.h"
@@ -15,12 +10,7 @@
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
 
-enum {
-    MOST_WAYS = 256,
-    AHEAD = 64,   /* rows whose bodies j are on their way */
-    ON_WAY = 24,  /* rows that are so themselves */
-    PASSED_ON = 8 /* slots */
-};
+enum { MOST_WAYS = 256 };
 
 /* Two spheres. */
 static int meet(const fl_world *w, int32_t i, int32_t j)
@@ -83,18 +73,6 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     return 0;
 }
 
-/* Rows of body i, chunk by chunk of them. */
-static int32_t last_body(const fl_balls *s, int32_t a)
-{
-    const int32_t end = (a + 1) * FL_BALLS_CHUNK;
-    return end < s->bodies ? end : s->bodies;
-}
-
-static fl_vec3 way_of(const fl_cell *cell, const int32_t e[3])
-{
-    return fl_cell_way(cell, v3(e[0], e[1], e[2]));
-}
-
 /* Images of rows are few: from any of them to where j is. */
 static int find_ways(fl_balls *s, const fl_cell *cell, fl_err *err)
 {
@@ -115,7 +93,7 @@ static int find_ways(fl_balls *s, const fl_cell *cell, fl_err *err)
         }
         if (k == s->ways) {
             from[s->ways++] = c;
-            s->way[k].by = way_of(cell, e);
+            s->way[k].by = fl_cell_way(cell, v3(e[0], e[1], e[2]));
         }
         s->by[c] = (uint8_t)k;
     }
@@ -135,7 +113,7 @@ static int index_rows(fl_world *w, fl_err *err)
     if (!(s->to = fl_alloc(s->n, sizeof *s->to, err))) return -1;
     for (int32_t a = 0; a < s->chunks; a++) s->source[a] = INT32_MAX;
     for (int32_t a = 0; a < s->chunks; a++) {
-        const int32_t end = last_body(s, a);
+        const int32_t end = fl_balls_last(s, a);
         s->cross[a] = slots;
         if (s->source[a] > a) s->source[a] = a;
         for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[end]; c++) {
@@ -158,7 +136,7 @@ static int index_rows(fl_world *w, fl_err *err)
     for (int32_t j = 0; j < s->bodies; j++) s->into[j + 1] += s->into[j];
     slots = 0;
     for (int32_t a = 0; a < s->chunks; a++) { /* fills: into[j] goes from the start of j to that of j + 1 */
-        const int32_t end = last_body(s, a);
+        const int32_t end = fl_balls_last(s, a);
         for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[end]; c++)
             if (s->j[c] >= end) s->slots[s->into[s->j[c]]++] = slots++;
     }
@@ -300,468 +278,10 @@ int fl_balls_drop(fl_world *w, fl_err *err)
     return fl_balls_index(w, err);
 }
 
-/* --- their forces ------------------------------------------------------------------------------ */
-
-/* Touching rows are worked on when there are so many. */
-enum { BLOCK = 32 };
-static_assert(BLOCK + FL_LANES <= FL_SPHERES_MOST,
-              "what four rows add has room behind what is not a block yet");
-
-typedef struct {
-    fl_spheres at;
-    double d[FL_SPHERES_MOST][FL_LANES]; /* D and something, as they are found */
-    int32_t row[FL_SPHERES_MOST];        /* filled to the end of a register */
-    int32_t law[FL_SPHERES_MOST];        /* whose numbers stand there */
-    double rest2[FL_SPHERES_MOST];
-    int32_t m;
-} batch;
-
-/* D of the image that is meant, most often the one in the same cell. */
-static inline fl_vec3 seen(const fl_cell *cell, const int32_t *image, int32_t c, fl_vec3 d)
-{
-    if (!image) return d;
-    const int32_t *e = &image[3 * c];
-    return e[0] | e[1] | e[2] ? v3_sub(d, way_of(cell, e)) : d;
-}
-
-static inline fl_vec3 between(const fl_world *w, int32_t c)
-{
-    const fl_balls *s = &w->balls;
-    return seen(&w->cell, s->image, c, v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]));
-}
-
-/* Those of the rows from c on that have begun to touch or ended it, bit by bit: one that ends forgets. */
-static void turn_over(fl_balls *s, int32_t c, uint32_t turned)
-{
-    for (; turned; turned >>= 1, c++) {
-        if (!(turned & 1)) continue;
-        if (s->hit[c]) s->row[c] = (fl_ball_row){.k = s->row[c].k};
-        s->hit[c] ^= 1;
-    }
-}
-
-/* Row c by itself: whether |D|^2 < (r_i + r_j)^2, and D to the end of the batch. */
-static int look_one(const fl_world *w, batch *t, int32_t c)
-{
-    const fl_vec3 d = between(w, c);
-    const double R = w->b.radius[w->balls.i[c]] + w->b.radius[w->balls.j[c]];
-    t->row[t->m] = c;
-    t->d[t->m][0] = d.x, t->d[t->m][1] = d.y, t->d[t->m][2] = d.z;
-    return v3_norm2(d) - R * R < 0.0;
-}
-
-void fl_balls_show(fl_world *w, int32_t from, int32_t to)
-{
-    const fl_bodies *b = &w->b;
-    fl_ball_seen *const seen = w->balls.seen;
-    for (int32_t k = from; k < to; k++)
-        seen[k] = (fl_ball_seen){b->x[k], b->radius[k], b->v[k], b->invm[k], b->w[k], b->radius[k]};
-}
-
-/* The difference a - b of vectors, and the sum of the numbers behind them. */
-FL_WIDE_PART void compare_two(fl_wide *d, const void *a, const void *b)
-{
-    *d = __builtin_shufflevector(FL_FOUR(a) - FL_FOUR(b), FL_FOUR(a) + FL_FOUR(b), 0, 1, 2, 7);
-}
-
-/* What the loop below reads and writes. */
-typedef struct {
-    fl_world *w;
-    const int32_t *i, *j;
-    const fl_ball_way *way;
-    const uint8_t *by, *hit;
-    const fl_ball_seen *seen;
-    const fl_ball_row *row;
-    int32_t n; /* rows there are */
-} seeker;
-
-/* Rows [c, to), four at a time, until the batch is a block or less than four are left: behind the last.
- * Whether a row touches is nothing that could be foreseen, so nothing here branches on it: it is written down
- * behind the last that does, and counts or does not.  That it begins to, or ends, is rare.  What comes is
- * sent for: with 100 000 spheres all that is not is waited for. */
-FL_FOUR_VERSIONS static int32_t look(const seeker *restrict s, batch *restrict t, int32_t c, int32_t to)
-{
-    const int32_t *bi = s->i, *bj = s->j;
-    const fl_ball_seen *seen = s->seen;
-    const uint8_t *hit = s->hit, *by = s->by;
-    const fl_ball_way *way = s->way;
-    int32_t m = t->m;
-    for (; c + FL_LANES <= to && m < BLOCK; c += FL_LANES) {
-        fl_wide v[FL_LANES];
-        uint32_t turned = 0;
-        const int32_t *far = &bj[c + AHEAD + FL_LANES <= s->n ? c + AHEAD : c];
-        fl_fetch(&s->row[c + ON_WAY + FL_LANES <= s->n ? c + ON_WAY : c], FL_LANES * sizeof *s->row);
-        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
-        {
-            const int32_t i = bi[c + l], j = bj[c + l];
-            compare_two(&v[l], &seen[i].x, &seen[j].x);
-            v[l] -= FL_FOUR(&way[by[c + l]]);
-            fl_fetch(&seen[far[l]], sizeof *seen);
-        }
-        fl_wide d[] = {v[0], v[1], v[2], v[3]};
-        fl_wide_transpose(d);
-        const fl_wide gap = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - d[3] * d[3];
-        const fl_wide_mask touches = gap < 0.0;
-        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
-        {
-            const uint32_t one = (uint32_t)touches[l] & 1;
-            t->row[m] = c + l;
-            FL_FOUR_INTO(t->d[m]) = v[l];
-            m += (int32_t)one;
-            turned |= (one ^ hit[c + l]) << l;
-        }
-        if (turned) turn_over(&s->w->balls, c, turned);
-    }
-    t->m = m;
-    return c;
-}
-
-/* What the batch needs to be placed again, */
-static void load_forces(const fl_world *w, batch *t)
-{
-    const fl_balls *s = &w->balls;
-    fl_spheres *a = &t->at;
-    for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m];
-        const fl_ball_row *r = &s->row[c];
-        for (int axis = 0; axis < 3; axis++) a->d[axis][m] = t->d[m][axis];
-        a->ri[m] = w->b.radius[s->i[c]];
-        a->rj[m] = w->b.radius[s->j[c]];
-        a->k[m] = r->k;
-        a->rub[0][m] = r->rub.x;
-        a->rub[1][m] = r->rub.y;
-        a->rub[2][m] = r->rub.z;
-        a->normal[m] = r->normal;
-    }
-}
-
-/* and to be evaluated. */
-typedef struct {
-    const int32_t *i, *j;
-    const fl_ball_row *row;
-    const fl_ball_seen *seen;
-} source;
-
-FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
-{
-    static_assert(offsetof(fl_ball_row, stiff) == sizeof(fl_vec3), "a spring is a register of four");
-    static_assert(offsetof(fl_ball_row, k) == offsetof(fl_ball_row, touch) + sizeof(double), "one of two");
-    const int32_t *bi = s->i, *bj = s->j;
-    const fl_ball_row *row = s->row;
-    const fl_ball_seen *seen = s->seen;
-    const int32_t n = t->m;
-    fl_spheres *a = &t->at;
-    for (int32_t k = n; k % FL_LANES; k++) t->row[k] = t->row[n - 1];
-    for (int32_t m = 0; m < n; m += FL_LANES) {
-        fl_wide d[] = {FL_FOUR(t->d[m]), FL_FOUR(t->d[m + 1]), FL_FOUR(t->d[m + 2]), FL_FOUR(t->d[m + 3])};
-        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES];
-        fl_two last[FL_LANES];
-        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
-        {
-            const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
-            const fl_ball_row *r = &row[c];
-            compare_two(&u[l], &seen[i].v, &seen[j].v);
-            p[l] = FL_FOUR(&seen[i].w);
-            q[l] = FL_FOUR(&seen[j].w);
-            h[l] = FL_FOUR(&r->slip);
-            last[l] = *(const fl_two *)(const void *)&r->touch;
-        }
-        const fl_wide even = __builtin_shufflevector(last[0], last[2], 0, 1, 2, 3),
-                      odd = __builtin_shufflevector(last[1], last[3], 0, 1, 2, 3);
-        FL_FOUR_INTO(&a->touch[m]) = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
-        FL_FOUR_INTO(&a->k[m]) = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
-        fl_wide_transpose(d);
-        fl_wide_transpose(u);
-        fl_wide_transpose(p);
-        fl_wide_transpose(q);
-        fl_wide_transpose(h);
-        FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++)
-        {
-            FL_FOUR_INTO(&a->d[axis][m]) = d[axis];
-            FL_FOUR_INTO(&a->u[axis][m]) = u[axis];
-            FL_FOUR_INTO(&a->wi[axis][m]) = p[axis];
-            FL_FOUR_INTO(&a->wj[axis][m]) = q[axis];
-            FL_FOUR_INTO(&a->slip[axis][m]) = h[axis];
-        }
-        FL_FOUR_INTO(&a->stiff[m]) = h[3];
-        FL_FOUR_INTO(&a->invm[m]) = FL_FOUR(&t->rest2[m]) * u[3]; /* for nothing but the stored energy */
-        FL_FOUR_INTO(&a->ri[m]) = p[3];
-        FL_FOUR_INTO(&a->rj[m]) = q[3];
-    }
-}
-
-static void load_law(const fl_world *w, batch *t, int32_t m, int32_t l)
-{
-    const fl_touching *law = &w->law[l];
-    t->law[m] = l;
-    t->at.friction[m] = law->friction;
-    t->at.tangential[m] = law->tangential;
-    t->at.chi[m] = law->chi;
-    t->rest2[m] = law->rest * law->rest;
-}
-
-/* Where there is not one law for all, most often the numbers stand there from the contacts before. */
-static void load_laws(const fl_world *w, batch *t)
-{
-    const int32_t *law = w->balls.law;
-    for (int32_t m = 0; m < t->m; m++)
-        if (law[t->row[m]] != t->law[m]) load_law(w, t, m, law[t->row[m]]);
-}
-
-FL_FOUR_VERSIONS static void save(fl_ball_row *restrict row, const batch *restrict t)
-{
-    static_assert(offsetof(fl_ball_row, normal) == offsetof(fl_ball_row, rub) + sizeof(fl_vec3),
-                  "see ball.h");
-    const fl_spheres *a = &t->at;
-    const int32_t n = t->m;
-    for (int32_t m = 0; m < n; m += FL_LANES) {
-        fl_wide h[] = {FL_FOUR(&a->slip[0][m]), FL_FOUR(&a->slip[1][m]), FL_FOUR(&a->slip[2][m]),
-                       FL_FOUR(&a->stiff[m])};
-        fl_wide f[] = {FL_FOUR(&a->rub[0][m]), FL_FOUR(&a->rub[1][m]), FL_FOUR(&a->rub[2][m]),
-                       FL_FOUR(&a->normal[m])};
-        fl_wide_transpose(h);
-        fl_wide_transpose(f);
-        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
-        {
-            if (m + l >= n) break;
-            fl_ball_row *r = &row[t->row[m + l]];
-            FL_FOUR_INTO(&r->slip) = h[l];
-            FL_FOUR_INTO(&r->rub) = f[l];
-            r->touch = a->touch[m + l];
-        }
-    }
-}
-
-/* A sum is three registers of four. */
-enum { PARTS = 3 };
-static_assert(sizeof(fl_ball_sum) == PARTS * sizeof(fl_wide), "a sum is twelve doubles");
-
-/* Without the string instruction that a compiler makes of it, which takes longer than all else here. */
-FL_FOUR_VERSIONS static void clear(fl_ball_sum *s, int32_t n)
-{
-    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
-    for (int32_t k = 0; k < n; k++) {
-        volatile fl_wide *sum = (volatile fl_wide *)&s[k];
-        sum[0] = sum[1] = sum[2] = zero;
-    }
-}
-
-/* What four contacts do, each a row: to i and j alike but for the sign, and to either. */
-typedef struct {
-    fl_wide one[FL_LANES], two[FL_LANES], on_i[FL_LANES], on_j[FL_LANES];
-} wrenches;
-
-FL_WIDE_PART void find_wrenches(wrenches *q, const fl_spheres *a, int32_t m)
-{
-    q->one[0] = FL_FOUR(&a->push[0][m]), q->one[1] = FL_FOUR(&a->push[1][m]);
-    q->one[2] = FL_FOUR(&a->push[2][m]), q->one[3] = FL_FOUR(&a->damping[0][m]);
-    q->two[0] = FL_FOUR(&a->damping[1][m]), q->two[1] = FL_FOUR(&a->damping[2][m]);
-    q->two[2] = FL_FOUR(&a->rub[0][m]), q->two[3] = FL_FOUR(&a->rub[1][m]);
-    q->on_i[0] = FL_FOUR(&a->rub[2][m]), q->on_i[1] = FL_FOUR(&a->ti[0][m]);
-    q->on_i[2] = FL_FOUR(&a->ti[1][m]), q->on_i[3] = FL_FOUR(&a->ti[2][m]);
-    q->on_j[0] = -q->on_i[0], q->on_j[1] = FL_FOUR(&a->tj[0][m]);
-    q->on_j[2] = FL_FOUR(&a->tj[1][m]), q->on_j[3] = FL_FOUR(&a->tj[2][m]);
-    fl_wide_transpose(q->one);
-    fl_wide_transpose(q->two);
-    fl_wide_transpose(q->on_i);
-    fl_wide_transpose(q->on_j);
-}
-
-/* The l-th of them to the sum of i, and to that of j or to a slot.  Which of the two cannot be foreseen, so
- * nothing branches on it. */
-FL_WIDE_PART void hand_one(fl_ball_sum *sums, fl_ball_sum *slots, int32_t i, int32_t to, const wrenches *q,
-                           int32_t l)
-{
-    const int32_t beyond = to < 0 ? -1 : 0;
-    const uintptr_t which = ((uintptr_t)sums ^ (uintptr_t)slots) & (uintptr_t)(intptr_t)beyond;
-    fl_wide *on = (fl_wide *)&sums[i],
-            *off = (fl_wide *)&((fl_ball_sum *)((uintptr_t)sums ^ which))[to ^ beyond];
-    on[0] += q->one[l], on[1] += q->two[l], on[2] += q->on_i[l];
-    off[0] -= q->one[l], off[1] -= q->two[l], off[2] += q->on_j[l];
-}
-
-/* The wrenches of the batch. */
-FL_FOUR_VERSIONS static void hand_out(const fl_balls *restrict s, const batch *restrict t)
-{
-    const int32_t *bi = s->i, *bto = s->to, *row = t->row, n = t->m;
-    fl_ball_sum *sums = s->sum, *slots = s->slot;
-    int32_t m = 0;
-    for (; m + FL_LANES <= n; m += FL_LANES) {
-        wrenches q;
-        find_wrenches(&q, &t->at, m);
-        FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
-            hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
-    }
-    if (m < n) {
-        wrenches q;
-        find_wrenches(&q, &t->at, m);
-        for (int32_t l = 0; m + l < n; l++) hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
-    }
-}
-
-FL_FOUR_VERSIONS static void collect(fl_ball_sum *restrict sums, const fl_ball_sum *restrict slot,
-                                     const int32_t *restrict slots, const int32_t *restrict into,
-                                     int32_t from, int32_t to)
-{
-    for (int32_t k = from; k < to; k++) {
-        fl_wide *sum = (fl_wide *)&sums[k], a = sum[0], b = sum[1], c = sum[2];
-        if (into[k] == into[k + 1]) continue;
-        for (int32_t at = into[k]; at < into[k + 1]; at++) {
-            fl_fetch(&slot[slots[at + PASSED_ON < into[to] ? at + PASSED_ON : at]], sizeof *slot);
-            const fl_wide *in = (const fl_wide *)&slot[slots[at]];
-            a += in[0], b += in[1], c += in[2];
-        }
-        sum[0] = a, sum[1] = b, sum[2] = c;
-    }
-}
-
-/* Whether one of the first m, or of those that fill the register behind them, is deeper than so much of the
- * sum of the radii. */
-FL_WIDE_VERSIONS static int deeper(const fl_spheres *a, int32_t m, double most)
-{
-    int any = 0;
-#pragma omp simd reduction(| : any)
-    for (int32_t k = 0; k < m; k++) any |= a->overlap[k] > most * (a->ri[k] + a->rj[k]);
-    return any;
-}
-
-/* Of the first m, lane by lane. */
-FL_FOUR_VERSIONS static double all_sizes(const fl_spheres *a, int32_t m)
-{
-    fl_wide sum = {0.0, 0.0, 0.0, 0.0};
-    double rest = 0.0;
-    int32_t k = 0;
-    for (; k + FL_LANES <= m; k += FL_LANES) sum += FL_FOUR(&a->size[k]);
-    for (; k < m; k++) rest += a->size[k];
-    return fl_wide_sum(&sum) + rest;
-}
-
-static void count(const batch *t, fl_ball_tally *tally)
-{
-    const fl_spheres *a = &t->at;
-    tally->force += all_sizes(a, t->m);
-    tally->touching += t->m;
-    if (!deeper(a, t->m, tally->worst)) return;
-    for (int32_t m = 0; m < t->m; m++) {
-        const double both = a->ri[m] + a->rj[m];
-        if (!(a->overlap[m] > tally->worst * both)) continue;
-        tally->worst = a->overlap[m] / both;
-        tally->worst_row = t->row[m];
-    }
-}
-
-/* As share_of() of step.c says. */
-static void survey_batch(fl_world *w, const batch *t)
-{
-    fl_balls *s = &w->balls;
-    const fl_spheres *a = &t->at;
-    for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m], i = s->i[c], j = s->j[c], to = s->to[c];
-        const double half = 0.5 * a->overlap[m];
-        const double ki = fl_stiff_point(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half),
-                     kj = fl_stiff_point(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half),
-                     both = sqrt(ki * kj);
-        s->stiff[i] += ki + both;
-        if (to >= 0) s->stiff[j] += kj + both;
-        else s->stiff_slot[~to] = kj + both;
-    }
-}
-
-/* What is done with the batch, which then is empty; dt < 0: nothing moves and nothing is evaluated, the sums
- * are made again from what the rows hold. */
-static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
-{
-    fl_balls *s = &w->balls;
-    if (dt < 0.0) {
-        load_forces(w, t);
-        fl_spheres_place(&t->at, t->m);
-    } else {
-        const source from = {s->i, s->j, s->row, s->seen};
-        if (s->one_law < 0) load_laws(w, t);
-        load(&from, t);
-        fl_spheres_meet(&t->at, t->m, dt);
-        save(s->row, t);
-    }
-    hand_out(s, t);
-    count(t, &s->tally[a]);
-    if (survey) survey_batch(w, t);
-    t->m = 0;
-}
-
-/* And of the first BLOCK of it; the others move up. */
-static void finish_block(fl_world *w, int32_t a, batch *t, double dt, int survey)
-{
-    const int32_t more = t->m - BLOCK;
-    if (more < 0) return;
-    t->m = BLOCK;
-    finish(w, a, t, dt, survey);
-    memcpy(t->d, t->d[BLOCK], (size_t)more * sizeof *t->d);
-    memcpy(t->row, &t->row[BLOCK], (size_t)more * sizeof *t->row);
-    t->m = more;
-}
-
-static void take(fl_world *w, int32_t a, double dt, int survey)
-{
-    fl_balls *s = &w->balls;
-    const int32_t begin = a * FL_BALLS_CHUNK, end = last_body(s, a), to = s->first[end], cross = s->cross[a];
-    const seeker by = {w, s->i, s->j, s->way, s->by, s->hit, s->seen, s->row, s->n};
-    const int wide = dt >= 0.0 && s->ways;
-    batch t;
-    memset(t.law, -1, sizeof t.law);
-    for (int32_t m = 0; s->one_law >= 0 && m < FL_SPHERES_MOST; m++) load_law(w, &t, m, s->one_law);
-    t.m = 0;
-    s->tally[a] = (fl_ball_tally){.worst_row = -1};
-    clear(&s->sum[begin], end - begin);
-    clear(&s->slot[cross], s->cross[a + 1] - cross);
-    if (survey) {
-        memset(&s->stiff[begin], 0, (size_t)(end - begin) * sizeof *s->stiff);
-        memset(&s->stiff_slot[cross], 0, (size_t)(s->cross[a + 1] - cross) * sizeof *s->stiff_slot);
-    }
-    for (int32_t c = s->first[begin]; c < to;) {
-        if (wide) c = look(&by, &t, c, to);
-        for (; c < to && t.m < BLOCK && (!wide || to - c < FL_LANES); c++) {
-            const uint8_t touches = (uint8_t)look_one(w, &t, c);
-            if (dt >= 0.0 && touches != s->hit[c]) turn_over(s, c, 1);
-            t.m += s->hit[c];
-        }
-        finish_block(w, a, &t, dt, survey);
-    }
-    if (t.m) finish(w, a, &t, dt, survey);
-    if (s->leans) fl_leans_touch(w, a, dt, survey);
-}
-
-void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey) { take(w, a, dt, survey); }
-
-void fl_balls_collect(fl_world *w, int32_t from, int32_t to)
-{
-    collect(w->balls.sum, w->balls.slot, w->balls.slots, w->balls.into, from, to);
-}
-
-int32_t fl_balls_share(const fl_world *w, int t, int parts)
-{
-    const fl_balls *s = &w->balls;
-    const int64_t all = (int64_t)s->n + s->bodies;
-    int32_t lo = 0, hi = s->chunks; /* the first with as many rows and bodies before it as belong to others */
-    while (lo < hi) {
-        const int32_t a = (lo + hi) / 2, k = a * FL_BALLS_CHUNK;
-        if (((int64_t)s->first[k] + k) * parts < all * t) lo = a + 1;
-        else hi = a;
-    }
-    return lo;
-}
-
-double fl_balls_stiff(const fl_world *w, int32_t k)
-{
-    const fl_balls *s = &w->balls;
-    double sum = s->stiff[k];
-    for (int32_t c = s->into[k]; c < s->into[k + 1]; c++) sum += s->stiff_slot[s->slots[c]];
-    return sum;
-}
-
 int fl_balls_index(fl_world *w, fl_err *err)
 {
     if (index_rows(w, err)) return -1;
-    for (int32_t a = 0; a < w->balls.chunks; a++) take(w, a, -1.0, 0);
+    for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, -1.0, 0);
     fl_balls_collect(w, 0, w->balls.bodies);
     return 0;
 }
@@ -771,7 +291,7 @@ int fl_balls_index(fl_world *w, fl_err *err)
 static double overlap_of(const fl_world *w, int32_t c)
 {
     const fl_balls *s = &w->balls;
-    return w->b.radius[s->i[c]] + w->b.radius[s->j[c]] - v3_norm(between(w, c));
+    return w->b.radius[s->i[c]] + w->b.radius[s->j[c]] - v3_norm(fl_balls_between(w, c));
 }
 
 void fl_balls_energy(const fl_world *w, double *elastic, double *spring)
@@ -780,7 +300,7 @@ void fl_balls_energy(const fl_world *w, double *elastic, double *spring)
 #pragma omp parallel for schedule(static)
     for (int32_t a = 0; a < s->chunks; a++) {
         double all = 0.0, springs = 0.0;
-        for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[last_body(s, a)]; c++) {
+        for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[fl_balls_last(s, a)]; c++) {
             if (!s->hit[c]) continue;
             const double held = fl_ball_spring(&s->row[c]);
             all += s->row[c].k * fl_normal_phi(overlap_of(w, c), 1.5) + held;
@@ -815,6 +335,14 @@ fl_ball_count fl_balls_count(const fl_world *w)
         all.j = row < 0 ? s->lean[~row].j : s->j[row];
     }
     return all;
+}
+
+double fl_balls_stiff(const fl_world *w, int32_t k)
+{
+    const fl_balls *s = &w->balls;
+    double sum = s->stiff[k];
+    for (int32_t c = s->into[k]; c < s->into[k + 1]; c++) sum += s->stiff_slot[s->slots[c]];
+    return sum;
 }
 
 double fl_balls_bytes(const fl_world *w)
@@ -860,7 +388,7 @@ static void pair_of(const fl_world *w, int32_t c, fl_pair *p)
     const fl_bodies *b = &w->b;
     const fl_ball_row *r = &s->row[c];
     const int32_t i = s->i[c], j = s->j[c];
-    const fl_vec3 d = between(w, c);
+    const fl_vec3 d = fl_balls_between(w, c);
     const double apart = v3_norm(d), over = b->radius[i] + b->radius[j] - apart,
                  arm = b->radius[j] - 0.5 * over;
     const fl_vec3 n = apart > 0.0 ? v3_scale(1.0 / apart, d) : v3(0, 0, 1);

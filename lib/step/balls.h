@@ -27,17 +27,38 @@ int fl_balls_drop(fl_world *w, fl_err *err);
 /* Offsets, slots and sums of the rows at hand, from the forces that they hold.  -1 with FL_SYSTEM. */
 int fl_balls_index(fl_world *w, fl_err *err);
 
+/* Behind the last body of chunk a. */
+static inline int32_t fl_balls_last(const fl_balls *s, int32_t a)
+{
+    const int32_t end = (a + 1) * FL_BALLS_CHUNK;
+    return end < s->bodies ? end : s->bodies;
+}
+
+/* D of row c, of the image that is meant, most often the one in the same cell. */
+static inline fl_vec3 fl_balls_between(const fl_world *w, int32_t c)
+{
+    const fl_balls *s = &w->balls;
+    const fl_vec3 d = v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]);
+    const int32_t *e = s->image ? &s->image[3 * c] : NULL;
+    return e && (e[0] | e[1] | e[2]) ? v3_sub(d, fl_cell_way(&w->cell, v3(e[0], e[1], e[2]))) : d;
+}
+
+/* --- their forces, ballforce.c ----------------------------------------------------------------- */
+
 /* Let rows see where bodies [from, to) are and how they move: whenever that has changed, before a touch. */
 void fl_balls_show(fl_world *w, int32_t from, int32_t to);
 
 /* The rows of chunk a, by what they see of bodies, over a step of dt [s]; survey: also bounds of omega^2.
- * Any thread may take any chunk; when all are done fl_balls_collect() gives the bodies [from, to) the rest of
+ * dt < 0: nothing moves and nothing is evaluated, the sums are made again from what the rows hold.  Any
+ * thread may take any chunk; when all are done fl_balls_collect() gives the bodies [from, to) the rest of
  * their sums, once. */
 void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey);
 void fl_balls_collect(fl_world *w, int32_t from, int32_t to);
 
 /* The first chunk of part t of `parts`, of about equal work; of t = parts that behind the last. */
 int32_t fl_balls_share(const fl_world *w, int t, int parts);
+
+/* --- their books ------------------------------------------------------------------------------- */
 
 /* Sum of bounds of omega^2 of the contacts of body k, at the last survey [1/s2]. */
 double fl_balls_stiff(const fl_world *w, int32_t k);
