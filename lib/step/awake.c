@@ -27,18 +27,6 @@ void fl_awake_share(fl_world *w)
     memset(w->met, 0, (size_t)w->b.total);
 }
 
-/* The first of a block of a share, which is then taken. */
-static int32_t take(fl_portion *s)
-{
-    int32_t c;
-#pragma omp atomic capture
-    {
-        c = s->next;
-        s->next += BLOCK;
-    }
-    return c;
-}
-
 /* Several threads may have a body in hand, and a wall most of the time. */
 static void meet(uint8_t *met)
 {
@@ -115,7 +103,7 @@ void fl_awake_look(fl_world *w, double dt, int survey)
     h.thread = thread, h.dt = dt, h.survey = survey, h.told.n = 0;
     for (int32_t k = 0; k < w->threads; k++) {
         fl_portion *const s = &w->share[(thread + k) % w->threads];
-        for (int32_t c = take(s); c < s->end; c = take(s))
+        for (int32_t c = fl_portion_take(s, BLOCK); c < s->end; c = fl_portion_take(s, BLOCK))
             look(w, &h, c, s->end < c + BLOCK ? s->end : c + BLOCK);
     }
     tell(w, &h);

@@ -232,3 +232,5 @@ static int renew(fl_world *w, fl_err *err)
 int fl_search(fl_world *w, fl_err *err) { return stale(w, 0) ? renew(w, err) : 0; }
 
 int fl_search_told(fl_world *w, fl_err *err) { return stale(w, 1) ? renew(w, err) : 0; }
+
+int fl_search_due(const fl_world *w) { return stale(w, 1); }

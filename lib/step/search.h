@@ -14,6 +14,9 @@ int fl_search(fl_world *w, fl_err *err);
 /* The same behind the first half of a step, where groups of floes have told how far they have come. */
 int fl_search_told(fl_world *w, fl_err *err);
 
+/* Whether that would search. */
+int fl_search_due(const fl_world *w);
+
 /* Renew w->inc, the pairs of each body in the order of the list, w->hit and w->live, after the list has
  * changed.  -1 with FL_SYSTEM. */
 int fl_search_index(fl_world *w, fl_err *err);

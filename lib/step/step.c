@@ -51,67 +51,6 @@ static void contacts_of_pairs(fl_world *w, double dt, int survey)
     fl_awake_look(w, dt, survey);
 }
 
-static void contacts_told(fl_world *w)
-{
-    fl_awake_told(w);
-    fl_works_place(w);
-    if (w->frozen.ended) { /* there is a pair to be found */
-        w->found_at = -1;
-        w->frozen.ended = 0;
-    }
-}
-
-static void all_contacts(fl_world *w, double dt, int survey)
-{
-#pragma omp for schedule(dynamic) nowait
-    for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, dt, survey);
-    contacts_of_pairs(w, dt, survey);
-}
-
-/* To call up a team of one takes as long as three floes do for a step. */
-static void contacts(fl_world *w, double dt, int survey)
-{
-    fl_awake_share(w);
-    if (w->threads == 1) {
-        all_contacts(w, dt, survey);
-    } else {
-#pragma omp parallel
-        all_contacts(w, dt, survey);
-    }
-    contacts_told(w);
-}
-
-/* Either half of a step, and in the second what held things feel. */
-static void all_groups(fl_world *w, int end, double h, double dt)
-{
-#pragma omp for schedule(static) nowait
-    for (int32_t g = 0; g < fl_groups(w); g++) {
-        if (end) fl_group_end(w, g, h);
-        else fl_group_begin(w, g, h, dt);
-    }
-    if (!end) return;
-#pragma omp for schedule(dynamic, HELD) nowait
-    for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
-}
-
-static void bodies(fl_world *w, int end, double h, double dt)
-{
-    if (w->threads == 1) {
-        all_groups(w, end, h, dt);
-    } else {
-#pragma omp parallel
-        all_groups(w, end, h, dt);
-    }
-}
-
-/* And where they press, when that is asked. */
-static int touch(fl_world *w, double dt, int survey, fl_err *err)
-{
-    if (w->press.panels) fl_press_clear(w);
-    contacts(w, dt, survey);
-    return w->press.panels ? fl_press_sort(w, err) : 0;
-}
-
 /* What the spring of a driven floe pulls it down with [N]. */
 static double spring_force(const fl_world *w, int32_t i)
 {
@@ -173,7 +112,53 @@ void fl_step_gather(fl_world *w, int32_t k)
     fl_step_press(w, k);
 }
 
-/* --- contacts and ends of a step in one go ----------------------------------------------------- */
+/* --- a step by a team of threads ---------------------------------------------------------------- */
+
+/* A step in work. */
+typedef struct {
+    fl_world *w;
+    double dt;
+    int survey;
+    int out;    /* it begins with the first half of the motion, not with contacts of bodies as they stand */
+    int parted; /* after which the team has parted, for what comes next has teams of its own */
+    int bad;
+    fl_err *err;
+} stride;
+
+/* Bodies are where the step takes them. */
+static void out_there(fl_world *w)
+{
+    const int rides = w->ride.m.n > 0;
+    for (int32_t k = w->n; k < w->b.total; k++)
+        if (!rides || w->ride.of[k - w->n] < 0) fl_drift(&w->b, k, w->dt);
+    w->step++;
+    w->sea.time = fl_world_time(w);
+    w->sea.looks = w->sea.every < 2 || w->step % w->sea.every == 0;
+}
+
+static void after_out(void *arg)
+{
+    stride *const q = arg;
+    out_there(q->w);
+    q->parted = fl_search_due(q->w) || q->w->sleep.nap;
+    if (!q->parted) fl_awake_share(q->w);
+}
+
+/* Where pairs have touched, and where they press when that is asked. */
+static void after_touch(void *arg)
+{
+    stride *const q = arg;
+    fl_world *const w = q->w;
+    fl_portions_split(w->turn, w->threads, fl_groups(w));
+    fl_awake_told(w);
+    fl_works_place(w);
+    if (w->frozen.ended) { /* there is a pair to be found */
+        w->found_at = -1;
+        w->frozen.ended = 0;
+    }
+    if (w->press.panels && fl_press_sort(w, q->err)) q->bad = 1;
+    if (w->sleep.resting) fl_sleep_disturb(w);
+}
 
 static_assert(FL_BALLS_CHUNK % FL_BALLS_GROUP == 0, "a chunk is made of groups");
 
@@ -187,29 +172,74 @@ static void end_chunk(fl_world *w, int32_t a, double h)
  * a chunk to which no row from before the run leads can end its step at once, with all that belongs to it
  * still at hand; the others do when all have been touched.  Rows look at what they were shown, not at bodies
  * that have gone on already. */
-static void touch_and_end(fl_world *w, double dt, int survey)
+static void chunks(stride *q, int thread, int threads)
 {
+    fl_world *const w = q->w;
     const fl_balls *s = &w->balls;
-    fl_awake_share(w);
-#pragma omp parallel
-    {
-        contacts_of_pairs(w, dt, survey);
-#pragma omp barrier
-#pragma omp single
-        contacts_told(w);
-        const int32_t from = fl_balls_share(w, omp_get_thread_num(), omp_get_num_threads()),
-                      to = fl_balls_share(w, omp_get_thread_num() + 1, omp_get_num_threads());
-        for (int32_t a = from; a < to; a++) {
-            fl_balls_touch(w, a, dt, survey);
-            s->ended[a] = s->source[a] >= from;
-            if (s->ended[a]) end_chunk(w, a, 0.5 * dt);
-        }
-#pragma omp barrier
-        for (int32_t a = from; a < to; a++)
-            if (!s->ended[a]) end_chunk(w, a, 0.5 * dt);
-#pragma omp for schedule(dynamic, HELD) nowait
-        for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
+    const int32_t from = fl_balls_share(w, thread, threads), to = fl_balls_share(w, thread + 1, threads);
+    for (int32_t a = from; a < to; a++) {
+        fl_balls_touch(w, a, q->dt, q->survey);
+        s->ended[a] = s->source[a] >= from;
+        if (s->ended[a]) end_chunk(w, a, 0.5 * q->dt);
     }
+    fl_gate_meet(&w->gate, threads, NULL, NULL);
+    for (int32_t a = from; a < to; a++)
+        if (!s->ended[a]) end_chunk(w, a, 0.5 * q->dt);
+}
+
+/* Either half of the motion. */
+static void groups(stride *q, int thread, int end)
+{
+    fl_world *const w = q->w;
+    const double h = 0.5 * q->dt;
+    for (int32_t k = 0; k < w->threads; k++) {
+        fl_portion *const s = &w->turn[(thread + k) % w->threads];
+        for (int32_t g = fl_portion_take(s, 1); g < s->end; g = fl_portion_take(s, 1)) {
+            if (end) fl_group_end(w, g, h);
+            else fl_group_begin(w, g, h, q->dt);
+        }
+    }
+}
+
+/* By every thread of the team, which meets after each part: the first half of the motion; contacts; the
+ * second half, and what held things feel. */
+static void go(stride *q)
+{
+    fl_world *const w = q->w;
+    const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
+    const int by_chunks = w->balls.bodies && !w->sleep.nap && !w->press.panels;
+    if (q->out) {
+        groups(q, thread, 0);
+        fl_gate_meet(&w->gate, threads, after_out, q);
+        if (q->parted) return;
+    }
+    if (!by_chunks) {
+#pragma omp for schedule(dynamic) nowait
+        for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, q->dt, q->survey);
+    }
+    contacts_of_pairs(w, q->dt, q->survey);
+    fl_gate_meet(&w->gate, threads, after_touch, q);
+    if (q->bad) return;
+    if (by_chunks) chunks(q, thread, threads);
+    else groups(q, thread, 1);
+#pragma omp for schedule(dynamic, HELD) nowait
+    for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
+    fl_gate_meet(&w->gate, threads, NULL,
+                 NULL); /* watched, where the end of the region would send to sleep */
+}
+
+/* To call up a team of one takes as long as three floes do for a step. */
+static int stride_on(stride *q)
+{
+    fl_portions_split(q->w->turn, q->w->threads, fl_groups(q->w));
+    if (!q->out) fl_awake_share(q->w);
+    if (q->w->threads == 1) {
+        go(q);
+    } else {
+#pragma omp parallel
+        go(q);
+    }
+    return q->bad ? -1 : 0;
 }
 
 /* omega^2 of all contacts together from those of each for each of its two bodies.  With g u the approach that
@@ -395,9 +425,9 @@ int fl_step_start(fl_world *w, fl_err *err)
     w->dt_safe = fl_world_dt(w, &body);
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
-    if (touch(w, 0.0, 1, err)) return -1;
-    for (int32_t g = 0; g < fl_groups(w); g++) fl_group_end(w, g, 0.0);
-    for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
+    if (w->press.panels) fl_press_clear(w);
+    stride q = {.w = w, .survey = 1, .err = err};
+    if (stride_on(&q)) return -1;
     if (w->ride.m.n) {
         fl_ride_ready(w);
         fl_ride_back(w, 0.0, 0.0);
@@ -414,7 +444,6 @@ int fl_step_start(fl_world *w, fl_err *err)
 
 int fl_step(fl_world *w, fl_err *err)
 {
-    fl_bodies *b = &w->b;
     const double dt = w->dt, h = 0.5 * dt;
     const int rides = w->ride.m.n > 0, survey = surveyed(w, w->step + 1);
     deepest deep;
@@ -423,20 +452,14 @@ int fl_step(fl_world *w, fl_err *err)
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     fl_works_begin(w);
     if (rides) fl_ride_out(w, fl_world_time(w));
-    bodies(w, 0, h, dt);
-    for (int32_t k = w->n; k < b->total; k++)
-        if (!rides || w->ride.of[k - w->n] < 0) fl_drift(b, k, dt);
-    w->step++;
-    w->sea.time = fl_world_time(w);
-    w->sea.looks = w->sea.every < 2 || w->step % w->sea.every == 0;
-    if (fl_search_told(w, err)) return -1;
-    if (w->sleep.nap) fl_sleep_rouse(w); /* no sphere, which rows would have to see */
-    if (w->balls.bodies && !w->sleep.nap && !w->press.panels) {
-        touch_and_end(w, dt, survey);
-    } else {
-        if (touch(w, dt, survey, err)) return -1;
-        if (w->sleep.resting) fl_sleep_disturb(w);
-        bodies(w, 1, h, 0.0);
+    if (w->press.panels) fl_press_clear(w);
+    stride q = {.w = w, .dt = dt, .survey = survey, .out = 1, .err = err};
+    if (stride_on(&q)) return -1;
+    if (q.parted) {
+        if (fl_search_told(w, err)) return -1;
+        if (w->sleep.nap) fl_sleep_rouse(w); /* no sphere, which rows would have to see */
+        q.out = 0;
+        if (stride_on(&q)) return -1;
     }
     if (rides) fl_ride_back(w, fl_world_time(w), h);
     fl_works_book(w);

@@ -323,6 +323,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->part_peak = fl_alloc(w->parts, sizeof *w->part_peak, err);
     w->scratch = fl_alloc(w->threads, sizeof *w->scratch, err);
     w->share = fl_alloc(w->threads, sizeof *w->share, err);
+    w->turn = fl_alloc(w->threads, sizeof *w->turn, err);
     w->near_shell = fl_alloc(w->threads, sizeof *w->near_shell, err);
     return err->code ? -1 : 0;
 }
@@ -496,6 +497,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     double bound = 0.0;
     fl_err why = {0};
     *w = (fl_world){.scene = scene, .n = field->n, .found_at = -1, .gravity = scene->run.gravity};
+    fl_gate_make(&w->gate);
     w->threads = scene->run.threads > 0 ? scene->run.threads : omp_get_max_threads();
     if (w->threads > 1 + field->n / BODIES_A_THREAD) w->threads = 1 + field->n / BODIES_A_THREAD;
     omp_set_num_threads(w->threads);
@@ -560,7 +562,7 @@ void fl_world_free(fl_world *w)
     free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
     fl_near_free(w);
     free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell), free(w->told);
-    free(w->hit), free(w->live), free(w->met), free(w->share);
+    free(w->hit), free(w->live), free(w->met), free(w->share), free(w->turn);
     fl_balls_free(&w->balls);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->home);
     free(w->group);
@@ -577,5 +579,6 @@ void fl_world_free(fl_world *w)
     fl_bodies_free(&w->b);
     fl_topologies_free(&w->alike);
     fl_structure_free(&w->structure);
+    fl_gate_free(&w->gate);
     *w = (fl_world){0};
 }

@@ -4,6 +4,8 @@
  * Indices [0, n) are floes; then come the pieces of the structure, then the walls of the boundary. */
 #ifndef FL_STEP_WORLD_H
 #define FL_STEP_WORLD_H
+#include "base/gate.h"
+#include "base/portion.h"
 #include "body/body.h"
 #include "bond/bond.h"
 #include "bound/cell.h"
@@ -285,12 +287,6 @@ typedef struct {
     double moved[2];       /* the longest ways since the last search, after the first half of a step [m] */
 } fl_group;
 
-/* Near pairs that one thread takes, awake.h; a line of the cache for each. */
-typedef struct {
-    _Alignas(64) int32_t next;
-    int32_t end;
-} fl_portion;
-
 typedef struct {
     const fl_scene *scene; /* borrowed */
     fl_bodies b;
@@ -330,7 +326,8 @@ typedef struct {
     int32_t *live; /* [n_live] those that do, ascending */
     uint8_t *met;  /* [total] is of one of those */
     int32_t n_live, hit_cap, live_cap;
-    fl_portion *share; /* [threads] */
+    fl_portion *share, *turn; /* [threads] of pairs, of groups of bodies */
+    fl_gate gate;             /* of the team that does a step */
     int32_t inc_cap, inc_first_cap;
     fl_sinks sink, was; /* of the forces of now, and of those before; see works.h */
     fl_gain *gain;      /* [gain_cap] of the first kick of a step, at was.place[k]; 0: of nobody */
