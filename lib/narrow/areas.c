@@ -477,10 +477,10 @@ static int put(footprint *q)
         if (fl_places_add(q->w, one)) return -1;
     }
     q->w->couple = v3_madd(q->w->couple, side * q->dm * su, v3_cross(q->nF, q->nf));
-    if (q->pull.x == 0.0 && q->pull.y == 0.0) return 0;
-    const fl_vec3 pull = v3_madd(v3_scale(q->pull.x, q->at.x), q->pull.y, q->at.y);
     const fl_vec3 turn = v3_madd(v3_madd(v3_scale(q->turn.x, q->at.x), q->turn.y, q->at.y), q->turn.z, q->nf);
     q->w->couple = v3_madd(q->w->couple, -side * q->m, turn);
+    if (q->pull.x == 0.0 && q->pull.y == 0.0) return 0; /* those of opposite sides, which still turn */
+    const fl_vec3 pull = v3_madd(v3_scale(q->pull.x, q->at.x), q->pull.y, q->at.y);
     const double size = v3_norm(pull);
     const fl_vec3 first = v3_madd(v3_madd(q->at.o, x0, q->at.x), y0, q->at.y);
     return fl_places_add(q->w, (fl_place){.du = q->m * size, .n = v3_scale(-side / size, pull), .p = first});

@@ -2,7 +2,6 @@
 #include "narrow/hems.h"
 #include <math.h>
 #include "base/mem.h"
-#include "narrow/roots.h"
 #include "narrow/strips.h"
 
 /* Edges of A over triangles, of A over edges, and of B over edges. */
@@ -114,7 +113,6 @@ typedef struct {
 #define LESS(a, b) ((point){(a).x - (b).x, (a).y - (b).y, (a).z - (b).z})
 #define MORE(a, s, b) ((point){(a).x + (s) * (b).x, (a).y + (s) * (b).y, (a).z + (s) * (b).z})
 #define DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
-#define LARGER(a, b) FL_WIDE_CHOOSE((a) > (b), a, b)
 
 FL_WIDE_PART void look_up(const fl_vec3 *x, const int32_t v[FL_LANES], point *out)
 {
@@ -166,97 +164,54 @@ FL_WIDE_PART void keep_beyond(const fl_hem *four, int planes, const point *x0, c
     }
 }
 
-/* Of each, what its two places have: shares of U, and of each place its overlap and its point. */
-typedef struct {
-    double u[FL_LANES], du[FL_LANES], ddu[FL_LANES];
-    double s[2][FL_LANES], p[2][3][FL_LANES];
-    int64_t some[FL_LANES];
-} pairs_of_places;
+FL_WIDE_PART void into(double to[3][FL_LANES], const point *x)
+{
+    FL_FOUR_INTO(to[0]) = x->x, FL_FOUR_INTO(to[1]) = x->y, FL_FOUR_INTO(to[2]) = x->z;
+}
 
-/* As fl_strips_over_face(). */
-FL_WIDE_VERSIONS static void over_faces(const fl_hem *four, const fl_side *A, double R, double below,
-                                        pairs_of_places *out)
+/* Of edges from x0 to x1 the part t; one that is not there has none. */
+FL_WIDE_PART void leave(const fl_hem *four, const fl_side *own, const point *x0, const point *x1,
+                        const part *t, fl_strip_edges *out)
 {
     const fl_wide zero = {0};
+    const point u = LESS(*x1, *x0);
+    fl_wide_mask there = t->some;
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) there[l] = l < four->n ? there[l] : 0;
+    into(out->x, x0), into(out->u, &u);
+    FL_FOUR_INTO(out->lo) = t->lo, FL_FOUR_INTO(out->hi) = FL_WIDE_CHOOSE(there, t->hi, t->lo);
+    FL_FOUR_INTO(out->factor) = FL_FOUR(four->factor);
+    FL_FOUR_INTO(out->r) = own->r + zero, FL_FOUR_INTO(out->side) = own->side + zero;
+}
+
+FL_WIDE_VERSIONS static void over_faces(const fl_hem *four, const fl_side *A, double below,
+                                        fl_strip_faces *out)
+{
     point x0, x1;
     part t;
     fl_wide h0, h1;
     look_up(A->v, four->end[0], &x0), look_up(A->v, four->end[1], &x1);
     keep_beyond(four, PLANES - 1, &x0, &x1, &t);
     height(four, PLANES - 1, &x0, &h0), height(four, PLANES - 1, &x1, &h1);
-    const fl_wide up0 = h0 + below, up1 = h1 + below, s0 = R - h0, s1 = R - h1, dh = h1 - h0;
+    const fl_wide up0 = h0 + below, up1 = h1 + below;
     keep(&t, &up0, &up1);
-    keep(&t, &s0, &s1);
-    const fl_wide from = R - h0 - t.lo * dh, to = R - h0 - t.hi * dh;
-    fl_wide p = LARGER(from, zero), q = LARGER(to, zero);
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) p[l] = sqrt(p[l]);
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) q[l] = sqrt(q[l]);
-    fl_roots sum;
-    fl_roots_sum(&p, &q, &sum);
-    const fl_wide both = p + q, over = 1.0 / both, dt = t.hi - t.lo,
-                  share = FL_FOUR(four->factor) * dt * over, each = over / sum.du;
-    const fl_wide mean = each * sum.first, square = each * over * sum.second - mean * mean;
-    fl_wide spread = LARGER(square, zero);
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) spread[l] = sqrt(spread[l]);
-    const fl_wide_mask some = t.some & (t.lo < t.hi) & (both > 0.0) & (sum.u > 0.0);
-    const double(*plane)[FL_LANES] = four->plane[PLANES - 1];
-    const point u = LESS(x1, x0), n = POINT(plane);
-    FL_FOUR_INTO(out->u) = share * sum.u;
-    FL_FOUR_INTO(out->du) = 4.5 * share * sum.du;
-    FL_FOUR_INTO(out->ddu) = 15.75 * share * sum.ddu;
-    FL_WIDE_UNROLL
-    for (int k = 0; k < 2; k++) {
-        const fl_wide at = t.lo + dt * (k ? mean + spread : mean - spread), s = R - h0 - at * dh;
-        const fl_wide up = 0.5 * s - A->r;
-        const point x = MORE(x0, at, u), y = MORE(x, up, n);
-        FL_FOUR_INTO(out->s[k]) = s;
-        FL_FOUR_INTO(out->p[k][0]) = y.x, FL_FOUR_INTO(out->p[k][1]) = y.y, FL_FOUR_INTO(out->p[k][2]) = y.z;
-    }
-    *(fl_wide_mask *)(void *)out->some = some;
+    leave(four, A, &x0, &x1, &t, &out->of);
+    const point n = POINT(four->plane[PLANES - 1]);
+    into(out->n, &n);
+    FL_FOUR_INTO(out->h0) = h0, FL_FOUR_INTO(out->h1) = h1;
 }
 
-static int faces(const fl_hem *four, fl_places *w, const fl_side *A, double R, double below)
+FL_WIDE_VERSIONS static void over_edges(const fl_hem *four, const fl_places *w, const fl_side *A,
+                                        const fl_side *B, fl_strip_points *out)
 {
-    pairs_of_places q;
-    over_faces(four, A, R, below, &q);
-    for (int32_t l = 0; l < four->n; l++) {
-        if (!q.some[l]) continue;
-        const double(*g)[FL_LANES] = four->plane[PLANES - 1];
-        const fl_vec3 n = {g[GX][l], g[GY][l], g[GZ][l]};
-        for (int k = 0; k < 2; k++)
-            if (fl_places_add(w, (fl_place){.stands = 2,
-                                            .overlap = q.s[k][l],
-                                            .u = q.u[l],
-                                            .du = q.du[l],
-                                            .ddu = q.ddu[l],
-                                            .n = n,
-                                            .across = n,
-                                            .p = {q.p[k][0][l], q.p[k][1][l], q.p[k][2][l]}}))
-                return -1;
-    }
-    return 0;
-}
-
-/* What is left of edges over edges: fl_strip_foot, by lanes. */
-typedef struct {
-    double lo[FL_LANES], hi[FL_LANES], m[FL_LANES], tau[FL_LANES], slope[FL_LANES], uu[FL_LANES],
-        least2[FL_LANES];
-    double q[3][FL_LANES], u[3][FL_LANES], c[3][FL_LANES], e[3][FL_LANES];
-    int64_t some[FL_LANES];
-} feet;
-
-/* As fl_strips_over_point(), up to where the edge is nearest. */
-FL_WIDE_VERSIONS static void over_edges(const fl_hem *four, const fl_places *w, const fl_side *A, double R,
-                                        feet *out)
-{
+    const fl_wide zero = {0};
+    const int from_a = four->kind == OVER_EDGE;
+    const double small = FL_SPAN_SAME * (from_a ? B : A)->p->size;
     point a0, a1, x0, x1, c, e;
     part t;
     const point b0 = POINT(four->from), b1 = POINT(four->to);
     look_up(A->v, four->end[0], &a0), look_up(A->v, four->end[1], &a1);
-    if (four->kind == OVER_EDGE) {
+    if (from_a) {
         x0 = a0, x1 = a1, c = b0, e = b1;
         keep_beyond(four, PLANES, &x0, &x1, &t);
     } else {
@@ -267,40 +222,9 @@ FL_WIDE_VERSIONS static void over_edges(const fl_hem *four, const fl_places *w, 
         keep_beyond(four, PLANES, &y0, &y1, &t);
         x0 = b0, x1 = b1, c = a0, e = (point){each * way.x, each * way.y, each * way.z};
     }
-    const point q0 = LESS(x0, c), u0 = LESS(x1, x0);
-    const fl_wide tau = DOT(q0, e), slope = DOT(u0, e), back = -tau, down = -slope;
-    const point q1 = MORE(q0, back, e), u = MORE(u0, down, e);
-    const fl_wide uu = DOT(u, u), foot = -DOT(q1, u) / uu, m = FL_WIDE_WHERE(uu > 0.0, foot);
-    const point q = MORE(q1, m, u);
-    const fl_wide least2 = DOT(q, q);
-    *(fl_wide_mask *)(void *)out->some = t.some & (t.lo < t.hi) & (R * R - least2 > 0.0);
-    FL_FOUR_INTO(out->lo) = t.lo - m, FL_FOUR_INTO(out->hi) = t.hi - m, FL_FOUR_INTO(out->m) = m;
-    FL_FOUR_INTO(out->tau) = tau, FL_FOUR_INTO(out->slope) = slope;
-    FL_FOUR_INTO(out->uu) = uu, FL_FOUR_INTO(out->least2) = least2;
-    FL_FOUR_INTO(out->q[0]) = q.x, FL_FOUR_INTO(out->q[1]) = q.y, FL_FOUR_INTO(out->q[2]) = q.z;
-    FL_FOUR_INTO(out->u[0]) = u.x, FL_FOUR_INTO(out->u[1]) = u.y, FL_FOUR_INTO(out->u[2]) = u.z;
-    FL_FOUR_INTO(out->c[0]) = c.x, FL_FOUR_INTO(out->c[1]) = c.y, FL_FOUR_INTO(out->c[2]) = c.z;
-    FL_FOUR_INTO(out->e[0]) = e.x, FL_FOUR_INTO(out->e[1]) = e.y, FL_FOUR_INTO(out->e[2]) = e.z;
-}
-
-#define LANE(a, l) v3((a)[0][l], (a)[1][l], (a)[2][l])
-
-static int edges(const fl_hem *four, fl_places *w, const fl_side *A, const fl_side *B, double R)
-{
-    const int from_a = four->kind == OVER_EDGE;
-    const double small = FL_SPAN_SAME * (from_a ? B : A)->p->size;
-    feet f;
-    over_edges(four, w, A, R, &f);
-    for (int32_t l = 0; l < four->n; l++) {
-        if (!f.some[l]) continue;
-        const fl_strip_foot foot = {{f.lo[l], f.hi[l]}, f.m[l],       f.tau[l],    f.slope[l], f.uu[l],
-                                    f.least2[l],        LANE(f.q, l), LANE(f.u, l)};
-        const fl_vec3 c = LANE(f.c, l), e = LANE(f.e, l);
-        if (fl_strips_at_foot(&(fl_line){.w = w, .own = from_a ? A : B, .factor = four->factor[l], .R = R},
-                              &foot, c, &e, small))
-            return -1;
-    }
-    return 0;
+    leave(four, from_a ? A : B, &x0, &x1, &t, &out->of);
+    into(out->c, &c), into(out->e, &e);
+    FL_FOUR_INTO(out->small) = small + zero;
 }
 
 int fl_hems_places(const fl_hems *h, fl_places *w, const fl_side *A, const fl_side *B, double R,
@@ -309,7 +233,15 @@ int fl_hems_places(const fl_hems *h, fl_places *w, const fl_side *A, const fl_si
     const double below = behind + FL_SPAN_SAME * B->p->size;
     for (int32_t k = 0; k < h->n; k++) {
         const fl_hem *four = &h->four[k];
-        if (four->kind == OVER_FACE ? faces(four, w, A, R, below) : edges(four, w, A, B, R)) return -1;
+        if (four->kind == OVER_FACE) {
+            fl_strip_faces q;
+            over_faces(four, A, below, &q);
+            if (fl_strips_of_faces(w, &q, 1, R)) return -1;
+        } else {
+            fl_strip_points q;
+            over_edges(four, w, A, B, &q);
+            if (fl_strips_of_points(w, &q, 1, R)) return -1;
+        }
     }
     return 0;
 }

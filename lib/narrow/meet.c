@@ -235,9 +235,12 @@ int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const
     const meeting way[2] = {
         {w, number, A, B, h[0], (size_t)fl_matches_columns(l->vertices[0]), R, behind, rim_b},
         {w, number, B, A, h[1], (size_t)fl_matches_columns(l->vertices[1]), R, behind, rim_a}};
-    if (l->choice)
-        return l->wide == 0   ? some_rows(way, l, 0)
-               : l->wide == 1 ? some_rows(way, l, 1)
-                              : some_rows(way, l, 2);
-    return l->wide == 0 ? all_rows(way, l, 0) : l->wide == 1 ? all_rows(way, l, 1) : all_rows(way, l, 2);
+    fl_strips_begin(w);
+    const int bad = l->choice      ? l->wide == 0   ? some_rows(way, l, 0)
+                                     : l->wide == 1 ? some_rows(way, l, 1)
+                                                    : some_rows(way, l, 2)
+                         : l->wide == 0 ? all_rows(way, l, 0)
+                    : l->wide == 1 ? all_rows(way, l, 1)
+                                   : all_rows(way, l, 2);
+    return bad || fl_strips_places(w, R) ? -1 : 0;
 }

@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "narrow/strips.h"
+#include <assert.h>
 #include <math.h>
 #include <stddef.h>
-#include "base/wide.h"
-#include "narrow/rules.h"
-#include "narrow/strips.h"
+#include <stdlib.h>
+#include <string.h>
+#include "base/mem.h"
+#include "narrow/roots.h"
 
 /* FL_STRIP_CURVED, rounded up to full registers. */
 enum { ROOM = (FL_STRIP_CURVED + FL_LANES - 1) / FL_LANES * FL_LANES };
 
-/* Rules for int_0^1 of s^(9/2) dt over a piece where s is curved, of 8 and of FL_STRIP_CURVED points, exact
- * for polynomials of degree 15 and 19 times ... */
+/* Rules for int_0^1 of s^(9/2) dt over a piece where s is curved, two for each number of ends where s is
+ * 0: of 8 and of FL_STRIP_CURVED points, exact for polynomials of degree 15 and 19 times ... */
 typedef struct {
     double node[ROOM], weight[ROOM]; /* the rest is 0 */
     int32_t n;                       /* rounded up */
 } rule;
 
-/* ... 1: Gauss and Legendre; */
-static const rule WHOLE[2] = {
+static const rule RULE[] = {
+    /* ... 1: Gauss and Legendre; */
     {{0.01985507175123185641, 0.10166676129318663602, 0.23723379504183550459, 0.40828267875217510996,
       0.59171732124782494555, 0.76276620495816449541, 0.89833323870681336398, 0.98014492824876819910},
      {0.05061426814518812933, 0.11119051722668724103, 0.15685332293894363453, 0.18134189168918099511,
@@ -28,10 +31,9 @@ static const rule WHOLE[2] = {
      {0.03333567215434406880, 0.07472567457529029657, 0.10954318125799102200, 0.13463335965499817755,
       0.14776211235737643509, 0.14776211235737643509, 0.13463335965499817755, 0.10954318125799102200,
       0.07472567457529029657, 0.03333567215434406880},
-     ROOM}};
-/* ... the root of t, s being 0 at t = 0: the squares of the positive zeros of P_17 and P_21, and their
+     ROOM},
+    /* ... the root of t, s being 0 at t = 0: the squares of the positive zeros of P_17 and P_21, and their
  * weights there times twice the zeros; */
-static const rule FROM_ZERO[2] = {
     {{0.03185660304424275946, 0.12336375165891971806, 0.26285158681802017755, 0.43253135366542577733,
       0.61076413828680964357, 0.77482096775400033373, 0.90378394769031888956, 0.98123977229438386072},
      {0.06302729990024044660, 0.11801675413579025553, 0.15795560796472993270, 0.17775058420605799325,
@@ -43,10 +45,9 @@ static const rule FROM_ZERO[2] = {
      {0.04207448043255661265, 0.08058110330356446811, 0.11225456371451605788, 0.13440900779609855377,
       0.14516580013255898386, 0.14361285869512088124, 0.12988209802217303721, 0.10513869358463409598,
       0.07148539450621113178, 0.03183431069697096669},
-     ROOM}};
-/* ... the root of t (1 - t), s being 0 at both ends: of k = 1 to n (1 + cos(k pi/(n + 1)))/2 and
+     ROOM},
+    /* ... the root of t (1 - t), s being 0 at both ends: of k = 1 to n (1 + cos(k pi/(n + 1)))/2 and
  * pi/(2 n + 2) sin(k pi/(n + 1)). */
-static const rule BETWEEN_ZEROS[2] = {
     {{0.03015368960704584156, 0.11697777844051098240, 0.25, 0.41317591116653482558, 0.58682408883346517442,
       0.75, 0.88302222155948901760, 0.96984631039295415844},
      {0.05969377609175827157, 0.11218760180054306030, 0.15114994701951814382, 0.17188137789230134578,
@@ -63,132 +64,215 @@ static const rule BETWEEN_ZEROS[2] = {
 /* Up to this half width over a of graded(), 8 points are within 1e-8 (7e-9 of the force at worst). */
 #define FLAT 0.35
 
-static double root_of(double s) { return s > 0.0 ? sqrt(s) : 0.0; }
+/* --- registers of three numbers ------------------------------------------------------------------------ */
 
-/* Over a plane: d is linear and its direction one, so that two places have force and torque of all nodes, and
- * the second moment of the pressure.  Node k of a piece over which s goes from p^2 to q^2 has the root r = p
- * + (q - p) z at t = lo + (hi - lo) z (r + p)/(q + p): in z the integrand s^(9/2) dt is a polynomial of
- * degree 10. */
-int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n)
+typedef struct {
+    fl_wide x, y, z;
+} point;
+
+#define POINT(a) ((point){FL_FOUR((a)[0]), FL_FOUR((a)[1]), FL_FOUR((a)[2])})
+#define INTO(a, p) (FL_FOUR_INTO((a)[0]) = (p).x, FL_FOUR_INTO((a)[1]) = (p).y, FL_FOUR_INTO((a)[2]) = (p).z)
+#define MASK(a) (*(const fl_wide_mask *)(const void *)(a))
+#define MASK_INTO(a) (*(fl_wide_mask *)(void *)(a))
+#define LESS(a, b) ((point){(a).x - (b).x, (a).y - (b).y, (a).z - (b).z})
+#define MORE(a, s, b) ((point){(a).x + (s) * (b).x, (a).y + (s) * (b).y, (a).z + (s) * (b).z})
+#define TIMES(s, a) ((point){(s) * (a).x, (s) * (a).y, (s) * (a).z})
+#define DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
+#define LARGER(a, b) FL_WIDE_CHOOSE((a) > (b), a, b)
+#define SMALLER(a, b) FL_WIDE_CHOOSE((a) < (b), a, b)
+
+FL_WIDE_PART void root(fl_wide *a)
 {
-    if (!fl_span_keep(&t, l->R - h0, l->R - h1)) return 0;
-    const double p = root_of(l->R - h0 - t.lo * (h1 - h0)), q = root_of(l->R - h0 - t.hi * (h1 - h0));
-    if (!(p + q > 0.0)) return 0;
-    const double dt = t.hi - t.lo, k0 = l->factor * 2.0 * dt / (p + q);
-    double u = 0.0, du = 0.0, ddu = 0.0, first = 0.0, second = 0.0;
-    for (int k = 0; k < FL_LINE_NODES; k++) {
-        const double z = FL_LINE_NODE[k], r = p + (q - p) * z, at = z * (r + p) / (p + q), s = r * r;
-        const double c = k0 * FL_LINE_WEIGHT[k] * s * s * s, pull = 4.5 * c * s;
-        u += c * s * s;
-        du += pull;
-        ddu += 15.75 * c;
-        first += pull * at;
-        second += pull * at * at;
-    }
-    if (!(u > 0.0)) return 0;
-    const double mean = first / du, spread = root_of(second / du - mean * mean);
-    for (int way = -1; way <= 1; way += 2) {
-        const double at = t.lo + dt * (mean + way * spread), s = l->R - h0 - at * (h1 - h0);
-        const fl_vec3 to = v3_scale(l->own->side, n);
-        if (fl_places_add(l->w, (fl_place){.stands = 2,
-                                           .overlap = s,
-                                           .u = 0.5 * u,
-                                           .du = 0.5 * du,
-                                           .ddu = 0.5 * ddu,
-                                           .n = to,
-                                           .across = to,
-                                           .p = v3_madd(v3_madd(l->x0, at, l->u), 0.5 * s - l->own->r, n)}))
-            return -1;
-    }
-    return 0;
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) (*a)[l] = sqrt((*a)[l]);
 }
 
-/* Over a point c, or a line through it along the unit vector e: d^2 = least2 + uu x^2, x = t - m.  The parts
- * of the span that have a rule of their own. */
+/* Two places of each lane, of which `some` are there. */
+typedef struct {
+    double s[FL_LANES], u[2][FL_LANES], du[2][FL_LANES], ddu[2][FL_LANES], far[FL_LANES];
+    double n[2][3][FL_LANES], across[2][3][FL_LANES], p[2][3][FL_LANES];
+    int64_t some[2][FL_LANES];
+} twos;
+
+/* --- over faces ---------------------------------------------------------------------------------------- */
+
+/* d is linear and its direction one, so that two places have force and torque of all nodes, and the second
+ * moment of the pressure. */
+FL_WIDE_VERSIONS static void over_faces(const fl_strip_faces *f, double R, twos *out)
+{
+    const fl_wide zero = {0};
+    const fl_strip_edges *e = &f->of;
+    const fl_wide s0 = R - FL_FOUR(f->h0), s1 = R - FL_FOUR(f->h1), ds = s1 - s0, zeroed = s0 / (s0 - s1);
+    const fl_wide_mask in0 = s0 >= 0.0, in1 = s1 >= 0.0;
+    fl_wide lo = FL_FOUR(e->lo), hi = FL_FOUR(e->hi);
+    lo = FL_WIDE_CHOOSE(~in0 & in1 & (zeroed > lo), zeroed, lo);
+    hi = FL_WIDE_CHOOSE(in0 & ~in1 & (zeroed < hi), zeroed, hi);
+    fl_wide p = s0 + lo * ds, q = s0 + hi * ds;
+    p = LARGER(p, zero), q = LARGER(q, zero);
+    root(&p), root(&q);
+    fl_roots sum;
+    fl_roots_sum(&p, &q, &sum);
+    const fl_wide both = p + q, over = 1.0 / both, dt = hi - lo, share = FL_FOUR(e->factor) * dt * over,
+                  each = over / sum.du;
+    const fl_wide mean = each * sum.first, square = each * over * sum.second - mean * mean;
+    fl_wide spread = LARGER(square, zero);
+    root(&spread);
+    const fl_wide_mask some = (in0 | in1) & (lo < hi) & (both > 0.0) & (sum.u > 0.0);
+    const point x = POINT(e->x), u = POINT(e->u), n = POINT(f->n), to = TIMES(FL_FOUR(e->side), n);
+    FL_WIDE_UNROLL
+    for (int k = 0; k < 2; k++) {
+        const fl_wide at = lo + dt * (k ? mean + spread : mean - spread), s = s0 + at * ds,
+                      up = 0.5 * s - FL_FOUR(e->r);
+        const point foot = MORE(x, at, u), y = MORE(foot, up, n);
+        FL_FOUR_INTO(k ? out->far : out->s) = s;
+        FL_FOUR_INTO(out->u[k]) = share * sum.u;
+        FL_FOUR_INTO(out->du[k]) = 4.5 * share * sum.du;
+        FL_FOUR_INTO(out->ddu[k]) = 15.75 * share * sum.ddu;
+        INTO(out->n[k], to), INTO(out->across[k], to), INTO(out->p[k], y);
+        MASK_INTO(out->some[k]) = some;
+    }
+}
+
+/* --- over lines and points ------------------------------------------------------------------------------ */
+
+/* Measured from where the part of the edge is nearest, x = t - m, d^2 = least2 + x (lean + uu x); lean is
+ * 0 but for rounding where that is inside the part.  (From where the whole line is nearest, which edges
+ * that are parallel but for rounding have anywhere, x would have no digits left.)  tau + t slope is where
+ * the edge is met by the other line, q the way from that at m, u how it changes.  lo, hi: what counts, in
+ * x; at how many of these ends s is 0, and whether at the first.  half: how far it is to where s is 0, a:
+ * to where d is singular. */
+typedef struct {
+    double lo[FL_LANES], hi[FL_LANES], m[FL_LANES], tau[FL_LANES], slope[FL_LANES];
+    double uu[FL_LANES], lean[FL_LANES], least2[FL_LANES], a[FL_LANES], half[FL_LANES];
+    double q[3][FL_LANES], u[3][FL_LANES];
+    double from[FL_LANES], by[FL_LANES];
+    int64_t some[FL_LANES], zeros[FL_LANES], zero_lo[FL_LANES], rule[FL_LANES], more[FL_LANES];
+} feet;
+
+/* A piece that has a rule of its own: from + t by; of which edge, FL_LANES a four. */
 typedef struct {
     double from, by;
     const rule *g;
-} part;
+    int32_t edge;
+} piece;
 
-/* graded() makes pieces each way up to the 1000th of R/sqrt(uu), three times as long each, of up to three
- * parts: 48. */
-enum { PARTS = 48 };
-
+/* With P = s^(7/2) dt: of s P, P, P/s; of P times x, x^2; of P/d times 1, x, x^2. */
 typedef struct {
-    double R, least2, uu;
-    double small; /* distances below it have no direction */
-    int longer, n;
-    part part[PARTS];
-} bundle;
-
-/* With P = s^(7/2) dt: of s P, P, P/s; of x P; of P/d times 1, x, x^2. */
-typedef struct {
-    double u, du, ddu, far, f, fx, fxx;
+    double u[FL_LANES], du[FL_LANES], ddu[FL_LANES], first[FL_LANES], second[FL_LANES];
+    double f[FL_LANES], fx[FL_LANES], fxx[FL_LANES];
 } sums;
 
-FL_WIDE_VERSIONS static void sum_up(const bundle *b, sums *out)
+FL_WIDE_PART void distance(const fl_wide *least2, const fl_wide *lean, const fl_wide *uu, const fl_wide *x,
+                           fl_wide *d)
+{
+    *d = *least2 + *x * (*lean + *uu * *x);
+    root(d);
+}
+
+/* Where an end that is not 0 may be nearly so, the quarter next to it is a piece of its own: those, and lanes
+ * for which one rule is too coarse, are told by `more`. */
+FL_WIDE_VERSIONS static void find_feet(const fl_strip_points *p, double R, feet *out)
 {
     const fl_wide zero = {0};
-    const double R = b->R, least2 = b->least2, uu = b->uu, small = b->small;
-    fl_wide u = zero, du = zero, ddu = zero, far = zero, f = zero, fx = zero, fxx = zero;
-    for (int k = 0; k < b->n; k++) {
-        const part *q = &b->part[k];
-        const rule *g = q->g;
-        const double from = q->from, by = q->by, share = fabs(by);
-        for (int32_t c = 0; c < g->n; c += FL_LANES) {
-            const fl_wide x = from + by * *(const fl_wide *)(g->node + c), d2 = least2 + uu * (x * x);
-            fl_wide d, root;
-            for (int l = 0; l < FL_LANES; l++) d[l] = sqrt(d2[l]);
-            const fl_wide_mask in = (d < R) & (d > small);
-            const fl_wide s = FL_WIDE_WHERE(in, R - d);
-            for (int l = 0; l < FL_LANES; l++) root[l] = sqrt(s[l]);
-            const fl_wide bend = share * *(const fl_wide *)(g->weight + c) * (root * s * s), pull = bend * s;
-            const fl_wide force = FL_WIDE_WHERE(in, pull / d), px = force * x;
-            u += pull * s;
-            du += pull;
-            ddu += bend;
-            far += pull * x;
-            f += force;
-            fx += px;
-            fxx += px * x;
-        }
-    }
-    *out = (sums){fl_wide_sum(&u), fl_wide_sum(&du), fl_wide_sum(&ddu), fl_wide_sum(&far),
-                  fl_wide_sum(&f), fl_wide_sum(&fx), fl_wide_sum(&fxx)};
+    const fl_strip_edges *of = &p->of;
+    const point x = POINT(of->x), c = POINT(p->c), e = POINT(p->e), u0 = POINT(of->u), q0 = LESS(x, c);
+    const fl_wide tau = DOT(q0, e), slope = DOT(u0, e), back = -tau, down = -slope;
+    const point q1 = MORE(q0, back, e), u = MORE(u0, down, e);
+    const fl_wide uu = DOT(u, u), foot = -DOT(q1, u) / uu, begin = FL_FOUR(of->lo), end = FL_FOUR(of->hi);
+    fl_wide m = FL_WIDE_CHOOSE(foot > begin, foot, begin);
+    m = FL_WIDE_CHOOSE(m < end, m, end);
+    const point q = MORE(q1, m, u);
+    const fl_wide least2 = DOT(q, q), away = DOT(q, u), lean = 2.0 * away;
+    fl_wide room = R * R - least2;
+    const fl_wide_mask there = (begin < end) & (room > 0.0);
+    room = FL_WIDE_WHERE(there, room);
+    fl_wide turn = away * away + uu * room, a = least2 / uu;
+    root(&turn), root(&a);
+    const fl_wide back_by = turn - away, on_by = turn + away;
+    const fl_wide back_to = room / LARGER(back_by, zero), on_to = room / LARGER(on_by, zero);
+    const fl_wide half = SMALLER(back_to, on_to);
+    fl_wide lo = begin - m, hi = end - m;
+    const fl_wide_mask zero_lo = -back_to > lo, zero_hi = on_to < hi;
+    lo = FL_WIDE_CHOOSE(zero_lo, -back_to, lo), hi = FL_WIDE_CHOOSE(zero_hi, on_to, hi);
+    const fl_wide mid = 0.5 * (lo + hi), quarter = 0.25 * (hi - lo);
+    const fl_wide_mask some = there & (lo < hi), graded = ~(half <= 0.5 * a), backwards = zero_hi & ~zero_lo,
+                       longer = ~(half <= FLAT * a), which = -2 * (zero_lo + zero_hi) - longer;
+    fl_wide s_lo, s_hi, s_mid;
+    distance(&least2, &lean, &uu, &lo, &s_lo), distance(&least2, &lean, &uu, &hi, &s_hi);
+    distance(&least2, &lean, &uu, &mid, &s_mid);
+    s_lo = R - s_lo, s_hi = R - s_hi, s_mid = R - s_mid;
+    const fl_wide ends = LARGER(s_lo, s_hi), most = LARGER(ends, s_mid);
+    const fl_wide_mask near_lo = ~zero_lo & (s_lo < 0.3 * most), near_hi = ~zero_hi & (s_hi < 0.3 * most);
+    const fl_wide from = FL_WIDE_CHOOSE(near_lo, lo + quarter, lo),
+                  to = FL_WIDE_CHOOSE(near_hi, hi - quarter, hi);
+    const fl_wide by = FL_WIDE_CHOOSE(backwards, from - to, to - from);
+    FL_FOUR_INTO(out->from) = FL_WIDE_CHOOSE(backwards, to, from), FL_FOUR_INTO(out->by) = by;
+    FL_FOUR_INTO(out->lo) = lo, FL_FOUR_INTO(out->hi) = hi, FL_FOUR_INTO(out->m) = m;
+    FL_FOUR_INTO(out->tau) = tau, FL_FOUR_INTO(out->slope) = slope;
+    FL_FOUR_INTO(out->uu) = uu, FL_FOUR_INTO(out->lean) = lean, FL_FOUR_INTO(out->least2) = least2;
+    FL_FOUR_INTO(out->a) = a, FL_FOUR_INTO(out->half) = half;
+    INTO(out->q, q), INTO(out->u, u);
+    MASK_INTO(out->some) = some, MASK_INTO(out->zeros) = -(zero_lo + zero_hi),
+    MASK_INTO(out->zero_lo) = zero_lo;
+    MASK_INTO(out->rule) = which, MASK_INTO(out->more) = near_lo | near_hi | graded;
 }
 
-/* A piece t; zero_lo, zero_hi: s is 0 at that end. */
-static void gauss(bundle *b, fl_span t, int zero_lo, int zero_hi)
+/* Edges that wait, and what is made of those over points. */
+struct fl_strips {
+    fl_strip_faces *face;
+    fl_strip_points *point;
+    feet *feet;
+    sums *sum;
+    piece *piece;
+    int32_t faces, points, pieces;
+    int32_t face_cap, point_cap, feet_cap, sum_cap, piece_cap;
+};
+
+/* Lane l of a four, while it is cut. */
+typedef struct {
+    struct fl_strips *w;
+    const feet *f;
+    double R;
+    int32_t l, edge;
+} slicer;
+
+static int put_piece(const slicer *b, double from, double by, int64_t which)
 {
-    const rule *g = zero_lo && zero_hi ? BETWEEN_ZEROS : zero_lo || zero_hi ? FROM_ZERO : WHOLE;
-    const int back = zero_hi && !zero_lo;
-    b->part[b->n++] = (part){back ? t.hi : t.lo, back ? t.lo - t.hi : t.hi - t.lo, g + b->longer};
+    struct fl_strips *const w = b->w;
+    if (fl_room(&w->piece, &w->piece_cap, (int64_t)w->pieces + 1, sizeof *w->piece)) return -1;
+    w->piece[w->pieces++] = (piece){from, by, &RULE[which], b->edge};
+    return 0;
 }
 
-/* The same where an end that is not 0 may be nearly so: the quarter next to it is a piece of its own. */
-static void gauss_over_point(bundle *b, fl_span t, int zero_lo, int zero_hi)
+/* zero_lo, zero_hi: s is 0 at that end. */
+static int gauss(const slicer *b, fl_span t, int zero_lo, int zero_hi)
 {
-    if (zero_lo && zero_hi) {
-        gauss(b, t, 1, 1);
-        return;
-    }
-    const double quarter = 0.25 * (t.hi - t.lo), middle = 0.5 * (t.lo + t.hi);
-    const double s0 = b->R - sqrt(b->least2 + b->uu * (t.lo * t.lo));
-    const double s1 = b->R - sqrt(b->least2 + b->uu * (t.hi * t.hi));
-    const double sm = b->R - sqrt(b->least2 + b->uu * (middle * middle));
+    const int back = zero_hi && !zero_lo, longer = (int)b->f->rule[b->l] & 1;
+    return put_piece(b, back ? t.hi : t.lo, back ? t.lo - t.hi : t.hi - t.lo,
+                     2 * (zero_lo + zero_hi) + longer);
+}
+
+static double overlap_at(const slicer *b, double x)
+{
+    return b->R - sqrt(b->f->least2[b->l] + x * (b->f->lean[b->l] + b->f->uu[b->l] * x));
+}
+
+/* The quarters next to ends that may be nearly 0, and what is left between them. */
+static int gauss_over_point(const slicer *b, fl_span t, int zero_lo, int zero_hi)
+{
+    const double quarter = 0.25 * (t.hi - t.lo), s0 = overlap_at(b, t.lo), s1 = overlap_at(b, t.hi),
+                 sm = overlap_at(b, 0.5 * (t.lo + t.hi));
     const double most = s0 > s1 ? (s0 > sm ? s0 : sm) : s1 > sm ? s1 : sm;
     const int near_lo = !zero_lo && s0 < 0.3 * most, near_hi = !zero_hi && s1 < 0.3 * most;
     const fl_span mid = {near_lo ? t.lo + quarter : t.lo, near_hi ? t.hi - quarter : t.hi};
-    if (near_lo) gauss(b, (fl_span){t.lo, mid.lo}, 0, 0);
-    if (near_hi) gauss(b, (fl_span){mid.hi, t.hi}, 0, 0);
-    gauss(b, mid, zero_lo, zero_hi);
+    return (near_lo && gauss(b, (fl_span){t.lo, mid.lo}, 0, 0)) ||
+           (near_hi && gauss(b, (fl_span){mid.hi, t.hi}, 0, 0)) || gauss(b, mid, zero_lo, zero_hi);
 }
 
-/* d^2 = uu (x^2 + a^2).  Where the overlap is large d is singular at +- i a, and pieces that grow threefold
- * from 0 keep away. */
-static void graded(bundle *b, fl_span t, int zero_lo, int zero_hi, double a)
+/* Where the overlap is large d is singular at +- i a, and pieces that grow threefold from 0 keep away. */
+static int graded(const slicer *b, fl_span t, int zero_lo, int zero_hi)
 {
-    const double bend = 1e-3 * b->R / sqrt(b->uu);
+    const double a = b->f->a[b->l], bend = 1e-3 * b->R / sqrt(b->f->uu[b->l]);
     for (int way = 0; way < 2; way++) {
         double from = 0.0, to = a > bend ? a : bend;
         const double first = way ? t.lo : -t.hi, last = way ? t.hi : -t.lo;
@@ -198,85 +282,283 @@ static void graded(bundle *b, fl_span t, int zero_lo, int zero_hi, double a)
             const double lo = from > first ? from : first, hi = to < last ? to : last;
             if (!(lo < hi)) continue;
             const int end = zero && hi == last;
-            gauss_over_point(b, way ? (fl_span){lo, hi} : (fl_span){-hi, -lo}, !way && end, way && end);
+            if (gauss_over_point(b, way ? (fl_span){lo, hi} : (fl_span){-hi, -lo}, !way && end, way && end))
+                return -1;
+        }
+    }
+    return 0;
+}
+
+static int slice(struct fl_strips *w, const feet *f, int32_t l, int32_t edge, double R)
+{
+    const slicer b = {w, f, R, l, edge};
+    if (!f->more[l]) return put_piece(&b, f->from[l], f->by[l], f->rule[l]);
+    const fl_span t = {f->lo[l], f->hi[l]};
+    const int zero_lo = f->zero_lo[l] != 0, zero_hi = f->zeros[l] - zero_lo != 0;
+    return f->half[l] <= 0.5 * f->a[l] ? gauss_over_point(&b, t, zero_lo, zero_hi)
+                                       : graded(&b, t, zero_lo, zero_hi);
+}
+
+/* Of four pieces. */
+FL_WIDE_VERSIONS static void sum_up(const struct fl_strips *w, const fl_strip_points *p,
+                                    const piece *q[FL_LANES], double R, sums *out)
+{
+    const fl_wide zero = {0};
+    fl_wide least2, lean, uu, small, from, by;
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) {
+        const int32_t four = q[l]->edge / FL_LANES, lane = q[l]->edge % FL_LANES;
+        least2[l] = w->feet[four].least2[lane], lean[l] = w->feet[four].lean[lane];
+        uu[l] = w->feet[four].uu[lane], small[l] = p[four].small[lane];
+        from[l] = q[l]->from, by[l] = q[l]->by;
+    }
+    const fl_wide share = LARGER(by, -by);
+    fl_wide u = zero, du = zero, ddu = zero, first = zero, second = zero, f = zero, fx = zero, fxx = zero;
+    int32_t n = 0;
+    for (int l = 0; l < FL_LANES; l++) n = q[l]->g->n > n ? q[l]->g->n : n;
+    for (int32_t c = 0; c < n; c += FL_LANES) {
+        fl_wide node[FL_LANES], weight[FL_LANES];
+        FL_WIDE_UNROLL
+        for (int l = 0; l < FL_LANES; l++)
+            node[l] = FL_FOUR(q[l]->g->node + c), weight[l] = FL_FOUR(q[l]->g->weight + c);
+        fl_wide_transpose(node), fl_wide_transpose(weight);
+        FL_WIDE_UNROLL
+        for (int k = 0; k < FL_LANES; k++) {
+            const fl_wide x = from + by * node[k];
+            fl_wide d;
+            distance(&least2, &lean, &uu, &x, &d);
+            const fl_wide_mask in = (d < R) & (d > small);
+            const fl_wide s = FL_WIDE_WHERE(in, R - d);
+            fl_wide s_root = s;
+            root(&s_root);
+            const fl_wide bend = share * weight[k] * (s_root * s * s), pull = bend * s;
+            const fl_wide force = FL_WIDE_WHERE(in, pull / d), px = force * x, far = pull * x;
+            u += pull * s;
+            du += pull;
+            ddu += bend;
+            first += far;
+            second += far * x;
+            f += force;
+            fx += px;
+            fxx += px * x;
+        }
+    }
+    FL_FOUR_INTO(out->u) = u, FL_FOUR_INTO(out->du) = du, FL_FOUR_INTO(out->ddu) = ddu;
+    FL_FOUR_INTO(out->first) = first, FL_FOUR_INTO(out->second) = second, FL_FOUR_INTO(out->f) = f,
+    FL_FOUR_INTO(out->fx) = fx;
+    FL_FOUR_INTO(out->fxx) = fxx;
+}
+
+/* All pieces, each into the sums of its edge. */
+static void sum_pieces(struct fl_strips *w, const fl_strip_points *p, double R)
+{
+    for (int32_t k = 0; k < w->pieces; k += FL_LANES) {
+        const piece *q[FL_LANES];
+        sums four;
+        for (int32_t l = 0; l < FL_LANES; l++) q[l] = &w->piece[k + l < w->pieces ? k + l : k];
+        sum_up(w, p, q, R, &four);
+        for (int32_t i = 0; i < FL_LANES && k + i < w->pieces; i++) {
+            sums *const s = &w->sum[q[i]->edge / FL_LANES];
+            const int32_t l = q[i]->edge % FL_LANES;
+            s->u[l] += four.u[i], s->du[l] += four.du[i], s->ddu[l] += four.ddu[i],
+                s->first[l] += four.first[i], s->second[l] += four.second[i];
+            s->f[l] += four.f[i], s->fx[l] += four.fx[i], s->fxx[l] += four.fxx[i];
         }
     }
 }
 
-/* One place: the part `share` of the bundle with force f and scalar sum du, where it meets the point c; q:
- * all of it; s: mean overlap. */
-static int tie(const fl_line *l, const sums *q, double share, double du, double s, fl_vec3 f, fl_vec3 c)
+/* The forces all meet the point or the line, at tau + t slope, so that two places of equal shares have
+ * their resultant and the second moment of the pressure, as those of an edge over a face.  (One would do
+ * where they all meet in a point.  But damping asks for directions: one that all have in the mean is not
+ * damped as two that differ, and whether lines cross at right angles must not be told by rounding.) */
+FL_WIDE_VERSIONS static void tie(const fl_strip_points *p, const feet *a, const sums *sum, double R,
+                                 twos *out)
 {
-    const double size = v3_norm(f);
-    if (!(size > 0.0) || !(du > 0.0)) return 0;
-    const fl_vec3 n = v3_scale(1.0 / size, f);
-    return fl_places_add(l->w, (fl_place){.overlap = s,
-                                          .u = share * (l->factor * q->u),
-                                          .du = 4.5 * l->factor * du,
-                                          .ddu = share * (15.75 * l->factor * q->ddu),
-                                          .n = v3_scale(l->own->side / du, f),
-                                          .across = v3_scale(l->own->side, n),
-                                          .p = v3_madd(c, l->R - 0.5 * s - l->own->r, n)});
+    const fl_wide zero = {0}, one = 1.0 + zero;
+    const fl_strip_edges *of = &p->of;
+    const fl_wide factor = FL_FOUR(of->factor), du = FL_FOUR(sum->du), slope = FL_FOUR(a->slope),
+                  m = FL_FOUR(a->m), r = FL_FOUR(of->r), side = FL_FOUR(of->side);
+    const fl_wide each = 1.0 / du, s = each * FL_FOUR(sum->u), mean = each * FL_FOUR(sum->first),
+                  square = each * FL_FOUR(sum->second) - mean * mean;
+    fl_wide spread = LARGER(square, zero);
+    root(&spread);
+    const fl_wide_mask two = spread > 0.0;
+    spread = FL_WIDE_WHERE(two, spread);
+    const fl_wide f = FL_FOUR(sum->f), fx = FL_FOUR(sum->fx), fxx = FL_FOUR(sum->fxx), over = 0.5 / spread;
+    const fl_wide f_turn = FL_WIDE_WHERE(two, over * (fx - mean * f)),
+                  fx_turn = FL_WIDE_WHERE(two, over * (fxx - mean * fx));
+    const point q = POINT(a->q), u = POINT(a->u), c = POINT(p->c), e = POINT(p->e);
+    const fl_wide_mask some = MASK(a->some) & (du > 0.0);
+    FL_FOUR_INTO(out->s) = s, FL_FOUR_INTO(out->far) = s;
+    FL_WIDE_UNROLL
+    for (int k = 0; k < 2; k++) {
+        const double sign = k ? 1.0 : -1.0;
+        const fl_wide share = FL_WIDE_CHOOSE(two, 0.5 * one, (k ? zero : one)), pull = share * du,
+                      along_q = share * f + sign * f_turn, along_u = share * fx + sign * fx_turn,
+                      at = FL_FOUR(a->tau) + (m + (mean + sign * spread)) * slope;
+        const point part_q = TIMES(along_q, q), force = MORE(part_q, along_u, u);
+        fl_wide size = DOT(force, force);
+        root(&size);
+        const fl_wide shorter = 1.0 / size, per = side / pull, up = R - 0.5 * s - r;
+        const point n = TIMES(shorter, force), long_n = TIMES(per, force), across = TIMES(side, n);
+        const point foot = MORE(c, at, e), y = MORE(foot, up, n);
+        FL_FOUR_INTO(out->u[k]) = share * (factor * FL_FOUR(sum->u));
+        FL_FOUR_INTO(out->du[k]) = 4.5 * factor * pull;
+        FL_FOUR_INTO(out->ddu[k]) = share * (15.75 * factor * FL_FOUR(sum->ddu));
+        INTO(out->n[k], long_n), INTO(out->across[k], across), INTO(out->p[k], y);
+        MASK_INTO(out->some[k]) = some & (size > 0.0) & (pull > 0.0);
+    }
 }
 
-/* The forces all meet the point or the line, at tau + t slope, so that one place has their resultant, or two
- * at the ends of the span. */
-static inline __attribute__((always_inline)) int at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c,
-                                                         const fl_vec3 *e, double small)
+/* --- all that there are --------------------------------------------------------------------------------- */
+
+/* The places of four lanes into out, those that are there one after the other: so many.  There is room
+ * for all. stands: as in fl_place. */
+FL_WIDE_VERSIONS static int32_t lay_out(const twos *q, int32_t stands, fl_place *out)
 {
-    const fl_vec3 q = at->q, u = at->u;
-    fl_span t = at->t;
-    bundle b;
-    b.uu = at->uu, b.least2 = at->least2, b.R = l->R, b.small = small, b.n = 0, b.longer = 1;
-    if (b.uu > 0.0) {
-        const double half = sqrt((l->R * l->R - b.least2) / b.uu), a = sqrt(b.least2 / b.uu);
-        const int zero_lo = -half > t.lo, zero_hi = half < t.hi;
-        if (zero_lo) t.lo = -half;
-        if (zero_hi) t.hi = half;
-        if (!(t.lo < t.hi)) return 0;
-        b.longer = !(half <= FLAT * a);
-        if (half <= 0.5 * a) gauss_over_point(&b, t, zero_lo, zero_hi);
-        else graded(&b, t, zero_lo, zero_hi, a);
-    } else {
-        gauss(&b, t, 0, 0);
+    fl_wide a[2][FL_LANES], b[2][FL_LANES], c[2][FL_LANES];
+    int32_t n = 0;
+    FL_WIDE_UNROLL
+    for (int k = 0; k < 2; k++) {
+        a[k][0] = FL_FOUR(k ? q->far : q->s);
+        a[k][1] = FL_FOUR(q->u[k]), a[k][2] = FL_FOUR(q->du[k]), a[k][3] = FL_FOUR(q->ddu[k]);
+        b[k][0] = FL_FOUR(q->n[k][0]), b[k][1] = FL_FOUR(q->n[k][1]), b[k][2] = FL_FOUR(q->n[k][2]);
+        b[k][3] = FL_FOUR(q->across[k][0]), c[k][0] = FL_FOUR(q->across[k][1]);
+        c[k][1] = FL_FOUR(q->across[k][2]), c[k][2] = FL_FOUR(q->p[k][0]), c[k][3] = FL_FOUR(q->p[k][1]);
+        fl_wide_transpose(a[k]), fl_wide_transpose(b[k]), fl_wide_transpose(c[k]);
     }
-    sums sum;
-    sum_up(&b, &sum);
-    if (!(sum.du > 0.0)) return 0;
-    const double mean = sum.u / sum.du;
-    const fl_vec3 f = v3_madd(v3_scale(sum.f, q), sum.fx, u);
-    if (at->slope == 0.0) return tie(l, &sum, 1.0, sum.du, mean, f, e ? v3_madd(c, at->tau, *e) : c);
-    const double over = 1.0 / (t.hi - t.lo), far = over * (sum.far - t.lo * sum.du), part_far = far / sum.du;
-    const fl_vec3 ffar =
-        v3_madd(v3_scale(over * (sum.fx - t.lo * sum.f), q), over * (sum.fxx - t.lo * sum.fx), u);
-    return tie(l, &sum, 1.0 - part_far, sum.du - far, mean, v3_sub(f, ffar),
-               v3_madd(c, at->tau + (at->m + t.lo) * at->slope, *e)) ||
-                   tie(l, &sum, part_far, far, mean, ffar,
-                       v3_madd(c, at->tau + (at->m + t.hi) * at->slope, *e))
-               ? -1
-               : 0;
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) {
+        FL_WIDE_UNROLL
+        for (int k = 0; k < 2; k++) {
+            fl_place *const p = &out[n];
+            FL_FOUR_INTO(&p->overlap) = a[k][l], FL_FOUR_INTO(&p->n) = b[k][l];
+            FL_FOUR_INTO(&p->across.y) = c[k][l];
+            p->p.z = q->p[k][2][l], p->closing = 0.0, p->stands = stands;
+            n += q->some[k][l] != 0;
+        }
+    }
+    return n;
+}
+static_assert(offsetof(fl_place, ddu) == 3 * sizeof(double) &&
+                  offsetof(fl_place, across) == 7 * sizeof(double) &&
+                  offsetof(fl_place, p) == 10 * sizeof(double) && offsetof(fl_place, n) == 4 * sizeof(double),
+              "three registers of four lie in a row");
+
+static int add(fl_places *w, const twos *q, int32_t stands)
+{
+    if (fl_room(&w->place, &w->place_cap, (int64_t)w->n + 2 * FL_LANES, sizeof *w->place)) return -1;
+    w->n += lay_out(q, stands, &w->place[w->n]);
+    return 0;
+}
+
+static struct fl_strips *waiting(fl_places *w)
+{
+    if (!w->strips) w->strips = calloc(1, sizeof *w->strips);
+    return w->strips;
+}
+
+int fl_strips_of_faces(fl_places *w, const fl_strip_faces *q, int32_t fours, double R)
+{
+    for (int32_t k = 0; k < fours; k++) {
+        twos two;
+        over_faces(&q[k], R, &two);
+        if (add(w, &two, 2)) return -1;
+    }
+    return 0;
+}
+
+int fl_strips_of_points(fl_places *w, const fl_strip_points *q, int32_t fours, double R)
+{
+    struct fl_strips *s = waiting(w);
+    if (!s || fl_room(&s->feet, &s->feet_cap, fours, sizeof *s->feet) ||
+        fl_room(&s->sum, &s->sum_cap, fours, sizeof *s->sum))
+        return -1;
+    s->pieces = 0;
+    for (int32_t k = 0; k < fours; k++) {
+        feet *const f = &s->feet[k];
+        find_feet(&q[k], R, f);
+        for (int32_t l = 0; l < FL_LANES; l++)
+            if (f->some[l] && slice(s, f, l, k * FL_LANES + l, R)) return -1;
+        s->sum[k] = (sums){0};
+    }
+    if (s->pieces == 0) return 0;
+    sum_pieces(s, q, R);
+    for (int32_t k = 0; k < fours; k++) {
+        twos two;
+        tie(&q[k], &s->feet[k], &s->sum[k], R, &two);
+        if (add(w, &two, 0)) return -1;
+    }
+    return 0;
+}
+
+void fl_strips_begin(fl_places *w)
+{
+    if (w->strips) w->strips->faces = w->strips->points = 0;
+}
+
+static void put(double to[3][FL_LANES], int32_t l, fl_vec3 x)
+{
+    to[0][l] = x.x, to[1][l] = x.y, to[2][l] = x.z;
+}
+
+static void put_edge(fl_strip_edges *e, int32_t l, const fl_line *of, fl_span t)
+{
+    put(e->x, l, of->x0), put(e->u, l, of->u);
+    e->lo[l] = t.lo, e->hi[l] = t.hi, e->factor[l] = of->factor;
+    e->r[l] = of->own->r, e->side[l] = of->own->side;
+}
+
+/* Room for one more four, in which no lane has anything. */
+static int open_four(void *array, int32_t *cap, int32_t fours, size_t size)
+{
+    const int32_t had = *cap;
+    char *all;
+    if (fl_room(array, cap, (int64_t)fours + 1, size)) return -1;
+    memcpy(&all, array, sizeof all); /* array is the address of a T*, of any T */
+    if (*cap > had) memset(all + (size_t)had * size, 0, (size_t)(*cap - had) * size);
+    fl_strip_edges *const e = (fl_strip_edges *)(void *)(all + (size_t)fours * size);
+    for (int l = 0; l < FL_LANES; l++) e->lo[l] = e->hi[l] = 0.0;
+    return 0;
+}
+
+int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n)
+{
+    struct fl_strips *s = waiting(l->w);
+    const int32_t four = s ? s->faces / FL_LANES : 0, lane = s ? s->faces % FL_LANES : 0;
+    if (!s || (lane == 0 && open_four(&s->face, &s->face_cap, four, sizeof *s->face))) return -1;
+    fl_strip_faces *const f = &s->face[four];
+    put_edge(&f->of, lane, l, t), put(f->n, lane, n);
+    f->h0[lane] = h0, f->h1[lane] = h1;
+    s->faces++;
+    return 0;
 }
 
 int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *e, double small)
 {
-    fl_strip_foot at = {.t = t, .q = v3_sub(l->x0, c), .u = l->u};
-    if (e) {
-        at.tau = v3_dot(at.q, *e), at.slope = v3_dot(at.u, *e);
-        at.q = v3_madd(at.q, -at.tau, *e);
-        at.u = v3_madd(at.u, -at.slope, *e);
-    }
-    at.uu = v3_norm2(at.u);
-    at.m = at.uu > 0.0 ? -v3_dot(at.q, at.u) / at.uu : 0.0;
-    at.q = v3_madd(at.q, at.m, at.u); /* what is nearest */
-    at.least2 = v3_norm2(at.q);
-    if (!(l->R * l->R - at.least2 > 0.0)) return 0;
-    at.t.lo -= at.m, at.t.hi -= at.m;
-    return at_foot(l, &at, c, e, small);
+    struct fl_strips *s = waiting(l->w);
+    const int32_t four = s ? s->points / FL_LANES : 0, lane = s ? s->points % FL_LANES : 0;
+    if (!s || (lane == 0 && open_four(&s->point, &s->point_cap, four, sizeof *s->point))) return -1;
+    fl_strip_points *const p = &s->point[four];
+    put_edge(&p->of, lane, l, t), put(p->c, lane, c), put(p->e, lane, e ? *e : v3(0, 0, 0));
+    p->small[lane] = small;
+    s->points++;
+    return 0;
 }
 
-int fl_strips_at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c, const fl_vec3 *e, double small)
+int fl_strips_places(fl_places *w, double R)
 {
-    return at_foot(l, at, c, e, small);
+    const struct fl_strips *s = w->strips;
+    if (!s) return 0;
+    const int32_t faces = (s->faces + FL_LANES - 1) / FL_LANES,
+                  points = (s->points + FL_LANES - 1) / FL_LANES;
+    return fl_strips_of_faces(w, s->face, faces, R) || fl_strips_of_points(w, s->point, points, R) ? -1 : 0;
+}
+
+void fl_strips_free(struct fl_strips *s)
+{
+    if (s) free(s->face), free(s->point), free(s->feet), free(s->sum), free(s->piece);
+    free(s);
 }
 
 double fl_strips_factor(const fl_side *own, int32_t e, double other)

@@ -5,9 +5,13 @@
  * the planes between the prisms over its faces, the wedges over its edges and the cones over its vertices.
  * The line is cut there and where s becomes 0, and each piece gets the points of a rule of Gauss that knows
  * about the root of s at such an end: FL_LINE_NODES (rules.h) where s is linear, exact; else
- * 8, or FL_STRIP_CURVED where the overlap is large, within 1e-8. */
+ * 8, or FL_STRIP_CURVED where the overlap is large, within 1e-8.
+ *
+ * Edges wait until all that a contact has are known, and then go FL_LANES at a time.  Each has its places by
+ * itself, and in the order in which they came: not a bit depends on what else there is. */
 #ifndef FL_NARROW_STRIPS_H
 #define FL_NARROW_STRIPS_H
+#include "base/wide.h"
 #include "narrow/places.h"
 
 enum { FL_STRIP_CURVED = 10 };
@@ -41,30 +45,51 @@ typedef struct {
     double R;      /* reach */
 } fl_line;
 
-/* An edge that has its foot on a line or a point: the part of it that counts, from where it is nearest; m,
- * where that is; tau + t slope, where the line is met; q and u, the nearest point and the way across the
- * line, and their squares. */
+/* Edges by lanes: where they begin, their way; the part of it that counts, in [0, 1], none where lo >= hi;
+ * fl_strips_factor(); radius and side of the core they belong to. */
 typedef struct {
-    fl_span t;
-    double m, tau, slope, uu, least2;
-    fl_vec3 q, u;
-} fl_strip_foot;
+    double x[3][FL_LANES], u[3][FL_LANES];
+    double lo[FL_LANES], hi[FL_LANES], factor[FL_LANES];
+    double r[FL_LANES], side[FL_LANES];
+} fl_strip_edges;
+
+/* Over faces: their normals, and how high the ends are above them. */
+typedef struct {
+    fl_strip_edges of;
+    double n[3][FL_LANES];
+    double h0[FL_LANES], h1[FL_LANES];
+} fl_strip_faces;
+
+/* Over lines through c along the unit vectors e, or points c, e being 0; no nearer than `small`. */
+typedef struct {
+    fl_strip_edges of;
+    double c[3][FL_LANES], e[3][FL_LANES];
+    double small[FL_LANES];
+} fl_strip_points;
 
 /* What int_0^1 s^(9/2) dt of edge e of `own` is multiplied by; other: radius of the other core.  0 for edges
  * without any. */
 double fl_strips_factor(const fl_side *own, int32_t e, double other);
 
-/* The part t of an edge over a face with normal n, h0 and h1 its heights at the two ends of the edge; and
- * over the point c, or the line through c along the unit vector *axis, no nearer than `small`.  -1 when
- * memory runs out. */
+/* Let the part t of an edge wait that lies over a face with normal n, h0 and h1 its heights at the two
+ * ends of the edge; and over the point c, or the line through c along the unit vector *axis, no nearer
+ * than `small`. -1 when memory runs out. */
 int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n);
 int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *axis, double small);
 
-/* The same where the foot is known and within R; x0 and u of l are not asked for. */
-int fl_strips_at_foot(const fl_line *l, const fl_strip_foot *at, fl_vec3 c, const fl_vec3 *axis,
-                      double small);
+/* None waits. */
+void fl_strips_begin(fl_places *w);
 
-/* Edge e of `own` over the plane z = 0. */
+/* The places of all that wait, those over faces first, with the reach R.  -1 when memory runs out. */
+int fl_strips_places(fl_places *w, double R);
+
+/* The places of so many fours, all lanes of which are filled. */
+int fl_strips_of_faces(fl_places *w, const fl_strip_faces *q, int32_t fours, double R);
+int fl_strips_of_points(fl_places *w, const fl_strip_points *q, int32_t fours, double R);
+
+/* Let edge e of `own` wait over the plane z = 0. */
 int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e, double R);
+
+void fl_strips_free(struct fl_strips *s); /* of fl_places; takes NULL */
 
 #endif
