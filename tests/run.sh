@@ -155,6 +155,7 @@ bench)
     add bench/kernel "exec sh bench/kernel.sh '$build'"
     add bench/surrogate "exec sh bench/surrogate.sh '$build'"
     add bench/late "exec sh bench/late.sh '$build'"
+    add bench/threads "exec sh bench/threads.sh '$build'"
     add bench/peers "exec sh bench/peers.sh '$build'"
     add bench/ladder "exec sh bench/ladder.sh '$build'"
     ;;
