@@ -269,10 +269,12 @@ static int gauss_over_point(const slicer *b, fl_span t, int zero_lo, int zero_hi
            (near_hi && gauss(b, (fl_span){mid.hi, t.hi}, 0, 0)) || gauss(b, mid, zero_lo, zero_hi);
 }
 
-/* Where the overlap is large d is singular at +- i a, and pieces that grow threefold from 0 keep away. */
+/* Where the overlap is large d is singular at +- i a, and pieces that grow threefold from 0 keep away;
+ * where the lines all but cross they begin where the direction of the force has turned, a billionth of R
+ * and nearer. */
 static int graded(const slicer *b, fl_span t, int zero_lo, int zero_hi)
 {
-    const double a = b->f->a[b->l], bend = 1e-3 * b->R / sqrt(b->f->uu[b->l]);
+    const double a = b->f->a[b->l], bend = 1e-9 * b->R / sqrt(b->f->uu[b->l]);
     for (int way = 0; way < 2; way++) {
         double from = 0.0, to = a > bend ? a : bend;
         const double first = way ? t.lo : -t.hi, last = way ? t.hi : -t.lo;

@@ -236,7 +236,7 @@ static int stride_on(stride *q)
     if (q->w->threads == 1) {
         go(q);
     } else {
-#pragma omp parallel
+#pragma omp parallel num_threads(q->w->threads)
         go(q);
     }
     return q->bad ? -1 : 0;
@@ -293,7 +293,7 @@ static void survey_stiffness(fl_world *w)
     if (w->threads == 1) {
         survey_bodies(w, &least, &body);
     } else {
-#pragma omp parallel
+#pragma omp parallel num_threads(w->threads)
         survey_bodies(w, &least, &body);
     }
     if (body < INT32_MAX) {
