@@ -13,10 +13,7 @@ enum { LOOKS = 16 };
 
 void fl_gate_make(fl_gate *g)
 {
-    atomic_init(&g->arrived, 0);
-    atomic_init(&g->asleep, 0);
-    atomic_init(&g->opened, 0);
-    atomic_init(&g->patience, MOST);
+    *g = (fl_gate){.patience = MOST};
     pthread_mutex_init(&g->bed, NULL);
     pthread_cond_init(&g->bell, NULL);
 }
@@ -43,13 +40,13 @@ static int64_t now(void)
     return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
 }
 
-static int is_open(fl_gate *g, unsigned before)
+static int is_open(fl_gate *g, uint32_t before)
 {
-    return atomic_load_explicit(&g->opened, memory_order_acquire) != before;
+    return __atomic_load_n(&g->opened, __ATOMIC_ACQUIRE) != before;
 }
 
 /* 0: it is still closed after `patience`. */
-static int watch(fl_gate *g, unsigned before, int64_t start, int patience)
+static int watch(fl_gate *g, uint32_t before, int64_t start, int patience)
 {
     do {
         for (int k = 0; k < LOOKS; k++) {
@@ -60,20 +57,20 @@ static int watch(fl_gate *g, unsigned before, int64_t start, int patience)
     return 0;
 }
 
-static void sleep_until(fl_gate *g, unsigned before)
+static void sleep_until(fl_gate *g, uint32_t before)
 {
     pthread_mutex_lock(&g->bed);
-    atomic_fetch_add(&g->asleep, 1);
-    while (atomic_load(&g->opened) == before) pthread_cond_wait(&g->bell, &g->bed);
-    atomic_fetch_sub(&g->asleep, 1);
+    __atomic_fetch_add(&g->asleep, 1, __ATOMIC_SEQ_CST);
+    while (__atomic_load_n(&g->opened, __ATOMIC_SEQ_CST) == before) pthread_cond_wait(&g->bell, &g->bed);
+    __atomic_fetch_sub(&g->asleep, 1, __ATOMIC_SEQ_CST);
     pthread_mutex_unlock(&g->bed);
 }
 
 static void open_up(fl_gate *g)
 {
-    atomic_store_explicit(&g->arrived, 0, memory_order_relaxed);
-    atomic_fetch_add(&g->opened, 1);
-    if (atomic_load(&g->asleep) == 0) return;
+    __atomic_store_n(&g->arrived, 0, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&g->opened, 1, __ATOMIC_SEQ_CST);
+    if (__atomic_load_n(&g->asleep, __ATOMIC_SEQ_CST) == 0) return;
     pthread_mutex_lock(&g->bed);
     pthread_cond_broadcast(&g->bell);
     pthread_mutex_unlock(&g->bed);
@@ -81,20 +78,20 @@ static void open_up(fl_gate *g)
 
 void fl_gate_meet(fl_gate *g, int n, void (*alone)(void *arg), void *arg)
 {
-    const unsigned before = atomic_load_explicit(&g->opened, memory_order_relaxed);
-    if (atomic_fetch_add(&g->arrived, 1) == n - 1) {
+    const uint32_t before = __atomic_load_n(&g->opened, __ATOMIC_RELAXED);
+    if (__atomic_fetch_add(&g->arrived, 1, __ATOMIC_SEQ_CST) == n - 1) {
         if (alone) alone(arg);
         if (n > 1) open_up(g);
-        else atomic_store_explicit(&g->arrived, 0, memory_order_relaxed);
+        else __atomic_store_n(&g->arrived, 0, __ATOMIC_RELAXED);
         return;
     }
     const int64_t start = now();
-    int patience = atomic_load_explicit(&g->patience, memory_order_relaxed);
+    int patience = __atomic_load_n(&g->patience, __ATOMIC_RELAXED);
     int wasted = 0;
     if (!watch(g, before, start, patience)) {
         sleep_until(g, before);
         wasted = now() - start > LONG;
     }
     patience = wasted ? patience / LESS : patience < MOST - MORE ? patience + MORE : MOST;
-    atomic_store_explicit(&g->patience, patience, memory_order_relaxed);
+    __atomic_store_n(&g->patience, patience, __ATOMIC_RELAXED);
 }

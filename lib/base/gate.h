@@ -10,13 +10,12 @@
 #ifndef FL_BASE_GATE_H
 #define FL_BASE_GATE_H
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stdint.h>
 
 typedef struct {
-    atomic_int arrived, asleep;
-    atomic_uint opened;  /* how often */
-    atomic_int patience; /* how long is watched [ns] */
+    int32_t arrived, asleep; /* threads */
+    uint32_t opened;         /* how often */
+    int32_t patience;        /* how long is watched [ns] */
     pthread_mutex_t bed;
     pthread_cond_t bell;
 } fl_gate;
