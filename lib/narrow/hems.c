@@ -2,6 +2,7 @@
 #include "narrow/hems.h"
 #include <math.h>
 #include "base/mem.h"
+#include "geom/wide3.h"
 #include "narrow/strips.h"
 
 /* Edges of A over triangles, of A over edges, and of B over edges. */
@@ -105,28 +106,20 @@ void fl_hems_free(fl_hems *h)
 
 /* --- where they are ------------------------------------------------------------------------------------ */
 
-typedef struct {
-    fl_wide x, y, z;
-} point;
-
-#define POINT(a) ((point){FL_FOUR((a)[0]), FL_FOUR((a)[1]), FL_FOUR((a)[2])})
-#define LESS(a, b) ((point){(a).x - (b).x, (a).y - (b).y, (a).z - (b).z})
-#define MORE(a, s, b) ((point){(a).x + (s) * (b).x, (a).y + (s) * (b).y, (a).z + (s) * (b).z})
-#define DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
-
-FL_WIDE_PART void look_up(const fl_vec3 *x, const int32_t v[FL_LANES], point *out)
+FL_WIDE_PART void look_up(const fl_vec3 *x, const int32_t v[FL_LANES], fl_wide3 *out)
 {
     const fl_vec3 *const a = &x[v[0]], *const b = &x[v[1]], *const c = &x[v[2]], *const d = &x[v[3]];
-    *out = (point){{a->x, b->x, c->x, d->x}, {a->y, b->y, c->y, d->y}, {a->z, b->z, c->z, d->z}};
+    *out = (fl_wide3){{a->x, b->x, c->x, d->x}, {a->y, b->y, c->y, d->y}, {a->z, b->z, c->z, d->z}};
 }
 
 /* Points of B in the frame of A, as meet.c has them. */
-FL_WIDE_PART void turn_back(const fl_places *w, point *x)
+FL_WIDE_PART void turn_back(const fl_places *w, fl_wide3 *x)
 {
     const double(*m)[3] = w->M.m;
-    const point r = {x->x - w->o.x, x->y - w->o.y, x->z - w->o.z};
-    *x = (point){m[0][0] * r.x + m[1][0] * r.y + m[2][0] * r.z, m[0][1] * r.x + m[1][1] * r.y + m[2][1] * r.z,
-                 m[0][2] * r.x + m[1][2] * r.y + m[2][2] * r.z};
+    const fl_wide3 r = {x->x - w->o.x, x->y - w->o.y, x->z - w->o.z};
+    *x = (fl_wide3){m[0][0] * r.x + m[1][0] * r.y + m[2][0] * r.z,
+                    m[0][1] * r.x + m[1][1] * r.y + m[2][1] * r.z,
+                    m[0][2] * r.x + m[1][2] * r.y + m[2][2] * r.z};
 }
 
 /* The part of the edge that is left. */
@@ -144,14 +137,14 @@ FL_WIDE_PART void keep(part *t, const fl_wide *h0, const fl_wide *h1)
     t->hi = FL_WIDE_CHOOSE(in0 & ~in1 & (at < t->hi), at, t->hi);
 }
 
-FL_WIDE_PART void height(const fl_hem *four, int k, const point *x, fl_wide *h)
+FL_WIDE_PART void height(const fl_hem *four, int k, const fl_wide3 *x, fl_wide *h)
 {
     const double(*p)[FL_LANES] = four->plane[k];
     *h = (FL_FOUR(p[GX]) * x->x + FL_FOUR(p[GY]) * x->y + FL_FOUR(p[GZ]) * x->z - FL_FOUR(p[C])) +
          FL_FOUR(p[HAIR]);
 }
 
-FL_WIDE_PART void keep_beyond(const fl_hem *four, int planes, const point *x0, const point *x1, part *t)
+FL_WIDE_PART void keep_beyond(const fl_hem *four, int planes, const fl_wide3 *x0, const fl_wide3 *x1, part *t)
 {
     const fl_wide zero = {0};
     *t = (part){zero, 1.0 + zero, ~(fl_wide_mask){0}};
@@ -164,21 +157,16 @@ FL_WIDE_PART void keep_beyond(const fl_hem *four, int planes, const point *x0, c
     }
 }
 
-FL_WIDE_PART void into(double to[3][FL_LANES], const point *x)
-{
-    FL_FOUR_INTO(to[0]) = x->x, FL_FOUR_INTO(to[1]) = x->y, FL_FOUR_INTO(to[2]) = x->z;
-}
-
 /* Of edges from x0 to x1 the part t; one that is not there has none. */
-FL_WIDE_PART void leave(const fl_hem *four, const fl_side *own, const point *x0, const point *x1,
+FL_WIDE_PART void leave(const fl_hem *four, const fl_side *own, const fl_wide3 *x0, const fl_wide3 *x1,
                         const part *t, fl_strip_edges *out)
 {
     const fl_wide zero = {0};
-    const point u = LESS(*x1, *x0);
+    const fl_wide3 u = FL_WIDE3_SUB(*x1, *x0);
     fl_wide_mask there = t->some;
     FL_WIDE_UNROLL
     for (int l = 0; l < FL_LANES; l++) there[l] = l < four->n ? there[l] : 0;
-    into(out->x, x0), into(out->u, &u);
+    FL_WIDE3_INTO(out->x, *x0), FL_WIDE3_INTO(out->u, u);
     FL_FOUR_INTO(out->lo) = t->lo, FL_FOUR_INTO(out->hi) = FL_WIDE_CHOOSE(there, t->hi, t->lo);
     FL_FOUR_INTO(out->factor) = FL_FOUR(four->factor);
     FL_FOUR_INTO(out->r) = own->r + zero, FL_FOUR_INTO(out->side) = own->side + zero;
@@ -187,7 +175,7 @@ FL_WIDE_PART void leave(const fl_hem *four, const fl_side *own, const point *x0,
 FL_WIDE_VERSIONS static void over_faces(const fl_hem *four, const fl_side *A, double below,
                                         fl_strip_faces *out)
 {
-    point x0, x1;
+    fl_wide3 x0, x1;
     part t;
     fl_wide h0, h1;
     look_up(A->v, four->end[0], &x0), look_up(A->v, four->end[1], &x1);
@@ -196,8 +184,8 @@ FL_WIDE_VERSIONS static void over_faces(const fl_hem *four, const fl_side *A, do
     const fl_wide up0 = h0 + below, up1 = h1 + below;
     keep(&t, &up0, &up1);
     leave(four, A, &x0, &x1, &t, &out->of);
-    const point n = POINT(four->plane[PLANES - 1]);
-    into(out->n, &n);
+    const fl_wide3 n = FL_WIDE3(four->plane[PLANES - 1]);
+    FL_WIDE3_INTO(out->n, n);
     FL_FOUR_INTO(out->h0) = h0, FL_FOUR_INTO(out->h1) = h1;
 }
 
@@ -207,23 +195,23 @@ FL_WIDE_VERSIONS static void over_edges(const fl_hem *four, const fl_places *w, 
     const fl_wide zero = {0};
     const int from_a = four->kind == OVER_EDGE;
     const double small = FL_SPAN_SAME * (from_a ? B : A)->p->size;
-    point a0, a1, x0, x1, c, e;
+    fl_wide3 a0, a1, x0, x1, c, e;
     part t;
-    const point b0 = POINT(four->from), b1 = POINT(four->to);
+    const fl_wide3 b0 = FL_WIDE3(four->from), b1 = FL_WIDE3(four->to);
     look_up(A->v, four->end[0], &a0), look_up(A->v, four->end[1], &a1);
     if (from_a) {
         x0 = a0, x1 = a1, c = b0, e = b1;
         keep_beyond(four, PLANES, &x0, &x1, &t);
     } else {
         const fl_wide each = FL_FOUR(four->each);
-        const point way = LESS(a1, a0);
-        point y0 = b0, y1 = b1;
+        const fl_wide3 way = FL_WIDE3_SUB(a1, a0);
+        fl_wide3 y0 = b0, y1 = b1;
         turn_back(w, &y0), turn_back(w, &y1);
         keep_beyond(four, PLANES, &y0, &y1, &t);
-        x0 = b0, x1 = b1, c = a0, e = (point){each * way.x, each * way.y, each * way.z};
+        x0 = b0, x1 = b1, c = a0, e = (fl_wide3){each * way.x, each * way.y, each * way.z};
     }
     leave(four, from_a ? A : B, &x0, &x1, &t, &out->of);
-    into(out->c, &c), into(out->e, &e);
+    FL_WIDE3_INTO(out->c, c), FL_WIDE3_INTO(out->e, e);
     FL_FOUR_INTO(out->small) = small + zero;
 }
 

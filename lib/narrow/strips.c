@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "geom/wide3.h"
 #include "narrow/roots.h"
 
 /* FL_STRIP_CURVED, rounded up to full registers. */
@@ -64,20 +65,8 @@ static const rule RULE[] = {
 /* Up to this half width over a of graded(), 8 points are within 1e-8 (7e-9 of the force at worst). */
 #define FLAT 0.35
 
-/* --- registers of three numbers ------------------------------------------------------------------------ */
-
-typedef struct {
-    fl_wide x, y, z;
-} point;
-
-#define POINT(a) ((point){FL_FOUR((a)[0]), FL_FOUR((a)[1]), FL_FOUR((a)[2])})
-#define INTO(a, p) (FL_FOUR_INTO((a)[0]) = (p).x, FL_FOUR_INTO((a)[1]) = (p).y, FL_FOUR_INTO((a)[2]) = (p).z)
 #define MASK(a) (*(const fl_wide_mask *)(const void *)(a))
 #define MASK_INTO(a) (*(fl_wide_mask *)(void *)(a))
-#define LESS(a, b) ((point){(a).x - (b).x, (a).y - (b).y, (a).z - (b).z})
-#define MORE(a, s, b) ((point){(a).x + (s) * (b).x, (a).y + (s) * (b).y, (a).z + (s) * (b).z})
-#define TIMES(s, a) ((point){(s) * (a).x, (s) * (a).y, (s) * (a).z})
-#define DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
 #define LARGER(a, b) FL_WIDE_CHOOSE((a) > (b), a, b)
 #define SMALLER(a, b) FL_WIDE_CHOOSE((a) < (b), a, b)
 
@@ -89,7 +78,7 @@ FL_WIDE_PART void root(fl_wide *a)
 
 /* Two places of each lane, of which `some` are there. */
 typedef struct {
-    double s[FL_LANES], u[2][FL_LANES], du[2][FL_LANES], ddu[2][FL_LANES], far[FL_LANES];
+    double s[2][FL_LANES], u[2][FL_LANES], du[2][FL_LANES], ddu[2][FL_LANES];
     double n[2][3][FL_LANES], across[2][3][FL_LANES], p[2][3][FL_LANES];
     int64_t some[2][FL_LANES];
 } twos;
@@ -118,17 +107,18 @@ FL_WIDE_VERSIONS static void over_faces(const fl_strip_faces *f, double R, twos 
     fl_wide spread = LARGER(square, zero);
     root(&spread);
     const fl_wide_mask some = (in0 | in1) & (lo < hi) & (both > 0.0) & (sum.u > 0.0);
-    const point x = POINT(e->x), u = POINT(e->u), n = POINT(f->n), to = TIMES(FL_FOUR(e->side), n);
+    const fl_wide3 x = FL_WIDE3(e->x), u = FL_WIDE3(e->u), n = FL_WIDE3(f->n),
+                   to = FL_WIDE3_SCALE(FL_FOUR(e->side), n);
     FL_WIDE_UNROLL
     for (int k = 0; k < 2; k++) {
         const fl_wide at = lo + dt * (k ? mean + spread : mean - spread), s = s0 + at * ds,
                       up = 0.5 * s - FL_FOUR(e->r);
-        const point foot = MORE(x, at, u), y = MORE(foot, up, n);
-        FL_FOUR_INTO(k ? out->far : out->s) = s;
+        const fl_wide3 foot = FL_WIDE3_MADD(x, at, u), y = FL_WIDE3_MADD(foot, up, n);
+        FL_FOUR_INTO(out->s[k]) = s;
         FL_FOUR_INTO(out->u[k]) = share * sum.u;
         FL_FOUR_INTO(out->du[k]) = 4.5 * share * sum.du;
         FL_FOUR_INTO(out->ddu[k]) = 15.75 * share * sum.ddu;
-        INTO(out->n[k], to), INTO(out->across[k], to), INTO(out->p[k], y);
+        FL_WIDE3_INTO(out->n[k], to), FL_WIDE3_INTO(out->across[k], to), FL_WIDE3_INTO(out->p[k], y);
         MASK_INTO(out->some[k]) = some;
     }
 }
@@ -175,14 +165,16 @@ FL_WIDE_VERSIONS static void find_feet(const fl_strip_points *p, double R, feet 
 {
     const fl_wide zero = {0};
     const fl_strip_edges *of = &p->of;
-    const point x = POINT(of->x), c = POINT(p->c), e = POINT(p->e), u0 = POINT(of->u), q0 = LESS(x, c);
-    const fl_wide tau = DOT(q0, e), slope = DOT(u0, e), back = -tau, down = -slope;
-    const point q1 = MORE(q0, back, e), u = MORE(u0, down, e);
-    const fl_wide uu = DOT(u, u), foot = -DOT(q1, u) / uu, begin = FL_FOUR(of->lo), end = FL_FOUR(of->hi);
+    const fl_wide3 x = FL_WIDE3(of->x), c = FL_WIDE3(p->c), e = FL_WIDE3(p->e), u0 = FL_WIDE3(of->u),
+                   q0 = FL_WIDE3_SUB(x, c);
+    const fl_wide tau = FL_WIDE3_DOT(q0, e), slope = FL_WIDE3_DOT(u0, e), back = -tau, down = -slope;
+    const fl_wide3 q1 = FL_WIDE3_MADD(q0, back, e), u = FL_WIDE3_MADD(u0, down, e);
+    const fl_wide uu = FL_WIDE3_DOT(u, u), foot = -FL_WIDE3_DOT(q1, u) / uu, begin = FL_FOUR(of->lo),
+                  end = FL_FOUR(of->hi);
     fl_wide m = FL_WIDE_CHOOSE(foot > begin, foot, begin);
     m = FL_WIDE_CHOOSE(m < end, m, end);
-    const point q = MORE(q1, m, u);
-    const fl_wide least2 = DOT(q, q), away = DOT(q, u), lean = 2.0 * away;
+    const fl_wide3 q = FL_WIDE3_MADD(q1, m, u);
+    const fl_wide least2 = FL_WIDE3_DOT(q, q), away = FL_WIDE3_DOT(q, u), lean = 2.0 * away;
     fl_wide room = R * R - least2;
     const fl_wide_mask there = (begin < end) & (room > 0.0);
     room = FL_WIDE_WHERE(there, room);
@@ -211,7 +203,7 @@ FL_WIDE_VERSIONS static void find_feet(const fl_strip_points *p, double R, feet 
     FL_FOUR_INTO(out->tau) = tau, FL_FOUR_INTO(out->slope) = slope;
     FL_FOUR_INTO(out->uu) = uu, FL_FOUR_INTO(out->lean) = lean, FL_FOUR_INTO(out->least2) = least2;
     FL_FOUR_INTO(out->a) = a, FL_FOUR_INTO(out->half) = half;
-    INTO(out->q, q), INTO(out->u, u);
+    FL_WIDE3_INTO(out->q, q), FL_WIDE3_INTO(out->u, u);
     MASK_INTO(out->some) = some, MASK_INTO(out->zeros) = -(zero_lo + zero_hi),
     MASK_INTO(out->zero_lo) = zero_lo;
     MASK_INTO(out->rule) = which, MASK_INTO(out->more) = near_lo | near_hi | graded;
@@ -389,25 +381,26 @@ FL_WIDE_VERSIONS static void tie(const fl_strip_points *p, const feet *a, const 
     const fl_wide f = FL_FOUR(sum->f), fx = FL_FOUR(sum->fx), fxx = FL_FOUR(sum->fxx), over = 0.5 / spread;
     const fl_wide f_turn = FL_WIDE_WHERE(two, over * (fx - mean * f)),
                   fx_turn = FL_WIDE_WHERE(two, over * (fxx - mean * fx));
-    const point q = POINT(a->q), u = POINT(a->u), c = POINT(p->c), e = POINT(p->e);
+    const fl_wide3 q = FL_WIDE3(a->q), u = FL_WIDE3(a->u), c = FL_WIDE3(p->c), e = FL_WIDE3(p->e);
     const fl_wide_mask some = MASK(a->some) & (du > 0.0);
-    FL_FOUR_INTO(out->s) = s, FL_FOUR_INTO(out->far) = s;
     FL_WIDE_UNROLL
     for (int k = 0; k < 2; k++) {
         const double sign = k ? 1.0 : -1.0;
         const fl_wide share = FL_WIDE_CHOOSE(two, 0.5 * one, (k ? zero : one)), pull = share * du,
                       along_q = share * f + sign * f_turn, along_u = share * fx + sign * fx_turn,
                       at = FL_FOUR(a->tau) + (m + (mean + sign * spread)) * slope;
-        const point part_q = TIMES(along_q, q), force = MORE(part_q, along_u, u);
-        fl_wide size = DOT(force, force);
+        const fl_wide3 part_q = FL_WIDE3_SCALE(along_q, q), force = FL_WIDE3_MADD(part_q, along_u, u);
+        fl_wide size = FL_WIDE3_DOT(force, force);
         root(&size);
         const fl_wide shorter = 1.0 / size, per = side / pull, up = R - 0.5 * s - r;
-        const point n = TIMES(shorter, force), long_n = TIMES(per, force), across = TIMES(side, n);
-        const point foot = MORE(c, at, e), y = MORE(foot, up, n);
+        const fl_wide3 n = FL_WIDE3_SCALE(shorter, force), long_n = FL_WIDE3_SCALE(per, force),
+                       across = FL_WIDE3_SCALE(side, n);
+        const fl_wide3 foot = FL_WIDE3_MADD(c, at, e), y = FL_WIDE3_MADD(foot, up, n);
+        FL_FOUR_INTO(out->s[k]) = s;
         FL_FOUR_INTO(out->u[k]) = share * (factor * FL_FOUR(sum->u));
         FL_FOUR_INTO(out->du[k]) = 4.5 * factor * pull;
         FL_FOUR_INTO(out->ddu[k]) = share * (15.75 * factor * FL_FOUR(sum->ddu));
-        INTO(out->n[k], long_n), INTO(out->across[k], across), INTO(out->p[k], y);
+        FL_WIDE3_INTO(out->n[k], long_n), FL_WIDE3_INTO(out->across[k], across), FL_WIDE3_INTO(out->p[k], y);
         MASK_INTO(out->some[k]) = some & (size > 0.0) & (pull > 0.0);
     }
 }
@@ -422,7 +415,7 @@ FL_WIDE_VERSIONS static int32_t lay_out(const twos *q, int32_t stands, fl_place 
     int32_t n = 0;
     FL_WIDE_UNROLL
     for (int k = 0; k < 2; k++) {
-        a[k][0] = FL_FOUR(k ? q->far : q->s);
+        a[k][0] = FL_FOUR(q->s[k]);
         a[k][1] = FL_FOUR(q->u[k]), a[k][2] = FL_FOUR(q->du[k]), a[k][3] = FL_FOUR(q->ddu[k]);
         b[k][0] = FL_FOUR(q->n[k][0]), b[k][1] = FL_FOUR(q->n[k][1]), b[k][2] = FL_FOUR(q->n[k][2]);
         b[k][3] = FL_FOUR(q->across[k][0]), c[k][0] = FL_FOUR(q->across[k][1]);

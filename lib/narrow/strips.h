@@ -4,9 +4,8 @@
  * Along a straight line the distance to a polyhedron changes its formula where the nearest feature does: at
  * the planes between the prisms over its faces, the wedges over its edges and the cones over its vertices.
  * The line is cut there and where s becomes 0, and each piece gets the points of a rule of Gauss that knows
- * about the root of s at such an end: FL_LINE_NODES (rules.h) where s is linear, exact; else
- * 8, or FL_STRIP_CURVED where the overlap is large, within 2e-8, the force
- * and its moment too.
+ * about the root of s at such an end: FL_LINE_NODES (rules.h) where s is linear, exact; else 8, or
+ * FL_STRIP_CURVED where the overlap is large, within 2e-8, the force and its moment too.
  *
  * Edges wait until all that a contact has are known, and then go FL_LANES at a time.  Each has its places by
  * itself, and in the order in which they came: not a bit depends on what else there is. */
