@@ -147,8 +147,25 @@ INLINE int edge(const meeting *q, row r, int wide, int kind, int32_t n)
     return fl_strips_over_point(&line, t, a, &e, small);
 }
 
-/* A face none of whose corners is within reach and above the other, or all of whose corners are beyond one of
- * its sides, has no area there. */
+/* Whether anything of a face that is within reach of the other lies above a side.  corner: columns of its n
+ * corners; h, g: heights over the other and, times sign, over the side.  Between a corner in reach and one
+ * that is not, g is looked at where reach ends. */
+INLINE int above_side(row r, int wide, int32_t corner, int32_t n, double R, const double *h, const double *g,
+                      double sign)
+{
+    int32_t v = get(r, wide, corner + n - 1);
+    double s = R - h[v], e = sign * g[v];
+    for (int32_t c = 0; c < n; c++) {
+        v = get(r, wide, corner + c);
+        const double t = R - h[v], f = sign * g[v];
+        if ((t > 0.0 && f > 0.0) || ((t > 0.0) != (s > 0.0) && (s * f - t * e) * (s - t) > 0.0)) return 1;
+        s = t, e = f;
+    }
+    return 0;
+}
+
+/* A face none of whose corners is within reach and above the other, or what of it is within reach is all
+ * beyond one of its sides, has no area there. */
 INLINE int face(const meeting *q, row r, int wide, int32_t sides)
 {
     const int32_t n = get(r, wide, FL_MATCH_COLUMN), height = get(r, wide, FL_MATCH_COLUMN + 1);
@@ -158,10 +175,8 @@ INLINE int face(const meeting *q, row r, int wide, int32_t sides)
     if (!near) return 0;
     for (int32_t k = 0; k < sides; k++) {
         const int32_t side = get(r, wide, 5 + k);
-        const double *g = row_of(q, side >> 1), sign = side & 1 ? -1.0 : 1.0;
-        int in = 0;
-        for (int32_t c = 0; c < n; c++) in |= sign * g[get(r, wide, 5 + sides + c)] > 0.0;
-        if (!in) return 0;
+        if (!above_side(r, wide, 5 + sides, n, q->R, h, row_of(q, side >> 1), side & 1 ? -1.0 : 1.0))
+            return 0;
     }
     return fl_areas_face(q->w, q->own, get(r, wide, FL_MATCH_OWN), q->other, get(r, wide, FL_MATCH_OTHER),
                          q->R, q->behind, q->rim);
