@@ -5,33 +5,37 @@
 
 /* Two distances within this fraction of the size are one: rounding of the coordinates. */
 #define SAME 1e-12
+/* A point is on an edge where it is within this fraction of the size: straight runs of edges are as straight
+ * as that (structure.c). */
+#define ON_EDGE 2e-6
 
-static double box_distance2(const fl_aabb *b, fl_vec3 x)
+/* The point lies where the surface ends. */
+static int on_rim(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 {
-    const double dx = fmax(fmax(b->lo.x - x.x, x.x - b->hi.x), 0.0),
-                 dy = fmax(fmax(b->lo.y - x.y, x.y - b->hi.y), 0.0),
-                 dz = fmax(fmax(b->lo.z - x.z, x.z - b->hi.z), 0.0);
-    return dx * dx + dy * dy + dz * dz;
+    const double same = ON_EDGE * p->size;
+    fl_bvh_walk at = fl_bvh_about(&sh->edges, sh->edge_box, x);
+    for (int32_t k; (k = fl_bvh_next(&at, same)) >= 0;) {
+        const fl_edge e = p->edge[k];
+        if (e.left >= 0 && e.right >= 0) continue;
+        const fl_vec3 u = v3_sub(p->v[e.b], p->v[e.a]), r = v3_sub(x, p->v[e.a]);
+        const double t = v3_dot(r, u) / v3_norm2(u), in = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+        if (v3_norm(v3_madd(r, -in, u)) <= same) return 1;
+    }
+    return 0;
 }
 
-/* Face f is not nearer to x than d, by its plane or by its box. */
-static int farther(const fl_poly *p, const fl_aabb *box, int32_t f, fl_vec3 x, double d)
-{
-    return fabs(v3_dot(p->n[f], x) - p->c[f]) > d || box_distance2(&box[f], x) > d * d;
-}
-
-/* Signed distance of x from the faces in the list.  Of faces whose nearest points agree within rounding (a
- * shared edge or corner) the one that x is most in front of tells the side: its plane passes between x and
- * the others. */
-static fl_nearest nearest_of(const fl_poly *p, const fl_aabb *box, const int32_t *face, int32_t n, fl_vec3 x)
+/* Signed distance of x from the surface.  Of faces whose nearest points agree within rounding (a shared edge
+ * or corner) the one that x is most in front of tells the side: its plane passes between x and the others.
+ * What is nearest to a rim is beside the surface, not behind it. */
+static fl_nearest nearest_to(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 {
     fl_nearest best = {.d = INFINITY};
     double front = 0.0;
     const double same = SAME * p->size;
-    for (int32_t k = 0; k < n; k++) {
-        const int32_t f = face[k];
-        if (farther(p, box, f, x, best.d + 2.0 * same)) continue;
+    fl_bvh_walk at = fl_bvh_about(&sh->tree, sh->box, x);
+    for (int32_t f; (f = fl_bvh_next(&at, best.d + same)) >= 0;) {
         const double s = v3_dot(p->n[f], x) - p->c[f];
+        if (fabs(s) > best.d + same) continue;
         const fl_nearest q = fl_nearest_face(p, f, x);
         if (q.d > best.d + same) continue;
         if (q.d < best.d - same || fabs(s) > fabs(front)) {
@@ -39,7 +43,7 @@ static fl_nearest nearest_of(const fl_poly *p, const fl_aabb *box, const int32_t
             front = s;
         }
     }
-    if (front < 0.0) {
+    if (front < 0.0 && !on_rim(p, sh, best.p)) {
         best.d = -best.d;
         best.n = v3_neg(best.n);
     }
@@ -48,15 +52,14 @@ static fl_nearest nearest_of(const fl_poly *p, const fl_aabb *box, const int32_t
 
 /* Is x behind the surface, or may it come there when it moves by the margin?  Not when it is farther off than
  * that, and in front of every face that may become the nearest. */
-static int may_come_behind(const fl_poly *p, const fl_aabb *box, const int32_t *face, int32_t n, fl_vec3 x,
-                           double margin)
+static int may_come_behind(const fl_poly *p, const fl_shell *sh, fl_vec3 x, double margin)
 {
-    const double d = nearest_of(p, box, face, n, x).d, most = d + 2.0 * margin;
+    const double d = nearest_to(p, sh, x).d, most = d + 2.0 * margin;
     if (d < margin) return 1;
-    for (int32_t k = 0; k < n; k++) {
-        const int32_t f = face[k];
-        if (v3_dot(p->n[f], x) - p->c[f] >= margin || farther(p, box, f, x, most)) continue;
-        if (fl_nearest_face(p, f, x).d < most) return 1;
+    fl_bvh_walk at = fl_bvh_about(&sh->tree, sh->box, x);
+    for (int32_t f; (f = fl_bvh_next(&at, most)) >= 0;) {
+        const double s = v3_dot(p->n[f], x) - p->c[f];
+        if (s < margin && -s <= most && fl_nearest_face(p, f, x).d < most) return 1;
     }
     return 0;
 }
@@ -113,17 +116,17 @@ static int around(fl_reach *r, const fl_poly *core, const fl_shell *sh, fl_aabb 
     return 0;
 }
 
-/* The vertices of the core that may be behind the surface: signed distances from the walls.  *behind is set
- * when one is; the places of those are added here, or, for `single`, the place of the deepest. */
-static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_aabb *box,
+/* The vertices of the core that may be behind the surface: signed distances.  *behind is set when one is; the
+ * places of those are added here, or, for `single`, the place of the deepest. */
+static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_shell *sh,
                          const fl_matches *l, double ra, int single, int *behind)
 {
     fl_nearest deepest = {.d = ra};
     int32_t which = -1;
     *behind = 0;
-    for (int32_t k = l->walls; k < l->walls + l->shy; k++) {
-        const int32_t v = l->wall[k];
-        const fl_nearest q = nearest_of(B->p, box, l->wall, l->walls, w->va[v]);
+    for (int32_t k = 0; k < l->shies; k++) {
+        const int32_t v = l->shy[k];
+        const fl_nearest q = nearest_to(B->p, sh, w->va[v]);
         if (q.d < deepest.d) deepest = q, which = v;
         if (single || q.d >= 0.0) continue;
         *behind = 1;
@@ -145,8 +148,7 @@ static int beyond(const fl_side *A, const fl_side *B, const int32_t *at, int32_t
     return 0;
 }
 
-/* Leave of the walls what is within `far` of the core: the others only tell on which side its vertices are.
- */
+/* Leave of the walls what is within `far` of the core. */
 static void leave_near(fl_reach *r, const fl_side *A, const fl_side *B, double far)
 {
     const fl_poly *p = B->p;
@@ -176,18 +178,13 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
     const double margin = fl_matches_margin(l, ra), same = SAME * (A->p->size + B->p->size);
     fl_reach *walls = &near->of_shell, *all = &near->of_core;
     fl_aabb box = aabb_empty();
-    fl_err lost = {0};
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
     if (around(walls, B->p, shell, box, ra + margin, reach + margin)) return -1;
-    if (walls->faces &&
-        fl_grow(&l->wall, &l->wall_cap, (int64_t)walls->faces + A->p->nv, sizeof *l->wall, &lost))
-        return -1;
-    for (int32_t k = 0; k < walls->faces; k++) l->wall[k] = walls->face[k];
-    l->walls = walls->faces;
-    l->shy = 0;
-    for (int32_t v = 0; v < A->p->nv && l->walls; v++)
-        if (single || may_come_behind(B->p, shell->box, l->wall, l->walls, w->va[v], margin + same))
-            l->wall[l->walls + l->shy++] = v;
+    l->far = walls->faces == 0;
+    l->shies = 0;
+    if (fl_room(&l->shy, &l->shy_cap, A->p->nv, sizeof *l->shy)) return -1;
+    for (int32_t v = 0; v < A->p->nv && !l->far; v++)
+        if (single || may_come_behind(B->p, shell, w->va[v], margin + same)) l->shy[l->shies++] = v;
     leave_near(walls, A, B, ra + margin + same);
     return whole(all, A->p) || fl_matches_list(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_footing_list(l, A, B)
@@ -206,12 +203,12 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     *distance = reach;
     if (!fl_matches_hold(l, &w->M, w->o) && list_matches(w, near, &A, &B, &b->shell, ra, reach, single, l))
         return -1;
-    if (l->walls == 0) {
+    if (l->far) {
         l->shift2 = 0.0; /* what is not near now is not known later */
         return 0;
     }
     *distance = ra; /* something is near: no bound is claimed */
-    if (core_vertices(w, &A, &B, b->shell.box, l, ra, single, &behind) || single) return single ? 0 : -1;
+    if (core_vertices(w, &A, &B, &b->shell, l, ra, single, &behind) || single) return single ? 0 : -1;
     fl_matches rest;
     const double far = behind ? ra : 0.0, rim = FL_PLACE_RIM * ra;
     return fl_footing_places(w, l, &near->footing, &A, &B, ra, far, rim, &rest) ||

@@ -4,7 +4,8 @@
  * The potential is that of places.h, summed over the prisms over all faces, the wedges over the edges that
  * bend outward and the cones over the corners: seams between coplanar triangles are not there, and in an
  * inner corner every wall bears for itself.  Vertices behind the surface have one distance, to the nearest
- * face. */
+ * face of all; what is nearest to the rim of an open surface is beside it, not behind.  An open surface has
+ * one side: what has come round it to its back is as deep in it as it is far from it. */
 #ifndef FL_BOUND_SHELL_H
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"

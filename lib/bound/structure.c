@@ -56,6 +56,23 @@ static int side_of(const fl_tri *t, int32_t a, int32_t b)
     return t->v[(k + 1) % 3] == b ? k : corner_of(t, b);
 }
 
+/* Of three or more triangles at an edge, s[k .. end), the two that go on flat over it, if there are two: a
+ * plate with a stiffener behind it has no rim there. */
+static int smoothest(const flats *f, int32_t k, int32_t end, int32_t *one, int32_t *two)
+{
+    double best = 1.0 - 0.5 * BEND * BEND;
+    const double least = best;
+    for (int32_t i = k; i < end; i++) {
+        for (int32_t j = i + 1; j < end; j++) {
+            const fl_tri *t = &f->p->t[f->s[i].t], *u = &f->p->t[f->s[j].t];
+            if (t->v[side_of(t, f->s[k].a, f->s[k].b)] == u->v[side_of(u, f->s[k].a, f->s[k].b)]) continue;
+            const double c = v3_dot(f->n[f->s[i].t], f->n[f->s[j].t]);
+            if (c > best) best = c, *one = i, *two = j;
+        }
+    }
+    return best > least;
+}
+
 static void join_sides(flats *f)
 {
     const fl_part *p = f->p;
@@ -71,11 +88,12 @@ static void join_sides(flats *f)
     f->closed = 1;
     for (int32_t k = 0, end; k < ns; k = end) {
         for (end = k + 1; end < ns && f->s[end].a == f->s[k].a && f->s[end].b == f->s[k].b; end++) {}
+        int32_t one = k, two = k + 1;
         if (end - k != 2) {
             f->closed = 0;
-            continue;
+            if (!smoothest(f, k, end, &one, &two)) continue;
         }
-        const int32_t t = f->s[k].t, u = f->s[k + 1].t, a = f->s[k].a, b = f->s[k].b;
+        const int32_t t = f->s[one].t, u = f->s[two].t, a = f->s[k].a, b = f->s[k].b;
         const int kt = side_of(&p->t[t], a, b), ku = side_of(&p->t[u], a, b);
         if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: turned against each other */
             f->closed = 0;
@@ -92,7 +110,6 @@ static int in_plane(const flats *f, int32_t t, fl_vec3 n, double c)
 {
     const int32_t *v = f->p->t[t].v;
     const fl_vec3 *x = f->p->v;
-    if (f->n[t].x == 0.0 && f->n[t].y == 0.0 && f->n[t].z == 0.0) return 0; /* no area */
     const fl_vec3 e = v3_sub(x[v[1]], x[v[0]]), g = v3_sub(x[v[2]], x[v[0]]), h = v3_sub(x[v[2]], x[v[1]]);
     const double longest = sqrt(fmax(v3_norm2(e), fmax(v3_norm2(g), v3_norm2(h))));
     const double bend = BEND + f->tol * longest / v3_norm(v3_cross(e, g));
@@ -310,7 +327,7 @@ done:
 
 static void shell_free(fl_shell *s)
 {
-    free(s->corner), free(s->box), free(s->edge_box);
+    free(s->corner), free(s->box), free(s->edge_box), free(s->lean);
     fl_bvh_free(&s->tree);
     fl_bvh_free(&s->edges);
 }
@@ -327,7 +344,11 @@ static void bent_edges(const flats *f, side *edge, int32_t *edges, bends *ends)
     for (int32_t k = 0; k < 3 * p->nt; k++) {
         const side *s = &f->s[k];
         if (k > 0 && s->a == s[-1].a && s->b == s[-1].b) continue;
-        const int32_t u = f->mate[3 * s->t + side_of(&p->t[s->t], s->a, s->b)];
+        int32_t u = -1;
+        for (const side *o = s; o < f->s + 3 * p->nt && o->a == s->a && o->b == s->b && u < 0; o++) {
+            u = f->mate[3 * o->t + side_of(&p->t[o->t], o->a, o->b)];
+            if (u >= 0) s = o; /* of three at an edge one of the two that go on over it */
+        }
         if (f->face[s->t] < 0 || (u >= 0 && f->face[u] == f->face[s->t])) continue;
         edge[(*edges)++] = *s;
         for (int end = 0; end < 2; end++) {
@@ -361,8 +382,7 @@ static fl_edge sides_of(const flats *f, const int32_t *face_of, int32_t t, int32
     const fl_tri *tri = &f->p->t[t];
     const int k = side_of(tri, a, b);
     const int32_t u = f->mate[3 * t + k], one = face_of[t], other = u < 0 ? -1 : face_of[u];
-    if (tri->v[k] == a) return (fl_edge){a, b, one, other};
-    return other < 0 ? (fl_edge){a, b, one, -1} : (fl_edge){a, b, other, one};
+    return tri->v[k] == a ? (fl_edge){a, b, one, other} : (fl_edge){a, b, other, one};
 }
 
 /* The faces of a shell: convex tiles of its flat regions.  The block of a fl_poly is laid out by hand: it is
@@ -416,6 +436,84 @@ static int lay_out(fl_piece *piece, const flats *f, const fl_mosaic *tiles, fl_e
     return 0;
 }
 
+/* Sides of triangles where one flat region passes into another, by the vertex that they begin at. */
+typedef struct {
+    int32_t *begin; /* [nv + 1] */
+    int32_t *side;  /* 3 triangle + side */
+} seams;
+
+static int find_seams(seams *s, const flats *f, fl_err *err)
+{
+    const fl_part *p = f->p;
+    s->begin = fl_alloc((int64_t)p->nv + 2, sizeof *s->begin, err);
+    s->side = fl_alloc(3 * (int64_t)p->nt, sizeof *s->side, err);
+    if (!s->begin || !s->side) return -1;
+    memset(s->begin, 0, ((size_t)p->nv + 2) * sizeof *s->begin);
+    for (int fill = 0; fill < 2; fill++) {
+        for (int32_t k = 0; k < 3 * p->nt; k++) {
+            const int32_t t = k / 3, u = f->mate[k], from = p->t[t].v[k % 3];
+            if (u < 0 || f->face[t] < 0 || f->face[u] < 0 || f->face[u] == f->face[t]) continue;
+            if (fill) s->side[s->begin[from + 1]++] = k;
+            else s->begin[from + 2]++;
+        }
+        for (int32_t v = 0; v <= p->nv && !fill; v++) s->begin[v + 1] += s->begin[v];
+    }
+    return 0;
+}
+
+/* The tile over the side from a to b of a tile of this region, or -1 where there is none, or several that are
+ * not of one plane. */
+static int32_t tile_over(const seams *s, const flats *f, const fl_mosaic *tiles, int32_t region, int32_t a,
+                         int32_t b)
+{
+    const fl_part *p = f->p;
+    const fl_vec3 way = v3_sub(p->v[b], p->v[a]);
+    int32_t over = -1, v = a;
+    while (v != b) {
+        int32_t next = -1;
+        for (int32_t k = s->begin[v]; k < s->begin[v + 1] && next < 0; k++) {
+            const int32_t t = s->side[k] / 3, w = p->t[t].v[(s->side[k] + 1) % 3], u = f->mate[s->side[k]];
+            const fl_vec3 on = v3_sub(p->v[w], p->v[v]);
+            if (f->face[t] != region || !(v3_dot(on, way) > 0.0) ||
+                v3_norm(v3_cross(v3_sub(p->v[w], p->v[a]), way)) > 2.0 * f->tol * v3_norm(way))
+                continue;
+            if (over >= 0 && tiles->region[over] != f->face[u]) return -1;
+            if (over < 0) over = tiles->of[u];
+            next = w;
+        }
+        if (next < 0) return -1;
+        v = next;
+    }
+    return over;
+}
+
+#define LEANS 0.5 /* cosine of the bend from which on every wall bears for itself */
+
+static int find_leans(fl_piece *piece, const flats *f, const fl_mosaic *tiles, fl_err *err)
+{
+    fl_poly *core = &piece->core;
+    seams s = {0};
+    int rc = -1;
+    piece->shell.lean = fl_alloc(core->first[core->nf], sizeof *piece->shell.lean, err);
+    if (piece->shell.lean && find_seams(&s, f, err) == 0) {
+        for (int32_t r = 0; r < core->nf; r++) {
+            for (int32_t k = core->first[r]; k < core->first[r + 1]; k++) {
+                const int32_t a = core->loop[k],
+                              b = core->loop[k + 1 < core->first[r + 1] ? k + 1 : core->first[r]];
+                const int32_t g = tile_over(&s, f, tiles, tiles->region[r], a, b);
+                const fl_vec3 u = v3_sub(core->v[b], core->v[a]);
+                const int leans = g >= 0 && v3_dot(core->n[r], core->n[g]) > LEANS &&
+                                  v3_dot(v3_cross(core->n[r], core->n[g]), u) < 0.0;
+                piece->shell.lean[k] = leans ? g : -1;
+            }
+        }
+        core->lean = piece->shell.lean;
+        rc = 0;
+    }
+    free(s.begin), free(s.side);
+    return rc;
+}
+
 static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
 {
     const fl_part *p = f->p;
@@ -428,7 +526,7 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
     int rc = -1;
     if (!edge || !ends ||
         fl_mosaic_make(&tiles, p->nv, p->v, p->nt, p->t, f->face, f->fn, f->mate, f->tol, err) ||
-        lay_out(piece, f, &tiles, err))
+        lay_out(piece, f, &tiles, err) || find_leans(piece, f, &tiles, err))
         goto done;
     bent_edges(f, edge, &edges, ends);
     for (int32_t k = 0; k < edges; k++) { /* every straight run once, from its lower end */

@@ -30,6 +30,7 @@ typedef struct {
     fl_bvh tree;       /* over box */
     fl_bvh edges;      /* over edge_box */
     fl_aabb *edge_box; /* [core.ne] */
+    int32_t *lean;     /* core.lean */
 } fl_shell;
 
 typedef struct {

@@ -3,10 +3,12 @@
 #include "base/mem.h"
 #include "broad/bvh.h"
 
+/* Halving n < 2^31 ends after 30 levels, each of which leaves one node on the stack. */
+_Static_assert(FL_BVH_STACK > 32, "room for a way down");
+
 enum {
     LEAF = 4,
-    DEPTH_MAX = 64, /* halving n < 2^31 ends after 30 levels */
-    TASK = 4096     /* boxes worth a thread's while */
+    TASK = 4096 /* boxes worth a thread's while */
 };
 
 static double centre(const fl_aabb *b, int axis)
@@ -106,7 +108,7 @@ int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const
 
 int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *out, int32_t room)
 {
-    int32_t stack[2 * DEPTH_MAX], top = 0, found = 0;
+    int32_t stack[FL_BVH_STACK], top = 0, found = 0;
     if (t->nodes) stack[top++] = 0;
     while (top > 0) {
         const fl_bvh_node *node = &t->node[stack[--top]];
@@ -123,6 +125,39 @@ int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *ou
         }
     }
     return found;
+}
+
+fl_bvh_walk fl_bvh_about(const fl_bvh *t, const fl_aabb *box, fl_vec3 x)
+{
+    fl_bvh_walk w;
+    w.tree = t, w.box = box, w.x = x;
+    w.at = w.end = w.top = 0;
+    if (t->nodes) w.stack[w.top++] = 0;
+    return w;
+}
+
+int32_t fl_bvh_next(fl_bvh_walk *w, double within)
+{
+    const fl_bvh *t = w->tree;
+    const double far2 = within * within;
+    for (;;) {
+        while (w->at < w->end) {
+            const int32_t k = t->order[w->at++];
+            if (aabb_distance2(w->box[k], w->x) <= far2) return k;
+        }
+        if (w->top == 0) return -1;
+        const fl_bvh_node *node = &t->node[w->stack[--w->top]];
+        if (aabb_distance2(node->box, w->x) > far2) continue;
+        if (node->count) {
+            w->at = node->first, w->end = node->first + node->count;
+            continue;
+        }
+        const int32_t one = node->first;
+        const int second =
+            aabb_distance2(t->node[one + 1].box, w->x) < aabb_distance2(t->node[one].box, w->x);
+        w->stack[w->top++] = second ? one : one + 1;
+        w->stack[w->top++] = second ? one + 1 : one;
+    }
 }
 
 void fl_bvh_free(fl_bvh *t)

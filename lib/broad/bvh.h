@@ -32,6 +32,22 @@ int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const
  * many there are, which may exceed room: then the caller makes room and asks again.  Cannot fail. */
 int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *out, int32_t room);
 
+/* A walk over the boxes about a point, the nearer half of each node first. */
+enum { FL_BVH_STACK = 64 };
+typedef struct {
+    const fl_bvh *tree;
+    const fl_aabb *box;
+    fl_vec3 x;
+    int32_t at, end; /* of the leaf */
+    int32_t top, stack[FL_BVH_STACK];
+} fl_bvh_walk;
+
+fl_bvh_walk fl_bvh_about(const fl_bvh *t, const fl_aabb *box, fl_vec3 x);
+
+/* The next one no farther from the point than that, each once, or -1.  Who looks for the nearest thing lets
+ * the distance fall from call to call; INFINITY: any. */
+int32_t fl_bvh_next(fl_bvh_walk *w, double within);
+
 void fl_bvh_free(fl_bvh *t);
 
 #endif

@@ -27,5 +27,13 @@ static inline int aabb_meet(fl_aabb a, fl_aabb b)
     return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
            b.lo.z <= a.hi.z;
 }
+/* Squared distance of a point; 0 inside. */
+static inline double aabb_distance2(fl_aabb b, fl_vec3 x)
+{
+    const double dx = fmax(fmax(b.lo.x - x.x, x.x - b.hi.x), 0.0),
+                 dy = fmax(fmax(b.lo.y - x.y, x.y - b.hi.y), 0.0),
+                 dz = fmax(fmax(b.lo.z - x.z, x.z - b.hi.z), 0.0);
+    return dx * dx + dy * dy + dz * dz;
+}
 
 #endif

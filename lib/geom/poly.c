@@ -511,8 +511,7 @@ void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes)
 double fl_poly_bend(const fl_poly *p, int32_t e)
 {
     const fl_edge s = p->edge[e];
-    if (s.left < 0) return 2.0 * PI;
-    if (s.right < 0) return PI;
+    if (s.left < 0 || s.right < 0) return s.left == s.right ? 2.0 * PI : PI;
     const fl_vec3 l = p->n[s.left], r = p->n[s.right];
     const double sine = v3_dot(v3_cross(l, r), v3_unit(v3_sub(p->v[s.b], p->v[s.a]))), cosine = v3_dot(l, r);
     /* rounding may bend a flat edge inward, and -0 would turn pi into -pi */

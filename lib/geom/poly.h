@@ -31,6 +31,9 @@ typedef struct {
     int32_t *begin;  /* [nv + 1] offsets into beside                                 */
     int32_t *beside; /* [begin[nv]] the other ends of the edges of each vertex, ascending */
     double size;     /* largest side of the bounding box                          [m] */
+    int32_t *lean;   /* of a surface that is not convex (bound/structure.h), borrowed: [first[nf]] the face
+                      * over the side that begins in loop[k], where the two bend inward by less than 60
+                      * degrees, or -1; NULL: nowhere */
 } fl_poly;
 
 /* Build from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and never below what

@@ -9,12 +9,20 @@
 /* Of the sum of its parts: less is what rounding leaves of parts that cancel. */
 #define NOTHING 1e-13
 #define ALIKE 0.5 /* what holds for integrals is taken to hold for their sums above this */
+#define SLIM 4.0  /* cotangent of half the angle of a corner */
 
 enum { NODES = 3 };
 
 /* Gauss' three points on [0, 1] */
 static const double GAUSS[NODES] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
 static const double GAUSS_WEIGHT[NODES] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+/* and four, for s^4 times the fade times the way along a side */
+enum { SIDE_NODES = 4 };
+static const double SIDE[SIDE_NODES] = {0.06943184420297371239, 0.33000947820757186760,
+                                        0.66999052179242813240, 0.93056815579702628761};
+static const double SIDE_WEIGHT[SIDE_NODES] = {0.17392742256872692869, 0.32607257743127307131,
+                                               0.32607257743127307131, 0.17392742256872692869};
 
 /* A corner of F over the plane of f: plane coordinates and overlap; the side that starts here is part of F's
  * own rim (1) or not (0). */
@@ -158,10 +166,10 @@ static inline __attribute__((always_inline)) void along(const piece *p, const fl
                                                         fl_wide *all, fl_wide *far)
 {
     fl_wide sum = {0}, more = {0};
-    for (int k = 0; k < NODES; k++) {
-        const double z = GAUSS[k];
+    for (int k = 0; k < SIDE_NODES; k++) {
+        const double z = SIDE[k];
         const fl_wide s = p->s + z * p->ds, s2 = s * s;
-        const fl_wide c = GAUSS_WEIGHT[k] * *dt * (p->w + z * p->dw) * s2 * s2;
+        const fl_wide c = SIDE_WEIGHT[k] * *dt * (p->w + z * p->dw) * s2 * s2;
         sum += c;
         more += c * (*t0 + z * *dt);
     }
@@ -232,15 +240,18 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     b_lo = LARGER(b_lo, zero), b_hi = SMALLER(b_hi, W);
     const fl_wide_mask inner = in_lo < in_hi, living = some | inner, first = a_lo < a_hi, last = b_lo < b_hi;
     in_lo = FL_WIDE_WHERE(inner, in_lo), in_hi = FL_WIDE_WHERE(inner, in_hi);
+    a_lo = FL_WIDE_WHERE(first, a_lo), a_hi = FL_WIDE_WHERE(first, a_hi);
     b_lo = FL_WIDE_WHERE(last, b_lo), b_hi = FL_WIDE_WHERE(last, b_hi);
     g->lo[c / FL_LANES] = in_lo, g->hi[c / FL_LANES] = in_hi;
     if (!(g->width > 0.0) || !any(&living)) return;
     /* the origins: on the side, in the corner where a border to the next rim ends, which then counts for
-     * nothing, or at the foot of something that is in the rim */
-    const fl_wide_mask both = first & last;
+     * nothing, or at the foot of something that is in the rim; not in a corner so slim that its border runs
+     * far off, where the overlap may be large and of any sign */
+    const fl_wide_mask at_first = first & (ta <= SLIM), at_last = last & ~at_first & (tb <= SLIM),
+                       add_first = first & ~at_first, add_last = last & ~at_last;
     foot = FL_WIDE_CHOOSE(some, foot, in_lo);
-    foot = FL_WIDE_CHOOSE(last, length, FL_WIDE_WHERE(living, foot));
-    foot = FL_WIDE_CHOOSE(first, zero, foot);
+    foot = FL_WIDE_CHOOSE(at_last, length, FL_WIDE_WHERE(living, foot));
+    foot = FL_WIDE_CHOOSE(at_first, zero, foot);
     const fl_wide ox = ax + foot * ux, oy = ay + foot * uy, per = 1.0 / W;
     const fl_wide s = p[0].s + f->sx * (ox - p[0].x) + f->sy * (oy - p[0].y);
     sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
@@ -265,12 +276,19 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
         const piece b1 = {x, y, dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy, one, zero};
         fan(&sum, &b1, &s, &inner, 1);
     }
-    if (any(&both)) {
+    if (any(&add_first)) {
+        const fl_wide x = ax + a_hi * Dx - ox, y = ay + a_hi * Dy - oy, dl = a_lo - a_hi, dx = dl * Dx,
+                      dy = dl * Dy;
+        const piece b1 = {x,          y,       dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy,
+                          per * a_hi, per * dl};
+        fan(&sum, &b1, &s, &add_first, 1);
+    }
+    if (any(&add_last)) {
         const fl_wide x = bx + b_lo * Ex - ox, y = by + b_lo * Ey - oy, dl = b_hi - b_lo, dx = dl * Ex,
                       dy = dl * Ey;
         const piece b1 = {x,          y,       dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy,
                           per * b_lo, per * dl};
-        fan(&sum, &b1, &s, &both, 1);
+        fan(&sum, &b1, &s, &add_last, 1);
     }
     gather(f, &sum, (const fl_wide[3]){ox - p[0].x, oy - p[0].y, s});
 }

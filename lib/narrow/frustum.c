@@ -9,10 +9,17 @@
 #include "narrow/strips.h"
 
 /* Halvings in search of where s ends: the length of a double. */
-enum { HALVINGS = 45, SEARCHES = 60, GOLDEN_STEPS = 40, BREAKS = 96, STRETCHES = 12, LOOKS = 2, PANELS = 4 };
+enum { HALVINGS = 45, SEARCHES = 60, GOLDEN_STEPS = 40, BREAKS = 192, STRETCHES = 12, LOOKS = 2, PANELS = 4 };
 
 /* A face or an edge that is not that much of its size long, across the axis, has no direction there. */
 #define SMALL 1e-12
+/* An edge that reaches farther than this from the point nearest to the axis, in distances from there, goes in
+ * pieces that grow with the way from it: the distance has a branch point so far beside it. */
+#define CLOSE 0.25
+/* And a row that crosses the middle and reaches farther than this on both sides, in two halves. */
+#define WIDE 0.3
+/* An end with less of the overlap than this part of the largest is one where it is nothing. */
+#define NEARLY 0.3
 
 double fl_frustum_reach(const fl_frustum *c, fl_vec3 n)
 {
@@ -399,11 +406,12 @@ static int add_row(face *q, double x, double z, double h2, double lo, double hi,
                                    : 0.0;
     const int at_near = -p.ck > need * sqrt(h2 + near * near), at_far = -p.ck > need * sqrt(h2 + far * far);
     if (!at_near && !at_far) return 1;
-    if (at_near && at_far) {
+    if (at_near && at_far && !(lo < 0.0 && hi > 0.0 && far * far > WIDE * WIDE * h2)) {
         add_row_sums(q, x, &p, K, L);
         return 1;
     }
-    const double rho = -p.ck / need, y = sqrt(fmax(rho * rho - h2, 0.0));
+    /* rho is singular h beside the middle of a row: each half by itself */
+    const double rho = -p.ck / need, y = at_near && at_far ? far : sqrt(fmax(rho * rho - h2, 0.0));
     for (int half = 0; half < 2; half++) {
         const double from = at_near ? (half ? 0.0 : -y)
                             : half  ? y
@@ -499,6 +507,31 @@ static int faces_away(const shape *c, fl_vec3 n, double level, double low, doubl
     return low >= far && high <= c->h - far && -c->nz * n.z <= FL_AREAS_COS && K0 >= 0.0 && K1 >= 0.0;
 }
 
+/* Where on the side the line, which lies in F, begins or ends to face it, in (0, 1):
+ *     c = c0 - nr (level - nFz z)/rho = FL_AREAS_COS,
+ * squared.  How many. */
+static int facing(const face *q, const line *l, double t[2])
+{
+    const shape *c = q->c;
+    const double need = FL_AREAS_COS + c->nz * q->n.z, k0 = c->nr * (q->n.z * l->z0 - q->level),
+                 k1 = c->nr * q->n.z * l->dz, A = k1 * k1 - need * need * l->g,
+                 B = k0 * k1 - need * need * l->b, C = k0 * k0 - need * need * l->a, left = B * B - A * C;
+    int n = 0;
+    if (!(left > 0.0)) return 0;
+    const double e = -B - copysign(sqrt(left), B), at[2] = {e / A, C / e};
+    for (int k = 0; k < 2; k++)
+        if (at[k] > 0.0 && at[k] < 1.0) t[n++] = at[k];
+    return n;
+}
+
+/* An end that is nearly nothing is one that is: s at both ends and in the middle. */
+static void vanishing(const double s[3], int zero[2])
+{
+    const double most = fmax(s[1], fmax(s[0], s[2]));
+    zero[0] |= s[0] < NEARLY * most;
+    zero[1] |= s[2] < NEARLY * most;
+}
+
 /* Least squared distance of the line from the axis. */
 static double nearest2(const line *l, double lo, double hi)
 {
@@ -546,13 +579,18 @@ static int over_face(fl_places *w, const fl_side *A, int32_t F, const shape *c)
     q.sum.o = v3_madd(from, 0.5 * (lo + hi), q.ex);
     q.sum.x = q.ex, q.sum.y = q.ey;
     int32_t breaks = changes(c, &q.axis, lo, hi, at);
-    for (int32_t k = 0; k < n && breaks < BREAKS - 5; k++) {
+    for (int32_t k = 0; k < n && breaks < BREAKS - 7; k++) {
         const fl_vec3 a = q.corner[k], b = q.corner[k + 1 < n ? k + 1 : 0];
         if (a.x > lo && a.x < hi) at[breaks++] = a.x;
         /* where the border of F comes within R and where it leaves */
         const fl_vec3 v = A->v[loop[k]], u = v3_sub(A->v[loop[k + 1 < n ? k + 1 : 0]], v);
         const line l = line_of(v, u);
-        double t[2] = {0.0, 1.0};
+        double t[2];
+        for (int e = facing(&q, &l, t); e-- > 0;) {
+            const double x = a.x + t[e] * (b.x - a.x);
+            if (x > lo && x < hi) at[breaks++] = x;
+        }
+        t[0] = 0.0, t[1] = 1.0;
         int is_end[2];
         if (!inside(c, &l, &t[0], &t[1], is_end)) continue;
         for (int e = 0; e < 2; e++) {
@@ -562,6 +600,14 @@ static int over_face(fl_places *w, const fl_side *A, int32_t F, const shape *c)
     }
     at[breaks++] = lo, at[breaks++] = hi;
     rising(at, breaks);
+    if (on_side(&q, lo, hi)) {
+        double room[3];
+        for (int k = 0; k < 3; k++) {
+            const double x = lo + 0.5 * k * (hi - lo), rim = profile(c, q.axis.z0 + x * q.axis.dz);
+            room[k] = rim - sqrt(fmax(q.axis.a + x * (2.0 * q.axis.b + x * q.axis.g), 0.0));
+        }
+        vanishing(room, zero);
+    }
     for (int32_t b = 0; b + 1 < breaks; b++) {
         const int ends[2] = {zero[0] && b == 0, zero[1] && b + 2 == breaks};
         const double x0 = at[b], width = at[b + 1] - x0;
@@ -635,6 +681,32 @@ static int along_side(const shape *c, const line *l, double lo, double hi)
     return low >= far && high <= c->h - far && out > -low && out > high - c->h;
 }
 
+static double slant_overlap(const fl_slant_edge *p, double t)
+{
+    return p->s0 + t * p->s1 - p->nr * sqrt(fmax(p->a + t * (2.0 * p->b + t * p->g), 0.0));
+}
+
+/* Where an edge from lo to hi along the side is cut, so that Gauss' rule has each piece: at the point nearest
+ * to the axis and at ways from it that grow threefold, where it reaches far; else in the middle, where it
+ * ends in nothing at both ends. */
+static int32_t side_pieces(const line *l, double lo, double hi, int both, double at[BREAKS])
+{
+    int32_t n = 0;
+    at[n++] = lo, at[n++] = hi;
+    if (l->g > 0.0) {
+        const double nearest = -l->b / l->g, apart = sqrt(fmax(l->a + nearest * l->b, 0.0) / l->g);
+        const double longest = fmax(hi - nearest, nearest - lo);
+        if (longest > CLOSE * apart && nearest > lo && nearest < hi) at[n++] = nearest;
+        for (double d = fmax(apart, 1e-9 * longest); d < longest && longest > CLOSE * apart; d *= 3.0) {
+            if (nearest + d < hi - 0.2 * d && nearest + d > lo + 0.2 * d) at[n++] = nearest + d;
+            if (nearest - d > lo + 0.2 * d && nearest - d < hi - 0.2 * d) at[n++] = nearest - d;
+        }
+    }
+    if (n == 2 && both) at[n++] = 0.5 * (lo + hi);
+    rising(at, n);
+    return n;
+}
+
 static int over_edge(fl_places *w, const fl_side *A, int32_t e, const shape *c)
 {
     static const double BUNCH[2][2][3] = {{{1, 0, 0}, {2, -1, 0}}, {{0, 1, 0}, {0, 3, -2}}}; /* as bunch() */
@@ -648,7 +720,6 @@ static int over_edge(fl_places *w, const fl_side *A, int32_t e, const shape *c)
     if (!(factor > 0.0)) return 0;
     const double middle = 0.5 * (lo + hi);
     sums q = {.o = v3_madd(a, middle, u), .x = v3_unit(u)};
-    const int halves = zero[0] && zero[1] ? 2 : 1;
     if (along_side(c, &l, lo, hi)) {
         fl_slant_edge p = {.a = l.a,
                            .b = l.b,
@@ -656,10 +727,13 @@ static int over_edge(fl_places *w, const fl_side *A, int32_t e, const shape *c)
                            .s0 = c->R + c->nr * c->r0 - c->nz * l.z0,
                            .s1 = -c->nz * l.dz,
                            .nr = c->nr};
-        p.middle = middle, p.factor = factor, p.width = (hi - lo) / halves;
-        for (int k = 0; k < halves; k++) {
-            const double *bunched = BUNCH[zero[0] && k == 0][zero[1] && k + 1 == halves];
-            p.from = k ? middle : lo;
+        p.middle = middle, p.factor = factor;
+        const double s[3] = {slant_overlap(&p, lo), slant_overlap(&p, middle), slant_overlap(&p, hi)};
+        vanishing(s, zero);
+        const int32_t n = side_pieces(&l, lo, hi, zero[0] && zero[1], at);
+        for (int32_t k = 0; k + 1 < n; k++) {
+            const double *bunched = BUNCH[zero[0] && k == 0][zero[1] && k + 2 == n];
+            p.from = at[k], p.width = at[k + 1] - at[k];
             p.c[0] = bunched[0], p.c[1] = bunched[1], p.c[2] = bunched[2];
             add_walk(&q, c, u, &p);
         }
@@ -667,7 +741,7 @@ static int over_edge(fl_places *w, const fl_side *A, int32_t e, const shape *c)
     }
     int32_t n = changes(c, &l, lo, hi, at);
     at[n++] = lo, at[n++] = hi;
-    if (halves == 2) at[n++] = middle;
+    if (zero[0] && zero[1]) at[n++] = middle;
     rising(at, n);
     const walk r = {c, a, u};
     for (int32_t k = 0; k + 1 < n; k++) {

@@ -13,9 +13,11 @@
 #define ROUNDING 1e-12
 
 /* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
- * above; or, f = -1, at right angles to that edge in a, the side of b above. */
+ * above; or, f = -1, at right angles to that edge in a, the side of b above.  g >= 0: the one through that
+ * edge that halves the angle of f and g. */
 typedef struct {
     int32_t f, a, b; /* a = -1: the face itself */
+    int32_t g;
 } plane;
 
 /* A match, and the table of one way, while they are listed. */
@@ -61,7 +63,7 @@ typedef struct {
 
 /* --- numbers of what is drafted -------------------------------------------------------------------- */
 
-enum { COLUMN, ROW, FACTOR, LENGTH };
+enum { COLUMN, ROW, FACTOR, LENGTH, HALF };
 
 static slot *slot_of(const draft *d, uint64_t what, uint64_t ends)
 {
@@ -113,19 +115,22 @@ static fl_cut cut_of(const fl_poly *p, const plane *q)
 {
     const fl_vec3 from = q->a < 0 ? p->v[p->loop[p->first[q->f]]] : p->v[q->a];
     const fl_vec3 u = q->a < 0 ? v3(0, 0, 0) : v3_sub(p->v[q->b], from);
-    const fl_vec3 g = q->a < 0 ? p->n[q->f] : q->f < 0 ? u : v3_cross(p->n[q->f], u);
+    const fl_vec3 n = q->f < 0 || q->g < 0 ? p->n[q->f < 0 ? 0 : q->f] : v3_add(p->n[q->f], p->n[q->g]);
+    const fl_vec3 g = q->a < 0 ? p->n[q->f] : q->f < 0 ? u : v3_cross(n, u);
     return (fl_cut){g, v3_dot(g, from)};
 }
 
-static int32_t row(const search *s, int32_t f, int32_t a, int32_t b)
+static int32_t row_between(const search *s, int32_t f, int32_t g, int32_t a, int32_t b)
 {
     table *t = &s->l->table[s->way];
-    int32_t *k = number_of(s, ROW, f, a, b);
+    int32_t *k = number_of(s, g < 0 ? ROW : HALF, f, a, b);
     if (!k || *k >= 0) return k ? *k : -1;
     if (fl_room(&t->plane, &t->plane_cap, (int64_t)t->planes + 1, sizeof *t->plane)) return -1;
-    t->plane[t->planes] = (plane){f, a, b};
+    t->plane[t->planes] = (plane){f, a, b, g};
     return *k = t->planes++;
 }
+
+static int32_t row(const search *s, int32_t f, int32_t a, int32_t b) { return row_between(s, f, -1, a, b); }
 
 /* Which of the numbers is the factor of an own edge, or the length of one of the other. */
 static int32_t number(const search *s, int32_t edge, int length)
@@ -159,13 +164,29 @@ static int beyond(const search *s, match *m, int32_t f, int32_t a, int32_t b, in
     return r < 0 ? -1 : push(s->l, 2 * r + (below != turned));
 }
 
+/* On the own side of the plane that halves the angle of two faces that lean towards each other. */
+static int before(const search *s, match *m, int32_t f, int32_t g, int32_t a, int32_t b)
+{
+    const int turned = a > b;
+    const int32_t r = row_between(s, f < g ? f : g, f < g ? g : f, turned ? b : a, turned ? a : b);
+    m->n++;
+    return r < 0 ? -1 : push(s->l, 2 * r + turned);
+}
+
+/* What is as far from two faces that lean towards each other counts over one of them: a point or an edge that
+ * came out of the prism over a face while it is nearer than R would be lost all at once.  Areas go over both:
+ * what is lost of them where they cross a seam is nothing. */
 static int sides_of_face(const search *s, match *m)
 {
     const fl_poly *p = s->of.other->p;
-    const int32_t *loop = p->loop + p->first[m->other], n = p->first[m->other + 1] - p->first[m->other];
+    const int32_t from = p->first[m->other], n = p->first[m->other + 1] - from, *loop = p->loop + from;
     m->height = row(s, m->other, -1, -1);
-    for (int32_t c = 0, a = loop[n - 1]; c < n; a = loop[c++])
-        if (beyond(s, m, m->other, a, loop[c], 0)) return -1;
+    for (int32_t c = 0, last = n - 1; c < n; last = c++) {
+        const int32_t g = p->lean && m->kind != FL_MATCH_FACE_FACE ? p->lean[from + last] : -1;
+        if (g < 0 ? beyond(s, m, m->other, loop[last], loop[c], 0)
+                  : before(s, m, m->other, g, loop[last], loop[c]))
+            return -1;
+    }
     return m->height < 0 ? -1 : 0;
 }
 
@@ -475,12 +496,12 @@ void fl_draft_free(draft *d)
 
 void fl_matches_free(fl_matches *l)
 {
-    free(l->block), free(l->wall);
+    free(l->block), free(l->shy);
     fl_footing_free(l->footing);
     *l = (fl_matches){0};
 }
 
 double fl_matches_bytes(const fl_matches *l)
 {
-    return (double)(sizeof *l + (size_t)l->size + (size_t)l->wall_cap * sizeof(int32_t));
+    return (double)(sizeof *l + (size_t)l->size + (size_t)l->shy_cap * sizeof(int32_t));
 }

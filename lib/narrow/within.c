@@ -101,6 +101,10 @@ static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
     return v3_cross(q->n[f], v3_sub(q->v[b], q->v[a]));
 }
 
+/* What is below a face by no more than s->behind may count beyond a side where the surface leans inward, as
+ * far as the plane that halves the angle: half of 60 degrees at most. */
+#define ASIDE 0.57735026918962576
+
 static target over_face(bound *to, const fl_question *s, int32_t f)
 {
     const fl_side *q = s->other;
@@ -109,8 +113,11 @@ static target over_face(bound *to, const fl_question *s, int32_t f)
     bound *b = to;
     above(&b, s, v3_madd(from, s->R, n), v3_neg(n));
     above(&b, s, v3_madd(from, -s->behind, n), n);
-    for (int32_t c = 0, a = loop[sides - 1]; c < sides; a = loop[c++])
-        above(&b, s, q->v[a], leftward(q, f, a, loop[c]));
+    for (int32_t c = 0, last = sides - 1; c < sides; last = c++) {
+        const fl_vec3 g = leftward(q, f, loop[last], loop[c]);
+        const double out = q->p->lean && q->p->lean[q->p->first[f] + last] >= 0 ? ASIDE * s->behind : 0.0;
+        above(&b, s, v3_madd(q->v[loop[last]], -out, v3_unit(g)), g);
+    }
     return (target){(int32_t)(b - to), 0, from, n};
 }
 
