@@ -55,7 +55,8 @@ void fl_balls_show(fl_world *w, int32_t from, int32_t to)
     const fl_bodies *b = &w->b;
     fl_ball_seen *const seen = w->balls.seen;
     for (int32_t k = from; k < to; k++)
-        seen[k] = (fl_ball_seen){b->x[k], b->radius[k], b->v[k], b->invm[k], b->w[k], b->radius[k]};
+        seen[k] = (fl_ball_seen){b->x[k], b->radius[k], b->v[k], fl_body_stands(b, k) ? 0.0 : b->invm[k],
+                                 b->w[k], b->radius[k]};
 }
 
 /* The difference a - b of vectors, and the sum of the numbers behind them. */

@@ -570,6 +570,15 @@ static int pass_count(FILE *f, fl_text *in, int64_t *x, fl_err *err)
     return 0;
 }
 
+/* An error: -1 stands for that of steps that failed. */
+static int pass_error(FILE *f, fl_text *in, double *x, fl_err *err)
+{
+    double e = isfinite(*x) ? *x : -1.0;
+    if (pass(f, in, &e, err)) return -1;
+    *x = e < 0.0 ? INFINITY : e;
+    return 0;
+}
+
 static int row_begin(FILE *f, fl_text *in, const char *name, fl_err *err)
 {
     const char *word = "";
@@ -613,7 +622,8 @@ static int exchange(FILE *f, fl_text *in, fl_budget *g, fl_err *err)
                                &v->along, &v->astray, &v->astray_order, &v->impulse};
         if (row_begin(f, in, "window", err)) return -1;
         for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-            if (pass(f, in, all[k], err)) return -1;
+            if ((all[k] == &v->off || all[k] == &v->astray ? pass_error : pass)(f, in, all[k], err))
+                return -1;
         if (row_end(f, in, err)) return -1;
         if (!(v->h > 0.0 && v->order >= 1.0 && v->astray_order >= 1.0))
             return fl_text_fail(in, err, "this is no window of an error budget");

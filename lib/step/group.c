@@ -343,9 +343,13 @@ FL_WIDE_VERSIONS static int all_finite(const double *restrict a, const double *r
 /* The first of bodies [from, to) that has a number which is not finite, or -1. */
 static int32_t first_lost(const fl_bodies *b, int32_t from, int32_t to)
 {
-    if (all_finite(&b->f[from].x, &b->t[from].x, &b->x[from].x, &b->v[from].x, 3 * (to - from))) return -1;
+    const double *w = &b->w[from].x;
+    if (all_finite(&b->f[from].x, &b->t[from].x, &b->x[from].x, &b->v[from].x, 3 * (to - from)) &&
+        all_finite(w, w, w, w, 3 * (to - from)))
+        return -1;
     for (int32_t k = from; k < to; k++)
-        if (!v3_finite(b->f[k]) || !v3_finite(b->t[k]) || !v3_finite(b->x[k]) || !v3_finite(b->v[k]))
+        if (!v3_finite(b->f[k]) || !v3_finite(b->t[k]) || !v3_finite(b->x[k]) || !v3_finite(b->v[k]) ||
+            !v3_finite(b->w[k]))
             return k;
     return -1;
 }

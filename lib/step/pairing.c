@@ -102,10 +102,10 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
 
 void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 {
-    const double mi = w->b.m[i], mj = w->b.m[j];
+    const double mi = w->b.m[i], mj = fl_body_stands(&w->b, j) ? 0.0 : w->b.m[j];
     *p = (fl_pair){.i = i, .j = j, .keep = 1.0, .law = fl_pairing_law(w, i, j)};
     p->k = fl_pairing_stiffness(w, i, j, &p->exponent);
-    p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
+    p->mass = !(mj > 0.0) ? mi : fl_body_stands(&w->b, i) ? mj : mi * mj / (mi + mj);
 }
 
 void fl_pair_end(fl_pair *p)

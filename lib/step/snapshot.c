@@ -638,7 +638,7 @@ static int32_t all_but_pairs(traffic *t, fl_world *w, int32_t *balls)
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, &w->b, i);
         if (t->in && !t->err->code && w->sea.held && !fl_world_away(w, i) &&
-            !(w->sea.held[i].when <= w->sea.time))
+            !(w->sea.held[i].when < w->sea.time + 0.5 * w->dt)) /* a new step may begin a rounding before */
             fl_text_fail(t->in, t->err, "a look at the water at %g s is none that has been",
                          w->sea.held[i].when);
         if (!t->in || t->err->code || fl_world_away(w, i)) continue;

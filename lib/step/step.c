@@ -104,7 +104,7 @@ int fl_step_press(fl_world *w, int32_t k)
 void fl_step_gather(fl_world *w, int32_t k)
 {
     w->b.f[k] = w->b.t[k] = v3(0, 0, 0);
-    if (fl_world_away(w, k) && k < w->n) {
+    if (k < w->n && fl_world_away(w, k)) {
         fl_works_clear(w, k);
         return;
     }

@@ -271,6 +271,18 @@ static void lower(const fl_wave_around *a, const fl_afloat *at, const fl_vec3 *v
 
 static double all(const double *a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
+/* The nearest place in the box around a body: of a volume that is hardly more than what the bend of the wave
+ * within a panel makes of it, the centre may be found anywhere. */
+static fl_vec3 within(const fl_poly *p, fl_vec3 x)
+{
+    fl_vec3 lo = p->v[0], hi = p->v[0];
+    for (int32_t k = 1; k < p->nv; k++) {
+        lo = v3(fmin(lo.x, p->v[k].x), fmin(lo.y, p->v[k].y), fmin(lo.z, p->v[k].z));
+        hi = v3(fmax(hi.x, p->v[k].x), fmax(hi.y, p->v[k].y), fmax(hi.z, p->v[k].z));
+    }
+    return v3(fmin(fmax(x.x, lo.x), hi.x), fmin(fmax(x.y, lo.y), hi.y), fmin(fmax(x.z, lo.z), hi.z));
+}
+
 void fl_froude_solid(const fl_tiles *tiles, const fl_hull *h, const fl_waves *w, const fl_wave_around *a,
                      const fl_afloat *at, double weight, fl_push *push)
 {
@@ -295,7 +307,7 @@ void fl_froude_solid(const fl_tiles *tiles, const fl_hull *h, const fl_waves *w,
     if (!(volume > 0.0)) return;
     /* the sum is right along the water; up it takes the place of what the height says */
     const fl_vec3 c = v3_scale(1.0 / volume, v3(all(S.first[0]), all(S.first[1]), all(S.first[2])));
-    push->centre = v3_madd(c, all(S.height) / volume - at->z - v3_dot(at->up, c), at->up);
+    push->centre = within(h->p, v3_madd(c, all(S.height) / volume - at->z - v3_dot(at->up, c), at->up));
 }
 
 void fl_froude_round(const fl_hull *h, const fl_waves *w, const fl_wave_around *a, const fl_afloat *at,

@@ -85,6 +85,30 @@ static void budget_of(rows *all)
     rows_of(all, text, n, 0);
 }
 
+/* Where steps of a trial failed its error has no end, and comes back so. */
+static void a_budget_of_failed_trials_comes_back(void **state)
+{
+    fl_budget g = {.trial = {.parts = 3}, .rows = 1, .least = 1, .windows = 1},
+              back = {.trial = {.parts = 3}};
+    double known[5] = {0}, read[5] = {0};
+    char *text = NULL;
+    size_t n = 0;
+    fl_text in = {0};
+    fl_err err = {0};
+    (void)state;
+    g.window[0] =
+        (fl_budget_window){.h = 1.0, .order = 1.0, .astray_order = 1.0, .off = INFINITY, .astray = 0.5};
+    g.known = known, back.known = read;
+    FILE *f = open_memstream(&text, &n);
+    fl_budget_write(f, &g);
+    fclose(f);
+    assert_int_equal(fl_text_open_bytes(&in, "state", text, (int64_t)n, &err), 0);
+    assert_int_equal(fl_budget_read(&back, &in, &err), 0);
+    assert_true(back.window[0].off == INFINITY && back.window[0].astray == 0.5);
+    fl_text_close(&in);
+    free(text);
+}
+
 /* Whoever changes the layout raises FL_RESTART_VERSION, and writes both down here. */
 static void a_layout_has_its_number(void **state)
 {
@@ -108,6 +132,7 @@ static void a_layout_has_its_number(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_layout_has_its_number)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_layout_has_its_number),
+                                       cmocka_unit_test(a_budget_of_failed_trials_comes_back)};
     return cmocka_run_group_tests_name("state of a world", tests, NULL, NULL);
 }

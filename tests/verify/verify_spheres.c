@@ -452,6 +452,28 @@ static void V09_solver(void)
     }
 }
 
+/* Against one that is held where it is, whatever it weighs. */
+static double on_held(const char *law, double radius, int box, double e)
+{
+    const fl_vec3 none = v3(0, 0, 0), x = v3(1.5 + radius, 0, 0);
+    lab l;
+    lab_start(&l);
+    lab_setf(&l, "contact.law=%s", law);
+    lab_setf(&l, "contact.restitution=%.17g", e);
+    lab_sphere(&l, none, 1.0, v3(1, 0, 0), none);
+    if (box) lab_box(&l, x, v3(radius, radius, radius), 0.05, q_one(), none, none);
+    else lab_sphere(&l, x, radius, none, none);
+    lab_make(&l, 0);
+    const int32_t flies = l.w.b.v[0].x > 0.0 ? 0 : 1;
+    l.w.b.hold[1 - flies] = FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z | FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ;
+    l.w.dt /= 20.0;
+    while (l.w.b.v[flies].x > 0.0 || l.w.b.x[flies].x > 0.1)
+        if (lab_run(&l, 100)) break;
+    const double got = -l.w.b.v[flies].x;
+    lab_free(&l);
+    return got;
+}
+
 static void V10(void)
 {
     const int fine = verify_quick() ? 100 : 1000;
@@ -460,6 +482,15 @@ static void V10(void)
     verify_row("V10", "boxes by patch, n = 3/2: e", boxes("patch", "1.5", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
     verify_row("V10", "boxes by core, n = 1: e", boxes("core", "1", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
     verify_row("V10", "spheres by patch, n = 3/2: e", spheres("patch", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
+    for (int k = 0; k < 3; k++) {
+        const double r = 0.9 / (1 << 2 * k);
+        char who[64];
+        snprintf(who, sizeof who, "a sphere of 1 m on one of %g m that is held:", r);
+        verify_row("V10", text(who, "patch, e"), on_held("patch", r, 0, 0.3), 0.3, 2e-3, VERIFY_ABS);
+        verify_row("V10", text(who, "manual-si"), on_held("manual-si", r, 0, 0.3), 0.3, 0.02, VERIFY_ABS);
+        snprintf(who, sizeof who, "on a box of %g m:", 2.0 * r);
+        verify_row("V10", text(who, "patch, e"), on_held("patch", r, 1, 0.3), 0.3, 2e-3, VERIFY_ABS);
+    }
     /* Damping sees the velocity half a step before, an error of order 1; over a whole impact the shares of it
      * going in and coming out cancel. */
     double h[4], error[4];

@@ -79,12 +79,12 @@ void report_write(const struct run *r, FILE *f)
                 fl_world_peak_off(w), fl_world_impulse_off(w));
     fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %d thread%s\n", simulated,
             r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, w->threads, w->threads == 1 ? "" : "s");
-    if (w->n && made > 0.0)
+    if (r->moved > 0)
         fprintf(f,
                 "                   %.0f ns a body-step, %.0f ns a contact-step (%.3g contacts at a time, "
                 "%" PRId64 " searches)\n",
-                1e9 * r->wall / made / fl_traffic_there(w), since > 0.0 ? 1e9 * r->wall / since : 0.0,
-                since / made, w->searches);
+                1e9 * r->wall / (double)r->moved, since > 0.0 ? 1e9 * r->wall / since : 0.0, since / made,
+                w->searches);
     fprintf(f, "processor          %.4g s, of all threads and all that was done\n", r->busy);
     if (w->sleep.nap && w->step > 0 && w->n) {
         const fl_sleep_count c = fl_sleep_counted(w);

@@ -16,6 +16,7 @@
 #include "step/sleep.h"
 #include "step/stance.h"
 #include "step/step.h"
+#include "step/traffic.h"
 
 /* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
 #define RESTS 1e-3
@@ -520,6 +521,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     }
     while (w->step < r->steps && !told_to_stop) {
         if (look_after_step(r, u, err)) return -1;
+        r->moved += w->traffic.away ? fl_traffic_there(w) : w->n;
         if (fl_step(w, err) || write_due(r, u, err) || save_due(r, u, 0, err)) return -1;
         if (show && w->step % 64 == 0) {
             const double now = run_clock();

@@ -31,6 +31,7 @@ struct run {
     int64_t begun; /* the step this program began with, its time [s], and the contact-steps until then */
     double begun_time;
     int64_t begun_touching;
+    int64_t moved;    /* steps of floes that were there, of this program */
     double wall;      /* [s] spent in steps */
     double busy;      /* [s] of processors, all threads: steps, looks, checkpoints and tables */
     double look_wall; /* [s] spent in looking after the error budget */
