@@ -2,10 +2,12 @@
 /* shell.h -- the places where a dilated convex core touches a surface that is not convex.
  *
  * The potential is that of places.h, summed over the prisms over all faces, the wedges over the edges that
- * bend outward and the cones over the corners: seams between coplanar triangles are not there, and in an
- * inner corner every wall bears for itself.  Vertices behind the surface have one distance, to the nearest
- * face of all; what is nearest to the rim of an open surface is beside it, not behind.  An open surface has
- * one side: what has come round it to its back is as deep in it as it is far from it. */
+ * bend outward and the cones over the corners: seams between coplanar triangles are not there.  Where the
+ * surface bends inward by less than 60 degrees points and edges count over the nearer of its faces
+ * (matches.c); in a sharper inner corner every wall bears for itself.  Vertices behind the surface have one
+ * distance, to the nearest face of all; what is nearest to the rim of an open surface is beside it, not
+ * behind.  An open surface has one side: what has come round it to its back is as deep in it as it is far
+ * from it. */
 #ifndef FL_BOUND_SHELL_H
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"

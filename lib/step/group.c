@@ -332,20 +332,20 @@ static int32_t before_plain(const fl_world *w, int32_t k, int32_t to)
 /* Whether n numbers of each of four arrays are finite: 0 x is 0 where x is.  What overflows only in the sum
  * of four is told as well, and looked at again. */
 FL_WIDE_VERSIONS static int all_finite(const double *restrict a, const double *restrict b,
-                                       const double *restrict c, const double *restrict d, int32_t n)
+                                       const double *restrict c, const double *restrict d,
+                                       const double *restrict e, int32_t n)
 {
     double zero = 0.0;
 #pragma omp simd reduction(+ : zero)
-    for (int32_t k = 0; k < n; k++) zero += 0.0 * ((a[k] + b[k]) + (c[k] + d[k]));
+    for (int32_t k = 0; k < n; k++) zero += 0.0 * (((a[k] + b[k]) + (c[k] + d[k])) + e[k]);
     return zero == 0.0;
 }
 
 /* The first of bodies [from, to) that has a number which is not finite, or -1. */
 static int32_t first_lost(const fl_bodies *b, int32_t from, int32_t to)
 {
-    const double *w = &b->w[from].x;
-    if (all_finite(&b->f[from].x, &b->t[from].x, &b->x[from].x, &b->v[from].x, 3 * (to - from)) &&
-        all_finite(w, w, w, w, 3 * (to - from)))
+    if (all_finite(&b->f[from].x, &b->t[from].x, &b->x[from].x, &b->v[from].x, &b->w[from].x,
+                   3 * (to - from)))
         return -1;
     for (int32_t k = from; k < to; k++)
         if (!v3_finite(b->f[k]) || !v3_finite(b->t[k]) || !v3_finite(b->x[k]) || !v3_finite(b->v[k]) ||

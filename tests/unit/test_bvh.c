@@ -41,6 +41,48 @@ static void compare(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_aabb q)
     free(out);
 }
 
+/* A walk about a point comes by every box within a distance, once; and by the nearest, when the distance
+ * falls with what has been found. */
+static void walk_about(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x, double within)
+{
+    int32_t *times = calloc((size_t)n + 1, sizeof *times), looks = 0;
+    double nearest = INFINITY, found = INFINITY;
+    assert_non_null(times);
+    fl_bvh_walk at = fl_bvh_about(t, box, x);
+    for (int32_t k; (k = fl_bvh_next(&at, within)) >= 0;) times[k]++;
+    for (int32_t k = 0; k < n; k++) {
+        const double d2 = aabb_distance2(box[k], x);
+        assert_int_equal(times[k], d2 <= within * within);
+        nearest = fmin(nearest, d2);
+    }
+    at = fl_bvh_about(t, box, x);
+    for (int32_t k; (k = fl_bvh_next(&at, found)) >= 0; looks++)
+        found = fmin(found, sqrt(aabb_distance2(box[k], x)));
+    assert_true(n == 0 ? looks == 0 : found == sqrt(nearest));
+    free(times);
+}
+
+static void walks_come_by_what_is_near(void **state)
+{
+    (void)state;
+    for (long c = 0; c < test_times(40); c++) {
+        fl_rng g = fl_rng_of(test_seed(), 1000 + c, FL_RNG_TEST);
+        const int32_t n = (int32_t)fl_rng_in(&g, 0.0, 400.0);
+        fl_aabb *box = calloc((size_t)n + 1, sizeof *box);
+        fl_bvh t = {0};
+        fl_err err = {0};
+        assert_non_null(box);
+        for (int32_t k = 0; k < n; k++) box[k] = random_box(&g, 10.0, -2.0, 0.5);
+        assert_int_equal(fl_bvh_build(&t, box, n, &err), 0);
+        for (int k = 0; k < 20; k++) {
+            const fl_aabb about = random_box(&g, 14.0, -3.0, 1.0);
+            walk_about(&t, box, n, about.lo, k % 2 ? fl_rng_in(&g, 0.0, 8.0) : INFINITY);
+        }
+        fl_bvh_free(&t);
+        free(box);
+    }
+}
+
 static void finds_what_brute_force_finds(void **state)
 {
     (void)state;
@@ -141,7 +183,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_what_brute_force_finds), cmocka_unit_test(size_ratio_of_a_million),
         cmocka_unit_test(equal_boxes_and_few),          cmocka_unit_test(tells_how_much_room_it_wants),
-        cmocka_unit_test(runs_out_of_memory_in_peace),
+        cmocka_unit_test(runs_out_of_memory_in_peace),  cmocka_unit_test(walks_come_by_what_is_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
