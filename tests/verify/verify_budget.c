@@ -291,10 +291,10 @@ static void billiards(lab *l)
                  v3(2.0 - 0.7 * (k % 4), 1.5 - 0.9 * (k % 3), 0));
 }
 
-static void billiards_made(lab *l, double seconds, double error)
+static void billiards_made(lab *l, int neighbour, double seconds, double error)
 {
     lab_start(l);
-    lab_set(l, "contact.softening=0.01");
+    lab_setf(l, "contact.softening=%g", 0.01 * (1.0 + 0.02 * neighbour));
     lab_setf(l, "output.loads_every=%.17g", EVERY);
     lab_setf(l, "run.duration=%g", seconds);
     if (error > 0.0) lab_setf(l, "run.error=%g", error);
@@ -310,11 +310,11 @@ static double distance(const fl_world *a, const fl_world *b)
 }
 
 /* How long two runs that are a bit apart at `from` take until they are `far` from one another. */
-static double parted(double from, double seconds, double dt, double far)
+static double parted(int neighbour, double from, double seconds, double dt, double far)
 {
     lab a, b;
     double t = 0.0;
-    billiards_made(&a, seconds, 0.0), billiards_made(&b, seconds, 0.0);
+    billiards_made(&a, neighbour, seconds, 0.0), billiards_made(&b, neighbour, seconds, 0.0);
     lab_make(&a, dt), lab_make(&b, dt);
     if (lab_run(&a, (int64_t)(from / dt)) || lab_run(&b, (int64_t)(from / dt))) exit(1);
     for (int32_t i = 0; i < b.w.n; i++) b.w.b.x[i].x = nextafter(b.w.b.x[i].x, INFINITY);
@@ -326,39 +326,50 @@ static double parted(double from, double seconds, double dt, double far)
     return t;
 }
 
+/* What a run tells of itself, which stays in g. */
+static double told_horizon(fl_budget *g, int neighbour, double seconds, double goal)
+{
+    lab l;
+    fl_err err = {0};
+    billiards_made(&l, neighbour, seconds, goal);
+    lab_set(&l, "structure.file=lab");
+    if (fl_scene_check(&l.scene, &err) || fl_budget_make(g, &l.scene, &l.field, &l.field, &l.surface, &err))
+        exit(1);
+    lab_make(&l, fl_budget_start(g));
+    for (int64_t row = 0; row < (int64_t)lround(seconds / EVERY); row++) {
+        if (fl_budget_look(g, &l.w, row, &err)) exit(1);
+        if (lab_run(&l, (int64_t)lround(EVERY / l.w.dt))) break;
+    }
+    verify_note("elastic floes about a post: states part at %.3g /s, horizon %.3g s, windows of %.3g s",
+                g->rate, fl_budget_horizon(g), g->every * g->rows);
+    lab_free(&l);
+    return fl_budget_horizon(g);
+}
+
+/* One run is one sample of how states part: so the mean of several that are hardly different. */
 static void parting(void)
 {
     const double goal = 0.01, seconds = verify_quick() ? 12.0 : 60.0;
-    lab l;
     fl_budget g = {0};
-    fl_err err = {0};
-    billiards_made(&l, seconds, goal);
-    lab_set(&l, "structure.file=lab");
-    if (fl_scene_check(&l.scene, &err) || fl_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
-        exit(1);
-    lab_make(&l, fl_budget_start(&g));
-    for (int64_t row = 0; row < (int64_t)lround(seconds / EVERY); row++) {
-        if (fl_budget_look(&g, &l.w, row, &err)) exit(1);
-        if (lab_run(&l, (int64_t)lround(EVERY / l.w.dt))) break;
-    }
-    const double told = fl_budget_horizon(&g);
-    verify_note("elastic floes about a post: states part at %.3g /s, horizon %.3g s, windows of %.3g s",
-                g.rate, told, g.every * g.rows);
-    if (!verify_quick()) {
+    double horizon = 0.0, off = 0.0;
+    const int many = verify_quick() ? 1 : 5;
+    for (int k = 0; k < many; k++) {
         double found = 0.0;
-        for (int k = 0; k < 4; k++) {
-            const double one = parted(0.25 * k * seconds, seconds, 2.0 * fl_budget_start(&g) / 3.0, goal);
-            verify_note("two runs a bit apart at %g s are %g m apart %.3g s later", 0.25 * k * seconds, goal,
-                        one);
-            found += 0.25 * one;
-        }
-        verify_row("E04", "log2 of the horizon over that of two runs a bit apart", log2(told / found), 0.0,
-                   1.0, VERIFY_ABS);
+        fl_budget_free(&g);
+        const double one = told_horizon(&g, k, seconds, goal);
+        horizon += one / many;
+        for (int start = 0; start < 2 && !verify_quick(); start++)
+            found += 0.5 * parted(k, 0.5 * start * seconds, seconds, 2.0 * fl_budget_start(&g) / 3.0, goal);
+        if (verify_quick()) continue;
+        verify_note("two runs a bit apart are %g m apart %.3g s later in the mean", goal, found);
+        off += log2(one / found) / many;
     }
-    verify_true("E04", "the run as a whole is told to be undetermined", told < 60.0);
+    if (!verify_quick())
+        verify_row("E04", "log2 of the horizon over that of two runs a bit apart, mean of five", off, 0.0,
+                   1.0, VERIFY_ABS);
+    verify_true("E04", "runs as a whole are told to be undetermined", horizon < 60.0);
     verify_below("E04", "length of windows times the rate", g.rate * g.every * g.rows, 1.0);
     fl_budget_free(&g);
-    lab_free(&l);
 }
 
 int main(void)
