@@ -113,10 +113,14 @@ static int32_t column(const search *s, int32_t v)
 
 static fl_cut cut_of(const fl_poly *p, const plane *q)
 {
-    const fl_vec3 from = q->a < 0 ? p->v[p->loop[p->first[q->f]]] : p->v[q->a];
-    const fl_vec3 u = q->a < 0 ? v3(0, 0, 0) : v3_sub(p->v[q->b], from);
-    const fl_vec3 n = q->f < 0 || q->g < 0 ? p->n[q->f < 0 ? 0 : q->f] : v3_add(p->n[q->f], p->n[q->g]);
-    const fl_vec3 g = q->a < 0 ? p->n[q->f] : q->f < 0 ? u : v3_cross(n, u);
+    const fl_vec3 from = p->v[q->a < 0 ? p->loop[p->first[q->f]] : q->a];
+    fl_vec3 g;
+    if (q->a < 0) {
+        g = p->n[q->f];
+    } else {
+        const fl_vec3 u = v3_sub(p->v[q->b], from);
+        g = q->f < 0 ? u : q->g < 0 ? v3_cross(p->n[q->f], u) : v3_cross(v3_add(p->n[q->f], p->n[q->g]), u);
+    }
     return (fl_cut){g, v3_dot(g, from)};
 }
 
