@@ -13,27 +13,10 @@ set -u
 LC_ALL=C OMP_NUM_THREADS=1
 export LC_ALL OMP_NUM_THREADS
 bench=$(cd "$(dirname "$0")" && pwd) || exit 4
-fail() { echo "blocks.sh: $*" >&2; exit 4; }
-
-build=$(cd "${1:-$bench/../build}" && pwd) || exit 4
-out=${2:-$bench/results}
-mkdir -p "$out" || exit 4
-out=$(cd "$out" && pwd)
+# shellcheck source=/dev/null # it lies beside this file
+. "$bench/beside.sh"
+begin blocks "${1:-}" "${2:-}" rockable lmp yade
 [ "${FLOE_QUICK:-0}" = 0 ] && turns=${TURNS:-3} until=0.5 fewer=1 || turns=${TURNS:-1} until=0.05 fewer=5
-peers=
-for p in rockable lmp yade; do
-    if command -v $p >/dev/null; then
-        peers="$peers $p"
-    else
-        echo "blocks.sh: there is no $p, its rows are left out" >&2
-    fi
-done
-[ "$peers" ] || exit 0
-here=$(mktemp -d "${TMPDIR:-/tmp}/floe-blocks.XXXXXX") && cd "$here" || exit 4
-trap 'rm -rf "$here"' EXIT
-TMPDIR=$here # MPI leaves things there
-export TMPDIR
-trap 'exit 130' INT TERM HUP
 bodies=216
 PATH=$build/bin:$PATH
 
@@ -160,20 +143,9 @@ while [ $turn -lt "$turns" ]; do
     done
 done
 
-version() # PROGRAM
-{
-    case $1 in
-    floe*) dem-solve --version | sed 's/^[^ ]* //' ;;
-    lmp) lmp -h | sed -n 's/^Large-scale.*Simulator - //p' ;;
-    yade) yade --version 2>&1 | sed -n 's/^Yade version: *\([^,]*\).*/\1/p' ;;
-    *) echo - ;;
-    esac 2>/dev/null | head -n 1
-}
 cut -f 2 rows | sort -u | while read -r p; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >versions
 {
-    echo '#blocks 1'
-    echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
-    echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the programs being 1; $turns turns of the pack"
+    heading "$turns turns of the pack"
     echo "#seconds $until of the gas"
     printf 'scene\tprogram\tversion\tdt[s]\tbody_step[ns]\tpair_step[ns]\tratio\tenergy\n'
     awk -v bodies=$bodies 'BEGIN { FS = OFS = "\t" }
@@ -193,5 +165,4 @@ cut -f 2 rows | sort -u | while read -r p; do printf '%s\t%s\n' "$p" "$(version 
             }
         }' versions rows
 } >blocks.tsv
-cp blocks.tsv "$out/blocks.tsv" || exit 4
-cat blocks.tsv
+keep

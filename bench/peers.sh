@@ -12,28 +12,11 @@ set -u
 LC_ALL=C OMP_NUM_THREADS=1
 export LC_ALL OMP_NUM_THREADS
 bench=$(cd "$(dirname "$0")" && pwd) || exit 4
-fail() { echo "peers.sh: $*" >&2; exit 4; }
-
-build=$(cd "${1:-$bench/../build}" && pwd) || exit 4
-out=${2:-$bench/results}
-mkdir -p "$out" || exit 4
-out=$(cd "$out" && pwd)
+# shellcheck source=/dev/null # it lies beside this file
+. "$bench/beside.sh"
+begin peers "${1:-}" "${2:-}" lmp liggghts
 quick=${FLOE_QUICK:-0}
 [ "$quick" = 0 ] && turns=${TURNS:-3} packs='1 3 10' || turns=${TURNS:-1} packs=1
-peers=
-for p in lmp liggghts; do
-    if command -v $p >/dev/null; then
-        peers="$peers $p"
-    else
-        echo "peers.sh: there is no $p, its rows are left out" >&2
-    fi
-done
-[ "$peers" ] || exit 0
-here=$(mktemp -d "${TMPDIR:-/tmp}/floe-peers.XXXXXX") && cd "$here" || exit 4
-trap 'rm -rf "$here"' EXIT
-TMPDIR=$here # MPI leaves things there
-export TMPDIR
-trap 'exit 130' INT TERM HUP
 spheres=$build/tests/bench/bench_spheres
 
 # A pack as LAMMPS and LIGGGHTS read it.
@@ -136,19 +119,9 @@ for p in floe $peers; do
     printf '%s\t%s\t%s\t%s\n' "$p" "$(miss "$p.1" "$p.16")" "$(miss "$p.2" "$p.16")" "$(miss "$p.16" floe.16)"
 done >errors
 
-version() # PROGRAM
-{
-    case $1 in
-    floe) "$build/bin/dem-solve" --version | sed 's/^[^ ]* //' ;;
-    lmp) lmp -h | sed -n 's/^Large-scale.*Simulator - //p' ;;
-    liggghts) liggghts -h | sed -n 's/.*LIGGGHTS-PUBLIC \([^,]*\),.*/\1/p' ;;
-    esac 2>/dev/null | head -n 1
-}
 for p in floe $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >versions
 {
-    echo '#peers 1'
-    echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
-    echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the programs being 1; $turns turns"
+    heading "$turns turns"
     printf 'spheres\tprogram\tversion\tskin[m]\tns\tratio\tcontacts\terror\terror_half\tapart\n'
     awk 'BEGIN { FS = OFS = "\t" }
         FILENAME == "versions" { version[$1] = $2; next }
@@ -163,5 +136,4 @@ for p in floe $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >version
             }
         }' versions errors rows
 } >peers.tsv
-cp peers.tsv "$out/peers.tsv" || exit 4
-cat peers.tsv
+keep

@@ -134,6 +134,15 @@ static inline __attribute__((always_inline)) void fan(sums *q, const piece *p, c
     q->most = LARGER(LARGER(q->most, from), end);
 }
 
+/* The same to a border of a rim, of which the place and the fade are given; s: the overlap at the origin. */
+static inline __attribute__((always_inline)) void border(sums *q, const footprint *f, const fl_wide *s,
+                                                         piece *b, const fl_wide_mask *counted)
+{
+    b->s = *s + f->sx * b->x + f->sy * b->y;
+    b->ds = f->sx * b->dx + f->sy * b->dy;
+    fan(q, b, s, counted, 1);
+}
+
 /* The sums of four lanes with origins (x, y), where the overlap is s, into those of all. */
 static inline __attribute__((always_inline)) void gather(footprint *f, const sums *q, const fl_wide *o)
 {
@@ -272,23 +281,15 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     }
     if (any(&inner)) {
         const fl_wide x = (in_hi - foot) * ux - W * uy, y = (in_hi - foot) * uy + W * ux, dl = in_lo - in_hi;
-        const fl_wide dx = dl * ux, dy = dl * uy;
-        const piece b1 = {x, y, dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy, one, zero};
-        fan(&sum, &b1, &s, &inner, 1);
+        border(&sum, f, &s, &(piece){x, y, dl * ux, dl * uy, zero, zero, one, zero}, &inner);
     }
     if (any(&add_first)) {
-        const fl_wide x = ax + a_hi * Dx - ox, y = ay + a_hi * Dy - oy, dl = a_lo - a_hi, dx = dl * Dx,
-                      dy = dl * Dy;
-        const piece b1 = {x,          y,       dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy,
-                          per * a_hi, per * dl};
-        fan(&sum, &b1, &s, &add_first, 1);
+        const fl_wide x = ax + a_hi * Dx - ox, y = ay + a_hi * Dy - oy, dl = a_lo - a_hi;
+        border(&sum, f, &s, &(piece){x, y, dl * Dx, dl * Dy, zero, zero, per * a_hi, per * dl}, &add_first);
     }
     if (any(&add_last)) {
-        const fl_wide x = bx + b_lo * Ex - ox, y = by + b_lo * Ey - oy, dl = b_hi - b_lo, dx = dl * Ex,
-                      dy = dl * Ey;
-        const piece b1 = {x,          y,       dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy,
-                          per * b_lo, per * dl};
-        fan(&sum, &b1, &s, &add_last, 1);
+        const fl_wide x = bx + b_lo * Ex - ox, y = by + b_lo * Ey - oy, dl = b_hi - b_lo;
+        border(&sum, f, &s, &(piece){x, y, dl * Ex, dl * Ey, zero, zero, per * b_lo, per * dl}, &add_last);
     }
     gather(f, &sum, (const fl_wide[3]){ox - p[0].x, oy - p[0].y, s});
 }

@@ -62,24 +62,42 @@ static void walk_about(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x
     free(times);
 }
 
+/* Some boxes in a tree. */
+typedef struct {
+    fl_rng g;
+    int32_t n;
+    fl_aabb *box;
+    fl_bvh tree;
+} grove;
+
+static grove plant(int64_t seed)
+{
+    grove w = {.g = fl_rng_of(test_seed(), seed, FL_RNG_TEST)};
+    fl_err err = {0};
+    w.n = (int32_t)fl_rng_in(&w.g, 0.0, 400.0);
+    w.box = calloc((size_t)w.n + 1, sizeof *w.box);
+    assert_non_null(w.box);
+    for (int32_t k = 0; k < w.n; k++) w.box[k] = random_box(&w.g, 10.0, -2.0, 0.5);
+    assert_int_equal(fl_bvh_build(&w.tree, w.box, w.n, &err), 0);
+    return w;
+}
+
+static void clear(grove *w)
+{
+    fl_bvh_free(&w->tree);
+    free(w->box);
+}
+
 static void walks_come_by_what_is_near(void **state)
 {
     (void)state;
     for (long c = 0; c < test_times(40); c++) {
-        fl_rng g = fl_rng_of(test_seed(), 1000 + c, FL_RNG_TEST);
-        const int32_t n = (int32_t)fl_rng_in(&g, 0.0, 400.0);
-        fl_aabb *box = calloc((size_t)n + 1, sizeof *box);
-        fl_bvh t = {0};
-        fl_err err = {0};
-        assert_non_null(box);
-        for (int32_t k = 0; k < n; k++) box[k] = random_box(&g, 10.0, -2.0, 0.5);
-        assert_int_equal(fl_bvh_build(&t, box, n, &err), 0);
+        grove w = plant(1000 + c);
         for (int k = 0; k < 20; k++) {
-            const fl_aabb about = random_box(&g, 14.0, -3.0, 1.0);
-            walk_about(&t, box, n, about.lo, k % 2 ? fl_rng_in(&g, 0.0, 8.0) : INFINITY);
+            const fl_aabb about = random_box(&w.g, 14.0, -3.0, 1.0);
+            walk_about(&w.tree, w.box, w.n, about.lo, k % 2 ? fl_rng_in(&w.g, 0.0, 8.0) : INFINITY);
         }
-        fl_bvh_free(&t);
-        free(box);
+        clear(&w);
     }
 }
 
@@ -87,20 +105,12 @@ static void finds_what_brute_force_finds(void **state)
 {
     (void)state;
     for (long c = 0; c < test_times(40); c++) {
-        fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
-        const int32_t n = (int32_t)fl_rng_in(&g, 0.0, 400.0);
-        fl_aabb *box = calloc((size_t)n + 1, sizeof *box);
-        fl_bvh t = {0};
-        fl_err err = {0};
-        assert_non_null(box);
-        for (int32_t k = 0; k < n; k++) box[k] = random_box(&g, 10.0, -2.0, 0.5);
-        assert_int_equal(fl_bvh_build(&t, box, n, &err), 0);
-        for (int32_t k = 0; k < n; k++) compare(&t, box, n, box[k]);
-        for (int k = 0; k < 20; k++) compare(&t, box, n, random_box(&g, 12.0, -3.0, 1.0));
-        compare(&t, box, n, (fl_aabb){v3(-1e9, -1e9, -1e9), v3(1e9, 1e9, 1e9)});
-        compare(&t, box, n, aabb_empty());
-        fl_bvh_free(&t);
-        free(box);
+        grove w = plant(c);
+        for (int32_t k = 0; k < w.n; k++) compare(&w.tree, w.box, w.n, w.box[k]);
+        for (int k = 0; k < 20; k++) compare(&w.tree, w.box, w.n, random_box(&w.g, 12.0, -3.0, 1.0));
+        compare(&w.tree, w.box, w.n, (fl_aabb){v3(-1e9, -1e9, -1e9), v3(1e9, 1e9, 1e9)});
+        compare(&w.tree, w.box, w.n, aabb_empty());
+        clear(&w);
     }
 }
 
