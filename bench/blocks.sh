@@ -9,6 +9,7 @@
 # are what LAMMPS and YADE do with them.
 #   TURNS=3        how often the pack is timed by each; the least counts
 #   FLOE_QUICK=1   the gas for a tenth of the time, the pack once, in shorter windows
+# shellcheck disable=SC2154 # of begin
 set -u
 LC_ALL=C OMP_NUM_THREADS=1
 export LC_ALL OMP_NUM_THREADS

@@ -8,6 +8,7 @@
 #   FLOE_QUICK=1        the pack of 1 000, once, in shorter windows
 #   TURNS=3             how often each program runs, one after the other, by each of three skins of the peers'
 #                       lists of neighbours; the least window of all counts, and the skin that had it is told
+# shellcheck disable=SC2154 # of begin
 set -u
 LC_ALL=C OMP_NUM_THREADS=1
 export LC_ALL OMP_NUM_THREADS

@@ -335,6 +335,35 @@ static void poles(void)
     lab_free(&l);
 }
 
+/* Every corner of a disc counts, however many. */
+static void discs(void)
+{
+    enum { CORNERS = 240 };
+    double worst = 0.0;
+    fl_vec3 xy[CORNERS];
+    fl_poly disc = {0};
+    fl_err err = {0};
+    lab l;
+    for (int k = 0; k < CORNERS; k++) xy[k] = v3(cos(2 * PI * k / CORNERS), sin(2 * PI * k / CORNERS), 0);
+    lab_start(&l);
+    if (fl_poly_prism(&disc, CORNERS, xy, -0.2, 0.2, &err)) exit(1);
+    lab_poly(&l, &disc, 0.1, ZERO, ZERO);
+    lab_cone(&l, (fl_cone){v3(0, 0, -5), v3(0, 0, 5), 1, 1});
+    lab_make(&l, 1e-9);
+    fl_rng g = fl_rng_of(2, 0, FL_RNG_TEST);
+    for (int k = 0; k < (verify_quick() ? 6 : 40); k++) {
+        const fl_quat lies =
+            q_mul(q_of_vector(v3(0, 0.02 * fl_rng_in(&g, -1, 1), 0.02 * fl_rng_in(&g, -1, 1))),
+                  q_about(1, PI / 2.0));
+        const double s = 0.1 * fl_rng_in(&g, 0.3, 0.9);
+        const fl_vec3 x = v3(1.3 - s, fl_rng_in(&g, -0.5, 0.5), fl_rng_in(&g, -0.5, 0.5));
+        const fl_pair p = at(&l, x, lies);
+        if (p.n && !p.deep) worst = fmax(worst, off_gradient(&l, x, lies, 1e-5));
+    }
+    lab_free(&l);
+    verify_below("SH9", "a disc of 240 corners: |F + grad W| / F", worst, 3e-7);
+}
+
 /* --- slim corners --------------------------------------------------------------------------------------- */
 
 static void wedges(void)
@@ -379,6 +408,7 @@ int main(void)
     flat_triangles();
     fins();
     poles();
+    discs();
     wedges();
     return verify_end();
 }
