@@ -104,10 +104,10 @@ static inline double fl_body_kinetic(const fl_bodies *b, int32_t i)
     return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + turning);
 }
 
-/* Whether no force moves the centre of body i: to what it meets it has no end of mass. */
-static inline int fl_body_stands(const fl_bodies *b, int32_t i)
+/* Directions in which nothing moves the centre of body i: FL_HOLD_X | ... */
+static inline unsigned fl_body_stands(const fl_bodies *b, int32_t i)
 {
-    return (b->hold[i] & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z)) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z);
+    return b->hold[i] & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z);
 }
 
 /* Velocity of the material point at world position offset a from the centre of mass. */

@@ -316,6 +316,17 @@ void fl_move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
     }
 }
 
+double fl_body_mobility(const fl_bodies *b, int32_t i, fl_vec3 along, fl_vec3 moment)
+{
+    const unsigned hold = b->hold[i];
+    const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]), none = v3(0, 0, 0);
+    if (i >= b->n) return 0.0;
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_vec3 v =
+        solve_free(&R, b->added ? v3_add(m, b->added[i]) : m, fl_body_stands(b, i), none, along);
+    return v3_dot(along, v) + v3_dot(moment, solve_free(&R, b->I[i], hold / FL_HOLD_RX, none, moment));
+}
+
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
 {
     const unsigned hold = b->hold[i];

@@ -46,6 +46,10 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
  * [rad/s2].  What turns without a torque is left out: w x L and, with added mass, P x u. */
 void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn);
 
+/* u.M^-1 u of body i for the impulse u = (along, moment), world axes, of what is not held, with the water
+ * that moves along: what it gives to the speed in its own direction; 0 for what others move. */
+double fl_body_mobility(const fl_bodies *b, int32_t i, fl_vec3 along, fl_vec3 moment);
+
 /* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
  * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w; with added mass so P and
  * v.

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <assert.h>
+#include <math.h>
 #include <stdalign.h>
 #include <stddef.h>
 #include <string.h>
 #include "base/mem.h"
 #include "base/wide.h"
+#include "body/integrate.h"
 #include "law/sphere.h"
 #include "step/balls.h"
 #include "step/leans.h"
@@ -50,13 +52,19 @@ static int look_one(const fl_world *w, batch *t, int32_t c)
     return v3_norm2(d) - R * R < 0.0;
 }
 
+/* What adds to 1/M of contacts of body k in whatever direction; NAN where they differ. */
+static double plainly(const fl_bodies *b, int32_t k)
+{
+    if (fl_body_stands(b, k)) return NAN;
+    return b->added ? 1.0 / (b->m[k] + b->added[k].x) : b->invm[k];
+}
+
 void fl_balls_show(fl_world *w, int32_t from, int32_t to)
 {
     const fl_bodies *b = &w->b;
     fl_ball_seen *const seen = w->balls.seen;
     for (int32_t k = from; k < to; k++)
-        seen[k] = (fl_ball_seen){b->x[k], b->radius[k], b->v[k], fl_body_stands(b, k) ? 0.0 : b->invm[k],
-                                 b->w[k], b->radius[k]};
+        seen[k] = (fl_ball_seen){b->x[k], b->radius[k], b->v[k], plainly(b, k), b->w[k], b->radius[k]};
 }
 
 /* The difference a - b of vectors, and the sum of the numbers behind them. */
@@ -143,7 +151,7 @@ typedef struct {
     const fl_ball_seen *seen;
 } source;
 
-FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
+FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
 {
     static_assert(offsetof(fl_ball_row, stiff) == sizeof(fl_vec3), "a spring is a register of four");
     static_assert(offsetof(fl_ball_row, k) == offsetof(fl_ball_row, touch) + sizeof(double), "one of two");
@@ -152,6 +160,7 @@ FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
     const fl_ball_seen *seen = s->seen;
     const int32_t n = t->m;
     fl_spheres *a = &t->at;
+    fl_wide all = {0.0, 0.0, 0.0, 0.0};
     for (int32_t k = n; k % FL_LANES; k++) t->row[k] = t->row[n - 1];
     for (int32_t m = 0; m < n; m += FL_LANES) {
         fl_wide d[] = {FL_FOUR(t->d[m]), FL_FOUR(t->d[m + 1]), FL_FOUR(t->d[m + 2]), FL_FOUR(t->d[m + 3])};
@@ -188,6 +197,22 @@ FL_FOUR_VERSIONS static void load(const source *restrict s, batch *restrict t)
         FL_FOUR_INTO(&a->invm[m]) = FL_FOUR(&t->rest2[m]) * u[3]; /* for nothing but the stored energy */
         FL_FOUR_INTO(&a->ri[m]) = p[3];
         FL_FOUR_INTO(&a->rj[m]) = q[3];
+        all += u[3];
+    }
+    const double sum = fl_wide_sum(&all);
+    return sum == sum;
+}
+
+/* Of those that depend on the direction. */
+static void load_masses(const fl_world *w, batch *t)
+{
+    const fl_bodies *b = &w->b;
+    const fl_vec3 none = v3(0, 0, 0);
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t i = w->balls.i[t->row[m]], j = w->balls.j[t->row[m]];
+        if (t->at.invm[m] == t->at.invm[m]) continue;
+        const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
+        t->at.invm[m] = t->rest2[m] * (fl_body_mobility(b, i, n, none) + fl_body_mobility(b, j, n, none));
     }
 }
 
@@ -378,7 +403,7 @@ static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
     } else {
         const source from = {s->i, s->j, s->row, s->seen};
         if (s->one_law < 0) load_laws(w, t);
-        load(&from, t);
+        if (!load(&from, t)) load_masses(w, t);
         fl_spheres_meet(&t->at, t->m, dt);
         save(s->row, t);
     }

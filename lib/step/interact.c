@@ -6,6 +6,7 @@
 #include "step/bearing.h"
 #include "step/frozen.h"
 #include "step/interact.h"
+#include "step/pairing.h"
 #include "step/press.h"
 #include "step/stance.h"
 #include "step/stiff.h"
@@ -121,10 +122,10 @@ static void stiffen_one(const fl_world *w, fl_pair *p, const pressure *q, fl_vec
  * where v_touch is the largest approach speed of this touch, now the given one, and sqrt(2 W/M) the speed
  * that the stored energy W amounts to, with c of fl_damping_rest(): in an impact it stays below v_touch, so
  * restitution is that of D; in a contact that was never an impact the damping ratio stays below D/(2 c). */
-static double damping_factor(fl_pair *p, double now)
+static double damping_factor(fl_pair *p, double now, double mass)
 {
     p->touch = p->n && p->touch > now ? p->touch : now;
-    return fl_damping_chi(p->law->chi, p->law->rest, p->touch, p->energy, p->mass);
+    return fl_damping_chi(p->law->chi, p->law->rest, p->touch, p->energy, mass);
 }
 
 /* The one place of a round thing or of `core`: W = k phi(s). */
@@ -137,7 +138,8 @@ static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const fl_stanc
                  slope = p->k * fl_normal_slope(q->overlap, p->exponent);
     p->overlap = q->overlap;
     p->energy = p->k * fl_normal_phi(q->overlap, p->exponent);
-    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0);
+    const double mass = fl_pair_mass(w, p, n, v3_cross(ai, n), v3_cross(aj, n));
+    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass);
     const double elastic = p->k * fl_normal_power(q->overlap, p->exponent);
     const double normal = fl_normal_damped(elastic, chi, closing);
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
@@ -240,10 +242,11 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     fl_seen seen = seen_of(p, s, r, &q);
     p->overlap = q.overlap;
     p->energy = seen.energy;
-    const double chi = damping_factor(p, q.pressed > 0.0 ? q.met / q.pressed : 0.0);
-    fl_bearing_damp(s, chi, &q);
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
     const fl_vec3 elastic = p->f;
+    const double mass = fl_pair_mass(w, p, elastic, p->ti, p->tj);
+    const double chi = damping_factor(p, q.pressed > 0.0 ? q.met / q.pressed : 0.0, mass);
+    fl_bearing_damp(s, chi, &q);
     fl_stiff si, sj;
     fl_springs springs;
     if (survey || carried) fl_bearing_springs(s, &springs);
@@ -258,7 +261,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
         seen.springs = &springs;
         seen.radii = b->radius[p->i] + b->radius[p->j];
         /* the force that the energy of the motion would give, W growing as the square of it */
-        seen.toward = sqrt(1.0 + 0.5 * p->mass * speed * speed / p->energy);
+        seen.toward = sqrt(1.0 + 0.5 * mass * speed * speed / p->energy);
         seen.stiff_i = p->stiff_i, seen.stiff_j = p->stiff_j;
         if (renew(w, p, thread, t, &seen)) return -1;
     }
@@ -337,7 +340,9 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
     const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
     const fl_vec3 u = approach(b, p, ai, aj);
     const double closing = -v3_dot(nw, u);
-    const double mass = law->literal2 && b->invm[p->j] > 0.0 ? b->m[p->i] + b->m[p->j] : p->mass;
+    const double mass = law->literal2 && b->invm[p->j] > 0.0
+                            ? b->m[p->i] + b->m[p->j]
+                            : fl_pair_mass(w, p, nw, v3_cross(ai, nw), v3_cross(aj, nw));
     const double elastic = k * fl_normal_power(overlap, exponent);
     double normal = elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, closing);
     if (normal < 0.0) normal = 0.0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/mem.h"
+#include "body/integrate.h"
 #include "law/normal.h"
 #include "law/sphere.h"
 #include "step/balls.h"
@@ -108,7 +109,8 @@ static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean
     a->wj[0][m] = a->wj[1][m] = a->wj[2][m] = 0.0;
     a->ri[m] = radius;
     a->rj[m] = below;
-    a->invm[m] = law->rest * law->rest * b->invm[c->i];
+    a->invm[m] = law->rest * law->rest *
+                 (fl_body_free(b, c->i) ? b->invm[c->i] : fl_body_mobility(b, c->i, n, v3(0, 0, 0)));
     a->k[m] = r->k;
     a->friction[m] = law->friction;
     a->tangential[m] = law->tangential;

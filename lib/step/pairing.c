@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "body/integrate.h"
 #include "law/damping.h"
 #include "law/material.h"
 #include "step/interact.h"
@@ -102,10 +103,20 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
 
 void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 {
-    const double mi = w->b.m[i], mj = fl_body_stands(&w->b, j) ? 0.0 : w->b.m[j];
+    const double mi = w->b.m[i], mj = w->b.m[j];
     *p = (fl_pair){.i = i, .j = j, .keep = 1.0, .law = fl_pairing_law(w, i, j)};
     p->k = fl_pairing_stiffness(w, i, j, &p->exponent);
-    p->mass = !(mj > 0.0) ? mi : fl_body_stands(&w->b, i) ? mj : mi * mj / (mi + mj);
+    p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
+}
+
+double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj)
+{
+    const fl_bodies *b = &w->b;
+    if (fl_pair_is_plain(w, p)) return p->mass;
+    const double yields = fl_body_mobility(b, p->i, f, v3_scale(0.5, ti)) +
+                          fl_body_mobility(b, p->j, f, v3_scale(0.5, tj)),
+                 mass = v3_norm2(f) / yields;
+    return isfinite(mass) ? mass : p->mass; /* nothing moves */
 }
 
 void fl_pair_end(fl_pair *p)

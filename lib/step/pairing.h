@@ -19,6 +19,19 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
 /* A new pair that does not touch. */
 void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
 
+/* The mass M that meets in a contact with the force f on i and the torques ti and tj about the centres [kg]:
+ * the reduced mass of two that are free and move no water with them.  Else
+ *     1/M = (f.M^-1 f + 1/4 t.I^-1 t)/f^2 of both:
+ * a point turns the bodies by all of its arm, a face keeps them from it, and with half of the arm M is never
+ * less than that of a point, nor more than four times as much. */
+double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj);
+
+/* Whether it is the reduced mass, whatever the force. */
+static inline int fl_pair_is_plain(const fl_world *w, const fl_pair *p)
+{
+    return !w->b.added && !fl_body_stands(&w->b, p->i) && !fl_body_stands(&w->b, p->j);
+}
+
 /* Free what a pair has of its own. */
 void fl_pair_end(fl_pair *p);
 

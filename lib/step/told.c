@@ -2,6 +2,7 @@
 #include <string.h>
 #include "base/wide.h"
 #include "law/damping.h"
+#include "step/pairing.h"
 #include "step/told.h"
 
 /* What is known of contacts beside what their surrogates tell.  World axes, but for what is said to be in the
@@ -99,6 +100,21 @@ FL_WIDE_VERSIONS static void relate(batch *restrict b)
     }
 }
 
+/* The mass that meets, where that hangs on the force. */
+static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
+{
+    for (int k = 0; k < FL_TOLD; k++) {
+        const fl_pair *c = p[k < n ? k : 0];
+        if (fl_pair_is_plain(w, c)) continue;
+        const rows R = rows_of(b->R, k);
+        const fl_vec3 at = out(R, fl_lane3(b->s.at, k)), f = out(R, fl_lane3(b->s.f, k)),
+                      m = out(R, fl_lane3(b->s.m, k));
+        const fl_vec3 ti = v3_add(v3_cross(v3_add(at, fl_lane3(b->off, k)), f), m),
+                      tj = v3_add(v3_cross(at, f), m);
+        b->mass.a[k] = fl_pair_mass(w, c, f, ti, tj);
+    }
+}
+
 /* How the first place has moved, and moves; the damping if it does not approach faster than ever. */
 FL_WIDE_VERSIONS static void move(batch *restrict b)
 {
@@ -191,7 +207,7 @@ static int recall(batch *b, int k, fl_pair *p)
     if (!(q.elastic > 0.0)) return 0;
     if (q.met > p->touch * q.pressed) {
         p->touch = q.met / q.pressed;
-        b->chi.a[k] = fl_damping_chi(p->law->chi, p->law->rest, p->touch, b->s.energy.a[k], p->mass);
+        b->chi.a[k] = fl_damping_chi(p->law->chi, p->law->rest, p->touch, b->s.energy.a[k], b->mass.a[k]);
         fl_bearing_recall(&p->surrogate->pads, way, turned, v, turn, b->chi.a[k], &q, &at);
     }
     take(b, k, &q, at);
@@ -240,6 +256,7 @@ void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int s
     lay(&b, w, p, n);
     relate(&b);
     fl_surrogate_tell(&b.s);
+    weigh(&b, w, p, n);
     move(&b);
     for (int k = 0; k < FL_TOLD; k++) {
         fl_pair *const c = p[k < n ? k : 0];
