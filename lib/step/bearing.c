@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stddef.h>
 #include "base/mem.h"
 #include "base/wide.h"
@@ -52,6 +53,13 @@ static fl_vec3 sum3(const fl_wide a[3])
     return v3(fl_wide_sum(&a[0]), fl_wide_sum(&a[1]), fl_wide_sum(&a[2]));
 }
 
+static double largest(const fl_wide *a)
+{
+    double most = 0.0;
+    for (int l = 0; l < FL_LANES; l++) most = (*a)[l] > most ? (*a)[l] : most;
+    return most;
+}
+
 FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, fl_vec3 turn, lane *t,
                                    fl_bearing *q)
 {
@@ -92,8 +100,7 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, 
     q->u = fl_wide_sum(&u), q->ddu = fl_wide_sum(&ddu);
     q->pressed = fl_wide_sum(&pressed), q->met = fl_wide_sum(&met), q->elastic = fl_wide_sum(&elastic);
     q->gradient = (fl_wrench){sum3(f), sum3(m)};
-    q->overlap = 0.0;
-    for (int l = 0; l < FL_LANES; l++) q->overlap = most[l] > q->overlap ? most[l] : q->overlap;
+    q->overlap = largest(&most);
 }
 
 FL_WIDE_VERSIONS static void second(const lane *t, int32_t lanes, double chi, fl_bearing *q)
@@ -169,95 +176,45 @@ void fl_bearing_springs(const fl_places *s, fl_springs *q)
         }
 }
 
-/* --- what is kept of a look ------------------------------------------------------------------- */
+/* --- what presses ------------------------------------------------------------------------------ */
 
-/* Of four places; rate: a quarter of ddu/du, for pressures that grow as s^3 to s^4. */
-typedef struct {
-    fl_wide e, du, rate, across[3], arm[3];
-} pad;
-
-/* The sums over the lanes of four numbers. */
-FL_WIDE_PART void fold(double out[4], const fl_wide *a, const fl_wide *b, const fl_wide *c, const fl_wide *d)
-{
-    fl_wide r[4] = {*a, *b, *c, *d};
-    fl_wide_transpose(r);
-    FL_FOUR_INTO(out) = (r[0] + r[1]) + (r[2] + r[3]);
-}
-
-FL_WIDE_VERSIONS static void recall(const pad *p, int32_t n, fl_vec3 way, fl_vec3 turned, fl_vec3 v,
-                                    fl_vec3 turn, double chi, fl_bearing *q, fl_vec3 *at)
+FL_WIDE_VERSIONS static void press(const lane *t, int32_t lanes, fl_pressing *q)
 {
     const fl_wide zero = {0};
-    fl_wide pressed = zero, met = zero, elastic = zero, normal = zero, spread = zero;
-    fl_wide all[3] = {zero, zero, zero}, moment[3] = {zero, zero, zero}, still[3] = {zero, zero, zero};
-    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
-    for (int32_t k = 0; k < n; k++, p++) {
-        const fl_wide ax = p->across[0], ay = p->across[1], az = p->across[2];
-        const fl_wide x = p->arm[0], y = p->arm[1], z = p->arm[2];
-        const fl_wide tx = y * az - z * ay, ty = z * ax - x * az, tz = x * ay - y * ax; /* arm x across */
-        const fl_wide in =
-            (ax * way.x + ay * way.y + az * way.z) + (tx * turned.x + ty * turned.y + tz * turned.z);
-        const fl_wide closing =
-            -((ax * v.x + ay * v.y + az * v.z) + (tx * turn.x + ty * turn.y + tz * turn.z));
-        const fl_wide more = 1.0 - p->rate * in, rest = FL_WIDE_WHERE(more > 0.0, more), two = rest * rest;
-        const fl_wide grown = two * two, du = grown * p->du, e = grown * p->e;
-        const fl_wide to = e * (1.0 + chi * closing), press = FL_WIDE_WHERE(to > 0.0, to), add = press - e;
-        pressed += du;
-        met += du * FL_WIDE_WHERE(closing > 0.0, closing);
-        elastic += e;
-        normal += press;
-        spread += press * (x * x + y * y + z * z);
-        all[0] += press * ax, all[1] += press * ay, all[2] += press * az;
-        moment[0] += press * x, moment[1] += press * y, moment[2] += press * z;
-        still[0] += e * x, still[1] += e * y, still[2] += e * z;
-        f[0] += add * ax, f[1] += add * ay, f[2] += add * az;
-        m[0] += add * tx, m[1] += add * ty, m[2] += add * tz;
+    fl_wide all[FL_PRESSING], e = zero, wide = zero, way[3] = {zero, zero, zero},
+                              turns[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
+    for (int m = 0; m < FL_PRESSING; m++) all[m] = zero;
+    for (int32_t k = 0; k < lanes; k++) {
+        fl_wide g[6] = {t[k].across[0], t[k].across[1], t[k].across[2]};
+        CROSS((g + 3), t[k].arm, t[k].across);
+        const fl_wide *arm = t[k].arm;
+        e += t[k].e;
+        wide += t[k].e * (arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
+        int m = 0;
+        FL_WIDE_UNROLL
+        for (int r = 0; r < 6; r++) {
+            const fl_wide eg = t[k].e * g[r];
+            if (r < 3) way[r] += eg, at[r] += t[k].e * arm[r];
+            else turns[r - 3] += eg;
+            FL_WIDE_UNROLL
+            for (int c = r; c < 6; c++, m++) all[m] += eg * g[c];
+        }
     }
-    double s[5][4];
-    fold(s[0], &pressed, &met, &elastic, &normal);
-    fold(s[1], &all[0], &all[1], &all[2], &spread);
-    fold(s[2], &moment[0], &moment[1], &moment[2], &zero);
-    fold(s[3], &f[0], &f[1], &f[2], &m[0]);
-    fold(s[4], &still[0], &still[1], &still[2], &m[1]);
-    double last[4];
-    fold(last, &m[2], &zero, &zero, &zero);
-    *q = (fl_bearing){.pressed = s[0][0],
-                      .met = s[0][1],
-                      .elastic = s[0][2],
-                      .normal = s[0][3],
-                      .direction = v3(s[1][0], s[1][1], s[1][2]),
-                      .spread = s[1][3],
-                      .moment = v3(s[2][0], s[2][1], s[2][2]),
-                      .damping = {v3(s[3][0], s[3][1], s[3][2]), v3(s[3][3], s[4][3], last[0])}};
-    *at = v3(s[4][0], s[4][1], s[4][2]);
+    for (int m = 0; m < FL_PRESSING; m++) q->damping[m] = fl_wide_sum(&all[m]);
+    q->elastic = fl_wide_sum(&e), q->wide = fl_wide_sum(&wide);
+    q->direction = sum3(way), q->turning = sum3(turns), q->mean = sum3(at);
 }
 
-FL_WIDE_VERSIONS static void keep(const lane *t, int32_t lanes, pad *out)
+void fl_bearing_pressing(const fl_places *s, fl_pressing *q)
 {
-    const fl_wide zero = {0}, one = 1.0 + zero;
-    for (int32_t k = 0; k < lanes; k++, t++, out++) {
-        const fl_wide_mask presses = t->du > 0.0;
-        out->e = t->e, out->du = t->du;
-        out->rate = FL_WIDE_WHERE(presses, 0.25 * t->curve / FL_WIDE_CHOOSE(presses, t->du, one));
-        for (int c = 0; c < 3; c++) out->across[c] = t->across[c], out->arm[c] = t->arm[c];
-    }
+    *q = (fl_pressing){0};
+    press(s->lane, (s->n + FL_LANES - 1) / FL_LANES, q);
+    if (!(q->elastic > 0.0)) return;
+    const double each = 1.0 / q->elastic;
+    q->mean = v3_scale(each, q->mean);
+    const double wide2 = each * q->wide - v3_norm2(q->mean);
+    q->wide = wide2 > 0.0 ? sqrt(wide2) : 0.0;
 }
-
-int fl_bearing_keep(const fl_places *s, fl_pads *pads)
-{
-    pads->n = (s->n + FL_LANES - 1) / FL_LANES;
-    if (fl_room(&pads->pad, &pads->cap, pads->n, sizeof(pad))) return -1;
-    keep(s->lane, pads->n, pads->pad);
-    return 0;
-}
-
-void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn, double chi,
-                       fl_bearing *q, fl_vec3 *at)
-{
-    recall(pads->pad, pads->n, way, turned, v, turn, chi, q, at);
-}
-
-double fl_pads_bytes(const fl_pads *pads) { return (double)pads->cap * (double)sizeof(pad); }
 
 double fl_bearing_closing(const fl_places *s, int32_t k)
 {

@@ -40,22 +40,20 @@ void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q);
 /* ddu along `across` at arm of the places that press, after fl_bearing_sum() [m4]. */
 void fl_bearing_springs(const fl_places *s, fl_springs *q);
 
-/* The places of a look, to be asked again when A has moved a little: where and along what they press is kept,
- * how much follows from ddu.  Zeroed to start; pad is freed with free(). */
+/* What presses, whatever moves: of e, n = across and t = arm x n
+ *     direction, turning   sums of e n and of e t
+ *     damping              of e (n, t) (n, t)^T, its upper triangle row by row: where A moves by v at the first
+ *                          place and turns, and nothing would pull, damping adds -chi damping (v, turn)
+ *     mean, wide           mean of arm, by e, and the root of that of |arm - mean|^2 */
+enum { FL_PRESSING = 21 };
 typedef struct {
-    void *pad;
-    int32_t n, cap;
-} fl_pads;
+    double elastic; /* sum of e */
+    fl_vec3 direction, turning, mean;
+    double damping[FL_PRESSING], wide;
+} fl_pressing;
 
-/* After fl_bearing_sum().  -1 when memory runs out. */
-int fl_bearing_keep(const fl_places *s, fl_pads *pads);
-
-/* What fl_bearing_sum() and fl_bearing_damp() would say now that A has moved by `way` at the first place and
- * has `turned`, to the first order; u, ddu, overlap and gradient are left 0.  *at: the sum of e arm. */
-void fl_bearing_recall(const fl_pads *pads, fl_vec3 way, fl_vec3 turned, fl_vec3 v, fl_vec3 turn, double chi,
-                       fl_bearing *q, fl_vec3 *at);
-
-double fl_pads_bytes(const fl_pads *pads);
+/* After fl_bearing_sum(). */
+void fl_bearing_pressing(const fl_places *s, fl_pressing *q);
 
 /* The speed at which the bodies approach at place k, after fl_bearing_sum() [m/s]. */
 double fl_bearing_closing(const fl_places *s, int32_t k);

@@ -106,7 +106,7 @@ fl_footprint fl_footprint_of(const fl_world *w)
     for (int32_t c = 0; c < w->n_pair; c++) {
         const fl_pair *p = w->pair[c].full;
         if (p && p->matches) b.lists += fl_matches_bytes(p->matches);
-        if (p && p->surrogate) b.pairs += sizeof *p->surrogate + fl_pads_bytes(&p->surrogate->pads);
+        if (p && p->surrogate) b.pairs += sizeof *p->surrogate;
     }
     return b;
 }

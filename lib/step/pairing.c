@@ -122,7 +122,6 @@ double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, 
 void fl_pair_end(fl_pair *p)
 {
     if (p->matches) fl_matches_free(p->matches);
-    fl_surrogate_free(p->surrogate);
     free(p->matches), free(p->surrogate);
     p->matches = NULL;
     p->surrogate = NULL;

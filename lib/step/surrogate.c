@@ -106,6 +106,10 @@ FL_FOUR_VERSIONS void fl_surrogate_lay(fl_tellers *b, const fl_surrogate *const 
 
 #define OF(member) (b->s + FL_SURROGATE_ROW(member))
 
+/* Where the entries of a symmetric matrix are. */
+static const uint8_t UPPER[6][6] = {{0, 1, 2, 3, 4, 5},     {1, 6, 7, 8, 9, 10},    {2, 7, 11, 12, 13, 14},
+                                    {3, 8, 12, 15, 16, 17}, {4, 9, 13, 16, 18, 19}, {5, 10, 14, 17, 19, 20}};
+
 /* How A has moved since the look: q, and the turns' J^T. */
 FL_WIDE_VERSIONS static void go(fl_tellers *restrict b, fl_lane *restrict J)
 {
@@ -135,12 +139,14 @@ FL_WIDE_VERSIONS static void go(fl_tellers *restrict b, fl_lane *restrict J)
 FL_WIDE_VERSIONS static void rise(fl_tellers *restrict b)
 {
     for (int r = 0; r < 6; r++) {
-        const fl_lane *g = OF(g) + r, *H = OF(H) + (size_t)r * (sizeof(fl_six) / sizeof(double));
+        const fl_lane *g = OF(g) + r, *H[6];
+        for (int c = 0; c < 6; c++) H[c] = OF(H) + UPPER[r][c];
 #pragma omp simd
         for (int k = 0; k < FL_TOLD; k++)
             b->rise[r].a[k] =
-                g->a[k] + ((H[0].a[k] * b->q[0].a[k] + H[1].a[k] * b->q[1].a[k] + H[2].a[k] * b->q[2].a[k]) +
-                           (H[3].a[k] * b->q[3].a[k] + H[4].a[k] * b->q[4].a[k] + H[5].a[k] * b->q[5].a[k]));
+                g->a[k] +
+                ((H[0]->a[k] * b->q[0].a[k] + H[1]->a[k] * b->q[1].a[k] + H[2]->a[k] * b->q[2].a[k]) +
+                 (H[3]->a[k] * b->q[3].a[k] + H[4]->a[k] * b->q[4].a[k] + H[5]->a[k] * b->q[5].a[k]));
     }
 }
 
@@ -275,8 +281,7 @@ static void begin(fl_surrogate *s, const fl_seen *seen, double tolerance)
     const fl_bearing *q = seen->q;
     const double spread = spread_of(q);
     const fl_vec3 centre = v3_madd(seen->places->place[0].p, 1.0 / q->normal, q->moment);
-    const fl_pads pads = s->pads;
-    *s = (fl_surrogate){.pads = pads, .reach = FIRST * sqrt(tolerance)};
+    *s = (fl_surrogate){.reach = FIRST * sqrt(tolerance)};
     s->less = fl_surrogate_less(tolerance);
     s->arm = spread > seen->radii ? spread : seen->radii;
     s->own = m3_tmul(*seen->M, v3_sub(centre, seen->o));
@@ -296,20 +301,22 @@ static void widen(fl_surrogate *s, const fl_bearing *q)
 FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl_six slope, fl_vec3 from)
 {
     const double W = seen->energy, force = s->force;
-    about(s->H, seen->springs, seen->scale, from, s->arm);
-    add(s->H, -0.5 / W, slope, slope); /* the root in W bends down, as in survey_patch() */
+    fl_six H[6], g = {0};
+    about(H, seen->springs, seen->scale, from, s->arm);
+    add(H, -0.5 / W, slope, slope); /* the root in W bends down, as in survey_patch() */
     fl_six along, bent;
     put(along, v3_scale(1.0 / force, low(slope)), NONE);
-    product(bent, (const fl_six *)s->H, along, (fl_six){0});
+    product(bent, (const fl_six *)H, along, (fl_six){0});
     const double curve = W * dot(along, bent) / (force * force);
     s->power = curve < 1.0 - 1.0 / 2.125 ? 2.0 : curve < 1.0 - 1.0 / 2.375 ? 2.25 : 2.5;
     const double p = s->power, each = 1.0 / (p * W);
     for (int r = 0; r < 6; r++) {
-        s->g[r] = each * slope[r];
-        for (int l = 0; l < 6; l++) s->H[r][l] = each * (s->H[r][l] + force * s->learnt[r][l]);
+        s->g[r] = g[r] = each * slope[r];
+        for (int l = 0; l < 6; l++) H[r][l] = each * (H[r][l] + force * s->learnt[r][l]);
     }
-    s->g[6] = s->g[7] = 0.0;
-    add(s->H, -0.5 * (p - 1.0), s->g, s->g);
+    add(H, -0.5 * (p - 1.0), g, g);
+    for (int r = 0; r < 6; r++)
+        for (int c = r; c < 6; c++) s->H[UPPER[r][c]] = H[r][c];
 }
 
 /* Slope of W over (u, a w) about the point; its size is that of the force. */
@@ -323,29 +330,35 @@ static double slope_of(const fl_surrogate *s, const fl_seen *seen, fl_six slope)
     return v3_norm(wrench.f);
 }
 
-int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
+/* Those sums times dW/dU. */
+static void press(fl_surrogate *s, const fl_pressing *q, double scale)
+{
+    const fl_vec3 acts = fl_surrogate_centre(q->direction, q->turning);
+    s->pressure = scale * q->elastic;
+    s->direction = v3_scale(scale, q->direction), s->turning = v3_scale(scale, q->turning);
+    s->lift = v3_sub(q->mean, acts);
+    for (int k = 0; k < FL_PRESSING; k++) s->damping[k] = scale * q->damping[k];
+    s->wide = q->wide;
+}
+
+void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
 {
     const fl_bearing *q = seen->q;
-    const fl_wrench gradient = {q->gradient.f, q->gradient.m};
-    fl_bearing still;
-    fl_vec3 mean;
+    fl_pressing pressing;
     fl_six slope;
     s->live = 0;
     s->force = slope_of(s, seen, slope);
-    if (!(s->force > 0.0 && seen->slope > 0.0)) return 0;
-    if (fl_bearing_keep(seen->places, &s->pads)) return -1;
+    if (!(s->force > 0.0 && seen->slope > 0.0)) return;
     s->M = *seen->M, s->o = seen->o, s->at = v3_add(s->o, m3_mul(s->M, s->own));
     s->first = seen->places->place[0].p;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope;
     bend(s, seen, slope, v3_sub(s->first, s->at));
-    fl_bearing_recall(&s->pads, NONE, NONE, NONE, NONE, 0.0, &still, &mean);
-    if (!(still.elastic > 0.0)) return 0;
-    s->beside = v3_scale(seen->scale, v3_sub(gradient.f, still.direction));
-    s->pressure = seen->scale * still.elastic;
-    if (!(s->force > NET * s->pressure)) return 0;
-    s->off = v3_madd(v3_neg(fl_surrogate_centre(gradient.f, gradient.m)), 1.0 / still.elastic, mean);
-    s->live = 1;
-    return 0;
+    fl_bearing_pressing(seen->places, &pressing);
+    if (!(pressing.elastic > 0.0)) return;
+    press(s, &pressing, seen->scale);
+    s->beside = v3_sub(v3_scale(seen->scale, q->gradient.f), s->direction);
+    s->centre = fl_surrogate_centre(q->gradient.f, q->gradient.m);
+    s->live = s->force > NET * s->pressure && v3_norm2(s->direction) > 0.0;
 }
 
 double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen, double tolerance)
@@ -361,13 +374,8 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
         if (!(seen->q->normal > 0.0)) return 0.0;
         begin(s, seen, tolerance);
     }
-    if (fl_surrogate_fill(s, seen)) return -1.0;
+    fl_surrogate_fill(s, seen);
     if (s->live && (seen->stiff_i > 0.0 || seen->stiff_j > 0.0))
         s->stiff_i = seen->stiff_i / s->slope, s->stiff_j = seen->stiff_j / s->slope;
     return off;
-}
-
-void fl_surrogate_free(fl_surrogate *s)
-{
-    if (s) free(s->pads.pad);
 }

@@ -31,9 +31,10 @@
  *
  * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W.
  *
- * Damping and friction go by the places of the last look, each pressing by what ddu makes of its way since,
- * all of them times one factor that gives them the force that is told; where force and moment put the centre
- * of the pressure elsewhere they are all moved there. */
+ * Damping and friction go by the places of the last look, all pressing as then, times one factor that gives
+ * them the force that is told; where force and moment put the centre of the pressure elsewhere they are all
+ * moved there.  Then damping is linear in how A moves, six by six numbers, but where it would turn pressures
+ * into pulls.  Of those the mean and the variance are known, and they are taken to be spread evenly about it. */
 #ifndef FL_STEP_SURROGATE_H
 #define FL_STEP_SURROGATE_H
 #include <stddef.h>
@@ -48,25 +49,27 @@ typedef double fl_six[8];
 typedef struct {
     int live; /* there is something to be asked */
     /* of the last look; from here on in doubles, which fl_surrogate_lay() takes in a row */
-    fl_six g, H[6];                       /* [1/m], [1/m2]                                */
+    double g[6], H[21];                   /* [1/m], [1/m2]; the upper triangle            */
     fl_mat3 M;                            /* how A stood to B,                            */
     fl_vec3 o;                            /* and where                                [m] */
     fl_vec3 at;                           /* the point, frame of B                    [m] */
     double overlap, energy, force, slope; /* the largest [m], W [J], its slope [N], dF/ds along it [N/m] */
     double power;                         /* p, by quarters                               */
-    fl_vec3 first, off;                   /* the first place of what pressed, frame of B; its centre lies so
-                                           * far from where force and moment are      [m] */
+    fl_vec3 first, centre;                /* the first place of what pressed, frame of B; from there, where
+                                           * the force acts in its plane              [m] */
     fl_vec3 beside;                       /* of the force, what is not pressures      [N] */
     double pressure;                      /* sum of its e                             [N] */
+    fl_vec3 direction, turning;           /* as in fl_pressing, times dW/dU               */
+    double damping[FL_PRESSING], wide;
+    fl_vec3 lift; /* of its mean over where they act              */
     /* since the bodies touch */
-    fl_vec3 own;  /* the point, frame of A                                 [m] */
-    double arm;   /* a                                                     [m] */
-    double reach; /* how far A may go until the next look, over the overlap    */
-    double less;  /* by how much z may fall or rise                            */
-    /* what is not taken along */
-    fl_six learnt[6];        /* of H, times p W over the force                      [1/m] */
+    fl_vec3 own;             /* the point, frame of A                                 [m] */
+    double arm;              /* a                                                     [m] */
+    double reach;            /* how far A may go until the next look, over the overlap    */
+    double less;             /* by how much z may fall or rise                            */
     double stiff_i, stiff_j; /* as in fl_pair, over the slope; of the last survey  [1/kg] */
-    fl_pads pads;            /* what pressed                                              */
+    /* what is not taken along */
+    fl_six learnt[6]; /* of H, times p W over the force                      [1/m] */
 } fl_surrogate;
 
 /* What one tells for a pose. */
@@ -160,13 +163,11 @@ static inline int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t)
 }
 
 /* Begin anew from what was found; t: what s had told for this pose, NULL where it could not be asked.
- * Returns by how much it was off, or -1 when memory runs out. */
+ * Returns by how much it was off. */
 double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen, double tolerance);
 
 /* The rest of that: what follows from what was found, where own, arm, reach, what was learnt and the
- * stiffness are known.  -1 when memory runs out. */
-int fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen);
-
-void fl_surrogate_free(fl_surrogate *s);
+ * stiffness are known. */
+void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <string.h>
 #include "base/wide.h"
 #include "law/damping.h"
@@ -12,9 +13,7 @@ typedef struct {
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B; spins               */
     fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
-    fl_lane way[3], v[3], turn[3], chi; /* of the first place, and how it moves, frame of B             */
-    fl_lane elastic, normal, direction[3], moment[3], spread, at[3], fd[3], md[3]; /* fl_bearing   */
-    fl_lane scale;                                             /* what these are to be multiplied by      */
+    fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
     fl_lane f[3], ti[3], tj[3], damp[3], di[3], dj[3];         /* as in fl_pair                           */
     fl_lane n[3], slip[3], aj[3], k, g, limit, arm, twist, dw; /* as friction sees them            */
 } batch;
@@ -115,18 +114,66 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
     }
 }
 
-/* How the first place has moved, and moves; the damping if it does not approach faster than ever. */
+/* Of what damping multiplies the pressures by, grown in the mean, with that variance: how much lies below 0, and
+ * as that part would be pulls, the factors by which the sums of e (n, t) and of what damping adds to it give
+ * it back.  Spread evenly over the mean +- a, a^2 = 3 var, with s = a - grown below 0,
+ *     p = mean of max(0, -x) = s^2/4a,   q = mean of max(0, -x) (x - grown) / var = -s^2 (s/3 + grown/2)/(2 a var),
+ * and of (n, t) what follows x: p + q (1 - grown) times the mean and q times what is added. */
+typedef struct {
+    double pulls, still, added;
+} limits;
+
+FL_WIDE_PART limits limit(double grown, double var)
+{
+    const double a = sqrt(3.0 * var), s = a - grown;
+    const int part = s < 2.0 * a; /* else all of it */
+    const double over = 0.5 * s * s / (part ? a : 1.0);
+    const double p = part ? 0.5 * over : -grown, q = part ? -over * (s / 3.0 + 0.5 * grown) / var : -1.0;
+    return (limits){s > 0.0 ? p : 0.0, s > 0.0 ? p + q * (1.0 - grown) : 0.0, s > 0.0 ? q : 0.0};
+}
+
+/* How A moves against B, and what damping adds to a share of 1: -chi times the sums over
+ * e (n, t) (n, t)^T. */
 FL_WIDE_VERSIONS static void move(batch *restrict b)
 {
+    const fl_lane *A = OF(damping);
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
         const rows R = rows_of(b->R, k);
-        const fl_vec3 first = fl_lane3(OF(first), k), arm = v3_sub(first, fl_lane3(OF(at), k));
-        fl_lane3_put(b->way, k, v3_add(fl_lane3(b->s.q, k), v3_cross(fl_lane3(b->s.w, k), arm)));
-        fl_lane3_put(b->v, k, in(R, approach(b, k, out(R, first))));
-        fl_lane3_put(b->turn, k, in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k))));
-        b->chi.a[k] =
-            fl_damping_chi(b->damping.a[k], b->rest.a[k], b->touch.a[k], b->s.energy.a[k], b->mass.a[k]);
+        const fl_vec3 first = fl_lane3(OF(first), k), force = fl_lane3(b->s.f, k),
+                      D = fl_lane3(OF(direction), k), T = fl_lane3(OF(turning), k);
+        /* the pressures move to where force and moment want them */
+        const fl_vec3 arm = v3_sub(fl_lane3(b->s.at, k), first);
+        const fl_vec3 acts = fl_surrogate_centre(force, v3_add(fl_lane3(b->s.m, k), v3_cross(arm, force)));
+        const fl_vec3 by = v3_sub(acts, fl_lane3(OF(centre), k));
+        const fl_vec3 v = in(R, approach(b, k, out(R, v3_add(first, by))));
+        const fl_vec3 w = in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)));
+        const fl_vec3 f = v3((A[0].a[k] * v.x + A[1].a[k] * v.y + A[2].a[k] * v.z) +
+                                 (A[3].a[k] * w.x + A[4].a[k] * w.y + A[5].a[k] * w.z),
+                             (A[1].a[k] * v.x + A[6].a[k] * v.y + A[7].a[k] * v.z) +
+                                 (A[8].a[k] * w.x + A[9].a[k] * w.y + A[10].a[k] * w.z),
+                             (A[2].a[k] * v.x + A[7].a[k] * v.y + A[11].a[k] * v.z) +
+                                 (A[12].a[k] * w.x + A[13].a[k] * w.y + A[14].a[k] * w.z));
+        const fl_vec3 m = v3((A[3].a[k] * v.x + A[8].a[k] * v.y + A[12].a[k] * v.z) +
+                                 (A[15].a[k] * w.x + A[16].a[k] * w.y + A[17].a[k] * w.z),
+                             (A[4].a[k] * v.x + A[9].a[k] * v.y + A[13].a[k] * v.z) +
+                                 (A[16].a[k] * w.x + A[18].a[k] * w.y + A[19].a[k] * w.z),
+                             (A[5].a[k] * v.x + A[10].a[k] * v.y + A[14].a[k] * v.z) +
+                                 (A[17].a[k] * w.x + A[19].a[k] * w.y + A[20].a[k] * w.z));
+        const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
+        const double touch = closing > b->touch.a[k] ? closing : b->touch.a[k];
+        const double chi =
+            fl_damping_chi(b->damping.a[k], b->rest.a[k], touch, b->s.energy.a[k], b->mass.a[k]);
+        const double grown = 1.0 + chi * closing, c2 = each * (v3_dot(f, v) + v3_dot(m, w)),
+                     var = chi * chi * (c2 - closing * closing);
+        const limits to = limit(grown, var > 0.0 ? var : 0.0);
+        const double adds = -chi * (1.0 + to.added);
+        b->touch.a[k] = touch;
+        b->chi.a[k] = chi;
+        b->grown.a[k] = grown + to.pulls;
+        fl_lane3_put(b->by, k, by);
+        fl_lane3_put(b->fd, k, v3_madd(v3_scale(to.still, D), adds, f));
+        fl_lane3_put(b->md, k, v3_madd(v3_scale(to.still, T), adds, m));
     }
 }
 
@@ -138,26 +185,19 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const rows R = rows_of(b->R, k);
         const fl_vec3 first = fl_lane3(OF(first), k), point = fl_lane3(b->s.at, k), f = fl_lane3(b->s.f, k),
                       m = fl_lane3(b->s.m, k), off = fl_lane3(b->off, k);
-        const double elastic = b->elastic.a[k], normal = b->normal.a[k], each = 1.0 / elastic;
-        const double scale = b->s.share.a[k] * OF(pressure)->a[k] * each;
-        fl_vec3 direction = fl_lane3(b->direction, k), moment = fl_lane3(b->moment, k);
+        const double share = b->s.share.a[k], grown = b->grown.a[k];
+        const fl_vec3 by = fl_lane3(b->by, k);
         fl_vec3 fd = fl_lane3(b->fd, k), md = fl_lane3(b->md, k);
+        const fl_vec3 still = fl_lane3(OF(direction), k), direction = v3_add(still, fd),
+                      turning = v3_add(fl_lane3(OF(turning), k), md);
         /* damping must not leave what the force is off from the pressures by */
-        const fl_vec3 beside = v3_madd(f, -b->s.share.a[k], fl_lane3(OF(beside), k));
-        const fl_vec3 rest = v3_sub(v3_scale(1.0 / scale, beside), v3_sub(direction, fd));
-        const fl_vec3 less = v3_madd(fd, normal * each - 1.0, rest);
-        fd = v3(normal < elastic ? less.x : fd.x, normal < elastic ? less.y : fd.y,
-                normal < elastic ? less.z : fd.z);
-        /* the pressures move to where force and moment want them */
-        const fl_vec3 told = v3_add(m, v3_cross(v3_sub(point, first), f));
-        const fl_vec3 by =
-            v3_add(v3_madd(fl_surrogate_centre(f, told), -each, fl_lane3(b->at, k)), fl_lane3(OF(off), k));
-        const double spread = b->spread.a[k] + 2.0 * v3_dot(by, moment) + normal * v3_norm2(by);
-        moment = v3_madd(moment, normal, by);
+        const fl_vec3 rest = v3_sub(v3_sub(v3_scale(1.0 / share, f), fl_lane3(OF(beside), k)), still);
+        const fl_vec3 less = v3_madd(fd, grown - 1.0, rest);
+        fd = v3(grown < 1.0 ? less.x : fd.x, grown < 1.0 ? less.y : fd.y, grown < 1.0 ? less.z : fd.z);
         md = v3_add(md, v3_cross(by, fd));
         /* in the world */
         const fl_vec3 at = out(R, point), aj = out(R, first), F = out(R, f), FM = out(R, m);
-        const fl_vec3 D = v3_scale(scale, out(R, fd)), DM = v3_scale(scale, out(R, md));
+        const fl_vec3 D = v3_scale(share, out(R, fd)), DM = v3_scale(share, out(R, md));
         const fl_vec3 di = v3_add(v3_cross(v3_add(aj, off), D), DM), dj = v3_neg(v3_add(v3_cross(aj, D), DM));
         fl_lane3_put(b->damp, k, D);
         fl_lane3_put(b->di, k, di);
@@ -165,20 +205,20 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         fl_lane3_put(b->f, k, v3_add(F, D));
         fl_lane3_put(b->ti, k, v3_add(v3_add(v3_cross(v3_add(at, off), F), FM), di));
         fl_lane3_put(b->tj, k, v3_sub(dj, v3_add(v3_cross(at, F), FM)));
-        /* friction */
-        const double whole = 1.0 / normal, size = v3_norm(direction);
-        const fl_vec3 n = out(R, v3_scale(size > 0.0 ? 1.0 / size : 0.0, direction));
-        const fl_vec3 mean = v3_scale(whole, moment), centred = v3_add(aj, out(R, mean));
-        const double arm2 = whole * spread - v3_norm2(mean);
+        /* friction, where all that presses acts, and as high as it does */
+        const double size = v3_norm(direction);
+        const fl_vec3 n = out(R, v3_scale(1.0 / size, direction));
+        const fl_vec3 amid =
+            v3_add(v3_add(by, fl_lane3(OF(lift), k)), fl_surrogate_centre(direction, turning));
+        const fl_vec3 centred = v3_add(aj, out(R, amid));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n);
-        b->scale.a[k] = scale;
         fl_lane3_put(b->n, k, n);
         fl_lane3_put(b->aj, k, centred);
         fl_lane3_put(b->slip, k, approach(b, k, centred));
         b->k.a[k] = b->tangential.a[k] * b->s.slope.a[k];
-        b->g.a[k] = b->tangential.a[k] * b->chi.a[k] * (scale * elastic);
-        b->limit.a[k] = b->friction.a[k] * (scale * size);
-        b->arm.a[k] = arm2 > 0.0 ? sqrt(arm2) : 0.0;
+        b->g.a[k] = b->tangential.a[k] * b->chi.a[k] * (share * OF(pressure)->a[k]);
+        b->limit.a[k] = b->friction.a[k] * (share * size);
+        b->arm.a[k] = OF(wide)->a[k];
         b->dw.a[k] = wi - wj;
         b->twist.a[k] = 0.5 * (wi + wj);
     }
@@ -186,38 +226,10 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
 
 /* --- contact by contact ------------------------------------------------------------------------- */
 
-static void take(batch *b, int k, const fl_bearing *q, fl_vec3 at)
-{
-    b->elastic.a[k] = q->elastic, b->normal.a[k] = q->normal, b->spread.a[k] = q->spread;
-    fl_lane3_put(b->direction, k, q->direction);
-    fl_lane3_put(b->moment, k, q->moment);
-    fl_lane3_put(b->at, k, at);
-    fl_lane3_put(b->fd, k, q->damping.f);
-    fl_lane3_put(b->md, k, q->damping.m);
-}
-
-/* How the places press; 0 where nothing does any longer.  It does not often approach faster than ever. */
-static int recall(batch *b, int k, fl_pair *p)
-{
-    const fl_vec3 way = fl_lane3(b->way, k), turned = fl_lane3(b->s.w, k), v = fl_lane3(b->v, k),
-                  turn = fl_lane3(b->turn, k);
-    fl_bearing q;
-    fl_vec3 at;
-    fl_bearing_recall(&p->surrogate->pads, way, turned, v, turn, b->chi.a[k], &q, &at);
-    if (!(q.elastic > 0.0)) return 0;
-    if (q.met > p->touch * q.pressed) {
-        p->touch = q.met / q.pressed;
-        b->chi.a[k] = fl_damping_chi(p->law->chi, p->law->rest, p->touch, b->s.energy.a[k], b->mass.a[k]);
-        fl_bearing_recall(&p->surrogate->pads, way, turned, v, turn, b->chi.a[k], &q, &at);
-    }
-    take(b, k, &q, at);
-    return 1;
-}
-
 /* Friction at the centre of the pressure. */
 static void rub(const batch *b, int k, fl_pair *p, double dt)
 {
-    if (!(b->friction.a[k] > 0.0 && b->tangential.a[k] > 0.0 && b->normal.a[k] > 0.0)) {
+    if (!(b->limit.a[k] > 0.0 && b->tangential.a[k] > 0.0)) {
         p->slip = (fl_slip){0};
         return;
     }
@@ -235,15 +247,15 @@ static void rub(const batch *b, int k, fl_pair *p, double dt)
 
 static void give(const batch *b, int k, fl_pair *p, double dt, int survey)
 {
-    const fl_surrogate *s = p->surrogate;
     const double slope = b->s.slope.a[k];
     p->f = fl_lane3(b->f, k), p->ti = fl_lane3(b->ti, k), p->tj = fl_lane3(b->tj, k);
     p->fd = fl_lane3(b->damp, k), p->di = fl_lane3(b->di, k), p->dj = fl_lane3(b->dj, k);
     p->fs = p->si = p->sj = v3(0, 0, 0);
     p->spring = 0.0;
-    p->overlap = s->overlap * b->s.z.a[k];
-    p->stiff_i = survey ? slope * s->stiff_i : 0.0;
-    p->stiff_j = survey ? slope * s->stiff_j : 0.0;
+    p->touch = b->touch.a[k];
+    p->overlap = OF(overlap)->a[k] * b->s.z.a[k];
+    p->stiff_i = survey ? slope * OF(stiff_i)->a[k] : 0.0;
+    p->stiff_j = survey ? slope * OF(stiff_j)->a[k] : 0.0;
     rub(b, k, p, dt);
     p->energy = b->s.energy.a[k] + p->spring;
 }
@@ -258,17 +270,12 @@ void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int s
     fl_surrogate_tell(&b.s);
     weigh(&b, w, p, n);
     move(&b);
-    for (int k = 0; k < FL_TOLD; k++) {
-        fl_pair *const c = p[k < n ? k : 0];
-        const int holds = k < n && fl_surrogate_within(c->surrogate, b.s.way.a[k], b.s.z.a[k], 1.0) &&
-                          b.s.share.a[k] > 0.0 && recall(&b, k, c);
-        if (k < n) done[k] = (uint8_t)holds;
-        any |= holds;
-        if (!holds) take(&b, k, &(fl_bearing){.elastic = 1.0, .normal = 1.0}, v3(0, 0, 0));
+    for (int k = 0; k < n; k++) {
+        done[k] = fl_surrogate_within(p[k]->surrogate, b.s.way.a[k], b.s.z.a[k], 1.0) && b.s.share.a[k] > 0.0;
+        any |= done[k];
     }
     if (any) bear(&b);
     for (int k = 0; k < n; k++) {
-        if (done[k]) done[k] = b.scale.a[k] > 0.0;
         if (done[k]) give(&b, k, p[k], dt, survey);
         else t[k] = fl_surrogate_told(&b.s, k);
     }
