@@ -192,6 +192,20 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
                : 0;
 }
 
+/* Whether no face is in reach now: the list may be one of another time, and what sleeps by the distance has to
+ * be told the same with a list that is new. */
+static int nothing_near(const fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_shell *shell,
+                        double reach, double *distance)
+{
+    fl_reach *walls = &near->of_shell;
+    fl_aabb box = aabb_empty();
+    for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
+    walls->faces = query(&shell->tree, shell->box, aabb_grow(box, reach), &walls->face, &walls->face_cap);
+    if (walls->faces < 0) return -1;
+    if (walls->faces == 0) *distance = reach;
+    return 0;
+}
+
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
                     double reach, int single, fl_matches *l, double *distance)
 {
@@ -208,13 +222,14 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
         return 0;
     }
     *distance = ra; /* something is near: no bound is claimed */
-    if (core_vertices(w, &A, &B, &b->shell, l, ra, single, &behind) || single) return single ? 0 : -1;
+    if (core_vertices(w, &A, &B, &b->shell, l, ra, single, &behind)) return -1;
+    if (single) return w->n ? 0 : nothing_near(w, near, a, &b->shell, reach, distance);
     fl_matches rest;
     const double far = behind ? ra : 0.0, rim = FL_PLACE_RIM * ra;
-    return fl_footing_places(w, l, &near->footing, &A, &B, ra, far, rim, &rest) ||
-                   fl_matches_places(w, &rest, &A, &B, ra, far, rim, 0.0)
-               ? -1
-               : 0;
+    if (fl_footing_places(w, l, &near->footing, &A, &B, ra, far, rim, &rest) ||
+        fl_matches_places(w, &rest, &A, &B, ra, far, rim, 0.0))
+        return -1;
+    return w->n ? 0 : nothing_near(w, near, a, &b->shell, reach, distance);
 }
 
 void fl_shell_near_free(fl_shell_near *near)

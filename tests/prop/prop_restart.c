@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stopping and going on: a world put back from its snapshot makes the steps of the one that never stopped. */
 #define _GNU_SOURCE /* open_memstream */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "support/near.h"
+#include "base/rng.h"
 #include "step/snapshot.h"
 #include "support/scenes.h"
 
@@ -81,6 +83,53 @@ static void any_step_is_a_place_to_stop(void **state)
             lab_free(&l);
         }
         assert_true(pairs > 3000 && whole.w.searches >= 2);
+        lab_free(&whole);
+    }
+}
+
+/* Three boxes drift along a wall that is not convex, and sleep where nothing is near. */
+static void beside_a_hook(lab *l, int64_t seed)
+{
+    const fl_vec3 hook[6] = {v3(-3, -0.5, 0), v3(3, -0.5, 0), v3(3, 2, 0),
+                             v3(2.5, 2, 0),   v3(2.5, 0, 0),  v3(-3, 0, 0)};
+    fl_rng g = fl_rng_of(test_seed(), seed, FL_RNG_TEST);
+    const double fast = pow(10.0, fl_rng_in(&g, -2.0, -0.5));
+    lab_start(l);
+    lab_set(l, "run.sleep=1e-3");
+    lab_set(l, "material.ice.young=1e6");
+    lab_set(l, "contact.restitution=0.5");
+    lab_prism(l, 6, hook, -1, 1);
+    for (int k = 0; k < 3; k++) {
+        const fl_vec3 x = v3(-2.0 + 1.5 * k, fl_rng_in(&g, 0.52, 0.6), 0);
+        const fl_quat q = q_about(2, fl_rng_in(&g, -0.03, 0.03));
+        const fl_vec3 v = v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 1.0), fl_rng_in(&g, -0.2, 0.2));
+        lab_box(l, x, v3(0.5, 0.5, 0.3), 0.05, q, v3_scale(fast, v),
+                v3(0, 0, fast * fl_rng_in(&g, -0.1, 0.1)));
+    }
+    lab_make(l, 0);
+}
+
+/* What is found with a list that is old is found with one that is new. */
+static void lists_are_not_seen(void **state)
+{
+    (void)state;
+    for (int64_t seed = 0; seed < 6; seed++) {
+        lab whole;
+        beside_a_hook(&whole, seed);
+        for (int k = 0; k < 8; k++) {
+            lab l;
+            fl_err err = {0};
+            size_t n = 0;
+            assert_int_equal(lab_run(&whole, 13), 0);
+            beside_a_hook(&l, seed);
+            char *text = snapshot(&whole.w, &n);
+            assert_int_equal(put_back(&l.w, text, n, &err), 0);
+            free(text);
+            assert_int_equal(lab_run(&whole, 400), 0);
+            assert_int_equal(lab_run(&l, 400), 0);
+            same(&whole.w, &l.w, "patch", whole.w.step - 400);
+            lab_free(&l);
+        }
         lab_free(&whole);
     }
 }
@@ -178,8 +227,8 @@ static void what_is_no_state_is_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_step_is_a_place_to_stop),
-                                       cmocka_unit_test(a_state_stays_what_it_is),
-                                       cmocka_unit_test(what_is_no_state_is_refused)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_step_is_a_place_to_stop), cmocka_unit_test(lists_are_not_seen),
+        cmocka_unit_test(a_state_stays_what_it_is), cmocka_unit_test(what_is_no_state_is_refused)};
     return cmocka_run_group_tests_name("restart", tests, NULL, NULL);
 }
