@@ -17,9 +17,10 @@ typedef int64_t fl_wide_mask __attribute__((vector_size(FL_LANES * sizeof(int64_
 typedef double fl_two __attribute__((vector_size(2 * sizeof(double)), aligned(8), may_alias));
 
 /* A function compiled for several widths, of which the loader takes the one that fits the machine. */
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                           \
+/* clang 14 leaves such a function without its name to the linker. */
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&    \
     !defined(__SANITIZE_THREAD__)
-#if defined(__clang__) || __GNUC__ < 12
+#if __GNUC__ < 12
 #define FL_WIDE_VERSIONS __attribute__((target_clones("avx512f", "avx2", "default")))
 #define FL_FOUR_VERSIONS __attribute__((target_clones("avx2", "default"))) /* where fl_wide is the width */
 #else /* registers of masks, and twice as many of four numbers */

@@ -3,6 +3,7 @@
  * and Coulomb's limit for the two together. */
 #ifndef FL_LAW_TANGENT_H
 #define FL_LAW_TANGENT_H
+#include <math.h>
 #include "geom/vec3.h"
 
 /* What a contact remembers from step to step. */
@@ -41,11 +42,15 @@ fl_vec3 fl_tangent_force(fl_slip *s, const fl_rubbing *c, fl_vec3 v, double spin
                          double *moment);
 
 /* The stiffness was taken for another all the time, and is `by` times as large: the springs have not been
- * unloaded, they keep their forces. */
+ * unloaded.  They keep their forces where they are stiffer; where they are softer that would make energy, and
+ * they keep what they hold. */
 static inline void fl_tangent_remeasured(fl_slip *s, double by)
 {
     s->k *= by;
     s->k_turn *= by;
+    if (!(by < 1.0)) return;
+    s->force = v3_scale(sqrt(by), s->force);
+    s->moment *= sqrt(by);
 }
 
 /* Energy held by the springs, F^2 / 2k + M^2 / 2 k_turn [J]. */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 #include "law/material.h"
+#include "step/interact.h"
+#include "step/pairing.h"
 #include "support/lab.h"
 #include "support/sweep.h"
 #include "support/verify.h"
@@ -166,6 +168,72 @@ static double slot(double surrogate)
     return bad ? NAN : work;
 }
 
+/* A box on a plane that holds it by friction is sheared while it leans by one angle and goes so deep, leans and
+ * goes otherwise, is sheared back, and leans as before.  What friction takes in a cycle, over the most that its
+ * spring held. */
+static double swing(double surrogate, const double lean[2], const double depth[2])
+{
+    enum { STEPS = 20000, CYCLES = 3 };
+    const double dt = 1.0 / STEPS, R = 0.1, shear = 1e-5;
+    double taken = 0.0, held = 0.0, first = 0.0;
+    fl_vec3 was = ZERO;
+    double leant = lean[0];
+    lab l;
+    fl_pair p;
+    lab_start(&l);
+    lab_setf(&l, "contact.surrogate=%g", surrogate);
+    lab_set(&l, "contact.friction=1000");
+    lab_set(&l, "boundary.type=rigid");
+    lab_set(&l, "boundary.min=none none 0");
+    lab_box(&l, v3(0, 0, 10), v3(0.5, 0.5, 0.3), R, q_one(), ZERO, ZERO);
+    lab_make(&l, 1e-5);
+    fl_bodies *b = &l.w.b;
+    fl_pair_start(&l.w, &p, 0, 1);
+    for (int c = 0; c <= CYCLES; c++) {
+        if (c == 1) taken = 0.0, first = p.spring; /* the first brings it there */
+        for (int k = 0; k < STEPS; k++) {
+            const int part = 4 * k / STEPS;
+            const double t = (4.0 * (k + 1)) / STEPS - part, u = t * t * (3.0 - 2.0 * t);
+            const double y = shear * (part == 0 ? u : part == 1 ? 1.0 : part == 2 ? 1.0 - u : 0.0);
+            const double m = part == 0 ? 0.0 : part == 1 ? u : part == 2 ? 1.0 : 1.0 - u;
+            const double angle = lean[0] + m * (lean[1] - lean[0]), s = depth[0] + m * (depth[1] - depth[0]);
+            const fl_quat q = q_about(1, angle);
+            const fl_vec3 low = q_rotate(q, v3(0.4, 0, -0.2)), x = v3(-low.x, y, R - s - low.z);
+            if (c == 0 && k == 0) was = x;
+            const fl_vec3 v = v3_scale(1.0 / dt, v3_sub(x, was)), w = v3(0, (angle - leant) / dt, 0);
+            was = x, leant = angle;
+            lab_pose(&l.w, 0, x, q);
+            b->v[0] = v, b->w[0] = w;
+            l.w.step++;
+            fl_interact(&l.w, &p, 0, dt, 1);
+            taken -= (v3_dot(p.fs, v) + v3_dot(p.si, w)) * dt;
+            held = fmax(held, p.spring);
+        }
+    }
+    taken -= p.spring - first;
+    fl_pair_end(&p);
+    lab_free(&l);
+    return taken / CYCLES / held;
+}
+
+static void swings(void)
+{
+    const struct {
+        double surrogate, lean[2], depth[2];
+    } IT[] = {{1e-3, {0.00256, 0.0016}, {0.01, 0.008}},
+              {1e-2, {0.002, 0.0005}, {0.01, 0.008}},
+              {1e-1, {0.00655, 0.0016}, {0.01, 0.01}}};
+    double least = INFINITY, looked = INFINITY;
+    for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
+        least = fmin(least, swing(IT[k].surrogate, IT[k].lean, IT[k].depth));
+        looked = fmin(looked, swing(0.0, IT[k].lean, IT[k].depth));
+    }
+    verify_note(
+        "friction that is loaded where a contact is stiffer than where it is unloaded, and the other way");
+    verify_below("friction", "by looks: given out in a cycle, over what springs held", -looked, 1e-9);
+    verify_below("friction", "by surrogates of 1e-3 to 0.1", -least, 1e-9);
+}
+
 static void surrogates(void)
 {
     verify_note("contacts that are told and not looked at, tolerance 0.001");
@@ -180,5 +248,6 @@ int main(void)
     sliding_off();
     gas();
     surrogates();
+    swings();
     return verify_end();
 }
