@@ -168,9 +168,9 @@ static double slot(double surrogate)
     return bad ? NAN : work;
 }
 
-/* A box on a plane that holds it by friction is sheared while it leans by one angle and goes so deep, leans and
- * goes otherwise, is sheared back, and leans as before.  What friction takes in a cycle, over the most that its
- * spring held. */
+/* A box on a plane that holds it by friction is sheared while it leans by one angle and goes so deep, leans
+ * and goes otherwise, is sheared back, and leans as before.  What friction takes in a cycle, over the most
+ * that its spring held. */
 static double swing(double surrogate, const double lean[2], const double depth[2])
 {
     enum { STEPS = 20000, CYCLES = 3 };
