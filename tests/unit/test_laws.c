@@ -347,8 +347,8 @@ static void friction_unloads_along_its_stiffness(void **state)
     assert_true(fl_tangent_energy(&s) < 49.0 / (2.0 * k2));
 }
 
-/* What falls takes force with it; what was only taken for stiffer keeps its energy, and what was taken for softer
- * its force. */
+/* What falls takes force with it; what was only taken for stiffer keeps its energy, and what was taken for
+ * softer its force. */
 static void friction_measured_anew_makes_no_energy(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), rest = v3(0, 0, 0);
