@@ -192,8 +192,8 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
                : 0;
 }
 
-/* Whether no face is in reach now: the list may be one of another time, and what sleeps by the distance has to
- * be told the same with a list that is new. */
+/* Whether no face is in reach now: the list may be one of another time, and what sleeps by the distance has
+ * to be told the same with a list that is new. */
 static int nothing_near(const fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_shell *shell,
                         double reach, double *distance)
 {

@@ -42,8 +42,8 @@ void fl_bearing_springs(const fl_places *s, fl_springs *q);
 
 /* What presses, whatever moves: of e, n = across and t = arm x n
  *     direction, turning   sums of e n and of e t
- *     damping              of e (n, t) (n, t)^T, its upper triangle row by row: where A moves by v at the first
- *                          place and turns, and nothing would pull, damping adds -chi damping (v, turn)
+ *     damping              of e (n, t) (n, t)^T, its upper triangle row by row: where A moves by v at the
+ *                          first place and turns, and nothing would pull, damping adds -chi damping (v, turn)
  *     mean, wide           mean of arm, by e, and the root of that of |arm - mean|^2 */
 enum { FL_PRESSING = 21 };
 typedef struct {

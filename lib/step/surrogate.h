@@ -34,7 +34,7 @@
  * Damping and friction go by the places of the last look, all pressing as then, times one factor that gives
  * them the force that is told; where force and moment put the centre of the pressure elsewhere they are all
  * moved there.  Then damping is linear in how A moves, six by six numbers, but where it would turn pressures
- * into pulls.  Of those the mean and the variance are known, and they are taken to be spread evenly about it. */
+ * into pulls.  Of those the mean and the variance are known, and they are taken to be spread evenly. */
 #ifndef FL_STEP_SURROGATE_H
 #define FL_STEP_SURROGATE_H
 #include <stddef.h>
