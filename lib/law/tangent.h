@@ -4,6 +4,7 @@
 #ifndef FL_LAW_TANGENT_H
 #define FL_LAW_TANGENT_H
 #include <math.h>
+#include "base/wide.h"
 #include "geom/vec3.h"
 
 /* What a contact remembers from step to step. */
@@ -23,7 +24,21 @@ typedef struct {
     double arm;   /* root mean square distance of the pressure from its centre [m]; 0 for a point */
 } fl_rubbing;
 
-/* One step of friction; returns the tangential force on A, sets *moment, the one about n, and renews *s.
+/* What a step of friction leaves, and what it does to A. */
+typedef struct {
+    fl_slip slip;
+    fl_vec3 force;
+    double moment; /* about n */
+} fl_rubbed;
+
+/* Of a force f and a moment m the part that the limit allows. */
+FL_WIDE_PART double fl_tangent_part(fl_rubbing c, fl_vec3 f, double m)
+{
+    const double arm = c.arm > 0.0 ? m / c.arm : 0.0, size2 = v3_norm2(f) + arm * arm;
+    return size2 > c.limit * c.limit ? c.limit / sqrt(size2) : 1.0;
+}
+
+/* One step of friction, without a branch or a pointer, so that it goes into loops over lanes.
  *
  * 1. The remembered force is turned about n by the mean spin of the pair, laid into the tangent plane and
  *    given back its length: it rolls with the contact.
@@ -38,8 +53,24 @@ typedef struct {
  *   spin    angular velocity of A less that of B about n [rad/s]
  *   twist   mean angular velocity of the pair about n [rad/s]
  *   dt      [s] */
-fl_vec3 fl_tangent_force(fl_slip *s, const fl_rubbing *c, fl_vec3 v, double spin, double twist, double dt,
-                         double *moment);
+FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_vec3 v, double spin, double twist,
+                                      double dt)
+{
+    const double before = v3_norm2(s.force), k = c.k, turning = k * c.arm * c.arm;
+    const fl_vec3 rolled = v3_madd(s.force, twist * dt, v3_cross(c.n, s.force));
+    const fl_vec3 laid = v3_madd(rolled, -v3_dot(rolled, c.n), c.n);
+    const double after = v3_norm2(laid), length = after > 0.0 ? sqrt(before / after) : 1.0;
+    const double fall = k < s.k ? k / s.k : 1.0, fall_turn = turning < s.k_turn ? turning / s.k_turn : 1.0;
+    const fl_vec3 along = v3_madd(v, -v3_dot(v, c.n), c.n);
+    const fl_vec3 f = v3_madd(v3_scale(fall, v3_scale(length, laid)), -k * dt, along);
+    const double m = fall_turn * s.moment - turning * dt * spin, part = fl_tangent_part(c, f, m);
+    const fl_slip kept = {v3_scale(part, f), k, part * m, turning};
+    const double g = part < 1.0 ? 0.0 : c.g;
+    const fl_vec3 damped = v3_madd(kept.force, -g, along);
+    const double twisted = kept.moment - g * c.arm * c.arm * spin, most = fl_tangent_part(c, damped, twisted),
+                 left = part < 1.0 ? 1.0 : most;
+    return (fl_rubbed){kept, v3_scale(left, damped), left * twisted};
+}
 
 /* The stiffness was taken for another all the time, and is `by` times as large: the springs have not been
  * unloaded.  They keep their forces where they are stiffer; where they are softer that would make energy, and
@@ -54,10 +85,10 @@ static inline void fl_tangent_remeasured(fl_slip *s, double by)
 }
 
 /* Energy held by the springs, F^2 / 2k + M^2 / 2 k_turn [J]. */
-static inline double fl_tangent_energy(const fl_slip *s)
+FL_WIDE_PART double fl_tangent_energy(fl_slip s)
 {
-    return (s->k > 0.0 ? 0.5 * v3_norm2(s->force) / s->k : 0.0) +
-           (s->k_turn > 0.0 ? 0.5 * s->moment * s->moment / s->k_turn : 0.0);
+    return (s.k > 0.0 ? 0.5 * v3_norm2(s.force) / s.k : 0.0) +
+           (s.k_turn > 0.0 ? 0.5 * s.moment * s.moment / s.k_turn : 0.0);
 }
 
 #endif

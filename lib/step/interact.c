@@ -78,17 +78,16 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl
                           .limit = law->friction * v3_norm(q->direction),
                           .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0};
     const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n);
-    double moment;
-    const fl_vec3 t =
-        fl_tangent_force(&p->slip, &c, approach(b, p, ai, aj), wi - wj, 0.5 * (wi + wj), dt, &moment);
-    const fl_vec3 m = v3_scale(moment, c.n);
-    add_wrench(&p->fs, &p->si, &p->sj, t, ai, aj);
+    const fl_rubbed t = fl_tangent_rub(p->slip, c, approach(b, p, ai, aj), wi - wj, 0.5 * (wi + wj), dt);
+    const fl_vec3 m = v3_scale(t.moment, c.n);
+    p->slip = t.slip;
+    add_wrench(&p->fs, &p->si, &p->sj, t.force, ai, aj);
     p->si = v3_add(p->si, m);
     p->sj = v3_sub(p->sj, m);
     p->f = v3_add(p->f, p->fs);
     p->ti = v3_add(p->ti, p->si);
     p->tj = v3_add(p->tj, p->sj);
-    p->spring = fl_tangent_energy(&p->slip);
+    p->spring = fl_tangent_energy(p->slip);
 }
 
 /* What the springs of friction add, where they stick, and the bounds of it all. */

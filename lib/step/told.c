@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include <string.h>
+#include <stddef.h>
 #include "base/wide.h"
 #include "law/damping.h"
 #include "step/pairing.h"
@@ -14,11 +14,13 @@ typedef struct {
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B; spins               */
     fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
     fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
-    fl_lane f[3], ti[3], tj[3], damp[3], di[3], dj[3];         /* as in fl_pair                           */
-    fl_lane n[3], slip[3], aj[3], k, g, limit, arm, twist, dw; /* as friction sees them            */
+    fl_lane slip[8];                         /* as it is remembered; the last two are nothing */
+    fl_lane n[3], rubs[3], aj[3], k, g, limit, arm, twist, dw; /* as friction sees them            */
+    fl_lane to[FL_PAIR_TELLS];                                 /* what fl_pair gets                       */
 } batch;
 
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
+#define TO(member) (b->to + (offsetof(fl_pair, member) - offsetof(fl_pair, f)) / sizeof(double))
 
 static void put4(fl_lane *a, int k, fl_quat q)
 {
@@ -42,6 +44,8 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n)
         b->mass.a[k] = c->mass, b->touch.a[k] = c->touch;
         b->rest.a[k] = c->law->rest, b->damping.a[k] = c->law->chi;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential;
+        fl_lane3_put(b->slip, k, c->slip.force);
+        b->slip[3].a[k] = c->slip.k, b->slip[4].a[k] = c->slip.moment, b->slip[5].a[k] = c->slip.k_turn;
     }
     fl_surrogate_lay(&b->s, s, FL_TOLD);
 }
@@ -114,10 +118,11 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
     }
 }
 
-/* Of what damping multiplies the pressures by, grown in the mean, with that variance: how much lies below 0, and
- * as that part would be pulls, the factors by which the sums of e (n, t) and of what damping adds to it give
- * it back.  Spread evenly over the mean +- a, a^2 = 3 var, with s = a - grown below 0,
- *     p = mean of max(0, -x) = s^2/4a,   q = mean of max(0, -x) (x - grown) / var = -s^2 (s/3 + grown/2)/(2 a var),
+/* Of what damping multiplies the pressures by, grown in the mean, with that variance: how much lies below 0,
+ * and the factors by which the sums of e (n, t), and what damping adds to them, give those pulls back.  Spread
+ * evenly over the mean +- a, a^2 = 3 var, with s = a - grown below 0,
+ *     p = mean of max(0, -x) = s^2/4a,
+ *     q = mean of max(0, -x) (x - grown) / var = -s^2 (s/3 + grown/2)/(2 a var),
  * and of (n, t) what follows x: p + q (1 - grown) times the mean and q times what is added. */
 typedef struct {
     double pulls, still, added;
@@ -199,65 +204,103 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const fl_vec3 at = out(R, point), aj = out(R, first), F = out(R, f), FM = out(R, m);
         const fl_vec3 D = v3_scale(share, out(R, fd)), DM = v3_scale(share, out(R, md));
         const fl_vec3 di = v3_add(v3_cross(v3_add(aj, off), D), DM), dj = v3_neg(v3_add(v3_cross(aj, D), DM));
-        fl_lane3_put(b->damp, k, D);
-        fl_lane3_put(b->di, k, di);
-        fl_lane3_put(b->dj, k, dj);
-        fl_lane3_put(b->f, k, v3_add(F, D));
-        fl_lane3_put(b->ti, k, v3_add(v3_add(v3_cross(v3_add(at, off), F), FM), di));
-        fl_lane3_put(b->tj, k, v3_sub(dj, v3_add(v3_cross(at, F), FM)));
+        fl_lane3_put(TO(fd), k, D);
+        fl_lane3_put(TO(di), k, di);
+        fl_lane3_put(TO(dj), k, dj);
+        fl_lane3_put(TO(f), k, v3_add(F, D));
+        fl_lane3_put(TO(ti), k, v3_add(v3_add(v3_cross(v3_add(at, off), F), FM), di));
+        fl_lane3_put(TO(tj), k, v3_sub(dj, v3_add(v3_cross(at, F), FM)));
         /* friction, where all that presses acts, and as high as it does */
-        const double size = v3_norm(direction);
-        const fl_vec3 n = out(R, v3_scale(1.0 / size, direction));
+        const double size = v3_norm(direction), each = size > 0.0 ? 1.0 / size : 0.0,
+                     rubs = size > 0.0 ? b->friction.a[k] : 0.0,
+                     springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
+        const fl_vec3 n = out(R, v3_scale(each, direction));
         const fl_vec3 amid =
-            v3_add(v3_add(by, fl_lane3(OF(lift), k)), fl_surrogate_centre(direction, turning));
+            v3_add(v3_add(by, fl_lane3(OF(lift), k)), v3_scale(each * each, v3_cross(direction, turning)));
         const fl_vec3 centred = v3_add(aj, out(R, amid));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n);
         fl_lane3_put(b->n, k, n);
         fl_lane3_put(b->aj, k, centred);
-        fl_lane3_put(b->slip, k, approach(b, k, centred));
-        b->k.a[k] = b->tangential.a[k] * b->s.slope.a[k];
-        b->g.a[k] = b->tangential.a[k] * b->chi.a[k] * (share * OF(pressure)->a[k]);
-        b->limit.a[k] = b->friction.a[k] * (share * size);
+        fl_lane3_put(b->rubs, k, approach(b, k, centred));
+        b->k.a[k] = springs * b->s.slope.a[k];
+        b->g.a[k] = springs * b->chi.a[k] * (share * OF(pressure)->a[k]);
+        b->limit.a[k] = rubs * (share * size);
         b->arm.a[k] = OF(wide)->a[k];
         b->dw.a[k] = wi - wj;
         b->twist.a[k] = 0.5 * (wi + wj);
     }
 }
 
-/* --- contact by contact ------------------------------------------------------------------------- */
-
-/* Friction at the centre of the pressure. */
-static void rub(const batch *b, int k, fl_pair *p, double dt)
+/* Friction; and what else is told. */
+FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
 {
-    if (!(b->limit.a[k] > 0.0 && b->tangential.a[k] > 0.0)) {
-        p->slip = (fl_slip){0};
-        return;
+    const double asked = survey ? 1.0 : 0.0;
+#pragma omp simd
+    for (int k = 0; k < FL_TOLD; k++) {
+        const fl_rubbing c = {fl_lane3(b->n, k), b->k.a[k], b->g.a[k], b->limit.a[k], b->arm.a[k]};
+        const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
+        const fl_slip was = {fl_lane3(b->slip, k), b->slip[3].a[k], b->slip[4].a[k], b->slip[5].a[k]};
+        const fl_rubbed to = fl_tangent_rub(was, c, fl_lane3(b->rubs, k), b->dw.a[k], b->twist.a[k], dt);
+        const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
+                      sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
+        const double spring = fl_tangent_energy(to.slip), slope = asked * b->s.slope.a[k];
+        fl_lane3_put(b->slip, k, to.slip.force);
+        b->slip[3].a[k] = to.slip.k, b->slip[4].a[k] = to.slip.moment, b->slip[5].a[k] = to.slip.k_turn;
+        fl_lane3_put(TO(fs), k, t);
+        fl_lane3_put(TO(si), k, si);
+        fl_lane3_put(TO(sj), k, sj);
+        fl_lane3_put(TO(f), k, v3_add(fl_lane3(TO(f), k), t));
+        fl_lane3_put(TO(ti), k, v3_add(fl_lane3(TO(ti), k), si));
+        fl_lane3_put(TO(tj), k, v3_add(fl_lane3(TO(tj), k), sj));
+        TO(spring)->a[k] = spring;
+        TO(energy)->a[k] = b->s.energy.a[k] + spring;
+        TO(overlap)->a[k] = OF(overlap)->a[k] * b->s.z.a[k];
+        TO(stiff_i)->a[k] = slope * OF(stiff_i)->a[k];
+        TO(stiff_j)->a[k] = slope * OF(stiff_j)->a[k];
     }
-    const fl_rubbing c = {fl_lane3(b->n, k), b->k.a[k], b->g.a[k], b->limit.a[k], b->arm.a[k]};
-    const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
-    double moment;
-    p->fs = fl_tangent_force(&p->slip, &c, fl_lane3(b->slip, k), b->dw.a[k], b->twist.a[k], dt, &moment);
-    p->si = v3_madd(v3_cross(ai, p->fs), moment, c.n);
-    p->sj = v3_neg(v3_madd(v3_cross(aj, p->fs), moment, c.n));
-    p->f = v3_add(p->f, p->fs);
-    p->ti = v3_add(p->ti, p->si);
-    p->tj = v3_add(p->tj, p->sj);
-    p->spring = fl_tangent_energy(&p->slip);
 }
 
-static void give(const batch *b, int k, fl_pair *p, double dt, int survey)
+/* --- contact by contact ------------------------------------------------------------------------- */
+
+/* Rows of lanes to columns, four contacts at a time. */
+FL_WIDE_PART void turn_out(double *const to[FL_LANES], const fl_lane *row, int k)
 {
-    const double slope = b->s.slope.a[k];
-    p->f = fl_lane3(b->f, k), p->ti = fl_lane3(b->ti, k), p->tj = fl_lane3(b->tj, k);
-    p->fd = fl_lane3(b->damp, k), p->di = fl_lane3(b->di, k), p->dj = fl_lane3(b->dj, k);
-    p->fs = p->si = p->sj = v3(0, 0, 0);
-    p->spring = 0.0;
-    p->touch = b->touch.a[k];
-    p->overlap = OF(overlap)->a[k] * b->s.z.a[k];
-    p->stiff_i = survey ? slope * OF(stiff_i)->a[k] : 0.0;
-    p->stiff_j = survey ? slope * OF(stiff_j)->a[k] : 0.0;
-    rub(b, k, p, dt);
-    p->energy = b->s.energy.a[k] + p->spring;
+    fl_wide r[FL_LANES];
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(&row[l].a[k]);
+    fl_wide_transpose(r);
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++)
+        if (to[l]) FL_FOUR_INTO(to[l]) = r[l];
+}
+
+_Static_assert(offsetof(fl_slip, k_turn) == 5 * sizeof(double), "six in a row");
+
+/* To those that are done. */
+FL_FOUR_VERSIONS static void give(const batch *restrict b, fl_pair *const *p, const uint8_t *done, int n)
+{
+    for (int k = 0; k < n; k += FL_LANES) {
+        double *to[FL_LANES], last[FL_LANES][FL_LANES], *end[FL_LANES], *slip[FL_LANES];
+        for (int l = 0; l < FL_LANES; l++) {
+            fl_pair *const c = k + l < n && done[k + l] ? p[k + l] : NULL;
+            to[l] = c ? (double *)(void *)((char *)c + offsetof(fl_pair, f)) : NULL;
+            slip[l] = c ? (double *)(void *)&c->slip : NULL;
+            end[l] = last[l];
+        }
+        turn_out(slip, b->slip, k);
+        turn_out(end, b->slip + FL_LANES, k);
+        for (int row = 0; row < FL_PAIR_TELLS; row += FL_LANES) {
+            turn_out(to, b->to + row, k);
+            for (int l = 0; l < FL_LANES; l++)
+                if (to[l]) to[l] += FL_LANES;
+        }
+        for (int l = 0; l < FL_LANES; l++) {
+            if (!to[l]) continue;
+            fl_pair *const c = p[k + l];
+            c->slip.moment = last[l][0], c->slip.k_turn = last[l][1];
+            c->touch = b->touch.a[k + l];
+        }
+    }
 }
 
 void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int survey, uint8_t *done,
@@ -274,9 +317,11 @@ void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int s
         done[k] = fl_surrogate_within(p[k]->surrogate, b.s.way.a[k], b.s.z.a[k], 1.0) && b.s.share.a[k] > 0.0;
         any |= done[k];
     }
-    if (any) bear(&b);
-    for (int k = 0; k < n; k++) {
-        if (done[k]) give(&b, k, p[k], dt, survey);
-        else t[k] = fl_surrogate_told(&b.s, k);
+    if (any) {
+        bear(&b);
+        rub(&b, dt, survey);
+        give(&b, p, done, n);
     }
+    for (int k = 0; k < n; k++)
+        if (!done[k]) t[k] = fl_surrogate_told(&b.s, k);
 }

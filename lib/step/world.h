@@ -71,12 +71,17 @@ typedef struct {
     fl_vec3 f, ti, tj;       /* force on i (on j its opposite), torques               */
     fl_vec3 fd, di, dj;      /* the part of damping                                   */
     fl_vec3 fs, si, sj;      /* the part of friction                                  */
-    int32_t at;              /* place in fl_world.pair */
     double energy;           /* elastic, normal and tangential [J]                    */
     double spring;           /* the tangential part of it [J]                         */
     double overlap;          /* largest [m]                                           */
     double stiff_i, stiff_j; /* bounds of omega^2 of this contact for either, the other held [1/s2] */
+    int32_t at;              /* place in fl_world.pair */
 } fl_pair;
+
+/* What an evaluation tells, from f on: so many doubles in a row. */
+enum { FL_PAIR_TELLS = 32 };
+_Static_assert(offsetof(fl_pair, stiff_j) == offsetof(fl_pair, f) + (FL_PAIR_TELLS - 1) * sizeof(double),
+              "nothing between them");
 
 /* Two things that are near: what is known of them while they do not touch, and their contact where they do,
  * or did a moment ago, or are left by a bond.  Most near pairs do not touch for most of the time. */
