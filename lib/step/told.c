@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include "base/wide.h"
@@ -119,8 +120,8 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
 }
 
 /* Of what damping multiplies the pressures by, grown in the mean, with that variance: how much lies below 0,
- * and the factors by which the sums of e (n, t), and what damping adds to them, give those pulls back.  Spread
- * evenly over the mean +- a, a^2 = 3 var, with s = a - grown below 0,
+ * and the factors by which the sums of e (n, t), and what damping adds to them, give those pulls back.
+ * Spread evenly over the mean +- a, a^2 = 3 var, with s = a - grown below 0,
  *     p = mean of max(0, -x) = s^2/4a,
  *     q = mean of max(0, -x) (x - grown) / var = -s^2 (s/3 + grown/2)/(2 a var),
  * and of (n, t) what follows x: p + q (1 - grown) times the mean and q times what is added. */
@@ -263,40 +264,39 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
 /* --- contact by contact ------------------------------------------------------------------------- */
 
 /* Rows of lanes to columns, four contacts at a time. */
-FL_WIDE_PART void turn_out(double *const to[FL_LANES], const fl_lane *row, int k)
+FL_WIDE_PART void turn_out(double *const *to, const fl_lane *row, int k)
 {
-    fl_wide r[FL_LANES];
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(&row[l].a[k]);
+    fl_wide r[FL_LANES] = {FL_FOUR(&row[0].a[k]), FL_FOUR(&row[1].a[k]), FL_FOUR(&row[2].a[k]),
+                           FL_FOUR(&row[3].a[k])};
     fl_wide_transpose(r);
     FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++)
-        if (to[l]) FL_FOUR_INTO(to[l]) = r[l];
+    for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(to[l]) = r[l];
 }
 
-_Static_assert(offsetof(fl_slip, k_turn) == 5 * sizeof(double), "six in a row");
+static_assert(offsetof(fl_slip, k_turn) == 5 * sizeof(double), "six in a row");
 
 /* To those that are done. */
 FL_FOUR_VERSIONS static void give(const batch *restrict b, fl_pair *const *p, const uint8_t *done, int n)
 {
     for (int k = 0; k < n; k += FL_LANES) {
-        double *to[FL_LANES], last[FL_LANES][FL_LANES], *end[FL_LANES], *slip[FL_LANES];
+        double nowhere[FL_PAIR_TELLS], last[FL_LANES][FL_LANES], *to[FL_LANES], *end[FL_LANES],
+            *slip[FL_LANES];
+        FL_WIDE_UNROLL
         for (int l = 0; l < FL_LANES; l++) {
             fl_pair *const c = k + l < n && done[k + l] ? p[k + l] : NULL;
-            to[l] = c ? (double *)(void *)((char *)c + offsetof(fl_pair, f)) : NULL;
-            slip[l] = c ? (double *)(void *)&c->slip : NULL;
+            to[l] = c ? (double *)(void *)((char *)c + offsetof(fl_pair, f)) : nowhere;
+            slip[l] = c ? (double *)(void *)&c->slip : nowhere;
             end[l] = last[l];
         }
         turn_out(slip, b->slip, k);
         turn_out(end, b->slip + FL_LANES, k);
         for (int row = 0; row < FL_PAIR_TELLS; row += FL_LANES) {
-            turn_out(to, b->to + row, k);
-            for (int l = 0; l < FL_LANES; l++)
-                if (to[l]) to[l] += FL_LANES;
+            double *const at[FL_LANES] = {to[0] + row, to[1] + row, to[2] + row, to[3] + row};
+            turn_out(at, b->to + row, k);
         }
-        for (int l = 0; l < FL_LANES; l++) {
-            if (!to[l]) continue;
+        for (int l = 0; l < FL_LANES && k + l < n; l++) {
             fl_pair *const c = p[k + l];
+            if (!done[k + l]) continue;
             c->slip.moment = last[l][0], c->slip.k_turn = last[l][1];
             c->touch = b->touch.a[k + l];
         }
