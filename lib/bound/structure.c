@@ -327,7 +327,7 @@ done:
 
 static void shell_free(fl_shell *s)
 {
-    free(s->corner), free(s->box), free(s->edge_box), free(s->lean);
+    free(s->corner), free(s->box), free(s->edge_box), free(s->lean), free(s->fork);
     fl_bvh_free(&s->tree);
     fl_bvh_free(&s->edges);
 }
@@ -514,6 +514,33 @@ static int find_leans(fl_piece *piece, const flats *f, const fl_mosaic *tiles, f
     return rc;
 }
 
+/* What bends outward from vertices at which something bends inward, also the rim within its surface. */
+static int find_forks(fl_piece *piece, fl_err *err)
+{
+    fl_poly *p = &piece->core;
+    uint8_t *hollow = fl_alloc(p->nv, 1, err);
+    piece->shell.fork = p->fork = fl_alloc((int64_t)p->begin[p->nv] + 1, 1, err);
+    if (!hollow || !p->fork) {
+        free(hollow);
+        return -1;
+    }
+    memset(p->fork, 0, (size_t)p->begin[p->nv] + 1);
+    memset(hollow, 0, (size_t)p->nv);
+    for (int32_t e = 0; e < p->ne; e++) {
+        const int32_t end[2] = {p->edge[e].a, p->edge[e].b};
+        const int rim = p->edge[e].left < 0 || p->edge[e].right < 0;
+        for (int k = 0; k < 2; k++) hollow[end[k]] |= p->bend[e] < 0.0 || (rim && p->defect[end[k]] < PI);
+    }
+    for (int32_t e = 0; e < p->ne; e++) {
+        const int32_t end[2] = {p->edge[e].a, p->edge[e].b};
+        for (int k = 0; k < 2 && p->bend[e] > 0.0; k++)
+            for (int32_t at = p->begin[end[k]]; hollow[end[k]] && at < p->begin[end[k] + 1]; at++)
+                if (p->beside[at] == end[1 - k]) p->fork[at] = 1;
+    }
+    free(hollow);
+    return 0;
+}
+
 static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
 {
     const fl_part *p = f->p;
@@ -550,7 +577,7 @@ static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
         if (ends[v].n && !straight(p, ends, v, f->tol)) sh->corner[sh->corners++] = v;
     fl_poly_angles(core);
     for (int32_t v = 0; v < p->nv; v++) core->defect[v] -= PI * tiles.dropped[v];
-    rc = fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
+    rc = find_forks(piece, err) || fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
                  fl_bvh_build(&sh->edges, sh->edge_box, core->ne, err)
              ? -1
              : 0;

@@ -31,6 +31,7 @@ typedef struct {
     fl_bvh edges;      /* over edge_box */
     fl_aabb *edge_box; /* [core.ne] */
     int32_t *lean;     /* core.lean */
+    uint8_t *fork;     /* core.fork */
 } fl_shell;
 
 typedef struct {

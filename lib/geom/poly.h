@@ -34,6 +34,8 @@ typedef struct {
     int32_t *lean;   /* of a surface that is not convex (bound/structure.h), borrowed: [first[nf]] the face
                       * over the side that begins in loop[k], where the two bend inward by less than 60
                       * degrees, or -1; NULL: nowhere */
+    uint8_t *fork;   /* of such, borrowed: [begin[nv]] 1 where the edge to beside[k] bends outward and its
+                      * vertex is not convex; NULL: nowhere */
 } fl_poly;
 
 /* Build from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and never below what

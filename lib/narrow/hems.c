@@ -25,7 +25,7 @@ struct fl_hem {
 static int kind_of(int32_t head, int32_t sides)
 {
     const int kind = fl_match_kind_of(head), way = fl_match_way(head);
-    if (kind == FL_MATCH_EDGE_EDGE) return way == 0 ? OVER_EDGE : EDGE_OVER;
+    if (kind == FL_MATCH_EDGE_EDGE && sides <= PLANES) return way == 0 ? OVER_EDGE : EDGE_OVER;
     return kind == FL_MATCH_EDGE_FACE && way == 0 && sides == 3 ? OVER_FACE : KINDS;
 }
 

@@ -14,7 +14,9 @@
 
 /* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
  * above; or, f = -1, at right angles to that edge in a, the side of b above.  g >= 0: the one through that
- * edge that halves the angle of f and g. */
+ * edge that halves the angle of f and g.  FORK_AT: the one that halves the angle of the edges from vertex f
+ * to a and to b, the side of a above. */
+enum { FORK_AT = -2 };
 typedef struct {
     int32_t f, a, b; /* a = -1: the face itself */
     int32_t g;
@@ -63,7 +65,7 @@ typedef struct {
 
 /* --- numbers of what is drafted -------------------------------------------------------------------- */
 
-enum { COLUMN, ROW, FACTOR, LENGTH, HALF };
+enum { COLUMN, ROW, FACTOR, LENGTH, HALF, FORK };
 
 static slot *slot_of(const draft *d, uint64_t what, uint64_t ends)
 {
@@ -113,6 +115,12 @@ static int32_t column(const search *s, int32_t v)
 
 static fl_cut cut_of(const fl_poly *p, const plane *q)
 {
+    if (q->g == FORK_AT) { /* as far from the edges to a and to b */
+        const fl_vec3 o = p->v[q->f], to_a = v3_unit(v3_sub(p->v[q->a], o)),
+                      to_b = v3_unit(v3_sub(p->v[q->b], o));
+        const fl_vec3 d = v3_sub(to_a, to_b);
+        return (fl_cut){d, v3_dot(d, o)};
+    }
     const fl_vec3 from = p->v[q->a < 0 ? p->loop[p->first[q->f]] : q->a];
     fl_vec3 g;
     if (q->a < 0) {
@@ -127,7 +135,7 @@ static fl_cut cut_of(const fl_poly *p, const plane *q)
 static int32_t row_between(const search *s, int32_t f, int32_t g, int32_t a, int32_t b)
 {
     table *t = &s->l->table[s->way];
-    int32_t *k = number_of(s, g < 0 ? ROW : HALF, f, a, b);
+    int32_t *k = number_of(s, g == FORK_AT ? FORK : g < 0 ? ROW : HALF, f, a, b);
     if (!k || *k >= 0) return k ? *k : -1;
     if (fl_room(&t->plane, &t->plane_cap, (int64_t)t->planes + 1, sizeof *t->plane)) return -1;
     t->plane[t->planes] = (plane){f, a, b, g};
@@ -194,10 +202,26 @@ static int sides_of_face(const search *s, match *m)
     return m->height < 0 ? -1 : 0;
 }
 
+/* Where edges that bend outward meet in a corner that is not convex their wedges overlap: each has what is
+ * nearer to it. */
+static int forks_of_edge(const search *s, match *m, int32_t v, int32_t to)
+{
+    const fl_poly *p = s->of.other->p;
+    for (int32_t k = p->begin[v]; p->fork && k < p->begin[v + 1]; k++) {
+        const int32_t other = p->beside[k], turned = other < to;
+        if (!p->fork[k] || other == to) continue;
+        const int32_t r = row_between(s, v, FORK_AT, turned ? other : to, turned ? to : other);
+        m->n++;
+        if (r < 0 || push(s->l, 2 * r + turned)) return -1;
+    }
+    return 0;
+}
+
 static int sides_of_edge(const search *s, match *m)
 {
     const fl_edge g = s->of.other->p->edge[m->other];
     m->length = number(s, m->other, 1);
+    if (forks_of_edge(s, m, g.a, g.b) || forks_of_edge(s, m, g.b, g.a)) return -1;
     return m->length < 0 || beyond(s, m, -1, g.a, g.b, 0) || beyond(s, m, -1, g.b, g.a, 0) ||
                    (g.left >= 0 && beyond(s, m, g.left, g.a, g.b, 1)) ||
                    (g.right >= 0 && beyond(s, m, g.right, g.b, g.a, 1))

@@ -236,6 +236,48 @@ static void rims(void)
     lab_free(&l);
 }
 
+/* Over a corner of a deck, or of the rim of a sheet, that bends inward what is as far from both edges counts
+ * over one of them. */
+static void inner_corners(void)
+{
+    const double bends[3] = {90, 30, 2};
+    const fl_quat q = q_mul(q_about(1, 0.6154797), q_about(0, PI / 4.0)); /* a corner of the box below all */
+    fl_vec3 low = v3(0, 0, 1);
+    for (int k = 0; k < 8; k++) {
+        const fl_vec3 r = q_rotate(q, v3(k & 1 ? 0.3 : -0.3, k & 2 ? 0.3 : -0.3, k & 4 ? 0.3 : -0.3));
+        if (r.z < low.z) low = r;
+    }
+    for (int sheet = 0; sheet < 2; sheet++) {
+        double worst = 0.0, off = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const double a = PI * (1.0 - bends[k] / 180.0);
+            const fl_vec3 d = v3(cos(a), sin(a), 0);
+            const fl_vec3 xy[6] = {v3(-1.5, -1, 0), v3(1, -1, 0), v3(1, 0, 0), v3(0, 0, 0), d,
+                                   v3(-1.5, d.y, 0)};
+            const int32_t fan[4][3] = {{3, 4, 5}, {3, 5, 0}, {3, 0, 1}, {3, 1, 2}};
+            lab l;
+            lab_start(&l);
+            lab_box(&l, v3(0, 0, 50), v3(0.35, 0.35, 0.35), 0.05, q_one(), ZERO, ZERO);
+            if (sheet) triangles(&l, 6, xy, 4, fan, q_one());
+            else lab_prism(&l, 6, xy, -1, 0);
+            lab_make(&l, 1e-12);
+            for (double s = 0.001; s < 0.03; s *= 3.0) {
+                const fl_vec3 tip = v3(0, 0.1 * s, 0.05 - s);
+                const double w = at(&l, v3_sub(v3(-1e-10, tip.y, tip.z), low), q).energy,
+                             more = at(&l, v3_sub(v3(1e-10, tip.y, tip.z), low), q).energy;
+                worst = fmax(worst, fabs(more - w) / w);
+                off = fmax(off, off_gradient(&l, v3_sub(v3(0.05 * s, tip.y, tip.z), low), q, 1e-2 * s));
+            }
+            lab_free(&l);
+        }
+        verify_below("SH10",
+                     sheet ? "over an inner corner of the rim of a sheet: change of W over 0.2 nm"
+                           : "over an inner corner of a deck: change of W over 0.2 nm",
+                     worst, 1e-5);
+        verify_below("SH10", "beside it: |F + grad W| / F", off, 3e-7);
+    }
+}
+
 /* --- triangles that are not there --------------------------------------------------------------------- */
 
 static void flat_triangles(void)
@@ -405,6 +447,7 @@ int main(void)
     beside_rims();
     valleys();
     rims();
+    inner_corners();
     flat_triangles();
     fins();
     poles();
