@@ -169,17 +169,21 @@ typedef struct {
     fl_vec3 turn;       /* [1/rad] */
 } part_of_cone;
 
-/* How far A reaches along the axis of the cone from its centre, at most, and what that changes by as A turns:
- * the ellipsoid around the box of A along its own axes, sqrt(3 sum (a.d)^2), which bends smoothly. */
+/* How far A reaches along the axis of the cone from its centre, or more, and what that changes by as A turns:
+ * of how far its vertices are the norm (sum h^8)^(1/8), which bends smoothly and does not ask how A's own axes
+ * lie. */
 static double reach_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
 {
-    fl_vec3 box = v3(0, 0, 0);
-    for (int32_t v = 0; v < a->nv; v++)
-        box = v3(fmax(box.x, fabs(a->v[v].x)), fmax(box.y, fabs(a->v[v].y)), fmax(box.z, fabs(a->v[v].z)));
-    const fl_vec3 d = v3_mul(box, v3(M->m[2][0], M->m[2][1], M->m[2][2]));
-    const double e = sqrt(3.0 * v3_norm2(d));
-    const fl_vec3 g = m3_mul(*M, v3_scale(e > 0.0 ? 3.0 / e : 0.0, v3_mul(box, d)));
-    *turn = v3_cross(g, v3(0, 0, 1));
+    const fl_vec3 axis = v3(M->m[2][0], M->m[2][1], M->m[2][2]);
+    double sum = 0.0;
+    fl_vec3 g = v3(0, 0, 0); /* sum of h^7 a */
+    for (int32_t v = 0; v < a->nv; v++) {
+        const double h = v3_dot(axis, a->v[v]), h2 = h * h, h7 = h2 * h2 * h2 * h;
+        sum += h7 * h;
+        g = v3_madd(g, h7, a->v[v]);
+    }
+    const double e4 = sqrt(sum), e2 = sqrt(e4), e = sqrt(e2), e7 = e4 * e2 * e;
+    *turn = v3_cross(v3_scale(e7 > 0.0 ? 1.0 / e7 : 0.0, m3_mul(*M, g)), v3(0, 0, 1));
     return e;
 }
 

@@ -5,6 +5,7 @@
 #include "base/rng.h"
 #include "narrow/gjk.h"
 #include "support/lab.h"
+#include "support/shapes.h"
 #include "support/verify.h"
 
 #define PI 3.14159265358979323846
@@ -377,6 +378,39 @@ static void poles(void)
     lab_free(&l);
 }
 
+/* An octagon has no axes of its own in its plane: beside the end of a pole, where cone and polygon share the
+ * energy, it may not matter which it got. */
+static void axes(void)
+{
+    const fl_quat turns[2] = {q_of_vector(v3(0.3, 0.5, 0.2)), q_of_vector(v3(0, 0, 0.7))};
+    double worst = 0.0;
+    for (int k = 0; k < 2; k++) {
+        fl_vec3 xy[8];
+        double W[2][60];
+        for (int c = 0; c < 8; c++) xy[c] = v3(cos(PI * c / 4.0), sin(PI * c / 4.0), 0);
+        for (int turned = 0; turned < 2; turned++) { /* built so, or turned so */
+            fl_poly straight = {0}, built = {0};
+            fl_err err = {0};
+            lab l;
+            lab_start(&l);
+            if (fl_poly_prism(&straight, 8, xy, -0.3, 0.3, &err)) exit(1);
+            shape_copy_moved(&built, &straight, 1, turned ? q_one() : turns[k], ZERO);
+            lab_poly(&l, &built, 0.05, ZERO, ZERO);
+            lab_cone(&l, (fl_cone){v3(0, 0, 0), v3(0, 0, 20), 2, 2});
+            lab_make(&l, 1e-14);
+            const fl_quat own = l.w.b.q[0], q = turned ? q_mul(turns[k], own) : own;
+            double far = 0.0;
+            for (int32_t v = 0; v < l.w.b.core[0].nv; v++)
+                far = fmax(far, -q_rotate(q, l.w.b.core[0].v[v]).x);
+            for (int c = 0; c < 60; c++) W[turned][c] = at(&l, v3(2.04 + far, 0, 1.0 + 0.05 * c), q).energy;
+            fl_poly_free(&straight);
+            lab_free(&l);
+        }
+        for (int c = 0; c < 60; c++) worst = fmax(worst, fabs(W[0][c] / W[1][c] - 1.0));
+    }
+    verify_below("SH11", "an octagon beside the end of a pole, built turned or turned: W", worst, 1e-10);
+}
+
 /* Every corner of a disc counts, however many. */
 static void discs(void)
 {
@@ -452,6 +486,7 @@ int main(void)
     fins();
     poles();
     discs();
+    axes();
     wedges();
     return verify_end();
 }
