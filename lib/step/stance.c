@@ -170,8 +170,8 @@ typedef struct {
 } part_of_cone;
 
 /* How far A reaches along the axis of the cone from its centre, or more, and what that changes by as A turns:
- * of how far its vertices are the norm (sum h^8)^(1/8), which bends smoothly and does not ask how A's own axes
- * lie. */
+ * of how far its vertices are the norm (sum h^8)^(1/8), which bends smoothly and does not ask how A's own
+ * axes lie. */
 static double reach_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
 {
     const fl_vec3 axis = v3(M->m[2][0], M->m[2][1], M->m[2][2]);
