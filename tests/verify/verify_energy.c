@@ -23,7 +23,10 @@ static double drift(const char *law, double safety, double time, double surrogat
     const int64_t some = (int64_t)(0.5 / l.w.dt);
     double worst = 0.0;
     while ((double)l.w.step * l.w.dt < time) {
-        if (lab_run(&l, some)) return NAN;
+        if (lab_run(&l, some)) {
+            worst = NAN;
+            break;
+        }
         worst = fmax(worst, fabs(lab_energy(&l) / start - 1.0));
     }
     if (told) *told = (double)fl_surrogate_sum(l.w.told, 1).told / (double)l.w.touching_steps;
