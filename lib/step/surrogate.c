@@ -106,10 +106,6 @@ FL_FOUR_VERSIONS void fl_surrogate_lay(fl_tellers *b, const fl_surrogate *const 
 
 #define OF(member) (b->s + FL_SURROGATE_ROW(member))
 
-/* Where the entries of a symmetric matrix are. */
-static const uint8_t UPPER[6][6] = {{0, 1, 2, 3, 4, 5},     {1, 6, 7, 8, 9, 10},    {2, 7, 11, 12, 13, 14},
-                                    {3, 8, 12, 15, 16, 17}, {4, 9, 13, 16, 18, 19}, {5, 10, 14, 17, 19, 20}};
-
 /* How A has moved since the look: q, and the turns' J^T. */
 FL_WIDE_VERSIONS static void go(fl_tellers *restrict b, fl_lane *restrict J)
 {
@@ -140,7 +136,7 @@ FL_WIDE_VERSIONS static void rise(fl_tellers *restrict b)
 {
     for (int r = 0; r < 6; r++) {
         const fl_lane *g = OF(g) + r, *H[6];
-        for (int c = 0; c < 6; c++) H[c] = OF(H) + UPPER[r][c];
+        for (int c = 0; c < 6; c++) H[c] = OF(H) + FL_UPPER[r][c];
 #pragma omp simd
         for (int k = 0; k < FL_TOLD; k++)
             b->rise[r].a[k] =
@@ -316,7 +312,7 @@ FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl
     }
     add(H, -0.5 * (p - 1.0), g, g);
     for (int r = 0; r < 6; r++)
-        for (int c = r; c < 6; c++) s->H[UPPER[r][c]] = H[r][c];
+        for (int c = r; c < 6; c++) s->H[FL_UPPER[r][c]] = H[r][c];
 }
 
 /* Slope of W over (u, a w) about the point; its size is that of the force. */

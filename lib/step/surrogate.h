@@ -38,11 +38,17 @@
 #ifndef FL_STEP_SURROGATE_H
 #define FL_STEP_SURROGATE_H
 #include <stddef.h>
+#include <stdint.h>
 #include "geom/mat3.h"
 #include "step/bearing.h"
 
 /* Three of a force or a way, three of a moment or a turn; the last two are 0. */
 typedef double fl_six[8];
+
+/* Where the entries of a symmetric matrix of six rows are in its upper triangle, row by row. */
+static const uint8_t FL_UPPER[6][6] = {{0, 1, 2, 3, 4, 5},     {1, 6, 7, 8, 9, 10},
+                                       {2, 7, 11, 12, 13, 14}, {3, 8, 12, 15, 16, 17},
+                                       {4, 9, 13, 16, 18, 19}, {5, 10, 14, 17, 19, 20}};
 
 #define FL_SURROGATE_MOST 10.0 /* of reach */
 

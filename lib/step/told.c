@@ -138,6 +138,14 @@ FL_WIDE_PART limits limit(double grown, double var)
     return (limits){s > 0.0 ? p : 0.0, s > 0.0 ? p + q * (1.0 - grown) : 0.0, s > 0.0 ? q : 0.0};
 }
 
+/* Row r of a symmetric matrix times (v, w). */
+FL_WIDE_PART double row_by(const fl_lane *A, int k, int r, fl_vec3 v, fl_vec3 w)
+{
+    const uint8_t *at = FL_UPPER[r];
+    return (A[at[0]].a[k] * v.x + A[at[1]].a[k] * v.y + A[at[2]].a[k] * v.z) +
+           (A[at[3]].a[k] * w.x + A[at[4]].a[k] * w.y + A[at[5]].a[k] * w.z);
+}
+
 /* How A moves against B, and what damping adds to a share of 1: -chi times the sums over
  * e (n, t) (n, t)^T. */
 FL_WIDE_VERSIONS static void move(batch *restrict b)
@@ -154,18 +162,8 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         const fl_vec3 by = v3_sub(acts, fl_lane3(OF(centre), k));
         const fl_vec3 v = in(R, approach(b, k, out(R, v3_add(first, by))));
         const fl_vec3 w = in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)));
-        const fl_vec3 f = v3((A[0].a[k] * v.x + A[1].a[k] * v.y + A[2].a[k] * v.z) +
-                                 (A[3].a[k] * w.x + A[4].a[k] * w.y + A[5].a[k] * w.z),
-                             (A[1].a[k] * v.x + A[6].a[k] * v.y + A[7].a[k] * v.z) +
-                                 (A[8].a[k] * w.x + A[9].a[k] * w.y + A[10].a[k] * w.z),
-                             (A[2].a[k] * v.x + A[7].a[k] * v.y + A[11].a[k] * v.z) +
-                                 (A[12].a[k] * w.x + A[13].a[k] * w.y + A[14].a[k] * w.z));
-        const fl_vec3 m = v3((A[3].a[k] * v.x + A[8].a[k] * v.y + A[12].a[k] * v.z) +
-                                 (A[15].a[k] * w.x + A[16].a[k] * w.y + A[17].a[k] * w.z),
-                             (A[4].a[k] * v.x + A[9].a[k] * v.y + A[13].a[k] * v.z) +
-                                 (A[16].a[k] * w.x + A[18].a[k] * w.y + A[19].a[k] * w.z),
-                             (A[5].a[k] * v.x + A[10].a[k] * v.y + A[14].a[k] * v.z) +
-                                 (A[17].a[k] * w.x + A[19].a[k] * w.y + A[20].a[k] * w.z));
+        const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
+                      m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
         const double touch = closing > b->touch.a[k] ? closing : b->touch.a[k];
         const double chi =
