@@ -138,6 +138,13 @@ FL_WIDE_PART limits limit(double grown, double var)
     return (limits){s > 0.0 ? p : 0.0, s > 0.0 ? p + q * (1.0 - grown) : 0.0, s > 0.0 ? q : 0.0};
 }
 
+/* The mean of max(0, x) over x spread evenly about c, by so much both ways. */
+FL_WIDE_PART double met_of(double c, double wide)
+{
+    const double over = c + wide, part = 0.25 * over * over / (wide > 0.0 ? wide : 1.0);
+    return c >= wide ? c : over > 0.0 ? part : 0.0;
+}
+
 /* Row r of a symmetric matrix times (v, w). */
 FL_WIDE_PART double row_by(const fl_lane *A, int k, int r, fl_vec3 v, fl_vec3 w)
 {
@@ -165,11 +172,13 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
                       m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
-        const double touch = closing > b->touch.a[k] ? closing : b->touch.a[k];
+        /* the speed that damping asks for, the mean of what approaches, likewise spread evenly */
+        const double c2 = each * (v3_dot(f, v) + v3_dot(m, w)), apart = c2 - closing * closing,
+                     wide = sqrt(3.0 * (apart > 0.0 ? apart : 0.0)), met = met_of(closing, wide),
+                     touch = met > b->touch.a[k] ? met : b->touch.a[k];
         const double chi =
             fl_damping_chi(b->damping.a[k], b->rest.a[k], touch, b->s.energy.a[k], b->mass.a[k]);
-        const double grown = 1.0 + chi * closing, c2 = each * (v3_dot(f, v) + v3_dot(m, w)),
-                     var = chi * chi * (c2 - closing * closing);
+        const double grown = 1.0 + chi * closing, var = chi * chi * apart;
         const limits to = limit(grown, var > 0.0 ? var : 0.0);
         const double adds = -chi * (1.0 + to.added);
         b->touch.a[k] = touch;
@@ -210,8 +219,8 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         fl_lane3_put(TO(ti), k, v3_add(v3_add(v3_cross(v3_add(at, off), F), FM), di));
         fl_lane3_put(TO(tj), k, v3_sub(dj, v3_add(v3_cross(at, F), FM)));
         /* friction, where all that presses acts, and as high as it does */
-        const double size = v3_norm(direction), each = size > 0.0 ? 1.0 / size : 0.0,
-                     rubs = size > 0.0 ? b->friction.a[k] : 0.0,
+        const double size = v3_norm(direction), least = 1e-12 * OF(pressure)->a[k],
+                     each = size > least ? 1.0 / size : 0.0, rubs = size > least ? b->friction.a[k] : 0.0,
                      springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
         const fl_vec3 n = out(R, v3_scale(each, direction));
         const fl_vec3 amid =
