@@ -81,7 +81,7 @@ typedef struct {
 /* What an evaluation tells, from f on: so many doubles in a row. */
 enum { FL_PAIR_TELLS = 32 };
 _Static_assert(offsetof(fl_pair, stiff_j) == offsetof(fl_pair, f) + (FL_PAIR_TELLS - 1) * sizeof(double),
-              "nothing between them");
+               "nothing between them");
 
 /* Two things that are near: what is known of them while they do not touch, and their contact where they do,
  * or did a moment ago, or are left by a bond.  Most near pairs do not touch for most of the time. */
