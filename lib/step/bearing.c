@@ -128,25 +128,28 @@ FL_WIDE_VERSIONS static void second(const lane *t, int32_t lanes, double chi, fl
     q->damping = (fl_wrench){sum3(f), sum3(m)};
 }
 
-/* Numbers of the upper triangle of six rows, n and arm x n. */
-enum { SPRINGS = 21 };
-
-FL_WIDE_VERSIONS static void third(const lane *t, int32_t n, double sum[SPRINGS])
+/* The upper triangle of weight g g^T, g of n and arm x n, added. */
+FL_WIDE_PART void square(fl_wide all[FL_PRESSING], const fl_wide *weight, const fl_wide g[6])
 {
-    fl_wide all[SPRINGS];
-    for (int m = 0; m < SPRINGS; m++) all[m] = (fl_wide){0};
+    int m = 0;
+    FL_WIDE_UNROLL
+    for (int r = 0; r < 6; r++) {
+        const fl_wide by = *weight * g[r];
+        FL_WIDE_UNROLL
+        for (int c = r; c < 6; c++, m++) all[m] += by * g[c];
+    }
+}
+
+FL_WIDE_VERSIONS static void third(const lane *t, int32_t n, double sum[FL_PRESSING])
+{
+    fl_wide all[FL_PRESSING];
+    for (int m = 0; m < FL_PRESSING; m++) all[m] = (fl_wide){0};
     for (int32_t k = 0; k < n; k += FL_LANES, t++) {
         fl_wide g[6] = {t->across[0], t->across[1], t->across[2]};
         CROSS((g + 3), t->arm, t->across);
-        int m = 0;
-        FL_WIDE_UNROLL
-        for (int r = 0; r < 6; r++) {
-            const fl_wide kg = t->curve * g[r];
-            FL_WIDE_UNROLL
-            for (int c = r; c < 6; c++, m++) all[m] += kg * g[c];
-        }
+        square(all, &t->curve, g);
     }
-    for (int m = 0; m < SPRINGS; m++) sum[m] = fl_wide_sum(&all[m]);
+    for (int m = 0; m < FL_PRESSING; m++) sum[m] = fl_wide_sum(&all[m]);
 }
 
 int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
@@ -165,7 +168,7 @@ void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q)
 
 void fl_bearing_springs(const fl_places *s, fl_springs *q)
 {
-    double sum[SPRINGS];
+    double sum[FL_PRESSING];
     *q = (fl_springs){0};
     third(s->lane, s->n, sum);
     for (int r = 0, m = 0; r < 6; r++)
@@ -190,15 +193,12 @@ FL_WIDE_VERSIONS static void press(const lane *t, int32_t lanes, fl_pressing *q)
         const fl_wide *arm = t[k].arm;
         e += t[k].e;
         wide += t[k].e * (arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
-        int m = 0;
-        FL_WIDE_UNROLL
-        for (int r = 0; r < 6; r++) {
-            const fl_wide eg = t[k].e * g[r];
-            if (r < 3) way[r] += eg, at[r] += t[k].e * arm[r];
-            else turns[r - 3] += eg;
-            FL_WIDE_UNROLL
-            for (int c = r; c < 6; c++, m++) all[m] += eg * g[c];
+        for (int c = 0; c < 3; c++) {
+            way[c] += t[k].e * g[c];
+            turns[c] += t[k].e * g[3 + c];
+            at[c] += t[k].e * arm[c];
         }
+        square(all, &t[k].e, g);
     }
     for (int m = 0; m < FL_PRESSING; m++) q->damping[m] = fl_wide_sum(&all[m]);
     q->elastic = fl_wide_sum(&e), q->wide = fl_wide_sum(&wide);
