@@ -318,9 +318,9 @@ void fl_move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
 
 double fl_body_mobility(const fl_bodies *b, int32_t i, fl_vec3 along, fl_vec3 moment)
 {
+    if (i >= b->n) return 0.0;
     const unsigned hold = b->hold[i];
     const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]), none = v3(0, 0, 0);
-    if (i >= b->n) return 0.0;
     const fl_mat3 R = fl_body_axes(b, i);
     const fl_vec3 v =
         solve_free(&R, b->added ? v3_add(m, b->added[i]) : m, fl_body_stands(b, i), none, along);

@@ -519,13 +519,11 @@ static int find_forks(fl_piece *piece, fl_err *err)
 {
     fl_poly *p = &piece->core;
     uint8_t *hollow = fl_alloc(p->nv, 1, err);
-    piece->shell.fork = p->fork = fl_alloc((int64_t)p->begin[p->nv] + 1, 1, err);
+    piece->shell.fork = p->fork = fl_alloc(p->begin[p->nv], 1, err);
     if (!hollow || !p->fork) {
         free(hollow);
         return -1;
     }
-    memset(p->fork, 0, (size_t)p->begin[p->nv] + 1);
-    memset(hollow, 0, (size_t)p->nv);
     for (int32_t e = 0; e < p->ne; e++) {
         const int32_t end[2] = {p->edge[e].a, p->edge[e].b};
         const int rim = p->edge[e].left < 0 || p->edge[e].right < 0;
