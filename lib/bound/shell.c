@@ -26,8 +26,8 @@ static int on_rim(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 
 /* Signed distance of x from the surface.  Of faces whose nearest points agree within rounding (a shared edge
  * or corner) the one that x is most in front of tells the side: its plane passes between x and the others.
- * What is nearest to a rim is beside the surface, not behind it. */
-static fl_nearest nearest_to(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
+ * What is nearest to a rim is beside the surface, not behind it.  *of: that face. */
+static fl_nearest nearest_of(const fl_poly *p, const fl_shell *sh, fl_vec3 x, int32_t *of)
 {
     fl_nearest best = {.d = INFINITY};
     double front = 0.0;
@@ -41,6 +41,7 @@ static fl_nearest nearest_to(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
         if (q.d < best.d - same || fabs(s) > fabs(front)) {
             best = q;
             front = s;
+            *of = f;
         }
     }
     if (front < 0.0 && !on_rim(p, sh, best.p)) {
@@ -48,6 +49,12 @@ static fl_nearest nearest_to(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
         best.n = v3_neg(best.n);
     }
     return best;
+}
+
+static fl_nearest nearest_to(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
+{
+    int32_t of;
+    return nearest_of(p, sh, x, &of);
 }
 
 /* Is x behind the surface, or may it come there when it moves by the margin?  Not when it is farther off than
@@ -232,8 +239,51 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     return w->n ? 0 : nothing_near(w, near, a, &b->shell, reach, distance);
 }
 
+/* Whether anything is in reach of the point, and whether that is more than one wall, until it has moved by
+ * the margin. */
+static int list_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double ra, double reach,
+                      fl_matches *l)
+{
+    const double margin = fl_matches_margin(l, ra);
+    const fl_shell *sh = &b->shell;
+    const fl_vec3 x = w->va[0];
+    const fl_aabb box = aabb_grow((fl_aabb){x, x}, reach + margin);
+    near->of_shell.faces = query(&sh->tree, sh->box, box, &near->of_shell.face, &near->of_shell.face_cap);
+    if (near->of_shell.faces < 0) return -1;
+    l->far = near->of_shell.faces == 0;
+    l->lone =
+        l->far ? 1 : fl_passes_lone(&sh->passes, &near->passes, &b->core, &sh->tree, sh->box, x, ra, margin);
+    l->M = w->M, l->o = w->o;
+    l->shift2 = margin * margin, l->turn2 = 1.0;
+    l->margin = margin, l->uses = 1;
+    return l->lone < 0 ? -1 : 0;
+}
+
+int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
+                   double reach, fl_matches *l, double *distance)
+{
+    const fl_poly *core = &b->core;
+    const fl_shell *sh = &b->shell;
+    const fl_vec3 x = w->va[0];
+    int32_t of = -1;
+    w->n = w->shares = 0;
+    w->couple = v3(0, 0, 0);
+    *distance = reach;
+    if (!fl_matches_hold(l, &w->M, w->o) && list_point(w, near, b, ra, reach, l)) return -1;
+    if (l->far) {
+        l->shift2 = 0.0; /* what is not near now is not known later */
+        return 0;
+    }
+    *distance = ra;
+    const fl_nearest q = nearest_of(core, sh, x, &of);
+    if (q.d >= ra) return nothing_near(w, near, a, sh, reach, distance);
+    return l->lone ? fl_places_point(w, x, q.n, ra - q.d, ra)
+                   : fl_passes_places(&sh->passes, &near->passes, w, core, &sh->tree, sh->box, x, ra, &q, of);
+}
+
 void fl_shell_near_free(fl_shell_near *near)
 {
+    fl_passes_work_free(&near->passes);
     fl_reach_free(&near->of_shell), fl_reach_free(&near->of_core);
     fl_footing_work_free(&near->footing);
 }

@@ -7,7 +7,7 @@
  * (matches.c); in a sharper inner corner every wall bears for itself.  Vertices behind the surface have one
  * distance, to the nearest face of all; what is nearest to the rim of an open surface is beside it, not
  * behind.  An open surface has one side: what has come round it to its back is as deep in it as it is far
- * from it. */
+ * from it.  Balls have a law of their own (passes.h). */
 #ifndef FL_BOUND_SHELL_H
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"
@@ -16,6 +16,7 @@
 /* Scratch for the faces and edges in reach, and for what lies under a face. */
 typedef struct {
     fl_reach of_shell, of_core;
+    fl_passes_work passes;
     fl_footing_work footing;
 } fl_shell_near;
 
@@ -28,6 +29,12 @@ typedef struct {
  * -1 when memory runs out. */
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
                     double reach, int single, fl_matches *l, double *distance);
+
+/* The same of a core that is a point, for laws that are not `patch`: the walls that it touches, for which
+ * passes must have been made (passes.h). */
+int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
+                   double reach, fl_matches *l, double *distance);
+
 void fl_shell_near_free(fl_shell_near *near);
 
 #endif

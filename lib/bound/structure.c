@@ -328,6 +328,7 @@ done:
 static void shell_free(fl_shell *s)
 {
     free(s->corner), free(s->box), free(s->edge_box), free(s->lean), free(s->fork);
+    fl_passes_free(&s->passes);
     fl_bvh_free(&s->tree);
     fl_bvh_free(&s->edges);
 }
@@ -643,6 +644,17 @@ static int add_cone(fl_structure *s, const fl_cone *c, int32_t part, fl_err *err
         first[++nf] = k;
     }
     return fl_poly_make(&piece->core, nv, v, nf, first, loop, err);
+}
+
+int fl_structure_balls(fl_structure *s, fl_err *err)
+{
+    for (int32_t k = 0; k < s->n; k++) {
+        fl_piece *p = &s->piece[k];
+        if (p->kind == FL_PIECE_SHELL &&
+            fl_passes_make(&p->shell.passes, &p->core, &p->shell.tree, p->shell.box, err))
+            return -1;
+    }
+    return 0;
 }
 
 int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err)

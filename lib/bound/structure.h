@@ -12,6 +12,7 @@
  * FL_CONE_SIDES sides and the same cross-section, which it is for the other laws. */
 #ifndef FL_BOUND_STRUCTURE_H
 #define FL_BOUND_STRUCTURE_H
+#include "bound/passes.h"
 #include "broad/bvh.h"
 #include "geom/poly.h"
 #include "geom/quat.h"
@@ -32,6 +33,7 @@ typedef struct {
     fl_aabb *edge_box; /* [core.ne] */
     int32_t *lean;     /* core.lean */
     uint8_t *fork;     /* core.fork */
+    fl_passes passes;  /* only where fl_structure_balls() was asked for them */
 } fl_shell;
 
 typedef struct {
@@ -54,6 +56,9 @@ typedef struct {
 /* Build the pieces of all parts.  Welds nothing: triangles are joined by the indices of their vertices.
  * -1 with FL_INPUT (a part whose triangles have no area) or FL_SYSTEM. */
 int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err);
+
+/* Make ready for balls, which ask where the walls of shells meet.  -1 with FL_SYSTEM. */
+int fl_structure_balls(fl_structure *s, fl_err *err);
 void fl_structure_free(fl_structure *s);
 
 #endif

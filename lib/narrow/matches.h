@@ -69,6 +69,7 @@ struct fl_matches {
     int32_t *shy;            /* [shies] the caller's: vertices of A that may come behind a surface as long */
     int32_t shies, shy_cap;
     int far;                    /* the caller's: nothing of the surface is in reach */
+    int lone;                   /* the caller's: one wall at the most is */
     struct fl_footing *footing; /* of a surface: what may lie under a face of A (footing.h), or NULL */
 };
 

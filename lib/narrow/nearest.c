@@ -42,16 +42,25 @@ static fl_nearest nearest_rim(const fl_poly *p, int32_t f, fl_vec3 x)
     return best;
 }
 
-fl_nearest fl_nearest_face(const fl_poly *p, int32_t f, fl_vec3 x)
+fl_nearest fl_nearest_segment(fl_vec3 a, fl_vec3 b, fl_vec3 x)
 {
-    const double s = v3_dot(p->n[f], x) - p->c[f];
-    if (foot_inside(p, f, x)) {
-        const fl_vec3 n = s < 0.0 ? v3_neg(p->n[f]) : p->n[f];
-        return (fl_nearest){fabs(s), v3_madd(x, -s, p->n[f]), n};
-    }
+    fl_nearest q = nearest_segment(a, b, x);
+    q.n = q.d > 0.0 ? v3_scale(1.0 / q.d, q.n) : v3(0, 0, 1);
+    return q;
+}
+
+fl_nearest fl_nearest_rim(const fl_poly *p, int32_t f, fl_vec3 x)
+{
     fl_nearest q = nearest_rim(p, f, x);
     q.n = q.d > SAME * p->size ? v3_scale(1.0 / q.d, q.n) : p->n[f];
     return q;
+}
+
+fl_nearest fl_nearest_face(const fl_poly *p, int32_t f, fl_vec3 x)
+{
+    const double s = v3_dot(p->n[f], x) - p->c[f];
+    if (!foot_inside(p, f, x)) return fl_nearest_rim(p, f, x);
+    return (fl_nearest){fabs(s), v3_madd(x, -s, p->n[f]), s < 0.0 ? v3_neg(p->n[f]) : p->n[f]};
 }
 
 fl_nearest fl_nearest_poly(const fl_poly *p, fl_vec3 x)
@@ -65,11 +74,7 @@ fl_nearest fl_nearest_poly(const fl_poly *p, fl_vec3 x)
             face = f;
         }
     }
-    if (face < 0) { /* a point or a segment */
-        fl_nearest q = nearest_segment(p->v[0], p->v[p->nv - 1], x);
-        q.n = q.d > 0.0 ? v3_scale(1.0 / q.d, q.n) : v3(0, 0, 1);
-        return q;
-    }
+    if (face < 0) return fl_nearest_segment(p->v[0], p->v[p->nv - 1], x); /* a point or a segment */
     /* A flat polygon has no inside: a point in its plane may lie beside it. */
     if (p->nf == 2) return fl_nearest_face(p, face, x);
     /* Inside, or the foot on the farthest plane is in its face: no other point of a convex body is nearer. */

@@ -27,6 +27,12 @@ fl_nearest fl_nearest_poly(const fl_poly *p, fl_vec3 x);
  * where d is at rounding level of size). */
 fl_nearest fl_nearest_face(const fl_poly *p, int32_t f, fl_vec3 x);
 
+/* Point x and the border of that face. */
+fl_nearest fl_nearest_rim(const fl_poly *p, int32_t f, fl_vec3 x);
+
+/* Point x and the segment from a to b. */
+fl_nearest fl_nearest_segment(fl_vec3 a, fl_vec3 b, fl_vec3 x);
+
 /* Segments a0 a1 and b0 b1: parameters s, t in [0, 1] of nearest points and their squared distance.  Parallel
  * segments give the lower end of the common stretch.  A segment of zero length is a point.
  * Source: Ericson, Real-Time Collision Detection (2005), 5.1.9, in the form that clamps s before t. */

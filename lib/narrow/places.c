@@ -46,7 +46,8 @@ int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, 
 int fl_places_point(fl_places *w, fl_vec3 x, fl_vec3 n, double overlap, double ra)
 {
     return fl_places_add(
-        w, (fl_place){.overlap = overlap, .n = n, .across = n, .p = v3_madd(x, 0.5 * overlap - ra, n)});
+        w, (fl_place){
+               .overlap = overlap, .du = 1.0, .n = n, .across = n, .p = v3_madd(x, 0.5 * overlap - ra, n)});
 }
 
 double fl_places_measure(const fl_places *w)

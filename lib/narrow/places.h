@@ -157,7 +157,8 @@ static inline double fl_place_rho(double r, double other) { return r > 0.0 ? r :
 /* A vertex of `own` at x, of which the nearest point of the other core lies at x - d n. */
 int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, fl_vec3 n, double overlap);
 
-/* The single place of a law that is not `patch`: only overlap, n and p are set.  x: the point of A. */
+/* A place of a law that is not `patch`: only overlap, n, p and du are set, which is how often it counts: 1,
+ * or -1 where that is taken off which two walls share (bound/passes.h).  x: the point of A. */
 int fl_places_point(fl_places *w, fl_vec3 x, fl_vec3 n, double overlap, double ra);
 
 void fl_places_free(fl_places *w);

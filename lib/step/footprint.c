@@ -84,6 +84,8 @@ static double others(const fl_world *w)
     for (int32_t k = 0; k < held; k++) {
         const fl_shell *h = &w->structure.piece[k].shell;
         const fl_poly *p = &w->structure.piece[k].core;
+        sum += ARRAY(h->passes.pass, h->passes.cap) + ARRAY(h->passes.begin, p->nf + 1) +
+               ARRAY(h->passes.rim, p->nf ? p->first[p->nf] : 0);
         sum += fl_poly_bytes(p) + tree(&h->tree) + tree(&h->edges) + ARRAY(h->corner, h->corners) +
                ARRAY(h->box, p->nf) + ARRAY(h->edge_box, p->ne);
     }

@@ -127,26 +127,46 @@ static double damping_factor(fl_pair *p, double now, double mass)
     return fl_damping_chi(p->law->chi, p->law->rest, p->touch, p->energy, mass);
 }
 
-/* The one place of a round thing or of `core`: W = k phi(s). */
-static int force_one(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, double dt, int survey)
+/* The places of a round thing or of `core`: W = k sum of phi(s), most often of one. */
+static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, double dt,
+                        int survey)
 {
     const fl_bodies *b = &w->b;
-    const fl_place *q = &s->place[0];
-    const fl_vec3 n = m3_mul(r->R, q->n), aj = m3_mul(r->R, q->p), ai = v3_add(aj, r->off);
-    const double closing = -v3_dot(n, approach(b, p, ai, aj)),
-                 slope = p->k * fl_normal_slope(q->overlap, p->exponent);
-    p->overlap = q->overlap;
-    p->energy = p->k * fl_normal_phi(q->overlap, p->exponent);
-    const double mass = fl_pair_mass(w, p, n, v3_cross(ai, n), v3_cross(aj, n));
+    const fl_vec3 at = m3_mul(r->R, s->place[0].p);
+    const double k = p->k, n = p->exponent;
+    fl_vec3 way = v3(0, 0, 0), turn_i = way, turn_j = way; /* of the force, its size being 1 at one place */
+    double sum = 0.0, closing = 0.0;
+    for (int32_t c = 0; c < s->n; c++) sum += s->place[c].du * fl_normal_power(s->place[c].overlap, n);
+    for (int32_t c = 0; c < s->n; c++) {
+        const fl_place *q = &s->place[c];
+        const fl_vec3 to = m3_mul(r->R, q->n), aj = m3_mul(r->R, q->p), ai = v3_add(aj, r->off);
+        const double part = q->du * fl_normal_power(q->overlap, n) / sum;
+        way = v3_madd(way, part, to);
+        turn_i = v3_madd(turn_i, part, v3_cross(ai, to));
+        turn_j = v3_madd(turn_j, part, v3_cross(aj, to));
+        closing -= part * v3_dot(to, approach(b, p, ai, aj));
+        p->energy += q->du * k * fl_normal_phi(q->overlap, n);
+        p->overlap = fmax(p->overlap, q->overlap);
+    }
+    const double mass = fl_pair_mass(w, p, way, turn_i, turn_j);
     const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass);
-    const double elastic = p->k * fl_normal_power(q->overlap, p->exponent);
-    const double normal = fl_normal_damped(elastic, chi, closing);
-    add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
-    add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
-    pressure all = {.slope = slope, .at = aj};
-    press(&all, elastic, normal, n, v3(0, 0, 0));
+    pressure all = {.at = at};
+    fl_stiff si = {0}, sj = {0};
+    for (int32_t c = 0; c < s->n; c++) {
+        const fl_place *q = &s->place[c];
+        const fl_vec3 to = m3_mul(r->R, q->n), aj = m3_mul(r->R, q->p), ai = v3_add(aj, r->off);
+        const double elastic = k * fl_normal_power(q->overlap, n), slope = k * fl_normal_slope(q->overlap, n),
+                     normal = fl_normal_damped(elastic, chi, -v3_dot(to, approach(b, p, ai, aj)));
+        add_wrench(&p->f, &p->ti, &p->tj, v3_scale(q->du * normal, to), ai, aj);
+        add_wrench(&p->fd, &p->di, &p->dj, v3_scale(q->du * (normal - elastic), to), ai, aj);
+        press(&all, q->du * elastic, q->du * normal, to, v3_sub(aj, at));
+        all.slope += q->du * slope;
+        if (!survey || q->du < 0.0) continue;
+        fl_stiff_add(&si, b, p->i, slope, to, v3_cross(ai, to));
+        fl_stiff_add(&sj, b, p->j, slope, to, v3_cross(aj, to));
+    }
     rub(w, p, &all, chi, r, dt);
-    if (survey) stiffen_one(w, p, &all, n, r);
+    if (survey) stiffen(w, p, &all, r, &si, &sj);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note(w, p, s, p->k, chi);
     return p->n = 1;
@@ -392,7 +412,7 @@ void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t,
     } else {
         if (fl_stance_places(w, p, thread, &r, &distance)) goto failed;
         const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, t, &r, dt, survey)
-                                             : s->n && force_one(w, p, s, &r, dt, survey);
+                                             : s->n && force_points(w, p, s, &r, dt, survey);
         if (touch < 0) goto failed;
         if (touch) goto touches;
     }

@@ -342,7 +342,7 @@ void fl_press_note(fl_world *w, const fl_pair *p, const fl_places *s, double sca
     for (int32_t k = 0, n; k < s->n; k += n) {
         const fl_place *q = &s->place[k];
         n = 1;
-        if (pair_patch && q->u == 0.0) continue;
+        if (pair_patch ? q->u == 0.0 : q->du < 0.0) continue;
         if (q->stands) n = q->stands;
         patch a = {.n = n, .across = q->across};
         for (int32_t c = 0; c < n; c++) {

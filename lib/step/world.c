@@ -517,6 +517,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
         fl_works_make(w, err) || make_beds(w, err) || make_sea(w, err))
         goto fail;
     w->points = has_points(field) || has_points(feed);
+    if (w->points && fl_structure_balls(&w->structure, err)) goto fail;
     for (int32_t i = 0; i < field->n; i++) {
         if (fl_world_put(w, i, field, i, err)) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];
