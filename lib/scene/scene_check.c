@@ -81,13 +81,27 @@ static int check_outputs(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* The law of section i: its own, or that of all contacts. */
+static int32_t law_of(const fl_scene *s, int32_t i, int32_t all)
+{
+    const int law = fl_key_find(FL_SEC_CONTACT, "law") - fl_key_first(FL_SEC_CONTACT);
+    return s->contact[i].head.key[law].line || all < 0 ? s->contact[i].law : s->contact[all].law;
+}
+
+/* Some contact that the section speaks of has the law `patch`. */
+static int has_patch(const fl_scene *s, int32_t i, int32_t all)
+{
+    int has = law_of(s, i, all) == FL_LAW_PATCH;
+    for (int32_t k = 0; k < s->n_contact && i == all; k++) has |= law_of(s, k, all) == FL_LAW_PATCH;
+    return has;
+}
+
 static int check_contacts(const fl_scene *s, fl_err *err)
 {
-    const int first = fl_key_first(FL_SEC_CONTACT), law = fl_key_find(FL_SEC_CONTACT, "law") - first;
     const int32_t all = fl_section_named(s, FL_SEC_CONTACT, "", "");
     for (int32_t i = 0; i < s->n_contact; i++) {
         const fl_scene_contact *c = &s->contact[i];
-        const int32_t in_force = c->head.key[law].line || all < 0 ? c->law : s->contact[all].law;
+        const int32_t in_force = law_of(s, i, all);
         char at[3 * FL_SCENE_NAME], key[4 * FL_SCENE_NAME];
         snprintf(at, sizeof at, "contact%s%s%s%s", c->a[0] ? " " : "", c->a, c->b[0] ? " " : "", c->b);
         snprintf(key, sizeof key, "%s.literal%d", at, c->literal2 ? 2 : 18);
@@ -100,6 +114,8 @@ static int check_contacts(const fl_scene *s, fl_err *err)
                                  "run.error tells the error of the step by steps of other sizes, which a "
                                  "surrogate would blur: one of run.error and surrogate in [%s] was wanted",
                                  at);
+        if (c->surrogate > 0.0 && !has_patch(s, i, all))
+            return fl_scene_fail(s, key, err, "surrogate bears on law = patch alone");
         if (i == all) continue;
         if (known_material(s, at, c->a, 1, err) || known_material(s, at, c->b, 1, err)) return -1;
         if (fl_scene_find_material(s, c->a) < 0 && fl_scene_find_material(s, c->b) < 0)

@@ -33,7 +33,6 @@ void lab_start(lab *l)
     memset(l, 0, sizeof *l);
     fl_scene_start(&l->scene);
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
-    if (lab_told() > 0.0) lab_setf(l, "contact.surrogate=%g", lab_told());
 }
 
 void lab_set(lab *l, const char *assignment)
@@ -161,6 +160,9 @@ void lab_make(lab *l, double dt)
     fl_err err = {0};
     int32_t body;
     if (l->surface.n) lab_set(l, "structure.file=lab");
+    for (int32_t k = 0; k < l->scene.n_contact && lab_told() > 0.0; k++)
+        if (l->scene.contact[k].law == FL_LAW_PATCH && !(l->scene.contact[k].surrogate > 0.0))
+            l->scene.contact[k].surrogate = lab_told();
     must(fl_scene_check(&l->scene, &err), &err);
     must(fl_world_make(&l->w, &l->scene, &l->field, l->surface.n ? &l->surface : NULL, &err), &err);
     l->w.dt = dt > 0.0 ? dt : fl_world_dt(&l->w, &body);

@@ -309,6 +309,9 @@ static void each_complaint_names_file_and_line(void **state)
             ":4: run.error tells the error of the step by steps of other sizes, which a surrogate would "
             "blur: one "
             "of run.error and surrogate in [contact ice boundary] was wanted");
+    refused("[contact]\nlaw = core\nsurrogate = 0.001\n" ICE, ":3: surrogate bears on law = patch alone");
+    refused("[contact]\nlaw = manual\n[contact ice boundary]\nsurrogate = 0.001\n" ICE,
+            ":4: surrogate bears on law = patch alone");
     refused("[contact]\nsurrogate = 0.5\n" ICE,
             ":2: contact.surrogate is 0.5, a value at least 0 and at most 0.1 was wanted");
     refused("[water]\nevery = 0\n" ICE, ":2: water.every is \"0\", a whole number from 1 to 1000 was wanted");
