@@ -166,28 +166,19 @@ static fl_nearest seen(const fl_poly *p, int32_t f, fl_vec3 x)
     return v3_dot(p->n[f], x) >= p->c[f] ? fl_nearest_face(p, f, x) : fl_nearest_rim(p, f, x);
 }
 
-static int upwards(const void *a, const void *b)
+/* Those of some tiles, ascending, that are nearer than `radius`; q, where there is one, is that of tile `of`,
+ * and what stands behind a tile sees its rim.  -1 when memory runs out. */
+static int tiles_in(fl_passes_work *k, const fl_poly *p, const fl_passes_near *some, fl_vec3 x, double radius,
+                    const fl_nearest *q, int32_t of)
 {
-    const fl_passes_tile *x = a, *y = b;
-    return (x->tile > y->tile) - (x->tile < y->tile);
-}
-
-/* Tiles nearer than `radius`; q, where there is one, is that of tile `of`, and what stands behind a tile sees
- * its rim.  -1 when memory runs out. */
-static int tiles_in(fl_passes_work *k, const fl_poly *p, const fl_bvh *tree, const fl_aabb *box, fl_vec3 x,
-                    double radius, const fl_nearest *q, int32_t of)
-{
-    fl_bvh_walk way = fl_bvh_about(tree, box, x);
     k->tiles = 0;
-    for (int32_t f; (f = fl_bvh_next(&way, radius)) >= 0;) {
+    if (fl_room(&k->tile, &k->tile_cap, some->n, sizeof *k->tile)) return -1;
+    for (int32_t c = 0; c < some->n; c++) {
+        const int32_t f = some->tile[c];
         if (fabs(v3_dot(p->n[f], x) - p->c[f]) >= radius) continue;
         const fl_nearest at = !q ? fl_nearest_face(p, f, x) : f == of ? *q : seen(p, f, x);
-        if (!(at.d < radius)) continue;
-        if (fl_room(&k->tile, &k->tile_cap, (int64_t)k->tiles + 1, sizeof *k->tile)) return -1;
-        k->tile[k->tiles++] = (fl_passes_tile){.tile = f, .at = at};
+        if (at.d < radius) k->tile[k->tiles] = (fl_passes_tile){f, k->tiles, at}, k->tiles++;
     }
-    if (k->tiles > 1) qsort(k->tile, (size_t)k->tiles, sizeof *k->tile, upwards);
-    for (int32_t i = 0; i < k->tiles; i++) k->tile[i].up = i;
     return 0;
 }
 
@@ -231,11 +222,10 @@ static int ends_in(const fl_passes *s, const fl_poly *p, int32_t f, fl_vec3 x, d
 
 /* In a ball in which it does not end, nor bends inward, and hangs together, the surface is that of a convex
  * body (Tietze and Nakajima). */
-int fl_passes_lone(const fl_passes *s, fl_passes_work *k, const fl_poly *p, const fl_bvh *tree,
-                   const fl_aabb *box, fl_vec3 x, double radius, double margin)
+int fl_passes_lone(const fl_passes *s, fl_passes_work *k, const fl_poly *p, const fl_passes_near *near,
+                   fl_vec3 x, double r)
 {
-    const double r = radius + margin;
-    if (tiles_in(k, p, tree, box, x, r, NULL, -1) || links_in(s, k, x, r)) return -1;
+    if (tiles_in(k, p, near, x, r, NULL, -1) || links_in(s, k, x, r)) return -1;
     int32_t pieces = k->tiles;
     if (pieces < 2) return 1;
     for (int32_t i = 0; i < k->tiles; i++)
@@ -263,12 +253,11 @@ static int put(fl_places *w, fl_vec3 x, const fl_nearest *q, double radius, doub
 }
 
 int fl_passes_places(const fl_passes *s, fl_passes_work *k, fl_places *w, const fl_poly *p,
-                     const fl_bvh *tree, const fl_aabb *box, fl_vec3 x, double radius, const fl_nearest *q,
-                     int32_t of)
+                     const fl_passes_near *near, fl_vec3 x, double radius, const fl_nearest *q, int32_t of)
 {
     if (!(q->d < radius)) return 0;
     if (put(w, x, q, radius, 1.0)) return -1;
-    if (tiles_in(k, p, tree, box, x, radius, q, of)) return -1;
+    if (tiles_in(k, p, near, x, radius, q, of)) return -1;
     if (k->tiles < 2) return 0;
     if (links_in(s, k, x, radius)) return -1;
     if (k->links > 1) qsort(k->link, (size_t)k->links, sizeof *k->link, nearer_first);
@@ -298,7 +287,10 @@ static int joined_round(const fl_passes *s, fl_passes_work *k, const fl_poly *p,
                         const fl_aabb *box, int32_t f, const fl_pass *at)
 {
     const double near = 4.0 * s->tol;
-    if (tiles_in(k, p, tree, box, at->a, near, NULL, -1) || links_in(s, k, at->a, near)) return -1;
+    const int32_t n = query(k, tree, box, aabb_grow((fl_aabb){at->a, at->a}, near));
+    if (n < 0 || tiles_in(k, p, &(fl_passes_near){k->list, n}, at->a, near, NULL, -1) ||
+        links_in(s, k, at->a, near))
+        return -1;
     for (int32_t c = 0; c < k->links; c++) {
         const fl_pass *const l = &s->pass[k->link[c].pass];
         if (v3_norm(v3_sub(l->b, l->a)) >= 4.0 * s->tol)

@@ -72,15 +72,22 @@ typedef struct {
 
 void fl_passes_work_free(fl_passes_work *w);
 
-/* Whether a ball no farther from x than `margin` can touch one wall only, as far as can be told without
- * computing: 1, 0, or -1 when memory runs out. */
-int fl_passes_lone(const fl_passes *s, fl_passes_work *k, const fl_poly *core, const fl_bvh *tree,
-                   const fl_aabb *box, fl_vec3 x, double radius, double margin);
+/* Some tiles, ascending. */
+typedef struct {
+    const int32_t *tile;
+    int32_t n;
+} fl_passes_near;
+
+/* Whether a ball of a smaller radius within one of radius r about x can touch one wall only, as far as can be
+ * told without computing: 1, 0, or -1 when memory runs out.  near: all tiles nearer than r, and maybe
+ * others. */
+int fl_passes_lone(const fl_passes *s, fl_passes_work *k, const fl_poly *core, const fl_passes_near *near,
+                   fl_vec3 x, double r);
 
 /* The places of a ball on the surface, by fl_places_point(), their du 1 for minima and -1 for passes; the
- * first is q, the nearest point of all with its sign, which lies in tile `of`.  -1 when memory runs out. */
+ * first is q, the nearest point of all with its sign, which lies in tile `of`.  near: all tiles nearer than
+ * the radius, and maybe others.  -1 when memory runs out. */
 int fl_passes_places(const fl_passes *s, fl_passes_work *k, fl_places *w, const fl_poly *core,
-                     const fl_bvh *tree, const fl_aabb *box, fl_vec3 x, double radius, const fl_nearest *q,
-                     int32_t of);
+                     const fl_passes_near *near, fl_vec3 x, double radius, const fl_nearest *q, int32_t of);
 
 #endif

@@ -24,37 +24,56 @@ static int on_rim(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
     return 0;
 }
 
-/* Signed distance of x from the surface.  Of faces whose nearest points agree within rounding (a shared edge
- * or corner) the one that x is most in front of tells the side: its plane passes between x and the others.
- * What is nearest to a rim is beside the surface, not behind it.  *of: that face. */
-static fl_nearest nearest_of(const fl_poly *p, const fl_shell *sh, fl_vec3 x, int32_t *of)
+/* The nearest point of some faces, looked at one by one, in any order but for rounding. */
+typedef struct {
+    fl_nearest at;
+    double least; /* distance, in any order at all */
+    double front; /* how far x is in front of the face */
+    double same;
+    int32_t of; /* the face */
+} finding;
+
+/* Of faces whose nearest points agree within rounding (a shared edge or corner) the one that x is most in
+ * front of tells the side: its plane passes between x and the others. */
+static inline void look_at(finding *b, const fl_poly *p, int32_t f, fl_vec3 x)
 {
-    fl_nearest best = {.d = INFINITY};
-    double front = 0.0;
-    const double same = SAME * p->size;
-    fl_bvh_walk at = fl_bvh_about(&sh->tree, sh->box, x);
-    for (int32_t f; (f = fl_bvh_next(&at, best.d + same)) >= 0;) {
-        const double s = v3_dot(p->n[f], x) - p->c[f];
-        if (fabs(s) > best.d + same) continue;
-        const fl_nearest q = fl_nearest_face(p, f, x);
-        if (q.d > best.d + same) continue;
-        if (q.d < best.d - same || fabs(s) > fabs(front)) {
-            best = q;
-            front = s;
-            *of = f;
-        }
-    }
-    if (front < 0.0 && !on_rim(p, sh, best.p)) {
-        best.d = -best.d;
-        best.n = v3_neg(best.n);
-    }
-    return best;
+    const double s = v3_dot(p->n[f], x) - p->c[f], most = b->at.d + b->same;
+    if (fabs(s) > most) return;
+    const fl_nearest q = fl_nearest_face(p, f, x);
+    if (q.d > most) return;
+    if (q.d < b->least) b->least = q.d;
+    if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
 }
 
+/* With its sign: what is nearest to a rim is beside the surface, not behind it. */
+static fl_nearest sided(const finding *b, const fl_poly *p, const fl_shell *sh)
+{
+    fl_nearest q = b->at;
+    if (b->front < 0.0 && !on_rim(p, sh, q.p)) {
+        q.d = -q.d;
+        q.n = v3_neg(q.n);
+    }
+    return q;
+}
+
+static finding nothing_yet(const fl_poly *p)
+{
+    return (finding){.at.d = INFINITY, .least = INFINITY, .same = SAME * p->size, .of = -1};
+}
+
+static finding nearest(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
+{
+    finding b = nothing_yet(p);
+    fl_bvh_walk at = fl_bvh_about(&sh->tree, sh->box, x);
+    for (int32_t f; (f = fl_bvh_next(&at, b.at.d + b.same)) >= 0;) look_at(&b, p, f, x);
+    return b;
+}
+
+/* Signed distance of x from the surface. */
 static fl_nearest nearest_to(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 {
-    int32_t of;
-    return nearest_of(p, sh, x, &of);
+    const finding b = nearest(p, sh, x);
+    return sided(&b, p, sh);
 }
 
 /* Is x behind the surface, or may it come there when it moves by the margin?  Not when it is farther off than
@@ -239,46 +258,57 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     return w->n ? 0 : nothing_near(w, near, a, &b->shell, reach, distance);
 }
 
-/* Whether anything is in reach of the point, and whether that is more than one wall, until it has moved by
- * the margin. */
-static int list_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double ra, double reach,
-                      fl_matches *l)
+/* The faces that the point may meet until it has moved by the margin: where it can touch one wall only those
+ * that can be the nearest, else all in reach.  None where nothing is near enough: *distance tells how far. */
+static int list_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double ra, fl_matches *l,
+                      double *distance)
 {
-    const double margin = fl_matches_margin(l, ra);
+    const double margin = fl_matches_margin(l, ra), same = SAME * b->core.size, far = ra + margin + same;
     const fl_shell *sh = &b->shell;
     const fl_vec3 x = w->va[0];
-    const fl_aabb box = aabb_grow((fl_aabb){x, x}, reach + margin);
-    near->of_shell.faces = query(&sh->tree, sh->box, box, &near->of_shell.face, &near->of_shell.face_cap);
-    if (near->of_shell.faces < 0) return -1;
-    l->far = near->of_shell.faces == 0;
-    l->lone =
-        l->far ? 1 : fl_passes_lone(&sh->passes, &near->passes, &b->core, &sh->tree, sh->box, x, ra, margin);
+    fl_reach *walls = &near->of_shell;
+    int32_t n = 0;
+    l->shies = 0;
+    l->shift2 = 0.0;
+    *distance = nearest(&b->core, sh, x).least;
+    if (*distance > far) return 0;
+    const double next = *distance + 2.0 * (margin + same);
+    fl_bvh_walk at = fl_bvh_about(&sh->tree, sh->box, x);
+    for (int32_t f; (f = fl_bvh_next(&at, fmax(far, next))) >= 0;) {
+        if (fabs(v3_dot(b->core.n[f], x) - b->core.c[f]) > fmax(far, next)) continue;
+        if (fl_room(&walls->face, &walls->face_cap, (int64_t)n + 1, sizeof *walls->face)) return -1;
+        walls->face[n++] = f;
+    }
+    if (n > 1) qsort(walls->face, (size_t)n, sizeof *walls->face, ascending);
+    l->lone = fl_passes_lone(&sh->passes, &near->passes, &b->core, &(fl_passes_near){walls->face, n}, x, far);
+    if (l->lone < 0 || fl_room(&l->shy, &l->shy_cap, n, sizeof *l->shy)) return -1;
+    for (int32_t c = 0; c < n; c++)
+        if (fl_nearest_face(&b->core, walls->face[c], x).d <= (l->lone ? next : fmax(far, next)))
+            l->shy[l->shies++] = walls->face[c];
     l->M = w->M, l->o = w->o;
     l->shift2 = margin * margin, l->turn2 = 1.0;
     l->margin = margin, l->uses = 1;
-    return l->lone < 0 ? -1 : 0;
+    return 0;
 }
 
-int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
-                   double reach, fl_matches *l, double *distance)
+int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double ra, fl_matches *l,
+                   double *distance)
 {
     const fl_poly *core = &b->core;
     const fl_shell *sh = &b->shell;
     const fl_vec3 x = w->va[0];
-    int32_t of = -1;
+    finding best = nothing_yet(core);
     w->n = w->shares = 0;
     w->couple = v3(0, 0, 0);
-    *distance = reach;
-    if (!fl_matches_hold(l, &w->M, w->o) && list_point(w, near, b, ra, reach, l)) return -1;
-    if (l->far) {
-        l->shift2 = 0.0; /* what is not near now is not known later */
-        return 0;
-    }
-    *distance = ra;
-    const fl_nearest q = nearest_of(core, sh, x, &of);
-    if (q.d >= ra) return nothing_near(w, near, a, sh, reach, distance);
+    if (!fl_matches_hold(l, &w->M, w->o) && list_point(w, near, b, ra, l, distance)) return -1;
+    if (l->shies == 0) return 0;
+    for (int32_t c = 0; c < l->shies; c++) look_at(&best, core, l->shy[c], x);
+    const fl_nearest q = sided(&best, core, sh);
+    *distance = best.least;
+    if (q.d >= ra) return 0;
     return l->lone ? fl_places_point(w, x, q.n, ra - q.d, ra)
-                   : fl_passes_places(&sh->passes, &near->passes, w, core, &sh->tree, sh->box, x, ra, &q, of);
+                   : fl_passes_places(&sh->passes, &near->passes, w, core,
+                                      &(fl_passes_near){l->shy, l->shies}, x, ra, &q, best.of);
 }
 
 void fl_shell_near_free(fl_shell_near *near)

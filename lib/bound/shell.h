@@ -31,9 +31,9 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
                     double reach, int single, fl_matches *l, double *distance);
 
 /* The same of a core that is a point, for laws that are not `patch`: the walls that it touches, for which
- * passes must have been made (passes.h). */
-int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
-                   double reach, fl_matches *l, double *distance);
+ * passes must have been made (passes.h).  *distance is that of the point, where nothing touches. */
+int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double ra, fl_matches *l,
+                   double *distance);
 
 void fl_shell_near_free(fl_shell_near *near);
 

@@ -30,9 +30,17 @@ static inline int aabb_meet(fl_aabb a, fl_aabb b)
 /* Squared distance of a point; 0 inside. */
 static inline double aabb_distance2(fl_aabb b, fl_vec3 x)
 {
-    const double dx = fmax(fmax(b.lo.x - x.x, x.x - b.hi.x), 0.0),
-                 dy = fmax(fmax(b.lo.y - x.y, x.y - b.hi.y), 0.0),
-                 dz = fmax(fmax(b.lo.z - x.z, x.z - b.hi.z), 0.0);
+    const double ax = b.lo.x - x.x, bx = x.x - b.hi.x, ay = b.lo.y - x.y, by = x.y - b.hi.y,
+                 az = b.lo.z - x.z, bz = x.z - b.hi.z;
+    const double dx = ax > 0.0   ? ax
+                      : bx > 0.0 ? bx
+                                 : 0.0,
+                 dy = ay > 0.0   ? ay
+                      : by > 0.0 ? by
+                                 : 0.0,
+                 dz = az > 0.0   ? az
+                      : bz > 0.0 ? bz
+                                 : 0.0;
     return dx * dx + dy * dy + dz * dz;
 }
 

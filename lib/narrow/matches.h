@@ -66,7 +66,8 @@ struct fl_matches {
     double margin;           /* it was listed for [m] */
     int64_t uses;            /* looks since then */
     const fl_choice *choice; /* borrowed: the rows that count, or NULL: all do */
-    int32_t *shy;            /* [shies] the caller's: vertices of A that may come behind a surface as long */
+    int32_t *shy; /* [shies] the caller's: vertices of A that may come behind a surface as long, or,
+                              * of a point, faces that it may meet */
     int32_t shies, shy_cap;
     int far;                    /* the caller's: nothing of the surface is in reach */
     int lone;                   /* the caller's: one wall at the most is */

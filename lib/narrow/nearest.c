@@ -5,13 +5,14 @@
  * themselves carry rounding errors of about 2^-53 of it. */
 #define SAME 1e-15
 
+/* n: from p to x; d: its square. */
 static fl_nearest nearest_segment(fl_vec3 a, fl_vec3 b, fl_vec3 x)
 {
     const fl_vec3 e = v3_sub(b, a), r = v3_sub(x, a);
     const double ee = v3_norm2(e), re = v3_dot(r, e);
     const double t = re <= 0.0 ? 0.0 : re >= ee ? 1.0 : re / ee;
     const fl_vec3 p = t == 1.0 ? b : v3_madd(a, t, e), n = v3_sub(x, p);
-    return (fl_nearest){v3_norm(n), p, n};
+    return (fl_nearest){v3_norm2(n), p, n};
 }
 
 /* The foot of x on face f lies within the face: x is on the inner side of all its edges. */
@@ -39,12 +40,14 @@ static fl_nearest nearest_rim(const fl_poly *p, int32_t f, fl_vec3 x)
         if (q.d < best.d) best = q;
         a = b;
     }
+    best.d = sqrt(best.d);
     return best;
 }
 
 fl_nearest fl_nearest_segment(fl_vec3 a, fl_vec3 b, fl_vec3 x)
 {
     fl_nearest q = nearest_segment(a, b, x);
+    q.d = sqrt(q.d);
     q.n = q.d > 0.0 ? v3_scale(1.0 / q.d, q.n) : v3(0, 0, 1);
     return q;
 }

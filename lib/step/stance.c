@@ -324,8 +324,7 @@ int fl_stance_places(fl_world *w, fl_pair *p, int32_t thread, const fl_stance *r
     if (piece && piece->kind == FL_PIECE_PLANE)
         return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance) : fl_places_plane(s, A, ra, distance);
     if (piece && piece->kind == FL_PIECE_SHELL && A->nv == 1 && p->exponent > 0.0)
-        return matches_of(p) ? fl_shell_point(s, &w->near_shell[thread], A, piece, ra, ra + w->skin,
-                                              p->matches, distance)
+        return matches_of(p) ? fl_shell_point(s, &w->near_shell[thread], piece, ra, p->matches, distance)
                              : -1;
     if (piece && piece->kind == FL_PIECE_SHELL)
         return matches_of(p) ? fl_shell_places(s, &w->near_shell[thread], A, piece, ra, ra + w->skin,

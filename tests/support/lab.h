@@ -15,7 +15,7 @@ typedef struct {
 /* No gravity, no damping, no friction, one thread; keys as for --set ("material.ice.young=1 GPa").  Failures
  * end the program with the sentence: a test that cannot set up its world has failed. */
 void lab_start(lab *l);
-/* contact.surrogate of labs of law patch, FLOE_SURROGATE of the environment; else 0: contacts are looked at. */
+/* contact.surrogate of labs of law patch, FLOE_SURROGATE of the environment; else 0: every step looks. */
 double lab_told(void);
 void lab_set(lab *l, const char *assignment);
 void lab_setf(lab *l, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

@@ -92,7 +92,7 @@ static met look(bench *b, fl_vec3 x, int again)
     if (again) b->l.shift2 = 0.0;
     const fl_mat3 same = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     assert_int_equal(fl_places_enter(&b->w, &b->point, same, v3_sub(x, b->piece->x)), 0);
-    assert_int_equal(fl_shell_point(&b->w, &b->near, &b->point, b->piece, R, 2.0 * R, &b->l, &distance), 0);
+    assert_int_equal(fl_shell_point(&b->w, &b->near, b->piece, R, &b->l, &distance), 0);
     for (int32_t k = 0; k < b->w.n; k++) {
         const fl_place *q = &b->w.place[k];
         const double s = q->overlap;
