@@ -154,8 +154,9 @@ static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const
         const int32_t v = l->shy[k];
         const fl_nearest q = nearest_to(B->p, sh, w->va[v]);
         if (q.d < deepest.d) deepest = q, which = v;
-        if (single || q.d >= 0.0) continue;
+        if (q.d >= 0.0) continue;
         *behind = 1;
+        if (single) continue;
         if (fl_places_vertex(w, A, 0.0, v, q.n, ra - q.d)) return -1;
     }
     return single && which >= 0 ? fl_places_point(w, w->va[which], deepest.n, ra - deepest.d, ra) : 0;
@@ -249,6 +250,12 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     }
     *distance = ra; /* something is near: no bound is claimed */
     if (core_vertices(w, &A, &B, &b->shell, l, ra, single, &behind)) return -1;
+    if (behind) { /* what is farther behind than all faces reach is beyond the surface, not in it */
+        double beside = 0.0;
+        if (nothing_near(w, near, a, &b->shell, ra, &beside)) return -1;
+        if (beside == ra) w->n = 0;
+        if (beside == ra) return nothing_near(w, near, a, &b->shell, reach, distance);
+    }
     if (single) return w->n ? 0 : nothing_near(w, near, a, &b->shell, reach, distance);
     fl_matches rest;
     const double far = behind ? ra : 0.0, rim = FL_PLACE_RIM * ra;
@@ -305,7 +312,7 @@ int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double 
     for (int32_t c = 0; c < l->shies; c++) look_at(&best, core, l->shy[c], x);
     const fl_nearest q = sided(&best, core, sh);
     *distance = best.least;
-    if (q.d >= ra) return 0;
+    if (best.least >= ra) return 0; /* also from behind */
     return l->lone ? fl_places_point(w, x, q.n, ra - q.d, ra)
                    : fl_passes_places(&sh->passes, &near->passes, w, core,
                                       &(fl_passes_near){l->shy, l->shies}, x, ra, &q, best.of);

@@ -11,6 +11,20 @@
 #include "step/sleep.h"
 #include "step/works.h"
 
+/* The round ends of a cone, which stand out from the sides of its polygon. */
+static fl_aabb add_ends(fl_aabb box, const fl_piece *p, fl_vec3 x, const fl_mat3 *R)
+{
+    const fl_vec3 a = m3_col(*R, 2),
+                  e = v3(sqrt(fmax(0.0, 1.0 - a.x * a.x)), sqrt(fmax(0.0, 1.0 - a.y * a.y)),
+                         sqrt(fmax(0.0, 1.0 - a.z * a.z)));
+    for (int end = 0; end < 2; end++) {
+        const fl_vec3 o = v3_madd(x, end ? p->h : 0.0, a);
+        const double r = end ? p->r1 : p->r0;
+        box = aabb_add(aabb_add(box, v3_madd(o, r, e)), v3_madd(o, -r, e));
+    }
+    return box;
+}
+
 /* The box of body k: of its core in the world, dilated. */
 static fl_aabb box_of(const fl_world *w, int32_t k)
 {
@@ -36,6 +50,8 @@ static fl_aabb box_of(const fl_world *w, int32_t k)
         return box;
     }
     for (int32_t v = 0; v < core->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(R, core->v[v])));
+    if (k >= w->n && w->structure.piece[k - w->n].kind == FL_PIECE_CONE)
+        box = add_ends(box, &w->structure.piece[k - w->n], b->x[k], &R);
     return aabb_grow(box, b->radius[k]);
 }
 

@@ -146,6 +146,70 @@ static void the_search_does_not_matter(void **state)
     }
 }
 
+/* A sphere comes down on the highest line of a thick pole, which stands out from its polygon. */
+static uint64_t on_a_pole(int64_t seed, int every)
+{
+    fl_rng g = fl_rng_of(test_seed(), seed, FL_RNG_TEST);
+    const double thick = fl_rng_in(&g, 20, 150), turn = fl_rng_in(&g, 0, 6.3);
+    const fl_vec3 a = v3(cos(turn), sin(turn), 0), up = v3(0, 0, 1);
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "material.ice.young=1e7");
+    if (every) lab_setf(&l, "run.search_every=%d", every);
+    lab_sphere(&l, v3_scale(thick + 0.05 + 0.063, up), 0.05, v3_scale(-1.0, up), v3(1, 2, 3));
+    lab_cone(&l, (fl_cone){v3_scale(-200, a), v3_scale(200, a), thick, thick});
+    lab_make(&l, 2e-4);
+    lab_pose(&l.w, 1, l.w.b.x[1], q_mul(l.w.b.q[1], q_about(2, fl_rng_in(&g, 0.0, 0.1))));
+    l.w.found_at = -1;
+    assert_int_equal(lab_run(&l, 500), 0);
+    const uint64_t hash = fl_step_hash(&l.w);
+    assert_true(l.w.touching_steps > 0 && l.w.half_steps == 0);
+    lab_free(&l);
+    return hash;
+}
+
+/* Boxes fly about an open sheet of two walls, through which some of them have been put. */
+static uint64_t about_a_sheet(int64_t seed, int every)
+{
+    static const int32_t TRIANGLE[4][3] = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+    static const fl_vec3 V[6] = {{-1.5, 0, -1.5}, {0, 0, -1.5},    {0, 0, 1.5},
+                                 {-1.5, 0, 1.5},  {0, -1.5, -1.5}, {0, -1.5, 1.5}};
+    fl_rng g = fl_rng_of(test_seed(), seed, FL_RNG_TEST);
+    fl_err err = {0};
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "material.ice.young=1e6");
+    if (every) lab_setf(&l, "run.search_every=%d", every);
+    for (int k = 0; k < 6; k++) {
+        const fl_vec3 x = v3(fl_rng_in(&g, -1.2, 0.3), fl_rng_in(&g, -1.2, 0.4), 1.0 * k - 2.5),
+                      v = v3(fl_rng_in(&g, -5, 5), fl_rng_in(&g, -5, 5), 0),
+                      spin = v3(fl_rng_in(&g, -9, 9), fl_rng_in(&g, -9, 9), fl_rng_in(&g, -9, 9));
+        lab_box(&l, x, v3(0.3, 0.25, 0.2), 0.05, q_of_vector(v3_scale(0.3, spin)), v, spin);
+    }
+    assert_true(fl_surface_add(&l.surface, "sheet", 5, &err) == 0);
+    for (int k = 0; k < 6; k++) assert_int_equal(fl_surface_vertex(&l.surface.part[0], V[k], &err), 0);
+    for (int k = 0; k < 4; k++)
+        assert_int_equal(
+            fl_surface_triangle(&l.surface.part[0], TRIANGLE[k][0], TRIANGLE[k][1], TRIANGLE[k][2], &err), 0);
+    lab_make(&l, 5e-5);
+    const int rc = lab_run(&l, 2000);
+    const uint64_t hash = fl_step_hash(&l.w) + (uint64_t)rc;
+    lab_free(&l);
+    return hash;
+}
+
+static void nor_beside_structures(void **state)
+{
+    (void)state;
+    for (int64_t seed = 0; seed < 60; seed++) {
+        const uint64_t pole = on_a_pole(seed, 0), sheet = about_a_sheet(seed, 0);
+        for (int every = 1; every < 8; every += 6) {
+            assert_true(on_a_pole(seed, every) == pole);
+            assert_true(about_a_sheet(seed, every) == sheet);
+        }
+    }
+}
+
 static void momenta_are_conserved(void **state)
 {
     (void)state;
@@ -233,8 +297,11 @@ static void the_origin_does_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_give_the_same_bits), cmocka_unit_test(the_search_does_not_matter),
-        cmocka_unit_test(momenta_are_conserved),      cmocka_unit_test(the_order_of_bodies_does_not_matter),
+        cmocka_unit_test(threads_give_the_same_bits),
+        cmocka_unit_test(the_search_does_not_matter),
+        cmocka_unit_test(nor_beside_structures),
+        cmocka_unit_test(momenta_are_conserved),
+        cmocka_unit_test(the_order_of_bodies_does_not_matter),
         cmocka_unit_test(the_origin_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
