@@ -405,18 +405,27 @@ static void account(fl_world *w, double dt, deepest *d)
 
 /* Overlaps past half the radii are deeper than any law is meant for, but as long as the books balance the run
  * may go on: bodies that were put into one another come apart so.  It ends when the residual says that
- * energy is being made, looked at every WATCH steps. */
-static int watch(fl_world *w, const deepest *d, fl_err *err)
+ * energy is being made. */
+int fl_step_balance(fl_world *w, fl_err *err)
 {
     const fl_ledger *g = &w->ledger;
-    if (!(d->overlap > FL_OVERLAP_HALF) || w->step % WATCH) return 0;
     fl_step_ledger(w);
     const double scale = g->throughput + fabs(g->elastic);
-    if (!(g->residual > MADE * scale)) return 0;
-    return fl_fail(err, FL_NUMERIC,
-                   "body %d and %d: they overlap by %.3g of their radii, and energy is being made, %.3g J of "
-                   "%.3g J, in step %lld (t = %g s); set a smaller run.dt or stiffer contacts",
-                   d->i, d->j, d->overlap, g->residual, scale, (long long)w->step, fl_world_time(w));
+    if (!isfinite(g->residual))
+        return fl_fail(err, FL_NUMERIC, "the energy is not a finite number in step %lld (t = %g s)",
+                       (long long)w->step, fl_world_time(w));
+    if (!w->half_steps || !(g->residual > MADE * scale)) return 0;
+    return fl_fail(
+        err, FL_NUMERIC,
+        "body %d and %d: they overlapped by more than half of their radii at t = %g s, and energy is "
+        "being made, %.3g J of %.3g J, in step %lld (t = %g s); set a smaller run.dt or stiffer contacts",
+        w->half_i, w->half_j, w->half_time, g->residual, scale, (long long)w->step, fl_world_time(w));
+}
+
+/* From the first such overlap on the books are looked at every WATCH steps. */
+static int watch(fl_world *w, fl_err *err)
+{
+    return w->half_steps && w->step % WATCH == 0 ? fl_step_balance(w, err) : 0;
 }
 
 int fl_step_start(fl_world *w, fl_err *err)
@@ -467,7 +476,7 @@ int fl_step(fl_world *w, fl_err *err)
     load_parts(w, h);
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     if (survey) survey_stiffness(w);
-    if (check(w, survey, err) || watch(w, &deep, err)) return -1;
+    if (check(w, survey, err) || watch(w, err)) return -1;
     w->sea.looks = 1; /* whoever is put anywhere between two steps is looked at */
     if (w->traffic.away && fl_traffic_step(w, err)) return -1;
     if (w->sleep.nap) fl_sleep_lull(w);

@@ -34,6 +34,10 @@ void fl_step_kick(fl_world *w, int32_t k, double h);
 /* Stores, sinks and residual now, into w->ledger. */
 void fl_step_ledger(fl_world *w);
 
+/* The same; -1 with FL_NUMERIC where the residual is not a number, or, once an overlap was past half of the
+ * radii, tells that energy is being made. */
+int fl_step_balance(fl_world *w, fl_err *err);
+
 /* Hash of positions, orientations, velocities and angular momenta of all floes, and of what of the structure
  * moves by itself. */
 uint64_t fl_step_hash(const fl_world *w);
