@@ -162,6 +162,9 @@ static void take_in(fl_world *w, int32_t i)
     w->found_at = -1;
 }
 
+/* Fields that do not come in because nobody looked: more in one step are a scene gone wrong. */
+#define MOST_BEHIND 1e9
+
 /* The copies of floe k that are due.  Returns 0 or -1; *came counts who comes in. */
 static int let_in(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *err)
 {
@@ -171,8 +174,12 @@ static int let_in(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *err
         const double late = way - t->lag[k] - (double)t->tile[k] * t->pitch;
         if (late < 0.0) return 0;
         if (late >= t->pitch) {
-            t->tile[k]++;
-            t->missed++;
+            const double behind = floor(late / t->pitch);
+            if (!(behind < MOST_BEHIND))
+                return fl_fail(err, FL_NUMERIC, "inflow is %.3g fields behind in step %lld (t = %g s)",
+                               behind, (long long)w->step, fl_world_time(w));
+            t->tile[k] += (int64_t)behind;
+            t->missed += (int64_t)behind;
             continue;
         }
         const int first = late < step * (1.0 + 1e-9); /* also what is due at the start */

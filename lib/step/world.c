@@ -254,6 +254,8 @@ static void make_cell(fl_world *w)
     }
 }
 
+#define MOST_CELLS 1e6 /* a body may have gone through so many */
+
 /* A body that spans half the cell could meet two images of another at once, or its own. */
 static int fits_cell(const fl_world *w, int32_t i, fl_err *err)
 {
@@ -263,6 +265,15 @@ static int fits_cell(const fl_world *w, int32_t i, fl_err *err)
     for (int32_t a = 0; a < p->nv; a++)
         for (int32_t b = 0; b < a; b++) across = fmax(across, v3_norm2(v3_sub(p->v[a], p->v[b])));
     across = sqrt(across) + 2.0 * w->b.radius[i];
+    const fl_vec3 at = w->b.x[i];
+    const double x[3] = {at.x, at.y, at.z};
+    for (int c = 0; c < 3; c++)
+        if (length[c] > 0.0 && !(fabs(x[c]) < MOST_CELLS * length[c] && isfinite(length[c])))
+            return fl_fail(
+                err, FL_INPUT,
+                "%s: body %d at %c = %.4g m, and the periodic %c repeats every %.4g m: within %.3g of "
+                "those was wanted",
+                w->scene->ice.file, w->id[i], 'x' + c, x[c], 'x' + c, length[c], MOST_CELLS);
     for (int c = 0; c < 3; c++)
         if (length[c] > 0.0 && across > 0.5 * length[c])
             return fl_fail(err, FL_INPUT,
@@ -272,7 +283,25 @@ static int fits_cell(const fl_world *w, int32_t i, fl_err *err)
     return 0;
 }
 
-static int place_pieces(fl_world *w, fl_err *err)
+/* A body could meet a piece longer than the cell in two images at once. */
+static int piece_fits(const fl_world *w, int32_t k, const fl_surface *surface, fl_err *err)
+{
+    const double length[3] = {w->cell.length.x, w->cell.length.y, w->cell.length.z};
+    const fl_piece *p = &w->structure.piece[k];
+    fl_aabb box = aabb_empty();
+    for (int32_t v = 0; v < p->core.nv; v++) box = aabb_add(box, q_rotate(p->q, p->core.v[v]));
+    const double size[3] = {box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z};
+    for (int c = 0; c < 3; c++)
+        if (length[c] > 0.0 && size[c] > length[c] * (1.0 + 1e-9))
+            return fl_fail(
+                err, FL_INPUT,
+                "%s: a piece of part %s is %.4g m long, and the periodic %c repeats every %.4g m: it would "
+                "be met more than once",
+                w->scene->structure.file, surface->part[p->part].name, size[c], 'x' + c, length[c]);
+    return 0;
+}
+
+static int place_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
 {
     for (int32_t k = 0; k < w->structure.n; k++) {
         const fl_piece *piece = &w->structure.piece[k];
@@ -281,6 +310,7 @@ static int place_pieces(fl_world *w, fl_err *err)
         w->b.q[j] = piece->q;
         w->material[j] = piece->kind == FL_PIECE_PLANE ? FL_SCENE_BOUNDARY : FL_SCENE_STRUCTURE;
         if (piece->kind == FL_PIECE_PLANE) continue;
+        if (w->cell.wraps && piece_fits(w, k, surface, err)) return -1;
         if (piece->kind == FL_PIECE_SHELL) { /* only its box is looked at, through the corners */
             fl_vec3 corner[8];
             const fl_aabb box = piece->shell.tree.node[0].box;
@@ -328,14 +358,16 @@ static int make_arrays(fl_world *w, fl_err *err)
     return err->code ? -1 : 0;
 }
 
+#define MOST_ROOM 1e8 /* floes */
+
 /* Places for those that come: what comes in over the length of the domain, a quarter more where it is held
- * up, and a field besides. */
+ * up, and a field besides; -1: more than anybody means. */
 static int32_t room(const fl_scene_boundary *s, const fl_field *feed, double pitch)
 {
     const double length = s->inflow_from / 2 ? s->max.y - s->min.y : s->max.x - s->min.x;
     const double most = (double)feed->n * (1.25 * length / pitch + 1.0);
     if (s->room > 0) return s->room > feed->n ? s->room : feed->n;
-    return (int32_t)fmin(ceil(most), 1e8);
+    return most < MOST_ROOM ? (int32_t)ceil(most) : -1;
 }
 
 /* How far along the drift the outermost points of a floe of a field stand: the larger (end = 1) or the
@@ -393,7 +425,15 @@ static int make_traffic(fl_world *w, const fl_field *field, const fl_field *feed
         if (feed->n == 0)
             return fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", s->inflow_file);
         if (plan_traffic(w, field, feed, err)) return -1;
-        w->n += room(s, feed, t->pitch);
+        const int32_t more = room(s, feed, t->pitch);
+        if (more < 0)
+            return fl_fail(err, FL_INPUT,
+                           "%s: fields %.3g m apart, boundary.inflow_pitch, would be more than %.3g floes in "
+                           "the domain; "
+                           "boundary.room or a wider pitch was wanted",
+                           s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file, t->pitch,
+                           MOST_ROOM);
+        w->n += more;
     }
     t->away = fl_alloc(w->n, sizeof *t->away, err);
     t->born = fl_alloc(w->n, sizeof *t->born, err);
@@ -528,7 +568,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
         w->traffic.away[i] = 1;
         if (fl_world_put(w, i, feed, w->traffic.floe[i], err)) goto fail;
     }
-    if (place_pieces(w, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
+    if (place_pieces(w, surface, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
         fl_sleep_make(w, err) || fl_pairing_laws(w, err) || fl_frozen_make(w, field, err))
         goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */

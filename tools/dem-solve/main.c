@@ -8,6 +8,7 @@
 #include "options.h"
 #include "run.h"
 #include "save.h"
+#include "targets.h"
 #include "scene/field.h"
 #include "scene/field_order.h"
 #include "mesh/gstruct.h"
@@ -191,7 +192,9 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                  loads ? loads->text : "-");
         r.out = path;
     }
+    if (targets_check(&in.scene, o, err)) goto done;
     run_step_size(&r);
+    if (run_countable(&r, err)) goto done;
     if (!o->quiet && world.frozen.n) report_bonds(&world, stderr);
     rc = act(&r, err);
     *stopped = r.stopped;

@@ -51,6 +51,16 @@ static int64_t step_at(const fl_world *w, double t)
 
 void run_steps(struct run *r) { r->steps = step_at(r->w, r->scene->run.duration); }
 
+int run_countable(const struct run *r, fl_err *err)
+{
+    const double most = 9007199254740992.0,
+                 n = r->scene->run.duration / r->w->dt; /* doubles tell those apart */
+    if (n < most) return 0;
+    return fl_fail(err, FL_INPUT,
+                   "run.duration of %g s in steps of %g s: %.3g steps, at most %.3g were wanted",
+                   r->scene->run.duration, r->w->dt, n, most);
+}
+
 /* Half of what damping leaves, or less where many contacts are damped at once. */
 static void damped_origin(char *to, size_t n, double share, double left, double limit)
 {
@@ -532,7 +542,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     if (r->stopped) return 0; /* save_due() has seen to it, or there is nothing to save to */
     /* The last interval of the loads may be shorter than the others.  A longer run would not end it here, so
      * what can be gone on from comes before. */
-    if (save_due(r, u, 1, err)) return -1;
+    if (fl_step_balance(w, err) || save_due(r, u, 1, err)) return -1;
     return time_of(r) > u->last_row ? write_loads(r, u, time_of(r), err) : 0;
 }
 

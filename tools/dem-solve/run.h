@@ -78,6 +78,9 @@ void run_step_size(struct run *r);
 /* Steps until the end of the scene, from the step size that the world has. */
 void run_steps(struct run *r);
 
+/* -1 with FL_INPUT where these are more than can be counted. */
+int run_countable(const struct run *r, fl_err *err);
+
 /* Set a timer to its row k. */
 void run_timer(struct timer *t, int64_t k, const fl_world *w);
 
