@@ -49,23 +49,42 @@ static int stretch(const fl_poly *p, int32_t f, fl_vec3 a, fl_vec3 b, double tol
     return 1;
 }
 
-/* The stretches of sides of tile f on tile g, added to what has been met of each side; the longest, where it
- * is longer than *most, is put into *pass. */
-static void stretches(const fl_poly *p, int32_t f, int32_t g, double tol, double *met, double *most,
-                      fl_pass *pass)
+/* A part of a side, numbered as in loop, that another tile lies over. */
+typedef struct {
+    int32_t side;
+    double from, to; /* shares of it */
+} span;
+
+/* What is in work while passes are made. */
+typedef struct {
+    const fl_poly *p;
+    const fl_bvh *tree;
+    const fl_aabb *box;
+    span *over;
+    fl_vec3 *end; /* of all stretches of two tiles on each other */
+    int32_t overs, ends, over_cap, end_cap;
+    fl_passes_work k;
+} making;
+
+/* The stretches of sides of tile f on tile g: spans, ends, and the longest, where it is longer than *most,
+ * into *pass.  -1 when memory runs out. */
+static int stretches(making *q, int32_t f, int32_t g, double tol, double *most, fl_pass *pass)
 {
-    const int32_t *v = loop_of(p, f), m = sides_of(p, f);
-    for (int32_t c = 0, last = m - 1; c < m; last = c++) {
-        const fl_vec3 a = p->v[v[last]], way = v3_sub(p->v[v[c]], a);
+    const fl_poly *p = q->p;
+    for (int32_t c = p->first[f]; c < p->first[f + 1]; c++) {
+        const fl_vec3 a = p->v[p->loop[c]], way = along(p, f, c);
         double t[2];
         if (!stretch(p, g, a, v3_add(a, way), tol, t)) continue;
+        if (fl_room(&q->over, &q->over_cap, (int64_t)q->overs + 1, sizeof *q->over) ||
+            fl_room(&q->end, &q->end_cap, (int64_t)q->ends + 2, sizeof *q->end))
+            return -1;
+        const fl_vec3 from = v3_madd(a, t[0], way), to = v3_madd(a, t[1], way);
         const double length = (t[1] - t[0]) * v3_norm(way);
-        met[p->first[f] + last] += length;
-        if (!(length > *most)) continue;
-        *most = length;
-        pass->a = v3_madd(a, t[0], way);
-        pass->b = t[1] == 1.0 ? p->v[v[c]] : v3_madd(a, t[1], way);
+        q->over[q->overs++] = (span){c, t[0], t[1]};
+        q->end[q->ends++] = from, q->end[q->ends++] = to;
+        if (length > *most) *most = length, pass->a = from, pass->b = to;
     }
+    return 0;
 }
 
 static fl_vec3 middle(const fl_poly *p, int32_t f)
@@ -89,13 +108,20 @@ static int shared(const fl_poly *p, int32_t f, int32_t g, fl_vec3 x)
     return fl_nearest_rim(p, f, x).d <= SAME * p->size && fl_nearest_rim(p, g, x).d <= SAME * p->size;
 }
 
-/* Where tiles f < g meet: 1, or 0 where they do not. */
-static int meet(const fl_poly *p, int32_t f, int32_t g, double tol, double *met, fl_pass *pass)
+/* Where tiles f < g meet: 1, or 0 where they do not; -1 when memory runs out.  What two convex tiles share is
+ * convex: a side or a part of it, or, where they cross or lie on each other, what ends at sides. */
+static int meet(making *q, int32_t f, int32_t g, double tol, fl_pass *pass)
 {
+    const fl_poly *p = q->p;
     double length = -1.0;
-    stretches(p, f, g, tol, met, &length, pass);
-    stretches(p, g, f, tol, met, &length, pass);
+    q->ends = 0;
+    if (stretches(q, f, g, tol, &length, pass) || stretches(q, g, f, tol, &length, pass)) return -1;
     if (length < 0.0) return 0;
+    for (int32_t i = 0; i < q->ends; i++)
+        for (int32_t j = 0; j < i; j++) {
+            const double across = v3_norm(v3_sub(q->end[i], q->end[j]));
+            if (across > length + 8.0 * tol) length = across, pass->a = q->end[j], pass->b = q->end[i];
+        }
     if (length < 4.0 * tol) { /* corners alone, if exact */
         if (shared(p, f, g, pass->a)) pass->b = pass->a;
         else if (shared(p, f, g, pass->b)) pass->a = pass->b;
@@ -124,16 +150,17 @@ static int32_t query(fl_passes_work *k, const fl_bvh *tree, const fl_aabb *box, 
     return n;
 }
 
-/* The passes of tile f to those behind it, and what has been met of all sides. */
-static int passes_of(fl_passes *s, fl_passes_work *k, const fl_poly *p, const fl_bvh *tree,
-                     const fl_aabb *box, int32_t f, double *met)
+/* The passes of tile f to those behind it. */
+static int passes_of(fl_passes *s, making *q, int32_t f)
 {
-    const int32_t n = query(k, tree, box, aabb_grow(box[f], s->tol));
+    const int32_t n = query(&q->k, q->tree, q->box, aabb_grow(q->box[f], s->tol));
     if (n < 0) return -1;
     for (int32_t c = 0; c < n; c++) {
-        const int32_t g = k->list[c];
+        const int32_t g = q->k.list[c];
         fl_pass pass;
-        if (g <= f || !meet(p, f, g, s->tol, met, &pass)) continue;
+        const int met = g > f ? meet(q, f, g, s->tol, &pass) : 0;
+        if (met < 0) return -1;
+        if (!met) continue;
         if (fl_room(&s->pass, &s->cap, (int64_t)s->n + 1, sizeof *s->pass)) return -1;
         s->pass[s->n++] = pass;
     }
@@ -245,6 +272,18 @@ static int nearer_first(const void *a, const void *b)
     return x->pass < y->pass ? -1 : x->pass > y->pass;
 }
 
+/* Tiles that lie on each other have one point in two: the minimum of piece i is that of a nearer piece. */
+static int again(const fl_passes *s, fl_passes_work *k, int32_t i)
+{
+    const fl_passes_tile *const it = &k->tile[i];
+    for (int32_t j = 0; j < k->tiles; j++) {
+        const fl_passes_tile *const other = &k->tile[j];
+        const int nearer = other->at.d < it->at.d || (other->at.d == it->at.d && j < i);
+        if (nearer && v3_norm(v3_sub(other->at.p, it->at.p)) <= s->tol && root(k, j) != i) return 1;
+    }
+    return 0;
+}
+
 static int put(fl_places *w, fl_vec3 x, const fl_nearest *q, double radius, double times)
 {
     if (fl_places_point(w, x, q->n, radius - q->d, radius)) return -1;
@@ -257,6 +296,7 @@ int fl_passes_places(const fl_passes *s, fl_passes_work *k, fl_places *w, const 
 {
     if (!(q->d < radius)) return 0;
     if (put(w, x, q, radius, 1.0)) return -1;
+    if (q->d < 0.0) return 0; /* from behind all other walls are those of the other side */
     if (tiles_in(k, p, near, x, radius, q, of)) return -1;
     if (k->tiles < 2) return 0;
     if (links_in(s, k, x, radius)) return -1;
@@ -270,49 +310,73 @@ int fl_passes_places(const fl_passes *s, fl_passes_work *k, fl_places *w, const 
             const int32_t t = old;
             old = young, young = t;
         }
+        const int own = l->d > k->tile[young].at.d && !again(s, k, young); /* a minimum of its own */
         k->tile[young].up = old;
-        if (!(l->d > k->tile[young].at.d)) continue; /* no minimum of its own */
+        if (!own) continue;
         const fl_nearest pass = joined(s, k, l, x);
         if (put(w, x, &k->tile[young].at, radius, 1.0) || put(w, x, &pass, radius, -1.0)) return -1;
     }
     for (int32_t i = 0; i < k->tiles; i++)
-        if (k->tile[i].up == i && i != first && put(w, x, &k->tile[i].at, radius, 1.0)) return -1;
+        if (k->tile[i].up == i && i != first && !again(s, k, i) && put(w, x, &k->tile[i].at, radius, 1.0))
+            return -1;
     return 0;
 }
 
 /* --- all of them ---------------------------------------------------------------------------------- */
 
-/* Tiles that a walk round the corner joins need no pass at the corner: whether tiles of pass `at` are. */
-static int joined_round(const fl_passes *s, fl_passes_work *k, const fl_poly *p, const fl_bvh *tree,
-                        const fl_aabb *box, int32_t f, const fl_pass *at)
+/* The tiles at every vertex. */
+typedef struct {
+    int32_t *begin, *tile; /* [nv + 1], [sides] */
+} corners;
+
+static int find_corners(corners *c, const fl_poly *p, fl_err *err)
 {
-    const double near = 4.0 * s->tol;
-    const int32_t n = query(k, tree, box, aabb_grow((fl_aabb){at->a, at->a}, near));
-    if (n < 0 || tiles_in(k, p, &(fl_passes_near){k->list, n}, at->a, near, NULL, -1) ||
-        links_in(s, k, at->a, near))
-        return -1;
-    for (int32_t c = 0; c < k->links; c++) {
-        const fl_pass *const l = &s->pass[k->link[c].pass];
-        if (v3_norm(v3_sub(l->b, l->a)) >= 4.0 * s->tol)
-            k->tile[root(k, k->link[c].i)].up = root(k, k->link[c].j);
-    }
-    const int32_t i = find(k, f), j = find(k, at->j);
-    return i >= 0 && j >= 0 && root(k, i) == root(k, j);
+    const int32_t sides = p->first[p->nf];
+    c->begin = fl_alloc((int64_t)p->nv + 2, sizeof *c->begin, err);
+    c->tile = fl_alloc(sides, sizeof *c->tile, err);
+    if (!c->begin || !c->tile) return -1;
+    memset(c->begin, 0, ((size_t)p->nv + 2) * sizeof *c->begin);
+    for (int32_t k = 0; k < sides; k++) c->begin[p->loop[k] + 2]++;
+    for (int32_t v = 0; v <= p->nv; v++) c->begin[v + 1] += c->begin[v];
+    for (int32_t f = 0; f < p->nf; f++)
+        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) c->tile[c->begin[p->loop[k] + 1]++] = f;
+    return 0;
 }
 
-/* Leave out the passes that are corners, where they can be: once all have been looked at. */
-static int leave_corners(fl_passes *s, fl_passes_work *k, const fl_poly *p, const fl_bvh *tree,
-                         const fl_aabb *box)
+/* Tiles that a walk round their corner, at x, joins need no pass there.  Of the passes between the tiles in
+ * the scratch the long ones join; then the short ones within what has been joined leave. */
+static void walk_round(fl_passes *s, fl_passes_work *k, fl_vec3 x, const int32_t *number, int leave)
 {
-    int32_t kept = 0;
-    for (int32_t f = 0; f < p->nf; f++) {
-        for (int32_t at = s->begin[f]; at < s->begin[f + 1]; at++) {
+    for (int32_t i = 0; i < k->tiles; i++) {
+        for (int32_t at = s->begin[k->tile[i].tile]; at < s->begin[k->tile[i].tile + 1]; at++) {
             fl_pass *const l = &s->pass[at];
-            if (v3_norm(v3_sub(l->b, l->a)) >= 4.0 * s->tol) continue;
-            const int out = joined_round(s, k, p, tree, box, f, l);
-            if (out < 0) return -1;
-            l->inward = out ? OUT : l->inward;
+            const int32_t j = number[l->j];
+            const int is_short = v3_norm(v3_sub(l->b, l->a)) < 4.0 * s->tol;
+            if (j < 0 || is_short != leave || fl_nearest_segment(l->a, l->b, x).d > 4.0 * s->tol) continue;
+            if (!leave) k->tile[root(k, i)].up = root(k, j);
+            else if (root(k, i) == root(k, j)) l->inward = OUT;
         }
+    }
+}
+
+/* Leave out the passes that are corners, where they can be.  -1 with FL_SYSTEM. */
+static int leave_corners(fl_passes *s, fl_passes_work *k, const fl_poly *p, fl_err *err)
+{
+    corners c = {0};
+    int32_t kept = 0, *number = fl_alloc(p->nf, sizeof *number, err);
+    int rc = -1;
+    if (!number || find_corners(&c, p, err)) goto done;
+    for (int32_t f = 0; f < p->nf; f++) number[f] = -1;
+    for (int32_t v = 0; v < p->nv; v++) {
+        const int32_t n = c.begin[v + 1] - c.begin[v];
+        if (fl_grow(&k->tile, &k->tile_cap, n, sizeof *k->tile, err)) goto done;
+        k->tiles = n;
+        for (int32_t i = 0; i < n; i++) {
+            k->tile[i] = (fl_passes_tile){.tile = c.tile[c.begin[v] + i], .up = i};
+            number[k->tile[i].tile] = i;
+        }
+        for (int leave = 0; leave < 2; leave++) walk_round(s, k, p->v[v], number, leave);
+        for (int32_t i = 0; i < n; i++) number[k->tile[i].tile] = -1;
     }
     for (int32_t f = 0, at = 0; f < p->nf; f++) {
         const int32_t end = s->begin[f + 1];
@@ -321,40 +385,57 @@ static int leave_corners(fl_passes *s, fl_passes_work *k, const fl_poly *p, cons
             if (s->pass[at].inward != OUT) s->pass[kept++] = s->pass[at];
     }
     s->n = s->begin[p->nf] = kept;
-    return 0;
+    fl_pass *const trimmed = realloc(s->pass, (size_t)(kept + 1) * sizeof *s->pass);
+    if (trimmed) s->pass = trimmed, s->cap = kept + 1;
+    rc = 0;
+done:
+    free(number), free(c.begin), free(c.tile);
+    return rc;
+}
+
+static int along_it(const void *a, const void *b)
+{
+    const span *x = a, *y = b;
+    if (x->side != y->side) return x->side < y->side ? -1 : 1;
+    return (x->from > y->from) - (x->from < y->from);
+}
+
+/* Sides that spans do not cover from end to end. */
+static void find_rims(fl_passes *s, making *q)
+{
+    const double nearly = 1e-9;
+    int32_t at = 0;
+    if (q->overs > 1) qsort(q->over, (size_t)q->overs, sizeof *q->over, along_it);
+    for (int32_t c = 0; c < q->p->first[q->p->nf]; c++) {
+        double covered = 0.0;
+        for (; at < q->overs && q->over[at].side == c; at++)
+            if (q->over[at].from <= covered + nearly) covered = fmax(covered, q->over[at].to);
+        s->rim[c] = covered < 1.0 - nearly;
+    }
 }
 
 int fl_passes_make(fl_passes *out, const fl_poly *p, const fl_bvh *tree, const fl_aabb *box, fl_err *err)
 {
     fl_passes s = {.tol = MEET * p->size, .same = SAME * p->size};
-    fl_passes_work k = {0};
-    double *met = fl_alloc(p->first[p->nf], sizeof *met, err);
+    making q = {.p = p, .tree = tree, .box = box};
     int rc = -1;
     s.begin = fl_alloc((int64_t)p->nf + 1, sizeof *s.begin, err);
     s.rim = fl_alloc(p->first[p->nf], sizeof *s.rim, err);
-    if (!met || !s.begin || !s.rim) goto done;
+    if (!s.begin || !s.rim) goto done;
     for (int32_t f = 0; f < p->nf; f++) {
         s.begin[f] = s.n;
-        if (passes_of(&s, &k, p, tree, box, f, met)) {
+        if (passes_of(&s, &q, f)) {
             fl_fail(err, FL_SYSTEM, "out of memory: where %d tiles meet", (int)p->nf);
             goto done;
         }
     }
     s.begin[p->nf] = s.n;
-    if (leave_corners(&s, &k, p, tree, box)) {
-        fl_fail(err, FL_SYSTEM, "out of memory: where %d tiles meet", (int)p->nf);
-        goto done;
-    }
-    for (int32_t f = 0; f < p->nf; f++) {
-        for (int32_t c = p->first[f]; c < p->first[f + 1]; c++) {
-            const double side = v3_norm(along(p, f, c));
-            s.rim[c] = (uint8_t) !(met[c] >= side * (1.0 - 1e-9) - s.same);
-        }
-    }
+    if (leave_corners(&s, &q.k, p, err)) goto done;
+    find_rims(&s, &q);
     rc = 0;
 done:
-    free(met);
-    fl_passes_work_free(&k);
+    free(q.over), free(q.end);
+    fl_passes_work_free(&q.k);
     if (rc) fl_passes_free(&s);
     else *out = s;
     return rc;

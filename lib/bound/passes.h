@@ -12,13 +12,16 @@
  * pieces being the number of connected parts of S within r of x.  A piece begins at a minimum of the distance
  * from x, and two become one at the pass between them, the lowest saddle of that distance: the walls of a
  * groove meet at its bottom.  Where one wall ends, its minimum and the pass coincide and what is added and
- * what is taken off cancel, to the first order; so W and the force, its gradient, are continuous wherever x
- * goes, whatever the surface is.  (W is a sum over the diagram of persistence of the distance, which moves by
- * no more than x does: Cohen-Steiner, Edelsbrunner and Harer, Discrete Comput Geom 37 (2007) 103.)  What
- * follows:
+ * what is taken off cancel, to the first order; so W is continuous wherever x goes in front of the surface,
+ * and the force, its gradient, but where two passes are alike.  (W is a sum over the diagram of persistence
+ * of the distance, which moves by no more than x does: Cohen-Steiner, Edelsbrunner and Harer, Discrete Comput
+ * Geom 37 (2007) 103.)  What follows:
  *   - one minimum, on all that is convex: Hertz' contact, exactly;
  *   - walls that meet farther away than R bear each for itself: in a corner of a box W = H + H + H;
- *   - how the surface is cut into tiles is nothing that it could know.
+ *   - how a surface is cut into tiles is nothing that it could know.
+ * A hollow that is meshed more coarsely than the ball overlaps it is a polyhedron, and more than one facet
+ * bears; sheets that lie behind one another, nearer than the overlap, bear each, and so do both sides of a
+ * gap that is wider than tol.  Where x is behind the surface the nearest point bears alone.
  * Tiles are convex, so the distance from x has one minimum in each, and the pieces are those of the graph of
  * tiles that are nearer than r and of segments where two of them meet: its minimum spanning forest has the
  * passes.  What stands behind a tile sees its rim alone. */

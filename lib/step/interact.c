@@ -48,6 +48,7 @@ typedef struct {
     fl_vec3 moment;    /* sum of F (p - at)                                       [N m] */
     double spread;     /* sum of F |p - at|^2; B's centre may be a thousand kilometres away [N m^2] */
     double slope;      /* dF/ds                                                   [N/m] */
+    int walls;         /* sums of walls, each of which rubs by itself */
 } pressure;
 
 /* arm: of the place, from q->at. */
@@ -75,7 +76,7 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl
     const fl_rubbing c = {.n = v3_unit(q->direction),
                           .k = law->tangential * q->slope,
                           .g = law->tangential * chi * q->elastic,
-                          .limit = law->friction * v3_norm(q->direction),
+                          .limit = law->friction * (q->walls ? q->normal : v3_norm(q->direction)),
                           .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0};
     const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n);
     const fl_rubbed t = fl_tangent_rub(p->slip, c, approach(b, p, ai, aj), wi - wj, 0.5 * (wi + wj), dt);
@@ -144,13 +145,15 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
         way = v3_madd(way, part, to);
         turn_i = v3_madd(turn_i, part, v3_cross(ai, to));
         turn_j = v3_madd(turn_j, part, v3_cross(aj, to));
-        closing -= part * v3_dot(to, approach(b, p, ai, aj));
+        if (q->du > 0.0) closing = fmax(closing, -v3_dot(to, approach(b, p, ai, aj)));
         p->energy += q->du * k * fl_normal_phi(q->overlap, n);
         p->overlap = fmax(p->overlap, q->overlap);
     }
-    const double mass = fl_pair_mass(w, p, way, turn_i, turn_j);
-    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass);
-    pressure all = {.at = at};
+    /* along the walls, which all together push less than each by itself */
+    const double less = s->n > 1 ? v3_norm2(way) : 1.0,
+                 mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
+    const double chi = damping_factor(p, closing, mass);
+    pressure all = {.at = at, .walls = s->n > 1};
     fl_stiff si = {0}, sj = {0};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_place *q = &s->place[c];

@@ -272,6 +272,7 @@ static void nothing_jumps(void **state)
                 const met now = look(&b, x, s % 7 == 0), anew = look(&b, x, 1);
                 assert_true(now.W == anew.W && now.F.x == anew.F.x && now.F.y == anew.F.y &&
                             now.F.z == anew.F.z);
+                if (b.w.n && b.w.place[0].overlap > 0.999 * R) break; /* its centre goes through a wall */
                 /* the mean of the slopes at both ends; where walls come and go slopes bend */
                 const double change = now.W - was.W, told = -0.5 * h * v3_dot(v3_add(now.F, was.F), way);
                 assert_true(fabs(change) <= h * fmax(now.steep, was.steep) * 1.0001 + 1e-16);
@@ -287,6 +288,62 @@ static void nothing_jumps(void **state)
         assert_true(1000 * wrong < seen); /* where passes are alike the force may bend at once */
         end(&b);
     }
+}
+
+/* A box on a box, flush with it, crossing it, or beside it: what lies on each other bears once. */
+static void tiles_on_each_other(void **state)
+{
+    (void)state;
+    static const double SHIFT[3][3] = {{0.8, 0.1, 0}, {0.8, 0.1, 0.3}, {1.0, 0, 0}};
+    for (int k = 0; k < 3; k++) {
+        bench b;
+        fl_part *p = part_of(&b);
+        for (int box = 0; box < 2; box++) {
+            const int32_t f[6][4] = {{0, 2, 3, 1}, {0, 1, 5, 4}, {2, 6, 7, 3},
+                                     {0, 4, 6, 2}, {1, 3, 7, 5}, {4, 5, 7, 6}};
+            const int32_t o = p->nv;
+            for (int v = 0; v < 8; v++)
+                vertex(p, (v & 1) + box * SHIFT[k][0], (v >> 1 & 1) + box * SHIFT[k][1],
+                       (v >> 2) - 1.0 + box * SHIFT[k][2]);
+            for (int s = 0; s < 6; s++) {
+                triangle(p, o + f[s][0], o + f[s][1], o + f[s][2]);
+                triangle(p, o + f[s][0], o + f[s][2], o + f[s][3]);
+            }
+        }
+        ready(&b);
+        for (int c = 0; c < 500; c++) {
+            fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
+            const double x = fl_rng_in(&g, 0.2, 1.6), z = fl_rng_in(&g, 0.01, 0.11);
+            const met m = look(&b, v3(x, 0.5, z + (k == 1 && x > 0.8 ? 0.3 : 0.0)), 1);
+            if (k == 1 && fabs(x - 0.8) < 1.1 * R) continue;
+            assert_near(m.W, hertz(z), 1e-9);
+        }
+        end(&b);
+    }
+}
+
+/* The tip of a cone of many triangles is made in the square of their number. */
+static void a_tip_of_many(void **state)
+{
+    (void)state;
+    bench b;
+    fl_part *p = part_of(&b);
+    const int n = 600;
+    const int32_t low = vertex(p, 0, 0, -1), high = vertex(p, 0, 0, 0);
+    for (int k = 0; k < n; k++) vertex(p, cos(2.0 * PI * k / n), sin(2.0 * PI * k / n), -0.4);
+    for (int k = 0; k < n; k++) {
+        const int32_t u = 2 + k, v = 2 + (k + 1) % n;
+        triangle(p, high, u, v);
+        triangle(p, low, v, u);
+    }
+    vertex(p, 3, 0, 0), vertex(p, 4, 0, 0), vertex(p, 3, 1, 0);
+    triangle(p, p->nv - 3, p->nv - 2, p->nv - 1); /* else it were a solid */
+    ready(&b);
+    assert_true(b.piece->shell.passes.n < 100 * n);
+    const met m = look(&b, v3(0, 0, 0.06), 1);
+    assert_int_equal(m.walls, 1);
+    assert_near(m.W, hertz(0.06), 1e-12);
+    end(&b);
 }
 
 /* What is convex is met once, and by its nearest point. */
@@ -314,7 +371,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_groove_fills_up),      cmocka_unit_test(corners_of_a_box),
         cmocka_unit_test(seams_are_not_there),    cmocka_unit_test(nothing_jumps),
-        cmocka_unit_test(once_on_what_is_convex),
+        cmocka_unit_test(once_on_what_is_convex), cmocka_unit_test(tiles_on_each_other),
+        cmocka_unit_test(a_tip_of_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

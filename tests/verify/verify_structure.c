@@ -368,22 +368,28 @@ static void cradle(void)
     verify_row("SH12", "  the same between two parts [m]", depth[1], want, 1e-6, VERIFY_REL);
 }
 
-/* A ball thrown into a groove whose walls rise by `bend`: energy after over before. */
-static double groove_throw(double bend, double fraction)
+/* A groove whose walls rise by `bend`, along y, and a ball over it. */
+static void groove(lab *l, double bend, fl_vec3 x, fl_vec3 v, fl_vec3 spin)
 {
-    lab l;
     fl_err err = {0};
-    lab_start(&l);
-    lab_sphere(&l, v3(0.02, 0, 0.25), 0.1, v3(-0.1, 0.3, -1), v3(3, 1, 2));
-    if (fl_surface_add(&l.surface, "groove", 6, &err) < 0) exit(1);
-    fl_part *p = &l.surface.part[0];
+    lab_sphere(l, x, 0.1, v, spin);
+    if (fl_surface_add(&l->surface, "groove", 6, &err) < 0) exit(1);
+    fl_part *p = &l->surface.part[0];
     for (int k = 0; k < 6; k++) {
-        const double x = k % 3 - 1.0, y = k < 3 ? -1.0 : 1.0;
-        if (fl_surface_vertex(p, v3(x, y, fabs(x) * tan(bend)), &err)) exit(1);
+        const double side = k % 3 - 1.0, y = k < 3 ? -1.0 : 1.0;
+        if (fl_surface_vertex(p, v3(side, y, fabs(side) * tan(bend)), &err)) exit(1);
     }
     for (int k = 0; k < 2; k++)
         if (fl_surface_triangle(p, k, k + 1, k + 4, &err) || fl_surface_triangle(p, k, k + 4, k + 3, &err))
             exit(1);
+}
+
+/* A ball thrown into it: energy after over before. */
+static double groove_throw(double bend, double fraction)
+{
+    lab l;
+    lab_start(&l);
+    groove(&l, bend, v3(0.02, 0, 0.25), v3(-0.1, 0.3, -1), v3(3, 1, 2));
     lab_make(&l, 0.0);
     l.w.dt *= fraction;
     const double before = lab_energy(&l);
@@ -392,6 +398,42 @@ static double groove_throw(double bend, double fraction)
     if (!(l.w.b.v[0].z > 0.1)) exit(1); /* it missed */
     lab_free(&l);
     return after / before;
+}
+
+/* A ball that falls straight into it comes out with the restitution, and one that slides along it is held by
+ * the friction of both walls, each pressed by half of m g/cos. */
+static void groove_losses(void)
+{
+    static const double BEND[] = {0.2, 0.8, 1.3};
+    for (size_t k = 0; k < sizeof BEND / sizeof *BEND; k++) {
+        char what[96];
+        lab l;
+        const double deep = 0.1 / cos(BEND[k]);
+        lab_start(&l);
+        lab_set(&l, "contact.restitution=0.5");
+        groove(&l, BEND[k], v3(0, 0, deep + 0.005), v3(0, 0, -1), ZERO);
+        lab_make(&l, 0.0);
+        l.w.dt *= 0.1;
+        for (double t = 0.0; t < 0.5 && !(l.w.b.v[0].z > 0.0 && l.w.b.x[0].z > deep); t += l.w.dt)
+            lab_run(&l, 1);
+        snprintf(what, sizeof what, "ball straight into a groove of %g rad: restitution", 2.0 * BEND[k]);
+        verify_row("SH12", what, l.w.b.v[0].z, 0.5, 1e-3, VERIFY_ABS);
+        lab_free(&l);
+
+        lab_start(&l);
+        lab_set(&l, "run.gravity=9.81");
+        lab_set(&l, "contact.friction=0.1");
+        lab_set(&l, "contact.restitution=0.1");
+        groove(&l, BEND[k], v3(0, -0.5, deep), v3(0, 4, 0), ZERO);
+        lab_make(&l, 0.0);
+        lab_run(&l, (int64_t)(0.1 / l.w.dt));
+        const double v0 = l.w.b.v[0].y, t0 = fl_world_time(&l.w);
+        lab_run(&l, (int64_t)(0.05 / l.w.dt));
+        const double slow = (v0 - l.w.b.v[0].y) / (fl_world_time(&l.w) - t0);
+        snprintf(what, sizeof what, "  along it: what slows it down over mu g/cos");
+        verify_row("SH12", what, slow / (0.1 * 9.81 / cos(BEND[k])), 1.0, 0.02, VERIFY_ABS);
+        lab_free(&l);
+    }
 }
 
 static void grooves(void)
@@ -498,6 +540,7 @@ int main(void)
     impacts();
     cradle();
     grooves();
+    groove_losses();
     hull();
     return verify_end();
 }
