@@ -128,48 +128,80 @@ static double damping_factor(fl_pair *p, double now, double mass)
     return fl_damping_chi(p->law->chi, p->law->rest, p->touch, p->energy, mass);
 }
 
+/* A place of a round thing in world axes. */
+typedef struct {
+    fl_vec3 n, ai, aj; /* ai, aj: from the centres of A and B    */
+    double closing;    /* speed of approach along n        [m/s] */
+    double part;       /* phi'(s), with the sign of the place    */
+} spot;
+
+static spot spot_of(const fl_bodies *b, const fl_pair *p, const fl_place *q, const fl_stance *r)
+{
+    spot t = {.n = m3_mul(r->R, q->n), .aj = m3_mul(r->R, q->p)};
+    t.ai = v3_add(t.aj, r->off);
+    t.closing = -v3_dot(t.n, approach(b, p, t.ai, t.aj));
+    t.part = q->du * fl_normal_power(q->overlap, p->exponent);
+    return t;
+}
+
+/* The same of places that push along their normals; passes take nothing off. */
+static void stiffen_points(const fl_world *w, fl_pair *p, const fl_places *s, const pressure *all,
+                           const fl_stance *r)
+{
+    fl_stiff si = {0}, sj = {0};
+    for (int32_t c = 0; c < s->n; c++) {
+        const fl_place *q = &s->place[c];
+        const spot t = spot_of(&w->b, p, q, r);
+        const double slope = p->k * fl_normal_slope(q->overlap, p->exponent);
+        if (q->du < 0.0) continue;
+        fl_stiff_add(&si, &w->b, p->i, slope, t.n, v3_cross(t.ai, t.n));
+        fl_stiff_add(&sj, &w->b, p->j, slope, t.n, v3_cross(t.aj, t.n));
+    }
+    stiffen(w, p, all, r, &si, &sj);
+}
+
 /* The places of a round thing or of `core`: W = k sum of phi(s), most often of one. */
 static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, double dt,
                         int survey)
 {
     const fl_bodies *b = &w->b;
-    const fl_vec3 at = m3_mul(r->R, s->place[0].p);
-    const double k = p->k, n = p->exponent;
-    fl_vec3 way = v3(0, 0, 0), turn_i = way, turn_j = way; /* of the force, its size being 1 at one place */
-    double sum = 0.0, closing = 0.0;
-    for (int32_t c = 0; c < s->n; c++) sum += s->place[c].du * fl_normal_power(s->place[c].overlap, n);
-    for (int32_t c = 0; c < s->n; c++) {
-        const fl_place *q = &s->place[c];
-        const fl_vec3 to = m3_mul(r->R, q->n), aj = m3_mul(r->R, q->p), ai = v3_add(aj, r->off);
-        const double part = q->du * fl_normal_power(q->overlap, n) / sum;
-        way = v3_madd(way, part, to);
-        turn_i = v3_madd(turn_i, part, v3_cross(ai, to));
-        turn_j = v3_madd(turn_j, part, v3_cross(aj, to));
-        if (q->du > 0.0) closing = fmax(closing, -v3_dot(to, approach(b, p, ai, aj)));
-        p->energy += q->du * k * fl_normal_phi(q->overlap, n);
-        p->overlap = fmax(p->overlap, q->overlap);
+    const double k = p->k;
+    const spot first = spot_of(b, p, &s->place[0], r);
+    fl_vec3 way = first.n, turn_i = v3_cross(first.ai, first.n), turn_j = v3_cross(first.aj, first.n);
+    double closing = first.closing, less = 1.0;
+    p->overlap = s->place[0].overlap;
+    p->energy = k * fl_normal_phi(p->overlap, p->exponent);
+    if (s->n > 1) { /* of the force of all, which is less than that of each by itself */
+        double sum = first.part;
+        way = v3_scale(sum, way), turn_i = v3_scale(sum, turn_i), turn_j = v3_scale(sum, turn_j);
+        for (int32_t c = 1; c < s->n; c++) {
+            const fl_place *q = &s->place[c];
+            const spot t = spot_of(b, p, q, r);
+            sum += t.part;
+            way = v3_madd(way, t.part, t.n);
+            turn_i = v3_madd(turn_i, t.part, v3_cross(t.ai, t.n));
+            turn_j = v3_madd(turn_j, t.part, v3_cross(t.aj, t.n));
+            if (q->du > 0.0 && t.closing > closing) closing = t.closing;
+            p->energy += q->du * k * fl_normal_phi(q->overlap, p->exponent);
+            p->overlap = fmax(p->overlap, q->overlap);
+        }
+        less = v3_norm2(way) / (sum * sum);
     }
-    /* along the walls, which all together push less than each by itself */
-    const double less = s->n > 1 ? v3_norm2(way) : 1.0,
-                 mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
-    const double chi = damping_factor(p, closing, mass);
-    pressure all = {.at = at, .walls = s->n > 1};
-    fl_stiff si = {0}, sj = {0};
+    const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
+    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass);
+    pressure all = {.at = first.aj, .walls = s->n > 1};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_place *q = &s->place[c];
-        const fl_vec3 to = m3_mul(r->R, q->n), aj = m3_mul(r->R, q->p), ai = v3_add(aj, r->off);
-        const double elastic = k * fl_normal_power(q->overlap, n), slope = k * fl_normal_slope(q->overlap, n),
-                     normal = fl_normal_damped(elastic, chi, -v3_dot(to, approach(b, p, ai, aj)));
-        add_wrench(&p->f, &p->ti, &p->tj, v3_scale(q->du * normal, to), ai, aj);
-        add_wrench(&p->fd, &p->di, &p->dj, v3_scale(q->du * (normal - elastic), to), ai, aj);
-        press(&all, q->du * elastic, q->du * normal, to, v3_sub(aj, at));
-        all.slope += q->du * slope;
-        if (!survey || q->du < 0.0) continue;
-        fl_stiff_add(&si, b, p->i, slope, to, v3_cross(ai, to));
-        fl_stiff_add(&sj, b, p->j, slope, to, v3_cross(aj, to));
+        const spot t = c ? spot_of(b, p, q, r) : first;
+        const double elastic = k * t.part, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
+                     normal = q->du * fl_normal_damped(fabs(elastic), chi, t.closing);
+        add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, t.n), t.ai, t.aj);
+        add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, t.n), t.ai, t.aj);
+        press(&all, elastic, normal, t.n, v3_sub(t.aj, first.aj));
+        all.slope += slope;
     }
     rub(w, p, &all, chi, r, dt);
-    if (survey) stiffen(w, p, &all, r, &si, &sj);
+    if (survey) stiffen_points(w, p, s, &all, r);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note(w, p, s, p->k, chi);
     return p->n = 1;
