@@ -253,8 +253,10 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     if (behind) { /* what is farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
         if (nothing_near(w, near, a, &b->shell, ra, &beside)) return -1;
-        if (beside == ra) w->n = 0;
-        if (beside == ra) return nothing_near(w, near, a, &b->shell, reach, distance);
+        if (beside == ra) {
+            w->n = 0;
+            return nothing_near(w, near, a, &b->shell, reach, distance);
+        }
     }
     if (single) return w->n ? 0 : nothing_near(w, near, a, &b->shell, reach, distance);
     fl_matches rest;
