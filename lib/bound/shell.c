@@ -5,9 +5,11 @@
 
 /* Two distances within this fraction of the size are one: rounding of the coordinates. */
 #define SAME 1e-12
-/* A point is on an edge where it is within this fraction of the size: straight runs of edges are as straight
- * as that (structure.c). */
+/* A point is on an edge or a face where it is within this fraction of the size: straight runs of edges are as
+ * straight, and corners of faces as far from their planes, as that (structure.c). */
 #define ON_EDGE 2e-6
+/* Where the way to a face is upright to it but for that cosine, no other tells the side. */
+#define UPRIGHT (1.0 - 1e-9)
 
 /* The point lies where the surface ends. */
 static int on_rim(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
@@ -45,11 +47,27 @@ static inline void look_at(finding *b, const fl_poly *p, int32_t f, fl_vec3 x)
     if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
 }
 
+/* How far x is in front of the surface: of the faces that meet in the nearest point the one that it is most in
+ * front of tells.  Seen from that point, which an edge has where the plane of a face may pass it by. */
+static double in_front(const finding *b, const fl_poly *p, const fl_shell *sh, fl_vec3 x)
+{
+    const fl_vec3 r = v3_sub(x, b->at.p);
+    const double same = ON_EDGE * p->size;
+    double most = v3_dot(p->n[b->of], r);
+    if (fabs(most) > UPRIGHT * b->at.d) return most;
+    fl_bvh_walk at = fl_bvh_about(&sh->tree, sh->box, b->at.p);
+    for (int32_t f; (f = fl_bvh_next(&at, same)) >= 0;) {
+        const double s = v3_dot(p->n[f], r);
+        if (fabs(s) > fabs(most) && fl_nearest_face(p, f, b->at.p).d <= same) most = s;
+    }
+    return most;
+}
+
 /* With its sign: what is nearest to a rim is beside the surface, not behind it. */
-static fl_nearest sided(const finding *b, const fl_poly *p, const fl_shell *sh)
+static fl_nearest sided(const finding *b, const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 {
     fl_nearest q = b->at;
-    if (b->front < 0.0 && !on_rim(p, sh, q.p)) {
+    if (in_front(b, p, sh, x) < 0.0 && !on_rim(p, sh, q.p)) {
         q.d = -q.d;
         q.n = v3_neg(q.n);
     }
@@ -73,7 +91,7 @@ static finding nearest(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 static fl_nearest nearest_to(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 {
     const finding b = nearest(p, sh, x);
-    return sided(&b, p, sh);
+    return sided(&b, p, sh, x);
 }
 
 /* Is x behind the surface, or may it come there when it moves by the margin?  Not when it is farther off than
@@ -202,7 +220,8 @@ static void leave_near(fl_reach *r, const fl_side *A, const fl_side *B, double f
 static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, const fl_side *B,
                         const fl_shell *shell, double ra, double reach, int single, fl_matches *l)
 {
-    const double margin = fl_matches_margin(l, ra), same = SAME * (A->p->size + B->p->size);
+    const double margin = fl_matches_margin(l, ra), same = SAME * (A->p->size + B->p->size),
+                 shy = margin + ON_EDGE * B->p->size;
     fl_reach *walls = &near->of_shell, *all = &near->of_core;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
@@ -211,7 +230,7 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
     l->shies = 0;
     if (fl_room(&l->shy, &l->shy_cap, A->p->nv, sizeof *l->shy)) return -1;
     for (int32_t v = 0; v < A->p->nv && !l->far; v++)
-        if (single || may_come_behind(B->p, shell, w->va[v], margin + same)) l->shy[l->shies++] = v;
+        if (single || may_come_behind(B->p, shell, w->va[v], shy)) l->shy[l->shies++] = v;
     leave_near(walls, A, B, ra + margin + same);
     return whole(all, A->p) || fl_matches_list(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_footing_list(l, A, B)
@@ -312,7 +331,7 @@ int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double 
     if (!fl_matches_hold(l, &w->M, w->o) && list_point(w, near, b, ra, l, distance)) return -1;
     if (l->shies == 0) return 0;
     for (int32_t c = 0; c < l->shies; c++) look_at(&best, core, l->shy[c], x);
-    const fl_nearest q = sided(&best, core, sh);
+    const fl_nearest q = sided(&best, core, sh, x);
     *distance = best.least;
     if (best.least >= ra) return 0; /* also from behind */
     return l->lone ? fl_places_point(w, x, q.n, ra - q.d, ra)
