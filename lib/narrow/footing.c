@@ -393,8 +393,9 @@ static int faces_apart(const work *q, const tile *tiles)
 static int edges_apart(const work *q, int32_t pieces)
 {
     for (int32_t k = 0; k < pieces; k++) {
+        double most = 0.0;
         fl_tread_sums own = {.u = {0}};
-        fl_tread_pieces(&q->g, &q->room->piece[k], 1, &own);
+        fl_tread_pieces(&q->g, &q->room->piece[k], 1, &own, &most);
         if (add_share(q, &own, 2)) return -1;
     }
     return 0;
@@ -403,8 +404,9 @@ static int edges_apart(const work *q, int32_t pieces)
 static int corners_apart(const work *q, const point *p, const int32_t *list, int32_t n)
 {
     for (int32_t k = 0; k < n; k++) {
+        double most = 0.0;
         fl_tread_sums own = {.u = {0}};
-        fl_tread_corners(&q->g, p, &list[k], 1, &own);
+        fl_tread_corners(&q->g, p, &list[k], 1, &own, &most);
         if (add_share(q, &own, 1)) return -1;
     }
     return 0;
@@ -512,7 +514,7 @@ static int edges_under(work *q, const strip *e, const int32_t *end, int32_t n)
     if (fl_tread_sort_edges(&q->g, e, end, n, q->room->piece, &pieces, is))
         for (int32_t k = 0; k < n; k++)
             if (is[k] & FL_TREAD_LEFT) leave(q, e[k].match);
-    if (pieces) fl_tread_pieces(&q->g, q->room->piece, pieces, &q->sum);
+    if (pieces) fl_tread_pieces(&q->g, q->room->piece, pieces, &q->sum, &q->most);
     return q->w->apart ? edges_apart(q, pieces) : 0;
 }
 
@@ -526,7 +528,7 @@ static int corners_under(work *q, const point *p, int32_t n)
         if (!(fabs(v.clear) > near && v.h >= 0.0)) leave(q, p[k].match);
         else if (v.clear > 0.0 && v.h < g->R) list[some++] = k;
     }
-    if (some) fl_tread_corners(g, p, list, some, &q->sum);
+    if (some) fl_tread_corners(g, p, list, some, &q->sum, &q->most);
     return q->w->apart ? corners_apart(q, p, list, some) : 0;
 }
 

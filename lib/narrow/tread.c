@@ -730,11 +730,12 @@ FL_WIDE_VERSIONS void fl_tread_parts(const fl_tread *g, const fl_tread_tile *til
 /* The place along the edge is linear in that along the length, so that three sums have the moments; that of
  * s^5 is the one of u. */
 FL_WIDE_VERSIONS void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *piece, int32_t count,
-                                      fl_tread_sums *sum)
+                                      fl_tread_sums *sum, double *most)
 {
     const fl_wide zero = {0};
     const double R = g->R;
     fl_tread_sums all = *sum;
+    fl_wide top = *most + zero;
     for (int32_t from = 0; from < count; from += FL_LANES) {
         const fl_tread_piece *e[FL_LANES];
         fl_wide v0[FL_LANES], v1[FL_LANES], it[FL_LANES];
@@ -748,6 +749,7 @@ FL_WIDE_VERSIONS void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *p
         const fl_wide factor = FL_WIDE_WHERE(BEFORE(count - from), it[1]), lo = it[2], hi = it[3];
         const fl_wide h = v0[H], dh = v1[H] - h, s0 = R - (h + lo * dh), s1 = R - (h + hi * dh);
         fl_wide p = LARGER(s0, zero), q = LARGER(s1, zero);
+        top = LARGER(LARGER(p, q), top);
         FL_WIDE_UNROLL
         for (int l = 0; l < FL_LANES; l++) p[l] = sqrt(p[l]);
         FL_WIDE_UNROLL
@@ -766,12 +768,14 @@ FL_WIDE_VERSIONS void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *p
         all.xx += fx * x + gx * dx, all.xy += fx * y + gx * dy, all.yy += fy * y + gy * dy;
     }
     *sum = all;
+    for (int l = 0; l < FL_LANES; l++) *most = top[l] > *most ? top[l] : *most;
 }
 
 FL_WIDE_VERSIONS void fl_tread_corners(const fl_tread *g, const fl_tread_corner *corner, const int32_t *list,
-                                       int32_t count, fl_tread_sums *sum)
+                                       int32_t count, fl_tread_sums *sum, double *most)
 {
     fl_tread_sums all = *sum;
+    fl_wide top = *most + (fl_wide){0};
     for (int32_t from = 0; from < count; from += FL_LANES) {
         const fl_tread_corner *c[FL_LANES];
         fl_wide v[FL_LANES];
@@ -785,9 +789,11 @@ FL_WIDE_VERSIONS void fl_tread_corners(const fl_tread *g, const fl_tread_corner 
         const fl_wide factor = FL_WIDE_WHERE(BEFORE(count - from), each);
         const fl_wide s = g->R - v[H], s3 = factor * (s * s * s), f = 5.0 * s3 * s;
         const fl_wide fx = f * v[X], fy = f * v[Y];
+        top = LARGER(s, top);
         all.u += s3 * s * s, all.du += f, all.ddu += 20.0 * s3;
         all.f += f, all.s += f * s, all.x += fx, all.y += fy;
         all.xx += fx * v[X], all.xy += fx * v[Y], all.yy += fy * v[Y];
     }
     *sum = all;
+    for (int l = 0; l < FL_LANES; l++) *most = top[l] > *most ? top[l] : *most;
 }

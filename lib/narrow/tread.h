@@ -118,10 +118,11 @@ void fl_tread_parts(const fl_tread *g, const fl_tread_tile *tile, const int32_t 
                     fl_tread_pull *pull, double *most);
 
 /* Parts of edges. */
-void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *piece, int32_t count, fl_tread_sums *sum);
+void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *piece, int32_t count, fl_tread_sums *sum,
+                     double *most);
 
 /* Corners corner[list[k]], with s > 0. */
 void fl_tread_corners(const fl_tread *g, const fl_tread_corner *corner, const int32_t *list, int32_t count,
-                      fl_tread_sums *sum);
+                      fl_tread_sums *sum, double *most);
 
 #endif
