@@ -47,8 +47,8 @@ static inline void look_at(finding *b, const fl_poly *p, int32_t f, fl_vec3 x)
     if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
 }
 
-/* How far x is in front of the surface: of the faces that meet in the nearest point the one that it is most in
- * front of tells.  Seen from that point, which an edge has where the plane of a face may pass it by. */
+/* How far x is in front of the surface: of the faces that meet in the nearest point the one that it is most
+ * in front of tells, seen from that point, since the plane of a face may pass its corners by. */
 static double in_front(const finding *b, const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 {
     const fl_vec3 r = v3_sub(x, b->at.p);
