@@ -12,6 +12,9 @@
 #include "step/stiff.h"
 #include "step/told.h"
 
+/* Overlaps below that much of the coordinates they come from are rounding, and have no stiffness. */
+#define ROUNDING 3e-14
+
 /* Whether looks at contacts that are told ask in this step how stiff they are: one step in four, in no rhythm
  * that looks might have. */
 static int asks(const fl_world *w) { return (uint32_t)w->step * UINT32_C(2654435761) >> 30 == 0; }
@@ -291,7 +294,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     fl_bearing q;
     if (fl_bearing_sum(s, m3_tmul(R, approach(b, p, ai, aj)), m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j])), &q))
         return -1;
-    if (!(q.u > 0.0)) return 0;
+    if (!(q.u > 0.0 && q.overlap > ROUNDING * (v3_norm(r->o) + b->bound[p->i]))) return 0;
     fl_seen seen = seen_of(p, s, r, &q);
     p->overlap = q.overlap;
     p->energy = seen.energy;

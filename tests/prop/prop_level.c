@@ -104,8 +104,34 @@ static void rounding_turns_no_force(void **state)
     }
 }
 
+/* Neighbours that were cut apart overlap by a rounding here and there: that is no contact, or one as stiff as
+ * its area makes it. */
+static void a_rounding_has_no_stiffness(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 1300; k++) {
+        fl_rng g = fl_rng_of(9, k, FL_RNG_TEST);
+        const double a = fl_rng_in(&g, 0.3, 3), overlap = 4e-15 * a * pow(2.0, k % 13);
+        const fl_quat q = shape_rotation(&g);
+        const fl_vec3 x = v3(fl_rng_in(&g, -500, 500), fl_rng_in(&g, -500, 500), 0), half = v3(a, a, a),
+                      none = v3(0, 0, 0);
+        lab l;
+        lab_start(&l);
+        lab_box(&l, x, half, 0.05, q, none, none);
+        lab_box(&l, v3_add(x, q_rotate(q, v3(2 * a - overlap, 0.1 * a, 0.2 * a))), half, 0.05, q, none, none);
+        lab_make(&l, 1e-9);
+        const fl_pair p = lab_look(&l.w, 0, 1);
+        const double stiff = l.w.b.m[0] / (l.w.dt_critical * l.w.dt_critical);
+        assert_true(isfinite(v3_norm(p.f)) && isfinite(v3_norm(p.ti)));
+        if (p.n) assert_true(stiff > 0.4e9 * a && stiff < 1.6e9 * a);
+        else assert_true(overlap < 1e-12 * a);
+        lab_free(&l);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rounding_turns_no_force)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rounding_turns_no_force),
+                                       cmocka_unit_test(a_rounding_has_no_stiffness)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
