@@ -101,6 +101,7 @@ int fl_text_line(fl_text *t, fl_err *err)
         }
     }
     if (!whole) t->line = t->own;
+    if (t->number == 1 && t->len >= 3 && memcmp(t->line, "\xEF\xBB\xBF", 3) == 0) t->line += 3, t->len -= 3;
     if (t->len && t->line[t->len - 1] == '\r') t->len--;
     t->line[t->len] = '\0';
     if (zero) return fl_text_fail(t, err, "a zero byte: this is not a text file");

@@ -36,7 +36,7 @@ int fl_text_open_bytes(fl_text *t, const char *name, const void *data, int64_t n
  * FL_INPUT in err otherwise; a newer file and a file of another kind are named as such. */
 int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err);
 
-/* Next line whole, without its end (\n or \r\n), comments and blank lines included.
+/* Next line whole, without its end (\n or \r\n) and byte order mark, comments and blank lines included.
  * 1, or 0 at the end of the file, or -1 with err (too long, a nul byte, read error). */
 int fl_text_line(fl_text *t, fl_err *err);
 

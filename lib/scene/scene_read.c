@@ -242,7 +242,6 @@ static char *next_line(char *buf, int size, void *stream)
     for (;;) {
         if (in->err->code || fl_text_line(&in->text, in->err) <= 0) return NULL;
         line = in->text.line;
-        if (in->text.number == 1 && strncmp(line, "\xEF\xBB\xBF", 3) == 0) line += 3;
         if (in->text.number == 1 && sscanf(line, "#scene %d", &version) == 1 && version > SCENE_VERSION) {
             complain(in, "scene version %d is newer than this program, which reads up to %d", version,
                      SCENE_VERSION);

@@ -46,16 +46,25 @@ static int join_history(char **out, const char *a, const char *b, fl_err *err)
     return 0;
 }
 
-static int write_report(struct run *r, fl_err *err)
+/* A run of hours whose report or checkpoint cannot be written is to end before it begins. */
+static int open_report(const struct run *r, fl_out *report, fl_err *err)
 {
-    fl_out out = {0};
+    fl_out checkpoint = {0};
+    if (r->scene->output.checkpoint[0]) {
+        if (fl_out_open(&checkpoint, r->scene->output.checkpoint, 0, err)) return -1;
+        fl_out_abort(&checkpoint);
+    }
+    return r->o->report ? fl_out_open(report, r->o->report, 0, err) : 0;
+}
+
+static int write_report(const struct run *r, fl_out *report, fl_err *err)
+{
     if (!r->o->report) {
         if (!r->o->quiet) report_write(r, stderr);
         return 0;
     }
-    if (fl_out_open(&out, r->o->report, 0, err)) return -1;
-    report_write(r, out.f);
-    return fl_out_close(&out, err);
+    report_write(r, report->f);
+    return fl_out_close(report, err);
 }
 
 /* What was asked for, with everything read. */
@@ -70,8 +79,10 @@ static int act(struct run *r, fl_err *err)
         }
         return fl_out_close(&out, err);
     }
+    if (open_report(r, &out, err)) return -1;
     const int rc = run_scene(r, err);
-    if (err->code != FL_SYSTEM && write_report(r, err)) return -1;
+    if (err->code != FL_SYSTEM && write_report(r, &out, err)) return -1;
+    fl_out_abort(&out);
     return rc;
 }
 
@@ -192,7 +203,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                  loads ? loads->text : "-");
         r.out = path;
     }
-    if (targets_check(&in.scene, o, err)) goto done;
+    if (targets_check(&in.scene, o, r.out, err)) goto done;
     run_step_size(&r);
     if (run_countable(&r, err)) goto done;
     if (!o->quiet && world.frozen.n) report_bonds(&world, stderr);

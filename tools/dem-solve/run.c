@@ -453,7 +453,7 @@ static void warn_overlaps(const struct run *r)
         if (!w->pair[c].n || !w->pair[c].deep) continue;
         if (!found++) first = c;
     }
-    if (!found || r->o->quiet) return;
+    if (!found) return;
     fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
             found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
     fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[w->pair[first].i],
@@ -464,7 +464,7 @@ static void warn_overlaps(const struct run *r)
 static void warn_hulls(const struct run *r)
 {
     const fl_world *w = r->w;
-    for (int32_t k = 0; k < w->ride.m.n && !r->o->quiet; k++) {
+    for (int32_t k = 0; k < w->ride.m.n; k++) {
         const fl_flotation *f = &w->ride.afloat[k];
         const fl_motion *m = &w->ride.m.motion[k];
         const double water = w->scene->water.density * f->volume, size = cbrt(f->volume);
@@ -509,7 +509,7 @@ static void warn_waves(const struct run *r)
 {
     const fl_scene_water *s = &r->scene->water;
     double breaking;
-    if (!r->w->sea.waves || r->o->quiet) return;
+    if (!r->w->sea.waves) return;
     const double steep = fl_wave_steepness(s->height, s->period, s->depth, r->w->sea.wave.gravity, &breaking);
     if (steep > breaking)
         fprintf(stderr,

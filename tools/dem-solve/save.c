@@ -18,10 +18,20 @@ static const char *const TABLE[TABLES] = {"loads",  "state",  "energy", "contact
 /* Keys that may be changed under way: none of them bears on a step or a row, but for the first two, which
  * give the run another step from here on. */
 enum { STEP_KEYS = 2 };
-static const char *const FREE_KEY[] = {
-    "run.dt",        "run.safety",        "run.duration",           "run.threads",
-    "output.state",  "output.energy",     "output.contacts",        "output.hash",
-    "output.frames", "output.checkpoint", "output.checkpoint_every"};
+static const char *const FREE_KEY[] = {"run.dt",
+                                       "run.safety",
+                                       "run.duration",
+                                       "run.threads",
+                                       "output.state",
+                                       "output.energy",
+                                       "output.contacts",
+                                       "output.hash",
+                                       "output.panels",
+                                       "output.events",
+                                       "output.bonds",
+                                       "output.frames",
+                                       "output.checkpoint",
+                                       "output.checkpoint_every"};
 
 /* --- write ------------------------------------------------------------------------------------- */
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "base/mem.h"
 #include "base/stream.h"
+#include "base/clobber.h"
 #include "stat/resample.h"
 #include "hitrows.h"
 #include "options.h"
@@ -105,11 +106,23 @@ done:
     return rc;
 }
 
+static int check_targets(const struct options *o, fl_err *err)
+{
+    const fl_target out[] = {{"--output", o->out}, {"--report", o->report}};
+    fl_target *in = fl_alloc(o->files, sizeof *in, err);
+    if (!in) return -1;
+    for (int k = 0; k < o->files; k++) in[k].path = o->file[k];
+    const int rc = fl_clobber_check(out, sizeof out / sizeof *out, in, (size_t)o->files, err);
+    free(in);
+    return rc;
+}
+
 int main(int argc, char **argv)
 {
     struct options o;
     fl_err err = {0};
     int rc = options_parse(&o, argc, argv, &err);
+    if (rc == 0 && !o.ended) rc = check_targets(&o, &err);
     if (rc == 0 && !o.ended)
         rc = hitrows_wanted(&o)   ? hitrows_run(&o, &err)
              : sumrows_wanted(&o) ? sumrows_run(&o, &err)

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "base/stream.h"
+#include "base/clobber.h"
 #include "geom/facet.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
@@ -141,11 +142,20 @@ static int judge(const fl_surface *s, const struct mended *m, fl_err *err)
     return 0;
 }
 
+static int check_targets(const struct options *o, fl_err *err)
+{
+    const fl_target out = {"--output", o->out};
+    for (int32_t k = 0; k < o->items; k++)
+        if (fl_clobber_check(&out, 1, &(fl_target){.path = o->item[k].path}, 1, err)) return -1;
+    return 0;
+}
+
 static int run(const struct options *o, fl_err *err)
 {
     fl_surface s = {0};
     struct mended *m = NULL;
     int rc = -1;
+    if (check_targets(o, err)) return -1;
     if (o->threads) omp_set_num_threads(o->threads);
     if (collect(o, &s, err)) goto done;
     m = fl_alloc(s.n, sizeof *m, err);

@@ -7,6 +7,7 @@
 #include "base/par.h"
 #include "base/rng.h"
 #include "base/stream.h"
+#include "base/clobber.h"
 #include "base/tool.h"
 #include "ice/cells.h"
 #include "ice/certificate.h"
@@ -547,12 +548,24 @@ static void certify_rafts(const struct options *o, const struct field *a, struct
                 raft_depth(o->layers, o->thickness, a->depth.ratio), NO_DISTANCE, 6, NULL);
 }
 
+static int check_targets(const struct options *o, fl_err *err)
+{
+    const fl_target out[] = {{"--output", o->out}, {"--certificate", o->certificate}};
+    fl_target in[4 + KEEP_OUT_MAX] = {{.path = o->thickness_law},
+                                      {.path = o->sizes_file ? o->sizes : NULL},
+                                      {.path = o->outline},
+                                      {.path = o->grade_file}};
+    for (int k = 0; k < o->structures; k++) in[4 + k].path = o->structure[k];
+    return fl_clobber_check(out, sizeof out / sizeof *out, in, sizeof in / sizeof *in, err);
+}
+
 static int run(struct options *o, fl_err *err)
 {
     struct certify table = {0};
     struct field *a;
     fl_by by;
     int rc = -1;
+    if (check_targets(o, err)) return -1;
     if (o->threads) omp_set_num_threads(o->threads);
     if (o->lattice >= 0) return sheet_run(o, err);
     a = fl_alloc(o->layers, sizeof *a, err);

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/clobber.h"
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH_LONG = 4096 };
+
+/* A regular file; one that is not there yet by its folder and its name in it. */
+typedef struct {
+    dev_t device;
+    ino_t inode;
+    char name[256];
+} place;
+
+static int place_of(const char *path, int stream, place *p)
+{
+    struct stat at;
+    *p = (place){.name = ""};
+    if (!path || !path[0]) return 0;
+    if (strcmp(path, "-") == 0) {
+        if (fstat(stream, &at) || !S_ISREG(at.st_mode)) return 0;
+    } else if (stat(path, &at) == 0) {
+        if (!S_ISREG(at.st_mode)) return 0;
+    } else {
+        char folder[PATH_LONG];
+        const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+        const int n = slash ? (int)(slash - path) + 1 : 1;
+        if (n >= PATH_LONG || strlen(name) >= sizeof p->name) return 0;
+        snprintf(folder, sizeof folder, "%.*s", n, slash ? path : ".");
+        if (stat(folder, &at)) return 0;
+        strcpy(p->name, name);
+    }
+    p->device = at.st_dev, p->inode = at.st_ino;
+    return 1;
+}
+
+static int same(const place *a, const place *b)
+{
+    return a->device == b->device && a->inode == b->inode && strcmp(a->name, b->name) == 0;
+}
+
+int fl_same_file(const char *a, const char *b)
+{
+    place p, q;
+    return place_of(a, STDOUT_FILENO, &p) && place_of(b, STDOUT_FILENO, &q) && same(&p, &q);
+}
+
+int fl_clobber_check(const fl_target *out, size_t outs, const fl_target *in, size_t ins, fl_err *err)
+{
+    place p, q;
+    for (size_t k = 0; k < outs; k++) {
+        if (!place_of(out[k].path, STDOUT_FILENO, &p)) continue;
+        for (size_t i = 0; i < ins; i++)
+            if (place_of(in[i].path, STDIN_FILENO, &q) && same(&p, &q))
+                return fl_fail(err, FL_USAGE, "%s is \"%.200s\", which is an input, %.200s", out[k].what,
+                               out[k].path, in[i].path);
+        for (size_t i = 0; i < k; i++)
+            if (place_of(out[i].path, STDOUT_FILENO, &q) && same(&p, &q))
+                return fl_fail(err, FL_USAGE, "%s is \"%.200s\", which is %s already", out[k].what,
+                               out[k].path, out[i].what);
+    }
+    return 0;
+}
