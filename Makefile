@@ -91,7 +91,7 @@ install: all
 	install -m 644 $(wildcard tools/*/*.1) $(DESTDIR)$(PREFIX)/share/man/man1
 	install -m 644 $(wildcard share/man5/*.5) $(DESTDIR)$(PREFIX)/share/man/man5
 	install -m 644 $(wildcard share/man7/*.7) $(DESTDIR)$(PREFIX)/share/man/man7
-	cp -R share/materials share/examples $(DESTDIR)$(PREFIX)/share/dilateddem
+	cp -R share/materials share/examples share/doc $(DESTDIR)$(PREFIX)/share/dilateddem
 clean:
 	rm -rf build
 
