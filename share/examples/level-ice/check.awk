@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # check.awk -- report and table of bonds of a run, in this order.  Status 1 when something does not agree.
-#   - The ledger closes, and the impulses of contacts cancel.
+#   - The ledger closes, the impulses of contacts cancel, and contacts are stiff enough for the overlaps to stay small.
 #   - Damage never falls, and no face is whole again.
 # And it tells what the cracks took by the area that is damaged: sigma^2 l/2E is 75 to 165 J/m2 for cells of 0.6 to
 # 1.3 m in tension; shear takes more.
 FNR == 1 { file++ }
 file == 1 && /^energy residual/ { residual = $3 }
 file == 1 && /^momentum residual/ { momentum = $3 }
+file == 1 && /^largest overlap/ { overlap = $3 }
 file == 1 && /^bonds/ { all = $9 + 0; taken = $(NF - 1) }
 file == 2 && !/^#/ && $1 != "t[s]" {
     face = $2 " " $3
@@ -22,6 +23,7 @@ END {
     for (face in area) { faces++; cracked += damage[face] * area[face] }
     told("residual of the ledger over the throughput", residual, 1e-4)
     told("residual of momentum over the impulses of contacts", momentum, 1e-12)
+    told("largest overlap over the radii", overlap, 0.5)
     told("faces whose damage fell", fell + 0, 0)
     told("faces in the table less those of the report", faces > all ? faces - all : all - faces, 0)
     takes = cracked > 0 ? taken / cracked : 0
