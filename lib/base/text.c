@@ -44,6 +44,7 @@ int fl_text_fail(const fl_text *t, fl_err *err, const char *fmt, ...)
     va_start(ap, fmt);
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
+    if (t->number == 0) return fl_fail(err, FL_INPUT, "%s: %s", fl_in_name(t->in), what); /* it is empty */
     return fl_fail(err, FL_INPUT, "%s:%" PRId64 ": %s", fl_in_name(t->in), t->number, what);
 }
 

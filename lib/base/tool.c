@@ -23,6 +23,13 @@ void fl_by_add(fl_by *by, const char *fmt, ...)
         if ((unsigned char)*p < ' ') *p = ' ';
 }
 
+void fl_by_word(fl_by *by, const char *option, const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+-@%^";
+    const int whole = word[0] && !word[strspn(word, plain)];
+    fl_by_add(by, whole ? "%s%s" : "%s'%s'", option, word);
+}
+
 void fl_by_header(FILE *f, const char *kind, int version, const char *history, const fl_by *by)
 {
     fprintf(f, "#%s %d\n%s%s\n", kind, version, history ? history : "", by->text);

@@ -18,6 +18,8 @@ typedef struct {
 void fl_by_start(fl_by *by, const char *program);
 /* Adds a blank first. */
 void fl_by_add(fl_by *by, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+/* The option, "--ice " or "", and a word of the user's, in quotes where a shell would cut it. */
+void fl_by_word(fl_by *by, const char *option, const char *word);
 
 /* Open a file of ours: "#KIND VERSION", the history it continues (NULL for none), its own line. */
 void fl_by_header(FILE *f, const char *kind, int version, const char *history, const fl_by *by);

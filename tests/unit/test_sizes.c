@@ -94,7 +94,7 @@ static void bad_lists_are_told(void **state)
 {
     (void)state;
     static const char *const bad[][2] = {
-        {"", ":0: the file ends without a size, one a row was wanted"},
+        {"", ": the file ends without a size, one a row was wanted"},
         {"1\n-2\n", ":2: size -2 found"},
         {"1\nd[m]\n", ":2: "},
         {"1 2\n", ":1: "},

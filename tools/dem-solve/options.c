@@ -117,10 +117,10 @@ static const char *base_name(const char *path)
 void options_by(const struct options *o, fl_by *by)
 {
     fl_by_start(by, "dem-solve");
-    if (o->ice) fl_by_add(by, "--ice %s", base_name(o->ice));
-    if (o->structure) fl_by_add(by, "--structure %s", base_name(o->structure));
+    if (o->ice) fl_by_word(by, "--ice ", base_name(o->ice));
+    if (o->structure) fl_by_word(by, "--structure ", base_name(o->structure));
     for (int k = 0; k < o->sets; k++)
         if (strncmp(o->set[k], "run.threads", 11) != 0 && strncmp(o->set[k], "output.", 7) != 0)
             fl_by_add(by, "--set '%s'", o->set[k]);
-    fl_by_add(by, "%s", base_name(o->scene));
+    fl_by_word(by, "", base_name(o->scene));
 }

@@ -699,7 +699,7 @@ double options_after(const struct options *o)
 static void add_files(const struct options *o, fl_by *by)
 {
     for (int k = 0; k < o->files; k++)
-        if (strcmp(o->file[k], "-") != 0) fl_by_add(by, "%s", o->file[k]);
+        if (strcmp(o->file[k], "-") != 0) fl_by_word(by, "", o->file[k]);
 }
 
 /* Of contacts and panels. */

@@ -378,8 +378,8 @@ static void warn(const fl_summary *all, const struct options *o)
         if (n > runs) runs = n;
     }
     if (!o->quiet && told && runs > chains && chains > 0)
-        fprintf(stderr, "loadstats: %lld runs have %lld histories: some are the same run, counted twice\n",
-                (long long)runs, (long long)chains);
+        fprintf(stderr, "loadstats: %lld runs have %lld %s: some are the same run, counted twice\n",
+                (long long)runs, (long long)chains, chains == 1 ? "history" : "histories");
 }
 
 /* --- report and pictures -------------------------------------------------------------------------------- */

@@ -391,8 +391,8 @@ void options_by(const struct options *o, fl_by *by)
     static const char *const option[] = {"", "--cylinder ", "--cone ", "--box "};
     char a[FL_NUM_LEN], b[FL_NUM_LEN], c[FL_NUM_LEN];
     fl_by_start(by, "struct-import");
-    for (int32_t k = 0; k < o->parts; k++) fl_by_add(by, "--part %s", o->part[k]);
-    for (int32_t k = 0; k < o->aliases; k++) fl_by_add(by, "--rename %s", o->alias[k].text);
+    for (int32_t k = 0; k < o->parts; k++) fl_by_word(by, "--part ", o->part[k]);
+    for (int32_t k = 0; k < o->aliases; k++) fl_by_word(by, "--rename ", o->alias[k].text);
     if (o->subdivide) fl_by_add(by, "--subdivide");
     if (o->facets) fl_by_add(by, "--facets %d", o->facets);
     if (o->unit) fl_by_add(by, "--unit %s", o->unit);
@@ -415,8 +415,7 @@ void options_by(const struct options *o, fl_by *by)
     for (int32_t k = 0; k < o->items; k++) {
         const struct item *it = &o->item[k];
         const char *slash = it->path ? strrchr(it->path, '/') : NULL;
-        if (it->name) fl_by_add(by, "--name %s", it->name);
-        fl_by_add(by, "%s%s", option[it->kind],
-                  it->kind == ITEM_FILE ? slash ? slash + 1 : it->path : it->text);
+        if (it->name) fl_by_word(by, "--name ", it->name);
+        fl_by_word(by, option[it->kind], it->kind == ITEM_FILE ? slash ? slash + 1 : it->path : it->text);
     }
 }

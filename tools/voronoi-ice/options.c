@@ -566,7 +566,7 @@ static void add_grade(fl_by *by, const struct options *o)
 {
     char text[FL_NUM_LEN], option[FL_NUM_LEN + 16];
     snprintf(option, sizeof option, "--grade %s:", fl_num_text(o->grade_angle, text));
-    if (o->grade_file) fl_by_add(by, "%s%s", option, o->grade_file);
+    if (o->grade_file) fl_by_word(by, option, o->grade_file);
     else add_numbers(by, option, ',', 2, o->grade);
 }
 
@@ -574,7 +574,7 @@ void options_by(const struct options *o, fl_by *by)
 {
     fl_by_start(by, "voronoi-ice");
     if (o->id) fl_by_add(by, "--id %s", o->id);
-    if (o->outline) fl_by_add(by, "--outline %s", o->outline);
+    if (o->outline) fl_by_word(by, "--outline ", o->outline);
     else if (o->disc[0] > 0.0) add_numbers(by, "--outline disc:", ',', 3, o->disc);
     else {
         add_pair(by, "--size ", 'x', o->size);
@@ -585,10 +585,10 @@ void options_by(const struct options *o, fl_by *by)
         add_numbers(by, "--diameter ", ',', 1, &o->diameter);
     } else {
         fl_by_add(by, "--floes %d", o->floes);
-        if (o->sizes) fl_by_add(by, "--sizes %s", o->sizes);
+        if (o->sizes) fl_by_word(by, "--sizes ", o->sizes);
         if (o->graded) add_grade(by, o);
         else if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
-        fl_by_add(by, "--thickness %s", o->thickness_law);
+        fl_by_word(by, "--thickness ", o->thickness_law);
         add_numbers(by, "--radius ", ',', 1, &o->radius);
         fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
         fl_by_add(by, "--smooth %d", o->smooth);
@@ -613,6 +613,6 @@ void options_by(const struct options *o, fl_by *by)
         else add_numbers(by, "--keep-out box:", ',', 4, (const double[]){s->lo.x, s->lo.y, s->hi.x, s->hi.y});
     }
     for (int k = 0; k < o->leads; k++) add_numbers(by, "--lead ", ',', 5, o->lead[k]);
-    for (int k = 0; k < o->structures; k++) fl_by_add(by, "--keep-out %s", o->structure[k]);
+    for (int k = 0; k < o->structures; k++) fl_by_word(by, "--keep-out ", o->structure[k]);
     if (o->structures) add_numbers(by, "--margin ", ',', 1, &o->margin);
 }
