@@ -539,7 +539,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
         }
     }
     r->stopped = w->step < r->steps ? told_to_stop : 0;
-    if (r->stopped) return 0; /* save_due() has seen to it, or there is nothing to save to */
+    if (r->stopped) return save_due(r, u, 0, err); /* the signal may have come before the first step */
     /* The last interval of the loads may be shorter than the others.  A longer run would not end it here, so
      * what can be gone on from comes before. */
     if (fl_step_balance(w, err) || save_due(r, u, 1, err)) return -1;
