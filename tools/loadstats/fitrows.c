@@ -39,6 +39,7 @@ int fitrows_sample(fit_sample *s, const fl_view *v, const struct options *o, fl_
 {
     const double span = v->edge[v->n] - v->edge[0];
     fl_peaks p = {0};
+    int32_t blocks = 0;
     int rc;
     *s = (fit_sample){.threshold = o->threshold, .excesses = o->sample < SAMPLE_BLOCKS};
     if (o->sample == SAMPLE_PEAKS) {
@@ -47,10 +48,12 @@ int fitrows_sample(fit_sample *s, const fl_view *v, const struct options *o, fl_
         rc = fl_sample_over(v->n, v->x, v->edge, o->threshold, o->gap, &p, err);
         if (rc == 0) rc = take(s, v, &p, err);
     } else {
-        rc = fl_sample_blocks(v->n, v->x, v->edge, o->block, &p, NULL, err);
+        rc = fl_sample_blocks(v->n, v->x, v->edge, o->block, &p, &blocks, err);
         if (rc == 0) rc = take(s, v, &p, err);
     }
-    s->rate = o->sample >= SAMPLE_BLOCKS ? 1.0 / o->block : s->n / span;
+    /* a block without a row has no largest value: those that have one come less often */
+    s->rate =
+        o->sample >= SAMPLE_BLOCKS ? (blocks > 0 ? s->n / (blocks * o->block) : 1.0 / o->block) : s->n / span;
     fl_peaks_free(&p);
     return rc;
 }
