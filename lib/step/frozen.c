@@ -340,13 +340,13 @@ fl_frozen_count fl_frozen_counted(const fl_world *w)
         const fl_bond *c = &w->frozen.bond[k];
         const double takes = fl_bond_energy(c);
         n.state[c->state]++;
-        n.energy += takes * c->area;
-        area += c->area;
+        if (isfinite(takes)) n.energy += takes * c->area, area += c->area;
         if (c->state >= FL_BOND_BROKEN) n.area += c->area;
-        if (c->energy[0] > 0.0 && takes > c->energy[0] * (1.0 + 1e-9)) n.coarse++;
+        if (isfinite(takes) && c->energy[0] > 0.0 && takes > c->energy[0] * (1.0 + 1e-9)) n.coarse++;
         n.longest = fmax(n.longest, c->length);
+        if (isinf(c->tension)) continue; /* it breaks in shear alone */
         const double limit = fl_bond_limit(c->kn * c->length, c->energy[0], c->tension);
-        if (k == 0 || limit < n.limit) n.limit = limit;
+        if (n.limit == 0.0 || limit < n.limit) n.limit = limit;
     }
     if (area > 0.0) n.energy /= area;
     return n;
