@@ -133,6 +133,10 @@ static int check_drive(const fl_scene *s, fl_err *err)
     if (row && group)
         return fl_scene_fail(s, "boundary.drive_group", err,
                              "drive_width and drive_group both say which floes are driven: one was wanted");
+    if (!row && !group && (b->drive_spring > 0.0 || b->drive_foundation > 0.0))
+        return fl_scene_fail(
+            s, b->drive_spring > 0.0 ? "boundary.drive_spring" : "boundary.drive_foundation", err,
+            "springs pull on floes that are driven, and none is: drive_width or drive_group was wanted");
     if (v3_norm(b->drive) > 0.0 && !row && !group)
         return fl_scene_fail(s, "boundary.drive", err,
                              "boundary.drive moves no floe: drive_width or drive_group was wanted");
@@ -230,6 +234,10 @@ static int check_waves(const fl_scene *s, fl_err *err)
 {
     const fl_scene_water *w = &s->water;
     const fl_vec3 g = s->run.gravity;
+    if (w->head.present && w->wave == FL_WAVE_NONE && (w->height > 0.0 || w->period > 0.0))
+        return fl_scene_fail(
+            s, w->height > 0.0 ? "water.height" : "water.period", err,
+            "height and period are those of waves, and there are none: water.wave was wanted");
     if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
     if (w->height == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height was wanted");
