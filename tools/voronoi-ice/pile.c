@@ -36,10 +36,13 @@ static int extrude(fl_poly *p, const double *x, int32_t n, const fl_vec2 *sectio
     return fl_poly_make(p, 2 * n, v, n + 2, first, loop, err);
 }
 
-static int32_t blocks_in(const fl_poly *region, double block)
+/* -1 with FL_INPUT where there are too many. */
+static int32_t blocks_in(const fl_poly *region, double block, fl_err *err)
 {
-    return (int32_t)fmin(fmax(1.0, floor(fl_blocks_volume(region) / (block * block * block) + 0.5)),
-                         BLOCKS_MOST);
+    const double n = fmax(1.0, floor(fl_blocks_volume(region) / (block * block * block) + 0.5));
+    if (n <= BLOCKS_MOST) return (int32_t)n;
+    return fl_fail(err, FL_INPUT, "%.4g blocks of %g m are too many, %d at most were wanted", n, block,
+                   BLOCKS_MOST);
 }
 
 static int make_part(struct pile *p, const struct options *o, const double *x, int32_t n,
@@ -50,9 +53,9 @@ static int make_part(struct pile *p, const struct options *o, const double *x, i
     fl_err why = {0};
     int64_t pairs;
     int rc = -1;
-    if (extrude(&region, x, n, section, &why) || fl_blocks_cells(b, &region, blocks_in(&region, o->block),
-                                                                 o->seed, (p->n + 1) * PART, o->smooth, &why))
-        goto done;
+    if (extrude(&region, x, n, section, &why)) goto done;
+    const int32_t many = blocks_in(&region, o->block, &why);
+    if (many < 0 || fl_blocks_cells(b, &region, many, o->seed, (p->n + 1) * PART, o->smooth, &why)) goto done;
     p->n++;
     if (fl_blocks_shrink(b, 1.0 - o->porosity, o->radius, &why) ||
         fl_blocks_overlaps(b, o->radius, &pairs, &why))
