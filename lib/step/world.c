@@ -448,13 +448,13 @@ static int make_traffic(fl_world *w, const fl_field *field, const fl_field *feed
 }
 
 /* A group of the scene that no record has is a name mistyped: its bodies would be free. */
-static int check_groups(const fl_world *w, const fl_field *field, fl_err *err)
+static int check_groups(const fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
 {
     for (int32_t g = 0; g < w->scene->n_group; g++) {
         const char *name = w->scene->group[g].name;
         char key[2 * FL_SCENE_NAME];
         snprintf(key, sizeof key, "group %s.fixed", name);
-        if (fl_names_find(&field->groups, name) < 0)
+        if (fl_names_find(&field->groups, name) < 0 && fl_names_find(&feed->groups, name) < 0)
             return fl_scene_fail(w->scene, key, err, "no body of %s is of the group %s", w->scene->ice.file,
                                  name);
     }
@@ -565,7 +565,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     }
     if (make_walls(w, err)) goto fail;
     make_cell(w);
-    if (check_groups(w, field, err) || make_traffic(w, field, feed, err) || make_row(w, field, err))
+    if (check_groups(w, field, feed, err) || make_traffic(w, field, feed, err) || make_row(w, field, err))
         goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
