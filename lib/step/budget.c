@@ -123,7 +123,8 @@ static void mark(const fl_budget *g, fl_budget_end *end, int32_t c)
 
 /* The state through `rows` rows of m steps each; rows < 0: through -rows, and as many again up to FOLLOW
  * times where anything met or touched in them; returns the number of rows.  shift: how far floes are moved
- * before, in their own sizes.  -1 with FL_SYSTEM; a step above the critical one is told in the end. */
+ * before, in their own sizes.  -1 with FL_SYSTEM, or with no error where it was broken off; a step above the
+ * critical one is told in the end. */
 static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_budget_end *end, fl_err *err)
 {
     fl_world *w = &g->trial;
@@ -142,12 +143,14 @@ static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_bud
     }
     fl_step_resize(w, g->every / m, fl_world_time(w));
     const double before = w->impulse_size;
+    for (int32_t i = 0; i < w->n; i++) end->p[i] = v3_scale(w->b.m[i], w->b.v[i]);
     for (int32_t p = 0; p < w->parts; p++) {
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }
     for (; row < last && !why.code; row++) {
         for (int32_t k = 0; k < m && !why.code; k++) {
+            if (g->stop && *g->stop) return -1;
             g->spent++;
             if (fl_step(w, &why) == 0) watch(g);
         }
@@ -161,8 +164,11 @@ static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_bud
     }
     end->failed = why.code != 0;
     end->taken = w->impulse_size - before;
+    end->turned = 0.0;
     for (int32_t i = 0; i < w->n; i++) {
-        end->p[i] = v3_scale(w->b.m[i], w->b.v[i]);
+        const fl_vec3 p = v3_scale(w->b.m[i], w->b.v[i]);
+        end->turned += 0.5 * v3_norm(v3_sub(p, end->p[i]));
+        end->p[i] = p;
         end->x[i] = w->b.x[i];
     }
     return row;
@@ -250,7 +256,7 @@ static void compare(const fl_budget *g, double h, int ends, fl_budget_window *v)
         return;
     }
     v->size = apart(g, c, NULL, &none);
-    v->impulse = c->taken;
+    v->impulse = fmax(c->taken, c->turned);
     const double both = apart(g, c, a, &along), all = astray(g, a, c);
     if (ends == 3) {
         v->off = richardson(apart(g, b, a, &none), apart(g, c, b, &none), both, &v->order);
@@ -454,6 +460,16 @@ double fl_budget_horizon(const fl_budget *g)
     return g->rate > 0.0 ? fl_log(g->goal * 0x1p52) / g->rate : INFINITY;
 }
 
+/* Forget what a look has told that was broken off; what trials work in stays. */
+static void forget(fl_budget *g, const fl_budget *before)
+{
+    const fl_budget now = *g;
+    *g = *before;
+    g->trial = now.trial;
+    g->text = now.text;
+    g->n_text = now.n_text;
+}
+
 /* From now on so many a row. */
 static void take_steps(fl_budget *g, fl_world *w, int32_t m, double t)
 {
@@ -462,23 +478,11 @@ static void take_steps(fl_budget *g, fl_world *w, int32_t m, double t)
     g->longest = fmax(g->longest, w->dt);
 }
 
-int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
+/* Look, by trials, where there is reason to.  -1 with FL_SYSTEM, or with no error where it was broken off. */
+static int look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
 {
     const double t = (double)row * g->every;
     const int first = g->looked_at < 0;
-    int news = 0;
-    if (g->looked_at == w->step) return 0;
-    /* rows end on their very times, whatever the steps in them were */
-    w->t0 = t;
-    w->step0 = w->step;
-    /* What touches may be stiffer together than what was known beforehand. */
-    if (w->dt > g->across * g->share * w->dt_critical) {
-        const int32_t fine = steps_of(g, g->share * w->dt_critical);
-        const int32_t taken = steps_of(g, g->across * g->share * w->dt_critical);
-        take_steps(g, w, taken, t);
-        if (fine > g->least) g->least = fine < MOST ? fine : MOST;
-    }
-    if (row % g->rows) return 0;
     const int due = !first && w->step - g->looked_at >= AGAIN * g->last_cost;
     if (list_far(g, w, err)) return -1;
     if (t > 0.0 && t >= g->part_next &&
@@ -486,6 +490,7 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
         return -1;
     if (!due && !(something_new(g, w) && afford(g, w))) return 0;
     int32_t m = steps_of(g, w->dt), rows;
+    int news = 0;
     const int64_t before = g->spent;
     if (m <= fewest(g)) m = g->least; /* not what was found, then, but the largest there may be */
     if (take_state(g, w, err)) return -1;
@@ -507,6 +512,28 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     }
     if (m < fewest(g)) m = fewest(g);
     take_steps(g, w, m, t);
+    return 0;
+}
+
+int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
+{
+    const double t = (double)row * g->every;
+    if (g->looked_at == w->step) return 0;
+    /* rows end on their very times, whatever the steps in them were */
+    w->t0 = t;
+    w->step0 = w->step;
+    /* What touches may be stiffer together than what was known beforehand. */
+    if (w->dt > g->across * g->share * w->dt_critical) {
+        const int32_t fine = steps_of(g, g->share * w->dt_critical);
+        const int32_t taken = steps_of(g, g->across * g->share * w->dt_critical);
+        take_steps(g, w, taken, t);
+        if (fine > g->least) g->least = fine < MOST ? fine : MOST;
+    }
+    if (row % g->rows) return 0;
+    const fl_budget before = *g;
+    if (look(g, w, row, err) == 0) return 0;
+    if (err->code) return -1;
+    forget(g, &before);
     return 0;
 }
 

@@ -14,7 +14,8 @@
  * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
  * it is the largest error against the largest peak, and 0.65.  Because what goes wrong between floes reaches
  * the structure later, the momenta of the floes at the end of the window must be right, too, to the goal (of
- * a peak, half of it) of the impulses they took.  The step that is taken has been tried itself, or is
+ * a peak, half of it) of the impulses they took: of contacts, or of all there is, where that is more, for a
+ * floe that water turns while another one is grazed owes nothing to that touch.  The step that is taken has been tried itself, or is
  * shorter: what is shaken across on an edge is stable up to fl_world_across() of the largest that is tried,
  * and a window may see nothing of that.
  *
@@ -32,6 +33,7 @@
  * Source: Richardson, Phil. Trans. A 226 (1927) 299. */
 #ifndef FL_STEP_BUDGET_H
 #define FL_STEP_BUDGET_H
+#include <signal.h>
 #include <stdio.h>
 #include "base/text.h"
 #include "step/world.h"
@@ -43,7 +45,7 @@ typedef struct {
     double h;                             /* step [s] */
     double off, order, size;              /* e, p and |X| of the load that is asked for */
     double along;                         /* s */
-    double astray, astray_order, impulse; /* the same of the momenta of the floes [N s] */
+    double astray, astray_order, impulse; /* the same of the momenta of floes, what they took [N s] */
 } fl_budget_window;
 
 /* All of an end of a window, of one trial. */
@@ -52,6 +54,7 @@ typedef struct {
     double *peak;              /* [looks][parts] */
     fl_vec3 *p, *x;            /* [n] */
     double taken;              /* impulses of all contacts [N s] */
+    double turned;             /* half of what the momenta changed by, summed over floes [N s] */
     int failed;                /* the step was above the critical one */
 } fl_budget_end;
 
@@ -78,6 +81,7 @@ typedef struct {
     fl_budget_end end[3];
     char *text; /* the state looked at */
     size_t n_text;
+    const volatile sig_atomic_t *stop; /* when that is not 0 a look is broken off; NULL: never */
 } fl_budget;
 
 /* A second world of the scene, and no window yet.  -1 as fl_world_make_fed(). */
@@ -89,7 +93,8 @@ void fl_budget_free(fl_budget *g); /* accepts a zeroed struct, leaves one */
 double fl_budget_start(const fl_budget *g);
 
 /* Look, if there is reason to, at w, which is at the end of a row, at t = row * every; sets its step for the
- * rows to come.  w has begun; calling twice in one step does nothing more.  -1 with FL_SYSTEM. */
+ * rows to come.  w has begun; calling twice in one step does nothing more.  One that was broken off leaves g
+ * and the step as if it had not begun, and the run is to end there.  -1 with FL_SYSTEM. */
 int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err);
 
 /* Error of the load by the windows so far, over its size, were all steps h; 0 before the first. */

@@ -301,6 +301,97 @@ static void billiards_made(lab *l, int neighbour, double seconds, double error)
     billiards(l);
 }
 
+/* --- touches that hardly matter, and looks broken off ------------------------------------------ */
+
+/* Two floes that graze one another at 0.1 mm/s, beside one that tumbles through the water; a world and what
+ * looks after its step, at t = 0. */
+static void grazed_made(lab *l, fl_budget *g)
+{
+    fl_err err = {0};
+    lab_start(l);
+    lab_set(l, "output.loads_every=0.1"), lab_set(l, "run.duration=2"), lab_set(l, "run.error=0.01");
+    lab_set(l, "run.gravity=9.81"), lab_set(l, "water.drag=facet");
+    lab_set(l, "material.ice.young=2e7");
+    post(l, 30, 0, 1);
+    for (int k = 0; k < 2; k++)
+        lab_box(l, v3(1.100001 * k, 0, 0), v3(0.55, 0.55, 0.25), 0.05, q_about(2, 0), v3(k ? 0 : 1e-4, 0, 0),
+                NONE);
+    lab_box(l, v3(0, 6, 1), v3(0.55, 0.55, 0.25), 0.05, q_about(2, 0), v3(1, 0, 0), v3(0.7, 0.3, 0.2));
+    lab_set(l, "structure.file=lab");
+    if (fl_scene_check(&l->scene, &err) ||
+        fl_budget_make(g, &l->scene, &l->field, &l->field, &l->surface, &err))
+        exit(1);
+    lab_make(l, fl_budget_start(g));
+}
+
+/* What the tumbling one is off by is no error of the touch: the step was 100 times shorter for it. */
+static void grazed(void)
+{
+    lab l;
+    fl_budget g = {0};
+    fl_err err = {0};
+    grazed_made(&l, &g);
+    for (int64_t row = 0; row < 20; row++) {
+        if (fl_budget_look(&g, &l.w, row, &err)) exit(1);
+        if (lab_run(&l, lround(0.1 / l.w.dt))) exit(1);
+    }
+    verify_true("E08", "the floes touch", l.w.impulse_size > 0.0);
+    verify_below("E08", "steps of trials over those of a run with the largest step, floes that graze",
+                 (double)g.spent / (2.0 / fl_budget_start(&g)), 20.0);
+    verify_row("E08", "shortest step over the largest there may be", g.shortest / fl_budget_start(&g), 1.0,
+               0.5, VERIFY_ABS);
+    fl_budget_free(&g), lab_free(&l);
+}
+
+/* What a budget remembers and the step that is taken: to be freed. */
+static char *all_of(const fl_budget *g, const fl_world *w)
+{
+    char *text = NULL;
+    size_t n;
+    FILE *f = open_memstream(&text, &n);
+    if (!f) exit(1);
+    fl_budget_write(f, g);
+    fprintf(f, "%a\n", w->dt);
+    if (fclose(f)) exit(1);
+    return text;
+}
+
+/* A look that is broken off, made again, and one that is not broken off.  The first is broken off in its second
+ * trial, when it has begun a window, the others at once. */
+static void broken_off(void)
+{
+    volatile sig_atomic_t stop = 1;
+    lab l[2];
+    fl_budget g[2] = {{0}};
+    fl_err err = {0};
+    char *text[2];
+    int kept = 1;
+    for (int k = 0; k < 2; k++) grazed_made(&l[k], &g[k]);
+    for (int64_t row = 0; row < 20; row++) {
+        for (int k = 0; k < 2; k++) {
+            stop = 1;
+            if (k) {
+                g[k].stop = row ? &stop : &g[k].windows;
+                char *before = all_of(&g[k], &l[k].w);
+                if (fl_budget_look(&g[k], &l[k].w, row, &err)) exit(1);
+                char *after = all_of(&g[k], &l[k].w);
+                kept &= strcmp(before, after) == 0;
+                free(before), free(after);
+            }
+            stop = 0;
+            g[k].stop = &stop;
+            if (fl_budget_look(&g[k], &l[k].w, row, &err)) exit(1);
+            text[k] = all_of(&g[k], &l[k].w);
+            if (lab_run(&l[k], lround(0.1 / l[k].w.dt))) exit(1);
+        }
+        kept &= strcmp(text[0], text[1]) == 0;
+        free(text[0]), free(text[1]);
+    }
+    verify_true("E09", "trials were made, or nothing could be broken off", g[0].spent > 0);
+    verify_true("E09", "looks that are broken off leave nothing behind, and can be made again", kept);
+    for (int k = 0; k < 2; k++) fl_budget_free(&g[k]), lab_free(&l[k]);
+}
+
 /* Root of the mean square distance of the floes of two worlds. */
 static double distance(const fl_world *a, const fl_world *b)
 {
@@ -400,6 +491,8 @@ int main(void)
                    TABLE[t].short_of, VERIFY_ABS);
         if (verify_quick()) break;
     }
+    grazed();
+    broken_off();
     without();
     parting();
     return verify_end();

@@ -531,6 +531,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     }
     while (w->step < r->steps && !told_to_stop) {
         if (look_after_step(r, u, err)) return -1;
+        if (told_to_stop) break; /* a look that was broken off is made again where the run goes on */
         r->moved += w->traffic.away ? fl_traffic_there(w) : w->n;
         if (fl_step(w, err) || write_due(r, u, err) || save_due(r, u, 0, err)) return -1;
         if (show && w->step % 64 == 0) {
@@ -555,6 +556,7 @@ int run_scene(struct run *r, fl_err *err)
         return -1;
     }
     listen_to_signals(r);
+    if (r->budget) r->budget->stop = &told_to_stop;
     const double begun = run_clock(), busy = run_processor();
     const int rc = run_steps_of(r, &u, show, begun, err);
     if (rc && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
