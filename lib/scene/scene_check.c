@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "scene/scene_check.h"
+#include "scene/scene_idle.h"
 #include "scene/scene_section.h"
 
 static int ensure_material(fl_scene *s, const char *name, fl_err *err)
@@ -88,11 +89,11 @@ static int32_t law_of(const fl_scene *s, int32_t i, int32_t all)
     return s->contact[i].head.key[law].line || all < 0 ? s->contact[i].law : s->contact[all].law;
 }
 
-/* Some contact that the section speaks of has the law `patch`. */
-static int has_patch(const fl_scene *s, int32_t i, int32_t all)
+/* Some contact that the section speaks of has that law. */
+static int has_law(const fl_scene *s, int32_t i, int32_t all, int32_t law)
 {
-    int has = law_of(s, i, all) == FL_LAW_PATCH;
-    for (int32_t k = 0; k < s->n_contact && i == all; k++) has |= law_of(s, k, all) == FL_LAW_PATCH;
+    int has = law_of(s, i, all) == law;
+    for (int32_t k = 0; k < s->n_contact && i == all; k++) has |= law_of(s, k, all) == law;
     return has;
 }
 
@@ -114,8 +115,11 @@ static int check_contacts(const fl_scene *s, fl_err *err)
                                  "run.error tells the error of the step by steps of other sizes, which a "
                                  "surrogate would blur: one of run.error and surrogate in [%s] was wanted",
                                  at);
-        if (c->surrogate > 0.0 && !has_patch(s, i, all))
+        if (c->surrogate > 0.0 && !has_law(s, i, all, FL_LAW_PATCH))
             return fl_scene_fail(s, key, err, "surrogate bears on law = patch alone");
+        snprintf(key, sizeof key, "%s.exponent", at);
+        if (c->exponent != 1.0 && !has_law(s, i, all, FL_LAW_CORE))
+            return fl_scene_fail(s, key, err, "exponent bears on law = core alone");
         if (i == all) continue;
         if (known_material(s, at, c->a, 1, err) || known_material(s, at, c->b, 1, err)) return -1;
         if (fl_scene_find_material(s, c->a) < 0 && fl_scene_find_material(s, c->b) < 0)
@@ -133,13 +137,6 @@ static int check_drive(const fl_scene *s, fl_err *err)
     if (row && group)
         return fl_scene_fail(s, "boundary.drive_group", err,
                              "drive_width and drive_group both say which floes are driven: one was wanted");
-    if (!row && !group && (b->drive_spring > 0.0 || b->drive_foundation > 0.0))
-        return fl_scene_fail(
-            s, b->drive_spring > 0.0 ? "boundary.drive_spring" : "boundary.drive_foundation", err,
-            "springs pull on floes that are driven, and none is: drive_width or drive_group was wanted");
-    if (v3_norm(b->drive) > 0.0 && !row && !group)
-        return fl_scene_fail(s, "boundary.drive", err,
-                             "boundary.drive moves no floe: drive_width or drive_group was wanted");
     if (row && b->drive_edge == 0 && !(fabs(v[0]) > 0.0 || fabs(v[1]) > 0.0))
         return fl_scene_fail(s, "boundary.drive_width", err,
                              "boundary.drive has no direction along x or y: drive_edge was wanted");
@@ -234,10 +231,6 @@ static int check_waves(const fl_scene *s, fl_err *err)
 {
     const fl_scene_water *w = &s->water;
     const fl_vec3 g = s->run.gravity;
-    if (w->head.present && w->wave == FL_WAVE_NONE && (w->height > 0.0 || w->period > 0.0))
-        return fl_scene_fail(
-            s, w->height > 0.0 ? "water.height" : "water.period", err,
-            "height and period are those of waves, and there are none: water.wave was wanted");
     if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
     if (w->height == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height was wanted");
@@ -418,7 +411,8 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     if (s->run.error > 0.0 && s->run.dt > 0.0)
         return fl_scene_fail(s, "run.error", err,
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");
-    if (check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err)) return -1;
+    if (fl_scene_idle(s, err) || check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err))
+        return -1;
     return check_boundary(s, err) || check_current(s, err) || check_waves(s, err) || check_wind(s, err) ||
                    check_bonds(s, err) || check_shares(s, "water.added_mass", s->water.added_mass, err) ||
                    check_shares(s, "water.added_inertia", s->water.added_inertia, err) ||

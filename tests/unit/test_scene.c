@@ -27,6 +27,13 @@ static void good(fl_scene *s, const char *text)
     if (load(s, text, &err)) fail_msg("%s: %s", text, err.text);
 }
 
+static void accepted(const char *text)
+{
+    fl_scene s;
+    good(&s, text);
+    fl_scene_free(&s);
+}
+
 /* The text is refused, and what is said after "case.scene" is `tail`. */
 static void refused(const char *text, const char *tail)
 {
@@ -377,7 +384,16 @@ static void parts_are_held_against_each_other(void **state)
     refused(ICE "[boundary]\ntype = periodic\nmin = 0 0 0\nmax = 1 1 1\n[water]\n",
             ":4: z is periodic, and there is [water], which has one surface: one of the two was wanted");
     refused(ICE "[boundary]\ntype = free\ndrive = 1\n",
-            ":5: boundary.drive moves no floe: drive_width or drive_group was wanted");
+            ":5: boundary.drive bears on nothing: boundary.drive_width or drive_group was wanted");
+    refused(ICE "[boundary]\ntype = free\ninflow_speed = 1\n",
+            ":5: boundary.inflow_speed bears on nothing: boundary.inflow was wanted");
+    accepted(ICE "[boundary]\ntype = free\ninflow = none\ninflow_speed = 1\n");
+    refused(ICE "[run]\nerror_of = fx\n", ":4: run.error_of bears on nothing: run.error was wanted");
+    refused(ICE "[bond]\nshear_strength = 1 MPa\n",
+            ":4: bond.shear_strength bears on nothing: bond.on was wanted");
+    accepted(ICE "[bond]\non = false\nshear_strength = 1 MPa\n");
+    refused(ICE "[contact]\nexponent = 1.5\n", ":4: exponent bears on law = core alone");
+    accepted(ICE "[contact]\nlaw = core\nexponent = 1.5\n");
     refused(ICE "[boundary]\ntype = free\ndrive_width = 1\n",
             ":5: boundary.drive has no direction along x or y: drive_edge was wanted");
     refused(ICE "[boundary]\ntype = free\ndrive = 1\ndrive_width = 1\ndrive_group = a\n",

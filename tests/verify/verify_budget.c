@@ -356,7 +356,7 @@ static char *all_of(const fl_budget *g, const fl_world *w)
     return text;
 }
 
-/* A look that is broken off, made again, and one that is not broken off.  The first is broken off in its second
+/* Looks that are broken off and made again, and looks that are not.  The first is broken off in its second
  * trial, when it has begun a window, the others at once. */
 static void broken_off(void)
 {
