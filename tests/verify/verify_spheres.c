@@ -485,9 +485,9 @@ static void V10(void)
 {
     const int fine = verify_quick() ? 100 : 1000;
     verify_row("V10", "D of Hunt-Crossley for e = 0.5", fl_damping_crossley(0.5), 1.432751, 1e-6, VERIFY_REL);
-    verify_row("V10", "boxes by patch, n = 1: e", boxes("patch", "1", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
-    verify_row("V10", "boxes by patch, n = 3/2: e", boxes("patch", "1.5", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
+    verify_row("V10", "boxes by patch: e", boxes("patch", "1", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
     verify_row("V10", "boxes by core, n = 1: e", boxes("core", "1", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
+    verify_row("V10", "boxes by core, n = 3/2: e", boxes("core", "1.5", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
     verify_row("V10", "spheres by patch, n = 3/2: e", spheres("patch", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
     for (int k = 0; k < 3; k++) {
         const double r = 0.9 / (1 << 2 * k);
@@ -515,7 +515,7 @@ static void V10(void)
         h[k] = 1.0 / (4 << k);
         error[k] = fabs(boxes("patch", "1", 0.5, 4 << k) - 0.5);
     }
-    verify_order("V10", "boxes by patch, n = 1: e against the step", h, error, 4, 2.0, 0.3);
+    verify_order("V10", "boxes by patch: e against the step", h, error, 4, 2.0, 0.3);
 }
 
 /* --- longer motions ---------------------------------------------------------------------------------------
