@@ -98,6 +98,7 @@ FL_WIDE_VERSIONS static void over_faces(const fl_strip_faces *f, double R, twos 
     hi = FL_WIDE_CHOOSE(in0 & ~in1 & (zeroed < hi), zeroed, hi);
     fl_wide p = s0 + lo * ds, q = s0 + hi * ds;
     p = LARGER(p, zero), q = LARGER(q, zero);
+    const fl_wide deepest = LARGER(p, q);
     root(&p), root(&q);
     fl_roots sum;
     fl_roots_sum(&p, &q, &sum);
@@ -114,7 +115,7 @@ FL_WIDE_VERSIONS static void over_faces(const fl_strip_faces *f, double R, twos 
         const fl_wide at = lo + dt * (k ? mean + spread : mean - spread), s = s0 + at * ds,
                       up = 0.5 * s - FL_FOUR(e->r);
         const fl_wide3 foot = FL_WIDE3_MADD(x, at, u), y = FL_WIDE3_MADD(foot, up, n);
-        FL_FOUR_INTO(out->s[k]) = s;
+        FL_FOUR_INTO(out->s[k]) = deepest;
         FL_FOUR_INTO(out->u[k]) = share * sum.u;
         FL_FOUR_INTO(out->du[k]) = 4.5 * share * sum.du;
         FL_FOUR_INTO(out->ddu[k]) = 15.75 * share * sum.ddu;
@@ -374,8 +375,9 @@ FL_WIDE_VERSIONS static void tie(const fl_strip_points *p, const feet *a, const 
                   m = FL_FOUR(a->m), r = FL_FOUR(of->r), side = FL_FOUR(of->side);
     const fl_wide each = 1.0 / du, s = each * FL_FOUR(sum->u), mean = each * FL_FOUR(sum->first),
                   square = each * FL_FOUR(sum->second) - mean * mean;
-    fl_wide spread = LARGER(square, zero);
-    root(&spread);
+    fl_wide spread = LARGER(square, zero), least = FL_FOUR(a->least2);
+    root(&spread), root(&least);
+    const fl_wide deepest = R - least;
     const fl_wide_mask two = spread > 0.0;
     spread = FL_WIDE_WHERE(two, spread);
     const fl_wide f = FL_FOUR(sum->f), fx = FL_FOUR(sum->fx), fxx = FL_FOUR(sum->fxx), over = 0.5 / spread;
@@ -396,7 +398,7 @@ FL_WIDE_VERSIONS static void tie(const fl_strip_points *p, const feet *a, const 
         const fl_wide3 n = FL_WIDE3_SCALE(shorter, force), long_n = FL_WIDE3_SCALE(per, force),
                        across = FL_WIDE3_SCALE(side, n);
         const fl_wide3 foot = FL_WIDE3_MADD(c, at, e), y = FL_WIDE3_MADD(foot, up, n);
-        FL_FOUR_INTO(out->s[k]) = s;
+        FL_FOUR_INTO(out->s[k]) = deepest;
         FL_FOUR_INTO(out->u[k]) = share * (factor * FL_FOUR(sum->u));
         FL_FOUR_INTO(out->du[k]) = 4.5 * factor * pull;
         FL_FOUR_INTO(out->ddu[k]) = share * (15.75 * factor * FL_FOUR(sum->ddu));
