@@ -45,6 +45,9 @@ static int fail_body(const fl_world *w, const fl_field *field, int32_t k, fl_err
     return fl_fail(err, FL_INPUT, "%s%s: body %d: %s", w->scene->ice.file, line, field->id[k], what);
 }
 
+/* An edge without a radius has no stiffness: what is sharp is dilated by so much of its size. */
+#define SHARP 1e-6
+
 /* Body i from the k-th of the field: outer shape, mass, frame, start. */
 static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_poly *outer, fl_err *err)
 {
@@ -74,12 +77,12 @@ static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, f
     b->x[i] = mass.centre;
     b->q[i] = q_of_matrix(mass.axes);
     b->v[i] = field->vel[k];
-    b->radius[i] = r;
     const fl_mat3 axes = q_matrix(b->q[i]);
     if (fl_poly_copy(&b->core[i], core, err)) return -1;
     fl_poly_to_frame(&b->core[i], b->x[i], axes);
     if (sharp) fl_poly_to_frame(outer, b->x[i], axes);
     for (int32_t v = 0; v < core->nv; v++) b->bound[i] = fmax(b->bound[i], v3_norm(b->core[i].v[v]));
+    b->radius[i] = r > 0.0 ? r : SHARP * b->bound[i];
     w->face[i] = fl_poly_largest(&b->core[i]);
     w->q0[i] = b->q[i];
     fl_body_derive(b, i);

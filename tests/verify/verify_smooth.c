@@ -486,6 +486,52 @@ static void wedges(void)
     verify_below("SH8", "energies within 1e-13 of the overlap", noise, 1e-9);
 }
 
+/* --- bodies without a radius ---------------------------------------------------------------------------- */
+
+/* A cube of 1 m that flies down at 1 m/s, a corner (0), an edge (1) or a face (2) first, onto what stands at
+ * z = 0: a block, a sheet, a wall of the boundary, a lying cylinder, another cube. */
+static void sharp_made(lab *l, int ahead, int onto)
+{
+    const fl_quat turn[3] = {q_of_vector(v3_scale(atan(sqrt(2.0)), v3_unit(v3(1, -1, 0)))),
+                             q_about(0, PI / 4.0), q_one()};
+    const double low[3] = {0.5 * sqrt(3.0), 0.5 * sqrt(2.0), 0.5};
+    const fl_vec3 v[4] = {v3(-3, -3, 0), v3(3, -3, 0), v3(3, 3, 0), v3(-3, 3, 0)}, half = v3(0.5, 0.5, 0.5);
+    static const int32_t two[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    lab_start(l);
+    lab_box(l, v3(0, 0, low[ahead] + 0.05), half, 0.0, turn[ahead], v3(0, 0, -1), ZERO);
+    if (onto == 0) lab_wall(l, v3(-3, -3, -3), v3(3, 3, 0), 2);
+    if (onto == 1) triangles(l, 4, v, 2, two, q_one());
+    if (onto == 2) lab_set(l, "boundary.min=none none 0");
+    if (onto == 3) lab_cone(l, (fl_cone){v3(-5, 0, -1), v3(5, 0, -1), 1, 1});
+    if (onto == 4) lab_box(l, v3(0, 0, -0.5), half, 0.0, q_about(2, 0.3), ZERO, ZERO);
+    lab_make(l, 0);
+}
+
+/* An edge of no radius has no stiffness, and none of the bodies here would feel anything by it. */
+static void sharp(void)
+{
+    double off = 0.0, energy = 0.0;
+    int through = 0;
+    for (int ahead = 0; ahead < 3; ahead++) {
+        for (int onto = 0; onto < 5; onto++) {
+            lab l;
+            sharp_made(&l, ahead, onto);
+            const double before = lab_energy(&l);
+            for (int k = 0; k < 40 && l.w.b.v[0].z < 0.0; k++)
+                if (lab_run(&l, (int64_t)ceil(0.01 / l.w.dt))) exit(1);
+            if (lab_run(&l, (int64_t)ceil(0.2 / l.w.dt))) exit(1);
+            through += l.w.b.x[0].z < l.w.b.x[onto == 4 ? 1 : 0].z;
+            energy = fmax(energy, fabs(lab_energy(&l) - before) / before);
+            /* of two cubes the other one goes on, and this one stands */
+            off = fmax(off, fabs(l.w.b.v[0].z - (onto == 4 ? 0.0 : 1.0)));
+            lab_free(&l);
+        }
+    }
+    verify_row("SH13", "cubes without a radius: go through", through, 0, 0, VERIFY_ABS);
+    verify_below("SH13", "  speed after the bounce, off by [m/s]", off, 1e-3);
+    verify_below("SH13", "  energy", energy, 1e-3);
+}
+
 int main(void)
 {
     verify_begin("one energy, where it is hard to sum up");
@@ -501,5 +547,6 @@ int main(void)
     discs();
     axes();
     wedges();
+    sharp();
     return verify_end();
 }
