@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "bound/cover.h"
 #include "bound/structure.h"
 #include "geom/clip.h"
 #include "geom/mosaic.h"
@@ -267,37 +268,21 @@ static int make_solid(fl_piece *piece, const flats *f, fl_err *err)
     return 0;
 }
 
-/* The rim of a flat open part as one polygon: 1 when it is a single convex loop. */
-static int make_plate(fl_piece *piece, const flats *f, fl_err *err)
+/* A plate, the rim of which runs through loop[0 .. n) of the part's vertices: 1 where that is convex. */
+static int plate_within(fl_piece *piece, const flats *f, int32_t n, const int32_t *loop, fl_err *err)
 {
     const fl_part *p = f->p;
+    const fl_vec3 up = f->fn[0];
     const fl_aabb box = fl_part_aabb(p);
-    const fl_vec3 n = f->fn[0];
-    int32_t *next = fl_alloc(p->nv, sizeof *next, err), *loop = NULL, sides = 0, start = -1, count = 0;
-    fl_vec3 *rim = NULL;
-    int made = 0;
-    if (!next) return -1;
-    memset(next, -1, (size_t)p->nv * sizeof *next);
+    fl_vec3 *rim = fl_alloc(n, sizeof *rim, err);
+    int32_t *both = fl_alloc(2 * (int64_t)n, sizeof *both, err), count = n;
+    int made = -1;
+    if (!rim || !both) goto done;
+    piece->kind = FL_PIECE_SOLID;
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
-    for (int32_t t = 0; t < p->nt; t++) {
-        for (int k = 0; k < 3; k++) {
-            if (f->mate[3 * t + k] >= 0) continue;
-            start = p->t[t].v[k];
-            if (next[start] >= 0) goto done; /* two loops meet in a vertex */
-            next[start] = p->t[t].v[(k + 1) % 3];
-            sides++;
-        }
-    }
-    rim = fl_alloc(sides, sizeof *rim, err);
-    loop = fl_alloc(2 * (int64_t)sides, sizeof *loop, err);
-    if (!rim || !loop) {
-        made = -1;
-        goto done;
-    }
-    for (int32_t v = start, k = 0; k < sides; k++, v = next[v]) {
-        if (v < 0 || (k > 0 && v == start)) goto done; /* more than one loop */
-        const fl_vec3 x = v3_sub(p->v[v], piece->x);
-        rim[count++] = v3_madd(x, f->fc[0] - v3_dot(n, p->v[v]), n); /* into the plane */
+    for (int32_t k = 0; k < n; k++) {
+        const fl_vec3 x = p->v[loop[k]];
+        rim[k] = v3_madd(v3_sub(x, piece->x), f->fc[0] - v3_dot(up, x), up); /* into the plane */
     }
     for (int again = 1; again && count > 3;) { /* corners that are straight go */
         again = 0;
@@ -309,19 +294,52 @@ static int make_plate(fl_piece *piece, const flats *f, fl_err *err)
             again = 1;
         }
     }
-    for (int32_t k = 0; k < count; k++) loop[k] = k, loop[2 * count - 1 - k] = k;
-    {
-        const int32_t first[3] = {0, count, 2 * count};
-        fl_err no = {0};
-        made = fl_poly_make(&piece->core, count, rim, 2, first, loop, &no) == 0;
-        if (!made && no.code == FL_SYSTEM) {
-            *err = no;
-            made = -1;
-        }
-        piece->kind = FL_PIECE_SOLID;
+    for (int32_t k = 0; k < count; k++) both[k] = k, both[2 * count - 1 - k] = k;
+    const int32_t first[3] = {0, count, 2 * count};
+    fl_err no = {0};
+    made = fl_poly_make(&piece->core, count, rim, 2, first, both, &no) == 0;
+    if (!made && no.code == FL_SYSTEM) {
+        *err = no;
+        made = -1;
     }
 done:
-    free(next), free(rim), free(loop);
+    free(rim), free(both);
+    return made;
+}
+
+/* The rim of a flat open part, into loop: how many vertices it has, 0 when it is not a single loop. */
+static int32_t find_rim(const flats *f, int32_t *next, int32_t *loop)
+{
+    const fl_part *p = f->p;
+    int32_t sides = 0, start = -1;
+    memset(next, -1, (size_t)p->nv * sizeof *next);
+    for (int32_t t = 0; t < p->nt; t++) {
+        for (int k = 0; k < 3; k++) {
+            if (f->mate[3 * t + k] >= 0) continue;
+            start = p->t[t].v[k];
+            if (next[start] >= 0) return 0; /* two loops meet in a vertex */
+            next[start] = p->t[t].v[(k + 1) % 3];
+            sides++;
+        }
+    }
+    for (int32_t v = start, k = 0; k < sides; k++, v = next[v]) {
+        if (v < 0 || (k > 0 && v == start)) return 0; /* more than one loop */
+        loop[k] = v;
+    }
+    return sides;
+}
+
+/* A flat part that is one convex polygon, by its rim or else by what it covers: 1, and else 0. */
+static int make_plate(fl_piece *piece, const flats *f, fl_err *err)
+{
+    const fl_part *p = f->p;
+    int32_t *next = fl_alloc(p->nv, sizeof *next, err), *loop = fl_alloc(p->nv, sizeof *loop, err), n;
+    int made = next && loop ? 0 : -1;
+    if (made == 0 && f->regions == 1 && (n = find_rim(f, next, loop)) > 0)
+        made = plate_within(piece, f, n, loop, err);
+    if (made == 0 && (made = fl_cover_hull(p, f->fn[0], f->tol, loop, &n, err)) > 0)
+        made = plate_within(piece, f, n, loop, err);
+    free(next), free(loop);
     return made;
 }
 
@@ -594,12 +612,11 @@ static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err
     if (!piece || find_flats(&f, p, err)) goto done;
     s->n++;
     piece->part = part;
-    if (f.closed && is_convex(&f)) {
-        rc = make_solid(piece, &f, err);
-    } else {
-        if (f.regions == 1) plate = make_plate(piece, &f, err);
-        rc = plate ? (plate < 0 ? -1 : 0) : make_shell(piece, &f, err);
-    }
+    const int flat = f.regions == 1 || fl_cover_flat(p, f.fn[0], f.fc[0], f.tol);
+    if (flat) plate = make_plate(piece, &f, err);
+    if (plate) rc = plate < 0 ? -1 : 0;
+    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_shell(piece, &f, err);
+    piece->one_sided = flat && !plate;
 done:
     flats_free(&f);
     return rc;

@@ -4,7 +4,7 @@
  * Triangles of a part that lie in one plane and hang together become one face first, so that a flat wall
  * loads the ice the same whether it is 2 triangles or 20 000.  Then a part is
  *   a solid   when it is closed and convex: one convex polyhedron, the half-spaces of its faces;
- *   a plate   when it is one flat convex polygon;
+ *   a plate   when it is one flat convex polygon, which is felt from both sides;
  *   a shell   otherwise: those faces in convex tiles, and of edges and vertices those where the surface
  * bends, straight runs whole. A truncated cone is a piece of its own.  It is exact for spheres, and under the
  * law `patch` for polyhedra whose centre is farther from both its ends than twice their bounding radius
@@ -43,6 +43,7 @@ typedef struct {
     fl_quat q;        /* its axes                                  */
     fl_poly core;     /* in that frame; a plate for plates         */
     int elastic;      /* a plane on springs                        */
+    int one_sided;    /* a flat sheet that is a shell: what comes from behind feels nothing of it */
     double r0, r1, h; /* cone: between z = 0 and z = h of the frame */
     fl_shell shell;
     double face; /* area of the largest flat region of a shell, however it is cut up [m2] */

@@ -204,8 +204,40 @@ static void flat_open_parts_are_plates(void **state)
     assert_int_equal(st.piece[0].kind, FL_PIECE_SHELL);
     assert_int_equal(st.piece[0].core.ne, 6);
     assert_int_equal(st.piece[0].shell.corners, 6);
+    assert_true(st.piece[0].one_sided);
     fl_structure_free(&st);
     fl_surface_free(&s);
+}
+
+/* A square with a vertex that hangs on the diagonal, with a triangle that comes twice, with its back, with a
+ * triangle that has no area, one corner as two vertices; and one with a hole. */
+static void a_sheet_is_what_it_covers(void **state)
+{
+    (void)state;
+    for (int what = 0; what < 7; what++) {
+        fl_surface s = {0};
+        fl_part *p = new_part(&s);
+        vertex(p, 0, 0, 1), vertex(p, 2, 0, 1), vertex(p, 2, 2, 1), vertex(p, 0, 2, 1), vertex(p, 1, 1, 1);
+        if (what == 5) vertex(p, 2, 2, 1);
+        triangle(p, 0, 1, 2);
+        if (what == 0) triangle(p, 0, 4, 3), triangle(p, 4, 2, 3);
+        else if (what == 5) triangle(p, 0, 5, 3);
+        else if (what < 6) triangle(p, 0, 2, 3);
+        else triangle(p, 4, 2, 3);
+        if (what == 1) triangle(p, 2, 3, 0);
+        if (what == 2) triangle(p, 1, 0, 2), triangle(p, 2, 0, 3);
+        if (what == 3) triangle(p, 0, 4, 2);
+        if (what == 4) triangle(p, 1, 0, 2);
+        fl_structure st = build(&s);
+        /* a back of one triangle is half a back, and a square without a quarter is none */
+        const int plate = what != 4 && what != 6;
+        assert_int_equal(st.piece[0].kind, plate ? FL_PIECE_SOLID : FL_PIECE_SHELL);
+        assert_int_equal(st.piece[0].one_sided, !plate);
+        if (plate) assert_int_equal(st.piece[0].core.nv, 4);
+        if (plate) assert_near(v3_norm(fl_poly_area(&st.piece[0].core, 0)), 4.0, 1e-14);
+        fl_structure_free(&st);
+        fl_surface_free(&s);
+    }
 }
 
 static void what_is_not_convex_is_a_shell_without_seams(void **state)
@@ -346,6 +378,7 @@ int main(void)
         cmocka_unit_test(a_fine_cylinder_stays_round),
         cmocka_unit_test(a_rounded_icosahedron_keeps_its_faces),
         cmocka_unit_test(flat_open_parts_are_plates),
+        cmocka_unit_test(a_sheet_is_what_it_covers),
         cmocka_unit_test(what_is_not_convex_is_a_shell_without_seams),
         cmocka_unit_test(what_is_open_or_several_is_a_shell),
         cmocka_unit_test(triangles_without_area_do_no_harm),

@@ -460,6 +460,18 @@ static void warn_overlaps(const struct run *r)
             fl_world_name(w, w->pair[first].j));
 }
 
+/* A sheet of any other outline than a convex one is a surface like that of a hull, which has an inside. */
+static void warn_sheets(const struct run *r)
+{
+    const fl_structure *s = &r->w->structure;
+    for (int32_t k = 0; k < s->n; k++)
+        if (s->piece[k].one_sided)
+            fprintf(stderr,
+                    "dem-solve: warning: part %s is a flat sheet whose outline is not convex: it is felt on "
+                    "the side that its normals point to alone\n",
+                    r->surface->part[s->piece[k].part].name);
+}
+
 /* A hull that does not float as it stands: told once, since its motion is one about that pose. */
 static void warn_hulls(const struct run *r)
 {
@@ -527,6 +539,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
         warn_overlaps(r);
         warn_waves(r);
         warn_hulls(r);
+        warn_sheets(r);
         if (write_due(r, u, err)) return -1;
     }
     while (w->step < r->steps && !told_to_stop) {
