@@ -81,7 +81,7 @@ static int act(struct run *r, fl_err *err)
     }
     if (open_report(r, &out, err)) return -1;
     const int rc = run_scene(r, err);
-    if (err->code != FL_SYSTEM && write_report(r, &out, err)) return -1;
+    if (r->going && err->code != FL_SYSTEM && write_report(r, &out, err)) return -1;
     fl_out_abort(&out);
     return rc;
 }

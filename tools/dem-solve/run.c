@@ -43,10 +43,14 @@ const char *run_body(const fl_world *w, int32_t k, char name[64])
     return name;
 }
 
+/* So many steps no run has, see run_countable(). */
+#define NEVER (INT64_C(1) << 60)
+
 /* The first step at or after t: a row is due at the step that differs from its time by rounding alone. */
 static int64_t step_at(const fl_world *w, double t)
 {
-    return w->step0 + (int64_t)ceil((t - w->t0 - 1e-12 * t) / w->dt);
+    const double n = ceil((t - w->t0 - 1e-12 * t) / w->dt);
+    return n < (double)NEVER ? w->step0 + (int64_t)n : NEVER;
 }
 
 void run_steps(struct run *r) { r->steps = step_at(r->w, r->scene->run.duration); }
@@ -534,6 +538,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
 {
     fl_world *w = r->w;
     double shown = begun;
+    r->going = 1;
     if (!r->saved) {
         if (fl_step_start(w, err)) return -1;
         warn_overlaps(r);

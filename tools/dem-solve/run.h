@@ -38,6 +38,7 @@ struct run {
     int64_t saves;    /* checkpoints written */
     int64_t saved_at; /* step of the last */
     double save_wall; /* [s] spent in them */
+    int going;        /* it has begun, or gone on: there is something to report */
     int stopped;      /* number of the signal that ended the run, 0: none */
 };
 

@@ -314,6 +314,10 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
             return fl_fail(err, FL_USAGE,
                            "%s: the run to resume does not write output.%s, and it cannot begin now", path,
                            TABLE[k]);
+        if (!path[0] && had[k])
+            return fl_fail(err, FL_USAGE,
+                           "the run to resume writes output.%s, and it cannot end now: a file was wanted",
+                           TABLE[k]);
         if (path[0] && fl_out_marked(path, &mark[k], err)) return -1;
     }
     for (int k = 0; k < TABLES; k++) {
