@@ -33,6 +33,7 @@ static const struct {
     {FL_SEC_BOUNDARY, "drive_fixed", {"drive_width", "drive_group"}},
     {FL_SEC_BOUNDARY, "drive_spring", {"drive_width", "drive_group"}},
     {FL_SEC_BOUNDARY, "drive_foundation", {"drive_width", "drive_group"}},
+    {FL_SEC_STRUCTURE, "interpolation", {"track"}},
     {FL_SEC_BOND, "normal_strength", {"on"}},
     {FL_SEC_BOND, "shear_strength", {"on"}},
     {FL_SEC_BOND, "friction", {"on"}},
