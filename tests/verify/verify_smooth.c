@@ -511,7 +511,6 @@ static void sharp_made(lab *l, int ahead, int onto)
 static void sharp(void)
 {
     double off = 0.0, energy = 0.0;
-    int through = 0;
     for (int ahead = 0; ahead < 3; ahead++) {
         for (int onto = 0; onto < 5; onto++) {
             lab l;
@@ -520,15 +519,13 @@ static void sharp(void)
             for (int k = 0; k < 40 && l.w.b.v[0].z < 0.0; k++)
                 if (lab_run(&l, (int64_t)ceil(0.01 / l.w.dt))) exit(1);
             if (lab_run(&l, (int64_t)ceil(0.2 / l.w.dt))) exit(1);
-            through += l.w.b.x[0].z < l.w.b.x[onto == 4 ? 1 : 0].z;
             energy = fmax(energy, fabs(lab_energy(&l) - before) / before);
             /* of two cubes the other one goes on, and this one stands */
             off = fmax(off, fabs(l.w.b.v[0].z - (onto == 4 ? 0.0 : 1.0)));
             lab_free(&l);
         }
     }
-    verify_row("SH13", "cubes without a radius: go through", through, 0, 0, VERIFY_ABS);
-    verify_below("SH13", "  speed after the bounce, off by [m/s]", off, 1e-3);
+    verify_below("SH13", "cubes without a radius: speed after the bounce, off by [m/s]", off, 1e-3);
     verify_below("SH13", "  energy", energy, 1e-3);
 }
 
