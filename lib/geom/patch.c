@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "geom/outer.h"
 #include "geom/patch.h"
 
 /* Rounding leaves up to about 4 x 2^-53 of the longest side squared in a cross product that should be zero.
@@ -8,22 +9,6 @@
 static const double NO_AREA = 1e-15, NO_VOLUME = 1e-10;
 
 static const double PI = 3.141592653589793238;
-
-/* One side of a triangle; the lower end is the bucket it lies in. */
-typedef struct {
-    int32_t hi, t;
-    int8_t k, up; /* side k of triangle t, running up from its lower end */
-} side;
-
-static int by_ends(const void *x, const void *y)
-{
-    const side *a = x, *b = y;
-    if (a->hi != b->hi) return a->hi < b->hi ? -1 : 1;
-    if (a->t != b->t) return a->t < b->t ? -1 : 1;
-    return a->k - b->k;
-}
-
-static int repeats(const fl_tri *t) { return t->v[0] == t->v[1] || t->v[1] == t->v[2] || t->v[2] == t->v[0]; }
 
 /* Who lies across side k of triangle t: across[3 t + k], -1 for nobody; agree[3 t + k] when they run
  * coherently. */
@@ -43,7 +28,7 @@ static void web_free(web *w)
     free(w->sign);
 }
 
-static void join(web *w, const side *s, int64_t n)
+static void join(web *w, const fl_side *s, int64_t n)
 {
     int64_t up = 0;
     for (int64_t k = 0; k < n; k++) up += s[k].up ? 1 : -1;
@@ -59,68 +44,26 @@ static void join(web *w, const side *s, int64_t n)
     }
 }
 
-/* Sides of one vertex are few but at the hub of a fan. */
-static void sort_bucket(side *s, int64_t n)
+/* edges: of p, out; to be freed as w is */
+static int web_make(web *w, const fl_part *p, fl_edges *edges, fl_err *err)
 {
-    enum { FEW = 24 };
-    if (n > FEW) {
-        qsort(s, (size_t)n, sizeof *s, by_ends);
-        return;
-    }
-    for (int64_t i = 1; i < n; i++) {
-        const side x = s[i];
-        int64_t k = i;
-        for (; k > 0 && by_ends(&s[k - 1], &x) > 0; k--) s[k] = s[k - 1];
-        s[k] = x;
-    }
-}
-
-static int32_t lower(const fl_tri *t, int k)
-{
-    const int32_t a = t->v[k], b = t->v[(k + 1) % 3];
-    return a < b ? a : b;
-}
-
-/* Deal the sides to their lower ends: s[first[v] .. first[v + 1]) are those of vertex v, sorted. */
-static void deal(const fl_part *p, int64_t *first, side *s)
-{
-    for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3 && !repeats(&p->t[t]); k++) first[lower(&p->t[t], k) + 1]++;
-    for (int32_t v = 0; v < p->nv; v++) first[v + 1] += first[v];
-    for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3 && !repeats(&p->t[t]); k++) {
-            const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
-            s[first[lower(&p->t[t], k)]++] = (side){a < b ? b : a, t, (int8_t)k, a < b};
-        }
-    for (int32_t v = p->nv; v > 0; v--) first[v] = first[v - 1]; /* each ran on to the next one's start */
-    first[0] = 0;
-    for (int32_t v = 0; v < p->nv; v++) sort_bucket(s + first[v], first[v + 1] - first[v]);
-}
-
-static int web_make(web *w, const fl_part *p, fl_err *err)
-{
-    int64_t *first = fl_alloc((int64_t)p->nv + 1, sizeof *first, err);
-    side *s = first ? fl_alloc(3 * (int64_t)p->nt, sizeof *s, err) : NULL;
     *w = (web){.balanced = 1};
-    w->across = s ? fl_alloc(3 * (int64_t)p->nt, sizeof *w->across, err) : NULL;
+    if (fl_edges_make(edges, p, err)) return -1;
+    w->across = fl_alloc(3 * (int64_t)p->nt, sizeof *w->across, err);
     w->agree = w->across ? fl_alloc(3 * (int64_t)p->nt, 1, err) : NULL;
     w->sign = w->agree ? fl_alloc(p->nt, 1, err) : NULL;
     w->queue = w->sign ? fl_alloc(p->nt, sizeof *w->queue, err) : NULL;
     if (!w->queue) {
-        free(first);
-        free(s);
+        fl_edges_free(edges);
         web_free(w);
         return -1;
     }
     memset(w->across, -1, 3 * (size_t)p->nt * sizeof *w->across);
-    deal(p, first, s);
     for (int32_t v = 0; v < p->nv; v++)
-        for (int64_t from = first[v], to; from < first[v + 1]; from = to) {
-            for (to = from + 1; to < first[v + 1] && s[to].hi == s[from].hi;) to++;
-            join(w, s + from, to - from);
+        for (int64_t from = edges->first[v], to; from < edges->first[v + 1]; from = to) {
+            to = fl_edge_end(edges, v, from);
+            join(w, edges->side + from, to - from);
         }
-    free(first);
-    free(s);
     return 0;
 }
 
@@ -154,24 +97,23 @@ static patch walk(web *w, int32_t t0)
     return g;
 }
 
-/* Volume and area of the signed triangles of a patch, the volume about a corner of the patch itself, over the
- * sum of the sizes of what it is added up of: what is less than NO_VOLUME of that may be rounding, whose sign
- * another order of the triangles changes. */
-static void patch_sums(const fl_part *p, const web *w, int32_t n, double *volume, double *kept,
-                       double *turned)
+/* Of the signed triangles of a patch: volume, area kept and area turned.  The volume is about a corner of the
+ * patch itself, over the sum of the sizes of what it is added up of: what is less than NO_VOLUME of that may be
+ * rounding, whose sign another order of the triangles changes. */
+static void patch_sums(const fl_part *p, const web *w, int32_t n, double sum[3])
 {
     double sizes = 0.0;
     const fl_vec3 o = p->v[p->t[w->queue[0]].v[0]];
-    *volume = *kept = *turned = 0.0;
+    sum[0] = sum[1] = sum[2] = 0.0;
     for (int32_t k = 0; k < n; k++) {
         const int32_t t = w->queue[k], *v = p->t[t].v;
         const fl_vec3 a = v3_sub(p->v[v[0]], o), b = v3_sub(p->v[v[1]], o), c = v3_sub(p->v[v[2]], o);
         const double six = v3_dot(a, v3_cross(b, c));
-        *volume += w->sign[t] * six;
+        sum[0] += w->sign[t] * six;
         sizes += fabs(six);
-        *(w->sign[t] > 0 ? kept : turned) += 0.5 * v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a)));
+        sum[w->sign[t] > 0 ? 1 : 2] += 0.5 * v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a)));
     }
-    if (sizes > 0.0) *volume /= sizes;
+    if (sizes > 0.0) sum[0] /= sizes;
 }
 
 /* --- measures ------------------------------------------------------------------------------------------- */
@@ -205,7 +147,7 @@ static void add_part(sums *s, fl_quality *q, const fl_part *p, fl_vec3 o)
         const fl_vec3 ab = v3_sub(b, a), ac = v3_sub(c, a), middle = v3_add(a, v3_add(b, c));
         const double twice = v3_norm(v3_cross(ab, ac)), six = v3_dot(a, v3_cross(b, c));
         const double l0 = v3_norm2(ab), l1 = v3_norm2(v3_sub(c, b)), l2 = v3_norm2(ac);
-        q->degenerate += repeats(&p->t[t]) || twice <= NO_AREA * -lesser(-l0, lesser(-l1, -l2));
+        q->degenerate += fl_tri_repeats(&p->t[t]) || twice <= NO_AREA * -lesser(-l0, lesser(-l1, -l2));
         least = lesser(least, lesser(l0, lesser(l1, l2)));
         s->volume += six / 6.0;
         s->vc = v3_madd(s->vc, six / 24.0, middle);
@@ -216,18 +158,21 @@ static void add_part(sums *s, fl_quality *q, const fl_part *p, fl_vec3 o)
     for (int32_t c = 0; c < p->nc; c++) add_cone(s, &p->cone[c], o);
 }
 
-/* Turn the triangles of a patch that has been walked. */
-static void turn(fl_part *p, const web *w, const patch *g, double volume, double kept, double turned,
+/* Turn the triangles of a patch that has been walked.  outer: sides of triangles that look outward, NULL where
+ * no edge is branched. */
+static void turn(fl_part *p, const web *w, const patch *g, const double sum[3], const uint8_t *outer,
                  fl_orient *o)
 {
-    int flip = turned > kept;
-    o->rimmed += g->rim;
+    const double volume = sum[0], kept = sum[1], turned = sum[2];
+    const int skin = g->rim && !g->twisted && outer ? outer[w->queue[0]] : FL_OUTER_BOTH;
+    int flip = turned > kept, inward = 0;
+    o->rimmed += g->rim && skin == FL_OUTER_BOTH;
     o->twisted += g->twisted;
     for (int32_t k = 0; k < g->n; k++) o->triangles += (w->sign[w->queue[k]] < 0) != flip;
-    if (!g->rim && !g->twisted && (flip ? -volume : volume) < -0.5 * NO_VOLUME) {
-        flip = !flip;
-        o->patches++;
-    }
+    if (!g->rim && !g->twisted) inward = (flip ? -volume : volume) < -0.5 * NO_VOLUME;
+    else if (skin == FL_OUTER_FRONT || skin == FL_OUTER_BACK) inward = flip != (skin == FL_OUTER_BACK);
+    o->patches += inward;
+    flip ^= inward;
     for (int32_t k = 0; k < g->n; k++) {
         int32_t *v = p->t[w->queue[k]].v;
         if ((w->sign[w->queue[k]] < 0) != flip) {
@@ -238,27 +183,42 @@ static void turn(fl_part *p, const web *w, const patch *g, double volume, double
     }
 }
 
+/* With o, the outer sides of the triangles of a part that has branched edges; *outer stays NULL for others. */
+static int find_outer(const web *w, const fl_part *p, const fl_edges *edges, const fl_orient *o,
+                      uint8_t **outer, fl_err *err)
+{
+    *outer = NULL;
+    if (!o || !w->branched) return 0;
+    *outer = fl_alloc(p->nt, 1, err);
+    return *outer && fl_part_outer(p, edges, *outer, err) == 0 ? 0 : -1;
+}
+
 /* Walk all patches: count edges and patches, and with o turn each patch once it is counted. */
 static int walk_all(fl_quality *q, const fl_part *p, fl_part *turned_over, fl_orient *o, fl_err *err)
 {
     web w;
-    if (web_make(&w, p, err)) return -1;
+    fl_edges edges;
+    uint8_t *outer;
+    if (web_make(&w, p, &edges, err)) return -1;
+    const int rc = find_outer(&w, p, &edges, o, &outer, err);
+    fl_edges_free(&edges);
     q->open += w.open;
     q->branched += w.branched;
     q->incoherent += w.incoherent;
     q->closed = q->closed && w.balanced;
-    for (int32_t t0 = 0; t0 < p->nt; t0++) {
-        double volume, kept, turned;
+    for (int32_t t0 = 0; t0 < p->nt && rc == 0; t0++) {
+        double sum[3]; /* volume, areas kept and turned */
         patch g;
-        if (w.sign[t0] || repeats(&p->t[t0])) continue;
+        if (w.sign[t0] || fl_tri_repeats(&p->t[t0])) continue;
         g = walk(&w, t0);
-        patch_sums(p, &w, g.n, &volume, &kept, &turned);
+        patch_sums(p, &w, g.n, sum);
         q->patches++;
-        q->inverted += !g.rim && !g.twisted && turned == 0.0 && volume < -NO_VOLUME;
-        if (o) turn(turned_over, &w, &g, volume, kept, turned, o);
+        q->inverted += !g.rim && !g.twisted && sum[2] == 0.0 && sum[0] < -NO_VOLUME;
+        if (o) turn(turned_over, &w, &g, sum, outer, o);
     }
+    free(outer);
     web_free(&w);
-    return 0;
+    return rc;
 }
 
 /* Of n parts; with o, of one part, which is turned too. */

@@ -33,13 +33,15 @@ int fl_surface_measure(const fl_surface *s, fl_quality *q, fl_err *err);
 
 typedef struct {
     int32_t triangles; /* turned singly, to agree with the larger part of the area of their patch */
-    int32_t patches;   /* turned as a whole: closed, and of negative volume                      */
-    int32_t rimmed;    /* patches with a rim: they keep the side that most of their area had     */
+    int32_t patches;   /* turned as a whole: of negative volume, or a skin that looked inward    */
+    int32_t rimmed;    /* patches with a rim and the outside on both sides: they keep the side that
+                               most of their area had */
     int32_t twisted;   /* patches with one side only (Moebius): they cannot be made coherent     */
 } fl_orient;
 
 /* Make each patch coherent by flood fill across edges of two triangles, then turn closed patches to positive
- * volume.  Cones need none of this.
+ * volume, and those that end in branched edges outward (outer.h), where one side of them alone is outside;
+ * walls inside keep the side that most of their area had.  Cones need none of this.
  *   came   what fl_part_measure() says of the part as it came.  Where nothing is turned (o->triangles and
  *          o->patches are 0), of what it is now, too
  * Returns 0, or -1 with FL_SYSTEM. */

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* shells.h -- the bodies that a surface was put together of. */
+#ifndef FL_GEOM_SHELLS_H
+#define FL_GEOM_SHELLS_H
+#include "geom/surface.h"
+
+/* Triangles joined across edges of two; and where bodies share an edge, by twos in their order, since the
+ * triangles of a body come one behind the other in its file.  Edges of three, or five, join nothing.
+ *   shell  [p->nt] out: the lowest triangle of its body
+ * 0, or -1 with FL_SYSTEM. */
+int fl_part_shells(const fl_part *p, int32_t *shell, fl_err *err);
+
+#endif
