@@ -101,7 +101,7 @@ inline int to_mesh(const fl_soup *s, Mesh &mesh, fl_err *err)
     return to_mesh(points, triangles, mesh, err);
 }
 
-/* The mesh replaces s.  -1 with FL_SYSTEM, and s as it was. */
+/* The mesh replaces s.  -1 with FL_SYSTEM or FL_NUMERIC, and s as it was. */
 inline int write_back(fl_soup *s, Mesh &mesh, fl_err *err)
 {
     mesh.collect_garbage();
@@ -111,6 +111,8 @@ inline int write_back(fl_soup *s, Mesh &mesh, fl_err *err)
     std::ptrdiff_t n = 0;
     if (nv > INT32_MAX || nt > INT32_MAX)
         return fl_fail(err, FL_SYSTEM, "more than 2^31 vertices after repair");
+    if (!CGAL::is_triangle_mesh(mesh))
+        return fl_fail(err, FL_NUMERIC, "a face that is no triangle came of %d triangles", s->nt);
     auto x = static_cast<double *>(fl_alloc(3 * nv, sizeof(double), err));
     auto t = x ? static_cast<int32_t *>(fl_alloc(3 * nt, sizeof(int32_t), err)) : nullptr;
     if (!t) {

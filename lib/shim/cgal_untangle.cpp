@@ -1,12 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The header is plain C; no C++ name and no exception leaves this file. */
 #define CGAL_PMP_REMOVE_SELF_INTERSECTION_NO_POLYHEDRAL_ENVELOPE_CHECK
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
 #include "shim/cgal_mesh.hpp"
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 extern "C" {
@@ -19,65 +26,210 @@ namespace
 {
 using namespace shim;
 
-bool solid(const Mesh &m) { return CGAL::is_closed(m) && PMP::is_outward_oriented(m); }
+/* What work() says; false where CGAL would not have it. */
+template <class Work>
+bool done(Work work)
+{
+    try {
+        return work();
+    } catch (const std::bad_alloc &) {
+        throw;
+    } catch (const std::exception &) {
+        return false;
+    }
+}
+
+/* Of the area, and of the volume where both have one. */
+double change(const Mesh &from, const Mesh &to)
+{
+    const double area = PMP::area(from), most = std::fabs(PMP::area(to) - area) / area;
+    if (!CGAL::is_closed(from) || !CGAL::is_closed(to)) return most;
+    const double volume = PMP::volume(from);
+    return std::max(most, std::fabs((PMP::volume(to) - volume) / volume));
+}
 
 /* Cut out what passes through itself, and close it again: keeping the genus where that can be done. */
-bool rebuild(Mesh &m)
+bool rebuild(Mesh &m, fl_untangle *did)
 {
+    for (const bool genus : {true, false}) {
+        Mesh trial = m;
+        if (!done([&] {
+                return PMP::experimental::remove_self_intersections(trial,
+                                                                    CGAL::parameters::preserve_genus(genus));
+            }))
+            continue;
+        did->changed = std::max(did->changed, change(m, trial));
+        m = trial;
+        return true;
+    }
+    return false;
+}
+
+/* Where surfaces nearly touch, a union has triangles that rounding turns over: edges shorter than tol are taken
+ * out, and corners nearer than that to an edge. */
+void tidy(Mesh &m, double tol)
+{
+    constexpr double STRAIGHT = -1.0 + 1e-12,
+                     NEEDLE = 1e6; /* cosine, and length over width, of what is bad */
     Mesh trial = m;
-    if (!PMP::experimental::remove_self_intersections(trial)) {
-        trial = m;
-        if (!PMP::experimental::remove_self_intersections(trial, CGAL::parameters::preserve_genus(false)))
-            return false;
+    const auto within = CGAL::parameters::flip_triangle_height_threshold(tol);
+    if (done([&] {
+            PMP::experimental::remove_almost_degenerate_faces(trial, STRAIGHT, NEEDLE, tol, within);
+            return CGAL::is_closed(trial) && !PMP::does_self_intersect(trial);
+        }))
+        m = trial;
+}
+
+/* The height of each triangle is a number that double precision still tells from nothing. */
+bool has_areas(const Mesh &m)
+{
+    for (const auto f : m.faces()) {
+        const auto h = m.halfedge(f);
+        const Point &a = m.point(m.source(h)), &b = m.point(m.target(h)), &c = m.point(m.target(m.next(h)));
+        const double longest = std::max(
+            {CGAL::squared_distance(a, b), CGAL::squared_distance(b, c), CGAL::squared_distance(c, a)});
+        if (!(CGAL::squared_area(a, b, c) > 1e-24 * longest * longest)) return false;
     }
-    m = trial;
     return true;
 }
 
-/* b becomes part of a. */
-bool unite(Mesh &a, const Mesh &b)
+/* A number from -1 to 1 without rhythm; the same in every run. */
+double spread(uint32_t &state)
 {
-    Mesh left = a, right = b, both;
-    if (!PMP::corefine_and_compute_union(left, right, both)) return false;
-    both.collect_garbage();
-    a = both;
-    return true;
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 8) / 8388608.0 - 1.0;
 }
 
-int untangle(fl_soup *s, fl_untangle *did, fl_err *err)
+/* Swell a body by about eps about its middle, and turn it by less.  Where its corners came to lie in one
+ * place with others', or nearly, they then do not, and what lay side by side overlaps. */
+void loosen(Mesh &m, double eps, uint32_t &state)
 {
-    Mesh whole, result;
-    std::vector<Mesh> patch;
-    if (to_mesh(s, whole, err)) return -1;
-    PMP::split_connected_components(whole, patch);
-    for (Mesh &m : patch) {
-        if (!PMP::does_self_intersect(m)) continue;
-        if (rebuild(m)) did->rebuilt++;
-        else did->failed++;
+    const CGAL::Bbox_3 box = PMP::bbox(m);
+    double c[3], w[3];
+    const double grown = 1.0 + eps * (1.5 + 0.5 * spread(state));
+    for (int k = 0; k < 3; k++) c[k] = 0.5 * (box.min(k) + box.max(k)), w[k] = 0.2 * eps * spread(state);
+    for (const auto v : m.vertices()) {
+        const Point &p = m.point(v);
+        const double x = p.x() - c[0], y = p.y() - c[1], z = p.z() - c[2];
+        m.point(v) = Point(c[0] + grown * x + w[1] * z - w[2] * y, c[1] + grown * y + w[2] * x - w[0] * z,
+                           c[2] + grown * z + w[0] * y - w[1] * x);
     }
-    for (std::size_t i = 0; i < patch.size(); i++)
-        for (std::size_t j = 0; j < patch.size(); j++) {
-            /* a union reaches farther than what it was: look at all again */
-            if (i == j || patch[i].is_empty() || patch[j].is_empty()) continue;
-            if (!CGAL::do_overlap(PMP::bbox(patch[i]), PMP::bbox(patch[j])) ||
-                !PMP::do_intersect(patch[i], patch[j]))
-                continue;
-            if (!solid(patch[i]) || !solid(patch[j]) || !unite(patch[i], patch[j])) {
-                did->failed += i < j;
-                continue;
-            }
+}
+
+/* The union of a and b, found exactly and then rounded and tidied; false where that is not sound. */
+bool union_of(const Mesh &a, const Mesh &b, double tol, Mesh &out)
+{
+    using Exact = CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>;
+    Exact left, right, both;
+    CGAL::copy_face_graph(a, left);
+    CGAL::copy_face_graph(b, right);
+    if (!PMP::corefine_and_compute_union(left, right, both,
+                                         CGAL::parameters::throw_on_self_intersection(true)))
+        return false;
+    CGAL::copy_face_graph(both, out);
+    if (out.is_empty() || !CGAL::is_triangle_mesh(out) || !CGAL::is_closed(out)) return false;
+    tidy(out, tol);
+    return !PMP::does_self_intersect(out) && has_areas(out);
+}
+
+/* b becomes part of a, loosened as little as it takes; false, and a as it was, where that will not do. */
+bool unite(Mesh &a, const Mesh &b, double tol, uint32_t &state)
+{
+    for (const double eps : {0.0, 1e-8, 1e-7, FL_UNTANGLE_LOOSE}) {
+        Mesh other = b, both;
+        if (eps > 0.0) loosen(other, eps, state);
+        if (!done([&] { return union_of(a, other, tol, both); })) continue;
+        a = both;
+        return true;
+    }
+    return false;
+}
+
+bool meet(const Mesh &a, const Mesh &b)
+{
+    return !a.is_empty() && !b.is_empty() && CGAL::do_overlap(PMP::bbox(a), PMP::bbox(b)) &&
+           PMP::do_intersect(a, b);
+}
+
+/* Closed, looking outward, and not through itself: what a union can be made of. */
+bool solid(const Mesh &m)
+{
+    return !m.is_empty() && CGAL::is_closed(m) && PMP::is_outward_oriented(m) && !PMP::does_self_intersect(m);
+}
+
+/* The solids become as many as there are when no two of them that can be united meet. */
+void unite_all(std::vector<Mesh> &patch, double tol, fl_untangle *did)
+{
+    uint32_t state = 1;
+    std::vector<bool> can;
+    for (const Mesh &m : patch) can.push_back(solid(m));
+    for (std::size_t i = 0; i < patch.size(); i++) {
+        std::vector<bool> tried(patch.size(), false); /* as it is now */
+        for (std::size_t j = i + 1; j < patch.size() && can[i]; j++) {
+            if (!can[j] || tried[j] || !meet(patch[i], patch[j])) continue;
+            tried[j] = true;
+            if (!unite(patch[i], patch[j], tol, state)) continue;
             patch[j].clear();
             did->joined++;
-            j = static_cast<std::size_t>(-1);
+            tried.assign(patch.size(), false); /* a union reaches farther than what it was */
+            j = i;
         }
+    }
+    for (std::size_t i = 0; i < patch.size(); i++)
+        for (std::size_t j = i + 1; j < patch.size(); j++) did->failed += meet(patch[i], patch[j]);
+}
+
+/* Each shell by itself, so that none is cut where others share its edges; what is closed looks outward. */
+int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Mesh> &patch, double &diagonal,
+               fl_err *err)
+{
+    std::vector<Point> points;
+    std::vector<Corners> triangles;
+    to_vectors(s, points, triangles);
+    const CGAL::Bbox_3 box = CGAL::bbox_3(points.begin(), points.end());
+    diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+    std::map<int32_t, std::vector<Corners>> of;
+    for (std::size_t t = 0; t < triangles.size(); t++) of[shell[t]].push_back(triangles[t]);
+    for (auto &one : of) {
+        std::unordered_map<std::size_t, std::size_t> place;
+        std::vector<Point> corners;
+        std::vector<Mesh> pieces;
+        Mesh m;
+        for (Corners &c : one.second)
+            for (std::size_t &v : c) {
+                if (place.emplace(v, corners.size()).second) corners.push_back(points[v]);
+                v = place[v];
+            }
+        if (to_mesh(corners, one.second, m, err)) return -1;
+        PMP::split_connected_components(m, pieces);
+        for (Mesh &p : pieces) {
+            if (CGAL::is_closed(p) && !PMP::is_outward_oriented(p)) PMP::reverse_face_orientations(p);
+            patch.push_back(p);
+        }
+    }
+    return 0;
+}
+
+int untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
+{
+    Mesh result;
+    std::vector<Mesh> patch;
+    double diagonal;
+    if (to_patches(s, shell, patch, diagonal, err)) return -1;
+    for (Mesh &m : patch) {
+        if (!PMP::does_self_intersect(m)) continue;
+        if (rebuild(m, did)) did->rebuilt++;
+        else did->failed++;
+    }
+    unite_all(patch, FL_UNTANGLE_TIDY * diagonal, did);
     if (did->joined + did->rebuilt == 0) return 0;
     for (const Mesh &m : patch) result.join(m);
     return write_back(s, result, err);
 }
 } // namespace
 
-extern "C" int fl_cgal_untangle(fl_soup *s, fl_untangle *did, fl_err *err)
+extern "C" int fl_cgal_untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
 {
-    *did = fl_untangle{0, 0, 0};
-    return guarded("repair of crossings", s->nt, err, [&] { return untangle(s, did, err); });
+    *did = fl_untangle{0, 0, 0, 0.0};
+    return guarded("repair of crossings", s->nt, err, [&] { return untangle(s, shell, did, err); });
 }

@@ -4,19 +4,29 @@
 #define FL_SHIM_CGAL_UNTANGLE_H
 #include "shim/cgal_repair.h"
 
+/* Edges of a union shorter than this part of the diagonal of the box of all are taken out of it. */
+#define FL_UNTANGLE_TIDY 1e-6
+/* Bodies are swollen by up to about this part of their size where they meet in corners that lie in nearly one
+ * place, so that a union would pass through itself once it is rounded. */
+#define FL_UNTANGLE_LOOSE 1e-6
+
 typedef struct {
     int32_t joined;  /* closed bodies that became one with another: the union of both    */
     int32_t rebuilt; /* patches that passed through themselves, cut out there and closed anew */
     int32_t failed;  /* patches, or pairs of them, for which neither could be done        */
+    double changed;  /* the most that a rebuilt patch changed its area or volume by, over it */
 } fl_untangle;
 
-/* Closed patches that look outward and pass through each other become their union, whose surface is that of
- * both but for new edges where they meet (rounded once).  A patch that passes through itself loses the
- * triangles concerned and some about them, and the hole is filled.  Open patches that pass through others
- * stay as they are.  Predicates are exact.
- *   s   x and t from malloc() or fl_alloc(); replaced where something was done
+/* Closed bodies that pass through each other become their union, whose surface is that of both but for new
+ *   shell  [s->nt] which body a triangle is of, any number for each: none is cut where others share its
+ *          edges
+ * loses the triangles concerned and some about them, and the hole is filled.  Open patches that pass through
+ * others stay as they are.
+ *   s      x and t from malloc() or fl_alloc(); replaced where something was done
+ *   shell  [s->nt] which body a triangle is of, any number for each: it is not cut where others share its
+ *          edges
  * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM in err, and s as it was.
  * Source: Loriot et al., CGAL 5.5, corefinement and repair of self-intersections. */
-int fl_cgal_untangle(fl_soup *s, fl_untangle *did, fl_err *err);
+int fl_cgal_untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err);
 
 #endif

@@ -2,6 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "geom/outer.h"
+#include "geom/shells.h"
 #include "mend.h"
 #include "mesh/crossing.h"
 #include "shim/cgal_distance.h"
@@ -87,8 +89,11 @@ static int repair(fl_part *p, int32_t holes, double size, fl_repair *did, fl_err
 static int untangle(fl_part *p, struct mended *m, fl_err *err)
 {
     fl_soup s = {0};
+    int32_t *shell = fl_alloc(p->nt, sizeof *shell, err);
     int rc = -1;
-    if (to_soup(p, &s, err) == 0 && fl_cgal_untangle(&s, &m->untangle, err) == 0) rc = 0;
+    if (shell && fl_part_shells(p, shell, err) == 0 && to_soup(p, &s, err) == 0)
+        rc = fl_cgal_untangle(&s, shell, &m->untangle, err);
+    free(shell);
     /* new corners were rounded, which may leave triangles of one line */
     if (rc == 0 && m->untangle.joined + m->untangle.rebuilt > 0)
         rc = from_soup(p, &s, err) || repair(p, 0, 0.0, &m->repair, err) ||
@@ -156,6 +161,7 @@ done:
 static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
 {
     if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
+    if (o->repair && m->left.branched && fl_part_drop_walls(p, &m->walls, err)) return -1;
     if (fl_part_crossings(p, &m->meet, err)) return -1;
     if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
     if (p->nt == 0 || (o->simplify <= 0.0 && o->remesh <= 0.0)) return 0;
@@ -211,7 +217,12 @@ int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
     *m = (struct mended){
         .came_triangles = p->nt, .came = fl_moments_of(p, 1), .came_closed = 1, .doubled = p->doubled};
     int same = 0;
-    if (p->nt ? mend_triangles(p, o, m, &same, err) : fl_part_measure(p, &m->left, err)) return -1;
+    fl_err why = {0};
+    if (p->nt ? mend_triangles(p, o, m, &same, &why) : fl_part_measure(p, &m->left, &why)) {
+        const int named = strncmp(why.text, "part ", 5) == 0;
+        return named ? fl_fail(err, why.code, "%s", why.text)
+                     : fl_fail(err, why.code, "part \"%.60s\": %s", p->name, why.text);
+    }
     m->went = same ? m->came : fl_moments_of(p, 1);
     return 0;
 }

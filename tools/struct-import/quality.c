@@ -4,7 +4,8 @@
 #include "quality.h"
 
 static const double LARGEST = 1000.0, SMALLEST = 0.01; /* [m] sides of a box that are likely another unit */
-static const double ROUNDING = 1e-12;                  /* of the diagonal: thousands of roundings of 1e-16 */
+static const double MUCH = 0.01;      /* change of a patch that was rebuilt, of its area or volume */
+static const double ROUNDING = 1e-12; /* of the diagonal: thousands of roundings of 1e-16 */
 
 /* A coordinate of the centroid, without the rounding left where the parts of a symmetric body cancel. */
 static double shown(double x, const fl_aabb *b)
@@ -91,9 +92,8 @@ static void details(const fl_part *p, const struct mended *m)
     if (m->repair.stitched) fprintf(stderr, "%s: %d pairs of rim edges stitched\n", name, m->repair.stitched);
     if (m->repair.holes)
         fprintf(stderr, "%s: %d holes closed by %d triangles\n", name, m->repair.holes, m->repair.patched);
+    if (m->walls) fprintf(stderr, "%s: %d triangles of walls inside left out\n", name, m->walls);
     if (m->simplified) fprintf(stderr, "%s: %d triangles fewer\n", name, m->simplified);
-    if (m->untangle.failed)
-        fprintf(stderr, "%s: %d patches or pairs of them still cross\n", name, m->untangle.failed);
     if (m->repair.bounding && m->left.inverted)
         fprintf(stderr, "%s: %d patches bound cavities and look inward\n", name, m->left.inverted);
 }
@@ -106,6 +106,14 @@ static void warn(const char *name, const struct mended *m)
                 "struct-import: warning: %s: open patches have no outside, they keep the side that most of "
                 "their area had\n",
                 name);
+    if (m->untangle.failed)
+        fprintf(stderr, "struct-import: warning: %s: %d patches or pairs of them still cross\n", name,
+                m->untangle.failed);
+    if (m->untangle.changed > MUCH)
+        fprintf(stderr,
+                "struct-import: warning: %s: a patch that passed through itself was rebuilt with %.3g of its "
+                "area or volume more or less: look at it\n",
+                name, m->untangle.changed);
     if (twisted)
         fprintf(stderr, "struct-import: warning: %s: %d patches have one side only and cannot be oriented\n",
                 name, twisted);
