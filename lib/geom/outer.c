@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include "base/sets.h"
 #include "geom/outer.h"
-#include "geom/weld.h"
 
 static fl_vec3 corner(const fl_part *p, int32_t t, int k) { return p->v[p->t[t].v[k]]; }
 
@@ -180,24 +179,4 @@ int fl_part_outer(const fl_part *p, const fl_edges *e, uint8_t *side, fl_err *er
 done:
     free(cell), free(whole), free(first), free(all);
     return rc;
-}
-
-int fl_part_drop_walls(fl_part *p, int32_t *gone, fl_err *err)
-{
-    fl_edges e;
-    fl_weld w;
-    uint8_t *side = fl_alloc(p->nt, 1, err);
-    int32_t kept = 0;
-    *gone = 0;
-    if (!side || fl_edges_make(&e, p, err)) {
-        free(side);
-        return -1;
-    }
-    const int rc = fl_part_outer(p, &e, side, err);
-    for (int32_t t = 0; rc == 0 && t < p->nt; t++)
-        if (side[t] != FL_OUTER_NONE) p->t[kept++] = p->t[t];
-    if (rc == 0) *gone = p->nt - kept, p->nt = kept;
-    fl_edges_free(&e);
-    free(side);
-    return rc || (*gone && fl_part_weld(p, 0.0, &w, err)) ? -1 : 0;
 }

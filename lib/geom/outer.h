@@ -19,8 +19,4 @@ enum { FL_OUTER_NONE = 0, FL_OUTER_FRONT = 1, FL_OUTER_BACK = 2, FL_OUTER_BOTH =
  * It holds for surfaces that do not pass through themselves.  0, or -1 with FL_SYSTEM. */
 int fl_part_outer(const fl_part *p, const fl_edges *e, uint8_t *side, fl_err *err);
 
-/* Leave out what lies inside, and the vertices that it alone uses.  gone: so many triangles.  0, or -1 with
- * FL_SYSTEM. */
-int fl_part_drop_walls(fl_part *p, int32_t *gone, fl_err *err);
-
 #endif

@@ -18,12 +18,12 @@ typedef struct {
 } fl_untangle;
 
 /* Closed bodies that pass through each other become their union, whose surface is that of both but for new
- *   shell  [s->nt] which body a triangle is of, any number for each: none is cut where others share its
- *          edges
- * loses the triangles concerned and some about them, and the hole is filled.  Open patches that pass through
- * others stay as they are.
+ * edges where they meet: found exactly, two at a time, then rounded, rid of short edges and looked at; where
+ * it is not sound one of the two is swollen by a little first (TIDY, LOOSE).  A patch that passes through
+ * itself loses the triangles concerned and some about them, and the hole is filled.  Open patches that pass
+ * through others stay as they are.
  *   s      x and t from malloc() or fl_alloc(); replaced where something was done
- *   shell  [s->nt] which body a triangle is of, any number for each: it is not cut where others share its
+ *   shell  [s->nt] which body a triangle is of, any number for each: none is cut where others share its
  *          edges
  * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM in err, and s as it was.
  * Source: Loriot et al., CGAL 5.5, corefinement and repair of self-intersections. */

@@ -9,6 +9,7 @@
 #include "geom/patch.h"
 #include "geom/quat.h"
 #include "geom/shells.h"
+#include "geom/walls.h"
 #include "geom/weld.h"
 #include "support/near.h"
 
@@ -120,6 +121,45 @@ static void boxes_that_share_a_wall(void **state)
     }
 }
 
+/* A plate of two sides is no wall, by itself or on a box; two boxes end to end are one, though another passes
+ * through both and has a corner in common with each. */
+static void double_walls_go_and_plates_stay(void **state)
+{
+    fl_part p = {0};
+    fl_weld w;
+    fl_quality q;
+    int32_t gone;
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const int32_t a = p.nv;
+        fl_surface_vertex(&p, v3(0, 0, k), &err);
+        fl_surface_vertex(&p, v3(1, 0, k), &err);
+        fl_surface_vertex(&p, v3(1, 0, k + 1), &err);
+        fl_surface_vertex(&p, v3(0, 0, k + 1), &err);
+        fl_surface_triangle(&p, a, a + 1, a + 2, &err);
+        fl_surface_triangle(&p, a, a + 2, a + 3, &err);
+        fl_surface_triangle(&p, a, a + 2, a + 1, &err);
+        fl_surface_triangle(&p, a, a + 3, a + 2, &err);
+        if (k) fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err); /* the second stands on its edge */
+        assert_int_equal(fl_part_weld(&p, 0.0, &w, &err), 0);
+        assert_int_equal(fl_part_drop_walls(&p, &gone, &err), 0);
+        assert_int_equal(gone, 4 * k); /* the first lies on the box, and one of each three is its skin */
+    }
+    fl_part_free(&p);
+    p = (fl_part){0};
+    fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
+    fl_facet_box(&p, v3(1, 0, 0), v3(2, 1, 1), &err);
+    fl_facet_cone(&p, &(fl_cone){v3(1, .5, -1), v3(1, .5, 2), .3, .3}, 8, &err);
+    p.v[p.t[24].v[0]] = v3(0, 0, 0), p.v[p.t[24].v[1]] = v3(1, 0, 0); /* it has an edge of the first */
+    assert_int_equal(fl_part_weld(&p, 0.0, &w, &err), 0);
+    assert_int_equal(fl_part_drop_walls(&p, &gone, &err), 0);
+    assert_int_equal(gone, 4);
+    assert_int_equal(fl_part_measure(&p, &q, &err), 0);
+    assert_int_equal(q.branched, 1);
+    assert_int_equal(q.open, 0);
+    fl_part_free(&p);
+}
+
 /* What goes by itself is told by itself: one box within another that has a wall. */
 static void bodies_inside_look_outward_too(void **state)
 {
@@ -188,6 +228,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_skin_of_a_honeycomb_looks_outward),
         cmocka_unit_test(boxes_that_share_a_wall),
+        cmocka_unit_test(double_walls_go_and_plates_stay),
         cmocka_unit_test(bodies_inside_look_outward_too),
         cmocka_unit_test(doubled_triangles_are_one_behind_the_other),
         cmocka_unit_test(bodies_that_share_edges_are_kept_apart),

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
-#include "geom/outer.h"
+#include "geom/walls.h"
 #include "geom/shells.h"
 #include "mend.h"
 #include "mesh/crossing.h"
@@ -160,8 +160,10 @@ done:
 /* Everything behind welding and turning. */
 static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
 {
+    if (o->repair && m->left.branched &&
+        (fl_part_drop_walls(p, &m->walls, err) || fl_part_measure(p, &m->left, err)))
+        return -1;
     if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
-    if (o->repair && m->left.branched && fl_part_drop_walls(p, &m->walls, err)) return -1;
     if (fl_part_crossings(p, &m->meet, err)) return -1;
     if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
     if (p->nt == 0 || (o->simplify <= 0.0 && o->remesh <= 0.0)) return 0;

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include "base/sets.h"
+#include "geom/outer.h"
+#include "geom/walls.h"
+#include "geom/weld.h"
+
+static int32_t apex(const fl_part *p, const fl_side *s) { return p->t[s->t].v[(s->k + 2) % 3]; }
+
+/* twin: of each triangle the one that faces it from behind, on the same corners; -1 for none */
+static void find_twins(const fl_part *p, const fl_edges *e, int32_t *twin)
+{
+    for (int32_t t = 0; t < p->nt; t++) twin[t] = -1;
+    for (int32_t v = 0; v < p->nv; v++)
+        for (int64_t from = e->first[v], to; from < e->first[v + 1]; from = to) {
+            const fl_side *s = e->side;
+            to = fl_edge_end(e, v, from);
+            for (int64_t i = from; i < to; i++)
+                for (int64_t j = i + 1; j < to && twin[s[i].t] < 0; j++)
+                    if (s[i].up != s[j].up && twin[s[j].t] < 0 && apex(p, &s[i]) == apex(p, &s[j]))
+                        twin[s[i].t] = s[j].t, twin[s[j].t] = s[i].t;
+        }
+}
+
+/* What hangs together of them, in set; sheet: 1 under its lowest triangle where an edge of its rim has no others */
+static void find_sheets(const fl_part *p, const fl_edges *e, const int32_t *twin, int32_t *set,
+                        uint8_t *sheet)
+{
+    for (int32_t v = 0; v < p->nv; v++)
+        for (int64_t from = e->first[v], to; from < e->first[v + 1]; from = to) {
+            int64_t last = -1;
+            to = fl_edge_end(e, v, from);
+            for (int64_t k = from; k < to; k++) {
+                const int32_t t = e->side[k].t;
+                if (twin[t] < 0) continue;
+                if (last >= 0) fl_sets_join(set, e->side[last].t, t);
+                last = k;
+            }
+            if (last >= 0 && to - from < 4) sheet[e->side[last].t] = 1;
+        }
+    for (int32_t t = 0; t < p->nt; t++) sheet[fl_sets_find(set, t)] |= sheet[t];
+}
+
+static int double_walls(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
+{
+    int32_t *twin = fl_alloc(p->nt, sizeof *twin, err), *set = twin ? fl_sets_make(p->nt, err) : NULL;
+    uint8_t *sheet = set ? fl_alloc(p->nt, 1, err) : NULL;
+    if (sheet) {
+        find_twins(p, e, twin);
+        find_sheets(p, e, twin, set, sheet);
+        for (int32_t t = 0; t < p->nt; t++) wall[t] = twin[t] >= 0 && !sheet[fl_sets_find(set, t)];
+    }
+    free(twin), free(set);
+    free(sheet);
+    return sheet ? 0 : -1;
+}
+
+static int single_walls(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
+{
+    if (fl_part_outer(p, e, wall, err)) return -1;
+    for (int32_t t = 0; t < p->nt; t++) wall[t] = wall[t] == FL_OUTER_NONE;
+    return 0;
+}
+
+/* One kind of them. */
+static int drop(fl_part *p, int (*find)(const fl_part *, const fl_edges *, uint8_t *, fl_err *),
+                int32_t *gone, fl_err *err)
+{
+    fl_edges e = {0};
+    uint8_t *wall = fl_alloc(p->nt, 1, err);
+    const int rc = !wall || fl_edges_make(&e, p, err) || find(p, &e, wall, err) ? -1 : 0;
+    int32_t kept = 0;
+    for (int32_t t = 0; rc == 0 && t < p->nt; t++)
+        if (!wall[t]) p->t[kept++] = p->t[t];
+    if (rc == 0) *gone += p->nt - kept, p->nt = kept;
+    fl_edges_free(&e);
+    free(wall);
+    return rc;
+}
+
+int fl_part_drop_walls(fl_part *p, int32_t *gone, fl_err *err)
+{
+    fl_weld w;
+    *gone = 0;
+    if (drop(p, double_walls, gone, err) || drop(p, single_walls, gone, err)) return -1;
+    return *gone ? fl_part_weld(p, 0.0, &w, err) : 0;
+}

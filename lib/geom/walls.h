@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* walls.h -- walls inside a surface, which nothing from outside can touch. */
+#ifndef FL_GEOM_WALLS_H
+#define FL_GEOM_WALLS_H
+#include "geom/surface.h"
+
+/* Leave out, with the vertices that they alone use,
+ *   double walls, where bodies stand against each other: triangles on the same corners that face each other,
+ *                 as far as they hang together, where the walls of both bodies go on along all of their rim;
+ *                 a sheet with two sides has no such rim, and stays
+ *   single walls, of which neither side looks outward (outer.h)
+ *   gone  so many triangles.  0, or -1 with FL_SYSTEM. */
+int fl_part_drop_walls(fl_part *p, int32_t *gone, fl_err *err);
+
+#endif
