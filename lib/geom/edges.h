@@ -4,8 +4,8 @@
 #define FL_GEOM_EDGES_H
 #include "geom/surface.h"
 
-/* One side of a triangle.  An edge has two ends, told apart by their indices: the lower is the bucket in which
- * the side lies. */
+/* One side of a triangle.  An edge has two ends, told apart by their indices: the lower is the bucket in
+ * which the side lies. */
 typedef struct {
     int32_t hi, t; /* the higher end, and the triangle            */
     int8_t k, up;  /* side k of it; 1: it runs up from the lower end */

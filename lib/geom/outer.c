@@ -14,8 +14,9 @@ static fl_vec3 cross_of(const fl_part *p, int32_t t)
 
 /* --- cells ------------------------------------------------------------------------------------- */
 
-/* A side at an edge, by the turn of its triangle about it, 0 to 4 for a full one.  Of triangles on the same three
- * corners the first is the lowest, seen along the way on which the corners rise: at each edge the same one. */
+/* A side at an edge, by the turn of its triangle about it, 0 to 4 for a full one.  Of triangles on the same
+ * three corners the first is the lowest, seen along the way on which the corners rise: at each edge the
+ * same one. */
 typedef struct {
     double turn;
     int32_t t, rank;
@@ -75,8 +76,8 @@ static int find_cells(const fl_part *p, const fl_edges *e, int32_t *cell, int32_
 
 /* --- the one without bounds -------------------------------------------------------------------- */
 
-/* Where the line x + s n, of unit n, goes through triangle t: 1 with s, 0 where it passes it by, -1 where that
- * is not sure. */
+/* Where the line x + s n, of unit n, goes through triangle t: 1 with s, 0 where it passes it by, -1 where
+ * that is not sure. */
 static int pierces(const fl_part *p, int32_t t, fl_vec3 x, fl_vec3 n, double *s)
 {
     static const double SURE = 1e-7, STEEP = 1e-4;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* outer.h -- the skin of a surface with walls inside it.
  *
- * Where more than two triangles meet in an edge (a hull and its bulkheads, two boxes that share a wall) the
- * surface parts space into cells, and the volume of a patch tells nothing, as it is no body's.  The triangles
- * about an edge, in the order of their angles, tell which of their sides look into the same cell: the front of
- * one and that side of the next which faces it.  One cell has no bounds: a ray that comes from far away meets
- * the surface first from there. */
+ * Where more than two triangles meet in an edge (a hull and its bulkheads, two boxes that share a wall)
+ * the surface parts space into cells, and the volume of a patch tells nothing, as it is no body's.  The
+ * triangles about an edge, in the order of their angles, tell which of their sides look into the same
+ * cell: the front of one and that side of the next which faces it.  One cell has no bounds: a ray that
+ * comes from far away meets the surface first from there. */
 #ifndef FL_GEOM_OUTER_H
 #define FL_GEOM_OUTER_H
 #include "geom/edges.h"

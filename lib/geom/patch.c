@@ -97,9 +97,9 @@ static patch walk(web *w, int32_t t0)
     return g;
 }
 
-/* Of the signed triangles of a patch: volume, area kept and area turned.  The volume is about a corner of the
- * patch itself, over the sum of the sizes of what it is added up of: what is less than NO_VOLUME of that may be
- * rounding, whose sign another order of the triangles changes. */
+/* Of the signed triangles of a patch: volume, area kept and area turned.  The volume is about a corner of
+ * the patch itself, over the sum of the sizes of what it is added up of: what is less than NO_VOLUME of
+ * that may be rounding, whose sign another order of the triangles changes. */
 static void patch_sums(const fl_part *p, const web *w, int32_t n, double sum[3])
 {
     double sizes = 0.0;
@@ -158,8 +158,8 @@ static void add_part(sums *s, fl_quality *q, const fl_part *p, fl_vec3 o)
     for (int32_t c = 0; c < p->nc; c++) add_cone(s, &p->cone[c], o);
 }
 
-/* Turn the triangles of a patch that has been walked.  outer: sides of triangles that look outward, NULL where
- * no edge is branched. */
+/* Turn the triangles of a patch that has been walked.  outer: sides of triangles that look outward, NULL
+ * where no edge is branched. */
 static void turn(fl_part *p, const web *w, const patch *g, const double sum[3], const uint8_t *outer,
                  fl_orient *o)
 {
@@ -183,7 +183,7 @@ static void turn(fl_part *p, const web *w, const patch *g, const double sum[3], 
     }
 }
 
-/* With o, the outer sides of the triangles of a part that has branched edges; *outer stays NULL for others. */
+/* With o, the outer sides of the triangles of a part with branched edges; *outer stays NULL for others. */
 static int find_outer(const web *w, const fl_part *p, const fl_edges *edges, const fl_orient *o,
                       uint8_t **outer, fl_err *err)
 {

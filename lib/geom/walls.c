@@ -22,7 +22,8 @@ static void find_twins(const fl_part *p, const fl_edges *e, int32_t *twin)
         }
 }
 
-/* What hangs together of them, in set; sheet: 1 under its lowest triangle where an edge of its rim has no others */
+/* What hangs together of them, in set; sheet: 1 under its lowest triangle where an edge of its rim has no
+ * others */
 static void find_sheets(const fl_part *p, const fl_edges *e, const int32_t *twin, int32_t *set,
                         uint8_t *sheet)
 {

@@ -65,8 +65,8 @@ bool rebuild(Mesh &m, fl_untangle *did)
     return false;
 }
 
-/* Where surfaces nearly touch, a union has triangles that rounding turns over: edges shorter than tol are taken
- * out, and corners nearer than that to an edge. */
+/* Where surfaces nearly touch, a union has triangles that rounding turns over: edges shorter than tol are
+ * taken out, and corners nearer than that to an edge. */
 void tidy(Mesh &m, double tol)
 {
     constexpr double STRAIGHT = -1.0 + 1e-12,
