@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include "base/mem.h"
 #include "bound/shell.h"
 #include "narrow/nearest.h"
@@ -337,6 +338,39 @@ int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double 
     return l->lone ? fl_places_point(w, x, q.n, ra - q.d, ra)
                    : fl_passes_places(&sh->passes, &near->passes, w, core,
                                       &(fl_passes_near){l->shy, l->shies}, x, ra, &q, best.of);
+}
+
+int fl_shell_holds(const fl_piece *b, fl_vec3 x)
+{
+    for (int32_t e = 0; e < b->core.ne; e++)
+        if (b->core.edge[e].left < 0 || b->core.edge[e].right < 0) return 0;
+    return nearest_to(&b->core, &b->shell, x).d < 0.0;
+}
+
+int fl_shell_gap(fl_shell_near *near, const fl_vec3 *v, const fl_poly *a, const fl_piece *b, double within,
+                 fl_gap *out)
+{
+    const fl_poly *core = &b->core;
+    fl_reach *r = &near->of_shell;
+    fl_err lost = {0};
+    fl_vec3 *tile = NULL;
+    int32_t cap = 0;
+    fl_aabb box = aabb_empty();
+    *out = (fl_gap){.d = INFINITY};
+    for (int32_t k = 0; k < a->nv; k++) box = aabb_add(box, v[k]);
+    r->faces = query(&b->shell.tree, b->shell.box, aabb_grow(box, within), &r->face, &r->face_cap);
+    for (int32_t k = 0; k < r->faces; k++) {
+        const int32_t from = core->first[r->face[k]], n = core->first[r->face[k] + 1] - from;
+        fl_gjk_cache cold = {0};
+        fl_gap gap;
+        if (fl_grow(&tile, &cap, n, sizeof *tile, &lost)) break;
+        for (int32_t c = 0; c < n; c++) tile[c] = core->v[core->loop[from + c]];
+        fl_gjk((fl_core){v, a->nv, a}, (fl_core){tile, n, NULL}, &cold, &gap);
+        if (gap.d < out->d) *out = gap;
+    }
+    free(tile);
+    if (!out->overlap && fl_shell_holds(b, v[0])) out->d = -out->d, out->n = v3_neg(out->n);
+    return r->faces < 0 || lost.code ? -1 : out->d < within;
 }
 
 void fl_shell_near_free(fl_shell_near *near)

@@ -12,6 +12,7 @@
 #define FL_BOUND_SHELL_H
 #include "bound/structure.h"
 #include "narrow/footing.h"
+#include "narrow/gjk.h"
 
 /* Scratch for the faces and edges in reach, and for what lies under a face. */
 typedef struct {
@@ -34,6 +35,15 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
  * passes must have been made (passes.h).  *distance is that of the point, where nothing touches. */
 int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double ra, fl_matches *l,
                    double *distance);
+
+/* The point, in the frame of b, lies behind a surface that has no rim. */
+int fl_shell_holds(const fl_piece *b, fl_vec3 x);
+
+/* The gap between the hull of the vertices v of core a, in the frame of b, and the surface: 1 where it is
+ * below `within`, overlap set where a face of the surface cuts the core; else 0.  What is held has its
+ * distance with the other sign, and n looks out.  -1 when memory runs out. */
+int fl_shell_gap(fl_shell_near *near, const fl_vec3 *v, const fl_poly *a, const fl_piece *b, double within,
+                 fl_gap *out);
 
 void fl_shell_near_free(fl_shell_near *near);
 

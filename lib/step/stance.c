@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include "base/mem.h"
 #include "base/wide.h"
 #include "bound/shell.h"
@@ -410,6 +411,35 @@ int fl_stance_apart(const fl_world *w, fl_near *q)
     return 1;
 }
 
+/* Of a shell the deepest place, or where it is nearest: in the frame of B. */
+static int probe_shell(fl_world *w, const fl_pair *p, const fl_stance *r, double reach, fl_contact *out)
+{
+    const double ra = p->keep * w->b.radius[p->i];
+    fl_places *s = &w->scratch[0];
+    fl_pair own = *p; /* its list of features stays as it is */
+    double distance, deepest = -INFINITY;
+    fl_gap gap;
+    own.matches = NULL;
+    const int rc = fl_stance_places(w, &own, 0, r, &distance);
+    if (own.matches) fl_matches_free(own.matches);
+    free(own.matches);
+    if (rc) return 0;
+    *out = (fl_contact){.mode = FL_MODE_NONE};
+    for (int32_t k = 0; k < s->n; k++) {
+        const fl_place *q = &s->place[k];
+        if (q->overlap <= deepest) continue;
+        deepest = q->overlap;
+        *out = (fl_contact){.d = ra - deepest, .gap = -deepest, .n = q->across, .p = q->p};
+    }
+    if (s->n) return 1;
+    if (fl_shell_gap(&w->near_shell[0], s->va, &w->b.core[p->i], fl_world_piece(w, p->j), ra + reach, &gap) <=
+        0)
+        return 0;
+    *out = (fl_contact){.d = gap.d, .gap = gap.d - ra, .n = gap.n};
+    out->p = v3_madd(gap.pb, 0.5 * out->gap, gap.n);
+    return 1;
+}
+
 int fl_stance_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out)
 {
     const fl_bodies *b = &w->b;
@@ -418,9 +448,10 @@ int fl_stance_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out
     const fl_stance r = fl_stance_of(w, p);
     const fl_piece *piece = fl_world_piece(w, j);
     fl_places *s = &w->scratch[0];
-    if (piece && piece->kind == FL_PIECE_SHELL) return 0;
     if (fl_places_enter(s, A, r.M, r.o)) return 0;
-    if (piece && (piece->kind == FL_PIECE_PLANE || (piece->kind == FL_PIECE_CONE && A->nv == 1))) {
+    if (piece && piece->kind == FL_PIECE_SHELL) {
+        if (!probe_shell(w, p, &r, reach, out)) return 0;
+    } else if (piece && (piece->kind == FL_PIECE_PLANE || (piece->kind == FL_PIECE_CONE && A->nv == 1))) {
         double d;
         s->n = 0;
         const double ra = b->radius[i];

@@ -32,8 +32,8 @@ void fl_stance_parted(const fl_world *w, fl_pair *p, double distance, double R);
 int fl_stance_apart(const fl_world *w, fl_near *q);
 
 /* The signed contact of a pair as the probe tells it: gap and mode by narrow/contact.h, in world axes
- * relative to the world's origin, the point inside the cell.  Returns 0 where a kind has no such contact
- * within reach. */
+ * relative to the world's origin, the point inside the cell; on a shell the deepest place, or where it is
+ * nearest, without a mode.  Returns 0 where there is none within reach. */
 int fl_stance_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out);
 
 #endif

@@ -452,16 +452,49 @@ static void progress(const struct run *r, double begun, int last)
 static void warn_overlaps(const struct run *r)
 {
     const fl_world *w = r->w;
-    int32_t found = 0, first = -1;
-    for (int32_t c = 0; c < w->n_pair; c++) {
-        if (!w->pair[c].n || !w->pair[c].deep) continue;
-        if (!found++) first = c;
+    const fl_pair *first = NULL;
+    int32_t found = 0;
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
+        if (!p->n || !(p->overlap > p->keep * (w->b.radius[p->i] + w->b.radius[p->j]))) continue;
+        if (!found++) first = p;
     }
     if (!found) return;
     fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
             found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
-    fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[w->pair[first].i],
-            fl_world_name(w, w->pair[first].j));
+    fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[first->i],
+            fl_world_name(w, first->j));
+}
+
+/* Inside a shell and clear of its skin, like air in a hull. */
+static int stands_inside(const fl_world *w, int32_t i, int32_t k)
+{
+    const fl_piece *piece = &w->structure.piece[k];
+    const int32_t j = w->n + k;
+    if (piece->kind != FL_PIECE_SHELL || fl_world_away(w, i)) return 0;
+    if (!fl_shell_holds(piece, m3_tmul(fl_body_axes(&w->b, j), v3_sub(w->b.x[i], w->b.x[j])))) return 0;
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;)
+        if (p->n && p->i == i && p->j == j) return 0;
+    return 1;
+}
+
+/* It would stay there, and no load tells. */
+static void warn_held(const struct run *r)
+{
+    const fl_world *w = r->w;
+    int32_t found = 0, body = -1, part = -1;
+    for (int32_t k = 0; k < w->structure.n; k++)
+        for (int32_t i = 0; i < w->n; i++) {
+            if (!stands_inside(w, i, k) || found++) continue;
+            body = i;
+            part = w->structure.piece[k].part;
+        }
+    if (found)
+        fprintf(stderr,
+                "dem-solve: warning: %d %s inside the structure, first body %d in part %s, and will not feel "
+                "it before it reaches its skin\n",
+                found, found == 1 ? "body stands" : "bodies stand", w->id[body], r->surface->part[part].name);
 }
 
 /* A sheet of any other outline than a convex one is a surface like that of a hull, which has an inside. */
@@ -542,6 +575,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     if (!r->saved) {
         if (fl_step_start(w, err)) return -1;
         warn_overlaps(r);
+        warn_held(r);
         warn_waves(r);
         warn_hulls(r);
         warn_sheets(r);
