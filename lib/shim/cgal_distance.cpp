@@ -19,12 +19,15 @@ using Primitive = CGAL::AABB_triangle_primitive<Plain, std::vector<Triangle>::co
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Plain, Primitive>>;
 
 const double SHARE = 0.01; /* of the distance, to which it is told */
+const double GAIN = 0.9;   /* a cut that leaves a bound above so much of what it was has told little, */
+const int PATIENCE = 4;    /* and so many of them in a row are the last before one in the middle */
 
 using Vec = Plain::Vector_3;
 
 struct piece {
     Vec x[3];
     double bound; /* no point of it is farther */
+    int vain;     /* cuts in a row that told little of it */
 };
 
 Vec vec(const Plain::Point_3 &p) { return p - CGAL::ORIGIN; }
@@ -93,7 +96,7 @@ class search
     {
         for (const Triangle &t : from)
             for (int k = 0; k < 3; k++) nearest(vec(t[k]));
-        for (const Triangle &t : from) push({{vec(t[0]), vec(t[1]), vec(t[2])}, INFINITY});
+        for (const Triangle &t : from) push({{vec(t[0]), vec(t[1]), vec(t[2])}, INFINITY, 0});
         room += open.size();
         while (!open.empty() && !settled(open.front().bound) && open.size() < room && made < room) {
             std::pop_heap(open.begin(), open.end(), lower);
@@ -128,6 +131,7 @@ class search
     {
         const Vec middle = (p.x[0] + p.x[1] + p.x[2]) / 3.0;
         const Triangle &s = nearest(middle);
+        const double before = p.bound;
         double corner = 0.0, size = 0.0;
         made++;
         p.bound = std::min(p.bound, farthest(p, s));
@@ -143,15 +147,16 @@ class search
         if (settled(p.bound)) {
             most = std::max(most, p.bound);
         } else {
+            if (p.bound < GAIN * before) p.vain = 0;
             open.push_back(p);
             std::push_heap(open.begin(), open.end(), lower);
         }
     }
 
-    void fan(const std::vector<Vec> &polygon, double bound)
+    void fan(const std::vector<Vec> &polygon, double bound, int vain)
     {
         for (std::size_t k = 2; k < polygon.size(); k++)
-            push({{polygon[0], polygon[k - 1], polygon[k]}, bound});
+            push({{polygon[0], polygon[k - 1], polygon[k]}, bound, vain});
     }
 
     void halve(const piece &p)
@@ -167,13 +172,18 @@ class search
         }
         const Vec a = p.x[longest], b = p.x[(longest + 1) % 3], c = p.x[(longest + 2) % 3];
         const Vec m = 0.5 * (a + b);
-        push({{a, m, c}, p.bound});
-        push({{m, b, c}, p.bound});
+        push({{a, m, c}, p.bound, 0});
+        push({{m, b, c}, p.bound, 0});
     }
 
-    /* Cut along the prism over the triangle nearest to the middle, or in two where that does not cut. */
+    /* Cut along the prism over the triangle nearest to the middle, or in two where that does not cut, or
+     * where such cuts only nibble, as slivers and small triangles do at what is far from all of them. */
     void split(const piece &p)
     {
+        if (p.vain >= PATIENCE) {
+            halve(p);
+            return;
+        }
         const Triangle &s = nearest((p.x[0] + p.x[1] + p.x[2]) / 3.0);
         const Vec a[3] = {vec(s[0]), vec(s[1]), vec(s[2])};
         const Vec n = CGAL::cross_product(a[1] - a[0], a[2] - a[0]);
@@ -194,8 +204,8 @@ class search
             return;
         }
         for (const Vec &x : rest) bound = std::max(bound, apart(x, s));
-        fan(rest, std::min(bound, p.bound));
-        for (const auto &polygon : outside) fan(polygon, p.bound);
+        fan(rest, std::min(bound, p.bound), p.vain + 1);
+        for (const auto &polygon : outside) fan(polygon, p.bound, p.vain + 1);
     }
 };
 

@@ -253,6 +253,15 @@ static void distances_are_bounded_on_both_sides(void **state)
     fl_surface_triangle(&a, 0, 3, 2, &err);
     distance_of(&a, &c, &least, &most);
     assert_true(least <= 1.0 + 1e-12 && most >= 1.0 && most <= 1.011);
+    /* a strip along the axis of a tube: as far from each of many long triangles, which cuts along them only
+     * nibble */
+    a.nt = a.nv = c.nt = c.nv = 0;
+    for (int k = 0; k < 4; k++) fl_surface_vertex(&a, v3(k & 1 ? 0.01 : -0.01, 0, k & 2 ? 9 : 1), &err);
+    fl_surface_triangle(&a, 0, 1, 3, &err);
+    fl_surface_triangle(&a, 0, 3, 2, &err);
+    fl_facet_cone(&c, &(fl_cone){v3(0, 0, 0), v3(0, 0, 10), 0.5, 0.5}, 360, &err);
+    distance_of(&a, &c, &least, &most);
+    assert_true(most >= least && most <= 1.02 * least && fabs(least - 0.5) < 1e-3);
     fl_part_free(&a);
     fl_part_free(&b);
     fl_part_free(&c);
