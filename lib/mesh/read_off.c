@@ -122,7 +122,8 @@ int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
             goto done;
     for (int32_t f = 0; f < n[1]; f++)
         if (wanted_row(b, "faces", f, n[1], err) || read_face(b, &s->part[i], &loop, &cap, err)) goto done;
-    rc = 0;
+    rc = fl_bytes_row(b, err); /* what a wrong count leaves over would be lost without a word */
+    if (rc > 0) rc = fl_bytes_fail(b, err, "a row follows the last of %d faces", n[1]);
 done:
     free(loop);
     return rc;
