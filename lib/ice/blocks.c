@@ -15,6 +15,7 @@
 /* The parts filled must agree with the one asked for to this part, which is far below any porosity that is
  * known, and above the rounding of volumes. */
 #define FILLED 1e-10
+#define ROUGH 0.1 /* the most that blocks which vanish together may leave of what is asked for */
 
 enum { STEPS = 80, DEEPER = 12, TRIES = 100000 };
 
@@ -263,6 +264,21 @@ static int offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
     return why.code == FL_SYSTEM ? fl_fail(err, FL_SYSTEM, "%s", why.text) : 1;
 }
 
+/* A core is a body, and no sheet: between two planes along its faces there is this much of the dilation
+ * radius at least, and of its size. */
+static const double THICK_OF_RADIUS = 1e-2, THICK_OF_SIZE = 1e-4;
+
+static int too_thin(const fl_poly *p, double radius)
+{
+    const double least = fmax(THICK_OF_RADIUS * radius, THICK_OF_SIZE * p->size);
+    for (int32_t f = 0; f < p->nf; f++) {
+        double low = INFINITY;
+        for (int32_t v = 0; v < p->nv; v++) low = fmin(low, v3_dot(p->n[f], p->v[v]));
+        if (p->c[f] - low < least) return 1;
+    }
+    return 0;
+}
+
 /* How far corners of p stand out of the cell moved inward by d. */
 static double beyond(const fl_poly *cell, const fl_poly *p, double d)
 {
@@ -283,6 +299,7 @@ static int shape(const fl_poly *cell, double gap, double radius, fl_poly *core, 
         fl_poly c = {0}, outer = {0};
         double out;
         int rc = offset(&c, cell, -(gap + radius + deeper), err);
+        if (rc == 0) rc = too_thin(&c, radius);
         if (rc == 0) rc = offset(&outer, &c, radius, err);
         if (rc) {
             fl_poly_free(&c);
@@ -346,6 +363,12 @@ int fl_blocks_shrink(fl_blocks *b, double solid, double radius, fl_err *err)
             over_hi = over;
         }
     }
+    if (fabs(over) > ROUGH * want)
+        return fl_fail(
+            err, FL_INPUT,
+            "blocks of dilation radius %.4g m vanish, many at a time, where they fill %.4g of their "
+            "region, %.10g was asked for: a smaller radius is wanted",
+            radius, (want + over_lo) / b->region, solid);
     b->gap = gap;
     b->solid = sum;
     b->lost = 0;

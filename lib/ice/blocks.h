@@ -34,10 +34,9 @@ int fl_blocks_cells(fl_blocks *out, const fl_poly *region, int32_t n, uint64_t s
 /* Shrink the cells: the outer sharp block is the cell with its faces moved inward by the gap, and its core
  * lies inside that by the dilation radius.  Where faces vanish on the way to the core, what comes of moving
  * the others outward again has sharper corners: then the block moves in farther until they are clear.  The
- * gap is found such that the blocks fill the part  solid  of the region.
- *   solid  above 0 and below 1
- * Returns 0, or -1 with FL_INPUT (so much cannot be filled with such a radius; how much can is told),
- * FL_NUMERIC or FL_SYSTEM. */
+ * gap is found such that the blocks fill the part  solid  of the region. solid  above 0 and below 1 A block
+ * whose core would be a sheet is none. Returns 0, or -1 with FL_INPUT (so much, or so little, cannot be
+ * filled with such a radius; what can is told), FL_NUMERIC or FL_SYSTEM. */
 int fl_blocks_shrink(fl_blocks *b, double solid, double radius, fl_err *err);
 
 /* Pairs of outer blocks that the plane half-way between their sites does not separate: 0, since each stays in

@@ -100,6 +100,37 @@ static void what_cannot_be_filled_is_told(void **state)
     fl_poly_free(&r);
 }
 
+/* A slab of cells as high as it is, which vanish together: as much as they fill then can be had, and no
+ * core is a sheet, but not less. */
+static void what_is_thinner_than_its_radius_is_told(void **state)
+{
+    (void)state;
+    const fl_vec3 rim[4] = {{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}};
+    int told = 0, made = 0;
+    for (double solid = 0.02; solid < 0.4; solid += 0.02) {
+        fl_poly r = {0};
+        fl_blocks b = {0};
+        fl_err err = {0};
+        assert_int_equal(fl_poly_prism(&r, 4, rim, 0, 0.4, &err), 0);
+        assert_int_equal(fl_blocks_cells(&b, &r, 40, 1, 0, 1, &err), 0);
+        const int rc = fl_blocks_shrink(&b, solid, 0.05, &err);
+        if (rc) assert_int_equal(err.code, FL_INPUT);
+        if (rc) assert_true(made == 0 && strstr(err.text, "vanish") != NULL);
+        told += rc != 0;
+        made += rc == 0;
+        for (int32_t i = 0; rc == 0 && i < b.n; i++)
+            for (int32_t f = 0; f < b.core[i].nf; f++) {
+                double low = INFINITY;
+                for (int32_t v = 0; v < b.core[i].nv; v++)
+                    low = fmin(low, v3_dot(b.core[i].n[f], b.core[i].v[v]));
+                assert_true(b.core[i].c[f] - low >= 5e-4);
+            }
+        fl_blocks_free(&b);
+        fl_poly_free(&r);
+    }
+    assert_true(told > 0 && made > 0);
+}
+
 /* One more block leaves the sites of the others where they are. */
 static void sites_are_counted(void **state)
 {
@@ -143,6 +174,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(cells_are_those_of_the_nearest_site),
                                        cmocka_unit_test(blocks_fill_their_part_and_stay_apart),
                                        cmocka_unit_test(what_cannot_be_filled_is_told),
+                                       cmocka_unit_test(what_is_thinner_than_its_radius_is_told),
                                        cmocka_unit_test(sites_are_counted),
                                        cmocka_unit_test(memory_that_runs_out_is_told)};
     return cmocka_run_group_tests(tests, NULL, NULL);
