@@ -41,18 +41,25 @@ static double turn_of(double x, double y)
 static int32_t ahead(const leaf *l) { return 2 * l->t + !l->up; }
 static int32_t behind(const leaf *l) { return 2 * l->t + l->up; }
 
-/* Sides about the edge from vertex lo that look into the same cell: ahead is where turns grow. */
-static void join_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t n, leaf *fan, int32_t *cell)
+/* In the order of their turns.  Of two each follows the other, whatever these are. */
+static void order_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t n, leaf *fan)
 {
-    const fl_vec3 from = p->v[lo], along = v3_sub(p->v[s->hi], from), x = v3_normal_to(v3_unit(along)),
-                  y = v3_cross(v3_unit(along), x);
+    const fl_vec3 from = p->v[lo], along = v3_unit(v3_sub(p->v[s->hi], from)), x = v3_normal_to(along),
+                  y = v3_cross(along, x);
     for (int64_t k = 0; k < n; k++) {
         const int32_t t = s[k].t, third = p->t[t].v[(s[k].k + 2) % 3];
         const fl_vec3 apex = v3_sub(p->v[third], from);
-        const int down = lo < third && third < s[k].hi;
-        fan[k] = (leaf){turn_of(v3_dot(apex, x), v3_dot(apex, y)), t, down ? -t : t, s[k].up};
+        fan[k].turn = turn_of(v3_dot(apex, x), v3_dot(apex, y));
+        fan[k].rank = lo < third && third < s[k].hi ? -t : t;
     }
     qsort(fan, (size_t)n, sizeof *fan, by_turn);
+}
+
+/* Sides about the edge from vertex lo that look into the same cell: ahead is where turns grow. */
+static void join_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t n, leaf *fan, int32_t *cell)
+{
+    for (int64_t k = 0; k < n; k++) fan[k] = (leaf){.t = s[k].t, .up = s[k].up};
+    if (n > 2) order_about(p, lo, s, n, fan);
     for (int64_t k = 0; k < n; k++) fl_sets_join(cell, ahead(&fan[k]), behind(&fan[(k + 1) % n]));
 }
 

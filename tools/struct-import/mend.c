@@ -160,9 +160,6 @@ done:
 /* Everything behind welding and turning. */
 static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
 {
-    if (o->repair && m->left.branched &&
-        (fl_part_drop_walls(p, &m->walls, err) || fl_part_measure(p, &m->left, err)))
-        return -1;
     if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
     if (fl_part_crossings(p, &m->meet, err)) return -1;
     if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
@@ -195,6 +192,9 @@ static int mend_triangles(fl_part *p, const struct options *o, struct mended *m,
     if (p->nt == 0 || o->raw) return 0;
     *same = *same && m->orient.triangles + m->orient.patches == 0;
     if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->left, err)) return -1;
+    if (o->repair && m->left.branched &&
+        (fl_part_drop_walls(p, &m->walls, err) || fl_part_measure(p, &m->left, err)))
+        return -1;
     if (may_move(&m->left, o) && to_soup(p, &source, err)) return -1;
     *same = *same && !source.nt;
     if (cure(p, o, m, blur, err)) goto done;
