@@ -19,7 +19,7 @@ static fl_vec3 cross_of(const fl_part *p, int32_t t)
  * same one. */
 typedef struct {
     double turn;
-    int32_t t, rank;
+    int32_t t, rank, third; /* corner */
     int up;
 } leaf;
 
@@ -41,8 +41,11 @@ static double turn_of(double x, double y)
 static int32_t ahead(const leaf *l) { return 2 * l->t + !l->up; }
 static int32_t behind(const leaf *l) { return 2 * l->t + l->up; }
 
-/* In the order of their turns.  Of two each follows the other, whatever these are. */
-static void order_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t n, leaf *fan)
+/* Triangles that lie on one another but for rounding, and not on the same corners, have no order. */
+static const double SAME_TURN = 1e-9;
+
+/* In the order of their turns; 0 where they have none.  Of two each follows the other, whatever these are. */
+static int order_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t n, leaf *fan)
 {
     const fl_vec3 from = p->v[lo], along = v3_unit(v3_sub(p->v[s->hi], from)), x = v3_normal_to(along),
                   y = v3_cross(along, x);
@@ -50,21 +53,33 @@ static void order_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t 
         const int32_t t = s[k].t, third = p->t[t].v[(s[k].k + 2) % 3];
         const fl_vec3 apex = v3_sub(p->v[third], from);
         fan[k].turn = turn_of(v3_dot(apex, x), v3_dot(apex, y));
+        fan[k].third = third;
         fan[k].rank = lo < third && third < s[k].hi ? -t : t;
     }
     qsort(fan, (size_t)n, sizeof *fan, by_turn);
+    for (int64_t k = 0; k < n; k++) {
+        const leaf *a = &fan[k], *b = &fan[(k + 1) % n];
+        const double apart = fabs(b->turn - a->turn);
+        if (a->third != b->third && fmin(apart, 4.0 - apart) < SAME_TURN) return 0;
+    }
+    return 1;
 }
 
-/* Sides about the edge from vertex lo that look into the same cell: ahead is where turns grow. */
-static void join_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t n, leaf *fan, int32_t *cell)
+/* Sides about the edge from vertex lo that look into the same cell: ahead is where turns grow.  0 where
+ * they have no order. */
+static int join_about(const fl_part *p, int32_t lo, const fl_side *s, int64_t n, leaf *fan, int32_t *cell)
 {
+    int ordered = 1;
     for (int64_t k = 0; k < n; k++) fan[k] = (leaf){.t = s[k].t, .up = s[k].up};
-    if (n > 2) order_about(p, lo, s, n, fan);
+    if (n > 2) ordered = order_about(p, lo, s, n, fan);
     for (int64_t k = 0; k < n; k++) fl_sets_join(cell, ahead(&fan[k]), behind(&fan[(k + 1) % n]));
+    return ordered;
 }
 
-/* cell: [2 nt] sides; whole: [nt] triangles that hang together */
-static int find_cells(const fl_part *p, const fl_edges *e, int32_t *cell, int32_t *whole, fl_err *err)
+/* cell: [2 nt] sides; whole: [nt] triangles that hang together; kind: [nt] what is true of their edges */
+enum { SINGLE = 1, DISORDERED = 2 };
+static int find_cells(const fl_part *p, const fl_edges *e, int32_t *cell, int32_t *whole, uint8_t *kind,
+                      fl_err *err)
 {
     int64_t most = 1;
     for (int32_t v = 0; v < p->nv; v++)
@@ -74,10 +89,12 @@ static int find_cells(const fl_part *p, const fl_edges *e, int32_t *cell, int32_
     for (int32_t v = 0; v < p->nv; v++)
         for (int64_t from = e->first[v], to; from < e->first[v + 1]; from = to) {
             to = fl_edge_end(e, v, from);
-            join_about(p, v, e->side + from, to - from, fan, cell);
+            if (!join_about(p, v, e->side + from, to - from, fan, cell)) kind[e->side[from].t] |= DISORDERED;
+            if ((to - from) % 2) kind[e->side[from].t] |= SINGLE;
             for (int64_t k = from + 1; k < to; k++) fl_sets_join(whole, e->side[from].t, e->side[k].t);
         }
     free(fan);
+    for (int32_t t = 0; t < p->nt; t++) kind[fl_sets_find(whole, t)] |= kind[t];
     return 0;
 }
 
@@ -169,22 +186,24 @@ int fl_part_outer(const fl_part *p, const fl_edges *e, uint8_t *side, fl_err *er
     int32_t *cell = fl_sets_make(2 * (int64_t)p->nt, err), *whole = cell ? fl_sets_make(p->nt, err) : NULL;
     int32_t *first = whole ? fl_alloc((int64_t)p->nt + 1, sizeof *first, err) : NULL;
     int32_t *all = first ? fl_alloc(p->nt, sizeof *all, err) : NULL;
-    const int rc = all ? find_cells(p, e, cell, whole, err) : -1;
+    uint8_t *kind = all ? fl_alloc(p->nt, 1, err) : NULL;
+    const int rc = kind ? find_cells(p, e, cell, whole, kind, err) : -1;
     if (rc) goto done;
     for (int32_t t = 0; t < p->nt; t++) first[fl_sets_find(whole, t) + 1]++;
     for (int32_t t = 0; t < p->nt; t++) first[t + 1] += first[t];
     for (int32_t t = 0; t < p->nt; t++) all[first[fl_sets_find(whole, t)]++] = t;
     for (int32_t from = 0, to; from < p->nt; from = to) { /* each ran on to where the next one starts */
-        to = first[fl_sets_find(whole, all[from])];
-        const int32_t outer = outer_cell(p, all + from, to - from, cell);
+        const int32_t root = fl_sets_find(whole, all[from]);
+        to = first[root];
+        const int32_t outer = kind[root] == SINGLE ? outer_cell(p, all + from, to - from, cell) : -1;
         for (int32_t k = from; k < to; k++) {
             const int32_t t = all[k];
             side[t] = (uint8_t)((fl_sets_find(cell, 2 * t) == outer ? FL_OUTER_FRONT : 0) |
                                 (fl_sets_find(cell, 2 * t + 1) == outer ? FL_OUTER_BACK : 0));
-            if (outer < 0) side[t] = FL_OUTER_BOTH; /* all without area */
+            if (outer < 0) side[t] = FL_OUTER_BOTH;
         }
     }
 done:
-    free(cell), free(whole), free(first), free(all);
+    free(cell), free(whole), free(first), free(all), free(kind);
     return rc;
 }

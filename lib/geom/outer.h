@@ -13,10 +13,11 @@
 enum { FL_OUTER_NONE = 0, FL_OUTER_FRONT = 1, FL_OUTER_BACK = 2, FL_OUTER_BOTH = 3 };
 
 /* Which sides of the triangles of p look outward, into the cell without bounds of what they hang together
- * with: FRONT, the side of the normal, or BACK for the skin, NONE for what lies inside, BOTH for a sheet.
- *   e     of p
- *   side  [p->nt] out
- * It holds for surfaces that do not pass through themselves.  0, or -1 with FL_SYSTEM. */
+ * with: FRONT, the side of the normal, or BACK for the skin, NONE for what lies inside, BOTH for a sheet. e
+ * of p side  [p->nt] out.  BOTH, too, where nothing is known: where no edge of what hangs together has an
+ * odd number of triangles, as where closed bodies have edges in common, and where triangles at an edge lie
+ * on one another in part It holds for surfaces that do not pass through themselves.  0, or -1 with
+ * FL_SYSTEM. */
 int fl_part_outer(const fl_part *p, const fl_edges *e, uint8_t *side, fl_err *err);
 
 #endif

@@ -7,7 +7,8 @@
 /* Triangles joined across edges of two; and where bodies share an edge, by twos in their order, since the
  * triangles of a body come one behind the other in its file.  Edges of three, or five, join nothing.
  *   shell  [p->nt] out: the lowest triangle of its body
+ *   odd    out: how many edges have an odd number of triangles; 0: each body is closed
  * 0, or -1 with FL_SYSTEM. */
-int fl_part_shells(const fl_part *p, int32_t *shell, fl_err *err);
+int fl_part_shells(const fl_part *p, int32_t *shell, int32_t *odd, fl_err *err);
 
 #endif

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include "shim/cgal_mesh.hpp"
 #include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/box_intersection_d.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -116,6 +117,24 @@ void loosen(Mesh &m, double eps, uint32_t &state)
     }
 }
 
+/* Its halfedges are linked as those of closed triangles are, told without following links, which need not
+ * end: a union that is no manifold may come out torn. */
+template <class Any>
+bool linked(const Any &m)
+{
+    for (const auto h : m.halfedges()) {
+        const auto n = m.next(h);
+        if (m.is_border(h) || m.next(m.next(n)) != h || m.prev(n) != h || m.face(n) != m.face(h) ||
+            m.target(m.opposite(n)) != m.target(h))
+            return false;
+    }
+    for (const auto f : m.faces())
+        if (m.face(m.halfedge(f)) != f) return false;
+    for (const auto v : m.vertices())
+        if (m.halfedge(v) == Any::null_halfedge() || m.target(m.halfedge(v)) != v) return false;
+    return !m.is_empty();
+}
+
 /* The union of a and b, found exactly and then rounded and tidied; false where that is not sound. */
 bool union_of(const Mesh &a, const Mesh &b, double tol, Mesh &out)
 {
@@ -126,17 +145,57 @@ bool union_of(const Mesh &a, const Mesh &b, double tol, Mesh &out)
     if (!PMP::corefine_and_compute_union(left, right, both,
                                          CGAL::parameters::throw_on_self_intersection(true)))
         return false;
+    if (!linked(both)) return false;
     CGAL::copy_face_graph(both, out);
-    if (out.is_empty() || !CGAL::is_triangle_mesh(out) || !CGAL::is_closed(out)) return false;
     tidy(out, tol);
     return !PMP::does_self_intersect(out) && has_areas(out);
+}
+
+/* Three corners of a face. */
+std::array<Point, 3> corners_of(const Mesh &m, Mesh::Face_index f)
+{
+    const auto h = m.halfedge(f);
+    return {m.point(m.source(h)), m.point(m.target(h)), m.point(m.target(m.next(h)))};
+}
+
+/* A corner of q lies in the plane of p. */
+bool one_in_plane(const std::array<Point, 3> &p, const std::array<Point, 3> &q)
+{
+    return std::any_of(q.begin(), q.end(), [&](const Point &x) {
+        return CGAL::orientation(p[0], p[1], p[2], x) == CGAL::COPLANAR;
+    });
+}
+
+/* A corner of one lies on the other, or faces lie on one another: then a union may be no manifold, and the
+ * search for it without end. */
+bool touch(const Mesh &a, const Mesh &b)
+{
+    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Mesh::Face_index>;
+    std::vector<Box> of[2];
+    const Mesh *const mesh[2] = {&a, &b};
+    bool found = false;
+    for (int k = 0; k < 2; k++)
+        for (const auto f : mesh[k]->faces()) {
+            const auto c = corners_of(*mesh[k], f);
+            of[k].emplace_back(c[0].bbox() + c[1].bbox() + c[2].bbox(), f);
+        }
+    CGAL::box_intersection_d(of[0].begin(), of[0].end(), of[1].begin(), of[1].end(),
+                             [&](const Box &x, const Box &y) {
+                                 const auto p = corners_of(a, x.info()), q = corners_of(b, y.info());
+                                 if (found || !(one_in_plane(p, q) || one_in_plane(q, p))) return;
+                                 found = CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]),
+                                                            Kernel::Triangle_3(q[0], q[1], q[2]));
+                             });
+    return found;
 }
 
 /* b becomes part of a, loosened as little as it takes; false, and a as it was, where that will not do. */
 bool unite(Mesh &a, const Mesh &b, double tol, uint32_t &state)
 {
+    const bool close = touch(a, b);
     for (const double eps : {0.0, 1e-8, 1e-7, FL_UNTANGLE_LOOSE}) {
         Mesh other = b, both;
+        if (eps == 0.0 && close) continue;
         if (eps > 0.0) loosen(other, eps, state);
         if (!done([&] { return union_of(a, other, tol, both); })) continue;
         a = both;

@@ -43,7 +43,8 @@ static int untangled(fl_soup *s, fl_untangle *did, fl_err *why)
 {
     const fl_part p = {.nv = s->nv, .nt = s->nt, .v = (fl_vec3 *)s->x, .t = (fl_tri *)s->t};
     int32_t *shell = fl_alloc(p.nt, sizeof *shell, why);
-    const int rc = fl_part_shells(&p, shell, why) || fl_cgal_untangle(s, shell, did, why);
+    int32_t odd;
+    const int rc = fl_part_shells(&p, shell, &odd, why) || fl_cgal_untangle(s, shell, did, why);
     free(shell);
     return rc ? -1 : 0;
 }

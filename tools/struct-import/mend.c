@@ -86,18 +86,25 @@ static int repair(fl_part *p, int32_t holes, double size, fl_repair *did, fl_err
     return rc;
 }
 
-static int untangle(fl_part *p, struct mended *m, fl_err *err)
+/* With closed, only where all bodies are. */
+static int untangle(fl_part *p, int closed, struct mended *m, fl_err *err)
 {
     fl_soup s = {0};
-    int32_t *shell = fl_alloc(p->nt, sizeof *shell, err);
+    fl_untangle did = {0};
+    int32_t *shell = fl_alloc(p->nt, sizeof *shell, err), odd;
     int rc = -1;
-    if (shell && fl_part_shells(p, shell, err) == 0 && to_soup(p, &s, err) == 0)
-        rc = fl_cgal_untangle(&s, shell, &m->untangle, err);
-    free(shell);
+    if (!shell || fl_part_shells(p, shell, &odd, err)) goto done;
+    rc = closed && odd ? 0 : to_soup(p, &s, err) || fl_cgal_untangle(&s, shell, &did, err);
     /* new corners were rounded, which may leave triangles of one line */
-    if (rc == 0 && m->untangle.joined + m->untangle.rebuilt > 0)
+    if (rc == 0 && did.joined + did.rebuilt > 0)
         rc = from_soup(p, &s, err) || repair(p, 0, 0.0, &m->repair, err) ||
-             fl_part_crossings(p, &m->meet, err);
+             fl_part_crossings(p, &m->meet, err) || fl_part_measure(p, &m->left, err);
+    m->untangle.joined += did.joined;
+    m->untangle.rebuilt += did.rebuilt;
+    m->untangle.changed = fmax(m->untangle.changed, did.changed);
+    m->untangle.failed = did.failed;
+done:
+    free(shell);
     fl_soup_free(&s);
     return rc ? -1 : 0;
 }
@@ -160,9 +167,13 @@ done:
 /* Everything behind welding and turning. */
 static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
 {
+    /* before triangles that two bodies have in common are taken for doubles of one */
+    if (o->repair && m->left.branched && !m->left.open && !m->left.degenerate &&
+        (fl_part_crossings(p, &m->meet, err) || (m->meet.crossings && untangle(p, 1, m, err))))
+        return -1;
     if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
     if (fl_part_crossings(p, &m->meet, err)) return -1;
-    if (o->repair && m->meet.crossings && untangle(p, m, err)) return -1;
+    if (o->repair && m->meet.crossings && untangle(p, 0, m, err)) return -1;
     if (p->nt == 0 || (o->simplify <= 0.0 && o->remesh <= 0.0)) return 0;
     if (o->simplify > 0.0 && simplify(p, o->simplify, blur, &m->simplified, err)) return -1;
     if (o->remesh > 0.0 && remesh(p, o, blur, err)) return -1;
