@@ -81,12 +81,18 @@ void tidy(Mesh &m, double tol)
         m = trial;
 }
 
+/* Three corners of a face. */
+std::array<Point, 3> corners_of(const Mesh &m, Mesh::Face_index f)
+{
+    const auto h = m.halfedge(f);
+    return {m.point(m.source(h)), m.point(m.target(h)), m.point(m.target(m.next(h)))};
+}
+
 /* The height of each triangle is a number that double precision still tells from nothing. */
 bool has_areas(const Mesh &m)
 {
     for (const auto f : m.faces()) {
-        const auto h = m.halfedge(f);
-        const Point &a = m.point(m.source(h)), &b = m.point(m.target(h)), &c = m.point(m.target(m.next(h)));
+        const auto [a, b, c] = corners_of(m, f);
         const double longest = std::max(
             {CGAL::squared_distance(a, b), CGAL::squared_distance(b, c), CGAL::squared_distance(c, a)});
         if (!(CGAL::squared_area(a, b, c) > 1e-24 * longest * longest)) return false;
@@ -149,13 +155,6 @@ bool union_of(const Mesh &a, const Mesh &b, double tol, Mesh &out)
     CGAL::copy_face_graph(both, out);
     tidy(out, tol);
     return !PMP::does_self_intersect(out) && has_areas(out);
-}
-
-/* Three corners of a face. */
-std::array<Point, 3> corners_of(const Mesh &m, Mesh::Face_index f)
-{
-    const auto h = m.halfedge(f);
-    return {m.point(m.source(h)), m.point(m.target(h)), m.point(m.target(m.next(h)))};
 }
 
 /* A corner of q lies in the plane of p. */
