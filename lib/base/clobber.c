@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/clobber.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include "base/stream.h"
 
 enum { PATH_LONG = 4096 };
 
@@ -47,19 +49,49 @@ int fl_same_file(const char *a, const char *b)
     return place_of(a, STDOUT_FILENO, &p) && place_of(b, STDOUT_FILENO, &q) && same(&p, &q);
 }
 
+/* What an output takes, itself and the name it has until it is whole; how many. */
+static int places_of(const char *path, place p[2])
+{
+    if (!place_of(path, STDOUT_FILENO, &p[0])) return 0;
+    char *part = strcmp(path, "-") == 0 ? NULL : fl_out_unfinished(path);
+    const int n = 1 + (part && place_of(part, STDOUT_FILENO, &p[1]));
+    free(part);
+    return n;
+}
+
+/* Whether they have a name in common that is not the own one of both. */
+static int meet_unfinished(const place a[2], int na, const place b[2], int nb)
+{
+    return (na > 1 && same(&a[1], &b[0])) || (nb > 1 && same(&a[0], &b[1]));
+}
+
 int fl_clobber_check(const fl_target *out, size_t outs, const fl_target *in, size_t ins, fl_err *err)
 {
-    place p, q;
+    place p[2], q[2];
     for (size_t k = 0; k < outs; k++) {
-        if (!place_of(out[k].path, STDOUT_FILENO, &p)) continue;
-        for (size_t i = 0; i < ins; i++)
-            if (place_of(in[i].path, STDIN_FILENO, &q) && same(&p, &q))
+        const int n = places_of(out[k].path, p);
+        for (size_t i = 0; n && i < ins; i++) {
+            if (!place_of(in[i].path, STDIN_FILENO, q)) continue;
+            if (same(&p[0], &q[0]))
                 return fl_fail(err, FL_USAGE, "%s is \"%.200s\", which is an input, %.200s", out[k].what,
                                out[k].path, in[i].path);
-        for (size_t i = 0; i < k; i++)
-            if (place_of(out[i].path, STDOUT_FILENO, &q) && same(&p, &q))
+            if (meet_unfinished(p, n, q, 1))
+                return fl_fail(err, FL_USAGE,
+                               "%s is \"%.200s\", which until it is whole is %.200s, and that is an input",
+                               out[k].what, out[k].path, in[i].path);
+        }
+        for (size_t i = 0; n && i < k; i++) {
+            const int m = places_of(out[i].path, q);
+            if (m && same(&p[0], &q[0]))
                 return fl_fail(err, FL_USAGE, "%s is \"%.200s\", which is %s already", out[k].what,
                                out[k].path, out[i].what);
+            if (m && meet_unfinished(p, n, q, m))
+                return fl_fail(
+                    err, FL_USAGE,
+                    "%s is \"%.200s\" and %s \"%.200s\": with .part behind it, one of them is what "
+                    "the other is called until it is whole",
+                    out[k].what, out[k].path, out[i].what, out[i].path);
+        }
     }
     return 0;
 }

@@ -221,6 +221,16 @@ static int name_out(fl_out *out, const char *path, int *direct, fl_err *err)
     return fl_fail(err, FL_SYSTEM, "out of memory");
 }
 
+char *fl_out_unfinished(const char *path)
+{
+    fl_out out;
+    fl_err err = {0};
+    int direct;
+    if (name_out(&out, path, &direct, &err)) return NULL;
+    free(out.path);
+    return out.tmp;
+}
+
 /* Open tmp for one writer alone; made where it is not there, if `make`.  The lock goes with the last
  * descriptor, however the program ends, and stays with the file through a rename: by the time it is had the
  * name may be that of another file, which is then tried.  Where files cannot be locked there is none.  The

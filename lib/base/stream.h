@@ -48,6 +48,10 @@ enum { FL_MARK_TAIL = 4096 };
  * on failure. */
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err);
 
+/* PATH.part of the file that path leads to, to be freed; NULL where a device or a pipe is written to
+ * directly, and where memory runs out. */
+char *fl_out_unfinished(const char *path);
+
 /* Flush, sync, and give the file its final name, which is synced too.  -1 with FL_SYSTEM in err when anything
  * written was lost; then no file carries the final name (an older one keeps it). */
 int fl_out_close(fl_out *out, fl_err *err);
