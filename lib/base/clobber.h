@@ -11,8 +11,8 @@ typedef struct {
 } fl_target;
 
 /* -1 with FL_USAGE where an output is an input or an earlier output: by another name, through a link, as the
- * file that standard output is, or as the name that a file has until it is whole (stream.h).  Devices, pipes and
- * terminals may come twice.  in needs no `what`. */
+ * file that standard output is, or as the name that a file has until it is whole (stream.h).  Devices, pipes
+ * and terminals may come twice.  in needs no `what`. */
 int fl_clobber_check(const fl_target *out, size_t outs, const fl_target *in, size_t ins, fl_err *err);
 
 /* Whether both lead to one file. */
