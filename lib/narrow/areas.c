@@ -523,7 +523,7 @@ int fl_areas_face(fl_places *w, const fl_side *own, int32_t F, const fl_side *ot
     outline g;
     corner *spare;
     if (!turned(&q)) return 0;
-    /* axes that turn with f: which three places stand for the area hangs on them */
+    /* axes that turn with f, and with them the three places: how panels share an area hangs on these */
     const fl_vec3 o = other->v[loop[0]], x = v3_unit(v3_sub(other->v[loop[1]], o));
     q.at = (fl_across){o, x, v3_cross(q.nf, x)};
     if (lay(&q, F, sides, &g, &spare)) return -1;

@@ -186,7 +186,7 @@ void fl_places_free(fl_places *w)
 {
     fl_reach_free(&w->of_a), fl_reach_free(&w->of_b);
     for (int k = 0; k < 2; k++) free(w->sheet[k].h), free(w->sheet[k].x);
-    free(w->va), free(w->na), free(w->place), free(w->cut), free(w->lane), free(w->share);
+    free(w->va), free(w->na), free(w->place), free(w->cut), free(w->lane), free(w->tilt), free(w->share);
     fl_draft_free(w->draft);
     fl_strips_free(w->strips);
     *w = (fl_places){0};

@@ -96,15 +96,15 @@ typedef struct {
     fl_reach of_a, of_b;
     fl_sheet sheet[2];
     fl_place *place;
-    fl_vec3 couple; /* times dW/dU: a moment on A beside those of the forces, its opposite on B [m6] */
-    fl_vec3 *cut;   /* of areas.c: polygons while they are cut */
-    void *lane;     /* of bearing.h, for the caller */
+    fl_vec3 couple;    /* times dW/dU: a moment on A beside those of the forces, its opposite on B [m6] */
+    fl_vec3 *cut;      /* of areas.c: polygons while they are cut */
+    void *lane, *tilt; /* of bearing.h, for the caller: places and areas, four and one at a time */
     struct fl_draft *draft;   /* of matches.c: a list in work */
     struct fl_strips *strips; /* of strips.c: edges that wait */
     fl_share *share;          /* of a surface (footing.h), in the order of place; only where apart is set */
     int apart, shares, share_cap;
     int32_t n; /* number of places */
-    int32_t va_cap, na_cap, place_cap, cut_cap, lane_cap;
+    int32_t tilts, va_cap, na_cap, place_cap, cut_cap, lane_cap, tilt_cap;
 } fl_places;
 
 /* Turn the vertices and normals of A into the frame of B: va = M v + o, na = M n.  -1 when memory runs out.

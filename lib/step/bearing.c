@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 #include "base/mem.h"
 #include "base/wide.h"
 #include "step/bearing.h"
@@ -152,18 +153,145 @@ FL_WIDE_VERSIONS static void third(const lane *t, int32_t n, double sum[FL_PRESS
     for (int m = 0; m < FL_PRESSING; m++) sum[m] = fl_wide_sum(&all[m]);
 }
 
+static int32_t lanes_of(const fl_places *s) { return (s->n + FL_LANES - 1) / FL_LANES; }
+
+/* --- areas ------------------------------------------------------------------------------------- */
+
+enum { CORNERS = 3 }; /* places that stand for an area */
+
+/* How an area approaches: at `mean` in its middle, by off[] more at its places, by `more` faster and slower
+ * at the places of lay_along().
+ */
+typedef struct {
+    uint32_t k; /* the first of these */
+    double mean, more, off[CORNERS];
+} tilt;
+
+static double closing_of(const lane *t, uint32_t k) { return t[k / FL_LANES].closing[k % FL_LANES]; }
+
+static tilt tilt_of(const lane *t, uint32_t k)
+{
+    tilt a = {.k = k};
+    double sum2 = 0.0;
+    for (uint32_t c = 0; c < CORNERS; c++) a.mean += (a.off[c] = closing_of(t, k + c));
+    a.mean *= 1.0 / CORNERS;
+    for (int c = 0; c < CORNERS; c++) a.off[c] -= a.mean, sum2 += a.off[c] * a.off[c];
+    a.more = sqrt(2.0 / CORNERS * sum2);
+    return a;
+}
+
+/* The areas, to s->tilt. */
+static int find_areas(fl_places *s)
+{
+    const fl_place *p = s->place;
+    s->tilts = 0;
+    for (int32_t k = 0; k < s->n; k += p[k].stands ? p[k].stands : 1) {
+        if (p[k].stands != CORNERS || p[k].u == 0.0) continue;
+        if (fl_room(&s->tilt, &s->tilt_cap, (int64_t)s->tilts + 1, sizeof(tilt))) return -1;
+        tilt *all = s->tilt;
+        all[s->tilts++] = tilt_of(s->lane, (uint32_t)k);
+    }
+    return 0;
+}
+
+static double above(double c) { return c > 0.0 ? c : 0.0; }
+
+/* What the areas that approach in part add to `met`, beyond what their three places do. */
+static double met_aside(const fl_places *s)
+{
+    double all = 0.0;
+    const tilt *a = s->tilt;
+    for (int32_t k = 0; k < s->tilts; k++, a++) {
+        if (fabs(a->mean) >= a->more) continue;
+        double met = 0.25 * (above(a->mean + a->more) + above(a->mean - a->more)) + 0.5 * above(a->mean);
+        for (int c = 0; c < CORNERS; c++) met -= above(a->mean + a->off[c]) / CORNERS;
+        all += CORNERS * s->place[a->k].du * met;
+    }
+    return all;
+}
+
+static fl_vec3 arm_of(const lane *t, uint32_t k)
+{
+    const fl_wide *arm = t[k / FL_LANES].arm;
+    return v3(arm[0][k % FL_LANES], arm[1][k % FL_LANES], arm[2][k % FL_LANES]);
+}
+
+/* Sum of off |arm - the middle|^2 of the three: of the four it is nothing. */
+static double skew_of(const lane *t, const tilt *a)
+{
+    const fl_vec3 p0 = arm_of(t, a->k), p1 = v3_sub(arm_of(t, a->k + 1), p0),
+                  p2 = v3_sub(arm_of(t, a->k + 2), p0), mid = v3_scale(1.0 / CORNERS, v3_add(p1, p2));
+    return a->off[0] * v3_norm2(mid) + a->off[1] * v3_norm2(v3_sub(p1, mid)) +
+           a->off[2] * v3_norm2(v3_sub(p2, mid));
+}
+
+/* Four places with the sum, mean and second moments of the three: the middle and, from there, forth and back
+ * the way on which the area approaches the faster, and one on which it does so as in the middle.  They are
+ * those of the area, whichever three stand for it.
+ */
+static lane lay_along(const lane *t, const tilt *a)
+{
+    const fl_vec3 p0 = arm_of(t, a->k), p1 = v3_sub(arm_of(t, a->k + 1), p0),
+                  p2 = v3_sub(arm_of(t, a->k + 2), p0);
+    const fl_vec3 mid = v3_madd(p0, 1.0 / CORNERS, v3_add(p1, p2));
+    const double along = 2.0 / CORNERS / a->more, aside = along / sqrt(3.0), *off = a->off;
+    const fl_vec3 w = v3_madd(v3_scale(along * off[1], p1), along * off[2], p2);
+    const fl_vec3 x = v3_madd(v3_scale(aside * (off[2] - off[0]), p1), aside * (off[0] - off[1]), p2);
+    const lane *own = &t[a->k / FL_LANES];
+    const uint32_t l = a->k % FL_LANES;
+    const fl_wide none = {0};
+    lane four = {.closing = {a->mean + a->more, a->mean - a->more, a->mean, a->mean}};
+    four.e = none + CORNERS * 0.25 * own->e[l];
+    for (int c = 0; c < 3; c++) four.across[c] = none + own->across[c][l];
+    four.arm[0] = (fl_wide){mid.x + w.x, mid.x - w.x, mid.x + x.x, mid.x - x.x};
+    four.arm[1] = (fl_wide){mid.y + w.y, mid.y - w.y, mid.y + x.y, mid.y - x.y};
+    four.arm[2] = (fl_wide){mid.z + w.z, mid.z - w.z, mid.z + x.z, mid.z - x.z};
+    return four;
+}
+
+/* s->lane, or behind it a copy in which areas that would be pulled in part have their four places; how many,
+ * and sum of e off |arm - the middle|^2 of the others.
+ */
+static const lane *held_back(const fl_places *s, double chi, int32_t *lanes, double *skew)
+{
+    lane *const own = s->lane, *copy = NULL;
+    const int32_t n = *lanes = lanes_of(s);
+    *skew = 0.0;
+    const tilt *a = s->tilt;
+    for (int32_t k = 0; k < s->tilts; k++, a++) {
+        const uint32_t at = a->k;
+        if (1.0 + chi * (a->mean - a->more) >= 0.0)
+            *skew += own[at / FL_LANES].e[at % FL_LANES] * skew_of(own, a);
+        else if (1.0 + chi * (a->mean + a->more) > 0.0) {
+            if (!copy) copy = memcpy(own + n, own, (size_t)n * sizeof *own);
+            for (uint32_t c = at; c < at + CORNERS; c++) copy[c / FL_LANES].e[c % FL_LANES] = 0.0;
+            copy[(*lanes)++] = lay_along(own, a);
+        }
+    }
+    return copy ? copy : own;
+}
+
+/* ----------------------------------------------------------------------------------------------- */
+
 int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
 {
     *q = (fl_bearing){0};
     if (s->n == 0) return 0;
-    if (fl_room(&s->lane, &s->lane_cap, s->n / FL_LANES + 1, sizeof(lane))) return -1;
+    if (fl_room(&s->lane, &s->lane_cap, 2 * lanes_of(s) + s->n / CORNERS, sizeof(lane))) return -1;
     first(s->place, s->n, v, turn, s->lane, q);
+    if (find_areas(s)) return -1;
+    q->met += met_aside(s);
     return 0;
 }
 
 void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q)
 {
-    if (s->n > 0) second(s->lane, (s->n + FL_LANES - 1) / FL_LANES, chi, q);
+    if (s->n == 0) return;
+    int32_t lanes;
+    double skew;
+    const lane *t = held_back(s, chi, &lanes, &skew);
+    second(t, lanes, chi, q);
+    q->spread -= chi * skew;
 }
 
 void fl_bearing_springs(const fl_places *s, fl_springs *q)
@@ -208,7 +336,7 @@ FL_WIDE_VERSIONS static void press(const lane *t, int32_t lanes, fl_pressing *q)
 void fl_bearing_pressing(const fl_places *s, fl_pressing *q)
 {
     *q = (fl_pressing){0};
-    press(s->lane, (s->n + FL_LANES - 1) / FL_LANES, q);
+    press(s->lane, lanes_of(s), q);
     if (!(q->elastic > 0.0)) return;
     const double each = 1.0 / q->elastic;
     q->mean = v3_scale(each, q->mean);
@@ -216,8 +344,4 @@ void fl_bearing_pressing(const fl_places *s, fl_pressing *q)
     q->wide = wide2 > 0.0 ? sqrt(wide2) : 0.0;
 }
 
-double fl_bearing_closing(const fl_places *s, int32_t k)
-{
-    const lane *t = s->lane;
-    return t[k / FL_LANES].closing[k % FL_LANES];
-}
+double fl_bearing_closing(const fl_places *s, int32_t k) { return closing_of(s->lane, (uint32_t)k); }

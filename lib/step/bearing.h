@@ -7,7 +7,12 @@
  *     pressed, met  sum of du, and of du c where c > 0: the speed that damping asks for
  *     f(e)          sum of f, f across, f arm and f |arm|^2, f = max(0, e (1 + chi c)): what presses
  *     damping       sum of f - e times across and arm x across: what damping adds
- * The pull of rims, u = 0, is part of the gradient alone. */
+ * The pull of rims, u = 0, is part of the gradient alone.
+ *
+ * Three places stand for an area, any three with its sum, mean and second moments, and sums that are linear
+ * in c are the same for all of them.  What is not is made to hang on the area alone: `met`, where it
+ * approaches in part, and f, where it would be pulled in part, are of four places, two where c is most and
+ * least and two where it is the mean; of `spread` the third moment is left out. */
 #ifndef FL_STEP_BEARING_H
 #define FL_STEP_BEARING_H
 #include "narrow/places.h"

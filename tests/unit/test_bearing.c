@@ -103,9 +103,105 @@ static void force_is_that_of_each_place(void **state)
     fl_places_free(&s);
 }
 
+/* An area of pressure e about `mid` in the plane of x and y, by the three places that begin at an angle. */
+static void lay(fl_places *s, double e, fl_vec3 mid, fl_vec3 x, fl_vec3 y, double angle)
+{
+    const fl_vec3 n = v3_unit(v3_cross(x, y));
+    for (int k = 0; k < 3; k++) {
+        const double a = angle + 2.0943951023931953 * k;
+        s->place[s->n++] =
+            (fl_place){.stands = 3,
+                       .u = e,
+                       .du = e / 3.0,
+                       .n = n,
+                       .across = n,
+                       .p = v3_madd(v3_madd(mid, sqrt(2.0) * cos(a), x), sqrt(2.0) * sin(a), y)};
+    }
+}
+
+static void which_places_stand_for_an_area_is_all_one(void **state)
+{
+    (void)state;
+    fl_rng g = fl_rng_of(test_seed(), 0, 3);
+    fl_places s = {0};
+    int32_t parts = 0;
+    for (int32_t t = 0; t < 3000; t++) {
+        const int32_t areas = 1 + t % 3, others = 1 + t % 7;
+        const fl_vec3 v = some(&g), turn = some(&g);
+        fl_vec3 at[3][3];
+        fl_bearing q[2];
+        double e[3];
+        for (int a = 0; a < areas; a++) {
+            e[a] = fl_rng_unit(&g);
+            for (int c = 0; c < 3; c++) at[a][c] = some(&g);
+        }
+        fill(&s, others, &g);
+        assert_int_equal(fl_room(&s.place, &s.place_cap, others + 3 * areas, sizeof *s.place), 0);
+        for (int way = 0; way < 2; way++) {
+            s.n = others;
+            for (int a = 0; a < areas; a++)
+                lay(&s, e[a], at[a][0], at[a][1], at[a][2], 6.0 * fl_rng_unit(&g));
+            assert_int_equal(fl_bearing_sum(&s, v, turn, &q[way]), 0);
+            fl_bearing_damp(&s, 0.3, &q[way]);
+        }
+        double size = 1.0;
+        for (int32_t k = 0; k < s.n; k++) {
+            const double c = fl_bearing_closing(&s, k),
+                         arm = 1.0 + v3_norm(v3_sub(s.place[k].p, s.place[0].p));
+            size += (1.0 + fabs(c)) * arm * arm;
+            parts += 1.0 + 0.3 * c < 0.0;
+        }
+        const fl_bearing *a = &q[0], *b = &q[1];
+        assert_near_of(a->met, b->met, 1e-14, size);
+        assert_near_of(a->normal, b->normal, 1e-14, size);
+        assert_near_of(a->spread, b->spread, 1e-14, size);
+        assert_near_of(v3_norm(v3_sub(a->direction, b->direction)), 0.0, 1e-14, size);
+        assert_near_of(v3_norm(v3_sub(a->moment, b->moment)), 0.0, 1e-14, size);
+        assert_near_of(v3_norm(v3_sub(a->damping.f, b->damping.f)), 0.0, 1e-14, size);
+        assert_near_of(v3_norm(v3_sub(a->damping.m, b->damping.m)), 0.0, 1e-14, size);
+    }
+    assert_true(parts > 1000);
+    fl_places_free(&s);
+}
+
+/* A disc of radius 1 that sinks and rocks: sum and moment of what presses, 1 + chi closing where that is more
+ * than 0, against the integrals over the disc; they are these while nothing would be pulled.
+ */
+static void an_even_pressure_is_held_back_as_a_whole(void **state)
+{
+    (void)state;
+    const fl_vec3 x = v3(0.5, 0, 0), y = v3(0, 0.5, 0); /* radii of gyration */
+    fl_places s = {0};
+    fl_bearing q;
+    assert_int_equal(fl_room(&s.place, &s.place_cap, 3, sizeof *s.place), 0);
+    for (double rate = 0.0; rate < 20.0; rate += 0.25)
+        for (double sink = -2.0; sink < 8.0; sink += 0.25) {
+            double all = 0.0, turns = 0.0;
+            const int32_t n = 2000;
+            for (int32_t k = 0; k < n; k++) {
+                const double h = -1.0 + (k + 0.5) * 2.0 / n, f = fmax(0.0, 1.0 + sink + rate * h);
+                all += f * sqrt(1.0 - h * h) * 4.0 / (n * 3.14159265358979);
+                turns += f * h * sqrt(1.0 - h * h) * 4.0 / (n * 3.14159265358979);
+            }
+            s.n = 0;
+            lay(&s, 1.0, v3(0, 0, 0), x, y, 0.1 + sink + rate);
+            assert_int_equal(fl_bearing_sum(&s, v3(0, 0, -sink - rate * s.place[0].p.x), v3(0, rate, 0), &q),
+                             0);
+            fl_bearing_damp(&s, 1.0, &q);
+            const fl_vec3 m = v3_add(q.moment, v3_scale(q.normal, s.place[0].p));
+            const double size = 1.0 + sink + rate > 0.0 ? fabs(1.0 + sink) + rate : 1.0;
+            assert_near_of(q.normal, all, rate < 1.0 + sink ? 1e-4 : 0.05, size);
+            assert_near_of(m.x, turns, rate < 1.0 + sink ? 1e-4 : 0.05, size);
+            assert_near_of(m.y, 0.0, 1e-14, size);
+        }
+    fl_places_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(force_is_that_of_each_place),
+                                       cmocka_unit_test(which_places_stand_for_an_area_is_all_one),
+                                       cmocka_unit_test(an_even_pressure_is_held_back_as_a_whole),
                                        cmocka_unit_test(stiffness_is_that_of_each_place)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
