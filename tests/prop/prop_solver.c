@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of the whole solver, on heaps of random bodies: bits that depend on neither threads nor neighbour
- * search, momenta, and motion that depends on neither the order of the bodies nor the place of the origin. */
+ * search, momenta, and motion that depends on neither the order of the bodies, the place of the origin nor a
+ * mirror. */
 #include <math.h>
 #include <stdlib.h>
 #include "support/near.h"
@@ -294,6 +295,51 @@ static void the_origin_does_not_matter(void **state)
     }
 }
 
+/* Two boxes meet face on face, rocking: what is seen of it in a mirror, x for -x, where other corners come
+ * first and other places stand for the faces. */
+static void a_mirror_changes_nothing(void **state)
+{
+    (void)state;
+    for (long c = 0; c < test_times(30); c++) {
+        fl_vec3 v[2][2], w[2][2];
+        int64_t touching = 0;
+        for (int k = 0; k < 2; k++) {
+            fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
+            const double m = k ? -1.0 : 1.0;
+            lab l;
+            lab_start(&l);
+            lab_set(&l, "contact.friction=0.3");
+            lab_set(&l, "contact.restitution=0.3");
+            for (int i = 0; i < 2; i++) {
+                const fl_vec3 half = v3(fl_rng_in(&g, 0.5, 1.5), fl_rng_in(&g, 0.5, 1.5), 0.5);
+                const fl_vec3 at = v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 0.3), i ? 1.0005 : 0.0);
+                const fl_vec3 turn =
+                    v3(0.002 * fl_rng_normal(&g), 0.002 * fl_rng_normal(&g), fl_rng_normal(&g));
+                const fl_vec3 go = v3(0.1 * fl_rng_normal(&g), 0.1 * fl_rng_normal(&g), i ? -0.3 : 0.3);
+                const fl_vec3 spin = v3(0.5 * fl_rng_normal(&g), 0.5 * fl_rng_normal(&g), fl_rng_normal(&g));
+                lab_box(&l, v3(m * at.x, at.y, at.z), half, 0.05,
+                        q_of_vector(v3(turn.x, m * turn.y, m * turn.z)), v3(m * go.x, go.y, go.z),
+                        v3(spin.x, m * spin.y, m * spin.z));
+            }
+            lab_make(&l, 1e-5);
+            assert_int_equal(lab_run(&l, 1500), 0);
+            for (int i = 0; i < 2; i++) {
+                v[k][i] = l.w.b.v[i], w[k][i] = l.w.b.w[i];
+                v[k][i].x *= m, w[k][i].y *= m, w[k][i].z *= m;
+            }
+            touching += l.w.touching_steps;
+            lab_free(&l);
+        }
+        assert_true(touching > 100);
+        for (int i = 0; i < 2; i++) {
+            if (v3_norm(v3_sub(v[0][i], v[1][i])) > 1e-7)
+                print_error("seed %llu case %ld\n", (unsigned long long)test_seed(), c);
+            assert_near_of(v3_norm(v3_sub(v[0][i], v[1][i])), 0.0, 1e-7, 1.0);
+            assert_near_of(v3_norm(v3_sub(w[0][i], w[1][i])), 0.0, 1e-7, 1.0);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +349,7 @@ int main(void)
         cmocka_unit_test(momenta_are_conserved),
         cmocka_unit_test(the_order_of_bodies_does_not_matter),
         cmocka_unit_test(the_origin_does_not_matter),
+        cmocka_unit_test(a_mirror_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
