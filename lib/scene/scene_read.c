@@ -66,10 +66,13 @@ static int may_give(const source *in, const fl_address *at, uint32_t parts)
     const int32_t i = fl_section_named(in->scene, at->section, at->a, at->b);
     const fl_scene_head *head = fl_section_at(in->scene, at->section, i);
     const fl_scene_mark *old;
-    const char *section = fl_section_table[at->section].name, *key = fl_key_table[at->key].key;
+    const char *key = fl_key_table[at->key].key;
+    char section[4 * FL_SCENE_NAME];
     if (!head || in->file == FL_SCENE_ARGUMENT) return 1;
     old = &head->key[at->key - fl_key_first(at->section)];
     if (old->line == 0 || !(old->parts & parts)) return 1;
+    snprintf(section, sizeof section, "%s%s%s%s%s", fl_section_table[at->section].name, at->a[0] ? " " : "",
+             at->a, at->b[0] ? " " : "", at->b);
     if (old->file == in->file)
         return complain(in, "%s.%s was given on line %d already", section, key, old->line);
     if (in->file == 0) return 1;

@@ -299,6 +299,8 @@ static void each_complaint_names_file_and_line(void **state)
     refused("[material structure]\n" ICE,
             ":1: a material cannot be called \"structure\": that word names a place in [contact A B]");
     refused("[run]\ndt = 1\n\n[run]\ndt = 2\n" ICE, ":5: run.dt was given on line 2 already");
+    refused("[contact ice ice]\nfriction = 0.1\nfriction = 0.2\n" ICE,
+            ":3: contact ice ice.friction was given on line 2 already");
     refused("gravity 9\n[run]\ngravity = 9\n" ICE, ":3: run.gravity was given on line 1 already");
     refused("#scene 2\n" ICE, ":1: scene version 2 is newer than this program, which reads up to 1");
     refused("[run]\ndt = 1 ms\nerror = 0.1\n" ICE,
@@ -535,7 +537,7 @@ static void included_files_are_overruled_by_the_scene(void **state)
     test_file("mat.scene", materials, strlen(materials));
     snprintf(text, sizeof text, "include %s\ninclude %s\n" ICE, name, name);
     assert_int_equal(load(&s, text, &err), -1);
-    assert_non_null(strstr(err.text, "mat.scene:2: material.density was given on line 2 of"));
+    assert_non_null(strstr(err.text, "mat.scene:2: material snow.density was given on line 2 of"));
     /* a file that is not there */
     assert_int_equal(load(&s, "include nowhere.scene\n" ICE, &err), -1);
     assert_non_null(strstr(err.text, "nowhere.scene: No such file"));
