@@ -12,6 +12,9 @@
 /* Where the way to a face is upright to it but for that cosine, no other tells the side. */
 #define UPRIGHT (1.0 - 1e-9)
 
+/* A wall that is as deep in a core as that part of the deepest is known by what it bears. */
+#define KNOWN 0.8
+
 /* The point lies where the surface ends. */
 static int on_rim(const fl_poly *p, const fl_shell *sh, fl_vec3 x)
 {
@@ -371,6 +374,33 @@ int fl_shell_gap(fl_shell_near *near, const fl_vec3 *v, const fl_poly *a, const 
     free(tile);
     if (!out->overlap && fl_shell_holds(b, v[0])) out->d = -out->d, out->n = v3_neg(out->n);
     return r->faces < 0 || lost.code ? -1 : out->d < within;
+}
+
+/* The lowest of the points over a plane, or something lower than `enough` as soon as one is. */
+static double lowest_over(fl_vec3 n, fl_vec3 o, const fl_vec3 *v, int32_t points, double enough)
+{
+    const double level = v3_dot(n, o);
+    double low = INFINITY;
+    for (int32_t k = 0; k < points && low > enough; k++) low = fmin(low, v3_dot(n, v[k]) - level);
+    return low;
+}
+
+double fl_shell_room(fl_shell_near *near, const fl_vec3 *v, const fl_poly *a, const fl_piece *b, double ra,
+                     double overlap, double part)
+{
+    const fl_poly *core = &b->core;
+    const double known = ra - KNOWN * overlap;
+    double most = ra;
+    fl_reach *r = &near->of_shell;
+    fl_aabb box = aabb_empty();
+    for (int32_t k = 0; k < a->nv; k++) box = aabb_add(box, v[k]);
+    r->faces = query(&b->shell.tree, b->shell.box, aabb_grow(box, ra + most), &r->face, &r->face_cap);
+    for (int32_t k = 0; k < r->faces; k++) {
+        const int32_t f = r->face[k];
+        const double low = lowest_over(core->n[f], core->v[core->loop[core->first[f]]], v, a->nv, known);
+        if (low > known) most = fmin(most, fmax(low - ra + part * part * overlap, part * (ra - low)));
+    }
+    return r->faces < 0 ? -1.0 : most;
 }
 
 void fl_shell_near_free(fl_shell_near *near)

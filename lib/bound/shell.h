@@ -39,6 +39,12 @@ int fl_shell_point(fl_places *w, fl_shell_near *near, const fl_piece *b, double 
 /* The point, in the frame of b, lies behind a surface that has no rim. */
 int fl_shell_holds(const fl_piece *b, fl_vec3 x);
 
+/* How far any point of the core may move before a wall that bears little or nothing bears more: until the
+ * core is in it by part^2 of the largest overlap, or by `part` deeper than it was; ra at the most [m].  The
+ * vertices v are those of core a in the frame of b.  -1 when memory runs out. */
+double fl_shell_room(fl_shell_near *near, const fl_vec3 *v, const fl_poly *a, const fl_piece *b, double ra,
+                     double overlap, double part);
+
 /* The gap between the hull of the vertices v of core a, in the frame of b, and the surface: 1 where it is
  * below `within`, overlap set where a face of the surface cuts the core; else 0.  What is held has its
  * distance with the other sign, and n looks out.  -1 when memory runs out. */

@@ -280,6 +280,20 @@ static fl_seen seen_of(const fl_pair *p, const fl_places *s, const fl_stance *r,
                      .slope = scale * (q->ddu - 0.5 * q->elastic * q->elastic / q->u)};
 }
 
+/* How far A may go until another wall of a surface that is not convex may bear, after a look.  -1 when memory
+ * runs out. */
+static int find_room(fl_world *w, const fl_pair *p, int32_t thread, fl_seen *seen)
+{
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    const double ra = w->b.radius[p->i];
+    seen->bound = w->b.bound[p->i];
+    seen->room = INFINITY;
+    if (piece && piece->kind == FL_PIECE_SHELL)
+        seen->room = fl_shell_room(&w->near_shell[thread], seen->places->va, &w->b.core[p->i], piece, ra,
+                                   seen->q->overlap, fl_surrogate_less(p->law->surrogate));
+    return seen->room < 0.0 ? -1 : 0;
+}
+
 /* The places of `patch`: W = k sqrt(U), each with its share of dW/dU; t as in renew().  1 when they touch, 0
  * when nothing does, -1 when memory runs out. */
 static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, const fl_stance *r,
@@ -319,7 +333,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
         /* the force that the energy of the motion would give, W growing as the square of it */
         seen.toward = sqrt(1.0 + 0.5 * mass * speed * speed / p->energy);
         seen.stiff_i = p->stiff_i, seen.stiff_j = p->stiff_j;
-        if (renew(w, p, thread, t, &seen)) return -1;
+        if (find_room(w, p, thread, &seen) || renew(w, p, thread, t, &seen)) return -1;
     }
     p->energy += p->spring;
     if (fl_press_wants(w, p)) {
@@ -483,6 +497,7 @@ int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o)
     fl_springs springs;
     fl_bearing_springs(s, &springs);
     seen.springs = &springs;
+    if (find_room(w, p, 0, &seen)) return -1;
     fl_surrogate_fill(p->surrogate, &seen);
     return 0;
 }

@@ -337,6 +337,14 @@ static void press(fl_surrogate *s, const fl_pressing *q, double scale)
     s->wide = q->wide;
 }
 
+/* How far A may go that no point of it moves by more than seen->room.  Of convex bodies no place is deeper
+ * than the straight line of the overlap foretells; where walls lean over each other one may be, at once. */
+static double room_of(const fl_surrogate *s, const fl_seen *seen)
+{
+    const double farthest = v3_norm(v3_sub(s->at, s->o)) + seen->bound;
+    return seen->room * (farthest > s->arm ? s->arm / farthest : 1.0);
+}
+
 void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
 {
     const fl_bearing *q = seen->q;
@@ -348,6 +356,7 @@ void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     s->M = *seen->M, s->o = seen->o, s->at = v3_add(s->o, m3_mul(s->M, s->own));
     s->first = seen->places->place[0].p;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope;
+    s->room = room_of(s, seen);
     bend(s, seen, slope, v3_sub(s->first, s->at));
     fl_bearing_pressing(seen->places, &pressing);
     if (!(pressing.elastic > 0.0)) return;

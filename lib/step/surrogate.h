@@ -76,6 +76,7 @@ typedef struct {
     double stiff_i, stiff_j; /* as in fl_pair, over the slope; of the last survey  [1/kg] */
     /* what is not taken along */
     fl_six learnt[6]; /* of H, times p W over the force                      [1/m] */
+    double room;      /* it may go as far before another wall of B may bear    [m] */
 } fl_surrogate;
 
 /* What one tells for a pose. */
@@ -123,6 +124,7 @@ typedef struct {
     const fl_springs *springs;   /* of the places */
     double scale, energy, slope; /* dW/dU, W, and as in fl_surrogate */
     double radii;                /* sum of the two [m] */
+    double room, bound;          /* of fl_shell_room(), INFINITY where B is convex; of A about o [m] */
     double toward;               /* the force that its motion comes to, over the force */
     double stiff_i, stiff_j;     /* 0: not asked [1/s2] */
 } fl_seen;
@@ -159,7 +161,8 @@ fl_told fl_surrogate_told(const fl_tellers *b, int k);
 /* Whether that is within so many times of what it may go, 1: near enough to be told. */
 static inline int fl_surrogate_within(const fl_surrogate *s, double way, double z, double reaches)
 {
-    return way <= reaches * s->reach * s->overlap && z > 1.0 - s->less && z < 1.0 + s->less;
+    const double far = s->reach * s->overlap;
+    return way <= reaches * (far < s->room ? far : s->room) && z > 1.0 - s->less && z < 1.0 + s->less;
 }
 
 /* Or so near that the error there tells of that where it held. */

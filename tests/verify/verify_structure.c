@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/rng.h"
 #include "law/manual.h"
 #include "support/lab.h"
 #include "support/sweep.h"
@@ -451,6 +452,61 @@ static void grooves(void)
     }
 }
 
+/* A box or a capsule tumbles in a groove of two walls, leaning on one as it comes into the other: the largest
+ * residual over the throughput, with `surrogate`.  worst: most by which a look found a told force off. */
+static double tumble(int32_t run, double surrogate, double *worst)
+{
+    static const fl_vec3 V[6] = {{-3, -3, 2}, {0, -3, 0}, {0, 3, 0}, {-3, 3, 2}, {3, -3, 2}, {3, 3, 2}};
+    static const int32_t T[4][3] = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+    fl_rng g = fl_rng_of(1, run, FL_RNG_TEST);
+    fl_err err = {0};
+    double most = 0.0;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "run.gravity=0 0 -9.81");
+    lab_set(&l, "contact.softening=0.1");
+    lab_set(&l, "contact.friction=0.4");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_setf(&l, "contact.surrogate=%.17g", surrogate);
+    const fl_vec3 v = v3(fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1), -1.0),
+                  spin = v3(fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1));
+    if (run % 2) lab_box(&l, v3(0, 0, 1.5), v3(0.4, 0.3, 0.25), 0.05, q_of_vector(spin), v, spin);
+    else {
+        fl_poly core = {0};
+        if (fl_poly_make(&core, 2, (const fl_vec3[2]){{0.01, 0, 3.2}, {-0.01, 0, 2.2}}, 0, NULL, NULL, &err))
+            exit(1);
+        lab_poly(&l, &core, 0.3, v, spin);
+    }
+    if (fl_surface_add(&l.surface, "groove", 6, &err) < 0) exit(1);
+    for (int k = 0; k < 6; k++)
+        if (fl_surface_vertex(&l.surface.part[0], V[k], &err)) exit(1);
+    for (int k = 0; k < 4; k++)
+        if (fl_surface_triangle(&l.surface.part[0], T[k][0], T[k][1], T[k][2], &err)) exit(1);
+    lab_make(&l, 2e-5);
+    for (int k = 0; k < 100; k++) {
+        if (lab_run(&l, 600)) exit(1);
+        fl_step_ledger(&l.w);
+        most = fmax(most, fabs(l.w.ledger.residual));
+    }
+    if (surrogate > 0.0) *worst = fmax(*worst, fl_surrogate_sum(l.w.told, 1).worst);
+    most /= l.w.ledger.throughput;
+    lab_free(&l);
+    return most;
+}
+
+/* What is told of a contact does not know the wall that it comes into. */
+static void told_in_grooves(void)
+{
+    double most[2] = {0}, worst = 0.0;
+    for (int32_t run = 0; run < (verify_quick() ? 4 : 12); run++)
+        for (int way = 0; way < 2; way++) most[way] = fmax(most[way], tumble(run, way ? 1e-3 : 0.0, &worst));
+    verify_below("SH14",
+                 "floes in a groove of one part, restitution 0.3, friction 0.4: residual, looks alone",
+                 most[0], 1e-5);
+    verify_below("SH14", "  by surrogates of 1e-3: the same", most[1], 1e-3);
+    verify_below("SH14", "  and the most by which a look found the told force off", worst, 0.1);
+}
+
 /* --- a hull */
 
 /* A sheet that looks along z and bends away by 1/8 and 1/5 of 1/m, of 2 n^2 triangles on 3 m by 3 m. */
@@ -540,6 +596,7 @@ int main(void)
     impacts();
     cradle();
     grooves();
+    told_in_grooves();
     groove_losses();
     hull();
     return verify_end();
