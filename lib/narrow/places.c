@@ -144,8 +144,8 @@ int fl_places_find(fl_places *w, const fl_poly *a, const fl_poly *b, double ra, 
     if ((depth > 0.0 || !fl_matches_hold(l, &w->M, w->o)) && list_matches(w, &A, &B, R, n, depth > 0.0, l))
         return -1;
     if (fl_matches_places(w, l, &A, &B, R, 0.0, rim, rim)) return -1;
-    if (depth == 0.0) return 0;
-    l->shift2 = 0.0; /* of cores that were moved */
+    if (v3_norm2(deep->n) == 0.0) return 0; /* the cores do not meet */
+    l->shift2 = 0.0;                        /* of cores that were moved */
     w->o = o;
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_sub(w->va[v], out);
     return add_depth(w, deep, R);
