@@ -9,6 +9,8 @@
 #define LONGEST 3.0
 #define SMALL 0.3
 
+#define PI 3.14159265358979323846
+
 /* Half of a cell, in 1/k_top: its corner is 7.07 away, which leaves room for crests below FL_WAVE_REACH. */
 #define HALF 5.0
 
@@ -17,11 +19,16 @@
 typedef struct {
     fl_tiles *p;
     int32_t face_cap, v_cap;
-    double longest;
+    double longest, wave, size; /* of a side, of the waves, of the floe [m] */
 } cutter;
 
 static int keep(cutter *c, int32_t face, const fl_vec3 v[3], fl_err *err)
 {
+    if (c->p->n == FL_TILES_MOST)
+        return fl_fail(
+            err, FL_INPUT,
+            "water.period: in waves of %.3g m a floe of %.3g m would be cut into more than %d panels",
+            c->wave, c->size, FL_TILES_MOST);
     if (fl_grow(&c->p->face, &c->face_cap, (int64_t)c->p->n + 1, sizeof *c->p->face, err) ||
         fl_grow(&c->p->v, &c->v_cap, 3 * ((int64_t)c->p->n + 1), sizeof *c->p->v, err))
         return -1;
@@ -51,8 +58,8 @@ static int cut(cutter *c, int32_t face, fl_vec3 a, fl_vec3 b, fl_vec3 d, fl_err 
 
 int fl_tiles_make(fl_tiles *t, const fl_hull *hull, const fl_waves *w, fl_err *err)
 {
-    cutter c = {.p = t, .longest = LONGEST / w->most};
     const fl_poly *q = hull->p;
+    cutter c = {.p = t, .longest = LONGEST / w->most, .wave = 2.0 * PI / w->most, .size = q->size};
     fl_tiles_free(t);
     t->fine = q->size * w->most > SMALL;
     for (int32_t f = 0; f < q->nf; f++) {

@@ -30,8 +30,11 @@ typedef struct {
     int fine;      /* the rule of degree 5                         */
 } fl_tiles;
 
+/* Of a body; more would take seconds a step, and mean nothing. */
+enum { FL_TILES_MOST = 1000000 };
+
 /* Cut the faces of a hull so that no side of a panel is longer than 3/k, k the wave's `most`.  t is freed
- * first.  -1 with FL_SYSTEM. */
+ * first.  -1 with FL_SYSTEM, or FL_INPUT where these would be too many. */
 int fl_tiles_make(fl_tiles *t, const fl_hull *hull, const fl_waves *w, fl_err *err);
 void fl_tiles_free(fl_tiles *t); /* accepts a zeroed struct, leaves one */
 

@@ -3,6 +3,11 @@
 #include "base/mem.h"
 #include "water/sea.h"
 
+#define PI 3.14159265358979323846
+
+/* Places that a wave is looked at in for one body, at most. */
+#define MOST_CELLS 1000000
+
 static const fl_sea_held unseen = {.q = {1, 0, 0, 0}, .when = INFINITY};
 
 int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
@@ -68,6 +73,12 @@ int fl_sea_fit(fl_sea *s, int32_t i, fl_err *err)
     if (s->skin && fit_skin(s, i, err)) return -1;
     if (!s->waves) return 0;
     const int32_t want = fl_wave_cells(&s->wave, s->reach[i] + s->wave.swing);
+    if (want > MOST_CELLS)
+        return fl_fail(err, FL_INPUT,
+                       "water.height, water.period: waves down to %.3g m long that rise by up to %.3g m "
+                       "would be seen by "
+                       "a floe that reaches %.3g m in more than %d places",
+                       2.0 * PI / s->wave.top, s->wave.swing, s->reach[i], MOST_CELLS);
     if (want > s->cells_each) {
         fl_wave_near *cells = fl_alloc((int64_t)s->threads * want, sizeof *cells, err);
         if (!cells) return -1;
