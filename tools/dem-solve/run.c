@@ -18,9 +18,6 @@
 #include "step/step.h"
 #include "step/traffic.h"
 
-/* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
-#define RESTS 1e-3
-
 double run_clock(void)
 {
     struct timespec t;
@@ -243,6 +240,7 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }
+    warn_at_row(r, t);
     if (u->table[AT_PANELS].f) write_panels(r, u->table[AT_PANELS].f, t, length);
     if (u->table[AT_EVENTS].f) write_events(r, u->table[AT_EVENTS].f, t, length);
     u->last_row = t;
@@ -447,97 +445,6 @@ static void progress(const struct run *r, double begun, int last)
     fflush(stderr);
 }
 
-/* Bodies that stand in one another at the start are pushed apart, with loads that belong to no case. A run
- * may take hours: this is said before it. */
-static void warn_overlaps(const struct run *r)
-{
-    const fl_world *w = r->w;
-    const fl_pair *first = NULL;
-    int32_t found = 0;
-    fl_pair_walk at = {.w = w};
-    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
-        if (!p->n || !(p->overlap > p->keep * (w->b.radius[p->i] + w->b.radius[p->j]))) continue;
-        if (!found++) first = p;
-    }
-    if (!found) return;
-    fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
-            found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
-    fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[first->i],
-            fl_world_name(w, first->j));
-}
-
-/* Inside a shell and clear of its skin, like air in a hull. */
-static int stands_inside(const fl_world *w, int32_t i, int32_t k)
-{
-    const fl_piece *piece = &w->structure.piece[k];
-    const int32_t j = w->n + k;
-    if (piece->kind != FL_PIECE_SHELL || fl_world_away(w, i)) return 0;
-    if (!fl_shell_holds(piece, m3_tmul(fl_body_axes(&w->b, j), v3_sub(w->b.x[i], w->b.x[j])))) return 0;
-    fl_pair_walk at = {.w = w};
-    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;)
-        if (p->n && p->i == i && p->j == j) return 0;
-    return 1;
-}
-
-/* It would stay there, and no load tells. */
-static void warn_held(const struct run *r)
-{
-    const fl_world *w = r->w;
-    int32_t found = 0, body = -1, part = -1;
-    for (int32_t k = 0; k < w->structure.n; k++)
-        for (int32_t i = 0; i < w->n; i++) {
-            if (!stands_inside(w, i, k) || found++) continue;
-            body = i;
-            part = w->structure.piece[k].part;
-        }
-    if (found)
-        fprintf(stderr,
-                "dem-solve: warning: %d %s inside the structure, first body %d in part %s, and will not feel "
-                "it before it reaches its skin\n",
-                found, found == 1 ? "body stands" : "bodies stand", w->id[body], r->surface->part[part].name);
-}
-
-/* A sheet of any other outline than a convex one is a surface like that of a hull, which has an inside. */
-static void warn_sheets(const struct run *r)
-{
-    const fl_structure *s = &r->w->structure;
-    for (int32_t k = 0; k < s->n; k++)
-        if (s->piece[k].one_sided)
-            fprintf(stderr,
-                    "dem-solve: warning: part %s is a flat sheet whose outline is not convex: it is felt on "
-                    "the side that its normals point to alone\n",
-                    r->surface->part[s->piece[k].part].name);
-}
-
-/* A hull that does not float as it stands: told once, since its motion is one about that pose. */
-static void warn_hulls(const struct run *r)
-{
-    const fl_world *w = r->w;
-    for (int32_t k = 0; k < w->ride.m.n; k++) {
-        const fl_flotation *f = &w->ride.afloat[k];
-        const fl_motion *m = &w->ride.m.motion[k];
-        const double water = w->scene->water.density * f->volume, size = cbrt(f->volume);
-        const char *name = fl_ride_name(w, k);
-        if (f->volume == 0.0) continue;
-        if (m->mass > 0.0 && fabs(m->mass - water) > RESTS * water)
-            fprintf(stderr,
-                    "dem-solve: warning: %s has %.6g kg and displaces %.6g kg of water: at rest it would lie "
-                    "%.3g m %s\n",
-                    name, m->mass, water, fabs(m->mass - water) / (w->scene->water.density * f->area),
-                    m->mass < water ? "higher" : "deeper");
-        if (hypot(f->buoyancy.x, f->buoyancy.y) > RESTS * size)
-            fprintf(
-                stderr,
-                "dem-solve: warning: the buoyancy of %s acts %.3g m in x and %.3g m in y from its reference "
-                "point: at rest it would lean\n",
-                name, fabs(f->buoyancy.x) > 1e-9 * size ? f->buoyancy.x : 0.0,
-                fabs(f->buoyancy.y) > 1e-9 * size ? f->buoyancy.y : 0.0);
-        if ((m->free & FL_HOLD_RX && m->K[3][3] <= 0.0) || (m->free & FL_HOLD_RY && m->K[4][4] <= 0.0))
-            fprintf(stderr, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
-                    m->K[3][3], m->K[4][4]);
-    }
-}
-
 /* At the end of a row of the loads the error budget may change the step, and with it when what is due. */
 static int look_after_step(struct run *r, struct outputs *u, fl_err *err)
 {
@@ -553,20 +460,6 @@ static int look_after_step(struct run *r, struct outputs *u, fl_err *err)
     return 0;
 }
 
-/* A wave that would break is no linear one, and its loads are not those of any sea. */
-static void warn_waves(const struct run *r)
-{
-    const fl_scene_water *s = &r->scene->water;
-    double breaking;
-    if (!r->w->sea.waves) return;
-    const double steep = fl_wave_steepness(s->height, s->period, s->depth, r->w->sea.wave.gravity, &breaking);
-    if (steep > breaking)
-        fprintf(stderr,
-                "dem-solve: warning: waves of height over length %.3g, and they break above %.3g: such a sea "
-                "there is not\n",
-                steep, breaking);
-}
-
 static int run_steps_of(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
     fl_world *w = r->w;
@@ -574,11 +467,8 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     r->going = 1;
     if (!r->saved) {
         if (fl_step_start(w, err)) return -1;
-        warn_overlaps(r);
-        warn_held(r);
-        warn_waves(r);
-        warn_hulls(r);
-        warn_sheets(r);
+        warn_at_start(r);
+        warn_at_row(r, 0.0);
         if (write_due(r, u, err)) return -1;
     }
     while (w->step < r->steps && !told_to_stop) {
@@ -619,6 +509,7 @@ int run_scene(struct run *r, fl_err *err)
     r->wall = run_clock() - begun - r->save_wall - r->look_wall;
     r->busy = run_processor() - busy;
     if (show) progress(r, begun, 1);
+    warn_at_end(r);
     fl_sleep_look(r->w);
     fl_step_ledger(r->w);
     /* Also after a failure of the run: the rows until then are good and keep their names. */

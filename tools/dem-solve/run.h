@@ -39,6 +39,7 @@ struct run {
     int64_t saved_at; /* step of the last */
     double save_wall; /* [s] spent in them */
     int going;        /* it has begun, or gone on: there is something to report */
+    int swift;        /* a body that moves by its thickness in a step was told of */
     int stopped;      /* number of the signal that ended the run, 0: none */
 };
 
@@ -94,6 +95,12 @@ void run_header(struct run *r, struct outputs *u, int k);
 /* The whole run. -1 as fl_step(), or FL_SYSTEM when an output cannot be written; what was written until then
  * is complete and carries its name. */
 int run_scene(struct run *r, fl_err *err);
+
+/* warn.c: what is wrong with a scene that can be run, on standard error: before its first step, at a row of
+ * the loads, and when it has ended. */
+void warn_at_start(const struct run *r);
+void warn_at_row(struct run *r, double t);
+void warn_at_end(const struct run *r);
 
 /* report.c */
 void report_write(const struct run *r, FILE *f);

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include "bound/shell.h"
+#include "run.h"
+#include "step/balls.h"
+#include "step/ride.h"
+
+/* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
+#define RESTS 1e-3
+
+/* Bodies that stand in one another at the start are pushed apart, with loads that belong to no case. A run
+ * may take hours: this is said before it. */
+static void warn_overlaps(const struct run *r)
+{
+    const fl_world *w = r->w;
+    const fl_pair *first = NULL;
+    int32_t found = 0;
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
+        if (!p->n || !(p->overlap > p->keep * (w->b.radius[p->i] + w->b.radius[p->j]))) continue;
+        if (!found++) first = p;
+    }
+    if (!found) return;
+    fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
+            found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
+    fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[first->i],
+            fl_world_name(w, first->j));
+}
+
+/* Inside a shell and clear of its skin, like air in a hull. */
+static int stands_inside(const fl_world *w, int32_t i, int32_t k)
+{
+    const fl_piece *piece = &w->structure.piece[k];
+    const int32_t j = w->n + k;
+    if (piece->kind != FL_PIECE_SHELL || fl_world_away(w, i)) return 0;
+    if (!fl_shell_holds(piece, m3_tmul(fl_body_axes(&w->b, j), v3_sub(w->b.x[i], w->b.x[j])))) return 0;
+    fl_pair_walk at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;)
+        if (p->n && p->i == i && p->j == j) return 0;
+    return 1;
+}
+
+/* It would stay there, and no load tells. */
+static void warn_held(const struct run *r)
+{
+    const fl_world *w = r->w;
+    int32_t found = 0, body = -1, part = -1;
+    for (int32_t k = 0; k < w->structure.n; k++)
+        for (int32_t i = 0; i < w->n; i++) {
+            if (!stands_inside(w, i, k) || found++) continue;
+            body = i;
+            part = w->structure.piece[k].part;
+        }
+    if (found)
+        fprintf(stderr,
+                "dem-solve: warning: %d %s inside the structure, first body %d in part %s, and will not feel "
+                "it before it reaches its skin\n",
+                found, found == 1 ? "body stands" : "bodies stand", w->id[body], r->surface->part[part].name);
+}
+
+/* A sheet of any other outline than a convex one is a surface like that of a hull, which has an inside. */
+static void warn_sheets(const struct run *r)
+{
+    const fl_structure *s = &r->w->structure;
+    for (int32_t k = 0; k < s->n; k++)
+        if (s->piece[k].one_sided)
+            fprintf(stderr,
+                    "dem-solve: warning: part %s is a flat sheet whose outline is not convex: it is felt on "
+                    "the side that its normals point to alone\n",
+                    r->surface->part[s->piece[k].part].name);
+}
+
+/* A hull that does not float as it stands: told once, since its motion is one about that pose. */
+static void warn_hulls(const struct run *r)
+{
+    const fl_world *w = r->w;
+    for (int32_t k = 0; k < w->ride.m.n; k++) {
+        const fl_flotation *f = &w->ride.afloat[k];
+        const fl_motion *m = &w->ride.m.motion[k];
+        const double water = w->scene->water.density * f->volume, size = cbrt(f->volume);
+        const char *name = fl_ride_name(w, k);
+        if (f->volume == 0.0) continue;
+        if (m->mass > 0.0 && fabs(m->mass - water) > RESTS * water)
+            fprintf(stderr,
+                    "dem-solve: warning: %s has %.6g kg and displaces %.6g kg of water: at rest it would lie "
+                    "%.3g m %s\n",
+                    name, m->mass, water, fabs(m->mass - water) / (w->scene->water.density * f->area),
+                    m->mass < water ? "higher" : "deeper");
+        if (hypot(f->buoyancy.x, f->buoyancy.y) > RESTS * size)
+            fprintf(
+                stderr,
+                "dem-solve: warning: the buoyancy of %s acts %.3g m in x and %.3g m in y from its reference "
+                "point: at rest it would lean\n",
+                name, fabs(f->buoyancy.x) > 1e-9 * size ? f->buoyancy.x : 0.0,
+                fabs(f->buoyancy.y) > 1e-9 * size ? f->buoyancy.y : 0.0);
+        if ((m->free & FL_HOLD_RX && m->K[3][3] <= 0.0) || (m->free & FL_HOLD_RY && m->K[4][4] <= 0.0))
+            fprintf(stderr, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
+                    m->K[3][3], m->K[4][4]);
+    }
+}
+
+/* A wave that would break is no linear one, and its loads are not those of any sea. */
+static void warn_waves(const struct run *r)
+{
+    const fl_scene_water *s = &r->scene->water;
+    double breaking;
+    if (!r->w->sea.waves) return;
+    const double steep = fl_wave_steepness(s->height, s->period, s->depth, r->w->sea.wave.gravity, &breaking);
+    if (steep > breaking)
+        fprintf(stderr,
+                "dem-solve: warning: waves of height over length %.3g, and they break above %.3g: such a sea "
+                "there is not\n",
+                steep, breaking);
+}
+
+void warn_at_start(const struct run *r)
+{
+    warn_overlaps(r);
+    warn_held(r);
+    warn_waves(r);
+    warn_hulls(r);
+    warn_sheets(r);
+}
+
+/* What a body is thick, seen along the normals of its faces, dilated. */
+static double thickness(const fl_poly *p, double radius)
+{
+    double least = p->nf ? INFINITY : 0.0;
+    for (int32_t f = 0; f < p->nf; f++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (int32_t v = 0; v < p->nv; v++) {
+            const double h = v3_dot(p->n[f], p->v[v]);
+            lo = fmin(lo, h), hi = fmax(hi, h);
+        }
+        least = fmin(least, hi - lo);
+    }
+    return least + 2.0 * radius;
+}
+
+/* Two bodies that each move by less than they are thick do not pass each other between two looks. */
+void warn_at_row(struct run *r, double t)
+{
+    const fl_world *w = r->w;
+    for (int32_t i = 0; i < w->n && !r->swift; i++) {
+        const double way = w->dt * v3_norm(w->b.v[i]);
+        if (!(way > 2.0 * w->b.radius[i]) || fl_world_away(w, i)) continue;
+        const double thick = thickness(&w->b.core[i], w->b.radius[i]);
+        if (!(way > thick) || isinf(way)) continue;
+        r->swift = 1;
+        fprintf(
+            stderr,
+            "dem-solve: warning: body %d moves by %.3g m in a step at t = %.6g s and is %.3g m thick: it may "
+            "pass through what is thin; a shorter run.dt is wanted\n",
+            w->id[i], way, t, thick);
+    }
+}
+
+void warn_at_end(const struct run *r)
+{
+    const fl_world *w = r->w;
+    if (!w->half_steps) return;
+    fprintf(
+        stderr,
+        "dem-solve: warning: overlaps past half the radii in %" PRId64
+        " step%s, up to %.3g of them, first of body %d and %d at t = %.6g s: contacts are too soft for these "
+        "speeds%s\n",
+        w->half_steps, w->half_steps == 1 ? "" : "s", w->worst_overlap, w->half_i, w->half_j, w->half_time,
+        w->worst_overlap >= 1.0 ? ", and bodies may have gone through each other" : "");
+}
