@@ -30,6 +30,7 @@ typedef struct {
     /* what a body is */
     double *m, *invm; /* [kg], [1/kg]; 0 and 0 for what is held      */
     fl_vec3 *I;       /* principal moments, ascending      [kg m2]   */
+    fl_vec3 *invI;    /* 1 over each of them: fl_body_inertia() sets both */
     double *radius;   /* dilation radius                   [m]       */
     double *bound;    /* farthest core vertex from x       [m]       */
     fl_poly *core;    /* in the body frame                           */
@@ -61,6 +62,9 @@ static inline fl_mat3 fl_body_axes(const fl_bodies *b, int32_t i)
     return q_matrix(b->ball[i] ? q_one() : b->q[i]);
 }
 
+/* Give body i these principal moments. */
+void fl_body_inertia(fl_bodies *b, int32_t i, fl_vec3 I);
+
 /* w of body i from q and L. */
 void fl_body_derive(fl_bodies *b, int32_t i);
 
@@ -70,11 +74,10 @@ void fl_body_spin(fl_bodies *b, int32_t i, fl_vec3 w);
 /* I^-1 t in world axes. */
 static inline fl_vec3 fl_body_turn(const fl_bodies *b, int32_t i, fl_vec3 t)
 {
-    const fl_vec3 I = b->I[i];
-    if (b->ball[i]) return v3(t.x / I.x, t.y / I.x, t.z / I.x);
+    const fl_vec3 ease = b->invI[i];
+    if (b->ball[i]) return v3_scale(ease.x, t);
     const fl_mat3 R = q_matrix(b->q[i]);
-    const fl_vec3 s = m3_tmul(R, t);
-    return m3_mul(R, v3(s.x / I.x, s.y / I.y, s.z / I.z));
+    return m3_mul(R, v3_mul(ease, m3_tmul(R, t)));
 }
 
 /* R (m + M_a) R^T v: the linear momentum of body i and the water that moves with it [kg m/s], for a velocity

@@ -13,7 +13,7 @@ static fl_vec3 join_one(const double (*from)[FL_FEW], int32_t k)
 }
 
 /* q_matrix() */
-FL_WIDE_VERSIONS static void find_axes(fl_few *restrict s)
+FL_WIDE_VERSIONS void fl_few_axes(fl_few *restrict s)
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->n; i++) {
@@ -26,10 +26,10 @@ FL_WIDE_VERSIONS static void find_axes(fl_few *restrict s)
     }
 }
 
-FL_FOUR_VERSIONS static void take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
+FL_FOUR_VERSIONS void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
 {
     const double *m = b->m + from, *invm = b->invm + from;
-    const fl_vec3 *I = b->I + from, *v = b->v + from, *L = b->L + from, *w = b->w + from;
+    const fl_vec3 *invI = b->invI + from, *v = b->v + from, *L = b->L + from, *w = b->w + from;
     const fl_quat *q = b->q + from;
     int32_t k = 0;
     s->from = from;
@@ -37,7 +37,7 @@ FL_FOUR_VERSIONS static void take(fl_few *s, const fl_bodies *b, int32_t from, i
     for (; k + FL_LANES <= n; k += FL_LANES) {
         FL_FOUR_INTO(&s->m[k]) = FL_FOUR(&m[k]);
         FL_FOUR_INTO(&s->invm[k]) = FL_FOUR(&invm[k]);
-        fl_few_split(s->I, I, k);
+        fl_few_split(s->invI, invI, k);
         fl_few_split(s->v, v, k);
         fl_few_split(s->L, L, k);
         fl_few_split(s->w, w, k);
@@ -45,16 +45,10 @@ FL_FOUR_VERSIONS static void take(fl_few *s, const fl_bodies *b, int32_t from, i
     }
     for (; k < n; k++) {
         s->m[k] = m[k], s->invm[k] = invm[k];
-        split_one(s->I, I[k], k), split_one(s->v, v[k], k);
+        split_one(s->invI, invI[k], k), split_one(s->v, v[k], k);
         split_one(s->L, L[k], k), split_one(s->w, w[k], k);
         s->q[0][k] = q[k].w, s->q[1][k] = q[k].x, s->q[2][k] = q[k].y, s->q[3][k] = q[k].z;
     }
-}
-
-void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
-{
-    take(s, b, from, n);
-    find_axes(s);
 }
 
 FL_FOUR_VERSIONS void fl_few_take_forces(fl_few *s, const fl_bodies *b)
@@ -138,6 +132,20 @@ FL_WIDE_VERSIONS void fl_few_weigh(fl_few *restrict s, fl_vec3 gravity)
     }
 }
 
+FL_WIDE_VERSIONS void fl_few_push(fl_few *restrict s, double h)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->n; i++) {
+        const double by = h * s->invm[i];
+        s->v[0][i] += by * s->f[0][i];
+        s->v[1][i] += by * s->f[1][i];
+        s->v[2][i] += by * s->f[2][i];
+        s->L[0][i] += h * s->t[0][i];
+        s->L[1][i] += h * s->t[1][i];
+        s->L[2][i] += h * s->t[2][i];
+    }
+}
+
 FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s, double h)
 {
 #pragma omp simd
@@ -156,9 +164,9 @@ FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s, double h)
         s->L[0][i] = x;
         s->L[1][i] = y;
         s->L[2][i] = z;
-        const double a = (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z) / s->I[0][i],
-                     b = (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z) / s->I[1][i],
-                     c = (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z) / s->I[2][i];
+        const double a = s->invI[0][i] * (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z),
+                     b = s->invI[1][i] * (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z),
+                     c = s->invI[2][i] * (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z);
         const double wx = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c,
                      wy = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c,
                      wz = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
@@ -171,21 +179,29 @@ FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s, double h)
     }
 }
 
-/* How many turn in dt by more than the series is for: below half a radian it needs no halving, as in all but
- * the wildest steps. */
-FL_WIDE_VERSIONS static double wild(const fl_few *restrict s, double dt)
+/* The square of the farthest that one of them turns in dt, at most. */
+FL_WIDE_VERSIONS static double farthest(const fl_few *restrict s, double dt)
 {
-    double many = 0.0;
-#pragma omp simd reduction(+ : many)
+    double most = 0.0;
+#pragma omp simd reduction(max : most)
     for (int32_t i = 0; i < s->n; i++) {
-        const double x = dt * s->L[0][i], y = dt * s->L[1][i], z = dt * s->L[2][i], I = s->I[0][i];
-        many += x * x + y * y + z * z > 0.99 * 4.0 * Q_HALF_TURN_MOST * (I * I) ? 1.0 : 0.0;
+        const double x = dt * s->L[0][i], y = dt * s->L[1][i], z = dt * s->L[2][i], ease = s->invI[0][i];
+        const double turn2 = (ease * ease) * (x * x + y * y + z * z);
+        most = turn2 > most ? turn2 : most;
     }
-    return many;
+    return most;
 }
 
-/* fl_drift() with fl_drift_rotation() and its three turns written out. */
-FL_WIDE_VERSIONS static void drift(fl_few *restrict s, double dt)
+static inline double versine(double x2, int few) { return few ? q_versine_few(x2) : q_versine(x2); }
+static inline double sinc(double x2, int few) { return few ? q_sinc_few(x2) : q_sinc(x2); }
+
+/* fl_drift() with fl_drift_rotation() and its three turns written out, in loops of their own: what a turn is
+ * depends on the one before, so that the time of a loop with all of them would be that of waiting.  few: none is
+ * farther than Q_HALF_TURN_FEW. */
+#define ALWAYS static inline __attribute__((always_inline))
+
+/* Straight on, and about the first axis: from from[] to q. */
+ALWAYS void turn_first(fl_few *restrict s, double dt, int few, double (*restrict from)[FL_FEW])
 {
     const double path = fabs(dt);
 #pragma omp simd
@@ -194,41 +210,62 @@ FL_WIDE_VERSIONS static void drift(fl_few *restrict s, double dt)
         s->x[0][i] += dt * vx;
         s->x[1][i] += dt * vy;
         s->x[2][i] += dt * vz;
-        const double gone = s->odometer[i] + path * sqrt(vx * vx + vy * vy + vz * vz);
+        s->odometer[i] += path * sqrt(vx * vx + vy * vy + vz * vz);
         const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i];
-        const double I0 = s->I[0][i], I1 = s->I[1][i], I2 = s->I[2][i];
-        const double a0 = 0.5 * dt * (1.0 / I0 - 1.0 / I1), a2 = dt * (1.0 / I2 - 1.0 / I1);
+        const double a0 = 0.5 * dt * (s->invI[0][i] - s->invI[1][i]);
         const double ow = s->q[0][i], ox = s->q[1][i], oy = s->q[2][i], oz = s->q[3][i];
-        /* about its first axis */
         const double l0 =
             (1 - 2 * (oy * oy + oz * oz)) * Lx + 2 * (ox * oy + ow * oz) * Ly + 2 * (ox * oz - ow * oy) * Lz;
         const double r0 = a0 * l0, v0 = 0.25 * r0 * r0;
-        const double c0 = 1.0 - q_versine(v0), s0 = q_sinc(v0) * (0.5 * r0);
-        const double aw = ow * c0 - ox * s0, ax = ow * s0 + ox * c0, ay = oy * c0 + oz * s0,
-                     az = oz * c0 - oy * s0;
-        /* as a symmetric top: about its third axis, then about L */
+        const double c0 = 1.0 - versine(v0, few), s0 = sinc(v0, few) * (0.5 * r0);
+        from[0][i] = ow, from[1][i] = ox, from[2][i] = oy, from[3][i] = oz;
+        s->q[0][i] = ow * c0 - ox * s0, s->q[1][i] = ow * s0 + ox * c0;
+        s->q[2][i] = oy * c0 + oz * s0, s->q[3][i] = oz * c0 - oy * s0;
+    }
+}
+
+/* As a symmetric top: about the third axis, then about L. */
+ALWAYS void turn_top(fl_few *restrict s, double dt, int few)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->n; i++) {
+        const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i], ease1 = s->invI[1][i];
+        const double a2 = dt * (s->invI[2][i] - ease1);
+        const double aw = s->q[0][i], ax = s->q[1][i], ay = s->q[2][i], az = s->q[3][i];
         const double l2 =
             2 * (ax * az + aw * ay) * Lx + 2 * (ay * az - aw * ax) * Ly + (1 - 2 * (ax * ax + ay * ay)) * Lz;
         const double r2 = a2 * l2, v2 = 0.25 * r2 * r2;
-        const double c2 = 1.0 - q_versine(v2), s2 = q_sinc(v2) * (0.5 * r2);
+        const double c2 = 1.0 - versine(v2, few), s2 = sinc(v2, few) * (0.5 * r2);
         const double bw = aw * c2 - az * s2, bx = ax * c2 + ay * s2, by = ay * c2 - ax * s2,
                      bz = az * c2 + aw * s2;
-        const double k = dt / I1, rx = k * Lx, ry = k * Ly, rz = k * Lz;
+        const double k = dt * ease1, rx = k * Lx, ry = k * Ly, rz = k * Lz;
         const double v1 = 0.25 * (rx * rx + ry * ry + rz * rz);
-        const double c1 = 1.0 - q_versine(v1), s1 = 0.5 * q_sinc(v1);
+        const double c1 = 1.0 - versine(v1, few), s1 = 0.5 * sinc(v1, few);
         const double hx = s1 * rx, hy = s1 * ry, hz = s1 * rz;
-        const double dw = c1 * bw - hx * bx - hy * by - hz * bz, dx = c1 * bx + hx * bw + hy * bz - hz * by,
-                     dy = c1 * by - hx * bz + hy * bw + hz * bx, dz = c1 * bz + hx * by - hy * bx + hz * bw;
-        /* and about the first axis again */
+        s->q[0][i] = c1 * bw - hx * bx - hy * by - hz * bz;
+        s->q[1][i] = c1 * bx + hx * bw + hy * bz - hz * by;
+        s->q[2][i] = c1 * by - hx * bz + hy * bw + hz * bx;
+        s->q[3][i] = c1 * bz + hx * by - hy * bx + hz * bw;
+    }
+}
+
+/* About the first axis again; one without momentum stays as it is, to the bit. */
+ALWAYS void turn_last(fl_few *restrict s, double dt, int few, double (*restrict from)[FL_FEW])
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->n; i++) {
+        const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i];
+        const double a0 = 0.5 * dt * (s->invI[0][i] - s->invI[1][i]);
+        const double dw = s->q[0][i], dx = s->q[1][i], dy = s->q[2][i], dz = s->q[3][i];
         const double l3 =
             (1 - 2 * (dy * dy + dz * dz)) * Lx + 2 * (dx * dy + dw * dz) * Ly + 2 * (dx * dz - dw * dy) * Lz;
         const double r3 = a0 * l3, v3fold = 0.25 * r3 * r3;
-        const double c3 = 1.0 - q_versine(v3fold), s3 = q_sinc(v3fold) * (0.5 * r3);
+        const double c3 = 1.0 - versine(v3fold, few), s3 = sinc(v3fold, few) * (0.5 * r3);
         const double ew = dw * c3 - dx * s3, ex = dw * s3 + dx * c3, ey = dy * c3 + dz * s3,
                      ez = dz * c3 - dy * s3;
         const double one = 1.5 - 0.5 * (ew * ew + ex * ex + ey * ey + ez * ez);
-        /* one without momentum stays as it is, to the bit */
         const int turns = fabs(Lx) + fabs(Ly) + fabs(Lz) > 0.0;
+        const double ow = from[0][i], ox = from[1][i], oy = from[2][i], oz = from[3][i];
         const double qw = turns ? one * ew : ow, qx = turns ? one * ex : ox, qy = turns ? one * ey : oy,
                      qz = turns ? one * ez : oz;
         s->q[0][i] = qw;
@@ -238,9 +275,20 @@ FL_WIDE_VERSIONS static void drift(fl_few *restrict s, double dt)
         /* the vector part of q conj(old) */
         const double fx = qx * ow - qw * ox - qy * oz + qz * oy, fy = qy * ow - qw * oy + qx * oz - qz * ox,
                      fz = qz * ow - qw * oz - qx * oy + qy * ox;
-        s->odometer[i] = gone + 2.0 * sqrt(fx * fx + fy * fy + fz * fz) * s->bound[i];
+        s->odometer[i] = s->odometer[i] + 2.0 * sqrt(fx * fx + fy * fy + fz * fz) * s->bound[i];
     }
 }
+
+ALWAYS void drift(fl_few *restrict s, double dt, int few)
+{
+    _Alignas(64) double from[4][FL_FEW];
+    turn_first(s, dt, few, from);
+    turn_top(s, dt, few);
+    turn_last(s, dt, few, from);
+}
+
+FL_WIDE_VERSIONS static void drift_few(fl_few *restrict s, double dt) { drift(s, dt, 1); }
+FL_WIDE_VERSIONS static void drift_far(fl_few *restrict s, double dt) { drift(s, dt, 0); }
 
 /* fl_body_turn() of L */
 FL_WIDE_VERSIONS static void find_spins(fl_few *restrict s)
@@ -248,9 +296,9 @@ FL_WIDE_VERSIONS static void find_spins(fl_few *restrict s)
 #pragma omp simd
     for (int32_t i = 0; i < s->n; i++) {
         const double x = s->L[0][i], y = s->L[1][i], z = s->L[2][i];
-        const double a = (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z) / s->I[0][i],
-                     b = (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z) / s->I[1][i],
-                     c = (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z) / s->I[2][i];
+        const double a = s->invI[0][i] * (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z),
+                     b = s->invI[1][i] * (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z),
+                     c = s->invI[2][i] * (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z);
         s->w[0][i] = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c;
         s->w[1][i] = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c;
         s->w[2][i] = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
@@ -259,9 +307,11 @@ FL_WIDE_VERSIONS static void find_spins(fl_few *restrict s)
 
 int fl_few_drift(fl_few *s, double dt)
 {
-    if (wild(s, dt) > 0.0) return 0;
-    drift(s, dt);
-    find_axes(s);
+    const double most = 0.25 * (1.0 + 1e-9) * farthest(s, dt);
+    if (!(most <= Q_HALF_TURN_MOST)) return 0;
+    if (most <= Q_HALF_TURN_FEW) drift_few(s, dt);
+    else drift_far(s, dt);
+    fl_few_axes(s);
     find_spins(s);
     return 1;
 }

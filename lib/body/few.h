@@ -3,8 +3,8 @@
  * at a time.  Each body gets the bits that it gets there: fl_kick() and fl_drift() of bodies that
  * fl_body_free() and are no balls.
  *
- *     fl_few_take(), fl_few_take_forces(), fl_few_take_pose();
- *     fl_few_kick(), fl_few_drift();
+ *     fl_few_take(), fl_few_axes(), fl_few_take_forces(), fl_few_take_pose();
+ *     fl_few_kick() or fl_few_push(), fl_few_drift();
  *     fl_few_put_speeds(), fl_few_put_pose()
  *
  * What is taken and not put back stays as it was. */
@@ -18,7 +18,7 @@ enum { FL_FEW = 16 };
 typedef struct {
     int32_t from, n; /* bodies [from, from + n), n <= FL_FEW */
     _Alignas(64) double m[FL_FEW];
-    double invm[FL_FEW], I[3][FL_FEW]; /* what they are, as in body.h */
+    double invm[FL_FEW], invI[3][FL_FEW]; /* what they are, as in body.h */
     double v[3][FL_FEW], L[3][FL_FEW], w[3][FL_FEW];
     double q[4][FL_FEW], R[9][FL_FEW]; /* R row by row */
     double f[3][FL_FEW], t[3][FL_FEW];
@@ -26,8 +26,11 @@ typedef struct {
     double dv[3][FL_FEW], dw[3][FL_FEW]; /* what the last kick changed of v and w */
 } fl_few;
 
-/* m, invm, I, q, v, L and w of bodies [from, from + n), and R. */
+/* m, invm, invI, q, v, L and w of bodies [from, from + n). */
 void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n);
+
+/* R of q. */
+void fl_few_axes(fl_few *s);
 
 /* Of the same: f and t; x, odometer and bound. */
 void fl_few_take_forces(fl_few *s, const fl_bodies *b);
@@ -44,8 +47,11 @@ static inline void fl_few_take_force(fl_few *s, const fl_bodies *b, int32_t k)
 /* Weight and nothing else: f = m g, t = 0. */
 void fl_few_weigh(fl_few *s, fl_vec3 gravity);
 
-/* As fl_kick(). */
+/* As fl_kick(); wants R. */
 void fl_few_kick(fl_few *s, double h);
+
+/* The same of v and L alone, where w is not asked for before fl_few_drift(), which finds it anew. */
+void fl_few_push(fl_few *s, double h);
 
 /* As fl_drift().  Returns 1; or 0 and nothing is changed when one of them turns by more than a radian or so
  * in dt, for which the series here is not made. */

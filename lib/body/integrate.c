@@ -9,12 +9,12 @@ static fl_quat renormal(fl_quat q)
     return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
 }
 
-fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt)
+fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt)
 {
-    const double a0 = 0.5 * dt * (1.0 / I.x - 1.0 / I.y), a2 = dt * (1.0 / I.z - 1.0 / I.y);
+    const double a0 = 0.5 * dt * (invI.x - invI.y), a2 = dt * (invI.z - invI.y);
     if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * v3_dot(m3_col(q_matrix(q), 0), L)));
     {
-        const fl_quat turn = q_of_vector(v3_scale(dt / I.y, L));
+        const fl_quat turn = q_of_vector(v3_scale(dt * invI.y, L));
         if (a2 != 0.0) q = q_mul(q, q_about(2, a2 * v3_dot(m3_col(q_matrix(q), 2), L)));
         q = q_mul(turn, q);
     }
@@ -140,10 +140,10 @@ static void turn(fl_bodies *b, int32_t i, double dt)
     if (b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) {
         drift_held(b, i, dt);
     } else if (b->ball[i]) { /* turns about L for ever, and nothing of it moves by that */
-        b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt / b->I[i].x, b->L[i])), q));
+        b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt * b->invI[i].x, b->L[i])), q));
         return;
     } else {
-        b->q[i] = fl_drift_rotation(q, b->L[i], b->I[i], dt);
+        b->q[i] = fl_drift_rotation(q, b->L[i], b->invI[i], dt);
         fl_body_derive(b, i);
     }
     b->odometer[i] += chord(q, b->q[i]) * b->bound[i];
@@ -226,7 +226,7 @@ void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
 /* From the first of them on. */
 typedef struct {
     const double *invm;
-    const fl_vec3 *I, *f, *t;
+    const fl_vec3 *invI, *f, *t;
     fl_vec3 *v, *L, *w, *x;
     fl_quat *q;
     double *odometer;
@@ -234,23 +234,41 @@ typedef struct {
 
 #define NORM2(a) (a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 
+/* q_versine() and q_sinc() of four. */
+FL_WIDE_PART void versine_and_sinc(const fl_wide *x2, fl_wide *versine, fl_wide *sinc)
+{
+    const fl_wide x = *x2, v = x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720))),
+                  f = 1.0 - x * (1.0 / 6 - x * (1.0 / 120 - x * (1.0 / 5040)));
+    const fl_wide_mask few = x <= Q_HALF_TURN_FEW;
+    *versine = v, *sinc = f;
+    if (few[0] & few[1] & few[2] & few[3]) return;
+    fl_wide cosine = 1.0 / 479001600 - x * (1.0 / 87178291200.0);
+    fl_wide sine = 1.0 / 39916800 - x * (1.0 / 6227020800.0);
+    cosine = 1.0 / 3628800 - x * cosine, sine = 1.0 / 362880 - x * sine;
+    cosine = 1.0 / 40320 - x * cosine, sine = 1.0 / 5040 - x * sine;
+    cosine = 1.0 / 720 - x * cosine, sine = 1.0 / 120 - x * sine;
+    cosine = 1.0 / 24 - x * cosine, sine = 1.0 / 6 - x * sine;
+    cosine = x * (1.0 / 2 - x * cosine), sine = 1.0 - x * sine;
+    *versine = FL_WIDE_CHOOSE(few, v, cosine), *sinc = FL_WIDE_CHOOSE(few, f, sine);
+}
+
 /* Kick and drift of the four from the k-th on; whether they did turn: by more than the series is for they do
  * not. */
 FL_WIDE_PART int move_four(const plain *a, int32_t k, double h, double dt)
 {
     const fl_wide s = h * FL_FOUR(&a->invm[k]);
-    fl_wide I[3], f[3], t[3], v[3], L[3], w[3], r[3], x[3], q[4];
-    fl_wide_from_triples(I, &a->I[k]);
+    fl_wide ease[3], f[3], t[3], v[3], L[3], w[3], r[3], x[3], q[4];
+    fl_wide_from_triples(ease, &a->invI[k]);
     fl_wide_from_triples(f, &a->f[k]);
     fl_wide_from_triples(t, &a->t[k]);
     fl_wide_from_triples(v, &a->v[k]);
     fl_wide_from_triples(L, &a->L[k]);
-    const fl_wide turns = dt / I[0];
+    const fl_wide turns = dt * ease[0];
     FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
     {
         v[c] += s * f[c];
         L[c] += h * t[c];
-        w[c] = L[c] / I[0];
+        w[c] = ease[0] * L[c];
         r[c] = turns * L[c];
     }
     fl_wide_to_triples(&a->v[k], v);
@@ -260,14 +278,8 @@ FL_WIDE_PART int move_four(const plain *a, int32_t k, double h, double dt)
     const fl_wide half2 = 0.25 * NORM2(r), room = Q_HALF_TURN_MOST - half2;
     const fl_wide_mask known = room >= 0.0;
     if (!(known[0] & known[1] & known[2] & known[3])) return 0;
-    /* 1 - cos and sin(x)/x as in quat.h */
-    fl_wide cosine = 1.0 / 479001600 - half2 * (1.0 / 87178291200.0);
-    fl_wide sine = 1.0 / 39916800 - half2 * (1.0 / 6227020800.0);
-    cosine = 1.0 / 3628800 - half2 * cosine, sine = 1.0 / 362880 - half2 * sine;
-    cosine = 1.0 / 40320 - half2 * cosine, sine = 1.0 / 5040 - half2 * sine;
-    cosine = 1.0 / 720 - half2 * cosine, sine = 1.0 / 120 - half2 * sine;
-    cosine = 1.0 / 24 - half2 * cosine, sine = 1.0 / 6 - half2 * sine;
-    cosine = half2 * (1.0 / 2 - half2 * cosine), sine = 1.0 - half2 * sine;
+    fl_wide cosine, sine;
+    versine_and_sinc(&half2, &cosine, &sine);
     const fl_wide c = 1.0 - cosine, d = 0.5 * sine, hx = d * r[0], hy = d * r[1], hz = d * r[2];
     FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) q[l] = FL_FOUR(&a->q[k + l]);
     fl_wide_transpose(q);
@@ -304,8 +316,8 @@ FL_FOUR_VERSIONS static int32_t move_plain(const plain *restrict a, int32_t from
 void fl_move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
 {
     const int32_t n = to - from, four = n - n % FL_LANES;
-    const plain a = {b->invm + from, b->I + from, b->f + from, b->t + from, b->v + from,
-                     b->L + from,    b->w + from, b->x + from, b->q + from, b->odometer + from};
+    const plain a = {b->invm + from, b->invI + from, b->f + from, b->t + from, b->v + from,
+                     b->L + from,    b->w + from,    b->x + from, b->q + from, b->odometer + from};
     for (int32_t k = 0; k < four;) {
         const int32_t wild = move_plain(&a, k, four, h, dt);
         for (k = wild; k < four && k < wild + FL_LANES; k++) fl_drift(b, from + k, dt);

@@ -40,7 +40,7 @@ static inline int fl_body_free(const fl_bodies *b, int32_t i) { return !b->hold[
 static inline int fl_body_plain(const fl_bodies *b, int32_t i) { return b->ball[i] && fl_body_free(b, i); }
 
 /* The rotation part alone, of one body; for tests. */
-fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 I, double dt);
+fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt);
 
 /* What the force and torque of now give body i: accelerations of v and w, none of what is held [m/s2],
  * [rad/s2].  What turns without a torque is left out: w x L and, with added mass, P x u. */

@@ -92,8 +92,10 @@ int fl_movers_start(fl_movers *v, double t, fl_err *err)
             b->m[k] = m->mass > 0.0 ? m->mass : 1.0;
             b->invm[k] = 1.0 / b->m[k];
             b->hold[k] = (uint8_t)(ALL & ~m->free);
-            b->I[k] = v3(m->inertia.x > 0.0 ? m->inertia.x : 1.0, m->inertia.y > 0.0 ? m->inertia.y : 1.0,
-                         m->inertia.z > 0.0 ? m->inertia.z : 1.0);
+            fl_body_inertia(b, k,
+                            v3(m->inertia.x > 0.0 ? m->inertia.x : 1.0,
+                               m->inertia.y > 0.0 ? m->inertia.y : 1.0,
+                               m->inertia.z > 0.0 ? m->inertia.z : 1.0));
         }
         b->x[k] = v3_add(m->reference, x.x);
         b->q[k] = q_of_vector(x.r);

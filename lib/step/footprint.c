@@ -23,11 +23,11 @@ static double bodies(const fl_world *w)
     const int32_t n = w->n, total = b->total;
     return ARRAY(b->x, total) + ARRAY(b->v, total) + ARRAY(b->L, total) + ARRAY(b->q, total) +
            ARRAY(b->w, total) + ARRAY(b->f, total) + ARRAY(b->t, total) + ARRAY(b->m, total) +
-           ARRAY(b->invm, total) + ARRAY(b->I, total) + ARRAY(b->radius, total) + ARRAY(b->bound, total) +
-           ARRAY(b->hold, total) + ARRAY(b->ball, total) + ARRAY(b->held, total) + ARRAY(b->odometer, total) +
-           ARRAY(b->added, total) + ARRAY(b->flow, total) + ARRAY(b->carried, total) + ARRAY(w->id, n) +
-           ARRAY(w->material, total) + ARRAY(w->face, total) + ARRAY(w->q0, n) +
-           ARRAY(w->group, n / FL_BALLS_GROUP + 1) + ARRAY(w->sink.place, total) +
+           ARRAY(b->invm, total) + ARRAY(b->I, total) + ARRAY(b->invI, total) + ARRAY(b->radius, total) +
+           ARRAY(b->bound, total) + ARRAY(b->hold, total) + ARRAY(b->ball, total) + ARRAY(b->held, total) +
+           ARRAY(b->odometer, total) + ARRAY(b->added, total) + ARRAY(b->flow, total) +
+           ARRAY(b->carried, total) + ARRAY(w->id, n) + ARRAY(w->material, total) + ARRAY(w->face, total) +
+           ARRAY(w->q0, n) + ARRAY(w->group, n / FL_BALLS_GROUP + 1) + ARRAY(w->sink.place, total) +
            ARRAY(w->was.place, total) + ARRAY(w->sink.at, w->sink.cap) + ARRAY(w->was.at, w->was.cap) +
            ARRAY(w->gain, w->gain_cap);
 }

@@ -58,7 +58,7 @@ static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
 /* What a kick by h gives to a ball that is unbound. */
 static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
 {
-    return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h / b->I[k].x, b->t[k])};
+    return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h * b->invI[k].x, b->t[k])};
 }
 
 /* What the last kick gave to body k of a few. */
@@ -81,14 +81,24 @@ static void begin_few(fl_world *w, int32_t from, int32_t n, double h, double dt)
     fl_few_take_forces(&s, b);
     fl_few_take_pose(&s, b);
     if (calm) fl_calm_drag(sea, b, &s, h, 0);
-    fl_few_kick(&s, h);
     const int32_t *was = w->was.place + from;
-    for (int32_t k = 0; k < n; k++)
-        if (was[k]) w->gain[was[k]] = gain_among(&s, k);
+    int32_t felt = 0;
+    for (int32_t k = 0; k < n; k++) felt |= was[k];
+    if (felt) {
+        fl_few_axes(&s);
+        fl_few_kick(&s, h);
+        for (int32_t k = 0; k < n; k++)
+            if (was[k]) w->gain[was[k]] = gain_among(&s, k);
+    } else {
+        fl_few_push(&s, h);
+    }
     const int done = fl_few_drift(&s, dt);
     fl_few_put_speeds(&s, b);
     if (done) fl_few_put_pose(&s, b);
-    for (int32_t k = from; k < from + n && !done; k++) fl_drift(b, k, dt);
+    for (int32_t k = from; k < from + n && !done; k++) {
+        fl_body_derive(b, k); /* which a body without momentum keeps */
+        fl_drift(b, k, dt);
+    }
 }
 
 static void begin_balls(fl_world *w, int32_t from, int32_t to, double h, double dt)
@@ -222,6 +232,7 @@ static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *ow
     const int32_t many = find_busy(w, from, n, busy);
     fl_few s;
     fl_few_take(&s, b, from, n);
+    fl_few_axes(&s);
     find_forces(w, &s);
     for (int32_t k = 0; k < many; k++) {
         fl_step_press(w, from + busy[k]);

@@ -15,7 +15,7 @@ int fl_plain_is(const fl_world *w, int32_t k)
 /* What the loop below reads and writes, from the first body of the group on. */
 typedef struct {
     const double *m, *invm;
-    const fl_vec3 *I, *x;
+    const fl_vec3 *invI, *x;
     const fl_ball_sum *sum, *was;
     fl_vec3 *f, *t, *v, *L, *w;
     double *damped, *rubbed;
@@ -50,16 +50,16 @@ FL_FOUR_VERSIONS static double end_all(const group *restrict a, int32_t n, fl_ve
     for (int32_t k = 0; k < n; k += FL_LANES) {
         const fl_wide m = FL_FOUR(&a->m[k]), invm = FL_FOUR(&a->invm[k]);
         const double *x = (const double *)&a->x[k];
-        fl_wide I[3], f[3], t[3], v[3], L[3], w[3];
+        fl_wide ease[3], f[3], t[3], v[3], L[3], w[3];
         sums s1, s0;
-        fl_wide_from_triples(I, &a->I[k]);
+        fl_wide_from_triples(ease, &a->invI[k]);
         fl_wide_from_triples(f, &a->f[k]);
         fl_wide_from_triples(t, &a->t[k]);
         fl_wide_from_triples(v, &a->v[k]);
         fl_wide_from_triples(L, &a->L[k]);
         load(&s1, &a->sum[k]);
         load(&s0, &a->was[k]);
-        const fl_wide by = h * invm, turns = h / I[0];
+        const fl_wide by = h * invm, turns = h * ease[0];
         fl_wide v0[3], w0[3], v1[3], w1[3]; /* the gains of either kick */
         FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
         {
@@ -74,7 +74,7 @@ FL_FOUR_VERSIONS static double end_all(const group *restrict a, int32_t n, fl_ve
             w1[c] = turns * t[c];
             v[c] += v1[c];
             L[c] += h * t[c];
-            w[c] = L[c] / I[0];
+            w[c] = ease[0] * L[c];
         }
         fl_wide_to_triples(&a->f[k], f);
         fl_wide_to_triples(&a->t[k], t);
@@ -95,18 +95,18 @@ FL_FOUR_VERSIONS static double end_all(const group *restrict a, int32_t n, fl_ve
 /* What is left of a group behind its last four, the last of it until there are four. */
 typedef struct {
     double m[FL_LANES], invm[FL_LANES], damped[FL_LANES], rubbed[FL_LANES];
-    fl_vec3 I[FL_LANES], x[FL_LANES], f[FL_LANES], t[FL_LANES], v[FL_LANES], L[FL_LANES], w[FL_LANES];
+    fl_vec3 invI[FL_LANES], x[FL_LANES], f[FL_LANES], t[FL_LANES], v[FL_LANES], L[FL_LANES], w[FL_LANES];
     fl_ball_sum sum[FL_LANES], was[FL_LANES];
 } rest;
 
 static double end_rest(const group *a, int32_t from, int32_t n, fl_vec3 gravity, double dt, double h)
 {
     rest r;
-    const group of = {r.m, r.invm, r.I, r.x, r.sum, r.was, r.f, r.t, r.v, r.L, r.w, r.damped, r.rubbed};
+    const group of = {r.m, r.invm, r.invI, r.x, r.sum, r.was, r.f, r.t, r.v, r.L, r.w, r.damped, r.rubbed};
     for (int32_t l = 0; l < FL_LANES; l++) {
         const int32_t k = from + (l < n ? l : n - 1);
         r.m[l] = a->m[k], r.invm[l] = a->invm[k];
-        r.I[l] = a->I[k], r.x[l] = a->x[k], r.f[l] = a->f[k], r.t[l] = a->t[k], r.v[l] = a->v[k],
+        r.invI[l] = a->invI[k], r.x[l] = a->x[k], r.f[l] = a->f[k], r.t[l] = a->t[k], r.v[l] = a->v[k],
         r.L[l] = a->L[k];
         r.sum[l] = a->sum[k], r.was[l] = a->was[k];
     }
@@ -122,8 +122,8 @@ static double end_rest(const group *a, int32_t from, int32_t n, fl_vec3 gravity,
 int fl_plain_end(fl_world *w, int32_t from, int32_t to, double h, fl_plain_works *works)
 {
     fl_bodies *b = &w->b;
-    const group a = {b->m + from,         b->invm + from, b->I + from,  b->x + from, w->balls.sum + from,
-                     w->balls.was + from, b->f + from,    b->t + from,  b->v + from, b->L + from,
+    const group a = {b->m + from,         b->invm + from, b->invI + from, b->x + from, w->balls.sum + from,
+                     w->balls.was + from, b->f + from,    b->t + from,    b->v + from, b->L + from,
                      b->w + from,         works->damped,  works->rubbed};
     const int32_t n = to - from, left = n % FL_LANES;
     double zero = end_all(&a, n - left, w->gravity, w->dt, h);

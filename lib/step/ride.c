@@ -169,7 +169,7 @@ int fl_ride_make(fl_world *w, const fl_surface *surface, fl_err *err)
         if (motion->free) { /* compliance of a place but for turns, see the survey; 1 where none is free */
             w->b.m[j] = motion->free & 7u ? r->m.b.m[m] : 0.0;
             w->b.invm[j] = r->m.b.invm[m];
-            w->b.I[j] = v3(INFINITY, INFINITY, INFINITY);
+            fl_body_inertia(&w->b, j, v3(INFINITY, INFINITY, INFINITY));
         }
         r->fastest = fmax(r->fastest, fastest(motion, v3_norm(r->arm[k]) + w->b.bound[j]));
         place(w, k);

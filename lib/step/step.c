@@ -213,7 +213,7 @@ static void go(stride *q)
         fl_gate_meet(&w->gate, threads, after_out, q);
         if (q->parted) return;
     }
-    if (!by_chunks) {
+    if (!by_chunks && w->balls.chunks) {
 #pragma omp for schedule(dynamic) nowait
         for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, q->dt, q->survey);
     }
@@ -222,7 +222,7 @@ static void go(stride *q)
     if (q->bad) return;
     if (by_chunks) chunks(q, thread, threads);
     else groups(q, thread, 1);
-#pragma omp for schedule(dynamic, HELD) nowait
+#pragma omp for schedule(static, HELD) nowait
     for (int32_t k = w->n; k < w->b.total; k++) fl_step_gather(w, k);
     fl_gate_meet(&w->gate, threads, NULL,
                  NULL); /* watched, where the end of the region would send to sleep */

@@ -73,7 +73,7 @@ static int make_body(fl_world *w, int32_t i, const fl_field *field, int32_t k, f
     const double rho = s->material[w->material[i]].density;
     b->m[i] = rho * mass.volume;
     b->invm[i] = 1.0 / b->m[i];
-    b->I[i] = v3_scale(rho, mass.inertia);
+    fl_body_inertia(b, i, v3_scale(rho, mass.inertia));
     b->x[i] = mass.centre;
     b->q[i] = q_of_matrix(mass.axes);
     b->v[i] = field->vel[k];
@@ -109,7 +109,7 @@ static void add_water(fl_world *w, int32_t i, const fl_poly *p)
     if (b->added)
         b->added[i] =
             fl_added_mass(p, fmin(b->m[i], s->density * w->sea.hull[i].volume), s->density, s->added_mass);
-    b->I[i] = v3_add(b->I[i], fl_added_inertia(p, b->I[i], s->density, s->added_inertia));
+    fl_body_inertia(b, i, v3_add(b->I[i], fl_added_inertia(p, b->I[i], s->density, s->added_inertia)));
     fl_body_spin(b, i, spin);
 }
 

@@ -9,7 +9,6 @@ FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, co
                                    const double *restrict reach, double (*restrict c)[FL_FEW],
                                    const double *restrict held, double h, double sign, double *restrict work)
 {
-    const double push = 0.5 * fluid->force * fluid->density, turn = 0.5 * fluid->moment * fluid->density;
     const int turns = fluid->moment > 0.0;
 #pragma omp simd
     for (int32_t i = 0; i < a->n; i++) {
@@ -20,10 +19,10 @@ FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, co
         const double before = 0.5 * (m * (vx * vx + vy * vy + vz * vz) + turning) - held[i];
         const double cx = c[0][i], cy = c[1][i], cz = c[2][i];
         const double ux = vx - cx, uy = vy - cy, uz = vz - cz, speed = sqrt(ux * ux + uy * uy + uz * uz);
-        const double slow = 1.0 / (1.0 + push * area / m * speed * h);
-        const int spins = turns && spin2 > 0.0;
-        const double inertia = turning / (spins ? spin2 : 1.0);
-        const double calm = 1.0 / (1.0 + turn * area * r * r * r / (spins ? inertia : 1.0) * sqrt(spin2) * h);
+        const double slow = fl_drag_factor(m, fl_drag_of_force(fluid, area), speed, h);
+        const int spins = turns && turning > 0.0;
+        const double calm =
+            fl_drag_factor(spins ? turning : 1.0, fl_drag_of_moment(fluid, area, r) * spin2, sqrt(spin2), h);
         const int meets = area > 0.0;
         const double stays = meets && spins ? calm : 1.0;
         const double px = meets ? cx + slow * ux : vx, py = meets ? cy + slow * uy : vy,
@@ -56,7 +55,7 @@ FL_WIDE_VERSIONS static int meets(const double *restrict area, int32_t n)
 static void water(fl_sea *s, const fl_bodies *b, fl_few *a, double h)
 {
     const int32_t from = a->from;
-    if (!meets(s->wetted + from, a->n)) return;
+    if (!(s->wetted[from] > 0.0) && !meets(s->wetted + from, a->n)) return;
     _Alignas(64) double c[3][FL_FEW];
     if (!s->flow) alike(c, s->current.velocity, a->n);
     for (int32_t k = 0; k < a->n && s->flow; k++)
@@ -128,9 +127,10 @@ FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, doub
         const int over = along < 0.0; /* turned over: seen along -e */
         const double ue = over ? -along : along, sign = over ? -1.0 : 1.0,
                      z0 = over ? -q->p[Z1][i] : q->p[Z0][i], z1 = over ? -q->p[Z0][i] : q->p[Z1][i];
-        const double by_ue = ue > 0.1 ? ue : 1.0;
-        const double sa = -(ux * ax + uy * ay + uz * az) / by_ue, sb = -(ux * bx + uy * by + uz * bz) / by_ue;
-        const double zw = (level - (ux * ox + uy * oy + uz * oz)) / by_ue, wet0 = zw - z0, dry0 = z1 - zw;
+        const double per_ue = 1.0 / (ue > 0.1 ? ue : 1.0);
+        const double sa = -per_ue * (ux * ax + uy * ay + uz * az),
+                     sb = -per_ue * (ux * bx + uy * by + uz * bz);
+        const double zw = per_ue * (level - (ux * ox + uy * oy + uz * oz)), wet0 = zw - z0, dry0 = z1 - zw;
         const double least = wet0 < dry0 ? wet0 : dry0;
         const int floats = area > 0.0 && ue > 0.1 && level < reach[i] && level > -reach[i] && least > 0.0 &&
                            least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
@@ -240,7 +240,7 @@ int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_
     const int32_t from = a->from;
     int32_t others = 0;
     for (int32_t k = 0; k < a->n; k++) q.level[k] = s->level - b->x[from + k].z;
-    const int away = far(q.level, s->reach + from, a->n);
+    const int away = fabs(q.level[0]) < s->reach[from] ? 0 : far(q.level, s->reach + from, a->n);
     if (away) {
         look_from_far(s, q.level, a, away > 0, centre);
         flow(s, a, centre);

@@ -15,13 +15,3 @@ void fl_drag(const fl_fluid *fluid, double area, double radius, fl_vec3 u, fl_ve
     if (force) *force = v3_scale(k * fluid->force * v3_norm(u), u);
     if (moment) *moment = v3_scale(k * fluid->moment * radius * radius * radius * v3_norm(w), w);
 }
-
-double fl_drag_kappa_force(const fl_fluid *fluid, double area, double mass)
-{
-    return 0.5 * fluid->force * fluid->density * area / mass;
-}
-
-double fl_drag_kappa_moment(const fl_fluid *fluid, double area, double radius, double inertia)
-{
-    return 0.5 * fluid->moment * fluid->density * area * radius * radius * radius / inertia;
-}

@@ -26,20 +26,26 @@ double fl_drag_radius(const fl_poly *p, double dilation);
 void fl_drag(const fl_fluid *fluid, double area, double radius, fl_vec3 u, fl_vec3 w, fl_vec3 *force,
              fl_vec3 *moment);
 
-/* Coefficients of the same laws as decay: du/dt = -kappa |u| u with kappa = C_f rho A / (2 m) [1/m], and
- * dw/dt = -kappa |w| w with kappa = C_m rho A r_eff^3 / (2 I) [-] for spin about an axis of moment of
- * inertia I. */
-double fl_drag_kappa_force(const fl_fluid *fluid, double area, double mass);
-double fl_drag_kappa_moment(const fl_fluid *fluid, double area, double radius, double inertia);
-
-/* The factor that takes u(t) to u(t + dt) under du/dt = -kappa |u| u alone, exactly:
- *     1 / (1 + kappa |u| dt).
- * It lies in (0, 1] for any kappa |u| dt >= 0: drag slows a motion and never turns it round, however large
- * the step or the coefficient.
- *   kappa   [1/m] or [-];   speed   |u| [m/s] or [rad/s];   dt   [s] */
-static inline double fl_drag_factor(double kappa, double speed, double dt)
+/* Coefficients of the same laws as decay: m du/dt = -c |u| u with c = C_f rho A / 2 [kg/m], and
+ * I dw/dt = -c |w| w with c = C_m rho A r_eff^3 / 2 [kg m2] for spin about an axis of moment of inertia I. */
+static inline double fl_drag_of_force(const fl_fluid *fluid, double area)
 {
-    return 1.0 / (1.0 + kappa * speed * dt);
+    return 0.5 * fluid->force * fluid->density * area;
+}
+static inline double fl_drag_of_moment(const fl_fluid *fluid, double area, double radius)
+{
+    return 0.5 * fluid->moment * fluid->density * area * radius * radius * radius;
+}
+
+/* The factor that takes u(t) to u(t + dt) under m du/dt = -c |u| u alone, exactly:
+ *     m / (m + c |u| dt).
+ * It lies in (0, 1] for any m > 0 and c |u| dt >= 0: drag slows a motion and never turns it round, however
+ * large the step or the coefficient.  (One division: it is asked for four times a step.)
+ *   m   what is slowed down [kg] or [kg m2];   c   [kg/m] or [kg m2]
+ *   speed   |u| [m/s] or [rad/s];              dt  [s] */
+static inline double fl_drag_factor(double m, double c, double speed, double dt)
+{
+    return m / (m + c * speed * dt);
 }
 
 #endif

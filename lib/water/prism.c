@@ -98,8 +98,8 @@ int fl_prism_wet(const fl_prism *p, fl_vec3 up, double level, struct fl_wet *wet
     if (ue < 0.0) ue = -ue, sign = -1.0, z0 = -p->z1, z1 = -p->z0; /* turned over: seen along -e */
     if (!(ue > 0.1)) return 0;
     const fl_vec3 b = v3_cross(p->e, p->a);
-    const double sa = -v3_dot(up, p->a) / ue, sb = -v3_dot(up, b) / ue;
-    const double zw = (level - v3_dot(up, p->o)) / ue, wet0 = zw - z0, dry0 = z1 - zw;
+    const double per_ue = 1.0 / ue, sa = -per_ue * v3_dot(up, p->a), sb = -per_ue * v3_dot(up, b);
+    const double zw = per_ue * (level - v3_dot(up, p->o)), wet0 = zw - z0, dry0 = z1 - zw;
     const double least = wet0 < dry0 ? wet0 : dry0;
     if (!(least > 0.0) || !(least * least > (sa * sa + sb * sb) * p->far2)) return 0;
     const double ja = p->jaa * sa + p->jab * sb, jb = p->jab * sa + p->jbb * sb;
@@ -108,6 +108,6 @@ int fl_prism_wet(const fl_prism *p, fl_vec3 up, double level, struct fl_wet *wet
     wet->volume = volume;
     wet->centre = v3_madd(v3_madd(v3_madd(p->o, per * ja, p->a), per * jb, b), sign * per * mz, p->e);
     wet->wetted = p->area + p->perimeter * (wet0 + sa * p->ga + sb * p->gb);
-    wet->waterplane = p->area / ue;
+    wet->waterplane = per_ue * p->area;
     return 1;
 }

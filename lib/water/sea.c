@@ -339,22 +339,24 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
     const double before = fl_body_kinetic(b, i) - b->held[i];
     const fl_vec3 u = v3_sub(b->v[i], c), v0 = b->v[i], w0 = b->w[i];
     const double speed = v3_norm(u), spin2 = v3_norm2(b->w[i]);
-    const double kappa = fl_drag_kappa_force(fluid, area, b->m[i]);
+    const double c_force = fl_drag_of_force(fluid, area), m = b->m[i];
     if (b->added) {
         /* each axis with its own mass: the step that is implicit in u and frozen in |u|, which is the exact
          * decay along an axis, and slows the others down whatever the step */
         const fl_mat3 R = fl_body_axes(b, i);
         const fl_vec3 a = b->added[i], p = m3_tmul(R, u);
-        const double m = b->m[i], s = kappa * m * speed * h;
+        const double s = c_force * speed * h;
         b->v[i] = v3_add(c, m3_mul(R, v3(p.x / (1.0 + s / (m + a.x)), p.y / (1.0 + s / (m + a.y)),
                                          p.z / (1.0 + s / (m + a.z)))));
     } else {
-        b->v[i] = v3_madd(c, fl_drag_factor(kappa, speed, h), u);
+        b->v[i] = v3_madd(c, fl_drag_factor(m, c_force, speed, h), u);
     }
-    if (spin2 > 0.0 && fluid->moment > 0.0) {
-        /* about the axis of the motion, whose moment of inertia is w.L/w^2: exact for a principal axis */
-        const double inertia = v3_dot(b->w[i], b->L[i]) / spin2;
-        const double turn = fl_drag_factor(fl_drag_kappa_moment(fluid, area, reach, inertia), sqrt(spin2), h);
+    const double turning = v3_dot(b->w[i], b->L[i]);
+    if (turning > 0.0 && fluid->moment > 0.0) {
+        /* about the axis of the motion, whose moment of inertia is w.L/w^2: exact for a principal axis; both
+         * sides of the factor times w^2 */
+        const double turn =
+            fl_drag_factor(turning, fl_drag_of_moment(fluid, area, reach) * spin2, sqrt(spin2), h);
         b->L[i] = v3_scale(turn, b->L[i]);
         b->w[i] = v3_scale(turn, b->w[i]);
     }

@@ -37,7 +37,8 @@ static void stiffness_is_that_of_each_place(void **state)
     fl_err err = {0};
     assert_int_equal(fl_bodies_alloc(&b, 2, 3, &err), 0);
     for (int32_t i = 0; i < 2; i++) {
-        b.m[i] = 3.0 + i, b.invm[i] = 1.0 / b.m[i], b.I[i] = v3(0.5, 1.5 + i, 2.0), b.q[i] = turned(&g);
+        b.m[i] = 3.0 + i, b.invm[i] = 1.0 / b.m[i], fl_body_inertia(&b, i, v3(0.5, 1.5 + i, 2.0)),
+        b.q[i] = turned(&g);
         fl_body_derive(&b, i);
     }
     for (int32_t n = 1; n < 14; n++) {

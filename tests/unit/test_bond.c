@@ -25,7 +25,7 @@ static void two_make(two *t)
     for (int k = 0; k < 2; k++) {
         t->b.x[k] = v3(k, 0, 0);
         t->b.q[k] = (fl_quat){1, 0, 0, 0};
-        t->b.m[k] = 900, t->b.invm[k] = 1.0 / 900, t->b.I[k] = v3(100, 120, 150);
+        t->b.m[k] = 900, t->b.invm[k] = 1.0 / 900, fl_body_inertia(&t->b, k, v3(100, 120, 150));
         fl_body_derive(&t->b, k);
     }
     t->c = (fl_bond){.i = 0,
@@ -92,7 +92,7 @@ static void force_is_the_gradient(void **state)
                 fl_err err = {0};
                 assert_int_equal(fl_bodies_alloc(&s.b, 2, 2, &err), 0);
                 for (int l = 0; l < 2; l++) {
-                    s.b.x[l] = t.b.x[l], s.b.q[l] = t.b.q[l], s.b.I[l] = t.b.I[l];
+                    s.b.x[l] = t.b.x[l], s.b.q[l] = t.b.q[l], s.b.I[l] = t.b.I[l], s.b.invI[l] = t.b.invI[l];
                     shift(&s, l, ZERO, ZERO);
                 }
                 const double way = e ? h : -h;

@@ -217,6 +217,7 @@ static void several_meet_the_sea_as_one_does(void **state)
             n = way & 4 ? 1 : 1 + (from + way) % FL_FEW;
             if (n > SEVERAL - from) n = SEVERAL - from;
             fl_few_take(&s, &all->b, from, n);
+            fl_few_axes(&s);
             fl_few_weigh(&s, all->gravity);
             const int32_t others = fl_calm_force(&all->sea, &all->b, &s, left);
             fl_few_put_forces(&s, &all->b);

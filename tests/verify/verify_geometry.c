@@ -148,12 +148,12 @@ static void floating_box(void)
     verify_row("V54", "wetted surface [m2]", w.wetted, 135.122, 5e-4, VERIFY_ABS);
     const fl_fluid sea = {.density = 1025, .force = 0.005, .moment = 0.005};
     verify_row("V54", "decay coefficient of skin drag [1/m]",
-               fl_drag_kappa_force(&sea, w.wetted, 900 * h.volume), 3.847222e-3, 1e-6, VERIFY_REL);
+               fl_drag_of_force(&sea, w.wetted) / (900 * h.volume), 3.847222e-3, 1e-6, VERIFY_REL);
     verify_row("V56", "effective radius of spin [m]", fl_drag_radius(&p, 0.0), 7.088723, 5e-7, VERIFY_ABS);
-    const double kappa =
-        fl_drag_kappa_moment(&sea, w.wetted, fl_drag_radius(&p, 0.0), 900 * 1 * 100.0 * (100 + 100) / 12);
-    verify_row("V56", "spin after 100 s, from 0.1 [rad/s]", 0.1 * fl_drag_factor(kappa, 0.1, 100.0), 0.054877,
-               1e-5, VERIFY_REL);
+    const double c = fl_drag_of_moment(&sea, w.wetted, fl_drag_radius(&p, 0.0)),
+                 inertia = 900 * 1 * 100.0 * (100 + 100) / 12;
+    verify_row("V56", "spin after 100 s, from 0.1 [rad/s]", 0.1 * fl_drag_factor(inertia, c, 0.1, 100.0),
+               0.054877, 1e-5, VERIFY_REL);
     fl_hull_free(&h);
     fl_poly_free(&p);
 

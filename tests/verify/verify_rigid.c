@@ -35,7 +35,7 @@ static int one_body(fl_bodies *b, fl_vec3 I, fl_vec3 w, double m)
 {
     fl_err err = {0};
     if (fl_bodies_alloc(b, 1, 1, &err)) return -1;
-    b->I[0] = I;
+    fl_body_inertia(b, 0, I);
     b->m[0] = m;
     b->invm[0] = 1.0 / m;
     fl_body_spin(b, 0, w);
