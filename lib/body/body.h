@@ -29,7 +29,7 @@ typedef struct {
     fl_vec3 *f, *t; /* [N], [N m] */
     /* what a body is */
     double *m, *invm; /* [kg], [1/kg]; 0 and 0 for what is held      */
-    fl_vec3 *I;       /* principal moments, ascending      [kg m2]   */
+    fl_vec3 *I;       /* principal moments, ascending but for those of water [kg m2] */
     fl_vec3 *invI;    /* 1 over each of them: fl_body_inertia() sets both */
     double *radius;   /* dilation radius                   [m]       */
     double *bound;    /* farthest core vertex from x       [m]       */
@@ -64,6 +64,13 @@ static inline fl_mat3 fl_body_axes(const fl_bodies *b, int32_t i)
 
 /* Give body i these principal moments. */
 void fl_body_inertia(fl_bodies *b, int32_t i, fl_vec3 I);
+
+/* 1 over the least moment of body i. */
+static inline double fl_body_ease(const fl_bodies *b, int32_t i)
+{
+    const fl_vec3 e = b->invI[i];
+    return fmax(e.x, fmax(e.y, e.z));
+}
 
 /* w of body i from q and L. */
 void fl_body_derive(fl_bodies *b, int32_t i);

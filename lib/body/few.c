@@ -185,7 +185,9 @@ FL_WIDE_VERSIONS static double farthest(const fl_few *restrict s, double dt)
     double most = 0.0;
 #pragma omp simd reduction(max : most)
     for (int32_t i = 0; i < s->n; i++) {
-        const double x = dt * s->L[0][i], y = dt * s->L[1][i], z = dt * s->L[2][i], ease = s->invI[0][i];
+        const double x = dt * s->L[0][i], y = dt * s->L[1][i], z = dt * s->L[2][i], e0 = s->invI[0][i],
+                     e1 = s->invI[1][i], e2 = s->invI[2][i], e01 = e0 > e1 ? e0 : e1,
+                     ease = e01 > e2 ? e01 : e2;
         const double turn2 = (ease * ease) * (x * x + y * y + z * z);
         most = turn2 > most ? turn2 : most;
     }
@@ -196,8 +198,8 @@ static inline double versine(double x2, int few) { return few ? q_versine_few(x2
 static inline double sinc(double x2, int few) { return few ? q_sinc_few(x2) : q_sinc(x2); }
 
 /* fl_drift() with fl_drift_rotation() and its three turns written out, in loops of their own: what a turn is
- * depends on the one before, so that the time of a loop with all of them would be that of waiting.  few: none is
- * farther than Q_HALF_TURN_FEW. */
+ * depends on the one before, so that the time of a loop with all of them would be that of waiting.  few: none
+ * is farther than Q_HALF_TURN_FEW. */
 #define ALWAYS static inline __attribute__((always_inline))
 
 /* Straight on, and about the first axis: from from[] to q. */

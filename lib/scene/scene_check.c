@@ -226,6 +226,14 @@ static int check_current(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+static int check_weight(const fl_scene *s, fl_err *err)
+{
+    const fl_vec3 g = s->run.gravity;
+    if (s->water.head.present && (g.x != 0.0 || g.y != 0.0 || g.z > 0.0))
+        return fl_scene_fail(s, "run.gravity", err, "water lies level: a run.gravity along -z was wanted");
+    return 0;
+}
+
 /* What holds for either kind of wave is said here; whether it would break, by the program. */
 static int check_waves(const fl_scene *s, fl_err *err)
 {
@@ -236,7 +244,7 @@ static int check_waves(const fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height was wanted");
     if (w->period == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no period: water.period was wanted");
-    if (g.x != 0.0 || g.y != 0.0 || !(g.z < 0.0))
+    if (!(g.z < 0.0))
         return fl_scene_fail(s, "run.gravity", err, "waves need weight: a run.gravity along -z was wanted");
     if (!(0.5 * w->height < w->depth))
         return fl_scene_fail(s, "water.height", err,
@@ -413,8 +421,9 @@ int fl_scene_check(fl_scene *s, fl_err *err)
                              "run.error is to choose the step, and run.dt gives it: one of them was wanted");
     if (fl_scene_idle(s, err) || check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err))
         return -1;
-    return check_boundary(s, err) || check_current(s, err) || check_waves(s, err) || check_wind(s, err) ||
-                   check_bonds(s, err) || check_shares(s, "water.added_mass", s->water.added_mass, err) ||
+    return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
+                   check_wind(s, err) || check_bonds(s, err) ||
+                   check_shares(s, "water.added_mass", s->water.added_mass, err) ||
                    check_shares(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)
                ? -1

@@ -209,7 +209,8 @@ const fl_key fl_key_table[] = {
      .at = AT(run, gravity),
      .fallback = "9.81 m/s2",
      .lone = FL_LONE_DOWN,
-     .meaning = "acceleration of gravity; one number acts along -z, three are a vector",
+     .meaning = "acceleration of gravity; one number acts along -z, three are a vector, which is along -z "
+                "where there is water",
      .source = "the value of the verification cases"},
     {.section = FL_SEC_RUN,
      .key = "threads",
@@ -904,10 +905,10 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .value = -1.0,
      .lone = FL_LONE_ALL,
-     .meaning =
-         "mass of water that moves with a body, over the displaced, along its axes: two in the plane "
-         "of a floe, the third across it; auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area "
-         "with one side wet, across; 1/2 of what is round",
+     .meaning = "mass of water that moves with a body, over the displaced, along its axes: two in the plane "
+                "of a floe, the third across it, which is the axis nearest to the vertical where it starts; "
+                "auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area "
+                "with one side wet, across; 1/2 of what is round",
      .source = "Lamb, Hydrodynamics (1932), art. 92, 102; surge 0.1 to 0.15"},
     {.section = FL_SEC_WATER,
      .key = "added_inertia",

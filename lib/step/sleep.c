@@ -107,7 +107,7 @@ static double back(fl_world *w, int32_t k, double s)
 static double way_of(const fl_world *w, int32_t k, double s)
 {
     const fl_bodies *b = &w->b;
-    const double r = b->bound[k], least = b->I[k].x;
+    const double r = b->bound[k], least = 1.0 / fl_body_ease(b, k);
     fl_vec3 a, turn;
     fl_body_rates(b, k, &a, &turn);
     double torque = v3_norm(b->t[k]);
@@ -194,7 +194,8 @@ void fl_sleep_end(fl_world *w, int32_t k)
 static double within(const fl_world *w, int32_t k)
 {
     const fl_bodies *b = &w->b;
-    const double r = b->bound[k] + b->radius[k], most = w->sleep.tol * b->radius[k], least = b->I[k].x;
+    const double r = b->bound[k] + b->radius[k], most = w->sleep.tol * b->radius[k],
+                 least = 1.0 / fl_body_ease(b, k);
     const fl_vec3 v = b->v[k], spin = b->w[k];
     double drawn, stiff = fl_world_spring(w, k, &drawn) * b->invm[k], s = INFINITY;
     if (w->sea.water)

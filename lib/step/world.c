@@ -105,11 +105,11 @@ static void add_water(fl_world *w, int32_t i, const fl_poly *p)
 {
     const fl_scene_water *s = &w->scene->water;
     fl_bodies *b = &w->b;
-    const fl_vec3 spin = b->w[i];
+    const fl_vec3 spin = b->w[i], up = m3_tmul(fl_body_axes(b, i), v3(0, 0, 1));
     if (b->added)
-        b->added[i] =
-            fl_added_mass(p, fmin(b->m[i], s->density * w->sea.hull[i].volume), s->density, s->added_mass);
-    fl_body_inertia(b, i, v3_add(b->I[i], fl_added_inertia(p, b->I[i], s->density, s->added_inertia)));
+        b->added[i] = fl_added_mass(p, up, fmin(b->m[i], s->density * w->sea.hull[i].volume), s->density,
+                                    s->added_mass);
+    fl_body_inertia(b, i, v3_add(b->I[i], fl_added_inertia(p, up, b->I[i], s->density, s->added_inertia)));
     fl_body_spin(b, i, spin);
 }
 

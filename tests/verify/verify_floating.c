@@ -6,6 +6,7 @@
 #include "support/near.h"
 #include "support/verify.h"
 
+#define ZERO v3(0, 0, 0)
 #define PI 3.14159265358979323846
 #define G 9.81
 #define DRAFT (900.0 / 1025.0)    /* of 10 x 10 x 1 m of ice */
@@ -131,6 +132,33 @@ static void heavier(void)
     verify_row("V50", "auto: roll, 8/45 rho a^5 [kg m2]", l.w.b.I[0].x - 90000 * 101 / 12.0,
                8 / 45.0 * 1025 * pow(a, 5), 1e-9, VERIFY_REL);
     lab_free(&l);
+}
+
+/* A block higher than it is wide: across is up, and no direction along the water is another. */
+static void stands_up(void)
+{
+    double along = 0.0, up = 0.0, roll = 0.0;
+    for (int k = 0; k < 4; k++) {
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "water.added_mass=auto");
+        lab_set(&l, "water.added_inertia=auto");
+        lab_box(&l, ZERO, v3(0.5, 0.5, 0.6), 0.05, q_of_vector(v3(0, 0, 0.37 * k)), ZERO, ZERO);
+        lab_make(&l, 0.01);
+        const fl_bodies *b = &l.w.b;
+        const double a = sqrt(1 / PI), angle = 0.7 * k;
+        const fl_vec3 e = v3(cos(angle), sin(angle), 0), z = v3(0, 0, 1);
+        along = fmax(along, fabs(v3_dot(e, fl_body_momentum(b, 0, e)) / (1.1 * b->m[0]) - 1));
+        up = fmax(up,
+                  fabs((v3_dot(z, fl_body_momentum(b, 0, z)) - b->m[0]) / (4 / 3.0 * 1025 * a * a * a) - 1));
+        const double own = b->m[0] * (1 + 1.44) / 12, water = 8 / 45.0 * 1025 * pow(a, 5);
+        roll = fmax(roll, fabs(1 / v3_dot(e, fl_body_turn(b, 0, e)) / (own + water) - 1));
+        lab_free(&l);
+    }
+    verify_below("V49", "auto, a block of 1 x 1 x 1.2 m turned about z: surge, error in any direction", along,
+                 1e-12);
+    verify_below("V49", "  heave, 4/3 rho a^3", up, 1e-12);
+    verify_below("V50", "  roll, 8/45 rho a^5, about any axis along the water", roll, 1e-12);
 }
 
 /* A box far from everything, that moves water with it. */
@@ -559,6 +587,7 @@ int main(void)
     draft();
     heaving();
     heavier();
+    stands_up();
     kirchhoff();
     rolling();
     tumbling();
