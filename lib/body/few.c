@@ -151,14 +151,9 @@ FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s, double h)
 #pragma omp simd
     for (int32_t i = 0; i < s->n; i++) {
         const double by = h * s->invm[i];
-        const double ux = s->v[0][i] + by * s->f[0][i], uy = s->v[1][i] + by * s->f[1][i],
-                     uz = s->v[2][i] + by * s->f[2][i];
-        s->dv[0][i] = ux - s->v[0][i];
-        s->dv[1][i] = uy - s->v[1][i];
-        s->dv[2][i] = uz - s->v[2][i];
-        s->v[0][i] = ux;
-        s->v[1][i] = uy;
-        s->v[2][i] = uz;
+        s->v[0][i] += by * s->f[0][i];
+        s->v[1][i] += by * s->f[1][i];
+        s->v[2][i] += by * s->f[2][i];
         const double x = s->L[0][i] + h * s->t[0][i], y = s->L[1][i] + h * s->t[1][i],
                      z = s->L[2][i] + h * s->t[2][i];
         s->L[0][i] = x;
@@ -167,15 +162,9 @@ FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s, double h)
         const double a = s->invI[0][i] * (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z),
                      b = s->invI[1][i] * (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z),
                      c = s->invI[2][i] * (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z);
-        const double wx = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c,
-                     wy = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c,
-                     wz = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
-        s->dw[0][i] = wx - s->w[0][i];
-        s->dw[1][i] = wy - s->w[1][i];
-        s->dw[2][i] = wz - s->w[2][i];
-        s->w[0][i] = wx;
-        s->w[1][i] = wy;
-        s->w[2][i] = wz;
+        s->w[0][i] = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c;
+        s->w[1][i] = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c;
+        s->w[2][i] = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
     }
 }
 
@@ -202,7 +191,7 @@ static inline double sinc(double x2, int few) { return few ? q_sinc_few(x2) : q_
  * is farther than Q_HALF_TURN_FEW. */
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* Straight on, and about the first axis: from from[] to q. */
+/* Straight on, and about the first axis: from from[] to q.  w is its share in the spin. */
 ALWAYS void turn_first(fl_few *restrict s, double dt, int few, double (*restrict from)[FL_FEW])
 {
     const double path = fabs(dt);
@@ -216,27 +205,28 @@ ALWAYS void turn_first(fl_few *restrict s, double dt, int few, double (*restrict
         const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i];
         const double a0 = 0.5 * dt * (s->invI[0][i] - s->invI[1][i]);
         const double ow = s->q[0][i], ox = s->q[1][i], oy = s->q[2][i], oz = s->q[3][i];
-        const double l0 =
-            (1 - 2 * (oy * oy + oz * oz)) * Lx + 2 * (ox * oy + ow * oz) * Ly + 2 * (ox * oz - ow * oy) * Lz;
-        const double r0 = a0 * l0, v0 = 0.25 * r0 * r0;
+        const double ex = 1 - 2 * (oy * oy + oz * oz), ey = 2 * (ox * oy + ow * oz),
+                     ez = 2 * (ox * oz - ow * oy);
+        const double l0 = ex * Lx + ey * Ly + ez * Lz, r0 = a0 * l0, v0 = 0.25 * r0 * r0;
         const double c0 = 1.0 - versine(v0, few), s0 = sinc(v0, few) * (0.5 * r0);
         from[0][i] = ow, from[1][i] = ox, from[2][i] = oy, from[3][i] = oz;
         s->q[0][i] = ow * c0 - ox * s0, s->q[1][i] = ow * s0 + ox * c0;
         s->q[2][i] = oy * c0 + oz * s0, s->q[3][i] = oz * c0 - oy * s0;
+        s->w[0][i] = l0 * ex, s->w[1][i] = l0 * ey, s->w[2][i] = l0 * ez;
     }
 }
 
-/* As a symmetric top: about the third axis, then about L. */
-ALWAYS void turn_top(fl_few *restrict s, double dt, int few)
+/* As a symmetric top: about the third axis, then about L.  top: of the spin. */
+ALWAYS void turn_top(fl_few *restrict s, double dt, int few, double (*restrict top)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->n; i++) {
-        const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i], ease1 = s->invI[1][i];
-        const double a2 = dt * (s->invI[2][i] - ease1);
+        const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i], ease1 = s->invI[1][i],
+                     more = s->invI[2][i] - ease1, a2 = dt * more;
         const double aw = s->q[0][i], ax = s->q[1][i], ay = s->q[2][i], az = s->q[3][i];
-        const double l2 =
-            2 * (ax * az + aw * ay) * Lx + 2 * (ay * az - aw * ax) * Ly + (1 - 2 * (ax * ax + ay * ay)) * Lz;
-        const double r2 = a2 * l2, v2 = 0.25 * r2 * r2;
+        const double ex = 2 * (ax * az + aw * ay), ey = 2 * (ay * az - aw * ax),
+                     ez = 1 - 2 * (ax * ax + ay * ay);
+        const double l2 = ex * Lx + ey * Ly + ez * Lz, r2 = a2 * l2, v2 = 0.25 * r2 * r2;
         const double c2 = 1.0 - versine(v2, few), s2 = sinc(v2, few) * (0.5 * r2);
         const double bw = aw * c2 - az * s2, bx = ax * c2 + ay * s2, by = ay * c2 - ax * s2,
                      bz = az * c2 + aw * s2;
@@ -244,24 +234,28 @@ ALWAYS void turn_top(fl_few *restrict s, double dt, int few)
         const double v1 = 0.25 * (rx * rx + ry * ry + rz * rz);
         const double c1 = 1.0 - versine(v1, few), s1 = 0.5 * sinc(v1, few);
         const double hx = s1 * rx, hy = s1 * ry, hz = s1 * rz;
-        s->q[0][i] = c1 * bw - hx * bx - hy * by - hz * bz;
-        s->q[1][i] = c1 * bx + hx * bw + hy * bz - hz * by;
-        s->q[2][i] = c1 * by - hx * bz + hy * bw + hz * bx;
-        s->q[3][i] = c1 * bz + hx * by - hy * bx + hz * bw;
+        const double dw = c1 * bw - hx * bx - hy * by - hz * bz, dx = c1 * bx + hx * bw + hy * bz - hz * by,
+                     dy = c1 * by - hx * bz + hy * bw + hz * bx, dz = c1 * bz + hx * by - hy * bx + hz * bw;
+        s->q[0][i] = dw, s->q[1][i] = dx, s->q[2][i] = dy, s->q[3][i] = dz;
+        const double half = 0.5 * more * l2;
+        top[0][i] = ease1 * Lx + half * (ex + 2 * (dx * dz + dw * dy));
+        top[1][i] = ease1 * Ly + half * (ey + 2 * (dy * dz - dw * dx));
+        top[2][i] = ease1 * Lz + half * (ez + (1 - 2 * (dx * dx + dy * dy)));
     }
 }
 
 /* About the first axis again; one without momentum stays as it is, to the bit. */
-ALWAYS void turn_last(fl_few *restrict s, double dt, int few, double (*restrict from)[FL_FEW])
+ALWAYS void turn_last(fl_few *restrict s, double dt, int few, double (*restrict from)[FL_FEW],
+                      double (*restrict top)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->n; i++) {
         const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i];
-        const double a0 = 0.5 * dt * (s->invI[0][i] - s->invI[1][i]);
+        const double less = s->invI[0][i] - s->invI[1][i], a0 = 0.5 * dt * less;
         const double dw = s->q[0][i], dx = s->q[1][i], dy = s->q[2][i], dz = s->q[3][i];
-        const double l3 =
-            (1 - 2 * (dy * dy + dz * dz)) * Lx + 2 * (dx * dy + dw * dz) * Ly + 2 * (dx * dz - dw * dy) * Lz;
-        const double r3 = a0 * l3, v3fold = 0.25 * r3 * r3;
+        const double ax = 1 - 2 * (dy * dy + dz * dz), ay = 2 * (dx * dy + dw * dz),
+                     az = 2 * (dx * dz - dw * dy);
+        const double l3 = ax * Lx + ay * Ly + az * Lz, r3 = a0 * l3, v3fold = 0.25 * r3 * r3;
         const double c3 = 1.0 - versine(v3fold, few), s3 = sinc(v3fold, few) * (0.5 * r3);
         const double ew = dw * c3 - dx * s3, ex = dw * s3 + dx * c3, ey = dy * c3 + dz * s3,
                      ez = dz * c3 - dy * s3;
@@ -278,34 +272,25 @@ ALWAYS void turn_last(fl_few *restrict s, double dt, int few, double (*restrict 
         const double fx = qx * ow - qw * ox - qy * oz + qz * oy, fy = qy * ow - qw * oy + qx * oz - qz * ox,
                      fz = qz * ow - qw * oz - qx * oy + qy * ox;
         s->odometer[i] = s->odometer[i] + 2.0 * sqrt(fx * fx + fy * fy + fz * fz) * s->bound[i];
+        const double half = 0.5 * less, wx = top[0][i] + half * (s->w[0][i] + l3 * ax),
+                     wy = top[1][i] + half * (s->w[1][i] + l3 * ay),
+                     wz = top[2][i] + half * (s->w[2][i] + l3 * az);
+        s->w[0][i] = turns ? wx : 0.0;
+        s->w[1][i] = turns ? wy : 0.0;
+        s->w[2][i] = turns ? wz : 0.0;
     }
 }
 
 ALWAYS void drift(fl_few *restrict s, double dt, int few)
 {
-    _Alignas(64) double from[4][FL_FEW];
+    _Alignas(64) double from[4][FL_FEW], top[3][FL_FEW];
     turn_first(s, dt, few, from);
-    turn_top(s, dt, few);
-    turn_last(s, dt, few, from);
+    turn_top(s, dt, few, top);
+    turn_last(s, dt, few, from, top);
 }
 
 FL_WIDE_VERSIONS static void drift_few(fl_few *restrict s, double dt) { drift(s, dt, 1); }
 FL_WIDE_VERSIONS static void drift_far(fl_few *restrict s, double dt) { drift(s, dt, 0); }
-
-/* fl_body_turn() of L */
-FL_WIDE_VERSIONS static void find_spins(fl_few *restrict s)
-{
-#pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
-        const double x = s->L[0][i], y = s->L[1][i], z = s->L[2][i];
-        const double a = s->invI[0][i] * (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z),
-                     b = s->invI[1][i] * (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z),
-                     c = s->invI[2][i] * (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z);
-        s->w[0][i] = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c;
-        s->w[1][i] = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c;
-        s->w[2][i] = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
-    }
-}
 
 int fl_few_drift(fl_few *s, double dt)
 {
@@ -313,7 +298,5 @@ int fl_few_drift(fl_few *s, double dt)
     if (!(most <= Q_HALF_TURN_MOST)) return 0;
     if (most <= Q_HALF_TURN_FEW) drift_few(s, dt);
     else drift_far(s, dt);
-    fl_few_axes(s);
-    find_spins(s);
     return 1;
 }

@@ -23,7 +23,6 @@ typedef struct {
     double q[4][FL_FEW], R[9][FL_FEW]; /* R row by row */
     double f[3][FL_FEW], t[3][FL_FEW];
     double x[3][FL_FEW], odometer[FL_FEW], bound[FL_FEW];
-    double dv[3][FL_FEW], dw[3][FL_FEW]; /* what the last kick changed of v and w */
 } fl_few;
 
 /* m, invm, invI, q, v, L and w of bodies [from, from + n). */
@@ -50,7 +49,7 @@ void fl_few_weigh(fl_few *s, fl_vec3 gravity);
 /* As fl_kick(); wants R. */
 void fl_few_kick(fl_few *s, double h);
 
-/* The same of v and L alone, where w is not asked for before fl_few_drift(), which finds it anew. */
+/* The same of v and L alone, where w is not asked for before fl_few_drift(), which puts in another. */
 void fl_few_push(fl_few *s, double h);
 
 /* As fl_drift().  Returns 1; or 0 and nothing is changed when one of them turns by more than a radian or so

@@ -9,16 +9,23 @@ static fl_quat renormal(fl_quat q)
     return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
 }
 
-fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt)
+fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3 *mean)
 {
-    const double a0 = 0.5 * dt * (invI.x - invI.y), a2 = dt * (invI.z - invI.y);
-    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * v3_dot(m3_col(q_matrix(q), 0), L)));
-    {
-        const fl_quat turn = q_of_vector(v3_scale(dt * invI.y, L));
-        if (a2 != 0.0) q = q_mul(q, q_about(2, a2 * v3_dot(m3_col(q_matrix(q), 2), L)));
-        q = q_mul(turn, q);
-    }
-    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * v3_dot(m3_col(q_matrix(q), 0), L)));
+    const double less = invI.x - invI.y, more = invI.z - invI.y, a0 = 0.5 * dt * less, a2 = dt * more;
+    fl_vec3 e = m3_col(q_matrix(q), 0);
+    double l = v3_dot(e, L);
+    const fl_vec3 first = v3_scale(l, e);
+    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * l));
+    e = m3_col(q_matrix(q), 2);
+    l = v3_dot(e, L);
+    if (a2 != 0.0) q = q_mul(q, q_about(2, a2 * l));
+    q = q_mul(q_of_vector(v3_scale(dt * invI.y, L)), q);
+    const fl_mat3 R = q_matrix(q);
+    const fl_vec3 top = v3_madd(v3_scale(invI.y, L), 0.5 * more * l, v3_add(e, m3_col(R, 2)));
+    e = m3_col(R, 0);
+    l = v3_dot(e, L);
+    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * l));
+    *mean = v3_madd(top, 0.5 * less, v3_madd(first, l, e));
     return renormal(q);
 }
 
@@ -136,15 +143,18 @@ static double chord(fl_quat q, fl_quat r)
 static void turn(fl_bodies *b, int32_t i, double dt)
 {
     const fl_quat q = b->q[i];
-    if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) return;
-    if (b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) {
+    const int held = b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ);
+    if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) {
+        if (!held) b->w[i] = v3(0, 0, 0);
+        return;
+    }
+    if (held) {
         drift_held(b, i, dt);
     } else if (b->ball[i]) { /* turns about L for ever, and nothing of it moves by that */
         b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt * b->invI[i].x, b->L[i])), q));
         return;
     } else {
-        b->q[i] = fl_drift_rotation(q, b->L[i], b->invI[i], dt);
-        fl_body_derive(b, i);
+        b->q[i] = fl_drift_rotation(q, b->L[i], b->invI[i], dt, &b->w[i]);
     }
     b->odometer[i] += chord(q, b->q[i]) * b->bound[i];
 }
@@ -180,6 +190,7 @@ static void drift_with_water(fl_bodies *b, int32_t i, double dt)
     fl_vec3 P = fl_body_momentum(b, i, v3_sub(v, U));
     go_straight(b, i, 0.5 * dt, P);
     turn(b, i, dt);
+    const fl_vec3 mean = b->w[i];
     b->v[i] = v3_add(U, hold_speed(b, i, v3_sub(v, U), P));
     if (b->hold[i]) {
         const fl_vec3 now = fl_body_momentum(b, i, v3_sub(b->v[i], U));
@@ -188,6 +199,7 @@ static void drift_with_water(fl_bodies *b, int32_t i, double dt)
     }
     b->carried[i] += carried(b, i) - before;
     go_straight(b, i, 0.5 * dt, P);
+    if (!(b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ))) b->w[i] = mean;
 }
 
 void fl_drift(fl_bodies *b, int32_t i, double dt)

@@ -48,23 +48,27 @@ static int presses(const fl_world *w, int32_t k)
     return w->met[k] || w->balls.bodies || fl_frozen_at(w, k);
 }
 
-static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
-{
-    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-    fl_step_kick(w, k, h);
-    *gain = (fl_gain){v3_sub(w->b.v[k], v), v3_sub(w->b.w[k], spin)};
-}
-
-/* What a kick by h gives to a ball that is unbound. */
+/* What a kick by h gives to a ball that is unbound; */
 static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
 {
     return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h * b->invI[k].x, b->t[k])};
 }
 
-/* What the last kick gave to body k of a few. */
-static fl_gain gain_among(const fl_few *s, int32_t k)
+/* to another body that is. */
+static fl_gain gain_free(const fl_bodies *b, int32_t k, double h)
 {
-    return (fl_gain){v3(s->dv[0][k], s->dv[1][k], s->dv[2][k]), v3(s->dw[0][k], s->dw[1][k], s->dw[2][k])};
+    return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), fl_body_turn(b, k, v3_scale(h, b->t[k]))};
+}
+
+/* w may be the mean of a step before a kick, which is no gain of it. */
+static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
+{
+    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+    const int turns = !(w->b.hold[k] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ));
+    *gain = gain_free(&w->b, k, h);
+    fl_step_kick(w, k, h);
+    if (!fl_body_free(&w->b, k)) gain->v = v3_sub(w->b.v[k], v);
+    if (!turns) gain->w = v3_sub(w->b.w[k], spin);
 }
 
 /* --- the first half ---------------------------------------------------------------------------- */
@@ -82,23 +86,13 @@ static void begin_few(fl_world *w, int32_t from, int32_t n, double h, double dt)
     fl_few_take_pose(&s, b);
     if (calm) fl_calm_drag(sea, b, &s, h, 0);
     const int32_t *was = w->was.place + from;
-    int32_t felt = 0;
-    for (int32_t k = 0; k < n; k++) felt |= was[k];
-    if (felt) {
-        fl_few_axes(&s);
-        fl_few_kick(&s, h);
-        for (int32_t k = 0; k < n; k++)
-            if (was[k]) w->gain[was[k]] = gain_among(&s, k);
-    } else {
-        fl_few_push(&s, h);
-    }
+    for (int32_t k = 0; k < n; k++)
+        if (was[k]) w->gain[was[k]] = gain_free(b, from + k, h);
+    fl_few_push(&s, h);
     const int done = fl_few_drift(&s, dt);
     fl_few_put_speeds(&s, b);
     if (done) fl_few_put_pose(&s, b);
-    for (int32_t k = from; k < from + n && !done; k++) {
-        fl_body_derive(b, k); /* which a body without momentum keeps */
-        fl_drift(b, k, dt);
-    }
+    for (int32_t k = from; k < from + n && !done; k++) fl_drift(b, k, dt);
 }
 
 static void begin_balls(fl_world *w, int32_t from, int32_t to, double h, double dt)
@@ -244,7 +238,7 @@ static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *ow
     for (int32_t k = from; k < from + n && sea->n && !calm; k++) fl_sea_drag(sea, b, k, h, 1);
     for (int32_t k = 0; k < many; k++) {
         const int32_t i = from + busy[k];
-        const fl_gain back = gain_among(&s, busy[k]);
+        const fl_gain back = gain_free(b, i, h);
         push(w, i, own);
         book(own, fl_works_take(w, i, fl_works_gain(w, i), &back));
     }

@@ -42,6 +42,12 @@ static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec
     return v3_sub(fl_body_velocity(b, p->i, ai), fl_body_velocity(b, p->j, aj));
 }
 
+/* The same in the mean of the step. */
+static fl_vec3 went(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec3 aj, double dt)
+{
+    return v3_add(approach(b, p, ai, aj), fl_pair_lag(b, p, v3_sub(ai, aj), dt));
+}
+
 /* The pressure of a contact, summed up: what friction needs. */
 typedef struct {
     double normal;     /* sum of F with damping                                     [N] */
@@ -82,7 +88,7 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl
                           .limit = law->friction * (q->walls ? q->normal : v3_norm(q->direction)),
                           .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0};
     const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n);
-    const fl_rubbed t = fl_tangent_rub(p->slip, c, approach(b, p, ai, aj), wi - wj, 0.5 * (wi + wj), dt);
+    const fl_rubbed t = fl_tangent_rub(p->slip, c, went(b, p, ai, aj, dt), wi - wj, 0.5 * (wi + wj), dt);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->slip = t.slip;
     add_wrench(&p->fs, &p->si, &p->sj, t.force, ai, aj);
@@ -306,7 +312,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     if (s->n == 0) return 0;
     const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
     fl_bearing q;
-    if (fl_bearing_sum(s, m3_tmul(R, approach(b, p, ai, aj)), m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j])), &q))
+    if (fl_bearing_sum(s, m3_tmul(R, went(b, p, ai, aj, dt)), m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j])), &q))
         return -1;
     if (!(q.u > 0.0 && q.overlap > ROUNDING * (v3_norm(r->o) + b->bound[p->i]))) return 0;
     fl_seen seen = seen_of(p, s, r, &q);
@@ -408,7 +414,7 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
                                              law->literal18, &exponent);
     k = law->stiffness > 0.0 ? law->stiffness : law->softening * k;
     const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
-    const fl_vec3 u = approach(b, p, ai, aj);
+    const fl_vec3 u = went(b, p, ai, aj, dt);
     const double closing = -v3_dot(nw, u);
     const double mass = law->literal2 && b->invm[p->j] > 0.0
                             ? b->m[p->i] + b->m[p->j]

@@ -124,8 +124,8 @@ static double fastest(const fl_motion *m, double arm)
     return most;
 }
 
-/* Piece k where its mover has it, at the velocity of now. */
-static void place(fl_world *w, int32_t k)
+/* Piece k where its mover has it, at the mean velocity of the last dt. */
+static void place(fl_world *w, int32_t k, double dt)
 {
     fl_ride *r = &w->ride;
     const int32_t m = r->of[k], j = w->n + k;
@@ -134,7 +134,7 @@ static void place(fl_world *w, int32_t k)
     const fl_vec3 arm = m3_mul(fl_body_axes(mb, m), r->arm[k]);
     b->x[j] = v3_add(mb->x[m], arm);
     b->q[j] = q_mul(mb->q[m], r->turn[k]);
-    b->v[j] = v3_add(mb->v[m], v3_cross(mb->w[m], arm));
+    b->v[j] = v3_add(mb->v[m], v3_cross(mb->w[m], v3_madd(arm, -0.5 * dt, v3_cross(mb->w[m], arm))));
     b->w[j] = mb->w[m];
 }
 
@@ -172,7 +172,7 @@ int fl_ride_make(fl_world *w, const fl_surface *surface, fl_err *err)
             fl_body_inertia(&w->b, j, v3(INFINITY, INFINITY, INFINITY));
         }
         r->fastest = fmax(r->fastest, fastest(motion, v3_norm(r->arm[k]) + w->b.bound[j]));
-        place(w, k);
+        place(w, k, 0.0);
     }
     return 0;
 }
@@ -206,7 +206,7 @@ void fl_ride_out(fl_world *w, double t)
         const int32_t j = w->n + k;
         const fl_vec3 x = w->b.x[j];
         const fl_quat q = w->b.q[j];
-        place(w, k);
+        place(w, k, w->dt);
         const fl_quat d = q_mul(w->b.q[j], q_conj(q)); /* its chord, as in integrate.c */
         w->b.odometer[j] +=
             v3_norm(v3_sub(w->b.x[j], x)) + 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z) * w->b.bound[j];

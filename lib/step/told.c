@@ -12,7 +12,8 @@
 typedef struct {
     fl_tellers s;
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
-    fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B; spins               */
+    fl_lane off[3], u[3], wi[3],
+        wj[3]; /* from A's centre to B's; v_A - v_B, lag and all; spins               */
     fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
     fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
     fl_lane slip[8];                         /* as it is remembered; the last two are nothing */
@@ -28,7 +29,7 @@ static void put4(fl_lane *a, int k, fl_quat q)
     a[0].a[k] = q.w, a[1].a[k] = q.x, a[2].a[k] = q.y, a[3].a[k] = q.z;
 }
 
-static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n)
+static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
 {
     const fl_surrogate *s[FL_TOLD];
     for (int k = 0; k < FL_TOLD; k++) {
@@ -38,8 +39,9 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n)
         s[k] = c->surrogate;
         put4(b->qi, k, o->ball[i] ? q_one() : o->q[i]);
         put4(b->qj, k, o->ball[j] ? q_one() : o->q[j]);
-        fl_lane3_put(b->off, k, fl_world_way(w, i, j, c->image));
-        fl_lane3_put(b->u, k, v3_sub(o->v[i], o->v[j]));
+        const fl_vec3 off = fl_world_way(w, i, j, c->image);
+        fl_lane3_put(b->off, k, off);
+        fl_lane3_put(b->u, k, v3_add(v3_sub(o->v[i], o->v[j]), fl_pair_lag(o, c, off, dt)));
         fl_lane3_put(b->wi, k, o->w[i]);
         fl_lane3_put(b->wj, k, o->w[j]);
         b->mass.a[k] = c->mass, b->touch.a[k] = c->touch;
@@ -78,8 +80,8 @@ FL_WIDE_PART fl_vec3 in(rows R, fl_vec3 a)
               R.x.z * a.x + R.y.z * a.y + R.z.z * a.z);
 }
 
-/* The velocity of A against B at aj from B's centre. */
-FL_WIDE_PART fl_vec3 approach(const batch *b, int k, fl_vec3 aj)
+/* The velocity of A against B at aj from B's centre, in the mean of the step. */
+FL_WIDE_PART fl_vec3 went(const batch *b, int k, fl_vec3 aj)
 {
     const fl_vec3 ai = v3_add(aj, fl_lane3(b->off, k));
     return v3_add(fl_lane3(b->u, k),
@@ -167,7 +169,7 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         const fl_vec3 arm = v3_sub(fl_lane3(b->s.at, k), first);
         const fl_vec3 acts = fl_surrogate_centre(force, v3_add(fl_lane3(b->s.m, k), v3_cross(arm, force)));
         const fl_vec3 by = v3_sub(acts, fl_lane3(OF(centre), k));
-        const fl_vec3 v = in(R, approach(b, k, out(R, v3_add(first, by))));
+        const fl_vec3 v = in(R, went(b, k, out(R, v3_add(first, by))));
         const fl_vec3 w = in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)));
         const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
                       m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
@@ -229,7 +231,7 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n);
         fl_lane3_put(b->n, k, n);
         fl_lane3_put(b->aj, k, centred);
-        fl_lane3_put(b->rubs, k, approach(b, k, centred));
+        fl_lane3_put(b->rubs, k, went(b, k, centred));
         b->k.a[k] = springs * b->s.slope.a[k];
         b->g.a[k] = springs * b->chi.a[k] * (share * OF(pressure)->a[k]);
         b->limit.a[k] = rubs * (share * size);
@@ -315,7 +317,7 @@ void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int s
 {
     batch b;
     int any = 0;
-    lay(&b, w, p, n);
+    lay(&b, w, p, n, dt);
     relate(&b);
     fl_surrogate_tell(&b.s);
     weigh(&b, w, p, n);

@@ -170,10 +170,11 @@ static void vectors_take_one_number_or_three(void **state)
 {
     fl_scene s;
     (void)state;
-    good(&s, ICE "[run]\ngravity = 1 2 -3\n[water]\ncurrent = 50 cm/s\n"
-                 "[boundary]\nmin = -50 mm none 1\nmax = 1 none 2 km\n");
+    good(&s, ICE "[run]\ngravity = 1 2 -3\n");
     assert_near(s.run.gravity.y, 2.0, 0);
     assert_near(s.run.gravity.z, -3.0, 0);
+    fl_scene_free(&s);
+    good(&s, ICE "[water]\ncurrent = 50 cm/s\n[boundary]\nmin = -50 mm none 1\nmax = 1 none 2 km\n");
     assert_near(s.water.current.x, 0.5, 0);
     assert_near(s.water.current.y, 0.0, 0);
     assert_near(s.boundary.min.x, -0.05, 0);
