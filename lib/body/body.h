@@ -24,7 +24,7 @@ typedef struct {
     fl_vec3 *L; /* angular momentum, world axes            [kg m2/s] */
     fl_quat *q; /* body axes to world                                */
     /* derived from the state */
-    fl_vec3 *w; /* angular velocity, world axes            [rad/s]   */
+    fl_vec3 *w; /* angular velocity, world axes            [rad/s]; of fl_drift() the mean of its step */
     /* what acts, world axes, about the centre of mass */
     fl_vec3 *f, *t; /* [N], [N m] */
     /* what a body is */

@@ -25,10 +25,10 @@
  *   h  [s], half a step */
 void fl_kick(fl_bodies *b, int32_t i, double h);
 
-/* x += dt v and the rotation above of body i < total; renews the odometer, and w, which becomes the mean spin of
- * the step as v is its mean velocity: with the w of L at the end, off by dt/2 I^-1 (w x L), friction would creep
- * on what turns about no axis of its own.  fl_kick() puts in that of L again.  Where turns are held, the held
- * components of w and the free ones of L stay, by the midpoint rule.  dt [s] */
+/* x += dt v and the rotation above of body i < total; renews the odometer, and w, which becomes the mean
+ * spin of the step as v is its mean velocity: with the w of L at the end, off by dt/2 I^-1 (w x L), friction
+ * would creep on what turns about no axis of its own.  fl_kick() puts in that of L again.  Where turns are
+ * held, the held components of w and the free ones of L stay, by the midpoint rule.  dt [s] */
 void fl_drift(fl_bodies *b, int32_t i, double dt);
 
 /* fl_kick() by h, and then fl_drift() by dt where that is not 0, of the bodies [from, to), all of which are
@@ -41,7 +41,8 @@ static inline int fl_body_free(const fl_bodies *b, int32_t i) { return !b->hold[
 /* Whether it is a ball besides. */
 static inline int fl_body_plain(const fl_bodies *b, int32_t i) { return b->ball[i] && fl_body_free(b, i); }
 
-/* The rotation part alone, of one body.  mean: the spin in the mean of dt, to order 2: the sum of the rotations,
+/* The rotation part alone, of one body.  mean: the spin in the mean of dt, to order 2: the sum of the
+ * rotations,
  *     I1^-1 L + (1/I0 - 1/I1) L0 e0 + (1/I2 - 1/I1) L2 e2,
  * where L0 e0 is the mean of begin and end, and e2 that of before and after the turn about L. */
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3 *mean);

@@ -26,11 +26,11 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
  * less than that of a point, nor more than four times as much. */
 double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj);
 
-/* What the velocity of A against B is off by where the two turn together: v and w are those of the middle of a
- * step, arms those of its end, and with them
+/* What the velocity of A against B is off by where the two turn together: v and w are those of the middle of
+ * a step, arms those of its end, and with them
  *     v_A - v_B + w x off = dt/2 w x (w x off),     off from A's centre to B's,
- * where nothing slips; friction would creep.  Nothing where one of them does not turn; and where a ball touches,
- * that is no part of it that turns along. */
+ * where nothing slips; friction would creep.  Nothing where one of them does not turn; and where a ball
+ * touches, that is no part of it that turns along. */
 static inline fl_vec3 fl_pair_lag(const fl_bodies *b, const fl_pair *p, fl_vec3 off, double dt)
 {
     const fl_vec3 wi = b->w[p->i], wj = b->w[p->j];
