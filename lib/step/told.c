@@ -12,8 +12,7 @@
 typedef struct {
     fl_tellers s;
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
-    fl_lane off[3], u[3], wi[3],
-        wj[3]; /* from A's centre to B's; v_A - v_B, lag and all; spins               */
+    fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
     fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
     fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
     fl_lane slip[8];                         /* as it is remembered; the last two are nothing */
