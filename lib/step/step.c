@@ -23,8 +23,10 @@
 
 /* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic
  * size; one that a longer step throws apart would be missed in between, so that these look more often, and
- * those four times as long always. */
-enum { SURVEY = 16, WATCH = 16 };
+ * those four times as long always; but for steps that are short against what contacts have turned out to be.
+ * Half a period takes pi/2 of the critical step: a tenth of it has fifteen steps in that, of which every
+ * fourth is looked at. */
+enum { SURVEY = 16, SOME = 4, WATCH = 16 };
 
 /* Held things of which a thread adds up the contacts at a time. */
 enum { HELD = 8 };
@@ -39,7 +41,8 @@ enum { ON_WAY = 8 };
 static int surveyed(const fl_world *w, int64_t step)
 {
     const double over = w->dt > w->dt_safe ? w->dt / w->dt_safe : 1.0;
-    const int64_t every = (int64_t)(SURVEY / (over * over));
+    const double seen = isfinite(w->dt_critical) ? 0.1 * SOME * w->dt_critical / w->dt : 0.0;
+    const int64_t every = (int64_t)fmax(SURVEY / (over * over), fmin(seen, SOME));
     return every < 2 || step % every == 0;
 }
 
