@@ -463,6 +463,13 @@ static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
             real(t, &s->learnt[r][k]);
             s->learnt[k][r] = s->learnt[r][k];
         }
+    for (int k = 0; k < 6; k++) {
+        real(t, &s->along[k]);
+        real(t, &s->third[k]);
+        real(t, &s->before.slope[k]);
+        real(t, &s->before.way[k]);
+    }
+    real(t, &s->before.energy);
     if (t->in && !t->err->code &&
         !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST))
         fl_text_fail(t->in, t->err, "a look at a contact that is none");

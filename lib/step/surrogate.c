@@ -7,11 +7,14 @@
 #define FIRST 0.3   /* reach of a contact that is new, over the root of the tolerance; */
 #define SHORTER 0.2 /* by how much one look changes it */
 #define LONGER 3.0
-#define SAFE 0.5
-#define WITHIN 0.01 /* so much of the tolerance is too little to learn from, */
-#define BEYOND 10.0 /* and so much tells of something new: what was learnt is forgotten */
-#define WIDER 2.0   /* the length grows with the contact by such steps */
-#define NET 0.5     /* less than this of the pressures left as force: they oppose each other */
+#define SAFE 0.15    /* so much of the tolerance is aimed at, */
+#define BEYOND 10.0  /* and so much tells of something new: what was learnt is forgotten */
+#define NEAR 1e-5    /* of the overlap: looks that are nearer to one another tell rounding; */
+#define FAR 50.0     /* and where one has so many times the energy of another neither tells of it */
+#define STRAIGHT 0.9 /* cosine between two ways that are one line, */
+#define EVEN 0.1     /* of which neither is shorter than that part of the other */
+#define WIDER 2.0    /* the length grows with the contact by such steps */
+#define NET 0.5      /* less than this of the pressures left as force: they oppose each other */
 
 static const fl_vec3 NONE = {0, 0, 0};
 
@@ -146,14 +149,29 @@ FL_WIDE_VERSIONS static void rise(fl_tellers *restrict b)
     }
 }
 
+FL_WIDE_PART double dot_of(const fl_lane *a, const fl_lane *b, int k)
+{
+    return v3_dot(fl_lane3(a, k), fl_lane3(b, k)) + v3_dot(fl_lane3(a + 3, k), fl_lane3(b + 3, k));
+}
+
 FL_WIDE_VERSIONS static void pull(fl_tellers *restrict b, const fl_lane *restrict J)
 {
+    const fl_lane *e = OF(along), *t = OF(third);
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
         const fl_vec3 u = fl_lane3(b->q, k), w = fl_lane3(b->q + 3, k);
-        const fl_vec3 by = fl_lane3(b->rise, k), turn = fl_lane3(b->rise + 3, k);
-        const double z = 1.0 + 0.5 * ((v3_dot(fl_lane3(OF(g), k), u) + v3_dot(fl_lane3(OF(g) + 3, k), w)) +
-                                      (v3_dot(by, u) + v3_dot(turn, w)));
+        fl_vec3 by = fl_lane3(b->rise, k), turn = fl_lane3(b->rise + 3, k);
+        const double straight =
+            1.0 + 0.5 * ((v3_dot(fl_lane3(OF(g), k), u) + v3_dot(fl_lane3(OF(g) + 3, k), w)) +
+                         (v3_dot(by, u) + v3_dot(turn, w)));
+        /* the third order: s^2/2 (t.q) - s^3/3 (e.t), s = e.q */
+        const double s = dot_of(e, b->q, k), et = dot_of(e, t, k), tq = dot_of(t, b->q, k),
+                     half = 0.5 * s * s, es = s * (tq - et * s),
+                     z = straight + half * tq - (2.0 / 3.0) * half * s * et;
+        by = v3_madd(v3_madd(by, es, fl_lane3(e, k)), half, fl_lane3(t, k));
+        turn = v3_madd(v3_madd(turn, es, fl_lane3(e + 3, k)), half, fl_lane3(t + 3, k));
+        fl_lane3_put(b->rise, k, by);
+        fl_lane3_put(b->rise + 3, k, turn);
         const double p = OF(power)->a[k], W = OF(energy)->a[k], root = root_of(z, p),
                      each = -p * W * z * root;
         const double energy = W * z * z * root;
@@ -221,47 +239,114 @@ static void about(fl_six *out, const fl_springs *s, double scale, fl_vec3 a, dou
     for (int r = 0; r < 6; r++) out[r][6] = out[r][7] = 0.0;
 }
 
-/* z of which the p-th power is W over that of the look, by Newton's steps. */
-static double depth(const fl_surrogate *s, double W)
+/* z of which the p-th power is that, by Newton's steps; 0 where it is too far from 1. */
+static double depth(double p, double want)
 {
-    const double p = s->power, want = W / s->energy;
     double z = want < 1.0 ? 0.5 * (1.0 + want) : want < 4.0 ? 1.0 + 0.4 * (want - 1.0) : sqrt(want);
-    for (int k = 0; k < 4; k++) {
-        const double slope = z * root_of(z, s->power);
+    if (!(want > 1.0 / FAR && want < FAR)) return 0.0;
+    for (int k = 0; k < 6; k++) {
+        const double slope = z * root_of(z, p);
         z -= (z * slope - want) / (p * slope);
-        if (!(z > 0.0)) return 0.0;
     }
     return z;
 }
 
-/* The smallest symmetric change of H by which the slope of z would not have been r off after q. */
-static void learn(fl_surrogate *s, const fl_six q, const fl_six r, double each)
+/* The slope in other coordinates, A being turned by w in these: J^-T to the first order. */
+static void turned(fl_six out, const fl_six slope, fl_vec3 w)
 {
-    const double size = dot(q, q);
-    if (!(size > 0.0)) return;
-    add(s->learnt, each / size, r, q);
-    add(s->learnt, -0.5 * each / size * dot(r, q) / size, q, q);
+    put(out, low(slope), v3_madd(high(slope), -0.5, v3_cross(w, high(slope))));
 }
 
-/* By how much s was off, and what that teaches.  slope, W: now, about the same point. */
-static double compare(fl_surrogate *s, const fl_told *t, const fl_six slope, double force, double W,
-                      double toward, double tolerance)
+/* Is the third order of a way known? */
+static int foresees(const fl_surrogate *s)
 {
-    const fl_vec3 turn = v3_scale(0.5, v3_cross(t->w, high(slope)));
-    const double p = s->power, z = depth(s, W), most = toward * (force > s->force ? force : s->force);
-    fl_six now, r, far;
-    put(now, low(slope), v3_sub(high(slope), turn)); /* J^-T to the first order */
-    const double pull = p * t->energy / t->z;
-    for (int k = 0; k < 6; k++)
-        far[k] = now[k] - pull * t->rise[k], r[k] = now[k] * (z / (p * W)) - t->rise[k];
-    far[6] = far[7] = r[6] = r[7] = 0.0;
+    double sum = 0.0;
+    for (int k = 0; k < 6; k++) sum += s->along[k] * s->along[k];
+    return sum > 0.0;
+}
+
+/* How much longer a way may be of which the error is that part of what it might be.  The error goes as the
+ * third power of the way where the third order is known, as the second where it is not: the third root by
+ * square ones, nearly. */
+static double longer_by(const fl_surrogate *s, double part)
+{
+    const double root = sqrt(part);
+    return foresees(s) ? sqrt(root * sqrt(root)) : root;
+}
+
+/* By how much s was off, and how far it may go from now on.  slope: now, about the same point. */
+static double compare(fl_surrogate *s, const fl_told *t, const fl_six slope, double force, double toward,
+                      double tolerance)
+{
+    const double most = toward * (force > s->force ? force : s->force), pull = s->power * t->energy / t->z;
+    fl_six far;
+    turned(far, slope, t->w);
+    for (int k = 0; k < 6; k++) far[k] -= pull * t->rise[k];
     const double off = t->z > 0.0 ? sqrt(dot(far, far)) / most : 1.0;
-    double longer = off > 0.0 ? SAFE * sqrt(tolerance / off) * t->way / (s->reach * s->overlap) : LONGER;
+    double longer =
+        off > 0.0 ? longer_by(s, SAFE * tolerance / off) * t->way / (s->reach * s->overlap) : LONGER;
     longer = longer > LONGER ? LONGER : longer < SHORTER ? SHORTER : longer;
     s->reach = longer * s->reach < FL_SURROGATE_MOST ? longer * s->reach : FL_SURROGATE_MOST;
-    if (off > BEYOND * tolerance) memset(s->learnt, 0, sizeof s->learnt);
-    else if (z > 0.0 && off > WITHIN * tolerance) learn(s, t->q, r, p * W / (z * force));
     return off;
+}
+
+static void forget(fl_surrogate *s)
+{
+    memset(s->learnt, 0, sizeof s->learnt);
+    s->before.energy = 0.0;
+}
+
+/* Slope of z at a look that was, A standing to now as w has it.  0 where W was too different. */
+static int rise_at(const fl_surrogate *s, const fl_look *b, fl_vec3 w, fl_six out)
+{
+    const double z = depth(s->power, b->energy / s->energy), each = z / (s->power * b->energy);
+    fl_six slope;
+    turned(slope, b->slope, w);
+    for (int k = 0; k < 8; k++) out[k] = each * slope[k];
+    return z > 0.0;
+}
+
+/* What between two looks bent the slope of z by more than H, over the way from the one to the other. */
+FL_FOUR_VERSIONS static double bent(fl_six *H, const fl_six from, const fl_six to, const fl_six way, fl_six e,
+                                    fl_six r)
+{
+    const double h = sqrt(dot(way, way)), each = h > 0.0 ? 1.0 / h : 0.0;
+    fl_six by;
+    for (int k = 0; k < 8; k++) e[k] = each * way[k];
+    product(by, (const fl_six *)H, e, (fl_six){0});
+    for (int k = 0; k < 8; k++) r[k] = each * (to[k] - from[k]) - by[k];
+    return h;
+}
+
+/* A += the smallest symmetric matrix that takes e, a unit vector, to r. */
+static void teach(fl_six *A, double each, const fl_six r, const fl_six e)
+{
+    add(A, each, r, e);
+    add(A, -0.5 * each * dot(r, e), e, e);
+}
+
+/* What the last two looks tell of H, which is per times what is learnt, and of what comes after it. */
+static void learn(fl_surrogate *s, fl_six *H, const fl_six g, const fl_look *last, double per)
+{
+    const fl_look *first = &s->before;
+    const fl_vec3 w = v3_scale(-1.0 / s->arm, high(last->way)),
+                  ww = v3_madd(w, -1.0 / s->arm, high(first->way));
+    fl_six g1, g0, e, d, r, rd;
+    if (!rise_at(s, last, w, g1)) return;
+    const double h = bent(H, g1, g, last->way, e, r);
+    if (!(h > NEAR * s->overlap)) return;
+    if (first->energy > 0.0 && rise_at(s, first, ww, g0)) {
+        const double hd = bent(H, g0, g1, first->way, d, rd);
+        if (dot(e, d) > STRAIGHT && hd > EVEN * h && h > EVEN * hd) {
+            const double each = 2.0 / (h + hd);
+            for (int k = 0; k < 6; k++) {
+                s->third[k] = each * (r[k] - rd[k]), s->along[k] = e[k];
+                r[k] += 0.5 * h * s->third[k];
+            }
+        }
+    }
+    teach(H, 1.0, r, e);
+    teach(s->learnt, 1.0 / per, r, e);
 }
 
 /* How far the pressures lie from their centre, in the mean. */
@@ -284,26 +369,32 @@ static void begin(fl_surrogate *s, const fl_seen *seen, double tolerance)
 }
 
 /* A contact that began at a corner may be one of faces now. */
-static void widen(fl_surrogate *s, const fl_bearing *q)
+static void widen(fl_surrogate *s, fl_look *last, const fl_bearing *q)
 {
     const double spread = q->normal > 0.0 ? spread_of(q) : 0.0, part = s->arm / spread;
     if (!(spread > WIDER * s->arm)) return;
     for (int r = 0; r < 6; r++)
         for (int c = 0; c < 6; c++) s->learnt[r][c] *= (r < 3 ? 1.0 : part) * (c < 3 ? 1.0 : part);
+    for (int k = 3; k < 6; k++) {
+        s->before.slope[k] *= part, s->before.way[k] /= part;
+        last->slope[k] *= part, last->way[k] /= part;
+    }
     s->arm = spread;
 }
 
-/* H and p of the springs, of what was learnt, and of the slope of W. */
-FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl_six slope, fl_vec3 from)
+/* H and p of the springs, of what was learnt, and of the slope of W.  last: the look before, to learn from,
+ * or NULL. */
+FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl_six slope, fl_vec3 from,
+                                  const fl_look *last)
 {
     const double W = seen->energy, force = s->force;
     fl_six H[6], g = {0};
     about(H, seen->springs, seen->scale, from, s->arm);
     add(H, -0.5 / W, slope, slope); /* the root in W bends down, as in survey_patch() */
-    fl_six along, bent;
-    put(along, v3_scale(1.0 / force, low(slope)), NONE);
-    product(bent, (const fl_six *)H, along, (fl_six){0});
-    const double curve = W * dot(along, bent) / (force * force);
+    fl_six push, stiff;
+    put(push, v3_scale(1.0 / force, low(slope)), NONE);
+    product(stiff, (const fl_six *)H, push, (fl_six){0});
+    const double curve = W * dot(push, stiff) / (force * force);
     s->power = curve < 1.0 - 1.0 / 2.125 ? 2.0 : curve < 1.0 - 1.0 / 2.375 ? 2.25 : 2.5;
     const double p = s->power, each = 1.0 / (p * W);
     for (int r = 0; r < 6; r++) {
@@ -311,6 +402,11 @@ FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl
         for (int l = 0; l < 6; l++) H[r][l] = each * (H[r][l] + force * s->learnt[r][l]);
     }
     add(H, -0.5 * (p - 1.0), g, g);
+    if (last) {
+        memset(s->along, 0, sizeof s->along), memset(s->third, 0, sizeof s->third);
+        if (last->energy > 0.0) learn(s, H, g, last, each * force);
+        s->before = *last;
+    }
     for (int r = 0; r < 6; r++)
         for (int c = r; c < 6; c++) s->H[FL_UPPER[r][c]] = H[r][c];
 }
@@ -345,7 +441,7 @@ static double room_of(const fl_surrogate *s, const fl_seen *seen)
     return seen->room * (farthest > s->arm ? s->arm / farthest : 1.0);
 }
 
-void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
+static void fill(fl_surrogate *s, const fl_seen *seen, const fl_look *last)
 {
     const fl_bearing *q = seen->q;
     fl_pressing pressing;
@@ -357,7 +453,7 @@ void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     s->first = seen->places->place[0].p;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope;
     s->room = room_of(s, seen);
-    bend(s, seen, slope, v3_sub(s->first, s->at));
+    bend(s, seen, slope, v3_sub(s->first, s->at), last);
     fl_bearing_pressing(seen->places, &pressing);
     if (!(pressing.elastic > 0.0)) return;
     press(s, &pressing, seen->scale);
@@ -366,20 +462,33 @@ void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     s->live = s->force > NET * s->pressure && v3_norm2(s->direction) > 0.0;
 }
 
+void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen) { fill(s, seen, NULL); }
+
+/* The look that was the last one until now, and the way since. */
+static fl_look look_of(const fl_surrogate *s, const fl_told *t)
+{
+    fl_look b = {.energy = s->energy};
+    for (int k = 0; k < 6; k++) b.slope[k] = s->power * s->energy * s->g[k], b.way[k] = t->q[k];
+    return b;
+}
+
 double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen, double tolerance)
 {
     fl_six slope;
+    fl_look last = {0};
     double off = 0.0;
     if (t) {
         const double force = slope_of(s, seen, slope);
-        if (force > 0.0) off = compare(s, t, slope, force, seen->energy, seen->toward, tolerance);
-        widen(s, seen->q);
+        last = look_of(s, t);
+        if (force > 0.0) off = compare(s, t, slope, force, seen->toward, tolerance);
+        if (off > BEYOND * tolerance) forget(s), last.energy = 0.0;
+        widen(s, &last, seen->q);
     } else {
         s->live = 0;
         if (!(seen->q->normal > 0.0)) return 0.0;
         begin(s, seen, tolerance);
     }
-    fl_surrogate_fill(s, seen);
+    fill(s, seen, &last);
     if (s->live && (seen->stiff_i > 0.0 || seen->stiff_j > 0.0))
         s->stiff_i = seen->stiff_i / s->slope, s->stiff_j = seen->stiff_j / s->slope;
     return off;

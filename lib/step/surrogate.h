@@ -8,26 +8,31 @@
  *
  *     q = (u, a w)     way of a point of A in the contact since the look, and the turn of A: w is half the
  *                      skew part of D = M M0^T, a a length of the contact; frame of B            [m]
- *     z = 1 + g.q + q.H q/2,     W = W0 z^p
+ *     z = 1 + g.q + q.H q/2 + s^2 (t.q)/2 - s^3 (e.t)/3,     s = e.q,     W = W0 z^p
  *     force on A -dW/du,  moment about the point -J^T dW/dw,  J = (tr D - D)/2 turns turns into w
  *
  * p is the power of the overlap that W grows with: 2 under a face, 9/4 along an edge, 5/2 at a corner, by
  * W W''/W'^2 = (p - 1)/p along the force.  Then z is nearly the overlap over that of the look and straight in
- * q, and what is left out is of third order in the bends of z alone.
+ * q, and what is left out is of a high order in the bends of z alone.
  *
  * H is what the places tell (fl_bearing_springs()), and what they do not: how they move over the two bodies
  * as these slide and turn, some with A, some with B, some with where two edges cross.  That part is learnt,
- * as a part of the force: where a look finds the slope of z r off after q, the smallest change of a symmetric
- * matrix that explains it is added, (r q^T + q r^T)/q.q - (r.q) q q^T/(q.q)^2 (Powell 1970, in Rosen,
- * Mangasarian & Ritter, Nonlinear Programming, 31).
+ * as a part of the force, from the slopes of z at the last looks, and so is the third order.  Bodies go on in
+ * nearly one line, along e: over the way h e to the last look, and h' e to it from the one before, slopes
+ * changed by r h and r' h' more than H tells, and so
+ *     t = 2 (r - r')/(h + h'),     H e misses r + h t/2,     where H changes linearly,
+ * of which t takes the mixed part of the third order with it: the smallest symmetric tensor that takes (e, e)
+ * to t is the one above.  To H the smallest symmetric matrix is added that takes e to what is missed,
+ * r e^T + e r^T - (r.e) e e^T (Powell 1970, in Rosen, Mangasarian & Ritter, Nonlinear Programming, 31).  Where
+ * the two ways are not one line t is 0, and H misses r.
  *
  * How far a contact goes until the next look is chosen by what the last one found: the force is off as the
- * square of the way, so reach = way sqrt(tolerance / off) / 2.  Off is the error of force and moment over a,
- * over the force; while the bodies approach or part, over the force that the energy of this motion would
- * give.  It is measured at the end of each way, where it is largest.  Besides, z changes by tolerance^(1/4)
- * at the most: what W is off by grows with the third power of it, and has one sign in every bounce.  Where a
- * look finds far more than was asked for, the contact has become another one, and what was learnt is
- * forgotten.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
+ * third power of the way, so reach = way (0.15 tolerance / off)^(3/8), 3/8 for 1/3; as its square, and 1/2,
+ * where t is not known.  Off is the error of force and moment over a, over the force; while the bodies
+ * approach or part, over the force that the energy of this motion would give.  It is measured at the end of
+ * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most: what W is off by grows
+ * with the fourth power of it, and has one sign in every bounce.  Where a look finds far more than was asked
+ * for, the contact has become another one, and what was learnt is forgotten.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
  *
  * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W.
  *
@@ -52,10 +57,17 @@ static const uint8_t FL_UPPER[6][6] = {{0, 1, 2, 3, 4, 5},     {1, 6, 7, 8, 9, 1
 
 #define FL_SURROGATE_MOST 10.0 /* of reach */
 
+/* A look that was. */
+typedef struct {
+    fl_six slope, way; /* of W over q [N]; from there to the next look [m] */
+    double energy;     /* W [J]; 0: none */
+} fl_look;
+
 typedef struct {
     int live; /* there is something to be asked */
     /* of the last look; from here on in doubles, which fl_surrogate_lay() takes in a row */
     double g[6], H[21];                   /* [1/m], [1/m2]; the upper triangle            */
+    double along[6], third[6];            /* e, t                          [1], [1/m3]    */
     fl_mat3 M;                            /* how A stood to B,                            */
     fl_vec3 o;                            /* and where                                [m] */
     fl_vec3 at;                           /* the point, frame of B                    [m] */
@@ -76,6 +88,7 @@ typedef struct {
     double stiff_i, stiff_j; /* as in fl_pair, over the slope; of the last survey  [1/kg] */
     /* what is not taken along */
     fl_six learnt[6]; /* of H, times p W over the force                      [1/m] */
+    fl_look before;   /* the one before the last                                   */
     double room;      /* it may go as far before another wall of B may bear    [m] */
 } fl_surrogate;
 
@@ -144,7 +157,7 @@ static inline fl_vec3 fl_surrogate_centre(fl_vec3 f, fl_vec3 m)
 }
 
 /* By how much z may fall or rise. */
-static inline double fl_surrogate_less(double tolerance) { return sqrt(sqrt(tolerance)); }
+static inline double fl_surrogate_less(double tolerance) { return 1.5 * sqrt(sqrt(tolerance)); }
 
 /* Those of all threads. */
 fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t threads);

@@ -254,10 +254,48 @@ static void a_look_teaches(void **state)
     assert_true(log_ratio / many > 1.6 && better > 3.0);
 }
 
+/* How far off it is h after n looks along a, h from one another; the first is where they were laid. */
+static double off_after(int kind, way a, int n, double h)
+{
+    laid l;
+    lay(&l, kind);
+    for (int c = 1; c < n; c++) {
+        go(&l, a, c * h);
+        look(&l);
+        assert_true(off(&l) < 1e-9);
+    }
+    go(&l, a, n * h);
+    const double e = off(&l);
+    take_up(&l);
+    return e;
+}
+
+/* What three looks on a line foretell is off as the third power of the way, what two of them do as the second. */
+static void looks_on_a_line_teach_more(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 0, 6);
+    double order[2] = {0}, better = 0.0;
+    int many = 0;
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int k = 0; k < 20; k++) {
+            const way a = some(&g);
+            const double h = 0.04 * DEPTH, two = off_after(kind, a, 2, h), three = off_after(kind, a, 3, h);
+            better += log2(two / fmax(three, 1e-12)) / (20.0 * KINDS);
+            if (!(three > 1e-6)) continue;
+            order[0] += log2(two / off_after(kind, a, 2, 0.5 * h));
+            order[1] += log2(three / off_after(kind, a, 3, 0.5 * h));
+            many++;
+        }
+    assert_true(many > 20);
+    assert_true(fabs(order[0] / many - 2.0) < 0.3 && fabs(order[1] / many - 3.0) < 0.4 && better > 3.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
                                        cmocka_unit_test(lanes_are_alike), cmocka_unit_test(the_slope_is_told),
-                                       cmocka_unit_test(a_look_teaches)};
+                                       cmocka_unit_test(a_look_teaches),
+                                       cmocka_unit_test(looks_on_a_line_teach_more)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }
