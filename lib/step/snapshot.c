@@ -446,6 +446,14 @@ static void forces(traffic *t, fl_pair *p)
     real(t, &p->stiff_j);
 }
 
+/* Unit or nothing. */
+static int points(const double e[6])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 6; k++) sum += e[k] * e[k];
+    return sum == 0.0 || fabs(sum - 1.0) < 1e-9;
+}
+
 /* What a contact remembers of its last look; all else follows from how the two stood then. */
 static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
 {
@@ -471,7 +479,8 @@ static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
     }
     real(t, &s->before.energy);
     if (t->in && !t->err->code &&
-        !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST))
+        !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST &&
+          points(s->along) && s->before.energy >= 0.0))
         fl_text_fail(t->in, t->err, "a look at a contact that is none");
 }
 

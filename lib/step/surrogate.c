@@ -325,14 +325,24 @@ static void teach(fl_six *A, double each, const fl_six r, const fl_six e)
     add(A, -0.5 * each * dot(r, e), e, e);
 }
 
-/* What the last two looks tell of H, which is per times what is learnt, and of what comes after it. */
-static void learn(fl_surrogate *s, fl_six *H, const fl_six g, const fl_look *last, double per)
+/* A += each B */
+static void with(fl_six *A, double each, fl_six *B)
+{
+    for (int r = 0; r < 6; r++)
+        for (int k = 0; k < 8; k++) A[r][k] += each * B[r][k];
+}
+
+/* What the last two looks tell of H, which is that of the springs and so much of what is learnt, and of what
+ * comes after it. */
+static void learn(fl_surrogate *s, fl_six *springs, const fl_six g, const fl_look *last, double much)
 {
     const fl_look *first = &s->before;
     const fl_vec3 w = v3_scale(-1.0 / s->arm, high(last->way)),
                   ww = v3_madd(w, -1.0 / s->arm, high(first->way));
-    fl_six g1, g0, e, d, r, rd;
+    fl_six H[6], g1, g0, e, d, r, rd;
     if (!rise_at(s, last, w, g1)) return;
+    memcpy(H, springs, sizeof H);
+    with(H, much, s->learnt);
     const double h = bent(H, g1, g, last->way, e, r);
     if (!(h > NEAR * s->overlap)) return;
     if (first->energy > 0.0 && rise_at(s, first, ww, g0)) {
@@ -345,8 +355,7 @@ static void learn(fl_surrogate *s, fl_six *H, const fl_six g, const fl_look *las
             }
         }
     }
-    teach(H, 1.0, r, e);
-    teach(s->learnt, 1.0 / per, r, e);
+    teach(s->learnt, 1.0 / much, r, e);
 }
 
 /* How far the pressures lie from their centre, in the mean. */
@@ -399,7 +408,7 @@ FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl
     const double p = s->power, each = 1.0 / (p * W);
     for (int r = 0; r < 6; r++) {
         s->g[r] = g[r] = each * slope[r];
-        for (int l = 0; l < 6; l++) H[r][l] = each * (H[r][l] + force * s->learnt[r][l]);
+        for (int l = 0; l < 6; l++) H[r][l] *= each;
     }
     add(H, -0.5 * (p - 1.0), g, g);
     if (last) {
@@ -407,6 +416,7 @@ FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl
         if (last->energy > 0.0) learn(s, H, g, last, each * force);
         s->before = *last;
     }
+    with(H, each * force, s->learnt);
     for (int r = 0; r < 6; r++)
         for (int c = r; c < 6; c++) s->H[FL_UPPER[r][c]] = H[r][c];
 }
