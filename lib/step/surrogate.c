@@ -358,29 +358,21 @@ static void learn(fl_surrogate *s, fl_six *springs, const fl_six g, const fl_loo
     teach(s->learnt, 1.0 / much, r, e);
 }
 
-/* How far the pressures lie from their centre, in the mean. */
-static double spread_of(const fl_bearing *q)
+/* A contact that is new: the point is the centre of what presses, and stays with A from now on.  Where bodies
+ * part so fast that damping takes all of the pressures there are these as well. */
+static void begin(fl_surrogate *s, const fl_seen *seen, const fl_pressing *q, double tolerance)
 {
-    const double all = q->spread / q->normal - v3_norm2(q->moment) / (q->normal * q->normal);
-    return all > 0.0 ? sqrt(all) : 0.0;
-}
-
-/* A contact that is new: the point is the centre of the pressure, and stays with A from now on. */
-static void begin(fl_surrogate *s, const fl_seen *seen, double tolerance)
-{
-    const fl_bearing *q = seen->q;
-    const double spread = spread_of(q);
-    const fl_vec3 centre = v3_madd(seen->places->place[0].p, 1.0 / q->normal, q->moment);
+    const fl_vec3 centre = v3_add(seen->places->place[0].p, q->mean);
     *s = (fl_surrogate){.reach = FIRST * sqrt(tolerance)};
     s->less = fl_surrogate_less(tolerance);
-    s->arm = spread > seen->radii ? spread : seen->radii;
+    s->arm = q->wide > seen->radii ? q->wide : seen->radii;
     s->own = m3_tmul(*seen->M, v3_sub(centre, seen->o));
 }
 
 /* A contact that began at a corner may be one of faces now. */
-static void widen(fl_surrogate *s, fl_look *last, const fl_bearing *q)
+static void widen(fl_surrogate *s, fl_look *last, double spread)
 {
-    const double spread = q->normal > 0.0 ? spread_of(q) : 0.0, part = s->arm / spread;
+    const double part = s->arm / spread;
     if (!(spread > WIDER * s->arm)) return;
     for (int r = 0; r < 6; r++)
         for (int c = 0; c < 6; c++) s->learnt[r][c] *= (r < 3 ? 1.0 : part) * (c < 3 ? 1.0 : part);
@@ -451,28 +443,30 @@ static double room_of(const fl_surrogate *s, const fl_seen *seen)
     return seen->room * (farthest > s->arm ? s->arm / farthest : 1.0);
 }
 
-static void fill(fl_surrogate *s, const fl_seen *seen, const fl_look *last)
+static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressing, const fl_look *last)
 {
     const fl_bearing *q = seen->q;
-    fl_pressing pressing;
     fl_six slope;
     s->live = 0;
     s->force = slope_of(s, seen, slope);
-    if (!(s->force > 0.0 && seen->slope > 0.0)) return;
+    if (!(s->force > 0.0 && seen->slope > 0.0 && pressing->elastic > 0.0)) return;
     s->M = *seen->M, s->o = seen->o, s->at = v3_add(s->o, m3_mul(s->M, s->own));
     s->first = seen->places->place[0].p;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope;
     s->room = room_of(s, seen);
     bend(s, seen, slope, v3_sub(s->first, s->at), last);
-    fl_bearing_pressing(seen->places, &pressing);
-    if (!(pressing.elastic > 0.0)) return;
-    press(s, &pressing, seen->scale);
+    press(s, pressing, seen->scale);
     s->beside = v3_sub(v3_scale(seen->scale, q->gradient.f), s->direction);
     s->centre = fl_surrogate_centre(q->gradient.f, q->gradient.m);
     s->live = s->force > NET * s->pressure && v3_norm2(s->direction) > 0.0;
 }
 
-void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen) { fill(s, seen, NULL); }
+void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
+{
+    fl_pressing pressing;
+    fl_bearing_pressing(seen->places, &pressing);
+    fill(s, seen, &pressing, NULL);
+}
 
 /* The look that was the last one until now, and the way since. */
 static fl_look look_of(const fl_surrogate *s, const fl_told *t)
@@ -486,19 +480,19 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
 {
     fl_six slope;
     fl_look last = {0};
+    fl_pressing pressing;
     double off = 0.0;
+    fl_bearing_pressing(seen->places, &pressing);
     if (t) {
         const double force = slope_of(s, seen, slope);
         last = look_of(s, t);
         if (force > 0.0) off = compare(s, t, slope, force, seen->toward, tolerance);
         if (off > BEYOND * tolerance) forget(s), last.energy = 0.0;
-        widen(s, &last, seen->q);
+        widen(s, &last, pressing.wide);
     } else {
-        s->live = 0;
-        if (!(seen->q->normal > 0.0)) return 0.0;
-        begin(s, seen, tolerance);
+        begin(s, seen, &pressing, tolerance);
     }
-    fill(s, seen, &last);
+    fill(s, seen, &pressing, &last);
     if (s->live && (seen->stiff_i > 0.0 || seen->stiff_j > 0.0))
         s->stiff_i = seen->stiff_i / s->slope, s->stiff_j = seen->stiff_j / s->slope;
     return off;
