@@ -478,6 +478,7 @@ static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
         real(t, &s->before.way[k]);
     }
     real(t, &s->before.energy);
+    real(t, &s->steeper);
     if (t->in && !t->err->code &&
         !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST &&
           points(s->along) && s->before.energy >= 0.0))

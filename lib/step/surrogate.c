@@ -81,9 +81,10 @@ fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t thr
 enum { BLOCKS = FL_SURROGATE_ROWS / FL_LANES };
 _Static_assert(FL_SURROGATE_ROWS % FL_LANES == 0 && FL_TOLD % FL_LANES == 0, "taken by four");
 
-_Static_assert(offsetof(fl_surrogate, learnt) ==
-                   offsetof(fl_surrogate, g) + FL_SURROGATE_ROWS * sizeof(double),
-               "nothing but doubles in between");
+_Static_assert(offsetof(fl_surrogate, learnt) % sizeof(double) ==
+                       offsetof(fl_surrogate, g) % sizeof(double) &&
+                   sizeof(fl_surrogate) >= offsetof(fl_surrogate, g) + FL_SURROGATE_ROWS * sizeof(double),
+               "nothing but doubles in between, and as many");
 
 static const double *rows_of(const fl_surrogate *s)
 {
@@ -154,6 +155,13 @@ FL_WIDE_PART double dot_of(const fl_lane *a, const fl_lane *b, int k)
     return v3_dot(fl_lane3(a, k), fl_lane3(b, k)) + v3_dot(fl_lane3(a + 3, k), fl_lane3(b + 3, k));
 }
 
+/* What dF/ds is more by than F^2/W tells. */
+FL_WIDE_PART double steeper(double c, double s)
+{
+    const double by = 1.0 + c * s;
+    return by > 0.5 ? by : 0.5;
+}
+
 FL_WIDE_VERSIONS static void pull(fl_tellers *restrict b, const fl_lane *restrict J)
 {
     const fl_lane *e = OF(along), *t = OF(third);
@@ -180,7 +188,7 @@ FL_WIDE_VERSIONS static void pull(fl_tellers *restrict b, const fl_lane *restric
         b->z.a[k] = z;
         b->energy.a[k] = energy;
         b->share.a[k] = share;
-        b->slope.a[k] = OF(slope)->a[k] * share * share * W / energy;
+        b->slope.a[k] = OF(slope)->a[k] * steeper(OF(steeper)->a[k], s) * share * share * W / energy;
         fl_lane3_put(b->f, k, f);
         fl_lane3_put(
             b->m, k,
@@ -275,25 +283,24 @@ static double longer_by(const fl_surrogate *s, double part)
 }
 
 /* By how much s was off, and how far it may go from now on.  slope: now, about the same point. */
-static double compare(fl_surrogate *s, const fl_told *t, const fl_six slope, double force, double toward,
-                      double tolerance)
+static double compare(fl_surrogate *s, const fl_told *t, fl_look *last, const fl_six slope, double force,
+                      double toward, double tolerance)
 {
     const double most = toward * (force > s->force ? force : s->force), pull = s->power * t->energy / t->z;
     fl_six far;
     turned(far, slope, t->w);
     for (int k = 0; k < 6; k++) far[k] -= pull * t->rise[k];
-    const double off = t->z > 0.0 ? sqrt(dot(far, far)) / most : 1.0;
-    double longer =
-        off > 0.0 ? longer_by(s, SAFE * tolerance / off) * t->way / (s->reach * s->overlap) : LONGER;
+    const double off = t->z > 0.0 ? sqrt(dot(far, far)) / most : 1.0, past = t->way / (s->reach * s->overlap);
+    double longer = off > 0.0 ? longer_by(s, SAFE * tolerance / off) * past : LONGER;
+    if (off > BEYOND * tolerance) {
+        memset(s->learnt, 0, sizeof s->learnt);
+        /* unless it has only gone far past what it might, the looks that were are those of another contact */
+        if (off > BEYOND * tolerance * (past > 1.0 ? past * past : 1.0))
+            last->energy = s->before.energy = 0.0;
+    }
     longer = longer > LONGER ? LONGER : longer < SHORTER ? SHORTER : longer;
     s->reach = longer * s->reach < FL_SURROGATE_MOST ? longer * s->reach : FL_SURROGATE_MOST;
     return off;
-}
-
-static void forget(fl_surrogate *s)
-{
-    memset(s->learnt, 0, sizeof s->learnt);
-    s->before.energy = 0.0;
 }
 
 /* Slope of z at a look that was, A standing to now as w has it.  0 where W was too different. */
@@ -406,6 +413,7 @@ FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl
     if (last) {
         memset(s->along, 0, sizeof s->along), memset(s->third, 0, sizeof s->third);
         if (last->energy > 0.0) learn(s, H, g, last, each * force);
+        if (!foresees(s)) s->steeper = 0.0;
         s->before = *last;
     }
     with(H, each * force, s->learnt);
@@ -468,6 +476,16 @@ void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     fill(s, seen, &pressing, NULL);
 }
 
+/* How much dF/ds was told too low, for the way. */
+static void learn_slope(fl_surrogate *s, const fl_told *t, double slope)
+{
+    const double way = sqrt(dot(t->q, t->q));
+    double gone = 0.0;
+    for (int k = 0; k < 6; k++) gone += s->along[k] * t->q[k];
+    const double more = steeper(s->steeper, gone) * slope / t->slope - 1.0;
+    s->steeper = fabs(more) < 0.5 && way > NEAR * s->overlap ? more / way : 0.0;
+}
+
 /* The look that was the last one until now, and the way since. */
 static fl_look look_of(const fl_surrogate *s, const fl_told *t)
 {
@@ -486,8 +504,8 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
     if (t) {
         const double force = slope_of(s, seen, slope);
         last = look_of(s, t);
-        if (force > 0.0) off = compare(s, t, slope, force, seen->toward, tolerance);
-        if (off > BEYOND * tolerance) forget(s), last.energy = 0.0;
+        if (force > 0.0) off = compare(s, t, &last, slope, force, seen->toward, tolerance);
+        learn_slope(s, t, seen->slope);
         widen(s, &last, pressing.wide);
     } else {
         begin(s, seen, &pressing, tolerance);

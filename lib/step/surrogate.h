@@ -34,7 +34,10 @@
  * with the fourth power of it, and has one sign in every bounce.  Where a look finds far more than was asked
  * for, the contact has become another one, and what was learnt is forgotten.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
  *
- * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W.
+ * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W, and
+ * besides as 1 + c s, s = e.q, with c by what the last look found it told too low by, over the way.  Springs of
+ * friction lose something wherever it was told too high: without c as much over a path however many looks
+ * this is cut by.  A second order of it changes nothing that can be seen.
  *
  * Damping and friction go by the places of the last look, all pressing as then, times one factor that gives
  * them the force that is told; where force and moment put the centre of the pressure elsewhere they are all
@@ -68,6 +71,7 @@ typedef struct {
     /* of the last look; from here on in doubles, which fl_surrogate_lay() takes in a row */
     double g[6], H[21];                   /* [1/m], [1/m2]; the upper triangle            */
     double along[6], third[6];            /* e, t                          [1], [1/m3]    */
+    double steeper;                       /* c                                     [1/m] */
     fl_mat3 M;                            /* how A stood to B,                            */
     fl_vec3 o;                            /* and where                                [m] */
     fl_vec3 at;                           /* the point, frame of B                    [m] */
@@ -106,7 +110,9 @@ typedef struct {
 /* Several side by side, one array a number. */
 enum {
     FL_TOLD = 8,
-    FL_SURROGATE_ROWS = (offsetof(fl_surrogate, learnt) - offsetof(fl_surrogate, g)) / sizeof(double)
+    /* of fours; of the last one some are of what is not asked for */
+    FL_SURROGATE_ROWS =
+        ((offsetof(fl_surrogate, learnt) - offsetof(fl_surrogate, g)) / sizeof(double) + 3) / 4 * 4
 };
 typedef struct {
     double a[FL_TOLD];

@@ -11,12 +11,13 @@
 
 /* Name and number of words of each kind of row.  A pair that remembers vertices has a count of them before
  * them, and one that touches has its forces as well: "pair" is one that does neither, in a space that repeats
- * itself or not.  A bond has its points once it is damaged. */
+ * itself or not; with surrogates one that touches tells whether it has been looked at, and then of that.  A
+ * bond has its points once it is damaged. */
 static const char LAYOUT[] =
     "ball 13|ball 16|body 26|body 27|bond 36|bond 81|books 27|budget 15|event 15|known 6|mark 16|"
-    "mover 40|nap 13|next 2|pair 19|pair 22|panel 5|part 8|place 6|pressed 5|"
-    "sea 6|sea 7|traffic 14|window 9|world 15|";
-enum { LAYOUT_IS_OF = 4, KINDS = 64 };
+    "mover 40|nap 13|next 2|pair 19|pair 20|pair 22|pair 86|panel 5|part 8|place 6|pressed 5|"
+    "sea 6|sea 7|told 5|traffic 14|window 9|world 15|";
+enum { LAYOUT_IS_OF = 5, KINDS = 64 };
 
 typedef struct {
     char row[KINDS][24];
@@ -123,6 +124,7 @@ static void a_layout_has_its_number(void **state)
     scene_of_balls(&l, 3, NULL), state_of(&all, &l, 1);
     scene_of_balls(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), state_of(&all, &l, 0);
     scene_of_bonds(&l, 3, NULL), state_of(&all, &l, 1);
+    scene_of_surrogates(&l, 2, NULL), state_of(&all, &l, 0);
     budget_of(&all);
     qsort(all.row, (size_t)all.n, sizeof *all.row, by_name);
     for (int k = 0; k < all.n; k++) strcat(found, all.row[k]);
