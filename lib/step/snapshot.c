@@ -459,6 +459,7 @@ static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
 {
     whole(t, 0, p->exponent == 0.0, &s->live);
     if (!s->live) return;
+    whole(t, 0, 1, &s->used);
     for (int k = 0; k < 9; k++) real(t, &s->M.m[k / 3][k % 3]);
     vec3(t, &s->o);
     vec3(t, &s->own);
@@ -479,6 +480,8 @@ static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
     }
     real(t, &s->before.energy);
     real(t, &s->steeper);
+    real(t, &s->back);
+    real(t, &s->owed);
     if (t->in && !t->err->code &&
         !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST &&
           points(s->along) && s->before.energy >= 0.0))
@@ -495,6 +498,7 @@ static void look_again(fl_world *w, fl_pair *p, const fl_surrogate *seen, fl_err
     p->surrogate->less = fl_surrogate_less(p->law->surrogate);
     if (fl_interact_again(w, p, &seen->M, seen->o))
         fl_fail(err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
+    p->surrogate->used = seen->used;
 }
 
 static void pair(traffic *t, fl_world *w, int32_t c)

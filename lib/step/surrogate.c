@@ -282,14 +282,23 @@ static double longer_by(const fl_surrogate *s, double part)
     return foresees(s) ? sqrt(root * sqrt(root)) : root;
 }
 
+/* e.q */
+static double gone(const fl_surrogate *s, const fl_told *t)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 6; k++) sum += s->along[k] * t->q[k];
+    return sum;
+}
+
 /* By how much s was off, and how far it may go from now on.  slope: now, about the same point. */
 static double compare(fl_surrogate *s, const fl_told *t, fl_look *last, const fl_six slope, double force,
                       double toward, double tolerance)
 {
     const double most = toward * (force > s->force ? force : s->force), pull = s->power * t->energy / t->z;
+    const double back = 2.0 * s->back * gone(s, t); /* is no error */
     fl_six far;
     turned(far, slope, t->w);
-    for (int k = 0; k < 6; k++) far[k] -= pull * t->rise[k];
+    for (int k = 0; k < 6; k++) far[k] -= pull * (t->rise[k] - back * s->along[k]);
     const double off = t->z > 0.0 ? sqrt(dot(far, far)) / most : 1.0, past = t->way / (s->reach * s->overlap);
     double longer = off > 0.0 ? longer_by(s, SAFE * tolerance / off) * past : LONGER;
     if (off > BEYOND * tolerance) {
@@ -455,7 +464,7 @@ static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressi
 {
     const fl_bearing *q = seen->q;
     fl_six slope;
-    s->live = 0;
+    s->live = s->used = 0;
     s->force = slope_of(s, seen, slope);
     if (!(s->force > 0.0 && seen->slope > 0.0 && pressing->elastic > 0.0)) return;
     s->M = *seen->M, s->o = seen->o, s->at = v3_add(s->o, m3_mul(s->M, s->own));
@@ -469,20 +478,25 @@ static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressi
     s->live = s->force > NET * s->pressure && v3_norm2(s->direction) > 0.0;
 }
 
+static void give_back(fl_surrogate *s)
+{
+    for (int r = 0; r < 6; r++)
+        for (int c = r; c < 6; c++) s->H[FL_UPPER[r][c]] += 2.0 * s->back * s->along[r] * s->along[c];
+}
+
 void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
 {
     fl_pressing pressing;
     fl_bearing_pressing(seen->places, &pressing);
     fill(s, seen, &pressing, NULL);
+    give_back(s);
 }
 
 /* How much dF/ds was told too low, for the way. */
 static void learn_slope(fl_surrogate *s, const fl_told *t, double slope)
 {
     const double way = sqrt(dot(t->q, t->q));
-    double gone = 0.0;
-    for (int k = 0; k < 6; k++) gone += s->along[k] * t->q[k];
-    const double more = steeper(s->steeper, gone) * slope / t->slope - 1.0;
+    const double more = steeper(s->steeper, gone(s, t)) * slope / t->slope - 1.0;
     s->steeper = fabs(more) < 0.5 && way > NEAR * s->overlap ? more / way : 0.0;
 }
 
@@ -492,6 +506,14 @@ static fl_look look_of(const fl_surrogate *s, const fl_told *t)
     fl_look b = {.energy = s->energy};
     for (int k = 0; k < 6; k++) b.slope[k] = s->power * s->energy * s->g[k], b.way[k] = t->q[k];
     return b;
+}
+
+/* What is owed, over the way to come; part: of the force, at its end at most. */
+static void owe(fl_surrogate *s, double part)
+{
+    const double pull = s->power * s->energy, way = s->reach * s->overlap, b = s->owed / (pull * way * way),
+                 most = 0.5 * part * s->force / (pull * way);
+    s->back = !s->live || !foresees(s) ? 0.0 : b > most ? most : b < -most ? -most : b;
 }
 
 double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen, double tolerance)
@@ -504,6 +526,7 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
     if (t) {
         const double force = slope_of(s, seen, slope);
         last = look_of(s, t);
+        if (s->used) s->owed += seen->energy - t->energy;
         if (force > 0.0) off = compare(s, t, &last, slope, force, seen->toward, tolerance);
         learn_slope(s, t, seen->slope);
         widen(s, &last, pressing.wide);
@@ -511,6 +534,8 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
         begin(s, seen, &pressing, tolerance);
     }
     fill(s, seen, &pressing, &last);
+    owe(s, SAFE * tolerance);
+    give_back(s);
     if (s->live && (seen->stiff_i > 0.0 || seen->stiff_j > 0.0))
         s->stiff_i = seen->stiff_i / s->slope, s->stiff_j = seen->stiff_j / s->slope;
     return off;

@@ -8,7 +8,7 @@
  *
  *     q = (u, a w)     way of a point of A in the contact since the look, and the turn of A: w is half the
  *                      skew part of D = M M0^T, a a length of the contact; frame of B            [m]
- *     z = 1 + g.q + q.H q/2 + s^2 (t.q)/2 - s^3 (e.t)/3,     s = e.q,     W = W0 z^p
+ *     z = 1 + g.q + q.H q/2 + s^2 (t.q)/2 - s^3 (e.t)/3 + b s^2,     s = e.q,     W = W0 z^p
  *     force on A -dW/du,  moment about the point -J^T dW/dw,  J = (tr D - D)/2 turns turns into w
  *
  * p is the power of the overlap that W grows with: 2 under a face, 9/4 along an edge, 5/2 at a corner, by
@@ -30,9 +30,12 @@
  * third power of the way, so reach = way (0.15 tolerance / off)^(3/8), 3/8 for 1/3; as its square, and 1/2,
  * where t is not known.  Off is the error of force and moment over a, over the force; while the bodies
  * approach or part, over the force that the energy of this motion would give.  It is measured at the end of
- * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most: what W is off by grows
- * with the fourth power of it, and has one sign in every bounce.  Where a look finds far more than was asked
+ * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most.  Where a look finds far more than was asked
  * for, the contact has become another one, and what was learnt is forgotten.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
+ *
+ * At a look W takes a step, by what was told wrong: as a rule with the same sign in every bounce, for what is
+ * left out is of an even order.  So what has come together since the bodies touch is given back over the way
+ * to come, forth or back: b = owed/(p W0 reach^2), by no more of the force than is aimed at anyway.
  *
  * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W, and
  * besides as 1 + c s, s = e.q, with c by what the last look found it told too low by, over the way.  Springs of
@@ -68,6 +71,7 @@ typedef struct {
 
 typedef struct {
     int live; /* there is something to be asked */
+    int used; /* and it has been, since the last look */
     /* of the last look; from here on in doubles, which fl_surrogate_lay() takes in a row */
     double g[6], H[21];                   /* [1/m], [1/m2]; the upper triangle            */
     double along[6], third[6];            /* e, t                          [1], [1/m3]    */
@@ -93,6 +97,8 @@ typedef struct {
     /* what is not taken along */
     fl_six learnt[6]; /* of H, times p W over the force                      [1/m] */
     fl_look before;   /* the one before the last                                   */
+    double owed;      /* what looks found W to be more than it went by         [J] */
+    double back;      /* b                                                    [1/m2] */
     double room;      /* it may go as far before another wall of B may bear    [m] */
 } fl_surrogate;
 

@@ -306,6 +306,7 @@ FL_FOUR_VERSIONS static void give(const batch *restrict b, fl_pair *const *p, co
             fl_pair *const c = p[k + l];
             if (!done[k + l]) continue;
             c->slip.moment = last[l][0], c->slip.k_turn = last[l][1];
+            c->surrogate->used = 1;
             c->touch = b->touch.a[k + l];
         }
     }

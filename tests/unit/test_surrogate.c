@@ -51,7 +51,7 @@ typedef struct {
 /* A look, however near the last one was. */
 static void look(laid *a)
 {
-    if (a->p.surrogate) a->p.surrogate->reach = 0.0;
+    if (a->p.surrogate) a->p.surrogate->reach = 1e-9;
     fl_interact(&a->l.w, &a->p, 0, 0.0, 0);
     assert_true(a->p.n && a->p.surrogate && a->p.surrogate->live);
 }
