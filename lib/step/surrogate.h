@@ -21,24 +21,25 @@
  * nearly one line, along e: over the way h e to the last look, and h' e to it from the one before, slopes
  * changed by r h and r' h' more than H tells, and so
  *     t = 2 (r - r')/(h + h'),     H e misses r + h t/2,     where H changes linearly,
- * of which t takes the mixed part of the third order with it: the smallest symmetric tensor that takes (e, e)
- * to t is the one above.  To H the smallest symmetric matrix is added that takes e to what is missed,
- * r e^T + e r^T - (r.e) e e^T (Powell 1970, in Rosen, Mangasarian & Ritter, Nonlinear Programming, 31).  Where
- * the two ways are not one line t is 0, and H misses r.
+ * of which t takes the mixed part of the third order with it: the smallest symmetric tensor that takes
+ * (e, e) to t is the one above.  To H the smallest symmetric matrix is added that takes e to what is missed,
+ * r e^T + e r^T - (r.e) e e^T (Powell 1970, in Rosen, Mangasarian & Ritter, Nonlinear Programming, 31).
+ * Where the two ways are not one line t is 0, and H misses r.
  *
  * How far a contact goes until the next look is chosen by what the last one found: the force is off as the
  * third power of the way, so reach = way (0.15 tolerance / off)^(3/8), 3/8 for 1/3; as its square, and 1/2,
  * where t is not known.  Off is the error of force and moment over a, over the force; while the bodies
  * approach or part, over the force that the energy of this motion would give.  It is measured at the end of
- * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most.  Where a look finds far more than was asked
- * for, the contact has become another one, and what was learnt is forgotten.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
+ * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most.  Where a look finds
+ * far more than was asked for, the contact has become another one, and what was learnt is forgotten.  Nothing
+ * is told where pressures oppose each other, as in a slot: their sum is not their force.
  *
  * At a look W takes a step, by what was told wrong: as a rule with the same sign in every bounce, for what is
  * left out is of an even order.  So what has come together since the bodies touch is given back over the way
  * to come, forth or back: b = owed/(p W0 reach^2), by no more of the force than is aimed at anyway.
  *
  * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W, and
- * besides as 1 + c s, s = e.q, with c by what the last look found it told too low by, over the way.  Springs of
+ * besides as 1 + c s, with c by what the last look found it told too low by, over the way.  Springs of
  * friction lose something wherever it was told too high: without c as much over a path however many looks
  * this is cut by.  A second order of it changes nothing that can be seen.
  *

@@ -270,7 +270,8 @@ static double off_after(int kind, way a, int n, double h)
     return e;
 }
 
-/* What three looks on a line foretell is off as the third power of the way, what two of them do as the second. */
+/* What three looks on a line foretell is off as the third power of the way, what two of them do as the
+ * second. */
 static void looks_on_a_line_teach_more(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 6);

@@ -237,7 +237,7 @@ static void swings(void)
     verify_below("friction", "by surrogates of 1e-3 to 0.1", -least, 1e-9);
 }
 
-/* Velocities of two boxes after the one has hit the other, slid over it and rubbed; its faces lean by tilt. */
+/* Velocities of two boxes after one has hit the other, slid over it and rubbed; its faces lean by tilt. */
 static int thrown(double surrogate, double tilt, fl_vec3 v[4])
 {
     lab l;
@@ -256,8 +256,8 @@ static int thrown(double surrogate, double tilt, fl_vec3 v[4])
     return bad;
 }
 
-/* What surrogates change of that falls with their tolerance; where springs of friction lose something at every
- * look it would not, for looks become more as ways get shorter. */
+/* What surrogates change of that falls with their tolerance; where springs of friction lose something at
+ * every look it would not, for looks become more as ways get shorter. */
 static void throws(void)
 {
     enum { THROWS = 8, LEVELS = 3 };
