@@ -454,6 +454,14 @@ static int points(const double e[6])
     return sum == 0.0 || fabs(sum - 1.0) < 1e-9;
 }
 
+/* What was learnt of the way can be. */
+static int learnt(const fl_surrogate *s)
+{
+    double zero = 0.0 * (s->before.energy + s->steeper + s->back + s->owed);
+    for (int k = 0; k < 6; k++) zero += 0.0 * (s->third[k] + s->before.slope[k] + s->before.way[k]);
+    return zero == 0.0 && points(s->along) && s->before.energy >= 0.0;
+}
+
 /* What a contact remembers of its last look; all else follows from how the two stood then. */
 static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
 {
@@ -483,8 +491,7 @@ static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
     real(t, &s->back);
     real(t, &s->owed);
     if (t->in && !t->err->code &&
-        !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST &&
-          points(s->along) && s->before.energy >= 0.0))
+        !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST && learnt(s)))
         fl_text_fail(t->in, t->err, "a look at a contact that is none");
 }
 

@@ -342,7 +342,7 @@ static void teach(fl_six *A, double each, const fl_six r, const fl_six e)
 }
 
 /* A += each B */
-static void with(fl_six *A, double each, fl_six *B)
+static void with(fl_six *A, double each, const fl_six *B)
 {
     for (int r = 0; r < 6; r++)
         for (int k = 0; k < 8; k++) A[r][k] += each * B[r][k];
@@ -358,7 +358,7 @@ static void learn(fl_surrogate *s, fl_six *springs, const fl_six g, const fl_loo
     fl_six H[6], g1, g0, e, d, r, rd;
     if (!rise_at(s, last, w, g1)) return;
     memcpy(H, springs, sizeof H);
-    with(H, much, s->learnt);
+    with(H, much, (const fl_six *)s->learnt);
     const double h = bent(H, g1, g, last->way, e, r);
     if (!(h > NEAR * s->overlap)) return;
     if (first->energy > 0.0 && rise_at(s, first, ww, g0)) {
@@ -425,7 +425,7 @@ FL_FOUR_VERSIONS static void bend(fl_surrogate *s, const fl_seen *seen, const fl
         if (!foresees(s)) s->steeper = 0.0;
         s->before = *last;
     }
-    with(H, each * force, s->learnt);
+    with(H, each * force, (const fl_six *)s->learnt);
     for (int r = 0; r < 6; r++)
         for (int c = r; c < 6; c++) s->H[FL_UPPER[r][c]] = H[r][c];
 }
@@ -492,12 +492,18 @@ void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen)
     give_back(s);
 }
 
-/* How much dF/ds was told too low, for the way. */
-static void learn_slope(fl_surrogate *s, const fl_told *t, double slope)
+/* How much dF/ds was told too low; */
+static double too_low(const fl_surrogate *s, const fl_told *t, double slope)
 {
-    const double way = sqrt(dot(t->q, t->q));
     const double more = steeper(s->steeper, gone(s, t)) * slope / t->slope - 1.0;
-    s->steeper = fabs(more) < 0.5 && way > NEAR * s->overlap ? more / way : 0.0;
+    return fabs(more) < 0.5 ? more : 0.0;
+}
+
+/* for the way, which is measured by the length that turns are taken times now. */
+static void learn_slope(fl_surrogate *s, const fl_look *last, double more)
+{
+    const double way = sqrt(dot(last->way, last->way));
+    s->steeper = way > NEAR * s->overlap ? more / way : 0.0;
 }
 
 /* The look that was the last one until now, and the way since. */
@@ -526,10 +532,11 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
     if (t) {
         const double force = slope_of(s, seen, slope);
         last = look_of(s, t);
-        if (s->used) s->owed += seen->energy - t->energy;
+        if (s->used && t->z > 0.0) s->owed += seen->energy - t->energy;
         if (force > 0.0) off = compare(s, t, &last, slope, force, seen->toward, tolerance);
-        learn_slope(s, t, seen->slope);
+        const double more = too_low(s, t, seen->slope);
         widen(s, &last, pressing.wide);
+        learn_slope(s, &last, more);
     } else {
         begin(s, seen, &pressing, tolerance);
     }

@@ -31,17 +31,20 @@
  * where t is not known.  Off is the error of force and moment over a, over the force; while the bodies
  * approach or part, over the force that the energy of this motion would give.  It is measured at the end of
  * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most.  Where a look finds
- * far more than was asked for, the contact has become another one, and what was learnt is forgotten.  Nothing
- * is told where pressures oppose each other, as in a slot: their sum is not their force.
+ * far more than was asked for, the contact has become another one, and what was learnt is forgotten; so are
+ * the looks before it, unless it has only gone far past what it might.  Nothing is told where pressures
+ * oppose each other, as in a slot: their sum is not their force.
  *
  * At a look W takes a step, by what was told wrong: as a rule with the same sign in every bounce, for what is
  * left out is of an even order.  So what has come together since the bodies touch is given back over the way
- * to come, forth or back: b = owed/(p W0 reach^2), by no more of the force than is aimed at anyway.
+ * to come, forth or back: b = owed/(p W0 reach^2), by no more of the force than is aimed at anyway.  No step
+ * has felt the force that is told where a look is made instead, so that of a way of n steps 2/n too much is
+ * counted as owed.
  *
  * dF/ds along the force is p (p - 1) W (dz/ds)^2 / z^2, and F = p W (dz/ds) / z: it goes as F^2/W, and
- * besides as 1 + c s, with c by what the last look found it told too low by, over the way.  Springs of
- * friction lose something wherever it was told too high: without c as much over a path however many looks
- * this is cut by.  A second order of it changes nothing that can be seen.
+ * besides as 1 + c s, 1/2 at least, with c by what the last look found it told too low by, over the way.
+ * Springs of friction lose something wherever it was told too high: without c as much over a path however
+ * many looks this is cut by.  A second order of it changes nothing that can be seen.
  *
  * Damping and friction go by the places of the last look, all pressing as then, times one factor that gives
  * them the force that is told; where force and moment put the centre of the pressure elsewhere they are all
@@ -201,8 +204,8 @@ static inline int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t)
  * Returns by how much it was off. */
 double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen, double tolerance);
 
-/* The rest of that: what follows from what was found, where own, arm, reach, what was learnt and the
- * stiffness are known. */
+/* The rest of that: what follows from what was found, where own, arm, reach, what was learnt, also of the
+ * way, back and the stiffness are known. */
 void fl_surrogate_fill(fl_surrogate *s, const fl_seen *seen);
 
 #endif

@@ -292,11 +292,37 @@ static void looks_on_a_line_teach_more(void **state)
     assert_true(fabs(order[0] / many - 2.0) < 0.3 && fabs(order[1] / many - 3.0) < 0.4 && better > 3.0);
 }
 
+/* A contact that was told and is nearly over, further than what is told of it goes: what it owes is a
+ * number. */
+static void what_is_owed_is_a_number(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 0, 7);
+    int past = 0;
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int k = 0; k < 150; k++) {
+            const way a = some(&g);
+            for (int c = 8; c <= 14; c++) {
+                laid l;
+                lay(&l, kind);
+                go(&l, a, 0.1 * c * DEPTH);
+                const int over = told_of(&l).z <= 0.0;
+                l.p.surrogate->used = 1;
+                fl_interact(&l.l.w, &l.p, 0, 0.0, 0);
+                const int touches = l.p.n;
+                if (touches) assert_true(isfinite(l.p.surrogate->owed) && isfinite(l.p.surrogate->back));
+                past += touches && over;
+                take_up(&l);
+            }
+        }
+    assert_true(past > 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
-                                       cmocka_unit_test(lanes_are_alike), cmocka_unit_test(the_slope_is_told),
-                                       cmocka_unit_test(a_look_teaches),
-                                       cmocka_unit_test(looks_on_a_line_teach_more)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_told_is_a_potential), cmocka_unit_test(lanes_are_alike),
+        cmocka_unit_test(the_slope_is_told),           cmocka_unit_test(a_look_teaches),
+        cmocka_unit_test(looks_on_a_line_teach_more),  cmocka_unit_test(what_is_owed_is_a_number)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }
