@@ -160,11 +160,15 @@ void lab_make(lab *l, double dt)
     fl_err err = {0};
     int32_t body;
     if (l->surface.n) lab_set(l, "structure.file=lab");
-    for (int32_t k = 0; k < l->scene.n_contact && lab_told() > 0.0; k++)
-        if (l->scene.contact[k].law == FL_LAW_PATCH && !(l->scene.contact[k].surrogate > 0.0))
-            l->scene.contact[k].surrogate = lab_told();
+    const fl_scene_contact *const all = &l->scene.contact[0]; /* [contact], which lab_start() began */
+    const int told = lab_told() > 0.0 && all->law == FL_LAW_PATCH && !(all->surrogate > 0.0);
+    if (told) lab_setf(l, "contact.surrogate=%.17g", lab_told());
     must(fl_scene_check(&l->scene, &err), &err);
     must(fl_world_make(&l->w, &l->scene, &l->field, l->surface.n ? &l->surface : NULL, &err), &err);
+    if (told && !l->w.told) {
+        printf("lab: no contact is told\n");
+        exit(1);
+    }
     l->w.dt = dt > 0.0 ? dt : fl_world_dt(&l->w, &body);
     must(fl_step_start(&l->w, &err), &err);
     l->made = 1;
