@@ -478,6 +478,7 @@ static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressi
     s->live = s->force > NET * s->pressure && v3_norm2(s->direction) > 0.0;
 }
 
+/* H gets b s^2. */
 static void give_back(fl_surrogate *s)
 {
     for (int r = 0; r < 6; r++)
