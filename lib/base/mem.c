@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#define _DEFAULT_SOURCE /* madvise */
 #include <string.h>
+#include <sys/mman.h>
 #include "base/mem.h"
 
 static long fail_after = -1, refusals;
@@ -23,6 +25,23 @@ static int refused(void)
     return 1;
 }
 
+/* What is as large as some of the large pages of the system had better lie in such, where there are any: of
+ * 100 000 spheres a search takes a third less then, and a step no more.  Not aligned to them: arrays that are
+ * gone through side by side would want the same lines of the cache. */
+enum { PAGE = 4096, LARGE = 2 * (1 << 21) };
+
+static void *room(size_t bytes)
+{
+    char *const p = aligned_alloc(64, bytes);
+#ifdef MADV_HUGEPAGE
+    if (p && bytes >= LARGE) {
+        char *const from = p + (PAGE - (uintptr_t)p % PAGE) % PAGE;
+        (void)madvise(from, (size_t)(p + bytes - from) / PAGE * PAGE, MADV_HUGEPAGE); /* or not */
+    }
+#endif
+    return p;
+}
+
 void *fl_alloc(int64_t n, size_t size, fl_err *err)
 {
     size_t bytes;
@@ -32,7 +51,7 @@ void *fl_alloc(int64_t n, size_t size, fl_err *err)
         return NULL;
     }
     bytes = (bytes + 63) / 64 * 64 + (bytes == 0 ? 64 : 0);
-    if (!refused()) p = aligned_alloc(64, bytes);
+    if (!refused()) p = room(bytes);
     if (p) memset(p, 0, bytes);
     else fl_fail(err, FL_SYSTEM, "out of memory: %zu bytes", bytes);
     return p;
