@@ -1,12 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "body/few.h"
 
-/* What is left behind the last four goes one by one. */
-static void split_one(double (*to)[FL_FEW], fl_vec3 a, int32_t k)
-{
-    to[0][k] = a.x, to[1][k] = a.y, to[2][k] = a.z;
-}
-
 static fl_vec3 join_one(const double (*from)[FL_FEW], int32_t k)
 {
     return v3(from[0][k], from[1][k], from[2][k]);
@@ -16,7 +10,7 @@ static fl_vec3 join_one(const double (*from)[FL_FEW], int32_t k)
 FL_WIDE_VERSIONS void fl_few_axes(fl_few *restrict s)
 {
 #pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
+    for (int32_t i = 0; i < s->lanes; i++) {
         const double w = s->q[0][i], x = s->q[1][i], y = s->q[2][i], z = s->q[3][i];
         const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z, wx = w * x,
                      wy = w * y, wz = w * z;
@@ -26,15 +20,18 @@ FL_WIDE_VERSIONS void fl_few_axes(fl_few *restrict s)
     }
 }
 
-FL_FOUR_VERSIONS void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, int32_t n)
+FL_WIDE_VERSIONS static void alike(double *h, double of)
+{
+#pragma omp simd
+    for (int32_t k = 0; k < FL_FEW; k++) h[k] = of;
+}
+
+FL_FOUR_VERSIONS static void take_row(fl_few *s, const fl_bodies *b, int32_t from)
 {
     const double *m = b->m + from, *invm = b->invm + from;
     const fl_vec3 *invI = b->invI + from, *v = b->v + from, *L = b->L + from, *w = b->w + from;
     const fl_quat *q = b->q + from;
-    int32_t k = 0;
-    s->from = from;
-    s->n = n;
-    for (; k + FL_LANES <= n; k += FL_LANES) {
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
         FL_FOUR_INTO(&s->m[k]) = FL_FOUR(&m[k]);
         FL_FOUR_INTO(&s->invm[k]) = FL_FOUR(&invm[k]);
         fl_few_split(s->invI, invI, k);
@@ -43,86 +40,138 @@ FL_FOUR_VERSIONS void fl_few_take(fl_few *s, const fl_bodies *b, int32_t from, i
         fl_few_split(s->w, w, k);
         fl_few_split4(s->q, q, sizeof *q, k);
     }
-    for (; k < n; k++) {
-        s->m[k] = m[k], s->invm[k] = invm[k];
-        split_one(s->invI, invI[k], k), split_one(s->v, v[k], k);
-        split_one(s->L, L[k], k), split_one(s->w, w[k], k);
-        s->q[0][k] = q[k].w, s->q[1][k] = q[k].x, s->q[2][k] = q[k].y, s->q[3][k] = q[k].z;
+}
+
+FL_FOUR_VERSIONS static void take_some(fl_few *s, const fl_bodies *b)
+{
+    const int32_t *at = s->at;
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
+        for (int32_t l = k; l < k + FL_LANES; l++) s->m[l] = b->m[at[l]], s->invm[l] = b->invm[at[l]];
+        fl_few_pick(s->invI, b->invI, at, k);
+        fl_few_pick(s->v, b->v, at, k);
+        fl_few_pick(s->L, b->L, at, k);
+        fl_few_pick(s->w, b->w, at, k);
+        fl_few_pick4(s->q, b->q, sizeof *b->q, at, k);
     }
 }
 
-FL_FOUR_VERSIONS void fl_few_take_forces(fl_few *s, const fl_bodies *b)
+void fl_few_take(fl_few *s, const fl_bodies *b, int32_t *at, int32_t n, double h)
 {
-    const fl_vec3 *f = b->f + s->from, *t = b->t + s->from;
-    int32_t k = 0;
-    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+    s->n = n;
+    s->lanes = (n + FL_FEW_REGISTER - 1) / FL_FEW_REGISTER * FL_FEW_REGISTER;
+    s->row = n == s->lanes && at[n - 1] - at[0] == n - 1;
+    s->at = at;
+    alike(s->h, h);
+    if (s->row) {
+        take_row(s, b, at[0]);
+        return;
+    }
+    for (int32_t k = n; k < s->lanes; k++) at[k] = at[n - 1];
+    take_some(s, b);
+}
+
+FL_FOUR_VERSIONS static void take_row_forces(fl_few *s, const fl_vec3 *f, const fl_vec3 *t)
+{
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
         fl_few_split(s->f, f, k);
         fl_few_split(s->t, t, k);
     }
-    for (; k < s->n; k++) split_one(s->f, f[k], k), split_one(s->t, t[k], k);
 }
 
-FL_FOUR_VERSIONS void fl_few_take_pose(fl_few *s, const fl_bodies *b)
+FL_FOUR_VERSIONS static void take_some_forces(fl_few *s, const fl_vec3 *f, const fl_vec3 *t)
 {
-    const fl_vec3 *x = b->x + s->from;
-    const double *odometer = b->odometer + s->from, *bound = b->bound + s->from;
-    int32_t k = 0;
-    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
+        fl_few_pick(s->f, f, s->at, k);
+        fl_few_pick(s->t, t, s->at, k);
+    }
+}
+
+void fl_few_take_forces(fl_few *s, const fl_bodies *b)
+{
+    if (s->row) take_row_forces(s, &b->f[s->at[0]], &b->t[s->at[0]]);
+    else take_some_forces(s, b->f, b->t);
+}
+
+FL_FOUR_VERSIONS static void take_row_pose(fl_few *s, const fl_vec3 *x, const double *odometer,
+                                           const double *bound)
+{
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
         fl_few_split(s->x, x, k);
         FL_FOUR_INTO(&s->odometer[k]) = FL_FOUR(&odometer[k]);
         FL_FOUR_INTO(&s->bound[k]) = FL_FOUR(&bound[k]);
     }
-    for (; k < s->n; k++) {
-        split_one(s->x, x[k], k);
-        s->odometer[k] = odometer[k], s->bound[k] = bound[k];
+}
+
+void fl_few_take_pose(fl_few *s, const fl_bodies *b)
+{
+    const int32_t from = s->at[0];
+    if (s->row) take_row_pose(s, &b->x[from], &b->odometer[from], &b->bound[from]);
+    for (int32_t k = 0; k < s->lanes && !s->row; k++) {
+        const int32_t i = s->at[k];
+        s->x[0][k] = b->x[i].x, s->x[1][k] = b->x[i].y, s->x[2][k] = b->x[i].z;
+        s->odometer[k] = b->odometer[i], s->bound[k] = b->bound[i];
     }
 }
 
-FL_FOUR_VERSIONS void fl_few_put_forces(const fl_few *s, fl_bodies *b)
+FL_FOUR_VERSIONS static void put_row_forces(const fl_few *s, fl_vec3 *f, fl_vec3 *t)
 {
-    fl_vec3 *f = b->f + s->from, *t = b->t + s->from;
-    int32_t k = 0;
-    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
         fl_few_join(f, s->f, k);
         fl_few_join(t, s->t, k);
     }
-    for (; k < s->n; k++) f[k] = join_one(s->f, k), t[k] = join_one(s->t, k);
 }
 
-FL_FOUR_VERSIONS void fl_few_put_speeds(const fl_few *s, fl_bodies *b)
+void fl_few_put_forces(const fl_few *s, fl_bodies *b)
 {
-    fl_vec3 *v = b->v + s->from, *L = b->L + s->from, *w = b->w + s->from;
-    int32_t k = 0;
-    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+    if (s->row) put_row_forces(s, &b->f[s->at[0]], &b->t[s->at[0]]);
+    for (int32_t k = 0; k < s->n && !s->row; k++)
+        b->f[s->at[k]] = join_one(s->f, k), b->t[s->at[k]] = join_one(s->t, k);
+}
+
+FL_FOUR_VERSIONS static void put_row_speeds(const fl_few *s, fl_vec3 *v, fl_vec3 *L, fl_vec3 *w)
+{
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
         fl_few_join(v, s->v, k);
         fl_few_join(L, s->L, k);
         fl_few_join(w, s->w, k);
     }
-    for (; k < s->n; k++) v[k] = join_one(s->v, k), L[k] = join_one(s->L, k), w[k] = join_one(s->w, k);
 }
 
-FL_FOUR_VERSIONS void fl_few_put_pose(const fl_few *s, fl_bodies *b)
+void fl_few_put_speeds(const fl_few *s, fl_bodies *b)
 {
-    fl_vec3 *x = b->x + s->from;
-    fl_quat *q = b->q + s->from;
-    double *odometer = b->odometer + s->from;
-    int32_t k = 0;
-    for (; k + FL_LANES <= s->n; k += FL_LANES) {
+    const int32_t from = s->at[0];
+    if (s->row) put_row_speeds(s, &b->v[from], &b->L[from], &b->w[from]);
+    for (int32_t k = 0; k < s->n && !s->row; k++) {
+        const int32_t i = s->at[k];
+        b->v[i] = join_one(s->v, k), b->L[i] = join_one(s->L, k), b->w[i] = join_one(s->w, k);
+    }
+}
+
+FL_FOUR_VERSIONS static void put_row_pose(const fl_few *s, fl_vec3 *x, fl_quat *q, double *odometer)
+{
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
         fl_few_join(x, s->x, k);
         fl_few_join4(q, sizeof *q, s->q, k);
         FL_FOUR_INTO(&odometer[k]) = FL_FOUR(&s->odometer[k]);
     }
-    for (; k < s->n; k++) {
-        x[k] = join_one(s->x, k);
-        q[k] = (fl_quat){s->q[0][k], s->q[1][k], s->q[2][k], s->q[3][k]};
-        odometer[k] = s->odometer[k];
+}
+
+void fl_few_put_pose(const fl_few *s, fl_bodies *b)
+{
+    const int32_t from = s->at[0];
+    if (s->row) put_row_pose(s, &b->x[from], &b->q[from], &b->odometer[from]);
+    for (int32_t k = 0; k < s->n && !s->row; k++) {
+        const int32_t i = s->at[k];
+        b->x[i] = join_one(s->x, k);
+        b->q[i] = (fl_quat){s->q[0][k], s->q[1][k], s->q[2][k], s->q[3][k]};
+        b->odometer[i] = s->odometer[k];
     }
 }
 
 FL_WIDE_VERSIONS void fl_few_weigh(fl_few *restrict s, fl_vec3 gravity)
 {
 #pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
+    for (int32_t i = 0; i < s->lanes; i++) {
         s->f[0][i] = s->m[i] * gravity.x;
         s->f[1][i] = s->m[i] * gravity.y;
         s->f[2][i] = s->m[i] * gravity.z;
@@ -132,11 +181,11 @@ FL_WIDE_VERSIONS void fl_few_weigh(fl_few *restrict s, fl_vec3 gravity)
     }
 }
 
-FL_WIDE_VERSIONS void fl_few_push(fl_few *restrict s, double h)
+FL_WIDE_VERSIONS void fl_few_push(fl_few *restrict s)
 {
 #pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
-        const double by = h * s->invm[i];
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const double h = s->h[i], by = h * s->invm[i];
         s->v[0][i] += by * s->f[0][i];
         s->v[1][i] += by * s->f[1][i];
         s->v[2][i] += by * s->f[2][i];
@@ -146,11 +195,11 @@ FL_WIDE_VERSIONS void fl_few_push(fl_few *restrict s, double h)
     }
 }
 
-FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s, double h)
+FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s)
 {
 #pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
-        const double by = h * s->invm[i];
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const double h = s->h[i], by = h * s->invm[i];
         s->v[0][i] += by * s->f[0][i];
         s->v[1][i] += by * s->f[1][i];
         s->v[2][i] += by * s->f[2][i];
@@ -168,14 +217,32 @@ FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s, double h)
     }
 }
 
-/* The square of the farthest that one of them turns in dt, at most. */
-FL_WIDE_VERSIONS static double farthest(const fl_few *restrict s, double dt)
+FL_WIDE_VERSIONS void fl_few_gains(const fl_few *restrict s, double (*restrict g)[FL_FEW])
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const double h = s->h[i], by = h * s->invm[i], x = h * s->t[0][i], y = h * s->t[1][i],
+                     z = h * s->t[2][i];
+        const double a = s->invI[0][i] * (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z),
+                     b = s->invI[1][i] * (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z),
+                     c = s->invI[2][i] * (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z);
+        g[0][i] = by * s->f[0][i];
+        g[1][i] = by * s->f[1][i];
+        g[2][i] = by * s->f[2][i];
+        g[3][i] = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c;
+        g[4][i] = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c;
+        g[5][i] = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
+    }
+}
+
+/* The square of the farthest that one of them turns in its step, at most. */
+FL_WIDE_VERSIONS static double farthest(const fl_few *restrict s)
 {
     double most = 0.0;
 #pragma omp simd reduction(max : most)
-    for (int32_t i = 0; i < s->n; i++) {
-        const double x = dt * s->L[0][i], y = dt * s->L[1][i], z = dt * s->L[2][i], e0 = s->invI[0][i],
-                     e1 = s->invI[1][i], e2 = s->invI[2][i], e01 = e0 > e1 ? e0 : e1,
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const double dt = 2.0 * s->h[i], x = dt * s->L[0][i], y = dt * s->L[1][i], z = dt * s->L[2][i],
+                     e0 = s->invI[0][i], e1 = s->invI[1][i], e2 = s->invI[2][i], e01 = e0 > e1 ? e0 : e1,
                      ease = e01 > e2 ? e01 : e2;
         const double turn2 = (ease * ease) * (x * x + y * y + z * z);
         most = turn2 > most ? turn2 : most;
@@ -192,18 +259,18 @@ static inline double sinc(double x2, int few) { return few ? q_sinc_few(x2) : q_
 #define ALWAYS static inline __attribute__((always_inline))
 
 /* Straight on, and about the first axis: from from[] to q.  w is its share in the spin. */
-ALWAYS void turn_first(fl_few *restrict s, double dt, int few, double (*restrict from)[FL_FEW])
+ALWAYS void turn_first(fl_few *restrict s, int few, double (*restrict from)[FL_FEW])
 {
-    const double path = fabs(dt);
 #pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const double h = s->h[i], dt = 2.0 * h, path = fabs(dt);
         const double vx = s->v[0][i], vy = s->v[1][i], vz = s->v[2][i];
         s->x[0][i] += dt * vx;
         s->x[1][i] += dt * vy;
         s->x[2][i] += dt * vz;
         s->odometer[i] += path * sqrt(vx * vx + vy * vy + vz * vz);
         const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i];
-        const double a0 = 0.5 * dt * (s->invI[0][i] - s->invI[1][i]);
+        const double a0 = h * (s->invI[0][i] - s->invI[1][i]);
         const double ow = s->q[0][i], ox = s->q[1][i], oy = s->q[2][i], oz = s->q[3][i];
         const double ex = 1 - 2 * (oy * oy + oz * oz), ey = 2 * (ox * oy + ow * oz),
                      ez = 2 * (ox * oz - ow * oy);
@@ -217,10 +284,11 @@ ALWAYS void turn_first(fl_few *restrict s, double dt, int few, double (*restrict
 }
 
 /* As a symmetric top: about the third axis, then about L.  top: of the spin. */
-ALWAYS void turn_top(fl_few *restrict s, double dt, int few, double (*restrict top)[FL_FEW])
+ALWAYS void turn_top(fl_few *restrict s, int few, double (*restrict top)[FL_FEW])
 {
 #pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const double dt = 2.0 * s->h[i];
         const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i], ease1 = s->invI[1][i],
                      more = s->invI[2][i] - ease1, a2 = dt * more;
         const double aw = s->q[0][i], ax = s->q[1][i], ay = s->q[2][i], az = s->q[3][i];
@@ -245,13 +313,13 @@ ALWAYS void turn_top(fl_few *restrict s, double dt, int few, double (*restrict t
 }
 
 /* About the first axis again; one without momentum stays as it is, to the bit. */
-ALWAYS void turn_last(fl_few *restrict s, double dt, int few, double (*restrict from)[FL_FEW],
+ALWAYS void turn_last(fl_few *restrict s, int few, double (*restrict from)[FL_FEW],
                       double (*restrict top)[FL_FEW])
 {
 #pragma omp simd
-    for (int32_t i = 0; i < s->n; i++) {
+    for (int32_t i = 0; i < s->lanes; i++) {
         const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i];
-        const double less = s->invI[0][i] - s->invI[1][i], a0 = 0.5 * dt * less;
+        const double less = s->invI[0][i] - s->invI[1][i], a0 = s->h[i] * less;
         const double dw = s->q[0][i], dx = s->q[1][i], dy = s->q[2][i], dz = s->q[3][i];
         const double ax = 1 - 2 * (dy * dy + dz * dz), ay = 2 * (dx * dy + dw * dz),
                      az = 2 * (dx * dz - dw * dy);
@@ -268,10 +336,11 @@ ALWAYS void turn_last(fl_few *restrict s, double dt, int few, double (*restrict 
         s->q[1][i] = qx;
         s->q[2][i] = qy;
         s->q[3][i] = qz;
-        /* the vector part of q conj(old) */
-        const double fx = qx * ow - qw * ox - qy * oz + qz * oy, fy = qy * ow - qw * oy + qx * oz - qz * ox,
-                     fz = qz * ow - qw * oz - qx * oy + qy * ox;
-        s->odometer[i] = s->odometer[i] + 2.0 * sqrt(fx * fx + fy * fy + fz * fz) * s->bound[i];
+        /* the vector part of q conj(old), as q_mul() has it */
+        const double fx = qx * ow - qw * ox - qy * oz + qz * oy, fy = qx * oz - qw * oy + qy * ow - qz * ox,
+                     fz = qy * ox - (qw * oz + qx * oy) + qz * ow;
+        const double chord = 2.0 * sqrt(fx * fx + fy * fy + fz * fz);
+        s->odometer[i] = s->odometer[i] + (turns ? chord : 0.0) * s->bound[i];
         const double half = 0.5 * less, wx = top[0][i] + half * (s->w[0][i] + l3 * ax),
                      wy = top[1][i] + half * (s->w[1][i] + l3 * ay),
                      wz = top[2][i] + half * (s->w[2][i] + l3 * az);
@@ -281,22 +350,22 @@ ALWAYS void turn_last(fl_few *restrict s, double dt, int few, double (*restrict 
     }
 }
 
-ALWAYS void drift(fl_few *restrict s, double dt, int few)
+ALWAYS void drift(fl_few *restrict s, int few)
 {
     _Alignas(64) double from[4][FL_FEW], top[3][FL_FEW];
-    turn_first(s, dt, few, from);
-    turn_top(s, dt, few, top);
-    turn_last(s, dt, few, from, top);
+    turn_first(s, few, from);
+    turn_top(s, few, top);
+    turn_last(s, few, from, top);
 }
 
-FL_WIDE_VERSIONS static void drift_few(fl_few *restrict s, double dt) { drift(s, dt, 1); }
-FL_WIDE_VERSIONS static void drift_far(fl_few *restrict s, double dt) { drift(s, dt, 0); }
+FL_WIDE_VERSIONS static void drift_few(fl_few *restrict s) { drift(s, 1); }
+FL_WIDE_VERSIONS static void drift_far(fl_few *restrict s) { drift(s, 0); }
 
-int fl_few_drift(fl_few *s, double dt)
+int fl_few_drift(fl_few *s)
 {
-    const double most = 0.25 * (1.0 + 1e-9) * farthest(s, dt);
+    const double most = 0.25 * (1.0 + 1e-9) * farthest(s);
     if (!(most <= Q_HALF_TURN_MOST)) return 0;
-    if (most <= Q_HALF_TURN_FEW) drift_few(s, dt);
-    else drift_far(s, dt);
+    if (most <= Q_HALF_TURN_FEW) drift_few(s);
+    else drift_far(s);
     return 1;
 }

@@ -56,8 +56,8 @@ static double search(const fl_world *w)
 {
     const int32_t total = w->b.total;
     return ARRAY(w->odometer_found, total) + ARRAY(w->inc_first, w->inc_first_cap) +
-           ARRAY(w->inc, w->inc_cap) + ARRAY(w->hit, w->hit_cap) + ARRAY(w->live, w->live_cap) +
-           ARRAY(w->met, total);
+           ARRAY(w->inc, w->inc_cap) + ARRAY(w->hit, w->hit_cap) + ARRAY(w->watch, w->watch_cap) +
+           ARRAY(w->live, w->live_cap) + ARRAY(w->met, total);
 }
 
 static double others(const fl_world *w)

@@ -38,8 +38,42 @@ static int32_t alike(const fl_world *w, int32_t k, int32_t to)
 {
     if (w->b.added || w->sea.waves) return k;
     to = run_of(w->b.ball, w->b.ball[k], k, run_of(w->b.hold, 0, k, to));
-    if (w->traffic.away) to = run_of(w->traffic.away, 0, k, to);
-    return w->sleep.kind ? run_of(w->sleep.kind, FL_AWAKE, k, to) : to;
+    return w->traffic.away ? run_of(w->traffic.away, 0, k, to) : to;
+}
+
+/* Whether that holds for k by itself, and it is no ball. */
+static int alone(const fl_world *w, int32_t k)
+{
+    return !(w->b.added || w->sea.waves || w->b.ball[k] || w->b.hold[k] || fl_world_away(w, k));
+}
+
+/* Those of them that are no balls go FL_FEW at a time. */
+typedef struct {
+    int32_t n, at[FL_FEW];
+} crew;
+
+/* Of bodies [k, end) as many as there is room for; behind the last of them. */
+static int32_t join(crew *c, int32_t k, int32_t end)
+{
+    if (c->n == 0 && k + FL_FEW <= end) {
+        for (int32_t i = 0; i < FL_FEW; i++) c->at[i] = k + i;
+        c->n = FL_FEW;
+        return k + FL_FEW;
+    }
+    while (k < end && c->n < FL_FEW) c->at[c->n++] = k++;
+    return k;
+}
+
+/* Half of the step that body k is in. */
+static double half_of(const fl_world *w, int32_t k, double h)
+{
+    return fl_sleep_kind(w, k) == FL_ENDS ? 0.5 * fl_sleep_seconds(w, k) : h;
+}
+
+static void take(const fl_world *w, fl_few *s, crew *c, double h)
+{
+    fl_few_take(s, &w->b, c->at, c->n, h);
+    for (int32_t k = 0; k < s->lanes && w->sleep.nap; k++) s->h[k] = half_of(w, s->at[k], h);
 }
 
 /* Something may press on it now.  Which spheres met another is not written down. */
@@ -54,10 +88,16 @@ static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
     return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h * b->invI[k].x, b->t[k])};
 }
 
-/* to another body that is. */
+/* to another body that is; */
 static fl_gain gain_free(const fl_bodies *b, int32_t k, double h)
 {
     return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), fl_body_turn(b, k, v3_scale(h, b->t[k]))};
+}
+
+/* to the k-th of a few. */
+static fl_gain gain_few(double (*g)[FL_FEW], int32_t k)
+{
+    return (fl_gain){v3(g[0][k], g[1][k], g[2][k]), v3(g[3][k], g[4][k], g[5][k])};
 }
 
 /* w may be the mean of a step before a kick, which is no gain of it. */
@@ -73,53 +113,82 @@ static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
 
 /* --- the first half ---------------------------------------------------------------------------- */
 
-/* At most FL_FEW floes that are unbound. */
-static void begin_few(fl_world *w, int32_t from, int32_t n, double h, double dt)
+/* Nobody is left in the crew. */
+static void begin_few(fl_world *w, crew *c, double h)
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
     const int calm = sea->n && fl_calm_goes(sea);
+    const int32_t *was = w->was.place, *at = c->at, n = c->n;
+    int32_t busy[FL_FEW], many = 0, any = 0;
+    double g[6][FL_FEW];
     fl_few s;
-    for (int32_t k = from; k < from + n && sea->n && !calm; k++) fl_sea_drag(sea, b, k, h, 0);
-    fl_few_take(&s, b, from, n);
+    if (n == 0) return;
+    for (int32_t k = 0; k < n && sea->n && !calm; k++) fl_sea_drag(sea, b, at[k], half_of(w, at[k], h), 0);
+    take(w, &s, c, h);
+    c->n = 0;
     fl_few_take_forces(&s, b);
     fl_few_take_pose(&s, b);
-    if (calm) fl_calm_drag(sea, b, &s, h, 0);
-    const int32_t *was = w->was.place + from;
-    for (int32_t k = 0; k < n; k++)
-        if (was[k]) w->gain[was[k]] = gain_free(b, from + k, h);
-    fl_few_push(&s, h);
-    const int done = fl_few_drift(&s, dt);
+    if (calm) fl_calm_drag(sea, b, &s, 0);
+    for (int32_t k = 0; k < n; k++) any |= was[at[k]];
+    for (int32_t k = 0; k < n && any; k++) {
+        busy[many] = k;
+        many += was[at[k]] != 0;
+    }
+    if (many) {
+        fl_few_axes(&s);
+        fl_few_gains(&s, g);
+    }
+    for (int32_t k = 0; k < many; k++) w->gain[was[at[busy[k]]]] = gain_few(g, busy[k]);
+    fl_few_push(&s);
+    const int done = fl_few_drift(&s);
     fl_few_put_speeds(&s, b);
     if (done) fl_few_put_pose(&s, b);
-    for (int32_t k = from; k < from + n && !done; k++) fl_drift(b, k, dt);
+    for (int32_t k = 0; k < n && !done; k++) fl_drift(b, at[k], 2.0 * s.h[k]);
 }
 
-static void begin_balls(fl_world *w, int32_t from, int32_t to, double h, double dt)
+static void begin_balls(fl_world *w, int32_t from, int32_t to, double h)
 {
     for (int32_t k = from; k < to && w->sea.n; k++) fl_sea_drag(&w->sea, &w->b, k, h, 0);
-    fl_move_balls(&w->b, from, to, h, dt);
+    fl_move_balls(&w->b, from, to, h, 2.0 * h);
 }
 
-static void begin_one(fl_world *w, int32_t k, double h, double dt)
+static void begin_one(fl_world *w, int32_t k, double h)
 {
     if (fl_world_away(w, k) || fl_sleep_kind(w, k) != FL_AWAKE) return;
     if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
     fl_gain gain, *const kept = fl_works_gain(w, k);
     kick(w, k, h, kept ? kept : &gain);
-    fl_drift(&w->b, k, dt);
+    fl_drift(&w->b, k, 2.0 * h);
 }
 
-static void begin(fl_world *w, int32_t from, int32_t to, double h, double dt)
+/* Bodies [from, to); some of them may be in the crew when it returns. */
+static void begin(fl_world *w, int32_t from, int32_t to, double h, crew *c)
 {
     int32_t end;
     for (int32_t k = from; k < to; k = end) {
         end = alike(w, k, to);
-        if (end == k) begin_one(w, end++, h, dt);
-        else if (w->b.ball[k]) begin_balls(w, k, end, h, dt);
+        if (end == k) begin_one(w, end++, h);
+        else if (w->b.ball[k]) begin_balls(w, k, end, h);
         else
-            for (int32_t i = k; i < end; i += FL_FEW)
-                begin_few(w, i, end - i < FL_FEW ? end - i : FL_FEW, h, dt);
+            while (k < end) {
+                k = join(c, k, end);
+                if (c->n == FL_FEW) begin_few(w, c, h);
+            }
+    }
+}
+
+/* Those of them that are awake. */
+static void begin_awake(fl_world *w, int32_t from, int32_t to, double h, crew *c)
+{
+    int32_t up[FL_GROUPS * FL_BALLS_GROUP];
+    const int32_t n = fl_sleep_list(w, from, to, up);
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t k = up[i], end = w->b.ball[k] ? alike(w, k, to) : k;
+        if (end > k) begin_balls(w, k, end, h), i += end - k - 1; /* none of them sleeps */
+        else if (w->sleep.kind[k] != FL_AWAKE || !alone(w, k)) begin_one(w, k, h);
+        else c->at[c->n++] = k;
+        if (c->n == FL_FEW) begin_few(w, c, h);
     }
 }
 
@@ -143,12 +212,51 @@ FL_WIDE_VERSIONS static void farthest(int32_t n, const double *restrict now, con
     moved[0] = first[0], moved[1] = first[1];
 }
 
-void fl_group_begin(fl_world *w, int32_t g, double h, double dt)
+void fl_groups_begin(fl_world *w, int32_t g, int32_t last, double h)
 {
-    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
-    if (!fl_sleep_all(w, from, to)) begin(w, from, to, h, dt);
-    if (w->balls.bodies) fl_balls_show(w, from, to);
-    farthest(to - from, w->b.odometer + from, w->odometer_found + from, w->group[g].moved);
+    const int32_t first = g * FL_BALLS_GROUP, all = end_of(w, last - 1);
+    crew c = {.n = 0};
+    if (w->sleep.nap) begin_awake(w, first, all, h, &c);
+    else begin(w, first, all, h, &c);
+    begin_few(w, &c, h);
+    for (int32_t k = g; k < last; k++) {
+        const int32_t from = k * FL_BALLS_GROUP, to = end_of(w, k);
+        if (w->balls.bodies) fl_balls_show(w, from, to);
+        farthest(to - from, w->b.odometer + from, w->odometer_found + from, w->group[k].moved);
+    }
+}
+
+/* The longer step of one whose sleep ends; the way of all of it is in the odometer. */
+static void rouse_one(fl_world *w, int32_t k)
+{
+    const double odometer = w->b.odometer[k];
+    fl_step_out(w, k, fl_sleep_seconds(w, k));
+    w->b.odometer[k] = odometer;
+}
+
+static void rouse_few(fl_world *w, crew *c)
+{
+    const int32_t n = c->n;
+    double odometer[FL_FEW];
+    for (int32_t k = 0; k < n; k++) odometer[k] = w->b.odometer[c->at[k]];
+    begin_few(w, c, 0.0);
+    for (int32_t k = 0; k < n; k++) w->b.odometer[c->at[k]] = odometer[k];
+}
+
+void fl_groups_rouse(fl_world *w, int32_t g, int32_t last)
+{
+    int32_t up[FL_GROUPS * FL_BALLS_GROUP];
+    const int32_t n = fl_sleep_list(w, g * FL_BALLS_GROUP, end_of(w, last - 1), up);
+    crew c = {.n = 0};
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t k = up[i];
+        if (w->sleep.kind[k] != FL_ENDS) continue;
+        fl_sleep_begin(w, k);
+        if (!alone(w, k)) rouse_one(w, k);
+        else c.at[c.n++] = k;
+        if (c.n == FL_FEW) rouse_few(w, &c);
+    }
+    rouse_few(w, &c);
 }
 
 /* --- the second -------------------------------------------------------------------------------- */
@@ -163,6 +271,8 @@ static fl_vec3 pushed(const fl_world *w, int32_t i)
     f = v3_madd(f, -w->b.m[i], w->gravity);
     return w->sea.water ? v3_sub(f, fl_sea_push(&w->sea, i)) : f;
 }
+
+static fl_group *group_of(const fl_world *w, int32_t k) { return &w->group[k / FL_BALLS_GROUP]; }
 
 /* What nothing presses has no works of contacts, and its push is 0. */
 static void push(const fl_world *w, int32_t k, fl_group *own)
@@ -184,19 +294,22 @@ static void book_plain(fl_group *own, const fl_plain_works *q, int32_t n)
 
 /* Which of a few have more to do than what the water asks, 0 the first: something presses on them, or has
  * left them something to forget. */
-static int32_t find_busy(const fl_world *w, int32_t from, int32_t n, int32_t busy[FL_FEW])
+static int32_t find_busy(const fl_world *w, const crew *c, int32_t busy[FL_FEW])
 {
+    const int32_t *at = c->at, n = c->n;
     const int all = w->frozen.n > 0;
-    const uint8_t *met = w->met + from;
-    const int32_t *sink = w->sink.place + from, *was = w->was.place + from;
-    int32_t many = 0;
+    const int32_t *sink = w->sink.place, *was = w->was.place;
+    int32_t many = 0, any = 0;
     if (!w->sink.all && !w->was.all) {
-        for (int32_t k = 0; k < n; k++)
-            if (sink[k] | was[k]) busy[many++] = k;
+        for (int32_t k = 0; k < n; k++) any |= sink[at[k]] | was[at[k]];
+        for (int32_t k = 0; k < n && any; k++) {
+            busy[many] = k;
+            many += (sink[at[k]] | was[at[k]]) != 0;
+        }
         return many;
     }
     for (int32_t k = 0; k < n; k++)
-        if (all || met[k] || w->sink.at[sink[k]].n || w->was.at[was[k]].n) busy[many++] = k;
+        if (all || w->met[at[k]] || w->sink.at[sink[at[k]]].n || w->was.at[was[at[k]]].n) busy[many++] = k;
     return many;
 }
 
@@ -212,35 +325,68 @@ static void find_forces(fl_world *w, fl_few *s)
         fl_few_put_forces(s, &w->b);
     }
     for (int32_t k = 0; k < others; k++) {
-        fl_step_soft(w, s->from + left[k]);
+        fl_step_soft(w, s->at[left[k]]);
         fl_few_take_force(s, &w->b, left[k]);
     }
 }
 
-static void end_few(fl_world *w, int32_t from, int32_t n, double h, fl_group *own)
+/* Those of a few whose sleep ends with this step, and their speeds before the drag of it. */
+typedef struct {
+    int32_t n, which[FL_FEW];
+    fl_vec3 v[FL_FEW], spin[FL_FEW];
+} enders;
+
+static void find_enders(const fl_world *w, const fl_few *s, enders *e)
+{
+    e->n = 0;
+    if (!w->sleep.nap) return;
+    for (int32_t k = 0; k < s->n; k++) {
+        e->which[e->n] = k;
+        e->n += w->sleep.kind[s->at[k]] == FL_ENDS;
+    }
+    for (int32_t i = 0; i < e->n; i++) {
+        const int32_t k = e->which[i];
+        e->v[i] = v3(s->v[0][k], s->v[1][k], s->v[2][k]);
+        e->spin[i] = v3(s->w[0][k], s->w[1][k], s->w[2][k]);
+    }
+}
+
+/* Nobody is left in the crew. */
+static void end_few(fl_world *w, crew *c, double h)
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
     const int calm = sea->n && fl_calm_goes(sea);
+    const int32_t *at = c->at, n = c->n;
     int32_t busy[FL_FEW];
-    const int32_t many = find_busy(w, from, n, busy);
+    const int32_t many = find_busy(w, c, busy);
+    double g[6][FL_FEW];
+    enders e;
     fl_few s;
-    fl_few_take(&s, b, from, n);
+    if (n == 0) return;
+    take(w, &s, c, h);
+    c->n = 0;
     fl_few_axes(&s);
     find_forces(w, &s);
     for (int32_t k = 0; k < many; k++) {
-        fl_step_press(w, from + busy[k]);
+        fl_step_press(w, at[busy[k]]);
         fl_few_take_force(&s, b, busy[k]);
     }
-    fl_few_kick(&s, h);
-    if (calm) fl_calm_drag(sea, b, &s, h, 1);
+    fl_few_kick(&s);
+    find_enders(w, &s, &e);
+    if (calm) fl_calm_drag(sea, b, &s, 1);
     fl_few_put_speeds(&s, b);
-    for (int32_t k = from; k < from + n && sea->n && !calm; k++) fl_sea_drag(sea, b, k, h, 1);
+    for (int32_t k = 0; k < n && sea->n && !calm; k++) fl_sea_drag(sea, b, at[k], s.h[k], 1);
+    for (int32_t k = 0; k < e.n; k++) {
+        fl_sleep_book(w, at[e.which[k]], e.v[k], e.spin[k]);
+        fl_sleep_ended(w, at[e.which[k]]);
+    }
+    if (many) fl_few_gains(&s, g);
     for (int32_t k = 0; k < many; k++) {
-        const int32_t i = from + busy[k];
-        const fl_gain back = gain_free(b, i, h);
-        push(w, i, own);
-        book(own, fl_works_take(w, i, fl_works_gain(w, i), &back));
+        const int32_t i = at[busy[k]];
+        const fl_gain back = gain_few(g, busy[k]);
+        push(w, i, group_of(w, i));
+        book(group_of(w, i), fl_works_take(w, i, fl_works_gain(w, i), &back));
     }
 }
 
@@ -359,33 +505,100 @@ static int32_t first_lost(const fl_bodies *b, int32_t from, int32_t to)
     return -1;
 }
 
-void fl_group_end(fl_world *w, int32_t g, double h)
+/* Nothing is told of group g, and what rows do to its bodies is known. */
+static void start_group(fl_world *w, int32_t g)
 {
     const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
-    fl_group *own = &w->group[g];
-    int32_t end, many = 0;
+    w->group[g] = (fl_group){.lost = -1};
+    if (!w->balls.bodies) return;
+    fl_fetch(&w->balls.was[to], FL_BALLS_GROUP * sizeof *w->balls.was); /* of the group behind it */
+    fl_balls_collect(w, from, to);
+}
+
+/* From k on, which is a ball, those that go as it does, [k, to) being of one group; behind the last.  finite:
+ * 0 where they are not known to be. */
+static int32_t end_ball(fl_world *w, int32_t k, int32_t to, double h, int *finite)
+{
+    fl_group *own = group_of(w, k);
+    int32_t end = end_plain(w, k, to, h, own, finite);
+    if (end > k) return end;
+    *finite = 0;
+    end = h > 0.0 ? alike(w, k, to) : k;
+    if (end == k) {
+        end_one(w, k, h, own);
+        return k + 1;
+    }
+    end = before_plain(w, k, end);
+    end_balls(w, k, end, h, own);
+    return end;
+}
+
+/* Group g; whether it may have lost a number, as far as that is known. */
+static int end_group(fl_world *w, int32_t g, double h, crew *c)
+{
+    const int32_t from = g * FL_BALLS_GROUP, to = end_of(w, g);
     int finite = 1;
-    *own = (fl_group){.lost = -1};
-    if (fl_sleep_all(w, from, to)) return;
-    if (w->balls.bodies) {
-        fl_fetch(&w->balls.was[to], FL_BALLS_GROUP * sizeof *w->balls.was); /* of the group behind it */
-        fl_balls_collect(w, from, to);
-    }
-    if (end_spheres(w, from, to, h, own, &finite)) {
-        if (!finite) own->lost = first_lost(&w->b, from, to);
-        return;
-    }
-    for (int32_t k = from; k < to; k = end) {
-        end = end_plain(w, k, to, h, own, &finite);
-        many += end - k;
-        if (end > k) continue;
+    start_group(w, g);
+    if (end_spheres(w, from, to, h, &w->group[g], &finite)) return !finite;
+    for (int32_t k = from, end; k < to; k = end) {
+        if (w->b.ball[k]) {
+            end_few(w, c, h); /* sums are in the order of the bodies */
+            end = end_ball(w, k, to, h, &finite);
+            continue;
+        }
+        finite = 0;
         end = h > 0.0 ? alike(w, k, to) : k;
-        if (end > k && w->b.ball[k]) end = before_plain(w, k, end);
-        if (end == k) end_one(w, end++, h, own);
-        else if (w->b.ball[k]) end_balls(w, k, end, h, own);
-        else
-            for (int32_t i = k; i < end; i += FL_FEW)
-                end_few(w, i, end - i < FL_FEW ? end - i : FL_FEW, h, own);
+        if (end == k) {
+            end_few(w, c, h);
+            end_one(w, end++, h, &w->group[g]);
+            continue;
+        }
+        while (k < end) {
+            k = join(c, k, end);
+            if (c->n == FL_FEW) end_few(w, c, h);
+        }
     }
-    if (!finite || many < to - from) own->lost = first_lost(&w->b, from, to);
+    return !finite;
+}
+
+/* Of groups [g, last) those that do not coast; lost: as above.  Whoever wakes and is touched is pressed by
+ * itself, see fl_sleep_end(). */
+static void end_awake(fl_world *w, int32_t g, int32_t last, double h, crew *c, int lost[FL_GROUPS])
+{
+    int32_t up[FL_GROUPS * FL_BALLS_GROUP];
+    const int32_t n = fl_sleep_list(w, g * FL_BALLS_GROUP, end_of(w, last - 1), up);
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t k = up[i];
+        int finite = 1;
+        lost[k / FL_BALLS_GROUP - g] = 1;
+        if (w->b.ball[k]) { /* none of them sleeps */
+            end_few(w, c, h);
+            i += end_ball(w, k, end_of(w, k / FL_BALLS_GROUP), h, &finite) - k - 1;
+            continue;
+        }
+        const uint8_t kind = w->sleep.kind[k];
+        const int goes = kind == FL_AWAKE || (kind == FL_ENDS && !w->met[k]);
+        if (goes && h > 0.0 && alone(w, k)) {
+            c->at[c->n++] = k;
+            if (c->n == FL_FEW) end_few(w, c, h);
+        } else {
+            end_few(w, c, h);
+            end_one(w, k, h, group_of(w, k));
+        }
+    }
+}
+
+void fl_groups_end(fl_world *w, int32_t g, int32_t last, double h)
+{
+    crew c = {.n = 0};
+    int lost[FL_GROUPS];
+    if (w->sleep.nap) {
+        for (int32_t k = g; k < last; k++) start_group(w, k), lost[k - g] = 0;
+        end_awake(w, g, last, h, &c, lost);
+    } else {
+        for (int32_t k = g; k < last; k++) lost[k - g] = end_group(w, k, h, &c);
+    }
+    end_few(w, &c, h);
+    for (int32_t k = g; k < last; k++)
+        if (lost[k - g]) w->group[k].lost = first_lost(&w->b, k * FL_BALLS_GROUP, end_of(w, k));
 }

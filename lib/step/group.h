@@ -16,12 +16,20 @@ static inline void fl_longest(double first[2], double moved)
     else if (moved > first[1]) first[1] = moved;
 }
 
-/* Drag and kick of h and drift of dt of those of group g that move in this step; gain[] of those that
- * something presses is what the kick changes, and moved of w->group[g] how far they have come. */
-void fl_group_begin(fl_world *w, int32_t g, double h, double dt);
+/* How many of them a thread takes in a row: where most sleep those that do not fill a register together.  No
+ * more than FL_GROUPS, and no bit depends on how many it is. */
+enum { FL_GROUPS = 8 };
+static inline int32_t fl_groups_each(const fl_world *w) { return w->sleep.nap ? FL_GROUPS : 1; }
 
-/* Forces on the bodies of group g, their kick of h (0 at the start: there is none), what the water takes, and
- * what the books want of them: w->group[g]. */
-void fl_group_end(fl_world *w, int32_t g, double h);
+/* Drag and kick of h and drift of 2 h of those of groups [g, last) that move in this step; gain[] of those
+ * that something presses is what the kick changes, and moved of w->group[] how far they have come. */
+void fl_groups_begin(fl_world *w, int32_t g, int32_t last, double h);
+
+/* The same of those that are FL_ENDS, each with the step that its sleep was (sleep.h). */
+void fl_groups_rouse(fl_world *w, int32_t g, int32_t last);
+
+/* Forces on the bodies of these groups, their kick of h (0 at the start: there is none), what the water
+ * takes, and what the books want of them: w->group[]. */
+void fl_groups_end(fl_world *w, int32_t g, int32_t last, double h);
 
 #endif

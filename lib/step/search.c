@@ -136,7 +136,11 @@ int fl_search_index(fl_world *w, fl_err *err)
     }
     w->inc_first[0] = 0;
     if (fit(&w->hit, &w->hit_cap, w->n_pair, sizeof *w->hit, err)) return -1;
-    for (int32_t c = 0; c < w->n_pair; c++) w->hit[c] = w->pair[c].n != 0;
+    if (fit(&w->watch, &w->watch_cap, w->n_pair, sizeof *w->watch, err)) return -1;
+    if (w->sleep.nap && fit(&w->sleep.due, &w->sleep.due_cap, w->n_pair, sizeof *w->sleep.due, err))
+        return -1;
+    if (w->sleep.nap && w->n_pair) memset(w->sleep.due, 0, (size_t)w->n_pair);
+    for (int32_t c = 0; c < w->n_pair; c++) w->hit[c] = w->pair[c].n != 0, fl_world_watch(w, c);
     fl_search_live(w);
     return w->failed ? fl_fail(err, FL_SYSTEM, "out of memory") : 0;
 }

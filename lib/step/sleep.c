@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <omp.h>
 #include "base/mem.h"
 #include "body/integrate.h"
 #include "step/sleep.h"
@@ -7,9 +8,10 @@
 #include "step/works.h"
 
 enum {
-    WINDOW = 64,      /* steps over which it is seen whether a floe rests */
-    LEAST = 4,        /* steps: a shorter sleep is not worth while */
-    MOST = 1 << 14,   /* steps: doubling ends here */
+    WINDOW = 64,    /* steps over which it is seen whether a floe rests */
+    LEAST = 4,      /* steps: a shorter sleep is not worth while, and who cannot sleep is not asked before */
+    SELDOM = 64,    /* steps: and not much later */
+    MOST = 1 << 14, /* steps: doubling ends here */
     LONGEST = 1 << 20 /* windows of rest */
 };
 
@@ -28,9 +30,10 @@ int fl_sleep_make(fl_world *w, fl_err *err)
     s->tol = w->scene->run.sleep;
     s->nap = fl_alloc(w->n, sizeof *s->nap, err);
     s->kind = fl_alloc(w->n, sizeof *s->kind, err);
+    s->until = fl_alloc(w->n, sizeof *s->until, err);
     s->image = fl_alloc(w->n, sizeof *s->image, err);
     s->stack = fl_alloc(w->n, sizeof *s->stack, err);
-    if (!s->nap || !s->kind || !s->image || !s->stack) return -1;
+    if (!s->nap || !s->kind || !s->until || !s->image || !s->stack) return -1;
     for (int32_t j = 0; j < w->sea.wave.n; j++) {
         s->rise += w->sea.wave.train[j].a * w->sea.wave.train[j].omega;
         s->slope += w->sea.wave.train[j].a * w->sea.wave.train[j].k;
@@ -43,7 +46,8 @@ void fl_sleep_new(fl_world *w, int32_t i)
 {
     if (!w->sleep.nap) return;
     fl_nap *nap = &w->sleep.nap[i];
-    *nap = (fl_nap){.span = LEAST,
+    *nap = (fl_nap){.since = w->step,
+                    .span = LEAST,
                     .mark = -1.0,
                     .off = nap->off,
                     .summed = nap->summed,
@@ -51,63 +55,75 @@ void fl_sleep_new(fl_world *w, int32_t i)
                     .naps = nap->naps,
                     .rested = nap->rested};
     w->sleep.kind[i] = FL_AWAKE;
+    w->sleep.until[i] = 0;
 }
 
 double fl_sleep_bytes(const fl_world *w)
 {
     const fl_sleep *s = &w->sleep;
-    return s->nap ? (double)w->n *
-                        (double)(sizeof *s->nap + sizeof *s->image + sizeof *s->kind + sizeof *s->stack)
+    return s->nap ? (double)w->n * (double)(sizeof *s->nap + sizeof *s->image + sizeof *s->kind +
+                                            sizeof *s->until + sizeof *s->stack) +
+                        (double)s->due_cap * (double)sizeof *s->due
                   : 0.0;
 }
 
 void fl_sleep_free(fl_sleep *s)
 {
-    free(s->nap), free(s->kind), free(s->image), free(s->stack);
+    free(s->nap), free(s->kind), free(s->until), free(s->image), free(s->stack), free(s->due);
     *s = (fl_sleep){0};
 }
 
 /* --- who coasts -------------------------------------------------------------------------------- */
 
 /* The floe k over s seconds by what acts at the begin: weight, water, springs, wind.  First half ... */
-static void out(fl_world *w, int32_t k, double s)
+void fl_sleep_begin(fl_world *w, int32_t k)
 {
     fl_nap *nap = &w->sleep.nap[k];
     fl_body_rates(&w->b, k, &nap->a, &nap->turn);
+}
+
+static void out(fl_world *w, int32_t k, double s)
+{
+    fl_sleep_begin(w, k);
     fl_step_out(w, k, s);
 }
 
-/* How far drag of h seconds changes the speed of a point of floe k, over h. */
-static double drag(fl_world *w, int32_t k, double h)
-{
-    const fl_bodies *b = &w->b;
-    const fl_vec3 v = b->v[k], spin = b->w[k];
-    if (!w->sea.n) return 0.0;
-    fl_sea_drag(&w->sea, &w->b, k, h, 1);
-    return (v3_norm(v3_sub(b->v[k], v)) + b->bound[k] * v3_norm(v3_sub(b->w[k], spin))) / h;
-}
-
-/* ... and second, where forces of now are those that stay; returns what it is off by [m]. */
-static double back(fl_world *w, int32_t k, double s)
+/* What a step of s seconds is off by, when it has been made: the forces of now are those that stay, and v and
+ * spin what the speeds were before the last drag [m]. */
+static double off_by(fl_world *w, int32_t k, double s, fl_vec3 v, fl_vec3 spin)
 {
     fl_nap *nap = &w->sleep.nap[k];
-    fl_bodies *b = &w->b;
+    const fl_bodies *b = &w->b;
+    const double slowed = nap->drag, r = b->bound[k], turned = v3_norm(spin) * s;
     fl_vec3 a, turn;
     fl_body_rates(b, k, &a, &turn);
-    fl_step_kick(w, k, 0.5 * s);
-    const double slowed = nap->drag, r = b->bound[k], turned = v3_norm(b->w[k]) * s;
-    nap->drag = drag(w, k, 0.5 * s);
+    nap->drag = (v3_norm(v3_sub(b->v[k], v)) + r * v3_norm(v3_sub(b->w[k], spin))) / (0.5 * s);
     return s * s / 12.0 *
                (v3_norm(v3_sub(a, nap->a)) + r * v3_norm(v3_sub(turn, nap->turn)) +
                 fabs(nap->drag - slowed)) +
            r * turned * turned * turned / 12.0;
 }
 
-/* The bound of the path of floe k over s seconds from now on. */
-static double way_of(const fl_world *w, int32_t k, double s)
+/* ... and second; returns what it is off by [m]. */
+static double back(fl_world *w, int32_t k, double s)
 {
     const fl_bodies *b = &w->b;
-    const double r = b->bound[k], least = 1.0 / fl_body_ease(b, k);
+    fl_step_kick(w, k, 0.5 * s);
+    const fl_vec3 v = b->v[k], spin = b->w[k];
+    if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, 0.5 * s, 1);
+    return off_by(w, k, s, v, spin);
+}
+
+/* How a floe goes: bounds of the speeds of its points and of what changes these [m/s], [m/s2]. */
+typedef struct {
+    double speed, turn;     /* of the centre; about it [1/s]       */
+    double faster, turning; /* the same by what acts, drag apart; [1/s2] */
+} pace;
+
+static pace pace_of(const fl_world *w, int32_t k)
+{
+    const fl_bodies *b = &w->b;
+    const double ease = fl_body_ease(b, k);
     fl_vec3 a, turn;
     fl_body_rates(b, k, &a, &turn);
     double torque = v3_norm(b->t[k]);
@@ -115,13 +131,14 @@ static double way_of(const fl_world *w, int32_t k, double s)
         const fl_vec3 u = v3_sub(b->v[k], b->flow[k]);
         torque += v3_norm(fl_body_momentum(b, k, u)) * v3_norm(u);
     }
-    return s * (v3_norm(b->v[k]) + r * v3_norm(b->L[k]) / least) +
-           s * s * (0.5 * (v3_norm(a) + r * torque / least) + w->sleep.nap[k].drag);
+    return (pace){v3_norm(b->v[k]), v3_norm(b->L[k]) * ease, v3_norm(a), torque * ease};
 }
 
-static double seconds(const fl_world *w, int32_t k)
+/* The bound of the path of floe k over s seconds from now on. */
+static double way_of(const fl_world *w, int32_t k, const pace *p, double s)
 {
-    return (double)(w->step - w->sleep.nap[k].since) * w->dt;
+    const double r = w->b.bound[k];
+    return s * (p->speed + r * p->turn) + s * s * (0.5 * (p->faster + r * p->turning) + w->sleep.nap[k].drag);
 }
 
 /* It may be beyond the bounds of the domain by now. */
@@ -134,46 +151,80 @@ static int may_have_left(const fl_world *w, int32_t k)
                        x.z + r < t->lo.z || x.z - r > t->hi.z);
 }
 
-static int may_touch(const fl_world *w, int32_t k)
+/* Several threads may have a body in hand. */
+static void end_sleep(uint8_t *kind)
 {
-    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-        if (!fl_world_apart(w, &w->pair[w->inc[c]])) return 1;
-    }
-    return 0;
+    uint8_t is;
+#pragma omp atomic read
+    is = *kind;
+    if (is != FL_COASTS) return;
+#pragma omp atomic write
+    *kind = FL_ENDS;
 }
 
-void fl_sleep_rouse(fl_world *w)
+/* The pairs of thing k that have to be looked at. */
+static void call_pairs(fl_world *w, int32_t k)
 {
     fl_sleep *s = &w->sleep;
-#pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < w->n; k++)
-        if (s->kind[k] == FL_COASTS && (w->step >= s->nap[k].until || may_touch(w, k) || may_have_left(w, k)))
-            s->kind[k] = FL_ENDS;
-            /* only now: a way that is gone is for a moment twice in the odometer, which others have looked at
-             */
-#pragma omp parallel for schedule(dynamic, 16)
-    for (int32_t k = 0; k < w->n; k++) {
-        if (s->kind[k] != FL_ENDS) continue;
-        const double odometer = w->b.odometer[k];
-        out(w, k, seconds(w, k));
-        w->b.odometer[k] = odometer; /* the way of all of it is in it */
+    for (int64_t i = w->inc_first[k]; i < w->inc_first[k + 1]; i++) {
+        const int32_t c = w->inc[i];
+        if (fl_world_apart(w, c)) continue;
+#pragma omp atomic write
+        s->due[c] = 1;
+        end_sleep(&s->kind[w->watch[c].i]);
+        if (w->watch[c].j < w->n) end_sleep(&s->kind[w->watch[c].j]);
     }
+}
+
+/* Only who moves can have come too near to another: ways of those that coast are in the odometers already,
+ * and to wake somebody brings no pair nearer.  Of pairs that have just been found nothing is known. */
+void fl_sleep_call(fl_world *w, int thread, int threads)
+{
+    fl_sleep *s = &w->sleep;
+    const int32_t end = (int32_t)((int64_t)w->n * (thread + 1) / threads);
+    const int found = w->found_at == w->step;
+    for (int32_t k = (int32_t)((int64_t)w->n * thread / threads); k < end; k++) {
+        uint8_t kind;
+#pragma omp atomic read
+        kind = s->kind[k];
+        if (kind == FL_COASTS) {
+            if (w->step >= s->until[k] || (w->traffic.away && may_have_left(w, k))) end_sleep(&s->kind[k]);
+            else if (!found) continue;
+        }
+        call_pairs(w, k);
+    }
+    for (int32_t k = w->n + thread; k < w->b.total && w->ride.m.n; k += threads)
+        if (w->ride.of[k - w->n] >= 0) call_pairs(w, k);
+}
+
+/* A sleep of floe k over s seconds has ended, off by that.  What it is off by goes with the third power of s.
+ */
+static void slept(fl_world *w, int32_t k, double off)
+{
+    fl_sleep *all = &w->sleep;
+    fl_nap *nap = &all->nap[k];
+    const double most = all->tol * w->b.radius[k];
+    const int32_t steps = (int32_t)(w->step - nap->since), span = off <= 0.0625 * most ? 2 * steps
+                                                                  : off <= 0.5 * most  ? steps
+                                                                                       : steps / 2;
+    nap->off = fmax(nap->off, off / w->b.radius[k]);
+    nap->summed += off / w->b.radius[k];
+    if (w->step >= all->until[k] || span < nap->span)
+        nap->span = span < LEAST ? LEAST : span > MOST ? MOST : span;
+    nap->coasted += steps;
+    nap->naps++;
+    all->until[k] = nap->since = w->step;
+}
+
+void fl_sleep_book(fl_world *w, int32_t k, fl_vec3 v, fl_vec3 spin)
+{
+    slept(w, k, off_by(w, k, fl_sleep_seconds(w, k), v, spin));
 }
 
 void fl_sleep_end(fl_world *w, int32_t k)
 {
-    fl_nap *nap = &w->sleep.nap[k];
-    const double s = seconds(w, k), most = w->sleep.tol * w->b.radius[k];
-    const int whole = w->step >= nap->until;
     fl_step_soft(w, k);
-    const double off = back(w, k, s);
-    nap->off = fmax(nap->off, off / w->b.radius[k]);
-    nap->summed += off / w->b.radius[k];
-    const double ratio = off > 0.0 ? cbrt(0.5 * most / off) : 2.0; /* off goes with the third power of s */
-    const double span = (double)(w->step - nap->since) * (ratio < 2.0 ? ratio : 2.0);
-    if (whole || span < nap->span) nap->span = span < LEAST ? LEAST : span > MOST ? MOST : (int32_t)span;
-    nap->coasted += w->step - nap->since;
-    nap->naps++;
+    slept(w, k, back(w, k, fl_sleep_seconds(w, k)));
     /* what came to touch it in the last step presses for that */
     if (!fl_step_press(w, k)) return;
     const fl_vec3 f = w->b.f[k], t = w->b.t[k];
@@ -185,47 +236,44 @@ void fl_sleep_end(fl_world *w, int32_t k)
     w->b.t[k] = t;
 }
 
-/* The time for which a step of floe k stays within the tolerance whatever it meets [s].  What acts smoothly
- * pulls a point back with no more than omega^2 = rho g A (1/m + r^2/2I), A the largest area that the water
- * cuts out of it, at most half of its surface, and springs; so it changes by no more than omega^2 times the
- * way of its points against the surface of the water, at a speed u that grows by their acceleration a: the
- * step is off by up to s^3/12 omega^2 (u + s a).  Three quarters of the tolerance for that, a quarter for
+/* How many of `left` steps of floe k stay within the tolerance together, whatever it meets.  What acts
+ * smoothly pulls a point back with no more than omega^2 = rho g A (1/m + r^2/2I), A the largest area that the
+ * water cuts out of it, at most half of its surface, and springs; so it changes by no more than omega^2 times
+ * the way of its points against the surface of the water, at a speed u that grows by their acceleration a: s
+ * seconds are off by up to s^3/12 omega^2 (u + s a).  Three quarters of the tolerance for that, a quarter for
  * turns. */
-static double within(const fl_world *w, int32_t k)
+static int32_t within(const fl_world *w, int32_t k, const pace *p, int32_t left)
 {
     const fl_bodies *b = &w->b;
-    const double r = b->bound[k] + b->radius[k], most = w->sleep.tol * b->radius[k],
-                 least = 1.0 / fl_body_ease(b, k);
+    const double r = b->bound[k] + b->radius[k], most = w->sleep.tol * b->radius[k];
     const fl_vec3 v = b->v[k], spin = b->w[k];
-    double drawn, stiff = fl_world_spring(w, k, &drawn) * b->invm[k], s = INFINITY;
+    double drawn, stiff = fl_world_spring(w, k, &drawn) * b->invm[k];
     if (w->sea.water)
-        stiff += 0.5 * w->sea.weight * w->sea.hull[k].surface * (b->invm[k] + 0.5 * r * r / least);
-    fl_vec3 a, turn;
-    fl_body_rates(b, k, &a, &turn);
-    const double u = fabs(v.z) + r * hypot(spin.x, spin.y) + w->sleep.rise + w->sleep.slope * hypot(v.x, v.y),
-                 faster = v3_norm(a) + r * v3_norm(b->t[k]) / least, turned = v3_norm(b->L[k]) / least;
-    if (stiff > 0.0) {
-        const double c = 9.0 * most / stiff;
-        if (u > 0.0) s = cbrt(c / u);
-        if (faster > 0.0) s = fmin(s, sqrt(sqrt(c / faster)));
-        if (s < INFINITY) s = cbrt(c / (u + s * faster)); /* by one that is too long: not too long */
+        stiff +=
+            0.5 * w->sea.weight * w->sea.hull[k].surface * (b->invm[k] + 0.5 * r * r * fl_body_ease(b, k));
+    const double u = fabs(v.z) + r * sqrt(spin.x * spin.x + spin.y * spin.y) + w->sleep.rise +
+                     w->sleep.slope * sqrt(v.x * v.x + v.y * v.y),
+                 faster = p->faster + r * p->turning, turn3 = p->turn * p->turn * p->turn;
+    for (; left >= LEAST; left -= (left + 3) / 4) {
+        const double s = left * w->dt, s3 = s * s * s;
+        if (s3 * stiff * (u + s * faster) <= 9.0 * most && s3 * r * turn3 <= 3.0 * most) break;
     }
-    if (turned > 0.0) s = fmin(s, cbrt(3.0 * most / r) / turned);
-    return s;
+    return left;
 }
 
 /* How long, in steps, floe k may coast from now on before it could touch a neighbour that goes on as it does.
- */
+ * One that is so far that it had to be three times as fast is not asked how fast it is. */
 static double time_left(const fl_world *w, int32_t k, double left, double speed)
 {
     const fl_bodies *b = &w->b;
     for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-        const fl_near *p = &w->pair[w->inc[c]];
-        const int32_t o = p->i == k ? p->j : p->i;
-        const double other = v3_norm(b->v[o]) + b->bound[o] * v3_norm(b->w[o]),
-                     gap = p->asleep - b->odometer[p->i] - b->odometer[p->j];
-        if (p->n || gap <= 0.0) return 0.0;
-        if ((speed + other) * w->dt * left > gap) left = gap / ((speed + other) * w->dt);
+        const fl_watch p = w->watch[w->inc[c]];
+        const int32_t o = p.i == k ? p.j : p.i;
+        const double gap = p.until - b->odometer[p.i] - b->odometer[p.j], step = gap / w->dt;
+        if (gap <= 0.0) return 0.0;
+        if (4.0 * speed * left <= step) continue;
+        const double both = speed + v3_norm(b->v[o]) + b->bound[o] * v3_norm(b->w[o]);
+        if (both * left > step) left = step / both;
     }
     return left;
 }
@@ -238,24 +286,25 @@ static int may_sleep(const fl_world *w, int32_t k)
            !(t->away && t->feed && t->guided[k]);
 }
 
-/* Steps that floe k may coast from now on; 0: none. */
-static int32_t span_of(const fl_world *w, int32_t k)
+/* Floe k, which is awake, coasts from now on, if there is something to be gained: of so many steps, else 0.
+ * Its way is known, but not yet in its odometer, by which others are asked as well. */
+static int32_t span_of(fl_world *w, int32_t k)
 {
-    if (w->sleep.kind[k] != FL_AWAKE || fl_works_now(w, k)->n || fl_works_was(w, k)->n || !may_sleep(w, k))
-        return 0;
-    double left = fmin(w->sleep.nap[k].span, within(w, k) / w->dt);
+    if (w->met[k] || fl_works_now(w, k)->n || fl_works_was(w, k)->n || !may_sleep(w, k)) return 0;
+    const pace p = pace_of(w, k);
+    const int32_t steps = within(w, k, &p, w->sleep.nap[k].span);
+    if (steps < LEAST) return 0;
+    const double s = steps * w->dt, left = time_left(w, k, steps, way_of(w, k, &p, s) / s);
     if (left < LEAST) return 0;
-    left = time_left(w, k, left, way_of(w, k, left * w->dt) / (left * w->dt));
-    return left < LEAST ? 0 : (int32_t)left;
+    w->sleep.nap[k].way = way_of(w, k, &p, (int32_t)left * w->dt) * (1.0 + 1e-9);
+    return (int32_t)left;
 }
 
-static void let_coast(fl_world *w, int32_t k, int32_t span)
+static void let_coast(fl_world *w, int32_t k)
 {
     fl_nap *nap = &w->sleep.nap[k];
     w->sleep.kind[k] = FL_COASTS;
     nap->since = w->step;
-    nap->until = w->step + span;
-    nap->way = way_of(w, k, span * w->dt) * (1.0 + 1e-9);
     nap->mark = -1.0;
     w->b.odometer[k] += nap->way;
 }
@@ -267,7 +316,7 @@ void fl_sleep_look(fl_world *w)
     fl_sleep *s = &w->sleep;
     const fl_bodies *b = &w->b;
     if (!s->nap) return;
-#pragma omp parallel for schedule(dynamic, 16)
+#pragma omp parallel for schedule(dynamic, 16) num_threads(w->threads) /* each has cells of the sea */
     for (int32_t k = 0; k < w->n; k++) {
         if (s->kind[k] != FL_COASTS) continue;
         s->image[k] = (fl_nap_image){.x = b->x[k],
@@ -284,7 +333,7 @@ void fl_sleep_look(fl_world *w)
                                      .blown = w->sea.blown ? w->sea.blown[k] : 0.0,
                                      .waved = w->sea.waves ? w->sea.waved[k] : 0.0,
                                      .nap = s->nap[k]};
-        const double t = seconds(w, k);
+        const double t = fl_sleep_seconds(w, k);
         if (t == 0.0) continue;
         out(w, k, t);
         fl_step_soft(w, k);
@@ -337,7 +386,10 @@ static void rise(fl_world *w, int32_t k)
         nap->rested += w->step - nap->since;
     }
     s->kind[k] = FL_AWAKE;
+    s->until[k] = nap->since = w->step;
     nap->mark = -1.0;
+    fl_gain *const gain = fl_works_gain(w, k); /* it did not move in the first half of a step */
+    if (gain) *gain = (fl_gain){0};
 }
 
 /* From the n on the stack to all that touch them and are of that kind: they are awake. */
@@ -393,7 +445,7 @@ static void find_quiet(fl_world *w)
         if (!seen || path > 0.25 * most || !may_sleep(w, k) || fl_works_now(w, k)->n == 0) continue;
         const double windows = path > 0.0 ? sqrt(most / path) : LONGEST;
         nap->since = w->step;
-        nap->until = w->step + WINDOW * (int64_t)(windows < LONGEST ? windows : LONGEST);
+        s->until[k] = w->step + WINDOW * (int64_t)(windows < LONGEST ? windows : LONGEST);
         s->kind[k] = FL_QUIET;
     }
 }
@@ -411,6 +463,7 @@ static void let_rest(fl_world *w)
             if (k >= w->n || s->kind[k] != FL_QUIET) continue;
             if (o >= w->n ? still(w, o) : s->kind[o] != FL_AWAKE) continue;
             s->kind[k] = FL_AWAKE;
+            s->until[k] = s->nap[k].since = w->step;
             s->stack[n++] = k;
         }
     }
@@ -439,15 +492,80 @@ fl_sleep_count fl_sleep_counted(const fl_world *w)
 
 /* --- both -------------------------------------------------------------------------------------- */
 
+/* Steps after which a floe that is awake is asked again: the longer it has been so, the later. */
+static int32_t patience(const fl_world *w, int32_t k)
+{
+    const int64_t awake = w->step - w->sleep.nap[k].since;
+    return LEAST + (int32_t)(awake < 8 * SELDOM ? awake / 8 : SELDOM);
+}
+
+/* Of floes [from, to) that are awake those that are asked, then of these who may: how many, to the begin of
+ * their part of the stack. */
+static int32_t find_spans(fl_world *w, int32_t from, int32_t to)
+{
+    fl_sleep *s = &w->sleep;
+    int32_t *const list = s->stack + from, n = 0;
+    const int32_t up = fl_sleep_list(w, from, to, list);
+    for (int32_t i = 0; i < up; i++) {
+        const int32_t k = list[i];
+        if (s->kind[k] != FL_AWAKE || w->step < s->until[k]) continue;
+        const int32_t span = span_of(w, k);
+        s->until[k] = w->step + (span ? span : patience(w, k));
+        list[n] = k;
+        n += span != 0;
+    }
+    return n;
+}
+
+static void fall_asleep(fl_world *w, int32_t from, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++) let_coast(w, w->sleep.stack[from + i]);
+}
+
+/* Who met another that fell asleep with him does so for a step alone. */
+static void look_round(fl_world *w, int32_t k)
+{
+    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++)
+        if (!fl_world_apart(w, w->inc[c])) w->sleep.until[k] = w->step + 1;
+}
+
+static void look_round_all(fl_world *w, int32_t from, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++) look_round(w, w->sleep.stack[from + i]);
+}
+
+void fl_sleep_resume(fl_world *w)
+{
+    for (int32_t k = 0; k < w->n && w->sleep.nap; k++)
+        if (w->sleep.kind[k] == FL_COASTS) look_round(w, k);
+}
+
+/* All of them, by the same odometers. */
+static void lull_all(fl_world *w)
+{
+    if (w->threads == 1) { /* a team of one takes its time */
+        const int32_t n = find_spans(w, 0, w->n);
+        fall_asleep(w, 0, n);
+        look_round_all(w, 0, n);
+        return;
+    }
+#pragma omp parallel num_threads(w->threads)
+    {
+        const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
+        const int32_t from = (int32_t)((int64_t)w->n * thread / threads),
+                      n = find_spans(w, from, (int32_t)((int64_t)w->n * (thread + 1) / threads));
+#pragma omp barrier
+        fall_asleep(w, from, n);
+#pragma omp barrier
+        look_round_all(w, from, n);
+    }
+}
+
 void fl_sleep_lull(fl_world *w)
 {
     fl_sleep *s = &w->sleep;
     for (int32_t k = 0; k < w->n && s->resting; k++)
-        if (s->kind[k] == FL_RESTS && w->step >= s->nap[k].until) wake(w, k);
-#pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < w->n; k++) s->stack[k] = span_of(w, k); /* all by the same odometers */
-#pragma omp parallel for schedule(static)
-    for (int32_t k = 0; k < w->n; k++)
-        if (s->stack[k]) let_coast(w, k, s->stack[k]);
+        if (s->kind[k] == FL_RESTS && w->step >= s->until[k]) wake(w, k);
+    lull_all(w);
     if (w->step % WINDOW == 0) let_rest(w);
 }

@@ -12,7 +12,8 @@
  * longer step is off by is told by what acts at its end,
  *     off = s^2/12 (|a1 - a0| + r |e1 - e0| + |d1 - d0|) + r (w s)^3/12,
  * and s is chosen so that it stays below tol times the radius of the floe: at most doubled, and no longer
- * than that or the next neighbour allows.
+ * than that or the next neighbour allows.  Who could coast for a few steps only stays awake, and is asked
+ * again after as many.
  *
  * Floes that touch each other REST when all of them went a path p, in the last WINDOW steps, of no more than
  * a quarter of tol R: they are left where they are for WINDOW sqrt(tol R/p) steps, in which they would go tol
@@ -24,6 +25,7 @@
  * decides when a pair is looked at. */
 #ifndef FL_STEP_SLEEP_H
 #define FL_STEP_SLEEP_H
+#include <string.h>
 #include "step/world.h"
 
 /* -1 with FL_SYSTEM. */
@@ -44,12 +46,23 @@ static inline int fl_sleeps(const fl_world *w, int32_t k)
     return kind == FL_COASTS || kind == FL_RESTS;
 }
 
-/* Whether all of [from, to) coast: then nothing acts on them, or pushes. */
-static inline int fl_sleep_all(const fl_world *w, int32_t from, int32_t to)
+/* Those of [from, to) that do not coast, to up[]; how many.  Eight that do are passed over at a time; who of
+ * others does looks random, and to ask one after the other costs more than to write all down. */
+static inline int32_t fl_sleep_list(const fl_world *w, int32_t from, int32_t to, int32_t *up)
 {
-    int32_t k = w->sleep.nap ? from : to + 1;
-    while (k < to && w->sleep.kind[k] == FL_COASTS) k++;
-    return k == to;
+    const uint8_t *kind = w->sleep.kind;
+    int32_t n = 0;
+    for (int32_t k = from, end; k < to; k = end) {
+        uint64_t eight = 0;
+        end = k + 8 < to ? k + 8 : to;
+        if (end == k + 8) memcpy(&eight, &kind[k], sizeof eight);
+        if (eight == UINT64_C(0x0101010101010101) * FL_COASTS) continue;
+        for (int32_t i = k; i < end; i++) {
+            up[n] = i;
+            n += kind[i] != FL_COASTS;
+        }
+    }
+    return n;
 }
 
 /* When k fell asleep [s]. */
@@ -62,12 +75,28 @@ static inline double fl_sleep_since(const fl_world *w, int32_t k)
  */
 int fl_sleep_frozen(const fl_world *w, const fl_near *p);
 
-/* After the search at the end of a step: those who have coasted, or must not any longer, make the first half
- * of their step and are FL_ENDS. */
-void fl_sleep_rouse(fl_world *w);
+/* How long k has slept [s]. */
+static inline double fl_sleep_seconds(const fl_world *w, int32_t k)
+{
+    return (double)(w->step - w->sleep.nap[k].since) * w->dt;
+}
 
-/* The second half of the step of k, which is FL_ENDS; and that it is awake then. */
+/* By every thread of a team, of which this is one: who of those that coast are FL_ENDS in this step, because
+ * their time has come, a neighbour has, or they may have left; and which near pairs are to be looked at,
+ * sleep.due.  All of it is known when all are back. */
+void fl_sleep_call(fl_world *w, int thread, int threads);
+
+/* k, which is FL_ENDS, is about to make the first half of its step. */
+void fl_sleep_begin(fl_world *w, int32_t k);
+
+/* The second half of the step of k, which is FL_ENDS, by itself; */
 void fl_sleep_end(fl_world *w, int32_t k);
+
+/* or what is to be kept of it when others have made it, nothing pressing on k: its speeds were v and spin
+ * before the drag; */
+void fl_sleep_book(fl_world *w, int32_t k, fl_vec3 v, fl_vec3 spin);
+
+/* and that it is awake then. */
 static inline void fl_sleep_ended(fl_world *w, int32_t k) { w->sleep.kind[k] = FL_AWAKE; }
 
 /* After the contacts: who rests and is touched by one who does not is awake, and all that touch him. */
@@ -75,6 +104,9 @@ void fl_sleep_disturb(fl_world *w);
 
 /* At the end of a step: who wakes, and who falls asleep. */
 void fl_sleep_lull(fl_world *w);
+
+/* After a state has been read, which may be of a program that told of neighbours who slept later. */
+void fl_sleep_resume(fl_world *w);
 
 /* All who rest are awake: something has left. */
 void fl_sleep_wake(fl_world *w);

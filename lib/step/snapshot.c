@@ -258,7 +258,7 @@ static void nap(traffic *t, fl_world *w, int32_t k)
     open_row(t, "nap");
     byte(t, FL_RESTS, &w->sleep.kind[k]);
     count(t, &n->since);
-    count(t, &n->until);
+    count(t, &w->sleep.until[k]);
     real(t, &n->way);
     real(t, &n->mark);
     real(t, &n->drag);
@@ -711,6 +711,7 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     if (w->ride.m.n) fl_ride_ready(w);
     if ((fl_balls_rows(w) || w->balls.bodies) && fl_balls_index(w, err)) return -1;
     if (fl_search_index(w, err)) return -1;
+    fl_sleep_resume(w);
     for (int32_t k = 0; k < w->b.total; k++) fl_works_sum(w, k);
     return 0;
 }

@@ -143,7 +143,7 @@ static void after_out(void *arg)
 {
     stride *const q = arg;
     out_there(q->w);
-    q->parted = fl_search_due(q->w) || q->w->sleep.nap;
+    q->parted = fl_search_due(q->w);
     if (!q->parted) fl_awake_share(q->w);
 }
 
@@ -163,12 +163,13 @@ static void after_touch(void *arg)
     if (w->sleep.resting) fl_sleep_disturb(w);
 }
 
-static_assert(FL_BALLS_CHUNK % FL_BALLS_GROUP == 0, "a chunk is made of groups");
+static_assert(FL_BALLS_CHUNK % FL_BALLS_GROUP == 0 && FL_BALLS_CHUNK / FL_BALLS_GROUP <= FL_GROUPS,
+              "a chunk is made of groups");
 
 static void end_chunk(fl_world *w, int32_t a, double h)
 {
-    const int32_t each = FL_BALLS_CHUNK / FL_BALLS_GROUP, all = fl_groups(w);
-    for (int32_t g = a * each; g < (a + 1) * each && g < all; g++) fl_group_end(w, g, h);
+    const int32_t each = FL_BALLS_CHUNK / FL_BALLS_GROUP, all = fl_groups(w), from = a * each;
+    if (from < all) fl_groups_end(w, from, from + each < all ? from + each : all, h);
 }
 
 /* Rows of a chunk lead to it and to those behind it.  So, when a thread takes a run of chunks in their order,
@@ -195,13 +196,27 @@ static void groups(stride *q, int thread, int end)
 {
     fl_world *const w = q->w;
     const double h = 0.5 * q->dt;
+    const int32_t each = fl_groups_each(w);
     for (int32_t k = 0; k < w->threads; k++) {
         fl_portion *const s = &w->turn[(thread + k) % w->threads];
-        for (int32_t g = fl_portion_take(s, 1); g < s->end; g = fl_portion_take(s, 1)) {
-            if (end) fl_group_end(w, g, h);
-            else fl_group_begin(w, g, h, q->dt);
+        for (int32_t g = fl_portion_take(s, each); g < s->end; g = fl_portion_take(s, each)) {
+            const int32_t last = g + each < s->end ? g + each : s->end;
+            if (end) fl_groups_end(w, g, last, h);
+            else fl_groups_begin(w, g, last, h);
         }
     }
+}
+
+/* Who must not sleep on has made the first half of its step. */
+static void rouse(fl_world *w, int thread, int threads)
+{
+    const int32_t all = fl_groups(w);
+    fl_sleep_call(w, thread, threads);
+    fl_gate_meet(&w->gate, threads, NULL, NULL);
+#pragma omp for schedule(static, 1) nowait
+    for (int32_t g = 0; g < all; g += FL_GROUPS)
+        fl_groups_rouse(w, g, g + FL_GROUPS < all ? g + FL_GROUPS : all);
+    fl_gate_meet(&w->gate, threads, NULL, NULL);
 }
 
 /* By every thread of the team, which meets after each part: the first half of the motion; contacts; the
@@ -216,6 +231,7 @@ static void go(stride *q)
         fl_gate_meet(&w->gate, threads, after_out, q);
         if (q->parted) return;
     }
+    if (w->sleep.nap) rouse(w, thread, threads); /* no sphere, which rows would have to see */
     if (!by_chunks && w->balls.chunks) {
 #pragma omp for schedule(dynamic) nowait
         for (int32_t a = 0; a < w->balls.chunks; a++) fl_balls_touch(w, a, q->dt, q->survey);
@@ -469,7 +485,6 @@ int fl_step(fl_world *w, fl_err *err)
     if (stride_on(&q)) return -1;
     if (q.parted) {
         if (fl_search_told(w, err)) return -1;
-        if (w->sleep.nap) fl_sleep_rouse(w); /* no sphere, which rows would have to see */
         q.out = 0;
         if (stride_on(&q)) return -1;
     }

@@ -71,7 +71,7 @@ static int32_t place_some(const fl_world *w, int32_t *place)
     return n;
 }
 
-static int all_have_one(const fl_world *w) { return w->frozen.n || w->sleep.nap; }
+static int all_have_one(const fl_world *w) { return w->frozen.n || w->sleep.resting; }
 
 void fl_works_place(fl_world *w)
 {

@@ -621,7 +621,7 @@ void fl_world_free(fl_world *w)
     free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
     fl_near_free(w);
     free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell), free(w->told);
-    free(w->hit), free(w->live), free(w->met), free(w->share), free(w->turn);
+    free(w->hit), free(w->watch), free(w->live), free(w->met), free(w->share), free(w->turn);
     fl_balls_free(&w->balls);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->home);
     free(w->group);

@@ -4,6 +4,7 @@
  * Indices [0, n) are floes; then come the pieces of the structure, then the walls of the boundary. */
 #ifndef FL_STEP_WORLD_H
 #define FL_STEP_WORLD_H
+#include <math.h>
 #include "base/gate.h"
 #include "base/portion.h"
 #include "body/body.h"
@@ -96,6 +97,12 @@ typedef struct {
     fl_pair *full;      /* or NULL; where there is one it knows better, but for n, deep and asleep */
 } fl_near;
 
+/* When a near pair has to be looked at, which is asked in every step: short, to lie close together. */
+typedef struct {
+    int32_t i, j;
+    double until; /* while the odometers add up to less, it cannot touch [m]; -INFINITY: it touches */
+} fl_watch;
+
 /* Room for contacts: what one leaves the next one takes. */
 typedef union fl_pair_slot {
     fl_pair pair;
@@ -156,7 +163,7 @@ typedef struct {
 enum fl_nap_kind { FL_AWAKE, FL_COASTS, FL_RESTS, FL_ENDS, FL_QUIET };
 
 typedef struct {
-    int64_t since, until;    /* steps */
+    int64_t since;           /* step in which it fell asleep, or woke */
     double way;              /* bound of its path in between, in the odometer already [m]      */
     double mark;             /* odometer when the window of rest began, -1: there is none  [m] */
     double drag;             /* rate at which drag changed the speed of its points last [m/s2] */
@@ -172,9 +179,12 @@ typedef struct {
     double tol;
     fl_nap *nap;         /* [n] */
     uint8_t *kind;       /* [n] enum fl_nap_kind */
+    int64_t *until;      /* [n] step in which it wakes; of who is awake, in which it may fall asleep at the
+                          * earliest */
     fl_nap_image *image; /* [n] */
     int32_t *stack;      /* [n] */
-    int32_t resting;
+    uint8_t *due;        /* [n_pair] is to be looked at: 1 until it has been */
+    int32_t resting, due_cap;
     double rise, slope; /* bounds of the speed and of the slope of the waves' surface [m/s] */
 } fl_sleep;
 
@@ -326,11 +336,12 @@ typedef struct {
     int32_t n_pair, pair_cap;
     int32_t *inc_first; /* [total + 1] pairs of each body, ascending */
     int32_t *inc;       /* [2 n_pair] */
+    fl_watch *watch;    /* [n_pair] */
     /* Which pairs touch, apart from the pairs themselves: most do not, and need not be looked at for it. */
     uint8_t *hit;  /* [n_pair] 1: touches, else 0 */
     int32_t *live; /* [n_live] those that do, ascending */
     uint8_t *met;  /* [total] is of one of those */
-    int32_t n_live, hit_cap, live_cap;
+    int32_t n_live, hit_cap, live_cap, watch_cap;
     fl_portion *share, *turn; /* [threads] of pairs, of groups of bodies */
     fl_gate gate;             /* of the team that does a step */
     int32_t inc_cap, inc_first_cap;
@@ -419,10 +430,18 @@ static inline fl_vec3 fl_world_way(const fl_world *w, int32_t i, int32_t j, cons
     return w->cell.wraps ? v3_add(way, fl_cell_way(&w->cell, v3(image[0], image[1], image[2]))) : way;
 }
 
-/* Whether a pair still cannot touch since it was last looked at. */
-static inline int fl_world_apart(const fl_world *w, const fl_near *p)
+/* Pair c is watched as it is known now. */
+static inline void fl_world_watch(fl_world *w, int32_t c)
 {
-    return p->n == 0 && w->b.odometer[p->i] + w->b.odometer[p->j] < p->asleep;
+    const fl_near *p = &w->pair[c];
+    w->watch[c] = (fl_watch){p->i, p->j, p->n ? -INFINITY : p->asleep};
+}
+
+/* Whether pair c still cannot touch since it was last looked at. */
+static inline int fl_world_apart(const fl_world *w, int32_t c)
+{
+    const fl_watch q = w->watch[c];
+    return w->b.odometer[q.i] + w->b.odometer[q.j] < q.until;
 }
 
 /* Whether place i < n is empty. */

@@ -7,14 +7,14 @@
  * r_eff, and its velocity; what it does is added to work[], times sign. */
 FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, const double *restrict surface,
                                    const double *restrict reach, double (*restrict c)[FL_FEW],
-                                   const double *restrict held, double h, double sign, double *restrict work)
+                                   const double *restrict held, double sign, double *restrict work)
 {
     const int turns = fluid->moment > 0.0;
 #pragma omp simd
-    for (int32_t i = 0; i < a->n; i++) {
-        const double m = a->m[i], vx = a->v[0][i], vy = a->v[1][i], vz = a->v[2][i], wx = a->w[0][i],
-                     wy = a->w[1][i], wz = a->w[2][i], Lx = a->L[0][i], Ly = a->L[1][i], Lz = a->L[2][i],
-                     area = surface[i], r = reach[i];
+    for (int32_t i = 0; i < a->lanes; i++) {
+        const double h = a->h[i], m = a->m[i], vx = a->v[0][i], vy = a->v[1][i], vz = a->v[2][i],
+                     wx = a->w[0][i], wy = a->w[1][i], wz = a->w[2][i], Lx = a->L[0][i], Ly = a->L[1][i],
+                     Lz = a->L[2][i], area = surface[i], r = reach[i];
         const double turning = wx * Lx + wy * Ly + wz * Lz, spin2 = wx * wx + wy * wy + wz * wz;
         const double before = 0.5 * (m * (vx * vx + vy * vy + vz * vz) + turning) - held[i];
         const double cx = c[0][i], cy = c[1][i], cz = c[2][i];
@@ -52,32 +52,43 @@ FL_WIDE_VERSIONS static int meets(const double *restrict area, int32_t n)
     return many > 0.0;
 }
 
-static void water(fl_sea *s, const fl_bodies *b, fl_few *a, double h)
+/* By what the fluid meets of each, and its velocity there. */
+static void decay_all(fl_few *a, const fl_sea *s, const fl_bodies *b, const fl_fluid *fluid,
+                      const double *surface, double (*c)[FL_FEW], double sign, double *work)
 {
-    const int32_t from = a->from;
-    if (!(s->wetted[from] > 0.0) && !meets(s->wetted + from, a->n)) return;
-    _Alignas(64) double c[3][FL_FEW];
-    if (!s->flow) alike(c, s->current.velocity, a->n);
-    for (int32_t k = 0; k < a->n && s->flow; k++)
-        c[0][k] = s->flow[from + k].x, c[1][k] = s->flow[from + k].y, c[2][k] = s->flow[from + k].z;
-    decay(a, &s->sea, s->wetted + from, s->reach + from, c, b->held + from, h, -1.0, s->drained + from);
+    _Alignas(64) double reach[FL_FEW], held[FL_FEW], done[FL_FEW];
+    double *const sum = fl_few_see(a, work, done);
+    decay(a, fluid, surface, fl_few_see(a, s->reach, reach), c, fl_few_see(a, b->held, held), sign, sum);
+    fl_few_keep(a, work, sum);
 }
 
-static void wind(fl_sea *s, const fl_bodies *b, fl_few *a, double h)
+static void water(fl_sea *s, const fl_bodies *b, fl_few *a)
 {
-    const int32_t from = a->from;
+    _Alignas(64) double c[3][FL_FEW], room[FL_FEW];
+    const double *const wetted = fl_few_see(a, s->wetted, room);
+    if (!(wetted[0] > 0.0) && !meets(wetted, a->lanes)) return;
+    if (!s->flow) alike(c, s->current.velocity, a->lanes);
+    for (int32_t k = 0; k < a->lanes && s->flow; k++) {
+        const fl_vec3 u = s->flow[a->at[k]];
+        c[0][k] = u.x, c[1][k] = u.y, c[2][k] = u.z;
+    }
+    decay_all(a, s, b, &s->sea, wetted, c, -1.0, s->drained);
+}
+
+static void wind(fl_sea *s, const fl_bodies *b, fl_few *a)
+{
     _Alignas(64) double c[3][FL_FEW], dry[FL_FEW];
-    alike(c, s->breeze, a->n);
-    for (int32_t k = 0; k < a->n; k++)
-        dry[k] = s->hull[from + k].surface - (s->water ? s->wetted[from + k] : 0.0);
-    decay(a, &s->air, dry, s->reach + from, c, b->held + from, h, 1.0, s->blown + from);
+    alike(c, s->breeze, a->lanes);
+    for (int32_t k = 0; k < a->lanes; k++)
+        dry[k] = s->hull[a->at[k]].surface - (s->water ? s->wetted[a->at[k]] : 0.0);
+    decay_all(a, s, b, &s->air, dry, c, 1.0, s->blown);
 }
 
-void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, double h, int back)
+void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, int back)
 {
-    if (back && s->wind) wind(s, b, a, h);
-    if (s->water) water(s, b, a, h);
-    if (!back && s->wind) wind(s, b, a, h);
+    if (back && s->wind) wind(s, b, a);
+    if (s->water) water(s, b, a);
+    if (!back && s->wind) wind(s, b, a);
 }
 
 /* Right prisms, one array a number, in the order of fl_prism: read by that order. */
@@ -93,19 +104,29 @@ typedef struct {
     double floats[FL_FEW]; /* out: 1 where all of it holds, 0 */
 } prisms;
 
-FL_FOUR_VERSIONS static void take(prisms *q, const fl_sea *s, const fl_few *a)
+FL_FOUR_VERSIONS static void take_row(prisms *q, const fl_hull *h, int32_t lanes)
 {
-    const int32_t from = a->from, n = a->n;
-    const fl_hull *h = &s->hull[from];
-    int32_t k = 0;
-    for (; k + FL_LANES <= n; k += FL_LANES) {
-        const double *first = &h->prism.area;
+    const double *first = &h->prism.area;
+    for (int32_t k = 0; k < lanes; k += FL_LANES) {
         for (int c = 0; c + 4 <= NUMBERS; c += 4) fl_few_split4(q->p + c, first + c, sizeof *h, k);
         /* the last four begin early, so as not to read beyond */
         fl_few_split4(q->p + NUMBERS - 4, first + NUMBERS - 4, sizeof *h, k);
     }
-    for (; k < n; k++)
-        for (int c = 0; c < NUMBERS; c++) q->p[c][k] = (&h[k].prism.area)[c];
+}
+
+FL_FOUR_VERSIONS static void take_some(prisms *q, const fl_hull *h, const int32_t *at, int32_t lanes)
+{
+    const double *first = &h->prism.area;
+    for (int32_t k = 0; k < lanes; k += FL_LANES) {
+        for (int c = 0; c + 4 <= NUMBERS; c += 4) fl_few_pick4(q->p + c, first + c, sizeof *h, at, k);
+        fl_few_pick4(q->p + NUMBERS - 4, first + NUMBERS - 4, sizeof *h, at, k);
+    }
+}
+
+static void take(prisms *q, const fl_sea *s, const fl_few *a)
+{
+    if (a->row) take_row(q, &s->hull[a->at[0]], a->lanes);
+    else take_some(q, s->hull, a->at, a->lanes);
 }
 
 /* fl_prism_wet(), fl_buoyancy_force() and what look_still() of sea.c makes of them; returns how many float as
@@ -116,7 +137,7 @@ FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, doub
 {
     double afloat = 0.0;
 #pragma omp simd reduction(+ : afloat)
-    for (int32_t i = 0; i < a->n; i++) {
+    for (int32_t i = 0; i < a->lanes; i++) {
         const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i], level = q->level[i];
         const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], ex = q->p[E][i],
                      ey = q->p[E + 1][i], ez = q->p[E + 2][i], ox = q->p[O][i], oy = q->p[O + 1][i],
@@ -194,7 +215,7 @@ FL_WIDE_VERSIONS static void look_in(const wholes *restrict q, const double *res
                                      double *restrict centre)
 {
 #pragma omp simd
-    for (int32_t i = 0; i < a->n; i++) {
+    for (int32_t i = 0; i < a->lanes; i++) {
         const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i];
         const double cx = q->c[0][i], cy = q->c[1][i], cz = q->c[2][i];
         const double over_water = ux * cx + uy * cy + uz * cz - level[i], push = weight * q->volume[i];
@@ -209,18 +230,22 @@ FL_WIDE_VERSIONS static void look_in(const wholes *restrict q, const double *res
     }
 }
 
-static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in, double *centre)
+/* What is kept of them, where it is or in rooms of its own. */
+typedef struct {
+    double wetted[FL_FEW], lift[FL_FEW], reach[FL_FEW];
+} rooms;
+
+static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in, double *wetted, double *lift,
+                          double *centre)
 {
-    const int32_t from = a->from, n = a->n;
-    double *lift = s->lift + from;
     if (!in) {
-        look_out(level, n, s->wetted + from, lift, centre);
+        look_out(level, a->lanes, wetted, lift, centre);
         return;
     }
     wholes q;
-    for (int32_t k = 0; k < n; k++) {
-        const fl_hull *h = &s->hull[from + k];
-        s->wetted[from + k] = h->surface;
+    for (int32_t k = 0; k < a->lanes; k++) {
+        const fl_hull *h = &s->hull[a->at[k]];
+        wetted[k] = h->surface;
         q.volume[k] = h->volume;
         q.c[0][k] = h->centre.x, q.c[1][k] = h->centre.y, q.c[2][k] = h->centre.z;
     }
@@ -229,27 +254,31 @@ static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in, dou
 
 static void flow(fl_sea *s, const fl_few *a, const double *centre)
 {
-    for (int32_t k = 0; k < a->n && s->flow; k++)
-        s->flow[a->from + k] = fl_current_at(&s->current, centre[k]);
+    for (int32_t k = 0; k < a->n && s->flow; k++) s->flow[a->at[k]] = fl_current_at(&s->current, centre[k]);
 }
 
 int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
 {
     prisms q;
+    rooms room;
     _Alignas(64) double centre[FL_FEW]; /* height of the submerged centres over still water [m] */
-    const int32_t from = a->from;
-    int32_t others = 0;
-    for (int32_t k = 0; k < a->n; k++) q.level[k] = s->level - b->x[from + k].z;
-    const int away = fabs(q.level[0]) < s->reach[from] ? 0 : far(q.level, s->reach + from, a->n);
+    double *const wetted = fl_few_room(a, s->wetted, room.wetted);
+    double *const lift = fl_few_room(a, s->lift, room.lift);
+    const double *const reach = fl_few_see(a, s->reach, room.reach);
+    int32_t others = 0, lane = 0;
+    double afloat = a->lanes;
+    do q.level[lane] = s->level - b->x[a->at[lane]].z;
+    while (++lane < a->lanes);
+    const int away = fabs(q.level[0]) < reach[0] ? 0 : far(q.level, reach, a->lanes);
     if (away) {
-        look_from_far(s, q.level, a, away > 0, centre);
-        flow(s, a, centre);
-        return 0;
+        look_from_far(s, q.level, a, away > 0, wetted, lift, centre);
+    } else {
+        take(&q, s, a);
+        afloat = look(&q, a, s->weight, reach, wetted, lift, centre);
     }
-    take(&q, s, a);
-    const double afloat = look(&q, a, s->weight, s->reach + from, s->wetted + from, s->lift + from, centre);
+    fl_few_keep(a, s->wetted, wetted), fl_few_keep(a, s->lift, lift);
     flow(s, a, centre);
-    for (int32_t k = 0; k < a->n && afloat < a->n; k++)
+    for (int32_t k = 0; k < a->n && afloat < a->lanes; k++)
         if (!(q.floats[k] > 0.0)) left[others++] = k;
     return others;
 }

@@ -9,8 +9,8 @@
 /* Whether a sea that there is, is of that kind. */
 static inline int fl_calm_goes(const fl_sea *s) { return !s->waves && !s->skin; }
 
-/* fl_sea_drag(). */
-void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, double h, int back);
+/* fl_sea_drag() of half a step of each. */
+void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, int back);
 
 /* fl_sea_force() of those that float as right prisms do (prism.h), added to a->f and a->t.
  *   left  out, [FL_FEW]: which of them, 0 the first, do not; their f and t have lost all sense

@@ -97,7 +97,9 @@ static int bare_step(fl_world *w, int ordered)
     if (fl_search(w, &err)) return -1;
 #pragma omp parallel for schedule(dynamic, 16)
     for (int32_t c = 0; c < w->n_pair; c++) {
-        if (!fl_world_apart(w, &w->pair[c])) fl_near_awake(w, c, omp_get_thread_num(), NULL, w->dt, 0);
+        if (fl_world_apart(w, c)) continue;
+        fl_near_awake(w, c, omp_get_thread_num(), NULL, w->dt, 0);
+        fl_world_watch(w, c);
         w->hit[c] = w->pair[c].n;
         if (ordered || !w->hit[c]) continue;
         const fl_pair *p = w->pair[c].full;

@@ -67,7 +67,7 @@ static void all_are_looked_at(void **state)
     assert_non_null(hit);
     memcpy(hit, w->hit, (size_t)w->n_pair);
     for (int team = 1; team <= 4; team++) {
-        for (int32_t c = 0; c < w->n_pair; c++) w->hit[c] = 2, w->pair[c].asleep = -1.0;
+        for (int32_t c = 0; c < w->n_pair; c++) w->hit[c] = 2, w->pair[c].asleep = -1.0, fl_world_watch(w, c);
         fl_awake_share(w);
 #pragma omp parallel num_threads(team)
         fl_awake_look(w, 0.0, 0);
@@ -88,7 +88,7 @@ static void sleepers_are_left_alone(void **state)
     fl_world *w = &l.w;
     int32_t slept = 0;
     for (int32_t c = 0; c < w->n_pair; c++)
-        if (!w->pair[c].n) w->pair[c].asleep = 1e9, w->hit[c] = 2, slept++;
+        if (!w->pair[c].n) w->pair[c].asleep = 1e9, fl_world_watch(w, c), w->hit[c] = 2, slept++;
     assert_true(slept > 0);
     fl_awake_share(w);
     fl_awake_look(w, 0.0, 0);

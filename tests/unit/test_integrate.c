@@ -365,25 +365,29 @@ static void crowd(fl_bodies *b, double wild)
     }
 }
 
+static void move_few(fl_bodies *b, int32_t from, int32_t to, double h, int pushed)
+{
+    int32_t at[FL_FEW];
+    fl_few s;
+    for (int32_t k = from; k < to; k++) at[k - from] = k;
+    fl_few_take(&s, b, at, to - from, h);
+    fl_few_take_forces(&s, b);
+    fl_few_take_pose(&s, b);
+    if (pushed) fl_few_push(&s);
+    else fl_few_axes(&s), fl_few_kick(&s);
+    const int done = fl_few_drift(&s);
+    fl_few_put_speeds(&s, b);
+    if (done) fl_few_put_pose(&s, b);
+    for (int32_t k = from; k < to && !done; k++) fl_drift(b, k, 2.0 * h);
+}
+
 /* Runs of balls, and of others, some at a time. */
 static void move_all(fl_bodies *b, int32_t from, int32_t to, double h, double dt, int pushed)
 {
     for (int32_t i = from, end; i < to; i = end) {
         for (end = i + 1; end < to && b->ball[end] == b->ball[i] && end < i + FL_FEW;) end++;
-        fl_few s;
-        if (b->ball[i]) {
-            fl_move_balls(b, i, end, h, dt);
-            continue;
-        }
-        fl_few_take(&s, b, i, end - i);
-        fl_few_take_forces(&s, b);
-        fl_few_take_pose(&s, b);
-        if (pushed) fl_few_push(&s, h);
-        else fl_few_axes(&s), fl_few_kick(&s, h);
-        const int done = fl_few_drift(&s, dt);
-        fl_few_put_speeds(&s, b);
-        if (done) fl_few_put_pose(&s, b);
-        for (int32_t k = i; k < end && !done; k++) fl_drift(b, k, dt);
+        if (b->ball[i]) fl_move_balls(b, i, end, h, dt);
+        else move_few(b, i, end, h, pushed);
     }
 }
 
@@ -408,7 +412,7 @@ static void several_at_a_time(void **state)
                 assert_memory_equal(&one.L[i], &all.L[i], sizeof one.L[i]);
                 assert_memory_equal(&one.q[i], &all.q[i], sizeof one.q[i]);
                 assert_memory_equal(&one.w[i], &all.w[i], sizeof one.w[i]);
-                assert_near(all.odometer[i], one.odometer[i], 1e-14);
+                assert_memory_equal(&one.odometer[i], &all.odometer[i], sizeof one.odometer[i]);
             }
         }
         fl_bodies_free(&one), fl_bodies_free(&all);

@@ -212,18 +212,19 @@ static void several_meet_the_sea_as_one_does(void **state)
             fl_sea_drag(&one->sea, &one->b, k, h, 1);
         }
         for (int32_t from = 0, n; from < SEVERAL; from += n) {
-            int32_t left[FL_FEW];
+            int32_t at[FL_FEW], left[FL_FEW];
             fl_few s;
             n = way & 4 ? 1 : 1 + (from + way) % FL_FEW;
             if (n > SEVERAL - from) n = SEVERAL - from;
-            fl_few_take(&s, &all->b, from, n);
+            for (int32_t k = 0; k < n; k++) at[k] = from + k;
+            fl_few_take(&s, &all->b, at, n, h);
             fl_few_axes(&s);
             fl_few_weigh(&s, all->gravity);
             const int32_t others = fl_calm_force(&all->sea, &all->b, &s, left);
             fl_few_put_forces(&s, &all->b);
             for (int32_t k = 0; k < others; k++) fl_step_soft(all, from + left[k]);
-            fl_calm_drag(&all->sea, &all->b, &s, h, 0);
-            fl_calm_drag(&all->sea, &all->b, &s, h, 1);
+            fl_calm_drag(&all->sea, &all->b, &s, 0);
+            fl_calm_drag(&all->sea, &all->b, &s, 1);
             fl_few_put_speeds(&s, &all->b);
             afloat += n - others;
         }
