@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# rungs.sh -- what ladder.sh, surrogate.sh and threads.sh share: how a scene is made, which step it gets, one run of it.
+# rungs.sh -- what ladder.sh, surrogate.sh, sleep.sh and threads.sh share: how a scene is made, which step it gets, one run of it.
 # They read it by `.`; it needs bench, the folder it lies in, here, that of the runs, quick, which is 0 or not, and fail.
 # shellcheck disable=SC2154 # those
 

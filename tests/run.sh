@@ -154,6 +154,7 @@ bench)
     programs bench
     add bench/kernel "exec sh bench/kernel.sh '$build'"
     add bench/surrogate "exec sh bench/surrogate.sh '$build'"
+    add bench/sleep "exec sh bench/sleep.sh '$build'"
     add bench/late "exec sh bench/late.sh '$build'"
     add bench/threads "exec sh bench/threads.sh '$build'"
     add bench/peers "exec sh bench/peers.sh '$build'"
