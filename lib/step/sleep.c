@@ -204,9 +204,8 @@ static void slept(fl_world *w, int32_t k, double off)
     fl_sleep *all = &w->sleep;
     fl_nap *nap = &all->nap[k];
     const double most = all->tol * w->b.radius[k];
-    const int32_t steps = (int32_t)(w->step - nap->since), span = off <= 0.0625 * most ? 2 * steps
-                                                                  : off <= 0.5 * most  ? steps
-                                                                                       : steps / 2;
+    const int32_t steps = (int32_t)(w->step - nap->since);
+    const int32_t span = off <= 0.0625 * most ? 2 * steps : off <= 0.5 * most ? steps : steps / 2;
     nap->off = fmax(nap->off, off / w->b.radius[k]);
     nap->summed += off / w->b.radius[k];
     if (w->step >= all->until[k] || span < nap->span)
