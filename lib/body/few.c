@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "body/few.h"
 
+static void split_one(double (*to)[FL_FEW], fl_vec3 a, int32_t k)
+{
+    to[0][k] = a.x, to[1][k] = a.y, to[2][k] = a.z;
+}
+
 static fl_vec3 join_one(const double (*from)[FL_FEW], int32_t k)
 {
     return v3(from[0][k], from[1][k], from[2][k]);
@@ -44,21 +49,19 @@ FL_FOUR_VERSIONS static void take_row(fl_few *s, const fl_bodies *b, int32_t fro
 
 FL_FOUR_VERSIONS static void take_some(fl_few *s, const fl_bodies *b)
 {
-    const int32_t *at = s->at;
-    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
-        for (int32_t l = k; l < k + FL_LANES; l++) s->m[l] = b->m[at[l]], s->invm[l] = b->invm[at[l]];
-        fl_few_pick(s->invI, b->invI, at, k);
-        fl_few_pick(s->v, b->v, at, k);
-        fl_few_pick(s->L, b->L, at, k);
-        fl_few_pick(s->w, b->w, at, k);
-        fl_few_pick4(s->q, b->q, sizeof *b->q, at, k);
+    for (int32_t k = 0; k < s->lanes; k++) {
+        const int32_t i = s->at[k];
+        s->m[k] = b->m[i], s->invm[k] = b->invm[i];
+        split_one(s->invI, b->invI[i], k), split_one(s->v, b->v[i], k);
+        split_one(s->L, b->L[i], k), split_one(s->w, b->w[i], k);
     }
+    for (int32_t k = 0; k < s->lanes; k += FL_LANES) fl_few_pick4(s->q, b->q, sizeof *b->q, s->at, k);
 }
 
 void fl_few_take(fl_few *s, const fl_bodies *b, int32_t *at, int32_t n, double h)
 {
     s->n = n;
-    s->lanes = (n + FL_FEW_REGISTER - 1) / FL_FEW_REGISTER * FL_FEW_REGISTER;
+    s->lanes = (n + FL_LANES - 1) / FL_LANES * FL_LANES;
     s->row = n == s->lanes && at[n - 1] - at[0] == n - 1;
     s->at = at;
     alike(s->h, h);
@@ -78,18 +81,10 @@ FL_FOUR_VERSIONS static void take_row_forces(fl_few *s, const fl_vec3 *f, const 
     }
 }
 
-FL_FOUR_VERSIONS static void take_some_forces(fl_few *s, const fl_vec3 *f, const fl_vec3 *t)
-{
-    for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
-        fl_few_pick(s->f, f, s->at, k);
-        fl_few_pick(s->t, t, s->at, k);
-    }
-}
-
 void fl_few_take_forces(fl_few *s, const fl_bodies *b)
 {
     if (s->row) take_row_forces(s, &b->f[s->at[0]], &b->t[s->at[0]]);
-    else take_some_forces(s, b->f, b->t);
+    for (int32_t k = 0; k < s->lanes && !s->row; k++) fl_few_take_force(s, b, k);
 }
 
 FL_FOUR_VERSIONS static void take_row_pose(fl_few *s, const fl_vec3 *x, const double *odometer,
@@ -108,7 +103,7 @@ void fl_few_take_pose(fl_few *s, const fl_bodies *b)
     if (s->row) take_row_pose(s, &b->x[from], &b->odometer[from], &b->bound[from]);
     for (int32_t k = 0; k < s->lanes && !s->row; k++) {
         const int32_t i = s->at[k];
-        s->x[0][k] = b->x[i].x, s->x[1][k] = b->x[i].y, s->x[2][k] = b->x[i].z;
+        split_one(s->x, b->x[i], k);
         s->odometer[k] = b->odometer[i], s->bound[k] = b->bound[i];
     }
 }

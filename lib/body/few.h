@@ -12,11 +12,10 @@
  * last register are filled with the last of them. */
 #ifndef FL_BODY_FEW_H
 #define FL_BODY_FEW_H
-#include <string.h>
 #include "base/wide.h"
 #include "body/body.h"
 
-enum { FL_FEW = 16, FL_FEW_REGISTER = 4 };
+enum { FL_FEW = 16 };
 
 typedef struct {
     int32_t n, lanes;              /* bodies, and lanes that are filled: n <= lanes <= FL_FEW */
@@ -133,15 +132,6 @@ FL_WIDE_PART void fl_few_join4(void *a, size_t bytes, const double (*from)[FL_FE
     FL_WIDE_UNROLL for (int c = 0; c < FL_LANES; c++) r[c] = FL_FOUR(&from[c][k]);
     fl_wide_transpose(r);
     FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(at + (size_t)l * bytes) = r[l];
-}
-
-/* No number of the next vector is read: another thread may be at it. */
-FL_WIDE_PART void fl_few_pick(double (*to)[FL_FEW], const fl_vec3 *a, const int32_t *at, int32_t k)
-{
-    for (int l = 0; l < FL_LANES; l++) {
-        const fl_vec3 v = a[at[k + l]];
-        to[0][k + l] = v.x, to[1][k + l] = v.y, to[2][k + l] = v.z;
-    }
 }
 
 #endif
