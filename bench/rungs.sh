@@ -15,6 +15,20 @@ run()
     echo $? >"$s/$n.status"
 }
 
+# best SCENE NAME COMMAND...: that, which runs NAME of SCENE; of its reports until now the one with the least processor time
+# stays.
+best()
+{
+    kept=$1/$2
+    shift 2
+    [ -f "$kept.report" ] && mv "$kept.report" "$kept.best"
+    "$@"
+    [ -f "$kept.best" ] &&
+        awk -v a="$(number "$kept.best" processor)" -v b="$(number "$kept.report" processor)" 'BEGIN { exit !(a < b) }' &&
+        mv "$kept.best" "$kept.report"
+    return 0
+}
+
 # is NAME PATTERNS: is it like one of them?
 is()
 {

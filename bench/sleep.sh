@@ -58,9 +58,9 @@ row()
     { errors "$1" "$name" reference && errors "$1" "$name" 0-none; } |
         awk -v at="$1	$2	$3" -v told="$(number "$r" surrogate)" -v slept="${slept:-0	-	-	-}" '
             BEGIN { FS = OFS = "\t" }
-            NR == 1 { print_later = at OFS $2 OFS $4 OFS (told == "" ? 0 : told) OFS slept OFS $9 OFS $10 OFS $12
+            NR == 1 { first = at OFS $2 OFS $4 OFS (told == "" ? 0 : told) OFS slept OFS $9 OFS $10 OFS $12
                       cost = $5 OFS $7 OFS $14 }
-            NR == 2 { print print_later, $9, $10, cost }'
+            NR == 2 { print first, $9, $10, cost }'
 }
 
 : >rows
@@ -76,11 +76,7 @@ for s in field-200 field-2000 cylinder; do
         turn=$((turn + 1))
         for both in $settings; do
             tol=${both%,*} sleep=${both#*,} name=${both%,*}-${both#*,}
-            [ -f "$s/$name.report" ] && mv "$s/$name.report" "$s/$name.best"
-            go "$s" "$name" "$dt" "$tol" "$sleep"
-            [ -f "$s/$name.best" ] &&
-                awk -v a="$(number "$s/$name.best" processor)" -v b="$(number "$s/$name.report" processor)" \
-                    'BEGIN { exit !(a < b) }' && mv "$s/$name.best" "$s/$name.report"
+            best "$s" "$name" go "$s" "$name" "$dt" "$tol" "$sleep"
         done
     done
     for both in $settings; do row "$s" "${both%,*}" "${both#*,}" >>rows; done

@@ -73,11 +73,7 @@ for s in field-200 cylinder pair stack; do
             turn=$((turn + 1))
             for tol in $tolerances; do
                 name=$f-$tol
-                [ -f "$s/$name.report" ] && mv "$s/$name.report" "$s/$name.best"
-                go "$s" "$name" "$f" "$tol"
-                [ -f "$s/$name.best" ] &&
-                    awk -v a="$(number "$s/$name.best" processor)" -v b="$(number "$s/$name.report" processor)" \
-                        'BEGIN { exit !(a < b) }' && mv "$s/$name.best" "$s/$name.report"
+                best "$s" "$name" go "$s" "$name" "$f" "$tol"
             done
         done
         for tol in $tolerances; do row "$s" "$f" "$tol" >>rows; done
