@@ -293,6 +293,7 @@ static int find_room(fl_world *w, const fl_pair *p, int32_t thread, fl_seen *see
     const fl_piece *piece = fl_world_piece(w, p->j);
     const double ra = w->b.radius[p->i];
     seen->bound = w->b.bound[p->i];
+    seen->radii = ra + w->b.radius[p->j];
     seen->room = INFINITY;
     if (piece && piece->kind == FL_PIECE_SHELL)
         seen->room = fl_shell_room(&w->near_shell[thread], seen->places->va, &w->b.core[p->i], piece, ra,
@@ -335,7 +336,6 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     if (carried) {
         const double speed = v3_dot(v3_unit(elastic), approach(b, p, ai, aj));
         seen.springs = &springs;
-        seen.radii = b->radius[p->i] + b->radius[p->j];
         /* the force that the energy of the motion would give, W growing as the square of it */
         seen.toward = sqrt(1.0 + 0.5 * mass * speed * speed / p->energy);
         seen.stiff_i = p->stiff_i, seen.stiff_j = p->stiff_j;

@@ -14,6 +14,7 @@
 #define STRAIGHT 0.9 /* cosine between two ways that are one line, */
 #define EVEN 0.1     /* of which neither is shorter than that part of the other */
 #define WIDER 2.0    /* the length grows with the contact by such steps */
+#define SWEEP 0.03   /* of the radii: so near what does not press may come */
 #define NET 0.5      /* less than this of the pressures left as force: they oppose each other */
 
 static const fl_vec3 NONE = {0, 0, 0};
@@ -129,7 +130,8 @@ FL_WIDE_VERSIONS static void go(fl_tellers *restrict b, fl_lane *restrict J)
         fl_lane3_put(b->w, k, w);
         fl_lane3_put(b->q, k, u);
         fl_lane3_put(b->q + 3, k, v3_scale(arm, w));
-        b->way.a[k] = v3_norm(u) + arm * v3_norm(w);
+        b->turn.a[k] = arm * v3_norm(w);
+        b->way.a[k] = v3_norm(u) + FL_SURROGATE_TURN * b->turn.a[k];
         fl_lane3_put(J, k, v3(half - 0.5 * xx, -0.5 * yx, -0.5 * zx));
         fl_lane3_put(J + 3, k, v3(-0.5 * xy, half - 0.5 * yy, -0.5 * zy));
         fl_lane3_put(J + 6, k, v3(-0.5 * xz, -0.5 * yz, half - 0.5 * zz));
@@ -207,6 +209,7 @@ void fl_surrogate_tell(fl_tellers *b)
 fl_told fl_surrogate_told(const fl_tellers *b, int k)
 {
     fl_told t = {.way = b->way.a[k],
+                 .turn = b->turn.a[k],
                  .z = b->z.a[k],
                  .at = fl_lane3(b->at, k),
                  .w = fl_lane3(b->w, k),
@@ -452,12 +455,15 @@ static void press(fl_surrogate *s, const fl_pressing *q, double scale)
     s->wide = q->wide;
 }
 
-/* How far A may go that no point of it moves by more than seen->room.  Of convex bodies no place is deeper
- * than the straight line of the overlap foretells; where walls lean over each other one may be, at once. */
-static double room_of(const fl_surrogate *s, const fl_seen *seen)
+/* How far A may go that no point of it moves by more than seen->room, and what does not press by no more than a
+ * part of the radii as it turns.  As convex bodies slide no place is deeper than the straight line of the
+ * overlap foretells; where walls lean over each other one may be, at once. */
+static void bound(fl_surrogate *s, const fl_seen *seen)
 {
-    const double farthest = v3_norm(v3_sub(s->at, s->o)) + seen->bound;
-    return seen->room * (farthest > s->arm ? s->arm / farthest : 1.0);
+    const double farthest = v3_norm(v3_sub(s->at, s->o)) + seen->bound,
+                 part = farthest > s->arm ? s->arm / farthest : 1.0;
+    s->room = part * seen->room;
+    s->sweep = part * SWEEP * seen->radii;
 }
 
 static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressing, const fl_look *last)
@@ -470,7 +476,7 @@ static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressi
     s->M = *seen->M, s->o = seen->o, s->at = v3_add(s->o, m3_mul(s->M, s->own));
     s->first = seen->places->place[0].p;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope;
-    s->room = room_of(s, seen);
+    bound(s, seen);
     bend(s, seen, slope, v3_sub(s->first, s->at), last);
     press(s, pressing, seen->scale);
     s->beside = v3_sub(v3_scale(seen->scale, q->gradient.f), s->direction);

@@ -65,7 +65,8 @@ static const uint8_t FL_UPPER[6][6] = {{0, 1, 2, 3, 4, 5},     {1, 6, 7, 8, 9, 1
                                        {2, 7, 11, 12, 13, 14}, {3, 8, 12, 15, 16, 17},
                                        {4, 9, 13, 16, 18, 19}, {5, 10, 14, 17, 19, 20}};
 
-#define FL_SURROGATE_MOST 10.0 /* of reach */
+#define FL_SURROGATE_MOST 1000.0 /* of reach */
+#define FL_SURROGATE_TURN 4.0    /* turns count so many times in a way */
 
 /* A look that was. */
 typedef struct {
@@ -104,12 +105,14 @@ typedef struct {
     double owed;      /* what looks found W to be more than it went by         [J] */
     double back;      /* b                                                    [1/m2] */
     double room;      /* it may go as far before another wall of B may bear    [m] */
+    double sweep;     /* a |w| may become that before another corner of A may  [m] */
 } fl_surrogate;
 
 /* What one tells for a pose. */
 typedef struct {
     fl_six q, rise; /* [m]; dz/dq [1/m] */
     double way;     /* |u| + a |w| [m]  */
+    double turn;    /* a |w| of it [m]  */
     double z;
     fl_vec3 at, w;
     fl_wrench gradient;   /* on A, about at, frame of B */
@@ -131,7 +134,7 @@ typedef struct {
 typedef struct {
     _Alignas(64) fl_lane s[FL_SURROGATE_ROWS]; /* surrogates, number by number     */
     fl_lane M[9], o[3];                        /* in: the pose of A in the frame of B, M row by row */
-    fl_lane q[6], rise[6], way, z, at[3], w[3], f[3], m[3], energy, share, slope; /* out: fl_told */
+    fl_lane q[6], rise[6], way, turn, z, at[3], w[3], f[3], m[3], energy, share, slope; /* out: fl_told */
 } fl_tellers;
 
 /* Its place among the rows of s. */
@@ -188,16 +191,18 @@ void fl_surrogate_tell(fl_tellers *b);
 fl_told fl_surrogate_told(const fl_tellers *b, int k);
 
 /* Whether that is within so many times of what it may go, 1: near enough to be told. */
-static inline int fl_surrogate_within(const fl_surrogate *s, double way, double z, double reaches)
+static inline int fl_surrogate_within(const fl_surrogate *s, double way, double turn, double z,
+                                      double reaches)
 {
     const double far = s->reach * s->overlap;
-    return way <= reaches * (far < s->room ? far : s->room) && z > 1.0 - s->less && z < 1.0 + s->less;
+    return way <= reaches * (far < s->room ? far : s->room) && turn <= reaches * s->sweep &&
+           z > 1.0 - s->less && z < 1.0 + s->less;
 }
 
 /* Or so near that the error there tells of that where it held. */
 static inline int fl_surrogate_nearly(const fl_surrogate *s, const fl_told *t)
 {
-    return fl_surrogate_within(s, t->way, t->z, 2.0);
+    return fl_surrogate_within(s, t->way, t->turn, t->z, 2.0);
 }
 
 /* Begin anew from what was found; t: what s had told for this pose, NULL where it could not be asked.

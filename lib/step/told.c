@@ -323,7 +323,8 @@ void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int s
     weigh(&b, w, p, n);
     move(&b);
     for (int k = 0; k < n; k++) {
-        done[k] = fl_surrogate_within(p[k]->surrogate, b.s.way.a[k], b.s.z.a[k], 1.0) && b.s.share.a[k] > 0.0;
+        done[k] = fl_surrogate_within(p[k]->surrogate, b.s.way.a[k], b.s.turn.a[k], b.s.z.a[k], 1.0) &&
+                  b.s.share.a[k] > 0.0;
         any |= done[k];
     }
     if (any) {
