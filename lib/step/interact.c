@@ -313,8 +313,8 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     if (s->n == 0) return 0;
     const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
     fl_bearing q;
-    if (fl_bearing_sum(s, m3_tmul(R, went(b, p, ai, aj, dt)), m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j])), &q))
-        return -1;
+    const fl_vec3 v = m3_tmul(R, went(b, p, ai, aj, dt)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
+    if (fl_bearing_sum(s, v, turn, &q)) return -1;
     if (!(q.u > 0.0 && q.overlap > ROUNDING * (v3_norm(r->o) + b->bound[p->i]))) return 0;
     fl_seen seen = seen_of(p, s, r, &q);
     p->overlap = q.overlap;
@@ -336,6 +336,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     if (carried) {
         const double speed = v3_dot(v3_unit(elastic), approach(b, p, ai, aj));
         seen.springs = &springs;
+        seen.v = v, seen.turn = turn, seen.chi = chi;
         /* the force that the energy of the motion would give, W growing as the square of it */
         seen.toward = sqrt(1.0 + 0.5 * mass * speed * speed / p->energy);
         seen.stiff_i = p->stiff_i, seen.stiff_j = p->stiff_j;

@@ -457,9 +457,9 @@ static int points(const double e[6])
 /* What was learnt of the way can be. */
 static int learnt(const fl_surrogate *s)
 {
-    double zero = 0.0 * (s->before.energy + s->steeper + s->back + s->owed);
+    double zero = 0.0 * (s->before.energy + s->steeper + s->back + s->owed + s->leans);
     for (int k = 0; k < 6; k++) zero += 0.0 * (s->third[k] + s->before.slope[k] + s->before.way[k]);
-    return zero == 0.0 && points(s->along) && s->before.energy >= 0.0;
+    return zero == 0.0 && points(s->along) && s->before.energy >= 0.0 && s->spreads >= 0.0;
 }
 
 /* What a contact remembers of its last look; all else follows from how the two stood then. */
@@ -490,6 +490,8 @@ static void look(traffic *t, const fl_pair *p, fl_surrogate *s)
     real(t, &s->steeper);
     real(t, &s->back);
     real(t, &s->owed);
+    real(t, &s->spreads);
+    real(t, &s->leans);
     if (t->in && !t->err->code &&
         !(turns(&s->M) && s->arm > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MOST && learnt(s)))
         fl_text_fail(t->in, t->err, "a look at a contact that is none");

@@ -386,23 +386,35 @@ void fl_stance_parted(const fl_world *w, fl_pair *p, double distance, double R)
     if (distance > FAR * R) fl_pair_end(p);
 }
 
+/* The lowest of A over planes across n, in world axes, from its centre. */
+static double lowest_of(const fl_world *w, int32_t i, fl_vec3 n)
+{
+    const fl_poly *A = &w->b.core[i];
+    return lowest(A->v, A->nv, m3_tmul(fl_body_axes(&w->b, i), n));
+}
+
 int fl_stance_apart(const fl_world *w, fl_near *q)
 {
     const fl_bodies *b = &w->b;
     const int32_t i = q->i, j = q->j;
-    const fl_poly *A = &b->core[i], *B = &b->core[j];
+    const fl_poly *B = &b->core[j];
     const fl_piece *piece = fl_world_piece(w, j);
+    const int wall = piece && piece->kind == FL_PIECE_PLANE && !piece->elastic;
     const double R = b->radius[i] + b->radius[j];
     fl_pair *const p = q->full; /* it has let go a moment ago */
-    if ((p ? p->n || p->bond || !p->has_axis : !q->has_axis) || A->nv == 1 || B->nv == 1 ||
-        (piece && piece->kind != FL_PIECE_SOLID) || fl_pairing_law(w, i, j)->kind != FL_LAW_PATCH)
+    if ((p && (p->n || p->bond)) || b->core[i].nv == 1 || fl_pairing_law(w, i, j)->kind != FL_LAW_PATCH)
         return 0;
-    const fl_vec3 axis = p ? p->axis : v3(q->axis[0], q->axis[1], q->axis[2]),
-                  n = m3_mul(fl_body_axes(b, j), axis);
+    if (!wall && (!(p ? p->has_axis : q->has_axis) || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID)))
+        return 0;
+    const fl_mat3 axes = fl_body_axes(b, j);
+    const fl_vec3 axis = wall ? v3(0, 0, 1)
+                         : p  ? p->axis
+                              : v3(q->axis[0], q->axis[1], q->axis[2]),
+                  n = wall ? m3_col(axes, 2) : m3_mul(axes, axis);
     const double apart = -v3_dot(n, fl_world_way(w, i, j, q->image)),
-                 distance = lowest(A->v, A->nv, m3_tmul(fl_body_axes(b, i), n)) + apart +
-                            lowest(B->v, B->nv, v3_neg(axis));
-    if (!(distance > believed(w, i, j) * R)) return 0;
+                 distance = lowest_of(w, i, n) + apart + (wall ? 0.0 : lowest(B->v, B->nv, v3_neg(axis)));
+    if (!(distance > (wall ? 1.0 : believed(w, i, j)) * R))
+        return 0; /* of a wall it is no bound, but the truth */
     q->deep = 0;
     q->asleep = awake_after(w, i, j, distance, R);
     if (!p) return 1;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/wide.h"
+#include "step/pulls.h"
 #include "step/surrogate.h"
 
 #define FIRST 0.3   /* reach of a contact that is new, over the root of the tolerance; */
@@ -15,6 +16,7 @@
 #define EVEN 0.1     /* of which neither is shorter than that part of the other */
 #define WIDER 2.0    /* the length grows with the contact by such steps */
 #define SWEEP 0.03   /* of the radii: so near what does not press may come */
+#define LEAST 1e-9   /* of the pressures: what is held back less is rounding */
 #define NET 0.5      /* less than this of the pressures left as force: they oppose each other */
 
 static const fl_vec3 NONE = {0, 0, 0};
@@ -455,6 +457,46 @@ static void press(fl_surrogate *s, const fl_pressing *q, double scale)
     s->wide = q->wide;
 }
 
+/* Rows of the upper triangle times x. */
+static void times(fl_six out, const double *A, const fl_six x)
+{
+    for (int r = 0; r < 6; r++) {
+        out[r] = 0.0;
+        for (int c = 0; c < 6; c++) out[r] += A[FL_UPPER[r][c]] * x[c];
+    }
+}
+
+/* What held pressures back from pulling, in the numbers that tell it of the mean and the variance. */
+static void hold_back(fl_surrogate *s, const fl_seen *seen, const fl_pressing *of)
+{
+    const fl_bearing *q = seen->q;
+    const double E = of->elastic, chi = seen->chi;
+    fl_six V, still, moving;
+    s->spreads = FL_PULLS_EVEN, s->leans = 1.0;
+    put(V, seen->v, seen->turn);
+    put(still, of->direction, of->turning);
+    times(moving, of->damping, V);
+    const double closing = -dot(still, V) / E, mean = 1.0 + chi * closing,
+                 var = chi * chi * (dot(moving, V) / E - closing * closing), p = q->normal / E - mean;
+    if (!(var > LEAST)) return;
+    if (!(p > LEAST && mean + p > LEAST)) { /* none or all of it: an even spread, but no wider than that */
+        const double most = fabs(mean) / sqrt(var);
+        if (s->spreads > most) s->spreads = most;
+        return;
+    }
+    s->spreads = fl_pulls_wide(mean, p) / sqrt(var);
+    const fl_pulls even = fl_pulls_of(mean, var, s->spreads * sqrt(var), 1.0);
+    double more = 0.0, size2 = 0.0;
+    for (int k = 0; k < 6; k++) {
+        const double damped = k < 3 ? (&q->damping.f.x)[k] : (&q->damping.m.x)[k - 3];
+        const double x = -chi * moving[k] - (mean - 1.0) * still[k],
+                     g = damped + chi * moving[k] - p * still[k], by = k < 3 ? 1.0 : 1.0 / (s->arm * s->arm);
+        more += by * x * g, size2 += by * x * x;
+    }
+    if (even.q < 0.0 && size2 > 0.0) s->leans = more / size2 / even.q;
+    if (!(s->leans > 0.0)) s->leans = 0.0;
+}
+
 /* How far A may go that no point of it moves by more than seen->room, and what does not press by no more than a
  * part of the radii as it turns.  As convex bodies slide no place is deeper than the straight line of the
  * overlap foretells; where walls lean over each other one may be, at once. */
@@ -548,6 +590,7 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
         begin(s, seen, &pressing, tolerance);
     }
     fill(s, seen, &pressing, &last);
+    if (s->live) hold_back(s, seen, &pressing);
     owe(s, SAFE * tolerance);
     give_back(s);
     if (s->live && (seen->stiff_i > 0.0 || seen->stiff_j > 0.0))

@@ -92,7 +92,8 @@ typedef struct {
     double pressure;                      /* sum of its e                             [N] */
     fl_vec3 direction, turning;           /* as in fl_pressing, times dW/dU               */
     double damping[FL_PRESSING], wide;
-    fl_vec3 lift; /* of its mean over where they act              */
+    fl_vec3 lift;          /* of its mean over where they act              */
+    double spreads, leans; /* pulls.h: a over the root of the variance, lean */
     /* since the bodies touch */
     fl_vec3 own;             /* the point, frame of A                                 [m] */
     double arm;              /* a                                                     [m] */
@@ -159,6 +160,8 @@ typedef struct {
     double room, bound;          /* of fl_shell_room(), INFINITY where B is convex; of A about o [m] */
     double toward;               /* the force that its motion comes to, over the force */
     double stiff_i, stiff_j;     /* 0: not asked [1/s2] */
+    fl_vec3 v, turn;             /* of A against B at the first place [m/s], [rad/s], frame of B, */
+    double chi;                  /* and how it was damped by fl_bearing_damp() [s/m] */
 } fl_seen;
 
 /* How often one was asked, and how well it told; one for each thread. */

@@ -5,6 +5,7 @@
 #include "base/wide.h"
 #include "law/damping.h"
 #include "step/pairing.h"
+#include "step/pulls.h"
 #include "step/told.h"
 
 /* What is known of contacts beside what their surrogates tell.  World axes, but for what is said to be in the
@@ -14,8 +15,9 @@ typedef struct {
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
     fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
-    fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
-    fl_lane slip[8];                         /* as it is remembered; the last two are nothing */
+    fl_lane way[3], chi, grown, by[3], fd[3],
+        md[3];       /* of damping; frame of B, for a share of 1             */
+    fl_lane slip[8]; /* as it is remembered; the last two are nothing */
     fl_lane n[3], rubs[3], aj[3], k, g, limit, arm, twist, dw; /* as friction sees them            */
     fl_lane to[FL_PAIR_TELLS];                                 /* what fl_pair gets                       */
 } batch;
@@ -120,25 +122,6 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
     }
 }
 
-/* Of what damping multiplies the pressures by, grown in the mean, with that variance: how much lies below 0,
- * and the factors by which the sums of e (n, t), and what damping adds to them, give those pulls back.
- * Spread evenly over the mean +- a, a^2 = 3 var, with s = a - grown below 0,
- *     p = mean of max(0, -x) = s^2/4a,
- *     q = mean of max(0, -x) (x - grown) / var = -s^2 (s/3 + grown/2)/(2 a var),
- * and of (n, t) what follows x: p + q (1 - grown) times the mean and q times what is added. */
-typedef struct {
-    double pulls, still, added;
-} limits;
-
-FL_WIDE_PART limits limit(double grown, double var)
-{
-    const double a = sqrt(3.0 * var), s = a - grown;
-    const int part = s < 2.0 * a; /* else all of it */
-    const double over = 0.5 * s * s / (part ? a : 1.0);
-    const double p = part ? 0.5 * over : -grown, q = part ? -over * (s / 3.0 + 0.5 * grown) / var : -1.0;
-    return (limits){s > 0.0 ? p : 0.0, s > 0.0 ? p + q * (1.0 - grown) : 0.0, s > 0.0 ? q : 0.0};
-}
-
 /* The mean of max(0, x) over x spread evenly about c, by so much both ways. */
 FL_WIDE_PART double met_of(double c, double wide)
 {
@@ -154,8 +137,11 @@ FL_WIDE_PART double row_by(const fl_lane *A, int k, int r, fl_vec3 v, fl_vec3 w)
            (A[at[3]].a[k] * w.x + A[at[4]].a[k] * w.y + A[at[5]].a[k] * w.z);
 }
 
+/* a after a small turn. */
+FL_WIDE_PART fl_vec3 after(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
+
 /* How A moves against B, and what damping adds to a share of 1: -chi times the sums over
- * e (n, t) (n, t)^T. */
+ * e (n, t) (n, t)^T.  What presses has turned as the force has since the look. */
 FL_WIDE_VERSIONS static void move(batch *restrict b)
 {
     const fl_lane *A = OF(damping);
@@ -168,8 +154,11 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         const fl_vec3 arm = v3_sub(fl_lane3(b->s.at, k), first);
         const fl_vec3 acts = fl_surrogate_centre(force, v3_add(fl_lane3(b->s.m, k), v3_cross(arm, force)));
         const fl_vec3 by = v3_sub(acts, fl_lane3(OF(centre), k));
-        const fl_vec3 v = in(R, went(b, k, out(R, v3_add(first, by))));
-        const fl_vec3 w = in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)));
+        const fl_vec3 was = fl_lane3(OF(g), k); /* against the force */
+        const double size2 = v3_norm2(force) * v3_norm2(was), each2 = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0;
+        const fl_vec3 way = v3_scale(each2, v3_cross(force, was)), back = v3_neg(way);
+        const fl_vec3 v = after(back, in(R, went(b, k, out(R, v3_add(first, by)))));
+        const fl_vec3 w = after(back, in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k))));
         const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
                       m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
@@ -180,14 +169,16 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         const double chi =
             fl_damping_chi(b->damping.a[k], b->rest.a[k], touch, b->s.energy.a[k], b->mass.a[k]);
         const double grown = 1.0 + chi * closing, var = chi * chi * apart;
-        const limits to = limit(grown, var > 0.0 ? var : 0.0);
-        const double adds = -chi * (1.0 + to.added);
+        const fl_pulls held =
+            fl_pulls_of(grown, var, OF(spreads)->a[k] * sqrt(var > 0.0 ? var : 0.0), OF(leans)->a[k]);
+        const double adds = -chi * (1.0 + held.q), still = held.p + held.q * (1.0 - grown);
         b->touch.a[k] = touch;
         b->chi.a[k] = chi;
-        b->grown.a[k] = grown + to.pulls;
+        b->grown.a[k] = grown + held.p;
         fl_lane3_put(b->by, k, by);
-        fl_lane3_put(b->fd, k, v3_madd(v3_scale(to.still, D), adds, f));
-        fl_lane3_put(b->md, k, v3_madd(v3_scale(to.still, T), adds, m));
+        fl_lane3_put(b->way, k, way);
+        fl_lane3_put(b->fd, k, after(way, v3_madd(v3_scale(still, D), adds, f)));
+        fl_lane3_put(b->md, k, after(way, v3_madd(v3_scale(still, T), adds, m)));
     }
 }
 
@@ -200,12 +191,13 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const fl_vec3 first = fl_lane3(OF(first), k), point = fl_lane3(b->s.at, k), f = fl_lane3(b->s.f, k),
                       m = fl_lane3(b->s.m, k), off = fl_lane3(b->off, k);
         const double share = b->s.share.a[k], grown = b->grown.a[k];
-        const fl_vec3 by = fl_lane3(b->by, k);
+        const fl_vec3 by = fl_lane3(b->by, k), way = fl_lane3(b->way, k);
         fl_vec3 fd = fl_lane3(b->fd, k), md = fl_lane3(b->md, k);
-        const fl_vec3 still = fl_lane3(OF(direction), k), direction = v3_add(still, fd),
-                      turning = v3_add(fl_lane3(OF(turning), k), md);
+        const fl_vec3 still = after(way, fl_lane3(OF(direction), k)), direction = v3_add(still, fd),
+                      turning = v3_add(after(way, fl_lane3(OF(turning), k)), md);
         /* damping must not leave what the force is off from the pressures by */
-        const fl_vec3 rest = v3_sub(v3_sub(v3_scale(1.0 / share, f), fl_lane3(OF(beside), k)), still);
+        const fl_vec3 rest =
+            v3_sub(v3_sub(v3_scale(1.0 / share, f), after(way, fl_lane3(OF(beside), k))), still);
         const fl_vec3 less = v3_madd(fd, grown - 1.0, rest);
         fd = v3(grown < 1.0 ? less.x : fd.x, grown < 1.0 ? less.y : fd.y, grown < 1.0 ? less.z : fd.z);
         md = v3_add(md, v3_cross(by, fd));
@@ -224,8 +216,8 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
                      each = size > least ? 1.0 / size : 0.0, rubs = size > least ? b->friction.a[k] : 0.0,
                      springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
         const fl_vec3 n = out(R, v3_scale(each, direction));
-        const fl_vec3 amid =
-            v3_add(v3_add(by, fl_lane3(OF(lift), k)), v3_scale(each * each, v3_cross(direction, turning)));
+        const fl_vec3 amid = v3_add(v3_add(by, after(way, fl_lane3(OF(lift), k))),
+                                    v3_scale(each * each, v3_cross(direction, turning)));
         const fl_vec3 centred = v3_add(aj, out(R, amid));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n);
         fl_lane3_put(b->n, k, n);

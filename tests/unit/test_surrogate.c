@@ -4,6 +4,7 @@
 #include "base/rng.h"
 #include "step/interact.h"
 #include "step/pairing.h"
+#include "step/pulls.h"
 #include "support/lab.h"
 #include "support/near.h"
 
@@ -28,6 +29,7 @@ static void two(lab *l, int kind)
     lab_start(l);
     lab_set(l, "contact.surrogate=0.01");
     lab_set(l, "contact.friction=0.3");
+    lab_set(l, "contact.restitution=0.1");
     lab_box(l, ZERO, v3(0.5, 0.5, 0.5), 0.05, q_one(), ZERO, ZERO);
     lab_box(l, v3(HOW[kind].x, HOW[kind].y, 3), v3(0.5, 0.5, 0.5), 0.05, q_of_vector(HOW[kind].turn), ZERO,
             ZERO);
@@ -292,6 +294,58 @@ static void looks_on_a_line_teach_more(void **state)
     assert_true(fabs(order[0] / many - 2.0) < 0.3 && fabs(order[1] / many - 3.0) < 0.4 && better > 3.0);
 }
 
+/* The upper box moves along a, so fast that damping asks for about as much as presses, or many times that. */
+static void move(laid *l, way a, double times)
+{
+    fl_bodies *b = &l->l.w.b;
+    const double speed = times * sqrt(2.0 * l->p.energy / b->m[1]);
+    b->v[1] = v3_scale(speed, a.u);
+    b->w[1] = v3_scale(speed / l->p.surrogate->arm, a.w);
+}
+
+/* What damping does as it is told and as a look finds it, over the force without it. */
+static void damped(laid *l, fl_vec3 *told, fl_vec3 *looked)
+{
+    l->p.surrogate->reach = FL_SURROGATE_MOST;
+    fl_interact(&l->l.w, &l->p, 0, 0.0, 0);
+    assert_true(l->p.surrogate->used);
+    const fl_pair p = lab_look(&l->l.w, 0, 1);
+    const double each = 1.0 / v3_norm(v3_sub(v3_sub(p.f, p.fd), p.fs));
+    *told = v3_scale(each, l->p.fd), *looked = v3_scale(each, p.fd);
+}
+
+/* Damping is told as it was found at the look, also where it would pull at a part of what presses; and farther
+ * on it has turned with the force. */
+static void damping_is_told(void **state)
+{
+    fl_rng g = fl_rng_of(test_seed(), 0, 8);
+    double off[2][2] = {{0}}, changed[2] = {0}; /* [some of it held back][on the spot, farther on] */
+    int many[2] = {0};
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int k = 0; k < 60; k++) {
+            laid l;
+            fl_vec3 told[2], looked[2];
+            const way a = some(&g);
+            lay(&l, kind);
+            move(&l, a, k % 2 ? 0.02 : 0.3);
+            fl_interact_look(&l.l.w, &l.p, 0, NULL, 0.0, 0);
+            damped(&l, &told[0], &looked[0]);
+            const fl_surrogate *s = l.p.surrogate;
+            const int held = s->spreads != FL_PULLS_EVEN;
+            go(&l, a, 0.01 * DEPTH);
+            damped(&l, &told[1], &looked[1]);
+            if (!held) assert_true(v3_norm(v3_sub(told[0], looked[0])) < 1e-9);
+            for (int c = 0; c < 2; c++) off[held][c] += v3_norm(v3_sub(told[c], looked[c]));
+            changed[held] += v3_norm(v3_sub(looked[1], looked[0]));
+            many[held]++;
+            take_up(&l);
+        }
+    assert_true(many[0] > 100 && many[1] > 20);
+    assert_true(off[1][0] < 1e-3 * changed[1]); /* their mean and one moment are right */
+    for (int held = 0; held < 2; held++) assert_true(off[held][1] < 2e-3 * changed[held]);
+}
+
 /* A contact that was told and is nearly over, further than what is told of it goes: what it owes is a
  * number. */
 static void what_is_owed_is_a_number(void **state)
@@ -320,9 +374,12 @@ static void what_is_owed_is_a_number(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_told_is_a_potential), cmocka_unit_test(lanes_are_alike),
-        cmocka_unit_test(the_slope_is_told),           cmocka_unit_test(a_look_teaches),
-        cmocka_unit_test(looks_on_a_line_teach_more),  cmocka_unit_test(what_is_owed_is_a_number)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
+                                       cmocka_unit_test(lanes_are_alike),
+                                       cmocka_unit_test(the_slope_is_told),
+                                       cmocka_unit_test(a_look_teaches),
+                                       cmocka_unit_test(looks_on_a_line_teach_more),
+                                       cmocka_unit_test(what_is_owed_is_a_number),
+                                       cmocka_unit_test(damping_is_told)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }
