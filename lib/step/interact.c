@@ -330,7 +330,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     survey |= carried && (!t || asks(w));
     if (survey) survey_patch(w, p, &springs, R, ai, aj, seen.scale, q.u, &si, &sj);
     if (t && fl_surrogate_nearly(p->surrogate, t) && fabs(seen.slope - t->slope) < 0.5 * t->slope)
-        fl_tangent_remeasured(&p->slip, seen.slope / t->slope);
+        fl_tangent_remeasured(&p->slip, seen.slope / t->slope, seen.slope < p->surrogate->slope);
     const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     if (carried) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pulls.h -- damping never makes a pressure a pull: how much is held back of pressures of which sums are known.
+/* pulls.h -- damping never makes a pressure a pull: how much is held back where only sums are known.
  *
  * Damping multiplies the pressures e of places by x, of which the mean and the variance are known.  Spread
  * evenly over mean +- a, with s = a - mean below 0,

@@ -497,8 +497,8 @@ static void hold_back(fl_surrogate *s, const fl_seen *seen, const fl_pressing *o
     if (!(s->leans > 0.0)) s->leans = 0.0;
 }
 
-/* How far A may go that no point of it moves by more than seen->room, and what does not press by no more than a
- * part of the radii as it turns.  As convex bodies slide no place is deeper than the straight line of the
+/* How far A may go that no point of it moves by more than seen->room, and what does not press by no more than
+ * a part of the radii as it turns.  As convex bodies slide no place is deeper than the straight line of the
  * overlap foretells; where walls lean over each other one may be, at once. */
 static void bound(fl_surrogate *s, const fl_seen *seen)
 {

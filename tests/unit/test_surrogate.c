@@ -294,7 +294,7 @@ static void looks_on_a_line_teach_more(void **state)
     assert_true(fabs(order[0] / many - 2.0) < 0.3 && fabs(order[1] / many - 3.0) < 0.4 && better > 3.0);
 }
 
-/* The upper box moves along a, so fast that damping asks for about as much as presses, or many times that. */
+/* The upper box moves along a, so fast that damping asks for about as much as presses, or for more. */
 static void move(laid *l, way a, double times)
 {
     fl_bodies *b = &l->l.w.b;
@@ -314,8 +314,8 @@ static void damped(laid *l, fl_vec3 *told, fl_vec3 *looked)
     *told = v3_scale(each, l->p.fd), *looked = v3_scale(each, p.fd);
 }
 
-/* Damping is told as it was found at the look, also where it would pull at a part of what presses; and farther
- * on it has turned with the force. */
+/* Damping is told as it was found at the look, also where it would pull at a part of what presses; and
+ * farther on it has turned with the force. */
 static void damping_is_told(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 8);
