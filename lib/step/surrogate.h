@@ -30,7 +30,9 @@
  * third power of the way, so reach = way (0.15 tolerance / off)^(3/8), 3/8 for 1/3; as its square, and 1/2,
  * where t is not known.  Off is the error of force and moment over a, over the force; while the bodies
  * approach or part, over the force that the energy of this motion would give.  It is measured at the end of
- * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most.  Where a look finds
+ * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most, and a turn brings
+ * no corner that does not press nearer by more than a part of the radii: sliding convex bodies have no place
+ * that is deeper than is foretold, turning ones may have.  Where a look finds
  * far more than was asked for, the contact has become another one, and what was learnt is forgotten; so are
  * the looks before it, unless it has only gone far past what it might.  Nothing is told where pressures
  * oppose each other, as in a slot: their sum is not their force.
@@ -47,9 +49,10 @@
  * many looks this is cut by.  A second order of it changes nothing that can be seen.
  *
  * Damping and friction go by the places of the last look, all pressing as then, times one factor that gives
- * them the force that is told; where force and moment put the centre of the pressure elsewhere they are all
- * moved there.  Then damping is linear in how A moves, six by six numbers, but where it would turn pressures
- * into pulls.  Of those the mean and the variance are known, and they are taken to be spread evenly. */
+ * them the force that is told; as the force has turned since they all turn, and where force and moment put
+ * the centre of the pressure elsewhere they are all moved there.  Then damping is linear in how A moves, six
+ * by six numbers, but where it would turn pressures into pulls.  Of those mean and variance are known,
+ * and how wide and how lopsided they are spread is that of the look (pulls.h). */
 #ifndef FL_STEP_SURROGATE_H
 #define FL_STEP_SURROGATE_H
 #include <stddef.h>
@@ -112,7 +115,7 @@ typedef struct {
 /* What one tells for a pose. */
 typedef struct {
     fl_six q, rise; /* [m]; dz/dq [1/m] */
-    double way;     /* |u| + a |w| [m]  */
+    double way;     /* |u| + FL_SURROGATE_TURN a |w| [m]  */
     double turn;    /* a |w| of it [m]  */
     double z;
     fl_vec3 at, w;
