@@ -60,22 +60,20 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
         const double share = sqrt(before * after) * less / (than > 0.0 ? than : 1.0);
         const double fx = share * qx - (k * dt) * vx, fy = share * qy - (k * dt) * vy,
                      fz = share * qz - (k * dt) * vz;
-        /* Coulomb's limit, of which damping has what the spring leaves */
-        const double limit = b->friction[c] * normal;
-        const double spring = sqrt(fx * fx + fy * fy + fz * fz),
-                     keeps = spring > limit ? limit / spring : 1.0;
-        const double ex = keeps * fx, ey = keeps * fy, ez = keeps * fz;
-        const double damps = b->tangential[c] * chi * elastic,
-                     wants = damps * sqrt(vx * vx + vy * vy + vz * vz),
-                     room = limit > spring ? limit - spring : 0.0,
-                     g = wants > room ? damps * (room / wants) : damps;
-        const double hx = ex - g * vx, hy = ey - g * vy, hz = ez - g * vz;
+        /* Coulomb's limit, for the spring and, where that sticks, for spring and damping: never for both */
+        const double limit = b->friction[c] * normal, limit2 = limit * limit;
+        const int slides = fx * fx + fy * fy + fz * fz > limit2;
+        const double g = slides ? 0.0 : b->tangential[c] * chi * elastic;
+        const double gx = fx - g * vx, gy = fy - g * vy, gz = fz - g * vz;
+        const double full2 = gx * gx + gy * gy + gz * gz;
+        const double cut = full2 > limit2 ? limit / sqrt(full2) : 1.0;
+        const double hx = cut * gx, hy = cut * gy, hz = cut * gz;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
         b->touch[c] = touch;
         b->normal[c] = normal;
-        b->slip[0][c] = on ? ex : 0.0;
-        b->slip[1][c] = on ? ey : 0.0;
-        b->slip[2][c] = on ? ez : 0.0;
+        b->slip[0][c] = on ? (slides ? hx : fx) : 0.0;
+        b->slip[1][c] = on ? (slides ? hy : fy) : 0.0;
+        b->slip[2][c] = on ? (slides ? hz : fz) : 0.0;
         b->stiff[c] = on ? k : 0.0;
         b->rub[0][c] = on ? hx : 0.0;
         b->rub[1][c] = on ? hy : 0.0;

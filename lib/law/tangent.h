@@ -31,11 +31,11 @@ typedef struct {
     double moment; /* about n */
 } fl_rubbed;
 
-/* What of the limit a force f and a moment m take together [N]. */
-FL_WIDE_PART double fl_tangent_size(fl_rubbing c, fl_vec3 f, double m)
+/* Of a force f and a moment m the part that the limit allows. */
+FL_WIDE_PART double fl_tangent_part(fl_rubbing c, fl_vec3 f, double m)
 {
-    const double arm = c.arm > 0.0 ? m / c.arm : 0.0;
-    return sqrt(v3_norm2(f) + arm * arm);
+    const double arm = c.arm > 0.0 ? m / c.arm : 0.0, size2 = v3_norm2(f) + arm * arm;
+    return size2 > c.limit * c.limit ? c.limit / sqrt(size2) : 1.0;
 }
 
 /* One step of friction, without a branch or a pointer, so that it goes into loops over lanes.
@@ -47,8 +47,7 @@ FL_WIDE_PART double fl_tangent_size(fl_rubbing c, fl_vec3 f, double m)
  *    incremental, and so is M -= k arm^2 w dt.
  * 3. The two are limited together, (F/limit)^2 + (M/(limit arm))^2 <= 1: beyond, the springs keep what
  *    sliding leaves.  Source of the ellipse: Goyal, Ruina & Papadopoulos, Wear 143 (1991) 307.
- * 4. Damping -g v, -g arm^2 w is added, but no more of it than the limit leaves beside the springs: none
- *    where it slides, and the force does not jump as that begins or ends.
+ * 4. While it sticks damping -g v, -g arm^2 w is added, the sum again limited.
  *
  *   v       velocity of A's point against B's [m/s]; its normal part is dropped
  *   spin    angular velocity of A less that of B about n [rad/s]
@@ -64,13 +63,13 @@ FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_vec3 v, double
     const double fall = k < s.k ? k / s.k : 1.0, fall_turn = turning < s.k_turn ? turning / s.k_turn : 1.0;
     const fl_vec3 along = v3_madd(v, -v3_dot(v, c.n), c.n);
     const fl_vec3 f = v3_madd(v3_scale(fall, v3_scale(length, laid)), -k * dt, along);
-    const double m = fall_turn * s.moment - turning * dt * spin, size = fl_tangent_size(c, f, m),
-                 part = size > c.limit ? c.limit / size : 1.0;
+    const double m = fall_turn * s.moment - turning * dt * spin, part = fl_tangent_part(c, f, m);
     const fl_slip kept = {v3_scale(part, f), k, part * m, turning};
-    const double swings = c.arm * spin, room = c.limit > size ? c.limit - size : 0.0,
-                 wants = c.g * sqrt(v3_norm2(along) + swings * swings),
-                 g = wants > room ? c.g * (room / wants) : c.g;
-    return (fl_rubbed){kept, v3_madd(kept.force, -g, along), kept.moment - g * c.arm * swings};
+    const double g = part < 1.0 ? 0.0 : c.g;
+    const fl_vec3 damped = v3_madd(kept.force, -g, along);
+    const double twisted = kept.moment - g * c.arm * c.arm * spin, most = fl_tangent_part(c, damped, twisted),
+                 left = part < 1.0 ? 1.0 : most;
+    return (fl_rubbed){kept, v3_scale(left, damped), left * twisted};
 }
 
 /* The stiffness was taken for another all the time, and is `by` times as large.  Where it has fallen

@@ -382,23 +382,6 @@ static void friction_measured_anew_makes_no_energy(void **state)
     assert_near(rub(&s, n, rest, 0.0, dt, 990.0, 0.0, limit).x, -sqrt(0.9), 1e-14);
 }
 
-/* The force does not jump as a spring begins to slide, whichever way the surfaces go: against its pull, or
- * along with it, its limit falling. */
-static void friction_is_continuous_where_it_begins_to_slide(void **state)
-{
-    const fl_vec3 n = v3(0, 0, 1), v = v3(0.1, 0, 0);
-    const double dt = 1e-9, k = 1000.0, g = 30.0, f = 10.0;
-    (void)state;
-    for (int way = -1; way <= 1; way += 2)
-        for (int e = -1; e <= 1; e++) {
-            fl_slip s = {v3(f, 0, 0), k, 0.0, 0.0};
-            assert_near(rub(&s, n, v3_scale(way, v), 0.0, dt, k, g, f * (1.0 + 1e-6 * e)).x, f, 3e-5);
-        }
-    /* and far from it damping is whole */
-    fl_slip s = {v3(f, 0, 0), k, 0.0, 0.0};
-    assert_near(rub(&s, n, v, 0.0, dt, k, g, 2.0 * f).x, f - g * v.x, 1e-6);
-}
-
 /* Turning on the spot: a spring of k arm^2 about the normal up to limit arm; with slip the two share the
  * limit. */
 static void friction_turns_and_shares_its_limit(void **state)
@@ -453,7 +436,6 @@ int main(void)
         cmocka_unit_test(friction_damping_stays_within_the_limit),
         cmocka_unit_test(friction_creates_no_energy),
         cmocka_unit_test(friction_measured_anew_makes_no_energy),
-        cmocka_unit_test(friction_is_continuous_where_it_begins_to_slide),
         cmocka_unit_test(friction_turns_and_shares_its_limit),
         cmocka_unit_test(friction_unloads_along_its_stiffness),
     };
