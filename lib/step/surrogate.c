@@ -471,10 +471,11 @@ static void hold_back(fl_surrogate *s, const fl_seen *seen, const fl_pressing *o
 {
     const fl_bearing *q = seen->q;
     const double E = of->elastic, chi = seen->chi;
-    fl_six V, still, moving;
+    fl_six V, still, moving, damped;
     s->spreads = FL_PULLS_EVEN, s->leans = 1.0;
     put(V, seen->v, seen->turn);
     put(still, of->direction, of->turning);
+    put(damped, q->damping.f, q->damping.m);
     times(moving, of->damping, V);
     const double closing = -dot(still, V) / E, mean = 1.0 + chi * closing,
                  var = chi * chi * (dot(moving, V) / E - closing * closing), p = q->normal / E - mean;
@@ -488,9 +489,9 @@ static void hold_back(fl_surrogate *s, const fl_seen *seen, const fl_pressing *o
     const fl_pulls even = fl_pulls_of(mean, var, s->spreads * sqrt(var), 1.0);
     double more = 0.0, size2 = 0.0;
     for (int k = 0; k < 6; k++) {
-        const double damped = k < 3 ? (&q->damping.f.x)[k] : (&q->damping.m.x)[k - 3];
         const double x = -chi * moving[k] - (mean - 1.0) * still[k],
-                     g = damped + chi * moving[k] - p * still[k], by = k < 3 ? 1.0 : 1.0 / (s->arm * s->arm);
+                     g = damped[k] + chi * moving[k] - p * still[k],
+                     by = k < 3 ? 1.0 : 1.0 / (s->arm * s->arm);
         more += by * x * g, size2 += by * x * x;
     }
     if (even.q < 0.0 && size2 > 0.0) s->leans = more / size2 / even.q;

@@ -15,9 +15,9 @@ typedef struct {
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
     fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
-    fl_lane way[3], chi, grown, by[3], fd[3],
-        md[3];       /* of damping; frame of B, for a share of 1             */
-    fl_lane slip[8]; /* as it is remembered; the last two are nothing */
+    fl_lane turn[3];                         /* of the force since the look; frame of B                */
+    fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
+    fl_lane slip[8];                         /* as it is remembered; the last two are nothing */
     fl_lane n[3], rubs[3], aj[3], k, g, limit, arm, twist, dw; /* as friction sees them            */
     fl_lane to[FL_PAIR_TELLS];                                 /* what fl_pair gets                       */
 } batch;
@@ -156,7 +156,7 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         const fl_vec3 by = v3_sub(acts, fl_lane3(OF(centre), k));
         const fl_vec3 was = fl_lane3(OF(g), k); /* against the force */
         const double size2 = v3_norm2(force) * v3_norm2(was), each2 = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0;
-        const fl_vec3 way = v3_scale(each2, v3_cross(force, was)), back = v3_neg(way);
+        const fl_vec3 turn = v3_scale(each2, v3_cross(force, was)), back = v3_neg(turn);
         const fl_vec3 v = after(back, in(R, went(b, k, out(R, v3_add(first, by)))));
         const fl_vec3 w = after(back, in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k))));
         const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
@@ -176,9 +176,9 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         b->chi.a[k] = chi;
         b->grown.a[k] = grown + held.p;
         fl_lane3_put(b->by, k, by);
-        fl_lane3_put(b->way, k, way);
-        fl_lane3_put(b->fd, k, after(way, v3_madd(v3_scale(still, D), adds, f)));
-        fl_lane3_put(b->md, k, after(way, v3_madd(v3_scale(still, T), adds, m)));
+        fl_lane3_put(b->turn, k, turn);
+        fl_lane3_put(b->fd, k, after(turn, v3_madd(v3_scale(still, D), adds, f)));
+        fl_lane3_put(b->md, k, after(turn, v3_madd(v3_scale(still, T), adds, m)));
     }
 }
 
@@ -191,13 +191,13 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const fl_vec3 first = fl_lane3(OF(first), k), point = fl_lane3(b->s.at, k), f = fl_lane3(b->s.f, k),
                       m = fl_lane3(b->s.m, k), off = fl_lane3(b->off, k);
         const double share = b->s.share.a[k], grown = b->grown.a[k];
-        const fl_vec3 by = fl_lane3(b->by, k), way = fl_lane3(b->way, k);
+        const fl_vec3 by = fl_lane3(b->by, k), turn = fl_lane3(b->turn, k);
         fl_vec3 fd = fl_lane3(b->fd, k), md = fl_lane3(b->md, k);
-        const fl_vec3 still = after(way, fl_lane3(OF(direction), k)), direction = v3_add(still, fd),
-                      turning = v3_add(after(way, fl_lane3(OF(turning), k)), md);
+        const fl_vec3 still = after(turn, fl_lane3(OF(direction), k)), direction = v3_add(still, fd),
+                      turning = v3_add(after(turn, fl_lane3(OF(turning), k)), md);
         /* damping must not leave what the force is off from the pressures by */
         const fl_vec3 rest =
-            v3_sub(v3_sub(v3_scale(1.0 / share, f), after(way, fl_lane3(OF(beside), k))), still);
+            v3_sub(v3_sub(v3_scale(1.0 / share, f), after(turn, fl_lane3(OF(beside), k))), still);
         const fl_vec3 less = v3_madd(fd, grown - 1.0, rest);
         fd = v3(grown < 1.0 ? less.x : fd.x, grown < 1.0 ? less.y : fd.y, grown < 1.0 ? less.z : fd.z);
         md = v3_add(md, v3_cross(by, fd));
@@ -216,7 +216,7 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
                      each = size > least ? 1.0 / size : 0.0, rubs = size > least ? b->friction.a[k] : 0.0,
                      springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
         const fl_vec3 n = out(R, v3_scale(each, direction));
-        const fl_vec3 amid = v3_add(v3_add(by, after(way, fl_lane3(OF(lift), k))),
+        const fl_vec3 amid = v3_add(v3_add(by, after(turn, fl_lane3(OF(lift), k))),
                                     v3_scale(each * each, v3_cross(direction, turning)));
         const fl_vec3 centred = v3_add(aj, out(R, amid));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n);
