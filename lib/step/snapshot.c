@@ -457,9 +457,9 @@ static int points(const double e[6])
 /* What was learnt of the way can be. */
 static int learnt(const fl_surrogate *s)
 {
-    double zero = 0.0 * (s->before.energy + s->steeper + s->back + s->owed + s->leans);
+    double zero = 0.0 * (s->before.energy + s->steeper + s->back + s->owed + s->spreads + s->leans);
     for (int k = 0; k < 6; k++) zero += 0.0 * (s->third[k] + s->before.slope[k] + s->before.way[k]);
-    return zero == 0.0 && points(s->along) && s->before.energy >= 0.0 && s->spreads >= 0.0;
+    return zero == 0.0 && points(s->along) && s->before.energy >= 0.0 && s->spreads >= 0.0 && s->leans >= 0.0;
 }
 
 /* What a contact remembers of its last look; all else follows from how the two stood then. */
