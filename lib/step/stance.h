@@ -26,9 +26,10 @@ int fl_stance_contact(fl_world *w, fl_pair *p, int32_t thread, const fl_stance *
  * sleeps.  What has gone far enough forgets its features. */
 void fl_stance_parted(const fl_world *w, fl_pair *p, double distance, double R);
 
-/* Whether the direction of the last look still keeps two that do not touch farther apart than they reach, as
- * it does most often; then nothing else of them has to be known, and q->asleep is renewed.  A contact that
- * has let go is renewed as well, and forgets its features where it has gone far enough. */
+/* Whether the direction of the last look, or that of a rigid wall, still keeps two that do not touch farther
+ * apart than they reach, as it does most often; then nothing else of them has to be known, and q->asleep is
+ * renewed.  A contact that has let go is renewed as well, and forgets its features where it has gone far
+ * enough. */
 int fl_stance_apart(const fl_world *w, fl_near *q);
 
 /* The signed contact of a pair as the probe tells it: gap and mode by narrow/contact.h, in world axes
