@@ -2,6 +2,7 @@
 #include <math.h>
 #include "base/wide.h"
 #include "law/sphere.h"
+#include "law/tangent.h"
 
 /* Registers are filled to the end: what stands behind the last contact is computed too, and not used. */
 enum { FULL = 8 };
@@ -54,26 +55,30 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
                      tz = pz + twist * (nx * py - ny * px);
         const double off = tx * nx + ty * ny + tz * nz;
         const double qx = tx - off * nx, qy = ty - off * ny, qz = tz - off * nz;
-        const double before = px * px + py * py + pz * pz, after = qx * qx + qy * qy + qz * qz;
-        const double k = b->tangential[c] * b->slope[c], old = b->stiff[c];
-        const double less = k < old ? k : 1.0, than = after * (k < old ? old : 1.0);
-        const double share = sqrt(before * after) * less / (than > 0.0 ? than : 1.0);
-        const double fx = share * qx - (k * dt) * vx, fy = share * qy - (k * dt) * vy,
-                     fz = share * qz - (k * dt) * vz;
-        /* Coulomb's limit, for the spring and, where that sticks, for spring and damping: never for both */
-        const double limit = b->friction[c] * normal, limit2 = limit * limit;
-        const int slides = fx * fx + fy * fy + fz * fz > limit2;
-        const double g = slides ? 0.0 : b->tangential[c] * chi * elastic;
-        const double gx = fx - g * vx, gy = fy - g * vy, gz = fz - g * vz;
-        const double full2 = gx * gx + gy * gy + gz * gz;
-        const double cut = full2 > limit2 ? limit / sqrt(full2) : 1.0;
-        const double hx = cut * gx, hy = cut * gy, hz = cut * gz;
+        const double before = sqrt(px * px + py * py + pz * pz), after = sqrt(qx * qx + qy * qy + qz * qz);
+        const double k = b->tangential[c] * b->slope[c], old = b->stiff[c], limit = b->friction[c] * normal;
+        const double had = before * (k < old ? k : 1.0), than = k < old ? old : 1.0,
+                     share = had / (than * (after > 0.0 ? after : 1.0));
+        const double way = (k < old ? k : 0.5 * (k + old)) * dt;
+        const fl_grip from = {v3(share * qx, share * qy, share * qz), 0.0},
+                      goes = {v3(-way * vx, -way * vy, -way * vz), 0.0}, to = fl_grip_madd(from, 1.0, goes);
+        /* Coulomb's limit, of which damping has what the spring leaves: steps 3 and 4 of fl_tangent_rub() */
+        const fl_grip slides = fl_tangent_flow(from, share * after, limit, goes);
+        const double held = v3_norm(to.f), turned = v3_norm(slides.f),
+                     keeps = turned > 0.0 ? limit / turned : 0.0;
+        const int sticks = !(held > limit);
+        const double ex = sticks ? to.f.x : keeps * slides.f.x, ey = sticks ? to.f.y : keeps * slides.f.y,
+                     ez = sticks ? to.f.z : keeps * slides.f.z;
+        const double damps = b->tangential[c] * chi * elastic,
+                     wants = damps * sqrt(vx * vx + vy * vy + vz * vz), room = sticks ? limit - held : 0.0,
+                     g = wants > room ? damps * (room / wants) : damps;
+        const double hx = ex - g * vx, hy = ey - g * vy, hz = ez - g * vz;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
         b->touch[c] = touch;
         b->normal[c] = normal;
-        b->slip[0][c] = on ? (slides ? hx : fx) : 0.0;
-        b->slip[1][c] = on ? (slides ? hy : fy) : 0.0;
-        b->slip[2][c] = on ? (slides ? hz : fz) : 0.0;
+        b->slip[0][c] = on ? ex : 0.0;
+        b->slip[1][c] = on ? ey : 0.0;
+        b->slip[2][c] = on ? ez : 0.0;
         b->stiff[c] = on ? k : 0.0;
         b->rub[0][c] = on ? hx : 0.0;
         b->rub[1][c] = on ? hy : 0.0;

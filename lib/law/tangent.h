@@ -24,6 +24,14 @@ typedef struct {
     double arm;   /* root mean square distance of the pressure from its centre [m]; 0 for a point */
 } fl_rubbing;
 
+/* How A moves against B at the contact: in the mean of the step, which the springs go by, and at its end, as
+ * far as that is foreseen, which damping and sliding go by. */
+typedef struct {
+    fl_vec3 v, next;        /* velocities of its point; normal parts are dropped  [m/s] */
+    double spin, next_spin; /* angular velocities about n                       [rad/s] */
+    double twist;           /* mean of that of A and of B about n, in the mean of the step */
+} fl_sliding;
+
 /* What a step of friction leaves, and what it does to A. */
 typedef struct {
     fl_slip slip;
@@ -31,45 +39,87 @@ typedef struct {
     double moment; /* about n */
 } fl_rubbed;
 
-/* Of a force f and a moment m the part that the limit allows. */
-FL_WIDE_PART double fl_tangent_part(fl_rubbing c, fl_vec3 f, double m)
+/* A force and a moment over the arm: limited together, by their size. */
+typedef struct {
+    fl_vec3 f;
+    double m;
+} fl_grip;
+
+FL_WIDE_PART double fl_grip_dot(fl_grip a, fl_grip b) { return v3_dot(a.f, b.f) + a.m * b.m; }
+FL_WIDE_PART double fl_grip_size(fl_grip a) { return sqrt(fl_grip_dot(a, a)); }
+FL_WIDE_PART fl_grip fl_grip_scale(double s, fl_grip a) { return (fl_grip){v3_scale(s, a.f), s * a.m}; }
+FL_WIDE_PART fl_grip fl_grip_madd(fl_grip a, double s, fl_grip b)
 {
-    const double arm = c.arm > 0.0 ? m / c.arm : 0.0, size2 = v3_norm2(f) + arm * arm;
-    return size2 > c.limit * c.limit ? c.limit / sqrt(size2) : 1.0;
+    return (fl_grip){v3_madd(a.f, s, b.f), a.m + s * b.m};
+}
+
+/* Sliding: at the limit F = limit e, and e' = -(k/limit)(v - (v.e) e).
+ *
+ * Where a step takes e to from F0, of that size: |F0| is to be the mean of the limits before and now, and the
+ * length of what is returned has no meaning.  s = -k v dt.  With r = F0.s/2F0^2 that is along F0 + (1 + r) s
+ * to order 2 for |s| << |F0|, and along s for |s| >> |F0|; 1/(1 - r) for 1 + r where r < 0 keeps it from
+ * turning about.  r = a/b; times all that would divide. */
+FL_WIDE_PART fl_grip fl_tangent_flow(fl_grip from, double size, double limit, fl_grip s)
+{
+    const double mean = 0.5 * (size + limit), a = 0.5 * fl_grip_dot(from, s), b = size * mean;
+    const double over = a > 0.0 ? b : b - a, times = a > 0.0 ? b + a : b;
+    return fl_grip_madd(fl_grip_scale(over * mean, from), size > 0.0 ? times * size : 1.0, s);
+}
+
+/* The s of that from those by v in the mean of the step and at its end.  For |s| << |F0| it is the former.
+ * With the part rho/(2 + rho) of what the latter differs by, rho = |s|/|F0|, e lags behind a v that turns
+ * evenly by limit/(k |v|), as it should, whatever the step. */
+FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_grip next)
+{
+    const double way = fl_grip_size(s), late = size > 0.0 ? way / (size + limit + way) : 1.0;
+    return fl_grip_madd(s, late, fl_grip_madd(next, -1.0, s));
 }
 
 /* One step of friction, without a branch or a pointer, so that it goes into loops over lanes.
  *
  * 1. The remembered force is turned about n by the mean spin of the pair, laid into the tangent plane and
  *    given back its length: it rolls with the contact.
- * 2. Where the stiffness has fallen force and moment fall with it (Thornton, J. Appl. Mech. 64 (1997) 363):
- *    kept, they would hold more energy than was put in.  Where it has risen they stay: F -= k v dt is
- *    incremental, and so is M -= k arm^2 w dt.
- * 3. The two are limited together, (F/limit)^2 + (M/(limit arm))^2 <= 1: beyond, the springs keep what
- *    sliding leaves.  Source of the ellipse: Goyal, Ruina & Papadopoulos, Wear 143 (1991) 307.
- * 4. While it sticks damping -g v, -g arm^2 w is added, the sum again limited.
+ * 2. F -= k v dt, M -= k arm^2 w dt, with the mean of k before and now where that has risen.  Where it has
+ *    fallen force and moment fall with it first (Thornton, J. Appl. Mech. 64 (1997) 363): kept, they would
+ *    hold more energy than was put in; F/k -= v dt.  Both are of order 2.
+ * 3. The two are limited together, (F/limit)^2 + (M/(limit arm))^2 <= 1: beyond, it slides, and they keep
+ *    the limit and turn as fl_tangent_flow() has it.  Source of the ellipse: Goyal, Ruina & Papadopoulos, Wear
+ *    143 (1991) 307.
+ * 4. Damping -g v, -g arm^2 w is added, but no more of it than the limit leaves beside the springs: none
+ *    where it slides, as Coulomb has it (V04 of verify_spheres), and the force does not jump as that begins or
+ *    ends.
  *
- *   v       velocity of A's point against B's [m/s]; its normal part is dropped
- *   spin    angular velocity of A less that of B about n [rad/s]
- *   twist   mean angular velocity of the pair about n [rad/s]
  *   dt      [s] */
-FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_vec3 v, double spin, double twist,
-                                      double dt)
+FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, double dt)
 {
     const double before = v3_norm2(s.force), k = c.k, turning = k * c.arm * c.arm;
-    const fl_vec3 rolled = v3_madd(s.force, twist * dt, v3_cross(c.n, s.force));
+    const fl_vec3 rolled = v3_madd(s.force, by.twist * dt, v3_cross(c.n, s.force));
     const fl_vec3 laid = v3_madd(rolled, -v3_dot(rolled, c.n), c.n);
     const double after = v3_norm2(laid), length = after > 0.0 ? sqrt(before / after) : 1.0;
     const double fall = k < s.k ? k / s.k : 1.0, fall_turn = turning < s.k_turn ? turning / s.k_turn : 1.0;
-    const fl_vec3 along = v3_madd(v, -v3_dot(v, c.n), c.n);
-    const fl_vec3 f = v3_madd(v3_scale(fall, v3_scale(length, laid)), -k * dt, along);
-    const double m = fall_turn * s.moment - turning * dt * spin, part = fl_tangent_part(c, f, m);
-    const fl_slip kept = {v3_scale(part, f), k, part * m, turning};
-    const double g = part < 1.0 ? 0.0 : c.g;
-    const fl_vec3 damped = v3_madd(kept.force, -g, along);
-    const double twisted = kept.moment - g * c.arm * c.arm * spin, most = fl_tangent_part(c, damped, twisted),
-                 left = part < 1.0 ? 1.0 : most;
-    return (fl_rubbed){kept, v3_scale(left, damped), left * twisted};
+    const double stiff = k < s.k ? k : 0.5 * (k + s.k),
+                 stiff_turn = turning < s.k_turn ? turning : 0.5 * (turning + s.k_turn);
+    const double each = c.arm > 0.0 ? 1.0 / c.arm : 0.0;
+    const fl_vec3 v = v3_madd(by.v, -v3_dot(by.v, c.n), c.n),
+                  next = v3_madd(by.next, -v3_dot(by.next, c.n), c.n);
+    const fl_grip from = {v3_scale(fall, v3_scale(length, laid)), each * (fall_turn * s.moment)},
+                  way = {v3_scale(-stiff * dt, v), each * (-stiff_turn * dt * by.spin)},
+                  way_next = {v3_scale(-stiff * dt, next), each * (-stiff_turn * dt * by.next_spin)};
+    const fl_grip to = fl_grip_madd(from, 1.0, way);
+    const double size = fl_grip_size(from);
+    const fl_grip slides = fl_tangent_flow(from, size, c.limit, fl_tangent_way(size, c.limit, way, way_next));
+    const double held = fl_grip_size(to), turned = fl_grip_size(slides),
+                 keeps = turned > 0.0 ? c.limit / turned : 0.0;
+    const int sticks = !(held > c.limit);
+    const fl_grip slid = fl_grip_scale(keeps, slides);
+    const fl_grip kept = {
+        v3(sticks ? to.f.x : slid.f.x, sticks ? to.f.y : slid.f.y, sticks ? to.f.z : slid.f.z),
+        sticks ? to.m : slid.m};
+    const fl_grip moves = {next, c.arm * by.next_spin};
+    const double wants = c.g * fl_grip_size(moves), room = sticks ? c.limit - held : 0.0,
+                 g = wants > room ? c.g * (room / wants) : c.g;
+    const fl_grip damped = fl_grip_madd(kept, -g, moves);
+    return (fl_rubbed){{kept.f, k, c.arm * kept.m, turning}, damped.f, c.arm * damped.m};
 }
 
 /* The stiffness was taken for another all the time, and is `by` times as large.  Where it has fallen

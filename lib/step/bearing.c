@@ -61,12 +61,11 @@ static double largest(const fl_wide *a)
     return most;
 }
 
-FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, fl_vec3 turn, lane *t,
-                                   fl_bearing *q)
+FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, lane *t, fl_bearing *q)
 {
     const fl_vec3 at = place[0].p;
     const fl_wide zero = {0};
-    fl_wide u = zero, ddu = zero, most = zero, pressed = zero, met = zero, elastic = zero;
+    fl_wide u = zero, ddu = zero, most = zero, pressed = zero, elastic = zero;
     fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
     for (int32_t k = 0; k < n; k += FL_LANES, t++) {
         const fl_place *p = place + k;
@@ -87,21 +86,30 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, fl_vec3 v, 
         fl_wide moment[3];
         CROSS(moment, arm, pull);
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
-        fl_wide closing;
-        inward(&closing, across, arm, v, turn);
         const fl_wide e = du * (nx * across[0] + ny * across[1] + nz * across[2]);
-        t->closing = closing, t->e = e, t->du = du, t->curve = bent;
+        t->e = e, t->du = du, t->curve = bent;
         u += ux;
         ddu += bent;
         pressed += du;
-        met += du * FL_WIDE_WHERE(closing > 0.0, closing);
         elastic += e;
         most = FL_WIDE_CHOOSE(overlap > most, overlap, most);
     }
     q->u = fl_wide_sum(&u), q->ddu = fl_wide_sum(&ddu);
-    q->pressed = fl_wide_sum(&pressed), q->met = fl_wide_sum(&met), q->elastic = fl_wide_sum(&elastic);
+    q->pressed = fl_wide_sum(&pressed), q->elastic = fl_wide_sum(&elastic);
     q->gradient = (fl_wrench){sum3(f), sum3(m)};
     q->overlap = largest(&most);
+}
+
+FL_WIDE_VERSIONS static void move(lane *t, int32_t lanes, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
+{
+    fl_wide met = {0};
+    for (int32_t k = 0; k < lanes; k++, t++) {
+        fl_wide closing;
+        inward(&closing, t->across, t->arm, v, turn);
+        t->closing = closing;
+        met += t->du * FL_WIDE_WHERE(closing > 0.0, closing);
+    }
+    q->met = fl_wide_sum(&met);
 }
 
 FL_WIDE_VERSIONS static void second(const lane *t, int32_t lanes, double chi, fl_bearing *q)
@@ -273,12 +281,19 @@ static const lane *held_back(const fl_places *s, double chi, int32_t *lanes, dou
 
 /* ----------------------------------------------------------------------------------------------- */
 
-int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
+int fl_bearing_sum(fl_places *s, fl_bearing *q)
 {
     *q = (fl_bearing){0};
     if (s->n == 0) return 0;
     if (fl_room(&s->lane, &s->lane_cap, 2 * lanes_of(s) + s->n / CORNERS, sizeof(lane))) return -1;
-    first(s->place, s->n, v, turn, s->lane, q);
+    first(s->place, s->n, s->lane, q);
+    return 0;
+}
+
+int fl_bearing_move(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
+{
+    if (s->n == 0) return 0;
+    move(s->lane, lanes_of(s), v, turn, q);
     if (find_areas(s)) return -1;
     q->met += met_aside(s);
     return 0;

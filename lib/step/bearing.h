@@ -36,10 +36,14 @@ typedef struct {
     fl_wrench damping;   /* [m5], [m6] */
 } fl_bearing;
 
-/* All but the last five; v, turn: velocities of A against B at the first place.  -1 when memory runs out. */
-int fl_bearing_sum(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q);
+/* All but `met` and the last five.  -1 when memory runs out. */
+int fl_bearing_sum(fl_places *s, fl_bearing *q);
 
-/* The last five, after fl_bearing_sum() of the same places; chi [s/m]. */
+/* `met` of the same places; v, turn: velocities of A against B at the first of them.  -1 when memory runs
+ * out. */
+int fl_bearing_move(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q);
+
+/* The last five, after that; chi [s/m]. */
 void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q);
 
 /* ddu along `across` at arm of the places that press, after fl_bearing_sum() [m4]. */
@@ -60,7 +64,7 @@ typedef struct {
 /* After fl_bearing_sum(). */
 void fl_bearing_pressing(const fl_places *s, fl_pressing *q);
 
-/* The speed at which the bodies approach at place k, after fl_bearing_sum() [m/s]. */
+/* The speed at which the bodies approach at place k, after fl_bearing_move() [m/s]. */
 double fl_bearing_closing(const fl_places *s, int32_t k);
 
 #endif

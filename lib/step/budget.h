@@ -10,7 +10,7 @@
  * Where another step must be tried the order is known, h and h/2 do, and e = 2 d.
  * The step is the largest, among those that divide a row, for which all windows looked at together stay
  * within the goal,
- *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.95 goal sum |X|,
+ *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.9 goal sum |X|,
  * with s the part of the error along X, for errors of either sign cancel and those of one add up; of peaks
  * it is the largest error against the largest peak, and 0.65.  Because what goes wrong between floes reaches
  * the structure later, the momenta of the floes at the end of the window must be right, too, to the goal (of

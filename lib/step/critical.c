@@ -298,19 +298,29 @@ double fl_world_across(const fl_world *w)
     return left.one / along.one;
 }
 
-double fl_world_peak_off(const fl_world *w)
+/* D of the most damped contacts; those that go by the speeds of the middle of a step, which are not
+ * foresight's (damping.h), are spheres with spheres and walls, bonds, and the manual's laws. */
+static double most_damped(const fl_world *w, int late)
 {
-    const double r = isfinite(w->dt_critical) ? w->dt / w->dt_critical : 0.0;
+    const int all = !late || w->balls.bodies || w->frozen.n;
     double D = 0.0;
     for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
         const fl_touching *law = &w->law[k];
         const int manual = law->kind == FL_LAW_MANUAL || law->kind == FL_LAW_MANUAL_SI;
-        D = fmax(D, manual ? 2.0 * law->zeta : law->chi);
+        D = fmax(D, manual ? 2.0 * law->zeta : all ? law->chi : 0.0);
     }
-    return 0.35 * D * r / (1.0 + 0.5 * D) + 0.5 * r * r;
+    return D;
+}
+
+double fl_world_peak_off(const fl_world *w)
+{
+    const double r = isfinite(w->dt_critical) ? w->dt / w->dt_critical : 0.0, D = most_damped(w, 1),
+                 all = most_damped(w, 0);
+    return 0.35 * D * r / (1.0 + 0.5 * D) + fmin(0.15 + 0.2 * all * all, 0.95) * r * r;
 }
 
 double fl_world_impulse_off(const fl_world *w)
 {
-    return isfinite(w->dt_critical) ? 0.3 * w->dt / w->dt_critical : 0.0;
+    const double r = isfinite(w->dt_critical) ? w->dt / w->dt_critical : 0.0, first = 0.3 * r;
+    return most_damped(w, 1) > 0.0 ? first : fmin(first, 1.5 * r * r);
 }

@@ -100,6 +100,21 @@ static fl_gain gain_few(double (*g)[FL_FEW], int32_t k)
     return (fl_gain){v3(g[0][k], g[1][k], g[2][k]), v3(g[3][k], g[4][k], g[5][k])};
 }
 
+/* Its speeds. */
+static fl_gain speeds_of(const fl_bodies *b, int32_t k) { return (fl_gain){b->v[k], b->w[k]}; }
+
+static fl_gain speeds_few(const fl_few *s, int32_t k)
+{
+    return (fl_gain){v3(s->v[0][k], s->v[1][k], s->v[2][k]), v3(s->w[0][k], s->w[1][k], s->w[2][k])};
+}
+
+/* The first half of a step: from `before` to `after` by drag, and gain by the kick. */
+static void set_lead(fl_world *w, int32_t k, fl_gain before, fl_gain after, fl_gain gain)
+{
+    fl_works_set_lead(w, k, v3_add(gain.v, v3_sub(after.v, before.v)),
+                      v3_add(gain.w, v3_sub(after.w, before.w)));
+}
+
 /* w may be the mean of a step before a kick, which is no gain of it. */
 static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
 {
@@ -121,25 +136,32 @@ static void begin_few(fl_world *w, crew *c, double h)
     const int calm = sea->n && fl_calm_goes(sea);
     const int32_t *was = w->was.place, *at = c->at, n = c->n;
     int32_t busy[FL_FEW], many = 0, any = 0;
+    fl_gain before[FL_FEW];
     double g[6][FL_FEW];
     fl_few s;
     if (n == 0) return;
+    for (int32_t k = 0; k < n; k++) any |= was[at[k]];
+    for (int32_t k = 0; k < n && any; k++) {
+        busy[many] = k;
+        many += was[at[k]] != 0;
+    }
+    for (int32_t k = 0; k < many; k++) before[k] = speeds_of(b, at[busy[k]]);
     for (int32_t k = 0; k < n && sea->n && !calm; k++) fl_sea_drag(sea, b, at[k], half_of(w, at[k], h), 0);
     take(w, &s, c, h);
     c->n = 0;
     fl_few_take_forces(&s, b);
     fl_few_take_pose(&s, b);
     if (calm) fl_calm_drag(sea, b, &s, 0);
-    for (int32_t k = 0; k < n; k++) any |= was[at[k]];
-    for (int32_t k = 0; k < n && any; k++) {
-        busy[many] = k;
-        many += was[at[k]] != 0;
-    }
     if (many) {
         fl_few_axes(&s);
         fl_few_gains(&s, g);
     }
-    for (int32_t k = 0; k < many; k++) w->gain[was[at[busy[k]]]] = gain_few(g, busy[k]);
+    for (int32_t k = 0; k < many; k++) {
+        const int32_t i = at[busy[k]];
+        const fl_gain gain = gain_few(g, busy[k]);
+        *fl_works_gain(w, i) = gain;
+        set_lead(w, i, before[k], speeds_few(&s, busy[k]), gain);
+    }
     fl_few_push(&s);
     const int done = fl_few_drift(&s);
     fl_few_put_speeds(&s, b);
@@ -149,16 +171,23 @@ static void begin_few(fl_world *w, crew *c, double h)
 
 static void begin_balls(fl_world *w, int32_t from, int32_t to, double h)
 {
-    for (int32_t k = from; k < to && w->sea.n; k++) fl_sea_drag(&w->sea, &w->b, k, h, 0);
+    for (int32_t k = from; k < to && (w->sea.n || w->n_live); k++) {
+        const fl_gain before = speeds_of(&w->b, k);
+        if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
+        set_lead(w, k, before, speeds_of(&w->b, k), gain_of(&w->b, k, h));
+    }
     fl_move_balls(&w->b, from, to, h, 2.0 * h);
 }
 
 static void begin_one(fl_world *w, int32_t k, double h)
 {
     if (fl_world_away(w, k) || fl_sleep_kind(w, k) != FL_AWAKE) return;
-    if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
     fl_gain gain, *const kept = fl_works_gain(w, k);
+    const fl_gain before = speeds_of(&w->b, k);
+    if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
+    const fl_gain after = speeds_of(&w->b, k);
     kick(w, k, h, kept ? kept : &gain);
+    if (kept) set_lead(w, k, before, after, *kept);
     fl_drift(&w->b, k, 2.0 * h);
 }
 

@@ -6,6 +6,7 @@
 #include "step/bearing.h"
 #include "step/frozen.h"
 #include "step/interact.h"
+#include "step/lead.h"
 #include "step/pairing.h"
 #include "step/press.h"
 #include "step/stance.h"
@@ -48,6 +49,31 @@ static fl_vec3 went(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec3 aj
     return v3_add(approach(b, p, ai, aj), fl_pair_lag(b, p, v3_sub(ai, aj), dt));
 }
 
+/* How A moves at the end of a step: the mean of the step and so much of what that will be ahead of it by. */
+typedef struct {
+    fl_lead by;
+    double foresight; /* fl_damping_foresight() */
+    double dt;
+} ahead;
+
+static ahead ahead_of(const fl_world *w, const fl_pair *p, const fl_stance *r, double dt)
+{
+    return (ahead){fl_lead_of(w, p, r->off, dt), 0.0, dt};
+}
+
+/* elastic: sum of what presses; mass: that meets, W being known.  Of a law that damps by so much of its force
+ * and the speed: what this touch has approached by before tells how much that is. */
+static void foresee(ahead *a, const fl_pair *p, double elastic, double mass)
+{
+    const double chi = fl_damping_chi(p->law->chi, p->law->rest, p->n ? p->touch : 0.0, p->energy, mass);
+    a->foresight = fl_damping_foresight(a->by.pressed * (a->dt * chi * elastic / mass));
+}
+
+static fl_vec3 next(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
+{
+    return v3_madd(went(b, p, ai, aj, a->dt), a->foresight, fl_lead_at(&a->by, ai, aj));
+}
+
 /* The pressure of a contact, summed up: what friction needs. */
 typedef struct {
     double normal;     /* sum of F with damping                                     [N] */
@@ -71,7 +97,7 @@ static void press(pressure *q, double elastic, double normal, fl_vec3 n, fl_vec3
 }
 
 /* Friction at the centre of the pressure. */
-static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl_stance *r, double dt)
+static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl_stance *r, const ahead *a)
 {
     const fl_bodies *b = &w->b;
     const fl_touching *law = p->law;
@@ -87,8 +113,11 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl
                           .g = law->tangential * chi * q->elastic,
                           .limit = law->friction * (q->walls ? q->normal : v3_norm(q->direction)),
                           .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0};
-    const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n);
-    const fl_rubbed t = fl_tangent_rub(p->slip, c, went(b, p, ai, aj, dt), wi - wj, 0.5 * (wi + wj), dt);
+    const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n),
+                 turned = a->foresight * (v3_dot(a->by.wi, c.n) - v3_dot(a->by.wj, c.n));
+    const fl_sliding by = {went(b, p, ai, aj, a->dt), next(b, p, a, ai, aj), wi - wj, wi - wj + turned,
+                           0.5 * (wi + wj)};
+    const fl_rubbed t = fl_tangent_rub(p->slip, c, by, a->dt);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->slip = t.slip;
     add_wrench(&p->fs, &p->si, &p->sj, t.force, ai, aj);
@@ -140,15 +169,13 @@ static double damping_factor(fl_pair *p, double now, double mass)
 /* A place of a round thing in world axes. */
 typedef struct {
     fl_vec3 n, ai, aj; /* ai, aj: from the centres of A and B    */
-    double closing;    /* speed of approach along n        [m/s] */
     double part;       /* phi'(s), with the sign of the place    */
 } spot;
 
-static spot spot_of(const fl_bodies *b, const fl_pair *p, const fl_place *q, const fl_stance *r)
+static spot spot_of(const fl_pair *p, const fl_place *q, const fl_stance *r)
 {
     spot t = {.n = m3_mul(r->R, q->n), .aj = m3_mul(r->R, q->p)};
     t.ai = v3_add(t.aj, r->off);
-    t.closing = -v3_dot(t.n, approach(b, p, t.ai, t.aj));
     t.part = q->du * fl_normal_power(q->overlap, p->exponent);
     return t;
 }
@@ -160,7 +187,7 @@ static void stiffen_points(const fl_world *w, fl_pair *p, const fl_places *s, co
     fl_stiff si = {0}, sj = {0};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_place *q = &s->place[c];
-        const spot t = spot_of(&w->b, p, q, r);
+        const spot t = spot_of(p, q, r);
         const double slope = p->k * fl_normal_slope(q->overlap, p->exponent);
         if (q->du < 0.0) continue;
         fl_stiff_add(&si, &w->b, p->i, slope, t.n, v3_cross(t.ai, t.n));
@@ -169,47 +196,58 @@ static void stiffen_points(const fl_world *w, fl_pair *p, const fl_places *s, co
     stiffen(w, p, all, r, &si, &sj);
 }
 
+/* The speed of approach along n [m/s]. */
+static double closing_of(const fl_bodies *b, const fl_pair *p, const ahead *a, const spot *t)
+{
+    return -v3_dot(t->n, next(b, p, a, t->ai, t->aj));
+}
+
 /* The places of a round thing or of `core`: W = k sum of phi(s), most often of one. */
 static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, double dt,
                         int survey)
 {
     const fl_bodies *b = &w->b;
     const double k = p->k;
-    const spot first = spot_of(b, p, &s->place[0], r);
+    const spot first = spot_of(p, &s->place[0], r);
     fl_vec3 way = first.n, turn_i = v3_cross(first.ai, first.n), turn_j = v3_cross(first.aj, first.n);
-    double closing = first.closing, less = 1.0;
+    double sum = first.part, less = 1.0;
+    ahead a = ahead_of(w, p, r, dt);
     p->overlap = s->place[0].overlap;
     p->energy = k * fl_normal_phi(p->overlap, p->exponent);
     if (s->n > 1) { /* of the force of all, which is less than that of each by itself */
-        double sum = first.part;
         way = v3_scale(sum, way), turn_i = v3_scale(sum, turn_i), turn_j = v3_scale(sum, turn_j);
         for (int32_t c = 1; c < s->n; c++) {
             const fl_place *q = &s->place[c];
-            const spot t = spot_of(b, p, q, r);
+            const spot t = spot_of(p, q, r);
             sum += t.part;
             way = v3_madd(way, t.part, t.n);
             turn_i = v3_madd(turn_i, t.part, v3_cross(t.ai, t.n));
             turn_j = v3_madd(turn_j, t.part, v3_cross(t.aj, t.n));
-            if (q->du > 0.0 && t.closing > closing) closing = t.closing;
             p->energy += q->du * k * fl_normal_phi(q->overlap, p->exponent);
             p->overlap = fmax(p->overlap, q->overlap);
         }
         less = v3_norm2(way) / (sum * sum);
     }
     const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
+    foresee(&a, p, k * sum, mass);
+    double closing = closing_of(b, p, &a, &first);
+    for (int32_t c = 1; c < s->n; c++) {
+        const spot t = spot_of(p, &s->place[c], r);
+        if (s->place[c].du > 0.0) closing = fmax(closing, closing_of(b, p, &a, &t));
+    }
     const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass);
     pressure all = {.at = first.aj, .walls = s->n > 1};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_place *q = &s->place[c];
-        const spot t = c ? spot_of(b, p, q, r) : first;
+        const spot t = c ? spot_of(p, q, r) : first;
         const double elastic = k * t.part, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
-                     normal = q->du * fl_normal_damped(fabs(elastic), chi, t.closing);
+                     normal = q->du * fl_normal_damped(fabs(elastic), chi, closing_of(b, p, &a, &t));
         add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, t.n), t.ai, t.aj);
         press(&all, elastic, normal, t.n, v3_sub(t.aj, first.aj));
         all.slope += slope;
     }
-    rub(w, p, &all, chi, r, dt);
+    rub(w, p, &all, chi, r, &a);
     if (survey) stiffen_points(w, p, s, &all, r);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note(w, p, s, p->k, chi);
@@ -233,7 +271,7 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_springs *
 /* What damping and friction add to the elastic force of `patch`.  q: of places, times scale; it is about aj
  * from B's centre; slope: dF/ds. */
 static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale, double slope, double chi,
-                     const fl_stance *r, fl_vec3 aj, double dt)
+                     const fl_stance *r, fl_vec3 aj, const ahead *a)
 {
     const fl_mat3 *R = &r->R;
     add_sum(&p->fd, &p->di, &p->dj, &q->damping, scale, R, v3_add(aj, r->off), aj);
@@ -247,7 +285,7 @@ static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale,
                           .moment = v3_scale(scale, m3_mul(*R, q->moment)),
                           .spread = scale * q->spread,
                           .slope = slope};
-    rub(w, p, &all, chi, r, dt);
+    rub(w, p, &all, chi, r, a);
     return all;
 }
 
@@ -313,8 +351,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     if (s->n == 0) return 0;
     const fl_vec3 at = s->place[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
     fl_bearing q;
-    const fl_vec3 v = m3_tmul(R, went(b, p, ai, aj, dt)), turn = m3_tmul(R, v3_sub(b->w[p->i], b->w[p->j]));
-    if (fl_bearing_sum(s, v, turn, &q)) return -1;
+    if (fl_bearing_sum(s, &q)) return -1;
     if (!(q.u > 0.0 && q.overlap > ROUNDING * (v3_norm(r->o) + b->bound[p->i]))) return 0;
     fl_seen seen = seen_of(p, s, r, &q);
     p->overlap = q.overlap;
@@ -322,6 +359,11 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
     const fl_vec3 elastic = p->f;
     const double mass = fl_pair_mass(w, p, elastic, p->ti, p->tj);
+    ahead a = ahead_of(w, p, r, dt);
+    foresee(&a, p, seen.scale * q.elastic, mass);
+    const fl_vec3 spin = v3_madd(v3_sub(b->w[p->i], b->w[p->j]), a.foresight, v3_sub(a.by.wi, a.by.wj));
+    const fl_vec3 v = m3_tmul(R, next(b, p, &a, ai, aj)), turn = m3_tmul(R, spin);
+    if (fl_bearing_move(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.pressed > 0.0 ? q.met / q.pressed : 0.0, mass);
     fl_bearing_damp(s, chi, &q);
     fl_stiff si, sj;
@@ -331,7 +373,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     if (survey) survey_patch(w, p, &springs, R, ai, aj, seen.scale, q.u, &si, &sj);
     if (t && fl_surrogate_nearly(p->surrogate, t) && fabs(seen.slope - t->slope) < 0.5 * t->slope)
         fl_tangent_remeasured(&p->slip, seen.slope / t->slope, seen.slope < p->surrogate->slope);
-    const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, dt);
+    const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, &a);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     if (carried) {
         const double speed = v3_dot(v3_unit(elastic), approach(b, p, ai, aj));
@@ -371,14 +413,17 @@ static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, double dt, int
     if (wet.volume <= 0.0) return 0;
     p->energy = fl_buoyancy_force(&wet, up, level, w->bed.stiffness, &force, &moment);
     const fl_vec3 ai = m3_mul(R, wet.centre), aj = v3_sub(ai, r->off);
-    const double closing = -v3_dot(n, approach(b, p, ai, aj)), elastic = w->bed.stiffness * wet.volume;
-    double normal = elastic + w->bed.damping * wet.waterplane * closing;
+    const double damping = w->bed.damping * wet.waterplane, elastic = w->bed.stiffness * wet.volume;
+    ahead a = ahead_of(w, p, r, dt);
+    a.foresight = fl_damping_foresight(a.by.pressed * (dt * damping * b->invm[i]));
+    const double closing = -v3_dot(n, next(b, p, &a, ai, aj));
+    double normal = elastic + damping * closing;
     if (normal < 0.0) normal = 0.0;
     pressure all = {.slope = w->bed.stiffness * wet.waterplane, .at = aj};
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
     press(&all, elastic, normal, n, v3(0, 0, 0));
-    rub(w, p, &all, 0.0, r, dt);
+    rub(w, p, &all, 0.0, r, &a);
     if (survey) { /* the waterplane behind the wall turns with the body: as stiff as at its farthest point */
         fl_stiff si = {0}, sj = {0};
         fl_stiff_add(&si, b, i, all.slope, n, v3_cross(ai, n));
@@ -424,6 +469,7 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
     double normal = elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, closing);
     if (normal < 0.0) normal = 0.0;
     const double slope = k * fl_normal_slope(overlap, exponent);
+    const ahead a = ahead_of(w, p, r, dt); /* of which it takes nothing: as the manual has it */
     pressure all = {.slope = slope, .at = aj};
     p->overlap = overlap;
     p->energy = k * fl_normal_phi(overlap, exponent);
@@ -431,7 +477,7 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, nw), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, nw), ai, aj);
     press(&all, elastic, normal, nw, v3(0, 0, 0));
-    rub(w, p, &all, 0.0, r, dt);
+    rub(w, p, &all, 0.0, r, &a);
     if (survey) stiffen_one(w, p, &all, nw, r);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note_one(w, p, c.p, c.n, c.area);
@@ -498,7 +544,7 @@ int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o)
     fl_bearing q;
     if (fl_stance_places(w, p, 0, &r, &distance)) return -1;
     if (s->n == 0) return 0;
-    if (fl_bearing_sum(s, v3(0, 0, 0), v3(0, 0, 0), &q)) return -1;
+    if (fl_bearing_sum(s, &q)) return -1;
     if (!(q.u > 0.0)) return 0;
     fl_seen seen = seen_of(p, s, &r, &q);
     fl_springs springs;

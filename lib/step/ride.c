@@ -2,6 +2,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "step/ride.h"
+#include "step/works.h"
 
 #define PI 3.14159265358979323846
 
@@ -206,7 +207,9 @@ void fl_ride_out(fl_world *w, double t)
         const int32_t j = w->n + k;
         const fl_vec3 x = w->b.x[j];
         const fl_quat q = w->b.q[j];
+        const fl_gain before = {w->b.v[j], w->b.w[j]};
         place(w, k, w->dt);
+        fl_works_set_lead(w, j, v3_sub(w->b.v[j], before.v), v3_sub(w->b.w[j], before.w));
         const fl_quat d = q_mul(w->b.q[j], q_conj(q)); /* its chord, as in integrate.c */
         w->b.odometer[j] +=
             v3_norm(v3_sub(w->b.x[j], x)) + 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z) * w->b.bound[j];

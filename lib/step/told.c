@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include "base/wide.h"
 #include "law/damping.h"
+#include "step/lead.h"
 #include "step/pairing.h"
 #include "step/pulls.h"
 #include "step/told.h"
@@ -14,12 +15,14 @@ typedef struct {
     fl_tellers s;
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
+    fl_lane du[3], dwi[3], dwj[3];           /* by how much the end of the step is ahead of them, lead.h */
+    fl_lane pressed, foresight;              /* of lead.h; so much of that counts */
     fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
     fl_lane turn[3];                         /* of the force since the look; frame of B                */
     fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
     fl_lane slip[8];                         /* as it is remembered; the last two are nothing */
-    fl_lane n[3], rubs[3], aj[3], k, g, limit, arm, twist, dw; /* as friction sees them            */
-    fl_lane to[FL_PAIR_TELLS];                                 /* what fl_pair gets                       */
+    fl_lane n[3], rubs[3], next[3], aj[3], k, g, limit, arm, twist, dw, dw_next; /* as friction sees them */
+    fl_lane to[FL_PAIR_TELLS]; /* what fl_pair gets                       */
 } batch;
 
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
@@ -45,6 +48,11 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         fl_lane3_put(b->u, k, v3_add(v3_sub(o->v[i], o->v[j]), fl_pair_lag(o, c, off, dt)));
         fl_lane3_put(b->wi, k, o->w[i]);
         fl_lane3_put(b->wj, k, o->w[j]);
+        const fl_lead lead = fl_lead_of(w, c, off, dt);
+        fl_lane3_put(b->du, k, lead.v);
+        fl_lane3_put(b->dwi, k, lead.wi);
+        fl_lane3_put(b->dwj, k, lead.wj);
+        b->pressed.a[k] = lead.pressed;
         b->mass.a[k] = c->mass, b->touch.a[k] = c->touch;
         b->rest.a[k] = c->law->rest, b->damping.a[k] = c->law->chi;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential;
@@ -87,6 +95,13 @@ FL_WIDE_PART fl_vec3 went(const batch *b, int k, fl_vec3 aj)
     const fl_vec3 ai = v3_add(aj, fl_lane3(b->off, k));
     return v3_add(fl_lane3(b->u, k),
                   v3_sub(v3_cross(fl_lane3(b->wi, k), ai), v3_cross(fl_lane3(b->wj, k), aj)));
+}
+
+/* By how much the end of the step is ahead of that, as far as that counts. */
+FL_WIDE_PART fl_vec3 leads(const batch *b, int k, fl_vec3 aj)
+{
+    const fl_lead lead = {.v = fl_lane3(b->du, k), .wi = fl_lane3(b->dwi, k), .wj = fl_lane3(b->dwj, k)};
+    return v3_scale(b->foresight.a[k], fl_lead_at(&lead, v3_add(aj, fl_lane3(b->off, k)), aj));
 }
 
 /* How A stands to B. */
@@ -142,7 +157,7 @@ FL_WIDE_PART fl_vec3 after(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(
 
 /* How A moves against B, and what damping adds to a share of 1: -chi times the sums over
  * e (n, t) (n, t)^T.  What presses has turned as the force has since the look. */
-FL_WIDE_VERSIONS static void move(batch *restrict b)
+FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
 {
     const fl_lane *A = OF(damping);
 #pragma omp simd
@@ -157,8 +172,16 @@ FL_WIDE_VERSIONS static void move(batch *restrict b)
         const fl_vec3 was = fl_lane3(OF(g), k); /* against the force */
         const double size2 = v3_norm2(force) * v3_norm2(was), each2 = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0;
         const fl_vec3 turn = v3_scale(each2, v3_cross(force, was)), back = v3_neg(turn);
-        const fl_vec3 v = after(back, in(R, went(b, k, out(R, v3_add(first, by)))));
-        const fl_vec3 w = after(back, in(R, v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k))));
+        const double rests = fl_damping_chi(b->damping.a[k], b->rest.a[k], b->touch.a[k], b->s.energy.a[k],
+                                            b->mass.a[k]),
+                     pressure = b->s.share.a[k] * OF(pressure)->a[k],
+                     foresight =
+                         fl_damping_foresight(b->pressed.a[k] * (dt * rests * pressure / b->mass.a[k]));
+        b->foresight.a[k] = foresight;
+        const fl_vec3 aj = out(R, v3_add(first, by)), turns = v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)),
+                      more = v3_sub(fl_lane3(b->dwi, k), fl_lane3(b->dwj, k));
+        const fl_vec3 v = after(back, in(R, v3_add(went(b, k, aj), leads(b, k, aj))));
+        const fl_vec3 w = after(back, in(R, v3_madd(turns, foresight, more)));
         const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
                       m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
@@ -219,15 +242,19 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const fl_vec3 amid = v3_add(v3_add(by, after(turn, fl_lane3(OF(lift), k))),
                                     v3_scale(each * each, v3_cross(direction, turning)));
         const fl_vec3 centred = v3_add(aj, out(R, amid));
-        const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n);
+        const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n),
+                     more = v3_dot(fl_lane3(b->dwi, k), n) - v3_dot(fl_lane3(b->dwj, k), n);
+        const fl_vec3 goes = went(b, k, centred);
         fl_lane3_put(b->n, k, n);
         fl_lane3_put(b->aj, k, centred);
-        fl_lane3_put(b->rubs, k, went(b, k, centred));
+        fl_lane3_put(b->rubs, k, goes);
+        fl_lane3_put(b->next, k, v3_add(goes, leads(b, k, centred)));
         b->k.a[k] = springs * b->s.slope.a[k];
         b->g.a[k] = springs * b->chi.a[k] * (share * OF(pressure)->a[k]);
         b->limit.a[k] = rubs * (share * size);
         b->arm.a[k] = OF(wide)->a[k];
         b->dw.a[k] = wi - wj;
+        b->dw_next.a[k] = wi - wj + b->foresight.a[k] * more;
         b->twist.a[k] = 0.5 * (wi + wj);
     }
 }
@@ -241,7 +268,9 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
         const fl_rubbing c = {fl_lane3(b->n, k), b->k.a[k], b->g.a[k], b->limit.a[k], b->arm.a[k]};
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
         const fl_slip was = {fl_lane3(b->slip, k), b->slip[3].a[k], b->slip[4].a[k], b->slip[5].a[k]};
-        const fl_rubbed to = fl_tangent_rub(was, c, fl_lane3(b->rubs, k), b->dw.a[k], b->twist.a[k], dt);
+        const fl_sliding by = {fl_lane3(b->rubs, k), fl_lane3(b->next, k), b->dw.a[k], b->dw_next.a[k],
+                               b->twist.a[k]};
+        const fl_rubbed to = fl_tangent_rub(was, c, by, dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
         const double spring = fl_tangent_energy(to.slip), slope = asked * b->s.slope.a[k];
@@ -313,7 +342,7 @@ void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int s
     relate(&b);
     fl_surrogate_tell(&b.s);
     weigh(&b, w, p, n);
-    move(&b);
+    move(&b, dt);
     for (int k = 0; k < n; k++) {
         done[k] = fl_surrogate_within(p[k]->surrogate, b.s.way.a[k], b.s.turn.a[k], b.s.z.a[k], 1.0) &&
                   b.s.share.a[k] > 0.0;

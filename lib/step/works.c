@@ -25,14 +25,20 @@ static int room(void *array, int32_t *cap, int32_t n, int32_t want, size_t size)
     return 0;
 }
 
+static int grow_gains(fl_world *w, int32_t n, int32_t want)
+{
+    int32_t had = w->gain_cap;
+    return room(&w->lead, &had, n, want, sizeof *w->lead) ||
+                   room(&w->gain, &w->gain_cap, n, want, sizeof *w->gain)
+               ? -1
+               : 0;
+}
+
 /* Sinks 0 to n, and gains; of some an eighth more, as they come and go. */
 static int more(fl_world *w, fl_sinks *s, int32_t n)
 {
     const int32_t want = n < w->b.total ? 1 + n + n / 8 : 1 + n;
-    return room(&s->at, &s->cap, n + 1, want, sizeof *s->at) ||
-                   room(&w->gain, &w->gain_cap, n + 1, want, sizeof *w->gain)
-               ? -1
-               : 0;
+    return room(&s->at, &s->cap, n + 1, want, sizeof *s->at) || grow_gains(w, n + 1, want) ? -1 : 0;
 }
 
 int fl_works_make(fl_world *w, fl_err *err)
@@ -47,7 +53,7 @@ int fl_works_make(fl_world *w, fl_err *err)
 void fl_works_free(fl_world *w)
 {
     free(w->sink.place), free(w->was.place), free(w->sink.at), free(w->was.at);
-    free(w->gain);
+    free(w->gain), free(w->lead);
 }
 
 /* Those that touch, in their order; not by their pairs, which are far apart in memory.  Few do: eight that do
@@ -169,6 +175,7 @@ void fl_works_begin(fl_world *w)
     fl_ball_sum *sum = w->balls.was;
     w->balls.was = w->balls.sum;
     w->balls.sum = sum;
+    memset(w->lead, 0, (size_t)w->gain_cap * sizeof *w->lead);
     for (int32_t k = w->n; k < w->b.total && w->ride.m.n; k++) {
         fl_gain *const gain = fl_works_gain(w, k);
         if (gain) *gain = gain_of(w, k);

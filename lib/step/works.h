@@ -40,6 +40,15 @@ static inline fl_gain *fl_works_gain(const fl_world *w, int32_t k)
     return w->was.place[k] ? &w->gain[w->was.place[k]] : NULL;
 }
 
+/* What the first half of the step changed of k's speeds, drag as well; 0 where nothing pressed before. */
+static inline const fl_gain *fl_works_lead(const fl_world *w, int32_t k) { return &w->lead[w->was.place[k]]; }
+
+/* It is that, if anybody may ask for it. */
+static inline void fl_works_set_lead(fl_world *w, int32_t k, fl_vec3 v, fl_vec3 spin)
+{
+    if (w->was.place[k]) w->lead[w->was.place[k]] = (fl_gain){v, spin};
+}
+
 /* Nothing acts on thing k any longer. */
 static inline void fl_works_clear(const fl_world *w, int32_t k)
 {

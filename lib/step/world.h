@@ -346,7 +346,8 @@ typedef struct {
     fl_gate gate;             /* of the team that does a step */
     int32_t inc_cap, inc_first_cap;
     fl_sinks sink, was; /* of the forces of now, and of those before; see works.h */
-    fl_gain *gain;      /* [gain_cap] of the first kick of a step, at was.place[k]; 0: of nobody */
+    /* [gain_cap] at was.place[k], 0: of nobody; of the first kick of a step, and of all of its first half */
+    fl_gain *gain, *lead;
     int32_t gain_cap;
     double skin;            /* boxes are grown by half of it [m] */
     double *odometer_found; /* [total] odometers at the last search */

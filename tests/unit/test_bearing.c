@@ -47,7 +47,7 @@ static void stiffness_is_that_of_each_place(void **state)
         fl_bearing q;
         fill(&s, n, &g);
         fl_springs springs;
-        assert_int_equal(fl_bearing_sum(&s, some(&g), some(&g), &q), 0);
+        assert_int_equal(fl_bearing_sum(&s, &q), 0);
         fl_bearing_springs(&s, &springs);
         for (int32_t i = 0; i < 3; i++) {
             fl_stiff K = {0}, L = {0};
@@ -80,7 +80,8 @@ static void force_is_that_of_each_place(void **state)
         fl_vec3 f = v3(0, 0, 0), m = f, more = f;
         fl_bearing q;
         fill(&s, n, &g);
-        assert_int_equal(fl_bearing_sum(&s, v, turn, &q), 0);
+        assert_int_equal(fl_bearing_sum(&s, &q), 0);
+        assert_int_equal(fl_bearing_move(&s, v, turn, &q), 0);
         fl_bearing_damp(&s, chi, &q);
         for (int32_t k = 0; k < n; k++) {
             const fl_place *p = &s.place[k];
@@ -142,7 +143,8 @@ static void which_places_stand_for_an_area_is_all_one(void **state)
             s.n = others;
             for (int a = 0; a < areas; a++)
                 lay(&s, e[a], at[a][0], at[a][1], at[a][2], 6.0 * fl_rng_unit(&g));
-            assert_int_equal(fl_bearing_sum(&s, v, turn, &q[way]), 0);
+            assert_int_equal(fl_bearing_sum(&s, &q[way]), 0);
+            assert_int_equal(fl_bearing_move(&s, v, turn, &q[way]), 0);
             fl_bearing_damp(&s, 0.3, &q[way]);
         }
         double size = 1.0;
@@ -186,8 +188,9 @@ static void an_even_pressure_is_held_back_as_a_whole(void **state)
             }
             s.n = 0;
             lay(&s, 1.0, v3(0, 0, 0), x, y, 0.1 + sink + rate);
-            assert_int_equal(fl_bearing_sum(&s, v3(0, 0, -sink - rate * s.place[0].p.x), v3(0, rate, 0), &q),
-                             0);
+            const fl_vec3 v = v3(0, 0, -sink - rate * s.place[0].p.x);
+            assert_int_equal(fl_bearing_sum(&s, &q), 0);
+            assert_int_equal(fl_bearing_move(&s, v, v3(0, rate, 0), &q), 0);
             fl_bearing_damp(&s, 1.0, &q);
             const fl_vec3 m = v3_add(q.moment, v3_scale(q.normal, s.place[0].p));
             const double size = 1.0 + sink + rate > 0.0 ? fabs(1.0 + sink) + rate : 1.0;

@@ -12,7 +12,8 @@
 static fl_vec3 tangent(fl_slip *s, const fl_rubbing *c, fl_vec3 v, double spin, double twist, double dt,
                        double *moment)
 {
-    const fl_rubbed r = fl_tangent_rub(*s, *c, v, spin, twist, dt);
+    const fl_sliding by = {v, v, spin, spin, twist};
+    const fl_rubbed r = fl_tangent_rub(*s, *c, by, dt);
     *s = r.slip;
     *moment = r.moment;
     return r.force;
@@ -248,7 +249,7 @@ static void friction_sticks_slides_and_comes_back(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), v = v3(1, 0, 0.7); /* the normal part is dropped */
     const double k = 1000.0, dt = 1e-3, limit = 5.0;
-    fl_slip s = {0};
+    fl_slip s = {.k = k};
     fl_vec3 f = v3(0, 0, 0);
     (void)state;
     for (int i = 1; i <= 5; i++) {
@@ -290,7 +291,7 @@ static void friction_rolls_with_the_contact(void **state)
 
 static void friction_damping_stays_within_the_limit(void **state)
 {
-    fl_slip s = {0};
+    fl_slip s = {.k = 1000.0};
     const fl_vec3 n = v3(0, 0, 1);
     (void)state;
     fl_vec3 f = rub(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 2.0, 5.0);
@@ -339,7 +340,7 @@ static void friction_unloads_along_its_stiffness(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), there = v3(1, 0, 0), still = v3(0, 0, 0);
     const double k1 = 1000.0, k2 = 250.0, dt = 1e-4, far = 1e9;
-    fl_slip s = {0};
+    fl_slip s = {.k = k1};
     (void)state;
     for (int i = 0; i < 100; i++) rub(&s, n, there, 0.0, dt, k1, 0.0, far);
     const double held = fl_tangent_energy(s);
@@ -362,7 +363,7 @@ static void friction_measured_anew_makes_no_energy(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), rest = v3(0, 0, 0);
     const double dt = 1e-3, limit = 500.0;
-    fl_slip s = {0};
+    fl_slip s = {.k = 1000.0};
     (void)state;
     rub(&s, n, v3(1, 0, 0), 0.0, dt, 1000.0, 0.0, limit);
     fl_slip fallen = s;
@@ -382,13 +383,89 @@ static void friction_measured_anew_makes_no_energy(void **state)
     assert_near(rub(&s, n, rest, 0.0, dt, 990.0, 0.0, limit).x, -sqrt(0.9), 1e-14);
 }
 
+/* The force does not jump as a spring begins to slide, whichever way the surfaces go: against its pull, or
+ * along with it, its limit falling. */
+static void friction_is_continuous_where_it_begins_to_slide(void **state)
+{
+    const fl_vec3 n = v3(0, 0, 1), v = v3(0.1, 0, 0);
+    const double dt = 1e-9, k = 1000.0, g = 30.0, f = 10.0;
+    (void)state;
+    for (int way = -1; way <= 1; way += 2)
+        for (int e = -1; e <= 1; e++) {
+            fl_slip s = {v3(f, 0, 0), k, 0.0, 0.0};
+            assert_near(rub(&s, n, v3_scale(way, v), 0.0, dt, k, g, f * (1.0 + 1e-6 * e)).x, f, 3e-5);
+        }
+    /* and far from it damping is whole */
+    fl_slip s = {v3(f, 0, 0), k, 0.0, 0.0};
+    assert_near(rub(&s, n, v, 0.0, dt, k, g, 2.0 * f).x, f - g * v.x, 1e-6);
+}
+
+/* A spring under a stiffness that rises and falls again: k = t (2 - t), v = cos 3t, F = -int k v dt up to
+ * t = 1, and F/k = F(1) - int v dt from there on.  Off by a quarter at half the step. */
+static void friction_springs_are_of_order_two(void **state)
+{
+    const fl_vec3 n = v3(0, 0, 1);
+    const double end = 1.9, at1 = 2.0 / 9.0 - sin(3.0) * 11.0 / 27.0, /* int t (2 - t) cos 3t, t = 0 to 1 */
+        truth = end * (2.0 - end) * (at1 - (sin(3.0 * end) - sin(3.0)) / 3.0);
+    double off[2];
+    (void)state;
+    for (int fine = 0; fine < 2; fine++) {
+        const int steps = 190 << fine;
+        const double dt = end / steps;
+        fl_slip s = {0};
+        fl_vec3 f = v3(0, 0, 0);
+        for (int i = 1; i <= steps; i++) {
+            const double t = i * dt;
+            f = rub(&s, n, v3(cos(3.0 * (t - 0.5 * dt)), 0, 0), 0.0, dt, t * (2.0 - t), 0.0, 100.0);
+        }
+        off[fine] = fabs(f.x - truth);
+    }
+    assert_true(off[0] < 1e-4);
+    assert_near_of(off[0] / off[1], 4.0, 0.1, 4.0);
+}
+
+/* What slides goes along e' = -(k/limit)(v - (v.e) e): with v that turns evenly, from across it, against the
+ * same in steps a hundredth as long; and in the end it lags behind -v by the angle of which the sine is
+ * Omega limit/(k |v|), whatever the step, which in the last row is a hundred times as long as it takes. */
+static void what_slides_follows_the_way_to_order_two(void **state)
+{
+    static const struct {
+        double k, dt;
+    } row[] = {{2.0, 0.05}, {2.0, 0.025}, {2.0, 0.0125}, {1000.0, 0.1}};
+    const double limit = 1.0, omega = 0.5;
+    double off[3];
+    (void)state;
+    for (int r = 0; r < 4; r++) {
+        fl_vec3 e[2];
+        double late = 0.0;
+        for (int fine = 0; fine < 2; fine++) {
+            const double dt = fine ? 0.01 * row[r].dt : row[r].dt;
+            const fl_rubbing c = {.n = v3(0, 0, 1), .k = row[r].k, .limit = limit};
+            fl_slip s = {v3(0, limit, 0), row[r].k, 0.0, 0.0};
+            for (int i = 1; i * dt < (r < 3 ? 1.0 : 20.0) + 0.5 * dt; i++) {
+                const double mid = omega * (i - 0.5) * dt, at = omega * i * dt;
+                const fl_sliding by = {.v = v3(cos(mid), sin(mid), 0), .next = v3(cos(at), sin(at), 0)};
+                s = fl_tangent_rub(s, c, by, dt).slip;
+                late = v3_cross(by.next, s.force).z;
+            }
+            e[fine] = s.force;
+            assert_near(v3_norm(e[fine]), limit, 1e-14);
+        }
+        if (r < 3) off[r] = v3_norm(v3_sub(e[0], e[1]));
+        else assert_near(late, omega * limit / row[r].k, 0.02);
+    }
+    assert_true(off[0] < 1.1e-3);
+    assert_near_of(off[0] / off[1], 4.0, 0.2, 4.0);
+    assert_near_of(off[1] / off[2], 4.0, 0.1, 4.0);
+}
+
 /* Turning on the spot: a spring of k arm^2 about the normal up to limit arm; with slip the two share the
  * limit. */
 static void friction_turns_and_shares_its_limit(void **state)
 {
     const double k = 1000.0, dt = 1e-3, arm = 0.2, limit = 5.0, spin = 3.0;
     const fl_rubbing c = {.n = v3(0, 0, 1), .k = k, .limit = limit, .arm = arm};
-    fl_slip s = {0};
+    fl_slip s = {.k = k, .k_turn = k * arm * arm};
     double m = 0.0, taken = 0.0, before = 0.0;
     (void)state;
     tangent(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
@@ -436,6 +513,9 @@ int main(void)
         cmocka_unit_test(friction_damping_stays_within_the_limit),
         cmocka_unit_test(friction_creates_no_energy),
         cmocka_unit_test(friction_measured_anew_makes_no_energy),
+        cmocka_unit_test(friction_is_continuous_where_it_begins_to_slide),
+        cmocka_unit_test(friction_springs_are_of_order_two),
+        cmocka_unit_test(what_slides_follows_the_way_to_order_two),
         cmocka_unit_test(friction_turns_and_shares_its_limit),
         cmocka_unit_test(friction_unloads_along_its_stiffness),
     };

@@ -508,8 +508,6 @@ static void V10(void)
         verify_row("V10", "the same by manual-si", on_held("manual-si", r, 1, FL_HOLD_X, 0, 0.3), 0.3, 0.02,
                    VERIFY_ABS);
     }
-    /* Damping sees the velocity half a step before, an error of order 1; over a whole impact the shares of it
-     * going in and coming out cancel. */
     double h[4], error[4];
     for (int k = 0; k < 4; k++) {
         h[k] = 1.0 / (4 << k);
