@@ -5,9 +5,8 @@
  * it into a second world made from the same scene, and moves that through a window of some rows with steps
  * h, h/2 and h/4.  With X the load of the window and d = |X(h) - X(h/2)|, d' = |X(h/2) - X(h/4)|,
  *     order    p = log2(d/d'), kept in [1, 2],
- *     error    e = |X(h) - X(h/4)| + d',                 e(h') = e (h'/h)^p            (Richardson)
- * where what is left of h/4 counts as of order 1: damping and friction are, and the rest is an eighth less.
- * Where another step must be tried the order is known, h and h/2 do, and e = 2 d.
+ *     error    e = |X(h) - X(h/4)| + d'/(2^p - 1),       e(h') = e (h'/h)^p            (Richardson)
+ * Where another step must be tried the order is known, h and h/2 do, and e = d/(1 - 2^-p).
  * The step is the largest, among those that divide a row, for which all windows looked at together stay
  * within the goal,
  *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.9 goal sum |X|,
