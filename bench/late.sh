@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# late.sh [BUILD [OUT]] -- what a contact costs late in a jam, without surrogates and with 1e-3: after 40 s of
+# late.sh [BUILD [OUT]] -- what a contact costs late in a jam, without surrogates and with 1e-3: after 41 s of
 # share/examples/cylinder one second more, in steps of 0.1 ms, by the programs of BUILD/bin.  One thread.
 #   OUT/late.tsv   a row for each start and tolerance; its head names the machine.  OUT is bench/results
 # What a start is and what the columns are: bench/README.md.
@@ -18,7 +18,7 @@ mkdir -p "$out" "$build/late" || exit 4
 out=$(cd "$out" && pwd)
 PATH=$build/bin:$PATH
 if [ "${FLOE_QUICK:-0}" = 0 ]; then
-    after=40 more=1 turns=${TURNS:-3}
+    after=41 more=1 turns=${TURNS:-3}
 else
     after=8 more=0.1 turns=${TURNS:-1}
 fi

@@ -43,14 +43,10 @@ static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec
     return v3_sub(fl_body_velocity(b, p->i, ai), fl_body_velocity(b, p->j, aj));
 }
 
-/* The same in the mean of the step. */
-static fl_vec3 went(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec3 aj, double dt)
-{
-    return v3_add(approach(b, p, ai, aj), fl_pair_lag(b, p, v3_sub(ai, aj), dt));
-}
-
-/* How A moves at the end of a step: the mean of the step and so much of what that will be ahead of it by. */
+/* How A moves: in the mean of the step that is approach() and fl_pair_lag(); at its end so much of a lead
+ * more. */
 typedef struct {
+    fl_vec3 lag; /* [m/s] */
     fl_lead by;
     double foresight; /* fl_damping_foresight() */
     double dt;
@@ -58,7 +54,8 @@ typedef struct {
 
 static ahead ahead_of(const fl_world *w, const fl_pair *p, const fl_stance *r, double dt)
 {
-    return (ahead){fl_lead_of(w, p, r->off, dt), 0.0, dt};
+    const fl_vec3 lag = fl_pair_lag(&w->b, p, r->off, dt);
+    return (ahead){lag, fl_lead_of(w, p, lag), 0.0, dt};
 }
 
 /* elastic: sum of what presses; mass: that meets, W being known.  Of a law that damps by so much of its force
@@ -69,9 +66,14 @@ static void foresee(ahead *a, const fl_pair *p, double elastic, double mass)
     a->foresight = fl_damping_foresight(a->by.pressed * (a->dt * chi * elastic / mass));
 }
 
+static fl_vec3 went(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
+{
+    return v3_add(approach(b, p, ai, aj), a->lag);
+}
+
 static fl_vec3 next(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
 {
-    return v3_madd(went(b, p, ai, aj, a->dt), a->foresight, fl_lead_at(&a->by, ai, aj));
+    return v3_madd(went(b, p, a, ai, aj), a->foresight, fl_lead_at(&a->by, ai, aj));
 }
 
 /* The pressure of a contact, summed up: what friction needs. */
@@ -115,7 +117,8 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl
                           .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0};
     const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n),
                  turned = a->foresight * (v3_dot(a->by.wi, c.n) - v3_dot(a->by.wj, c.n));
-    const fl_sliding by = {went(b, p, ai, aj, a->dt), next(b, p, a, ai, aj), wi - wj, wi - wj + turned,
+    const fl_vec3 v = went(b, p, a, ai, aj);
+    const fl_sliding by = {v, v3_madd(v, a->foresight, fl_lead_at(&a->by, ai, aj)), wi - wj, wi - wj + turned,
                            0.5 * (wi + wj)};
     const fl_rubbed t = fl_tangent_rub(p->slip, c, by, a->dt);
     const fl_vec3 m = v3_scale(t.moment, c.n);
@@ -230,7 +233,8 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
     }
     const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
     foresee(&a, p, k * sum, mass);
-    double closing = closing_of(b, p, &a, &first);
+    const double begins = closing_of(b, p, &a, &first);
+    double closing = begins;
     for (int32_t c = 1; c < s->n; c++) {
         const spot t = spot_of(p, &s->place[c], r);
         if (s->place[c].du > 0.0) closing = fmax(closing, closing_of(b, p, &a, &t));
@@ -241,7 +245,8 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
         const fl_place *q = &s->place[c];
         const spot t = c ? spot_of(p, q, r) : first;
         const double elastic = k * t.part, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
-                     normal = q->du * fl_normal_damped(fabs(elastic), chi, closing_of(b, p, &a, &t));
+                     comes = c ? closing_of(b, p, &a, &t) : begins,
+                     normal = q->du * fl_normal_damped(fabs(elastic), chi, comes);
         add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, t.n), t.ai, t.aj);
         press(&all, elastic, normal, t.n, v3_sub(t.aj, first.aj));
@@ -460,7 +465,8 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
                                              law->literal18, &exponent);
     k = law->stiffness > 0.0 ? law->stiffness : law->softening * k;
     const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
-    const fl_vec3 u = went(b, p, ai, aj, dt);
+    const ahead a = ahead_of(w, p, r, dt); /* of which it takes no lead: as the manual has it */
+    const fl_vec3 u = went(b, p, &a, ai, aj);
     const double closing = -v3_dot(nw, u);
     const double mass = law->literal2 && b->invm[p->j] > 0.0
                             ? b->m[p->i] + b->m[p->j]
@@ -469,7 +475,6 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
     double normal = elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, closing);
     if (normal < 0.0) normal = 0.0;
     const double slope = k * fl_normal_slope(overlap, exponent);
-    const ahead a = ahead_of(w, p, r, dt); /* of which it takes nothing: as the manual has it */
     pressure all = {.slope = slope, .at = aj};
     p->overlap = overlap;
     p->energy = k * fl_normal_phi(overlap, exponent);

@@ -16,13 +16,13 @@ typedef struct {
     double pressed; /* so many contacts the one of them that moves has that has more of them, 1 at least */
 } fl_lead;
 
-/* off: from A's centre to B's; dt of the step [s]. */
-static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 off, double dt)
+/* lag: fl_pair_lag() of the step [m/s]. */
+static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)
 {
     const fl_gain *const i = fl_works_lead(w, p->i), *const j = fl_works_lead(w, p->j);
     const int32_t ni = fl_works_was(w, p->i)->n, nj = p->j < w->n ? fl_works_was(w, p->j)->n : 0,
                   n = ni > nj ? ni : nj;
-    return (fl_lead){v3_sub(v3_sub(i->v, j->v), fl_pair_lag(&w->b, p, off, dt)), i->w, j->w, n > 1 ? n : 1};
+    return (fl_lead){v3_sub(v3_sub(i->v, j->v), lag), i->w, j->w, n > 1 ? n : 1};
 }
 
 /* Of A's velocity against B at the arms ai and aj. */

@@ -45,10 +45,11 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         put4(b->qj, k, o->ball[j] ? q_one() : o->q[j]);
         const fl_vec3 off = fl_world_way(w, i, j, c->image);
         fl_lane3_put(b->off, k, off);
-        fl_lane3_put(b->u, k, v3_add(v3_sub(o->v[i], o->v[j]), fl_pair_lag(o, c, off, dt)));
+        const fl_vec3 lag = fl_pair_lag(o, c, off, dt);
+        fl_lane3_put(b->u, k, v3_add(v3_sub(o->v[i], o->v[j]), lag));
         fl_lane3_put(b->wi, k, o->w[i]);
         fl_lane3_put(b->wj, k, o->w[j]);
-        const fl_lead lead = fl_lead_of(w, c, off, dt);
+        const fl_lead lead = fl_lead_of(w, c, lag);
         fl_lane3_put(b->du, k, lead.v);
         fl_lane3_put(b->dwi, k, lead.wi);
         fl_lane3_put(b->dwj, k, lead.wj);
