@@ -83,11 +83,11 @@ FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_gri
  *    fallen force and moment fall with it first (Thornton, J. Appl. Mech. 64 (1997) 363): kept, they would
  *    hold more energy than was put in; F/k -= v dt.  Both are of order 2.
  * 3. The two are limited together, (F/limit)^2 + (M/(limit arm))^2 <= 1: beyond, it slides, and they keep
- *    the limit and turn as fl_tangent_flow() has it.  Source of the ellipse: Goyal, Ruina & Papadopoulos, Wear
- *    143 (1991) 307.
+ *    the limit and turn as fl_tangent_flow() has it.  Source of the ellipse: Goyal, Ruina & Papadopoulos,
+ *    Wear 143 (1991) 307.
  * 4. Damping -g v, -g arm^2 w is added, but no more of it than the limit leaves beside the springs: none
- *    where it slides, as Coulomb has it (V04 of verify_spheres), and the force does not jump as that begins or
- *    ends.
+ *    where it slides, as Coulomb has it (V04 of verify_spheres), and the force does not jump as that begins
+ *    or ends.
  *
  *   dt      [s] */
 FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, double dt)

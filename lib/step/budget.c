@@ -235,8 +235,8 @@ static double astray(const fl_budget *g, const fl_budget_end *x, const fl_budget
 /* How much less half the step is off by. */
 static double finer(double order) { return fl_exp(order * fl_log(2.0)); }
 
-/* e and p from the three differences.  No order above 2 is believed: sliding, and impacts one after the other,
- * are not as smooth as one window may look. */
+/* e and p from the three differences.  No order above 2 is believed: sliding, and impacts one after the
+ * other, are not as smooth as one window may look. */
 static double richardson(double first, double second, double both, double *order)
 {
     *order = 2.0;
