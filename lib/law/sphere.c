@@ -61,28 +61,20 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
                      share = had / (than * (after > 0.0 ? after : 1.0));
         const double way = (k < old ? k : 0.5 * (k + old)) * dt;
         const fl_grip from = {v3(share * qx, share * qy, share * qz), 0.0},
-                      goes = {v3(-way * vx, -way * vy, -way * vz), 0.0}, to = fl_grip_madd(from, 1.0, goes);
-        /* Coulomb's limit, of which damping has what the spring leaves: steps 3 and 4 of fl_tangent_rub() */
-        const fl_grip slides = fl_tangent_flow(from, share * after, limit, goes);
-        const double held = v3_norm(to.f), turned = v3_norm(slides.f),
-                     keeps = turned > 0.0 ? limit / turned : 0.0;
-        const int sticks = !(held > limit);
-        const double ex = sticks ? to.f.x : keeps * slides.f.x, ey = sticks ? to.f.y : keeps * slides.f.y,
-                     ez = sticks ? to.f.z : keeps * slides.f.z;
-        const double damps = b->tangential[c] * chi * elastic,
-                     wants = damps * sqrt(vx * vx + vy * vy + vz * vz), room = sticks ? limit - held : 0.0,
-                     g = wants > room ? damps * (room / wants) : damps;
-        const double hx = ex - g * vx, hy = ey - g * vy, hz = ez - g * vz;
+                      goes = {v3(-way * vx, -way * vy, -way * vz), 0.0}, moves = {v3(vx, vy, vz), 0.0};
+        const fl_held rubs =
+            fl_tangent_hold(from, share * after, goes, goes, limit, b->tangential[c] * chi * elastic, moves);
+        const fl_vec3 e = rubs.kept.f, all = rubs.all.f;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
         b->touch[c] = touch;
         b->normal[c] = normal;
-        b->slip[0][c] = on ? ex : 0.0;
-        b->slip[1][c] = on ? ey : 0.0;
-        b->slip[2][c] = on ? ez : 0.0;
+        b->slip[0][c] = on ? e.x : 0.0;
+        b->slip[1][c] = on ? e.y : 0.0;
+        b->slip[2][c] = on ? e.z : 0.0;
         b->stiff[c] = on ? k : 0.0;
-        b->rub[0][c] = on ? hx : 0.0;
-        b->rub[1][c] = on ? hy : 0.0;
-        b->rub[2][c] = on ? hz : 0.0;
+        b->rub[0][c] = on ? all.x : 0.0;
+        b->rub[1][c] = on ? all.y : 0.0;
+        b->rub[2][c] = on ? all.z : 0.0;
     }
 }
 

@@ -75,6 +75,29 @@ FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_gri
     return fl_grip_madd(s, late, fl_grip_madd(next, -1.0, s));
 }
 
+/* What springs keep, and that with damping. */
+typedef struct {
+    fl_grip kept, all;
+} fl_held;
+
+/* Steps 3 and 4 below: springs that held `from`, of that size, over the way s where they stick, by the way
+ * `slide` where they slide; and damping by g of what moves. */
+FL_WIDE_PART fl_held fl_tangent_hold(fl_grip from, double size, fl_grip s, fl_grip slide, double limit,
+                                     double g, fl_grip moves)
+{
+    const fl_grip to = fl_grip_madd(from, 1.0, s), flow = fl_tangent_flow(from, size, limit, slide);
+    const double held = fl_grip_size(to), turned = fl_grip_size(flow),
+                 keeps = turned > 0.0 ? limit / turned : 0.0;
+    const int sticks = !(held > limit);
+    const fl_grip slid = fl_grip_scale(keeps, flow);
+    const fl_grip kept = {
+        v3(sticks ? to.f.x : slid.f.x, sticks ? to.f.y : slid.f.y, sticks ? to.f.z : slid.f.z),
+        sticks ? to.m : slid.m};
+    const double wants = g * fl_grip_size(moves), room = sticks ? limit - held : 0.0,
+                 part = wants > room ? room / wants : 1.0;
+    return (fl_held){kept, fl_grip_madd(kept, -(g * part), moves)};
+}
+
 /* One step of friction, without a branch or a pointer, so that it goes into loops over lanes.
  *
  * 1. The remembered force is turned about n by the mean spin of the pair, laid into the tangent plane and
@@ -105,21 +128,10 @@ FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, do
     const fl_grip from = {v3_scale(fall, v3_scale(length, laid)), each * (fall_turn * s.moment)},
                   way = {v3_scale(-stiff * dt, v), each * (-stiff_turn * dt * by.spin)},
                   way_next = {v3_scale(-stiff * dt, next), each * (-stiff_turn * dt * by.next_spin)};
-    const fl_grip to = fl_grip_madd(from, 1.0, way);
     const double size = fl_grip_size(from);
-    const fl_grip slides = fl_tangent_flow(from, size, c.limit, fl_tangent_way(size, c.limit, way, way_next));
-    const double held = fl_grip_size(to), turned = fl_grip_size(slides),
-                 keeps = turned > 0.0 ? c.limit / turned : 0.0;
-    const int sticks = !(held > c.limit);
-    const fl_grip slid = fl_grip_scale(keeps, slides);
-    const fl_grip kept = {
-        v3(sticks ? to.f.x : slid.f.x, sticks ? to.f.y : slid.f.y, sticks ? to.f.z : slid.f.z),
-        sticks ? to.m : slid.m};
-    const fl_grip moves = {next, c.arm * by.next_spin};
-    const double wants = c.g * fl_grip_size(moves), room = sticks ? c.limit - held : 0.0,
-                 g = wants > room ? c.g * (room / wants) : c.g;
-    const fl_grip damped = fl_grip_madd(kept, -g, moves);
-    return (fl_rubbed){{kept.f, k, c.arm * kept.m, turning}, damped.f, c.arm * damped.m};
+    const fl_held now = fl_tangent_hold(from, size, way, fl_tangent_way(size, c.limit, way, way_next),
+                                        c.limit, c.g, (fl_grip){next, c.arm * by.next_spin});
+    return (fl_rubbed){{now.kept.f, k, c.arm * now.kept.m, turning}, now.all.f, c.arm * now.all.m};
 }
 
 /* The stiffness was taken for another all the time, and is `by` times as large.  Where it has fallen
