@@ -30,6 +30,10 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
     return speed > 0.0 ? D / speed : 0.0;
 }
 
+/* What Hunt and Crossley leave of the largest step 2/omega where damping goes by fl_damping_closing(): as an
+ * impact begins, the stiffness is 1 + D times that of the springs. */
+static inline double fl_damping_struck(double D) { return 1.0 / sqrt(1.0 + D); }
+
 /* What damping leaves of the largest stable step 2/omega of a scheme that has the speed of half a step ago:
  * K dt^2 + 2 C dt <= 4.  Of a ratio z: sqrt(1 + z^2) - z.  Of Hunt and Crossley with c as above: the least of
  * that at rest, and of an impact, where with s and u in shares of v/omega and v the stiffness is 1 + D u, the
@@ -38,16 +42,23 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
 double fl_damping_left(double z);
 double fl_damping_crossley_left(double D, double times);
 
-/* Forces are found at the end of a step, where speeds are known of its middle.  By these damping is of order
- * 1, by those of its end, which what the first half of the step changed foretells, of order 2; but then C
- * counts twice in the bound above.  So of that change this part is taken, 1/(1 + (y/0.27)^8) of y = C dt/M
- * times the number of contacts that a body has: all of it where the step resolves the damping, none where
- * it could shake.  y (1 + part) stays below 0.42 until y does not: no step is unstable that was not
- * (verify_step). */
-static inline double fl_damping_foresight(double y)
+/* Forces are found at the end of a step, where speeds are known of its middle.  What its first half has
+ * changed foretells the end, c, but for what forces change by from the step before; of the contact itself
+ * that is known, so with h = dt/2M its damping C d goes by
+ *     d = c - h ((E - E_before) + (C d - D_before)),
+ * the speed at the end of the step, to order 2.  For a contact by itself that is the trapezoidal rule, stable
+ * for all damping.  Of n contacts that damp one body each knows its own part alone; and explicit as they are
+ * among one another they would shake where n h C is not small.  So damping changes by no more than if 2n - 1
+ * did what this one does, which bears on d in order 2: stable, again for all damping, up to 0.7 of what the
+ * springs alone would leave (verify_step).
+ *
+ *   c        approach foreseen for the end [m/s]
+ *   grew     E - E_before, elastic force   [N]
+ *   damped   D_before, that of damping     [N] */
+static inline double fl_damping_closing(double c, double C, double h, double n, double grew, double damped)
 {
-    const double y2 = y * y * (1.0 / (0.27 * 0.27)), y4 = y2 * y2;
-    return 1.0 / (1.0 + y4 * y4);
+    const double holds = (2.0 * n - 1.0) * h;
+    return (c - h * grew + holds * damped) / (1.0 + holds * C);
 }
 
 /* Linear, F = k s + 2 zeta sqrt(M k) s', the contact ending when F reaches 0: zeta of restitution e.

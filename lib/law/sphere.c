@@ -61,9 +61,10 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
                      share = had / (than * (after > 0.0 ? after : 1.0));
         const double way = (k < old ? k : 0.5 * (k + old)) * dt;
         const fl_grip from = {v3(share * qx, share * qy, share * qz), 0.0},
-                      goes = {v3(-way * vx, -way * vy, -way * vz), 0.0}, moves = {v3(vx, vy, vz), 0.0};
-        const fl_held rubs =
-            fl_tangent_hold(from, share * after, goes, goes, limit, b->tangential[c] * chi * elastic, moves);
+                      goes = {v3(-way * vx, -way * vy, -way * vz), 0.0};
+        const double g = b->tangential[c] * chi * elastic;
+        const fl_grip damps = {v3(-g * vx, -g * vy, -g * vz), 0.0};
+        const fl_held rubs = fl_tangent_hold(from, share * after, goes, goes, limit, damps);
         const fl_vec3 e = rubs.kept.f, all = rubs.all.f;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
         b->touch[c] = touch;

@@ -15,6 +15,28 @@ typedef struct {
     double k_turn; /* stiffness that was built with                   [N m/rad] */
 } fl_slip;
 
+/* Velocity of a point for an impulse there, a symmetric matrix [1/kg]. */
+typedef struct {
+    double xx, xy, xz, yy, yz, zz;
+} fl_ease;
+
+FL_WIDE_PART fl_vec3 fl_ease_by(fl_ease K, fl_vec3 a)
+{
+    return v3(K.xx * a.x + K.xy * a.y + K.xz * a.z, K.xy * a.x + K.yy * a.y + K.yz * a.z,
+              K.xz * a.x + K.yz * a.y + K.zz * a.z);
+}
+
+/* K of a frame whose axes are x, y, z. */
+FL_WIDE_PART fl_ease fl_ease_turned(fl_ease K, fl_vec3 x, fl_vec3 y, fl_vec3 z)
+{
+    const fl_vec3 a = v3_madd(v3_madd(v3_scale(K.xx, x), K.xy, y), K.xz, z),
+                  b = v3_madd(v3_madd(v3_scale(K.xy, x), K.yy, y), K.yz, z),
+                  c = v3_madd(v3_madd(v3_scale(K.xz, x), K.yz, y), K.zz, z);
+    return (fl_ease){a.x * x.x + b.x * y.x + c.x * z.x, a.x * x.y + b.x * y.y + c.x * z.y,
+                     a.x * x.z + b.x * y.z + c.x * z.z, a.y * x.y + b.y * y.y + c.y * z.y,
+                     a.y * x.z + b.y * y.z + c.y * z.z, a.z * x.z + b.z * y.z + c.z * z.z};
+}
+
 /* A contact as friction sees it. */
 typedef struct {
     fl_vec3 n;    /* unit normal, from B to A */
@@ -22,6 +44,9 @@ typedef struct {
     double g;     /* tangential damping [N s/m]      */
     double limit; /* mu |F_n| >= 0 [N]               */
     double arm;   /* root mean square distance of the pressure from its centre [m]; 0 for a point */
+    fl_ease ease; /* of its point, A against B */
+    double turns; /* and of the turn about n for one about n            [1/kg m2] */
+    double many;  /* contacts that damp one body, fl_damping_closing() */
 } fl_rubbing;
 
 /* How A moves against B at the contact: in the mean of the step, which the springs go by, and at its end, as
@@ -30,6 +55,8 @@ typedef struct {
     fl_vec3 v, next;        /* velocities of its point; normal parts are dropped  [m/s] */
     double spin, next_spin; /* angular velocities about n                       [rad/s] */
     double twist;           /* mean of that of A and of B about n, in the mean of the step */
+    fl_vec3 damped;         /* what damping did in the step before, and about n [N], [N m] */
+    double damped_turn;
 } fl_sliding;
 
 /* What a step of friction leaves, and what it does to A. */
@@ -75,15 +102,41 @@ FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_gri
     return fl_grip_madd(s, late, fl_grip_madd(next, -1.0, s));
 }
 
+/* Damping of what moves by `moves`, as foreseen, as in fl_damping_closing(): the springs change by `way`, and
+ * damping was `before` a step ago.  A contact that rubs rocks as well, which damps the same motion, and
+ * counts for one more.  Across n that is an equation of two numbers, x + a P x = r, P = ease without its
+ * parts along n: by Cramer's rule, 1 + a P having an eigenvalue of 1 along n. */
+FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way, fl_grip before, double dt)
+{
+    const double g = c.g, h = 0.5 * dt, a = 2.0 * c.many * h * g;
+    const fl_vec3 n = c.n, u = fl_ease_by(c.ease, n);
+    const double nn = v3_dot(n, u);
+    const fl_ease P = {c.ease.xx - 2.0 * n.x * u.x + nn * n.x * n.x,
+                       c.ease.xy - n.x * u.y - n.y * u.x + nn * n.x * n.y,
+                       c.ease.xz - n.x * u.z - n.z * u.x + nn * n.x * n.z,
+                       c.ease.yy - 2.0 * n.y * u.y + nn * n.y * n.y,
+                       c.ease.yz - n.y * u.z - n.z * u.y + nn * n.y * n.z,
+                       c.ease.zz - 2.0 * n.z * u.z + nn * n.z * n.z};
+    const fl_vec3 r = v3_madd(fl_ease_by(P, v3_madd(v3_scale(-g * h, way.f), a, before.f)), -g, moves.f);
+    const double xx = 1.0 + a * P.xx, yy = 1.0 + a * P.yy, zz = 1.0 + a * P.zz, xy = a * P.xy, xz = a * P.xz,
+                 yz = a * P.yz;
+    const fl_ease adjoint = {yy * zz - yz * yz, yz * xz - xy * zz, xy * yz - yy * xz,
+                             xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
+    const double each = 1.0 / (xx * adjoint.xx + xy * adjoint.xy + xz * adjoint.xz);
+    const double turns = c.turns * c.arm * c.arm;
+    return (fl_grip){v3_scale(each, fl_ease_by(adjoint, r)),
+                     (-g * (moves.m + h * turns * way.m) + a * turns * before.m) / (1.0 + a * turns)};
+}
+
 /* What springs keep, and that with damping. */
 typedef struct {
     fl_grip kept, all;
 } fl_held;
 
 /* Steps 3 and 4 below: springs that held `from`, of that size, over the way s where they stick, by the way
- * `slide` where they slide; and damping by g of what moves. */
+ * `slide` where they slide; and what damping would do. */
 FL_WIDE_PART fl_held fl_tangent_hold(fl_grip from, double size, fl_grip s, fl_grip slide, double limit,
-                                     double g, fl_grip moves)
+                                     fl_grip damps)
 {
     const fl_grip to = fl_grip_madd(from, 1.0, s), flow = fl_tangent_flow(from, size, limit, slide);
     const double held = fl_grip_size(to), turned = fl_grip_size(flow),
@@ -93,9 +146,9 @@ FL_WIDE_PART fl_held fl_tangent_hold(fl_grip from, double size, fl_grip s, fl_gr
     const fl_grip kept = {
         v3(sticks ? to.f.x : slid.f.x, sticks ? to.f.y : slid.f.y, sticks ? to.f.z : slid.f.z),
         sticks ? to.m : slid.m};
-    const double wants = g * fl_grip_size(moves), room = sticks ? limit - held : 0.0,
+    const double wants = fl_grip_size(damps), room = sticks ? limit - held : 0.0,
                  part = wants > room ? room / wants : 1.0;
-    return (fl_held){kept, fl_grip_madd(kept, -(g * part), moves)};
+    return (fl_held){kept, fl_grip_madd(kept, part, damps)};
 }
 
 /* One step of friction, without a branch or a pointer, so that it goes into loops over lanes.
@@ -127,10 +180,11 @@ FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, do
                   next = v3_madd(by.next, -v3_dot(by.next, c.n), c.n);
     const fl_grip from = {v3_scale(fall, v3_scale(length, laid)), each * (fall_turn * s.moment)},
                   way = {v3_scale(-stiff * dt, v), each * (-stiff_turn * dt * by.spin)},
-                  way_next = {v3_scale(-stiff * dt, next), each * (-stiff_turn * dt * by.next_spin)};
+                  way_next = {v3_scale(-stiff * dt, next), each * (-stiff_turn * dt * by.next_spin)},
+                  moves = {next, c.arm * by.next_spin}, damped = {by.damped, each * by.damped_turn};
     const double size = fl_grip_size(from);
     const fl_held now = fl_tangent_hold(from, size, way, fl_tangent_way(size, c.limit, way, way_next),
-                                        c.limit, c.g, (fl_grip){next, c.arm * by.next_spin});
+                                        c.limit, fl_tangent_damped(c, moves, way, damped, dt));
     return (fl_rubbed){{now.kept.f, k, c.arm * now.kept.m, turning}, now.all.f, c.arm * now.all.m};
 }
 

@@ -66,7 +66,7 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, lane *t, fl
     const fl_vec3 at = place[0].p;
     const fl_wide zero = {0};
     fl_wide u = zero, ddu = zero, most = zero, pressed = zero, elastic = zero;
-    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
+    fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero}, mid[3] = {zero, zero, zero};
     for (int32_t k = 0; k < n; k += FL_LANES, t++) {
         const fl_place *p = place + k;
         fl_place last[FL_LANES];
@@ -88,6 +88,7 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, lane *t, fl
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
         const fl_wide e = du * (nx * across[0] + ny * across[1] + nz * across[2]);
         t->e = e, t->du = du, t->curve = bent;
+        for (int c = 0; c < 3; c++) mid[c] += e * arm[c];
         u += ux;
         ddu += bent;
         pressed += du;
@@ -97,28 +98,30 @@ FL_WIDE_VERSIONS static void first(const fl_place *place, int32_t n, lane *t, fl
     q->u = fl_wide_sum(&u), q->ddu = fl_wide_sum(&ddu);
     q->pressed = fl_wide_sum(&pressed), q->elastic = fl_wide_sum(&elastic);
     q->gradient = (fl_wrench){sum3(f), sum3(m)};
+    q->middle = sum3(mid);
     q->overlap = largest(&most);
 }
 
 FL_WIDE_VERSIONS static void move(lane *t, int32_t lanes, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
 {
-    fl_wide met = {0};
+    fl_wide met = {0}, rate = {0};
     for (int32_t k = 0; k < lanes; k++, t++) {
         fl_wide closing;
         inward(&closing, t->across, t->arm, v, turn);
         t->closing = closing;
         met += t->du * FL_WIDE_WHERE(closing > 0.0, closing);
+        rate += t->e * closing;
     }
-    q->met = fl_wide_sum(&met);
+    q->met = fl_wide_sum(&met), q->rate = fl_wide_sum(&rate);
 }
 
-FL_WIDE_VERSIONS static void second(const lane *t, int32_t lanes, double chi, fl_bearing *q)
+FL_WIDE_VERSIONS static void second(const lane *t, int32_t lanes, double chi, double still, fl_bearing *q)
 {
     const fl_wide zero = {0};
     fl_wide normal = zero, spread = zero, way[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
     fl_wide f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
     for (int32_t k = 0; k < lanes; k++, t++) {
-        const fl_wide e = t->e, to = e * (1.0 + chi * t->closing), p = FL_WIDE_WHERE(to > 0.0, to);
+        const fl_wide e = t->e, to = e * (still + chi * t->closing), p = FL_WIDE_WHERE(to > 0.0, to);
         const fl_wide more = p - e, *arm = t->arm, *across = t->across;
         const fl_wide pull[3] = {more * across[0], more * across[1], more * across[2]};
         fl_wide moment[3];
@@ -257,10 +260,10 @@ static lane lay_along(const lane *t, const tilt *a)
     return four;
 }
 
-/* s->lane, or behind it a copy in which areas that would be pulled in part have their four places; how many,
- * and sum of e off |arm - the middle|^2 of the others.
+/* s->lane, or behind it a copy in which areas that would be pulled in part have their four places, those with
+ * still + chi c < 0; how many, and sum of e off |arm - the middle|^2 of the others.
  */
-static const lane *held_back(const fl_places *s, double chi, int32_t *lanes, double *skew)
+static const lane *held_back(const fl_places *s, double chi, double still, int32_t *lanes, double *skew)
 {
     lane *const own = s->lane, *copy = NULL;
     const int32_t n = *lanes = lanes_of(s);
@@ -268,9 +271,9 @@ static const lane *held_back(const fl_places *s, double chi, int32_t *lanes, dou
     const tilt *a = s->tilt;
     for (int32_t k = 0; k < s->tilts; k++, a++) {
         const uint32_t at = a->k;
-        if (1.0 + chi * (a->mean - a->more) >= 0.0)
+        if (still + chi * (a->mean - a->more) >= 0.0)
             *skew += own[at / FL_LANES].e[at % FL_LANES] * skew_of(own, a);
-        else if (1.0 + chi * (a->mean + a->more) > 0.0) {
+        else if (still + chi * (a->mean + a->more) > 0.0) {
             if (!copy) copy = memcpy(own + n, own, (size_t)n * sizeof *own);
             for (uint32_t c = at; c < at + CORNERS; c++) copy[c / FL_LANES].e[c % FL_LANES] = 0.0;
             copy[(*lanes)++] = lay_along(own, a);
@@ -299,13 +302,14 @@ int fl_bearing_move(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q)
     return 0;
 }
 
-void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q)
+void fl_bearing_damp(const fl_places *s, double chi, double more, fl_bearing *q)
 {
     if (s->n == 0) return;
     int32_t lanes;
     double skew;
-    const lane *t = held_back(s, chi, &lanes, &skew);
-    second(t, lanes, chi, q);
+    const double still = 1.0 + chi * more;
+    const lane *t = held_back(s, chi, still, &lanes, &skew);
+    second(t, lanes, chi, still, q);
     q->spread -= chi * skew;
 }
 

@@ -5,7 +5,9 @@
  * the bodies approach there, and arm its offset from the first place, all in the frame of B:
  *     gradient      sum of du n and of arm x du n: the force of W over dW/dU
  *     pressed, met  sum of du, and of du c where c > 0: the speed that damping asks for
- *     f(e)          sum of f, f across, f arm and f |arm|^2, f = max(0, e (1 + chi c)): what presses
+ *     middle, rate  sums of e arm and of e c
+ *     f(e)          sum of f, f across, f arm and f |arm|^2, f = max(0, e (1 + chi (c + more))): what
+ *                   presses, approaching everywhere by so much more than as it moves
  *     damping       sum of f - e times across and arm x across: what damping adds
  * The pull of rims, u = 0, is part of the gradient alone.
  *
@@ -28,6 +30,8 @@ typedef struct {
     double overlap;      /* the largest                                                    [m] */
     double pressed, met; /* [m5], [m6/s] */
     double elastic;      /* sum of e                                                      [m5] */
+    fl_vec3 middle;      /* sum of e arm                                                  [m6] */
+    double rate;         /* sum of e c                                                  [m6/s] */
     fl_wrench gradient;  /* [m5], [m6] */
     double normal;       /* sum of f                                                      [m5] */
     fl_vec3 direction;   /* sum of f across                                               [m5] */
@@ -36,15 +40,15 @@ typedef struct {
     fl_wrench damping;   /* [m5], [m6] */
 } fl_bearing;
 
-/* All but `met` and the last five.  -1 when memory runs out. */
+/* All but `met`, `rate` and the last five.  -1 when memory runs out. */
 int fl_bearing_sum(fl_places *s, fl_bearing *q);
 
-/* `met` of the same places; v, turn: velocities of A against B at the first of them.  -1 when memory runs
- * out. */
+/* `met` and `rate` of the same places; v, turn: velocities of A against B at the first of them.  -1 when
+ * memory runs out. */
 int fl_bearing_move(fl_places *s, fl_vec3 v, fl_vec3 turn, fl_bearing *q);
 
-/* The last five, after that; chi [s/m]. */
-void fl_bearing_damp(const fl_places *s, double chi, fl_bearing *q);
+/* The last five, after that; chi [s/m], more [m/s]. */
+void fl_bearing_damp(const fl_places *s, double chi, double more, fl_bearing *q);
 
 /* ddu along `across` at arm of the places that press, after fl_bearing_sum() [m4]. */
 void fl_bearing_springs(const fl_places *s, fl_springs *q);

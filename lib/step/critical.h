@@ -18,6 +18,10 @@ double fl_world_critical(const fl_world *w);
  * damping ratio z; of what is round and rough across, too. */
 double fl_world_damped(const fl_world *w);
 
+/* What damping by fl_damping_closing() leaves of 2/omega of what does not run into each other, at least, of
+ * one contact or many, whatever their damping: 0.70 was found (S08 to S24 of verify_step). */
+#define FL_STEADY 0.7
+
 /* What is left of that where all that is rough is shaken across, standing on its end or an edge, and balls
  * are held between others: 0.55 for boxes, if damping is strong, and 0.7 for balls.  Automatic steps are
  * below it. */

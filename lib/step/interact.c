@@ -43,27 +43,24 @@ static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec
     return v3_sub(fl_body_velocity(b, p->i, ai), fl_body_velocity(b, p->j, aj));
 }
 
-/* How A moves: in the mean of the step that is approach() and fl_pair_lag(); at its end so much of a lead
- * more. */
+/* How A moves: in the mean of the step that is approach() and fl_pair_lag(); at its end by a lead more. */
 typedef struct {
+    double dt;
     fl_vec3 lag; /* [m/s] */
     fl_lead by;
-    double foresight; /* fl_damping_foresight() */
-    double dt;
+    fl_before was;
 } ahead;
 
 static ahead ahead_of(const fl_world *w, const fl_pair *p, const fl_stance *r, double dt)
 {
     const fl_vec3 lag = fl_pair_lag(&w->b, p, r->off, dt);
-    return (ahead){lag, fl_lead_of(w, p, lag), 0.0, dt};
+    return (ahead){dt, lag, fl_lead_of(w, p, lag), fl_before_of(p)};
 }
 
-/* elastic: sum of what presses; mass: that meets, W being known.  Of a law that damps by so much of its force
- * and the speed: what this touch has approached by before tells how much that is. */
-static void foresee(ahead *a, const fl_pair *p, double elastic, double mass)
+/* By how much faster A approaches at the end than at c, as foreseen; the rest as in fl_lead_closing(). */
+static double nearer(const ahead *a, double c, double elastic, double C, double yields)
 {
-    const double chi = fl_damping_chi(p->law->chi, p->law->rest, p->n ? p->touch : 0.0, p->energy, mass);
-    a->foresight = fl_damping_foresight(a->by.pressed * (a->dt * chi * elastic / mass));
+    return fl_lead_closing(c, elastic, C, yields, a->by.pressed, a->dt, &a->was) - c;
 }
 
 static fl_vec3 went(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
@@ -73,7 +70,7 @@ static fl_vec3 went(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec
 
 static fl_vec3 next(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
 {
-    return v3_madd(went(b, p, a, ai, aj), a->foresight, fl_lead_at(&a->by, ai, aj));
+    return v3_add(went(b, p, a, ai, aj), fl_lead_at(&a->by, ai, aj));
 }
 
 /* The pressure of a contact, summed up: what friction needs. */
@@ -98,8 +95,15 @@ static void press(pressure *q, double elastic, double normal, fl_vec3 n, fl_vec3
     q->spread += normal * v3_norm2(arm);
 }
 
+/* How both part there, as in fl_rubbing. */
+typedef struct {
+    fl_ease ease;
+    double turns;
+} parting;
+
 /* Friction at the centre of the pressure. */
-static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl_stance *r, const ahead *a)
+static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const parting *part,
+                const fl_stance *r, const ahead *a)
 {
     const fl_bodies *b = &w->b;
     const fl_touching *law = p->law;
@@ -114,12 +118,20 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const fl
                           .k = law->tangential * q->slope,
                           .g = law->tangential * chi * q->elastic,
                           .limit = law->friction * (q->walls ? q->normal : v3_norm(q->direction)),
-                          .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0};
+                          .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0,
+                          .ease = part->ease,
+                          .turns = part->turns,
+                          .many = a->by.pressed};
     const double wi = v3_dot(b->w[p->i], c.n), wj = v3_dot(b->w[p->j], c.n),
-                 turned = a->foresight * (v3_dot(a->by.wi, c.n) - v3_dot(a->by.wj, c.n));
+                 turned = v3_dot(a->by.wi, c.n) - v3_dot(a->by.wj, c.n);
     const fl_vec3 v = went(b, p, a, ai, aj);
-    const fl_sliding by = {v, v3_madd(v, a->foresight, fl_lead_at(&a->by, ai, aj)), wi - wj, wi - wj + turned,
-                           0.5 * (wi + wj)};
+    const fl_sliding by = {v,
+                           v3_add(v, fl_lead_at(&a->by, ai, aj)),
+                           wi - wj,
+                           wi - wj + turned,
+                           0.5 * (wi + wj),
+                           a->was.damped,
+                           fl_lead_turned(&a->was, c.n, ai, aj)};
     const fl_rubbed t = fl_tangent_rub(p->slip, c, by, a->dt);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->slip = t.slip;
@@ -206,15 +218,14 @@ static double closing_of(const fl_bodies *b, const fl_pair *p, const ahead *a, c
 }
 
 /* The places of a round thing or of `core`: W = k sum of phi(s), most often of one. */
-static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, double dt,
+static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, const ahead *a,
                         int survey)
 {
     const fl_bodies *b = &w->b;
     const double k = p->k;
     const spot first = spot_of(p, &s->place[0], r);
     fl_vec3 way = first.n, turn_i = v3_cross(first.ai, first.n), turn_j = v3_cross(first.aj, first.n);
-    double sum = first.part, less = 1.0;
-    ahead a = ahead_of(w, p, r, dt);
+    double sum = first.part, size = sum, less = 1.0;
     p->overlap = s->place[0].overlap;
     p->energy = k * fl_normal_phi(p->overlap, p->exponent);
     if (s->n > 1) { /* of the force of all, which is less than that of each by itself */
@@ -229,30 +240,43 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
             p->energy += q->du * k * fl_normal_phi(q->overlap, p->exponent);
             p->overlap = fmax(p->overlap, q->overlap);
         }
-        less = v3_norm2(way) / (sum * sum);
+        size = v3_norm(way);
+        less = size * size / (sum * sum);
     }
-    const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
-    foresee(&a, p, k * sum, mass);
-    const double begins = closing_of(b, p, &a, &first);
-    double closing = begins;
+    const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY,
+                 yields = less > 0.0 ? fl_pair_yields(w, p, way, turn_i, turn_j) : 0.0;
+    if (s->n > 1) way = v3_scale(size > 0.0 ? 1.0 / size : 0.0, way);
+    const double begins = closing_of(b, p, a, &first);
+    double closing = begins, comes = s->n > 1 ? first.part * v3_dot(first.n, way) * begins : begins;
     for (int32_t c = 1; c < s->n; c++) {
         const spot t = spot_of(p, &s->place[c], r);
-        if (s->place[c].du > 0.0) closing = fmax(closing, closing_of(b, p, &a, &t));
+        const double at = closing_of(b, p, a, &t);
+        if (s->place[c].du > 0.0) closing = fmax(closing, at);
+        comes += t.part * v3_dot(t.n, way) * at;
     }
-    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass);
+    if (s->n > 1) comes = size > 0.0 ? comes / size : 0.0;
+    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass),
+                 more = nearer(a, comes, k * size, chi * k * size, yields);
     pressure all = {.at = first.aj, .walls = s->n > 1};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_place *q = &s->place[c];
         const spot t = c ? spot_of(p, q, r) : first;
         const double elastic = k * t.part, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
-                     comes = c ? closing_of(b, p, &a, &t) : begins,
-                     normal = q->du * fl_normal_damped(fabs(elastic), chi, comes);
+                     at = c ? closing_of(b, p, a, &t) : begins,
+                     by = s->n > 1 ? more * v3_dot(t.n, way) : more,
+                     normal = q->du * fl_normal_damped(fabs(elastic), chi, at + by);
         add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, t.n), t.ai, t.aj);
         press(&all, elastic, normal, t.n, v3_sub(t.aj, first.aj));
         all.slope += slope;
     }
-    rub(w, p, &all, chi, r, &a);
+    parting part = {.turns = 0.0};
+    if (chi > 0.0 && all.normal > 0.0 && p->law->friction > 0.0) {
+        const fl_vec3 aj = v3_madd(all.at, 1.0 / all.normal, all.moment);
+        part.ease = fl_pair_ease(w, p, v3_add(aj, r->off), aj);
+        if (s->n > 1) part.turns = fl_pair_turns(w, p, way);
+    }
+    rub(w, p, &all, chi, &part, r, a);
     if (survey) stiffen_points(w, p, s, &all, r);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note(w, p, s, p->k, chi);
@@ -273,13 +297,24 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_springs *
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
 
+/* The damping of p with what shakes the bodies held back, its force being the elastic one so far; chi of it.
+ */
+static void steady(fl_pair *p, double chi, const fl_stance *r, const ahead *a)
+{
+    const fl_wrench to = fl_lead_steadied(fl_lead_amid(p->f, p->ti, p->tj), fl_lead_amid(p->fd, p->di, p->dj),
+                                          a->dt * chi * v3_norm(p->f) / p->mass, a->by.pressed, &a->was);
+    const fl_vec3 half = v3_scale(0.5, v3_cross(r->off, to.f));
+    p->fd = to.f, p->di = v3_add(half, to.m), p->dj = v3_sub(half, to.m);
+}
+
 /* What damping and friction add to the elastic force of `patch`.  q: of places, times scale; it is about aj
  * from B's centre; slope: dF/ds. */
 static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale, double slope, double chi,
-                     const fl_stance *r, fl_vec3 aj, const ahead *a)
+                     const parting *part, const fl_stance *r, fl_vec3 aj, const ahead *a)
 {
     const fl_mat3 *R = &r->R;
     add_sum(&p->fd, &p->di, &p->dj, &q->damping, scale, R, v3_add(aj, r->off), aj);
+    steady(p, chi, r, a);
     p->f = v3_add(p->f, p->fd);
     p->ti = v3_add(p->ti, p->di);
     p->tj = v3_add(p->tj, p->dj);
@@ -290,7 +325,7 @@ static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale,
                           .moment = v3_scale(scale, m3_mul(*R, q->moment)),
                           .spread = scale * q->spread,
                           .slope = slope};
-    rub(w, p, &all, chi, r, a);
+    rub(w, p, &all, chi, part, r, a);
     return all;
 }
 
@@ -315,18 +350,40 @@ static int renew(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, cons
 
 /* --- what is found by a look ------------------------------------------------------------------- */
 
+/* How both part, who are free: yields, ease and turns, from how A stands to B alone; q is about `at`. */
+static void ease_of(const fl_bodies *b, const fl_pair *p, const fl_bearing *q, fl_vec3 at, fl_seen *seen)
+{
+    const fl_mat3 *M = seen->M;
+    const fl_vec3 f = q->gradient.f, m = q->gradient.m, n = v3_unit(f), none = v3(0, 0, 0),
+                  aj = v3_madd(at, 1.0 / q->elastic, q->middle), ai = v3_sub(aj, seen->o), ei = b->invI[p->i],
+                  ej = p->j < b->n ? b->invI[p->j] : none;
+    const fl_vec3 mi = m3_tmul(*M, v3_add(v3_cross(v3_sub(at, seen->o), f), m)),
+                  mj = v3_add(v3_cross(at, f), m), ni = m3_tmul(*M, n);
+    const double mass = 1.0 / p->mass;
+    seen->yields = mass + (v3_dot(v3_mul(ei, mi), mi) + v3_dot(v3_mul(ej, mj), mj)) / v3_norm2(f);
+    seen->turns = v3_dot(v3_mul(ei, ni), ni) + v3_dot(v3_mul(ej, n), n);
+    const fl_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
+    const fl_ease alone = {.xx = mass, .yy = mass, .zz = mass},
+                  turned = fl_pair_ease_more(alone, ei, m3_tmul(*M, v3_cross(ai, x)),
+                                             m3_tmul(*M, v3_cross(ai, y)), m3_tmul(*M, v3_cross(ai, z)));
+    seen->ease = fl_pair_ease_more(turned, ej, v3_cross(aj, x), v3_cross(aj, y), v3_cross(aj, z));
+}
+
 /* W = k sqrt(U) of the places summed up in q, which gets their couple. */
-static fl_seen seen_of(const fl_pair *p, const fl_places *s, const fl_stance *r, fl_bearing *q)
+static fl_seen seen_of(const fl_world *w, const fl_pair *p, const fl_places *s, const fl_stance *r,
+                       fl_bearing *q)
 {
     const double energy = p->k * sqrt(q->u), scale = 0.5 * energy / q->u;
     q->gradient.m = v3_add(q->gradient.m, s->couple);
-    return (fl_seen){.M = &r->M,
-                     .o = r->o,
-                     .places = s,
-                     .q = q,
-                     .scale = scale,
-                     .energy = energy,
-                     .slope = scale * (q->ddu - 0.5 * q->elastic * q->elastic / q->u)};
+    fl_seen seen = {.M = &r->M,
+                    .o = r->o,
+                    .places = s,
+                    .q = q,
+                    .scale = scale,
+                    .energy = energy,
+                    .slope = scale * (q->ddu - 0.5 * q->elastic * q->elastic / q->u)};
+    ease_of(&w->b, p, q, s->place[0].p, &seen);
+    return seen;
 }
 
 /* How far A may go until another wall of a surface that is not convex may bear, after a look.  -1 when memory
@@ -347,7 +404,7 @@ static int find_room(fl_world *w, const fl_pair *p, int32_t thread, fl_seen *see
 /* The places of `patch`: W = k sqrt(U), each with its share of dW/dU; t as in renew().  1 when they touch, 0
  * when nothing does, -1 when memory runs out. */
 static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, const fl_stance *r,
-                       double dt, int survey)
+                       const ahead *a, int survey)
 {
     const fl_bodies *b = &w->b;
     const fl_mat3 R = r->R;
@@ -358,19 +415,28 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     fl_bearing q;
     if (fl_bearing_sum(s, &q)) return -1;
     if (!(q.u > 0.0 && q.overlap > ROUNDING * (v3_norm(r->o) + b->bound[p->i]))) return 0;
-    fl_seen seen = seen_of(p, s, r, &q);
+    fl_seen seen = seen_of(w, p, s, r, &q);
     p->overlap = q.overlap;
     p->energy = seen.energy;
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
     const fl_vec3 elastic = p->f;
     const double mass = fl_pair_mass(w, p, elastic, p->ti, p->tj);
-    ahead a = ahead_of(w, p, r, dt);
-    foresee(&a, p, seen.scale * q.elastic, mass);
-    const fl_vec3 spin = v3_madd(v3_sub(b->w[p->i], b->w[p->j]), a.foresight, v3_sub(a.by.wi, a.by.wj));
-    const fl_vec3 v = m3_tmul(R, next(b, p, &a, ai, aj)), turn = m3_tmul(R, spin);
+    parting part;
+    if (!fl_pair_is_plain(w, p)) {
+        const fl_vec3 middle = m3_mul(R, v3_scale(1.0 / q.elastic, q.middle));
+        part.ease = fl_pair_ease(w, p, v3_add(ai, middle), v3_add(aj, middle));
+        part.turns = fl_pair_turns(w, p, v3_unit(elastic));
+        seen.yields = fl_pair_yields(w, p, elastic, p->ti, p->tj);
+    } else {
+        part.ease = fl_ease_turned(seen.ease, m3_col(R, 0), m3_col(R, 1), m3_col(R, 2));
+        part.turns = seen.turns;
+    }
+    const fl_vec3 spin = v3_add(v3_sub(b->w[p->i], b->w[p->j]), v3_sub(a->by.wi, a->by.wj));
+    const fl_vec3 v = m3_tmul(R, next(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_bearing_move(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.pressed > 0.0 ? q.met / q.pressed : 0.0, mass);
-    fl_bearing_damp(s, chi, &q);
+    const double size = v3_norm(elastic), more = nearer(a, q.rate / q.elastic, size, chi * size, seen.yields);
+    fl_bearing_damp(s, chi, more, &q);
     fl_stiff si, sj;
     fl_springs springs;
     if (survey || carried) fl_bearing_springs(s, &springs);
@@ -378,12 +444,12 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     if (survey) survey_patch(w, p, &springs, R, ai, aj, seen.scale, q.u, &si, &sj);
     if (t && fl_surrogate_nearly(p->surrogate, t) && fabs(seen.slope - t->slope) < 0.5 * t->slope)
         fl_tangent_remeasured(&p->slip, seen.slope / t->slope, seen.slope < p->surrogate->slope);
-    const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, r, aj, &a);
+    const pressure all = bear(w, p, &q, seen.scale, seen.slope, chi, &part, r, aj, a);
     if (survey) stiffen(w, p, &all, r, &si, &sj);
     if (carried) {
         const double speed = v3_dot(v3_unit(elastic), approach(b, p, ai, aj));
         seen.springs = &springs;
-        seen.v = v, seen.turn = turn, seen.chi = chi;
+        seen.v = v, seen.turn = turn, seen.chi = chi, seen.more = more;
         /* the force that the energy of the motion would give, W growing as the square of it */
         seen.toward = sqrt(1.0 + 0.5 * mass * speed * speed / p->energy);
         seen.stiff_i = p->stiff_i, seen.stiff_j = p->stiff_j;
@@ -391,7 +457,7 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     }
     p->energy += p->spring;
     if (fl_press_wants(w, p)) {
-        for (int32_t k = 0; k < s->n; k++) s->place[k].closing = fl_bearing_closing(s, k);
+        for (int32_t k = 0; k < s->n; k++) s->place[k].closing = fl_bearing_closing(s, k) + more;
         fl_press_note(w, p, s, seen.scale, chi);
     }
     return p->n = 1;
@@ -400,7 +466,8 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
 /* An elastic wall: force, moment and energy of Winkler's foundation under the part of A behind the wall, and
  * a dashpot at the centre of the pressure, which never pulls the body back into the wall.  The closing speed
  * of a point does not change along the normal, so the centre may stand behind the wall. */
-static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, double dt, int survey, double *distance)
+static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, const ahead *a, int survey,
+                     double *distance)
 {
     const fl_bodies *b = &w->b;
     const int32_t i = p->i;
@@ -419,16 +486,16 @@ static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, double dt, int
     p->energy = fl_buoyancy_force(&wet, up, level, w->bed.stiffness, &force, &moment);
     const fl_vec3 ai = m3_mul(R, wet.centre), aj = v3_sub(ai, r->off);
     const double damping = w->bed.damping * wet.waterplane, elastic = w->bed.stiffness * wet.volume;
-    ahead a = ahead_of(w, p, r, dt);
-    a.foresight = fl_damping_foresight(a.by.pressed * (dt * damping * b->invm[i]));
-    const double closing = -v3_dot(n, next(b, p, &a, ai, aj));
+    const double foreseen = -v3_dot(n, next(b, p, a, ai, aj)),
+                 yields = fl_pair_yields(w, p, n, v3_cross(ai, n), v3_cross(aj, n)),
+                 closing = foreseen + nearer(a, foreseen, elastic, damping, yields);
     double normal = elastic + damping * closing;
     if (normal < 0.0) normal = 0.0;
     pressure all = {.slope = w->bed.stiffness * wet.waterplane, .at = aj};
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, n), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
     press(&all, elastic, normal, n, v3(0, 0, 0));
-    rub(w, p, &all, 0.0, r, &a);
+    rub(w, p, &all, 0.0, &(parting){0}, r, a);
     if (survey) { /* the waterplane behind the wall turns with the body: as stiff as at its farthest point */
         fl_stiff si = {0}, sj = {0};
         fl_stiff_add(&si, b, i, all.slope, n, v3_cross(ai, n));
@@ -439,8 +506,8 @@ static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, double dt, int
 }
 
 /* The manual's law: one contact, by the kind of the closest features. */
-static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance *r, double dt, int survey,
-                        double *distance)
+static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance *r, const ahead *a,
+                        int survey, double *distance)
 {
     const fl_bodies *b = &w->b;
     const fl_touching *law = p->law;
@@ -465,8 +532,7 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
                                              law->literal18, &exponent);
     k = law->stiffness > 0.0 ? law->stiffness : law->softening * k;
     const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
-    const ahead a = ahead_of(w, p, r, dt); /* of which it takes no lead: as the manual has it */
-    const fl_vec3 u = went(b, p, &a, ai, aj);
+    const fl_vec3 u = went(b, p, a, ai, aj); /* without a lead: as the manual has it */
     const double closing = -v3_dot(nw, u);
     const double mass = law->literal2 && b->invm[p->j] > 0.0
                             ? b->m[p->i] + b->m[p->j]
@@ -482,7 +548,7 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
     add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, nw), ai, aj);
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, nw), ai, aj);
     press(&all, elastic, normal, nw, v3(0, 0, 0));
-    rub(w, p, &all, 0.0, r, &a);
+    rub(w, p, &all, 0.0, &(parting){0}, r, a);
     if (survey) stiffen_one(w, p, &all, nw, r);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note_one(w, p, c.p, c.n, c.area);
@@ -506,6 +572,7 @@ void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t,
     const double R = b->radius[p->i] + b->radius[p->j];
     const int first = p->bond && p->keep == 0.0 && p->n == 0; /* look since its bond ended */
     const fl_stance r = fl_stance_of(w, p);
+    const ahead a = ahead_of(w, p, &r, dt);
     fl_places *s = &w->scratch[thread];
     double distance = 0.0;
     p->f = p->ti = p->tj = p->fd = p->di = p->dj = p->fs = p->si = p->sj = v3(0, 0, 0);
@@ -514,15 +581,15 @@ void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t,
     const int manual = (p->law->kind == FL_LAW_MANUAL || p->law->kind == FL_LAW_MANUAL_SI) &&
                        (!piece || piece->kind == FL_PIECE_SOLID || piece->kind == FL_PIECE_CONE);
     if (piece && piece->elastic) {
-        if (force_bed(w, p, &r, dt, survey, &distance)) return;
+        if (force_bed(w, p, &r, &a, survey, &distance)) return;
         distance += R; /* what sleeps is told by the distance of the cores */
     } else if (manual) {
-        if (force_manual(w, p, thread, &r, dt, survey, &distance)) goto failed;
+        if (force_manual(w, p, thread, &r, &a, survey, &distance)) goto failed;
         if (p->n) goto touches;
     } else {
         if (fl_stance_places(w, p, thread, &r, &distance)) goto failed;
-        const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, t, &r, dt, survey)
-                                             : s->n && force_points(w, p, s, &r, dt, survey);
+        const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, t, &r, &a, survey)
+                                             : s->n && force_points(w, p, s, &r, &a, survey);
         if (touch < 0) goto failed;
         if (touch) goto touches;
     }
@@ -551,7 +618,7 @@ int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o)
     if (s->n == 0) return 0;
     if (fl_bearing_sum(s, &q)) return -1;
     if (!(q.u > 0.0)) return 0;
-    fl_seen seen = seen_of(p, s, &r, &q);
+    fl_seen seen = seen_of(w, p, s, &r, &q);
     fl_springs springs;
     fl_bearing_springs(s, &springs);
     seen.springs = &springs;

@@ -7,6 +7,7 @@
  * the begin of the step is asked for: fl_world.lead; of others a contact that begins feels nothing yet. */
 #ifndef FL_STEP_LEAD_H
 #define FL_STEP_LEAD_H
+#include "law/damping.h"
 #include "step/pairing.h"
 #include "step/works.h"
 
@@ -15,6 +16,72 @@ typedef struct {
     fl_vec3 wi, wj; /* of the spins of both                                       [rad/s] */
     double pressed; /* so many contacts the one of them that moves has that has more of them, 1 at least */
 } fl_lead;
+
+/* A force on A and its moment about the middle between both centres, from the torques ti and tj about these:
+ * that on B is the opposite, so it does not matter who is A. */
+FL_WIDE_PART fl_wrench fl_lead_amid(fl_vec3 f, fl_vec3 ti, fl_vec3 tj)
+{
+    return (fl_wrench){f, v3_scale(0.5, v3_sub(ti, tj))};
+}
+
+/* What the contact did in the step before: nothing, where it did not touch.  World axes. */
+typedef struct {
+    fl_wrench elastic, damping; /* of what presses              */
+    fl_wrench rubbed;           /* friction                     */
+    fl_vec3 damped;             /* of that what springs do not [N]   */
+    double sprung;              /* moment of the spring        [N m] */
+} fl_before;
+
+FL_WIDE_PART fl_wrench fl_wrench_madd(fl_wrench a, double s, fl_wrench b)
+{
+    return (fl_wrench){v3_madd(a.f, s, b.f), v3_madd(a.m, s, b.m)};
+}
+
+static inline fl_before fl_before_of(const fl_pair *p)
+{
+    const fl_wrench all = fl_lead_amid(p->f, p->ti, p->tj), damping = fl_lead_amid(p->fd, p->di, p->dj),
+                    rubbed = fl_lead_amid(p->fs, p->si, p->sj);
+    return (fl_before){.elastic = fl_wrench_madd(fl_wrench_madd(all, -1.0, damping), -1.0, rubbed),
+                       .damping = damping,
+                       .rubbed = rubbed,
+                       .damped = v3_sub(p->fs, p->slip.force),
+                       .sprung = p->slip.moment};
+}
+
+/* fl_damping_closing() of a contact that approaches at c, as foreseen; elastic: size of that force now, C its
+ * damping, yields: fl_pair_yields().  Sizes, since the force turns with the contact. */
+FL_WIDE_PART double fl_lead_closing(double c, double elastic, double C, double yields, double pressed,
+                                    double dt, const fl_before *was)
+{
+    const double had = v3_norm(was->elastic.f),
+                 damped = had > 0.0 ? v3_dot(was->elastic.f, was->damping.f) / had : 0.0;
+    return fl_damping_closing(c, C, 0.5 * dt * yields, pressed, elastic - had, damped);
+}
+
+/* What of damping is no push against the elastic force, but shakes the bodies about it. */
+FL_WIDE_PART fl_wrench fl_lead_shakes(fl_wrench elastic, fl_wrench damping)
+{
+    const double f2 = v3_norm2(elastic.f), part = f2 > 0.0 ? v3_dot(elastic.f, damping.f) / f2 : 0.0;
+    return fl_wrench_madd(damping, -part, elastic);
+}
+
+/* fl_damping_closing() knows of the push alone.  What shakes goes by the motion foreseen, held back as that
+ * of many contacts is: as if it moved twice as easily as the mass.  y = C dt/M. */
+FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, double y, double pressed,
+                                        const fl_before *was)
+{
+    const fl_wrench now = fl_lead_shakes(elastic, damping),
+                    before = fl_lead_shakes(was->elastic, was->damping);
+    const double holds = 2.0 * pressed * y, to = holds / (1.0 + holds);
+    return fl_wrench_madd(fl_wrench_madd(damping, -to, now), to, before);
+}
+
+/* Moment about n of friction that was no spring's, at the arms ai and aj. */
+FL_WIDE_PART double fl_lead_turned(const fl_before *was, fl_vec3 n, fl_vec3 ai, fl_vec3 aj)
+{
+    const fl_vec3 arm = v3_scale(0.5, v3_add(ai, aj));
+    return v3_dot(n, v3_sub(was->rubbed.m, v3_cross(arm, was->rubbed.f))) - was->sprung;
+}
 
 /* lag: fl_pair_lag() of the step [m/s]. */
 static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)

@@ -2,6 +2,7 @@
 /* pairing.h -- a pair of things enters the list of near pairs. */
 #ifndef FL_STEP_PAIRING_H
 #define FL_STEP_PAIRING_H
+#include "base/wide.h"
 #include "step/world.h"
 
 /* Resolve the laws of all pairs of materials in the scene, w->law. -1 with FL_SYSTEM. */
@@ -25,6 +26,23 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
  * a point turns the bodies by all of its arm, a face keeps them from it, and with half of the arm M is never
  * less than that of a point, nor more than four times as much. */
 double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj);
+
+/* The velocity at which they part for each impulse of that force, along it, as their turning adds to it
+ * [1/kg]: 1/M with all of the torques. */
+double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj);
+
+/* How the points ai and aj of both part for an impulse there, world axes, and the bodies about n for one
+ * about n [1/kg m2]. */
+fl_ease fl_pair_ease(const fl_world *w, const fl_pair *p, fl_vec3 ai, fl_vec3 aj);
+double fl_pair_turns(const fl_world *w, const fl_pair *p, fl_vec3 n);
+
+/* What turning adds: x, y, z torques of unit forces, in a frame where the inverse moments are invI. */
+static inline fl_ease fl_pair_ease_more(fl_ease K, fl_vec3 invI, fl_vec3 x, fl_vec3 y, fl_vec3 z)
+{
+    const fl_vec3 a = v3_mul(invI, x), b = v3_mul(invI, y), c = v3_mul(invI, z);
+    return (fl_ease){K.xx + v3_dot(a, x), K.xy + v3_dot(a, y), K.xz + v3_dot(a, z),
+                     K.yy + v3_dot(b, y), K.yz + v3_dot(b, z), K.zz + v3_dot(c, z)};
+}
 
 /* What the velocity of A against B is off by where the two turn together: v and w are those of the middle of
  * a step, arms those of its end, and with them

@@ -477,8 +477,9 @@ static void hold_back(fl_surrogate *s, const fl_seen *seen, const fl_pressing *o
     put(still, of->direction, of->turning);
     put(damped, q->damping.f, q->damping.m);
     times(moving, of->damping, V);
-    const double closing = -dot(still, V) / E, mean = 1.0 + chi * closing,
+    const double closing = -dot(still, V) / E, mean = 1.0 + chi * (closing + seen->more),
                  var = chi * chi * (dot(moving, V) / E - closing * closing), p = q->normal / E - mean;
+    for (int k = 0; k < 6; k++) moving[k] -= seen->more * still[k];
     if (!(var > LEAST)) return;
     if (!(p > LEAST && mean + p > LEAST)) { /* none or all of it: an even spread, but no wider than that */
         const double most = fabs(mean) / sqrt(var);
@@ -518,7 +519,8 @@ static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressi
     if (!(s->force > 0.0 && seen->slope > 0.0 && pressing->elastic > 0.0)) return;
     s->M = *seen->M, s->o = seen->o, s->at = v3_add(s->o, m3_mul(s->M, s->own));
     s->first = seen->places->place[0].p;
-    s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope;
+    s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope, s->yields = seen->yields,
+    s->ease = seen->ease, s->turns = seen->turns;
     bound(s, seen);
     bend(s, seen, slope, v3_sub(s->first, s->at), last);
     press(s, pressing, seen->scale);

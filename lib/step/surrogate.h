@@ -58,6 +58,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include "geom/mat3.h"
+#include "law/tangent.h"
 #include "step/bearing.h"
 
 /* Three of a force or a way, three of a moment or a turn; the last two are 0. */
@@ -93,6 +94,9 @@ typedef struct {
                                            * the force acts in its plane              [m] */
     fl_vec3 beside;                       /* of the force, what is not pressures      [N] */
     double pressure;                      /* sum of its e                             [N] */
+    double yields;                        /* as in fl_seen, with                   [1/kg] */
+    fl_ease ease;                         /* and                                          */
+    double turns;                         /*                                    [1/kg m2] */
     fl_vec3 direction, turning;           /* as in fl_pressing, times dW/dU               */
     double damping[FL_PRESSING], wide;
     fl_vec3 lift;          /* of its mean over where they act              */
@@ -159,12 +163,15 @@ typedef struct {
     const fl_bearing *q;
     const fl_springs *springs;   /* of the places */
     double scale, energy, slope; /* dW/dU, W, and as in fl_surrogate */
-    double radii;                /* sum of the two [m] */
-    double room, bound;          /* of fl_shell_room(), INFINITY where B is convex; of A about o [m] */
-    double toward;               /* the force that its motion comes to, over the force */
-    double stiff_i, stiff_j;     /* 0: not asked [1/s2] */
-    fl_vec3 v, turn;             /* of A against B at the first place [m/s], [rad/s], frame of B, */
-    double chi;                  /* and how it was damped by fl_bearing_damp() [s/m] */
+    double yields;               /* fl_pair_yields() where both are free, [1/kg]; and */
+    fl_ease ease;                /* as in fl_rubbing, where the pressures have their middle; frame of B */
+    double turns;
+    double radii;            /* sum of the two [m] */
+    double room, bound;      /* of fl_shell_room(), INFINITY where B is convex; of A about o [m] */
+    double toward;           /* the force that its motion comes to, over the force */
+    double stiff_i, stiff_j; /* 0: not asked [1/s2] */
+    fl_vec3 v, turn;         /* of A against B at the first place [m/s], [rad/s], frame of B, */
+    double chi, more;        /* and how it was damped by fl_bearing_damp() [s/m], [m/s] */
 } fl_seen;
 
 /* How often one was asked, and how well it told; one for each thread. */

@@ -15,12 +15,13 @@ typedef struct {
     fl_tellers s;
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
-    fl_lane du[3], dwi[3], dwj[3];           /* by how much the end of the step is ahead of them, lead.h */
-    fl_lane pressed, foresight;              /* of lead.h; so much of that counts */
-    fl_lane mass, touch, rest, damping, friction, tangential; /* of pair and law                       */
-    fl_lane turn[3];                         /* of the force since the look; frame of B                */
-    fl_lane chi, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
-    fl_lane slip[8];                         /* as it is remembered; the last two are nothing */
+    fl_lane du[3], dwi[3], dwj[3], pressed;  /* by how much the end of the step is ahead of them, lead.h */
+    fl_lane was[6], damping_was[6], rubbed[6], damped[3], sprung;      /* fl_before */
+    fl_lane mass, reduced, touch, rest, damping, friction, tangential; /* of pair and law              */
+    fl_lane turn[3]; /* of the force since the look; frame of B                */
+    fl_lane chi, damps, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
+    fl_lane slip[8];                                /* as it is remembered; the last two are nothing */
+    fl_lane ease[6];                                /* world axes */
     fl_lane n[3], rubs[3], next[3], aj[3], k, g, limit, arm, twist, dw, dw_next; /* as friction sees them */
     fl_lane to[FL_PAIR_TELLS]; /* what fl_pair gets                       */
 } batch;
@@ -31,6 +32,28 @@ typedef struct {
 static void put4(fl_lane *a, int k, fl_quat q)
 {
     a[0].a[k] = q.w, a[1].a[k] = q.x, a[2].a[k] = q.y, a[3].a[k] = q.z;
+}
+
+static inline void put_wrench(fl_lane *a, int k, fl_wrench w)
+{
+    fl_lane3_put(a, k, w.f);
+    fl_lane3_put(a + 3, k, w.m);
+}
+
+FL_WIDE_PART fl_wrench wrench(const fl_lane *a, int k)
+{
+    return (fl_wrench){fl_lane3(a, k), fl_lane3(a + 3, k)};
+}
+
+FL_WIDE_PART fl_ease ease_of(const fl_lane *a, int k)
+{
+    return (fl_ease){a[0].a[k], a[1].a[k], a[2].a[k], a[3].a[k], a[4].a[k], a[5].a[k]};
+}
+
+FL_WIDE_PART void put_ease(fl_lane *a, int k, fl_ease K)
+{
+    a[0].a[k] = K.xx, a[1].a[k] = K.xy, a[2].a[k] = K.xz;
+    a[3].a[k] = K.yy, a[4].a[k] = K.yz, a[5].a[k] = K.zz;
 }
 
 static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
@@ -54,7 +77,13 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         fl_lane3_put(b->dwi, k, lead.wi);
         fl_lane3_put(b->dwj, k, lead.wj);
         b->pressed.a[k] = lead.pressed;
-        b->mass.a[k] = c->mass, b->touch.a[k] = c->touch;
+        const fl_before was = fl_before_of(c);
+        put_wrench(b->was, k, was.elastic);
+        put_wrench(b->damping_was, k, was.damping);
+        put_wrench(b->rubbed, k, was.rubbed);
+        fl_lane3_put(b->damped, k, was.damped);
+        b->sprung.a[k] = was.sprung;
+        b->mass.a[k] = b->reduced.a[k] = c->mass, b->touch.a[k] = c->touch;
         b->rest.a[k] = c->law->rest, b->damping.a[k] = c->law->chi;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential;
         fl_lane3_put(b->slip, k, c->slip.force);
@@ -98,11 +127,11 @@ FL_WIDE_PART fl_vec3 went(const batch *b, int k, fl_vec3 aj)
                   v3_sub(v3_cross(fl_lane3(b->wi, k), ai), v3_cross(fl_lane3(b->wj, k), aj)));
 }
 
-/* By how much the end of the step is ahead of that, as far as that counts. */
+/* By how much the end of the step is ahead of that. */
 FL_WIDE_PART fl_vec3 leads(const batch *b, int k, fl_vec3 aj)
 {
     const fl_lead lead = {.v = fl_lane3(b->du, k), .wi = fl_lane3(b->dwi, k), .wj = fl_lane3(b->dwj, k)};
-    return v3_scale(b->foresight.a[k], fl_lead_at(&lead, v3_add(aj, fl_lane3(b->off, k)), aj));
+    return fl_lead_at(&lead, v3_add(aj, fl_lane3(b->off, k)), aj);
 }
 
 /* How A stands to B. */
@@ -120,21 +149,27 @@ FL_WIDE_VERSIONS static void relate(batch *restrict b)
         fl_lane3_put(b->s.M, k, v3(Mx.x, My.x, Mz.x));
         fl_lane3_put(b->s.M + 3, k, v3(Mx.y, My.y, Mz.y));
         fl_lane3_put(b->s.M + 6, k, v3(Mx.z, My.z, Mz.z));
+        put_ease(b->ease, k,
+                 fl_ease_turned(ease_of((b->s.s + FL_SURROGATE_ROW(ease.xx)), k), v3(B.x.x, B.y.x, B.z.x),
+                                v3(B.x.y, B.y.y, B.z.y), v3(B.x.z, B.y.z, B.z.z)));
     }
 }
 
-/* The mass that meets, where that hangs on the force. */
+/* The mass that meets, and how it yields, where that hangs on the force. */
 static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
 {
     for (int k = 0; k < FL_TOLD; k++) {
         const fl_pair *c = p[k < n ? k : 0];
-        if (fl_pair_is_plain(w, c)) continue;
         const rows R = rows_of(b->R, k);
+        if (fl_pair_is_plain(w, c)) continue;
         const fl_vec3 at = out(R, fl_lane3(b->s.at, k)), f = out(R, fl_lane3(b->s.f, k)),
                       m = out(R, fl_lane3(b->s.m, k));
         const fl_vec3 ti = v3_add(v3_cross(v3_add(at, fl_lane3(b->off, k)), f), m),
                       tj = v3_add(v3_cross(at, f), m);
         b->mass.a[k] = fl_pair_mass(w, c, f, ti, tj);
+        OF(yields)->a[k] = fl_pair_yields(w, c, f, ti, tj);
+        put_ease(b->ease, k, fl_pair_ease(w, c, v3_add(at, fl_lane3(b->off, k)), at));
+        OF(turns)->a[k] = fl_pair_turns(w, c, v3_unit(f));
     }
 }
 
@@ -173,16 +208,10 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
         const fl_vec3 was = fl_lane3(OF(g), k); /* against the force */
         const double size2 = v3_norm2(force) * v3_norm2(was), each2 = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0;
         const fl_vec3 turn = v3_scale(each2, v3_cross(force, was)), back = v3_neg(turn);
-        const double rests = fl_damping_chi(b->damping.a[k], b->rest.a[k], b->touch.a[k], b->s.energy.a[k],
-                                            b->mass.a[k]),
-                     pressure = b->s.share.a[k] * OF(pressure)->a[k],
-                     foresight =
-                         fl_damping_foresight(b->pressed.a[k] * (dt * rests * pressure / b->mass.a[k]));
-        b->foresight.a[k] = foresight;
         const fl_vec3 aj = out(R, v3_add(first, by)), turns = v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)),
                       more = v3_sub(fl_lane3(b->dwi, k), fl_lane3(b->dwj, k));
         const fl_vec3 v = after(back, in(R, v3_add(went(b, k, aj), leads(b, k, aj))));
-        const fl_vec3 w = after(back, in(R, v3_madd(turns, foresight, more)));
+        const fl_vec3 w = after(back, in(R, v3_add(turns, more)));
         const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
                       m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
@@ -192,17 +221,24 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
                      touch = met > b->touch.a[k] ? met : b->touch.a[k];
         const double chi =
             fl_damping_chi(b->damping.a[k], b->rest.a[k], touch, b->s.energy.a[k], b->mass.a[k]);
-        const double grown = 1.0 + chi * closing, var = chi * chi * apart;
+        /* what of the change is its own */
+        const fl_before before = {.elastic = wrench(b->was, k), .damping = wrench(b->damping_was, k)};
+        const double size = v3_norm(force),
+                     ends = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k], dt,
+                                            &before),
+                     nearer = ends - closing;
+        const double grown = 1.0 + chi * ends, var = chi * chi * apart;
         const fl_pulls held =
             fl_pulls_of(grown, var, OF(spreads)->a[k] * sqrt(var > 0.0 ? var : 0.0), OF(leans)->a[k]);
         const double adds = -chi * (1.0 + held.q), still = held.p + held.q * (1.0 - grown);
         b->touch.a[k] = touch;
         b->chi.a[k] = chi;
+        b->damps.a[k] = dt * chi * size / b->reduced.a[k];
         b->grown.a[k] = grown + held.p;
         fl_lane3_put(b->by, k, by);
         fl_lane3_put(b->turn, k, turn);
-        fl_lane3_put(b->fd, k, after(turn, v3_madd(v3_scale(still, D), adds, f)));
-        fl_lane3_put(b->md, k, after(turn, v3_madd(v3_scale(still, T), adds, m)));
+        fl_lane3_put(b->fd, k, after(turn, v3_madd(v3_scale(still, D), adds, v3_madd(f, -nearer, D))));
+        fl_lane3_put(b->md, k, after(turn, v3_madd(v3_scale(still, T), adds, v3_madd(m, -nearer, T))));
     }
 }
 
@@ -227,8 +263,14 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         md = v3_add(md, v3_cross(by, fd));
         /* in the world */
         const fl_vec3 at = out(R, point), aj = out(R, first), F = out(R, f), FM = out(R, m);
-        const fl_vec3 D = v3_scale(share, out(R, fd)), DM = v3_scale(share, out(R, md));
-        const fl_vec3 di = v3_add(v3_cross(v3_add(aj, off), D), DM), dj = v3_neg(v3_add(v3_cross(aj, D), DM));
+        const fl_vec3 D1 = v3_scale(share, out(R, fd)), DM = v3_scale(share, out(R, md));
+        const fl_vec3 amid = v3_scale(0.5, off);
+        const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, amid), F), FM)},
+                        damping = {D1, v3_add(v3_cross(v3_add(aj, amid), D1), DM)};
+        const fl_before was = {.elastic = wrench(b->was, k), .damping = wrench(b->damping_was, k)};
+        const fl_wrench held = fl_lead_steadied(elastic, damping, b->damps.a[k], b->pressed.a[k], &was);
+        const fl_vec3 D = held.f, half = v3_cross(amid, D), di = v3_add(half, held.m),
+                      dj = v3_sub(half, held.m);
         fl_lane3_put(TO(fd), k, D);
         fl_lane3_put(TO(di), k, di);
         fl_lane3_put(TO(dj), k, dj);
@@ -240,9 +282,9 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
                      each = size > least ? 1.0 / size : 0.0, rubs = size > least ? b->friction.a[k] : 0.0,
                      springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
         const fl_vec3 n = out(R, v3_scale(each, direction));
-        const fl_vec3 amid = v3_add(v3_add(by, after(turn, fl_lane3(OF(lift), k))),
+        const fl_vec3 acts = v3_add(v3_add(by, after(turn, fl_lane3(OF(lift), k))),
                                     v3_scale(each * each, v3_cross(direction, turning)));
-        const fl_vec3 centred = v3_add(aj, out(R, amid));
+        const fl_vec3 centred = v3_add(aj, out(R, acts));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n),
                      more = v3_dot(fl_lane3(b->dwi, k), n) - v3_dot(fl_lane3(b->dwj, k), n);
         const fl_vec3 goes = went(b, k, centred);
@@ -255,7 +297,7 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         b->limit.a[k] = rubs * (share * size);
         b->arm.a[k] = OF(wide)->a[k];
         b->dw.a[k] = wi - wj;
-        b->dw_next.a[k] = wi - wj + b->foresight.a[k] * more;
+        b->dw_next.a[k] = wi - wj + more;
         b->twist.a[k] = 0.5 * (wi + wj);
     }
 }
@@ -266,11 +308,26 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
     const double asked = survey ? 1.0 : 0.0;
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
-        const fl_rubbing c = {fl_lane3(b->n, k), b->k.a[k], b->g.a[k], b->limit.a[k], b->arm.a[k]};
+        const fl_rubbing c = {
+            .n = fl_lane3(b->n, k),
+            .k = b->k.a[k],
+            .g = b->g.a[k],
+            .limit = b->limit.a[k],
+            .arm = b->arm.a[k],
+            .ease = ease_of(b->ease, k),
+            .turns = OF(turns)->a[k],
+            .many = b->pressed.a[k],
+        };
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
         const fl_slip was = {fl_lane3(b->slip, k), b->slip[3].a[k], b->slip[4].a[k], b->slip[5].a[k]};
-        const fl_sliding by = {fl_lane3(b->rubs, k), fl_lane3(b->next, k), b->dw.a[k], b->dw_next.a[k],
-                               b->twist.a[k]};
+        const fl_before before = {.rubbed = wrench(b->rubbed, k), .sprung = b->sprung.a[k]};
+        const fl_sliding by = {fl_lane3(b->rubs, k),
+                               fl_lane3(b->next, k),
+                               b->dw.a[k],
+                               b->dw_next.a[k],
+                               b->twist.a[k],
+                               fl_lane3(b->damped, k),
+                               fl_lead_turned(&before, c.n, ai, aj)};
         const fl_rubbed to = fl_tangent_rub(was, c, by, dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));

@@ -82,7 +82,7 @@ static void force_is_that_of_each_place(void **state)
         fill(&s, n, &g);
         assert_int_equal(fl_bearing_sum(&s, &q), 0);
         assert_int_equal(fl_bearing_move(&s, v, turn, &q), 0);
-        fl_bearing_damp(&s, chi, &q);
+        fl_bearing_damp(&s, chi, 0.0, &q);
         for (int32_t k = 0; k < n; k++) {
             const fl_place *p = &s.place[k];
             const fl_vec3 arm = v3_sub(p->p, s.place[0].p), pull = v3_scale(p->du, p->n);
@@ -145,7 +145,7 @@ static void which_places_stand_for_an_area_is_all_one(void **state)
                 lay(&s, e[a], at[a][0], at[a][1], at[a][2], 6.0 * fl_rng_unit(&g));
             assert_int_equal(fl_bearing_sum(&s, &q[way]), 0);
             assert_int_equal(fl_bearing_move(&s, v, turn, &q[way]), 0);
-            fl_bearing_damp(&s, 0.3, &q[way]);
+            fl_bearing_damp(&s, 0.3, 0.0, &q[way]);
         }
         double size = 1.0;
         for (int32_t k = 0; k < s.n; k++) {
@@ -191,7 +191,7 @@ static void an_even_pressure_is_held_back_as_a_whole(void **state)
             const fl_vec3 v = v3(0, 0, -sink - rate * s.place[0].p.x);
             assert_int_equal(fl_bearing_sum(&s, &q), 0);
             assert_int_equal(fl_bearing_move(&s, v, v3(0, rate, 0), &q), 0);
-            fl_bearing_damp(&s, 1.0, &q);
+            fl_bearing_damp(&s, 1.0, 0.0, &q);
             const fl_vec3 m = v3_add(q.moment, v3_scale(q.normal, s.place[0].p));
             const double size = 1.0 + sink + rate > 0.0 ? fabs(1.0 + sink) + rate : 1.0;
             assert_near_of(q.normal, all, rate < 1.0 + sink ? 1e-4 : 0.05, size);

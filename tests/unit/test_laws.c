@@ -12,7 +12,7 @@
 static fl_vec3 tangent(fl_slip *s, const fl_rubbing *c, fl_vec3 v, double spin, double twist, double dt,
                        double *moment)
 {
-    const fl_sliding by = {v, v, spin, spin, twist};
+    const fl_sliding by = {.v = v, .next = v, .spin = spin, .next_spin = spin, .twist = twist};
     const fl_rubbed r = fl_tangent_rub(*s, *c, by, dt);
     *s = r.slip;
     *moment = r.moment;
@@ -58,6 +58,55 @@ static void damping_of_every_restitution_is_finite(void **state)
     assert_near_of(D, 0.0, 1e-15, 1.0);
     assert_near(fl_damping_crossley(0.0), fl_damping_crossley(FL_RESTITUTION_LEAST), 1e-15);
     assert_near(fl_damping_linear(-1.0), fl_damping_linear(FL_RESTITUTION_LEAST), 1e-15);
+}
+
+/* A mass on n equal contacts, each of which knows its own part alone; as steps take it, forces at their ends.
+ */
+typedef struct {
+    double x, v, E, D; /* E, D: of one contact */
+} damped_mass;
+
+static void damped_step(damped_mass *s, double omega, double C, int n, double dt, double *foreseen)
+{
+    const double before = -(s->E + s->D) * n, k = omega * omega / n;
+    s->v += 0.5 * dt * before, s->x += dt * s->v;
+    const double E = -k * -s->x, lead = 0.5 * dt * before; /* of mass 1, pushed towards -x */
+    const double d = fl_damping_closing(s->v + lead, C, 0.5 * dt, n, E - s->E, s->D);
+    s->E = E, s->D = C * d;
+    s->v -= 0.5 * dt * n * (s->E + s->D);
+    *foreseen = d;
+}
+
+static void damping_of_one_goes_by_the_speed_at_the_end(void **state)
+{
+    (void)state;
+    for (int k = 0; k < test_times(50); k++) {
+        fl_rng g = fl_rng_of(test_seed(), 900 + k, FL_RNG_TEST);
+        const double omega = 3.0, dt = fl_rng_in(&g, 0.01, 0.6), C = exp(fl_rng_in(&g, -3, 8));
+        damped_mass s = {.x = 0.0, .v = 1.0};
+        for (int i = 0; i < 40; i++) {
+            double d;
+            damped_step(&s, omega, C, 1, dt, &d);
+            assert_near_of(d, s.v, 1e-11, 1.0);
+        }
+    }
+}
+
+/* Up to 0.7 of 2/omega, however much damps: H of verify_step S08 to S24 by itself. */
+static void damping_of_many_is_stable(void **state)
+{
+    static const int N[] = {1, 2, 3, 6, 12, 100};
+    (void)state;
+    for (size_t k = 0; k < sizeof N / sizeof *N; k++)
+        for (double C = 0.01; C < 1e5; C *= 3.0) {
+            damped_mass s = {.x = 0.0, .v = 1.0};
+            double d, most = 0.0;
+            for (int i = 0; i < 4000; i++) {
+                damped_step(&s, 2.0, C / N[k], N[k], 0.7, &d);
+                most = fmax(most, fabs(s.v));
+            }
+            assert_true(most < 30.0 && fabs(s.v) <= 1.0);
+        }
 }
 
 static void damping_solves_its_equation(void **state)
@@ -304,6 +353,48 @@ static void friction_damping_stays_within_the_limit(void **state)
 
 /* Whatever the history of slip, load and stiffness, as long as slip ends where it began friction has taken
  * work: the force on A does -f.v dt against the slip.  Trapezoids, as the spring's own energy goes. */
+/* Across n the sum of what moves, of springs and of damping is what fl_tangent_damped() says it solves, by a
+ * product with the projected matrix. */
+static void friction_damping_solves_its_equation(void **state)
+{
+    (void)state;
+    for (int k = 0; k < test_times(200); k++) {
+        fl_rng g = fl_rng_of(test_seed(), 1100 + k, FL_RNG_TEST);
+        double r[12];
+        for (int m = 0; m < 12; m++) r[m] = fl_rng_normal(&g);
+        const fl_vec3 n = v3_unit(v3(r[0], r[1], r[2])), one = v3(r[3], r[4], r[5]),
+                      two = v3(r[6], r[7], r[8]);
+        fl_vec3 v = v3(r[9], r[10], r[11]), way = v3(r[3], r[7], r[11]), old = v3(r[10], r[6], r[2]);
+        v = v3_madd(v, -v3_dot(v, n), n), way = v3_madd(way, -v3_dot(way, n), n);
+        const double dt = 0.01, many = 1 + k % 4, coef = exp(fl_rng_in(&g, -2, 8)), turn = 0.7, arm = 0.4;
+        const fl_rubbing c = {.n = n,
+                              .g = coef,
+                              .arm = arm,
+                              .ease = {1 + one.x * one.x + two.x * two.x, one.x * one.y + two.x * two.y,
+                                       one.x * one.z + two.x * two.z, 1 + one.y * one.y + two.y * two.y,
+                                       one.y * one.z + two.y * two.z, 1 + one.z * one.z + two.z * two.z},
+                              .turns = turn,
+                              .many = many};
+        const fl_grip x =
+            fl_tangent_damped(c, (fl_grip){v, r[0]}, (fl_grip){way, r[1]}, (fl_grip){old, r[2]}, dt);
+        /* the point then moves so */
+        const fl_vec3 push = v3_madd(v3_scale(2.0 * many, v3_sub(x.f, old)), 1.0, way);
+        const fl_vec3 eased = v3_madd(v3_madd(push, v3_dot(one, push), one), v3_dot(two, push), two);
+        fl_vec3 then = v3_madd(v, 0.5 * dt, eased);
+        /* of the old, which does not lie across, only what does counts */
+        const fl_vec3 flat = v3_madd(old, -v3_dot(old, n), n), off = v3_sub(flat, old),
+                      more = v3_scale(2.0 * many, off),
+                      less = v3_madd(v3_madd(more, v3_dot(one, more), one), v3_dot(two, more), two);
+        then = v3_madd(then, -0.5 * dt, less);
+        then = v3_madd(then, -v3_dot(then, n), n);
+        const double size = v3_norm(x.f) + coef * v3_norm(v);
+        assert_near_of(v3_norm(v3_madd(x.f, coef, then)), 0.0, 1e-10, size);
+        assert_near_of(v3_dot(x.f, n), 0.0, 1e-12, size);
+        const double spin = r[0] + 0.5 * dt * turn * arm * arm * (r[1] + 2.0 * many * (x.m - r[2]));
+        assert_near_of(x.m, -coef * spin, 1e-12, coef);
+    }
+}
+
 static void friction_creates_no_energy(void **state)
 {
     (void)state;
@@ -500,6 +591,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(damping_is_that_of_the_table),
         cmocka_unit_test(damping_of_every_restitution_is_finite),
+        cmocka_unit_test(damping_of_one_goes_by_the_speed_at_the_end),
+        cmocka_unit_test(damping_of_many_is_stable),
         cmocka_unit_test(damping_solves_its_equation),
         cmocka_unit_test(a_slow_contact_is_damped_as_an_impact_at_the_most),
         cmocka_unit_test(material_gives_hertz_and_punch),
@@ -511,6 +604,7 @@ int main(void)
         cmocka_unit_test(friction_sticks_slides_and_comes_back),
         cmocka_unit_test(friction_rolls_with_the_contact),
         cmocka_unit_test(friction_damping_stays_within_the_limit),
+        cmocka_unit_test(friction_damping_solves_its_equation),
         cmocka_unit_test(friction_creates_no_energy),
         cmocka_unit_test(friction_measured_anew_makes_no_energy),
         cmocka_unit_test(friction_is_continuous_where_it_begins_to_slide),

@@ -243,17 +243,18 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Impulses with 96 and with 384 steps a row against 6144: damping and friction, sticking and sliding, in
- * contacts that begin and end.  What falls flat is off by rounding. */
+/* Impulses with 48 and with 192 steps a row against 12288: damping and friction, sticking and sliding, in
+ * contacts that begin and end, at steps for which they are not hidden yet by when in a step contacts begin.
+ * What falls flat is off by rounding. */
 static void orders(void)
 {
     double order[SCENES];
     double all = 0.0, all_then = 0.0;
     int n = 0;
     for (size_t k = 0; k < SCENES; k += verify_quick() ? 4 : 1) {
-        const result truth = run(&SCENE[k], 0.01, "impulse", 6144),
-                     coarse = run(&SCENE[k], 0.01, "impulse", 96),
-                     fine = run(&SCENE[k], 0.01, "impulse", 384);
+        const result truth = run(&SCENE[k], 0.01, "impulse", 12288),
+                     coarse = run(&SCENE[k], 0.01, "impulse", 48),
+                     fine = run(&SCENE[k], 0.01, "impulse", 192);
         const double at = error_of("impulse", &coarse, &truth), then = error_of("impulse", &fine, &truth);
         if (!(at > 1e-10)) continue;
         order[n++] = 0.5 * log2(at / then);
@@ -270,9 +271,9 @@ static void orders(void)
 /* --- without a budget -------------------------------------------------------------------------- */
 
 /* What is told of the automatic step, which costs nothing, against steps of a sixteenth: 1 bit the peak is no
- * worse than 1.6 times it, 2 bit and not better than a quarter of it, 4 bit the impulse is within its bound.
+ * worse than 1.6 times it, 2 bit the impulse is within its bound; share: of the peak's error in what is told.
  */
-static int told(const scene *s)
+static int told(const scene *s, double *share)
 {
     result r[2] = {0};
     double peak = 0.0, impulse = 0.0;
@@ -294,19 +295,22 @@ static int told(const scene *s)
     const double is = error_of("peak", &r[0], &r[1]), was = error_of("impulse", &r[0], &r[1]);
     verify_note("%-30s peak: told %7.2g  true %7.2g   impulse: told %7.2g  true %7.2g", s->name, peak, is,
                 impulse, was);
-    return (is <= 1.6 * peak) | (is >= 0.25 * peak) << 1 | (was <= impulse) << 2;
+    *share = is / peak;
+    return (is <= 1.6 * peak) | (was <= impulse) << 1;
 }
 
 static void without(void)
 {
-    int n = 0, worse = 0, better = 0, over = 0;
+    double share[SCENES];
+    int n = 0, worse = 0, over = 0;
     verify_note("what the report tells of the automatic step");
     for (size_t k = 0; k < SCENES; k += verify_quick() ? 4 : 1, n++) {
-        const int ok = told(&SCENE[k]);
-        worse += !(ok & 1), better += !(ok & 2), over += !(ok & 4);
+        const int ok = told(&SCENE[k], &share[n]);
+        worse += !(ok & 1), over += !(ok & 2);
     }
+    qsort(share, (size_t)n, sizeof *share, compare);
     verify_row("E05", "peaks off by more than 1.6 of what is told", worse, 0, 0, VERIFY_ABS);
-    verify_row("E05", "peaks off by less than a quarter of it", better, 0, 0.25 * n, VERIFY_ABS);
+    verify_below("E05", "what is told over what peaks are off by, median", 1.0 / share[n / 2], 10.0);
     verify_row("E05", "impulses off by more than what is told", over, 0, 0, VERIFY_ABS);
 }
 

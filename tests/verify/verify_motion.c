@@ -134,7 +134,7 @@ static void clamped(void)
     verify_below("clamped", "  over the same at twice the step",
                  fabs(pull[1][1] - pull[1][0]) / fabs(pull[0][1] - pull[0][0]), 0.3);
     verify_below("clamped", "force that clamps: change by the step, of itself",
-                 fabs(normal[0] / normal[1] - 1.0), 1e-8);
+                 fabs(normal[0] / normal[1] - 1.0), 3e-7); /* the speeds of its end are foreseen to order 2 */
 }
 
 /* --- on springs ------------------------------------------------------------------------------ */
