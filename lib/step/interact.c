@@ -60,7 +60,7 @@ static ahead ahead_of(const fl_world *w, const fl_pair *p, const fl_stance *r, d
 /* By how much faster A approaches at the end than at c, as foreseen; the rest as in fl_lead_closing(). */
 static double nearer(const ahead *a, double c, double elastic, double C, double yields)
 {
-    return fl_lead_closing(c, elastic, C, yields, a->by.pressed, a->dt, &a->was) - c;
+    return fl_lead_closing(c, elastic, C, yields, a->by.pressed, a->dt, a->was) - c;
 }
 
 static fl_vec3 went(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
@@ -131,7 +131,7 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const pa
                            wi - wj + turned,
                            0.5 * (wi + wj),
                            a->was.damped,
-                           fl_lead_turned(&a->was, c.n, ai, aj)};
+                           fl_lead_turned(a->was, c.n, ai, aj)};
     const fl_rubbed t = fl_tangent_rub(p->slip, c, by, a->dt);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->slip = t.slip;
@@ -302,7 +302,7 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_springs *
 static void steady(fl_pair *p, double chi, const fl_stance *r, const ahead *a)
 {
     const fl_wrench to = fl_lead_steadied(fl_lead_amid(p->f, p->ti, p->tj), fl_lead_amid(p->fd, p->di, p->dj),
-                                          a->dt * chi * v3_norm(p->f) / p->mass, a->by.pressed, &a->was);
+                                          a->dt * chi * v3_norm(p->f) / p->mass, a->by.pressed, a->was);
     const fl_vec3 half = v3_scale(0.5, v3_cross(r->off, to.f));
     p->fd = to.f, p->di = v3_add(half, to.m), p->dj = v3_sub(half, to.m);
 }

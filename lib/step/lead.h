@@ -37,24 +37,29 @@ FL_WIDE_PART fl_wrench fl_wrench_madd(fl_wrench a, double s, fl_wrench b)
     return (fl_wrench){v3_madd(a.f, s, b.f), v3_madd(a.m, s, b.m)};
 }
 
-static inline fl_before fl_before_of(const fl_pair *p)
+/* all, damping and rubbed: as fl_pair has them, about the middle. */
+FL_WIDE_PART fl_before fl_before_from(fl_wrench all, fl_wrench damping, fl_wrench rubbed, fl_slip slip)
 {
-    const fl_wrench all = fl_lead_amid(p->f, p->ti, p->tj), damping = fl_lead_amid(p->fd, p->di, p->dj),
-                    rubbed = fl_lead_amid(p->fs, p->si, p->sj);
     return (fl_before){.elastic = fl_wrench_madd(fl_wrench_madd(all, -1.0, damping), -1.0, rubbed),
                        .damping = damping,
                        .rubbed = rubbed,
-                       .damped = v3_sub(p->fs, p->slip.force),
-                       .sprung = p->slip.moment};
+                       .damped = v3_sub(rubbed.f, slip.force),
+                       .sprung = slip.moment};
+}
+
+static inline fl_before fl_before_of(const fl_pair *p)
+{
+    return fl_before_from(fl_lead_amid(p->f, p->ti, p->tj), fl_lead_amid(p->fd, p->di, p->dj),
+                          fl_lead_amid(p->fs, p->si, p->sj), p->slip);
 }
 
 /* fl_damping_closing() of a contact that approaches at c, as foreseen; elastic: size of that force now, C its
  * damping, yields: fl_pair_yields().  Sizes, since the force turns with the contact. */
 FL_WIDE_PART double fl_lead_closing(double c, double elastic, double C, double yields, double pressed,
-                                    double dt, const fl_before *was)
+                                    double dt, fl_before was)
 {
-    const double had = v3_norm(was->elastic.f),
-                 damped = had > 0.0 ? v3_dot(was->elastic.f, was->damping.f) / had : 0.0;
+    const double had = v3_norm(was.elastic.f),
+                 damped = had > 0.0 ? v3_dot(was.elastic.f, was.damping.f) / had : 0.0;
     return fl_damping_closing(c, C, 0.5 * dt * yields, pressed, elastic - had, damped);
 }
 
@@ -68,19 +73,18 @@ FL_WIDE_PART fl_wrench fl_lead_shakes(fl_wrench elastic, fl_wrench damping)
 /* fl_damping_closing() knows of the push alone.  What shakes goes by the motion foreseen, held back as that
  * of many contacts is: as if it moved twice as easily as the mass.  y = C dt/M. */
 FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, double y, double pressed,
-                                        const fl_before *was)
+                                        fl_before was)
 {
-    const fl_wrench now = fl_lead_shakes(elastic, damping),
-                    before = fl_lead_shakes(was->elastic, was->damping);
+    const fl_wrench now = fl_lead_shakes(elastic, damping), before = fl_lead_shakes(was.elastic, was.damping);
     const double holds = 2.0 * pressed * y, to = holds / (1.0 + holds);
     return fl_wrench_madd(fl_wrench_madd(damping, -to, now), to, before);
 }
 
 /* Moment about n of friction that was no spring's, at the arms ai and aj. */
-FL_WIDE_PART double fl_lead_turned(const fl_before *was, fl_vec3 n, fl_vec3 ai, fl_vec3 aj)
+FL_WIDE_PART double fl_lead_turned(fl_before was, fl_vec3 n, fl_vec3 ai, fl_vec3 aj)
 {
     const fl_vec3 arm = v3_scale(0.5, v3_add(ai, aj));
-    return v3_dot(n, v3_sub(was->rubbed.m, v3_cross(arm, was->rubbed.f))) - was->sprung;
+    return v3_dot(n, v3_sub(was.rubbed.m, v3_cross(arm, was.rubbed.f))) - was.sprung;
 }
 
 /* lag: fl_pair_lag() of the step [m/s]. */

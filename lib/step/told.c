@@ -9,6 +9,9 @@
 #include "step/pulls.h"
 #include "step/told.h"
 
+/* Forces and torques of fl_pair: f, ti, tj, fd, di, dj, fs, si, sj, and one number more. */
+enum { HAD = 28 };
+
 /* What is known of contacts beside what their surrogates tell.  World axes, but for what is said to be in the
  * frame of B. */
 typedef struct {
@@ -16,7 +19,7 @@ typedef struct {
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
     fl_lane du[3], dwi[3], dwj[3], pressed;  /* by how much the end of the step is ahead of them, lead.h */
-    fl_lane was[6], damping_was[6], rubbed[6], damped[3], sprung;      /* fl_before */
+    fl_lane had[HAD];                        /* what fl_pair had, from f on */
     fl_lane mass, reduced, touch, rest, damping, friction, tangential; /* of pair and law              */
     fl_lane turn[3]; /* of the force since the look; frame of B                */
     fl_lane chi, damps, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
@@ -34,15 +37,39 @@ static void put4(fl_lane *a, int k, fl_quat q)
     a[0].a[k] = q.w, a[1].a[k] = q.x, a[2].a[k] = q.y, a[3].a[k] = q.z;
 }
 
-static inline void put_wrench(fl_lane *a, int k, fl_wrench w)
+/* Columns of a member of fl_pair, n of them in a row, to rows of lanes, four contacts at a time. */
+FL_FOUR_VERSIONS static void turn_in(fl_lane *row, fl_pair *const *p, int n)
 {
-    fl_lane3_put(a, k, w.f);
-    fl_lane3_put(a + 3, k, w.m);
+    for (int k = 0; k < FL_TOLD; k += FL_LANES) {
+        const double *of[FL_LANES];
+        FL_WIDE_UNROLL
+        for (int l = 0; l < FL_LANES; l++)
+            of[l] =
+                (const double *)(const void *)((const char *)p[k + l < n ? k + l : 0] + offsetof(fl_pair, f));
+        for (int c = 0; c < HAD; c += FL_LANES) {
+            fl_wide r[FL_LANES];
+            FL_WIDE_UNROLL
+            for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(of[l] + c);
+            fl_wide_transpose(r);
+            FL_WIDE_UNROLL
+            for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&row[c + l].a[k]) = r[l];
+        }
+    }
 }
 
-FL_WIDE_PART fl_wrench wrench(const fl_lane *a, int k)
+FL_WIDE_PART fl_slip slip_of(const batch *b, int k)
 {
-    return (fl_wrench){fl_lane3(a, k), fl_lane3(a + 3, k)};
+    return (fl_slip){fl_lane3(b->slip, k), b->slip[3].a[k], b->slip[4].a[k], b->slip[5].a[k]};
+}
+
+/* fl_before_of() */
+FL_WIDE_PART fl_before before_of(const batch *b, int k)
+{
+    const fl_lane *h = b->had;
+    return fl_before_from(fl_lead_amid(fl_lane3(h, k), fl_lane3(h + 3, k), fl_lane3(h + 6, k)),
+                          fl_lead_amid(fl_lane3(h + 9, k), fl_lane3(h + 12, k), fl_lane3(h + 15, k)),
+                          fl_lead_amid(fl_lane3(h + 18, k), fl_lane3(h + 21, k), fl_lane3(h + 24, k)),
+                          slip_of(b, k));
 }
 
 FL_WIDE_PART fl_ease ease_of(const fl_lane *a, int k)
@@ -77,12 +104,6 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         fl_lane3_put(b->dwi, k, lead.wi);
         fl_lane3_put(b->dwj, k, lead.wj);
         b->pressed.a[k] = lead.pressed;
-        const fl_before was = fl_before_of(c);
-        put_wrench(b->was, k, was.elastic);
-        put_wrench(b->damping_was, k, was.damping);
-        put_wrench(b->rubbed, k, was.rubbed);
-        fl_lane3_put(b->damped, k, was.damped);
-        b->sprung.a[k] = was.sprung;
         b->mass.a[k] = b->reduced.a[k] = c->mass, b->touch.a[k] = c->touch;
         b->rest.a[k] = c->law->rest, b->damping.a[k] = c->law->chi;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential;
@@ -90,6 +111,7 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         b->slip[3].a[k] = c->slip.k, b->slip[4].a[k] = c->slip.moment, b->slip[5].a[k] = c->slip.k_turn;
     }
     fl_surrogate_lay(&b->s, s, FL_TOLD);
+    turn_in(b->had, p, n);
 }
 
 /* --- lane by lane ------------------------------------------------------------------------------- */
@@ -222,10 +244,10 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
         const double chi =
             fl_damping_chi(b->damping.a[k], b->rest.a[k], touch, b->s.energy.a[k], b->mass.a[k]);
         /* what of the change is its own */
-        const fl_before before = {.elastic = wrench(b->was, k), .damping = wrench(b->damping_was, k)};
+        const fl_before before = before_of(b, k);
         const double size = v3_norm(force),
                      ends = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k], dt,
-                                            &before),
+                                            before),
                      nearer = ends - closing;
         const double grown = 1.0 + chi * ends, var = chi * chi * apart;
         const fl_pulls held =
@@ -267,8 +289,8 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const fl_vec3 amid = v3_scale(0.5, off);
         const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, amid), F), FM)},
                         damping = {D1, v3_add(v3_cross(v3_add(aj, amid), D1), DM)};
-        const fl_before was = {.elastic = wrench(b->was, k), .damping = wrench(b->damping_was, k)};
-        const fl_wrench held = fl_lead_steadied(elastic, damping, b->damps.a[k], b->pressed.a[k], &was);
+        const fl_before was = before_of(b, k);
+        const fl_wrench held = fl_lead_steadied(elastic, damping, b->damps.a[k], b->pressed.a[k], was);
         const fl_vec3 D = held.f, half = v3_cross(amid, D), di = v3_add(half, held.m),
                       dj = v3_sub(half, held.m);
         fl_lane3_put(TO(fd), k, D);
@@ -319,15 +341,15 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
             .many = b->pressed.a[k],
         };
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
-        const fl_slip was = {fl_lane3(b->slip, k), b->slip[3].a[k], b->slip[4].a[k], b->slip[5].a[k]};
-        const fl_before before = {.rubbed = wrench(b->rubbed, k), .sprung = b->sprung.a[k]};
+        const fl_slip was = slip_of(b, k);
+        const fl_before before = before_of(b, k);
         const fl_sliding by = {fl_lane3(b->rubs, k),
                                fl_lane3(b->next, k),
                                b->dw.a[k],
                                b->dw_next.a[k],
                                b->twist.a[k],
-                               fl_lane3(b->damped, k),
-                               fl_lead_turned(&before, c.n, ai, aj)};
+                               before.damped,
+                               fl_lead_turned(before, c.n, ai, aj)};
         const fl_rubbed to = fl_tangent_rub(was, c, by, dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
