@@ -10,7 +10,7 @@
 #include "step/told.h"
 
 /* Forces and torques of fl_pair: f, ti, tj, fd, di, dj, fs, si, sj, and one number more. */
-enum { HAD = 28 };
+enum { HAD = 28, SLIP = 8 };
 
 /* What is known of contacts beside what their surrogates tell.  World axes, but for what is said to be in the
  * frame of B. */
@@ -18,12 +18,13 @@ typedef struct {
     fl_tellers s;
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
+    fl_lane lags;                            /* of fl_pair_lag(): -dt/4, or 0 where a ball touches */
     fl_lane du[3], dwi[3], dwj[3], pressed;  /* by how much the end of the step is ahead of them, lead.h */
     fl_lane had[HAD];                        /* what fl_pair had, from f on */
     fl_lane mass, reduced, touch, rest, damping, friction, tangential; /* of pair and law              */
     fl_lane turn[3]; /* of the force since the look; frame of B                */
     fl_lane chi, damps, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
-    fl_lane slip[8];                                /* as it is remembered; the last two are nothing */
+    fl_lane slip[SLIP];                             /* as it is remembered; the last two are nothing */
     fl_lane ease[6];                                /* world axes */
     fl_lane n[3], rubs[3], next[3], aj[3], k, g, limit, arm, twist, dw, dw_next; /* as friction sees them */
     fl_lane to[FL_PAIR_TELLS]; /* what fl_pair gets                       */
@@ -32,30 +33,20 @@ typedef struct {
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
 #define TO(member) (b->to + (offsetof(fl_pair, member) - offsetof(fl_pair, f)) / sizeof(double))
 
-static void put4(fl_lane *a, int k, fl_quat q)
+/* Columns of doubles to rows of lanes, four contacts at a time. */
+FL_FOUR_VERSIONS static void turn_in(fl_lane *row, const double *const *of, int rows)
 {
-    a[0].a[k] = q.w, a[1].a[k] = q.x, a[2].a[k] = q.y, a[3].a[k] = q.z;
-}
-
-/* Columns of a member of fl_pair, n of them in a row, to rows of lanes, four contacts at a time. */
-FL_FOUR_VERSIONS static void turn_in(fl_lane *row, fl_pair *const *p, int n)
-{
-    for (int k = 0; k < FL_TOLD; k += FL_LANES) {
-        const double *of[FL_LANES];
-        FL_WIDE_UNROLL
-        for (int l = 0; l < FL_LANES; l++)
-            of[l] =
-                (const double *)(const void *)((const char *)p[k + l < n ? k + l : 0] + offsetof(fl_pair, f));
-        for (int c = 0; c < HAD; c += FL_LANES) {
-            fl_wide r[FL_LANES];
-            FL_WIDE_UNROLL
-            for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(of[l] + c);
+    for (int k = 0; k < FL_TOLD; k += FL_LANES)
+        for (int c = 0; c < rows; c += FL_LANES) {
+            fl_wide r[FL_LANES] = {FL_FOUR(of[k] + c), FL_FOUR(of[k + 1] + c), FL_FOUR(of[k + 2] + c),
+                                   FL_FOUR(of[k + 3] + c)};
             fl_wide_transpose(r);
             FL_WIDE_UNROLL
             for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&row[c + l].a[k]) = r[l];
         }
-    }
 }
+
+static const double *doubles(const void *at) { return at; }
 
 FL_WIDE_PART fl_slip slip_of(const batch *b, int k)
 {
@@ -85,21 +76,23 @@ FL_WIDE_PART void put_ease(fl_lane *a, int k, fl_ease K)
 
 static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
 {
+    static const fl_quat level = {1, 0, 0, 0};
     const fl_surrogate *s[FL_TOLD];
+    const double *qi[FL_TOLD], *qj[FL_TOLD], *had[FL_TOLD], *slip[FL_TOLD];
     for (int k = 0; k < FL_TOLD; k++) {
         const fl_pair *c = p[k < n ? k : 0];
         const fl_bodies *o = &w->b;
         const int32_t i = c->i, j = c->j;
         s[k] = c->surrogate;
-        put4(b->qi, k, o->ball[i] ? q_one() : o->q[i]);
-        put4(b->qj, k, o->ball[j] ? q_one() : o->q[j]);
-        const fl_vec3 off = fl_world_way(w, i, j, c->image);
-        fl_lane3_put(b->off, k, off);
-        const fl_vec3 lag = fl_pair_lag(o, c, off, dt);
-        fl_lane3_put(b->u, k, v3_add(v3_sub(o->v[i], o->v[j]), lag));
+        qi[k] = doubles(o->ball[i] ? &level : &o->q[i]), qj[k] = doubles(o->ball[j] ? &level : &o->q[j]);
+        had[k] = doubles((const char *)c + offsetof(fl_pair, f));
+        slip[k] = doubles(&c->slip);
+        fl_lane3_put(b->off, k, fl_world_way(w, i, j, c->image));
+        b->lags.a[k] = o->ball[i] || o->ball[j] ? 0.0 : -0.25 * dt;
+        fl_lane3_put(b->u, k, v3_sub(o->v[i], o->v[j]));
         fl_lane3_put(b->wi, k, o->w[i]);
         fl_lane3_put(b->wj, k, o->w[j]);
-        const fl_lead lead = fl_lead_of(w, c, lag);
+        const fl_lead lead = fl_lead_of(w, c, v3(0, 0, 0));
         fl_lane3_put(b->du, k, lead.v);
         fl_lane3_put(b->dwi, k, lead.wi);
         fl_lane3_put(b->dwj, k, lead.wj);
@@ -107,11 +100,12 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         b->mass.a[k] = b->reduced.a[k] = c->mass, b->touch.a[k] = c->touch;
         b->rest.a[k] = c->law->rest, b->damping.a[k] = c->law->chi;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential;
-        fl_lane3_put(b->slip, k, c->slip.force);
-        b->slip[3].a[k] = c->slip.k, b->slip[4].a[k] = c->slip.moment, b->slip[5].a[k] = c->slip.k_turn;
     }
     fl_surrogate_lay(&b->s, s, FL_TOLD);
-    turn_in(b->had, p, n);
+    turn_in(b->qi, qi, 4);
+    turn_in(b->qj, qj, 4);
+    turn_in(b->had, had, HAD);
+    turn_in(b->slip, slip, SLIP);
 }
 
 /* --- lane by lane ------------------------------------------------------------------------------- */
@@ -162,6 +156,11 @@ FL_WIDE_VERSIONS static void relate(batch *restrict b)
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
         const rows A = axes(b->qi, k), B = axes(b->qj, k);
+        const fl_vec3 wi = fl_lane3(b->wi, k), wj = fl_lane3(b->wj, k), off = fl_lane3(b->off, k);
+        const fl_vec3 lag =
+            v3_scale(b->lags.a[k], v3_add(v3_cross(wi, v3_cross(wj, off)), v3_cross(wj, v3_cross(wi, off))));
+        fl_lane3_put(b->u, k, v3_add(fl_lane3(b->u, k), lag));
+        fl_lane3_put(b->du, k, v3_sub(fl_lane3(b->du, k), lag));
         const fl_vec3 x = v3(A.x.x, A.y.x, A.z.x), y = v3(A.x.y, A.y.y, A.z.y), z = v3(A.x.z, A.y.z, A.z.z);
         const fl_vec3 Mx = in(B, x), My = in(B, y), Mz = in(B, z); /* columns of M */
         fl_lane3_put(b->R, k, B.x);
