@@ -170,10 +170,9 @@ typedef struct {
 enum { ASKED = 8 };
 
 /* The least that damping leaves: of the critical step of a contact, and of that when there are many; and what
- * is kept to of it where the error is measured and the contacts there are are known, which is more where it
- * is what is stable, and not what an impact begins with. */
+ * is kept to of it by itself, and where the error is measured and the contacts there are are known. */
 typedef struct {
-    double one, many, measured;
+    double one, many, alone, measured;
     asked before[ASKED];
 } remains;
 
@@ -185,9 +184,13 @@ static double left_of(const fl_touching *law, double times)
     return fl_damping_left(0.5 * (1.0 / law->left - law->left) * sqrt(times));
 }
 
-/* The part of 2/omega that a trial may be, of what an impact leaves: beyond, windows of a few impacts did not
- * show what all of a run was off by (a corner in a hook, verify_budget). */
-static double shows(double left) { return fmax(0.25 * left, 0.8 * left * left * left); }
+/* The part of 2/omega that a trial may be, of what an impact leaves: beyond 0.12 of 2/omega and a quarter of
+ * that windows of a few impacts did not show what all of a run was off by (a corner in a hook,
+ * verify_budget); more where little is damped. */
+static double shows(double left)
+{
+    return fmax(fmax(0.25 * left, 0.8 * left * left * left), fmin(0.8 * left, 0.12));
+}
 
 /* That of law among them, across so many times as stiff and damped as along, of so many contacts: of few,
  * which are one or two, and of a crowd.  What is round with what is round goes by the speed half a step ago,
@@ -197,8 +200,10 @@ static void leave(const fl_world *w, remains *r, const fl_touching *law, int rou
 {
     const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE;
     if (closed && !round) {
-        r->one = fmin(r->one, fl_damping_struck(law->chi));
-        r->measured = fmin(r->measured, shows(fl_damping_struck(law->chi)));
+        const double struck = fl_damping_struck(law->chi);
+        r->one = fmin(r->one, struck);
+        r->alone = fmin(r->alone, 0.8 * struck); /* S25 of verify_step */
+        r->measured = fmin(r->measured, shows(struck));
         r->many = fmin(r->many, FL_STEADY / sqrt(many));
         return;
     }
@@ -206,8 +211,9 @@ static void leave(const fl_world *w, remains *r, const fl_touching *law, int rou
     asked *const a = &r->before[(law - w->law) % ASKED];
     if (a->law == law && times <= a->times && many <= a->many) return;
     *a = (asked){law, times, many};
-    r->one = fmin(r->one, left_of(law, times));
-    r->measured = fmin(r->measured, 0.8 * r->one);
+    const double one = left_of(law, times);
+    r->one = fmin(r->one, one), r->alone = fmin(r->alone, 0.5 * one);
+    r->measured = fmin(r->measured, 0.8 * one);
     r->many = fmin(r->many, left_of(law, times / few * many) / sqrt(many));
 }
 
@@ -217,7 +223,7 @@ static double stiffest_contact(const fl_world *w, int edges, int32_t *body, rema
 {
     const worst met = worst_of(w);
     double most = 0.0, ridden = 0.0;
-    *left = (remains){.one = 1.0, .many = 1.0, .measured = 0.5};
+    *left = (remains){.one = 1.0, .many = 1.0, .alone = 0.5, .measured = 0.5};
     *body = -1;
     for (int32_t i = 0; i < w->n; i++) {
         const int round = w->b.core[i].nv < 2;
@@ -264,17 +270,19 @@ static double stiffest_contact(const fl_world *w, int edges, int32_t *body, rema
     }
     for (int32_t k = 0; k < w->frozen.n; k++)
         left->one = fmin(left->one, fl_damping_left(0.5 * w->frozen.bond[k].damping * sqrt(most)));
-    if (w->frozen.n) left->measured = fmin(left->measured, 0.8 * left->one);
+    if (w->frozen.n) {
+        left->alone = fmin(left->alone, 0.5 * left->one);
+        left->measured = fmin(left->measured, 0.8 * left->one);
+    }
     return most;
 }
 
-/* A share of the limit that damping leaves bounds what the scene asks for: half, or what many contacts leave.
- * Where the error is measured it is what that can stand. */
+/* The part of the critical step that is taken: what the scene asks for, bounded by what damping leaves. */
 static double share_of(const fl_world *w, const remains *left)
 {
     const fl_scene_run *run = &w->scene->run;
     if (run->error > 0.0) return left->measured;
-    return fmin(run->safety, fmin(0.5 * left->one, left->many));
+    return fmin(run->safety, fmin(left->alone, left->many));
 }
 
 double fl_world_critical(const fl_world *w)
@@ -309,8 +317,8 @@ double fl_world_across(const fl_world *w)
     return left.one / along.one;
 }
 
-/* D of the most damped contacts; those that go by the speeds of the middle of a step, which are not
- * foresight's (damping.h), are spheres with spheres and walls, bonds, and the manual's laws. */
+/* D of the most damped contacts; those that go by the speeds of the middle of a step, and not by
+ * fl_damping_closing(), are spheres with spheres and walls, bonds, and the manual's laws. */
 static double most_damped(const fl_world *w, int late)
 {
     const int all = !late || w->balls.bodies || w->frozen.n;

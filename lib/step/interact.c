@@ -350,8 +350,9 @@ static int renew(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, cons
 
 /* --- what is found by a look ------------------------------------------------------------------- */
 
-/* How both part, who are free: yields, ease and turns, from how A stands to B alone; q is about `at`. */
-static void ease_of(const fl_bodies *b, const fl_pair *p, const fl_bearing *q, fl_vec3 at, fl_seen *seen)
+/* How both part, who are free: yields, ease and turns, from how A stands to B alone; q is about `at`.  What
+ * pushes nowhere yields as the masses do. */
+static void find_ease(const fl_bodies *b, const fl_pair *p, const fl_bearing *q, fl_vec3 at, fl_seen *seen)
 {
     const fl_mat3 *M = seen->M;
     const fl_vec3 f = q->gradient.f, m = q->gradient.m, n = v3_unit(f), none = v3(0, 0, 0),
@@ -359,11 +360,12 @@ static void ease_of(const fl_bodies *b, const fl_pair *p, const fl_bearing *q, f
                   ej = p->j < b->n ? b->invI[p->j] : none;
     const fl_vec3 mi = m3_tmul(*M, v3_add(v3_cross(v3_sub(at, seen->o), f), m)),
                   mj = v3_add(v3_cross(at, f), m), ni = m3_tmul(*M, n);
-    const double mass = 1.0 / p->mass;
-    seen->yields = mass + (v3_dot(v3_mul(ei, mi), mi) + v3_dot(v3_mul(ej, mj), mj)) / v3_norm2(f);
+    const double each = 1.0 / p->mass, f2 = v3_norm2(f),
+                 turns = v3_dot(v3_mul(ei, mi), mi) + v3_dot(v3_mul(ej, mj), mj);
+    seen->yields = f2 > 0.0 ? each + turns / f2 : each;
     seen->turns = v3_dot(v3_mul(ei, ni), ni) + v3_dot(v3_mul(ej, n), n);
     const fl_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    const fl_ease alone = {.xx = mass, .yy = mass, .zz = mass},
+    const fl_ease alone = {.xx = each, .yy = each, .zz = each},
                   turned = fl_pair_ease_more(alone, ei, m3_tmul(*M, v3_cross(ai, x)),
                                              m3_tmul(*M, v3_cross(ai, y)), m3_tmul(*M, v3_cross(ai, z)));
     seen->ease = fl_pair_ease_more(turned, ej, v3_cross(aj, x), v3_cross(aj, y), v3_cross(aj, z));
@@ -382,7 +384,7 @@ static fl_seen seen_of(const fl_world *w, const fl_pair *p, const fl_places *s, 
                     .scale = scale,
                     .energy = energy,
                     .slope = scale * (q->ddu - 0.5 * q->elastic * q->elastic / q->u)};
-    ease_of(&w->b, p, q, s->place[0].p, &seen);
+    find_ease(&w->b, p, q, s->place[0].p, &seen);
     return seen;
 }
 

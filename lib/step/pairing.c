@@ -121,7 +121,9 @@ double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, 
 
 double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj)
 {
-    return (fl_body_mobility(&w->b, p->i, f, ti) + fl_body_mobility(&w->b, p->j, f, tj)) / v3_norm2(f);
+    const double f2 = v3_norm2(f);
+    return f2 > 0.0 ? (fl_body_mobility(&w->b, p->i, f, ti) + fl_body_mobility(&w->b, p->j, f, tj)) / f2
+                    : 0.0;
 }
 
 static const fl_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};

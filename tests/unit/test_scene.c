@@ -104,7 +104,7 @@ static void the_least_scene_has_the_stated_defaults(void **state)
     assert_near(s.run.duration, 60.0, 0);
     assert_near(s.run.dt, 0.0, 0);
     assert_near(s.run.gravity.z, -9.81, 0);
-    assert_near(s.run.safety, 0.1, 0);
+    assert_near(s.run.safety, 0.2, 0);
     assert_near(s.output.state_every, s.output.loads_every, 0);
     assert_near(s.output.until, s.run.duration, 0);
     assert_string_equal(s.output.frames, "");
