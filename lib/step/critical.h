@@ -7,15 +7,15 @@
 
 /* The automatic step [s], and the body that sets it: safety * 2/omega (under run.error the largest that
  * damping allows), omega^2 bounded per body by the stiffest face it can meet, at its most compliant vertex,
- * lowered for damping: to half of what that of one contact leaves, or 0.8 of it where an impact is all that it
- * leaves less for, or to what it leaves where bodies are held between many (S20 to S25 of verify_step). */
+ * lowered for damping: to half of what that of one contact leaves, or 0.8 of it where an impact is all that
+ * it leaves less for, or to what it leaves where bodies are held between many (S20 to S25 of verify_step). */
 double fl_world_dt(const fl_world *w, int32_t *body);
 
 /* What it is a part of: 2/omega, without damping [s]. */
 double fl_world_critical(const fl_world *w);
 
-/* The share of that which the most damping that a contact can have leaves: fl_damping_struck(); of what goes by
- * the speed half a step ago sqrt(1 + z^2) - z of its ratio z, what is round and rough across, too. */
+/* The share of that which the most damping that a contact can have leaves: fl_damping_struck(); of what goes
+ * by the speed half a step ago sqrt(1 + z^2) - z of its ratio z, what is round and rough across, too. */
 double fl_world_damped(const fl_world *w);
 
 /* What damping by fl_damping_closing() leaves of 2/omega of what does not run into each other, at least, of
