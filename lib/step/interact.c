@@ -217,15 +217,19 @@ static double closing_of(const fl_bodies *b, const fl_pair *p, const ahead *a, c
     return -v3_dot(t->n, next(b, p, a, t->ai, t->aj));
 }
 
-/* The places of a round thing or of `core`: W = k sum of phi(s), most often of one. */
-static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, const ahead *a,
+/* The places of a round thing or of `core`: W = k sum of phi(s), most often of one.  Of several places, or
+ * one that may be another than a step ago, it is not known what each did then: they are damped by the speed
+ * half a step ago, as rows of spheres are. */
+static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, const ahead *by,
                         int survey)
 {
     const fl_bodies *b = &w->b;
+    const int one = s->n == 1 && p->law->kind == FL_LAW_PATCH;
+    const ahead late = {.dt = by->dt, .lag = by->lag, .by = {.pressed = 1.0}}, *const a = one ? by : &late;
     const double k = p->k;
     const spot first = spot_of(p, &s->place[0], r);
     fl_vec3 way = first.n, turn_i = v3_cross(first.ai, first.n), turn_j = v3_cross(first.aj, first.n);
-    double sum = first.part, size = sum, less = 1.0;
+    double sum = first.part, less = 1.0;
     p->overlap = s->place[0].overlap;
     p->energy = k * fl_normal_phi(p->overlap, p->exponent);
     if (s->n > 1) { /* of the force of all, which is less than that of each by itself */
@@ -240,42 +244,33 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
             p->energy += q->du * k * fl_normal_phi(q->overlap, p->exponent);
             p->overlap = fmax(p->overlap, q->overlap);
         }
-        size = v3_norm(way);
-        less = size * size / (sum * sum);
+        less = v3_norm2(way) / (sum * sum);
     }
-    const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY,
-                 yields = less > 0.0 ? fl_pair_yields(w, p, way, turn_i, turn_j) : 0.0;
-    if (s->n > 1) way = v3_scale(size > 0.0 ? 1.0 / size : 0.0, way);
+    const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
     const double begins = closing_of(b, p, a, &first);
-    double closing = begins, comes = s->n > 1 ? first.part * v3_dot(first.n, way) * begins : begins;
+    double closing = begins;
     for (int32_t c = 1; c < s->n; c++) {
         const spot t = spot_of(p, &s->place[c], r);
-        const double at = closing_of(b, p, a, &t);
-        if (s->place[c].du > 0.0) closing = fmax(closing, at);
-        comes += t.part * v3_dot(t.n, way) * at;
+        if (s->place[c].du > 0.0) closing = fmax(closing, closing_of(b, p, a, &t));
     }
-    if (s->n > 1) comes = size > 0.0 ? comes / size : 0.0;
-    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass),
-                 more = nearer(a, comes, k * size, chi * k * size, yields);
+    const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass), push = k * first.part,
+                 more =
+                     one ? nearer(a, begins, push, chi * push, fl_pair_yields(w, p, way, turn_i, turn_j, 1.0))
+                         : 0.0;
     pressure all = {.at = first.aj, .walls = s->n > 1};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_place *q = &s->place[c];
         const spot t = c ? spot_of(p, q, r) : first;
         const double elastic = k * t.part, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
-                     at = c ? closing_of(b, p, a, &t) : begins,
-                     by = s->n > 1 ? more * v3_dot(t.n, way) : more,
-                     normal = q->du * fl_normal_damped(fabs(elastic), chi, at + by);
+                     comes = c ? closing_of(b, p, a, &t) : begins,
+                     normal = q->du * fl_normal_damped(fabs(elastic), chi, comes + more);
         add_wrench(&p->f, &p->ti, &p->tj, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, t.n), t.ai, t.aj);
         press(&all, elastic, normal, t.n, v3_sub(t.aj, first.aj));
         all.slope += slope;
     }
     parting part = {.turns = 0.0};
-    if (chi > 0.0 && all.normal > 0.0 && p->law->friction > 0.0) {
-        const fl_vec3 aj = v3_madd(all.at, 1.0 / all.normal, all.moment);
-        part.ease = fl_pair_ease(w, p, v3_add(aj, r->off), aj);
-        if (s->n > 1) part.turns = fl_pair_turns(w, p, way);
-    }
+    if (one && chi > 0.0 && p->law->friction > 0.0) part.ease = fl_pair_ease(w, p, first.ai, first.aj);
     rub(w, p, &all, chi, &part, r, a);
     if (survey) stiffen_points(w, p, s, &all, r);
     p->energy += p->spring;
@@ -297,12 +292,12 @@ static void survey_patch(const fl_world *w, const fl_pair *p, const fl_springs *
     fl_stiff_add(sj, b, p->j, -half, p->f, p->tj);
 }
 
-/* The damping of p with what shakes the bodies held back, its force being the elastic one so far; chi of it.
- */
-static void steady(fl_pair *p, double chi, const fl_stance *r, const ahead *a)
+/* The damping of p with what shakes the bodies held back, its force being the elastic one so far; presses:
+ * sum of its pressures. */
+static void steady(fl_pair *p, double presses, double chi, const fl_stance *r, const ahead *a)
 {
     const fl_wrench to = fl_lead_steadied(fl_lead_amid(p->f, p->ti, p->tj), fl_lead_amid(p->fd, p->di, p->dj),
-                                          a->dt * chi * v3_norm(p->f) / p->mass, a->by.pressed, a->was);
+                                          presses, a->dt * chi * presses / p->mass, a->by.pressed, a->was);
     const fl_vec3 half = v3_scale(0.5, v3_cross(r->off, to.f));
     p->fd = to.f, p->di = v3_add(half, to.m), p->dj = v3_sub(half, to.m);
 }
@@ -314,7 +309,7 @@ static pressure bear(fl_world *w, fl_pair *p, const fl_bearing *q, double scale,
 {
     const fl_mat3 *R = &r->R;
     add_sum(&p->fd, &p->di, &p->dj, &q->damping, scale, R, v3_add(aj, r->off), aj);
-    steady(p, chi, r, a);
+    steady(p, scale * q->elastic, chi, r, a);
     p->f = v3_add(p->f, p->fd);
     p->ti = v3_add(p->ti, p->di);
     p->tj = v3_add(p->tj, p->dj);
@@ -350,8 +345,8 @@ static int renew(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, cons
 
 /* --- what is found by a look ------------------------------------------------------------------- */
 
-/* How both part, who are free: yields, ease and turns, from how A stands to B alone; q is about `at`.  What
- * pushes nowhere yields as the masses do. */
+/* How both part, who are free: yields, ease and turns, from how A stands to B alone; q is about `at`.  A
+ * push is taken for half of the sum of the pressures at least. */
 static void find_ease(const fl_bodies *b, const fl_pair *p, const fl_bearing *q, fl_vec3 at, fl_seen *seen)
 {
     const fl_mat3 *M = seen->M;
@@ -360,9 +355,9 @@ static void find_ease(const fl_bodies *b, const fl_pair *p, const fl_bearing *q,
                   ej = p->j < b->n ? b->invI[p->j] : none;
     const fl_vec3 mi = m3_tmul(*M, v3_add(v3_cross(v3_sub(at, seen->o), f), m)),
                   mj = v3_add(v3_cross(at, f), m), ni = m3_tmul(*M, n);
-    const double each = 1.0 / p->mass, f2 = v3_norm2(f),
+    const double each = 1.0 / p->mass, f2 = fmax(v3_norm2(f), 0.25 * q->elastic * q->elastic),
                  turns = v3_dot(v3_mul(ei, mi), mi) + v3_dot(v3_mul(ej, mj), mj);
-    seen->yields = f2 > 0.0 ? each + turns / f2 : each;
+    seen->yields = each + turns / f2;
     seen->turns = v3_dot(v3_mul(ei, ni), ni) + v3_dot(v3_mul(ej, n), n);
     const fl_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
     const fl_ease alone = {.xx = each, .yy = each, .zz = each},
@@ -424,11 +419,12 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     const fl_vec3 elastic = p->f;
     const double mass = fl_pair_mass(w, p, elastic, p->ti, p->tj);
     parting part;
-    if (!fl_pair_is_plain(w, p)) {
+    double yields = seen.yields;
+    if (!fl_pair_is_free(w, p)) {
         const fl_vec3 middle = m3_mul(R, v3_scale(1.0 / q.elastic, q.middle));
         part.ease = fl_pair_ease(w, p, v3_add(ai, middle), v3_add(aj, middle));
         part.turns = fl_pair_turns(w, p, v3_unit(elastic));
-        seen.yields = fl_pair_yields(w, p, elastic, p->ti, p->tj);
+        yields = fl_pair_yields(w, p, elastic, p->ti, p->tj, seen.scale * q.elastic);
     } else {
         part.ease = fl_ease_turned(seen.ease, m3_col(R, 0), m3_col(R, 1), m3_col(R, 2));
         part.turns = seen.turns;
@@ -437,7 +433,8 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     const fl_vec3 v = m3_tmul(R, next(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_bearing_move(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.pressed > 0.0 ? q.met / q.pressed : 0.0, mass);
-    const double size = v3_norm(elastic), more = nearer(a, q.rate / q.elastic, size, chi * size, seen.yields);
+    const double size = v3_norm(elastic), more = fl_lead_share(size, seen.scale * q.elastic) *
+                                                 nearer(a, q.rate / q.elastic, size, chi * size, yields);
     fl_bearing_damp(s, chi, more, &q);
     fl_stiff si, sj;
     fl_springs springs;
@@ -489,7 +486,7 @@ static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, const ahead *a
     const fl_vec3 ai = m3_mul(R, wet.centre), aj = v3_sub(ai, r->off);
     const double damping = w->bed.damping * wet.waterplane, elastic = w->bed.stiffness * wet.volume;
     const double foreseen = -v3_dot(n, next(b, p, a, ai, aj)),
-                 yields = fl_pair_yields(w, p, n, v3_cross(ai, n), v3_cross(aj, n)),
+                 yields = fl_pair_yields(w, p, n, v3_cross(ai, n), v3_cross(aj, n), 1.0),
                  closing = foreseen + nearer(a, foreseen, elastic, damping, yields);
     double normal = elastic + damping * closing;
     if (normal < 0.0) normal = 0.0;

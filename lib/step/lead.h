@@ -63,21 +63,26 @@ FL_WIDE_PART double fl_lead_closing(double c, double elastic, double C, double y
     return fl_damping_closing(c, C, 0.5 * dt * yields, pressed, elastic - had, damped);
 }
 
-/* What of damping is no push against the elastic force, but shakes the bodies about it. */
-FL_WIDE_PART fl_wrench fl_lead_shakes(fl_wrench elastic, fl_wrench damping)
+/* Where the pressures of a contact stand against each other, in a slot, its force is less than their sum,
+ * presses, and what it changes by tells little of them: so much of fl_lead_closing() counts.  1 down to half
+ * of the sum. */
+FL_WIDE_PART double fl_lead_share(double elastic, double presses)
 {
-    const double f2 = v3_norm2(elastic.f), part = f2 > 0.0 ? v3_dot(elastic.f, damping.f) / f2 : 0.0;
-    return fl_wrench_madd(damping, -part, elastic);
+    const double part = 4.0 * elastic * elastic, all = presses * presses;
+    return part < all ? part / all : 1.0;
 }
 
-/* fl_damping_closing() knows of the push alone.  What shakes goes by the motion foreseen, held back as that
- * of many contacts is: as if it moved twice as easily as the mass.  y = C dt/M. */
-FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, double y, double pressed,
-                                        fl_before was)
+/* fl_damping_closing() knows of the push along the force alone.  All else of damping, by which the bodies
+ * shake, goes by the motion foreseen, held back as that of many contacts is: as if it moved twice as easily
+ * as the mass.  presses: sum of the pressures, y = C dt/M of them. */
+FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, double presses, double y,
+                                        double pressed, fl_before was)
 {
-    const fl_wrench now = fl_lead_shakes(elastic, damping), before = fl_lead_shakes(was.elastic, was.damping);
+    const fl_wrench off = fl_wrench_madd(was.damping, -1.0, damping);
+    const double f2 = v3_norm2(elastic.f), least = 0.25 * presses * presses, size2 = f2 > least ? f2 : least,
+                 push = size2 > 0.0 ? v3_dot(elastic.f, off.f) / size2 : 0.0;
     const double holds = 2.0 * pressed * y, to = holds / (1.0 + holds);
-    return fl_wrench_madd(fl_wrench_madd(damping, -to, now), to, before);
+    return fl_wrench_madd(damping, to, fl_wrench_madd(off, -push, elastic));
 }
 
 /* Moment about n of friction that was no spring's, at the arms ai and aj. */
@@ -90,10 +95,10 @@ FL_WIDE_PART double fl_lead_turned(fl_before was, fl_vec3 n, fl_vec3 ai, fl_vec3
 /* lag: fl_pair_lag() of the step [m/s]. */
 static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)
 {
-    const fl_gain *const i = fl_works_lead(w, p->i), *const j = fl_works_lead(w, p->j);
-    const int32_t ni = fl_works_was(w, p->i)->n, nj = p->j < w->n ? fl_works_was(w, p->j)->n : 0,
-                  n = ni > nj ? ni : nj;
-    return (fl_lead){v3_sub(v3_sub(i->v, j->v), lag), i->w, j->w, n > 1 ? n : 1};
+    const int32_t ni = fl_works_was(w, p->i)->n, nj = fl_works_was(w, p->j)->n, n = ni > nj ? ni : nj;
+    const fl_gain none = {{0, 0, 0}, {0, 0, 0}};
+    const fl_gain i = ni ? *fl_works_lead(w, p->i) : none, j = nj ? *fl_works_lead(w, p->j) : none;
+    return (fl_lead){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n > 1 ? n : 1};
 }
 
 /* Of A's velocity against B at the arms ai and aj. */

@@ -119,9 +119,9 @@ double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, 
     return isfinite(mass) ? mass : p->mass; /* nothing moves */
 }
 
-double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj)
+double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses)
 {
-    const double f2 = v3_norm2(f);
+    const double f2 = fmax(v3_norm2(f), 0.25 * presses * presses);
     return f2 > 0.0 ? (fl_body_mobility(&w->b, p->i, f, ti) + fl_body_mobility(&w->b, p->j, f, tj)) / f2
                     : 0.0;
 }
@@ -141,7 +141,7 @@ static fl_ease ease_free(const fl_bodies *b, int32_t i, fl_vec3 arm, fl_ease K)
 fl_ease fl_pair_ease(const fl_world *w, const fl_pair *p, fl_vec3 ai, fl_vec3 aj)
 {
     const fl_bodies *b = &w->b;
-    if (fl_pair_is_plain(w, p)) {
+    if (fl_pair_is_free(w, p)) {
         const double each = 1.0 / p->mass;
         const fl_ease K = {.xx = each, .yy = each, .zz = each};
         return ease_free(b, p->j, aj, ease_free(b, p->i, ai, K));

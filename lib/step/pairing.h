@@ -28,8 +28,8 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
 double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj);
 
 /* The velocity at which they part for each impulse of that force, along it, as their turning adds to it
- * [1/kg]: 1/M with all of the torques. */
-double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj);
+ * [1/kg]: 1/M with all of the torques.  It is taken for half of the sum of the pressures at least. */
+double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses);
 
 /* How the points ai and aj of both part for an impulse there, world axes, and the bodies about n for one
  * about n [1/kg m2]. */
@@ -60,6 +60,12 @@ static inline fl_vec3 fl_pair_lag(const fl_bodies *b, const fl_pair *p, fl_vec3 
 static inline int fl_pair_is_plain(const fl_world *w, const fl_pair *p)
 {
     return !w->b.added && !fl_body_stands(&w->b, p->i) && !fl_body_stands(&w->b, p->j);
+}
+
+/* Whether they move and turn as masses and moments have it. */
+static inline int fl_pair_is_free(const fl_world *w, const fl_pair *p)
+{
+    return fl_pair_is_plain(w, p) && !w->b.hold[p->i] && (p->j >= w->n || !w->b.hold[p->j]);
 }
 
 /* Free what a pair has of its own. */

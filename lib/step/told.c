@@ -182,13 +182,13 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
     for (int k = 0; k < FL_TOLD; k++) {
         const fl_pair *c = p[k < n ? k : 0];
         const rows R = rows_of(b->R, k);
-        if (fl_pair_is_plain(w, c)) continue;
+        if (fl_pair_is_free(w, c)) continue;
         const fl_vec3 at = out(R, fl_lane3(b->s.at, k)), f = out(R, fl_lane3(b->s.f, k)),
                       m = out(R, fl_lane3(b->s.m, k));
         const fl_vec3 ti = v3_add(v3_cross(v3_add(at, fl_lane3(b->off, k)), f), m),
                       tj = v3_add(v3_cross(at, f), m);
         b->mass.a[k] = fl_pair_mass(w, c, f, ti, tj);
-        OF(yields)->a[k] = fl_pair_yields(w, c, f, ti, tj);
+        OF(yields)->a[k] = fl_pair_yields(w, c, f, ti, tj, b->s.share.a[k] * OF(pressure)->a[k]);
         put_ease(b->ease, k, fl_pair_ease(w, c, v3_add(at, fl_lane3(b->off, k)), at));
         OF(turns)->a[k] = fl_pair_turns(w, c, v3_unit(f));
     }
@@ -244,17 +244,17 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
             fl_damping_chi(b->damping.a[k], b->rest.a[k], touch, b->s.energy.a[k], b->mass.a[k]);
         /* what of the change is its own */
         const fl_before before = before_of(b, k);
-        const double size = v3_norm(force),
-                     ends = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k], dt,
-                                            before),
-                     nearer = ends - closing;
+        const double size = v3_norm(force), presses = b->s.share.a[k] * OF(pressure)->a[k],
+                     own = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k], dt,
+                                           before),
+                     nearer = fl_lead_share(size, presses) * (own - closing), ends = closing + nearer;
         const double grown = 1.0 + chi * ends, var = chi * chi * apart;
         const fl_pulls held =
             fl_pulls_of(grown, var, OF(spreads)->a[k] * sqrt(var > 0.0 ? var : 0.0), OF(leans)->a[k]);
         const double adds = -chi * (1.0 + held.q), still = held.p + held.q * (1.0 - grown);
         b->touch.a[k] = touch;
         b->chi.a[k] = chi;
-        b->damps.a[k] = dt * chi * size / b->reduced.a[k];
+        b->damps.a[k] = dt * chi * presses / b->reduced.a[k];
         b->grown.a[k] = grown + held.p;
         fl_lane3_put(b->by, k, by);
         fl_lane3_put(b->turn, k, turn);
@@ -289,7 +289,8 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, amid), F), FM)},
                         damping = {D1, v3_add(v3_cross(v3_add(aj, amid), D1), DM)};
         const fl_before was = before_of(b, k);
-        const fl_wrench held = fl_lead_steadied(elastic, damping, b->damps.a[k], b->pressed.a[k], was);
+        const fl_wrench held = fl_lead_steadied(elastic, damping, share * OF(pressure)->a[k], b->damps.a[k],
+                                                b->pressed.a[k], was);
         const fl_vec3 D = held.f, half = v3_cross(amid, D), di = v3_add(half, held.m),
                       dj = v3_sub(half, held.m);
         fl_lane3_put(TO(fd), k, D);

@@ -134,6 +134,58 @@ static void lists_are_not_seen(void **state)
     }
 }
 
+static void told_and_guided(lab *l)
+{
+    scene_of_traffic(l, 3, "patch");
+    lab_set(l, "contact.surrogate=0.01");
+    lab_make(l, 0);
+}
+
+/* Whether a floe that is told of a contact was let go of by the last step; was: who was guided before. */
+static int let_go(const fl_world *w, const uint8_t *was)
+{
+    for (int64_t c = 0; c < w->n_pair; c++) {
+        const fl_near *q = &w->pair[c];
+        if (!q->n || !q->full->surrogate || !q->full->surrogate->live) continue;
+        for (int side = 0; side < 2; side++) {
+            const int32_t i = side ? q->j : q->i;
+            if (i < w->n && was[i] && !w->traffic.guided[i] && !w->traffic.away[i]) return 1;
+        }
+    }
+    return 0;
+}
+
+/* What surrogates know of a contact does not hang on what held the floe when it was looked at. */
+static void who_is_let_go_is_told_as_before(void **state)
+{
+    int found = 0;
+    lab whole;
+    (void)state;
+    told_and_guided(&whole);
+    uint8_t *const was = malloc((size_t)whole.w.n);
+    assert_non_null(was);
+    for (int k = 0; k < 1300; k++) {
+        memcpy(was, whole.w.traffic.guided, (size_t)whole.w.n);
+        assert_int_equal(lab_run(&whole, 1), 0);
+        if (!let_go(&whole.w, was)) continue;
+        lab l;
+        fl_err err = {0};
+        size_t n = 0;
+        told_and_guided(&l);
+        char *text = snapshot(&whole.w, &n);
+        assert_int_equal(put_back(&l.w, text, n, &err), 0);
+        free(text);
+        assert_int_equal(lab_run(&whole, 3), 0);
+        assert_int_equal(lab_run(&l, 3), 0);
+        same(&whole.w, &l.w, "patch", whole.w.step - 3);
+        lab_free(&l);
+        found++;
+    }
+    assert_true(found >= 3);
+    free(was);
+    lab_free(&whole);
+}
+
 /* Read and written again it is the same, also of pairs that have just let go of each other; and a step later.
  */
 static void a_state_stays_what_it_is(void **state)
@@ -229,6 +281,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_step_is_a_place_to_stop), cmocka_unit_test(lists_are_not_seen),
-        cmocka_unit_test(a_state_stays_what_it_is), cmocka_unit_test(what_is_no_state_is_refused)};
+        cmocka_unit_test(who_is_let_go_is_told_as_before), cmocka_unit_test(a_state_stays_what_it_is),
+        cmocka_unit_test(what_is_no_state_is_refused)};
     return cmocka_run_group_tests_name("restart", tests, NULL, NULL);
 }

@@ -348,6 +348,54 @@ static void struck(const char *id, double e)
     verify_below(id, "the least of an impact over the bound", least / bound, 2.3);
 }
 
+/* A box between two walls of one part, which press it half a millimetre each, moves a little at random, in
+ * the longest automatic steps: most of its energy at any time over that at the start. */
+static double slotted(double e, double friction, int seed)
+{
+    const fl_vec3 half = {0.4, 0.6, 0.3};
+    const double to = half.x - 5e-4, level = 1e-3;
+    const fl_vec3 xy[8] = {v3(-2, -3, 0),   v3(2, -3, 0),     v3(2, 3, 0),   v3(to, 3, 0),
+                           v3(to, -2.5, 0), v3(-to, -2.5, 0), v3(-to, 3, 0), v3(-2, 3, 0)};
+    fl_rng g = fl_rng_of(11, seed, FL_RNG_TEST);
+    double r[9], most = 0.0;
+    int32_t body;
+    lab l;
+    for (int k = 0; k < 9; k++) r[k] = fl_rng_normal(&g);
+    lab_start(&l);
+    lab_set(&l, "run.safety=1");
+    lab_setf(&l, "contact.restitution=%g", e);
+    lab_setf(&l, "contact.friction=%g", friction);
+    lab_set(&l, "contact.stiffness=5e6");
+    lab_prism(&l, 8, xy, -2, 2);
+    lab_box(&l, v3(1e-5 * r[0], 0, 0), half, 0.05, q_of_vector(v3(0, 1e-5 * r[1], 1e-5 * r[2])),
+            v3(level * r[3], level * r[4], level * r[5]), v3(level * r[6], level * r[7], level * r[8]));
+    lab_make(&l, 1e-6);
+    fl_step_resize(&l.w, fl_world_dt(&l.w, &body), 0.0);
+    const fl_ledger *at = &l.w.ledger;
+    fl_step_ledger(&l.w);
+    const double start = at->kinetic + at->elastic;
+    for (int k = 0; k < 2000; k++) {
+        if (lab_run(&l, 1)) exit(1);
+        fl_step_ledger(&l.w);
+        most = fmax(most, (at->kinetic + at->elastic) / start);
+    }
+    lab_free(&l);
+    return most;
+}
+
+static void in_a_slot(const char *id)
+{
+    static const double E[] = {0.0, 0.2, 0.5, 0.8};
+    for (size_t k = 0; k < sizeof E / sizeof *E; k++)
+        for (int rough = 0; rough < 2; rough++) {
+            double most = 0.0;
+            for (int seed = 0; seed < 10; seed++) most = fmax(most, slotted(E[k], 0.3 * rough, seed));
+            verify_note("a box in a slot, e = %g, friction %g: at most %.6g of its energy at the start", E[k],
+                        0.3 * rough, most);
+            verify_below(id, "energy over that at the start", most, 1.02);
+        }
+}
+
 /* --- with damping, between many ------------------------------------------------------------------ */
 
 /* So many alike in each direction of a cell that repeats itself, each pressed into the next by a millimetre;
@@ -470,6 +518,7 @@ int main(void)
     }
     static const double BOUNCES[] = {0.0, 0.05, 0.2, 0.4, 0.6, 0.8};
     for (size_t k = 0; k < sizeof BOUNCES / sizeof *BOUNCES; k++) run_into("S25", BOUNCES[k]);
+    in_a_slot("S26");
     static const double MANY[] = {0.0, 0.2, 0.3, 0.5};
     for (size_t k = 0; k < sizeof MANY / sizeof *MANY; k++) {
         if (verify_quick() && k % 2) continue;

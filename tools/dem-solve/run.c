@@ -62,11 +62,14 @@ int run_countable(const struct run *r, fl_err *err)
                    r->scene->run.duration, r->w->dt, n, most);
 }
 
-/* Half of what damping leaves, or 0.8 of it, or less where many contacts are damped at once. */
+/* Half of the critical step; or of what damping leaves, or 0.8 of it; or less where many contacts are damped
+ * at once. */
 static void damped_origin(char *to, size_t n, double share, double left, double limit)
 {
     const double part = share / left;
-    if (fabs(part - 0.5) < 1e-3 || fabs(part - 0.8) < 1e-3)
+    if (fabs(share - 0.5) < 1e-3)
+        snprintf(to, n, "half of the critical %.4g s, and no more without run.dt", limit);
+    else if (fabs(part - 0.5) < 1e-3 || fabs(part - 0.8) < 1e-3)
         snprintf(to, n, "damping, %.2g of the %.3g that it leaves of the critical %.4g s", part, left, limit);
     else snprintf(to, n, "damping by many contacts, %.3g of the critical %.4g s", share, limit);
 }
