@@ -49,8 +49,8 @@ double fl_damping_crossley_left(double D, double times);
  * the speed at the end of the step, to order 2.  For a contact by itself that is the trapezoidal rule, stable
  * for all damping.  Of n contacts that damp one body each knows its own part alone; and explicit as they are
  * among one another they would shake where n h C is not small.  So damping changes by no more than if 2n - 1
- * did what this one does, which bears on d in order 2: stable, again for all damping, up to 0.7 of what the
- * springs alone would leave (verify_step).
+ * did what this one does, which bears on d in order 2: stable, again for all damping of bodies that are free
+ * to yield as M has it, up to 0.7 of what the springs alone would leave (verify_step).
  *
  *   c        approach foreseen for the end [m/s]
  *   grew     E - E_before, elastic force   [N]

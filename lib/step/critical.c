@@ -131,10 +131,10 @@ static double shakiest(const fl_world *w, int32_t i)
 
 /* How much more way body i gives across a contact than along it, since it turns as well: 1 + m r^2/I of what
  * is round.  Others turn as much where they stand on a narrow end or an edge, or lean; the critical step of
- * the contacts there are knows of that, but what damping leaves of it is down to 0.55 of law->left (S12 to
- * S18 of verify_step).  A face at the height h has 1 + m h^2/I, which is less than its edges have; a corner
- * has up to 7, but does not touch alone.  Half of law->left, which automatic steps keep to, is below all
- * that: it is 0 but where edges are asked for. */
+ * the contacts there are knows of that, but what damping by the speed half a step ago leaves of it is down to
+ * 0.55 of law->left.  A face at the height h has 1 + m h^2/I, which is less than its edges have; a corner has
+ * up to 7, but does not touch alone.  Half of law->left, which automatic steps keep to, is below all that: it
+ * is 0 but where edges are asked for. */
 static double turning(const fl_world *w, int32_t i, int edges)
 {
     const fl_bodies *b = &w->b;
@@ -325,7 +325,7 @@ double fl_world_across(const fl_world *w)
 }
 
 /* D of the most damped contacts; those that go by the speeds of the middle of a step, and not by
- * fl_damping_closing(), are spheres with spheres and walls, bonds, and the manual's laws. */
+ * fl_damping_closing(), are spheres with spheres and walls, bonds, `core` and the manual's laws. */
 static double most_damped(const fl_world *w, int late)
 {
     const int all = !late || w->balls.bodies || w->frozen.n;
@@ -333,7 +333,7 @@ static double most_damped(const fl_world *w, int late)
     for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
         const fl_touching *law = &w->law[k];
         const int manual = law->kind == FL_LAW_MANUAL || law->kind == FL_LAW_MANUAL_SI;
-        D = fmax(D, manual ? 2.0 * law->zeta : all ? law->chi : 0.0);
+        D = fmax(D, manual ? 2.0 * law->zeta : all || law->kind == FL_LAW_CORE ? law->chi : 0.0);
     }
     return D;
 }
