@@ -192,16 +192,10 @@ static double shows(double left)
     return fmax(fmax(0.25 * left, 0.8 * left * left * left), fmin(0.8 * left, 0.12));
 }
 
-/* Whether piece or wall j is moved by what presses on it.  Contacts on such do not know how it yields. */
-static int yields(const fl_world *w, int32_t j)
-{
-    const int32_t m = w->ride.m.n ? w->ride.of[j - w->n] : -1;
-    return m >= 0 && w->ride.m.motion[m].free != 0;
-}
-
 /* That of law among them, across so many times as stiff and damped as along, of so many contacts: of few,
  * which are one or two, and of a crowd.  Contacts of `patch` go by the speed of the end of the step, where
- * only an impact asks for shorter ones; those that are late, by the one half a step ago, as other laws do. */
+ * only an impact asks for shorter ones; those that are late, by the one half a step ago, as other laws do, or
+ * with what moves by itself, of which they do not know how it yields. */
 static void leave(const fl_world *w, remains *r, const fl_touching *law, int late, double across, double few,
                   double many)
 {
@@ -253,7 +247,7 @@ static double stiffest_contact(const fl_world *w, int edges, int32_t *body, rema
             const double slope = place_slope(w, i, j, k, n, met);
             stiffest = fmax(stiffest, stiffer * slope);
             if (w->ride.m.n && w->ride.of[j - w->n] >= 0) ridden = fmax(ridden, places * slope);
-            leave(w, left, law, round || yields(w, j), times, few, crowd(w, round, times));
+            leave(w, left, law, round || fl_ride_yields(w, j), times, few, crowd(w, round, times));
         }
         /* Two equal bodies on one spring: twice the compliance.  Where the error is measured the step may be
          * the largest that is stable; else it is to be a small share of it, and that of the more careful

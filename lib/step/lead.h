@@ -9,6 +9,7 @@
 #define FL_STEP_LEAD_H
 #include "law/damping.h"
 #include "step/pairing.h"
+#include "step/ride.h"
 #include "step/works.h"
 
 typedef struct {
@@ -95,7 +96,8 @@ FL_WIDE_PART double fl_lead_turned(fl_before was, fl_vec3 n, fl_vec3 ai, fl_vec3
 /* lag: fl_pair_lag() of the step [m/s]. */
 static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)
 {
-    const int32_t ni = fl_works_was(w, p->i)->n, nj = fl_works_was(w, p->j)->n, n = ni > nj ? ni : nj;
+    const int32_t ni = fl_works_was(w, p->i)->n, nj = fl_works_was(w, p->j)->n,
+                  shared = p->j < w->n || fl_ride_yields(w, p->j) ? nj : 0, n = ni > shared ? ni : shared;
     const fl_gain none = {{0, 0, 0}, {0, 0, 0}};
     const fl_gain i = ni ? *fl_works_lead(w, p->i) : none, j = nj ? *fl_works_lead(w, p->j) : none;
     return (fl_lead){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n > 1 ? n : 1};

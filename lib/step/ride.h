@@ -54,4 +54,11 @@ int fl_ride_free_ones(const fl_world *w);
 /* Name of mover k for messages: of its part, or "structure". */
 const char *fl_ride_name(const fl_world *w, int32_t k);
 
+/* Whether piece or wall j is moved by what presses on it. */
+static inline int fl_ride_yields(const fl_world *w, int32_t j)
+{
+    const int32_t m = w->ride.m.n ? w->ride.of[j - w->n] : -1;
+    return m >= 0 && w->ride.m.motion[m].free != 0;
+}
+
 #endif
