@@ -348,6 +348,27 @@ static void struck(const char *id, double e)
     verify_below(id, "the least of an impact over the bound", least / bound, 2.3);
 }
 
+/* A box bounces on a block that stands, on which so many others lie: its speed after a while. */
+static double beside(int others)
+{
+    const fl_vec3 half = {0.5, 0.4, 0.2};
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_set(&l, "contact.friction=0.5");
+    lab_set(&l, "contact.stiffness=5e6");
+    lab_wall(&l, v3(-100, -3, -1), v3(100, 3, 0), 1);
+    lab_box(&l, v3(0, 0, half.z + 0.01), half, 0.05, q_about(1, 0.01), v3(0.2, 0, -0.3), v3(0, 0, 0));
+    for (int k = 0; k < others; k++)
+        lab_box(&l, v3(3.0 * (k + 1), 0, half.z - 1e-4), half, 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 2e-4);
+    if (lab_run(&l, 800)) exit(1);
+    const double v = l.w.b.v[0].z;
+    lab_free(&l);
+    return v;
+}
+
 /* A box between two walls of one part, which press it half a millimetre each, moves a little at random, in
  * the longest automatic steps: most of its energy at any time over that at the start. */
 static double slotted(double e, double friction, int seed)
@@ -519,6 +540,8 @@ int main(void)
     static const double BOUNCES[] = {0.0, 0.05, 0.2, 0.4, 0.6, 0.8};
     for (size_t k = 0; k < sizeof BOUNCES / sizeof *BOUNCES; k++) run_into("S25", BOUNCES[k]);
     in_a_slot("S26");
+    verify_row("S27", "speed of a box on a block with thirty others there [m/s]", beside(30), beside(0), 0.0,
+               VERIFY_ABS);
     static const double MANY[] = {0.0, 0.2, 0.3, 0.5};
     for (size_t k = 0; k < sizeof MANY / sizeof *MANY; k++) {
         if (verify_quick() && k % 2) continue;
