@@ -17,6 +17,7 @@
  * least and two where it is the mean; of `spread` the third moment is left out. */
 #ifndef FL_STEP_BEARING_H
 #define FL_STEP_BEARING_H
+#include "base/wide.h"
 #include "narrow/places.h"
 #include "step/stiff.h"
 
@@ -24,6 +25,11 @@
 typedef struct {
     fl_vec3 f, m;
 } fl_wrench;
+
+FL_WIDE_PART fl_wrench fl_wrench_madd(fl_wrench a, double s, fl_wrench b)
+{
+    return (fl_wrench){v3_madd(a.f, s, b.f), v3_madd(a.m, s, b.m)};
+}
 
 typedef struct {
     double u, ddu;       /* sums of u and of ddu                                    [m6], [m4] */

@@ -33,11 +33,6 @@ typedef struct {
     double sprung;              /* moment of the spring        [N m] */
 } fl_before;
 
-FL_WIDE_PART fl_wrench fl_wrench_madd(fl_wrench a, double s, fl_wrench b)
-{
-    return (fl_wrench){v3_madd(a.f, s, b.f), v3_madd(a.m, s, b.m)};
-}
-
 /* all, damping and rubbed: as fl_pair has them, about the middle. */
 FL_WIDE_PART fl_before fl_before_from(fl_wrench all, fl_wrench damping, fl_wrench rubbed, fl_slip slip)
 {

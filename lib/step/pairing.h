@@ -49,11 +49,15 @@ static inline fl_ease fl_pair_ease_more(fl_ease K, fl_vec3 invI, fl_vec3 x, fl_v
  *     v_A - v_B + w x off = dt/2 w x (w x off),     off from A's centre to B's,
  * where nothing slips; friction would creep.  Nothing where one of them does not turn; and where a ball
  * touches, that is no part of it that turns along. */
+FL_WIDE_PART fl_vec3 fl_lag_of(fl_vec3 wi, fl_vec3 wj, fl_vec3 off, double dt)
+{
+    return v3_scale(-0.25 * dt, v3_add(v3_cross(wi, v3_cross(wj, off)), v3_cross(wj, v3_cross(wi, off))));
+}
+
 static inline fl_vec3 fl_pair_lag(const fl_bodies *b, const fl_pair *p, fl_vec3 off, double dt)
 {
-    const fl_vec3 wi = b->w[p->i], wj = b->w[p->j];
     if (b->ball[p->i] || b->ball[p->j]) return v3(0, 0, 0);
-    return v3_scale(-0.25 * dt, v3_add(v3_cross(wi, v3_cross(wj, off)), v3_cross(wj, v3_cross(wi, off))));
+    return fl_lag_of(b->w[p->i], b->w[p->j], off, dt);
 }
 
 /* Whether it is the reduced mass, whatever the force. */

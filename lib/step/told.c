@@ -18,7 +18,7 @@ typedef struct {
     fl_tellers s;
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
     fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
-    fl_lane lags;                            /* of fl_pair_lag(): -dt/4, or 0 where a ball touches */
+    fl_lane lags;                            /* dt of fl_pair_lag(), 0 where a ball touches */
     fl_lane du[3], dwi[3], dwj[3], pressed;  /* by how much the end of the step is ahead of them, lead.h */
     fl_lane had[HAD];                        /* what fl_pair had, from f on */
     fl_lane mass, reduced, touch, rest, damping, friction, tangential; /* of pair and law              */
@@ -88,7 +88,7 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         had[k] = doubles((const char *)c + offsetof(fl_pair, f));
         slip[k] = doubles(&c->slip);
         fl_lane3_put(b->off, k, fl_world_way(w, i, j, c->image));
-        b->lags.a[k] = o->ball[i] || o->ball[j] ? 0.0 : -0.25 * dt;
+        b->lags.a[k] = o->ball[i] || o->ball[j] ? 0.0 : dt;
         fl_lane3_put(b->u, k, v3_sub(o->v[i], o->v[j]));
         fl_lane3_put(b->wi, k, o->w[i]);
         fl_lane3_put(b->wj, k, o->w[j]);
@@ -156,9 +156,8 @@ FL_WIDE_VERSIONS static void relate(batch *restrict b)
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
         const rows A = axes(b->qi, k), B = axes(b->qj, k);
-        const fl_vec3 wi = fl_lane3(b->wi, k), wj = fl_lane3(b->wj, k), off = fl_lane3(b->off, k);
         const fl_vec3 lag =
-            v3_scale(b->lags.a[k], v3_add(v3_cross(wi, v3_cross(wj, off)), v3_cross(wj, v3_cross(wi, off))));
+            fl_lag_of(fl_lane3(b->wi, k), fl_lane3(b->wj, k), fl_lane3(b->off, k), b->lags.a[k]);
         fl_lane3_put(b->u, k, v3_add(fl_lane3(b->u, k), lag));
         fl_lane3_put(b->du, k, v3_sub(fl_lane3(b->du, k), lag));
         const fl_vec3 x = v3(A.x.x, A.y.x, A.z.x), y = v3(A.x.y, A.y.y, A.z.y), z = v3(A.x.z, A.y.z, A.z.z);
