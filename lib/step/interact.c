@@ -392,6 +392,7 @@ static int find_room(fl_world *w, const fl_pair *p, int32_t thread, fl_seen *see
     seen->bound = w->b.bound[p->i];
     seen->radii = ra + w->b.radius[p->j];
     seen->room = INFINITY;
+    seen->level = piece && piece->kind == FL_PIECE_PLANE;
     if (piece && piece->kind == FL_PIECE_SHELL)
         seen->room = fl_shell_room(&w->near_shell[thread], seen->places->va, &w->b.core[p->i], piece, ra,
                                    seen->q->overlap, fl_surrogate_less(p->law->surrogate));

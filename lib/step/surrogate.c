@@ -127,7 +127,9 @@ FL_WIDE_VERSIONS static void go(fl_tellers *restrict b, fl_lane *restrict J)
         const double arm = OF(arm)->a[k], half = 0.5 * (xx + yy + zz);
         const fl_vec3 own = fl_lane3(OF(own), k), w = v3(0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy));
         const fl_vec3 at = v3_add(fl_lane3(b->o, k), v3(v3_dot(x, own), v3_dot(y, own), v3_dot(z, own)));
-        const fl_vec3 u = v3_sub(at, fl_lane3(OF(at), k));
+        const fl_vec3 by = v3_sub(at, fl_lane3(OF(at), k));
+        const double slides = OF(slides)->a[k];
+        const fl_vec3 u = v3(slides * by.x, slides * by.y, by.z);
         fl_lane3_put(b->at, k, at);
         fl_lane3_put(b->w, k, w);
         fl_lane3_put(b->q, k, u);
@@ -519,6 +521,7 @@ static void fill(fl_surrogate *s, const fl_seen *seen, const fl_pressing *pressi
     if (!(s->force > 0.0 && seen->slope > 0.0 && pressing->elastic > 0.0)) return;
     s->M = *seen->M, s->o = seen->o, s->at = v3_add(s->o, m3_mul(s->M, s->own));
     s->first = seen->places->place[0].p;
+    s->slides = seen->level ? 0.0 : 1.0;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope, s->yields = seen->yields,
     s->ease = seen->ease, s->turns = seen->turns;
     bound(s, seen);

@@ -32,7 +32,8 @@
  * approach or part, over the force that the energy of this motion would give.  It is measured at the end of
  * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most, and a turn brings
  * no corner that does not press nearer by more than a part of the radii: sliding convex bodies have no place
- * that is deeper than is foretold, turning ones may have.  Where a look finds
+ * that is deeper than is foretold, turning ones may have.  What lies along a plane is no way: where over it A
+ * stands changes nothing.  Where a look finds
  * far more than was asked for, the contact has become another one, and what was learnt is forgotten; so are
  * the looks before it, unless it has only gone far past what it might.  Nothing is told where pressures
  * oppose each other, as in a slot: their sum is not their force.
@@ -88,6 +89,7 @@ typedef struct {
     fl_mat3 M;                            /* how A stood to B,                            */
     fl_vec3 o;                            /* and where                                [m] */
     fl_vec3 at;                           /* the point, frame of B                    [m] */
+    double slides;                        /* 1; 0: B is a plane across z, and A may        */
     double overlap, energy, force, slope; /* the largest [m], W [J], its slope [N], dF/ds along it [N/m] */
     double power;                         /* p, by quarters                               */
     fl_vec3 first, centre;                /* the first place of what pressed, frame of B; from there, where
@@ -168,6 +170,7 @@ typedef struct {
     double turns;
     double radii;            /* sum of the two [m] */
     double room, bound;      /* of fl_shell_room(), INFINITY where B is convex; of A about o [m] */
+    int level;               /* B is a plane across z */
     double toward;           /* the force that its motion comes to, over the force */
     double stiff_i, stiff_j; /* 0: not asked [1/s2] */
     fl_vec3 v, turn;         /* of A against B at the first place [m/s], [rad/s], frame of B, */

@@ -372,6 +372,35 @@ static void what_is_owed_is_a_number(void **state)
     assert_true(past > 0);
 }
 
+/* A box comes down on the floor with an edge first and rocks there, sliding or not: where along the floor it
+ * is changes nothing, neither what is told nor when there has to be a look. */
+static void a_floor_is_the_same_everywhere(void **state)
+{
+    enum { STEPS = 3000 };
+    lab l[2];
+    (void)state;
+    for (int slides = 0; slides < 2; slides++) {
+        lab_start(&l[slides]);
+        lab_set(&l[slides], "contact.surrogate=1e-3");
+        lab_set(&l[slides], "contact.friction=0");
+        lab_set(&l[slides], "run.gravity=9.81");
+        lab_set(&l[slides], "boundary.type=free free rigid");
+        lab_set(&l[slides], "boundary.min=none none 0");
+        lab_box(&l[slides], v3(0, 0, 0.516), v3(0.5, 0.5, 0.5), 0.05, q_of_vector(v3(0.02, 0.013, 0.3)),
+                slides ? v3(4, -3, -0.3) : v3(0, 0, -0.3), ZERO);
+        lab_make(&l[slides], 1e-5);
+        assert_int_equal(lab_run(&l[slides], STEPS), 0);
+    }
+    const fl_bodies *a = &l[0].w.b, *b = &l[1].w.b;
+    const fl_surrogate_count *still = l[0].w.told, *moves = l[1].w.told;
+    assert_true(fabs(b->x[0].x) > 0.1);
+    assert_true(moves->told > STEPS / 4 && moves->looked > 10);
+    assert_true(moves->told == still->told && moves->looked == still->looked);
+    assert_true(fabs(a->x[0].z - b->x[0].z) < 1e-13 && fabs(a->v[0].z - b->v[0].z) < 1e-12);
+    assert_true(v3_norm(v3_sub(a->w[0], b->w[0])) < 1e-12);
+    for (int slides = 0; slides < 2; slides++) lab_free(&l[slides]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
@@ -380,6 +409,7 @@ int main(void)
                                        cmocka_unit_test(a_look_teaches),
                                        cmocka_unit_test(looks_on_a_line_teach_more),
                                        cmocka_unit_test(what_is_owed_is_a_number),
+                                       cmocka_unit_test(a_floor_is_the_same_everywhere),
                                        cmocka_unit_test(damping_is_told)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }
