@@ -42,22 +42,31 @@ static inline double fl_damping_struck(double D) { return 1.0 / sqrt(1.0 + D); }
 double fl_damping_left(double z);
 double fl_damping_crossley_left(double D, double times);
 
+/* How many contacts one stands for that is damped by y = h C, of n that damp one body: for itself where all
+ * of them change little of a speed in a step, a = 2 n y of it; for `most` where they would shake. */
+static inline double fl_damping_for(double y, double n, double most)
+{
+    const double a = 2.0 * n * y, much = a * a;
+    return 1.0 + (most - 1.0) * (much / (1.0 + much));
+}
+
 /* Forces are found at the end of a step, where speeds are known of its middle.  What its first half has
  * changed foretells the end, c, but for what forces change by from the step before; of the contact itself
  * that is known, so with h = dt/2M its damping C d goes by
  *     d = c - h ((E - E_before) + (C d - D_before)),
- * the speed at the end of the step, to order 2.  For a contact by itself that is the trapezoidal rule, stable
- * for all damping.  Of n contacts that damp one body each knows its own part alone; and explicit as they are
- * among one another they would shake where n h C is not small.  So damping changes by no more than if 2n - 1
- * did what this one does, which bears on d in order 2: stable, again for all damping of bodies that are free
- * to yield as M has it, up to 0.7 of what the springs alone would leave (verify_step).
+ * the speed at the end of the step, to order 2.  For a contact by itself that is the trapezoidal rule,
+ * stable for all damping.  Of n contacts that damp one body each knows its own part alone; and explicit as
+ * they are among one another they would shake where n h C is not small.  There damping changes by no more
+ * than if 2n - 1 did what this one does: stable, again for all damping of bodies that are free to yield as M
+ * has it, up to 0.7 of what the springs alone would leave (verify_step).  Where n h C is small each stands
+ * for itself; what the others bear on d by is of order 4 there.
  *
  *   c        approach foreseen for the end [m/s]
  *   grew     E - E_before, elastic force   [N]
  *   damped   D_before, that of damping     [N] */
 static inline double fl_damping_closing(double c, double C, double h, double n, double grew, double damped)
 {
-    const double holds = (2.0 * n - 1.0) * h;
+    const double holds = fl_damping_for(h * C, n, 2.0 * n - 1.0) * h;
     return (c - h * grew + holds * damped) / (1.0 + holds * C);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "base/wide.h"
+#include "law/damping.h"
 #include "law/sphere.h"
 #include "law/tangent.h"
 
@@ -27,48 +28,70 @@ FL_WIDE_VERSIONS static void stand(fl_spheres *restrict b, int32_t m)
     }
 }
 
-FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
+/* How the surfaces go by each other across n where centres do by u; turn: a_i w_i + a_j w_j. */
+FL_WIDE_PART fl_vec3 sliding(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
+{
+    const fl_vec3 s = v3_sub(u, v3_cross(turn, n));
+    return v3_madd(s, -v3_dot(s, n), n);
+}
+
+#define VECTOR(a) v3(b->a[0][c], b->a[1][c], b->a[2][c])
+
+FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt)
 {
     SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
     {
-        const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c], s = b->overlap[c];
-        const double ux = b->u[0][c], uy = b->u[1][c], uz = b->u[2][c], elastic = b->elastic[c];
-        const double closing = -(nx * ux + ny * uy + nz * uz), last = b->touch[c];
+        const fl_vec3 n = VECTOR(n), u = VECTOR(u);
+        const double s = b->overlap[c], elastic = b->elastic[c], last = b->touch[c];
+        const double came = -v3_dot(n, u), closing = came - v3_dot(n, VECTOR(du));
         const double now = closing > last ? closing : last, touch = now > 0.0 ? now : 0.0;
         const double stored2 = 2.0 * (0.4 * s * elastic) * b->invm[c], touch2 = touch * touch;
         const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
         const double chi = speed > 0.0 ? b->chi[c] / speed : 0.0;
-        const double damped = elastic * (1.0 + chi * closing), normal = damped > 0.0 ? damped : 0.0;
-        /* how the surfaces go by each other */
-        const double ai = b->ri[c] - 0.5 * s, aj = b->rj[c] - 0.5 * s;
-        const double wix = b->wi[0][c], wiy = b->wi[1][c], wiz = b->wi[2][c];
-        const double wjx = b->wj[0][c], wjy = b->wj[1][c], wjz = b->wj[2][c];
-        const double rx = ai * wix + aj * wjx, ry = ai * wiy + aj * wjy, rz = ai * wiz + aj * wjz;
-        const double sx = ux - (ry * nz - rz * ny), sy = uy - (rz * nx - rx * nz),
-                     sz = uz - (rx * ny - ry * nx);
-        const double along = sx * nx + sy * ny + sz * nz;
-        const double vx = sx - along * nx, vy = sy - along * ny, vz = sz - along * nz;
-        const double twist = dt * (0.5 * ((wix + wjx) * nx + (wiy + wjy) * ny + (wiz + wjz) * nz));
+        const double from = s - dt * came, had = from > 0.0 ? from : 0.0;
+        const double goes = fl_damping_closing(closing, chi * elastic, 0.5 * dt * b->yields[c], b->many[c],
+                                               elastic - b->k[c] * (had * sqrt(had)), b->damped[c]);
+        const double damping = elastic * (chi * goes);
+        b->touch[c] = touch;
+        b->scale[c] = chi;
+        b->damped[c] = damping > -elastic ? damping : -elastic;
+    }
+}
+
+FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
+{
+    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    {
+        const fl_vec3 n = VECTOR(n), u = VECTOR(u), wi = VECTOR(wi), wj = VECTOR(wj);
+        const double ri = b->ri[c], rj = b->rj[c], half = 0.5 * b->overlap[c], ai = ri - half, aj = rj - half,
+                     part = (ai + aj) / (ri + rj);
+        const fl_vec3 v = sliding(u, v3_madd(v3_scale(ai, wi), aj, wj), n),
+                      next = v3_add(v, sliding(VECTOR(du), v3_scale(part, VECTOR(rdw)), n));
+        const double twist = dt * (0.5 * v3_dot(v3_add(wi, wj), n));
         /* the remembered force turns about n, lies down in the tangent plane, and falls with the stiffness */
-        const double px = b->slip[0][c], py = b->slip[1][c], pz = b->slip[2][c];
-        const double tx = px + twist * (ny * pz - nz * py), ty = py + twist * (nz * px - nx * pz),
-                     tz = pz + twist * (nx * py - ny * px);
-        const double off = tx * nx + ty * ny + tz * nz;
-        const double qx = tx - off * nx, qy = ty - off * ny, qz = tz - off * nz;
-        const double before = sqrt(px * px + py * py + pz * pz), after = sqrt(qx * qx + qy * qy + qz * qz);
-        const double k = b->tangential[c] * b->slope[c], old = b->stiff[c], limit = b->friction[c] * normal;
-        const double had = before * (k < old ? k : 1.0), than = k < old ? old : 1.0,
-                     share = had / (than * (after > 0.0 ? after : 1.0));
+        const fl_vec3 p = VECTOR(slip), t = v3_madd(p, twist, v3_cross(n, p)),
+                      q = v3_madd(t, -v3_dot(t, n), n), r = v3_sub(VECTOR(rub), p),
+                      was = v3_madd(r, -v3_dot(r, n), n);
+        const double before = v3_norm(p), after = v3_norm(q);
+        const double k = b->tangential[c] * b->slope[c], old = b->stiff[c],
+                     limit = b->friction[c] * (b->elastic[c] + b->damped[c]);
+        const double fell = before * (k < old ? k : 1.0), than = k < old ? old : 1.0,
+                     share = fell / (than * (after > 0.0 ? after : 1.0));
         const double way = (k < old ? k : 0.5 * (k + old)) * dt;
-        const fl_grip from = {v3(share * qx, share * qy, share * qz), 0.0},
-                      goes = {v3(-way * vx, -way * vy, -way * vz), 0.0};
-        const double g = b->tangential[c] * chi * elastic;
-        const fl_grip damps = {v3(-g * vx, -g * vy, -g * vz), 0.0};
-        const fl_held rubs = fl_tangent_hold(from, share * after, goes, goes, limit, damps);
+        const fl_grip from = {v3_scale(share, q), 0.0}, goes = {v3_scale(-way, v), 0.0},
+                      ahead = {v3_scale(-way, next), 0.0};
+        /* fl_tangent_damped() */
+        const double g = b->tangential[c] * (b->scale[c] * b->elastic[c]), h = 0.5 * dt,
+                     yields = b->yields[c] + part * part * b->turns[c], many = b->many[c],
+                     holds = fl_damping_for(h * g * yields, many, 2.0 * many) * h * g,
+                     each = 1.0 / (1.0 + holds * yields);
+        const fl_vec3 damps =
+            v3_madd(v3_scale(-g, next), yields, v3_madd(v3_scale(-g * h, goes.f), holds, was));
+        const double size = share * after;
+        const fl_held rubs = fl_tangent_hold(from, size, goes, fl_tangent_way(size, limit, goes, ahead),
+                                             limit, (fl_grip){v3_scale(each, damps), 0.0});
         const fl_vec3 e = rubs.kept.f, all = rubs.all.f;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
-        b->touch[c] = touch;
-        b->normal[c] = normal;
         b->slip[0][c] = on ? e.x : 0.0;
         b->slip[1][c] = on ? e.y : 0.0;
         b->slip[2][c] = on ? e.z : 0.0;
@@ -83,11 +106,11 @@ FL_WIDE_VERSIONS static void tell(fl_spheres *restrict b, int32_t m)
 {
     SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
     {
-        const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c], f = b->normal[c];
+        const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c];
         const double x = b->rub[0][c], y = b->rub[1][c], z = b->rub[2][c];
         const double tx = nz * y - ny * z, ty = nx * z - nz * x, tz = ny * x - nx * y; /* F_t x n */
         const double half = 0.5 * b->overlap[c], ai = b->ri[c] - half, aj = b->rj[c] - half;
-        const double elastic = b->elastic[c], damping = f - elastic;
+        const double elastic = b->elastic[c], damping = b->damped[c], f = elastic + damping;
         b->push[0][c] = elastic * nx;
         b->push[1][c] = elastic * ny;
         b->push[2][c] = elastic * nz;
@@ -108,6 +131,7 @@ void fl_spheres_meet(fl_spheres *b, int32_t m, double dt)
 {
     const int32_t full = filled(m);
     stand(b, full);
+    press(b, full, dt);
     rub(b, full, dt);
     tell(b, full);
 }

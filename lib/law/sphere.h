@@ -5,10 +5,15 @@
  * With D = x_i - x_j, d = |D|, n = D / d, overlap s = r_i + r_j - d > 0, and arms a_i = r_i - s/2, a_j =
  * r_j - s/2 from the centres to the middle of the overlap:
  *     F_e = k s^(3/2),  W = 2/5 k s^(5/2),  chi = D_0 / max(v_touch, c sqrt(2 W / M)),
- *     F_n = F_e (1 + chi u_n) >= 0,   u_n = -n.(v_i - v_j),
+ *     F_n = F_e (1 + chi d) >= 0,
  *     v_t = (v_i - v_j) - (a_i w_i + a_j w_j) x n,
  *     k_t = c 3/2 k sqrt(s),  g = c chi F_e,  F_t by tangent.h with the twist 1/2 n.(w_i + w_j),
- * force on i F_n n + F_t, torques -a_i n x F_t and -a_j n x F_t. */
+ * force on i F_n n + F_t, torques -a_i n x F_t and -a_j n x F_t.
+ *
+ * Damping goes by the speeds of the end of the step: d by fl_damping_closing(), what rubs as in
+ * fl_tangent_damped(), whose P is a number here, 1/m + a^2/I of both.  Of both a is taken to be the same
+ * part of the radius.  F_e of the step before is that of the overlap which the approach in the mean of the
+ * step has come from. */
 #ifndef FL_LAW_SPHERE_H
 #define FL_LAW_SPHERE_H
 #include <stdalign.h>
@@ -16,7 +21,7 @@
 
 /* What is written one by one is read eight at a time: by then it should have reached the fastest cache, and
  * all of it should still be there. */
-enum { FL_SPHERES_MOST = 40 };
+enum { FL_SPHERES_MOST = 24 };
 
 /* One array a quantity.  Vectors are x, y, z. */
 typedef struct {
@@ -27,7 +32,12 @@ typedef struct {
     double wj[3][FL_SPHERES_MOST];
     double ri[FL_SPHERES_MOST]; /* radii                                    [m]     */
     double rj[FL_SPHERES_MOST];
-    double invm[FL_SPHERES_MOST];       /* c^2/M = c^2 (1/m_i + 1/m_j), damping.h   [1/kg]  */
+    double du[3][FL_SPHERES_MOST];      /* by how much u is foreseen to have changed by the end of the */
+    double rdw[3][FL_SPHERES_MOST];     /* step, and r_i w_i + r_j w_j, lead.h     [m/s]   */
+    double yields[FL_SPHERES_MOST];     /* 1/M = 1/m_i + 1/m_j                      [1/kg]  */
+    double turns[FL_SPHERES_MOST];      /* r_i^2/I_i + r_j^2/I_j                    [1/kg]  */
+    double many[FL_SPHERES_MOST];       /* contacts of the one that has more of them, 1 at least */
+    double invm[FL_SPHERES_MOST];       /* c^2/M, damping.h                         [1/kg]  */
     double k[FL_SPHERES_MOST];          /*                                          [N/m^1.5] */
     double friction[FL_SPHERES_MOST];   /* mu                                               */
     double tangential[FL_SPHERES_MOST]; /* c                                                */
@@ -36,14 +46,14 @@ typedef struct {
     double touch[FL_SPHERES_MOST];   /* v_touch, renewed with u_n                [m/s]   */
     double slip[3][FL_SPHERES_MOST]; /* remembered force of the spring           [N]     */
     double stiff[FL_SPHERES_MOST];   /* k_t that it was built with               [N/m]   */
-    /* out; in for fl_spheres_place() */
-    double rub[3][FL_SPHERES_MOST]; /* F_t                                      [N]     */
-    double normal[FL_SPHERES_MOST]; /* F_n                                      [N]     */
+    double rub[3][FL_SPHERES_MOST];  /* F_t                                      [N]     */
+    double damped[FL_SPHERES_MOST];  /* F_n - F_e                                [N]     */
     /* out */
     double n[3][FL_SPHERES_MOST];       /* n; (0, 0, 1) where the centres are one           */
     double overlap[FL_SPHERES_MOST];    /* s                                        [m]     */
     double slope[FL_SPHERES_MOST];      /* 3/2 k sqrt(s)                            [N/m]   */
     double elastic[FL_SPHERES_MOST];    /* F_e                                      [N]     */
+    double scale[FL_SPHERES_MOST];      /* chi                                      [s/m]   */
     double push[3][FL_SPHERES_MOST];    /* F_e n                                    [N]     */
     double damping[3][FL_SPHERES_MOST]; /* (F_n - F_e) n                            [N]     */
     double ti[3][FL_SPHERES_MOST];      /* torques of F_t, on i and j               [N m]   */
@@ -55,8 +65,8 @@ typedef struct {
  * however wide the registers are. */
 void fl_spheres_meet(fl_spheres *b, int32_t m, double dt);
 
-/* Where they stand alone: n, overlap, slope, elastic, turn and size from d, radii, k, rub and normal; the
- * same bits. */
+/* Where they stand alone: n, overlap, slope, elastic, push, damping, torques and size from d, radii, k, rub
+ * and damped; the same bits. */
 void fl_spheres_place(fl_spheres *b, int32_t m);
 
 #endif

@@ -6,6 +6,7 @@
 #include <math.h>
 #include "base/wide.h"
 #include "geom/vec3.h"
+#include "law/damping.h"
 
 /* What a contact remembers from step to step. */
 typedef struct {
@@ -108,7 +109,7 @@ FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_gri
  * parts along n: by Cramer's rule, 1 + a P having an eigenvalue of 1 along n. */
 FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way, fl_grip before, double dt)
 {
-    const double g = c.g, h = 0.5 * dt, a = 2.0 * c.many * h * g;
+    const double g = c.g, h = 0.5 * dt;
     const fl_vec3 n = c.n, u = fl_ease_by(c.ease, n);
     const double nn = v3_dot(n, u);
     const fl_ease P = {c.ease.xx - 2.0 * n.x * u.x + nn * n.x * n.x,
@@ -117,6 +118,8 @@ FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way,
                        c.ease.yy - 2.0 * n.y * u.y + nn * n.y * n.y,
                        c.ease.yz - n.y * u.z - n.z * u.y + nn * n.y * n.z,
                        c.ease.zz - 2.0 * n.z * u.z + nn * n.z * n.z};
+    const double mean = 0.5 * (P.xx + P.yy + P.zz),
+                 a = fl_damping_for(h * g * mean, c.many, 2.0 * c.many) * h * g;
     const fl_vec3 r = v3_madd(fl_ease_by(P, v3_madd(v3_scale(-g * h, way.f), a, before.f)), -g, moves.f);
     const double xx = 1.0 + a * P.xx, yy = 1.0 + a * P.yy, zz = 1.0 + a * P.zz, xy = a * P.xy, xz = a * P.xz,
                  yz = a * P.yz;

@@ -20,7 +20,7 @@ typedef struct {
     fl_vec3 slip;  /* elastic part of the tangential force on i                       [N]       */
     double stiff;  /* tangential stiffness that it was built with                     [N/m]     */
     fl_vec3 rub;   /* tangential force on i, with damping                             [N]       */
-    double normal; /* normal force, with damping                                      [N]       */
+    double damped; /* what damping adds to the normal force                           [N]       */
     double touch;  /* largest approach speed of this touch                            [m/s]     */
     double k;      /* kappa of Hertz                                                  [N/m^1.5] */
 } fl_ball_row;
@@ -38,8 +38,8 @@ typedef struct {
     fl_vec3 f, t; /* [N], [N m] */
 } fl_ball_load;
 
-/* What rows see of a body, in two lines of the cache: its motion at the contacts of a step.  Bodies are far
- * apart to the rows that they are the j of, and wait in as many places as there are arrays. */
+/* What rows see of a body: its motion at the contacts of a step, and at its end.  Bodies are far apart to the
+ * rows that they are the j of, and wait in as many places as there are arrays. */
 typedef struct {
     fl_vec3 x; /* [m]     */
     double r;  /* [m]     */
@@ -47,6 +47,10 @@ typedef struct {
     double invm;
     fl_vec3 w;    /* [rad/s] */
     double r_too; /* r, where that is wanted beside w */
+    fl_vec3 dv;   /* by how much v will have changed by the end of the step, lead.h */
+    double n;     /* contacts of it in the step before                              */
+    fl_vec3 rdw;  /* r times that of w                                     [m/s]    */
+    double turns; /* r^2/I                                                 [1/kg]   */
 } fl_ball_seen;
 
 /* From a body to an image of it [m]. */
@@ -79,6 +83,8 @@ typedef struct {
     int32_t *image;     /* [n][3]; NULL without a periodic cell */
     uint8_t *hit;       /* [n] touches */
     fl_ball_row *row;   /* [n] */
+    int32_t *touching;  /* [bodies] rows and walls that touch it now, */
+    int32_t *touched;   /* [bodies] and that did in the step before   */
     int32_t *first;     /* [bodies + 1] rows of body i */
     fl_ball_seen *seen; /* [bodies] */
     int32_t *to;        /* [n] where j adds up: j, or of a row that leaves its chunk ~slot */

@@ -11,6 +11,7 @@
 #include "step/balls.h"
 #include "step/leans.h"
 #include "step/stiff.h"
+#include "step/works.h"
 
 enum {
     AHEAD = 64,   /* rows whose bodies j are on their way */
@@ -19,7 +20,7 @@ enum {
 };
 
 /* Touching rows are worked on when there are so many. */
-enum { BLOCK = 32 };
+enum { BLOCK = 16 };
 static_assert(BLOCK + FL_LANES <= FL_SPHERES_MOST,
               "what four rows add has room behind what is not a block yet");
 
@@ -39,6 +40,7 @@ static void turn_over(fl_balls *s, int32_t c, uint32_t turned)
         if (!(turned & 1)) continue;
         if (s->hit[c]) s->row[c] = (fl_ball_row){.k = s->row[c].k};
         s->hit[c] ^= 1;
+        fl_balls_turn(s, s->i[c], s->hit[c] ? 1 : -1), fl_balls_turn(s, s->j[c], s->hit[c] ? 1 : -1);
     }
 }
 
@@ -59,18 +61,44 @@ static double plainly(const fl_bodies *b, int32_t k)
     return b->added ? 1.0 / (b->m[k] + b->added[k].x) : b->invm[k];
 }
 
-void fl_balls_show(fl_world *w, int32_t from, int32_t to)
+/* What the second half of a step changes of the speeds of body k, as far as it does what the first did. */
+static fl_gain lead_of(const fl_bodies *b, int32_t k, double h)
+{
+    if (fl_body_plain(b, k))
+        return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h * b->invI[k].x, b->t[k])};
+    fl_vec3 a, turn;
+    fl_body_rates(b, k, &a, &turn);
+    return (fl_gain){v3_scale(h, a), v3_scale(h, turn)};
+}
+
+/* So many contacts in one line damp a motion as n all round a sphere do, of which two are in line: 3.4 for
+ * six, 5.5 for twelve, or less (crowd() of critical.c). */
+static double all_round(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
+
+void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h)
 {
     const fl_bodies *b = &w->b;
     fl_ball_seen *const seen = w->balls.seen;
-    for (int32_t k = from; k < to; k++)
-        seen[k] = (fl_ball_seen){b->x[k], b->radius[k], b->v[k], plainly(b, k), b->w[k], b->radius[k]};
+    for (int32_t k = from; k < to; k++) {
+        const fl_gain lead = lead_of(b, k, h);
+        const int32_t rows = w->balls.touched[k] = w->balls.touching[k];
+        const double n = all_round(rows + fl_works_was(w, k)->n), r = b->radius[k];
+        seen[k] = (fl_ball_seen){b->x[k], r,      b->v[k], plainly(b, k),       b->w[k],
+                                 r,       lead.v, n,       v3_scale(r, lead.w), r * r * b->invI[k].x};
+    }
 }
 
 /* The difference a - b of vectors, and the sum of the numbers behind them. */
 FL_WIDE_PART void compare_two(fl_wide *d, const void *a, const void *b)
 {
     *d = __builtin_shufflevector(FL_FOUR(a) - FL_FOUR(b), FL_FOUR(a) + FL_FOUR(b), 0, 1, 2, 7);
+}
+
+/* The difference, and the larger number. */
+FL_WIDE_PART void compare_most(fl_wide *d, const void *a, const void *b)
+{
+    const fl_wide x = FL_FOUR(a), y = FL_FOUR(b);
+    *d = __builtin_shufflevector(x - y, FL_WIDE_CHOOSE(x > y, x, y), 0, 1, 2, 7);
 }
 
 /* What the loop below reads and writes. */
@@ -140,7 +168,7 @@ static void load_forces(const fl_world *w, batch *t)
         a->rub[0][m] = r->rub.x;
         a->rub[1][m] = r->rub.y;
         a->rub[2][m] = r->rub.z;
-        a->normal[m] = r->normal;
+        a->damped[m] = r->damped;
     }
 }
 
@@ -160,11 +188,12 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
     const fl_ball_seen *seen = s->seen;
     const int32_t n = t->m;
     fl_spheres *a = &t->at;
-    fl_wide all = {0.0, 0.0, 0.0, 0.0};
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    fl_wide all = zero;
     for (int32_t k = n; k % FL_LANES; k++) t->row[k] = t->row[n - 1];
     for (int32_t m = 0; m < n; m += FL_LANES) {
         fl_wide d[] = {FL_FOUR(t->d[m]), FL_FOUR(t->d[m + 1]), FL_FOUR(t->d[m + 2]), FL_FOUR(t->d[m + 3])};
-        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES];
+        fl_wide u[FL_LANES], p[FL_LANES], q[FL_LANES], h[FL_LANES], f[FL_LANES], du[FL_LANES], dw[FL_LANES];
         fl_two last[FL_LANES];
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)
         {
@@ -174,6 +203,9 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
             p[l] = FL_FOUR(&seen[i].w);
             q[l] = FL_FOUR(&seen[j].w);
             h[l] = FL_FOUR(&r->slip);
+            f[l] = FL_FOUR(&r->rub);
+            compare_most(&du[l], &seen[i].dv, &seen[j].dv);
+            dw[l] = FL_FOUR(&seen[i].rdw) + FL_FOUR(&seen[j].rdw);
             last[l] = *(const fl_two *)(const void *)&r->touch;
         }
         const fl_wide even = __builtin_shufflevector(last[0], last[2], 0, 1, 2, 3),
@@ -185,8 +217,14 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
         fl_wide_transpose(p);
         fl_wide_transpose(q);
         fl_wide_transpose(h);
+        fl_wide_transpose(f);
+        fl_wide_transpose(du);
+        fl_wide_transpose(dw);
         FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++)
         {
+            FL_FOUR_INTO(&a->rub[axis][m]) = f[axis];
+            FL_FOUR_INTO(&a->du[axis][m]) = du[axis];
+            FL_FOUR_INTO(&a->rdw[axis][m]) = dw[axis];
             FL_FOUR_INTO(&a->d[axis][m]) = d[axis];
             FL_FOUR_INTO(&a->u[axis][m]) = u[axis];
             FL_FOUR_INTO(&a->wi[axis][m]) = p[axis];
@@ -194,6 +232,10 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
             FL_FOUR_INTO(&a->slip[axis][m]) = h[axis];
         }
         FL_FOUR_INTO(&a->stiff[m]) = h[3];
+        FL_FOUR_INTO(&a->damped[m]) = f[3];
+        FL_FOUR_INTO(&a->many[m]) = FL_WIDE_CHOOSE(du[3] > 1.0, du[3], 1.0 + zero);
+        FL_FOUR_INTO(&a->turns[m]) = dw[3];
+        FL_FOUR_INTO(&a->yields[m]) = u[3];
         FL_FOUR_INTO(&a->invm[m]) = FL_FOUR(&t->rest2[m]) * u[3]; /* for nothing but the stored energy */
         FL_FOUR_INTO(&a->ri[m]) = p[3];
         FL_FOUR_INTO(&a->rj[m]) = q[3];
@@ -212,7 +254,8 @@ static void load_masses(const fl_world *w, batch *t)
         const int32_t i = w->balls.i[t->row[m]], j = w->balls.j[t->row[m]];
         if (t->at.invm[m] == t->at.invm[m]) continue;
         const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
-        t->at.invm[m] = t->rest2[m] * (fl_body_mobility(b, i, n, none) + fl_body_mobility(b, j, n, none));
+        t->at.yields[m] = fl_body_mobility(b, i, n, none) + fl_body_mobility(b, j, n, none);
+        t->at.invm[m] = t->rest2[m] * t->at.yields[m];
     }
 }
 
@@ -236,7 +279,7 @@ static void load_laws(const fl_world *w, batch *t)
 
 FL_FOUR_VERSIONS static void save(fl_ball_row *restrict row, const batch *restrict t)
 {
-    static_assert(offsetof(fl_ball_row, normal) == offsetof(fl_ball_row, rub) + sizeof(fl_vec3),
+    static_assert(offsetof(fl_ball_row, damped) == offsetof(fl_ball_row, rub) + sizeof(fl_vec3),
                   "see ball.h");
     const fl_spheres *a = &t->at;
     const int32_t n = t->m;
@@ -244,7 +287,7 @@ FL_FOUR_VERSIONS static void save(fl_ball_row *restrict row, const batch *restri
         fl_wide h[] = {FL_FOUR(&a->slip[0][m]), FL_FOUR(&a->slip[1][m]), FL_FOUR(&a->slip[2][m]),
                        FL_FOUR(&a->stiff[m])};
         fl_wide f[] = {FL_FOUR(&a->rub[0][m]), FL_FOUR(&a->rub[1][m]), FL_FOUR(&a->rub[2][m]),
-                       FL_FOUR(&a->normal[m])};
+                       FL_FOUR(&a->damped[m])};
         fl_wide_transpose(h);
         fl_wide_transpose(f);
         FL_WIDE_UNROLL for (int32_t l = 0; l < FL_LANES; l++)

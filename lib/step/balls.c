@@ -29,7 +29,8 @@ void fl_balls_free(fl_balls *s)
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
     free(s->first), free(s->seen), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by),
         free(s->cross), free(s->into), free(s->slots), free(s->slot);
-    free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot);
+    free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot), free(s->touching),
+        free(s->touched);
     free(s->lean), free(s->lean_first), free(s->load);
     *s = (fl_balls){0};
 }
@@ -64,10 +65,12 @@ static int bodies_alloc(fl_balls *s, const fl_world *w, fl_err *err)
     s->lean_first = fl_alloc((int64_t)s->chunks + 1, sizeof *s->lean_first, err);
     s->load = fl_alloc((int64_t)s->chunks * w->walls, sizeof *s->load, err);
     s->stiff = fl_alloc(w->n, sizeof *s->stiff, err);
+    s->touching = fl_alloc(w->n, sizeof *s->touching, err);
+    s->touched = fl_alloc(w->n, sizeof *s->touched, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->was = fl_alloc(w->n, sizeof *s->was, err);
     if (!s->lean_first || !s->load || !s->first || !s->into || !s->seen || !s->source || !s->ended ||
-        !s->cross || !s->tally || !s->stiff || !s->sum || !s->was)
+        !s->cross || !s->tally || !s->stiff || !s->touching || !s->touched || !s->sum || !s->was)
         return -1;
     s->bodies = w->n;
     return 0;
@@ -142,6 +145,8 @@ static int index_rows(fl_world *w, fl_err *err)
     }
     for (int32_t j = s->bodies; j > 0; j--) s->into[j] = s->into[j - 1];
     s->into[0] = 0;
+    memset(s->touching, 0, (size_t)s->bodies * sizeof *s->touching);
+    for (int32_t c = 0; c < s->n; c++) s->touching[s->i[c]] += s->hit[c], s->touching[s->j[c]] += s->hit[c];
     fl_leans_index(s);
     return 0;
 }
@@ -229,7 +234,7 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
     s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
     s->image_cap = fresh.image_cap, s->hit_cap = fresh.hit_cap, s->row_cap = fresh.row_cap;
     if (index_rows(w, err)) return -1;
-    fl_balls_show(w, 0, w->n);
+    fl_balls_show(w, 0, w->n, 0.5 * w->dt);
     return 0;
 fail:
     fl_balls_free(&fresh);
@@ -351,7 +356,7 @@ double fl_balls_bytes(const fl_world *w)
     const double row = 4 * sizeof(int32_t) + sizeof *s->hit + sizeof *s->by + sizeof *s->row,
                  image = s->image ? 3 * sizeof(int32_t) : 0,
                  slot = sizeof *s->slot + sizeof *s->slots + sizeof *s->stiff_slot,
-                 body = 2 * sizeof *s->sum + sizeof *s->seen + 2 * sizeof(int32_t) + sizeof *s->stiff;
+                 body = 2 * sizeof *s->sum + sizeof *s->seen + 4 * sizeof(int32_t) + sizeof *s->stiff;
     if (!s->bodies) return 0.0;
     return s->n * (row + image) + s->leans * (double)sizeof *s->lean + s->cross[s->chunks] * slot +
            s->bodies * body;
@@ -372,9 +377,9 @@ void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r,
     p->slip.k = r->stiff;
     p->touch = r->touch;
     p->overlap = over;
-    p->fd = v3_scale(r->normal - r->k * fl_normal_power(over, 1.5), n);
+    p->fd = v3_scale(r->damped, n);
     p->fs = r->rub;
-    p->f = v3_madd(r->rub, r->normal, n);
+    p->f = v3_madd(r->rub, r->k * fl_normal_power(over, 1.5) + r->damped, n);
     p->si = p->ti = v3_scale(-arm, v3_cross(n, r->rub));
     p->spring = fl_ball_spring(r);
     p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;

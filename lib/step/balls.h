@@ -45,8 +45,16 @@ static inline fl_vec3 fl_balls_between(const fl_world *w, int32_t c)
 
 /* --- their forces, ballforce.c ----------------------------------------------------------------- */
 
-/* Let rows see where bodies [from, to) are and how they move: whenever that has changed, before a touch. */
-void fl_balls_show(fl_world *w, int32_t from, int32_t to);
+/* Let rows see where bodies [from, to) are and how they move: whenever that has changed, before a touch; in
+ * a step of 2h [s] whose first half is over, the forces being those of its begin. */
+void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h);
+
+/* Row or wall c begins to touch, or ends it. */
+static inline void fl_balls_turn(fl_balls *s, int32_t i, int32_t by)
+{
+#pragma omp atomic
+    s->touching[i] += by;
+}
 
 /* The rows of chunk a, by what they see of bodies, over a step of dt [s]; survey: also bounds of omega^2.
  * dt < 0: nothing moves and nothing is evaluated, the sums are made again from what the rows hold.  Any

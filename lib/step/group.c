@@ -250,7 +250,7 @@ void fl_groups_begin(fl_world *w, int32_t g, int32_t last, double h)
     begin_few(w, &c, h);
     for (int32_t k = g; k < last; k++) {
         const int32_t from = k * FL_BALLS_GROUP, to = end_of(w, k);
-        if (w->balls.bodies) fl_balls_show(w, from, to);
+        if (w->balls.bodies) fl_balls_show(w, from, to, h);
         farthest(to - from, w->b.odometer + from, w->odometer_found + from, w->group[k].moved);
     }
 }

@@ -77,7 +77,7 @@ FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, do
     const fl_wrench off = fl_wrench_madd(was.damping, -1.0, damping);
     const double f2 = v3_norm2(elastic.f), least = 0.25 * presses * presses, size2 = f2 > least ? f2 : least,
                  push = size2 > 0.0 ? v3_dot(elastic.f, off.f) / size2 : 0.0;
-    const double holds = 2.0 * pressed * y, to = holds / (1.0 + holds);
+    const double holds = fl_damping_for(y, pressed, 2.0 * pressed) * y, to = holds / (1.0 + holds);
     return fl_wrench_madd(damping, to, fl_wrench_madd(off, -push, elastic));
 }
 
@@ -88,11 +88,19 @@ FL_WIDE_PART double fl_lead_turned(fl_before was, fl_vec3 n, fl_vec3 ai, fl_vec3
     return v3_dot(n, v3_sub(was.rubbed.m, v3_cross(arm, was.rubbed.f))) - was.sprung;
 }
 
+/* Contacts of thing k in the step before, of which n are no rows (ball.h). */
+static inline int32_t fl_lead_pressed(const fl_world *w, int32_t k, int32_t n)
+{
+    return w->balls.bodies && k < w->n ? n + w->balls.touched[k] : n;
+}
+
 /* lag: fl_pair_lag() of the step [m/s]. */
 static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)
 {
-    const int32_t ni = fl_works_was(w, p->i)->n, nj = fl_works_was(w, p->j)->n,
-                  shared = p->j < w->n || fl_ride_yields(w, p->j) ? nj : 0, n = ni > shared ? ni : shared;
+    const int32_t ni = fl_works_was(w, p->i)->n, nj = fl_works_was(w, p->j)->n;
+    const int32_t many_i = fl_lead_pressed(w, p->i, ni), many_j = fl_lead_pressed(w, p->j, nj),
+                  shared = p->j < w->n || fl_ride_yields(w, p->j) ? many_j : 0,
+                  n = many_i > shared ? many_i : shared;
     const fl_gain none = {{0, 0, 0}, {0, 0, 0}};
     const fl_gain i = ni ? *fl_works_lead(w, p->i) : none, j = nj ? *fl_works_lead(w, p->j) : none;
     return (fl_lead){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n > 1 ? n : 1};

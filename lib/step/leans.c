@@ -75,7 +75,8 @@ void fl_leans_index(fl_balls *s)
     int32_t c = 0;
     for (int32_t a = 0; a < s->chunks; a++) {
         s->lean_first[a] = c;
-        while (c < s->leans && s->lean[c].i < (a + 1) * FL_BALLS_CHUNK) c++;
+        for (; c < s->leans && s->lean[c].i < (a + 1) * FL_BALLS_CHUNK; c++)
+            s->touching[s->lean[c].i] += s->lean[c].hit;
     }
     s->lean_first[s->chunks] = c;
 }
@@ -103,14 +104,19 @@ static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean
     const fl_ball_row *r = &c->row;
     const double radius = b->radius[c->i], below = z > 0.0 ? 0.0 : radius - 2.0 * z;
     const fl_vec3 d = v3_scale(z + below, n), u = b->v[c->i], spin = b->w[c->i];
+    const fl_ball_seen *const seen = &w->balls.seen[c->i];
     a->d[0][m] = d.x, a->d[1][m] = d.y, a->d[2][m] = d.z;
     a->u[0][m] = u.x, a->u[1][m] = u.y, a->u[2][m] = u.z;
     a->wi[0][m] = spin.x, a->wi[1][m] = spin.y, a->wi[2][m] = spin.z;
     a->wj[0][m] = a->wj[1][m] = a->wj[2][m] = 0.0;
+    a->du[0][m] = seen->dv.x, a->du[1][m] = seen->dv.y, a->du[2][m] = seen->dv.z;
+    a->rdw[0][m] = seen->rdw.x, a->rdw[1][m] = seen->rdw.y, a->rdw[2][m] = seen->rdw.z;
     a->ri[m] = radius;
     a->rj[m] = below;
-    a->invm[m] = law->rest * law->rest *
-                 (fl_body_free(b, c->i) ? b->invm[c->i] : fl_body_mobility(b, c->i, n, v3(0, 0, 0)));
+    a->yields[m] = fl_body_free(b, c->i) ? b->invm[c->i] : fl_body_mobility(b, c->i, n, v3(0, 0, 0));
+    a->invm[m] = law->rest * law->rest * a->yields[m];
+    a->turns[m] = seen->turns;
+    a->many[m] = seen->n > 1.0 ? seen->n : 1.0;
     a->k[m] = r->k;
     a->friction[m] = law->friction;
     a->tangential[m] = law->tangential;
@@ -119,7 +125,7 @@ static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean
     a->slip[0][m] = r->slip.x, a->slip[1][m] = r->slip.y, a->slip[2][m] = r->slip.z;
     a->stiff[m] = r->stiff;
     a->rub[0][m] = r->rub.x, a->rub[1][m] = r->rub.y, a->rub[2][m] = r->rub.z;
-    a->normal[m] = r->normal;
+    a->damped[m] = r->damped;
 }
 
 static fl_vec3 vector(const double a[3][FL_SPHERES_MOST], int32_t m) { return v3(a[0][m], a[1][m], a[2][m]); }
@@ -129,7 +135,7 @@ static void save(fl_ball_row *r, const fl_spheres *a, int32_t m)
     r->slip = vector(a->slip, m);
     r->stiff = a->stiff[m];
     r->rub = vector(a->rub, m);
-    r->normal = a->normal[m];
+    r->damped = a->damped[m];
     r->touch = a->touch[m];
 }
 
@@ -150,7 +156,10 @@ static void count(fl_ball_tally *t, const fl_spheres *a, int32_t m, int32_t c)
 }
 
 /* On the sphere. */
-static fl_vec3 force_of(const fl_ball_row *r, fl_vec3 n) { return v3_madd(r->rub, r->normal, n); }
+static fl_vec3 force_of(const fl_ball_row *r, fl_vec3 n, double over)
+{
+    return v3_madd(r->rub, r->k * fl_normal_power(over, 1.5) + r->damped, n);
+}
 
 /* Middle of the overlap, from the wall's point. */
 static fl_vec3 middle(const fl_world *w, const fl_ball_lean *c, fl_vec3 n, double over)
@@ -160,7 +169,7 @@ static fl_vec3 middle(const fl_world *w, const fl_ball_lean *c, fl_vec3 n, doubl
 
 static void press(const fl_world *w, fl_ball_load *load, const fl_ball_lean *c, fl_vec3 n, double over)
 {
-    const fl_vec3 F = force_of(&c->row, n);
+    const fl_vec3 F = force_of(&c->row, n, over);
     load->f = v3_sub(load->f, F);
     load->t = v3_sub(load->t, v3_cross(middle(w, c, n, over), F));
 }
@@ -213,6 +222,7 @@ void fl_leans_touch(fl_world *w, int32_t a, double dt, int survey)
         if (dt >= 0.0 && touches != l->hit) {
             if (l->hit) l->row = (fl_ball_row){.k = l->row.k};
             l->hit = touches;
+            fl_balls_turn(s, l->i, touches ? 1 : -1);
         }
         if (!l->hit) continue;
         load(w, &q.at, q.m, l, up, z);

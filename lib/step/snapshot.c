@@ -604,7 +604,7 @@ static void ball(traffic *t, fl_world *w, int32_t c, int32_t last[2])
     vec3(t, &r.slip);
     real(t, &r.stiff);
     vec3(t, &r.rub);
-    real(t, &r.normal);
+    real(t, &r.damped);
     close_row(t);
     if (t->f || t->err->code) return;
     if (i >= j || i < last[0] || (i == last[0] && (w->cell.wraps ? j < last[1] : j <= last[1])) ||
