@@ -82,7 +82,7 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
                       ahead = {v3_scale(-way, next), 0.0};
         /* fl_tangent_damped() */
         const double g = b->tangential[c] * (b->scale[c] * b->elastic[c]), h = 0.5 * dt,
-                     yields = b->yields[c] + part * part * b->turns[c], many = b->many[c],
+                     yields = b->across[c] + part * part * b->turns[c], many = b->many[c],
                      holds = fl_damping_for(h * g * yields, many, 2.0 * many) * h * g,
                      each = 1.0 / (1.0 + holds * yields);
         const fl_vec3 damps =

@@ -35,8 +35,9 @@ typedef struct {
     double du[3][FL_SPHERES_MOST];      /* by how much u is foreseen to have changed by the end of the */
     double rdw[3][FL_SPHERES_MOST];     /* step, and r_i w_i + r_j w_j, lead.h     [m/s]   */
     double yields[FL_SPHERES_MOST];     /* 1/M = 1/m_i + 1/m_j                      [1/kg]  */
+    double across[FL_SPHERES_MOST];     /* the same across n                         [1/kg]  */
     double turns[FL_SPHERES_MOST];      /* r_i^2/I_i + r_j^2/I_j                    [1/kg]  */
-    double many[FL_SPHERES_MOST];       /* contacts of the one that has more of them, 1 at least */
+    double many[FL_SPHERES_MOST];       /* contacts in line of the one that has more, 1 at least */
     double invm[FL_SPHERES_MOST];       /* c^2/M, damping.h                         [1/kg]  */
     double k[FL_SPHERES_MOST];          /*                                          [N/m^1.5] */
     double friction[FL_SPHERES_MOST];   /* mu                                               */

@@ -62,13 +62,21 @@ static double plainly(const fl_bodies *b, int32_t k)
 }
 
 /* What the second half of a step changes of the speeds of body k, as far as it does what the first did. */
-static fl_gain lead_of(const fl_bodies *b, int32_t k, double h)
+static fl_gain lead_of(const fl_world *w, int32_t k, double h)
 {
-    if (fl_body_plain(b, k))
-        return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h * b->invI[k].x, b->t[k])};
+    const fl_bodies *b = &w->b;
     fl_vec3 a, turn;
-    fl_body_rates(b, k, &a, &turn);
-    return (fl_gain){v3_scale(h, a), v3_scale(h, turn)};
+    if (fl_body_plain(b, k)) a = v3_scale(b->invm[k], b->f[k]), turn = v3_scale(b->invI[k].x, b->t[k]);
+    else fl_body_rates(b, k, &a, &turn);
+    const fl_gain kick = {v3_scale(h, a), v3_scale(h, turn)};
+    return w->drag ? (fl_gain){v3_add(kick.v, w->drag[k].v), v3_add(kick.w, w->drag[k].w)} : kick;
+}
+
+/* Of one velocity of the rim for an impulse there, r^2/I, where anything lets it turn. */
+static double turns_of(const fl_bodies *b, int32_t k)
+{
+    const int held = FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ;
+    return (b->hold[k] & held) == held ? 0.0 : b->radius[k] * b->radius[k] * b->invI[k].x;
 }
 
 /* So many contacts in one line damp a motion as n all round a sphere do, of which two are in line: 3.4 for
@@ -80,11 +88,11 @@ void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h)
     const fl_bodies *b = &w->b;
     fl_ball_seen *const seen = w->balls.seen;
     for (int32_t k = from; k < to; k++) {
-        const fl_gain lead = lead_of(b, k, h);
+        const fl_gain lead = lead_of(w, k, h);
         const int32_t rows = w->balls.touched[k] = w->balls.touching[k];
         const double n = all_round(rows + fl_works_was(w, k)->n), r = b->radius[k];
         seen[k] = (fl_ball_seen){b->x[k], r,      b->v[k], plainly(b, k),       b->w[k],
-                                 r,       lead.v, n,       v3_scale(r, lead.w), r * r * b->invI[k].x};
+                                 r,       lead.v, n,       v3_scale(r, lead.w), turns_of(b, k)};
     }
 }
 
@@ -236,6 +244,7 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
         FL_FOUR_INTO(&a->many[m]) = FL_WIDE_CHOOSE(du[3] > 1.0, du[3], 1.0 + zero);
         FL_FOUR_INTO(&a->turns[m]) = dw[3];
         FL_FOUR_INTO(&a->yields[m]) = u[3];
+        FL_FOUR_INTO(&a->across[m]) = u[3];
         FL_FOUR_INTO(&a->invm[m]) = FL_FOUR(&t->rest2[m]) * u[3]; /* for nothing but the stored energy */
         FL_FOUR_INTO(&a->ri[m]) = p[3];
         FL_FOUR_INTO(&a->rj[m]) = q[3];
@@ -243,6 +252,12 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
     }
     const double sum = fl_wide_sum(&all);
     return sum == sum;
+}
+
+/* 1/m of what anything lets move. */
+static double somehow(const fl_bodies *b, int32_t k)
+{
+    return fl_body_stands(b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : b->invm[k];
 }
 
 /* Of those that depend on the direction. */
@@ -255,6 +270,7 @@ static void load_masses(const fl_world *w, batch *t)
         if (t->at.invm[m] == t->at.invm[m]) continue;
         const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
         t->at.yields[m] = fl_body_mobility(b, i, n, none) + fl_body_mobility(b, j, n, none);
+        t->at.across[m] = somehow(b, i) + somehow(b, j);
         t->at.invm[m] = t->rest2[m] * t->at.yields[m];
     }
 }

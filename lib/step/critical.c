@@ -212,6 +212,7 @@ static void leave(const fl_world *w, remains *r, const fl_touching *law, int lat
         r->one = fmin(r->one, struck);
         r->alone = fmin(r->alone, 0.8 * struck); /* S25 of verify_step */
         r->measured = fmin(r->measured, shows(struck));
+        if (crowds) r->measured = fmin(r->measured, FL_STEADY / sqrt(many));
         r->many = fmin(r->many, (crowds ? TRUE_AMONG_MANY : 1.0) * FL_STEADY / sqrt(many));
         return;
     }
@@ -327,10 +328,11 @@ double fl_world_across(const fl_world *w)
 }
 
 /* D of the most damped contacts; those that go by the speeds of the middle of a step, and not by
- * fl_damping_closing(), are bonds, `core` and the manual's laws. */
+ * fl_damping_closing(), are bonds, `core` and the manual's laws, and balls in the grooves of a surface. */
 static double most_damped(const fl_world *w, int late)
 {
-    const int all = !late || w->frozen.n;
+    int all = !late || w->frozen.n;
+    for (int32_t k = 0; k < w->pieces && w->points; k++) all |= w->structure.piece[k].kind == FL_PIECE_SHELL;
     double D = 0.0;
     for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
         const fl_touching *law = &w->law[k];

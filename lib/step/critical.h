@@ -23,7 +23,7 @@ double fl_world_damped(const fl_world *w);
 #define FL_STEADY 0.7
 
 /* What is left of that where all that is rough is shaken across, standing on its end or an edge, and balls
- * are held between others: 0.55 for boxes of `core`, if damping is strong, and 0.7 for balls; 1 for `patch`.
+ * are held between others: of `core`, if damping is strong, 0.55 for boxes and 0.7 for balls; 1 for `patch`.
  * Automatic steps are below it. */
 double fl_world_across(const fl_world *w);
 
@@ -33,7 +33,7 @@ double fl_world_across(const fl_world *w);
  *     impulse         1.5 r^2 at the most, and no more than 0.3 r; where D > 0 that.
  * A half-wave seen at intervals of dt is low by up to (omega dt/2)^2/2, and damping and friction are of order
  * 2 as well; D' = chi v_impact is that of the most damped contacts.  D is that of those for which they are
- * not: bonds and other laws go by the speed half a step ago, and in a
+ * not: bonds, balls in grooves and other laws go by the speed half a step ago, and in a
  * spring that is struck this differs by up to omega v dt/2 = r v, a share D r of the force where D is small.
  * The numbers are fitted to the 20 scenes of verify_budget.  Of the impulse it is a bound: it was off by 0.6
  * r^2 where friction decided on the way, and by 1e-7 r^2 where all came to rest. */

@@ -115,6 +115,12 @@ static void set_lead(fl_world *w, int32_t k, fl_gain before, fl_gain after, fl_g
                       v3_add(gain.w, v3_sub(after.w, before.w)));
 }
 
+/* Drag has taken it from `before` to `after`, in the first half of a step; rows of spheres will ask. */
+static void set_drag(fl_world *w, int32_t k, fl_gain before, fl_gain after)
+{
+    if (w->drag) w->drag[k] = (fl_gain){v3_sub(after.v, before.v), v3_sub(after.w, before.w)};
+}
+
 /* w may be the mean of a step before a kick, which is no gain of it. */
 static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
 {
@@ -174,6 +180,7 @@ static void begin_balls(fl_world *w, int32_t from, int32_t to, double h)
     for (int32_t k = from; k < to && (w->sea.n || w->n_live); k++) {
         const fl_gain before = speeds_of(&w->b, k);
         if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
+        set_drag(w, k, before, speeds_of(&w->b, k));
         set_lead(w, k, before, speeds_of(&w->b, k), gain_of(&w->b, k, h));
     }
     fl_move_balls(&w->b, from, to, h, 2.0 * h);
@@ -186,6 +193,7 @@ static void begin_one(fl_world *w, int32_t k, double h)
     const fl_gain before = speeds_of(&w->b, k);
     if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, h, 0);
     const fl_gain after = speeds_of(&w->b, k);
+    if (w->b.ball[k]) set_drag(w, k, before, after);
     kick(w, k, h, kept ? kept : &gain);
     if (kept) set_lead(w, k, before, after, *kept);
     fl_drift(&w->b, k, 2.0 * h);

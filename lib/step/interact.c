@@ -219,7 +219,7 @@ static double closing_of(const fl_bodies *b, const fl_pair *p, const ahead *a, c
 
 /* The places of a round thing or of `core`: W = k sum of phi(s), most often of one.  Of several places, or
  * one that may be another than a step ago, it is not known what each did then: they are damped by the speed
- * half a step ago, as rows of spheres are. */
+ * half a step ago. */
 static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, const ahead *by,
                         int survey)
 {

@@ -70,7 +70,7 @@ FL_WIDE_PART double fl_lead_share(double elastic, double presses)
 
 /* fl_damping_closing() knows of the push along the force alone.  All else of damping, by which the bodies
  * shake, goes by the motion foreseen, held back as that of many contacts is: as if it moved twice as easily
- * as the mass.  presses: sum of the pressures, y = C dt/M of them. */
+ * as the mass.  presses: sum of the pressures, y = C dt/M of them, twice what fl_damping_for() has. */
 FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, double presses, double y,
                                         double pressed, fl_before was)
 {

@@ -109,13 +109,18 @@ static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean
     a->u[0][m] = u.x, a->u[1][m] = u.y, a->u[2][m] = u.z;
     a->wi[0][m] = spin.x, a->wi[1][m] = spin.y, a->wi[2][m] = spin.z;
     a->wj[0][m] = a->wj[1][m] = a->wj[2][m] = 0.0;
+    /* of both arms the law takes the same part; the sphere's own is r - s/2 */
+    const double s = radius - z, both = radius + below - s, own = (radius - 0.5 * s) / radius,
+                 arm = both > 0.0 ? own * (radius + below) / both : 1.0;
+    const fl_vec3 rdw = v3_scale(arm, seen->rdw);
     a->du[0][m] = seen->dv.x, a->du[1][m] = seen->dv.y, a->du[2][m] = seen->dv.z;
-    a->rdw[0][m] = seen->rdw.x, a->rdw[1][m] = seen->rdw.y, a->rdw[2][m] = seen->rdw.z;
+    a->rdw[0][m] = rdw.x, a->rdw[1][m] = rdw.y, a->rdw[2][m] = rdw.z;
     a->ri[m] = radius;
     a->rj[m] = below;
     a->yields[m] = fl_body_free(b, c->i) ? b->invm[c->i] : fl_body_mobility(b, c->i, n, v3(0, 0, 0));
     a->invm[m] = law->rest * law->rest * a->yields[m];
-    a->turns[m] = seen->turns;
+    a->turns[m] = arm * arm * seen->turns;
+    a->across[m] = fl_body_free(b, c->i) ? a->yields[m] : b->invm[c->i];
     a->many[m] = seen->n > 1.0 ? seen->n : 1.0;
     a->k[m] = r->k;
     a->friction[m] = law->friction;
@@ -155,23 +160,19 @@ static void count(fl_ball_tally *t, const fl_spheres *a, int32_t m, int32_t c)
     if (deep > t->worst) t->worst = deep, t->worst_row = ~c;
 }
 
-/* On the sphere. */
-static fl_vec3 force_of(const fl_ball_row *r, fl_vec3 n, double over)
-{
-    return v3_madd(r->rub, r->k * fl_normal_power(over, 1.5) + r->damped, n);
-}
-
 /* Middle of the overlap, from the wall's point. */
 static fl_vec3 middle(const fl_world *w, const fl_ball_lean *c, fl_vec3 n, double over)
 {
     return v3_madd(v3_sub(w->b.x[c->i], w->b.x[c->j]), 0.5 * over - w->b.radius[c->i], n);
 }
 
-static void press(const fl_world *w, fl_ball_load *load, const fl_ball_lean *c, fl_vec3 n, double over)
+/* What the m-th of them does to the wall. */
+static void press(const fl_world *w, fl_ball_load *load, const fl_ball_lean *c, fl_vec3 n,
+                  const fl_spheres *a, int32_t m)
 {
-    const fl_vec3 F = force_of(&c->row, n, over);
+    const fl_vec3 F = v3_madd(vector(a->rub, m), a->elastic[m] + a->damped[m], n);
     load->f = v3_sub(load->f, F);
-    load->t = v3_sub(load->t, v3_cross(middle(w, c, n, over), F));
+    load->t = v3_sub(load->t, v3_cross(middle(w, c, n, a->overlap[m]), F));
 }
 
 /* What those of chunk a do to wall j. */
@@ -198,7 +199,7 @@ static void finish(fl_world *w, int32_t chunk, batch *q, double dt, int survey)
         fl_ball_lean *const c = &s->lean[q->row[m]];
         if (dt >= 0.0) save(&c->row, a, m);
         hand_out(&s->sum[c->i], a, m);
-        press(w, load_of(w, chunk, c->j), c, q->n[m], a->overlap[m]);
+        press(w, load_of(w, chunk, c->j), c, q->n[m], a, m);
         count(&s->tally[chunk], a, m, q->row[m]);
         if (survey)
             s->stiff[c->i] +=

@@ -576,6 +576,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
         goto fail;
     w->points = has_points(field) || has_points(feed);
     if (w->points && fl_structure_balls(&w->structure, err)) goto fail;
+    if (w->points && w->sea.n && !(w->drag = fl_alloc(w->n, sizeof *w->drag, err))) goto fail;
     for (int32_t i = 0; i < field->n; i++) {
         if (fl_world_put(w, i, field, i, err)) goto fail;
         bound += w->b.bound[i] + w->b.radius[i];
@@ -624,7 +625,7 @@ void fl_world_free(fl_world *w)
     free(w->hit), free(w->watch), free(w->live), free(w->met), free(w->share), free(w->turn);
     fl_balls_free(&w->balls);
     free(w->id), free(w->q0), free(w->material), free(w->face), free(w->law), free(w->box), free(w->home);
-    free(w->group);
+    free(w->group), free(w->drag);
     free(w->odometer_found), free(w->part_impulse), free(w->part_moment), free(w->part_force),
         free(w->part_torque);
     free(w->part_peak), free(w->part_about);

@@ -144,6 +144,39 @@ static void damped_by_the_speed_at_the_end(void **state)
     assert_true(touched > 20 * test_times(20) && pulled < touched);
 }
 
+/* What is damping of the force on a ball at rest that a current holds against a wall: the share. */
+static double damped_at_rest(double safety)
+{
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "material.ice.young=1 MPa");
+    lab_set(&l, "run.gravity=9.81");
+    lab_setf(&l, "run.safety=%g", safety);
+    lab_set(&l, "water.level=0");
+    lab_set(&l, "water.current=3 0 0");
+    lab_set(&l, "water.drag_force_coef=0.05");
+    lab_set(&l, "contact.friction=0");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_set(&l, "boundary.type=rigid free free");
+    lab_set(&l, "boundary.max=0 none none");
+    lab_sphere(&l, v3(-0.5, 0, -0.4), 0.5, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 0);
+    assert_int_equal(lab_run(&l, (int64_t)(60.0 / l.w.dt)), 0);
+    const fl_pair p = lab_pair(&l, 0);
+    assert_true(p.n && v3_norm(p.f) > 100.0);
+    lab_free(&l);
+    return v3_norm(p.fd) / v3_norm(p.f);
+}
+
+/* Drag takes part in what rows foresee: nothing is, but for what drag by the square of the speed does between
+ * the halves of a step, to order 2. */
+static void held_by_a_current(void **state)
+{
+    (void)state;
+    const double long_steps = damped_at_rest(0.4), half = damped_at_rest(0.2);
+    assert_true(long_steps < 2e-3 && half < 0.3 * long_steps);
+}
+
 /* One step of the only sphere and wall as leans.h takes it, and as all other pairs go; whether they touch. */
 static int step_both(fl_world *w, fl_pair *p, fl_pair *other)
 {
@@ -509,6 +542,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
                                        cmocka_unit_test(damped_by_the_speed_at_the_end),
+                                       cmocka_unit_test(held_by_a_current),
                                        cmocka_unit_test(leaning_like_any_other_pair),
                                        cmocka_unit_test(leaning_deep_and_not),
                                        cmocka_unit_test(leaning_on_what),
