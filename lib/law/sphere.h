@@ -32,8 +32,8 @@ typedef struct {
     double wj[3][FL_SPHERES_MOST];
     double ri[FL_SPHERES_MOST]; /* radii                                    [m]     */
     double rj[FL_SPHERES_MOST];
-    double du[3][FL_SPHERES_MOST];      /* by how much u is foreseen to have changed by the end of the */
-    double rdw[3][FL_SPHERES_MOST];     /* step, and r_i w_i + r_j w_j, lead.h     [m/s]   */
+    double du[3][FL_SPHERES_MOST];      /* by how much u, and r_i w_i + r_j w_j, are foreseen to  */
+    double rdw[3][FL_SPHERES_MOST];     /* have changed by the end of the step, lead.h    [m/s]   */
     double yields[FL_SPHERES_MOST];     /* 1/M = 1/m_i + 1/m_j                      [1/kg]  */
     double across[FL_SPHERES_MOST];     /* the same across n                         [1/kg]  */
     double turns[FL_SPHERES_MOST];      /* r_i^2/I_i + r_j^2/I_j                    [1/kg]  */

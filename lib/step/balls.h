@@ -49,7 +49,7 @@ static inline fl_vec3 fl_balls_between(const fl_world *w, int32_t c)
  * a step of 2h [s] whose first half is over, the forces being those of its begin. */
 void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h);
 
-/* Row or wall c begins to touch, or ends it. */
+/* So many more rows and walls touch body i; any thread may say so. */
 static inline void fl_balls_turn(fl_balls *s, int32_t i, int32_t by)
 {
 #pragma omp atomic

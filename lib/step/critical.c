@@ -10,6 +10,14 @@
 /* As many faces at rest on faces may a body have under it at once, as far as the step knows beforehand. */
 #define FACES 2.0
 
+/* So much as crowd() says of floes; of spheres it says more. */
+#define FLOES_AMONG 2.7
+
+/* Part of what a crowd of spheres leaves at which its damping, which is held back among one another, is right
+ * to 1e-4 of what the floor under a pack bears, and to 4e-3 at any time: 0.12 of 2/omega (S28 of
+ * verify_step). */
+#define TRUE_AMONG_MANY 0.4
+
 /* Largest compliance of a core's vertices along the normals of their faces, 1/m + (v x n).I^-1 (v x n)
  * [1/kg]; of a segment's ends across it, which turns it about y or z. */
 static double softest(const fl_world *w, int32_t i)
@@ -155,17 +163,11 @@ static double shaken(const fl_touching *law, double turns)
  * spin one way, where 5.1 was measured, 4 of smooth ones that touch twelve, 2.5 of cubes held at all six
  * faces, for the bound of a face holds at its corner.  Two bodies have no more than the half that automatic
  * steps keep to. */
-#define FLOES_AMONG 2.7
 static double crowd(const fl_world *w, int round, double times)
 {
     if (w->n <= 2) return 1.0;
     return fmin(round ? times > 1.0 ? 5.5 : 4.0 : FLOES_AMONG, w->n);
 }
-
-/* Part of what so many leave at which their damping, which is held back among one another, is right to some
- * 1e-3 of the largest force: of a pack of spheres that sinks by its weight that was seen at 0.1 of 2/omega,
- * where this makes 0.12, and five times as much at 0.2. */
-#define TRUE_AMONG_MANY 0.4
 
 /* The most that was asked for of some laws: what is left falls with it, and logarithms are in it. */
 typedef struct {
@@ -205,15 +207,14 @@ static double shows(double left)
 static void leave(const fl_world *w, remains *r, const fl_touching *law, int late, double across, double few,
                   double many)
 {
-    const int crowds = many > FLOES_AMONG;
-    const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE;
+    const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE, spheres = many > FLOES_AMONG;
     if (law->kind == FL_LAW_PATCH && !late) {
         const double struck = fl_damping_struck(law->chi);
         r->one = fmin(r->one, struck);
         r->alone = fmin(r->alone, 0.8 * struck); /* S25 of verify_step */
         r->measured = fmin(r->measured, shows(struck));
-        if (crowds) r->measured = fmin(r->measured, FL_STEADY / sqrt(many));
-        r->many = fmin(r->many, (crowds ? TRUE_AMONG_MANY : 1.0) * FL_STEADY / sqrt(many));
+        if (spheres) r->measured = fmin(r->measured, FL_STEADY / sqrt(many));
+        r->many = fmin(r->many, (spheres ? TRUE_AMONG_MANY : 1.0) * FL_STEADY / sqrt(many));
         return;
     }
     const double times = few * (closed ? across : 1.0); /* others are damped along alone */

@@ -120,7 +120,7 @@ static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean
     a->yields[m] = fl_body_free(b, c->i) ? b->invm[c->i] : fl_body_mobility(b, c->i, n, v3(0, 0, 0));
     a->invm[m] = law->rest * law->rest * a->yields[m];
     a->turns[m] = arm * arm * seen->turns;
-    a->across[m] = fl_body_free(b, c->i) ? a->yields[m] : b->invm[c->i];
+    a->across[m] = b->invm[c->i];
     a->many[m] = seen->n > 1.0 ? seen->n : 1.0;
     a->k[m] = r->k;
     a->friction[m] = law->friction;

@@ -33,10 +33,9 @@
  * each way, where it is largest.  Besides, z changes by 3/2 tolerance^(1/4) at the most, and a turn brings
  * no corner that does not press nearer by more than a part of the radii: sliding convex bodies have no place
  * that is deeper than is foretold, turning ones may have.  What lies along a plane is no way: where over it A
- * stands changes nothing.  Where a look finds
- * far more than was asked for, the contact has become another one, and what was learnt is forgotten; so are
- * the looks before it, unless it has only gone far past what it might.  Nothing is told where pressures
- * oppose each other, as in a slot: their sum is not their force.
+ * stands changes nothing.  Where a look finds far more than was asked for, the contact has become another
+ * one, and what was learnt is forgotten; so are the looks before it, unless it has only gone far past what it
+ * might.  Nothing is told where pressures oppose each other, as in a slot: their sum is not their force.
  *
  * At a look W takes a step, by what was told wrong: as a rule with the same sign in every bounce, for what is
  * left out is of an even order.  So what has come together since the bodies touch is given back over the way
@@ -89,7 +88,7 @@ typedef struct {
     fl_mat3 M;                            /* how A stood to B,                            */
     fl_vec3 o;                            /* and where                                [m] */
     fl_vec3 at;                           /* the point, frame of B                    [m] */
-    double slides;                        /* 1; 0: B is a plane across z, and A may        */
+    double slides;                        /* 0 where B is a plane across z, else 1         */
     double overlap, energy, force, slope; /* the largest [m], W [J], its slope [N], dF/ds along it [N/m] */
     double power;                         /* p, by quarters                               */
     fl_vec3 first, centre;                /* the first place of what pressed, frame of B; from there, where

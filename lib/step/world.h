@@ -348,8 +348,7 @@ typedef struct {
     fl_sinks sink, was; /* of the forces of now, and of those before; see works.h */
     /* [gain_cap] at was.place[k], 0: of nobody; of the first kick of a step, and of all of its first half */
     fl_gain *gain, *lead;
-    fl_gain
-        *drag; /* [n] of spheres what of that first half was drag's; NULL without water, wind or spheres */
+    fl_gain *drag; /* [n] of spheres, what of that half was drag's; NULL where there is none */
     int32_t gain_cap;
     double skin;            /* boxes are grown by half of it [m] */
     double *odometer_found; /* [total] odometers at the last search */

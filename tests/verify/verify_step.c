@@ -512,6 +512,74 @@ static void between_many(const char *id, const heaped *h, double friction, doubl
     verify_below(id, "that with run.error over the largest that is stable", most / lo, 1.0);
 }
 
+/* Rough spheres in close packing between walls, which sink into one another by their weight: what the floor
+ * has borne in each tenth of the time, with so many steps in it [N s]. */
+enum { TENTHS = 10 };
+static void sink(int32_t steps, double time, double bore[TENTHS])
+{
+    enum { SIDE = 5, LAYERS = 8 };
+    const double r = 0.125, d = 2.0 * r, row = sqrt(0.75) * d, up = sqrt(2.0 / 3.0) * d;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "material.ice.young=10 MPa");
+    lab_set(&l, "contact.friction=0.3");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_set(&l, "run.gravity=9.81");
+    lab_setf(&l, "boundary.min=%.17g %.17g 0", -r, -r);
+    lab_setf(&l, "boundary.max=%.17g %.17g none", SIDE * d, (SIDE - 1) * row + row / 3.0 + r);
+    for (int k = 0; k < SIDE * SIDE * LAYERS; k++) {
+        const int x = k % SIDE, y = k / SIDE % SIDE, z = k / (SIDE * SIDE);
+        lab_sphere(&l, v3(d * x + r * ((y + z) % 2), row * (y + z % 2 / 3.0), r + up * z), r, v3(0, 0, 0),
+                   v3(0, 0, 0));
+    }
+    lab_make(&l, time / TENTHS / steps);
+    int32_t floor = -1; /* the wall that looks up */
+    for (int32_t j = l.w.n; j < l.w.b.total; j++)
+        if (m3_col(fl_body_axes(&l.w.b, j), 2).z > 0.9) floor = j;
+    for (int tenth = 0; tenth < TENTHS; tenth++) {
+        bore[tenth] = 0.0;
+        for (int32_t s = 0; s < steps; s++) {
+            bore[tenth] -= 0.5 * l.w.dt * l.w.b.f[floor].z;
+            if (lab_run(&l, 1)) exit(1);
+            bore[tenth] -= 0.5 * l.w.dt * l.w.b.f[floor].z;
+        }
+    }
+    lab_free(&l);
+}
+
+static void sinking(const char *id)
+{
+    static const int32_t STEPS[] = {24, 48, 96};
+    double critical, truth[TENTHS], off[3], tenth[3];
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "material.ice.young=10 MPa");
+    lab_set(&l, "contact.friction=0.3");
+    lab_set(&l, "run.gravity=9.81");
+    for (int k = 0; k < 3; k++) lab_sphere(&l, v3(k, 0, 0), 0.125, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-6);
+    critical = fl_world_critical(&l.w);
+    lab_free(&l);
+    const double time = 0.12 * critical * STEPS[0] * TENTHS;
+    sink(1536, time, truth);
+    for (int k = 0; k < 3; k++) {
+        double bore[TENTHS], all = 0.0, most = 0.0, largest = 0.0;
+        sink(STEPS[k], time, bore);
+        for (int t = 0; t < TENTHS; t++) {
+            all += truth[t], off[k] = t ? off[k] : 0.0;
+            off[k] += bore[t] - truth[t];
+            most = fmax(most, fabs(bore[t] - truth[t])), largest = fmax(largest, truth[t]);
+        }
+        off[k] = fabs(off[k]) / all, tenth[k] = most / largest;
+        verify_note("a pack sinks by its weight, in steps of %.3g of 2/omega: what the floor bears is off by "
+                    "%.1e, in a tenth of the time by %.1e of the most",
+                    0.12 * STEPS[0] / STEPS[k], off[k], most / largest);
+        if (k == 0) verify_below(id, "what the floor bears, off by", off[k], 1e-3);
+        if (k == 0) verify_below(id, "in any tenth of the time, of the most", tenth[k], 5e-3);
+    }
+    verify_below(id, "what is left of that at a quarter of the step", tenth[2] / tenth[0], 0.1);
+}
+
 int main(void)
 {
     verify_begin("the largest stable step");
@@ -542,6 +610,7 @@ int main(void)
     in_a_slot("S26");
     verify_row("S27", "speed of a box on a block with thirty others there [m/s]", beside(30), beside(0), 0.0,
                VERIFY_ABS);
+    sinking("S28");
     static const double MANY[] = {0.0, 0.2, 0.3, 0.5};
     for (size_t k = 0; k < sizeof MANY / sizeof *MANY; k++) {
         if (verify_quick() && k % 2) continue;
