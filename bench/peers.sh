@@ -81,16 +81,19 @@ miss()
         END { printf "%.2g", sqrt(off / moved) }' "$1" pack.1 "$2"
 }
 
-# states PROGRAM: what it makes of the pack in 400 steps, and in steps cut in 2 and in 16 parts.
+# In how many parts steps are cut; errors are those against the last.
+parts='1 2 4 8 16 64'
+
+# states PROGRAM: what it makes of the pack in 400 steps, and in steps cut so.
 states()
 {
-    for parts in 1 2 16; do
+    for cut in $parts; do
         if [ "$1" = floe ]; then
-            "$spheres" pack 1 400 $parts >state || fail "bench_spheres: no state"
+            "$spheres" pack 1 400 "$cut" >state || fail "bench_spheres: no state"
         else
-            peer "$1" 1 0.005 1 400 $parts
+            peer "$1" 1 0.005 1 400 "$cut"
         fi
-        mv state "$1.$parts"
+        mv state "$1.$cut"
     done
 }
 
@@ -117,23 +120,42 @@ while [ $turn -lt "$turns" ]; do
 done
 for p in floe $peers; do
     states "$p"
-    printf '%s\t%s\t%s\t%s\n' "$p" "$(miss "$p.1" "$p.16")" "$(miss "$p.2" "$p.16")" "$(miss "$p.16" floe.16)"
+    for cut in $parts; do
+        printf '%s\t%s\t%s\n' "$p" "$cut" "$(miss "$p.$cut" "$p.64")"
+    done
+    printf '%s\t%s\t%s\n' "$p" apart "$(miss "$p.64" floe.64)"
 done >errors
 
 for p in floe $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >versions
 {
     heading "$turns turns"
-    printf 'spheres\tprogram\tversion\tskin[m]\tns\tratio\tcontacts\terror\terror_half\tapart\n'
+    printf 'spheres\tprogram\tversion\tskin[m]\tns\tratio\tcontacts\terror\terror_half\tapart'
+    printf '\tns_1e-3\tratio_1e-3\tns_1e-4\tratio_1e-4\n'
     awk 'BEGIN { FS = OFS = "\t" }
+        # The part of a step that has such an error, by the power between those on either side; all of it
+        # where that has no more.
+        function part(p, e,  k) {
+            if (error[p, 1] <= e) return 1
+            for (k = 2; k <= 16 && error[p, k] > e;) k *= 2
+            if (k > 16) return 0
+            return exp(log(e / error[p, k]) / log(error[p, k / 2] / error[p, k]) * log(2)) / k
+        }
+        function at(p, ns, e) { return part(p, e) > 0 ? ns / part(p, e) : "-" }
+        function both(p, ns, own, e) {
+            if (at(p, ns, e) == "-" || at("floe", own, e) == "-") return "-" OFS "-"
+            return sprintf("%.1f", at(p, ns, e)) OFS sprintf("%.2f", at(p, ns, e) / at("floe", own, e))
+        }
         FILENAME == "versions" { version[$1] = $2; next }
-        FILENAME == "errors" { error[$1] = $2 OFS $3 OFS $4; next }
+        FILENAME == "errors" { error[$1, $2] = $3; next }
         !(($1, $2) in ns) { list[++n] = $1 SUBSEP $2 }
         !(($1, $2) in ns) || $4 < ns[$1, $2] { ns[$1, $2] = $4; rest[$1, $2] = $5; skin[$1, $2] = $3 }
         END {
             for (k = 1; k <= n; k++) {
                 split(list[k], of, SUBSEP)
                 print of[1], of[2], version[of[2]], skin[list[k]], ns[list[k]],
-                    sprintf("%.2f", ns[list[k]] / ns[of[1], "floe"]), rest[list[k]], error[of[2]]
+                    sprintf("%.2f", ns[list[k]] / ns[of[1], "floe"]), rest[list[k]], error[of[2], 1],
+                    error[of[2], 2], error[of[2], "apart"], both(of[2], ns[list[k]], ns[of[1], "floe"], 1e-3),
+                    both(of[2], ns[list[k]], ns[of[1], "floe"], 1e-4)
             }
         }' versions errors rows
 } >peers.tsv

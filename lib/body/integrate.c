@@ -340,15 +340,32 @@ void fl_move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
     }
 }
 
-double fl_body_mobility(const fl_bodies *b, int32_t i, fl_vec3 along, fl_vec3 moment)
+/* u for Y by solve_free() with nothing given, as a matrix. */
+static fl_sym3 free_ease(const fl_mat3 *R, fl_vec3 diag, unsigned hold)
 {
-    if (i >= b->n) return 0.0;
-    const unsigned hold = b->hold[i];
-    const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]), none = v3(0, 0, 0);
+    const fl_vec3 none = v3(0, 0, 0), x = solve_free(R, diag, hold, none, v3(1, 0, 0)),
+                  y = solve_free(R, diag, hold, none, v3(0, 1, 0)),
+                  z = solve_free(R, diag, hold, none, v3(0, 0, 1));
+    return (fl_sym3){x.x, x.y, x.z, y.y, y.z, z.z};
+}
+
+fl_yielding fl_body_yielding(const fl_bodies *b, int32_t i)
+{
+    fl_yielding e = {.straight = s3_even(0.0), .turn = s3_even(0.0)};
+    if (i >= b->n) return e;
+    const unsigned stands = fl_body_stands(b, i), turns = b->hold[i] / FL_HOLD_RX;
     const fl_mat3 R = fl_body_axes(b, i);
-    const fl_vec3 v =
-        solve_free(&R, b->added ? v3_add(m, b->added[i]) : m, fl_body_stands(b, i), none, along);
-    return v3_dot(along, v) + v3_dot(moment, solve_free(&R, b->I[i], hold / FL_HOLD_RX, none, moment));
+    e.turn = turns ? free_ease(&R, b->I[i], turns) : s3_from(&R, b->invI[i]);
+    if (b->added) {
+        const fl_vec3 m = v3_add(v3(b->m[i], b->m[i], b->m[i]), b->added[i]);
+        e.straight = stands ? free_ease(&R, m, stands) : s3_from(&R, v3(1.0 / m.x, 1.0 / m.y, 1.0 / m.z));
+    } else {
+        const double each = b->invm[i];
+        e.straight = (fl_sym3){.xx = stands & FL_HOLD_X ? 0.0 : each,
+                               .yy = stands & FL_HOLD_Y ? 0.0 : each,
+                               .zz = stands & FL_HOLD_Z ? 0.0 : each};
+    }
+    return e;
 }
 
 void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)

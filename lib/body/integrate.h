@@ -20,6 +20,7 @@
 #ifndef FL_BODY_INTEGRATE_H
 #define FL_BODY_INTEGRATE_H
 #include "body/body.h"
+#include "geom/sym3.h"
 
 /* v += h f/m (by the momentum, with added mass), L += h t of body i < n, but for what is held; renews w.
  *   h  [s], half a step */
@@ -51,9 +52,27 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3
  * [rad/s2].  What turns without a torque is left out: w x L and, with added mass, P x u. */
 void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn);
 
-/* u.M^-1 u of body i for the impulse u = (along, moment), world axes, of what is not held, with the water
- * that moves along: what it gives to the speed in its own direction; 0 for what others move. */
-double fl_body_mobility(const fl_bodies *b, int32_t i, fl_vec3 along, fl_vec3 moment);
+/* How a body yields to impulses, world axes: what is not held of it, with the water that moves along. */
+typedef struct {
+    fl_sym3 straight; /* velocity for an impulse      [1/kg]     */
+    fl_sym3 turn;     /* and spin for an angular one  [1/(kg m2)] */
+} fl_yielding;
+
+/* Of body i; none of what others move. */
+fl_yielding fl_body_yielding(const fl_bodies *b, int32_t i);
+
+/* What an impulse along n gives to the speed of its centre along that [1/kg]. */
+static inline double fl_body_yields(const fl_bodies *b, int32_t i, fl_vec3 n)
+{
+    const fl_yielding e = fl_body_yielding(b, i);
+    return v3_dot(n, s3_mul(e.straight, n));
+}
+
+/* u.M^-1 u for the impulse u = (along, moment): what it gives to the speed in its own direction. */
+static inline double fl_ease_along(const fl_yielding *e, fl_vec3 along, fl_vec3 moment)
+{
+    return v3_dot(along, s3_mul(e->straight, along)) + v3_dot(moment, s3_mul(e->turn, moment));
+}
 
 /* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
  * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w; with added mass so P and

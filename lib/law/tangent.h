@@ -4,8 +4,7 @@
 #ifndef FL_LAW_TANGENT_H
 #define FL_LAW_TANGENT_H
 #include <math.h>
-#include "base/wide.h"
-#include "geom/vec3.h"
+#include "geom/sym3.h"
 #include "law/damping.h"
 
 /* What a contact remembers from step to step. */
@@ -16,28 +15,6 @@ typedef struct {
     double k_turn; /* stiffness that was built with                   [N m/rad] */
 } fl_slip;
 
-/* Velocity of a point for an impulse there, a symmetric matrix [1/kg]. */
-typedef struct {
-    double xx, xy, xz, yy, yz, zz;
-} fl_ease;
-
-FL_WIDE_PART fl_vec3 fl_ease_by(fl_ease K, fl_vec3 a)
-{
-    return v3(K.xx * a.x + K.xy * a.y + K.xz * a.z, K.xy * a.x + K.yy * a.y + K.yz * a.z,
-              K.xz * a.x + K.yz * a.y + K.zz * a.z);
-}
-
-/* K of a frame whose axes are x, y, z. */
-FL_WIDE_PART fl_ease fl_ease_turned(fl_ease K, fl_vec3 x, fl_vec3 y, fl_vec3 z)
-{
-    const fl_vec3 a = v3_madd(v3_madd(v3_scale(K.xx, x), K.xy, y), K.xz, z),
-                  b = v3_madd(v3_madd(v3_scale(K.xy, x), K.yy, y), K.yz, z),
-                  c = v3_madd(v3_madd(v3_scale(K.xz, x), K.yz, y), K.zz, z);
-    return (fl_ease){a.x * x.x + b.x * y.x + c.x * z.x, a.x * x.y + b.x * y.y + c.x * z.y,
-                     a.x * x.z + b.x * y.z + c.x * z.z, a.y * x.y + b.y * y.y + c.y * z.y,
-                     a.y * x.z + b.y * y.z + c.y * z.z, a.z * x.z + b.z * y.z + c.z * z.z};
-}
-
 /* A contact as friction sees it. */
 typedef struct {
     fl_vec3 n;    /* unit normal, from B to A */
@@ -45,7 +22,7 @@ typedef struct {
     double g;     /* tangential damping [N s/m]      */
     double limit; /* mu |F_n| >= 0 [N]               */
     double arm;   /* root mean square distance of the pressure from its centre [m]; 0 for a point */
-    fl_ease ease; /* of its point, A against B */
+    fl_sym3 ease; /* of its point, A against B [1/kg] */
     double turns; /* and of the turn about n for one about n            [1/kg m2] */
     double many;  /* contacts that damp one body, fl_damping_closing() */
 } fl_rubbing;
@@ -110,9 +87,9 @@ FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_gri
 FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way, fl_grip before, double dt)
 {
     const double g = c.g, h = 0.5 * dt;
-    const fl_vec3 n = c.n, u = fl_ease_by(c.ease, n);
+    const fl_vec3 n = c.n, u = s3_mul(c.ease, n);
     const double nn = v3_dot(n, u);
-    const fl_ease P = {c.ease.xx - 2.0 * n.x * u.x + nn * n.x * n.x,
+    const fl_sym3 P = {c.ease.xx - 2.0 * n.x * u.x + nn * n.x * n.x,
                        c.ease.xy - n.x * u.y - n.y * u.x + nn * n.x * n.y,
                        c.ease.xz - n.x * u.z - n.z * u.x + nn * n.x * n.z,
                        c.ease.yy - 2.0 * n.y * u.y + nn * n.y * n.y,
@@ -120,14 +97,14 @@ FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way,
                        c.ease.zz - 2.0 * n.z * u.z + nn * n.z * n.z};
     const double mean = 0.5 * (P.xx + P.yy + P.zz),
                  a = fl_damping_for(h * g * mean, c.many, 2.0 * c.many) * h * g;
-    const fl_vec3 r = v3_madd(fl_ease_by(P, v3_madd(v3_scale(-g * h, way.f), a, before.f)), -g, moves.f);
+    const fl_vec3 r = v3_madd(s3_mul(P, v3_madd(v3_scale(-g * h, way.f), a, before.f)), -g, moves.f);
     const double xx = 1.0 + a * P.xx, yy = 1.0 + a * P.yy, zz = 1.0 + a * P.zz, xy = a * P.xy, xz = a * P.xz,
                  yz = a * P.yz;
-    const fl_ease adjoint = {yy * zz - yz * yz, yz * xz - xy * zz, xy * yz - yy * xz,
+    const fl_sym3 adjoint = {yy * zz - yz * yz, yz * xz - xy * zz, xy * yz - yy * xz,
                              xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
     const double each = 1.0 / (xx * adjoint.xx + xy * adjoint.xy + xz * adjoint.xz);
     const double turns = c.turns * c.arm * c.arm;
-    return (fl_grip){v3_scale(each, fl_ease_by(adjoint, r)),
+    return (fl_grip){v3_scale(each, s3_mul(adjoint, r)),
                      (-g * (moves.m + h * turns * way.m) + a * turns * before.m) / (1.0 + a * turns)};
 }
 

@@ -264,12 +264,11 @@ static double somehow(const fl_bodies *b, int32_t k)
 static void load_masses(const fl_world *w, batch *t)
 {
     const fl_bodies *b = &w->b;
-    const fl_vec3 none = v3(0, 0, 0);
     for (int32_t m = 0; m < t->m; m++) {
         const int32_t i = w->balls.i[t->row[m]], j = w->balls.j[t->row[m]];
         if (t->at.invm[m] == t->at.invm[m]) continue;
         const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
-        t->at.yields[m] = fl_body_mobility(b, i, n, none) + fl_body_mobility(b, j, n, none);
+        t->at.yields[m] = fl_body_yields(b, i, n) + fl_body_yields(b, j, n);
         t->at.across[m] = somehow(b, i) + somehow(b, j);
         t->at.invm[m] = t->rest2[m] * t->at.yields[m];
     }

@@ -97,7 +97,7 @@ static void press(pressure *q, double elastic, double normal, fl_vec3 n, fl_vec3
 
 /* How both part there, as in fl_rubbing. */
 typedef struct {
-    fl_ease ease;
+    fl_sym3 ease;
     double turns;
 } parting;
 
@@ -246,7 +246,8 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
         }
         less = v3_norm2(way) / (sum * sum);
     }
-    const double mass = less > 0.0 ? fl_pair_mass(w, p, way, turn_i, turn_j) / less : INFINITY;
+    const fl_pair_yielding ease = fl_pair_yielding_of(w, p);
+    const double mass = less > 0.0 ? fl_pair_mass(w, p, &ease, way, turn_i, turn_j) / less : INFINITY;
     const double begins = closing_of(b, p, a, &first);
     double closing = begins;
     for (int32_t c = 1; c < s->n; c++) {
@@ -254,9 +255,9 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
         if (s->place[c].du > 0.0) closing = fmax(closing, closing_of(b, p, a, &t));
     }
     const double chi = damping_factor(p, closing > 0.0 ? closing : 0.0, mass), push = k * first.part,
-                 more =
-                     one ? nearer(a, begins, push, chi * push, fl_pair_yields(w, p, way, turn_i, turn_j, 1.0))
-                         : 0.0;
+                 more = one ? nearer(a, begins, push, chi * push,
+                                     fl_pair_yields(&ease, way, turn_i, turn_j, 1.0))
+                            : 0.0;
     pressure all = {.at = first.aj, .walls = s->n > 1};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_place *q = &s->place[c];
@@ -270,7 +271,7 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
         all.slope += slope;
     }
     parting part = {.turns = 0.0};
-    if (one && chi > 0.0 && p->law->friction > 0.0) part.ease = fl_pair_ease(w, p, first.ai, first.aj);
+    if (one && chi > 0.0 && p->law->friction > 0.0) part.ease = fl_pair_ease(&ease, first.ai, first.aj);
     rub(w, p, &all, chi, &part, r, a);
     if (survey) stiffen_points(w, p, s, &all, r);
     p->energy += p->spring;
@@ -345,6 +346,12 @@ static int renew(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t, cons
 
 /* --- what is found by a look ------------------------------------------------------------------- */
 
+/* What turning adds: x, y, z torques of unit forces, in a frame where the inverse moments are invI. */
+static fl_sym3 turning(fl_sym3 K, fl_vec3 invI, fl_vec3 x, fl_vec3 y, fl_vec3 z)
+{
+    return s3_add(K, s3_products(x, y, z, v3_mul(invI, x), v3_mul(invI, y), v3_mul(invI, z)));
+}
+
 /* How both part, who are free: yields, ease and turns, from how A stands to B alone; q is about `at`.  A
  * push is taken for half of the sum of the pressures at least. */
 static void find_ease(const fl_bodies *b, const fl_pair *p, const fl_bearing *q, fl_vec3 at, fl_seen *seen)
@@ -360,10 +367,10 @@ static void find_ease(const fl_bodies *b, const fl_pair *p, const fl_bearing *q,
     seen->yields = each + turns / f2;
     seen->turns = v3_dot(v3_mul(ei, ni), ni) + v3_dot(v3_mul(ej, n), n);
     const fl_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    const fl_ease alone = {.xx = each, .yy = each, .zz = each},
-                  turned = fl_pair_ease_more(alone, ei, m3_tmul(*M, v3_cross(ai, x)),
-                                             m3_tmul(*M, v3_cross(ai, y)), m3_tmul(*M, v3_cross(ai, z)));
-    seen->ease = fl_pair_ease_more(turned, ej, v3_cross(aj, x), v3_cross(aj, y), v3_cross(aj, z));
+    const fl_sym3 alone = s3_even(each),
+                  turned = turning(alone, ei, m3_tmul(*M, v3_cross(ai, x)), m3_tmul(*M, v3_cross(ai, y)),
+                                   m3_tmul(*M, v3_cross(ai, z)));
+    seen->ease = turning(turned, ej, v3_cross(aj, x), v3_cross(aj, y), v3_cross(aj, z));
 }
 
 /* W = k sqrt(U) of the places summed up in q, which gets their couple. */
@@ -418,16 +425,17 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     p->energy = seen.energy;
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
     const fl_vec3 elastic = p->f;
-    const double mass = fl_pair_mass(w, p, elastic, p->ti, p->tj);
     parting part;
-    double yields = seen.yields;
+    double yields = seen.yields, mass = p->mass;
     if (!fl_pair_is_free(w, p)) {
+        const fl_pair_yielding ease = fl_pair_yielding_of(w, p);
         const fl_vec3 middle = m3_mul(R, v3_scale(1.0 / q.elastic, q.middle));
-        part.ease = fl_pair_ease(w, p, v3_add(ai, middle), v3_add(aj, middle));
-        part.turns = fl_pair_turns(w, p, v3_unit(elastic));
-        yields = fl_pair_yields(w, p, elastic, p->ti, p->tj, seen.scale * q.elastic);
+        mass = fl_pair_mass(w, p, &ease, elastic, p->ti, p->tj);
+        part.ease = fl_pair_ease(&ease, v3_add(ai, middle), v3_add(aj, middle));
+        part.turns = fl_pair_turns(&ease, v3_unit(elastic));
+        yields = fl_pair_yields(&ease, elastic, p->ti, p->tj, seen.scale * q.elastic);
     } else {
-        part.ease = fl_ease_turned(seen.ease, m3_col(R, 0), m3_col(R, 1), m3_col(R, 2));
+        part.ease = s3_turned(seen.ease, m3_col(R, 0), m3_col(R, 1), m3_col(R, 2));
         part.turns = seen.turns;
     }
     const fl_vec3 spin = v3_add(v3_sub(b->w[p->i], b->w[p->j]), v3_sub(a->by.wi, a->by.wj));
@@ -486,8 +494,9 @@ static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, const ahead *a
     p->energy = fl_buoyancy_force(&wet, up, level, w->bed.stiffness, &force, &moment);
     const fl_vec3 ai = m3_mul(R, wet.centre), aj = v3_sub(ai, r->off);
     const double damping = w->bed.damping * wet.waterplane, elastic = w->bed.stiffness * wet.volume;
+    const fl_pair_yielding ease = fl_pair_yielding_of(w, p);
     const double foreseen = -v3_dot(n, next(b, p, a, ai, aj)),
-                 yields = fl_pair_yields(w, p, n, v3_cross(ai, n), v3_cross(aj, n), 1.0),
+                 yields = fl_pair_yields(&ease, n, v3_cross(ai, n), v3_cross(aj, n), 1.0),
                  closing = foreseen + nearer(a, foreseen, elastic, damping, yields);
     double normal = elastic + damping * closing;
     if (normal < 0.0) normal = 0.0;
@@ -534,9 +543,10 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
     const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
     const fl_vec3 u = went(b, p, a, ai, aj); /* without a lead: as the manual has it */
     const double closing = -v3_dot(nw, u);
+    const fl_pair_yielding ease = fl_pair_yielding_of(w, p);
     const double mass = law->literal2 && b->invm[p->j] > 0.0
                             ? b->m[p->i] + b->m[p->j]
-                            : fl_pair_mass(w, p, nw, v3_cross(ai, nw), v3_cross(aj, nw));
+                            : fl_pair_mass(w, p, &ease, nw, v3_cross(ai, nw), v3_cross(aj, nw));
     const double elastic = k * fl_normal_power(overlap, exponent);
     double normal = elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, closing);
     if (normal < 0.0) normal = 0.0;

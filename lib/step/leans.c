@@ -117,7 +117,7 @@ static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean
     a->rdw[0][m] = rdw.x, a->rdw[1][m] = rdw.y, a->rdw[2][m] = rdw.z;
     a->ri[m] = radius;
     a->rj[m] = below;
-    a->yields[m] = fl_body_free(b, c->i) ? b->invm[c->i] : fl_body_mobility(b, c->i, n, v3(0, 0, 0));
+    a->yields[m] = fl_body_free(b, c->i) ? b->invm[c->i] : fl_body_yields(b, c->i, n);
     a->invm[m] = law->rest * law->rest * a->yields[m];
     a->turns[m] = arm * arm * seen->turns;
     a->across[m] = b->invm[c->i];

@@ -109,57 +109,38 @@ void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
     p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
 }
 
-double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj)
+double fl_pair_mass(const fl_world *w, const fl_pair *p, const fl_pair_yielding *e, fl_vec3 f, fl_vec3 ti,
+                    fl_vec3 tj)
 {
-    const fl_bodies *b = &w->b;
     if (fl_pair_is_plain(w, p)) return p->mass;
-    const double yields = fl_body_mobility(b, p->i, f, v3_scale(0.5, ti)) +
-                          fl_body_mobility(b, p->j, f, v3_scale(0.5, tj)),
+    const double yields =
+                     fl_ease_along(&e->i, f, v3_scale(0.5, ti)) + fl_ease_along(&e->j, f, v3_scale(0.5, tj)),
                  mass = v3_norm2(f) / yields;
     return isfinite(mass) ? mass : p->mass; /* nothing moves */
 }
 
-double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses)
+double fl_pair_yields(const fl_pair_yielding *e, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses)
 {
     const double f2 = fmax(v3_norm2(f), 0.25 * presses * presses);
-    return f2 > 0.0 ? (fl_body_mobility(&w->b, p->i, f, ti) + fl_body_mobility(&w->b, p->j, f, tj)) / f2
-                    : 0.0;
+    return f2 > 0.0 ? (fl_ease_along(&e->i, f, ti) + fl_ease_along(&e->j, f, tj)) / f2 : 0.0;
 }
 
-static const fl_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
-
-/* K with what body i adds that moves as it likes. */
-static fl_ease ease_free(const fl_bodies *b, int32_t i, fl_vec3 arm, fl_ease K)
+/* Of the point of a body that lies by `arm` from its centre. */
+static fl_sym3 ease_at(const fl_yielding *e, fl_vec3 arm)
 {
-    if (i >= b->n) return K;
-    const fl_vec3 x = v3_cross(arm, X), y = v3_cross(arm, Y), z = v3_cross(arm, Z);
-    if (b->ball[i]) return fl_pair_ease_more(K, b->invI[i], x, y, z);
-    const fl_mat3 R = q_matrix(b->q[i]);
-    return fl_pair_ease_more(K, b->invI[i], m3_tmul(R, x), m3_tmul(R, y), m3_tmul(R, z));
+    const fl_vec3 x = {0, arm.z, -arm.y}, y = {-arm.z, 0, arm.x}, z = {arm.y, -arm.x, 0}; /* arm x axes */
+    return s3_add(e->straight,
+                  s3_products(x, y, z, s3_mul(e->turn, x), s3_mul(e->turn, y), s3_mul(e->turn, z)));
 }
 
-fl_ease fl_pair_ease(const fl_world *w, const fl_pair *p, fl_vec3 ai, fl_vec3 aj)
+fl_sym3 fl_pair_ease(const fl_pair_yielding *e, fl_vec3 ai, fl_vec3 aj)
 {
-    const fl_bodies *b = &w->b;
-    if (fl_pair_is_free(w, p)) {
-        const double each = 1.0 / p->mass;
-        const fl_ease K = {.xx = each, .yy = each, .zz = each};
-        return ease_free(b, p->j, aj, ease_free(b, p->i, ai, K));
-    }
-    /* along the axes, and along sums of two */
-    const fl_vec3 way[6] = {X, Y, Z, v3_add(X, Y), v3_add(X, Z), v3_add(Y, Z)};
-    double q[6];
-    for (int k = 0; k < 6; k++)
-        q[k] = fl_body_mobility(b, p->i, way[k], v3_cross(ai, way[k])) +
-               fl_body_mobility(b, p->j, way[k], v3_cross(aj, way[k]));
-    return (fl_ease){q[0], 0.5 * (q[3] - q[0] - q[1]), 0.5 * (q[4] - q[0] - q[2]),
-                     q[1], 0.5 * (q[5] - q[1] - q[2]), q[2]};
+    return s3_add(ease_at(&e->i, ai), ease_at(&e->j, aj));
 }
 
-double fl_pair_turns(const fl_world *w, const fl_pair *p, fl_vec3 n)
+double fl_pair_turns(const fl_pair_yielding *e, fl_vec3 n)
 {
-    const fl_vec3 none = v3(0, 0, 0);
-    return fl_body_mobility(&w->b, p->i, none, n) + fl_body_mobility(&w->b, p->j, none, n);
+    return v3_dot(n, s3_mul(s3_add(e->i.turn, e->j.turn), n));
 }
 
 void fl_pair_end(fl_pair *p)

@@ -3,6 +3,7 @@
 #ifndef FL_STEP_PAIRING_H
 #define FL_STEP_PAIRING_H
 #include "base/wide.h"
+#include "body/integrate.h"
 #include "step/world.h"
 
 /* Resolve the laws of all pairs of materials in the scene, w->law. -1 with FL_SYSTEM. */
@@ -20,29 +21,32 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
 /* A new pair that does not touch. */
 void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
 
+/* How both of a pair yield to impulses. */
+typedef struct {
+    fl_yielding i, j;
+} fl_pair_yielding;
+
+static inline fl_pair_yielding fl_pair_yielding_of(const fl_world *w, const fl_pair *p)
+{
+    return (fl_pair_yielding){fl_body_yielding(&w->b, p->i), fl_body_yielding(&w->b, p->j)};
+}
+
 /* The mass M that meets in a contact with the force f on i and the torques ti and tj about the centres [kg]:
  * the reduced mass of two that are free and move no water with them.  Else
  *     1/M = (f.M^-1 f + 1/4 t.I^-1 t)/f^2 of both:
  * a point turns the bodies by all of its arm, a face keeps them from it, and with half of the arm M is never
  * less than that of a point, nor more than four times as much. */
-double fl_pair_mass(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj);
+double fl_pair_mass(const fl_world *w, const fl_pair *p, const fl_pair_yielding *e, fl_vec3 f, fl_vec3 ti,
+                    fl_vec3 tj);
 
 /* The velocity at which they part for each impulse of that force, along it, as their turning adds to it
  * [1/kg]: 1/M with all of the torques.  It is taken for half of the sum of the pressures at least. */
-double fl_pair_yields(const fl_world *w, const fl_pair *p, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses);
+double fl_pair_yields(const fl_pair_yielding *e, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses);
 
 /* How the points ai and aj of both part for an impulse there, world axes, and the bodies about n for one
  * about n [1/kg m2]. */
-fl_ease fl_pair_ease(const fl_world *w, const fl_pair *p, fl_vec3 ai, fl_vec3 aj);
-double fl_pair_turns(const fl_world *w, const fl_pair *p, fl_vec3 n);
-
-/* What turning adds: x, y, z torques of unit forces, in a frame where the inverse moments are invI. */
-static inline fl_ease fl_pair_ease_more(fl_ease K, fl_vec3 invI, fl_vec3 x, fl_vec3 y, fl_vec3 z)
-{
-    const fl_vec3 a = v3_mul(invI, x), b = v3_mul(invI, y), c = v3_mul(invI, z);
-    return (fl_ease){K.xx + v3_dot(a, x), K.xy + v3_dot(a, y), K.xz + v3_dot(a, z),
-                     K.yy + v3_dot(b, y), K.yz + v3_dot(b, z), K.zz + v3_dot(c, z)};
-}
+fl_sym3 fl_pair_ease(const fl_pair_yielding *e, fl_vec3 ai, fl_vec3 aj);
+double fl_pair_turns(const fl_pair_yielding *e, fl_vec3 n);
 
 /* What the velocity of A against B is off by where the two turn together: v and w are those of the middle of
  * a step, arms those of its end, and with them

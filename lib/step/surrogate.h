@@ -96,7 +96,7 @@ typedef struct {
     fl_vec3 beside;                       /* of the force, what is not pressures      [N] */
     double pressure;                      /* sum of its e                             [N] */
     double yields;                        /* as in fl_seen, with                   [1/kg] */
-    fl_ease ease;                         /* and                                          */
+    fl_sym3 ease;                         /* and                                          */
     double turns;                         /*                                    [1/kg m2] */
     fl_vec3 direction, turning;           /* as in fl_pressing, times dW/dU               */
     double damping[FL_PRESSING], wide;
@@ -165,7 +165,7 @@ typedef struct {
     const fl_springs *springs;   /* of the places */
     double scale, energy, slope; /* dW/dU, W, and as in fl_surrogate */
     double yields;               /* fl_pair_yields() where both are free, [1/kg]; and */
-    fl_ease ease;                /* as in fl_rubbing, where the pressures have their middle; frame of B */
+    fl_sym3 ease;                /* as in fl_rubbing, where the pressures have their middle; frame of B */
     double turns;
     double radii;            /* sum of the two [m] */
     double room, bound;      /* of fl_shell_room(), INFINITY where B is convex; of A about o [m] */

@@ -63,12 +63,12 @@ FL_WIDE_PART fl_before before_of(const batch *b, int k)
                           slip_of(b, k));
 }
 
-FL_WIDE_PART fl_ease ease_of(const fl_lane *a, int k)
+FL_WIDE_PART fl_sym3 ease_of(const fl_lane *a, int k)
 {
-    return (fl_ease){a[0].a[k], a[1].a[k], a[2].a[k], a[3].a[k], a[4].a[k], a[5].a[k]};
+    return (fl_sym3){a[0].a[k], a[1].a[k], a[2].a[k], a[3].a[k], a[4].a[k], a[5].a[k]};
 }
 
-FL_WIDE_PART void put_ease(fl_lane *a, int k, fl_ease K)
+FL_WIDE_PART void put_ease(fl_lane *a, int k, fl_sym3 K)
 {
     a[0].a[k] = K.xx, a[1].a[k] = K.xy, a[2].a[k] = K.xz;
     a[3].a[k] = K.yy, a[4].a[k] = K.yz, a[5].a[k] = K.zz;
@@ -170,8 +170,8 @@ FL_WIDE_VERSIONS static void relate(batch *restrict b)
         fl_lane3_put(b->s.M + 3, k, v3(Mx.y, My.y, Mz.y));
         fl_lane3_put(b->s.M + 6, k, v3(Mx.z, My.z, Mz.z));
         put_ease(b->ease, k,
-                 fl_ease_turned(ease_of((b->s.s + FL_SURROGATE_ROW(ease.xx)), k), v3(B.x.x, B.y.x, B.z.x),
-                                v3(B.x.y, B.y.y, B.z.y), v3(B.x.z, B.y.z, B.z.z)));
+                 s3_turned(ease_of((b->s.s + FL_SURROGATE_ROW(ease.xx)), k), v3(B.x.x, B.y.x, B.z.x),
+                           v3(B.x.y, B.y.y, B.z.y), v3(B.x.z, B.y.z, B.z.z)));
     }
 }
 
@@ -186,10 +186,11 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
                       m = out(R, fl_lane3(b->s.m, k));
         const fl_vec3 ti = v3_add(v3_cross(v3_add(at, fl_lane3(b->off, k)), f), m),
                       tj = v3_add(v3_cross(at, f), m);
-        b->mass.a[k] = fl_pair_mass(w, c, f, ti, tj);
-        OF(yields)->a[k] = fl_pair_yields(w, c, f, ti, tj, b->s.share.a[k] * OF(pressure)->a[k]);
-        put_ease(b->ease, k, fl_pair_ease(w, c, v3_add(at, fl_lane3(b->off, k)), at));
-        OF(turns)->a[k] = fl_pair_turns(w, c, v3_unit(f));
+        const fl_pair_yielding ease = fl_pair_yielding_of(w, c);
+        b->mass.a[k] = fl_pair_mass(w, c, &ease, f, ti, tj);
+        OF(yields)->a[k] = fl_pair_yields(&ease, f, ti, tj, b->s.share.a[k] * OF(pressure)->a[k]);
+        put_ease(b->ease, k, fl_pair_ease(&ease, v3_add(at, fl_lane3(b->off, k)), at));
+        OF(turns)->a[k] = fl_pair_turns(&ease, v3_unit(f));
     }
 }
 
