@@ -27,7 +27,7 @@ typedef struct {
 } fl_restart;
 
 /* Write path, compressed:
- *     #checkpoint 2
+ *     #checkpoint VERSION        FL_RESTART_VERSION
  *     #by ...                    history, complete lines
  *     part NAME BYTES            and so many bytes, for each part
  *     end HASH                   fl_hash() of all bytes before, 16 hexadecimal digits

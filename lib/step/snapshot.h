@@ -6,19 +6,22 @@
  * books, and the loads of the interval under way.  What follows from scene, ice and structure is not: the
  * world that reads has been made from the same ones.  Doubles are the 16 hexadecimal digits of their bits,
  * leading zeros left out, so that every bit survives, on any machine.  Rows:
- *     world     step found_at dt t0 step0 skin dt_critical critical_body dt_safe parts total sea pairs
+ *     world     step found_at dt t0 step0 skin dt_critical critical_body dt_safe parts total sea pairs balls
  *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
  *     told      how often surrogates told a force, and how well, where there are some
  *     part ...  impulse, moment and peak of the loads interval
  *     traffic   who has come and gone; next ... of each floe that comes in; place ... who stands in it
  *     body ...  x v L q w f t held, carried (with added mass alone), odometer, odometer at the last search
- *     mover ... x v L q w f t held, what of its springs and dampers lasts, and the hash of its track
+ *     nap ...   with run.sleep: who sleeps, since when and until when, what bounds it, sums of the report
+ *     mover ... hash of its track, x v L q w f t held, what of its springs and dampers lasts
+ *     bond ...  state, energies, keep, forces; damage, its bounds and slip of each point, unless it is whole
  *     pressed   what follows, where panels or events are asked for: panel, mark and event rows
  *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown, waved with waves alone;
  *               with water.every what of the last look is needed, fl_sea_held
  *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces,
- *               and with contact.surrogate where it was looked at last and what was learnt */
+ *               and with contact.surrogate where it was looked at last and what was learnt
+ *     ball ...  i j, image where space is periodic, whether it touches, and its memory, fl_ball_row */
 #ifndef FL_STEP_SNAPSHOT_H
 #define FL_STEP_SNAPSHOT_H
 #include <stdio.h>
