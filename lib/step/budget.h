@@ -15,8 +15,8 @@
  * the structure later, the momenta of the floes at the end of the window must be right, too, to the goal (of
  * a peak, half of it) of the impulses they took: of contacts, or of all there is, where that is more, for a
  * floe that water turns while another one is grazed owes nothing to that touch.  The step that is taken has
- * been tried itself, or is shorter: what is shaken across on an edge is stable up to fl_world_across() of the
- * largest that is tried, and a window may see nothing of that.
+ * been tried itself, or is shorter: by other laws than `patch` what is shaken across on an edge is stable up
+ * to fl_world_across() of the largest that is tried, and a window may see nothing of that.
  *
  * It is looked at the start; before two things may meet whose kind of meeting has not been seen with nearly
  * that momentum (floe and floe, floe and each part of the structure, floe and wall); and again after ten

@@ -141,8 +141,8 @@ static double shakiest(const fl_world *w, int32_t i)
  * is round.  Others turn as much where they stand on a narrow end or an edge, or lean; the critical step of
  * the contacts there are knows of that, but what damping by the speed half a step ago leaves of it is down to
  * 0.55 of law->left.  A face at the height h has 1 + m h^2/I, which is less than its edges have; a corner has
- * up to 7, but does not touch alone.  Half of law->left, which automatic steps keep to, is below all that: it
- * is 0 but where edges are asked for. */
+ * up to 7, but does not touch alone.  Half of law->left, which automatic steps keep to with such damping, is
+ * below all that: it is 0 but where edges are asked for. */
 static double turning(const fl_world *w, int32_t i, int edges)
 {
     const fl_bodies *b = &w->b;
@@ -158,11 +158,12 @@ static double shaken(const fl_touching *law, double turns)
 }
 
 /* So many contacts that act on one motion are N times as stiff as the bound of one contact, and N times as
- * damped: of 2/omega of that bound they leave left(z sqrt(N))/sqrt(N), near 1/N of what one leaves.  N of a
- * motion in which all neighbours go against each other: 5.7 of rough spheres that touch twelve others and all
- * spin one way, where 5.1 was measured, 4 of smooth ones that touch twelve, 2.5 of cubes held at all six
- * faces, for the bound of a face holds at its corner.  Two bodies have no more than the half that automatic
- * steps keep to. */
+ * damped: of 2/omega of that bound those that are late leave left(z sqrt(N))/sqrt(N), near 1/N of what one
+ * leaves, and those of `patch` FL_STEADY/sqrt(N).  N of a motion in which all neighbours go against each
+ * other: 5.5 of rough spheres that touch twelve others and all spin one way, where 5.1 was measured, 4 of
+ * smooth ones that touch twelve, 2.7 of cubes held at all six faces, for the bound of a face holds at its
+ * corner.  Two bodies have no more than what automatic steps keep to of one contact: 0.8 of what an impact
+ * leaves, half of what late ones do. */
 static double crowd(const fl_world *w, int round, double times)
 {
     if (w->n <= 2) return 1.0;
@@ -260,8 +261,8 @@ static double stiffest_contact(const fl_world *w, int edges, int32_t *body, rema
             leave(w, left, law, grooves || fl_ride_yields(w, j), times, few, crowd(w, round, times));
         }
         /* Two equal bodies on one spring: twice the compliance.  Where the error is measured the step may be
-         * the largest that is stable; else it is to be a small share of it, and that of the more careful
-         * bound. */
+         * half of the largest that is stable, by the closer bound; else it is to be a small share of it, and
+         * that of the more careful one. */
         const int faces = w->scene->run.error > 0.0 && w->face[i] > 0.0;
         const double soft = faces ? softest_face(w, i) : softest(w, i);
         double drawn;

@@ -5,10 +5,12 @@
 #define FL_STEP_CRITICAL_H
 #include "step/world.h"
 
-/* The automatic step [s], and the body that sets it: safety * 2/omega (under run.error the largest that
- * damping allows), omega^2 bounded per body by the stiffest face it can meet, at its most compliant vertex,
- * lowered for damping: to half of what that of one contact leaves, or 0.8 of it where an impact is all that
- * it leaves less for, or to what it leaves where bodies are held between many (S20 to S25 of verify_step). */
+/* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the
+ * stiffest face it can meet, at its most compliant vertex, lowered for damping: to half of what that of one
+ * contact leaves, or 0.8 of it where an impact is all that it leaves less for, or to what it leaves where
+ * bodies are held between many (S20 to S25 of verify_step).  Under run.error the longest that windows can be
+ * trusted at: half of 2/omega, and of what an impact leaves a quarter, or up to 0.8 of it where that is below
+ * 0.12 of 2/omega or little is damped. */
 double fl_world_dt(const fl_world *w, int32_t *body);
 
 /* What it is a part of: 2/omega, without damping [s]. */
@@ -23,8 +25,9 @@ double fl_world_damped(const fl_world *w);
 #define FL_STEADY 0.7
 
 /* What is left of that where all that is rough is shaken across, standing on its end or an edge, and balls
- * are held between others: of `core`, if damping is strong, 0.55 for boxes and 0.7 for balls; 1 for `patch`.
- * Automatic steps are below it. */
+ * are held between others: of `core`, if damping is strong, 0.55 for boxes and 0.7 for balls; 1 for `patch`,
+ * but for balls in grooves and with parts of a structure that move by themselves.  Automatic steps are below
+ * it. */
 double fl_world_across(const fl_world *w);
 
 /* What steps of dt are off by, without a look at any other step; 0 before the first contact.  With r = dt

@@ -41,7 +41,7 @@ typedef struct {
     double rest;        /* c of fl_damping_rest()                            */
     double zeta, alpha; /* of the manual's laws                              */
     double surrogate;   /* tolerance of surrogate.h; 0: none                 */
-    double left;        /* what damping leaves of the critical step          */
+    double left;        /* what damping by the speed half a step ago leaves of the critical step */
     int32_t literal2, literal18;
 } fl_touching;
 
