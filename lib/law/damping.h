@@ -17,10 +17,10 @@ double fl_damping_crossley(double e);
 double fl_damping_stored(double D);
 
 /* A contact that is pressed together slowly is no impact: with chi = D/max(v_touch, c sqrt(2 W/M)) its
- * damping ratio is D/(2 c), which the step must follow.  So c = 1 up to a ratio of 2.5, that is down to e =
- * 0.2; below the ratio stays there, or is that which the impact itself reaches, D fl_damping_stored(D)/2,
- * where that is more.  c fl_damping_stored(D) <= 1, so that in an impact v_touch is the larger one, and e
- * holds. */
+ * damping ratio is D/(2 c), which the step must follow but under fl_damping_closing().  So c = 1 up to a
+ * ratio of 2.5, that is down to e = 0.2; below the ratio stays there, or is that which the impact itself
+ * reaches, D fl_damping_stored(D)/2, where that is more.  c fl_damping_stored(D) <= 1, so that in an impact
+ * v_touch is the larger one, and e holds. */
 double fl_damping_rest(double D);
 
 /* chi of an impact that has approached by `touch` at the most, D and c of its law, W stored, M reduced. */

@@ -141,9 +141,9 @@ FL_WIDE_PART fl_held fl_tangent_hold(fl_grip from, double size, fl_grip s, fl_gr
  * 3. The two are limited together, (F/limit)^2 + (M/(limit arm))^2 <= 1: beyond, it slides, and they keep
  *    the limit and turn as fl_tangent_flow() has it.  Source of the ellipse: Goyal, Ruina & Papadopoulos,
  *    Wear 143 (1991) 307.
- * 4. Damping -g v, -g arm^2 w is added, but no more of it than the limit leaves beside the springs: none
- *    where it slides, as Coulomb has it (V04 of verify_spheres), and the force does not jump as that begins
- *    or ends.
+ * 4. Damping is added as fl_tangent_damped() foresees it, -g v and -g arm^2 w of the end of the step, but no
+ *    more of it than the limit leaves beside the springs: none where it slides, as Coulomb has it (V04 of
+ *    verify_spheres), and the force does not jump as that begins or ends.
  *
  *   dt      [s] */
 FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, double dt)

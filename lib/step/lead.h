@@ -88,7 +88,8 @@ FL_WIDE_PART double fl_lead_turned(fl_before was, fl_vec3 n, fl_vec3 ai, fl_vec3
     return v3_dot(n, v3_sub(was.rubbed.m, v3_cross(arm, was.rubbed.f))) - was.sprung;
 }
 
-/* Contacts of thing k in the step before, of which n are no rows (ball.h). */
+/* Contacts of thing k in the step before, of which n are no rows (ball.h).  Rows count for one each; among
+ * themselves they go by all_round() of ballforce.c. */
 static inline int32_t fl_lead_pressed(const fl_world *w, int32_t k, int32_t n)
 {
     return w->balls.bodies && k < w->n ? n + w->balls.touched[k] : n;
