@@ -20,8 +20,7 @@ typedef struct {
     double length; /* of the overlap, for EP and EF     [m]  */
     double area;   /* of the overlap, for FF            [m2] */
     double sine;   /* of the angle of the edges, for EE      */
-    double
-        r_low; /* radius of the side with the lower feature (vertex before edge before face); 0: sharp [m] */
+    double r_low;  /* radius of the side with the lower feature, of vertex, edge, face; 0: sharp     [m] */
     double r_high; /* of the other side; 0: flat                                                       [m] */
     double edge;   /* shorter of the two edges, for EE: bounds the contact ellipse                     [m] */
 } fl_manual_contact;

@@ -2,10 +2,10 @@
 /* sphere.h -- the contact of two spheres, many at a time: Hertz with the damping of Hunt and Crossley along
  * the normal (normal.h), and the spring of tangent.h across it for a contact that is a point.
  *
- * With D = x_i - x_j, d = |D|, n = D / d, overlap s = r_i + r_j - d > 0, and arms a_i = r_i - s/2, a_j =
- * r_j - s/2 from the centres to the middle of the overlap:
+ *     D = x_i - x_j,  n = D/|D|,  overlap s = r_i + r_j - |D| > 0,
+ *     arms a_i = r_i - s/2, a_j = r_j - s/2 from the centres to the middle of the overlap,
  *     F_e = k s^(3/2),  W = 2/5 k s^(5/2),  chi = D_0 / max(v_touch, c sqrt(2 W / M)),
- *     F_n = F_e (1 + chi d) >= 0,
+ *     F_n = F_e (1 + chi d) >= 0,  d the speed of approach,
  *     v_t = (v_i - v_j) - (a_i w_i + a_j w_j) x n,
  *     k_t = c 3/2 k sqrt(s),  g = c chi F_e,  F_t by tangent.h with the twist 1/2 n.(w_i + w_j),
  * force on i F_n n + F_t, torques -a_i n x F_t and -a_j n x F_t.

@@ -4,18 +4,23 @@
  * Where a face f of the surface B, an edge or a corner of it lies within the prism over a face F of the core
  * A, farther from its sides than its fading rim is wide, nothing of it is cut by F, and F covers f whole.
  * Then its parts of U (places.h) are integrals over f, its edge or its corner, which are fixed in B, of
- * powers of s = R - h,   h = n_F.(x - p_F),          of f over F, of an edge and of a corner, and of s = R -
- * h/c, c = -n_F.n_f,               of F over f, U = m(c) int s^4 c dA + m(c) int (R - h/c)^4 dA + ... h
- * changes with a motion of A as if F pressed along its normal in x, so that all their forces have the
+ * powers of
+ *     s = R - h,      h = n_F.(x - p_F),      of f over F, of an edge and of a corner,
+ *     s = R - h/c,    c = -n_F.n_f,           of F over f,
+ *     U = 1/2 m(c) (int (R - h)^4 c dA + int (R - h/c)^4 dA) + ...
+ * h changes with a motion of A as if F pressed along its normal in x, so that all their forces have the
  * direction of -n_F: one sum has the force and the moment of a thousand faces, eight or four at a time, and
  * beside it stands the couple dU/dc n_F x n_f.  There is no rim to pull: by Gauss' theorem the pulls of the
  * sides of f in areas.h are what its forces along n_f lack of those along n_F.  All this is exact where f is
  * flat; corners off its plane count where they are.
  *
- * Where f lies over one side of F, with the inward normal m there and d = m.(x - p_m), it is cut: to d >= 0
- * for f over F, which fades as d/rim to the side, and to g = d + (h/c) m.n_f >= 0 for F over f.  That gives
- * forces that move with the side, m s^4/rim for each area of the rim and (m + n_F m.n_f/c) s^4/|grad g| for
- * each length of the border g = 0 there at x + n_f h/c, and no more than that: one more place has their sum.
+ * Where f lies over one side of F, with the inward normal m there and d = m.(x - p_m), it is cut:
+ *     to d >= 0                       for f over F, which fades as d/rim to the side,
+ *     to g = d + (h/c) m.n_f >= 0     for F over f.
+ * That gives forces that move with the side,
+ *     m s^4/rim                            for each area of the rim,
+ *     (m + n_F m.n_f/c) s^4/|grad g|       for each length of the border g = 0 there at x + n_f h/c,
+ * and no more than that: one more place has their sum.
  * Edges are cut at any sides.  What is over two sides of F, or within a hair of one, is left to areas.h and
  * strips.h.
  *

@@ -52,8 +52,7 @@ typedef struct {
     fl_vec3 across; /* unit, from B to A: what bodies approach along, and press */
     fl_vec3 p;      /* middle of the overlap, on the line of that force [m] */
     double closing; /* for the caller: speed of approach here [m/s] */
-    int32_t
-        stands; /* so many places in a row stand for one strip (2) or one area (3); 0: this one for itself */
+    int32_t stands; /* so many places in a row stand for one strip (2), one area (3); 0: for itself alone */
 } fl_place;
 
 /* Three places that stand for an area may be made of many features: one of those. */

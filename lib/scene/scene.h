@@ -65,8 +65,7 @@ typedef struct {
     int32_t error_of; /* enum fl_error_of */
     fl_vec3 gravity;  /* [m/s2] as a vector; the file's one number g is (0, 0, -g) */
     int32_t threads;  /* 0: auto, as many as OpenMP offers */
-    double
-        sleep; /* largest error of a step of a floe that touches nothing, over its radius; 0: none sleeps */
+    double sleep; /* largest error of a step of a floe that touches nothing, over its radius; 0: none does */
     int32_t search_every; /* steps between neighbour searches; 0: auto, when the skin is used up */
 } fl_scene_run;
 

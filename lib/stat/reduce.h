@@ -9,8 +9,7 @@
 typedef struct fl_run_state fl_run_state;
 typedef struct {
     fl_record record;
-    fl_summary
-        sum; /* of what has been read so far: blocks and cycles as they are complete; see fl_run_update() */
+    fl_summary sum;      /* of what has been read: blocks and cycles as they end; see fl_run_update() */
     fl_run_state *state; /* [states] of each signal that is summed up, in the order of the record */
     int32_t states;
     fl_series_ask ask;

@@ -131,9 +131,7 @@ typedef struct {
     double bond, fracture;         /* in bonds; taken out by their damage */
     double carried;                /* put in by floes that came, less what left with others */
     double start, residual;
-    double
-        /* largest kinetic energy + |each of the works| so far: what the residual is held against */
-        throughput;
+    double throughput; /* largest kinetic energy + |each of the works|: what the residual is held against */
     double friction, damping, drive; /* the works booked so far: with that of the half kick that lies ahead */
 } fl_ledger;
 
