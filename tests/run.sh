@@ -5,7 +5,7 @@
 #            fuzz as it is under the sanitizers, where BUILD/san has the programs
 #   verify   every verification program in full, with its table, and a line for each hard case
 #   bench    every benchmark, one at a time, and what of bench/ renews bench/results: the kernel, surrogates,
-#            peers and the ladder
+#            sleep, late jams, threads, peers, blocks and the ladder
 #   update   rewrite what the golden cases expect; CASE='name*' limits it to some of them
 # One line a program, the output of those that failed, and at the end "N passed, N failed" alone.
 # Status 0, or 1 when something failed.  A program that crashes, hangs (FLOE_TIMEOUT seconds, else 600; 3600 for
