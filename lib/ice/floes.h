@@ -3,8 +3,8 @@
  *
  * The sides of every cell move inward by one common distance, the inset d; what is left is the floe as the
  * water sees it (the outer polygon).  Moved inward by the radius once more it is the core that is written.
- * Dilating the core's sides gives the outer polygon back (PHYSICS: inputs give the outer size), so both must
- * have the same sides: the fit of a floe sees to that.
+ * Dilating the core's sides gives the outer polygon back (what is asked for is outer sizes, voronoi-ice(1)),
+ * so both must have the same sides: the fit of a floe sees to that.
  *   - A side that vanishes between outer polygon and core, or is left shorter than FL_FLOES_SHORT times the
  *     core's inscribed radius, is dropped, where the sharper corner that this leaves stays inside the cell
  *     with half the inset to spare.

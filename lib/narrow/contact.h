@@ -14,7 +14,7 @@
 typedef enum { FL_MODE_NONE, FL_VV, FL_VE, FL_VF, FL_EE, FL_EP, FL_EF, FL_FF } fl_mode;
 
 #define FL_PARALLEL_ENTER 1e-3 /* [rad] features become parallel below this angle, */
-#define FL_PARALLEL_LEAVE 2e-3 /* [rad] and cease to be above this one (PHYSICS 1.1) */
+#define FL_PARALLEL_LEAVE 2e-3 /* [rad] and cease to be above this one, fl_contact_find() */
 
 typedef struct {
     fl_mode mode;

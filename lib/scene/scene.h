@@ -99,7 +99,7 @@ typedef struct {
     char a[FL_SCENE_NAME], b[FL_SCENE_NAME]; /* both empty: the defaults of all pairs */
     int32_t law;                             /* enum fl_law */
     double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
-    double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli (PHYSICS 2.3) */
+    double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
     double softening;                        /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
     double tangential;                       /* kt / kn */
     double friction, restitution;            /* negative in scene.contact: auto, from the materials */

@@ -4,7 +4,7 @@
  * the core's faces moved out by the dilation radius, volume and moments by the divergence theorem, and what
  * of that lies below the still water.  Against it stands what was asked for: concentration times area,
  * thickness and density; and the draft of a prism, thickness times density over that of water, at which every
- * floe displaces what it weighs. H05: cells that are slivers, PHYSICS.md. */
+ * floe displaces what it weighs.  H05: cells that are slivers. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
