@@ -231,6 +231,7 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
     if (around(walls, B->p, shell, box, ra + margin, reach + margin)) return -1;
     l->far = walls->faces == 0;
+    l->keeps = 1;
     l->shies = 0;
     if (fl_room(&l->shy, &l->shy_cap, A->p->nv, sizeof *l->shy)) return -1;
     for (int32_t v = 0; v < A->p->nv && !l->far; v++)

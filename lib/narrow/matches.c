@@ -113,7 +113,7 @@ static int32_t column(const search *s, int32_t v)
     return *k = t->vertices++;
 }
 
-static fl_cut cut_of(const fl_poly *p, const plane *q)
+static inline __attribute__((always_inline)) fl_cut cut_of(const fl_poly *p, const plane *q)
 {
     if (q->g == FORK_AT) { /* as far from the edges to a and to b */
         const fl_vec3 o = p->v[q->f], to_a = v3_unit(v3_sub(p->v[q->a], o)),
@@ -409,6 +409,20 @@ static void put_match(whole *to, const draft *d, const match *m)
     for (int32_t k = 0; k < m->n + m->corners; k++) put(to, side[k]);
 }
 
+/* Numbers of planes may be -1 and FORK_AT. */
+enum { TOLD = -FORK_AT };
+
+static void put_plane(whole *to, const plane *q)
+{
+    put(to, q->f + TOLD), put(to, q->a + TOLD), put(to, q->b + TOLD), put(to, q->g + TOLD);
+}
+
+static void put_planes(whole *to, const draft *d)
+{
+    for (int way = 0; way < 2; way++)
+        for (int32_t k = 0; k < d->table[way].planes; k++) put_plane(to, &d->table[way].plane[k]);
+}
+
 static void put_all(whole *to, const draft *d)
 {
     for (int way = 0; way < 2; way++)
@@ -425,11 +439,12 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
         const table *t = &d->table[way];
         if (t->planes > INT32_MAX / 2 / (t->vertices + FL_LANES)) return -1;
     }
+    if (!l->keeps) put_planes(&count, d);
     put_all(&count, d);
     const int wide = count.most <= UINT8_MAX ? 0 : count.most <= UINT16_MAX ? 1 : 2;
     const int64_t planes = (int64_t)d->table[0].planes + d->table[1].planes,
-                  bytes = planes * (int64_t)sizeof(fl_cut) + d->numbers * (int64_t)sizeof(double) +
-                          (count.n << wide);
+                  bytes = (l->keeps ? planes * (int64_t)sizeof(fl_cut) : 0) +
+                          d->numbers * (int64_t)sizeof(double) + (count.n << wide);
     if (l->size < bytes || l->size > bytes + bytes / 4) { /* a list lasts: nothing is kept in vain */
         free(l->block);
         l->block = NULL;
@@ -439,7 +454,7 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
     fl_cut *cut = l->block;
     for (int way = 0; way < 2; way++) {
         const table *t = &d->table[way];
-        for (int32_t k = 0; k < t->planes; k++) *cut++ = cut_of(way ? a : b, &t->plane[k]);
+        for (int32_t k = 0; k < t->planes && l->keeps; k++) *cut++ = cut_of(way ? a : b, &t->plane[k]);
         l->cuts[way] = t->planes;
         l->vertices[way] = t->vertices;
     }
@@ -449,8 +464,30 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
     l->used_v = d->used_v, l->used_f = d->used_f;
     l->n = d->n;
     l->wide = (int16_t)wide;
-    put_all(&(whole){.at = number, .wide = wide}, d);
+    whole to = {.at = number, .wide = wide};
+    if (!l->keeps) put_planes(&to, d);
+    put_all(&to, d);
     return 0;
+}
+
+static inline __attribute__((always_inline)) void make_cuts(const fl_matches *l, int wide, int way,
+                                                            const fl_poly *p, fl_cut *out)
+{
+    const void *told = fl_matches_told(l);
+    int64_t at = way ? 4 * (int64_t)l->cuts[0] : 0;
+    for (int32_t k = 0; k < l->cuts[way]; k++, at += 4) {
+        const plane q = {.f = fl_matches_get(told, wide, at) - TOLD,
+                         .a = fl_matches_get(told, wide, at + 1) - TOLD,
+                         .b = fl_matches_get(told, wide, at + 2) - TOLD,
+                         .g = fl_matches_get(told, wide, at + 3) - TOLD};
+        out[k] = cut_of(p, &q);
+    }
+}
+
+void fl_matches_make_cuts(const fl_matches *l, int way, const fl_poly *p, fl_cut *out)
+{
+    if (l->wide == 0) make_cuts(l, 0, way, p, out);
+    else make_cuts(l, l->wide, way, p, out);
 }
 
 /* --- the list ---------------------------------------------------------------------------------- */

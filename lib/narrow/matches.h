@@ -33,7 +33,9 @@ typedef struct {
 } fl_cut;
 
 /* A list lies in one block: planes, numbers, and whole numbers of 8 bits each, or of 16 or 32 where one of
- * them would not fit.  A match is a row of those:
+ * them would not fit.  Planes of two bodies are not kept, which would be more than half of a list: what they
+ * pass through is told by four whole numbers each, and they are made for a look, for a thirtieth of its cost.
+ * A match is a row of those:
  *     kind + 8 way + 16 sides     way 0: of A over B, 1: of B over A
  *     own, other                  numbers of the features
  *     column                      of the vertex, or the first of an edge; of a face how many corners it has
@@ -59,7 +61,8 @@ struct fl_matches {
     int32_t cuts[2], vertices[2], numbers; /* of the tables of the two ways; factors and lengths */
     int32_t used_v, used_f;                /* vertices and faces of A that the list speaks of */
     int16_t wide;                          /* whole numbers of 8 bits, 1: of 16, 2: of 32 */
-    int16_t clear;                         /* the cores do not meet while it holds */
+    uint8_t clear;                         /* the cores do not meet while it holds */
+    uint8_t keeps;                         /* the caller's: planes are kept */
     fl_mat3 M; /* how A's frame stood to B's when it was listed, as fl_places_enter() has it */
     fl_vec3 o;
     double shift2, turn2;    /* it holds while |o - o0|^2 < shift2 and |M - M0|^2 < turn2; 0: no longer */
@@ -80,6 +83,7 @@ static inline int32_t fl_matches_columns(int32_t vertices)
     return (vertices + FL_LANES - 1) / FL_LANES * FL_LANES;
 }
 
+/* Those of one way, where they are kept. */
 static inline const fl_cut *fl_matches_cuts(const fl_matches *l, int way)
 {
     return (const fl_cut *)l->block + (way ? l->cuts[0] : 0);
@@ -87,11 +91,18 @@ static inline const fl_cut *fl_matches_cuts(const fl_matches *l, int way)
 
 static inline const double *fl_matches_numbers(const fl_matches *l)
 {
-    return (const double *)(const void *)(fl_matches_cuts(l, 1) + l->cuts[1]);
+    return (const double *)l->block + (l->keeps ? 4 * ((int64_t)l->cuts[0] + l->cuts[1]) : 0);
 }
 
-/* The whole numbers: columns of way 0, of way 1, what is used of A, rows of matches. */
-static inline const void *fl_matches_whole(const fl_matches *l) { return fl_matches_numbers(l) + l->numbers; }
+/* Whole numbers: what planes pass through where they are not kept, */
+static inline const void *fl_matches_told(const fl_matches *l) { return fl_matches_numbers(l) + l->numbers; }
+
+/* and all others: columns of way 0, of way 1, what is used of A, rows of matches. */
+static inline const void *fl_matches_whole(const fl_matches *l)
+{
+    const int64_t told = l->keeps ? 0 : 4 * ((int64_t)l->cuts[0] + l->cuts[1]);
+    return (const char *)fl_matches_told(l) + (told << l->wide);
+}
 
 /* The k-th of them; `wide` as in the list. */
 static inline int32_t fl_matches_get(const void *whole, int wide, int64_t k)
@@ -157,6 +168,9 @@ int fl_matches_enter(fl_places *w, const fl_matches *l, const fl_poly *a, fl_mat
  * rims of the faces of A, of B [m].  -1 when memory runs out. */
 int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const fl_side *B, double R,
                       double behind, double rim_a, double rim_b);
+
+/* Planes of one way where they are not kept; p: the core that they are of, out: [cuts[way]]. */
+void fl_matches_make_cuts(const fl_matches *l, int way, const fl_poly *p, fl_cut *out);
 
 /* What it takes of memory. */
 double fl_matches_bytes(const fl_matches *l);

@@ -25,7 +25,8 @@ FL_WIDE_VERSIONS static void heights(const fl_cut *cut, const int32_t *list, int
 
 /* way 0: vertices of A as they are, entered, over planes of B; 1: those of B, in the frame of A, over planes
  * of A. */
-static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, const double **out)
+static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, const fl_poly *other,
+                const double **out)
 {
     fl_sheet *s = &w->sheet[way];
     const int32_t vertices = l->vertices[way], from = way ? l->vertices[0] : 0, cuts = l->cuts[way];
@@ -33,7 +34,7 @@ static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, 
     const void *whole = fl_matches_whole(l);
     const int wide = l->wide;
     if (fl_room(&s->x, &s->x_cap, 3 * (int64_t)columns, sizeof *s->x) ||
-        fl_room(&s->h, &s->h_cap, (int64_t)cuts * columns, sizeof *s->h))
+        fl_room(&s->h, &s->h_cap, (int64_t)cuts * (columns + 4), sizeof *s->h))
         return -1;
     double *x = s->x, *y = x + columns, *z = y + columns;
     for (int32_t k = 0; k < columns; k += FL_LANES) {
@@ -47,7 +48,10 @@ static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, 
         *(fl_wide *)(z + k) = (fl_wide){v[0].z, v[1].z, v[2].z, v[3].z};
     }
     const int32_t *list = l->choice ? l->choice->cut[way] : NULL;
-    heights(fl_matches_cuts(l, way), list, list ? l->choice->cuts[way] : cuts, x, y, z, columns, s->h);
+    fl_cut *const made = (fl_cut *)(void *)(s->h + (int64_t)cuts * columns);
+    if (!l->keeps) fl_matches_make_cuts(l, way, other, made);
+    heights(l->keeps ? fl_matches_cuts(l, way) : made, list, list ? l->choice->cuts[way] : cuts, x, y, z,
+            columns, s->h);
     *out = s->h;
     return 0;
 }
@@ -245,7 +249,7 @@ int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const
 {
     const double *h[2];
     if (l->choice && l->choice->n == 0) return 0;
-    if (fill(w, l, 0, A->v, &h[0]) || fill(w, l, 1, B->v, &h[1])) return -1;
+    if (fill(w, l, 0, A->v, B->p, &h[0]) || fill(w, l, 1, B->v, A->p, &h[1])) return -1;
     const double *number = fl_matches_numbers(l);
     const meeting way[2] = {
         {w, number, A, B, h[0], (size_t)fl_matches_columns(l->vertices[0]), R, behind, rim_b},

@@ -29,7 +29,7 @@ static double bodies(const fl_world *w)
            ARRAY(b->carried, total) + ARRAY(w->id, n) + ARRAY(w->material, total) + ARRAY(w->face, total) +
            ARRAY(w->q0, n) + ARRAY(w->group, n / FL_BALLS_GROUP + 1) + ARRAY(w->sink.place, total) +
            ARRAY(w->was.place, total) + ARRAY(w->sink.at, w->sink.cap) + ARRAY(w->was.at, w->was.cap) +
-           ARRAY(w->gain, w->gain_cap);
+           ARRAY(w->gain, w->gain_cap) + ARRAY(w->lead, w->gain_cap);
 }
 
 static double water(const fl_sea *s)
