@@ -165,23 +165,19 @@ static int around(fl_reach *r, const fl_poly *core, const fl_shell *sh, fl_aabb 
 }
 
 /* The vertices of the core that may be behind the surface: signed distances.  *behind is set when one is; the
- * places of those are added here, or, for `single`, the place of the deepest. */
+ * places of those are added here. */
 static int core_vertices(fl_places *w, const fl_side *A, const fl_side *B, const fl_shell *sh,
-                         const fl_matches *l, double ra, int single, int *behind)
+                         const fl_matches *l, double ra, int *behind)
 {
-    fl_nearest deepest = {.d = ra};
-    int32_t which = -1;
     *behind = 0;
     for (int32_t k = 0; k < l->shies; k++) {
         const int32_t v = l->shy[k];
         const fl_nearest q = nearest_to(B->p, sh, w->va[v]);
-        if (q.d < deepest.d) deepest = q, which = v;
         if (q.d >= 0.0) continue;
         *behind = 1;
-        if (single) continue;
         if (fl_places_vertex(w, A, 0.0, v, q.n, ra - q.d)) return -1;
     }
-    return single && which >= 0 ? fl_places_point(w, w->va[which], deepest.n, ra - deepest.d, ra) : 0;
+    return 0;
 }
 
 /* Some face of the core has all of the points beyond it by `far`: they are farther than that from the core.
@@ -222,7 +218,7 @@ static void leave_near(fl_reach *r, const fl_side *A, const fl_side *B, double f
 /* The walls within reach, and what of them and of the core may have places, until the pair has moved by the
  * margin. */
 static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, const fl_side *B,
-                        const fl_shell *shell, double ra, double reach, int single, fl_matches *l)
+                        const fl_shell *shell, double ra, double reach, fl_matches *l)
 {
     const double margin = fl_matches_margin(l, ra), same = SAME * (A->p->size + B->p->size),
                  shy = margin + ON_EDGE * B->p->size;
@@ -235,7 +231,7 @@ static int list_matches(fl_places *w, fl_shell_near *near, const fl_side *A, con
     l->shies = 0;
     if (fl_room(&l->shy, &l->shy_cap, A->p->nv, sizeof *l->shy)) return -1;
     for (int32_t v = 0; v < A->p->nv && !l->far; v++)
-        if (single || may_come_behind(B->p, shell, w->va[v], shy)) l->shy[l->shies++] = v;
+        if (may_come_behind(B->p, shell, w->va[v], shy)) l->shy[l->shies++] = v;
     leave_near(walls, A, B, ra + margin + same);
     return whole(all, A->p) || fl_matches_list(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_footing_list(l, A, B)
@@ -258,7 +254,7 @@ static int nothing_near(const fl_places *w, fl_shell_near *near, const fl_poly *
 }
 
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
-                    double reach, int single, fl_matches *l, double *distance)
+                    double reach, fl_matches *l, double *distance)
 {
     const fl_poly *core = &b->core;
     const fl_side A = {a, w->va, w->na, ra, 1.0}, B = {core, core->v, core->n, 0.0, -1.0};
@@ -266,14 +262,13 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
     w->n = w->shares = 0;
     w->couple = v3(0, 0, 0);
     *distance = reach;
-    if (!fl_matches_hold(l, &w->M, w->o) && list_matches(w, near, &A, &B, &b->shell, ra, reach, single, l))
-        return -1;
+    if (!fl_matches_hold(l, &w->M, w->o) && list_matches(w, near, &A, &B, &b->shell, ra, reach, l)) return -1;
     if (l->far) {
         l->shift2 = 0.0; /* what is not near now is not known later */
         return 0;
     }
     *distance = ra; /* something is near: no bound is claimed */
-    if (core_vertices(w, &A, &B, &b->shell, l, ra, single, &behind)) return -1;
+    if (core_vertices(w, &A, &B, &b->shell, l, ra, &behind)) return -1;
     if (behind) { /* what is farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
         if (nothing_near(w, near, a, &b->shell, ra, &beside)) return -1;
@@ -282,7 +277,6 @@ int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const f
             return nothing_near(w, near, a, &b->shell, reach, distance);
         }
     }
-    if (single) return w->n ? 0 : nothing_near(w, near, a, &b->shell, reach, distance);
     fl_matches rest;
     const double far = behind ? ra : 0.0, rim = FL_PLACE_RIM * ra;
     if (fl_footing_places(w, l, &near->footing, &A, &B, ra, far, rim, &rest) ||

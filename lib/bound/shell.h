@@ -25,11 +25,10 @@ typedef struct {
  * after fl_places_enter().  *distance is a lower bound of the distance of the core from the surface: reach
  * when no face comes that near, else ra.
  *   reach   how far to look, >= ra [m]
- *   single  only the place of the deepest vertex, as `core` wants it
  *   l       the matches of the pair, as fl_places_find() wants them
  * -1 when memory runs out. */
 int fl_shell_places(fl_places *w, fl_shell_near *near, const fl_poly *a, const fl_piece *b, double ra,
-                    double reach, int single, fl_matches *l, double *distance);
+                    double reach, fl_matches *l, double *distance);
 
 /* The same of a core that is a point, for laws that are not `patch`: the walls that it touches, for which
  * passes must have been made (passes.h).  *distance is that of the point, where nothing touches. */

@@ -481,7 +481,7 @@ const fl_key fl_key_table[] = {
      .meaning = "patch: a root of the sum over the faces, edges and vertices that touch, with one potential; "
                 "core: the nearest pair of features alone; manual: the "
                 "DilatedDEM manual's table of modes with its lengths as numbers; manual-si: the same with "
-                "consistent units",
+                "consistent units; for parts that are not convex patch stands in for all",
      .source = "DilatedDEM manual (2016), equations (1) to (25), corrected"},
     {.section = FL_SEC_CONTACT,
      .key = "exponent",

@@ -91,10 +91,12 @@ double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exp
 {
     const fl_bodies *b = &w->b;
     const fl_touching *law = fl_pairing_law(w, i, j);
-    const int32_t line = law->kind == FL_LAW_CORE ? 2 : 1; /* to `core` a line is round, too */
+    const fl_piece *piece = fl_world_piece(w, j);
+    const int core = law->kind == FL_LAW_CORE && !(piece && piece->kind == FL_PIECE_SHELL);
+    const int32_t line = core ? 2 : 1; /* to `core` a line is round, too */
     const int round = b->core[i].nv <= line || (j < w->n && b->core[j].nv <= line);
     const double area = w->face[j] > 0.0 && w->face[j] < w->face[i] ? w->face[j] : w->face[i];
-    *exponent = round ? 1.5 : law->kind == FL_LAW_CORE ? law->exponent : 0.0;
+    *exponent = round ? 1.5 : core ? law->exponent : 0.0;
     if (law->stiffness > 0.0) return *exponent > 0.0 ? law->stiffness : given_patch(w, i, j, area);
     if (*exponent == 0.0) return 0.5 * law->softening * fl_material_punch(law->modulus, 1.0);
     if (*exponent == 1.0) return law->softening * fl_material_punch(law->modulus, area) / FACE_OF_CORE;

@@ -329,7 +329,7 @@ int fl_stance_places(fl_world *w, fl_pair *p, int32_t thread, const fl_stance *r
                              : -1;
     if (piece && piece->kind == FL_PIECE_SHELL)
         return matches_of(p) ? fl_shell_places(s, &w->near_shell[thread], A, piece, ra, ra + w->skin,
-                                               p->exponent > 0.0, p->matches, distance)
+                                               p->matches, distance)
                              : -1;
     double farther = INFINITY;
     part_of_cone of = {0};

@@ -97,8 +97,7 @@ static void it_is_the_same(void **state)
                                              0.3 + low + fl_rng_in(&g, 0, 0.04));
             assert_int_equal(fl_places_enter(&w, &box, q_matrix(q), v3_sub(at, piece->x)), 0);
             w.apart = k % 2;
-            assert_int_equal(fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, 0, &l, &distance),
-                             0);
+            assert_int_equal(fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, &l, &distance), 0);
             const sums fast = sums_of(&w);
             const int32_t places = w.n;
             double shares = 0.0;
@@ -174,8 +173,7 @@ static void lists_leave_no_trace(void **state)
             fl_matches *l = way < 2 ? &old : &new;
             const fl_vec3 x = way ? at : v3_add(at, v3(4e-4, -3e-4, 2e-4));
             assert_int_equal(fl_places_enter(&w, &box, q_matrix(q), x), 0);
-            assert_int_equal(fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, 0, l, &distance),
-                             0);
+            assert_int_equal(fl_shell_places(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, l, &distance), 0);
             if (way) seen[way - 1] = sums_of(&w), places[way - 1] = w.n;
         }
         moved += old.n != new.n;

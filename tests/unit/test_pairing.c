@@ -194,9 +194,34 @@ static void the_footprint_follows_the_bodies(void **state)
     assert_true(all[1] - all[0] > 64 * 700.0 && all[1] - all[0] < 64 * 1400.0);
 }
 
+/* `core` knows of no nearest pair there: the nose of an arrow meets the side of a box, none of whose corners
+ * is near. */
+static void patch_stands_in_where_parts_are_not_convex(void **state)
+{
+    static const char *const law[] = {"contact.law=patch", "contact.law=core", "contact.law=manual-si"};
+    const fl_vec3 arrow[] = {{0, 0, 0}, {3, -1, 0}, {2, 0, 0}, {3, 1, 0}};
+    fl_vec3 f[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        lab l;
+        lab_start(&l);
+        lab_set(&l, law[k]);
+        lab_prism(&l, 4, arrow, -2.0, 2.0);
+        lab_box(&l, v3(-0.49, 0, 0), v3(0.5, 0.8, 0.3), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        lab_make(&l, 1e-6);
+        const fl_pair p = lab_look(&l.w, 0, 1);
+        assert_int_equal(p.n, 1);
+        assert_true(p.exponent == 0.0 && p.f.x < 0.0);
+        f[k] = p.f;
+        lab_free(&l);
+    }
+    assert_true(v3_norm(v3_sub(f[1], f[0])) == 0.0 && v3_norm(v3_sub(f[2], f[0])) == 0.0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(room_comes_and_goes),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(patch_stands_in_where_parts_are_not_convex),
+                                       cmocka_unit_test(room_comes_and_goes),
                                        cmocka_unit_test(nothing_is_forgotten_that_lasts),
                                        cmocka_unit_test(stiffness_is_given_to_all_kinds),
                                        cmocka_unit_test(a_capsule_stands_on_its_end),
