@@ -61,13 +61,24 @@ static inline double fl_damping_for(double y, double n, double most)
  * has it, up to 0.7 of what the springs alone would leave (verify_step).  Where n h C is small each stands
  * for itself; what the others bear on d by is of order 4 there.
  *
+ * What is held back lags behind the motion: it damps none of it rather than driving it.
+ *
  *   c        approach foreseen for the end [m/s]
  *   grew     E - E_before, elastic force   [N]
  *   damped   D_before, that of damping     [N] */
 static inline double fl_damping_closing(double c, double C, double h, double n, double grew, double damped)
 {
     const double holds = fl_damping_for(h * C, n, 2.0 * n - 1.0) * h;
-    return (c - h * grew + holds * damped) / (1.0 + holds * C);
+    const double d = (c - h * grew + holds * damped) / (1.0 + holds * C);
+    return n > 1.0 && c * d < 0.0 ? 0.0 : d;
+}
+
+/* Of one contact, of n_i on a body that yields by y_i and n_j on one by y_j, as many as would be on a body that
+ * alone yields by what both do: what else presses on a body moves it no more than that yields.  p = (n - 1) y
+ * of both; as the eigenvalues of how contacts yield to each other are bounded by Gershgorin. */
+static inline double fl_damping_among(double pi, double pj, double y)
+{
+    return y > 0.0 ? 1.0 + (pi + pj) / y : 1.0;
 }
 
 /* Linear, F = k s + 2 zeta sqrt(M k) s', the contact ending when F reaches 0: zeta of restitution e.

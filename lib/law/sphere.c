@@ -37,7 +37,7 @@ FL_WIDE_PART fl_vec3 sliding(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
 
 #define VECTOR(a) v3(b->a[0][c], b->a[1][c], b->a[2][c])
 
-FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt)
+FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt, double h)
 {
     SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
     {
@@ -49,7 +49,7 @@ FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt)
         const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
         const double chi = speed > 0.0 ? b->chi[c] / speed : 0.0;
         const double from = s - dt * came, had = from > 0.0 ? from : 0.0;
-        const double goes = fl_damping_closing(closing, chi * elastic, 0.5 * dt * b->yields[c], b->many[c],
+        const double goes = fl_damping_closing(closing, chi * elastic, h * b->yields[c], b->many[c],
                                                elastic - b->k[c] * (had * sqrt(had)), b->damped[c]);
         const double damping = elastic * (chi * goes);
         b->touch[c] = touch;
@@ -58,7 +58,7 @@ FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt)
     }
 }
 
-FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
+FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt, double h)
 {
     SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
     {
@@ -81,15 +81,16 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt)
         const fl_grip from = {v3_scale(share, q), 0.0}, goes = {v3_scale(-way, v), 0.0},
                       ahead = {v3_scale(-way, next), 0.0};
         /* fl_tangent_damped() */
-        const double g = b->tangential[c] * (b->scale[c] * b->elastic[c]), h = 0.5 * dt,
+        const double g = b->tangential[c] * (b->scale[c] * b->elastic[c]),
                      yields = b->across[c] + part * part * b->turns[c], many = b->many[c],
                      holds = fl_damping_for(h * g * yields, many, 2.0 * many) * h * g,
                      each = 1.0 / (1.0 + holds * yields);
         const fl_vec3 damps =
             v3_madd(v3_scale(-g, next), yields, v3_madd(v3_scale(-g * h, goes.f), holds, was));
+        const int drives = fl_tangent_drives(many, (fl_grip){damps, 0.0}, (fl_grip){next, 0.0});
         const double size = share * after;
         const fl_held rubs = fl_tangent_hold(from, size, goes, fl_tangent_way(size, limit, goes, ahead),
-                                             limit, (fl_grip){v3_scale(each, damps), 0.0});
+                                             limit, (fl_grip){v3_scale(drives ? 0.0 : each, damps), 0.0});
         const fl_vec3 e = rubs.kept.f, all = rubs.all.f;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
         b->slip[0][c] = on ? e.x : 0.0;
@@ -127,12 +128,12 @@ FL_WIDE_VERSIONS static void tell(fl_spheres *restrict b, int32_t m)
     }
 }
 
-void fl_spheres_meet(fl_spheres *b, int32_t m, double dt)
+void fl_spheres_meet(fl_spheres *b, int32_t m, double dt, double half)
 {
     const int32_t full = filled(m);
     stand(b, full);
-    press(b, full, dt);
-    rub(b, full, dt);
+    press(b, full, dt, half);
+    rub(b, full, dt, half);
     tell(b, full);
 }
 

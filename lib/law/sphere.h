@@ -37,7 +37,7 @@ typedef struct {
     double yields[FL_SPHERES_MOST];     /* 1/M = 1/m_i + 1/m_j                      [1/kg]  */
     double across[FL_SPHERES_MOST];     /* the same across n                         [1/kg]  */
     double turns[FL_SPHERES_MOST];      /* r_i^2/I_i + r_j^2/I_j                    [1/kg]  */
-    double many[FL_SPHERES_MOST];       /* contacts in line of the one that has more, 1 at least */
+    double many[FL_SPHERES_MOST];       /* so many contacts in line, fl_damping_among() */
     double invm[FL_SPHERES_MOST];       /* c^2/M, damping.h                         [1/kg]  */
     double k[FL_SPHERES_MOST];          /*                                          [N/m^1.5] */
     double friction[FL_SPHERES_MOST];   /* mu                                               */
@@ -62,9 +62,9 @@ typedef struct {
     double size[FL_SPHERES_MOST]; /* |F|                                            [N]     */
 } fl_spheres;
 
-/* The first m contacts, over a step of dt [s].  Each has bits of its own, whatever stands beside it and
+/* The first m contacts, over a step of dt [s]; half: of the step that damping is held back for [s].  Each has bits of its own, whatever stands beside it and
  * however wide the registers are. */
-void fl_spheres_meet(fl_spheres *b, int32_t m, double dt);
+void fl_spheres_meet(fl_spheres *b, int32_t m, double dt, double half);
 
 /* Where they stand alone: n, overlap, slope, elastic, push, damping, torques and size from d, radii, k, rub
  * and damped; the same bits. */

@@ -35,6 +35,7 @@ typedef struct {
     double twist;           /* mean of that of A and of B about n, in the mean of the step */
     fl_vec3 damped;         /* what damping did in the step before, and about n [N], [N m] */
     double damped_turn;
+    double half; /* half a step, which damping is held back for [s] */
 } fl_sliding;
 
 /* What a step of friction leaves, and what it does to A. */
@@ -84,9 +85,9 @@ FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_gri
  * damping was `before` a step ago.  A contact that rubs rocks as well, which damps the same motion, and
  * counts for one more.  Across n that is an equation of two numbers, x + a P x = r, P = ease without its
  * parts along n: by Cramer's rule, 1 + a P having an eigenvalue of 1 along n. */
-FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way, fl_grip before, double dt)
+FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way, fl_grip before, double h)
 {
-    const double g = c.g, h = 0.5 * dt;
+    const double g = c.g;
     const fl_vec3 n = c.n, u = s3_mul(c.ease, n);
     const double nn = v3_dot(n, u);
     const fl_sym3 P = {c.ease.xx - 2.0 * n.x * u.x + nn * n.x * n.x,
@@ -106,6 +107,12 @@ FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way,
     const double turns = c.turns * c.arm * c.arm;
     return (fl_grip){v3_scale(each, s3_mul(adjoint, r)),
                      (-g * (moves.m + h * turns * way.m) + a * turns * before.m) / (1.0 + a * turns)};
+}
+
+/* What is held back lags, and would drive what it is to damp: then it does nothing. */
+FL_WIDE_PART int fl_tangent_drives(double many, fl_grip damps, fl_grip moves)
+{
+    return many > 1.0 && fl_grip_dot(damps, moves) > 0.0;
 }
 
 /* What springs keep, and that with damping. */
@@ -163,8 +170,10 @@ FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, do
                   way_next = {v3_scale(-stiff * dt, next), each * (-stiff_turn * dt * by.next_spin)},
                   moves = {next, c.arm * by.next_spin}, damped = {by.damped, each * by.damped_turn};
     const double size = fl_grip_size(from);
+    const fl_grip damps = fl_tangent_damped(c, moves, way, damped, by.half);
+    const double part = fl_tangent_drives(c.many, damps, moves) ? 0.0 : 1.0;
     const fl_held now = fl_tangent_hold(from, size, way, fl_tangent_way(size, c.limit, way, way_next),
-                                        c.limit, fl_tangent_damped(c, moves, way, damped, dt));
+                                        c.limit, fl_grip_scale(part, damps));
     return (fl_rubbed){{now.kept.f, k, c.arm * now.kept.m, turning}, now.all.f, c.arm * now.all.m};
 }
 

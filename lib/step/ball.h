@@ -48,7 +48,7 @@ typedef struct {
     fl_vec3 w;    /* [rad/s] */
     double r_too; /* r, where that is wanted beside w */
     fl_vec3 dv;   /* by how much v will have changed by the end of the step, lead.h */
-    double n;     /* contacts of it in the step before, as many as they are in line */
+    double crowd; /* (n - 1)/m, of n contacts in the step before, as many as they are in line */
     fl_vec3 rdw;  /* r times that of w                                     [m/s]    */
     double turns; /* r^2/I                                                 [1/kg]   */
 } fl_ball_seen;

@@ -7,8 +7,10 @@
 #include "base/mem.h"
 #include "base/wide.h"
 #include "body/integrate.h"
+#include "law/damping.h"
 #include "law/sphere.h"
 #include "step/balls.h"
+#include "step/lead.h"
 #include "step/leans.h"
 #include "step/stiff.h"
 #include "step/works.h"
@@ -83,6 +85,12 @@ static double turns_of(const fl_bodies *b, int32_t k)
  * six, 5.5 for twelve, or less (crowd() of critical.c). */
 static double all_round(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
 
+/* 1/m of what anything lets move. */
+static double somehow(const fl_bodies *b, int32_t k)
+{
+    return fl_body_stands(b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : b->invm[k];
+}
+
 void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h)
 {
     const fl_bodies *b = &w->b;
@@ -90,9 +98,10 @@ void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h)
     for (int32_t k = from; k < to; k++) {
         const fl_gain lead = lead_of(w, k, h);
         const int32_t rows = w->balls.touched[k] = w->balls.touching[k];
-        const double n = all_round(rows + fl_works_was(w, k)->n), r = b->radius[k];
+        const double n = all_round(rows + fl_works_was(w, k)->n), r = b->radius[k],
+                     crowd = n > 1.0 ? (n - 1.0) * somehow(b, k) : 0.0;
         seen[k] = (fl_ball_seen){b->x[k], r,      b->v[k], plainly(b, k),       b->w[k],
-                                 r,       lead.v, n,       v3_scale(r, lead.w), turns_of(b, k)};
+                                 r,       lead.v, crowd,   v3_scale(r, lead.w), turns_of(b, k)};
     }
 }
 
@@ -100,13 +109,6 @@ void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h)
 FL_WIDE_PART void compare_two(fl_wide *d, const void *a, const void *b)
 {
     *d = __builtin_shufflevector(FL_FOUR(a) - FL_FOUR(b), FL_FOUR(a) + FL_FOUR(b), 0, 1, 2, 7);
-}
-
-/* The difference, and the larger number. */
-FL_WIDE_PART void compare_most(fl_wide *d, const void *a, const void *b)
-{
-    const fl_wide x = FL_FOUR(a), y = FL_FOUR(b);
-    *d = __builtin_shufflevector(x - y, FL_WIDE_CHOOSE(x > y, x, y), 0, 1, 2, 7);
 }
 
 /* What the loop below reads and writes. */
@@ -212,7 +214,7 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
             q[l] = FL_FOUR(&seen[j].w);
             h[l] = FL_FOUR(&r->slip);
             f[l] = FL_FOUR(&r->rub);
-            compare_most(&du[l], &seen[i].dv, &seen[j].dv);
+            compare_two(&du[l], &seen[i].dv, &seen[j].dv);
             dw[l] = FL_FOUR(&seen[i].rdw) + FL_FOUR(&seen[j].rdw);
             last[l] = *(const fl_two *)(const void *)&r->touch;
         }
@@ -241,7 +243,7 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
         }
         FL_FOUR_INTO(&a->stiff[m]) = h[3];
         FL_FOUR_INTO(&a->damped[m]) = f[3];
-        FL_FOUR_INTO(&a->many[m]) = FL_WIDE_CHOOSE(du[3] > 1.0, du[3], 1.0 + zero);
+        FL_FOUR_INTO(&a->many[m]) = FL_WIDE_CHOOSE(u[3] > 0.0, 1.0 + du[3] / u[3], 1.0 + zero);
         FL_FOUR_INTO(&a->turns[m]) = dw[3];
         FL_FOUR_INTO(&a->yields[m]) = u[3];
         FL_FOUR_INTO(&a->across[m]) = u[3];
@@ -254,12 +256,6 @@ FL_FOUR_VERSIONS static int load(const source *restrict s, batch *restrict t)
     return sum == sum;
 }
 
-/* 1/m of what anything lets move. */
-static double somehow(const fl_bodies *b, int32_t k)
-{
-    return fl_body_stands(b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : b->invm[k];
-}
-
 /* Of those that depend on the direction. */
 static void load_masses(const fl_world *w, batch *t)
 {
@@ -270,6 +266,7 @@ static void load_masses(const fl_world *w, batch *t)
         const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
         t->at.yields[m] = fl_body_yields(b, i, n) + fl_body_yields(b, j, n);
         t->at.across[m] = somehow(b, i) + somehow(b, j);
+        t->at.many[m] = fl_damping_among(w->balls.seen[i].crowd, w->balls.seen[j].crowd, t->at.across[m]);
         t->at.invm[m] = t->rest2[m] * t->at.yields[m];
     }
 }
@@ -462,7 +459,7 @@ static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
         const source from = {s->i, s->j, s->row, s->seen};
         if (s->one_law < 0) load_laws(w, t);
         if (!load(&from, t)) load_masses(w, t);
-        fl_spheres_meet(&t->at, t->m, dt);
+        fl_spheres_meet(&t->at, t->m, dt, fl_lead_half(w, dt));
         save(s->row, t);
     }
     hand_out(s, t);

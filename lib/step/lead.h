@@ -15,7 +15,7 @@
 typedef struct {
     fl_vec3 v;      /* of A's centre against B's, more than fl_pair_lag() has of it [m/s]; */
     fl_vec3 wi, wj; /* of the spins of both                                       [rad/s] */
-    double pressed; /* so many contacts the one of them that moves has that has more of them, 1 at least */
+    double pressed; /* so many contacts are damped by what yields here, fl_damping_among() */
 } fl_lead;
 
 /* A force on A and its moment about the middle between both centres, from the torques ti and tj about these:
@@ -50,13 +50,13 @@ static inline fl_before fl_before_of(const fl_pair *p)
 }
 
 /* fl_damping_closing() of a contact that approaches at c, as foreseen; elastic: size of that force now, C its
- * damping, yields: fl_pair_yields().  Sizes, since the force turns with the contact. */
+ * damping, yields: fl_pair_yields(), h: half of the step.  Sizes, since the force turns with the contact. */
 FL_WIDE_PART double fl_lead_closing(double c, double elastic, double C, double yields, double pressed,
-                                    double dt, fl_before was)
+                                    double h, fl_before was)
 {
     const double had = v3_norm(was.elastic.f),
                  damped = had > 0.0 ? v3_dot(was.elastic.f, was.damping.f) / had : 0.0;
-    return fl_damping_closing(c, C, 0.5 * dt * yields, pressed, elastic - had, damped);
+    return fl_damping_closing(c, C, h * yields, pressed, elastic - had, damped);
 }
 
 /* Where the pressures of a contact stand against each other, in a slot, its force is less than their sum,
@@ -95,16 +95,27 @@ static inline int32_t fl_lead_pressed(const fl_world *w, int32_t k, int32_t n)
     return w->balls.bodies && k < w->n ? n + w->balls.touched[k] : n;
 }
 
+/* The velocity of thing k for an impulse in its centre, in whatever direction it yields in [1/kg]. */
+static inline double fl_lead_yields(const fl_world *w, int32_t k)
+{
+    if (k < w->n) return fl_body_stands(&w->b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : w->b.invm[k];
+    return fl_ride_yields(w, k) ? 1.0 / w->ride.m.motion[w->ride.of[k - w->n]].mass : 0.0;
+}
+
+/* Half of a step over dt, which damping is held back for: of the first that comes where dt = 0, as time begins
+ * and bodies may touch that move. */
+static inline double fl_lead_half(const fl_world *w, double dt) { return 0.5 * (dt > 0.0 ? dt : w->dt); }
+
 /* lag: fl_pair_lag() of the step [m/s]. */
 static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)
 {
     const int32_t ni = fl_works_was(w, p->i)->n, nj = fl_works_was(w, p->j)->n;
-    const int32_t many_i = fl_lead_pressed(w, p->i, ni), many_j = fl_lead_pressed(w, p->j, nj),
-                  shared = p->j < w->n || fl_ride_yields(w, p->j) ? many_j : 0,
-                  n = many_i > shared ? many_i : shared;
+    const int32_t mi = fl_lead_pressed(w, p->i, ni), mj = fl_lead_pressed(w, p->j, nj);
+    const double yi = fl_lead_yields(w, p->i), yj = fl_lead_yields(w, p->j),
+                 n = fl_damping_among(mi > 1 ? (mi - 1) * yi : 0.0, mj > 1 ? (mj - 1) * yj : 0.0, yi + yj);
     const fl_gain none = {{0, 0, 0}, {0, 0, 0}};
     const fl_gain i = ni ? *fl_works_lead(w, p->i) : none, j = nj ? *fl_works_lead(w, p->j) : none;
-    return (fl_lead){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n > 1 ? n : 1};
+    return (fl_lead){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n};
 }
 
 /* Of A's velocity against B at the arms ai and aj. */

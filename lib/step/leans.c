@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/mem.h"
 #include "body/integrate.h"
+#include "law/damping.h"
 #include "law/normal.h"
 #include "law/sphere.h"
 #include "step/balls.h"
+#include "step/lead.h"
 #include "step/leans.h"
 #include "step/pairing.h"
 #include "step/stiff.h"
@@ -121,7 +123,7 @@ static void load(const fl_world *w, fl_spheres *a, int32_t m, const fl_ball_lean
     a->invm[m] = law->rest * law->rest * a->yields[m];
     a->turns[m] = arm * arm * seen->turns;
     a->across[m] = b->invm[c->i];
-    a->many[m] = seen->n > 1.0 ? seen->n : 1.0;
+    a->many[m] = fl_damping_among(seen->crowd, 0.0, b->invm[c->i]);
     a->k[m] = r->k;
     a->friction[m] = law->friction;
     a->tangential[m] = law->tangential;
@@ -194,7 +196,7 @@ static void finish(fl_world *w, int32_t chunk, batch *q, double dt, int survey)
     fl_balls *s = &w->balls;
     fl_spheres *a = &q->at;
     if (dt < 0.0) fl_spheres_place(a, q->m);
-    else fl_spheres_meet(a, q->m, dt);
+    else fl_spheres_meet(a, q->m, dt, fl_lead_half(w, dt));
     for (int32_t m = 0; m < q->m; m++) {
         fl_ball_lean *const c = &s->lean[q->row[m]];
         if (dt >= 0.0) save(&c->row, a, m);

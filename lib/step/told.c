@@ -245,8 +245,8 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
         /* what of the change is its own */
         const fl_before before = before_of(b, k);
         const double size = v3_norm(force), presses = b->s.share.a[k] * OF(pressure)->a[k],
-                     own = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k], dt,
-                                           before),
+                     own = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k],
+                                           0.5 * dt, before),
                      nearer = fl_lead_share(size, presses) * (own - closing), ends = closing + nearer;
         const double grown = 1.0 + chi * ends, var = chi * chi * apart;
         const fl_pulls held =
@@ -349,7 +349,8 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
                                b->dw_next.a[k],
                                b->twist.a[k],
                                before.damped,
-                               fl_lead_turned(before, c.n, ai, aj)};
+                               fl_lead_turned(before, c.n, ai, aj),
+                               0.5 * dt};
         const fl_rubbed to = fl_tangent_rub(was, c, by, dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));

@@ -441,8 +441,8 @@ static void batches(void **state)
         for (size_t k = 0; k < sizeof a / sizeof a.ri; k++)
             at[k * FL_SPHERES_MOST] = from[k * FL_SPHERES_MOST];
     }
-    fl_spheres_meet(&a, FL_SPHERES_MOST, 0.01);
-    fl_spheres_meet(&b, FL_SPHERES_MOST, 0.01);
+    fl_spheres_meet(&a, FL_SPHERES_MOST, 0.01, 0.005);
+    fl_spheres_meet(&b, FL_SPHERES_MOST, 0.01, 0.005);
     for (int c = 0; c < FL_SPHERES_MOST; c++) {
         const int to = (7 * c + 3) % FL_SPHERES_MOST;
         assert_true(a.damped[c] == b.damped[to] && a.rub[1][c] == b.rub[1][to] && a.ti[2][c] == b.ti[2][to]);

@@ -12,7 +12,8 @@
 static fl_vec3 tangent(fl_slip *s, const fl_rubbing *c, fl_vec3 v, double spin, double twist, double dt,
                        double *moment)
 {
-    const fl_sliding by = {.v = v, .next = v, .spin = spin, .next_spin = spin, .twist = twist};
+    const fl_sliding by = {
+        .v = v, .next = v, .spin = spin, .next_spin = spin, .twist = twist, .half = 0.5 * dt};
     const fl_rubbed r = fl_tangent_rub(*s, *c, by, dt);
     *s = r.slip;
     *moment = r.moment;
@@ -381,7 +382,7 @@ static void friction_damping_solves_its_equation(void **state)
                               .turns = turn,
                               .many = many};
         const fl_grip x =
-            fl_tangent_damped(c, (fl_grip){v, r[0]}, (fl_grip){way, r[1]}, (fl_grip){old, r[2]}, dt);
+            fl_tangent_damped(c, (fl_grip){v, r[0]}, (fl_grip){way, r[1]}, (fl_grip){old, r[2]}, 0.5 * dt);
         /* the point then moves so, and the contact stands for so many */
         const double across = 0.5 * (3.0 + v3_norm2(one) + v3_norm2(two) - projected(n, one, two)),
                      all = fl_damping_for(0.5 * dt * coef * across, many, 2.0 * many);
