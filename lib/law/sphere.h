@@ -62,8 +62,8 @@ typedef struct {
     double size[FL_SPHERES_MOST]; /* |F|                                            [N]     */
 } fl_spheres;
 
-/* The first m contacts, over a step of dt [s]; half: of the step that damping is held back for [s].  Each has bits of its own, whatever stands beside it and
- * however wide the registers are. */
+/* The first m contacts, over a step of dt [s]; half: of the step that damping is held back for [s].  Each has
+ * bits of its own, whatever stands beside it and however wide the registers are. */
 void fl_spheres_meet(fl_spheres *b, int32_t m, double dt, double half);
 
 /* Where they stand alone: n, overlap, slope, elastic, push, damping, torques and size from d, radii, k, rub

@@ -459,7 +459,7 @@ static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
         const source from = {s->i, s->j, s->row, s->seen};
         if (s->one_law < 0) load_laws(w, t);
         if (!load(&from, t)) load_masses(w, t);
-        fl_spheres_meet(&t->at, t->m, dt, fl_lead_half(w, dt));
+        fl_spheres_meet(&t->at, t->m, dt, fl_lead_span(w, dt).half);
         save(s->row, t);
     }
     hand_out(s, t);

@@ -45,8 +45,7 @@ static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec
 
 /* How A moves: in the mean of the step that is approach() and fl_pair_lag(); at its end by a lead more. */
 typedef struct {
-    double dt;
-    double half; /* of a step: what damping is held back for [s] */
+    fl_lead_step of;
     fl_vec3 lag; /* [m/s] */
     fl_lead by;
     fl_before was;
@@ -55,15 +54,13 @@ typedef struct {
 static ahead ahead_of(const fl_world *w, const fl_pair *p, const fl_stance *r, double dt)
 {
     const fl_vec3 lag = fl_pair_lag(&w->b, p, r->off, dt);
-    return (ahead){dt, fl_lead_half(w, dt), lag, fl_lead_of(w, p, lag), fl_before_of(p)};
+    return (ahead){fl_lead_span(w, dt), lag, fl_lead_of(w, p, lag), fl_before_of(p)};
 }
 
-/* By how much faster A approaches at the end than at c, as foreseen; the rest as in fl_lead_closing().  As
- * time begins nothing has grown. */
+/* By how much faster A approaches at the end than at c, as foreseen; the rest as in fl_lead_closing(). */
 static double nearer(const ahead *a, double c, double elastic, double C, double yields)
 {
-    if (a->dt == 0.0) return fl_damping_closing(c, C, a->half * yields, a->by.pressed, 0.0, 0.0) - c;
-    return fl_lead_closing(c, elastic, C, yields, a->by.pressed, a->half, a->was) - c;
+    return fl_lead_closing(c, elastic, C, yields, a->by.pressed, a->of, a->was) - c;
 }
 
 static fl_vec3 went(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
@@ -135,8 +132,8 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const pa
                            0.5 * (wi + wj),
                            a->was.damped,
                            fl_lead_turned(a->was, c.n, ai, aj),
-                           a->half};
-    const fl_rubbed t = fl_tangent_rub(p->slip, c, by, a->dt);
+                           a->of.half};
+    const fl_rubbed t = fl_tangent_rub(p->slip, c, by, a->of.dt);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->slip = t.slip;
     add_wrench(&p->fs, &p->si, &p->sj, t.force, ai, aj);
@@ -229,8 +226,7 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
 {
     const fl_bodies *b = &w->b;
     const int one = s->n == 1 && p->law->kind == FL_LAW_PATCH;
-    const ahead late = {.dt = by->dt, .half = by->half, .lag = by->lag, .by = {.pressed = 1.0}},
-                *const a = one ? by : &late;
+    const ahead late = {.of = by->of, .lag = by->lag, .by = {.pressed = 1.0}}, *const a = one ? by : &late;
     const double k = p->k;
     const spot first = spot_of(p, &s->place[0], r);
     fl_vec3 way = first.n, turn_i = v3_cross(first.ai, first.n), turn_j = v3_cross(first.aj, first.n);
@@ -304,7 +300,7 @@ static void steady(fl_pair *p, double presses, double chi, const fl_stance *r, c
 {
     const fl_wrench to =
         fl_lead_steadied(fl_lead_amid(p->f, p->ti, p->tj), fl_lead_amid(p->fd, p->di, p->dj), presses,
-                         2.0 * a->half * chi * presses / p->mass, a->by.pressed, a->was);
+                         2.0 * a->of.half * chi * presses / p->mass, a->by.pressed, a->was);
     const fl_vec3 half = v3_scale(0.5, v3_cross(r->off, to.f));
     p->fd = to.f, p->di = v3_add(half, to.m), p->dj = v3_sub(half, to.m);
 }

@@ -49,14 +49,27 @@ static inline fl_before fl_before_of(const fl_pair *p)
                           fl_lead_amid(p->fs, p->si, p->sj), p->slip);
 }
 
+/* A step over dt, and half of the one that damping is held back for: the first that comes where dt = 0, as time
+ * begins and bodies may touch that move [s]. */
+typedef struct {
+    double dt, half;
+} fl_lead_step;
+
+static inline fl_lead_step fl_lead_span(const fl_world *w, double dt)
+{
+    return (fl_lead_step){dt, 0.5 * (dt > 0.0 ? dt : w->dt)};
+}
+
 /* fl_damping_closing() of a contact that approaches at c, as foreseen; elastic: size of that force now, C its
- * damping, yields: fl_pair_yields(), h: half of the step.  Sizes, since the force turns with the contact. */
+ * damping, yields: fl_pair_yields().  Sizes, since the force turns with the contact.  As time begins nothing
+ * has grown. */
 FL_WIDE_PART double fl_lead_closing(double c, double elastic, double C, double yields, double pressed,
-                                    double h, fl_before was)
+                                    fl_lead_step by, fl_before was)
 {
     const double had = v3_norm(was.elastic.f),
                  damped = had > 0.0 ? v3_dot(was.elastic.f, was.damping.f) / had : 0.0;
-    return fl_damping_closing(c, C, h * yields, pressed, elastic - had, damped);
+    return fl_damping_closing(c, C, by.half * yields, pressed, by.dt > 0.0 ? elastic - had : 0.0,
+                              by.dt > 0.0 ? damped : 0.0);
 }
 
 /* Where the pressures of a contact stand against each other, in a slot, its force is less than their sum,
@@ -101,10 +114,6 @@ static inline double fl_lead_yields(const fl_world *w, int32_t k)
     if (k < w->n) return fl_body_stands(&w->b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : w->b.invm[k];
     return fl_ride_yields(w, k) ? 1.0 / w->ride.m.motion[w->ride.of[k - w->n]].mass : 0.0;
 }
-
-/* Half of a step over dt, which damping is held back for: of the first that comes where dt = 0, as time begins
- * and bodies may touch that move. */
-static inline double fl_lead_half(const fl_world *w, double dt) { return 0.5 * (dt > 0.0 ? dt : w->dt); }
 
 /* lag: fl_pair_lag() of the step [m/s]. */
 static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)

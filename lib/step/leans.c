@@ -196,7 +196,7 @@ static void finish(fl_world *w, int32_t chunk, batch *q, double dt, int survey)
     fl_balls *s = &w->balls;
     fl_spheres *a = &q->at;
     if (dt < 0.0) fl_spheres_place(a, q->m);
-    else fl_spheres_meet(a, q->m, dt, fl_lead_half(w, dt));
+    else fl_spheres_meet(a, q->m, dt, fl_lead_span(w, dt).half);
     for (int32_t m = 0; m < q->m; m++) {
         fl_ball_lean *const c = &s->lean[q->row[m]];
         if (dt >= 0.0) save(&c->row, a, m);

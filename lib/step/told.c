@@ -214,7 +214,7 @@ FL_WIDE_PART fl_vec3 after(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(
 
 /* How A moves against B, and what damping adds to a share of 1: -chi times the sums over
  * e (n, t) (n, t)^T.  What presses has turned as the force has since the look. */
-FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
+FL_WIDE_VERSIONS static void move(batch *restrict b, fl_lead_step of)
 {
     const fl_lane *A = OF(damping);
 #pragma omp simd
@@ -245,8 +245,8 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
         /* what of the change is its own */
         const fl_before before = before_of(b, k);
         const double size = v3_norm(force), presses = b->s.share.a[k] * OF(pressure)->a[k],
-                     own = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k],
-                                           0.5 * dt, before),
+                     own = fl_lead_closing(closing, size, chi * size, OF(yields)->a[k], b->pressed.a[k], of,
+                                           before),
                      nearer = fl_lead_share(size, presses) * (own - closing), ends = closing + nearer;
         const double grown = 1.0 + chi * ends, var = chi * chi * apart;
         const fl_pulls held =
@@ -254,7 +254,7 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, double dt)
         const double adds = -chi * (1.0 + held.q), still = held.p + held.q * (1.0 - grown);
         b->touch.a[k] = touch;
         b->chi.a[k] = chi;
-        b->damps.a[k] = dt * chi * presses / b->reduced.a[k];
+        b->damps.a[k] = 2.0 * of.half * chi * presses / b->reduced.a[k];
         b->grown.a[k] = grown + held.p;
         fl_lane3_put(b->by, k, by);
         fl_lane3_put(b->turn, k, turn);
@@ -325,7 +325,7 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
 }
 
 /* Friction; and what else is told. */
-FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
+FL_WIDE_VERSIONS static void rub(batch *restrict b, fl_lead_step of, int survey)
 {
     const double asked = survey ? 1.0 : 0.0;
 #pragma omp simd
@@ -350,8 +350,8 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, double dt, int survey)
                                b->twist.a[k],
                                before.damped,
                                fl_lead_turned(before, c.n, ai, aj),
-                               0.5 * dt};
-        const fl_rubbed to = fl_tangent_rub(was, c, by, dt);
+                               of.half};
+        const fl_rubbed to = fl_tangent_rub(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
         const double spring = fl_tangent_energy(to.slip), slope = asked * b->s.slope.a[k];
@@ -417,13 +417,14 @@ FL_FOUR_VERSIONS static void give(const batch *restrict b, fl_pair *const *p, co
 void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int survey, uint8_t *done,
                    fl_told *t)
 {
+    const fl_lead_step of = fl_lead_span(w, dt);
     batch b;
     int any = 0;
     lay(&b, w, p, n, dt);
     relate(&b);
     fl_surrogate_tell(&b.s);
     weigh(&b, w, p, n);
-    move(&b, dt);
+    move(&b, of);
     for (int k = 0; k < n; k++) {
         done[k] = fl_surrogate_within(p[k]->surrogate, b.s.way.a[k], b.s.turn.a[k], b.s.z.a[k], 1.0) &&
                   b.s.share.a[k] > 0.0;
@@ -431,7 +432,7 @@ void fl_told_touch(const fl_world *w, fl_pair *const *p, int n, double dt, int s
     }
     if (any) {
         bear(&b);
-        rub(&b, dt, survey);
+        rub(&b, of, survey);
         give(&b, p, done, n);
     }
     for (int k = 0; k < n; k++)

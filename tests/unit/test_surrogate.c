@@ -328,6 +328,7 @@ static void damping_is_told(void **state)
             fl_vec3 told[2], looked[2];
             const way a = some(&g);
             lay(&l, kind);
+            l.l.w.dt = 0.0; /* of no length: nothing is held back */
             move(&l, a, k % 2 ? 0.02 : 0.3);
             fl_interact_look(&l.l.w, &l.p, 0, NULL, 0.0, 0);
             damped(&l, &told[0], &looked[0]);
