@@ -73,9 +73,9 @@ static inline double fl_damping_closing(double c, double C, double h, double n, 
     return n > 1.0 && c * d < 0.0 ? 0.0 : d;
 }
 
-/* Of one contact, of n_i on a body that yields by y_i and n_j on one by y_j, as many as would be on a body that
- * alone yields by what both do: what else presses on a body moves it no more than that yields.  p = (n - 1) y
- * of both; as the eigenvalues of how contacts yield to each other are bounded by Gershgorin. */
+/* Of one contact, of n_i on a body that yields by y_i and n_j on one by y_j, as many as would be on a body
+ * that alone yields by what both do: what else presses on a body moves it no more than that yields.  p =
+ * (n - 1) y of both; as the eigenvalues of how contacts yield to each other are bounded by Gershgorin. */
 static inline double fl_damping_among(double pi, double pj, double y)
 {
     return y > 0.0 ? 1.0 + (pi + pj) / y : 1.0;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stddef.h>
 #include "base/mem.h"
 #include "base/wide.h"
@@ -6,19 +7,26 @@
 #include "narrow/matches.h"
 #include "narrow/strips.h"
 
+/* Of how far things are and how large: what rounding makes of a distance from a plane. */
+#define NEAR 4e-15
+
 /* Rows of heights, all or those in the list, `columns` each, a multiple of FL_LANES, of points x, y, z.  What
- * lies on a plane is taken as a hair aside, for all who ask to the same side. */
+ * lies on a plane is taken as a hair aside, for all who ask to the same side; on it is what is nearer to it
+ * than |g| near, since planes that are one are rounded one by one: on which side of them a point lies that is
+ * on all of them must not hang on that. */
 FL_WIDE_VERSIONS static void heights(const fl_cut *cut, const int32_t *list, int32_t rows, const double *x,
-                                     const double *y, const double *z, int32_t columns, double *h)
+                                     const double *y, const double *z, int32_t columns, double near,
+                                     double *h)
 {
     for (int32_t c = 0; c < rows; c++) {
         const int32_t k = list ? list[c] : c;
         const fl_cut p = cut[k];
         const double hair = 1e-300 * (0.5772156649 * p.g.x + 0.4342944819 * p.g.y + 0.6931471806 * p.g.z);
+        const double on = near * (fabs(p.g.x) + fabs(p.g.y) + fabs(p.g.z));
         for (int32_t v = 0; v < columns; v += FL_LANES) {
             const fl_wide X = *(const fl_wide *)(x + v), Y = *(const fl_wide *)(y + v);
-            const fl_wide Z = *(const fl_wide *)(z + v);
-            *(fl_wide *)(h + (int64_t)k * columns + v) = (p.g.x * X + p.g.y * Y + p.g.z * Z - p.c) + hair;
+            const fl_wide Z = *(const fl_wide *)(z + v), up = p.g.x * X + p.g.y * Y + p.g.z * Z - p.c;
+            *(fl_wide *)(h + (int64_t)k * columns + v) = FL_WIDE_WHERE((up > on) | (up < -on), up) + hair;
         }
     }
 }
@@ -26,7 +34,7 @@ FL_WIDE_VERSIONS static void heights(const fl_cut *cut, const int32_t *list, int
 /* way 0: vertices of A as they are, entered, over planes of B; 1: those of B, in the frame of A, over planes
  * of A. */
 static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, const fl_poly *other,
-                const double **out)
+                double near, const double **out)
 {
     fl_sheet *s = &w->sheet[way];
     const int32_t vertices = l->vertices[way], from = way ? l->vertices[0] : 0, cuts = l->cuts[way];
@@ -51,7 +59,7 @@ static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, 
     fl_cut *const made = (fl_cut *)(void *)(s->h + (int64_t)cuts * columns);
     if (!l->keeps) fl_matches_make_cuts(l, way, other, made);
     heights(l->keeps ? fl_matches_cuts(l, way) : made, list, list ? l->choice->cuts[way] : cuts, x, y, z,
-            columns, s->h);
+            columns, l->keeps ? 0.0 : near, s->h);
     *out = s->h;
     return 0;
 }
@@ -249,7 +257,8 @@ int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const
 {
     const double *h[2];
     if (l->choice && l->choice->n == 0) return 0;
-    if (fill(w, l, 0, A->v, B->p, &h[0]) || fill(w, l, 1, B->v, A->p, &h[1])) return -1;
+    const double near = NEAR * (fabs(w->o.x) + fabs(w->o.y) + fabs(w->o.z) + A->p->size + B->p->size);
+    if (fill(w, l, 0, A->v, B->p, near, &h[0]) || fill(w, l, 1, B->v, A->p, near, &h[1])) return -1;
     const double *number = fl_matches_numbers(l);
     const meeting way[2] = {
         {w, number, A, B, h[0], (size_t)fl_matches_columns(l->vertices[0]), R, behind, rim_b},

@@ -49,8 +49,8 @@ static inline fl_before fl_before_of(const fl_pair *p)
                           fl_lead_amid(p->fs, p->si, p->sj), p->slip);
 }
 
-/* A step over dt, and half of the one that damping is held back for: the first that comes where dt = 0, as time
- * begins and bodies may touch that move [s]. */
+/* A step over dt, and half of the one that damping is held back for: the first that comes where dt = 0, as
+ * time begins and bodies may touch that move [s]. */
 typedef struct {
     double dt, half;
 } fl_lead_step;

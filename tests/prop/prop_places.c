@@ -240,9 +240,45 @@ static void and_of_overlapping_cores_too(void **state)
     hold_against_gradients(1);
 }
 
+/* Two boxes alike whose faces, edges and vertices lie on one another, in whatever frame: what lies on many
+ * planes at once, each rounded by itself, is in one region, not in none or in two. */
+static void flush_bodies_do_not_hang_on_rounding(void **state)
+{
+    const fl_vec3 none = v3(0, 0, 0);
+    (void)state;
+    for (int k = 0; k < test_times(200); k++) {
+        fl_rng g = fl_rng_of(test_seed(), 5000 + k, FL_RNG_TEST);
+        const fl_quat q = shape_rotation(&g);
+        const double over = k % 2 ? 0.001 : 0.02;
+        double W[3];
+        fl_vec3 f[3];
+        lab l;
+        lab_start(&l);
+        for (int c = 0; c < 2; c++) {
+            fl_poly p;
+            fl_err err = {0};
+            if (fl_poly_box(&p, v3(0.5, 0.5, 0.5), &err)) fail();
+            shape_move(&p, q, c ? none : q_rotate(q, v3(0, 0, 3)));
+            lab_poly(&l, &p, 0.05, none, none);
+        }
+        lab_make(&l, 1e-9);
+        const fl_vec3 x = v3_add(l.w.b.x[1], q_rotate(q, v3(0, 0, 1.1 - over))),
+                      aside = q_rotate(q, v3(1.1e-9, 0.7e-9, 0));
+        for (int c = 0; c < 3; c++) { /* there, and a nanometre to either side */
+            lab_pose(&l.w, 0, v3_madd(x, c == 0 ? 0.0 : c == 1 ? 1.0 : -1.0, aside), l.w.b.q[1]);
+            const fl_pair p = lab_look(&l.w, 0, 1);
+            W[c] = p.energy, f[c] = p.f;
+        }
+        assert_true(fabs(W[0] / (0.5 * (W[1] + W[2])) - 1.0) < 1e-8);
+        assert_true(v3_norm(v3_sub(f[0], v3_scale(0.5, v3_add(f[1], f[2])))) < 1e-8 * v3_norm(f[0]));
+        lab_free(&l);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(forces_are_the_gradient_of_one_energy),
-                                       cmocka_unit_test(and_of_overlapping_cores_too)};
+                                       cmocka_unit_test(and_of_overlapping_cores_too),
+                                       cmocka_unit_test(flush_bodies_do_not_hang_on_rounding)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
