@@ -37,7 +37,7 @@ FL_WIDE_PART fl_vec3 sliding(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
 
 #define VECTOR(a) v3(b->a[0][c], b->a[1][c], b->a[2][c])
 
-FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt, double h)
+FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt, double h, double begins)
 {
     SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
     {
@@ -49,8 +49,8 @@ FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt,
         const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
         const double chi = speed > 0.0 ? b->chi[c] / speed : 0.0;
         const double from = s - dt * came, had = from > 0.0 ? from : 0.0;
-        const double goes = fl_damping_closing(closing, chi * elastic, h * b->yields[c], b->many[c],
-                                               elastic - b->k[c] * (had * sqrt(had)), b->damped[c]);
+        const double goes = fl_damping_at_end(closing, chi * elastic, h * b->yields[c], b->many[c],
+                                              elastic - b->k[c] * (had * sqrt(had)), b->damped[c], begins);
         const double damping = elastic * (chi * goes);
         b->touch[c] = touch;
         b->scale[c] = chi;
@@ -58,7 +58,7 @@ FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt,
     }
 }
 
-FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt, double h)
+FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt, double h, double begins)
 {
     SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
     {
@@ -83,7 +83,7 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt, d
         /* fl_tangent_damped() */
         const double g = b->tangential[c] * (b->scale[c] * b->elastic[c]),
                      yields = b->across[c] + part * part * b->turns[c], many = b->many[c],
-                     holds = fl_damping_for(h * g * yields, many, 2.0 * many) * h * g,
+                     holds = (fl_damping_for(h * g * yields, many, 2.0 * many) - begins) * h * g,
                      each = 1.0 / (1.0 + holds * yields);
         const fl_vec3 damps =
             v3_madd(v3_scale(-g, next), yields, v3_madd(v3_scale(-g * h, goes.f), holds, was));
@@ -131,9 +131,10 @@ FL_WIDE_VERSIONS static void tell(fl_spheres *restrict b, int32_t m)
 void fl_spheres_meet(fl_spheres *b, int32_t m, double dt, double half)
 {
     const int32_t full = filled(m);
+    const double begins = dt > 0.0 ? 0.0 : 1.0;
     stand(b, full);
-    press(b, full, dt, half);
-    rub(b, full, dt, half);
+    press(b, full, dt, half, begins);
+    rub(b, full, dt, half, begins);
     tell(b, full);
 }
 

@@ -35,7 +35,8 @@ typedef struct {
     double twist;           /* mean of that of A and of B about n, in the mean of the step */
     fl_vec3 damped;         /* what damping did in the step before, and about n [N], [N m] */
     double damped_turn;
-    double half; /* half a step, which damping is held back for [s] */
+    double half;   /* half a step, which damping is held back for [s] */
+    double begins; /* as in fl_damping_at_end() */
 } fl_sliding;
 
 /* What a step of friction leaves, and what it does to A. */
@@ -85,7 +86,8 @@ FL_WIDE_PART fl_grip fl_tangent_way(double size, double limit, fl_grip s, fl_gri
  * damping was `before` a step ago.  A contact that rubs rocks as well, which damps the same motion, and
  * counts for one more.  Across n that is an equation of two numbers, x + a P x = r, P = ease without its
  * parts along n: by Cramer's rule, 1 + a P having an eigenvalue of 1 along n. */
-FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way, fl_grip before, double h)
+FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way, fl_grip before, double h,
+                                       double begins)
 {
     const double g = c.g;
     const fl_vec3 n = c.n, u = s3_mul(c.ease, n);
@@ -97,7 +99,7 @@ FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way,
                        c.ease.yz - n.y * u.z - n.z * u.y + nn * n.y * n.z,
                        c.ease.zz - 2.0 * n.z * u.z + nn * n.z * n.z};
     const double mean = 0.5 * (P.xx + P.yy + P.zz),
-                 a = fl_damping_for(h * g * mean, c.many, 2.0 * c.many) * h * g;
+                 a = (fl_damping_for(h * g * mean, c.many, 2.0 * c.many) - begins) * h * g;
     const fl_vec3 r = v3_madd(s3_mul(P, v3_madd(v3_scale(-g * h, way.f), a, before.f)), -g, moves.f);
     const double xx = 1.0 + a * P.xx, yy = 1.0 + a * P.yy, zz = 1.0 + a * P.zz, xy = a * P.xy, xz = a * P.xz,
                  yz = a * P.yz;
@@ -170,7 +172,7 @@ FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, do
                   way_next = {v3_scale(-stiff * dt, next), each * (-stiff_turn * dt * by.next_spin)},
                   moves = {next, c.arm * by.next_spin}, damped = {by.damped, each * by.damped_turn};
     const double size = fl_grip_size(from);
-    const fl_grip damps = fl_tangent_damped(c, moves, way, damped, by.half);
+    const fl_grip damps = fl_tangent_damped(c, moves, way, damped, by.half, by.begins);
     const double part = fl_tangent_drives(c.many, damps, moves) ? 0.0 : 1.0;
     const fl_held now = fl_tangent_hold(from, size, way, fl_tangent_way(size, c.limit, way, way_next),
                                         c.limit, fl_grip_scale(part, damps));

@@ -132,7 +132,8 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const pa
                            0.5 * (wi + wj),
                            a->was.damped,
                            fl_lead_turned(a->was, c.n, ai, aj),
-                           a->of.half};
+                           a->of.half,
+                           a->of.begins};
     const fl_rubbed t = fl_tangent_rub(p->slip, c, by, a->of.dt);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->slip = t.slip;
@@ -300,7 +301,7 @@ static void steady(fl_pair *p, double presses, double chi, const fl_stance *r, c
 {
     const fl_wrench to =
         fl_lead_steadied(fl_lead_amid(p->f, p->ti, p->tj), fl_lead_amid(p->fd, p->di, p->dj), presses,
-                         2.0 * a->of.half * chi * presses / p->mass, a->by.pressed, a->was);
+                         2.0 * a->of.half * chi * presses / p->mass, a->by.pressed, a->was, a->of.begins);
     const fl_vec3 half = v3_scale(0.5, v3_cross(r->off, to.f));
     p->fd = to.f, p->di = v3_add(half, to.m), p->dj = v3_sub(half, to.m);
 }

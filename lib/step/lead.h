@@ -50,26 +50,26 @@ static inline fl_before fl_before_of(const fl_pair *p)
 }
 
 /* A step over dt, and half of the one that damping is held back for: the first that comes where dt = 0, as
- * time begins and bodies may touch that move [s]. */
+ * time begins and bodies may touch that move [s].  begins: as in fl_damping_at_end(). */
 typedef struct {
-    double dt, half;
+    double dt, half, begins;
 } fl_lead_step;
 
 static inline fl_lead_step fl_lead_span(const fl_world *w, double dt)
 {
-    return (fl_lead_step){dt, 0.5 * (dt > 0.0 ? dt : w->dt)};
+    return dt > 0.0 ? (fl_lead_step){dt, 0.5 * dt, 0.0} : (fl_lead_step){dt, 0.5 * w->dt, 1.0};
 }
 
 /* fl_damping_closing() of a contact that approaches at c, as foreseen; elastic: size of that force now, C its
- * damping, yields: fl_pair_yields().  Sizes, since the force turns with the contact.  As time begins nothing
- * has grown. */
+ * damping, yields: fl_pair_yields().  Sizes, since the force turns with the contact. */
 FL_WIDE_PART double fl_lead_closing(double c, double elastic, double C, double yields, double pressed,
                                     fl_lead_step by, fl_before was)
 {
     const double had = v3_norm(was.elastic.f),
                  damped = had > 0.0 ? v3_dot(was.elastic.f, was.damping.f) / had : 0.0;
-    return fl_damping_closing(c, C, by.half * yields, pressed, by.dt > 0.0 ? elastic - had : 0.0,
-                              by.dt > 0.0 ? damped : 0.0);
+    const double known = 1.0 - by.begins;
+    return fl_damping_at_end(c, C, by.half * yields, pressed, known * (elastic - had), known * damped,
+                             by.begins);
 }
 
 /* Where the pressures of a contact stand against each other, in a slot, its force is less than their sum,
@@ -83,14 +83,15 @@ FL_WIDE_PART double fl_lead_share(double elastic, double presses)
 
 /* fl_damping_closing() knows of the push along the force alone.  All else of damping, by which the bodies
  * shake, goes by the motion foreseen, held back as that of many contacts is: as if it moved twice as easily
- * as the mass.  presses: sum of the pressures, y = C dt/M of them, twice what fl_damping_for() has. */
+ * as the mass.  presses: sum of the pressures, y = C dt/M of them, twice what fl_damping_for() has;
+ * begins: as in fl_damping_at_end(). */
 FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, double presses, double y,
-                                        double pressed, fl_before was)
+                                        double pressed, fl_before was, double begins)
 {
     const fl_wrench off = fl_wrench_madd(was.damping, -1.0, damping);
     const double f2 = v3_norm2(elastic.f), least = 0.25 * presses * presses, size2 = f2 > least ? f2 : least,
                  push = size2 > 0.0 ? v3_dot(elastic.f, off.f) / size2 : 0.0;
-    const double holds = fl_damping_for(y, pressed, 2.0 * pressed) * y, to = holds / (1.0 + holds);
+    const double holds = (fl_damping_for(y, pressed, 2.0 * pressed) - begins) * y, to = holds / (1.0 + holds);
     return fl_wrench_madd(damping, to, fl_wrench_madd(off, -push, elastic));
 }
 

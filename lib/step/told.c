@@ -290,7 +290,7 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
                         damping = {D1, v3_add(v3_cross(v3_add(aj, amid), D1), DM)};
         const fl_before was = before_of(b, k);
         const fl_wrench held = fl_lead_steadied(elastic, damping, share * OF(pressure)->a[k], b->damps.a[k],
-                                                b->pressed.a[k], was);
+                                                b->pressed.a[k], was, 0.0);
         const fl_vec3 D = held.f, half = v3_cross(amid, D), di = v3_add(half, held.m),
                       dj = v3_sub(half, held.m);
         fl_lane3_put(TO(fd), k, D);
@@ -350,7 +350,8 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, fl_lead_step of, int survey)
                                b->twist.a[k],
                                before.damped,
                                fl_lead_turned(before, c.n, ai, aj),
-                               of.half};
+                               of.half,
+                               of.begins};
         const fl_rubbed to = fl_tangent_rub(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));

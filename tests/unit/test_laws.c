@@ -381,8 +381,8 @@ static void friction_damping_solves_its_equation(void **state)
                                        one.y * one.z + two.y * two.z, 1 + one.z * one.z + two.z * two.z},
                               .turns = turn,
                               .many = many};
-        const fl_grip x =
-            fl_tangent_damped(c, (fl_grip){v, r[0]}, (fl_grip){way, r[1]}, (fl_grip){old, r[2]}, 0.5 * dt);
+        const fl_grip x = fl_tangent_damped(c, (fl_grip){v, r[0]}, (fl_grip){way, r[1]}, (fl_grip){old, r[2]},
+                                            0.5 * dt, 0.0);
         /* the point then moves so, and the contact stands for so many */
         const double across = 0.5 * (3.0 + v3_norm2(one) + v3_norm2(two) - projected(n, one, two)),
                      all = fl_damping_for(0.5 * dt * coef * across, many, 2.0 * many);
