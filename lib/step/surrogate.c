@@ -9,6 +9,7 @@
 #define SHORTER 0.2 /* by how much one look changes it */
 #define LONGER 3.0
 #define SAFE 0.15    /* so much of the tolerance is aimed at, */
+#define RETURN 0.5   /* so much of it is given back with, at the most, */
 #define BEYOND 10.0  /* and so much tells of something new: what was learnt is forgotten */
 #define NEAR 1e-5    /* of the overlap: looks that are nearer to one another tell rounding; */
 #define FAR 50.0     /* and where one has so many times the energy of another neither tells of it */
@@ -569,10 +570,22 @@ static fl_look look_of(const fl_surrogate *s, const fl_told *t)
     return b;
 }
 
-/* What is owed, over the way to come; part: of the force, at its end at most. */
-static void owe(fl_surrogate *s, double part)
+/* How much z was told too low at the end of a way, but for what was given back, over the fourth power of that
+ * in overlaps: what is left out is of that order. */
+static double ran_off(const fl_surrogate *s, const fl_told *t, double energy)
 {
-    const double pull = s->power * s->energy, way = s->reach * s->overlap, b = s->owed / (pull * way * way),
+    const double g = gone(s, t), way = t->way / s->overlap, w2 = way * way,
+                 pull = s->power * t->energy / t->z;
+    return foresees(s) && w2 > 0.0 && t->z > 0.0 ? ((energy - t->energy) / pull + s->back * g * g) / (w2 * w2)
+                                                 : 0.0;
+}
+
+/* What is owed, over the way to come, and what will be by then, as the last way ran off; part: of the force,
+ * at its end at most. */
+static void owe(fl_surrogate *s, double runs, double part)
+{
+    const double pull = s->power * s->energy, way = s->reach * s->overlap, r2 = s->reach * s->reach,
+                 b = (s->owed / pull + runs * r2 * r2) / (way * way),
                  most = 0.5 * part * s->force / (pull * way);
     s->back = !s->live || !foresees(s) ? 0.0 : b > most ? most : b < -most ? -most : b;
 }
@@ -582,12 +595,13 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
     fl_six slope;
     fl_look last = {0};
     fl_pressing pressing;
-    double off = 0.0;
+    double off = 0.0, runs = 0.0;
     fl_bearing_pressing(seen->places, &pressing);
     if (t) {
         const double force = slope_of(s, seen, slope);
         last = look_of(s, t);
         if (s->used && t->z > 0.0) s->owed += seen->energy - t->energy;
+        runs = ran_off(s, t, seen->energy);
         if (force > 0.0) off = compare(s, t, &last, slope, force, seen->toward, tolerance);
         const double more = too_low(s, t, seen->slope);
         widen(s, &last, pressing.wide);
@@ -597,7 +611,7 @@ double fl_surrogate_look(fl_surrogate *s, const fl_told *t, const fl_seen *seen,
     }
     fill(s, seen, &pressing, &last);
     if (s->live) hold_back(s, seen, &pressing);
-    owe(s, SAFE * tolerance);
+    owe(s, runs, RETURN * tolerance);
     give_back(s);
     if (s->live && (seen->stiff_i > 0.0 || seen->stiff_j > 0.0))
         s->stiff_i = seen->stiff_i / s->slope, s->stiff_j = seen->stiff_j / s->slope;

@@ -39,7 +39,8 @@
  *
  * At a look W takes a step, by what was told wrong: as a rule with the same sign in every bounce, for what is
  * left out is of an even order.  So what has come together since the bodies touch is given back over the way
- * to come, forth or back: b = owed/(p W0 reach^2), by no more of the force than is aimed at anyway.  No step
+ * to come, forth or back, and what will come on that with it, as of the last way by its fourth power: b =
+ * owed/(p W0 reach^2), by no more than half of the tolerance of the force.  No step
  * has felt the force that is told where a look is made instead, so that of a way of n steps 2/n too much is
  * counted as owed.
  *
