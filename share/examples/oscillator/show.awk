@@ -19,5 +19,5 @@ END {
     printf "  by loadstats           %7.1f mm  %7.1f mm    from the load of this run\n", 1e3 * x[1], 1e3 * x[2]
     printf "  by loadstats           %7.1f mm  %7.1f mm    from the load on the cylinder at rest\n", 1e3 * x[3], 1e3 * x[4]
     printf "largest acceleration     %7.2f m/s2%6.2f m/s2\n", most["ax"], most["ay"]
-    printf "dominant frequency       %7s Hz  %7s Hz    of the displacement\n", f["ux"], f["uy"]
+    printf "dominant frequency       %7.2f Hz  %7.2f Hz    of the displacement\n", f["ux"], f["uy"]
 }
