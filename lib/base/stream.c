@@ -301,18 +301,51 @@ static void sync_folder(const char *path)
     free(folder);
 }
 
+/* The sentence of a write that failed; why 0: nobody knows. */
+static int lost(const fl_out *out, int why, fl_err *err)
+{
+    const int kept = out->keep && out->tmp;
+    return fl_fail(err, FL_SYSTEM, "%s: %s%s%s", out->path ? out->path : "<stdout>",
+                   why ? strerror(why) : "could not write all of it",
+                   kept ? "; what was written until then is kept in " : "", kept ? out->tmp : "");
+}
+
+/* errno of a write before this one is still that of the stream's failure, any other is not. */
+static int flush(fl_out *out)
+{
+    if (!ferror(out->f)) errno = 0;
+    return fflush(out->f) != 0 || ferror(out->f) ? -1 : 0;
+}
+
+int fl_out_flush(fl_out *out, fl_err *err) { return flush(out) ? lost(out, errno, err) : 0; }
+
+/* Cut off what stands behind the last end of a line. */
+static void cut_to_line(int fd)
+{
+    char last[4096];
+    int64_t at = lseek(fd, 0, SEEK_END);
+    while (at > 0) {
+        const int64_t n = at < (int64_t)sizeof last ? at : (int64_t)sizeof last;
+        int64_t k = n;
+        if (pread(fd, last, (size_t)n, at - n) != n) return;
+        while (k > 0 && last[k - 1] != '\n') k--;
+        at -= n - k;
+        if (k > 0) break;
+    }
+    if (at >= 0 && ftruncate(fd, at)) return; /* then it stays as it is */
+}
+
 /* Everything written so far to the disk; 0, or -1 with errno. */
 static int settle(fl_out *out)
 {
-    if (!ferror(out->f)) errno = 0; /* else the last write that failed has left why */
-    if (fflush(out->f) != 0 || ferror(out->f)) return -1;
+    if (flush(out)) return -1;
     if (out->gz && zip_end(out->gz)) return -1;
     return !out->path || fsync(fd_of(out)) == 0 || errno == EINVAL || errno == EROFS ? 0 : -1;
 }
 
 int fl_out_close(fl_out *out, fl_err *err)
 {
-    const char *name = out->path ? out->path : "<stdout>";
+    const int plain = !out->gz;
     if (!out->f) return 0;
     int bad = settle(out) != 0, why = errno;
     const int alone = out->tmp ? dup(fd_of(out)) : -1; /* the lock, until the file has its name */
@@ -327,8 +360,9 @@ int fl_out_close(fl_out *out, fl_err *err)
     }
     if (!bad && out->tmp && rename(out->tmp, out->path) != 0) bad = 1, why = errno;
     if (bad && out->tmp && !out->keep) unlink(out->tmp);
+    else if (bad && plain && alone >= 0) cut_to_line(alone);
     if (alone >= 0) close(alone);
-    if (bad) fl_fail(err, FL_SYSTEM, "%s: %s", name, why ? strerror(why) : "could not write all of it");
+    if (bad) lost(out, why, err);
     else if (out->tmp) sync_folder(out->path);
     free(out->tmp); /* renamed, kept, or gone: no longer ours to remove */
     out->tmp = NULL;
@@ -374,9 +408,7 @@ int fl_out_mark(fl_out *out, fl_mark *mark, fl_err *err)
 {
     struct stat st;
     *mark = (fl_mark){-1, 0};
-    if (settle(out))
-        return fl_fail(err, FL_SYSTEM, "%s: %s", out->path ? out->path : "<stdout>",
-                       errno ? strerror(errno) : "could not write all of it");
+    if (settle(out)) return lost(out, errno, err);
     const int fd = fd_of(out);
     if (fstat(fd, &st) || !S_ISREG(st.st_mode)) return 0;
     mark->at = lseek(fd, 0, SEEK_CUR);

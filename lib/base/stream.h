@@ -32,7 +32,7 @@ typedef struct {
     FILE *f;          /* write here; NULL when closed */
     char *path, *tmp; /* NULL for standard output; tmp alone NULL for a device or a pipe */
     void *gz;         /* the compressor, when asked for */
-    int keep;         /* fl_out_mark() has been here: tmp stays when something fails */
+    int keep;         /* tmp stays when something fails: what is in it is good without the rest */
 } fl_out;
 
 /* A place in a file, from which another run of the program can go on writing it. */
@@ -48,15 +48,20 @@ enum { FL_MARK_TAIL = 4096 };
  * on failure. */
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err);
 
+/* Hand what was written to the system, as at the end of a row.  -1 with FL_SYSTEM in err when that, or a
+ * write before it, has failed; where the unfinished file is kept the sentence names it. */
+int fl_out_flush(fl_out *out, fl_err *err);
+
 /* PATH.part of the file that path leads to, to be freed; NULL where a device or a pipe is written to
  * directly, and where memory runs out. */
 char *fl_out_unfinished(const char *path);
 
 /* Flush, sync, and give the file its final name, which is synced too.  -1 with FL_SYSTEM in err when anything
- * written was lost; then no file carries the final name (an older one keeps it). */
+ * written was lost; then no file carries the final name (an older one keeps it), and what was written goes,
+ * or where it is kept stays in PATH.part, up to the end of its last whole line. */
 int fl_out_close(fl_out *out, fl_err *err);
 
-/* Bring what was written to the disk and tell the place.  From here on a failure leaves the unfinished file,
+/* Bring what was written to the disk and tell the place.  From here on the unfinished file is kept,
  * PATH.part, since a mark speaks of it.  What is compressed ends a member of the gzip file here and begins
  * another, so that the bytes after a mark do not depend on those before.  -1 with FL_SYSTEM. */
 int fl_out_mark(fl_out *out, fl_mark *mark, fl_err *err);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -307,6 +309,44 @@ static void full_disk(void **state)
         }
 }
 
+/* What is kept stays under the other name up to its last whole line, and the sentence says where. */
+static void what_is_kept(void **state)
+{
+    (void)state;
+    for (int keep = 0; keep < 2; keep++) {
+        fl_err err = {0};
+        fl_out out;
+        struct rlimit was, small;
+        char want[1500];
+        const char *path = test_path("rows"), *part = part_of(path);
+        int bad = 0;
+        assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
+        assert_int_equal(fl_out_open(&out, path, 0, &err), 0);
+        out.keep = keep;
+        small = (struct rlimit){5000, was.rlim_max};
+        void (*const old)(int) = signal(SIGXFSZ, SIG_IGN);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+        for (int k = 0; k < 1000 && !bad; k++) {
+            fprintf(out.f, "row %03d\n", k);
+            bad = fl_out_flush(&out, &err);
+        }
+        assert_int_equal(bad, -1);
+        assert_int_equal(fl_out_close(&out, &err), -1);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &was), 0);
+        signal(SIGXFSZ, old);
+        snprintf(want, sizeof want, keep ? "%s: %s; what was written until then is kept in %s" : "%s: %s",
+                 path, "File too large", part);
+        assert_string_equal(err.text, want);
+        assert_false(exists(path));
+        assert_int_equal(exists(part), keep);
+        if (!keep) continue;
+        struct stat st;
+        assert_int_equal(stat(part, &st), 0);
+        assert_int_equal(st.st_size, 5000 / 8 * 8);
+        unlink(part);
+    }
+}
+
 /* A device stays a device, a link a link: they are written through, not replaced. */
 static void devices_and_links_stay(void **state)
 {
@@ -550,6 +590,7 @@ int main(void)
                                        cmocka_unit_test(what_cannot_be_opened),
                                        cmocka_unit_test(what_vanishes),
                                        cmocka_unit_test(full_disk),
+                                       cmocka_unit_test(what_is_kept),
                                        cmocka_unit_test(devices_and_links_stay),
                                        cmocka_unit_test(into_a_fifo),
                                        cmocka_unit_test(one_writer_at_a_time),

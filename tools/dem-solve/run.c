@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <errno.h>
 #include <signal.h>
 #include <string.h>
 #include <time.h>
@@ -186,6 +185,20 @@ static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
     return 0;
 }
 
+/* From here on the tables hold rows, which are good without those that a full disk leaves no room for. */
+static void keep_tables(struct outputs *u)
+{
+    for (int k = 0; k < TABLES; k++) u->table[k].keep = 1;
+}
+
+/* A table that has lost a row is not gone on with: the run ends. */
+static int lost_row(struct outputs *u, fl_err *err)
+{
+    for (int k = 0; k < TABLES; k++)
+        if (u->table[k].f && ferror(u->table[k].f)) return fl_out_flush(&u->table[k], err);
+    return 0;
+}
+
 /* Triangles and cones by number within their part, where they are now. */
 static void write_panels(struct run *r, FILE *f, double t, double length)
 {
@@ -248,8 +261,7 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
     if (u->table[AT_PANELS].f) write_panels(r, u->table[AT_PANELS].f, t, length);
     if (u->table[AT_EVENTS].f) write_events(r, u->table[AT_EVENTS].f, t, length);
     u->last_row = t;
-    if (fflush(loads->f) == 0 && !ferror(loads->f)) return 0;
-    return fl_fail(err, FL_SYSTEM, "%s: %s", loads->path ? loads->path : "<stdout>", strerror(errno));
+    return fl_out_flush(loads, err);
 }
 
 static void write_contacts(struct run *r, struct outputs *u, double t)
@@ -347,6 +359,7 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         run_frames_path(r, u, path);
         if (open_table(r, u, AT_FRAMES, path, err)) return -1;
         run_header(r, u, AT_FRAMES);
+        keep_tables(u);
     }
     if (ice) write_newcomers(r, u, &now);
     fl_frames_frame(u->table[AT_FRAMES].f, t, &now, gone_one_way(r->w), ice);
@@ -381,6 +394,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         default:
             if (write_frames(r, u, t, err)) return -1;
         }
+        if (lost_row(u, err)) return -1;
         next(u, k, r->w);
     }
     if (!asleep) fl_sleep_back(r->w);
@@ -501,6 +515,7 @@ int run_scene(struct run *r, fl_err *err)
         for (int k = 0; k < TABLES; k++) fl_out_abort(&u.table[k]);
         return -1;
     }
+    keep_tables(&u);
     listen_to_signals(r);
     if (r->budget) r->budget->stop = &told_to_stop;
     const double begun = run_clock(), busy = run_processor();
