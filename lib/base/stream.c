@@ -281,6 +281,8 @@ int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err)
             out->tmp = NULL;
             goto fail;
         }
+    } else if ((fcntl(fd, F_GETFL) & O_ACCMODE) == O_RDONLY) {
+        return fl_fail(err, FL_SYSTEM, "<stdout>: %s", strerror(EBADF));
     }
     if (begin(out, fd, gzip, err) == 0) return 0;
 fail:

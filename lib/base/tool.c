@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdarg.h>
 #include <string.h>
+#include <unistd.h>
 #include "base/tool.h"
 
 void fl_by_start(fl_by *by, const char *program)
@@ -36,6 +38,16 @@ void fl_by_header(FILE *f, const char *kind, int version, const char *history, c
 }
 
 void fl_tool_version(const char *program) { printf("%s %s\n", program, FL_VERSION); }
+
+void fl_tool_begin(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
+        if (fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
+        /* the wrong way round: what reads or writes it gets EBADF, as from a closed one */
+        const int filled = open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        if (filled >= 0 && filled != fd) close(filled); /* one below was closed and could not be filled */
+    }
+}
 
 int fl_tool_end(const char *program, int rc, fl_err *err)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tool.h -- what every program does the same way: version, history line, end. */
+/* tool.h -- what every program does the same way: begin, version, history line, end. */
 #ifndef FL_BASE_TOOL_H
 #define FL_BASE_TOOL_H
 #include <stdint.h>
@@ -26,6 +26,10 @@ void fl_by_header(FILE *f, const char *kind, int version, const char *history, c
 
 /* Print "program 0.1.0" to standard output, for --version. */
 void fl_tool_version(const char *program);
+
+/* Begin of main, before any file is opened: where standard input, output or error is closed, its number is
+ * given to something that fails alike, so that no file gets it and is written to in its place. */
+void fl_tool_begin(void);
 
 /* End of main: flush standard output, say "program: sentence" on stderr if anything failed, and return the
  * exit status: 0, or the code in err.  A run that succeeded but could not write its output ends in

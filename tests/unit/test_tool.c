@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
@@ -68,9 +69,39 @@ static void lost_output_is_a_failure(void **state)
     assert_string_equal(said, "loadstats: first\n");
 }
 
+/* In a child without some of its first three files: what opening another gives, and what they then answer. */
+static int begun_without(int closed)
+{
+    int status = -1;
+    char byte = 'x';
+    fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        for (int fd = 0; fd < 3; fd++)
+            if (closed & 1 << fd) close(fd);
+        fl_tool_begin();
+        int bad = open("/dev/null", O_RDWR) < 3;
+        if (closed & 1) bad |= read(0, &byte, 1) != -1 || errno != EBADF;
+        if (closed & 2) bad |= write(1, &byte, 1) != -1 || errno != EBADF;
+        if (closed & 4) bad |= write(2, &byte, 1) != -1 || errno != EBADF;
+        _exit(bad);
+    }
+    waitpid(child, &status, 0);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void no_file_takes_a_closed_stream(void **state)
+{
+    (void)state;
+    for (int closed = 0; closed < 8; closed++) assert_int_equal(begun_without(closed), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(status_is_the_code),
-                                       cmocka_unit_test(lost_output_is_a_failure)};
+                                       cmocka_unit_test(lost_output_is_a_failure),
+                                       cmocka_unit_test(no_file_takes_a_closed_stream)};
     return cmocka_run_group_tests_name("tool", tests, NULL, NULL);
 }

@@ -121,6 +121,7 @@ int main(int argc, char **argv)
 {
     struct options o;
     fl_err err = {0};
+    fl_tool_begin();
     int rc = options_parse(&o, argc, argv, &err);
     if (rc == 0 && !o.ended) rc = check_targets(&o, &err);
     if (rc == 0 && !o.ended)

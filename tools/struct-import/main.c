@@ -176,6 +176,7 @@ int main(int argc, char **argv)
 {
     struct options o;
     fl_err err = {0};
+    fl_tool_begin();
     fl_par_wait_briefly(argv);
     int rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
     if (rc == 0 && !o.ended) rc = run(&o, &err);
