@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <string.h>
 #include <unistd.h>
@@ -41,6 +42,7 @@ void fl_tool_version(const char *program) { printf("%s %s\n", program, FL_VERSIO
 
 void fl_tool_begin(void)
 {
+    signal(SIGXFSZ, SIG_IGN);
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
         if (fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
         /* the wrong way round: what reads or writes it gets EBADF, as from a closed one */

@@ -28,7 +28,8 @@ void fl_by_header(FILE *f, const char *kind, int version, const char *history, c
 void fl_tool_version(const char *program);
 
 /* Begin of main, before any file is opened: where standard input, output or error is closed, its number is
- * given to something that fails alike, so that no file gets it and is written to in its place. */
+ * given to something that fails alike, so that no file gets it and is written to in its place; and a file
+ * that grows beyond its limit (ulimit -f) is a write that fails, not the end of the program. */
 void fl_tool_begin(void);
 
 /* End of main: flush standard output, say "program: sentence" on stderr if anything failed, and return the

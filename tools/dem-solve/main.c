@@ -155,6 +155,17 @@ static int places(int32_t **at, int32_t n, int32_t all, fl_err *err)
     return 0;
 }
 
+/* A signal is answered by a checkpoint; when a reader has gone the last one stays. */
+static void tell_stop(const struct run *r)
+{
+    const char *checkpoint = r->scene->output.checkpoint;
+    const int gone = r->stopped == SIGPIPE, on = checkpoint[0] && (!gone || r->saves || r->saved);
+    fprintf(stderr, "dem-solve: stopped %s in step %lld (t = %g s)%s%s%s\n",
+            gone ? "when a reader of its output had gone," : "by a signal", (long long)r->w->step,
+            fl_world_time(r->w), on ? ", dem-solve --resume " : "", on ? checkpoint : "",
+            on ? " goes on" : "");
+}
+
 static int run(const struct options *o, int *stopped, fl_err *err)
 {
     struct inputs in = {0};
@@ -209,11 +220,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     if (!o->quiet && world.frozen.n) report_bonds(&world, stderr);
     rc = act(&r, err);
     *stopped = r.stopped;
-    if (r.stopped && !o->quiet)
-        fprintf(stderr, "dem-solve: stopped by a signal in step %lld (t = %g s)%s%s%s\n",
-                (long long)world.step, fl_world_time(&world),
-                in.scene.output.checkpoint[0] ? ", dem-solve --resume " : "", in.scene.output.checkpoint,
-                in.scene.output.checkpoint[0] ? " goes on" : "");
+    if (r.stopped && !o->quiet) tell_stop(&r);
 done:
     free(at);
     for (int k = 0; k < KEPT; k++) free(in.text[k]);
@@ -237,6 +244,10 @@ int main(int argc, char **argv)
     fl_par_wait_briefly(argv);
     int rc = options_parse(&o, argc, argv, &err);
     if (rc == 0 && !o.ended) rc = run(&o, &stopped, &err);
+    if (rc == 0 && stopped == SIGPIPE) { /* quietly, as what stands in a pipe does */
+        signal(SIGPIPE, SIG_DFL);
+        raise(SIGPIPE);
+    }
     rc = fl_tool_end("dem-solve", rc, &err);
     if (rc == 0 && stopped) raise(stopped); /* whoever sent it sees that it was heeded */
     return rc;

@@ -410,20 +410,23 @@ static int close_outputs(struct outputs *u, fl_err *err)
 
 /* --- signals ----------------------------------------------------------------------------------- */
 
-static volatile sig_atomic_t told_to_stop, told_to_save;
+static volatile sig_atomic_t told_to_stop, told_to_save, reader_gone;
 
 static void on_signal(int number)
 {
     if (number == SIGUSR1) told_to_save = 1;
+    else if (number == SIGPIPE) reader_gone = 1;
     else told_to_stop = number;
 }
 
-/* SIGTERM, SIGINT and SIGHUP end the run after the step under way; a second one ends it at once. */
+/* SIGTERM, SIGINT and SIGHUP end the run after the step under way; a second one ends it at once.  A reader
+ * that goes away does so as well, once a row for it has failed. */
 static void listen_to_signals(const struct run *r)
 {
     static const int STOP[] = {SIGTERM, SIGINT, SIGHUP};
     struct sigaction act = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, was;
     if (r->scene->output.checkpoint[0]) sigaction(SIGUSR1, &act, NULL);
+    if (sigaction(SIGPIPE, NULL, &was) == 0 && was.sa_handler != SIG_IGN) sigaction(SIGPIPE, &act, NULL);
     act.sa_flags |= (int)SA_RESETHAND;
     for (size_t k = 0; k < sizeof STOP / sizeof *STOP; k++)
         if (sigaction(STOP[k], NULL, &was) == 0 && was.sa_handler != SIG_IGN) sigaction(STOP[k], &act, NULL);
@@ -532,5 +535,9 @@ int run_scene(struct run *r, fl_err *err)
     fl_sleep_look(r->w);
     fl_step_ledger(r->w);
     /* Also after a failure of the run: the rows until then are good and keep their names. */
-    return close_outputs(&u, err) ? -1 : rc;
+    if (!close_outputs(&u, err) && !rc) return 0;
+    if (!reader_gone || err->code != FL_SYSTEM) return -1;
+    r->stopped = SIGPIPE;
+    *err = (fl_err){0};
+    return 0;
 }
