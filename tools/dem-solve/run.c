@@ -86,7 +86,8 @@ static void step_origin(struct run *r, double automatic)
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
-    else if (automatic < s->safety * r->limit) damped_origin(to, n, automatic / r->limit, left, r->limit);
+    else if (automatic / r->limit < s->safety * (1.0 - 1e-12)) /* less but for rounding */
+        damped_origin(to, n, automatic / r->limit, left, r->limit);
     else snprintf(to, n, "run.safety, %.3g of the critical %.4g s", s->safety, r->limit);
     if (s->dt > 0.0 || r->step_body < 0 || automatic >= fmin(every, s->duration)) return;
     const size_t used = strlen(to);
