@@ -259,6 +259,42 @@ static void make_cell(fl_world *w)
 
 #define MOST_CELLS 1e6 /* a body may have gone through so many */
 
+static fl_vec3 normal_of(const fl_piece *wall) { return q_rotate(wall->q, v3(0, 0, 1)); }
+
+const char *fl_world_wall(const fl_world *w, int32_t k, char name[64])
+{
+    const fl_piece *wall = &w->structure.piece[w->pieces + k];
+    const fl_vec3 e = normal_of(wall);
+    const char axis = fabs(e.x) > 0.5 ? 'x' : fabs(e.y) > 0.5 ? 'y' : 'z';
+    snprintf(name, 64, "the wall at %c = %g m", axis,
+             axis == 'x'   ? wall->x.x
+             : axis == 'y' ? wall->x.y
+                           : wall->x.z);
+    return name;
+}
+
+static int before_walls(const fl_world *w, int32_t i, fl_err *err)
+{
+    char name[64];
+    for (int32_t k = 0; k < w->walls && w->b.invm[i] > 0.0; k++) {
+        const fl_piece *wall = &w->structure.piece[w->pieces + k];
+        const double before = v3_dot(normal_of(wall), v3_sub(w->b.x[i], wall->x));
+        if (!wall->elastic && before < 0.0)
+            return fl_fail(err, FL_INPUT,
+                           "%s: body %d stands behind %s, its centre by %.4g m: a place between boundary.min "
+                           "and boundary.max was wanted",
+                           w->scene->ice.file, w->id[i], fl_world_wall(w, k, name), -before);
+    }
+    return 0;
+}
+
+int fl_world_before_walls(const fl_world *w, fl_err *err)
+{
+    for (int32_t i = 0; i < w->n; i++)
+        if (!fl_world_away(w, i) && before_walls(w, i, err)) return -1;
+    return 0;
+}
+
 /* A body that spans half the cell could meet two images of another at once, or its own. */
 static int fits_cell(const fl_world *w, int32_t i, fl_err *err)
 {

@@ -417,6 +417,13 @@ static inline double fl_world_spring(const fl_world *w, int32_t i, double *drawn
  */
 int32_t fl_world_name(const fl_world *w, int32_t k);
 
+/* -1 with FL_INPUT where the centre of a floe is behind a rigid wall, from where none comes back but with the
+ * energy of a push as long. */
+int fl_world_before_walls(const fl_world *w, fl_err *err);
+
+/* "the wall at x = -5 m", of wall k. */
+const char *fl_world_wall(const fl_world *w, int32_t k, char name[64]);
+
 /* The piece or wall that thing j is, NULL where it is a floe. */
 static inline const fl_piece *fl_world_piece(const fl_world *w, int32_t j)
 {

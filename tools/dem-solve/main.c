@@ -190,7 +190,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     if (keep_texts(&in, surface, err) || order(&in.field, &at, err) ||
         (in.feed.n && order(&in.feed, NULL, err)) ||
         fl_world_make_fed(&world, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err) ||
-        places(&at, in.field.n, world.n, err) ||
+        (!o->resume && fl_world_before_walls(&world, err)) || places(&at, in.field.n, world.n, err) ||
         (in.scene.run.error > 0.0 &&
          fl_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err)))
         goto done;

@@ -488,8 +488,10 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     double shown = begun;
     r->going = 1;
     if (!r->saved) {
-        if (fl_step_start(w, err)) return -1;
-        warn_at_start(r);
+        const int bad = fl_step_start(w, err);
+        if (!bad || err->code == FL_NUMERIC)
+            warn_at_start(r); /* why a step may be too long for its contacts */
+        if (bad) return -1;
         warn_at_row(r, 0.0);
         if (write_due(r, u, err)) return -1;
     }

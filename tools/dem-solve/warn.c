@@ -15,6 +15,7 @@ static void warn_overlaps(const struct run *r)
     const fl_world *w = r->w;
     const fl_pair *first = NULL;
     int32_t found = 0;
+    char other[64];
     fl_pair_walk at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         if (!p->n || !(p->overlap > p->keep * (w->b.radius[p->i] + w->b.radius[p->j]))) continue;
@@ -23,8 +24,9 @@ static void warn_overlaps(const struct run *r)
     if (!found) return;
     fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
             found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
-    fprintf(stderr, "body %d and %d; they will be pushed apart\n", w->id[first->i],
-            fl_world_name(w, first->j));
+    if (first->j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_name(w, first->j));
+    else fl_world_wall(w, first->j - w->n - w->pieces, other);
+    fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[first->i], other);
 }
 
 /* Inside a shell and clear of its skin, like air in a hull. */
