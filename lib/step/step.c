@@ -34,9 +34,9 @@ enum { HELD = 8 };
 /* Contacts that are on their way to the processor while another is booked, which takes far less time. */
 enum { ON_WAY = 8 };
 
-/* A residual of more than this of the throughput and of what the contacts store is no longer the error of the
- * time integration, whose loads dem-solve(1) calls usable up to here, but a contact that makes energy. */
-#define MADE 1e-2
+/* A residual of no more than this of what is stored may be rounding: that of sums over thousands of floes and
+ * steps, each 1e-16 of them. */
+#define ROUNDING 1e-12
 
 static int surveyed(const fl_world *w, int64_t step)
 {
@@ -422,6 +422,26 @@ static void account(fl_world *w, double dt, deepest *d)
     w->imbalance = v3_madd(w->imbalance, dt, balance);
 }
 
+double fl_step_stored(const fl_world *w)
+{
+    const fl_ledger *g = &w->ledger;
+    return fabs(g->kinetic) + fabs(g->gravity) + fabs(g->elastic) + fabs(g->hydrostatic) + fabs(g->moving) +
+           fabs(g->spring) + fabs(g->bond);
+}
+
+double fl_step_off(const fl_world *w)
+{
+    const double off = fabs(w->ledger.residual), share = off / w->ledger.throughput;
+    return !(share <= FL_STEP_USABLE) && off <= ROUNDING * fl_step_stored(w) ? 0.0 : share;
+}
+
+int fl_step_unbalanced(const fl_world *w)
+{
+    const fl_ledger *g = &w->ledger;
+    const double scale = g->throughput + fabs(g->elastic);
+    return fl_step_off(w) > FL_STEP_USABLE && fabs(g->residual) > FL_STEP_USABLE * scale;
+}
+
 /* Overlaps past half the radii are deeper than any law is meant for, but as long as the books balance the run
  * may go on: bodies that were put into one another come apart so.  It ends when the residual says that
  * energy is being made. */
@@ -433,7 +453,7 @@ int fl_step_balance(fl_world *w, fl_err *err)
     if (!isfinite(g->residual))
         return fl_fail(err, FL_NUMERIC, "the energy is not a finite number in step %lld (t = %g s)",
                        (long long)w->step, fl_world_time(w));
-    if (!w->half_steps || !(g->residual > MADE * scale)) return 0;
+    if (!w->half_steps || !(g->residual > FL_STEP_USABLE * scale)) return 0;
     return fl_fail(
         err, FL_NUMERIC,
         "body %d and %d: they overlapped by more than half of their radii at t = %g s, and energy is "

@@ -54,16 +54,39 @@ void report_bonds(const fl_world *w, FILE *f)
             s->softening == FL_SOFTENING_STRETCH ? "" : " (see bond.softening)");
 }
 
+/* A run that failed may leave no balance, and floes at rest have no throughput to hold rounding against. */
+static void energy_of(const fl_world *w, FILE *f)
+{
+    const fl_ledger *g = &w->ledger;
+    const double off = fl_step_off(w);
+    if (!isfinite(g->residual) || !isfinite(g->throughput))
+        fprintf(f, "energy residual    unknown: the energies are not finite numbers any more\n");
+    else if (!isfinite(off)) fprintf(f, "energy residual    unknown: nothing has gone through yet\n");
+    else if (off == 0.0 && g->residual != 0.0)
+        fprintf(f, "energy residual    0 but for rounding (%.3g J; %.3g J are stored, throughput %.3g J)\n",
+                g->residual, fl_step_stored(w), g->throughput);
+    else
+        fprintf(f, "energy residual    %.2g of the throughput (%.3g J of %.3g J)\n", off, g->residual,
+                g->throughput);
+}
+
+static void momentum_of(const fl_world *w, FILE *f)
+{
+    const double off = v3_norm(w->imbalance);
+    if (isfinite(off) && isfinite(w->impulse_size))
+        fprintf(f, "momentum residual  %.2g of the contact impulses (%.3g N s of %.3g N s)\n",
+                w->impulse_size > 0.0 ? off / w->impulse_size : 0.0, off, w->impulse_size);
+    else fprintf(f, "momentum residual  unknown: the impulses are not finite numbers any more\n");
+}
+
 /* Speed is never printed without its error: the two blocks belong together. */
 void report_write(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
-    const fl_ledger *g = &w->ledger;
     const double steps = (double)w->step, made = steps - (double)r->begun,
                  simulated = fl_world_time(w) - r->begun_time, touches = (double)w->touching_steps,
                  since = touches - (double)r->begun_touching;
     char name[64];
-    const double scale = g->throughput > 0.0 ? g->throughput : 1.0;
     fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
     fprintf(f, "set by             %s\n", r->step_by);
     if (isfinite(w->dt_critical))
@@ -107,11 +130,8 @@ void report_write(const struct run *r, FILE *f)
     if (r->saves)
         fprintf(f, "checkpoints        %" PRId64 " in %.3g s besides, the last at t = %.6g s\n", r->saves,
                 r->save_wall, fl_world_time(w));
-    fprintf(f, "energy residual    %.2g of the throughput (%.3g J of %.3g J)\n", fabs(g->residual) / scale,
-            g->residual, g->throughput);
-    fprintf(f, "momentum residual  %.2g of the contact impulses (%.3g N s of %.3g N s)\n",
-            w->impulse_size > 0.0 ? v3_norm(w->imbalance) / w->impulse_size : 0.0, v3_norm(w->imbalance),
-            w->impulse_size);
+    energy_of(w, f);
+    momentum_of(w, f);
     if (w->frozen.n) bonds_of(w, f);
     if (w->traffic.away) {
         const fl_traffic *t = &w->traffic;

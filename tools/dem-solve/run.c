@@ -534,9 +534,9 @@ int run_scene(struct run *r, fl_err *err)
     r->wall = run_clock() - begun - r->save_wall - r->look_wall;
     r->busy = run_processor() - busy;
     if (show) progress(r, begun, 1);
-    warn_at_end(r);
     fl_sleep_look(r->w);
     fl_step_ledger(r->w);
+    warn_at_end(r, rc != 0);
     /* Also after a failure of the run: the rows until then are good and keep their names. */
     if (!close_outputs(&u, err) && !rc) return 0;
     if (!reader_gone || err->code != FL_SYSTEM) return -1;

@@ -100,7 +100,7 @@ int run_scene(struct run *r, fl_err *err);
  * the loads, and when it has ended. */
 void warn_at_start(const struct run *r);
 void warn_at_row(struct run *r, double t);
-void warn_at_end(const struct run *r);
+void warn_at_end(const struct run *r, int failed);
 
 /* report.c */
 void report_write(const struct run *r, FILE *f);

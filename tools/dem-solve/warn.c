@@ -4,6 +4,7 @@
 #include "run.h"
 #include "step/balls.h"
 #include "step/ride.h"
+#include "step/step.h"
 
 /* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
 #define RESTS 1e-3
@@ -157,9 +158,8 @@ void warn_at_row(struct run *r, double t)
     }
 }
 
-void warn_at_end(const struct run *r)
+static void warn_overlapped(const fl_world *w)
 {
-    const fl_world *w = r->w;
     if (!w->half_steps) return;
     fprintf(
         stderr,
@@ -168,4 +168,19 @@ void warn_at_end(const struct run *r)
         "speeds%s\n",
         w->half_steps, w->half_steps == 1 ? "" : "s", w->worst_overlap, w->half_i, w->half_j, w->half_time,
         w->worst_overlap >= 1.0 ? ", and bodies may have gone through each other" : "");
+}
+
+static void warn_energy(const fl_world *w)
+{
+    if (!fl_step_unbalanced(w)) return;
+    fprintf(stderr,
+            "dem-solve: warning: the energy balance is off by %.2g of the throughput (%.3g J of %.3g J), and "
+            "above %g the loads should not be used: a shorter step or another contact.law is wanted\n",
+            fl_step_off(w), w->ledger.residual, w->ledger.throughput, FL_STEP_USABLE);
+}
+
+void warn_at_end(const struct run *r, int failed)
+{
+    warn_overlapped(r->w);
+    if (!failed) warn_energy(r->w); /* else the failure has been told */
 }
