@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
+#include <string.h>
 #include "base/mem.h"
 #include "base/table.h"
 #include "bound/track.h"
@@ -8,6 +9,8 @@
 
 /* Beyond this no motion is meant, and its squares stay finite [m, deg, s]. */
 #define FARTHEST 1e15
+
+static const char *const NAME[6] = {"x", "y", "z", "rx", "ry", "rz"};
 
 static double *six(fl_pose6 *p, int k)
 {
@@ -74,15 +77,31 @@ static int number(const fl_table *in, int32_t col, const char *name, double *x, 
     return fl_text_fail(&in->text, err, "%s is %g, at most %g was wanted", name, *x, FARTHEST);
 }
 
+/* The columns that there are, -1 for the others, in the units that the page tells: what is in other units, or
+ * no motion at all, is no structure at rest. */
+static int columns(const fl_table *in, int32_t *time, int32_t col[6], fl_err *err)
+{
+    int there = 0;
+    if (fl_table_find(in, "t", time, err)) return -1;
+    for (int k = -1; k < 6; k++) {
+        const int32_t c = k < 0 ? *time : (col[k] = fl_table_column(in, NAME[k]));
+        const char *unit = k < 0 ? "s" : k < 3 ? "m" : "deg";
+        there += k >= 0 && c >= 0;
+        if (c >= 0 && in->unit[c][0] && strcmp(in->unit[c], unit) != 0)
+            return fl_text_fail(&in->text, err, "column %s has the unit \"%.40s\", %s was wanted",
+                                in->name[c], in->unit[c], unit);
+    }
+    if (there) return 0;
+    return fl_text_fail(&in->text, err, "no column of a motion, at least one of x y z rx ry rz was wanted");
+}
+
 int fl_track_read(fl_track *out, const char *path, int cubic, fl_err *err)
 {
-    static const char *const NAME[6] = {"x", "y", "z", "rx", "ry", "rz"};
     fl_table in = {0};
     fl_track tr = {0};
     int32_t time, col[6], t_cap = 0, at_cap = 0;
     int rc = -1, more;
-    if (fl_table_open(&in, path, "track", 1, err) || fl_table_find(&in, "t", &time, err)) goto done;
-    for (int k = 0; k < 6; k++) col[k] = fl_table_column(&in, NAME[k]);
+    if (fl_table_open(&in, path, "track", 1, err) || columns(&in, &time, col, err)) goto done;
     while ((more = fl_table_row(&in, err)) > 0) {
         fl_pose6 at = {0};
         double t;
