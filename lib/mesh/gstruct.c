@@ -26,6 +26,10 @@ static int read_part(fl_text *in, fl_surface *s, fl_err *err)
         if (s->part[k].id == id) return fl_text_fail(in, err, "part id %d is used a second time", id);
     if (fl_surface_find(s, name, strlen(name)) >= 0)
         return fl_text_fail(in, err, "part name \"%.60s\" is used a second time", name);
+    if (strcmp(name, FL_GSTRUCT_TOTAL) == 0)
+        return fl_text_fail(in, err,
+                            "a part is called " FL_GSTRUCT_TOTAL
+                            ", as loads call the sum over the parts: another name was wanted");
     k = fl_surface_add(s, name, strlen(name), err);
     if (k < 0) return -1;
     s->part[k].id = id;

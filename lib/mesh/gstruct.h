@@ -9,6 +9,9 @@
 
 enum { FL_GSTRUCT_VERSION = 1 };
 
+/* loads(5) call the sum over the parts so: no name of a part. */
+#define FL_GSTRUCT_TOTAL "total"
+
 /* Read path ("-" is standard input, gzip is unpacked).  s is zeroed or free before, and untouched on failure.
  * Checked, each with file and line: kind and version, known records, numbers finite, vertices of a
  * triangle present above it and distinct, cones of positive length with radii >= 0 and not both 0, part ids

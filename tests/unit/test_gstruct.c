@@ -104,6 +104,8 @@ static void each_fault_has_its_sentence(void **state)
         {HEAD "coney 0 0 0\n", ":6: unknown record \"coney\", the nearest is \"cone\""},
         {HEAD "t 0 1 2\npart 0 b\n", ":7: part id 0 is used a second time"},
         {HEAD "t 0 1 2\npart 1 a\n", ":7: part name \"a\" is used a second time"},
+        {HEAD "t 0 1 2\npart 1 total\n",
+         ":7: a part is called total, as loads call the sum over the parts: another name was wanted"},
         {HEAD "t 0 1 2\npart 1\n", ":7: part name is missing after 2 fields"},
         {HEAD "t 0 1 2\npart x a\n", ":7: part id is \"x\", a whole number from 0 to 999999999 was wanted"},
     };

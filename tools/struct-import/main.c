@@ -81,6 +81,17 @@ static int facet(fl_part *p, int32_t n, fl_err *err)
     return 0;
 }
 
+/* What is read as g_struct(5) must not be refused there. */
+static int check_names(const fl_surface *s, fl_err *err)
+{
+    for (int32_t i = 0; i < s->n; i++)
+        if (strcmp(s->part[i].name, FL_GSTRUCT_TOTAL) == 0)
+            return fl_fail(err, FL_INPUT,
+                           "a part is called " FL_GSTRUCT_TOTAL
+                           ", as loads call the sum over the parts: another --name, or --rename, was wanted");
+    return 0;
+}
+
 static int collect(const struct options *o, fl_surface *s, fl_err *err)
 {
     const int32_t facets = o->facets ? o->facets : o->to == TO_G_STRUCT ? 0 : ROUND_FACETS;
