@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
+#include "base/text.h"
 #include "scene/scene_section.h"
 #include "scene/scene_show.h"
 #include "scene/scene_value.h"
@@ -90,6 +91,26 @@ static void explain_key(FILE *f, const fl_key *k)
     if (k->source) fprintf(f, "  source   %s\n", k->source);
 }
 
+/* A word alone may be a section or a key of any: the nearest of all. */
+static int no_word(const char *word, fl_err *err)
+{
+    const char *near[2 * FL_SECTIONS], *list[FL_SCENE_KEYS];
+    for (int s = 0; s < FL_SECTIONS; s++) {
+        const int first = fl_key_first(s), n = fl_key_first(s + 1) - first;
+        for (int k = 0; k < n; k++) list[k] = fl_key_table[first + k].key;
+        near[s] = fl_section_table[s].name;
+        near[FL_SECTIONS + s] = n ? fl_text_nearest(word, list, n) : near[s];
+    }
+    const char *best = fl_text_nearest(word, near, 2 * FL_SECTIONS);
+    for (int s = 0; s < FL_SECTIONS; s++)
+        if (near[s] == best)
+            return fl_fail(err, FL_USAGE, "unknown section [%.40s], nearest is [%s]", word, best);
+    int of = 0;
+    while (near[FL_SECTIONS + of] != best) of++;
+    return fl_fail(err, FL_USAGE, "unknown section [%.40s], nearest is the key %s.%s", word,
+                   fl_section_table[of].name, best);
+}
+
 int fl_scene_explain(FILE *f, const char *key, fl_err *err)
 {
     char text[200], why[400];
@@ -108,6 +129,8 @@ int fl_scene_explain(FILE *f, const char *key, fl_err *err)
         at = (fl_address){.section = section, .key = -1};
         if (dot && (at.key = fl_address_key(section, dot + 1, why, sizeof why)) < 0)
             return fl_fail(err, FL_USAGE, "%s", why);
+    } else if (!strpbrk(key, ". ")) {
+        return no_word(key, err);
     } else if (fl_address_read(key, &at, why, sizeof why)) {
         return fl_fail(err, FL_USAGE, "%s", why);
     }

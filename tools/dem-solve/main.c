@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dem-solve: a scene in, the load on the structure out. */
+#include <errno.h>
 #include <signal.h>
 #include <string.h>
+#include <unistd.h>
 #include "base/mem.h"
 #include "base/par.h"
 #include "base/stream.h"
@@ -98,6 +100,28 @@ struct inputs {
     fl_by by;
 };
 
+/* A file that is not there is told by the line of the scene that names it; any other trouble, and what the
+ * command line names, by its reader. */
+static int files_there(const fl_scene *s, fl_err *err)
+{
+    const struct {
+        const char *key, *path;
+    } in[] = {{"ice.file", s->ice.file},
+              {"structure.file", s->structure.file},
+              {"structure.track", s->structure.motion.track},
+              {"boundary.inflow_file", s->boundary.inflow_file},
+              {"water.profile_file", s->water.profile_file}};
+    for (size_t k = 0; k < sizeof in / sizeof *in; k++) {
+        fl_err why = {0};
+        if (!in[k].path[0] || strcmp(in[k].path, "-") == 0 || access(in[k].path, R_OK) == 0) continue;
+        fl_scene_fail(s, in[k].key, &why, "%s: %s", in[k].path, strerror(errno));
+        if (why.code != FL_INPUT) continue;
+        *err = why;
+        return -1;
+    }
+    return 0;
+}
+
 static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
 {
     if (o->resume)
@@ -108,6 +132,7 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
                    : 0;
     if (read_scene(&in->scene, o, err)) return -1;
     if (o->echo) return 0;
+    if (files_there(&in->scene, err)) return -1;
     if (fl_field_read(&in->field, in->scene.ice.file, err)) return -1;
     if (in->scene.boundary.inflow == FL_INFLOW_FILE &&
         fl_field_read(&in->feed, in->scene.boundary.inflow_file, err))

@@ -83,7 +83,7 @@ static int take(struct options *o, int c, fl_err *err)
         fl_tool_version("dem-solve");
         o->ended = 1;
         return 0;
-    default: return fl_fail(err, FL_USAGE, "unknown or incomplete option; see dem-solve --help");
+    default: return fl_fail(err, FL_USAGE, "see dem-solve --help");
     }
 }
 
@@ -92,7 +92,12 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     int c;
     *o = (struct options){.probe = -1.0};
     opterr = 0;
-    while ((c = getopt_long(argc, argv, "s:i:S:o:R:r:e:zj:qvh", LONG, NULL)) != -1) {
+    while ((c = getopt_long(argc, argv, ":s:i:S:o:R:r:e:zj:qvh", LONG, NULL)) != -1) {
+        const char *word = argv[optind - 1];
+        if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see dem-solve --help", word);
+        if (c == '?' && optopt)
+            return fl_fail(err, FL_USAGE, "-%c is no option, see dem-solve --help", optopt);
+        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see dem-solve --help", word);
         if (take(o, c, err)) return -1;
         if (o->ended) return 0;
     }

@@ -103,7 +103,7 @@ static int collect(const struct options *o, fl_surface *s, fl_err *err)
     }
     if (!bad) bad = chosen_check(&c, err);
     chosen_free(&c);
-    if (bad || rename_all(o, s, err)) return -1;
+    if (bad || rename_all(o, s, err) || (o->to == TO_G_STRUCT && check_names(s, err))) return -1;
     for (int32_t i = 0; facets && i < s->n; i++)
         if (facet(&s->part[i], facets, err)) return -1;
     return 0;

@@ -110,20 +110,22 @@ static const double FAR = 1e9; /* [m] no structure reaches farther; squares and 
 /* least .. most numbers divided by commas.  Their count, or -1. */
 static int numbers(const char *option, const char *text, int least, int most, double *x, fl_err *err)
 {
-    char copy[400];
+    char copy[400], odd[42] = "";
     int n = 0;
     if (strlen(text) >= sizeof copy) return fl_fail(err, FL_USAGE, "--%s is too long", option);
     strcpy(copy, text);
     for (char *p = copy, *end; p; p = end) {
         end = strchr(p, ',');
         if (end) *end++ = '\0';
-        if (n == most || fl_num_f64(p, &x[n]) || !(fabs(x[n]) <= FAR)) {
-            n = -1;
-            break;
-        }
+        if (n < most && (fl_num_f64(p, &x[n]) || !(fabs(x[n]) <= FAR)) && !odd[0])
+            snprintf(odd, sizeof odd, "%.40s", p[0] ? p : " ");
         n++;
     }
-    if (n >= least && (n == most || n == least)) return n;
+    const int right = n == most || n == least;
+    if (right && !odd[0]) return n;
+    if (right && most > 1)
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", and \"%s\" is no number from %g to %g", option,
+                       text, odd, -FAR, FAR);
     if (least == most && least == 1)
         return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number was wanted", option, text);
     if (least == most)
