@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
+#include "base/num.h"
 #include "out/frames.h"
 #include "out/tables.h"
 #include "run.h"
@@ -42,10 +43,13 @@ const char *run_body(const fl_world *w, int32_t k, char name[64])
 /* So many steps no run has, see run_countable(). */
 #define NEVER (INT64_C(1) << 60)
 
+/* What times of steps and multiples of an interval differ by, over either. */
+#define ROUNDING 1e-12
+
 /* The first step at or after t: a row is due at the step that differs from its time by rounding alone. */
 static int64_t step_at(const fl_world *w, double t)
 {
-    const double n = ceil((t - w->t0 - 1e-12 * t) / w->dt);
+    const double n = ceil((t - w->t0 - ROUNDING * t) / w->dt);
     return n < (double)NEVER ? w->step0 + (int64_t)n : NEVER;
 }
 
@@ -109,6 +113,20 @@ void run_step_size(struct run *r)
     }
     r->w->dt = dt;
     run_steps(r);
+}
+
+static double time_of(const struct run *r) { return fl_world_time(r->w); }
+
+/* The time now as rows tell it: that for which they were due, 0.3 and not 0.1 + 0.1 + 0.1, where the step is
+ * there but for rounding. */
+static double told_time(const struct run *r, double due)
+{
+    const double t = time_of(r);
+    char digits[32];
+    double x = t;
+    if (!(fabs(t - due) <= ROUNDING * due)) return t;
+    snprintf(digits, sizeof digits, "%.15g", due);
+    return fl_num_f64(digits, &x) ? t : x;
 }
 
 /* --- outputs that come at an interval ---------------------------------------------------------- */
@@ -369,16 +387,14 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
     return 0;
 }
 
-static double time_of(const struct run *r) { return fl_world_time(r->w); }
-
 /* What is due at this step. */
 static int write_due(struct run *r, struct outputs *u, fl_err *err)
 {
-    const double t = time_of(r);
     const fl_poses now = poses(r);
     int asleep = 1; /* until a table asks for more than loads and contacts */
     for (int k = 0; k < TABLES; k++) {
         if (!u->table[k].f || r->w->step < u->at[k].due || k == AT_PANELS || k == AT_EVENTS) continue;
+        const double t = told_time(r, (double)u->at[k].k * u->at[k].every);
         if (asleep && k != AT_LOADS && k != AT_CONTACTS) {
             fl_sleep_look(r->w);
             asleep = 0;
@@ -510,7 +526,8 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     /* The last interval of the loads may be shorter than the others.  A longer run would not end it here, so
      * what can be gone on from comes before. */
     if (fl_step_balance(w, err) || save_due(r, u, 1, err)) return -1;
-    return time_of(r) > u->last_row ? write_loads(r, u, time_of(r), err) : 0;
+    const double end = told_time(r, r->scene->run.duration);
+    return end > u->last_row * (1.0 + ROUNDING) ? write_loads(r, u, end, err) : 0;
 }
 
 int run_scene(struct run *r, fl_err *err)
