@@ -443,7 +443,9 @@ const fl_key fl_key_table[] = {
      .fallback = "0.3",
      .steel = "0.3",
      .range = "[0,1]",
-     .meaning = "rebound speed over impact speed; a pair takes the smaller of its two",
+     .meaning =
+         "rebound speed over impact speed; a pair takes the smaller of its two, and below 0.01 that: no "
+         "damping is large enough for 0",
      .source = "ice on ice 0.2 to 0.5; the pair with steel is taken alike"},
     {.section = FL_SEC_MATERIAL,
      .key = "friction",
@@ -471,7 +473,9 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .value = -1,
      .range = "[0,1]",
-     .meaning = "rebound speed over impact speed of the pair; auto is the smaller of the two materials'"},
+     .meaning =
+         "rebound speed over impact speed of the pair, below 0.01 that; auto is the smaller of the two "
+         "materials'"},
     {.section = FL_SEC_CONTACT,
      .key = "law",
      .type = FL_VALUE_WORD,
@@ -538,9 +542,11 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, surrogate),
      .fallback = "0",
      .range = "[0,0.1]",
-     .meaning = "a contact of the law patch that has moved little is carried by an expansion of its energy, "
-                "whose force is to be off by no more than this part of it; 0 looks at it in every step",
-     .source = "share/doc/contact.md; the report tells how far it was off"},
+     .meaning =
+         "a contact of the law patch that has moved little is carried by an expansion of its energy, "
+         "whose force is to be off by no more than this part of it, which is aimed at and no bound: the "
+         "report tells by how much looks found it off; 0 looks at it in every step",
+     .source = "share/doc/contact.md"},
     {.section = FL_SEC_CONTACT,
      .key = "literal2",
      .type = FL_VALUE_WORD,
