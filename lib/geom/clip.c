@@ -382,6 +382,12 @@ static int stars(int32_t nv, int32_t nf, const int32_t *first, const int32_t *lo
     return 0;
 }
 
+static int flies_off(double r, double most, fl_err *err)
+{
+    return fl_fail(err, FL_INPUT, "a corner is so sharp that moving the faces by %g m throws it beyond %g m",
+                   r, most);
+}
+
 /* Move every corner with its faces.  1 when that is the answer, 0 when faces at some corner part or an edge
  * would turn round, -1 with err. */
 static int move_corners(fl_poly *out, const fl_poly *in, double r, double weld, fl_err *err)
@@ -390,6 +396,7 @@ static int move_corners(fl_poly *out, const fl_poly *in, double r, double weld, 
     fl_vec3 *v = NULL;
     struct corner c = {0};
     fl_err why = {0};
+    const double most = FAR_MAX * (in->size + fabs(r));
     int rc = -1;
 
     if (in->nf == 2) return 0;
@@ -410,6 +417,10 @@ static int move_corners(fl_poly *out, const fl_poly *in, double r, double weld, 
                 rc = 0;
                 goto done;
             }
+        if (v3_norm(d) > most) {
+            flies_off(r, most, err);
+            goto done;
+        }
         v[i] = v3_add(in->v[i], d);
     }
     for (int32_t e = 0; e < in->ne; e++) {
@@ -498,8 +509,7 @@ static int intersect(fl_poly *out, const fl_poly *in, fl_vec3 o, double r, doubl
     const int32_t n = gather_planes(in, o, r, pl);
     for (double half = 2.0 * reach; shows; half *= 8.0) {
         if (half > FAR_MAX * reach) {
-            fl_fail(err, FL_INPUT, "a corner is so sharp that moving the faces by %g m throws it beyond %g m",
-                    r, FAR_MAX * reach);
+            flies_off(r, FAR_MAX * reach, err);
             goto done;
         }
         shape_free(&s);

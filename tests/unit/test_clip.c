@@ -224,6 +224,30 @@ static void cores_without_height(void **state)
     fl_poly_free(&p);
 }
 
+/* By the same number, whether its faces stay or are cut with each other. */
+static void a_corner_may_fly_so_far_and_no_farther(void **state)
+{
+    (void)state;
+    const fl_vec3 wedge[3] = {{0, 0, 0}, {1, -5e-7, 0}, {1, 5e-7, 0}};
+    const fl_vec3 needle[4] = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-7, 0}, {0.5, 0, 1e-7}};
+    const int32_t first[5] = {0, 3, 6, 9, 12}, loop[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    fl_err err = {0};
+    fl_poly p, q;
+    assert_int_equal(fl_poly_prism(&p, 3, wedge, 0.0, 0.4, &err), 0);
+    assert_int_equal(fl_poly_offset(&q, &p, 0.004, &err), 0); /* 8 km */
+    fl_poly_free(&q);
+    assert_int_equal(fl_poly_offset(&q, &p, 0.05, &err), -1); /* 100 km */
+    assert_int_equal(err.code, FL_INPUT);
+    assert_string_equal(err.text,
+                        "a corner is so sharp that moving the faces by 0.05 m throws it beyond 10500 m");
+    fl_poly_free(&p);
+    err = (fl_err){0};
+    assert_int_equal(fl_poly_make(&p, 4, needle, 4, first, loop, &err), 0);
+    assert_int_equal(fl_poly_offset(&q, &p, 1.0, &err), -1);
+    assert_int_equal(err.code, FL_INPUT);
+    fl_poly_free(&p);
+}
+
 static void memory_may_run_out(void **state)
 {
     (void)state;
@@ -253,7 +277,8 @@ int main(void)
         cmocka_unit_test(planes_beside_the_body), cmocka_unit_test(planes_through_vertices_and_edges),
         cmocka_unit_test(flat_and_thin_cores),    cmocka_unit_test(box_moves_its_faces),
         cmocka_unit_test(faces_vanish),           cmocka_unit_test(apexes_split),
-        cmocka_unit_test(cores_without_height),   cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(cores_without_height),   cmocka_unit_test(a_corner_may_fly_so_far_and_no_farther),
+        cmocka_unit_test(memory_may_run_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
