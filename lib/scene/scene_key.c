@@ -934,8 +934,8 @@ const fl_key fl_key_table[] = {
      .at = AT(water, every),
      .fallback = "1",
      .range = "[1,1000]",
-     .meaning = "steps between two looks at what the water does to a floe; in between its force and velocity "
-                "go on as they changed from the look before to the last one, in a straight line"},
+     .meaning = "steps between two looks at what waves do to a floe, 20 at least in the shortest period; in "
+                "between it floats on a plane that goes on as it moved, and the rest in a straight line"},
     {.section = FL_SEC_WATER,
      .key = "wave",
      .type = FL_VALUE_WORD,

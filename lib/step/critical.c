@@ -7,6 +7,8 @@
 #include "step/ride.h"
 #include "step/stiff.h"
 
+#define PI 3.14159265358979323846
+
 /* As many faces at rest on faces may a body have under it at once, as far as the step knows beforehand. */
 #define FACES 2.0
 
@@ -327,6 +329,31 @@ double fl_world_across(const fl_world *w)
     if (stiffest_contact(w, 0, &body, &along) == 0.0) return 1.0;
     stiffest_contact(w, 1, &body, &left);
     return left.one / along.one;
+}
+
+/* Looks at the waves in a period, at least. */
+#define LOOKS 20.0
+
+int fl_world_looks(const fl_world *w, fl_err *err)
+{
+    const fl_waves *waves = &w->sea.wave;
+    if (!w->sea.held) return 0;
+    double omega = waves->train[(int32_t)(0.95 * (waves->n - 1))].omega;
+    char who[64] = "the waves have";
+    for (int32_t i = 0; i < w->n; i++) {
+        int turns;
+        const double own = sqrt(fl_sea_omega2(&w->sea, &w->b, i, &turns));
+        if (!(own > omega)) continue;
+        omega = own;
+        snprintf(who, sizeof who, "body %d %s with", w->id[i], turns ? "rolls" : "heaves");
+    }
+    const double period = 2.0 * PI / omega, most = period / LOOKS / w->dt;
+    if (w->sea.every <= most * (1.0 + 1e-9)) return 0;
+    return fl_fail(err, FL_INPUT,
+                   "water.every: %d steps of %.4g s, and %s a period of %.4g s: %d looks in it, at most %d "
+                   "steps were wanted, or a smaller run.dt",
+                   w->sea.every, w->dt, who, period, (int)(period / (w->sea.every * w->dt)),
+                   (int)fmax(1.0, most));
 }
 
 /* D of the most damped contacts; those that go by the speeds of the middle of a step, and not by

@@ -30,6 +30,12 @@ double fl_world_damped(const fl_world *w);
  * it. */
 double fl_world_across(const fl_world *w);
 
+/* Whether the looks that water.every leaves of the waves are enough: a twentieth apart of the shortest period
+ * of any body in heave, roll and pitch, and of the waves that 95 % of the energy is in, which w->dt has to be
+ * known for.  What is carried on between looks (sea.h) then is off by 0.04 of itself, and grows by 0.005 e
+ * omega.  0, or -1 with FL_INPUT. */
+int fl_world_looks(const fl_world *w, fl_err *err);
+
 /* What steps of dt are off by, without a look at any other step; 0 before the first contact.  With r = dt
  * over the smallest critical step seen
  *     peak of a hit   0.35 D r/(1 + D/2) + min(0.15 + 0.2 D'^2, 0.95) r^2,

@@ -354,7 +354,7 @@ static int32_t find_busy(const fl_world *w, const crew *c, int32_t busy[FL_FEW])
 static void find_forces(fl_world *w, fl_few *s)
 {
     int32_t left[FL_FEW], others = 0;
-    if (w->row.n || (w->sea.water && (w->sea.held || !fl_calm_goes(&w->sea)))) {
+    if (w->row.n || (w->sea.water && !fl_calm_goes(&w->sea))) {
         for (int32_t k = 0; k < s->n; k++) left[others++] = k;
     } else {
         fl_few_weigh(s, w->gravity);

@@ -288,6 +288,7 @@ static void sea(traffic *t, fl_sea *s, const fl_bodies *b, int32_t i)
     if (s->held) {
         fl_sea_held *h = &s->held[i];
         vec3(t, &h->df), vec3(t, &h->dt), vec3(t, &h->dflow);
+        real(t, &h->dz), real(t, &h->dslope);
         pose(t, &h->x, &h->q);
         real(t, &h->when);
     }

@@ -18,7 +18,7 @@
  *     pressed   what follows, where panels or events are asked for: panel, mark and event rows
  *     current   hash of its table, where there is one
  *     sea ...   wetted lift energy drained blown, waved with waves alone;
- *               with water.every what of the last look is needed, fl_sea_held
+ *               with water.every in waves what of the last look is needed, fl_sea_held
  *     pair ...  i j, image where space is periodic, memory, and for a pair that touches its forces,
  *               and with contact.surrogate where it was looked at last and what was learnt
  *     ball ...  i j, image where space is periodic, whether it touches, and its memory, fl_ball_row */

@@ -470,6 +470,7 @@ static int watch(fl_world *w, fl_err *err)
 int fl_step_start(fl_world *w, fl_err *err)
 {
     int32_t body;
+    if (fl_world_looks(w, err)) return -1;
     w->dt_safe = fl_world_dt(w, &body);
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;

@@ -8,6 +8,10 @@
 /* Places that a wave is looked at in for one body, at most. */
 #define MOST_CELLS 1000000
 
+/* Where a plane is fitted to the wave, to a column of cells, which is no wider than 1.6 of the shortest wave:
+ * one bend after another evens out. */
+enum { PLACES = 8 };
+
 static const fl_sea_held unseen = {.q = {1, 0, 0, 0}, .when = INFINITY};
 
 int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
@@ -28,17 +32,17 @@ int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
         s->blown = fl_alloc(n, sizeof *s->blown, err);
         if (!s->blown) return -1;
     }
-    if (s->water && s->every > 1) {
+    if ((s->water && s->sea_law == FL_DRAG_FACET) || (s->wind && s->air_law == FL_DRAG_FACET)) {
+        s->skin = fl_alloc(n, sizeof *s->skin, err);
+        if (!s->skin) return -1;
+    }
+    if (!s->waves) return 0; /* a look at still water costs no more than its drag */
+    if (s->every > 1) {
         s->held = fl_alloc(n, sizeof *s->held, err);
         if (!s->held) return -1;
         for (int32_t i = 0; i < n; i++) s->held[i] = unseen;
         s->looks = 1;
     }
-    if ((s->water && s->sea_law == FL_DRAG_FACET) || (s->wind && s->air_law == FL_DRAG_FACET)) {
-        s->skin = fl_alloc(n, sizeof *s->skin, err);
-        if (!s->skin) return -1;
-    }
-    if (!s->waves) return 0;
     s->tiles = fl_alloc(n, sizeof *s->tiles, err);
     s->push = fl_alloc(n, sizeof *s->push, err);
     s->turn = fl_alloc(n, sizeof *s->turn, err);
@@ -207,6 +211,31 @@ static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *
     *t = m3_mul(R, turn);
 }
 
+double fl_sea_omega2(const fl_sea *s, const fl_bodies *b, int32_t i, int *turns)
+{
+    const fl_hull *h = &s->hull[i];
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_vec3 up = upward(R), none = v3(0, 0, 0);
+    const fl_yielding yields = fl_body_yielding(b, i);
+    fl_wet wet;
+    fl_buoyancy(h, up, 0.0, &wet);
+    double most = s->weight * wet.waterplane * fl_ease_along(&yields, v3(0, 0, 1), none);
+    *turns = 0;
+    if (h->p->nf == 0) return most; /* what is round hardly rights itself */
+    fl_waterplane plane;
+    fl_buoyancy_plane(h, up, 0.0, &plane);
+    const fl_vec3 e = m3_tmul(R, v3(1, 0, 0)), g = m3_tmul(R, v3(0, 1, 0)), Te = m3_mul(plane.second, e);
+    const double xx = v3_dot(e, Te), xy = v3_dot(g, Te), yy = v3_dot(g, m3_mul(plane.second, g)),
+                 angle = 0.5 * atan2(2.0 * xy, xx - yy); /* of its main axes */
+    for (int k = 0; k < 2; k++) {
+        const double a = angle + 0.5 * k * PI, c = cos(a), d = sin(a),
+                     J = c * c * xx + 2.0 * c * d * xy + d * d * yy;
+        const double omega2 = s->weight * J * fl_ease_along(&yields, none, v3(-d, c, 0));
+        if (omega2 > most) most = omega2, *turns = 1;
+    }
+    return most;
+}
+
 /* How far body i reaches along a direction of its own axes. */
 static void extent(const fl_sea *s, int32_t i, fl_vec3 d, double *lo, double *hi)
 {
@@ -221,6 +250,47 @@ static void extent(const fl_sea *s, int32_t i, fl_vec3 d, double *lo, double *hi
     }
 }
 
+/* The plane that lies nearest to the wave along a body whose origin is at s. */
+static void fit_plane(const fl_wave_around *a, double s, double *z, double *slope)
+{
+    const int n = PLACES * a->columns;
+    const double all = n, step = a->width / PLACES, spread = all * (all * all - 1.0) / 12.0 * step * step,
+                 middle = a->s0 + 0.5 * all * step; /* spread: the sum of off^2 */
+    double sum = 0.0, tilt = 0.0;
+    for (int k = 0; k < n; k++) {
+        const double off = (k + 0.5 - 0.5 * all) * step, eta = fl_wave_over(a, middle + off, NULL);
+        sum += eta;
+        tilt += off * eta;
+    }
+    *slope = tilt / spread;
+    *z = sum / all + (s - middle) * *slope;
+}
+
+/* Buoyancy of body i where the water is a plane, z over still water at the body's origin; world axes. */
+static void float_on(const fl_sea *s, const fl_bodies *b, int32_t i, double z, double slope, fl_vec3 *f,
+                     fl_vec3 *t)
+{
+    const fl_mat3 R = fl_body_axes(b, i);
+    const double c = 1.0 / sqrt(1.0 + slope * slope), level = c * (z + s->level - b->x[i].z);
+    const fl_vec3 up = v3_scale(c, v3_madd(upward(R), -slope, m3_tmul(R, s->wave.along)));
+    const fl_wet wet = wet_of(s, i, up, level);
+    fl_vec3 force, turn;
+    fl_buoyancy_force(&wet, up, level, s->weight / c, &force, &turn); /* the pressure grows downwards */
+    *f = m3_mul(R, force);
+    *t = m3_mul(R, turn);
+}
+
+/* The plane about body i, at s, as it is now, and how it went on from the look before. */
+static void hold_plane(fl_sea *s, int32_t i, const fl_wave_around *around, double at)
+{
+    fl_sea_held *h = &s->held[i];
+    const double past = s->time - h->when, z = h->z, slope = h->slope;
+    fit_plane(around, at, &h->z, &h->slope);
+    if (!(past > 0.0)) return;
+    h->dz = (h->z - z) / past;
+    h->dslope = (h->slope - slope) / past;
+}
+
 /* A sea with waves as it meets body i. */
 static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
@@ -233,15 +303,17 @@ static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t
     const fl_hull *h = &s->hull[i];
     fl_push p = {0};
     fl_wave_around around;
+    const int meets = at.z - s->reach[i] < w->crest;
     *f = *t = v3(0, 0, 0);
-    if (at.z - s->reach[i] < w->crest) {
+    if (meets || s->held) {
         double s_lo, s_hi, z_lo, z_hi;
         extent(s, i, at.along, &s_lo, &s_hi);
         extent(s, i, at.up, &z_lo, &z_hi);
         fl_wave_surround(w, at.s + s_lo, at.s + s_hi, at.z + z_lo - w->swing, at.z + z_hi + w->swing, s->time,
                          s->cells + (int64_t)omp_get_thread_num() * s->cells_each, &around);
-        if (h->p->nf) fl_froude_solid(&s->tiles[i], h, w, &around, &at, s->weight, &p);
-        else fl_froude_round(h, w, &around, &at, s->weight, &p);
+        if (s->held) hold_plane(s, i, &around, at.s);
+        if (meets && h->p->nf) fl_froude_solid(&s->tiles[i], h, w, &around, &at, s->weight, &p);
+        else if (meets) fl_froude_round(h, w, &around, &at, s->weight, &p);
     }
     s->wetted[i] = p.wetted;
     s->lift[i] = s->weight * p.volume;
@@ -266,25 +338,33 @@ static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t
 }
 
 /* From then to now. */
-static fl_vec3 slope(fl_vec3 now, fl_vec3 then, double past)
+static fl_vec3 change(fl_vec3 now, fl_vec3 then, double past)
 {
     return v3_scale(1.0 / past, v3_sub(now, then));
+}
+
+/* What of it the plane does not tell. */
+static void hold(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 f, fl_vec3 t)
+{
+    fl_sea_held *h = &s->held[i];
+    const double past = s->time - h->when;
+    fl_vec3 force, turn;
+    float_on(s, b, i, h->z, h->slope, &force, &turn);
+    f = v3_sub(f, force), t = v3_sub(t, turn);
+    if (past > 0.0) {
+        h->df = change(f, h->f, past);
+        h->dt = change(t, h->t, past);
+        h->dflow = change(s->flow[i], h->flow, past);
+    }
+    h->f = f, h->t = t, h->flow = s->flow[i];
+    h->x = b->x[i], h->q = b->q[i], h->when = s->time;
 }
 
 static void look(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     if (s->waves) look_wavy(s, b, i, f, t);
     else look_still(s, b, i, f, t);
-    if (!s->held) return;
-    fl_sea_held *h = &s->held[i];
-    const double past = s->time - h->when;
-    if (past > 0.0) {
-        h->df = slope(*f, h->f, past);
-        h->dt = slope(*t, h->t, past);
-        h->dflow = slope(fl_sea_flow(s, i), h->flow, past);
-    }
-    h->f = *f, h->t = *t, h->flow = fl_sea_flow(s, i);
-    h->x = b->x[i], h->q = b->q[i], h->when = s->time;
+    if (s->held) hold(s, b, i, *f, *t);
 }
 
 /* What there would be to see by now. */
@@ -292,12 +372,12 @@ static void go_on(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_sea_held *h = &s->held[i];
     const double past = s->time - h->when;
-    *f = v3_madd(h->f, past, h->df);
-    *t = v3_madd(h->t, past, h->dt);
-    if (s->flow) s->flow[i] = v3_madd(h->flow, past, h->dflow);
-    if (b->added) b->flow[i] = fl_sea_flow(s, i);
-    if (s->waves) s->push[i] = *f, s->turn[i] = *t;
-    else s->lift[i] = f->z;
+    float_on(s, b, i, h->z + past * h->dz, h->slope + past * h->dslope, f, t);
+    *f = v3_add(*f, v3_madd(h->f, past, h->df));
+    *t = v3_add(*t, v3_madd(h->t, past, h->dt));
+    s->flow[i] = v3_madd(h->flow, past, h->dflow);
+    if (b->added) b->flow[i] = s->flow[i];
+    s->push[i] = *f, s->turn[i] = *t;
 }
 
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i)

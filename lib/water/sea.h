@@ -20,14 +20,25 @@ typedef struct {
     int32_t wets, dries; /* how many there are now */
 } fl_skin;
 
-/* The last look at what the water does to a body, and how it went on from the one before: where not every
- * step is a look,
- *     F(t) = F + (t - when) dF,     dF = (F - F') / (when - when'),
- * so moment and velocity too, off by (when - when')^2 d2F/dt2 at most.  Wetted surface and facets stay as
- * they were seen.  A body that was not seen before has dF = 0. */
+/* The last look at the waves about a body, and how they went on from the one before: where not every step
+ * is a look,
+ *     F(t) = B(z + s dz, slope + s dslope, x(t), q(t)) + D + s dD,   s = t - when,
+ * B being the buoyancy of the body where it is in each step, on a plane that was fitted to the wave along
+ * it, and D = F - B at the look; dz = (z - z') / (when - when') and the others so; moment and velocity too.
+ * It is off by s^2 d2D/dt2 and the buoyancy of s^2 d2z/dt2 at most.  Wetted surface and facets stay as they
+ * were seen.  A body that was not seen before has no changes.
+ *
+ * So what rights a body answers at once.  Of a spring k whose part e is carried on from looks T apart
+ * instead, the mean of the force carried on is
+ *     F - 5/12 T^2 d2F/dt2 + 1/3 T^3 d3F/dt3,
+ * the last term of which pushes with the speed: an oscillation of omega^2 = k/m grows by
+ * e omega (omega T)^3/6 a second.  e is what the plane does not know of the springs of the wave;
+ * fl_world_looks() bounds omega T. */
 typedef struct {
-    fl_vec3 f, t, flow;    /* force, moment about the centre, velocity of the water; world axes */
+    fl_vec3 f, t, flow;    /* D, its moment about the centre; velocity of the water; world axes */
     fl_vec3 df, dt, dflow; /* over a second */
+    double z, slope;       /* the plane: over still water at x [m]; along the waves */
+    double dz, dslope;     /* over a second */
     fl_vec3 x;             /* where the body was [m] */
     fl_quat q;
     double when; /* [s]; INFINITY: not seen yet */
@@ -44,19 +55,16 @@ typedef struct {
     fl_current current;
     fl_vec3 breeze; /* velocity of the wind [m/s] */
     int32_t n;
-    fl_hull *hull;     /* [n] */
-    double *reach;     /* [n] r_eff of equation (9)     [m]    */
-    double *wetted;    /* [n] at the last fl_sea_force() [m2]  */
-    double *lift;      /* [n] buoyancy, at the last fl_sea_force() [N] */
-    fl_vec3 *flow;     /* [n] velocity of the water at the submerged centre [m/s]; NULL where it is that of a
+    fl_hull *hull;   /* [n] */
+    double *reach;   /* [n] r_eff of equation (9)     [m]    */
+    double *wetted;  /* [n] at the last fl_sea_force() [m2]  */
+    double *lift;    /* [n] buoyancy, at the last fl_sea_force() [N] */
+    fl_vec3 *flow;   /* [n] velocity of the water at the submerged centre [m/s]; NULL where it is that of a
                       * uniform current */
-    double *drained;   /* [n] work that drag of the water has taken out [J] */
-    double *blown;     /* [n] work that the wind has put in [J]; NULL without wind */
-    fl_skin *skin;     /* [n] with the law facet alone, of either fluid */
-    int every;         /* steps between two looks; above 1: */
-    int looks;         /* whether the next fl_sea_force() is one: set by the step */
-    fl_sea_held *held; /* [n], or NULL */
-    double time;       /* of the next fl_sea_force(): set by the step [s] */
+    double *drained; /* [n] work that drag of the water has taken out [J] */
+    double *blown;   /* [n] work that the wind has put in [J]; NULL without wind */
+    fl_skin *skin;   /* [n] with the law facet alone, of either fluid */
+    double time;     /* of the next fl_sea_force(): set by the step [s] */
     /* with waves alone */
     int waves;
     fl_waves wave;
@@ -65,6 +73,9 @@ typedef struct {
     int32_t cells_each, threads;
     fl_vec3 *push, *turn; /* [n] force and moment of the water, world axes, at the last one [N], [N m] */
     double *waved;        /* [n] work of those so far [J] */
+    int every;            /* steps between two looks; above 1: */
+    int looks;            /* whether the next fl_sea_force() is one: set by the step */
+    fl_sea_held *held;    /* [n], or NULL */
 } fl_sea;
 
 /* The sharp outer shape of body i, in its frame, which the sea has taken over; NULL where the core floats, or
@@ -119,6 +130,12 @@ void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 /* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere; with
  * held[i], as it was left there by the last look. */
 void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i);
+
+/* omega^2 of the stiffest of heave, roll and pitch of body i as it stands, were the water to reach up to its
+ * centre: rho g A/m and rho g J/I, A and J the area and second moment of the water plane, with the water that
+ * moves along, and of what is free alone; the weight between the centres is left out.  turns: out, whether it
+ * is no heave.  Cannot fail.  [1/s2] */
+double fl_sea_omega2(const fl_sea *s, const fl_bodies *b, int32_t i, int *turns);
 
 /* Hydrostatic energy of body i in still water where it is now; touches nothing [J].  In waves their work is
  * booked instead. */

@@ -212,5 +212,6 @@ void scene_of_traffic(lab *l, int32_t side, const char *law)
 void scene_of_visits(lab *l, int32_t side, const char *law)
 {
     scene_of_traffic(l, side, law);
+    lab_set(l, "water.wave=airy"), lab_set(l, "water.height=0.1"), lab_set(l, "water.period=5");
     lab_set(l, "water.every=5");
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support/near.h"
 #include <math.h>
+#include <string.h>
+#include "step/critical.h"
 #include "step/step.h"
 #include "support/lab.h"
 #include "support/shapes.h"
@@ -154,6 +156,86 @@ static void round_bodies_float_round(void **state)
     }
 }
 
+/* water.every is of waves: a look at still water costs no more than what would stand in for it. */
+static void still_water_is_looked_at_in_each_step(void **state)
+{
+    uint64_t hash[2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        floe(&l, 0.5 - DRAFT + 0.03, v3(0.1, 0, 0), v3(0.01, 0.02, 0));
+        if (k) lab_set(&l, "water.every=1000");
+        lab_make(&l, 1e-3);
+        assert_null(l.w.sea.held);
+        assert_int_equal(lab_run(&l, 2500), 0);
+        hash[k] = fl_step_hash(&l.w);
+        lab_free(&l);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
+static void ripples(lab *l, double dt, int every)
+{
+    floe(l, 0.5 - DRAFT + 0.03, v3(0, 0, 0), v3(0.01, 0.02, 0));
+    lab_set(l, "water.drag_force_coef=0"), lab_set(l, "water.drag_moment_coef=0");
+    lab_set(l, "water.wave=airy"), lab_set(l, "water.height=1e-3"), lab_set(l, "water.period=10");
+    lab_setf(l, "water.every=%d", every);
+    lab_make(l, dt);
+}
+
+/* Heave, roll and pitch of a floe without drag for 40 periods, the waves looked at 20 times in each: where
+ * its buoyancy was carried on in a straight line they grew to five times what they were. */
+static void what_heaves_between_looks_gains_nothing(void **state)
+{
+    enum { RUNS = 10 };
+    double heave[RUNS], turn[RUNS];
+    lab l;
+    (void)state;
+    ripples(&l, 5e-3, 18);
+    for (int k = 0; k < RUNS; k++) {
+        heave[k] = turn[k] = 0.0;
+        for (int s = 0; s < 1500; s++) {
+            assert_int_equal(lab_run(&l, 1), 0);
+            const fl_quat q = l.w.b.q[0];
+            heave[k] = fmax(heave[k], fabs(l.w.b.x[0].z - (0.5 - DRAFT)));
+            turn[k] = fmax(turn[k], hypot(q.x, q.y));
+        }
+    }
+    assert_near(heave[RUNS - 1], heave[0], 0.02);
+    assert_near(turn[RUNS - 1], turn[0], 0.02);
+    lab_free(&l);
+}
+
+/* rho g A/m of a box 1 m high that floats at DRAFT is g over that. */
+static void looks_at_waves_are_often_enough(void **state)
+{
+    fl_err err = {0};
+    int turns;
+    lab l;
+    (void)state;
+    ripples(&l, 5e-3, 18);
+    fl_world *w = &l.w;
+    w->b.q[0] = q_one();
+    assert_near(fl_sea_omega2(&w->sea, &w->b, 0, &turns), 9.81 / DRAFT, 1e-12);
+    assert_false(turns);
+    assert_int_equal(fl_world_looks(w, &err), 0);
+    w->sea.every = 19;
+    assert_int_equal(fl_world_looks(w, &err), -1);
+    assert_int_equal(err.code, FL_INPUT);
+    assert_string_equal(err.text,
+                        "water.every: 19 steps of 0.005 s, and body 1 heaves with a period of 1.88 s: 19 "
+                        "looks in it, at most 18 steps were wanted, or a smaller run.dt");
+    /* one that is held moves with nothing, and the waves themselves are left */
+    w->b.hold[0] = FL_HOLD_Z | FL_HOLD_RX | FL_HOLD_RY;
+    w->sea.every = 100;
+    assert_int_equal(fl_world_looks(w, &err), 0);
+    w->sea.every = 101;
+    err = (fl_err){0};
+    assert_int_equal(fl_world_looks(w, &err), -1);
+    assert_non_null(strstr(err.text, ", and the waves have a period of 10 s: 19 looks in it, at most 100"));
+    lab_free(&l);
+}
+
 static void a_scene_without_water_allocates_none(void **state)
 {
     (void)state;
@@ -252,6 +334,9 @@ int main(void)
         cmocka_unit_test(what_is_held_is_not_dragged),
         cmocka_unit_test(round_bodies_float_round),
         cmocka_unit_test(several_meet_the_sea_as_one_does),
+        cmocka_unit_test(still_water_is_looked_at_in_each_step),
+        cmocka_unit_test(what_heaves_between_looks_gains_nothing),
+        cmocka_unit_test(looks_at_waves_are_often_enough),
         cmocka_unit_test(a_scene_without_water_allocates_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
