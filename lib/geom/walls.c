@@ -22,38 +22,55 @@ static void find_twins(const fl_part *p, const fl_edges *e, int32_t *twin)
         }
 }
 
-/* What hangs together of them, in set; sheet: 1 under its lowest triangle where an edge of its rim has no
- * others */
-static void find_sheets(const fl_part *p, const fl_edges *e, const int32_t *twin, int32_t *set,
-                        uint8_t *sheet)
+/* Of what hangs together of them, under its lowest triangle. */
+enum { SHEET = 1, STANDS = 2 }; /* an edge of its rim has no others; an edge has some without a twin */
+
+/* What hangs together of them, in set, and what that is. */
+static void find_sheets(const fl_part *p, const fl_edges *e, const int32_t *twin, int32_t *set, uint8_t *is)
 {
     for (int32_t v = 0; v < p->nv; v++)
         for (int64_t from = e->first[v], to; from < e->first[v + 1]; from = to) {
-            int64_t last = -1;
+            int64_t last = -1, twins = 0;
             to = fl_edge_end(e, v, from);
             for (int64_t k = from; k < to; k++) {
                 const int32_t t = e->side[k].t;
                 if (twin[t] < 0) continue;
                 if (last >= 0) fl_sets_join(set, e->side[last].t, t);
-                last = k;
+                last = k, twins++;
             }
-            if (last >= 0 && to - from < 4) sheet[e->side[last].t] = 1;
+            if (last >= 0 && to - from < 4) is[e->side[last].t] |= SHEET;
+            if (last >= 0 && to - from > twins) is[e->side[last].t] |= STANDS;
         }
-    for (int32_t t = 0; t < p->nt; t++) sheet[fl_sets_find(set, t)] |= sheet[t];
+    for (int32_t t = 0; t < p->nt; t++) is[fl_sets_find(set, t)] |= is[t];
+}
+
+/* Triangles with a twin, of what is all of one and nothing of the other. */
+static int twins_of(const fl_part *p, const fl_edges *e, unsigned of, unsigned nothing_of, uint8_t *wall,
+                    fl_err *err)
+{
+    int32_t *twin = fl_alloc(p->nt, sizeof *twin, err), *set = twin ? fl_sets_make(p->nt, err) : NULL;
+    uint8_t *is = set ? fl_alloc(p->nt, 1, err) : NULL;
+    if (is) {
+        find_twins(p, e, twin);
+        find_sheets(p, e, twin, set, is);
+        for (int32_t t = 0; t < p->nt; t++) {
+            const unsigned kind = is[fl_sets_find(set, t)];
+            wall[t] = twin[t] >= 0 && (kind & of) == of && !(kind & nothing_of);
+        }
+    }
+    free(twin), free(set);
+    free(is);
+    return is ? 0 : -1;
 }
 
 static int double_walls(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
 {
-    int32_t *twin = fl_alloc(p->nt, sizeof *twin, err), *set = twin ? fl_sets_make(p->nt, err) : NULL;
-    uint8_t *sheet = set ? fl_alloc(p->nt, 1, err) : NULL;
-    if (sheet) {
-        find_twins(p, e, twin);
-        find_sheets(p, e, twin, set, sheet);
-        for (int32_t t = 0; t < p->nt; t++) wall[t] = twin[t] >= 0 && !sheet[fl_sets_find(set, t)];
-    }
-    free(twin), free(set);
-    free(sheet);
-    return sheet ? 0 : -1;
+    return twins_of(p, e, 0, SHEET, wall, err);
+}
+
+static int fins(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
+{
+    return twins_of(p, e, SHEET | STANDS, 0, wall, err);
 }
 
 static int single_walls(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
@@ -84,5 +101,13 @@ int fl_part_drop_walls(fl_part *p, int32_t *gone, fl_err *err)
     fl_weld w;
     *gone = 0;
     if (drop(p, double_walls, gone, err) || drop(p, single_walls, gone, err)) return -1;
+    return *gone ? fl_part_weld(p, 0.0, &w, err) : 0;
+}
+
+int fl_part_drop_fins(fl_part *p, int32_t *gone, fl_err *err)
+{
+    fl_weld w;
+    *gone = 0;
+    if (drop(p, fins, gone, err)) return -1;
     return *gone ? fl_part_weld(p, 0.0, &w, err) : 0;
 }

@@ -12,4 +12,10 @@
  *   gone  so many triangles.  0, or -1 with FL_SYSTEM. */
 int fl_part_drop_walls(fl_part *p, int32_t *gone, fl_err *err);
 
+/* Leave out fins: sheets of which each triangle has one that faces it from behind, that end in free edges and
+ * stand on triangles which have none.  Both sides go, so that every edge that stays is run along as often one
+ * way more than the other as before: with one of them a closed body would be open.  A sheet with two sides
+ * that stands by itself stays.  gone as above. */
+int fl_part_drop_fins(fl_part *p, int32_t *gone, fl_err *err);
+
 #endif

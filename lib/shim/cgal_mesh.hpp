@@ -11,6 +11,7 @@
 #include <exception>
 #include <new>
 #include <vector>
+#include <CGAL/assertions.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -51,7 +52,10 @@ int caught(const char *what, int32_t n, fl_err *err, Work work)
         return work();
     } catch (const std::bad_alloc &) {
         return fl_fail(err, FL_SYSTEM, "out of memory in the %s of %d triangles", what, n);
-    } catch (const std::exception &e) { /* the first line of it: CGAL's sentences come in several */
+    } catch (const CGAL::Failure_exception &e) { /* it names its own lines, which tell the user nothing */
+        return fl_fail(err, FL_NUMERIC, "%s of %d triangles: they are not what CGAL counts on, \"%.80s\"",
+                       what, n, e.expression().c_str());
+    } catch (const std::exception &e) { /* the first line of it: sentences may come in several */
         return fl_fail(err, FL_NUMERIC, "%s of %d triangles: %.*s", what, n,
                        static_cast<int>(std::strcspn(e.what(), "\n")), e.what());
     } catch (...) {

@@ -40,6 +40,12 @@ bool done(Work work)
     }
 }
 
+/* A closed patch without a volume, as a plate of two sides, looks nowhere, and CGAL counts on some. */
+bool outward(const Mesh &m)
+{
+    return done([&] { return PMP::is_outward_oriented(m); });
+}
+
 /* Of the area, and of the volume where both have one. */
 double change(const Mesh &from, const Mesh &to)
 {
@@ -212,7 +218,7 @@ bool meet(const Mesh &a, const Mesh &b)
 /* Closed, looking outward, and not through itself: what a union can be made of. */
 bool solid(const Mesh &m)
 {
-    return !m.is_empty() && CGAL::is_closed(m) && PMP::is_outward_oriented(m) && !PMP::does_self_intersect(m);
+    return !m.is_empty() && CGAL::is_closed(m) && outward(m) && !PMP::does_self_intersect(m);
 }
 
 /* The solids become as many as there are when no two of them that can be united meet. */
@@ -261,7 +267,7 @@ int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Mesh> &patch,
         if (to_mesh(corners, one.second, m, err)) return -1;
         PMP::split_connected_components(m, pieces);
         for (Mesh &p : pieces) {
-            if (CGAL::is_closed(p) && !PMP::is_outward_oriented(p)) PMP::reverse_face_orientations(p);
+            if (CGAL::is_closed(p) && !outward(p)) PMP::reverse_face_orientations(p);
             patch.push_back(p);
         }
     }

@@ -172,6 +172,40 @@ static void double_walls_go_and_plates_stay(void **state)
     fl_part_free(&p);
 }
 
+/* A plate of two sides by itself, on a box, and on a box that lacks its lid: on others both sides go, and
+ * what was closed is. */
+static void fins_go_with_both_sides(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        fl_part p = {0};
+        fl_weld w;
+        fl_quality was, q;
+        int32_t gone;
+        if (k) fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
+        if (k == 2) p.nt -= 2;
+        const int32_t a = p.nv, body = p.nt;
+        fl_surface_vertex(&p, v3(0, 0, 1), &err);
+        fl_surface_vertex(&p, v3(1, 0, 1), &err);
+        fl_surface_vertex(&p, v3(1, 0, 2), &err);
+        fl_surface_vertex(&p, v3(0, 0, 2), &err);
+        fl_surface_triangle(&p, a, a + 1, a + 2, &err);
+        fl_surface_triangle(&p, a, a + 2, a + 3, &err);
+        fl_surface_triangle(&p, a, a + 2, a + 1, &err);
+        fl_surface_triangle(&p, a, a + 3, a + 2, &err);
+        assert_int_equal(fl_part_weld(&p, 0.0, &w, &err), 0);
+        assert_int_equal(fl_part_measure(&p, &was, &err), 0);
+        assert_int_equal(fl_part_drop_fins(&p, &gone, &err), 0);
+        assert_int_equal(gone, k ? 4 : 0);
+        assert_int_equal(fl_part_measure(&p, &q, &err), 0);
+        assert_int_equal(q.triangles, k ? body : 4);
+        assert_int_equal(q.closed, was.closed);
+        assert_int_equal(q.branched, k == 0);
+        if (k == 1) assert_near(q.volume, 1.0, 1e-14);
+        fl_part_free(&p);
+    }
+}
+
 /* What goes by itself is told by itself: one box within another that has a wall, two that overlap in part
  * of a face and have an edge in common, which must stay as they are. */
 static void bodies_by_themselves_are_left_alone(void **state)
@@ -258,6 +292,7 @@ int main(void)
         cmocka_unit_test(the_skin_of_a_honeycomb_looks_outward),
         cmocka_unit_test(boxes_that_share_a_wall),
         cmocka_unit_test(double_walls_go_and_plates_stay),
+        cmocka_unit_test(fins_go_with_both_sides),
         cmocka_unit_test(bodies_by_themselves_are_left_alone),
         cmocka_unit_test(doubled_triangles_are_one_behind_the_other),
         cmocka_unit_test(bodies_that_share_edges_are_kept_apart),

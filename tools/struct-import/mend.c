@@ -180,6 +180,19 @@ static int cure(fl_part *p, const struct options *o, struct mended *m, double bl
     return fl_part_crossings(p, &m->meet, err);
 }
 
+/* Without them what is left may have another outside. */
+static int drop_fins(fl_part *p, struct mended *m, fl_err *err)
+{
+    fl_orient again;
+    if (fl_part_drop_fins(p, &m->fins, err)) return -1;
+    if (m->fins == 0) return 0;
+    if (fl_part_orient(p, &m->left, &again, err)) return -1;
+    again.triangles += m->orient.triangles;
+    again.patches += m->orient.patches;
+    m->orient = again;
+    return fl_part_measure(p, &m->left, err);
+}
+
 /* Can anything but welding have moved the surface? */
 static int may_move(const fl_quality *q, const struct options *o)
 {
@@ -203,6 +216,8 @@ static int mend_triangles(fl_part *p, const struct options *o, struct mended *m,
     if (p->nt == 0 || o->raw) return 0;
     *same = *same && m->orient.triangles + m->orient.patches == 0;
     if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->left, err)) return -1;
+    if (m->left.branched && drop_fins(p, m, err)) return -1;
+    *same = *same && !m->fins;
     if (o->repair && m->left.branched &&
         (fl_part_drop_walls(p, &m->walls, err) || fl_part_measure(p, &m->left, err)))
         return -1;

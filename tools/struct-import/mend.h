@@ -19,6 +19,7 @@ struct mended {
     fl_orient orient;
     fl_repair repair;
     fl_untangle untangle;
+    int32_t fins;       /* triangles of plates with two sides that went */
     int32_t walls;      /* triangles inside that went */
     int32_t simplified; /* triangles less */
     fl_crossing meet;   /* what is left */

@@ -106,6 +106,11 @@ static void warn(const char *name, const struct mended *m)
                 "struct-import: warning: %s: open patches have no outside, they keep the side that most of "
                 "their area had\n",
                 name);
+    if (m->fins)
+        fprintf(stderr,
+                "struct-import: warning: %s: %d triangles of plates with two sides that stand on others were "
+                "left out: as a part of its own such a plate is felt\n",
+                name, m->fins);
     if (m->untangle.failed)
         fprintf(stderr, "struct-import: warning: %s: %d patches or pairs of them still cross\n", name,
                 m->untangle.failed);
