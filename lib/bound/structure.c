@@ -32,6 +32,7 @@ typedef struct {
     int32_t *queue;
     int32_t regions;
     int closed;
+    int32_t turned[2]; /* two triangles that share an edge and face different ways; -1 for none */
 } flats;
 
 static int side_order(const void *x, const void *y)
@@ -55,6 +56,13 @@ static int side_of(const fl_tri *t, int32_t a, int32_t b)
 {
     const int k = corner_of(t, a);
     return t->v[(k + 1) % 3] == b ? k : corner_of(t, b);
+}
+
+/* Both have an area, and are not one triangle that came twice. */
+static int faces_otherwise(const flats *f, int32_t t, int kt, int32_t u, int ku)
+{
+    return v3_norm2(f->n[t]) > 0.0 && v3_norm2(f->n[u]) > 0.0 &&
+           f->p->t[t].v[(kt + 2) % 3] != f->p->t[u].v[(ku + 2) % 3];
 }
 
 /* Of three or more triangles at an edge, s[k .. end), the two that go on flat over it, if there are two: a
@@ -87,6 +95,7 @@ static void join_sides(flats *f)
     }
     qsort(f->s, (size_t)ns, sizeof *f->s, side_order);
     f->closed = 1;
+    f->turned[0] = f->turned[1] = -1;
     for (int32_t k = 0, end; k < ns; k = end) {
         for (end = k + 1; end < ns && f->s[end].a == f->s[k].a && f->s[end].b == f->s[k].b; end++) {}
         int32_t one = k, two = k + 1;
@@ -98,6 +107,7 @@ static void join_sides(flats *f)
         const int kt = side_of(&p->t[t], a, b), ku = side_of(&p->t[u], a, b);
         if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: turned against each other */
             f->closed = 0;
+            if (f->turned[0] < 0 && faces_otherwise(f, t, kt, u, ku)) f->turned[0] = t, f->turned[1] = u;
             continue;
         }
         f->mate[3 * t + kt] = u;
@@ -604,6 +614,32 @@ done:
     return rc;
 }
 
+/* An inside that is one to one triangle and none to the next would push both ways. */
+static int check_turned(const flats *f, fl_err *err)
+{
+    const fl_part *p = f->p;
+    const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one behind the other */
+    const int32_t first = rows ? p->line : 0;
+    if (f->turned[0] < 0) return 0;
+    return fl_fail(err, FL_INPUT,
+                   "part %s: its triangles %s%d and %d share an edge and face different ways: struct-import "
+                   "turns what has two sides",
+                   p->name, rows ? "of lines " : "", first + f->turned[0], first + f->turned[1]);
+}
+
+/* Six times what the triangles enclose, about the middle of the part. */
+static double enclosed(const fl_part *p)
+{
+    const fl_aabb box = fl_part_aabb(p);
+    const fl_vec3 o = v3_lerp(box.lo, box.hi, 0.5);
+    double sum = 0.0;
+    for (int32_t t = 0; t < p->nt; t++) {
+        const int32_t *v = p->t[t].v;
+        sum += v3_dot(v3_sub(p->v[v[0]], o), v3_cross(v3_sub(p->v[v[1]], o), v3_sub(p->v[v[2]], o)));
+    }
+    return sum;
+}
+
 static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
 {
     flats f = {0};
@@ -615,8 +651,10 @@ static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err
     const int flat = f.regions == 1 || fl_cover_flat(p, f.fn[0], f.fc[0], f.tol);
     if (flat) plate = make_plate(piece, &f, err);
     if (plate) rc = plate < 0 ? -1 : 0;
+    else if (check_turned(&f, err)) goto done;
     else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_shell(piece, &f, err);
     piece->one_sided = flat && !plate;
+    piece->inward = f.closed && piece->kind == FL_PIECE_SHELL && enclosed(p) < 0.0;
 done:
     flats_free(&f);
     return rc;

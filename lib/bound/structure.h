@@ -44,6 +44,7 @@ typedef struct {
     fl_poly core;     /* in that frame; a plate for plates         */
     int elastic;      /* a plane on springs                        */
     int one_sided;    /* a flat sheet that is a shell: what comes from behind feels nothing of it */
+    int inward;       /* a closed shell that looks inward: all is solid but what it encloses */
     double r0, r1, h; /* cone: between z = 0 and z = h of the frame */
     fl_shell shell;
     double face; /* area of the largest flat region of a shell, however it is cut up [m2] */
@@ -55,7 +56,8 @@ typedef struct {
 } fl_structure;
 
 /* Build the pieces of all parts.  Welds nothing: triangles are joined by the indices of their vertices.
- * -1 with FL_INPUT (a part whose triangles have no area) or FL_SYSTEM. */
+ * -1 with FL_INPUT (a part whose triangles have no area, or of which two that share an edge with no third
+ * face different ways) or FL_SYSTEM. */
 int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err);
 
 /* Make ready for balls, which ask where the walls of shells meet.  -1 with FL_SYSTEM. */

@@ -28,7 +28,8 @@ typedef struct {
     fl_tri *t;     /* [nt] indices into v */
     fl_cone *cone; /* [nc] */
     int32_t v_cap, t_cap, c_cap;
-    int32_t doubled; /* elements of its file that stood on others, and were left out */
+    int32_t doubled;         /* elements of its file that stood on others, and were left out */
+    int32_t line, last_line; /* of its first and last triangle in a g_struct file, as it was read; else 0 */
 } fl_part;
 
 typedef struct {

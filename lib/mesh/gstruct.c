@@ -48,6 +48,8 @@ static int read_triangle(fl_text *in, fl_part *p, fl_err *err)
     if (fl_text_end(in, err)) return -1;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
         return fl_text_fail(in, err, "triangle %d %d %d repeats a vertex", v[0], v[1], v[2]);
+    if (p->nt == 0) p->line = (int32_t)in->number;
+    p->last_line = (int32_t)in->number;
     return fl_surface_triangle(p, v[0], v[1], v[2], err);
 }
 

@@ -2,6 +2,7 @@
 #include <omp.h>
 #include <string.h>
 #include "base/mem.h"
+#include "bound/shell.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "step/balls.h"
@@ -578,6 +579,26 @@ int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_er
     return 0;
 }
 
+/* Of a closed part that looks inward what is outside is solid: a tank holds its floes, and of a post that is
+ * inside out the floes about it would be in its ice. */
+static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *err)
+{
+    for (int32_t k = 0; k < w->structure.n; k++) {
+        const fl_piece *piece = &w->structure.piece[k];
+        for (int32_t i = 0; i < w->n && piece->inward; i++) {
+            if (fl_world_away(w, i)) continue;
+            const fl_vec3 x = q_rotate(q_conj(piece->q), v3_sub(w->b.x[i], piece->x));
+            if (!fl_shell_holds(piece, x)) continue;
+            const fl_part *p = &surface->part[piece->part];
+            return fl_fail(err, FL_INPUT,
+                           "%s: part %s: its triangles, from line %d on, look inward, and body %d stands "
+                           "outside, where all is solid then: struct-import turns them",
+                           w->scene->structure.file, p->name, p->line, w->id[i]);
+        }
+    }
+    return 0;
+}
+
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
                   fl_err *err)
 {
@@ -626,6 +647,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     if (place_pieces(w, surface, err) || fl_ride_make(w, surface, err) || fl_press_make(w, surface, err) ||
         fl_sleep_make(w, err) || fl_pairing_laws(w, err) || fl_frozen_make(w, field, err))
         goto fail;
+    if (check_inward(w, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
     w->skin = field->n ? 0.1 * bound / field->n : 0.0;
     w->near.absent = w->traffic.away;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support/near.h"
 #include <math.h>
+#include <string.h>
 #include "bound/structure.h"
 #include "geom/facet.h"
 #include "geom/mass.h"
@@ -290,6 +291,62 @@ static void what_is_open_or_several_is_a_shell(void **state)
     }
 }
 
+static void turn(fl_part *p, int32_t t)
+{
+    const int32_t a = p->t[t].v[0];
+    p->t[t].v[0] = p->t[t].v[1], p->t[t].v[1] = a;
+}
+
+/* A box with and without its lid, and a square, of which one triangle is turned; one that comes twice at a
+ * rim is no turned one. */
+static void triangles_that_face_different_ways_are_refused(void **state)
+{
+    (void)state;
+    for (int what = 0; what < 4; what++) {
+        fl_surface s = {0};
+        fl_structure st = {0};
+        fl_err err = {0};
+        fl_part *p = new_part(&s);
+        if (what == 2) {
+            vertex(p, 0, 0, 0), vertex(p, 1, 0, 0), vertex(p, 1, 1, 0), vertex(p, 0, 1, 0);
+            triangle(p, 0, 1, 2), triangle(p, 0, 3, 2);
+        } else {
+            assert_int_equal(fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err), 0);
+            if (what) p->nt -= 2;
+            if (what == 3) triangle(p, p->t[9].v[0], p->t[9].v[1], p->t[9].v[2]);
+            else turn(p, 5);
+        }
+        if (what == 1) p->line = 11, p->last_line = 20; /* one row behind the other */
+        const int refused = what < 3;
+        assert_int_equal(fl_structure_build(&st, &s, &err), -refused);
+        assert_int_equal(err.code, refused ? FL_INPUT : 0);
+        if (what == 2) assert_non_null(strstr(err.text, "part part: its triangles 0 and 1 share"));
+        if (what == 1) assert_non_null(strstr(err.text, "part part: its triangles of lines 1"));
+        if (refused) assert_non_null(strstr(err.text, "share an edge and face different ways"));
+        fl_structure_free(&st);
+        fl_surface_free(&s);
+    }
+}
+
+/* What a closed part encloses tells where it looks, wherever it stands. */
+static void a_closed_part_that_looks_inward_is_told(void **state)
+{
+    (void)state;
+    for (int inward = 0; inward < 2; inward++) {
+        lab l;
+        const fl_vec3 xy[6] = {v3(2, 1e3, 0),  v3(4, 1e3, 0),  v3(4, 1001, 0),
+                               v3(3, 1001, 0), v3(3, 1002, 0), v3(2, 1002, 0)};
+        lab_start(&l);
+        lab_prism(&l, 6, xy, 0, 1);
+        for (int32_t t = 0; inward && t < l.surface.part[0].nt; t++) turn(&l.surface.part[0], t);
+        fl_structure st = build(&l.surface);
+        assert_int_equal(st.piece[0].kind, FL_PIECE_SHELL);
+        assert_int_equal(st.piece[0].inward, inward);
+        fl_structure_free(&st);
+        lab_free(&l);
+    }
+}
+
 static void triangles_without_area_do_no_harm(void **state)
 {
     (void)state;
@@ -381,6 +438,8 @@ int main(void)
         cmocka_unit_test(a_sheet_is_what_it_covers),
         cmocka_unit_test(what_is_not_convex_is_a_shell_without_seams),
         cmocka_unit_test(what_is_open_or_several_is_a_shell),
+        cmocka_unit_test(triangles_that_face_different_ways_are_refused),
+        cmocka_unit_test(a_closed_part_that_looks_inward_is_told),
         cmocka_unit_test(triangles_without_area_do_no_harm),
         cmocka_unit_test(cones_have_the_section_of_the_circle),
         cmocka_unit_test(a_part_may_mix_triangles_and_cones_or_be_empty),
