@@ -61,7 +61,7 @@ static inline double fl_damping_for(double y, double n, double most)
  * has it, up to 0.7 of what the springs alone would leave (verify_step).  Where n h C is small each stands
  * for itself; what the others bear on d by is of order 4 there.
  *
- * What is held back lags behind the motion: it damps none of it rather than driving it.  As time begins
+ * What is held back lags behind the motion: rather than drive it, it forgets what was before.  As time begins
  * there is no step before: damping is taken to have been what it is, and held back where it would shake, and
  * nothing has grown.
  *
@@ -74,7 +74,7 @@ static inline double fl_damping_at_end(double c, double C, double h, double n, d
 {
     const double holds = (fl_damping_for(h * C, n, 2.0 * n - 1.0 + begins) - begins) * h;
     const double d = (c - h * grew + holds * damped) / (1.0 + holds * C);
-    return n > 1.0 && c * d < 0.0 ? 0.0 : d;
+    return n > 1.0 && c * d < 0.0 ? c / (1.0 + holds * C) : d;
 }
 
 static inline double fl_damping_closing(double c, double C, double h, double n, double grew, double damped)

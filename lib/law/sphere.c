@@ -87,10 +87,9 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt, d
                      each = 1.0 / (1.0 + holds * yields);
         const fl_vec3 damps =
             v3_madd(v3_scale(-g, next), yields, v3_madd(v3_scale(-g * h, goes.f), holds, was));
-        const int drives = fl_tangent_drives(many, (fl_grip){damps, 0.0}, (fl_grip){next, 0.0});
         const double size = share * after;
         const fl_held rubs = fl_tangent_hold(from, size, goes, fl_tangent_way(size, limit, goes, ahead),
-                                             limit, (fl_grip){v3_scale(drives ? 0.0 : each, damps), 0.0});
+                                             limit, (fl_grip){v3_scale(each, damps), 0.0});
         const fl_vec3 e = rubs.kept.f, all = rubs.all.f;
         const int on = limit > 0.0 && b->tangential[c] > 0.0;
         b->slip[0][c] = on ? e.x : 0.0;

@@ -111,12 +111,6 @@ FL_WIDE_PART fl_grip fl_tangent_damped(fl_rubbing c, fl_grip moves, fl_grip way,
                      (-g * (moves.m + h * turns * way.m) + a * turns * before.m) / (1.0 + a * turns)};
 }
 
-/* What is held back lags, and would drive what it is to damp: then it does nothing. */
-FL_WIDE_PART int fl_tangent_drives(double many, fl_grip damps, fl_grip moves)
-{
-    return many > 1.0 && fl_grip_dot(damps, moves) > 0.0;
-}
-
 /* What springs keep, and that with damping. */
 typedef struct {
     fl_grip kept, all;
@@ -173,9 +167,8 @@ FL_WIDE_PART fl_rubbed fl_tangent_rub(fl_slip s, fl_rubbing c, fl_sliding by, do
                   moves = {next, c.arm * by.next_spin}, damped = {by.damped, each * by.damped_turn};
     const double size = fl_grip_size(from);
     const fl_grip damps = fl_tangent_damped(c, moves, way, damped, by.half, by.begins);
-    const double part = fl_tangent_drives(c.many, damps, moves) ? 0.0 : 1.0;
-    const fl_held now = fl_tangent_hold(from, size, way, fl_tangent_way(size, c.limit, way, way_next),
-                                        c.limit, fl_grip_scale(part, damps));
+    const fl_held now =
+        fl_tangent_hold(from, size, way, fl_tangent_way(size, c.limit, way, way_next), c.limit, damps);
     return (fl_rubbed){{now.kept.f, k, c.arm * now.kept.m, turning}, now.all.f, c.arm * now.all.m};
 }
 

@@ -162,7 +162,7 @@ static void begun_in_touch(void)
         verify_note("%d %s touch and move as time begins, restitution %g, friction %g", side * side * side,
                     boxes ? "cubes" : "balls", ROWS[k][1], ROWS[k][2]);
         verify_below("S31", "energy made, of what moves", made, 1e-6);
-        verify_below("S31", "friction or damping gives back", given, 0.02);
+        verify_below("S31", "friction or damping gives back", given, 0.1);
     }
 }
 
