@@ -23,7 +23,8 @@ static void find_twins(const fl_part *p, const fl_edges *e, int32_t *twin)
 }
 
 /* Of what hangs together of them, under its lowest triangle. */
-enum { SHEET = 1, STANDS = 2 }; /* an edge of its rim has no others; an edge has some without a twin */
+/* An edge of its rim has fewer than four sides; an edge has some without a twin; an edge of its rim is free. */
+enum { SHEET = 1, STANDS = 2, FREE = 4 };
 
 /* What hangs together of them, in set, and what that is. */
 static void find_sheets(const fl_part *p, const fl_edges *e, const int32_t *twin, int32_t *set, uint8_t *is)
@@ -39,6 +40,7 @@ static void find_sheets(const fl_part *p, const fl_edges *e, const int32_t *twin
                 last = k, twins++;
             }
             if (last >= 0 && to - from < 4) is[e->side[last].t] |= SHEET;
+            if (last >= 0 && to - from == twins && twins < 4) is[e->side[last].t] |= FREE;
             if (last >= 0 && to - from > twins) is[e->side[last].t] |= STANDS;
         }
     for (int32_t t = 0; t < p->nt; t++) is[fl_sets_find(set, t)] |= is[t];
@@ -70,7 +72,7 @@ static int double_walls(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_e
 
 static int fins(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
 {
-    return twins_of(p, e, SHEET | STANDS, 0, wall, err);
+    return twins_of(p, e, FREE | STANDS, 0, wall, err);
 }
 
 static int single_walls(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)

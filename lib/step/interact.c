@@ -248,7 +248,8 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
         }
         less = v3_norm2(way) / (sum * sum);
     }
-    const fl_pair_yielding ease = fl_pair_yielding_of(w, p);
+    fl_pair_yielding ease;
+    if (one || !fl_pair_is_plain(w, p)) ease = fl_pair_yielding_of(w, p);
     const double mass = less > 0.0 ? fl_pair_mass(w, p, &ease, way, turn_i, turn_j) / less : INFINITY;
     const double begins = closing_of(b, p, a, &first);
     double closing = begins;

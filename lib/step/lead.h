@@ -109,11 +109,14 @@ static inline int32_t fl_lead_pressed(const fl_world *w, int32_t k, int32_t n)
     return w->balls.bodies && k < w->n ? n + w->balls.touched[k] : n;
 }
 
-/* The velocity of thing k for an impulse in its centre, in whatever direction it yields in [1/kg]. */
-static inline double fl_lead_yields(const fl_world *w, int32_t k)
+/* The velocity of thing k for an impulse in its centre, in whatever direction it yields in [1/kg].  A part of
+ * the structure that turns alone has no mass: it is taken to yield as the other, by y. */
+static inline double fl_lead_yields(const fl_world *w, int32_t k, double y)
 {
     if (k < w->n) return fl_body_stands(&w->b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : w->b.invm[k];
-    return fl_ride_yields(w, k) ? 1.0 / w->ride.m.motion[w->ride.of[k - w->n]].mass : 0.0;
+    if (!fl_ride_yields(w, k)) return 0.0;
+    const double mass = w->ride.m.motion[w->ride.of[k - w->n]].mass;
+    return mass > 0.0 ? 1.0 / mass : y;
 }
 
 /* lag: fl_pair_lag() of the step [m/s]. */
@@ -121,7 +124,7 @@ static inline fl_lead fl_lead_of(const fl_world *w, const fl_pair *p, fl_vec3 la
 {
     const int32_t ni = fl_works_was(w, p->i)->n, nj = fl_works_was(w, p->j)->n;
     const int32_t mi = fl_lead_pressed(w, p->i, ni), mj = fl_lead_pressed(w, p->j, nj);
-    const double yi = fl_lead_yields(w, p->i), yj = fl_lead_yields(w, p->j),
+    const double yi = fl_lead_yields(w, p->i, 0.0), yj = fl_lead_yields(w, p->j, yi),
                  n = fl_damping_among(mi > 1 ? (mi - 1) * yi : 0.0, mj > 1 ? (mj - 1) * yj : 0.0, yi + yj);
     const fl_gain none = {{0, 0, 0}, {0, 0, 0}};
     const fl_gain i = ni ? *fl_works_lead(w, p->i) : none, j = nj ? *fl_works_lead(w, p->j) : none;

@@ -77,12 +77,15 @@ const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j)
 }
 
 /* c of `patch` from the kappa that was given: that of the modulus which makes kappa the stiffness of a whole
- * face, or of what is round: of a capsule's end. */
+ * face, or of what is round: of a capsule's end; of `core`, which has no other law there, of its one place. */
 static double given_patch(const fl_world *w, int32_t i, int32_t j, double area)
 {
     const fl_bodies *b = &w->b;
-    const double kappa = fl_pairing_law(w, i, j)->stiffness;
-    if (b->core[i].nv > 2 && (j >= w->n || b->core[j].nv > 2)) return 0.5 * kappa / sqrt(area);
+    const fl_touching *law = fl_pairing_law(w, i, j);
+    const double kappa = law->stiffness;
+    const int core = law->kind == FL_LAW_CORE, faces = b->core[i].nv > 2 && (j >= w->n || b->core[j].nv > 2);
+    if (faces && !(core && law->exponent != 1.0))
+        return 0.5 * (core ? FACE_OF_CORE : 1.0) * kappa / sqrt(area);
     const double modulus = kappa / fl_material_hertz(1.0, fl_material_radius(b->radius[i], b->radius[j]));
     return 0.5 * fl_material_punch(modulus, 1.0);
 }

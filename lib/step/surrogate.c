@@ -10,6 +10,7 @@
 #define LONGER 3.0
 #define SAFE 0.15    /* so much of the tolerance is aimed at, */
 #define RETURN 0.5   /* so much of it is given back with, at the most, */
+#define ENDED 0.3    /* of the reach: shorter ways tell nothing of what will come, */
 #define BEYOND 10.0  /* and so much tells of something new: what was learnt is forgotten */
 #define NEAR 1e-5    /* of the overlap: looks that are nearer to one another tell rounding; */
 #define FAR 50.0     /* and where one has so many times the energy of another neither tells of it */
@@ -571,13 +572,14 @@ static fl_look look_of(const fl_surrogate *s, const fl_told *t)
 }
 
 /* How much z was told too low at the end of a way, but for what was given back, over the fourth power of that
- * in overlaps: what is left out is of that order. */
+ * in overlaps: what is left out is of that order.  Short ways, which something else has ended, tell nothing. */
 static double ran_off(const fl_surrogate *s, const fl_told *t, double energy)
 {
     const double g = gone(s, t), way = t->way / s->overlap, w2 = way * way,
                  pull = s->power * t->energy / t->z;
-    return foresees(s) && w2 > 0.0 && t->z > 0.0 ? ((energy - t->energy) / pull + s->back * g * g) / (w2 * w2)
-                                                 : 0.0;
+    return foresees(s) && way > ENDED * s->reach && way > NEAR && t->z > 0.0
+               ? ((energy - t->energy) / pull + s->back * g * g) / (w2 * w2)
+               : 0.0;
 }
 
 /* What is owed, over the way to come, and what will be by then, as the last way ran off; part: of the force,

@@ -277,6 +277,7 @@ const char *fl_world_wall(const fl_world *w, int32_t k, char name[64])
 static int before_walls(const fl_world *w, int32_t i, fl_err *err)
 {
     char name[64];
+    if (fl_body_stands(&w->b, i) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z)) return 0;
     for (int32_t k = 0; k < w->walls && w->b.invm[i] > 0.0; k++) {
         const fl_piece *wall = &w->structure.piece[w->pieces + k];
         const double before = v3_dot(normal_of(wall), v3_sub(w->b.x[i], wall->x));

@@ -166,10 +166,31 @@ static void begun_in_touch(void)
     }
 }
 
+/* Three boxes hit a post that can do nothing but turn, and has no mass, together. */
+static void about_an_axis(void)
+{
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "contact.restitution=0.3");
+    lab_wall(&l, v3(-2, -2, -1), v3(2, 2, 0), 1);
+    lab_set(&l, "structure.free=ry");
+    lab_set(&l, "structure.inertia=0 1e7 0");
+    for (int k = 0; k < 3; k++)
+        lab_box(&l, v3(1.5, 1.2 * (k - 1), 0.507), v3(0.45, 0.45, 0.5), 0.05, q_one(), v3(0, 0, -1), Z);
+    lab_make(&l, 0);
+    const int rc = lab_run(&l, (int64_t)(0.1 / l.w.dt));
+    verify_note("3 boxes hit a structure that turns alone");
+    verify_true("S29", "it runs to its end", rc == 0);
+    for (int k = 0; k < 3; k++)
+        verify_row("S29", "speed of one after [m/s]", l.w.b.v[k].z, 0.3, 2e-3, VERIFY_ABS);
+    lab_free(&l);
+}
+
 int main(void)
 {
     verify_begin("many contacts on one body, and touch as time begins");
     small_on_one();
+    about_an_axis();
     posts();
     begun_in_touch();
     return verify_end();

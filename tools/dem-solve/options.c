@@ -95,8 +95,11 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     while ((c = getopt_long(argc, argv, ":s:i:S:o:R:r:e:zj:qvh", LONG, NULL)) != -1) {
         const char *word = argv[optind - 1];
         if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see dem-solve --help", word);
-        if (c == '?' && optopt)
+        const int full = strncmp(word, "--", 2) == 0;
+        if (c == '?' && optopt && !full)
             return fl_fail(err, FL_USAGE, "-%c is no option, see dem-solve --help", optopt);
+        if (c == '?' && optopt)
+            return fl_fail(err, FL_USAGE, "%.60s: that option takes no value, see dem-solve --help", word);
         if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see dem-solve --help", word);
         if (take(o, c, err)) return -1;
         if (o->ended) return 0;
