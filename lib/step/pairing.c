@@ -77,7 +77,7 @@ const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j)
 }
 
 /* c of `patch` from the kappa that was given: that of the modulus which makes kappa the stiffness of a whole
- * face, or of what is round: of a capsule's end; of `core`, which has no other law there, of its one place. */
+ * face, or of what is round: of a capsule's end; of `core`, which it stands in for, of its one place. */
 static double given_patch(const fl_world *w, int32_t i, int32_t j, double area)
 {
     const fl_bodies *b = &w->b;

@@ -572,7 +572,7 @@ static fl_look look_of(const fl_surrogate *s, const fl_told *t)
 }
 
 /* How much z was told too low at the end of a way, but for what was given back, over the fourth power of that
- * in overlaps: what is left out is of that order.  Short ways, which something else has ended, tell nothing. */
+ * in overlaps: what is left out is of that order.  Short ways, which something else ended, tell nothing. */
 static double ran_off(const fl_surrogate *s, const fl_told *t, double energy)
 {
     const double g = gone(s, t), way = t->way / s->overlap, w2 = way * way,
