@@ -120,6 +120,12 @@ static inline unsigned fl_body_stands(const fl_bodies *b, int32_t i)
     return b->hold[i] & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z);
 }
 
+/* The velocity of the centre of body i for an impulse there, in whatever direction it yields in [1/kg]. */
+static inline double fl_body_lightness(const fl_bodies *b, int32_t i)
+{
+    return fl_body_stands(b, i) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : b->invm[i];
+}
+
 /* Velocity of the material point at world position offset a from the centre of mass. */
 static inline fl_vec3 fl_body_velocity(const fl_bodies *b, int32_t i, fl_vec3 a)
 {

@@ -22,9 +22,8 @@ static void find_twins(const fl_part *p, const fl_edges *e, int32_t *twin)
         }
 }
 
-/* Of what hangs together of them, under its lowest triangle. */
-/* An edge of its rim has fewer than four sides; an edge has some without a twin; an edge of its rim is
- * free. */
+/* Of what hangs together of them, under its lowest triangle: an edge of its rim has fewer than four sides; an
+ * edge has some without a twin; an edge of its rim is free. */
 enum { SHEET = 1, STANDS = 2, FREE = 4 };
 
 /* What hangs together of them, in set, and what that is. */

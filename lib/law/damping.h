@@ -69,17 +69,12 @@ static inline double fl_damping_for(double y, double n, double most)
  *   grew     E - E_before, elastic force   [N]
  *   damped   D_before, that of damping     [N]
  *   begins   1 as time begins, else 0 */
-static inline double fl_damping_at_end(double c, double C, double h, double n, double grew, double damped,
-                                       double begins)
+static inline double fl_damping_closing(double c, double C, double h, double n, double grew, double damped,
+                                        double begins)
 {
     const double holds = (fl_damping_for(h * C, n, 2.0 * n - 1.0 + begins) - begins) * h;
     const double d = (c - h * grew + holds * damped) / (1.0 + holds * C);
     return n > 1.0 && c * d < 0.0 ? c / (1.0 + holds * C) : d;
-}
-
-static inline double fl_damping_closing(double c, double C, double h, double n, double grew, double damped)
-{
-    return fl_damping_at_end(c, C, h, n, grew, damped, 0.0);
 }
 
 /* Of one contact, of n_i on a body that yields by y_i and n_j on one by y_j, as many as would be on a body

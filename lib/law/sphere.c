@@ -49,8 +49,8 @@ FL_WIDE_VERSIONS static void press(fl_spheres *restrict b, int32_t m, double dt,
         const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
         const double chi = speed > 0.0 ? b->chi[c] / speed : 0.0;
         const double from = s - dt * came, had = from > 0.0 ? from : 0.0;
-        const double goes = fl_damping_at_end(closing, chi * elastic, h * b->yields[c], b->many[c],
-                                              elastic - b->k[c] * (had * sqrt(had)), b->damped[c], begins);
+        const double goes = fl_damping_closing(closing, chi * elastic, h * b->yields[c], b->many[c],
+                                               elastic - b->k[c] * (had * sqrt(had)), b->damped[c], begins);
         const double damping = elastic * (chi * goes);
         b->touch[c] = touch;
         b->scale[c] = chi;

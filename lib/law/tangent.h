@@ -36,7 +36,7 @@ typedef struct {
     fl_vec3 damped;         /* what damping did in the step before, and about n [N], [N m] */
     double damped_turn;
     double half;   /* half a step, which damping is held back for [s] */
-    double begins; /* as in fl_damping_at_end() */
+    double begins; /* as in fl_damping_closing() */
 } fl_sliding;
 
 /* What a step of friction leaves, and what it does to A. */

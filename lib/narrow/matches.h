@@ -34,7 +34,7 @@ typedef struct {
 
 /* A list lies in one block: planes, numbers, and whole numbers of 8 bits each, or of 16 or 32 where one of
  * them would not fit.  Planes of two bodies are not kept, which would be more than half of a list: what they
- * pass through is told by four whole numbers each, and they are made for a look, for a thirtieth of its cost.
+ * pass through is told by four whole numbers each, and they are made for a look, for a twentieth of its cost.
  * A match is a row of those:
  *     kind + 8 way + 16 sides     way 0: of A over B, 1: of B over A
  *     own, other                  numbers of the features

@@ -85,12 +85,6 @@ static double turns_of(const fl_bodies *b, int32_t k)
  * six, 5.5 for twelve, or less (crowd() of critical.c). */
 static double all_round(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
 
-/* 1/m of what anything lets move. */
-static double somehow(const fl_bodies *b, int32_t k)
-{
-    return fl_body_stands(b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : b->invm[k];
-}
-
 void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h)
 {
     const fl_bodies *b = &w->b;
@@ -99,7 +93,7 @@ void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h)
         const fl_gain lead = lead_of(w, k, h);
         const int32_t rows = w->balls.touched[k] = w->balls.touching[k];
         const double n = all_round(rows + fl_works_was(w, k)->n), r = b->radius[k],
-                     crowd = n > 1.0 ? (n - 1.0) * somehow(b, k) : 0.0;
+                     crowd = n > 1.0 ? (n - 1.0) * fl_body_lightness(b, k) : 0.0;
         seen[k] = (fl_ball_seen){b->x[k], r,      b->v[k], plainly(b, k),       b->w[k],
                                  r,       lead.v, crowd,   v3_scale(r, lead.w), turns_of(b, k)};
     }
@@ -265,7 +259,7 @@ static void load_masses(const fl_world *w, batch *t)
         if (t->at.invm[m] == t->at.invm[m]) continue;
         const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
         t->at.yields[m] = fl_body_yields(b, i, n) + fl_body_yields(b, j, n);
-        t->at.across[m] = somehow(b, i) + somehow(b, j);
+        t->at.across[m] = fl_body_lightness(b, i) + fl_body_lightness(b, j);
         t->at.many[m] = fl_damping_among(w->balls.seen[i].crowd, w->balls.seen[j].crowd, t->at.across[m]);
         t->at.invm[m] = t->rest2[m] * t->at.yields[m];
     }

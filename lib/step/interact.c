@@ -547,7 +547,8 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_stance
     const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
     const fl_vec3 u = went(b, p, a, ai, aj); /* without a lead: as the manual has it */
     const double closing = -v3_dot(nw, u);
-    const fl_pair_yielding ease = fl_pair_yielding_of(w, p);
+    fl_pair_yielding ease;
+    if (!fl_pair_is_plain(w, p)) ease = fl_pair_yielding_of(w, p);
     const double mass = law->literal2 && b->invm[p->j] > 0.0
                             ? b->m[p->i] + b->m[p->j]
                             : fl_pair_mass(w, p, &ease, nw, v3_cross(ai, nw), v3_cross(aj, nw));

@@ -50,7 +50,7 @@ static inline fl_before fl_before_of(const fl_pair *p)
 }
 
 /* A step over dt, and half of the one that damping is held back for: the first that comes where dt = 0, as
- * time begins and bodies may touch that move [s].  begins: as in fl_damping_at_end(). */
+ * time begins and bodies may touch that move [s].  begins: as in fl_damping_closing(). */
 typedef struct {
     double dt, half, begins;
 } fl_lead_step;
@@ -68,8 +68,8 @@ FL_WIDE_PART double fl_lead_closing(double c, double elastic, double C, double y
     const double had = v3_norm(was.elastic.f),
                  damped = had > 0.0 ? v3_dot(was.elastic.f, was.damping.f) / had : 0.0;
     const double known = 1.0 - by.begins;
-    return fl_damping_at_end(c, C, by.half * yields, pressed, known * (elastic - had), known * damped,
-                             by.begins);
+    return fl_damping_closing(c, C, by.half * yields, pressed, known * (elastic - had), known * damped,
+                              by.begins);
 }
 
 /* Where the pressures of a contact stand against each other, in a slot, its force is less than their sum,
@@ -84,7 +84,7 @@ FL_WIDE_PART double fl_lead_share(double elastic, double presses)
 /* fl_damping_closing() knows of the push along the force alone.  All else of damping, by which the bodies
  * shake, goes by the motion foreseen, held back as that of many contacts is: as if it moved twice as easily
  * as the mass.  presses: sum of the pressures, y = C dt/M of them, twice what fl_damping_for() has;
- * begins: as in fl_damping_at_end(). */
+ * begins: as in fl_damping_closing(). */
 FL_WIDE_PART fl_wrench fl_lead_steadied(fl_wrench elastic, fl_wrench damping, double presses, double y,
                                         double pressed, fl_before was, double begins)
 {
@@ -109,11 +109,11 @@ static inline int32_t fl_lead_pressed(const fl_world *w, int32_t k, int32_t n)
     return w->balls.bodies && k < w->n ? n + w->balls.touched[k] : n;
 }
 
-/* The velocity of thing k for an impulse in its centre, in whatever direction it yields in [1/kg].  A part of
- * the structure that turns alone has no mass: it is taken to yield as the other, by y. */
+/* fl_body_lightness() of thing k.  A part of the structure that turns alone has no mass: it is taken to yield
+ * as the other, by y. */
 static inline double fl_lead_yields(const fl_world *w, int32_t k, double y)
 {
-    if (k < w->n) return fl_body_stands(&w->b, k) == (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z) ? 0.0 : w->b.invm[k];
+    if (k < w->n) return fl_body_lightness(&w->b, k);
     if (!fl_ride_yields(w, k)) return 0.0;
     const double mass = w->ride.m.motion[w->ride.of[k - w->n]].mass;
     return mass > 0.0 ? 1.0 / mass : y;

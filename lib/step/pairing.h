@@ -35,7 +35,8 @@ static inline fl_pair_yielding fl_pair_yielding_of(const fl_world *w, const fl_p
  * the reduced mass of two that are free and move no water with them.  Else
  *     1/M = (f.M^-1 f + 1/4 t.I^-1 t)/f^2 of both:
  * a point turns the bodies by all of its arm, a face keeps them from it, and with half of the arm M is never
- * less than that of a point, nor more than four times as much. */
+ * less than that of a point, nor more than four times as much.  e: needed where it is not
+ * fl_pair_is_plain(). */
 double fl_pair_mass(const fl_world *w, const fl_pair *p, const fl_pair_yielding *e, fl_vec3 f, fl_vec3 ti,
                     fl_vec3 tj);
 

@@ -125,7 +125,7 @@ static void damped_by_the_speed_at_the_end(void **state)
                 const double chi = fl_damping_chi(p.law->chi, p.law->rest, touch,
                                                   p.k * fl_normal_phi(over, 1.5), p.mass),
                              ends = fl_damping_closing(closing, chi * elastic, h / p.mass, 1.0, elastic - had,
-                                                       damped),
+                                                       damped, 0.0),
                              normal = fl_normal_damped(elastic, chi, ends);
                 assert_true(fabs(v3_dot(p.f, n) - normal) < 1e-5 * elastic);
                 near3(p.fd, v3_madd(p.f, -elastic, n), elastic);

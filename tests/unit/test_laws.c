@@ -72,7 +72,7 @@ static void damped_step(damped_mass *s, double omega, double C, int n, double dt
     const double before = -(s->E + s->D) * n, k = omega * omega / n;
     s->v += 0.5 * dt * before, s->x += dt * s->v;
     const double E = -k * -s->x, lead = 0.5 * dt * before; /* of mass 1, pushed towards -x */
-    const double d = fl_damping_closing(s->v + lead, C, 0.5 * dt, n, E - s->E, s->D);
+    const double d = fl_damping_closing(s->v + lead, C, 0.5 * dt, n, E - s->E, s->D, 0.0);
     s->E = E, s->D = C * d;
     s->v -= 0.5 * dt * n * (s->E + s->D);
     *foreseen = d;

@@ -102,22 +102,28 @@ struct inputs {
 
 /* A file that is not there is told by the line of the scene that names it; any other trouble, and what the
  * command line names, by its reader. */
+static int file_there(const fl_scene *s, const char *key, const char *path, fl_err *err)
+{
+    fl_err why = {0};
+    if (!path[0] || strcmp(path, "-") == 0 || access(path, R_OK) == 0) return 0;
+    fl_scene_fail(s, key, &why, "%s: %s", path, strerror(errno));
+    if (why.code != FL_INPUT) return 0;
+    *err = why;
+    return -1;
+}
+
 static int files_there(const fl_scene *s, fl_err *err)
 {
-    const struct {
-        const char *key, *path;
-    } in[] = {{"ice.file", s->ice.file},
-              {"structure.file", s->structure.file},
-              {"structure.track", s->structure.motion.track},
-              {"boundary.inflow_file", s->boundary.inflow_file},
-              {"water.profile_file", s->water.profile_file}};
-    for (size_t k = 0; k < sizeof in / sizeof *in; k++) {
-        fl_err why = {0};
-        if (!in[k].path[0] || strcmp(in[k].path, "-") == 0 || access(in[k].path, R_OK) == 0) continue;
-        fl_scene_fail(s, in[k].key, &why, "%s: %s", in[k].path, strerror(errno));
-        if (why.code != FL_INPUT) continue;
-        *err = why;
+    char key[128];
+    if (file_there(s, "ice.file", s->ice.file, err) ||
+        file_there(s, "structure.file", s->structure.file, err) ||
+        file_there(s, "structure.track", s->structure.motion.track, err) ||
+        file_there(s, "boundary.inflow_file", s->boundary.inflow_file, err) ||
+        file_there(s, "water.profile_file", s->water.profile_file, err))
         return -1;
+    for (int32_t k = 0; k < s->n_part; k++) {
+        snprintf(key, sizeof key, "part %s.track", s->part[k].name);
+        if (file_there(s, key, s->part[k].motion.track, err)) return -1;
     }
     return 0;
 }

@@ -43,7 +43,7 @@ const char *run_body(const fl_world *w, int32_t k, char name[64])
 /* So many steps no run has, see run_countable(). */
 #define NEVER (INT64_C(1) << 60)
 
-/* What times of steps and multiples of an interval differ by, over either. */
+/* What numbers that are to be the same differ by, over either. */
 #define ROUNDING 1e-12
 
 /* The first step at or after t: a row is due at the step that differs from its time by rounding alone. */
@@ -90,7 +90,7 @@ static void step_origin(struct run *r, double automatic)
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
-    else if (automatic / r->limit < s->safety * (1.0 - 1e-12)) /* less but for rounding */
+    else if (automatic / r->limit < s->safety * (1.0 - ROUNDING))
         damped_origin(to, n, automatic / r->limit, left, r->limit);
     else snprintf(to, n, "run.safety, %.3g of the critical %.4g s", s->safety, r->limit);
     if (s->dt > 0.0 || r->step_body < 0 || automatic >= fmin(every, s->duration)) return;
