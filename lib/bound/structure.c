@@ -4,6 +4,7 @@
 #include "bound/cover.h"
 #include "bound/structure.h"
 #include "geom/clip.h"
+#include "geom/moments.h"
 #include "geom/mosaic.h"
 
 #define PI 3.14159265358979323846
@@ -627,17 +628,12 @@ static int check_turned(const flats *f, fl_err *err)
                    p->name, rows ? "of lines " : "", first + f->turned[0], first + f->turned[1]);
 }
 
-/* Six times what the triangles enclose, about the middle of the part. */
+/* What the triangles enclose, without the cones. */
 static double enclosed(const fl_part *p)
 {
-    const fl_aabb box = fl_part_aabb(p);
-    const fl_vec3 o = v3_lerp(box.lo, box.hi, 0.5);
-    double sum = 0.0;
-    for (int32_t t = 0; t < p->nt; t++) {
-        const int32_t *v = p->t[t].v;
-        sum += v3_dot(v3_sub(p->v[v[0]], o), v3_cross(v3_sub(p->v[v[1]], o), v3_sub(p->v[v[2]], o)));
-    }
-    return sum;
+    fl_part alone = *p;
+    alone.nc = 0;
+    return fl_moments_of(&alone, 1).volume;
 }
 
 static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
