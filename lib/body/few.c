@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "body/few.h"
 
+#define ALWAYS static inline __attribute__((always_inline))
+
 static void split_one(double (*to)[FL_FEW], fl_vec3 a, int32_t k)
 {
     to[0][k] = a.x, to[1][k] = a.y, to[2][k] = a.z;
@@ -108,6 +110,20 @@ void fl_few_take_pose(fl_few *s, const fl_bodies *b)
     }
 }
 
+void fl_few_take_water(fl_few_water *a, const fl_bodies *b, const fl_few *s)
+{
+    for (int32_t k = 0; k < s->lanes; k++) {
+        const int32_t i = s->at[k];
+        split_one(a->added, b->added[i], k), split_one(a->flow, b->flow[i], k);
+        a->carried[k] = b->carried[i];
+    }
+}
+
+void fl_few_put_water(const fl_few *s, const fl_few_water *a, fl_bodies *b)
+{
+    for (int32_t k = 0; k < s->n; k++) b->carried[s->at[k]] = a->carried[k];
+}
+
 FL_FOUR_VERSIONS static void put_row_forces(const fl_few *s, fl_vec3 *f, fl_vec3 *t)
 {
     for (int32_t k = 0; k < s->lanes; k += FL_LANES) {
@@ -190,14 +206,21 @@ FL_WIDE_VERSIONS void fl_few_push(fl_few *restrict s)
     }
 }
 
-FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s)
+/* What a force gives to v in h seconds.  a: NULL, or what moves along. */
+ALWAYS fl_vec3 sped(const fl_few *s, const fl_few_water *a, int32_t i)
+{
+    const double h = s->h[i];
+    const fl_vec3 f = FL_FEW_OF(s->f, i);
+    if (!a) return v3_scale(h * s->invm[i], f);
+    return v3_scale(h, fl_few_speed(fl_few_rows(s, i), s->m[i], FL_FEW_OF(a->added, i), f));
+}
+
+ALWAYS void kick(fl_few *restrict s, const fl_few_water *restrict water)
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
-        const double h = s->h[i], by = h * s->invm[i];
-        s->v[0][i] += by * s->f[0][i];
-        s->v[1][i] += by * s->f[1][i];
-        s->v[2][i] += by * s->f[2][i];
+        const double h = s->h[i];
+        fl_few_set(s->v, i, v3_add(FL_FEW_OF(s->v, i), sped(s, water, i)));
         const double x = s->L[0][i] + h * s->t[0][i], y = s->L[1][i] + h * s->t[1][i],
                      z = s->L[2][i] + h * s->t[2][i];
         s->L[0][i] = x;
@@ -212,31 +235,49 @@ FL_WIDE_VERSIONS void fl_few_kick(fl_few *restrict s)
     }
 }
 
-FL_WIDE_VERSIONS void fl_few_gains(const fl_few *restrict s, double (*restrict g)[FL_FEW])
+FL_WIDE_VERSIONS static void kick_free(fl_few *s) { kick(s, NULL); }
+FL_WIDE_VERSIONS static void kick_wet(fl_few *s, const fl_few_water *a) { kick(s, a); }
+
+void fl_few_kick(fl_few *s, const fl_few_water *a)
+{
+    if (a) kick_wet(s, a);
+    else kick_free(s);
+}
+
+ALWAYS void gains(const fl_few *restrict s, const fl_few_water *restrict water, double (*restrict g)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
-        const double h = s->h[i], by = h * s->invm[i], x = h * s->t[0][i], y = h * s->t[1][i],
-                     z = h * s->t[2][i];
+        const double h = s->h[i], x = h * s->t[0][i], y = h * s->t[1][i], z = h * s->t[2][i];
         const double a = s->invI[0][i] * (s->R[0][i] * x + s->R[3][i] * y + s->R[6][i] * z),
                      b = s->invI[1][i] * (s->R[1][i] * x + s->R[4][i] * y + s->R[7][i] * z),
                      c = s->invI[2][i] * (s->R[2][i] * x + s->R[5][i] * y + s->R[8][i] * z);
-        g[0][i] = by * s->f[0][i];
-        g[1][i] = by * s->f[1][i];
-        g[2][i] = by * s->f[2][i];
+        fl_few_set(g, i, sped(s, water, i));
         g[3][i] = s->R[0][i] * a + s->R[1][i] * b + s->R[2][i] * c;
         g[4][i] = s->R[3][i] * a + s->R[4][i] * b + s->R[5][i] * c;
         g[5][i] = s->R[6][i] * a + s->R[7][i] * b + s->R[8][i] * c;
     }
 }
 
-/* The square of the farthest that one of them turns in its step, at most. */
-FL_WIDE_VERSIONS static double farthest(const fl_few *restrict s)
+FL_WIDE_VERSIONS static void gains_free(const fl_few *s, double (*g)[FL_FEW]) { gains(s, NULL, g); }
+FL_WIDE_VERSIONS static void gains_wet(const fl_few *s, const fl_few_water *a, double (*g)[FL_FEW])
+{
+    gains(s, a, g);
+}
+
+void fl_few_gains(const fl_few *s, const fl_few_water *a, double (*g)[FL_FEW])
+{
+    if (a) gains_wet(s, a, g);
+    else gains_free(s, g);
+}
+
+/* The square of the farthest that one of them turns in its step with these L, at most. */
+FL_WIDE_VERSIONS static double farthest(const fl_few *restrict s, double (*restrict L)[FL_FEW])
 {
     double most = 0.0;
 #pragma omp simd reduction(max : most)
     for (int32_t i = 0; i < s->lanes; i++) {
-        const double dt = 2.0 * s->h[i], x = dt * s->L[0][i], y = dt * s->L[1][i], z = dt * s->L[2][i],
+        const double dt = 2.0 * s->h[i], x = dt * L[0][i], y = dt * L[1][i], z = dt * L[2][i],
                      e0 = s->invI[0][i], e1 = s->invI[1][i], e2 = s->invI[2][i], e01 = e0 > e1 ? e0 : e1,
                      ease = e01 > e2 ? e01 : e2;
         const double turn2 = (ease * ease) * (x * x + y * y + z * z);
@@ -248,22 +289,28 @@ FL_WIDE_VERSIONS static double farthest(const fl_few *restrict s)
 static inline double versine(double x2, int few) { return few ? q_versine_few(x2) : q_versine(x2); }
 static inline double sinc(double x2, int few) { return few ? q_sinc_few(x2) : q_sinc(x2); }
 
+/* Straight on for dt seconds. */
+ALWAYS void go(fl_few *s, int32_t i, double dt)
+{
+    const double vx = s->v[0][i], vy = s->v[1][i], vz = s->v[2][i];
+    s->x[0][i] += dt * vx;
+    s->x[1][i] += dt * vy;
+    s->x[2][i] += dt * vz;
+    s->odometer[i] += fabs(dt) * sqrt(vx * vx + vy * vy + vz * vz);
+}
+
 /* fl_drift() with fl_drift_rotation() and its three turns written out, in loops of their own: what a turn is
  * depends on the one before, so that the time of a loop with all of them would be that of waiting.  few: none
  * is farther than Q_HALF_TURN_FEW. */
-#define ALWAYS static inline __attribute__((always_inline))
 
-/* Straight on, and about the first axis: from from[] to q.  w is its share in the spin. */
-ALWAYS void turn_first(fl_few *restrict s, int few, double (*restrict from)[FL_FEW])
+/* Straight on, where that is not done apart from it, and about the first axis: from from[] to q.  w is its
+ * share in the spin. */
+ALWAYS void turn_first(fl_few *restrict s, int few, int straight, double (*restrict from)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
-        const double h = s->h[i], dt = 2.0 * h, path = fabs(dt);
-        const double vx = s->v[0][i], vy = s->v[1][i], vz = s->v[2][i];
-        s->x[0][i] += dt * vx;
-        s->x[1][i] += dt * vy;
-        s->x[2][i] += dt * vz;
-        s->odometer[i] += path * sqrt(vx * vx + vy * vy + vz * vz);
+        const double h = s->h[i];
+        if (straight) go(s, i, 2.0 * h);
         const double Lx = s->L[0][i], Ly = s->L[1][i], Lz = s->L[2][i];
         const double a0 = h * (s->invI[0][i] - s->invI[1][i]);
         const double ow = s->q[0][i], ox = s->q[1][i], oy = s->q[2][i], oz = s->q[3][i];
@@ -345,20 +392,88 @@ ALWAYS void turn_last(fl_few *restrict s, int few, double (*restrict from)[FL_FE
     }
 }
 
-ALWAYS void drift(fl_few *restrict s, int few)
+ALWAYS void drift(fl_few *restrict s, int few, int straight)
 {
     _Alignas(64) double from[4][FL_FEW], top[3][FL_FEW];
-    turn_first(s, few, from);
+    turn_first(s, few, straight, from);
     turn_top(s, few, top);
     turn_last(s, few, from, top);
 }
 
-FL_WIDE_VERSIONS static void drift_few(fl_few *restrict s) { drift(s, 1); }
-FL_WIDE_VERSIONS static void drift_far(fl_few *restrict s) { drift(s, 0); }
+FL_WIDE_VERSIONS static void drift_few(fl_few *restrict s) { drift(s, 1, 1); }
+FL_WIDE_VERSIONS static void drift_far(fl_few *restrict s) { drift(s, 0, 1); }
+FL_WIDE_VERSIONS static void turn_few(fl_few *restrict s) { drift(s, 1, 0); }
+FL_WIDE_VERSIONS static void turn_far(fl_few *restrict s) { drift(s, 0, 0); }
 
-int fl_few_drift(fl_few *s)
+/* drift_with_water() of integrate.c: half of the way straight on, the turn, the other half. */
+typedef struct {
+    _Alignas(64) double P[3][FL_FEW], L[3][FL_FEW], carried[FL_FEW];
+} halfway;
+
+/* 1/2 U.M_a U */
+FL_WIDE_PART double carries(fl_rows3 R, fl_vec3 added, fl_vec3 U)
 {
-    const double most = 0.25 * (1.0 + 1e-9) * farthest(s);
+    const fl_vec3 u = r3_tmul(R, U);
+    return 0.5 * v3_dot(u, v3_mul(added, u));
+}
+
+/* P, L after the first half, and what is carried before it. */
+FL_WIDE_VERSIONS static void set_off(const fl_few *restrict s, const fl_few_water *restrict a,
+                                     halfway *restrict to)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const fl_rows3 R = fl_few_rows(s, i);
+        const fl_vec3 added = FL_FEW_OF(a->added, i), U = FL_FEW_OF(a->flow, i),
+                      u = v3_sub(FL_FEW_OF(s->v, i), U), P = fl_few_momentum(R, s->m[i], added, u);
+        fl_few_set(to->P, i, P);
+        fl_few_set(to->L, i, v3_madd(FL_FEW_OF(s->L, i), s->h[i], v3_cross(P, u)));
+        to->carried[i] = carries(R, added, U);
+    }
+}
+
+FL_WIDE_VERSIONS static void go_half(fl_few *restrict s, const halfway *restrict to)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->lanes; i++) {
+        go(s, i, s->h[i]);
+        fl_few_set(s->L, i, FL_FEW_OF(to->L, i));
+    }
+}
+
+/* The other half, with R of where they have turned to. */
+FL_WIDE_VERSIONS static void arrive(fl_few *restrict s, fl_few_water *restrict a, const halfway *restrict to)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < s->lanes; i++) {
+        const fl_rows3 R = fl_few_rows(s, i);
+        const fl_vec3 added = FL_FEW_OF(a->added, i), U = FL_FEW_OF(a->flow, i), P = FL_FEW_OF(to->P, i),
+                      v = v3_add(U, fl_few_speed(R, s->m[i], added, P));
+        a->carried[i] += carries(R, added, U) - to->carried[i];
+        fl_few_set(s->v, i, v);
+        fl_few_set(s->L, i, v3_madd(FL_FEW_OF(s->L, i), s->h[i], v3_cross(P, v3_sub(v, U))));
+        go(s, i, s->h[i]);
+    }
+}
+
+static int drift_with_water(fl_few *s, fl_few_water *a)
+{
+    halfway to;
+    set_off(s, a, &to);
+    const double most = 0.25 * (1.0 + 1e-9) * farthest(s, to.L);
+    if (!(most <= Q_HALF_TURN_MOST)) return 0;
+    go_half(s, &to);
+    if (most <= Q_HALF_TURN_FEW) turn_few(s);
+    else turn_far(s);
+    fl_few_axes(s);
+    arrive(s, a, &to);
+    return 1;
+}
+
+int fl_few_drift(fl_few *s, fl_few_water *a)
+{
+    if (a) return drift_with_water(s, a);
+    const double most = 0.25 * (1.0 + 1e-9) * farthest(s, s->L);
     if (!(most <= Q_HALF_TURN_MOST)) return 0;
     if (most <= Q_HALF_TURN_FEW) drift_few(s);
     else drift_far(s);

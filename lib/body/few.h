@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* few.h -- a few bodies side by side, one array a quantity, so that the formulae of integrate.h take several
  * at a time.  Each body gets the bits that it gets there: fl_kick() and fl_drift() of bodies that
- * fl_body_free() and are no balls.  Each has a step of its own.
+ * nothing holds and that are no balls.  Each has a step of its own.
  *
  *     fl_few_take(), fl_few_axes(), fl_few_take_forces(), fl_few_take_pose();
  *     fl_few_kick() or fl_few_push(), fl_few_drift();
  *     fl_few_put_speeds(), fl_few_put_pose()
+ *
+ * Where they move water with them that is taken by fl_few_take_water(), told to whom it bears on, and put back
+ * by fl_few_put_water(); else it is NULL.
  *
  * What is taken and not put back stays as it was.  Bodies that follow one another and fill their registers
  * are a row, whose arrays are moved whole; others are picked out one by one, and lanes that are left in the
@@ -14,6 +17,7 @@
 #define FL_BODY_FEW_H
 #include "base/wide.h"
 #include "body/body.h"
+#include "geom/rows3.h"
 
 enum { FL_FEW = 16 };
 
@@ -29,6 +33,11 @@ typedef struct {
     double x[3][FL_FEW], odometer[FL_FEW], bound[FL_FEW];
 } fl_few;
 
+/* Of bodies that move water with them, as in body.h. */
+typedef struct {
+    _Alignas(64) double added[3][FL_FEW], flow[3][FL_FEW], carried[FL_FEW];
+} fl_few_water;
+
 /* Of 1 to FL_FEW bodies at[]: m, invm, invI, q, v, L and w; half of their step is h.  at has room for FL_FEW,
  * and is kept. */
 void fl_few_take(fl_few *s, const fl_bodies *b, int32_t *at, int32_t n, double h);
@@ -39,6 +48,8 @@ void fl_few_axes(fl_few *s);
 /* Of the same: f and t; x, odometer and bound. */
 void fl_few_take_forces(fl_few *s, const fl_bodies *b);
 void fl_few_take_pose(fl_few *s, const fl_bodies *b);
+
+void fl_few_take_water(fl_few_water *a, const fl_bodies *b, const fl_few *s);
 
 /* f and t of the k-th of them. */
 static inline void fl_few_take_force(fl_few *s, const fl_bodies *b, int32_t k)
@@ -74,21 +85,49 @@ static inline void fl_few_keep(const fl_few *s, double *a, const double *seen)
 void fl_few_weigh(fl_few *s, fl_vec3 gravity);
 
 /* As fl_kick(), by h; wants R. */
-void fl_few_kick(fl_few *s);
+void fl_few_kick(fl_few *s, const fl_few_water *a);
 
-/* The same of v and L alone, where w is not asked for before fl_few_drift(), which puts in another. */
+/* The same of v and L alone, of bodies that move no water, where w is not asked for before fl_few_drift(),
+ * which puts in another. */
 void fl_few_push(fl_few *s);
 
 /* What such a kick changes: g[0..2] of v, g[3..5] of w, which wants R. */
-void fl_few_gains(const fl_few *s, double (*g)[FL_FEW]);
+void fl_few_gains(const fl_few *s, const fl_few_water *a, double (*g)[FL_FEW]);
 
-/* As fl_drift(), by 2 h.  Returns 1; or 0 and nothing is changed when one of them turns by more than a radian
- * or so in that, for which the series here is not made. */
-int fl_few_drift(fl_few *s);
+/* As fl_drift(), by 2 h; with water it wants R, which it renews.  Returns 1; or 0 and nothing is changed when
+ * one of them turns by more than a radian or so in that, for which the series here is not made. */
+int fl_few_drift(fl_few *s, fl_few_water *a);
 
-void fl_few_put_forces(const fl_few *s, fl_bodies *b); /* f, t */
-void fl_few_put_speeds(const fl_few *s, fl_bodies *b); /* v, L, w */
-void fl_few_put_pose(const fl_few *s, fl_bodies *b);   /* x, q, odometer */
+void fl_few_put_forces(const fl_few *s, fl_bodies *b);                       /* f, t */
+void fl_few_put_speeds(const fl_few *s, fl_bodies *b);                       /* v, L, w */
+void fl_few_put_pose(const fl_few *s, fl_bodies *b);                         /* x, q, odometer */
+void fl_few_put_water(const fl_few *s, const fl_few_water *a, fl_bodies *b); /* carried */
+
+/* For loops over lanes: a vector of the i-th of them; a is const or not, which a function would not take. */
+#define FL_FEW_OF(a, i) v3((a)[0][i], (a)[1][i], (a)[2][i])
+
+FL_WIDE_PART void fl_few_set(double (*a)[FL_FEW], int32_t i, fl_vec3 v)
+{
+    a[0][i] = v.x, a[1][i] = v.y, a[2][i] = v.z;
+}
+
+/* Its axes. */
+FL_WIDE_PART fl_rows3 fl_few_rows(const fl_few *s, int32_t i)
+{
+    return (fl_rows3){FL_FEW_OF(s->R, i), FL_FEW_OF(s->R + 3, i), FL_FEW_OF(s->R + 6, i)};
+}
+
+/* fl_body_momentum() and fl_body_speed() with added masses. */
+FL_WIDE_PART fl_vec3 fl_few_momentum(fl_rows3 R, double m, fl_vec3 added, fl_vec3 v)
+{
+    return v3_madd(r3_mul(R, v3_mul(added, r3_tmul(R, v))), m, v);
+}
+
+FL_WIDE_PART fl_vec3 fl_few_speed(fl_rows3 R, double m, fl_vec3 added, fl_vec3 P)
+{
+    const fl_vec3 p = r3_tmul(R, P);
+    return r3_mul(R, v3(p.x / (m + added.x), p.y / (m + added.y), p.z / (m + added.z)));
+}
 
 /* Of vectors that follow each other the four from the k-th on to arrays of their components, and back. */
 FL_WIDE_PART void fl_few_split(double (*to)[FL_FEW], const fl_vec3 *a, int32_t k)

@@ -36,7 +36,7 @@ static int32_t run_of(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
  * drift, and that are balls as k is; k itself where it is none of those. */
 static int32_t alike(const fl_world *w, int32_t k, int32_t to)
 {
-    if (w->b.added || w->sea.waves) return k;
+    if (w->b.ball[k] && (w->b.added || w->sea.waves)) return k;
     to = run_of(w->b.ball, w->b.ball[k], k, run_of(w->b.hold, 0, k, to));
     return w->traffic.away ? run_of(w->traffic.away, 0, k, to) : to;
 }
@@ -44,7 +44,7 @@ static int32_t alike(const fl_world *w, int32_t k, int32_t to)
 /* Whether that holds for k by itself, and it is no ball. */
 static int alone(const fl_world *w, int32_t k)
 {
-    return !(w->b.added || w->sea.waves || w->b.ball[k] || w->b.hold[k] || fl_world_away(w, k));
+    return !(w->b.ball[k] || w->b.hold[k] || fl_world_away(w, k));
 }
 
 /* Those of them that are no balls go FL_FEW at a time. */
@@ -82,6 +82,23 @@ static int presses(const fl_world *w, int32_t k)
     return w->met[k] || w->balls.bodies || fl_frozen_at(w, k);
 }
 
+/* Where bodies move water with them. */
+static fl_few_water *take_water(const fl_world *w, const fl_few *s, fl_few_water *a)
+{
+    if (!w->b.added) return NULL;
+    fl_few_take_water(a, &w->b, s);
+    return a;
+}
+
+/* A kick of all of it, which wants R; in waves the work of the water is booked with it. */
+static void kick_few(fl_world *w, fl_few *s, const fl_few_water *water)
+{
+    double v[3][FL_FEW], spin[3][FL_FEW];
+    if (w->sea.waves) memcpy(v, s->v, sizeof v), memcpy(spin, s->w, sizeof spin);
+    fl_few_kick(s, water);
+    if (w->sea.waves) fl_calm_book(&w->sea, s, v, spin);
+}
+
 /* What a kick by h gives to a ball that is unbound; */
 static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
 {
@@ -91,7 +108,8 @@ static fl_gain gain_of(const fl_bodies *b, int32_t k, double h)
 /* to another body that is; */
 static fl_gain gain_free(const fl_bodies *b, int32_t k, double h)
 {
-    return (fl_gain){v3_scale(h * b->invm[k], b->f[k]), fl_body_turn(b, k, v3_scale(h, b->t[k]))};
+    const fl_vec3 f = b->f[k], turn = fl_body_turn(b, k, v3_scale(h, b->t[k]));
+    return (fl_gain){b->added ? v3_scale(h, fl_body_speed(b, k, f)) : v3_scale(h * b->invm[k], f), turn};
 }
 
 /* to the k-th of a few. */
@@ -128,7 +146,7 @@ static void kick(fl_world *w, int32_t k, double h, fl_gain *gain)
     const int turns = !(w->b.hold[k] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ));
     *gain = gain_free(&w->b, k, h);
     fl_step_kick(w, k, h);
-    if (!fl_body_free(&w->b, k)) gain->v = v3_sub(w->b.v[k], v);
+    if (w->b.hold[k]) gain->v = v3_sub(w->b.v[k], v);
     if (!turns) gain->w = v3_sub(w->b.w[k], spin);
 }
 
@@ -139,11 +157,12 @@ static void begin_few(fl_world *w, crew *c, double h)
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
-    const int calm = sea->n && fl_calm_goes(sea);
+    const int calm = sea->n && fl_calm_drags(sea), kicks = b->added || sea->waves;
     const int32_t *was = w->was.place, *at = c->at, n = c->n;
     int32_t busy[FL_FEW], many = 0, any = 0;
     fl_gain before[FL_FEW];
     double g[6][FL_FEW];
+    fl_few_water along, *water;
     fl_few s;
     if (n == 0) return;
     for (int32_t k = 0; k < n; k++) any |= was[at[k]];
@@ -157,21 +176,22 @@ static void begin_few(fl_world *w, crew *c, double h)
     c->n = 0;
     fl_few_take_forces(&s, b);
     fl_few_take_pose(&s, b);
-    if (calm) fl_calm_drag(sea, b, &s, 0);
-    if (many) {
-        fl_few_axes(&s);
-        fl_few_gains(&s, g);
-    }
+    water = take_water(w, &s, &along);
+    if (many || kicks) fl_few_axes(&s);
+    if (calm) fl_calm_drag(sea, b, &s, water, 0);
+    if (many) fl_few_gains(&s, water, g);
     for (int32_t k = 0; k < many; k++) {
         const int32_t i = at[busy[k]];
         const fl_gain gain = gain_few(g, busy[k]);
         *fl_works_gain(w, i) = gain;
         set_lead(w, i, before[k], speeds_few(&s, busy[k]), gain);
     }
-    fl_few_push(&s);
-    const int done = fl_few_drift(&s);
+    if (kicks) kick_few(w, &s, water);
+    else fl_few_push(&s);
+    const int done = fl_few_drift(&s, water);
     fl_few_put_speeds(&s, b);
     if (done) fl_few_put_pose(&s, b);
+    if (done && water) fl_few_put_water(&s, water, b);
     for (int32_t k = 0; k < n && !done; k++) fl_drift(b, at[k], 2.0 * s.h[k]);
 }
 
@@ -354,7 +374,7 @@ static int32_t find_busy(const fl_world *w, const crew *c, int32_t busy[FL_FEW])
 static void find_forces(fl_world *w, fl_few *s)
 {
     int32_t left[FL_FEW], others = 0;
-    if (w->row.n || (w->sea.water && !fl_calm_goes(&w->sea))) {
+    if (w->row.n || (w->sea.water && !fl_calm_lifts(&w->sea))) {
         for (int32_t k = 0; k < s->n; k++) left[others++] = k;
     } else {
         fl_few_weigh(s, w->gravity);
@@ -393,11 +413,12 @@ static void end_few(fl_world *w, crew *c, double h)
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
-    const int calm = sea->n && fl_calm_goes(sea);
+    const int calm = sea->n && fl_calm_drags(sea);
     const int32_t *at = c->at, n = c->n;
     int32_t busy[FL_FEW];
     const int32_t many = find_busy(w, c, busy);
     double g[6][FL_FEW];
+    fl_few_water along, *water;
     enders e;
     fl_few s;
     if (n == 0) return;
@@ -409,16 +430,17 @@ static void end_few(fl_world *w, crew *c, double h)
         fl_step_press(w, at[busy[k]]);
         fl_few_take_force(&s, b, busy[k]);
     }
-    fl_few_kick(&s);
+    water = take_water(w, &s, &along);
+    kick_few(w, &s, water);
     find_enders(w, &s, &e);
-    if (calm) fl_calm_drag(sea, b, &s, 1);
+    if (calm) fl_calm_drag(sea, b, &s, water, 1);
     fl_few_put_speeds(&s, b);
     for (int32_t k = 0; k < n && sea->n && !calm; k++) fl_sea_drag(sea, b, at[k], s.h[k], 1);
     for (int32_t k = 0; k < e.n; k++) {
         fl_sleep_book(w, at[e.which[k]], e.v[k], e.spin[k]);
         fl_sleep_ended(w, at[e.which[k]]);
     }
-    if (many) fl_few_gains(&s, g);
+    if (many) fl_few_gains(&s, water, g);
     for (int32_t k = 0; k < many; k++) {
         const int32_t i = at[busy[k]];
         const fl_gain back = gain_few(g, busy[k]);

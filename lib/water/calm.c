@@ -3,39 +3,71 @@
 #include <stddef.h>
 #include "water/calm.h"
 
-/* decay() of sea.c, where nothing is held and no water moved along, by the surface that the fluid meets,
- * r_eff, and its velocity; what it does is added to work[], times sign. */
-FL_WIDE_VERSIONS static void decay(fl_few *restrict a, const fl_fluid *fluid, const double *restrict surface,
-                                   const double *restrict reach, double (*restrict c)[FL_FEW],
-                                   const double *restrict held, double sign, double *restrict work)
+#define ALWAYS static inline __attribute__((always_inline))
+
+/* Of the i-th of a few that goes with v: twice the kinetic energy of its way; */
+ALWAYS double going(const fl_few *a, const fl_few_water *water, int32_t i, fl_vec3 v)
 {
-    const int turns = fluid->moment > 0.0;
+    const double m = a->m[i];
+    if (!water) return m * v3_norm2(v);
+    return v3_dot(v, fl_few_momentum(fl_few_rows(a, i), m, FL_FEW_OF(water->added, i), v));
+}
+
+/* what c |u| u leaves of u, its speed through the fluid. */
+ALWAYS fl_vec3 slowed(const fl_few *a, const fl_few_water *water, int32_t i, double c, fl_vec3 u)
+{
+    const double h = a->h[i], m = a->m[i], speed = v3_norm(u);
+    if (!water) return v3_scale(fl_drag_factor(m, c, speed, h), u);
+    const fl_rows3 R = fl_few_rows(a, i);
+    const fl_vec3 p = r3_tmul(R, u), added = FL_FEW_OF(water->added, i);
+    const double s = c * speed * h;
+    return r3_mul(R, v3(p.x / (1.0 + s / (m + added.x)), p.y / (1.0 + s / (m + added.y)),
+                        p.z / (1.0 + s / (m + added.z))));
+}
+
+/* decay() of sea.c, where nothing is held, by the surface that the fluid meets, r_eff, and its velocity; what
+ * it does is added to work[], times sign. */
+ALWAYS void decay(fl_few *restrict a, const fl_few_water *restrict water, const fl_fluid *fluid,
+                  const double *restrict surface, const double *restrict reach, double (*restrict c)[FL_FEW],
+                  const double *restrict held, double sign, double *restrict work)
+{
 #pragma omp simd
     for (int32_t i = 0; i < a->lanes; i++) {
-        const double h = a->h[i], m = a->m[i], vx = a->v[0][i], vy = a->v[1][i], vz = a->v[2][i],
-                     wx = a->w[0][i], wy = a->w[1][i], wz = a->w[2][i], Lx = a->L[0][i], Ly = a->L[1][i],
-                     Lz = a->L[2][i], area = surface[i], r = reach[i];
-        const double turning = wx * Lx + wy * Ly + wz * Lz, spin2 = wx * wx + wy * wy + wz * wz;
-        const double before = 0.5 * (m * (vx * vx + vy * vy + vz * vz) + turning) - held[i];
-        const double cx = c[0][i], cy = c[1][i], cz = c[2][i];
-        const double ux = vx - cx, uy = vy - cy, uz = vz - cz, speed = sqrt(ux * ux + uy * uy + uz * uz);
-        const double slow = fl_drag_factor(m, fl_drag_of_force(fluid, area), speed, h);
-        const int spins = turns && turning > 0.0;
-        const double calm =
-            fl_drag_factor(spins ? turning : 1.0, fl_drag_of_moment(fluid, area, r) * spin2, sqrt(spin2), h);
+        const double h = a->h[i], area = surface[i] > 0.0 ? surface[i] : 0.0, r = reach[i];
+        const fl_vec3 v = FL_FEW_OF(a->v, i), w = FL_FEW_OF(a->w, i), L = FL_FEW_OF(a->L, i),
+                      flow = FL_FEW_OF(c, i);
+        const double turning = v3_dot(w, L), spin2 = v3_norm2(w);
+        const double before = 0.5 * (going(a, water, i, v) + turning) - held[i];
+        const fl_vec3 slow = slowed(a, water, i, fl_drag_of_force(fluid, area), v3_sub(v, flow));
+        /* 1 where it does not turn, or meets nothing */
+        const double about = turning > 0.0 ? turning : 1.0, by = turning > 0.0 ? spin2 : 0.0,
+                     stays = fl_drag_factor(about, fl_drag_of_moment(fluid, area, r) * by, sqrt(by), h);
         const int meets = area > 0.0;
-        const double stays = meets && spins ? calm : 1.0;
-        const double px = meets ? cx + slow * ux : vx, py = meets ? cy + slow * uy : vy,
-                     pz = meets ? cz + slow * uz : vz;
-        const double lx = stays * Lx, ly = stays * Ly, lz = stays * Lz, sx = stays * wx, sy = stays * wy,
-                     sz = stays * wz;
-        const double after =
-            0.5 * (m * (px * px + py * py + pz * pz) + (sx * lx + sy * ly + sz * lz)) - held[i];
-        a->v[0][i] = px, a->v[1][i] = py, a->v[2][i] = pz;
-        a->L[0][i] = lx, a->L[1][i] = ly, a->L[2][i] = lz;
-        a->w[0][i] = sx, a->w[1][i] = sy, a->w[2][i] = sz;
+        const double px = meets ? flow.x + slow.x : v.x, py = meets ? flow.y + slow.y : v.y,
+                     pz = meets ? flow.z + slow.z : v.z;
+        const fl_vec3 l = v3_scale(stays, L), s = v3_scale(stays, w);
+        const double after = 0.5 * (going(a, water, i, v3(px, py, pz)) + v3_dot(s, l)) - held[i];
+        fl_few_set(a->v, i, v3(px, py, pz));
+        fl_few_set(a->L, i, l);
+        fl_few_set(a->w, i, s);
         work[i] += sign * (after - before);
     }
+}
+
+FL_WIDE_VERSIONS static void decay_free(fl_few *restrict a, const fl_fluid *fluid,
+                                        const double *restrict surface, const double *restrict reach,
+                                        double (*restrict c)[FL_FEW], const double *restrict held,
+                                        double sign, double *restrict work)
+{
+    decay(a, NULL, fluid, surface, reach, c, held, sign, work);
+}
+
+FL_WIDE_VERSIONS static void decay_wet(fl_few *restrict a, const fl_few_water *restrict water,
+                                       const fl_fluid *fluid, const double *restrict surface,
+                                       const double *restrict reach, double (*restrict c)[FL_FEW],
+                                       const double *restrict held, double sign, double *restrict work)
+{
+    decay(a, water, fluid, surface, reach, c, held, sign, work);
 }
 
 FL_WIDE_VERSIONS static void alike(double (*restrict c)[FL_FEW], fl_vec3 u, int32_t n)
@@ -53,16 +85,20 @@ FL_WIDE_VERSIONS static int meets(const double *restrict area, int32_t n)
 }
 
 /* By what the fluid meets of each, and its velocity there. */
-static void decay_all(fl_few *a, const fl_sea *s, const fl_bodies *b, const fl_fluid *fluid,
-                      const double *surface, double (*c)[FL_FEW], double sign, double *work)
+static void decay_all(fl_few *a, const fl_few_water *water, const fl_sea *s, const fl_bodies *b,
+                      const fl_fluid *fluid, const double *surface, double (*c)[FL_FEW], double sign,
+                      double *work)
 {
-    _Alignas(64) double reach[FL_FEW], held[FL_FEW], done[FL_FEW];
+    _Alignas(64) double of_reach[FL_FEW], of_held[FL_FEW], done[FL_FEW];
     double *const sum = fl_few_see(a, work, done);
-    decay(a, fluid, surface, fl_few_see(a, s->reach, reach), c, fl_few_see(a, b->held, held), sign, sum);
+    const double *const reach = fl_few_see(a, s->reach, of_reach), *const held =
+                                                                       fl_few_see(a, b->held, of_held);
+    if (water) decay_wet(a, water, fluid, surface, reach, c, held, sign, sum);
+    else decay_free(a, fluid, surface, reach, c, held, sign, sum);
     fl_few_keep(a, work, sum);
 }
 
-static void water(fl_sea *s, const fl_bodies *b, fl_few *a)
+static void by_water(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water *water)
 {
     _Alignas(64) double c[3][FL_FEW], room[FL_FEW];
     const double *const wetted = fl_few_see(a, s->wetted, room);
@@ -72,23 +108,33 @@ static void water(fl_sea *s, const fl_bodies *b, fl_few *a)
         const fl_vec3 u = s->flow[a->at[k]];
         c[0][k] = u.x, c[1][k] = u.y, c[2][k] = u.z;
     }
-    decay_all(a, s, b, &s->sea, wetted, c, -1.0, s->drained);
+    decay_all(a, water, s, b, &s->sea, wetted, c, -1.0, s->drained);
 }
 
-static void wind(fl_sea *s, const fl_bodies *b, fl_few *a)
+static void by_wind(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water *water)
 {
     _Alignas(64) double c[3][FL_FEW], dry[FL_FEW];
     alike(c, s->breeze, a->lanes);
     for (int32_t k = 0; k < a->lanes; k++)
         dry[k] = s->hull[a->at[k]].surface - (s->water ? s->wetted[a->at[k]] : 0.0);
-    decay_all(a, s, b, &s->air, dry, c, 1.0, s->blown);
+    decay_all(a, water, s, b, &s->air, dry, c, 1.0, s->blown);
 }
 
-void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, int back)
+void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water *water, int back)
 {
-    if (back && s->wind) wind(s, b, a);
-    if (s->water) water(s, b, a);
-    if (!back && s->wind) wind(s, b, a);
+    if (back && s->wind) by_wind(s, b, a, water);
+    if (s->water) by_water(s, b, a, water);
+    if (!back && s->wind) by_wind(s, b, a, water);
+}
+
+void fl_calm_book(fl_sea *s, const fl_few *a, double (*v)[FL_FEW], double (*w)[FL_FEW])
+{
+    for (int32_t k = 0; k < a->n; k++) {
+        const int32_t i = a->at[k];
+        s->waved[i] += 0.5 * a->h[k] *
+                       (v3_dot(s->push[i], v3_add(FL_FEW_OF(v, k), FL_FEW_OF(a->v, k))) +
+                        v3_dot(s->turn[i], v3_add(FL_FEW_OF(w, k), FL_FEW_OF(a->w, k))));
+    }
 }
 
 /* Right prisms, one array a number, in the order of fl_prism: read by that order. */
@@ -252,9 +298,10 @@ static void look_from_far(fl_sea *s, const double *level, fl_few *a, int in, dou
     look_in(&q, level, a, s->weight, lift, centre);
 }
 
-static void flow(fl_sea *s, const fl_few *a, const double *centre)
+static void flow(fl_sea *s, const fl_bodies *b, const fl_few *a, const double *centre)
 {
     for (int32_t k = 0; k < a->n && s->flow; k++) s->flow[a->at[k]] = fl_current_at(&s->current, centre[k]);
+    for (int32_t k = 0; k < a->n && b->added; k++) b->flow[a->at[k]] = fl_sea_flow(s, a->at[k]);
 }
 
 int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
@@ -277,7 +324,7 @@ int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_
         afloat = look(&q, a, s->weight, reach, wetted, lift, centre);
     }
     fl_few_keep(a, s->wetted, wetted), fl_few_keep(a, s->lift, lift);
-    flow(s, a, centre);
+    flow(s, b, a, centre);
     for (int32_t k = 0; k < a->n && afloat < a->lanes; k++)
         if (!(q.floats[k] > 0.0)) left[others++] = k;
     return others;

@@ -365,19 +365,34 @@ static void crowd(fl_bodies *b, double wild)
     }
 }
 
+/* They move water with them, that flows; balls the same every way. */
+static void immerse(fl_bodies *b)
+{
+    fl_rng g = fl_rng_of(test_seed(), 2, FL_RNG_TEST);
+    assert_int_equal(fl_bodies_add_mass(b, NULL), 0);
+    for (int32_t i = 0; i < SEVERAL; i++) {
+        const double even = fl_rng_in(&g, 0.1, 1.0);
+        b->added[i] = b->ball[i] ? v3(even, even, even) : v3(even, fl_rng_in(&g, 0.1, 1.0), i % 3);
+        b->flow[i] = i % 4 ? random3(&g) : v3(0, 0, 0);
+    }
+}
+
 static void move_few(fl_bodies *b, int32_t from, int32_t to, double h, int pushed)
 {
     int32_t at[FL_FEW];
+    fl_few_water along, *const water = b->added ? &along : NULL;
     fl_few s;
     for (int32_t k = from; k < to; k++) at[k - from] = k;
     fl_few_take(&s, b, at, to - from, h);
     fl_few_take_forces(&s, b);
     fl_few_take_pose(&s, b);
-    if (pushed) fl_few_push(&s);
-    else fl_few_axes(&s), fl_few_kick(&s);
-    const int done = fl_few_drift(&s);
+    if (water) fl_few_take_water(water, b, &s);
+    if (pushed && !water) fl_few_push(&s);
+    else fl_few_axes(&s), fl_few_kick(&s, water);
+    const int done = fl_few_drift(&s, water);
     fl_few_put_speeds(&s, b);
     if (done) fl_few_put_pose(&s, b);
+    if (done && water) fl_few_put_water(&s, water, b);
     for (int32_t k = from; k < to && !done; k++) fl_drift(b, k, 2.0 * h);
 }
 
@@ -386,8 +401,10 @@ static void move_all(fl_bodies *b, int32_t from, int32_t to, double h, double dt
 {
     for (int32_t i = from, end; i < to; i = end) {
         for (end = i + 1; end < to && b->ball[end] == b->ball[i] && end < i + FL_FEW;) end++;
-        if (b->ball[i]) fl_move_balls(b, i, end, h, dt);
-        else move_few(b, i, end, h, pushed);
+        if (!b->ball[i]) move_few(b, i, end, h, pushed);
+        else if (!b->added) fl_move_balls(b, i, end, h, dt);
+        else
+            for (int32_t k = i; k < end; k++) fl_kick(b, k, h), fl_drift(b, k, dt);
     }
 }
 
@@ -396,9 +413,10 @@ static void several_at_a_time(void **state)
     (void)state;
     /* few terms of the series do; of some, of all the others; some turn by more than a radian a step */
     const double wild[] = {1.0, 5.0, 500.0};
-    for (int way = 0; way < 3; way++) {
+    for (int way = 0; way < 6; way++) {
         fl_bodies one, all;
-        crowd(&one, wild[way]), crowd(&all, wild[way]);
+        crowd(&one, wild[way % 3]), crowd(&all, wild[way % 3]);
+        if (way >= 3) immerse(&one), immerse(&all);
         for (int k = 0; k < 40; k++) {
             for (int32_t i = 0; i < SEVERAL; i++) {
                 fl_kick(&one, i, 0.005);
@@ -413,6 +431,7 @@ static void several_at_a_time(void **state)
                 assert_memory_equal(&one.q[i], &all.q[i], sizeof one.q[i]);
                 assert_memory_equal(&one.w[i], &all.w[i], sizeof one.w[i]);
                 assert_memory_equal(&one.odometer[i], &all.odometer[i], sizeof one.odometer[i]);
+                if (one.added) assert_memory_equal(&one.carried[i], &all.carried[i], sizeof one.carried[i]);
             }
         }
         fl_bodies_free(&one), fl_bodies_free(&all);

@@ -251,7 +251,7 @@ static void a_scene_without_water_allocates_none(void **state)
 enum { SEVERAL = 45 };
 
 /* Prisms and others: afloat the right way up or turned over, askew, deep under, high above; some at rest. */
-static void flotsam(lab *l, int wind, int shear)
+static void flotsam(lab *l, int wind, int shear, int along)
 {
     lab_start(l);
     lab_set(l, "run.gravity=9.81");
@@ -259,6 +259,7 @@ static void flotsam(lab *l, int wind, int shear)
     if (shear) lab_set(l, "water.profile=linear");
     if (shear) lab_set(l, "water.profile_depth=3");
     if (wind) lab_set(l, "wind.velocity=8 -3 0");
+    if (along) lab_set(l, "water.added_mass=0.2 0.1 0.7");
     for (int32_t k = 0; k < SEVERAL; k++) {
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
         fl_poly p = {0};
@@ -282,11 +283,11 @@ static void several_meet_the_sea_as_one_does(void **state)
 {
     (void)state;
     int32_t afloat = 0;
-    for (int way = 0; way < 8; way++) {
+    for (int way = 0; way < 16; way++) {
         const double h = way & 4 ? 0.3 : 1e-3;
         const size_t numbers = SEVERAL * sizeof(double), vectors = SEVERAL * sizeof(fl_vec3);
         lab l, m;
-        flotsam(&l, way & 1, way & 2), flotsam(&m, way & 1, way & 2);
+        flotsam(&l, way & 1, way & 2, way & 8), flotsam(&m, way & 1, way & 2, way & 8);
         fl_world *one = &l.w, *all = &m.w;
         for (int32_t k = 0; k < SEVERAL; k++) {
             fl_step_soft(one, k);
@@ -295,6 +296,7 @@ static void several_meet_the_sea_as_one_does(void **state)
         }
         for (int32_t from = 0, n; from < SEVERAL; from += n) {
             int32_t at[FL_FEW], left[FL_FEW];
+            fl_few_water along, *const water = way & 8 ? &along : NULL;
             fl_few s;
             n = way & 4 ? 1 : 1 + (from + way) % FL_FEW;
             if (n > SEVERAL - from) n = SEVERAL - from;
@@ -305,14 +307,16 @@ static void several_meet_the_sea_as_one_does(void **state)
             const int32_t others = fl_calm_force(&all->sea, &all->b, &s, left);
             fl_few_put_forces(&s, &all->b);
             for (int32_t k = 0; k < others; k++) fl_step_soft(all, from + left[k]);
-            fl_calm_drag(&all->sea, &all->b, &s, 0);
-            fl_calm_drag(&all->sea, &all->b, &s, 1);
+            if (water) fl_few_take_water(water, &all->b, &s);
+            fl_calm_drag(&all->sea, &all->b, &s, water, 0);
+            fl_calm_drag(&all->sea, &all->b, &s, water, 1);
             fl_few_put_speeds(&s, &all->b);
             afloat += n - others;
         }
         same_bits(one->b.f, all->b.f, vectors), same_bits(one->b.t, all->b.t, vectors);
         same_bits(one->b.v, all->b.v, vectors), same_bits(one->b.w, all->b.w, vectors);
         same_bits(one->b.L, all->b.L, vectors);
+        if (way & 8) same_bits(one->b.flow, all->b.flow, vectors);
         assert_true(!one->sea.flow == !(way & 2) && !one->sea.blown == !(way & 1));
         if (one->sea.flow) same_bits(one->sea.flow, all->sea.flow, vectors);
         same_bits(one->sea.wetted, all->sea.wetted, numbers),
@@ -321,7 +325,7 @@ static void several_meet_the_sea_as_one_does(void **state)
         if (one->sea.blown) same_bits(one->sea.blown, all->sea.blown, numbers);
         lab_free(&l), lab_free(&m);
     }
-    assert_true(afloat > 8 * SEVERAL / 8 && afloat < 8 * SEVERAL / 4 * 3);
+    assert_true(afloat > 16 * SEVERAL / 8 && afloat < 16 * SEVERAL / 4 * 3);
 }
 
 int main(void)
