@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 #include "base/wide.h"
+#include "geom/rows3.h"
 #include "law/damping.h"
 #include "step/lead.h"
 #include "step/pairing.h"
@@ -110,29 +111,18 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
 
 /* --- lane by lane ------------------------------------------------------------------------------- */
 
-typedef struct {
-    fl_vec3 x, y, z;
-} rows;
-
 /* q_matrix() */
-FL_WIDE_PART rows axes(const fl_lane *q, int k)
+FL_WIDE_PART fl_rows3 axes(const fl_lane *q, int k)
 {
     const double w = q[0].a[k], x = q[1].a[k], y = q[2].a[k], z = q[3].a[k];
-    return (rows){v3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-                  v3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-                  v3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))};
+    return (fl_rows3){v3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+                      v3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+                      v3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))};
 }
 
-FL_WIDE_PART rows rows_of(const fl_lane *R, int k)
+FL_WIDE_PART fl_rows3 rows_of(const fl_lane *R, int k)
 {
-    return (rows){fl_lane3(R, k), fl_lane3(R + 3, k), fl_lane3(R + 6, k)};
-}
-
-FL_WIDE_PART fl_vec3 out(rows R, fl_vec3 a) { return v3(v3_dot(R.x, a), v3_dot(R.y, a), v3_dot(R.z, a)); }
-FL_WIDE_PART fl_vec3 in(rows R, fl_vec3 a)
-{
-    return v3(R.x.x * a.x + R.y.x * a.y + R.z.x * a.z, R.x.y * a.x + R.y.y * a.y + R.z.y * a.z,
-              R.x.z * a.x + R.y.z * a.y + R.z.z * a.z);
+    return (fl_rows3){fl_lane3(R, k), fl_lane3(R + 3, k), fl_lane3(R + 6, k)};
 }
 
 /* The velocity of A against B at aj from B's centre, in the mean of the step. */
@@ -155,17 +145,17 @@ FL_WIDE_VERSIONS static void relate(batch *restrict b)
 {
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
-        const rows A = axes(b->qi, k), B = axes(b->qj, k);
+        const fl_rows3 A = axes(b->qi, k), B = axes(b->qj, k);
         const fl_vec3 lag =
             fl_lag_of(fl_lane3(b->wi, k), fl_lane3(b->wj, k), fl_lane3(b->off, k), b->lags.a[k]);
         fl_lane3_put(b->u, k, v3_add(fl_lane3(b->u, k), lag));
         fl_lane3_put(b->du, k, v3_sub(fl_lane3(b->du, k), lag));
         const fl_vec3 x = v3(A.x.x, A.y.x, A.z.x), y = v3(A.x.y, A.y.y, A.z.y), z = v3(A.x.z, A.y.z, A.z.z);
-        const fl_vec3 Mx = in(B, x), My = in(B, y), Mz = in(B, z); /* columns of M */
+        const fl_vec3 Mx = r3_tmul(B, x), My = r3_tmul(B, y), Mz = r3_tmul(B, z); /* columns of M */
         fl_lane3_put(b->R, k, B.x);
         fl_lane3_put(b->R + 3, k, B.y);
         fl_lane3_put(b->R + 6, k, B.z);
-        fl_lane3_put(b->s.o, k, v3_neg(in(B, fl_lane3(b->off, k))));
+        fl_lane3_put(b->s.o, k, v3_neg(r3_tmul(B, fl_lane3(b->off, k))));
         fl_lane3_put(b->s.M, k, v3(Mx.x, My.x, Mz.x));
         fl_lane3_put(b->s.M + 3, k, v3(Mx.y, My.y, Mz.y));
         fl_lane3_put(b->s.M + 6, k, v3(Mx.z, My.z, Mz.z));
@@ -180,10 +170,10 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
 {
     for (int k = 0; k < FL_TOLD; k++) {
         const fl_pair *c = p[k < n ? k : 0];
-        const rows R = rows_of(b->R, k);
+        const fl_rows3 R = rows_of(b->R, k);
         if (fl_pair_is_free(w, c)) continue;
-        const fl_vec3 at = out(R, fl_lane3(b->s.at, k)), f = out(R, fl_lane3(b->s.f, k)),
-                      m = out(R, fl_lane3(b->s.m, k));
+        const fl_vec3 at = r3_mul(R, fl_lane3(b->s.at, k)), f = r3_mul(R, fl_lane3(b->s.f, k)),
+                      m = r3_mul(R, fl_lane3(b->s.m, k));
         const fl_vec3 ti = v3_add(v3_cross(v3_add(at, fl_lane3(b->off, k)), f), m),
                       tj = v3_add(v3_cross(at, f), m);
         const fl_pair_yielding ease = fl_pair_yielding_of(w, c);
@@ -219,7 +209,7 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, fl_lead_step of)
     const fl_lane *A = OF(damping);
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
-        const rows R = rows_of(b->R, k);
+        const fl_rows3 R = rows_of(b->R, k);
         const fl_vec3 first = fl_lane3(OF(first), k), force = fl_lane3(b->s.f, k),
                       D = fl_lane3(OF(direction), k), T = fl_lane3(OF(turning), k);
         /* the pressures move to where force and moment want them */
@@ -229,10 +219,11 @@ FL_WIDE_VERSIONS static void move(batch *restrict b, fl_lead_step of)
         const fl_vec3 was = fl_lane3(OF(g), k); /* against the force */
         const double size2 = v3_norm2(force) * v3_norm2(was), each2 = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0;
         const fl_vec3 turn = v3_scale(each2, v3_cross(force, was)), back = v3_neg(turn);
-        const fl_vec3 aj = out(R, v3_add(first, by)), turns = v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)),
+        const fl_vec3 aj = r3_mul(R, v3_add(first, by)),
+                      turns = v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)),
                       more = v3_sub(fl_lane3(b->dwi, k), fl_lane3(b->dwj, k));
-        const fl_vec3 v = after(back, in(R, v3_add(went(b, k, aj), leads(b, k, aj))));
-        const fl_vec3 w = after(back, in(R, v3_add(turns, more)));
+        const fl_vec3 v = after(back, r3_tmul(R, v3_add(went(b, k, aj), leads(b, k, aj))));
+        const fl_vec3 w = after(back, r3_tmul(R, v3_add(turns, more)));
         const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
                       m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
@@ -268,7 +259,7 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
 {
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
-        const rows R = rows_of(b->R, k);
+        const fl_rows3 R = rows_of(b->R, k);
         const fl_vec3 first = fl_lane3(OF(first), k), point = fl_lane3(b->s.at, k), f = fl_lane3(b->s.f, k),
                       m = fl_lane3(b->s.m, k), off = fl_lane3(b->off, k);
         const double share = b->s.share.a[k], grown = b->grown.a[k];
@@ -283,8 +274,8 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         fd = v3(grown < 1.0 ? less.x : fd.x, grown < 1.0 ? less.y : fd.y, grown < 1.0 ? less.z : fd.z);
         md = v3_add(md, v3_cross(by, fd));
         /* in the world */
-        const fl_vec3 at = out(R, point), aj = out(R, first), F = out(R, f), FM = out(R, m);
-        const fl_vec3 D1 = v3_scale(share, out(R, fd)), DM = v3_scale(share, out(R, md));
+        const fl_vec3 at = r3_mul(R, point), aj = r3_mul(R, first), F = r3_mul(R, f), FM = r3_mul(R, m);
+        const fl_vec3 D1 = v3_scale(share, r3_mul(R, fd)), DM = v3_scale(share, r3_mul(R, md));
         const fl_vec3 amid = v3_scale(0.5, off);
         const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, amid), F), FM)},
                         damping = {D1, v3_add(v3_cross(v3_add(aj, amid), D1), DM)};
@@ -303,10 +294,10 @@ FL_WIDE_VERSIONS static void bear(batch *restrict b)
         const double size = v3_norm(direction), least = 1e-12 * OF(pressure)->a[k],
                      each = size > least ? 1.0 / size : 0.0, rubs = size > least ? b->friction.a[k] : 0.0,
                      springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
-        const fl_vec3 n = out(R, v3_scale(each, direction));
+        const fl_vec3 n = r3_mul(R, v3_scale(each, direction));
         const fl_vec3 acts = v3_add(v3_add(by, after(turn, fl_lane3(OF(lift), k))),
                                     v3_scale(each * each, v3_cross(direction, turning)));
-        const fl_vec3 centred = v3_add(aj, out(R, acts));
+        const fl_vec3 centred = v3_add(aj, r3_mul(R, acts));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n),
                      more = v3_dot(fl_lane3(b->dwi, k), n) - v3_dot(fl_lane3(b->dwj, k), n);
         const fl_vec3 goes = went(b, k, centred);

@@ -8,9 +8,10 @@
  *     bench_step order THREADS         one order of all sums against any, alone
  *     bench_step one|any STEPS         so many steps of the gas with sums in one order, or in any; tells how
  *                                      many body-steps they were
- *     bench_step dry|water|waves|facets STEPS
+ *     bench_step dry|water|added|waves|held|facets STEPS
  *                                      so many steps of a hundred floes that touch nothing: dry, in still
- *                                      water, in waves, in still water with drag on each facet; tells how
+ *                                      water, with added mass besides, in waves, which are looked at every
+ *                                      20th step alone, in still water with drag on each facet; tells how
  *                                      many body-steps they were */
 #include <omp.h>
 #include <stdlib.h>
@@ -155,15 +156,20 @@ static int order_of_sums(int threads)
 
 /* --- bodies that touch nothing, and many of them ----------------------------------------------- */
 
-enum sea { DRY, STILL, WAVES, FACETS };
+enum sea { DRY, STILL, ADDED, WAVES, HELD, FACETS, SEAS };
+static const char *const sea_names[SEAS] = {"dry", "water", "added", "waves", "held", "facets"};
 
 /* Floes or spheres on a square grid, with a pitch that lets a few of them meet. */
 static void grid(lab *l, int32_t side, int spheres, double pitch, enum sea water)
 {
     lab_start(l);
     if (water != DRY) lab_set(l, "run.gravity=9.81"), lab_set(l, "water.current=0.2 0 0");
-    if (water == WAVES) lab_set(l, "water.wave=airy"), lab_set(l, "water.height=0.2");
-    if (water == WAVES) lab_set(l, "water.period=4"), lab_set(l, "water.depth=20");
+    if (water == ADDED) lab_set(l, "water.added_mass=auto");
+    if (water == WAVES || water == HELD) {
+        lab_set(l, "water.wave=airy"), lab_set(l, "water.height=0.2");
+        lab_set(l, "water.period=4"), lab_set(l, "water.depth=20");
+    }
+    if (water == HELD) lab_set(l, "water.every=20");
     if (water == FACETS) lab_set(l, "water.drag=facet");
     lab_set(l, "contact.softening=0.05");
     for (int32_t k = 0; k < side * side; k++) {
@@ -207,11 +213,9 @@ static int alone(const char *where, int64_t steps)
         lab_free(&l);
         return bad;
     }
-    grid(&l, 10, 0, 4.0,
-         strcmp(where, "water") == 0    ? STILL
-         : strcmp(where, "waves") == 0  ? WAVES
-         : strcmp(where, "facets") == 0 ? FACETS
-                                        : DRY);
+    enum sea water = DRY;
+    while (water + 1 < SEAS && strcmp(where, sea_names[water]) != 0) water++;
+    grid(&l, 10, 0, 4.0, water);
     const int bad = lab_run(&l, steps);
     printf("%lld\n", (long long)(steps * l.w.n));
     lab_free(&l);

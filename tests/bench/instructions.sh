@@ -5,8 +5,8 @@
 # `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.  The cases by number are
 # those of bench_contact; `wall` of 20 000 triangles, `cylinder`, exact, and `hull` of 50 000 triangles are of
 # bench_structure; `told` are cases of bench_contact by surrogates of 1e-3, one of eight, looks included;
-# `spheres` is a contact and step of spheres in a lattice, everything included, `dry`, `water`, `waves` and
-# `facets` a body and step of floes that touch nothing.  `sums-one` and `sums-any` are a body and step of floes
+# `spheres` is a contact and step of spheres in a lattice, everything included, `dry`, `water`, `added`,
+# `waves`, `held` and `facets` a body and step of floes that touch nothing.  `sums-one` and `sums-any` are a body and step of floes
 # that do, with all sums in one order and in the order in which contacts come, which locks every sum it adds
 # to.
 #   BENCH  the folder where the benches lie
@@ -47,7 +47,9 @@ all() {
     each sums-one bench_step one 500 1500
     each sums-any bench_step any 500 1500
     each water bench_step water 20 120
+    each added bench_step added 20 120
     each waves bench_step waves 20 120
+    each held bench_step held 20 120
     each facets bench_step facets 20 120
 }
 all > "$fresh"
