@@ -48,7 +48,7 @@
 #define FL_BOND_BOND_H
 #include "body/body.h"
 
-enum { FL_BOND_POINTS = 9 };
+enum { FL_BOND_POINTS = 9, FL_BOND_FACE = 32, FL_BOND_TELLS = 28 };
 
 enum fl_bond_state {
     FL_BOND_WHOLE,  /* no point is damaged                    */
@@ -64,37 +64,37 @@ typedef struct {
 } fl_bond_point;
 
 typedef struct {
-    /* the face */
-    int32_t i, j;     /* bodies, i < j                                                   */
-    fl_vec3 pi, pj;   /* its centre, frames of i and j                     [m]           */
-    fl_vec3 ni, nj;   /* unit normal from i to j, frames of i and j                      */
-    fl_vec3 ai, aj;   /* half a side, frames of i and j                    [m]           */
-    fl_vec3 bi, bj;   /* half the other                                    [m]           */
-    double area;      /* [m2]                                                            */
-    double length;    /* l                                               [m]             */
-    double kn, ks;    /* E/l, G/l                                          [Pa/m]        */
-    double tension;   /* sigma_t, INFINITY: never                          [Pa]          */
-    double cohesion;  /* c, INFINITY: never                                [Pa]          */
-    double friction;  /* mu                                                              */
-    double energy[2]; /* G_I, G_II; 0: at once                             [J/m2]        */
-    double stretch;   /* lambda_f is at least this times lambda_c; 0: none               */
-    int32_t mixing;   /* eta >= 1                                                        */
-    double damping;   /* dashpot over spring, of what is not damaged       [s]           */
-    /* its past */
-    int32_t state; /* enum fl_bond_state                                              */
-    double held;   /* h_0, 0 before it has failed */
-    double worn;   /* c                                                               */
-    double spent;  /* taken out by damage and wear so far               [J]           */
-    double handed; /* and given to the springs of friction              [J]           */
+    int32_t i, j;   /* bodies, i < j                                                     */
+    int32_t state;  /* enum fl_bond_state                                                */
+    int32_t mixing; /* eta >= 1                                                          */
+    double worn;    /* c                                                                 */
+    /* the face and its springs: FL_BOND_FACE numbers in a row, which several.h reads so */
+    fl_vec3 pi, pj;  /* its centre, frames of i and j                     [m]            */
+    fl_vec3 ni, nj;  /* unit normal from i to j, frames of i and j                       */
+    fl_vec3 ai, aj;  /* half a side, frames of i and j                    [m]            */
+    fl_vec3 bi, bj;  /* half the other                                    [m]            */
+    double area;     /* [m2]                                                             */
+    double kn, ks;   /* E/l, G/l                                          [Pa/m]         */
+    double tension;  /* sigma_t, INFINITY: never                          [Pa]           */
+    double cohesion; /* c, INFINITY: never                                [Pa]           */
+    double damping;  /* dashpot over spring, of what is not damaged       [s]            */
+    double length;   /* l                                                 [m]            */
+    double friction; /* mu                                                               */
+    /* of the last look: FL_BOND_TELLS numbers in a row; world axes, torques about the two centres */
+    double s[3], su[3], sv[3]; /* separation of the centre, and its change along a and b; opening, then
+                                * shear along two directions [m] */
+    fl_vec3 f, ti, tj;         /* force on i (on j its opposite), torques           [N], [N m] */
+    double store;              /* W                                                 [J]   */
+    fl_vec3 fd, di, dj;        /* the part of damping                                     */
+    fl_vec3 fs, si, sj;        /* the part of friction                                    */
+    double spring;             /* in the springs of friction                        [J]   */
+    /* how it breaks, and its past */
+    double energy[2]; /* G_I, G_II; 0: at once                              [J/m2]        */
+    double stretch;   /* lambda_f is at least this times lambda_c; 0: none                */
+    double held;      /* h_0, 0 before it has failed */
+    double spent;     /* taken out by damage and wear so far                [J]           */
+    double handed;    /* and given to the springs of friction               [J]           */
     fl_bond_point point[FL_BOND_POINTS];
-    double s[3], su[3], sv[3]; /* separation at the last look: of the centre, and its change along a and b;
-                                * opening, then shear along two directions [m] */
-    /* of the last look; world axes, torques about the two centres */
-    fl_vec3 f, ti, tj;  /* force on i (on j its opposite), torques           [N], [N m]    */
-    fl_vec3 fd, di, dj; /* the part of damping                                             */
-    fl_vec3 fs, si, sj; /* the part of friction                                            */
-    double store;       /* W                                                 [J]           */
-    double spring;      /* in the springs of friction                        [J]           */
 } fl_bond;
 
 /* The face of c between bodies c->i and c->j as they stand: its centre x, the unit normal n from i to j, half

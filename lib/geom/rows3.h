@@ -3,11 +3,17 @@
 #ifndef FL_GEOM_ROWS3_H
 #define FL_GEOM_ROWS3_H
 #include "base/wide.h"
-#include "geom/vec3.h"
+#include "geom/mat3.h"
 
 typedef struct {
     fl_vec3 x, y, z;
 } fl_rows3;
+
+static inline fl_rows3 r3_of(fl_mat3 a)
+{
+    return (fl_rows3){v3(a.m[0][0], a.m[0][1], a.m[0][2]), v3(a.m[1][0], a.m[1][1], a.m[1][2]),
+                      v3(a.m[2][0], a.m[2][1], a.m[2][2])};
+}
 
 /* R a;  transpose(R) a */
 FL_WIDE_PART fl_vec3 r3_mul(fl_rows3 R, fl_vec3 a)

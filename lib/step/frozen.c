@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "bond/several.h"
 #include "bond/shared.h"
 #include "geom/clip.h"
 #include "step/frozen.h"
@@ -242,12 +243,38 @@ void fl_frozen_meet(fl_world *w, fl_pair *p) { w->frozen.bond[p->bond - 1].spent
 
 /* --- in a step --------------------------------------------------------------------------------- */
 
-void fl_frozen_touch(fl_world *w, int32_t k)
+static void touch_one(fl_world *w, int32_t k)
 {
     fl_bond *c = &w->frozen.bond[k];
     if (c->state == FL_BOND_ENDED || !fl_bond_force(c, &w->b, way_of(w, k))) return;
 #pragma omp atomic write
     w->frozen.ended = 1;
+}
+
+/* Those that are whole, side by side. */
+static void touch_whole(fl_world *w, const int32_t *at, int n)
+{
+    fl_bond *c[FL_ABREAST] = {0};
+    fl_vec3 way[FL_ABREAST] = {0};
+    uint8_t done[FL_ABREAST];
+    if (n == 0) return;
+    for (int k = 0; k < n; k++) c[k] = &w->frozen.bond[at[k]], way[k] = way_of(w, at[k]);
+    fl_bond_several(c, way, n, &w->b, done);
+    for (int k = 0; k < n; k++)
+        if (!done[k]) touch_one(w, at[k]);
+}
+
+void fl_frozen_touch(fl_world *w, int32_t from, int32_t to)
+{
+    int32_t whole[FL_ABREAST];
+    int n = 0;
+    for (int32_t k = from; k < to; k++) {
+        const fl_bond *c = &w->frozen.bond[k];
+        if (c->state == FL_BOND_WHOLE && c->worn == 0.0) whole[n++] = k;
+        else touch_one(w, k);
+        if (n == FL_ABREAST) touch_whole(w, whole, n), n = 0;
+    }
+    touch_whole(w, whole, n);
 }
 
 static void add_sink(fl_sink *sink, const fl_bond *c, int is_i)

@@ -39,8 +39,10 @@ void fl_frozen_enter(const fl_world *w, fl_pair *p);
 void fl_frozen_return(fl_world *w, fl_pair *p, double R, double distance);
 void fl_frozen_meet(fl_world *w, fl_pair *p);
 
-/* Bond k at the poses and velocities of now, after a step; where it ends the next search finds the pair. */
-void fl_frozen_touch(fl_world *w, int32_t k);
+/* Bonds [from, to), at the poses and velocities of now, after a step; where one ends the
+ * next search finds the pair. */
+enum { FL_FROZEN_LOT = 64 };
+void fl_frozen_touch(fl_world *w, int32_t from, int32_t to);
 
 /* Whether thing k has bonds. */
 static inline int fl_frozen_at(const fl_world *w, int32_t k)

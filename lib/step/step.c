@@ -50,7 +50,8 @@ static int surveyed(const fl_world *w, int64_t step)
 static void contacts_of_pairs(fl_world *w, double dt, int survey)
 {
 #pragma omp for schedule(static) nowait
-    for (int32_t k = 0; k < w->frozen.n; k++) fl_frozen_touch(w, k);
+    for (int32_t k = 0; k < w->frozen.n; k += FL_FROZEN_LOT)
+        fl_frozen_touch(w, k, k + FL_FROZEN_LOT < w->frozen.n ? k + FL_FROZEN_LOT : w->frozen.n);
     fl_awake_look(w, dt, survey);
 }
 

@@ -58,6 +58,7 @@
 #define FL_STEP_SURROGATE_H
 #include <stddef.h>
 #include <stdint.h>
+#include "geom/lanes.h"
 #include "geom/mat3.h"
 #include "law/tangent.h"
 #include "step/bearing.h"
@@ -132,15 +133,11 @@ typedef struct {
 
 /* Several side by side, one array a number. */
 enum {
-    FL_TOLD = 8,
+    FL_TOLD = FL_ABREAST,
     /* of fours; of the last one some are of what is not asked for */
     FL_SURROGATE_ROWS =
         ((offsetof(fl_surrogate, learnt) - offsetof(fl_surrogate, g)) / sizeof(double) + 3) / 4 * 4
 };
-typedef struct {
-    double a[FL_TOLD];
-} fl_lane;
-
 typedef struct {
     _Alignas(64) fl_lane s[FL_SURROGATE_ROWS]; /* surrogates, number by number     */
     fl_lane M[9], o[3];                        /* in: the pose of A in the frame of B, M row by row */
@@ -150,12 +147,6 @@ typedef struct {
 /* Its place among the rows of s. */
 #define FL_SURROGATE_ROW(member)                                                                             \
     ((offsetof(fl_surrogate, member) - offsetof(fl_surrogate, g)) / sizeof(double))
-
-static inline fl_vec3 fl_lane3(const fl_lane *a, int k) { return v3(a[0].a[k], a[1].a[k], a[2].a[k]); }
-static inline void fl_lane3_put(fl_lane *a, int k, fl_vec3 v)
-{
-    a[0].a[k] = v.x, a[1].a[k] = v.y, a[2].a[k] = v.z;
-}
 
 /* What a look has found.  The gradient has the couple of the places, too. */
 typedef struct {

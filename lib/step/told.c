@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stddef.h>
 #include "base/wide.h"
-#include "geom/rows3.h"
 #include "law/damping.h"
 #include "step/lead.h"
 #include "step/pairing.h"
@@ -34,17 +33,9 @@ typedef struct {
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
 #define TO(member) (b->to + (offsetof(fl_pair, member) - offsetof(fl_pair, f)) / sizeof(double))
 
-/* Columns of doubles to rows of lanes, four contacts at a time. */
 FL_FOUR_VERSIONS static void turn_in(fl_lane *row, const double *const *of, int rows)
 {
-    for (int k = 0; k < FL_TOLD; k += FL_LANES)
-        for (int c = 0; c < rows; c += FL_LANES) {
-            fl_wide r[FL_LANES] = {FL_FOUR(of[k] + c), FL_FOUR(of[k + 1] + c), FL_FOUR(of[k + 2] + c),
-                                   FL_FOUR(of[k + 3] + c)};
-            fl_wide_transpose(r);
-            FL_WIDE_UNROLL
-            for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&row[c + l].a[k]) = r[l];
-        }
+    fl_lanes_in(row, of, rows);
 }
 
 static const double *doubles(const void *at) { return at; }
@@ -111,15 +102,6 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
 
 /* --- lane by lane ------------------------------------------------------------------------------- */
 
-/* q_matrix() */
-FL_WIDE_PART fl_rows3 axes(const fl_lane *q, int k)
-{
-    const double w = q[0].a[k], x = q[1].a[k], y = q[2].a[k], z = q[3].a[k];
-    return (fl_rows3){v3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-                      v3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-                      v3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))};
-}
-
 FL_WIDE_PART fl_rows3 rows_of(const fl_lane *R, int k)
 {
     return (fl_rows3){fl_lane3(R, k), fl_lane3(R + 3, k), fl_lane3(R + 6, k)};
@@ -145,7 +127,7 @@ FL_WIDE_VERSIONS static void relate(batch *restrict b)
 {
 #pragma omp simd
     for (int k = 0; k < FL_TOLD; k++) {
-        const fl_rows3 A = axes(b->qi, k), B = axes(b->qj, k);
+        const fl_rows3 A = fl_lane_axes(b->qi, k), B = fl_lane_axes(b->qj, k);
         const fl_vec3 lag =
             fl_lag_of(fl_lane3(b->wi, k), fl_lane3(b->wj, k), fl_lane3(b->off, k), b->lags.a[k]);
         fl_lane3_put(b->u, k, v3_add(fl_lane3(b->u, k), lag));
@@ -365,16 +347,6 @@ FL_WIDE_VERSIONS static void rub(batch *restrict b, fl_lead_step of, int survey)
 
 /* --- contact by contact ------------------------------------------------------------------------- */
 
-/* Rows of lanes to columns, four contacts at a time. */
-FL_WIDE_PART void turn_out(double *const *to, const fl_lane *row, int k)
-{
-    fl_wide r[FL_LANES] = {FL_FOUR(&row[0].a[k]), FL_FOUR(&row[1].a[k]), FL_FOUR(&row[2].a[k]),
-                           FL_FOUR(&row[3].a[k])};
-    fl_wide_transpose(r);
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(to[l]) = r[l];
-}
-
 static_assert(offsetof(fl_slip, k_turn) == 5 * sizeof(double), "six in a row");
 
 /* To those that are done. */
@@ -390,11 +362,11 @@ FL_FOUR_VERSIONS static void give(const batch *restrict b, fl_pair *const *p, co
             slip[l] = c ? (double *)(void *)&c->slip : nowhere;
             end[l] = last[l];
         }
-        turn_out(slip, b->slip, k);
-        turn_out(end, b->slip + FL_LANES, k);
+        fl_lanes_out(slip, b->slip, k);
+        fl_lanes_out(end, b->slip + FL_LANES, k);
         for (int row = 0; row < FL_PAIR_TELLS; row += FL_LANES) {
             double *const at[FL_LANES] = {to[0] + row, to[1] + row, to[2] + row, to[3] + row};
-            turn_out(at, b->to + row, k);
+            fl_lanes_out(at, b->to + row, k);
         }
         for (int l = 0; l < FL_LANES && k + l < n; l++) {
             fl_pair *const c = p[k + l];

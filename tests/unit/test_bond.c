@@ -3,7 +3,7 @@
 #include "support/near.h"
 #include "base/rng.h"
 #include "body/integrate.h"
-#include "bond/bond.h"
+#include "bond/several.h"
 #include "bond/shared.h"
 
 #define PI 3.14159265358979323846
@@ -347,6 +347,52 @@ static void faces_are_found(void **state)
     assert_near(PI * v3_norm2(s.a) / 3.0, PI / 4.0, 1e-14); /* A h^2/3 = pi r^4/4 */
 }
 
+/* Several at a time have the bits that one has, or are left as they are: where a point may have reached its
+ * strength, where the sides are turned by a right angle or half a turn, where some have dashpots and others do
+ * not. */
+static void several_are_as_one(void **state)
+{
+    (void)state;
+    int held = 0, left = 0;
+    for (int way = 0; way < 60; way++) {
+        fl_rng g = fl_rng_of(test_seed(), way, FL_RNG_TEST);
+        const int n = 1 + way % FL_ABREAST;
+        two t[FL_ABREAST];
+        fl_bond one[FL_ABREAST], all[FL_ABREAST], *at[FL_ABREAST];
+        fl_vec3 off[FL_ABREAST];
+        uint8_t done[FL_ABREAST];
+        fl_bodies b = {0};
+        fl_err err = {0};
+        assert_int_equal(fl_bodies_alloc(&b, 2 * FL_ABREAST, 2 * FL_ABREAST, &err), 0);
+        for (int k = 0; k < n; k++) {
+            const double size = k % 4 == 3 ? 0.01 : 1e-4, turns = k % 5 == 4 ? 2.0 : size;
+            two_make(&t[k]);
+            for (int e = 0; e < 2; e++) shift(&t[k], e, some(&g, size), some(&g, turns));
+            if (way % 7 == 6 && k == 2) shift(&t[k], 1, ZERO, v3(3.14159265358979, 0, 0)); /* about m */
+            for (int e = 0; e < 2; e++) {
+                b.x[2 * k + e] = t[k].b.x[e], b.q[2 * k + e] = t[k].b.q[e];
+                b.v[2 * k + e] = some(&g, 1), b.w[2 * k + e] = some(&g, 1);
+            }
+            b.ball[2 * k] = k == 5;
+            one[k] = t[k].c;
+            one[k].i = 2 * k, one[k].j = 2 * k + 1;
+            one[k].damping = way % 3 == 0 ? 0.0 : way % 3 == 1 || k % 2 ? 1e-3 : 0.0;
+            if (k % 3 == 2) one[k].tension = INFINITY, one[k].cohesion = INFINITY;
+            all[k] = one[k], at[k] = &all[k], off[k] = k % 2 ? some(&g, 1e-5) : ZERO;
+            two_free(&t[k]);
+        }
+        fl_bond_several(at, off, n, &b, done);
+        for (int k = 0; k < n; k++) {
+            const fl_bond before = one[k];
+            fl_bond_force(&one[k], &b, off[k]);
+            assert_memory_equal(&all[k], done[k] ? &one[k] : &before, sizeof all[k]);
+            held += done[k], left += !done[k];
+        }
+        fl_bodies_free(&b);
+    }
+    assert_true(held > 100 && left > 50);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +404,7 @@ int main(void)
         cmocka_unit_test(books_balance),
         cmocka_unit_test(sizes_are_told),
         cmocka_unit_test(faces_are_found),
+        cmocka_unit_test(several_are_as_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

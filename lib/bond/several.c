@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
+#include <stddef.h>
+#include "bond/several.h"
+#include "bond/standing.h"
+
+/* As fl_bond has them in a row. */
+enum {
+    PI,
+    PJ = 3,
+    NI = 6,
+    NJ = 9,
+    AI = 12,
+    AJ = 15,
+    BI = 18,
+    BJ = 21,
+    AREA = 24,
+    KN,
+    KS,
+    TENSION,
+    COHESION,
+    DAMPING
+};
+enum { S, SU = 3, SV = 6, F = 9, TI = 12, TJ = 15, STORE = 18, FD = 19, DI = 22, DJ = 25 };
+
+#define PLACE(member, first) ((offsetof(fl_bond, member) - offsetof(fl_bond, first)) / sizeof(double))
+static_assert(PLACE(nj, pi) == NJ && PLACE(bj, pi) == BJ && PLACE(area, pi) == AREA &&
+                  PLACE(damping, pi) == DAMPING && PLACE(s, pi) == FL_BOND_FACE,
+              "the face");
+static_assert(PLACE(f, s) == F && PLACE(store, s) == STORE && PLACE(fd, s) == FD && PLACE(dj, s) == DJ &&
+                  PLACE(fs, s) == FL_BOND_TELLS,
+              "what is told");
+
+typedef struct {
+    _Alignas(64) fl_lane face[FL_BOND_FACE];
+    fl_lane qi[4], qj[4], off[3], vi[3], wi[3], vj[3], wj[3];
+    fl_lane to[FL_BOND_TELLS], holds;
+} batch;
+
+static const double *doubles(const void *at) { return at; }
+
+/* The quaternion of body i: a ball's axes are the world's. */
+static const double *axes_of(const fl_bodies *b, int32_t i)
+{
+    static const fl_quat level = {1, 0, 0, 0};
+    return doubles(b->ball[i] ? &level : &b->q[i]);
+}
+
+FL_FOUR_VERSIONS static void turn_in(batch *restrict a, const double *const *face, const double *const *qi,
+                                     const double *const *qj)
+{
+    fl_lanes_in(a->face, face, FL_BOND_FACE);
+    fl_lanes_in(a->qi, qi, 4);
+    fl_lanes_in(a->qj, qj, 4);
+}
+
+/* Whether some of them have dashpots. */
+static int lay(batch *a, fl_bond *const *c, const fl_vec3 *way, int n, const fl_bodies *b)
+{
+    const double *face[FL_ABREAST], *qi[FL_ABREAST], *qj[FL_ABREAST];
+    double damping = 0.0;
+    for (int k = 0; k < FL_ABREAST; k++) {
+        const fl_bond *p = c[k < n ? k : 0];
+        const int32_t i = p->i, j = p->j;
+        face[k] = doubles((const char *)p + offsetof(fl_bond, pi));
+        qi[k] = axes_of(b, i), qj[k] = axes_of(b, j);
+        fl_lane3_put(a->off, k, v3_add(v3_sub(b->x[j], b->x[i]), way[k < n ? k : 0]));
+        damping += p->damping;
+    }
+    turn_in(a, face, qi, qj);
+    if (!(damping > 0.0)) return 0;
+    for (int k = 0; k < FL_ABREAST; k++) {
+        const int32_t i = c[k < n ? k : 0]->i, j = c[k < n ? k : 0]->j;
+        fl_lane3_put(a->vi, k, b->v[i]), fl_lane3_put(a->wi, k, b->w[i]);
+        fl_lane3_put(a->vj, k, b->v[j]), fl_lane3_put(a->wj, k, b->w[j]);
+    }
+    return 1;
+}
+
+static inline __attribute__((always_inline)) void find(batch *restrict a, int dashes)
+{
+    const fl_lane *f = a->face;
+#pragma omp simd
+    for (int k = 0; k < FL_ABREAST; k++) {
+        const double area = f[AREA].a[k], kn = f[KN].a[k], ks = f[KS].a[k], damping = f[DAMPING].a[k];
+        const fl_standing to =
+            fl_stand(fl_lane3(f + PI, k), fl_lane3(f + PJ, k), fl_lane3(f + NI, k), fl_lane3(f + NJ, k),
+                     fl_lane3(f + AI, k), fl_lane3(f + AJ, k), fl_lane3(f + BI, k), fl_lane3(f + BJ, k),
+                     fl_lane_axes(a->qi, k), fl_lane_axes(a->qj, k), fl_lane3(a->off, k));
+        const fl_standing q = fl_stand_by(to, v3_scale(1.0 / v3_norm(to.flat), to.flat));
+        const double used = fl_stand_used(q, kn, ks, f[TENSION].a[k], f[COHESION].a[k]);
+        a->holds.a[k] = q.cosine >= FL_BOND_TURNED && fl_stands_square(q) && used < FL_BOND_HOLDS &&
+                                (dashes == (damping > 0.0))
+                            ? 1.0
+                            : 0.0;
+        fl_traction_push p = fl_stand_elastic(q, area, kn, ks);
+        if (dashes) {
+            const fl_traction_push d = fl_stand_dash(q, damping, area, kn, ks,
+                                                     fl_stand_rates(q, fl_lane3(a->vi, k), fl_lane3(a->wi, k),
+                                                                    fl_lane3(a->vj, k), fl_lane3(a->wj, k)));
+            const fl_vec3 none = v3(0, 0, 0); /* of friction */
+            fl_lane3_put(a->to + FD, k, d.f);
+            fl_lane3_put(a->to + DI, k, d.ti);
+            fl_lane3_put(a->to + DJ, k, d.tj);
+            p.f = v3_add(p.f, v3_add(none, d.f));
+            p.ti = v3_add(p.ti, v3_add(none, d.ti));
+            p.tj = v3_add(p.tj, v3_add(none, d.tj));
+        } else {
+            fl_lane3_put(a->to + FD, k, v3(0, 0, 0));
+        }
+        fl_lane3_put(a->to + S, k, q.s);
+        fl_lane3_put(a->to + SU, k, q.su);
+        fl_lane3_put(a->to + SV, k, q.sv);
+        fl_lane3_put(a->to + F, k, p.f);
+        fl_lane3_put(a->to + TI, k, p.ti);
+        fl_lane3_put(a->to + TJ, k, p.tj);
+        a->to[STORE].a[k] = fl_stand_store(q, area, kn, ks);
+    }
+}
+
+FL_WIDE_VERSIONS static void find_springs(batch *restrict a) { find(a, 0); }
+FL_WIDE_VERSIONS static void find_both(batch *restrict a) { find(a, 1); }
+
+/* To those that hold. */
+FL_FOUR_VERSIONS static void give(const batch *restrict a, fl_bond *const *c, int n, int rows)
+{
+    for (int k = 0; k < n; k += FL_LANES) {
+        double nowhere[FL_BOND_TELLS], *to[FL_LANES];
+        FL_WIDE_UNROLL
+        for (int l = 0; l < FL_LANES; l++)
+            to[l] = k + l < n && a->holds.a[k + l] > 0.0
+                        ? (double *)(void *)((char *)c[k + l] + offsetof(fl_bond, s))
+                        : nowhere;
+        for (int row = 0; row < rows; row += FL_LANES) {
+            double *const at[FL_LANES] = {to[0] + row, to[1] + row, to[2] + row, to[3] + row};
+            fl_lanes_out(at, a->to + row, k);
+        }
+    }
+}
+
+void fl_bond_several(fl_bond *const *c, const fl_vec3 *way, int n, const fl_bodies *b, uint8_t *done)
+{
+    batch a;
+    const int dashes = lay(&a, c, way, n, b);
+    if (dashes) find_both(&a);
+    else find_springs(&a);
+    give(&a, c, n, dashes ? FL_BOND_TELLS : FD + 1);
+    for (int k = 0; k < n; k++) done[k] = a.holds.a[k] > 0.0;
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* lanes.h -- eight things side by side: a number of each of them a row, so that loops over them are as wide as
+ * the machine is. */
+#ifndef FL_GEOM_LANES_H
+#define FL_GEOM_LANES_H
+#include "base/wide.h"
+#include "geom/rows3.h"
+
+enum { FL_ABREAST = 8 };
+
+typedef struct {
+    double a[FL_ABREAST];
+} fl_lane;
+
+static inline fl_vec3 fl_lane3(const fl_lane *a, int k) { return v3(a[0].a[k], a[1].a[k], a[2].a[k]); }
+static inline void fl_lane3_put(fl_lane *a, int k, fl_vec3 v)
+{
+    a[0].a[k] = v.x, a[1].a[k] = v.y, a[2].a[k] = v.z;
+}
+
+/* The axes of the k-th by its quaternion, as q_matrix(). */
+FL_WIDE_PART fl_rows3 fl_lane_axes(const fl_lane *q, int k)
+{
+    const double w = q[0].a[k], x = q[1].a[k], y = q[2].a[k], z = q[3].a[k];
+    return (fl_rows3){v3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+                      v3(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+                      v3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))};
+}
+
+/* Columns of doubles, of[FL_ABREAST], to rows, a multiple of four. */
+FL_WIDE_PART void fl_lanes_in(fl_lane *row, const double *const *of, int rows)
+{
+    for (int k = 0; k < FL_ABREAST; k += FL_LANES)
+        for (int c = 0; c < rows; c += FL_LANES) {
+            fl_wide r[FL_LANES] = {FL_FOUR(of[k] + c), FL_FOUR(of[k + 1] + c), FL_FOUR(of[k + 2] + c),
+                                   FL_FOUR(of[k + 3] + c)};
+            fl_wide_transpose(r);
+            FL_WIDE_UNROLL
+            for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&row[c + l].a[k]) = r[l];
+        }
+}
+
+/* Four rows to the columns of the four from k on. */
+FL_WIDE_PART void fl_lanes_out(double *const *to, const fl_lane *row, int k)
+{
+    fl_wide r[FL_LANES] = {FL_FOUR(&row[0].a[k]), FL_FOUR(&row[1].a[k]), FL_FOUR(&row[2].a[k]),
+                           FL_FOUR(&row[3].a[k])};
+    fl_wide_transpose(r);
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(to[l]) = r[l];
+}
+
+#endif
