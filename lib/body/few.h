@@ -7,8 +7,8 @@
  *     fl_few_kick() or fl_few_push(), fl_few_drift();
  *     fl_few_put_speeds(), fl_few_put_pose()
  *
- * Where they move water with them that is taken by fl_few_take_water(), told to whom it bears on, and put back
- * by fl_few_put_water(); else it is NULL.
+ * Where they move water with them that is taken by fl_few_take_water(), given to what it bears on, and put
+ * back by fl_few_put_water(); else it is NULL.
  *
  * What is taken and not put back stays as it was.  Bodies that follow one another and fill their registers
  * are a row, whose arrays are moved whole; others are picked out one by one, and lanes that are left in the

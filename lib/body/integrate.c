@@ -67,6 +67,7 @@ static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3
 {
     double A[3][3], a[3][3], y[3], s[3], u[3];
     int free_axis[3], k = 0;
+    if ((hold & 7) == 7) return given;
     for (int r = 0; r < 3; r++) {
         u[r] = hold & 1u << r ? component(given, r) : 0.0;
         if (!(hold & 1u << r)) free_axis[k++] = r;

@@ -68,26 +68,26 @@ typedef struct {
     int32_t state;  /* enum fl_bond_state                                                */
     int32_t mixing; /* eta >= 1                                                          */
     double worn;    /* c                                                                 */
-    /* the face and its springs: FL_BOND_FACE numbers in a row, which several.h reads so */
-    fl_vec3 pi, pj;  /* its centre, frames of i and j                     [m]            */
-    fl_vec3 ni, nj;  /* unit normal from i to j, frames of i and j                       */
-    fl_vec3 ai, aj;  /* half a side, frames of i and j                    [m]            */
-    fl_vec3 bi, bj;  /* half the other                                    [m]            */
-    double area;     /* [m2]                                                             */
-    double kn, ks;   /* E/l, G/l                                          [Pa/m]         */
-    double tension;  /* sigma_t, INFINITY: never                          [Pa]           */
-    double cohesion; /* c, INFINITY: never                                [Pa]           */
-    double damping;  /* dashpot over spring, of what is not damaged       [s]            */
-    double length;   /* l                                                 [m]            */
-    double friction; /* mu                                                               */
     /* of the last look: FL_BOND_TELLS numbers in a row; world axes, torques about the two centres */
-    double s[3], su[3], sv[3]; /* separation of the centre, and its change along a and b; opening, then
-                                * shear along two directions [m] */
     fl_vec3 f, ti, tj;         /* force on i (on j its opposite), torques           [N], [N m] */
     double store;              /* W                                                 [J]   */
+    double s[3], su[3], sv[3]; /* separation of the centre, and its change along a and b; opening, then
+                                * shear along two directions [m] */
     fl_vec3 fd, di, dj;        /* the part of damping                                     */
-    fl_vec3 fs, si, sj;        /* the part of friction                                    */
-    double spring;             /* in the springs of friction                        [J]   */
+    /* the face and its springs: FL_BOND_FACE numbers in a row */
+    fl_vec3 pi, pj;     /* its centre, frames of i and j                     [m]            */
+    fl_vec3 ni, nj;     /* unit normal from i to j, frames of i and j                       */
+    fl_vec3 ai, aj;     /* half a side, frames of i and j                    [m]            */
+    fl_vec3 bi, bj;     /* half the other                                    [m]            */
+    double area;        /* [m2]                                                             */
+    double kn, ks;      /* E/l, G/l                                          [Pa/m]         */
+    double tension;     /* sigma_t, INFINITY: never                          [Pa]           */
+    double cohesion;    /* c, INFINITY: never                                [Pa]           */
+    double damping;     /* dashpot over spring, of what is not damaged       [s]            */
+    double length;      /* l                                                 [m]            */
+    double friction;    /* mu                                                               */
+    fl_vec3 fs, si, sj; /* the part of friction                                    */
+    double spring;      /* in the springs of friction                        [J]   */
     /* how it breaks, and its past */
     double energy[2]; /* G_I, G_II; 0: at once                              [J/m2]        */
     double stretch;   /* lambda_f is at least this times lambda_c; 0: none                */

@@ -21,14 +21,14 @@ enum {
     COHESION,
     DAMPING
 };
-enum { S, SU = 3, SV = 6, F = 9, TI = 12, TJ = 15, STORE = 18, FD = 19, DI = 22, DJ = 25 };
+enum { F, TI = 3, TJ = 6, STORE = 9, S = 10, SU = 13, SV = 16, FD = 19, DI = 22, DJ = 25 };
 
 #define PLACE(member, first) ((offsetof(fl_bond, member) - offsetof(fl_bond, first)) / sizeof(double))
 static_assert(PLACE(nj, pi) == NJ && PLACE(bj, pi) == BJ && PLACE(area, pi) == AREA &&
-                  PLACE(damping, pi) == DAMPING && PLACE(s, pi) == FL_BOND_FACE,
+                  PLACE(damping, pi) == DAMPING && PLACE(fs, pi) == FL_BOND_FACE,
               "the face");
-static_assert(PLACE(f, s) == F && PLACE(store, s) == STORE && PLACE(fd, s) == FD && PLACE(dj, s) == DJ &&
-                  PLACE(fs, s) == FL_BOND_TELLS,
+static_assert(PLACE(tj, f) == TJ && PLACE(store, f) == STORE && PLACE(sv, f) == SV && PLACE(fd, f) == FD &&
+                  PLACE(dj, f) == DJ && PLACE(pi, f) == FL_BOND_TELLS,
               "what is told");
 
 typedef struct {
@@ -129,7 +129,7 @@ FL_FOUR_VERSIONS static void give(const batch *restrict a, fl_bond *const *c, in
         FL_WIDE_UNROLL
         for (int l = 0; l < FL_LANES; l++)
             to[l] = k + l < n && a->holds.a[k + l] > 0.0
-                        ? (double *)(void *)((char *)c[k + l] + offsetof(fl_bond, s))
+                        ? (double *)(void *)((char *)c[k + l] + offsetof(fl_bond, f))
                         : nowhere;
         for (int row = 0; row < rows; row += FL_LANES) {
             double *const at[FL_LANES] = {to[0] + row, to[1] + row, to[2] + row, to[3] + row};

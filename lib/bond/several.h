@@ -6,8 +6,8 @@
 #include "geom/lanes.h"
 
 /* n <= FL_ABREAST bonds that are FL_BOND_WHOLE and not worn; way of each as in bond.h.
- *   done  out: 1 where the bond has its forces; 0 where some point may have reached its strength, or the sides
- *         have turned too far: nothing is changed, and fl_bond_force() is to be asked */
+ *   done  out: 1 where the bond has its forces; 0 where some point may have reached its strength, or the
+ *         sides have turned too far: nothing is changed, and fl_bond_force() is to be asked */
 void fl_bond_several(fl_bond *const *c, const fl_vec3 *way, int n, const fl_bodies *b, uint8_t *done);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* standing.h -- how the two sides of a bond stand to one another, and what a whole one does: by value, for one
- * and for loops over lanes alike, so that both have the same bits.  The equations are those of bond.h. */
+/* standing.h -- how the two sides of a bond stand to one another, and what a whole one does: by value, for
+ * one and for loops over lanes alike, so that both have the same bits.  The equations are those of bond.h. */
 #ifndef FL_BOND_STANDING_H
 #define FL_BOND_STANDING_H
 #include "bond/bond.h"
@@ -9,9 +9,9 @@
 /* Cosines between which the pressing part of a crack wears off as it turns: 60 and 90 degrees. */
 #define FL_BOND_TURNED 0.5
 
-/* Of the sides i and j, world axes: from the bodies' centres to the face, its half sides, its normals; from the
- * one side to the other; the frame m, ta, tb and in it the separation of the centre and its change along half
- * sides. */
+/* Of the sides i and j, world axes: from the bodies' centres to the face, its half sides, its normals; from
+ * the one side to the other; the frame m, ta, tb and in it the separation of the centre and its change along
+ * half sides. */
 typedef struct {
     fl_vec3 ri, rj, ui, uj, vi, vj, ni, nj;
     fl_vec3 centre, m, ta, tb;
@@ -20,8 +20,8 @@ typedef struct {
     double length, cosine; /* |n_i + n_j|, n_i.n_j; a frame there is where that is above 0 */
 } fl_standing;
 
-/* The face in the frames of its bodies, and as they stand; off: from the centre of i to that of j.  Leaves ta,
- * tb and what is told in the frame. */
+/* The face in the frames of its bodies, and as they stand; off: from the centre of i to that of j.  Leaves
+ * ta, tb and what is told in the frame. */
 FL_WIDE_PART fl_standing fl_stand(fl_vec3 pi, fl_vec3 pj, fl_vec3 ni, fl_vec3 nj, fl_vec3 ai, fl_vec3 aj,
                                   fl_vec3 bi, fl_vec3 bj, fl_rows3 Ri, fl_rows3 Rj, fl_vec3 off)
 {
@@ -122,8 +122,8 @@ FL_WIDE_PART fl_traction fl_stand_rates(fl_standing q, fl_vec3 vi, fl_vec3 wi, f
         fl_stand_along(q, v3_sub(v3_cross(wj, v3_sub(q.vj, sv)), v3_cross(wi, v3_add(q.vi, sv))))};
 }
 
-/* The sums over the points of a whole face whose stiffness is K over all of it: the weights have sum 1, and 1/3
- * with the square of a coordinate. */
+/* The sums over the points of a whole face whose stiffness is K over all of it: the weights have sum 1, and
+ * 1/3 with the square of a coordinate. */
 FL_WIDE_PART fl_traction fl_traction_whole(fl_vec3 K, fl_vec3 s, fl_vec3 su, fl_vec3 sv)
 {
     const fl_vec3 third = v3(K.x / 3.0, K.y / 3.0, K.z / 3.0);

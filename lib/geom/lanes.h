@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* lanes.h -- eight things side by side: a number of each of them a row, so that loops over them are as wide as
- * the machine is. */
+/* lanes.h -- eight things side by side: a number of each of them a row, so that loops over them are as wide
+ * as the machine is. */
 #ifndef FL_GEOM_LANES_H
 #define FL_GEOM_LANES_H
 #include "base/wide.h"

@@ -270,6 +270,7 @@ void fl_frozen_touch(fl_world *w, int32_t from, int32_t to)
     int n = 0;
     for (int32_t k = from; k < to; k++) {
         const fl_bond *c = &w->frozen.bond[k];
+        if (k + FL_ABREAST < w->frozen.n) fl_fetch(c + FL_ABREAST, offsetof(fl_bond, fs));
         if (c->state == FL_BOND_WHOLE && c->worn == 0.0) whole[n++] = k;
         else touch_one(w, k);
         if (n == FL_ABREAST) touch_whole(w, whole, n), n = 0;

@@ -348,8 +348,8 @@ static void faces_are_found(void **state)
 }
 
 /* Several at a time have the bits that one has, or are left as they are: where a point may have reached its
- * strength, where the sides are turned by a right angle or half a turn, where some have dashpots and others do
- * not. */
+ * strength, where the sides are turned by a right angle or half a turn, where some have dashpots and others
+ * do not. */
 static void several_are_as_one(void **state)
 {
     (void)state;
@@ -368,7 +368,7 @@ static void several_are_as_one(void **state)
             const double size = k % 4 == 3 ? 0.01 : 1e-4, turns = k % 5 == 4 ? 2.0 : size;
             two_make(&t[k]);
             for (int e = 0; e < 2; e++) shift(&t[k], e, some(&g, size), some(&g, turns));
-            if (way % 7 == 6 && k == 2) shift(&t[k], 1, ZERO, v3(3.14159265358979, 0, 0)); /* about m */
+            if (way % 7 == 6 && k == 2) shift(&t[k], 1, ZERO, v3(3.14159265358979, 0, 0));
             for (int e = 0; e < 2; e++) {
                 b.x[2 * k + e] = t[k].b.x[e], b.q[2 * k + e] = t[k].b.q[e];
                 b.v[2 * k + e] = some(&g, 1), b.w[2 * k + e] = some(&g, 1);
