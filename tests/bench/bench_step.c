@@ -12,7 +12,9 @@
  *                                      so many steps of a hundred floes that touch nothing: dry, in still
  *                                      water, with added mass besides, in waves, which are looked at every
  *                                      20th step alone, in still water with drag on each facet; tells how
- *                                      many body-steps they were */
+ *                                      many body-steps they were
+ *     bench_step bonds STEPS           so many steps of boxes and spheres that are frozen together; tells how
+ *                                      many bond-steps they were */
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +25,7 @@
 #include "step/search.h"
 #include "step/sleep.h"
 #include "support/lab.h"
+#include "support/scenes.h"
 
 static double now(void)
 {
@@ -210,6 +213,16 @@ static int alone(const char *where, int64_t steps)
         lab_gas_on(&l, "patch", 0.1, 1);
         for (int64_t k = 0; k < steps && !bad; k++) bad = bare_step(&l.w, one);
         printf("%lld\n", (long long)(steps * l.w.n));
+        lab_free(&l);
+        return bad;
+    }
+    if (strcmp(where, "bonds") == 0) {
+        scene_of_bonds(&l, 6, NULL);
+        lab_set(&l, "bond.normal_strength=1 GPa"), lab_set(&l, "bond.shear_strength=1 GPa");
+        lab_set(&l, "boundary.min=-3.5 -9 -9"), lab_set(&l, "boundary.max=3.5 9 none"); /* out of reach */
+        lab_make(&l, 1e-5);
+        const int bad = lab_run(&l, steps);
+        printf("%lld\n", (long long)(steps * l.w.frozen.n));
         lab_free(&l);
         return bad;
     }

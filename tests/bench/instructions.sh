@@ -6,7 +6,7 @@
 # those of bench_contact; `wall` of 20 000 triangles, `cylinder`, exact, and `hull` of 50 000 triangles are of
 # bench_structure; `told` are cases of bench_contact by surrogates of 1e-3, one of eight, looks included;
 # `spheres` is a contact and step of spheres in a lattice, everything included, `dry`, `water`, `added`,
-# `waves`, `held` and `facets` a body and step of floes that touch nothing.  `sums-one` and `sums-any` are a body and step of floes
+# `waves`, `held` and `facets` a body and step of floes that touch nothing.  `bonds` is a bond and step, its share of the bodies included.  `sums-one` and `sums-any` are a body and step of floes
 # that do, with all sums in one order and in the order in which contacts come, which locks every sum it adds
 # to.
 #   BENCH  the folder where the benches lie
@@ -51,6 +51,7 @@ all() {
     each waves bench_step waves 20 120
     each held bench_step held 20 120
     each facets bench_step facets 20 120
+    each bonds bench_step bonds 20 120
 }
 all > "$fresh"
 
