@@ -51,6 +51,15 @@ typedef double fl_two __attribute__((vector_size(2 * sizeof(double)), aligned(8)
 #define FL_WIDE_WHERE(m, a) ((fl_wide)((m) & (fl_wide_mask)(a)))
 #define FL_WIDE_CHOOSE(m, a, b) ((fl_wide)(((m) & (fl_wide_mask)(a)) | (~(m) & (fl_wide_mask)(b))))
 
+/* By lanes: the larger, the smaller, the size; and the lanes that are before n. */
+#define FL_WIDE_LARGER(a, b) FL_WIDE_CHOOSE((a) > (b), a, b)
+#define FL_WIDE_SMALLER(a, b) FL_WIDE_CHOOSE((a) < (b), a, b)
+#define FL_WIDE_SIZE(a) ((fl_wide)((fl_wide_mask)(a)&INT64_MAX))
+#define FL_WIDE_BEFORE(n) ((fl_wide_mask){0, 1, 2, 3} < (int64_t)(n))
+
+/* Whether any lane is set. */
+FL_WIDE_PART int fl_wide_any(const fl_wide_mask *m) { return ((*m)[0] | (*m)[1] | (*m)[2] | (*m)[3]) != 0; }
+
 /* Four registers that are the rows of a matrix become its columns. */
 FL_WIDE_PART void fl_wide_transpose(fl_wide r[FL_LANES])
 {

@@ -75,11 +75,6 @@ typedef struct {
                          * on the plane of f */
 } footprint;
 
-#define LARGER(a, b) FL_WIDE_CHOOSE((a) > (b), a, b)
-#define SMALLER(a, b) FL_WIDE_CHOOSE((a) < (b), a, b)
-
-static inline int any(const fl_wide_mask *m) { return ((*m)[0] | (*m)[1] | (*m)[2] | (*m)[3]) != 0; }
-
 static inline double most_of(const fl_wide *a)
 {
     const double b = (*a)[0] > (*a)[2] ? (*a)[0] : (*a)[2], c = (*a)[1] > (*a)[3] ? (*a)[1] : (*a)[3];
@@ -130,8 +125,8 @@ static inline __attribute__((always_inline)) void fan(sums *q, const piece *p, c
         q->q += c * j;
     }
     q->m += sum;
-    q->parts += LARGER(sum, -sum);
-    q->most = LARGER(LARGER(q->most, from), end);
+    q->parts += FL_WIDE_LARGER(sum, -sum);
+    q->most = FL_WIDE_LARGER(FL_WIDE_LARGER(q->most, from), end);
 }
 
 /* The same to a border of a rim, of which the place and the fade are given; s: the overlap at the origin. */
@@ -205,7 +200,7 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     fl_wide_mask reached = zero != 0.0;
     for (int32_t k = 0; k < n; k++) reached |= p[k].y * ux - p[k].x * uy + d0 < W;
     g->lo[c / FL_LANES] = one, g->hi[c / FL_LANES] = zero;
-    if (!any(&reached)) return;
+    if (!fl_wide_any(&reached)) return;
     /* distance from the side and along it, on which side of the two lines to the inner rim: of the last
      * corner */
     fl_wide d = p[0].y * ux - p[0].x * uy + d0, l = p[0].x * ux + p[0].y * uy + l0;
@@ -223,10 +218,10 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
                            aq = h >= 0.0, bp = b > 0.0, bq = i > 0.0;
         const fl_wide td = d / (d - e), tw = gap / (gap - gaq), ta_ = a / (a - h), tb_ = b / (b - i);
         const fl_wide_mask crosses = wp ^ wq, crosses_a = ap ^ aq, crosses_b = bp ^ bq;
-        fl_wide t0 = LARGER(FL_WIDE_WHERE(~dp, td), FL_WIDE_WHERE(wp, tw));
-        fl_wide t1 = SMALLER(FL_WIDE_CHOOSE(dq, one, td), FL_WIDE_CHOOSE(wq, tw, one));
-        t0 = LARGER(t0, LARGER(FL_WIDE_WHERE(~ap, ta_), FL_WIDE_WHERE(~bp, tb_)));
-        t1 = SMALLER(t1, SMALLER(FL_WIDE_CHOOSE(aq, one, ta_), FL_WIDE_CHOOSE(bq, one, tb_)));
+        fl_wide t0 = FL_WIDE_LARGER(FL_WIDE_WHERE(~dp, td), FL_WIDE_WHERE(wp, tw));
+        fl_wide t1 = FL_WIDE_SMALLER(FL_WIDE_CHOOSE(dq, one, td), FL_WIDE_CHOOSE(wq, tw, one));
+        t0 = FL_WIDE_LARGER(t0, FL_WIDE_LARGER(FL_WIDE_WHERE(~ap, ta_), FL_WIDE_WHERE(~bp, tb_)));
+        t1 = FL_WIDE_SMALLER(t1, FL_WIDE_SMALLER(FL_WIDE_CHOOSE(aq, one, ta_), FL_WIDE_CHOOSE(bq, one, tb_)));
         const fl_wide_mask here = (t0 < t1) & ~(wp & wq) & (bp | bq);
         f->from[k] = FL_WIDE_WHERE(here, t0), f->to[k] = FL_WIDE_WHERE(here, t1);
         some |= here;
@@ -235,24 +230,24 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
         f->in[k] = most > f->in[k] ? most : f->in[k];
         f->out[k] = least < f->out[k] ? least : f->out[k];
         const fl_wide at = l + tw * dl, at_a = d + ta_ * de, at_b = d + tb_ * de;
-        in_lo = SMALLER(in_lo, FL_WIDE_CHOOSE(crosses, at, never));
-        in_hi = LARGER(in_hi, FL_WIDE_CHOOSE(crosses, at, -never));
-        a_lo = SMALLER(a_lo, FL_WIDE_CHOOSE(crosses_a, at_a, never));
-        a_hi = LARGER(a_hi, FL_WIDE_CHOOSE(crosses_a, at_a, -never));
-        b_lo = SMALLER(b_lo, FL_WIDE_CHOOSE(crosses_b, at_b, never));
-        b_hi = LARGER(b_hi, FL_WIDE_CHOOSE(crosses_b, at_b, -never));
+        in_lo = FL_WIDE_SMALLER(in_lo, FL_WIDE_CHOOSE(crosses, at, never));
+        in_hi = FL_WIDE_LARGER(in_hi, FL_WIDE_CHOOSE(crosses, at, -never));
+        a_lo = FL_WIDE_SMALLER(a_lo, FL_WIDE_CHOOSE(crosses_a, at_a, never));
+        a_hi = FL_WIDE_LARGER(a_hi, FL_WIDE_CHOOSE(crosses_a, at_a, -never));
+        b_lo = FL_WIDE_SMALLER(b_lo, FL_WIDE_CHOOSE(crosses_b, at_b, never));
+        b_hi = FL_WIDE_LARGER(b_hi, FL_WIDE_CHOOSE(crosses_b, at_b, -never));
         foot = FL_WIDE_CHOOSE(here, l + t0 * dl, foot);
         d = e, l = m, a = h, b = i;
     }
-    in_lo = LARGER(in_lo, ta * W), in_hi = SMALLER(in_hi, length - tb * W);
-    a_lo = LARGER(a_lo, zero), a_hi = SMALLER(a_hi, W);
-    b_lo = LARGER(b_lo, zero), b_hi = SMALLER(b_hi, W);
+    in_lo = FL_WIDE_LARGER(in_lo, ta * W), in_hi = FL_WIDE_SMALLER(in_hi, length - tb * W);
+    a_lo = FL_WIDE_LARGER(a_lo, zero), a_hi = FL_WIDE_SMALLER(a_hi, W);
+    b_lo = FL_WIDE_LARGER(b_lo, zero), b_hi = FL_WIDE_SMALLER(b_hi, W);
     const fl_wide_mask inner = in_lo < in_hi, living = some | inner, first = a_lo < a_hi, last = b_lo < b_hi;
     in_lo = FL_WIDE_WHERE(inner, in_lo), in_hi = FL_WIDE_WHERE(inner, in_hi);
     a_lo = FL_WIDE_WHERE(first, a_lo), a_hi = FL_WIDE_WHERE(first, a_hi);
     b_lo = FL_WIDE_WHERE(last, b_lo), b_hi = FL_WIDE_WHERE(last, b_hi);
     g->lo[c / FL_LANES] = in_lo, g->hi[c / FL_LANES] = in_hi;
-    if (!(g->width > 0.0) || !any(&living)) return;
+    if (!(g->width > 0.0) || !fl_wide_any(&living)) return;
     /* the origins: on the side, in the corner where a border to the next rim ends, which then counts for
      * nothing, or at the foot of something that is in the rim; not in a corner so slim that its border runs
      * far off, where the overlap may be large and of any sign */
@@ -267,7 +262,7 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     for (int32_t k = 0; k < n; k++) {
         const fl_wide t0 = f->from[k], dt = f->to[k] - t0;
         const fl_wide_mask here = dt > 0.0;
-        if (!any(&here)) continue;
+        if (!fl_wide_any(&here)) continue;
         const double ex = p[k + 1].x - p[k].x, ey = p[k + 1].y - p[k].y, es = p[k + 1].s - p[k].s;
         const fl_wide w0 = p[k].y * ux - p[k].x * uy + d0, dw = ey * ux - ex * uy;
         const piece b1 = {
@@ -279,15 +274,15 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
         along(&b1, &t0, &dt, &all, &far);
         rim(f, k, fl_wide_sum(&all), fl_wide_sum(&far));
     }
-    if (any(&inner)) {
+    if (fl_wide_any(&inner)) {
         const fl_wide x = (in_hi - foot) * ux - W * uy, y = (in_hi - foot) * uy + W * ux, dl = in_lo - in_hi;
         border(&sum, f, &s, &(piece){x, y, dl * ux, dl * uy, zero, zero, one, zero}, &inner);
     }
-    if (any(&add_first)) {
+    if (fl_wide_any(&add_first)) {
         const fl_wide x = ax + a_hi * Dx - ox, y = ay + a_hi * Dy - oy, dl = a_lo - a_hi;
         border(&sum, f, &s, &(piece){x, y, dl * Dx, dl * Dy, zero, zero, per * a_hi, per * dl}, &add_first);
     }
-    if (any(&add_last)) {
+    if (fl_wide_any(&add_last)) {
         const fl_wide x = bx + b_lo * Ex - ox, y = by + b_lo * Ey - oy, dl = b_hi - b_lo;
         border(&sum, f, &s, &(piece){x, y, dl * Ex, dl * Ey, zero, zero, per * b_lo, per * dl}, &add_last);
     }
@@ -344,7 +339,7 @@ static inline __attribute__((always_inline)) void inside(footprint *f, const out
         const fl_wide ux = LOAD(ux, c), uy = LOAD(uy, c), lo = g->lo[c / FL_LANES],
                       dl = g->hi[c / FL_LANES] - lo;
         const fl_wide_mask here = dl > 0.0;
-        if (!any(&here)) continue;
+        if (!fl_wide_any(&here)) continue;
         const fl_wide x = LOAD(x, c) + lo * ux - W * uy - ox, y = LOAD(y, c) + lo * uy + W * ux - oy;
         const fl_wide dx = dl * ux, dy = dl * uy;
         const piece b1 = {x, y, dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy, one, zero};
@@ -371,7 +366,7 @@ static inline __attribute__((always_inline)) void lay_sides(outline *g, double w
         const fl_wide ux = LOAD(ux, c), uy = LOAD(uy, c), vx = LOAD(ux, c - 1), vy = LOAD(uy, c - 1);
         const fl_wide k = 1.0 / (1.0 + (ux * vx + uy * vy)), turn = k * (vx * uy - vy * ux);
         *(fl_wide *)(g->Dx + c) = -k * (vy + uy), *(fl_wide *)(g->Dy + c) = k * (vx + ux);
-        *(fl_wide *)(g->tan + c) = LARGER(turn, -turn);
+        *(fl_wide *)(g->tan + c) = FL_WIDE_LARGER(turn, -turn);
     }
     g->Dx[n] = g->Dx[0], g->Dy[n] = g->Dy[0], g->tan[n] = g->tan[0];
     for (int32_t c = 0; c < n && width > 0.0; c++) {

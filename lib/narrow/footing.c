@@ -4,6 +4,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "narrow/hems.h"
+#include "narrow/shards.h"
 #include "narrow/strips.h"
 #include "narrow/tread.h"
 
@@ -320,7 +321,7 @@ typedef struct {
     int open;        /* room->open is laid, for one of those is left */
     fl_tread g;
     fl_tread_sums sum;
-    fl_tread_pull pull;
+    fl_shards_pull pull;
     fl_tread_sorted face;
     double most; /* the largest s */
 } work;
@@ -382,9 +383,9 @@ static int faces_apart(const work *q, const tile *tiles)
         const int whole = k < f->wholes;
         const fl_tread_cut cut = whole ? (fl_tread_cut){.tile = f->whole[k]} : f->cut[k - f->wholes];
         fl_tread_sums own = {.u = {0}};
-        fl_tread_pull none = {0};
+        fl_shards_pull none = {0};
         double most = 0.0;
-        fl_tread_parts(&q->g, tiles, q->o->corner, q->B->n, &cut, 1, &own, &none, &most);
+        fl_shards_sum(&q->g, tiles, q->o->corner, q->B->n, &cut, 1, &own, &none, &most);
         if (add_share(q, &own, whole ? 1 : 3)) return -1;
     }
     return 0;
@@ -503,7 +504,7 @@ static int faces_under(work *q, const tile *t, const fl_tread_four *four, int32_
             if (is[k] & FL_TREAD_LEFT) leave(q, t[k].match[0]), leave(q, t[k].match[1]);
     q->most = f->most;
     if (f->wholes) fl_tread_whole(&q->g, t, o->corner, q->B->n, f->whole, f->wholes, &q->sum);
-    if (f->cuts) fl_tread_parts(&q->g, t, o->corner, q->B->n, f->cut, f->cuts, &q->sum, &q->pull, &q->most);
+    if (f->cuts) fl_shards_sum(&q->g, t, o->corner, q->B->n, f->cut, f->cuts, &q->sum, &q->pull, &q->most);
     return q->w->apart ? faces_apart(q, t) : 0;
 }
 
@@ -584,7 +585,7 @@ int fl_footing_places(fl_places *w, const fl_matches *l, fl_footing_work *room, 
             return -1;
         q.g = (fl_tread){.R = R};
         q.sum = (fl_tread_sums){.u = {0}};
-        q.pull = (fl_tread_pull){0};
+        q.pull = (fl_shards_pull){0};
         q.face = (fl_tread_sorted){.whole = room->list, .cut = room->cut};
         lay_ground(&q.g, A, from->F, o->x + 3 * (int64_t)from->vertex, vertices, rim, room->number);
         if (foot_places(&q, from)) return -1;

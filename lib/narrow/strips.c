@@ -67,8 +67,6 @@ static const rule RULE[] = {
 
 #define MASK(a) (*(const fl_wide_mask *)(const void *)(a))
 #define MASK_INTO(a) (*(fl_wide_mask *)(void *)(a))
-#define LARGER(a, b) FL_WIDE_CHOOSE((a) > (b), a, b)
-#define SMALLER(a, b) FL_WIDE_CHOOSE((a) < (b), a, b)
 
 FL_WIDE_PART void root(fl_wide *a)
 {
@@ -97,15 +95,15 @@ FL_WIDE_VERSIONS static void over_faces(const fl_strip_faces *f, double R, twos 
     lo = FL_WIDE_CHOOSE(~in0 & in1 & (zeroed > lo), zeroed, lo);
     hi = FL_WIDE_CHOOSE(in0 & ~in1 & (zeroed < hi), zeroed, hi);
     fl_wide p = s0 + lo * ds, q = s0 + hi * ds;
-    p = LARGER(p, zero), q = LARGER(q, zero);
-    const fl_wide deepest = LARGER(p, q);
+    p = FL_WIDE_LARGER(p, zero), q = FL_WIDE_LARGER(q, zero);
+    const fl_wide deepest = FL_WIDE_LARGER(p, q);
     root(&p), root(&q);
     fl_roots sum;
     fl_roots_sum(&p, &q, &sum);
     const fl_wide both = p + q, over = 1.0 / both, dt = hi - lo, share = FL_FOUR(e->factor) * dt * over,
                   each = over / sum.du;
     const fl_wide mean = each * sum.first, square = each * over * sum.second - mean * mean;
-    fl_wide spread = LARGER(square, zero);
+    fl_wide spread = FL_WIDE_LARGER(square, zero);
     root(&spread);
     const fl_wide_mask some = (in0 | in1) & (lo < hi) & (both > 0.0) & (sum.u > 0.0);
     const fl_wide3 x = FL_WIDE3(e->x), u = FL_WIDE3(e->u), n = FL_WIDE3(f->n),
@@ -182,8 +180,8 @@ FL_WIDE_VERSIONS static void find_feet(const fl_strip_points *p, double R, feet 
     fl_wide turn = away * away + uu * room, a = least2 / uu;
     root(&turn), root(&a);
     const fl_wide back_by = turn - away, on_by = turn + away;
-    const fl_wide back_to = room / LARGER(back_by, zero), on_to = room / LARGER(on_by, zero);
-    const fl_wide half = SMALLER(back_to, on_to);
+    const fl_wide back_to = room / FL_WIDE_LARGER(back_by, zero), on_to = room / FL_WIDE_LARGER(on_by, zero);
+    const fl_wide half = FL_WIDE_SMALLER(back_to, on_to);
     fl_wide lo = begin - m, hi = end - m;
     const fl_wide_mask zero_lo = -back_to > lo, zero_hi = on_to < hi;
     lo = FL_WIDE_CHOOSE(zero_lo, -back_to, lo), hi = FL_WIDE_CHOOSE(zero_hi, on_to, hi);
@@ -194,7 +192,7 @@ FL_WIDE_VERSIONS static void find_feet(const fl_strip_points *p, double R, feet 
     distance(&least2, &lean, &uu, &lo, &s_lo), distance(&least2, &lean, &uu, &hi, &s_hi);
     distance(&least2, &lean, &uu, &mid, &s_mid);
     s_lo = R - s_lo, s_hi = R - s_hi, s_mid = R - s_mid;
-    const fl_wide ends = LARGER(s_lo, s_hi), most = LARGER(ends, s_mid);
+    const fl_wide ends = FL_WIDE_LARGER(s_lo, s_hi), most = FL_WIDE_LARGER(ends, s_mid);
     const fl_wide_mask near_lo = ~zero_lo & (s_lo < 0.3 * most), near_hi = ~zero_hi & (s_hi < 0.3 * most);
     const fl_wide from = FL_WIDE_CHOOSE(near_lo, lo + quarter, lo),
                   to = FL_WIDE_CHOOSE(near_hi, hi - quarter, hi);
@@ -307,7 +305,7 @@ FL_WIDE_VERSIONS static void sum_up(const struct fl_strips *w, const fl_strip_po
         uu[l] = w->feet[four].uu[lane], small[l] = p[four].small[lane];
         from[l] = q[l]->from, by[l] = q[l]->by;
     }
-    const fl_wide share = LARGER(by, -by);
+    const fl_wide share = FL_WIDE_LARGER(by, -by);
     fl_wide u = zero, du = zero, ddu = zero, first = zero, second = zero, f = zero, fx = zero, fxx = zero;
     int32_t n = 0;
     for (int l = 0; l < FL_LANES; l++) n = q[l]->g->n > n ? q[l]->g->n : n;
@@ -375,7 +373,7 @@ FL_WIDE_VERSIONS static void tie(const fl_strip_points *p, const feet *a, const 
                   m = FL_FOUR(a->m), r = FL_FOUR(of->r), side = FL_FOUR(of->side);
     const fl_wide each = 1.0 / du, s = each * FL_FOUR(sum->u), mean = each * FL_FOUR(sum->first),
                   square = each * FL_FOUR(sum->second) - mean * mean;
-    fl_wide spread = LARGER(square, zero), least = FL_FOUR(a->least2);
+    fl_wide spread = FL_WIDE_LARGER(square, zero), least = FL_FOUR(a->least2);
     root(&spread), root(&least);
     const fl_wide deepest = R - least;
     const fl_wide_mask two = spread > 0.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tread.h -- what of a surface lies under a plane face F, and sums over it, as footing.h has them: faces that
- * are whole under F, faces that s = 0 or a side of F cuts, edges and corners, four at a time.
+ * are whole under F, edges and corners, four at a time.  What s = 0 or a side of F cuts is in shards.h.
  *
  * Heights h are over F, against its normal n; x and y are places in its plane.  s = R - h, and s = R - h/c
  * for what of F lies over a face f, c = -n.n_f. */
@@ -29,6 +29,12 @@ typedef struct {
     fl_tread_vertex *vertex;
     double *within; /* how far within side c vertex v is: within[(c/4 vertices + v) 4 + c%4] */
 } fl_tread;
+
+/* How far within side c and those after it, up to four. */
+FL_WIDE_PART double *fl_tread_within(const fl_tread *g, int32_t c, int32_t v)
+{
+    return g->within + ((int64_t)(c / FL_LANES) * g->vertices + v) * FL_LANES + c % FL_LANES;
+}
 
 /* Of the width of the rim of F: what is nearer to a side than that is not told to be on one side of it. */
 #define FL_TREAD_HAIR 1e-6
@@ -81,11 +87,6 @@ typedef struct {
     fl_wide u, du, ddu, f, s, x, y, xx, xy, yy, couple[2];
 } fl_tread_sums;
 
-/* Force on F of what moves with its sides, and the moment about the origin, along x, y and n. */
-typedef struct {
-    fl_vec3 f, m;
-} fl_tread_pull;
-
 /* Faces with something under F: numbers of triangles that are whole under it, with s > 0 both ways, and
  * faces that are cut or have more corners; most: the largest s of the triangles, where that is more. */
 typedef struct {
@@ -112,12 +113,7 @@ int fl_tread_sort_edges(const fl_tread *g, const fl_tread_edge *edge, const int3
 void fl_tread_whole(const fl_tread *g, const fl_tread_tile *tile, const int32_t *corner,
                     const fl_vec3 *normal, const int32_t *list, int32_t count, fl_tread_sums *sum);
 
-/* Faces of which a part may count.  *most rises to the largest s. */
-void fl_tread_parts(const fl_tread *g, const fl_tread_tile *tile, const int32_t *corner,
-                    const fl_vec3 *normal, const fl_tread_cut *list, int32_t count, fl_tread_sums *sum,
-                    fl_tread_pull *pull, double *most);
-
-/* Parts of edges. */
+/* Parts of edges.  *most rises to the largest s. */
 void fl_tread_pieces(const fl_tread *g, const fl_tread_piece *piece, int32_t count, fl_tread_sums *sum,
                      double *most);
 
