@@ -6,6 +6,7 @@
 #include "base/num.h"
 #include "base/stream.h"
 #include "stat/panels.h"
+#include "byline.h"
 #include "hitrows.h"
 #include "page.h"
 #include "place.h"
@@ -315,7 +316,7 @@ static int page_table(FILE *f, const void *what, const struct options *o, fl_err
 {
     fl_by by;
     (void)err;
-    options_by(o, &by);
+    byline_run(o, &by);
     place_write(f, what, &by);
     return 0;
 }
@@ -323,7 +324,7 @@ static int page_table(FILE *f, const void *what, const struct options *o, fl_err
 static int page_draw(const void *what, const struct options *o, fl_err *err)
 {
     fl_by by;
-    options_by(o, &by);
+    byline_run(o, &by);
     return place_plot(what, o, &by, err);
 }
 
@@ -333,7 +334,7 @@ int hitrows_run(const struct options *o, fl_err *err)
     fl_out out = {0};
     fl_by by;
     int rc = -1;
-    options_by(o, &by);
+    byline_run(o, &by);
     if (o->table == TABLE_MAP && !o->waterline ? read_panels(&p, err) : read_contacts(&p, err)) goto done;
     notes(&p, o);
     if (fl_out_open(&out, o->out, o->gzip, err)) goto done;

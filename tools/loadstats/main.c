@@ -6,6 +6,7 @@
 #include "base/stream.h"
 #include "base/clobber.h"
 #include "stat/resample.h"
+#include "byline.h"
 #include "hitrows.h"
 #include "options.h"
 #include "page.h"
@@ -83,7 +84,7 @@ static int run(const struct options *o, fl_err *err)
     int rc = -1;
     int64_t n = 0;
     if (o->threads) omp_set_num_threads(o->threads);
-    options_by(o, &by);
+    byline_run(o, &by);
     if (fl_series_read(&s, o->in, &ask, err)) goto done;
     loss = fl_alloc((int64_t)s.parts * s.signals, sizeof *loss, err);
     if (!loss || (o->step > 0.0 && fl_evenly(&s, o->step, loss, err))) goto done;

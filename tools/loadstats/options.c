@@ -189,6 +189,8 @@ static const char *const PICTURE[] = {"svg", "png"};
 const char *options_table(enum table t) { return TABLE[t]; }
 const char *options_sample(enum sample s) { return SAMPLES[s]; }
 
+int options_many_runs(const struct options *o) { return o->merge || o->stream; }
+
 static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
                   fl_err *err)
 {
@@ -543,17 +545,15 @@ static int check_places(const struct options *o, fl_err *err)
     return 0;
 }
 
-static int many_runs(const struct options *o) { return o->merge || o->stream; }
-
 /* What works in constant memory, and on many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
     const int many = o->table >= TABLE_SUMMARY || o->merge;
     const char *how = o->follow > 0.0 ? "follow" : o->merge ? "merge" : "stream";
     if (o->merge && !o->table_given) o->table = TABLE_SUMMARY;
-    const int table =
-        o->table == TABLE_STATS || o->table == TABLE_HISTOGRAM || o->table >= TABLE_SUMMARY ||
-        (many_runs(o) && (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->table == TABLE_DAMAGE));
+    const int table = o->table == TABLE_STATS || o->table == TABLE_HISTOGRAM || o->table >= TABLE_SUMMARY ||
+                      (options_many_runs(o) &&
+                       (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->table == TABLE_DAMAGE));
     if (o->files > 1 && !many && !o->stream)
         return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
     if (!many && !o->stream && !(o->follow > 0.0)) return 0;
@@ -613,7 +613,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
-    if (o->sample == SAMPLE_RUNS && !many_runs(o))
+    if (o->sample == SAMPLE_RUNS && !options_many_runs(o))
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
         return fl_fail(err, FL_USAGE, "--sample blocks needs --block, their length");
@@ -638,51 +638,12 @@ void options_free(struct options *o)
     o->words = NULL;
 }
 
-static void add_number(fl_by *by, const char *option, double x)
-{
-    char buf[FL_NUM_LEN];
-    fl_by_add(by, "--%s %s", option, fl_num_text(x, buf));
-}
-
 void options_filter(const struct options *o, char *text, size_t size)
 {
     if (o->pass == FL_PASS_LOW) snprintf(text, size, "%g Hz", o->filter);
     else if (o->pass == FL_PASS_HIGH) snprintf(text, size, "above %g Hz", o->filter);
     else if (o->pass == FL_PASS_BAND) snprintf(text, size, "%g to %g Hz", o->filter, o->upper);
     else snprintf(text, size, "mean of %g s", o->filter);
-}
-
-static void add_sn_line(fl_by *by, const fl_sn *sn)
-{
-    char m[FL_NUM_LEN], a[FL_NUM_LEN], m2[FL_NUM_LEN] = "inf", knee[FL_NUM_LEN];
-    fl_num_text(sn->m, m);
-    if (isnan(sn->a)) {
-        fl_by_add(by, "--sn %s", m);
-        return;
-    }
-    fl_num_text(sn->a, a);
-    if (isfinite(sn->m2)) fl_num_text(sn->m2, m2);
-    if (sn->knee > 0.0) fl_by_add(by, "--sn %s,%s,%s,%s", m, a, m2, fl_num_text(sn->knee, knee));
-    else fl_by_add(by, "--sn %s,%s", m, a);
-}
-
-/* What is read. */
-static void add_choice(const struct options *o, fl_by *by)
-{
-    for (int32_t k = 0; k < o->signals; k++) fl_by_add(by, "--column %s", o->signal[k]);
-    if (o->part) fl_by_add(by, "--part %s", o->part);
-    for (int32_t k = 0; k < o->wheres; k++) fl_by_add(by, "--where %s", o->where[k]);
-    if (o->over) fl_by_add(by, "--over %s", OVER_WHAT[o->over - 1]);
-    if (isfinite(o->from)) add_number(by, "from", o->from);
-    if (isfinite(o->to)) add_number(by, "to", o->to);
-    if (o->skips) {
-        char n[FL_NUM_LEN], d[FL_NUM_LEN], gap[FL_NUM_LEN];
-        fl_num_text(o->skip[0], n);
-        fl_num_text(o->skip[1], d);
-        if (isnan(o->skip[2])) fl_by_add(by, "--skip %s,%s", n, d);
-        else fl_by_add(by, "--skip %s,%s,%s", n, d, fl_num_text(o->skip[2], gap));
-        add_number(by, "speed", o->speed);
-    }
 }
 
 double options_from(const struct options *o)
@@ -694,93 +655,4 @@ double options_from(const struct options *o)
 double options_after(const struct options *o)
 {
     return o->skips && isnan(o->skip[2]) ? o->skip[0] * o->skip[1] / o->speed : 0.0;
-}
-
-static void add_files(const struct options *o, fl_by *by)
-{
-    for (int k = 0; k < o->files; k++)
-        if (strcmp(o->file[k], "-") != 0) fl_by_word(by, "", o->file[k]);
-}
-
-/* Of contacts and panels. */
-static void add_places(const struct options *o, fl_by *by)
-{
-    if (o->page) fl_by_add(by, "--table %s", TABLE[o->table]);
-    if (o->table == TABLE_PRESSURE && o->areas_text) fl_by_add(by, "--areas %s", o->areas_text);
-    if (o->table != TABLE_PRESSURE && o->waterline)
-        fl_by_add(by, "--waterline %s --bins %d", o->waterline, o->bins);
-    if (o->table == TABLE_MAP && o->heights_text) fl_by_add(by, "--heights %s", o->heights_text);
-    add_files(o, by);
-}
-
-void options_by(const struct options *o, fl_by *by)
-{
-    fl_by_start(by, "loadstats");
-    add_choice(o, by);
-    if (o->window > 0.0) add_number(by, "window", o->window);
-    if (o->step > 0.0) add_number(by, "step", o->step);
-    if (o->filter > 0.0) {
-        char x[FL_NUM_LEN], y[FL_NUM_LEN];
-        fl_num_text(o->filter, x);
-        if (o->pass == FL_PASS_LOW) fl_by_add(by, "--filter %s", x);
-        else if (o->pass == FL_PASS_BAND) fl_by_add(by, "--filter band:%s,%s", x, fl_num_text(o->upper, y));
-        else fl_by_add(by, "--filter %s:%s", PASS[o->pass], x);
-        if (o->pass != FL_PASS_MEAN) fl_by_add(by, "--order %d", o->order);
-    }
-    const int placed = o->table == TABLE_PRESSURE || o->table == TABLE_LINE || o->table == TABLE_MAP;
-    if (placed) {
-        add_places(o, by);
-        return;
-    }
-    add_number(by, "separation", o->separation);
-    if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
-    if ((o->table == TABLE_HISTOGRAM && !many_runs(o)) || o->table == TABLE_RAINFLOW)
-        fl_by_add(by, "--bins %d", o->bins);
-    if ((o->table == TABLE_STATS || o->page) && o->quantiles_text)
-        fl_by_add(by, "--quantiles %s", o->quantiles_text);
-    if (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->page) {
-        if (o->sample) fl_by_add(by, "--sample %s", SAMPLES[o->sample]);
-        if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
-        if (o->block > 0.0) add_number(by, "block", o->block);
-        for (int32_t k = 0; (o->table == TABLE_LEVELS || o->page) && k < o->returns; k++)
-            add_number(by, "return", o->period[k]);
-        fl_by_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
-    }
-    if ((o->table == TABLE_LEGS || o->table == TABLE_EVENTS || o->page) && o->level != 0.5)
-        add_number(by, "level", o->level);
-    if (o->page && o->table != TABLE_STATS) fl_by_add(by, "--table %s", TABLE[o->table]);
-    const enum table t = o->table;
-    const int damage = t == TABLE_DAMAGE || o->page;
-    const int cycles = damage || t == TABLE_CYCLES || t == TABLE_RAINFLOW;
-    const int sway = t == TABLE_RESPONSE || t == TABLE_MOTION || o->page;
-    const int spectra = t == TABLE_SPECTRUM || t == TABLE_FREQUENCY || t == TABLE_RESPONSE || o->page;
-    if (cycles && o->rule && !o->merge) {
-        fl_by_add(by, "--rule %s", CYCLE_RULE[o->rule]);
-        fl_by_add(by, "--residue %s", OPEN_CYCLES[o->residue]);
-    }
-    for (int32_t k = 0; sway && k < o->sways; k++) fl_by_add(by, "--oscillator %s", o->sway[k].text);
-    if (spectra && o->segment > 0.0) add_number(by, "segment", o->segment);
-    if (spectra && o->taper) fl_by_add(by, "--taper %s", TAPERS[o->taper]);
-    if ((t == TABLE_FREQUENCY || o->page) && o->speed > 0.0 && !o->skips) add_number(by, "speed", o->speed);
-    for (int32_t k = 0; damage && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
-    if (damage && o->stress != 1.0) add_number(by, "stress", o->stress);
-    if (o->merge) fl_by_add(by, "--merge");
-    if (o->stream) fl_by_add(by, "--stream");
-    if (o->follow > 0.0) add_number(by, "follow", o->follow);
-    if (o->table == TABLE_ENSEMBLE && o->block > 0.0) add_number(by, "block", o->block);
-    add_files(o, by);
-}
-
-void options_by_summary(const struct options *o, char *text)
-{
-    fl_by by;
-    fl_by_start(&by, "loadstats");
-    fl_by_add(&by, "--summary");
-    add_choice(o, &by);
-    add_number(&by, "separation", o->separation);
-    if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
-    if (o->block > 0.0) add_number(&by, "block", o->block);
-    if (o->rule) fl_by_add(&by, "--rule %s", CYCLE_RULE[o->rule]);
-    if (o->rule) fl_by_add(&by, "--residue %s", OPEN_CYCLES[o->residue]);
-    snprintf(text, FL_BY_MAX + 2, "%s\n", by.text);
 }

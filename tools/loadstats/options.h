@@ -100,12 +100,6 @@ struct options {
 int options_parse(struct options *o, int argc, char **argv, fl_err *err);
 void options_free(struct options *o);
 
-/* The history line: what was asked for and is not the default, always in the same order. */
-void options_by(const struct options *o, fl_by *by);
-
-/* The same for a summary: one line, "#by ...\\n", without the names of files, for by[FL_BY_MAX + 2]. */
-void options_by_summary(const struct options *o, char *by);
-
 /* What is left out at the start [s]: all before a time, and what is less than so long after the first load.
  */
 double options_from(const struct options *o);
@@ -113,6 +107,9 @@ double options_after(const struct options *o);
 
 /* Of a picture: "2 Hz", "above 0.1 Hz", "0.1 to 2 Hz", "mean of 5 s". */
 void options_filter(const struct options *o, char *text, size_t size);
+
+/* Of many runs the record is not held, only what adds up. */
+int options_many_runs(const struct options *o);
 
 /* "stats", "peaks" ... : the word of --table, which is also the kind of the file. */
 const char *options_table(enum table t);

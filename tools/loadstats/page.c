@@ -9,6 +9,7 @@
 #include "base/num.h"
 #include "base/stream.h"
 #include "stat/welch.h"
+#include "byline.h"
 #include "page.h"
 #include "plot.h"
 
@@ -473,7 +474,7 @@ static int make_page(char **text, size_t *size, const page_source *from, const s
     snprintf(dir, sizeof dir, "%.*s/loadstats-XXXXXX", DIR_LEN - 20, tmp && *tmp ? tmp : "/tmp");
     if (!mkdtemp(dir)) return fl_fail(err, FL_SYSTEM, "%s: %s", dir, strerror(errno));
     own.page = 1;
-    options_by(&own, &by); /* the pictures too are those of a page */
+    byline_run(&own, &by); /* the pictures too are those of a page */
     own.plot = dir;
     own.format = "svg";
     own.quiet = 1;
@@ -526,14 +527,14 @@ static void record_intro(FILE *f, const void *what)
 static int record_table(FILE *f, const void *what, const struct options *o, fl_err *err)
 {
     fl_by by;
-    options_by(o, &by);
+    byline_run(o, &by);
     return statrows_write(f, what, o, &by, err);
 }
 
 static int record_draw(const void *what, const struct options *o, fl_err *err)
 {
     fl_by by;
-    options_by(o, &by);
+    byline_run(o, &by);
     return plot(what, o, &by, err);
 }
 

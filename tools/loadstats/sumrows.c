@@ -10,6 +10,7 @@
 #include "stat/rainflow.h"
 #include "stat/reduce.h"
 #include "stat/summary_file.h"
+#include "byline.h"
 #include "cyclerows.h"
 #include "fitrows.h"
 #include "page.h"
@@ -298,7 +299,7 @@ static void write_header(FILE *f, const char *history, const struct options *o)
 {
     fl_by by;
     if (o->table == TABLE_SUMMARY) return; /* it has its own */
-    options_by(o, &by);
+    byline_run(o, &by);
     fl_by_header(f, options_table(o->table), 1, history, &by);
     if (o->table == TABLE_ENSEMBLE)
         fputs("part\tsignal\tunit\truns\tmean\tmean_low\tmean_high\tmean_std\tmax\tmax_low\tmax_high\tmax_std"
@@ -349,7 +350,7 @@ static int read_all(fl_summary *all, ensemble *e, FILE *f, const struct options 
 {
     char by[FL_BY_MAX + 2] = "";
     /* The line that ends a chain is that of the summary; a table of one record has its own line only. */
-    if (o->table == TABLE_SUMMARY || o->files > 1) options_by_summary(o, by);
+    if (o->table == TABLE_SUMMARY || o->files > 1) byline_summary(o, by);
     for (int k = 0; k < o->files; k++) {
         const char *path = o->file[k];
         fl_summary one = {0};
@@ -483,7 +484,7 @@ static int many_draw(const void *what, const struct options *o, fl_err *err)
 {
     const many *m = what;
     fl_by by;
-    options_by(o, &by);
+    byline_run(o, &by);
     if (mkdir(o->plot, 0777) != 0 && errno != EEXIST)
         return fl_fail(err, FL_SYSTEM, "%s: %s", o->plot, strerror(errno));
     if (m->all->n > PICTURES_MAX)
