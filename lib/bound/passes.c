@@ -5,7 +5,7 @@
 #include "bound/passes.h"
 
 /* Of the size: so near to each other two tiles meet.  Tiles and straight runs of their sides are as flat and
- * as straight as half of that (structure.c). */
+ * as straight as half of that (flats.c). */
 #define MEET 2e-6
 /* So much two that meet may rise from one another and be one wall: of the distance it is half the square. */
 #define FLAT 1e-6

@@ -7,7 +7,7 @@
 /* Two distances within this fraction of the size are one: rounding of the coordinates. */
 #define SAME 1e-12
 /* A point is on an edge or a face where it is within this fraction of the size: straight runs of edges are as
- * straight, and corners of faces as far from their planes, as that (structure.c). */
+ * straight, and corners of faces as far from their planes, as that (flats.c). */
 #define ON_EDGE 2e-6
 /* Where the way to a face is upright to it but for that cosine, no other tells the side. */
 #define UPRIGHT (1.0 - 1e-9)

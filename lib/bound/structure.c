@@ -2,6 +2,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "bound/cover.h"
+#include "bound/flats.h"
 #include "bound/structure.h"
 #include "geom/clip.h"
 #include "geom/moments.h"
@@ -9,246 +10,8 @@
 
 #define PI 3.14159265358979323846
 
-/* Vertices within this fraction of the part's diagonal of a plane lie in it: coordinates that went through
- * 32-bit floats, as in STL, are rounded by 6e-8 of the largest of them. */
-#define FLAT 1e-6
-/* and two triangles whose normals differ by more than this bend all the same [rad] */
-#define BEND 1e-3
-
-typedef struct {
-    int32_t a, b; /* vertices, a < b */
-    int32_t t;    /* triangle */
-} side;
-
-typedef struct {
-    const fl_part *p;
-    double tol;    /* [m] */
-    fl_vec3 *n;    /* [nt] unit normals */
-    side *s;       /* [3 nt] sorted */
-    int32_t *mate; /* [3 nt] triangle over side k of triangle t at 3 t + k, -1 for none or several */
-    int32_t *face; /* [nt] flat region */
-    fl_vec3 *fn;   /* [regions] normals, of the largest triangle */
-    double *fc;    /* [regions] plane offsets */
-    double *area;  /* [regions] summed up by who needs it */
-    int32_t *queue;
-    int32_t regions;
-    int closed;
-    int32_t turned[2]; /* two triangles that share an edge and face different ways; -1 for none */
-} flats;
-
-static int side_order(const void *x, const void *y)
-{
-    const side *p = x, *q = y;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    if (p->b != q->b) return p->b < q->b ? -1 : 1;
-    return (p->t > q->t) - (p->t < q->t);
-}
-
-static void flats_free(flats *f)
-{
-    free(f->n), free(f->s), free(f->mate), free(f->face), free(f->fn), free(f->fc), free(f->area),
-        free(f->queue);
-}
-
-static int corner_of(const fl_tri *t, int32_t v) { return t->v[0] == v ? 0 : t->v[1] == v ? 1 : 2; }
-
-/* Side k of a triangle runs from corner k to corner k + 1. */
-static int side_of(const fl_tri *t, int32_t a, int32_t b)
-{
-    const int k = corner_of(t, a);
-    return t->v[(k + 1) % 3] == b ? k : corner_of(t, b);
-}
-
-/* Both have an area, and are not one triangle that came twice. */
-static int faces_otherwise(const flats *f, int32_t t, int kt, int32_t u, int ku)
-{
-    return v3_norm2(f->n[t]) > 0.0 && v3_norm2(f->n[u]) > 0.0 &&
-           f->p->t[t].v[(kt + 2) % 3] != f->p->t[u].v[(ku + 2) % 3];
-}
-
-/* Of three or more triangles at an edge, s[k .. end), the two that go on flat over it, if there are two: a
- * plate with a stiffener behind it has no rim there. */
-static int smoothest(const flats *f, int32_t k, int32_t end, int32_t *one, int32_t *two)
-{
-    double best = 1.0 - 0.5 * BEND * BEND;
-    const double least = best;
-    for (int32_t i = k; i < end; i++) {
-        for (int32_t j = i + 1; j < end; j++) {
-            const fl_tri *t = &f->p->t[f->s[i].t], *u = &f->p->t[f->s[j].t];
-            if (t->v[side_of(t, f->s[k].a, f->s[k].b)] == u->v[side_of(u, f->s[k].a, f->s[k].b)]) continue;
-            const double c = v3_dot(f->n[f->s[i].t], f->n[f->s[j].t]);
-            if (c > best) best = c, *one = i, *two = j;
-        }
-    }
-    return best > least;
-}
-
-static void join_sides(flats *f)
-{
-    const fl_part *p = f->p;
-    const int32_t ns = 3 * p->nt;
-    for (int32_t t = 0; t < p->nt; t++) {
-        for (int k = 0; k < 3; k++) {
-            const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
-            f->s[3 * t + k] = (side){a < b ? a : b, a < b ? b : a, t};
-            f->mate[3 * t + k] = -1;
-        }
-    }
-    qsort(f->s, (size_t)ns, sizeof *f->s, side_order);
-    f->closed = 1;
-    f->turned[0] = f->turned[1] = -1;
-    for (int32_t k = 0, end; k < ns; k = end) {
-        for (end = k + 1; end < ns && f->s[end].a == f->s[k].a && f->s[end].b == f->s[k].b; end++) {}
-        int32_t one = k, two = k + 1;
-        if (end - k != 2) {
-            f->closed = 0;
-            if (!smoothest(f, k, end, &one, &two)) continue;
-        }
-        const int32_t t = f->s[one].t, u = f->s[two].t, a = f->s[k].a, b = f->s[k].b;
-        const int kt = side_of(&p->t[t], a, b), ku = side_of(&p->t[u], a, b);
-        if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: turned against each other */
-            f->closed = 0;
-            if (f->turned[0] < 0 && faces_otherwise(f, t, kt, u, ku)) f->turned[0] = t, f->turned[1] = u;
-            continue;
-        }
-        f->mate[3 * t + kt] = u;
-        f->mate[3 * u + ku] = t;
-    }
-}
-
-/* Triangle t lies in the plane: its corners do, and its normal agrees as well as they tell it, which for a
- * triangle of small height is not well. */
-static int in_plane(const flats *f, int32_t t, fl_vec3 n, double c)
-{
-    const int32_t *v = f->p->t[t].v;
-    const fl_vec3 *x = f->p->v;
-    const fl_vec3 e = v3_sub(x[v[1]], x[v[0]]), g = v3_sub(x[v[2]], x[v[0]]), h = v3_sub(x[v[2]], x[v[1]]);
-    const double longest = sqrt(fmax(v3_norm2(e), fmax(v3_norm2(g), v3_norm2(h))));
-    const double bend = BEND + f->tol * longest / v3_norm(v3_cross(e, g));
-    if (1.0 - v3_dot(f->n[t], n) > 0.5 * bend * bend) return 0;
-    for (int k = 0; k < 3; k++)
-        if (fabs(v3_dot(n, x[v[k]]) - c) > f->tol) return 0;
-    return 1;
-}
-
-/* The plane of the triangles queue[0 .. n): their area vector, which the rim alone decides, is known better
- * than the normal of any of them; the offset lies halfway between their lowest and highest corner.  Returns
- * half the distance of those two. */
-static double fit_plane(const flats *f, int32_t n, fl_vec3 *normal, double *offset)
-{
-    const fl_part *p = f->p;
-    const fl_vec3 origin = p->v[p->t[f->queue[0]].v[0]];
-    fl_vec3 sum = {0};
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t k = 0; k < n; k++) {
-        const int32_t *v = p->t[f->queue[k]].v;
-        sum = v3_add(sum, v3_cross(v3_sub(p->v[v[1]], p->v[v[0]]), v3_sub(p->v[v[2]], p->v[v[0]])));
-    }
-    if (v3_norm(sum) > 0.0) *normal = v3_unit(sum);
-    for (int32_t k = 0; k < 3 * n; k++) {
-        const double h = v3_dot(*normal, v3_sub(p->v[p->t[f->queue[k / 3]].v[k % 3]], origin));
-        low = h < low ? h : low;
-        high = h > high ? h : high;
-    }
-    *offset = v3_dot(*normal, origin) + 0.5 * (low + high);
-    return 0.5 * (high - low);
-}
-
-/* Flood region f->regions from a triangle; queue[0 .. returned) is what it took.
- *   follow  fit the plane again whenever the region has doubled: that of a small triangle, whose corners are
- *           rounded, leaves a wide wall by more than the tolerance */
-static int32_t flood(flats *f, int32_t seed, int follow)
-{
-    fl_vec3 n = f->n[seed];
-    double c = v3_dot(n, f->p->v[f->p->t[seed].v[0]]);
-    int32_t tail = 0, next = 2;
-    f->face[seed] = f->regions;
-    f->queue[tail++] = seed;
-    for (int32_t head = 0; head < tail; head++) {
-        for (int k = 0; k < 3; k++) {
-            const int32_t u = f->mate[3 * f->queue[head] + k];
-            if (u < 0 || f->face[u] >= 0 || !in_plane(f, u, n, c)) continue;
-            f->face[u] = f->regions;
-            f->queue[tail++] = u;
-        }
-        if (follow && tail >= next) {
-            fit_plane(f, tail, &n, &c);
-            next = 2 * tail;
-        }
-    }
-    return tail;
-}
-
-/* The flat region of a triangle and its plane.  A plane that follows may creep round a gentle curve until
- * what it took at first no longer lies in it; then the first triangle's own plane decides. */
-static void take_region(flats *f, int32_t seed)
-{
-    fl_vec3 n = f->n[seed];
-    double c;
-    int32_t taken = flood(f, seed, 1);
-    if (fit_plane(f, taken, &n, &c) > f->tol) {
-        for (int32_t k = 0; k < taken; k++) f->face[f->queue[k]] = -1;
-        taken = flood(f, seed, 0);
-        fit_plane(f, taken, &n, &c);
-    }
-    f->fn[f->regions] = n;
-    f->fc[f->regions++] = c;
-}
-
-typedef struct {
-    double area;
-    int32_t t;
-} sized;
-
-static int larger_first(const void *x, const void *y)
-{
-    const sized *p = x, *q = y;
-    if (p->area != q->area) return p->area > q->area ? -1 : 1;
-    return (p->t > q->t) - (p->t < q->t);
-}
-
-/* Flood flat regions, the largest triangles first: their normals are the best known. */
-static int find_flats(flats *f, const fl_part *p, fl_err *err)
-{
-    const fl_aabb box = fl_part_aabb(p);
-    sized *order = fl_alloc(p->nt, sizeof *order, err);
-    f->p = p;
-    f->tol = FLAT * v3_norm(v3_sub(box.hi, box.lo));
-    f->n = fl_alloc(p->nt, sizeof *f->n, err);
-    f->s = fl_alloc(3 * (int64_t)p->nt, sizeof *f->s, err);
-    f->mate = fl_alloc(3 * (int64_t)p->nt, sizeof *f->mate, err);
-    f->face = fl_alloc(p->nt, sizeof *f->face, err);
-    f->fn = fl_alloc(p->nt, sizeof *f->fn, err);
-    f->fc = fl_alloc(p->nt, sizeof *f->fc, err);
-    f->area = fl_alloc(p->nt, sizeof *f->area, err);
-    f->queue = fl_alloc(p->nt, sizeof *f->queue, err);
-    if (!order || !f->n || !f->s || !f->mate || !f->face || !f->fn || !f->fc || !f->area || !f->queue) {
-        free(order);
-        return -1;
-    }
-    for (int32_t t = 0; t < p->nt; t++) {
-        const fl_vec3 a = p->v[p->t[t].v[0]], b = p->v[p->t[t].v[1]], c = p->v[p->t[t].v[2]];
-        const fl_vec3 n = v3_cross(v3_sub(b, a), v3_sub(c, a));
-        order[t] = (sized){v3_norm(n), t};
-        f->n[t] = v3_unit(n);
-        f->face[t] = -1;
-    }
-    qsort(order, (size_t)p->nt, sizeof *order, larger_first);
-    if (order[0].area == 0.0) {
-        free(order);
-        return fl_fail(err, FL_INPUT, "part %s: its triangles have no area", p->name);
-    }
-    join_sides(f);
-    for (int32_t o = 0; o < p->nt; o++) {
-        const int32_t seed = order[o].t;
-        if (f->face[seed] < 0 && order[o].area > 0.0) take_region(f, seed);
-    }
-    free(order);
-    return 0;
-}
-
 /* Every vertex in use lies behind every region's plane. */
-static int is_convex(const flats *f)
+static int is_convex(const fl_flats *f)
 {
     const fl_part *p = f->p;
     for (int32_t r = 0; r < f->regions; r++)
@@ -267,7 +30,7 @@ static fl_piece *add_piece(fl_structure *s, fl_err *err)
 }
 
 /* The convex part as the intersection of its faces' half-spaces, cut out of a box that holds it. */
-static int make_solid(fl_piece *piece, const flats *f, fl_err *err)
+static int make_solid(fl_piece *piece, const fl_flats *f, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(f->p);
     const fl_vec3 side_half = v3_scale(0.5, v3_sub(box.hi, box.lo));
@@ -280,7 +43,7 @@ static int make_solid(fl_piece *piece, const flats *f, fl_err *err)
 }
 
 /* A plate, the rim of which runs through loop[0 .. n) of the part's vertices: 1 where that is convex. */
-static int plate_within(fl_piece *piece, const flats *f, int32_t n, const int32_t *loop, fl_err *err)
+static int plate_within(fl_piece *piece, const fl_flats *f, int32_t n, const int32_t *loop, fl_err *err)
 {
     const fl_part *p = f->p;
     const fl_vec3 up = f->fn[0];
@@ -319,7 +82,7 @@ done:
 }
 
 /* The rim of a flat open part, into loop: how many vertices it has, 0 when it is not a single loop. */
-static int32_t find_rim(const flats *f, int32_t *next, int32_t *loop)
+static int32_t find_rim(const fl_flats *f, int32_t *next, int32_t *loop)
 {
     const fl_part *p = f->p;
     int32_t sides = 0, start = -1;
@@ -341,7 +104,7 @@ static int32_t find_rim(const flats *f, int32_t *next, int32_t *loop)
 }
 
 /* A flat part that is one convex polygon, by its rim or else by what it covers: 1, and else 0. */
-static int make_plate(fl_piece *piece, const flats *f, fl_err *err)
+static int make_plate(fl_piece *piece, const fl_flats *f, fl_err *err)
 {
     const fl_part *p = f->p;
     int32_t *next = fl_alloc(p->nv, sizeof *next, err), *loop = fl_alloc(p->nv, sizeof *loop, err), n;
@@ -368,15 +131,15 @@ typedef struct {
 } bends;
 
 /* The sides where the surface bends or ends, each once, and what meets at every vertex. */
-static void bent_edges(const flats *f, side *edge, int32_t *edges, bends *ends)
+static void bent_edges(const fl_flats *f, fl_flat_side *edge, int32_t *edges, bends *ends)
 {
     const fl_part *p = f->p;
     for (int32_t k = 0; k < 3 * p->nt; k++) {
-        const side *s = &f->s[k];
+        const fl_flat_side *s = &f->s[k];
         if (k > 0 && s->a == s[-1].a && s->b == s[-1].b) continue;
         int32_t u = -1;
-        for (const side *o = s; o < f->s + 3 * p->nt && o->a == s->a && o->b == s->b && u < 0; o++) {
-            u = f->mate[3 * o->t + side_of(&p->t[o->t], o->a, o->b)];
+        for (const fl_flat_side *o = s; o < f->s + 3 * p->nt && o->a == s->a && o->b == s->b && u < 0; o++) {
+            u = f->mate[3 * o->t + fl_flats_side(&p->t[o->t], o->a, o->b)];
             if (u >= 0) s = o; /* of three at an edge one of the two that go on over it */
         }
         if (f->face[s->t] < 0 || (u >= 0 && f->face[u] == f->face[s->t])) continue;
@@ -407,17 +170,17 @@ static double triangle_area(const fl_part *p, int32_t t)
 
 /* The faces on both sides of the edge a b of triangle t: left where a b runs counter-clockwise round it; -1
  * where the surface ends. */
-static fl_edge sides_of(const flats *f, const int32_t *face_of, int32_t t, int32_t a, int32_t b)
+static fl_edge sides_of(const fl_flats *f, const int32_t *face_of, int32_t t, int32_t a, int32_t b)
 {
     const fl_tri *tri = &f->p->t[t];
-    const int k = side_of(tri, a, b);
+    const int k = fl_flats_side(tri, a, b);
     const int32_t u = f->mate[3 * t + k], one = face_of[t], other = u < 0 ? -1 : face_of[u];
     return tri->v[k] == a ? (fl_edge){a, b, one, other} : (fl_edge){a, b, other, one};
 }
 
 /* The faces of a shell: convex tiles of its flat regions.  The block of a fl_poly is laid out by hand: it is
  * not convex, so fl_poly_make() is not asked. */
-static int lay_out(fl_piece *piece, const flats *f, const fl_mosaic *tiles, fl_err *err)
+static int lay_out(fl_piece *piece, const fl_flats *f, const fl_mosaic *tiles, fl_err *err)
 {
     const fl_part *p = f->p;
     const fl_aabb box = fl_part_aabb(p);
@@ -472,7 +235,7 @@ typedef struct {
     int32_t *side;  /* 3 triangle + side */
 } seams;
 
-static int find_seams(seams *s, const flats *f, fl_err *err)
+static int find_seams(seams *s, const fl_flats *f, fl_err *err)
 {
     const fl_part *p = f->p;
     s->begin = fl_alloc((int64_t)p->nv + 2, sizeof *s->begin, err);
@@ -493,7 +256,7 @@ static int find_seams(seams *s, const flats *f, fl_err *err)
 
 /* The tile over the side from a to b of a tile of this region, or -1 where there is none, or several that are
  * not of one plane. */
-static int32_t tile_over(const seams *s, const flats *f, const fl_mosaic *tiles, int32_t region, int32_t a,
+static int32_t tile_over(const seams *s, const fl_flats *f, const fl_mosaic *tiles, int32_t region, int32_t a,
                          int32_t b)
 {
     const fl_part *p = f->p;
@@ -519,7 +282,7 @@ static int32_t tile_over(const seams *s, const flats *f, const fl_mosaic *tiles,
 
 #define LEANS 0.5 /* cosine of the bend from which on every wall bears for itself */
 
-static int find_leans(fl_piece *piece, const flats *f, const fl_mosaic *tiles, fl_err *err)
+static int find_leans(fl_piece *piece, const fl_flats *f, const fl_mosaic *tiles, fl_err *err)
 {
     fl_poly *core = &piece->core;
     seams s = {0};
@@ -569,13 +332,13 @@ static int find_forks(fl_piece *piece, fl_err *err)
     return 0;
 }
 
-static int make_shell(fl_piece *piece, const flats *f, fl_err *err)
+static int make_shell(fl_piece *piece, const fl_flats *f, fl_err *err)
 {
     const fl_part *p = f->p;
     fl_poly *core = &piece->core;
     fl_shell *sh = &piece->shell;
     fl_mosaic tiles = {0};
-    side *edge = fl_alloc(3 * (int64_t)p->nt, sizeof *edge, err);
+    fl_flat_side *edge = fl_alloc(3 * (int64_t)p->nt, sizeof *edge, err);
     bends *ends = fl_alloc(p->nv, sizeof *ends, err);
     int32_t edges = 0;
     int rc = -1;
@@ -616,7 +379,7 @@ done:
 }
 
 /* An inside that is one to one triangle and none to the next would push both ways. */
-static int check_turned(const flats *f, fl_err *err)
+static int check_turned(const fl_flats *f, fl_err *err)
 {
     const fl_part *p = f->p;
     const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one behind the other */
@@ -638,10 +401,10 @@ static double enclosed(const fl_part *p)
 
 static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
 {
-    flats f = {0};
+    fl_flats f = {0};
     fl_piece *piece = add_piece(s, err);
     int rc = -1, plate = 0;
-    if (!piece || find_flats(&f, p, err)) goto done;
+    if (!piece || fl_flats_find(&f, p, err)) goto done;
     s->n++;
     piece->part = part;
     const int flat = f.regions == 1 || fl_cover_flat(p, f.fn[0], f.fc[0], f.tol);
@@ -652,7 +415,7 @@ static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err
     piece->one_sided = flat && !plate;
     piece->inward = f.closed && piece->kind == FL_PIECE_SHELL && enclosed(p) < 0.0;
 done:
-    flats_free(&f);
+    fl_flats_free(&f);
     return rc;
 }
 
