@@ -46,8 +46,8 @@ typedef struct {
 } fl_touching;
 
 /* A contact of two things.  What is new here and lasts from step to step, or is new in fl_world, goes into
- * snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit; what lasts while they
- * do not touch goes into fl_near too. */
+ * snapshot_pair.c or snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit;
+ * what lasts while they do not touch goes into fl_near too. */
 typedef struct {
     int32_t i, j;            /* i moves, i < j                                        */
     int32_t image[3];        /* j is where it is, moved by so many lengths of the cell */
