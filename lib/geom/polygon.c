@@ -23,6 +23,12 @@ double fl_polygon_outline(int32_t n, const fl_vec2 *v)
     return sum;
 }
 
+double fl_polygon_length(int32_t n, const fl_vec2 *v, int32_t k)
+{
+    const fl_vec2 a = v[k], b = v[k + 1 < n ? k + 1 : 0];
+    return hypot(b.x - a.x, b.y - a.y);
+}
+
 fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v)
 {
     double twice = 0.0;
@@ -121,12 +127,6 @@ void fl_polygon_corners(int32_t n, const fl_polygon_side *side, double d, fl_vec
     for (int32_t k = 0; k < n; k++) v[k] = fl_side_meet(side[k ? k - 1 : n - 1], side[k], d);
 }
 
-/* tan of half the turn from a to b */
-static double half_tan(fl_polygon_side a, fl_polygon_side b)
-{
-    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
-}
-
 int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d, double *depth)
 {
     double t = 0.0;
@@ -137,7 +137,8 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
             const fl_polygon_side before = side[k ? k - 1 : n - 1], after = side[k + 1 < n ? k + 1 : 0];
             const fl_vec2 e = sub(v[k + 1 < n ? k + 1 : 0], v[k]);
             const double length = e.y * side[k].nx - e.x * side[k].ny;
-            const double left = length / (half_tan(before, side[k]) + half_tan(side[k], after));
+            const double left =
+                length / (fl_side_half_tan(before, side[k]) + fl_side_half_tan(side[k], after));
             if (left < soon) {
                 soon = left;
                 gone = k;

@@ -20,6 +20,11 @@ static inline double fl_side_beyond(fl_polygon_side s, fl_vec2 p) { return s.nx 
 /* Sine and cosine of the angle by which the outline turns from side a to side b. */
 static inline double fl_side_sin(fl_polygon_side a, fl_polygon_side b) { return a.nx * b.ny - a.ny * b.nx; }
 static inline double fl_side_cos(fl_polygon_side a, fl_polygon_side b) { return a.nx * b.nx + a.ny * b.ny; }
+/* Tangent of half of it. */
+static inline double fl_side_half_tan(fl_polygon_side a, fl_polygon_side b)
+{
+    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
+}
 
 /* Where the lines of a and b meet when both are moved inward by d; fl_side_sin(a, b) != 0. */
 fl_vec2 fl_side_meet(fl_polygon_side a, fl_polygon_side b, double d);
@@ -28,7 +33,8 @@ fl_vec2 fl_side_meet(fl_polygon_side a, fl_polygon_side b, double d);
  * that a polygon far from the origin loses nothing. */
 double fl_polygon_area(int32_t n, const fl_vec2 *v);
 double fl_polygon_outline(int32_t n, const fl_vec2 *v);
-fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v); /* area > 0 */
+double fl_polygon_length(int32_t n, const fl_vec2 *v, int32_t k); /* of side k */
+fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v);         /* area > 0 */
 
 /* The rectangle lo .. hi: v[4], side[4] with tags -1 (left), -2 (bottom), -3 (right), -4 (top). */
 void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_polygon_side *side);

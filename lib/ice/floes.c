@@ -1,268 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include <omp.h>
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
+#include "ice/floe_sides.h"
 #include "ice/floes.h"
 
-enum { KEPT = 1, FIXED = 2, ROUNDS = 40, NEWTON = 60 };
-
-/* For one floe after the other, so that a thread stays in its cache; with room for the cell that has most
- * sides. */
-struct scratch {
-    fl_polygon_side *line, *left; /* the cell's sides as moved, and those of the core */
-    fl_vec2 *corner;
-    unsigned char *state;
-};
-
-/* Everything by side lies at the cells' own offsets. */
-struct fit {
-    const fl_cells *cells;
-    double radius;
-    double few, least; /* FL_FLOES_SHORT and FL_FLOES_LEAST, or FL_FLOES_FILL for both             */
-    const double *own; /* [n] insets of the floes, NULL when they have a common one                  [m] */
-    double *inradius, *most; /* [n] of the cell, and the largest inset it may have            [m] */
-    double *area, *outline;  /* [n] of the outer polygon at the inset last asked for     [m2, m] */
-    int32_t *count;          /* [n] sides of the floe                                            */
-    fl_polygon_side *side;   /* sides of the floe; tag is the place in the cell                  */
-    struct scratch *scratch; /* [threads]                                                        */
-    int threads;
-    double sharp;    /* cot(t / 2) for the angle t below which corners are cut off; 0: none are */
-    int32_t blunted; /* corners cut off                                                  */
-};
-
-static void fit_free(struct fit *f)
-{
-    free(f->inradius);
-    free(f->most);
-    free(f->area);
-    free(f->outline);
-    free(f->count);
-    free(f->side);
-    for (int k = 0; k < f->threads && f->scratch; k++) {
-        free(f->scratch[k].line);
-        free(f->scratch[k].left);
-        free(f->scratch[k].corner);
-        free(f->scratch[k].state);
-    }
-    free(f->scratch);
-}
-
-static int scratch_alloc(struct fit *f, fl_err *err)
-{
-    int32_t most = 0;
-    for (int32_t i = 0; i < f->cells->n; i++) {
-        const int32_t m = f->cells->first[i + 1] - f->cells->first[i];
-        if (m > most) most = m;
-    }
-    f->threads = omp_get_max_threads();
-    if (!(f->scratch = fl_alloc(f->threads, sizeof *f->scratch, err))) return -1;
-    for (int k = 0; k < f->threads; k++) {
-        struct scratch *s = &f->scratch[k];
-        if (!(s->line = fl_alloc(most, sizeof *s->line, err)) ||
-            !(s->left = fl_alloc(most, sizeof *s->left, err)) ||
-            !(s->corner = fl_alloc(most, sizeof *s->corner, err)) || !(s->state = fl_alloc(most, 1, err)))
-            return -1;
-    }
-    return 0;
-}
-
-static int fit_alloc(struct fit *f, fl_err *err)
-{
-    const int32_t n = f->cells->n;
-    return (f->inradius = fl_alloc(n, sizeof(double), err)) && (f->most = fl_alloc(n, sizeof(double), err)) &&
-                   (f->area = fl_alloc(n, sizeof(double), err)) &&
-                   (f->outline = fl_alloc(n, sizeof(double), err)) &&
-                   (f->count = fl_alloc(n, sizeof(int32_t), err)) &&
-                   (f->side = fl_alloc(f->cells->first[n], sizeof(fl_polygon_side), err))
-               ? scratch_alloc(f, err)
-               : -1;
-}
-
-/* That of the calling thread. */
-static const struct scratch *scratch_of(const struct fit *f) { return &f->scratch[omp_get_thread_num()]; }
-
-static double inset_of(const struct fit *f, int32_t i, double d)
-{
-    if (f->own) d = f->own[i];
-    return d < f->most[i] ? d : f->most[i];
-}
-
-/* --- the sides of one floe ------------------------------------------------------------------------------ */
-
-static double half_tan(fl_polygon_side a, fl_polygon_side b)
-{
-    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
-}
-
-/* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
- * from the corner of a and b to the inscribed circle leave rho (tan + tan) at depth of the circle: half of it
- * stays clear. */
-static double least_side(const struct fit *f, fl_polygon_side a, fl_polygon_side e, fl_polygon_side b,
-                         double rho)
-{
-    const double clear = 0.5 * (half_tan(a, e) + half_tan(e, b));
-    return rho * (clear < f->least ? clear : f->least);
-}
-
-/* The outer corner of a and b at inset d must stay inside the cell by `spare`: how far is it beyond that,
- * against the cell's sides between the two, and against which? */
-static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b, double d,
-                     double spare, int32_t *worst)
-{
-    const fl_vec2 w = fl_side_meet(a, b, d);
-    double most = -INFINITY;
-    for (int32_t e = (a.tag + 1) % m; e != b.tag; e = (e + 1) % m) {
-        const double x = fl_side_beyond(cell[e], w) + spare;
-        if (x > most) {
-            most = x;
-            *worst = e;
-        }
-    }
-    return most;
-}
-
-/* Let side e pass between the core's sides a and b, so deep that its own length is the least one. */
-static void cut_corner(const struct fit *f, fl_polygon_side *line, unsigned char *state, int32_t e,
-                       fl_polygon_side a, fl_polygon_side b, double inset, double rho)
-{
-    const fl_vec2 q = fl_side_meet(a, b, inset);
-    const fl_polygon_side s = line[e];
-    const double per_depth = fl_side_cos(a, s) / fl_side_sin(a, s) + fl_side_cos(s, b) / fl_side_sin(s, b);
-    line[e].c = s.nx * q.x + s.ny * q.y - least_side(f, a, s, b, rho) / per_depth + inset;
-    state[e] = KEPT | FIXED;
-}
-
-static double length(const fl_vec2 *v, int32_t k, int32_t n)
-{
-    const fl_vec2 a = v[k], b = v[k + 1 < n ? k + 1 : 0];
-    return hypot(b.x - a.x, b.y - a.y);
-}
-
-/* The core of the sides kept so far, in left and corner; those that vanish are kept no more. */
-static int32_t core_of(const fl_polygon_side *line, unsigned char *state, int32_t m, double inset,
-                       fl_polygon_side *left, fl_vec2 *corner)
-{
-    int32_t k = 0;
-    double depth;
-    for (int32_t e = 0; e < m; e++)
-        if (state[e] & KEPT) left[k++] = line[e];
-    fl_polygon_corners(k, left, 0.0, corner);
-    k = fl_polygon_inset(k, corner, left, inset, &depth);
-    for (int32_t e = 0; e < m; e++) state[e] &= (unsigned char)~KEPT;
-    for (int32_t e = 0; e < k; e++) state[left[e].tag] |= KEPT;
-    return k;
-}
-
-/* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were
- * cut after it and took of its length; a quarter may go before it is cut again. */
-static int32_t find_short(const struct fit *f, const unsigned char *state, int32_t n,
-                          const fl_polygon_side *left, const fl_vec2 *corner, double rho)
-{
-    int32_t at = -1;
-    double least = INFINITY;
-    for (int32_t k = 0; k < n; k++) {
-        const fl_polygon_side a = left[k ? k - 1 : n - 1], b = left[k + 1 < n ? k + 1 : 0];
-        const double limit =
-            state[left[k].tag] & FIXED ? 0.75 * least_side(f, a, left[k], b, rho) : f->few * rho;
-        const double l = length(corner, k, n);
-        if (l < limit && l < least) {
-            least = l;
-            at = k;
-        }
-    }
-    return at;
-}
-
-/* One short side: drop it, cut it deeper, or leave it for good.  Returns 0 when there was none. */
-static int mend_short(const struct fit *f, const fl_polygon_side *cell, int32_t m, fl_polygon_side *line,
-                      unsigned char *state, int32_t n, const fl_polygon_side *left, const fl_vec2 *corner,
-                      double d, double rho)
-{
-    const int32_t at = find_short(f, state, n, left, corner, rho);
-    int32_t e, worst = 0;
-    fl_polygon_side a, b;
-    if (at < 0) return 0;
-    e = left[at].tag;
-    a = left[at ? at - 1 : n - 1];
-    b = left[at + 1 < n ? at + 1 : 0];
-    if (n > 3 && fl_side_sin(a, b) > 0.0 && beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
-        state[e] &= (unsigned char)~KEPT;
-    else if (fl_side_sin(a, b) > 0.0 && length(corner, at, n) < least_side(f, a, left[at], b, rho))
-        cut_corner(f, line, state, e, a, b, d + f->radius, rho);
-    else state[e] |= FIXED; /* it stays as it is; between sides that open outward it only looks short */
-    return 1;
-}
-
-/* Choose the sides of floe i for inset d.  Returns -1 when they do not settle. */
-static int fit_floe(struct fit *f, int32_t i, double d)
-{
-    const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first;
-    const fl_polygon_side *cell = f->cells->side + first;
-    const struct scratch *s = scratch_of(f);
-    fl_polygon_side *line = s->line, *left = s->left;
-    fl_vec2 *corner = s->corner;
-    unsigned char *state = s->state;
-    const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
-    for (int32_t e = 0; e < m; e++) {
-        line[e] = cell[e];
-        line[e].tag = e;
-        state[e] = KEPT;
-    }
-    /* Each side is dropped once and cut a few times; a cell that asks for more has no room for a floe. */
-    for (int32_t round = 0; round < 8 * (m + 2); round++) {
-        const int32_t n = core_of(line, state, m, di + f->radius, left, corner);
-        int changed = 0;
-        if (n == 0) return -1;
-        for (int32_t k = 0; k < n; k++) {
-            const fl_polygon_side a = left[k], b = left[k + 1 < n ? k + 1 : 0];
-            int32_t e = 0;
-            if (beyond(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
-                cut_corner(f, line, state, e, a, b, di + f->radius, rho);
-                changed = 1;
-            }
-        }
-        if (changed || mend_short(f, cell, m, line, state, n, left, corner, di, rho)) continue;
-        memcpy(f->side + first, left, (size_t)n * sizeof *left);
-        f->count[i] = n;
-        return 0;
-    }
-    return -1;
-}
-
-/* Do the sides chosen at another inset serve at this one too?  Half of every margin may be used up. */
-static int still_fits(struct fit *f, int32_t i, double d)
-{
-    const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first, n = f->count[i];
-    const fl_polygon_side *side = f->side + first;
-    fl_vec2 *corner = scratch_of(f)->corner;
-    const double di = inset_of(f, i, d), rho = f->inradius[i] - di - f->radius;
-    fl_polygon_corners(n, side, di + f->radius, corner);
-    for (int32_t k = 0; k < n; k++) {
-        const fl_polygon_side a = side[k ? k - 1 : n - 1], b = side[k + 1 < n ? k + 1 : 0];
-        const fl_vec2 p = corner[k], q = corner[k + 1 < n ? k + 1 : 0];
-        int32_t e = 0;
-        if ((q.y - p.y) * side[k].nx - (q.x - p.x) * side[k].ny < 0.5 * least_side(f, a, side[k], b, rho))
-            return 0;
-        if (beyond(f->cells->side + first, m, side[k], b, di, 0.25 * di, &e) > 0.0) return 0;
-    }
-    return 1;
-}
+enum { ROUNDS = 40, NEWTON = 60 };
 
 /* --- the inset ------------------------------------------------------------------------------------------ */
 
 /* Area that the outer polygons have in excess of target at inset d, and how fast it falls: the outlines of
  * the floes that are not held.  With raw the sides are all those that the cell has left. */
-static double excess(struct fit *f, int raw, double d, double target, double *fall)
+static double excess(fl_floe_sides *f, int raw, double d, double target, double *fall)
 {
     const int32_t n = f->cells->n;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < n; i++) {
         const int32_t first = f->cells->first[i];
-        const double di = inset_of(f, i, d);
-        fl_polygon_side *left = scratch_of(f)->left;
-        fl_vec2 *v = scratch_of(f)->corner;
+        const double di = fl_floe_sides_inset(f, i, d);
+        fl_polygon_side *left = fl_floe_sides_scratch(f)->left;
+        fl_vec2 *v = fl_floe_sides_scratch(f)->corner;
         int32_t m = f->count[i];
         if (raw) {
             double depth;
@@ -285,7 +43,7 @@ static double excess(struct fit *f, int raw, double d, double target, double *fa
  * bring no improvement, which is at the rounding of the sum.
  *   *d  in: where to start.  out: the root
  * Returns 0, or -1 when there is none in [0, hi]. */
-static int solve(struct fit *f, int raw, double target, double hi, double *d)
+static int solve(fl_floe_sides *f, int raw, double target, double hi, double *d)
 {
     double lo = 0.0, x = *d, best = INFINITY;
     int idle = 0;
@@ -309,14 +67,14 @@ static int solve(struct fit *f, int raw, double target, double hi, double *d)
 }
 
 /* Inscribed circles; the smallest cell must have room for a core. */
-static int measure_cells(struct fit *f, double *total, double *hi, fl_err *err)
+static int measure_cells(fl_floe_sides *f, double *total, double *hi, fl_err *err)
 {
     const fl_cells *c = f->cells;
     int32_t tight = 0;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < c->n; i++) {
         const int32_t first = c->first[i], m = c->first[i + 1] - first;
-        const struct scratch *s = scratch_of(f);
+        const fl_floe_scratch *s = fl_floe_sides_scratch(f);
         memcpy(s->corner, c->v + first, (size_t)m * sizeof *s->corner);
         memcpy(s->left, c->side + first, (size_t)m * sizeof *s->left);
         fl_polygon_inset(m, s->corner, s->left, INFINITY, &f->inradius[i]);
@@ -337,7 +95,7 @@ static int measure_cells(struct fit *f, double *total, double *hi, fl_err *err)
                    tight, f->inradius[tight], f->radius);
 }
 
-static int no_room(const struct fit *f, int32_t i, fl_err *err)
+static int no_room(const fl_floe_sides *f, int32_t i, fl_err *err)
 {
     return fl_fail(err, FL_INPUT,
                    "the cell of floe %d, inscribed radius %.4g m, leaves no room for a core inside a "
@@ -348,7 +106,7 @@ static int no_room(const struct fit *f, int32_t i, fl_err *err)
 /* Sides and inset in turn, until the sides chosen serve at the inset that they lead to.  The floes are to
  * cover `lost` [m2] more than asked for, since so much will be cut off their corners; total and hi are those
  * of measure_cells(). */
-static int settle(struct fit *f, double concentration, double total, double hi, double lost, double *d,
+static int settle(fl_floe_sides *f, double concentration, double total, double hi, double lost, double *d,
                   fl_err *err)
 {
     const int32_t n = f->cells->n;
@@ -368,9 +126,9 @@ static int settle(struct fit *f, double concentration, double total, double hi, 
         int32_t changed = 0, bad = INT32_MAX;
 #pragma omp parallel for schedule(static) reduction(+ : changed) reduction(min : bad)
         for (int32_t i = 0; i < n; i++) {
-            if (round && still_fits(f, i, *d)) continue;
+            if (round && fl_floe_sides_serve(f, i, *d)) continue;
             changed++;
-            if (fit_floe(f, i, *d) && i < bad) bad = i;
+            if (fl_floe_sides_choose(f, i, *d) && i < bad) bad = i;
         }
         if (bad < INT32_MAX) return no_room(f, bad, err);
         if (changed == 0) return 0;
@@ -394,13 +152,13 @@ static int settle(struct fit *f, double concentration, double total, double hi, 
  * that this would take more than a quarter of a side.  *lost is the triangle that the outer polygon loses:
  * its corner is r / sin(t / 2) away from that of the core, t being the angle, and the new side r, so that
  * it is cut at a depth of h + r (1 / sin(t / 2) - 1) when the core is at h, whatever the inset. */
-static double blunt(const struct fit *f, int32_t n, const fl_polygon_side *side, const fl_vec2 *core,
+static double blunt(const fl_floe_sides *f, int32_t n, const fl_polygon_side *side, const fl_vec2 *core,
                     int32_t k, double rho, double *lost)
 {
     const int32_t before = k ? k - 1 : n - 1;
     /* the sides turn by pi - t, and tan((pi - t) / 2) = cot(t / 2) */
-    const double cot = half_tan(side[before], side[k]),
-                 quarter = 0.25 * fmin(length(core, before, n), length(core, k, n));
+    const double cot = fl_side_half_tan(side[before], side[k]),
+                 quarter = 0.25 * fmin(fl_polygon_length(n, core, before), fl_polygon_length(n, core, k));
     const double sine = 1.0 / hypot(1.0, cot); /* of t / 2 */
     double along, depth;
     *lost = 0.0;
@@ -412,21 +170,21 @@ static double blunt(const struct fit *f, int32_t n, const fl_polygon_side *side,
     return along;
 }
 
-static double rho_of(const struct fit *f, int32_t i, double d)
+static double rho_of(const fl_floe_sides *f, int32_t i, double d)
 {
-    return f->inradius[i] - inset_of(f, i, d) - f->radius;
+    return f->inradius[i] - fl_floe_sides_inset(f, i, d) - f->radius;
 }
 
 /* What all floes lose at inset d, and in how many corners. */
-static double lost_at(struct fit *f, double d, int32_t *corners)
+static double lost_at(fl_floe_sides *f, double d, int32_t *corners)
 {
     int32_t all = 0;
 #pragma omp parallel for schedule(static) reduction(+ : all)
     for (int32_t i = 0; i < f->cells->n; i++) {
         const int32_t first = f->cells->first[i], n = f->count[i];
-        fl_vec2 *corner = scratch_of(f)->corner;
+        fl_vec2 *corner = fl_floe_sides_scratch(f)->corner;
         double lost;
-        fl_polygon_corners(n, f->side + first, inset_of(f, i, d) + f->radius, corner);
+        fl_polygon_corners(n, f->side + first, fl_floe_sides_inset(f, i, d) + f->radius, corner);
         f->area[i] = 0.0;
         for (int32_t k = 0; k < n; k++) {
             all += blunt(f, n, f->side + first, corner, k, rho_of(f, i, d), &lost) > 0.0;
@@ -438,7 +196,7 @@ static double lost_at(struct fit *f, double d, int32_t *corners)
 }
 
 /* Sides and inset, and what is cut off at the inset to which that leads: it changes little with the inset. */
-static int settle_blunt(struct fit *f, double concentration, double *d, fl_err *err)
+static int settle_blunt(fl_floe_sides *f, double concentration, double *d, fl_err *err)
 {
     double lost = 0.0, total, hi;
     if (measure_cells(f, &total, &hi, err)) return -1;
@@ -458,13 +216,13 @@ static int settle_blunt(struct fit *f, double concentration, double *d, fl_err *
 /* --- the floes ------------------------------------------------------------------------------------------ */
 
 /* The core of floe i at inset d, about the origin; v has room for twice its sides.  Returns their number. */
-static int32_t core_at(const struct fit *f, int32_t i, double d, fl_vec2 *v)
+static int32_t core_at(const fl_floe_sides *f, int32_t i, double d, fl_vec2 *v)
 {
     const fl_polygon_side *side = f->side + f->cells->first[i];
     const int32_t n = f->count[i];
-    fl_vec2 *core = scratch_of(f)->corner;
+    fl_vec2 *core = fl_floe_sides_scratch(f)->corner;
     int32_t m = 0;
-    fl_polygon_corners(n, side, inset_of(f, i, d) + f->radius, core);
+    fl_polygon_corners(n, side, fl_floe_sides_inset(f, i, d) + f->radius, core);
     for (int32_t k = 0; k < n; k++) {
         double lost;
         const double along = blunt(f, n, side, core, k, rho_of(f, i, d), &lost);
@@ -480,7 +238,7 @@ static int32_t core_at(const struct fit *f, int32_t i, double d, fl_vec2 *v)
     return m;
 }
 
-static int collect(const struct fit *f, double d, fl_vec2 shift, fl_floes *a, fl_err *err)
+static int collect(const fl_floe_sides *f, double d, fl_vec2 shift, fl_floes *a, fl_err *err)
 {
     const fl_cells *c = f->cells;
     const int64_t room = (int64_t)c->first[c->n] + f->blunted;
@@ -511,33 +269,34 @@ static int collect(const struct fit *f, double d, fl_vec2 shift, fl_floes *a, fl
 int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
                   fl_err *err)
 {
-    struct fit f = {.cells = cells,
-                    .radius = radius,
-                    .few = FL_FLOES_SHORT,
-                    .least = FL_FLOES_LEAST,
-                    .sharp = 1.0 / tan(0.5 * FL_FLOES_SHARP)};
+    fl_floe_sides f = {.cells = cells,
+                       .radius = radius,
+                       .few = FL_FLOES_SHORT,
+                       .least = FL_FLOES_LEAST,
+                       .sharp = 1.0 / tan(0.5 * FL_FLOES_SHARP)};
     fl_floes a = {0};
     double d = 0.0;
     int rc = -1;
-    if (fit_alloc(&f, err) || settle_blunt(&f, concentration, &d, err) || collect(&f, d, shift, &a, err))
+    if (fl_floe_sides_alloc(&f, err) || settle_blunt(&f, concentration, &d, err) ||
+        collect(&f, d, shift, &a, err))
         goto done;
     *out = a;
     a = (fl_floes){0};
     rc = 0;
 done:
     fl_floes_free(&a);
-    fit_free(&f);
+    fl_floe_sides_free(&f);
     return rc;
 }
 
 /* --- each its own --------------------------------------------------------------------------------------- */
 
 /* Area of floe i at an inset d, with the sides that were chosen, or, raw, with all that its cell has left. */
-static double area_at(struct fit *f, int raw, int32_t i, double d, double *outline)
+static double area_at(fl_floe_sides *f, int raw, int32_t i, double d, double *outline)
 {
     const int32_t first = f->cells->first[i];
-    fl_polygon_side *left = scratch_of(f)->left;
-    fl_vec2 *v = scratch_of(f)->corner;
+    fl_polygon_side *left = fl_floe_sides_scratch(f)->left;
+    fl_vec2 *v = fl_floe_sides_scratch(f)->corner;
     int32_t m = f->count[i];
     double depth;
     if (raw) {
@@ -554,7 +313,7 @@ static double area_at(struct fit *f, int raw, int32_t i, double d, double *outli
 
 /* Newton's steps from an inset of 0, where the area is largest, towards the target: it falls and is convex,
  * so that they come from the left.  Returns -1 when even no inset leaves too little. */
-static int solve_one(struct fit *f, int raw, int32_t i, double target, double *d)
+static int solve_one(fl_floe_sides *f, int raw, int32_t i, double target, double *d)
 {
     double x = 0.0, best = INFINITY;
     for (int step = 0, idle = 0; step < NEWTON && idle < 2; step++) {
@@ -573,18 +332,18 @@ static int solve_one(struct fit *f, int raw, int32_t i, double target, double *d
 }
 
 /* Sides and inset of floe i in turn.  Returns 0, 1: no room, or 2: it cannot cover so much. */
-static int settle_one(struct fit *f, double *own, int32_t i, double target)
+static int settle_one(fl_floe_sides *f, double *own, int32_t i, double target)
 {
     if (solve_one(f, 1, i, target, &own[i])) return 2;
     for (int round = 0; round < ROUNDS; round++) {
-        if (round && still_fits(f, i, own[i])) return 0;
-        if (fit_floe(f, i, own[i])) return 1;
+        if (round && fl_floe_sides_serve(f, i, own[i])) return 0;
+        if (fl_floe_sides_choose(f, i, own[i])) return 1;
         if (solve_one(f, 0, i, target, &own[i])) return 2;
     }
     return 1;
 }
 
-static int grade_all(struct fit *f, double *own, const double *part, double factor, fl_err *err)
+static int grade_all(fl_floe_sides *f, double *own, const double *part, double factor, fl_err *err)
 {
     int32_t bad = INT32_MAX, much = INT32_MAX;
 #pragma omp parallel for schedule(static) reduction(min : bad, much)
@@ -595,7 +354,7 @@ static int grade_all(struct fit *f, double *own, const double *part, double fact
         double outline;
         if (rc == 1 && i < bad) bad = i;
         if (rc == 2 && i < much) much = i;
-        if (rc == 0) f->area[i] = area_at(f, 0, i, inset_of(f, i, 0.0), &outline);
+        if (rc == 0) f->area[i] = area_at(f, 0, i, fl_floe_sides_inset(f, i, 0.0), &outline);
     }
     if (bad < INT32_MAX) return no_room(f, bad, err);
     if (much == INT32_MAX) return 0;
@@ -604,7 +363,7 @@ static int grade_all(struct fit *f, double *own, const double *part, double fact
 }
 
 /* What floes that are held have too much the others are to have less. */
-static int grade(struct fit *f, double *own, const double *part, double *off, fl_err *err)
+static int grade(fl_floe_sides *f, double *own, const double *part, double *off, fl_err *err)
 {
     const int32_t n = f->cells->n;
     double total, hi, *asked = fl_alloc(n, sizeof *asked, err), *free_part = fl_alloc(n, sizeof *asked, err);
@@ -643,12 +402,13 @@ done:
 int fl_floes_grade(fl_floes *out, const fl_cells *cells, const double *part, double radius, fl_vec2 shift,
                    double *off, fl_err *err)
 {
-    struct fit f = {.cells = cells, .radius = radius, .few = FL_FLOES_SHORT, .least = FL_FLOES_LEAST};
+    fl_floe_sides f = {.cells = cells, .radius = radius, .few = FL_FLOES_SHORT, .least = FL_FLOES_LEAST};
     double *own = fl_alloc(cells->n, sizeof *own, err);
     fl_floes a = {0};
     int rc = -1;
     f.own = own;
-    if (!own || fit_alloc(&f, err) || grade(&f, own, part, off, err) || collect(&f, 0.0, shift, &a, err))
+    if (!own || fl_floe_sides_alloc(&f, err) || grade(&f, own, part, off, err) ||
+        collect(&f, 0.0, shift, &a, err))
         goto done;
     a.inset = fl_par_sum(own, cells->n) / cells->n;
     *out = a;
@@ -656,22 +416,22 @@ int fl_floes_grade(fl_floes *out, const fl_cells *cells, const double *part, dou
     rc = 0;
 done:
     fl_floes_free(&a);
-    fit_free(&f);
+    fl_floe_sides_free(&f);
     free(own);
     return rc;
 }
 
 int fl_floes_fill(fl_floes *out, const fl_cells *cells, double radius, fl_vec2 shift, fl_err *err)
 {
-    struct fit f = {.cells = cells, .radius = radius, .few = FL_FLOES_FILL, .least = FL_FLOES_FILL};
+    fl_floe_sides f = {.cells = cells, .radius = radius, .few = FL_FLOES_FILL, .least = FL_FLOES_FILL};
     fl_floes a = {0};
     double total, hi;
     int32_t bad = INT32_MAX;
     int rc = -1;
-    if (fit_alloc(&f, err) || measure_cells(&f, &total, &hi, err)) goto done;
+    if (fl_floe_sides_alloc(&f, err) || measure_cells(&f, &total, &hi, err)) goto done;
 #pragma omp parallel for schedule(static) reduction(min : bad)
     for (int32_t i = 0; i < cells->n; i++)
-        if (fit_floe(&f, i, 0.0) && i < bad) bad = i;
+        if (fl_floe_sides_choose(&f, i, 0.0) && i < bad) bad = i;
     if (bad < INT32_MAX) no_room(&f, bad, err);
     else if (collect(&f, 0.0, shift, &a, err) == 0) {
         *out = a;
@@ -680,7 +440,7 @@ int fl_floes_fill(fl_floes *out, const fl_cells *cells, double radius, fl_vec2 s
     }
 done:
     fl_floes_free(&a);
-    fit_free(&f);
+    fl_floe_sides_free(&f);
     return rc;
 }
 
