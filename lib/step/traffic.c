@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
 #include "base/mem.h"
 #include "narrow/gjk.h"
 #include "step/balls.h"
@@ -16,6 +18,104 @@
 
 /* A floe that waits asks for its place once in so many steps. */
 enum { PATIENCE = 16 };
+
+/* --- the plan ---------------------------------------------------------------------------------- */
+
+#define MOST_ROOM 1e8 /* floes */
+
+/* Places for those that come: what comes in over the length of the domain, a quarter more where it is held
+ * up, and a field besides; -1: more than anybody means. */
+static int32_t room(const fl_scene_boundary *s, const fl_field *feed, double pitch)
+{
+    const double length = s->inflow_from / 2 ? s->max.y - s->min.y : s->max.x - s->min.x;
+    const double most = (double)feed->n * (1.25 * length / pitch + 1.0);
+    if (s->room > 0) return s->room > feed->n ? s->room : feed->n;
+    return most < MOST_ROOM ? (int32_t)ceil(most) : -1;
+}
+
+double fl_traffic_extent(const fl_traffic *t, const fl_field *field, int32_t k, double end)
+{
+    double most = -INFINITY;
+    for (int32_t v = 0; v < field->core[k].nv; v++) {
+        const fl_vec3 x = field->core[k].v[v];
+        most = fmax(most, end * t->sign * (t->axis ? x.y : x.x));
+    }
+    return end * (most + field->radius[k]);
+}
+
+/* What leaves and what comes, but for the arrays of all places. */
+static int plan_traffic(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_traffic *t = &w->traffic;
+    double front = -INFINITY, back = INFINITY;
+    t->feed = feed;
+    t->ice = field;
+    t->axis = s->inflow_from / 2;
+    t->sign = s->inflow_from % 2 ? -1.0 : 1.0;
+    t->entry = t->sign > 0.0 ? (t->axis ? s->min.y : s->min.x) : -(t->axis ? s->max.y : s->max.x);
+    t->speed = s->inflow_speed > 0.0
+                   ? s->inflow_speed
+                   : t->sign * (t->axis ? w->scene->water.current.y : w->scene->water.current.x);
+    for (int32_t k = 0; k < feed->n; k++) {
+        front = fmax(front, fl_traffic_extent(t, feed, k, 1.0));
+        back = fmin(back, fl_traffic_extent(t, feed, k, -1.0));
+    }
+    t->pitch = s->inflow_pitch > 0.0 ? s->inflow_pitch : front - back;
+    t->lag = fl_alloc(feed->n, sizeof *t->lag, err);
+    t->tile = fl_alloc(feed->n, sizeof *t->tile, err);
+    if (!t->lag || !t->tile) return -1;
+    for (int32_t k = 0; k < feed->n; k++) t->lag[k] = front - fl_traffic_extent(t, feed, k, 1.0);
+    return 0;
+}
+
+int fl_traffic_make(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_traffic *t = &w->traffic;
+    const double far = INFINITY;
+    if (!s->head.present) return 0;
+    t->lo = v3(s->type[0] == FL_BOUND_FREE ? s->min.x : -far, s->type[1] == FL_BOUND_FREE ? s->min.y : -far,
+               s->type[2] == FL_BOUND_FREE ? s->min.z : -far);
+    t->hi = v3(s->type[0] == FL_BOUND_FREE ? s->max.x : far, s->type[1] == FL_BOUND_FREE ? s->max.y : far,
+               s->type[2] == FL_BOUND_FREE ? s->max.z : far);
+    const int leave =
+        t->lo.x > -far || t->lo.y > -far || t->lo.z > -far || t->hi.x < far || t->hi.y < far || t->hi.z < far;
+    if (!leave) return 0;
+    if (s->inflow != FL_INFLOW_NONE) {
+        if (feed->n == 0)
+            return fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", s->inflow_file);
+        if (plan_traffic(w, field, feed, err)) return -1;
+        const int32_t more = room(s, feed, t->pitch);
+        if (more < 0)
+            return fl_fail(err, FL_INPUT,
+                           "%s: fields %.3g m apart, boundary.inflow_pitch, would be more than %.3g floes in "
+                           "the domain; "
+                           "boundary.room or a wider pitch was wanted",
+                           s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file, t->pitch,
+                           MOST_ROOM);
+        w->n += more;
+    }
+    t->away = fl_alloc(w->n, sizeof *t->away, err);
+    t->born = fl_alloc(w->n, sizeof *t->born, err);
+    t->floe = fl_alloc(w->n, sizeof *t->floe, err);
+    t->guided = fl_alloc(w->n, sizeof *t->guided, err);
+    t->hold = fl_alloc(w->n, sizeof *t->hold, err);
+    if (!t->away || !t->born || !t->floe || !t->guided || !t->hold) return -1;
+    for (int32_t i = 0; i < w->n; i++) t->floe[i] = -1;
+    for (int32_t i = 0; i < field->n; i++)
+        if (field->id[i] >= t->next_id) t->next_id = field->id[i] + 1;
+    return 0;
+}
+
+void fl_traffic_free(fl_traffic *t)
+{
+    free(t->away), free(t->born), free(t->lag), free(t->tile);
+    free(t->floe), free(t->guided), free(t->hold);
+    *t = (fl_traffic){0};
+}
+
+/* --- who is there ------------------------------------------------------------------------------ */
 
 int32_t fl_traffic_there(const fl_world *w)
 {

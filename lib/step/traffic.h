@@ -4,6 +4,17 @@
 #define FL_STEP_TRAFFIC_H
 #include "step/world.h"
 
+/* What the scene says of who leaves and who comes, and places for those: w->n rises by them.  Nothing where
+ * no bound is free.
+ *   field, feed  the ice, and what comes in again and again; borrowed
+ * -1 with FL_INPUT (an empty feed, or more floes than anybody means) or FL_SYSTEM. */
+int fl_traffic_make(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err);
+void fl_traffic_free(fl_traffic *t);
+
+/* How far along the axis of t the outermost points of floe k of a field stand: the larger (end = 1) or the
+ * smaller (end = -1) coordinate along it [m]. */
+double fl_traffic_extent(const fl_traffic *t, const fl_field *field, int32_t k, double end);
+
 /* Between two steps: take out who is wholly beyond a free bound, let go of the guided floes that are wholly
  * inside, and give those that are due their place where it is free.  What is due stands as the sheet does; a
  * floe whose place is taken waits with its foremost point at the bound, and is given up when it is a pitch

@@ -11,6 +11,7 @@
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/sleep.h"
+#include "step/traffic.h"
 #include "step/works.h"
 #include "step/world.h"
 
@@ -399,95 +400,6 @@ static int make_arrays(fl_world *w, fl_err *err)
     return err->code ? -1 : 0;
 }
 
-#define MOST_ROOM 1e8 /* floes */
-
-/* Places for those that come: what comes in over the length of the domain, a quarter more where it is held
- * up, and a field besides; -1: more than anybody means. */
-static int32_t room(const fl_scene_boundary *s, const fl_field *feed, double pitch)
-{
-    const double length = s->inflow_from / 2 ? s->max.y - s->min.y : s->max.x - s->min.x;
-    const double most = (double)feed->n * (1.25 * length / pitch + 1.0);
-    if (s->room > 0) return s->room > feed->n ? s->room : feed->n;
-    return most < MOST_ROOM ? (int32_t)ceil(most) : -1;
-}
-
-/* How far along the drift the outermost points of a floe of a field stand: the larger (end = 1) or the
- * smaller coordinate along it. */
-static double extent(const fl_traffic *t, const fl_field *field, int32_t k, double end)
-{
-    double most = -INFINITY;
-    for (int32_t v = 0; v < field->core[k].nv; v++) {
-        const fl_vec3 x = field->core[k].v[v];
-        most = fmax(most, end * t->sign * (t->axis ? x.y : x.x));
-    }
-    return end * (most + field->radius[k]);
-}
-
-/* What leaves and what comes, but for the arrays of all places. */
-static int plan_traffic(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
-{
-    const fl_scene_boundary *s = &w->scene->boundary;
-    fl_traffic *t = &w->traffic;
-    double front = -INFINITY, back = INFINITY;
-    t->feed = feed;
-    t->ice = field;
-    t->axis = s->inflow_from / 2;
-    t->sign = s->inflow_from % 2 ? -1.0 : 1.0;
-    t->entry = t->sign > 0.0 ? (t->axis ? s->min.y : s->min.x) : -(t->axis ? s->max.y : s->max.x);
-    t->speed = s->inflow_speed > 0.0
-                   ? s->inflow_speed
-                   : t->sign * (t->axis ? w->scene->water.current.y : w->scene->water.current.x);
-    for (int32_t k = 0; k < feed->n; k++) {
-        front = fmax(front, extent(t, feed, k, 1.0));
-        back = fmin(back, extent(t, feed, k, -1.0));
-    }
-    t->pitch = s->inflow_pitch > 0.0 ? s->inflow_pitch : front - back;
-    t->lag = fl_alloc(feed->n, sizeof *t->lag, err);
-    t->tile = fl_alloc(feed->n, sizeof *t->tile, err);
-    if (!t->lag || !t->tile) return -1;
-    for (int32_t k = 0; k < feed->n; k++) t->lag[k] = front - extent(t, feed, k, 1.0);
-    return 0;
-}
-
-static int make_traffic(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
-{
-    const fl_scene_boundary *s = &w->scene->boundary;
-    fl_traffic *t = &w->traffic;
-    const double far = INFINITY;
-    if (!s->head.present) return 0;
-    t->lo = v3(s->type[0] == FL_BOUND_FREE ? s->min.x : -far, s->type[1] == FL_BOUND_FREE ? s->min.y : -far,
-               s->type[2] == FL_BOUND_FREE ? s->min.z : -far);
-    t->hi = v3(s->type[0] == FL_BOUND_FREE ? s->max.x : far, s->type[1] == FL_BOUND_FREE ? s->max.y : far,
-               s->type[2] == FL_BOUND_FREE ? s->max.z : far);
-    const int leave =
-        t->lo.x > -far || t->lo.y > -far || t->lo.z > -far || t->hi.x < far || t->hi.y < far || t->hi.z < far;
-    if (!leave) return 0;
-    if (s->inflow != FL_INFLOW_NONE) {
-        if (feed->n == 0)
-            return fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", s->inflow_file);
-        if (plan_traffic(w, field, feed, err)) return -1;
-        const int32_t more = room(s, feed, t->pitch);
-        if (more < 0)
-            return fl_fail(err, FL_INPUT,
-                           "%s: fields %.3g m apart, boundary.inflow_pitch, would be more than %.3g floes in "
-                           "the domain; "
-                           "boundary.room or a wider pitch was wanted",
-                           s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file, t->pitch,
-                           MOST_ROOM);
-        w->n += more;
-    }
-    t->away = fl_alloc(w->n, sizeof *t->away, err);
-    t->born = fl_alloc(w->n, sizeof *t->born, err);
-    t->floe = fl_alloc(w->n, sizeof *t->floe, err);
-    t->guided = fl_alloc(w->n, sizeof *t->guided, err);
-    t->hold = fl_alloc(w->n, sizeof *t->hold, err);
-    if (!t->away || !t->born || !t->floe || !t->guided || !t->hold) return -1;
-    for (int32_t i = 0; i < w->n; i++) t->floe[i] = -1;
-    for (int32_t i = 0; i < field->n; i++)
-        if (field->id[i] >= t->next_id) t->next_id = field->id[i] + 1;
-    return 0;
-}
-
 /* A group of the scene that no record has is a name mistyped: its bodies would be free. */
 static int check_groups(const fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
 {
@@ -520,9 +432,10 @@ static int make_row(fl_world *w, const fl_field *field, fl_err *err)
     w->row.rest = fl_alloc(field->n, sizeof *w->row.rest, err);
     if (!w->row.in || !w->row.k || !w->row.rest) return -1;
     w->row.n = field->n;
-    for (int32_t k = 0; k < field->n; k++) back = fmin(back, extent(&edge, field, k, -1.0));
+    for (int32_t k = 0; k < field->n; k++) back = fmin(back, fl_traffic_extent(&edge, field, k, -1.0));
     for (int32_t k = 0; k < field->n; k++) {
-        const double middle = 0.5 * (extent(&edge, field, k, -1.0) + extent(&edge, field, k, 1.0));
+        const double middle =
+            0.5 * (fl_traffic_extent(&edge, field, k, -1.0) + fl_traffic_extent(&edge, field, k, 1.0));
         const char *group = field->group[k] < 0 ? "" : field->groups.name[field->group[k]];
         w->row.in[k] =
             s->drive_group[0] ? strcmp(group, s->drive_group) == 0 : middle - back <= s->drive_width;
@@ -626,7 +539,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     }
     if (make_walls(w, err)) goto fail;
     make_cell(w);
-    if (check_groups(w, field, feed, err) || make_traffic(w, field, feed, err) || make_row(w, field, err))
+    if (check_groups(w, field, feed, err) || fl_traffic_make(w, field, feed, err) || make_row(w, field, err))
         goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
@@ -677,8 +590,7 @@ void fl_world_free(fl_world *w)
     }
     free(w->bed.hull), free(w->bed.outer);
     free(w->row.in), free(w->row.k), free(w->row.rest);
-    free(w->traffic.away), free(w->traffic.born), free(w->traffic.lag), free(w->traffic.tile);
-    free(w->traffic.floe), free(w->traffic.guided), free(w->traffic.hold);
+    fl_traffic_free(&w->traffic);
     fl_near_free(w);
     free(w->inc_first), free(w->inc), free(w->scratch), free(w->near_shell), free(w->told);
     free(w->hit), free(w->watch), free(w->live), free(w->met), free(w->share), free(w->turn);
