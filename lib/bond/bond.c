@@ -296,13 +296,6 @@ fl_bond_load fl_bond_loaded(const fl_bond *c, const fl_bodies *b, fl_vec3 way)
     return out;
 }
 
-double fl_bond_worst(const fl_bond *c)
-{
-    double most = 0.0;
-    for (int k = 0; k < FL_BOND_POINTS; k++) most = fmax(most, c->point[k].d);
-    return most;
-}
-
 double fl_bond_mean(const fl_bond *c)
 {
     double sum = 0.0, xi, eta;

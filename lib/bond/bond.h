@@ -121,8 +121,7 @@ typedef struct {
 } fl_bond_load;
 fl_bond_load fl_bond_loaded(const fl_bond *c, const fl_bodies *b, fl_vec3 way);
 
-/* Largest damage of a point, and the mean over the area. */
-double fl_bond_worst(const fl_bond *c);
+/* Mean damage over the area. */
 double fl_bond_mean(const fl_bond *c);
 
 /* Point k: its weight, the share of the area, and where it is in units of half the sides, -1, 0 or 1. */

@@ -31,7 +31,6 @@ static inline fl_mat3 q_matrix(fl_quat q)
                       {2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)}}};
 }
 static inline fl_vec3 q_rotate(fl_quat q, fl_vec3 v) { return m3_mul(q_matrix(q), v); }
-static inline fl_vec3 q_unrotate(fl_quat q, fl_vec3 v) { return m3_tmul(q_matrix(q), v); }
 
 /* The quaternion whose matrix is the proper rotation a (Shepperd's choice of the largest element). */
 fl_quat q_of_matrix(fl_mat3 a);

@@ -97,14 +97,6 @@ int fl_bytes_whole(fl_bytes *b, fl_err *err)
     return 0;
 }
 
-int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err)
-{
-    if (fl_bytes_open(b, path, err)) return -1;
-    if (fl_bytes_whole(b, err) == 0) return 0;
-    fl_bytes_free(b);
-    return -1;
-}
-
 int fl_bytes_take(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err)
 {
     if (b->n - b->pos < n && !b->ended && move_on(b, n, err)) return -1;

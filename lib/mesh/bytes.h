@@ -33,9 +33,6 @@ int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err);
  * -1 with FL_INPUT (larger than 2 GiB, unreadable) or FL_SYSTEM. */
 int fl_bytes_whole(fl_bytes *b, fl_err *err);
 
-/* Both. */
-int fl_bytes_load(fl_bytes *b, const char *path, fl_err *err);
-
 /* For tests: a head and a window of so many bytes; 0 for those above. */
 void fl_bytes_window(int32_t bytes);
 

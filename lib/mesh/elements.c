@@ -33,7 +33,6 @@ static const struct {
 int fl_shape_nodes(enum fl_shape shape) { return SHAPE[shape].nodes; }
 int fl_shape_corners(enum fl_shape shape) { return SHAPE[shape].corners; }
 int fl_shape_faces(enum fl_shape shape) { return SHAPE[shape].faces; }
-const char *fl_shape_name(enum fl_shape shape) { return SHAPE[shape].name; }
 
 int fl_shape_face(enum fl_shape shape, int face, int corner[4])
 {

@@ -79,10 +79,9 @@ typedef struct {
     int32_t x_cap, element_cap, corner_cap, pick_cap, skip_cap, section_cap;
 } fl_elements;
 
-/* Nodes of a shape: 2 for FL_LINE2 ... 20 for FL_HEX20; its corners alone; its word, "hex20". */
+/* Nodes of a shape: 2 for FL_LINE2 ... 20 for FL_HEX20; its corners alone. */
 int fl_shape_nodes(enum fl_shape shape);
 int fl_shape_corners(enum fl_shape shape);
-const char *fl_shape_name(enum fl_shape shape);
 
 /* Faces of a solid (0 for lines and shells), and the corners of one as places in the element, 3 or 4, which
  * is returned.  Faces are numbered as Abaqus does, S1 first:

@@ -165,12 +165,7 @@ static int append(fl_surface *to, fl_surface *from, fl_err *err)
     return 0;
 }
 
-int fl_mesh_read(fl_surface *s, const char *path, char *note, fl_err *err)
-{
-    return fl_mesh_read_some(s, path, NULL, note, err);
-}
-
-int fl_mesh_read_some(fl_surface *s, const char *path, fl_wish *w, char *note, fl_err *err)
+int fl_mesh_read(fl_surface *s, const char *path, fl_wish *w, char *note, fl_err *err)
 {
     fl_bytes b = {0};
     fl_surface got = {0};

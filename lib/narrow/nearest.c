@@ -96,35 +96,6 @@ fl_nearest fl_nearest_poly(const fl_poly *p, fl_vec3 x)
     return best;
 }
 
-double fl_nearest_segments(fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double *s_out, double *t_out)
-{
-    const fl_vec3 u = v3_sub(a1, a0), w = v3_sub(b1, b0), r = v3_sub(a0, b0);
-    const double a = v3_dot(u, u), e = v3_dot(w, w), f = v3_dot(w, r), c = v3_dot(u, r), b = v3_dot(u, w);
-    double s = 0.0, t = 0.0;
-    if (a == 0.0 || e == 0.0) {
-        if (a > 0.0) s = -c <= 0.0 ? 0.0 : -c >= a ? 1.0 : -c / a;
-        if (e > 0.0) t = f <= 0.0 ? 0.0 : f >= e ? 1.0 : f / e;
-    } else {
-        /* a e - b^2 loses all digits for nearly parallel segments; |u x w|^2 is the same and does not */
-        const double den = v3_norm2(v3_cross(u, w));
-        if (den > 0.0) {
-            s = (b * f - c * e) / den;
-            s = s < 0.0 ? 0.0 : s > 1.0 ? 1.0 : s;
-        }
-        t = (b * s + f) / e;
-        if (t < 0.0) {
-            t = 0.0;
-            s = -c <= 0.0 ? 0.0 : -c >= a ? 1.0 : -c / a;
-        } else if (t > 1.0) {
-            t = 1.0;
-            s = b - c <= 0.0 ? 0.0 : b - c >= a ? 1.0 : (b - c) / a;
-        }
-    }
-    *s_out = s;
-    *t_out = t;
-    return v3_norm2(v3_sub(v3_madd(a0, s, u), v3_madd(b0, t, w)));
-}
-
 fl_nearest fl_nearest_cone(double r0, double r1, double h, fl_vec3 x)
 {
     /* In the half-plane of x the body is the quadrilateral (0,0) (r0,0) (r1,h) (0,h); its outer sides are the

@@ -33,11 +33,6 @@ fl_nearest fl_nearest_rim(const fl_poly *p, int32_t f, fl_vec3 x);
 /* Point x and the segment from a to b. */
 fl_nearest fl_nearest_segment(fl_vec3 a, fl_vec3 b, fl_vec3 x);
 
-/* Segments a0 a1 and b0 b1: parameters s, t in [0, 1] of nearest points and their squared distance.  Parallel
- * segments give the lower end of the common stretch.  A segment of zero length is a point.
- * Source: Ericson, Real-Time Collision Detection (2005), 5.1.9, in the form that clamps s before t. */
-double fl_nearest_segments(fl_vec3 a0, fl_vec3 a1, fl_vec3 b0, fl_vec3 b1, double *s, double *t);
-
 /* Point x and the solid truncated cone between the disc of radius r0 about the origin and the disc of
  * radius r1 about (0, 0, h); h > 0.  On the axis the direction is x; of equal distances the smaller z wins.
  */

@@ -50,13 +50,6 @@ int fl_places_point(fl_places *w, fl_vec3 x, fl_vec3 n, double overlap, double r
                .overlap = overlap, .du = 1.0, .n = n, .across = n, .p = v3_madd(x, 0.5 * overlap - ra, n)});
 }
 
-double fl_places_measure(const fl_places *w)
-{
-    double sum = 0.0;
-    for (int32_t k = 0; k < w->n; k++) sum += w->place[k].u;
-    return sum;
-}
-
 /* The features of a core with a point below `limit` along n. */
 static int in_reach(fl_reach *r, const fl_side *a, fl_vec3 n, double limit)
 {

@@ -134,9 +134,6 @@ int fl_places_known(fl_places *w, const fl_poly *a, const fl_poly *b, double ra,
 /* All places of A over the half-space z < 0 of the frame of B, and the least z of A's core. */
 int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance);
 
-/* Sum of u. */
-double fl_places_measure(const fl_places *w);
-
 /* --- for those who put places together ------------------------------------------------------ */
 
 int fl_places_room(fl_places *w); /* for one more; -1 when memory runs out */

@@ -127,13 +127,6 @@ done:
     return rc;
 }
 
-int32_t fl_series_part(const fl_series *s, const char *name)
-{
-    for (int32_t p = 0; p < s->parts; p++)
-        if (strcmp(s->part[p], name) == 0) return p;
-    return -1;
-}
-
 void fl_series_free(fl_series *s)
 {
     for (int64_t k = 0; s->x && k < (int64_t)s->parts * s->signals; k++) free(s->x[k]);

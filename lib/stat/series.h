@@ -24,9 +24,6 @@ typedef struct {
  * 0, or -1 with their errors, or FL_INPUT when the cut leaves nothing. */
 int fl_series_read(fl_series *s, const char *path, const fl_series_ask *ask, fl_err *err);
 
-/* The index of a part, or -1. */
-int32_t fl_series_part(const fl_series *s, const char *name);
-
 /* Accepts a zeroed struct and leaves one. */
 void fl_series_free(fl_series *s);
 

@@ -17,17 +17,14 @@ typedef struct {
 double fl_drag_radius(const fl_poly *p, double dilation);
 
 /* Force and moment of the manual's equations (8) and (9),
- *     F = -1/2 C_f rho A u |u|,   M = -1/2 C_m rho A r_eff^3 w |w|.
+ *     F = -1/2 C_f rho A u |u|,   M = -1/2 C_m rho A r_eff^3 w |w|,
+ * as decay: m du/dt = -c |u| u with c = C_f rho A / 2 [kg/m], and I dw/dt = -c |w| w with
+ * c = C_m rho A r_eff^3 / 2 [kg m2] for spin about an axis of moment of inertia I.
  *   area     of the surface that touches the fluid          [m^2]
  *   radius   r_eff                                             [m]
  *   u        velocity of the body in the fluid, v - v_w      [m/s]
  *   w        angular velocity                              [rad/s]
- * force [N], moment [N.m] may be NULL.  Source: DilatedDEM manual (2016), eqs. (8), (9). */
-void fl_drag(const fl_fluid *fluid, double area, double radius, fl_vec3 u, fl_vec3 w, fl_vec3 *force,
-             fl_vec3 *moment);
-
-/* Coefficients of the same laws as decay: m du/dt = -c |u| u with c = C_f rho A / 2 [kg/m], and
- * I dw/dt = -c |w| w with c = C_m rho A r_eff^3 / 2 [kg m2] for spin about an axis of moment of inertia I. */
+ * Source: DilatedDEM manual (2016), eqs. (8), (9). */
 static inline double fl_drag_of_force(const fl_fluid *fluid, double area)
 {
     return 0.5 * fluid->force * fluid->density * area;

@@ -361,7 +361,7 @@ static int in_stages(const char *mesh, const char *out, double took[STAGES])
     int bad = !f;
     fl_by_start(&by, "bench_import");
     at[READ] = spent();
-    bad = bad || fl_mesh_read(&s, mesh, note, &err) || s.n != 1;
+    bad = bad || fl_mesh_read(&s, mesh, NULL, note, &err) || s.n != 1;
     at[MOMENTS] = spent();
     bad = bad || !(fl_moments_of(s.part, 1).area > 0.0);
     at[WELD] = spent();

@@ -365,7 +365,7 @@ static void buoyancy_is_the_wet_part(void **state)
 static double energy_at(const fl_hull *h, fl_vec3 up, double level, double dz, fl_vec3 turn, double *plane)
 {
     /* Raising the body lowers the water over it; turning the body by `turn` (body axes) turns up back. */
-    const fl_vec3 u = q_unrotate(q_of_vector(turn), up);
+    const fl_vec3 u = m3_tmul(q_matrix(q_of_vector(turn)), up);
     fl_vec3 f, m;
     fl_wet w;
     fl_buoyancy(h, u, level - dz, &w);

@@ -33,7 +33,7 @@ static inline int clear(void **state)
 static inline int read_some(const char *text, fl_wish *w)
 {
     clear(NULL);
-    return fl_mesh_read_some(&s, test_file("deck", text, strlen(text)), w, note, &err);
+    return fl_mesh_read(&s, test_file("deck", text, strlen(text)), w, note, &err);
 }
 
 /* It is read, and this is how good it is. */

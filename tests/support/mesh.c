@@ -102,7 +102,7 @@ static int through_a_window(const unsigned char *data, size_t n)
     char note[FL_MESH_NOTE];
     int verdict;
     fl_bytes_window(64 + (int32_t)(n % 512));
-    verdict = fuzz_verdict(fl_mesh_read(&s, fuzz_file(data, n), note, &err), &err);
+    verdict = fuzz_verdict(fl_mesh_read(&s, fuzz_file(data, n), NULL, note, &err), &err);
     fl_bytes_window(0);
     if (verdict == FUZZ_READ && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
     fl_surface_free(&s);
@@ -114,7 +114,7 @@ int mesh_fuzz(const unsigned char *data, size_t n)
     fl_err err = {0};
     fl_surface s = {0};
     char note[FL_MESH_NOTE];
-    int verdict, rc = fl_mesh_read(&s, fuzz_file(data, n), note, &err);
+    int verdict, rc = fl_mesh_read(&s, fuzz_file(data, n), NULL, note, &err);
     verdict = fuzz_verdict(rc, &err);
     if (verdict == FUZZ_READ && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
     if (verdict != FUZZ_READ && s.n) verdict = FUZZ_BROKEN;
@@ -141,7 +141,7 @@ int mesh_fuzz_all(const unsigned char *data, size_t n)
     char note[FL_MESH_NOTE];
     int verdict = mesh_fuzz(data, n);
     if (verdict != FUZZ_READ) return verdict;
-    verdict = fuzz_verdict(fl_mesh_read_some(&s, fuzz_file(data, n), &w, note, &err), &err);
+    verdict = fuzz_verdict(fl_mesh_read(&s, fuzz_file(data, n), &w, note, &err), &err);
     if (verdict == FUZZ_READ && s.n && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
     if (verdict != FUZZ_READ && s.n) verdict = FUZZ_BROKEN;
     fl_surface_free(&s);

@@ -131,10 +131,10 @@ static int same_through(const char *path, int32_t window)
     int same = -1;
     err = (fl_err){0};
     fl_bytes_window(0);
-    if (fl_mesh_read(&whole, path, note, &err) == 0) {
+    if (fl_mesh_read(&whole, path, NULL, note, &err) == 0) {
         fl_bytes_window(window);
         /* a small head may not tell what the file is */
-        if (fl_mesh_read(&part, path, note, &err) == 0) same = mesh_same(&whole, &part);
+        if (fl_mesh_read(&part, path, NULL, note, &err) == 0) same = mesh_same(&whole, &part);
     }
     fl_surface_free(&whole);
     fl_surface_free(&part);

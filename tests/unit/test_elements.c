@@ -137,7 +137,6 @@ static void faces_list_the_edges(void **state)
         }
         for (int m = 0; m < edges; m++) assert_int_equal(used[m], 2);
     }
-    assert_string_equal(fl_shape_name(FL_WEDGE15), "wedge15");
 }
 
 /* A hexahedron whose nodes repeat is the wedge, the pyramid or the tetrahedron that is left of it. */

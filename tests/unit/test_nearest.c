@@ -113,30 +113,6 @@ static void points_and_segments_are_bodies_too(void **state)
     fl_poly_free(&segment);
 }
 
-/* The squared distance is convex in s and t: at the minimum its slope vanishes, or points out of [0, 1]. */
-static void nearest_points_of_segments_prove_themselves(void **state)
-{
-    (void)state;
-    for (int k = 0; k < test_times(20000); k++) {
-        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
-        const fl_vec3 a0 = shape_direction(&g), u = v3_scale(fl_rng_in(&g, 0.1, 2), shape_direction(&g));
-        const fl_vec3 b0 = v3_scale(fl_rng_in(&g, 0.1, 3), shape_direction(&g));
-        fl_vec3 w = v3_scale(fl_rng_in(&g, 0.1, 2), shape_direction(&g));
-        if (k % 3 == 0) w = v3_madd(v3_scale(fl_rng_in(&g, -2, 2), u), pow(10, fl_rng_in(&g, -17, -1)), w);
-        if (k % 100 == 0) w = v3(0, 0, 0);
-        double s, t;
-        const double d2 = fl_nearest_segments(a0, v3_add(a0, u), b0, v3_add(b0, w), &s, &t);
-        const fl_vec3 r = v3_sub(v3_madd(a0, s, u), v3_madd(b0, t, w));
-        const double gs = v3_dot(r, u), gt = -v3_dot(r, w);
-        assert_true(s >= 0 && s <= 1 && t >= 0 && t <= 1);
-        assert_near_of(d2, v3_norm2(r), 1e-13, 1.0);
-        if (s > 0) assert_true(gs <= 1e-13);
-        if (s < 1) assert_true(gs >= -1e-13);
-        if (t > 0) assert_true(gt <= 1e-13);
-        if (t < 1) assert_true(gt >= -1e-13);
-    }
-}
-
 static double cone_support(double r0, double r1, double h, fl_vec3 n)
 {
     const double rho = sqrt(n.x * n.x + n.y * n.y);
@@ -200,7 +176,6 @@ int main(void)
         cmocka_unit_test(distance_is_continuous_through_zero),
         cmocka_unit_test(flat_polygons_have_no_inside),
         cmocka_unit_test(points_and_segments_are_bodies_too),
-        cmocka_unit_test(nearest_points_of_segments_prove_themselves),
         cmocka_unit_test(nearest_points_of_cones_prove_themselves),
         cmocka_unit_test(ties_of_cones_have_one_answer),
     };

@@ -125,7 +125,7 @@ static void the_same_model_in_every_format(void **state)
         char *text;
         model(&s);
         text = written(&s, kind, &n);
-        assert_int_equal(fl_mesh_read(&got, test_file("model", text, n), note, &err), 0);
+        assert_int_equal(fl_mesh_read(&got, test_file("model", text, n), NULL, note, &err), 0);
         assert_string_equal(note, "");
         assert_int_equal(got.n, 1);
         assert_int_equal(fl_part_weld(&got.part[0], 0.0, &w, &err), 0);
@@ -157,8 +157,8 @@ static void line_ends_do_not_matter(void **state)
             if (text[i] == '\n') dos[m++] = '\r';
             dos[m++] = text[i];
         }
-        assert_int_equal(fl_mesh_read(&plain, test_file("model", text, n), note, &err), 0);
-        assert_int_equal(fl_mesh_read(&other, test_file("model", dos, m - 2), note, &err), 0);
+        assert_int_equal(fl_mesh_read(&plain, test_file("model", text, n), NULL, note, &err), 0);
+        assert_int_equal(fl_mesh_read(&other, test_file("model", dos, m - 2), NULL, note, &err), 0);
         assert_int_equal(mesh_same(&plain, &other), 1);
         free(text);
         free(dos);
@@ -172,7 +172,8 @@ static void line_ends_do_not_matter(void **state)
 static fl_surface read_text(const char *text)
 {
     fl_surface s = {0};
-    if (fl_mesh_read(&s, test_file("in.v2.mesh", text, strlen(text)), note, &err)) fail_msg("%s", err.text);
+    if (fl_mesh_read(&s, test_file("in.v2.mesh", text, strlen(text)), NULL, note, &err))
+        fail_msg("%s", err.text);
     assert_int_equal(mesh_sound(&s), 1);
     unlink(test_path("in.v2.mesh"));
     return s;
@@ -241,8 +242,8 @@ static void files_add_up(void **state)
         "#g_struct 1\n#by b\npart 7 leg\ncone 0 0 0 1 0 0 2 1\npart 3 arm\ncone 0 0 0 1 0 0 2 1\n";
     fl_surface s = {0};
     (void)state;
-    assert_int_equal(fl_mesh_read(&s, test_file("a", own, strlen(own)), note, &err), 0);
-    assert_int_equal(fl_mesh_read(&s, test_file("a", other, strlen(other)), note, &err), 0);
+    assert_int_equal(fl_mesh_read(&s, test_file("a", own, strlen(own)), NULL, note, &err), 0);
+    assert_int_equal(fl_mesh_read(&s, test_file("a", other, strlen(other)), NULL, note, &err), 0);
     assert_int_equal(s.n, 3);
     assert_int_equal(s.part[0].id, 7);
     assert_int_equal(s.part[1].id, 8);
@@ -286,7 +287,7 @@ static void what_is_foreign_is_named(void **state)
         fl_surface s = {0};
         fl_err e = {0};
         const size_t n = row[k].n ? row[k].n : strlen(row[k].text);
-        assert_int_equal(fl_mesh_read(&s, test_file("a", row[k].text, n), note, &e), -1);
+        assert_int_equal(fl_mesh_read(&s, test_file("a", row[k].text, n), NULL, note, &e), -1);
         assert_int_equal(e.code, FL_INPUT);
         if (!strstr(e.text, row[k].says)) fail_msg("\"%s\" is not in \"%s\"", row[k].says, e.text);
     }
@@ -332,7 +333,7 @@ static void each_fault_has_its_sentence(void **state)
         fl_surface s = {0};
         fl_err e = {0};
         const char *path = test_file("bad", fault[k].text, strlen(fault[k].text));
-        assert_int_equal(fl_mesh_read(&s, path, note, &e), -1);
+        assert_int_equal(fl_mesh_read(&s, path, NULL, note, &e), -1);
         assert_int_equal(e.code, FL_INPUT);
         assert_int_equal(strncmp(e.text, path, strlen(path)), 0);
         assert_string_equal(e.text + strlen(path), fault[k].says);
@@ -354,19 +355,19 @@ static void size_decides_on_binary(void **state)
     text = written(&s, STL_BINARY, &n);
     assert_int_equal(n, 84 + 50 * (size_t)s.part[0].nt);
     memcpy(text, "solid liar", 10);
-    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), note, &err), 0);
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), NULL, note, &err), 0);
     assert_int_equal(got.part[0].nt, s.part[0].nt);
     fl_surface_free(&got);
-    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n - 50), note, &e), -1);
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n - 50), NULL, note, &e), -1);
     assert_non_null(strstr(e.text, "bytes of binary data: not a whole binary STL"));
     memset(text + 80, 0, 4);
-    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), note, &err), 0);
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), NULL, note, &err), 0);
     assert_int_equal(got.part[0].nt, s.part[0].nt);
     assert_non_null(strstr(note, "the header says no triangles"));
     fl_surface_free(&got);
     memset(text + 84 + 50 * 3 + 12, 0xff, 4); /* a nan */
     e = (fl_err){0};
-    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), note, &e), -1);
+    assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), NULL, note, &e), -1);
     assert_non_null(strstr(e.text, ": triangle 3 has "));
     free(text);
     fl_surface_free(&s);

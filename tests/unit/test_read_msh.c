@@ -14,7 +14,7 @@ static int read_bytes(const char *data, size_t n, fl_wish *w)
 {
     fl_surface_free(&s);
     err = (fl_err){0};
-    return fl_mesh_read_some(&s, test_file("deck.msh", data, n), w, note, &err);
+    return fl_mesh_read(&s, test_file("deck.msh", data, n), w, note, &err);
 }
 
 static void reads(const char *text)

@@ -13,7 +13,7 @@ static int read_text(const char *text)
 {
     fl_surface_free(&s);
     err = (fl_err){0};
-    return fl_mesh_read(&s, test_file("grid", text, strlen(text)), note, &err);
+    return fl_mesh_read(&s, test_file("grid", text, strlen(text)), NULL, note, &err);
 }
 
 static void reads(const char *text)

@@ -16,7 +16,7 @@ static int read_bytes(const char *data, size_t n)
 {
     fl_surface_free(&s);
     err = (fl_err){0};
-    return fl_mesh_read(&s, test_file("grid.vtx", data, n), note, &err);
+    return fl_mesh_read(&s, test_file("grid.vtx", data, n), NULL, note, &err);
 }
 
 static void refuses(const char *text, const char *why)

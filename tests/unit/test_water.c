@@ -344,17 +344,10 @@ static void drag_laws(void **state)
     const fl_fluid sea = {.density = 1025, .force = 0.005, .moment = 0.004};
     fl_err err = {0};
     fl_poly p;
-    fl_vec3 f, m;
     assert_int_equal(fl_poly_box(&p, v3(5, 5, 0.5), &err), 0);
     assert_near(fl_drag_radius(&p, 0.0), 7.088723439378913, 1e-15);
     assert_near(fl_drag_radius(&p, 0.25), 7.338723439378913, 1e-15);
     fl_poly_free(&p);
-    fl_drag(&sea, 100.0, 2.0, v3(3, 4, 0), v3(0, 0, -2), &f, &m);
-    assert_near(f.x, -0.5 * 0.005 * 1025 * 100 * 3 * 5, 1e-15);
-    assert_near(f.y, -0.5 * 0.005 * 1025 * 100 * 4 * 5, 1e-15);
-    assert_near(m.z, 0.5 * 0.004 * 1025 * 100 * 8 * 4, 1e-15);
-    fl_drag(&sea, 100.0, 2.0, v3(0, 0, 0), v3(0, 0, 0), &f, NULL);
-    assert_near(v3_norm(f), 0.0, 0.0);
     /* c |u|^2 is the force, c w^2 the moment */
     assert_near(fl_drag_of_force(&sea, 100.0) * 25, 0.5 * 0.005 * 1025 * 100 * 25, 1e-15);
     assert_near(fl_drag_of_moment(&sea, 100.0, 2.0) * 4, 0.5 * 0.004 * 1025 * 100 * 8 * 4, 1e-15);

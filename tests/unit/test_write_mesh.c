@@ -71,7 +71,7 @@ static void come_back(write_fn *put, const fl_surface *s, const fl_surface *want
     fl_weld w;
     put(f, s);
     assert_int_equal(fclose(f), 0);
-    if (fl_mesh_read(&back, test_file("all", text, n), note, &err)) fail_msg("%s", err.text);
+    if (fl_mesh_read(&back, test_file("all", text, n), NULL, note, &err)) fail_msg("%s", err.text);
     free(text);
     assert_int_equal(back.n, want->n);
     for (int32_t i = 0; i < back.n; i++) {

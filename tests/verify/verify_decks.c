@@ -153,7 +153,7 @@ static void deck(int tets, int nastran, const char *id)
         exit(1);
     }
     put(f, tets, nastran);
-    if (fclose(f) != 0 || fl_mesh_read(&s, path, note, &err)) {
+    if (fclose(f) != 0 || fl_mesh_read(&s, path, NULL, note, &err)) {
         fprintf(stderr, "verify_decks: %s\n", err.text);
         exit(1);
     }

@@ -118,7 +118,7 @@ static void through(int way, const fl_surface *s, const fl_moments *source)
         exit(1);
     }
     put(way, f, s);
-    if (fclose(f) != 0 || fl_mesh_read(&back, path, note, &err)) die();
+    if (fclose(f) != 0 || fl_mesh_read(&back, path, NULL, note, &err)) die();
     remove(path);
     for (int32_t i = 0; i < back.n; i++) {
         if (fl_part_weld(&back.part[i], 0.0, &w, &err)) die();

@@ -54,7 +54,7 @@ static int read_file(const struct options *o, const struct item *it, fl_wish *w,
 {
     const int32_t first = s->n;
     char note[FL_MESH_NOTE];
-    const int rc = fl_mesh_read_some(s, it->path, w, note, err);
+    const int rc = fl_mesh_read(s, it->path, w, note, err);
     for (char *p = note, *end; !o->quiet && (end = strchr(p, '\n')) != NULL; p = end + 1)
         fprintf(stderr, "struct-import: %s: %.*s\n", it->path, (int)(end - p), p);
     if (rc || rename_parts(s, first, it->name, err)) return -1;
