@@ -57,6 +57,13 @@ void *fl_alloc(int64_t n, size_t size, fl_err *err)
     return p;
 }
 
+char *fl_alloc_text(const char *text, fl_err *err)
+{
+    const size_t bytes = strlen(text) + 1;
+    char *copy = fl_alloc((int64_t)bytes, 1, err);
+    return copy ? memcpy(copy, text, bytes) : NULL;
+}
+
 int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err)
 {
     void *old, *fresh;

@@ -11,6 +11,9 @@
  * Returns NULL with FL_SYSTEM in err when there is none. */
 void *fl_alloc(int64_t n, size_t size, fl_err *err);
 
+/* A copy of a text.  NULL with FL_SYSTEM in err when there is no memory. */
+char *fl_alloc_text(const char *text, fl_err *err);
+
 /* Make room for at least want elements in the array *(T **)array of capacity *cap; the capacity at
  * least doubles, new elements are not initialised.  The array is untouched on failure.
  * Returns 0, or -1 with FL_SYSTEM in err. */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
@@ -126,6 +127,13 @@ int fl_table_f64(const fl_table *t, int32_t col, double *x, fl_err *err)
     const char *word = t->text.field[col];
     if (fl_num_f64(word, x) == 0) return 0;
     return fl_text_fail(&t->text, err, "%.60s is \"%.40s\", a finite number was wanted", t->name[col], word);
+}
+
+int fl_table_within(const fl_table *t, int32_t col, double most, double *x, fl_err *err)
+{
+    if (fl_table_f64(t, col, x, err)) return -1;
+    if (fabs(*x) <= most) return 0;
+    return fl_text_fail(&t->text, err, "%s is %g, at most %g was wanted", t->name[col], *x, most);
 }
 
 void fl_table_close(fl_table *t)

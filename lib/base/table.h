@@ -41,6 +41,9 @@ int fl_table_row(fl_table *t, fl_err *err);
 const char *fl_table_word(const fl_table *t, int32_t col);
 int fl_table_f64(const fl_table *t, int32_t col, double *x, fl_err *err);
 
+/* The same of a number of at most that size. */
+int fl_table_within(const fl_table *t, int32_t col, double most, double *x, fl_err *err);
+
 /* Accepts a zeroed struct and leaves one. */
 void fl_table_close(fl_table *t);
 

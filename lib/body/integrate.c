@@ -59,8 +59,6 @@ static void solve_spd(int k, double a[3][3], const double *y, double *x)
     }
 }
 
-static double component(fl_vec3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
-
 /* The vector u whose held components are those given and whose free ones have the momentum Y = A u, where A
  * has the diagonal `diag` in the axes of R.  hold: bit r for the world's axis r. */
 static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3 given, fl_vec3 Y)
@@ -69,7 +67,7 @@ static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3
     int free_axis[3], k = 0;
     if ((hold & 7) == 7) return given;
     for (int r = 0; r < 3; r++) {
-        u[r] = hold & 1u << r ? component(given, r) : 0.0;
+        u[r] = hold & 1u << r ? v3_at(given, r) : 0.0;
         if (!(hold & 1u << r)) free_axis[k++] = r;
         for (int c = 0; c < 3; c++) {
             const double *ri = R->m[r], *rc = R->m[c];
@@ -78,7 +76,7 @@ static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3
     }
     for (int r = 0; r < k; r++) {
         const double *row = A[free_axis[r]];
-        y[r] = component(Y, free_axis[r]) - row[0] * u[0] - row[1] * u[1] - row[2] * u[2];
+        y[r] = v3_at(Y, free_axis[r]) - row[0] * u[0] - row[1] * u[1] - row[2] * u[2];
         for (int c = 0; c < k; c++) a[r][c] = row[free_axis[c]];
     }
     solve_spd(k, a, y, s);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "bond/shared.h"
 #include "geom/polygon.h"
 
@@ -123,7 +124,7 @@ int fl_shared_find(const fl_poly *p, const fl_poly *q, fl_vec3 way, fl_vec3 x, f
 
 void fl_shared_disc(double area, fl_vec3 x, fl_vec3 n, fl_shared *out)
 {
-    const double half = sqrt(0.75 * area / 3.14159265358979323846);
+    const double half = sqrt(0.75 * area / PI);
     const fl_vec3 e = v3_normal_to(n);
     *out = (fl_shared){x, n, v3_scale(half, e), v3_scale(half, v3_cross(n, e)), area};
 }

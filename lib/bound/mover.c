@@ -37,7 +37,7 @@ static fl_vec3 turning(fl_vec3 r, fl_vec3 rate)
     const fl_vec3 across = v3_cross(r, rate);
     double one = 0.5 - a2 * (1.0 / 24 - a2 * (1.0 / 720 - a2 / 40320)),
            two = 1.0 / 6 - a2 * (1.0 / 120 - a2 * (1.0 / 5040 - a2 / 362880));
-    if (across.x == 0.0 && across.y == 0.0 && across.z == 0.0) return rate;
+    if (!v3_some(across)) return rate;
     if (a2 > SMALL_TURN) {
         const fl_quat q = q_of_vector(r);
         const double s2 = q.x * q.x + q.y * q.y + q.z * q.z, a = sqrt(a2);
@@ -47,8 +47,6 @@ static fl_vec3 turning(fl_vec3 r, fl_vec3 rate)
     }
     return v3_add(v3_madd(rate, one, across), v3_scale(two, v3_cross(r, across)));
 }
-
-static double component(fl_vec3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 static void set_component(fl_vec3 *a, int k, double x)
 {
@@ -62,7 +60,7 @@ static void lead(fl_movers *m, int32_t k, fl_vec3 v)
 {
     fl_bodies *b = &m->b;
     for (int c = 0; c < 3; c++) {
-        const double old = component(b->v[k], c), now = component(v, c);
+        const double old = v3_at(b->v[k], c), now = v3_at(v, c);
         if (!(b->hold[k] & (unsigned)(FL_HOLD_X << c)) || old == now) continue;
         m->given[k] += b->m[k] * (now - old) * 0.5 * (now + old);
         set_component(&b->v[k], c, now);
@@ -113,18 +111,16 @@ void fl_movers_ready(fl_movers *v, double dt)
         const double h = 0.5 * dt, c[] = {m->c.x, m->c.y, m->c.z, m->ct.x, m->ct.y, m->ct.z};
         for (int i = 0; i < 3 && m->free; i++) {
             set_component(&v->fade[k], i, exp(-c[i] * h / v->b.m[k]));
-            set_component(&v->fade_turn[k], i, exp(-c[3 + i] * h / component(v->b.I[k], i)));
+            set_component(&v->fade_turn[k], i, exp(-c[3 + i] * h / v3_at(v->b.I[k], i)));
         }
     }
 }
-
-static int any(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }
 
 void fl_mover_damp(fl_movers *v, int32_t k)
 {
     fl_bodies *b = &v->b;
     const fl_motion *m = &v->motion[k];
-    if (m->free && any(m->c)) {
+    if (m->free && v3_some(m->c)) {
         const fl_vec3 pull = v->pull[k], old = v3_sub(b->v[k], pull), f = v->fade[k];
         const unsigned hold = b->hold[k];
         const fl_vec3 now = v3(hold & FL_HOLD_X ? old.x : f.x * old.x, hold & FL_HOLD_Y ? old.y : f.y * old.y,
@@ -133,7 +129,7 @@ void fl_mover_damp(fl_movers *v, int32_t k)
         v->given[k] += b->m[k] * v3_dot(pull, v3_sub(now, old));
         b->v[k] = v3_add(pull, now);
     }
-    if (m->free & TURNS && any(m->ct)) {
+    if (m->free & TURNS && v3_some(m->ct)) {
         const double before = v3_dot(b->w[k], b->L[k]);
         const fl_mat3 R = fl_body_axes(b, k);
         const fl_vec3 own = m3_tmul(R, b->L[k]), f = v->fade_turn[k], w = b->w[k];
@@ -156,7 +152,7 @@ static void follow(fl_movers *v, int32_t k)
     fl_bodies *b = &v->b;
     const fl_vec3 x = v3_add(v->motion[k].reference, v->anchor[k]);
     for (int c = 0; c < 3; c++)
-        if (b->hold[k] & (unsigned)(FL_HOLD_X << c)) set_component(&b->x[k], c, component(x, c));
+        if (b->hold[k] & (unsigned)(FL_HOLD_X << c)) set_component(&b->x[k], c, v3_at(x, c));
 }
 
 void fl_mover_out(fl_movers *v, int32_t k, double t, double dt)
@@ -180,7 +176,7 @@ void fl_mover_out(fl_movers *v, int32_t k, double t, double dt)
     b->x[k] = v3_add(m->reference, x.x);
     b->v[k] = v->pull[k];
     b->w[k] = turning(middle.r, rate.r);
-    if (!any(x.r) && !any(b->w[k])) return;
+    if (!v3_some(x.r) && !v3_some(b->w[k])) return;
     b->q[k] = q_of_vector(x.r);
 }
 
@@ -243,7 +239,7 @@ void fl_mover_acceleration(const fl_movers *v, int32_t k, double t, fl_vec3 *a, 
     const fl_vec3 torque = v3_sub(v3_sub(b->t[k], drag), v3_cross(b->w[k], b->L[k]));
     *turn = m->free & TURNS ? fl_body_turn(b, k, torque) : v3(0, 0, 0);
     for (int c = 0; c < 3; c++) {
-        const double force = component(b->f[k], c) - component(m->c, c) * component(slip, c);
+        const double force = v3_at(b->f[k], c) - v3_at(m->c, c) * v3_at(slip, c);
         if (m->free >> c & 1u) set_component(a, c, force * b->invm[k]);
         if (!(m->free >> (3 + c) & 1u)) set_component(turn, c, 0.0);
     }

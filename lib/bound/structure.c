@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "bound/cover.h"
 #include "bound/flats.h"
 #include "bound/structure.h"
 #include "geom/clip.h"
 #include "geom/moments.h"
 #include "geom/mosaic.h"
-
-#define PI 3.14159265358979323846
 
 /* Every vertex in use lies behind every region's plane. */
 static int is_convex(const fl_flats *f)

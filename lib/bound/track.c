@@ -2,10 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/table.h"
 #include "bound/track.h"
-
-#define PI 3.14159265358979323846
 
 /* Beyond this no motion is meant, and its squares stay finite [m, deg, s]. */
 #define FARTHEST 1e15
@@ -70,13 +69,6 @@ static int make_slopes(fl_track *tr, fl_err *err)
     return 0;
 }
 
-static int number(const fl_table *in, int32_t col, const char *name, double *x, fl_err *err)
-{
-    if (fl_table_f64(in, col, x, err)) return -1;
-    if (fabs(*x) <= FARTHEST) return 0;
-    return fl_text_fail(&in->text, err, "%s is %g, at most %g was wanted", name, *x, FARTHEST);
-}
-
 /* The columns that there are, -1 for the others, in the units that the page tells: what is in other units, or
  * no motion at all, is no structure at rest. */
 static int columns(const fl_table *in, int32_t *time, int32_t col[6], fl_err *err)
@@ -105,14 +97,14 @@ int fl_track_read(fl_track *out, const char *path, int cubic, fl_err *err)
     while ((more = fl_table_row(&in, err)) > 0) {
         fl_pose6 at = {0};
         double t;
-        if (number(&in, time, "t", &t, err)) goto done;
+        if (fl_table_within(&in, time, FARTHEST, &t, err)) goto done;
         if (tr.n && t <= tr.t[tr.n - 1]) {
             fl_text_fail(&in.text, err, "time %.10g s does not follow %.10g s", t, tr.t[tr.n - 1]);
             goto done;
         }
         for (int k = 0; k < 6; k++) {
             double x = 0.0;
-            if (col[k] >= 0 && number(&in, col[k], NAME[k], &x, err)) goto done;
+            if (col[k] >= 0 && fl_table_within(&in, col[k], FARTHEST, &x, err)) goto done;
             *six(&at, k) = k < 3 ? x : x * PI / 180.0;
         }
         if (fl_grow(&tr.t, &t_cap, (int64_t)tr.n + 1, sizeof *tr.t, err) ||

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geom/dilate.h"
-
-static const double PI = 3.141592653589793;
+#include "base/pi.h"
 
 /* sum_e l_e t_e: twice pi times the mean width, less the sphere's part */
 static double edge_sum(const fl_poly *p)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stddef.h>
+#include "base/pi.h"
 #include "geom/mass.h"
 
-static const double PI = 3.141592653589793;
 /* Second moments are sums of some tens of terms of the size of the trace, each good to DBL_EPSILON / 2. */
 static const double OFF_TOL = 1e-15;
 /* Eigenvalues this close, of the trace, differ by the rounding of those sums only: they count as equal, so

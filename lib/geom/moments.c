@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/pi.h"
 #include "base/wide.h"
 #include "geom/dd.h"
 #include "geom/moments.h"
-
-static const double PI = 3.141592653589793238;
 
 /* Volume, area, first moments, and xx yy zz xy yz zx of the second, each in 106 bits; one more fills the
  * lanes. */

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "geom/outer.h"
 #include "geom/patch.h"
 
 /* Rounding leaves up to about 4 x 2^-53 of the longest side squared in a cross product that should be zero.
  * */
 static const double NO_AREA = 1e-15, NO_VOLUME = 1e-10;
-
-static const double PI = 3.141592653589793238;
 
 /* Who lies across side k of triangle t: across[3 t + k], -1 for nobody; agree[3 t + k] when they run
  * coherently. */

@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "geom/poly.h"
-
-#define PI 3.14159265358979323846
 
 /* Planes may miss their vertices, and vertices stand outside planes, by this fraction of the size: what input
  * written with ten digits shows. */

@@ -4,10 +4,9 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "ice/laguerre.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* MANY: fewer rows of the matrix take less time than waking the other threads does. */
 enum { TRIES = 300, STEPS = 60, HALVES = 30, ROUNDS = 24, IDLE = 3, MANY = 8192, FEW = 2000, GROUPS = 500 };

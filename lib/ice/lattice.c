@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "ice/lattice.h"
 
 enum { SPHERES_MAX = 1 << 27 };
-
-static const double PI = 3.14159265358979323846;
 
 static double whole(double x) { return floor(x * (1.0 + FL_LATTICE_WHOLE)); }
 

@@ -4,9 +4,8 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/par.h"
+#include "base/pi.h"
 #include "ice/pancakes.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Steps until the bracket is down to rounding: it halves at least in every second one. */
 enum { STEPS = 120 };

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "ice/section.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Generators of a cone; its discs are drawn as polygons round them, so that nothing is cut off. */
 enum { AROUND = 4 * FL_SECTION_MOST };

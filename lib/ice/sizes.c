@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_gamma.h>
+#include "base/pi.h"
 #include "ice/sizes.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* int_0^y e^(q t) dt = (e^(q y) - 1) / q.  In y = ln(D / dmin) the distribution of a power law is the ratio
  * of two of these, q = 1 - beta, and so is its Lorenz curve of areas, q = 3 - beta. */

@@ -3,12 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/text.h"
 #include "geom/polygon.h"
 #include "ice/sizes_read.h"
 #include "shim/cgal_simple.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Sizes and counts between which a file may lie [m, m2, 1], and coordinates [m]: squares and sums stay
  * finite, and the area of a polygon far from the origin keeps its digits. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/pi.h"
 #include "law/damping.h"
 
 /* Damping ratio of a contact at rest beyond which more of it changes nothing but the step. */
 #define RATIO 2.5
-#define PI 3.14159265358979323846
 
 static double clamp(double e) { return e < FL_RESTITUTION_LEAST ? FL_RESTITUTION_LEAST : e; }
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "law/manual.h"
+#include "base/pi.h"
 #include "law/material.h"
-
-#define PI 3.14159265358979323846
 
 double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double overlap, int si, int literal18,
                            double *n)

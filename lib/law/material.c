@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/pi.h"
 #include "law/material.h"
 
-#define PI 3.14159265358979323846
 #define BETA 1.02 /* a polygon: circle 1.000, square 1.012, triangle 1.034 */
 
 double fl_material_modulus(fl_elastic a, fl_elastic b)

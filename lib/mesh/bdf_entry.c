@@ -29,14 +29,12 @@ int fl_bdf_fail(const fl_bdf_entry *r, fl_err *err, const char *fmt, ...)
 
 /* --- lines ---------------------------------------------------------------------------------------------- */
 
-static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
-
 static int includes(const char *line)
 {
     const char *p = line;
     while (*p == ' ' || *p == '\t') p++;
     return (*p | 32) == 'i' && strncasecmp(p, "INCLUDE", 7) == 0 && p[7] &&
-           (is_blank(p[7]) || strchr("'\"=", p[7]));
+           (fl_bytes_blank(p[7]) || strchr("'\"=", p[7]));
 }
 
 /* The next line with something in it, cut at its comment: 1, 0 at the end, -1. */
@@ -50,7 +48,7 @@ static int next_line(fl_bdf_entry *r, fl_err *err)
         if (end == line && r->comment && r->comment(r->context, line + 1, err)) return -1;
         if (includes(line)) return 1; /* a $ may be of the name */
         if (end) *end = '\0';
-        while (*line && is_blank(*line)) line++;
+        while (*line && fl_bytes_blank(*line)) line++;
         if (*line) return 1;
     }
 }
@@ -58,7 +56,7 @@ static int next_line(fl_bdf_entry *r, fl_err *err)
 /* Does the line go on with the entry before it? */
 static int goes_on(const char *line)
 {
-    return (*line == '+' || *line == '*' || *line == ',' || is_blank(*line)) && !includes(line);
+    return (*line == '+' || *line == '*' || *line == ',' || fl_bytes_blank(*line)) && !includes(line);
 }
 
 /* INCLUDE 'file', quotes of either kind or none; a quoted name may go on in the next lines. */
@@ -90,11 +88,11 @@ static int include(fl_bdf_entry *r, fl_err *err)
 static int push(fl_bdf_entry *r, const char *s, size_t n, fl_err *err)
 {
     if (r->fields == FL_BDF_FIELDS) return 0;
-    while (n > 0 && is_blank(*s)) {
+    while (n > 0 && fl_bytes_blank(*s)) {
         s++;
         n--;
     }
-    while (n > 0 && is_blank(s[n - 1])) n--;
+    while (n > 0 && fl_bytes_blank(s[n - 1])) n--;
     if (fl_grow(&r->text, &r->text_cap, (int64_t)r->text_len + (int64_t)n + 1, 1, err)) return -1;
     memcpy(r->text + r->text_len, s, n);
     r->text[r->text_len + (int32_t)n] = '\0';
@@ -174,7 +172,8 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
         }
         if ((*start | 32) == 'e' && strncasecmp(start, "ENDDATA", 7) == 0) return 0;
         if (goes_on(line)) continue; /* of an entry that was passed over */
-        while (line[n] && !is_blank(line[n]) && line[n] != ',' && line[n] != '*' && n < FL_BDF_NAME - 1) {
+        while (line[n] && !fl_bytes_blank(line[n]) && line[n] != ',' && line[n] != '*' &&
+               n < FL_BDF_NAME - 1) {
             r->name[n] = (char)toupper((unsigned char)line[n]);
             n++;
         }

@@ -203,8 +203,6 @@ void fl_bytes_note(fl_bytes *b, const char *fmt, ...)
     if (have + strlen(what) + 2 <= sizeof b->note) sprintf(b->note + have, "%s\n", what);
 }
 
-static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
-
 /* What a word does not go on over, without a look at it. */
 static const unsigned char STOP[256] = {
     ['\0'] = 1, [' '] = 1, ['\t'] = 1, ['\f'] = 1, ['\v'] = 1, ['\r'] = 1, ['\n'] = 1, ['\\'] = 1};
@@ -229,7 +227,7 @@ static int cut_line(fl_bytes *b, fl_err *err)
     b->line++;
     for (;;) {
         char *start;
-        while (is_blank(*p)) p++;
+        while (fl_bytes_blank(*p)) p++;
         if (*p == '\\' && line_end(p + 1)) {
             p += 1 + line_end(p + 1);
             b->line++;
@@ -253,7 +251,7 @@ static int cut_line(fl_bytes *b, fl_err *err)
             fl_grow(&b->field, &b->field_cap, (int64_t)b->words + 1, sizeof *b->field, err))
             return -1;
         b->field[b->words++] = start;
-        if (is_blank(*p)) *p++ = '\0';
+        if (fl_bytes_blank(*p)) *p++ = '\0';
         else if (*p == '\\') {
             const int k = line_end(p + 1);
             *p = '\0';
@@ -270,7 +268,7 @@ static int skip_space(fl_bytes *b, fl_err *err)
 {
     for (;;) {
         const char *p = b->data + b->pos;
-        for (; is_blank(*p) || *p == '\r' || *p == '\n'; p++) b->line += *p == '\n';
+        for (; fl_bytes_blank(*p) || *p == '\r' || *p == '\n'; p++) b->line += *p == '\n';
         b->pos = (int32_t)(p - b->data);
         if (b->pos < b->n || b->ended) return 0;
         if (move_on(b, 1, err)) return -1;
@@ -285,7 +283,7 @@ int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
     int32_t len;
     if (skip_space(b, err)) return -1;
     if (b->n - b->pos >= ENOUGH && (end = fl_decimal(b->data + b->pos, x)) != NULL &&
-        (is_blank(*end) || *end == '\n' || *end == '\r')) {
+        (fl_bytes_blank(*end) || *end == '\n' || *end == '\r')) {
         b->pos = (int32_t)(end - b->data);
         return 1;
     }

@@ -33,6 +33,9 @@ int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err);
  * -1 with FL_INPUT (larger than 2 GiB, unreadable) or FL_SYSTEM. */
 int fl_bytes_whole(fl_bytes *b, fl_err *err);
 
+/* What words are parted by, but for ends of lines. */
+static inline int fl_bytes_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
+
 /* For tests: a head and a window of so many bytes; 0 for those above. */
 void fl_bytes_window(int32_t bytes);
 

@@ -44,8 +44,6 @@ int fl_columns_of(fl_columns *f, const char *format)
     return f->n && *p == ')' ? 0 : -1;
 }
 
-static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
-
 /* Where column k begins and ends in a row; 0 when the row is too short for it. */
 static int find(const fl_columns *f, int k, int32_t len, int32_t *from, int32_t *to)
 {
@@ -76,14 +74,14 @@ int fl_columns_whole(const fl_columns *f, int k, const char *row, int32_t len, i
     if (!find(f, k, len, &from, &to)) return 0;
     p = row + from;
     end = row + to;
-    while (p < end && is_blank(*p)) p++;
+    while (p < end && fl_bytes_blank(*p)) p++;
     if (p == end) return 0;
     minus = *p == '-';
     p += minus || *p == '+';
     for (first = p; p < end && (unsigned char)(*p - '0') < 10 && p - first < DIGITS; p++)
         n = 10 * n + (*p - '0');
     if (p == first) return -1;
-    while (p < end && is_blank(*p)) p++;
+    while (p < end && fl_bytes_blank(*p)) p++;
     *x = minus ? -n : n;
     return p == end ? 0 : -1;
 }
@@ -95,7 +93,7 @@ int fl_columns_real(const fl_columns *f, int k, char *row, int32_t len, double *
     double y;
     *x = 0.0;
     if (!find(f, k, len, &from, &to)) return 0;
-    while (from < to && is_blank(row[from])) from++;
+    while (from < to && fl_bytes_blank(row[from])) from++;
     if (from == to) return 0;
     const char next = row[to];
     row[to] = '\0'; /* what touches it is another number */

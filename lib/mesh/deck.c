@@ -30,8 +30,6 @@ int fl_deck_fail(const fl_deck *d, fl_err *err, const char *fmt, ...)
     return fl_elements_fail(d->e, d->e->file, d->e->line, err, "%s", what);
 }
 
-static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
-
 int fl_deck_line(fl_deck *d, fl_err *err)
 {
     fl_bytes *b = d->depth ? &d->included[d->depth - 1] : d->base;
@@ -55,7 +53,7 @@ int fl_deck_line(fl_deck *d, fl_err *err)
         d->depth--;
         b = d->depth ? &d->included[d->depth - 1] : d->base;
     }
-    while (len > 0 && is_blank(d->line[len - 1])) len--;
+    while (len > 0 && fl_bytes_blank(d->line[len - 1])) len--;
     d->line[len] = '\0';
     d->len = len;
     return 1;
@@ -145,9 +143,9 @@ int fl_deck_whole(const char *s, int64_t *x)
 char *fl_deck_trim(char *s)
 {
     size_t n;
-    while (is_blank(*s)) s++;
+    while (fl_bytes_blank(*s)) s++;
     n = strlen(s);
-    while (n > 0 && is_blank(s[n - 1])) n--;
+    while (n > 0 && fl_bytes_blank(s[n - 1])) n--;
     s[n] = '\0';
     return s;
 }

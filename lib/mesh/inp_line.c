@@ -19,10 +19,9 @@ void fl_inp_end(fl_inp_line *r)
     *r = (fl_inp_line){0};
 }
 
-static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 static const char *skip_blanks(const char *s)
 {
-    while (is_blank(*s)) s++;
+    while (fl_bytes_blank(*s)) s++;
     return s;
 }
 
@@ -166,12 +165,12 @@ int fl_inp_data(fl_inp_line *r, fl_err *err)
     }
     r->fields = 0;
     for (;;) { /* as item_end(), and without the blanks about it */
-        while (is_blank(*p)) p++;
+        while (fl_bytes_blank(*p)) p++;
         char *const start = p, *end = p, *stop = p; /* stop: behind the last that is not blank */
         int quoted = 0;
         for (; *end && (quoted || *end != ','); end++) {
             quoted ^= *end == '"';
-            if (!is_blank(*end)) stop = end + 1;
+            if (!fl_bytes_blank(*end)) stop = end + 1;
         }
         const int last = *end == '\0';
         *stop = '\0';

@@ -5,9 +5,8 @@
 #include <string.h>
 #include <strings.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "mesh/inp_sets.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* The place that INSTANCE= names, -1 for none. */
 static int instance_of(fl_inp_model *r, int32_t *place, fl_err *err)

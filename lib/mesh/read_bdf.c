@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "geom/similar.h"
 #include "mesh/bdf_entry.h"
 #include "mesh/read_bdf.h"
@@ -15,8 +16,6 @@ enum {
     NAME = 100, /* bytes of a name that count */
     CONROD = -1 /* stands for the property of rods that have none */
 };
-
-static const double PI = 3.14159265358979323846;
 
 /* A coordinate system: as it is given, and once `state` is done its frame. */
 typedef struct {

@@ -3,12 +3,11 @@
 #include <math.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "narrow/hems.h"
 #include "narrow/shards.h"
 #include "narrow/strips.h"
 #include "narrow/tread.h"
-
-#define PI 3.14159265358979323846
 
 /* A feature of B under F; corners of faces and ends of edges are numbers of the footing's vertices. */
 typedef fl_tread_tile tile;

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "narrow/areas.h"
 #include "narrow/matches.h"
 #include "narrow/strips.h"
-
-#define PI 3.14159265358979323846
 
 int fl_places_size(fl_places *w, const fl_poly *a)
 {

@@ -76,7 +76,7 @@ void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice
         put3(f, v3(q.x, q.y, q.z));
         putc('\n', f);
     }
-    if (gone.x != 0.0 || gone.y != 0.0 || gone.z != 0.0) {
+    if (v3_some(gone)) {
         fputs("structure", f);
         put3(f, gone);
         putc('\n', f);

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
 #include "base/num.h"
+#include "base/pi.h"
 #include "out/tables.h"
-
-#define PI 3.14159265358979323846
 
 static void put(FILE *f, double x)
 {

@@ -466,8 +466,6 @@ int fl_field_read(fl_field *out, const char *path, fl_err *err)
 
 /* --- write ---------------------------------------------------------------------------------------------- */
 
-static int moves(fl_vec3 v) { return v.x != 0.0 || v.y != 0.0 || v.z != 0.0; }
-
 /* A buffer of its own: a call of the C library for each number takes as long as its digits do. */
 enum { BUFFER = 1 << 16 };
 
@@ -562,7 +560,7 @@ static void put_body(struct put *o, const fl_field *a, int32_t i)
         }
         put_char(o, '\n');
     }
-    if (moves(a->vel[i]) || moves(a->spin[i])) {
+    if (v3_some(a->vel[i]) || v3_some(a->spin[i])) {
         put_text(o, "vel", 3);
         put_vec3(o, a->vel[i]);
         put_vec3(o, a->spin[i]);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "scene/scene_check.h"
+#include "base/pi.h"
 #include "scene/scene_idle.h"
 #include "scene/scene_section.h"
 
@@ -250,7 +251,7 @@ static int check_waves(const fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "water.height", err,
                              "waves of %g m on water of %g m: less than twice the depth was wanted",
                              w->height, w->depth);
-    const double turn = w->direction * 3.141592653589793 / 180.0, along[2] = {cos(turn), sin(turn)};
+    const double turn = w->direction * PI / 180.0, along[2] = {cos(turn), sin(turn)};
     for (int c = 0; c < 2; c++)
         if (s->boundary.head.present && s->boundary.type[c] == FL_BOUND_PERIODIC && fabs(along[c]) > 1e-9)
             return fl_scene_fail(s, "water.wave", err,
@@ -349,15 +350,13 @@ static int free_only(const motion_check *c, const char *name, fl_vec3 x, uint32_
     return 0;
 }
 
-static int any(fl_vec3 x) { return x.x != 0.0 || x.y != 0.0 || x.z != 0.0; }
-
 static int check_motion(const motion_check *c, const fl_scene_motion *m)
 {
     const uint32_t turns = m->free >> 3;
     const double I[] = {m->inertia.x, m->inertia.y, m->inertia.z};
-    if (m->track[0] && (any(m->velocity) || any(m->spin)))
+    if (m->track[0] && (v3_some(m->velocity) || v3_some(m->spin)))
         return motion_fail(c, "track", "velocity and spin are given as well, one of the two was wanted");
-    if (m->free && any(m->spin))
+    if (m->free && v3_some(m->spin))
         return motion_fail(c, "spin", "what is free is not spun, a structure without free was wanted");
     if (free_only(c, "stiffness", m->stiffness, m->free) || free_only(c, "period", m->period, m->free) ||
         free_only(c, "damping", m->damping, m->free) ||
@@ -365,9 +364,9 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
         free_only(c, "turn_stiffness", m->turn_stiffness, turns) ||
         free_only(c, "turn_damping", m->turn_damping, turns) || free_only(c, "inertia", m->inertia, turns))
         return -1;
-    if (any(m->period) && any(m->stiffness))
+    if (v3_some(m->period) && v3_some(m->stiffness))
         return motion_fail(c, "period", "stiffness is given as well, one of the two was wanted");
-    if (any(m->damping) && any(m->damping_ratio))
+    if (v3_some(m->damping) && v3_some(m->damping_ratio))
         return motion_fail(c, "damping_ratio", "damping is given as well, one of the two was wanted");
     if ((m->free & 7u) && m->mass == 0.0)
         return motion_fail(c, "mass", "free directions have a mass, and none is given");
@@ -376,7 +375,7 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
     for (int k = 0; k < 3; k++)
         if (turns >> k & 1u && !(I[k] > 0.0))
             return motion_fail(c, "inertia", "every free turn has an inertia, above 0 was wanted");
-    if ((any(m->coupling) || m->hydrostatic) && !(m->free & (FL_FIX_Z | FL_FIX_RX | FL_FIX_RY)))
+    if ((v3_some(m->coupling) || m->hydrostatic) && !(m->free & (FL_FIX_Z | FL_FIX_RX | FL_FIX_RY)))
         return motion_fail(c, m->hydrostatic ? "hydrostatic" : "coupling",
                            "it bears on z, rx and ry, and none of them is free");
     if (m->hydrostatic && !c->s->water.head.present)

@@ -316,9 +316,8 @@ static int32_t keep_name(fl_scene *scene, const char *name, fl_err *err)
 {
     char *copy = NULL;
     if (fl_grow(&scene->file, &scene->cap_file, scene->n_file + 1, sizeof *scene->file, err)) return -1;
-    copy = fl_alloc((int64_t)strlen(name) + 1, 1, err);
+    copy = fl_alloc_text(name, err);
     if (!copy) return -1;
-    memcpy(copy, name, strlen(name) + 1);
     scene->file[scene->n_file] = copy;
     return scene->n_file++;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
+#include "base/pi.h"
 #include "scene/scene_unit.h"
 
 static const struct unit {
@@ -68,9 +69,9 @@ static const struct unit {
     {FL_UNIT_MASS, "g", 1, 1e3},
     {FL_UNIT_MASS, "t", 1e3, 1},
     {FL_UNIT_ANGLE, "deg", 1, 1},
-    {FL_UNIT_ANGLE, "rad", 180, 3.14159265358979323846},
+    {FL_UNIT_ANGLE, "rad", 180, PI},
     {FL_UNIT_SPIN, "rad/s", 1, 1},
-    {FL_UNIT_SPIN, "deg/s", 3.14159265358979323846, 180},
+    {FL_UNIT_SPIN, "deg/s", PI, 180},
     {FL_UNIT_INERTIA, "kg.m2", 1, 1},
     {FL_UNIT_INERTIA, "kg.m^2", 1, 1},
     {FL_UNIT_INERTIA, "t.m2", 1e3, 1},

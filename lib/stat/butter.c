@@ -3,9 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "stat/butter.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* A band narrower than this part of its upper limit has poles that rounding does not tell from the circle. */
 static const double NARROWEST = 1e-6;

@@ -7,10 +7,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "stat/describe.h"
 #include "stat/fit.h"
 
-static const double PI = 3.14159265358979323846, EULER = 0.57721566490153286061, LN2 = 0.69314718055994530942;
+static const double EULER = 0.57721566490153286061, LN2 = 0.69314718055994530942;
 
 /* What the minimisers see where there is no law; finite, as GSL wants it, and above every value per
  * sample. */

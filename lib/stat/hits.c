@@ -22,20 +22,12 @@ int fl_hits_open(fl_hits *h, const char *path, const fl_hits_ask *ask, fl_err *e
     return fl_where_make(&h->where, &h->table, ask->where, ask->wheres, err);
 }
 
-static int number(const fl_hits *h, int k, double *x, fl_err *err)
-{
-    if (fl_table_f64(&h->table, h->col[k], x, err)) return -1;
-    if (fabs(*x) <= FL_SERIES_LARGEST) return 0;
-    return fl_text_fail(&h->table.text, err, "%s is %g, at most %g was wanted", NAME[k], *x,
-                        FL_SERIES_LARGEST);
-}
-
 /* The contact of this row, if it is one with the structure that was asked for. */
 static int take(fl_hits *h, fl_err *err)
 {
     double x[COLUMNS], across;
     for (int k = J; k < COLUMNS; k++)
-        if (number(h, k, &x[k], err)) return -1;
+        if (fl_table_within(&h->table, h->col[k], FL_SERIES_LARGEST, &x[k], err)) return -1;
     if (!(x[J] < 0.0) || x[J] < INT32_MIN || x[J] != floor(x[J])) return 0;
     if (h->ask.part && x[J] != h->ask.part) return 0;
     if (!fl_where_holds(&h->where, &h->table)) return 0;
@@ -69,7 +61,7 @@ int fl_hits_next(fl_hits *h, fl_err *err)
             if (more == 0) break;
         }
         h->pending = 0;
-        if (number(h, T, &t, err)) return -1;
+        if (fl_table_within(&h->table, h->col[T], FL_SERIES_LARGEST, &t, err)) return -1;
         if (open && t > h->t) {
             h->pending = 1;
             return 1;

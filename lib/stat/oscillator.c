@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/pi.h"
 #include "stat/oscillator.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Steps to a period in the first solution: the period is then off by a thousandth. */
 static const double FIRST = 32.0;

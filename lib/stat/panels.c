@@ -19,23 +19,12 @@ int fl_panels_open(fl_panels *p, const char *path, fl_err *err)
     return 0;
 }
 
-static int number(const fl_panels *p, int k, double *x, fl_err *err)
-{
-    if (fl_table_f64(&p->table, p->col[k], x, err)) return -1;
-    if (fabs(*x) <= FL_SERIES_LARGEST) return 0;
-    return fl_text_fail(&p->table.text, err, "%s is %g, at most %g was wanted", NAME[k], *x,
-                        FL_SERIES_LARGEST);
-}
-
 static int add_panel(fl_panels *p, const char *name, const double *x, fl_err *err)
 {
-    const size_t bytes = strlen(name) + 1;
     if (fl_grow(&p->panel, &p->cap, (int64_t)p->n + 1, sizeof *p->panel, err)) return -1;
     fl_panel *q = &p->panel[p->n];
-    *q =
-        (fl_panel){.name = fl_alloc((int64_t)bytes, 1, err), .middle = v3(x[X], x[Y], x[Z]), .area = x[AREA]};
+    *q = (fl_panel){.name = fl_alloc_text(name, err), .middle = v3(x[X], x[Y], x[Z]), .area = x[AREA]};
     if (!q->name) return -1;
-    memcpy(q->name, name, bytes);
     p->n++;
     return 0;
 }
@@ -46,7 +35,7 @@ static int take(fl_panels *p, int32_t k, fl_err *err)
     const char *name = fl_table_word(&p->table, p->col[PANEL]);
     double x[COLUMNS];
     for (int c = X; c < COLUMNS; c++)
-        if (number(p, c, &x[c], err)) return -1;
+        if (fl_table_within(&p->table, p->col[c], FL_SERIES_LARGEST, &x[c], err)) return -1;
     if (!(x[AREA] > 0.0))
         return fl_text_fail(&p->table.text, err, "panel %.40s has the area %g m2, above 0 was wanted", name,
                             x[AREA]);
@@ -67,7 +56,7 @@ int fl_panels_next(fl_panels *p, fl_err *err)
             const int more = fl_table_row(&p->table, err);
             if (more < 0) return -1;
             if (more == 0) break;
-            if (number(p, T, &t, err)) return -1;
+            if (fl_table_within(&p->table, p->col[T], FL_SERIES_LARGEST, &t, err)) return -1;
         }
         if (k && t != p->t) {
             p->pending = 1;

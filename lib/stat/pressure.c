@@ -2,9 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "stat/pressure.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Neighbours a diameter away are on the rim opposite; rounding must not lose them: a part of the diameter. */
 static const double RIM = 1e-12;

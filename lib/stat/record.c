@@ -139,9 +139,8 @@ static int32_t add_part(fl_record_reader *r, const char *name, fl_err *err)
         fl_grow(&r->raw, &r->raw_cap, ((int64_t)r->parts + 1) * r->raws, sizeof *r->raw, err))
         return -1;
     p = &r->part[r->parts];
-    *p = (raw_part){.name = fl_alloc((int64_t)strlen(name) + 1, 1, err)};
+    *p = (raw_part){.name = fl_alloc_text(name, err)};
     if (!p->name) return -1;
-    memcpy(p->name, name, strlen(name));
     p->keep = !only || strcmp(only, "total") == 0 || strcmp(only, name) == 0;
     return r->parts++;
 }

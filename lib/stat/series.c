@@ -5,13 +5,6 @@
 #include "base/mem.h"
 #include "stat/series.h"
 
-static char *copy_text(const char *text, fl_err *err)
-{
-    const size_t bytes = strlen(text) + 1;
-    char *copy = fl_alloc((int64_t)bytes, 1, err);
-    return copy ? memcpy(copy, text, bytes) : NULL;
-}
-
 /* --- rows ----------------------------------------------------------------------------------------------- */
 
 static int name_all(fl_series *s, const fl_record *r, fl_err *err)
@@ -24,13 +17,13 @@ static int name_all(fl_series *s, const fl_record *r, fl_err *err)
     if (!s->x) return -1;
     for (int32_t k = 0; k < r->signals; k++) {
         s->signals = k + 1;
-        s->signal[k] = copy_text(r->signal[k], err);
-        s->unit[k] = s->signal[k] ? copy_text(r->unit[k], err) : NULL;
+        s->signal[k] = fl_alloc_text(r->signal[k], err);
+        s->unit[k] = s->signal[k] ? fl_alloc_text(r->unit[k], err) : NULL;
         if (!s->unit[k]) return -1;
     }
     for (int32_t p = 0; p < r->parts; p++) {
         s->parts = p + 1;
-        s->part[p] = copy_text(r->part[p], err);
+        s->part[p] = fl_alloc_text(r->part[p], err);
         if (!s->part[p]) return -1;
     }
     return 0;
@@ -117,7 +110,7 @@ int fl_series_read(fl_series *s, const char *path, const fl_series_ask *ask, fl_
         if ((s->n == 0 && name_all(s, &r, err)) || add_row(s, &r, &cap, err)) goto done;
     if (more < 0) goto done;
     if (fl_record_history(&r)) {
-        s->history = copy_text(fl_record_history(&r), err);
+        s->history = fl_alloc_text(fl_record_history(&r), err);
         if (!s->history) goto done;
     }
     rc = cut(s, ask, fl_record_name(&r), err);

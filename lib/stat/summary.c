@@ -4,13 +4,6 @@
 #include "base/mem.h"
 #include "stat/summary.h"
 
-static char *copy_text(const char *text, fl_err *err)
-{
-    const size_t bytes = strlen(text) + 1;
-    char *copy = fl_alloc((int64_t)bytes, 1, err);
-    return copy ? memcpy(copy, text, bytes) : NULL;
-}
-
 int fl_values_add(fl_values *v, double x, int64_t count, fl_err *err)
 {
     if (v->n && v->v[v->n - 1].x == x) {
@@ -110,9 +103,9 @@ fl_summary_signal *fl_summary_find(fl_summary *s, const char *part, const char *
                 signal, part, unit, s->s[lo].unit);
         return NULL;
     }
-    fl_summary_signal new = {.part = copy_text(part, err)};
-    new.signal = new.part ? copy_text(signal, err) : NULL;
-    new.unit = new.signal ? copy_text(unit, err) : NULL;
+    fl_summary_signal new = {.part = fl_alloc_text(part, err)};
+    new.signal = new.part ? fl_alloc_text(signal, err) : NULL;
+    new.unit = new.signal ? fl_alloc_text(unit, err) : NULL;
     if (!new.unit || fl_grow(&s->s, &s->cap, (int64_t)s->n + 1, sizeof *s->s, err)) {
         free_signal(&new);
         return NULL;

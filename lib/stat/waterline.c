@@ -2,9 +2,8 @@
 #include <math.h>
 #include <string.h>
 #include "base/num.h"
+#include "base/pi.h"
 #include "stat/waterline.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Larger coordinates are no structure, and their squares must stay finite. */
 static const double LARGEST = 1e9;

@@ -6,9 +6,8 @@
 #include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_fft_real.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "stat/welch.h"
-
-static const double PI = 3.14159265358979323846;
 
 const char *fl_taper_name(int taper)
 {

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/pi.h"
 #include "law/damping.h"
 #include "step/critical.h"
 #include "step/frozen.h"
 #include "step/pairing.h"
 #include "step/ride.h"
 #include "step/stiff.h"
-
-#define PI 3.14159265358979323846
 
 /* As many faces at rest on faces may a body have under it at once, as far as the step knows beforehand. */
 #define FACES 2.0

@@ -3,11 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "law/normal.h"
 #include "narrow/nearest.h"
 #include "step/press.h"
-
-#define PI 3.14159265358979323846
 
 /* --- panels ------------------------------------------------------------------------------------ */
 

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "step/ride.h"
 #include "step/works.h"
 
-#define PI 3.14159265358979323846
-
-static int any(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }
-
 static int moves(const fl_scene_motion *m)
 {
-    return any(m->velocity) || any(m->spin) || m->track[0] || m->free;
+    return v3_some(m->velocity) || v3_some(m->spin) || m->track[0] || m->free;
 }
 
 /* Springs and dampers of a scene's motion; c = 2 D sqrt(k m) along x y z. */
@@ -79,7 +76,7 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *of, cons
     const fl_track *tr = &w->ride.m.motion[w->ride.m.n - 1].track;
     snprintf(key, sizeof key, "%s.track", of);
     for (int32_t i = 0; m->free && i < tr->n; i++)
-        if (any(tr->at[i].r))
+        if (v3_some(tr->at[i].r))
             return fl_scene_fail(w->scene, key, err,
                                  "%s: the track turns at %g s, and a structure with free directions turns by "
                                  "itself or not at all",
@@ -295,9 +292,9 @@ enum fl_loads_moving fl_ride_columns(const fl_world *w)
     enum fl_loads_moving most = w->ride.m.n ? FL_LOADS_MOVES : FL_LOADS_STILL;
     for (int32_t m = 0; m < w->ride.m.n; m++) {
         const fl_motion *motion = &w->ride.m.motion[m];
-        if (motion->free >> 3 || any(motion->spin)) most = FL_LOADS_TURNS;
+        if (motion->free >> 3 || v3_some(motion->spin)) most = FL_LOADS_TURNS;
         for (int32_t i = 0; i < motion->track.n; i++)
-            if (any(motion->track.at[i].r)) most = FL_LOADS_TURNS;
+            if (v3_some(motion->track.at[i].r)) most = FL_LOADS_TURNS;
     }
     return most;
 }

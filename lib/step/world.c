@@ -2,6 +2,7 @@
 #include <omp.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "bound/shell.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
@@ -100,8 +101,6 @@ bad:
     return fail_body(w, field, k, err, why.text);
 }
 
-static int anything(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }
-
 /* The water that body i, of shape p, moves along. */
 static void add_water(fl_world *w, int32_t i, const fl_poly *p)
 {
@@ -127,7 +126,7 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
                        w->scene->ice.file, w->id[i]);
     if (!round && fl_topologies_share(&w->alike, outer, FL_KEEP_OFFSETS, err)) return -1;
     if (fl_sea_dress(&w->sea, i, round ? NULL : outer, core, w->b.radius[i], err)) return -1;
-    if (w->b.added || anything(w->scene->water.added_inertia))
+    if (w->b.added || v3_some(w->scene->water.added_inertia))
         add_water(w, i, round ? core : fl_sea_outer(&w->sea, i) ? fl_sea_outer(&w->sea, i) : outer);
     return fl_sea_fit(&w->sea, i, err);
 }
@@ -202,10 +201,10 @@ static int make_sea(fl_world *w, fl_err *err)
     sea->breeze = s->wind.velocity;
     if (s->wind.beaufort >= 0.0) { /* Beaufort's scale, as words of the manual have it */
         const double U = 0.836 * s->wind.beaufort * sqrt(s->wind.beaufort),
-                     a = s->wind.direction * 3.141592653589793 / 180.0;
+                     a = s->wind.direction * PI / 180.0;
         sea->breeze = v3(U * cos(a), U * sin(a), 0);
     }
-    if (sea->water && anything(s->water.added_mass) && fl_bodies_add_mass(&w->b, err)) return -1;
+    if (sea->water && v3_some(s->water.added_mass) && fl_bodies_add_mass(&w->b, err)) return -1;
     return make_waves(w, err) || fl_sea_alloc(sea, w->n, w->threads, err) ? -1 : 0;
 }
 

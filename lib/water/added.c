@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "water/added.h"
-
-static const double PI = 3.141592653589793;
+#include "base/pi.h"
 
 static double pick(double asked, double unit, double otherwise)
 {

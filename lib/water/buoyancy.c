@@ -2,10 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "geom/dilate.h"
 #include "water/buoyancy.h"
-
-static const double PI = 3.141592653589793;
 
 int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
 {

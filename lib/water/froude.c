@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/wide.h"
 #include "water/froude.h"
 
@@ -8,8 +9,6 @@
  * would cost up to twice the time for 5e-6, and 5 leaves 4e-3. */
 #define LONGEST 3.0
 #define SMALL 0.3
-
-#define PI 3.14159265358979323846
 
 /* Half of a cell, in 1/k_top: its corner is 7.07 away, which leaves room for crests below FL_WAVE_REACH. */
 #define HALF 5.0

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "water/sea.h"
-
-#define PI 3.14159265358979323846
 
 /* Places that a wave is looked at in for one body, at most. */
 #define MOST_CELLS 1000000

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/expo.h"
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "base/wide.h"
 #include "water/wave.h"
-
-static const double PI = 3.141592653589793;
 
 /* What a series may leave out of a train, over its amplitude. */
 #define ENDING 1e-5

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include "base/pi.h"
 #include "step/awake.h"
 #include "step/interact.h"
 #include "support/lab.h"
@@ -25,7 +26,6 @@
 #define STEP 1e-5      /* [m] */
 #define TOLERANCE 1e-3 /* of contacts by surrogates */
 #define PITCH 50.0     /* of contacts above each other [m] */
-#define PI 3.14159265358979323846
 
 enum { CORNERS = 8, EIGHT = 8, TIMES = 20000, CCD_TIMES = 4000 };
 

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/quat.h"
 #include "narrow/contact.h"
@@ -47,7 +48,7 @@ static int floe(fl_poly *p, fl_rng *g)
     fl_err err = {0};
     const int32_t n = 4 + (int32_t)(5.0 * fl_rng_unit(g));
     for (int32_t i = 0; i < n; i++) {
-        const double t = 2.0 * 3.14159265358979323846 * (i + 0.6 * fl_rng_unit(g)) / n;
+        const double t = 2.0 * PI * (i + 0.6 * fl_rng_unit(g)) / n;
         xy[i] = v3(1.75 * cos(t), 1.75 * sin(t), 0.0);
     }
     return fl_poly_prism(p, n, xy, -0.2, 0.2, &err);
@@ -62,7 +63,7 @@ static int make(motion *m, enum scene scene, int k)
     /* A side face of a looks down x at one of b, which is turned to look back; flush means exactly. */
     const fl_vec3 na = a.n[2 + (int)(fl_rng_unit(&g) * (a.nf - 2))],
                   nb = b.n[2 + (int)(fl_rng_unit(&g) * (b.nf - 2))];
-    const double ta = atan2(na.y, na.x), tb = atan2(nb.y, nb.x) + 3.14159265358979323846;
+    const double ta = atan2(na.y, na.x), tb = atan2(nb.y, nb.x) + PI;
     const double off = scene == FLUSH ? 0.0 : 0.2;
     const fl_vec3 tilt = v3(0.012 * fl_rng_normal(&g), 0.012 * fl_rng_normal(&g), off * fl_rng_normal(&g)),
                   slide = v3(0, fl_rng_in(&g, -1, 1), scene == FLUSH ? 0.0 : fl_rng_in(&g, -0.1, 0.1));

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include "base/pi.h"
 #include "step/interact.h"
 #include "step/pairing.h"
 #include "support/lab.h"
@@ -23,7 +24,6 @@
 #define TOLERANCE 1e-3 /* of contacts by surrogates */
 #define ROUND 4.0      /* radius of hull and cylinder [m] */
 #define LONG 8.0       /* of the hull along its axis [m] */
-#define PI 3.14159265358979323846
 
 enum { CORNERS = 8, TIMES = 2000, TURNS = 5 };
 

@@ -3,10 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/quat.h"
-
-#define PI 3.14159265358979323846
 
 enum { CORNERS = 12 };
 

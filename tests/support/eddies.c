@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "ice/cells.h"
 #include "ice/floes.h"
 #include "scene/field_order.h"
@@ -10,7 +11,6 @@
 #define RADIUS 0.05
 #define AREA 12.5 /* of the field, for a floe [m2] */
 #define EDDY 6.0  /* [m] */
-#define PI 3.14159265358979323846
 
 enum { SMOOTH = 2 };
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "support/near.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "body/integrate.h"
 #include "bond/several.h"
 #include "bond/shared.h"
-
-#define PI 3.14159265358979323846
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

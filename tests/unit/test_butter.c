@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "stat/butter.h"
 #include "support/near.h"
 
 enum { N = 2000 };
-
-static const double PI = 3.14159265358979323846;
 
 /* Order 4, 5 Hz of 100 Hz: the coefficients and gains of scipy 1.10. */
 static void known_coefficients(void **state)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/facet.h"
 #include "geom/patch.h"
@@ -174,7 +175,6 @@ static void a_plate_of_two_sides_is_no_body(void **state)
  * hides of it, so the volume is that of a joint of two, three or four. */
 static void joints_of_tubes_become_one(void **state)
 {
-    static const double PI = 3.14159265358979323846;
     (void)state;
     for (int braces = 2; braces < 7; braces++) {
         fl_part p = {0};

@@ -3,14 +3,13 @@
 #include <string.h>
 #include "support/near.h"
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "ice/domain.h"
 #include "ice/domain_read.h"
 #include "ice/faces.h"
 #include "ice/section.h"
 #include "mesh/gstruct.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* A star of n corners about c, its radii random between a and b. */
 static void star(fl_domain *d, fl_rng *g, int32_t n, fl_vec2 c, double a, double b)

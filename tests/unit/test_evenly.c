@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "stat/evenly.h"
 #include "support/near.h"
 
@@ -52,7 +53,7 @@ static void sine_loses_what_is_known(void **state)
     enum { N = 24000 };
     char *data = malloc(N * 48);
     int n = sprintf(data, "#loads 1\nt part fx[N]\n");
-    const double w = 2.0 * 3.14159265358979323846 * 0.25;
+    const double w = 2.0 * PI * 0.25;
     (void)state;
     for (int k = 1; k <= N; k++) {
         const double t = 0.005 * k;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "mesh/fans.h"
 #include "shim/cgal_crossing.h"
 #include "support/near.h"
 
-static const double PI = 3.14159265358979323846;
 static fl_err err;
 static fl_part p;
 static uint8_t tame[FL_FANS_MOST + 2];

@@ -4,6 +4,7 @@
 #include <string.h>
 #include "support/near.h"
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
@@ -149,7 +150,7 @@ static void one_floe_is_a_rectangle(void **state)
     assert_true(isinf(cert.gap));
     assert_int_equal(cert.gap_of[0], -1);
     assert_near(cert.edge, 40.0 - 2.0 * (a.inset + 1.5), 1e-13);
-    assert_near(cert.angle, 0.5 * 3.14159265358979323846, 1e-14);
+    assert_near(cert.angle, 0.5 * PI, 1e-14);
     assert_true(a.core[0].x > 75.0);
     fl_floes_free(&a);
     fl_cells_free(&c);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What lies under a face is summed up apart, and comes to the same. */
 #include <math.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "bound/shell.h"
 #include "support/near.h"
 
 #define RADIUS 0.05
-#define PI 3.14159265358979323846
 
 /* A sheet of n by n cells on 2 m that bends by 1/8 1/m one way and 1/5 1/m the other, convex or hollow, and
  * is rough by `rough`; its seams lean by `lean`. */

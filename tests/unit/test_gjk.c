@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/dd.h"
 #include "geom/quat.h"
@@ -263,7 +264,7 @@ static void many_vertices(void **state)
     enum { N = 5000 };
     static fl_vec3 ring[2 * N];
     for (int i = 0; i < N; i++) {
-        const double t = 2.0 * 3.14159265358979323846 * i / N;
+        const double t = 2.0 * PI * i / N;
         ring[i] = v3(cos(t), sin(t), 0.0);
         ring[N + i] = v3(cos(t), sin(t), 1.0);
     }

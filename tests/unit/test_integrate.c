@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "support/near.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "body/few.h"
 #include "body/integrate.h"
@@ -186,10 +187,8 @@ static void two_held_turns_leave_an_axle(void **state)
             fl_kick(&b, 0, 0.5 * dt);
         }
         assert_near(b.w[0].z, w, 1e-11);
-        assert_near_of(
-            turned(b.q[0],
-                   q_mul(q_of_vector(v3(0, 0, fmod(w * dt * steps, 2.0 * 3.14159265358979323846))), q)),
-            0.0, 1e-9, 1.0);
+        assert_near_of(turned(b.q[0], q_mul(q_of_vector(v3(0, 0, fmod(w * dt * steps, 2.0 * PI))), q)), 0.0,
+                       1e-9, 1.0);
         assert_near_of(b.held[0], 0.0, 1e-15, 1.0); /* what holds at rest does no work */
         fl_bodies_free(&b);
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "support/near.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "law/damping.h"
 #include "law/manual.h"
@@ -19,8 +20,6 @@ static fl_vec3 tangent(fl_slip *s, const fl_rubbing *c, fl_vec3 v, double spin, 
     *moment = r.moment;
     return r.force;
 }
-
-#define PI 3.14159265358979323846
 
 /* --- damping ----------------------------------------------------------------------------------------------
  */

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/pi.h"
 #include "geom/dilate.h"
 #include "geom/mass.h"
 #include "support/near.h"
 #include "support/shapes.h"
-
-static const double PI = 3.141592653589793;
 
 static void box_is_exact(void **state)
 {

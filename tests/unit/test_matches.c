@@ -2,6 +2,7 @@
 /* A list of matches is made for as far as is worth it, and what it leaves out bears on no bit. */
 #include <math.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "narrow/matches.h"
 #include "narrow/overlap.h"
@@ -115,7 +116,7 @@ static void many_sides_are_as_few(void **state)
     fl_matches l = {0}, m = {0};
     fl_err err = {0};
     for (int k = 0; k < MANY; k++) {
-        const double t = 2.0 * 3.14159265358979323846 * k / MANY;
+        const double t = 2.0 * PI * k / MANY;
         xy[k] = v3(2.0 * cos(t), 2.0 * sin(t), 0);
     }
     assert_int_equal(fl_poly_box(&a, v3(0.5, 0.6, 0.2), &err) ||

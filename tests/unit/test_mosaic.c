@@ -2,11 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/mosaic.h"
 #include "support/near.h"
-
-#define PI 3.14159265358979323846
 
 /* A flat mesh. */
 enum { MOST = 4000 };

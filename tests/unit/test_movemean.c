@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/movemean.h"
 #include "support/near.h"
 
 enum { N = 400 };
-
-static const double PI = 3.14159265358979323846;
 
 static void windows_by_hand(void **state)
 {

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/pi.h"
 #include "stat/oscillator.h"
 #include "support/near.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Without damping (u, v/w) turns by 2 atan(w h / 2) a step and keeps its length. */
 static void step_is_a_rotation(void **state)

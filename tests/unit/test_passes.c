@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A ball on a surface that is not convex: which walls bear, and that nothing about it jumps. */
 #include <math.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "bound/shell.h"
 #include "support/near.h"
 
 #define R 0.1
-#define PI 3.14159265358979323846
 
 typedef struct {
     fl_surface surface;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "support/near.h"
 #include "support/shapes.h"
 
@@ -76,7 +77,7 @@ static void points_segments_polygons(void **state)
     fl_poly_free(&p);
     assert_int_equal(fl_poly_make(&p, 4, v, 2, first, loop, &err), 0);
     assert_int_equal(p.ne, 4);
-    for (int e = 0; e < 4; e++) assert_near(fl_poly_bend(&p, e), 3.141592653589793, 1e-15);
+    for (int e = 0; e < 4; e++) assert_near(fl_poly_bend(&p, e), PI, 1e-15);
     fl_poly_free(&p);
     refused(2, (fl_vec3[2]){{1, 2, 3}, {1, 2, 3}}, 0, NULL, NULL,
             "vertices 0 and 1 coincide: a sphere has one vertex");

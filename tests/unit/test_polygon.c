@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "support/near.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/polygon.h"
 
 enum { MANY = 64 };
-#define PI 3.14159265358979323846
 
 static double half_tan_sum(int32_t n, const fl_polygon_side *side)
 {

@@ -4,11 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/pressure.h"
 #include "support/near.h"
-
-static const double PI = 3.14159265358979323846;
 
 static fl_hit at(double x, double y, double z, double push)
 {

@@ -2,11 +2,11 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/quat.h"
 #include "support/near.h"
 
-#define PI 3.14159265358979323846
 #define EPS DBL_EPSILON
 
 static fl_vec3 some_vector(fl_rng *g, double size)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/resample.h"
 #include "stat/series.h"
@@ -281,7 +282,7 @@ static void filtered_view(void **state)
 {
     enum { N = 4000 };
     char *data = malloc(N * 80);
-    const double p[] = {0.5}, w = 2.0 * 3.14159265358979323846 * 0.2;
+    const double p[] = {0.5}, w = 2.0 * PI * 0.2;
     const char *const column[] = {"fx"};
     int n = sprintf(data, "#loads 1\nt[s] part fx[N]\n");
     double t = 0.0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/facet.h"
 #include "geom/moments.h"
@@ -8,7 +9,6 @@
 #include "geom/similar.h"
 #include "support/near.h"
 
-static const double PI = 3.141592653589793238;
 static fl_err err;
 
 static fl_part box(double a, double b, double c, fl_vec3 at)

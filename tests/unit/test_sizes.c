@@ -2,14 +2,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include "base/pi.h"
 #include "support/near.h"
 #include "ice/sizes.h"
 #include "ice/sizes_law.h"
 #include "ice/sizes_read.h"
 
 enum { N = 1000 };
-
-static const double PI = 3.14159265358979323846;
 
 /* n areas have the asked mean, ascend, and are as near to the law as n of them can be told to be. */
 static void follows(const fl_sizes *s, double mean)

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/pi.h"
 #include "support/near.h"
 #include <math.h>
 #include <string.h>
@@ -140,7 +141,7 @@ static void a_fine_cylinder_stays_round(void **state)
     fl_structure st = build(&l.surface);
     assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
     assert_true(st.piece[0].core.nf > 500);
-    assert_near(volume(&st.piece[0].core), 2 * 3.141592653589793, 1e-5);
+    assert_near(volume(&st.piece[0].core), 2 * PI, 1e-5);
     fl_structure_free(&st);
     lab_free(&l);
 }
@@ -396,7 +397,7 @@ static void cones_have_the_section_of_the_circle(void **state)
         assert_int_equal(st.n, 1);
         assert_int_equal(q->kind, FL_PIECE_CONE);
         assert_int_equal(q->core.nf, FL_CONE_SIDES + (r0 > 0) + (r1 > 0));
-        assert_near(volume(&q->core), 3.141592653589793 / 3 * h * (r0 * r0 + r0 * r1 + r1 * r1), 1e-13);
+        assert_near(volume(&q->core), PI / 3 * h * (r0 * r0 + r0 * r1 + r1 * r1), 1e-13);
         assert_near(q->h, h, 1e-15);
         const fl_vec3 top = v3_add(q->x, q_rotate(q->q, v3(0, 0, h)));
         assert_near_of(v3_norm(v3_sub(top, c[k].p1)), 0.0, 1e-15, 10.0);

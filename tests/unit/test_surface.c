@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/facet.h"
 #include "geom/patch.h"
@@ -10,7 +11,6 @@
 #include "geom/weld.h"
 #include "support/near.h"
 
-static const double PI = 3.14159265358979323846;
 static fl_err err;
 
 static fl_part *part(fl_surface *s)

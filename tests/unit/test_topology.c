@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "geom/topology.h"
 #include "support/near.h"
 
@@ -9,7 +10,7 @@ static void prism(fl_poly *p, int n, double size)
     fl_vec3 xy[200];
     fl_err err = {0};
     for (int k = 0; k < n; k++) {
-        const double t = 2.0 * 3.14159265358979323846 * k / n;
+        const double t = 2.0 * PI * k / n;
         xy[k] = v3(size * cos(t), size * sin(t), 0);
     }
     assert_int_equal(fl_poly_prism(p, n, xy, -size, size, &err), 0);
@@ -94,7 +95,7 @@ static void points_segments_and_outer_shapes(void **state)
 static void few_angles_are_kept(void **state)
 {
     (void)state;
-    const double turn[3] = {1.0, 0.3, 0.2}, PI = 3.14159265358979323846;
+    const double turn[3] = {1.0, 0.3, 0.2};
     fl_topologies t = {0};
     fl_err err = {0};
     for (int way = 0; way < 4; way++) {

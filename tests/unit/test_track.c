@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/pi.h"
 #include "support/near.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include "bound/track.h"
-
-#define PI 3.14159265358979323846
 
 static fl_track read(const char *text, int cubic)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/clip.h"
 #include "support/near.h"
@@ -9,8 +10,6 @@
 #include "water/current.h"
 #include "water/drag.h"
 #include "water/facet_drag.h"
-
-static const double PI = 3.141592653589793;
 
 static void floe(fl_poly *p, fl_hull *h, double x, double y, double z)
 {

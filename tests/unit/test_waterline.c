@@ -2,12 +2,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/panels.h"
 #include "stat/waterline.h"
 #include "support/near.h"
-
-static const double PI = 3.14159265358979323846;
 
 static fl_waterline made(const char *text)
 {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "support/shapes.h"
 #include "water/froude.h"
@@ -108,8 +109,7 @@ static void seas_are_made_from_their_seed(void **state)
     }
     assert_near(4 * sqrt(sum), 3.0, 1e-14);
     double breaking;
-    assert_near(fl_wave_steepness(1.0, 2.0, INFINITY, 9.81, &breaking), 2 * 3.141592653589793 / (9.81 * 4),
-                1e-12);
+    assert_near(fl_wave_steepness(1.0, 2.0, INFINITY, 9.81, &breaking), 2 * PI / (9.81 * 4), 1e-12);
     assert_near(breaking, 0.142, 1e-15);
     fl_waves_free(&a), fl_waves_free(&b), fl_waves_free(&c);
 }

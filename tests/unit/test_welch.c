@@ -2,13 +2,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/welch.h"
 #include "support/near.h"
 
 enum { N = 1000 };
-
-static const double PI = 3.14159265358979323846;
 
 static fl_welch made(int32_t n, const double *x, double fs, int32_t length, int taper)
 {

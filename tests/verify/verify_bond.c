@@ -3,13 +3,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "body/integrate.h"
 #include "step/frozen.h"
 #include "support/lab.h"
 #include "support/verify.h"
-
-#define PI 3.14159265358979323846
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

@@ -4,13 +4,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "scene/scene_check.h"
 #include "step/traffic.h"
 #include "support/lab.h"
 #include "support/verify.h"
 
-#define PI 3.14159265358979323846
 static const fl_vec3 ZERO = {0, 0, 0};
 
 /* A floe flat against an elastic wall is a mass on the spring k = k_A A and the dashpot c = c_A A, until the

@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "narrow/places.h"
 #include "step/stance.h"
 #include "support/lab.h"
 #include "support/sweep.h"
 #include "support/verify.h"
 
-#define PI 3.14159265358979323846
 #define G 9.81
 
 static const fl_vec3 ZERO = {0, 0, 0};

@@ -3,11 +3,11 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "support/lab.h"
 #include "support/verify.h"
 
-#define PI 3.14159265358979323846
 #define G 9.81
 static const fl_vec3 ZERO = {0, 0, 0};
 

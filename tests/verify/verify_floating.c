@@ -2,12 +2,12 @@
 /* Floating bodies through the solver, against closed forms. */
 #include <math.h>
 #include <stdio.h>
+#include "base/pi.h"
 #include "support/lab.h"
 #include "support/near.h"
 #include "support/verify.h"
 
 #define ZERO v3(0, 0, 0)
-#define PI 3.14159265358979323846
 #define G 9.81
 #define DRAFT (900.0 / 1025.0)    /* of 10 x 10 x 1 m of ice */
 #define WETTED (100 + 40 * DRAFT) /* [m2]                    */

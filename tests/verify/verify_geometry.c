@@ -3,6 +3,7 @@
  * what V50, V54 and V56 take from hydrostatics. */
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "geom/clip.h"
 #include "geom/dilate.h"
 #include "geom/mass.h"
@@ -11,7 +12,7 @@
 #include "water/buoyancy.h"
 #include "water/drag.h"
 
-static const double DEGREE = 3.141592653589793 / 180;
+static const double DEGREE = PI / 180;
 
 static void must(int rc, const char *what)
 {
@@ -86,8 +87,8 @@ static void dilated(void)
     fl_mass m;
     box(&p, 1, 1, 1);
     must(fl_mass_of(&m, &p, 0.1, &err), "a rounded cube has a mass");
-    verify_row("V36", "unit cube swept by 0.1: V [m3]", m.volume,
-               1.0 + 0.6 + 0.03 * 3.141592653589793 + 0.004 / 3 * 3.141592653589793, 1e-14, VERIFY_REL);
+    verify_row("V36", "unit cube swept by 0.1: V [m3]", m.volume, 1.0 + 0.6 + 0.03 * PI + 0.004 / 3 * PI,
+               1e-14, VERIFY_REL);
     verify_row("V36", "its moment of inertia over density [m5]", m.inertia.x, 0.3993914, 1e-7, VERIFY_ABS);
     verify_row("V36", "Steiner's formula [m3]", fl_dilate_volume(&p, 0.1), m.volume, 1e-14, VERIFY_REL);
     must(fl_poly_offset(&q, &p, 0.1, &err) || fl_mass_of(&m, &q, 0.0, &err), "faces of a cube can be moved");

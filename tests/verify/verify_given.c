@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/pi.h"
 #include "geom/facet.h"
 #include "geom/mass.h"
 #include "geom/patch.h"
@@ -12,8 +13,6 @@
 #include "support/near.h"
 #include "support/verify.h"
 #include "water/wave.h"
-
-#define PI 3.14159265358979323846
 
 /* Four corners within 1e-12 of one plane are no solid; a plate of no thickness is a core, swept by a ball. */
 static void cores_without_volume(void)

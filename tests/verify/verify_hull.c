@@ -2,11 +2,10 @@
 /* A hull afloat: what its shape tells of its springs, and how it heaves, rolls and pitches on them. */
 #include <math.h>
 #include <stdio.h>
+#include "base/pi.h"
 #include "step/ride.h"
 #include "support/lab.h"
 #include "support/verify.h"
-
-#define PI 3.14159265358979323846
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

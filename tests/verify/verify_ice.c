@@ -12,6 +12,7 @@
 #include "support/verify.h"
 #include "base/mem.h"
 #include "base/par.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
@@ -195,7 +196,6 @@ static void slivers(void)
         field_of(what, N, site, (fl_vec2){0, 0}, (fl_vec2){SIDE, SIDE}, 0, 0.9, 0.02, "H05");
     }
     /* a cell of 1e-12 the area of the others, between six that come to a point there */
-    static const double PI = 3.14159265358979323846;
     for (int i = 0; i < N; i++) site[i] = (fl_vec2){i % SIDE + 0.4, i / SIDE + 0.7};
     for (int k = 0; k < 7; k++) {
         const double t = k * PI / 3.0, r = k < 6 ? 1e-6 : 0.0;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "base/pi.h"
 #include "geom/facet.h"
 #include "geom/moments.h"
 #include "geom/patch.h"
@@ -20,7 +21,6 @@
 #include "mesh/write_vtp.h"
 #include "support/verify.h"
 
-static const double PI = 3.141592653589793238;
 static fl_err err;
 
 static void die(void)

@@ -5,11 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "base/pi.h"
 #include "step/ride.h"
 #include "support/lab.h"
 #include "support/verify.h"
-
-#define PI 3.14159265358979323846
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

@@ -4,11 +4,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "stat/event.h"
 #include "stat/pressure.h"
 #include "support/verify.h"
-
-static const double PI = 3.14159265358979323846;
 
 enum { PULSES = 3, LEVELS = 4 };
 

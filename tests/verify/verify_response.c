@@ -4,11 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/oscillator.h"
 #include "support/verify.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* The period grows by (w h / 2) / atan(w h / 2), the amplitude not at all. */
 static void free_vibration(void)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "body/integrate.h"
 #include "law/material.h"
@@ -11,7 +12,6 @@
 #include "support/shapes.h"
 #include "support/verify.h"
 
-#define PI 3.14159265358979323846
 #define G 9.81
 
 static const char *text(const char *what, double number)

@@ -2,13 +2,13 @@
 /* One energy where it is hard to sum up: surfaces that are not convex, thin poles, slim corners. */
 #include <math.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "narrow/gjk.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 #include "support/verify.h"
 
-#define PI 3.14159265358979323846
 #define RADIUS 0.05
 
 static const fl_vec3 ZERO = {0, 0, 0};

@@ -4,11 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/welch.h"
 #include "support/verify.h"
-
-static const double PI = 3.14159265358979323846;
 
 static fl_welch s;
 

@@ -7,6 +7,7 @@
  * after Thornton. */
 #include <math.h>
 #include <stdio.h>
+#include "base/pi.h"
 #include "law/damping.h"
 #include "law/manual.h"
 #include "law/material.h"
@@ -15,7 +16,6 @@
 #include "support/lab.h"
 #include "support/verify.h"
 
-#define PI 3.14159265358979323846
 #define HALF_DIGIT 5.01e-6 /* of a table printed to five decimals, and its rounding */
 
 typedef struct {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/butter.h"
 #include "stat/describe.h"
@@ -11,8 +12,6 @@
 #include "stat/peaks.h"
 #include "stat/resample.h"
 #include "support/verify.h"
-
-static const double PI = 3.14159265358979323846;
 
 static void sample(void)
 {

@@ -4,13 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "law/manual.h"
 #include "support/lab.h"
 #include "support/sweep.h"
 #include "support/verify.h"
-
-#define PI 3.14159265358979323846
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

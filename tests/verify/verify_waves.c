@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "stat/welch.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 #include "support/verify.h"
 
-#define PI 3.14159265358979323846
 #define G 9.81
 #define DRAFT (900.0 / 1025.0)
 #define REST (0.5 - DRAFT)

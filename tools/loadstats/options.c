@@ -217,10 +217,8 @@ static int choice(const char *option, const char *text, const char *const *list,
 static int each(struct options *o, const char *option, const char *text,
                 int (*take)(struct options *, char *, fl_err *), fl_err *err)
 {
-    const size_t bytes = strlen(text) + 1;
-    char *word = fl_alloc((int64_t)bytes, 1, err), *copy = word;
+    char *word = fl_alloc_text(text, err), *copy = word;
     int rc = word ? 0 : -1;
-    if (rc == 0) memcpy(copy, text, bytes);
     while (rc == 0 && word) {
         char *comma = strchr(word, ',');
         if (comma) *comma++ = '\0';

@@ -7,12 +7,11 @@
 #include "base/gnuplot.h"
 #include "base/mem.h"
 #include "base/num.h"
+#include "base/pi.h"
 #include "base/stream.h"
 #include "chart.h"
 
 enum { WIDTH = 1000, CLASSES = 40, LAW_POINTS = 200, PATH_LEN = 4096 };
-
-static const double PI = 3.14159265358979323846;
 
 struct picture {
     const struct options *o;

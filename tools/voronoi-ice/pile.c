@@ -122,7 +122,7 @@ static int add_blocks(const fl_blocks *b, const struct options *o, int64_t *id, 
         if (b->core[i].nv == 0) continue;
         if (*id > INT32_MAX) return fl_fail(err, FL_INPUT, "more blocks than there are ids");
         if (fl_poly_copy(&core, &b->core[i], err)) return -1;
-        if (shift.x != 0.0 || shift.y != 0.0 || shift.z != 0.0) fl_poly_to_frame(&core, v3_neg(shift), same);
+        if (v3_some(shift)) fl_poly_to_frame(&core, v3_neg(shift), same);
         if (fl_field_add(out, (int32_t)(*id)++, o->radius, &core, o->material, NULL,
                          v3(o->velocity.x, o->velocity.y, 0.0), v3(0, 0, 0), err)) {
             fl_poly_free(&core);

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/pi.h"
 #include "base/stream.h"
 #include "ice/lattice.h"
 #include "scene/field.h"
 #include "certify.h"
 #include "sheet.h"
-
-static const double PI = 3.14159265358979323846;
 
 static fl_vec3 place(const fl_lattice *a, int32_t i, double draft)
 {

@@ -3,11 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "base/rng.h"
 #include "ice/sizes_read.h"
 #include "sizing.h"
-
-static const double PI = 3.14159265358979323846;
 
 static double diameter(double area) { return sqrt(4.0 / PI * area); }
 

@@ -2,13 +2,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/mem.h"
+#include "base/pi.h"
 #include "geom/surface.h"
 #include "ice/domain_read.h"
 #include "ice/section.h"
 #include "mesh/gstruct.h"
 #include "water.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* The cells of a domain are made in a box larger than its own by this part, so that no side of a cell lies on
  * a side of the domain. */
