@@ -2,6 +2,7 @@
 #include <getopt.h>
 #include <string.h>
 #include "base/num.h"
+#include "base/option.h"
 #include "options.h"
 
 static const char HELP[] =
@@ -68,11 +69,7 @@ static int take(struct options *o, int c, fl_err *err)
             return fl_fail(err, FL_USAGE, "--probe is \"%.40s\", a distance in metres was wanted", optarg);
         return 0;
     case 'z': o->gzip = 1; return 0;
-    case 'j':
-        if (fl_num_i32(optarg, 1, 1024, &o->threads))
-            return fl_fail(err, FL_USAGE, "--threads is \"%.40s\", a whole number from 1 to 1024 was wanted",
-                           optarg);
-        return 0;
+    case 'j': return fl_option_whole("threads", optarg, 1, 1024, &o->threads, err);
     case 'q': o->quiet = 1; return 0;
     case 'v': o->verbose = 1; return 0;
     case 'h':
@@ -93,14 +90,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     *o = (struct options){.probe = -1.0};
     opterr = 0;
     while ((c = getopt_long(argc, argv, ":s:i:S:o:R:r:e:zj:qvh", LONG, NULL)) != -1) {
-        const char *word = argv[optind - 1];
-        if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see dem-solve --help", word);
-        const int full = strncmp(word, "--", 2) == 0;
-        if (c == '?' && optopt && !full)
-            return fl_fail(err, FL_USAGE, "-%c is no option, see dem-solve --help", optopt);
-        if (c == '?' && optopt)
-            return fl_fail(err, FL_USAGE, "%.60s: that option takes no value, see dem-solve --help", word);
-        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see dem-solve --help", word);
+        if (c == ':' || c == '?')
+            return fl_option_unknown("dem-solve", LONG, c, optopt, argv[optind - 1], err);
         if (take(o, c, err)) return -1;
         if (o->ended) return 0;
     }

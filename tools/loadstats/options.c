@@ -5,6 +5,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/num.h"
+#include "base/option.h"
 #include "base/text.h"
 #include "stat/butter.h"
 #include "stat/view.h"
@@ -196,13 +197,6 @@ static int number(const char *option, const char *text, double lo, double hi, co
 {
     if (fl_num_f64(text, x) == 0 && *x >= lo && *x <= hi) return 0;
     return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", %s was wanted", option, text, wanted);
-}
-
-static int whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
-{
-    if (fl_num_i32(text, lo, hi, x) == 0) return 0;
-    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", a whole number from %d to %d was wanted", option, text,
-                   lo, hi);
 }
 
 static int choice(const char *option, const char *text, const char *const *list, int n, fl_err *err)
@@ -423,10 +417,10 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case TO: return number("to", arg, -huge, huge, "a time", &o->to, err);
     case 'w': return number("window", arg, tiny, huge, "a time above 0", &o->window, err);
     case 'f': return take_filter(o, arg, err);
-    case ORDER: return whole("order", arg, 1, FL_BUTTER_ORDER_MAX, &o->order, err);
+    case ORDER: return fl_option_whole("order", arg, 1, FL_BUTTER_ORDER_MAX, &o->order, err);
     case 's': return number("separation", arg, 0.0, 1.0, "a number from 0 to 1", &o->separation, err);
     case THRESHOLD: return number("threshold", arg, 0.0, huge, "a number not below 0", &o->threshold, err);
-    case 'b': return whole("bins", arg, 1, 1000000, &o->bins, err);
+    case 'b': return fl_option_whole("bins", arg, 1, 1000000, &o->bins, err);
     case QUANTILES:
         o->quantiles = 0;
         o->quantiles_text = arg;
@@ -448,8 +442,8 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return each(o, "heights", arg, take_height, err);
     case LEVEL: return number("level", arg, 1e-9, 1.0 - 1e-9, "a number between 0 and 1", &o->level, err);
     case RETURN: return each(o, "return", arg, take_return, err);
-    case RESAMPLES: return whole("resamples", arg, 0, 100000, &o->resamples, err);
-    case SEED: return whole("seed", arg, 0, INT32_MAX, &o->seed, err);
+    case RESAMPLES: return fl_option_whole("resamples", arg, 0, 100000, &o->resamples, err);
+    case SEED: return fl_option_whole("seed", arg, 0, INT32_MAX, &o->seed, err);
     case PLOT: o->plot = arg; return 0;
     case SUMMARY:
         o->table = TABLE_SUMMARY;
@@ -492,7 +486,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return k < 0 ? -1 : 0;
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
-    case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
+    case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
     case 'q': o->quiet = 1; return 0;
     case 'v': o->verbose = 1; return 0;
     case 'h':
@@ -598,11 +592,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     o->areas = COUNT(areas);
     opterr = 0;
     while (!o->ended && (c = getopt_long(argc, argv, ":t:c:C:p:w:f:s:b:o:zj:qvh", LONG, NULL)) != -1) {
-        const char *word = argv[optind - 1];
-        if (c == ':') return fl_fail(err, FL_USAGE, "%s needs a value, see loadstats --help", word);
-        if (c == '?' && optopt)
-            return fl_fail(err, FL_USAGE, "-%c is no option, see loadstats --help", optopt);
-        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see loadstats --help", word);
+        if (c == ':' || c == '?')
+            return fl_option_unknown("loadstats", LONG, c, optopt, argv[optind - 1], err);
         if (apply(o, c, optarg, err)) return -1;
     }
     if (o->ended) return 0;

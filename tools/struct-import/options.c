@@ -4,6 +4,7 @@
 #include <string.h>
 #include "base/mem.h"
 #include "base/num.h"
+#include "base/option.h"
 #include "geom/facet.h"
 #include "options.h"
 
@@ -133,13 +134,6 @@ static int numbers(const char *option, const char *text, int least, int most, do
                        least);
     return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d or %d numbers with commas were wanted", option, text,
                    least, most);
-}
-
-static int whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
-{
-    if (fl_num_i32(text, lo, hi, x) == 0) return 0;
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a whole number from %d to %d was wanted", option, text,
-                   lo, hi);
 }
 
 /* The part that comes next gets the name that waits. */
@@ -289,7 +283,7 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
     case PART: return pattern(o, arg, err);
     case RENAME: return rename_as(o, arg, err);
     case SUBDIVIDE: o->subdivide = 1; return 0;
-    case 'f': return whole("facets", arg, 3, FL_FACET_CORNERS, &o->facets, err);
+    case 'f': return fl_option_whole("facets", arg, 3, FL_FACET_CORNERS, &o->facets, err);
     case 'u': return unit(o, arg, err);
     case 's': return positive("scale", arg, &o->factor, err);
     case UP:
@@ -310,7 +304,7 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
         if (numbers("weld", arg, 1, 1, &o->weld, err) < 0) return -1;
         return o->weld >= 0.0 ? 0
                               : fl_fail(err, FL_USAGE, "--weld is \"%.60s\", a length >= 0 was wanted", arg);
-    case FILL_HOLES: return whole("fill-holes", arg, 0, 1000, &o->fill_holes, err);
+    case FILL_HOLES: return fl_option_whole("fill-holes", arg, 0, 1000, &o->fill_holes, err);
     case FILL: return positive("fill", arg, &o->fill, err);
     case REPAIR: o->repair = 1; return 0;
     case SIMPLIFY: return positive("simplify", arg, &o->simplify, err);
@@ -321,7 +315,7 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
     case PLOT: o->plot = arg; return *arg ? 0 : fl_fail(err, FL_USAGE, "--plot is empty");
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
-    case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
+    case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
     case 'q': o->quiet = 1; return 0;
     case 'v': o->verbose = 1; return 0;
     case 'h':
@@ -368,11 +362,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     opterr = 0;
     /* "-": files come in their order among the options, as if by an option of code 1 */
     while (!o->ended && (c = getopt_long(argc, argv, "-:n:f:u:s:t:w:o:zj:qvh", LONG, NULL)) != -1) {
-        const char *word = argv[optind - 1];
-        if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see struct-import --help", word);
-        if (c == '?' && optopt > 0 && optopt < 256)
-            return fl_fail(err, FL_USAGE, "-%c is no option, see struct-import --help", optopt);
-        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see struct-import --help", word);
+        if (c == ':' || c == '?')
+            return fl_option_unknown("struct-import", LONG, c, optopt, argv[optind - 1], err);
         if (apply(o, c, optarg, &waiting, err)) return -1;
     }
     for (; !o->ended && optind < argc; optind++) /* behind "--" */

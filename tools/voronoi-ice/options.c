@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/num.h"
+#include "base/option.h"
 #include "ice/pancakes.h"
 #include "options.h"
 
@@ -164,13 +165,6 @@ static int number(const char *option, const char *text, double lo, double hi, do
                   fl_err *err)
 {
     return numbers(option, text, 0, ',', 1, lo, hi, x, wanted, err);
-}
-
-static int whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
-{
-    if (fl_num_i32(text, lo, hi, x) == 0) return 0;
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a whole number from %d to %d was wanted", option, text,
-                   lo, hi);
 }
 
 static int pair(const char *option, const char *text, char by, double lo, double hi, fl_vec2 *out,
@@ -440,7 +434,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case ORIGIN:
         o->has_origin = 1;
         return pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
-    case FLOES: o->has_floes = 1; return whole("floes", arg, 1, FLOES_MOST, &o->floes, err);
+    case FLOES: o->has_floes = 1; return fl_option_whole("floes", arg, 1, FLOES_MOST, &o->floes, err);
     case SIZES: return sizes(o, arg, err);
     case CONCENTRATION:
         o->has_concentration = 1;
@@ -451,7 +445,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         if (fl_num_u64(arg, &o->seed) == 0) return 0;
         return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", a whole number from 0 to 2^64 - 1 was wanted",
                        arg);
-    case SMOOTH: return whole("smooth", arg, 0, 10000, &o->smooth, err);
+    case SMOOTH: return fl_option_whole("smooth", arg, 0, 10000, &o->smooth, err);
     case MATERIAL: return name("material", arg, &o->material, err);
     case ICE_DENSITY: return number("ice-density", arg, 1.0, 1e5, &o->ice_density, "kg/m3", err);
     case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
@@ -462,14 +456,15 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case LEAD: return lead(o, arg, err);
     case GRADE: return grade(o, arg, err);
     case PERIODIC: return periodic(arg, o->periodic, err);
-    case PANCAKES: return whole("pancakes", arg, FL_PANCAKES_LEAST, FL_PANCAKES_MOST, &o->pancakes, err);
+    case PANCAKES:
+        return fl_option_whole("pancakes", arg, FL_PANCAKES_LEAST, FL_PANCAKES_MOST, &o->pancakes, err);
     case RUBBLE: o->rubble = 1; return 0;
     case RIDGE: return ridge(o, arg, err);
     case BLOCK: return number("block", arg, SHORTEST, LONGEST, &o->block, "a length", err);
     case POROSITY: return concentration("porosity", arg, &o->porosity, err);
     case BONDED: o->bonded = 1; return 0;
     case LATTICE: return lattice(arg, &o->lattice, err);
-    case LAYERS: return whole("layers", arg, 1, 1000, &o->layers, err);
+    case LAYERS: return fl_option_whole("layers", arg, 1, 1000, &o->layers, err);
     case DIAMETER: return number("diameter", arg, SHORTEST, LONGEST, &o->diameter, "a length", err);
     case CERTIFICATE: o->certificate = arg; return 0;
     case ID: return name("id", arg, &o->id, err);
@@ -480,7 +475,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         return fl_fail(err, FL_USAGE, "--format is \"%.60s\", svg or png was wanted", arg);
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
-    case 'j': return whole("threads", arg, 1, 1024, &o->threads, err);
+    case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
     case 'q': o->quiet = 1; return 0;
     case 'v': o->verbose = 1; return 0;
     case 'h':
@@ -516,11 +511,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .seed = 1};
     opterr = 0;
     while (!o->ended && (c = getopt_long(argc, argv, ":o:zj:qvh", LONG, NULL)) != -1) {
-        const char *word = argv[optind - 1];
-        if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see voronoi-ice --help", word);
-        if (c == '?' && optopt > 0 && optopt < 256)
-            return fl_fail(err, FL_USAGE, "-%c is no option, see voronoi-ice --help", optopt);
-        if (c == '?') return fl_fail(err, FL_USAGE, "%.60s is no option, see voronoi-ice --help", word);
+        if (c == ':' || c == '?')
+            return fl_option_unknown("voronoi-ice", LONG, c, optopt, argv[optind - 1], err);
         if (c >= SIZE) o->given |= UINT64_C(1) << (c - SIZE);
         if (apply(o, c, optarg, err)) return -1;
     }
