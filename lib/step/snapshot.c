@@ -316,6 +316,7 @@ static int32_t all_but_pairs(fl_relay *t, fl_world *w, int32_t *balls)
     fl_relay_real(t, &w->dt);
     fl_relay_real(t, &w->t0);
     fl_relay_count(t, &w->step0);
+    fl_relay_real(t, &w->sea.time);
     fl_relay_real(t, &w->skin);
     fl_relay_real(t, &w->dt_critical);
     fl_relay_whole(t, -1, w->b.total + w->ride.m.n - 1, &w->critical_body);
@@ -328,7 +329,8 @@ static int32_t all_but_pairs(fl_relay *t, fl_world *w, int32_t *balls)
     fl_relay_close(t);
     if (t->in && !t->err->code &&
         !(w->step >= 0 && w->dt > 0.0 && isfinite(w->dt) && w->skin >= 0.0 && w->t0 >= 0.0 &&
-          isfinite(w->t0) && w->step0 >= 0 && w->step0 <= w->step))
+          isfinite(w->t0) && w->step0 >= 0 && w->step0 <= w->step &&
+          fabs(w->sea.time - fl_world_time(w)) < 0.5 * w->dt)) /* a new step may begin a rounding before */
         fl_text_fail(t->in, t->err, "step %g of %g s is no state of a run", (double)w->step, w->dt);
     books(t, w);
     if (w->told) told(t, w);
@@ -350,19 +352,18 @@ static int32_t all_but_pairs(fl_relay *t, fl_world *w, int32_t *balls)
     for (int32_t k = 0; k < w->frozen.n && !t->err->code; k++) bond(t, w, k);
     if (t->in && !t->err->code) fl_frozen_look(w);
     if (w->press.panels && !t->err->code) pressed(t, w);
-    w->sea.time = fl_world_time(w);
+    const double seen = w->sea.time;
     if (w->sea.current.n) table_of(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         sea(t, &w->sea, &w->b, i);
-        if (t->in && !t->err->code && w->sea.held && !fl_world_away(w, i) &&
-            !(w->sea.held[i].when < w->sea.time + 0.5 * w->dt)) /* a new step may begin a rounding before */
+        if (t->in && !t->err->code && w->sea.held && !fl_world_away(w, i) && !(w->sea.held[i].when <= seen))
             fl_text_fail(t->in, t->err, "a look at the water at %g s is none that has been",
                          w->sea.held[i].when);
         if (!t->in || t->err->code || fl_world_away(w, i)) continue;
         if (fl_sleep_kind(w, i) != FL_AWAKE) /* what it meets is of then */
             w->sea.time = fl_sleep_since(w, i);
         fl_sea_renew(&w->sea, &w->b, i);
-        w->sea.time = fl_world_time(w);
+        w->sea.time = seen;
     }
     return pairs;
 }

@@ -402,7 +402,7 @@ void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i)
     b->x[i] = s->held[i].x, b->q[i] = s->held[i].q, s->time = s->held[i].when;
     look(s, b, i, &f, &t);
     b->x[i] = x, b->q[i] = q, s->time = now;
-    go_on(s, b, i, &f, &t);
+    if (now > s->held[i].when) go_on(s, b, i, &f, &t); /* else it was a look, which nothing is added to */
 }
 
 void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0, fl_vec3 w0)

@@ -128,7 +128,7 @@ void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0,
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
 
 /* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere; with
- * held[i], as it was left there by the last look. */
+ * held[i], as it was left there by the last look, `time` being that of the last fl_sea_force(). */
 void fl_sea_renew(fl_sea *s, fl_bodies *b, int32_t i);
 
 /* omega^2 of the stiffest of heave, roll and pitch of body i as it stands, were the water to reach up to its
