@@ -9,6 +9,7 @@
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
 #include "scene/scene_show.h"
+#include "step/critical.h"
 #include "step/snapshot.h"
 #include "step/step.h"
 
@@ -271,17 +272,18 @@ static void table_path(const struct run *r, const struct outputs *u, int k, char
 }
 
 /* Another step from here on, where the command line asks for one: rows then come at the first step at or
- * after their times. */
-static void change_step(struct run *r, double dt)
+ * after their times.  Looks at waves are as many steps apart as before. */
+static int change_step(struct run *r, double dt, fl_err *err)
 {
     int asked = 0;
     for (int k = 0; k < r->o->sets; k++)
         for (int c = 0; c < STEP_KEYS; c++) asked |= sets_key(r->o->set[k], c);
-    if (!asked || dt == r->w->dt) return;
+    if (!asked || dt == r->w->dt) return 0;
     if (!r->o->quiet)
         fprintf(stderr, "dem-solve: note: from t = %.9g s on with steps of %.4g s instead of %.4g s\n",
                 fl_world_time(r->w), dt, r->w->dt);
     fl_step_resize(r->w, dt, fl_world_time(r->w));
+    return fl_world_looks(r->w, err);
 }
 
 int save_restore(struct run *r, struct outputs *u, fl_err *err)
@@ -294,7 +296,7 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
     if (fl_restart_open(r->saved, "state", &in, err)) return -1;
     fl_snapshot_read(r->w, &in, err);
     fl_text_close(&in);
-    if (!err->code) change_step(r, dt);
+    if (!err->code) change_step(r, dt, err);
     if (!err->code && r->budget && fl_restart_open(r->saved, "budget", &in, err) == 0) {
         fl_budget_read(r->budget, &in, err);
         fl_text_close(&in);
