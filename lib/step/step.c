@@ -21,12 +21,13 @@
 #include "step/traffic.h"
 #include "step/works.h"
 
-/* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the automatic
- * size; one that a longer step throws apart would be missed in between, so that these look more often, and
- * those four times as long always; but for steps that are short against what contacts have turned out to be.
- * Half a period takes pi/2 of the critical step: a tenth of it has fifteen steps in that, of which every
- * fourth is looked at. */
+/* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the default size;
+ * one that a longer step throws apart would be missed in between, so that these look more often, and those
+ * four times as long always; but for steps that are short against what contacts have turned out to be. Half a
+ * period takes pi/2 of the critical step: a tenth of it has fifteen steps in that, of which every fourth is
+ * looked at. */
 enum { SURVEY = 16, SOME = 4, WATCH = 16 };
+#define CAREFUL 0.2 /* of the critical step that any contact may have: the default */
 
 /* Held things of which a thread adds up the contacts at a time. */
 enum { HELD = 8 };
@@ -40,6 +41,8 @@ enum { ON_WAY = 8 };
 
 static int surveyed(const fl_world *w, int64_t step)
 {
+    /* what few contacts there are may all lie in between */
+    if (w->touching_steps && !isfinite(w->dt_critical)) return 1;
     const double over = w->dt > w->dt_safe ? w->dt / w->dt_safe : 1.0;
     const double seen = isfinite(w->dt_critical) ? 0.1 * SOME * w->dt_critical / w->dt : 0.0;
     const int64_t every = (int64_t)fmax(SURVEY / (over * over), fmin(seen, SOME));
@@ -472,7 +475,7 @@ int fl_step_start(fl_world *w, fl_err *err)
 {
     int32_t body;
     if (fl_world_looks(w, err)) return -1;
-    w->dt_safe = fl_world_dt(w, &body);
+    w->dt_safe = fmin(fl_world_dt(w, &body), CAREFUL * fl_world_critical(w));
     w->sea.time = fl_world_time(w);
     if (fl_search(w, err)) return -1;
     if (w->press.panels) fl_press_clear(w);

@@ -359,7 +359,7 @@ typedef struct {
     int32_t threads;
 
     double dt, dt_critical; /* dt_critical: the smallest 2/omega seen [s] */
-    double dt_safe; /* fl_world_dt() of critical.h at the start; longer steps are looked at more often [s] */
+    double dt_safe; /* fl_world_dt() at the start, at most 0.2 of 2/omega; longer steps look more often */
     int32_t critical_body; /* id of the one that had it, -1 */
     int64_t step;
     double t0; /* the time of step `step0`, from which on steps are of dt [s] */

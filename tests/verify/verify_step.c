@@ -580,9 +580,32 @@ static void sinking(const char *id)
     verify_below(id, "what is left of that at a quarter of the step", tenth[2] / tenth[0], 0.1);
 }
 
+/* Two balls that hit once: in how many of the runs, which begin at different parts of a step, the step over
+ * the critical one was told. */
+static void once(const char *id, double safety)
+{
+    enum { RUNS = 32 };
+    int told = 0;
+    char what[80];
+    for (int k = 0; k < RUNS; k++) {
+        lab l;
+        lab_start(&l);
+        lab_setf(&l, "run.safety=%g", safety);
+        lab_sphere(&l, v3(-0.501 - 1e-4 * k, 0, 0), 0.5, v3(1, 0, 0), v3(0, 0, 0));
+        lab_sphere(&l, v3(0.501, 0, 0), 0.5, v3(-1, 0, 0), v3(0, 0, 0));
+        lab_make(&l, 0.0);
+        const int rc = lab_run(&l, (int64_t)(0.03 / l.w.dt));
+        told += rc == 0 && l.w.b.v[0].x < 0.0 && l.w.dt > 0.5 * safety * l.w.dt_critical;
+        lab_free(&l);
+    }
+    snprintf(what, sizeof what, "safety %g: runs of one impact that tell of it", safety);
+    verify_row(id, what, told, RUNS, 0.0, VERIFY_ABS);
+}
+
 int main(void)
 {
     verify_begin("the largest stable step");
+    for (int k = 1; k <= 4; k *= 2) once("S33", 0.2 * k);
     two_spheres();
     stack("S02", 1, 1e-3);
     stack("S03", 2, 1e-3);
