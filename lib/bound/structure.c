@@ -6,7 +6,6 @@
 #include "bound/flats.h"
 #include "bound/structure.h"
 #include "geom/clip.h"
-#include "geom/moments.h"
 #include "geom/mosaic.h"
 
 /* Every vertex in use lies behind every region's plane. */
@@ -390,12 +389,39 @@ static int check_turned(const fl_flats *f, fl_err *err)
                    p->name, rows ? "of lines " : "", first + f->turned[0], first + f->turned[1]);
 }
 
-/* What the triangles enclose, without the cones. */
-static double enclosed(const fl_part *p)
+/* Six times what triangle t encloses with o. */
+static double cone_over(const fl_part *p, int32_t t, fl_vec3 o)
 {
-    fl_part alone = *p;
-    alone.nc = 0;
-    return fl_moments_of(&alone, 1).volume;
+    const int32_t *v = p->t[t].v;
+    return v3_dot(v3_sub(p->v[v[0]], o),
+                  v3_cross(v3_sub(p->v[v[1]], p->v[v[0]]), v3_sub(p->v[v[2]], p->v[v[0]])));
+}
+
+/* Whether a body of a closed surface, which is what edges join, encloses less than nothing, as cavities do
+ * and what is inside out: 1 + its first triangle, or 0.  -1 with FL_SYSTEM. */
+static int32_t looks_inward(const flats *f, fl_err *err)
+{
+    const fl_part *p = f->p;
+    int32_t inward = 0;
+    uint8_t *seen = fl_alloc(p->nt, 1, err);
+    if (!seen) return -1;
+    for (int32_t t = 0; t < p->nt && !inward; t++) {
+        const fl_vec3 o = p->v[p->t[t].v[0]];
+        double volume = 0.0;
+        int32_t tail = 0;
+        if (!seen[t]) seen[f->queue[tail++] = t] = 1;
+        for (int32_t head = 0; head < tail; head++) {
+            const int32_t u = f->queue[head];
+            volume += cone_over(p, u, o);
+            for (int k = 0; k < 3; k++) {
+                const int32_t next = f->mate[3 * u + k];
+                if (!seen[next]) seen[f->queue[tail++] = next] = 1;
+            }
+        }
+        if (volume < 0.0) inward = 1 + t;
+    }
+    free(seen);
+    return inward;
 }
 
 static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
@@ -412,7 +438,8 @@ static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err
     else if (check_turned(&f, err)) goto done;
     else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_shell(piece, &f, err);
     piece->one_sided = flat && !plate;
-    piece->inward = f.closed && piece->kind == FL_PIECE_SHELL && enclosed(p) < 0.0;
+    if (rc == 0 && f.closed && piece->kind == FL_PIECE_SHELL && (piece->inward = looks_inward(&f, err)) < 0)
+        rc = -1;
 done:
     fl_flats_free(&f);
     return rc;

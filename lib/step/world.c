@@ -20,6 +20,8 @@
  * end. */
 enum { BODIES_A_THREAD = 32 };
 
+#define PI 3.14159265358979323846
+
 /* --- bodies ------------------------------------------------------------------------------------ */
 
 /* What the scene says of the body's group: directions it holds, and the velocity it holds them at.  A turn
@@ -492,8 +494,23 @@ int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_er
     return 0;
 }
 
+/* How often a surface goes round x: once where x lies within what looks outward, and not in its cavities. */
+static double turns_about(const fl_part *p, fl_vec3 x)
+{
+    double angle = 0.0;
+    for (int32_t t = 0; t < p->nt; t++) {
+        const int32_t *v = p->t[t].v;
+        const fl_vec3 a = v3_sub(p->v[v[0]], x), b = v3_sub(p->v[v[1]], x), c = v3_sub(p->v[v[2]], x);
+        const double A = v3_norm(a), B = v3_norm(b), C = v3_norm(c);
+        angle += atan2(v3_dot(a, v3_cross(b, c)),
+                       A * B * C + v3_dot(a, b) * C + v3_dot(b, c) * A + v3_dot(c, a) * B);
+    }
+    return angle / (2.0 * PI);
+}
+
 /* Of a closed part that looks inward what is outside is solid: a tank holds its floes, and of a post that is
- * inside out the floes about it would be in its ice. */
+ * inside out the floes about it would be in its ice.  Who stands in what is solid between an outside and its
+ * cavities is another matter. */
 static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *err)
 {
     for (int32_t k = 0; k < w->structure.n; k++) {
@@ -501,12 +518,14 @@ static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *er
         for (int32_t i = 0; i < w->n && piece->inward; i++) {
             if (fl_world_away(w, i)) continue;
             const fl_vec3 x = q_rotate(q_conj(piece->q), v3_sub(w->b.x[i], piece->x));
-            if (!fl_shell_holds(piece, x)) continue;
             const fl_part *p = &surface->part[piece->part];
+            if (!fl_shell_holds(piece, x) || turns_about(p, w->b.x[i]) > 0.5) continue;
+            const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one behind the other */
             return fl_fail(err, FL_INPUT,
                            "%s: part %s: its triangles, from line %d on, look inward, and body %d stands "
                            "outside, where all is solid then: struct-import turns them",
-                           w->scene->structure.file, p->name, p->line, w->id[i]);
+                           w->scene->structure.file, p->name, p->line + (rows ? piece->inward - 1 : 0),
+                           w->id[i]);
         }
     }
     return 0;

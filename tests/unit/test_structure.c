@@ -348,6 +348,28 @@ static void a_closed_part_that_looks_inward_is_told(void **state)
     }
 }
 
+/* So is a body of several in a part, whatever the others enclose. */
+static void a_body_that_looks_inward_among_others_is_told(void **state)
+{
+    (void)state;
+    for (int inward = 0; inward < 2; inward++) {
+        fl_surface s = {0};
+        fl_part *p = new_part(&s);
+        for (int32_t k = 0; k < 2; k++) {
+            const double x = 10.0 * k, size = k ? 1.0 : 2.0;
+            const int32_t o = 4 * k, b = k && inward ? 3 : 2, c = 5 - b;
+            vertex(p, x, 0, 0), vertex(p, x + size, 0, 0), vertex(p, x, size, 0), vertex(p, x, 0, size);
+            triangle(p, o, o + b, o + 1), triangle(p, o, o + 1, o + c);
+            triangle(p, o, o + c, o + b), triangle(p, o + 1, o + b, o + c);
+        }
+        fl_structure st = build(&s);
+        assert_int_equal(st.piece[0].kind, FL_PIECE_SHELL);
+        assert_int_equal(st.piece[0].inward, inward ? 5 : 0); /* from its fifth triangle on */
+        fl_structure_free(&st);
+        fl_surface_free(&s);
+    }
+}
+
 static void triangles_without_area_do_no_harm(void **state)
 {
     (void)state;
@@ -441,6 +463,7 @@ int main(void)
         cmocka_unit_test(what_is_open_or_several_is_a_shell),
         cmocka_unit_test(triangles_that_face_different_ways_are_refused),
         cmocka_unit_test(a_closed_part_that_looks_inward_is_told),
+        cmocka_unit_test(a_body_that_looks_inward_among_others_is_told),
         cmocka_unit_test(triangles_without_area_do_no_harm),
         cmocka_unit_test(cones_have_the_section_of_the_circle),
         cmocka_unit_test(a_part_may_mix_triangles_and_cones_or_be_empty),
