@@ -380,15 +380,15 @@ static void rise(fl_world *w, int32_t k)
 {
     fl_sleep *s = &w->sleep;
     fl_nap *nap = &s->nap[k];
-    if (s->kind[k] == FL_RESTS) {
+    if (s->kind[k] == FL_RESTS) { /* who was only about to has been awake */
         s->resting--;
         nap->rested += w->step - nap->since;
+        nap->mark = -1.0;
+        fl_gain *const gain = fl_works_gain(w, k); /* it did not move in the first half of a step */
+        if (gain) *gain = (fl_gain){0};
     }
     s->kind[k] = FL_AWAKE;
     s->until[k] = nap->since = w->step;
-    nap->mark = -1.0;
-    fl_gain *const gain = fl_works_gain(w, k); /* it did not move in the first half of a step */
-    if (gain) *gain = (fl_gain){0};
 }
 
 /* From the n on the stack to all that touch them and are of that kind: they are awake. */

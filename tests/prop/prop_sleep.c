@@ -191,6 +191,46 @@ static void rest_and_wake(void **state)
     lab_free(&off);
 }
 
+enum { LEVELS = 5 };
+
+/* Blocks on one another, numbered in such an order that news travel along the list of pairs neither upward nor
+ * downward. */
+static void stack(lab *l)
+{
+    lab_start(l);
+    lab_set(l, "run.sleep=1e-3");
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.friction=0.4");
+    lab_set(l, "contact.restitution=0.1");
+    lab_set(l, "boundary.type=free free rigid");
+    lab_set(l, "boundary.min=none none 0");
+    static const int LEVEL[LEVELS] = {0, 1, 4, 3, 2};
+    for (int k = 0; k < LEVELS; k++)
+        lab_box(l, v3(0, 0, 0.25 + 0.5 * LEVEL[k]), v3(0.5, 0.5, 0.25), RADIUS, q_one(), v3(0, 0, 0),
+                v3(0, 0, 0));
+    lab_make(l, 0);
+}
+
+/* Who touches one that has been awake for less than a window waits for him, and is ready then; each waited
+ * for the other in turn. */
+static void all_rest_however_they_came(void **state)
+{
+    (void)state;
+    for (int late = 0; late < LEVELS; late++) {
+        lab l;
+        stack(&l);
+        for (int k = 0; k < 500 && l.w.sleep.resting < LEVELS; k++) assert_int_equal(lab_run(&l, 64), 0);
+        assert_int_equal(l.w.sleep.resting, LEVELS);
+        fl_sleep_wake(&l.w);
+        assert_int_equal(lab_run(&l, 64), 0);
+        l.w.sleep.nap[late].mark = -1.0;
+        for (int k = 0; k < 20 && l.w.sleep.resting < LEVELS; k++) assert_int_equal(lab_run(&l, 64), 0);
+        assert_int_equal(l.w.sleep.resting, LEVELS);
+        lab_free(&l);
+    }
+}
+
 /* All that a state has: odometers, books and what contacts remember with it.  Whether the books have been
  * looked at in between stands in them; without: that row. */
 static uint64_t everything(fl_world *w, int without)
@@ -263,6 +303,7 @@ int main(int argc, char **argv)
     fl_par_wait_briefly(argv); /* two threads, and tests at the same time */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(off_by_what_was_told), cmocka_unit_test(no_contact_goes_unnoticed),
-        cmocka_unit_test(rest_and_wake), cmocka_unit_test(threads_stops_and_looks)};
+        cmocka_unit_test(rest_and_wake), cmocka_unit_test(all_rest_however_they_came),
+        cmocka_unit_test(threads_stops_and_looks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
