@@ -443,9 +443,41 @@ static void find_quiet(fl_world *w)
         nap->mark = w->b.odometer[k];
         if (!seen || path > 0.25 * most || !may_sleep(w, k) || fl_works_now(w, k)->n == 0) continue;
         const double windows = path > 0.0 ? sqrt(most / path) : LONGEST;
+        nap->way = path;
         nap->since = w->step;
         s->until[k] = w->step + WINDOW * (int64_t)(windows < LONGEST ? windows : LONGEST);
         s->kind[k] = FL_QUIET;
+    }
+}
+
+/* The island of k, who are quiet: they rest, unless they go faster now than in the mean of the window.  What
+ * begins to fall off an edge does, and of that the path of a window foretells nothing, for it grows by a
+ * factor in a time. */
+static void settle(fl_world *w, int32_t k)
+{
+    fl_sleep *s = &w->sleep;
+    const fl_bodies *b = &w->b;
+    const double window = WINDOW * w->dt;
+    double gained = 0.0;
+    int32_t n = 0;
+    s->kind[k] = FL_RESTS;
+    s->stack[n++] = k;
+    for (int32_t head = 0; head < n; head++) {
+        const int32_t i = s->stack[head];
+        gained += window * (v3_norm(b->v[i]) + b->bound[i] * v3_norm(b->w[i])) - s->nap[i].way;
+        for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
+            const fl_near *p = &w->pair[w->inc[c]];
+            const int32_t o = p->i == i ? p->j : p->i;
+            if (!p->n || o >= w->n || s->kind[o] != FL_QUIET) continue;
+            s->kind[o] = FL_RESTS;
+            s->stack[n++] = o;
+        }
+    }
+    s->resting += n;
+    for (int32_t i = 0; i < n && gained > 0.0; i++) {
+        s->resting--;
+        s->kind[s->stack[i]] = FL_AWAKE;
+        s->until[s->stack[i]] = w->step;
     }
 }
 
@@ -467,11 +499,8 @@ static void let_rest(fl_world *w)
         }
     }
     spread(w, n, FL_QUIET);
-    for (int32_t k = 0; k < w->n; k++) {
-        if (s->kind[k] != FL_QUIET) continue;
-        s->kind[k] = FL_RESTS;
-        s->resting++;
-    }
+    for (int32_t k = 0; k < w->n; k++)
+        if (s->kind[k] == FL_QUIET) settle(w, k);
 }
 
 fl_sleep_count fl_sleep_counted(const fl_world *w)

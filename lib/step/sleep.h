@@ -16,7 +16,8 @@
  * again after as many.
  *
  * Floes that touch each other REST when all of them went a path p, in the last WINDOW steps, of no more than
- * a quarter of tol R: they are left where they are for WINDOW sqrt(tol R/p) steps, in which they would go tol
+ * a quarter of tol R, and together go no faster at the end than in the mean of these, as what begins to fall
+ * off an edge does: they are left where they are for WINDOW sqrt(tol R/p) steps, in which they would go tol
  * R at the acceleration that explains p.  All that touch rest together, or none does; what comes to touch one
  * of them wakes them all.  Nothing of their pairs is computed, and the forces of those stay.
  *

@@ -162,7 +162,8 @@ enum fl_nap_kind { FL_AWAKE, FL_COASTS, FL_RESTS, FL_ENDS, FL_QUIET };
 
 typedef struct {
     int64_t since;           /* step in which it fell asleep, or woke */
-    double way;              /* bound of its path in between, in the odometer already [m]      */
+    double way;              /* bound of its path in between, in the odometer already; of who is quiet, that
+                              * of the window [m]                                              */
     double mark;             /* odometer when the window of rest began, -1: there is none  [m] */
     double drag;             /* rate at which drag changed the speed of its points last [m/s2] */
     double off, summed;      /* largest error of a step over the radius so far, and all of it  */
