@@ -431,6 +431,13 @@ void fl_sleep_wake(fl_world *w)
         if (w->sleep.kind[k] == FL_RESTS) rise(w, k);
 }
 
+/* A wave may reach k, which lies still: what it presses with changes all the same. */
+static int lapped(const fl_world *w, int32_t k)
+{
+    const fl_bodies *b = &w->b;
+    return w->sea.waves && b->x[k].z - b->bound[k] - b->radius[k] < w->sea.level + w->sea.wave.crest;
+}
+
 /* Who has been quiet for a window is FL_QUIET until it is known whether all are that touch it. */
 static void find_quiet(fl_world *w)
 {
@@ -441,7 +448,8 @@ static void find_quiet(fl_world *w)
         const double path = w->b.odometer[k] - nap->mark, most = s->tol * w->b.radius[k];
         const int seen = nap->mark >= 0.0;
         nap->mark = w->b.odometer[k];
-        if (!seen || path > 0.25 * most || !may_sleep(w, k) || fl_works_now(w, k)->n == 0) continue;
+        if (!seen || path > 0.25 * most || !may_sleep(w, k) || fl_works_now(w, k)->n == 0 || lapped(w, k))
+            continue;
         const double windows = path > 0.0 ? sqrt(most / path) : LONGEST;
         nap->way = path;
         nap->since = w->step;

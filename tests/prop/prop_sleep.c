@@ -231,6 +231,42 @@ static void all_rest_however_they_came(void **state)
     }
 }
 
+/* What a shelf bears in two periods of a wave, over weight and time, of a block that lies on it at that height. */
+static double shelved(double top, double sleep, int64_t *rested)
+{
+    lab l;
+    lab_start(&l);
+    if (sleep > 0.0) lab_setf(&l, "run.sleep=%.17g", sleep);
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "material.ice.young=10 MPa");
+    lab_set(&l, "contact.restitution=0.1");
+    lab_set(&l, "contact.friction=0.3");
+    lab_set(&l, "boundary.type=free");
+    lab_set(&l, "water.wave=airy");
+    lab_set(&l, "water.height=1");
+    lab_set(&l, "water.period=6");
+    lab_wall(&l, v3(-3, -3, -3), v3(3, 3, top), 1);
+    lab_box(&l, v3(0, 0, top + 0.3), v3(0.5, 0.5, 0.3), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 0);
+    while (fl_world_time(&l.w) < 12.0) assert_int_equal(lab_run(&l, 10), 0);
+    const double bears = -l.w.part_impulse[0].z / (l.w.b.m[0] * 9.81 * fl_world_time(&l.w));
+    *rested = fl_sleep_counted(&l.w).rested;
+    lab_free(&l);
+    return bears;
+}
+
+/* A block that waves wet presses as they do; above them it rests. */
+static void waves_reach_who_rests(void **state)
+{
+    int64_t none, some;
+    (void)state;
+    const double wet = shelved(0.1, 0.0, &none);
+    assert_true(wet < 0.9);
+    assert_near(shelved(0.1, 1e-5, &some), wet, 1e-3);
+    assert_near(shelved(1.5, 1e-4, &some), shelved(1.5, 0.0, &none), 1e-3);
+    assert_true(none == 0 && some > 0);
+}
+
 /* When a thin box that stands on its rounded lower edge, and leans by so much, has fallen [s]. */
 static double falls_at(double lean, double sleep)
 {
@@ -337,6 +373,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(rest_and_wake),
                                        cmocka_unit_test(all_rest_however_they_came),
                                        cmocka_unit_test(what_falls_does_not_rest),
+                                       cmocka_unit_test(waves_reach_who_rests),
                                        cmocka_unit_test(threads_stops_and_looks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
