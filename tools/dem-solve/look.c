@@ -79,7 +79,9 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     if (w->frozen.n)
         snprintf(what[3], sizeof what[3], "%d faces frozen together, %d bonds a body", w->frozen.n,
                  (2 * w->frozen.n + there / 2) / there);
-    if (fl_step_start(w, err)) return -1;
+    const int bad = fl_step_start(w, err);
+    if (!bad || err->code == FL_NUMERIC) warn_at_start(r); /* as before the run itself */
+    if (bad) return -1;
     sea_stages(w, what);
     while (w->step < r->steps && (spent = run_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;
