@@ -10,24 +10,25 @@
 #define RESTS 1e-3
 
 /* Bodies that stand in one another at the start are pushed apart, with loads that belong to no case. A run
- * may take hours: this is said before it. */
+ * may take hours: this is said before it.  By more than all their radii what is round cannot overlap. */
 static void warn_overlaps(const struct run *r)
 {
     const fl_world *w = r->w;
-    const fl_pair *first = NULL;
-    int32_t found = 0;
+    int32_t found = 0, i = -1, j = -1;
     char other[64];
     fl_pair_walk at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
-        if (!p->n || !(p->overlap > p->keep * (w->b.radius[p->i] + w->b.radius[p->j]))) continue;
-        if (!found++) first = p;
+        if (!p->n || !(p->overlap > FL_OVERLAP_HALF * p->keep * (w->b.radius[p->i] + w->b.radius[p->j])))
+            continue;
+        if (!found++) i = p->i, j = p->j;
     }
     if (!found) return;
     fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
-            found == 1 ? "pair overlaps by more than its radii" : "pairs overlap by more than their radii");
-    if (first->j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_name(w, first->j));
-    else fl_world_wall(w, first->j - w->n - w->pieces, other);
-    fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[first->i], other);
+            found == 1 ? "pair overlaps by more than half its radii"
+                       : "pairs overlap by more than half their radii");
+    if (j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_name(w, j));
+    else fl_world_wall(w, j - w->n - w->pieces, other);
+    fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[i], other);
 }
 
 /* Inside a shell and clear of its skin, like air in a hull. */
