@@ -229,11 +229,22 @@ static int edit_distance(const char *a, const char *b)
     return row[nb];
 }
 
+/* Does word stand in the text, case ignored? */
+static int stands_in(const char *word, const char *text)
+{
+    const size_t n = strlen(word);
+    for (; strlen(text) >= n; text++)
+        if (strncasecmp(word, text, n) == 0) return 1;
+    return 0;
+}
+
 const char *fl_text_nearest(const char *word, const char *const *list, int n)
 {
     const char *best = NULL;
-    int least = 1000;
+    int least = 1000, whole = 0;
+    for (int k = 0; k < n; k++) whole = whole || stands_in(word, list[k]);
     for (int k = 0; k < n; k++) {
+        if (whole && !stands_in(word, list[k])) continue;
         const int d = edit_distance(word, list[k]);
         if (d < least) {
             least = d;

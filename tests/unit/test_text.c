@@ -267,6 +267,9 @@ static void nearest_word(void **state)
     assert_string_equal(fl_text_nearest("DURATION", list, 4), "duration");
     assert_string_equal(fl_text_nearest("gravty", list, 4), "gravity");
     assert_string_equal(fl_text_nearest("d", list, 4), "dt");
+    assert_string_equal(fl_text_nearest("ration", list, 4),
+                        "duration"); /* dt and safety are fewer edits away */
+    assert_string_equal(fl_text_nearest("SAFE", list, 4), "safety");
     assert_non_null(fl_text_nearest("", list, 4));
     assert_null(fl_text_nearest("x", list, 0));
     char longer[500];
