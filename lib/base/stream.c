@@ -231,6 +231,20 @@ char *fl_out_unfinished(const char *path)
     return out.tmp;
 }
 
+/* The sentence of a file that could not be made: a folder that is missing is named, for the file is not there
+ * anyway. */
+static void not_made(const char *path, fl_err *err)
+{
+    const int why = errno;
+    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
+    if (slash && slash != folder) *slash = '\0';
+    else slash = NULL;
+    if (why == ENOENT && slash && access(folder, F_OK))
+        fl_fail(err, FL_SYSTEM, "%s: there is no folder %s", path, folder);
+    else fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(why));
+    free(folder);
+}
+
 /* Open tmp for one writer alone; made where it is not there, if `make`.  The lock goes with the last
  * descriptor, however the program ends, and stays with the file through a rename: by the time it is had the
  * name may be that of another file, which is then tried.  Where files cannot be locked there is none.  The
@@ -241,7 +255,7 @@ static int open_alone(fl_out *out, int make, fl_err *err)
         struct stat ours, named;
         const int fd = open(out->tmp, O_RDWR | (make ? O_CREAT : 0) | O_CLOEXEC, 0666);
         if (fd < 0) {
-            fl_fail(err, FL_SYSTEM, "%s: %s", out->path, strerror(errno));
+            not_made(out->path, err);
             return -1;
         }
         if (flock(fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {

@@ -264,7 +264,7 @@ static void what_cannot_be_opened(void **state)
     (void)state;
     assert_int_equal(fl_out_open(&out, "/nonexistent/file", 0, &err), -1);
     assert_int_equal(err.code, FL_SYSTEM);
-    assert_string_equal(err.text, "/nonexistent/file: No such file or directory");
+    assert_string_equal(err.text, "/nonexistent/file: there is no folder /nonexistent");
     const char *folder = test_path("folder");
     assert_int_equal(mkdir(folder, 0777), 0);
     err = (fl_err){0};
