@@ -10,9 +10,12 @@ int depth_make(struct depth *d, struct options *o, fl_err *err)
     fl_err why = {0};
     int32_t again;
     d->ratio = o->ice_density / o->water_density;
-    if (fl_thickness_parse(&d->law, o->thickness_law, &why))
+    if (fl_thickness_parse(&d->law, o->thickness_law, &why)) {
+        if (why.code == FL_INPUT && options_there("thickness", o->thickness_law, "metres, a law", err))
+            return -1;
         return why.code == FL_USAGE ? fl_fail(err, FL_USAGE, "--thickness: %s", why.text)
                                     : fl_fail(err, why.code, "%s", why.text);
+    }
     if (d->law.kind == FL_THICKNESS_SAME) {
         o->thickness = d->most = d->law.a;
         if (o->thickness > 2.0 * o->radius) return 0;

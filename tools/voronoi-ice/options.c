@@ -2,6 +2,7 @@
 #include <getopt.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 #include "base/num.h"
 #include "base/option.h"
 #include "ice/pancakes.h"
@@ -208,6 +209,13 @@ static int file(const char *option, const char *text, const char **out, fl_err *
                        option, text);
     *out = text;
     return 0;
+}
+
+int options_there(const char *option, const char *text, const char *wanted, fl_err *err)
+{
+    if (strcmp(text, "-") == 0 || access(text, F_OK) == 0) return 0;
+    return fl_fail(err, FL_INPUT, "--%s is \"%.60s\", %s or a file that is there was wanted", option, text,
+                   wanted);
 }
 
 static int shape(struct options *o, const char *text, fl_err *err)

@@ -63,7 +63,9 @@ int sizing_ask(struct sizing *s, struct options *o, double area, fl_err *err)
     double *size = NULL;
     int rc = -1;
     s->law = o->law;
-    if (o->sizes_file && fl_sizes_read(&s->law, o->sizes, err)) return -1;
+    if (o->sizes_file &&
+        (options_there("sizes", o->sizes, "a law", err) || fl_sizes_read(&s->law, o->sizes, err)))
+        return -1;
     if (settle(s, o, area, err)) return -1;
     s->mean = covered(o) * area / o->floes;
     s->factor = s->law.kind == FL_SIZES_POWER || s->law.kind == FL_SIZES_LIST
