@@ -231,8 +231,9 @@ const fl_key fl_key_table[] = {
      .meaning =
          "floes to which nothing happens take many steps at once: those that touch nothing, with an "
          "error of each of at most this fraction of their radius, and those that lie still against each "
-         "other; none sleeps by default; 1e-5 leaves the loads of a field as they are to a millionth, and "
-         "saves the more the fewer floes touch at a time",
+         "other; none sleeps by default; 1e-5 leaves the loads of a field as they are to a millionth, or, "
+         "after many impacts, to what a change of the last bit would make of them, and saves the more the "
+         "fewer floes touch at a time",
      .source = "local error of the step"},
     {.section = FL_SEC_RUN,
      .key = "search_every",

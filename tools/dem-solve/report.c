@@ -28,10 +28,10 @@ static void budget_of(const struct run *r, FILE *f)
             "sums up to is one of many; the error is that of windows of %.3g s\n",
             far, window);
     else if (g->rate > 0.0)
-        fprintf(
-            f,
-            "                   states that differ by a bit are apart after %.3g s: the run is determined\n",
-            far);
+        fprintf(f,
+                "                   states that differ by a bit are apart after %.3g s, by windows of %.3g s "
+                "in all: the run would be determined\n",
+                far, g->grown_in);
 }
 
 static void bonds_of(const fl_world *w, FILE *f)
