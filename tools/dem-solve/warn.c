@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
+#include <string.h>
 #include "bound/shell.h"
 #include "run.h"
 #include "step/balls.h"
@@ -117,8 +118,28 @@ static void warn_waves(const struct run *r)
                 steep, breaking);
 }
 
+/* A material that the scene itself gives, and nothing is of, is likely one that is misspelt; of what it includes
+ * it takes what it needs.  What comes in later may be of any. */
+static void warn_materials(const struct run *r)
+{
+    const fl_world *w = r->w;
+    const fl_scene *s = r->scene;
+    for (int32_t k = 0; k < s->n_material && !w->traffic.feed; k++) {
+        const fl_scene_material *m = &s->material[k];
+        const fl_scene_mark *at = &m->head.opened;
+        int used = strcmp(m->name, "ice") == 0 || strcmp(m->name, "steel") == 0 || at->file > 0 ||
+                   (s->structure.head.present && strcmp(m->name, s->structure.material) == 0);
+        for (int32_t i = 0; i < w->n && !used; i++) used = w->material[i] == k;
+        if (used) continue;
+        fprintf(stderr, "dem-solve: warning: ");
+        if (at->file >= 0 && at->line) fprintf(stderr, "%s:%d: ", s->file[at->file], at->line);
+        fprintf(stderr, "no body and no structure is of [material %s]\n", m->name);
+    }
+}
+
 void warn_at_start(const struct run *r)
 {
+    warn_materials(r);
     warn_overlaps(r);
     warn_held(r);
     warn_waves(r);
