@@ -399,7 +399,7 @@ static double cone_over(const fl_part *p, int32_t t, fl_vec3 o)
 
 /* Whether a body of a closed surface, which is what edges join, encloses less than nothing, as cavities do
  * and what is inside out: 1 + its first triangle, or 0.  -1 with FL_SYSTEM. */
-static int32_t looks_inward(const flats *f, fl_err *err)
+static int32_t looks_inward(const fl_flats *f, fl_err *err)
 {
     const fl_part *p = f->p;
     int32_t inward = 0;
