@@ -61,8 +61,8 @@ int fl_text_fail(const fl_text *t, fl_err *err, const char *fmt, ...) __attribut
 /* Accepts a zeroed struct and leaves one. */
 void fl_text_close(fl_text *t);
 
-/* The entry of list[0 .. n) with the smallest edit distance to word, for "unknown key X, nearest is Y".  Where
- * word stands whole in some of them, as "soft" in "softening", one of these.  NULL when n = 0. */
+/* The entry of list[0 .. n) with the smallest edit distance to word, for "unknown key X, nearest is Y".
+ * Where word stands whole in some of them, as "soft" in "softening", one of these.  NULL when n = 0. */
 const char *fl_text_nearest(const char *word, const char *const *list, int n);
 
 #endif

@@ -21,11 +21,11 @@
 #include "step/traffic.h"
 #include "step/works.h"
 
-/* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the default size;
- * one that a longer step throws apart would be missed in between, so that these look more often, and those
- * four times as long always; but for steps that are short against what contacts have turned out to be. Half a
- * period takes pi/2 of the critical step: a tenth of it has fifteen steps in that, of which every fourth is
- * looked at. */
+/* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the default
+ * size; one that a longer step throws apart would be missed in between, so that these look more often, and
+ * those four times as long always; but for steps that are short against what contacts have turned out to be.
+ * Half a period takes pi/2 of the critical step: a tenth of it has fifteen steps in that, of which every
+ * fourth is looked at. */
 enum { SURVEY = 16, SOME = 4, WATCH = 16 };
 #define CAREFUL 0.2 /* of the critical step that any contact may have: the default */
 

@@ -523,8 +523,8 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     }
     r->stopped = w->step < r->steps ? told_to_stop : 0;
     if (r->stopped) return save_due(r, u, 0, err); /* the signal may have come before the first step */
-    /* The last interval of the loads may be shorter than the others, and the books are looked at.  A longer run
-     * would do neither here, so what can be gone on from comes before. */
+    /* The last interval of the loads may be shorter than the others, and the books are looked at.  A longer
+     * run would do neither here, so what can be gone on from comes before. */
     if (save_due(r, u, 1, err) || fl_step_balance(w, err)) return -1;
     const double end = told_time(r, r->scene->run.duration);
     return end > u->last_row * (1.0 + ROUNDING) ? write_loads(r, u, end, err) : 0;

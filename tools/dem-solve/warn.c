@@ -118,8 +118,8 @@ static void warn_waves(const struct run *r)
                 steep, breaking);
 }
 
-/* A material that the scene itself gives, and nothing is of, is likely one that is misspelt; of what it includes
- * it takes what it needs.  What comes in later may be of any. */
+/* A material that the scene itself gives, and nothing is of, is likely one that is misspelt; of what it
+ * includes it takes what it needs.  What comes in later may be of any. */
 static void warn_materials(const struct run *r)
 {
     const fl_world *w = r->w;

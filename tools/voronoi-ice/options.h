@@ -73,8 +73,8 @@ void options_by(const struct options *o, fl_by *by);
 /* With --id auto the id becomes a number of the field: 16 hexadecimal digits, others for another field. */
 void options_id(struct options *o, const fl_field *field);
 
-/* Of an option that is a law or the name of a file, where it is no law: -1 with FL_INPUT where there is no such
- * file, which is then more likely a law that is misspelt. */
+/* Of an option that is a law or the name of a file, where it is no law: -1 with FL_INPUT where there is no
+ * such file, which is then more likely a law that is misspelt. */
 int options_there(const char *option, const char *text, const char *wanted, fl_err *err);
 
 #endif
