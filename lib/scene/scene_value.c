@@ -203,7 +203,7 @@ static int read_numbers(const complaint *c, const char *text, double *x)
         snprintf(unit, sizeof unit, "%s", t + len);
         if (len) {
             if (n == want) return wrong_number(c, text);
-            x[n] = strtod(t, &end);
+            x[n] = strtod(t, &end) + 0.0; /* -0 becomes 0, as it prints */
             if (end < t + len || !isfinite(x[n])) return wrong_number(c, text);
             n++;
         } else if (bare == n) { /* no number waits for this word */
@@ -246,7 +246,7 @@ static int read_vec3(const complaint *c, const char *text, fl_vec3 *out)
     if (n == 3) *out = v3(x[0], x[1], x[2]);
     else if (c->key->lone == FL_LONE_X) *out = v3(x[0], 0, 0);
     else if (c->key->lone == FL_LONE_ALL) *out = v3(x[0], x[0], x[0]);
-    else if (x[0] >= 0.0) *out = v3(0, 0, -x[0]);
+    else if (x[0] >= 0.0) *out = v3(0, 0, 0.0 - x[0]); /* 0 of 0 */
     else
         return wrong(c,
                      "is %.60s: one number is the size of a downward vector and cannot be negative, three "

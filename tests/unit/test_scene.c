@@ -170,6 +170,10 @@ static void vectors_take_one_number_or_three(void **state)
 {
     fl_scene s;
     (void)state;
+    good(&s, ICE "[run]\ngravity = 0\n");
+    assert_false(signbit(s.run.gravity.z)); /* as when it is read again, written in full */
+    good(&s, ICE "[run]\ngravity = -0 0 -0\n");
+    assert_false(signbit(s.run.gravity.x) || signbit(s.run.gravity.z));
     good(&s, ICE "[run]\ngravity = 1 2 -3\n");
     assert_near(s.run.gravity.y, 2.0, 0);
     assert_near(s.run.gravity.z, -3.0, 0);
