@@ -76,10 +76,10 @@ static void take(const fl_world *w, fl_few *s, crew *c, double h)
     for (int32_t k = 0; k < s->lanes && w->sleep.nap; k++) s->h[k] = half_of(w, s->at[k], h);
 }
 
-/* Something may press on it now.  Which spheres met another is not written down. */
+/* Something presses on it now.  Not whether there are rows at all: that hangs on when pairs were found. */
 static int presses(const fl_world *w, int32_t k)
 {
-    return w->met[k] || w->balls.bodies || fl_frozen_at(w, k);
+    return w->met[k] || (w->balls.bodies && w->balls.touching[k]) || fl_frozen_at(w, k);
 }
 
 /* Where bodies move water with them. */

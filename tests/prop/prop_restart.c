@@ -7,6 +7,7 @@
 #include <string.h>
 #include "support/near.h"
 #include "base/rng.h"
+#include "step/balls.h"
 #include "step/snapshot.h"
 #include "step/step.h"
 #include "support/scenes.h"
@@ -267,6 +268,43 @@ static void a_step_that_begins_anew_finds_the_water_it_had(void **state)
         }
 }
 
+/* Two spheres that hit each other and fly apart, or start apart, and a floe, all in water. */
+static void balls_that_part(lab *l, double x)
+{
+    lab_start(l);
+    lab_set(l, "run.gravity=9.81");
+    lab_set(l, "water.level=-0.3"); /* little of the weight floats, so that f - m g - lift is rounded */
+    lab_set(l, "water.current=0.3 0.1 0");
+    lab_set(l, "material.ice.young=1e6");
+    lab_sphere(l, v3(-x, 0, 0), 0.5, v3(2, 0, 0.3), v3(0, 0, 0));
+    lab_sphere(l, v3(x, 0, 0.1), 0.5, v3(-2, 0.1, 0), v3(0, 0, 0));
+    lab_box(l, v3(0, 4, 0), v3(0.6, 0.7, 0.4), 0.05, q_about(0, 0.1), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(l, 0);
+}
+
+/* What presses on a body does not hang on whether there have been rows of spheres since the world was made.
+ */
+static void rows_that_were_are_not_seen(void **state)
+{
+    lab whole, l;
+    fl_err err = {0};
+    size_t n = 0;
+    (void)state;
+    balls_that_part(&whole, 0.53);
+    while (fl_balls_rows(&whole.w) || whole.w.step < 10) assert_int_equal(lab_run(&whole, 10), 0);
+    assert_true(whole.w.balls.bodies > 0 && whole.w.touching_steps > 10);
+    balls_that_part(&l, 5.0);
+    assert_int_equal(l.w.balls.bodies, 0);
+    char *text = snapshot(&whole.w, &n);
+    assert_int_equal(put_back(&l.w, text, n, &err), 0);
+    free(text);
+    assert_int_equal(lab_run(&whole, 50), 0);
+    assert_int_equal(lab_run(&l, 50), 0);
+    same(&whole.w, &l.w, "patch", whole.w.step - 50);
+    lab_free(&whole);
+    lab_free(&l);
+}
+
 static void what_is_no_state_is_refused(void **state)
 {
     static const struct {
@@ -327,6 +365,7 @@ int main(void)
                                        cmocka_unit_test(who_is_let_go_is_told_as_before),
                                        cmocka_unit_test(a_state_stays_what_it_is),
                                        cmocka_unit_test(a_step_that_begins_anew_finds_the_water_it_had),
+                                       cmocka_unit_test(rows_that_were_are_not_seen),
                                        cmocka_unit_test(what_is_no_state_is_refused)};
     return cmocka_run_group_tests_name("restart", tests, NULL, NULL);
 }
