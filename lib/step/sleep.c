@@ -438,6 +438,21 @@ static int lapped(const fl_world *w, int32_t k)
     return w->sea.waves && b->x[k].z - b->bound[k] - b->radius[k] < w->sea.level + w->sea.wave.crest;
 }
 
+/* It is held at a speed, and goes however slow that is. */
+static int led(const fl_world *w, int32_t k)
+{
+    const unsigned hold = w->b.hold[k];
+    const fl_vec3 v = w->b.v[k];
+    return (hold & FL_HOLD_X && v.x != 0.0) || (hold & FL_HOLD_Y && v.y != 0.0) ||
+           (hold & FL_HOLD_Z && v.z != 0.0);
+}
+
+/* What acts on it stays as it is while it lies still. */
+static int may_rest(const fl_world *w, int32_t k)
+{
+    return may_sleep(w, k) && fl_works_now(w, k)->n > 0 && !lapped(w, k) && !led(w, k);
+}
+
 /* Who has been quiet for a window is FL_QUIET until it is known whether all are that touch it. */
 static void find_quiet(fl_world *w)
 {
@@ -448,8 +463,7 @@ static void find_quiet(fl_world *w)
         const double path = w->b.odometer[k] - nap->mark, most = s->tol * w->b.radius[k];
         const int seen = nap->mark >= 0.0;
         nap->mark = w->b.odometer[k];
-        if (!seen || path > 0.25 * most || !may_sleep(w, k) || fl_works_now(w, k)->n == 0 || lapped(w, k))
-            continue;
+        if (!seen || path > 0.25 * most || !may_rest(w, k)) continue;
         const double windows = path > 0.0 ? sqrt(most / path) : LONGEST;
         nap->way = path;
         nap->since = w->step;

@@ -22,8 +22,8 @@
  * of them wakes them all.  Nothing of their pairs is computed, and the forces of those stay.
  *
  * Awake stay: spheres, guided floes, floes of radius 0, and those that touch what moves, or a structure whose
- * panels are told; who lies still where waves reach it does not rest.  Threads, stops and tables change no
- * bit; the skin does, as it decides when a pair is looked at. */
+ * panels are told; who lies still where waves reach it, or is held at a speed, does not rest.  Threads, stops
+ * and tables change no bit; the skin does, as it decides when a pair is looked at. */
 #ifndef FL_STEP_SLEEP_H
 #define FL_STEP_SLEEP_H
 #include <string.h>

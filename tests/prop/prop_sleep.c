@@ -193,8 +193,8 @@ static void rest_and_wake(void **state)
 
 enum { LEVELS = 5 };
 
-/* Blocks on one another, numbered in such an order that news travel along the list of pairs neither upward nor
- * downward. */
+/* Blocks on one another, numbered in such an order that news travel along the list of pairs neither upward
+ * nor downward. */
 static void stack(lab *l)
 {
     lab_start(l);
@@ -267,6 +267,36 @@ static void waves_reach_who_rests(void **state)
     assert_true(none == 0 && some > 0);
 }
 
+/* A block that is held at a speed and pushes another goes at that speed, however slow. */
+static void who_is_led_does_not_rest(void **state)
+{
+    const double speed = 1e-4;
+    fl_poly core = {0};
+    fl_err err = {0};
+    lab l;
+    (void)state;
+    lab_start(&l);
+    lab_set(&l, "run.sleep=1e-3");
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "material.ice.young=100 MPa");
+    lab_set(&l, "contact.friction=0.3");
+    lab_set(&l, "contact.restitution=0.1");
+    lab_set(&l, "boundary.type=free free rigid");
+    lab_set(&l, "boundary.min=none none 0");
+    lab_set(&l, "group.push.fixed=x y rx ry rz");
+    lab_setf(&l, "group.push.velocity=%g 0 0", speed);
+    assert_int_equal(fl_poly_box(&core, v3(0.47, 0.47, 0.22), &err), 0);
+    fl_poly_to_frame(&core, v3(0, 0, -0.25), q_matrix(q_one()));
+    assert_int_equal(
+        fl_field_add(&l.field, 1, RADIUS, &core, NULL, "push", v3(speed, 0, 0), v3(0, 0, 0), &err), 0);
+    lab_box(&l, v3(1, 0, 0.25), v3(0.5, 0.5, 0.25), RADIUS, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 0);
+    assert_int_equal(lab_run(&l, (int64_t)(2.0 / l.w.dt)), 0);
+    fl_sleep_look(&l.w);
+    assert_near(l.w.b.x[0].x, speed * fl_world_time(&l.w), 1e-6);
+    lab_free(&l);
+}
+
 /* When a thin box that stands on its rounded lower edge, and leans by so much, has fallen [s]. */
 static double falls_at(double lean, double sleep)
 {
@@ -280,7 +310,8 @@ static double falls_at(double lean, double sleep)
     lab_set(&l, "contact.restitution=0.3");
     lab_set(&l, "boundary.type=free free rigid");
     lab_set(&l, "boundary.min=none none 0");
-    lab_box(&l, v3(0, 0, 0.5 - 2e-6), v3(0.5, 0.0501, 0.5), 0.05, q_about(0, lean), v3(0, 0, 0), v3(0, 0, 0));
+    const fl_vec3 none = v3(0, 0, 0);
+    lab_box(&l, v3(0, 0, 0.5 - 2e-6), v3(0.5, 0.0501, 0.5), 0.05, q_about(0, lean), none, none);
     lab_make(&l, 0);
     while (l.w.b.x[0].z > 0.25 && fl_world_time(&l.w) < 60.0) assert_int_equal(lab_run(&l, 10), 0);
     const double t = fl_world_time(&l.w);
@@ -374,6 +405,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(all_rest_however_they_came),
                                        cmocka_unit_test(what_falls_does_not_rest),
                                        cmocka_unit_test(waves_reach_who_rests),
+                                       cmocka_unit_test(who_is_led_does_not_rest),
                                        cmocka_unit_test(threads_stops_and_looks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
