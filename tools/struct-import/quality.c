@@ -103,8 +103,9 @@ static void warn(const char *name, const struct mended *m)
     const int32_t twisted = m->orient.twisted, rimmed = m->orient.rimmed;
     if (rimmed && m->left.open && !m->fits)
         fprintf(stderr,
-                "struct-import: warning: %s: open patches have no outside, they keep the side that most of "
-                "their area had\n",
+                "struct-import: warning: %s: open patches have no outside: but for flat convex ones they are "
+                "felt on one side "
+                "alone, the one that most of their area had\n",
                 name);
     if (m->fins)
         fprintf(stderr,
