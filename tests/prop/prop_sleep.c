@@ -231,7 +231,8 @@ static void all_rest_however_they_came(void **state)
     }
 }
 
-/* What a shelf bears in two periods of a wave, over weight and time, of a block that lies on it at that height. */
+/* What a shelf bears in two periods of a wave, over weight and time, of a block that lies on it at that
+ * height. */
 static double shelved(double top, double sleep, int64_t *rested)
 {
     lab l;
