@@ -201,8 +201,38 @@ static void warn_energy(const fl_world *w)
             fl_step_off(w), w->ledger.residual, w->ledger.throughput, FL_STEP_USABLE);
 }
 
+/* Whether gravity g pulls body i away from all there is for good, and has by its own size. */
+static int falls(const fl_world *w, int32_t i, double g)
+{
+    const fl_bodies *b = &w->b;
+    const fl_vec3 down = v3_scale(1.0 / g, w->gravity);
+    const double speed = v3_dot(b->v[i], down);
+    if (fl_world_away(w, i) || !(speed > sqrt(2.0 * g * (b->bound[i] + b->radius[i])))) return 0;
+    for (int32_t k = w->n; k < w->n + w->pieces; k++)
+        if (v3_dot(v3_sub(b->x[i], b->x[k]), down) <= b->bound[i] + b->bound[k] + b->radius[i]) return 0;
+    for (int32_t k = w->pieces; k < w->structure.n; k++) /* a wall that it goes towards */
+        if (v3_dot(q_rotate(w->structure.piece[k].q, v3(0, 0, 1)), down) < -0.1) return 0;
+    return 1;
+}
+
+/* Whoever forgets the water is told: floes fall through all of a run, and its loads are those of none. */
+static void warn_fallen(const fl_world *w)
+{
+    const double g = v3_norm(w->gravity);
+    int32_t many = 0, first = 0;
+    if (w->sea.water || w->cell.wraps || !(g > 0.0)) return;
+    for (int32_t i = w->n - 1; i >= 0; i--)
+        if (falls(w, i, g)) many++, first = w->id[i];
+    if (many)
+        fprintf(stderr,
+                "dem-solve: warning: %d of %d bodies fall in the end, and there is nothing below them, first "
+                "body %d: a section [water], a wall of [boundary] or gravity = 0 may be wanted\n",
+                many, w->n, first);
+}
+
 void warn_at_end(const struct run *r, int failed)
 {
+    if (!failed) warn_fallen(r->w);
     warn_overlapped(r->w);
     if (!failed) warn_energy(r->w); /* else the failure has been told */
 }
