@@ -175,8 +175,44 @@ static void take(prisms *q, const fl_sea *s, const fl_few *a)
     else take_some(q, s->hull, a->at, a->lanes);
 }
 
-/* fl_prism_wet(), fl_buoyancy_force() and what look_still() of sea.c makes of them; returns how many float as
- * prisms do. */
+/* What of a prism is under water: fl_prism_wet(), where it floats as one does. */
+typedef struct {
+    double volume, wetted, floats; /* 1 or 0 */
+    fl_vec3 centre;
+} prism_wet;
+
+ALWAYS prism_wet wet_of(const prisms *q, int32_t i, fl_vec3 up, double level, double reach)
+{
+    const double ux = up.x, uy = up.y, uz = up.z;
+    const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], ex = q->p[E][i],
+                 ey = q->p[E + 1][i], ez = q->p[E + 2][i], ox = q->p[O][i], oy = q->p[O + 1][i],
+                 oz = q->p[O + 2][i];
+    const double bx = ey * az - ez * ay, by = ez * ax - ex * az, bz = ex * ay - ey * ax;
+    const double area = q->p[AREA][i], jab = q->p[JAB][i];
+    const double along = ux * ex + uy * ey + uz * ez;
+    const int over = along < 0.0; /* turned over: seen along -e */
+    const double ue = over ? -along : along, sign = over ? -1.0 : 1.0, z0 = over ? -q->p[Z1][i] : q->p[Z0][i],
+                 z1 = over ? -q->p[Z0][i] : q->p[Z1][i];
+    const double per_ue = 1.0 / (ue > 0.1 ? ue : 1.0);
+    const double sa = -per_ue * (ux * ax + uy * ay + uz * az), sb = -per_ue * (ux * bx + uy * by + uz * bz);
+    const double zw = per_ue * (level - (ux * ox + uy * oy + uz * oz)), wet0 = zw - z0, dry0 = z1 - zw;
+    const double least = wet0 < dry0 ? wet0 : dry0;
+    const int floats = area > 0.0 && ue > 0.1 && level < reach && level > -reach && least > 0.0 &&
+                       least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
+    const double ja = q->p[JAA][i] * sa + jab * sb, jb = jab * sa + q->p[JBB][i] * sb;
+    const double volume = area * wet0, per = 1.0 / (floats ? volume : 1.0);
+    const double mz = 0.5 * (area * wet0 * (zw + z0) + sa * ja + sb * jb);
+    const double pa = per * ja, pb = per * jb, pe = sign * per * mz;
+    const double cx = ox + pa * ax + pb * bx + pe * ex, cy = oy + pa * ay + pb * by + pe * ey,
+                 cz = oz + pa * az + pb * bz + pe * ez;
+    return (prism_wet){.volume = volume,
+                       .wetted = area + q->p[ROUND][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]),
+                       .floats = floats ? 1.0 : 0.0,
+                       .centre = v3(cx, cy, cz)};
+}
+
+/* fl_buoyancy_force() of that and what look_still() of sea.c makes of it; returns how many float as prisms
+ * do. */
 FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, double weight,
                                     const double *restrict reach, double *restrict wetted,
                                     double *restrict lift, double *restrict centre)
@@ -185,35 +221,14 @@ FL_WIDE_VERSIONS static double look(prisms *restrict q, fl_few *restrict a, doub
 #pragma omp simd reduction(+ : afloat)
     for (int32_t i = 0; i < a->lanes; i++) {
         const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i], level = q->level[i];
-        const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], ex = q->p[E][i],
-                     ey = q->p[E + 1][i], ez = q->p[E + 2][i], ox = q->p[O][i], oy = q->p[O + 1][i],
-                     oz = q->p[O + 2][i];
-        const double bx = ey * az - ez * ay, by = ez * ax - ex * az, bz = ex * ay - ey * ax;
-        const double area = q->p[AREA][i], jab = q->p[JAB][i];
-        const double along = ux * ex + uy * ey + uz * ez;
-        const int over = along < 0.0; /* turned over: seen along -e */
-        const double ue = over ? -along : along, sign = over ? -1.0 : 1.0,
-                     z0 = over ? -q->p[Z1][i] : q->p[Z0][i], z1 = over ? -q->p[Z0][i] : q->p[Z1][i];
-        const double per_ue = 1.0 / (ue > 0.1 ? ue : 1.0);
-        const double sa = -per_ue * (ux * ax + uy * ay + uz * az),
-                     sb = -per_ue * (ux * bx + uy * by + uz * bz);
-        const double zw = per_ue * (level - (ux * ox + uy * oy + uz * oz)), wet0 = zw - z0, dry0 = z1 - zw;
-        const double least = wet0 < dry0 ? wet0 : dry0;
-        const int floats = area > 0.0 && ue > 0.1 && level < reach[i] && level > -reach[i] && least > 0.0 &&
-                           least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
-        const double ja = q->p[JAA][i] * sa + jab * sb, jb = jab * sa + q->p[JBB][i] * sb;
-        const double volume = area * wet0, per = 1.0 / (floats ? volume : 1.0);
-        const double mz = 0.5 * (area * wet0 * (zw + z0) + sa * ja + sb * jb);
-        const double pa = per * ja, pb = per * jb, pe = sign * per * mz;
-        const double cx = ox + pa * ax + pb * bx + pe * ex, cy = oy + pa * ay + pb * by + pe * ey,
-                     cz = oz + pa * az + pb * bz + pe * ez;
-        const double over_water = ux * cx + uy * cy + uz * cz - level, push = weight * volume;
+        const prism_wet w = wet_of(q, i, v3(ux, uy, uz), level, reach[i]);
+        const double cx = w.centre.x, cy = w.centre.y, cz = w.centre.z, one = w.floats;
+        const double over_water = ux * cx + uy * cy + uz * cz - level, push = weight * w.volume;
         const double fx = push * ux, fy = push * uy, fz = push * uz;
         const double tx = cy * fz - cz * fy, ty = cz * fx - cx * fz, tz = cx * fy - cy * fx;
-        const double one = floats ? 1.0 : 0.0;
         q->floats[i] = one;
         afloat += one;
-        wetted[i] = area + q->p[ROUND][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]);
+        wetted[i] = w.wetted;
         lift[i] = push;
         centre[i] = over_water;
         a->f[0][i] += 0.0;
@@ -304,27 +319,121 @@ static void flow(fl_sea *s, const fl_bodies *b, const fl_few *a, const double *c
     for (int32_t k = 0; k < a->n && b->added; k++) b->flow[a->at[k]] = fl_sea_flow(s, a->at[k]);
 }
 
-int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
+/* What a look at the waves has left, in the order of fl_sea_held: read by that order. */
+enum {
+    HELD_F,
+    HELD_T = 3,
+    HELD_FLOW = 6,
+    HELD_DF = 9,
+    HELD_DT = 12,
+    HELD_DFLOW = 15,
+    HELD_Z = 18,
+    HELD_SLOPE,
+    HELD_DZ,
+    HELD_DSLOPE,
+    HELD = 24
+};
+static_assert(offsetof(fl_sea_held, t) == HELD_T * sizeof(double) &&
+                  offsetof(fl_sea_held, df) == HELD_DF * sizeof(double) &&
+                  offsetof(fl_sea_held, dflow) == HELD_DFLOW * sizeof(double) &&
+                  offsetof(fl_sea_held, dslope) == HELD_DSLOPE * sizeof(double) &&
+                  sizeof(fl_sea_held) >= HELD * sizeof(double),
+              "as fl_sea_held has them");
+
+typedef struct {
+    _Alignas(64) double h[HELD][FL_FEW];
+    double past[FL_FEW], over[FL_FEW], reach[FL_FEW];         /* over: of still water over the origin */
+    double push[3][FL_FEW], turn[3][FL_FEW], flow[3][FL_FEW]; /* out */
+} riders;
+
+FL_FOUR_VERSIONS static void take_held(riders *r, const fl_sea_held *h, const int32_t *at, int32_t lanes)
 {
-    prisms q;
+    for (int32_t k = 0; k < lanes; k += FL_LANES)
+        for (int c = 0; c < HELD; c += FL_LANES)
+            fl_few_pick4(r->h + c, (const double *)(const void *)h + c, sizeof *h, at, k);
+}
+
+/* go_on() of sea.c; returns how many float as prisms do. */
+FL_WIDE_VERSIONS static double ride(prisms *restrict q, riders *restrict r, fl_few *restrict a, fl_vec3 along,
+                                    double weight)
+{
+    double afloat = 0.0;
+#pragma omp simd reduction(+ : afloat)
+    for (int32_t i = 0; i < a->lanes; i++) {
+        const fl_rows3 R = fl_few_rows(a, i);
+        const double past = r->past[i], z = r->h[HELD_Z][i] + past * r->h[HELD_DZ][i],
+                     slope = r->h[HELD_SLOPE][i] + past * r->h[HELD_DSLOPE][i];
+        const double c = 1.0 / sqrt(1.0 + slope * slope), level = c * (z + r->over[i]);
+        const fl_vec3 up = v3_scale(c, v3_madd(R.z, -slope, r3_tmul(R, along)));
+        const prism_wet w = wet_of(q, i, up, level, r->reach[i]);
+        const fl_vec3 force = v3_scale(weight / c * w.volume, up), moment = v3_cross(w.centre, force);
+        const fl_vec3 f = v3_add(r3_mul(R, force),
+                                 v3_madd(FL_FEW_OF(r->h + HELD_F, i), past, FL_FEW_OF(r->h + HELD_DF, i))),
+                      t = v3_add(r3_mul(R, moment),
+                                 v3_madd(FL_FEW_OF(r->h + HELD_T, i), past, FL_FEW_OF(r->h + HELD_DT, i)));
+        q->floats[i] = w.floats;
+        afloat += w.floats;
+        fl_few_set(r->push, i, f);
+        fl_few_set(r->turn, i, t);
+        fl_few_set(r->flow, i,
+                   v3_madd(FL_FEW_OF(r->h + HELD_FLOW, i), past, FL_FEW_OF(r->h + HELD_DFLOW, i)));
+        fl_few_set(a->f, i, v3_add(FL_FEW_OF(a->f, i), f));
+        fl_few_set(a->t, i, v3_add(FL_FEW_OF(a->t, i), t));
+    }
+    return afloat;
+}
+
+/* On the planes that were fitted to the waves. */
+static double ride_on(fl_sea *s, const fl_bodies *b, fl_few *a, prisms *q)
+{
+    riders r;
+    for (int32_t k = 0; k < a->lanes; k++) {
+        const int32_t i = a->at[k];
+        r.past[k] = s->time - s->held[i].when;
+        r.over[k] = s->level - b->x[i].z;
+        r.reach[k] = s->reach[i];
+    }
+    take_held(&r, s->held, a->at, a->lanes);
+    take(q, s, a);
+    const double afloat = ride(q, &r, a, s->wave.along, s->weight);
+    for (int32_t k = 0; k < a->n; k++) {
+        const int32_t i = a->at[k];
+        s->push[i] = FL_FEW_OF(r.push, k), s->turn[i] = FL_FEW_OF(r.turn, k),
+        s->flow[i] = FL_FEW_OF(r.flow, k);
+        if (b->added) b->flow[i] = s->flow[i];
+    }
+    return afloat;
+}
+
+/* On still water. */
+static double rest_on(fl_sea *s, const fl_bodies *b, fl_few *a, prisms *q)
+{
     rooms room;
     _Alignas(64) double centre[FL_FEW]; /* height of the submerged centres over still water [m] */
     double *const wetted = fl_few_room(a, s->wetted, room.wetted);
     double *const lift = fl_few_room(a, s->lift, room.lift);
     const double *const reach = fl_few_see(a, s->reach, room.reach);
-    int32_t others = 0, lane = 0;
+    int32_t lane = 0;
     double afloat = a->lanes;
-    do q.level[lane] = s->level - b->x[a->at[lane]].z;
+    do q->level[lane] = s->level - b->x[a->at[lane]].z;
     while (++lane < a->lanes);
-    const int away = fabs(q.level[0]) < reach[0] ? 0 : far(q.level, reach, a->lanes);
+    const int away = fabs(q->level[0]) < reach[0] ? 0 : far(q->level, reach, a->lanes);
     if (away) {
-        look_from_far(s, q.level, a, away > 0, wetted, lift, centre);
+        look_from_far(s, q->level, a, away > 0, wetted, lift, centre);
     } else {
-        take(&q, s, a);
-        afloat = look(&q, a, s->weight, reach, wetted, lift, centre);
+        take(q, s, a);
+        afloat = look(q, a, s->weight, reach, wetted, lift, centre);
     }
     fl_few_keep(a, s->wetted, wetted), fl_few_keep(a, s->lift, lift);
     flow(s, b, a, centre);
+    return afloat;
+}
+
+int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_FEW])
+{
+    prisms q;
+    const double afloat = s->waves ? ride_on(s, b, a, &q) : rest_on(s, b, a, &q);
+    int32_t others = 0;
     for (int32_t k = 0; k < a->n && afloat < a->lanes; k++)
         if (!(q.floats[k] > 0.0)) left[others++] = k;
     return others;
