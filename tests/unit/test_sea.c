@@ -251,9 +251,8 @@ static void a_scene_without_water_allocates_none(void **state)
 enum { SEVERAL = 45 };
 
 /* Prisms and others: afloat the right way up or turned over, askew, deep under, high above; some at rest. */
-static void flotsam(lab *l, int wind, int shear, int along)
+static void add_flotsam(lab *l, int wind, int shear, int along)
 {
-    lab_start(l);
     lab_set(l, "run.gravity=9.81");
     lab_set(l, "water.current=0.5 0.1 0");
     if (shear) lab_set(l, "water.profile=linear");
@@ -275,6 +274,12 @@ static void flotsam(lab *l, int wind, int shear, int along)
         lab_poly(l, &p, 0.01, k % 7 ? v : v3(0.5, 0.1, 0), k % 5 ? spin : v3(0, 0, 0));
     }
     lab_make(l, 1e-3);
+}
+
+static void flotsam(lab *l, int wind, int shear, int along)
+{
+    lab_start(l);
+    add_flotsam(l, wind, shear, along);
 }
 
 static void same_bits(const void *a, const void *b, size_t bytes) { assert_memory_equal(a, b, bytes); }
@@ -328,6 +333,62 @@ static void several_meet_the_sea_as_one_does(void **state)
     assert_true(afloat > 16 * SEVERAL / 8 && afloat < 16 * SEVERAL / 4 * 3);
 }
 
+/* Two looks at the waves, the second a little later and elsewhere, so that all of it changes. */
+static void look_twice(fl_world *w)
+{
+    for (int look = 0; look < 2; look++) {
+        w->sea.looks = 1, w->sea.time = 0.02 * look;
+        for (int32_t k = 0; k < SEVERAL; k++) {
+            fl_step_soft(w, k);
+            w->b.x[k] = v3_madd(w->b.x[k], 0.02, w->b.v[k]);
+            w->b.q[k] = q_mul(q_of_vector(v3_scale(0.02, w->b.w[k])), w->b.q[k]);
+        }
+    }
+    w->sea.looks = 0, w->sea.time = 0.03;
+}
+
+static void several_ride_on_waves_as_one_does(void **state)
+{
+    (void)state;
+    const size_t vectors = SEVERAL * sizeof(fl_vec3);
+    int32_t afloat = 0;
+    for (int way = 0; way < 4; way++) {
+        lab l, m;
+        for (int k = 0; k < 2; k++) {
+            lab *const to = k ? &m : &l;
+            lab_start(to);
+            lab_set(to, "water.wave=airy"), lab_set(to, "water.height=0.4"), lab_set(to, "water.period=3");
+            lab_set(to, "water.direction=30 deg"), lab_set(to, "water.every=10");
+            if (way & 1) lab_set(to, "water.drag=facet");
+            add_flotsam(to, 0, 0, way & 2);
+        }
+        fl_world *one = &l.w, *all = &m.w;
+        look_twice(one), look_twice(all);
+        for (int32_t k = 0; k < SEVERAL; k++) fl_step_soft(one, k);
+        for (int32_t from = 0, n; from < SEVERAL; from += n) {
+            int32_t at[FL_FEW], left[FL_FEW];
+            fl_few s;
+            n = 1 + (from + way) % FL_FEW;
+            if (n > SEVERAL - from) n = SEVERAL - from;
+            for (int32_t k = 0; k < n; k++) at[k] = from + k;
+            fl_few_take(&s, &all->b, at, n, 1e-3);
+            fl_few_axes(&s);
+            fl_few_weigh(&s, all->gravity);
+            assert_true(fl_calm_lifts(&all->sea));
+            const int32_t others = fl_calm_force(&all->sea, &all->b, &s, left);
+            fl_few_put_forces(&s, &all->b);
+            for (int32_t k = 0; k < others; k++) fl_step_soft(all, from + left[k]);
+            afloat += n - others;
+        }
+        same_bits(one->b.f, all->b.f, vectors), same_bits(one->b.t, all->b.t, vectors);
+        same_bits(one->sea.push, all->sea.push, vectors), same_bits(one->sea.turn, all->sea.turn, vectors);
+        same_bits(one->sea.flow, all->sea.flow, vectors);
+        if (way & 2) same_bits(one->b.flow, all->b.flow, vectors);
+        lab_free(&l), lab_free(&m);
+    }
+    assert_true(afloat > 4 * SEVERAL / 8 && afloat < 4 * SEVERAL / 4 * 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -338,6 +399,7 @@ int main(void)
         cmocka_unit_test(what_is_held_is_not_dragged),
         cmocka_unit_test(round_bodies_float_round),
         cmocka_unit_test(several_meet_the_sea_as_one_does),
+        cmocka_unit_test(several_ride_on_waves_as_one_does),
         cmocka_unit_test(still_water_is_looked_at_in_each_step),
         cmocka_unit_test(what_heaves_between_looks_gains_nothing),
         cmocka_unit_test(looks_at_waves_are_often_enough),
