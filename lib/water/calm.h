@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* calm.h -- water and wind on a few bodies side by side: what sea.h says, to the bit, of bodies that nothing
- * holds: drag where it goes by the manual's laws, buoyancy where the water is still besides, or waves are held
- * in this step. */
+ * holds: drag where it goes by the manual's laws, buoyancy where the water is still besides, or waves are
+ * held in this step. */
 #ifndef FL_WATER_CALM_H
 #define FL_WATER_CALM_H
 #include "body/few.h"
