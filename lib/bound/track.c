@@ -105,7 +105,7 @@ int fl_track_read(fl_track *out, const char *path, int cubic, fl_err *err)
         for (int k = 0; k < 6; k++) {
             double x = 0.0;
             if (col[k] >= 0 && fl_table_within(&in, col[k], FARTHEST, &x, err)) goto done;
-            *six(&at, k) = k < 3 ? x : x * PI / 180.0;
+            *six(&at, k) = k < 3 ? x : fl_radians(x);
         }
         if (fl_grow(&tr.t, &t_cap, (int64_t)tr.n + 1, sizeof *tr.t, err) ||
             fl_grow(&tr.at, &at_cap, (int64_t)tr.n + 1, sizeof *tr.at, err))

@@ -251,7 +251,7 @@ static int check_waves(const fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "water.height", err,
                              "waves of %g m on water of %g m: less than twice the depth was wanted",
                              w->height, w->depth);
-    const double turn = w->direction * PI / 180.0, along[2] = {cos(turn), sin(turn)};
+    const double turn = fl_radians(w->direction), along[2] = {cos(turn), sin(turn)};
     for (int c = 0; c < 2; c++)
         if (s->boundary.head.present && s->boundary.type[c] == FL_BOUND_PERIODIC && fabs(along[c]) > 1e-9)
             return fl_scene_fail(s, "water.wave", err,

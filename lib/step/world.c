@@ -202,8 +202,7 @@ static int make_sea(fl_world *w, fl_err *err)
     sea->air_form = s->wind.form_coef;
     sea->breeze = s->wind.velocity;
     if (s->wind.beaufort >= 0.0) { /* Beaufort's scale, as words of the manual have it */
-        const double U = 0.836 * s->wind.beaufort * sqrt(s->wind.beaufort),
-                     a = s->wind.direction * PI / 180.0;
+        const double U = 0.836 * s->wind.beaufort * sqrt(s->wind.beaufort), a = fl_radians(s->wind.direction);
         sea->breeze = v3(U * cos(a), U * sin(a), 0);
     }
     if (sea->water && v3_some(s->water.added_mass) && fl_bodies_add_mass(&w->b, err)) return -1;

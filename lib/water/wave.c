@@ -39,7 +39,7 @@ static void fill_train(const fl_waves *w, fl_wave_train *t, double omega, double
 
 static int start(fl_waves *w, int32_t n, double direction, double depth, double gravity, fl_err *err)
 {
-    const double a = direction * PI / 180.0;
+    const double a = fl_radians(direction);
     *w = (fl_waves){.n = n, .along = v3(cos(a), sin(a), 0), .depth = depth, .gravity = gravity};
     w->train = fl_alloc(n, sizeof *w->train, err);
     return w->train ? 0 : -1;
