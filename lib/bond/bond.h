@@ -68,6 +68,7 @@ typedef struct {
     int32_t state;  /* enum fl_bond_state                                                */
     int32_t mixing; /* eta >= 1                                                          */
     double worn;    /* c                                                                 */
+    double damping; /* dashpot over spring, of what is not damaged       [s]            */
     /* of the last look: FL_BOND_TELLS numbers in a row; world axes, torques about the two centres */
     fl_vec3 f, ti, tj;         /* force on i (on j its opposite), torques           [N], [N m] */
     double store;              /* W                                                 [J]   */
@@ -83,14 +84,13 @@ typedef struct {
     double kn, ks;      /* E/l, G/l                                          [Pa/m]         */
     double tension;     /* sigma_t, INFINITY: never                          [Pa]           */
     double cohesion;    /* c, INFINITY: never                                [Pa]           */
-    double damping;     /* dashpot over spring, of what is not damaged       [s]            */
     double length;      /* l                                                 [m]            */
     double friction;    /* mu                                                               */
+    double stretch;     /* lambda_f is at least this times lambda_c; 0: none                */
     fl_vec3 fs, si, sj; /* the part of friction                                    */
     double spring;      /* in the springs of friction                        [J]   */
     /* how it breaks, and its past */
     double energy[2]; /* G_I, G_II; 0: at once                              [J/m2]        */
-    double stretch;   /* lambda_f is at least this times lambda_c; 0: none                */
     double held;      /* h_0, 0 before it has failed */
     double spent;     /* taken out by damage and wear so far                [J]           */
     double handed;    /* and given to the springs of friction               [J]           */

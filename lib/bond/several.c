@@ -5,27 +5,12 @@
 #include "bond/standing.h"
 
 /* As fl_bond has them in a row. */
-enum {
-    PI,
-    PJ = 3,
-    NI = 6,
-    NJ = 9,
-    AI = 12,
-    AJ = 15,
-    BI = 18,
-    BJ = 21,
-    AREA = 24,
-    KN,
-    KS,
-    TENSION,
-    COHESION,
-    DAMPING
-};
+enum { PI, PJ = 3, NI = 6, NJ = 9, AI = 12, AJ = 15, BI = 18, BJ = 21, AREA = 24, KN, KS, TENSION, COHESION };
 enum { F, TI = 3, TJ = 6, STORE = 9, S = 10, SU = 13, SV = 16, FD = 19, DI = 22, DJ = 25 };
 
 #define PLACE(member, first) ((offsetof(fl_bond, member) - offsetof(fl_bond, first)) / sizeof(double))
 static_assert(PLACE(nj, pi) == NJ && PLACE(bj, pi) == BJ && PLACE(area, pi) == AREA &&
-                  PLACE(damping, pi) == DAMPING && PLACE(fs, pi) == FL_BOND_FACE,
+                  PLACE(cohesion, pi) == COHESION && PLACE(fs, pi) == FL_BOND_FACE,
               "the face");
 static_assert(PLACE(tj, f) == TJ && PLACE(store, f) == STORE && PLACE(sv, f) == SV && PLACE(fd, f) == FD &&
                   PLACE(dj, f) == DJ && PLACE(pi, f) == FL_BOND_TELLS,
@@ -33,7 +18,7 @@ static_assert(PLACE(tj, f) == TJ && PLACE(store, f) == STORE && PLACE(sv, f) == 
 
 typedef struct {
     _Alignas(64) fl_lane face[FL_BOND_FACE];
-    fl_lane qi[4], qj[4], off[3], vi[3], wi[3], vj[3], wj[3];
+    fl_lane damping, qi[4], qj[4], off[3], vi[3], wi[3], vj[3], wj[3];
     fl_lane to[FL_BOND_TELLS], holds;
 } batch;
 
@@ -65,6 +50,7 @@ static int lay(batch *a, fl_bond *const *c, const fl_vec3 *way, int n, const fl_
         face[k] = doubles((const char *)p + offsetof(fl_bond, pi));
         qi[k] = axes_of(b, i), qj[k] = axes_of(b, j);
         fl_lane3_put(a->off, k, v3_add(v3_sub(b->x[j], b->x[i]), way[k < n ? k : 0]));
+        a->damping.a[k] = p->damping;
         damping += p->damping;
     }
     turn_in(a, face, qi, qj);
@@ -82,7 +68,7 @@ static inline __attribute__((always_inline)) void find(batch *restrict a, int da
     const fl_lane *f = a->face;
 #pragma omp simd
     for (int k = 0; k < FL_ABREAST; k++) {
-        const double area = f[AREA].a[k], kn = f[KN].a[k], ks = f[KS].a[k], damping = f[DAMPING].a[k];
+        const double area = f[AREA].a[k], kn = f[KN].a[k], ks = f[KS].a[k], damping = a->damping.a[k];
         const fl_standing to =
             fl_stand(fl_lane3(f + PI, k), fl_lane3(f + PJ, k), fl_lane3(f + NI, k), fl_lane3(f + NJ, k),
                      fl_lane3(f + AI, k), fl_lane3(f + AJ, k), fl_lane3(f + BI, k), fl_lane3(f + BJ, k),
