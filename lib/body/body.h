@@ -55,7 +55,14 @@ int fl_bodies_add_mass(fl_bodies *b, fl_err *err);
  * added masses. */
 int fl_body_is_ball(const fl_bodies *b, int32_t i);
 
-/* R of body i: its axes in the world; those of a ball are the world's.  Made from q whenever it is asked for,
+/* By which its axes stand: those of a ball are the world's. */
+static inline const fl_quat *fl_body_attitude(const fl_bodies *b, int32_t i)
+{
+    static const fl_quat level = {1, 0, 0, 0};
+    return b->ball[i] ? &level : &b->q[i];
+}
+
+/* R of body i: its axes in the world.  Made from q whenever it is asked for,
  * in 40 instructions: to keep it would cost a body that touches nothing more than that. */
 static inline fl_mat3 fl_body_axes(const fl_bodies *b, int32_t i)
 {

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "body/few.h"
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 static void split_one(double (*to)[FL_FEW], fl_vec3 a, int32_t k)
 {
     to[0][k] = a.x, to[1][k] = a.y, to[2][k] = a.z;
@@ -207,7 +205,7 @@ FL_WIDE_VERSIONS void fl_few_push(fl_few *restrict s)
 }
 
 /* What a force gives to v in h seconds.  a: NULL, or what moves along. */
-ALWAYS fl_vec3 sped(const fl_few *s, const fl_few_water *a, int32_t i)
+FL_WIDE_PART fl_vec3 sped(const fl_few *s, const fl_few_water *a, int32_t i)
 {
     const double h = s->h[i];
     const fl_vec3 f = FL_FEW_OF(s->f, i);
@@ -215,7 +213,7 @@ ALWAYS fl_vec3 sped(const fl_few *s, const fl_few_water *a, int32_t i)
     return v3_scale(h, fl_few_speed(fl_few_rows(s, i), s->m[i], FL_FEW_OF(a->added, i), f));
 }
 
-ALWAYS void kick(fl_few *restrict s, const fl_few_water *restrict water)
+FL_WIDE_PART void kick(fl_few *restrict s, const fl_few_water *restrict water)
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
@@ -244,7 +242,8 @@ void fl_few_kick(fl_few *s, const fl_few_water *a)
     else kick_free(s);
 }
 
-ALWAYS void gains(const fl_few *restrict s, const fl_few_water *restrict water, double (*restrict g)[FL_FEW])
+FL_WIDE_PART void gains(const fl_few *restrict s, const fl_few_water *restrict water,
+                        double (*restrict g)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
@@ -290,7 +289,7 @@ static inline double versine(double x2, int few) { return few ? q_versine_few(x2
 static inline double sinc(double x2, int few) { return few ? q_sinc_few(x2) : q_sinc(x2); }
 
 /* Straight on for dt seconds. */
-ALWAYS void go(fl_few *s, int32_t i, double dt)
+FL_WIDE_PART void go(fl_few *s, int32_t i, double dt)
 {
     const double vx = s->v[0][i], vy = s->v[1][i], vz = s->v[2][i];
     s->x[0][i] += dt * vx;
@@ -301,11 +300,11 @@ ALWAYS void go(fl_few *s, int32_t i, double dt)
 
 /* fl_drift() with fl_drift_rotation() and its three turns written out, in loops of their own: what a turn is
  * depends on the one before, so that the time of a loop with all of them would be that of waiting.  few: none
- * is farther than Q_HALF_TURN_FEW. */
-
-/* Straight on, where that is not done apart from it, and about the first axis: from from[] to q.  w is its
+ * is farther than Q_HALF_TURN_FEW.
+ *
+ * Straight on, where that is not done apart from it, and about the first axis: from from[] to q.  w is its
  * share in the spin. */
-ALWAYS void turn_first(fl_few *restrict s, int few, int straight, double (*restrict from)[FL_FEW])
+FL_WIDE_PART void turn_first(fl_few *restrict s, int few, int straight, double (*restrict from)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
@@ -326,7 +325,7 @@ ALWAYS void turn_first(fl_few *restrict s, int few, int straight, double (*restr
 }
 
 /* As a symmetric top: about the third axis, then about L.  top: of the spin. */
-ALWAYS void turn_top(fl_few *restrict s, int few, double (*restrict top)[FL_FEW])
+FL_WIDE_PART void turn_top(fl_few *restrict s, int few, double (*restrict top)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
@@ -355,8 +354,8 @@ ALWAYS void turn_top(fl_few *restrict s, int few, double (*restrict top)[FL_FEW]
 }
 
 /* About the first axis again; one without momentum stays as it is, to the bit. */
-ALWAYS void turn_last(fl_few *restrict s, int few, double (*restrict from)[FL_FEW],
-                      double (*restrict top)[FL_FEW])
+FL_WIDE_PART void turn_last(fl_few *restrict s, int few, double (*restrict from)[FL_FEW],
+                            double (*restrict top)[FL_FEW])
 {
 #pragma omp simd
     for (int32_t i = 0; i < s->lanes; i++) {
@@ -392,7 +391,7 @@ ALWAYS void turn_last(fl_few *restrict s, int few, double (*restrict from)[FL_FE
     }
 }
 
-ALWAYS void drift(fl_few *restrict s, int few, int straight)
+FL_WIDE_PART void drift(fl_few *restrict s, int few, int straight)
 {
     _Alignas(64) double from[4][FL_FEW], top[3][FL_FEW];
     turn_first(s, few, straight, from);

@@ -238,10 +238,7 @@ static int break_up(fl_bond *c, const fl_standing *q, double more, result *r)
     if (c->state != FL_BOND_BROKEN)
         c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN : r->hurt ? FL_BOND_HURT : FL_BOND_WHOLE;
     if (c->state == FL_BOND_BROKEN && (r->open == FL_BOND_POINTS || c->worn >= 1.0)) return 1;
-    const fl_traction_push p = fl_traction_apart(*q, r->elastic);
-    const fl_vec3 across = fl_stand_world(*q, v3(0.0, r->turn[0] / q->length, r->turn[1] / q->length));
-    spring(c, (fl_traction_push){p.f, v3_sub(p.ti, v3_cross(q->ni, across)),
-                                 v3_sub(p.tj, v3_cross(q->nj, across))});
+    spring(c, fl_traction_turned(*q, r->elastic, r->turn[0], r->turn[1]));
     return 0;
 }
 

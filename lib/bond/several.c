@@ -22,15 +22,6 @@ typedef struct {
     fl_lane to[FL_BOND_TELLS], holds;
 } batch;
 
-static const double *doubles(const void *at) { return at; }
-
-/* The quaternion of body i: a ball's axes are the world's. */
-static const double *axes_of(const fl_bodies *b, int32_t i)
-{
-    static const fl_quat level = {1, 0, 0, 0};
-    return doubles(b->ball[i] ? &level : &b->q[i]);
-}
-
 FL_FOUR_VERSIONS static void turn_in(batch *restrict a, const double *const *face, const double *const *qi,
                                      const double *const *qj)
 {
@@ -47,8 +38,8 @@ static int lay(batch *a, fl_bond *const *c, const fl_vec3 *way, int n, const fl_
     for (int k = 0; k < FL_ABREAST; k++) {
         const fl_bond *p = c[k < n ? k : 0];
         const int32_t i = p->i, j = p->j;
-        face[k] = doubles((const char *)p + offsetof(fl_bond, pi));
-        qi[k] = axes_of(b, i), qj[k] = axes_of(b, j);
+        face[k] = fl_lane_column(&p->pi);
+        qi[k] = fl_lane_column(fl_body_attitude(b, i)), qj[k] = fl_lane_column(fl_body_attitude(b, j));
         fl_lane3_put(a->off, k, v3_add(v3_sub(b->x[j], b->x[i]), way[k < n ? k : 0]));
         a->damping.a[k] = p->damping;
         damping += p->damping;
@@ -63,7 +54,7 @@ static int lay(batch *a, fl_bond *const *c, const fl_vec3 *way, int n, const fl_
     return 1;
 }
 
-static inline __attribute__((always_inline)) void find(batch *restrict a, int dashes)
+FL_WIDE_PART void find(batch *restrict a, int dashes)
 {
     const fl_lane *f = a->face;
 #pragma omp simd

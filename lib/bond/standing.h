@@ -130,17 +130,23 @@ FL_WIDE_PART fl_traction fl_traction_whole(fl_vec3 K, fl_vec3 s, fl_vec3 su, fl_
     return (fl_traction){v3_mul(K, s), v3_mul(third, su), v3_mul(third, sv)};
 }
 
-/* Of elastic tractions of a whole face: force and torques with the turn of m. */
-FL_WIDE_PART fl_traction_push fl_stand_elastic(fl_standing q, double area, double kn, double ks)
+/* The same with the turn of m, which takes y and z along ta and tb. */
+FL_WIDE_PART fl_traction_push fl_traction_turned(fl_standing q, fl_traction t, double y, double z)
 {
-    const fl_vec3 s = q.s, su = q.su, sv = q.sv;
-    const fl_traction_push p =
-        fl_traction_apart(q, fl_traction_whole(v3(area * kn, area * ks, area * ks), s, su, sv));
-    const double K = area * (kn - ks), y = K * (s.x * s.y + (su.x * su.y + sv.x * sv.y) / 3.0),
-                 z = K * (s.x * s.z + (su.x * su.z + sv.x * sv.z) / 3.0);
+    const fl_traction_push p = fl_traction_apart(q, t);
     const fl_vec3 across = fl_stand_world(q, v3(0.0, y / q.length, z / q.length));
     return (fl_traction_push){p.f, v3_sub(p.ti, v3_cross(q.ni, across)),
                               v3_sub(p.tj, v3_cross(q.nj, across))};
+}
+
+/* Of elastic tractions of a whole face. */
+FL_WIDE_PART fl_traction_push fl_stand_elastic(fl_standing q, double area, double kn, double ks)
+{
+    const fl_vec3 s = q.s, su = q.su, sv = q.sv;
+    const fl_traction t = fl_traction_whole(v3(area * kn, area * ks, area * ks), s, su, sv);
+    const double K = area * (kn - ks), y = K * (s.x * s.y + (su.x * su.y + sv.x * sv.y) / 3.0),
+                 z = K * (s.x * s.z + (su.x * su.z + sv.x * sv.z) / 3.0);
+    return fl_traction_turned(q, t, y, z);
 }
 
 /* And what they store [J]. */

@@ -27,6 +27,9 @@ FL_WIDE_PART fl_rows3 fl_lane_axes(const fl_lane *q, int k)
                       v3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))};
 }
 
+/* A column: the doubles from there on. */
+static inline const double *fl_lane_column(const void *at) { return at; }
+
 /* Columns of doubles, of[FL_ABREAST], to rows, a multiple of four. */
 FL_WIDE_PART void fl_lanes_in(fl_lane *row, const double *const *of, int rows)
 {

@@ -83,7 +83,6 @@ fl_surrogate_count fl_surrogate_sum(const fl_surrogate_count *count, int32_t thr
 
 /* --- what they tell ---------------------------------------------------------------------------- */
 
-enum { BLOCKS = FL_SURROGATE_ROWS / FL_LANES };
 _Static_assert(FL_SURROGATE_ROWS % FL_LANES == 0 && FL_TOLD % FL_LANES == 0, "taken by four");
 
 _Static_assert(offsetof(fl_surrogate, learnt) % sizeof(double) ==
@@ -91,26 +90,11 @@ _Static_assert(offsetof(fl_surrogate, learnt) % sizeof(double) ==
                    sizeof(fl_surrogate) >= offsetof(fl_surrogate, g) + FL_SURROGATE_ROWS * sizeof(double),
                "nothing but doubles in between, and as many");
 
-static const double *rows_of(const fl_surrogate *s)
-{
-    return (const double *)(const void *)((const char *)s + offsetof(fl_surrogate, g));
-}
-
 FL_FOUR_VERSIONS void fl_surrogate_lay(fl_tellers *b, const fl_surrogate *const *s, int n)
 {
-    for (int k = 0; k < FL_TOLD; k += FL_LANES) {
-        const double *of[FL_LANES];
-        FL_WIDE_UNROLL
-        for (int l = 0; l < FL_LANES; l++) of[l] = rows_of(s[k + l < n ? k + l : 0]);
-        for (int row = 0; row < FL_SURROGATE_ROWS; row += FL_LANES) {
-            fl_wide r[FL_LANES];
-            FL_WIDE_UNROLL
-            for (int l = 0; l < FL_LANES; l++) r[l] = FL_FOUR(of[l] + row);
-            fl_wide_transpose(r);
-            FL_WIDE_UNROLL
-            for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&b->s[row + l].a[k]) = r[l];
-        }
-    }
+    const double *of[FL_TOLD];
+    for (int k = 0; k < FL_TOLD; k++) of[k] = fl_lane_column(&s[k < n ? k : 0]->g);
+    fl_lanes_in(b->s, of, FL_SURROGATE_ROWS);
 }
 
 #define OF(member) (b->s + FL_SURROGATE_ROW(member))

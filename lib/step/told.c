@@ -38,8 +38,6 @@ FL_FOUR_VERSIONS static void turn_in(fl_lane *row, const double *const *of, int 
     fl_lanes_in(row, of, rows);
 }
 
-static const double *doubles(const void *at) { return at; }
-
 FL_WIDE_PART fl_slip slip_of(const batch *b, int k)
 {
     return (fl_slip){fl_lane3(b->slip, k), b->slip[3].a[k], b->slip[4].a[k], b->slip[5].a[k]};
@@ -68,7 +66,6 @@ FL_WIDE_PART void put_ease(fl_lane *a, int k, fl_sym3 K)
 
 static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
 {
-    static const fl_quat level = {1, 0, 0, 0};
     const fl_surrogate *s[FL_TOLD];
     const double *qi[FL_TOLD], *qj[FL_TOLD], *had[FL_TOLD], *slip[FL_TOLD];
     for (int k = 0; k < FL_TOLD; k++) {
@@ -76,9 +73,9 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         const fl_bodies *o = &w->b;
         const int32_t i = c->i, j = c->j;
         s[k] = c->surrogate;
-        qi[k] = doubles(o->ball[i] ? &level : &o->q[i]), qj[k] = doubles(o->ball[j] ? &level : &o->q[j]);
-        had[k] = doubles((const char *)c + offsetof(fl_pair, f));
-        slip[k] = doubles(&c->slip);
+        qi[k] = fl_lane_column(fl_body_attitude(o, i)), qj[k] = fl_lane_column(fl_body_attitude(o, j));
+        had[k] = fl_lane_column(&c->f);
+        slip[k] = fl_lane_column(&c->slip);
         fl_lane3_put(b->off, k, fl_world_way(w, i, j, c->image));
         b->lags.a[k] = o->ball[i] || o->ball[j] ? 0.0 : dt;
         fl_lane3_put(b->u, k, v3_sub(o->v[i], o->v[j]));

@@ -3,10 +3,8 @@
 #include <stddef.h>
 #include "water/calm.h"
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 /* Of the i-th of a few that goes with v: twice the kinetic energy of its way; */
-ALWAYS double going(const fl_few *a, const fl_few_water *water, int32_t i, fl_vec3 v)
+FL_WIDE_PART double going(const fl_few *a, const fl_few_water *water, int32_t i, fl_vec3 v)
 {
     const double m = a->m[i];
     if (!water) return m * v3_norm2(v);
@@ -14,7 +12,7 @@ ALWAYS double going(const fl_few *a, const fl_few_water *water, int32_t i, fl_ve
 }
 
 /* what c |u| u leaves of u, its speed through the fluid. */
-ALWAYS fl_vec3 slowed(const fl_few *a, const fl_few_water *water, int32_t i, double c, fl_vec3 u)
+FL_WIDE_PART fl_vec3 slowed(const fl_few *a, const fl_few_water *water, int32_t i, double c, fl_vec3 u)
 {
     const double h = a->h[i], m = a->m[i], speed = v3_norm(u);
     if (!water) return v3_scale(fl_drag_factor(m, c, speed, h), u);
@@ -27,9 +25,10 @@ ALWAYS fl_vec3 slowed(const fl_few *a, const fl_few_water *water, int32_t i, dou
 
 /* decay() of sea.c, where nothing is held, by the surface that the fluid meets, r_eff, and its velocity; what
  * it does is added to work[], times sign. */
-ALWAYS void decay(fl_few *restrict a, const fl_few_water *restrict water, const fl_fluid *fluid,
-                  const double *restrict surface, const double *restrict reach, double (*restrict c)[FL_FEW],
-                  const double *restrict held, double sign, double *restrict work)
+FL_WIDE_PART void decay(fl_few *restrict a, const fl_few_water *restrict water, const fl_fluid *fluid,
+                        const double *restrict surface, const double *restrict reach,
+                        double (*restrict c)[FL_FEW], const double *restrict held, double sign,
+                        double *restrict work)
 {
 #pragma omp simd
     for (int32_t i = 0; i < a->lanes; i++) {
@@ -181,7 +180,7 @@ typedef struct {
     fl_vec3 centre;
 } prism_wet;
 
-ALWAYS prism_wet wet_of(const prisms *q, int32_t i, fl_vec3 up, double level, double reach)
+FL_WIDE_PART prism_wet wet_of(const prisms *q, int32_t i, fl_vec3 up, double level, double reach)
 {
     const double ux = up.x, uy = up.y, uz = up.z;
     const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], ex = q->p[E][i],
