@@ -3,8 +3,8 @@
 #include <string.h>
 #include "base/expo.h"
 #include "base/mem.h"
-#include "base/num.h"
 #include "step/budget.h"
+#include "out/relay.h"
 #include "step/balls.h"
 #include "step/critical.h"
 #include "step/search.h"
@@ -54,9 +54,7 @@ static int ends_alloc(fl_budget *g, fl_err *err)
             void *array;
             int32_t n;
             size_t size;
-        } want[] = {{&e->impulse, MARKS * g->trial.parts, sizeof *e->impulse},
-                    {&e->moment, MARKS * g->trial.parts, sizeof *e->moment},
-                    {&e->peak, MARKS * g->trial.parts, sizeof *e->peak},
+        } want[] = {{&e->borne, MARKS * g->trial.parts, sizeof *e->borne},
                     {&e->p, g->trial.n, sizeof *e->p},
                     {&e->x, g->trial.n, sizeof *e->x}};
         for (size_t a = 0; a < sizeof want / sizeof *want; a++) {
@@ -114,11 +112,8 @@ static int32_t mark_row(const fl_budget *g, int32_t rows, int32_t c)
 static void mark(const fl_budget *g, fl_budget_end *end, int32_t c)
 {
     const fl_world *w = &g->trial;
-    for (int32_t p = 0; p < w->parts; p++) {
-        end->impulse[c * w->parts + p] = w->part_impulse[p];
-        end->moment[c * w->parts + p] = w->part_moment[p];
-        end->peak[c * w->parts + p] = w->part_peak[p];
-    }
+    for (int32_t p = 0; p < w->parts; p++)
+        end->borne[c * w->parts + p] = (fl_borne){w->part_impulse[p], w->part_moment[p], w->part_peak[p]};
 }
 
 /* The state through `rows` rows of m steps each; rows < 0: through -rows, and as many again up to FOLLOW
@@ -179,17 +174,7 @@ static int32_t trial(fl_budget *g, int32_t m, int32_t rows, double shift, fl_bud
 /* The load that is asked for, of one part. */
 static fl_vec3 load_of(const fl_budget *g, const fl_budget_end *e, int32_t p)
 {
-    const fl_vec3 J = e->impulse[p], M = e->moment[p];
-    switch (g->of) {
-    case FL_ERROR_OF_IMPULSE: return J;
-    case FL_ERROR_OF_PEAK: return v3(e->peak[p], 0, 0);
-    case FL_ERROR_OF_FX: return v3(J.x, 0, 0);
-    case FL_ERROR_OF_FY: return v3(J.y, 0, 0);
-    case FL_ERROR_OF_FZ: return v3(J.z, 0, 0);
-    case FL_ERROR_OF_MX: return v3(M.x, 0, 0);
-    case FL_ERROR_OF_MY: return v3(M.y, 0, 0);
-    default: return v3(M.z, 0, 0);
-    }
+    return fl_borne_load(g->of, e->borne[p]);
 }
 
 /* |X - Y| at a mark, added up over the parts; Y NULL: |X|.  *along: its part in the direction of X. */
@@ -539,6 +524,22 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     return 0;
 }
 
+/* --- the run as a whole ------------------------------------------------------------------------ */
+
+/* The order of the last window. */
+static double order_of(const fl_budget *g) { return g->latest < 0 ? 2.0 : g->window[g->latest].order; }
+
+int fl_budget_follow(fl_budget *g, const fl_world *w, fl_err *err)
+{
+    return fl_beside_follow(&g->beside, w, g->every, g->of, g->goal, order_of(g), err);
+}
+
+double fl_budget_whole(const fl_budget *g, double *apart)
+{
+    *apart = fl_beside_apart(&g->beside, g->of);
+    return fl_beside_off(&g->beside, *apart, order_of(g));
+}
+
 /* --- made and kept ----------------------------------------------------------------------------- */
 
 int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, const fl_field *feed,
@@ -550,7 +551,11 @@ int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, c
                      .every = scene->output.loads_every,
                      .latest = -1,
                      .looked_at = -1};
-    if (fl_world_make_fed(&g->trial, scene, field, feed, surface, err)) return -1;
+    if (fl_world_make_fed(&g->trial, scene, field, feed, surface, err) ||
+        fl_beside_make(&g->beside, scene, field, feed, surface, err)) {
+        fl_budget_free(g);
+        return -1;
+    }
     const double most = fmin(fl_world_dt(&g->trial, &body), fmin(g->every, scene->run.duration));
     const double critical = fl_world_critical(&g->trial);
     g->share = isfinite(critical) ? fl_world_dt(&g->trial, &body) / critical : 1.0;
@@ -570,9 +575,10 @@ int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, c
 void fl_budget_free(fl_budget *g)
 {
     fl_world_free(&g->trial);
+    fl_beside_free(&g->beside);
     for (int k = 0; k < 3; k++) {
         fl_budget_end *e = &g->end[k];
-        free(e->impulse), free(e->moment), free(e->peak), free(e->p), free(e->x);
+        free(e->borne), free(e->p), free(e->x);
     }
     free(g->known), free(g->seen), free(g->text);
     *g = (fl_budget){0};
@@ -580,84 +586,42 @@ void fl_budget_free(fl_budget *g)
 
 double fl_budget_start(const fl_budget *g) { return g->every / fewest(g); }
 
-/* Numbers in the order of the rows; one list serves both ways, so that they cannot differ. */
-static int pass(FILE *f, fl_text *in, double *x, fl_err *err)
+/* A finite number; an error, which is infinite of steps that failed. */
+static void pass(fl_relay *t, double *x, int error)
 {
-    char num[FL_NUM_LEN];
-    if (f) return fprintf(f, " %s", fl_num_text(*x, num)) < 0;
-    if (fl_text_f64(in, "number", x, err)) return -1;
-    return isfinite(*x) ? 0 : fl_text_fail(in, err, "not a finite number");
-}
-
-static int pass_count(FILE *f, fl_text *in, int64_t *x, fl_err *err)
-{
-    double d = (double)*x; /* steps stay far below 2^53 */
-    if (pass(f, in, &d, err)) return -1;
-    if (!(d >= -1.0 && d <= 0x1p53 && d == floor(d)))
-        return fl_text_fail(in, err, "%g found, a count was wanted", d);
-    *x = (int64_t)d;
-    return 0;
-}
-
-/* An error: -1 stands for that of steps that failed. */
-static int pass_error(FILE *f, fl_text *in, double *x, fl_err *err)
-{
-    double e = isfinite(*x) ? *x : -1.0;
-    if (pass(f, in, &e, err)) return -1;
-    *x = e < 0.0 ? INFINITY : e;
-    return 0;
-}
-
-static int row_begin(FILE *f, fl_text *in, const char *name, fl_err *err)
-{
-    const char *word = "";
-    if (f) return fputs(name, f) < 0;
-    const int more = fl_text_row(in, err);
-    if (more < 0) return -1;
-    if (!more) return fl_text_fail(in, err, "the budget ends early, %s was wanted", name);
-    if (fl_text_word(in, "name of the row", &word, err)) return -1;
-    return strcmp(word, name) ? fl_text_fail(in, err, "\"%.40s\" found, %s was wanted", word, name) : 0;
-}
-
-static int row_end(FILE *f, fl_text *in, fl_err *err)
-{
-    return f ? putc('\n', f) == EOF : fl_text_end(in, err);
+    fl_relay_real(t, x);
+    if (t->in && !t->err->code && !(isfinite(*x) || (error && *x > 0.0)))
+        fl_text_fail(t->in, t->err, "not a finite number");
 }
 
 static int exchange(FILE *f, fl_text *in, fl_budget *g, fl_err *err)
 {
-    int64_t rows = g->rows, windows = g->windows, latest = g->latest, least = g->least;
-    int64_t *const count[] = {&rows,         &windows,  &latest,       &g->looks,
-                              &g->looked_at, &g->spent, &g->last_cost, &least};
+    fl_relay t = {f, in, err};
+    int64_t *const count[] = {&g->looks, &g->looked_at, &g->spent, &g->last_cost};
     double *const real[] = {&g->rate, &g->grown, &g->grown_in, &g->part_next, &g->shortest, &g->longest};
-    if (row_begin(f, in, "budget", err)) return -1;
-    for (size_t k = 0; k < sizeof count / sizeof *count; k++)
-        if (pass_count(f, in, count[k], err)) return -1;
-    for (size_t k = 0; k < sizeof real / sizeof *real; k++)
-        if (pass(f, in, real[k], err)) return -1;
-    if (row_end(f, in, err)) return -1;
-    if (rows < 1 || rows > WINDOW || windows < 0 || windows > FL_BUDGET_LOOKS || latest < -1 ||
-        latest >= windows || least < 1 || least > MOST)
-        return fl_text_fail(in, err, "this is no state of an error budget");
-    g->rows = (int32_t)rows, g->windows = (int32_t)windows, g->latest = (int32_t)latest;
-    g->least = (int32_t)least;
-    if (row_begin(f, in, "known", err)) return -1;
-    for (int32_t k = 0; k < PARTS + g->trial.parts; k++)
-        if (pass(f, in, &g->known[k], err)) return -1;
-    if (row_end(f, in, err)) return -1;
-    for (int32_t c = 0; c < g->windows; c++) {
+    fl_relay_open(&t, "budget");
+    fl_relay_whole(&t, 1, WINDOW, &g->rows);
+    fl_relay_whole(&t, 0, FL_BUDGET_LOOKS, &g->windows);
+    fl_relay_whole(&t, -1, g->windows - 1, &g->latest);
+    fl_relay_whole(&t, 1, MOST, &g->least);
+    for (size_t k = 0; k < sizeof count / sizeof *count; k++) fl_relay_count(&t, count[k]);
+    for (size_t k = 0; k < sizeof real / sizeof *real; k++) pass(&t, real[k], 0);
+    fl_relay_close(&t);
+    fl_relay_open(&t, "known");
+    for (int32_t k = 0; k < PARTS + g->trial.parts; k++) pass(&t, &g->known[k], 0);
+    fl_relay_close(&t);
+    for (int32_t c = 0; c < g->windows && !err->code; c++) {
         fl_budget_window *v = &g->window[c];
         double *const all[] = {&v->h,     &v->off,    &v->order,        &v->size,
                                &v->along, &v->astray, &v->astray_order, &v->impulse};
-        if (row_begin(f, in, "window", err)) return -1;
+        fl_relay_open(&t, "window");
         for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-            if ((all[k] == &v->off || all[k] == &v->astray ? pass_error : pass)(f, in, all[k], err))
-                return -1;
-        if (row_end(f, in, err)) return -1;
-        if (!(v->h > 0.0 && v->order >= 1.0 && v->astray_order >= 1.0))
+            pass(&t, all[k], all[k] == &v->off || all[k] == &v->astray);
+        fl_relay_close(&t);
+        if (in && !err->code && !(v->h > 0.0 && v->order >= 1.0 && v->astray_order >= 1.0))
             return fl_text_fail(in, err, "this is no window of an error budget");
     }
-    return 0;
+    return err->code ? -1 : fl_beside_exchange(f, in, &g->beside, err);
 }
 
 void fl_budget_write(FILE *f, const fl_budget *g)

@@ -34,7 +34,7 @@
 #define FL_STEP_BUDGET_H
 #include <signal.h>
 #include <stdio.h>
-#include "base/text.h"
+#include "step/beside.h"
 #include "step/world.h"
 
 enum { FL_BUDGET_LOOKS = 32 }; /* the latest that are kept */
@@ -49,12 +49,11 @@ typedef struct {
 
 /* All of an end of a window, of one trial. */
 typedef struct {
-    fl_vec3 *impulse, *moment; /* [looks][parts] */
-    double *peak;              /* [looks][parts] */
-    fl_vec3 *p, *x;            /* [n] */
-    double taken;              /* impulses of all contacts [N s] */
-    double turned;             /* half of what the momenta changed by, summed over floes [N s] */
-    int failed;                /* the step was above the critical one */
+    fl_borne *borne; /* [looks][parts] */
+    fl_vec3 *p, *x;  /* [n] */
+    double taken;    /* impulses of all contacts [N s] */
+    double turned;   /* half of what the momenta changed by, summed over floes [N s] */
+    int failed;      /* the step was above the critical one */
 } fl_budget_end;
 
 typedef struct {
@@ -76,6 +75,7 @@ typedef struct {
     double grown, grown_in;   /* sum of the logarithms, and of the windows they are of [s] */
     double part_next;         /* when that is measured again [s] */
     double shortest, longest; /* steps taken so far [s] */
+    fl_beside beside;         /* what the run comes to as a whole */
     fl_world trial;
     fl_budget_end end[3];
     char *text; /* the state looked at */
@@ -95,6 +95,13 @@ double fl_budget_start(const fl_budget *g);
  * rows to come.  w has begun; calling twice in one step does nothing more.  One that was broken off leaves g
  * and the step as if it had not begun, and the run is to end there.  -1 with FL_SYSTEM. */
 int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err);
+
+/* Behind each step of w and before its row is told: the run beside it comes after.  -1 with FL_SYSTEM. */
+int fl_budget_follow(fl_budget *g, const fl_world *w, fl_err *err);
+
+/* Error of the load of the run as a whole, over its size, up to g->beside.until, and by how much the run
+ * beside it differs: beside.h. */
+double fl_budget_whole(const fl_budget *g, double *apart);
 
 /* Error of the load by the windows so far, over its size, were all steps h; 0 before the first. */
 double fl_budget_estimate(const fl_budget *g, double h);

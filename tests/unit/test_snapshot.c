@@ -14,10 +14,11 @@
  * itself or not; with surrogates one that touches tells whether it has been looked at, and then of that.  A
  * bond has its points once it is damaged. */
 static const char LAYOUT[] =
-    "ball 13|ball 16|body 26|body 27|bond 36|bond 81|books 27|budget 15|event 15|known 6|mark 16|"
+    "ball 13|ball 16|beside 6|body 26|body 27|bond 36|bond 81|books 27|borne 15|budget 15|event 15|known "
+    "6|mark 16|"
     "mover 40|nap 13|next 2|pair 19|pair 20|pair 22|pair 91|panel 5|part 8|place 6|pressed 5|"
     "sea 26|sea 6|sea 7|told 5|traffic 14|window 9|world 16|";
-enum { LAYOUT_IS_OF = 9, KINDS = 64 };
+enum { LAYOUT_IS_OF = 10, KINDS = 64 };
 
 typedef struct {
     char row[KINDS][24];
@@ -74,7 +75,12 @@ static void state_of(rows *all, lab *l, int wraps)
 
 static void budget_of(rows *all)
 {
-    fl_budget g = {.trial = {.parts = 3}, .rows = 1, .least = 1, .windows = 1};
+    fl_borne borne[2] = {{.peak = 0.0}};
+    fl_budget g = {.trial = {.parts = 3},
+                   .rows = 1,
+                   .least = 1,
+                   .windows = 1,
+                   .beside = {.w = {.parts = 1}, .run = &borne[0], .other = &borne[1]}};
     g.window[0] = (fl_budget_window){.h = 1.0, .order = 1.0, .astray_order = 1.0};
     double known[5] = {0};
     char *text = NULL;

@@ -7,6 +7,21 @@
 #include "step/step.h"
 #include "step/traffic.h"
 
+/* What the run comes to as a whole, by the one beside it. */
+static void whole_of(const fl_budget *g, FILE *f)
+{
+    double apart;
+    const double off = fl_budget_whole(g, &apart);
+    const fl_beside *s = &g->beside;
+    if (!(s->ratio > 0.0)) return;
+    fprintf(f,
+            "                   as a whole %.2g, for beside it a run of %.3g times the step differs by %.2g",
+            off, s->ratio, apart);
+    if (s->ended) fprintf(f, " until %.4g s, where that step is above the critical one", s->until);
+    if (s->since >= 0.0) fprintf(f, "; more than three times what was asked for from %.4g s on", s->since);
+    putc('\n', f);
+}
+
 /* What was asked for, what was found, and what finding it cost. */
 static void budget_of(const struct run *r, FILE *f)
 {
@@ -27,11 +42,7 @@ static void budget_of(const struct run *r, FILE *f)
             "                   states that differ by a bit are apart after %.3g s: what the run as a whole "
             "sums up to is one of many; the error is that of windows of %.3g s\n",
             far, window);
-    else if (g->rate > 0.0)
-        fprintf(f,
-                "                   states that differ by a bit are apart after %.3g s, by windows of %.3g s "
-                "in all: the run would be determined\n",
-                far, g->grown_in);
+    whole_of(g, f);
 }
 
 static void bonds_of(const fl_world *w, FILE *f)

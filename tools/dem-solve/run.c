@@ -498,6 +498,15 @@ static int look_after_step(struct run *r, struct outputs *u, fl_err *err)
     return 0;
 }
 
+/* The run beside it comes after, before the row is told that this step ends. */
+static int follow(struct run *r, fl_err *err)
+{
+    const double begun = run_clock();
+    if (fl_budget_follow(r->budget, r->w, err)) return -1;
+    r->look_wall += run_clock() - begun;
+    return 0;
+}
+
 static int run_steps_of(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
     fl_world *w = r->w;
@@ -515,7 +524,9 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
         if (look_after_step(r, u, err)) return -1;
         if (told_to_stop) break; /* a look that was broken off is made again where the run goes on */
         r->moved += w->traffic.away ? fl_traffic_there(w) : w->n;
-        if (fl_step(w, err) || write_due(r, u, err) || save_due(r, u, 0, err)) return -1;
+        if (fl_step(w, err) || (r->budget && follow(r, err)) || write_due(r, u, err) ||
+            save_due(r, u, 0, err))
+            return -1;
         if (show && w->step % 64 == 0) {
             const double now = run_clock();
             if (now - shown >= 0.5) progress(r, begun, 0), shown = now;

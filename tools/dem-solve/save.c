@@ -81,7 +81,7 @@ static void write_place(FILE *f, const struct run *r, const struct outputs *u, c
 
 int save_write(struct run *r, struct outputs *u, fl_err *err)
 {
-    enum { SCENE, ICE, STRUCTURE, INFLOW, PLACE, LOADS, STATE, BUDGET, PARTS };
+    enum { SCENE, ICE, STRUCTURE, INFLOW, PLACE, LOADS, STATE, BUDGET, BESIDE, PARTS };
     fl_restart_part part[PARTS] = {[SCENE] = {.name = "scene"},
                                    [ICE] = r->kept[0],
                                    [STRUCTURE] = r->kept[1],
@@ -89,14 +89,17 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
                                    [PLACE] = {.name = "tables"},
                                    [LOADS] = {.name = "loads", .text = r->out, .n = (int64_t)strlen(r->out)},
                                    [STATE] = {.name = "state"},
-                                   [BUDGET] = {.name = "budget"}};
+                                   [BUDGET] = {.name = "budget"},
+                                   [BESIDE] = {.name = "beside"}};
     fl_mark mark[TABLES];
     char *text[PARTS] = {0}, *history = NULL;
     size_t n[PARTS] = {0};
     const double begun = run_clock();
     fl_scene scene = *r->scene; /* to be written; nothing in it is changed but this */
     int rc = -1;
+    const int beside = r->budget && fl_beside_goes(&r->budget->beside);
     if (!r->budget) part[BUDGET].name[0] = '\0';
+    if (!beside) part[BESIDE].name[0] = '\0';
     scene.run.threads = 0; /* they belong to the machine, and would be the only bytes that tell */
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f && fl_out_mark(&u->table[k], &mark[k], err)) return -1;
@@ -111,6 +114,7 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
         if (k == PLACE) write_place(f, r, u, mark);
         if (k == STATE) fl_snapshot_write(f, r->w);
         if (k == BUDGET) fl_budget_write(f, r->budget);
+        if (k == BESIDE) fl_snapshot_write(f, &r->budget->beside.w);
         if (text_end(f, &part[k], &n[k], err)) goto done;
         part[k].text = text[k];
     }
@@ -122,7 +126,7 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
     history[before + own] = '\n';
     int there = 0; /* a scene may be without some */
     for (int k = 0; k < PARTS; k++)
-        if (part[k].name[0] && (k != BUDGET || r->budget)) part[there++] = part[k];
+        if (part[k].name[0]) part[there++] = part[k];
     rc = fl_restart_write(r->scene->output.checkpoint, history, part, there, err);
 done:
     for (int k = 0; k < PARTS; k++) free(text[k]);
@@ -299,6 +303,11 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
     if (!err->code) change_step(r, dt, err);
     if (!err->code && r->budget && fl_restart_open(r->saved, "budget", &in, err) == 0) {
         fl_budget_read(r->budget, &in, err);
+        fl_text_close(&in);
+    }
+    if (!err->code && r->budget && fl_beside_goes(&r->budget->beside) &&
+        fl_restart_open(r->saved, "beside", &in, err) == 0) {
+        fl_snapshot_read(&r->budget->beside.w, &in, err);
         fl_text_close(&in);
     }
     if (err->code || read_place(r, u, mark, had, err)) return -1;

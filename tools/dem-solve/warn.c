@@ -201,6 +201,19 @@ static void warn_energy(const fl_world *w)
             fl_step_off(w), w->ledger.residual, w->ledger.throughput, FL_STEP_USABLE);
 }
 
+/* An error that was asked for and is not kept is told: no shorter step need do any better. */
+static void warn_budget(const fl_budget *g)
+{
+    double apart;
+    const double off = fl_budget_whole(g, &apart);
+    if (g->beside.since < 0.0) return;
+    fprintf(stderr,
+            "dem-solve: warning: run.error: %.2g was asked for, and the load as a whole is off by about %.2g "
+            "from t = %.4g s on: hits make more of what any step is off by, so that it holds for the time "
+            "from one to the next alone; of such a load the mean of several runs is what can be told\n",
+            g->goal, off, g->beside.since);
+}
+
 /* Whether gravity g pulls body i away from all there is for good, and has by its own size. */
 static int falls(const fl_world *w, int32_t i, double g)
 {
@@ -234,5 +247,6 @@ void warn_at_end(const struct run *r, int failed)
 {
     if (!failed) warn_fallen(r->w);
     warn_overlapped(r->w);
+    if (!failed && r->budget) warn_budget(r->budget);
     if (!failed) warn_energy(r->w); /* else the failure has been told */
 }
