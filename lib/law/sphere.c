@@ -72,30 +72,18 @@ FL_WIDE_VERSIONS static void rub(fl_spheres *restrict b, int32_t m, double dt, d
         const fl_vec3 p = VECTOR(slip), t = v3_madd(p, twist, v3_cross(n, p)),
                       q = v3_madd(t, -v3_dot(t, n), n), r = v3_sub(VECTOR(rub), p),
                       was = v3_madd(r, -v3_dot(r, n), n);
-        const double before = v3_norm(p), after = v3_norm(q);
-        const double k = b->tangential[c] * b->slope[c], old = b->stiff[c],
-                     limit = b->friction[c] * (b->elastic[c] + b->damped[c]);
-        const double fell = before * (k < old ? k : 1.0), than = k < old ? old : 1.0,
-                     share = fell / (than * (after > 0.0 ? after : 1.0));
-        const double way = (k < old ? k : 0.5 * (k + old)) * dt;
-        const fl_grip from = {v3_scale(share, q), 0.0}, goes = {v3_scale(-way, v), 0.0},
-                      ahead = {v3_scale(-way, next), 0.0};
-        /* fl_tangent_damped() */
-        const double g = b->tangential[c] * (b->scale[c] * b->elastic[c]),
-                     yields = b->across[c] + part * part * b->turns[c], many = b->many[c],
-                     holds = (fl_damping_for(h * g * yields, many, 2.0 * many) - begins) * h * g,
-                     each = 1.0 / (1.0 + holds * yields);
-        const fl_vec3 damps =
-            v3_madd(v3_scale(-g, next), yields, v3_madd(v3_scale(-g * h, goes.f), holds, was));
-        const double size = share * after;
-        const fl_held rubs = fl_tangent_hold(from, size, goes, fl_tangent_way(size, limit, goes, ahead),
-                                             limit, (fl_grip){v3_scale(each, damps), 0.0});
+        const fl_tangent_spring spring = {.k = b->tangential[c] * b->slope[c],
+                                          .g = b->tangential[c] * (b->scale[c] * b->elastic[c]),
+                                          .limit = b->friction[c] * (b->elastic[c] + b->damped[c]),
+                                          .yields = b->across[c] + part * part * b->turns[c],
+                                          .many = b->many[c]};
+        const fl_held rubs = fl_tangent_point(p, q, b->stiff[c], spring, v, next, was, dt, h, begins);
         const fl_vec3 e = rubs.kept.f, all = rubs.all.f;
-        const int on = limit > 0.0 && b->tangential[c] > 0.0;
+        const int on = spring.limit > 0.0 && b->tangential[c] > 0.0;
         b->slip[0][c] = on ? e.x : 0.0;
         b->slip[1][c] = on ? e.y : 0.0;
         b->slip[2][c] = on ? e.z : 0.0;
-        b->stiff[c] = on ? k : 0.0;
+        b->stiff[c] = on ? spring.k : 0.0;
         b->rub[0][c] = on ? all.x : 0.0;
         b->rub[1][c] = on ? all.y : 0.0;
         b->rub[2][c] = on ? all.z : 0.0;
@@ -125,6 +113,51 @@ FL_WIDE_VERSIONS static void tell(fl_spheres *restrict b, int32_t m)
         b->tj[2][c] = aj * tz;
         b->size[c] = sqrt(f * f + (x * x + y * y + z * z));
     }
+}
+
+FL_WIDE_VERSIONS static void roll(const fl_spheres *restrict b, fl_spheres_rolls *restrict r, int32_t m,
+                                  double dt, double h, double begins)
+{
+    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    {
+        const fl_vec3 wi = VECTOR(wi), wj = VECTOR(wj);
+        const double mu = r->rolling[c], part = fl_rolling_part(mu), arm = r->arm[c];
+        const fl_tangent_spring spring = {.k = part * b->slope[c],
+                                          .g = part * (b->scale[c] * b->elastic[c]),
+                                          .limit = mu * (b->elastic[c] + b->damped[c]),
+                                          .yields = r->yields[c],
+                                          .many = b->many[c]};
+        const fl_vec3 turns = v3_scale(arm, v3_sub(wi, wj));
+        const fl_turning by = {turns, v3_madd(turns, arm, v3(r->dw[0][c], r->dw[1][c], r->dw[2][c])),
+                               v3_scale(0.5, v3_add(wi, wj))};
+        const fl_roll was = {v3(r->kept[0][c], r->kept[1][c], r->kept[2][c]), r->stiff[c],
+                             v3(r->all[0][c], r->all[1][c], r->all[2][c]), arm};
+        const fl_roll now = fl_rolling(was, spring, by, dt, h, begins);
+        const int on = spring.limit > 0.0;
+        r->kept[0][c] = on ? now.kept.x : 0.0;
+        r->kept[1][c] = on ? now.kept.y : 0.0;
+        r->kept[2][c] = on ? now.kept.z : 0.0;
+        r->stiff[c] = on ? now.k : 0.0;
+        r->all[0][c] = on ? now.all.x : 0.0;
+        r->all[1][c] = on ? now.all.y : 0.0;
+        r->all[2][c] = on ? now.all.z : 0.0;
+    }
+}
+
+void fl_spheres_roll_on(fl_spheres *b, const fl_spheres_rolls *r, int32_t m)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        for (int32_t c = 0; c < m; c++) {
+            b->ti[axis][c] += r->arm[c] * r->all[axis][c];
+            b->tj[axis][c] -= r->arm[c] * r->all[axis][c];
+        }
+    }
+}
+
+void fl_spheres_roll(fl_spheres *b, fl_spheres_rolls *r, int32_t m, double dt, double half)
+{
+    roll(b, r, filled(m), dt, half, dt > 0.0 ? 0.0 : 1.0);
+    fl_spheres_roll_on(b, r, m);
 }
 
 void fl_spheres_meet(fl_spheres *b, int32_t m, double dt, double half)

@@ -18,6 +18,7 @@
 #define FL_LAW_SPHERE_H
 #include <stdalign.h>
 #include <stdint.h>
+#include "law/rolling.h"
 
 /* What is written one by one is read eight at a time: by then it should have reached the fastest cache, and
  * all of it should still be there. */
@@ -62,6 +63,17 @@ typedef struct {
     double size[FL_SPHERES_MOST]; /* |F|                                            [N]     */
 } fl_spheres;
 
+/* What such contacts need beside where something keeps them from rolling, rolling.h. */
+typedef struct {
+    alignas(64) double arm[FL_SPHERES_MOST]; /* R*                                       [m]     */
+    double rolling[FL_SPHERES_MOST];         /* mu_r                                             */
+    double dw[3][FL_SPHERES_MOST];           /* by how much w_i - w_j is foreseen to change  [rad/s] */
+    double yields[FL_SPHERES_MOST];          /* R*^2 (1/I_i + 1/I_j)                     [1/kg]  */
+    double kept[3][FL_SPHERES_MOST];         /* in and out, as in fl_roll                        */
+    double stiff[FL_SPHERES_MOST];
+    double all[3][FL_SPHERES_MOST];
+} fl_spheres_rolls;
+
 /* The first m contacts, over a step of dt [s]; half: of the step that damping is held back for [s].  Each has
  * bits of its own, whatever stands beside it and however wide the registers are. */
 void fl_spheres_meet(fl_spheres *b, int32_t m, double dt, double half);
@@ -69,5 +81,9 @@ void fl_spheres_meet(fl_spheres *b, int32_t m, double dt, double half);
 /* Where they stand alone: n, overlap, slope, elastic, push, damping, torques and size from d, radii, k, rub
  * and damped; the same bits. */
 void fl_spheres_place(fl_spheres *b, int32_t m);
+
+/* Behind either: what keeps them from rolling, and its moments added to the torques; and these alone. */
+void fl_spheres_roll(fl_spheres *b, fl_spheres_rolls *r, int32_t m, double dt, double half);
+void fl_spheres_roll_on(fl_spheres *b, const fl_spheres_rolls *r, int32_t m);
 
 #endif

@@ -134,6 +134,36 @@ FL_WIDE_PART fl_held fl_tangent_hold(fl_grip from, double size, fl_grip s, fl_gr
     return (fl_held){kept, fl_grip_madd(kept, part, damps)};
 }
 
+/* A spring whose two ends yield alike in all directions, as friction of a point between spheres is. */
+typedef struct {
+    double k, g;   /* stiffness now [N/m] and damping [N s/m] */
+    double limit;  /* of its force [N] */
+    double yields; /* velocity at which the two part for an impulse [1/kg] */
+    double many;   /* contacts that damp one body, fl_damping_closing() */
+} fl_tangent_spring;
+
+/* Steps 2 to 4 below for it: a force that was `kept` and has turned into `turned` since, which gets its
+ * length, of a spring built with k = old; v in the mean of the step and as foreseen for its end; what damping
+ * did in the step before; h: half a step, begins: as in fl_damping_closing(). */
+FL_WIDE_PART fl_held fl_tangent_point(fl_vec3 kept, fl_vec3 turned, double old, fl_tangent_spring c,
+                                      fl_vec3 v, fl_vec3 next, fl_vec3 was, double dt, double h,
+                                      double begins)
+{
+    const double before = v3_norm(kept), after = v3_norm(turned), k = c.k;
+    const double fell = before * (k < old ? k : 1.0), than = k < old ? old : 1.0,
+                 share = fell / (than * (after > 0.0 ? after : 1.0));
+    const double way = (k < old ? k : 0.5 * (k + old)) * dt;
+    const fl_grip from = {v3_scale(share, turned), 0.0}, goes = {v3_scale(-way, v), 0.0},
+                  ahead = {v3_scale(-way, next), 0.0};
+    const double g = c.g, yields = c.yields, many = c.many,
+                 holds = (fl_damping_for(h * g * yields, many, 2.0 * many) - begins) * h * g,
+                 each = 1.0 / (1.0 + holds * yields);
+    const fl_vec3 damps = v3_madd(v3_scale(-g, next), yields, v3_madd(v3_scale(-g * h, goes.f), holds, was));
+    const double size = share * after;
+    return fl_tangent_hold(from, size, goes, fl_tangent_way(size, c.limit, goes, ahead), c.limit,
+                           (fl_grip){v3_scale(each, damps), 0.0});
+}
+
 /* One step of friction, without a branch or a pointer, so that it goes into loops over lanes.
  *
  * 1. The remembered force is turned about n by the mean spin of the pair, laid into the tangent plane and

@@ -102,6 +102,7 @@ typedef struct {
     double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
     double softening;                        /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
     double tangential;                       /* kt / kn */
+    double rolling;                          /* mu_r of spheres; 0: they roll freely */
     double friction, restitution;            /* negative in scene.contact: auto, from the materials */
     double surrogate; /* tolerance of the force between looks, over the force; 0: a look in every step */
     double damping;   /* overrides what restitution asks for: chi v_impact of `patch`

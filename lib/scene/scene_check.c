@@ -118,6 +118,9 @@ static int check_contacts(const fl_scene *s, fl_err *err)
                                  at);
         if (c->surrogate > 0.0 && !has_law(s, i, all, FL_LAW_PATCH))
             return fl_scene_fail(s, key, err, "surrogate bears on law = patch alone");
+        snprintf(key, sizeof key, "%s.rolling", at);
+        if (c->rolling > 0.0 && !has_law(s, i, all, FL_LAW_PATCH) && !has_law(s, i, all, FL_LAW_CORE))
+            return fl_scene_fail(s, key, err, "rolling bears on law = patch and core alone");
         snprintf(key, sizeof key, "%s.exponent", at);
         if (c->exponent != 1.0 && !has_law(s, i, all, FL_LAW_CORE))
             return fl_scene_fail(s, key, err, "exponent bears on law = core alone");

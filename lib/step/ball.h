@@ -11,6 +11,7 @@
 #define FL_STEP_BALL_H
 #include <stdint.h>
 #include "geom/vec3.h"
+#include "law/rolling.h"
 
 enum { FL_BALLS_CHUNK = 256, FL_BALLS_GROUP = 32 };
 
@@ -83,6 +84,7 @@ typedef struct {
     int32_t *image;     /* [n][3]; NULL without a periodic cell */
     uint8_t *hit;       /* [n] touches */
     fl_ball_row *row;   /* [n] */
+    fl_roll *roll;      /* [n]; NULL where nothing keeps spheres from rolling */
     int32_t *touching;  /* [bodies] rows and walls that touch it now, */
     int32_t *touched;   /* [bodies] and that did in the step before   */
     int32_t *first;     /* [bodies + 1] rows of body i */
@@ -104,10 +106,11 @@ typedef struct {
     double *stiff;        /* [bodies] sum of bounds of omega^2, of the last survey [1/s2] */
     double *stiff_slot;   /* [cross[chunks]] */
     fl_ball_lean *lean;   /* [leans] by (i, j) */
+    fl_roll *lean_roll;   /* [leans] as roll */
     int32_t *lean_first;  /* [chunks + 1] those of a chunk */
     fl_ball_load *load;   /* [chunks][walls] */
-    int32_t leans, lean_cap;
-    int32_t i_cap, j_cap, law_cap, image_cap, hit_cap, row_cap;
+    int32_t leans, lean_cap, lean_roll_cap;
+    int32_t i_cap, j_cap, law_cap, image_cap, hit_cap, row_cap, roll_cap;
 } fl_balls;
 
 #endif

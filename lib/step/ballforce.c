@@ -12,6 +12,7 @@
 #include "step/balls.h"
 #include "step/lead.h"
 #include "step/leans.h"
+#include "step/rolls.h"
 #include "step/stiff.h"
 #include "step/works.h"
 
@@ -41,6 +42,7 @@ static void turn_over(fl_balls *s, int32_t c, uint32_t turned)
     for (; turned; turned >>= 1, c++) {
         if (!(turned & 1)) continue;
         if (s->hit[c]) s->row[c] = (fl_ball_row){.k = s->row[c].k};
+        if (s->hit[c] && s->roll) s->roll[c] = (fl_roll){.k = 0.0};
         s->hit[c] ^= 1;
         fl_balls_turn(s, s->i[c], s->hit[c] ? 1 : -1), fl_balls_turn(s, s->j[c], s->hit[c] ? 1 : -1);
     }
@@ -433,13 +435,26 @@ static void survey_batch(fl_world *w, const batch *t)
     for (int32_t m = 0; m < t->m; m++) {
         const int32_t c = t->row[m], i = s->i[c], j = s->j[c], to = s->to[c];
         const double half = 0.5 * a->overlap[m];
-        const double ki = fl_stiff_point(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half),
-                     kj = fl_stiff_point(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half),
+        const double rolls = s->roll ? fl_rolls_stiff(&s->roll[c]) : 0.0,
+                     ki = fl_stiff_point(&w->b, i, a->slope[m], a->stiff[m], a->ri[m] - half, rolls),
+                     kj = fl_stiff_point(&w->b, j, a->slope[m], a->stiff[m], a->rj[m] - half, rolls),
                      both = sqrt(ki * kj);
         s->stiff[i] += ki + both;
         if (to >= 0) s->stiff[j] += kj + both;
         else s->stiff_slot[~to] = kj + both;
     }
+}
+
+/* What keeps those of the batch from rolling. */
+static void roll(const fl_world *w, batch *t, double dt)
+{
+    const fl_balls *s = &w->balls;
+    fl_rolls_row row[FL_SPHERES_MOST];
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m];
+        row[m] = (fl_rolls_row){&w->law[s->law[c]], &s->roll[c], s->i[c], s->j[c]};
+    }
+    fl_rolls_meet(w, &t->at, row, t->m, dt);
 }
 
 /* What is done with the batch, which then is empty. */
@@ -456,6 +471,7 @@ static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
         fl_spheres_meet(&t->at, t->m, dt, fl_lead_span(w, dt).half);
         save(s->row, t);
     }
+    if (s->roll) roll(w, t, dt);
     hand_out(s, t);
     count(t, &s->tally[a]);
     if (survey) survey_batch(w, t);

@@ -5,6 +5,7 @@
 #include "step/balls.h"
 #include "step/leans.h"
 #include "step/pairing.h"
+#include "step/rolls.h"
 #include "step/stiff.h"
 
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
@@ -27,11 +28,11 @@ int fl_balls_are(const fl_world *w, int32_t i, int32_t j) { return meet(w, i, j)
 void fl_balls_free(fl_balls *s)
 {
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
-    free(s->first), free(s->seen), free(s->to), free(s->source), free(s->ended), free(s->way), free(s->by),
-        free(s->cross), free(s->into), free(s->slots), free(s->slot);
+    free(s->roll), free(s->first), free(s->seen), free(s->to), free(s->source), free(s->ended), free(s->way),
+        free(s->by), free(s->cross), free(s->into), free(s->slots), free(s->slot);
     free(s->was), free(s->sum), free(s->tally), free(s->stiff), free(s->stiff_slot), free(s->touching),
         free(s->touched);
-    free(s->lean), free(s->lean_first), free(s->load);
+    free(s->lean), free(s->lean_roll), free(s->lean_first), free(s->load);
     *s = (fl_balls){0};
 }
 
@@ -46,7 +47,9 @@ static int rows_alloc(fl_balls *s, const fl_world *w, int64_t n, fl_err *err)
     s->row = fl_alloc(n, sizeof *s->row, err);
     if (!s->i || !s->j || !s->law || !s->hit || !s->row) return -1;
     if (w->cell.wraps && !(s->image = fl_alloc(3 * n, sizeof *s->image, err))) return -1;
+    if (w->rolls && !(s->roll = fl_alloc(n, sizeof *s->roll, err))) return -1;
     s->n = s->i_cap = s->j_cap = s->law_cap = s->hit_cap = s->row_cap = (int32_t)n;
+    s->roll_cap = s->roll ? s->n : 0;
     s->image_cap = s->image ? 3 * s->n : 0;
     return 0;
 }
@@ -187,6 +190,7 @@ static void fill(const fl_world *w, fl_balls *s, const uint8_t *listed, int32_t 
         s->law[c] = (int32_t)(fl_pairing_law(w, i, j) - w->law);
         if (s->image) memcpy(&s->image[3 * c], cells, sizeof cells);
         if (at < end && compare(old, at, j, cells) == 0) {
+            if (s->roll) s->roll[c] = old->roll[at];
             s->hit[c] = old->hit[at];
             s->row[c] = old->row[at++];
         } else {
@@ -228,7 +232,8 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
     for (int32_t i = 0; i < w->n; i++)
         if (at[i + 1] > at[i]) fill(w, &fresh, listed, i, at[i], image);
     free(at), free(listed);
-    free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row);
+    free(s->i), free(s->j), free(s->law), free(s->image), free(s->hit), free(s->row), free(s->roll);
+    s->roll = fresh.roll, s->roll_cap = fresh.roll_cap;
     s->i = fresh.i, s->j = fresh.j, s->law = fresh.law, s->image = fresh.image;
     s->hit = fresh.hit, s->row = fresh.row, s->n = fresh.n;
     s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
@@ -243,15 +248,16 @@ fail:
 }
 
 int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int hit, const fl_ball_row *row,
-                  fl_err *err)
+                  const fl_roll *roll, fl_err *err)
 {
     fl_balls *s = &w->balls;
     const int64_t n = (int64_t)s->n + 1;
-    if (j >= w->n) return fl_leans_push(w, i, j, hit, row, err);
+    if (j >= w->n) return fl_leans_push(w, i, j, hit, row, roll, err);
     if (fl_grow(&s->i, &s->i_cap, n, sizeof *s->i, err) || fl_grow(&s->j, &s->j_cap, n, sizeof *s->j, err) ||
         fl_grow(&s->law, &s->law_cap, n, sizeof *s->law, err) ||
         fl_grow(&s->hit, &s->hit_cap, n, sizeof *s->hit, err) ||
         fl_grow(&s->row, &s->row_cap, n, sizeof *s->row, err) ||
+        (w->rolls && fl_grow(&s->roll, &s->roll_cap, n, sizeof *s->roll, err)) ||
         (w->cell.wraps && fl_grow(&s->image, &s->image_cap, 3 * n, sizeof *s->image, err)))
         return -1;
     s->i[s->n] = i;
@@ -259,6 +265,7 @@ int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int
     s->law[s->n] = (int32_t)(fl_pairing_law(w, i, j) - w->law);
     s->hit[s->n] = (uint8_t)hit;
     s->row[s->n] = *row;
+    if (s->roll) s->roll[s->n] = *roll;
     if (s->image) memcpy(&s->image[3 * s->n], image, 3 * sizeof *image);
     s->n++;
     return 0;
@@ -275,6 +282,7 @@ int fl_balls_drop(fl_world *w, fl_err *err)
         s->law[kept] = s->law[c];
         s->hit[kept] = s->hit[c];
         s->row[kept] = s->row[c];
+        if (s->roll) s->roll[kept] = s->roll[c];
         if (s->image) memmove(&s->image[3 * kept], &s->image[3 * c], 3 * sizeof *s->image);
         kept++;
     }
@@ -307,7 +315,7 @@ void fl_balls_energy(const fl_world *w, double *elastic, double *spring)
         double all = 0.0, springs = 0.0;
         for (int32_t c = s->first[a * FL_BALLS_CHUNK]; c < s->first[fl_balls_last(s, a)]; c++) {
             if (!s->hit[c]) continue;
-            const double held = fl_ball_spring(&s->row[c]);
+            const double held = fl_ball_spring(&s->row[c], s->roll ? &s->roll[c] : NULL);
             all += s->row[c].k * fl_normal_phi(overlap_of(w, c), 1.5) + held;
             springs += held;
         }
@@ -354,18 +362,18 @@ double fl_balls_bytes(const fl_world *w)
 {
     const fl_balls *s = &w->balls;
     const double row = 4 * sizeof(int32_t) + sizeof *s->hit + sizeof *s->by + sizeof *s->row,
-                 image = s->image ? 3 * sizeof(int32_t) : 0,
+                 image = s->image ? 3 * sizeof(int32_t) : 0, roll = s->roll ? sizeof *s->roll : 0,
                  slot = sizeof *s->slot + sizeof *s->slots + sizeof *s->stiff_slot,
                  body = 2 * sizeof *s->sum + sizeof *s->seen + 4 * sizeof(int32_t) + sizeof *s->stiff;
     if (!s->bodies) return 0.0;
-    return s->n * (row + image) + s->leans * (double)sizeof *s->lean + s->cross[s->chunks] * slot +
-           s->bodies * body;
+    return s->n * (row + image + roll) + s->leans * ((double)sizeof *s->lean + roll) +
+           s->cross[s->chunks] * slot + s->bodies * body;
 }
 
 /* --- as pairs like all others ------------------------------------------------------------------ */
 
-void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, int hit, fl_vec3 n,
-                  double over, fl_pair *p)
+void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, const fl_roll *roll, int hit,
+                  fl_vec3 n, double over, fl_pair *p)
 {
     const fl_bodies *b = &w->b;
     const double arm = b->radius[i] - 0.5 * over;
@@ -380,10 +388,11 @@ void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r,
     p->fd = v3_scale(r->damped, n);
     p->fs = r->rub;
     p->f = v3_madd(r->rub, r->k * fl_normal_power(over, 1.5) + r->damped, n);
-    p->si = p->ti = v3_scale(-arm, v3_cross(n, r->rub));
-    p->spring = fl_ball_spring(r);
+    p->si = p->ti = v3_madd(fl_rolls_moment(roll), -arm, v3_cross(n, r->rub));
+    p->spring = fl_ball_spring(r, roll);
     p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
-    p->stiff_i = fl_stiff_point(b, i, r->k * fl_normal_slope(over, 1.5), r->stiff, arm);
+    p->stiff_i = fl_stiff_point(b, i, r->k * fl_normal_slope(over, 1.5), r->stiff, arm,
+                                roll ? fl_rolls_stiff(roll) : 0.0);
 }
 
 /* Row c with its forces of the last touch. */
@@ -397,11 +406,13 @@ static void pair_of(const fl_world *w, int32_t c, fl_pair *p)
     const double apart = v3_norm(d), over = b->radius[i] + b->radius[j] - apart,
                  arm = b->radius[j] - 0.5 * over;
     const fl_vec3 n = apart > 0.0 ? v3_scale(1.0 / apart, d) : v3(0, 0, 1);
-    fl_ball_pair(w, i, j, r, s->hit[c], n, over, p);
+    const fl_roll *roll = s->roll ? &s->roll[c] : NULL;
+    fl_ball_pair(w, i, j, r, roll, s->hit[c], n, over, p);
     if (s->image) memcpy(p->image, &s->image[3 * c], sizeof p->image);
     if (!p->n) return;
-    p->sj = p->tj = v3_scale(-arm, v3_cross(n, r->rub));
-    p->stiff_j = fl_stiff_point(b, j, r->k * fl_normal_slope(over, 1.5), r->stiff, arm);
+    p->sj = p->tj = v3_madd(v3_neg(fl_rolls_moment(roll)), -arm, v3_cross(n, r->rub));
+    p->stiff_j = fl_stiff_point(b, j, r->k * fl_normal_slope(over, 1.5), r->stiff, arm,
+                                roll ? fl_rolls_stiff(roll) : 0.0);
 }
 
 /* Walls come after all spheres. */

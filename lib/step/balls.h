@@ -17,9 +17,9 @@ typedef void fl_ball_image(const fl_world *w, int64_t k, int32_t i, int32_t j, i
 int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *err);
 
 /* A row behind all others, for those who put together a world from what they read: i and then j do not fall;
- * fl_balls_index() afterwards.  Walls have no image.  -1 with FL_SYSTEM. */
+ * fl_balls_index() afterwards.  Walls have no image.  roll: read where w->rolls.  -1 with FL_SYSTEM. */
 int fl_balls_push(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int hit, const fl_ball_row *row,
-                  fl_err *err);
+                  const fl_roll *roll, fl_err *err);
 
 /* End the rows of bodies that are away, and renew the sums of the others.  -1 with FL_SYSTEM. */
 int fl_balls_drop(fl_world *w, fl_err *err);
@@ -83,16 +83,17 @@ static inline void fl_balls_force(const fl_world *w, int32_t k, fl_vec3 *f, fl_v
  */
 void fl_balls_energy(const fl_world *w, double *elastic, double *spring);
 
-/* Of a sphere's row the energy of the spring of friction [J]. */
-static inline double fl_ball_spring(const fl_ball_row *r)
+/* Of a sphere's row the energy of the springs of friction, with that against rolling, if any [J]. */
+static inline double fl_ball_spring(const fl_ball_row *r, const fl_roll *roll)
 {
-    return r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0;
+    return (r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0) +
+           (roll ? fl_rolling_energy(*roll) : 0.0);
 }
 
 /* A row of i and j as a pair like all others, at that overlap along n, from j to i: all but its image, and
  * what it does to j. */
-void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, int hit, fl_vec3 n,
-                  double over, fl_pair *p);
+void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, const fl_roll *roll, int hit,
+                  fl_vec3 n, double over, fl_pair *p);
 
 /* Sum of |F| [N], touching rows, and the largest overlap over the sum of the radii with whose it is (-1:
  * nobody's) of the last touch. */

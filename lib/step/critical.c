@@ -152,10 +152,13 @@ static double turning(const fl_world *w, int32_t i, int edges)
     return edges ? shakiest(w, i) : 0.0;
 }
 
-/* How many times as stiff, and as damped, a contact is that is shaken across in place of along. */
-static double shaken(const fl_touching *law, double turns)
+/* How many times as stiff, and as damped, a contact is that is shaken across in place of along; what keeps a
+ * sphere from rolling turns it as friction does, with an arm of its radius at the most. */
+static double shaken(const fl_touching *law, int round, double turns)
 {
-    return law->friction > 0.0 ? fmax(1.0, law->tangential * turns) : 1.0;
+    const double rubs = law->friction > 0.0 ? law->tangential * turns : 0.0,
+                 rolls = round ? fl_rolling_part(law->rolling) * (turns - 1.0) : 0.0;
+    return fmax(1.0, rubs + rolls);
 }
 
 /* So many contacts that act on one motion are N times as stiff as the bound of one contact, and N times as
@@ -243,12 +246,12 @@ static double stiffest_contact(const fl_world *w, int edges, int32_t *body, rema
         double n, k = fl_pairing_stiffness(w, i, i, &n),
                   stiffest = place_slope(w, i, i, k, n, met); /* one like itself */
         const fl_touching *law = fl_pairing_law(w, i, i);
-        double times = shaken(law, turns);
+        double times = shaken(law, round, turns);
         const double few = edges && round ? 2.0 : 1.0;
         stiffest *= round ? times : 1.0;
         leave(w, left, law, 0, times, few, crowd(w, round, times));
         for (int32_t j = w->n; j < w->b.total; j++) {
-            times = shaken(law = fl_pairing_law(w, i, j), turns);
+            times = shaken(law = fl_pairing_law(w, i, j), round, turns);
             const double stiffer = round ? times : 1.0;
             if (w->structure.piece[j - w->n].elastic) {
                 stiffest = fmax(stiffest, stiffer * bed_slope(w, i));

@@ -109,6 +109,7 @@ fl_footprint fl_footprint_of(const fl_world *w)
         const fl_pair *p = w->pair[c].full;
         if (p && p->matches) b.lists += fl_matches_bytes(p->matches);
         if (p && p->surrogate) b.pairs += sizeof *p->surrogate;
+        if (p && p->roll) b.pairs += sizeof *p->roll;
     }
     return b;
 }

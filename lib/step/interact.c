@@ -2,6 +2,7 @@
 #include "base/mem.h"
 #include "law/damping.h"
 #include "law/manual.h"
+#include "law/material.h"
 #include "law/normal.h"
 #include "step/bearing.h"
 #include "step/frozen.h"
@@ -9,6 +10,7 @@
 #include "step/lead.h"
 #include "step/pairing.h"
 #include "step/press.h"
+#include "step/rolls.h"
 #include "step/stance.h"
 #include "step/stiff.h"
 #include "step/told.h"
@@ -146,6 +148,40 @@ static void rub(fl_world *w, fl_pair *p, const pressure *q, double chi, const pa
     p->spring = fl_tangent_energy(p->slip);
 }
 
+/* 1/I of thing k for a turn to which it yields the most [1/kg m2]. */
+static double most_turned(const fl_world *w, int32_t k)
+{
+    const int held = FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ;
+    if (k >= w->n || (w->b.hold[k] & held) == held) return 0.0;
+    return fmax(w->b.invI[k].x, fmax(w->b.invI[k].y, w->b.invI[k].z));
+}
+
+/* What keeps a sphere from rolling: a moment on either. */
+static int roll(fl_world *w, fl_pair *p, const pressure *q, double chi, const ahead *a)
+{
+    const fl_bodies *b = &w->b;
+    const double arm = fl_material_radius(b->ball[p->i] ? b->radius[p->i] : 0.0,
+                                          p->j < w->n && b->ball[p->j] ? b->radius[p->j] : 0.0),
+                 mu = p->law->rolling, part = fl_rolling_part(mu);
+    fl_err lost = {0};
+    if (!p->roll && !(p->roll = fl_alloc(1, sizeof *p->roll, &lost))) return -1;
+    const fl_vec3 wi = b->w[p->i], wj = b->w[p->j], turns = v3_scale(arm, v3_sub(wi, wj));
+    const fl_tangent_spring c = {.k = part * q->slope,
+                                 .g = part * chi * q->elastic,
+                                 .limit = mu * fmax(q->normal, 0.0),
+                                 .yields = arm * arm * (most_turned(w, p->i) + most_turned(w, p->j)),
+                                 .many = a->by.pressed};
+    const fl_turning by = {turns, v3_madd(turns, arm, v3_sub(a->by.wi, a->by.wj)),
+                           v3_scale(0.5, v3_add(wi, wj))};
+    p->roll->arm = arm;
+    *p->roll = fl_rolling(*p->roll, c, by, a->of.dt, a->of.half, a->of.begins);
+    const fl_vec3 m = fl_rolls_moment(p->roll);
+    p->si = v3_add(p->si, m), p->sj = v3_sub(p->sj, m);
+    p->ti = v3_add(p->ti, m), p->tj = v3_sub(p->tj, m);
+    p->spring += fl_rolling_energy(*p->roll);
+    return 0;
+}
+
 /* What the springs of friction add, where they stick, and the bounds of it all. */
 static void stiffen(const fl_world *w, fl_pair *p, const pressure *q, const fl_stance *r, fl_stiff *si,
                     fl_stiff *sj)
@@ -158,6 +194,11 @@ static void stiffen(const fl_world *w, fl_pair *p, const pressure *q, const fl_s
         fl_stiff_across(sj, b, p->j, p->slip.k, n, aj);
         fl_stiff_add(si, b, p->i, p->slip.k_turn, none, n);
         fl_stiff_add(sj, b, p->j, p->slip.k_turn, none, n);
+    }
+    for (int axis = 0; axis < 3 && p->roll; axis++) {
+        const fl_vec3 e = v3(axis == 0, axis == 1, axis == 2), none = v3(0, 0, 0);
+        fl_stiff_add(si, b, p->i, fl_rolls_stiff(p->roll), none, e);
+        fl_stiff_add(sj, b, p->j, fl_rolls_stiff(p->roll), none, e);
     }
     p->stiff_i = fl_stiff_bound(si);
     p->stiff_j = fl_stiff_bound(sj);
@@ -219,7 +260,7 @@ static double closing_of(const fl_bodies *b, const fl_pair *p, const ahead *a, c
     return -v3_dot(t->n, next(b, p, a, t->ai, t->aj));
 }
 
-/* The places of a round thing or of `core`: W = k sum of phi(s), most often of one.  Of several places, or
+/* The places of a round thing or of `core`: W = k sum of phi(s), most often of one; -1 when memory runs out.  Of several places, or
  * one that may be another than a step ago, it is not known what each did then: they are damped by the speed
  * half a step ago. */
 static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, const ahead *by,
@@ -276,6 +317,7 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
     parting part = {.turns = 0.0};
     if (one && chi > 0.0 && p->law->friction > 0.0) part.ease = fl_pair_ease(&ease, first.ai, first.aj);
     rub(w, p, &all, chi, &part, r, a);
+    if (w->rolls && fl_rolls_pair(w, p) && roll(w, p, &all, chi, a)) return -1;
     if (survey) stiffen_points(w, p, s, &all, r);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note(w, p, s, p->k, chi);
@@ -604,11 +646,13 @@ void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t,
     } else {
         if (fl_stance_places(w, p, thread, &r, &distance)) goto failed;
         const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, t, &r, &a, survey)
-                                             : s->n && force_points(w, p, s, &r, &a, survey);
+                          : s->n             ? force_points(w, p, s, &r, &a, survey)
+                                             : 0;
         if (touch < 0) goto failed;
         if (touch) goto touches;
     }
     p->slip = (fl_slip){0};
+    if (p->roll) *p->roll = (fl_roll){.k = 0.0};
     p->n = 0;
     p->touch = 0.0;
     if (p->surrogate) p->surrogate->live = 0;

@@ -8,6 +8,7 @@
 #include "step/lead.h"
 #include "step/leans.h"
 #include "step/pairing.h"
+#include "step/rolls.h"
 #include "step/stiff.h"
 
 int fl_leans_are(const fl_world *w, int32_t i, int32_t j)
@@ -19,10 +20,16 @@ int fl_leans_are(const fl_world *w, int32_t i, int32_t j)
 
 /* --- which there are --------------------------------------------------------------------------- */
 
-int fl_leans_push(fl_world *w, int32_t i, int32_t j, int hit, const fl_ball_row *row, fl_err *err)
+int fl_leans_push(fl_world *w, int32_t i, int32_t j, int hit, const fl_ball_row *row, const fl_roll *roll,
+                  fl_err *err)
 {
     fl_balls *s = &w->balls;
-    if (fl_grow(&s->lean, &s->lean_cap, (int64_t)s->leans + 1, sizeof *s->lean, err)) return -1;
+    const int64_t n = (int64_t)s->leans + 1;
+    if (fl_grow(&s->lean, &s->lean_cap, n, sizeof *s->lean, err)) return -1;
+    if (w->rolls) {
+        if (fl_grow(&s->lean_roll, &s->lean_roll_cap, n, sizeof *s->lean_roll, err)) return -1;
+        s->lean_roll[s->leans] = *roll;
+    }
     s->lean[s->leans++] = (fl_ball_lean){
         .i = i, .j = j, .law = (int32_t)(fl_pairing_law(w, i, j) - w->law), .hit = hit, .row = *row};
     return 0;
@@ -34,15 +41,19 @@ int fl_leans_list(fl_world *w, int64_t n, fl_err *err)
 {
     fl_balls *s = &w->balls;
     fl_ball_lean *const old = s->lean;
+    fl_roll *const rolled = s->lean_roll, none = {.k = 0.0};
     const int32_t n_old = s->leans;
     int32_t at = 0;
     if (n > INT32_MAX) return fl_fail(err, FL_SYSTEM, "out of memory: %lld spheres at walls", (long long)n);
-    s->leans = s->lean_cap = 0;
-    if (!(s->lean = fl_alloc(n, sizeof *s->lean, err))) {
-        free(old);
+    s->leans = s->lean_cap = s->lean_roll_cap = 0;
+    s->lean = fl_alloc(n, sizeof *s->lean, err);
+    s->lean_roll = w->rolls && s->lean ? fl_alloc(n, sizeof *s->lean_roll, err) : NULL;
+    if (!s->lean || (w->rolls && !s->lean_roll)) {
+        free(old), free(rolled);
         return -1;
     }
     s->lean_cap = (int32_t)n;
+    s->lean_roll_cap = w->rolls ? (int32_t)n : 0;
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
@@ -50,14 +61,15 @@ int fl_leans_list(fl_world *w, int64_t n, fl_err *err)
             if (!fl_leans_are(w, i, j)) continue;
             while (at < n_old && before(&old[at], i, j)) at++;
             if (at < n_old && old[at].i == i && old[at].j == j) {
+                if (rolled) s->lean_roll[s->leans] = rolled[at];
                 s->lean[s->leans++] = old[at];
             } else {
                 const fl_ball_row fresh = {.k = fl_pairing_stiffness(w, i, j, &exponent)};
-                fl_leans_push(w, i, j, 0, &fresh, err);
+                fl_leans_push(w, i, j, 0, &fresh, &none, err);
             }
         }
     }
-    free(old);
+    free(old), free(rolled);
     return 0;
 }
 
@@ -65,8 +77,11 @@ int fl_leans_drop(fl_world *w)
 {
     fl_balls *s = &w->balls;
     int32_t kept = 0;
-    for (int32_t c = 0; c < s->leans; c++)
-        if (!fl_world_away(w, s->lean[c].i)) s->lean[kept++] = s->lean[c];
+    for (int32_t c = 0; c < s->leans; c++) {
+        if (fl_world_away(w, s->lean[c].i)) continue;
+        if (s->lean_roll) s->lean_roll[kept] = s->lean_roll[c];
+        s->lean[kept++] = s->lean[c];
+    }
     const int dropped = kept < s->leans;
     s->leans = kept;
     return dropped;
@@ -168,13 +183,14 @@ static fl_vec3 middle(const fl_world *w, const fl_ball_lean *c, fl_vec3 n, doubl
     return v3_madd(v3_sub(w->b.x[c->i], w->b.x[c->j]), 0.5 * over - w->b.radius[c->i], n);
 }
 
-/* What the m-th of them does to the wall. */
-static void press(const fl_world *w, fl_ball_load *load, const fl_ball_lean *c, fl_vec3 n,
-                  const fl_spheres *a, int32_t m)
+/* What the m-th of them does to the wall, roll being what keeps it from rolling. */
+static void press(const fl_world *w, fl_ball_load *load, const fl_ball_lean *c, const fl_roll *roll,
+                  fl_vec3 n, const fl_spheres *a, int32_t m)
 {
     const fl_vec3 F = v3_madd(vector(a->rub, m), a->elastic[m] + a->damped[m], n);
     load->f = v3_sub(load->f, F);
     load->t = v3_sub(load->t, v3_cross(middle(w, c, n, a->overlap[m]), F));
+    load->t = v3_sub(load->t, fl_rolls_moment(roll));
 }
 
 /* What those of chunk a do to wall j. */
@@ -191,21 +207,39 @@ typedef struct {
     int32_t m;
 } batch;
 
+/* What keeps them from rolling. */
+static void roll(const fl_world *w, batch *q, double dt)
+{
+    const fl_balls *s = &w->balls;
+    fl_rolls_row row[FL_SPHERES_MOST];
+    for (int32_t m = 0; m < q->m; m++) {
+        const fl_ball_lean *const c = &s->lean[q->row[m]];
+        row[m] = (fl_rolls_row){&w->law[c->law], &s->lean_roll[q->row[m]], c->i, -1};
+    }
+    fl_rolls_meet(w, &q->at, row, q->m, dt);
+}
+
+/* Row c, or NULL. */
+static const fl_roll *roll_of(const fl_balls *s, int32_t c) { return s->lean_roll ? &s->lean_roll[c] : NULL; }
+
 static void finish(fl_world *w, int32_t chunk, batch *q, double dt, int survey)
 {
     fl_balls *s = &w->balls;
     fl_spheres *a = &q->at;
     if (dt < 0.0) fl_spheres_place(a, q->m);
     else fl_spheres_meet(a, q->m, dt, fl_lead_span(w, dt).half);
+    if (s->lean_roll) roll(w, q, dt);
     for (int32_t m = 0; m < q->m; m++) {
         fl_ball_lean *const c = &s->lean[q->row[m]];
+        const fl_roll *const rolls = roll_of(s, q->row[m]);
         if (dt >= 0.0) save(&c->row, a, m);
         hand_out(&s->sum[c->i], a, m);
-        press(w, load_of(w, chunk, c->j), c, q->n[m], a, m);
+        press(w, load_of(w, chunk, c->j), c, rolls, q->n[m], a, m);
         count(&s->tally[chunk], a, m, q->row[m]);
         if (survey)
             s->stiff[c->i] +=
-                fl_stiff_point(&w->b, c->i, a->slope[m], a->stiff[m], a->ri[m] - 0.5 * a->overlap[m]);
+                fl_stiff_point(&w->b, c->i, a->slope[m], a->stiff[m], a->ri[m] - 0.5 * a->overlap[m],
+                               rolls ? fl_rolls_stiff(rolls) : 0.0);
     }
     q->m = 0;
 }
@@ -224,6 +258,7 @@ void fl_leans_touch(fl_world *w, int32_t a, double dt, int survey)
         const int touches = z < w->b.radius[l->i];
         if (dt >= 0.0 && touches != l->hit) {
             if (l->hit) l->row = (fl_ball_row){.k = l->row.k};
+            if (l->hit && s->lean_roll) s->lean_roll[c] = (fl_roll){.k = 0.0};
             l->hit = touches;
             fl_balls_turn(s, l->i, touches ? 1 : -1);
         }
@@ -251,7 +286,7 @@ void fl_leans_energy(const fl_world *w, int32_t a, double *all, double *springs)
     for (int32_t c = s->lean_first[a]; c < s->lean_first[a + 1]; c++) {
         const fl_ball_lean *const l = &s->lean[c];
         if (!l->hit) continue;
-        const double held = fl_ball_spring(&l->row);
+        const double held = fl_ball_spring(&l->row, roll_of(s, c));
         *all += l->row.k * fl_normal_phi(overlap(w, l, normal_of(w, l->j)), 1.5) + held;
         *springs += held;
     }
@@ -263,9 +298,10 @@ void fl_leans_pair(const fl_world *w, int32_t c, fl_pair *p)
     const fl_vec3 n = normal_of(w, l->j);
     const double over = overlap(w, l, n);
     const fl_vec3 at = middle(w, l, n, over);
-    fl_ball_pair(w, l->i, l->j, &l->row, l->hit, n, over, p);
+    fl_ball_pair(w, l->i, l->j, &l->row, roll_of(&w->balls, c), l->hit, n, over, p);
     if (!p->n) return;
-    p->tj = v3_neg(v3_cross(at, p->f));
+    const fl_vec3 moment = v3_neg(fl_rolls_moment(roll_of(&w->balls, c)));
+    p->tj = v3_sub(moment, v3_cross(at, p->f));
     p->dj = v3_neg(v3_cross(at, p->fd));
-    p->sj = v3_neg(v3_cross(at, p->fs));
+    p->sj = v3_sub(moment, v3_cross(at, p->fs));
 }

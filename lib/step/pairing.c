@@ -53,6 +53,7 @@ int fl_pairing_laws(fl_world *w, fl_err *err)
                 .softening = t.softening,
                 .friction = t.friction,
                 .tangential = t.tangential,
+                .rolling = manual ? 0.0 : t.rolling,
                 .chi = D,
                 .rest = fl_damping_rest(D),
                 .zeta = zeta,
@@ -64,6 +65,7 @@ int fl_pairing_laws(fl_world *w, fl_err *err)
                 .literal2 = t.literal2,
                 .literal18 = t.literal18,
             };
+            w->rolls |= w->law[a * (w->materials + 2) + c].rolling > 0.0;
             asked |= w->law[a * (w->materials + 2) + c].surrogate > 0.0;
         }
     }
@@ -151,9 +153,10 @@ double fl_pair_turns(const fl_pair_yielding *e, fl_vec3 n)
 void fl_pair_end(fl_pair *p)
 {
     if (p->matches) fl_matches_free(p->matches);
-    free(p->matches), free(p->surrogate);
+    free(p->matches), free(p->surrogate), free(p->roll);
     p->matches = NULL;
     p->surrogate = NULL;
+    p->roll = NULL;
 }
 
 /* --- near pairs and their contacts ------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 #include "step/frozen.h"
 #include "step/interact.h"
 #include "step/pairing.h"
+#include "step/rolls.h"
 
 /* Rows at right angles, of length 1. */
 static int turns(const fl_mat3 *M)
@@ -39,6 +40,22 @@ static void memory(fl_relay *t, fl_pair *p)
     fl_relay_real(t, &p->slip.k);
     fl_relay_real(t, &p->slip.moment);
     fl_relay_real(t, &p->slip.k_turn);
+}
+
+static void rolling(fl_relay *t, fl_roll *r)
+{
+    fl_relay_vec3(t, &r->kept);
+    fl_relay_real(t, &r->k);
+    fl_relay_vec3(t, &r->all);
+    fl_relay_real(t, &r->arm);
+}
+
+/* What keeps a sphere from rolling, where anything does and it touches. */
+static void roll_of(fl_relay *t, const fl_world *w, fl_pair *p)
+{
+    if (!p->n || !fl_rolls_pair(w, p)) return;
+    if (!p->roll && !(p->roll = fl_alloc(1, sizeof *p->roll, t->err))) return;
+    rolling(t, p->roll);
 }
 
 /* What its last evaluation found. */
@@ -147,6 +164,7 @@ void fl_snapshot_pair(fl_relay *t, fl_world *w, int32_t c)
     fl_relay_whole(t, 0, 1, &p->n);
     memory(t, p);
     if (p->n) forces(t, p);
+    roll_of(t, w, p);
     fl_surrogate seen = {0};
     if (t->f && p->surrogate) seen = *p->surrogate;
     if (p->n && p->law->surrogate > 0.0) look(t, p, &seen);
@@ -161,13 +179,16 @@ void fl_snapshot_ball(fl_relay *t, fl_world *w, int32_t c, int32_t last[2])
 {
     const fl_balls *s = &w->balls;
     fl_ball_row r = {0};
+    fl_roll roll = {.k = 0.0};
     int32_t i = 0, j = 0, hit = 0, image[3] = {0};
     double n;
     if (t->f && c < 0) {
         const fl_ball_lean *const l = &s->lean[~c];
         i = l->i, j = l->j, hit = l->hit, r = l->row;
+        if (w->rolls) roll = s->lean_roll[~c];
     } else if (t->f) {
         i = s->i[c], j = s->j[c], hit = s->hit[c], r = s->row[c];
+        if (w->rolls) roll = s->roll[c];
         if (s->image) memcpy(image, &s->image[3 * c], sizeof image);
     }
     fl_relay_open(t, "ball");
@@ -181,6 +202,7 @@ void fl_snapshot_ball(fl_relay *t, fl_world *w, int32_t c, int32_t last[2])
     fl_relay_real(t, &r.stiff);
     fl_relay_vec3(t, &r.rub);
     fl_relay_real(t, &r.damped);
+    if (w->rolls) rolling(t, &roll);
     fl_relay_close(t);
     if (t->f || t->err->code) return;
     if (i >= j || i < last[0] || (i == last[0] && (w->cell.wraps ? j < last[1] : j <= last[1])) ||
@@ -191,5 +213,5 @@ void fl_snapshot_ball(fl_relay *t, fl_world *w, int32_t c, int32_t last[2])
     }
     last[0] = i, last[1] = j;
     r.k = fl_pairing_stiffness(w, i, j, &n);
-    fl_balls_push(w, i, j, image, hit, &r, t->err);
+    fl_balls_push(w, i, j, image, hit, &r, &roll, t->err);
 }

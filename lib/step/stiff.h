@@ -36,10 +36,13 @@ double fl_stiff_bound(const fl_stiff *s);
 
 /* Of a sphere that touches in one point the springs are one along n and, where it sticks, two across it, at
  * right angles to each other in every way: the largest omega^2 is the larger of theirs [1/s2].  along,
- * across: their stiffness [N/m];  arm: from the centre of body i, not held, to the point [m]. */
-static inline double fl_stiff_point(const fl_bodies *b, int32_t i, double along, double across, double arm)
+ * across: their stiffness [N/m];  arm: from the centre of body i, not held, to the point [m];  turning: that
+ * of what keeps it from rolling [N m], which comes to those across. */
+static inline double fl_stiff_point(const fl_bodies *b, int32_t i, double along, double across, double arm,
+                                    double turning)
 {
-    const double one = along * b->invm[i], two = across * (b->invm[i] + arm * arm / b->I[i].x);
+    const double one = along * b->invm[i],
+                 two = across * (b->invm[i] + arm * arm / b->I[i].x) + turning / b->I[i].x;
     return one > two ? one : two;
 }
 

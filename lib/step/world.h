@@ -37,6 +37,7 @@ typedef struct {
     double softening;   /* multiplies the stiffness that comes from the modulus */
     double friction;    /* mu                                                */
     double tangential;  /* k_t over the tangent stiffness of the place       */
+    double rolling;     /* mu_r of law/rolling.h; 0: nothing keeps a sphere from rolling */
     double chi;         /* D = chi v_impact of patch and core                */
     double rest;        /* c of fl_damping_rest()                            */
     double zeta, alpha; /* of the manual's laws                              */
@@ -55,6 +56,7 @@ typedef struct {
     fl_slip slip;            /* what friction remembers                               */
     fl_matches *matches;     /* which features may touch, or NULL; can be made again at any time */
     fl_surrogate *surrogate; /* NULL until there is one */
+    fl_roll *roll;           /* of a sphere, rolls.h; NULL where nothing keeps it from rolling */
     fl_gjk_cache cache;      /* where the distance query starts                       */
     fl_mode mode;            /* of the manual's laws                                  */
     int32_t deep;            /* the cores overlap                                     */
@@ -324,6 +326,7 @@ typedef struct {
     fl_vec3 gravity;
     fl_touching *law; /* [materials][materials + 2]             */
     int32_t materials;
+    int32_t rolls; /* some law has what keeps spheres from rolling */
 
     fl_pairs near;
     fl_aabb *box;    /* [total] while neighbours are searched, NULL else, like */

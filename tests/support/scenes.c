@@ -94,6 +94,7 @@ void scene_of_balls(lab *l, int32_t side, const char *law)
     lab_start(l);
     lab_set(l, "material.ice.young=1 MPa");
     lab_set(l, "contact.friction=0.3");
+    lab_set(l, "contact.rolling=0.1");
     lab_set(l, "contact.restitution=0.4");
     lab_set(l, "run.gravity=9.81");
     lab_set(l, "boundary.type=periodic periodic rigid");

@@ -400,6 +400,8 @@ static void parts_are_held_against_each_other(void **state)
             ":4: bond.shear_strength bears on nothing: bond.on was wanted");
     accepted(ICE "[bond]\non = false\nshear_strength = 1 MPa\n");
     refused(ICE "[contact]\nexponent = 1.5\n", ":4: exponent bears on law = core alone");
+    refused(ICE "[contact]\nlaw = manual\nrolling = 0.1\n",
+            ":5: rolling bears on law = patch and core alone");
     accepted(ICE "[contact]\nlaw = core\nexponent = 1.5\n");
     refused(ICE "[boundary]\ntype = free\ndrive_width = 1\n",
             ":5: boundary.drive has no direction along x or y: drive_edge was wanted");

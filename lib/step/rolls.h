@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* rolls.h -- what keeps spheres from rolling (law/rolling.h), in a step: rows of spheres and of walls, and a
+ * sphere on all else.  Where no law asks for it nothing of this is there: w->rolls. */
+#ifndef FL_STEP_ROLLS_H
+#define FL_STEP_ROLLS_H
+#include "law/sphere.h"
+#include "step/world.h"
+
+/* A row of i and j, which is -1 for a wall, and what it remembers. */
+typedef struct {
+    const fl_touching *law;
+    fl_roll *roll;
+    int32_t i, j;
+} fl_rolls_row;
+
+/* The first m contacts of at, which have met (law/sphere.h) over a step of dt [s], or, dt < 0, been placed:
+ * their moments come to the torques. */
+void fl_rolls_meet(const fl_world *w, fl_spheres *at, const fl_rolls_row *row, int32_t m, double dt);
+
+/* How stiff one is for a turn of a body [N m]. */
+static inline double fl_rolls_stiff(const fl_roll *r) { return r->k * r->arm * r->arm; }
+
+/* The moment of one on i [N m]; 0 for NULL. */
+static inline fl_vec3 fl_rolls_moment(const fl_roll *r) { return r ? v3_scale(r->arm, r->all) : v3(0, 0, 0); }
+
+/* Whether pair p is of a sphere that something keeps from rolling. */
+static inline int fl_rolls_pair(const fl_world *w, const fl_pair *p)
+{
+    return p->law->rolling > 0.0 && (w->b.ball[p->i] || (p->j < w->n && w->b.ball[p->j]));
+}
+
+#endif

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What keeps a sphere from rolling, law/rolling.h, against closed forms of rigid rolling: on a wall of the
+ * boundary, which is a row (leans.h), on a plate of the structure and on another sphere. */
+#include <math.h>
+#include <stdio.h>
+#include "base/pi.h"
+#include "law/material.h"
+#include "support/lab.h"
+#include "support/verify.h"
+
+#define G 9.81
+
+enum ground { WALL, PLATE, SPHERE, GROUNDS };
+static const char *const ON[GROUNDS] = {"on a wall", "on a plate", "on a sphere"};
+static const double R = 0.5;
+
+/* R* and kappa of ice of 100 MPa on it; of the structure steel is the default. */
+static double round_of(enum ground on) { return on == SPHERE ? 0.5 * R : R; }
+static double kappa(enum ground on)
+{
+    const fl_elastic ice = {1e8, 0.3}, under[GROUNDS] = {{INFINITY, 0.0}, {210e9, 0.3}, {1e8, 0.3}};
+    return fl_material_hertz(fl_material_modulus(ice, under[on]), round_of(on));
+}
+
+static double mass(void) { return 900.0 * 4.0 / 3.0 * PI * R * R * R; }
+
+/* How deep it rests, and the arm that it rolls on, for the middle of the overlap touches the ground. */
+static double depth_of(enum ground on, double slope)
+{
+    return pow(mass() * G * cos(slope) / kappa(on), 2.0 / 3.0);
+}
+
+static double arm_of(enum ground on) { return R - 0.5 * depth_of(on, 0.0); }
+
+/* A sphere that rests on the ground, which is level, or gravity leans by `slope`. */
+static void rest_on(lab *l, enum ground on, double rolling, double slope, fl_vec3 v, fl_vec3 spin)
+{
+    lab_start(l);
+    lab_set(l, "material.ice.young=100 MPa"), lab_set(l, "material.ice.poisson=0.3");
+    lab_set(l, "material.ice.density=900");
+    lab_setf(l, "run.gravity=%.17g 0 %.17g", G * sin(slope), -G * cos(slope));
+    lab_set(l, "contact.friction=2"), lab_set(l, "contact.restitution=0.3");
+    lab_setf(l, "contact.rolling=%.17g", rolling);
+    if (on == WALL) lab_set(l, "boundary.min=none none 0");
+    if (on == PLATE) lab_wall(l, v3(-20, -9, -1), v3(20, 9, 0), 1);
+    if (on == SPHERE) lab_sphere(l, v3(0, 0, -R), R, v3(0, 0, 0), v3(0, 0, 0));
+    lab_sphere(l, v3(0, 0, R - depth_of(on, slope)), R, v, spin);
+}
+
+/* The sphere that moves; another one is held. */
+static int32_t made(lab *l, double dt)
+{
+    lab_make(l, dt);
+    const int32_t k = l->w.n == 2 && l->w.b.x[0].z < l->w.b.x[1].z ? 1 : 0;
+    if (l->w.n == 2) l->w.b.hold[1 - k] = 63;
+    return k;
+}
+
+/* It rolls on the level: slower by mu_r m g R a/(I + m a^2), 5/7 mu_r g for a = R. */
+static void rolls_out(enum ground on)
+{
+    const double mu = 0.05, v = 1.0, seconds = 2.0, arm = arm_of(on);
+    lab l;
+    rest_on(&l, on, mu, 0.0, v3(v, 0, 0), v3(0, v / R, 0));
+    const int32_t k = made(&l, 2e-4);
+    lab_run(&l, lround(1.0 / l.w.dt));
+    const double was = l.w.b.v[k].x;
+    lab_run(&l, lround((seconds - 1.0) / l.w.dt));
+    char what[80];
+    snprintf(what, sizeof what, "%s: it slows down by [m/s2]", ON[on]);
+    verify_row("RR1", what, (was - l.w.b.v[k].x) / (seconds - 1.0),
+               mu * mass() * G * R * arm / (l.w.b.I[k].z + mass() * arm * arm), 2e-5, VERIFY_REL);
+    lab_run(&l, lround(6.0 / l.w.dt));
+    snprintf(what, sizeof what, "%s: and comes to rest [m/s]", ON[on]);
+    verify_row("RR1", what, l.w.b.v[k].x, 0.0, 5e-3, VERIFY_ABS);
+    lab_free(&l);
+}
+
+/* It stays on a slope of less than mu_r, and rolls down a steeper one by 5/7 (g_x - mu_r g_z), for a = R. */
+static void on_a_slope(enum ground on)
+{
+    const double mu = 0.1, seconds = 3.0, arm = arm_of(on);
+    char what[80];
+    for (int steep = 0; steep < 2; steep++) {
+        const double a = atan(steep ? 1.2 * mu : 0.9 * mu);
+        double way[2] = {0.0, 0.0};
+        lab l;
+        rest_on(&l, on, mu, a, v3(0, 0, 0), v3(0, 0, 0));
+        const int32_t k = made(&l, 2e-4);
+        for (int t = 0; t < 2; t++) {
+            lab_run(&l, lround(seconds / l.w.dt));
+            way[t] = steep ? l.w.b.v[k].x : l.w.b.x[k].x;
+        }
+        if (steep) {
+            snprintf(what, sizeof what, "%s: down 1.2 mu_r [m/s2]", ON[on]);
+            verify_row("RR2", what, (way[1] - way[0]) / seconds,
+                       G * (sin(a) - mu * R / arm * cos(a)) / (1.0 + l.w.b.I[k].z / (mass() * arm * arm)),
+                       1e-4, VERIFY_REL);
+        } else {
+            snprintf(what, sizeof what, "%s: on 0.9 mu_r it creeps by [m]", ON[on]);
+            verify_row("RR2", what, way[1] - way[0], 0.0, 1e-5, VERIFY_ABS);
+        }
+        lab_free(&l);
+    }
+}
+
+/* It spins about the normal: slower by mu_r R* m g/I. */
+static void spins_out(enum ground on)
+{
+    const double mu = 0.05, spin = 3.0, round = round_of(on);
+    lab l;
+    rest_on(&l, on, mu, 0.0, v3(0, 0, 0), v3(0, 0, spin));
+    const int32_t k = made(&l, 2e-4);
+    lab_run(&l, lround(0.5 / l.w.dt));
+    const double was = l.w.b.w[k].z;
+    lab_run(&l, lround(0.5 / l.w.dt));
+    char what[80];
+    snprintf(what, sizeof what, "%s: spin is less each second by [rad/s]", ON[on]);
+    verify_row("RR3", what, (was - l.w.b.w[k].z) / 0.5, mu * round * mass() * G / l.w.b.I[k].z, 2e-4,
+               VERIFY_REL);
+    lab_free(&l);
+}
+
+/* Below the limit it swings: about the point that it rolls on, whose spring of friction gives way as well;
+ * spinning, about itself. */
+static void swings(enum ground on, int spins)
+{
+    const double mu = 0.02, round = round_of(on), slight = 1e-6;
+    lab l;
+    rest_on(&l, on, mu, 0.0, v3(0, 0, 0), spins ? v3(0, 0, slight) : v3(0, slight, 0));
+    lab_set(&l, "contact.restitution=1");
+    lab_set(&l, "contact.tangential=2");
+    const int32_t k = made(&l, 1e-5);
+    if (!spins) l.w.b.v[k].x = R * slight;
+    const double slope = 1.5 * pow(kappa(on), 2.0 / 3.0) * cbrt(mass() * G),
+                 turning = 2.25 * mu * mu * round * round * slope, inertia = l.w.b.I[k].z,
+                 about = spins ? inertia : inertia + mass() * R * R;
+    int crossed = 0;
+    double first = 0.0, last = 0.0;
+    while (crossed < 9) {
+        const double w = spins ? l.w.b.w[k].z : l.w.b.w[k].y, t = fl_world_time(&l.w);
+        if (lab_run(&l, 1)) break;
+        const double now = spins ? l.w.b.w[k].z : l.w.b.w[k].y;
+        if ((w > 0.0) == (now > 0.0)) continue;
+        last = t + l.w.dt * w / (w - now);
+        if (!crossed++) first = last;
+    }
+    char what[80];
+    snprintf(what, sizeof what, "%s: period of %s [s]", ON[on], spins ? "spinning to and fro" : "rocking");
+    verify_row("RR4", what, (last - first) / 4.0, 2.0 * PI * sqrt(about / turning), spins ? 1e-4 : 2e-3,
+               VERIFY_REL);
+    lab_free(&l);
+}
+
+/* Twenty spheres of two sizes fall into a pit and come to rest: the residual over what was lost. */
+static double residual(double dt, int *resting)
+{
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "material.ice.young=10 MPa"), lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "contact.friction=0.5"), lab_set(&l, "contact.restitution=0.4");
+    lab_set(&l, "contact.rolling=0.2");
+    lab_set(&l, "boundary.min=-1.3 -1.3 0"), lab_set(&l, "boundary.max=1.3 1.3 none");
+    for (int k = 0; k < 20; k++)
+        lab_sphere(&l, v3(-0.7 + 1.4 * (k % 2) + 0.02 * k, -0.7 + 1.4 * (k / 2 % 2), 0.7 + 1.15 * (k / 4)),
+                   k % 3 ? 0.5 : 0.42, v3(0, 0, 0), v3(0.3 * (k % 4), 0.2, 0.1 * k));
+    lab_make(&l, dt);
+    lab_run(&l, lround(3.0 / dt));
+    fl_step_ledger(&l.w);
+    const fl_ledger *g = &l.w.ledger;
+    *resting = g->kinetic < 1e-2 * (g->friction_now + g->damping_now);
+    const double off = fabs(g->residual) / (g->friction_now + g->damping_now);
+    lab_free(&l);
+    return off;
+}
+
+int main(void)
+{
+    verify_begin("rolling");
+    for (int on = 0; on < GROUNDS; on++) {
+        if (on != SPHERE) rolls_out(on), on_a_slope(on), swings(on, 0);
+        spins_out(on);
+        swings(on, 1);
+    }
+    double h[3], off[3];
+    int resting = 0;
+    for (int k = 0; k < 3; k++) off[k] = residual(h[k] = 4e-4 / (1 << k), &resting);
+    verify_true("RR5", "twenty spheres in a pit come to rest", resting);
+    verify_below("RR5", "energy residual over what was lost, the longest step", off[0], 2e-4);
+    verify_order("RR5", "that against the step", h, off, 3, 2.0, 1.0);
+    return verify_end();
+}
