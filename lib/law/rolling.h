@@ -4,9 +4,9 @@
  *
  *     M = -k_r theta - eta w,   |M| <= mu_r R* F_n,   k_r = 2.25 mu_r^2 R*^2 k_n,      w = w_i - w_j,
  *
- * k_n = dF_n/ds, R* = r_i r_j/(r_i + r_j), or the radius of the sphere on what is no sphere.  The spring so
- * gives way where the two have turned by 4/9 F_n/(k_n mu_r R*), which is 0.3 s/(mu_r R*) by Hertz; eta has the
- * part of k_r that damping has of k_n.  Across n that resists rolling, about it spinning; both together have
+ * k_n = dF_n/ds, R* = r_i r_j/(r_i + r_j), or the radius of the sphere on what is no sphere.  So it gives
+ * way where the two have turned by 4/9 F_n/(k_n mu_r R*), by Hertz 8/27 s/(mu_r R*); eta has the part of k_r
+ * that damping has of k_n.  Across n that resists rolling, about it spinning; both together have
  * the one limit.  M/R* is a force [N], and R* w a velocity [m/s]: so it is a spring of tangent.h, remembered,
  * unloaded, limited and damped as that is, of stiffness 2.25 mu_r^2 k_n and the limit mu_r F_n.
  * Source: model C of Ai, Chen, Rotter & Ooi, Powder Technology 206 (2011) 269; k_r of Jiang, Yu & Harris,

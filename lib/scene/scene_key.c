@@ -532,9 +532,9 @@ const fl_key fl_key_table[] = {
      .at = AT(contact, rolling),
      .fallback = "0",
      .range = "[0,2]",
-     .meaning = "mu_r, what keeps spheres from rolling and spinning on what they touch: an elastic moment that "
-                "gives way at mu_r R* F_n, R* being r_i r_j/(r_i + r_j) of two spheres and else the radius; of "
-                "the laws patch and core, and of nothing but spheres",
+     .meaning = "mu_r, what keeps spheres from rolling and spinning on what they touch: an elastic moment "
+                "that gives way at mu_r R* F_n, R* being r_i r_j/(r_i + r_j) of two spheres and else the "
+                "radius; of the laws patch and core, and of nothing but spheres",
      .source = "Ai, Chen, Rotter & Ooi, Powder Technology 206 (2011) 269"},
     {.section = FL_SEC_CONTACT,
      .key = "damping",

@@ -260,9 +260,9 @@ static double closing_of(const fl_bodies *b, const fl_pair *p, const ahead *a, c
     return -v3_dot(t->n, next(b, p, a, t->ai, t->aj));
 }
 
-/* The places of a round thing or of `core`: W = k sum of phi(s), most often of one; -1 when memory runs out.  Of several places, or
+/* The places of a round thing or of `core`: W = k sum of phi(s), most often of one.  Of several places, or
  * one that may be another than a step ago, it is not known what each did then: they are damped by the speed
- * half a step ago. */
+ * half a step ago.  -1 when memory runs out. */
 static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_stance *r, const ahead *by,
                         int survey)
 {

@@ -13,7 +13,8 @@ int fl_leans_are(const fl_world *w, int32_t i, int32_t j);
  * FL_SYSTEM. */
 int fl_leans_list(fl_world *w, int64_t n, fl_err *err);
 
-/* A row behind all others, roll being read where w->rolls; fl_leans_index() afterwards.  -1 with FL_SYSTEM. */
+/* A row behind all others, roll being read where w->rolls; fl_leans_index() afterwards.  -1 with
+ * FL_SYSTEM. */
 int fl_leans_push(fl_world *w, int32_t i, int32_t j, int hit, const fl_ball_row *row, const fl_roll *roll,
                   fl_err *err);
 
