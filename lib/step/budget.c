@@ -510,9 +510,10 @@ int fl_budget_look(fl_budget *g, fl_world *w, int64_t row, fl_err *err)
     w->t0 = t;
     w->step0 = w->step;
     /* What touches may be stiffer together than what was known beforehand. */
-    if (w->dt > g->across * g->share * w->dt_critical) {
-        const int32_t fine = steps_of(g, g->share * w->dt_critical);
-        const int32_t taken = steps_of(g, g->across * g->share * w->dt_critical);
+    const double longest = fl_foreseen_dt(&g->foreseen, w->dt_critical);
+    if (w->dt > g->across * longest) {
+        const int32_t fine = steps_of(g, longest);
+        const int32_t taken = steps_of(g, g->across * longest);
         take_steps(g, w, taken, t);
         if (fine > g->least) g->least = fine < MOST ? fine : MOST;
     }
@@ -557,8 +558,7 @@ int fl_budget_make(fl_budget *g, const fl_scene *scene, const fl_field *field, c
         return -1;
     }
     const double most = fmin(fl_world_dt(&g->trial, &body), fmin(g->every, scene->run.duration));
-    const double critical = fl_world_critical(&g->trial);
-    g->share = isfinite(critical) ? fl_world_dt(&g->trial, &body) / critical : 1.0;
+    g->foreseen = fl_world_foreseen(&g->trial);
     g->across = fl_world_across(&g->trial);
     g->least = (int32_t)fmin(ceil(g->every / most * (1.0 - 1e-12)), MOST);
     g->rows = (int32_t)ceil((double)WINDOW / g->least);

@@ -35,7 +35,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include "step/beside.h"
-#include "step/world.h"
+#include "step/critical.h"
 
 enum { FL_BUDGET_LOOKS = 32 }; /* the latest that are kept */
 
@@ -57,13 +57,13 @@ typedef struct {
 } fl_budget_end;
 
 typedef struct {
-    double goal;   /* run.error */
-    int32_t of;    /* run.error_of: impulse, peak, fx, fy, fz, mx, my, mz */
-    double every;  /* interval of the loads, which steps divide [s] */
-    double share;  /* of the critical step that a step of a trial may be */
-    double across; /* and so much of that one that is taken */
-    int32_t least; /* steps in it with the largest step a trial may have */
-    int32_t rows;  /* rows in a window */
+    double goal;          /* run.error */
+    int32_t of;           /* run.error_of: impulse, peak, fx, fy, fz, mx, my, mz */
+    double every;         /* interval of the loads, which steps divide [s] */
+    fl_foreseen foreseen; /* what bounds the step of a trial */
+    double across;        /* and so much of that one that is taken */
+    int32_t least;        /* steps in it with the largest step a trial may have */
+    int32_t rows;         /* rows in a window */
     fl_budget_window window[FL_BUDGET_LOOKS];
     int32_t windows, latest;  /* how many there are, and where the last one is */
     int64_t looks;            /* made so far */

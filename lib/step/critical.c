@@ -183,9 +183,10 @@ typedef struct {
 enum { ASKED = 8 };
 
 /* The least that damping leaves: of the critical step of a contact, and of that when there are many; and what
- * is kept to of it by itself, and where the error is measured and the contacts there are are known. */
+ * is kept to of it by itself, and where the error is measured and the contacts there are are known; the same
+ * two of bonds, which know of all that stand on a body. */
 typedef struct {
-    double one, many, alone, measured;
+    double one, many, alone, measured, frozen, frozen_measured;
     asked before[ASKED];
 } remains;
 
@@ -233,12 +234,14 @@ static void leave(const fl_world *w, remains *r, const fl_touching *law, int lat
 }
 
 /* omega^2 of the stiffest contact that anything can make, what makes it, and what damping leaves of its
- * critical step: of what stands on edges, and is round between two others, as well or not. */
-static double stiffest_contact(const fl_world *w, int edges, int32_t *body, remains *left)
+ * critical step: of what stands on edges, and is round between two others, as well or not.  bonds: how many
+ * times theirs counts beside that of a contact. */
+static double stiffest_contact(const fl_world *w, int edges, double bonds, int32_t *body, remains *left)
 {
     const worst met = worst_of(w);
     double most = 0.0, ridden = 0.0;
-    *left = (remains){.one = 1.0, .many = 1.0, .alone = 0.5, .measured = 0.5};
+    *left = (remains){
+        .one = 1.0, .many = 1.0, .alone = 0.5, .measured = 0.5, .frozen = 0.5, .frozen_measured = 0.5};
     *body = -1;
     for (int32_t i = 0; i < w->n; i++) {
         const int round = w->b.core[i].nv < 2;
@@ -271,7 +274,7 @@ static double stiffest_contact(const fl_world *w, int edges, int32_t *body, rema
         const double soft = faces ? softest_face(w, i) : softest(w, i);
         double drawn;
         const double omega2 = 2.0 * places * stiffest * soft + fl_world_spring(w, i, &drawn) * w->b.invm[i] +
-                              fl_frozen_most(w, i);
+                              bonds * fl_frozen_most(w, i);
         if (omega2 > most) {
             most = omega2;
             *body = i;
@@ -284,16 +287,16 @@ static double stiffest_contact(const fl_world *w, int edges, int32_t *body, rema
             *body = w->b.total + m;
         }
     }
-    for (int32_t k = 0; k < w->frozen.n; k++)
-        left->one = fmin(left->one, fl_damping_left(0.5 * w->frozen.bond[k].damping * sqrt(most)));
-    if (w->frozen.n) {
-        left->alone = fmin(left->alone, 0.5 * left->one);
-        left->measured = fmin(left->measured, 0.8 * left->one);
+    for (int32_t k = 0; k < w->frozen.n; k++) {
+        const double one = fl_damping_left(0.5 * w->frozen.bond[k].damping * sqrt(most));
+        left->one = fmin(left->one, one), left->frozen = fmin(left->frozen, 0.5 * one);
+        left->frozen_measured = fmin(left->frozen_measured, 0.8 * one);
     }
     return most;
 }
 
-/* The part of the critical step that is taken: what the scene asks for, bounded by what damping leaves. */
+/* The part of the critical step that is taken: what the scene asks for, bounded by what damping leaves; of
+ * contacts, and of bonds. */
 static double share_of(const fl_world *w, const remains *left)
 {
     const fl_scene_run *run = &w->scene->run;
@@ -301,35 +304,64 @@ static double share_of(const fl_world *w, const remains *left)
     return fmin(run->safety, fmin(left->alone, left->many));
 }
 
+static double share_of_bonds(const fl_world *w, const remains *left)
+{
+    const fl_scene_run *run = &w->scene->run;
+    return run->error > 0.0 ? left->frozen_measured : fmin(run->safety, left->frozen);
+}
+
 double fl_world_critical(const fl_world *w)
 {
     int32_t body;
     remains left;
-    const double most = stiffest_contact(w, 0, &body, &left);
+    const double most = stiffest_contact(w, 0, 1.0, &body, &left);
     return most > 0.0 ? 2.0 / sqrt(most) : INFINITY;
 }
 
+/* (omega dt/2)^2 of what acts on one body adds up, also where each is to be a part of 1 of its own: with the
+ * shares c and b of contacts and bonds 1/dt^2 = (C/c^2 + B/b^2)/4.  So a body keeps to c when all its bonds
+ * have ended, to b while nothing touches it, and is stable with any part of both. */
 double fl_world_dt(const fl_world *w, int32_t *body)
 {
-    remains left;
-    const double most = stiffest_contact(w, 0, body, &left);
+    remains left, same;
+    double most = stiffest_contact(w, 0, 1.0, body, &left);
     if (most == 0.0) return INFINITY;
-    return share_of(w, &left) * 2.0 / sqrt(most);
+    const double touching = share_of(w, &left), less = touching / share_of_bonds(w, &left);
+    if (w->frozen.n && less != 1.0) most = stiffest_contact(w, 0, less * less, body, &same);
+    return touching * 2.0 / sqrt(most);
+}
+
+fl_foreseen fl_world_foreseen(const fl_world *w)
+{
+    int32_t body;
+    remains left;
+    const double most = stiffest_contact(w, 0, 1.0, &body, &left);
+    if (most == 0.0) return (fl_foreseen){.critical = INFINITY, .touching = 1.0};
+    fl_foreseen f = {.critical = 2.0 / sqrt(most), .touching = share_of(w, &left)};
+    const double same = f.touching * f.critical, dt = fl_world_dt(w, &body);
+    if (w->frozen.n) f.spared = 1.0 / (same * same) - 1.0 / (dt * dt);
+    return f;
+}
+
+double fl_foreseen_dt(const fl_foreseen *f, double seen)
+{
+    const double same = f->touching * seen;
+    return seen < f->critical ? same / sqrt(1.0 - f->spared * same * same) : INFINITY;
 }
 
 double fl_world_damped(const fl_world *w)
 {
     int32_t body;
     remains left;
-    return stiffest_contact(w, 0, &body, &left) > 0.0 ? left.one : 1.0;
+    return stiffest_contact(w, 0, 1.0, &body, &left) > 0.0 ? left.one : 1.0;
 }
 
 double fl_world_across(const fl_world *w)
 {
     int32_t body;
     remains along, left;
-    if (stiffest_contact(w, 0, &body, &along) == 0.0) return 1.0;
-    stiffest_contact(w, 1, &body, &left);
+    if (stiffest_contact(w, 0, 1.0, &body, &along) == 0.0) return 1.0;
+    stiffest_contact(w, 1, 1.0, &body, &left);
     return left.one / along.one;
 }
 

@@ -10,8 +10,25 @@
  * contact leaves, or 0.8 of it where an impact is all that it leaves less for, or to what it leaves where
  * bodies are held between many (S20 to S25 of verify_step).  Under run.error the longest that windows can be
  * trusted at: half of 2/omega, and of what an impact leaves a quarter, or up to 0.8 of it where that is below
- * 0.12 of 2/omega or little is damped. */
+ * 0.12 of 2/omega or little is damped.
+ *
+ * All that is of contacts.  Bonds, of which omega^2 has all that a body ever has, keep to safety, to half of
+ * what their own dashpots leave, and by run.error to 0.8 of that, half of 2/omega at the most; with c and b
+ * the shares that contacts and bonds so keep to and C, B their omega^2,
+ *     dt = 2/sqrt(C/c^2 + B/b^2)                                              (S34, S35 of verify_step).
+ * So what has broken to rubble takes no longer step than if it had never been frozen together. */
 double fl_world_dt(const fl_world *w, int32_t *body);
+
+/* What is foreseen: 2/omega [s], c, and by how much 1/dt^2 of fl_world_dt() is less than if bonds kept to c
+ * as well [1/s2], 0 where there are none. */
+typedef struct {
+    double critical, touching, spared;
+} fl_foreseen;
+fl_foreseen fl_world_foreseen(const fl_world *w);
+
+/* The longest step where 2/omega is seen to be that, what is stiffer than foreseen being contacts: without
+ * bonds c times as much.  INFINITY: nothing is, and it is fl_world_dt() that bounds the step. */
+double fl_foreseen_dt(const fl_foreseen *f, double seen);
 
 /* What it is a part of: 2/omega, without damping [s]. */
 double fl_world_critical(const fl_world *w);

@@ -2,6 +2,7 @@
 /* The critical step that a run watches, against the highest frequency that the contacts really have. */
 #include <math.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "law/damping.h"
 #include "step/balls.h"
@@ -425,16 +426,58 @@ typedef struct {
     const char *name;
     fl_vec3 half; /* of a box; 0: spheres of 0.1 m, of which a layer lies in the gaps of the one before */
     int count[3];
+    int lines;             /* that they touch along, frozen together in place of that */
+    double young, damping; /* E of the bonds [Pa], and of their damping */
 } heaped;
 
-static const heaped PACK = {"spheres with twelve neighbours", {0, 0, 0}, {5, 6, 3}},
-                    SHEET = {"spheres with six neighbours", {0, 0, 0}, {5, 6, 1}},
-                    CUBES = {"cubes", {0.2, 0.2, 0.2}, {4, 4, 4}},
-                    FLOES = {"square floes", {0.2, 0.2, 0.1}, {4, 4, 1}},
-                    SLABS = {"slabs in a stack", {0.5, 0.4, 0.2}, {1, 1, 7}},
-                    PILLARS = {"pillars in a row", {0.25, 0.25, 1.0}, {9, 1, 1}};
+static const heaped PACK = {"spheres with twelve neighbours", {0, 0, 0}, {5, 6, 3}, 0, 0.0, 0.0},
+                    SHEET = {"spheres with six neighbours", {0, 0, 0}, {5, 6, 1}, 0, 0.0, 0.0},
+                    CUBES = {"cubes", {0.2, 0.2, 0.2}, {4, 4, 4}, 0, 0.0, 0.0},
+                    FLOES = {"square floes", {0.2, 0.2, 0.1}, {4, 4, 1}, 0, 0.0, 0.0},
+                    SLABS = {"slabs in a stack", {0.5, 0.4, 0.2}, {1, 1, 7}, 0, 0.0, 0.0},
+                    PILLARS = {"pillars in a row", {0.25, 0.25, 1.0}, {9, 1, 1}, 0, 0.0, 0.0};
 
 enum { APART = 5 }; /* [m] cell where nothing repeats */
+
+/* In close packing all pairs lie along six lines: which one, of three in a layer and three to the next; of
+ * boxes along three. */
+static int line_of(const heaped *h, fl_vec3 off, double d)
+{
+    if (h->half.x > 0.0) return fabs(off.x) > 0.5 * d ? 0 : fabs(off.y) > 0.5 * d ? 1 : 2;
+    const int up = fabs(off.z) > 0.1 * d;
+    const fl_vec3 one = v3_scale((up                ? off.z
+                                  : off.y > 0.1 * d ? 1.0
+                                                    : off.y + 0.1 * d) < 0.0
+                                     ? -1.0
+                                     : 1.0,
+                                 off);
+    const double turn = atan2(one.y, one.x) / PI;
+    return up ? 3 + (int)(1.5 * (turn < 0.0 ? turn + 2.0 : turn)) : (int)lround(3.0 * fabs(turn)) % 3;
+}
+
+/* Bonds of the pairs along so many of the lines, those between cells among them; the others touch, and hold
+ * each other as before. */
+static void freeze(lab *l, const heaped *h, double d)
+{
+    const fl_vec3 L = v3_sub(l->scene.boundary.max, l->scene.boundary.min);
+    fl_err err = {0};
+    lab_set(l, "run.safety=1");
+    lab_set(l, "bond.on=true");
+    lab_set(l, "bond.normal_strength=none");
+    lab_set(l, "bond.shear_strength=none");
+    lab_setf(l, "bond.young=%g", h->young);
+    lab_setf(l, "bond.damping=%g", h->damping);
+    for (int32_t i = 0; i < l->field.n; i++)
+        for (int32_t j = i + 1; j < l->field.n; j++) {
+            const fl_vec3 at = l->field.core[i].v[0];
+            fl_vec3 off = v3_sub(l->field.core[j].v[0], at);
+            off = v3(off.x - L.x * round(off.x / L.x), off.y - L.y * round(off.y / L.y),
+                     off.z - L.z * round(off.z / L.z));
+            if (v3_norm(off) > 1.001 * d || line_of(h, off, d) >= h->lines) continue;
+            if (fl_field_add_bond(&l->field, i, j, 0.25 * PI * d * d, d, v3_madd(at, 0.5, off), &err))
+                exit(1);
+        }
+}
 
 static void heap_up(lab *l, const heaped *h, double friction, double e)
 {
@@ -457,6 +500,7 @@ static void heap_up(lab *l, const heaped *h, double friction, double e)
         if (boxes) lab_box(l, at, h->half, 0.03, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         else lab_sphere(l, v3_add(at, v3(aside * d, along * by.y, 0)), r, v3(0, 0, 0), v3(0, 0, 0));
     }
+    if (h->lines > 0) freeze(l, h, boxes ? by.x : d);
     lab_make(l, 1e-12);
 }
 
@@ -468,8 +512,10 @@ static double automatic(lab *l, const heaped *h, int measured)
     if (h->half.x == 0.0) w->b.v[0].x = sqrt(0.8 * lab_look(w, 0, 1).k * pow(1e-3, 2.5) / w->b.m[0]);
     lab_set(l, measured ? "run.error=0.01" : "run.error=none");
     const double dt = fl_world_dt(w, &body), share = dt / fl_world_critical(w) * fl_world_across(w);
+    const fl_foreseen foreseen = fl_world_foreseen(w);
     w->b.v[0].x = 0.0;
-    return measured ? share * w->dt_critical : dt;
+    if (!measured) return dt;
+    return w->frozen.n ? fmin(dt, fl_foreseen_dt(&foreseen, w->dt_critical)) : share * w->dt_critical;
 }
 
 /* Whether a push of all in all directions dies away where they have been laid, and never came near. */
@@ -508,8 +554,57 @@ static void between_many(const char *id, const heaped *h, double friction, doubl
     verify_note("%s pressed into one another, friction %g, e = %g: stable up to %.3g of the automatic step, "
                 "%.3g of that with run.error",
                 h->name, friction, e, lo / taken, lo / most);
+    if (h->lines > 0)
+        verify_note("  along %d lines frozen together in place of that, by %g Pa and damped by %g", h->lines,
+                    h->young, h->damping);
     verify_below(id, "the automatic step over the largest that is stable", taken / lo, 1.0);
     verify_below(id, "that with run.error over the largest that is stable", most / lo, 1.0);
+}
+
+/* Part of the pairs of a pack of spheres, and of cubes, are frozen together, from a sixth to all but that, by
+ * what is soft beside their contacts, as stiff, and stiff. */
+static void half_frozen(const char *id, double e)
+{
+    static const int LINES[] = {1, 3, 5}, CUBIC[] = {1, 2, 2};
+    static const double YOUNG[] = {1e6, 2e7, 1e9}, DAMPING[] = {0.0, 0.3};
+    for (int s = 0; s < 3; s++)
+        for (int y = 0; y < 3; y++)
+            for (int d = 0; d < 2; d++) {
+                if ((s + y + d) % 3) continue;
+                heaped pack = PACK, cubes = CUBES;
+                pack.lines = LINES[s], cubes.lines = CUBIC[s];
+                pack.young = cubes.young = YOUNG[y], pack.damping = cubes.damping = DAMPING[d];
+                between_many(id, &pack, 0.5, e);
+                between_many(id, &cubes, 0.5, e);
+            }
+}
+
+/* What is all frozen together takes the step that its bonds ask for, whatever the damping of what may come
+ * to touch; and none that its rubble would not have taken, had it never been frozen together. */
+static void all_frozen(const char *id, double e)
+{
+    static const double YOUNG[] = {1e4, 1e6, 1e8, 1e10};
+    double rubble = 0.0, share = 0.0;
+    for (int y = -1; y < 4; y++) {
+        heaped h = PACK;
+        lab l;
+        if (y >= 0) h.lines = 6, h.young = YOUNG[y];
+        heap_up(&l, &h, 0.5, e);
+        lab_set(&l, "run.safety=0.2");
+        const double dt = automatic(&l, &h, 0);
+        share = dt / fl_world_critical(&l.w);
+        lab_free(&l);
+        if (y < 0) {
+            rubble = dt;
+            continue;
+        }
+        verify_note("bonds of %g Pa, e = %g: the automatic step is %.3g of that of what was never frozen "
+                    "together",
+                    h.young, e, dt / rubble);
+        verify_below(id, "the step over that of rubble", dt / rubble, 1.0);
+        if (y == 0) verify_below(id, "and of soft bonds hardly less", rubble / dt, 1.01);
+    }
+    verify_below(id, "run.safety over the share that stiff bonds take", 0.2 / share, 1.01);
 }
 
 /* Rough spheres in close packing between walls, which sink into one another by their weight: what the floor
@@ -644,6 +739,11 @@ int main(void)
         between_many("S23", &FLOES, 0.5, MANY[k]);
         between_many("S24", &SLABS, 0.5, MANY[k]);
         between_many("S24", &PILLARS, 0.5, MANY[k]);
+    }
+    static const double FROZEN[] = {0.0, 0.3, 1.0};
+    for (size_t k = 0; k < sizeof FROZEN / sizeof *FROZEN; k++) {
+        all_frozen("S35", FROZEN[k]);
+        if (!verify_quick() || k < 2) half_frozen("S34", FROZEN[k]);
     }
     if (!verify_quick()) {
         shaken("S16", &POST, 0.0);

@@ -90,6 +90,8 @@ static void step_origin(struct run *r, double automatic)
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
+    else if (r->w->frozen.n && automatic / r->limit > fl_world_foreseen(r->w).touching * (1.0 + ROUNDING))
+        snprintf(to, n, "bonds and contacts, %.3g of the critical %.4g s", automatic / r->limit, r->limit);
     else if (automatic / r->limit < s->safety * (1.0 - ROUNDING))
         damped_origin(to, n, automatic / r->limit, left, r->limit);
     else snprintf(to, n, "run.safety, %.3g of the critical %.4g s", s->safety, r->limit);
