@@ -356,7 +356,10 @@ static int free_only(const motion_check *c, const char *name, fl_vec3 x, uint32_
 static int check_motion(const motion_check *c, const fl_scene_motion *m)
 {
     const uint32_t turns = m->free >> 3;
-    const double I[] = {m->inertia.x, m->inertia.y, m->inertia.z};
+    const double I[] = {m->inertia.x, m->inertia.y, m->inertia.z},
+                 D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z},
+                 spring[] = {m->stiffness.x + m->period.x, m->stiffness.y + m->period.y,
+                             m->stiffness.z + m->period.z}; /* which of them have one */
     if (m->track[0] && (v3_some(m->velocity) || v3_some(m->spin)))
         return motion_fail(c, "track", "velocity and spin are given as well, one of the two was wanted");
     if (m->free && v3_some(m->spin))
@@ -371,6 +374,11 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
         return motion_fail(c, "period", "stiffness is given as well, one of the two was wanted");
     if (v3_some(m->damping) && v3_some(m->damping_ratio))
         return motion_fail(c, "damping_ratio", "damping is given as well, one of the two was wanted");
+    if (m->hydrostatic && m->period.z > 0.0)
+        return motion_fail(c, "period", "the sea draws it back along z as well, a stiffness was wanted");
+    for (int k = 0; k < 3; k++)
+        if (D[k] > 0.0 && !(spring[k] > 0.0 || (k == 2 && m->hydrostatic)))
+            return motion_fail(c, "damping_ratio", "a direction without a spring has no critical damping");
     if ((m->free & 7u) && m->mass == 0.0)
         return motion_fail(c, "mass", "free directions have a mass, and none is given");
     if (!(m->free & 7u) && m->mass != 0.0)

@@ -10,23 +10,29 @@ static int moves(const fl_scene_motion *m)
     return v3_some(m->velocity) || v3_some(m->spin) || m->track[0] || m->free;
 }
 
-/* Springs and dampers of a scene's motion; c = 2 D sqrt(k m) along x y z. */
+/* Springs of a scene's motion. */
 static void hang(fl_motion *out, const fl_scene_motion *m)
 {
     const double T[] = {m->period.x, m->period.y, m->period.z},
                  k[] = {m->stiffness.x, m->stiffness.y, m->stiffness.z},
-                 kt[] = {m->turn_stiffness.x, m->turn_stiffness.y, m->turn_stiffness.z},
-                 D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z};
-    double c[3] = {m->damping.x, m->damping.y, m->damping.z};
+                 kt[] = {m->turn_stiffness.x, m->turn_stiffness.y, m->turn_stiffness.z};
     for (int i = 0; i < 3; i++) {
         const double w = T[i] > 0.0 ? 2.0 * PI / T[i] : 0.0;
         out->K[i][i] = k[i] + m->mass * w * w;
         out->K[3 + i][3 + i] = kt[i];
-        if (D[i] > 0.0) c[i] = 2.0 * D[i] * sqrt(out->K[i][i] * m->mass);
     }
     out->K[2][3] = out->K[3][2] = m->coupling.x;
     out->K[2][4] = out->K[4][2] = m->coupling.y;
     out->K[3][4] = out->K[4][3] = m->coupling.z;
+}
+
+/* Dashpots beside all springs there are, those of the sea with them: c = 2 D sqrt(k m) along x y z. */
+static void damp(fl_motion *out, const fl_scene_motion *m)
+{
+    const double D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z};
+    double c[3] = {m->damping.x, m->damping.y, m->damping.z};
+    for (int i = 0; i < 3; i++)
+        if (D[i] > 0.0) c[i] = 2.0 * D[i] * sqrt(out->K[i][i] * m->mass);
     out->c = v3(c[0], c[1], c[2]);
     out->ct = m->turn_damping;
 }
@@ -67,8 +73,9 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *of, cons
                      .inertia = m->inertia};
     hang(&out, m);
     char key[3 * FL_SCENE_NAME];
-    if ((m->hydrostatic && float_it(w, w->ride.m.n, &out, surface, of, err)) ||
-        (m->track[0] && fl_track_read(&out.track, m->track, m->between == FL_BETWEEN_CUBIC, err)) ||
+    if (m->hydrostatic && float_it(w, w->ride.m.n, &out, surface, of, err)) return -1;
+    damp(&out, m);
+    if ((m->track[0] && fl_track_read(&out.track, m->track, m->between == FL_BETWEEN_CUBIC, err)) ||
         fl_movers_add(&w->ride.m, &out, err) < 0) {
         fl_track_free(&out.track);
         return -1;

@@ -107,6 +107,27 @@ static void the_step_knows_mass_and_springs(void **state)
     assert_near(dt[1], 0.1 * 2.0 / sqrt(1e13 / 1000), 1e-2);
 }
 
+/* A box that floats, on a spring of its own besides. */
+static void the_sea_counts_in_critical_damping(void **state)
+{
+    const double D = 0.05, m = 1025.0 * 2 * 2 * 1, k = 3e4;
+    lab l;
+    (void)state;
+    lab_start(&l);
+    lab_sphere(&l, v3(100, 0, 0), 0.1, ZERO, ZERO);
+    lab_wall(&l, v3(-1, -1, -1), v3(1, 1, 1), 1);
+    lab_set(&l, "water.density=1025");
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "structure.free=z");
+    lab_setf(&l, "structure.mass=%.17g", m);
+    lab_setf(&l, "structure.stiffness=0 0 %.17g", k);
+    lab_setf(&l, "structure.damping_ratio=0 0 %.17g", D);
+    lab_set(&l, "structure.hydrostatic=mesh");
+    lab_make(&l, 1e-3);
+    assert_near(l.w.ride.m.motion[0].c.z, 2 * D * sqrt((k + 1025 * 9.81 * 4) * m), 1e-13);
+    lab_free(&l);
+}
+
 static void complaints(void **state)
 {
     static const struct {
@@ -122,6 +143,11 @@ static void complaints(void **state)
          "stiffness is given as well, one of the two was wanted"},
         {{"structure.free=x", "structure.mass=1", "structure.damping=1 0 0", "structure.damping_ratio=1 0 0"},
          "damping is given as well"},
+        {{"structure.free=x y", "structure.mass=1", "structure.stiffness=1 0 0",
+          "structure.damping_ratio=0.1 0.1 0"},
+         "damping_ratio: a direction without a spring has no critical damping"},
+        {{"structure.free=z", "structure.mass=1", "structure.period=0 0 1", "structure.hydrostatic=mesh"},
+         "period: the sea draws it back along z as well, a stiffness was wanted"},
         {{"structure.free=x", "structure.mass=1", "structure.spin=0 0 1"}, "what is free is not spun"},
         {{"structure.track=a", "structure.velocity=1 0 0"}, "velocity and spin are given as well"},
         {{"structure.free=x", "structure.mass=1", "structure.hydrostatic=mesh"}, "it bears on z, rx and ry"},
@@ -163,6 +189,7 @@ int main(void)
                                        cmocka_unit_test(each_part_moves_as_its_section_says),
                                        cmocka_unit_test(columns_tell_turn_and_acceleration),
                                        cmocka_unit_test(the_step_knows_mass_and_springs),
+                                       cmocka_unit_test(the_sea_counts_in_critical_damping),
                                        cmocka_unit_test(complaints)};
     return cmocka_run_group_tests_name("ride", tests, NULL, NULL);
 }
