@@ -579,7 +579,14 @@ static int run(struct options *o, fl_err *err)
         rc = rubble_run(o, err);
         goto done;
     }
-    if (o->ridges && !(o->block > 0.0)) o->block = o->thickness;
+    if (o->ridges && !(o->block > 0.0)) {
+        if (a->depth.law.kind != FL_THICKNESS_SAME) {
+            fl_fail(err, FL_USAGE,
+                    "--ridge in ice whose thickness is a law needs the size of its blocks, --block");
+            goto done;
+        }
+        o->block = o->thickness;
+    }
     if (make_rafts(o, a, err)) goto done;
     tell(o, "writing");
     if (write_field(o, a, o->layers, err)) goto done;
