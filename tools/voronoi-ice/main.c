@@ -471,7 +471,8 @@ static void forget_cells(struct field *a)
 
 static int make_layer(struct options *o, struct field *a, fl_err *err)
 {
-    if (water_make(&a->water, o, err) || (o->sizes && sizing_ask(&a->sizing, o, a->water.area, err)))
+    if (water_make(&a->water, o, a->depth.most, err) ||
+        (o->sizes && sizing_ask(&a->sizing, o, a->water.area, err)))
         return -1;
     if (o->sizes ? make_sized(o, a, err) : make_cells(o, a, err) || shrink(o, a, err)) return -1;
     a->name = fl_alloc(a->cells.n, sizeof *a->name, err);

@@ -47,17 +47,17 @@ static int add_lead(fl_domain *d, const double *x, fl_err *err)
     return fl_domain_add(d, 4, v, err);
 }
 
-/* What the ice would touch: the structure from the bottom of the ice to its top. */
-static int add_structure(struct water *w, fl_domain *d, const struct options *o, const char *path,
+/* What ice of thickness h would touch: the structure from the bottom of the ice to its top. */
+static int add_structure(struct water *w, fl_domain *d, const struct options *o, double h, const char *path,
                          fl_err *err)
 {
-    const double draft = o->thickness * (o->ice_density / o->water_density);
+    const double draft = h * (o->ice_density / o->water_density);
     const double coarse = WATER_COARSE * sqrt(o->size.x * o->size.y / o->floes);
     fl_surface s = {0};
     int32_t kept = 0;
     int rc;
     if (fl_gstruct_read(&s, path, err)) return -1;
-    rc = fl_section_keep_out(d, &s, -draft, o->thickness - draft, o->margin, coarse, &kept, err);
+    rc = fl_section_keep_out(d, &s, -draft, h - draft, o->margin, coarse, &kept, err);
     w->kept += kept;
     fl_surface_free(&s);
     return rc;
@@ -79,7 +79,7 @@ static void centre(struct water *w, struct options *o)
 }
 
 /* What is not ice in the field. */
-static int add_open(struct water *w, fl_domain *d, const struct options *o, fl_err *err)
+static int add_open(struct water *w, fl_domain *d, const struct options *o, double h, fl_err *err)
 {
     for (int k = 0; k < o->leads; k++)
         if (add_lead(d, o->lead[k], err)) return -1;
@@ -88,23 +88,23 @@ static int add_open(struct water *w, fl_domain *d, const struct options *o, fl_e
         if (add_lead(d, x, err)) return -1;
     }
     for (int k = 0; k < o->structures; k++)
-        if (add_structure(w, d, o, o->structure[k], err)) return -1;
+        if (add_structure(w, d, o, h, o->structure[k], err)) return -1;
     return 0;
 }
 
-int water_make(struct water *w, struct options *o, fl_err *err)
+int water_make(struct water *w, struct options *o, double h, fl_err *err)
 {
     const int open = o->leads || o->ridges || o->structures;
     w->on = o->outline || o->disc[0] > 0.0 || (open && !o->sizes);
     w->area = o->size.x * o->size.y;
     w->shift = (fl_vec2){o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
-    if (!w->on) return open ? add_open(w, &w->gone, o, err) : 0;
+    if (!w->on) return open ? add_open(w, &w->gone, o, h, err) : 0;
     if (o->outline         ? fl_domain_read(&w->d, o->outline, err)
         : o->disc[0] > 0.0 ? add_disc(&w->d, o, err)
                            : add_rectangle(&w->d, o, err))
         return -1;
     o->size = (fl_vec2){w->d.hi.x - w->d.lo.x, w->d.hi.y - w->d.lo.y};
-    if (add_open(w, o->sizes ? &w->gone : &w->d, o, err)) return -1;
+    if (add_open(w, o->sizes ? &w->gone : &w->d, o, h, err)) return -1;
     centre(w, o);
     if (fl_domain_ready(&w->d, err)) return -1;
     if (fl_domain_convex(&w->d)) w->area = fl_polygon_area(w->d.corners, w->d.v);

@@ -26,9 +26,9 @@ struct water {
 };
 
 /* Read and put together what the options name; an outline settles o->size and o->origin.  The area is not
- * known yet.  Floes of given sizes are not cut: leads, ridges and structures take them out whole.  Returns 0,
- * or -1 with FL_INPUT or FL_SYSTEM. */
-int water_make(struct water *w, struct options *o, fl_err *err);
+ * known yet.  Floes of given sizes are not cut: leads, ridges and structures take them out whole.  h is how
+ * thick the ice is at most [m].  Returns 0, or -1 with FL_INPUT or FL_SYSTEM. */
+int water_make(struct water *w, struct options *o, double h, fl_err *err);
 
 /* What sites and power diagrams are made in: the rectangle, or the outline when it is convex and whole. */
 fl_outline water_outline(const struct water *w, const struct options *o);
