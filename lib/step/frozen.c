@@ -235,7 +235,10 @@ void fl_frozen_enter(const fl_world *w, fl_pair *p)
 void fl_frozen_return(fl_world *w, fl_pair *p, double R, double distance)
 {
     const double keep = R > 0.0 ? distance / R : 1.0;
-    if (keep > p->keep) p->keep = keep < 1.0 ? keep : 1.0;
+    if (keep > p->keep) {
+        p->keep = keep < 1.0 ? keep : 1.0;
+        if (p->matches) p->matches->shift2 = 0.0; /* what is listed knows the radii */
+    }
     w->frozen.keep[p->bond - 1] = p->keep;
 }
 

@@ -305,6 +305,57 @@ static void rows_that_were_are_not_seen(void **state)
     lab_free(&l);
 }
 
+/* Two boxes that are frozen together while their roundings lie in one another. */
+static void frozen_deep(lab *l)
+{
+    fl_err err = {0};
+    lab_start(l);
+    lab_set(l, "bond.on=true");
+    lab_set(l, "material.ice.young=1e7");
+    for (int k = 0; k < 2; k++)
+        lab_box(l, v3(0.99 * k, 0, 0.1 * k), v3(0.5, 0.4, 0.3), 0.02, q_about(0, 0.02 * k), v3(0, 0, 0),
+                v3(0, 0, 0));
+    assert_int_equal(fl_field_add_bond(&l->field, 0, 1, 0.4, 1.0, v3(0.495, 0, 0), &err), 0);
+    lab_make(l, 1e-4);
+}
+
+/* Their bond ends; they part and meet, and part farther and meet again, by which their radii come back in
+ * between, before what is near has to be listed anew: what was listed for smaller radii is not seen. */
+static void radii_that_were_are_not_seen(void **state)
+{
+    static const struct {
+        double v; /* [m/s] */
+        int64_t steps;
+        int touch;
+    } WAY[] = {{0.02, 5, 0}, {-0.02, 10, 1}, {0.02, 20, 0}, {-0.02, 25, 1}};
+    lab whole, l;
+    fl_err err = {0};
+    size_t n = 0;
+    double keep = 0.0;
+    (void)state;
+    frozen_deep(&whole);
+    frozen_deep(&l);
+    fl_bond_end(&whole.w.frozen.bond[0]);
+    whole.w.frozen.ended = 1;
+    for (size_t k = 0; k < sizeof WAY / sizeof *WAY; k++) {
+        whole.w.b.v[1] = v3(WAY[k].v, 0, 0);
+        fl_body_derive(&whole.w.b, 1);
+        assert_int_equal(lab_run(&whole, WAY[k].steps), 0);
+        assert_int_equal(whole.w.n_pair, 1);
+        assert_int_equal(whole.w.pair[0].n, WAY[k].touch);
+        if (k == 1) keep = whole.w.pair[0].full->keep;
+    }
+    assert_true(keep > 0.0 && whole.w.pair[0].full->keep > keep && whole.w.pair[0].full->keep < 1.0);
+    char *text = snapshot(&whole.w, &n);
+    assert_int_equal(put_back(&l.w, text, n, &err), 0);
+    free(text);
+    assert_int_equal(lab_run(&whole, 5), 0);
+    assert_int_equal(lab_run(&l, 5), 0);
+    same(&whole.w, &l.w, "patch", whole.w.step - 5);
+    lab_free(&whole);
+    lab_free(&l);
+}
+
 static void what_is_no_state_is_refused(void **state)
 {
     static const struct {
@@ -366,6 +417,7 @@ int main(void)
                                        cmocka_unit_test(a_state_stays_what_it_is),
                                        cmocka_unit_test(a_step_that_begins_anew_finds_the_water_it_had),
                                        cmocka_unit_test(rows_that_were_are_not_seen),
+                                       cmocka_unit_test(radii_that_were_are_not_seen),
                                        cmocka_unit_test(what_is_no_state_is_refused)};
     return cmocka_run_group_tests_name("restart", tests, NULL, NULL);
 }
