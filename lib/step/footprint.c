@@ -43,10 +43,9 @@ static double water(const fl_sea *s)
         sum += hull(&s->hull[i]);
         const fl_poly *const outer = fl_sea_outer(s, i);
         if (outer) sum += (double)sizeof *outer + fl_poly_bytes(outer);
-        if (s->skin) {
-            const int32_t most = fl_skin_most(&s->hull[i]);
-            sum += ARRAY(s->skin[i].wet, most) + ARRAY(s->skin[i].dry, most);
-        }
+        if (s->skin)
+            sum += fl_facets_bytes(&s->skin[i].facets, &s->hull[i]) + fl_patches_bytes(&s->skin[i].wet) +
+                   fl_patches_bytes(&s->skin[i].dry);
         if (s->waves) sum += ARRAY(s->tiles[i].face, s->tiles[i].n) + ARRAY(s->tiles[i].v, 3 * s->tiles[i].n);
     }
     return sum;

@@ -157,7 +157,7 @@ static void begin_few(fl_world *w, crew *c, double h)
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
-    const int calm = sea->n && fl_calm_drags(sea), kicks = b->added || sea->waves;
+    const int kicks = b->added || sea->waves;
     const int32_t *was = w->was.place, *at = c->at, n = c->n;
     int32_t busy[FL_FEW], many = 0, any = 0;
     fl_gain before[FL_FEW];
@@ -171,14 +171,13 @@ static void begin_few(fl_world *w, crew *c, double h)
         many += was[at[k]] != 0;
     }
     for (int32_t k = 0; k < many; k++) before[k] = speeds_of(b, at[busy[k]]);
-    for (int32_t k = 0; k < n && sea->n && !calm; k++) fl_sea_drag(sea, b, at[k], half_of(w, at[k], h), 0);
     take(w, &s, c, h);
     c->n = 0;
     fl_few_take_forces(&s, b);
     fl_few_take_pose(&s, b);
     water = take_water(w, &s, &along);
-    if (many || kicks) fl_few_axes(&s);
-    if (calm) fl_calm_drag(sea, b, &s, water, 0);
+    if (many || kicks || sea->skin) fl_few_axes(&s);
+    if (sea->n) fl_calm_drag(sea, b, &s, water, 0);
     if (many) fl_few_gains(&s, water, g);
     for (int32_t k = 0; k < many; k++) {
         const int32_t i = at[busy[k]];
@@ -413,7 +412,6 @@ static void end_few(fl_world *w, crew *c, double h)
 {
     fl_bodies *b = &w->b;
     fl_sea *sea = &w->sea;
-    const int calm = sea->n && fl_calm_drags(sea);
     const int32_t *at = c->at, n = c->n;
     int32_t busy[FL_FEW];
     const int32_t many = find_busy(w, c, busy);
@@ -433,9 +431,8 @@ static void end_few(fl_world *w, crew *c, double h)
     water = take_water(w, &s, &along);
     kick_few(w, &s, water);
     find_enders(w, &s, &e);
-    if (calm) fl_calm_drag(sea, b, &s, water, 1);
+    if (sea->n) fl_calm_drag(sea, b, &s, water, 1);
     fl_few_put_speeds(&s, b);
-    for (int32_t k = 0; k < n && sea->n && !calm; k++) fl_sea_drag(sea, b, at[k], s.h[k], 1);
     for (int32_t k = 0; k < e.n; k++) {
         fl_sleep_book(w, at[e.which[k]], e.v[k], e.spin[k]);
         fl_sleep_ended(w, at[e.which[k]]);

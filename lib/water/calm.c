@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <assert.h>
 #include <stddef.h>
+#include <string.h>
 #include "water/calm.h"
 
 /* Of the i-th of a few that goes with v: twice the kinetic energy of its way; */
@@ -97,6 +98,123 @@ static void decay_all(fl_few *a, const fl_few_water *water, const fl_sea *s, con
     fl_few_keep(a, work, sum);
 }
 
+/* decay_of_facets() of sea.c. */
+typedef struct {
+    fl_facet_few few;
+    double I[3][FL_FEW], before[FL_FEW];
+    double has[FL_FEW]; /* 1 where a body has facets that the fluid meets, or 0 */
+} facets;
+
+FL_WIDE_PART void begin_facets(const fl_few *restrict a, const fl_few_water *restrict water,
+                               double (*restrict c)[FL_FEW], const double *restrict held, facets *restrict q)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < a->lanes; i++) {
+        const fl_rows3 R = fl_few_rows(a, i);
+        const fl_vec3 v = FL_FEW_OF(a->v, i), w = FL_FEW_OF(a->w, i), L = FL_FEW_OF(a->L, i);
+        const double m = a->m[i];
+        q->before[i] = 0.5 * (going(a, water, i, v) + v3_dot(w, L)) - held[i];
+        fl_few_set(q->few.y, i, r3_tmul(R, v3_sub(v, FL_FEW_OF(c, i))));
+        fl_few_set(q->few.y + 3, i, r3_tmul(R, w));
+        for (int k = 0; k < 3; k++) {
+            q->few.mass[k][i] = m + (water ? water->added[k][i] : 0.0);
+            q->few.mass[3 + k][i] = q->I[k][i];
+        }
+    }
+}
+
+FL_WIDE_PART void end_facets(fl_few *restrict a, const fl_few_water *restrict water,
+                             double (*restrict c)[FL_FEW], const double *restrict held,
+                             const facets *restrict q, double sign, double *restrict work)
+{
+#pragma omp simd
+    for (int32_t i = 0; i < a->lanes; i++) {
+        const fl_rows3 R = fl_few_rows(a, i);
+        const fl_vec3 v0 = FL_FEW_OF(a->v, i), w0 = FL_FEW_OF(a->w, i), L0 = FL_FEW_OF(a->L, i);
+        const fl_vec3 turn = FL_FEW_OF(q->few.y + 3, i);
+        const fl_vec3 v = v3_add(FL_FEW_OF(c, i), r3_mul(R, FL_FEW_OF(q->few.y, i))), w = r3_mul(R, turn),
+                      L = r3_mul(R, v3_mul(FL_FEW_OF(q->I, i), turn));
+        const double after = 0.5 * (going(a, water, i, v) + v3_dot(w, L)) - held[i];
+        const int has = q->has[i] > 0.0;
+        fl_few_set(a->v, i, v3(has ? v.x : v0.x, has ? v.y : v0.y, has ? v.z : v0.z));
+        fl_few_set(a->w, i, v3(has ? w.x : w0.x, has ? w.y : w0.y, has ? w.z : w0.z));
+        fl_few_set(a->L, i, v3(has ? L.x : L0.x, has ? L.y : L0.y, has ? L.z : L0.z));
+        work[i] += has ? sign * (after - q->before[i]) : 0.0;
+    }
+}
+
+FL_WIDE_VERSIONS static void begin_free(const fl_few *restrict a, double (*restrict c)[FL_FEW],
+                                        const double *restrict held, facets *restrict q)
+{
+    begin_facets(a, NULL, c, held, q);
+}
+
+FL_WIDE_VERSIONS static void begin_wet(const fl_few *restrict a, const fl_few_water *restrict water,
+                                       double (*restrict c)[FL_FEW], const double *restrict held,
+                                       facets *restrict q)
+{
+    begin_facets(a, water, c, held, q);
+}
+
+FL_WIDE_VERSIONS static void end_free(fl_few *restrict a, double (*restrict c)[FL_FEW],
+                                      const double *restrict held, const facets *restrict q, double sign,
+                                      double *restrict work)
+{
+    end_facets(a, NULL, c, held, q, sign, work);
+}
+
+FL_WIDE_VERSIONS static void end_wet(fl_few *restrict a, const fl_few_water *restrict water,
+                                     double (*restrict c)[FL_FEW], const double *restrict held,
+                                     const facets *restrict q, double sign, double *restrict work)
+{
+    end_facets(a, water, c, held, q, sign, work);
+}
+
+/* Those of them whose facets the fluid meets, as decay_all(); air: which fluid. */
+static void decay_facets(fl_few *a, const fl_few_water *water, const fl_sea *s, const fl_bodies *b, int air,
+                         const double *has, double (*c)[FL_FEW], double sign, double *work)
+{
+    _Alignas(64) double of_held[FL_FEW], done[FL_FEW];
+    const fl_facet_law law = air ? fl_sea_law_of_air(s) : fl_sea_law_of_water(s);
+    double *const sum = fl_few_see(a, work, done);
+    const double *const held = fl_few_see(a, b->held, of_held);
+    facets q;
+    memcpy(q.has, has, sizeof q.has);
+    for (int32_t k = 0; k < a->lanes; k++) fl_few_set(q.I, k, b->I[a->at[k]]);
+    if (water) begin_wet(a, water, c, held, &q);
+    else begin_free(a, c, held, &q);
+    for (int32_t k = 0; k < a->lanes; k++) {
+        const fl_sea_skin *skin = &s->skin[a->at[k]];
+        if (k < a->n && has[k] > 0.0) fl_facet_sum(&q.few, k, air ? &skin->dry : &skin->wet, law, a->h[k]);
+        else
+            for (int row = 0; row < FL_DRAG_SUMS; row++) q.few.sum[row][k] = 0.0;
+    }
+    fl_facet_step(&q.few, a->lanes);
+    if (water) end_wet(a, water, c, held, &q, sign, sum);
+    else end_free(a, c, held, &q, sign, sum);
+    fl_few_keep(a, work, sum);
+}
+
+/* Drag on the area that the fluid meets of each, or on its facets where it has such. */
+static void decay_each(fl_few *a, const fl_few_water *water, const fl_sea *s, const fl_bodies *b, int air,
+                       const double *area, double (*c)[FL_FEW])
+{
+    _Alignas(64) double has[FL_FEW], rest[FL_FEW];
+    const fl_fluid *fluid = air ? &s->air : &s->sea;
+    const double sign = air ? 1.0 : -1.0;
+    double *const work = air ? s->blown : s->drained;
+    double many = 0.0, others = 0.0;
+    for (int32_t k = 0; k < a->lanes && s->skin; k++) {
+        const fl_sea_skin *skin = &s->skin[a->at[k]];
+        const int of_skin = (air ? skin->dry.four : skin->wet.four) != NULL;
+        has[k] = of_skin && area[k] > 0.0 ? 1.0 : 0.0;
+        rest[k] = of_skin ? 0.0 : area[k];
+        many += has[k], others += of_skin ? 0.0 : 1.0;
+    }
+    if (!s->skin || others > 0.0) decay_all(a, water, s, b, fluid, s->skin ? rest : area, c, sign, work);
+    if (many > 0.0) decay_facets(a, water, s, b, air, has, c, sign, work);
+}
+
 static void by_water(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water *water)
 {
     _Alignas(64) double c[3][FL_FEW], room[FL_FEW];
@@ -107,7 +225,7 @@ static void by_water(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_wate
         const fl_vec3 u = s->flow[a->at[k]];
         c[0][k] = u.x, c[1][k] = u.y, c[2][k] = u.z;
     }
-    decay_all(a, water, s, b, &s->sea, wetted, c, -1.0, s->drained);
+    decay_each(a, water, s, b, 0, wetted, c);
 }
 
 static void by_wind(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water *water)
@@ -116,7 +234,7 @@ static void by_wind(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water
     alike(c, s->breeze, a->lanes);
     for (int32_t k = 0; k < a->lanes; k++)
         dry[k] = s->hull[a->at[k]].surface - (s->water ? s->wetted[a->at[k]] : 0.0);
-    decay_all(a, water, s, b, &s->air, dry, c, 1.0, s->blown);
+    decay_each(a, water, s, b, 1, dry, c);
 }
 
 void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water *water, int back)
@@ -433,6 +551,11 @@ int32_t fl_calm_force(fl_sea *s, const fl_bodies *b, fl_few *a, int32_t left[FL_
     prisms q;
     const double afloat = s->waves ? ride_on(s, b, a, &q) : rest_on(s, b, a, &q);
     int32_t others = 0;
+    for (int32_t k = 0; k < a->n && s->skin && !s->waves; k++) {
+        if (afloat < a->lanes && !(q.floats[k] > 0.0))
+            continue; /* whoever looks at it sees to that as well */
+        fl_sea_look_at_skin(s, b, a->at[k], FL_FEW_OF(a->R + 6, k), q.level[k]);
+    }
     for (int32_t k = 0; k < a->n && afloat < a->lanes; k++)
         if (!(q.floats[k] > 0.0)) left[others++] = k;
     return others;

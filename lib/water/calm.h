@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* calm.h -- water and wind on a few bodies side by side: what sea.h says, to the bit, of bodies that nothing
- * holds: drag where it goes by the manual's laws, buoyancy where the water is still besides, or waves are
- * held in this step. */
+ * holds: drag, and buoyancy where the water is still or waves are held in this step. */
 #ifndef FL_WATER_CALM_H
 #define FL_WATER_CALM_H
 #include "body/few.h"
 #include "water/sea.h"
 
-/* Whether a sea that there is, is of either kind. */
-static inline int fl_calm_drags(const fl_sea *s) { return !s->skin; }
-static inline int fl_calm_lifts(const fl_sea *s) { return s->waves ? s->held && !s->looks : !s->skin; }
+/* Whether a sea that there is lifts them. */
+static inline int fl_calm_lifts(const fl_sea *s) { return !s->waves || (s->held && !s->looks); }
 
 /* fl_sea_drag() of half a step of each.  water: what moves with them, and then R is wanted; or NULL. */
 void fl_calm_drag(fl_sea *s, const fl_bodies *b, fl_few *a, const fl_few_water *water, int back);

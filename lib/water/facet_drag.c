@@ -1,147 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
 #include "base/wide.h"
 #include "water/facet_drag.h"
-
-int32_t fl_skin_most(const fl_hull *h)
-{
-    const fl_poly *p = h->p;
-    return p->nf ? 3 * (p->first[p->nf] + 2 * p->nf) : 0;
-}
-
-/* The corners of what is left of a face, one after another: the sum of its parts, or its pieces. */
-typedef struct {
-    fl_vec3 n, hub, last, head; /* head: the first corner */
-    int corners;
-    double area;    /* of the fan about hub      */
-    fl_vec3 moment; /* int (x - hub) dA          */
-    fl_skin_piece *out;
-    int32_t pieces, spoke, first; /* the pieces towards the last corner and the first, -1: none yet */
-} outline;
-
-/* Add to the piece *at half way to x from the hub, a new one where that is -1. */
-static void spoke(outline *o, int32_t *at, fl_vec3 x, double area)
-{
-    if (*at < 0) {
-        *at = o->pieces++;
-        o->out[*at] = (fl_skin_piece){.n = o->n, .r = v3_madd(o->hub, 0.5, x)};
-    }
-    o->out[*at].area += area;
-}
-
-static void side(outline *o, fl_vec3 a, fl_vec3 b, int closing)
-{
-    const fl_vec3 x = v3_sub(a, o->hub), y = v3_sub(b, o->hub);
-    const double area = 0.5 * v3_dot(o->n, v3_cross(x, y));
-    o->area += area;
-    o->moment = v3_madd(o->moment, area / 3.0, v3_add(x, y));
-    if (!o->out) return;
-    if (!(area > 0.0)) {
-        o->spoke = -1;
-        if (o->first == -1) o->first = -2; /* then the last triangle has no neighbour there */
-        return;
-    }
-    /* a third each to the middles of the two spokes, which neighbours share, and to that of the rim */
-    spoke(o, &o->spoke, x, area / 3.0);
-    if (o->first == -1) o->first = o->spoke;
-    int32_t next = closing && o->first >= 0 ? o->first : -1;
-    spoke(o, &next, y, area / 3.0);
-    o->spoke = next;
-    next = -1;
-    spoke(o, &next, v3_add(x, y), area / 3.0);
-}
-
-static void corner(outline *o, fl_vec3 x)
-{
-    if (o->corners++) side(o, o->last, x, 0);
-    else o->head = x;
-    o->last = x;
-}
-
-/* Round face f; sign +1 keeps what is below the plane, -1 what is above it. */
-static void walk(const fl_poly *p, int32_t f, fl_vec3 up, double level, double sign, outline *o)
-{
-    const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
-    fl_vec3 from = p->v[at[m - 1]];
-    double s0 = sign * (v3_dot(up, from) - level);
-    for (int32_t k = 0; k < m; k++) {
-        const fl_vec3 to = p->v[at[k]];
-        const double s1 = sign * (v3_dot(up, to) - level);
-        if ((s0 <= 0.0) != (s1 <= 0.0)) corner(o, v3_lerp(from, to, s0 / (s0 - s1)));
-        if (s1 <= 0.0) corner(o, to);
-        from = to;
-        s0 = s1;
-    }
-    if (o->corners > 2) side(o, o->last, o->head, 1);
-}
-
-int32_t fl_skin_pieces(const fl_hull *h, fl_vec3 up, double level, int dry, fl_skin_piece *out)
-{
-    const fl_poly *p = h->p;
-    const double sign = dry ? -1.0 : 1.0;
-    int32_t pieces = 0;
-    for (int32_t f = 0; f < p->nf; f++) {
-        outline whole = {.n = p->n[f], .hub = fl_hull_middles(h)[f]};
-        walk(p, f, up, level, sign, &whole);
-        if (whole.corners < 3 || !(whole.area > 0.0)) continue;
-        outline fan = {.n = p->n[f],
-                       .hub = v3_madd(whole.hub, 1.0 / whole.area, whole.moment),
-                       .out = out + pieces,
-                       .spoke = -1,
-                       .first = -1};
-        walk(p, f, up, level, sign, &fan);
-        pieces += fan.pieces;
-    }
-    return pieces;
-}
-
-/* Solve the symmetric system a x = y of six, lower half of a given (Cholesky).  a is 1 and something that is
- * never negative, so no pivot is below 1, but for rounding where that something is 1e16 times larger. */
-static void solve6(double a[6][6], double *x)
-{
-    for (int i = 0; i < 6; i++) {
-        for (int j = 0; j < i; j++) {
-            double s = a[i][j];
-            for (int l = 0; l < j; l++) s -= a[i][l] * a[j][l];
-            a[i][j] = s / a[j][j];
-        }
-        double s = a[i][i];
-        for (int l = 0; l < i; l++) s -= a[i][l] * a[i][l];
-        a[i][i] = sqrt(fmax(s, 1.0));
-    }
-    for (int i = 0; i < 6; i++) {
-        for (int l = 0; l < i; l++) x[i] -= a[i][l] * x[l];
-        x[i] /= a[i][i];
-    }
-    for (int i = 5; i >= 0; i--) {
-        for (int l = i + 1; l < 6; l++) x[i] -= a[l][i] * x[l];
-        x[i] /= a[i][i];
-    }
-}
-
-/* What pieces add up to: h sum D U and h sum r x D U, then h K, its lower half row by row. */
-enum { TURN = 3, MATRIX = 6, SUMS = MATRIX + 21 };
-
-/* Of four pieces a number each. */
-typedef struct {
-    fl_wide area, n[3], r[3], U[3];
-} pieces;
-
-FL_WIDE_PART void take(pieces *p, const fl_skin_piece *at)
-{
-    fl_wide a[FL_LANES], b[FL_LANES], c[FL_LANES];
-    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++)
-    {
-        a[l] = FL_FOUR(&at[l].area); /* and n */
-        b[l] = FL_FOUR(&at[l].r);
-        c[l] = FL_FOUR(&at[l].r.z); /* and flow */
-    }
-    fl_wide_transpose(a);
-    fl_wide_transpose(b);
-    fl_wide_transpose(c);
-    p->area = a[0];
-    FL_WIDE_UNROLL for (int k = 0; k < 3; k++) p->n[k] = a[k + 1], p->U[k] = c[k + 1];
-    p->r[0] = b[0], p->r[1] = b[1], p->r[2] = c[0];
-}
 
 FL_WIDE_PART void to_roots(fl_wide *x)
 {
@@ -152,77 +12,292 @@ FL_WIDE_PART void to_roots(fl_wide *x)
     *x = FL_FOUR(a);
 }
 
-#define DOT(a, b) (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+#define DOT(a, v) (v.x * a[0] + v.y * a[1] + v.z * a[2])
 
-/* Four pieces, into sums of four each.  skin, form: times h. */
-FL_WIDE_PART void add_four(const fl_skin_piece *at, double skin, double form, fl_vec3 v, fl_vec3 w,
-                           fl_wide *sum)
-{
-    pieces p;
-    take(&p, at);
-    const fl_wide *m = p.n, *r = p.r, *U = p.U;
-    const fl_wide u[3] = {v.x + (w.y * r[2] - w.z * r[1]) - U[0], v.y + (w.z * r[0] - w.x * r[2]) - U[1],
-                          v.z + (w.x * r[1] - w.y * r[0]) - U[2]};
-    const fl_wide un = DOT(u, m), t[3] = {u[0] - un * m[0], u[1] - un * m[1], u[2] - un * m[2]};
-    fl_wide ut = DOT(t, t);
-    to_roots(&ut);
-    const fl_wide s = skin * p.area * ut, b = form * p.area * FL_WIDE_WHERE(un > 0.0, un) - s,
-                  bU = b * DOT(m, U);
-    const fl_wide q[3] = {r[1] * m[2] - r[2] * m[1], r[2] * m[0] - r[0] * m[2], r[0] * m[1] - r[1] * m[0]};
-    const fl_wide d[3] = {s * U[0] + bU * m[0], s * U[1] + bU * m[1], s * U[2] + bU * m[2]};
-    const fl_wide g[6] = {m[0], m[1], m[2], q[0], q[1], q[2]}, sr[3] = {s * r[0], s * r[1], s * r[2]};
-    FL_WIDE_UNROLL for (int i = 0; i < 3; i++) sum[i] += d[i];
-    sum[TURN] += r[1] * d[2] - r[2] * d[1];
-    sum[TURN + 1] += r[2] * d[0] - r[0] * d[2];
-    sum[TURN + 2] += r[0] * d[1] - r[1] * d[0];
-    fl_wide *row = sum + MATRIX;
-#pragma GCC unroll 6
-    for (int i = 0; i < 6; row += ++i) {
-        const fl_wide bg = b * g[i];
-#pragma GCC unroll 6
-        for (int j = 0; j <= i; j++) row[j] += bg * g[j];
-    }
-    fl_wide *a0 = sum + MATRIX, *a1 = a0 + 1, *a2 = a1 + 2, *a3 = a2 + 3, *a4 = a3 + 4, *a5 = a4 + 5;
-    a0[0] += s, a1[1] += s, a2[2] += s;
-    a3[1] -= sr[2], a3[2] += sr[1]; /* (e_i x r).e_j */
-    a4[0] += sr[2], a4[2] -= sr[0];
-    a5[0] -= sr[1], a5[1] += sr[0];
-    a3[3] += sr[1] * r[1] + sr[2] * r[2]; /* r.r - r r^T */
-    a4[3] -= sr[1] * r[0], a4[4] += sr[0] * r[0] + sr[2] * r[2];
-    a5[3] -= sr[2] * r[0], a5[4] -= sr[2] * r[1], a5[5] += sr[0] * r[0] + sr[1] * r[1];
-}
+/* Moments of s and of f over the pieces of four facets, and those with U. */
+typedef struct {
+    fl_wide s, sx, sy, srr, f, fx, fy, fxx, fxy, fyy;
+    fl_wide se, sg, turn, fn, fnx, fny;
+} moments;
 
-FL_FOUR_VERSIONS static void add_up(int32_t n, const fl_skin_piece *piece, double skin, double form,
-                                    fl_vec3 v, fl_vec3 w, double out[SUMS])
+/* u0: at the foot of the origin, x = y = 0; w: both along e, g and n.  skin, form: times h. */
+FL_WIDE_PART void add_rows(moments *to, const fl_patches_row *row, const fl_patches_flow *flow, int32_t rows,
+                           double skin, double form, const fl_wide u0[3], const fl_wide w[3])
 {
     const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
-    fl_wide sum[SUMS];
-    fl_skin_piece rest[FL_LANES] = {{0}};
-    int32_t k = 0;
-    for (int c = 0; c < SUMS; c++) sum[c] = zero;
-    for (; k + FL_LANES <= n; k += FL_LANES) add_four(&piece[k], skin, form, v, w, sum);
-    for (int32_t l = 0; k + l < n; l++) rest[l] = piece[k + l];
-    if (k < n) add_four(rest, skin, form, v, w, sum);
-    for (int c = 0; c < SUMS; c++) out[c] = fl_wide_sum(&sum[c]);
+    moments m = {zero, zero, zero, zero, zero, zero, zero, zero,
+                 zero, zero, zero, zero, zero, zero, zero, zero};
+    for (int32_t k = 0; k < rows; k++) {
+        const fl_wide area = FL_FOUR(row[k].area), x = FL_FOUR(row[k].x), y = FL_FOUR(row[k].y);
+        fl_wide ue = u0[0] - y * w[2], ug = u0[1] + x * w[2], un = u0[2] + (y * w[0] - x * w[1]);
+        if (flow) {
+            ue -= FL_FOUR(flow[k].u[0]);
+            ug -= FL_FOUR(flow[k].u[1]);
+            un -= FL_FOUR(flow[k].u[2]);
+        }
+        fl_wide ut = ue * ue + ug * ug;
+        to_roots(&ut);
+        const fl_wide s = area * ut, f = area * FL_WIDE_WHERE(un > 0.0, un);
+        const fl_wide sx = s * x, sy = s * y, fx = f * x, fy = f * y;
+        m.s += s, m.sx += sx, m.sy += sy, m.srr += x * sx + y * sy;
+        m.f += f, m.fx += fx, m.fy += fy;
+        m.fxx += x * fx, m.fxy += x * fy, m.fyy += y * fy;
+        if (flow) {
+            const fl_wide Ue = FL_FOUR(flow[k].u[0]), Ug = FL_FOUR(flow[k].u[1]), Un = FL_FOUR(flow[k].u[2]);
+            m.se += s * Ue, m.sg += s * Ug, m.turn += sx * Ug - sy * Ue;
+            m.fn += f * Un, m.fnx += fx * Un, m.fny += fy * Un;
+        }
+    }
+    to->s = skin * m.s, to->sx = skin * m.sx, to->sy = skin * m.sy, to->srr = skin * m.srr;
+    to->f = form * m.f, to->fx = form * m.fx, to->fy = form * m.fy;
+    to->fxx = form * m.fxx, to->fxy = form * m.fxy, to->fyy = form * m.fyy;
+    if (!flow) return;
+    to->se = skin * m.se, to->sg = skin * m.sg, to->turn = skin * m.turn;
+    to->fn = form * m.fn, to->fnx = form * m.fnx, to->fny = form * m.fny;
 }
 
-/* Each speed over the root of its mass: then the matrix is 1 + what drag adds, and the root in solve6() is of
- * numbers of at least 1, whatever the units and however strong the drag. */
-void fl_facet_drag(int32_t n, const fl_skin_piece *piece, double skin, double form, fl_vec3 mass,
-                   fl_vec3 inertia, double h, fl_vec3 *v, fl_vec3 *w)
+/* Where a row of the matrix begins. */
+#define ROW(sum, i) ((sum) + FL_DRAG_MATRIX + (i) * ((i) + 1) / 2)
+
+/* Four facets, into sums of four each.  skin, form: times h. */
+FL_WIDE_PART void add_four(const fl_patches_four *at, const fl_patches_row *row, const fl_patches_flow *flow,
+                           double skin, double form, fl_vec3 v, fl_vec3 w, fl_wide *sum)
 {
-    const double M[6] = {mass.x, mass.y, mass.z, inertia.x, inertia.y, inertia.z},
-                 y[6] = {v->x, v->y, v->z, w->x, w->y, w->z};
-    double a[6][6], x[6], root[6], sum[SUMS];
-    const double *row = sum + MATRIX;
-    add_up(n, piece, h * skin, h * form, *v, *w, sum);
-    for (int i = 0; i < 6; row += ++i) {
-        root[i] = sqrt(M[i]);
-        x[i] = (M[i] * y[i] + sum[i]) / root[i];
-        for (int j = 0; j <= i; j++) a[i][j] = row[j] / (root[i] * root[j]);
-        a[i][i] += 1.0;
+    const fl_wide n[3] = {FL_FOUR(at->n[0]), FL_FOUR(at->n[1]), FL_FOUR(at->n[2])},
+                  e[3] = {FL_FOUR(at->e[0]), FL_FOUR(at->e[1]), FL_FOUR(at->e[2])},
+                  g[3] = {FL_FOUR(at->g[0]), FL_FOUR(at->g[1]), FL_FOUR(at->g[2])}, c = FL_FOUR(at->c);
+    const fl_wide turn[3] = {DOT(e, w), DOT(g, w), DOT(n, w)};
+    const fl_wide u[3] = {DOT(e, v) + c * turn[1], DOT(g, v) - c * turn[0], DOT(n, v)};
+    moments m;
+    add_rows(&m, row, flow, at->rows, skin, form, u, turn);
+    fl_wide *const vv[3] = {ROW(sum, 0), ROW(sum, 1), ROW(sum, 2)};
+    fl_wide *const wv[3] = {ROW(sum, 3), ROW(sum, 4), ROW(sum, 5)};
+    fl_wide *const ww[3] = {wv[0] + 3, wv[1] + 3, wv[2] + 3};
+    const fl_wide cs = c * m.s, ccs = c * cs, more = m.f - m.s;
+    /* p = f_y e - f_x g, q = s_y e - s_x g; ww is n t + t n + g b + b g and a diagonal, as e e is
+     * 1 - g g - n n */
+    const fl_wide round = ccs + m.fyy, half = 0.5 * (m.srr - round), apart = 0.5 * (m.fxx - m.fyy);
+    fl_wide p[3], q[3], t[3], b[3];
+    FL_WIDE_UNROLL for (int i = 0; i < 3; i++)
+    {
+        p[i] = m.fy * e[i] - m.fx * g[i];
+        q[i] = m.sy * e[i] - m.sx * g[i];
+        t[i] = half * n[i] - c * (m.sx * e[i] + m.sy * g[i]);
+        b[i] = apart * g[i] - m.fxy * e[i];
     }
-    solve6(a, x);
-    *v = v3(x[0] / root[0], x[1] / root[1], x[2] / root[2]);
-    *w = v3(x[3] / root[3], x[4] / root[4], x[5] / root[5]);
+    FL_WIDE_UNROLL for (int i = 0; i < 3; i++)
+    {
+        const fl_wide mn = more * n[i];
+        FL_WIDE_UNROLL for (int j = 0; j <= i; j++)
+        {
+            vv[i][j] += mn * n[j];
+            ww[i][j] += (n[i] * t[j] + t[i] * n[j]) + (g[i] * b[j] + b[i] * g[j]);
+        }
+        FL_WIDE_UNROLL for (int j = 0; j < 3; j++) wv[i][j] += p[i] * n[j] - n[i] * q[j];
+        vv[i][i] += m.s;
+        ww[i][i] += round;
+    }
+    const fl_wide N[3] = {cs * n[0], cs * n[1], cs * n[2]};
+    wv[0][1] -= N[2], wv[0][2] += N[1];
+    wv[1][0] += N[2], wv[1][2] -= N[0];
+    wv[2][0] -= N[1], wv[2][1] += N[0];
+    if (!flow) return;
+    const fl_wide re = m.fny - c * m.sg, rg = c * m.se - m.fnx;
+    FL_WIDE_UNROLL for (int i = 0; i < 3; i++)
+    {
+        sum[i] += m.se * e[i] + m.sg * g[i] + m.fn * n[i];
+        sum[3 + i] += re * e[i] + rg * g[i] + m.turn * n[i];
+    }
+}
+
+/* The same of sides of a prism that stands along the last axis: n = (a, b, 0), e = (-b, a, 0),
+ * g = (0, 0, 1). */
+FL_WIDE_PART void add_sides(const fl_wide *a, const fl_wide *b, const fl_patches_four *at,
+                            const fl_patches_row *row, const fl_patches_flow *flow, double skin, double form,
+                            fl_vec3 v, fl_vec3 w, fl_wide *sum)
+{
+    const fl_wide n1 = *a, n2 = *b, c = FL_FOUR(at->c), zero = {0.0, 0.0, 0.0, 0.0};
+    const fl_wide turn[3] = {w.y * n1 - w.x * n2, zero + w.z, w.x * n1 + w.y * n2};
+    const fl_wide u[3] = {(v.y * n1 - v.x * n2) + c * turn[1], v.z - c * turn[0], v.x * n1 + v.y * n2};
+    moments m;
+    add_rows(&m, row, flow, at->rows, skin, form, u, turn);
+    fl_wide *const vv[3] = {ROW(sum, 0), ROW(sum, 1), ROW(sum, 2)};
+    fl_wide *const wv[3] = {ROW(sum, 3), ROW(sum, 4), ROW(sum, 5)};
+    fl_wide *const ww[3] = {wv[0] + 3, wv[1] + 3, wv[2] + 3};
+    const fl_wide n11 = n1 * n1, n12 = n1 * n2, n22 = n2 * n2;
+    const fl_wide cs = c * m.s, csx = c * m.sx, csy = c * m.sy, more = m.f - m.s, off = (m.sy - m.fy) * n12;
+    const fl_wide round = c * cs + m.fyy, both = 2.0 * csx * n12;
+    vv[0][0] += more * n11 + m.s, vv[1][0] += more * n12, vv[1][1] += more * n22 + m.s, vv[2][2] += m.s;
+    wv[0][0] += off, wv[0][1] -= m.fy * n22 + m.sy * n11, wv[0][2] += m.sx * n1 + cs * n2;
+    wv[1][0] += m.fy * n11 + m.sy * n22, wv[1][1] -= off, wv[1][2] += m.sx * n2 - cs * n1;
+    wv[2][0] -= m.fx * n1 + cs * n2, wv[2][1] += cs * n1 - m.fx * n2;
+    ww[0][0] += (round * n22 + m.srr * n11) + both;
+    ww[1][0] += (m.srr - round) * n12 - csx * (n11 - n22);
+    ww[1][1] += (round * n11 + m.srr * n22) - both;
+    ww[2][0] += m.fxy * n2 - csy * n1, ww[2][1] -= m.fxy * n1 + csy * n2;
+    ww[2][2] += c * cs + m.fxx;
+    if (!flow) return;
+    const fl_wide re = m.fny - c * m.sg;
+    sum[0] += m.fn * n1 - m.se * n2, sum[1] += m.fn * n2 + m.se * n1, sum[2] += m.sg;
+    sum[3] += m.turn * n1 - re * n2, sum[4] += m.turn * n2 + re * n1, sum[5] += c * m.se - m.fnx;
+}
+
+/* And of its cap: n = (0, 0, z), e = (1, 0, 0), g = (0, z, 0), z being 1 or -1. */
+FL_WIDE_PART void add_cap(double z, const fl_patches_four *at, const fl_patches_row *row,
+                          const fl_patches_flow *flow, double skin, double form, fl_vec3 v, fl_vec3 w,
+                          fl_wide *sum)
+{
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    const double c = at->c[0];
+    const fl_wide turn[3] = {zero + w.x, zero + z * w.y, zero + z * w.z};
+    const fl_wide u[3] = {zero + (v.x + c * (z * w.y)), zero + (z * v.y - c * w.x), zero + z * v.z};
+    moments m;
+    add_rows(&m, row, flow, at->rows, skin, form, u, turn);
+    fl_wide *const vv[3] = {ROW(sum, 0), ROW(sum, 1), ROW(sum, 2)};
+    fl_wide *const wv[3] = {ROW(sum, 3), ROW(sum, 4), ROW(sum, 5)};
+    fl_wide *const ww[3] = {wv[0] + 3, wv[1] + 3, wv[2] + 3};
+    const fl_wide cs = c * m.s, ccs = c * cs, zcs = z * cs;
+    vv[0][0] += m.s, vv[1][1] += m.s, vv[2][2] += m.f;
+    wv[0][1] -= zcs, wv[0][2] += z * m.fy, wv[1][0] += zcs, wv[1][2] -= m.fx;
+    wv[2][0] -= z * m.sy, wv[2][1] += m.sx;
+    ww[0][0] += ccs + m.fyy, ww[1][0] -= z * m.fxy, ww[1][1] += ccs + m.fxx;
+    ww[2][0] -= z * c * m.sx, ww[2][1] -= c * m.sy, ww[2][2] += m.srr;
+    if (!flow) return;
+    sum[0] += m.se, sum[1] += z * m.sg, sum[2] += z * m.fn;
+    sum[3] += m.fny - c * m.sg, sum[4] += z * (c * m.se - m.fnx), sum[5] += z * m.turn;
+}
+
+/* Where sums along the axes k + 1, k + 2 and k go, in doubles from the first on; the last is no sum. */
+static_assert(FL_FEW == 16, "places below are times that");
+static const uint16_t place_of[3][FL_DRAG_SUMS + 1] = {
+    {16,  32,  0,   64,  80,  48,  128, 160, 176, 112, 144, 96,  272, 288,
+     256, 320, 352, 368, 336, 400, 416, 208, 224, 192, 304, 384, 240, 432},
+    {32,  0,   16,  80,  48,  64,  176, 144, 96,  160, 112, 128, 368, 336,
+     352, 416, 224, 192, 208, 384, 240, 288, 256, 272, 400, 304, 320, 432},
+    {0,   16,  32,  48,  64,  80,  96,  112, 128, 144, 160, 176, 192, 208,
+     224, 240, 256, 272, 288, 304, 320, 336, 352, 368, 384, 400, 416, 432}};
+
+/* Four sums of four each to four, which go to so many places of a body. */
+FL_WIDE_PART void put_four(fl_facet_few *to, int32_t i, fl_wide *sum, const uint16_t *place, int n)
+{
+    fl_wide_transpose(sum);
+    const fl_wide all = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+    FL_WIDE_UNROLL for (int l = 0; l < n; l++)(&to->sum[0][i])[place[l]] = all[l];
+}
+
+FL_WIDE_PART void put_all(fl_facet_few *to, int32_t i, fl_wide *sum, const uint16_t *place, int flows)
+{
+    FL_WIDE_UNROLL for (int c = 0; c < FL_DRAG_MATRIX && !flows; c++) to->sum[c][i] = 0.0;
+    if (flows) put_four(to, i, sum, place, 4);
+    FL_WIDE_UNROLL for (int c = 4; c + 4 <= FL_DRAG_SUMS; c += 4) put_four(to, i, sum + c, place + c, 4);
+    put_four(to, i, sum + FL_DRAG_SUMS - 3, place + FL_DRAG_SUMS - 3, 3);
+}
+
+FL_WIDE_PART void add_facets(fl_facet_few *to, int32_t i, const fl_patches *s, double skin, double form,
+                             int flows)
+{
+    const fl_vec3 v = FL_FEW_OF(to->y, i), w = FL_FEW_OF(to->y + 3, i);
+    fl_wide sum[FL_DRAG_SUMS + 1] = {{0.0}};
+    int32_t row = 0;
+    for (int32_t k = 0; k < s->fours; row += s->four[k++].rows)
+        add_four(&s->four[k], &s->row[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
+    put_all(to, i, sum, place_of[2], flows);
+}
+
+/* Where they stand along an axis of the body. */
+FL_WIDE_PART void add_prism(fl_facet_few *to, int32_t i, const fl_patches *s, double skin, double form,
+                            int flows)
+{
+    const int32_t k3 = s->upright, k1 = k3 < 2 ? k3 + 1 : 0, k2 = k1 < 2 ? k1 + 1 : 0;
+    double(*y)[FL_FEW] = to->y;
+    const fl_vec3 v = v3(y[k1][i], y[k2][i], y[k3][i]), w = v3(y[3 + k1][i], y[3 + k2][i], y[3 + k3][i]);
+    const fl_patches_four *at = s->four, *const cap = at + s->fours - 1;
+    fl_wide sum[FL_DRAG_SUMS + 1] = {{0.0}};
+    int32_t row = 0;
+    for (; at < cap; row += at++->rows) {
+        const fl_wide a = FL_FOUR(at->n[k1]), b = FL_FOUR(at->n[k2]);
+        add_sides(&a, &b, at, &s->row[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
+    }
+    add_cap(at->n[k3][0], at, &s->row[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
+    put_all(to, i, sum, place_of[k3], flows);
+}
+
+FL_FOUR_VERSIONS static void facets_still(fl_facet_few *to, int32_t i, const fl_patches *s, double skin,
+                                          double form)
+{
+    add_facets(to, i, s, skin, form, 0);
+}
+
+FL_FOUR_VERSIONS static void facets_flowing(fl_facet_few *to, int32_t i, const fl_patches *s, double skin,
+                                            double form)
+{
+    add_facets(to, i, s, skin, form, 1);
+}
+
+FL_FOUR_VERSIONS static void prism_still(fl_facet_few *to, int32_t i, const fl_patches *s, double skin,
+                                         double form)
+{
+    add_prism(to, i, s, skin, form, 0);
+}
+
+FL_FOUR_VERSIONS static void prism_flowing(fl_facet_few *to, int32_t i, const fl_patches *s, double skin,
+                                           double form)
+{
+    add_prism(to, i, s, skin, form, 1);
+}
+
+void fl_facet_sum(fl_facet_few *a, int32_t i, const fl_patches *s, fl_facet_law law, double h)
+{
+    const double skin = h * law.skin, form = h * law.form;
+    if (s->upright < 0) (s->flow ? facets_flowing : facets_still)(a, i, s, skin, form);
+    else (s->flow ? prism_flowing : prism_still)(a, i, s, skin, form);
+}
+
+/* (M + h K) y' = M y + ..., of four bodies: L d L^T, whose pivots are no less than M but for rounding, where
+ * h K is 1e16 times larger. */
+FL_WIDE_PART void solve_four(fl_facet_few *of, int32_t at)
+{
+    fl_wide l[6][6], x[6], per[6];
+    double(*row)[FL_FEW] = of->sum + FL_DRAG_MATRIX;
+    FL_WIDE_UNROLL for (int i = 0; i < 6; row += ++i)
+    {
+        const fl_wide M = FL_FOUR(&of->mass[i][at]);
+        fl_wide scaled[6], d = FL_FOUR(&row[i][at]) + M; /* scaled: l d */
+        x[i] = M * FL_FOUR(&of->y[i][at]) + FL_FOUR(&of->sum[i][at]);
+        FL_WIDE_UNROLL for (int j = 0; j < i; j++)
+        {
+            scaled[j] = FL_FOUR(&row[j][at]);
+            FL_WIDE_UNROLL for (int k = 0; k < j; k++) scaled[j] -= scaled[k] * l[j][k];
+            l[i][j] = scaled[j] * per[j];
+            d -= scaled[j] * l[i][j];
+            x[i] -= l[i][j] * x[j];
+        }
+        per[i] = 1.0 / FL_WIDE_LARGER(d, M);
+    }
+    FL_WIDE_UNROLL for (int i = 5; i >= 0; i--)
+    {
+        x[i] *= per[i];
+        FL_WIDE_UNROLL for (int k = i + 1; k < 6; k++) x[i] -= l[k][i] * x[k];
+        FL_FOUR_INTO(&of->y[i][at]) = x[i];
+    }
+}
+
+FL_FOUR_VERSIONS void fl_facet_step(fl_facet_few *a, int32_t lanes)
+{
+    for (int32_t k = 0; k < lanes; k += FL_LANES) solve_four(a, k);
+}
+
+void fl_facet_drag(const fl_patches *s, fl_facet_law law, fl_vec3 mass, fl_vec3 inertia, double h, fl_vec3 *v,
+                   fl_vec3 *w)
+{
+    fl_facet_few a;
+    for (int32_t i = 0; i < FL_LANES; i++) {
+        fl_few_set(a.mass, i, mass), fl_few_set(a.mass + 3, i, inertia);
+        fl_few_set(a.y, i, *v), fl_few_set(a.y + 3, i, *w);
+    }
+    fl_facet_sum(&a, 0, s, law, h);
+    for (int c = 0; c < FL_DRAG_SUMS; c++)
+        for (int32_t i = 1; i < FL_LANES; i++) a.sum[c][i] = a.sum[c][0];
+    fl_facet_step(&a, FL_LANES);
+    *v = FL_FEW_OF(a.y, 0), *w = FL_FEW_OF(a.y + 3, 0);
 }

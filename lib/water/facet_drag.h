@@ -13,35 +13,48 @@
  * and no motion along one direction turns round; and where one speed counts, y' = y / (1 + h kappa |y|), it
  * is the exact decay.  That is the reason for it: an explicit step would throw thin floes back, an exact one
  * there is not, and a symmetric one (Crank and Nicolson) does not keep the sign.  Order 1 where several
- * directions meet, exact along one.  Source: Hoerner, Fluid-Dynamic Drag (1965), for the two parts; the step
- * is derived here. */
+ * directions meet, exact along one.
+ *
+ * In the plane of a facet, r = c n + x e + y g (facet_cut.h), rows of J are (e, c g - y n), (g, x n - c e)
+ * along it and (n, y e - x g) across, so that K is told by the moments of s = 1/2 rho C_s a |u_t| up to the
+ * first and that of x^2 + y^2, and of f = 1/2 rho C_f a max(u.n, 0) up to the second:
+ *     vv   s (1 - n n) + f n n
+ *     wv   (f_y e - f_x g) n - n (s_y e - s_x g) + c s [n]
+ *     ww   c^2 s (1 - n n) + (s_xx + s_yy) n n - c (n q + q n),                    q = s_x e + s_y g
+ *          + f_yy e e - f_xy (e g + g e) + f_xx g g
+ * with a b the dyad a b^T and [n] a = n x a; and alike the sums of D U by s U_e, s U_g, f U_n, s (x U_g - y
+ * U_e) and f U_n (x, y). Source: Hoerner, Fluid-Dynamic Drag (1965), for the two parts; the rest is derived
+ * here. */
 #ifndef FL_WATER_FACET_DRAG_H
 #define FL_WATER_FACET_DRAG_H
-#include "water/buoyancy.h"
+#include "body/few.h"
+#include "water/facet_cut.h"
 
-/* A piece of surface, in the body's axes. */
+/* What drags along a facet and across it: 1/2 rho C_s, 1/2 rho C_f [kg/m3]. */
 typedef struct {
-    double area;  /* [m2]  */
-    fl_vec3 n, r; /* outward normal; place from the centre of mass [m] */
-    fl_vec3 flow; /* velocity U of the fluid there, seen as v is seen [m/s] */
-} fl_skin_piece;
+    double skin, form;
+} fl_facet_law;
 
-/* How many pieces a hull can have: three for each corner of a face and two more corners. */
-int32_t fl_skin_most(const fl_hull *h);
+/* What pieces add up to: h sum D U and h sum r x D U, then h K, its lower half row by row. */
+enum { FL_DRAG_MATRIX = 6, FL_DRAG_SUMS = FL_DRAG_MATRIX + 21 };
 
-/* The pieces of the surface below the plane up.x = level (above it with dry): each face, or what is left of
- * it, is a fan of triangles about its centroid, with a piece at the middle of each of their sides; exact for
- * what is quadratic in place.  Leaves flow alone.
- *   out   [fl_skin_most()]
- * Returns their number. */
-int32_t fl_skin_pieces(const fl_hull *h, fl_vec3 up, double level, int dry, fl_skin_piece *out);
+/* A few bodies side by side, one array a quantity. */
+typedef struct {
+    _Alignas(64) double sum[FL_DRAG_SUMS][FL_FEW];
+    double mass[6][FL_FEW]; /* of each along and about its axes, with the water it moves [kg], [kg m2] */
+    double y[6][FL_FEW];    /* velocity and angular velocity, body axes [m/s], [rad/s] */
+} fl_facet_few;
 
-/* One step h of the decay above.
- *   n, piece       the pieces
- *   skin, form     1/2 rho C_s, 1/2 rho C_f   [kg/m3]
- *   mass, inertia  of the body along and about its axes, with the water it moves [kg], [kg m2]
- *   v, w           in, out: velocity and angular velocity, body axes [m/s], [rad/s] */
-void fl_facet_drag(int32_t n, const fl_skin_piece *piece, double skin, double form, fl_vec3 mass,
-                   fl_vec3 inertia, double h, fl_vec3 *v, fl_vec3 *w);
+/* sum of the i-th of them, which goes as y says; h: the step [s]. */
+void fl_facet_sum(fl_facet_few *a, int32_t i, const fl_patches *s, fl_facet_law law, double h);
+
+/* The step of all of them, of which there are lanes, a multiple of FL_LANES: y becomes y'. */
+void fl_facet_step(fl_facet_few *a, int32_t lanes);
+
+/* Both for one body.
+ *   mass, inertia  as above
+ *   v, w           in, out: y */
+void fl_facet_drag(const fl_patches *s, fl_facet_law law, fl_vec3 mass, fl_vec3 inertia, double h, fl_vec3 *v,
+                   fl_vec3 *w);
 
 #endif

@@ -49,23 +49,25 @@ int fl_sea_alloc(fl_sea *s, int32_t n, int threads, fl_err *err)
     return s->tiles && s->push && s->turn && s->waved ? 0 : -1;
 }
 
+static void bare_skin(fl_sea_skin *skin)
+{
+    fl_facets_free(&skin->facets);
+    fl_patches_free(&skin->wet), fl_patches_free(&skin->dry);
+}
+
 static int fit_skin(fl_sea *s, int32_t i, fl_err *err)
 {
     const fl_hull *h = &s->hull[i];
-    const int32_t most = fl_skin_most(h);
-    fl_skin *skin = &s->skin[i];
-    free(skin->wet), free(skin->dry);
-    *skin = (fl_skin){0};
+    fl_sea_skin *skin = &s->skin[i];
+    bare_skin(skin);
     if (h->p->nf == 0) return 0;
-    if (s->water && s->sea_law == FL_DRAG_FACET) {
-        skin->wet = fl_alloc(most, sizeof *skin->wet, err);
-        if (!skin->wet) return -1;
-    }
+    if (fl_facets_make(&skin->facets, h, err)) return -1;
+    if (s->water && s->sea_law == FL_DRAG_FACET && fl_patches_make(&skin->wet, h, 0, s->flow != NULL, err))
+        return -1;
     if (s->wind && s->air_law == FL_DRAG_FACET) {
-        skin->dry = fl_alloc(most, sizeof *skin->dry, err);
-        if (!skin->dry) return -1;
+        if (fl_patches_make(&skin->dry, h, 1, 0, err)) return -1;
         /* where there is no water to tell otherwise, all is dry */
-        skin->dries = fl_skin_pieces(h, v3(0, 0, 1), -INFINITY, 1, skin->dry);
+        fl_patches_look(&skin->dry, &skin->facets, h, v3(0, 0, 1), -INFINITY);
     }
     return 0;
 }
@@ -125,7 +127,7 @@ void fl_sea_free(fl_sea *s)
     for (int32_t i = 0; i < s->n; i++) {
         if (s->hull) fl_sea_bare(s, i);
         if (s->tiles) fl_tiles_free(&s->tiles[i]);
-        if (s->skin) free(s->skin[i].wet), free(s->skin[i].dry);
+        if (s->skin) bare_skin(&s->skin[i]);
     }
     free(s->hull), free(s->reach), free(s->wetted), free(s->lift);
     free(s->flow), free(s->drained), free(s->blown);
@@ -148,24 +150,43 @@ static fl_vec3 orbital(const fl_sea *s, const fl_afloat *at, const fl_wave_aroun
     return v3_madd(v3(0, 0, u[1]), u[0], s->wave.along);
 }
 
+/* How the water goes by at all pieces that are wet. */
+static void look_at_flow(fl_sea *s, const fl_bodies *b, int32_t i, const fl_afloat *at,
+                         const fl_wave_around *around)
+{
+    const fl_mat3 R = fl_body_axes(b, i);
+    fl_patches *wet = &s->skin[i].wet;
+    int32_t k = 0;
+    for (const fl_patches_four *f = wet->four; f < wet->four + wet->fours; f++)
+        for (const int32_t end = k + f->rows; k < end; k++)
+            for (int l = 0; l < FL_LANES; l++) {
+                const fl_vec3 r = fl_patches_place(f, &wet->row[k], l);
+                fl_vec3 u = v3(0, 0, 0), none;
+                if (wet->row[k].area[l] > 0.0) {
+                    u = fl_current_at(&s->current, at->z + v3_dot(at->up, r));
+                    if (around) u = v3_add(u, orbital(s, at, around, r, &none));
+                    u = fl_patches_in(f, l, m3_tmul(R, v3_sub(u, fl_sea_flow(s, i))));
+                }
+                wet->flow[k].u[0][l] = u.x, wet->flow[k].u[1][l] = u.y, wet->flow[k].u[2][l] = u.z;
+            }
+}
+
 /* Where the surface of body i is wet and dry, and how the water goes by there; around: NULL without waves. */
-static void look_at_pieces(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
-                           const fl_afloat *at, const fl_wave_around *around)
+static void look_at_skin(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
+                         const fl_afloat *at, const fl_wave_around *around)
 {
     const fl_hull *h = &s->hull[i];
-    fl_skin *skin = &s->skin[i];
-    fl_skin_piece *wet = skin->wet;
-    if (skin->dry) skin->dries = fl_skin_pieces(h, up, level, 1, skin->dry);
-    if (!wet) return;
-    skin->wets = fl_skin_pieces(h, up, level, 0, wet);
-    if (s->current.kind == FL_PROFILE_UNIFORM && !around) return;
-    const fl_mat3 R = fl_body_axes(b, i);
-    for (int32_t k = 0; k < skin->wets; k++) {
-        const double z = at->z + v3_dot(at->up, wet[k].r);
-        fl_vec3 u = fl_current_at(&s->current, z), none;
-        if (around) u = v3_add(u, orbital(s, at, around, wet[k].r, &none));
-        wet[k].flow = m3_tmul(R, v3_sub(u, fl_sea_flow(s, i)));
-    }
+    fl_sea_skin *skin = &s->skin[i];
+    if (skin->dry.four) fl_patches_look(&skin->dry, &skin->facets, h, up, level);
+    if (!skin->wet.four) return;
+    fl_patches_look(&skin->wet, &skin->facets, h, up, level);
+    if (skin->wet.flow) look_at_flow(s, b, i, at, around);
+}
+
+void fl_sea_look_at_skin(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level)
+{
+    const fl_afloat at = {.up = up, .z = -level};
+    look_at_skin(s, b, i, up, level, &at, NULL);
 }
 
 /* e_z of the world in the frame of a body with these axes. */
@@ -197,7 +218,6 @@ static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *
     const fl_mat3 R = fl_body_axes(b, i);
     const fl_vec3 up = upward(R);
     const double level = s->level - b->x[i].z;
-    const fl_afloat at = {.up = up, .z = -level};
     const fl_wet wet = wet_of(s, i, up, level);
     fl_vec3 turn;
     s->wetted[i] = wet.wetted;
@@ -205,7 +225,7 @@ static void look_still(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *
     s->lift[i] = s->weight * wet.volume;
     if (s->flow) s->flow[i] = fl_current_at(&s->current, v3_dot(up, wet.centre) - level);
     if (b->added) b->flow[i] = fl_sea_flow(s, i);
-    if (s->skin) look_at_pieces(s, b, i, up, level, &at, NULL);
+    if (s->skin) fl_sea_look_at_skin(s, b, i, up, level);
     *f = v3(0, 0, s->lift[i]); /* R up is e_z */
     *t = m3_mul(R, turn);
 }
@@ -326,10 +346,10 @@ static void look_wavy(fl_sea *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t
         if (b->added) *f = v3_add(*f, m3_mul(R, v3_mul(b->added[i], m3_tmul(R, a))));
         if (s->skin) {
             fl_wave_plane(&around, &at, &up, &level);
-            look_at_pieces(s, b, i, up, level, &at, &around);
+            look_at_skin(s, b, i, up, level, &at, &around);
         }
     } else if (s->skin) {
-        look_at_pieces(s, b, i, at.up, -INFINITY, &at, NULL);
+        look_at_skin(s, b, i, at.up, -INFINITY, &at, NULL);
     }
     if (b->added) b->flow[i] = s->flow[i];
     s->push[i] = *f;
@@ -443,15 +463,15 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
     return fl_body_kinetic(b, i) - b->held[i] - before;
 }
 
-/* The same by the pieces of its surface. */
-static double decay_of_pieces(fl_bodies *b, int32_t i, const fl_skin_piece *piece, int32_t n, double skin,
-                              double form, fl_vec3 c, double h)
+/* The same facet by facet. */
+static double decay_of_facets(fl_bodies *b, int32_t i, const fl_patches *of, fl_facet_law law, fl_vec3 c,
+                              double h)
 {
     const double before = fl_body_kinetic(b, i) - b->held[i], m = b->m[i];
     const fl_vec3 v0 = b->v[i], w0 = b->w[i], I = b->I[i], a = b->added ? b->added[i] : v3(0, 0, 0);
     const fl_mat3 R = fl_body_axes(b, i);
     fl_vec3 v = m3_tmul(R, v3_sub(v0, c)), w = m3_tmul(R, w0);
-    fl_facet_drag(n, piece, skin, form, v3(m + a.x, m + a.y, m + a.z), I, h, &v, &w);
+    fl_facet_drag(of, law, v3(m + a.x, m + a.y, m + a.z), I, h, &v, &w);
     b->v[i] = v3_add(c, m3_mul(R, v));
     b->w[i] = m3_mul(R, w);
     b->L[i] = m3_mul(R, v3_mul(I, w));
@@ -462,10 +482,8 @@ static double decay_of_pieces(fl_bodies *b, int32_t i, const fl_skin_piece *piec
 static void drag_of_water(fl_sea *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->water || s->wetted[i] <= 0.0) return;
-    if (s->skin && s->skin[i].wet)
-        s->drained[i] -=
-            decay_of_pieces(b, i, s->skin[i].wet, s->skin[i].wets, 0.5 * s->sea.density * s->sea_skin,
-                            0.5 * s->sea.density * s->sea_form, fl_sea_flow(s, i), h);
+    if (s->skin && s->skin[i].wet.four)
+        s->drained[i] -= decay_of_facets(b, i, &s->skin[i].wet, fl_sea_law_of_water(s), fl_sea_flow(s, i), h);
     else s->drained[i] -= decay(b, i, &s->sea, s->wetted[i], s->reach[i], fl_sea_flow(s, i), h);
 }
 
@@ -474,10 +492,8 @@ static void drag_of_wind(fl_sea *s, fl_bodies *b, int32_t i, double h)
     if (!s->wind) return;
     const double dry = s->hull[i].surface - (s->water ? s->wetted[i] : 0.0);
     if (!(dry > 0.0)) return;
-    if (s->skin && s->skin[i].dry)
-        s->blown[i] +=
-            decay_of_pieces(b, i, s->skin[i].dry, s->skin[i].dries, 0.5 * s->air.density * s->air.force,
-                            0.5 * s->air.density * s->air_form, s->breeze, h);
+    if (s->skin && s->skin[i].dry.four)
+        s->blown[i] += decay_of_facets(b, i, &s->skin[i].dry, fl_sea_law_of_air(s), s->breeze, h);
     else s->blown[i] += decay(b, i, &s->air, dry, s->reach[i], s->breeze, h);
 }
 

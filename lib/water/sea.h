@@ -13,12 +13,12 @@
 /* In the order of the choices of water.drag and wind.drag. */
 enum fl_drag_law { FL_DRAG_MANUAL, FL_DRAG_FACET };
 
-/* The pieces of the surface of a body below and above the water, their flow against flow[i] and the wind;
- * NULL where the law of that fluid is another. */
+/* The surface of a body below and above the water, with flows against flow[i]; no room where the law of that
+ * fluid is another or the body is round. */
 typedef struct {
-    fl_skin_piece *wet, *dry;
-    int32_t wets, dries; /* how many there are now */
-} fl_skin;
+    fl_facets facets;
+    fl_patches wet, dry;
+} fl_sea_skin;
 
 /* The last look at the waves about a body, and how they went on from the one before: where not every step
  * is a look,
@@ -55,16 +55,16 @@ typedef struct {
     fl_current current;
     fl_vec3 breeze; /* velocity of the wind [m/s] */
     int32_t n;
-    fl_hull *hull;   /* [n] */
-    double *reach;   /* [n] r_eff of equation (9)     [m]    */
-    double *wetted;  /* [n] at the last fl_sea_force() [m2]  */
-    double *lift;    /* [n] buoyancy, at the last fl_sea_force() [N] */
-    fl_vec3 *flow;   /* [n] velocity of the water at the submerged centre [m/s]; NULL where it is that of a
+    fl_hull *hull;     /* [n] */
+    double *reach;     /* [n] r_eff of equation (9)     [m]    */
+    double *wetted;    /* [n] at the last fl_sea_force() [m2]  */
+    double *lift;      /* [n] buoyancy, at the last fl_sea_force() [N] */
+    fl_vec3 *flow;     /* [n] velocity of the water at the submerged centre [m/s]; NULL where it is that of a
                       * uniform current */
-    double *drained; /* [n] work that drag of the water has taken out [J] */
-    double *blown;   /* [n] work that the wind has put in [J]; NULL without wind */
-    fl_skin *skin;   /* [n] with the law facet alone, of either fluid */
-    double time;     /* of the next fl_sea_force(): set by the step [s] */
+    double *drained;   /* [n] work that drag of the water has taken out [J] */
+    double *blown;     /* [n] work that the wind has put in [J]; NULL without wind */
+    fl_sea_skin *skin; /* [n] with the law facet alone, of either fluid */
+    double time;       /* of the next fl_sea_force(): set by the step [s] */
     /* with waves alone */
     int waves;
     fl_waves wave;
@@ -119,6 +119,16 @@ static inline fl_vec3 fl_sea_flow(const fl_sea *s, int32_t i)
     return s->flow ? s->flow[i] : s->current.velocity;
 }
 
+/* What drags on the facets of a body. */
+static inline fl_facet_law fl_sea_law_of_water(const fl_sea *s)
+{
+    return (fl_facet_law){0.5 * s->sea.density * s->sea_skin, 0.5 * s->sea.density * s->sea_form};
+}
+static inline fl_facet_law fl_sea_law_of_air(const fl_sea *s)
+{
+    return (fl_facet_law){0.5 * s->air.density * s->air.force, 0.5 * s->air.density * s->air_form};
+}
+
 /* Book the work of push and turn in a kick of h seconds that took body i from v0, w0 to its speeds of now:
  * h (F.(v0 + v) + T.(w0 + w)) / 2, which is exact. */
 void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0, fl_vec3 w0);
@@ -126,6 +136,10 @@ void fl_sea_book(fl_sea *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0,
 /* Add buoyancy, in waves the pressure of the wave and what it does to the water that moves along, to b->f[i],
  * b->t[i]; renews wetted[i], lift[i] and flow[i], where it is a look. */
 void fl_sea_force(fl_sea *s, fl_bodies *b, int32_t i);
+
+/* The part of that which is for drag by facets, skin[i], in still water whose plane is up.x = level in the
+ * axes of body i. */
+void fl_sea_look_at_skin(fl_sea *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level);
 
 /* What fl_sea_force() keeps for the drag, without the force: of a body that has been put somewhere; with
  * held[i], as it was left there by the last look, `time` being that of the last fl_sea_force(). */

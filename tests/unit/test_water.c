@@ -369,6 +369,59 @@ static void drag_never_reverses(void **state)
     assert_near(fl_drag_factor(0.3, 1.0, 0.0, 1.0), 1.0, 0.0);
 }
 
+static double skin_area(const fl_patches *s)
+{
+    double total = 0.0;
+    int32_t row = 0;
+    for (int32_t k = 0; k < s->fours; row += s->four[k++].rows)
+        for (int32_t r = 0; r < s->four[k].rows; r++)
+            for (int l = 0; l < FL_LANES; l++) total += s->row[row + r].area[l];
+    return total;
+}
+
+/* One step by all pieces one after another, in the axes of the body, solved by elimination. */
+static void drag_plainly(const fl_patches *s, fl_facet_law law, fl_vec3 mass, fl_vec3 inertia, double h,
+                         fl_vec3 *v, fl_vec3 *w)
+{
+    const double M[6] = {mass.x, mass.y, mass.z, inertia.x, inertia.y, inertia.z},
+                 y[6] = {v->x, v->y, v->z, w->x, w->y, w->z};
+    double a[6][7] = {{0}};
+    int32_t row = 0;
+    for (int i = 0; i < 6; i++) a[i][i] = M[i], a[i][6] = M[i] * y[i];
+    for (int32_t k = 0; k < s->fours; row += s->four[k++].rows) {
+        const fl_patches_four *f = &s->four[k];
+        for (int32_t c = 0; c < f->rows * FL_LANES; c++) {
+            const int l = (int)(c % FL_LANES);
+            const fl_patches_row *p = &s->row[row + c / FL_LANES];
+            const fl_vec3 r = fl_patches_place(f, p, l), n = v3(f->n[0][l], f->n[1][l], f->n[2][l]);
+            fl_vec3 U = v3(0, 0, 0);
+            if (s->flow) {
+                const fl_patches_flow *q = &s->flow[row + c / FL_LANES];
+                U = fl_patches_out(f, l, v3(q->u[0][l], q->u[1][l], q->u[2][l]));
+            }
+            const fl_vec3 u = v3_sub(v3_add(*v, v3_cross(*w, r)), U);
+            const double un = v3_dot(u, n), skin = h * law.skin * p->area[l] * v3_norm(v3_madd(u, -un, n)),
+                         form = h * law.form * p->area[l] * fmax(un, 0.0);
+            for (int j = 0; j < 7; j++) { /* D of a column of J, or of U */
+                const fl_vec3 e = v3(j % 3 == 0, j % 3 == 1, j % 3 == 2), x = j == 6  ? U
+                                                                              : j < 3 ? e
+                                                                                      : v3_cross(e, r);
+                const fl_vec3 F = v3_madd(v3_scale(skin, x), (form - skin) * v3_dot(x, n), n),
+                              T = v3_cross(r, F);
+                const double add[6] = {F.x, F.y, F.z, T.x, T.y, T.z};
+                for (int i = 0; i < 6; i++) a[i][j] += add[i];
+            }
+        }
+    }
+    for (int j = 0; j < 6; j++)
+        for (int i = 0; i < 6; i++) {
+            const double by = a[i][j] / a[j][j];
+            for (int c = 0; c < 7 && i != j; c++) a[i][c] -= by * a[j][c];
+        }
+    *v = v3(a[0][6] / a[0][0], a[1][6] / a[1][1], a[2][6] / a[2][2]);
+    *w = v3(a[3][6] / a[3][3], a[4][6] / a[4][4], a[5][6] / a[5][5]);
+}
+
 /* A box of 2 x 3 x 4 m wholly under water: areas, and the exact decay along each axis whatever the step; and
  * never a gain, whatever the motion. */
 static void facets_drag_exactly_along_an_axis(void **state)
@@ -377,52 +430,122 @@ static void facets_drag_exactly_along_an_axis(void **state)
     fl_poly p;
     fl_hull h;
     fl_err err = {0};
-    fl_skin_piece piece[200];
+    fl_facets k;
+    fl_patches skin, dry;
+    const fl_facet_law law = {2.0, 7.0};
     const fl_vec3 m = v3(100, 200, 300), I = v3(50, 60, 70);
     const double area[3] = {12, 8, 6};
     assert_int_equal(fl_poly_box(&p, v3(1, 1.5, 2), &err), 0);
     assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
-    assert_true(fl_skin_most(&h) <= 200);
-    const int32_t n = fl_skin_pieces(&h, v3(0, 0, 1), 10.0, 0, piece);
-    double total = 0.0;
-    for (int32_t k = 0; k < n; k++) total += piece[k].area;
-    assert_near(total, 52.0, 1e-14);
-    assert_int_equal(fl_skin_pieces(&h, v3(0, 0, 1), 10.0, 1, piece), 0);
-    fl_skin_pieces(&h, v3(0, 0, 1), 10.0, 0, piece);
+    assert_int_equal(fl_facets_make(&k, &h, &err), 0);
+    assert_int_equal(fl_patches_make(&skin, &h, 0, 0, &err), 0);
+    assert_int_equal(fl_patches_make(&dry, &h, 1, 0, &err), 0);
+    fl_patches_look(&skin, &k, &h, v3(0, 0, 1), 10.0), fl_patches_look(&dry, &k, &h, v3(0, 0, 1), 10.0);
+    assert_near(skin_area(&skin), 52.0, 1e-14);
+    assert_int_equal(dry.fours, 0);
     for (int axis = 0; axis < 3; axis++) {
         for (int e = -6; e < 12; e++) {
             const double step = pow(10, e), speed = axis == 1 ? -3.0 : 3.0, mass = 100.0 * (axis + 1);
             fl_vec3 v = v3(axis == 0 ? speed : 0, axis == 1 ? speed : 0, axis == 2 ? speed : 0), w = {0};
-            fl_facet_drag(n, piece, 2.0, 7.0, m, I, step, &v, &w);
+            fl_facet_drag(&skin, law, m, I, step, &v, &w);
             const double c = 2.0 * (52.0 - 2 * area[axis]) + 7.0 * area[axis];
             assert_near(v.x + v.y + v.z, speed / (1 + c / mass * 3.0 * step), 1e-12);
             assert_near_of(v3_norm(w), 0.0, 1e-13, 1.0);
         }
     }
-    for (long k = 0; k < test_times(2000); k++) {
-        fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
+    for (long t = 0; t < test_times(2000); t++) {
+        fl_rng g = fl_rng_of(test_seed(), t, FL_RNG_TEST);
         double x[6];
         for (int j = 0; j < 6; j++) x[j] = fl_rng_normal(&g);
         fl_vec3 v = v3(x[0], x[1], x[2]), w = v3(x[3], x[4], x[5]);
         const double step = pow(10, fl_rng_in(&g, -9, 25));
         const double before = v3_dot(v, v3_mul(m, v)) + v3_dot(w, v3_mul(I, w));
-        fl_facet_drag(n, piece, 2.0, 7.0, m, I, step, &v, &w);
+        fl_facet_drag(&skin, law, m, I, step, &v, &w);
         const double after = v3_dot(v, v3_mul(m, v)) + v3_dot(w, v3_mul(I, w));
         assert_true(after <= before * (1 + 1e-12));
     }
     /* what is wet and what is dry add up, wherever the water stands */
-    for (int k = -25; k <= 25; k++) {
-        const fl_vec3 up = v3_unit(v3(0.1 * k, 0.3, 1));
-        total = 0.0;
-        for (int dry = 0; dry < 2; dry++) {
-            const int32_t c = fl_skin_pieces(&h, up, 0.1 * k, dry, piece);
-            assert_true(c <= fl_skin_most(&h));
-            for (int32_t j = 0; j < c; j++) total += piece[j].area;
-        }
-        assert_near(total, 52.0, 1e-13);
+    for (int c = -25; c <= 25; c++) {
+        const fl_vec3 up = v3_unit(v3(0.1 * c, 0.3, 1));
+        fl_patches_look(&skin, &k, &h, up, 0.1 * c), fl_patches_look(&dry, &k, &h, up, 0.1 * c);
+        assert_near(skin_area(&skin) + skin_area(&dry), 52.0, 1e-13);
     }
+    fl_patches_free(&skin), fl_patches_free(&dry);
+    fl_facets_free(&k);
     fl_hull_free(&h);
     fl_poly_free(&p);
+}
+
+/* Prisms of 3 to 9 sides along each axis of the body, or turned out of it, wherever the water stands: the
+ * drag of sides by closed formulae, of facets that are cut and of whole ones is that of all pieces one by
+ * one; and how the surface was seen before is no matter. */
+static void facets_drag_as_their_pieces_do(void **state)
+{
+    (void)state;
+    int32_t upright = 0, cut = 0;
+    for (long t = 0; t < test_times(500); t++) {
+        fl_rng g = fl_rng_of(test_seed(), t, FL_RNG_TEST);
+        const int32_t sides = 3 + (int32_t)(t % 7), way = (int32_t)(t / 7 % 4);
+        fl_vec3 xy[9];
+        fl_err err = {0};
+        fl_poly p;
+        fl_hull h;
+        fl_facets k;
+        for (int32_t c = 0; c < sides; c++) {
+            const double a = 2 * PI * (c + fl_rng_in(&g, 0.0, 0.5)) / sides;
+            xy[c] = v3(cos(a), sin(a), 0);
+        }
+        assert_int_equal(fl_poly_prism(&p, sides, xy, -0.3, 0.3, &err), 0);
+        const double z = t % 2 ? 1.0 : -1.0;
+        const fl_mat3 axes[4] = {{{{0, z, 0}, {0, 0, z}, {1, 0, 0}}},
+                                 {{{0, 0, z}, {1, 0, 0}, {0, z, 0}}},
+                                 {{{1, 0, 0}, {0, z, 0}, {0, 0, z}}},
+                                 q_matrix(q_of_vector(v3(0.3, 0.4, 0.5)))};
+        fl_poly_to_frame(&p, v3(0.05, 0.02, 0.01), axes[way]);
+        assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
+        assert_int_equal(fl_facets_make(&k, &h, &err), 0);
+        assert_int_equal(k.upright, way < 3 ? way : -1);
+        for (int dry = 0; dry < 2; dry++) {
+            fl_patches s, fresh;
+            assert_int_equal(fl_patches_make(&s, &h, dry, (int)(t & 1), &err), 0);
+            for (int look = 0; look < 6; look++) {
+                const fl_vec3 tilt =
+                    v3(fl_rng_in(&g, -0.1, 0.1), fl_rng_in(&g, -0.1, 0.1), look == 4 ? -1 : 1);
+                const fl_vec3 up = look == 3 ? v3_unit(v3(fl_rng_normal(&g), fl_rng_normal(&g), 1))
+                                             : v3_unit(m3_tmul(axes[way], tilt));
+                const double level = look == 5 ? (dry ? -9 : 9) : fl_rng_in(&g, -0.1, 0.1);
+                const fl_facet_law law = {fl_rng_in(&g, 0, 3), fl_rng_in(&g, 0, 3)};
+                const fl_vec3 m = v3(2, 3, 4), I = v3(0.5, 0.6, 0.7);
+                fl_vec3 v = v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g)),
+                        w = v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g)), v2 = v, w2 = w,
+                        v3rd = v, w3rd = w;
+                fl_wet wet;
+                fl_patches_look(&s, &k, &h, up, level);
+                upright += s.upright >= 0, cut += s.state == FL_PATCHES_ANYHOW;
+                fl_buoyancy(&h, up, level, &wet);
+                assert_near_of(skin_area(&s), dry ? h.surface - wet.wetted : wet.wetted, 1e-13, h.surface);
+                if (!(t & 1)) {
+                    assert_int_equal(fl_patches_make(&fresh, &h, dry, 0, &err), 0);
+                    fl_patches_look(&fresh, &k, &h, up, level);
+                    fl_facet_drag(&fresh, law, m, I, 0.3, &v3rd, &w3rd);
+                    fl_patches_free(&fresh);
+                }
+                for (int32_t r = 0; r < s.most_rows * FL_LANES && s.flow; r++)
+                    for (int c = 0; c < 3; c++) s.flow[r / FL_LANES].u[c][r % FL_LANES] = fl_rng_normal(&g);
+                fl_facet_drag(&s, law, m, I, 0.3, &v, &w);
+                drag_plainly(&s, law, m, I, 0.3, &v2, &w2);
+                assert_near_of(v3_norm(v3_sub(v, v2)), 0.0, 1e-13, v3_norm(v2) + v3_norm(w2));
+                assert_near_of(v3_norm(v3_sub(w, w2)), 0.0, 1e-13, v3_norm(v2) + v3_norm(w2));
+                if (!(t & 1))
+                    assert_memory_equal(&v, &v3rd, sizeof v), assert_memory_equal(&w, &w3rd, sizeof w);
+            }
+            fl_patches_free(&s);
+        }
+        fl_facets_free(&k);
+        fl_hull_free(&h);
+        fl_poly_free(&p);
+    }
+    assert_true(upright > 2 * test_times(500) && cut > 2 * test_times(500));
 }
 
 static void currents_follow_their_profile(void **state)
@@ -486,6 +609,7 @@ int main(void)
         cmocka_unit_test(drag_laws),
         cmocka_unit_test(drag_never_reverses),
         cmocka_unit_test(facets_drag_exactly_along_an_axis),
+        cmocka_unit_test(facets_drag_as_their_pieces_do),
         cmocka_unit_test(currents_follow_their_profile),
         cmocka_unit_test(a_table_of_currents),
     };

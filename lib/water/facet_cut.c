@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include "base/mem.h"
+#include "water/drag.h"
+#include "water/facet_cut.h"
+
+static int32_t corners_of(const fl_poly *p, int32_t f) { return p->first[f + 1] - p->first[f]; }
+
+#define SAME 1e-12 /* of a radian, as in prism.c */
+
+/* The axis of the body that is +-e, or -1. */
+static int32_t axis_of(fl_vec3 e)
+{
+    const double a[3] = {fabs(e.x), fabs(e.y), fabs(e.z)};
+    for (int32_t k = 0; k < 3; k++)
+        if (fmax(a[(k + 1) % 3], a[(k + 2) % 3]) <= SAME) return k;
+    return -1;
+}
+
+/* That axis, and the next ones. */
+static fl_vec3 along(int32_t k) { return v3(k % 3 == 0, k % 3 == 1, k % 3 == 2); }
+
+/* Where faces of p are the sides and caps of a prism, their axes are those of facet_cut.h. */
+static void stand_up(fl_facets *k, const fl_poly *p, const fl_prism *q)
+{
+    const int32_t axis = q->area > 0.0 ? axis_of(q->e) : -1;
+    const fl_vec3 g = along(axis + 3);
+    int32_t caps[2] = {-1, -1};
+    if (axis < 0) return;
+    for (int32_t f = 0; f < p->nf; f++) {
+        const double up = v3_dot(g, p->n[f]);
+        if (fabs(up) < 0.5) {
+            if (corners_of(p, f) != 4) return;
+        } else {
+            if (caps[up > 0.0] >= 0) return; /* it is in two */
+            caps[up > 0.0] = f;
+        }
+    }
+    k->upright = axis;
+    k->bottom = caps[0], k->top = caps[1];
+    k->y0 = -p->c[k->bottom], k->y1 = p->c[k->top];
+    for (int32_t f = 0; f < p->nf; f++) {
+        const int cap = f == k->bottom || f == k->top;
+        k->axis[2 * f] = cap ? along(axis + 1) : v3_unit(v3_cross(g, p->n[f]));
+        k->axis[2 * f + 1] = !cap ? g : f == k->top ? along(axis + 2) : v3_neg(along(axis + 2));
+    }
+}
+
+int fl_facets_make(fl_facets *k, const fl_hull *h, fl_err *err)
+{
+    const fl_poly *p = h->p;
+    *k = (fl_facets){.reach = fl_drag_radius(p, 0.0), .top = -1, .bottom = -1, .upright = -1};
+    k->axis = fl_alloc(2 * (int64_t)p->nf, sizeof *k->axis, err);
+    if (!k->axis) return -1;
+    for (int32_t f = 0; f < p->nf; f++) {
+        const int32_t *at = p->loop + p->first[f];
+        k->axis[2 * f] = v3_unit(v3_sub(p->v[at[1]], p->v[at[0]]));
+        k->axis[2 * f + 1] = v3_cross(p->n[f], k->axis[2 * f]);
+        if (corners_of(p, f) > corners_of(p, k->widest)) k->widest = f;
+    }
+    stand_up(k, p, &h->prism);
+    return 0;
+}
+
+void fl_facets_free(fl_facets *k)
+{
+    free(k->axis);
+    *k = (fl_facets){0};
+}
+
+/* What the water leaves of m corners are m + 1, and m + m/2 where rounding puts every other one of a level
+ * face into it; two pieces each.  Fours, at most those of all sides of a prism and one of a cap, have no
+ * more rows than as many of the faces with the most corners: of numbers m_f the G largest add up to
+ *     sum_{k > 0} min(G, number of m_f >= k). */
+static int32_t most_rows(const fl_poly *p, int32_t fours)
+{
+    int32_t sum = 0, many = 1;
+    for (int32_t k = 1; many; k++) {
+        many = 0;
+        for (int32_t f = 0; f < p->nf && many < fours; f++) many += corners_of(p, f) >= k;
+        sum += many;
+    }
+    return 3 * sum;
+}
+
+int fl_patches_make(fl_patches *s, const fl_hull *h, int dry, int flows, fl_err *err)
+{
+    *s = (fl_patches){.dry = dry, .upright = -1, .most = (h->p->nf + 1) / FL_LANES + 1};
+    s->most_rows = most_rows(h->p, s->most);
+    s->four = fl_alloc(s->most, sizeof *s->four, err);
+    s->row = fl_alloc(s->most_rows, sizeof *s->row, err);
+    if (!s->four || !s->row) return -1;
+    if (flows) s->flow = fl_alloc(s->most_rows, sizeof *s->flow, err);
+    return flows && !s->flow ? -1 : 0;
+}
+
+void fl_patches_free(fl_patches *s)
+{
+    free(s->four), free(s->row), free(s->flow);
+    *s = (fl_patches){0};
+}
+
+double fl_facets_bytes(const fl_facets *k, const fl_hull *h)
+{
+    return k->axis ? 2.0 * h->p->nf * (double)sizeof *k->axis : 0.0;
+}
+
+double fl_patches_bytes(const fl_patches *s)
+{
+    const double rows = s->most_rows;
+    return s->most * (double)sizeof *s->four + rows * (double)sizeof *s->row +
+           (s->flow ? rows * (double)sizeof *s->flow : 0.0);
+}
+
+/* --- facet by facet ---------------------------------------------------------------------------- */
+
+/* Below (sign 1) or above (-1) the plane up.x = level. */
+typedef struct {
+    fl_vec3 up;
+    double level, sign;
+} half;
+
+/* A skin that is being filled: the four that is open, its rows, lanes that are taken and how many pieces they
+ * have. */
+typedef struct {
+    fl_patches *s;
+    fl_patches_four *four;
+    fl_patches_row *row;
+    int32_t lanes, pieces[FL_LANES];
+} filler;
+
+static void set_frame(fl_patches_four *to, int32_t l, fl_vec3 n, fl_vec3 e, fl_vec3 g, double c)
+{
+    to->n[0][l] = n.x, to->n[1][l] = n.y, to->n[2][l] = n.z;
+    to->e[0][l] = e.x, to->e[1][l] = e.y, to->e[2][l] = e.z;
+    to->g[0][l] = g.x, to->g[1][l] = g.y, to->g[2][l] = g.z;
+    to->c[l] = c;
+    to->x0[l] = to->x1[l] = 0.0;
+}
+
+/* Whatever has been told of no lane, or of no piece, is zero. */
+static void close_four(filler *to)
+{
+    const fl_vec3 no = v3(0, 0, 0);
+    int32_t rows = 0;
+    if (to->lanes == 0) return;
+    for (int32_t l = to->lanes; l < FL_LANES; l++) set_frame(to->four, l, no, no, no, 0.0), to->pieces[l] = 0;
+    for (int32_t l = 0; l < FL_LANES; l++) rows = to->pieces[l] > rows ? to->pieces[l] : rows;
+    for (int32_t l = 0; l < FL_LANES; l++)
+        for (int32_t k = to->pieces[l]; k < rows; k++)
+            to->row[k].area[l] = to->row[k].x[l] = to->row[k].y[l] = 0.0;
+    to->four->rows = rows;
+    to->four++;
+    to->row += rows;
+    to->lanes = 0;
+    to->s->fours++;
+}
+
+/* Round face f: the corners of what is left of it, x and y in every other row; returns how many. */
+static int32_t outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, const half *part,
+                       fl_patches_row *row, int32_t l)
+{
+    const int32_t *at = p->loop + p->first[f], m = corners_of(p, f);
+    fl_vec3 v = p->v[at[m - 1]];
+    double s0 = part->sign * (v3_dot(part->up, v) - part->level), x0 = v3_dot(e, v), y0 = v3_dot(g, v);
+    int32_t n = 0;
+    for (int32_t k = 0; k < m; k++) {
+        v = p->v[at[k]];
+        const double s1 = part->sign * (v3_dot(part->up, v) - part->level), x1 = v3_dot(e, v),
+                     y1 = v3_dot(g, v);
+        if ((s0 <= 0.0) != (s1 <= 0.0)) {
+            const double t = s0 / (s0 - s1);
+            row[2 * n].x[l] = x0 + t * (x1 - x0), row[2 * n].y[l] = y0 + t * (y1 - y0);
+            n++;
+        }
+        if (s1 <= 0.0) {
+            row[2 * n].x[l] = x1, row[2 * n].y[l] = y1;
+            n++;
+        }
+        s0 = s1, x0 = x1, y0 = y1;
+    }
+    return n;
+}
+
+/* Of n corners to the pieces of the fan about their centroid, which are as many as are returned. */
+static int32_t fan(fl_patches_row *row, int32_t l, int32_t n)
+{
+    const double ox = row[0].x[l], oy = row[0].y[l];
+    double twice = 0.0, mx = 0.0, my = 0.0;
+    for (int32_t k = 1; k + 1 < n; k++) {
+        const double ax = row[2 * k].x[l] - ox, ay = row[2 * k].y[l] - oy, bx = row[2 * k + 2].x[l] - ox,
+                     by = row[2 * k + 2].y[l] - oy, w = ax * by - bx * ay;
+        twice += w;
+        mx += w * (ax + bx);
+        my += w * (ay + by);
+    }
+    if (!(twice > 0.0)) return 0;
+    const double hx = ox + mx / (3.0 * twice), hy = oy + my / (3.0 * twice);
+    const double first_x = ox - hx, first_y = oy - hy;
+    double ax = first_x, ay = first_y, last = 0.0;
+    for (int32_t k = 0; k < n; k++) {
+        fl_patches_row *spoke = &row[2 * k], *rim = spoke + 1;
+        const int closing = k + 1 == n;
+        const double bx = closing ? first_x : rim[1].x[l] - hx, by = closing ? first_y : rim[1].y[l] - hy;
+        const double w = ax * by - bx * ay, third = w > 0.0 ? w / 6.0 : 0.0;
+        spoke->area[l] = last + third, spoke->x[l] = hx + 0.5 * ax, spoke->y[l] = hy + 0.5 * ay;
+        rim->area[l] = third, rim->x[l] = hx + 0.5 * (ax + bx), rim->y[l] = hy + 0.5 * (ay + by);
+        ax = bx, ay = by, last = third;
+    }
+    row[0].area[l] += last;
+    return 2 * n;
+}
+
+/* What is left of face f, in the next lane. */
+static void add_face(filler *to, const fl_facets *k, const fl_poly *p, int32_t f, const half *part)
+{
+    const fl_vec3 e = k->axis[2 * f], g = k->axis[2 * f + 1];
+    if (to->lanes == FL_LANES) close_four(to);
+    const int32_t l = to->lanes, corners = outline(p, f, e, g, part, to->row, l);
+    to->pieces[l] = corners > 2 ? fan(to->row, l, corners) : 0;
+    if (to->pieces[l] == 0) return;
+    set_frame(to->four, l, p->n[f], e, g, p->c[f]);
+    to->lanes++;
+}
+
+/* The same of a face that takes all lanes that are left. */
+static void spread_face(filler *to, const fl_facets *k, const fl_poly *p, int32_t f, const half *part)
+{
+    const int32_t l = to->lanes % FL_LANES, parts = FL_LANES - l;
+    add_face(to, k, p, f, part);
+    if (to->lanes <= l) return;
+    const int32_t all = to->pieces[l], each = (all + parts - 1) / parts;
+    for (int32_t j = each; j < all; j++) {
+        const int32_t lane = l + j / each;
+        fl_patches_row *row = &to->row[j % each];
+        row->area[lane] = to->row[j].area[l];
+        row->x[lane] = to->row[j].x[l], row->y[lane] = to->row[j].y[l];
+    }
+    for (int32_t j = 0; j < parts; j++) {
+        const int32_t left = all - j * each;
+        to->pieces[l + j] = left < 0 ? 0 : left < each ? left : each;
+        set_frame(to->four, l + j, p->n[f], k->axis[2 * f], k->axis[2 * f + 1], p->c[f]);
+    }
+    to->lanes = FL_LANES;
+}
+
+static filler start(fl_patches *s, enum fl_patches_state state)
+{
+    s->state = state;
+    s->upright = -1;
+    s->fours = 0;
+    return (filler){.s = s, .four = s->four, .row = s->row};
+}
+
+static void cut(fl_patches *s, const fl_facets *k, const fl_poly *p, enum fl_patches_state state, half part)
+{
+    filler to = start(s, state);
+    for (int32_t f = 0; f < p->nf; f++)
+        if (f != k->widest) add_face(&to, k, p, f, &part);
+    spread_face(&to, k, p, k->widest, &part);
+    close_four(&to);
+}
+
+/* --- prisms ------------------------------------------------------------------------------------ */
+
+enum { SIDE = 8 }; /* pieces of a side, which has four corners */
+
+FL_WIDE_PART void put(fl_patches_row *row, const fl_wide *area, const fl_wide *x, const fl_wide *y)
+{
+    FL_FOUR_INTO(row->area) = *area;
+    FL_FOUR_INTO(row->x) = *x;
+    FL_FOUR_INTO(row->y) = *y;
+}
+
+/* Four sides: their trapezoids from the cap at y0 on, on the side of sign; 0 where one of their long edges,
+ * so long, is not crossed.  Lanes that are zero stand where the origin is, have no width and no area. */
+FL_WIDE_PART int trapezoids(const fl_patches_four *f, fl_patches_row *row, fl_vec3 up, double level,
+                            double per, double y0, double sign, double length)
+{
+    const fl_wide un = up.x * FL_FOUR(f->n[0]) + up.y * FL_FOUR(f->n[1]) + up.z * FL_FOUR(f->n[2]),
+                  ue = up.x * FL_FOUR(f->e[0]) + up.y * FL_FOUR(f->e[1]) + up.z * FL_FOUR(f->e[2]);
+    const fl_wide x0 = FL_FOUR(f->x0), x1 = FL_FOUR(f->x1), L = x1 - x0, slope = per * ue;
+    const fl_wide l = per * (level - FL_FOUR(f->c) * un) - y0, a = l - slope * x0, b = l - slope * x1;
+    const fl_wide la = sign * a, lb = sign * b;
+    const fl_wide_mask in = (la > 0.0) & (la < length) & (lb > 0.0) & (lb < length), off = ~in;
+    if (fl_wide_any(&off)) return 0;
+    const fl_wide ab = a + b, third = 1.0 / (3.0 * ab);
+    const fl_wide x = L * (ab + b) * third, y = (a * ab + b * b) * third, rest = L - x;
+    const fl_wide hx = x0 + x, hy = y0 + y, da = a - y, db = b - y; /* the hub, and the water over it */
+    const double sixth = sign / 6.0;
+    const fl_wide low = sixth * (L * y), right = sixth * (b * rest), left = sixth * (a * x),
+                  high = sixth * (rest * da + x * db);
+    const fl_wide w0 = left + low, w1 = low + right, w2 = right + high, w3 = high + left;
+    const fl_wide xl = x0 + 0.5 * x, xr = hx + 0.5 * rest, xm = 0.5 * (x0 + x1);
+    const fl_wide yl = y0 + 0.5 * y, ya = hy + 0.5 * da, yb = hy + 0.5 * db, yz = {y0, y0, y0, y0};
+    const fl_wide ra = y0 + 0.5 * a, rb = y0 + 0.5 * b, rm = y0 + 0.5 * ab;
+    put(&row[0], &w0, &xl, &yl), put(&row[1], &low, &xm, &yz);
+    put(&row[2], &w1, &xr, &yl), put(&row[3], &right, &x1, &rb);
+    put(&row[4], &w2, &xr, &yb), put(&row[5], &high, &xm, &rm);
+    put(&row[6], &w3, &xl, &ya), put(&row[7], &left, &x0, &ra);
+    return 1;
+}
+
+FL_FOUR_VERSIONS static int all_sides(fl_patches *s, fl_vec3 up, double level, double per, double y0,
+                                      double sign, double length)
+{
+    for (int32_t k = 0; k + 1 < s->fours; k++)
+        if (!trapezoids(&s->four[k], &s->row[SIDE * k], up, level, per, y0, sign, length)) return 0;
+    return 1;
+}
+
+/* Sides one after another, then the cap; the pieces of the sides are still to be told. */
+static void stand(fl_patches *s, const fl_facets *k, const fl_poly *p, enum fl_patches_state state,
+                  int32_t cap)
+{
+    const half all = {.up = p->n[cap], .level = INFINITY, .sign = 1.0};
+    filler to = start(s, state);
+    for (int32_t f = 0; f < p->nf; f++) {
+        const fl_vec3 e = k->axis[2 * f];
+        if (f == k->top || f == k->bottom) continue;
+        add_face(&to, k, p, f, &all);
+        double lo = INFINITY, hi = -INFINITY;
+        for (int32_t c = p->first[f]; c < p->first[f + 1]; c++) {
+            lo = fmin(lo, v3_dot(e, p->v[p->loop[c]]));
+            hi = fmax(hi, v3_dot(e, p->v[p->loop[c]]));
+        }
+        to.four->x0[to.lanes - 1] = lo, to.four->x1[to.lanes - 1] = hi;
+    }
+    close_four(&to);
+    spread_face(&to, k, p, cap, &all);
+    close_four(&to);
+    s->upright = k->upright;
+}
+
+/* Returns 0 where some long edge is not crossed. */
+static int stands(fl_patches *s, const fl_facets *k, const fl_poly *p, fl_vec3 up, double level)
+{
+    const double ue = k->upright == 0 ? up.x : k->upright == 1 ? up.y : up.z;
+    if (k->upright < 0 || !(fabs(ue) > 0.1)) return 0;
+    const int top = (ue > 0.0) == s->dry;
+    const enum fl_patches_state state = top ? FL_PATCHES_TOP : FL_PATCHES_BOTTOM;
+    if (s->state != state) stand(s, k, p, state, top ? k->top : k->bottom);
+    return all_sides(s, up, level, 1.0 / ue, top ? k->y1 : k->y0, top ? -1.0 : 1.0, k->y1 - k->y0);
+}
+
+void fl_patches_look(fl_patches *s, const fl_facets *k, const fl_hull *h, fl_vec3 up, double level)
+{
+    const double sign = s->dry ? -1.0 : 1.0;
+    if (!(fabs(level) < k->reach)) {
+        const enum fl_patches_state state = sign * level > 0.0 ? FL_PATCHES_WHOLE : FL_PATCHES_NONE;
+        if (s->state == state) return;
+        if (state == FL_PATCHES_NONE) start(s, state);
+        else cut(s, k, h->p, state, (half){up, sign * INFINITY, sign});
+    } else if (!stands(s, k, h->p, up, level)) {
+        cut(s, k, h->p, FL_PATCHES_ANYHOW, (half){up, level, sign});
+    }
+}
