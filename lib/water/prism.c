@@ -29,12 +29,16 @@ static double long_edges(const fl_poly *p, fl_vec3 e, double *low)
     return 2 * n == p->nv ? length : 0.0;
 }
 
-/* The cap that looks along e; -1 when there is none. */
+/* The cap that looks along e; -1 when there is none, or it is in several faces. */
 static int32_t cap(const fl_poly *p, fl_vec3 e)
 {
-    for (int32_t f = 0; f < p->nf; f++)
-        if (v3_norm(v3_sub(p->n[f], e)) <= SAME) return f;
-    return -1;
+    int32_t found = -1;
+    for (int32_t f = 0; f < p->nf; f++) {
+        if (v3_norm(v3_sub(p->n[f], e)) > SAME) continue;
+        if (found >= 0) return -1;
+        found = f;
+    }
+    return found;
 }
 
 /* The cross-section, from cap f. */

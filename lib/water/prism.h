@@ -27,7 +27,7 @@ typedef struct {
 
 /* Of several ways to see p as a right prism, as of a box, the one with the shortest long edges.  out->area is
  * 0 when there is none: edges must be parallel, and caps at right angles to them, within 1e-12 of the
- * size. */
+ * size, and each cap one face. */
 void fl_prism_of(fl_prism *out, const fl_poly *p);
 
 struct fl_wet; /* buoyancy.h */

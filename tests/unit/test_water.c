@@ -215,6 +215,19 @@ static void what_is_a_prism(void **state)
     assert_near(h.prism.area, 0.0, 0.0);
     fl_hull_free(&h);
     fl_poly_free(&p);
+    /* a box of 2 x 2 x 1 m whose top is two triangles */
+    const fl_vec3 box[8] = {v3(-1, -1, -0.5), v3(1, -1, -0.5), v3(1, 1, -0.5), v3(-1, 1, -0.5),
+                            v3(-1, -1, 0.5),  v3(1, -1, 0.5),  v3(1, 1, 0.5),  v3(-1, 1, 0.5)};
+    const int32_t begin[8] = {0, 4, 7, 10, 14, 18, 22, 26},
+                  round[26] = {3, 2, 1, 0, 4, 5, 6, 4, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
+    fl_wet w;
+    assert_int_equal(fl_poly_make(&p, 8, box, 7, begin, round, &err), 0);
+    assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
+    fl_buoyancy(&h, v3(0, 0, 1), 0.1, &w);
+    assert_near(w.volume, 2.4, 1e-15);
+    assert_near(w.wetted, 8.8, 1e-15);
+    fl_hull_free(&h);
+    fl_poly_free(&p);
 }
 
 /* The diagonal of a cube stands up and the water passes three vertices at once (H24). */
