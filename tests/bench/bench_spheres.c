@@ -5,6 +5,7 @@
  *     bench_spheres                        the table
  *     bench_spheres count STEPS            so many steps of a thousand spheres in a lattice, for a tool that
  *                                          counts instructions; tells how many contact-steps they were
+ *     bench_spheres rolls [STEPS]          either with contact.rolling = 0.1
  *     bench_spheres THREADS TILES STEPS    one row
  *     bench_spheres pack TILES STEPS PARTS what so many steps, each cut into parts, make of the pack (0: the
  *                                          pack): a row with the number of spheres, the step that is cut and
@@ -16,6 +17,7 @@
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include "base/rng.h"
 #include "scene/field_order.h"
@@ -39,12 +41,15 @@ static double now(clockid_t clock)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static double rolling; /* contact.rolling */
+
 static void keys(lab *l, int32_t tiles, int threads)
 {
     lab_start(l);
     lab_set(l, "material.ice.young=20 MPa");
     lab_set(l, "contact.friction=0.4");
     lab_set(l, "contact.restitution=0.3");
+    lab_setf(l, "contact.rolling=%g", rolling);
     lab_set(l, "run.gravity=9.81");
     lab_setf(l, "run.threads=%d", threads);
     lab_set(l, "boundary.type=periodic periodic rigid");
@@ -190,10 +195,11 @@ int main(int argc, char **argv)
     double dt;
     int good = 0, bad = 0;
     setvbuf(stdout, NULL, _IOLBF, 0);
+    if (argc > 1 && strcmp(argv[1], "rolls") == 0) rolling = 0.1;
     if (argc == 3) return count(b, atoi(argv[2]));
     pour(b, &dt);
     if (argc == 5) return tell(b, atoi(argv[2]), dt, atoi(argv[3]), atoi(argv[4]));
-    printf("spheres at rest, Hertz and Mindlin, friction 0.4, steps of %.3g s\n", dt);
+    printf("spheres at rest, Hertz and Mindlin, friction 0.4, rolling %g, steps of %.3g s\n", rolling, dt);
     head();
     if (argc == 4) return row(b, atoi(argv[2]), atoi(argv[1]), dt, atoi(argv[3]));
     for (size_t k = 0; k < sizeof ROW / sizeof *ROW; k++) {

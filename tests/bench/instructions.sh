@@ -5,10 +5,11 @@
 # `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.  The cases by number are
 # those of bench_contact; `wall` of 20 000 triangles, `cylinder`, exact, and `hull` of 50 000 triangles are of
 # bench_structure; `told` are cases of bench_contact by surrogates of 1e-3, one of eight, looks included;
-# `spheres` is a contact and step of spheres in a lattice, everything included, `dry`, `water`, `added`,
-# `waves`, `held` and `facets` a body and step of floes that touch nothing.  `bonds` is a bond and step, its share of the bodies included.  `sums-one` and `sums-any` are a body and step of floes
-# that do, with all sums in one order and in the order in which contacts come, which locks every sum it adds
-# to.
+# `spheres` is a contact and step of spheres in a lattice, everything included, `rolls` with what keeps them
+# from rolling, `dry`, `water`, `added`, `waves`, `held` and `facets` a body and step of floes that touch
+# nothing.  `bonds` is a bond and step, its share of the bodies included.  `sums-one` and `sums-any` are a
+# body and step of floes that do, with all sums in one order and in the order in which contacts come, which
+# locks every sum it adds to.
 #   BENCH  the folder where the benches lie
 #   ONLY   the one case that is counted
 set -e
@@ -43,6 +44,7 @@ all() {
     each hull bench_structure 24 $FEW $MANY $((MANY - FEW))
     each hull-edge bench_structure 25 $FEW $MANY $((MANY - FEW))
     each spheres bench_spheres count 20 120
+    each rolls bench_spheres rolls 20 120
     each dry bench_step dry 20 120
     each sums-one bench_step one 500 1500
     each sums-any bench_step any 500 1500
