@@ -13,7 +13,7 @@ static void whole_of(const fl_budget *g, FILE *f)
     double apart;
     const double off = fl_budget_whole(g, &apart);
     const fl_beside *s = &g->beside;
-    if (!(s->ratio > 0.0)) return;
+    if (!(s->ratio > 0.0) || g->latest < 0) return;
     fprintf(f,
             "                   as a whole %.2g, for beside it a run of %.3g times the step differs by %.2g",
             off, s->ratio, apart);
