@@ -17,13 +17,14 @@ enum { BLOCK = 16, MANY = 64 };
 void fl_awake_share(fl_world *w)
 {
     const int64_t live = w->n_live;
-    for (int32_t t = 0; t < w->threads; t++) {
+    const int32_t team = w->team.n;
+    for (int32_t t = 0; t < team; t++) {
         w->share[t].next = t == 0     ? 0
-                           : live > 0 ? w->live[live * t / w->threads]
-                                      : (int32_t)((int64_t)w->n_pair * t / w->threads);
+                           : live > 0 ? w->live[live * t / team]
+                                      : (int32_t)((int64_t)w->n_pair * t / team);
         if (t > 0) w->share[t - 1].end = w->share[t].next;
     }
-    w->share[w->threads - 1].end = w->n_pair;
+    w->share[team - 1].end = w->n_pair;
     memset(w->met, 0, (size_t)w->b.total);
 }
 
@@ -121,8 +122,8 @@ void fl_awake_look(fl_world *w, double dt, int survey)
     hand h; /* large: not cleared */
     const int32_t block = w->sleep.nap ? MANY : BLOCK;
     h.thread = thread, h.dt = dt, h.survey = survey, h.told.n = 0;
-    for (int32_t k = 0; k < w->threads; k++) {
-        fl_portion *const s = &w->share[(thread + k) % w->threads];
+    for (int32_t k = 0; k < w->team.n; k++) {
+        fl_portion *const s = &w->share[(thread + k) % w->team.n];
         for (int32_t c = fl_portion_take(s, block); c < s->end; c = fl_portion_take(s, block))
             (w->sleep.nap ? look_due : look)(w, &h, c, s->end < c + block ? s->end : c + block);
     }

@@ -593,13 +593,13 @@ void fl_sleep_resume(fl_world *w)
 /* All of them, by the same odometers. */
 static void lull_all(fl_world *w)
 {
-    if (w->threads == 1) { /* a team of one takes its time */
+    if (w->team.n == 1) { /* a team of one takes its time */
         const int32_t n = find_spans(w, 0, w->n);
         fall_asleep(w, 0, n);
         look_round_all(w, 0, n);
         return;
     }
-#pragma omp parallel num_threads(w->threads)
+#pragma omp parallel num_threads(w->team.n)
     {
         const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
         const int32_t from = (int32_t)((int64_t)w->n * thread / threads),

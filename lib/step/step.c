@@ -156,7 +156,7 @@ static void after_touch(void *arg)
 {
     stride *const q = arg;
     fl_world *const w = q->w;
-    fl_portions_split(w->turn, w->threads, fl_groups(w));
+    fl_portions_split(w->turn, w->team.n, fl_groups(w));
     fl_awake_told(w);
     fl_works_place(w);
     if (w->frozen.ended) { /* there is a pair to be found */
@@ -201,8 +201,8 @@ static void groups(stride *q, int thread, int end)
     fl_world *const w = q->w;
     const double h = 0.5 * q->dt;
     const int32_t each = fl_groups_each(w);
-    for (int32_t k = 0; k < w->threads; k++) {
-        fl_portion *const s = &w->turn[(thread + k) % w->threads];
+    for (int32_t k = 0; k < w->team.n; k++) {
+        fl_portion *const s = &w->turn[(thread + k) % w->team.n];
         for (int32_t g = fl_portion_take(s, each); g < s->end; g = fl_portion_take(s, each)) {
             const int32_t last = g + each < s->end ? g + each : s->end;
             if (end) fl_groups_end(w, g, last, h);
@@ -254,12 +254,13 @@ static void go(stride *q)
 /* To call up a team of one takes as long as three floes do for a step. */
 static int stride_on(stride *q)
 {
-    fl_portions_split(q->w->turn, q->w->threads, fl_groups(q->w));
+    const int32_t team = q->w->team.n;
+    fl_portions_split(q->w->turn, team, fl_groups(q->w));
     if (!q->out) fl_awake_share(q->w);
-    if (q->w->threads == 1) {
+    if (team == 1) {
         go(q);
     } else {
-#pragma omp parallel num_threads(q->w->threads)
+#pragma omp parallel num_threads(team)
         go(q);
     }
     return q->bad ? -1 : 0;
@@ -313,10 +314,10 @@ static void survey_stiffness(fl_world *w)
 {
     double least = w->dt_critical;
     int32_t body = INT32_MAX;
-    if (w->threads == 1) {
+    if (w->team.n == 1) {
         survey_bodies(w, &least, &body);
     } else {
-#pragma omp parallel num_threads(w->threads)
+#pragma omp parallel num_threads(w->team.n)
         survey_bodies(w, &least, &body);
     }
     if (body < INT32_MAX) {
@@ -501,6 +502,7 @@ int fl_step(fl_world *w, fl_err *err)
     const int rides = w->ride.m.n > 0, survey = surveyed(w, w->step + 1);
     deepest deep;
 
+    fl_team_begin(&w->team);
     load_parts(w, h);
     if (w->press.panels && fl_press_add(w, h, err)) return -1;
     fl_works_begin(w);
@@ -523,6 +525,7 @@ int fl_step(fl_world *w, fl_err *err)
     w->sea.looks = 1; /* whoever is put anywhere between two steps is looked at */
     if (w->traffic.away && fl_traffic_step(w, err)) return -1;
     if (w->sleep.nap) fl_sleep_lull(w);
+    fl_team_end(&w->team);
     return 0;
 }
 

@@ -25,6 +25,7 @@
 #include "scene/scene.h"
 #include "step/ball.h"
 #include "step/surrogate.h"
+#include "step/team.h"
 #include "water/added.h"
 #include "water/sea.h"
 
@@ -344,8 +345,9 @@ typedef struct {
     int32_t *live; /* [n_live] those that do, ascending */
     uint8_t *met;  /* [total] is of one of those */
     int32_t n_live, hit_cap, live_cap, watch_cap;
-    fl_portion *share, *turn; /* [threads] of pairs, of groups of bodies */
-    fl_gate gate;             /* of the team that does a step */
+    fl_portion *share, *turn; /* [threads] of pairs, of groups of bodies; of a step those of its team */
+    fl_gate gate;             /* of the team that does a step, */
+    fl_team team;             /* and how many they are */
     int32_t inc_cap, inc_first_cap;
     fl_sinks sink, was; /* of the forces of now, and of those before; see works.h */
     /* [gain_cap] at was.place[k], 0: of nobody; of the first kick of a step, and of all of its first half */

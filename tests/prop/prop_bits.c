@@ -162,6 +162,37 @@ static void laws(void **state)
         compare(how, sizeof how / sizeof *how, &IT[k], 200, 1000);
 }
 
+/* A team that is another in each step, of one to three threads, beside one thread. */
+static void teams_that_change(void **state)
+{
+    static const struct {
+        void (*scene)(lab *l, int32_t side, const char *law);
+        const char *key;
+    } IT[] = {{scene_of_everything, "run.sleep=1e-3"},
+              {scene_of_everything, "run.sleep=none"},
+              {scene_of_balls, "contact.law=patch"},
+              {scene_of_bonds, "contact.law=patch"},
+              {scene_of_surrogates, "contact.law=patch"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
+        uint64_t bits[2];
+        for (int changes = 0; changes < 2; changes++) {
+            lab l;
+            IT[k].scene(&l, 6, "patch");
+            lab_set(&l, IT[k].key);
+            lab_setf(&l, "run.threads=%d", changes ? 3 : 1);
+            lab_make(&l, 0);
+            for (int s = 0; s < 120; s++) {
+                l.w.team.n = changes ? 1 + 7 * s % 3 : 1;
+                assert_int_equal(lab_run(&l, 1), 0);
+            }
+            bits[changes] = bits_of(&l.w);
+            lab_free(&l);
+        }
+        assert_true(bits[0] == bits[1]);
+    }
+}
+
 /* With an argument, the bits alone: what prop_width holds its own against. */
 int main(int argc, char **argv)
 {
@@ -170,6 +201,7 @@ int main(int argc, char **argv)
         bits_of_scenes(text);
         return fputs(text, stdout) == EOF;
     }
-    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_and_searches), cmocka_unit_test(laws)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_and_searches), cmocka_unit_test(laws),
+                                       cmocka_unit_test(teams_that_change)};
     return cmocka_run_group_tests_name("bits", tests, NULL, NULL);
 }

@@ -129,7 +129,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     fprintf(f, "\nmemory         %.1f MiB, and %.1f more while neighbours are searched\n",
             fl_footprint_sum(&bytes) / 1048576.0, bytes.passing / 1048576.0);
     if (w->step)
-        fprintf(f, "time           about %.0f s on %d threads, from %" PRId64 " steps of it\n",
-                spent / (double)w->step * (double)r->steps, w->threads, w->step);
+        fprintf(f, "time           about %.0f s on %.3g threads, from %" PRId64 " steps of it\n",
+                spent / (double)w->step * (double)r->steps, fl_team_mean(&w->team), w->step);
     return 0;
 }

@@ -111,8 +111,11 @@ void report_write(const struct run *r, FILE *f)
                 "critical and "
                 "the restitution, not measured (run.error does)\n",
                 fl_world_peak_off(w), fl_world_impulse_off(w));
-    fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %d thread%s\n", simulated,
-            r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, w->threads, w->threads == 1 ? "" : "s");
+    fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %.3g thread%s", simulated,
+            r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, fl_team_mean(&w->team),
+            fl_team_mean(&w->team) == 1.0 ? "" : "s");
+    if (w->team.open) fprintf(f, " of %d", w->threads);
+    putc('\n', f);
     if (r->moved > 0)
         fprintf(f,
                 "                   %.0f ns a body-step, %.0f ns a contact-step (%.3g contacts at a time, "
