@@ -219,8 +219,9 @@ const fl_key fl_key_table[] = {
      .fallback = "auto",
      .special = "auto",
      .range = "[1,1024]",
-     .meaning = "number of threads; auto takes as many as OpenMP offers, one for 32 bodies at the most, and of "
-                "these as many as are the fastest as it goes; the results are the same bytes for any number"},
+     .meaning = "number of threads; auto takes as many as OpenMP offers, one for 32 bodies at the most, and "
+                "of these as many as are the fastest as it goes; the results are the same bytes for any "
+                "number"},
     {.section = FL_SEC_RUN,
      .key = "sleep",
      .type = FL_VALUE_F64,

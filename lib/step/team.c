@@ -2,8 +2,9 @@
 #include "step/team.h"
 #include <time.h>
 
-/* A window has so many steps at least, and so long [s]; as many steps that nobody times, times RESTS, come
- * after it.  A trial is held against BETTER of what is, a step that takes WORSE of what it did asks for one. */
+/* A window has so many steps at least, and so long [s]; RESTS times as many that nobody times come after it.
+ * Trials are LONGEST windows apart at the most.  A trial is held against BETTER of what is, a step that takes
+ * WORSE of what it did asks for one. */
 enum { LEAST = 4, RESTS = 7, LONGEST = 32 };
 #define WINDOW 2e-3
 #define BETTER 0.97
