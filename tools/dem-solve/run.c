@@ -60,9 +60,9 @@ int run_countable(const struct run *r, fl_err *err)
     const double most = 9007199254740992.0,
                  n = r->scene->run.duration / r->w->dt; /* doubles tell those apart */
     if (n < most) return 0;
-    return fl_fail(err, FL_INPUT,
-                   "run.duration of %g s in steps of %g s: %.3g steps, at most %.3g were wanted",
-                   r->scene->run.duration, r->w->dt, n, most);
+    return fl_scene_fail(r->scene, "run.duration", err,
+                         "run.duration of %g s in steps of %g s: %.3g steps, at most %.3g were wanted",
+                         r->scene->run.duration, r->w->dt, n, most);
 }
 
 /* Half of the critical step; or of what damping leaves, or 0.8 of it; or less where many contacts are damped
