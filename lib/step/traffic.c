@@ -43,6 +43,18 @@ double fl_traffic_extent(const fl_traffic *t, const fl_field *field, int32_t k, 
     return end * (most + field->radius[k]);
 }
 
+/* Whether floe k of the feed comes in: not where its group holds it along the drift, but as the sheet moves. */
+static int comes(const fl_world *w, const fl_field *feed, int32_t k)
+{
+    const fl_traffic *t = &w->traffic;
+    const int32_t g =
+        feed->group[k] < 0 ? -1 : fl_scene_find_group(w->scene, feed->groups.name[feed->group[k]]);
+    if (g < 0) return 1;
+    const fl_scene_group *s = &w->scene->group[g];
+    return !(s->fixed & (t->axis ? FL_HOLD_Y : FL_HOLD_X)) ||
+           (t->axis ? s->velocity.y : s->velocity.x) == t->sign * t->speed;
+}
+
 /* What leaves and what comes, but for the arrays of all places. */
 static int plan_traffic(fl_world *w, const fl_field *field, const fl_field *feed, fl_err *err)
 {
@@ -58,14 +70,20 @@ static int plan_traffic(fl_world *w, const fl_field *field, const fl_field *feed
                    ? s->inflow_speed
                    : t->sign * (t->axis ? w->scene->water.current.y : w->scene->water.current.x);
     for (int32_t k = 0; k < feed->n; k++) {
+        if (!comes(w, feed, k)) continue;
         front = fmax(front, fl_traffic_extent(t, feed, k, 1.0));
         back = fmin(back, fl_traffic_extent(t, feed, k, -1.0));
     }
+    if (!(front >= back))
+        return fl_scene_fail(w->scene, "boundary.inflow", err,
+                             "every floe of %s is held by its group along the drift: none comes in",
+                             s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file);
     t->pitch = s->inflow_pitch > 0.0 ? s->inflow_pitch : front - back;
     t->lag = fl_alloc(feed->n, sizeof *t->lag, err);
     t->tile = fl_alloc(feed->n, sizeof *t->tile, err);
     if (!t->lag || !t->tile) return -1;
-    for (int32_t k = 0; k < feed->n; k++) t->lag[k] = front - fl_traffic_extent(t, feed, k, 1.0);
+    for (int32_t k = 0; k < feed->n; k++)
+        t->lag[k] = comes(w, feed, k) ? front - fl_traffic_extent(t, feed, k, 1.0) : INFINITY;
     return 0;
 }
 
@@ -237,9 +255,12 @@ static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     for (int32_t v = 0; v < b->core[i].nv; v++)
         front = fmax(front, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
     const double way = t->sign * (t->entry + in - front - b->radius[i]);
-    const fl_vec3 drift = v3(t->axis ? 0.0 : t->sign * t->speed, t->axis ? t->sign * t->speed : 0.0, 0.0);
+    const double drift = t->sign * t->speed;
+    const fl_vec3 held =
+        v3(b->hold[i] & FL_HOLD_X ? b->v[i].x : 0.0, b->hold[i] & FL_HOLD_Y ? b->v[i].y : 0.0,
+           b->hold[i] & FL_HOLD_Z ? b->v[i].z : 0.0); /* at which its group wants it */
     b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : way, t->axis ? way : 0.0, 0.0));
-    b->v[i] = drift;
+    b->v[i] = v3(t->axis ? held.x : drift, t->axis ? drift : held.y, held.z);
     fl_body_spin(b, i, v3(0, 0, 0));
     return 0;
 }
@@ -252,7 +273,7 @@ static void take_in(fl_world *w, int32_t i)
     fl_sleep_new(w, i);
     t->guided[i] = 1;
     t->hold[i] = b->hold[i];
-    b->hold[i] = FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;
+    b->hold[i] |= FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;
     w->id[i] = t->next_id++;
     t->born[i] = w->step;
     t->entered++;

@@ -440,6 +440,12 @@ static int make_row(fl_world *w, const fl_field *field, fl_err *err)
         w->row.in[k] =
             s->drive_group[0] ? strcmp(group, s->drive_group) == 0 : middle - back <= s->drive_width;
         some |= w->row.in[k];
+        const int32_t g = w->row.in[k] ? fl_scene_find_group(w->scene, group) : -1;
+        if (g >= 0 && w->scene->group[g].fixed & s->drive_fixed & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z)) {
+            char what[2 * FL_SCENE_NAME];
+            snprintf(what, sizeof what, "[group %s] and boundary.drive both say how it moves", group);
+            return fail_body(w, field, k, err, what);
+        }
     }
     if (some) return 0;
     if (s->drive_group[0])
@@ -449,17 +455,17 @@ static int make_row(fl_world *w, const fl_field *field, fl_err *err)
                    w->scene->ice.file, s->drive_width);
 }
 
-/* Drive the floe in place i. */
+/* Drive the floe in place i; what its group holds besides stays held. */
 static void drive_body(fl_world *w, int32_t i)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_bodies *b = &w->b;
     const fl_vec3 spin = b->w[i];
-    const unsigned fixed = s->drive_fixed;
+    const unsigned told = s->drive_fixed, fixed = told | b->hold[i];
     b->hold[i] = (uint8_t)fixed;
-    if (fixed & FL_HOLD_X) b->v[i].x = s->drive.x;
-    if (fixed & FL_HOLD_Y) b->v[i].y = s->drive.y;
-    if (fixed & FL_HOLD_Z) b->v[i].z = s->drive.z;
+    if (told & FL_HOLD_X) b->v[i].x = s->drive.x;
+    if (told & FL_HOLD_Y) b->v[i].y = s->drive.y;
+    if (told & FL_HOLD_Z) b->v[i].z = s->drive.z;
     fl_body_spin(b, i,
                  v3(fixed & FL_HOLD_RX ? 0.0 : spin.x, fixed & FL_HOLD_RY ? 0.0 : spin.y,
                     fixed & FL_HOLD_RZ ? 0.0 : spin.z));

@@ -420,6 +420,65 @@ static void stream(void)
     lab_free(&l);
 }
 
+/* Put floe k of the field in a group. */
+static void group(lab *l, int32_t k, const char *name)
+{
+    fl_err err = {0};
+    l->field.group[k] = fl_names_add(&l->field.groups, name, &err);
+}
+
+/* What a group holds against the drift is not copied; what it holds at the speed of the sheet, or across that
+ * only, is, and stays held from the bound on. */
+static void copies_of_groups(void)
+{
+    enum { POST = 3, TOWED = ALONG, N = ACROSS * ALONG };
+    const double speed = 1.0;
+    double off = 0.0, high = 0.0;
+    lab l;
+    sheet(&l, speed);
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "group.post.fixed=x y z rz"), lab_set(&l, "group.flat.fixed=z rx ry");
+    lab_set(&l, "group.towed.fixed=x z rx ry rz"), lab_setf(&l, "group.towed.velocity=%.17g 0 0", speed);
+    for (int32_t k = 0; k < N; k++) group(&l, k, k == POST ? "post" : k == TOWED ? "towed" : "flat");
+    lab_make(&l, 0.005);
+    const double post = l.w.b.x[POST].x;
+    while (fl_world_time(&l.w) < 33.0) {
+        if (lab_run(&l, 1)) return;
+        for (int32_t i = 0; i < l.w.n; i++) {
+            if (fl_world_away(&l.w, i)) continue;
+            const int32_t k = l.w.traffic.floe[i] < 0 ? i : l.w.traffic.floe[i];
+            high = fmax(high, fabs(l.w.b.v[i].z));
+            if (k == TOWED) off = fmax(off, fabs(l.w.b.v[i].x - speed));
+        }
+    }
+    verify_row("B04", "copies of a floe that its group holds", (double)l.w.traffic.tile[POST], 0, 0,
+               VERIFY_ABS);
+    verify_row("B04", "and that one has moved by [m]", l.w.b.x[POST].x - post, 0, 0, VERIFY_ABS);
+    verify_row("B04", "copies of one that its group moves as the sheet", (double)l.w.traffic.tile[TOWED], 2,
+               0, VERIFY_ABS);
+    verify_row("B04", "their speed, off by [m/s]", off, 0, 0, VERIFY_ABS);
+    verify_row("B04", "floes held in z fall with [m/s]", high, 0, 0, VERIFY_ABS);
+    lab_free(&l);
+}
+
+/* A driven floe keeps what its group holds besides. */
+static void held_and_driven(void)
+{
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "run.gravity=9.81"), lab_set(&l, "group.flat.fixed=z rx");
+    lab_set(&l, "boundary.type=free"), lab_set(&l, "boundary.drive_group=flat");
+    lab_set(&l, "boundary.drive=0.5"), lab_set(&l, "boundary.drive_fixed=x");
+    lab_box(&l, ZERO, v3(1, 1, 0.25), 0.05, q_one(), ZERO, v3(1, 1, 0));
+    group(&l, 0, "flat");
+    lab_make(&l, 0.01);
+    lab_run(&l, 100);
+    verify_row("B05", "driven, and its group holds z: it has come by z [m]", l.w.b.x[0].z, 0, 0, VERIFY_ABS);
+    verify_row("B05", "and by x [m]", l.w.b.x[0].x, 0.5, 1e-12, VERIFY_ABS);
+    verify_row("B05", "and turns about x with [rad/s]", l.w.b.w[0].x, 0, 0, VERIFY_ABS);
+    lab_free(&l);
+}
+
 /* Against a cylinder, pushed by the sheet, its middle off by dy: the largest residual over the throughput
  * in so many seconds; -1 where it ends before. */
 static double held_up_by(double dy, double safety, double seconds, int tells, double *dt)
@@ -494,6 +553,8 @@ int main(void)
     too_large();
     leaving();
     stream();
+    copies_of_groups();
+    held_and_driven();
     held_up();
     return verify_end();
 }
