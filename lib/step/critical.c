@@ -152,6 +152,33 @@ static double turning(const fl_world *w, int32_t i, int edges)
     return edges ? shakiest(w, i) : 0.0;
 }
 
+/* What keeps the largest sphere from rolling on what is none turns that as well, by the radius of the sphere. */
+typedef struct {
+    int32_t sphere; /* -1: nothing does */
+    double part;    /* fl_rolling_part(), the most of all laws */
+} rolled_on;
+
+static rolled_on rolled_on_of(const fl_world *w)
+{
+    rolled_on a = {.sphere = -1};
+    for (int32_t i = 0; i < w->n && w->rolls; i++) {
+        if (w->b.core[i].nv != 1 || fl_world_away(w, i)) continue;
+        if (a.sphere < 0 || w->b.radius[i] > w->b.radius[a.sphere]) a.sphere = i;
+    }
+    for (int32_t k = 0; k < w->materials * (w->materials + 2); k++)
+        a.part = fmax(a.part, fl_rolling_part(w->law[k].rolling));
+    return a;
+}
+
+/* omega^2 of body i by that [1/s2]. */
+static double rolled(const fl_world *w, int32_t i, rolled_on by, worst met)
+{
+    double n;
+    if (by.sphere < 0 || w->b.core[i].nv == 1) return 0.0;
+    const double k = fl_pairing_stiffness(w, i, by.sphere, &n), R = w->b.radius[by.sphere];
+    return by.part * R * R * place_slope(w, by.sphere, i, k, n, met) / w->b.I[i].x;
+}
+
 /* How many times as stiff, and as damped, a contact is that is shaken across in place of along; what keeps a
  * sphere from rolling turns it as friction does, with an arm of its radius at the most. */
 static double shaken(const fl_touching *law, int round, double turns)
@@ -239,6 +266,7 @@ static void leave(const fl_world *w, remains *r, const fl_touching *law, int lat
 static double stiffest_contact(const fl_world *w, int edges, double bonds, int32_t *body, remains *left)
 {
     const worst met = worst_of(w);
+    const rolled_on by = rolled_on_of(w);
     double most = 0.0, ridden = 0.0;
     *left = (remains){
         .one = 1.0, .many = 1.0, .alone = 0.5, .measured = 0.5, .frozen = 0.5, .frozen_measured = 0.5};
@@ -273,8 +301,8 @@ static double stiffest_contact(const fl_world *w, int edges, double bonds, int32
         const int faces = w->scene->run.error > 0.0 && w->face[i] > 0.0;
         const double soft = faces ? softest_face(w, i) : softest(w, i);
         double drawn;
-        const double omega2 = 2.0 * places * stiffest * soft + fl_world_spring(w, i, &drawn) * w->b.invm[i] +
-                              bonds * fl_frozen_most(w, i);
+        const double omega2 = 2.0 * places * stiffest * soft + rolled(w, i, by, met) +
+                              fl_world_spring(w, i, &drawn) * w->b.invm[i] + bonds * fl_frozen_most(w, i);
         if (omega2 > most) {
             most = omega2;
             *body = i;

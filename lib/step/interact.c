@@ -156,14 +156,14 @@ static double most_turned(const fl_world *w, int32_t k)
     return fmax(w->b.invI[k].x, fmax(w->b.invI[k].y, w->b.invI[k].z));
 }
 
-/* What keeps a sphere from rolling: a moment on either. */
+/* What keeps a sphere from rolling, if anything does: a moment on either.  -1 when memory runs out. */
 static int roll(fl_world *w, fl_pair *p, const pressure *q, double chi, const ahead *a)
 {
     const fl_bodies *b = &w->b;
-    const double arm = fl_material_radius(b->ball[p->i] ? b->radius[p->i] : 0.0,
-                                          p->j < w->n && b->ball[p->j] ? b->radius[p->j] : 0.0),
+    const double arm = fl_material_radius(fl_rolls_radius(w, p->i), fl_rolls_radius(w, p->j)),
                  mu = p->law->rolling, part = fl_rolling_part(mu);
     fl_err lost = {0};
+    if (!w->rolls || !fl_rolls_pair(w, p)) return 0;
     if (!p->roll && !(p->roll = fl_alloc(1, sizeof *p->roll, &lost))) return -1;
     const fl_vec3 wi = b->w[p->i], wj = b->w[p->j], turns = v3_scale(arm, v3_sub(wi, wj));
     const fl_tangent_spring c = {.k = part * q->slope,
@@ -317,7 +317,7 @@ static int force_points(fl_world *w, fl_pair *p, const fl_places *s, const fl_st
     parting part = {.turns = 0.0};
     if (one && chi > 0.0 && p->law->friction > 0.0) part.ease = fl_pair_ease(&ease, first.ai, first.aj);
     rub(w, p, &all, chi, &part, r, a);
-    if (w->rolls && fl_rolls_pair(w, p) && roll(w, p, &all, chi, a)) return -1;
+    if (roll(w, p, &all, chi, a)) return -1;
     if (survey) stiffen_points(w, p, s, &all, r);
     p->energy += p->spring;
     if (fl_press_wants(w, p)) fl_press_note(w, p, s, p->k, chi);
@@ -551,6 +551,7 @@ static int force_bed(fl_world *w, fl_pair *p, const fl_stance *r, const ahead *a
     add_wrench(&p->fd, &p->di, &p->dj, v3_scale(normal - elastic, n), ai, aj);
     press(&all, elastic, normal, n, v3(0, 0, 0));
     rub(w, p, &all, 0.0, &(parting){0}, r, a);
+    if (roll(w, p, &all, 0.0, a)) return -1;
     if (survey) { /* the waterplane behind the wall turns with the body: as stiff as at its farthest point */
         fl_stiff si = {0}, sj = {0};
         fl_stiff_add(&si, b, i, all.slope, n, v3_cross(ai, n));
@@ -638,7 +639,9 @@ void fl_interact_look(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t,
     const int manual = (p->law->kind == FL_LAW_MANUAL || p->law->kind == FL_LAW_MANUAL_SI) &&
                        (!piece || piece->kind == FL_PIECE_SOLID || piece->kind == FL_PIECE_CONE);
     if (piece && piece->elastic) {
-        if (force_bed(w, p, &r, &a, survey, &distance)) return;
+        const int touch = force_bed(w, p, &r, &a, survey, &distance);
+        if (touch < 0) goto failed;
+        if (touch) return;
         distance += R; /* what sleeps is told by the distance of the cores */
     } else if (manual) {
         if (force_manual(w, p, thread, &r, &a, survey, &distance)) goto failed;

@@ -23,10 +23,17 @@ static inline double fl_rolls_stiff(const fl_roll *r) { return r->k * r->arm * r
 /* The moment of one on i [N m]; 0 for NULL. */
 static inline fl_vec3 fl_rolls_moment(const fl_roll *r) { return r ? v3_scale(r->arm, r->all) : v3(0, 0, 0); }
 
+/* The radius of thing k where it is a sphere, also one that bonds or water keep from being a ball (body.h);
+ * 0: it is none [m]. */
+static inline double fl_rolls_radius(const fl_world *w, int32_t k)
+{
+    return k < w->n && w->b.core[k].nv == 1 ? w->b.radius[k] : 0.0;
+}
+
 /* Whether pair p is of a sphere that something keeps from rolling. */
 static inline int fl_rolls_pair(const fl_world *w, const fl_pair *p)
 {
-    return p->law->rolling > 0.0 && (w->b.ball[p->i] || (p->j < w->n && w->b.ball[p->j]));
+    return p->law->rolling > 0.0 && (fl_rolls_radius(w, p->i) > 0.0 || fl_rolls_radius(w, p->j) > 0.0);
 }
 
 #endif

@@ -3,6 +3,7 @@
  * boundary, which is a row (leans.h), on a plate of the structure and on another sphere. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include "base/pi.h"
 #include "law/material.h"
 #include "support/lab.h"
@@ -10,15 +11,16 @@
 
 #define G 9.81
 
-enum ground { WALL, PLATE, SPHERE, GROUNDS };
-static const char *const ON[GROUNDS] = {"on a wall", "on a plate", "on a sphere"};
+enum ground { WALL, PLATE, SPHERE, BED, GROUNDS };
+static const char *const ON[GROUNDS] = {"on a wall", "on a plate", "on a sphere", "on an elastic wall"};
 static const double R = 0.5;
+#define FOUNDATION 1e6
 
 /* R* and kappa of ice of 100 MPa on it; of the structure steel is the default. */
 static double round_of(enum ground on) { return on == SPHERE ? 0.5 * R : R; }
 static double kappa(enum ground on)
 {
-    const fl_elastic ice = {1e8, 0.3}, under[GROUNDS] = {{INFINITY, 0.0}, {210e9, 0.3}, {1e8, 0.3}};
+    const fl_elastic ice = {1e8, 0.3}, under[SPHERE + 1] = {{INFINITY, 0.0}, {210e9, 0.3}, {1e8, 0.3}};
     return fl_material_hertz(fl_material_modulus(ice, under[on]), round_of(on));
 }
 
@@ -27,6 +29,11 @@ static double mass(void) { return 900.0 * 4.0 / 3.0 * PI * R * R * R; }
 /* How deep it rests, and the arm that it rolls on, for the middle of the overlap touches the ground. */
 static double depth_of(enum ground on, double slope)
 {
+    if (on == BED) { /* pi d^2 (R - d/3) of it is behind the wall */
+        double d = 0.1 * R;
+        for (int k = 0; k < 50; k++) d = sqrt(mass() * G / (FOUNDATION * PI * (R - d / 3.0)));
+        return d;
+    }
     return pow(mass() * G * cos(slope) / kappa(on), 2.0 / 3.0);
 }
 
@@ -41,7 +48,8 @@ static void rest_on(lab *l, enum ground on, double rolling, double slope, fl_vec
     lab_setf(l, "run.gravity=%.17g 0 %.17g", G * sin(slope), -G * cos(slope));
     lab_set(l, "contact.friction=2"), lab_set(l, "contact.restitution=0.3");
     lab_setf(l, "contact.rolling=%.17g", rolling);
-    if (on == WALL) lab_set(l, "boundary.min=none none 0");
+    if (on == WALL || on == BED) lab_set(l, "boundary.min=none none 0");
+    if (on == BED) lab_set(l, "boundary.type=free free elastic"), lab_set(l, "boundary.foundation=1e6");
     if (on == PLATE) lab_wall(l, v3(-20, -9, -1), v3(20, 9, 0), 1);
     if (on == SPHERE) lab_sphere(l, v3(0, 0, -R), R, v3(0, 0, 0), v3(0, 0, 0));
     lab_sphere(l, v3(0, 0, R - depth_of(on, slope)), R, v, spin);
@@ -152,6 +160,50 @@ static void swings(enum ground on, int spins)
     lab_free(&l);
 }
 
+/* Two that are frozen together roll out side by side as one does; so do those whose bond has ended. */
+static void frozen_rolls_out(enum ground on, int ended)
+{
+    const double mu = 0.05, v = 1.0, arm = arm_of(on);
+    fl_err err = {0};
+    lab l;
+    rest_on(&l, on, mu, 0.0, v3(v, 0, 0), v3(0, v / R, 0));
+    lab_set(&l, "bond.on=true");
+    lab_sphere(&l, v3(0, 2 * R, R - depth_of(on, 0.0)), R, v3(v, 0, 0), v3(0, v / R, 0));
+    if (fl_field_add_bond(&l.field, 0, 1, PI * R * R, 2 * R, v3(0, R, R), &err)) exit(1);
+    lab_make(&l, 2e-4);
+    if (ended) l.w.frozen.bond[0].state = FL_BOND_ENDED;
+    lab_run(&l, lround(0.5 / l.w.dt));
+    const double was = l.w.b.v[0].x;
+    lab_run(&l, lround(0.5 / l.w.dt));
+    char what[80];
+    snprintf(what, sizeof what, "%s: two %s frozen together slow down by", ON[on], ended ? "once" : "now");
+    verify_row("RR6", what, (was - l.w.b.v[0].x) / 0.5,
+               mu * mass() * G * R * arm / (l.w.b.I[0].z + mass() * arm * arm), 1e-4, VERIFY_REL);
+    lab_free(&l);
+}
+
+/* A plate that stands on a sphere of ten times its size is turned by what keeps that from rolling: the
+ * automatic step is stable, and the books close. */
+static void plate_on_a_sphere(const char *law)
+{
+    char what[80];
+    lab l;
+    lab_start(&l);
+    lab_setf(&l, "contact.law=%s", law), lab_set(&l, "run.safety=0.2"), lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "material.ice.young=10 MPa"), lab_set(&l, "contact.friction=0.5");
+    lab_set(&l, "contact.rolling=2"), lab_set(&l, "boundary.min=none none 0");
+    lab_sphere(&l, v3(0, 0, 2), 2, v3(0, 0, 0), v3(0, 0, 0));
+    lab_box(&l, v3(0, 0, 4.11), v3(0.2, 0.2, 0.05), 0.02, q_one(), v3(0.1, 0.05, 0), v3(0.5, 0, 3));
+    lab_make(&l, 0.0);
+    const int rc = lab_run(&l, lround(0.5 / l.w.dt));
+    fl_step_ledger(&l.w);
+    snprintf(what, sizeof what, "%s, a plate on a sphere: step over the critical one", law);
+    verify_below("RR7", what, rc ? INFINITY : l.w.dt / l.w.dt_critical, 0.2);
+    snprintf(what, sizeof what, "%s, and energy residual over what was turned over", law);
+    verify_below("RR7", what, fabs(l.w.ledger.residual) / l.w.ledger.throughput, 1e-5);
+    lab_free(&l);
+}
+
 /* Twenty spheres of two sizes fall into a pit and come to rest: the residual over what was lost. */
 static double residual(double dt, int *resting)
 {
@@ -178,10 +230,14 @@ int main(void)
 {
     verify_begin("rolling");
     for (int on = 0; on < GROUNDS; on++) {
-        if (on != SPHERE) rolls_out(on), on_a_slope(on), swings(on, 0);
         spins_out(on);
+        if (on == BED) continue;
+        if (on != SPHERE) rolls_out(on), on_a_slope(on), swings(on, 0);
         swings(on, 1);
     }
+    for (int k = 0; k < 4; k++) frozen_rolls_out(k / 2 ? PLATE : WALL, k % 2);
+    plate_on_a_sphere("patch");
+    plate_on_a_sphere("core");
     double h[3], off[3];
     int resting = 0;
     for (int k = 0; k < 3; k++) off[k] = residual(h[k] = 4e-4 / (1 << k), &resting);
