@@ -11,6 +11,7 @@
 #include "step/sleep.h"
 #include "step/snapshot.h"
 #include "step/snapshot_pair.h"
+#include "step/traffic.h"
 #include "step/works.h"
 
 static void books(fl_relay *t, fl_world *w)
@@ -82,12 +83,13 @@ static void coming(fl_relay *t, fl_world *w)
     }
     for (int32_t i = 0; i < w->n && !t->err->code; i++) {
         int32_t floe = c->floe[i], id = w->id[i];
+        uint8_t guided = c->guided[i];
         fl_relay_open(t, "place");
         fl_relay_byte(t, 1, &c->away[i]);
         fl_relay_whole(t, -1, feed - 1, &floe);
         fl_relay_whole(t, 0, INT32_MAX, &id);
         fl_relay_count(t, &c->born[i]);
-        fl_relay_byte(t, 1, &c->guided[i]);
+        fl_relay_byte(t, 1, &guided);
         fl_relay_close(t);
         if (t->f || t->err->code) continue;
         if (floe != c->floe[i] && (!c->feed || (floe < 0 && i >= c->ice->n))) {
@@ -95,11 +97,11 @@ static void coming(fl_relay *t, fl_world *w)
             continue;
         }
         const int other = floe != c->floe[i];
+        fl_traffic_guide(w, i, 0); /* who was in a state before */
         c->floe[i] = floe;
         if (other && fl_world_put(w, i, floe < 0 ? c->ice : c->feed, floe < 0 ? i : floe, t->err)) continue;
         w->id[i] = id;
-        c->hold[i] = w->b.hold[i];
-        if (c->guided[i]) w->b.hold[i] = FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;
+        fl_traffic_guide(w, i, guided);
     }
 }
 

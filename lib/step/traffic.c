@@ -265,15 +265,23 @@ static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     return 0;
 }
 
+void fl_traffic_guide(fl_world *w, int32_t i, int guided)
+{
+    fl_traffic *t = &w->traffic;
+    uint8_t *const hold = &w->b.hold[i];
+    if (guided == t->guided[i]) return;
+    if (guided) t->hold[i] = *hold, *hold |= FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;
+    else *hold = t->hold[i];
+    t->guided[i] = (uint8_t)guided;
+}
+
 static void take_in(fl_world *w, int32_t i)
 {
     fl_traffic *t = &w->traffic;
     fl_bodies *b = &w->b;
     t->away[i] = 0;
     fl_sleep_new(w, i);
-    t->guided[i] = 1;
-    t->hold[i] = b->hold[i];
-    b->hold[i] |= FL_HOLD_X | FL_HOLD_Y | FL_HOLD_RZ;
+    fl_traffic_guide(w, i, 1);
     w->id[i] = t->next_id++;
     t->born[i] = w->step;
     t->entered++;
@@ -335,8 +343,7 @@ static void let_go(fl_world *w)
         for (int32_t v = 0; v < b->core[i].nv; v++)
             last = fmin(last, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
         if (last - b->radius[i] < t->entry) continue;
-        t->guided[i] = 0;
-        b->hold[i] = t->hold[i];
+        fl_traffic_guide(w, i, 0);
     }
 }
 

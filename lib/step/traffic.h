@@ -23,6 +23,9 @@ double fl_traffic_extent(const fl_traffic *t, const fl_field *field, int32_t k, 
  * Returns 0, or -1 with FL_SYSTEM or FL_NUMERIC (no id is left). */
 int fl_traffic_step(fl_world *w, fl_err *err);
 
+/* Guide floe i: it is held in x, y and about z as well; or let go of it. */
+void fl_traffic_guide(fl_world *w, int32_t i, int guided);
+
 /* Floes that are there. */
 int32_t fl_traffic_there(const fl_world *w);
 

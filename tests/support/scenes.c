@@ -207,6 +207,8 @@ void scene_of_traffic(lab *l, int32_t side, const char *law)
     lab_set(l, "boundary.inflow_speed=20 m/s");
     lab_set(l, "boundary.drive=0.5 0 0");
     lab_set(l, "boundary.drive_width=0.7");
+    lab_set(l, "boundary.drive_fixed=x rz"); /* and some of those are held in y */
+    lab_set(l, "group.towed.fixed=y ry"), lab_set(l, "group.towed.velocity=0 0.3 0");
     lab_set(l, "boundary.drive_foundation=1 kN/m3");
 }
 
