@@ -8,7 +8,7 @@
 
 /* The number is raised, here alone, with every change of what the parts hold: a row or a member more, one
  * less, another order, another meaning.  test_snapshot has the layout that it stands for. */
-enum { FL_RESTART_VERSION = 11, FL_RESTART_PARTS = 12 };
+enum { FL_RESTART_VERSION = 12, FL_RESTART_PARTS = 12 };
 
 typedef struct {
     char name[16];

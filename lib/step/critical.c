@@ -419,10 +419,10 @@ int fl_world_looks(const fl_world *w, fl_err *err)
 }
 
 /* D of the most damped contacts; those that go by the speeds of the middle of a step, and not by
- * fl_damping_closing(), are bonds, `core` and the manual's laws, and balls in the grooves of a surface. */
+ * fl_damping_closing(), are `core` and the manual's laws, and balls in the grooves of a surface. */
 static double most_damped(const fl_world *w, int late)
 {
-    int all = !late || w->frozen.n;
+    int all = !late;
     for (int32_t k = 0; k < w->pieces && w->points; k++) all |= w->structure.piece[k].kind == FL_PIECE_SHELL;
     double D = 0.0;
     for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
@@ -433,15 +433,23 @@ static double most_damped(const fl_world *w, int late)
     return D;
 }
 
+static double over(double dt, double critical) { return isfinite(critical) ? dt / critical : 0.0; }
+
+/* D of what goes by the speeds of the middle, bonds with it; r of critical.h. */
+static double late_damped(const fl_world *w, double r)
+{
+    const double all = over(w->dt, w->dt_critical), D = most_damped(w, 1);
+    return w->frozen.n && all > 0.0 ? fmax(D, 2.0 * w->scene->bond.damping * r / all) : D;
+}
+
 double fl_world_peak_off(const fl_world *w)
 {
-    const double r = isfinite(w->dt_critical) ? w->dt / w->dt_critical : 0.0, D = most_damped(w, 1),
-                 all = most_damped(w, 0);
+    const double r = over(w->dt, w->dt_touching), D = late_damped(w, r), all = most_damped(w, 0);
     return 0.35 * D * r / (1.0 + 0.5 * D) + fmin(0.15 + 0.2 * all * all, 0.95) * r * r;
 }
 
 double fl_world_impulse_off(const fl_world *w)
 {
-    const double r = isfinite(w->dt_critical) ? w->dt / w->dt_critical : 0.0, first = 0.3 * r;
-    return most_damped(w, 1) > 0.0 ? first : fmin(first, 1.5 * r * r);
+    const double r = over(w->dt, w->dt_touching), first = 0.3 * r;
+    return late_damped(w, r) > 0.0 ? first : fmin(first, 1.5 * r * r);
 }

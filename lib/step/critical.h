@@ -54,15 +54,18 @@ double fl_world_across(const fl_world *w);
 int fl_world_looks(const fl_world *w, fl_err *err);
 
 /* What steps of dt are off by, without a look at any other step; 0 before the first contact.  With r = dt
- * over the smallest critical step seen
+ * over the smallest critical step of contacts alone that was seen
  *     peak of a hit   0.35 D r/(1 + D/2) + min(0.15 + 0.2 D'^2, 0.95) r^2,
  *     impulse         1.5 r^2 at the most, and no more than 0.3 r; where D > 0 that.
  * A half-wave seen at intervals of dt is low by up to (omega dt/2)^2/2, and damping and friction are of order
  * 2 as well; D' = chi v_impact is that of the most damped contacts.  D is that of those for which they are
- * not: bonds, balls in grooves and other laws go by the speed half a step ago, and in a spring that is
- * struck this differs by up to omega v dt/2 = r v, a share D r of the force where D is small.  The numbers
- * are fitted to the 20 scenes of verify_budget.  Of the impulse it is a bound: it was off by 0.6 r^2 where
- * friction decided on the way, and by 1e-7 r^2 where all came to rest. */
+ * not: balls in grooves and other laws go by the speed half a step ago, and in a spring that is struck this
+ * differs by up to omega v dt/2 = r v, a share D r of the force where D is small.  So do bonds, but what they
+ * are stiffer than contacts moves along with the blow: of their D the part that r is of dt over the critical
+ * step of all counts.  When bonds end is not in it.  The numbers are fitted to the 20 scenes of
+ * verify_budget.  Of the impulse it is a bound: it was off by 0.6 r^2 where friction decided on the way, and
+ * by 1e-7 r^2 where all came to rest.
+ */
 double fl_world_peak_off(const fl_world *w);
 double fl_world_impulse_off(const fl_world *w);
 

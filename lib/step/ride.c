@@ -264,6 +264,7 @@ void fl_ride_survey(fl_world *w)
         const double sum = 2.0 * r->slope[m] + fl_motion_stiff(&r->m.motion[m]);
         if (!(sum > 0.0)) continue;
         const double limit = 2.0 / sqrt(sum);
+        w->dt_touching = fmin(w->dt_touching, limit);
         if (limit < w->dt_critical) {
             w->dt_critical = limit;
             w->critical_body = w->b.total + m;

@@ -321,6 +321,7 @@ static int32_t all_but_pairs(fl_relay *t, fl_world *w, int32_t *balls)
     fl_relay_real(t, &w->sea.time);
     fl_relay_real(t, &w->skin);
     fl_relay_real(t, &w->dt_critical);
+    fl_relay_real(t, &w->dt_touching);
     fl_relay_whole(t, -1, w->b.total + w->ride.m.n - 1, &w->critical_body);
     fl_relay_real(t, &w->dt_safe);
     fl_relay_whole(t, w->parts, w->parts, &parts);

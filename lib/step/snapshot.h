@@ -6,8 +6,8 @@
  * books, and the loads of the interval under way.  What follows from scene, ice and structure is not: the
  * world that reads has been made from the same ones.  Doubles are the 16 hexadecimal digits of their bits,
  * leading zeros left out, so that every bit survives, on any machine.  Rows:
- *     world     step found_at dt t0 step0 sea_time skin dt_critical critical_body dt_safe parts total sea
- *               pairs balls
+ *     world     step found_at dt t0 step0 sea_time skin dt_critical dt_touching critical_body dt_safe
+ *               parts total sea pairs balls
  *     books     the ledger's start, residual, throughput and sums; imbalance; sizes; worst overlap; counts
  *     told      how often surrogates told a force, and how well, where there are some
  *     part ...  impulse, moment and peak of the loads interval

@@ -283,36 +283,47 @@ static int touched(const fl_world *w, int32_t i)
     return w->met[i] || w->balls.bodies || fl_frozen_at(w, i);
 }
 
-/* 2/omega of body i < n by the contacts of the last survey. */
-static double limit_of(const fl_world *w, int32_t i)
+/* 2/omega [s] by the contacts of the last survey, and by these and all bonds. */
+typedef struct {
+    double touching, all;
+} limits;
+
+static double limit_of(double omega2) { return omega2 > 0.0 ? 2.0 / sqrt(omega2) : INFINITY; }
+
+static limits limits_of(const fl_world *w, int32_t i)
 {
-    double sum = (w->balls.bodies ? fl_balls_stiff(w, i) : 0.0) + fl_frozen_now(w, i);
+    double sum = w->balls.bodies ? fl_balls_stiff(w, i) : 0.0;
     for (int64_t c = w->inc_first[i]; c < w->inc_first[i + 1]; c++) {
         const fl_near *q = &w->pair[w->inc[c]];
         if (q->n) sum += share_of(w, q->full, i);
     }
-    return sum > 0.0 ? 2.0 / sqrt(sum) : INFINITY;
+    return (limits){limit_of(sum), limit_of(sum + fl_frozen_now(w, i))};
 }
 
-/* The least limit below that, and whose. */
-static void survey_bodies(const fl_world *w, double *least, int32_t *body)
+/* The least limits below those, and whose. */
+static void survey_bodies(const fl_world *w, limits *least, int32_t *body)
 {
-    double own = w->dt_critical;
+    limits own = {w->dt_touching, w->dt_critical};
     int32_t i_own = INT32_MAX;
 #pragma omp for schedule(static) nowait
     for (int32_t i = 0; i < w->n; i++) {
         if (!touched(w, i)) continue;
-        const double limit = limit_of(w, i);
-        if (limit < own) own = limit, i_own = i;
+        const limits it = limits_of(w, i);
+        if (it.touching < own.touching) own.touching = it.touching;
+        if (it.all < own.all) own.all = it.all, i_own = i;
     }
 #pragma omp critical(fl_step_survey)
-    if (own < *least || (own == *least && i_own < *body)) *least = own, *body = i_own;
+    {
+        if (own.touching < least->touching) least->touching = own.touching;
+        if (own.all < least->all || (own.all == least->all && i_own < *body))
+            least->all = own.all, *body = i_own;
+    }
 }
 
 /* The largest omega^2 of a body bounds the step from above; of equal ones the first body tells it. */
 static void survey_stiffness(fl_world *w)
 {
-    double least = w->dt_critical;
+    limits least = {w->dt_touching, w->dt_critical};
     int32_t body = INT32_MAX;
     if (w->team.n == 1) {
         survey_bodies(w, &least, &body);
@@ -320,8 +331,9 @@ static void survey_stiffness(fl_world *w)
 #pragma omp parallel num_threads(w->team.n)
         survey_bodies(w, &least, &body);
     }
+    w->dt_touching = least.touching;
     if (body < INT32_MAX) {
-        w->dt_critical = least;
+        w->dt_critical = least.all;
         w->critical_body = body;
     }
     if (w->ride.m.n) fl_ride_survey(w);

@@ -553,7 +553,7 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
     if (w->threads > 1 + field->n / BODIES_A_THREAD) w->threads = 1 + field->n / BODIES_A_THREAD;
     omp_set_num_threads(w->threads);
     fl_team_make(&w->team, w->threads, scene->run.threads == 0);
-    w->dt_critical = INFINITY;
+    w->dt_critical = w->dt_touching = INFINITY;
     w->worst_i = w->worst_j = w->critical_body = -1;
     w->parts = surface ? surface->n : 0;
     if (surface && fl_structure_build(&w->structure, surface, &why)) {

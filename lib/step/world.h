@@ -365,6 +365,7 @@ typedef struct {
     int32_t threads;
 
     double dt, dt_critical; /* dt_critical: the smallest 2/omega seen [s] */
+    double dt_touching;     /* and that without bonds */
     double dt_safe; /* fl_world_dt() at the start, at most 0.2 of 2/omega; longer steps look more often */
     int32_t critical_body; /* id of the one that had it, -1 */
     int64_t step;

@@ -45,6 +45,11 @@ static void budget_of(const struct run *r, FILE *f)
     whole_of(g, f);
 }
 
+static int bonds_failed(const fl_world *w)
+{
+    return w->frozen.n && fl_frozen_counted(w).state[FL_BOND_WHOLE] < w->frozen.n;
+}
+
 static void bonds_of(const fl_world *w, FILE *f)
 {
     const fl_frozen_count n = fl_frozen_counted(w);
@@ -105,12 +110,12 @@ void report_write(const struct run *r, FILE *f)
                 w->dt_critical, run_body(w, w->critical_body, name));
     else fprintf(f, "step over critical no contact was made\n");
     if (r->budget) budget_of(r, f);
-    else if (isfinite(w->dt_critical))
+    else if (isfinite(w->dt_touching))
         fprintf(f,
                 "error of the step  about %.2g of a peak, %.2g of the impulse at the most: by the step over "
-                "critical and "
-                "the restitution, not measured (run.error does)\n",
-                fl_world_peak_off(w), fl_world_impulse_off(w));
+                "critical of what touches and the restitution, not measured (run.error does)%s\n",
+                fl_world_peak_off(w), fl_world_impulse_off(w),
+                bonds_failed(w) ? "; not of when bonds fail" : "");
     fprintf(f, "speed              %.4g s simulated in %.4g s: %.3g x real time, %.3g thread%s", simulated,
             r->wall, r->wall > 0.0 ? simulated / r->wall : 0.0, fl_team_mean(&w->team),
             fl_team_mean(&w->team) == 1.0 ? "" : "s");
