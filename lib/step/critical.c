@@ -152,7 +152,7 @@ static double turning(const fl_world *w, int32_t i, int edges)
     return edges ? shakiest(w, i) : 0.0;
 }
 
-/* What keeps the largest sphere from rolling on what is none turns that as well, by the radius of the sphere. */
+/* What keeps the largest sphere from rolling on what is none turns that too, by the radius of the sphere. */
 typedef struct {
     int32_t sphere; /* -1: nothing does */
     double part;    /* fl_rolling_part(), the most of all laws */

@@ -43,7 +43,8 @@ double fl_traffic_extent(const fl_traffic *t, const fl_field *field, int32_t k, 
     return end * (most + field->radius[k]);
 }
 
-/* Whether floe k of the feed comes in: not where its group holds it along the drift, but as the sheet moves. */
+/* Whether floe k of the feed comes in: not where its group holds it along the drift, unless it goes
+ * as the sheet does. */
 static int comes(const fl_world *w, const fl_field *feed, int32_t k)
 {
     const fl_traffic *t = &w->traffic;
