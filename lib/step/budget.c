@@ -3,9 +3,9 @@
 #include <string.h>
 #include "base/expo.h"
 #include "base/mem.h"
-#include "step/budget.h"
 #include "out/relay.h"
 #include "step/balls.h"
+#include "step/budget.h"
 #include "step/critical.h"
 #include "step/search.h"
 #include "step/snapshot.h"
