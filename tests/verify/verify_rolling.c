@@ -229,7 +229,7 @@ static double residual(double dt, int *resting)
 int main(void)
 {
     verify_begin("rolling");
-    for (int on = 0; on < GROUNDS; on++) {
+    for (enum ground on = WALL; on < GROUNDS; on++) {
         spins_out(on);
         if (on == BED) continue;
         if (on != SPHERE) rolls_out(on), on_a_slope(on), swings(on, 0);
