@@ -129,14 +129,25 @@ static void add(const double *restrict power, int terms, double re, double im, f
     }
 }
 
+/* f_m += (-1)^m conj(h_m) */
+static void reflect(fl_wave_series *f, const fl_wave_series *h, int terms)
+{
+    for (int m = 0; m < terms; m++) {
+        const double sign = m & 1 ? -1.0 : 1.0;
+        f->re[m] += sign * h->re[m];
+        f->im[m] -= sign * h->im[m];
+    }
+}
+
 void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t, fl_wave_near *near)
 {
     near->s = s;
     near->z = z;
     near->terms = terms_of(&w->train[w->n - 1], radius);
-    near->wall = w->train[0].back > 1e-12;
-    fl_wave_series *const all[4] = {&near->f, &near->u, &near->h, &near->v};
-    for (int k = 0; k < (near->wall ? 4 : 2); k++)
+    const int wall = w->train[0].back > 1e-12; /* the bottom is felt */
+    fl_wave_series h, v;
+    fl_wave_series *const all[4] = {&near->f, &near->u, &h, &v};
+    for (int k = 0; k < (wall ? 4 : 2); k++)
         for (int m = 0; m < near->terms; m++) all[k]->re[m] = all[k]->im[m] = 0.0;
     for (int32_t j = 0; j < w->n; j++) {
         const fl_wave_train *train = &w->train[j];
@@ -146,21 +157,16 @@ void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t
         const double down = z < 0.0 ? fl_exp(train->k * z) : 1.0, a = train->a * train->gain;
         add(train->power, terms, a * down * c, a * down * d, &near->f);
         add(train->power, terms, a * down * train->share * c, a * down * train->share * d, &near->u);
-        if (!near->wall) continue;
+        if (!wall) continue;
         const double b = a * train->back * (z < 0.0 ? fl_exp(-train->k * z) : 1.0);
-        add(train->power, terms, b * c, b * d, &near->h);
-        add(train->power, terms, b * train->share * c, b * train->share * d, &near->v);
+        add(train->power, terms, b * c, b * d, &h);
+        add(train->power, terms, b * train->share * c, b * train->share * d, &v);
     }
-    for (int k = 2; near->wall && k < 4; k++) /* (-k)^m */
-        for (int m = 1; m < near->terms; m += 2) {
-            all[k]->re[m] = -all[k]->re[m];
-            all[k]->im[m] = -all[k]->im[m];
-        }
-    /* on zeta = 0: f_m (i s)^m + h_m (-i s)^m, the real part; i^m is 1, i, -1, -i */
+    if (wall) reflect(&near->f, &h, near->terms), reflect(&near->u, &v, near->terms);
+    /* on zeta = 0: f_m (i s)^m, the real part; i^m is 1, i, -1, -i */
     for (int m = 0; m < near->terms; m++) {
-        const double sign = m & 2 ? -1.0 : 1.0, re = near->f.re[m] + (near->wall ? near->h.re[m] : 0.0),
-                     im = near->f.im[m] - (near->wall ? near->h.im[m] : 0.0);
-        near->eta[m] = m & 1 ? -sign * im : sign * re;
+        const double sign = m & 2 ? -1.0 : 1.0;
+        near->eta[m] = m & 1 ? -sign * near->f.im[m] : sign * near->f.re[m];
     }
 }
 
@@ -210,15 +216,14 @@ static void series(const fl_wave_series *a, int terms, double x, double y, doubl
 
 double fl_wave_pressure(const fl_wave_near *near, double s, double zeta)
 {
-    double f[2], h[2] = {0, 0};
+    double f[2];
     series(&near->f, near->terms, zeta - near->z, s - near->s, f, NULL);
-    if (near->wall) series(&near->h, near->terms, zeta - near->z, near->s - s, h, NULL);
-    return f[0] + h[0];
+    return f[0];
 }
 
 enum { PARTS = FL_WAVE_BATCH / FL_LANES };
 
-/* head += the real part of sum a_m (x + i y)^m, all places in step: a single sum waits for itself. */
+/* head: the real part of sum a_m (x + i y)^m, all places in step: a single sum waits for itself. */
 FL_WIDE_PART void series_heads(const fl_wave_series *a, int terms, const fl_wide *x, const fl_wide *y,
                                fl_wide *head)
 {
@@ -233,7 +238,7 @@ FL_WIDE_PART void series_heads(const fl_wave_series *a, int terms, const fl_wide
             re[k] = r;
         }
     }
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) head[k] += re[k];
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) head[k] = re[k];
 }
 
 FL_FOUR_VERSIONS void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s,
@@ -241,7 +246,7 @@ FL_FOUR_VERSIONS void fl_wave_heads(const fl_waves *w, const fl_wave_near *near,
 {
     const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
     const double depth = w->depth;
-    fl_wide x[PARTS], y[PARTS], over[PARTS] = {zero, zero}, sum[PARTS] = {zero, zero};
+    fl_wide x[PARTS], y[PARTS], over[PARTS] = {zero, zero}, sum[PARTS];
     FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) y[k] = FL_FOUR(&s[FL_LANES * k]) - near->s;
     for (int m = near->terms - 1; m >= 0; m--) {
         const double c = near->eta[m];
@@ -256,10 +261,6 @@ FL_FOUR_VERSIONS void fl_wave_heads(const fl_waves *w, const fl_wave_near *near,
         FL_FOUR_INTO(&eta[FL_LANES * k]) = over[k];
     }
     series_heads(&near->f, near->terms, x, y, sum);
-    if (near->wall) {
-        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) y[k] = -y[k];
-        series_heads(&near->h, near->terms, x, y, sum);
-    }
     FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) FL_FOUR_INTO(&head[FL_LANES * k]) = sum[k];
 }
 
@@ -267,19 +268,11 @@ void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, doubl
                     double acceleration[2])
 {
     const double x = zeta - near->z, y = s - near->s;
-    double f[2], df[2], h[2], dh[2] = {0, 0}, u[2], v[2] = {0, 0};
+    double f[2], df[2];
     series(&near->f, near->terms, x, y, f, df);
-    series(&near->u, near->terms, x, y, u, NULL);
-    if (near->wall) {
-        series(&near->h, near->terms, x, -y, h, dh);
-        series(&near->v, near->terms, x, -y, v, NULL);
-    }
-    /* cos psi goes with the real, sin psi with the imaginary part; what comes back from the bottom has S of
-     * the other sign; P = Re f(c) + Re h(conj c), dc/ds = i */
-    velocity[0] = u[0] + v[0];
-    velocity[1] = u[1] - v[1];
-    acceleration[0] = -w->gravity * (-df[1] + dh[1]);
-    acceleration[1] = -w->gravity * (df[0] + dh[0]);
+    series(&near->u, near->terms, x, y, velocity, NULL);
+    acceleration[0] = w->gravity * df[1]; /* dc/ds = i */
+    acceleration[1] = -w->gravity * df[0];
 }
 
 double fl_wave_steepness(double height, double period, double depth, double gravity, double *breaking)

@@ -13,9 +13,9 @@
  * S = e^(k zeta).  Sources: Airy 1845; Wheeler 1970, J. Petrol. Technol. 22:359; DNV-RP-C205 (2010), 3.3.
  *
  * The field around one body comes as a power series.  With c = zeta + i s from a centre,
- *     P = Re sum_m f_m c^m + Re sum_m h_m conj(c)^m,   f_m = sum_n A_n k_n^m / m!,
- * h the part that the bottom throws back: one sine and cosine a train and body, then a polynomial for every
- * point, whatever the number of trains.  All bits are functions of place and time: nothing is added up from
+ *     P = Re sum_m f_m c^m,   f_m = sum_n (A_n + (-1)^m conj(B_n)) k_n^m / m!,
+ * B_n the part that the bottom throws back, and u + i w is such a sum too, both being analytic: one sine and
+ * cosine a train and body, then a polynomial for every point, whatever the number of trains.  All bits are functions of place and time: nothing is added up from
  * step to step. */
 #ifndef FL_WATER_WAVE_H
 #define FL_WATER_WAVE_H
@@ -72,10 +72,9 @@ typedef struct {
 
 /* The field within k_top distance <= FL_WAVE_REACH of a centre. */
 typedef struct {
-    int terms, wall;           /* used of each; wall: the bottom is felt */
+    int terms;                 /* used of each */
     double s, z;               /* centre [m] */
-    fl_wave_series f, h;       /* of P [m^(1-m)]                       */
-    fl_wave_series u, v;       /* of the velocity likewise             */
+    fl_wave_series f, u;       /* of P [m^(1-m)], and of the velocity */
     double eta[FL_WAVE_TERMS]; /* elevation over s, where z = 0 */
 } fl_wave_near;
 
