@@ -174,6 +174,7 @@ typedef struct {
 static const fl_wave_near *shared_cell(const sums *S, int m, const double *s, const double *z)
 {
     const fl_wave_near *cell = column(S->a, s[0]);
+    if (S->a->columns == 1 && S->a->rows == 0) return cell;
     for (int j = 1; j < m && S->a->columns > 1; j++)
         if (column(S->a, s[j]) != cell) return NULL;
     for (int j = 0; S->a->rows && j < m; j++)
@@ -261,18 +262,50 @@ static void panel(sums *S, int fine, fl_vec3 n, double nz, const fl_vec3 *v, con
     for (int k = 1; k + 1 < m; k++) triangle(S, fine, n, nz, out[0], out[k], out[k + 1]);
 }
 
-/* Heights of three corners over the wave, from those over still water. */
-static void lower(const fl_wave_around *a, const fl_afloat *at, const fl_vec3 *v, double over[3])
+/* Panels whose corners are looked at side by side. */
+enum { BUNCH = FL_LANES, CORNERS = 3 * BUNCH };
+
+/* Heights of their corners over the wave, all in one cell. */
+FL_FOUR_VERSIONS static void heights(const fl_wave_near *one, const fl_afloat *at, const fl_vec3 *v,
+                                     double *over)
 {
-    double s[FL_LANES], eta[FL_LANES];
-    for (int c = 0; c < 3; c++) s[c] = at->s + v3_dot(at->along, v[c]);
-    s[3] = s[0];
-    const fl_wave_near *one = column(a, s[0]);
-    if (a->columns == 1 || (one == column(a, s[1]) && one == column(a, s[2])))
-        fl_wave_elevations(one, s, eta);
-    else
-        for (int c = 0; c < 3; c++) eta[c] = fl_wave_over(a, s[c], NULL);
-    for (int c = 0; c < 3; c++) over[c] -= eta[c];
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    fl_wide s[3], z[3], eta[3] = {zero, zero, zero};
+    FL_WIDE_UNROLL for (int k = 0; k < 3; k++)
+    {
+        fl_wide x[3];
+        fl_wide_from_triples(x, v + FL_LANES * k);
+        s[k] = at->s + (at->along.x * x[0] + at->along.y * x[1] + at->along.z * x[2]) - one->s;
+        z[k] = at->z + (at->up.x * x[0] + at->up.y * x[1] + at->up.z * x[2]);
+    }
+    for (int m = one->terms - 1; m >= 0; m--) {
+        const double c = one->eta[m];
+        FL_WIDE_UNROLL for (int k = 0; k < 3; k++) eta[k] = eta[k] * s[k] + c;
+    }
+    FL_WIDE_UNROLL for (int k = 0; k < 3; k++) FL_FOUR_INTO(over + FL_LANES * k) = z[k] - eta[k];
+}
+
+/* The same of corners anywhere. */
+static void lower(const fl_wave_around *a, const fl_afloat *at, const fl_vec3 *v, double *over)
+{
+    double s[CORNERS];
+    int same = 1;
+    for (int c = 0; c < CORNERS && a->columns > 1; c++) {
+        s[c] = at->s + v3_dot(at->along, v[c]);
+        same = same && column(a, s[c]) == column(a, s[0]);
+    }
+    if (same) {
+        heights(a->columns > 1 ? column(a, s[0]) : a->cell, at, v, over);
+        return;
+    }
+    for (int c = 0; c < CORNERS; c++) over[c] = at->z + v3_dot(at->up, v[c]) - fl_wave_over(a, s[c], NULL);
+}
+
+/* So many panels, and their first corner after them. */
+static const fl_vec3 *padded(fl_vec3 *to, const fl_vec3 *v, int many)
+{
+    for (int c = 0; c < CORNERS; c++) to[c] = v[c < 3 * many ? c : 0];
+    return to;
 }
 
 static double all(const double *a) { return (a[0] + a[2]) + (a[1] + a[3]); }
@@ -293,17 +326,19 @@ void fl_froude_solid(const fl_tiles *tiles, const fl_hull *h, const fl_waves *w,
                      const fl_afloat *at, double weight, fl_push *push)
 {
     sums S = {.w = w, .a = a, .at = at};
-    for (int64_t k = 0; k < tiles->n; k++) {
-        const fl_vec3 n = h->p->n[tiles->face[k]], *v = tiles->v + 3 * k;
-        const double nz = v3_dot(n, at->up);
-        double over[3], low = INFINITY;
-        for (int c = 0; c < 3; c++) {
-            over[c] = at->z + v3_dot(at->up, v[c]);
-            low = fmin(low, over[c]);
-        }
-        if (low >= w->crest) continue;
+    for (int32_t first = 0; first < tiles->n; first += BUNCH) {
+        const int many = tiles->n - first < BUNCH ? tiles->n - first : BUNCH;
+        const fl_vec3 *v = tiles->v + 3 * (int64_t)first;
+        fl_vec3 rest[CORNERS];
+        double over[CORNERS];
+        if (many < BUNCH) v = padded(rest, v, many);
         lower(a, at, v, over);
-        panel(&S, tiles->fine, n, nz, v, over);
+        for (int k = 0; k < many; k++) {
+            const fl_vec3 n = h->p->n[tiles->face[first + k]];
+            const double *const o = over + 3 * k;
+            if (o[0] <= 0.0 || o[1] <= 0.0 || o[2] <= 0.0)
+                panel(&S, tiles->fine, n, v3_dot(n, at->up), v + 3 * k, o);
+        }
     }
     const double volume = all(S.volume);
     *push = (fl_push){.force = v3_scale(weight, S.force),

@@ -182,14 +182,6 @@ double fl_wave_elevation(const fl_wave_near *near, double s, double *slope)
     return y;
 }
 
-FL_FOUR_VERSIONS void fl_wave_elevations(const fl_wave_near *near, const double *s, double *eta)
-{
-    const fl_wide x = FL_FOUR(s) - near->s;
-    fl_wide y = {0.0, 0.0, 0.0, 0.0};
-    for (int m = near->terms - 1; m >= 0; m--) y = y * x + near->eta[m];
-    FL_FOUR_INTO(eta) = y;
-}
-
 double fl_wave_stretch(const fl_waves *w, double z, double eta)
 {
     if (z >= eta) return 0.0;

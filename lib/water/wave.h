@@ -84,9 +84,6 @@ void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t
 /* Elevation at s, and its slope along s (may be NULL); near was made at z = 0. */
 double fl_wave_elevation(const fl_wave_near *near, double s, double *slope);
 
-/* Elevations at four places s at once. */
-void fl_wave_elevations(const fl_wave_near *near, const double *s, double *eta);
-
 /* Height z over still water, stretched below the elevation eta; never above 0. */
 double fl_wave_stretch(const fl_waves *w, double z, double eta);
 
