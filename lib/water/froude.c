@@ -187,7 +187,7 @@ typedef struct {
     double x[3][FL_WAVE_BATCH], s[FL_WAVE_BATCH], z[FL_WAVE_BATCH];
 } points;
 
-FL_FOUR_VERSIONS static void spread(const fl_afloat *at, int fine, fl_vec3 a, fl_vec3 b, fl_vec3 c, points *p)
+FL_WIDE_PART void spread(const fl_afloat *at, int fine, fl_vec3 a, fl_vec3 b, fl_vec3 c, points *p)
 {
     const double(*rule)[FL_WAVE_BATCH] = RULE[fine];
     for (int k = 0; k < FL_WAVE_BATCH; k += FL_LANES) {
@@ -203,8 +203,8 @@ FL_FOUR_VERSIONS static void spread(const fl_afloat *at, int fine, fl_vec3 a, fl
 }
 
 /* Book them: p = area (head - z) presses at each of them along -n. */
-FL_FOUR_VERSIONS static void book(sums *S, const points *p, int fine, double area, fl_vec3 n, double nz,
-                                  const double *eta, const double *head)
+FL_WIDE_PART void book(sums *S, const points *p, int fine, double area, fl_vec3 n, double nz,
+                       const double *eta, const double *head)
 {
     fl_wide press = {0.0, 0.0, 0.0, 0.0}, arm[3] = {press, press, press};
     for (int k = 0; k < FL_WAVE_BATCH; k += FL_LANES) {
@@ -226,8 +226,10 @@ FL_FOUR_VERSIONS static void book(sums *S, const points *p, int fine, double are
         v3_sub(S->moment, v3_cross(v3(fl_wide_sum(&arm[0]), fl_wide_sum(&arm[1]), fl_wide_sum(&arm[2])), n));
 }
 
-static void triangle(sums *S, int fine, fl_vec3 n, double nz, fl_vec3 a, fl_vec3 b, fl_vec3 c)
+FL_FOUR_VERSIONS static void triangle(sums *S, int fine, fl_vec3 n, double nz, const fl_vec3 *at_a,
+                                      const fl_vec3 *at_b, const fl_vec3 *at_c)
 {
+    const fl_vec3 a = *at_a, b = *at_b, c = *at_c;
     const double area = 0.5 * v3_dot(n, v3_cross(v3_sub(b, a), v3_sub(c, a)));
     points p;
     double eta[FL_WAVE_BATCH], head[FL_WAVE_BATCH];
@@ -259,7 +261,7 @@ static void panel(sums *S, int fine, fl_vec3 n, double nz, const fl_vec3 *v, con
             out[m++] = h[k] <= 0.0 ? v3_lerp(v[k], v[j], h[k] / (h[k] - h[j]))
                                    : v3_lerp(v[j], v[k], h[j] / (h[j] - h[k]));
     }
-    for (int k = 1; k + 1 < m; k++) triangle(S, fine, n, nz, out[0], out[k], out[k + 1]);
+    for (int k = 1; k + 1 < m; k++) triangle(S, fine, n, nz, &out[0], &out[k], &out[k + 1]);
 }
 
 /* Panels whose corners are looked at side by side. */

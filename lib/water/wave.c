@@ -3,7 +3,6 @@
 #include "base/mem.h"
 #include "base/pi.h"
 #include "base/rng.h"
-#include "base/wide.h"
 #include "water/wave.h"
 
 /* What a series may leave out of a train, over its amplitude. */
@@ -211,49 +210,6 @@ double fl_wave_pressure(const fl_wave_near *near, double s, double zeta)
     double f[2];
     series(&near->f, near->terms, zeta - near->z, s - near->s, f, NULL);
     return f[0];
-}
-
-enum { PARTS = FL_WAVE_BATCH / FL_LANES };
-
-/* head: the real part of sum a_m (x + i y)^m, all places in step: a single sum waits for itself. */
-FL_WIDE_PART void series_heads(const fl_wave_series *a, int terms, const fl_wide *x, const fl_wide *y,
-                               fl_wide *head)
-{
-    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
-    fl_wide re[PARTS] = {zero, zero}, im[PARTS] = {zero, zero};
-    for (int m = terms - 1; m >= 0; m--) {
-        const double c = a->re[m], d = a->im[m];
-        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++)
-        {
-            const fl_wide r = re[k] * x[k] - im[k] * y[k] + c;
-            im[k] = re[k] * y[k] + im[k] * x[k] + d;
-            re[k] = r;
-        }
-    }
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) head[k] = re[k];
-}
-
-FL_FOUR_VERSIONS void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s,
-                                    const double *z, double *eta, double *head)
-{
-    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
-    const double depth = w->depth;
-    fl_wide x[PARTS], y[PARTS], over[PARTS] = {zero, zero}, sum[PARTS];
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) y[k] = FL_FOUR(&s[FL_LANES * k]) - near->s;
-    for (int m = near->terms - 1; m >= 0; m--) {
-        const double c = near->eta[m];
-        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) over[k] = over[k] * y[k] + c;
-    }
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) /* as fl_wave_stretch() */
-    {
-        fl_wide below = FL_FOUR(&z[FL_LANES * k]) - over[k];
-        const fl_wide_mask wet = below < 0.0;
-        if (depth < INFINITY) below = below * depth / (depth + over[k]);
-        x[k] = FL_WIDE_WHERE(wet, below) - near->z;
-        FL_FOUR_INTO(&eta[FL_LANES * k]) = over[k];
-    }
-    series_heads(&near->f, near->terms, x, y, sum);
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) FL_FOUR_INTO(&head[FL_LANES * k]) = sum[k];
 }
 
 void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],

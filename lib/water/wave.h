@@ -21,6 +21,7 @@
 #define FL_WATER_WAVE_H
 #include <stdint.h>
 #include "base/err.h"
+#include "base/wide.h"
 #include "geom/vec3.h"
 
 /* Terms of a series, and the largest k times distance from its centre that they do for: 8^32/32! = 3e-7. */
@@ -90,10 +91,41 @@ double fl_wave_stretch(const fl_waves *w, double z, double eta);
 /* P at s and the stretched height zeta [m]. */
 double fl_wave_pressure(const fl_wave_near *near, double s, double zeta);
 
-/* Both at FL_WAVE_BATCH places s, z (over still water) at once: elevation, and P at the stretched height. */
+/* Both at FL_WAVE_BATCH places s, z (over still water) at once: elevation, and P at the stretched height. All
+ * places go in step: a single sum waits for itself. */
 enum { FL_WAVE_BATCH = 8 };
-void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s, const double *z, double *eta,
-                   double *head);
+FL_WIDE_PART void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s, const double *z,
+                                double *eta, double *head)
+{
+    enum { PARTS = FL_WAVE_BATCH / FL_LANES };
+    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    const double depth = w->depth;
+    fl_wide x[PARTS], y[PARTS], over[PARTS] = {zero, zero}, re[PARTS] = {zero, zero},
+                                im[PARTS] = {zero, zero};
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) y[k] = FL_FOUR(&s[FL_LANES * k]) - near->s;
+    for (int m = near->terms - 1; m >= 0; m--) {
+        const double c = near->eta[m];
+        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) over[k] = over[k] * y[k] + c;
+    }
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) /* as fl_wave_stretch() */
+    {
+        fl_wide below = FL_FOUR(&z[FL_LANES * k]) - over[k];
+        const fl_wide_mask wet = below < 0.0;
+        if (depth < INFINITY) below = below * depth / (depth + over[k]);
+        x[k] = FL_WIDE_WHERE(wet, below) - near->z;
+        FL_FOUR_INTO(&eta[FL_LANES * k]) = over[k];
+    }
+    for (int m = near->terms - 1; m >= 0; m--) {
+        const double c = near->f.re[m], d = near->f.im[m];
+        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++)
+        {
+            const fl_wide r = re[k] * x[k] - im[k] * y[k] + c;
+            im[k] = re[k] * y[k] + im[k] * x[k] + d;
+            re[k] = r;
+        }
+    }
+    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) FL_FOUR_INTO(&head[FL_LANES * k]) = re[k];
+}
 
 /* Velocity and acceleration of the water there: along s and up [m/s], [m/s2]. */
 void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],
