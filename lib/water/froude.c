@@ -318,8 +318,9 @@ static fl_vec3 within(const fl_poly *p, fl_vec3 x)
 {
     fl_vec3 lo = p->v[0], hi = p->v[0];
     for (int32_t k = 1; k < p->nv; k++) {
-        lo = v3(fmin(lo.x, p->v[k].x), fmin(lo.y, p->v[k].y), fmin(lo.z, p->v[k].z));
-        hi = v3(fmax(hi.x, p->v[k].x), fmax(hi.y, p->v[k].y), fmax(hi.z, p->v[k].z));
+        const fl_vec3 v = p->v[k];
+        lo = v3(v.x < lo.x ? v.x : lo.x, v.y < lo.y ? v.y : lo.y, v.z < lo.z ? v.z : lo.z);
+        hi = v3(v.x > hi.x ? v.x : hi.x, v.y > hi.y ? v.y : hi.y, v.z > hi.z ? v.z : hi.z);
     }
     return v3(fmin(fmax(x.x, lo.x), hi.x), fmin(fmax(x.y, lo.y), hi.y), fmin(fmax(x.z, lo.z), hi.z));
 }

@@ -260,13 +260,14 @@ static void extent(const fl_sea *s, int32_t i, fl_vec3 d, double *lo, double *hi
 {
     const fl_poly *p = s->hull[i].p;
     const double r = s->hull[i].radius;
-    *lo = INFINITY;
-    *hi = -INFINITY;
+    double least = INFINITY, most = -INFINITY;
     for (int32_t v = 0; v < p->nv; v++) {
         const double x = v3_dot(d, p->v[v]);
-        *lo = fmin(*lo, x - r);
-        *hi = fmax(*hi, x + r);
+        least = x < least ? x : least;
+        most = x > most ? x : most;
     }
+    *lo = least - r;
+    *hi = most + r;
 }
 
 /* The plane that lies nearest to the wave along a body whose origin is at s. */

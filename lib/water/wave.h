@@ -15,8 +15,8 @@
  * The field around one body comes as a power series.  With c = zeta + i s from a centre,
  *     P = Re sum_m f_m c^m,   f_m = sum_n (A_n + (-1)^m conj(B_n)) k_n^m / m!,
  * B_n the part that the bottom throws back, and u + i w is such a sum too, both being analytic: one sine and
- * cosine a train and body, then a polynomial for every point, whatever the number of trains.  All bits are functions of place and time: nothing is added up from
- * step to step. */
+ * cosine a train and body, then a polynomial for every point, whatever the number of trains.  All bits are
+ * functions of place and time: nothing is added up from step to step. */
 #ifndef FL_WATER_WAVE_H
 #define FL_WATER_WAVE_H
 #include <stdint.h>
