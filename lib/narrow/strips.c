@@ -138,7 +138,7 @@ typedef struct {
     int64_t some[FL_LANES], zeros[FL_LANES], zero_lo[FL_LANES], rule[FL_LANES], more[FL_LANES];
 } feet;
 
-/* A piece that has a rule of its own: from + t by; of which edge, FL_LANES a four. */
+/* A piece of an edge that has several: from + t by, by a rule of its own; of which edge, FL_LANES a four. */
 typedef struct {
     double from, by;
     const rule *g;
@@ -205,7 +205,7 @@ FL_WIDE_VERSIONS static void find_feet(const fl_strip_points *p, double R, feet 
     FL_WIDE3_INTO(out->q, q), FL_WIDE3_INTO(out->u, u);
     MASK_INTO(out->some) = some, MASK_INTO(out->zeros) = -(zero_lo + zero_hi),
     MASK_INTO(out->zero_lo) = zero_lo;
-    MASK_INTO(out->rule) = which, MASK_INTO(out->more) = near_lo | near_hi | graded;
+    MASK_INTO(out->rule) = some & which, MASK_INTO(out->more) = some & (near_lo | near_hi | graded);
 }
 
 /* Edges that wait, and what is made of those over points. */
@@ -285,42 +285,38 @@ static int graded(const slicer *b, fl_span t, int zero_lo, int zero_hi)
 static int slice(struct fl_strips *w, const feet *f, int32_t l, int32_t edge, double R)
 {
     const slicer b = {w, f, R, l, edge};
-    if (!f->more[l]) return put_piece(&b, f->from[l], f->by[l], f->rule[l]);
     const fl_span t = {f->lo[l], f->hi[l]};
     const int zero_lo = f->zero_lo[l] != 0, zero_hi = f->zeros[l] - zero_lo != 0;
     return f->half[l] <= 0.5 * f->a[l] ? gauss_over_point(&b, t, zero_lo, zero_hi)
                                        : graded(&b, t, zero_lo, zero_hi);
 }
 
-/* Of four pieces. */
-FL_WIDE_VERSIONS static void sum_up(const struct fl_strips *w, const fl_strip_points *p,
-                                    const piece *q[FL_LANES], double R, sums *out)
-{
-    const fl_wide zero = {0};
+/* Four pieces, by lanes: of which edges, and where; each its rule. */
+typedef struct {
     fl_wide least2, lean, uu, small, from, by;
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) {
-        const int32_t four = q[l]->edge / FL_LANES, lane = q[l]->edge % FL_LANES;
-        least2[l] = w->feet[four].least2[lane], lean[l] = w->feet[four].lean[lane];
-        uu[l] = w->feet[four].uu[lane], small[l] = p[four].small[lane];
-        from[l] = q[l]->from, by[l] = q[l]->by;
-    }
-    const fl_wide share = FL_WIDE_LARGER(by, -by);
+    const rule *g[FL_LANES];
+} pieces;
+
+FL_WIDE_PART void sum_up(const pieces *p, double R, const fl_wide_mask *counted, sums *out)
+{
+    const fl_wide zero = {0}, share = FL_WIDE_LARGER(p->by, -p->by);
     fl_wide u = zero, du = zero, ddu = zero, first = zero, second = zero, f = zero, fx = zero, fxx = zero;
+    const int alike = p->g[0] == p->g[1] && p->g[0] == p->g[2] && p->g[0] == p->g[3];
     int32_t n = 0;
-    for (int l = 0; l < FL_LANES; l++) n = q[l]->g->n > n ? q[l]->g->n : n;
+    for (int l = 0; l < FL_LANES; l++) n = p->g[l]->n > n ? p->g[l]->n : n;
     for (int32_t c = 0; c < n; c += FL_LANES) {
         fl_wide node[FL_LANES], weight[FL_LANES];
         FL_WIDE_UNROLL
         for (int l = 0; l < FL_LANES; l++)
-            node[l] = FL_FOUR(q[l]->g->node + c), weight[l] = FL_FOUR(q[l]->g->weight + c);
-        fl_wide_transpose(node), fl_wide_transpose(weight);
+            if (alike) node[l] = p->g[0]->node[c + l] + zero, weight[l] = p->g[0]->weight[c + l] + zero;
+            else node[l] = FL_FOUR(p->g[l]->node + c), weight[l] = FL_FOUR(p->g[l]->weight + c);
+        if (!alike) fl_wide_transpose(node), fl_wide_transpose(weight);
         FL_WIDE_UNROLL
         for (int k = 0; k < FL_LANES; k++) {
-            const fl_wide x = from + by * node[k];
+            const fl_wide x = p->from + p->by * node[k];
             fl_wide d;
-            distance(&least2, &lean, &uu, &x, &d);
-            const fl_wide_mask in = (d < R) & (d > small);
+            distance(&p->least2, &p->lean, &p->uu, &x, &d);
+            const fl_wide_mask in = (d < R) & (d > p->small);
             const fl_wide s = FL_WIDE_WHERE(in, R - d);
             fl_wide s_root = s;
             root(&s_root);
@@ -336,20 +332,52 @@ FL_WIDE_VERSIONS static void sum_up(const struct fl_strips *w, const fl_strip_po
             fxx += px * x;
         }
     }
-    FL_FOUR_INTO(out->u) = u, FL_FOUR_INTO(out->du) = du, FL_FOUR_INTO(out->ddu) = ddu;
-    FL_FOUR_INTO(out->first) = first, FL_FOUR_INTO(out->second) = second, FL_FOUR_INTO(out->f) = f,
-    FL_FOUR_INTO(out->fx) = fx;
-    FL_FOUR_INTO(out->fxx) = fxx;
+    const fl_wide_mask m = *counted;
+    FL_FOUR_INTO(out->u) = FL_WIDE_WHERE(m, u), FL_FOUR_INTO(out->du) = FL_WIDE_WHERE(m, du);
+    FL_FOUR_INTO(out->ddu) = FL_WIDE_WHERE(m, ddu), FL_FOUR_INTO(out->first) = FL_WIDE_WHERE(m, first);
+    FL_FOUR_INTO(out->second) = FL_WIDE_WHERE(m, second), FL_FOUR_INTO(out->f) = FL_WIDE_WHERE(m, f);
+    FL_FOUR_INTO(out->fx) = FL_WIDE_WHERE(m, fx), FL_FOUR_INTO(out->fxx) = FL_WIDE_WHERE(m, fxx);
 }
 
-/* All pieces, each into the sums of its edge. */
+/* The edges of a four that have one piece, and 0 of the others. */
+FL_WIDE_VERSIONS static void sum_whole(const fl_strip_points *p, const feet *a, double R, sums *out)
+{
+    const fl_wide_mask counted = MASK(a->some) & ~MASK(a->more);
+    const pieces q = {FL_FOUR(a->least2),
+                      FL_FOUR(a->lean),
+                      FL_FOUR(a->uu),
+                      FL_FOUR(p->small),
+                      FL_FOUR(a->from),
+                      FL_FOUR(a->by),
+                      {&RULE[a->rule[0]], &RULE[a->rule[1]], &RULE[a->rule[2]], &RULE[a->rule[3]]}};
+    sum_up(&q, R, &counted, out);
+}
+
+/* Of four pieces. */
+FL_WIDE_VERSIONS static void sum_four(const struct fl_strips *w, const fl_strip_points *p,
+                                      const piece *q[FL_LANES], double R, sums *out)
+{
+    const fl_wide zero = {0};
+    const fl_wide_mask all = zero == zero;
+    pieces four;
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) {
+        const int32_t k = q[l]->edge / FL_LANES, lane = q[l]->edge % FL_LANES;
+        four.least2[l] = w->feet[k].least2[lane], four.lean[l] = w->feet[k].lean[lane];
+        four.uu[l] = w->feet[k].uu[lane], four.small[l] = p[k].small[lane];
+        four.from[l] = q[l]->from, four.by[l] = q[l]->by, four.g[l] = q[l]->g;
+    }
+    sum_up(&four, R, &all, out);
+}
+
+/* All pieces of edges that have several, each into the sums of its edge. */
 static void sum_pieces(struct fl_strips *w, const fl_strip_points *p, double R)
 {
     for (int32_t k = 0; k < w->pieces; k += FL_LANES) {
         const piece *q[FL_LANES];
         sums four;
         for (int32_t l = 0; l < FL_LANES; l++) q[l] = &w->piece[k + l < w->pieces ? k + l : k];
-        sum_up(w, p, q, R, &four);
+        sum_four(w, p, q, R, &four);
         for (int32_t i = 0; i < FL_LANES && k + i < w->pieces; i++) {
             sums *const s = &w->sum[q[i]->edge / FL_LANES];
             const int32_t l = q[i]->edge % FL_LANES;
@@ -474,10 +502,9 @@ int fl_strips_of_points(fl_places *w, const fl_strip_points *q, int32_t fours, d
         feet *const f = &s->feet[k];
         find_feet(&q[k], R, f);
         for (int32_t l = 0; l < FL_LANES; l++)
-            if (f->some[l] && slice(s, f, l, k * FL_LANES + l, R)) return -1;
-        s->sum[k] = (sums){0};
+            if (f->more[l] && slice(s, f, l, k * FL_LANES + l, R)) return -1;
+        sum_whole(&q[k], f, R, &s->sum[k]);
     }
-    if (s->pieces == 0) return 0;
     sum_pieces(s, q, R);
     for (int32_t k = 0; k < fours; k++) {
         twos two;
