@@ -30,6 +30,19 @@ typedef struct {
     int32_t corners, height, factor, length;
 } match;
 
+enum feature { VERTEX, EDGE, FACE };
+
+static enum feature own_of(const match *m)
+{
+    return m->kind <= FL_MATCH_VERTEX_VERTEX ? VERTEX : m->kind <= FL_MATCH_EDGE_VERTEX ? EDGE : FACE;
+}
+
+static enum feature other_of(const match *m)
+{
+    if (m->kind == FL_MATCH_VERTEX_VERTEX || m->kind == FL_MATCH_EDGE_VERTEX) return VERTEX;
+    return m->kind == FL_MATCH_VERTEX_EDGE || m->kind == FL_MATCH_EDGE_EDGE ? EDGE : FACE;
+}
+
 typedef struct {
     int32_t *vertex;
     plane *plane;
@@ -61,6 +74,10 @@ typedef struct {
     draft *l;
     int way;
     fl_question of;
+    double room; /* what is farther beyond a side of two bodies stays beyond it; < 0: of a surface, where all
+                  * sides are kept [m] */
+    double far;  /* from `centre`: what is beyond it by so many times may move by so many times the room */
+    fl_vec3 centre;
 } search;
 
 /* --- numbers of what is drafted -------------------------------------------------------------------- */
@@ -166,10 +183,32 @@ static int push(draft *l, int32_t side)
     return 0;
 }
 
+/* All of it is beyond a side, and will be as long as the list holds. */
+static int stays_beyond(const search *s, const match *m, int32_t f, int32_t a, int32_t b, int below)
+{
+    const fl_side *own = s->of.own, *other = s->of.other;
+    const fl_poly *p = own->p;
+    const fl_vec3 u = v3_sub(other->v[b], other->v[a]), g = f < 0 ? u : v3_cross(other->n[f], u);
+    const double c = v3_dot(g, other->v[a]), least2 = s->room * s->room * v3_norm2(g), far2 = s->far * s->far;
+    const enum feature of = own_of(m);
+    const int32_t edge[2] = {of == EDGE ? p->edge[m->own].a : m->own,
+                             of == EDGE ? p->edge[m->own].b : m->own};
+    const int32_t *at = of == FACE ? p->loop + p->first[m->own] : edge;
+    const int32_t n = of == FACE ? p->first[m->own + 1] - p->first[m->own] : of == EDGE ? 2 : 1;
+    for (int32_t k = 0; k < n; k++) {
+        const fl_vec3 x = own->v[at[k]];
+        const double over = v3_dot(g, x) - c, h = below ? -over : over,
+                     far = v3_norm2(v3_sub(x, s->centre)) / far2;
+        if (!(h > 0.0 && h * h > least2 * fmax(far, 1.0))) return 0;
+    }
+    return 1;
+}
+
 /* It must be above a plane, or below.  The two sides of an edge ask the same row: all ask with the same
  * number, so that nothing falls between two and nothing counts twice. */
 static int beyond(const search *s, match *m, int32_t f, int32_t a, int32_t b, int below)
 {
+    if (s->room >= 0.0 && stays_beyond(s, m, f, a, b, below)) return 0;
     const int turned = f >= 0 && a > b;
     const int32_t r = turned ? row(s, f, b, a) : row(s, f, a, b);
     m->n++;
@@ -332,19 +371,6 @@ static int use(draft *l, int32_t at, int32_t number)
     if (fl_room(&l->used, &l->used_cap, (int64_t)n + 1, sizeof *l->used)) return -1;
     l->used[n] = number;
     return 0;
-}
-
-enum feature { VERTEX, EDGE, FACE };
-
-static enum feature own_of(const match *m)
-{
-    return m->kind <= FL_MATCH_VERTEX_VERTEX ? VERTEX : m->kind <= FL_MATCH_EDGE_VERTEX ? EDGE : FACE;
-}
-
-static enum feature other_of(const match *m)
-{
-    if (m->kind == FL_MATCH_VERTEX_VERTEX || m->kind == FL_MATCH_EDGE_VERTEX) return VERTEX;
-    return m->kind == FL_MATCH_VERTEX_EDGE || m->kind == FL_MATCH_EDGE_EDGE ? EDGE : FACE;
 }
 
 /* Vertices of A that the list speaks of, then faces. */
@@ -536,8 +562,10 @@ int fl_matches_list(fl_matches *l, fl_places *w, const fl_side *A, const fl_reac
     const double half = 0.5 * margin, turn = half / far; /* half of it for the shift, half for the turn */
     const double wide = margin + ROUNDING * (A->p->size + B->p->size);
     draft *d = w->draft;
-    const search of_a = {d, 0, {A, B, R, behind, wide, turn - FL_AREAS_COS}},
-                 of_b = {d, 1, {B, A, R, behind, wide, turn - FL_AREAS_COS}};
+    const fl_vec3 o = w->o;
+    const double room = l->keeps ? -1.0 : wide + ROUNDING * (fabs(o.x) + fabs(o.y) + fabs(o.z));
+    const search of_a = {d, 0, {A, B, R, behind, wide, turn - FL_AREAS_COS}, room, far, o},
+                 of_b = {d, 1, {B, A, R, behind, wide, turn - FL_AREAS_COS}, room, far, o};
     const int32_t last_a = a->vertices + a->edges + a->faces, last_b = b->vertices + b->edges + b->faces;
     if (begin_draft(d)) return -1;
     if (some_over(&of_a, a, 0, a->vertices, b) || some_over(&of_b, b, 0, b->vertices, a) ||

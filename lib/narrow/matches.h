@@ -9,7 +9,8 @@
  * Most features of two touching cores have nothing to do with each other, and what does stays for many steps:
  * the list of those that do, or will before any point has moved by more than a margin, is made once and used
  * until then.  It only leaves out: a match that is listed in vain has no place, and those that have one come
- * in the same order whenever the list was made, so that not a bit depends on that. */
+ * in the same order whenever the list was made, so that not a bit depends on that.  Of two bodies neither are
+ * sides listed that a feature is beyond by more than the margin: most planes are asked by nobody then. */
 #ifndef FL_NARROW_MATCHES_H
 #define FL_NARROW_MATCHES_H
 #include <stdint.h>
@@ -34,7 +35,7 @@ typedef struct {
 
 /* A list lies in one block: planes, numbers, and whole numbers of 8 bits each, or of 16 or 32 where one of
  * them would not fit.  Planes of two bodies are not kept, which would be more than half of a list: what they
- * pass through is told by four whole numbers each, and they are made for a look, for a twentieth of its cost.
+ * pass through is told by four whole numbers each, and they are made for a look, for a thirtieth of its cost.
  * A match is a row of those:
  *     kind + 8 way + 16 sides     way 0: of A over B, 1: of B over A
  *     own, other                  numbers of the features

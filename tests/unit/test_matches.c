@@ -33,32 +33,58 @@ static uint64_t look(fl_places *w, const fl_poly *a, const fl_poly *b, fl_quat q
     return sum;
 }
 
-/* Two boxes side by side, one of which slides and turns, at first slowly. */
+/* Two boxes side by side, one of which slides and turns, at first slowly; and two long ones, whose ends move much
+ * farther than what touches. */
 static void what_is_left_out_bears_on_no_bit(void **state)
 {
     (void)state;
+    for (int far = 0; far < 2; far++) {
+        fl_places w = {0};
+        fl_poly a = {0}, b = {0};
+        fl_matches kept = {0};
+        fl_err err = {0};
+        int lists = 0, places = 0;
+        assert_int_equal(fl_poly_box(&a, v3(0.5, far ? 1.2 : 0.6, 0.2), &err) ||
+                             fl_poly_box(&b, v3(0.5, far ? 30.0 : 0.7, 0.25), &err),
+                         0);
+        double y = -1.0;
+        for (int k = 0; k < 400; k++) {
+            const fl_vec3 x = v3(1.0 + 0.9 * R + 0.005 * sin(0.1 * k), y,
+                                 far ? 0.3 * cos(0.005 * k) : 0.01 * cos(0.05 * k));
+            const fl_quat q = q_of_vector(
+                v3((far ? 2e-3 : 1e-3) * sin(0.3 * k), 1e-3 * cos(0.2 * k), 2e-3 * sin(0.02 * k)));
+            fl_matches fresh = {0};
+            y += 2e-5 * k;
+            const uint64_t once = look(&w, &a, &b, q, x, &fresh);
+            assert_true(look(&w, &a, &b, q, x, &kept) == once);
+            fl_matches_free(&fresh);
+            lists += kept.uses == 1;
+            places += w.n;
+        }
+        assert_in_range(lists, 10, 200);
+        assert_true(places > 4000);
+        fl_matches_free(&kept);
+        fl_places_free(&w);
+        fl_poly_free(&a), fl_poly_free(&b);
+    }
+}
+
+/* What lies in the middle of a face needs its plane alone: no side of it can come near. */
+static void sides_that_are_far_are_not_listed(void **state)
+{
+    (void)state;
+    const fl_overlap apart = {0};
     fl_places w = {0};
     fl_poly a = {0}, b = {0};
-    fl_matches kept = {0};
+    fl_matches l = {0};
     fl_err err = {0};
-    int lists = 0, places = 0;
-    assert_int_equal(fl_poly_box(&a, v3(0.5, 0.6, 0.2), &err) || fl_poly_box(&b, v3(0.5, 0.7, 0.25), &err),
-                     0);
-    double y = -1.0;
-    for (int k = 0; k < 400; k++) {
-        const fl_vec3 x = v3(1.0 + 0.9 * R + 0.005 * sin(0.1 * k), y, 0.01 * cos(0.05 * k));
-        const fl_quat q = q_of_vector(v3(1e-3 * sin(0.3 * k), 1e-3 * cos(0.2 * k), 2e-3 * sin(0.02 * k)));
-        fl_matches fresh = {0};
-        y += 2e-5 * k;
-        const uint64_t once = look(&w, &a, &b, q, x, &fresh);
-        assert_true(look(&w, &a, &b, q, x, &kept) == once);
-        fl_matches_free(&fresh);
-        lists += kept.uses == 1;
-        places += w.n;
-    }
-    assert_in_range(lists, 10, 200);
-    assert_true(places > 4000);
-    fl_matches_free(&kept);
+    assert_int_equal(fl_poly_box(&a, v3(0.5, 0.6, 0.2), &err) || fl_poly_box(&b, v3(3, 3, 0.3), &err), 0);
+    const fl_vec3 x = v3(0.1, 0.2, 0.5 + 0.9 * R);
+    assert_int_equal(fl_places_enter(&w, &a, q_matrix(q_of_vector(v3(1e-3, 0, 0.3))), x), 0);
+    assert_int_equal(fl_places_find(&w, &a, &b, RADIUS, RADIUS, v3(0, 0, 1), &apart, &l), 0);
+    assert_true(w.n > 10 && l.n > 8);
+    assert_int_equal(l.cuts[0], 1);
+    fl_matches_free(&l);
     fl_places_free(&w);
     fl_poly_free(&a), fl_poly_free(&b);
 }
@@ -142,6 +168,7 @@ static void many_sides_are_as_few(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_bears_on_no_bit),
+                                       cmocka_unit_test(sides_that_are_far_are_not_listed),
                                        cmocka_unit_test(the_margin_follows_the_motion),
                                        cmocka_unit_test(many_sides_are_as_few)};
     return cmocka_run_group_tests(tests, NULL, NULL);
