@@ -150,13 +150,13 @@ INLINE int edge(const meeting *q, row r, int wide, int kind, int32_t n)
     if (!keep_beyond(q, r, wide, kind == FL_MATCH_EDGE_VERTEX ? 6 : 7, n, v0, v1, &t)) return 0;
     const fl_edge g = q->own->p->edge[own];
     const fl_vec3 x0 = q->own->v[g.a], u = v3_sub(q->own->v[g.b], x0);
-    const fl_line line = {q->w, q->own, x0, u, q->number[get(r, wide, FL_MATCH_FACTOR)], q->R};
-    if (kind == FL_MATCH_EDGE_FACE) return fl_strips_over_face(&line, t, h0, h1, q->other->n[other]);
-    if (kind == FL_MATCH_EDGE_VERTEX) return fl_strips_over_point(&line, t, q->other->v[other], NULL, small);
+    const fl_line line = {q->w, q->own, x0, u, q->number[get(r, wide, FL_MATCH_FACTOR)]};
+    if (kind == FL_MATCH_EDGE_FACE) return fl_strips_over_face(&line, t, h0, h1, &q->other->n[other]);
+    if (kind == FL_MATCH_EDGE_VERTEX) return fl_strips_over_point(&line, t, &q->other->v[other], NULL, small);
     const fl_edge o = p->edge[other];
     const double length = q->number[get(r, wide, FL_MATCH_FACTOR + 1)];
     const fl_vec3 a = q->other->v[o.a], e = v3_scale(1.0 / length, v3_sub(q->other->v[o.b], a));
-    return fl_strips_over_point(&line, t, a, &e, small);
+    return fl_strips_over_point(&line, t, &a, &e, small);
 }
 
 /* Whether anything of a face that is within reach of the other lies above a side.  corner: columns of its n
@@ -263,7 +263,7 @@ int fl_matches_places(fl_places *w, const fl_matches *l, const fl_side *A, const
     const meeting way[2] = {
         {w, number, A, B, h[0], (size_t)fl_matches_columns(l->vertices[0]), R, behind, rim_b},
         {w, number, B, A, h[1], (size_t)fl_matches_columns(l->vertices[1]), R, behind, rim_a}};
-    fl_strips_begin(w);
+    if (fl_strips_begin(w)) return -1;
     const int bad = l->choice      ? l->wide == 0   ? some_rows(way, l, 0)
                                      : l->wide == 1 ? some_rows(way, l, 1)
                                                     : some_rows(way, l, 2)

@@ -164,9 +164,9 @@ int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance)
     if (*distance >= ra) return 0;
     for (int32_t v = 0; v < a->nv; v++)
         if (w->va[v].z < ra && fl_places_vertex(w, &A, 0.0, v, v3(0, 0, 1), ra - w->va[v].z)) return -1;
-    fl_strips_begin(w);
+    if (fl_strips_begin(w)) return -1;
     for (int32_t e = 0; e < a->ne; e++)
-        if ((w->va[a->edge[e].a].z < ra || w->va[a->edge[e].b].z < ra) && fl_strips_plane(w, &A, e, ra))
+        if ((w->va[a->edge[e].a].z < ra || w->va[a->edge[e].b].z < ra) && fl_strips_plane(w, &A, e))
             return -1;
     if (fl_strips_places(w, ra)) return -1;
     for (int32_t f = 0; f < a->nf; f++)

@@ -65,6 +65,8 @@ static const rule RULE[] = {
 /* Up to this half width over a of graded(), 8 points are within 1e-8 (7e-9 of the force at worst). */
 #define FLAT 0.35
 
+#define INLINE static inline __attribute__((always_inline))
+
 #define MASK(a) (*(const fl_wide_mask *)(const void *)(a))
 #define MASK_INTO(a) (*(fl_wide_mask *)(void *)(a))
 
@@ -514,19 +516,22 @@ int fl_strips_of_points(fl_places *w, const fl_strip_points *q, int32_t fours, d
     return 0;
 }
 
-void fl_strips_begin(fl_places *w)
+int fl_strips_begin(fl_places *w)
 {
-    if (w->strips) w->strips->faces = w->strips->points = 0;
+    struct fl_strips *s = waiting(w);
+    if (!s) return -1;
+    s->faces = s->points = 0;
+    return 0;
 }
 
-static void put(double to[3][FL_LANES], int32_t l, fl_vec3 x)
+INLINE void put(double to[3][FL_LANES], uint32_t l, const fl_vec3 *x)
 {
-    to[0][l] = x.x, to[1][l] = x.y, to[2][l] = x.z;
+    to[0][l] = x->x, to[1][l] = x->y, to[2][l] = x->z;
 }
 
-static void put_edge(fl_strip_edges *e, int32_t l, const fl_line *of, fl_span t)
+INLINE void put_edge(fl_strip_edges *e, uint32_t l, const fl_line *of, fl_span t)
 {
-    put(e->x, l, of->x0), put(e->u, l, of->u);
+    put(e->x, l, &of->x0), put(e->u, l, &of->u);
     e->lo[l] = t.lo, e->hi[l] = t.hi, e->factor[l] = of->factor;
     e->r[l] = of->own->r, e->side[l] = of->own->side;
 }
@@ -544,25 +549,26 @@ static int open_four(void *array, int32_t *cap, int32_t fours, size_t size)
     return 0;
 }
 
-int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n)
+int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, const fl_vec3 *n)
 {
-    struct fl_strips *s = waiting(l->w);
-    const int32_t four = s ? s->faces / FL_LANES : 0, lane = s ? s->faces % FL_LANES : 0;
-    if (!s || (lane == 0 && open_four(&s->face, &s->face_cap, four, sizeof *s->face))) return -1;
-    fl_strip_faces *const f = &s->face[four];
+    struct fl_strips *const s = l->w->strips;
+    const uint32_t k = (uint32_t)s->faces, lane = k % FL_LANES;
+    if (lane == 0 && open_four(&s->face, &s->face_cap, s->faces / FL_LANES, sizeof *s->face)) return -1;
+    fl_strip_faces *const f = &s->face[k / FL_LANES];
     put_edge(&f->of, lane, l, t), put(f->n, lane, n);
     f->h0[lane] = h0, f->h1[lane] = h1;
     s->faces++;
     return 0;
 }
 
-int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *e, double small)
+int fl_strips_over_point(const fl_line *l, fl_span t, const fl_vec3 *c, const fl_vec3 *e, double small)
 {
-    struct fl_strips *s = waiting(l->w);
-    const int32_t four = s ? s->points / FL_LANES : 0, lane = s ? s->points % FL_LANES : 0;
-    if (!s || (lane == 0 && open_four(&s->point, &s->point_cap, four, sizeof *s->point))) return -1;
-    fl_strip_points *const p = &s->point[four];
-    put_edge(&p->of, lane, l, t), put(p->c, lane, c), put(p->e, lane, e ? *e : v3(0, 0, 0));
+    static const fl_vec3 none = {0, 0, 0};
+    struct fl_strips *const s = l->w->strips;
+    const uint32_t k = (uint32_t)s->points, lane = k % FL_LANES;
+    if (lane == 0 && open_four(&s->point, &s->point_cap, s->points / FL_LANES, sizeof *s->point)) return -1;
+    fl_strip_points *const p = &s->point[k / FL_LANES];
+    put_edge(&p->of, lane, l, t), put(p->c, lane, c), put(p->e, lane, e ? e : &none);
     p->small[lane] = small;
     s->points++;
     return 0;
@@ -571,7 +577,6 @@ int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *
 int fl_strips_places(fl_places *w, double R)
 {
     const struct fl_strips *s = w->strips;
-    if (!s) return 0;
     const int32_t faces = (s->faces + FL_LANES - 1) / FL_LANES,
                   points = (s->points + FL_LANES - 1) / FL_LANES;
     return fl_strips_of_faces(w, s->face, faces, R) || fl_strips_of_points(w, s->point, points, R) ? -1 : 0;
@@ -591,11 +596,11 @@ double fl_strips_factor(const fl_side *own, int32_t e, double other)
            v3_norm(v3_sub(own->p->v[g.b], own->p->v[g.a])); /* the same bits in any pose */
 }
 
-int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e, double R)
+int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e)
 {
     const fl_edge g = own->p->edge[e];
-    const fl_vec3 x0 = own->v[g.a], u = v3_sub(own->v[g.b], x0);
-    const fl_line l = {w, own, x0, u, fl_strips_factor(own, e, 0.0), R};
+    const fl_vec3 x0 = own->v[g.a], u = v3_sub(own->v[g.b], x0), up = v3(0, 0, 1);
+    const fl_line l = {w, own, x0, u, fl_strips_factor(own, e, 0.0)};
     if (!(l.factor > 0.0)) return 0;
-    return fl_strips_over_face(&l, (fl_span){0.0, 1.0}, x0.z, x0.z + u.z, v3(0, 0, 1));
+    return fl_strips_over_face(&l, (fl_span){0.0, 1.0}, x0.z, x0.z + u.z, &up);
 }

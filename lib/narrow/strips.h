@@ -42,7 +42,6 @@ typedef struct {
     const fl_side *own;
     fl_vec3 x0, u;
     double factor; /* fl_strips_factor() */
-    double R;      /* reach */
 } fl_line;
 
 /* Edges by lanes: where they begin, their way; the part of it that counts, in [0, 1], none where lo >= hi;
@@ -74,11 +73,11 @@ double fl_strips_factor(const fl_side *own, int32_t e, double other);
 /* Let the part t of an edge wait that lies over a face with normal n, h0 and h1 its heights at the two
  * ends of the edge; and over the point c, or the line through c along the unit vector *axis, no nearer
  * than `small`. -1 when memory runs out. */
-int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n);
-int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *axis, double small);
+int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, const fl_vec3 *n);
+int fl_strips_over_point(const fl_line *l, fl_span t, const fl_vec3 *c, const fl_vec3 *axis, double small);
 
-/* None waits. */
-void fl_strips_begin(fl_places *w);
+/* None waits; before the first that does.  -1 when memory runs out. */
+int fl_strips_begin(fl_places *w);
 
 /* The places of all that wait, those over faces first, with the reach R.  -1 when memory runs out. */
 int fl_strips_places(fl_places *w, double R);
@@ -88,7 +87,7 @@ int fl_strips_of_faces(fl_places *w, const fl_strip_faces *q, int32_t fours, dou
 int fl_strips_of_points(fl_places *w, const fl_strip_points *q, int32_t fours, double R);
 
 /* Let edge e of `own` wait over the plane z = 0. */
-int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e, double R);
+int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e);
 
 void fl_strips_free(struct fl_strips *s); /* of fl_places; takes NULL */
 
