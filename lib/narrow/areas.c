@@ -68,24 +68,13 @@ typedef struct {
     double m, dm;          /* half of m(c), and its derivative */
     corner *p;             /* [n + 1] F, counter-clockwise, the first again at the end */
     int32_t n;
-    fl_wide *from, *to; /* [n] part of each side of F that is in a rim */
-    double *in, *out;   /* [n] and inside all rims */
+    fl_wide *from, *to;       /* [n] part of each side of F that is in a rim, */
+    fl_wide *beyond, *before; /* [n] what is inside the rims, by lanes, begins and ends */
+    double *in, *out;         /* [n] and that inside all rims */
     total sum;
     fl_vec3 pull, turn; /* of the rims, in the axes at.x, at.y, nf: force, and moment about the first corner
                          * on the plane of f */
 } footprint;
-
-static inline double most_of(const fl_wide *a)
-{
-    const double b = (*a)[0] > (*a)[2] ? (*a)[0] : (*a)[2], c = (*a)[1] > (*a)[3] ? (*a)[1] : (*a)[3];
-    return b > c ? b : c;
-}
-
-static inline double least_of(const fl_wide *a)
-{
-    const double b = (*a)[0] < (*a)[2] ? (*a)[0] : (*a)[2], c = (*a)[1] < (*a)[3] ? (*a)[1] : (*a)[3];
-    return b < c ? b : c;
-}
 
 /* The triangles from the origin to pieces of border, of what is linear in the triangle with the values A and
  * B at the origin and at the border: int s^3 w rho^k dA = cross int_0^1 dt int_0^1 rho^(k+1) (A (1 - rho) + B
@@ -198,37 +187,46 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     const int32_t n = f->n;
     const corner *p = f->p;
     fl_wide_mask reached = zero != 0.0;
-    for (int32_t k = 0; k < n; k++) reached |= p[k].y * ux - p[k].x * uy + d0 < W;
+    fl_wide *const distance = f->from; /* of the corners from the side, until the parts are known */
+    for (int32_t k = 0; k < n; k++) {
+        distance[k] = p[k].y * ux - p[k].x * uy + d0;
+        reached |= distance[k] < W;
+    }
     g->lo[c / FL_LANES] = one, g->hi[c / FL_LANES] = zero;
     if (!fl_wide_any(&reached)) return;
     /* distance from the side and along it, on which side of the two lines to the inner rim: of the last
      * corner */
-    fl_wide d = p[0].y * ux - p[0].x * uy + d0, l = p[0].x * ux + p[0].y * uy + l0;
+    const fl_wide start = distance[0];
+    fl_wide d = start, l = p[0].x * ux + p[0].y * uy + l0;
     fl_wide a = (p[0].x * Dy - p[0].y * Dx) + a0, b = (p[0].y * Ex - p[0].x * Ey) - b0;
     fl_wide in_lo = never, in_hi = -never, a_lo = never, a_hi = -never, b_lo = never, b_hi = -never,
             foot = zero;
     fl_wide_mask some = zero != 0.0;
     for (int32_t k = 0; k < n; k++) {
         const corner q = p[k + 1];
-        const fl_wide e = q.y * ux - q.x * uy + d0, m = q.x * ux + q.y * uy + l0;
+        const fl_wide e = k + 1 < n ? distance[k + 1] : start, m = q.x * ux + q.y * uy + l0;
         const fl_wide h = (q.x * Dy - q.y * Dx) + a0, i = (q.y * Ex - q.x * Ey) - b0;
         const fl_wide gap = d - W, gaq = e - W, de = e - d, dl = m - l;
         /* what counts as on the one side of a line for one counts as on the other for its neighbour */
         const fl_wide_mask dp = d >= 0.0, dq = e >= 0.0, wp = gap >= 0.0, wq = gaq >= 0.0, ap = a >= 0.0,
-                           aq = h >= 0.0, bp = b > 0.0, bq = i > 0.0;
-        const fl_wide td = d / (d - e), tw = gap / (gap - gaq), ta_ = a / (a - h), tb_ = b / (b - i);
+                           aq = h >= 0.0, bp = b > 0.0, bq = i > 0.0, outside = ~(wp & wq);
         const fl_wide_mask crosses = wp ^ wq, crosses_a = ap ^ aq, crosses_b = bp ^ bq;
+        if (!fl_wide_any(&outside)) { /* in no rim: it only tells that the lines go on beyond */
+            f->from[k] = f->to[k] = zero;
+            a_hi = FL_WIDE_CHOOSE(crosses_a, never, a_hi), b_hi = FL_WIDE_CHOOSE(crosses_b, never, b_hi);
+            d = e, l = m, a = h, b = i;
+            continue;
+        }
+        const fl_wide td = d / (d - e), tw = gap / (gap - gaq), ta_ = a / (a - h), tb_ = b / (b - i);
         fl_wide t0 = FL_WIDE_LARGER(FL_WIDE_WHERE(~dp, td), FL_WIDE_WHERE(wp, tw));
         fl_wide t1 = FL_WIDE_SMALLER(FL_WIDE_CHOOSE(dq, one, td), FL_WIDE_CHOOSE(wq, tw, one));
         t0 = FL_WIDE_LARGER(t0, FL_WIDE_LARGER(FL_WIDE_WHERE(~ap, ta_), FL_WIDE_WHERE(~bp, tb_)));
         t1 = FL_WIDE_SMALLER(t1, FL_WIDE_SMALLER(FL_WIDE_CHOOSE(aq, one, ta_), FL_WIDE_CHOOSE(bq, one, tb_)));
-        const fl_wide_mask here = (t0 < t1) & ~(wp & wq) & (bp | bq);
+        const fl_wide_mask here = (t0 < t1) & outside & (bp | bq);
         f->from[k] = FL_WIDE_WHERE(here, t0), f->to[k] = FL_WIDE_WHERE(here, t1);
         some |= here;
         const fl_wide i0 = FL_WIDE_WHERE(~wp, tw), i1 = FL_WIDE_CHOOSE(wq, one, tw);
-        const double most = most_of(&i0), least = least_of(&i1);
-        f->in[k] = most > f->in[k] ? most : f->in[k];
-        f->out[k] = least < f->out[k] ? least : f->out[k];
+        f->beyond[k] = FL_WIDE_LARGER(i0, f->beyond[k]), f->before[k] = FL_WIDE_SMALLER(i1, f->before[k]);
         const fl_wide at = l + tw * dl, at_a = d + ta_ * de, at_b = d + tb_ * de;
         in_lo = FL_WIDE_SMALLER(in_lo, FL_WIDE_CHOOSE(crosses, at, never));
         in_hi = FL_WIDE_LARGER(in_hi, FL_WIDE_CHOOSE(crosses, at, -never));
@@ -361,6 +359,7 @@ static inline __attribute__((always_inline)) void lay_sides(outline *g, double w
         *(fl_wide *)(g->length + c) = l, *(fl_wide *)(g->ux + c) = ex / l, *(fl_wide *)(g->uy + c) = ey / l;
     }
     for (int32_t c = n; c < g->room; c++) g->length[c] = g->ux[c] = g->uy[c] = 0.0;
+    g->Dx[g->room] = g->Dy[g->room] = g->tan[g->room] = 0.0;
     g->ux[-1] = g->ux[n - 1], g->uy[-1] = g->uy[n - 1];
     for (int32_t c = 0; c < n; c += FL_LANES) {
         const fl_wide ux = LOAD(ux, c), uy = LOAD(uy, c), vx = LOAD(ux, c - 1), vy = LOAD(uy, c - 1);
@@ -378,10 +377,22 @@ static inline __attribute__((always_inline)) void lay_sides(outline *g, double w
 
 FL_WIDE_VERSIONS static void cover(footprint *f, outline *g, double width)
 {
-    for (int32_t k = 0; k < f->n + FL_LANES; k++)
-        f->in[k] = k < f->n ? 0.0 : 1.0, f->out[k] = k < f->n ? 1.0 : 0.0;
+    const fl_wide zero = {0}, one = 1.0 + zero;
+    for (int32_t k = 0; k < f->n; k++) f->beyond[k] = zero, f->before[k] = one;
     if (g->n > 0) lay_sides(g, width);
     for (int32_t c = 0; c < g->n; c += FL_LANES) rims(f, g, c);
+    for (int32_t k = 0; k < f->n; k += FL_LANES) { /* those of four sides, behind the last none */
+        const fl_wide_mask some = FL_WIDE_BEFORE(f->n - k);
+        fl_wide a[FL_LANES], b[FL_LANES];
+        FL_WIDE_UNROLL
+        for (int l = 0; l < FL_LANES; l++) a[l] = f->beyond[k + l], b[l] = f->before[k + l];
+        fl_wide_transpose(a), fl_wide_transpose(b);
+        a[0] = FL_WIDE_LARGER(a[0], a[2]), a[1] = FL_WIDE_LARGER(a[1], a[3]);
+        b[0] = FL_WIDE_SMALLER(b[0], b[2]), b[1] = FL_WIDE_SMALLER(b[1], b[3]);
+        const fl_wide in = FL_WIDE_LARGER(a[0], a[1]), out = FL_WIDE_SMALLER(b[0], b[1]);
+        FL_FOUR_INTO(f->in + k) = FL_WIDE_CHOOSE(some, in, one);
+        FL_FOUR_INTO(f->out + k) = FL_WIDE_WHERE(some, out);
+    }
     inside(f, g);
 }
 #undef LOAD
@@ -412,7 +423,7 @@ static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spar
     const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
     const int64_t most = n + 2 * FL_LANES, room = (sides + FL_LANES - 1) / FL_LANES * FL_LANES,
                   each = room + 2 * FL_LANES;
-    if (fl_room(&f->w->cut, &f->w->cut_cap, (8 + 8 + 2) * most / 3 + (8 * each + 2 * room) / 3 + 2,
+    if (fl_room(&f->w->cut, &f->w->cut_cap, (24 + 2) * most / 3 + (8 * each + 2 * room) / 3 + 2,
                 sizeof *f->w->cut))
         return -1;
     double *at = (double *)(void *)f->w->cut;
@@ -420,11 +431,15 @@ static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spar
     *spare = (corner *)(void *)at, at += 4 * most;
     f->from = (fl_wide *)(void *)at, at += 4 * most;
     f->to = (fl_wide *)(void *)at, at += 4 * most;
+    f->beyond = (fl_wide *)(void *)at, at += 4 * most;
+    f->before = (fl_wide *)(void *)at, at += 4 * most;
     f->in = at, at += most;
     f->out = at, at += most;
-    *g = (outline){.n = sides, .room = (int32_t)room};
-    double **const of[8] = {&g->x, &g->y, &g->ux, &g->uy, &g->length, &g->Dx, &g->Dy, &g->tan};
-    for (int k = 0; k < 8; k++, at += each) *of[k] = at + 1; /* ux and uy have a number before the first */
+    g->n = sides, g->room = (int32_t)room;
+    at++; /* ux and uy have a number before the first */
+    g->x = at, g->y = at + each, g->ux = at + 2 * each, g->uy = at + 3 * each;
+    g->length = at + 4 * each, g->Dx = at + 5 * each, g->Dy = at + 6 * each, g->tan = at + 7 * each;
+    at += 8 * each - 1;
     g->lo = (fl_wide *)(void *)at, at += room;
     g->hi = (fl_wide *)(void *)at;
     f->sx = -v3_dot(f->nF, f->at.x) / f->slope, f->sy = -v3_dot(f->nF, f->at.y) / f->slope;
@@ -523,12 +538,12 @@ int fl_areas_face(fl_places *w, const fl_side *own, int32_t F, const fl_side *ot
     q.at = (fl_across){o, x, v3_cross(q.nf, x)};
     if (lay(&q, F, sides, &g, &spare)) return -1;
     if (!trim(&q, R + behind + SAME * p->size, spare)) return 0;
-    for (int32_t c = 0; c < g.room + FL_LANES; c++) g.x[c] = g.y[c] = g.Dx[c] = g.Dy[c] = g.tan[c] = 0.0;
     for (int32_t c = 0; c < sides; c++) {
         const fl_vec3 r = v3_sub(other->v[loop[c]], o);
         g.x[c] = v3_dot(q.at.x, r), g.y[c] = v3_dot(q.at.y, r);
     }
     g.x[sides] = g.x[0], g.y[sides] = g.y[0];
+    for (int32_t c = sides + 1; c <= g.room; c++) g.x[c] = g.y[c] = 0.0;
     cover(&q, &g, width);
     return put(&q);
 }
