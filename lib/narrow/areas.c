@@ -187,7 +187,8 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     const int32_t n = f->n;
     const corner *p = f->p;
     fl_wide_mask reached = zero != 0.0;
-    fl_wide *const distance = f->from; /* of the corners from the side, until the parts are known */
+    fl_wide *const from = f->from, *const to = f->to, *const beyond = f->beyond, *const before = f->before;
+    fl_wide *const distance = from; /* of the corners from the side, until the parts are known */
     for (int32_t k = 0; k < n; k++) {
         distance[k] = p[k].y * ux - p[k].x * uy + d0;
         reached |= distance[k] < W;
@@ -212,7 +213,7 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
                            aq = h >= 0.0, bp = b > 0.0, bq = i > 0.0, outside = ~(wp & wq);
         const fl_wide_mask crosses = wp ^ wq, crosses_a = ap ^ aq, crosses_b = bp ^ bq;
         if (!fl_wide_any(&outside)) { /* in no rim: it only tells that the lines go on beyond */
-            f->from[k] = f->to[k] = zero;
+            from[k] = to[k] = zero;
             a_hi = FL_WIDE_CHOOSE(crosses_a, never, a_hi), b_hi = FL_WIDE_CHOOSE(crosses_b, never, b_hi);
             d = e, l = m, a = h, b = i;
             continue;
@@ -223,10 +224,10 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
         t0 = FL_WIDE_LARGER(t0, FL_WIDE_LARGER(FL_WIDE_WHERE(~ap, ta_), FL_WIDE_WHERE(~bp, tb_)));
         t1 = FL_WIDE_SMALLER(t1, FL_WIDE_SMALLER(FL_WIDE_CHOOSE(aq, one, ta_), FL_WIDE_CHOOSE(bq, one, tb_)));
         const fl_wide_mask here = (t0 < t1) & outside & (bp | bq);
-        f->from[k] = FL_WIDE_WHERE(here, t0), f->to[k] = FL_WIDE_WHERE(here, t1);
+        from[k] = FL_WIDE_WHERE(here, t0), to[k] = FL_WIDE_WHERE(here, t1);
         some |= here;
         const fl_wide i0 = FL_WIDE_WHERE(~wp, tw), i1 = FL_WIDE_CHOOSE(wq, one, tw);
-        f->beyond[k] = FL_WIDE_LARGER(i0, f->beyond[k]), f->before[k] = FL_WIDE_SMALLER(i1, f->before[k]);
+        beyond[k] = FL_WIDE_LARGER(i0, beyond[k]), before[k] = FL_WIDE_SMALLER(i1, before[k]);
         const fl_wide at = l + tw * dl, at_a = d + ta_ * de, at_b = d + tb_ * de;
         in_lo = FL_WIDE_SMALLER(in_lo, FL_WIDE_CHOOSE(crosses, at, never));
         in_hi = FL_WIDE_LARGER(in_hi, FL_WIDE_CHOOSE(crosses, at, -never));
@@ -258,7 +259,7 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     const fl_wide s = p[0].s + f->sx * (ox - p[0].x) + f->sy * (oy - p[0].y);
     sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
     for (int32_t k = 0; k < n; k++) {
-        const fl_wide t0 = f->from[k], dt = f->to[k] - t0;
+        const fl_wide t0 = from[k], dt = to[k] - t0;
         const fl_wide_mask here = dt > 0.0;
         if (!fl_wide_any(&here)) continue;
         const double ex = p[k + 1].x - p[k].x, ey = p[k + 1].y - p[k].y, es = p[k + 1].s - p[k].s;
@@ -378,14 +379,16 @@ static inline __attribute__((always_inline)) void lay_sides(outline *g, double w
 FL_WIDE_VERSIONS static void cover(footprint *f, outline *g, double width)
 {
     const fl_wide zero = {0}, one = 1.0 + zero;
-    for (int32_t k = 0; k < f->n; k++) f->beyond[k] = zero, f->before[k] = one;
+    const int32_t n = f->n;
+    fl_wide *const beyond = f->beyond, *const before = f->before;
+    for (int32_t k = 0; k < n; k++) beyond[k] = zero, before[k] = one;
     if (g->n > 0) lay_sides(g, width);
     for (int32_t c = 0; c < g->n; c += FL_LANES) rims(f, g, c);
-    for (int32_t k = 0; k < f->n; k += FL_LANES) { /* those of four sides, behind the last none */
-        const fl_wide_mask some = FL_WIDE_BEFORE(f->n - k);
+    for (int32_t k = 0; k < n; k += FL_LANES) { /* those of four sides, behind the last none */
+        const fl_wide_mask some = FL_WIDE_BEFORE(n - k);
         fl_wide a[FL_LANES], b[FL_LANES];
         FL_WIDE_UNROLL
-        for (int l = 0; l < FL_LANES; l++) a[l] = f->beyond[k + l], b[l] = f->before[k + l];
+        for (int l = 0; l < FL_LANES; l++) a[l] = beyond[k + l], b[l] = before[k + l];
         fl_wide_transpose(a), fl_wide_transpose(b);
         a[0] = FL_WIDE_LARGER(a[0], a[2]), a[1] = FL_WIDE_LARGER(a[1], a[3]);
         b[0] = FL_WIDE_SMALLER(b[0], b[2]), b[1] = FL_WIDE_SMALLER(b[1], b[3]);
