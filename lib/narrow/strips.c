@@ -83,12 +83,46 @@ typedef struct {
     int64_t some[2][FL_LANES];
 } twos;
 
+/* The places of four lanes into out, those that are there one after the other: so many.  There is room
+ * for all. stands: as in fl_place. */
+FL_WIDE_PART int32_t lay_out(const twos *q, int32_t stands, fl_place *out)
+{
+    fl_wide a[2][FL_LANES], b[2][FL_LANES], c[2][FL_LANES];
+    int32_t n = 0;
+    FL_WIDE_UNROLL
+    for (int k = 0; k < 2; k++) {
+        a[k][0] = FL_FOUR(q->s[k]);
+        a[k][1] = FL_FOUR(q->u[k]), a[k][2] = FL_FOUR(q->du[k]), a[k][3] = FL_FOUR(q->ddu[k]);
+        b[k][0] = FL_FOUR(q->n[k][0]), b[k][1] = FL_FOUR(q->n[k][1]), b[k][2] = FL_FOUR(q->n[k][2]);
+        b[k][3] = FL_FOUR(q->across[k][0]), c[k][0] = FL_FOUR(q->across[k][1]);
+        c[k][1] = FL_FOUR(q->across[k][2]), c[k][2] = FL_FOUR(q->p[k][0]), c[k][3] = FL_FOUR(q->p[k][1]);
+        fl_wide_transpose(a[k]), fl_wide_transpose(b[k]), fl_wide_transpose(c[k]);
+    }
+    FL_WIDE_UNROLL
+    for (int l = 0; l < FL_LANES; l++) {
+        FL_WIDE_UNROLL
+        for (int k = 0; k < 2; k++) {
+            fl_place *const p = &out[n];
+            FL_FOUR_INTO(&p->overlap) = a[k][l], FL_FOUR_INTO(&p->n) = b[k][l];
+            FL_FOUR_INTO(&p->across.y) = c[k][l];
+            p->p.z = q->p[k][2][l], p->closing = 0.0, p->stands = stands;
+            n += q->some[k][l] != 0;
+        }
+    }
+    return n;
+}
+static_assert(offsetof(fl_place, ddu) == 3 * sizeof(double) &&
+                  offsetof(fl_place, across) == 7 * sizeof(double) &&
+                  offsetof(fl_place, p) == 10 * sizeof(double) && offsetof(fl_place, n) == 4 * sizeof(double),
+              "three registers of four lie in a row");
+
 /* --- over faces ---------------------------------------------------------------------------------------- */
 
 /* d is linear and its direction one, so that two places have force and torque of all nodes, and the second
  * moment of the pressure. */
-FL_WIDE_VERSIONS static void over_faces(const fl_strip_faces *f, double R, twos *out)
+FL_WIDE_VERSIONS static int32_t over_faces(const fl_strip_faces *f, double R, fl_place *place)
 {
+    twos places, *const out = &places;
     const fl_wide zero = {0};
     const fl_strip_edges *e = &f->of;
     const fl_wide s0 = R - FL_FOUR(f->h0), s1 = R - FL_FOUR(f->h1), ds = s1 - s0, zeroed = s0 / (s0 - s1);
@@ -122,6 +156,7 @@ FL_WIDE_VERSIONS static void over_faces(const fl_strip_faces *f, double R, twos 
         FL_WIDE3_INTO(out->n[k], to), FL_WIDE3_INTO(out->across[k], to), FL_WIDE3_INTO(out->p[k], y);
         MASK_INTO(out->some[k]) = some;
     }
+    return lay_out(out, 2, place);
 }
 
 /* --- over lines and points ------------------------------------------------------------------------------ */
@@ -394,9 +429,10 @@ static void sum_pieces(struct fl_strips *w, const fl_strip_points *p, double R)
  * their resultant and the second moment of the pressure, as those of an edge over a face.  (One would do
  * where they all meet in a point.  But damping asks for directions: one that all have in the mean is not
  * damped as two that differ, and whether lines cross at right angles must not be told by rounding.) */
-FL_WIDE_VERSIONS static void tie(const fl_strip_points *p, const feet *a, const sums *sum, double R,
-                                 twos *out)
+FL_WIDE_VERSIONS static int32_t tie(const fl_strip_points *p, const feet *a, const sums *sum, double R,
+                                    fl_place *place)
 {
+    twos places, *const out = &places;
     const fl_wide zero = {0}, one = 1.0 + zero;
     const fl_strip_edges *of = &p->of;
     const fl_wide factor = FL_FOUR(of->factor), du = FL_FOUR(sum->du), slope = FL_FOUR(a->slope),
@@ -433,49 +469,10 @@ FL_WIDE_VERSIONS static void tie(const fl_strip_points *p, const feet *a, const 
         FL_WIDE3_INTO(out->n[k], long_n), FL_WIDE3_INTO(out->across[k], across), FL_WIDE3_INTO(out->p[k], y);
         MASK_INTO(out->some[k]) = some & (size > 0.0) & (pull > 0.0);
     }
+    return lay_out(out, 0, place);
 }
 
 /* --- all that there are --------------------------------------------------------------------------------- */
-
-/* The places of four lanes into out, those that are there one after the other: so many.  There is room
- * for all. stands: as in fl_place. */
-FL_WIDE_VERSIONS static int32_t lay_out(const twos *q, int32_t stands, fl_place *out)
-{
-    fl_wide a[2][FL_LANES], b[2][FL_LANES], c[2][FL_LANES];
-    int32_t n = 0;
-    FL_WIDE_UNROLL
-    for (int k = 0; k < 2; k++) {
-        a[k][0] = FL_FOUR(q->s[k]);
-        a[k][1] = FL_FOUR(q->u[k]), a[k][2] = FL_FOUR(q->du[k]), a[k][3] = FL_FOUR(q->ddu[k]);
-        b[k][0] = FL_FOUR(q->n[k][0]), b[k][1] = FL_FOUR(q->n[k][1]), b[k][2] = FL_FOUR(q->n[k][2]);
-        b[k][3] = FL_FOUR(q->across[k][0]), c[k][0] = FL_FOUR(q->across[k][1]);
-        c[k][1] = FL_FOUR(q->across[k][2]), c[k][2] = FL_FOUR(q->p[k][0]), c[k][3] = FL_FOUR(q->p[k][1]);
-        fl_wide_transpose(a[k]), fl_wide_transpose(b[k]), fl_wide_transpose(c[k]);
-    }
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) {
-        FL_WIDE_UNROLL
-        for (int k = 0; k < 2; k++) {
-            fl_place *const p = &out[n];
-            FL_FOUR_INTO(&p->overlap) = a[k][l], FL_FOUR_INTO(&p->n) = b[k][l];
-            FL_FOUR_INTO(&p->across.y) = c[k][l];
-            p->p.z = q->p[k][2][l], p->closing = 0.0, p->stands = stands;
-            n += q->some[k][l] != 0;
-        }
-    }
-    return n;
-}
-static_assert(offsetof(fl_place, ddu) == 3 * sizeof(double) &&
-                  offsetof(fl_place, across) == 7 * sizeof(double) &&
-                  offsetof(fl_place, p) == 10 * sizeof(double) && offsetof(fl_place, n) == 4 * sizeof(double),
-              "three registers of four lie in a row");
-
-static int add(fl_places *w, const twos *q, int32_t stands)
-{
-    if (fl_room(&w->place, &w->place_cap, (int64_t)w->n + 2 * FL_LANES, sizeof *w->place)) return -1;
-    w->n += lay_out(q, stands, &w->place[w->n]);
-    return 0;
-}
 
 static struct fl_strips *waiting(fl_places *w)
 {
@@ -483,13 +480,16 @@ static struct fl_strips *waiting(fl_places *w)
     return w->strips;
 }
 
+/* For the places of so many fours. */
+static int room(fl_places *w, int32_t fours)
+{
+    return fl_room(&w->place, &w->place_cap, w->n + 2 * FL_LANES * (int64_t)fours, sizeof *w->place);
+}
+
 int fl_strips_of_faces(fl_places *w, const fl_strip_faces *q, int32_t fours, double R)
 {
-    for (int32_t k = 0; k < fours; k++) {
-        twos two;
-        over_faces(&q[k], R, &two);
-        if (add(w, &two, 2)) return -1;
-    }
+    if (room(w, fours)) return -1;
+    for (int32_t k = 0; k < fours; k++) w->n += over_faces(&q[k], R, &w->place[w->n]);
     return 0;
 }
 
@@ -508,11 +508,8 @@ int fl_strips_of_points(fl_places *w, const fl_strip_points *q, int32_t fours, d
         sum_whole(&q[k], f, R, &s->sum[k]);
     }
     sum_pieces(s, q, R);
-    for (int32_t k = 0; k < fours; k++) {
-        twos two;
-        tie(&q[k], &s->feet[k], &s->sum[k], R, &two);
-        if (add(w, &two, 0)) return -1;
-    }
+    if (room(w, fours)) return -1;
+    for (int32_t k = 0; k < fours; k++) w->n += tie(&q[k], &s->feet[k], &s->sum[k], R, &w->place[w->n]);
     return 0;
 }
 

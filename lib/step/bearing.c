@@ -195,9 +195,11 @@ static tilt tilt_of(const lane *t, uint32_t k)
 static int find_areas(fl_places *s)
 {
     const fl_place *p = s->place;
+    const int32_t n = s->n;
     s->tilts = 0;
-    for (int32_t k = 0; k < s->n; k += p[k].stands ? p[k].stands : 1) {
-        if (p[k].stands != CORNERS || p[k].u == 0.0) continue;
+    for (int32_t k = 0, stands; k<n; k += stands> 1 ? stands : 1) {
+        stands = p[k].stands;
+        if (stands != CORNERS || p[k].u == 0.0) continue;
         if (fl_room(&s->tilt, &s->tilt_cap, (int64_t)s->tilts + 1, sizeof(tilt))) return -1;
         tilt *all = s->tilt;
         all[s->tilts++] = tilt_of(s->lane, (uint32_t)k);
