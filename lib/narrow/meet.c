@@ -31,6 +31,31 @@ FL_WIDE_VERSIONS static void heights(const fl_cut *cut, const int32_t *list, int
     }
 }
 
+#define INLINE static inline __attribute__((always_inline))
+
+/* Vertices by their numbers, which begin with the one that is `from`: x, y and z one after the other, to full
+ * registers. */
+INLINE void gather(const fl_vec3 *v, const void *whole, int wide, int32_t from, int32_t n, int32_t columns,
+                   double *x)
+{
+    for (int32_t k = 0; k < columns; k++, x++) {
+        const fl_vec3 *const r = &v[fl_matches_get(whole, wide, from + (k < n ? k : n - 1))];
+        x[0] = r->x, x[columns] = r->y, x[2 * columns] = r->z;
+    }
+}
+
+/* Points turned back from M r + o. */
+FL_WIDE_VERSIONS static void turn_back(double *x, int32_t columns, const fl_mat3 *M, fl_vec3 o)
+{
+    double *const y = x + columns, *const z = y + columns;
+    for (int32_t k = 0; k < columns; k += FL_LANES) {
+        const fl_wide X = FL_FOUR(x + k) - o.x, Y = FL_FOUR(y + k) - o.y, Z = FL_FOUR(z + k) - o.z;
+        FL_FOUR_INTO(x + k) = M->m[0][0] * X + M->m[1][0] * Y + M->m[2][0] * Z;
+        FL_FOUR_INTO(y + k) = M->m[0][1] * X + M->m[1][1] * Y + M->m[2][1] * Z;
+        FL_FOUR_INTO(z + k) = M->m[0][2] * X + M->m[1][2] * Y + M->m[2][2] * Z;
+    }
+}
+
 /* way 0: vertices of A as they are, entered, over planes of B; 1: those of B, in the frame of A, over planes
  * of A. */
 static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, const fl_poly *other,
@@ -44,17 +69,10 @@ static int fill(fl_places *w, const fl_matches *l, int way, const fl_vec3 *own, 
     if (fl_room(&s->x, &s->x_cap, 3 * (int64_t)columns, sizeof *s->x) ||
         fl_room(&s->h, &s->h_cap, (int64_t)cuts * (columns + 4), sizeof *s->h))
         return -1;
-    double *x = s->x, *y = x + columns, *z = y + columns;
-    for (int32_t k = 0; k < columns; k += FL_LANES) {
-        fl_vec3 v[FL_LANES];
-        for (int c = 0; c < FL_LANES; c++) {
-            const fl_vec3 r = own[fl_matches_get(whole, wide, from + (k + c < vertices ? k + c : k))];
-            v[c] = way ? m3_tmul(w->M, v3_sub(r, w->o)) : r;
-        }
-        *(fl_wide *)(x + k) = (fl_wide){v[0].x, v[1].x, v[2].x, v[3].x};
-        *(fl_wide *)(y + k) = (fl_wide){v[0].y, v[1].y, v[2].y, v[3].y};
-        *(fl_wide *)(z + k) = (fl_wide){v[0].z, v[1].z, v[2].z, v[3].z};
-    }
+    double *const x = s->x, *const y = x + columns, *const z = y + columns;
+    if (wide == 0) gather(own, whole, 0, from, vertices, columns, x);
+    else gather(own, whole, wide, from, vertices, columns, x);
+    if (way) turn_back(x, columns, &w->M, w->o);
     const int32_t *list = l->choice ? l->choice->cut[way] : NULL;
     fl_cut *const made = (fl_cut *)(void *)(s->h + (int64_t)cuts * columns);
     if (!l->keeps) fl_matches_make_cuts(l, way, other, made);
@@ -76,8 +94,6 @@ typedef struct {
 
 /* A row of the list, in work. */
 typedef const void *row;
-
-#define INLINE static inline __attribute__((always_inline))
 
 INLINE int32_t get(row r, int wide, int32_t k) { return fl_matches_get(r, wide, k); }
 
