@@ -194,15 +194,13 @@ static tilt tilt_of(const lane *t, uint32_t k)
 /* The areas, to s->tilt. */
 static int find_areas(fl_places *s)
 {
-    const fl_place *p = s->place;
-    const int32_t n = s->n;
+    const fl_place *const end = s->place + s->n;
     s->tilts = 0;
-    for (int32_t k = 0, stands; k<n; k += stands> 1 ? stands : 1) {
-        stands = p[k].stands;
-        if (stands != CORNERS || p[k].u == 0.0) continue;
+    for (const fl_place *p = s->place; p<end; p += p->stands> 1 ? p->stands : 1) {
+        if (p->stands != CORNERS || p->u == 0.0) continue;
         if (fl_room(&s->tilt, &s->tilt_cap, (int64_t)s->tilts + 1, sizeof(tilt))) return -1;
         tilt *all = s->tilt;
-        all[s->tilts++] = tilt_of(s->lane, (uint32_t)k);
+        all[s->tilts++] = tilt_of(s->lane, (uint32_t)(p - s->place));
     }
     return 0;
 }

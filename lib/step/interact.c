@@ -18,11 +18,13 @@
 /* Overlaps below that much of the coordinates they come from are rounding, and have no stiffness. */
 #define ROUNDING 3e-14
 
+#define INLINE static inline __attribute__((always_inline)) /* vectors by value go through memory */
+
 /* Whether looks at contacts that are told ask in this step how stiff they are: one step in four, in no rhythm
  * that looks might have. */
 static int asks(const fl_world *w) { return (uint32_t)w->step * UINT32_C(2654435761) >> 30 == 0; }
 
-static void add_wrench(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, fl_vec3 force, fl_vec3 ai, fl_vec3 aj)
+INLINE void add_wrench(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, fl_vec3 force, fl_vec3 ai, fl_vec3 aj)
 {
     *f = v3_add(*f, force);
     *ti = v3_add(*ti, v3_cross(ai, force));
@@ -31,7 +33,7 @@ static void add_wrench(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, fl_vec3 force, fl_v
 
 /* A force and its moment about a point, in the frame of B and times scale; the point is ai from A's centre
  * and aj from B's, in world axes. */
-static void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const fl_wrench *w, double scale, const fl_mat3 *R,
+INLINE void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const fl_wrench *w, double scale, const fl_mat3 *R,
                     fl_vec3 ai, fl_vec3 aj)
 {
     const fl_vec3 moment = v3_scale(scale, m3_mul(*R, w->m));
@@ -40,7 +42,7 @@ static void add_sum(fl_vec3 *f, fl_vec3 *ti, fl_vec3 *tj, const fl_wrench *w, do
     *tj = v3_sub(*tj, moment);
 }
 
-static fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec3 aj)
+INLINE fl_vec3 approach(const fl_bodies *b, const fl_pair *p, fl_vec3 ai, fl_vec3 aj)
 {
     return v3_sub(fl_body_velocity(b, p->i, ai), fl_body_velocity(b, p->j, aj));
 }
@@ -65,12 +67,12 @@ static double nearer(const ahead *a, double c, double elastic, double C, double 
     return fl_lead_closing(c, elastic, C, yields, a->by.pressed, a->of, a->was) - c;
 }
 
-static fl_vec3 went(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
+INLINE fl_vec3 went(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
 {
     return v3_add(approach(b, p, ai, aj), a->lag);
 }
 
-static fl_vec3 next(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
+INLINE fl_vec3 next(const fl_bodies *b, const fl_pair *p, const ahead *a, fl_vec3 ai, fl_vec3 aj)
 {
     return v3_add(went(b, p, a, ai, aj), fl_lead_at(&a->by, ai, aj));
 }
