@@ -39,6 +39,9 @@ typedef double fl_two __attribute__((vector_size(2 * sizeof(double)), aligned(8)
 #define FL_FOUR(a) (*(const fl_wide *)(const void *)(a))
 #define FL_FOUR_INTO(a) (*(fl_wide *)(void *)(a))
 
+/* The same number in all lanes. */
+#define FL_WIDE_ALL(x) ((fl_wide){(x), (x), (x), (x)})
+
 /* Before a loop over lanes, or over a few registers, which then need not lie in memory. */
 #ifdef __clang__
 #define FL_WIDE_UNROLL _Pragma("unroll")

@@ -88,7 +88,7 @@ typedef struct {
 FL_WIDE_PART int32_t lay_out(const twos *q, int32_t stands, fl_place *out)
 {
     fl_wide a[2][FL_LANES], b[2][FL_LANES], c[2][FL_LANES];
-    int32_t n = 0;
+    char *at = (char *)out;
     FL_WIDE_UNROLL
     for (int k = 0; k < 2; k++) {
         a[k][0] = FL_FOUR(q->s[k]);
@@ -102,14 +102,14 @@ FL_WIDE_PART int32_t lay_out(const twos *q, int32_t stands, fl_place *out)
     for (int l = 0; l < FL_LANES; l++) {
         FL_WIDE_UNROLL
         for (int k = 0; k < 2; k++) {
-            fl_place *const p = &out[n];
+            fl_place *const p = (fl_place *)(void *)at;
             FL_FOUR_INTO(&p->overlap) = a[k][l], FL_FOUR_INTO(&p->n) = b[k][l];
             FL_FOUR_INTO(&p->across.y) = c[k][l];
             p->p.z = q->p[k][2][l], p->closing = 0.0, p->stands = stands;
-            n += q->some[k][l] != 0;
+            at += sizeof *p & (size_t)q->some[k][l]; /* all bits or none */
         }
     }
-    return n;
+    return (int32_t)((fl_place *)(void *)at - out);
 }
 static_assert(offsetof(fl_place, ddu) == 3 * sizeof(double) &&
                   offsetof(fl_place, across) == 7 * sizeof(double) &&
@@ -339,13 +339,14 @@ FL_WIDE_PART void sum_up(const pieces *p, double R, const fl_wide_mask *counted,
     const fl_wide zero = {0}, share = FL_WIDE_LARGER(p->by, -p->by);
     fl_wide u = zero, du = zero, ddu = zero, first = zero, second = zero, f = zero, fx = zero, fxx = zero;
     const int alike = p->g[0] == p->g[1] && p->g[0] == p->g[2] && p->g[0] == p->g[3];
-    int32_t n = 0;
-    for (int l = 0; l < FL_LANES; l++) n = p->g[l]->n > n ? p->g[l]->n : n;
+    int32_t n = p->g[0]->n;
+    for (int l = 1; l < FL_LANES && !alike; l++) n = p->g[l]->n > n ? p->g[l]->n : n;
     for (int32_t c = 0; c < n; c += FL_LANES) {
         fl_wide node[FL_LANES], weight[FL_LANES];
         FL_WIDE_UNROLL
         for (int l = 0; l < FL_LANES; l++)
-            if (alike) node[l] = p->g[0]->node[c + l] + zero, weight[l] = p->g[0]->weight[c + l] + zero;
+            if (alike)
+                node[l] = FL_WIDE_ALL(p->g[0]->node[c + l]), weight[l] = FL_WIDE_ALL(p->g[0]->weight[c + l]);
             else node[l] = FL_FOUR(p->g[l]->node + c), weight[l] = FL_FOUR(p->g[l]->weight + c);
         if (!alike) fl_wide_transpose(node), fl_wide_transpose(weight);
         FL_WIDE_UNROLL
