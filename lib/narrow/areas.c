@@ -61,7 +61,9 @@ typedef struct {
 typedef struct {
     fl_places *w;
     const fl_side *own;
-    fl_across at; /* origin and axes in the plane of f */
+    fl_across at;        /* origin and axes in the plane of f */
+    const fl_vec3 *v;    /* its corners, by */
+    const int32_t *loop; /* their numbers; NULL: a plane has none */
     fl_vec3 nf, nF;
     double slope, half, R; /* c = -n_F.n_f; 1/2, or 1 for a plane */
     double sx, sy;         /* slopes of s over F */
@@ -347,8 +349,36 @@ static inline __attribute__((always_inline)) void inside(footprint *f, const out
     gather(f, &sum, (const fl_wide[3]){ox - p[0].x + zero, oy - p[0].y + zero, A});
 }
 
-/* Directions, inner rim and so on of the sides of f, whose corners are laid.  The rim is at most `width` wide
- * and leaves every side half its length. */
+/* Four points, from o: of corners at[0], at[step] and so on of a loop, the last again where that ends after n. */
+static inline __attribute__((always_inline)) void four_of(fl_wide r[3], const fl_vec3 *v, const int32_t *at,
+                                                          int32_t step, int32_t n, const fl_vec3 *o)
+{
+    const fl_vec3 *p[FL_LANES];
+    FL_WIDE_UNROLL
+    for (int32_t l = 0; l < FL_LANES; l++) p[l] = &v[at[step * (l < n ? l : n - 1)]];
+    r[0] = (fl_wide){p[0]->x, p[1]->x, p[2]->x, p[3]->x} - o->x;
+    r[1] = (fl_wide){p[0]->y, p[1]->y, p[2]->y, p[3]->y} - o->y;
+    r[2] = (fl_wide){p[0]->z, p[1]->z, p[2]->z, p[3]->z} - o->z;
+}
+
+#define ALONG(a, r) ((a).x * (r)[0] + (a).y * (r)[1] + (a).z * (r)[2])
+
+/* Corners of f in its plane. */
+static inline __attribute__((always_inline)) void lay_outline(const footprint *f, outline *g)
+{
+    const fl_across at = f->at;
+    const int32_t n = g->n;
+    for (int32_t c = 0; c < n; c += FL_LANES) {
+        fl_wide r[3];
+        four_of(r, f->v, f->loop + c, 1, n - c, &at.o);
+        FL_FOUR_INTO(g->x + c) = ALONG(at.x, r), FL_FOUR_INTO(g->y + c) = ALONG(at.y, r);
+    }
+    g->x[n] = g->x[0], g->y[n] = g->y[0];
+    for (int32_t c = n + 1; c <= g->room; c++) g->x[c] = g->y[c] = 0.0;
+}
+
+/* Directions, inner rim and so on of the sides of f.  The rim is at most `width` wide and leaves every side
+ * half its length. */
 static inline __attribute__((always_inline)) void lay_sides(outline *g, double width)
 {
     const int32_t n = g->n;
@@ -382,7 +412,7 @@ FL_WIDE_VERSIONS static void cover(footprint *f, outline *g, double width)
     const int32_t n = f->n;
     fl_wide *const beyond = f->beyond, *const before = f->before;
     for (int32_t k = 0; k < n; k++) beyond[k] = zero, before[k] = one;
-    if (g->n > 0) lay_sides(g, width);
+    if (g->n > 0) lay_outline(f, g), lay_sides(g, width);
     for (int32_t c = 0; c < g->n; c += FL_LANES) rims(f, g, c);
     for (int32_t k = 0; k < n; k += FL_LANES) { /* those of four sides, behind the last none */
         const fl_wide_mask some = FL_WIDE_BEFORE(n - k);
@@ -420,7 +450,7 @@ static int32_t cut(const corner *p, double s0, double sign, int32_t n, corner *o
 }
 
 /* Room for a face with n corners over one with `sides`, and where all of it lies. */
-static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spare)
+FL_WIDE_VERSIONS static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spare)
 {
     const fl_poly *p = f->own->p;
     const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
@@ -446,9 +476,16 @@ static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spar
     g->lo = (fl_wide *)(void *)at, at += room;
     g->hi = (fl_wide *)(void *)at;
     f->sx = -v3_dot(f->nF, f->at.x) / f->slope, f->sy = -v3_dot(f->nF, f->at.y) / f->slope;
-    for (int32_t k = 0; k < n; k++) { /* from above, F is seen from behind */
-        const fl_vec3 r = v3_sub(f->own->v[loop[n - 1 - k]], f->at.o);
-        f->p[k] = (corner){v3_dot(f->at.x, r), v3_dot(f->at.y, r), f->R - v3_dot(f->nf, r), 1.0};
+    const fl_across across = f->at;
+    const fl_vec3 nf = f->nf;
+    for (int32_t k = 0; k < n; k += FL_LANES) { /* from above, F is seen from behind */
+        fl_wide r[3];
+        four_of(r, f->own->v, loop + n - 1 - k, -1, n - k, &across.o);
+        fl_wide row[FL_LANES] = {ALONG(across.x, r), ALONG(across.y, r), f->R - ALONG(nf, r),
+                                 FL_WIDE_ALL(1.0)};
+        fl_wide_transpose(row);
+        FL_WIDE_UNROLL
+        for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&f->p[k + l]) = row[l];
     }
     f->n = n;
     return 0;
@@ -539,14 +576,9 @@ int fl_areas_face(fl_places *w, const fl_side *own, int32_t F, const fl_side *ot
     /* axes that turn with f, and with them the three places: how panels share an area hangs on these */
     const fl_vec3 o = other->v[loop[0]], x = v3_unit(v3_sub(other->v[loop[1]], o));
     q.at = (fl_across){o, x, v3_cross(q.nf, x)};
+    q.v = other->v, q.loop = loop;
     if (lay(&q, F, sides, &g, &spare)) return -1;
     if (!trim(&q, R + behind + SAME * p->size, spare)) return 0;
-    for (int32_t c = 0; c < sides; c++) {
-        const fl_vec3 r = v3_sub(other->v[loop[c]], o);
-        g.x[c] = v3_dot(q.at.x, r), g.y[c] = v3_dot(q.at.y, r);
-    }
-    g.x[sides] = g.x[0], g.y[sides] = g.y[0];
-    for (int32_t c = sides + 1; c <= g.room; c++) g.x[c] = g.y[c] = 0.0;
     cover(&q, &g, width);
     return put(&q);
 }
