@@ -511,17 +511,11 @@ static int trim(footprint *f, double floor, corner *spare)
     return 1;
 }
 
-static fl_vec3 lift(const footprint *q, double x, double y, double s)
-{
-    const fl_vec3 o = v3_madd(q->at.o, q->R - s, q->nf);
-    return v3_madd(v3_madd(o, x, q->at.x), y, q->at.y);
-}
-
 /* The places of it: all push along n_F, so that three with their sum, mean and second moments have the same
  * force, torque and spread.  They get the factor m, whose change has a couple.  Then the pull of the rims. */
-static int put(footprint *q)
+FL_WIDE_VERSIONS static int put(footprint *q)
 {
-    static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
+    static const fl_wide COS = {1.0, -0.5, -0.5}, SIN = {0.0, 0.86602540378443865, -0.86602540378443865};
     const total *t = &q->sum;
     const double m = q->m, side = q->own->side;
     if (!(t->m > NOTHING * t->parts && t->q > 0.0)) return 0;
@@ -540,9 +534,15 @@ static int put(footprint *q)
                     .ddu = m * 12.0 * t->q / 3.0,
                     .n = v3_scale(-side / q->slope, q->nF),
                     .across = v3_scale(side, q->nf)};
+    const fl_wide dx = a * COS, dy = b * COS + c * SIN, sk = s + q->sx * dx + q->sy * dy;
+    const fl_wide X = x0 + x + dx, Y = y0 + y + dy, under = q->R - sk, up = q->own->r - 0.5 * sk;
+    const fl_vec3 nf = q->nf, nF = q->nF;
+    const fl_across at = q->at;
+    const fl_wide px = at.o.x + under * nf.x + X * at.x.x + Y * at.y.x + up * nF.x,
+                  py = at.o.y + under * nf.y + X * at.x.y + Y * at.y.y + up * nF.y,
+                  pz = at.o.z + under * nf.z + X * at.x.z + Y * at.y.z + up * nF.z;
     for (int k = 0; k < 3; k++) {
-        const double dx = a * COS[k], dy = b * COS[k] + c * SIN[k], sk = s + q->sx * dx + q->sy * dy;
-        one.p = v3_madd(lift(q, x0 + x + dx, y0 + y + dy, sk), q->own->r - 0.5 * sk, q->nF);
+        one.p = v3(px[k], py[k], pz[k]);
         if (fl_places_add(q->w, one)) return -1;
     }
     q->w->couple = v3_madd(q->w->couple, side * q->dm * su, v3_cross(q->nF, q->nf));
