@@ -70,7 +70,9 @@ typedef struct {
     double m, dm;          /* half of m(c), and its derivative */
     corner *p;             /* [n + 1] F, counter-clockwise, the first again at the end */
     int32_t n;
-    fl_wide *from, *to;       /* [n] part of each side of F that is in a rim, */
+    fl_wide *away;            /* [n + 1] of the corners of F from four sides of f */
+    fl_wide *from, *to;       /* [n] parts of sides of F that are in a rim, */
+    int32_t *which;           /* [n] and of which; */
     fl_wide *beyond, *before; /* [n] what is inside the rims, by lanes, begins and ends */
     double *in, *out;         /* [n] and that inside all rims */
     total sum;
@@ -190,24 +192,25 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     const corner *p = f->p;
     fl_wide_mask reached = zero != 0.0;
     fl_wide *const from = f->from, *const to = f->to, *const beyond = f->beyond, *const before = f->before;
-    fl_wide *const distance = from; /* of the corners from the side, until the parts are known */
+    fl_wide *const away = f->away;
+    int32_t *const which = f->which, parts = 0;
     for (int32_t k = 0; k < n; k++) {
-        distance[k] = p[k].y * ux - p[k].x * uy + d0;
-        reached |= distance[k] < W;
+        away[k] = p[k].y * ux - p[k].x * uy + d0;
+        reached |= away[k] < W;
     }
     g->lo[c / FL_LANES] = one, g->hi[c / FL_LANES] = zero;
     if (!fl_wide_any(&reached)) return;
     /* distance from the side and along it, on which side of the two lines to the inner rim: of the last
      * corner */
-    const fl_wide start = distance[0];
-    fl_wide d = start, l = p[0].x * ux + p[0].y * uy + l0;
+    away[n] = away[0];
+    fl_wide l = p[0].x * ux + p[0].y * uy + l0;
     fl_wide a = (p[0].x * Dy - p[0].y * Dx) + a0, b = (p[0].y * Ex - p[0].x * Ey) - b0;
     fl_wide in_lo = never, in_hi = -never, a_lo = never, a_hi = -never, b_lo = never, b_hi = -never,
             foot = zero;
     fl_wide_mask some = zero != 0.0;
     for (int32_t k = 0; k < n; k++) {
         const corner q = p[k + 1];
-        const fl_wide e = k + 1 < n ? distance[k + 1] : start, m = q.x * ux + q.y * uy + l0;
+        const fl_wide d = away[k], e = away[k + 1], m = q.x * ux + q.y * uy + l0;
         const fl_wide h = (q.x * Dy - q.y * Dx) + a0, i = (q.y * Ex - q.x * Ey) - b0;
         const fl_wide gap = d - W, gaq = e - W, de = e - d, dl = m - l;
         /* what counts as on the one side of a line for one counts as on the other for its neighbour */
@@ -215,9 +218,8 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
                            aq = h >= 0.0, bp = b > 0.0, bq = i > 0.0, outside = ~(wp & wq);
         const fl_wide_mask crosses = wp ^ wq, crosses_a = ap ^ aq, crosses_b = bp ^ bq;
         if (!fl_wide_any(&outside)) { /* in no rim: it only tells that the lines go on beyond */
-            from[k] = to[k] = zero;
             a_hi = FL_WIDE_CHOOSE(crosses_a, never, a_hi), b_hi = FL_WIDE_CHOOSE(crosses_b, never, b_hi);
-            d = e, l = m, a = h, b = i;
+            l = m, a = h, b = i;
             continue;
         }
         const fl_wide td = d / (d - e), tw = gap / (gap - gaq), ta_ = a / (a - h), tb_ = b / (b - i);
@@ -226,8 +228,11 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
         t0 = FL_WIDE_LARGER(t0, FL_WIDE_LARGER(FL_WIDE_WHERE(~ap, ta_), FL_WIDE_WHERE(~bp, tb_)));
         t1 = FL_WIDE_SMALLER(t1, FL_WIDE_SMALLER(FL_WIDE_CHOOSE(aq, one, ta_), FL_WIDE_CHOOSE(bq, one, tb_)));
         const fl_wide_mask here = (t0 < t1) & outside & (bp | bq);
-        from[k] = FL_WIDE_WHERE(here, t0), to[k] = FL_WIDE_WHERE(here, t1);
-        some |= here;
+        if (fl_wide_any(&here)) {
+            from[parts] = FL_WIDE_WHERE(here, t0), to[parts] = FL_WIDE_WHERE(here, t1), which[parts++] = k;
+            some |= here;
+            foot = FL_WIDE_CHOOSE(here, l + t0 * dl, foot);
+        }
         const fl_wide i0 = FL_WIDE_WHERE(~wp, tw), i1 = FL_WIDE_CHOOSE(wq, one, tw);
         beyond[k] = FL_WIDE_LARGER(i0, beyond[k]), before[k] = FL_WIDE_SMALLER(i1, before[k]);
         const fl_wide at = l + tw * dl, at_a = d + ta_ * de, at_b = d + tb_ * de;
@@ -237,8 +242,7 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
         a_hi = FL_WIDE_LARGER(a_hi, FL_WIDE_CHOOSE(crosses_a, at_a, -never));
         b_lo = FL_WIDE_SMALLER(b_lo, FL_WIDE_CHOOSE(crosses_b, at_b, never));
         b_hi = FL_WIDE_LARGER(b_hi, FL_WIDE_CHOOSE(crosses_b, at_b, -never));
-        foot = FL_WIDE_CHOOSE(here, l + t0 * dl, foot);
-        d = e, l = m, a = h, b = i;
+        l = m, a = h, b = i;
     }
     in_lo = FL_WIDE_LARGER(in_lo, ta * W), in_hi = FL_WIDE_SMALLER(in_hi, length - tb * W);
     a_lo = FL_WIDE_LARGER(a_lo, zero), a_hi = FL_WIDE_SMALLER(a_hi, W);
@@ -260,12 +264,12 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     const fl_wide ox = ax + foot * ux, oy = ay + foot * uy, per = 1.0 / W;
     const fl_wide s = p[0].s + f->sx * (ox - p[0].x) + f->sy * (oy - p[0].y);
     sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
-    for (int32_t k = 0; k < n; k++) {
-        const fl_wide t0 = from[k], dt = to[k] - t0;
+    for (int32_t i = 0; i < parts; i++) {
+        const int32_t k = which[i];
+        const fl_wide t0 = from[i], dt = to[i] - t0;
         const fl_wide_mask here = dt > 0.0;
-        if (!fl_wide_any(&here)) continue;
         const double ex = p[k + 1].x - p[k].x, ey = p[k + 1].y - p[k].y, es = p[k + 1].s - p[k].s;
-        const fl_wide w0 = p[k].y * ux - p[k].x * uy + d0, dw = ey * ux - ex * uy;
+        const fl_wide w0 = away[k], dw = ey * ux - ex * uy;
         const piece b1 = {
             p[k].x + t0 * ex - ox, p[k].y + t0 * ey - oy, dt * ex, dt * ey, p[k].s + t0 * es, dt * es,
             per * (w0 + t0 * dw),  per * (dt * dw)};
@@ -456,7 +460,7 @@ FL_WIDE_VERSIONS static int lay(footprint *f, int32_t F, int32_t sides, outline 
     const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
     const int64_t most = n + 2 * FL_LANES, room = (sides + FL_LANES - 1) / FL_LANES * FL_LANES,
                   each = room + 2 * FL_LANES;
-    if (fl_room(&f->w->cut, &f->w->cut_cap, (24 + 2) * most / 3 + (8 * each + 2 * room) / 3 + 2,
+    if (fl_room(&f->w->cut, &f->w->cut_cap, (28 + 3) * most / 3 + (8 * each + 2 * room) / 3 + 2,
                 sizeof *f->w->cut))
         return -1;
     double *at = (double *)(void *)f->w->cut;
@@ -466,6 +470,8 @@ FL_WIDE_VERSIONS static int lay(footprint *f, int32_t F, int32_t sides, outline 
     f->to = (fl_wide *)(void *)at, at += 4 * most;
     f->beyond = (fl_wide *)(void *)at, at += 4 * most;
     f->before = (fl_wide *)(void *)at, at += 4 * most;
+    f->away = (fl_wide *)(void *)at, at += 4 * most;
+    f->which = (int32_t *)(void *)at, at += most;
     f->in = at, at += most;
     f->out = at, at += most;
     g->n = sides, g->room = (int32_t)room;
