@@ -533,13 +533,6 @@ FL_WIDE_VERSIONS static int put(footprint *q)
     const double a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0, b = a > 0.0 ? 2.0 * xy / a : 0.0, c2 = 2.0 * yy - b * b,
                  c = c2 > 0.0 ? sqrt(c2) : 0.0;
     const double x0 = q->p[0].x, y0 = q->p[0].y;
-    fl_place one = {.stands = 3,
-                    .overlap = t->most,
-                    .u = m * su / 3.0,
-                    .du = m * 4.0 * t->m / 3.0,
-                    .ddu = m * 12.0 * t->q / 3.0,
-                    .n = v3_scale(-side / q->slope, q->nF),
-                    .across = v3_scale(side, q->nf)};
     const fl_wide dx = a * COS, dy = b * COS + c * SIN, sk = s + q->sx * dx + q->sy * dy;
     const fl_wide X = x0 + x + dx, Y = y0 + y + dy, under = q->R - sk, up = q->own->r - 0.5 * sk;
     const fl_vec3 nf = q->nf, nF = q->nF;
@@ -547,9 +540,19 @@ FL_WIDE_VERSIONS static int put(footprint *q)
     const fl_wide px = at.o.x + under * nf.x + X * at.x.x + Y * at.y.x + up * nF.x,
                   py = at.o.y + under * nf.y + X * at.x.y + Y * at.y.y + up * nF.y,
                   pz = at.o.z + under * nf.z + X * at.x.z + Y * at.y.z + up * nF.z;
+    const fl_vec3 n = v3_scale(-side / q->slope, nF), across = v3_scale(side, nf);
+    FL_WIDE_UNROLL
     for (int k = 0; k < 3; k++) {
-        one.p = v3(px[k], py[k], pz[k]);
-        if (fl_places_add(q->w, one)) return -1;
+        fl_place *const to = fl_places_next(q->w);
+        if (!to) return -1;
+        *to = (fl_place){.stands = 3,
+                         .overlap = t->most,
+                         .u = m * su / 3.0,
+                         .du = m * 4.0 * t->m / 3.0,
+                         .ddu = m * 12.0 * t->q / 3.0,
+                         .n = n,
+                         .across = across,
+                         .p = v3(px[k], py[k], pz[k])};
     }
     q->w->couple = v3_madd(q->w->couple, side * q->dm * su, v3_cross(q->nF, q->nf));
     const fl_vec3 turn = v3_madd(v3_madd(v3_scale(q->turn.x, q->at.x), q->turn.y, q->at.y), q->turn.z, q->nf);

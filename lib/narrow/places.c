@@ -33,13 +33,17 @@ int fl_places_vertex(fl_places *w, const fl_side *own, double other, int32_t v, 
     const double sharp = fl_poly_corner(own->p, v) * FL_PLACE_SHARP_CORNER, s2 = overlap * overlap;
     const double k = (sharp < 1.0 ? sharp : 1.0) * FL_PLACE_ROUND * (0.4 * PI) * fl_place_rho(own->r, other);
     if (!(k > 0.0)) return 0;
-    return fl_places_add(w, (fl_place){.overlap = overlap,
-                                       .u = k * s2 * s2 * overlap,
-                                       .du = 5.0 * k * s2 * s2,
-                                       .ddu = 20.0 * k * s2 * overlap,
-                                       .n = v3_scale(own->side, n),
-                                       .across = v3_scale(own->side, n),
-                                       .p = v3_madd(own->v[v], 0.5 * overlap - own->r, n)});
+    fl_place *const to = fl_places_next(w);
+    if (!to) return -1;
+    const fl_vec3 across = v3_scale(own->side, n);
+    *to = (fl_place){.overlap = overlap,
+                     .u = k * s2 * s2 * overlap,
+                     .du = 5.0 * k * s2 * s2,
+                     .ddu = 20.0 * k * s2 * overlap,
+                     .n = across,
+                     .across = across,
+                     .p = v3_madd(own->v[v], 0.5 * overlap - own->r, n)};
+    return 0;
 }
 
 int fl_places_point(fl_places *w, fl_vec3 x, fl_vec3 n, double overlap, double ra)

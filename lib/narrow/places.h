@@ -31,6 +31,7 @@
  * at shallow spots); point at the nearest points (jumps on parallel faces by F times their size). */
 #ifndef FL_NARROW_PLACES_H
 #define FL_NARROW_PLACES_H
+#include <stddef.h>
 #include "geom/mat3.h"
 #include "geom/poly.h"
 #include "narrow/deep.h"
@@ -138,10 +139,18 @@ int fl_places_plane(fl_places *w, const fl_poly *a, double ra, double *distance)
 
 int fl_places_room(fl_places *w); /* for one more; -1 when memory runs out */
 
+/* The next one, to be written where it lies; NULL when memory runs out. */
+static inline fl_place *fl_places_next(fl_places *w)
+{
+    if (w->n == w->place_cap && fl_places_room(w)) return NULL;
+    return &w->place[w->n++];
+}
+
 static inline int fl_places_add(fl_places *w, fl_place place)
 {
-    if (w->n == w->place_cap && fl_places_room(w)) return -1;
-    w->place[w->n++] = place;
+    fl_place *const to = fl_places_next(w);
+    if (!to) return -1;
+    *to = place;
     return 0;
 }
 
