@@ -353,7 +353,7 @@ static inline __attribute__((always_inline)) void inside(footprint *f, const out
     gather(f, &sum, (const fl_wide[3]){ox - p[0].x + zero, oy - p[0].y + zero, A});
 }
 
-/* Four points, from o: of corners at[0], at[step] and so on of a loop, the last again where that ends after n. */
+/* Four points, from o: of corners at[0], at[step] and so on of a loop; the last of n again behind it. */
 static inline __attribute__((always_inline)) void four_of(fl_wide r[3], const fl_vec3 *v, const int32_t *at,
                                                           int32_t step, int32_t n, const fl_vec3 *o)
 {

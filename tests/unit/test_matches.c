@@ -33,8 +33,8 @@ static uint64_t look(fl_places *w, const fl_poly *a, const fl_poly *b, fl_quat q
     return sum;
 }
 
-/* Two boxes side by side, one of which slides and turns, at first slowly; and two long ones, whose ends move much
- * farther than what touches. */
+/* Two boxes side by side, one of which slides and turns, at first slowly; and two long ones, whose ends move
+ * much farther than what touches. */
 static void what_is_left_out_bears_on_no_bit(void **state)
 {
     (void)state;
