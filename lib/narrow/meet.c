@@ -167,12 +167,12 @@ INLINE int edge(const meeting *q, row r, int wide, int kind, int32_t n)
     const fl_edge g = q->own->p->edge[own];
     const fl_vec3 x0 = q->own->v[g.a], u = v3_sub(q->own->v[g.b], x0);
     const fl_line line = {q->w, q->own, x0, u, q->number[get(r, wide, FL_MATCH_FACTOR)]};
-    if (kind == FL_MATCH_EDGE_FACE) return fl_strips_over_face(&line, t, h0, h1, &q->other->n[other]);
-    if (kind == FL_MATCH_EDGE_VERTEX) return fl_strips_over_point(&line, t, &q->other->v[other], NULL, small);
+    if (kind == FL_MATCH_EDGE_FACE) return fl_strips_over_face(&line, t, h0, h1, q->other->n[other]);
+    if (kind == FL_MATCH_EDGE_VERTEX) return fl_strips_over_point(&line, t, q->other->v[other], NULL, small);
     const fl_edge o = p->edge[other];
     const double length = q->number[get(r, wide, FL_MATCH_FACTOR + 1)];
     const fl_vec3 a = q->other->v[o.a], e = v3_scale(1.0 / length, v3_sub(q->other->v[o.b], a));
-    return fl_strips_over_point(&line, t, &a, &e, small);
+    return fl_strips_over_point(&line, t, a, &e, small);
 }
 
 /* Whether anything of a face that is within reach of the other lies above a side.  corner: columns of its n

@@ -65,8 +65,6 @@ static const rule RULE[] = {
 /* Up to this half width over a of graded(), 8 points are within 1e-8 (7e-9 of the force at worst). */
 #define FLAT 0.35
 
-#define INLINE static inline __attribute__((always_inline))
-
 #define MASK(a) (*(const fl_wide_mask *)(const void *)(a))
 #define MASK_INTO(a) (*(fl_wide_mask *)(void *)(a))
 
@@ -247,13 +245,11 @@ FL_WIDE_VERSIONS static void find_feet(const fl_strip_points *p, double R, feet 
 
 /* Edges that wait, and what is made of those over points. */
 struct fl_strips {
-    fl_strip_faces *face;
-    fl_strip_points *point;
+    fl_strip_queue wait; /* first, where fl_strips_over_face() looks for it */
     feet *feet;
     sums *sum;
     piece *piece;
-    int32_t faces, points, pieces;
-    int32_t face_cap, point_cap, feet_cap, sum_cap, piece_cap;
+    int32_t pieces, feet_cap, sum_cap, piece_cap;
 };
 
 /* Lane l of a four, while it is cut. */
@@ -518,20 +514,8 @@ int fl_strips_begin(fl_places *w)
 {
     struct fl_strips *s = waiting(w);
     if (!s) return -1;
-    s->faces = s->points = 0;
+    s->wait.faces = s->wait.points = 0;
     return 0;
-}
-
-INLINE void put(double to[3][FL_LANES], uint32_t l, const fl_vec3 *x)
-{
-    to[0][l] = x->x, to[1][l] = x->y, to[2][l] = x->z;
-}
-
-INLINE void put_edge(fl_strip_edges *e, uint32_t l, const fl_line *of, fl_span t)
-{
-    put(e->x, l, &of->x0), put(e->u, l, &of->u);
-    e->lo[l] = t.lo, e->hi[l] = t.hi, e->factor[l] = of->factor;
-    e->r[l] = of->own->r, e->side[l] = of->own->side;
 }
 
 /* Room for one more four, in which no lane has anything. */
@@ -547,34 +531,19 @@ static int open_four(void *array, int32_t *cap, int32_t fours, size_t size)
     return 0;
 }
 
-int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, const fl_vec3 *n)
+int fl_strips_open_face(fl_strip_queue *s)
 {
-    struct fl_strips *const s = l->w->strips;
-    const uint32_t k = (uint32_t)s->faces, lane = k % FL_LANES;
-    if (lane == 0 && open_four(&s->face, &s->face_cap, s->faces / FL_LANES, sizeof *s->face)) return -1;
-    fl_strip_faces *const f = &s->face[k / FL_LANES];
-    put_edge(&f->of, lane, l, t), put(f->n, lane, n);
-    f->h0[lane] = h0, f->h1[lane] = h1;
-    s->faces++;
-    return 0;
+    return open_four(&s->face, &s->face_cap, s->faces / FL_LANES, sizeof *s->face);
 }
 
-int fl_strips_over_point(const fl_line *l, fl_span t, const fl_vec3 *c, const fl_vec3 *e, double small)
+int fl_strips_open_point(fl_strip_queue *s)
 {
-    static const fl_vec3 none = {0, 0, 0};
-    struct fl_strips *const s = l->w->strips;
-    const uint32_t k = (uint32_t)s->points, lane = k % FL_LANES;
-    if (lane == 0 && open_four(&s->point, &s->point_cap, s->points / FL_LANES, sizeof *s->point)) return -1;
-    fl_strip_points *const p = &s->point[k / FL_LANES];
-    put_edge(&p->of, lane, l, t), put(p->c, lane, c), put(p->e, lane, e ? e : &none);
-    p->small[lane] = small;
-    s->points++;
-    return 0;
+    return open_four(&s->point, &s->point_cap, s->points / FL_LANES, sizeof *s->point);
 }
 
 int fl_strips_places(fl_places *w, double R)
 {
-    const struct fl_strips *s = w->strips;
+    const fl_strip_queue *s = &w->strips->wait;
     const int32_t faces = (s->faces + FL_LANES - 1) / FL_LANES,
                   points = (s->points + FL_LANES - 1) / FL_LANES;
     return fl_strips_of_faces(w, s->face, faces, R) || fl_strips_of_points(w, s->point, points, R) ? -1 : 0;
@@ -582,7 +551,7 @@ int fl_strips_places(fl_places *w, double R)
 
 void fl_strips_free(struct fl_strips *s)
 {
-    if (s) free(s->face), free(s->point), free(s->feet), free(s->sum), free(s->piece);
+    if (s) free(s->wait.face), free(s->wait.point), free(s->feet), free(s->sum), free(s->piece);
     free(s);
 }
 
@@ -600,5 +569,5 @@ int fl_strips_plane(fl_places *w, const fl_side *own, int32_t e)
     const fl_vec3 x0 = own->v[g.a], u = v3_sub(own->v[g.b], x0), up = v3(0, 0, 1);
     const fl_line l = {w, own, x0, u, fl_strips_factor(own, e, 0.0)};
     if (!(l.factor > 0.0)) return 0;
-    return fl_strips_over_face(&l, (fl_span){0.0, 1.0}, x0.z, x0.z + u.z, &up);
+    return fl_strips_over_face(&l, (fl_span){0.0, 1.0}, x0.z, x0.z + u.z, up);
 }

@@ -66,18 +66,64 @@ typedef struct {
     double small[FL_LANES];
 } fl_strip_points;
 
+/* Edges that wait: what struct fl_strips begins with. */
+typedef struct {
+    fl_strip_faces *face;
+    fl_strip_points *point;
+    int32_t faces, points;
+    int32_t face_cap, point_cap;
+} fl_strip_queue;
+
 /* What int_0^1 s^(9/2) dt of edge e of `own` is multiplied by; other: radius of the other core.  0 for edges
  * without any. */
 double fl_strips_factor(const fl_side *own, int32_t e, double other);
 
+/* None waits; before the first that does.  -1 when memory runs out. */
+int fl_strips_begin(fl_places *w);
+
+/* One more four of those over faces, of those over points. -1 when memory runs out. */
+int fl_strips_open_face(fl_strip_queue *s);
+int fl_strips_open_point(fl_strip_queue *s);
+
+FL_WIDE_PART void fl_strip_put(double to[3][FL_LANES], uint32_t l, fl_vec3 x)
+{
+    to[0][l] = x.x, to[1][l] = x.y, to[2][l] = x.z;
+}
+
+FL_WIDE_PART void fl_strip_put_edge(fl_strip_edges *e, uint32_t l, const fl_line *of, fl_span t)
+{
+    fl_strip_put(e->x, l, of->x0), fl_strip_put(e->u, l, of->u);
+    e->lo[l] = t.lo, e->hi[l] = t.hi, e->factor[l] = of->factor;
+    e->r[l] = of->own->r, e->side[l] = of->own->side;
+}
+
 /* Let the part t of an edge wait that lies over a face with normal n, h0 and h1 its heights at the two
  * ends of the edge; and over the point c, or the line through c along the unit vector *axis, no nearer
  * than `small`. -1 when memory runs out. */
-int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, const fl_vec3 *n);
-int fl_strips_over_point(const fl_line *l, fl_span t, const fl_vec3 *c, const fl_vec3 *axis, double small);
-
-/* None waits; before the first that does.  -1 when memory runs out. */
-int fl_strips_begin(fl_places *w);
+FL_WIDE_PART int fl_strips_over_face(const fl_line *l, fl_span t, double h0, double h1, fl_vec3 n)
+{
+    fl_strip_queue *const s = (fl_strip_queue *)(void *)l->w->strips;
+    const uint32_t k = (uint32_t)s->faces, lane = k % FL_LANES;
+    if (lane == 0 && fl_strips_open_face(s)) return -1;
+    fl_strip_faces *const f = &s->face[k / FL_LANES];
+    fl_strip_put_edge(&f->of, lane, l, t), fl_strip_put(f->n, lane, n);
+    f->h0[lane] = h0, f->h1[lane] = h1;
+    s->faces++;
+    return 0;
+}
+FL_WIDE_PART int fl_strips_over_point(const fl_line *l, fl_span t, fl_vec3 c, const fl_vec3 *axis,
+                                      double small)
+{
+    fl_strip_queue *const s = (fl_strip_queue *)(void *)l->w->strips;
+    const uint32_t k = (uint32_t)s->points, lane = k % FL_LANES;
+    if (lane == 0 && fl_strips_open_point(s)) return -1;
+    fl_strip_points *const p = &s->point[k / FL_LANES];
+    fl_strip_put_edge(&p->of, lane, l, t), fl_strip_put(p->c, lane, c);
+    fl_strip_put(p->e, lane, axis ? *axis : v3(0, 0, 0));
+    p->small[lane] = small;
+    s->points++;
+    return 0;
+}
 
 /* The places of all that wait, those over faces first, with the reach R.  -1 when memory runs out. */
 int fl_strips_places(fl_places *w, double R);

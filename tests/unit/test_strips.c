@@ -103,7 +103,7 @@ static void edges_over_lines_and_points(void **state)
         const fl_line line = {&w, &own, q.x0, q.u, 1.0};
         w.n = 0;
         assert_int_equal(fl_strips_begin(&w), 0);
-        assert_int_equal(fl_strips_over_point(&line, t, &q.c, c % 5 ? &e : NULL, 1e-13), 0);
+        assert_int_equal(fl_strips_over_point(&line, t, q.c, c % 5 ? &e : NULL, 1e-13), 0);
         assert_int_equal(fl_strips_places(&w, R), 0);
         sums got = {0}, want = {0};
         for (int k = 0; k < w.n; k++)
