@@ -422,20 +422,19 @@ static void find_ease(const fl_bodies *b, const fl_pair *p, const fl_bearing *q,
 }
 
 /* W = k sqrt(U) of the places summed up in q, which gets their couple. */
-static fl_seen seen_of(const fl_world *w, const fl_pair *p, const fl_places *s, const fl_stance *r,
-                       fl_bearing *q)
+static void seen_of(const fl_world *w, const fl_pair *p, const fl_places *s, const fl_stance *r,
+                    fl_bearing *q, fl_seen *seen)
 {
     const double energy = p->k * sqrt(q->u), scale = 0.5 * energy / q->u;
     q->gradient.m = v3_add(q->gradient.m, s->couple);
-    fl_seen seen = {.M = &r->M,
-                    .o = r->o,
-                    .places = s,
-                    .q = q,
-                    .scale = scale,
-                    .energy = energy,
-                    .slope = scale * (q->ddu - 0.5 * q->elastic * q->elastic / q->u)};
-    find_ease(&w->b, p, q, s->place[0].p, &seen);
-    return seen;
+    *seen = (fl_seen){.M = &r->M,
+                      .o = r->o,
+                      .places = s,
+                      .q = q,
+                      .scale = scale,
+                      .energy = energy,
+                      .slope = scale * (q->ddu - 0.5 * q->elastic * q->elastic / q->u)};
+    find_ease(&w->b, p, q, s->place[0].p, seen);
 }
 
 /* How far A may go until another wall of a surface that is not convex may bear, after a look.  -1 when memory
@@ -468,7 +467,8 @@ static int force_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_told *t
     fl_bearing q;
     if (fl_bearing_sum(s, &q)) return -1;
     if (!(q.u > 0.0 && q.overlap > ROUNDING * (v3_norm(r->o) + b->bound[p->i]))) return 0;
-    fl_seen seen = seen_of(w, p, s, r, &q);
+    fl_seen seen;
+    seen_of(w, p, s, r, &q, &seen);
     p->overlap = q.overlap;
     p->energy = seen.energy;
     add_sum(&p->f, &p->ti, &p->tj, &q.gradient, seen.scale, &R, ai, aj);
@@ -682,7 +682,8 @@ int fl_interact_again(fl_world *w, fl_pair *p, const fl_mat3 *M, fl_vec3 o)
     if (s->n == 0) return 0;
     if (fl_bearing_sum(s, &q)) return -1;
     if (!(q.u > 0.0)) return 0;
-    fl_seen seen = seen_of(w, p, s, &r, &q);
+    fl_seen seen;
+    seen_of(w, p, s, &r, &q, &seen);
     fl_springs springs;
     fl_bearing_springs(s, &springs);
     seen.springs = &springs;
