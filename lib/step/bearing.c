@@ -194,13 +194,15 @@ static tilt tilt_of(const lane *t, uint32_t k)
 /* The areas, to s->tilt. */
 static int find_areas(fl_places *s)
 {
-    const fl_place *const end = s->place + s->n;
+    const fl_place *p = s->place, *const end = p + s->n;
     s->tilts = 0;
-    for (const fl_place *p = s->place; p<end; p += p->stands> 1 ? p->stands : 1) {
-        if (p->stands != CORNERS || p->u == 0.0) continue;
-        if (fl_room(&s->tilt, &s->tilt_cap, (int64_t)s->tilts + 1, sizeof(tilt))) return -1;
-        tilt *all = s->tilt;
-        all[s->tilts++] = tilt_of(s->lane, (uint32_t)(p - s->place));
+    while (p < end) {
+        if (p->stands == CORNERS && p->u != 0.0) {
+            if (fl_room(&s->tilt, &s->tilt_cap, (int64_t)s->tilts + 1, sizeof(tilt))) return -1;
+            tilt *all = s->tilt;
+            all[s->tilts++] = tilt_of(s->lane, (uint32_t)(p - s->place));
+        }
+        p += p->stands > 1 ? p->stands : 1;
     }
     return 0;
 }

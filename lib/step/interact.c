@@ -162,10 +162,10 @@ static double most_turned(const fl_world *w, int32_t k)
 static int roll(fl_world *w, fl_pair *p, const pressure *q, double chi, const ahead *a)
 {
     const fl_bodies *b = &w->b;
-    const double arm = fl_material_radius(fl_rolls_radius(w, p->i), fl_rolls_radius(w, p->j)),
-                 mu = p->law->rolling, part = fl_rolling_part(mu);
     fl_err lost = {0};
     if (!w->rolls || !fl_rolls_pair(w, p)) return 0;
+    const double arm = fl_material_radius(fl_rolls_radius(w, p->i), fl_rolls_radius(w, p->j)),
+                 mu = p->law->rolling, part = fl_rolling_part(mu);
     if (!p->roll && !(p->roll = fl_alloc(1, sizeof *p->roll, &lost))) return -1;
     const fl_vec3 wi = b->w[p->i], wj = b->w[p->j], turns = v3_scale(arm, v3_sub(wi, wj));
     const fl_tangent_spring c = {.k = part * q->slope,
