@@ -8,14 +8,14 @@
 /* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the
  * stiffest face it can meet, at its most compliant vertex, lowered for damping: to half of what that of one
  * contact leaves, or 0.8 of it where an impact is all that it leaves less for, or to what it leaves where
- * bodies are held between many (S20 to S25 of verify_step).  Under run.error the longest that windows can be
- * trusted at: half of 2/omega, and of what an impact leaves a quarter, or up to 0.8 of it where that is below
- * 0.12 of 2/omega or little is damped.
+ * bodies are held between many (S20 to S25 of verify_heaps, _step).  Under run.error the longest that windows
+ * can be trusted at: half of 2/omega, and of what an impact leaves a quarter, or up to 0.8 of it where that
+ * is below 0.12 of 2/omega or little is damped.
  *
  * All that is of contacts.  Bonds, of which omega^2 has all that a body ever has, keep to safety, to half of
  * what their own dashpots leave, and by run.error to 0.8 of that, half of 2/omega at the most; with c and b
  * the shares that contacts and bonds so keep to and C, B their omega^2,
- *     dt = 2/sqrt(C/c^2 + B/b^2)                                              (S34, S35 of verify_step).
+ *     dt = 2/sqrt(C/c^2 + B/b^2)                                              (S34, S35 of verify_heaps).
  * So what has broken to rubble takes no longer step than if it had never been frozen together. */
 double fl_world_dt(const fl_world *w, int32_t *body);
 
@@ -38,7 +38,7 @@ double fl_world_critical(const fl_world *w);
 double fl_world_damped(const fl_world *w);
 
 /* What damping by fl_damping_closing() leaves of 2/omega of what does not run into each other, at least, of
- * one contact or many, whatever their damping: 0.70 was found (S08 to S24 of verify_step). */
+ * one contact or many, whatever their damping: 0.70 was found (S08 to S24 of verify_step, _heaps). */
 #define FL_STEADY 0.7
 
 /* What is left of that where all that is rough is shaken across, standing on its end or an edge, and balls

@@ -92,7 +92,7 @@ static void damping_of_one_goes_by_the_speed_at_the_end(void **state)
     }
 }
 
-/* Up to 0.7 of 2/omega, however much damps, of however many: S08 to S24 of verify_step by itself. */
+/* Up to 0.7 of 2/omega, however much damps, of however many: S08 to S24 of verify_step and verify_heaps. */
 static void damping_of_many_is_stable(void **state)
 {
     static const int N[] = {1, 2, 3, 6, 12, 100};
