@@ -6,6 +6,7 @@
 # What the scenes and the columns are: bench/README.md.
 #   SCENES='field-5000'  the scenes, each field-N or pack-N
 #   TURNS=9              how often; medians of ratios within a turn count
+#   CORES=16             the most threads there are, where not all processors are to be taken
 #   FLOE_QUICK=1         two small scenes, three turns
 set -u
 LC_ALL=C
@@ -26,7 +27,7 @@ if [ "$quick" = 0 ]; then
 else
     scenes=${SCENES:-field-200 field-2000} turns=${TURNS:-3}
 fi
-cores=$(getconf _NPROCESSORS_ONLN)
+cores=${CORES:-$(getconf _NPROCESSORS_ONLN)}
 [ "$cores" -gt 1 ] || fail "there is but one processor"
 here=$build/threads/$$ # two at a time do not meet
 mkdir -p "$here" && cd "$here" || exit 4
