@@ -237,8 +237,9 @@ static double shorter(double x)
 }
 
 /* Keep of p what lasts while it does not touch. */
-static void leave(fl_world *w, fl_near *q, const fl_pair *p)
+static void leave(fl_world *w, fl_near *q, fl_pair *p)
 {
+    fl_pair_end(p); /* what kept it from rolling */
     tell(q, p);
     q->has_axis = p->has_axis != 0;
     q->axis[0] = (float)p->axis.x, q->axis[1] = (float)p->axis.y, q->axis[2] = (float)p->axis.z;

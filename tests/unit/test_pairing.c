@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Near pairs have room of their own while they touch, and not for long after. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include "base/mem.h"
 #include "law/material.h"
@@ -75,6 +76,33 @@ static void nothing_is_forgotten_that_lasts(void **state)
     assert_true(near->full->overlap == 0.25);
     fl_near_end(&l.w, near);
     near->n = 0;
+    lab_free(&l);
+}
+
+/* What kept a sphere from rolling on a floe goes with the room: it was lost with each contact that ended. */
+static void what_rolled_is_freed(void **state)
+{
+    (void)state;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "contact.rolling=0.1");
+    lab_box(&l, v3(0, 0, 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_sphere(&l, v3(0.799, 0, 0), 0.3, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-5);
+    assert_int_equal(lab_run(&l, 1), 0);
+    assert_int_equal(l.w.n_pair, 1);
+    fl_near *q = &l.w.pair[0];
+    fl_pair *p = q->full;
+    assert_non_null(p);
+    assert_non_null(p->roll);
+    fl_roll *roll = p->roll;
+    fl_pair gone = *p;
+    gone.n = 0;
+    p->roll = NULL;
+    assert_int_equal(fl_near_keep(&l.w, q, &gone), 0);
+    if (gone.roll) free(roll);
+    assert_null(q->full);
+    assert_null(gone.roll);
     lab_free(&l);
 }
 
@@ -223,6 +251,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(patch_stands_in_where_parts_are_not_convex),
                                        cmocka_unit_test(room_comes_and_goes),
                                        cmocka_unit_test(nothing_is_forgotten_that_lasts),
+                                       cmocka_unit_test(what_rolled_is_freed),
                                        cmocka_unit_test(stiffness_is_given_to_all_kinds),
                                        cmocka_unit_test(a_capsule_stands_on_its_end),
                                        cmocka_unit_test(without_memory_a_surrogate_says_so),
