@@ -3,6 +3,7 @@
 #include "base/expo.h"
 #include "base/mem.h"
 #include "out/relay.h"
+#include "step/press.h"
 #include "step/step.h"
 
 int fl_beside_make(fl_beside *s, const fl_scene *scene, const fl_field *field, const fl_field *feed,
@@ -62,6 +63,7 @@ static void compare(fl_beside *s, const fl_world *w, double ratio, int32_t of, d
         o->part_impulse[k] = o->part_moment[k] = v3(0, 0, 0);
         o->part_peak[k] = 0.0;
     }
+    if (o->press.panels) fl_press_panels_end(o), fl_press_events_end(o); /* nobody writes them */
     if (!(s->ratio > 0.0) || telling(ratio, p) < telling(s->ratio, p)) s->ratio = ratio;
     s->until = fl_world_time(w);
     if (fl_beside_off(s, fl_beside_apart(s, of), p) <= FL_DOUBT * goal) s->since = -1.0;

@@ -36,6 +36,7 @@ enum {
     BEFORE = 8,       /* and where in them the load is looked at as well: */
     MARKS = 2,        /* looks */
     ROUNDS = 8,       /* steps tried in one look at the most */
+    FUTILE = 4,       /* of which so many may fail, down to a 32nd: it is not the step then */
     MOST = 100000,    /* steps in a row there may be with the largest step */
     FINEST = 1 << 12, /* the largest step over the smallest there may be */
     AGAIN = 10,       /* steps between looks over those of a look */
@@ -330,7 +331,7 @@ static int calibrate(fl_budget *g, int32_t *m, int32_t rows, fl_err *err)
 {
     fl_budget_window *v, good = {0};
     double passed = 0.0, refused = INFINITY;
-    int known = 0; /* the orders */
+    int known = 0, failed = 0; /* the orders; how often the finest has */
     g->latest = (g->latest + 1) % FL_BUDGET_LOOKS;
     if (g->windows < FL_BUDGET_LOOKS) g->latest = g->windows++;
     v = &g->window[g->latest];
@@ -341,6 +342,8 @@ static int calibrate(fl_budget *g, int32_t *m, int32_t rows, fl_err *err)
             if (trial(g, *m << k, rows, 0.0, &g->end[k], err) < 0) return -1;
         compare(g, h, ends, v);
         known = isfinite(v->off);
+        failed += g->end[ends - 1].failed;
+        if (failed == FUTILE && passed == 0.0) break; /* the run will tell what it is */
         double next;
         if (strain(g, h) <= 1.0) {
             passed = h;

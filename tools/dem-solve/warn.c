@@ -206,6 +206,12 @@ static void warn_budget(const fl_budget *g)
 {
     double apart;
     const double off = fl_budget_whole(g, &apart);
+    if (!isfinite(fl_budget_estimate(g, g->shortest)))
+        fprintf(
+            stderr,
+            "dem-solve: warning: run.error: windows fail in any step that was tried, and nothing is known of "
+            "what the loads are off by: another contact.law, stiffer contacts or bodies that do not begin in "
+            "one another are wanted\n");
     if (g->beside.since < 0.0) return;
     fprintf(stderr,
             "dem-solve: warning: run.error: %.2g was asked for, and the load as a whole is off by about %.2g "
