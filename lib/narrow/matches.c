@@ -74,10 +74,6 @@ typedef struct {
     draft *l;
     int way;
     fl_question of;
-    double room; /* what is farther beyond a side of two bodies stays beyond it; < 0: of a surface, where all
-                  * sides are kept [m] */
-    double far;  /* from `centre`: what is beyond it by so many times may move by so many times the room */
-    fl_vec3 centre;
 } search;
 
 /* --- numbers of what is drafted -------------------------------------------------------------------- */
@@ -183,32 +179,10 @@ static int push(draft *l, int32_t side)
     return 0;
 }
 
-/* All of it is beyond a side, and will be as long as the list holds. */
-static int stays_beyond(const search *s, const match *m, int32_t f, int32_t a, int32_t b, int below)
-{
-    const fl_side *own = s->of.own, *other = s->of.other;
-    const fl_poly *p = own->p;
-    const fl_vec3 u = v3_sub(other->v[b], other->v[a]), g = f < 0 ? u : v3_cross(other->n[f], u);
-    const double c = v3_dot(g, other->v[a]), least2 = s->room * s->room * v3_norm2(g), far2 = s->far * s->far;
-    const enum feature of = own_of(m);
-    const int32_t edge[2] = {of == EDGE ? p->edge[m->own].a : m->own,
-                             of == EDGE ? p->edge[m->own].b : m->own};
-    const int32_t *at = of == FACE ? p->loop + p->first[m->own] : edge;
-    const int32_t n = of == FACE ? p->first[m->own + 1] - p->first[m->own] : of == EDGE ? 2 : 1;
-    for (int32_t k = 0; k < n; k++) {
-        const fl_vec3 x = own->v[at[k]];
-        const double over = v3_dot(g, x) - c, h = below ? -over : over,
-                     far = v3_norm2(v3_sub(x, s->centre)) / far2;
-        if (!(h > 0.0 && h * h > least2 * fmax(far, 1.0))) return 0;
-    }
-    return 1;
-}
-
 /* It must be above a plane, or below.  The two sides of an edge ask the same row: all ask with the same
  * number, so that nothing falls between two and nothing counts twice. */
 static int beyond(const search *s, match *m, int32_t f, int32_t a, int32_t b, int below)
 {
-    if (s->room >= 0.0 && stays_beyond(s, m, f, a, b, below)) return 0;
     const int turned = f >= 0 && a > b;
     const int32_t r = turned ? row(s, f, b, a) : row(s, f, a, b);
     m->n++;
@@ -227,14 +201,14 @@ static int before(const search *s, match *m, int32_t f, int32_t g, int32_t a, in
 /* What is as far from two faces that lean towards each other counts over one of them: a point or an edge that
  * came out of the prism over a face while it is nearer than R would be lost all at once.  Areas go over both:
  * what is lost of them where they cross a seam is nothing. */
-static int sides_of_face(const search *s, match *m)
+static int sides_of_face(const search *s, match *m, uint32_t hit)
 {
     const fl_poly *p = s->of.other->p;
     const int32_t from = p->first[m->other], n = p->first[m->other + 1] - from, *loop = p->loop + from;
     m->height = row(s, m->other, -1, -1);
     for (int32_t c = 0, last = n - 1; c < n; last = c++) {
         const int32_t g = p->lean && m->kind != FL_MATCH_FACE_FACE ? p->lean[from + last] : -1;
-        if (g < 0 ? beyond(s, m, m->other, loop[last], loop[c], 0)
+        if (g < 0 ? !fl_within_stays(hit, c) && beyond(s, m, m->other, loop[last], loop[c], 0)
                   : before(s, m, m->other, g, loop[last], loop[c]))
             return -1;
     }
@@ -256,27 +230,30 @@ static int forks_of_edge(const search *s, match *m, int32_t v, int32_t to)
     return 0;
 }
 
-static int sides_of_edge(const search *s, match *m)
+static int sides_of_edge(const search *s, match *m, uint32_t hit)
 {
     const fl_edge g = s->of.other->p->edge[m->other];
+    const int left = 2, right = 2 + (g.left >= 0);
     m->length = number(s, m->other, 1);
     if (forks_of_edge(s, m, g.a, g.b) || forks_of_edge(s, m, g.b, g.a)) return -1;
-    return m->length < 0 || beyond(s, m, -1, g.a, g.b, 0) || beyond(s, m, -1, g.b, g.a, 0) ||
-                   (g.left >= 0 && beyond(s, m, g.left, g.a, g.b, 1)) ||
-                   (g.right >= 0 && beyond(s, m, g.right, g.b, g.a, 1))
+    return m->length < 0 || (!fl_within_stays(hit, 0) && beyond(s, m, -1, g.a, g.b, 0)) ||
+                   (!fl_within_stays(hit, 1) && beyond(s, m, -1, g.b, g.a, 0)) ||
+                   (g.left >= 0 && !fl_within_stays(hit, left) && beyond(s, m, g.left, g.a, g.b, 1)) ||
+                   (g.right >= 0 && !fl_within_stays(hit, right) && beyond(s, m, g.right, g.b, g.a, 1))
                ? -1
                : 0;
 }
 
-static int sides_of_vertex(const search *s, match *m)
+static int sides_of_vertex(const search *s, match *m, uint32_t hit)
 {
     const fl_poly *p = s->of.other->p;
-    for (int32_t k = p->begin[m->other]; k < p->begin[m->other + 1]; k++)
-        if (beyond(s, m, -1, m->other, p->beside[k], 1)) return -1;
+    const int32_t from = p->begin[m->other], n = p->begin[m->other + 1] - from;
+    for (int32_t k = 0; k < n; k++)
+        if (!fl_within_stays(hit, k) && beyond(s, m, -1, m->other, p->beside[from + k], 1)) return -1;
     return 0;
 }
 
-static int add(const search *s, int kind, int32_t own, int32_t other)
+static int add(const search *s, int kind, int32_t own, int32_t other, uint32_t hit)
 {
     draft *l = s->l;
     const fl_poly *p = s->of.own->p;
@@ -284,7 +261,8 @@ static int add(const search *s, int kind, int32_t own, int32_t other)
     if (fl_room(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c)) return -1;
     const int face = kind == FL_MATCH_VERTEX_FACE || kind == FL_MATCH_EDGE_FACE || kind == FL_MATCH_FACE_FACE;
     const int edge = kind == FL_MATCH_VERTEX_EDGE || kind == FL_MATCH_EDGE_EDGE;
-    if (face ? sides_of_face(s, &m) : edge ? sides_of_edge(s, &m) : sides_of_vertex(s, &m)) return -1;
+    if (face ? sides_of_face(s, &m, hit) : edge ? sides_of_edge(s, &m, hit) : sides_of_vertex(s, &m, hit))
+        return -1;
     if (kind == FL_MATCH_FACE_FACE) {
         m.corners = p->first[own + 1] - p->first[own];
         for (int32_t k = p->first[own]; k < p->first[own + 1]; k++) {
@@ -324,7 +302,7 @@ static fl_reach part_of(const fl_reach *r, int32_t begin, int32_t end)
 }
 
 /* Whether own feature o comes over each of the others; NULL when memory runs out. */
-static const uint8_t *hits_of(const search *s, const fl_reach *mine, int32_t o, const fl_reach *near)
+static const uint32_t *hits_of(const search *s, const fl_reach *mine, int32_t o, const fl_reach *near)
 {
     const int32_t owns = mine->vertices + mine->edges + mine->faces,
                   many = TOGETHER / (near->faces + near->edges + near->vertices + 1) + 1,
@@ -349,15 +327,15 @@ static int some_over(const search *s, const fl_reach *mine, int32_t begin, int32
         const int32_t own = o < edges   ? mine->vertex[o]
                             : o < faces ? mine->edge[o - edges]
                                         : mine->face[o - faces];
-        const uint8_t *hit = hits_of(s, mine, o, near);
+        const uint32_t *hit = hits_of(s, mine, o, near);
         if (!hit) return -1;
         if (kind == FL_MATCH_EDGE_FACE && !(fl_strips_factor(s->of.own, own, s->of.other->r) > 0.0)) continue;
-        for (int32_t k = 0; k < near->faces; k++)
-            if (*hit++ && add(s, kind, own, near->face[k])) return -1;
-        for (int32_t k = 0; k < near->edges; k++)
-            if (*hit++ && add(s, kind + 1, own, near->edge[k])) return -1;
-        for (int32_t k = 0; k < near->vertices; k++)
-            if (*hit++ && add(s, kind + 2, own, near->vertex[k])) return -1;
+        for (int32_t k = 0; k < near->faces; k++, hit++)
+            if (*hit && add(s, kind, own, near->face[k], *hit)) return -1;
+        for (int32_t k = 0; k < near->edges; k++, hit++)
+            if (*hit && add(s, kind + 1, own, near->edge[k], *hit)) return -1;
+        for (int32_t k = 0; k < near->vertices; k++, hit++)
+            if (*hit && add(s, kind + 2, own, near->vertex[k], *hit)) return -1;
     }
     return 0;
 }
@@ -564,8 +542,8 @@ int fl_matches_list(fl_matches *l, fl_places *w, const fl_side *A, const fl_reac
     draft *d = w->draft;
     const fl_vec3 o = w->o;
     const double room = l->keeps ? -1.0 : wide + ROUNDING * (fabs(o.x) + fabs(o.y) + fabs(o.z));
-    const search of_a = {d, 0, {A, B, R, behind, wide, turn - FL_AREAS_COS}, room, far, o},
-                 of_b = {d, 1, {B, A, R, behind, wide, turn - FL_AREAS_COS}, room, far, o};
+    const search of_a = {d, 0, {A, B, R, behind, wide, turn - FL_AREAS_COS, room, far, o}},
+                 of_b = {d, 1, {B, A, R, behind, wide, turn - FL_AREAS_COS, room, far, o}};
     const int32_t last_a = a->vertices + a->edges + a->faces, last_b = b->vertices + b->edges + b->faces;
     if (begin_draft(d)) return -1;
     if (some_over(&of_a, a, 0, a->vertices, b) || some_over(&of_b, b, 0, b->vertices, a) ||

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "narrow/within.h"
@@ -9,13 +10,13 @@
 /* Above it is g.x >= c, some margin included. */
 typedef struct fl_bound {
     fl_vec3 g;
-    double c;
+    double c, size; /* |g| */
 } bound;
 
 /* One feature of the other: planes, and the line along `axis` through `from`, or the point, of which all that
  * counts is within reach; of a face axis is the normal. */
 typedef struct {
-    int32_t bounds;
+    int32_t bounds, sides; /* the last of them are sides */
     int line;
     fl_vec3 from, axis;
 } target;
@@ -69,6 +70,12 @@ static int32_t gather(fl_within *w, const fl_question *s, const fl_reach *mine)
         const fl_vec3 x = s->own->v[w->vertex[v < n ? v : n - 1]];
         w->x[v] = x.x, w->x[wide + v] = x.y, w->x[2 * wide + v] = x.z;
     }
+    if (s->room < 0.0) return n;
+    if (fl_room(&w->room, &w->room_cap, n, sizeof *w->room)) return -1;
+    for (int32_t v = 0; v < n; v++) {
+        const double far2 = v3_norm2(v3_sub(s->own->v[w->vertex[v]], s->centre)), near2 = s->far * s->far;
+        w->room[v] = s->margin + (far2 > near2 ? sqrt(far2 / near2) * s->room : s->room);
+    }
     return n;
 }
 
@@ -93,7 +100,8 @@ FL_WIDE_VERSIONS static int heights(const bound *b, int32_t bounds, const double
 
 static void above(bound **b, const fl_question *s, fl_vec3 from, fl_vec3 g)
 {
-    *(*b)++ = (bound){g, v3_dot(g, from) - s->margin * v3_norm(g)};
+    const double size = v3_norm(g);
+    *(*b)++ = (bound){g, v3_dot(g, from) - s->margin * size, size};
 }
 
 static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
@@ -118,7 +126,7 @@ static target over_face(bound *to, const fl_question *s, int32_t f)
         const double out = q->p->lean && q->p->lean[q->p->first[f] + last] >= 0 ? ASIDE * s->behind : 0.0;
         above(&b, s, v3_madd(q->v[loop[last]], -out, v3_unit(g)), g);
     }
-    return (target){(int32_t)(b - to), 0, from, n};
+    return (target){sides + 2, sides, 0, from, n};
 }
 
 static target over_edge(bound *to, const fl_question *s, int32_t e)
@@ -131,7 +139,7 @@ static target over_edge(bound *to, const fl_question *s, int32_t e)
     above(&t, s, b, v3_neg(u));
     if (g.left >= 0) above(&t, s, a, v3_neg(leftward(q, g.left, g.a, g.b)));
     if (g.right >= 0) above(&t, s, a, leftward(q, g.right, g.a, g.b));
-    return (target){(int32_t)(t - to), 1, a, u};
+    return (target){(int32_t)(t - to), (int32_t)(t - to), 1, a, u};
 }
 
 static target over_vertex(bound *to, const fl_question *s, int32_t v)
@@ -141,7 +149,7 @@ static target over_vertex(bound *to, const fl_question *s, int32_t v)
     bound *b = to;
     for (int32_t m = p->begin[v]; m < p->begin[v + 1]; m++)
         above(&b, s, c, v3_sub(c, s->other->v[p->beside[m]]));
-    return (target){(int32_t)(b - to), 1, c, v3(0, 0, 0)};
+    return (target){(int32_t)(b - to), (int32_t)(b - to), 1, c, v3(0, 0, 0)};
 }
 
 /* What is left of an edge, or a vertex, comes within reach of the line or the point, or may. */
@@ -176,25 +184,46 @@ static int face_above(const double *h, int32_t bounds, int32_t wide, const int32
     return 1;
 }
 
+/* A hit, with the sides that n corners stay beyond. */
+static uint32_t hit_of(const fl_within *w, const fl_question *s, const target *t, const double *h,
+                       int32_t wide, const int32_t *corner, int32_t n)
+{
+    uint32_t hit = 1;
+    if (s->room < 0.0) return hit;
+    const int32_t from = t->bounds - t->sides, sides = t->sides < 31 ? t->sides : 31;
+    const bound *b = w->bound + from;
+    h += (int64_t)from * wide;
+    for (int32_t k = 0; k < sides; k++, b++, h += wide) {
+        int32_t c = 0;
+        while (c < n && h[corner[c]] > b->size * w->room[corner[c]]) c++;
+        if (c == n) hit |= 2u << k;
+    }
+    return hit;
+}
+
 /* Column k of the hits: own vertices, edges and, where it is a face, faces over one of the other. */
 static void ask(fl_within *w, const fl_question *s, const fl_reach *mine, const target *t, int32_t k,
                 int32_t n)
 {
     const int32_t wide = (n + FL_LANES - 1) / FL_LANES * FL_LANES, m = t->bounds;
     const fl_vec3 *x = s->own->v;
-    uint8_t *hit = w->hit + k;
+    uint32_t *hit = w->hit + k;
     double *h = w->h, *least = h + (int64_t)m * wide;
     const int32_t *c = w->corner, *first = w->first + mine->vertices + mine->edges;
-    fl_span left = {0.0, 1.0};
+    fl_span left;
     if (!heights(w->bound, m, w->x, wide, h, least)) return;
     for (int32_t o = 0; o < mine->vertices; o++, c++, hit += w->others)
-        if (least[*c] >= 0.0) *hit = !t->line || nears(s, t, x[w->vertex[*c]], x[w->vertex[*c]], left);
+        if (least[*c] >= 0.0 &&
+            (!t->line || nears(s, t, x[w->vertex[*c]], x[w->vertex[*c]], (fl_span){0.0, 1.0})))
+            *hit = hit_of(w, s, t, h, wide, c, 1);
     for (int32_t o = 0; o < mine->edges; o++, c += 2, hit += w->others)
-        if (edge_above(h, m, wide, c[0], c[1], &left))
-            *hit = !t->line || nears(s, t, x[w->vertex[c[0]]], x[w->vertex[c[1]]], left);
+        if (edge_above(h, m, wide, c[0], c[1], &left) &&
+            (!t->line || nears(s, t, x[w->vertex[c[0]]], x[w->vertex[c[1]]], left)))
+            *hit = hit_of(w, s, t, h, wide, c, 2);
     for (int32_t o = 0; o < mine->faces && !t->line; o++, first++, hit += w->others)
-        *hit = v3_dot(s->own->n[mine->face[o]], t->axis) <= s->turned &&
-               face_above(h, m, wide, w->corner + first[0], first[1] - first[0]);
+        if (v3_dot(s->own->n[mine->face[o]], t->axis) <= s->turned &&
+            face_above(h, m, wide, w->corner + first[0], first[1] - first[0]))
+            *hit = hit_of(w, s, t, h, wide, w->corner + first[0], first[1] - first[0]);
 }
 
 /* Room for the planes of a feature that has as many. */
@@ -215,7 +244,7 @@ int fl_within_find(fl_within *w, const fl_question *s, const fl_reach *mine, con
     if (hits == 0) return 0;
     const int32_t n = gather(w, s, mine);
     if (n < 0) return -1;
-    memset(w->hit, 0, (size_t)hits);
+    memset(w->hit, 0, (size_t)hits * sizeof *w->hit);
     for (int32_t m = 0; m < near->faces; m++, k++) {
         const int32_t f = near->face[m];
         if (room(w, n, 2 + (int64_t)p->first[f + 1] - p->first[f])) return -1;
@@ -241,6 +270,6 @@ int fl_within_find(fl_within *w, const fl_question *s, const fl_reach *mine, con
 void fl_within_free(fl_within *w)
 {
     free(w->hit), free(w->vertex), free(w->at), free(w->corner), free(w->first), free(w->x), free(w->h);
-    free(w->bound);
+    free(w->room), free(w->bound);
     *w = (fl_within){0};
 }

@@ -4,7 +4,8 @@
  * Over a face, an edge or a vertex is where some planes say so (matches.h), so that the heights of a few
  * vertices over a few planes tell it of all features at once: of a vertex none may be below, of a face one
  * corner must be above each, of an edge a point must be above all of them.  Each height has room for a
- * margin, by which points may move. */
+ * margin, by which points may move.  The same heights tell what stays above a plane while they do: nobody has
+ * to ask for that again. */
 #ifndef FL_NARROW_WITHIN_H
 #define FL_NARROW_WITHIN_H
 #include "narrow/places.h"
@@ -14,20 +15,29 @@
 typedef struct {
     const fl_side *own, *other;
     double R, behind, margin, turned;
+    double
+        room;   /* what is farther beyond a side stays beyond it; < 0: of a surface, where nothing does [m] */
+    double far; /* from `centre`: what is beyond it by so many times may move by so many times the room */
+    fl_vec3 centre;
 } fl_question;
 
 /* Zeroed to start; grows as it must.  hit[o * others + k]: own feature o, vertices first, then edges, then
  * faces, as they are numbered in `mine`, may come over feature k of `near`, faces first, then edges, then
- * vertices.  Faces are asked about faces alone. */
+ * vertices.  Faces are asked about faces alone.  0: it does not; 1: it may; and 2 << i: all of it stays beyond
+ * side i, in the order of the sides of a face, of the ends, the left and the right of an edge, or of the edges
+ * of a vertex. */
 typedef struct {
-    uint8_t *hit;
+    uint32_t *hit;
     int32_t others;
     /* in work: vertices of the own features, their coordinates one after the other, and heights */
     int32_t *vertex, *at, *corner, *first;
-    double *x, *h;
+    double *x, *h, *room;
     struct fl_bound *bound;
-    int32_t hit_cap, vertex_cap, at_cap, corner_cap, first_cap, x_cap, h_cap, bound_cap;
+    int32_t hit_cap, vertex_cap, at_cap, corner_cap, first_cap, x_cap, h_cap, room_cap, bound_cap;
 } fl_within;
+
+/* Side i of what was hit is one that all of it stays beyond. */
+static inline int fl_within_stays(uint32_t hit, int32_t i) { return i < 31 && (hit >> 1 >> i & 1); }
 
 /* -1 when memory runs out. */
 int fl_within_find(fl_within *w, const fl_question *s, const fl_reach *mine, const fl_reach *near);
