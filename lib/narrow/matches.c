@@ -12,6 +12,8 @@
 /* Of the size: points on a plane may seem to be that far off it. */
 #define ROUNDING 1e-12
 
+#define INLINE static inline __attribute__((always_inline))
+
 /* A plane of a core: of face f; or at right angles to it through the edge from vertex a to b, its left side
  * above; or, f = -1, at right angles to that edge in a, the side of b above.  g >= 0: the one through that
  * edge that halves the angle of f and g.  FORK_AT: the one that halves the angle of the edges from vertex f
@@ -80,7 +82,7 @@ typedef struct {
 
 enum { COLUMN, ROW, FACTOR, LENGTH, HALF, FORK };
 
-static slot *slot_of(const draft *d, uint64_t what, uint64_t ends)
+INLINE slot *slot_of(const draft *d, uint64_t what, uint64_t ends)
 {
     const uint64_t mix = (what * 0x9E3779B97F4A7C15u ^ ends) * 0xC2B2AE3D27D4EB4Fu;
     for (uint64_t at = mix >> 40;; at++) {
@@ -104,7 +106,7 @@ static int more_slots(draft *d)
 }
 
 /* Where the number of something of this list is kept, -1 until it has one; NULL when memory runs out. */
-static int32_t *number_of(const search *s, int what, int32_t f, int32_t a, int32_t b)
+INLINE int32_t *number_of(const search *s, int what, int32_t f, int32_t a, int32_t b)
 {
     draft *d = s->l;
     if (2 * d->filled >= d->slots && more_slots(d)) return NULL;
@@ -126,7 +128,7 @@ static int32_t column(const search *s, int32_t v)
     return *k = t->vertices++;
 }
 
-static inline __attribute__((always_inline)) fl_cut cut_of(const fl_poly *p, const plane *q)
+INLINE fl_cut cut_of(const fl_poly *p, const plane *q)
 {
     if (q->g == FORK_AT) { /* as far from the edges to a and to b */
         const fl_vec3 o = p->v[q->f], to_a = v3_unit(v3_sub(p->v[q->a], o)),
@@ -382,57 +384,63 @@ static int list_used(draft *l, const fl_poly *p)
 
 /* --- the block --------------------------------------------------------------------------------- */
 
-/* Whole numbers on their way into a block; without one they are counted, and the largest is found. */
+/* Whole numbers on their way into a block, as wide as in the list; COUNT: they are counted only, and the
+ * largest is found. */
+enum { COUNT = -1 };
 typedef struct {
     void *at;
-    int wide; /* as in the list */
     int64_t n;
     int32_t most;
 } whole;
 
-static void put(whole *to, int32_t x)
+INLINE void put(whole *to, int wide, int32_t x)
 {
-    if (!to->at) to->most = x > to->most ? x : to->most;
-    else if (to->wide == 0) ((uint8_t *)to->at)[to->n] = (uint8_t)x;
-    else if (to->wide == 1) ((uint16_t *)to->at)[to->n] = (uint16_t)x;
+    if (wide == COUNT) to->most = x > to->most ? x : to->most;
+    else if (wide == 0) ((uint8_t *)to->at)[to->n] = (uint8_t)x;
+    else if (wide == 1) ((uint16_t *)to->at)[to->n] = (uint16_t)x;
     else ((int32_t *)to->at)[to->n] = x;
     to->n++;
 }
 
-static void put_match(whole *to, const draft *d, const match *m)
+INLINE void put_match(whole *to, int wide, const draft *d, const match *m)
 {
     const int edge = m->kind >= FL_MATCH_EDGE_FACE && m->kind <= FL_MATCH_EDGE_VERTEX;
     const enum feature over = other_of(m);
     const int32_t *side = d->side + m->first;
-    put(to, m->kind | m->way << 3 | m->n << 4);
-    put(to, m->own);
-    put(to, m->other);
-    put(to, m->kind == FL_MATCH_FACE_FACE ? m->corners : m->v[0]);
-    if (edge) put(to, m->v[1]), put(to, m->factor);
-    if (over != VERTEX) put(to, over == FACE ? m->height : m->length);
-    for (int32_t k = 0; k < m->n + m->corners; k++) put(to, side[k]);
+    put(to, wide, m->kind | m->way << 3 | m->n << 4);
+    put(to, wide, m->own);
+    put(to, wide, m->other);
+    put(to, wide, m->kind == FL_MATCH_FACE_FACE ? m->corners : m->v[0]);
+    if (edge) put(to, wide, m->v[1]), put(to, wide, m->factor);
+    if (over != VERTEX) put(to, wide, over == FACE ? m->height : m->length);
+    for (int32_t k = 0; k < m->n + m->corners; k++) put(to, wide, side[k]);
 }
 
 /* Numbers of planes may be -1 and FORK_AT. */
 enum { TOLD = -FORK_AT };
 
-static void put_plane(whole *to, const plane *q)
+INLINE void put_plane(whole *to, int wide, const plane *q)
 {
-    put(to, q->f + TOLD), put(to, q->a + TOLD), put(to, q->b + TOLD), put(to, q->g + TOLD);
+    put(to, wide, q->f + TOLD), put(to, wide, q->a + TOLD), put(to, wide, q->b + TOLD),
+        put(to, wide, q->g + TOLD);
 }
 
-static void put_planes(whole *to, const draft *d)
+INLINE void put_all(whole *to, int wide, const draft *d, int keeps)
 {
+    for (int way = 0; way < 2 && !keeps; way++)
+        for (int32_t k = 0; k < d->table[way].planes; k++) put_plane(to, wide, &d->table[way].plane[k]);
     for (int way = 0; way < 2; way++)
-        for (int32_t k = 0; k < d->table[way].planes; k++) put_plane(to, &d->table[way].plane[k]);
+        for (int32_t k = 0; k < d->table[way].vertices; k++) put(to, wide, d->table[way].vertex[k]);
+    for (int32_t k = 0; k < d->used_v + d->used_f; k++) put(to, wide, d->used[k]);
+    for (int32_t k = 0; k < d->n; k++) put_match(to, wide, d, &d->c[k]);
 }
 
-static void put_all(whole *to, const draft *d)
+static void put_into(void *at, int wide, const draft *d, int keeps)
 {
-    for (int way = 0; way < 2; way++)
-        for (int32_t k = 0; k < d->table[way].vertices; k++) put(to, d->table[way].vertex[k]);
-    for (int32_t k = 0; k < d->used_v + d->used_f; k++) put(to, d->used[k]);
-    for (int32_t k = 0; k < d->n; k++) put_match(to, d, &d->c[k]);
+    whole to = {.at = at};
+    if (wide == 0) put_all(&to, 0, d, keeps);
+    else if (wide == 1) put_all(&to, 1, d, keeps);
+    else put_all(&to, 2, d, keeps);
 }
 
 /* What has been drafted, in a block as long as it must be. */
@@ -443,8 +451,7 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
         const table *t = &d->table[way];
         if (t->planes > INT32_MAX / 2 / (t->vertices + FL_LANES)) return -1;
     }
-    if (!l->keeps) put_planes(&count, d);
-    put_all(&count, d);
+    put_all(&count, COUNT, d, l->keeps);
     const int wide = count.most <= UINT8_MAX ? 0 : count.most <= UINT16_MAX ? 1 : 2;
     const int64_t planes = (int64_t)d->table[0].planes + d->table[1].planes,
                   bytes = (l->keeps ? planes * (int64_t)sizeof(fl_cut) : 0) +
@@ -468,14 +475,11 @@ static int pack(fl_matches *l, const draft *d, const fl_poly *a, const fl_poly *
     l->used_v = d->used_v, l->used_f = d->used_f;
     l->n = d->n;
     l->wide = (int16_t)wide;
-    whole to = {.at = number, .wide = wide};
-    if (!l->keeps) put_planes(&to, d);
-    put_all(&to, d);
+    put_into(number, wide, d, l->keeps);
     return 0;
 }
 
-static inline __attribute__((always_inline)) void make_cuts(const fl_matches *l, int wide, int way,
-                                                            const fl_poly *p, fl_cut *out)
+INLINE void make_cuts(const fl_matches *l, int wide, int way, const fl_poly *p, fl_cut *out)
 {
     const void *told = fl_matches_told(l);
     int64_t at = way ? 4 * (int64_t)l->cuts[0] : 0;
