@@ -7,6 +7,8 @@
 #include "base/wide.h"
 #include "narrow/strips.h"
 
+#define INLINE static inline __attribute__((always_inline))
+
 /* Above it is g.x >= c, some margin included. */
 typedef struct fl_bound {
     fl_vec3 g;
@@ -21,20 +23,13 @@ typedef struct {
     fl_vec3 from, axis;
 } target;
 
-/* Number of own vertex v; -1 when memory runs out.  What `at` knows from another search is not believed. */
-static int32_t number(fl_within *w, int32_t *n, int32_t v)
+/* Own vertex v is one more corner, of which there are *corners, numbered among *n; there is room.  What `at`
+ * knows from another search is not believed. */
+INLINE void put_corner(const fl_within *w, int32_t *corners, int32_t *n, int32_t v)
 {
-    const int32_t k = w->at[v];
-    if (k < *n && w->vertex[k] == v) return k;
-    if (fl_room(&w->vertex, &w->vertex_cap, (int64_t)*n + 1, sizeof *w->vertex)) return -1;
-    w->vertex[*n] = v;
-    return w->at[v] = (*n)++;
-}
-
-static int put_corner(fl_within *w, int32_t *corners, int32_t *n, int32_t v)
-{
-    if (fl_room(&w->corner, &w->corner_cap, (int64_t)*corners + 1, sizeof *w->corner)) return -1;
-    return (w->corner[(*corners)++] = number(w, n, v)) < 0 ? -1 : 0;
+    int32_t k = w->at[v];
+    if (k >= *n || w->vertex[k] != v) k = w->at[v] = *n, w->vertex[(*n)++] = v;
+    w->corner[(*corners)++] = k;
 }
 
 static int32_t owns_of(const fl_reach *mine) { return mine->vertices + mine->edges + mine->faces; }
@@ -44,24 +39,28 @@ static int32_t gather(fl_within *w, const fl_question *s, const fl_reach *mine)
 {
     const fl_poly *p = s->own->p;
     const int32_t known = w->at_cap;
+    int64_t most = mine->vertices + 2 * (int64_t)mine->edges;
     int32_t n = 0, corners = 0, k = 0;
-    if (fl_room(&w->at, &w->at_cap, p->nv, sizeof *w->at) ||
+    for (int32_t m = 0; m < mine->faces; m++) most += p->first[mine->face[m] + 1] - p->first[mine->face[m]];
+    if (fl_room(&w->corner, &w->corner_cap, most, sizeof *w->corner) ||
+        fl_room(&w->vertex, &w->vertex_cap, most < p->nv ? most : p->nv, sizeof *w->vertex) ||
+        fl_room(&w->at, &w->at_cap, p->nv, sizeof *w->at) ||
         fl_room(&w->first, &w->first_cap, (int64_t)owns_of(mine) + 1, sizeof *w->first))
         return -1;
     memset(w->at + known, 0, (size_t)(w->at_cap - known) * sizeof *w->at);
     for (int32_t m = 0; m < mine->vertices; m++) {
         w->first[k++] = corners;
-        if (put_corner(w, &corners, &n, mine->vertex[m])) return -1;
+        put_corner(w, &corners, &n, mine->vertex[m]);
     }
     for (int32_t m = 0; m < mine->edges; m++) {
         const fl_edge e = p->edge[mine->edge[m]];
         w->first[k++] = corners;
-        if (put_corner(w, &corners, &n, e.a) || put_corner(w, &corners, &n, e.b)) return -1;
+        put_corner(w, &corners, &n, e.a), put_corner(w, &corners, &n, e.b);
     }
     for (int32_t m = 0; m < mine->faces; m++) {
         w->first[k++] = corners;
         for (int32_t c = p->first[mine->face[m]]; c < p->first[mine->face[m] + 1]; c++)
-            if (put_corner(w, &corners, &n, p->loop[c])) return -1;
+            put_corner(w, &corners, &n, p->loop[c]);
     }
     w->first[k] = corners;
     const int32_t wide = (n + FL_LANES - 1) / FL_LANES * FL_LANES;
@@ -98,13 +97,13 @@ FL_WIDE_VERSIONS static int heights(const bound *b, int32_t bounds, const double
     return 1;
 }
 
-static void above(bound **b, const fl_question *s, fl_vec3 from, fl_vec3 g)
+INLINE void above(bound **b, const fl_question *s, fl_vec3 from, fl_vec3 g)
 {
     const double size = v3_norm(g);
     *(*b)++ = (bound){g, v3_dot(g, from) - s->margin * size, size};
 }
 
-static fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
+INLINE fl_vec3 leftward(const fl_side *q, int32_t f, int32_t a, int32_t b)
 {
     return v3_cross(q->n[f], v3_sub(q->v[b], q->v[a]));
 }
@@ -123,8 +122,8 @@ static target over_face(bound *to, const fl_question *s, int32_t f)
     above(&b, s, v3_madd(from, -s->behind, n), n);
     for (int32_t c = 0, last = sides - 1; c < sides; last = c++) {
         const fl_vec3 g = leftward(q, f, loop[last], loop[c]);
-        const double out = q->p->lean && q->p->lean[q->p->first[f] + last] >= 0 ? ASIDE * s->behind : 0.0;
-        above(&b, s, v3_madd(q->v[loop[last]], -out, v3_unit(g)), g);
+        const int leans = q->p->lean && q->p->lean[q->p->first[f] + last] >= 0;
+        above(&b, s, leans ? v3_madd(q->v[loop[last]], -ASIDE * s->behind, v3_unit(g)) : q->v[loop[last]], g);
     }
     return (target){sides + 2, sides, 0, from, n};
 }
@@ -153,7 +152,7 @@ static target over_vertex(bound *to, const fl_question *s, int32_t v)
 }
 
 /* What is left of an edge, or a vertex, comes within reach of the line or the point, or may. */
-static int nears(const fl_question *s, const target *t, fl_vec3 x, fl_vec3 end, fl_span left)
+INLINE int nears(const fl_question *s, const target *t, fl_vec3 x, fl_vec3 end, fl_span left)
 {
     const fl_vec3 u = t->axis, way = v3_sub(end, x);
     const double uu = v3_norm2(u), each = uu > 0.0 ? 1.0 / uu : 0.0, far = s->R + s->margin;
@@ -185,7 +184,7 @@ static int face_above(const double *h, int32_t bounds, int32_t wide, const int32
 }
 
 /* A hit, with the sides that n corners stay beyond. */
-static uint32_t hit_of(const fl_within *w, const fl_question *s, const target *t, const double *h,
+INLINE uint32_t hit_of(const fl_within *w, const fl_question *s, const target *t, const double *h,
                        int32_t wide, const int32_t *corner, int32_t n)
 {
     uint32_t hit = 1;
@@ -227,7 +226,7 @@ static void ask(fl_within *w, const fl_question *s, const fl_reach *mine, const 
 }
 
 /* Room for the planes of a feature that has as many. */
-static int room(fl_within *w, int32_t n, int64_t bounds)
+INLINE int room(fl_within *w, int32_t n, int64_t bounds)
 {
     return fl_room(&w->bound, &w->bound_cap, bounds, sizeof *w->bound) ||
            fl_room(&w->h, &w->h_cap, (bounds + 1) * (n + FL_LANES), sizeof *w->h);
