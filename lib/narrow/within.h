@@ -23,9 +23,9 @@ typedef struct {
 
 /* Zeroed to start; grows as it must.  hit[o * others + k]: own feature o, vertices first, then edges, then
  * faces, as they are numbered in `mine`, may come over feature k of `near`, faces first, then edges, then
- * vertices.  Faces are asked about faces alone.  0: it does not; 1: it may; and 2 << i: all of it stays beyond
- * side i, in the order of the sides of a face, of the ends, the left and the right of an edge, or of the edges
- * of a vertex. */
+ * vertices.  Faces are asked about faces alone.  0: it does not; 1: it may; and 2 << i: all of it stays
+ * beyond side i, one of the first 31, in the order of the sides of a face, of the ends, the left and the
+ * right of an edge, or of the edges of a vertex. */
 typedef struct {
     uint32_t *hit;
     int32_t others;
