@@ -482,8 +482,8 @@ static void grazed(void)
     fl_budget_free(&g), lab_free(&l);
 }
 
-/* Two blocks meet ten thousand times too softly, by a law that has no potential: energy is made there by any step,
- * and looks for one that would do end soon. */
+/* Two blocks meet ten thousand times too softly, by a law that has no potential: energy is made there by any
+ * step, and looks for one that would do end soon. */
 static void futile(void)
 {
     lab l;
