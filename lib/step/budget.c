@@ -19,6 +19,8 @@
 #define NEWS 1.15
 /* Two steps nearer to one another than this are as good as one. */
 #define NEAR 1.2
+/* Half a step, or less of it, leaves no more than this of what it was off by where the step is what it is. */
+#define BETTER 0.7
 /* Momenta of floes may be off by as much as the load, of what they took; where a peak is asked for by half of
  * it, since to its own error that of the speed it comes from is added. */
 #define LOOSE 1.0
@@ -36,7 +38,8 @@ enum {
     BEFORE = 8,       /* and where in them the load is looked at as well: */
     MARKS = 2,        /* looks */
     ROUNDS = 8,       /* steps tried in one look at the most */
-    FUTILE = 4,       /* of which so many may fail, down to a 32nd: it is not the step then */
+    FUTILE = 4,       /* of which so many may fail, down to a 32nd: it is not the step then; */
+    VAIN = 2,         /* nor where so many, of half the best one or less, are no better than it */
     MOST = 100000,    /* steps in a row there may be with the largest step */
     FINEST = 1 << 12, /* the largest step over the smallest there may be */
     AGAIN = 10,       /* steps between looks over those of a look */
@@ -329,9 +332,11 @@ static int32_t fewest(const fl_budget *g)
 /* Try steps from m a row on; *m becomes what is to be taken.  end[0] is that of m already. */
 static int calibrate(fl_budget *g, int32_t *m, int32_t rows, fl_err *err)
 {
-    fl_budget_window *v, good = {0};
+    fl_budget_window *v, good = {0}, tried = {0};
     double passed = 0.0, refused = INFINITY;
-    int known = 0, failed = 0; /* the orders; how often the finest has */
+    double least = INFINITY; /* strain of the best so far, and its steps */
+    int32_t best = *m;
+    int known = 0, failed = 0, vain = 0; /* the orders; how often the finest has; rounds in vain */
     g->latest = (g->latest + 1) % FL_BUDGET_LOOKS;
     if (g->windows < FL_BUDGET_LOOKS) g->latest = g->windows++;
     v = &g->window[g->latest];
@@ -344,8 +349,15 @@ static int calibrate(fl_budget *g, int32_t *m, int32_t rows, fl_err *err)
         known = isfinite(v->off);
         failed += g->end[ends - 1].failed;
         if (failed == FUTILE && passed == 0.0) break; /* the run will tell what it is */
+        const double off = strain(g, h);
+        if (off < BETTER * least) vain = 0, least = off, best = *m, tried = *v;
+        else if (isfinite(off) && *m >= 2 * best) vain++;
+        if (vain == VAIN && passed == 0.0) {
+            *m = best, *v = tried;
+            break;
+        }
         double next;
-        if (strain(g, h) <= 1.0) {
+        if (off <= 1.0) {
             passed = h;
             good = *v;
             next = wanted(g, h);

@@ -202,16 +202,24 @@ static void warn_energy(const fl_world *w)
 }
 
 /* An error that was asked for and is not kept is told: no shorter step need do any better. */
-static void warn_budget(const fl_budget *g)
+static void warn_budget(const struct run *r)
 {
     double apart;
-    const double off = fl_budget_whole(g, &apart);
-    if (!isfinite(fl_budget_estimate(g, g->shortest)))
+    const fl_budget *g = r->budget;
+    const double off = fl_budget_whole(g, &apart), windows = fl_budget_estimate(g, r->w->dt);
+    if (!isfinite(windows))
         fprintf(
             stderr,
-            "dem-solve: warning: run.error: windows fail in any step that was tried, and nothing is known of "
-            "what the loads are off by: another contact.law, stiffer contacts or bodies that do not begin in "
-            "one another are wanted\n");
+            "dem-solve: warning: run.error: windows fail in any step that was tried, and nothing is known "
+            "of what the loads are off by: another contact.law, stiffer contacts or bodies that do not "
+            "begin in one another are wanted\n");
+    else if (windows > FL_DOUBT * g->goal)
+        fprintf(stderr,
+                "dem-solve: warning: run.error: %.2g was asked for, and windows are off by about %.2g in any "
+                "step "
+                "that was tried: what meets in them parts faster than a step can tell; shorter rows "
+                "(output.loads_every) are shorter windows\n",
+                g->goal, windows);
     if (g->beside.since < 0.0) return;
     fprintf(stderr,
             "dem-solve: warning: run.error: %.2g was asked for, and the load as a whole is off by about %.2g "
@@ -253,6 +261,6 @@ void warn_at_end(const struct run *r, int failed)
 {
     if (!failed) warn_fallen(r->w);
     warn_overlapped(r->w);
-    if (!failed && r->budget) warn_budget(r->budget);
+    if (!failed && r->budget) warn_budget(r);
     if (!failed) warn_energy(r->w); /* else the failure has been told */
 }
