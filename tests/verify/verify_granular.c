@@ -69,7 +69,8 @@ static void stands(const char *what, double high, double friction)
     verify_true("V26", what, fabs(f.faster) < 1e-3 && f.tilt < 0.1 * DEGREES);
 }
 
-/* The flat of its base is 9.9 m wide: it would topple from 11.8 m on, if it came to that slowly. */
+/* The flat of its base is 9.9 m wide: rigid it topples from 11.8 m on.  What of it still touches, l, pushes
+ * at l/5 from the edge, by W ~ s^(5/2)/sqrt(turn): from 11.6 m on, with this modulus. */
 static void V26(void)
 {
     const double by = sin(40.0 * DEGREES) - cos(40.0 * DEGREES) * tan(20.0 * DEGREES);
