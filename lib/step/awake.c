@@ -3,9 +3,11 @@
 #include <string.h>
 #include "base/mem.h"
 #include "step/awake.h"
-#include "step/pairing.h"
-#include "step/sleep.h"
+#include "contact/pair_store.h"
+#include "step/interact.h"
+#include "step/stance.h"
 #include "step/told.h"
+#include "world/access.h"
 
 /* So many near pairs are taken at a time, of which one or so is awake; and where somebody may sleep.
  *
@@ -52,6 +54,23 @@ typedef struct {
     double dt;
     int survey;
 } hand;
+
+void fl_near_awake(fl_world *w, int32_t c, int32_t thread, const fl_told *t, double dt, int survey)
+{
+    fl_near *q = &w->pair[c];
+    fl_pair made, *p = q->full;
+    if (fl_stance_apart(w, q)) {
+        if (p) fl_near_keep(w, q, p); /* what has no room of its own needs none */
+        return;
+    }
+    if (!p) fl_near_pair(w, q, p = &made);
+    p->at = c;
+    fl_interact_look(w, p, thread, t, dt, survey);
+    if (fl_near_keep(w, q, p)) {
+#pragma omp atomic write
+        w->failed = 1;
+    }
+}
 
 static void by_look(fl_world *w, const hand *h, int32_t c, const fl_told *t)
 {

@@ -8,7 +8,8 @@
  * each writes its own result. */
 #ifndef FL_STEP_AWAKE_H
 #define FL_STEP_AWAKE_H
-#include "step/world.h"
+#include "step/told.h"
+#include "world/world.h"
 
 /* Before the threads begin: the shares; nothing has met. */
 void fl_awake_share(fl_world *w);
@@ -19,5 +20,8 @@ void fl_awake_look(fl_world *w, double dt, int survey);
 
 /* When w->hit is known of all: w->live; w->failed where there is no room for it. */
 void fl_awake_told(fl_world *w);
+
+/* Evaluates the c-th near pair, as fl_interact_look(), unless its bounding volumes are apart. */
+void fl_near_awake(fl_world *w, int32_t c, int32_t thread, const fl_told *t, double dt, int survey);
 
 #endif

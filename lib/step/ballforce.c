@@ -9,6 +9,8 @@
 #include "body/integrate.h"
 #include "law/damping.h"
 #include "law/sphere.h"
+#include "sphere/contact_force.h"
+#include "sphere/sphere_pair.h"
 #include "step/balls.h"
 #include "step/lead.h"
 #include "step/leans.h"

@@ -2,26 +2,21 @@
 #include <string.h>
 #include "base/mem.h"
 #include "law/normal.h"
+#include "sphere/contact_force.h"
+#include "sphere/sphere_pair.h"
 #include "step/balls.h"
 #include "step/leans.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/rolls.h"
 #include "step/stiff.h"
+#include "world/access.h"
 
 /* Rounding of coordinates a million sizes away may hide so much of a distance. */
 #define NEARLY 1e-9
 
 enum { MOST_WAYS = 256 };
-
-/* Two spheres. */
-static int meet(const fl_world *w, int32_t i, int32_t j)
-{
-    if (j >= w->n || !w->b.ball[i] || !w->b.ball[j]) return 0;
-    const int32_t law = fl_pairing_law(w, i, j)->kind;
-    return law == FL_LAW_PATCH || law == FL_LAW_CORE;
-}
-
-int fl_balls_are(const fl_world *w, int32_t i, int32_t j) { return meet(w, i, j) || fl_leans_are(w, i, j); }
 
 /* --- which there are --------------------------------------------------------------------------- */
 
@@ -212,8 +207,8 @@ int fl_balls_list(fl_world *w, fl_ball_image *image, int64_t *others, fl_err *er
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
             int32_t cells[3] = {0};
-            lean += fl_leans_are(w, i, j);
-            if (!meet(w, i, j)) continue;
+            lean += fl_sphere_pair_kind(w, i, j) == FL_SPHERE_WALL;
+            if (!fl_sphere_pair_kind(w, i, j) == FL_SPHERE_SPHERE) continue;
             image(w, k, i, j, cells);
             listed[k] = (uint8_t)within(w, i, j, cells);
             at[i + 1] += listed[k];
@@ -371,29 +366,6 @@ double fl_balls_bytes(const fl_world *w)
 }
 
 /* --- as pairs like all others ------------------------------------------------------------------ */
-
-void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, const fl_roll *roll, int hit,
-                  fl_vec3 n, double over, fl_pair *p)
-{
-    const fl_bodies *b = &w->b;
-    const double arm = b->radius[i] - 0.5 * over;
-    fl_pair_start(w, p, i, j);
-    p->asleep = b->odometer[i] + b->odometer[j] + (over < 0.0 ? -over : 0.0);
-    p->n = hit;
-    if (!hit) return;
-    p->slip.force = r->slip;
-    p->slip.k = r->stiff;
-    p->touch = r->touch;
-    p->overlap = over;
-    p->fd = v3_scale(r->damped, n);
-    p->fs = r->rub;
-    p->f = v3_madd(r->rub, r->k * fl_normal_power(over, 1.5) + r->damped, n);
-    p->si = p->ti = v3_madd(fl_rolls_moment(roll), -arm, v3_cross(n, r->rub));
-    p->spring = fl_ball_spring(r, roll);
-    p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring;
-    p->stiff_i = fl_stiff_point(b, i, r->k * fl_normal_slope(over, 1.5), r->stiff, arm,
-                                roll ? fl_rolls_stiff(roll) : 0.0);
-}
 
 /* Row c with its forces of the last touch. */
 static void pair_of(const fl_world *w, int32_t c, fl_pair *p)

@@ -3,11 +3,7 @@
  * ball.h, their forces in law/sphere.h. */
 #ifndef FL_STEP_BALLS_H
 #define FL_STEP_BALLS_H
-#include "step/world.h"
-
-/* Whether i and j < total meet here, by `patch` or `core`: two spheres, that is bodies alike in all
- * directions, or one and a rigid wall of the boundary.  All others are pairs of w->pair. */
-int fl_balls_are(const fl_world *w, int32_t i, int32_t j);
+#include "world/world.h"
 
 /* Rows for those of w->near that are such, spheres that are no farther apart than the skin; image() tells
  * which image of j is meant.  What a row of before remembers goes over.
@@ -43,29 +39,6 @@ static inline fl_vec3 fl_balls_between(const fl_world *w, int32_t c)
     return e && (e[0] | e[1] | e[2]) ? v3_sub(d, fl_cell_way(&w->cell, v3(e[0], e[1], e[2]))) : d;
 }
 
-/* --- their forces, ballforce.c ----------------------------------------------------------------- */
-
-/* Let rows see where bodies [from, to) are and how they move: whenever that has changed, before a touch; in
- * a step of 2h [s] whose first half is over, the forces being those of its begin. */
-void fl_balls_show(fl_world *w, int32_t from, int32_t to, double h);
-
-/* So many more rows and walls touch body i; any thread may say so. */
-static inline void fl_balls_turn(fl_balls *s, int32_t i, int32_t by)
-{
-#pragma omp atomic
-    s->touching[i] += by;
-}
-
-/* The rows of chunk a, by what they see of bodies, over a step of dt [s]; survey: also bounds of omega^2.
- * dt < 0: nothing moves and nothing is evaluated, the sums are made again from what the rows hold.  Any
- * thread may take any chunk; when all are done fl_balls_collect() gives the bodies [from, to) the rest of
- * their sums, once. */
-void fl_balls_touch(fl_world *w, int32_t a, double dt, int survey);
-void fl_balls_collect(fl_world *w, int32_t from, int32_t to);
-
-/* The first chunk of part t of `parts`, of about equal work; of t = parts that behind the last. */
-int32_t fl_balls_share(const fl_world *w, int t, int parts);
-
 /* --- their books ------------------------------------------------------------------------------- */
 
 /* Sum of bounds of omega^2 of the contacts of body k, at the last survey [1/s2]. */
@@ -82,18 +55,6 @@ static inline void fl_balls_force(const fl_world *w, int32_t k, fl_vec3 *f, fl_v
 /* Elastic energy of all rows, that of their springs of friction with it, and that of the springs alone [J].
  */
 void fl_balls_energy(const fl_world *w, double *elastic, double *spring);
-
-/* Of a sphere's row the energy of the springs of friction, with that against rolling, if any [J]. */
-static inline double fl_ball_spring(const fl_ball_row *r, const fl_roll *roll)
-{
-    return (r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0) +
-           (roll ? fl_rolling_energy(*roll) : 0.0);
-}
-
-/* A row of i and j as a pair like all others, at that overlap along n, from j to i: all but its image, and
- * what it does to j. */
-void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, const fl_roll *roll, int hit,
-                  fl_vec3 n, double over, fl_pair *p);
 
 /* Sum of |F| [N], touching rows, and the largest overlap over the sum of the radii with whose it is (-1:
  * nobody's) of the last touch. */

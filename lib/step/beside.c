@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/setup.h"
 #include "step/beside.h"
 #include "base/expo.h"
 #include "base/mem.h"
 #include "out/relay.h"
 #include "step/press.h"
 #include "step/step.h"
+#include "world/access.h"
 
 int fl_beside_make(fl_beside *s, const fl_scene *scene, const fl_field *field, const fl_field *feed,
                    const fl_surface *surface, fl_err *err)

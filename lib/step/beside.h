@@ -16,7 +16,7 @@
 #include <stdio.h>
 #include "base/text.h"
 #include "scene/scene.h"
-#include "step/world.h"
+#include "world/world.h"
 
 #define FL_DOUBT 3.0
 

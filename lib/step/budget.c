@@ -4,12 +4,14 @@
 #include "base/expo.h"
 #include "base/mem.h"
 #include "out/relay.h"
+#include "sim/setup.h"
 #include "step/balls.h"
 #include "step/budget.h"
 #include "step/critical.h"
 #include "step/search.h"
 #include "step/snapshot.h"
 #include "step/step.h"
+#include "world/access.h"
 
 /* The estimate itself is off by some, and a peak is one value, in which nothing cancels: so much of the goal
  * is used. */

@@ -4,7 +4,9 @@
 #include "law/damping.h"
 #include "step/critical.h"
 #include "step/frozen.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/ride.h"
 #include "step/stiff.h"
 

@@ -3,7 +3,7 @@
  * costs in accuracy without a look at any other. */
 #ifndef FL_STEP_CRITICAL_H
 #define FL_STEP_CRITICAL_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the
  * stiffest face it can meet, at its most compliant vertex, lowered for damping: to half of what that of one

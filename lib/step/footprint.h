@@ -3,7 +3,7 @@
  * without what the allocator adds and without what was read (fields, scene). */
 #ifndef FL_STEP_FOOTPRINT_H
 #define FL_STEP_FOOTPRINT_H
-#include "step/world.h"
+#include "world/world.h"
 
 typedef struct {
     double bodies;  /* state, forces, works and books of bodies                                   [B] */

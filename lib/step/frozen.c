@@ -7,6 +7,7 @@
 #include "geom/clip.h"
 #include "step/frozen.h"
 #include "step/stiff.h"
+#include "world/access.h"
 
 /* Centres nearer than this of the size of their face, along its normal, have no length between them. */
 #define FLAT 1e-6

@@ -10,7 +10,7 @@
  * A bonded sphere is a body like all others: its turn counts, and its pairs are of w->pair. */
 #ifndef FL_STEP_FROZEN_H
 #define FL_STEP_FROZEN_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* The bonds of the field whose section [bond] is on; the bodies stand as in the field, body k of it in place
  * k.  The face is the common one of the sharp shapes at the record's centroid, with the record's area; where

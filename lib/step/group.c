@@ -4,6 +4,8 @@
 #include "base/wide.h"
 #include "body/few.h"
 #include "body/integrate.h"
+#include "sim/body_step.h"
+#include "sphere/contact_force.h"
 #include "step/balls.h"
 #include "step/frozen.h"
 #include "step/group.h"

@@ -4,10 +4,7 @@
  * gets one by one. */
 #ifndef FL_STEP_GROUP_H
 #define FL_STEP_GROUP_H
-#include "step/world.h"
-
-/* How many there are. */
-static inline int32_t fl_groups(const fl_world *w) { return (w->n + FL_BALLS_GROUP - 1) / FL_BALLS_GROUP; }
+#include "world/access.h"
 
 /* The two longest ways so far, and another. */
 static inline void fl_longest(double first[2], double moved)
@@ -15,11 +12,6 @@ static inline void fl_longest(double first[2], double moved)
     if (moved > first[0]) first[1] = first[0], first[0] = moved;
     else if (moved > first[1]) first[1] = moved;
 }
-
-/* How many of them a thread takes in a row: where most sleep those that do not fill a register together.  No
- * more than FL_GROUPS, and no bit depends on how many it is. */
-enum { FL_GROUPS = 8 };
-static inline int32_t fl_groups_each(const fl_world *w) { return w->sleep.nap ? FL_GROUPS : 1; }
 
 /* Drag and kick of h and drift of 2 h of those of groups [g, last) that move in this step; gain[] of those
  * that something presses is what the kick changes, and moved of w->group[] how far they have come. */

@@ -2,7 +2,7 @@
 /* interact.h -- the forces of one pair of things, where they touch. */
 #ifndef FL_STEP_INTERACT_H
 #define FL_STEP_INTERACT_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* Evaluate pair p at the positions and velocities of the bodies: its wrenches, energies and memory.
  *   thread   whose scratch to use

@@ -8,7 +8,9 @@
 #ifndef FL_STEP_LEAD_H
 #define FL_STEP_LEAD_H
 #include "law/damping.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/ride.h"
 #include "step/works.h"
 

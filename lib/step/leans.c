@@ -4,19 +4,14 @@
 #include "law/damping.h"
 #include "law/normal.h"
 #include "law/sphere.h"
-#include "step/balls.h"
+#include "sphere/sphere_pair.h"
 #include "step/lead.h"
 #include "step/leans.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/rolls.h"
 #include "step/stiff.h"
-
-int fl_leans_are(const fl_world *w, int32_t i, int32_t j)
-{
-    if (j < w->n + w->pieces || !w->b.ball[i] || w->structure.piece[j - w->n].elastic) return 0;
-    const int32_t law = fl_pairing_law(w, i, j)->kind;
-    return law == FL_LAW_PATCH || law == FL_LAW_CORE;
-}
 
 /* --- which there are --------------------------------------------------------------------------- */
 
@@ -58,7 +53,7 @@ int fl_leans_list(fl_world *w, int64_t n, fl_err *err)
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
             double exponent;
-            if (!fl_leans_are(w, i, j)) continue;
+            if (fl_sphere_pair_kind(w, i, j) != FL_SPHERE_WALL) continue;
             while (at < n_old && before(&old[at], i, j)) at++;
             if (at < n_old && old[at].i == i && old[at].j == j) {
                 if (rolled) s->lean_roll[s->leans] = rolled[at];

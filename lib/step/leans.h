@@ -4,10 +4,7 @@
  * of the centre x_i, D = z n with the height z of the centre over the wall and its normal n. */
 #ifndef FL_STEP_LEANS_H
 #define FL_STEP_LEANS_H
-#include "step/world.h"
-
-/* Whether i < n and j are a sphere and such a wall, by `patch` or `core`. */
-int fl_leans_are(const fl_world *w, int32_t i, int32_t j);
+#include "world/world.h"
 
 /* Rows for those of w->near that are such, n of them; what a row of before remembers goes over.  -1 with
  * FL_SYSTEM. */

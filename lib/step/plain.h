@@ -3,7 +3,7 @@
  * the bits of the way that all others go, several at a time. */
 #ifndef FL_STEP_PLAIN_H
 #define FL_STEP_PLAIN_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* Whether body k < n is such: plain (integrate.h), there, dry, not driven, and with none near but what it has
  * rows with (ball.h), nor pressed by others when the step began. */

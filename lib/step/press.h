@@ -11,7 +11,7 @@
  * w->press.panels is 0 and nothing here is called where the scene asks for neither. */
 #ifndef FL_STEP_PRESS_H
 #define FL_STEP_PRESS_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* One floe on one part over an interval. */
 struct fl_press_event {

@@ -7,7 +7,7 @@
 #ifndef FL_STEP_RIDE_H
 #define FL_STEP_RIDE_H
 #include "out/tables.h"
-#include "step/world.h"
+#include "world/access.h"
 
 /* Build w->ride from the scene, after the pieces have been placed; take them to the pose of t = 0.  Sets
  * w->part_about too.  -1 with FL_INPUT (a part that is not there, a track that cannot be read, a mesh that
@@ -53,12 +53,5 @@ int fl_ride_free_ones(const fl_world *w);
 
 /* Name of mover k for messages: of its part, or "structure". */
 const char *fl_ride_name(const fl_world *w, int32_t k);
-
-/* Whether piece or wall j is moved by what presses on it. */
-static inline int fl_ride_yields(const fl_world *w, int32_t j)
-{
-    const int32_t m = w->ride.m.n ? w->ride.of[j - w->n] : -1;
-    return m >= 0 && w->ride.m.motion[m].free != 0;
-}
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef FL_STEP_ROLLS_H
 #define FL_STEP_ROLLS_H
 #include "law/sphere.h"
-#include "step/world.h"
+#include "world/world.h"
 
 /* A row of i and j, which is -1 for a wall, and what it remembers. */
 typedef struct {

@@ -3,10 +3,13 @@
 #include <string.h>
 #include "base/mem.h"
 #include "step/awake.h"
+#include "sphere/sphere_pair.h"
 #include "step/balls.h"
 #include "step/frozen.h"
 #include "step/group.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/search.h"
 #include "step/sleep.h"
 #include "step/works.h"
@@ -215,7 +218,7 @@ static int find(fl_world *w, fl_err *err)
         for (int64_t k = w->near.first[i]; k < w->near.first[i + 1]; k++) {
             const int32_t j = w->near.partner[k];
             int32_t image[3];
-            if (fl_balls_are(w, i, j)) continue;
+            if (fl_sphere_pair_kind(w, i, j)) continue;
             image_of(w, k, i, j, image);
             if (fl_frozen_stands(w, i, j, image)) continue;
             while (at < n_old && order(&old[at], i, j, image) < 0) fl_near_end(w, &old[at++]);

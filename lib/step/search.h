@@ -2,7 +2,7 @@
 /* search.h -- which pairs are near, kept until something has moved far enough to make it untrue. */
 #ifndef FL_STEP_SEARCH_H
 #define FL_STEP_SEARCH_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* Renew the list of near pairs when it may be incomplete: when any two odometers together have grown by more
  * than the skin since the last search, or when the scene's search_every steps have passed.  Boxes are those

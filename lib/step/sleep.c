@@ -3,6 +3,7 @@
 #include <omp.h>
 #include "base/mem.h"
 #include "body/integrate.h"
+#include "sim/body_step.h"
 #include "step/sleep.h"
 #include "step/step.h"
 #include "step/works.h"
@@ -364,18 +365,6 @@ void fl_sleep_back(fl_world *w)
 
 /* --- who rests --------------------------------------------------------------------------------- */
 
-static int still(const fl_world *w, int32_t j)
-{
-    return j >= w->n && (w->ride.m.n == 0 || w->ride.of[j - w->n] < 0) &&
-           !(w->press.panels && j < w->n + w->pieces);
-}
-
-int fl_sleep_frozen(const fl_world *w, const fl_near *p)
-{
-    if (p->n == 0 || fl_sleep_kind(w, p->i) != FL_RESTS) return 0;
-    return p->j >= w->n ? still(w, p->j) : fl_sleep_kind(w, p->j) == FL_RESTS;
-}
-
 static void rise(fl_world *w, int32_t k)
 {
     fl_sleep *s = &w->sleep;
@@ -421,7 +410,7 @@ void fl_sleep_disturb(fl_world *w)
         const fl_near *p = &w->pair[w->live[c]];
         const int rests = fl_sleep_kind(w, p->i) == FL_RESTS;
         if (p->j < w->n && rests != (fl_sleep_kind(w, p->j) == FL_RESTS)) wake(w, rests ? p->i : p->j);
-        else if (rests && p->j >= w->n && !still(w, p->j)) wake(w, p->i);
+        else if (rests && p->j >= w->n && !fl_thing_is_still(w, p->j)) wake(w, p->i);
     }
 }
 
@@ -514,7 +503,7 @@ static void let_rest(fl_world *w)
         for (int e = 0; e < 2; e++) {
             const int32_t k = ends[e], o = ends[1 - e];
             if (k >= w->n || s->kind[k] != FL_QUIET) continue;
-            if (o >= w->n ? still(w, o) : s->kind[o] != FL_AWAKE) continue;
+            if (o >= w->n ? fl_thing_is_still(w, o) : s->kind[o] != FL_AWAKE) continue;
             s->kind[k] = FL_AWAKE;
             s->until[k] = s->nap[k].since = w->step;
             s->stack[n++] = k;

@@ -27,18 +27,13 @@
 #ifndef FL_STEP_SLEEP_H
 #define FL_STEP_SLEEP_H
 #include <string.h>
-#include "step/world.h"
+#include "world/access.h"
 
 /* -1 with FL_SYSTEM. */
 int fl_sleep_make(fl_world *w, fl_err *err);
 /* What it takes of memory. */
 double fl_sleep_bytes(const fl_world *w);
 void fl_sleep_free(fl_sleep *s);
-
-static inline enum fl_nap_kind fl_sleep_kind(const fl_world *w, int32_t k)
-{
-    return w->sleep.nap && k < w->n ? (enum fl_nap_kind)w->sleep.kind[k] : FL_AWAKE;
-}
 
 /* Whether k takes no part in this step. */
 static inline int fl_sleeps(const fl_world *w, int32_t k)
@@ -71,10 +66,6 @@ static inline double fl_sleep_since(const fl_world *w, int32_t k)
 {
     return w->t0 + (double)(w->sleep.nap[k].since - w->step0) * w->dt;
 }
-
-/* A pair of which nothing is to be computed: it touches, and both rest, or one does and the other is fixed.
- */
-int fl_sleep_frozen(const fl_world *w, const fl_near *p);
 
 /* How long k has slept [s]. */
 static inline double fl_sleep_seconds(const fl_world *w, int32_t k)

@@ -27,7 +27,7 @@
 #define FL_STEP_SNAPSHOT_H
 #include <stdio.h>
 #include "base/text.h"
-#include "step/world.h"
+#include "world/world.h"
 
 /* Write the state between two steps.  Changes nothing; write errors stay in f. */
 void fl_snapshot_write(FILE *f, fl_world *w);

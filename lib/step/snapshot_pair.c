@@ -2,10 +2,13 @@
 #include "step/snapshot_pair.h"
 #include <string.h>
 #include "base/mem.h"
+#include "sphere/sphere_pair.h"
 #include "step/balls.h"
 #include "step/frozen.h"
 #include "step/interact.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/rolls.h"
 
 /* Rows at right angles, of length 1. */
@@ -150,7 +153,7 @@ void fl_snapshot_pair(fl_relay *t, fl_world *w, int32_t c)
             fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in rising order were wanted", i, j);
             return;
         }
-        if (fl_balls_are(w, i, j)) {
+        if (fl_sphere_pair_kind(w, i, j)) {
             fl_text_fail(t->in, t->err, "pair %d and %d is of spheres, a row \"ball\" was wanted", i, j);
             return;
         }
@@ -206,7 +209,7 @@ void fl_snapshot_ball(fl_relay *t, fl_world *w, int32_t c, int32_t last[2])
     fl_relay_close(t);
     if (t->f || t->err->code) return;
     if (i >= j || i < last[0] || (i == last[0] && (w->cell.wraps ? j < last[1] : j <= last[1])) ||
-        !fl_balls_are(w, i, j)) {
+        !fl_sphere_pair_kind(w, i, j)) {
         fl_text_fail(t->in, t->err, "spheres %d and %d found, pairs of spheres in rising order were wanted",
                      i, j);
         return;

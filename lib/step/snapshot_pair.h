@@ -3,7 +3,7 @@
 #ifndef FL_STEP_SNAPSHOT_PAIR_H
 #define FL_STEP_SNAPSHOT_PAIR_H
 #include "out/relay.h"
-#include "step/world.h"
+#include "world/world.h"
 
 /* Pair c of the list; on the way in it has been zeroed, and those before it have been read. */
 void fl_snapshot_pair(fl_relay *t, fl_world *w, int32_t c);

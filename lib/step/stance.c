@@ -5,8 +5,11 @@
 #include "bound/shell.h"
 #include "narrow/frustum.h"
 #include "narrow/nearest.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/stance.h"
+#include "world/access.h"
 
 /* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
  * bound by the old direction lets it sleep for long enough.  One that hovers nearer than that is awake in

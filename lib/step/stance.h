@@ -2,7 +2,7 @@
 /* stance.h -- how two things stand to one another: where they touch, or how far apart they are. */
 #ifndef FL_STEP_STANCE_H
 #define FL_STEP_STANCE_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* Everything is computed relative to B, so that nothing depends on where the world's origin is: o and M take
  * A's frame to B's, R B's to the world's, off is the world vector from A's centre to B's. */

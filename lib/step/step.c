@@ -6,13 +6,15 @@
 #include "base/mem.h"
 #include "base/par.h"
 #include "body/integrate.h"
+#include "sim/body_step.h"
+#include "sim/energy_balance.h"
+#include "sphere/contact_force.h"
 #include "step/awake.h"
 #include "step/balls.h"
 #include "step/critical.h"
 #include "step/frozen.h"
 #include "step/group.h"
 #include "step/leans.h"
-#include "step/pairing.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/search.h"
@@ -20,6 +22,7 @@
 #include "step/step.h"
 #include "step/traffic.h"
 #include "step/works.h"
+#include "world/access.h"
 
 /* Steps between two looks at the stiffness that is active. A contact lasts for many steps of the default
  * size; one that a longer step throws apart would be missed in between, so that these look more often, and
@@ -34,10 +37,6 @@ enum { HELD = 8 };
 
 /* Contacts that are on their way to the processor while another is booked, which takes far less time. */
 enum { ON_WAY = 8 };
-
-/* A residual of no more than this of what is stored may be rounding: that of sums over thousands of floes and
- * steps, each 1e-16 of them. */
-#define ROUNDING 1e-12
 
 static int surveyed(const fl_world *w, int64_t step)
 {
@@ -56,67 +55,6 @@ static void contacts_of_pairs(fl_world *w, double dt, int survey)
     for (int32_t k = 0; k < w->frozen.n; k += FL_FROZEN_LOT)
         fl_frozen_touch(w, k, k + FL_FROZEN_LOT < w->frozen.n ? k + FL_FROZEN_LOT : w->frozen.n);
     fl_awake_look(w, dt, survey);
-}
-
-/* What the spring of a driven floe pulls it down with [N]. */
-static double spring_force(const fl_world *w, int32_t i)
-{
-    double drawn = 0.0;
-    const double k = fl_world_spring(w, i, &drawn);
-    return k * drawn;
-}
-
-/* In waves the work of the water is booked with the kick that it gives. */
-void fl_step_kick(fl_world *w, int32_t k, double h)
-{
-    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-    fl_kick(&w->b, k, h);
-    if (w->sea.waves) fl_sea_book(&w->sea, &w->b, k, h, v, spin);
-}
-
-void fl_step_out(fl_world *w, int32_t k, double s)
-{
-    if (w->sea.n) fl_sea_drag(&w->sea, &w->b, k, 0.5 * s, 0);
-    fl_step_kick(w, k, 0.5 * s);
-    fl_drift(&w->b, k, s);
-}
-
-void fl_step_soft(fl_world *w, int32_t k)
-{
-    fl_bodies *b = &w->b;
-    b->f[k] = v3_scale(b->m[k], w->gravity);
-    b->t[k] = v3(0, 0, 0);
-    if (w->sea.water) fl_sea_force(&w->sea, b, k);
-    if (w->row.n) b->f[k].z -= spring_force(w, k);
-}
-
-int fl_step_press(fl_world *w, int32_t k)
-{
-    fl_bodies *b = &w->b;
-    fl_sink *sink = fl_works_now(w, k);
-    if (sink->n) *sink = (fl_sink){0};
-    if (w->balls.bodies && k < w->n) fl_balls_force(w, k, &b->f[k], &b->t[k]);
-    if (w->balls.leans && k >= w->n + w->pieces) fl_leans_press(w, k, &b->f[k], &b->t[k]);
-    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-        if (!w->hit[w->inc[c]]) continue;
-        const fl_pair *p = w->pair[w->inc[c]].full;
-        b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
-        b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
-        fl_works_add(sink, p, p->i == k);
-    }
-    if (fl_frozen_at(w, k)) fl_frozen_press(w, k, &b->f[k], &b->t[k], sink);
-    return sink->n != 0;
-}
-
-void fl_step_gather(fl_world *w, int32_t k)
-{
-    w->b.f[k] = w->b.t[k] = v3(0, 0, 0);
-    if (k < w->n && fl_world_away(w, k)) {
-        fl_works_clear(w, k);
-        return;
-    }
-    if (k < w->n) fl_step_soft(w, k);
-    fl_step_press(w, k);
 }
 
 /* --- a step by a team of threads ---------------------------------------------------------------- */
@@ -439,45 +377,6 @@ static void account(fl_world *w, double dt, deepest *d)
     w->imbalance = v3_madd(w->imbalance, dt, balance);
 }
 
-double fl_step_stored(const fl_world *w)
-{
-    const fl_ledger *g = &w->ledger;
-    return fabs(g->kinetic) + fabs(g->gravity) + fabs(g->elastic) + fabs(g->hydrostatic) + fabs(g->moving) +
-           fabs(g->spring) + fabs(g->bond);
-}
-
-double fl_step_off(const fl_world *w)
-{
-    const double off = fabs(w->ledger.residual), share = off / w->ledger.throughput;
-    return !(share <= FL_STEP_USABLE) && off <= ROUNDING * fl_step_stored(w) ? 0.0 : share;
-}
-
-int fl_step_unbalanced(const fl_world *w)
-{
-    const fl_ledger *g = &w->ledger;
-    const double scale = g->throughput + fabs(g->elastic);
-    return fl_step_off(w) > FL_STEP_USABLE && fabs(g->residual) > FL_STEP_USABLE * scale;
-}
-
-/* Overlaps past half the radii are deeper than any law is meant for, but as long as the books balance the run
- * may go on: bodies that were put into one another come apart so.  It ends when the residual says that
- * energy is being made. */
-int fl_step_balance(fl_world *w, fl_err *err)
-{
-    const fl_ledger *g = &w->ledger;
-    fl_step_ledger(w);
-    const double scale = g->throughput + fabs(g->elastic);
-    if (!isfinite(g->residual))
-        return fl_fail(err, FL_NUMERIC, "the energy is not a finite number in step %lld (t = %g s)",
-                       (long long)w->step, fl_world_time(w));
-    if (!w->half_steps || !(g->residual > FL_STEP_USABLE * scale)) return 0;
-    return fl_fail(
-        err, FL_NUMERIC,
-        "body %d and %d: they overlapped by more than half of their radii at t = %g s, and energy is "
-        "being made, %.3g J of %.3g J, in step %lld (t = %g s); set a smaller run.dt or stiffer contacts",
-        w->half_i, w->half_j, w->half_time, g->residual, scale, (long long)w->step, fl_world_time(w));
-}
-
 /* From the first such overlap on the books are looked at every WATCH steps. */
 static int watch(fl_world *w, fl_err *err)
 {
@@ -550,90 +449,4 @@ void fl_step_resize(fl_world *w, double dt, double t)
     w->dt = dt;
     ahead(w, 1.0);
     if (w->ride.m.n) fl_ride_ready(w);
-}
-
-/* --- what the books say ------------------------------------------------------------------------ */
-
-void fl_step_ledger(fl_world *w)
-{
-    const fl_bodies *b = &w->b;
-    fl_ledger *g = &w->ledger;
-    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
-           held = 0.0, waves = 0.0;
-    const fl_works lies_ahead = fl_works_ahead(w);
-    for (int32_t i = 0; i < w->n; i++) {
-        const int there = !fl_world_away(w, i);
-        if (there) kinetic += fl_body_kinetic(b, i);
-        if (there) gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
-        held += b->held[i];
-        if (w->row.n && there) {
-            double drawn = 0.0;
-            const double k = fl_world_spring(w, i, &drawn);
-            elastic += 0.5 * k * drawn * drawn;
-        }
-        if (b->added) drag -= b->carried[i];
-        if (w->sea.n) {
-            if (w->sea.water && !w->sea.waves && there) hydro += fl_sea_energy(&w->sea, b, i);
-            drag += w->sea.drained[i];
-            if (w->sea.blown) wind += w->sea.blown[i];
-            if (w->sea.waves) waves += w->sea.waved[i];
-        }
-    }
-    for (int32_t c = 0; c < w->n_live; c++) {
-        const fl_pair *p = w->pair[w->live[c]].full;
-        elastic += p->energy;
-        spring += p->spring;
-    }
-    if (w->balls.bodies) fl_balls_energy(w, &elastic, &spring);
-    const fl_frozen_books frozen = fl_frozen_ledger(w);
-    g->bond = frozen.store;
-    g->fracture = frozen.spent;
-    spring += frozen.spring - frozen.handed;
-    g->kinetic = kinetic;
-    g->gravity = gravity;
-    g->elastic = elastic;
-    g->hydrostatic = hydro;
-    g->damping_now = g->damping - lies_ahead.damping;
-    g->friction_now =
-        g->friction - lies_ahead.friction - spring; /* what the springs hold can still come back */
-    g->drag = drag;
-    g->wind = wind;
-    g->waves = waves;
-    if (w->ride.m.n) {
-        const fl_ride_books r = fl_ride_ledger(w);
-        g->moving = r.kinetic;
-        g->spring = r.stored;
-        g->damper = r.damped;
-        held += r.given;
-    }
-    const double drive = g->drive - lies_ahead.drive + held;
-    g->drive_now = drive;
-    g->residual = kinetic + gravity + elastic + hydro + g->moving + g->spring + g->bond + g->fracture -
-                  g->start + g->damping_now + g->friction_now + drag + g->damper - wind - waves - drive -
-                  g->carried;
-    const double through = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
-                           fabs(waves) + fabs(drive) + kinetic + g->damper + g->moving + fabs(g->fracture);
-    if (through > g->throughput) g->throughput = through;
-}
-
-uint64_t fl_step_hash(const fl_world *w)
-{
-    const fl_bodies *b = &w->b;
-    uint64_t h = FL_HASH_START;
-    for (int32_t i = 0; i < w->n; i++) {
-        if (fl_world_away(w, i)) continue;
-        h = fl_hash(h, &b->x[i], sizeof b->x[i]);
-        h = fl_hash(h, &b->q[i], sizeof b->q[i]);
-        h = fl_hash(h, &b->v[i], sizeof b->v[i]);
-        h = fl_hash(h, &b->L[i], sizeof b->L[i]);
-    }
-    for (int32_t k = 0; k < w->ride.m.n; k++) {
-        const fl_bodies *m = &w->ride.m.b;
-        if (!w->ride.m.motion[k].free) continue;
-        h = fl_hash(h, &m->x[k], sizeof m->x[k]);
-        h = fl_hash(h, &m->q[k], sizeof m->q[k]);
-        h = fl_hash(h, &m->v[k], sizeof m->v[k]);
-        h = fl_hash(h, &m->L[k], sizeof m->L[k]);
-    }
-    return h;
 }

@@ -5,7 +5,9 @@
 #include "base/wide.h"
 #include "law/damping.h"
 #include "step/lead.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/pulls.h"
 #include "step/told.h"
 

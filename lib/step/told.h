@@ -4,7 +4,7 @@
 #ifndef FL_STEP_TOLD_H
 #define FL_STEP_TOLD_H
 #include "step/press.h"
-#include "step/world.h"
+#include "world/world.h"
 
 /* Whether contact p may be told of: it has been looked at, and nobody wants to know its places. */
 static inline int fl_told_of(const fl_world *w, const fl_pair *p)

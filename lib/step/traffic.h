@@ -2,7 +2,7 @@
 /* traffic.h -- floes that leave the domain, and floes that come in. */
 #ifndef FL_STEP_TRAFFIC_H
 #define FL_STEP_TRAFFIC_H
-#include "step/world.h"
+#include "world/world.h"
 
 /* What the scene says of who leaves and who comes, and places for those: w->n rises by them.  Nothing where
  * no bound is free.

@@ -10,51 +10,11 @@
  * Maclaurin's sum of F.x' and, by parts, of F.x'''. */
 #ifndef FL_STEP_WORKS_H
 #define FL_STEP_WORKS_H
-#include "step/world.h"
+#include "world/access.h"
 
 typedef struct {
     double damping, friction, drive; /* [J] */
 } fl_works;
-
-/* Add what damping and friction of pair p do to one of its two. */
-static inline void fl_works_add(fl_sink *s, const fl_pair *p, int is_i)
-{
-    const double sign = is_i ? 1.0 : -1.0;
-    s->n++;
-    s->damping = v3_madd(s->damping, sign, p->fd);
-    s->damping_turn = v3_add(s->damping_turn, is_i ? p->di : p->dj);
-    s->friction = v3_madd(s->friction, sign, p->fs);
-    s->friction_turn = v3_add(s->friction_turn, is_i ? p->si : p->sj);
-}
-
-/* What acts on thing k now, and what did before; n = 0 where nothing does or did. */
-static inline fl_sink *fl_works_now(const fl_world *w, int32_t k) { return &w->sink.at[w->sink.place[k]]; }
-static inline const fl_sink *fl_works_was(const fl_world *w, int32_t k)
-{
-    return &w->was.at[w->was.place[k]];
-}
-
-/* Room for the gain of the first kick of k; NULL where nobody will ask for it. */
-static inline fl_gain *fl_works_gain(const fl_world *w, int32_t k)
-{
-    return w->was.place[k] ? &w->gain[w->was.place[k]] : NULL;
-}
-
-/* What the first half of the step changed of k's speeds, drag as well; 0 where nothing pressed before. */
-static inline const fl_gain *fl_works_lead(const fl_world *w, int32_t k) { return &w->lead[w->was.place[k]]; }
-
-/* It is that, if anybody may ask for it. */
-static inline void fl_works_set_lead(fl_world *w, int32_t k, fl_vec3 v, fl_vec3 spin)
-{
-    if (w->was.place[k]) w->lead[w->was.place[k]] = (fl_gain){v, spin};
-}
-
-/* Nothing acts on thing k any longer. */
-static inline void fl_works_clear(const fl_world *w, int32_t k)
-{
-    fl_sink *s = fl_works_now(w, k);
-    if (s->n) *s = (fl_sink){0};
-}
 
 /* Arrays for total things, with nothing in them.  -1 with FL_SYSTEM. */
 int fl_works_make(fl_world *w, fl_err *err);

@@ -8,8 +8,10 @@
  *     bench_memory [FLOES]     2000 if not said */
 #include <malloc.h>
 #include <stdlib.h>
+#include "sim/energy_balance.h"
 #include "step/footprint.h"
 #include "support/eddies.h"
+#include "world/access.h"
 
 #define STIRRED 1.0 /* [m/s] */
 #define END 1.0     /* [s] */

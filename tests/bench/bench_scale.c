@@ -15,10 +15,12 @@
  * does, or where the energy is off by 1e-4. */
 #include <stdlib.h>
 #include <time.h>
+#include "sim/energy_balance.h"
 #include "step/awake.h"
 #include "step/footprint.h"
 #include "step/search.h"
 #include "support/eddies.h"
+#include "world/access.h"
 
 #define STIRRED 2.0 /* [m/s] */
 #define END 0.2     /* [s] */

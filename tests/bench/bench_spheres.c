@@ -21,6 +21,7 @@
 #include <time.h>
 #include "base/rng.h"
 #include "scene/field_order.h"
+#include "sim/energy_balance.h"
 #include "step/search.h"
 #include "support/lab.h"
 

@@ -21,7 +21,11 @@
 #include <time.h>
 #include "base/rng.h"
 #include "body/integrate.h"
-#include "step/pairing.h"
+#include "step/awake.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
+#include "sim/energy_balance.h"
 #include "step/search.h"
 #include "step/sleep.h"
 #include "support/lab.h"

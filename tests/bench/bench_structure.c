@@ -15,7 +15,9 @@
 #include <time.h>
 #include "base/pi.h"
 #include "step/interact.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "support/lab.h"
 
 #define RADIUS 0.05

@@ -6,7 +6,9 @@
 #include <math.h>
 #include <stdio.h>
 #include "step/interact.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 

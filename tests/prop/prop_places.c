@@ -7,7 +7,9 @@
 #include <string.h>
 #include "narrow/nearest.h"
 #include "step/interact.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/stance.h"
 #include "support/lab.h"
 #include "support/shapes.h"

@@ -5,12 +5,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "sim/energy_balance.h"
 #include "support/near.h"
 #include "base/rng.h"
 #include "step/balls.h"
 #include "step/snapshot.h"
 #include "step/step.h"
 #include "support/scenes.h"
+#include "world/access.h"
 
 static char *snapshot(fl_world *w, size_t *n)
 {

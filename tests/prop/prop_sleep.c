@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "sim/energy_balance.h"
 #include "support/near.h"
 #include "base/par.h"
 #include "base/rng.h"

@@ -4,6 +4,7 @@
  * mirror. */
 #include <math.h>
 #include <stdlib.h>
+#include "sim/energy_balance.h"
 #include "support/near.h"
 #include "base/rng.h"
 #include "support/lab.h"

@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include "base/par.h"
+#include "sim/energy_balance.h"
 #include "support/bits.h"
 #include "support/scenes.h"
 

@@ -2,7 +2,7 @@
 /* bits.h -- one number for every bit of a world: state, books and loads. */
 #ifndef FL_TESTS_BITS_H
 #define FL_TESTS_BITS_H
-#include "step/world.h"
+#include "world/world.h"
 
 uint64_t bits_of(fl_world *w);
 

@@ -7,10 +7,14 @@
 #include "geom/facet.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
+#include "sim/energy_balance.h"
+#include "sim/setup.h"
 #include "step/balls.h"
 #include "step/critical.h"
 #include "step/interact.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "support/lab.h"
 
 static void must(int rc, const fl_err *err)

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/setup.h"
 #include "step/snapshot.h"
 #include "support/fuzz.h"
 #include "support/state.h"

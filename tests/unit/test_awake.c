@@ -5,6 +5,7 @@
 #include "step/awake.h"
 #include "support/lab.h"
 #include "support/near.h"
+#include "world/access.h"
 
 /* 144 floes in rows; those of a row touch one another, and are near the rows beside. */
 static void rows(lab *l, int threads)

@@ -4,10 +4,15 @@
 #include "law/damping.h"
 #include "law/normal.h"
 #include "law/sphere.h"
+#include "sim/energy_balance.h"
+#include "sphere/contact_force.h"
+#include "sphere/sphere_pair.h"
 #include "step/balls.h"
 #include "step/interact.h"
 #include "step/leans.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/search.h"
 #include "support/bits.h"
 #include "support/lab.h"
@@ -330,7 +335,7 @@ static void sums_over_pairs(void **state)
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         assert_true(p->i > i || (p->i == i && p->j >= j)); /* in order, with boxes between them */
         i = p->i, j = p->j;
-        if (!fl_balls_are(w, p->i, p->j) || !p->n) continue;
+        if (!fl_sphere_pair_kind(w, p->i, p->j) || !p->n) continue;
         const fl_vec3 dv = v3_sub(w->b.v[i], w->b.v[j]);
         f[i] = v3_add(f[i], p->f), f[j] = v3_sub(f[j], p->f);
         t[i] = v3_add(t[i], p->ti), t[j] = v3_add(t[j], p->tj);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
+#include "sim/energy_balance.h"
+#include "sim/setup.h"
 #include "support/near.h"
 #include "body/integrate.h"
 #include "scene/scene_check.h"

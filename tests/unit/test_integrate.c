@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
+#include "sim/energy_balance.h"
 #include "support/near.h"
 #include "base/pi.h"
 #include "base/rng.h"

@@ -6,7 +6,9 @@
 #include "base/mem.h"
 #include "law/material.h"
 #include "step/footprint.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "support/lab.h"
 #include "support/near.h"
 

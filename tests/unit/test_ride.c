@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What of a structure moves, by the sections of the scene. */
+#include "sim/setup.h"
 #include "support/near.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/body_step.h"
+#include "sim/energy_balance.h"
 #include "support/near.h"
 #include <math.h>
 #include <string.h>

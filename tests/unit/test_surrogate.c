@@ -3,7 +3,9 @@
 #include <math.h>
 #include "base/rng.h"
 #include "step/interact.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/pulls.h"
 #include "support/lab.h"
 #include "support/near.h"

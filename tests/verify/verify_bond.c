@@ -6,9 +6,11 @@
 #include "base/pi.h"
 #include "base/rng.h"
 #include "body/integrate.h"
+#include "sim/energy_balance.h"
 #include "step/frozen.h"
 #include "support/lab.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

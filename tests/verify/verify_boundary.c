@@ -7,9 +7,12 @@
 #include "base/pi.h"
 #include "base/rng.h"
 #include "scene/scene_check.h"
+#include "sim/energy_balance.h"
+#include "sim/setup.h"
 #include "step/traffic.h"
 #include "support/lab.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

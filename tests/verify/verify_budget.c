@@ -10,6 +10,7 @@
 #include "step/budget.h"
 #include "step/critical.h"
 #include "step/step.h"
+#include "world/access.h"
 
 /* --- the scenes -------------------------------------------------------------------------------- */
 

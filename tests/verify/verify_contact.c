@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include "base/pi.h"
 #include "narrow/places.h"
+#include "sim/energy_balance.h"
 #include "step/stance.h"
 #include "support/lab.h"
 #include "support/sweep.h"

@@ -5,8 +5,10 @@
 #include <stdio.h>
 #include "base/pi.h"
 #include "base/rng.h"
+#include "sim/energy_balance.h"
 #include "support/lab.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 #define G 9.81
 static const fl_vec3 ZERO = {0, 0, 0};

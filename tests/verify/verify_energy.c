@@ -5,8 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "law/material.h"
+#include "sim/energy_balance.h"
 #include "step/interact.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 #include "support/sweep.h"

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include "base/pi.h"
+#include "sim/energy_balance.h"
 #include "support/lab.h"
 #include "support/near.h"
 #include "support/verify.h"

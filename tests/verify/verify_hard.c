@@ -15,12 +15,14 @@
 #include "base/rng.h"
 #include "narrow/gjk.h"
 #include "scene/field_order.h"
+#include "sim/energy_balance.h"
 #include "step/frozen.h"
 #include "step/snapshot.h"
 #include "step/balls.h"
 #include "support/lab.h"
 #include "support/scenes.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

@@ -8,6 +8,7 @@
 #include "step/critical.h"
 #include "support/lab.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 /* So many alike in each direction of a cell that repeats itself, each pressed into the next by a millimetre;
  * in a direction with one nothing touches. */

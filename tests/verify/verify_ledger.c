@@ -2,6 +2,7 @@
 /* The ledger of a field of 200 floes that drift against a cylinder: what it does not close by. */
 #include <math.h>
 #include "base/rng.h"
+#include "sim/energy_balance.h"
 #include "support/lab.h"
 #include "support/verify.h"
 #include "step/sleep.h"

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "base/pi.h"
+#include "sim/energy_balance.h"
 #include "step/ride.h"
 #include "support/lab.h"
 #include "support/verify.h"

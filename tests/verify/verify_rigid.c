@@ -8,6 +8,7 @@
 #include "base/rng.h"
 #include "body/integrate.h"
 #include "law/material.h"
+#include "sim/energy_balance.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 #include "support/verify.h"

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include "base/pi.h"
 #include "law/material.h"
+#include "sim/energy_balance.h"
 #include "support/lab.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 #define G 9.81
 

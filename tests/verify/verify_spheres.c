@@ -12,7 +12,9 @@
 #include "law/manual.h"
 #include "law/material.h"
 #include "law/normal.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "support/lab.h"
 #include "support/verify.h"
 

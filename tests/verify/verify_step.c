@@ -4,11 +4,13 @@
 #include <stdlib.h>
 #include "base/rng.h"
 #include "law/damping.h"
+#include "sim/energy_balance.h"
 #include "step/balls.h"
 #include "step/critical.h"
 #include "support/lab.h"
 #include "support/shapes.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 /* A motion of all floes: shift and small turn of each. */
 typedef struct {

@@ -7,9 +7,11 @@
 #include "base/pi.h"
 #include "base/rng.h"
 #include "law/manual.h"
+#include "sim/energy_balance.h"
 #include "support/lab.h"
 #include "support/sweep.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
 

@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/pi.h"
 #include "base/rng.h"
+#include "sim/energy_balance.h"
 #include "stat/welch.h"
 #include "support/lab.h"
 #include "support/shapes.h"

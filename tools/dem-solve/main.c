@@ -10,6 +10,7 @@
 #include "options.h"
 #include "run.h"
 #include "save.h"
+#include "sim/setup.h"
 #include "targets.h"
 #include "scene/field.h"
 #include "scene/field_order.h"
@@ -17,6 +18,7 @@
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
 #include "scene/scene_show.h"
+#include "world/access.h"
 
 /* The scene with what the command line says of it. */
 static int read_scene(fl_scene *s, const struct options *o, fl_err *err)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
 #include "run.h"
+#include "sim/energy_balance.h"
 #include "step/critical.h"
 #include "step/frozen.h"
 #include "step/sleep.h"

@@ -8,6 +8,7 @@
 #include "out/tables.h"
 #include "run.h"
 #include "save.h"
+#include "sim/energy_balance.h"
 #include "step/balls.h"
 #include "step/critical.h"
 #include "step/frozen.h"

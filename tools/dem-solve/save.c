@@ -12,6 +12,7 @@
 #include "step/critical.h"
 #include "step/snapshot.h"
 #include "step/step.h"
+#include "world/access.h"
 
 static const char *const TABLE[TABLES] = {"loads",  "state",  "energy", "contacts", "hash",
                                           "frames", "panels", "events", "bonds"};

@@ -3,6 +3,7 @@
 #include <string.h>
 #include "bound/shell.h"
 #include "run.h"
+#include "sim/energy_balance.h"
 #include "step/balls.h"
 #include "step/ride.h"
 #include "step/step.h"

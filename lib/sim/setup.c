@@ -8,13 +8,17 @@
 #include "geom/mass.h"
 #include "step/balls.h"
 #include "step/frozen.h"
-#include "step/pairing.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
 #include "step/press.h"
 #include "step/ride.h"
 #include "step/sleep.h"
 #include "step/traffic.h"
 #include "step/works.h"
-#include "step/world.h"
+#include "sim/setup.h"
+#include "water/added.h"
+#include "world/access.h"
 
 /* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its
  * end. */
@@ -262,18 +266,6 @@ static void make_cell(fl_world *w)
 #define MOST_CELLS 1e6 /* a body may have gone through so many */
 
 static fl_vec3 normal_of(const fl_piece *wall) { return q_rotate(wall->q, v3(0, 0, 1)); }
-
-const char *fl_world_wall(const fl_world *w, int32_t k, char name[64])
-{
-    const fl_piece *wall = &w->structure.piece[w->pieces + k];
-    const fl_vec3 e = normal_of(wall);
-    const char axis = fabs(e.x) > 0.5 ? 'x' : fabs(e.y) > 0.5 ? 'y' : 'z';
-    snprintf(name, 64, "the wall at %c = %g m", axis,
-             axis == 'x'   ? wall->x.x
-             : axis == 'y' ? wall->x.y
-                           : wall->x.z);
-    return name;
-}
 
 static int before_walls(const fl_world *w, int32_t i, fl_err *err)
 {
@@ -593,13 +585,6 @@ int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field,
 fail:
     fl_world_free(w);
     return -1;
-}
-
-int32_t fl_world_name(const fl_world *w, int32_t k)
-{
-    if (k < w->n) return w->id[k];
-    const int32_t part = w->structure.piece[k - w->n].part;
-    return part >= 0 ? -1 - part : -1 - w->parts - (k - w->n - w->pieces);
 }
 
 void fl_world_free(fl_world *w)

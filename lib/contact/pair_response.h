@@ -1,25 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pairing.h -- a pair of things enters the list of near pairs. */
-#ifndef FL_STEP_PAIRING_H
-#define FL_STEP_PAIRING_H
+/* pair_response.h -- effective mass and compliance of a pair at a contact. */
+#ifndef FL_CONTACT_PAIR_RESPONSE_H
+#define FL_CONTACT_PAIR_RESPONSE_H
 #include "base/wide.h"
 #include "body/integrate.h"
-#include "step/world.h"
-
-/* Resolve the laws of all pairs of materials in the scene, w->law. -1 with FL_SYSTEM. */
-int fl_pairing_laws(fl_world *w, fl_err *err);
-
-/* The law of bodies i and j. */
-const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j);
-
-/* Stiffness of one place between i and j [N/m^n], and n.  Where a core is a point, and in `core` a segment,
- * places are Hertz's with exponent 3/2; between others they are what the scene says: of `patch` n is 0, and
- * this is its c [N/m2].  What a scene gives is kappa of a whole face, or of Hertz where one of the two is
- * round: a capsule has the c that makes its end as stiff. */
-double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent);
-
-/* A new pair that does not touch. */
-void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
+#include "world/world.h"
 
 /* How both of a pair yield to impulses. */
 typedef struct {
@@ -76,27 +61,5 @@ static inline int fl_pair_is_free(const fl_world *w, const fl_pair *p)
 {
     return fl_pair_is_plain(w, p) && !w->b.hold[p->i] && (p->j >= w->n || !w->b.hold[p->j]);
 }
-
-/* Free what a pair has of its own. */
-void fl_pair_end(fl_pair *p);
-
-/* Two things are near, and do not touch. */
-void fl_near_start(fl_near *q, int32_t i, int32_t j, const int32_t image[3]);
-
-/* The pair that it is, where it has none of its own. */
-void fl_near_pair(const fl_world *w, const fl_near *q, fl_pair *p);
-
-/* Keep p, as it is now: a contact has room of its own, of others lasts what has to.  p is its own, or such as
- * fl_near_pair() made; any thread.  -1 when memory runs out: then p has been ended. */
-int fl_near_keep(fl_world *w, fl_near *q, fl_pair *p);
-
-/* Free what it has of its own. */
-void fl_near_end(fl_world *w, fl_near *q);
-
-/* Of the c-th near pair the forces of now, as fl_interact_look(). */
-void fl_near_awake(fl_world *w, int32_t c, int32_t thread, const fl_told *t, double dt, int survey);
-
-/* End all near pairs of a world. */
-void fl_near_free(fl_world *w);
 
 #endif
