@@ -29,7 +29,7 @@ function sums(k, which,    i, p, v, s, ss) {
 }
 function cell(k, which) { sums(k, which); return sprintf("%.2f +- %.2f", mean, error) }
 END {
-    if (!n || runs != 2 * n) { print "jam.awk: two runs a pair were wanted" >"/dev/stderr"; exit 3 }
+    if (!n || runs != 2 * n) { print "jam.awk: two runs a pair are expected" >"/dev/stderr"; exit 3 }
     printf "%d pairs of %s s\n%-14s %18s %18s %18s %8s %18s\n", n, seconds, "", "tolerance 0", tol,
         "difference", "t", "deviations"
     for (k = col["impulse[kN.s]"]; k <= col["damping[kJ]"]; k++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* vectors.c -- what __cpu_model tells of the machine, defined anew: a program linked with this takes the
- * functions of base/wide.h for the vectors that WIDTH names, 0 none, 1 << 10 those of AVX2. */
+ * functions of base/simd.h for the vectors that WIDTH names, 0 none, 1 << 10 those of AVX2. */
 struct processor {
     unsigned vendor, type, subtype, features[1];
 };

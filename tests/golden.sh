@@ -109,7 +109,7 @@ wanted=0
 [ -f "$case_dir/status" ] && wanted=$(cat "$case_dir/status")
 found=$(cat "$scratch/1.status")
 if [ "$found" -ne "$wanted" ]; then
-    complain "status $found, $wanted was wanted"
+    complain "status $found, $wanted is expected"
     head -n 20 "$scratch/1.stderr"
 fi
 

@@ -67,7 +67,7 @@ esac
 root=$(cd "$(dirname "$0")/.." && pwd) || exit 4
 cd "$root" || exit 4
 build=$(cd "$build" 2>/dev/null && pwd) || {
-    echo "run.sh: ${2-}: no such folder, the one that make built into was wanted" >&2
+    echo "run.sh: ${2-}: no such folder, the one that make built into is expected" >&2
     exit 2
 }
 
@@ -116,7 +116,7 @@ programs() # KIND
 all_verify()
 {
     programs verify
-    add verify/verify_hard_told "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard'"
+    add verify/verify_hard_told "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
 }
 
 # The sanitizers' map of memory may collide with addresses drawn at random where the kernel draws from many.

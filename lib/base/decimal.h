@@ -17,7 +17,7 @@
  * their last place, and unless a halfway point between two doubles lies within these, they decide.  What they
  * leave open (about one text in 2^73, exact ties with q < 0, subnormal numbers) goes to strtod().
  * Source: the idea of D. Lemire and M. Eisel, Software: Practice and Experience 51 (2021) 1700. */
-const char *fl_decimal(const char *s, double *x);
+const char *fl_decimal_read(const char *s, double *x);
 
 /* The other way, for x = m 2^e > 0 with m < 2^53: the whole part and the fraction of  x 10^q,
  *     x 10^q = whole + (fraction + d) / 2^64,   0 <= d < 2.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/option.h"
-#include "base/num.h"
+#include "base/number_text.h"
 
 int fl_option_unknown(const char *program, const struct option *known, int c, int letter, const char *word,
                       fl_err *err)
@@ -15,7 +15,7 @@ int fl_option_unknown(const char *program, const struct option *known, int c, in
 
 int fl_option_whole(const char *option, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err)
 {
-    if (fl_num_i32(text, lo, hi, x) == 0) return 0;
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a whole number from %d to %d was wanted", option, text,
+    if (fl_number_i32(text, lo, hi, x) == 0) return 0;
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a whole number from %d to %d is expected", option, text,
                    lo, hi);
 }

@@ -9,8 +9,8 @@
 #include <time.h>
 #include <unistd.h>
 #include <zlib.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/stream.h"
 
 enum { CHUNK = 1 << 16 };
@@ -141,7 +141,7 @@ int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err)
     return in->gzip ? gzip_read(in, buf, n, err) : plain_read(in, buf, n, err);
 }
 
-void fl_in_patience(fl_in *in, double seconds) { in->patience = seconds; }
+void fl_in_follow(fl_in *in, double seconds) { in->patience = seconds; }
 
 const char *fl_in_name(const fl_in *in) { return in->name; }
 
@@ -221,7 +221,7 @@ static int name_out(fl_out *out, const char *path, int *direct, fl_err *err)
     return fl_fail(err, FL_SYSTEM, "out of memory");
 }
 
-char *fl_out_unfinished(const char *path)
+char *fl_out_part_path(const char *path)
 {
     fl_out out;
     fl_err err = {0};
@@ -320,7 +320,7 @@ static void sync_folder(const char *path)
 /* The sentence of a write that failed; why 0: nobody knows. */
 static int lost(const fl_out *out, int why, fl_err *err)
 {
-    const int kept = out->keep && out->tmp;
+    const int kept = out->keep_part && out->tmp;
     return fl_fail(err, FL_SYSTEM, "%s: %s%s%s", out->path ? out->path : "<stdout>",
                    why ? strerror(why) : "could not write all of it",
                    kept ? "; what was written until then is kept in " : "", kept ? out->tmp : "");
@@ -375,7 +375,7 @@ int fl_out_close(fl_out *out, fl_err *err)
         out->gz = NULL;
     }
     if (!bad && out->tmp && rename(out->tmp, out->path) != 0) bad = 1, why = errno;
-    if (bad && out->tmp && !out->keep) unlink(out->tmp);
+    if (bad && out->tmp && !out->keep_part) unlink(out->tmp);
     else if (bad && plain && alone >= 0) cut_to_line(alone);
     if (alone >= 0) close(alone);
     if (bad) lost(out, why, err);
@@ -389,7 +389,7 @@ int fl_out_close(fl_out *out, fl_err *err)
 void fl_out_abort(fl_out *out)
 {
     zipper *z = out->gz;
-    if (out->tmp && !out->keep) unlink(out->tmp); /* while the lock is held */
+    if (out->tmp && !out->keep_part) unlink(out->tmp); /* while the lock is held */
     if (out->f && out->f != stdout) fclose(out->f);
     if (z) {
         zip_end(z);
@@ -406,8 +406,8 @@ void fl_out_abort(fl_out *out)
 /* Hash of the last bytes before `at`; 0 where they cannot be read. */
 static uint64_t tail_of(int fd, int64_t at)
 {
-    unsigned char last[FL_MARK_TAIL] = {0};
-    const int64_t n = at < FL_MARK_TAIL ? at : FL_MARK_TAIL;
+    unsigned char last[FL_FILE_MARK_TAIL] = {0};
+    const int64_t n = at < FL_FILE_MARK_TAIL ? at : FL_FILE_MARK_TAIL;
     char self[40];
     int64_t got = pread(fd, last, (size_t)n, at - n);
     if (got < 0) { /* open for writing alone, as the shell opens standard output */
@@ -420,28 +420,28 @@ static uint64_t tail_of(int fd, int64_t at)
     return got == n ? fl_hash(FL_HASH_START, last, n) : 0;
 }
 
-int fl_out_mark(fl_out *out, fl_mark *mark, fl_err *err)
+int fl_out_mark(fl_out *out, fl_file_mark *mark, fl_err *err)
 {
     struct stat st;
-    *mark = (fl_mark){-1, 0};
+    *mark = (fl_file_mark){-1, 0};
     if (settle(out)) return lost(out, errno, err);
     const int fd = fd_of(out);
     if (fstat(fd, &st) || !S_ISREG(st.st_mode)) return 0;
-    mark->at = lseek(fd, 0, SEEK_CUR);
-    if (mark->at >= 0) mark->tail = tail_of(fd, mark->at);
-    out->keep = 1;
+    mark->offset = lseek(fd, 0, SEEK_CUR);
+    if (mark->offset >= 0) mark->tail_hash = tail_of(fd, mark->offset);
+    out->keep_part = 1;
     return 0;
 }
 
-static int fits(int fd, const fl_mark *mark)
+static int fits(int fd, const fl_file_mark *mark)
 {
     struct stat st;
-    if (fstat(fd, &st) || !S_ISREG(st.st_mode) || st.st_size < mark->at) return 0;
-    return mark->tail == 0 || tail_of(fd, mark->at) == mark->tail;
+    if (fstat(fd, &st) || !S_ISREG(st.st_mode) || st.st_size < mark->offset) return 0;
+    return mark->tail_hash == 0 || tail_of(fd, mark->offset) == mark->tail_hash;
 }
 
 /* Which of the two names holds the file: 0 tmp, 1 path, -1 none. */
-static int holder(const fl_out *out, const fl_mark *mark)
+static int holder(const fl_out *out, const fl_file_mark *mark)
 {
     const char *const name[2] = {out->tmp, out->path};
     for (int k = 0; k < 2; k++) {
@@ -459,26 +459,26 @@ static int no_holder(const fl_out *out, fl_err *err)
                    out->path, out->tmp);
 }
 
-int fl_out_marked(const char *path, const fl_mark *mark, fl_err *err)
+int fl_out_check_mark(const char *path, const fl_file_mark *mark, fl_err *err)
 {
     fl_out out;
     int direct, rc = 0;
-    if (strcmp(path, "-") == 0 || mark->at < 0) return 0;
+    if (strcmp(path, "-") == 0 || mark->offset < 0) return 0;
     if (name_out(&out, path, &direct, err)) return -1;
     if (!direct && holder(&out, mark) < 0) rc = no_holder(&out, err);
-    out.keep = 1;
+    out.keep_part = 1;
     fl_out_abort(&out);
     return rc;
 }
 
-int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, int *fresh, fl_err *err)
+int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_file_mark *mark, int *fresh, fl_err *err)
 {
     int fd = STDOUT_FILENO, direct = 0;
     *fresh = 1;
     *out = (fl_out){0};
-    if (mark->at < 0) return fl_out_open(out, path, gzip, err);
+    if (mark->offset < 0) return fl_out_open(out, path, gzip, err);
     if (strcmp(path, "-") == 0) {
-        if (mark->at == 0 || !fits(fd, mark)) return fl_out_open(out, path, gzip, err);
+        if (mark->offset == 0 || !fits(fd, mark)) return fl_out_open(out, path, gzip, err);
     } else {
         if (name_out(out, path, &direct, err)) return -1;
         if (direct) {
@@ -486,7 +486,7 @@ int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, 
             return fl_out_open(out, path, gzip, err);
         }
         const int which = holder(out, mark);
-        out->keep = 1;
+        out->keep_part = 1;
         if (which < 0) no_holder(out, err);
         if (which < 0) goto fail;
         if (which == 1) { /* what has the other name may be that of a run under way */
@@ -499,7 +499,7 @@ int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, 
         fd = open_alone(out, 0, err);
         if (fd < 0) goto fail;
     }
-    if (ftruncate(fd, mark->at) || lseek(fd, mark->at, SEEK_SET) < 0) {
+    if (ftruncate(fd, mark->offset) || lseek(fd, mark->offset, SEEK_SET) < 0) {
         fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
         if (fd != STDOUT_FILENO) close(fd);
         goto fail;

@@ -22,7 +22,7 @@ int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err);
 
 /* A file that ends is read again, as something else may still be writing it, until it has not grown for so
  * many seconds; 0, as at first, takes its end for the end. */
-void fl_in_patience(fl_in *in, double seconds);
+void fl_in_follow(fl_in *in, double seconds);
 
 /* The name to put in messages: the path, or "<stdin>". */
 const char *fl_in_name(const fl_in *in);
@@ -32,15 +32,16 @@ typedef struct {
     FILE *f;          /* write here; NULL when closed */
     char *path, *tmp; /* NULL for standard output; tmp alone NULL for a device or a pipe */
     void *gz;         /* the compressor, when asked for */
-    int keep;         /* tmp stays when something fails: what is in it is good without the rest */
+    int keep_part;    /* tmp stays when something fails: what is in it is good without the rest */
 } fl_out;
 
 /* A place in a file, from which another run of the program can go on writing it. */
 typedef struct {
-    int64_t at;    /* bytes before it; -1: what is written to has no places, as a pipe */
-    uint64_t tail; /* hash of the last bytes before it, at most FL_MARK_TAIL; 0: they cannot be read */
-} fl_mark;
-enum { FL_MARK_TAIL = 4096 };
+    int64_t offset; /* bytes before it; -1: what is written to has no places, as a pipe */
+    uint64_t
+        tail_hash; /* hash of the last bytes before it, at most FL_FILE_MARK_TAIL; 0: they cannot be read */
+} fl_file_mark;
+enum { FL_FILE_MARK_TAIL = 4096 };
 
 /* Open path for writing ("-" is standard output); gzip compresses, 2 faster and less.  A link is followed,
  * and a device or a pipe (/dev/null, a fifo) is written to directly.  What is unfinished, PATH.part, is
@@ -54,7 +55,7 @@ int fl_out_flush(fl_out *out, fl_err *err);
 
 /* PATH.part of the file that path leads to, to be freed; NULL where a device or a pipe is written to
  * directly, and where memory runs out. */
-char *fl_out_unfinished(const char *path);
+char *fl_out_part_path(const char *path);
 
 /* Flush, sync, and give the file its final name, which is synced too.  -1 with FL_SYSTEM in err when anything
  * written was lost; then no file carries the final name (an older one keeps it), and what was written goes,
@@ -64,18 +65,18 @@ int fl_out_close(fl_out *out, fl_err *err);
 /* Bring what was written to the disk and tell the place.  From here on the unfinished file is kept,
  * PATH.part, since a mark speaks of it.  What is compressed ends a member of the gzip file here and begins
  * another, so that the bytes after a mark do not depend on those before.  -1 with FL_SYSTEM. */
-int fl_out_mark(fl_out *out, fl_mark *mark, fl_err *err);
+int fl_out_mark(fl_out *out, fl_file_mark *mark, fl_err *err);
 
 /* Is there a file that a mark speaks of: PATH.part, or PATH itself when that run ended, long enough and with
  * the same bytes before the mark?  Nothing is changed.  0, or -1 with FL_INPUT.  A mark without a place, and
  * standard output, are always fine. */
-int fl_out_marked(const char *path, const fl_mark *mark, fl_err *err);
+int fl_out_check_mark(const char *path, const fl_file_mark *mark, fl_err *err);
 
 /* Open it as fl_out_open() and go on at the mark; what lies behind is cut off.  Standard output is gone on
  * with when it is a file that the mark speaks of (the shell's >>).  *fresh becomes 1 when there is nothing to
  * go on with, and the output begins as a new one: a pipe, a device, another file at standard output.  -1 with
  * FL_INPUT or FL_SYSTEM. */
-int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_mark *mark, int *fresh, fl_err *err);
+int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_file_mark *mark, int *fresh, fl_err *err);
 
 /* Drop what was written: the final name is not touched.  Accepts a zeroed or closed struct. */
 void fl_out_abort(fl_out *out);

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "base/table.h"
 
 /* "#start T" [s] above the names; the first interval needs it when the record does not begin at 0. */
@@ -11,8 +11,8 @@ static int read_start(fl_table *t, fl_err *err)
 {
     const char *word = t->text.line + strlen("#start");
     word += strspn(word, " \t");
-    if (fl_num_f64(word, &t->start))
-        return fl_text_fail(&t->text, err, "start is \"%.40s\", a finite number was wanted", word);
+    if (fl_number_f64(word, &t->start))
+        return fl_text_fail(&t->text, err, "start is \"%.40s\", a finite number is expected", word);
     t->has_start = 1;
     return 0;
 }
@@ -76,12 +76,13 @@ int fl_table_open(fl_table *t, const char *path, const char *kind, int newest, f
         if (strncmp(t->text.line, "#start", 6) == 0 && strspn(t->text.line + 6, " \t") > 0) {
             if (read_start(t, err)) goto fail;
         }
-        cut = fl_text_cut(&t->text, err);
+        cut = fl_text_split(&t->text, err);
         if (cut < 0) goto fail;
     }
     if (more < 0) goto fail;
     if (!cut) {
-        fl_text_fail(&t->text, err, "the %s table ends here, a row of column names was wanted", t->text.kind);
+        fl_text_fail(&t->text, err, "the %s table ends here, a row of column names is expected",
+                     t->text.kind);
         goto fail;
     }
     if (keep_names(t, err)) goto fail;
@@ -104,7 +105,7 @@ int32_t fl_table_column(const fl_table *t, const char *name)
     return -1;
 }
 
-int fl_table_find(const fl_table *t, const char *name, int32_t *col, fl_err *err)
+int fl_table_require(const fl_table *t, const char *name, int32_t *col, fl_err *err)
 {
     *col = fl_table_column(t, name);
     if (*col >= 0) return 0;
@@ -116,7 +117,8 @@ int fl_table_row(fl_table *t, fl_err *err)
 {
     const int more = fl_text_row(&t->text, err);
     if (more > 0 && t->text.n != t->n)
-        return fl_text_fail(&t->text, err, "%d fields, %d were wanted as there are columns", t->text.n, t->n);
+        return fl_text_fail(&t->text, err, "%d fields, %d are expected as there are columns", t->text.n,
+                            t->n);
     return more;
 }
 
@@ -125,15 +127,15 @@ const char *fl_table_word(const fl_table *t, int32_t col) { return t->text.field
 int fl_table_f64(const fl_table *t, int32_t col, double *x, fl_err *err)
 {
     const char *word = t->text.field[col];
-    if (fl_num_f64(word, x) == 0) return 0;
-    return fl_text_fail(&t->text, err, "%.60s is \"%.40s\", a finite number was wanted", t->name[col], word);
+    if (fl_number_f64(word, x) == 0) return 0;
+    return fl_text_fail(&t->text, err, "%.60s is \"%.40s\", a finite number is expected", t->name[col], word);
 }
 
-int fl_table_within(const fl_table *t, int32_t col, double most, double *x, fl_err *err)
+int fl_table_f64_bounded(const fl_table *t, int32_t col, double most, double *x, fl_err *err)
 {
     if (fl_table_f64(t, col, x, err)) return -1;
     if (fabs(*x) <= most) return 0;
-    return fl_text_fail(&t->text, err, "%s is %g, at most %g was wanted", t->name[col], *x, most);
+    return fl_text_fail(&t->text, err, "%s is %g, at most %g is expected", t->name[col], *x, most);
 }
 
 void fl_table_close(fl_table *t)

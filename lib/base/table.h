@@ -32,7 +32,7 @@ int fl_table_open(fl_table *t, const char *path, const char *kind, int newest, f
 int32_t fl_table_column(const fl_table *t, const char *name);
 
 /* The same, but a column that is missing is FL_INPUT in err, and the nearest name is told. */
-int fl_table_find(const fl_table *t, const char *name, int32_t *col, fl_err *err);
+int fl_table_require(const fl_table *t, const char *name, int32_t *col, fl_err *err);
 
 /* Next row, which must have as many fields as there are columns.  1, 0 at the end, or -1 with err. */
 int fl_table_row(fl_table *t, fl_err *err);
@@ -42,7 +42,7 @@ const char *fl_table_word(const fl_table *t, int32_t col);
 int fl_table_f64(const fl_table *t, int32_t col, double *x, fl_err *err);
 
 /* The same of a number of at most that size. */
-int fl_table_within(const fl_table *t, int32_t col, double most, double *x, fl_err *err);
+int fl_table_f64_bounded(const fl_table *t, int32_t col, double most, double *x, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */
 void fl_table_close(fl_table *t);

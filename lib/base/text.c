@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "base/text.h"
 
 enum { CHUNK = 1 << 16 };
@@ -31,7 +31,7 @@ void fl_text_close(fl_text *t)
 {
     fl_in_close(t->in);
     free(t->chunk);
-    free(t->own);
+    free(t->joined);
     free(t->field);
     free(t->history);
     *t = (fl_text){0};
@@ -44,26 +44,28 @@ int fl_text_fail(const fl_text *t, fl_err *err, const char *fmt, ...)
     va_start(ap, fmt);
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
-    if (t->number == 0) return fl_fail(err, FL_INPUT, "%s: %s", fl_in_name(t->in), what); /* it is empty */
-    return fl_fail(err, FL_INPUT, "%s:%" PRId64 ": %s", fl_in_name(t->in), t->number, what);
+    if (t->line_number == 0)
+        return fl_fail(err, FL_INPUT, "%s: %s", fl_in_name(t->in), what); /* it is empty */
+    return fl_fail(err, FL_INPUT, "%s:%" PRId64 ": %s", fl_in_name(t->in), t->line_number, what);
 }
 
 /* Is there a zero byte before end?  Each stretch of the chunk is looked through once. */
 static int has_zero(fl_text *t, int64_t end)
 {
-    if (end > t->clean) {
-        const char *from = t->chunk + t->clean, *zero = memchr(from, '\0', (size_t)(t->have - t->clean));
-        t->clean = zero ? zero - t->chunk : t->have;
+    if (end > t->nul_free) {
+        const char *from = t->chunk + t->nul_free,
+                   *zero = memchr(from, '\0', (size_t)(t->chunk_len - t->nul_free));
+        t->nul_free = zero ? zero - t->chunk : t->chunk_len;
     }
-    return end > t->clean;
+    return end > t->nul_free;
 }
 
 /* The line begins in this chunk and does not end in it, or did not begin in it: gather it. */
 static int append(fl_text *t, int64_t k, fl_err *err)
 {
     if (t->len + k > FL_TEXT_LINE_MAX) return fl_text_fail(t, err, "line is longer than 1 MiB");
-    if (fl_grow(&t->own, &t->own_cap, t->len + k + 1, 1, err)) return -1;
-    if (k) memcpy(t->own + t->len, t->chunk + t->pos, (size_t)k);
+    if (fl_grow(&t->joined, &t->joined_cap, t->len + k + 1, 1, err)) return -1;
+    if (k) memcpy(t->joined + t->len, t->chunk + t->chunk_pos, (size_t)k);
     t->len += (int32_t)k;
     return 0;
 }
@@ -72,37 +74,38 @@ int fl_text_line(fl_text *t, fl_err *err)
 {
     int zero = 0, whole; /* whole: the line lies in the chunk, where it can stay */
     t->len = 0;
-    t->number++;
+    t->line_number++;
     for (int first = 1;; first = 0) {
-        const char *from = t->chunk + t->pos;
-        const char *end = memchr(from, '\n', (size_t)(t->have - t->pos));
-        const int64_t k = end ? end - from : t->have - t->pos;
-        zero |= has_zero(t, t->pos + k);
+        const char *from = t->chunk + t->chunk_pos;
+        const char *end = memchr(from, '\n', (size_t)(t->chunk_len - t->chunk_pos));
+        const int64_t k = end ? end - from : t->chunk_len - t->chunk_pos;
+        zero |= has_zero(t, t->chunk_pos + k);
         whole = first && end;
         if (whole) {
-            t->line = t->chunk + t->pos;
+            t->line = t->chunk + t->chunk_pos;
             t->len = (int32_t)k;
         } else if (append(t, k, err)) {
             return -1;
         }
-        t->pos += k + (end != NULL);
+        t->chunk_pos += k + (end != NULL);
         if (end) break;
-        t->pos = t->clean = 0;
-        t->have = fl_in_read(t->in, t->chunk, CHUNK, err);
-        if (t->have < 0) {
-            t->have = 0;
+        t->chunk_pos = t->nul_free = 0;
+        t->chunk_len = fl_in_read(t->in, t->chunk, CHUNK, err);
+        if (t->chunk_len < 0) {
+            t->chunk_len = 0;
             return -1;
         }
-        if (t->have == 0) {
+        if (t->chunk_len == 0) {
             if (t->len) break;
-            t->line = t->own;
+            t->line = t->joined;
             t->line[0] = '\0';
-            t->number--;
+            t->line_number--;
             return 0;
         }
     }
-    if (!whole) t->line = t->own;
-    if (t->number == 1 && t->len >= 3 && memcmp(t->line, "\xEF\xBB\xBF", 3) == 0) t->line += 3, t->len -= 3;
+    if (!whole) t->line = t->joined;
+    if (t->line_number == 1 && t->len >= 3 && memcmp(t->line, "\xEF\xBB\xBF", 3) == 0)
+        t->line += 3, t->len -= 3;
     if (t->len && t->line[t->len - 1] == '\r') t->len--;
     t->line[t->len] = '\0';
     if (zero) return fl_text_fail(t, err, "a zero byte: this is not a text file");
@@ -127,14 +130,14 @@ int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err)
     const int more = fl_text_line(t, err);
     if (more < 0) return -1;
     if (!more)
-        return fl_fail(err, FL_INPUT, "%s: empty, a %s file was wanted", fl_in_name(t->in),
+        return fl_fail(err, FL_INPUT, "%s: empty, a %s file is expected", fl_in_name(t->in),
                        kind ? kind : "table");
     if (sscanf(t->line, "#%31s %15s %n", found, digits, &used) != 2 || t->line[used] ||
-        fl_num_i32(digits, 1, INT32_MAX, &version))
-        return fl_text_fail(t, err, "\"%.40s\" does not open a %s file, \"#%s %d\" was wanted", t->line,
+        fl_number_i32(digits, 1, INT32_MAX, &version))
+        return fl_text_fail(t, err, "\"%.40s\" does not open a %s file, \"#%s %d\" is expected", t->line,
                             kind ? kind : "table", kind ? kind : "KIND", newest);
     if (kind && strcmp(found, kind) != 0)
-        return fl_text_fail(t, err, "this is a %s file, a %s file was wanted", found, kind);
+        return fl_text_fail(t, err, "this is a %s file, a %s file is expected", found, kind);
     if (version > newest)
         return fl_text_fail(t, err, "%s version %d is newer than this program, which reads up to %d", found,
                             version, newest);
@@ -150,7 +153,7 @@ static const unsigned char KIND[256] = {
 
 static unsigned char kind_of(char c) { return KIND[(unsigned char)c]; }
 
-int fl_text_cut(fl_text *t, fl_err *err)
+int fl_text_split(fl_text *t, fl_err *err)
 {
     char *p = t->line;
     t->n = t->next = 0;
@@ -172,7 +175,7 @@ int fl_text_row(fl_text *t, fl_err *err)
 {
     int more;
     while ((more = fl_text_line(t, err)) > 0) {
-        const int cut = fl_text_cut(t, err);
+        const int cut = fl_text_split(t, err);
         if (cut) return cut;
     }
     return more;
@@ -189,7 +192,8 @@ int fl_text_f64(fl_text *t, const char *what, double *x, fl_err *err)
 {
     const char *w = "";
     if (fl_text_word(t, what, &w, err)) return -1;
-    if (fl_num_f64(w, x)) return fl_text_fail(t, err, "%s is \"%.40s\", a finite number was wanted", what, w);
+    if (fl_number_f64(w, x))
+        return fl_text_fail(t, err, "%s is \"%.40s\", a finite number is expected", what, w);
     return 0;
 }
 
@@ -197,13 +201,13 @@ int fl_text_i32(fl_text *t, const char *what, int32_t lo, int32_t hi, int32_t *x
 {
     const char *w = "";
     if (fl_text_word(t, what, &w, err)) return -1;
-    if (fl_num_i32(w, lo, hi, x))
-        return fl_text_fail(t, err, "%s is \"%.40s\", a whole number from %d to %d was wanted", what, w, lo,
+    if (fl_number_i32(w, lo, hi, x))
+        return fl_text_fail(t, err, "%s is \"%.40s\", a whole number from %d to %d is expected", what, w, lo,
                             hi);
     return 0;
 }
 
-int fl_text_end(fl_text *t, fl_err *err)
+int fl_text_no_more(fl_text *t, fl_err *err)
 {
     if (t->next == t->n) return 0;
     return fl_text_fail(t, err, "\"%.40s\" was not expected after %d fields", t->field[t->next], t->next);

@@ -11,14 +11,14 @@ enum { FL_TEXT_LINE_MAX = 1 << 20 }; /* a longer line is refused: the file is no
 
 typedef struct {
     fl_in *in;
-    char *chunk;       /* what was read and not yet split */
-    int64_t have, pos; /* of chunk */
-    int64_t clean;     /* no zero byte before this place of chunk */
-    char *line;        /* the current line, cut into fields in place; in chunk, or in own */
-    char *own;         /* a line that lay in two chunks */
-    int32_t len, own_cap;
-    int64_t number; /* of the line, from 1 */
-    char **field;   /* fields of the current row */
+    char *chunk;                  /* what was read and not yet split */
+    int64_t chunk_len, chunk_pos; /* of chunk */
+    int64_t nul_free;             /* no zero byte before this place of chunk */
+    char *line;                   /* the current line, cut into fields in place; in chunk, or in own */
+    char *joined;                 /* a line that lay in two chunks */
+    int32_t len, joined_cap;
+    int64_t line_number; /* of the line, from 1 */
+    char **field;        /* fields of the current row */
     int32_t n, next, field_cap;
     char *history; /* the "#by ..." lines, each with its newline; NULL while there are none */
     int32_t history_len, history_cap;
@@ -42,7 +42,7 @@ int fl_text_line(fl_text *t, fl_err *err);
 
 /* Cut the line just read into field[0 .. n) at blanks and tabs, up to a "#", and set next = 0.  A "#by" line
  * joins the history.  1, or 0 when nothing is on it, or -1 with err. */
-int fl_text_cut(fl_text *t, fl_err *err);
+int fl_text_split(fl_text *t, fl_err *err);
 
 /* Next row: skips blank lines and comments (gathering "#by" lines), cuts at blanks and tabs into
  * field[0 .. n), and sets next = 0.  1, 0 or -1 as above. */
@@ -53,7 +53,7 @@ int fl_text_word(fl_text *t, const char *what, const char **word, fl_err *err);
 int fl_text_f64(fl_text *t, const char *what, double *x, fl_err *err);
 int fl_text_i32(fl_text *t, const char *what, int32_t lo, int32_t hi, int32_t *x, fl_err *err);
 /* Complain about fields that nobody took. */
-int fl_text_end(fl_text *t, fl_err *err);
+int fl_text_no_more(fl_text *t, fl_err *err);
 
 /* Fail with "file:line: " before the sentence.  Returns -1. */
 int fl_text_fail(const fl_text *t, fl_err *err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));

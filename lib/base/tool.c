@@ -7,33 +7,34 @@
 #include <unistd.h>
 #include "base/tool.h"
 
-void fl_by_start(fl_by *by, const char *program)
+void fl_history_line_start(fl_history_line *by, const char *program)
 {
     by->len = snprintf(by->text, sizeof by->text, "#by %s %s", program, FL_VERSION);
 }
 
-void fl_by_add(fl_by *by, const char *fmt, ...)
+void fl_history_line_add(fl_history_line *by, const char *fmt, ...)
 {
     va_list ap;
     int k;
-    if (by->len + 2 >= FL_BY_MAX) return;
+    if (by->len + 2 >= FL_HISTORY_LINE_MAX) return;
     by->text[by->len++] = ' ';
     va_start(ap, fmt);
-    k = vsnprintf(by->text + by->len, (size_t)(FL_BY_MAX - by->len), fmt, ap);
+    k = vsnprintf(by->text + by->len, (size_t)(FL_HISTORY_LINE_MAX - by->len), fmt, ap);
     va_end(ap);
-    by->len += k < FL_BY_MAX - by->len ? k : FL_BY_MAX - by->len - 1;
+    by->len += k < FL_HISTORY_LINE_MAX - by->len ? k : FL_HISTORY_LINE_MAX - by->len - 1;
     for (char *p = by->text; *p; p++) /* one line, whatever a file name holds */
         if ((unsigned char)*p < ' ') *p = ' ';
 }
 
-void fl_by_word(fl_by *by, const char *option, const char *word)
+void fl_history_line_word(fl_history_line *by, const char *option, const char *word)
 {
     const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+-@%^";
     const int whole = word[0] && !word[strspn(word, plain)];
-    fl_by_add(by, whole ? "%s%s" : "%s'%s'", option, word);
+    fl_history_line_add(by, whole ? "%s%s" : "%s'%s'", option, word);
 }
 
-void fl_by_header(FILE *f, const char *kind, int version, const char *history, const fl_by *by)
+void fl_write_file_header(FILE *f, const char *kind, int version, const char *history,
+                          const fl_history_line *by)
 {
     fprintf(f, "#%s %d\n%s%s\n", kind, version, history ? history : "", by->text);
 }

@@ -8,21 +8,22 @@
 
 #define FL_VERSION "0.1.0"
 
-enum { FL_BY_MAX = 2000 };
+enum { FL_HISTORY_LINE_MAX = 2000 };
 
 /* The history line of this run, "#by PROGRAM VERSION OPTIONS\n".  Start it, add what bears on the result. */
 typedef struct {
-    char text[FL_BY_MAX];
+    char text[FL_HISTORY_LINE_MAX];
     int len;
-} fl_by;
-void fl_by_start(fl_by *by, const char *program);
+} fl_history_line;
+void fl_history_line_start(fl_history_line *by, const char *program);
 /* Adds a blank first. */
-void fl_by_add(fl_by *by, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+void fl_history_line_add(fl_history_line *by, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 /* The option, "--ice " or "", and a word of the user's, in quotes where a shell would cut it. */
-void fl_by_word(fl_by *by, const char *option, const char *word);
+void fl_history_line_word(fl_history_line *by, const char *option, const char *word);
 
 /* Open a file of ours: "#KIND VERSION", the history it continues (NULL for none), its own line. */
-void fl_by_header(FILE *f, const char *kind, int version, const char *history, const fl_by *by);
+void fl_write_file_header(FILE *f, const char *kind, int version, const char *history,
+                          const fl_history_line *by);
 
 /* Print "program 0.1.0" to standard output, for --version. */
 void fl_tool_version(const char *program);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/wide.h"
+#include "base/simd.h"
 #include "body/integrate.h"
 
 /* Rounding alone moves |q| from 1: one Newton step for 1/sqrt(|q|^2) takes it back. */
@@ -15,16 +15,16 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3
     fl_vec3 e = m3_col(q_matrix(q), 0);
     double l = v3_dot(e, L);
     const fl_vec3 first = v3_scale(l, e);
-    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * l));
+    if (a0 != 0.0) q = q_mul(q, q_about_axis(0, a0 * l));
     e = m3_col(q_matrix(q), 2);
     l = v3_dot(e, L);
-    if (a2 != 0.0) q = q_mul(q, q_about(2, a2 * l));
+    if (a2 != 0.0) q = q_mul(q, q_about_axis(2, a2 * l));
     q = q_mul(q_of_vector(v3_scale(dt * invI.y, L)), q);
     const fl_mat3 R = q_matrix(q);
     const fl_vec3 top = v3_madd(v3_scale(invI.y, L), 0.5 * more * l, v3_add(e, m3_col(R, 2)));
     e = m3_col(R, 0);
     l = v3_dot(e, L);
-    if (a0 != 0.0) q = q_mul(q, q_about(0, a0 * l));
+    if (a0 != 0.0) q = q_mul(q, q_about_axis(0, a0 * l));
     *mean = v3_madd(top, 0.5 * less, v3_madd(first, l, e));
     return renormal(q);
 }
@@ -32,10 +32,11 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3
 void fl_kick(fl_bodies *b, int32_t i, double h)
 {
     const fl_vec3 v0 = b->v[i], w0 = b->w[i];
-    b->v[i] = b->added ? v3_madd(v0, h, fl_body_speed(b, i, b->f[i])) : v3_madd(v0, h * b->invm[i], b->f[i]);
+    b->v[i] = b->added_mass ? v3_madd(v0, h, fl_body_velocity_of_momentum(b, i, b->f[i]))
+                            : v3_madd(v0, h * b->invm[i], b->f[i]);
     b->L[i] = v3_madd(b->L[i], h, b->t[i]);
-    b->w[i] = fl_body_turn(b, i, b->L[i]);
-    if (b->hold[i]) fl_hold(b, i, v0, w0);
+    b->w[i] = fl_body_apply_inverse_inertia(b, i, b->L[i]);
+    if (b->fixed_dof[i]) fl_body_apply_fixed_dof(b, i, v0, w0);
 }
 
 /* Solve the k x k system a x = y, k <= 3, a symmetric and positive definite (Cholesky). */
@@ -88,31 +89,31 @@ static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3
 static void hold_turn(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
 {
     const fl_mat3 R = fl_body_axes(b, i);
-    fl_body_spin(b, i, solve_free(&R, b->I[i], hold / FL_HOLD_RX, w_held, b->L[i]));
+    fl_body_set_spin(b, i, solve_free(&R, b->I[i], hold / FL_DOF_RX, w_held, b->L[i]));
 }
 
 /* The velocity of body i that has the momentum P, but for what is held. */
 static fl_vec3 hold_speed(const fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 P)
 {
-    const unsigned hold = b->hold[i] & (FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z);
+    const unsigned hold = b->fixed_dof[i] & (FL_DOF_X | FL_DOF_Y | FL_DOF_Z);
     const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]);
-    if (!hold) return fl_body_speed(b, i, P);
+    if (!hold) return fl_body_velocity_of_momentum(b, i, P);
     const fl_mat3 R = fl_body_axes(b, i);
-    return solve_free(&R, v3_add(m, b->added[i]), hold, v_held, P);
+    return solve_free(&R, v3_add(m, b->added_mass[i]), hold, v_held, P);
 }
 
 /* Work of an impulse of what holds: only along the held axes is it one, beyond rounding. */
 static double holding_straight(unsigned hold, fl_vec3 impulse, fl_vec3 v)
 {
-    return (hold & FL_HOLD_X ? impulse.x * v.x : 0.0) + (hold & FL_HOLD_Y ? impulse.y * v.y : 0.0) +
-           (hold & FL_HOLD_Z ? impulse.z * v.z : 0.0);
+    return (hold & FL_DOF_X ? impulse.x * v.x : 0.0) + (hold & FL_DOF_Y ? impulse.y * v.y : 0.0) +
+           (hold & FL_DOF_Z ? impulse.z * v.z : 0.0);
 }
 
 /* Work of a turning impulse of what holds: only along the held axes is it one, beyond rounding. */
 static double holding(unsigned hold, fl_vec3 impulse, fl_vec3 w)
 {
-    return (hold & FL_HOLD_RX ? impulse.x * w.x : 0.0) + (hold & FL_HOLD_RY ? impulse.y * w.y : 0.0) +
-           (hold & FL_HOLD_RZ ? impulse.z * w.z : 0.0);
+    return (hold & FL_DOF_RX ? impulse.x * w.x : 0.0) + (hold & FL_DOF_RY ? impulse.y * w.y : 0.0) +
+           (hold & FL_DOF_RZ ? impulse.z * w.z : 0.0);
 }
 
 /* What holds a turn acts between kicks too: with products of inertia, turning about one axis takes a torque
@@ -120,7 +121,7 @@ static double holding(unsigned hold, fl_vec3 impulse, fl_vec3 w)
  * ones.  By the midpoint, order 2. */
 static void drift_held(fl_bodies *b, int32_t i, double dt)
 {
-    const unsigned hold = b->hold[i];
+    const unsigned hold = b->fixed_dof[i];
     const fl_quat q = b->q[i];
     const fl_vec3 w = b->w[i], L = b->L[i];
     b->q[i] = q_mul(q_of_vector(v3_scale(0.5 * dt, w)), q);
@@ -128,7 +129,7 @@ static void drift_held(fl_bodies *b, int32_t i, double dt)
     b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
     b->L[i] = L;
     hold_turn(b, i, hold, w);
-    b->held[i] += holding(hold, v3_sub(b->L[i], L), w);
+    b->work_of_constraints[i] += holding(hold, v3_sub(b->L[i], L), w);
 }
 
 /* How far a step from q to r takes a point at distance 1 at most: the chord 2 sin(angle/2).  |w| dt would not
@@ -142,68 +143,68 @@ static double chord(fl_quat q, fl_quat r)
 static void turn(fl_bodies *b, int32_t i, double dt)
 {
     const fl_quat q = b->q[i];
-    const int held = b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ);
+    const int held = b->fixed_dof[i] & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ);
     if (b->L[i].x == 0.0 && b->L[i].y == 0.0 && b->L[i].z == 0.0) {
         if (!held) b->w[i] = v3(0, 0, 0);
         return;
     }
     if (held) {
         drift_held(b, i, dt);
-    } else if (b->ball[i]) { /* turns about L for ever, and nothing of it moves by that */
+    } else if (b->is_isotropic[i]) { /* turns about L for ever, and nothing of it moves by that */
         b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt * b->invI[i].x, b->L[i])), q));
         return;
     } else {
         b->q[i] = fl_drift_rotation(q, b->L[i], b->invI[i], dt, &b->w[i]);
     }
-    b->odometer[i] += chord(q, b->q[i]) * b->bound[i];
+    b->odometer[i] += chord(q, b->q[i]) * b->bounding_radius[i];
 }
 
 /* Half a step straight on, with the moment of the water on a body that goes askew; P goes with the speed u
  * through it. */
 static void go_straight(fl_bodies *b, int32_t i, double h, fl_vec3 P)
 {
-    const unsigned hold = b->hold[i];
+    const unsigned hold = b->fixed_dof[i];
     const fl_vec3 v = b->v[i], w = b->w[i];
     b->x[i] = v3_madd(b->x[i], h, v);
     b->odometer[i] += fabs(h) * v3_norm(v);
-    b->L[i] = v3_madd(b->L[i], h, v3_cross(P, v3_sub(v, b->flow[i])));
-    b->w[i] = fl_body_turn(b, i, b->L[i]);
-    if (hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) {
+    b->L[i] = v3_madd(b->L[i], h, v3_cross(P, v3_sub(v, b->flow_velocity[i])));
+    b->w[i] = fl_body_apply_inverse_inertia(b, i, b->L[i]);
+    if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) {
         const fl_vec3 L = b->L[i];
         hold_turn(b, i, hold, w);
-        b->held[i] += holding(hold, v3_sub(b->L[i], L), w);
+        b->work_of_constraints[i] += holding(hold, v3_sub(b->L[i], L), w);
     }
 }
 
 /* 1/2 U.M_a U */
 static double carried(const fl_bodies *b, int32_t i)
 {
-    const fl_vec3 u = m3_tmul(fl_body_axes(b, i), b->flow[i]);
-    return 0.5 * v3_dot(u, v3_mul(b->added[i], u));
+    const fl_vec3 u = m3_tmul(fl_body_axes(b, i), b->flow_velocity[i]);
+    return 0.5 * v3_dot(u, v3_mul(b->added_mass[i], u));
 }
 
 static void drift_with_water(fl_bodies *b, int32_t i, double dt)
 {
-    const fl_vec3 U = b->flow[i], v = b->v[i];
+    const fl_vec3 U = b->flow_velocity[i], v = b->v[i];
     const double before = carried(b, i);
     fl_vec3 P = fl_body_momentum(b, i, v3_sub(v, U));
     go_straight(b, i, 0.5 * dt, P);
     turn(b, i, dt);
     const fl_vec3 mean = b->w[i];
     b->v[i] = v3_add(U, hold_speed(b, i, v3_sub(v, U), P));
-    if (b->hold[i]) {
+    if (b->fixed_dof[i]) {
         const fl_vec3 now = fl_body_momentum(b, i, v3_sub(b->v[i], U));
-        b->held[i] += holding_straight(b->hold[i], v3_sub(now, P), v);
+        b->work_of_constraints[i] += holding_straight(b->fixed_dof[i], v3_sub(now, P), v);
         P = now;
     }
-    b->carried[i] += carried(b, i) - before;
+    b->flow_work[i] += carried(b, i) - before;
     go_straight(b, i, 0.5 * dt, P);
-    if (!(b->hold[i] & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ))) b->w[i] = mean;
+    if (!(b->fixed_dof[i] & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ))) b->w[i] = mean;
 }
 
 void fl_drift(fl_bodies *b, int32_t i, double dt)
 {
-    if (b->added && i < b->n) {
+    if (b->added_mass && i < b->n) {
         drift_with_water(b, i, dt);
         return;
     }
@@ -212,24 +213,24 @@ void fl_drift(fl_bodies *b, int32_t i, double dt)
     turn(b, i, dt);
 }
 
-void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
+void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
 {
-    const unsigned hold = b->hold[i];
+    const unsigned hold = b->fixed_dof[i];
     const fl_vec3 rest = v3(0, 0, 0);
-    if (b->added) {
+    if (b->added_mass) {
         *a = hold_speed(b, i, rest, b->f[i]);
     } else {
         *a = v3_scale(b->invm[i], b->f[i]);
-        if (hold & FL_HOLD_X) a->x = 0.0;
-        if (hold & FL_HOLD_Y) a->y = 0.0;
-        if (hold & FL_HOLD_Z) a->z = 0.0;
+        if (hold & FL_DOF_X) a->x = 0.0;
+        if (hold & FL_DOF_Y) a->y = 0.0;
+        if (hold & FL_DOF_Z) a->z = 0.0;
     }
-    if (!(hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ))) {
-        *turn = fl_body_turn(b, i, b->t[i]);
+    if (!(hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ))) {
+        *turn = fl_body_apply_inverse_inertia(b, i, b->t[i]);
         return;
     }
     const fl_mat3 R = fl_body_axes(b, i);
-    *turn = solve_free(&R, b->I[i], hold / FL_HOLD_RX, rest, b->t[i]);
+    *turn = solve_free(&R, b->I[i], hold / FL_DOF_RX, rest, b->t[i]);
 }
 
 /* --- balls, several at a time ------------------------------------------------------------------ */
@@ -246,92 +247,92 @@ typedef struct {
 #define NORM2(a) (a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 
 /* q_versine() and q_sinc() of four. */
-FL_WIDE_PART void versine_and_sinc(const fl_wide *x2, fl_wide *versine, fl_wide *sinc)
+FL_SIMD_INLINE void versine_and_sinc(const fl_simd *x2, fl_simd *versine, fl_simd *sinc)
 {
-    const fl_wide x = *x2, v = x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720))),
+    const fl_simd x = *x2, v = x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720))),
                   f = 1.0 - x * (1.0 / 6 - x * (1.0 / 120 - x * (1.0 / 5040)));
-    const fl_wide_mask few = x <= Q_HALF_TURN_FEW;
+    const fl_simd_mask few = x <= Q_HALF_ANGLE2_SMALL;
     *versine = v, *sinc = f;
     if (few[0] & few[1] & few[2] & few[3]) return;
-    fl_wide cosine = 1.0 / 479001600 - x * (1.0 / 87178291200.0);
-    fl_wide sine = 1.0 / 39916800 - x * (1.0 / 6227020800.0);
+    fl_simd cosine = 1.0 / 479001600 - x * (1.0 / 87178291200.0);
+    fl_simd sine = 1.0 / 39916800 - x * (1.0 / 6227020800.0);
     cosine = 1.0 / 3628800 - x * cosine, sine = 1.0 / 362880 - x * sine;
     cosine = 1.0 / 40320 - x * cosine, sine = 1.0 / 5040 - x * sine;
     cosine = 1.0 / 720 - x * cosine, sine = 1.0 / 120 - x * sine;
     cosine = 1.0 / 24 - x * cosine, sine = 1.0 / 6 - x * sine;
     cosine = x * (1.0 / 2 - x * cosine), sine = 1.0 - x * sine;
-    *versine = FL_WIDE_CHOOSE(few, v, cosine), *sinc = FL_WIDE_CHOOSE(few, f, sine);
+    *versine = FL_SIMD_SELECT(few, v, cosine), *sinc = FL_SIMD_SELECT(few, f, sine);
 }
 
 /* Kick and drift of the four from the k-th on; whether they did turn: by more than the series is for they do
  * not. */
-FL_WIDE_PART int move_four(const plain *a, int32_t k, double h, double dt)
+FL_SIMD_INLINE int move_four(const plain *a, int32_t k, double h, double dt)
 {
-    const fl_wide s = h * FL_FOUR(&a->invm[k]);
-    fl_wide ease[3], f[3], t[3], v[3], L[3], w[3], r[3], x[3], q[4];
-    fl_wide_from_triples(ease, &a->invI[k]);
-    fl_wide_from_triples(f, &a->f[k]);
-    fl_wide_from_triples(t, &a->t[k]);
-    fl_wide_from_triples(v, &a->v[k]);
-    fl_wide_from_triples(L, &a->L[k]);
-    const fl_wide turns = dt * ease[0];
-    FL_WIDE_UNROLL for (int c = 0; c < 3; c++)
+    const fl_simd s = h * FL_SIMD_LOAD(&a->invm[k]);
+    fl_simd ease[3], f[3], t[3], v[3], L[3], w[3], r[3], x[3], q[4];
+    fl_simd_from_triples(ease, &a->invI[k]);
+    fl_simd_from_triples(f, &a->f[k]);
+    fl_simd_from_triples(t, &a->t[k]);
+    fl_simd_from_triples(v, &a->v[k]);
+    fl_simd_from_triples(L, &a->L[k]);
+    const fl_simd turns = dt * ease[0];
+    FL_SIMD_UNROLL for (int c = 0; c < 3; c++)
     {
         v[c] += s * f[c];
         L[c] += h * t[c];
         w[c] = ease[0] * L[c];
         r[c] = turns * L[c];
     }
-    fl_wide_to_triples(&a->v[k], v);
-    fl_wide_to_triples(&a->L[k], L);
-    fl_wide_to_triples(&a->w[k], w);
+    fl_simd_to_triples(&a->v[k], v);
+    fl_simd_to_triples(&a->L[k], L);
+    fl_simd_to_triples(&a->w[k], w);
     if (dt == 0.0) return 1;
-    const fl_wide half2 = 0.25 * NORM2(r), room = Q_HALF_TURN_MOST - half2;
-    const fl_wide_mask known = room >= 0.0;
+    const fl_simd half2 = 0.25 * NORM2(r), room = Q_HALF_ANGLE2_MAX - half2;
+    const fl_simd_mask known = room >= 0.0;
     if (!(known[0] & known[1] & known[2] & known[3])) return 0;
-    fl_wide cosine, sine;
+    fl_simd cosine, sine;
     versine_and_sinc(&half2, &cosine, &sine);
-    const fl_wide c = 1.0 - cosine, d = 0.5 * sine, hx = d * r[0], hy = d * r[1], hz = d * r[2];
-    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) q[l] = FL_FOUR(&a->q[k + l]);
-    fl_wide_transpose(q);
-    const fl_wide qw = q[0], qx = q[1], qy = q[2], qz = q[3];
+    const fl_simd c = 1.0 - cosine, d = 0.5 * sine, hx = d * r[0], hy = d * r[1], hz = d * r[2];
+    FL_SIMD_UNROLL for (int l = 0; l < FL_SIMD_WIDTH; l++) q[l] = FL_SIMD_LOAD(&a->q[k + l]);
+    fl_simd_transpose(q);
+    const fl_simd qw = q[0], qx = q[1], qy = q[2], qz = q[3];
     q[0] = c * qw - hx * qx - hy * qy - hz * qz;
     q[1] = c * qx + hx * qw + hy * qz - hz * qy;
     q[2] = c * qy - hx * qz + hy * qw + hz * qx;
     q[3] = c * qz + hx * qy - hy * qx + hz * qw;
-    const fl_wide one = 1.5 - 0.5 * (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) q[l] *= one;
-    fl_wide_transpose(q);
-    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++)
+    const fl_simd one = 1.5 - 0.5 * (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    FL_SIMD_UNROLL for (int l = 0; l < FL_SIMD_WIDTH; l++) q[l] *= one;
+    fl_simd_transpose(q);
+    FL_SIMD_UNROLL for (int l = 0; l < FL_SIMD_WIDTH; l++)
     {
-        if (L[0][l] != 0.0 || L[1][l] != 0.0 || L[2][l] != 0.0) FL_FOUR_INTO(&a->q[k + l]) = q[l];
+        if (L[0][l] != 0.0 || L[1][l] != 0.0 || L[2][l] != 0.0) FL_SIMD_STORE(&a->q[k + l]) = q[l];
     }
-    const fl_wide speed2 = NORM2(v);
-    fl_wide_from_triples(x, &a->x[k]);
-    FL_WIDE_UNROLL for (int axis = 0; axis < 3; axis++) x[axis] += dt * v[axis];
-    fl_wide_to_triples(&a->x[k], x);
-    FL_WIDE_UNROLL for (int l = 0; l < FL_LANES; l++) a->odometer[k + l] += fabs(dt) * sqrt(speed2[l]);
+    const fl_simd speed2 = NORM2(v);
+    fl_simd_from_triples(x, &a->x[k]);
+    FL_SIMD_UNROLL for (int axis = 0; axis < 3; axis++) x[axis] += dt * v[axis];
+    fl_simd_to_triples(&a->x[k], x);
+    FL_SIMD_UNROLL for (int l = 0; l < FL_SIMD_WIDTH; l++) a->odometer[k + l] += fabs(dt) * sqrt(speed2[l]);
     return 1;
 }
 
 /* The first of n, a multiple of four, that do not turn as the others do, or n; up to it all are done, and its
  * four are kicked. */
-FL_FOUR_VERSIONS static int32_t move_plain(const plain *restrict a, int32_t from, int32_t n, double h,
-                                           double dt)
+FL_SIMD4_VERSIONS static int32_t move_plain(const plain *restrict a, int32_t from, int32_t n, double h,
+                                            double dt)
 {
-    for (int32_t k = from; k < n; k += FL_LANES)
+    for (int32_t k = from; k < n; k += FL_SIMD_WIDTH)
         if (!move_four(a, k, h, dt)) return k;
     return n;
 }
 
-void fl_move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
+void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
 {
-    const int32_t n = to - from, four = n - n % FL_LANES;
+    const int32_t n = to - from, four = n - n % FL_SIMD_WIDTH;
     const plain a = {b->invm + from, b->invI + from, b->f + from, b->t + from, b->v + from,
                      b->L + from,    b->w + from,    b->x + from, b->q + from, b->odometer + from};
     for (int32_t k = 0; k < four;) {
         const int32_t wild = move_plain(&a, k, four, h, dt);
-        for (k = wild; k < four && k < wild + FL_LANES; k++) fl_drift(b, from + k, dt);
+        for (k = wild; k < four && k < wild + FL_SIMD_WIDTH; k++) fl_drift(b, from + k, dt);
     }
     for (int32_t k = four; k < n; k++) {
         fl_kick(b, from + k, h);
@@ -348,40 +349,43 @@ static fl_sym3 free_ease(const fl_mat3 *R, fl_vec3 diag, unsigned hold)
     return (fl_sym3){x.x, x.y, x.z, y.y, y.z, z.z};
 }
 
-fl_yielding fl_body_yielding(const fl_bodies *b, int32_t i)
+fl_mobility fl_body_mobility(const fl_bodies *b, int32_t i)
 {
-    fl_yielding e = {.straight = s3_even(0.0), .turn = s3_even(0.0)};
+    fl_mobility e = {.linear = s3_isotropic(0.0), .angular = s3_isotropic(0.0)};
     if (i >= b->n) return e;
-    const unsigned stands = fl_body_stands(b, i), turns = b->hold[i] / FL_HOLD_RX;
+    const unsigned stands = fl_body_fixed_translations(b, i), turns = b->fixed_dof[i] / FL_DOF_RX;
     const fl_mat3 R = fl_body_axes(b, i);
-    e.turn = turns ? free_ease(&R, b->I[i], turns) : s3_from(&R, b->invI[i]);
-    if (b->added) {
-        const fl_vec3 m = v3_add(v3(b->m[i], b->m[i], b->m[i]), b->added[i]);
-        e.straight = stands ? free_ease(&R, m, stands) : s3_from(&R, v3(1.0 / m.x, 1.0 / m.y, 1.0 / m.z));
+    e.angular = turns ? free_ease(&R, b->I[i], turns) : s3_from_principal(&R, b->invI[i]);
+    if (b->added_mass) {
+        const fl_vec3 m = v3_add(v3(b->m[i], b->m[i], b->m[i]), b->added_mass[i]);
+        e.linear =
+            stands ? free_ease(&R, m, stands) : s3_from_principal(&R, v3(1.0 / m.x, 1.0 / m.y, 1.0 / m.z));
     } else {
         const double each = b->invm[i];
-        e.straight = (fl_sym3){.xx = stands & FL_HOLD_X ? 0.0 : each,
-                               .yy = stands & FL_HOLD_Y ? 0.0 : each,
-                               .zz = stands & FL_HOLD_Z ? 0.0 : each};
+        e.linear = (fl_sym3){.xx = stands & FL_DOF_X ? 0.0 : each,
+                             .yy = stands & FL_DOF_Y ? 0.0 : each,
+                             .zz = stands & FL_DOF_Z ? 0.0 : each};
     }
     return e;
 }
 
-void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
+void fl_body_apply_fixed_dof(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held)
 {
-    const unsigned hold = b->hold[i];
+    const unsigned hold = b->fixed_dof[i];
     const fl_vec3 v = b->v[i], L = b->L[i];
-    if (b->added) {
+    if (b->added_mass) {
         const fl_vec3 P = fl_body_momentum(b, i, v);
         b->v[i] = hold_speed(b, i, v_held, P);
-        if (hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) hold_turn(b, i, hold, w_held);
-        b->held[i] += holding_straight(hold, v3_sub(fl_body_momentum(b, i, b->v[i]), P), v_held) +
-                      holding(hold, v3_sub(b->L[i], L), w_held);
+        if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) hold_turn(b, i, hold, w_held);
+        b->work_of_constraints[i] +=
+            holding_straight(hold, v3_sub(fl_body_momentum(b, i, b->v[i]), P), v_held) +
+            holding(hold, v3_sub(b->L[i], L), w_held);
         return;
     }
-    if (hold & FL_HOLD_X) b->v[i].x = v_held.x;
-    if (hold & FL_HOLD_Y) b->v[i].y = v_held.y;
-    if (hold & FL_HOLD_Z) b->v[i].z = v_held.z;
-    if (hold & (FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ)) hold_turn(b, i, hold, w_held);
-    b->held[i] += b->m[i] * v3_dot(v3_sub(b->v[i], v), v_held) + holding(hold, v3_sub(b->L[i], L), w_held);
+    if (hold & FL_DOF_X) b->v[i].x = v_held.x;
+    if (hold & FL_DOF_Y) b->v[i].y = v_held.y;
+    if (hold & FL_DOF_Z) b->v[i].z = v_held.z;
+    if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) hold_turn(b, i, hold, w_held);
+    b->work_of_constraints[i] +=
+        b->m[i] * v3_dot(v3_sub(b->v[i], v), v_held) + holding(hold, v3_sub(b->L[i], L), w_held);
 }

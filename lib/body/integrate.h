@@ -33,14 +33,20 @@ void fl_kick(fl_bodies *b, int32_t i, double h);
 void fl_drift(fl_bodies *b, int32_t i, double dt);
 
 /* fl_kick() by h, and then fl_drift() by dt where that is not 0, of the bodies [from, to), all of which are
- * balls, fl_body_free() and move, several at a time.  The state gets the bits that it gets one by one. */
-void fl_move_balls(fl_bodies *b, int32_t from, int32_t to, double h, double dt);
+ * balls, fl_body_is_free() and move, several at a time.  The state gets the bits that it gets one by one. */
+void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, double dt);
 
 /* Whether nothing holds body i, and it moves no water with it. */
-static inline int fl_body_free(const fl_bodies *b, int32_t i) { return !b->hold[i] && !b->added; }
+static inline int fl_body_is_free(const fl_bodies *b, int32_t i)
+{
+    return !b->fixed_dof[i] && !b->added_mass;
+}
 
 /* Whether it is a ball besides. */
-static inline int fl_body_plain(const fl_bodies *b, int32_t i) { return b->ball[i] && fl_body_free(b, i); }
+static inline int fl_body_is_free_isotropic(const fl_bodies *b, int32_t i)
+{
+    return b->is_isotropic[i] && fl_body_is_free(b, i);
+}
 
 /* The rotation part alone, of one body.  mean: the spin in the mean of dt, to order 2: the sum of the
  * rotations,
@@ -50,34 +56,34 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3
 
 /* What the force and torque of now give body i: accelerations of v and w, none of what is held [m/s2],
  * [rad/s2].  What turns without a torque is left out: w x L and, with added mass, P x u. */
-void fl_body_rates(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn);
+void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn);
 
 /* How a body yields to impulses, world axes: what is not held of it, with the water that moves along. */
 typedef struct {
-    fl_sym3 straight; /* velocity for an impulse      [1/kg]     */
-    fl_sym3 turn;     /* and spin for an angular one  [1/(kg m2)] */
-} fl_yielding;
+    fl_sym3 linear;  /* velocity for an impulse      [1/kg]     */
+    fl_sym3 angular; /* and spin for an angular one  [1/(kg m2)] */
+} fl_mobility;
 
 /* Of body i; none of what others move. */
-fl_yielding fl_body_yielding(const fl_bodies *b, int32_t i);
+fl_mobility fl_body_mobility(const fl_bodies *b, int32_t i);
 
 /* What an impulse along n gives to the speed of its centre along that [1/kg]. */
-static inline double fl_body_yields(const fl_bodies *b, int32_t i, fl_vec3 n)
+static inline double fl_body_mobility_along(const fl_bodies *b, int32_t i, fl_vec3 n)
 {
-    const fl_yielding e = fl_body_yielding(b, i);
-    return v3_dot(n, s3_mul(e.straight, n));
+    const fl_mobility e = fl_body_mobility(b, i);
+    return v3_dot(n, s3_mul(e.linear, n));
 }
 
 /* u.M^-1 u for the impulse u = (along, moment): what it gives to the speed in its own direction. */
-static inline double fl_ease_along(const fl_yielding *e, fl_vec3 along, fl_vec3 moment)
+static inline double fl_mobility_along(const fl_mobility *e, fl_vec3 along, fl_vec3 moment)
 {
-    return v3_dot(along, s3_mul(e->straight, along)) + v3_dot(moment, s3_mul(e->turn, moment));
+    return v3_dot(along, s3_mul(e->linear, along)) + v3_dot(moment, s3_mul(e->angular, moment));
 }
 
 /* Make v and L obey what is held of body i: held components of v and of the angular velocity w keep the given
  * values.  With S the free axes, w_free = (S^T I S)^-1 S^T (L - I w_held), L = I w; with added mass so P and
  * v.
  * The impulse that this takes works at the held velocity; that work goes to held[i]. */
-void fl_hold(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held);
+void fl_body_apply_fixed_dof(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_held);
 
 #endif

@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "bond/standing.h"
+#include "bond/bond_kinematics.h"
 
 static const double LOBATTO[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
 
-double fl_bond_point_at(int k, double *along_a, double *along_b)
+double fl_bond_quadrature_point(int k, double *along_a, double *along_b)
 {
     *along_a = k % 3 - 1;
     *along_b = k / 3 - 1;
     return LOBATTO[k % 3] * LOBATTO[k / 3];
 }
 
-double fl_bond_limit(double modulus, double energy, double strength)
+double fl_bond_max_length(double modulus, double energy, double strength)
 {
     return 2.0 * modulus * energy / (strength * strength);
 }
 
-double fl_bond_energy(const fl_bond *c)
+double fl_bond_fracture_energy(const fl_bond *c)
 {
-    const double peak = 0.5 * c->tension * c->tension / c->kn;
-    return fmax(fmax(c->energy[0], peak), c->stretch * peak);
+    const double peak = 0.5 * c->tensile_strength * c->tensile_strength / c->kn;
+    return fmax(fmax(c->fracture_energy[0], peak), c->min_ductility * peak);
 }
 
-void fl_bond_place(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl_vec3 n, fl_vec3 a, fl_vec3 h)
+void fl_bond_set_face(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl_vec3 n, fl_vec3 a, fl_vec3 h)
 {
     const fl_mat3 Ri = fl_body_axes(b, c->i), Rj = fl_body_axes(b, c->j);
     c->pi = m3_tmul(Ri, v3_sub(x, b->x[c->i]));
@@ -33,17 +33,18 @@ void fl_bond_place(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl_ve
 }
 
 /* 0 where the sides have turned away from each other, and there is no frame. */
-static int stand(const fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_standing *q)
+static int stand(const fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_bond_kinematics *q)
 {
     const fl_vec3 off = v3_add(v3_sub(b->x[c->j], b->x[c->i]), way);
-    const fl_standing to = fl_stand(c->pi, c->pj, c->ni, c->nj, c->ai, c->aj, c->bi, c->bj,
-                                    r3_of(fl_body_axes(b, c->i)), r3_of(fl_body_axes(b, c->j)), off);
+    const fl_bond_kinematics to =
+        fl_bond_kinematics_of(c->pi, c->pj, c->ni, c->nj, c->ai, c->aj, c->bi, c->bj,
+                              r3_of(fl_body_axes(b, c->i)), r3_of(fl_body_axes(b, c->j)), off);
     if (!(to.cosine > 0.0)) return 0;
-    *q = fl_stand_by(to, fl_stands_square(to) ? v3_unit(to.flat) : v3_normal_to(to.m));
+    *q = fl_bond_set_frame(to, fl_bond_frame_defined(to) ? v3_unit(to.tangent) : v3_normal_to(to.m));
     return 1;
 }
 
-static void separation(const fl_standing *q, double xi, double eta, double s[3])
+static void separation(const fl_bond_kinematics *q, double xi, double eta, double s[3])
 {
     s[0] = q->s.x + xi * q->su.x + eta * q->sv.x;
     s[1] = q->s.y + xi * q->su.y + eta * q->sv.y;
@@ -58,38 +59,38 @@ static void begin(const fl_bond *c, fl_bond_point *p, double lambda2, double she
 {
     const double share = shear2 / lambda2;
     double mixed = 1.0;
-    for (int32_t k = 0; k < c->mixing; k++) mixed *= share;
-    const double G = c->energy[0] + (c->energy[1] - c->energy[0]) * mixed;
-    p->first = sqrt(lambda2 / over);
-    p->last = fmax(2.0 * G / p->first, c->stretch * p->first);
-    if (p->last <= p->first) p->last = p->first;
+    for (int32_t k = 0; k < c->mixed_mode_exponent; k++) mixed *= share;
+    const double G = c->fracture_energy[0] + (c->fracture_energy[1] - c->fracture_energy[0]) * mixed;
+    p->lambda_c = sqrt(lambda2 / over);
+    p->lambda_f = fmax(2.0 * G / p->lambda_c, c->min_ductility * p->lambda_c);
+    if (p->lambda_f <= p->lambda_c) p->lambda_f = p->lambda_c;
 }
 
 /* Damage by the separation s. */
 static double damage(const fl_bond *c, fl_bond_point *p, const double s[3])
 {
-    const double open = fl_stand_positive(s[0]), pressed = fl_stand_positive(-s[0]),
+    const double open = fl_bond_positive_part(s[0]), pressed = fl_bond_positive_part(-s[0]),
                  shear2 = s[1] * s[1] + s[2] * s[2];
     const double lambda2 = c->kn * open * open + c->ks * shear2;
     if (p->d == 1.0 || !(lambda2 > 0.0)) return p->d;
-    if (p->first == 0.0) {
-        const double sigma = c->kn * open / c->tension, tau2 = c->ks * c->ks * shear2,
+    if (p->lambda_c == 0.0) {
+        const double sigma = c->kn * open / c->tensile_strength, tau2 = c->ks * c->ks * shear2,
                      limit = c->cohesion + c->friction * c->kn * pressed;
         const double over = sigma * sigma + tau2 / (limit * limit);
         if (!(over >= 1.0)) return 0.0;
         begin(c, p, lambda2, c->ks * shear2, over);
     }
-    if (p->last == p->first) return 1.0;
+    if (p->lambda_f == p->lambda_c) return 1.0;
     const double lambda = sqrt(lambda2);
-    if (lambda <= p->first) return p->d;
-    const double d = p->last * (lambda - p->first) / (lambda * (p->last - p->first));
+    if (lambda <= p->lambda_c) return p->d;
+    const double d = p->lambda_f * (lambda - p->lambda_c) / (lambda * (p->lambda_f - p->lambda_c));
     return d >= 1.0 ? 1.0 : d > p->d ? d : p->d;
 }
 
 /* Slip so that friction bears what is there: e[2], what its springs are drawn by. */
 static void rub(const fl_bond *c, fl_bond_point *p, const double s[3], double kn, double e[2])
 {
-    const double limit = c->friction * kn * fl_stand_positive(-s[0]);
+    const double limit = c->friction * kn * fl_bond_positive_part(-s[0]);
     double e0 = s[1] - p->slip[0], e1 = s[2] - p->slip[1];
     const double size = c->ks * sqrt(e0 * e0 + e1 * e1);
     if (size > limit) {
@@ -101,20 +102,20 @@ static void rub(const fl_bond *c, fl_bond_point *p, const double s[3], double kn
 }
 
 /* How much of the two sides still faces the other. */
-static double facing(const fl_bond *c, const fl_standing *q)
+static double facing(const fl_bond *c, const fl_bond_kinematics *q)
 {
-    const double a = fl_stand_positive(1.0 - fabs(q->s.y) / (2.0 * v3_norm(c->ai))),
-                 b = fl_stand_positive(1.0 - fabs(q->s.z) / (2.0 * v3_norm(c->bi)));
-    return a * b * (q->cosine < FL_BOND_TURNED ? q->cosine / FL_BOND_TURNED : 1.0);
+    const double a = fl_bond_positive_part(1.0 - fabs(q->s.y) / (2.0 * v3_norm(c->ai))),
+                 b = fl_bond_positive_part(1.0 - fabs(q->s.z) / (2.0 * v3_norm(c->bi)));
+    return a * b * (q->cosine < FL_BOND_TURN_COSINE ? q->cosine / FL_BOND_TURN_COSINE : 1.0);
 }
 
 /* How much of the pressing part is gone. */
-static double wear(const fl_bond *c, const fl_standing *q)
+static double wear(const fl_bond *c, const fl_bond_kinematics *q)
 {
     double now = 0.0;
-    if (c->state == FL_BOND_BROKEN) now = c->held > 0.0 ? 1.0 - facing(c, q) / c->held : 1.0;
-    else if (q->cosine < FL_BOND_TURNED) now = 1.0 - q->cosine / FL_BOND_TURNED;
-    return now > c->worn ? now : c->worn;
+    if (c->state == FL_BOND_BROKEN) now = c->h0 > 0.0 ? 1.0 - facing(c, q) / c->h0 : 1.0;
+    else if (q->cosine < FL_BOND_TURN_COSINE) now = 1.0 - q->cosine / FL_BOND_TURN_COSINE;
+    return now > c->wear ? now : c->wear;
 }
 
 /* --- all of it --------------------------------------------------------------------------------- */
@@ -132,49 +133,51 @@ static fl_vec3 moment(const double s[3], double x, double y, double z)
     return fl_traction_moment(v3(s[0], s[1], s[2]), v3(x, y, z));
 }
 
-static fl_traction_push dash(const fl_bond *c, const fl_bodies *b, const fl_standing *q)
+static fl_bond_wrench dash(const fl_bond *c, const fl_bodies *b, const fl_bond_kinematics *q)
 {
-    const fl_traction rate = fl_stand_rates(*q, b->v[c->i], b->w[c->i], b->v[c->j], b->w[c->j]);
+    const fl_traction rate = fl_bond_separation_rate(*q, b->v[c->i], b->w[c->i], b->v[c->j], b->w[c->j]);
     fl_traction t = {0};
     fl_vec3 half = v3(0, 0, 0);
-    if (c->state == FL_BOND_WHOLE) return fl_stand_dash(*q, c->damping, c->area, c->kn, c->ks, rate);
+    if (c->state == FL_BOND_INTACT)
+        return fl_bond_damping_wrench(*q, c->damping, c->area, c->kn, c->ks, rate);
     for (int k = 0; k < FL_BOND_POINTS; k++) {
         double xi, eta, s[3];
         const fl_bond_point *p = &c->point[k];
-        const double scale = fl_bond_point_at(k, &xi, &eta) * c->area * c->damping * (1.0 - p->d);
+        const double scale = fl_bond_quadrature_point(k, &xi, &eta) * c->area * c->damping * (1.0 - p->d);
         const fl_vec3 r = v3_madd(v3_madd(rate.f, xi, rate.fu), eta, rate.fv),
                       x = v3_mul(v3(scale * c->kn, scale * c->ks, scale * c->ks), r);
         add(&t, xi, eta, x.x, x.y, x.z);
         separation(q, xi, eta, s);
         half = v3_add(half, moment(s, x.x, x.y, x.z));
     }
-    return fl_traction_between(*q, t, half);
+    return fl_traction_at_middle(*q, t, half);
 }
 
 static void calm(fl_bond *c)
 {
-    c->f = c->ti = c->tj = c->fd = c->di = c->dj = c->fs = c->si = c->sj = v3(0, 0, 0);
-    c->store = c->spring = 0.0;
+    c->force = c->torque_i = c->torque_j = c->force_damping = c->torque_i_damping = c->torque_j_damping =
+        c->force_friction = c->torque_i_friction = c->torque_j_friction = v3(0, 0, 0);
+    c->elastic_energy = c->friction_spring_energy = 0.0;
 }
 
 void fl_bond_end(fl_bond *c)
 {
-    c->spent += c->store;
+    c->dissipated += c->elastic_energy;
     calm(c);
     c->state = FL_BOND_ENDED;
 }
 
 /* What is kept of a look. */
-static void keep(fl_bond *c, const fl_standing *q)
+static void keep(fl_bond *c, const fl_bond_kinematics *q)
 {
     c->s[0] = q->s.x, c->s[1] = q->s.y, c->s[2] = q->s.z;
     c->su[0] = q->su.x, c->su[1] = q->su.y, c->su[2] = q->su.z;
     c->sv[0] = q->sv.x, c->sv[1] = q->sv.y, c->sv[2] = q->sv.z;
 }
 
-void fl_bond_look(fl_bond *c, const fl_bodies *b, fl_vec3 way)
+void fl_bond_update_separation(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
-    fl_standing q;
+    fl_bond_kinematics q;
     if (c->state != FL_BOND_ENDED && stand(c, b, way, &q)) keep(c, &q);
 }
 
@@ -187,23 +190,25 @@ typedef struct {
 } result;
 
 /* Point k: what a look does to it, and what it gives.  more: what has worn off since the last. */
-static void look_at(fl_bond *c, const fl_standing *q, int k, double more, result *out)
+static void look_at(fl_bond *c, const fl_bond_kinematics *q, int k, double more, result *out)
 {
     fl_bond_point *p = &c->point[k];
     double xi, eta, s[3], before[3];
-    const double wa = fl_bond_point_at(k, &xi, &eta) * c->area, pressing = c->kn * (1.0 - c->worn);
+    const double wa = fl_bond_quadrature_point(k, &xi, &eta) * c->area, pressing = c->kn * (1.0 - c->wear);
     separation(q, xi, eta, s);
     for (int e = 0; e < 3; e++) before[e] = c->s[e] + xi * c->su[e] + eta * c->sv[e];
     const double d = damage(c, p, s), grown = d - p->d, shear2 = s[1] * before[1] + s[2] * before[2];
     if (grown > 0.0)
-        c->spent += 0.5 * wa * grown *
-                    (c->kn * fl_stand_positive(s[0]) * fl_stand_positive(before[0]) + c->ks * shear2);
+        c->dissipated +=
+            0.5 * wa * grown *
+            (c->kn * fl_bond_positive_part(s[0]) * fl_bond_positive_part(before[0]) + c->ks * shear2);
     if (more > 0.0)
-        c->spent += 0.5 * wa * more * c->kn * fl_stand_positive(-s[0]) * fl_stand_positive(-before[0]);
+        c->dissipated +=
+            0.5 * wa * more * c->kn * fl_bond_positive_part(-s[0]) * fl_bond_positive_part(-before[0]);
     p->d = d;
     const double kn = s[0] > 0.0 ? (1.0 - d) * c->kn : pressing, ks = (1.0 - d) * c->ks;
     add(&out->elastic, xi, eta, wa * kn * s[0], wa * ks * s[1], wa * ks * s[2]);
-    c->store += 0.5 * wa * (kn * s[0] * s[0] + ks * (s[1] * s[1] + s[2] * s[2]));
+    c->elastic_energy += 0.5 * wa * (kn * s[0] * s[0] + ks * (s[1] * s[1] + s[2] * s[2]));
     out->turn[0] += wa * (kn - ks) * s[0] * s[1];
     out->turn[1] += wa * (kn - ks) * s[0] * s[2];
     out->hurt += d > 0.0;
@@ -215,69 +220,69 @@ static void look_at(fl_bond *c, const fl_standing *q, int k, double more, result
     const double k_rub = wa * d * c->ks, held = 0.5 * wa * c->ks * (e[0] * e[0] + e[1] * e[1]);
     add(&out->friction, xi, eta, 0.0, k_rub * e[0], k_rub * e[1]);
     out->half = v3_add(out->half, moment(s, 0.0, k_rub * e[0], k_rub * e[1]));
-    c->spring += d * held;
-    c->handed += grown * held;
-    c->spent -= grown * held;
+    c->friction_spring_energy += d * held;
+    c->given_to_friction += grown * held;
+    c->dissipated -= grown * held;
 }
 
 /* Whether no point can have reached its strength. */
-static int holds(const fl_bond *c, const fl_standing *q)
+static int holds(const fl_bond *c, const fl_bond_kinematics *q)
 {
-    return fl_stand_used(*q, c->kn, c->ks, c->tension, c->cohesion) < FL_BOND_HOLDS;
+    return fl_bond_strength_used(*q, c->kn, c->ks, c->tensile_strength, c->cohesion) < FL_BOND_INTACT_LIMIT;
 }
 
 /* What acts elastically. */
-static void spring(fl_bond *c, fl_traction_push p) { c->f = p.f, c->ti = p.ti, c->tj = p.tj; }
+static void spring(fl_bond *c, fl_bond_wrench p) { c->force = p.f, c->torque_i = p.ti, c->torque_j = p.tj; }
 
 /* A face of which some point may be damaged, or worn by so much more.  1 where it is ended. */
-static int break_up(fl_bond *c, const fl_standing *q, double more, result *r)
+static int break_up(fl_bond *c, const fl_bond_kinematics *q, double more, result *r)
 {
     for (int k = 0; k < FL_BOND_POINTS; k++) look_at(c, q, k, more, r);
     keep(c, q);
-    if (c->state != FL_BOND_BROKEN && r->failed == FL_BOND_POINTS) c->held = facing(c, q);
+    if (c->state != FL_BOND_BROKEN && r->failed == FL_BOND_POINTS) c->h0 = facing(c, q);
     if (c->state != FL_BOND_BROKEN)
-        c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN : r->hurt ? FL_BOND_HURT : FL_BOND_WHOLE;
-    if (c->state == FL_BOND_BROKEN && (r->open == FL_BOND_POINTS || c->worn >= 1.0)) return 1;
-    spring(c, fl_traction_turned(*q, r->elastic, r->turn[0], r->turn[1]));
+        c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN : r->hurt ? FL_BOND_DAMAGED : FL_BOND_INTACT;
+    if (c->state == FL_BOND_BROKEN && (r->open == FL_BOND_POINTS || c->wear >= 1.0)) return 1;
+    spring(c, fl_traction_with_rotation(*q, r->elastic, r->turn[0], r->turn[1]));
     return 0;
 }
 
 int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
-    fl_standing q;
+    fl_bond_kinematics q;
     result r = {0};
     if (c->state == FL_BOND_ENDED) return 0;
     if (!stand(c, b, way, &q)) {
         fl_bond_end(c);
         return 1;
     }
-    const double worn = wear(c, &q), more = worn - c->worn;
-    c->worn = worn;
+    const double worn = wear(c, &q), more = worn - c->wear;
+    c->wear = worn;
     calm(c);
-    if (c->state == FL_BOND_WHOLE && worn == 0.0 && holds(c, &q)) {
+    if (c->state == FL_BOND_INTACT && worn == 0.0 && holds(c, &q)) {
         keep(c, &q);
-        spring(c, fl_stand_elastic(q, c->area, c->kn, c->ks));
-        c->store = fl_stand_store(q, c->area, c->kn, c->ks);
+        spring(c, fl_bond_elastic_wrench(q, c->area, c->kn, c->ks));
+        c->elastic_energy = fl_bond_elastic_energy(q, c->area, c->kn, c->ks);
     } else if (break_up(c, &q, more, &r)) {
         fl_bond_end(c);
         return 1;
     }
     if (r.hurt) {
-        const fl_traction_push p = fl_traction_between(q, r.friction, r.half);
-        c->fs = p.f, c->si = p.ti, c->sj = p.tj;
+        const fl_bond_wrench p = fl_traction_at_middle(q, r.friction, r.half);
+        c->force_friction = p.f, c->torque_i_friction = p.ti, c->torque_j_friction = p.tj;
     }
     if (c->damping > 0.0) {
-        const fl_traction_push p = dash(c, b, &q);
-        c->fd = p.f, c->di = p.ti, c->dj = p.tj;
+        const fl_bond_wrench p = dash(c, b, &q);
+        c->force_damping = p.f, c->torque_i_damping = p.ti, c->torque_j_damping = p.tj;
     }
     if (!r.hurt && !(c->damping > 0.0)) return 0;
-    c->f = v3_add(c->f, v3_add(c->fs, c->fd));
-    c->ti = v3_add(c->ti, v3_add(c->si, c->di));
-    c->tj = v3_add(c->tj, v3_add(c->sj, c->dj));
+    c->force = v3_add(c->force, v3_add(c->force_friction, c->force_damping));
+    c->torque_i = v3_add(c->torque_i, v3_add(c->torque_i_friction, c->torque_i_damping));
+    c->torque_j = v3_add(c->torque_j, v3_add(c->torque_j_friction, c->torque_j_damping));
     return 0;
 }
 
-fl_bond_load fl_bond_loaded(const fl_bond *c, const fl_bodies *b, fl_vec3 way)
+fl_bond_load fl_bond_section_load(const fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
     const fl_mat3 Ri = fl_body_axes(b, c->i), Rj = fl_body_axes(b, c->j);
     const fl_vec3 ri = m3_mul(Ri, c->pi), rj = m3_mul(Rj, c->pj),
@@ -287,15 +292,15 @@ fl_bond_load fl_bond_loaded(const fl_bond *c, const fl_bodies *b, fl_vec3 way)
     fl_bond_load out = {.x = v3_add(b->x[c->i], arm)};
     if (c->state == FL_BOND_ENDED || !(v3_norm2(n) > 0.0)) return out;
     const fl_vec3 m = v3_unit(n);
-    out.tension = v3_dot(c->f, m);
-    out.shear = v3_norm(v3_madd(c->f, -out.tension, m));
-    out.moment = v3_norm(v3_sub(c->ti, v3_cross(arm, c->f)));
+    out.tension = v3_dot(c->force, m);
+    out.shear = v3_norm(v3_madd(c->force, -out.tension, m));
+    out.moment = v3_norm(v3_sub(c->torque_i, v3_cross(arm, c->force)));
     return out;
 }
 
-double fl_bond_mean(const fl_bond *c)
+double fl_bond_mean_damage(const fl_bond *c)
 {
     double sum = 0.0, xi, eta;
-    for (int k = 0; k < FL_BOND_POINTS; k++) sum += fl_bond_point_at(k, &xi, &eta) * c->point[k].d;
+    for (int k = 0; k < FL_BOND_POINTS; k++) sum += fl_bond_quadrature_point(k, &xi, &eta) * c->point[k].d;
     return sum;
 }

@@ -40,74 +40,77 @@
  * afterwards, for a point that breaks at once as well.
  *
  * Size.  Where l >= 2 E G_I/sigma_t^2 lambda_f < lambda_c: the bond stores more than it may dissipate and
- * takes sigma_t^2 l/(2 E) instead of G_I (fl_bond_energy()).  The choice is the caller's: leave it so, which
+ * takes sigma_t^2 l/(2 E) instead of G_I (fl_bond_fracture_energy()).  The choice is the caller's: leave it so, which
  * keeps strength and says what the energy is (the automatic one: for ice of 10 J/m2 the limit is 4 cm, and a
  * load comes from strength); stretch, a least lambda_f/lambda_c, which makes it softer still, 1.5 in studies
- * of bonded spheres; or lower strengths by sqrt(limit/l), which keeps the energy (fl_bond_limit()). */
+ * of bonded spheres; or lower strengths by sqrt(limit/l), which keeps the energy (fl_bond_max_length()). */
 #ifndef FL_BOND_BOND_H
 #define FL_BOND_BOND_H
 #include "body/body.h"
 
-enum { FL_BOND_POINTS = 9, FL_BOND_FACE = 32, FL_BOND_TELLS = 28 };
+enum { FL_BOND_POINTS = 9, FL_BOND_FACE_NUMBERS = 32, FL_BOND_OUTPUT_NUMBERS = 28 };
 
 enum fl_bond_state {
-    FL_BOND_WHOLE,  /* no point is damaged                    */
-    FL_BOND_HURT,   /* some point is                          */
-    FL_BOND_BROKEN, /* all have failed: a crack that presses  */
-    FL_BOND_ENDED   /* no force any more                      */
+    FL_BOND_INTACT,  /* no point is damaged                    */
+    FL_BOND_DAMAGED, /* some point is                          */
+    FL_BOND_BROKEN,  /* all have failed: a crack that presses  */
+    FL_BOND_ENDED    /* no force any more                      */
 };
 
 typedef struct {
-    double d;           /* damage, 0 to 1                                                  */
-    double first, last; /* lambda_c and lambda_f, once damage has begun      [sqrt(J)/m]   */
-    double slip[2];     /* g along the two directions of the face            [m]           */
+    double d;                  /* damage, 0 to 1                                                  */
+    double lambda_c, lambda_f; /* lambda_c and lambda_f, once damage has begun      [sqrt(J)/m]   */
+    double slip[2];            /* g along the two directions of the face            [m]           */
 } fl_bond_point;
 
 typedef struct {
-    int32_t i, j;   /* bodies, i < j                                                     */
-    int32_t state;  /* enum fl_bond_state                                                */
-    int32_t mixing; /* eta >= 1                                                          */
-    double worn;    /* c                                                                 */
-    double damping; /* dashpot over spring, of what is not damaged       [s]            */
-    /* of the last look: FL_BOND_TELLS numbers in a row; world axes, torques about the two centres */
-    fl_vec3 f, ti, tj;         /* force on i (on j its opposite), torques           [N], [N m] */
-    double store;              /* W                                                 [J]   */
+    int32_t i, j;                /* bodies, i < j                                                     */
+    int32_t state;               /* enum fl_bond_state                                                */
+    int32_t mixed_mode_exponent; /* eta >= 1                                                          */
+    double wear;                 /* c                                                                 */
+    double damping;              /* dashpot over spring, of what is not damaged       [s]            */
+    /* of the last look: FL_BOND_OUTPUT_NUMBERS numbers in a row; world axes, torques about the two centres */
+    fl_vec3 force, torque_i, torque_j; /* force on i (on j its opposite), torques           [N], [N m] */
+    double elastic_energy;             /* W                                                 [J]   */
     double s[3], su[3], sv[3]; /* separation of the centre, and its change along a and b; opening, then
                                 * shear along two directions [m] */
-    fl_vec3 fd, di, dj;        /* the part of damping                                     */
-    /* the face and its springs: FL_BOND_FACE numbers in a row */
-    fl_vec3 pi, pj;     /* its centre, frames of i and j                     [m]            */
-    fl_vec3 ni, nj;     /* unit normal from i to j, frames of i and j                       */
-    fl_vec3 ai, aj;     /* half a side, frames of i and j                    [m]            */
-    fl_vec3 bi, bj;     /* half the other                                    [m]            */
-    double area;        /* [m2]                                                             */
-    double kn, ks;      /* E/l, G/l                                          [Pa/m]         */
-    double tension;     /* sigma_t, INFINITY: never                          [Pa]           */
-    double cohesion;    /* c, INFINITY: never                                [Pa]           */
-    double length;      /* l                                                 [m]            */
-    double friction;    /* mu                                                               */
-    double stretch;     /* lambda_f is at least this times lambda_c; 0: none                */
-    fl_vec3 fs, si, sj; /* the part of friction                                    */
-    double spring;      /* in the springs of friction                        [J]   */
+    fl_vec3 force_damping, torque_i_damping,
+        torque_j_damping; /* the part of damping                                     */
+    /* the face and its springs: FL_BOND_FACE_NUMBERS numbers in a row */
+    fl_vec3 pi, pj;          /* its centre, frames of i and j                     [m]            */
+    fl_vec3 ni, nj;          /* unit normal from i to j, frames of i and j                       */
+    fl_vec3 ai, aj;          /* half a side, frames of i and j                    [m]            */
+    fl_vec3 bi, bj;          /* half the other                                    [m]            */
+    double area;             /* [m2]                                                             */
+    double kn, ks;           /* E/l, G/l                                          [Pa/m]         */
+    double tensile_strength; /* sigma_t, INFINITY: never                          [Pa]           */
+    double cohesion;         /* c, INFINITY: never                                [Pa]           */
+    double length;           /* l                                                 [m]            */
+    double friction;         /* mu                                                               */
+    double min_ductility;    /* lambda_f is at least this times lambda_c; 0: none                */
+    fl_vec3 force_friction, torque_i_friction,
+        torque_j_friction;         /* the part of friction                                    */
+    double friction_spring_energy; /* in the springs of friction                        [J]   */
     /* how it breaks, and its past */
-    double energy[2]; /* G_I, G_II; 0: at once                              [J/m2]        */
-    double held;      /* h_0, 0 before it has failed */
-    double spent;     /* taken out by damage and wear so far                [J]           */
-    double handed;    /* and given to the springs of friction               [J]           */
+    double fracture_energy[2]; /* G_I, G_II; 0: at once                              [J/m2]        */
+    double h0;                 /* h_0, 0 before it has failed */
+    double dissipated;         /* taken out by damage and wear so far                [J]           */
+    double given_to_friction;  /* and given to the springs of friction               [J]           */
     fl_bond_point point[FL_BOND_POINTS];
 } fl_bond;
 
 /* The face of c between bodies c->i and c->j as they stand: its centre x, the unit normal n from i to j, half
  * sides a and b across it, all in the world beside i; way: what is added to positions of j to be beside i
  * [m].  Sets pi to bj. */
-void fl_bond_place(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl_vec3 n, fl_vec3 a, fl_vec3 h);
+void fl_bond_set_face(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl_vec3 n, fl_vec3 a,
+                      fl_vec3 h);
 
 /* Separations, damage, slip and forces at the poses and velocities of now, a step after the last look; way as
  * above.  1 when the face is ended by that, 0 otherwise. */
 int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way);
 
 /* The separations alone, as the last look left them: for a state that is read. */
-void fl_bond_look(fl_bond *c, const fl_bodies *b, fl_vec3 way);
+void fl_bond_update_separation(fl_bond *c, const fl_bodies *b, fl_vec3 way);
 
 /* End it: no force any more. */
 void fl_bond_end(fl_bond *c);
@@ -119,19 +122,19 @@ typedef struct {
     double tension, shear, moment;
     fl_vec3 x;
 } fl_bond_load;
-fl_bond_load fl_bond_loaded(const fl_bond *c, const fl_bodies *b, fl_vec3 way);
+fl_bond_load fl_bond_section_load(const fl_bond *c, const fl_bodies *b, fl_vec3 way);
 
 /* Mean damage over the area. */
-double fl_bond_mean(const fl_bond *c);
+double fl_bond_mean_damage(const fl_bond *c);
 
 /* Point k: its weight, the share of the area, and where it is in units of half the sides, -1, 0 or 1. */
-double fl_bond_point_at(int k, double *along_a, double *along_b);
+double fl_bond_quadrature_point(int k, double *along_a, double *along_b);
 
 /* The largest l without snap-back, 2 E G/strength^2 [m]. */
-double fl_bond_limit(double modulus, double energy, double strength);
+double fl_bond_max_length(double modulus, double energy, double strength);
 
 /* What a bond takes per area in mode I: the larger of G_I and sigma_t^2/(2 k_n), or what stretch makes of it
  * [J/m2]. */
-double fl_bond_energy(const fl_bond *c);
+double fl_bond_fracture_energy(const fl_bond *c);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "broad/bvh.h"
 
 /* Halving n < 2^31 ends after 30 levels, each of which leaves one node on the stack. */
@@ -84,10 +84,11 @@ static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int3
 
 int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err)
 {
-    return fl_bvh_build_some(t, box, n, 0, NULL, err);
+    return fl_bvh_build_present(t, box, n, 0, NULL, err);
 }
 
-int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const uint8_t *absent, fl_err *err)
+int fl_bvh_build_present(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const uint8_t *absent,
+                         fl_err *err)
 {
     int32_t there = 0;
     if (fl_grow(&t->order, &t->order_cap, n, sizeof *t->order, err)) return -1;
@@ -112,14 +113,14 @@ int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *ou
     if (t->nodes) stack[top++] = 0;
     while (top > 0) {
         const fl_bvh_node *node = &t->node[stack[--top]];
-        if (!aabb_meet(node->box, q)) continue;
+        if (!aabb_overlap(node->box, q)) continue;
         if (node->count == 0) {
             stack[top++] = node->first;
             stack[top++] = node->first + 1;
             continue;
         }
         for (int32_t k = node->first; k < node->first + node->count; k++) {
-            if (!aabb_meet(box[t->order[k]], q)) continue;
+            if (!aabb_overlap(box[t->order[k]], q)) continue;
             if (found < room) out[found] = t->order[k];
             found++;
         }
@@ -127,7 +128,7 @@ int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *ou
     return found;
 }
 
-fl_bvh_walk fl_bvh_about(const fl_bvh *t, const fl_aabb *box, fl_vec3 x)
+fl_bvh_walk fl_bvh_walk_from(const fl_bvh *t, const fl_aabb *box, fl_vec3 x)
 {
     fl_bvh_walk w;
     w.tree = t, w.box = box, w.x = x;
@@ -136,7 +137,7 @@ fl_bvh_walk fl_bvh_about(const fl_bvh *t, const fl_aabb *box, fl_vec3 x)
     return w;
 }
 
-int32_t fl_bvh_next(fl_bvh_walk *w, double within)
+int32_t fl_bvh_walk_next(fl_bvh_walk *w, double within)
 {
     const fl_bvh *t = w->tree;
     const double far2 = within * within;

@@ -25,8 +25,8 @@ typedef struct {
 int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err);
 
 /* The same without the boxes k < m where absent[k] is not 0; absent NULL: with all. */
-int fl_bvh_build_some(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const uint8_t *absent,
-                      fl_err *err);
+int fl_bvh_build_present(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const uint8_t *absent,
+                         fl_err *err);
 
 /* Indices k with box[k] meeting q (touching counts), in no particular order, into out[0 .. room); returns how
  * many there are, which may exceed room: then the caller makes room and asks again.  Cannot fail. */
@@ -42,11 +42,11 @@ typedef struct {
     int32_t top, stack[FL_BVH_STACK];
 } fl_bvh_walk;
 
-fl_bvh_walk fl_bvh_about(const fl_bvh *t, const fl_aabb *box, fl_vec3 x);
+fl_bvh_walk fl_bvh_walk_from(const fl_bvh *t, const fl_aabb *box, fl_vec3 x);
 
 /* The next one no farther from the point than that, each once, or -1.  Who looks for the nearest thing lets
  * the distance fall from call to call; INFINITY: any. */
-int32_t fl_bvh_next(fl_bvh_walk *w, double within);
+int32_t fl_bvh_walk_next(fl_bvh_walk *w, double within);
 
 void fl_bvh_free(fl_bvh *t);
 

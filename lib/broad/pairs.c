@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "broad/pairs.h"
 
 /* How many images of one body to each side of the middle another may meet, and the code of the middle. */
@@ -75,7 +75,7 @@ static int partners(const fl_pairs *p, const fl_aabb *box, int32_t i, int32_t to
     }
     if (fl_grow(&s->key, &s->key_cap, (int64_t)s->keys + wide, sizeof *s->key, err)) return -1;
     for (int32_t j = total - wide; j < total; j++)
-        if (aabb_meet(b, box[j])) s->key[s->keys++] = (int64_t)j << 32 | CENTRE;
+        if (aabb_overlap(b, box[j])) s->key[s->keys++] = (int64_t)j << 32 | CENTRE;
     qsort(s->key, (size_t)s->keys, sizeof *s->key, ascending);
     return 0;
 }
@@ -103,7 +103,7 @@ int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int
 {
     int failed = 0;
     const int wraps = p->period.x > 0.0 || p->period.y > 0.0 || p->period.z > 0.0;
-    if (fl_bvh_build_some(&p->tree, box, total - wide, n, p->absent, err)) return -1;
+    if (fl_bvh_build_present(&p->tree, box, total - wide, n, p->absent, err)) return -1;
     if (fl_grow(&p->first, &p->first_cap, (int64_t)n + 1, sizeof *p->first, err)) return -1;
     /* Each block of bodies keeps what it finds until all know where it belongs. */
     const int32_t blocks = (n + BLOCK - 1) / BLOCK;
@@ -142,9 +142,9 @@ int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int
     return failed ? fl_fail(err, FL_SYSTEM, "out of memory while searching neighbours") : 0;
 }
 
-int fl_pairs_image(int32_t image, int axis) { return (image >> (10 - 5 * axis) & 31) - 16; }
+int fl_pairs_image_shift(int32_t image, int axis) { return (image >> (10 - 5 * axis) & 31) - 16; }
 
-void fl_pairs_drop(fl_pairs *p)
+void fl_pairs_clear(fl_pairs *p)
 {
     fl_bvh_free(&p->tree);
     free(p->first);
@@ -155,6 +155,6 @@ void fl_pairs_drop(fl_pairs *p)
 
 void fl_pairs_free(fl_pairs *p)
 {
-    fl_pairs_drop(p);
+    fl_pairs_clear(p);
     *p = (fl_pairs){0};
 }

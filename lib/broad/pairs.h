@@ -25,10 +25,10 @@ typedef struct {
 int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int32_t wide, fl_err *err);
 
 /* By how many periods along axis 0, 1, 2 an image of fl_pairs has been moved. */
-int fl_pairs_image(int32_t image, int axis);
+int fl_pairs_image_shift(int32_t image, int axis);
 
 /* Let go of what was found and of what it was found with; period and absent stay. */
-void fl_pairs_drop(fl_pairs *p);
+void fl_pairs_clear(fl_pairs *p);
 
 void fl_pairs_free(fl_pairs *p);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "contact/pair_law.h"
 #include "law/damping.h"
 #include "law/material.h"
@@ -9,11 +9,11 @@
 /* The one place of `core` is this much softer than a face: what a corner of one would be. */
 #define FACE_OF_CORE 6.0
 
-static fl_elastic elastic_of(const fl_scene *s, int32_t material)
+static fl_elastic_constants elastic_of(const fl_scene *s, int32_t material)
 {
-    if (material == FL_SCENE_BOUNDARY) return (fl_elastic){INFINITY, 0.0};
+    if (material == FL_SCENE_BOUNDARY) return (fl_elastic_constants){INFINITY, 0.0};
     if (material == FL_SCENE_STRUCTURE) material = fl_scene_find_material(s, s->structure.material);
-    return (fl_elastic){s->material[material].young, s->material[material].poisson};
+    return (fl_elastic_constants){s->material[material].young, s->material[material].poisson};
 }
 
 /* Column of the law table for the partner's material. */
@@ -22,7 +22,7 @@ static int32_t column(const fl_world *w, int32_t material)
     return material >= 0 ? material : material == FL_SCENE_STRUCTURE ? w->materials : w->materials + 1;
 }
 
-int fl_pairing_laws(fl_world *w, fl_err *err)
+int fl_pair_law_make_table(fl_world *w, fl_err *err)
 {
     const fl_scene *s = w->scene;
     int asked = 0;
@@ -36,39 +36,39 @@ int fl_pairing_laws(fl_world *w, fl_err *err)
                                                   : FL_SCENE_BOUNDARY;
             const fl_scene_contact t = fl_scene_pair(s, a, b);
             const double given = t.damping;
-            const double D = given >= 0.0 ? given : fl_damping_crossley(t.restitution);
+            const double D = given >= 0.0 ? given : fl_damping_hunt_crossley(t.restitution);
             const double zeta = given >= 0.0 ? given : fl_damping_linear(t.restitution);
             const double alpha = given >= 0.0 ? given : fl_damping_tsuji(t.restitution);
             const int manual = t.law == FL_LAW_MANUAL || t.law == FL_LAW_MANUAL_SI;
-            w->law[a * (w->materials + 2) + c] = (fl_touching){
+            w->law[a * (w->materials + 2) + c] = (fl_pair_law){
                 .kind = t.law,
                 .exponent = t.exponent,
                 .modulus = fl_material_modulus(elastic_of(s, a), elastic_of(s, b)),
                 .stiffness = t.stiffness,
-                .softening = t.softening,
+                .stiffness_factor = t.stiffness_factor,
                 .friction = t.friction,
-                .tangential = t.tangential,
+                .tangential_ratio = t.tangential_ratio,
                 .rolling = manual ? 0.0 : t.rolling,
-                .chi = D,
-                .rest = fl_damping_rest(D),
+                .impact_damping = D,
+                .slow_damping_factor = fl_damping_slow_factor(D),
                 .zeta = zeta,
                 .alpha = alpha,
-                .surrogate = t.law == FL_LAW_PATCH ? t.surrogate : 0.0,
+                .surrogate_tolerance = t.law == FL_LAW_PATCH ? t.surrogate : 0.0,
                 /* Tsuji's ratio is C/(2 sqrt(K M)) = alpha/(2 sqrt(3/2)) */
-                .left = manual ? fl_damping_left(fmax(zeta, alpha / sqrt(6.0)))
-                               : fl_damping_crossley_left(D, 1.0),
-                .literal2 = t.literal2,
-                .literal18 = t.literal18,
+                .stable_share = manual ? fl_damping_stable_share(fmax(zeta, alpha / sqrt(6.0)))
+                                       : fl_hunt_crossley_stable_share(D, 1.0),
+                .literal2 = t.manual_eq2,
+                .literal18 = t.manual_eq18,
             };
-            w->rolls |= w->law[a * (w->materials + 2) + c].rolling > 0.0;
-            asked |= w->law[a * (w->materials + 2) + c].surrogate > 0.0;
+            w->has_rolling |= w->law[a * (w->materials + 2) + c].rolling > 0.0;
+            asked |= w->law[a * (w->materials + 2) + c].surrogate_tolerance > 0.0;
         }
     }
-    if (asked) w->told = fl_alloc(w->threads, sizeof *w->told, err);
-    return asked && !w->told ? -1 : 0;
+    if (asked) w->surrogate_counts = fl_alloc(w->threads, sizeof *w->surrogate_counts, err);
+    return asked && !w->surrogate_counts ? -1 : 0;
 }
 
-const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j)
+const fl_pair_law *fl_pair_law_of(const fl_world *w, int32_t i, int32_t j)
 {
     return &w->law[w->material[i] * (w->materials + 2) + column(w, w->material[j])];
 }
@@ -78,7 +78,7 @@ const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j)
 static double given_patch(const fl_world *w, int32_t i, int32_t j, double area)
 {
     const fl_bodies *b = &w->b;
-    const fl_touching *law = fl_pairing_law(w, i, j);
+    const fl_pair_law *law = fl_pair_law_of(w, i, j);
     const double kappa = law->stiffness;
     const int core = law->kind == FL_LAW_CORE, faces = b->core[i].nv > 2 && (j >= w->n || b->core[j].nv > 2);
     if (faces && !(core && law->exponent != 1.0))
@@ -87,18 +87,21 @@ static double given_patch(const fl_world *w, int32_t i, int32_t j, double area)
     return 0.5 * fl_material_punch(modulus, 1.0);
 }
 
-double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent)
+double fl_pair_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent)
 {
     const fl_bodies *b = &w->b;
-    const fl_touching *law = fl_pairing_law(w, i, j);
+    const fl_pair_law *law = fl_pair_law_of(w, i, j);
     const fl_piece *piece = fl_world_piece(w, j);
-    const int core = law->kind == FL_LAW_CORE && !(piece && piece->kind == FL_PIECE_SHELL);
+    const int core = law->kind == FL_LAW_CORE && !(piece && piece->kind == FL_PIECE_MESH);
     const int32_t line = core ? 2 : 1; /* to `core` a line is round, too */
     const int round = b->core[i].nv <= line || (j < w->n && b->core[j].nv <= line);
-    const double area = w->face[j] > 0.0 && w->face[j] < w->face[i] ? w->face[j] : w->face[i];
+    const double area = w->max_face_area[j] > 0.0 && w->max_face_area[j] < w->max_face_area[i]
+                            ? w->max_face_area[j]
+                            : w->max_face_area[i];
     *exponent = round ? 1.5 : core ? law->exponent : 0.0;
     if (law->stiffness > 0.0) return *exponent > 0.0 ? law->stiffness : given_patch(w, i, j, area);
-    if (*exponent == 0.0) return 0.5 * law->softening * fl_material_punch(law->modulus, 1.0);
-    if (*exponent == 1.0) return law->softening * fl_material_punch(law->modulus, area) / FACE_OF_CORE;
-    return law->softening * fl_material_hertz(law->modulus, fl_material_radius(b->radius[i], b->radius[j]));
+    if (*exponent == 0.0) return 0.5 * law->stiffness_factor * fl_material_punch(law->modulus, 1.0);
+    if (*exponent == 1.0) return law->stiffness_factor * fl_material_punch(law->modulus, area) / FACE_OF_CORE;
+    return law->stiffness_factor *
+           fl_material_hertz(law->modulus, fl_material_radius(b->radius[i], b->radius[j]));
 }

@@ -5,15 +5,15 @@
 #include "world/world.h"
 
 /* Resolve the laws of all pairs of materials in the scene, w->law. -1 with FL_SYSTEM. */
-int fl_pairing_laws(fl_world *w, fl_err *err);
+int fl_pair_law_make_table(fl_world *w, fl_err *err);
 
 /* The law of bodies i and j. */
-const fl_touching *fl_pairing_law(const fl_world *w, int32_t i, int32_t j);
+const fl_pair_law *fl_pair_law_of(const fl_world *w, int32_t i, int32_t j);
 
 /* Stiffness of one place between i and j [N/m^n], and n.  Where a core is a point, and in `core` a segment,
  * places are Hertz's with exponent 3/2; between others they are what the scene says: of `patch` n is 0, and
  * this is its c [N/m2].  What a scene gives is kappa of a whole face, or of Hertz where one of the two is
  * round: a capsule has the c that makes its end as stiff. */
-double fl_pairing_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent);
+double fl_pair_stiffness(const fl_world *w, int32_t i, int32_t j, double *exponent);
 
 #endif

@@ -2,36 +2,36 @@
 #include <math.h>
 #include "contact/pair_response.h"
 
-double fl_pair_mass(const fl_world *w, const fl_pair *p, const fl_pair_yielding *e, fl_vec3 f, fl_vec3 ti,
+double fl_pair_mass(const fl_world *w, const fl_pair *p, const fl_pair_mobility *e, fl_vec3 f, fl_vec3 ti,
                     fl_vec3 tj)
 {
-    if (fl_pair_is_plain(w, p)) return p->mass;
-    const double yields =
-                     fl_ease_along(&e->i, f, v3_scale(0.5, ti)) + fl_ease_along(&e->j, f, v3_scale(0.5, tj)),
+    if (fl_pair_has_reduced_mass(w, p)) return p->mass;
+    const double yields = fl_mobility_along(&e->i, f, v3_scale(0.5, ti)) +
+                          fl_mobility_along(&e->j, f, v3_scale(0.5, tj)),
                  mass = v3_norm2(f) / yields;
     return isfinite(mass) ? mass : p->mass; /* nothing moves */
 }
 
-double fl_pair_yields(const fl_pair_yielding *e, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses)
+double fl_pair_compliance(const fl_pair_mobility *e, fl_vec3 f, fl_vec3 ti, fl_vec3 tj, double presses)
 {
     const double f2 = fmax(v3_norm2(f), 0.25 * presses * presses);
-    return f2 > 0.0 ? (fl_ease_along(&e->i, f, ti) + fl_ease_along(&e->j, f, tj)) / f2 : 0.0;
+    return f2 > 0.0 ? (fl_mobility_along(&e->i, f, ti) + fl_mobility_along(&e->j, f, tj)) / f2 : 0.0;
 }
 
 /* Of the point of a body that lies by `arm` from its centre. */
-static fl_sym3 ease_at(const fl_yielding *e, fl_vec3 arm)
+static fl_sym3 ease_at(const fl_mobility *e, fl_vec3 arm)
 {
     const fl_vec3 x = {0, arm.z, -arm.y}, y = {-arm.z, 0, arm.x}, z = {arm.y, -arm.x, 0}; /* arm x axes */
-    return s3_add(e->straight,
-                  s3_products(x, y, z, s3_mul(e->turn, x), s3_mul(e->turn, y), s3_mul(e->turn, z)));
+    return s3_add(e->linear,
+                  s3_products(x, y, z, s3_mul(e->angular, x), s3_mul(e->angular, y), s3_mul(e->angular, z)));
 }
 
-fl_sym3 fl_pair_ease(const fl_pair_yielding *e, fl_vec3 ai, fl_vec3 aj)
+fl_sym3 fl_pair_compliance_matrix(const fl_pair_mobility *e, fl_vec3 ai, fl_vec3 aj)
 {
     return s3_add(ease_at(&e->i, ai), ease_at(&e->j, aj));
 }
 
-double fl_pair_turns(const fl_pair_yielding *e, fl_vec3 n)
+double fl_pair_turn_compliance(const fl_pair_mobility *e, fl_vec3 n)
 {
-    return v3_dot(n, s3_mul(s3_add(e->i.turn, e->j.turn), n));
+    return v3_dot(n, s3_mul(s3_add(e->i.angular, e->j.angular), n));
 }

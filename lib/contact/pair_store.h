@@ -5,25 +5,25 @@
 #include "world/world.h"
 
 /* A new pair that does not touch. */
-void fl_pair_start(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
+void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
 
 /* Free what a pair has of its own. */
-void fl_pair_end(fl_pair *p);
+void fl_pair_free(fl_pair *p);
 
 /* Two things are near, and do not touch. */
-void fl_near_start(fl_near *q, int32_t i, int32_t j, const int32_t image[3]);
+void fl_neighbour_pair_init(fl_neighbour_pair *q, int32_t i, int32_t j, const int32_t image[3]);
 
 /* The pair that it is, where it has none of its own. */
-void fl_near_pair(const fl_world *w, const fl_near *q, fl_pair *p);
+void fl_neighbour_pair_expand(const fl_world *w, const fl_neighbour_pair *q, fl_pair *p);
 
 /* Keep p, as it is now: a contact has room of its own, of others lasts what has to.  p is its own, or such as
- * fl_near_pair() made; any thread.  -1 when memory runs out: then p has been ended. */
-int fl_near_keep(fl_world *w, fl_near *q, fl_pair *p);
+ * fl_neighbour_pair_expand() made; any thread.  -1 when memory runs out: then p has been ended. */
+int fl_neighbour_pair_store(fl_world *w, fl_neighbour_pair *q, fl_pair *p);
 
 /* Free what it has of its own. */
-void fl_near_end(fl_world *w, fl_near *q);
+void fl_neighbour_pair_free(fl_world *w, fl_neighbour_pair *q);
 
 /* End all near pairs of a world. */
-void fl_near_free(fl_world *w);
+void fl_neighbour_pairs_free(fl_world *w);
 
 #endif

@@ -22,7 +22,7 @@ static inline fl_aabb aabb_grow(fl_aabb b, double r)
 {
     return (fl_aabb){{b.lo.x - r, b.lo.y - r, b.lo.z - r}, {b.hi.x + r, b.hi.y + r, b.hi.z + r}};
 }
-static inline int aabb_meet(fl_aabb a, fl_aabb b)
+static inline int aabb_overlap(fl_aabb a, fl_aabb b)
 {
     return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
            b.lo.z <= a.hi.z;

@@ -2,7 +2,7 @@
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
 

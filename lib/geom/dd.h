@@ -17,18 +17,18 @@ typedef struct {
 
 static inline fl_dd dd_of(double a) { return (fl_dd){a, 0.0}; }
 /* a + b without error, |a| >= |b| */
-static inline fl_dd dd_quick(double a, double b)
+static inline fl_dd dd_fast_two_sum(double a, double b)
 {
     const double s = a + b;
     return (fl_dd){s, b - (s - a)};
 }
 /* a + b and a b without error */
-static inline fl_dd dd_sum(double a, double b)
+static inline fl_dd dd_two_sum(double a, double b)
 {
     const double s = a + b, t = s - a;
     return (fl_dd){s, (a - (s - t)) + (b - t)};
 }
-static inline fl_dd dd_prod(double a, double b)
+static inline fl_dd dd_two_prod(double a, double b)
 {
     const double p = a * b;
     return (fl_dd){p, fma(a, b, -p)};
@@ -36,14 +36,14 @@ static inline fl_dd dd_prod(double a, double b)
 static inline fl_dd dd_neg(fl_dd a) { return (fl_dd){-a.h, -a.l}; }
 static inline fl_dd dd_add(fl_dd a, fl_dd b)
 {
-    const fl_dd s = dd_sum(a.h, b.h), t = dd_sum(a.l, b.l), u = dd_quick(s.h, s.l + t.h);
-    return dd_quick(u.h, u.l + t.l);
+    const fl_dd s = dd_two_sum(a.h, b.h), t = dd_two_sum(a.l, b.l), u = dd_fast_two_sum(s.h, s.l + t.h);
+    return dd_fast_two_sum(u.h, u.l + t.l);
 }
 static inline fl_dd dd_sub(fl_dd a, fl_dd b) { return dd_add(a, dd_neg(b)); }
 static inline fl_dd dd_mul(fl_dd a, fl_dd b)
 {
-    const fl_dd p = dd_prod(a.h, b.h);
-    return dd_quick(p.h, p.l + (a.h * b.l + a.l * b.h));
+    const fl_dd p = dd_two_prod(a.h, b.h);
+    return dd_fast_two_sum(p.h, p.l + (a.h * b.l + a.l * b.h));
 }
 static inline fl_dd dd_div(fl_dd a, fl_dd b)
 {
@@ -51,7 +51,7 @@ static inline fl_dd dd_div(fl_dd a, fl_dd b)
     fl_dd r = dd_sub(a, dd_mul(dd_of(q), b));
     const double q2 = r.h / b.h;
     r = dd_sub(r, dd_mul(dd_of(q2), b));
-    const fl_dd s = dd_quick(q, q2);
+    const fl_dd s = dd_fast_two_sum(q, q2);
     return dd_add(s, dd_of(r.h / b.h));
 }
 /* Positive, zero or negative as a - b is. */
@@ -60,7 +60,7 @@ static inline double dd_cmp(fl_dd a, fl_dd b) { return dd_sub(a, b).h; }
 /* a - b without error */
 static inline fl_ddv ddv_diff(fl_vec3 a, fl_vec3 b)
 {
-    return (fl_ddv){dd_sum(a.x, -b.x), dd_sum(a.y, -b.y), dd_sum(a.z, -b.z)};
+    return (fl_ddv){dd_two_sum(a.x, -b.x), dd_two_sum(a.y, -b.y), dd_two_sum(a.z, -b.z)};
 }
 static inline fl_ddv ddv_sub(fl_ddv a, fl_ddv b)
 {

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/edges.h"
 
 static int by_ends(const void *x, const void *y)
 {
-    const fl_side *a = x, *b = y;
+    const fl_half_edge *a = x, *b = y;
     if (a->hi != b->hi) return a->hi < b->hi ? -1 : 1;
     if (a->t != b->t) return a->t < b->t ? -1 : 1;
     return a->k - b->k;
 }
 
 /* Sides of one vertex are few but at the hub of a fan. */
-static void sort_bucket(fl_side *s, int64_t n)
+static void sort_bucket(fl_half_edge *s, int64_t n)
 {
     enum { FEW = 24 };
     if (n > FEW) {
@@ -20,7 +20,7 @@ static void sort_bucket(fl_side *s, int64_t n)
         return;
     }
     for (int64_t i = 1; i < n; i++) {
-        const fl_side x = s[i];
+        const fl_half_edge x = s[i];
         int64_t k = i;
         for (; k > 0 && by_ends(&s[k - 1], &x) > 0; k--) s[k] = s[k - 1];
         s[k] = x;
@@ -34,15 +34,15 @@ static int32_t lower(const fl_tri *t, int k)
 }
 
 /* Deal the sides to their lower ends, each bucket sorted. */
-static void deal(const fl_part *p, int64_t *first, fl_side *s)
+static void deal(const fl_part *p, int64_t *first, fl_half_edge *s)
 {
     for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3 && !fl_tri_repeats(&p->t[t]); k++) first[lower(&p->t[t], k) + 1]++;
+        for (int k = 0; k < 3 && !fl_tri_repeats_vertex(&p->t[t]); k++) first[lower(&p->t[t], k) + 1]++;
     for (int32_t v = 0; v < p->nv; v++) first[v + 1] += first[v];
     for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3 && !fl_tri_repeats(&p->t[t]); k++) {
+        for (int k = 0; k < 3 && !fl_tri_repeats_vertex(&p->t[t]); k++) {
             const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
-            s[first[lower(&p->t[t], k)]++] = (fl_side){a < b ? b : a, t, (int8_t)k, a < b};
+            s[first[lower(&p->t[t], k)]++] = (fl_half_edge){a < b ? b : a, t, (int8_t)k, a < b};
         }
     for (int32_t v = p->nv; v > 0; v--) first[v] = first[v - 1]; /* each ran on to the next one's start */
     first[0] = 0;

@@ -9,11 +9,11 @@
 typedef struct {
     int32_t hi, t; /* the higher end, and the triangle            */
     int8_t k, up;  /* side k of it; 1: it runs up from the lower end */
-} fl_side;
+} fl_half_edge;
 
 typedef struct {
-    int64_t *first; /* [nv + 1] sides first[v] .. first[v + 1) have vertex v as their lower end */
-    fl_side *side;  /* [3 nt]; those of an edge one behind the other, in the order of triangles */
+    int64_t *first;     /* [nv + 1] sides first[v] .. first[v + 1) have vertex v as their lower end */
+    fl_half_edge *side; /* [3 nt]; those of an edge one behind the other, in the order of triangles */
 } fl_edges;
 
 /* Of all triangles but those that repeat an index.  Return 0, or -1 with FL_SYSTEM and nothing to free. */
@@ -28,7 +28,7 @@ static inline int64_t fl_edge_end(const fl_edges *e, int32_t v, int64_t from)
     return to;
 }
 
-static inline int fl_tri_repeats(const fl_tri *t)
+static inline int fl_tri_repeats_vertex(const fl_tri *t)
 {
     return t->v[0] == t->v[1] || t->v[1] == t->v[2] || t->v[2] == t->v[0];
 }

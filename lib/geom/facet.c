@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/facet.h"
 
 /* A quadrilateral is flat when its corners stray less than this from a plane, relative to its diagonal:

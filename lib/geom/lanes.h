@@ -3,23 +3,23 @@
  * as the machine is. */
 #ifndef FL_GEOM_LANES_H
 #define FL_GEOM_LANES_H
-#include "base/wide.h"
+#include "base/simd.h"
 #include "geom/rows3.h"
 
-enum { FL_ABREAST = 8 };
+enum { FL_LANE_COUNT = 8 };
 
 typedef struct {
-    double a[FL_ABREAST];
+    double a[FL_LANE_COUNT];
 } fl_lane;
 
 static inline fl_vec3 fl_lane3(const fl_lane *a, int k) { return v3(a[0].a[k], a[1].a[k], a[2].a[k]); }
-static inline void fl_lane3_put(fl_lane *a, int k, fl_vec3 v)
+static inline void fl_lane3_set(fl_lane *a, int k, fl_vec3 v)
 {
     a[0].a[k] = v.x, a[1].a[k] = v.y, a[2].a[k] = v.z;
 }
 
 /* The axes of the k-th by its quaternion, as q_matrix(). */
-FL_WIDE_PART fl_rows3 fl_lane_axes(const fl_lane *q, int k)
+FL_SIMD_INLINE fl_rows3 fl_lane_axes(const fl_lane *q, int k)
 {
     const double w = q[0].a[k], x = q[1].a[k], y = q[2].a[k], z = q[3].a[k];
     return (fl_rows3){v3(1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
@@ -30,27 +30,27 @@ FL_WIDE_PART fl_rows3 fl_lane_axes(const fl_lane *q, int k)
 /* A column: the doubles from there on. */
 static inline const double *fl_lane_column(const void *at) { return at; }
 
-/* Columns of doubles, of[FL_ABREAST], to rows, a multiple of four. */
-FL_WIDE_PART void fl_lanes_in(fl_lane *row, const double *const *of, int rows)
+/* Columns of doubles, of[FL_LANE_COUNT], to rows, a multiple of four. */
+FL_SIMD_INLINE void fl_lanes_load(fl_lane *row, const double *const *of, int rows)
 {
-    for (int k = 0; k < FL_ABREAST; k += FL_LANES)
-        for (int c = 0; c < rows; c += FL_LANES) {
-            fl_wide r[FL_LANES] = {FL_FOUR(of[k] + c), FL_FOUR(of[k + 1] + c), FL_FOUR(of[k + 2] + c),
-                                   FL_FOUR(of[k + 3] + c)};
-            fl_wide_transpose(r);
-            FL_WIDE_UNROLL
-            for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(&row[c + l].a[k]) = r[l];
+    for (int k = 0; k < FL_LANE_COUNT; k += FL_SIMD_WIDTH)
+        for (int c = 0; c < rows; c += FL_SIMD_WIDTH) {
+            fl_simd r[FL_SIMD_WIDTH] = {FL_SIMD_LOAD(of[k] + c), FL_SIMD_LOAD(of[k + 1] + c),
+                                        FL_SIMD_LOAD(of[k + 2] + c), FL_SIMD_LOAD(of[k + 3] + c)};
+            fl_simd_transpose(r);
+            FL_SIMD_UNROLL
+            for (int l = 0; l < FL_SIMD_WIDTH; l++) FL_SIMD_STORE(&row[c + l].a[k]) = r[l];
         }
 }
 
 /* Four rows to the columns of the four from k on. */
-FL_WIDE_PART void fl_lanes_out(double *const *to, const fl_lane *row, int k)
+FL_SIMD_INLINE void fl_lanes_store(double *const *to, const fl_lane *row, int k)
 {
-    fl_wide r[FL_LANES] = {FL_FOUR(&row[0].a[k]), FL_FOUR(&row[1].a[k]), FL_FOUR(&row[2].a[k]),
-                           FL_FOUR(&row[3].a[k])};
-    fl_wide_transpose(r);
-    FL_WIDE_UNROLL
-    for (int l = 0; l < FL_LANES; l++) FL_FOUR_INTO(to[l]) = r[l];
+    fl_simd r[FL_SIMD_WIDTH] = {FL_SIMD_LOAD(&row[0].a[k]), FL_SIMD_LOAD(&row[1].a[k]),
+                                FL_SIMD_LOAD(&row[2].a[k]), FL_SIMD_LOAD(&row[3].a[k])};
+    fl_simd_transpose(r);
+    FL_SIMD_UNROLL
+    for (int l = 0; l < FL_SIMD_WIDTH; l++) FL_SIMD_STORE(to[l]) = r[l];
 }
 
 #endif

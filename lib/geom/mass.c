@@ -65,7 +65,7 @@ static void add_edge(struct sums *s, const fl_poly *p, int32_t e, fl_vec3 o, dou
 {
     const fl_edge g = p->edge[e];
     const fl_vec3 a = v3_sub(p->v[g.a], o), b = v3_sub(p->v[g.b], o), mid = v3_scale(0.5, v3_add(a, b));
-    const double len = v3_norm(v3_sub(b, a)), t = fl_poly_bend(p, e), r3 = r * r * r / 3.0,
+    const double len = v3_norm(v3_sub(b, a)), t = fl_poly_compute_bend(p, e), r3 = r * r * r / 3.0,
                  r4 = r * r * r * r / 4.0;
     const fl_vec3 d = v3_scale(1.0 / len, v3_sub(b, a));
     const int round = g.left < 0; /* a segment: all the way round, and no middle direction */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/pi.h"
-#include "base/wide.h"
+#include "base/simd.h"
 #include "geom/dd.h"
 #include "geom/moments.h"
 
@@ -18,13 +18,13 @@ static inline void add_terms(double *restrict h, double *restrict l, const doubl
 {
 #pragma omp simd
     for (int k = 0; k < TERMS; k++) {
-        const fl_dd s = dd_sum(h[k], x[k]), u = dd_quick(s.h, s.l + l[k]);
+        const fl_dd s = dd_two_sum(h[k], x[k]), u = dd_fast_two_sum(s.h, s.l + l[k]);
         h[k] = u.h;
         l[k] = u.l;
     }
 }
 
-FL_WIDE_VERSIONS static void add_triangles(struct sums *to, const fl_part *part)
+FL_SIMD_VERSIONS static void add_triangles(struct sums *to, const fl_part *part)
 {
     struct sums s = *to;
     for (int32_t t = 0; t < part->nt; t++) {

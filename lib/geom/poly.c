@@ -2,7 +2,7 @@
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "geom/poly.h"
 
@@ -44,8 +44,8 @@ static int lay_out(fl_poly *p, int32_t nl, fl_err *err)
     p->edge = (fl_edge *)(void *)(p->defect + nv);
     p->first = (int32_t *)(void *)(p->edge + ne);
     p->loop = p->first + nf + 1;
-    p->begin = p->loop + nl;
-    p->beside = p->begin + nv + 1;
+    p->neighbour_first = p->loop + nl;
+    p->neighbour = p->neighbour_first + nv + 1;
     return 0;
 }
 
@@ -74,7 +74,7 @@ static int32_t next_in(const fl_poly *p, int32_t f, int32_t k)
     return p->loop[k + 1 < p->first[f + 1] ? k + 1 : p->first[f]];
 }
 
-fl_vec3 fl_poly_area(const fl_poly *p, int32_t f)
+fl_vec3 fl_poly_face_area_vector(const fl_poly *p, int32_t f)
 {
     const fl_vec3 o = p->v[p->loop[p->first[f]]];
     fl_vec3 s = {0};
@@ -87,10 +87,10 @@ fl_vec3 fl_poly_area(const fl_poly *p, int32_t f)
     return v3_scale(0.5, s);
 }
 
-double fl_poly_largest(const fl_poly *p)
+double fl_poly_largest_face_area(const fl_poly *p)
 {
     double area = 0.0;
-    for (int32_t f = 0; f < p->nf; f++) area = fmax(area, v3_norm(fl_poly_area(p, f)));
+    for (int32_t f = 0; f < p->nf; f++) area = fmax(area, v3_norm(fl_poly_face_area_vector(p, f)));
     return area;
 }
 
@@ -107,7 +107,7 @@ static int check_face(struct build *b, int32_t f, fl_err *err)
 {
     fl_poly *p = &b->p;
     const int32_t m = p->first[f + 1] - p->first[f], *at = p->loop + p->first[f];
-    const fl_vec3 area = fl_poly_area(p, f);
+    const fl_vec3 area = fl_poly_face_area_vector(p, f);
     double longest = 0.0, turn = 0.0, low = INFINITY;
     for (int32_t k = 0; k < m; k++) {
         const int32_t i = at[k], j = at[k + 1 < m ? k + 1 : 0];
@@ -467,16 +467,17 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err)
     if (!from->bend) { /* it was without angles, or has a few */
         fl_poly_angles(&p);
         for (int32_t e = 0; e < p.ne; e++)
-            if (fl_poly_edge(from, e) < FL_POLY_BLUNT_EDGE) p.bend[e] = fl_poly_edge(from, e);
+            if (fl_poly_edge_angle(from, e) < FL_POLY_BLUNT_EDGE) p.bend[e] = fl_poly_edge_angle(from, e);
         for (int32_t v = 0; v < p.nv; v++)
-            if (fl_poly_corner(from, v) < FL_POLY_BLUNT_CORNER) p.defect[v] = fl_poly_corner(from, v);
+            if (fl_poly_corner_angle(from, v) < FL_POLY_BLUNT_CORNER)
+                p.defect[v] = fl_poly_corner_angle(from, v);
         *to = p;
         return 0;
     }
     memcpy(p.bend, from->bend, (size_t)p.ne * sizeof *p.bend);
     memcpy(p.defect, from->defect, (size_t)p.nv * sizeof *p.defect);
-    memcpy(p.begin, from->begin, ((size_t)p.nv + 1) * sizeof *p.begin);
-    memcpy(p.beside, from->beside, (size_t)from->begin[p.nv] * sizeof *p.beside);
+    memcpy(p.neighbour_first, from->neighbour_first, ((size_t)p.nv + 1) * sizeof *p.neighbour_first);
+    memcpy(p.neighbour, from->neighbour, (size_t)from->neighbour_first[p.nv] * sizeof *p.neighbour);
     *to = p;
     return 0;
 }
@@ -507,7 +508,7 @@ void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes)
     p->size = size_of(p);
 }
 
-double fl_poly_bend(const fl_poly *p, int32_t e)
+double fl_poly_compute_bend(const fl_poly *p, int32_t e)
 {
     const fl_edge s = p->edge[e];
     if (s.left < 0 || s.right < 0) return s.left == s.right ? 2.0 * PI : PI;
@@ -519,20 +520,20 @@ double fl_poly_bend(const fl_poly *p, int32_t e)
 
 void fl_poly_angles(fl_poly *p)
 {
-    for (int32_t v = 0; v <= p->nv; v++) p->begin[v] = 0;
+    for (int32_t v = 0; v <= p->nv; v++) p->neighbour_first[v] = 0;
     for (int32_t v = 0; v < p->nv; v++) p->defect[v] = p->nv == 1 ? 4.0 * PI : 2.0 * PI;
     for (int32_t e = 0; e < p->ne; e++) {
-        p->bend[e] = fl_poly_bend(p, e);
-        p->begin[p->edge[e].a + 1]++;
-        p->begin[p->edge[e].b + 1]++;
+        p->bend[e] = fl_poly_compute_bend(p, e);
+        p->neighbour_first[p->edge[e].a + 1]++;
+        p->neighbour_first[p->edge[e].b + 1]++;
     }
-    for (int32_t v = 0; v < p->nv; v++) p->begin[v + 1] += p->begin[v];
+    for (int32_t v = 0; v < p->nv; v++) p->neighbour_first[v + 1] += p->neighbour_first[v];
     for (int32_t e = 0; e < p->ne; e++) { /* edges are sorted: first the lower neighbours, then the higher */
-        p->beside[p->begin[p->edge[e].b]++] = p->edge[e].a;
+        p->neighbour[p->neighbour_first[p->edge[e].b]++] = p->edge[e].a;
     }
-    for (int32_t e = 0; e < p->ne; e++) p->beside[p->begin[p->edge[e].a]++] = p->edge[e].b;
-    for (int32_t v = p->nv; v > 0; v--) p->begin[v] = p->begin[v - 1];
-    p->begin[0] = 0;
+    for (int32_t e = 0; e < p->ne; e++) p->neighbour[p->neighbour_first[p->edge[e].a]++] = p->edge[e].b;
+    for (int32_t v = p->nv; v > 0; v--) p->neighbour_first[v] = p->neighbour_first[v - 1];
+    p->neighbour_first[0] = 0;
     for (int32_t f = 0; f < p->nf; f++) {
         const int32_t *loop = p->loop + p->first[f], n = p->first[f + 1] - p->first[f];
         for (int32_t k = 0; k < n; k++) {
@@ -550,7 +551,7 @@ double fl_poly_bytes(const fl_poly *p)
     size_t sum = (p->v ? nv * sizeof *p->v : 0) + (p->n ? nf * sizeof *p->n : 0) +
                  (p->c ? nf * sizeof *p->c : 0) +
                  (p->bend ? nv * sizeof *p->defect + ne * sizeof *p->bend : 0) +
-                 (size_t)p->blunts * (sizeof(double) + sizeof(int32_t));
+                 (size_t)p->kept_angles * (sizeof(double) + sizeof(int32_t));
     if (p->first && !p->shared) sum += (nf + 1 + (size_t)p->first[nf]) * sizeof(int32_t);
     if (p->edge && !p->shared) sum += ne * sizeof *p->edge + (nv + 1 + 2 * ne) * sizeof(int32_t);
     return (double)sum;

@@ -16,25 +16,26 @@ typedef struct {
 
 typedef struct {
     int32_t nv, nf, ne;
-    int16_t shared;  /* first, loop, edge, begin and beside are borrowed (topology.h) */
-    int16_t blunts;  /* angles that are kept where bend and defect are NULL            */
-    fl_vec3 *v;      /* [nv] vertices; the block that they begin holds all arrays that are not shared [m] */
-    fl_vec3 *n;      /* [nf] outward unit normals                                    */
-    double *c;       /* [nf] plane offsets, n.x = c, largest over the face's vertices [m]; or NULL */
-    int32_t *first;  /* [nf + 1] offsets into loop                                   */
-    int32_t *loop;   /* [first[nf]] vertices of each face, counter-clockwise from outside */
-    fl_edge *edge;   /* [ne], sorted by (a, b)                                       */
-    double *bend;    /* [ne] angle between the outward normals of the two faces, in [0, pi]; 2 pi round a
+    int16_t shared;      /* first, loop, edge, begin and beside are borrowed (topology.h) */
+    int16_t kept_angles; /* angles that are kept where bend and defect are NULL            */
+    fl_vec3 *v;     /* [nv] vertices; the block that they begin holds all arrays that are not shared [m] */
+    fl_vec3 *n;     /* [nf] outward unit normals                                    */
+    double *c;      /* [nf] plane offsets, n.x = c, largest over the face's vertices [m]; or NULL */
+    int32_t *first; /* [nf + 1] offsets into loop                                   */
+    int32_t *loop;  /* [first[nf]] vertices of each face, counter-clockwise from outside */
+    fl_edge *edge;  /* [ne], sorted by (a, b)                                       */
+    double *bend;   /* [ne] angle between the outward normals of the two faces, in [0, pi]; 2 pi round a
                       * segment                                                    [rad]; or NULL */
-    double *defect;  /* [nv] solid angle of the outward directions at the vertex: 2 pi less the angles of its
+    double *defect; /* [nv] solid angle of the outward directions at the vertex: 2 pi less the angles of its
                       * faces there (Gauss), 2 pi for the end of a segment, 4 pi for a point [sr]; NULL: so */
-    int32_t *begin;  /* [nv + 1] offsets into beside                                 */
-    int32_t *beside; /* [begin[nv]] the other ends of the edges of each vertex, ascending */
-    double size;     /* largest side of the bounding box                          [m] */
-    int32_t *lean;   /* of a surface that is not convex (bound/structure.h), borrowed: [first[nf]] the face
+    int32_t *neighbour_first; /* [nv + 1] offsets into beside                                 */
+    int32_t *neighbour;       /* [begin[nv]] the other ends of the edges of each vertex, ascending */
+    double size;              /* largest side of the bounding box                          [m] */
+    int32_t *
+        concave_face; /* of a surface that is not convex (structure/structure.h), borrowed: [first[nf]] the face
                       * over the side that begins in loop[k], where the two bend inward by less than 60
                       * degrees, or -1; NULL: nowhere */
-    uint8_t *fork;   /* of such, borrowed: [begin[nv]] 1 where the edge to beside[k] bends outward and its
+    uint8_t *saddle; /* of such, borrowed: [begin[nv]] 1 where the edge to beside[k] bends outward and its
                       * vertex is not convex; NULL: nowhere */
 } fl_poly;
 
@@ -72,17 +73,17 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err);
 int fl_poly_strip(fl_poly *p, fl_err *err);
 
 /* The area vector of face f, area times outward normal [m^2]; exact under far offsets of the whole. */
-fl_vec3 fl_poly_area(const fl_poly *p, int32_t f);
+fl_vec3 fl_poly_face_area_vector(const fl_poly *p, int32_t f);
 
 /* The area of the largest face, 0 without any [m^2]. */
-double fl_poly_largest(const fl_poly *p);
+double fl_poly_largest_face_area(const fl_poly *p);
 
 /* Fill bend, defect, begin and beside from the rest; bend is negative for edges that bend inward, which only
  * surfaces that are not convex have, and pi for those with one face. */
 void fl_poly_angles(fl_poly *p);
 
 /* bend[e], computed anew. */
-double fl_poly_bend(const fl_poly *p, int32_t e);
+double fl_poly_compute_bend(const fl_poly *p, int32_t e);
 
 /* Move and turn in place: x becomes transpose(axes) (x - o), so that o becomes the origin and the columns of
  * axes, which must be a rotation, become the axes. */
@@ -94,25 +95,25 @@ void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
 
 /* The angle of edge k, or of vertex k - ne, one of a few that are kept behind n, the numbers behind them; or
  * `sharp` where it is none of those. */
-static inline double fl_poly_kept(const fl_poly *p, int32_t k, double sharp)
+static inline double fl_poly_kept_angle(const fl_poly *p, int32_t k, double sharp)
 {
     const double *angle = (const double *)(const void *)(p->n + p->nf);
-    const int32_t *of = (const int32_t *)(const void *)(angle + p->blunts);
-    for (int32_t c = 0; c < p->blunts; c++)
+    const int32_t *of = (const int32_t *)(const void *)(angle + p->kept_angles);
+    for (int32_t c = 0; c < p->kept_angles; c++)
         if (of[c] == k) return angle[c];
     return sharp;
 }
 
 /* bend[e], or at least FL_POLY_BLUNT_EDGE where it is no less. */
-static inline double fl_poly_edge(const fl_poly *p, int32_t e)
+static inline double fl_poly_edge_angle(const fl_poly *p, int32_t e)
 {
-    return p->bend ? p->bend[e] : fl_poly_kept(p, e, FL_POLY_BLUNT_EDGE);
+    return p->bend ? p->bend[e] : fl_poly_kept_angle(p, e, FL_POLY_BLUNT_EDGE);
 }
 
 /* defect[v], or at least FL_POLY_BLUNT_CORNER where it is no less. */
-static inline double fl_poly_corner(const fl_poly *p, int32_t v)
+static inline double fl_poly_corner_angle(const fl_poly *p, int32_t v)
 {
-    return p->defect ? p->defect[v] : fl_poly_kept(p, p->ne + v, FL_POLY_BLUNT_CORNER);
+    return p->defect ? p->defect[v] : fl_poly_kept_angle(p, p->ne + v, FL_POLY_BLUNT_CORNER);
 }
 
 /* What its arrays take of memory. */

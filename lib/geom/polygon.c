@@ -13,7 +13,7 @@ double fl_polygon_area(int32_t n, const fl_vec2 *v)
     return 0.5 * twice;
 }
 
-double fl_polygon_outline(int32_t n, const fl_vec2 *v)
+double fl_polygon_perimeter(int32_t n, const fl_vec2 *v)
 {
     double sum = 0.0;
     for (int32_t k = 0; k < n; k++) {
@@ -23,7 +23,7 @@ double fl_polygon_outline(int32_t n, const fl_vec2 *v)
     return sum;
 }
 
-double fl_polygon_length(int32_t n, const fl_vec2 *v, int32_t k)
+double fl_polygon_side_length(int32_t n, const fl_vec2 *v, int32_t k)
 {
     const fl_vec2 a = v[k], b = v[k + 1 < n ? k + 1 : 0];
     return hypot(b.x - a.x, b.y - a.y);
@@ -89,20 +89,20 @@ int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_polygon_side *side, fl_polygon_
     fl_polygon_side back;
     double s_in, s_out, s_last, s_home;
     for (int32_t k = 0; k < n; k++) {
-        const int inside = fl_side_beyond(h, v[k]) <= 0.0;
+        const int inside = fl_polygon_side_distance(h, v[k]) <= 0.0;
         m += inside;
-        if (inside && fl_side_beyond(h, v[k ? k - 1 : n - 1]) > 0.0) in = k;
+        if (inside && fl_polygon_side_distance(h, v[k ? k - 1 : n - 1]) > 0.0) in = k;
     }
     if (m == n || m == 0 || in < 0) return m;
     /* The corners inside come first now, [0, m); those beyond follow. */
     rotate(n, v, side, in);
-    s_in = fl_side_beyond(h, v[m - 1]);
-    s_out = fl_side_beyond(h, v[m]);
+    s_in = fl_polygon_side_distance(h, v[m - 1]);
+    s_out = fl_polygon_side_distance(h, v[m]);
     last = v[n - 1];
     back = side[n - 1];
     home = v[0];
-    s_last = fl_side_beyond(h, last);
-    s_home = fl_side_beyond(h, home);
+    s_last = fl_polygon_side_distance(h, last);
+    s_home = fl_polygon_side_distance(h, home);
     /* A corner on the line itself serves as the end of the new side: no side of length zero is made. */
     if (s_in < 0.0) {
         v[m] = crossing(v[m - 1], v[m], s_in, s_out);
@@ -116,15 +116,15 @@ int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_polygon_side *side, fl_polygon_
     return m >= 3 ? m : 0;
 }
 
-fl_vec2 fl_side_meet(fl_polygon_side a, fl_polygon_side b, double d)
+fl_vec2 fl_polygon_side_intersect(fl_polygon_side a, fl_polygon_side b, double d)
 {
-    const double s = 1.0 / fl_side_sin(a, b), ca = a.c - d, cb = b.c - d;
+    const double s = 1.0 / fl_polygon_side_sin(a, b), ca = a.c - d, cb = b.c - d;
     return (fl_vec2){s * (ca * b.ny - cb * a.ny), s * (a.nx * cb - b.nx * ca)};
 }
 
 void fl_polygon_corners(int32_t n, const fl_polygon_side *side, double d, fl_vec2 *v)
 {
-    for (int32_t k = 0; k < n; k++) v[k] = fl_side_meet(side[k ? k - 1 : n - 1], side[k], d);
+    for (int32_t k = 0; k < n; k++) v[k] = fl_polygon_side_intersect(side[k ? k - 1 : n - 1], side[k], d);
 }
 
 int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d, double *depth)
@@ -137,8 +137,8 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
             const fl_polygon_side before = side[k ? k - 1 : n - 1], after = side[k + 1 < n ? k + 1 : 0];
             const fl_vec2 e = sub(v[k + 1 < n ? k + 1 : 0], v[k]);
             const double length = e.y * side[k].nx - e.x * side[k].ny;
-            const double left =
-                length / (fl_side_half_tan(before, side[k]) + fl_side_half_tan(side[k], after));
+            const double left = length / (fl_polygon_side_half_tan(before, side[k]) +
+                                          fl_polygon_side_half_tan(side[k], after));
             if (left < soon) {
                 soon = left;
                 gone = k;
@@ -153,7 +153,8 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
         n--;
         for (int32_t k = gone; k < n; k++) side[k] = side[k + 1];
         /* The neighbours face each other, or the corner is past them: nothing is left between. */
-        if (n < 3 || fl_side_sin(side[gone ? gone - 1 : n - 1], side[gone < n ? gone : 0]) <= 0.0) break;
+        if (n < 3 || fl_polygon_side_sin(side[gone ? gone - 1 : n - 1], side[gone < n ? gone : 0]) <= 0.0)
+            break;
         fl_polygon_corners(n, side, t, v);
     }
     *depth = t;
@@ -187,7 +188,7 @@ static double from_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
     return hypot(d.x, d.y);
 }
 
-double fl_polygon_from_point(int32_t n, const fl_vec2 *v, fl_vec2 p)
+double fl_polygon_point_distance(int32_t n, const fl_vec2 *v, fl_vec2 p)
 {
     double least = INFINITY;
     int inside = 1;
@@ -211,13 +212,13 @@ static int side_separates(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 
     return 0;
 }
 
-int fl_polygon_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
+int fl_polygon_is_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
 {
     return side_separates(m, a, n, b) || side_separates(n, b, m, a);
 }
 
 /* Squares are compared, and the root of the least one is taken at the end. */
-double fl_polygon_gap(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
+double fl_polygon_distance(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
 {
     double least = INFINITY;
     fl_vec2 nearest = {INFINITY, INFINITY};

@@ -16,25 +16,34 @@ typedef struct {
     int32_t tag; /* the caller's; carried along */
 } fl_polygon_side;
 
-static inline double fl_side_beyond(fl_polygon_side s, fl_vec2 p) { return s.nx * p.x + s.ny * p.y - s.c; }
-/* Sine and cosine of the angle by which the outline turns from side a to side b. */
-static inline double fl_side_sin(fl_polygon_side a, fl_polygon_side b) { return a.nx * b.ny - a.ny * b.nx; }
-static inline double fl_side_cos(fl_polygon_side a, fl_polygon_side b) { return a.nx * b.nx + a.ny * b.ny; }
-/* Tangent of half of it. */
-static inline double fl_side_half_tan(fl_polygon_side a, fl_polygon_side b)
+static inline double fl_polygon_side_distance(fl_polygon_side s, fl_vec2 p)
 {
-    return fl_side_sin(a, b) / (1.0 + fl_side_cos(a, b));
+    return s.nx * p.x + s.ny * p.y - s.c;
+}
+/* Sine and cosine of the angle by which the outline turns from side a to side b. */
+static inline double fl_polygon_side_sin(fl_polygon_side a, fl_polygon_side b)
+{
+    return a.nx * b.ny - a.ny * b.nx;
+}
+static inline double fl_polygon_side_cos(fl_polygon_side a, fl_polygon_side b)
+{
+    return a.nx * b.nx + a.ny * b.ny;
+}
+/* Tangent of half of it. */
+static inline double fl_polygon_side_half_tan(fl_polygon_side a, fl_polygon_side b)
+{
+    return fl_polygon_side_sin(a, b) / (1.0 + fl_polygon_side_cos(a, b));
 }
 
-/* Where the lines of a and b meet when both are moved inward by d; fl_side_sin(a, b) != 0. */
-fl_vec2 fl_side_meet(fl_polygon_side a, fl_polygon_side b, double d);
+/* Where the lines of a and b meet when both are moved inward by d; fl_polygon_side_sin(a, b) != 0. */
+fl_vec2 fl_polygon_side_intersect(fl_polygon_side a, fl_polygon_side b, double d);
 
 /* Area (positive when counter-clockwise) and length of the outline of v[n].  Products are taken from v[0], so
  * that a polygon far from the origin loses nothing. */
 double fl_polygon_area(int32_t n, const fl_vec2 *v);
-double fl_polygon_outline(int32_t n, const fl_vec2 *v);
-double fl_polygon_length(int32_t n, const fl_vec2 *v, int32_t k); /* of side k */
-fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v);         /* area > 0 */
+double fl_polygon_perimeter(int32_t n, const fl_vec2 *v);
+double fl_polygon_side_length(int32_t n, const fl_vec2 *v, int32_t k); /* of side k */
+fl_vec2 fl_polygon_centroid(int32_t n, const fl_vec2 *v);              /* area > 0 */
 
 /* The rectangle lo .. hi: v[4], side[4] with tags -1 (left), -2 (bottom), -3 (right), -4 (top). */
 void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_polygon_side *side);
@@ -60,14 +69,14 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
 void fl_polygon_outset(int32_t n, const fl_vec2 *v, double r, fl_vec2 *out);
 
 /* Distance of p from the filled polygon v[n], 0 inside. */
-double fl_polygon_from_point(int32_t n, const fl_vec2 *v, fl_vec2 p);
+double fl_polygon_point_distance(int32_t n, const fl_vec2 *v, fl_vec2 p);
 
 /* 1 when a side of one polygon has all of the other strictly beyond it, within the rounding of one product:
  * convex polygons that neither overlap nor touch. */
-int fl_polygon_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
+int fl_polygon_is_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
 
 /* Distance between two polygons that have no point inside each other: the least from a corner of one to a
  * side of the other.  m n work. */
-double fl_polygon_gap(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
+double fl_polygon_distance(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
 
 #endif

@@ -25,7 +25,7 @@ fl_quat q_of_matrix(fl_mat3 a)
 static void cos_sinc(double x2, double *c, double *s)
 {
     int twice = 0;
-    while (x2 > Q_HALF_TURN_MOST && twice < 60) {
+    while (x2 > Q_HALF_ANGLE2_MAX && twice < 60) {
         x2 *= 0.25;
         twice++;
     }
@@ -46,7 +46,7 @@ fl_quat q_of_vector(fl_vec3 r)
     return (fl_quat){c, s * r.x, s * r.y, s * r.z};
 }
 
-fl_quat q_about(int k, double a)
+fl_quat q_about_axis(int k, double a)
 {
     double c, s;
     cos_sinc(0.25 * a * a, &c, &s);

@@ -36,18 +36,21 @@ static inline fl_vec3 q_rotate(fl_quat q, fl_vec3 v) { return m3_mul(q_matrix(q)
 fl_quat q_of_matrix(fl_mat3 a);
 
 /* 1 - cos x, which doubles without cancellation, and sin(x)/x, from x^2: series of which the first term left
- * out is below 1e-18 up to Q_HALF_TURN_FEW, as in nearly all steps, */
-#define Q_HALF_TURN_FEW 4e-4
-static inline double q_versine_few(double x2) { return x2 * (1.0 / 2 - x2 * (1.0 / 24 - x2 * (1.0 / 720))); }
-static inline double q_sinc_few(double x2)
+ * out is below 1e-18 up to Q_HALF_ANGLE2_SMALL, as in nearly all steps, */
+#define Q_HALF_ANGLE2_SMALL 4e-4
+static inline double q_versine_small(double x2)
+{
+    return x2 * (1.0 / 2 - x2 * (1.0 / 24 - x2 * (1.0 / 720)));
+}
+static inline double q_sinc_small(double x2)
 {
     return 1.0 - x2 * (1.0 / 6 - x2 * (1.0 / 120 - x2 * (1.0 / 5040)));
 }
-/* and below 1e-17 up to Q_HALF_TURN_MOST. */
-#define Q_HALF_TURN_MOST 0.0625
+/* and below 1e-17 up to Q_HALF_ANGLE2_MAX. */
+#define Q_HALF_ANGLE2_MAX 0.0625
 static inline double q_versine(double x2)
 {
-    if (x2 <= Q_HALF_TURN_FEW) return q_versine_few(x2);
+    if (x2 <= Q_HALF_ANGLE2_SMALL) return q_versine_small(x2);
     double v = 1.0 / 479001600 - x2 * (1.0 / 87178291200.0);
     v = 1.0 / 3628800 - x2 * v;
     v = 1.0 / 40320 - x2 * v;
@@ -57,7 +60,7 @@ static inline double q_versine(double x2)
 }
 static inline double q_sinc(double x2)
 {
-    if (x2 <= Q_HALF_TURN_FEW) return q_sinc_few(x2);
+    if (x2 <= Q_HALF_ANGLE2_SMALL) return q_sinc_small(x2);
     double f = 1.0 / 39916800 - x2 * (1.0 / 6227020800.0);
     f = 1.0 / 362880 - x2 * f;
     f = 1.0 / 5040 - x2 * f;
@@ -71,6 +74,6 @@ static inline double q_sinc(double x2)
  * growing slowly beyond (2e-15 at 10 rad). */
 fl_quat q_of_vector(fl_vec3 r);
 /* The same about body axis k = 0, 1, 2 by angle a: half the work. */
-fl_quat q_about(int k, double a);
+fl_quat q_about_axis(int k, double a);
 
 #endif

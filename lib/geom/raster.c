@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/raster.h"
 
 static const double SEEN = 2.0; /* pixels: an edge lies within one of the faces it belongs to */

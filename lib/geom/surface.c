@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/surface.h"
 
 /* Names stand in tables cut at blanks, where '#' opens a comment; bytes above ASCII pass as they are. */
@@ -33,23 +33,24 @@ int32_t fl_surface_find(const fl_surface *s, const char *name, size_t len)
 {
     char few[FEW], *word = len < FEW ? few : malloc(len + 1);
     int32_t k;
-    if (!word || s->met.n == 0) { /* names that came another way */
+    if (!word || s->given_names.n == 0) { /* names that came another way */
         if (word != few) free(word);
         return find_from(s, 0, name, len);
     }
     for (size_t i = 0; i < len; i++) word[i] = clean(name, i);
     word[len] = '\0';
-    k = fl_names_find(&s->met, word);
+    k = fl_string_table_find(&s->given_names, word);
     if (word != few) free(word);
-    return k < 0 ? -1 : find_from(s, s->at[k], name, len);
+    return k < 0 ? -1 : find_from(s, s->given_index[k], name, len);
 }
 
 /* Above the ids there are. */
 static int32_t new_id(fl_surface *s)
 {
-    if (s->n != s->had) s->counted = s->next_id = 0; /* some left, and others may be in their places */
-    for (; s->counted < s->n; s->counted++) {
-        const int32_t id = s->part[s->counted].id;
+    if (s->n != s->n_after_add)
+        s->ids_counted = s->next_id = 0; /* some left, and others may be in their places */
+    for (; s->ids_counted < s->n; s->ids_counted++) {
+        const int32_t id = s->part[s->ids_counted].id;
         if (id >= s->next_id && id < INT32_MAX) s->next_id = id + 1;
     }
     return s->next_id;
@@ -58,14 +59,14 @@ static int32_t new_id(fl_surface *s)
 /* Remember where the part of a name is. */
 static int remember(fl_surface *s, const char *word, int32_t i, fl_err *err)
 {
-    const int64_t n = (int64_t)s->met.n + 1;
+    const int64_t n = (int64_t)s->given_names.n + 1;
     int32_t k;
-    if (fl_grow(&s->at, &s->at_cap, n, sizeof *s->at, err) ||
-        fl_grow(&s->more, &s->more_cap, n, sizeof *s->more, err))
+    if (fl_grow(&s->given_index, &s->given_cap, n, sizeof *s->given_index, err) ||
+        fl_grow(&s->next_suffix, &s->suffix_cap, n, sizeof *s->next_suffix, err))
         return -1;
-    if (fl_names_find(&s->met, word) < 0) s->more[n - 1] = 0;
-    k = fl_names_add(&s->met, word, err);
-    if (k >= 0) s->at[k] = i;
+    if (fl_string_table_find(&s->given_names, word) < 0) s->next_suffix[n - 1] = 0;
+    k = fl_string_table_add(&s->given_names, word, err);
+    if (k >= 0) s->given_index[k] = i;
     return k < 0 ? -1 : 0;
 }
 
@@ -74,11 +75,11 @@ static int remember(fl_surface *s, const char *word, int32_t i, fl_err *err)
 static void make_free(fl_surface *s, char *word, size_t len)
 {
     enum { FIRST = 2, LAST = 9 };
-    const int32_t base = s->met.n ? fl_names_find(&s->met, word) : -1;
+    const int32_t base = s->given_names.n ? fl_string_table_find(&s->given_names, word) : -1;
     for (int32_t k = FIRST; fl_surface_find(s, word, strlen(word)) >= 0; k++) {
-        if (k > LAST && base >= 0 && k < s->more[base]) k = s->more[base];
+        if (k > LAST && base >= 0 && k < s->next_suffix[base]) k = s->next_suffix[base];
         snprintf(word + len, 16, "_%d", k);
-        if (base >= 0 && k > s->more[base]) s->more[base] = k;
+        if (base >= 0 && k > s->next_suffix[base]) s->next_suffix[base] = k;
     }
 }
 
@@ -95,7 +96,7 @@ int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err)
     make_free(s, word, len);
     if (remember(s, word, s->n, err)) goto failed;
     s->part[s->n] = (fl_part){.name = word, .id = new_id(s)};
-    s->had = ++s->n;
+    s->n_after_add = ++s->n;
     return s->n - 1;
 failed:
     free(word);
@@ -177,8 +178,8 @@ void fl_surface_free(fl_surface *s)
     for (int32_t i = 0; i < s->n; i++) fl_part_free(&s->part[i]);
     free(s->part);
     free(s->history);
-    fl_names_free(&s->met);
-    free(s->at);
-    free(s->more);
+    fl_string_table_free(&s->given_names);
+    free(s->given_index);
+    free(s->next_suffix);
     *s = (fl_surface){0};
 }

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include "base/err.h"
-#include "base/names.h"
+#include "base/string_table.h"
 #include "geom/aabb.h"
 #include "geom/vec3.h"
 
@@ -28,7 +28,7 @@ typedef struct {
     fl_tri *t;     /* [nt] indices into v */
     fl_cone *cone; /* [nc] */
     int32_t v_cap, t_cap, c_cap;
-    int32_t doubled;         /* elements of its file that stood on others, and were left out */
+    int32_t duplicates;      /* elements of its file that stood on others, and were left out */
     int32_t line, last_line; /* of its first and last triangle in a g_struct file, as it was read; else 0 */
 } fl_part;
 
@@ -36,11 +36,12 @@ typedef struct {
     int32_t n, cap;
     fl_part *part; /* [n]; moves when a part is added */
     char *history; /* the "#by ..." lines of the file it came from, NULL for none */
-    fl_names met;  /* names that fl_surface_add() gave: one that is not among them is nobody's */
-    int32_t *at;   /* [met.n] where the part of that name was */
-    int32_t *more; /* [met.n] the name with this number behind it was free, 0 when nobody asked */
-    int32_t at_cap, more_cap;
-    int32_t had, counted,
+    fl_string_table
+        given_names;      /* names that fl_surface_add() gave: one that is not among them is nobody's */
+    int32_t *given_index; /* [met.n] where the part of that name was */
+    int32_t *next_suffix; /* [met.n] the name with this number behind it was free, 0 when nobody asked */
+    int32_t given_cap, suffix_cap;
+    int32_t n_after_add, ids_counted,
         next_id; /* n when a part was added last; next_id is above the ids of 0 .. counted */
 } fl_surface;
 

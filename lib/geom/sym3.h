@@ -2,35 +2,35 @@
 /* sym3.h -- symmetric three by three matrices, by value. */
 #ifndef FL_GEOM_SYM3_H
 #define FL_GEOM_SYM3_H
-#include "base/wide.h"
+#include "base/simd.h"
 #include "geom/mat3.h"
 
 typedef struct {
     double xx, xy, xz, yy, yz, zz;
 } fl_sym3;
 
-FL_WIDE_PART fl_vec3 s3_mul(fl_sym3 K, fl_vec3 a)
+FL_SIMD_INLINE fl_vec3 s3_mul(fl_sym3 K, fl_vec3 a)
 {
     return v3(K.xx * a.x + K.xy * a.y + K.xz * a.z, K.xy * a.x + K.yy * a.y + K.yz * a.z,
               K.xz * a.x + K.yz * a.y + K.zz * a.z);
 }
 
-FL_WIDE_PART fl_sym3 s3_add(fl_sym3 a, fl_sym3 b)
+FL_SIMD_INLINE fl_sym3 s3_add(fl_sym3 a, fl_sym3 b)
 {
     return (fl_sym3){a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
 }
 
 /* The same in all directions. */
-FL_WIDE_PART fl_sym3 s3_even(double d) { return (fl_sym3){.xx = d, .yy = d, .zz = d}; }
+FL_SIMD_INLINE fl_sym3 s3_isotropic(double d) { return (fl_sym3){.xx = d, .yy = d, .zz = d}; }
 
 /* The products of x, y, z with a, b, c where those are a symmetric matrix of these. */
-FL_WIDE_PART fl_sym3 s3_products(fl_vec3 x, fl_vec3 y, fl_vec3 z, fl_vec3 a, fl_vec3 b, fl_vec3 c)
+FL_SIMD_INLINE fl_sym3 s3_products(fl_vec3 x, fl_vec3 y, fl_vec3 z, fl_vec3 a, fl_vec3 b, fl_vec3 c)
 {
     return (fl_sym3){v3_dot(a, x), v3_dot(a, y), v3_dot(a, z), v3_dot(b, y), v3_dot(b, z), v3_dot(c, z)};
 }
 
 /* K of a frame whose axes are x, y, z. */
-FL_WIDE_PART fl_sym3 s3_turned(fl_sym3 K, fl_vec3 x, fl_vec3 y, fl_vec3 z)
+FL_SIMD_INLINE fl_sym3 s3_rotated(fl_sym3 K, fl_vec3 x, fl_vec3 y, fl_vec3 z)
 {
     const fl_vec3 a = v3_madd(v3_madd(v3_scale(K.xx, x), K.xy, y), K.xz, z),
                   b = v3_madd(v3_madd(v3_scale(K.xy, x), K.yy, y), K.yz, z),
@@ -41,7 +41,7 @@ FL_WIDE_PART fl_sym3 s3_turned(fl_sym3 K, fl_vec3 x, fl_vec3 y, fl_vec3 z)
 }
 
 /* R diag(d) R^T */
-static inline fl_sym3 s3_from(const fl_mat3 *R, fl_vec3 d)
+static inline fl_sym3 s3_from_principal(const fl_mat3 *R, fl_vec3 d)
 {
     const fl_vec3 x = v3(R->m[0][0], R->m[0][1], R->m[0][2]), y = v3(R->m[1][0], R->m[1][1], R->m[1][2]),
                   z = v3(R->m[2][0], R->m[2][1], R->m[2][2]);

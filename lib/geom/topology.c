@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "geom/topology.h"
 
 static size_t loops(const fl_poly *p) { return (size_t)p->first[p->nf]; }
@@ -22,8 +22,8 @@ static void borrow(fl_poly *p, const fl_topology *t)
     p->edge = t->mem;
     p->first = (int32_t *)(void *)(p->edge + t->ne);
     p->loop = p->first + t->nf + 1;
-    p->begin = p->loop + p->first[t->nf];
-    p->beside = p->begin + t->nv + 1;
+    p->neighbour_first = p->loop + p->first[t->nf];
+    p->neighbour = p->neighbour_first + t->nv + 1;
     p->shared = 1;
 }
 
@@ -78,8 +78,9 @@ static const fl_topology *kind_of(fl_topologies *t, const fl_poly *p, fl_err *er
     at = (char *)memcpy(at, p->edge, ne * sizeof *p->edge) + ne * sizeof *p->edge;
     at = (char *)memcpy(at, p->first, (nf + 1) * sizeof *p->first) + (nf + 1) * sizeof *p->first;
     at = (char *)memcpy(at, p->loop, nl * sizeof *p->loop) + nl * sizeof *p->loop;
-    at = (char *)memcpy(at, p->begin, (nv + 1) * sizeof *p->begin) + (nv + 1) * sizeof *p->begin;
-    memcpy(at, p->beside, 2 * ne * sizeof *p->beside);
+    at = (char *)memcpy(at, p->neighbour_first, (nv + 1) * sizeof *p->neighbour_first) +
+         (nv + 1) * sizeof *p->neighbour_first;
+    memcpy(at, p->neighbour, 2 * ne * sizeof *p->neighbour);
     t->kind[t->n] = k;
     t->slot[s] = ++t->n;
     return &t->kind[t->n - 1];
@@ -93,7 +94,7 @@ static int16_t blunt(const fl_poly *p, double angle[FEW], int32_t of[FEW])
 {
     int16_t n = 0;
     for (int32_t k = 0; k < p->ne + p->nv; k++) {
-        const double a = k < p->ne ? fl_poly_edge(p, k) : fl_poly_corner(p, k - p->ne);
+        const double a = k < p->ne ? fl_poly_edge_angle(p, k) : fl_poly_corner_angle(p, k - p->ne);
         if (a >= (k < p->ne ? FL_POLY_BLUNT_EDGE : FL_POLY_BLUNT_CORNER)) continue;
         if (n == FEW) return FEW + 1;
         angle[n] = a;
@@ -113,7 +114,7 @@ int fl_topologies_share(fl_topologies *t, fl_poly *p, unsigned keep, fl_err *err
     const int all = few > FEW;
     const size_t kept = all ? 0 : (size_t)few, offsets = keep & FL_KEEP_OFFSETS ? nf : 0;
     q.v = NULL;
-    q.blunts = (int16_t)kept;
+    q.kept_angles = (int16_t)kept;
     if (!kind || fl_grow(&q.v, &bytes,
                          (int64_t)((nv + nf) * sizeof *q.v + offsets * sizeof *q.c +
                                    (all ? (ne + nv) * sizeof *q.bend : 0) + kept * sizeof *angle +

@@ -20,8 +20,8 @@ typedef struct {
 } fl_topologies;
 
 enum {
-    FL_KEEP_ANGLES = 1, /* those that are sharp go where eight at most are not: fl_poly_edge() and
-                         * fl_poly_corner() tell them all; without, nobody may ask for an angle */
+    FL_KEEP_ANGLES = 1, /* those that are sharp go where eight at most are not: fl_poly_edge_angle() and
+                         * fl_poly_corner_angle() tell them all; without, nobody may ask for an angle */
     FL_KEEP_OFFSETS = 2 /* else c becomes NULL */
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/weld.h"
 
 static const double SHARE = 1e-6;    /* default tolerance over diagonal; see weld.h */
@@ -186,7 +186,7 @@ static int choose_tol(const fl_part *p, double tol, double diagonal, double edge
     if (tol > edge)
         return fl_fail(
             err, FL_INPUT,
-            "part \"%.60s\": the welding tolerance %g m is above the shortest edge, %g m: less was wanted",
+            "part \"%.60s\": the welding tolerance %g m is above the shortest edge, %g m: less is expected",
             p->name ? p->name : "", tol, edge);
     w->tol = tol >= 0.0 ? tol : fmin(SHARE * diagonal, 0.5 * edge);
     if (w->tol < NO_TOL * diagonal) w->tol = 0.0;

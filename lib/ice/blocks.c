@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/rng.h"
 #include "broad/bvh.h"
 #include "geom/clip.h"
@@ -23,7 +23,7 @@ double fl_blocks_volume(const fl_poly *p)
 {
     double six = 0.0;
     for (int32_t f = 0; f < p->nf; f++)
-        six += v3_dot(fl_poly_area(p, f), v3_sub(p->v[p->loop[p->first[f]]], p->v[0]));
+        six += v3_dot(fl_poly_face_area_vector(p, f), v3_sub(p->v[p->loop[p->first[f]]], p->v[0]));
     return six / 3.0;
 }
 
@@ -206,7 +206,7 @@ static int divide(fl_blocks *b, const fl_poly *region, fl_err *err)
     struct grid g = {0};
     int32_t bad = INT32_MAX;
     free_polys(b->n, b->cell);
-    if (grid_build(&g, b->n, b->site, fl_poly_aabb(region), b->region, err)) {
+    if (grid_build(&g, b->n, b->site, fl_poly_aabb(region), b->region_volume, err)) {
         grid_free(&g);
         return -1;
     }
@@ -227,7 +227,7 @@ static int divide(fl_blocks *b, const fl_poly *region, fl_err *err)
 int fl_blocks_cells(fl_blocks *out, const fl_poly *region, int32_t n, uint64_t seed, int64_t first,
                     int smooth, fl_err *err)
 {
-    fl_blocks b = {.n = n, .region = fl_blocks_volume(region)};
+    fl_blocks b = {.n = n, .region_volume = fl_blocks_volume(region)};
     int rc = -1;
     b.site = fl_alloc(n, sizeof *b.site, err);
     b.cell = fl_alloc(n, sizeof *b.cell, err);
@@ -244,7 +244,7 @@ int fl_blocks_cells(fl_blocks *out, const fl_poly *region, int32_t n, uint64_t s
         if (divide(&b, region, err)) goto done;
     }
     for (int32_t i = 0; i < n; i++) b.volume[i] = fl_blocks_volume(&b.cell[i]);
-    b.cells = fl_par_sum(b.volume, n);
+    b.cells_volume = fl_parallel_sum(b.volume, n);
     *out = b;
     b = (fl_blocks){0};
     rc = 0;
@@ -291,7 +291,7 @@ static double beyond(const fl_poly *cell, const fl_poly *p, double d)
 /* The core of a cell for a gap, and the volume of its outer block; no core (nv = 0) where room is lacking. */
 static int shape(const fl_poly *cell, double gap, double radius, fl_poly *core, double *volume, fl_err *err)
 {
-    const double spare = (1.0 - FL_BLOCKS_CLEAR) * gap + 1e-12 * cell->size;
+    const double spare = (1.0 - FL_BLOCKS_CLEARANCE) * gap + 1e-12 * cell->size;
     double deeper = 0.0;
     *volume = 0.0;
     fl_poly_free(core);
@@ -332,14 +332,14 @@ static int shrink_all(fl_blocks *b, double gap, double radius, double *sum, fl_e
             *err = why;
         }
     }
-    *sum = fl_par_sum(b->volume, b->n);
+    *sum = fl_parallel_sum(b->volume, b->n);
     return bad < INT32_MAX ? -1 : 0;
 }
 
 int fl_blocks_shrink(fl_blocks *b, double solid, double radius, fl_err *err)
 {
-    const double want = solid * b->region;
-    double lo = 0.0, hi = cbrt(b->region / b->n), over_lo, over_hi, over, sum, gap = 0.0;
+    const double want = solid * b->region_volume;
+    double lo = 0.0, hi = cbrt(b->region_volume / b->n), over_lo, over_hi, over, sum, gap = 0.0;
     if (shrink_all(b, lo, radius, &sum, err)) return -1;
     over_lo = sum - want;
     if (over_lo < 0.0)
@@ -347,7 +347,7 @@ int fl_blocks_shrink(fl_blocks *b, double solid, double radius, fl_err *err)
             err, FL_INPUT,
             "blocks of dilation radius %.4g m fill %.4g of their region at most, %.10g was asked for: a "
             "smaller radius or larger blocks are wanted",
-            radius, sum / b->region, solid);
+            radius, sum / b->region_volume, solid);
     over_hi = -want; /* a gap of the size of a cell leaves nothing */
     over = over_lo;
     for (int step = 0; step < STEPS && fabs(over) > FILLED * want; step++) {
@@ -368,11 +368,11 @@ int fl_blocks_shrink(fl_blocks *b, double solid, double radius, fl_err *err)
             err, FL_INPUT,
             "blocks of dilation radius %.4g m vanish, many at a time, where they fill %.4g of their "
             "region, %.10g was asked for: a smaller radius is wanted",
-            radius, (want + over_lo) / b->region, solid);
-    b->gap = gap;
-    b->solid = sum;
-    b->lost = 0;
-    for (int32_t i = 0; i < b->n; i++) b->lost += b->core[i].nv == 0;
+            radius, (want + over_lo) / b->region_volume, solid);
+    b->inset = gap;
+    b->solid_volume = sum;
+    b->blockless = 0;
+    for (int32_t i = 0; i < b->n; i++) b->blockless += b->core[i].nv == 0;
     return 0;
 }
 

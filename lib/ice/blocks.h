@@ -8,19 +8,19 @@
 #include "geom/poly.h"
 
 /* Outer corners of a block stay clear of the faces of its cell by this part of the gap at least. */
-#define FL_BLOCKS_CLEAR 0.5
+#define FL_BLOCKS_CLEARANCE 0.5
 
 typedef struct {
-    int32_t n;      /* cells                                                               */
-    fl_vec3 *site;  /* [n]                                                             [m] */
-    fl_poly *cell;  /* [n]                                                             [m] */
-    fl_poly *core;  /* [n] nv = 0: the cell has no room for a block                    [m] */
-    double *volume; /* [n] of the outer sharp block, 0 where there is none            [m3] */
-    double region;  /* volume of the region                                           [m3] */
-    double cells;   /* of all cells together, the same to rounding                    [m3] */
-    double solid;   /* of all blocks                                                  [m3] */
-    double gap;     /* by which the faces of a cell move inward, half the way between blocks [m] */
-    int32_t lost;   /* cells without a block                                               */
+    int32_t n;            /* cells                                                               */
+    fl_vec3 *site;        /* [n]                                                             [m] */
+    fl_poly *cell;        /* [n]                                                             [m] */
+    fl_poly *core;        /* [n] nv = 0: the cell has no room for a block                    [m] */
+    double *volume;       /* [n] of the outer sharp block, 0 where there is none            [m3] */
+    double region_volume; /* volume of the region                                           [m3] */
+    double cells_volume;  /* of all cells together, the same to rounding                    [m3] */
+    double solid_volume;  /* of all blocks                                                  [m3] */
+    double inset;         /* by which the faces of a cell move inward, half the way between blocks [m] */
+    int32_t blockless;    /* cells without a block                                               */
 } fl_blocks;
 
 /* Cells of n sites, uniform in the region and then moved to the centroids of their cells `smooth` times.

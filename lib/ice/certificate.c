@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "broad/bvh.h"
-#include "geom/hilbert.h"
+#include "geom/hilbert_order.h"
 #include "ice/certificate.h"
 #include "shim/cgal_voronoi.h"
 
@@ -15,7 +15,7 @@ static int is_convex(int32_t n, const fl_vec2 *v)
     for (int32_t k = 0; k < n; k++) {
         const int32_t next = k + 1 < n ? k + 1 : 0;
         for (int32_t j = 0; j < n; j++)
-            if (j != k && j != next && fl_cgal_turn(v[k], v[next], v[j]) <= 0) return 0;
+            if (j != k && j != next && fl_cgal_orientation(v[k], v[next], v[j]) <= 0) return 0;
     }
     return n > 2;
 }
@@ -24,7 +24,7 @@ static int side_separates(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 
 {
     for (int32_t k = 0; k < m; k++) {
         int32_t j = 0;
-        while (j < n && fl_cgal_turn(a[k], a[k + 1 < m ? k + 1 : 0], b[j]) < 0) j++;
+        while (j < n && fl_cgal_orientation(a[k], a[k + 1 < m ? k + 1 : 0], b[j]) < 0) j++;
         if (j == n) return 1;
     }
     return 0;
@@ -77,11 +77,11 @@ static int look_round(const struct row *r, double reach, int32_t k, int32_t **ne
         const int32_t l = (*near)[e];
         if (l <= k) continue;
         const int32_t i = r->floe[k] < r->floe[l] ? r->floe[k] : r->floe[l], j = r->floe[k] + r->floe[l] - i;
-        if (aabb_meet(r->box[k], r->box[l]) && !apart(a, i, j)) {
+        if (aabb_overlap(r->box[k], r->box[l]) && !apart(a, i, j)) {
             ++*overlaps;
             take(n, 0.0, i, j);
         } else {
-            take(n, fl_polygon_gap(sides(a, i), outer(a, i), sides(a, j), outer(a, j)), i, j);
+            take(n, fl_polygon_distance(sides(a, i), outer(a, i), sides(a, j), outer(a, j)), i, j);
         }
     }
     return 0;
@@ -110,9 +110,9 @@ static int pass(const struct row *r, double reach, fl_certificate *out, fl_err *
         }
     }
     out->overlaps = overlaps;
-    out->gap = best.gap;
-    out->gap_of[0] = best.gap < INFINITY ? best.i : -1;
-    out->gap_of[1] = best.gap < INFINITY ? best.j : -1;
+    out->min_gap = best.gap;
+    out->min_gap_pair[0] = best.gap < INFINITY ? best.i : -1;
+    out->min_gap_pair[1] = best.gap < INFINITY ? best.j : -1;
     return failed ? -1 : 0;
 }
 
@@ -146,7 +146,7 @@ static int measure_pairs(const fl_floes *a, fl_certificate *out, fl_err *err)
     if (!(reach > 1e-6 * far)) reach = 1e-6 * far;
     for (;; reach *= 2.0) {
         if (pass(&r, reach, out, err)) goto done;
-        if (out->gap <= reach || reach > far) break;
+        if (out->min_gap <= reach || reach > far) break;
     }
     rc = 0;
 done:
@@ -168,17 +168,17 @@ static int measure_areas(const fl_floes *a, fl_certificate *out, fl_err *err)
     double *area = fl_alloc(a->n, sizeof *area, err), *square = fl_alloc(a->n, sizeof *square, err);
     if (area && square) {
         for (int32_t i = 0; i < a->n; i++) area[i] = fl_polygon_area(sides(a, i), outer(a, i));
-        out->total = fl_par_sum(area, a->n);
-        out->mean = out->total / a->n;
-        out->least_of = out->most_of = 0;
+        out->total_area = fl_parallel_sum(area, a->n);
+        out->mean_area = out->total_area / a->n;
+        out->min_area_floe = out->max_area_floe = 0;
         for (int32_t i = 0; i < a->n; i++) {
-            square[i] = (area[i] - out->mean) * (area[i] - out->mean);
-            if (area[i] < area[out->least_of]) out->least_of = i;
-            if (area[i] > area[out->most_of]) out->most_of = i;
+            square[i] = (area[i] - out->mean_area) * (area[i] - out->mean_area);
+            if (area[i] < area[out->min_area_floe]) out->min_area_floe = i;
+            if (area[i] > area[out->max_area_floe]) out->max_area_floe = i;
         }
-        out->least = area[out->least_of];
-        out->most = area[out->most_of];
-        out->cv = sqrt(fl_par_sum(square, a->n) / a->n) / out->mean;
+        out->min_area = area[out->min_area_floe];
+        out->max_area = area[out->max_area_floe];
+        out->cv = sqrt(fl_parallel_sum(square, a->n) / a->n) / out->mean_area;
     }
     free(square);
     free(area);
@@ -196,25 +196,25 @@ static int32_t count_bent(const fl_floes *a)
 
 int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err)
 {
-    fl_certificate c = {.edge = INFINITY, .angle = INFINITY};
+    fl_certificate c = {.min_side = INFINITY, .min_angle = INFINITY};
     for (int32_t i = 0; i < a->n; i++) {
         const fl_vec2 *v = a->core + a->first[i];
         const int32_t n = sides(a, i);
         for (int32_t k = 0; k < n; k++) {
             const fl_vec2 p = v[k], q = v[k + 1 < n ? k + 1 : 0];
             const double edge = hypot(q.x - p.x, q.y - p.y), angle = corner_angle(v, k, n);
-            if (edge < c.edge) {
-                c.edge = edge;
-                c.edge_of = i;
+            if (edge < c.min_side) {
+                c.min_side = edge;
+                c.min_side_floe = i;
             }
-            if (angle < c.angle) {
-                c.angle = angle;
-                c.angle_of = i;
+            if (angle < c.min_angle) {
+                c.min_angle = angle;
+                c.min_angle_floe = i;
             }
         }
     }
-    c.bent = count_bent(a);
-    c.sides = (double)a->first[a->n] / a->n;
+    c.nonconvex = count_bent(a);
+    c.mean_sides = (double)a->first[a->n] / a->n;
     if (measure_areas(a, &c, err) || measure_pairs(a, &c, err)) return -1;
     *out = c;
     return 0;

@@ -8,17 +8,17 @@
 #include "ice/floes.h"
 
 typedef struct {
-    double total;             /* area of all outer polygons                             [m2] */
-    double mean, least, most; /* area of one                                            [m2] */
-    double cv;                /* standard deviation (of n, not n - 1) over the mean          */
-    int32_t least_of, most_of;
-    double sides;       /* mean number                                                 */
-    double edge, angle; /* shortest side of a core [m], sharpest corner          [rad] */
-    int32_t edge_of, angle_of;
-    double gap;        /* least distance between two outer polygons, infinite when there is one [m] */
-    int32_t gap_of[2]; /* -1 when there is one                                        */
-    int64_t overlaps;  /* pairs of outer polygons that touch or overlap               */
-    int32_t bent;      /* floes whose core or outer polygon is not convex             */
+    double total_area;                    /* area of all outer polygons                             [m2] */
+    double mean_area, min_area, max_area; /* area of one                                            [m2] */
+    double cv;                            /* standard deviation (of n, not n - 1) over the mean          */
+    int32_t min_area_floe, max_area_floe;
+    double mean_sides;          /* mean number                                                 */
+    double min_side, min_angle; /* shortest side of a core [m], sharpest corner          [rad] */
+    int32_t min_side_floe, min_angle_floe;
+    double min_gap;          /* least distance between two outer polygons, infinite when there is one [m] */
+    int32_t min_gap_pair[2]; /* -1 when there is one                                        */
+    int64_t overlaps;        /* pairs of outer polygons that touch or overlap               */
+    int32_t nonconvex;       /* floes whose core or outer polygon is not convex             */
 } fl_certificate;
 
 /* Measure floes of at least one.

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/rng.h"
 #include "ice/domain.h"
 #include "shim/cgal_simple.h"
@@ -13,13 +13,13 @@ int fl_domain_add(fl_domain *d, int32_t n, const fl_vec2 *v, fl_err *err)
 {
     const int32_t at = d->corners;
     const double area = n < 3 ? 0.0 : fl_polygon_area(n, v);
-    const int simple = n < 3 ? 1 : fl_cgal_simple(n, v, err);
+    const int simple = n < 3 ? 1 : fl_cgal_is_simple(n, v, err);
     int backward;
     if (simple < 0) return -1;
-    if (n < 3) return fl_fail(err, FL_INPUT, "a ring of %d corners found, three were wanted", n);
+    if (n < 3) return fl_fail(err, FL_INPUT, "a ring of %d corners found, three are expected", n);
     if (!simple)
         return fl_fail(err, FL_INPUT,
-                       "a ring of %d corners crosses or touches itself, one that does not was wanted", n);
+                       "a ring of %d corners crosses or touches itself, one that does not is expected", n);
     if (!(fabs(area) > 0.0)) return fl_fail(err, FL_INPUT, "a ring without area found");
     if (fl_grow(&d->first, &d->first_cap, (int64_t)d->rings + 2, sizeof *d->first, err) ||
         fl_grow(&d->v, &d->v_cap, (int64_t)at + n, sizeof *d->v, err))
@@ -44,7 +44,7 @@ static fl_vec2 end_of(const fl_domain *d, int32_t r, int32_t k)
     return d->v[k + 1 < d->first[r + 1] ? k + 1 : d->first[r]];
 }
 
-int fl_domain_ready(fl_domain *d, fl_err *err)
+int fl_domain_build(fl_domain *d, fl_err *err)
 {
     d->box = fl_alloc(d->corners, sizeof *d->box, err);
     if (!d->box) return -1;
@@ -56,7 +56,7 @@ int fl_domain_ready(fl_domain *d, fl_err *err)
     return fl_bvh_build(&d->tree, d->box, d->corners, err);
 }
 
-int fl_domain_convex(const fl_domain *d)
+int fl_domain_is_convex(const fl_domain *d)
 {
     if (d->rings != 1) return 0;
     for (int32_t k = 0; k < d->corners; k++) {
@@ -117,7 +117,7 @@ static int inside(const fl_domain *d, fl_vec2 at, struct near *near, int *is, fl
     return 0;
 }
 
-int fl_domain_holds(const fl_domain *d, fl_vec2 p, fl_err *err)
+int fl_domain_contains(const fl_domain *d, fl_vec2 p, fl_err *err)
 {
     struct near near = {0};
     int is = 0;
@@ -134,14 +134,14 @@ int fl_domain_sites(int32_t n, uint64_t seed, const fl_domain *d, fl_vec2 *site,
         fl_rng g = fl_rng_of(seed, i, FL_RNG_SITE);
         int is = 0;
         /* a domain of that part of its box is missed so often with a probability of exp(-20) */
-        for (int32_t k = 0; k < (int32_t)(20.0 / FL_DOMAIN_RARE) && !is; k++) {
+        for (int32_t k = 0; k < (int32_t)(20.0 / FL_DOMAIN_MIN_SHARE) && !is; k++) {
             site[i].x = fl_rng_in(&g, d->lo.x, d->hi.x);
             site[i].y = fl_rng_in(&g, d->lo.y, d->hi.y);
             if (inside(d, site[i], &near, &is, err)) goto done;
         }
         if (is) continue;
-        fl_fail(err, FL_INPUT, "less than %g of the box of the outline is left for ice, more was wanted",
-                FL_DOMAIN_RARE);
+        fl_fail(err, FL_INPUT, "less than %g of the box of the outline is left for ice, more is expected",
+                FL_DOMAIN_MIN_SHARE);
         goto done;
     }
     rc = 0;
@@ -204,7 +204,8 @@ static double length_in(int32_t n, const fl_polygon_side *side, fl_vec2 p, fl_ve
 {
     double from = 0.0, to = 1.0;
     for (int32_t k = 0; k < n && from < to; k++) {
-        const double a = fl_side_beyond(side[k], p) + touch, b = fl_side_beyond(side[k], q) + touch;
+        const double a = fl_polygon_side_distance(side[k], p) + touch,
+                     b = fl_polygon_side_distance(side[k], q) + touch;
         if (a > 0.0 && b > 0.0) return 0.0;
         if (a > 0.0) from = fmax(from, a / (a - b));
         if (b > 0.0) to = fmin(to, a / (a - b));
@@ -258,7 +259,7 @@ static int finish(struct cutting *c, int32_t i, int32_t n, fl_vec2 *v, fl_polygo
     return pool_add(&c->done, n, v, side, err);
 }
 
-static int cut_cell(struct cutting *c, const fl_cells *cells, int32_t i, fl_err *err)
+static int cut_cell(struct cutting *c, const fl_power_cells *cells, int32_t i, fl_err *err)
 {
     const int32_t first = cells->first[i], m = cells->first[i + 1] - first;
     struct pool *todo = &c->todo;
@@ -308,7 +309,7 @@ static int collect(const struct cutting *c, int32_t cells, fl_pieces *out, fl_er
     if (!(p.cells.first = fl_alloc((int64_t)n + 1, sizeof *p.cells.first, err)) ||
         !(p.cells.side = fl_alloc(c->done.at, sizeof *p.cells.side, err)) ||
         !(p.cells.v = fl_alloc(c->done.at, sizeof *p.cells.v, err)) ||
-        !(p.site = fl_alloc(n, sizeof *p.site, err)) || !largest)
+        !(p.parent = fl_alloc(n, sizeof *p.parent, err)) || !largest)
         goto done;
     for (int32_t i = 0; i < cells; i++) largest[i] = -1;
     for (int32_t k = 0; k < n; k++)
@@ -319,13 +320,13 @@ static int collect(const struct cutting *c, int32_t cells, fl_pieces *out, fl_er
             if ((largest[c->site[k]] == k) != (pass == 0)) continue;
             memcpy(p.cells.v + at, c->done.v + from, (size_t)m * sizeof *p.cells.v);
             memcpy(p.cells.side + at, c->done.side + from, (size_t)m * sizeof *p.cells.side);
-            p.site[to] = c->site[k];
+            p.parent[to] = c->site[k];
             p.cells.first[++to] = at += m;
         }
-        if (pass == 0) p.whole = to;
+        if (pass == 0) p.largest = to;
     }
-    p.lost = fl_par_sum(c->gone, c->dropped);
-    p.area = fl_par_sum(c->area, n) + p.lost;
+    p.dropped_area = fl_parallel_sum(c->gone, c->dropped);
+    p.area = fl_parallel_sum(c->area, n) + p.dropped_area;
     *out = p;
     p = (fl_pieces){0};
     rc = 0;
@@ -335,11 +336,11 @@ done:
     return rc;
 }
 
-int fl_domain_cut(fl_pieces *out, const fl_cells *cells, const fl_domain *d, double least, fl_err *err)
+int fl_domain_cut(fl_pieces *out, const fl_power_cells *cells, const fl_domain *d, double least, fl_err *err)
 {
     struct cutting c = {.d = d, .least = least};
     int rc = -1;
-    c.touch = FL_DOMAIN_TOUCH * hypot(d->hi.x - d->lo.x, d->hi.y - d->lo.y);
+    c.touch = FL_DOMAIN_TOUCH_TOL * hypot(d->hi.x - d->lo.x, d->hi.y - d->lo.y);
     for (int32_t i = 0; i < cells->n; i++)
         if (cut_cell(&c, cells, i, err)) goto done;
     rc = collect(&c, cells->n, out, err);
@@ -358,8 +359,8 @@ done:
 
 void fl_pieces_free(fl_pieces *p)
 {
-    fl_cells_free(&p->cells);
-    free(p->site);
+    fl_power_cells_free(&p->cells);
+    free(p->parent);
     *p = (fl_pieces){0};
 }
 

@@ -7,7 +7,7 @@
 /* Read rings of corners, "x y" [m] one a row, with a blank line or a row of ">" between two rings; a first
  * row "x[m] y[m]" may name the columns, and the last corner of a ring may repeat the first.  The first ring
  * is the outline, the others are kept out of it.  "-" is standard input, gzip is unpacked.
- *   d  zeroed; fl_domain_ready() is still to be called
+ *   d  zeroed; fl_domain_build() is still to be called
  * Returns 0, or -1 with FL_INPUT (file and line: a word that is no number, a ring of less than three corners,
  * one that crosses itself, no ring at all) or FL_SYSTEM; d is left zeroed then. */
 int fl_domain_read(fl_domain *d, const char *path, fl_err *err);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "broad/bvh.h"
 #include "ice/faces.h"
 
@@ -34,7 +34,7 @@ static double depth(struct polygon a, struct polygon b)
     for (int32_t k = 0; k < a.n; k++) {
         const fl_polygon_side s = line(a.v[k], next(a, k));
         double least = INFINITY;
-        for (int32_t j = 0; j < b.n; j++) least = fmin(least, fl_side_beyond(s, b.v[j]));
+        for (int32_t j = 0; j < b.n; j++) least = fmin(least, fl_polygon_side_distance(s, b.v[j]));
         most = fmax(most, least);
     }
     return -most;
@@ -102,10 +102,10 @@ static int find(fl_faces *f, const fl_floes *a, const fl_bvh *tree, const fl_aab
             double deep;
             if (near[k] <= i) continue;
             deep = fmin(depth(p, r), depth(r, p));
-            if (deep > f->deep) {
-                f->deep = deep;
-                f->deep_of[0] = i;
-                f->deep_of[1] = near[k];
+            if (deep > f->max_overlap) {
+                f->max_overlap = deep;
+                f->max_overlap_pair[0] = i;
+                f->max_overlap_pair[1] = near[k];
             }
             if (deep >= -within && face_of(p, r, within, &face) > 0.0 && add(f, &cap, face, err)) goto done;
         }
@@ -118,7 +118,7 @@ done:
 
 int fl_faces_find(fl_faces *out, const fl_floes *a, fl_err *err)
 {
-    fl_faces f = {.deep_of = {-1, -1}};
+    fl_faces f = {.max_overlap_pair = {-1, -1}};
     fl_aabb *box = fl_alloc(a->n, sizeof *box, err), all = aabb_empty();
     double *length = NULL, *outline = fl_alloc(a->n, sizeof *outline, err), size, far;
     fl_bvh tree = {0};
@@ -129,18 +129,18 @@ int fl_faces_find(fl_faces *out, const fl_floes *a, fl_err *err)
         box[i] = aabb_empty();
         for (int32_t k = 0; k < p.n; k++) box[i] = aabb_add(box[i], v3(p.v[k].x, p.v[k].y, 0.0));
         all = aabb_join(all, box[i]);
-        outline[i] = fl_polygon_outline(p.n, p.v);
+        outline[i] = fl_polygon_perimeter(p.n, p.v);
     }
     size = fmax(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
     far = fmax(fmax(fabs(all.lo.x), fabs(all.hi.x)), fmax(fabs(all.lo.y), fabs(all.hi.y)));
-    f.within = FL_FACES_TOGETHER * size + FAR * far;
-    if (fl_bvh_build(&tree, box, a->n, err) || find(&f, a, &tree, box, f.within, err)) goto done;
+    f.tolerance = FL_FACES_TOL * size + FAR * far;
+    if (fl_bvh_build(&tree, box, a->n, err) || find(&f, a, &tree, box, f.tolerance, err)) goto done;
     length = fl_alloc(f.n, sizeof *length, err);
     if (!length) goto done;
     for (int32_t k = 0; k < f.n; k++)
         length[k] = hypot(f.face[k].b.x - f.face[k].a.x, f.face[k].b.y - f.face[k].a.y);
-    f.length = fl_par_sum(length, f.n);
-    f.outline = fl_par_sum(outline, a->n);
+    f.total_length = fl_parallel_sum(length, f.n);
+    f.perimeter = fl_parallel_sum(outline, a->n);
     *out = f;
     f = (fl_faces){0};
     rc = 0;

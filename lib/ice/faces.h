@@ -9,7 +9,7 @@
 
 /* Lines nearer to each other than this part of the field's size (and some ulps of its distance from the
  * origin) are one; shared pieces that are shorter, and overlaps that are not deeper, are rounding. */
-#define FL_FACES_TOGETHER 1e-10
+#define FL_FACES_TOL 1e-10
 
 typedef struct {
     int32_t i, j; /* floes, i < j                                  */
@@ -18,12 +18,12 @@ typedef struct {
 
 typedef struct {
     int32_t n;
-    fl_face *face;  /* [n] ascending in (i, j), a pair at most once    */
-    double length;  /* sum of the lengths of all faces             [m] */
-    double outline; /* sum of the outlines of all floes            [m] */
-    double deep;    /* deepest overlap of two floes, 0 when none   [m] */
-    int32_t deep_of[2];
-    double within; /* what counted as together                 [m] */
+    fl_face *face;       /* [n] ascending in (i, j), a pair at most once    */
+    double total_length; /* sum of the lengths of all faces             [m] */
+    double perimeter;    /* sum of the outlines of all floes            [m] */
+    double max_overlap;  /* deepest overlap of two floes, 0 when none   [m] */
+    int32_t max_overlap_pair[2];
+    double tolerance; /* what counted as together                 [m] */
 } fl_faces;
 
 /* Find them.  For floes that fill their field,  outline - 2 length  is the outline of the field.

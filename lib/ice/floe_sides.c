@@ -3,21 +3,21 @@
 #include <math.h>
 #include <omp.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 
 enum { KEPT = 1, FIXED = 2 };
 
 void fl_floe_sides_free(fl_floe_sides *f)
 {
     free(f->inradius);
-    free(f->most);
+    free(f->max_inset);
     free(f->area);
-    free(f->outline);
+    free(f->perimeter);
     free(f->count);
     free(f->side);
     for (int k = 0; k < f->threads && f->scratch; k++) {
-        free(f->scratch[k].line);
-        free(f->scratch[k].left);
+        free(f->scratch[k].moved);
+        free(f->scratch[k].kept);
         free(f->scratch[k].corner);
         free(f->scratch[k].state);
     }
@@ -35,8 +35,8 @@ static int scratch_alloc(fl_floe_sides *f, fl_err *err)
     if (!(f->scratch = fl_alloc(f->threads, sizeof *f->scratch, err))) return -1;
     for (int k = 0; k < f->threads; k++) {
         fl_floe_scratch *s = &f->scratch[k];
-        if (!(s->line = fl_alloc(most, sizeof *s->line, err)) ||
-            !(s->left = fl_alloc(most, sizeof *s->left, err)) ||
+        if (!(s->moved = fl_alloc(most, sizeof *s->moved, err)) ||
+            !(s->kept = fl_alloc(most, sizeof *s->kept, err)) ||
             !(s->corner = fl_alloc(most, sizeof *s->corner, err)) || !(s->state = fl_alloc(most, 1, err)))
             return -1;
     }
@@ -46,9 +46,10 @@ static int scratch_alloc(fl_floe_sides *f, fl_err *err)
 int fl_floe_sides_alloc(fl_floe_sides *f, fl_err *err)
 {
     const int32_t n = f->cells->n;
-    return (f->inradius = fl_alloc(n, sizeof(double), err)) && (f->most = fl_alloc(n, sizeof(double), err)) &&
+    return (f->inradius = fl_alloc(n, sizeof(double), err)) &&
+                   (f->max_inset = fl_alloc(n, sizeof(double), err)) &&
                    (f->area = fl_alloc(n, sizeof(double), err)) &&
-                   (f->outline = fl_alloc(n, sizeof(double), err)) &&
+                   (f->perimeter = fl_alloc(n, sizeof(double), err)) &&
                    (f->count = fl_alloc(n, sizeof(int32_t), err)) &&
                    (f->side = fl_alloc(f->cells->first[n], sizeof(fl_polygon_side), err))
                ? scratch_alloc(f, err)
@@ -62,8 +63,8 @@ const fl_floe_scratch *fl_floe_sides_scratch(const fl_floe_sides *f)
 
 double fl_floe_sides_inset(const fl_floe_sides *f, int32_t i, double d)
 {
-    if (f->own) d = f->own[i];
-    return d < f->most[i] ? d : f->most[i];
+    if (f->own_inset) d = f->own_inset[i];
+    return d < f->max_inset[i] ? d : f->max_inset[i];
 }
 
 /* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
@@ -72,8 +73,8 @@ double fl_floe_sides_inset(const fl_floe_sides *f, int32_t i, double d)
 static double least_side(const fl_floe_sides *f, fl_polygon_side a, fl_polygon_side e, fl_polygon_side b,
                          double rho)
 {
-    const double clear = 0.5 * (fl_side_half_tan(a, e) + fl_side_half_tan(e, b));
-    return rho * (clear < f->least ? clear : f->least);
+    const double clear = 0.5 * (fl_polygon_side_half_tan(a, e) + fl_polygon_side_half_tan(e, b));
+    return rho * (clear < f->min_side ? clear : f->min_side);
 }
 
 /* The outer corner of a and b at inset d must stay inside the cell by `spare`: how far is it beyond that,
@@ -81,10 +82,10 @@ static double least_side(const fl_floe_sides *f, fl_polygon_side a, fl_polygon_s
 static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b, double d,
                      double spare, int32_t *worst)
 {
-    const fl_vec2 w = fl_side_meet(a, b, d);
+    const fl_vec2 w = fl_polygon_side_intersect(a, b, d);
     double most = -INFINITY;
     for (int32_t e = (a.tag + 1) % m; e != b.tag; e = (e + 1) % m) {
-        const double x = fl_side_beyond(cell[e], w) + spare;
+        const double x = fl_polygon_side_distance(cell[e], w) + spare;
         if (x > most) {
             most = x;
             *worst = e;
@@ -97,9 +98,10 @@ static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, 
 static void cut_corner(const fl_floe_sides *f, fl_polygon_side *line, unsigned char *state, int32_t e,
                        fl_polygon_side a, fl_polygon_side b, double inset, double rho)
 {
-    const fl_vec2 q = fl_side_meet(a, b, inset);
+    const fl_vec2 q = fl_polygon_side_intersect(a, b, inset);
     const fl_polygon_side s = line[e];
-    const double per_depth = fl_side_cos(a, s) / fl_side_sin(a, s) + fl_side_cos(s, b) / fl_side_sin(s, b);
+    const double per_depth = fl_polygon_side_cos(a, s) / fl_polygon_side_sin(a, s) +
+                             fl_polygon_side_cos(s, b) / fl_polygon_side_sin(s, b);
     line[e].c = s.nx * q.x + s.ny * q.y - least_side(f, a, s, b, rho) / per_depth + inset;
     state[e] = KEPT | FIXED;
 }
@@ -129,8 +131,8 @@ static int32_t find_short(const fl_floe_sides *f, const unsigned char *state, in
     for (int32_t k = 0; k < n; k++) {
         const fl_polygon_side a = left[k ? k - 1 : n - 1], b = left[k + 1 < n ? k + 1 : 0];
         const double limit =
-            state[left[k].tag] & FIXED ? 0.75 * least_side(f, a, left[k], b, rho) : f->few * rho;
-        const double l = fl_polygon_length(n, corner, k);
+            state[left[k].tag] & FIXED ? 0.75 * least_side(f, a, left[k], b, rho) : f->short_side * rho;
+        const double l = fl_polygon_side_length(n, corner, k);
         if (l < limit && l < least) {
             least = l;
             at = k;
@@ -151,9 +153,10 @@ static int mend_short(const fl_floe_sides *f, const fl_polygon_side *cell, int32
     e = left[at].tag;
     a = left[at ? at - 1 : n - 1];
     b = left[at + 1 < n ? at + 1 : 0];
-    if (n > 3 && fl_side_sin(a, b) > 0.0 && beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
+    if (n > 3 && fl_polygon_side_sin(a, b) > 0.0 && beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
         state[e] &= (unsigned char)~KEPT;
-    else if (fl_side_sin(a, b) > 0.0 && fl_polygon_length(n, corner, at) < least_side(f, a, left[at], b, rho))
+    else if (fl_polygon_side_sin(a, b) > 0.0 &&
+             fl_polygon_side_length(n, corner, at) < least_side(f, a, left[at], b, rho))
         cut_corner(f, line, state, e, a, b, d + f->radius, rho);
     else state[e] |= FIXED; /* it stays as it is; between sides that open outward it only looks short */
     return 1;
@@ -164,7 +167,7 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first;
     const fl_polygon_side *cell = f->cells->side + first;
     const fl_floe_scratch *s = fl_floe_sides_scratch(f);
-    fl_polygon_side *line = s->line, *left = s->left;
+    fl_polygon_side *line = s->moved, *left = s->kept;
     fl_vec2 *corner = s->corner;
     unsigned char *state = s->state;
     const double di = fl_floe_sides_inset(f, i, d), rho = f->inradius[i] - di - f->radius;
@@ -195,7 +198,7 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
 }
 
 /* Half of every margin may be used up. */
-int fl_floe_sides_serve(fl_floe_sides *f, int32_t i, double d)
+int fl_floe_sides_are_valid(fl_floe_sides *f, int32_t i, double d)
 {
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first, n = f->count[i];
     const fl_polygon_side *side = f->side + first;

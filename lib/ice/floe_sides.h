@@ -4,30 +4,32 @@
  * (floes.h). */
 #ifndef FL_ICE_FLOE_SIDES_H
 #define FL_ICE_FLOE_SIDES_H
-#include "ice/cells.h"
+#include "ice/power_cells.h"
 
 /* For one floe after the other, so that a thread stays in its cache; with room for the cell that has most
  * sides. */
 typedef struct {
-    fl_polygon_side *line, *left; /* the cell's sides as moved, and those of the core */
+    fl_polygon_side *moved, *kept; /* the cell's sides as moved, and those of the core */
     fl_vec2 *corner;
     unsigned char *state;
 } fl_floe_scratch;
 
 /* Everything by side lies at the cells' own offsets. */
 typedef struct {
-    const fl_cells *cells;
+    const fl_power_cells *cells;
     double radius;
-    double few, least; /* FL_FLOES_SHORT and FL_FLOES_LEAST, or FL_FLOES_FILL for both             */
-    const double *own; /* [n] insets of the floes, NULL when they have a common one                  [m] */
-    double *inradius, *most;  /* [n] of the cell, and the largest inset it may have            [m] */
-    double *area, *outline;   /* [n] of the outer polygon at the inset last asked for     [m2, m] */
-    int32_t *count;           /* [n] sides of the floe                                            */
-    fl_polygon_side *side;    /* sides of the floe; tag is the place in the cell                  */
-    fl_floe_scratch *scratch; /* [threads]                                                        */
+    double short_side,
+        min_side; /* FL_FLOES_SHORT_SIDE and FL_FLOES_MIN_SIDE, or FL_FLOES_FILL_SIDE for both             */
+    const double
+        *own_inset; /* [n] insets of the floes, NULL when they have a common one                  [m] */
+    double *inradius, *max_inset; /* [n] of the cell, and the largest inset it may have            [m] */
+    double *area, *perimeter;     /* [n] of the outer polygon at the inset last asked for     [m2, m] */
+    int32_t *count;               /* [n] sides of the floe                                            */
+    fl_polygon_side *side;        /* sides of the floe; tag is the place in the cell                  */
+    fl_floe_scratch *scratch;     /* [threads]                                                        */
     int threads;
-    double sharp;    /* cot(t / 2) for the angle t below which corners are cut off; 0: none are */
-    int32_t blunted; /* corners cut off                                                  */
+    double sharp_cot;        /* cot(t / 2) for the angle t below which corners are cut off; 0: none are */
+    int32_t blunted_corners; /* corners cut off                                                  */
 } fl_floe_sides;
 
 /* Room for all floes of f->cells.  -1 with FL_SYSTEM; fl_floe_sides_free() in any case. */
@@ -44,6 +46,6 @@ double fl_floe_sides_inset(const fl_floe_sides *f, int32_t i, double d);
 int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d);
 
 /* Do the sides chosen at another inset serve at this one too? */
-int fl_floe_sides_serve(fl_floe_sides *f, int32_t i, double d);
+int fl_floe_sides_are_valid(fl_floe_sides *f, int32_t i, double d);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "ice/floe_sides.h"
 #include "ice/floes.h"
 
@@ -19,7 +19,7 @@ static double excess(fl_floe_sides *f, int raw, double d, double target, double 
     for (int32_t i = 0; i < n; i++) {
         const int32_t first = f->cells->first[i];
         const double di = fl_floe_sides_inset(f, i, d);
-        fl_polygon_side *left = fl_floe_sides_scratch(f)->left;
+        fl_polygon_side *left = fl_floe_sides_scratch(f)->kept;
         fl_vec2 *v = fl_floe_sides_scratch(f)->corner;
         int32_t m = f->count[i];
         if (raw) {
@@ -32,10 +32,10 @@ static double excess(fl_floe_sides *f, int raw, double d, double target, double 
             fl_polygon_corners(m, f->side + first, di, v);
         }
         f->area[i] = fl_polygon_area(m, v);
-        f->outline[i] = d < f->most[i] ? fl_polygon_outline(m, v) : 0.0;
+        f->perimeter[i] = d < f->max_inset[i] ? fl_polygon_perimeter(m, v) : 0.0;
     }
-    *fall = fl_par_sum(f->outline, n);
-    return fl_par_sum(f->area, n) - target;
+    *fall = fl_parallel_sum(f->perimeter, n);
+    return fl_parallel_sum(f->area, n) - target;
 }
 
 /* Root of excess(), which falls and is convex: Newton's step from the left stays left of the root and
@@ -69,24 +69,24 @@ static int solve(fl_floe_sides *f, int raw, double target, double hi, double *d)
 /* Inscribed circles; the smallest cell must have room for a core. */
 static int measure_cells(fl_floe_sides *f, double *total, double *hi, fl_err *err)
 {
-    const fl_cells *c = f->cells;
+    const fl_power_cells *c = f->cells;
     int32_t tight = 0;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < c->n; i++) {
         const int32_t first = c->first[i], m = c->first[i + 1] - first;
         const fl_floe_scratch *s = fl_floe_sides_scratch(f);
         memcpy(s->corner, c->v + first, (size_t)m * sizeof *s->corner);
-        memcpy(s->left, c->side + first, (size_t)m * sizeof *s->left);
-        fl_polygon_inset(m, s->corner, s->left, INFINITY, &f->inradius[i]);
-        f->most[i] = (1.0 - FL_FLOES_KEEP) * (f->inradius[i] - f->radius);
+        memcpy(s->kept, c->side + first, (size_t)m * sizeof *s->kept);
+        fl_polygon_inset(m, s->corner, s->kept, INFINITY, &f->inradius[i]);
+        f->max_inset[i] = (1.0 - FL_FLOES_MIN_CORE) * (f->inradius[i] - f->radius);
         f->area[i] = fl_polygon_area(m, c->v + first);
     }
     *hi = 0.0;
     for (int32_t i = 0; i < c->n; i++) {
         if (f->inradius[i] < f->inradius[tight]) tight = i;
-        if (f->most[i] > *hi) *hi = f->most[i];
+        if (f->max_inset[i] > *hi) *hi = f->max_inset[i];
     }
-    *total = fl_par_sum(f->area, c->n);
+    *total = fl_parallel_sum(f->area, c->n);
     /* A core of less than a thousandth of its cell would have sides too short for any contact. */
     if (f->inradius[tight] * (1.0 - 1e-3) > f->radius) return 0;
     return fl_fail(err, FL_INPUT,
@@ -126,7 +126,7 @@ static int settle(fl_floe_sides *f, double concentration, double total, double h
         int32_t changed = 0, bad = INT32_MAX;
 #pragma omp parallel for schedule(static) reduction(+ : changed) reduction(min : bad)
         for (int32_t i = 0; i < n; i++) {
-            if (round && fl_floe_sides_serve(f, i, *d)) continue;
+            if (round && fl_floe_sides_are_valid(f, i, *d)) continue;
             changed++;
             if (fl_floe_sides_choose(f, i, *d) && i < bad) bad = i;
         }
@@ -148,7 +148,7 @@ static int settle(fl_floe_sides *f, double concentration, double total, double h
 /* --- sharp corners -------------------------------------------------------------------------------------- */
 
 /* How far from corner k of the core of floe i, along its two sides, it is to be cut off; 0: it stays.  The
- * new side is FL_FLOES_LEAST times the radius rho of the inscribed circle long, unless the corner is so sharp
+ * new side is FL_FLOES_MIN_SIDE times the radius rho of the inscribed circle long, unless the corner is so sharp
  * that this would take more than a quarter of a side.  *lost is the triangle that the outer polygon loses:
  * its corner is r / sin(t / 2) away from that of the core, t being the angle, and the new side r, so that
  * it is cut at a depth of h + r (1 / sin(t / 2) - 1) when the core is at h, whatever the inset. */
@@ -157,13 +157,14 @@ static double blunt(const fl_floe_sides *f, int32_t n, const fl_polygon_side *si
 {
     const int32_t before = k ? k - 1 : n - 1;
     /* the sides turn by pi - t, and tan((pi - t) / 2) = cot(t / 2) */
-    const double cot = fl_side_half_tan(side[before], side[k]),
-                 quarter = 0.25 * fmin(fl_polygon_length(n, core, before), fl_polygon_length(n, core, k));
+    const double cot = fl_polygon_side_half_tan(side[before], side[k]),
+                 quarter =
+                     0.25 * fmin(fl_polygon_side_length(n, core, before), fl_polygon_side_length(n, core, k));
     const double sine = 1.0 / hypot(1.0, cot); /* of t / 2 */
     double along, depth;
     *lost = 0.0;
-    if (!(f->sharp > 0.0 && cot > f->sharp)) return 0.0;
-    along = 0.5 * f->least * rho / sine;
+    if (!(f->sharp_cot > 0.0 && cot > f->sharp_cot)) return 0.0;
+    along = 0.5 * f->min_side * rho / sine;
     if (!(along < quarter)) along = quarter;
     depth = along * cot * sine + f->radius * (1.0 / sine - 1.0);
     *lost = depth * depth / cot;
@@ -192,7 +193,7 @@ static double lost_at(fl_floe_sides *f, double d, int32_t *corners)
         }
     }
     *corners = all;
-    return fl_par_sum(f->area, f->cells->n);
+    return fl_parallel_sum(f->area, f->cells->n);
 }
 
 /* Sides and inset, and what is cut off at the inset to which that leads: it changes little with the inset. */
@@ -205,8 +206,8 @@ static int settle_blunt(fl_floe_sides *f, double concentration, double *d, fl_er
         int32_t corners;
         if (settle(f, concentration, total, hi, lost, d, err)) return -1;
         next = lost_at(f, *d, &corners);
-        if (corners == f->blunted && fabs(next - lost) <= 1e-12 * lost) return 0;
-        f->blunted = corners;
+        if (corners == f->blunted_corners && fabs(next - lost) <= 1e-12 * lost) return 0;
+        f->blunted_corners = corners;
         lost = next;
     }
     return fl_fail(err, FL_NUMERIC, "corners and inset of %d floes do not settle at a concentration of %.17g",
@@ -240,11 +241,11 @@ static int32_t core_at(const fl_floe_sides *f, int32_t i, double d, fl_vec2 *v)
 
 static int collect(const fl_floe_sides *f, double d, fl_vec2 shift, fl_floes *a, fl_err *err)
 {
-    const fl_cells *c = f->cells;
-    const int64_t room = (int64_t)c->first[c->n] + f->blunted;
+    const fl_power_cells *c = f->cells;
+    const int64_t room = (int64_t)c->first[c->n] + f->blunted_corners;
     a->n = c->n;
     a->inset = d;
-    a->blunted = f->blunted;
+    a->blunted_corners = f->blunted_corners;
     a->first = fl_alloc((int64_t)c->n + 1, sizeof *a->first, err);
     a->core = fl_alloc(room, sizeof *a->core, err);
     a->outer = fl_alloc(room, sizeof *a->outer, err);
@@ -258,22 +259,23 @@ static int collect(const fl_floe_sides *f, double d, fl_vec2 shift, fl_floes *a,
             core[k].x += shift.x;
             core[k].y += shift.y;
         }
-        for (int32_t k = 0; k < f->count[i]; k++) a->cut += side[k].c < c->side[c->first[i] + side[k].tag].c;
+        for (int32_t k = 0; k < f->count[i]; k++)
+            a->shifted_sides += side[k].c < c->side[c->first[i] + side[k].tag].c;
         fl_polygon_outset(m, core, f->radius, a->outer + a->first[i]);
-        a->held += f->own ? f->most[i] <= f->own[i] : f->most[i] < d;
-        a->dropped += c->first[i + 1] - c->first[i] - f->count[i];
+        a->limited += f->own_inset ? f->max_inset[i] <= f->own_inset[i] : f->max_inset[i] < d;
+        a->dropped_sides += c->first[i + 1] - c->first[i] - f->count[i];
     }
     return 0;
 }
 
-int fl_floes_make(fl_floes *out, const fl_cells *cells, double concentration, double radius, fl_vec2 shift,
-                  fl_err *err)
+int fl_floes_make(fl_floes *out, const fl_power_cells *cells, double concentration, double radius,
+                  fl_vec2 shift, fl_err *err)
 {
     fl_floe_sides f = {.cells = cells,
                        .radius = radius,
-                       .few = FL_FLOES_SHORT,
-                       .least = FL_FLOES_LEAST,
-                       .sharp = 1.0 / tan(0.5 * FL_FLOES_SHARP)};
+                       .short_side = FL_FLOES_SHORT_SIDE,
+                       .min_side = FL_FLOES_MIN_SIDE,
+                       .sharp_cot = 1.0 / tan(0.5 * FL_FLOES_SHARP_ANGLE)};
     fl_floes a = {0};
     double d = 0.0;
     int rc = -1;
@@ -295,7 +297,7 @@ done:
 static double area_at(fl_floe_sides *f, int raw, int32_t i, double d, double *outline)
 {
     const int32_t first = f->cells->first[i];
-    fl_polygon_side *left = fl_floe_sides_scratch(f)->left;
+    fl_polygon_side *left = fl_floe_sides_scratch(f)->kept;
     fl_vec2 *v = fl_floe_sides_scratch(f)->corner;
     int32_t m = f->count[i];
     double depth;
@@ -307,7 +309,7 @@ static double area_at(fl_floe_sides *f, int raw, int32_t i, double d, double *ou
     } else {
         fl_polygon_corners(m, f->side + first, d, v);
     }
-    *outline = fl_polygon_outline(m, v);
+    *outline = fl_polygon_perimeter(m, v);
     return fl_polygon_area(m, v);
 }
 
@@ -326,7 +328,7 @@ static int solve_one(fl_floe_sides *f, int raw, int32_t i, double target, double
             *d = x;
         }
         if (over == 0.0 || !(outline > 0.0)) break;
-        x = fmax(0.0, fmin(x + over / outline, f->most[i]));
+        x = fmax(0.0, fmin(x + over / outline, f->max_inset[i]));
     }
     return 0;
 }
@@ -336,7 +338,7 @@ static int settle_one(fl_floe_sides *f, double *own, int32_t i, double target)
 {
     if (solve_one(f, 1, i, target, &own[i])) return 2;
     for (int round = 0; round < ROUNDS; round++) {
-        if (round && fl_floe_sides_serve(f, i, own[i])) return 0;
+        if (round && fl_floe_sides_are_valid(f, i, own[i])) return 0;
         if (fl_floe_sides_choose(f, i, own[i])) return 1;
         if (solve_one(f, 0, i, target, &own[i])) return 2;
     }
@@ -374,18 +376,18 @@ static int grade(fl_floe_sides *f, double *own, const double *part, double *off,
         held[i] = f->area[i]; /* of the cell, as measured */
         asked[i] = part[i] * held[i];
     }
-    total = fl_par_sum(asked, n);
+    total = fl_parallel_sum(asked, n);
     for (int round = 0; round < ROUNDS && fabs(factor - last) > 1e-15; round++) {
         if (grade_all(f, own, part, factor, err)) goto done;
         *off = 0.0;
         for (int32_t i = 0; i < n; i++) {
-            const int is = own[i] >= f->most[i];
+            const int is = own[i] >= f->max_inset[i];
             if (!is) *off = fmax(*off, part[i] * fabs(f->area[i] / asked[i] - 1.0));
             free_part[i] = is ? 0.0 : asked[i];
             held[i] = is ? f->area[i] : 0.0;
         }
         last = factor;
-        factor = (total - fl_par_sum(held, n)) / fl_par_sum(free_part, n);
+        factor = (total - fl_parallel_sum(held, n)) / fl_parallel_sum(free_part, n);
         if (factor > 0.0) continue;
         fl_fail(err, FL_INPUT, "floes of dilation radius %.4g m cannot cover so little of these cells",
                 f->radius);
@@ -399,18 +401,19 @@ done:
     return rc;
 }
 
-int fl_floes_grade(fl_floes *out, const fl_cells *cells, const double *part, double radius, fl_vec2 shift,
-                   double *off, fl_err *err)
+int fl_floes_make_graded(fl_floes *out, const fl_power_cells *cells, const double *part, double radius,
+                         fl_vec2 shift, double *off, fl_err *err)
 {
-    fl_floe_sides f = {.cells = cells, .radius = radius, .few = FL_FLOES_SHORT, .least = FL_FLOES_LEAST};
+    fl_floe_sides f = {
+        .cells = cells, .radius = radius, .short_side = FL_FLOES_SHORT_SIDE, .min_side = FL_FLOES_MIN_SIDE};
     double *own = fl_alloc(cells->n, sizeof *own, err);
     fl_floes a = {0};
     int rc = -1;
-    f.own = own;
+    f.own_inset = own;
     if (!own || fl_floe_sides_alloc(&f, err) || grade(&f, own, part, off, err) ||
         collect(&f, 0.0, shift, &a, err))
         goto done;
-    a.inset = fl_par_sum(own, cells->n) / cells->n;
+    a.inset = fl_parallel_sum(own, cells->n) / cells->n;
     *out = a;
     a = (fl_floes){0};
     rc = 0;
@@ -421,9 +424,10 @@ done:
     return rc;
 }
 
-int fl_floes_fill(fl_floes *out, const fl_cells *cells, double radius, fl_vec2 shift, fl_err *err)
+int fl_floes_fill(fl_floes *out, const fl_power_cells *cells, double radius, fl_vec2 shift, fl_err *err)
 {
-    fl_floe_sides f = {.cells = cells, .radius = radius, .few = FL_FLOES_FILL, .least = FL_FLOES_FILL};
+    fl_floe_sides f = {
+        .cells = cells, .radius = radius, .short_side = FL_FLOES_FILL_SIDE, .min_side = FL_FLOES_FILL_SIDE};
     fl_floes a = {0};
     double total, hi;
     int32_t bad = INT32_MAX;
@@ -444,7 +448,7 @@ done:
     return rc;
 }
 
-void fl_floes_drop(fl_floes *a, const char *gone, int32_t *name)
+void fl_floes_remove(fl_floes *a, const char *gone, int32_t *name)
 {
     int32_t n = 0, at = 0;
     for (int32_t i = 0; i < a->n; i++) {

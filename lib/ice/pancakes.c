@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/pi.h"
 #include "ice/pancakes.h"
 
@@ -14,7 +14,7 @@ enum { STEPS = 120 };
 #define ROOM 1e-3
 
 struct dough {
-    const fl_cells *cells;
+    const fl_power_cells *cells;
     int32_t sides;
     double radius, reach;  /* R, and R / cos(2 pi / S) */
     double *rho;           /* [n] */
@@ -26,7 +26,7 @@ struct dough {
 
 static double inset_of(const struct dough *p, int32_t i, double d)
 {
-    const double most = (1.0 - FL_FLOES_KEEP) * (p->rho[i] - p->reach);
+    const double most = (1.0 - FL_FLOES_MIN_CORE) * (p->rho[i] - p->reach);
     return d < most ? d : most;
 }
 
@@ -40,7 +40,7 @@ static double phase(int32_t i)
 static double bake(struct dough *p, int32_t i, double d)
 {
     const int32_t first = p->cells->first[i], m = p->cells->first[i + 1] - first, s = p->sides;
-    const double near = inset_of(p, i, d) + p->reach, r = FL_PANCAKES_ROUND * (p->rho[i] - near);
+    const double near = inset_of(p, i, d) + p->reach, r = FL_PANCAKES_ROUNDNESS * (p->rho[i] - near);
     fl_vec2 *v = p->v + first, *core = p->core + (int64_t)s * i, *outer = p->outer + (int64_t)s * i;
     double depth;
     int32_t n;
@@ -69,7 +69,7 @@ static double bake_all(struct dough *p, double d)
 {
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < p->cells->n; i++) p->area[i] = bake(p, i, d);
-    return fl_par_sum(p->area, p->cells->n);
+    return fl_parallel_sum(p->area, p->cells->n);
 }
 
 /* The covered area falls with d: a bracket, cut by the line through its ends and by halves in turn. */
@@ -97,7 +97,7 @@ static double solve(struct dough *p, double target, double lo, double hi, double
 
 static int prepare(struct dough *p, double *total, double *most, fl_err *err)
 {
-    const fl_cells *c = p->cells;
+    const fl_power_cells *c = p->cells;
     int32_t tight = 0;
     *most = 0.0;
     for (int32_t i = 0; i < c->n; i++) {
@@ -109,7 +109,7 @@ static int prepare(struct dough *p, double *total, double *most, fl_err *err)
         if (p->rho[i] < p->rho[tight]) tight = i;
         *most = fmax(*most, p->rho[i]);
     }
-    *total = fl_par_sum(p->area, c->n);
+    *total = fl_parallel_sum(p->area, c->n);
     if (p->rho[tight] * (1.0 - ROOM) > p->reach) return 0;
     return fl_fail(
         err, FL_INPUT,
@@ -127,7 +127,7 @@ static int serve(struct dough *p, double d, fl_vec2 shift, fl_floes *a, fl_err *
     if (!a->first) return -1;
     for (int32_t i = 0; i < n; i++) {
         a->first[i + 1] = a->first[i] + p->sides;
-        a->held += inset_of(p, i, d) < d;
+        a->limited += inset_of(p, i, d) < d;
         for (int32_t k = a->first[i]; k < a->first[i + 1]; k++) {
             p->core[k].x += shift.x;
             p->core[k].y += shift.y;
@@ -140,8 +140,8 @@ static int serve(struct dough *p, double d, fl_vec2 shift, fl_floes *a, fl_err *
     return 0;
 }
 
-int fl_pancakes_make(fl_floes *out, const fl_cells *cells, int32_t sides, double concentration, double radius,
-                     fl_vec2 shift, fl_err *err)
+int fl_pancakes_make(fl_floes *out, const fl_power_cells *cells, int32_t sides, double concentration,
+                     double radius, fl_vec2 shift, fl_err *err)
 {
     const int32_t n = cells->n;
     struct dough p = {.cells = cells, .sides = sides, .radius = radius};
@@ -150,7 +150,7 @@ int fl_pancakes_make(fl_floes *out, const fl_cells *cells, int32_t sides, double
     int rc = -1;
     p.reach = radius / cos(2.0 * PI / sides);
     if ((int64_t)n * sides > INT32_MAX)
-        return fl_fail(err, FL_INPUT, "%d floes of %d sides are too many, fewer were wanted", n, sides);
+        return fl_fail(err, FL_INPUT, "%d floes of %d sides are too many, fewer are expected", n, sides);
     if (!(p.rho = fl_alloc(n, sizeof *p.rho, err)) || !(p.area = fl_alloc(n, sizeof *p.area, err)) ||
         !(p.v = fl_alloc(cells->first[n], sizeof *p.v, err)) ||
         !(p.side = fl_alloc(cells->first[n], sizeof *p.side, err)) ||
@@ -187,7 +187,7 @@ double fl_pancakes_circularity(const fl_floes *a)
     double sum = 0.0;
     for (int32_t i = 0; i < a->n; i++) {
         const int32_t n = a->first[i + 1] - a->first[i];
-        const double l = fl_polygon_outline(n, a->outer + a->first[i]);
+        const double l = fl_polygon_perimeter(n, a->outer + a->first[i]);
         sum += 4.0 * PI * fl_polygon_area(n, a->outer + a->first[i]) / (l * l);
     }
     return sum / a->n;

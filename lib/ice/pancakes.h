@@ -11,22 +11,22 @@
  * goes R / cos(2 pi / S) away at most; with
  *     D = d + R / cos(2 pi / S)
  * no floe comes nearer to its cell's sides than d, and d is found such that all cover what was asked for.
- * q = FL_PANCAKES_ROUND; with 1 it would be circles. */
+ * q = FL_PANCAKES_ROUNDNESS; with 1 it would be circles. */
 #ifndef FL_ICE_PANCAKES_H
 #define FL_ICE_PANCAKES_H
 #include "ice/floes.h"
 
-#define FL_PANCAKES_ROUND 0.75
+#define FL_PANCAKES_ROUNDNESS 0.75
 
 /* Fewest and most sides. */
-enum { FL_PANCAKES_LEAST = 6, FL_PANCAKES_MOST = 120 };
+enum { FL_PANCAKES_MIN_SIDES = 6, FL_PANCAKES_MAX_SIDES = 120 };
 
 /* Floes of that many sides that cover  concentration  times the area of the cells, to rounding.  A small cell
- * keeps FL_FLOES_KEEP of what it has to spare, and is held then.  inset of out is d.
+ * keeps FL_FLOES_MIN_CORE of what it has to spare, and is held then.  inset of out is d.
  * Returns 0, or -1 with FL_INPUT: a cell is too small for the radius, or so many cannot be covered (how many
  * can is told); FL_SYSTEM.  out is untouched then. */
-int fl_pancakes_make(fl_floes *out, const fl_cells *cells, int32_t sides, double concentration, double radius,
-                     fl_vec2 shift, fl_err *err);
+int fl_pancakes_make(fl_floes *out, const fl_power_cells *cells, int32_t sides, double concentration,
+                     double radius, fl_vec2 shift, fl_err *err);
 
 /* Mean over all floes of 4 pi area / outline^2, which is 1 for a circle. */
 double fl_pancakes_circularity(const fl_floes *a);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "ice/periodic.h"
 
 /* Width of the first band, in roots of the mean area of a cell: a cell of random sites reaches farther for
@@ -46,7 +46,7 @@ static int lay_copies(int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, co
     return 0;
 }
 
-static int wide_enough(const fl_cells *c, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
+static int wide_enough(const fl_power_cells *c, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
                        const int periodic[2])
 {
     for (int32_t i = 0; i < n; i++)
@@ -60,14 +60,14 @@ static int wide_enough(const fl_cells *c, int32_t n, const fl_vec2 *site, fl_vec
 }
 
 /* Forget the cells of the copies. */
-static void keep_first(fl_cells *c, int32_t n, const int32_t *of)
+static void keep_first(fl_power_cells *c, int32_t n, const int32_t *of)
 {
     c->n = n;
     for (int32_t k = 0; k < c->first[n]; k++)
         if (c->side[k].tag >= 0) c->side[k].tag = of[c->side[k].tag];
 }
 
-int fl_periodic_cells(fl_cells *out, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
+int fl_periodic_cells(fl_power_cells *out, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
                       const int periodic[2], fl_err *err)
 {
     const double lx = hi.x - lo.x, ly = hi.y - lo.y;
@@ -77,16 +77,16 @@ int fl_periodic_cells(fl_cells *out, int32_t n, const fl_vec2 *site, fl_vec2 lo,
         const fl_vec2 from = {lo.x - b.x, lo.y - b.y}, to = {hi.x + b.x, hi.y + b.y};
         fl_vec2 *image = NULL;
         int32_t *of = NULL, m = 0;
-        fl_cells c = {0};
+        fl_power_cells c = {0};
         int rc = lay_copies(n, site, lo, hi, reach, b, &image, &of, &m, err);
         int ready = 0;
-        if (rc == 0) rc = fl_cells_build(&c, m, image, from, to, err);
+        if (rc == 0) rc = fl_power_cells_build(&c, m, image, from, to, err);
         if (rc == 0 && (ready = wide_enough(&c, n, site, from, to, periodic))) {
             keep_first(&c, n, of);
             *out = c;
-            c = (fl_cells){0};
+            c = (fl_power_cells){0};
         }
-        fl_cells_free(&c);
+        fl_power_cells_free(&c);
         free(image);
         free(of);
         if (rc || ready) return rc;

@@ -4,7 +4,7 @@
 #define FL_ICE_PERIODIC_H
 #include <stdint.h>
 #include "base/err.h"
-#include "ice/cells.h"
+#include "ice/power_cells.h"
 
 /* Divide the rectangle lo .. hi among site[n], all inside it, where along x, y or both whatever leaves at one
  * side comes in at the other.  A cell lies about its own site and may stand out of the rectangle; where it
@@ -14,7 +14,7 @@
  * were there.
  *   periodic  along x, along y
  * Returns 0, or -1 with FL_INPUT (two sites coincide) or FL_SYSTEM; out is untouched then.  n log n. */
-int fl_periodic_cells(fl_cells *out, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
+int fl_periodic_cells(fl_power_cells *out, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
                       const int periodic[2], fl_err *err);
 
 /* Bring p back into lo .. hi along the periodic directions. */

@@ -28,7 +28,7 @@ double fl_sizes_mean(const fl_sizes *s)
     case FL_SIZES_POWER:
         return 0.25 * PI * s->dmin * s->dmin * grown(3.0 - s->beta, spread(s)) /
                grown(1.0 - s->beta, spread(s));
-    case FL_SIZES_LIST: return s->sum[s->n] / s->upto[s->n];
+    case FL_SIZES_LIST: return s->cumulative_area[s->n] / s->cumulative_count[s->n];
     default: return 0.0;
     }
 }
@@ -39,7 +39,7 @@ static int32_t holds(const fl_sizes *s, double x)
     int32_t lo = 0, hi = s->n - 1;
     while (lo < hi) {
         const int32_t mid = lo + (hi - lo) / 2;
-        if (s->upto[mid + 1] <= x) lo = mid + 1;
+        if (s->cumulative_count[mid + 1] <= x) lo = mid + 1;
         else hi = mid;
     }
     return lo;
@@ -56,9 +56,9 @@ static double lorenz(const fl_sizes *s, double u)
     case FL_SIZES_POWER:
         return grown(3.0 - s->beta, regrown(1.0 - s->beta, u, spread(s))) / grown(3.0 - s->beta, spread(s));
     case FL_SIZES_LIST: {
-        const double x = u * s->upto[s->n];
+        const double x = u * s->cumulative_count[s->n];
         const int32_t k = holds(s, x);
-        return (s->sum[k] + (x - s->upto[k]) * s->area[k]) / s->sum[s->n];
+        return (s->cumulative_area[k] + (x - s->cumulative_count[k]) * s->area[k]) / s->cumulative_area[s->n];
     }
     default: return u;
     }
@@ -78,7 +78,7 @@ void fl_sizes_areas(const fl_sizes *s, int32_t n, double mean, double *area)
         area[k] = n * mean * (h - before);
         before = h;
         if (s->kind == FL_SIZES_EQUAL) area[k] = mean;
-        if (s->kind == FL_SIZES_LIST && n == s->n && s->upto[n] == n)
+        if (s->kind == FL_SIZES_LIST && n == s->n && s->cumulative_count[n] == n)
             area[k] = s->area[k] * (mean / fl_sizes_mean(s));
     }
     /* Where two parts hold the same size, rounding may have turned them round. */
@@ -97,7 +97,7 @@ static int32_t counted(const fl_sizes *s, double a)
     return lo;
 }
 
-double fl_sizes_below(const fl_sizes *s, double mean, double a)
+double fl_sizes_cdf(const fl_sizes *s, double mean, double a)
 {
     double y;
     if (!(a > 0.0)) return 0.0;
@@ -112,18 +112,19 @@ double fl_sizes_below(const fl_sizes *s, double mean, double a)
         if (y <= 0.0) return 0.0;
         if (y >= spread(s)) return 1.0;
         return grown(1.0 - s->beta, y) / grown(1.0 - s->beta, spread(s));
-    case FL_SIZES_LIST: return s->upto[counted(s, a * (fl_sizes_mean(s) / mean))] / s->upto[s->n];
+    case FL_SIZES_LIST:
+        return s->cumulative_count[counted(s, a * (fl_sizes_mean(s) / mean))] / s->cumulative_count[s->n];
     default: return a >= mean;
     }
 }
 
-double fl_sizes_distance(const fl_sizes *s, double mean, int32_t n, const double *area)
+double fl_sizes_ks_distance(const fl_sizes *s, double mean, int32_t n, const double *area)
 {
     double most = 0.0;
     for (int32_t k = 0; k < n; k++) {
         /* just below area[k] there are k of n, from it on at least k + 1 */
-        const double over = fl_sizes_below(s, mean, area[k] * (1.0 - FL_SIZES_SAME)) - (double)k / n;
-        const double under = (k + 1.0) / n - fl_sizes_below(s, mean, area[k] * (1.0 + FL_SIZES_SAME));
+        const double over = fl_sizes_cdf(s, mean, area[k] * (1.0 - FL_SIZES_SAME_TOL)) - (double)k / n;
+        const double under = (k + 1.0) / n - fl_sizes_cdf(s, mean, area[k] * (1.0 + FL_SIZES_SAME_TOL));
         if (over > most) most = over;
         if (under > most) most = under;
     }
@@ -133,7 +134,7 @@ double fl_sizes_distance(const fl_sizes *s, double mean, int32_t n, const double
 void fl_sizes_free(fl_sizes *s)
 {
     free(s->area);
-    free(s->upto);
-    free(s->sum);
+    free(s->cumulative_count);
+    free(s->cumulative_area);
     *s = (fl_sizes){0};
 }

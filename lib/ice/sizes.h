@@ -19,19 +19,19 @@ enum fl_sizes_kind { FL_SIZES_EQUAL, FL_SIZES_LOGNORMAL, FL_SIZES_WEIBULL, FL_SI
  * LIST       the areas of a list or a table, as probable as they are counted there */
 typedef struct {
     enum fl_sizes_kind kind;
-    double mean;       /* LOGNORMAL: of the areas [m2] */
-    double cv, k;      /* LOGNORMAL, WEIBULL           */
-    double beta;       /* POWER                        */
-    double dmin, dmax; /* POWER: 0 < dmin < dmax [m]   */
-    int32_t n;         /* LIST                         */
-    double *area;      /* LIST: [n], ascending [m2]    */
-    double *upto;      /* LIST: [n + 1] how many have area[0 .. k), upto[0] = 0 */
-    double *sum;       /* LIST: [n + 1] what they cover     [m2] */
+    double mean;              /* LOGNORMAL: of the areas [m2] */
+    double cv, k;             /* LOGNORMAL, WEIBULL           */
+    double beta;              /* POWER                        */
+    double dmin, dmax;        /* POWER: 0 < dmin < dmax [m]   */
+    int32_t n;                /* LIST                         */
+    double *area;             /* LIST: [n], ascending [m2]    */
+    double *cumulative_count; /* LIST: [n + 1] how many have area[0 .. k), upto[0] = 0 */
+    double *cumulative_area;  /* LIST: [n + 1] what they cover     [m2] */
 } fl_sizes;
 
 /* Sizes within this part of each other count as the same when distributions are compared: where a law has
  * jumps, areas that are right to a tenth of a thousandth must not count as wrong. */
-#define FL_SIZES_SAME 1e-4
+#define FL_SIZES_SAME_TOL 1e-4
 
 /* Mean area of the law [m2]; 0 for EQUAL and WEIBULL, which have none of their own. */
 double fl_sizes_mean(const fl_sizes *s);
@@ -41,11 +41,11 @@ double fl_sizes_mean(const fl_sizes *s);
 void fl_sizes_areas(const fl_sizes *s, int32_t n, double mean, double *area);
 
 /* The part of all floes whose area is at most a, when the law is scaled to the given mean. */
-double fl_sizes_below(const fl_sizes *s, double mean, double a);
+double fl_sizes_cdf(const fl_sizes *s, double mean, double a);
 
 /* Kolmogorov-Smirnov distance between the law, scaled to the given mean, and ascending areas: the largest
- * difference of the two distributions, sizes being the same as FL_SIZES_SAME says. */
-double fl_sizes_distance(const fl_sizes *s, double mean, int32_t n, const double *area);
+ * difference of the two distributions, sizes being the same as FL_SIZES_SAME_TOL says. */
+double fl_sizes_ks_distance(const fl_sizes *s, double mean, int32_t n, const double *area);
 
 void fl_sizes_free(fl_sizes *s); /* accepts a zeroed struct, leaves one */
 

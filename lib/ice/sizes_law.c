@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <string.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "ice/sizes_law.h"
 
 /* Bounds within which areas, their sums and their logarithms stay finite: diameters [m], exponents, the shape
@@ -32,7 +32,7 @@ int fl_sizes_is_law(const char *text)
 
 static int wanted(fl_err *err, const char *text, const char *what)
 {
-    return fl_fail(err, FL_USAGE, "--sizes is \"%.80s\", %s was wanted", text, what);
+    return fl_fail(err, FL_USAGE, "--sizes is \"%.80s\", %s is expected", text, what);
 }
 
 /* Words between commas behind the colon; -1 for too many, or too long ones. */
@@ -53,7 +53,7 @@ static int cut(const char *text, char word[WORDS][WORD_LEN])
 
 static int number(const char *word, double lo, double hi, double *x)
 {
-    return fl_num_f64(word, x) || !(*x >= lo && *x <= hi);
+    return fl_number_f64(word, x) || !(*x >= lo && *x <= hi);
 }
 
 static int parse_power(fl_sizes *s, char *name, const char *text, int n, char word[WORDS][WORD_LEN],
@@ -63,7 +63,7 @@ static int parse_power(fl_sizes *s, char *name, const char *text, int n, char wo
         "power:EXP,DMIN,DMAX,number|area,cumulative|density with EXP from -20 to 20 and "
         "0 < DMIN < DMAX in metres";
     const char *what = n == 5 ? word[3] : "number", *how = n == 5 ? word[4] : "cumulative";
-    char t[3][FL_NUM_LEN];
+    char t[3][FL_NUMBER_LEN];
     double e = 0.0;
     if ((n != 3 && n != 5) || number(word[0], -STEEPEST, STEEPEST, &e) ||
         number(word[1], SHORTEST, LONGEST, &s->dmin) || number(word[2], SHORTEST, LONGEST, &s->dmax) ||
@@ -74,15 +74,15 @@ static int parse_power(fl_sizes *s, char *name, const char *text, int n, char wo
         return wanted(err, text, form);
     s->kind = FL_SIZES_POWER;
     s->beta = e + (what[0] == 'a' ? 2.0 : 0.0) + (how[0] == 'c' ? 1.0 : 0.0);
-    snprintf(name, FL_SIZES_LAW_LEN, "power:%s,%s,%s,%s,%s", fl_num_text(e, t[0]), fl_num_text(s->dmin, t[1]),
-             fl_num_text(s->dmax, t[2]), what, how);
+    snprintf(name, FL_SIZES_LAW_LEN, "power:%s,%s,%s,%s,%s", fl_number_text(e, t[0]),
+             fl_number_text(s->dmin, t[1]), fl_number_text(s->dmax, t[2]), what, how);
     return 0;
 }
 
 int fl_sizes_parse(fl_sizes *out, char name[FL_SIZES_LAW_LEN], const char *text, fl_err *err)
 {
     fl_sizes s = {.mean = 1.0};
-    char word[WORDS][WORD_LEN], t[FL_NUM_LEN], full[FL_SIZES_LAW_LEN] = "equal";
+    char word[WORDS][WORD_LEN], t[FL_NUMBER_LEN], full[FL_SIZES_LAW_LEN] = "equal";
     const int n = cut(text, word);
     if (begins(text, "equal")) {
         if (strcmp(text, "equal") != 0) return wanted(err, text, "equal");
@@ -91,12 +91,12 @@ int fl_sizes_parse(fl_sizes *out, char name[FL_SIZES_LAW_LEN], const char *text,
         if (n != 1 || number(word[0], CV_LEAST, CV_MOST, &s.cv))
             return wanted(err, text, "lognormal:CV with CV from 0.001 to 100");
         s.kind = FL_SIZES_LOGNORMAL;
-        snprintf(full, sizeof full, "lognormal:%s", fl_num_text(s.cv, t));
+        snprintf(full, sizeof full, "lognormal:%s", fl_number_text(s.cv, t));
     } else if (begins(text, "weibull")) {
         if (n != 1 || number(word[0], SHAPE_LEAST, SHAPE_MOST, &s.k))
             return wanted(err, text, "weibull:K with K from 0.1 to 100");
         s.kind = FL_SIZES_WEIBULL;
-        snprintf(full, sizeof full, "weibull:%s", fl_num_text(s.k, t));
+        snprintf(full, sizeof full, "weibull:%s", fl_number_text(s.k, t));
     } else if (begins(text, "power")) {
         if (parse_power(&s, full, text, n, word, err)) return -1;
     } else {

@@ -27,7 +27,7 @@ int fl_sizes_is_law(const char *text);
 
 /* Read the name of a law.
  *   name  out: the same with nothing left out, which reads as the same law
- * Returns 0, or -1 with FL_USAGE: what was found and what was wanted; out and name are untouched then. */
+ * Returns 0, or -1 with FL_USAGE: what was found and what is expected; out and name are untouched then. */
 int fl_sizes_parse(fl_sizes *out, char name[FL_SIZES_LAW_LEN], const char *text, fl_err *err);
 
 #endif

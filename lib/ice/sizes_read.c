@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/text.h"
 #include "geom/polygon.h"
@@ -42,7 +42,7 @@ static int positive(struct reading *r, const char *what, double *x, fl_err *err)
 {
     if (fl_text_f64(&r->in, what, x, err)) return -1;
     if (*x >= SMALLEST && *x <= LARGEST) return 0;
-    return fl_text_fail(&r->in, err, "%s %g found, one from %g to %g was wanted", what, *x, SMALLEST,
+    return fl_text_fail(&r->in, err, "%s %g found, one from %g to %g is expected", what, *x, SMALLEST,
                         LARGEST);
 }
 
@@ -51,7 +51,7 @@ static int read_size(struct reading *r, fl_err *err)
     double x = 0.0, count = 1.0;
     if (positive(r, "size", &x, err)) return -1;
     if (r->counted && positive(r, "count", &count, err)) return -1;
-    if (fl_text_end(&r->in, err)) return -1;
+    if (fl_text_no_more(&r->in, err)) return -1;
     return add(r, r->holds == DIAMETERS ? 0.25 * PI * x * x : x, count, err);
 }
 
@@ -61,13 +61,13 @@ static int read_corner(struct reading *r, fl_err *err)
 {
     fl_vec2 p = {0.0, 0.0};
     if (fl_text_f64(&r->in, "x", &p.x, err) || fl_text_f64(&r->in, "y", &p.y, err) ||
-        fl_text_end(&r->in, err))
+        fl_text_no_more(&r->in, err))
         return -1;
     if (!(fabs(p.x) <= FAR && fabs(p.y) <= FAR))
-        return fl_text_fail(&r->in, err, "corner (%g, %g) found, coordinates up to %g were wanted", p.x, p.y,
+        return fl_text_fail(&r->in, err, "corner (%g, %g) found, coordinates up to %g are expected", p.x, p.y,
                             FAR);
     if (fl_grow(&r->v, &r->room, (int64_t)r->corners + 1, sizeof *r->v, err)) return -1;
-    if (r->corners == 0) r->begun = r->in.number;
+    if (r->corners == 0) r->begun = r->in.line_number;
     r->v[r->corners++] = p;
     return 0;
 }
@@ -76,16 +76,16 @@ static int close_polygon(struct reading *r, fl_err *err)
 {
     int32_t n = r->corners;
     const fl_vec2 *v = r->v;
-    const int64_t now = r->in.number;
+    const int64_t now = r->in.line_number;
     int simple, rc;
     double area;
     if (n == 0) return 0;
     r->corners = 0;
     if (n > 1 && v[n - 1].x == v[0].x && v[n - 1].y == v[0].y) n--;
-    r->in.number = r->begun; /* the complaint is about the polygon, not about the line behind it */
+    r->in.line_number = r->begun; /* the complaint is about the polygon, not about the line behind it */
     if (n < 3)
-        return fl_text_fail(&r->in, err, "a polygon of %d different corners found, three were wanted", n);
-    simple = fl_cgal_simple(n, v, err);
+        return fl_text_fail(&r->in, err, "a polygon of %d different corners found, three are expected", n);
+    simple = fl_cgal_is_simple(n, v, err);
     if (simple < 0) return -1;
     if (!simple)
         return fl_text_fail(&r->in, err,
@@ -94,10 +94,10 @@ static int close_polygon(struct reading *r, fl_err *err)
                             n);
     area = fabs(fl_polygon_area(n, v));
     if (!(area >= SMALLEST && area <= LARGEST))
-        return fl_text_fail(&r->in, err, "a polygon of %g m2 found, one from %g to %g was wanted", area,
+        return fl_text_fail(&r->in, err, "a polygon of %g m2 found, one from %g to %g is expected", area,
                             SMALLEST, LARGEST);
     rc = add(r, area, 1.0, err);
-    r->in.number = now;
+    r->in.line_number = now;
     return rc;
 }
 
@@ -126,7 +126,7 @@ static int read_all(struct reading *r, fl_err *err)
 {
     int more, rows = 0;
     while ((more = fl_text_line(&r->in, err)) > 0) {
-        const int empty = blank(r->in.line), cut = fl_text_cut(&r->in, err);
+        const int empty = blank(r->in.line), cut = fl_text_split(&r->in, err);
         if (cut < 0) return -1;
         if (cut && rows++ == 0 && header(r)) continue;
         if (r->holds == CORNERS && (empty || (cut && strcmp(r->in.field[0], ">") == 0))) {
@@ -137,7 +137,7 @@ static int read_all(struct reading *r, fl_err *err)
     }
     if (more < 0 || close_polygon(r, err)) return -1;
     if (r->n == 0)
-        return fl_text_fail(&r->in, err, "the file ends without a size, %s was wanted",
+        return fl_text_fail(&r->in, err, "the file ends without a size, %s is expected",
                             r->holds == CORNERS ? "a polygon" : "one a row");
     return 0;
 }
@@ -155,13 +155,13 @@ static int sum_up(struct reading *r, fl_sizes *s, fl_err *err)
     *s = (fl_sizes){.kind = FL_SIZES_LIST, .n = r->n};
     qsort(r->size, (size_t)r->n, sizeof *r->size, ascending);
     if (!(s->area = fl_alloc(r->n, sizeof *s->area, err)) ||
-        !(s->upto = fl_alloc((int64_t)r->n + 1, sizeof *s->upto, err)) ||
-        !(s->sum = fl_alloc((int64_t)r->n + 1, sizeof *s->sum, err)))
+        !(s->cumulative_count = fl_alloc((int64_t)r->n + 1, sizeof *s->cumulative_count, err)) ||
+        !(s->cumulative_area = fl_alloc((int64_t)r->n + 1, sizeof *s->cumulative_area, err)))
         return -1;
     for (int32_t k = 0; k < r->n; k++) {
         s->area[k] = r->size[k].area;
-        s->upto[k + 1] = s->upto[k] + r->size[k].count;
-        s->sum[k + 1] = s->sum[k] + r->size[k].area * r->size[k].count;
+        s->cumulative_count[k + 1] = s->cumulative_count[k] + r->size[k].count;
+        s->cumulative_area[k + 1] = s->cumulative_area[k] + r->size[k].area * r->size[k].count;
     }
     return 0;
 }

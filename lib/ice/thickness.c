@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "base/rng.h"
 #include "base/text.h"
 #include "ice/thickness.h"
@@ -24,7 +24,7 @@ static int two(const char *text, double *a, double *b)
     if (len >= sizeof word) return -1;
     memcpy(word, text, len);
     word[len] = '\0';
-    return fl_num_f64(word, a) || fl_num_f64(comma + 1, b) ? -1 : 0;
+    return fl_number_f64(word, a) || fl_number_f64(comma + 1, b) ? -1 : 0;
 }
 
 static int in_range(double h) { return h >= SMALLEST && h <= LARGEST; }
@@ -32,22 +32,22 @@ static int in_range(double h) { return h >= SMALLEST && h <= LARGEST; }
 int fl_thickness_parse(fl_thickness *out, const char *text, fl_err *err)
 {
     fl_thickness t = {0};
-    if (fl_num_f64(text, &t.a) == 0) {
+    if (fl_number_f64(text, &t.a) == 0) {
         if (!in_range(t.a))
-            return fl_fail(err, FL_USAGE, "a thickness of %g m found, one from %g to %g was wanted", t.a,
+            return fl_fail(err, FL_USAGE, "a thickness of %g m found, one from %g to %g is expected", t.a,
                            SMALLEST, LARGEST);
     } else if (strncmp(text, "uniform:", 8) == 0) {
         t.kind = FL_THICKNESS_UNIFORM;
         if (two(text + 8, &t.a, &t.b) || !in_range(t.a) || !in_range(t.b) || !(t.a < t.b))
-            return fl_fail(err, FL_USAGE, "\"%.60s\" found, uniform:A,B with A below B was wanted", text);
+            return fl_fail(err, FL_USAGE, "\"%.60s\" found, uniform:A,B with A below B is expected", text);
     } else if (strncmp(text, "lognormal:", 10) == 0) {
         t.kind = FL_THICKNESS_LOGNORMAL;
         if (two(text + 10, &t.a, &t.b) || !in_range(t.a) || !(t.b > 0.0 && t.b <= 100.0))
-            return fl_fail(err, FL_USAGE, "\"%.60s\" found, lognormal:MEAN,CV with both above 0 was wanted",
+            return fl_fail(err, FL_USAGE, "\"%.60s\" found, lognormal:MEAN,CV with both above 0 is expected",
                            text);
     } else if (strcspn(text, ":") < strcspn(text, "/")) {
         return fl_fail(err, FL_USAGE,
-                       "\"%.60s\" found, a length, uniform:A,B, lognormal:MEAN,CV or a file was wanted",
+                       "\"%.60s\" found, a length, uniform:A,B, lognormal:MEAN,CV or a file is expected",
                        text);
     } else {
         return fl_thickness_read(out, text, err);
@@ -71,7 +71,7 @@ static int positive(fl_text *in, const char *what, double *x, fl_err *err)
 {
     if (fl_text_f64(in, what, x, err)) return -1;
     if (in_range(*x)) return 0;
-    return fl_text_fail(in, err, "%s %g found, one from %g to %g was wanted", what, *x, SMALLEST, LARGEST);
+    return fl_text_fail(in, err, "%s %g found, one from %g to %g is expected", what, *x, SMALLEST, LARGEST);
 }
 
 static int read_rows(fl_text *in, struct row **row, int32_t *n, fl_err *err)
@@ -87,12 +87,12 @@ static int read_rows(fl_text *in, struct row **row, int32_t *n, fl_err *err)
         }
         if (counted < 0) counted = in->n > 1;
         if (positive(in, "thickness", &r.h, err) || (counted && positive(in, "count", &r.count, err)) ||
-            fl_text_end(in, err) || fl_grow(row, &cap, (int64_t)*n + 1, sizeof **row, err))
+            fl_text_no_more(in, err) || fl_grow(row, &cap, (int64_t)*n + 1, sizeof **row, err))
             return -1;
         (*row)[(*n)++] = r;
     }
     if (more < 0) return -1;
-    return *n ? 0 : fl_text_fail(in, err, "the file ends without a thickness, one a row was wanted");
+    return *n ? 0 : fl_text_fail(in, err, "the file ends without a thickness, one a row is expected");
 }
 
 int fl_thickness_read(fl_thickness *out, const char *path, fl_err *err)
@@ -157,13 +157,13 @@ static double draw(const fl_thickness *t, fl_rng *g)
     return t->a;
 }
 
-double fl_thickness_of(const fl_thickness *t, uint64_t seed, int32_t id, double least, int32_t *again)
+double fl_thickness_draw(const fl_thickness *t, uint64_t seed, int32_t id, double least, int32_t *again)
 {
     fl_rng g = fl_rng_of(seed, id, FL_RNG_THICKNESS);
     for (*again = 0; *again < TRIES; ++*again) {
         const double h = draw(t, &g);
         if (h > least) return h;
-        if (t->kind == FL_THICKNESS_SAME) break;
+        if (t->kind == FL_THICKNESS_CONSTANT) break;
     }
     return 0.0;
 }
@@ -196,9 +196,9 @@ static double given(const fl_thickness *t, double least, double h, int with)
     return h <= least || !(none < 1.0) ? 0.0 : (below(t, h, with) - none) / (1.0 - none);
 }
 
-double fl_thickness_below(const fl_thickness *t, double least, double h) { return given(t, least, h, 1); }
+double fl_thickness_cdf(const fl_thickness *t, double least, double h) { return given(t, least, h, 1); }
 
-double fl_thickness_distance(const fl_thickness *t, double least, int32_t n, const double *h)
+double fl_thickness_ks_distance(const fl_thickness *t, double least, int32_t n, const double *h)
 {
     double worst = 0.0;
     for (int32_t from = 0, to; from < n; from = to) {

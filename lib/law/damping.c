@@ -6,7 +6,7 @@
 /* Damping ratio of a contact at rest beyond which more of it changes nothing but the step. */
 #define RATIO 2.5
 
-static double clamp(double e) { return e < FL_RESTITUTION_LEAST ? FL_RESTITUTION_LEAST : e; }
+static double clamp(double e) { return e < FL_MIN_RESTITUTION ? FL_MIN_RESTITUTION : e; }
 
 /* Root of f in (lo, hi) where f changes sign once from - to +; bisection to the last bit, it is set-up. */
 static double root(double (*f)(double, double), double e, double lo, double hi)
@@ -22,7 +22,7 @@ static double root(double (*f)(double, double), double e, double lo, double hi)
 
 static double crossley(double D, double e) { return log1p(D) - log1p(-e * D) - D * (1.0 + e); }
 
-double fl_damping_crossley(double e)
+double fl_damping_hunt_crossley(double e)
 {
     e = clamp(e);
     if (e >= 1.0) return 0.0;
@@ -32,26 +32,26 @@ double fl_damping_crossley(double e)
     return root(crossley, e, 0.5 * D0, (1.0 - 1e-16) / e);
 }
 
-double fl_damping_stored(double D)
+double fl_damping_stored_speed(double D)
 {
     if (D < 1e-4)
         return 1.0 - D / 3.0; /* the difference has lost half its digits; the next term is D^2 7/36 */
     return sqrt(2.0 * (D - log1p(D))) / D;
 }
 
-double fl_damping_rest(double D)
+double fl_damping_slow_factor(double D)
 {
-    const double impact = 0.5 * D * fl_damping_stored(D), ratio = impact > RATIO ? impact : RATIO;
+    const double impact = 0.5 * D * fl_damping_stored_speed(D), ratio = impact > RATIO ? impact : RATIO;
     return 0.5 * D > ratio ? 0.5 * D / ratio : 1.0;
 }
 
-double fl_damping_left(double z) { return sqrt(1.0 + z * z) - z; }
+double fl_damping_stable_share(double z) { return sqrt(1.0 + z * z) - z; }
 
-double fl_damping_crossley_left(double D, double times)
+double fl_hunt_crossley_stable_share(double D, double times)
 {
     enum { PLACES = 64 }; /* on the way, which is flat where it is least: a part in a thousand */
     const double more = sqrt(times);
-    double least = fl_damping_left(0.5 * D / fl_damping_rest(D) * more);
+    double least = fl_damping_stable_share(0.5 * D / fl_damping_slow_factor(D) * more);
     for (int k = 0; k <= PLACES && D > 0.0; k++) {
         const double u = (double)k / PLACES, K = 1.0 + D * u;
         const double s2 = 2.0 * ((1.0 - u) - log((1.0 + D) / K) / D) / D,
@@ -62,7 +62,7 @@ double fl_damping_crossley_left(double D, double times)
     return least;
 }
 
-double fl_damping_linear_e(double zeta)
+double fl_damping_linear_restitution(double zeta)
 {
     if (zeta < 1.0) {
         const double s = sqrt(1.0 - zeta * zeta);
@@ -74,7 +74,7 @@ double fl_damping_linear_e(double zeta)
     return pow((zeta - q) / (zeta + q), zeta / q);
 }
 
-static double linear(double zeta, double e) { return e - fl_damping_linear_e(zeta); }
+static double linear(double zeta, double e) { return e - fl_damping_linear_restitution(zeta); }
 
 double fl_damping_linear(double e)
 {

@@ -11,11 +11,11 @@ double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double ov
     const double low = c->r_low > 0.0 ? c->r_low : both; /* a sharp feature meets the other's roundness */
     double r = both;
     *n = 1.5;
-    switch (c->touch) {
-    case FL_TOUCH_VV: break;
-    case FL_TOUCH_VE: r = sqrt(low * both); break;
-    case FL_TOUCH_VF: r = low; break;
-    case FL_TOUCH_EE: {
+    switch (c->kind) {
+    case FL_MANUAL_VV: break;
+    case FL_MANUAL_VE: r = sqrt(low * both); break;
+    case FL_MANUAL_VF: r = low; break;
+    case FL_MANUAL_EE: {
         const double ra = low, rb = c->r_high > 0.0 ? c->r_high : low;
         const double t = 0.5 * (1.0 / ra + 1.0 / rb), d = c->sine * c->sine / (4.0 * ra * rb);
         const double root = t * t > 4.0 * d ? sqrt(t * t - 4.0 * d) : 0.0;
@@ -26,14 +26,14 @@ double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double ov
         r = sqrt(big * longer) * (literal18 ? 2.0 : 1.0);
         break;
     }
-    case FL_TOUCH_EP:
-    case FL_TOUCH_EF:
+    case FL_MANUAL_EP:
+    case FL_MANUAL_EF:
         if (si) {
             *n = 1.0;
             return 0.25 * PI * modulus * c->length;
         }
-        return c->length * fl_material_hertz(modulus, c->touch == FL_TOUCH_EP ? both : low);
-    case FL_TOUCH_FF: *n = 1.0; return fl_material_punch(modulus, c->area);
+        return c->length * fl_material_hertz(modulus, c->kind == FL_MANUAL_EP ? both : low);
+    case FL_MANUAL_FF: *n = 1.0; return fl_material_punch(modulus, c->area);
     }
     return fl_material_hertz(modulus, r);
 }

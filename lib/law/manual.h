@@ -6,17 +6,17 @@
 #define FL_LAW_MANUAL_H
 
 typedef enum {
-    FL_TOUCH_VV,
-    FL_TOUCH_VE,
-    FL_TOUCH_VF,
-    FL_TOUCH_EE,
-    FL_TOUCH_EP,
-    FL_TOUCH_EF,
-    FL_TOUCH_FF
-} fl_touch;
+    FL_MANUAL_VV,
+    FL_MANUAL_VE,
+    FL_MANUAL_VF,
+    FL_MANUAL_EE,
+    FL_MANUAL_EP,
+    FL_MANUAL_EF,
+    FL_MANUAL_FF
+} fl_manual_kind;
 
 typedef struct {
-    fl_touch touch;
+    fl_manual_kind kind;
     double length; /* of the overlap, for EP and EF     [m]  */
     double area;   /* of the overlap, for FF            [m2] */
     double sine;   /* of the angle of the edges, for EE      */

@@ -5,7 +5,7 @@
 
 #define BETA 1.02 /* a polygon: circle 1.000, square 1.012, triangle 1.034 */
 
-double fl_material_modulus(fl_elastic a, fl_elastic b)
+double fl_material_modulus(fl_elastic_constants a, fl_elastic_constants b)
 {
     return 1.0 / ((1.0 - a.poisson * a.poisson) / a.young + (1.0 - b.poisson * b.poisson) / b.young);
 }

@@ -6,10 +6,10 @@
 typedef struct {
     double young; /* [Pa]; INFINITY for a rigid thing */
     double poisson;
-} fl_elastic;
+} fl_elastic_constants;
 
 /* Effective modulus, 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b [Pa].  Equation (5) of the manual. */
-double fl_material_modulus(fl_elastic a, fl_elastic b);
+double fl_material_modulus(fl_elastic_constants a, fl_elastic_constants b);
 
 /* Effective radius, 1/R* = 1/R_a + 1/R_b [m]; a radius of 0 stands for a flat partner, as the structure is.
  */

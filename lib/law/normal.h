@@ -22,7 +22,7 @@ static inline double fl_normal_phi(double s, double n)
 static inline double fl_normal_slope(double s, double n) { return n == 1.0 ? 1.0 : 1.5 * sqrt(s); }
 
 /* Force from the elastic part, >= 0 */
-static inline double fl_normal_damped(double elastic, double chi, double u)
+static inline double fl_normal_damped_force(double elastic, double chi, double u)
 {
     const double f = elastic * (1.0 + chi * u);
     return f > 0.0 ? f : 0.0;

@@ -17,32 +17,37 @@
 
 /* What a contact remembers, and the moment on i of the last step, both over R*. */
 typedef struct {
-    fl_vec3 kept; /* of the spring                        [N]   */
-    double k;     /* stiffness that it was built with     [N/m] */
-    fl_vec3 all;  /* with damping                         [N]   */
-    double arm;   /* R*                                   [m]   */
-} fl_roll;
+    fl_vec3 elastic; /* of the spring                        [N]   */
+    double k;        /* stiffness that it was built with     [N/m] */
+    fl_vec3 total;   /* with damping                         [N]   */
+    double arm;      /* R*                                   [m]   */
+} fl_rolling_spring;
 
 /* The part of k_n that a spring of mu_r has. */
-FL_WIDE_PART double fl_rolling_part(double rolling) { return 2.25 * rolling * rolling; }
+FL_SIMD_INLINE double fl_rolling_stiffness_ratio(double rolling) { return 2.25 * rolling * rolling; }
 
 /* How the two turn: R* w in the mean of the step, and as foreseen for its end; and the mean of both spins,
  * with which what is remembered turns. */
 typedef struct {
-    fl_vec3 mean, next; /* [m/s]   */
-    fl_vec3 spin;       /* [rad/s] */
-} fl_turning;
+    fl_vec3 mean, end; /* [m/s]   */
+    fl_vec3 spin;      /* [rad/s] */
+} fl_rolling_motion;
 
 /* One step of it; c: of the contact, k_n, chi F_e and F_n with mu_r. */
-FL_WIDE_PART fl_roll fl_rolling(fl_roll s, fl_tangent_spring c, fl_turning by, double dt, double half,
-                                double begins)
+FL_SIMD_INLINE fl_rolling_spring fl_rolling_step(fl_rolling_spring s, fl_tangent_spring c,
+                                                 fl_rolling_motion by, double dt, double half, double begins)
 {
-    const fl_vec3 turned = v3_madd(s.kept, dt, v3_cross(by.spin, s.kept)), was = v3_sub(s.all, s.kept);
-    const fl_held now = fl_tangent_point(s.kept, turned, s.k, c, by.mean, by.next, was, dt, half, begins);
-    return (fl_roll){now.kept.f, c.k, now.all.f, s.arm};
+    const fl_vec3 turned = v3_madd(s.elastic, dt, v3_cross(by.spin, s.elastic)),
+                  was = v3_sub(s.total, s.elastic);
+    const fl_friction_forces now =
+        fl_tangent_point_step(s.elastic, turned, s.k, c, by.mean, by.end, was, dt, half, begins);
+    return (fl_rolling_spring){now.elastic.f, c.k, now.total.f, s.arm};
 }
 
 /* Energy of the spring [J]. */
-FL_WIDE_PART double fl_rolling_energy(fl_roll s) { return s.k > 0.0 ? 0.5 * v3_norm2(s.kept) / s.k : 0.0; }
+FL_SIMD_INLINE double fl_rolling_energy(fl_rolling_spring s)
+{
+    return s.k > 0.0 ? 0.5 * v3_norm2(s.elastic) / s.k : 0.0;
+}
 
 #endif

@@ -5,14 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "mesh/bdf_entry.h"
 
 enum { SMALL = 8, LARGE = 16, COLUMNS = 72, ROW = 8 };
 
-void fl_bdf_end(fl_bdf_entry *r)
+void fl_bdf_entry_free(fl_bdf_entry *r)
 {
-    fl_deck_end(&r->deck);
+    fl_deck_free(&r->deck);
     free(r->text);
     *r = (fl_bdf_entry){0};
 }
@@ -184,7 +184,7 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
         while ((more = next_line(r, err)) > 0 && goes_on(r->deck.line))
             if (add_line(r, err)) return -1;
         if (more < 0) return -1;
-        if (more) fl_deck_hold(&r->deck);
+        if (more) fl_deck_unread(&r->deck);
         return 1;
     }
     return more;
@@ -197,7 +197,7 @@ int fl_bdf_real(const fl_bdf_entry *r, int k, double *x, fl_err *err)
     const char *s = fl_bdf_field(r, k);
     *x = 0.0;
     if (*s == '\0' || fl_deck_real(s, x) == 0) return 0;
-    return fl_bdf_fail(r, err, "field %d of %s is \"%.40s\", a number was wanted", k + 2, r->name, s);
+    return fl_bdf_fail(r, err, "field %d of %s is \"%.40s\", a number is expected", k + 2, r->name, s);
 }
 
 int fl_bdf_point(const fl_bdf_entry *r, int k, fl_vec3 *x, fl_err *err)
@@ -206,18 +206,18 @@ int fl_bdf_point(const fl_bdf_entry *r, int k, fl_vec3 *x, fl_err *err)
     return fl_bdf_real(r, k + 2, &x->z, err);
 }
 
-int fl_bdf_whole(const fl_bdf_entry *r, int k, int64_t blank, int64_t *n, fl_err *err)
+int fl_bdf_integer(const fl_bdf_entry *r, int k, int64_t blank, int64_t *n, fl_err *err)
 {
     const char *s = fl_bdf_field(r, k);
     *n = blank;
-    if (*s == '\0' || fl_deck_whole(s, n) == 0) return 0;
-    return fl_bdf_fail(r, err, "field %d of %s is \"%.40s\", a whole number was wanted", k + 2, r->name, s);
+    if (*s == '\0' || fl_deck_integer(s, n) == 0) return 0;
+    return fl_bdf_fail(r, err, "field %d of %s is \"%.40s\", a whole number is expected", k + 2, r->name, s);
 }
 
-int fl_bdf_number(const fl_bdf_entry *r, int k, int64_t *n, fl_err *err)
+int fl_bdf_id(const fl_bdf_entry *r, int k, int64_t *n, fl_err *err)
 {
-    if (fl_bdf_whole(r, k, 0, n, err)) return -1;
+    if (fl_bdf_integer(r, k, 0, n, err)) return -1;
     if (*n >= 1) return 0;
-    return fl_bdf_fail(r, err, "field %d of %s is \"%.40s\", a number of 1 or more was wanted", k + 2,
+    return fl_bdf_fail(r, err, "field %d of %s is \"%.40s\", a number of 1 or more is expected", k + 2,
                        r->name, fl_bdf_field(r, k));
 }

@@ -3,7 +3,7 @@
 #ifndef FL_MESH_BDF_ENTRY_H
 #define FL_MESH_BDF_ENTRY_H
 #include "geom/vec3.h"
-#include "mesh/deck.h"
+#include "mesh/deck_lines.h"
 
 enum {
     FL_BDF_FIELDS = 48, /* of an entry; more are passed over: what is read has 24 at most */
@@ -34,13 +34,13 @@ const char *fl_bdf_field(const fl_bdf_entry *r, int k);
  * number of something, 1 or more.  0, or -1 with FL_INPUT. */
 int fl_bdf_real(const fl_bdf_entry *r, int k, double *x, fl_err *err);
 int fl_bdf_point(const fl_bdf_entry *r, int k, fl_vec3 *x, fl_err *err);
-int fl_bdf_whole(const fl_bdf_entry *r, int k, int64_t blank, int64_t *n, fl_err *err);
-int fl_bdf_number(const fl_bdf_entry *r, int k, int64_t *n, fl_err *err);
+int fl_bdf_integer(const fl_bdf_entry *r, int k, int64_t blank, int64_t *n, fl_err *err);
+int fl_bdf_id(const fl_bdf_entry *r, int k, int64_t *n, fl_err *err);
 
 /* Fail with file and line of the entry.  Returns -1. */
 int fl_bdf_fail(const fl_bdf_entry *r, fl_err *err, const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
 
-void fl_bdf_end(fl_bdf_entry *r); /* accepts a zeroed struct, leaves one */
+void fl_bdf_entry_free(fl_bdf_entry *r); /* accepts a zeroed struct, leaves one */
 
 #endif

@@ -3,15 +3,15 @@
 #include <stdio.h>
 #include <string.h>
 #include "base/decimal.h"
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "mesh/bytes.h"
 
 static const char BYTE_ORDER_MARK[] = "\xef\xbb\xbf";
 static int32_t window = FL_BYTES_HEAD;
 enum { LEAST = 1 << 17 }; /* bytes of memory: data may be handed on to fl_text, which reads as many at once */
 
-void fl_bytes_window(int32_t bytes) { window = bytes > 0 ? bytes : FL_BYTES_HEAD; }
+void fl_bytes_set_window(int32_t bytes) { window = bytes > 0 ? bytes : FL_BYTES_HEAD; }
 
 /* Length of the line end at p, 0 when there is none. */
 static int line_end(const char *p) { return *p == '\n' ? 1 : *p != '\r' ? 0 : p[1] == '\n' ? 2 : 1; }
@@ -49,18 +49,18 @@ static int move_on(fl_bytes *b, int64_t n, fl_err *err)
 {
     const int32_t left = b->n - b->pos;
     if (b->pos) memmove(b->data, b->data + b->pos, (size_t)left);
-    b->before += b->pos;
+    b->offset += b->pos;
     b->pos = 0;
     b->n = left;
     if (read_to(b, n > window ? n : window, err)) return -1;
-    b->safe = last_end(b);
+    b->complete = last_end(b);
     return 0;
 }
 
 /* See that the line that begins at pos ends in data. */
 static int whole_line(fl_bytes *b, fl_err *err)
 {
-    while (!b->ended && b->pos >= b->safe) {
+    while (!b->ended && b->pos >= b->complete) {
         const int64_t left = b->n - b->pos;
         if (left >= INT32_MAX - 1) return fl_bytes_fail(b, err, "a line of more than 2 GiB");
         if (move_on(b, 2 * left, err)) return -1;
@@ -81,11 +81,11 @@ int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err)
         b->n -= 3;
         memmove(b->data, b->data + 3, (size_t)b->n + 1);
     }
-    b->safe = last_end(b);
+    b->complete = last_end(b);
     return 0;
 }
 
-int fl_bytes_whole(fl_bytes *b, fl_err *err)
+int fl_bytes_read_all(fl_bytes *b, fl_err *err)
 {
     while (!b->ended) {
         if (b->n >= INT32_MAX - 1)
@@ -93,11 +93,11 @@ int fl_bytes_whole(fl_bytes *b, fl_err *err)
                            fl_in_name(b->in));
         if (read_to(b, 2 * (int64_t)b->n + window, err)) return -1;
     }
-    b->safe = b->n;
+    b->complete = b->n;
     return 0;
 }
 
-int fl_bytes_take(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err)
+int fl_bytes_read(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err)
 {
     if (b->n - b->pos < n && !b->ended && move_on(b, n, err)) return -1;
     if (b->n - b->pos < n) return 0;
@@ -135,7 +135,7 @@ static int32_t find_mark(const fl_bytes *b, const char *mark, int32_t len, int *
         if (end - p <= len && !b->ended) return (int32_t)(p - b->data);
         /* a zero byte before it is a line end that was cut */
         *found = end - p >= len && memcmp(p, mark, (size_t)len) == 0 && strchr(" \t\r\n", p[len]) &&
-                 (p == b->data ? b->before == 0 : strchr("\r\n", p[-1]) != NULL);
+                 (p == b->data ? b->offset == 0 : strchr("\r\n", p[-1]) != NULL);
         if (*found) return (int32_t)(p - b->data);
         p++;
     }
@@ -282,7 +282,7 @@ int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
     const char *end;
     int32_t len;
     if (skip_space(b, err)) return -1;
-    if (b->n - b->pos >= ENOUGH && (end = fl_decimal(b->data + b->pos, x)) != NULL &&
+    if (b->n - b->pos >= ENOUGH && (end = fl_decimal_read(b->data + b->pos, x)) != NULL &&
         (fl_bytes_blank(*end) || *end == '\n' || *end == '\r')) {
         b->pos = (int32_t)(end - b->data);
         return 1;
@@ -297,10 +297,10 @@ int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
     if (b->pos == b->n) return 0;
     if (p[len] == '\0' && b->pos + len < b->n)
         return fl_bytes_fail(b, err, "a zero byte: this is not a text file");
-    end = fl_decimal(p, x);
+    end = fl_decimal_read(p, x);
     if (end != p + len) {
         if (!any)
-            return fl_bytes_fail(b, err, "\"%.*s\" was found, a number was wanted", len < 40 ? len : 40, p);
+            return fl_bytes_fail(b, err, "\"%.*s\" was found, a number is expected", len < 40 ? len : 40, p);
         *x = 0.0;
     }
     b->pos += len;
@@ -329,8 +329,8 @@ int fl_bytes_word(fl_bytes *b, const char **word, fl_err *err)
 
 static int number(const fl_bytes *b, const char *word, const char *what, double *x, fl_err *err)
 {
-    if (fl_num_f64(word, x))
-        return fl_bytes_fail(b, err, "%s is \"%.40s\", a finite number was wanted", what, word);
+    if (fl_number_f64(word, x))
+        return fl_bytes_fail(b, err, "%s is \"%.40s\", a finite number is expected", what, word);
     return 0;
 }
 
@@ -345,6 +345,6 @@ int fl_bytes_f64(fl_bytes *b, const char *what, double *x, fl_err *err)
     const char *word = "";
     const int more = fl_bytes_word(b, &word, err);
     if (more < 0) return -1;
-    if (more == 0) return fl_bytes_fail(b, err, "the file ends where %s was wanted", what);
+    if (more == 0) return fl_bytes_fail(b, err, "the file ends where %s is expected", what);
     return number(b, word, what, x, err);
 }

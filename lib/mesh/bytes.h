@@ -13,12 +13,12 @@ typedef struct {
     fl_in *in;
     char *data; /* [n], and a zero byte after them; rows are cut in place */
     int32_t n, cap, pos;
-    int32_t safe;   /* what begins before this place of data ends in data, continued lines too */
-    int ended;      /* nothing comes behind data */
-    int64_t before; /* bytes that have made room */
-    int32_t line;   /* of the current row; 0 in binary data */
-    char comment;   /* opens a comment, '\0' for none */
-    char **field;   /* words of the current row */
+    int32_t complete; /* what begins before this place of data ends in data, continued lines too */
+    int ended;        /* nothing comes behind data */
+    int64_t offset;   /* bytes that have made room */
+    int32_t line;     /* of the current row; 0 in binary data */
+    char comment;     /* opens a comment, '\0' for none */
+    char **field;     /* words of the current row */
     int32_t words, next, field_cap;
     char note[FL_MESH_NOTE]; /* remarks for the user, each with its newline */
 } fl_bytes;
@@ -31,17 +31,17 @@ int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err);
 
 /* Read all that is left, behind what is there: for kinds of files that are looked at here and there.  0, or
  * -1 with FL_INPUT (larger than 2 GiB, unreadable) or FL_SYSTEM. */
-int fl_bytes_whole(fl_bytes *b, fl_err *err);
+int fl_bytes_read_all(fl_bytes *b, fl_err *err);
 
 /* What words are parted by, but for ends of lines. */
 static inline int fl_bytes_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 
 /* For tests: a head and a window of so many bytes; 0 for those above. */
-void fl_bytes_window(int32_t bytes);
+void fl_bytes_set_window(int32_t bytes);
 
 /* The next n bytes into *p, where they stay until the next call of anything here: 1, 0 when the file ends
  * before, or -1 with FL_INPUT or FL_SYSTEM. */
-int fl_bytes_take(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err);
+int fl_bytes_read(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err);
 
 /* The same bytes without stepping over them, fewer where the file ends before: how many, or -1. */
 int32_t fl_bytes_peek(fl_bytes *b, int32_t n, const char **p, fl_err *err);
@@ -81,7 +81,7 @@ int fl_bytes_fail(const fl_bytes *b, fl_err *err, const char *fmt, ...) __attrib
 void fl_bytes_note(fl_bytes *b, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
 /* How far into the file the next byte is. */
-static inline int64_t fl_bytes_place(const fl_bytes *b) { return b->before + b->pos; }
+static inline int64_t fl_bytes_offset(const fl_bytes *b) { return b->offset + b->pos; }
 
 void fl_bytes_free(fl_bytes *b); /* accepts a zeroed struct, leaves one */
 

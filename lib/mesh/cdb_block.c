@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "mesh/cdb_block.h"
-#include "mesh/columns.h"
+#include "mesh/fixed_columns.h"
 
 enum {
     BODY = 11, /* columns of a row of EBLOCK,,SOLID before the nodes */
@@ -18,16 +18,17 @@ static int read_format(fl_cdb *c, fl_columns *f, fl_err *err)
 {
     const int more = fl_deck_line(&c->d, err);
     if (more < 0) return -1;
-    if (more == 0) return fl_deck_fail(&c->d, err, "the file ends where a format line was wanted");
-    if (fl_columns_of(f, c->d.line) == 0) return 0;
-    return fl_deck_fail(&c->d, err, "\"%.60s\" was found, a format like (3i9,6e21.13) was wanted", c->d.line);
+    if (more == 0) return fl_deck_fail(&c->d, err, "the file ends where a format line is expected");
+    if (fl_columns_parse(f, c->d.line) == 0) return 0;
+    return fl_deck_fail(&c->d, err, "\"%.60s\" was found, a format like (3i9,6e21.13) is expected",
+                        c->d.line);
 }
 
 static int whole_at(fl_cdb *c, const fl_columns *f, int k, int64_t *x, fl_err *err)
 {
     char text[FL_COLUMN_WIDTH];
-    if (fl_columns_whole(f, k, c->d.line, c->d.len, x) == 0) return 0;
-    return fl_deck_fail(&c->d, err, "column %d is \"%.40s\", a whole number was wanted", k + 1,
+    if (fl_columns_integer(f, k, c->d.line, c->d.len, x) == 0) return 0;
+    return fl_deck_fail(&c->d, err, "column %d is \"%.40s\", a whole number is expected", k + 1,
                         fl_columns_text(f, k, c->d.line, c->d.len, text));
 }
 
@@ -35,7 +36,7 @@ static int real_at(fl_cdb *c, const fl_columns *f, int k, double *x, fl_err *err
 {
     char text[FL_COLUMN_WIDTH];
     if (fl_columns_real(f, k, c->d.line, c->d.len, x) == 0) return 0;
-    return fl_deck_fail(&c->d, err, "column %d is \"%.40s\", a finite number was wanted", k + 1,
+    return fl_deck_fail(&c->d, err, "column %d is \"%.40s\", a finite number is expected", k + 1,
                         fl_columns_text(f, k, c->d.line, c->d.len, text));
 }
 
@@ -59,7 +60,7 @@ static int block_row(fl_cdb *c, const char *block, fl_err *err)
         if (*p == '\0') continue;
         if (strcmp(p, "-1") == 0) return 0;
         if (strchr("0123456789+-.", *p)) return 1;
-        if (strncasecmp(p, "N,", 2) != 0) fl_deck_hold(&c->d);
+        if (strncasecmp(p, "N,", 2) != 0) fl_deck_unread(&c->d);
         return 0;
     }
 }
@@ -73,7 +74,7 @@ static int free_row(fl_cdb *c, fl_err *err)
         if (more <= 0) return more;
         if (*p == '\0') continue;
         if (strchr("0123456789+-.", *p)) return 1;
-        fl_deck_hold(&c->d);
+        fl_deck_unread(&c->d);
         return 0;
     }
 }
@@ -82,15 +83,15 @@ static int free_row(fl_cdb *c, fl_err *err)
 
 int fl_cdb_set_type(fl_cdb *c, int64_t slot, int32_t routine, int32_t key, fl_err *err)
 {
-    const int32_t k = fl_numbers_add(&c->slot, 0, slot, err);
+    const int32_t k = fl_id_map_add(&c->slot, 0, slot, err);
     if (k < 0 || fl_grow(&c->type, &c->type_cap, c->slot.n, sizeof *c->type, err)) return -1;
     c->type[k] = (fl_cdb_type){routine, key, fl_cdb_family_of(routine, key)};
     return 0;
 }
 
-int fl_cdb_add(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t real, fl_err *err)
+int fl_cdb_add_element(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t real, fl_err *err)
 {
-    const int32_t slot = fl_numbers_find(&c->slot, 0, type);
+    const int32_t slot = fl_id_map_find(&c->slot, 0, type);
     const fl_cdb_type *t = slot < 0 ? NULL : &c->type[slot];
     const int n = c->nodes;
     int32_t k;
@@ -98,19 +99,19 @@ int fl_cdb_add(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t rea
     if (!t)
         return fl_deck_fail(&c->d, err, "element %lld is of type %lld, which no ET or ETBLOCK defines",
                             (long long)id, (long long)type);
-    if (t->is == FL_CDB_NONE) {
+    if (t->family == FL_CDB_NONE) {
         char name[32];
         snprintf(name, sizeof name, "routine %d", t->routine);
         return fl_elements_skip(&c->e, name, err);
     }
-    shape = fl_cdb_shape_of(t->is, n);
+    shape = fl_cdb_shape_of(t->family, n);
     if (shape < 0)
-        return fl_deck_fail(&c->d, err, "element %lld of routine %d has %d nodes, more were wanted",
+        return fl_deck_fail(&c->d, err, "element %lld of routine %d has %d nodes, more are expected",
                             (long long)id, t->routine, n);
     for (int i = n; i < FL_CDB_NODES; i++) c->node[i] = 0;
     k = fl_elements_add(&c->e, 0, id, (enum fl_shape)shape, c->part, c->node, err);
     if (k < 0) return -1;
-    if (t->is != FL_CDB_LINE && t->is != FL_CDB_CURVE) return 0;
+    if (t->family != FL_CDB_LINE && t->family != FL_CDB_CURVE) return 0;
     return fl_cdb_section_line(&c->sections, (fl_cdb_line){k, t->routine, section, real}, err);
 }
 
@@ -120,7 +121,7 @@ int fl_cdb_add(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t rea
 static void compare(fl_cdb *c, const char *block, const char *promise, int64_t n)
 {
     int64_t x;
-    if (fl_deck_whole(promise, &x) == 0 && x > 0 && x != n)
+    if (fl_deck_integer(promise, &x) == 0 && x > 0 && x != n)
         fl_bytes_note(c->d.base, "%s is to hold %lld entries, and has %lld", block, (long long)x,
                       (long long)n);
 }
@@ -132,19 +133,19 @@ int fl_cdb_nblock(fl_cdb *c, fl_err *err)
     int64_t n = 0;
     int more;
     if (read_format(c, &f, err)) return -1;
-    if (f.whole < 1 || f.whole == f.n)
-        return fl_deck_fail(&c->d, err, "a format of whole numbers and then reals was wanted for nodes");
+    if (f.integers < 1 || f.integers == f.n)
+        return fl_deck_fail(&c->d, err, "a format of whole numbers and then reals is expected for nodes");
     while ((more = block_row(c, "NBLOCK", err)) > 0) {
         int64_t id;
         fl_vec3 x;
-        if (whole_at(c, &f, 0, &id, err) || real_at(c, &f, f.whole, &x.x, err) ||
-            real_at(c, &f, f.whole + 1, &x.y, err) || real_at(c, &f, f.whole + 2, &x.z, err))
+        if (whole_at(c, &f, 0, &id, err) || real_at(c, &f, f.integers, &x.x, err) ||
+            real_at(c, &f, f.integers + 1, &x.y, err) || real_at(c, &f, f.integers + 2, &x.z, err))
             return -1;
         if (id == -1) break;
         if (id < 1)
-            return fl_deck_fail(&c->d, err, "node %lld was found, a number of 1 or more was wanted",
+            return fl_deck_fail(&c->d, err, "node %lld was found, a number of 1 or more is expected",
                                 (long long)id);
-        if (fl_elements_node(&c->e, 0, id, x, err) < 0) return -1;
+        if (fl_elements_add_node(&c->e, 0, id, x, err) < 0) return -1;
         n++;
     }
     if (more < 0) return -1;
@@ -189,12 +190,12 @@ static int read_solid_row(fl_cdb *c, const fl_columns *f, fl_err *err)
     if (col[8] < 1 || col[8] > FL_CDB_NODES || col[10] < 1)
         return fl_deck_fail(&c->d, err,
                             "element %lld of %lld nodes was found, a number of 1 or more and 1 to %d nodes "
-                            "were wanted",
+                            "are expected",
                             (long long)col[10], (long long)col[8], FL_CDB_NODES);
     line = c->e.line;
     if (take_nodes(c, f, BODY, col[8], err) || more_nodes(c, f, col[10], col[8], err)) return -1;
     c->e.line = line;
-    return fl_cdb_add(c, col[10], col[1], col[3], col[2], err);
+    return fl_cdb_add_element(c, col[10], col[1], col[3], col[2], err);
 }
 
 /* Without the key SOLID nothing says how many nodes there are: those of a row, and of the next one for a
@@ -206,14 +207,14 @@ static int read_bare_row(fl_cdb *c, const fl_columns *f, fl_err *err)
     for (int k = 0; k < BARE; k++)
         if (whole_at(c, f, k, &col[k], err)) return -1;
     if (col[0] < 1)
-        return fl_deck_fail(&c->d, err, "element %lld was found, a number of 1 or more was wanted",
+        return fl_deck_fail(&c->d, err, "element %lld was found, a number of 1 or more is expected",
                             (long long)col[0]);
     line = c->e.line;
-    slot = fl_numbers_find(&c->slot, 0, col[1]);
+    slot = fl_id_map_find(&c->slot, 0, col[1]);
     if (take_nodes(c, f, BARE, -1, err)) return -1;
-    if (slot >= 0 && c->type[slot].is == FL_CDB_BRICK && more_nodes(c, f, col[0], 20, err)) return -1;
+    if (slot >= 0 && c->type[slot].family == FL_CDB_BRICK && more_nodes(c, f, col[0], 20, err)) return -1;
     c->e.line = line;
-    return fl_cdb_add(c, col[0], col[1], col[1], col[2], err);
+    return fl_cdb_add_element(c, col[0], col[1], col[1], col[2], err);
 }
 
 int fl_cdb_eblock(fl_cdb *c, fl_err *err)
@@ -224,8 +225,8 @@ int fl_cdb_eblock(fl_cdb *c, fl_err *err)
     int64_t n = 0;
     int more;
     if (read_format(c, &f, err)) return -1;
-    if (f.whole != f.n || f.n <= (solid ? BODY : BARE))
-        return fl_deck_fail(&c->d, err, "a format of more than %d whole numbers was wanted for elements",
+    if (f.integers != f.n || f.n <= (solid ? BODY : BARE))
+        return fl_deck_fail(&c->d, err, "a format of more than %d whole numbers is expected for elements",
                             solid ? BODY : BARE);
     while ((more = block_row(c, "EBLOCK", err)) > 0) {
         int64_t first;
@@ -246,15 +247,15 @@ int fl_cdb_etblock(fl_cdb *c, fl_err *err)
     fl_columns f;
     int more;
     if (read_format(c, &f, err)) return -1;
-    if (f.whole < 2)
-        return fl_deck_fail(&c->d, err, "a format of whole numbers was wanted for element types");
+    if (f.integers < 2)
+        return fl_deck_fail(&c->d, err, "a format of whole numbers is expected for element types");
     while ((more = block_row(c, "ETBLOCK", err)) > 0) {
         char text[FL_COLUMN_WIDTH];
         int64_t slot, routine, key = 0;
         if (whole_at(c, &f, 0, &slot, err)) return -1;
         if (slot == -1) break;
         if (whole_at(c, &f, 1, &routine, err)) return -1;
-        if (f.n > 2 && fl_deck_whole(fl_columns_text(&f, 2, c->d.line, c->d.len, text), &key))
+        if (f.n > 2 && fl_deck_integer(fl_columns_text(&f, 2, c->d.line, c->d.len, text), &key))
             key = 0; /* text columns: it may be a word */
         if (slot < 1 || routine < 0 || routine > INT16_MAX || key < 0 || key > INT16_MAX)
             return fl_deck_fail(&c->d, err, "type %lld of routine %lld was found", (long long)slot,
@@ -270,8 +271,8 @@ int fl_cdb_rlblock(fl_cdb *c, fl_err *err)
     fl_columns head, tail;
     int more;
     if (read_format(c, &head, err)) return -1;
-    if (head.whole != 2 || head.n < 3)
-        return fl_deck_fail(&c->d, err, "a format like (2i8,6g16.9) was wanted for real constants");
+    if (head.integers != 2 || head.n < 3)
+        return fl_deck_fail(&c->d, err, "a format like (2i8,6g16.9) is expected for real constants");
     if (read_format(c, &tail, err)) return -1;
     while ((more = free_row(c, err)) > 0) {
         int64_t id, n;
@@ -300,14 +301,14 @@ int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
     fl_columns f;
     int more;
     if (!elements && strncasecmp(c->word[2], "NODE", 4) != 0)
-        return fl_deck_fail(&c->d, err, "a component of \"%.40s\" was found, ELEM or NODE was wanted",
+        return fl_deck_fail(&c->d, err, "a component of \"%.40s\" was found, ELEM or NODE is expected",
                             c->word[2]);
     if (*name == '\0') return fl_deck_fail(&c->d, err, "the component has no name");
     c->node_sets += !elements;
-    if (elements && (set = fl_names_add(&c->e.sets, name, err)) < 0) return -1;
+    if (elements && (set = fl_string_table_add(&c->e.sets, name, err)) < 0) return -1;
     if (read_format(c, &f, err)) return -1;
-    if (f.whole != f.n)
-        return fl_deck_fail(&c->d, err, "a format of whole numbers was wanted for a component");
+    if (f.integers != f.n)
+        return fl_deck_fail(&c->d, err, "a format of whole numbers is expected for a component");
     while ((more = free_row(c, err)) > 0) {
         for (int k = 0; k < f.n; k++) {
             if (is_blank(c, &f, k)) break;
@@ -315,11 +316,11 @@ int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
             if (x == 0 || (x < 0 && (last <= 0 || -x < last)))
                 return fl_deck_fail(&c->d, err,
                                     "%lld was found after %lld, a number above 0 or the end of a "
-                                    "range was wanted",
+                                    "range is expected",
                                     (long long)x, (long long)last);
             n++;
             if (elements && x > 0 && fl_cdb_component_add(&c->components, set, x, x, err)) return -1;
-            if (elements && x < 0) c->components.in[c->components.n - 1].hi = -x;
+            if (elements && x < 0) c->components.range[c->components.n - 1].hi = -x;
             last = x;
         }
     }

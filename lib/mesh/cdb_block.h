@@ -2,11 +2,11 @@
 /* cdb_block.h -- the blocks of an ANSYS archive, and what they share with its commands. */
 #ifndef FL_MESH_CDB_BLOCK_H
 #define FL_MESH_CDB_BLOCK_H
-#include "base/names.h"
+#include "base/string_table.h"
 #include "mesh/cdb_component.h"
 #include "mesh/cdb_routine.h"
 #include "mesh/cdb_section.h"
-#include "mesh/deck.h"
+#include "mesh/deck_lines.h"
 
 enum {
     FL_CDB_WORDS = 64, /* of a command */
@@ -16,14 +16,14 @@ enum {
 /* What ET and KEYOPT make of an element type. */
 typedef struct {
     int32_t routine, key;
-    fl_cdb_family is;
+    fl_cdb_family family;
 } fl_cdb_type;
 
 typedef struct {
     fl_elements e;
     fl_deck d;
     int32_t part;               /* of what is in no component */
-    fl_numbers slot;            /* of element types */
+    fl_id_map slot;             /* of element types */
     fl_cdb_type *type;          /* [slot.n] */
     char *word[FL_CDB_WORDS];   /* of the command at hand, none NULL */
     int64_t node[FL_CDB_NODES]; /* of the element at hand */
@@ -38,7 +38,7 @@ int fl_cdb_set_type(fl_cdb *c, int64_t slot, int32_t routine, int32_t key, fl_er
 
 /* Add the element of c->node[0 .. c->nodes), or count it where its type has no surface.  -1 with FL_INPUT (a
  * type that is not defined, too few nodes) or FL_SYSTEM. */
-int fl_cdb_add(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t real, fl_err *err);
+int fl_cdb_add_element(fl_cdb *c, int64_t id, int64_t type, int64_t section, int64_t real, fl_err *err);
 
 /* Read a block behind its command, whose words are in c->word: a format line, and rows in its columns.  Rows
  * may be short.  A block ends with a row of -1 or at the next command; a component and real constants also

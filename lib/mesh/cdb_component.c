@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "mesh/cdb_component.h"
 
 void fl_cdb_component_free(fl_cdb_components *c)
 {
-    free(c->in);
+    free(c->range);
     *c = (fl_cdb_components){0};
 }
 
 int fl_cdb_component_add(fl_cdb_components *c, int32_t set, int64_t lo, int64_t hi, fl_err *err)
 {
-    if (fl_grow(&c->in, &c->cap, (int64_t)c->n + 1, sizeof *c->in, err)) return -1;
-    c->in[c->n++] = (fl_cdb_range){lo, hi, set};
+    if (fl_grow(&c->range, &c->cap, (int64_t)c->n + 1, sizeof *c->range, err)) return -1;
+    c->range[c->n++] = (fl_cdb_range){lo, hi, set};
     return 0;
 }
 
@@ -39,13 +39,13 @@ static int by_id(const void *pa, const void *pb)
 static void merge(fl_cdb_components *c)
 {
     int32_t n = 0;
-    qsort(c->in, (size_t)c->n, sizeof *c->in, by_set);
+    qsort(c->range, (size_t)c->n, sizeof *c->range, by_set);
     for (int32_t i = 1; i < c->n; i++) {
-        fl_cdb_range *last = &c->in[n];
-        if (c->in[i].set == last->set && c->in[i].lo <= last->hi + 1) {
-            if (c->in[i].hi > last->hi) last->hi = c->in[i].hi;
+        fl_cdb_range *last = &c->range[n];
+        if (c->range[i].set == last->set && c->range[i].lo <= last->hi + 1) {
+            if (c->range[i].hi > last->hi) last->hi = c->range[i].hi;
         } else {
-            c->in[++n] = c->in[i];
+            c->range[++n] = c->range[i];
         }
     }
     c->n = n + 1;
@@ -70,12 +70,12 @@ static int share_out(const fl_cdb_components *c, fl_elements *e, const numbered 
 {
     const int32_t sets = e->sets.n;
     int64_t *size = fl_alloc(sets, sizeof *size, err);
-    int32_t *best = fl_alloc(e->number.n, sizeof *best, err); /* set plus one */
+    int32_t *best = fl_alloc(e->element_id.n, sizeof *best, err); /* set plus one */
     int rc = -1;
     if (!size || !best) goto done;
     for (int pass = 0; pass < 2; pass++)
         for (int32_t i = 0; i < c->n; i++) {
-            const fl_cdb_range *r = &c->in[i];
+            const fl_cdb_range *r = &c->range[i];
             for (int32_t k = lower(at, n, r->lo); k < n && at[k].id <= r->hi; k++) {
                 int32_t *b = &best[at[k].element];
                 if (pass == 0) size[r->set]++;
@@ -85,10 +85,10 @@ static int share_out(const fl_cdb_components *c, fl_elements *e, const numbered 
                     goto done;
             }
         }
-    for (int32_t i = 0; i < e->number.n; i++) {
+    for (int32_t i = 0; i < e->element_id.n; i++) {
         int32_t part;
         if (best[i] == 0) continue;
-        part = fl_names_add(&e->parts, e->sets.name[best[i] - 1], err);
+        part = fl_string_table_add(&e->parts, e->sets.name[best[i] - 1], err);
         if (part < 0) goto done;
         e->element[i].part = part;
     }
@@ -99,17 +99,17 @@ done:
     return rc;
 }
 
-int fl_cdb_component_give(fl_cdb_components *c, fl_elements *e, int picks, fl_err *err)
+int fl_cdb_component_assign(fl_cdb_components *c, fl_elements *e, int picks, fl_err *err)
 {
     numbered *at;
     int32_t n = 0;
     int rc;
     if (c->n == 0) return 0;
-    at = fl_alloc(e->number.n, sizeof *at, err);
+    at = fl_alloc(e->element_id.n, sizeof *at, err);
     if (!at) return -1;
     merge(c);
-    for (int32_t i = 0; i < e->number.n; i++)
-        if (e->number.scope[i] == 0) at[n++] = (numbered){e->number.id[i], i};
+    for (int32_t i = 0; i < e->element_id.n; i++)
+        if (e->element_id.scope[i] == 0) at[n++] = (numbered){e->element_id.id[i], i};
     qsort(at, (size_t)n, sizeof *at, by_id);
     rc = share_out(c, e, at, n, picks, err);
     free(at);

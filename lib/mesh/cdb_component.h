@@ -10,7 +10,7 @@ typedef struct {
 } fl_cdb_range;
 
 typedef struct {
-    fl_cdb_range *in; /* [n] */
+    fl_cdb_range *range; /* [n] */
     int32_t n, cap;
 } fl_cdb_components;
 
@@ -20,7 +20,7 @@ int fl_cdb_component_add(fl_cdb_components *c, int32_t set, int64_t lo, int64_t 
 /* Let each element be of the part that is called as the smallest component that holds it, the first of
  * equals; what is in none stays where it is.  With picks, each component can be wished for as a set.  Numbers
  * of elements that are not there are passed over.  -1 with FL_SYSTEM. */
-int fl_cdb_component_give(fl_cdb_components *c, fl_elements *e, int picks, fl_err *err);
+int fl_cdb_component_assign(fl_cdb_components *c, fl_elements *e, int picks, fl_err *err);
 
 void fl_cdb_component_free(fl_cdb_components *c); /* accepts a zeroed struct, leaves one */
 

@@ -14,10 +14,10 @@ typedef struct {
 } fl_cdb_line;
 
 typedef struct {
-    fl_numbers id;     /* scope 0: sections, 1: real constants */
+    fl_id_map id;      /* scope 0: sections, 1: real constants */
     double *radius;    /* [id.n] 0 for none */
     fl_cdb_line *line; /* [lines] */
-    int64_t open;      /* the section that SECDATA speaks of, 0 for none */
+    int64_t current;   /* the section that SECDATA speaks of, 0 for none */
     char type[FL_CDB_SECTION_WORD], subtype[FL_CDB_SECTION_WORD];
     int32_t lines, radius_cap, line_cap;
 } fl_cdb_sections;
@@ -38,7 +38,7 @@ int fl_cdb_section_line(fl_cdb_sections *s, fl_cdb_line line, fl_err *err);
 
 /* Give the lines their radii: BEAM188 and 189, PIPE288, 289 and 290 by their section, PIPE16, 20 and 59 by
  * their real constants.  -1 with FL_SYSTEM. */
-int fl_cdb_section_give(const fl_cdb_sections *s, fl_elements *e, fl_err *err);
+int fl_cdb_section_apply(const fl_cdb_sections *s, fl_elements *e, fl_err *err);
 
 void fl_cdb_section_free(fl_cdb_sections *s); /* accepts a zeroed struct, leaves one */
 

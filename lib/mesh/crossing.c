@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/wide.h"
-#include "mesh/apart.h"
+#include "base/array.h"
+#include "base/simd.h"
+#include "mesh/tri_separation.h"
 #include "mesh/crossing.h"
-#include "mesh/fans.h"
+#include "mesh/vertex_fans.h"
 
 /* --- the order of triangles in space -------------------------------------------------------------------- */
 
@@ -238,7 +238,7 @@ static int order_triangles(forest *f, fl_vec3 o, double side, fl_err *err)
 static int forest_name(forest *f, fl_err *err)
 {
     uint8_t *tame = fl_alloc(f->p->nv, 1, err);
-    const int bad = !tame || fl_fans_tame(f->p, tame, err);
+    const int bad = !tame || fl_vertex_fans_simple(f->p, tame, err);
     if (!bad) {
 #pragma omp parallel for schedule(static) if (f->p->nt > ALONE)
         for (int32_t at = 0; at < f->p->nt; at++)
@@ -318,16 +318,16 @@ typedef struct {
 } tally;
 
 /* One pair.  Its verdict is the same whichever comes first. */
-static void meet(fl_corners *a, fl_corners *b, tally *sum)
+static void meet(fl_tri_data *a, fl_tri_data *b, tally *sum)
 {
     double x[2][9];
     int how;
-    if (fl_corners_apart(a, b)) return;
+    if (fl_tri_separated(a, b)) return;
     for (int k = 0; k < 3; k++) {
         memcpy(x[a->t > b->t] + 3 * (ptrdiff_t)k, &a->x[k].x, sizeof a->x[k]);
         memcpy(x[a->t < b->t] + 3 * (ptrdiff_t)k, &b->x[k].x, sizeof b->x[k]);
     }
-    how = fl_cgal_meet(x[0], x[1], &sum->err);
+    how = fl_cgal_classify_triangles(x[0], x[1], &sum->err);
     sum->crossings += how == FL_CROSSES;
     sum->touching += how == FL_TOUCHES;
     sum->failed |= how < 0;
@@ -336,10 +336,10 @@ static void meet(fl_corners *a, fl_corners *b, tally *sum)
 /* Of triangle k of leaf i with those of leaf j that it may meet. */
 static void one_by_one(const forest *f, int32_t i, int k, int32_t j, unsigned hit, tally *sum)
 {
-    fl_corners own, other;
-    fl_corners_of(f->p, f->order[LANES * i + k], &own);
+    fl_tri_data own, other;
+    fl_tri_load(f->p, f->order[LANES * i + k], &own);
     for (; hit; hit &= hit - 1) {
-        fl_corners_of(f->p, f->order[LANES * j + __builtin_ctz(hit)], &other);
+        fl_tri_load(f->p, f->order[LANES * j + __builtin_ctz(hit)], &other);
         meet(&own, &other, sum);
     }
 }
@@ -351,8 +351,8 @@ enum { MANY = LANES * LANES / 2 };
 static int bundles_apart(const forest *f, int32_t many, int32_t i, int32_t j)
 {
     const int32_t n = f->p->nt, ni = n - many * i, nj = n - many * j;
-    return i != j && fl_bundles_apart(f->p, f->order + many * i, ni < many ? ni : many, f->order + many * j,
-                                      nj < many ? nj : many);
+    return i != j && fl_tri_groups_separated(f->p, f->order + many * i, ni < many ? ni : many,
+                                             f->order + many * j, nj < many ? nj : many);
 }
 
 /* The triangles of leaf i against those of leaf j >= i.  Two that have a tame vertex in common do not cross.
@@ -413,7 +413,7 @@ __attribute__((always_inline)) static inline void blocks(const forest *f, int32_
 }
 
 /* Of block i all pairs with itself and with blocks behind it. */
-FL_WIDE_VERSIONS static void around(const forest *f, int32_t i, tally *sum)
+FL_SIMD_VERSIONS static void around(const forest *f, int32_t i, tally *sum)
 {
     struct {
         int32_t k;

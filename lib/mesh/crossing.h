@@ -7,8 +7,8 @@
 
 /* Count the pairs as fl_cgal_crossings() does, and find the same.  Triangles are put in the order of a curve
  * that fills space and boxed by eights.  Of pairs whose boxes meet, those with a tame vertex in common
- * (fans.h) do not cross, which leaves few of a sound surface; of the others those that a plane parts for
- * certain in double precision (apart.h) are passed over, and exact arithmetic decides on the rest.  The
+ * (vertex_fans.h) do not cross, which leaves few of a sound surface; of the others those that a plane parts for
+ * certain in double precision (tri_separation.h) are passed over, and exact arithmetic decides on the rest.  The
  * numbers do not depend on the number of threads; beyond 2^31 - 1 they stay there.
  *   p   what is one point must be one vertex where it is to count as common: weld first
  * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM in err.

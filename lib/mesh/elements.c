@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "mesh/elements.h"
 #include "mesh/skin.h"
 
@@ -45,14 +45,14 @@ int fl_shape_face(enum fl_shape shape, int face, int corner[4])
 int fl_elements_start(fl_elements *e, const char *file, fl_err *err)
 {
     *e = (fl_elements){0};
-    if (fl_elements_file(e, file, err) == 0) return 0;
+    if (fl_elements_set_file(e, file, err) == 0) return 0;
     fl_elements_free(e);
     return -1;
 }
 
-int fl_elements_file(fl_elements *e, const char *file, fl_err *err)
+int fl_elements_set_file(fl_elements *e, const char *file, fl_err *err)
 {
-    const int32_t k = fl_names_add(&e->files, file, err);
+    const int32_t k = fl_string_table_add(&e->files, file, err);
     if (k < 0) return -1;
     e->file = k;
     return 0;
@@ -72,7 +72,7 @@ int fl_elements_fail(const fl_elements *e, int32_t file, int32_t line, fl_err *e
 /* The index of a node that is spoken of. */
 static int32_t spoken(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
 {
-    const int32_t k = fl_numbers_add(&e->node, scope, id, err), had = k < 0 ? 0 : e->node.n;
+    const int32_t k = fl_id_map_add(&e->node_id, scope, id, err), had = k < 0 ? 0 : e->node_id.n;
     if (k < 0 || fl_grow(&e->x, &e->x_cap, had, sizeof *e->x, err)) return -1;
     return k;
 }
@@ -80,18 +80,18 @@ static int32_t spoken(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
 /* A node that was just numbered has no place yet. */
 static int32_t mention(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
 {
-    const int32_t before = e->node.n, k = spoken(e, scope, id, err);
+    const int32_t before = e->node_id.n, k = spoken(e, scope, id, err);
     if (k >= before) e->x[k] = v3(NAN, NAN, NAN);
     return k;
 }
 
-int32_t fl_elements_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 x, fl_err *err)
+int32_t fl_elements_add_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 x, fl_err *err)
 {
-    const int32_t had = e->node.n;
+    const int32_t had = e->node_id.n;
     int32_t k;
     if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
         return fl_elements_fail(e, e->file, e->line, err,
-                                "node %lld is at %g %g %g, finite coordinates were wanted", (long long)id,
+                                "node %lld is at %g %g %g, finite coordinates are expected", (long long)id,
                                 x.x, x.y, x.z);
     k = spoken(e, scope, id, err);
     if (k < 0) return -1;
@@ -104,31 +104,32 @@ int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape
                         const int64_t *node, fl_err *err)
 {
     const int n = SHAPE[shape].nodes;
-    const int32_t first = e->corners, had = e->number.n;
+    const int32_t first = e->connectivity_n, had = e->element_id.n;
     int32_t k;
-    if (fl_grow(&e->corner, &e->corner_cap, (int64_t)first + n, sizeof *e->corner, err) ||
-        fl_grow(&e->element, &e->element_cap, (int64_t)e->number.n + 1, sizeof *e->element, err))
+    if (fl_grow(&e->connectivity, &e->connectivity_cap, (int64_t)first + n, sizeof *e->connectivity, err) ||
+        fl_grow(&e->element, &e->element_cap, (int64_t)e->element_id.n + 1, sizeof *e->element, err))
         return -1;
     for (int i = 0; i < n; i++) {
         if (node[i] < 1 && i < SHAPE[shape].corners)
-            return fl_elements_fail(e, e->file, e->line, err,
-                                    "corner %d of the element is node %lld, a number of 1 or more was wanted",
-                                    i + 1, (long long)node[i]);
+            return fl_elements_fail(
+                e, e->file, e->line, err,
+                "corner %d of the element is node %lld, a number of 1 or more is expected", i + 1,
+                (long long)node[i]);
         k = node[i] < 1 ? -1 : mention(e, scope, node[i], err);
         if (k < 0 && node[i] >= 1) return -1;
-        e->corner[first + i] = k;
+        e->connectivity[first + i] = k;
     }
     /* Elements without a number get one that no file can ask for. */
-    k = id < 0 ? fl_numbers_add(&e->number, -1, e->number.n, err)
-               : fl_numbers_add(&e->number, scope, id, err);
+    k = id < 0 ? fl_id_map_add(&e->element_id, -1, e->element_id.n, err)
+               : fl_id_map_add(&e->element_id, scope, id, err);
     if (k < 0) return -1;
-    e->corners += n;
+    e->connectivity_n += n;
     e->replaced += k < had;
     e->element[k] = (fl_element){first, part, -1, e->line, e->file, (uint8_t)shape};
     return k;
 }
 
-int fl_elements_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err)
+int fl_elements_set_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err)
 {
     const int32_t k = e->sections;
     /* the elements of a set come one after the other with the same radii */
@@ -154,26 +155,26 @@ int fl_elements_pick(fl_elements *e, fl_pick pick, fl_err *err)
 
 int fl_elements_skip(fl_elements *e, const char *type, fl_err *err)
 {
-    const int32_t had = e->skipped.n, k = fl_names_add(&e->skipped, type, err);
-    if (k < 0 || fl_grow(&e->skips, &e->skip_cap, e->skipped.n, sizeof *e->skips, err)) return -1;
-    if (k >= had) e->skips[k] = 0;
-    e->skips[k]++;
+    const int32_t had = e->skipped.n, k = fl_string_table_add(&e->skipped, type, err);
+    if (k < 0 || fl_grow(&e->skip_count, &e->skip_cap, e->skipped.n, sizeof *e->skip_count, err)) return -1;
+    if (k >= had) e->skip_count[k] = 0;
+    e->skip_count[k]++;
     return 0;
 }
 
 void fl_elements_free(fl_elements *e)
 {
-    fl_numbers_free(&e->node);
-    fl_numbers_free(&e->number);
-    fl_names_free(&e->parts);
-    fl_names_free(&e->sets);
-    fl_names_free(&e->files);
-    fl_names_free(&e->skipped);
+    fl_id_map_free(&e->node_id);
+    fl_id_map_free(&e->element_id);
+    fl_string_table_free(&e->parts);
+    fl_string_table_free(&e->sets);
+    fl_string_table_free(&e->files);
+    fl_string_table_free(&e->skipped);
     free(e->x);
     free(e->element);
-    free(e->corner);
+    free(e->connectivity);
     free(e->pick);
-    free(e->skips);
+    free(e->skip_count);
     free(e->section);
     *e = (fl_elements){0};
 }
@@ -200,11 +201,11 @@ static void tell_counts(const fl_elements *e, fl_bytes *b)
 {
     int32_t count[FL_SHAPES] = {0}, nodes = 0;
     list in = {{0}, 0}, out = {{0}, 0};
-    for (int32_t k = 0; k < e->node.n; k++) nodes += !isnan(e->x[k].x);
-    for (int32_t k = 0; k < e->number.n; k++) count[e->element[k].shape]++;
+    for (int32_t k = 0; k < e->node_id.n; k++) nodes += !isnan(e->x[k].x);
+    for (int32_t k = 0; k < e->element_id.n; k++) count[e->element[k].shape]++;
     for (int k = 0; k < FL_SHAPES; k++)
         if (count[k]) list_add(&in, SHAPE[k].name, count[k]);
-    for (int32_t k = 0; k < e->skipped.n; k++) list_add(&out, e->skipped.name[k], e->skips[k]);
+    for (int32_t k = 0; k < e->skipped.n; k++) list_add(&out, e->skipped.name[k], e->skip_count[k]);
     fl_bytes_note(b, "%d nodes; elements: %s", nodes, in.len ? in.text : "none");
     if (e->moved) fl_bytes_note(b, "%d nodes were given another place by a later line", e->moved);
     if (e->replaced)
@@ -216,26 +217,26 @@ static void tell_counts(const fl_elements *e, fl_bytes *b)
 static int32_t namesake(const fl_elements *e, const char *want, int32_t target)
 {
     const int32_t parts = e->parts.n;
-    const int32_t part = target < parts ? -1 : fl_names_find(&e->parts, e->sets.name[target - parts]);
+    const int32_t part = target < parts ? -1 : fl_string_table_find(&e->parts, e->sets.name[target - parts]);
     return part >= 0 && want[part] ? part : target;
 }
 
 /* Where each element goes: its part, or a set that was asked for; sets are counted on behind the parts. */
-static int choose(fl_elements *e, fl_skin *k, fl_wish *w, fl_err *err)
+static int choose(fl_elements *e, fl_skin *k, fl_import_options *w, fl_err *err)
 {
     const int32_t parts = e->parts.n, all = parts + e->sets.n;
     int32_t *first = NULL, *order = NULL; /* picks by their sets */
     char *want = fl_alloc(all, 1, err);
     int yes, rc = -1;
-    if (!want || fl_skin_deal(e->picks, e->sets.n, e->picks ? &e->pick[0].set : NULL,
-                              (int)(sizeof *e->pick / sizeof(int32_t)), &first, &order, err))
+    if (!want || fl_group_by_target(e->picks, e->sets.n, e->picks ? &e->pick[0].set : NULL,
+                                    (int)(sizeof *e->pick / sizeof(int32_t)), &first, &order, err))
         goto done;
     for (int32_t t = 0; t < all; t++) {
-        yes = fl_wish_takes(w, t < parts ? e->parts.name[t] : e->sets.name[t - parts], err);
+        yes = fl_import_selects(w, t < parts ? e->parts.name[t] : e->sets.name[t - parts], err);
         if (yes < 0) goto done;
-        want[t] = (char)(yes && (t < parts || fl_wish_chooses(w)));
+        want[t] = (char)(yes && (t < parts || fl_import_by_name(w)));
     }
-    for (int32_t i = 0; i < e->number.n; i++)
+    for (int32_t i = 0; i < e->element_id.n; i++)
         k->target[i] = want[e->element[i].part] ? e->element[i].part : -1;
     for (int32_t i = 0; i < e->picks; i++) {
         const fl_pick *p = &e->pick[i];
@@ -244,9 +245,9 @@ static int choose(fl_elements *e, fl_skin *k, fl_wish *w, fl_err *err)
         if (!want[t] || (solid && p->face != FL_PICK_WHOLE)) continue;
         if (*target >= parts && *target <= t) continue;
         *target = t;
-        k->behind[p->element] = p->behind;
+        k->reversed[p->element] = p->reversed;
     }
-    for (int32_t i = 0; i < e->number.n; i++) k->target[i] = namesake(e, want, k->target[i]);
+    for (int32_t i = 0; i < e->element_id.n; i++) k->target[i] = namesake(e, want, k->target[i]);
     for (int32_t i = 0; i < e->picks; i++) {
         const fl_pick *p = &e->pick[order[i]];
         if (want[parts + p->set] && p->face != FL_PICK_WHOLE &&
@@ -261,13 +262,13 @@ done:
     return rc;
 }
 
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_wish *w, fl_err *err)
+int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
 {
     fl_skin k = {0};
     int rc = -1;
     tell_counts(e, b);
     if (fl_skin_start(&k, e, w, err) == 0 && choose(e, &k, w, err) == 0) rc = fl_skin_emit(&k, s, err);
-    if (rc == 0) fl_skin_tell(&k, b);
+    if (rc == 0) fl_skin_report(&k, b);
     fl_skin_free(&k);
     return rc;
 }

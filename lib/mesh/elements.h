@@ -7,11 +7,11 @@
 #ifndef FL_MESH_ELEMENTS_H
 #define FL_MESH_ELEMENTS_H
 #include <stdint.h>
-#include "base/names.h"
+#include "base/string_table.h"
 #include "geom/surface.h"
 #include "mesh/bytes.h"
-#include "mesh/numbers.h"
-#include "mesh/wish.h"
+#include "mesh/id_map.h"
+#include "mesh/import_options.h"
 
 /* Corners first, then the nodes in the middle of the edges, as in Abaqus and VTK:
  *     LINE3     0 1, mid 01
@@ -57,26 +57,26 @@ typedef struct {
 enum { FL_PICK_WHOLE = -1, FL_PICK_FREE = -2 };
 typedef struct {
     int32_t element, set;
-    int8_t face;   /* >= 0, or one of the above */
-    int8_t behind; /* a shell seen from its other side */
+    int8_t face;     /* >= 0, or one of the above */
+    int8_t reversed; /* a shell seen from its other side */
 } fl_pick;
 
 typedef struct {
-    fl_numbers node;     /* number of each node */
-    fl_vec3 *x;          /* [node.n] where it is; x.x is nan while it has only been spoken of */
-    fl_numbers number;   /* number of each element */
-    fl_element *element; /* [number.n] */
-    int32_t *corner;     /* [corners] nodes of elements, -1 for a mid-side node that is left out */
-    int32_t corners;
-    fl_names parts, sets, files, skipped;
+    fl_id_map node_id;     /* number of each node */
+    fl_vec3 *x;            /* [node.n] where it is; x.x is nan while it has only been spoken of */
+    fl_id_map element_id;  /* number of each element */
+    fl_element *element;   /* [number.n] */
+    int32_t *connectivity; /* [corners] nodes of elements, -1 for a mid-side node that is left out */
+    int32_t connectivity_n;
+    fl_string_table parts, sets, files, skipped;
     fl_pick *pick; /* [picks] */
     int32_t picks;
-    int32_t *skips;       /* [skipped.n] elements of that type */
+    int32_t *skip_count;  /* [skipped.n] elements of that type */
     double (*section)[2]; /* [sections] radius at either end */
     int32_t sections;
     int32_t moved, replaced; /* nodes put elsewhere by a later line; elements a later one stood for */
     int32_t file, line;      /* the reader's: where what is added next stands.  file 0 is the deck itself */
-    int32_t x_cap, element_cap, corner_cap, pick_cap, skip_cap, section_cap;
+    int32_t x_cap, element_cap, connectivity_cap, pick_cap, skip_cap, section_cap;
 } fl_elements;
 
 /* Nodes of a shape: 2 for FL_LINE2 ... 20 for FL_HEX20; its corners alone. */
@@ -96,7 +96,7 @@ int fl_shape_face(enum fl_shape shape, int face, int corner[4]);
 int fl_elements_start(fl_elements *e, const char *file, fl_err *err);
 
 /* Set e->file to the file of that name (an include), which is added when new.  -1 with FL_SYSTEM. */
-int fl_elements_file(fl_elements *e, const char *file, fl_err *err);
+int fl_elements_set_file(fl_elements *e, const char *file, fl_err *err);
 
 /* Fail with "file:line: " before the sentence.  Returns -1. */
 int fl_elements_fail(const fl_elements *e, int32_t file, int32_t line, fl_err *err, const char *fmt, ...)
@@ -104,12 +104,12 @@ int fl_elements_fail(const fl_elements *e, int32_t file, int32_t line, fl_err *e
 
 /* Put node (scope, id) at x; a node that has another place already is moved, and counted in moved.  Its
  * index, or -1 with FL_INPUT (x is not finite) or FL_SYSTEM. */
-int32_t fl_elements_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 x, fl_err *err);
+int32_t fl_elements_add_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 x, fl_err *err);
 
 /* Add an element to a part; one of the same number is replaced, and
  * counted.  Nodes may be defined later.
  *   id     its number, or -1 for one that nobody will ask for by number
- *   part   index in e->parts: fl_names_add(&e->parts, "name", err)
+ *   part   index in e->parts: fl_string_table_add(&e->parts, "name", err)
  *   node   [fl_shape_nodes(shape)] numbers of nodes in that scope, >= 1; a mid-side node < 1 is left out
  * Its index, or -1 with FL_INPUT (a corner below 1) or FL_SYSTEM. */
 int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape shape, int32_t part,
@@ -117,9 +117,9 @@ int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape
 
 /* Give a line element its section: a solid truncated cone of these radii, >= 0 [the file's length].  -1 with
  * FL_SYSTEM. */
-int fl_elements_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err);
+int fl_elements_set_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err);
 
-/* Put an element, or some of it, into a set: fl_names_add(&e->sets, "name", err).  A set is taken only
+/* Put an element, or some of it, into a set: fl_string_table_add(&e->sets, "name", err).  A set is taken only
  * when the user asks for it by its name.  Elements may be in any number of sets; a face that the
  * element does not have is passed over.  -1 with FL_SYSTEM. */
 int fl_elements_pick(fl_elements *e, fl_pick pick, fl_err *err);
@@ -135,7 +135,7 @@ int fl_elements_skip(fl_elements *e, const char *type, fl_err *err);
  * With wishes, a set that is like one takes its elements out of their parts, the first such set in the order
  * of the file; picked faces become triangles of the set and no longer of the solid's part.  A set that has
  * the name of a part goes on with it.
- * A face comes once, whatever lies on it: fl_sides_settle() says who brings it.
+ * A face comes once, whatever lies on it: fl_resolve_shared_faces() says who brings it.
  * Quadrilaterals are split by fl_facet_polygon() with the numbers of the nodes deciding on ties.  Mid-side
  * nodes are dropped, and the largest sagitta (distance of the middle node from the chord) told in a remark;
  * or with w->subdivide a triangle becomes 4, a quadrilateral 6, one with a centre node 8.
@@ -143,7 +143,7 @@ int fl_elements_skip(fl_elements *e, const char *type, fl_err *err);
  *   w   NULL wants everything
  * Returns 0, or -1 with FL_INPUT (a node that is nowhere defined, named with the line of the element) or
  * FL_SYSTEM. */
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_wish *w, fl_err *err);
+int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err);
 
 void fl_elements_free(fl_elements *e); /* accepts a zeroed struct, leaves one */
 

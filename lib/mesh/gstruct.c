@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/text.h"
 #include "mesh/gstruct.h"
 
@@ -20,7 +20,7 @@ static int read_part(fl_text *in, fl_surface *s, fl_err *err)
     const char *name = "";
     int32_t id = 0, k;
     if (fl_text_i32(in, "part id", 0, 999999999, &id, err) || fl_text_word(in, "part name", &name, err) ||
-        fl_text_end(in, err))
+        fl_text_no_more(in, err))
         return -1;
     for (k = 0; k < s->n; k++)
         if (s->part[k].id == id) return fl_text_fail(in, err, "part id %d is used a second time", id);
@@ -29,7 +29,7 @@ static int read_part(fl_text *in, fl_surface *s, fl_err *err)
     if (strcmp(name, FL_GSTRUCT_TOTAL) == 0)
         return fl_text_fail(in, err,
                             "a part is called " FL_GSTRUCT_TOTAL
-                            ", as loads call the sum over the parts: another name was wanted");
+                            ", as loads call the sum over the parts: another name is expected");
     k = fl_surface_add(s, name, strlen(name), err);
     if (k < 0) return -1;
     s->part[k].id = id;
@@ -45,11 +45,11 @@ static int read_triangle(fl_text *in, fl_part *p, fl_err *err)
             return fl_text_fail(in, err, "triangle %d wants vertex %d, but part \"%.60s\" has %d so far",
                                 p->nt, v[k], p->name, p->nv);
     }
-    if (fl_text_end(in, err)) return -1;
+    if (fl_text_no_more(in, err)) return -1;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
         return fl_text_fail(in, err, "triangle %d %d %d repeats a vertex", v[0], v[1], v[2]);
-    if (p->nt == 0) p->line = (int32_t)in->number;
-    p->last_line = (int32_t)in->number;
+    if (p->nt == 0) p->line = (int32_t)in->line_number;
+    p->last_line = (int32_t)in->line_number;
     return fl_surface_triangle(p, v[0], v[1], v[2], err);
 }
 
@@ -57,7 +57,7 @@ static int read_cone(fl_text *in, fl_part *p, fl_err *err)
 {
     fl_cone c = {0};
     if (read_vec3(in, &c.p0, err) || fl_text_f64(in, "first radius", &c.r0, err) ||
-        read_vec3(in, &c.p1, err) || fl_text_f64(in, "second radius", &c.r1, err) || fl_text_end(in, err))
+        read_vec3(in, &c.p1, err) || fl_text_f64(in, "second radius", &c.r1, err) || fl_text_no_more(in, err))
         return -1;
     if (c.r0 < 0 || c.r1 < 0)
         return fl_text_fail(in, err, "cone radius %g is negative", c.r0 < 0 ? c.r0 : c.r1);
@@ -76,7 +76,7 @@ static int read_row(fl_text *in, fl_surface *s, fl_err *err)
     if (!p && (strcmp(word, "v") == 0 || strcmp(word, "t") == 0 || strcmp(word, "cone") == 0))
         return fl_text_fail(in, err, "\"%s\" stands before the first part", word);
     if (strcmp(word, "v") == 0) {
-        if (read_vec3(in, &x, err) || fl_text_end(in, err)) return -1;
+        if (read_vec3(in, &x, err) || fl_text_no_more(in, err)) return -1;
         return fl_surface_vertex(p, x, err);
     }
     if (strcmp(word, "t") == 0) return read_triangle(in, p, err);
@@ -97,13 +97,13 @@ int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err)
     while ((more = fl_text_row(in, err)) > 0) {
         if (strcmp(in->field[0], "part") == 0) {
             if (got.n && empty(&got.part[got.n - 1])) break;
-            opened = (int32_t)in->number;
+            opened = (int32_t)in->line_number;
         }
         if (read_row(in, &got, err)) goto done;
     }
     if (more < 0) goto done;
     if (got.n == 0) {
-        fl_fail(err, FL_INPUT, "%s: no part, at least one with triangles or cones was wanted",
+        fl_fail(err, FL_INPUT, "%s: no part, at least one with triangles or cones is expected",
                 fl_in_name(in->in));
         goto done;
     }
@@ -131,8 +131,8 @@ int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err)
 
 static void put(FILE *f, const char *before, double x)
 {
-    char text[FL_NUM_LEN];
-    fprintf(f, "%s%s", before, fl_num_text(x, text));
+    char text[FL_NUMBER_LEN];
+    fprintf(f, "%s%s", before, fl_number_text(x, text));
 }
 
 static void put_disc(FILE *f, fl_vec3 p, double r)
@@ -145,7 +145,7 @@ static void put_disc(FILE *f, fl_vec3 p, double r)
 
 /* Vertices and triangles come in millions: their rows are put together by all threads in blocks, which go out
  * in order. */
-enum { ROW = 2 + 3 * FL_NUM_LEN, ROWS = 512, BLOCKS = 64 };
+enum { ROW = 2 + 3 * FL_NUMBER_LEN, ROWS = 512, BLOCKS = 64 };
 typedef char *put_row(char *to, const fl_part *p, int32_t k);
 
 static char *put_vertex(char *to, const fl_part *p, int32_t k)
@@ -154,7 +154,7 @@ static char *put_vertex(char *to, const fl_part *p, int32_t k)
     *to++ = 'v';
     for (int i = 0; i < 3; i++) {
         *to++ = ' ';
-        to += strlen(fl_num_text(c[i], to));
+        to += strlen(fl_number_text(c[i], to));
     }
     *to++ = '\n';
     return to;
@@ -203,9 +203,9 @@ static void put_rows(FILE *f, put_row *row, const fl_part *p, int32_t n)
     free(many);
 }
 
-void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by)
+void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_history_line *by)
 {
-    fl_by_header(f, "g_struct", FL_GSTRUCT_VERSION, s->history, by);
+    fl_write_file_header(f, "g_struct", FL_GSTRUCT_VERSION, s->history, by);
     for (int32_t i = 0; i < s->n; i++) {
         const fl_part *p = &s->part[i];
         fprintf(f, "part %d %s\n", p->id, p->name);

@@ -23,6 +23,6 @@ int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err);
 int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err);
 
 /* Write s with its history and the line of this run.  Write errors show in fl_out_close(). */
-void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_by *by);
+void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_history_line *by);
 
 #endif

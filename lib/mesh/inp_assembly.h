@@ -11,7 +11,7 @@
  *                                second one then turns it about an axis by degrees
  * 0, or -1 with FL_INPUT (one inside another, a name that comes twice or is not there, an axis without
  * length) or FL_SYSTEM. */
-int fl_inp_part_line(fl_inp_model *r, fl_err *err);
+int fl_inp_begin_part(fl_inp_model *r, fl_err *err);
 int fl_inp_end_part(fl_inp_model *r, fl_err *err);
 int fl_inp_assembly(fl_inp_model *r, fl_err *err);
 int fl_inp_instance(fl_inp_model *r, fl_err *err);
@@ -19,6 +19,6 @@ int fl_inp_end_instance(fl_inp_model *r, fl_err *err);
 
 /* Parts that nobody placed, when all is read: they stand where they are defined when there is no instance at
  * all, and are passed over when there is; a remark says so.  -1 with FL_SYSTEM. */
-int fl_inp_place_rest(fl_inp_model *r, fl_err *err);
+int fl_inp_place_unused_parts(fl_inp_model *r, fl_err *err);
 
 #endif

@@ -12,28 +12,28 @@ enum {
 /* Put the element into the set that its own line names. */
 static int join_set(fl_inp_model *r, int32_t set, int32_t element, int implied, fl_err *err)
 {
-    const fl_entry run = {.first = element,
-                          .last = element,
-                          .set = -1,
-                          .place = -1,
-                          .file = r->e.file,
-                          .line = r->e.line,
-                          .face = FL_PICK_WHOLE,
-                          .implied = (int8_t)implied};
-    return set < 0 ? 0 : fl_roster_add(&r->roster, set, run, err);
+    const fl_set_entry run = {.first = element,
+                              .last = element,
+                              .set = -1,
+                              .instance = -1,
+                              .file = r->e.file,
+                              .line = r->e.line,
+                              .face = FL_PICK_WHOLE,
+                              .implied = (int8_t)implied};
+    return set < 0 ? 0 : fl_element_sets_add_entry(&r->sets, set, run, err);
 }
 
 /* The part of elements in this set (-1 for none) of the store at hand: in the store of parts the name of the
  * set alone, which may be "". */
 static int32_t part_of(fl_inp_model *r, int32_t set, fl_err *err)
 {
-    const char *own = set < 0 ? "" : r->roster.words.name[r->roster.set[set].shown];
-    const char *place = r->place > 0 ? r->roster.words.name[r->roster.place[r->place].name] : "";
-    char name[2 * FL_ROSTER_NAME];
-    if (r->store == &r->defs) return fl_names_add(&r->defs.parts, own, err);
-    if (r->place == 0) return fl_names_add(&r->e.parts, set < 0 ? r->name : own, err);
+    const char *own = set < 0 ? "" : r->sets.words.name[r->sets.set[set].name];
+    const char *place = r->instance > 0 ? r->sets.words.name[r->sets.instance[r->instance].name] : "";
+    char name[2 * FL_SET_NAME_MAX];
+    if (r->store == &r->part_defs) return fl_string_table_add(&r->part_defs.parts, own, err);
+    if (r->instance == 0) return fl_string_table_add(&r->e.parts, set < 0 ? r->name : own, err);
     snprintf(name, sizeof name, "%s%s%s", place, set < 0 ? "" : ".", own);
-    return fl_names_add(&r->e.parts, name, err);
+    return fl_string_table_add(&r->e.parts, name, err);
 }
 
 /* The numbers of one element: at least `least` of them and its own, over as many lines as it takes; more
@@ -45,30 +45,30 @@ static int element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err
     int32_t line = 0;
     int n = 0;
     for (;;) {
-        const int more = fl_inp_data(&r->at, err), first = n == 0;
+        const int more = fl_inp_next_data(&r->line, err), first = n == 0;
         int wide = 0;
         if (more < 0) return -1;
         if (!more) break;
         line = r->e.line;
-        for (int k = 0; k < r->at.fields; k++) {
-            if (n > most && (first || r->at.field[k][0] == '\0')) {
-                wide |= r->at.field[k][0] != '\0';
+        for (int k = 0; k < r->line.fields; k++) {
+            if (n > most && (first || r->line.field[k][0] == '\0')) {
+                wide |= r->line.field[k][0] != '\0';
                 continue;
             }
             if (n > most)
-                return fl_deck_fail(&r->at.deck, err, "element %lld has more than %d nodes", (long long)id[0],
-                                    most);
-            if (n == 0 ? fl_inp_number(&r->at, k, &id[0], err) : fl_inp_whole(&r->at, k, 0, &id[n], err))
+                return fl_deck_fail(&r->line.deck, err, "element %lld has more than %d nodes",
+                                    (long long)id[0], most);
+            if (n == 0 ? fl_inp_id(&r->line, k, &id[0], err) : fl_inp_integer(&r->line, k, 0, &id[n], err))
                 return -1;
             n++;
         }
-        r->wide += wide;
+        r->extra_nodes += wide;
         /* a comma behind a full line says that more come; behind a complete element it says nothing */
-        if (n > least && !(r->at.more && r->at.fields == FULL && n <= most)) return n;
+        if (n > least && !(r->line.more && r->line.fields == FULL && n <= most)) return n;
     }
     if (n == 0) return 0;
     r->e.line = line; /* that of the element, not of what comes behind it */
-    return fl_deck_fail(&r->at.deck, err, "element %lld has %d nodes, %d were wanted", (long long)id[0],
+    return fl_deck_fail(&r->line.deck, err, "element %lld has %d nodes, %d are expected", (long long)id[0],
                         n - 1, least);
 }
 
@@ -76,16 +76,16 @@ static int element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err
 static int skip_elements(fl_inp_model *r, const char *type, fl_err *err)
 {
     int more, going = 0;
-    while ((more = fl_inp_data(&r->at, err)) > 0) {
+    while ((more = fl_inp_next_data(&r->line, err)) > 0) {
         if (!going && fl_elements_skip(&r->e, type, err)) return -1;
-        going = r->at.more;
+        going = r->line.more;
     }
     return more;
 }
 
 int fl_inp_element(fl_inp_model *r, fl_err *err)
 {
-    const char *type = fl_inp_wanted(&r->at, "TYPE", err), *set_name = fl_inp_param(&r->at, "ELSET");
+    const char *type = fl_inp_required(&r->line, "TYPE", err), *set_name = fl_inp_param(&r->line, "ELSET");
     char type_name[32];
     fl_inp_type t;
     int32_t set = -1, part;
@@ -93,25 +93,25 @@ int fl_inp_element(fl_inp_model *r, fl_err *err)
     if (!type) return -1;
     snprintf(type_name, sizeof type_name, "%s", type);
     if (set_name && *set_name) {
-        set = fl_roster_set_of(&r->roster, FL_ROSTER_SET, r->room, set_name, err);
+        set = fl_element_sets_get(&r->sets, FL_SET_ELEMENTS, r->scope, set_name, err);
         if (set < 0) return -1;
     }
-    if (fl_inp_input(r, err)) return -1;
+    if (fl_inp_follow_input(r, err)) return -1;
     if (!fl_inp_type_of(type_name, &t)) return skip_elements(r, type_name, err);
     part = part_of(r, set, err);
     if (part < 0) return -1;
     for (;;) {
         int64_t id[NODES];
         int32_t k;
-        n = element_row(r, t.nodes, t.nodes + t.spare, id, err);
+        n = element_row(r, t.nodes, t.nodes + t.optional, id, err);
         if (n <= 0) return n;
         if (t.middle) { /* the second of three is that in the middle */
             const int64_t mid = id[2];
             id[2] = id[3];
             id[3] = mid;
         }
-        if (fl_inp_here(r, err)) return -1;
-        k = fl_elements_add(r->store, r->room, id[0], t.shape, part, id + 1, err);
+        if (fl_inp_set_location(r, err)) return -1;
+        k = fl_elements_add(r->store, r->scope, id[0], t.shape, part, id + 1, err);
         if (k < 0 || join_set(r, set, k, 1, err)) return -1;
     }
 }
@@ -122,25 +122,27 @@ static int elgen_line(fl_inp_model *r, int32_t set, fl_err *err)
     int64_t id, n[3], node[3], step[3], total = 1, number_of[20];
     int32_t master;
     fl_element el;
-    if (fl_inp_number(&r->at, 0, &id, err) || fl_inp_here(r, err)) return -1;
+    if (fl_inp_id(&r->line, 0, &id, err) || fl_inp_set_location(r, err)) return -1;
     for (int k = 0; k < 3; k++) {
-        if (fl_inp_whole(&r->at, 3 * k + 1, 1, &n[k], err) ||
-            fl_inp_whole(&r->at, 3 * k + 2, 1, &node[k], err) ||
-            fl_inp_whole(&r->at, 3 * k + 3, 1, &step[k], err))
+        if (fl_inp_integer(&r->line, 3 * k + 1, 1, &n[k], err) ||
+            fl_inp_integer(&r->line, 3 * k + 2, 1, &node[k], err) ||
+            fl_inp_integer(&r->line, 3 * k + 3, 1, &step[k], err))
             return -1;
         if (n[k] == 0) n[k] = 1;
         if (n[k] < 0 || llabs(node[k]) > 1000000000 || llabs(step[k]) > 1000000000)
-            return fl_deck_fail(&r->at.deck, err, "counts of 1 or more and steps of up to 1e9 were wanted");
-        if (n[k] > FL_INP_MADE) n[k] = FL_INP_MADE; /* fl_inp_make() refuses it below */
+            return fl_deck_fail(&r->line.deck, err,
+                                "counts of 1 or more and steps of up to 1e9 are expected");
+        if (n[k] > FL_INP_GENERATED_MAX)
+            n[k] = FL_INP_GENERATED_MAX; /* fl_inp_count_generated() refuses it below */
         total *= n[k];
-        if (total > FL_INP_MADE) total = (int64_t)FL_INP_MADE + 1;
+        if (total > FL_INP_GENERATED_MAX) total = (int64_t)FL_INP_GENERATED_MAX + 1;
     }
-    master = fl_numbers_find(&r->store->number, r->room, id);
+    master = fl_id_map_find(&r->store->element_id, r->scope, id);
     if (master < 0 && r->e.skipped.n) return 0; /* it may be one of those */
     if (master < 0)
-        return fl_deck_fail(&r->at.deck, err, "*ELGEN wants element %lld, which is not defined yet",
+        return fl_deck_fail(&r->line.deck, err, "*ELGEN wants element %lld, which is not defined yet",
                             (long long)id);
-    if (fl_inp_make(r, total, err) || join_set(r, set, master, 0, err)) return -1;
+    if (fl_inp_count_generated(r, total, err) || join_set(r, set, master, 0, err)) return -1;
     el = r->store->element[master];
     for (int64_t k = 1; k < total; k++) {
         const int64_t i = k % n[0], j = k / n[0] % n[1], l = k / n[0] / n[1];
@@ -148,13 +150,14 @@ static int elgen_line(fl_inp_model *r, int32_t set, fl_err *err)
         const int64_t next = id + i * step[0] + j * step[1] + l * step[2];
         int32_t new;
         if (next < 1)
-            return fl_deck_fail(&r->at.deck, err, "this makes element %lld, numbers of 1 or more were wanted",
+            return fl_deck_fail(&r->line.deck, err,
+                                "this makes element %lld, numbers of 1 or more are expected",
                                 (long long)next);
         for (int c = 0; c < fl_shape_nodes((enum fl_shape)el.shape); c++) {
-            const int32_t v = r->store->corner[el.first + c];
-            number_of[c] = v < 0 ? 0 : r->store->node.id[v] + move;
+            const int32_t v = r->store->connectivity[el.first + c];
+            number_of[c] = v < 0 ? 0 : r->store->node_id.id[v] + move;
         }
-        new = fl_elements_add(r->store, r->room, next, (enum fl_shape)el.shape, el.part, number_of, err);
+        new = fl_elements_add(r->store, r->scope, next, (enum fl_shape)el.shape, el.part, number_of, err);
         if (new < 0 || join_set(r, set, new, 0, err)) return -1;
     }
     return 0;
@@ -162,14 +165,14 @@ static int elgen_line(fl_inp_model *r, int32_t set, fl_err *err)
 
 int fl_inp_elgen(fl_inp_model *r, fl_err *err)
 {
-    const char *name = fl_inp_param(&r->at, "ELSET");
+    const char *name = fl_inp_param(&r->line, "ELSET");
     int32_t set = -1;
     int more;
     if (name && *name) {
-        set = fl_roster_set_of(&r->roster, FL_ROSTER_SET, r->room, name, err);
+        set = fl_element_sets_get(&r->sets, FL_SET_ELEMENTS, r->scope, name, err);
         if (set < 0) return -1;
     }
-    while ((more = fl_inp_data(&r->at, err)) > 0)
+    while ((more = fl_inp_next_data(&r->line, err)) > 0)
         if (elgen_line(r, set, err)) return -1;
     return more;
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "mesh/inp_line.h"
 
 int fl_inp_fail(const fl_inp_line *r, fl_err *err, const char *what, const char *more)
@@ -12,9 +12,9 @@ int fl_inp_fail(const fl_inp_line *r, fl_err *err, const char *what, const char 
     return fl_deck_fail(&r->deck, err, "%s%.100s", what, more);
 }
 
-void fl_inp_end(fl_inp_line *r)
+void fl_inp_line_free(fl_inp_line *r)
 {
-    fl_deck_end(&r->deck);
+    fl_deck_free(&r->deck);
     free(r->text);
     *r = (fl_inp_line){0};
 }
@@ -49,7 +49,7 @@ static int gather(fl_inp_line *r, fl_err *err)
         } while (more && is_comment(r->deck.line));
         if (!more) return 0;
         if (is_keyword(r->deck.line)) {
-            fl_deck_hold(&r->deck);
+            fl_deck_unread(&r->deck);
             return 0;
         }
     }
@@ -105,7 +105,7 @@ static void parse(fl_inp_line *r)
     }
 }
 
-int fl_inp_keyword(fl_inp_line *r, fl_err *err)
+int fl_inp_split_keyword(fl_inp_line *r, fl_err *err)
 {
     if (gather(r, err)) return -1;
     parse(r);
@@ -131,7 +131,7 @@ int fl_inp_param_is(const fl_inp_line *r, const char *key, const char *value)
     return *skip_blanks(s) == '\0' && *value == '\0';
 }
 
-const char *fl_inp_wanted(const fl_inp_line *r, const char *key, fl_err *err)
+const char *fl_inp_required(const fl_inp_line *r, const char *key, fl_err *err)
 {
     const char *s = fl_inp_param(r, key);
     if (s && *s) return s;
@@ -148,19 +148,19 @@ int fl_inp_next(fl_inp_line *r, fl_err *err)
         if (is_comment(r->deck.line)) continue;
         if (!is_keyword(r->deck.line)) return 2;
         if (strncasecmp(skip_blanks(r->deck.line) + 1, "INCLUDE", 7) != 0) return 1;
-        if (fl_inp_keyword(r, err)) return -1;
-        path = fl_inp_wanted(r, "INPUT", err);
+        if (fl_inp_split_keyword(r, err)) return -1;
+        path = fl_inp_required(r, "INPUT", err);
         if (!path || fl_deck_include(&r->deck, path, err)) return -1;
     }
 }
 
-int fl_inp_data(fl_inp_line *r, fl_err *err)
+int fl_inp_next_data(fl_inp_line *r, fl_err *err)
 {
     const int kind = fl_inp_next(r, err);
     char *p = r->deck.line;
     if (kind < 0) return -1;
     if (kind != 2) {
-        if (kind == 1) fl_deck_hold(&r->deck);
+        if (kind == 1) fl_deck_unread(&r->deck);
         return 0;
     }
     r->fields = 0;
@@ -187,7 +187,7 @@ int fl_inp_real(const fl_inp_line *r, int k, double *x, fl_err *err)
 {
     *x = 0.0;
     if (k >= r->fields || r->field[k][0] == '\0' || fl_deck_real(r->field[k], x) == 0) return 0;
-    return fl_deck_fail(&r->deck, err, "field %d is \"%.40s\", a number was wanted", k + 1, r->field[k]);
+    return fl_deck_fail(&r->deck, err, "field %d is \"%.40s\", a number is expected", k + 1, r->field[k]);
 }
 
 int fl_inp_point(const fl_inp_line *r, int k, fl_vec3 *x, fl_err *err)
@@ -198,19 +198,19 @@ int fl_inp_point(const fl_inp_line *r, int k, fl_vec3 *x, fl_err *err)
                : 0;
 }
 
-int fl_inp_whole(const fl_inp_line *r, int k, int64_t missing, int64_t *n, fl_err *err)
+int fl_inp_integer(const fl_inp_line *r, int k, int64_t missing, int64_t *n, fl_err *err)
 {
     *n = missing;
-    if (k >= r->fields || r->field[k][0] == '\0' || fl_deck_whole(r->field[k], n) == 0) return 0;
-    return fl_deck_fail(&r->deck, err, "field %d is \"%.40s\", a whole number was wanted", k + 1,
+    if (k >= r->fields || r->field[k][0] == '\0' || fl_deck_integer(r->field[k], n) == 0) return 0;
+    return fl_deck_fail(&r->deck, err, "field %d is \"%.40s\", a whole number is expected", k + 1,
                         r->field[k]);
 }
 
-int fl_inp_number(const fl_inp_line *r, int k, int64_t *id, fl_err *err)
+int fl_inp_id(const fl_inp_line *r, int k, int64_t *id, fl_err *err)
 {
-    if (fl_inp_whole(r, k, 0, id, err)) return -1;
+    if (fl_inp_integer(r, k, 0, id, err)) return -1;
     if (*id < 1)
-        return fl_deck_fail(&r->deck, err, "field %d is \"%.40s\", a number of 1 or more was wanted", k + 1,
+        return fl_deck_fail(&r->deck, err, "field %d is \"%.40s\", a number of 1 or more is expected", k + 1,
                             k < r->fields ? r->field[k] : "");
     return 0;
 }

@@ -8,7 +8,7 @@
 #ifndef FL_MESH_INP_LINE_H
 #define FL_MESH_INP_LINE_H
 #include "geom/vec3.h"
-#include "mesh/deck.h"
+#include "mesh/deck_lines.h"
 
 enum {
     FL_INP_FIELDS = 64, /* on a data line; sixteen are the most that Abaqus reads */
@@ -28,30 +28,30 @@ typedef struct {
 } fl_inp_line;
 
 /* Step to the next line that is no comment; *INCLUDE is followed wherever it stands.  1 at a keyword line,
- * which fl_inp_keyword() cuts up, 2 at a data line, 0 at the end, -1 with FL_INPUT or FL_SYSTEM. */
+ * which fl_inp_split_keyword() cuts up, 2 at a data line, 0 at the end, -1 with FL_INPUT or FL_SYSTEM. */
 int fl_inp_next(fl_inp_line *r, fl_err *err);
-int fl_inp_keyword(fl_inp_line *r, fl_err *err);
+int fl_inp_split_keyword(fl_inp_line *r, fl_err *err);
 
 /* Step to the next data line and cut it up: 1; 0 where a keyword comes, which fl_inp_next() will give, or the
  * end; -1. */
-int fl_inp_data(fl_inp_line *r, fl_err *err);
+int fl_inp_next_data(fl_inp_line *r, fl_err *err);
 
 /* What the keyword line says under a key in capitals: NULL where it does not, "" for a flag; is it that value
  * (in capitals, without blanks)?  What it must say, NULL with FL_INPUT.  Good until the next line is read. */
 const char *fl_inp_param(const fl_inp_line *r, const char *key);
 int fl_inp_param_is(const fl_inp_line *r, const char *key, const char *value);
-const char *fl_inp_wanted(const fl_inp_line *r, const char *key, fl_err *err);
+const char *fl_inp_required(const fl_inp_line *r, const char *key, fl_err *err);
 
 /* Field k of the data line, from 0: a number, three of them, a whole number (`missing` where it is blank),
  * the number of a node or element (1 or more).  0, or -1 with FL_INPUT. */
 int fl_inp_real(const fl_inp_line *r, int k, double *x, fl_err *err);
 int fl_inp_point(const fl_inp_line *r, int k, fl_vec3 *x, fl_err *err);
-int fl_inp_whole(const fl_inp_line *r, int k, int64_t missing, int64_t *n, fl_err *err);
-int fl_inp_number(const fl_inp_line *r, int k, int64_t *id, fl_err *err);
+int fl_inp_integer(const fl_inp_line *r, int k, int64_t missing, int64_t *n, fl_err *err);
+int fl_inp_id(const fl_inp_line *r, int k, int64_t *id, fl_err *err);
 
 /* Fail with file and line before what and more, a word of the deck.  Returns -1. */
 int fl_inp_fail(const fl_inp_line *r, fl_err *err, const char *what, const char *more);
 
-void fl_inp_end(fl_inp_line *r); /* accepts a zeroed struct, leaves one */
+void fl_inp_line_free(fl_inp_line *r); /* accepts a zeroed struct, leaves one */
 
 #endif

@@ -13,10 +13,10 @@
  * Names are looked up when all is read.  0, or -1 with FL_INPUT or FL_SYSTEM. */
 int fl_inp_elset(fl_inp_model *r, fl_err *err);
 int fl_inp_surface(fl_inp_model *r, fl_err *err);
-int fl_inp_section_of(fl_inp_model *r, fl_err *err);
+int fl_inp_read_section(fl_inp_model *r, fl_err *err);
 
 /* Give the lines of the deck, once they are in their places, the radii of their sections.  -1 with FL_INPUT
  * (a set that contains itself) or FL_SYSTEM. */
-int fl_inp_radii(fl_inp_model *r, fl_err *err);
+int fl_inp_apply_sections(fl_inp_model *r, fl_err *err);
 
 #endif

@@ -63,7 +63,7 @@ int fl_inp_type_of(const char *name, fl_inp_type *type)
     for (size_t k = 0; k < sizeof COUNT / sizeof *COUNT; k++)
         if (COUNT[k].kind == kind && COUNT[k].digits == digits) {
             *type = COUNT[k].type;
-            if (digits == 15 && !strchr(s + best, 'V')) type->spare = 0; /* C3D15V has three more */
+            if (digits == 15 && !strchr(s + best, 'V')) type->optional = 0; /* C3D15V has three more */
             return 1;
         }
     return 0;

@@ -6,9 +6,9 @@
 
 typedef struct {
     enum fl_shape shape;
-    int nodes;  /* that the data line has at least */
-    int spare;  /* further ones it may have: a beam's orientation, the nodes inside a solid */
-    int middle; /* of a line of three nodes the second is that in the middle */
+    int nodes;    /* that the data line has at least */
+    int optional; /* further ones it may have: a beam's orientation, the nodes inside a solid */
+    int middle;   /* of a line of three nodes the second is that in the middle */
 } fl_inp_type;
 
 /* Look up a type by its name, in letters of either case: a family, the number of nodes, and letters for the

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
-#include "geom/similar.h"
+#include "geom/affine.h"
 #include "mesh/bdf_entry.h"
 #include "mesh/read_bdf.h"
 
@@ -37,12 +37,12 @@ typedef struct {
 typedef struct {
     fl_bdf_entry at;
     fl_elements e;
-    fl_numbers frames; /* numbers of coordinate systems */
+    fl_id_map frames; /* numbers of coordinate systems */
     frame *frame;
     grid_at *grid; /* [nodes] */
     int64_t grdset;
-    fl_numbers pids; /* numbers of properties; elements name their part by their place here until the end */
-    char **name;     /* [pids] names from comments, NULL for none */
+    fl_id_map pids; /* numbers of properties; elements name their part by their place here until the end */
+    char **name;    /* [pids] names from comments, NULL for none */
     double (*radius)[2]; /* [pids] nan for none */
     int32_t frame_cap, grid_cap, name_cap, radius_cap;
 } reader;
@@ -75,7 +75,7 @@ int fl_bdf_is(const fl_bytes *b)
 
 static int32_t property(reader *r, int64_t pid, fl_err *err)
 {
-    const int32_t had = r->pids.n, k = fl_numbers_add(&r->pids, 0, pid, err);
+    const int32_t had = r->pids.n, k = fl_id_map_add(&r->pids, 0, pid, err);
     if (k < had) return k;
     if (fl_grow(&r->name, &r->name_cap, (int64_t)k + 1, sizeof *r->name, err) ||
         fl_grow(&r->radius, &r->radius_cap, (int64_t)k + 1, sizeof *r->radius, err)) {
@@ -146,14 +146,14 @@ static int section(reader *r, fl_err *err)
     int64_t pid;
     double x[2] = {0};
     int32_t k;
-    if (fl_bdf_number(a, 0, &pid, err)) return -1;
+    if (fl_bdf_id(a, 0, &pid, err)) return -1;
     k = property(r, pid, err);
     if (k < 0) return -1;
     if (listed && strcasecmp(kind, "ROD") && strcasecmp(kind, "TUBE") && strcasecmp(kind, "TUBE2")) return 0;
     if (fl_bdf_real(a, listed ? 8 : 2, &x[0], err)) return -1;
     if (strcmp(a->name, "PTUBE") == 0 && fl_bdf_real(a, 5, &x[1], err)) return -1;
     if (x[0] < 0.0 || x[1] < 0.0)
-        return fl_bdf_fail(a, err, "%s %lld is %g wide, 0 or more was wanted", a->name, (long long)pid,
+        return fl_bdf_fail(a, err, "%s %lld is %g wide, 0 or more is expected", a->name, (long long)pid,
                            fmin(x[0], x[1]));
     if (strcmp(a->name, "PTUBE") == 0) { /* outer diameters; blank for the far end as at the near one */
         r->radius[k][0] = 0.5 * x[0];
@@ -168,7 +168,7 @@ static int section(reader *r, fl_err *err)
 
 static int32_t frame_of(reader *r, int64_t id, fl_err *err)
 {
-    const int32_t k = fl_numbers_add(&r->frames, 0, id, err);
+    const int32_t k = fl_id_map_add(&r->frames, 0, id, err);
     const int32_t had = r->frame_cap;
     if (k < 0 || fl_grow(&r->frame, &r->frame_cap, (int64_t)k + 1, sizeof *r->frame, err)) return -1;
     if (r->frame_cap > had) memset(r->frame + had, 0, (size_t)(r->frame_cap - had) * sizeof *r->frame);
@@ -181,15 +181,15 @@ static int grid(reader *r, fl_err *err)
     int64_t id, cp;
     fl_vec3 x;
     int32_t k, f = BASIC;
-    if (fl_bdf_number(a, 0, &id, err) || fl_bdf_whole(a, 1, -1, &cp, err) || fl_bdf_point(a, 2, &x, err))
+    if (fl_bdf_id(a, 0, &id, err) || fl_bdf_integer(a, 1, -1, &cp, err) || fl_bdf_point(a, 2, &x, err))
         return -1;
     if (cp < -1)
-        return fl_bdf_fail(a, err, "field 3 of GRID is \"%.40s\", 0 or more was wanted", fl_bdf_field(a, 1));
+        return fl_bdf_fail(a, err, "field 3 of GRID is \"%.40s\", 0 or more is expected", fl_bdf_field(a, 1));
     if (cp > 0 && (f = frame_of(r, cp, err)) < 0) return -1;
     r->e.file = a->file;
     r->e.line = a->line;
-    k = fl_elements_node(&r->e, 0, id, x, err);
-    if (k < 0 || fl_grow(&r->grid, &r->grid_cap, (int64_t)r->e.node.n, sizeof *r->grid, err)) return -1;
+    k = fl_elements_add_node(&r->e, 0, id, x, err);
+    if (k < 0 || fl_grow(&r->grid, &r->grid_cap, (int64_t)r->e.node_id.n, sizeof *r->grid, err)) return -1;
     r->grid[k] = (grid_at){cp < 0 ? DEFAULT : cp == 0 ? BASIC : FIRST + f, a->file, a->line};
     return 0;
 }
@@ -204,12 +204,12 @@ static int cord(reader *r, fl_err *err)
         int64_t id;
         int32_t at;
         if (k && *fl_bdf_field(a, k) == '\0') break;
-        if (fl_bdf_number(a, k, &id, err)) return -1;
+        if (fl_bdf_id(a, k, &id, err)) return -1;
         for (int i = 0; i < 3; i++)
-            if (by == 1 ? fl_bdf_number(a, k + 1 + i, &f.grid[i], err)
+            if (by == 1 ? fl_bdf_id(a, k + 1 + i, &f.grid[i], err)
                         : fl_bdf_point(a, 2 + 3 * i, &f.point[i], err))
                 return -1;
-        if (by == 2 && fl_bdf_whole(a, 1, 0, &f.other, err)) return -1;
+        if (by == 2 && fl_bdf_integer(a, 1, 0, &f.other, err)) return -1;
         at = frame_of(r, id, err);
         if (at < 0) return -1;
         r->frame[at] = f;
@@ -233,9 +233,9 @@ static int from_system(reader *r, int64_t id, fl_vec3 *x, int depth, asker who, 
     if (id == 0) return 0;
     if (solve(r, id, depth, &f, who, err)) return -1;
     if (f->kind != 'R') { /* quarter turns are exact */
-        const fl_mat3 about = fl_similar_rotation(v3(0, 0, 1), f->kind == 'C' ? x->y : x->z);
+        const fl_mat3 about = fl_affine_rotation(v3(0, 0, 1), f->kind == 'C' ? x->y : x->z);
         if (f->kind == 'C') y = v3_add(m3_mul(about, v3(x->x, 0, 0)), v3(0, 0, x->z));
-        else y = m3_mul(about, m3_mul(fl_similar_rotation(v3(0, 1, 0), x->y), v3(0, 0, x->x)));
+        else y = m3_mul(about, m3_mul(fl_affine_rotation(v3(0, 1, 0), x->y), v3(0, 0, x->x)));
     }
     *x = v3_add(f->point[0], m3_mul(f->axes, y));
     if (isfinite(x->x) && isfinite(x->y) && isfinite(x->z)) return 0;
@@ -252,10 +252,10 @@ static int settle(reader *r, int32_t k, int depth, fl_err *err)
     if (cp == OPEN)
         return fl_elements_fail(&r->e, g->file, g->line, err,
                                 "grid %lld stands in a coordinate system that it defines",
-                                (long long)r->e.node.id[k]);
+                                (long long)r->e.node_id.id[k]);
     g->cp = OPEN;
     if (from_system(r, cp == DEFAULT ? r->grdset : r->frames.id[cp - FIRST], &r->e.x[k], depth,
-                    (asker){g->file, g->line, r->e.node.id[k]}, err))
+                    (asker){g->file, g->line, r->e.node_id.id[k]}, err))
         return -1;
     g->cp = BASIC;
     return 0;
@@ -264,7 +264,7 @@ static int settle(reader *r, int32_t k, int depth, fl_err *err)
 /* Work out a system, after those that it is defined in. */
 static int solve(reader *r, int64_t id, int depth, frame **out, asker who, fl_err *err)
 {
-    const int32_t at = fl_numbers_find(&r->frames, 0, id);
+    const int32_t at = fl_id_map_find(&r->frames, 0, id);
     frame *f = at < 0 ? NULL : &r->frame[at];
     if ((!f || !f->by) && who.grid)
         return fl_elements_fail(&r->e, who.file, who.line, err,
@@ -284,7 +284,7 @@ static int solve(reader *r, int64_t id, int depth, frame **out, asker who, fl_er
     f->state = 1;
     for (int i = 0; i < 3; i++) {
         if (f->by == 1) {
-            const int32_t k = fl_numbers_find(&r->e.node, 0, f->grid[i]);
+            const int32_t k = fl_id_map_find(&r->e.node_id, 0, f->grid[i]);
             if (k < 0 || isnan(r->e.x[k].x))
                 return fl_elements_fail(&r->e, f->file, f->line, err, "grid %lld is defined nowhere",
                                         (long long)f->grid[i]);
@@ -340,28 +340,28 @@ static int element(reader *r, enum fl_shape linear, enum fl_shape quadratic, fl_
     enum fl_shape shape = linear;
     int64_t id, pid = CONROD, node[20];
     int32_t p, k;
-    if (fl_bdf_number(a, 0, &id, err)) return -1;
-    if (!rod && (fl_bdf_whole(a, 1, id, &pid, err) || pid < 1))
-        return fl_bdf_fail(a, err, "field 3 of %s is \"%.40s\", a property was wanted", a->name,
+    if (fl_bdf_id(a, 0, &id, err)) return -1;
+    if (!rod && (fl_bdf_integer(a, 1, id, &pid, err) || pid < 1))
+        return fl_bdf_fail(a, err, "field 3 of %s is \"%.40s\", a property is expected", a->name,
                            fl_bdf_field(a, 1));
     p = property(r, pid, err);
     if (p < 0) return -1;
     for (int i = 0; i < corners; i++)
-        if (fl_bdf_number(a, first + i, &node[i], err)) return -1;
+        if (fl_bdf_id(a, first + i, &node[i], err)) return -1;
     for (int i = corners; quadratic < FL_SHAPES && i < fl_shape_nodes(quadratic); i++) {
-        if (fl_bdf_whole(a, first + i, 0, &node[i], err)) return -1;
+        if (fl_bdf_integer(a, first + i, 0, &node[i], err)) return -1;
         if (node[i]) shape = quadratic;
     }
     swap_mids(shape, node);
     r->e.file = a->file;
     r->e.line = a->line;
     k = fl_elements_add(&r->e, 0, id, shape, p, node, err);
-    if (k < 0 || fl_grow(&r->grid, &r->grid_cap, (int64_t)r->e.node.n, sizeof *r->grid, err)) return -1;
+    if (k < 0 || fl_grow(&r->grid, &r->grid_cap, (int64_t)r->e.node_id.n, sizeof *r->grid, err)) return -1;
     if (rod) {
         double area;
         if (fl_bdf_real(a, 4, &area, err)) return -1;
         if (area < 0.0) return fl_bdf_fail(a, err, "CONROD %lld has the area %g", (long long)id, area);
-        return fl_elements_radius(&r->e, k, sqrt(area / PI), sqrt(area / PI), err);
+        return fl_elements_set_radius(&r->e, k, sqrt(area / PI), sqrt(area / PI), err);
     }
     return 0;
 }
@@ -394,7 +394,7 @@ static int entry(reader *r, fl_err *err)
     if (strlen(name) == 6 && strncmp(name, "CORD", 4) == 0 && strchr("12", name[4]) && strchr("RCS", name[5]))
         return cord(r, err);
     if (strcmp(name, "GRDSET") == 0) {
-        if (fl_bdf_whole(a, 1, 0, &cp, err)) return -1;
+        if (fl_bdf_integer(a, 1, 0, &cp, err)) return -1;
         if (cp < 0) return fl_bdf_fail(a, err, "GRDSET names coordinate system %lld", (long long)cp);
         r->grdset = cp;
         return 0;
@@ -414,7 +414,7 @@ static int entry(reader *r, fl_err *err)
 /* All grids in the basic system. */
 static int settle_all(reader *r, fl_err *err)
 {
-    for (int32_t k = 0; k < r->e.node.n; k++) {
+    for (int32_t k = 0; k < r->e.node_id.n; k++) {
         if (isnan(r->e.x[k].x) || r->grid[k].cp == BASIC || (r->grid[k].cp == DEFAULT && r->grdset == 0))
             continue;
         if (settle(r, k, 0, err)) return -1;
@@ -429,7 +429,7 @@ static int name_parts(reader *r, fl_err *err)
     int rc = -1;
     if (!part) return -1;
     for (int32_t k = 0; k < r->pids.n; k++) part[k] = -1;
-    for (int32_t i = 0; i < r->e.number.n; i++) {
+    for (int32_t i = 0; i < r->e.element_id.n; i++) {
         fl_element *el = &r->e.element[i];
         const int32_t k = el->part;
         if (part[k] < 0) {
@@ -437,15 +437,15 @@ static int name_parts(reader *r, fl_err *err)
             char name[NAME + 40];
             if (pid < 0) snprintf(name, sizeof name, "conrod");
             else if (!r->name[k]) snprintf(name, sizeof name, "property_%lld", pid);
-            else if (fl_names_find(&r->e.parts, r->name[k]) < 0)
+            else if (fl_string_table_find(&r->e.parts, r->name[k]) < 0)
                 snprintf(name, sizeof name, "%s", r->name[k]);
             else snprintf(name, sizeof name, "%s_%lld", r->name[k], pid);
-            part[k] = fl_names_add(&r->e.parts, name, err);
+            part[k] = fl_string_table_add(&r->e.parts, name, err);
             if (part[k] < 0) goto done;
         }
         el->part = part[k];
         if ((el->shape == FL_LINE2 || el->shape == FL_LINE3) && !isnan(r->radius[k][0]) &&
-            fl_elements_radius(&r->e, i, r->radius[k][0], r->radius[k][1], err))
+            fl_elements_set_radius(&r->e, i, r->radius[k][0], r->radius[k][1], err))
             goto done;
     }
     rc = 0;
@@ -457,17 +457,17 @@ done:
 static void end(reader *r)
 {
     for (int32_t k = 0; k < r->pids.n; k++) free(r->name[k]);
-    fl_bdf_end(&r->at);
+    fl_bdf_entry_free(&r->at);
     fl_elements_free(&r->e);
-    fl_numbers_free(&r->frames);
-    fl_numbers_free(&r->pids);
+    fl_id_map_free(&r->frames);
+    fl_id_map_free(&r->pids);
     free(r->frame);
     free(r->grid);
     free(r->name);
     free(r->radius);
 }
 
-int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_wish *w, fl_err *err)
+int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
 {
     reader r = {.at = {.comment = comment}};
     int rc = -1, more;
@@ -477,7 +477,7 @@ int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_wish *w, fl_err *err)
     while ((more = fl_bdf_next(&r.at, err)) > 0)
         if (entry(&r, err)) goto done;
     if (more < 0) goto done;
-    fl_bdf_end(&r.at); /* a large deck is not wanted twice over */
+    fl_bdf_entry_free(&r.at); /* a large deck is not wanted twice over */
     free(b->data);
     b->data = NULL;
     b->n = b->cap = 0;

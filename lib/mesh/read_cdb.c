@@ -2,15 +2,15 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "mesh/cdb_block.h"
 #include "mesh/cdb_routine.h"
 #include "mesh/read_cdb.h"
 
 typedef struct {
     fl_cdb k;                    /* what blocks share */
-    fl_names parameter;          /* of *SET */
+    fl_string_table parameter;   /* of *SET */
     int64_t *value;              /* [parameter.n] */
     int64_t type, real, section; /* what TYPE, REAL and SECNUM said last */
     int64_t made;                /* number of the element that EMORE would go on with */
@@ -40,9 +40,9 @@ static int set_parameter(reader *c, const char *name, const char *text, fl_err *
 {
     int64_t x;
     int32_t k;
-    if (*name == '\0' || fl_deck_whole(text, &x))
+    if (*name == '\0' || fl_deck_integer(text, &x))
         return 0; /* not a number that could stand for another one */
-    k = fl_names_add(&c->parameter, name, err);
+    k = fl_string_table_add(&c->parameter, name, err);
     if (k < 0 || fl_grow(&c->value, &c->value_cap, c->parameter.n, sizeof *c->value, err)) return -1;
     c->value[k] = x;
     return 0;
@@ -53,12 +53,12 @@ static int number(const reader *c, const char *word, int64_t *x)
 {
     double y;
     int32_t k;
-    if (fl_deck_whole(word, x) == 0) return 0;
+    if (fl_deck_integer(word, x) == 0) return 0;
     if (fl_deck_real(word, &y) == 0 && y >= 0.0 && y < 1e9 && (double)(int64_t)y == y) {
         *x = (int64_t)y; /* "1.": a whole number all the same */
         return 0;
     }
-    k = fl_names_find(&c->parameter, word);
+    k = fl_string_table_find(&c->parameter, word);
     if (k < 0) return -1;
     *x = c->value[k];
     return 0;
@@ -77,8 +77,8 @@ static int read_et(reader *c, fl_err *err)
         return 0;
     }
     if (*c->k.word[2] == '\0' || strcmp(c->k.word[2], "0") == 0) return 0; /* the type is taken back */
-    if (fl_num_i32(r, 0, INT16_MAX, &routine))
-        return fl_deck_fail(&c->k.d, err, "element type \"%.40s\" was found, a routine like 185 was wanted",
+    if (fl_number_i32(r, 0, INT16_MAX, &routine))
+        return fl_deck_fail(&c->k.d, err, "element type \"%.40s\" was found, a routine like 185 is expected",
                             c->k.word[2]);
     return fl_cdb_set_type(&c->k, slot, routine, 0, err);
 }
@@ -88,7 +88,7 @@ static int read_keyopt(reader *c, fl_err *err)
     int64_t slot, which, value;
     if (number(c, c->k.word[1], &slot) || number(c, c->k.word[2], &which) || number(c, c->k.word[3], &value))
         return 0;
-    const int32_t k = fl_numbers_find(&c->k.slot, 0, slot);
+    const int32_t k = fl_id_map_find(&c->k.slot, 0, slot);
     if (k < 0 || which != 1 || value < 0 || value >= INT16_MAX) return 0;
     return fl_cdb_set_type(&c->k, slot, c->k.type[k].routine, (int32_t)value, err);
 }
@@ -145,7 +145,7 @@ static int read_n(reader *c, fl_err *err)
     if (c->system)
         return fl_deck_fail(&c->k.d, err, "node %lld is in coordinate system %d: write the nodes as NBLOCK",
                             (long long)id, c->system);
-    return fl_elements_node(&c->k.e, 0, id, x, err) < 0 ? -1 : 0;
+    return fl_elements_add_node(&c->k.e, 0, id, x, err) < 0 ? -1 : 0;
 }
 
 /* The element that E, EN and EMORE have been giving nodes to is complete. */
@@ -155,7 +155,7 @@ static int finish(reader *c, fl_err *err)
     int rc;
     if (c->k.nodes == 0) return 0;
     c->k.e.line = c->made_line;
-    rc = fl_cdb_add(&c->k, c->made, c->type, c->section, c->real, err);
+    rc = fl_cdb_add_element(&c->k, c->made, c->type, c->section, c->real, err);
     c->k.e.line = line;
     c->k.nodes = 0;
     return rc;
@@ -189,7 +189,7 @@ static int read_emore(reader *c, fl_err *err)
         if (c->k.nodes == FL_CDB_NODES)
             return fl_deck_fail(&c->k.d, err, "more than %d nodes in an element", FL_CDB_NODES);
         if (number(c, c->k.word[k], &c->k.node[c->k.nodes++]))
-            return fl_deck_fail(&c->k.d, err, "node \"%.40s\" was found, a number was wanted", c->k.word[k]);
+            return fl_deck_fail(&c->k.d, err, "node \"%.40s\" was found, a number is expected", c->k.word[k]);
     }
     return 0;
 }
@@ -272,29 +272,29 @@ static int read_all(reader *c, fl_err *err)
     return more < 0 || finish(c, err) ? -1 : 0;
 }
 
-int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
 {
     reader c = {.type = 1, .real = 1, .section = 1};
     fl_cdb *k = &c.k;
     int rc = -1;
     if (fl_elements_start(&k->e, fl_in_name(b->in), err)) return -1;
     fl_deck_start(&k->d, &k->e, b);
-    k->part = fl_names_add(&k->e.parts, name, err);
-    if (k->part < 0 || read_all(&c, err) || fl_cdb_section_give(&k->sections, &k->e, err) ||
-        fl_cdb_component_give(&k->components, &k->e, fl_wish_chooses(w), err))
+    k->part = fl_string_table_add(&k->e.parts, name, err);
+    if (k->part < 0 || read_all(&c, err) || fl_cdb_section_apply(&k->sections, &k->e, err) ||
+        fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(w), err))
         goto done;
     if (k->node_sets) fl_bytes_note(b, "%d components of nodes were passed over", k->node_sets);
     if (c.unread)
         fl_bytes_note(b, "%d commands with parameters that are not numbers were passed over", c.unread);
     rc = fl_elements_surface(&k->e, s, b, w, err);
 done:
-    fl_deck_end(&k->d);
+    fl_deck_free(&k->d);
     fl_elements_free(&k->e);
-    fl_numbers_free(&k->slot);
+    fl_id_map_free(&k->slot);
     fl_cdb_section_free(&k->sections);
     fl_cdb_component_free(&k->components);
     free(k->type);
-    fl_names_free(&c.parameter);
+    fl_string_table_free(&c.parameter);
     free(c.value);
     return rc;
 }

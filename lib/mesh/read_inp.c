@@ -42,14 +42,14 @@ int fl_inp_is(const fl_bytes *b)
 
 static int refuse(fl_inp_model *r, fl_err *err)
 {
-    return fl_deck_fail(&r->at.deck, err,
+    return fl_deck_fail(&r->line.deck, err,
                         "*%s is not read: export the deck with all nodes and elements written out",
-                        r->at.word);
+                        r->line.word);
 }
 
 static int ls_dyna(fl_inp_model *r, fl_err *err)
 {
-    return fl_inp_fail(&r->at, err,
+    return fl_inp_fail(&r->line, err,
                        "a deck of LS-DYNA is not read: export it as Abaqus, Nastran, Ansys or STL", "");
 }
 
@@ -63,11 +63,11 @@ static const struct {
                {"SYSTEM", fl_inp_system},
                {"NGEN", fl_inp_ngen},
                {"ELGEN", fl_inp_elgen},
-               {"BEAMSECTION", fl_inp_section_of},
-               {"BEAMGENERALSECTION", fl_inp_section_of},
-               {"FRAMESECTION", fl_inp_section_of},
-               {"SOLIDSECTION", fl_inp_section_of},
-               {"PART", fl_inp_part_line},
+               {"BEAMSECTION", fl_inp_read_section},
+               {"BEAMGENERALSECTION", fl_inp_read_section},
+               {"FRAMESECTION", fl_inp_read_section},
+               {"SOLIDSECTION", fl_inp_read_section},
+               {"PART", fl_inp_begin_part},
                {"ENDPART", fl_inp_end_part},
                {"ASSEMBLY", fl_inp_assembly},
                {"INSTANCE", fl_inp_instance},
@@ -84,36 +84,37 @@ static const struct {
 static int read_keywords(fl_inp_model *r, fl_err *err)
 {
     int kind;
-    while ((kind = fl_inp_next(&r->at, err)) > 0) {
+    while ((kind = fl_inp_next(&r->line, err)) > 0) {
         size_t k = 0;
         if (kind == 2) continue; /* data of a keyword that was passed over */
-        if (fl_inp_keyword(&r->at, err)) return -1;
-        while (k < sizeof KEYWORD / sizeof *KEYWORD && strcmp(r->at.word, KEYWORD[k].word) != 0) k++;
+        if (fl_inp_split_keyword(&r->line, err)) return -1;
+        while (k < sizeof KEYWORD / sizeof *KEYWORD && strcmp(r->line.word, KEYWORD[k].word) != 0) k++;
         if (k < sizeof KEYWORD / sizeof *KEYWORD && KEYWORD[k].read(r, err)) return -1;
     }
-    if (kind == 0 && r->store == &r->defs) return fl_inp_fail(&r->at, err, "the deck ends inside a part", "");
+    if (kind == 0 && r->store == &r->part_defs)
+        return fl_inp_fail(&r->line, err, "the deck ends inside a part", "");
     return kind;
 }
 
-int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
 {
     fl_inp_model r = {.name = name};
     const char *path = fl_in_name(b->in);
     int rc = -1;
-    fl_inp_outside(&r);
-    if (fl_elements_start(&r.e, path, err) || fl_elements_start(&r.defs, path, err) ||
-        fl_roster_place(&r.roster, (fl_place){-1, 0, -1, 0, 0}, err) < 0)
+    fl_inp_leave_part(&r);
+    if (fl_elements_start(&r.e, path, err) || fl_elements_start(&r.part_defs, path, err) ||
+        fl_element_sets_add_instance(&r.sets, (fl_instance){-1, 0, -1, 0, 0}, err) < 0)
         goto done;
-    fl_deck_start(&r.at.deck, &r.e, b);
-    if (read_keywords(&r, err) || fl_inp_place_rest(&r, err)) goto done;
-    if (r.wide)
+    fl_deck_start(&r.line.deck, &r.e, b);
+    if (read_keywords(&r, err) || fl_inp_place_unused_parts(&r, err)) goto done;
+    if (r.extra_nodes)
         fl_bytes_note(b, "%d elements list more nodes than their type has; those behind were passed over",
-                      r.wide);
-    fl_elements_free(&r.defs); /* a large deck is not wanted three times over */
+                      r.extra_nodes);
+    fl_elements_free(&r.part_defs); /* a large deck is not wanted three times over */
     free(b->data);
     b->data = NULL;
     b->n = b->cap = 0;
-    if (fl_inp_radii(&r, err) || fl_roster_tell(&r.roster, &r.e, w, err)) goto done;
+    if (fl_inp_apply_sections(&r, err) || fl_element_sets_export(&r.sets, &r.e, w, err)) goto done;
     rc = fl_elements_surface(&r.e, s, b, w, err);
 done:
     fl_inp_model_free(&r);

@@ -4,7 +4,7 @@
 #define FL_MESH_READ_INP_H
 #include "geom/surface.h"
 #include "mesh/bytes.h"
-#include "mesh/wish.h"
+#include "mesh/import_options.h"
 
 /* Is the first line that is neither blank nor a comment (**) a keyword, or the first keyword behind other
  * text one that decks begin with? */
@@ -26,11 +26,11 @@ int fl_inp_is(const fl_bytes *b);
  * A part of the surface is what one ELSET of *ELEMENT holds, or what has none; in an assembly it is called
  * "instance" or "instance.elset".  Sets and surfaces are "name" or "instance.name" and are taken when w
  * chooses them.  What else changes the mesh is refused by name (*NCOPY, *ELCOPY, *NFILL, *NMAP, *PARAMETER
- * ...); other keywords are passed over with their data.  At most FL_INP_MADE (inp_model.h) nodes
+ * ...); other keywords are passed over with their data.  At most FL_INP_GENERATED_MAX (inp_model.h) nodes
  * and elements may be generated.
  *   name   of elements without a set in a flat deck
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM.
  * Source: Abaqus Keywords Reference Guide (2016); CalculiX CrunchiX User's Manual 2.20. */
-int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err);
+int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err);
 
 #endif

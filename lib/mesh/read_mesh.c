@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "mesh/bytes.h"
-#include "mesh/foreign.h"
+#include "mesh/rejected_formats.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_bdf.h"
 #include "mesh/read_cdb.h"
@@ -16,7 +16,7 @@
 #include "mesh/read_ply.h"
 #include "mesh/read_stl.h"
 #include "mesh/read_vtk.h"
-#include "mesh/read_vtx.h"
+#include "mesh/read_vtk_xml.h"
 
 enum { NAME = 128 };
 
@@ -43,7 +43,7 @@ static void base_name(const char *path, char name[NAME])
 /* Hand the bytes on as the text they are: what is read so far, and the stream behind it. */
 static int read_own(fl_surface *s, fl_bytes *b, fl_err *err)
 {
-    fl_text text = {.in = b->in, .chunk = b->data, .have = b->n};
+    fl_text text = {.in = b->in, .chunk = b->data, .chunk_len = b->n};
     b->in = NULL;
     b->data = NULL;
     return fl_gstruct_read_text(s, &text, err);
@@ -56,12 +56,12 @@ static int starts_with(const fl_bytes *b, const char *word)
 }
 
 /* Drop the parts that nobody wishes for. */
-static int choose(fl_surface *s, fl_wish *w, fl_err *err)
+static int choose(fl_surface *s, fl_import_options *w, fl_err *err)
 {
     int32_t kept = 0;
     int failed = 0;
     for (int32_t i = 0; i < s->n; i++) {
-        const int takes = failed ? 0 : fl_wish_takes(w, s->part[i].name, err);
+        const int takes = failed ? 0 : fl_import_selects(w, s->part[i].name, err);
         failed |= takes < 0;
         if (takes > 0) s->part[kept++] = s->part[i];
         else fl_part_free(&s->part[i]);
@@ -74,11 +74,12 @@ static int choose(fl_surface *s, fl_wish *w, fl_err *err)
 static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
     const int zero = memchr(b->data, '\0', (size_t)b->n) != NULL;
-    if (b->n == 0) return fl_bytes_fail(b, err, "empty, a mesh was wanted");
+    if (b->n == 0) return fl_bytes_fail(b, err, "empty, a mesh is expected");
     if (fl_stl_is_binary(b)) return fl_stl_read_binary(s, b, name, err);
     if (fl_ply_is(b)) return fl_ply_read(s, b, name, err);
     if (starts_with(b, "#g_struct")) return read_own(s, b, err);
-    if (!starts_with(b, "solid") && fl_foreign(b)) return fl_bytes_fail(b, err, "%s", fl_foreign(b));
+    if (!starts_with(b, "solid") && fl_rejected_format(b))
+        return fl_bytes_fail(b, err, "%s", fl_rejected_format(b));
     if (zero)
         return fl_bytes_fail(
             b, err,
@@ -99,11 +100,11 @@ static int is_faces(const fl_bytes *b)
            starts_with(b, "solid") || fl_off_is(b) || fl_obj_is(b);
 }
 
-static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
 {
     if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
     /* arrays of an XML file may lie anywhere behind the tags, and several times in the same place */
-    if (fl_vtx_is(b)) return fl_bytes_whole(b, err) ? -1 : fl_vtx_read(s, b, name, w, err);
+    if (fl_vtk_xml_is(b)) return fl_bytes_read_all(b, err) ? -1 : fl_vtk_xml_read(s, b, name, w, err);
     if (fl_vtk_is(b)) return fl_vtk_read(s, b, name, w, err);
     if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
     if (fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);
@@ -165,7 +166,7 @@ static int append(fl_surface *to, fl_surface *from, fl_err *err)
     return 0;
 }
 
-int fl_mesh_read(fl_surface *s, const char *path, fl_wish *w, char *note, fl_err *err)
+int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *w, char *note, fl_err *err)
 {
     fl_bytes b = {0};
     fl_surface got = {0};
@@ -176,7 +177,7 @@ int fl_mesh_read(fl_surface *s, const char *path, fl_wish *w, char *note, fl_err
     if (fl_bytes_open(&b, path, err) || read_any(&got, &b, name, w, err)) goto done;
     drop_empty(&got, &b);
     memcpy(note, b.note, FL_MESH_NOTE);
-    if (got.n == 0 && !fl_wish_chooses(w)) {
+    if (got.n == 0 && !fl_import_by_name(w)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);
         goto done;
     }

@@ -4,7 +4,7 @@
 #define FL_MESH_READ_MESH_H
 #include "geom/surface.h"
 #include "mesh/bytes.h"
-#include "mesh/wish.h"
+#include "mesh/import_options.h"
 
 /* Add what path ("-" is standard input, gzip is unpacked) holds to s: STL (binary or ASCII), OBJ, OFF, PLY,
  * VTK (legacy or XML), g_struct, or a mesh of Abaqus, ANSYS, Gmsh or Nastran.  The kind is told by content,
@@ -12,11 +12,11 @@
  * ("stdin" for the stream); parts without triangles and cones are dropped with a remark.  The history of a
  * g_struct file is appended to that of s.  Coordinates are as in the file: nothing is scaled, welded or
  * turned.
- *   w                    what is wished for only (wish.h), NULL for everything; where parts are chosen by
+ *   w                    what is wished for only (import_options.h), NULL for everything; where parts are chosen by
  *                        name, none at all is an answer too
  *   note[FL_MESH_NOTE]   out: remarks for the user, each with its newline; also where nothing but "no
  *                        triangles" can be said, as they tell what was passed over
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err and s as it was. */
-int fl_mesh_read(fl_surface *s, const char *path, fl_wish *w, char *note, fl_err *err);
+int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *w, char *note, fl_err *err);
 
 #endif

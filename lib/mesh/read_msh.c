@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
-#include "mesh/deck.h"
+#include "base/array.h"
+#include "base/number_text.h"
+#include "mesh/deck_lines.h"
 #include "mesh/elements.h"
 #include "mesh/read_msh.h"
 
@@ -68,15 +68,15 @@ typedef struct {
     fl_bytes *b;
     fl_elements e;
     int version, binary, swap, wide; /* wide: bytes of a size */
-    fl_numbers group;                /* (dimension, physical tag) */
+    fl_id_map group;                 /* (dimension, physical tag) */
     int32_t *name;                   /* [group.n] of names, -1 for none */
-    fl_names names;
-    fl_numbers entity; /* (dimension, tag) */
-    int32_t *member;   /* [entity.n] the first of its groups, as a place plus one */
-    int32_t *single;   /* [group.n] the group alone, as a place plus one; 0 until it is needed */
-    member *in;        /* [members] */
-    int32_t *of;       /* [e.number.n] the first of the groups of an element; 0 for none */
-    int64_t *tag;      /* of the nodes of a block */
+    fl_string_table names;
+    fl_id_map entity; /* (dimension, tag) */
+    int32_t *member;  /* [entity.n] the first of its groups, as a place plus one */
+    int32_t *single;  /* [group.n] the group alone, as a place plus one; 0 until it is needed */
+    member *in;       /* [members] */
+    int32_t *of;      /* [e.number.n] the first of the groups of an element; 0 for none */
+    int64_t *tag;     /* of the nodes of a block */
     int32_t members, coarse;
     int32_t name_cap, member_cap, single_cap, in_cap, of_cap, tag_cap;
 } msh;
@@ -103,7 +103,7 @@ static int bad(const msh *m, fl_err *err, const char *fmt, ...)
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
     if (m->b->line) return fl_bytes_fail(m->b, err, "%s", what);
-    return fl_bytes_fail(m->b, err, "byte %lld: %s", (long long)fl_bytes_place(m->b), what);
+    return fl_bytes_fail(m->b, err, "byte %lld: %s", (long long)fl_bytes_offset(m->b), what);
 }
 
 /* The number of n bytes at p, the byte order being that of the file. */
@@ -127,7 +127,7 @@ static int cut_off(const msh *m, int more, fl_err *err)
 static int raw(msh *m, int n, uint64_t *bits, fl_err *err)
 {
     const unsigned char *p = NULL;
-    if (cut_off(m, fl_bytes_take(m->b, n, &p, err), err)) return -1;
+    if (cut_off(m, fl_bytes_read(m->b, n, &p, err), err)) return -1;
     *bits = number_at(m, p, n);
     return 0;
 }
@@ -136,7 +136,7 @@ static int word(msh *m, const char *what, const char **w, fl_err *err)
 {
     const int more = fl_bytes_word(m->b, w, err);
     if (more < 0) return -1;
-    return more ? 0 : bad(m, err, "the file ends where %s was wanted", what);
+    return more ? 0 : bad(m, err, "the file ends where %s is expected", what);
 }
 
 /* A whole number: an int, or with size a size_t. */
@@ -153,8 +153,8 @@ static int whole(msh *m, int size, const char *what, int64_t *x, fl_err *err)
         return 0;
     }
     if (word(m, what, &w, err)) return -1;
-    if (fl_deck_whole(w, x) == 0) return 0;
-    return bad(m, err, "%s is \"%.40s\", a whole number was wanted", what, w);
+    if (fl_deck_integer(w, x) == 0) return 0;
+    return bad(m, err, "%s is \"%.40s\", a whole number is expected", what, w);
 }
 
 static int an_int(msh *m, const char *what, int64_t *x, fl_err *err) { return whole(m, 0, what, x, err); }
@@ -188,7 +188,7 @@ static int pass_over(msh *m, int is_real, int64_t n, fl_err *err)
 
 static int32_t group_of(msh *m, int dim, int64_t tag, fl_err *err)
 {
-    const int32_t had = m->group.n, k = fl_numbers_add(&m->group, dim, tag, err);
+    const int32_t had = m->group.n, k = fl_id_map_add(&m->group, dim, tag, err);
     if (k < 0 || fl_grow(&m->name, &m->name_cap, m->group.n, sizeof *m->name, err) ||
         fl_grow(&m->single, &m->single_cap, m->group.n, sizeof *m->single, err))
         return -1;
@@ -218,8 +218,8 @@ static int read_names(msh *m, fl_err *err)
     int64_t n = 0;
     const char *w = "";
     if (word(m, "the number of names", &w, err)) return -1;
-    if (fl_deck_whole(w, &n) || n < 0)
-        return bad(m, err, "\"%.40s\" names were found, a whole number was wanted", w);
+    if (fl_deck_integer(w, &n) || n < 0)
+        return bad(m, err, "\"%.40s\" names were found, a whole number is expected", w);
     for (int64_t i = 0; i < n; i++) {
         char *p, *end;
         long dim, tag;
@@ -239,18 +239,18 @@ static int read_names(msh *m, fl_err *err)
         *end = '\0';
         k = group_of(m, (int)dim, tag, err);
         if (k < 0) return -1;
-        m->name[k] = *p ? fl_names_add(&m->names, p, err) : -1;
+        m->name[k] = *p ? fl_string_table_add(&m->names, p, err) : -1;
         if (*p && m->name[k] < 0) return -1;
         continue;
 wrong:
-        return bad(m, err, "a physical name of \"%.40s\" was found, DIMENSION TAG \"NAME\" was wanted", p);
+        return bad(m, err, "a physical name of \"%.40s\" was found, DIMENSION TAG \"NAME\" is expected", p);
     }
     return 0;
 }
 
 static int add_member(msh *m, int dim, int64_t tag, int64_t physical, fl_err *err)
 {
-    const int32_t had = m->entity.n, k = fl_numbers_add(&m->entity, dim, tag, err);
+    const int32_t had = m->entity.n, k = fl_id_map_add(&m->entity, dim, tag, err);
     /* an orientation may be given by the sign */
     const int32_t g = group_of(m, dim, physical < 0 ? -physical : physical, err);
     if (k < 0 || g < 0 || fl_grow(&m->member, &m->member_cap, m->entity.n, sizeof *m->member, err)) return -1;
@@ -299,11 +299,11 @@ static int read_node(msh *m, int64_t tag, fl_err *err)
 {
     fl_vec3 x;
     if (real(m, "x", &x.x, err) || real(m, "y", &x.y, err) || real(m, "z", &x.z, err)) return -1;
-    if (tag < 1) return bad(m, err, "node %lld was found, a tag of 1 or more was wanted", (long long)tag);
+    if (tag < 1) return bad(m, err, "node %lld was found, a tag of 1 or more is expected", (long long)tag);
     if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
-        return bad(m, err, "node %lld is at %g %g %g, finite coordinates were wanted", (long long)tag, x.x,
+        return bad(m, err, "node %lld is at %g %g %g, finite coordinates are expected", (long long)tag, x.x,
                    x.y, x.z);
-    return fl_elements_node(&m->e, 0, tag, x, err) < 0 ? -1 : 0;
+    return fl_elements_add_node(&m->e, 0, tag, x, err) < 0 ? -1 : 0;
 }
 
 /* All tags of a block of an entity, then all coordinates, with one more for each dimension when parametric.
@@ -352,18 +352,18 @@ static int known(const msh *m, int64_t type, fl_err *err)
  * another number: is it the one before? */
 static int again(const msh *m, int type, const int64_t *node)
 {
-    const int32_t k = m->e.number.n - 1;
+    const int32_t k = m->e.element_id.n - 1;
     const int n = fl_shape_nodes((enum fl_shape)TYPE[type].shape);
     if (m->version != 2 || k < 0 || m->e.element[k].shape != TYPE[type].shape) return 0;
     for (int i = 0; i < n; i++)
-        if (m->e.node.id[m->e.corner[m->e.element[k].first + i]] != node[i]) return 0;
+        if (m->e.node_id.id[m->e.connectivity[m->e.element[k].first + i]] != node[i]) return 0;
     return 1;
 }
 
 /* The last element is in the groups of another list too. */
 static int also(msh *m, int32_t of, fl_err *err)
 {
-    int32_t *mine = &m->of[m->e.number.n - 1], copy = 0;
+    int32_t *mine = &m->of[m->e.element_id.n - 1], copy = 0;
     for (int pass = 0; pass < 2; pass++)
         for (int32_t k = pass ? of : *mine; k; k = m->in[k - 1].next)
             if (join(m, &copy, m->in[k - 1].group, err)) return -1;
@@ -383,7 +383,7 @@ static int read_element(msh *m, int type, int64_t id, int32_t of, fl_err *err)
     for (int i = 0; i < fl_shape_nodes((enum fl_shape)TYPE[type].shape); i++) {
         mine[i] = node[TYPE[type].at ? TYPE[type].at[i] : i];
         if (mine[i] < 1)
-            return bad(m, err, "element %lld has node %lld, a tag of 1 or more was wanted", (long long)id,
+            return bad(m, err, "element %lld has node %lld, a tag of 1 or more is expected", (long long)id,
                        (long long)mine[i]);
     }
     if (again(m, type, mine)) return also(m, of, err);
@@ -406,7 +406,7 @@ static int read_element_block(msh *m, fl_err *err)
     if (dim != TYPE[type].dim)
         return bad(m, err, "elements of type %lld are in an entity of dimension %lld", (long long)type,
                    (long long)dim);
-    entity = fl_numbers_find(&m->entity, (int32_t)dim, tag);
+    entity = fl_id_map_find(&m->entity, (int32_t)dim, tag);
     if (entity >= 0) of = m->member[entity];
     for (int64_t i = 0; i < n; i++)
         if (a_size(m, "the tag of an element", &id, err) || read_element(m, (int)type, id, of, err))
@@ -470,14 +470,14 @@ static int read_format(msh *m, fl_err *err)
     const char *v = more > 0 ? b->field[0] : "";
     uint64_t one = 0;
     if (more < 0) return -1;
-    if (more == 0 || b->words < 3) return bad(m, err, "VERSION FILE-TYPE DATA-SIZE was wanted");
+    if (more == 0 || b->words < 3) return bad(m, err, "VERSION FILE-TYPE DATA-SIZE is expected");
     if (strcmp(v, "4.1") == 0) m->version = 4;
     else if (v[0] == '2' && (v[1] == '.' || v[1] == '\0')) m->version = 2;
     else return bad(m, err, "version %.20s of the format is not read: save as 2.2 or 4.1", v);
     if (strcmp(b->field[1], "0") != 0 && strcmp(b->field[1], "1") != 0)
-        return bad(m, err, "file type \"%.20s\" was found, 0 or 1 was wanted", b->field[1]);
+        return bad(m, err, "file type \"%.20s\" was found, 0 or 1 is expected", b->field[1]);
     if (strcmp(b->field[2], "8") != 0 && strcmp(b->field[2], "4") != 0)
-        return bad(m, err, "data size \"%.20s\" was found, 8 or 4 was wanted", b->field[2]);
+        return bad(m, err, "data size \"%.20s\" was found, 8 or 4 is expected", b->field[2]);
     m->wide = b->field[2][0] - '0';
     m->binary = b->field[1][0] == '1';
     m->b->next = m->b->words;
@@ -511,12 +511,12 @@ static int end_of(msh *m, const char *section, fl_err *err)
     int more;
     snprintf(mark, sizeof mark, "$End%.50s", section + 1);
     if (m->b->next < m->b->words)
-        return bad(m, err, "\"%.40s\" was found, %s was wanted", m->b->field[m->b->next], mark);
+        return bad(m, err, "\"%.40s\" was found, %s is expected", m->b->field[m->b->next], mark);
     more = fl_bytes_row(m->b, err);
     if (more < 0) return -1;
-    if (more == 0) return bad(m, err, "the file ends where %s was wanted", mark);
+    if (more == 0) return bad(m, err, "the file ends where %s is expected", mark);
     if (strcmp(m->b->field[0], mark) != 0)
-        return bad(m, err, "\"%.40s\" was found, %s was wanted", m->b->field[0], mark);
+        return bad(m, err, "\"%.40s\" was found, %s is expected", m->b->field[0], mark);
     m->b->next = m->b->words;
     if (m->binary) m->b->line = 0;
     return 0;
@@ -528,7 +528,7 @@ static int count_line(msh *m, fl_err *err)
     const char *w = "";
     if (m->version == 4) return 0;
     if (fl_grow(&m->tag, &m->tag_cap, 1, sizeof *m->tag, err) || word(m, "a count", &w, err)) return -1;
-    if (fl_deck_whole(w, &m->tag[0]) || m->tag[0] < 0)
+    if (fl_deck_integer(w, &m->tag[0]) || m->tag[0] < 0)
         return bad(m, err, "a count of \"%.40s\" was found", w);
     if (m->binary) m->b->line = 0;
     return 0;
@@ -560,7 +560,7 @@ static int read_sections(msh *m, fl_err *err)
         char section[64];
         if (m->binary) m->b->line = 0;
         if (m->b->field[0][0] != '$' || strncmp(m->b->field[0], "$End", 4) == 0)
-            return bad(m, err, "\"%.40s\" was found, a section like $Nodes was wanted", m->b->field[0]);
+            return bad(m, err, "\"%.40s\" was found, a section like $Nodes is expected", m->b->field[0]);
         snprintf(section, sizeof section, "%s", m->b->field[0]);
         m->b->next = m->b->words;
         if (read_section(m, section, err)) return -1;
@@ -570,21 +570,21 @@ static int read_sections(msh *m, fl_err *err)
 
 /* --- parts ---------------------------------------------------------------------------------------------- */
 
-static int32_t name_in(const msh *m, int32_t group, fl_names *list, fl_err *err)
+static int32_t name_in(const msh *m, int32_t group, fl_string_table *list, fl_err *err)
 {
     static const char *const kind[DIMS] = {"point", "curve", "surface", "volume"};
     char text[40];
-    if (m->name[group] >= 0) return fl_names_add(list, m->names.name[m->name[group]], err);
+    if (m->name[group] >= 0) return fl_string_table_add(list, m->names.name[m->name[group]], err);
     snprintf(text, sizeof text, "%s_%lld", kind[m->group.scope[group]], (long long)m->group.id[group]);
-    return fl_names_add(list, text, err);
+    return fl_string_table_add(list, text, err);
 }
 
 /* Parts in the order in which the elements come; further groups of an element are sets. */
 static int give_parts(msh *m, int picks, fl_err *err)
 {
-    for (int32_t i = 0; i < m->e.number.n; i++)
+    for (int32_t i = 0; i < m->e.element_id.n; i++)
         for (int32_t k = m->of[i]; k; k = m->in[k - 1].next) {
-            fl_names *list = k == m->of[i] ? &m->e.parts : &m->e.sets;
+            fl_string_table *list = k == m->of[i] ? &m->e.parts : &m->e.sets;
             const int32_t at = name_in(m, m->in[k - 1].group, list, err);
             if (at < 0) return -1;
             if (k == m->of[i]) m->e.element[i].part = at;
@@ -593,15 +593,15 @@ static int give_parts(msh *m, int picks, fl_err *err)
     return 0;
 }
 
-int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
 {
     msh m = {.b = b};
     int rc = -1;
     if (fl_elements_start(&m.e, fl_in_name(b->in), err)) return -1;
-    if (fl_names_add(&m.e.parts, name, err) < 0 || read_sections(&m, err) ||
-        give_parts(&m, fl_wish_chooses(w), err))
+    if (fl_string_table_add(&m.e.parts, name, err) < 0 || read_sections(&m, err) ||
+        give_parts(&m, fl_import_by_name(w), err))
         goto done;
-    if (m.e.number.n == 0) {
+    if (m.e.element_id.n == 0) {
         b->line = 0;
         fl_bytes_fail(b, err, "no elements: put what is wanted into a physical group, or save all elements");
         goto done;
@@ -610,9 +610,9 @@ int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err
     rc = fl_elements_surface(&m.e, s, b, w, err);
 done:
     fl_elements_free(&m.e);
-    fl_numbers_free(&m.group);
-    fl_numbers_free(&m.entity);
-    fl_names_free(&m.names);
+    fl_id_map_free(&m.group);
+    fl_id_map_free(&m.entity);
+    fl_string_table_free(&m.names);
     free(m.name);
     free(m.member);
     free(m.single);

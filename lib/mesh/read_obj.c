@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/names.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/string_table.h"
+#include "base/number_text.h"
 #include "geom/facet.h"
 #include "mesh/read_obj.h"
 
@@ -59,7 +59,7 @@ typedef struct {
     int32_t *owner;          /* [pool.nv] part that saw the vertex last, plus one; 0 for none */
     int32_t *local;          /* [pool.nv] its index there */
     int32_t *loop, loop_cap; /* corners of the current face */
-    fl_names names;
+    fl_string_table names;
     run *runs; /* [n] */
     int32_t n, run_cap;
     int32_t seen[WORDS];
@@ -69,7 +69,7 @@ typedef struct {
 static void state_free(state *o)
 {
     fl_part_free(&o->pool);
-    fl_names_free(&o->names);
+    fl_string_table_free(&o->names);
     free(o->owner);
     free(o->local);
     free(o->loop);
@@ -91,9 +91,9 @@ static int corner(const state *o, const fl_bytes *b, char *word, int32_t *v, fl_
     int32_t i = 0;
     char *slash = strchr(word, '/');
     if (slash) *slash = '\0';
-    if (fl_num_i32(word, -INT32_MAX, INT32_MAX, &i) || i == 0)
+    if (fl_number_i32(word, -INT32_MAX, INT32_MAX, &i) || i == 0)
         return fl_bytes_fail(
-            b, err, "vertex index \"%.40s\" was found, a whole number other than 0 was wanted", word);
+            b, err, "vertex index \"%.40s\" was found, a whole number other than 0 is expected", word);
     *v = i > 0 ? i - 1 : o->pool.nv + i;
     if (*v < 0 || *v >= o->pool.nv)
         return fl_bytes_fail(b, err, "the face wants vertex %d, but there are %d so far", i, o->pool.nv);
@@ -104,9 +104,9 @@ static int corner(const state *o, const fl_bytes *b, char *word, int32_t *v, fl_
 static int read_face(state *o, fl_bytes *b, fl_err *err)
 {
     const int32_t n = b->words - 1;
-    if (n < 3) return fl_bytes_fail(b, err, "a face of %d corners, at least 3 were wanted", n);
+    if (n < 3) return fl_bytes_fail(b, err, "a face of %d corners, at least 3 are expected", n);
     if (n > FL_FACET_CORNERS)
-        return fl_bytes_fail(b, err, "a face of %d corners, at most %d were wanted", n, FL_FACET_CORNERS);
+        return fl_bytes_fail(b, err, "a face of %d corners, at most %d are expected", n, FL_FACET_CORNERS);
     if (fl_grow(&o->loop, &o->loop_cap, n, sizeof *o->loop, err)) return -1;
     for (int32_t k = 0; k < n; k++)
         if (corner(o, b, b->field[k + 1], &o->loop[k], err)) return -1;
@@ -122,7 +122,7 @@ static int open_run(state *o, fl_bytes *b, int word, fl_err *err)
         end += strlen(end);
         for (char *c = name; c < end; c++)
             if (*c == '\0') *c = '_';
-        r.name = fl_names_add(&o->names, name, err);
+        r.name = fl_string_table_add(&o->names, name, err);
         if (r.name < 0) return -1;
     }
     o->runs[o->n++] = r;

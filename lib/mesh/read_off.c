@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "geom/facet.h"
 #include "mesh/read_off.h"
 
@@ -43,9 +43,9 @@ static int read_count(fl_bytes *b, const char *what, int32_t *n, fl_err *err)
     const char *word = "";
     const int more = fl_bytes_word(b, &word, err);
     if (more < 0) return -1;
-    if (more == 0) return fl_bytes_fail(b, err, "the file ends where the number of %s was wanted", what);
-    if (fl_num_i32(word, 0, INT32_MAX, n))
-        return fl_bytes_fail(b, err, "the number of %s is \"%.40s\", a whole number >= 0 was wanted", what,
+    if (more == 0) return fl_bytes_fail(b, err, "the file ends where the number of %s is expected", what);
+    if (fl_number_i32(word, 0, INT32_MAX, n))
+        return fl_bytes_fail(b, err, "the number of %s is \"%.40s\", a whole number >= 0 is expected", what,
                              word);
     return 0;
 }
@@ -66,17 +66,17 @@ static int read_vertex(fl_bytes *b, fl_part *p, int homogeneous, fl_err *err)
 static int read_face(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_err *err)
 {
     int32_t n = 0;
-    if (fl_num_i32(b->field[0], 0, INT32_MAX, &n))
-        return fl_bytes_fail(b, err, "the number of corners is \"%.40s\", a whole number >= 0 was wanted",
+    if (fl_number_i32(b->field[0], 0, INT32_MAX, &n))
+        return fl_bytes_fail(b, err, "the number of corners is \"%.40s\", a whole number >= 0 is expected",
                              b->field[0]);
     if (n > FL_FACET_CORNERS)
-        return fl_bytes_fail(b, err, "a face of %d corners, at most %d were wanted", n, FL_FACET_CORNERS);
+        return fl_bytes_fail(b, err, "a face of %d corners, at most %d are expected", n, FL_FACET_CORNERS);
     if (n > b->words - 1) return fl_bytes_fail(b, err, "the face has %d of its %d corners", b->words - 1, n);
     if (n < 3) return 0; /* a point or an edge */
     if (fl_grow(loop, cap, n, sizeof **loop, err)) return -1;
     for (int32_t k = 0; k < n; k++)
-        if (fl_num_i32(b->field[k + 1], 0, p->nv - 1, &(*loop)[k]))
-            return fl_bytes_fail(b, err, "vertex index \"%.40s\" was found, 0 to %d was wanted",
+        if (fl_number_i32(b->field[k + 1], 0, p->nv - 1, &(*loop)[k]))
+            return fl_bytes_fail(b, err, "vertex index \"%.40s\" was found, 0 to %d is expected",
                                  b->field[k + 1], p->nv - 1);
     return fl_facet_polygon(p, n, *loop, err);
 }
@@ -90,9 +90,9 @@ static int read_head(fl_bytes *b, int *homogeneous, int32_t n[2], fl_err *err)
         const char *after = b->next < b->words ? b->field[b->next] : "";
         *homogeneous = strchr(word, '4') != NULL;
         if (strchr(word, 'n'))
-            return fl_bytes_fail(b, err, "%s has any number of dimensions: three were wanted", word);
+            return fl_bytes_fail(b, err, "%s has any number of dimensions: three are expected", word);
         if (strcmp(after, "BINARY") == 0)
-            return fl_bytes_fail(b, err, "a binary OFF file, an ASCII one was wanted");
+            return fl_bytes_fail(b, err, "a binary OFF file, an ASCII one is expected");
     } else {
         b->next = 0; /* no header word: the row starts with the counts */
     }

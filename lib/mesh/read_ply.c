@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/names.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/string_table.h"
+#include "base/number_text.h"
 #include "geom/facet.h"
 #include "mesh/read_ply.h"
 
@@ -39,10 +39,10 @@ typedef struct {
     property *pr;
     int32_t els, prs, el_cap, pr_cap;
     int32_t *loop, loop_cap, loop_n;
-    int64_t row;    /* element being read, for complaints about binary data */
-    fl_names names; /* of parts, as comments of the header give them */
-    double *number; /* [names.n] their numbers */
-    double *of;     /* [triangles] the part of each, where faces have that property */
+    int64_t row;           /* element being read, for complaints about binary data */
+    fl_string_table names; /* of parts, as comments of the header give them */
+    double *number;        /* [names.n] their numbers */
+    double *of;            /* [triangles] the part of each, where faces have that property */
     int32_t number_cap, of_cap;
 } ply;
 
@@ -83,8 +83,8 @@ static int read_element(ply *p, fl_err *err)
     const fl_bytes *b = p->b;
     uint64_t n = 0;
     element e = {OTHER, 0, p->prs, p->prs};
-    if (b->words != 3 || fl_num_u64(b->field[2], &n) || n > INT64_MAX)
-        return fl_bytes_fail(b, err, "\"element NAME COUNT\" was wanted");
+    if (b->words != 3 || fl_number_u64(b->field[2], &n) || n > INT64_MAX)
+        return fl_bytes_fail(b, err, "\"element NAME COUNT\" is expected");
     e.n = (int64_t)n;
     if (strcmp(b->field[1], "vertex") == 0) e.is = VERTEX;
     if (strcmp(b->field[1], "face") == 0) e.is = FACE;
@@ -102,7 +102,8 @@ static int read_property(ply *p, fl_err *err)
     property q = {.list = list};
     if (!e) return fl_bytes_fail(b, err, "a property stands before the first element");
     if (b->words != (list ? 5 : 3))
-        return fl_bytes_fail(b, err, "\"property TYPE NAME\" or \"property list TYPE TYPE NAME\" was wanted");
+        return fl_bytes_fail(b, err,
+                             "\"property TYPE NAME\" or \"property list TYPE TYPE NAME\" is expected");
     if (list && read_type(b, 2, &q.count, err)) return -1;
     if (read_type(b, list ? 3 : 1, &q.of, err)) return -1;
     if (e->is == VERTEX && !list && strlen(name) == 1 && *name >= 'x' && *name <= 'z')
@@ -130,10 +131,10 @@ static int check_header(const ply *p, fl_err *err)
             return fl_bytes_fail(p->b, err, "the faces stand before the vertices");
     }
     if (elements[VERTEX] != 1 || seen[X] != 1 || seen[Y] != 1 || seen[Z] != 1)
-        return fl_bytes_fail(p->b, err, "one element \"vertex\" with properties x, y and z was wanted");
+        return fl_bytes_fail(p->b, err, "one element \"vertex\" with properties x, y and z is expected");
     if (seen[PART] > 1) return fl_bytes_fail(p->b, err, "the property part comes twice");
     if (elements[FACE] != 1 || seen[CORNERS] != 1)
-        return fl_bytes_fail(p->b, err, "one element \"face\" with one list vertex_indices was wanted");
+        return fl_bytes_fail(p->b, err, "one element \"face\" with one list vertex_indices is expected");
     return 0;
 }
 
@@ -144,8 +145,8 @@ static int read_comment(ply *p, fl_err *err)
     const int32_t had = p->names.n;
     double x;
     int32_t k;
-    if (b->words != 4 || strcmp(b->field[1], "part") != 0 || fl_num_f64(b->field[2], &x)) return 0;
-    k = fl_names_add(&p->names, b->field[3], err);
+    if (b->words != 4 || strcmp(b->field[1], "part") != 0 || fl_number_f64(b->field[2], &x)) return 0;
+    k = fl_string_table_add(&p->names, b->field[3], err);
     if (k < 0 || fl_grow(&p->number, &p->number_cap, p->names.n, sizeof *p->number, err)) return -1;
     if (k >= had) p->number[k] = x;
     return 0;
@@ -159,7 +160,7 @@ static int read_header(ply *p, fl_err *err)
         const char *word = b->field[0];
         if (strcmp(word, "end_header") == 0) {
             if (formats != 1)
-                return fl_bytes_fail(b, err, "%d format rows in the header, one was wanted", formats);
+                return fl_bytes_fail(b, err, "%d format rows in the header, one is expected", formats);
             b->next = b->words;
             return check_header(p, err);
         }
@@ -198,7 +199,7 @@ static int read_binary(ply *p, type t, double *x, fl_err *err)
         float f32;
         double f64;
     } u;
-    more = fl_bytes_take(p->b, size, &at, err);
+    more = fl_bytes_read(p->b, size, &at, err);
     if (more == 0) fl_bytes_fail(p->b, err, "the file ends inside the data");
     if (more <= 0) return -1;
     for (int k = 0; k < size; k++) raw[k] = at[p->swap ? size - 1 - k : k];
@@ -234,14 +235,14 @@ static int read_list(ply *p, const property *q, const fl_part *part, fl_err *err
     double n = 0.0, v = 0.0;
     if (read_number(p, q->count, 1, &n, err)) return -1;
     if (!(n >= 0.0) || n != floor(n) || (q->is == CORNERS && n > FL_FACET_CORNERS))
-        return fl_bytes_fail(p->b, err, "row %lld has a list of %g entries, 0 to %d were wanted",
+        return fl_bytes_fail(p->b, err, "row %lld has a list of %g entries, 0 to %d are expected",
                              (long long)p->row, n, FL_FACET_CORNERS);
     if (q->is == CORNERS && fl_grow(&p->loop, &p->loop_cap, (int64_t)n, sizeof *p->loop, err)) return -1;
     for (double k = 0.0; k < n; k += 1.0) {
         if (read_number(p, q->of, q->is == CORNERS, &v, err)) return -1;
         if (q->is != CORNERS) continue;
         if (!(v >= 0.0 && v < part->nv) || v != floor(v))
-            return fl_bytes_fail(p->b, err, "face %lld wants vertex %g, 0 to %d was wanted",
+            return fl_bytes_fail(p->b, err, "face %lld wants vertex %g, 0 to %d is expected",
                                  (long long)p->row, v, part->nv - 1);
         p->loop[(int32_t)k] = (int32_t)v;
     }
@@ -274,7 +275,7 @@ static int read_one(ply *p, const element *e, fl_part *part, fl_err *err)
     }
     if (e->is != VERTEX) return 0;
     if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
-        return fl_bytes_fail(p->b, err, "vertex %lld is %g %g %g, finite numbers were wanted",
+        return fl_bytes_fail(p->b, err, "vertex %lld is %g %g %g, finite numbers are expected",
                              (long long)p->row, x.x, x.y, x.z);
     return fl_surface_vertex(part, x, err);
 }
@@ -399,7 +400,7 @@ int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
     rc = 0;
 done:
     fl_part_free(&all);
-    fl_names_free(&p.names);
+    fl_string_table_free(&p.names);
     free(p.number);
     free(p.of);
     free(p.el);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/facet.h"
 #include "mesh/read_stl.h"
 
@@ -42,8 +42,8 @@ static int read_record(fl_bytes *b, const unsigned char *at, int32_t t, fl_part 
     for (int k = 0; k < 3; k++, at += 12) {
         const fl_vec3 x = v3(f32_at(at), f32_at(at + 4), f32_at(at + 8));
         if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
-            return fl_bytes_fail(b, err, "triangle %d has the corner %g %g %g, finite numbers were wanted", t,
-                                 x.x, x.y, x.z);
+            return fl_bytes_fail(b, err, "triangle %d has the corner %g %g %g, finite numbers are expected",
+                                 t, x.x, x.y, x.z);
         if (fl_surface_vertex(p, x, err)) return -1;
     }
     return fl_surface_triangle(p, 3 * t, 3 * t + 1, 3 * t + 2, err);
@@ -58,7 +58,7 @@ int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err
     int more;
     if (i < 0) return -1;
     b->pos = HEAD;
-    while ((more = fl_bytes_take(b, RECORD, &at, err)) > 0) {
+    while ((more = fl_bytes_read(b, RECORD, &at, err)) > 0) {
         if (n == INT32_MAX / 3) return fl_bytes_fail(b, err, "more than %d triangles", n);
         if (read_record(b, at, n, &s->part[i], err)) return -1;
         n++;
@@ -67,7 +67,7 @@ int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err
     if (b->pos < b->n || (want > 0 && n != want))
         return fl_bytes_fail(
             b, err,
-            "a binary STL of %lld triangles was wanted, of 84 + 50 n bytes: %d and %d bytes were "
+            "a binary STL of %lld triangles is expected, of 84 + 50 n bytes: %d and %d bytes were "
             "found",
             (long long)want, n, b->n - b->pos);
     if (n > 0 && want == 0)
@@ -83,9 +83,9 @@ static int expect(fl_bytes *b, const char *want, fl_err *err)
     const char *word = "";
     const int more = fl_bytes_word(b, &word, err);
     if (more < 0) return -1;
-    if (more == 0) return fl_bytes_fail(b, err, "the file ends where \"%s\" was wanted", want);
+    if (more == 0) return fl_bytes_fail(b, err, "the file ends where \"%s\" is expected", want);
     if (strcasecmp(word, want) != 0)
-        return fl_bytes_fail(b, err, "\"%.40s\" was found, \"%s\" was wanted", word, want);
+        return fl_bytes_fail(b, err, "\"%.40s\" was found, \"%s\" is expected", word, want);
     return 0;
 }
 
@@ -114,8 +114,8 @@ static int read_facet(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_
     }
     if (more == 0) return fl_bytes_fail(b, err, "the file ends inside a loop");
     if (strcasecmp(word, "endloop") != 0)
-        return fl_bytes_fail(b, err, "\"%.40s\" was found, \"vertex\" or \"endloop\" was wanted", word);
-    if (n < 3) return fl_bytes_fail(b, err, "a loop of %d corners, at least 3 were wanted", n);
+        return fl_bytes_fail(b, err, "\"%.40s\" was found, \"vertex\" or \"endloop\" is expected", word);
+    if (n < 3) return fl_bytes_fail(b, err, "a loop of %d corners, at least 3 are expected", n);
     if (expect(b, "endfacet", err)) return -1;
     return fl_facet_polygon(p, n, *loop, err);
 }
@@ -146,7 +146,7 @@ int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
             b->next = b->words; /* its name, again */
             i = -1;
         } else {
-            fl_bytes_fail(b, err, "\"%.40s\" was found, %s was wanted", word,
+            fl_bytes_fail(b, err, "\"%.40s\" was found, %s is expected", word,
                           i < 0 ? "\"solid\"" : "\"facet\" or \"endsolid\"");
             goto done;
         }

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "mesh/read_vtk.h"
 #include "mesh/vtk_cells.h"
 
@@ -61,7 +61,7 @@ static int bad(const vtk *v, fl_err *err, const char *fmt, ...)
     va_start(ap, fmt);
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
-    if (v->binary) return fl_bytes_fail(v->b, err, "byte %lld: %s", (long long)fl_bytes_place(v->b), what);
+    if (v->binary) return fl_bytes_fail(v->b, err, "byte %lld: %s", (long long)fl_bytes_offset(v->b), what);
     return fl_bytes_fail(v->b, err, "%s", what);
 }
 
@@ -133,8 +133,8 @@ static int count(const vtk *v, int k, int64_t *n, fl_err *err)
 {
     uint64_t u = 0;
     *n = 0;
-    if (fl_num_u64(v->word[k], &u) || u > INT32_MAX)
-        return bad(v, err, "\"%.40s\" was found behind %.40s, a count was wanted", v->word[k], v->word[0]);
+    if (fl_number_u64(v->word[k], &u) || u > INT32_MAX)
+        return bad(v, err, "\"%.40s\" was found behind %.40s, a count is expected", v->word[k], v->word[0]);
     *n = (int64_t)u;
     return 0;
 }
@@ -185,7 +185,7 @@ static int binary_numbers(vtk *v, const number_type *t, int64_t n, fl_vtk_array 
     }
     while (n > 0) {
         const int32_t k = n < AT_ONCE ? (int32_t)n : AT_ONCE;
-        more = fl_bytes_take(v->b, k * t->bytes, &p, err);
+        more = fl_bytes_read(v->b, k * t->bytes, &p, err);
         if (more < 0) return -1;
         if (more == 0) return bad(v, err, "the file ends inside the data");
         if (room(a, k, err)) return -1;
@@ -260,10 +260,10 @@ static int read_offsets(vtk *v, cells *c, int64_t n, int64_t size, fl_err *err)
     if (!t || n < 1)
         return bad(v, err, "%lld offsets of type \"%.40s\" were found", (long long)n, v->word[1]);
     if (numbers(v, t, n, &c->offset, err)) return -1;
-    if (c->offset.x[0] != 0.0) return bad(v, err, "the first offset is %g, 0 was wanted", c->offset.x[0]);
+    if (c->offset.x[0] != 0.0) return bad(v, err, "the first offset is %g, 0 is expected", c->offset.x[0]);
     memmove(c->offset.x, c->offset.x + 1, (size_t)--c->offset.n * sizeof *c->offset.x);
     if (row(v, err) <= 0 || !is(v, "CONNECTIVITY"))
-        return err->code ? -1 : bad(v, err, "CONNECTIVITY was wanted behind OFFSETS");
+        return err->code ? -1 : bad(v, err, "CONNECTIVITY is expected behind OFFSETS");
     t = type_of(v->word[1]);
     if (!t) return bad(v, err, "connectivity of type \"%.40s\" was found", v->word[1]);
     return numbers(v, t, size, &c->corner, err);
@@ -300,11 +300,11 @@ static int pass_strings(vtk *v, int64_t n, fl_err *err)
             more = fl_bytes_line(v->b, &text, &len, err);
             continue;
         }
-        more = fl_bytes_take(v->b, 1, &p, err);
+        more = fl_bytes_read(v->b, 1, &p, err);
         if (more <= 0) break;
         length = p[0] & 0x3f;
         len = (8 >> (p[0] >> 6)) - 1;
-        more = fl_bytes_take(v->b, len, &p, err);
+        more = fl_bytes_read(v->b, len, &p, err);
         for (int32_t i = 0; more > 0 && i < len; i++) length = length << 8 | p[i];
         if (more > 0) more = length > INT64_MAX ? 0 : fl_bytes_skip(v->b, (int64_t)length, err);
     }
@@ -389,7 +389,7 @@ static int read_head(vtk *v, fl_err *err)
     if (pass_line(v, err) < 0 || pass_line(v, err) < 0 || wanted_row(v, "its head", err)) return -1;
     if (is(v, "BINARY")) v->binary = 1;
     else if (!is(v, "ASCII"))
-        return bad(v, err, "\"%.40s\" was found, ASCII or BINARY was wanted", v->word[0]);
+        return bad(v, err, "\"%.40s\" was found, ASCII or BINARY is expected", v->word[0]);
     return 0;
 }
 
@@ -419,7 +419,7 @@ static int read_all(vtk *v, fl_err *err)
         } else if (is(v, "FIELD")) {
             if (read_field(v, err)) return -1;
         } else if (sets != 1) {
-            return bad(v, err, "\"%.40s\" was found, one DATASET was wanted", v->word[0]);
+            return bad(v, err, "\"%.40s\" was found, one DATASET is expected", v->word[0]);
         } else if (is(v, "POINTS")) {
             if (read_points(v, err)) return -1;
         } else if (is(v, "CELL_TYPES")) {
@@ -507,7 +507,7 @@ static int faces(vtk *v, fl_err *err)
     return 0;
 }
 
-int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err *err)
+int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
 {
     vtk v = {.b = b, .rank = -1};
     fl_vtk_names names = {0};
@@ -516,7 +516,7 @@ int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_wish *w, fl_err
     int rc = -1;
     if (fl_elements_start(&e, fl_in_name(b->in), err)) return -1;
     if (read_all(&v, err) || join(&v, err) || faces(&v, err) ||
-        fl_vtk_add(&e, &v.g, 0, &names, name, &coarse, err))
+        fl_vtk_add_cells(&e, &v.g, 0, &names, name, &coarse, err))
         goto done;
     if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
     fl_vtk_grid_free(&v.g); /* its elements have all of it */

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/facet.h"
-#include "mesh/sides.h"
+#include "mesh/shared_faces.h"
 #include "mesh/skin.h"
 
-int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_wish *w, fl_err *err)
+int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *w, fl_err *err)
 {
-    const int32_t n = e->number.n, targets = e->parts.n + e->sets.n;
-    *k = (fl_skin){.e = e, .subdivide = w && w->subdivide, .by_name = fl_wish_chooses(w)};
-    if (!(k->target = fl_alloc(n, sizeof *k->target, err)) || !(k->behind = fl_alloc(n, 1, err)) ||
-        !(k->outer = fl_alloc(n, 1, err)) || !(k->gone = fl_alloc(n, 1, err)) ||
-        !(k->spare = fl_alloc(n, 1, err)) || !(k->back = fl_alloc(n, 1, err)) ||
-        !(k->doubled = fl_alloc(targets, sizeof *k->doubled, err)) ||
-        !(k->owner = fl_alloc(e->node.n, sizeof *k->owner, err)) ||
-        !(k->local = fl_alloc(e->node.n, sizeof *k->local, err)))
+    const int32_t n = e->element_id.n, targets = e->parts.n + e->sets.n;
+    *k = (fl_skin){.e = e, .subdivide = w && w->subdivide, .by_name = fl_import_by_name(w)};
+    if (!(k->target = fl_alloc(n, sizeof *k->target, err)) || !(k->reversed = fl_alloc(n, 1, err)) ||
+        !(k->outer_faces = fl_alloc(n, 1, err)) || !(k->picked_faces = fl_alloc(n, 1, err)) ||
+        !(k->duplicate_faces = fl_alloc(n, 1, err)) || !(k->dropped = fl_alloc(n, 1, err)) ||
+        !(k->dropped_of = fl_alloc(targets, sizeof *k->dropped_of, err)) ||
+        !(k->owner = fl_alloc(e->node_id.n, sizeof *k->owner, err)) ||
+        !(k->local = fl_alloc(e->node_id.n, sizeof *k->local, err)))
         return -1;
     for (int32_t i = 0; i < n; i++) k->target[i] = -1;
     return 0;
@@ -24,13 +24,13 @@ int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_wish *w, fl_err *er
 void fl_skin_free(fl_skin *k)
 {
     free(k->target);
-    free(k->behind);
-    free(k->outer);
-    free(k->free_face);
-    free(k->gone);
-    free(k->spare);
-    free(k->back);
-    free(k->doubled);
+    free(k->reversed);
+    free(k->outer_faces);
+    free(k->free_faces);
+    free(k->picked_faces);
+    free(k->duplicate_faces);
+    free(k->dropped);
+    free(k->dropped_of);
     free(k->pick);
     free(k->owner);
     free(k->local);
@@ -38,8 +38,8 @@ void fl_skin_free(fl_skin *k)
     *k = (fl_skin){0};
 }
 
-int fl_skin_deal(int32_t n, int32_t targets, const int32_t *target, int stride, int32_t **first,
-                 int32_t **list, fl_err *err)
+int fl_group_by_target(int32_t n, int32_t targets, const int32_t *target, int stride, int32_t **first,
+                       int32_t **list, fl_err *err)
 {
     *first = fl_alloc((int64_t)targets + 1, sizeof **first, err);
     *list = *first ? fl_alloc(n, sizeof **list, err) : NULL;
@@ -57,17 +57,18 @@ int fl_skin_pick(fl_skin *k, const fl_pick *p, int32_t target, fl_err *err)
     const int faces = fl_shape_faces((enum fl_shape)k->e->element[p->element].shape);
     int32_t c[4];
     if (faces == 0) return 0;
-    if (p->face == FL_PICK_FREE && !k->free_face) {
-        k->free_face = fl_alloc(k->e->number.n, 1, err);
-        if (!k->free_face || fl_sides_free(k->e, k->free_face, err)) return -1;
+    if (p->face == FL_PICK_FREE && !k->free_faces) {
+        k->free_faces = fl_alloc(k->e->element_id.n, 1, err);
+        if (!k->free_faces || fl_mark_free_faces(k->e, k->free_faces, err)) return -1;
     }
     for (int f = 0; f < faces; f++) {
         const int bit = 1 << f;
-        const int asked = p->face == FL_PICK_FREE ? k->free_face[p->element] & bit : p->face == f;
-        if (!asked || k->gone[p->element] & bit || fl_sides_corners(k->e, p->element, f, c) < 3) continue;
+        const int asked = p->face == FL_PICK_FREE ? k->free_faces[p->element] & bit : p->face == f;
+        if (!asked || k->picked_faces[p->element] & bit || fl_face_corner_nodes(k->e, p->element, f, c) < 3)
+            continue;
         if (fl_grow(&k->pick, &k->pick_cap, (int64_t)k->picks + 1, sizeof *k->pick, err)) return -1;
         k->pick[k->picks++] = (fl_skin_face){target, p->element, (int8_t)f};
-        k->gone[p->element] = (uint8_t)(k->gone[p->element] | bit);
+        k->picked_faces[p->element] = (uint8_t)(k->picked_faces[p->element] | bit);
     }
     return 0;
 }
@@ -100,7 +101,7 @@ static int32_t mid_of(const fl_elements *e, const fl_element *el, int a, int b)
     const char *p = edges((enum fl_shape)el->shape);
     for (int k = fl_shape_corners((enum fl_shape)el->shape); *p; p += 2, k++)
         if ((p[0] - '0' == a && p[1] - '0' == b) || (p[0] - '0' == b && p[1] - '0' == a))
-            return e->corner[el->first + k];
+            return e->connectivity[el->first + k];
     return -1;
 }
 
@@ -114,11 +115,11 @@ static ring ring_of(const fl_elements *e, const fl_element *el, int face)
     if (face >= 0) n = fl_shape_face(shape, face, place);
     for (int i = 0; i < n; i++) {
         const int a = place[i], b = place[(i + 1) % n];
-        if (e->corner[el->first + a] == e->corner[el->first + b]) continue;
-        r.corner[r.n] = e->corner[el->first + a];
+        if (e->connectivity[el->first + a] == e->connectivity[el->first + b]) continue;
+        r.corner[r.n] = e->connectivity[el->first + a];
         r.mid[r.n++] = mid_of(e, el, a, b);
     }
-    if (shape == FL_QUAD9 && r.n == 4) r.centre = e->corner[el->first + 8];
+    if (shape == FL_QUAD9 && r.n == 4) r.centre = e->connectivity[el->first + 8];
     return r;
 }
 
@@ -145,8 +146,8 @@ static int bring(fl_skin *k, fl_part *p, int32_t target, int32_t node, int32_t *
 
 static int before(const fl_elements *e, int32_t a, int32_t b)
 {
-    if (e->node.scope[a] != e->node.scope[b]) return e->node.scope[a] < e->node.scope[b];
-    return e->node.id[a] < e->node.id[b];
+    if (e->node_id.scope[a] != e->node_id.scope[b]) return e->node_id.scope[a] < e->node_id.scope[b];
+    return e->node_id.id[a] < e->node_id.id[b];
 }
 
 /* Add a polygon of up to 8 nodes.  It is cut up under the numbers that the nodes have in the file, which
@@ -211,7 +212,7 @@ static int placed(const fl_elements *e, const fl_element *el, int32_t node, fl_e
     if (node < 0 || !isnan(e->x[node].x)) return 0;
     return fl_elements_fail(e, el->file, el->line, err,
                             "the element wants node %lld, which is defined nowhere",
-                            (long long)e->node.id[node]);
+                            (long long)e->node_id.id[node]);
 }
 
 /* Distance of x from the line through a and b. */
@@ -248,7 +249,7 @@ static int add_face(fl_skin *k, fl_part *p, int32_t target, int32_t element, int
  * these wind inward, as they do in a right-handed element. */
 static double volume(const fl_elements *e, const fl_element *el)
 {
-    const fl_vec3 o = e->x[e->corner[el->first]];
+    const fl_vec3 o = e->x[e->connectivity[el->first]];
     double sum = 0.0;
     for (int f = 0; f < fl_shape_faces((enum fl_shape)el->shape); f++) {
         const ring r = ring_of(e, el, f);
@@ -272,13 +273,13 @@ static int inward(fl_skin *k, int32_t element, int *turn, fl_err *err)
     const fl_element *el = &k->e->element[element];
     double v;
     for (int i = 0; i < fl_shape_corners((enum fl_shape)el->shape); i++)
-        if (placed(k->e, el, k->e->corner[el->first + i], err)) return -1;
+        if (placed(k->e, el, k->e->connectivity[el->first + i], err)) return -1;
     v = volume(k->e, el);
     *turn = !(v > 0.0); /* without volume: as if it were right-handed */
-    if (!(k->gone[element] & FL_SKIN_MET)) {
-        k->flat += !(v > 0.0) && !(v < 0.0);
-        k->left += v > 0.0;
-        k->gone[element] |= FL_SKIN_MET;
+    if (!(k->picked_faces[element] & FL_SKIN_COUNTED)) {
+        k->zero_volume += !(v > 0.0) && !(v < 0.0);
+        k->left_handed += v > 0.0;
+        k->picked_faces[element] |= FL_SKIN_COUNTED;
     }
     return 0;
 }
@@ -288,7 +289,7 @@ static int add_solid(fl_skin *k, fl_part *p, int32_t target, int32_t element, in
     int turn = 0;
     if (inward(k, element, &turn, err)) return -1;
     for (int f = 0; f < faces; f++)
-        if (k->outer[element] >> f & 1 && !(k->gone[element] >> f & 1) &&
+        if (k->outer_faces[element] >> f & 1 && !(k->picked_faces[element] >> f & 1) &&
             add_face(k, p, target, element, f, turn, err))
             return -1;
     return 0;
@@ -299,8 +300,8 @@ static int add_line(fl_skin *k, fl_part *p, int32_t element, fl_err *err)
 {
     const fl_elements *e = k->e;
     const fl_element *el = &e->element[element];
-    const int32_t a = e->corner[el->first], b = e->corner[el->first + 1];
-    const int32_t m = el->shape == FL_LINE3 ? e->corner[el->first + 2] : -1;
+    const int32_t a = e->connectivity[el->first], b = e->connectivity[el->first + 1];
+    const int32_t m = el->shape == FL_LINE3 ? e->connectivity[el->first + 2] : -1;
     const double *r = el->section >= 0 ? e->section[el->section] : NULL;
     fl_cone half[2];
     int n = 1;
@@ -317,7 +318,7 @@ static int add_line(fl_skin *k, fl_part *p, int32_t element, fl_err *err)
     }
     for (int i = 0; i < n; i++) {
         const double length = v3_norm(v3_sub(half[i].p1, half[i].p0));
-        if (!(half[i].r0 + half[i].r1 > 0.0) || !(length > 0.0)) k->bare++;
+        if (!(half[i].r0 + half[i].r1 > 0.0) || !(length > 0.0)) k->lines_without_radius++;
         else if (fl_surface_cone(p, half[i], err)) return -1;
     }
     return 0;
@@ -329,13 +330,13 @@ static int add_element(fl_skin *k, fl_part *p, int32_t target, int32_t element, 
     const int faces = fl_shape_faces(shape);
     if (faces) return add_solid(k, p, target, element, faces, err);
     if (shape == FL_LINE2 || shape == FL_LINE3) return add_line(k, p, element, err);
-    return add_face(k, p, target, element, -1, k->behind[element], err);
+    return add_face(k, p, target, element, -1, k->reversed[element], err);
 }
 
 static int add_pick(fl_skin *k, fl_part *p, const fl_skin_face *f, fl_err *err)
 {
     int turn = 0;
-    if (k->spare[f->element] >> f->face & 1) return 0;
+    if (k->duplicate_faces[f->element] >> f->face & 1) return 0;
     if (inward(k, f->element, &turn, err)) return -1;
     return add_face(k, p, f->target, f->element, f->face, turn, err);
 }
@@ -353,9 +354,10 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
     const int32_t targets = e->parts.n + e->sets.n;
     int32_t *first = NULL, *list = NULL, *pick_first = NULL, *pick_list = NULL;
     int rc = -1;
-    if (fl_sides_settle(k, err) || fl_skin_deal(e->number.n, targets, k->target, 1, &first, &list, err) ||
-        fl_skin_deal(k->picks, targets, k->picks ? &k->pick[0].target : NULL,
-                     (int)(sizeof *k->pick / sizeof(int32_t)), &pick_first, &pick_list, err))
+    if (fl_resolve_shared_faces(k, err) ||
+        fl_group_by_target(e->element_id.n, targets, k->target, 1, &first, &list, err) ||
+        fl_group_by_target(k->picks, targets, k->picks ? &k->pick[0].target : NULL,
+                           (int)(sizeof *k->pick / sizeof(int32_t)), &pick_first, &pick_list, err))
         goto done;
     for (int32_t t = 0; t < targets; t++) {
         fl_part p = {0};
@@ -363,14 +365,14 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
         for (int32_t i = first[t]; !bad && i < first[t + 1]; i++) bad = add_element(k, &p, t, list[i], err);
         for (int32_t i = pick_first[t]; !bad && i < pick_first[t + 1]; i++)
             bad = add_pick(k, &p, &k->pick[pick_list[i]], err);
-        if (!bad) bad = fl_part_straighten(&p, &k->straight, err);
+        if (!bad) bad = fl_part_merge_cylinders(&p, &k->merged, err);
         if (!bad && (p.nt || p.nc)) {
             const int32_t at = fl_surface_add(s, name_of(e, t), strlen(name_of(e, t)), err);
             bad = at < 0;
             if (!bad) {
                 p.name = s->part[at].name;
                 p.id = s->part[at].id;
-                p.doubled = k->doubled[t];
+                p.duplicates = k->dropped_of[t];
                 s->part[at] = p;
                 p = (fl_part){0};
             }
@@ -387,34 +389,41 @@ done:
     return rc;
 }
 
-void fl_skin_tell(const fl_skin *k, fl_bytes *b)
+void fl_skin_report(const fl_skin *k, fl_bytes *b)
 {
     char aside[100] = "";
-    if (k->straight.off > 0.0)
+    if (k->merged.max_error > 0.0)
         snprintf(aside, sizeof aside, ", at most %.3g from where they were, in the unit of the file",
-                 k->straight.off);
+                 k->merged.max_error);
     if (k->curved)
         fl_bytes_note(
             b,
             "mid-side nodes of %d faces and lines were left out, the largest sagitta is %.3g in the "
             "unit of the file; --subdivide keeps them",
             k->curved, k->sagitta);
-    if (k->bare) fl_bytes_note(b, "%d lines without a section radius or a length were passed over", k->bare);
-    if (k->straight.lines)
-        fl_bytes_note(b, "%d lines that go straight on became %d%s", k->straight.lines, k->straight.left,
+    if (k->lines_without_radius)
+        fl_bytes_note(b, "%d lines without a section radius or a length were passed over",
+                      k->lines_without_radius);
+    if (k->merged.merged)
+        fl_bytes_note(b, "%d lines that go straight on became %d%s", k->merged.merged, k->merged.remaining,
                       aside);
-    if (k->left)
-        fl_bytes_note(b, "%d solids are numbered left-handed; their faces were turned outward", k->left);
-    if (k->flat) fl_bytes_note(b, "%d solids have no volume", k->flat);
-    if (k->twins)
+    if (k->left_handed)
+        fl_bytes_note(b, "%d solids are numbered left-handed; their faces were turned outward",
+                      k->left_handed);
+    if (k->zero_volume) fl_bytes_note(b, "%d solids have no volume", k->zero_volume);
+    if (k->duplicates)
         fl_bytes_note(b, "%d elements stand on the nodes of others of their kind and were left out",
-                      k->twins);
-    if (k->covered)
+                      k->duplicates);
+    if (k->covered_shells)
         fl_bytes_note(b, "%d shells lie on faces of solids, which are there already, and were left out%s",
-                      k->covered, k->by_name ? "" : "; --part gives such faces to the parts of the shells");
-    if (k->taken)
-        fl_bytes_note(b, "%d faces of solids went to the parts of the shells that lie on them", k->taken);
-    if (k->between) fl_bytes_note(b, "%d shells lie between two solids and were left out", k->between);
-    if (k->crowded)
-        fl_bytes_note(b, "%d faces belong to three or more solids and were taken as interior", k->crowded);
+                      k->covered_shells,
+                      k->by_name ? "" : "; --part gives such faces to the parts of the shells");
+    if (k->shell_faces)
+        fl_bytes_note(b, "%d faces of solids went to the parts of the shells that lie on them",
+                      k->shell_faces);
+    if (k->interior_shells)
+        fl_bytes_note(b, "%d shells lie between two solids and were left out", k->interior_shells);
+    if (k->nonmanifold)
+        fl_bytes_note(b, "%d faces belong to three or more solids and were taken as interior",
+                      k->nonmanifold);
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/facet.h"
 #include "mesh/vtk_cells.h"
 
@@ -39,20 +39,20 @@ static const struct {
     [81] = {FL_PYRAMID5 + 1, 5, NULL, 1},
 };
 
-const char *const FL_VTK_PART[] = {"part",     "part_id",     "PartID",    "gmsh:physical", "cell_tags",
-                                   "material", "MaterialIds", "medit:ref", "CellEntityIds", "GroupIds",
-                                   "region",   "body",        NULL};
+const char *const FL_VTK_PART_ARRAYS[] = {
+    "part",      "part_id",       "PartID",   "gmsh:physical", "cell_tags", "material", "MaterialIds",
+    "medit:ref", "CellEntityIds", "GroupIds", "region",        "body",      NULL};
 
 int fl_vtk_part_rank(const char *name)
 {
-    for (int k = 0; FL_VTK_PART[k]; k++)
-        if (strcasecmp(FL_VTK_PART[k], name) == 0) return k;
+    for (int k = 0; FL_VTK_PART_ARRAYS[k]; k++)
+        if (strcasecmp(FL_VTK_PART_ARRAYS[k], name) == 0) return k;
     return -1;
 }
 
-int fl_vtk_name(fl_vtk_names *v, int64_t id, const char *name, fl_err *err)
+int fl_vtk_names_add(fl_vtk_names *v, int64_t id, const char *name, fl_err *err)
 {
-    const int32_t k = fl_names_add(&v->name, name, err);
+    const int32_t k = fl_string_table_add(&v->name, name, err);
     if (k < 0 || fl_grow(&v->id, &v->cap, v->name.n, sizeof *v->id, err)) return -1;
     v->id[k] = id;
     return 0;
@@ -72,7 +72,7 @@ void fl_vtk_grid_free(fl_vtk_grid *g)
 
 void fl_vtk_names_free(fl_vtk_names *v)
 {
-    fl_names_free(&v->name);
+    fl_string_table_free(&v->name);
     free(v->id);
     *v = (fl_vtk_names){0};
 }
@@ -125,7 +125,7 @@ static int polygon(adder *a, int32_t n, const int64_t *node, fl_err *err)
     if (n == 3 || n == 4) return element(a, n == 3 ? FL_TRI3 : FL_QUAD4, node, err);
     if (n < 3) return 0;
     if (n > FL_FACET_CORNERS)
-        return fl_elements_fail(a->e, a->e->file, 0, err, "a polygon has %d corners, at most %d were wanted",
+        return fl_elements_fail(a->e, a->e->file, 0, err, "a polygon has %d corners, at most %d are expected",
                                 n, FL_FACET_CORNERS);
     a->pool.nv = a->pool.nt = 0;
     if (fl_grow(&a->loop, &a->loop_cap, n, sizeof *a->loop, err)) return -1;
@@ -235,7 +235,7 @@ static int part_of(adder *a, int64_t cell, const fl_vtk_names *v, const char *na
     double x;
     if (a->g->part.n == 0) {
         if (a->part >= 0) return 0;
-        a->part = fl_names_add(&a->e->parts, name, err);
+        a->part = fl_string_table_add(&a->e->parts, name, err);
         return a->part < 0 ? -1 : 0;
     }
     x = a->g->part.x[cell];
@@ -244,11 +244,11 @@ static int part_of(adder *a, int64_t cell, const fl_vtk_names *v, const char *na
     a->last_part = x;
     for (int32_t k = 0; k < v->name.n; k++)
         if (v->id[k] == (int64_t)x) {
-            a->part = fl_names_add(&a->e->parts, v->name.name[k], err);
+            a->part = fl_string_table_add(&a->e->parts, v->name.name[k], err);
             return a->part < 0 ? -1 : 0;
         }
     snprintf(text, sizeof text, "%s_%lld", a->g->part_word, (long long)x);
-    a->part = fl_names_add(&a->e->parts, text, err);
+    a->part = fl_string_table_add(&a->e->parts, text, err);
     return a->part < 0 ? -1 : 0;
 }
 
@@ -318,7 +318,7 @@ static int take(adder *a, int64_t cell, fl_err *err)
         const double x = a->g->corner.x[k];
         if (!whole(x, 0.0, (double)points(a) - 1.0))
             return fl_elements_fail(a->e, a->e->file, 0, err,
-                                    "cell %lld wants point %.17g, 0 to %lld was wanted", (long long)cell, x,
+                                    "cell %lld wants point %.17g, 0 to %lld is expected", (long long)cell, x,
                                     (long long)points(a) - 1);
         a->node[a->nodes++] = (int64_t)x + 1;
     }
@@ -380,12 +380,12 @@ static int add_points(adder *a, fl_err *err)
         return fl_elements_fail(a->e, a->e->file, 0, err, "%lld coordinates are not three for each point",
                                 (long long)a->g->point.n);
     for (int64_t k = 1; k <= points(a); k++)
-        if (fl_elements_node(a->e, a->scope, k, at(a, k), err) < 0) return -1;
+        if (fl_elements_add_node(a->e, a->scope, k, at(a, k), err) < 0) return -1;
     return 0;
 }
 
-int fl_vtk_add(fl_elements *e, const fl_vtk_grid *g, int32_t scope, const fl_vtk_names *v, const char *name,
-               int32_t *coarse, fl_err *err)
+int fl_vtk_add_cells(fl_elements *e, const fl_vtk_grid *g, int32_t scope, const fl_vtk_names *v,
+                     const char *name, int32_t *coarse, fl_err *err)
 {
     adder a = {.e = e, .g = g, .scope = scope, .coarse = coarse, .part = -1, .last_part = NAN};
     int polyhedra = 0, rc = -1;

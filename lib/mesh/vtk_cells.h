@@ -27,19 +27,19 @@ typedef struct {
 
 /* What a number of a part is called in the file. */
 typedef struct {
-    fl_names name;
+    fl_string_table name;
     int64_t *id; /* [name.n] */
     int32_t cap;
 } fl_vtk_names;
 
 /* Names of cell data that number parts, the best first, NULL at the end. */
-extern const char *const FL_VTK_PART[];
+extern const char *const FL_VTK_PART_ARRAYS[];
 
-/* The place of name in FL_VTK_PART, -1 when it is not there. */
+/* The place of name in FL_VTK_PART_ARRAYS, -1 when it is not there. */
 int fl_vtk_part_rank(const char *name);
 
 /* Remember that part id is called name.  -1 with FL_SYSTEM. */
-int fl_vtk_name(fl_vtk_names *v, int64_t id, const char *name, fl_err *err);
+int fl_vtk_names_add(fl_vtk_names *v, int64_t id, const char *name, fl_err *err);
 
 /* Add the points and cells of g to e, their nodes in a scope of their own.
  *   scope   0 for the first mesh of a file, and so on
@@ -50,8 +50,8 @@ int fl_vtk_name(fl_vtk_names *v, int64_t id, const char *name, fl_err *err);
  * corners of their cell.  Vertices and unknown types are counted as passed over; of cells of higher order the
  * corners are taken, and *coarse counts them.
  * Returns 0, or -1 with FL_INPUT (an index, an offset or a count that does not fit) or FL_SYSTEM. */
-int fl_vtk_add(fl_elements *e, const fl_vtk_grid *g, int32_t scope, const fl_vtk_names *v, const char *name,
-               int32_t *coarse, fl_err *err);
+int fl_vtk_add_cells(fl_elements *e, const fl_vtk_grid *g, int32_t scope, const fl_vtk_names *v,
+                     const char *name, int32_t *coarse, fl_err *err);
 
 void fl_vtk_grid_free(fl_vtk_grid *g);
 void fl_vtk_names_free(fl_vtk_names *v); /* both accept a zeroed struct and leave one */

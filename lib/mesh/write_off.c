@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdint.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "mesh/write_off.h"
 
 void fl_off_write(FILE *f, const fl_surface *s)
@@ -14,8 +14,8 @@ void fl_off_write(FILE *f, const fl_surface *s)
     for (int32_t i = 0; i < s->n; i++)
         for (int32_t v = 0; v < s->part[i].nv; v++) {
             const fl_vec3 p = s->part[i].v[v];
-            char x[FL_NUM_LEN], y[FL_NUM_LEN], z[FL_NUM_LEN];
-            fprintf(f, "%s %s %s\n", fl_num_text(p.x, x), fl_num_text(p.y, y), fl_num_text(p.z, z));
+            char x[FL_NUMBER_LEN], y[FL_NUMBER_LEN], z[FL_NUMBER_LEN];
+            fprintf(f, "%s %s %s\n", fl_number_text(p.x, x), fl_number_text(p.y, y), fl_number_text(p.z, z));
         }
     for (int32_t i = 0; i < s->n; i++) {
         for (int32_t t = 0; t < s->part[i].nt; t++) {

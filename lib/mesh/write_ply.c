@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdint.h>
-#include "mesh/put.h"
+#include "mesh/byte_order.h"
 #include "mesh/write_ply.h"
 
 static void put_header(FILE *f, const fl_surface *s, int64_t nv, int64_t nt)
@@ -25,12 +25,12 @@ int fl_ply_write(FILE *f, const fl_surface *s, fl_err *err)
         return fl_fail(err, FL_INPUT, "%lld vertices are more than PLY can number", (long long)nv);
     put_header(f, s, nv, nt);
     for (int32_t i = 0; i < s->n; i++)
-        for (int32_t v = 0; v < s->part[i].nv; v++) fl_put_vec3(f, s->part[i].v[v]);
+        for (int32_t v = 0; v < s->part[i].nv; v++) fl_put_vec3_le(f, s->part[i].v[v]);
     for (int32_t i = 0; i < s->n; i++) {
         for (int32_t t = 0; t < s->part[i].nt; t++) {
             fputc(3, f);
-            for (int k = 0; k < 3; k++) fl_put_uint(f, (uint64_t)(first + s->part[i].t[t].v[k]), 4);
-            fl_put_uint(f, (uint64_t)s->part[i].id, 4);
+            for (int k = 0; k < 3; k++) fl_put_uint_le(f, (uint64_t)(first + s->part[i].t[t].v[k]), 4);
+            fl_put_uint_le(f, (uint64_t)s->part[i].id, 4);
         }
         first += s->part[i].nv;
     }

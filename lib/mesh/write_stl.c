@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdint.h>
 #include <string.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "mesh/write_stl.h"
 
 static fl_vec3 normal(const fl_part *p, int32_t t)
@@ -12,8 +12,8 @@ static fl_vec3 normal(const fl_part *p, int32_t t)
 
 static void put_vec3(FILE *f, const char *word, fl_vec3 x)
 {
-    char a[FL_NUM_LEN], b[FL_NUM_LEN], c[FL_NUM_LEN];
-    fprintf(f, "%s %s %s %s\n", word, fl_num_text(x.x, a), fl_num_text(x.y, b), fl_num_text(x.z, c));
+    char a[FL_NUMBER_LEN], b[FL_NUMBER_LEN], c[FL_NUMBER_LEN];
+    fprintf(f, "%s %s %s %s\n", word, fl_number_text(x.x, a), fl_number_text(x.y, b), fl_number_text(x.z, c));
 }
 
 void fl_stl_write_ascii(FILE *f, const fl_surface *s)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
 #include <stdint.h>
-#include "mesh/put.h"
+#include "mesh/byte_order.h"
 #include "mesh/write_vtp.h"
 
 /* Names as VTK keeps them: the bytes of each and a zero, as decimal numbers. */
@@ -56,20 +56,20 @@ int fl_vtp_write(FILE *f, const fl_surface *s, fl_err *err)
     if (nv > INT32_MAX || 3 * nt > INT32_MAX)
         return fl_fail(err, FL_INPUT, "%" PRId64 " triangles are more than 32 bits can number", nt);
     put_head(f, s, nv, nt);
-    fl_put_uint(f, (uint64_t)(4 * nt), 8);
+    fl_put_uint_le(f, (uint64_t)(4 * nt), 8);
     for (int32_t i = 0; i < s->n; i++)
-        for (int32_t t = 0; t < s->part[i].nt; t++) fl_put_uint(f, (uint64_t)s->part[i].id, 4);
-    fl_put_uint(f, (uint64_t)(24 * nv), 8);
+        for (int32_t t = 0; t < s->part[i].nt; t++) fl_put_uint_le(f, (uint64_t)s->part[i].id, 4);
+    fl_put_uint_le(f, (uint64_t)(24 * nv), 8);
     for (int32_t i = 0; i < s->n; i++)
-        for (int32_t v = 0; v < s->part[i].nv; v++) fl_put_vec3(f, s->part[i].v[v]);
-    fl_put_uint(f, (uint64_t)(12 * nt), 8);
+        for (int32_t v = 0; v < s->part[i].nv; v++) fl_put_vec3_le(f, s->part[i].v[v]);
+    fl_put_uint_le(f, (uint64_t)(12 * nt), 8);
     for (int32_t i = 0; i < s->n; i++) {
         for (int32_t t = 0; t < s->part[i].nt; t++)
-            for (int k = 0; k < 3; k++) fl_put_uint(f, (uint64_t)(first + s->part[i].t[t].v[k]), 4);
+            for (int k = 0; k < 3; k++) fl_put_uint_le(f, (uint64_t)(first + s->part[i].t[t].v[k]), 4);
         first += s->part[i].nv;
     }
-    fl_put_uint(f, (uint64_t)(4 * nt), 8);
-    for (int64_t t = 1; t <= nt; t++) fl_put_uint(f, (uint64_t)(3 * t), 4);
+    fl_put_uint_le(f, (uint64_t)(4 * nt), 8);
+    for (int64_t t = 1; t <= nt; t++) fl_put_uint_le(f, (uint64_t)(3 * t), 4);
     fputs("\n</AppendedData>\n</VTKFile>\n", f);
     return 0;
 }

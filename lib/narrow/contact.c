@@ -3,7 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
-#include "narrow/descent.h"
+#include "narrow/gjk_double.h"
 #include "narrow/overlap.h"
 
 /* An area or length in common below this fraction of the squared size, or of the size, is rounding: that of a
@@ -28,7 +28,7 @@ typedef struct {
 typedef struct {
     side a, b;
     fl_vec3 n, pa, pb;
-    fl_across t;
+    fl_plane_axes t;
     double size;
     fl_mode before;
 } view;
@@ -112,7 +112,7 @@ static int try_faces(const view *w, found *out)
     const double angle = limit(w, FL_FF);
     const int32_t f = face_of(&w->a, angle), g = face_of(&w->b, angle);
     if (f < 0 || g < 0) return 0;
-    const fl_common c = fl_overlap_area(&w->t, loop_of(w->a.s, f), loop_of(w->b.s, g));
+    const fl_projected_overlap c = fl_overlap_area(&w->t, loop_of(w->a.s, f), loop_of(w->b.s, g));
     if (!(c.size > NOTHING * w->size * w->size)) return 0;
     *out = (found){FL_FF, c.size, on_face(w, w->a.s, f, c.x, c.y), on_face(w, w->b.s, g, c.x, c.y)};
     return 1;
@@ -127,7 +127,7 @@ static void try_edge_face(const view *w, const side *s, const side *o, int turne
     for (int32_t e = 0; e < s->s->p->ne; e++) {
         if (!lies_across(s, e, angle)) continue;
         const fl_edge *g = &s->s->p->edge[e];
-        const fl_common c =
+        const fl_projected_overlap c =
             fl_overlap_length(&w->t, s->s->v[g->a], s->s->v[g->b], loop_of(o->s, f), NOTHING * w->size);
         if (!(c.size > NOTHING * w->size) || c.size <= out->size) continue;
         const fl_vec3 p = on_edge(w, s->s, e, c.x, c.y), q = on_face(w, o->s, f, c.x, c.y);
@@ -175,13 +175,13 @@ static void touch(side *s, double size)
     const fl_core c = fl_solid_core(s->s);
     double low;
     s->n = 0;
-    fl_core_lowest(c, v3_neg(s->dir), &low);
+    fl_core_support(c, v3_neg(s->dir), &low);
     for (int32_t i = 0; i < c.n && s->n < 3; i++)
         if (-v3_dot(s->dir, v3_sub(c.v[i], c.v[0])) <= low + PLANE_BAND * size) s->at[s->n++] = i;
 }
 
 void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gjk_cache *cache,
-                     fl_deep_count *count, fl_contact *out)
+                     fl_penetration_count *count, fl_contact *out)
 {
     fl_gap g;
     fl_gjk(fl_solid_core(a), fl_solid_core(b), cache, &g);
@@ -189,8 +189,8 @@ void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gj
     w.size = a->p->size + b->p->size;
     *out = (fl_contact){.overlap = g.overlap, .d = g.d};
     if (g.overlap) {
-        fl_overlap deep;
-        fl_deep(a, b, count, &deep);
+        fl_penetration deep;
+        fl_penetration_find(a, b, count, &deep);
         out->d = -deep.depth;
         w.n = deep.n;
         w.pa = deep.pa;
@@ -209,14 +209,14 @@ void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gj
             w.b.at[k] = g.ib[k];
         }
     }
-    w.t = fl_across_of(v3_lerp(w.pb, w.pa, 0.5), w.n);
+    w.t = fl_plane_axes_of(v3_lerp(w.pb, w.pa, 0.5), w.n);
 
     found f = {plain_mode(w.a.n, w.b.n), 0.0, w.pa, w.pb};
     if (!try_faces(&w, &f)) {
         try_edge_face(&w, &w.a, &w.b, 0, &f);
         const double ours = f.size;
         try_edge_face(&w, &w.b, &w.a, 1, &f);
-        out->low_b = f.size > ours;
+        out->lower_is_b = f.size > ours;
         if (f.size == 0.0) try_parallel(&w, &f);
     }
     out->mode = f.mode;
@@ -225,7 +225,7 @@ void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gj
     out->p = v3_scale(0.5, v3_add(v3_madd(f.pa, -a->r, w.n), v3_madd(f.pb, b->r, w.n)));
     out->length = f.mode == FL_EP || f.mode == FL_EF ? f.size : 0.0;
     out->area = f.mode == FL_FF ? f.size : 0.0;
-    if (f.mode == FL_VE || f.mode == FL_VF) out->low_b = w.b.n < w.a.n;
+    if (f.mode == FL_VE || f.mode == FL_VF) out->lower_is_b = w.b.n < w.a.n;
     if (f.mode == FL_EE) {
         const fl_vec3 l = v3_sub(a->v[w.a.at[1]], a->v[w.a.at[0]]),
                       m = v3_sub(b->v[w.b.at[1]], b->v[w.b.at[0]]);

@@ -3,7 +3,7 @@
 #ifndef FL_NARROW_CONTACT_H
 #define FL_NARROW_CONTACT_H
 #include <stdint.h>
-#include "narrow/deep.h"
+#include "narrow/penetration.h"
 #include "narrow/gjk.h"
 
 /* The kinds of contact, by the features of the two cores that are nearest or parallel:
@@ -18,17 +18,17 @@ typedef enum { FL_MODE_NONE, FL_VV, FL_VE, FL_VF, FL_EE, FL_EP, FL_EF, FL_FF } f
 
 typedef struct {
     fl_mode mode;
-    int32_t overlap; /* 1 when the cores themselves meet                                             */
-    double d;        /* signed distance of the cores, negative when they penetrate               [m] */
-    double gap;      /* d - ra - rb; negative is overlap of the dilated bodies                   [m] */
-    fl_vec3 n;       /* unit, from b to a                                                            */
-    fl_vec3 p;       /* the point of the contact: midway between the two dilated surfaces, over the
+    int32_t overlap;    /* 1 when the cores themselves meet                                             */
+    double d;           /* signed distance of the cores, negative when they penetrate               [m] */
+    double gap;         /* d - ra - rb; negative is overlap of the dilated bodies                   [m] */
+    fl_vec3 n;          /* unit, from b to a                                                            */
+    fl_vec3 p;          /* the point of the contact: midway between the two dilated surfaces, over the
                       * centroid of the overlap of the features (or on the line of nearest points) [m] */
-    double length;   /* EP, EF: length of the overlap, seen along n; else 0                      [m] */
-    double area;     /* FF: area of the overlap, seen along n; else 0                           [m2] */
-    double sine;     /* EE: sine of the angle between the two edges; else 0                          */
-    double edge;     /* EE: length of the shorter of the two edges; else 0                       [m] */
-    int32_t low_b;   /* VE, VF, EF: 1 when the lower feature (vertex before edge before face) is b's  */
+    double length;      /* EP, EF: length of the overlap, seen along n; else 0                      [m] */
+    double area;        /* FF: area of the overlap, seen along n; else 0                           [m2] */
+    double sine;        /* EE: sine of the angle between the two edges; else 0                          */
+    double edge;        /* EE: length of the shorter of the two edges; else 0                       [m] */
+    int32_t lower_is_b; /* VE, VF, EF: 1 when the lower feature (vertex before edge before face) is b's  */
 } fl_contact;
 
 /* Two letters and a nul: "VV" .. "FF"; "--" for FL_MODE_NONE. */
@@ -37,15 +37,15 @@ const char *fl_mode_name(fl_mode mode);
 /* The contact of a and b at whatever distance.
  *   before   the mode this pair had last time, FL_MODE_NONE for a new pair: a parallel mode is entered below
  *            FL_PARALLEL_ENTER and left above FL_PARALLEL_LEAVE
- *   cache    as for fl_gjk, may be NULL;   count   as for fl_deep, may be NULL
+ *   cache    as for fl_gjk, may be NULL;   count   as for fl_penetration_find, may be NULL
  *
- * n is the direction of least distance (fl_gjk) or of least penetration (fl_deep).  On each side a face
+ * n is the direction of least distance (fl_gjk) or of least penetration (fl_penetration_find).  On each side a face
  * or an edge that touches the nearest vertices counts when its angle to the plane across n is within the
  * tolerance.  Tried in this order, with the features projected along n: two faces with an area in common
  * (FF), an edge with a length inside a face (EF), two edges parallel within the tolerance with a length
  * in common (EP).  When none is found the mode is that of the nearest features (VV VE VF EE).  Cannot
  * fail. */
 void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gjk_cache *cache,
-                     fl_deep_count *count, fl_contact *out);
+                     fl_penetration_count *count, fl_contact *out);
 
 #endif

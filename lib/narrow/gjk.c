@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "narrow/gjk.h"
 #include <stddef.h>
-#include "narrow/descent.h"
-#include "narrow/fine.h"
-#include "narrow/parts.h"
+#include "narrow/gjk_double.h"
+#include "narrow/gjk_dd.h"
+#include "narrow/closest_simplex.h"
 
 /* Who belongs to a supporting plane, in extents of the pair.  A hundred times the 1e-12 that doubles may
- * leave in n at FL_FINE_BELOW, so that the true nearest feature is always among them. */
+ * leave in n at FL_GJK_DD_BELOW, so that the true nearest feature is always among them. */
 #define PLANE_BAND 1e-10
 
 /* A direction found in doubles is taken when no vertex lies beyond its planes by more than this, in
- * extents: the rounding of two heights, and of a direction that has lost a digit (parts.c). */
+ * extents: the rounding of two heights, and of a direction that has lost a digit (closest_simplex.c). */
 #define PROOF 4e-15
 
 /* Vertices within this of the planes, in extents, count as lying on them where it is asked how firmly the
@@ -35,7 +35,7 @@
 #define FARTHER 1e-14
 
 /* Cores with more vertices on a plane (the end of a fine cylinder) take part whole. */
-enum { PLANE_MAX = FL_CORE_FEW, ROUNDS = 4 };
+enum { PLANE_MAX = FL_CORE_SMALL, ROUNDS = 4 };
 
 typedef struct {
     fl_core a, b;
@@ -74,12 +74,13 @@ typedef struct {
 } planes;
 
 /* from: vertices where to begin to look */
-static void find_planes(const pair *p, fl_vec3 n, const fl_heights *h, const fl_simplex *from, planes *f)
+static void find_planes(const pair *p, fl_vec3 n, const fl_support_heights *h, const fl_simplex *from,
+                        planes *f)
 {
     const double band = PLANE_BAND * p->size;
-    f->a.k = fl_core_band(p->a, n, h, from->a[0], band, f->a.at, f->a.above, &f->a.clear);
-    f->b.k =
-        fl_core_band(p->b, v3_neg(n), h ? h + 1 : NULL, from->b[0], band, f->b.at, f->b.above, &f->b.clear);
+    f->a.k = fl_core_support_band(p->a, n, h, from->a[0], band, f->a.at, f->a.above, &f->a.clear);
+    f->b.k = fl_core_support_band(p->b, v3_neg(n), h ? h + 1 : NULL, from->b[0], band, f->b.at, f->b.above,
+                                  &f->b.clear);
 }
 
 static int whole(const planes *f) { return f->a.k > PLANE_MAX || f->b.k > PLANE_MAX; }
@@ -117,7 +118,7 @@ static double over_plane(fl_core c, fl_vec3 n, const plane *f, int32_t i)
     double low;
     for (int32_t k = 0; k < f->k && f->k <= PLANE_MAX; k++)
         if (f->at[k] == i) return f->above[k];
-    fl_core_downhill(c, n, i, &low);
+    fl_core_hill_climb(c, n, i, &low);
     return v3_dot(n, v3_sub(c.v[i], c.v[0])) - low;
 }
 
@@ -138,15 +139,15 @@ static int answer_on(const pair *p, const planes *f, int fine, fl_gap *out)
     const int direct = a.n <= 3 && b.n <= 3 && a.n + b.n <= 4;
     if (!direct) {
         fl_vec3 n;
-        fl_heights h[2];
+        fl_support_heights h[2];
         fl_simplex_start(&s, a, b, NULL);
-        if (fine ? fl_fine_descend(a, b, p->size, &s, out)
-                 : !fl_descend(a, b, p->size, &s, &n, h, &out->iterations))
+        if (fine ? fl_gjk_dd(a, b, p->size, &s, out)
+                 : !fl_gjk_double(a, b, p->size, &s, &n, h, &out->iterations))
             return 0;
     }
     const fl_part fa = part_of(a, direct ? a.n : s.n, direct ? first : s.a, all ? NULL : f->a.at),
                   fb = part_of(b, direct ? b.n : s.n, direct ? first : s.b, all ? NULL : f->b.at);
-    return fl_parts_nearest(&fa, &fb, p->size, fine, out);
+    return fl_closest_simplex_points(&fa, &fb, p->size, fine, out);
 }
 
 /* A vertex on a plane, in two axes across n, from the nearest point of its core. */
@@ -259,7 +260,7 @@ static int stands_firm(const pair *p, const planes *f, const fl_gap *out, double
  * along its own direction the same vertices lie on the planes as it was made from, so that it is a function
  * of them; a first n in doubles may be off by 1e-8, since distances alone cannot tell, and then the better
  * one that it leads to is used.  Returns 1, or 0 when more bits are needed. */
-static int settle(const pair *p, fl_vec3 n, const fl_heights *h, const fl_simplex *from, int fine,
+static int settle(const pair *p, fl_vec3 n, const fl_support_heights *h, const fl_simplex *from, int fine,
                   fl_gap *out)
 {
     planes f[2];
@@ -309,19 +310,19 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
 {
     const pair p = {a, b, fl_core_extent(a) + fl_core_extent(b)};
     fl_simplex s;
-    fl_heights h[2];
+    fl_support_heights h[2];
     fl_vec3 n;
     *out = (fl_gap){0};
     fl_simplex_start(&s, a, b, cache);
-    if (!fl_descend(a, b, p.size, &s, &n, h, &out->iterations) || !settle(&p, n, h, &s, 0, out)) {
+    if (!fl_gjk_double(a, b, p.size, &s, &n, h, &out->iterations) || !settle(&p, n, h, &s, 0, out)) {
         *out = (fl_gap){.iterations = out->iterations};
-        if (!fl_fine_descend(a, b, p.size, &s, out)) {
+        if (!fl_gjk_dd(a, b, p.size, &s, out)) {
             /* Doubles first here too, wherever they might do: which road was taken must not show in the
              * bits. Should the parts of the nearest features all degenerate, the walk's own answer is
              * kept, as it is should they come out farther apart; should the vertices on the planes meet,
              * the cores do. */
             const fl_gap own = *out;
-            if (!(own.d > FL_FINE_BELOW * p.size && settle(&p, own.n, NULL, &s, 0, out)) &&
+            if (!(own.d > FL_GJK_DD_BELOW * p.size && settle(&p, own.n, NULL, &s, 0, out)) &&
                 (!settle(&p, own.n, NULL, &s, 1, out) || out->d > own.d + FARTHER * (p.size + own.d)) &&
                 !out->overlap)
                 own_answer(&p, &s, &own, out);
@@ -333,10 +334,10 @@ void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out)
 int fl_gjk_direction(fl_core a, fl_core b, fl_gjk_cache *cache, fl_vec3 *n)
 {
     fl_simplex s;
-    fl_heights h[2];
+    fl_support_heights h[2];
     int32_t steps = 0;
     fl_simplex_start(&s, a, b, cache);
-    const int found = fl_descend(a, b, fl_core_extent(a) + fl_core_extent(b), &s, n, h, &steps);
+    const int found = fl_gjk_double(a, b, fl_core_extent(a) + fl_core_extent(b), &s, n, h, &steps);
     keep(cache, &s);
     return found;
 }

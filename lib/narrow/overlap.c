@@ -6,16 +6,16 @@ typedef struct {
     double x, y;
 } spot;
 
-static spot seen(const fl_across *t, fl_vec3 p)
+static spot seen(const fl_plane_axes *t, fl_vec3 p)
 {
     const fl_vec3 d = v3_sub(p, t->o);
     return (spot){v3_dot(t->x, d), v3_dot(t->y, d)};
 }
 
-fl_across fl_across_of(fl_vec3 o, fl_vec3 n)
+fl_plane_axes fl_plane_axes_of(fl_vec3 o, fl_vec3 n)
 {
     const fl_vec3 x = v3_normal_to(n);
-    return (fl_across){o, x, v3_cross(n, x)};
+    return (fl_plane_axes){o, x, v3_cross(n, x)};
 }
 
 /* One of the two outlines from the leftmost corner to the rightmost: the edge from p to q that is under x. */
@@ -24,9 +24,9 @@ typedef struct {
     spot p, q;
 } outline;
 
-static spot corner(const fl_across *t, const fl_loop *a, int32_t k) { return seen(t, a->v[a->loop[k]]); }
+static spot corner(const fl_plane_axes *t, const fl_loop *a, int32_t k) { return seen(t, a->v[a->loop[k]]); }
 
-static int32_t leftmost(const fl_across *t, const fl_loop *a, double *lo, double *hi)
+static int32_t leftmost(const fl_plane_axes *t, const fl_loop *a, double *lo, double *hi)
 {
     int32_t at = 0;
     *lo = *hi = corner(t, a, 0).x;
@@ -42,7 +42,7 @@ static int32_t leftmost(const fl_across *t, const fl_loop *a, double *lo, double
 }
 
 /* Go on to the edge that reaches beyond x. */
-static void go_on(const fl_across *t, const fl_loop *a, outline *e, double x)
+static void go_on(const fl_plane_axes *t, const fl_loop *a, outline *e, double x)
 {
     while (e->q.x <= x && e->left > 0) {
         e->left--;
@@ -52,7 +52,7 @@ static void go_on(const fl_across *t, const fl_loop *a, outline *e, double x)
     }
 }
 
-static outline begin(const fl_across *t, const fl_loop *a, int32_t at, int32_t step)
+static outline begin(const fl_plane_axes *t, const fl_loop *a, int32_t at, int32_t step)
 {
     const int32_t next = (at + step + a->n) % a->n;
     return (outline){at, step, a->n - 1, corner(t, a, at), corner(t, a, next)};
@@ -127,7 +127,7 @@ static void add_strip(sums *sum, double x0, double x1, const double *ua, const d
     }
 }
 
-fl_common fl_overlap_area(const fl_across *t, fl_loop a, fl_loop b)
+fl_projected_overlap fl_overlap_area(const fl_plane_axes *t, fl_loop a, fl_loop b)
 {
     double la, ha, lb, hb;
     const int32_t ia = leftmost(t, &a, &la, &ha), ib = leftmost(t, &b, &lb, &hb);
@@ -151,11 +151,11 @@ fl_common fl_overlap_area(const fl_across *t, fl_loop a, fl_loop b)
         add_strip(&sum, x, next, u[ta], u[1 - ta], u[tb], u[5 - tb]);
         x = next;
     }
-    if (!(sum.a > 0.0)) return (fl_common){0};
-    return (fl_common){sum.a, sum.x / sum.a, sum.y / sum.a};
+    if (!(sum.a > 0.0)) return (fl_projected_overlap){0};
+    return (fl_projected_overlap){sum.a, sum.x / sum.a, sum.y / sum.a};
 }
 
-fl_common fl_overlap_length(const fl_across *t, fl_vec3 p, fl_vec3 q, fl_loop a, double tol)
+fl_projected_overlap fl_overlap_length(const fl_plane_axes *t, fl_vec3 p, fl_vec3 q, fl_loop a, double tol)
 {
     const spot s = seen(t, p), e = seen(t, q);
     double area = 0.0, t0 = 0.0, t1 = 1.0;
@@ -173,12 +173,12 @@ fl_common fl_overlap_length(const fl_across *t, fl_vec3 p, fl_vec3 q, fl_loop a,
         const double ds = ((s.y - g.y) * dx - (s.x - g.x) * dy) / len,
                      de = ((e.y - g.y) * dx - (e.x - g.x) * dy) / len;
         if (ds >= -tol && de >= -tol) continue;
-        if (ds <= 0.0 && de <= 0.0) return (fl_common){0};
+        if (ds <= 0.0 && de <= 0.0) return (fl_projected_overlap){0};
         const double at = ds / (ds - de);
         if (ds < de && at > t0) t0 = at;
         if (ds > de && at < t1) t1 = at;
     }
-    if (!(t1 > t0)) return (fl_common){0};
+    if (!(t1 > t0)) return (fl_projected_overlap){0};
     const double dx = e.x - s.x, dy = e.y - s.y, m = 0.5 * (t0 + t1);
-    return (fl_common){(t1 - t0) * sqrt(dx * dx + dy * dy), s.x + m * dx, s.y + m * dy};
+    return (fl_projected_overlap){(t1 - t0) * sqrt(dx * dx + dy * dy), s.x + m * dx, s.y + m * dy};
 }

@@ -8,7 +8,7 @@
 /* Two axes across a direction; the third coordinate of a point is dropped. */
 typedef struct {
     fl_vec3 o, x, y; /* origin [m]; unit, at right angles to each other */
-} fl_across;
+} fl_plane_axes;
 
 /* A convex polygon: the points v[loop[0 .. n)] in order, either way round. */
 typedef struct {
@@ -20,10 +20,10 @@ typedef struct {
 typedef struct {
     double size; /* area [m2] or length [m], 0 when there is nothing in common */
     double x, y; /* centroid in the axes; of no meaning when size is 0 [m]     */
-} fl_common;
+} fl_projected_overlap;
 
 /* Axes across the unit vector n with origin o. */
-fl_across fl_across_of(fl_vec3 o, fl_vec3 n);
+fl_plane_axes fl_plane_axes_of(fl_vec3 o, fl_vec3 n);
 
 /* Area and centroid of the intersection of two convex polygons seen along the third axis,
  *     A = int max(0, min(ua, ub) - max(la, lb)) dx,
@@ -31,10 +31,10 @@ fl_across fl_across_of(fl_vec3 o, fl_vec3 n);
  * the strips between all their corners and crossings, exact in each.  No case is decided by a sign: the
  * area is a continuous function of the corners, also where edges or corners coincide.  Error: a few 2^-53
  * of the squared extent.  No storage. */
-fl_common fl_overlap_area(const fl_across *t, fl_loop a, fl_loop b);
+fl_projected_overlap fl_overlap_area(const fl_plane_axes *t, fl_loop a, fl_loop b);
 
 /* Length and middle of the part of the segment p q inside the convex polygon, seen along the third axis.
  * A segment within tol of the border lies inside.   tol  [m] */
-fl_common fl_overlap_length(const fl_across *t, fl_vec3 p, fl_vec3 q, fl_loop a, double tol);
+fl_projected_overlap fl_overlap_length(const fl_plane_axes *t, fl_vec3 p, fl_vec3 q, fl_loop a, double tol);
 
 #endif

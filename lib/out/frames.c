@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/num.h"
+#include "base/number_text.h"
 #include "out/frames.h"
 
 static void put(FILE *f, double x)
 {
-    char text[FL_NUM_LEN];
+    char text[FL_NUMBER_LEN];
     putc(' ', f);
-    fputs(fl_num_text(x, text), f);
+    fputs(fl_number_text(x, text), f);
 }
 
 static void put3(FILE *f, fl_vec3 a)
@@ -38,10 +38,10 @@ void fl_frames_shape(FILE *f, const fl_poses *s, int32_t i)
     }
 }
 
-void fl_frames_header(FILE *f, const char *history, const fl_by *by, const fl_poses *s,
+void fl_frames_header(FILE *f, const char *history, const fl_history_line *by, const fl_poses *s,
                       const fl_surface *surface)
 {
-    fl_by_header(f, "animation", 1, history, by);
+    fl_write_file_header(f, "animation", 1, history, by);
     for (int32_t c = 0; c < s->b->n; c++)
         if (fl_poses_body(s, c) >= 0) fl_frames_shape(f, s, fl_poses_body(s, c));
     for (int32_t k = 0; surface && k < surface->n; k++) {
@@ -71,19 +71,19 @@ void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 gone, int ice
         if (i < 0) continue;
         const fl_quat q = q_mul(s->b->q[i], q_conj(s->q0[i]));
         fprintf(f, "body %d", s->id[i]);
-        put3(f, fl_poses_place(s, i));
+        put3(f, fl_poses_position(s, i));
         put(f, q.w);
         put3(f, v3(q.x, q.y, q.z));
         putc('\n', f);
     }
-    if (v3_some(gone)) {
+    if (v3_nonzero(gone)) {
         fputs("structure", f);
         put3(f, gone);
         putc('\n', f);
     }
 }
 
-void fl_frames_moved(FILE *f, int32_t id, fl_vec3 x, fl_quat q)
+void fl_frames_part_pose(FILE *f, int32_t id, fl_vec3 x, fl_quat q)
 {
     fprintf(f, "moved %d", id);
     put3(f, x);

@@ -3,28 +3,28 @@
 #ifndef FL_OUT_POSES_H
 #define FL_OUT_POSES_H
 #include "body/body.h"
-#include "bound/cell.h"
+#include "structure/periodic_cell.h"
 
 /* All borrowed. */
 typedef struct {
     const fl_bodies *b;
     const int32_t *id;
-    const fl_quat *q0;   /* axes at the start: orientations are told against them */
-    const int32_t *at;   /* [b->n] the order; NULL: as they are */
-    const fl_cell *cell; /* positions are told inside it; NULL: as they are */
-    const uint8_t *away; /* [b->n] places that are empty; NULL: none        */
+    const fl_quat *q0;            /* axes at the start: orientations are told against them */
+    const int32_t *order;         /* [b->n] the order; NULL: as they are */
+    const fl_periodic_cell *cell; /* positions are told inside it; NULL: as they are */
+    const uint8_t *absent;        /* [b->n] places that are empty; NULL: none        */
 } fl_poses;
 
 /* The k-th body to be told; -1: nobody is there. */
 static inline int32_t fl_poses_body(const fl_poses *p, int32_t k)
 {
-    const int32_t i = p->at ? p->at[k] : k;
-    return p->away && p->away[i] ? -1 : i;
+    const int32_t i = p->order ? p->order[k] : k;
+    return p->absent && p->absent[i] ? -1 : i;
 }
 
-static inline fl_vec3 fl_poses_place(const fl_poses *p, int32_t i)
+static inline fl_vec3 fl_poses_position(const fl_poses *p, int32_t i)
 {
-    return p->cell ? fl_cell_inside(p->cell, p->b->x[i]) : p->b->x[i];
+    return p->cell ? fl_periodic_cell_wrap(p->cell, p->b->x[i]) : p->b->x[i];
 }
 
 #endif

@@ -2,9 +2,9 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/number_text.h"
+#include "base/parallel.h"
 #include "base/stream.h"
 #include "out/restart.h"
 
@@ -110,9 +110,9 @@ static int read_parts(fl_restart *r, int64_t at, int64_t n, fl_err *err)
         int used = 0;
         if (r->parts == FL_RESTART_PARTS ||
             sscanf(r->data + at, "part %15s %23[0-9]%n", part->name, number, &used) != 2 ||
-            r->data[at + used] != '\n' || fl_num_u64(number, &bytes))
+            r->data[at + used] != '\n' || fl_number_u64(number, &bytes))
             return refuse(r, err,
-                          "a line \"part NAME BYTES\" was wanted between the parts of the checkpoint");
+                          "a line \"part NAME BYTES\" is expected between the parts of the checkpoint");
         at += used + 1;
         if (at > n || bytes > (uint64_t)(n - at))
             return refuse(r, err, "a part of the checkpoint is cut short");
@@ -143,7 +143,7 @@ int fl_restart_current(const fl_restart *r, fl_err *err)
     return fl_fail(
         err, FL_INPUT,
         "%s:1: checkpoint version %d is older than this program, which goes on from version %d: the "
-        "program that wrote it, or a run from the start, was wanted",
+        "program that wrote it, or a run from the start, is expected",
         r->path, r->version, FL_RESTART_VERSION);
 }
 

@@ -8,7 +8,7 @@
 #include "scene/scene_section.h"
 #include "scene/scene_value.h"
 
-void fl_scene_start(fl_scene *scene)
+void fl_scene_init(fl_scene *scene)
 {
     memset(scene, 0, sizeof *scene);
     for (int s = 0; s < FL_SECTIONS; s++)
@@ -54,7 +54,7 @@ static void lay_over(fl_scene_contact *out, const fl_scene *scene, const char *a
     const int first = fl_key_first(FL_SEC_CONTACT);
     if (i < 0) return;
     for (int k = first; k < fl_key_first(FL_SEC_CONTACT + 1); k++)
-        if (scene->contact[i].head.key[k - first].line && !scene->contact[i].head.key[k - first].left)
+        if (scene->contact[i].head.key[k - first].line && !scene->contact[i].head.key[k - first].is_auto)
             fl_value_copy(&fl_key_table[k], out, &scene->contact[i]);
 }
 
@@ -103,7 +103,7 @@ int fl_scene_fail(const fl_scene *scene, const char *key, fl_err *err, const cha
         const int32_t i = fl_section_named(scene, at.section, at.a, at.b);
         const fl_scene_head *head = fl_section_at(scene, at.section, i);
         if (head && at.key >= 0) mark = head->key[at.key - fl_key_first(at.section)];
-        if (head && mark.line == 0) mark = head->opened;
+        if (head && mark.line == 0) mark = head->heading;
     }
     if (mark.line && mark.file == FL_SCENE_ARGUMENT) return fl_fail(err, FL_USAGE, "--set: %s", what);
     if (scene->n_file == 0) return fl_fail(err, FL_INPUT, "%s", what);

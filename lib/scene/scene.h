@@ -2,11 +2,11 @@
 /* scene.h -- what the user asked for: one case, every key with its value, read from a scene file.
  *
  * The life of a scene:
- *     fl_scene_start()   every key at its default                          (scene.h)
+ *     fl_scene_init()   every key at its default                          (scene.h)
  *     fl_scene_read()    the file over it                                  (scene_read.h)
  *     fl_scene_set()     --set section.key=value over that, any number     (scene_read.h)
  *     fl_scene_check()   "auto" filled in, the parts held against another  (scene_check.h)
- *     fl_scene_write(), fl_scene_explain()                                 (scene_show.h)
+ *     fl_scene_write(), fl_scene_explain()                                 (scene_print.h)
  *     fl_scene_free()                                                      (scene.h)
  * All keys, their types, units, defaults, ranges and sources are rows of one table, scene_key.h; the
  * specification for the user is scene(5).  Values are SI. */
@@ -23,24 +23,24 @@ enum { FL_SCENE_NAME = 48, FL_SCENE_PATH = 1024, FL_SCENE_KEYS = 32 };
 enum { FL_SCENE_ARGUMENT = -1 };
 typedef struct {
     int32_t file, line;
-    uint32_t parts; /* bit c: component c of a vector; all bits for a whole value */
-    int32_t left;   /* the word given was "auto" or the like, which leaves the value to something else */
+    uint32_t components; /* bit c: component c of a vector; all bits for a whole value */
+    int32_t is_auto;     /* the word given was "auto" or the like, which leaves the value to something else */
 } fl_scene_mark;
 
 /* First member of every section. */
 typedef struct {
     int present;                      /* the section stands in the file, or one of its keys was set */
-    fl_scene_mark opened;             /* the line of its heading */
+    fl_scene_mark heading;            /* the line of its heading */
     fl_scene_mark key[FL_SCENE_KEYS]; /* one per key, in the order of the table */
 } fl_scene_head;
 
 enum fl_law { FL_LAW_PATCH, FL_LAW_MANUAL, FL_LAW_MANUAL_SI, FL_LAW_CORE };
 enum fl_shape { FL_SHAPE_SHARP, FL_SHAPE_ROUND };
-enum fl_bound_type {
-    FL_BOUND_RIGID,
-    FL_BOUND_ELASTIC,
-    FL_BOUND_PERIODIC,
-    FL_BOUND_FREE
+enum fl_boundary_type {
+    FL_BOUNDARY_RIGID,
+    FL_BOUNDARY_ELASTIC,
+    FL_BOUNDARY_PERIODIC,
+    FL_BOUNDARY_FREE
 }; /* manual's word - 1 */
 enum fl_error_of {
     FL_ERROR_OF_IMPULSE,
@@ -100,14 +100,14 @@ typedef struct {
     int32_t law;                             /* enum fl_law */
     double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
     double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
-    double softening;                        /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
-    double tangential;                       /* kt / kn */
+    double stiffness_factor;                 /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
+    double tangential_ratio;                 /* kt / kn */
     double rolling;                          /* mu_r of spheres; 0: they roll freely */
     double friction, restitution;            /* negative in scene.contact: auto, from the materials */
     double surrogate; /* tolerance of the force between looks, over the force; 0: a look in every step */
     double damping;   /* overrides what restitution asks for: chi v_impact of `patch`
                                                 and `core`, zeta of `manual`; negative: auto */
-    int32_t literal2, literal18; /* equations (2), (18) of the manual as printed */
+    int32_t manual_eq2, manual_eq18; /* equations (2), (18) of the manual as printed */
 } fl_scene_contact;
 
 typedef struct {
@@ -119,13 +119,13 @@ typedef struct {
 
 /* How the structure, or a part of it by itself, moves: as it is told in the directions that are not free, by
  * forces in those that are.  World axes; turns are about the reference point. */
-enum fl_between { FL_BETWEEN_CUBIC, FL_BETWEEN_LINEAR };
+enum fl_interpolation { FL_INTERPOLATION_CUBIC, FL_INTERPOLATION_LINEAR };
 typedef struct {
     fl_vec3 reference; /* point that turns and moments are about, the centre of mass of what is free [m] */
     fl_vec3 velocity;  /* [m/s] */
     fl_vec3 spin;      /* [rad/s] */
     char track[FL_SCENE_PATH]; /* "": none */
-    int32_t between;           /* enum fl_between: rows of the track */
+    int32_t interpolation;     /* enum fl_interpolation: rows of the track */
     uint32_t free;             /* FL_FIX_X | ...: directions left to forces */
     double mass;               /* [kg]; 0: not given */
     fl_vec3 inertia;           /* [kg m2] */
@@ -156,10 +156,10 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    int32_t type[3];                 /* enum fl_bound_type of x, y, z; an absent section is FL_BOUND_FREE */
-    fl_vec3 min, max;                /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
-    double stiffness;                /* of the springs against the boundary [N/m^n]; 0: auto */
-    int32_t inflow;                  /* enum fl_inflow */
+    int32_t type[3];  /* enum fl_boundary_type of x, y, z; an absent section is FL_BOUNDARY_FREE */
+    fl_vec3 min, max; /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
+    double stiffness; /* of the springs against the boundary [N/m^n]; 0: auto */
+    int32_t inflow;   /* enum fl_inflow */
     char inflow_file[FL_SCENE_PATH]; /* g-polys; "" not given */
     int32_t inflow_from;             /* 0 -x, 1 x, 2 -y, 3 y: the bound */
     double inflow_speed;             /* [m/s]; 0: auto, that of the current */
@@ -191,7 +191,7 @@ typedef struct {
     double drag_force_coef;      /* C of equation (8) */
     fl_vec3 added_mass;          /* over the displaced mass, per body axis; -1: auto */
     fl_vec3 added_inertia;       /* over the own moments of inertia; -1: auto */
-    int32_t drag;                /* manual, facet: enum fl_drag_law of water/sea.h */
+    int32_t drag;                /* manual, facet: enum fl_drag_law of water/environment.h */
     double skin_coef, form_coef; /* C_s and C_f of facet */
     double drag_moment_coef;     /* C of equation (9) */
     int32_t every;               /* steps between two looks at the water */
@@ -251,7 +251,7 @@ typedef struct {
 } fl_scene;
 
 /* Every key at its default, no section present.  Cannot fail.  scene may be uninitialised. */
-void fl_scene_start(fl_scene *scene);
+void fl_scene_init(fl_scene *scene);
 
 /* Accepts a zeroed scene and leaves one. */
 void fl_scene_free(fl_scene *scene);

@@ -4,7 +4,7 @@
 #include <string.h>
 #include "scene/scene_check.h"
 #include "base/pi.h"
-#include "scene/scene_idle.h"
+#include "scene/unused_keys.h"
 #include "scene/scene_section.h"
 
 static int ensure_material(fl_scene *s, const char *name, fl_err *err)
@@ -17,7 +17,7 @@ static int ensure_material(fl_scene *s, const char *name, fl_err *err)
 static void follow(const fl_scene_output *o, const char *key, double *value, double leader)
 {
     const int slot = fl_key_find(FL_SEC_OUTPUT, key) - fl_key_first(FL_SEC_OUTPUT);
-    if (o->head.key[slot].line == 0 || o->head.key[slot].left) *value = leader;
+    if (o->head.key[slot].line == 0 || o->head.key[slot].is_auto) *value = leader;
 }
 
 static void fill_in(fl_scene *s)
@@ -47,10 +47,10 @@ static int check_inputs(const fl_scene *s, fl_err *err)
     const int std_structure = s->structure.head.present && strcmp(s->structure.file, "-") == 0;
     if (!s->ice.head.present || s->ice.file[0] == '\0')
         return fl_scene_fail(s, "ice.file", err,
-                             "the scene has no ice: [ice] file = FILE, or --ice FILE, was wanted");
+                             "the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
     if (s->structure.head.present && s->structure.file[0] == '\0')
         return fl_scene_fail(s, "structure.file", err,
-                             "[structure] has no file: file = FILE, or --structure FILE, was wanted");
+                             "[structure] has no file: file = FILE, or --structure FILE, is expected");
     if (std_scene + std_ice + std_structure > 1)
         return fl_scene_fail(s, std_ice ? "ice.file" : "structure.file", err,
                              "standard input can be only one of scene, ice and structure");
@@ -71,7 +71,7 @@ static int check_outputs(const fl_scene *s, fl_err *err)
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
-                                 "%s is \"-\", and standard output carries the loads: a file was wanted",
+                                 "%s is \"-\", and standard output carries the loads: a file is expected",
                                  key[k]);
         for (int j = 0; j < k && path[k][0]; j++)
             if (strcmp(path[j], path[k]) == 0)
@@ -106,15 +106,15 @@ static int check_contacts(const fl_scene *s, fl_err *err)
         const int32_t in_force = law_of(s, i, all);
         char at[3 * FL_SCENE_NAME], key[4 * FL_SCENE_NAME];
         snprintf(at, sizeof at, "contact%s%s%s%s", c->a[0] ? " " : "", c->a, c->b[0] ? " " : "", c->b);
-        snprintf(key, sizeof key, "%s.literal%d", at, c->literal2 ? 2 : 18);
-        if ((c->literal2 || c->literal18) && in_force != FL_LAW_MANUAL && in_force != FL_LAW_MANUAL_SI)
+        snprintf(key, sizeof key, "%s.literal%d", at, c->manual_eq2 ? 2 : 18);
+        if ((c->manual_eq2 || c->manual_eq18) && in_force != FL_LAW_MANUAL && in_force != FL_LAW_MANUAL_SI)
             return fl_scene_fail(s, key, err, "literal%d bears on law = manual and manual-si alone",
-                                 c->literal2 ? 2 : 18);
+                                 c->manual_eq2 ? 2 : 18);
         snprintf(key, sizeof key, "%s.surrogate", at);
         if (s->run.error > 0.0 && c->surrogate > 0.0)
             return fl_scene_fail(s, key, err,
                                  "run.error tells the error of the step by steps of other sizes, which a "
-                                 "surrogate would blur: one of run.error and surrogate in [%s] was wanted",
+                                 "surrogate would blur: one of run.error and surrogate in [%s] is expected",
                                  at);
         if (c->surrogate > 0.0 && !has_law(s, i, all, FL_LAW_PATCH))
             return fl_scene_fail(s, key, err, "surrogate bears on law = patch alone");
@@ -140,10 +140,10 @@ static int check_drive(const fl_scene *s, fl_err *err)
     const int row = b->drive_width > 0.0, group = b->drive_group[0] != '\0';
     if (row && group)
         return fl_scene_fail(s, "boundary.drive_group", err,
-                             "drive_width and drive_group both say which floes are driven: one was wanted");
+                             "drive_width and drive_group both say which floes are driven: one is expected");
     if (row && b->drive_edge == 0 && !(fabs(v[0]) > 0.0 || fabs(v[1]) > 0.0))
         return fl_scene_fail(s, "boundary.drive_width", err,
-                             "boundary.drive has no direction along x or y: drive_edge was wanted");
+                             "boundary.drive has no direction along x or y: drive_edge is expected");
     for (int c = 0; c < 3 && (row || group); c++)
         if (v[c] != 0.0 && !(b->drive_fixed >> c & 1u))
             return fl_scene_fail(s, "boundary.drive", err,
@@ -160,16 +160,16 @@ static int check_inflow(const fl_scene *s, fl_err *err)
     const double current = axis ? s->water.current.y : s->water.current.x;
     if (b->inflow == FL_INFLOW_FILE && b->inflow_file[0] == '\0')
         return fl_scene_fail(s, "boundary.inflow", err,
-                             "boundary.inflow is file: inflow_file = FILE was wanted");
-    if (b->type[axis] != FL_BOUND_FREE || !isfinite(lo) || !isfinite(hi))
+                             "boundary.inflow is file: inflow_file = FILE is expected");
+    if (b->type[axis] != FL_BOUNDARY_FREE || !isfinite(lo) || !isfinite(hi))
         return fl_scene_fail(s, "boundary.inflow", err,
                              "floes come in along %c, and leave: boundary.type of %c free, and its "
-                             "boundary.min and boundary.max, were wanted",
+                             "boundary.min and boundary.max, are expected",
                              'x' + axis, 'x' + axis);
     if (b->inflow_speed <= 0.0 && !((b->inflow_from % 2 ? -current : current) > 0.0))
         return fl_scene_fail(s, "boundary.inflow", err,
                              "water.current does not go in there: boundary.inflow_speed, or another "
-                             "inflow_from, was wanted");
+                             "inflow_from, is expected");
     return 0;
 }
 
@@ -182,25 +182,25 @@ static int check_boundary(const fl_scene *s, fl_err *err)
     if (!s->boundary.head.present) return 0;
     for (int c = 0; c < 3; c++) {
         walls += isfinite(lo[c]) + isfinite(hi[c]);
-        open = open && s->boundary.type[c] == FL_BOUND_FREE;
+        open = open && s->boundary.type[c] == FL_BOUNDARY_FREE;
         if (!(lo[c] < hi[c]))
             return fl_scene_fail(s, "boundary.max", err,
-                                 "boundary.max of %c is %g m, more than its min, %g m, was wanted", 'x' + c,
+                                 "boundary.max of %c is %g m, more than its min, %g m, is expected", 'x' + c,
                                  hi[c], lo[c]);
     }
     for (int c = 0; c < 3 && walls == 0 && !open; c++)
-        if (s->boundary.type[c] != FL_BOUND_FREE)
+        if (s->boundary.type[c] != FL_BOUNDARY_FREE)
             return fl_scene_fail(s, "boundary.type", err,
-                                 "%s %s boundary has no bounds: boundary.min or boundary.max was wanted",
-                                 s->boundary.type[c] == FL_BOUND_ELASTIC ? "an" : "a",
+                                 "%s %s boundary has no bounds: boundary.min or boundary.max is expected",
+                                 s->boundary.type[c] == FL_BOUNDARY_ELASTIC ? "an" : "a",
                                  NAME[s->boundary.type[c]]);
     for (int c = 0; c < 3; c++)
-        if (s->boundary.type[c] == FL_BOUND_PERIODIC && isfinite(lo[c]) != isfinite(hi[c]))
+        if (s->boundary.type[c] == FL_BOUNDARY_PERIODIC && isfinite(lo[c]) != isfinite(hi[c]))
             return fl_scene_fail(s, "boundary.type", err,
                                  "%c is periodic and has one bound: boundary.min and boundary.max of %c, or "
-                                 "none of the two, were wanted",
+                                 "none of the two, are expected",
                                  'x' + c, 'x' + c);
-    if (s->boundary.type[2] == FL_BOUND_PERIODIC && isfinite(lo[2]) && s->water.head.present)
+    if (s->boundary.type[2] == FL_BOUNDARY_PERIODIC && isfinite(lo[2]) && s->water.head.present)
         return fl_scene_fail(s, "boundary.type", err,
                              "z is periodic, and there is [water], which has one surface: one of the two was "
                              "wanted");
@@ -217,10 +217,10 @@ static int check_current(const fl_scene *s, fl_err *err)
         return fl_scene_fail(
             s, "water.profile", err,
             "a current that changes with depth needs one: water.profile_depth or water.depth "
-            "was wanted");
+            "is expected");
     if (table && w->profile_file[0] == '\0')
         return fl_scene_fail(s, "water.profile", err,
-                             "water.profile = table has no rows: water.profile_file was wanted");
+                             "water.profile = table has no rows: water.profile_file is expected");
     if (!table && w->profile_file[0])
         return fl_scene_fail(s, "water.profile_file", err,
                              "water.profile_file bears on water.profile = table alone");
@@ -234,7 +234,7 @@ static int check_weight(const fl_scene *s, fl_err *err)
 {
     const fl_vec3 g = s->run.gravity;
     if (s->water.head.present && (g.x != 0.0 || g.y != 0.0 || g.z > 0.0))
-        return fl_scene_fail(s, "run.gravity", err, "water lies level: a run.gravity along -z was wanted");
+        return fl_scene_fail(s, "run.gravity", err, "water lies level: a run.gravity along -z is expected");
     return 0;
 }
 
@@ -245,21 +245,21 @@ static int check_waves(const fl_scene *s, fl_err *err)
     const fl_vec3 g = s->run.gravity;
     if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
     if (w->height == 0.0)
-        return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height was wanted");
+        return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height is expected");
     if (w->period == 0.0)
-        return fl_scene_fail(s, "water.wave", err, "the waves have no period: water.period was wanted");
+        return fl_scene_fail(s, "water.wave", err, "the waves have no period: water.period is expected");
     if (!(g.z < 0.0))
-        return fl_scene_fail(s, "run.gravity", err, "waves need weight: a run.gravity along -z was wanted");
+        return fl_scene_fail(s, "run.gravity", err, "waves need weight: a run.gravity along -z is expected");
     if (!(0.5 * w->height < w->depth))
         return fl_scene_fail(s, "water.height", err,
-                             "waves of %g m on water of %g m: less than twice the depth was wanted",
+                             "waves of %g m on water of %g m: less than twice the depth is expected",
                              w->height, w->depth);
     const double turn = fl_radians(w->direction), along[2] = {cos(turn), sin(turn)};
     for (int c = 0; c < 2; c++)
-        if (s->boundary.head.present && s->boundary.type[c] == FL_BOUND_PERIODIC && fabs(along[c]) > 1e-9)
+        if (s->boundary.head.present && s->boundary.type[c] == FL_BOUNDARY_PERIODIC && fabs(along[c]) > 1e-9)
             return fl_scene_fail(s, "water.wave", err,
                                  "waves that run along %c do not repeat with a periodic boundary: another "
-                                 "boundary or water.direction was wanted",
+                                 "boundary or water.direction is expected",
                                  'x' + c);
     return 0;
 }
@@ -278,7 +278,7 @@ static int check_shares(const fl_scene *s, const char *key, fl_vec3 x, fl_err *e
     const double all[] = {x.x, x.y, x.z};
     for (int c = 0; c < 3; c++)
         if (all[c] < 0.0 && all[c] != -1.0)
-            return fl_scene_fail(s, key, err, "%s of axis %d is %g, at least 0 or auto was wanted", key,
+            return fl_scene_fail(s, key, err, "%s of axis %d is %g, at least 0 or auto is expected", key,
                                  c + 1, all[c]);
     return 0;
 }
@@ -288,12 +288,13 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     const fl_scene_bond *b = &s->bond;
     const int on = b->head.present && b->on;
     if (!on && s->output.bonds[0])
-        return fl_scene_fail(s, "output.bonds", err, "nothing is frozen together: bond.on = true was wanted");
+        return fl_scene_fail(s, "output.bonds", err,
+                             "nothing is frozen together: bond.on = true is expected");
     if (!on) return 0;
     if (s->run.sleep > 0.0)
         return fl_scene_fail(
             s, "run.sleep", err,
-            "floes that are frozen together do not sleep: one of run.sleep and bond.on was wanted");
+            "floes that are frozen together do not sleep: one of run.sleep and bond.on is expected");
     if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
         return fl_scene_fail(
             s, "boundary.inflow", err,
@@ -302,11 +303,11 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     if (b->softening != FL_SOFTENING_KEEP && b->energy == 0.0)
         return fl_scene_fail(
             s, "bond.softening", err,
-            "softening bears on a fracture energy, and there is none: bond.energy was wanted");
+            "softening bears on a fracture energy, and there is none: bond.energy is expected");
     if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
         return fl_scene_fail(
             s, "bond.softening", err,
-            "softening = weaken lowers both strengths, and one is none: a number was wanted");
+            "softening = weaken lowers both strengths, and one is none: a number is expected");
     return 0;
 }
 
@@ -360,22 +361,22 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
                  D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z},
                  spring[] = {m->stiffness.x + m->period.x, m->stiffness.y + m->period.y,
                              m->stiffness.z + m->period.z}; /* which of them have one */
-    if (m->track[0] && (v3_some(m->velocity) || v3_some(m->spin)))
-        return motion_fail(c, "track", "velocity and spin are given as well, one of the two was wanted");
-    if (m->free && v3_some(m->spin))
-        return motion_fail(c, "spin", "what is free is not spun, a structure without free was wanted");
+    if (m->track[0] && (v3_nonzero(m->velocity) || v3_nonzero(m->spin)))
+        return motion_fail(c, "track", "velocity and spin are given as well, one of the two is expected");
+    if (m->free && v3_nonzero(m->spin))
+        return motion_fail(c, "spin", "what is free is not spun, a structure without free is expected");
     if (free_only(c, "stiffness", m->stiffness, m->free) || free_only(c, "period", m->period, m->free) ||
         free_only(c, "damping", m->damping, m->free) ||
         free_only(c, "damping_ratio", m->damping_ratio, m->free) ||
         free_only(c, "turn_stiffness", m->turn_stiffness, turns) ||
         free_only(c, "turn_damping", m->turn_damping, turns) || free_only(c, "inertia", m->inertia, turns))
         return -1;
-    if (v3_some(m->period) && v3_some(m->stiffness))
-        return motion_fail(c, "period", "stiffness is given as well, one of the two was wanted");
-    if (v3_some(m->damping) && v3_some(m->damping_ratio))
-        return motion_fail(c, "damping_ratio", "damping is given as well, one of the two was wanted");
+    if (v3_nonzero(m->period) && v3_nonzero(m->stiffness))
+        return motion_fail(c, "period", "stiffness is given as well, one of the two is expected");
+    if (v3_nonzero(m->damping) && v3_nonzero(m->damping_ratio))
+        return motion_fail(c, "damping_ratio", "damping is given as well, one of the two is expected");
     if (m->hydrostatic && m->period.z > 0.0)
-        return motion_fail(c, "period", "the sea draws it back along z as well, a stiffness was wanted");
+        return motion_fail(c, "period", "the sea draws it back along z as well, a stiffness is expected");
     for (int k = 0; k < 3; k++)
         if (D[k] > 0.0 && !(spring[k] > 0.0 || (k == 2 && m->hydrostatic)))
             return motion_fail(c, "damping_ratio", "a direction without a spring has no critical damping");
@@ -385,12 +386,12 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
         return motion_fail(c, "mass", "a mass bears on free directions, and none of x y z is free");
     for (int k = 0; k < 3; k++)
         if (turns >> k & 1u && !(I[k] > 0.0))
-            return motion_fail(c, "inertia", "every free turn has an inertia, above 0 was wanted");
-    if ((v3_some(m->coupling) || m->hydrostatic) && !(m->free & (FL_FIX_Z | FL_FIX_RX | FL_FIX_RY)))
+            return motion_fail(c, "inertia", "every free turn has an inertia, above 0 is expected");
+    if ((v3_nonzero(m->coupling) || m->hydrostatic) && !(m->free & (FL_FIX_Z | FL_FIX_RX | FL_FIX_RY)))
         return motion_fail(c, m->hydrostatic ? "hydrostatic" : "coupling",
                            "it bears on z, rx and ry, and none of them is free");
     if (m->hydrostatic && !c->s->water.head.present)
-        return motion_fail(c, "hydrostatic", "there is no water: [water] was wanted");
+        return motion_fail(c, "hydrostatic", "there is no water: [water] is expected");
     return 0;
 }
 
@@ -403,7 +404,7 @@ static int check_motions(const fl_scene *s, fl_err *err)
         snprintf(of, sizeof of, "part %s", s->part[i].name);
         c.of = of;
         if (!s->structure.head.present)
-            return fl_scene_fail(s, of, err, "[%s] is a part of no structure: [structure] was wanted", of);
+            return fl_scene_fail(s, of, err, "[%s] is a part of no structure: [structure] is expected", of);
         if (check_motion(&c, &s->part[i].motion)) return -1;
     }
     return 0;
@@ -414,22 +415,23 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     if (ensure_material(s, "ice", err) || ensure_material(s, "steel", err)) return -1;
     fill_in(s);
     if (s->run.dt > s->run.duration)
-        return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, was wanted",
+        return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, is expected",
                              s->run.dt, s->run.duration);
     if (s->run.error > 0.0 && s->run.sleep > 0.0)
         return fl_scene_fail(
             s, "run.sleep", err,
             "run.error repeats windows with other steps, in which nobody sleeps: one of run.error "
-            "and run.sleep was wanted");
+            "and run.sleep is expected");
     if (s->water.head.present && s->water.every > 1 && s->run.sleep > 0.0)
         return fl_scene_fail(
             s, "water.every", err,
             "floes that sleep under run.sleep meet the water when they wake: water.every = 1 "
-            "was wanted");
+            "is expected");
     if (s->run.error > 0.0 && s->run.dt > 0.0)
         return fl_scene_fail(s, "run.error", err,
-                             "run.error is to choose the step, and run.dt gives it: one of them was wanted");
-    if (fl_scene_idle(s, err) || check_inputs(s, err) || check_outputs(s, err) || check_contacts(s, err))
+                             "run.error is to choose the step, and run.dt gives it: one of them is expected");
+    if (fl_scene_check_unused(s, err) || check_inputs(s, err) || check_outputs(s, err) ||
+        check_contacts(s, err))
         return -1;
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
                    check_wind(s, err) || check_bonds(s, err) ||

@@ -36,7 +36,7 @@ enum fl_value_type {
 };
 
 /* What one number stands for in a vector of three. */
-enum fl_lone { FL_LONE_NOT, FL_LONE_X, FL_LONE_DOWN, FL_LONE_ALL };
+enum fl_single_number { FL_SINGLE_NOT, FL_SINGLE_X, FL_SINGLE_DOWN, FL_SINGLE_ALL };
 
 typedef struct {
     enum fl_section_id section;
@@ -50,7 +50,7 @@ typedef struct {
     double value;
     const char *range;   /* interval, "(0,1]", of a number; NULL: any */
     const char *choices; /* "patch|manual", for a number its values */
-    enum fl_lone lone;
+    enum fl_single_number lone;
     const char *meaning, *source; /* source: NULL for a choice that is the user's */
 } fl_key;
 

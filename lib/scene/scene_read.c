@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "base/text.h"
 #include "scene/scene_read.h"
 #include "scene/scene_section.h"
@@ -42,8 +42,9 @@ static int complain(const source *in, const char *fmt, ...)
 
 static fl_scene_mark mark_of(const source *in, uint32_t parts)
 {
-    return (fl_scene_mark){
-        .file = in->file, .line = in->file == FL_SCENE_ARGUMENT ? 1 : (int)in->text.number, .parts = parts};
+    return (fl_scene_mark){.file = in->file,
+                           .line = in->file == FL_SCENE_ARGUMENT ? 1 : (int)in->text.line_number,
+                           .components = parts};
 }
 
 /* The section of an address, made if it is not there; NULL without memory. */
@@ -55,7 +56,7 @@ static fl_scene_head *open_section(const source *in, const fl_address *at)
     if (i < 0) return NULL;
     head = fl_section_at(in->scene, at->section, i);
     head->present = 1;
-    if (head->opened.line == 0) head->opened = mark_of(in, ~0u);
+    if (head->heading.line == 0) head->heading = mark_of(in, ~0u);
     return head;
 }
 
@@ -70,7 +71,7 @@ static int may_give(const source *in, const fl_address *at, uint32_t parts)
     char section[4 * FL_SCENE_NAME];
     if (!head || in->file == FL_SCENE_ARGUMENT) return 1;
     old = &head->key[at->key - fl_key_first(at->section)];
-    if (old->line == 0 || !(old->parts & parts)) return 1;
+    if (old->line == 0 || !(old->components & parts)) return 1;
     snprintf(section, sizeof section, "%s%s%s%s%s", fl_section_table[at->section].name, at->a[0] ? " " : "",
              at->a, at->b[0] ? " " : "", at->b);
     if (old->file == in->file)
@@ -82,27 +83,27 @@ static int may_give(const source *in, const fl_address *at, uint32_t parts)
 }
 
 /* The value of a word of the manual as the text of its key.  text stays where it means the same. */
-static int map_word(enum fl_word_map map, const char **text, char buf[FL_NUM_LEN], char *why)
+static int map_word(enum fl_word_map map, const char **text, char buf[FL_NUMBER_LEN], char *why)
 {
     static const char *const bound[] = {"rigid", "elastic", "periodic", "free"};
     double force;
     int32_t type;
     if (map == FL_MAP_BOUND) {
-        if (fl_num_i32(*text, 1, 4, &type)) {
+        if (fl_number_i32(*text, 1, 4, &type)) {
             snprintf(why, WHY,
-                     "bound_type is \"%.60s\", 1 (rigid), 2 (elastic), 3 (periodic) or 4 (free) was wanted",
+                     "bound_type is \"%.60s\", 1 (rigid), 2 (elastic), 3 (periodic) or 4 (free) is expected",
                      *text);
             return -1;
         }
         *text = bound[type - 1];
     }
     if (map == FL_MAP_BEAUFORT) {
-        if (fl_num_f64(*text, &force) || force < 0.0 || force > BEAUFORT_MAX) {
-            snprintf(why, WHY, "windvel is \"%.60s\", a Beaufort number from 0 to %d was wanted", *text,
+        if (fl_number_f64(*text, &force) || force < 0.0 || force > BEAUFORT_MAX) {
+            snprintf(why, WHY, "windvel is \"%.60s\", a Beaufort number from 0 to %d is expected", *text,
                      BEAUFORT_MAX);
             return -1;
         }
-        *text = fl_num_text(0.836 * force * sqrt(force), buf);
+        *text = fl_number_text(0.836 * force * sqrt(force), buf);
     }
     return 0;
 }
@@ -127,7 +128,7 @@ static int give(const source *in, const fl_address *at, enum fl_word_map map, co
     fl_key key = fl_key_table[at->key];
     fl_scene_head *head;
     uint32_t parts = ~0u;
-    char why[WHY], buf[FL_NUM_LEN];
+    char why[WHY], buf[FL_NUMBER_LEN];
     int may;
     memset(&scratch, 0, sizeof scratch);
     if (map == FL_MAP_X || map == FL_MAP_Y || map == FL_MAP_Z) { /* one component, read as a plain number */
@@ -143,9 +144,9 @@ static int give(const source *in, const fl_address *at, enum fl_word_map map, co
     head = open_section(in, at);
     if (!head) return -1;
     fl_value_copy(&key, head, &scratch);
-    if (head->key[slot].line && head->key[slot].file == in->file) parts |= head->key[slot].parts;
+    if (head->key[slot].line && head->key[slot].file == in->file) parts |= head->key[slot].components;
     head->key[slot] = mark_of(in, parts);
-    head->key[slot].left = fl_value_is_special(&key, &scratch);
+    head->key[slot].is_auto = fl_value_is_special(&key, &scratch);
     return 0;
 }
 
@@ -245,7 +246,8 @@ static char *next_line(char *buf, int size, void *stream)
     for (;;) {
         if (in->err->code || fl_text_line(&in->text, in->err) <= 0) return NULL;
         line = in->text.line;
-        if (in->text.number == 1 && sscanf(line, "#scene %d", &version) == 1 && version > SCENE_VERSION) {
+        if (in->text.line_number == 1 && sscanf(line, "#scene %d", &version) == 1 &&
+            version > SCENE_VERSION) {
             complain(in, "scene version %d is newer than this program, which reads up to %d", version,
                      SCENE_VERSION);
             return NULL;
@@ -276,11 +278,11 @@ static int include(source *in, const char *value)
     char path[FL_SCENE_PATH];
     const char *folder = value[0] == '/' ? "" : in->folder;
     if (in->file != 0)
-        return complain(in, "include stands in a file that is itself included, one level was wanted");
+        return complain(in, "include stands in a file that is itself included, one level is expected");
     if (value[0] == '\0' || strcmp(value, "-") == 0) return complain(in, "include wants the name of a file");
     const int n = snprintf(path, sizeof path, "%s%s", folder, value);
     if (n >= FL_SCENE_PATH)
-        return complain(in, "include is a path of %d characters, at most %d were wanted", n,
+        return complain(in, "include is a path of %d characters, at most %d are expected", n,
                         FL_SCENE_PATH - 1);
     return read_file(in->scene, path, in->err);
 }
@@ -364,7 +366,7 @@ done:
 int fl_scene_read(fl_scene *scene, const char *path, fl_err *err)
 {
     fl_scene fresh;
-    fl_scene_start(&fresh);
+    fl_scene_init(&fresh);
     if (read_file(&fresh, path, err)) {
         fl_scene_free(&fresh);
         return -1;
@@ -378,7 +380,7 @@ int fl_scene_read_text(fl_scene *scene, fl_text *text, fl_err *err)
     source *in = fl_alloc(1, sizeof *in, err);
     fl_scene fresh;
     int rc = -1;
-    fl_scene_start(&fresh);
+    fl_scene_init(&fresh);
     if (in) rc = read_source(in, &fresh, text, err);
     free(in);
     if (rc) fl_scene_free(&fresh);
@@ -400,6 +402,6 @@ int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err)
     name[equals - assignment] = '\0';
     memcpy(value, equals + 1, strlen(equals + 1) + 1);
     if (fl_address_read(trim(name), &at, why, sizeof why)) return complain(&in, "%s", why);
-    if (at.key < 0) return complain(&in, "\"%.60s\" is a section, section.key=value was wanted", name);
+    if (at.key < 0) return complain(&in, "\"%.60s\" is a section, section.key=value is expected", name);
     return give(&in, &at, FL_MAP_SAME, trim(value));
 }

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "scene/scene.h"
 
-/* Read a scene over its defaults (fl_scene_start() is called here); "-" is standard input.  Paths of files in
+/* Read a scene over its defaults (fl_scene_init() is called here); "-" is standard input.  Paths of files in
  * it are taken from the folder of the file they stand in, for standard input from the working folder.
  * scene is untouched on failure.
  * 0, or -1 with FL_INPUT (grammar, unknown or repeated or unsupported key, unit, range; file and line are

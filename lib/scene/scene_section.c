@@ -2,7 +2,7 @@
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/text.h"
 #include "scene/scene_section.h"
 #include "scene/scene_value.h"
@@ -124,7 +124,7 @@ int fl_address_heading(const char *text, fl_address *out, char *why, size_t why_
     }
     t = &fl_section_table[at.section];
     if (n - 1 != t->names && !(t->names == 2 && n == 1)) {
-        snprintf(why, why_size, "[%.80s] has %d name%s, %s was wanted", text, n - 1, n == 2 ? "" : "s",
+        snprintf(why, why_size, "[%.80s] has %d name%s, %s is expected", text, n - 1, n == 2 ? "" : "s",
                  t->form);
         return -1;
     }

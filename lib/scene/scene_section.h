@@ -25,7 +25,7 @@ typedef struct {
     char a[FL_SCENE_NAME], b[FL_SCENE_NAME];
 } fl_address;
 
-/* Take an address apart.  0, or -1 with a sentence in why: what was found and what was wanted. */
+/* Take an address apart.  0, or -1 with a sentence in why: what was found and what is expected. */
 int fl_address_read(const char *text, fl_address *out, char *why, size_t why_size);
 
 /* The heading of a section, "contact ice steel", without its brackets; key is -1 in out. */

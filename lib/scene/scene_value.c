@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/text.h"
 #include "scene/scene_value.h"
 
@@ -43,14 +43,14 @@ static void interval(const char *range, double *lo, double *hi, int *lo_in, int 
 
 char *fl_value_range(const fl_key *key, char *buf, size_t size)
 {
-    char low[FL_NUM_LEN], high[FL_NUM_LEN];
+    char low[FL_NUMBER_LEN], high[FL_NUMBER_LEN];
     double lo, hi;
     int lo_in, hi_in;
     buf[0] = '\0';
     if (!key->range) return buf;
     interval(key->range, &lo, &hi, &lo_in, &hi_in);
-    fl_num_text(lo, low);
-    fl_num_text(hi, high);
+    fl_number_text(lo, low);
+    fl_number_text(hi, high);
     if (isinf(hi)) snprintf(buf, size, "%s %s", lo_in ? "at least" : "above", low);
     else
         snprintf(buf, size, "%s %s and %s %s", lo_in ? "at least" : "above", low, hi_in ? "at most" : "below",
@@ -71,7 +71,7 @@ static int out_of_range(const complaint *c, const char *text)
 {
     char range[100];
     const char *si = fl_unit_si(c->key->unit);
-    return wrong(c, "is %.60s, a value %s%s%s was wanted", text, fl_value_range(c->key, range, sizeof range),
+    return wrong(c, "is %.60s, a value %s%s%s is expected", text, fl_value_range(c->key, range, sizeof range),
                  si[0] ? " " : "", si);
 }
 
@@ -96,7 +96,7 @@ static int wrong_choice(const complaint *c, const char *text, char word[N_CHOICE
         len += (size_t)snprintf(all + len, sizeof all - len, " %s", word[k]);
         list[k] = word[k];
     }
-    return wrong(c, "is \"%.60s\", one of%s was wanted, nearest is %s", text, all,
+    return wrong(c, "is \"%.60s\", one of%s is expected, nearest is %s", text, all,
                  fl_text_nearest(text, list, n));
 }
 
@@ -129,7 +129,7 @@ static int read_words(const complaint *c, const char *text, int32_t out[3])
         if (read_word(c, t, &got[n++])) return -1;
     }
     if (n != 1 && n != 3)
-        return wrong(c, "is \"%.60s\", one word or three, for x, y and z, were wanted", text);
+        return wrong(c, "is \"%.60s\", one word or three, for x, y and z, are expected", text);
     for (int k = 0; k < 3; k++) out[k] = got[n == 1 ? 0 : k];
     return 0;
 }
@@ -163,7 +163,7 @@ static int wrong_number(const complaint *c, const char *text)
     const char *were = key->type == FL_VALUE_F64 ? "was" : "were";
     char list[100];
     if (strchr(text, ','))
-        return wrong(c, "is \"%.60s\", a decimal point and blanks were wanted, not a comma", text);
+        return wrong(c, "is \"%.60s\", a decimal point and blanks are expected, not a comma", text);
     if (key->unit == FL_UNIT_ONE) return wrong(c, "is \"%.60s\", %s %s wanted", text, count, were);
     return wrong(c, "is \"%.60s\", %s in %s %s wanted (units: %s)", text, count, fl_unit_si(key->unit), were,
                  fl_unit_list(key->unit, list, sizeof list));
@@ -176,7 +176,7 @@ static int apply_unit(const complaint *c, const char *unit, double *x, const int
     char list[100];
     for (int k = from; k < n; k++)
         if (!special[k] && fl_unit_convert(kind, unit, &x[k]))
-            return wrong(c, "has the unit \"%.20s\", %s%s was wanted", unit,
+            return wrong(c, "has the unit \"%.20s\", %s%s is expected", unit,
                          kind == FL_UNIT_ONE ? "none or " : "one of ", fl_unit_list(kind, list, sizeof list));
     return 0;
 }
@@ -244,8 +244,8 @@ static int read_vec3(const complaint *c, const char *text, fl_vec3 *out)
     const int n = read_numbers(c, text, x);
     if (n < 0) return -1;
     if (n == 3) *out = v3(x[0], x[1], x[2]);
-    else if (c->key->lone == FL_LONE_X) *out = v3(x[0], 0, 0);
-    else if (c->key->lone == FL_LONE_ALL) *out = v3(x[0], x[0], x[0]);
+    else if (c->key->lone == FL_SINGLE_X) *out = v3(x[0], 0, 0);
+    else if (c->key->lone == FL_SINGLE_ALL) *out = v3(x[0], x[0], x[0]);
     else if (x[0] >= 0.0) *out = v3(0, 0, 0.0 - x[0]); /* 0 of 0 */
     else
         return wrong(c,
@@ -261,8 +261,8 @@ static int read_i32(const complaint *c, const char *text, int32_t *out)
     int lo_in, hi_in;
     interval(c->key->range, &lo, &hi, &lo_in, &hi_in);
     if (c->key->special && strcmp(text, c->key->special) == 0) *out = (int32_t)c->key->value;
-    else if (fl_num_i32(text, (int32_t)lo, (int32_t)hi, out))
-        return wrong(c, "is \"%.60s\", a whole number from %d to %d was wanted", text, (int)lo, (int)hi);
+    else if (fl_number_i32(text, (int32_t)lo, (int32_t)hi, out))
+        return wrong(c, "is \"%.60s\", a whole number from %d to %d is expected", text, (int)lo, (int)hi);
     return 0;
 }
 
@@ -282,7 +282,7 @@ static int read_fixed(const complaint *c, const char *text, uint32_t *out)
         bad = k == N_FIX || (bits >> k & 1u);
         if (!bad) bits |= 1u << k;
     }
-    if (bad) return wrong(c, "is \"%.60s\", none or some of x y z rx ry rz, each once, was wanted", text);
+    if (bad) return wrong(c, "is \"%.60s\", none or some of x y z rx ry rz, each once, is expected", text);
     *out = bits;
     return 0;
 }
@@ -294,7 +294,8 @@ static int read_name(const complaint *c, const char *text, char *out)
         return 0;
     }
     if (!fl_value_is_name(text))
-        return wrong(c, "is \"%.60s\", a name of letters, digits, _ + - and at most %d characters was wanted",
+        return wrong(c,
+                     "is \"%.60s\", a name of letters, digits, _ + - and at most %d characters is expected",
                      text, FL_SCENE_NAME - 1);
     memcpy(out, text, strlen(text) + 1);
     return 0;
@@ -309,13 +310,13 @@ static int read_path(const complaint *c, const char *text, const char *folder, c
     }
     for (const char *p = text; *p; p++)
         if (iscntrl((unsigned char)*p) || ((*p == '#' || *p == ';') && (p == text || p[-1] == ' ')))
-            return wrong(c, "is \"%.60s\", a path without control characters and comments was wanted", text);
+            return wrong(c, "is \"%.60s\", a path without control characters and comments is expected", text);
     if (text[0] == '/' || strcmp(text, "-") == 0) folder = "";
     else if (folder[0] && folder[strlen(folder) - 1] != '/') joint = "/";
     char path[FL_SCENE_PATH];
     const int n = snprintf(path, sizeof path, "%s%s%s", folder, joint, text);
     if (n >= FL_SCENE_PATH)
-        return wrong(c, "is a path of %d characters, at most %d were wanted", n, FL_SCENE_PATH - 1);
+        return wrong(c, "is a path of %d characters, at most %d are expected", n, FL_SCENE_PATH - 1);
     memcpy(out, path, (size_t)n + 1);
     return 0;
 }
@@ -348,9 +349,9 @@ int fl_value_read(const fl_key *key, const char *text, const char *folder, void 
 
 static int number_text(const fl_key *key, double x, char *buf, size_t size)
 {
-    char num[FL_NUM_LEN];
+    char num[FL_NUMBER_LEN];
     if (key->special && x == key->value) return snprintf(buf, size, "%s", key->special);
-    return snprintf(buf, size, "%s", fl_num_text(x, num));
+    return snprintf(buf, size, "%s", fl_number_text(x, num));
 }
 
 char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TEXT])

@@ -9,7 +9,7 @@ enum { FL_VALUE_TEXT = FL_SCENE_PATH + 8 };
 /* Read the value of a key into its place in `section`, the struct of its section.
  *   text    numbers and units, a word, a name, a path; ends trimmed
  *   folder  put before a relative path, "" for none
- *   why     on failure the sentence: what was found and what was wanted, "run.dt is ..."
+ *   why     on failure the sentence: what was found and what is expected, "run.dt is ..."
  * 0, or -1 with the place untouched. */
 int fl_value_read(const fl_key *key, const char *text, const char *folder, void *section, char *why,
                   size_t why_size);

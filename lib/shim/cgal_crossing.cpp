@@ -127,7 +127,7 @@ extern "C" int fl_cgal_crossings(const fl_soup *s, fl_crossing *c, fl_err *err)
     return guarded("search for crossings", s->nt, err, [&] { return count(s, c); });
 }
 
-extern "C" int fl_cgal_meet(const double *a, const double *b, fl_err *err)
+extern "C" int fl_cgal_classify_triangles(const double *a, const double *b, fl_err *err)
 {
     return caught("meeting", 2, err, [&]() -> int {
         const corners p = corners_at(a), q = corners_at(b);

@@ -21,6 +21,6 @@ int fl_cgal_crossings(const fl_soup *s, fl_crossing *c, fl_err *err);
 /* The same for one pair, by its corners a[9] and b[9], x y z each.  FL_APART, FL_TOUCHES, FL_CROSSES, or -1
  * with FL_NUMERIC or FL_SYSTEM.  May be called by several threads at once. */
 enum { FL_APART, FL_TOUCHES, FL_CROSSES };
-int fl_cgal_meet(const double *a, const double *b, fl_err *err);
+int fl_cgal_classify_triangles(const double *a, const double *b, fl_err *err);
 
 #endif

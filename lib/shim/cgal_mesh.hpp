@@ -17,7 +17,7 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 extern "C" {
-#include "base/mem.h"
+#include "base/array.h"
 #include "shim/cgal_repair.h"
 }
 

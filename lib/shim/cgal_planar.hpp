@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 extern "C" {
-#include "base/mem.h"
+#include "base/array.h"
 }
 
 namespace shim

@@ -9,7 +9,7 @@
 #include <CGAL/Regular_triangulation_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 extern "C" {
-#include "base/mem.h"
+#include "base/array.h"
 }
 #include "shim/cgal_planar.hpp"
 #include "shim/cgal_power.h"

@@ -11,7 +11,7 @@ extern "C" {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-extern "C" int fl_cgal_simple(int32_t n, const fl_vec2 *v, fl_err *err)
+extern "C" int fl_cgal_is_simple(int32_t n, const fl_vec2 *v, fl_err *err)
 try {
     std::vector<Kernel::Point_2> p;
     p.reserve(static_cast<size_t>(n));

@@ -13,7 +13,7 @@ extern "C" {
 /* 1 when no two sides of the closed polygon v[n], n >= 3, meet but neighbours in their common corner, 0 when
  * some do or a corner comes twice, -1 with FL_SYSTEM or FL_NUMERIC.  Either way round.  n log n.
  * Source: Shamos & Hoey, FOCS (1976) 208; CGAL, 2D Polygons, is_simple_2. */
-int fl_cgal_simple(int32_t n, const fl_vec2 *v, fl_err *err);
+int fl_cgal_is_simple(int32_t n, const fl_vec2 *v, fl_err *err);
 
 #ifdef __cplusplus
 }

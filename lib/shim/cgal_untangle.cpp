@@ -198,7 +198,7 @@ bool touch(const Mesh &a, const Mesh &b)
 bool unite(Mesh &a, const Mesh &b, double tol, uint32_t &state)
 {
     const bool close = touch(a, b);
-    for (const double eps : {0.0, 1e-8, 1e-7, FL_UNTANGLE_LOOSE}) {
+    for (const double eps : {0.0, 1e-8, 1e-7, FL_UNTANGLE_SWELL}) {
         Mesh other = b, both;
         if (eps == 0.0 && close) continue;
         if (eps > 0.0) loosen(other, eps, state);
@@ -285,7 +285,7 @@ int untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
         if (rebuild(m, did)) did->rebuilt++;
         else did->failed++;
     }
-    unite_all(patch, FL_UNTANGLE_TIDY * diagonal, did);
+    unite_all(patch, FL_UNTANGLE_SHORT_EDGE * diagonal, did);
     if (did->joined + did->rebuilt == 0) return 0;
     for (const Mesh &m : patch) result.join(m);
     return write_back(s, result, err);

@@ -5,10 +5,10 @@
 #include "shim/cgal_repair.h"
 
 /* Edges of a union shorter than this part of the diagonal of the box of all are taken out of it. */
-#define FL_UNTANGLE_TIDY 1e-6
+#define FL_UNTANGLE_SHORT_EDGE 1e-6
 /* Bodies are swollen by up to about this part of their size where they meet in corners that lie in nearly one
  * place, so that a union would pass through itself once it is rounded. */
-#define FL_UNTANGLE_LOOSE 1e-6
+#define FL_UNTANGLE_SWELL 1e-6
 
 typedef struct {
     int32_t joined;  /* closed bodies that became one with another: the union of both    */

@@ -10,7 +10,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 extern "C" {
-#include "base/mem.h"
+#include "base/array.h"
 }
 #include "shim/cgal_planar.hpp"
 #include "shim/cgal_voronoi.h"
@@ -60,7 +60,7 @@ try {
     return fl_fail(err, FL_NUMERIC, "the neighbours of %d sites: %s", n, e.what());
 }
 
-extern "C" int fl_cgal_turn(fl_vec2 a, fl_vec2 b, fl_vec2 c)
+extern "C" int fl_cgal_orientation(fl_vec2 a, fl_vec2 b, fl_vec2 c)
 try {
     return CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y));
 } catch (...) {

@@ -27,7 +27,7 @@ int fl_cgal_neighbours(int32_t n, const fl_vec2 *site, const int32_t *name, int3
 
 /* 1 when a, b, c turn left, -1 when they turn right, 0 when they lie on one line; exact.  Also 0 when there
  * is no memory for the exact arithmetic that a close decision takes. */
-int fl_cgal_turn(fl_vec2 a, fl_vec2 b, fl_vec2 c);
+int fl_cgal_orientation(fl_vec2 a, fl_vec2 b, fl_vec2 c);
 
 #ifdef __cplusplus
 }

@@ -8,22 +8,18 @@
  *   surface  NULL for a scene without structure
  * -1 with FL_INPUT (a body without a volume where one is needed, mass not positive), FL_SYSTEM or
  * FL_NUMERIC. */
-int fl_world_make(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_surface *surface,
+int fl_world_make(fl_world *w, const fl_scene *scene, const fl_ice_field *field, const fl_surface *surface,
                   fl_err *err);
 
 /* The same where another field than that of the ice comes in: scene->boundary.inflow = file.  Where
  * floes come in both fields are borrowed until fl_world_free(). */
-int fl_world_make_fed(fl_world *w, const fl_scene *scene, const fl_field *field, const fl_field *feed,
-                      const fl_surface *surface, fl_err *err);
+int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_field *field,
+                              const fl_ice_field *feed, const fl_surface *surface, fl_err *err);
 
 void fl_world_free(fl_world *w);
 
-/* Put floe k of a field into place i, whoever was there before: at the field's own pose, at rest in the
- * books. -1 as fl_world_make(). */
-int fl_world_put(fl_world *w, int32_t i, const fl_field *field, int32_t k, fl_err *err);
-
 /* -1 with FL_INPUT where the centre of a floe is behind a rigid wall, from where none comes back but with the
  * energy of a push as long. */
-int fl_world_before_walls(const fl_world *w, fl_err *err);
+int fl_world_check_walls(const fl_world *w, fl_err *err);
 
 #endif

@@ -12,22 +12,38 @@ enum fl_sphere_kind { FL_SPHERE_NONE, FL_SPHERE_SPHERE, FL_SPHERE_WALL };
 enum fl_sphere_kind fl_sphere_pair_kind(const fl_world *w, int32_t i, int32_t j);
 
 /* So many more rows and walls touch body i; any thread may say so. */
-static inline void fl_balls_turn(fl_balls *s, int32_t i, int32_t by)
+static inline void fl_sphere_add_contact_count(fl_sphere_contacts *s, int32_t i, int32_t by)
 {
 #pragma omp atomic
-    s->touching[i] += by;
+    s->contact_count[i] += by;
 }
 
 /* Of a sphere's row the energy of the springs of friction, with that against rolling, if any [J]. */
-static inline double fl_ball_spring(const fl_ball_row *r, const fl_roll *roll)
+static inline double fl_sphere_spring_energy(const fl_sphere_contact *r, const fl_rolling_spring *roll)
 {
-    return (r->stiff > 0.0 ? 0.5 * v3_norm2(r->slip) / r->stiff : 0.0) +
+    return (r->spring_stiffness > 0.0 ? 0.5 * v3_norm2(r->spring_force) / r->spring_stiffness : 0.0) +
            (roll ? fl_rolling_energy(*roll) : 0.0);
 }
 
 /* A row of i and j as a pair like all others, at that overlap along n, from j to i: all but its image, and
  * what it does to j. */
-void fl_ball_pair(const fl_world *w, int32_t i, int32_t j, const fl_ball_row *r, const fl_roll *roll, int hit,
-                  fl_vec3 n, double over, fl_pair *p);
+void fl_sphere_contact_to_pair(const fl_world *w, int32_t i, int32_t j, const fl_sphere_contact *r,
+                               const fl_rolling_spring *roll, int hit, fl_vec3 n, double over, fl_pair *p);
+
+/* Behind the last body of chunk a. */
+static inline int32_t fl_chunk_end(const fl_sphere_contacts *s, int32_t a)
+{
+    const int32_t end = (a + 1) * FL_SPHERE_CHUNK;
+    return end < s->bodies ? end : s->bodies;
+}
+
+/* D of row c, of the image that is meant, most often the one in the same cell. */
+static inline fl_vec3 fl_sphere_separation(const fl_world *w, int32_t c)
+{
+    const fl_sphere_contacts *s = &w->spheres;
+    const fl_vec3 d = v3_sub(w->b.x[s->i[c]], w->b.x[s->j[c]]);
+    const int32_t *e = s->image ? &s->image[3 * c] : NULL;
+    return e && (e[0] | e[1] | e[2]) ? v3_sub(d, fl_periodic_cell_offset(&w->cell, v3(e[0], e[1], e[2]))) : d;
+}
 
 #endif

@@ -15,15 +15,15 @@ const char *fl_dist_name(int kind)
     return name[kind];
 }
 
-int fl_dist_free(int kind) { return kind == FL_GEV ? 3 : 2; }
+int fl_dist_parameter_count(int kind) { return kind == FL_GEV ? 3 : 2; }
 
-double fl_dist_bend(double shape, double z)
+double fl_dist_reduced_variate(double shape, double z)
 {
     if (fabs(shape) < STRAIGHT) return z;
     return shape * z > -1.0 ? log1p(shape * z) / shape : shape > 0.0 ? -INFINITY : INFINITY;
 }
 
-double fl_dist_unbend(double shape, double w)
+double fl_dist_from_reduced_variate(double shape, double w)
 {
     return fabs(shape) < STRAIGHT ? w : expm1(shape * w) / shape;
 }
@@ -34,19 +34,19 @@ double fl_dist_cdf(const fl_dist *d, double x)
     switch (d->kind) {
     case FL_WEIBULL: return z > 0.0 ? -expm1(-pow(z, d->shape)) : 0.0;
     case FL_LOGNORMAL: return z > 0.0 ? gsl_cdf_ugaussian_P(log(z) / d->shape) : 0.0;
-    case FL_GPD: return z > 0.0 ? -expm1(-fl_dist_bend(d->shape, z)) : 0.0;
-    default: return exp(-exp(-fl_dist_bend(d->shape, z)));
+    case FL_GPD: return z > 0.0 ? -expm1(-fl_dist_reduced_variate(d->shape, z)) : 0.0;
+    default: return exp(-exp(-fl_dist_reduced_variate(d->shape, z)));
     }
 }
 
-double fl_dist_tail(const fl_dist *d, double x)
+double fl_dist_survival(const fl_dist *d, double x)
 {
     const double z = (x - d->location) / d->scale;
     switch (d->kind) {
     case FL_WEIBULL: return z > 0.0 ? exp(-pow(z, d->shape)) : 1.0;
     case FL_LOGNORMAL: return z > 0.0 ? gsl_cdf_ugaussian_Q(log(z) / d->shape) : 1.0;
-    case FL_GPD: return z > 0.0 ? exp(-fl_dist_bend(d->shape, z)) : 1.0;
-    default: return -expm1(-exp(-fl_dist_bend(d->shape, z)));
+    case FL_GPD: return z > 0.0 ? exp(-fl_dist_reduced_variate(d->shape, z)) : 1.0;
+    default: return -expm1(-exp(-fl_dist_reduced_variate(d->shape, z)));
     }
 }
 
@@ -63,20 +63,20 @@ double fl_dist_log_density(const fl_dist *d, double x)
         w = log(z) / d->shape;
         return -HALF_LN_2PI - log(d->shape) - log(x) - 0.5 * w * w;
     case FL_GPD:
-        w = fl_dist_bend(d->shape, z);
+        w = fl_dist_reduced_variate(d->shape, z);
         return z < 0.0 || !isfinite(w) ? -INFINITY : -log(d->scale) - (1.0 + d->shape) * w;
     default:
-        w = fl_dist_bend(d->shape, z);
+        w = fl_dist_reduced_variate(d->shape, z);
         return isfinite(w) ? -log(d->scale) - (1.0 + d->shape) * w - exp(-w) : -INFINITY;
     }
 }
 
-double fl_dist_level(const fl_dist *d, double tail)
+double fl_dist_upper_quantile(const fl_dist *d, double tail)
 {
     switch (d->kind) {
     case FL_WEIBULL: return d->scale * pow(-log(tail), 1.0 / d->shape);
     case FL_LOGNORMAL: return d->scale * exp(d->shape * gsl_cdf_ugaussian_Qinv(tail));
-    case FL_GPD: return d->location + d->scale * fl_dist_unbend(d->shape, -log(tail));
-    default: return d->location + d->scale * fl_dist_unbend(d->shape, -log(-log1p(-tail)));
+    case FL_GPD: return d->location + d->scale * fl_dist_from_reduced_variate(d->shape, -log(tail));
+    default: return d->location + d->scale * fl_dist_from_reduced_variate(d->shape, -log(-log1p(-tail)));
     }
 }

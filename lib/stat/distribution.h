@@ -24,19 +24,19 @@ const char *fl_dist_name(int kind);
 
 /* How many of its numbers are free: 2, for a GEV 3.  The location of a GPD is the threshold, which is
  * given. */
-int fl_dist_free(int kind);
+int fl_dist_parameter_count(int kind);
 
 /* P(X <= x), P(X > x) and ln of the density [1/unit of x]; -INFINITY outside the support.  Cannot fail. */
 double fl_dist_cdf(const fl_dist *d, double x);
-double fl_dist_tail(const fl_dist *d, double x);
+double fl_dist_survival(const fl_dist *d, double x);
 double fl_dist_log_density(const fl_dist *d, double x);
 
 /* The value that is exceeded with probability tail, 0 < tail < 1: exact to rounding for small tails too, as
  * 1 - tail is never formed. */
-double fl_dist_level(const fl_dist *d, double tail);
+double fl_dist_upper_quantile(const fl_dist *d, double tail);
 
 /* ln(1 + shape z) / shape and its inverse (exp(shape w) - 1) / shape, continuous through shape = 0. */
-double fl_dist_bend(double shape, double z);
-double fl_dist_unbend(double shape, double w);
+double fl_dist_reduced_variate(double shape, double z);
+double fl_dist_from_reduced_variate(double shape, double w);
 
 #endif

@@ -56,10 +56,10 @@ double fl_event_time_above(int32_t n, const double *x, const double *edge, doubl
 fl_event fl_event_of(int32_t n, const double *x, const double *edge, const fl_peaks *p, int32_t k,
                      double level)
 {
-    const int32_t at = p->at[k];
+    const int32_t at = p->row[k];
     fl_event e = {.first = 0, .peak = at, .last = n - 1};
-    if (k > 0) e.first = trough(x, p->at[k - 1], at) + 1;
-    if (k + 1 < p->n) e.last = trough(x, at, p->at[k + 1]);
+    if (k > 0) e.first = trough(x, p->row[k - 1], at) + 1;
+    if (k + 1 < p->n) e.last = trough(x, at, p->row[k + 1]);
     /* The trough that belongs to the event before is the foot of this one. */
     const int32_t foot = k > 0 ? e.first - 1 : 0;
     e.rise = front(x, edge, at, foot);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/extreme.h"
 
 typedef struct {
@@ -15,7 +15,7 @@ static int descending(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
-int fl_extreme_rank(int32_t n, const double *x, int32_t *rank, fl_err *err)
+int fl_rank_descending(int32_t n, const double *x, int32_t *rank, fl_err *err)
 {
     entry *e = fl_alloc(n, sizeof *e, err);
     if (!e) return -1;
@@ -26,4 +26,4 @@ int fl_extreme_rank(int32_t n, const double *x, int32_t *rank, fl_err *err)
     return 0;
 }
 
-double fl_extreme_position(int32_t i, int32_t n) { return i / (n + 1.0); }
+double fl_plotting_position(int32_t i, int32_t n) { return i / (n + 1.0); }

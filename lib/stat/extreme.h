@@ -7,12 +7,12 @@
 
 /* Ranks of n values: rank[0] is the index of the largest, and so on down; equal values keep their order.
  * rank[n] out.  0, or -1 with FL_SYSTEM in err. */
-int fl_extreme_rank(int32_t n, const double *x, int32_t *rank, fl_err *err);
+int fl_rank_descending(int32_t n, const double *x, int32_t *rank, fl_err *err);
 
 /* Probability that a peak exceeds the one of rank i = 1 .. n in descending order, the Weibull
  * plotting position
  *     P_i = i / (n + 1).
  * Source: Weibull 1939; Makkonen 2006, J. Appl. Meteorol. Climatol. 45:334, on why it is this one. */
-double fl_extreme_position(int32_t i, int32_t n);
+double fl_plotting_position(int32_t i, int32_t n);
 
 #endif

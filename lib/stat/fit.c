@@ -6,9 +6,9 @@
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
-#include "stat/describe.h"
+#include "stat/descriptive_stats.h"
 #include "stat/fit.h"
 
 static const double EULER = 0.57721566490153286061, LN2 = 0.69314718055994530942;
@@ -154,14 +154,14 @@ static double gev_profile(double theta, void *data)
     profile *p = data;
     double m, b, slope = 0.0, sum = 0.0;
     for (int32_t k = 0; k < p->n; k++) {
-        p->z[k] = fl_dist_bend(theta, (p->x[k] - p->c) / p->s);
+        p->z[k] = fl_dist_reduced_variate(theta, (p->x[k] - p->c) / p->s);
         if (!isfinite(p->z[k])) return NOWHERE;
         slope += p->z[k];
     }
     m = gumbel(p->n, p->z, &b);
     p->shape = theta * b;
     p->scale = b * exp(theta * m);
-    p->location = fl_dist_unbend(theta, m);
+    p->location = fl_dist_from_reduced_variate(theta, m);
     if (!(p->shape > SHAPE_LEAST) || !isfinite(p->scale)) return NOWHERE;
     for (int32_t k = 0; k < p->n; k++) sum += (p->z[k] - m) / b + exp(-(p->z[k] - m) / b);
     return (sum + theta * slope) / p->n + log(b);
@@ -171,7 +171,7 @@ static double gpd_profile(double theta, void *data)
 {
     profile *p = data;
     double sum = 0.0;
-    for (int32_t k = 0; k < p->n; k++) sum += fl_dist_bend(theta, (p->x[k] - p->c) / p->s);
+    for (int32_t k = 0; k < p->n; k++) sum += fl_dist_reduced_variate(theta, (p->x[k] - p->c) / p->s);
     p->scale = sum / p->n;
     p->shape = theta * p->scale;
     if (!isfinite(sum) || !(p->shape > SHAPE_LEAST)) return NOWHERE;
@@ -362,8 +362,8 @@ static int by_l_moments(fl_dist *d, int32_t n, const double *x, double location)
 
 static int by_moments(fl_dist *d, int32_t n, const double *x, double location)
 {
-    fl_describe m;
-    fl_describe_moments(n, x, NULL, &m);
+    fl_descriptive_stats m;
+    fl_compute_moments(n, x, NULL, &m);
     const double s = m.std_sample, cv = s * s / (m.mean * m.mean), y = m.mean - location;
     double g;
     switch (d->kind) {
@@ -401,7 +401,7 @@ int fl_fit(fl_dist *d, int kind, int method, int32_t n, const double *x, double 
 {
     int ok;
     *d = (fl_dist){.kind = kind, .location = kind == FL_GPD ? location : 0.0};
-    if (n < 1 + fl_dist_free(kind) || x[0] == x[n - 1]) return 0;
+    if (n < 1 + fl_dist_parameter_count(kind) || x[0] == x[n - 1]) return 0;
     if ((kind == FL_WEIBULL || kind == FL_LOGNORMAL) && !(fmin(x[0], x[n - 1]) > 0.0)) return 0;
     if (kind == FL_GPD && !(fmin(x[0], x[n - 1]) > location)) return 0;
     if (method == FL_FIT_LIKELIHOOD) ok = by_likelihood(d, n, x, location, w);
@@ -420,7 +420,7 @@ double fl_fit_log_likelihood(const fl_dist *d, int32_t n, const double *x)
 
 double fl_fit_aic(const fl_dist *d, double log_likelihood)
 {
-    return 2.0 * fl_dist_free(d->kind) - 2.0 * log_likelihood;
+    return 2.0 * fl_dist_parameter_count(d->kind) - 2.0 * log_likelihood;
 }
 
 double fl_fit_kolmogorov(const fl_dist *d, int32_t n, const double *x)
@@ -440,7 +440,7 @@ double fl_fit_anderson(const fl_dist *d, int32_t n, const double *x)
     double sum = 0.0;
     for (int32_t k = 0; k < n; k++) {
         const double low = fl_dist_cdf(d, x[down ? n - 1 - k : k]),
-                     high = fl_dist_tail(d, x[down ? k : n - 1 - k]);
+                     high = fl_dist_survival(d, x[down ? k : n - 1 - k]);
         sum += (2.0 * k + 1.0) * (log(low) + log(high));
     }
     return -n - sum / n;
@@ -466,7 +466,7 @@ static double on_line(double u, void *data)
         d->scale = c->unit * exp(u);
         d->location = c->q + d->scale * log(-log1p(-c->tail));
         break;
-    default: d->shape = u; d->scale = (c->q - d->location) / fl_dist_unbend(u, -log(c->tail));
+    default: d->shape = u; d->scale = (c->q - d->location) / fl_dist_from_reduced_variate(u, -log(c->tail));
     }
     return likelihood_of(c);
 }
@@ -476,7 +476,7 @@ static double in_plane(const gsl_vector *u, void *data)
     level *c = data;
     c->d.scale = c->unit * exp(gsl_vector_get(u, 0));
     c->d.shape = gsl_vector_get(u, 1);
-    c->d.location = c->q - c->d.scale * fl_dist_unbend(c->d.shape, -log(-log1p(-c->tail)));
+    c->d.location = c->q - c->d.scale * fl_dist_from_reduced_variate(c->d.shape, -log(-log1p(-c->tail)));
     return c->d.shape > SHAPE_LEAST ? likelihood_of(c) : NOWHERE;
 }
 
@@ -488,7 +488,7 @@ typedef struct {
 static double past(double shape, const void *data)
 {
     const aim *a = data;
-    return fl_dist_unbend(shape, a->w) - a->z;
+    return fl_dist_from_reduced_variate(shape, a->w) - a->z;
 }
 
 /* The simplex starts where the level comes from the tail alone, as the middle of the sample says little of

@@ -2,7 +2,7 @@
 #include <gsl/gsl_histogram.h>
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/histogram.h"
 
 int fl_histogram_make(fl_histogram *h, int32_t n, double lo, double hi, fl_err *err)

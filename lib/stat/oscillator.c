@@ -6,13 +6,13 @@
 /* Steps to a period in the first solution: the period is then off by a thousandth. */
 static const double FIRST = 32.0;
 
-void fl_oscillator_settle(const fl_oscillator *o, double load, fl_sway *s)
+void fl_oscillator_set_acceleration(const fl_oscillator *o, double load, fl_oscillator_state *s)
 {
     const double w = 2.0 * PI * o->frequency;
     s->a = w * w * (load - s->u) - 2.0 * o->damping * w * s->v;
 }
 
-void fl_oscillator_step(const fl_oscillator *o, double h, double load, fl_sway *s)
+void fl_oscillator_step(const fl_oscillator *o, double h, double load, fl_oscillator_state *s)
 {
     const double w = 2.0 * PI * o->frequency, z = o->damping;
     const double u = s->u + h * s->v + 0.25 * h * h * s->a, v = s->v + 0.5 * h * s->a;
@@ -30,14 +30,15 @@ static void see(fl_response *r, double u, double t)
 }
 
 /* Within a step the acceleration is constant, so that the response may turn at h v0 / (v0 - v1). */
-static void see_step(fl_response *r, const fl_sway *from, const fl_sway *to, double t, double h)
+static void see_step(fl_response *r, const fl_oscillator_state *from, const fl_oscillator_state *to, double t,
+                     double h)
 {
     if (from->v * to->v < 0.0) {
         const double part = from->v / (from->v - to->v);
         see(r, from->u + 0.5 * part * h * from->v, t + part * h);
     }
     see(r, to->u, t + h);
-    r->fastest = fmax(r->fastest, fmax(fabs(from->a), fabs(to->a)));
+    r->largest_acceleration = fmax(r->largest_acceleration, fmax(fabs(from->a), fabs(to->a)));
 }
 
 /* Moments grow by West's update, each step with its length; std holds the sum of squares until the end. */
@@ -53,10 +54,10 @@ static double steps_of(const fl_oscillator *o, double length, double steps)
     return fmax(1.0, ceil(length * o->frequency * steps));
 }
 
-void fl_oscillator_run(const fl_oscillator *o, int32_t n, const double *edge, const double *x, double steps,
-                       int32_t times, fl_response *r, fl_sway *at)
+void fl_oscillator_integrate(const fl_oscillator *o, int32_t n, const double *edge, const double *x,
+                             double steps, int32_t times, fl_response *r, fl_oscillator_state *at)
 {
-    fl_sway s = {.u = x[0]};
+    fl_oscillator_state s = {.u = x[0]};
     *r = (fl_response){.error = NAN};
     see(r, s.u, edge[0]);
     for (int32_t k = 0; k < n; k++) {
@@ -64,9 +65,9 @@ void fl_oscillator_run(const fl_oscillator *o, int32_t n, const double *edge, co
         const int64_t m = (int64_t)steps_of(o, length, steps) * times;
         const double h = length / (double)m;
         r->step = fmax(r->step, h);
-        fl_oscillator_settle(o, x[k], &s);
+        fl_oscillator_set_acceleration(o, x[k], &s);
         for (int64_t j = 0; j < m; j++) {
-            const fl_sway from = s;
+            const fl_oscillator_state from = s;
             fl_oscillator_step(o, h, x[k], &s);
             see_step(r, &from, &s, edge[k] + h * (double)j, h);
             weigh(r, s.u, edge[k] - edge[0] + h * (double)(j + 1), h);
@@ -77,26 +78,26 @@ void fl_oscillator_run(const fl_oscillator *o, int32_t n, const double *edge, co
 }
 
 int fl_oscillator_solve(const fl_oscillator *o, int32_t n, const double *edge, const double *x,
-                        fl_response *r, fl_sway *at, fl_err *err)
+                        fl_response *r, fl_oscillator_state *at, fl_err *err)
 {
     double steps = 0.0, before;
     for (int32_t k = 0; k < n; k++) steps += steps_of(o, edge[k + 1] - edge[k], FIRST);
-    if (!(steps <= FL_OSCILLATOR_STEPS))
+    if (!(steps <= FL_OSCILLATOR_MAX_STEPS))
         return fl_fail(
             err, FL_INPUT,
             "an oscillator of %g Hz would take %.3g steps through the record of %g s, %g are the most",
-            o->frequency, steps, edge[n] - edge[0], FL_OSCILLATOR_STEPS);
-    fl_oscillator_run(o, n, edge, x, FIRST, 1, r, at);
-    for (int k = 1; k <= FL_OSCILLATOR_HALVINGS; k++) {
+            o->frequency, steps, edge[n] - edge[0], FL_OSCILLATOR_MAX_STEPS);
+    fl_oscillator_integrate(o, n, edge, x, FIRST, 1, r, at);
+    for (int k = 1; k <= FL_OSCILLATOR_MAX_HALVINGS; k++) {
         before = r->largest;
-        fl_oscillator_run(o, n, edge, x, FIRST, 1 << k, r, at);
+        fl_oscillator_integrate(o, n, edge, x, FIRST, 1 << k, r, at);
         r->error = r->largest > 0.0 ? fabs(r->largest - before) / 3.0 / r->largest : 0.0;
-        if (r->error <= FL_OSCILLATOR_WANTED) break;
+        if (r->error <= FL_OSCILLATOR_TOLERANCE) break;
     }
     return 0;
 }
 
-int fl_oscillator_near(const fl_oscillator *o, double frequency)
+int fl_oscillator_near_frequency(const fl_oscillator *o, double frequency)
 {
-    return fabs(frequency - o->frequency) < FL_LOCK_IN * o->frequency;
+    return fabs(frequency - o->frequency) < FL_LOCK_IN_RANGE * o->frequency;
 }

@@ -25,45 +25,45 @@ typedef struct {
 /* Response, its rate and its second derivative [unit, unit/s, unit/s^2]. */
 typedef struct {
     double u, v, a;
-} fl_sway;
+} fl_oscillator_state;
 
 /* One step of length h [s] under a constant load; s->a is that at the start of the step under this load, see
- * fl_oscillator_settle(). */
-void fl_oscillator_step(const fl_oscillator *o, double h, double load, fl_sway *s);
+ * fl_oscillator_set_acceleration(). */
+void fl_oscillator_step(const fl_oscillator *o, double h, double load, fl_oscillator_state *s);
 
 /* Set the acceleration to what the load leaves: where a step begins under a load that has changed. */
-void fl_oscillator_settle(const fl_oscillator *o, double load, fl_sway *s);
+void fl_oscillator_set_acceleration(const fl_oscillator *o, double load, fl_oscillator_state *s);
 
 typedef struct {
-    double largest, t_largest; /* max |u| within the steps, and when */
-    double fastest;            /* max |u''| at their ends, with u'' on either side of a jump of the load */
-    double mean, std;          /* of u over time, at the ends of the steps */
-    double step;               /* the longest [s] */
-    double error;              /* of largest, over largest; see fl_oscillator_solve() */
+    double largest, t_largest;   /* max |u| within the steps, and when */
+    double largest_acceleration; /* max |u''| at their ends, with u'' on either side of a jump of the load */
+    double mean, std;            /* of u over time, at the ends of the steps */
+    double step;                 /* the longest [s] */
+    double error;                /* of largest, over largest; see fl_oscillator_solve() */
 } fl_response;
 
 /* The response to x[k] over edge[k] .. edge[k + 1], k = 0 .. n - 1, from rest in the place where x[0] holds
  * it. Each interval takes the least number of steps with `steps` or more to a period, times `times`. at[n]
  * out: the state at the end of each interval, under the load of it; may be NULL Cannot fail. */
-void fl_oscillator_run(const fl_oscillator *o, int32_t n, const double *edge, const double *x, double steps,
-                       int32_t times, fl_response *r, fl_sway *at);
+void fl_oscillator_integrate(const fl_oscillator *o, int32_t n, const double *edge, const double *x,
+                             double steps, int32_t times, fl_response *r, fl_oscillator_state *at);
 
 /* The same with as many steps as it takes: they are halved until the largest response changes by less than
- * 3 FL_OSCILLATOR_WANTED of itself, which is three times the error that is left by a method of second order;
- * that error is told, also where FL_OSCILLATOR_HALVINGS were not enough.
- * 0, or -1 with FL_INPUT in err when the first solution would already take more than FL_OSCILLATOR_STEPS
+ * 3 FL_OSCILLATOR_TOLERANCE of itself, which is three times the error that is left by a method of second order;
+ * that error is told, also where FL_OSCILLATOR_MAX_HALVINGS were not enough.
+ * 0, or -1 with FL_INPUT in err when the first solution would already take more than FL_OSCILLATOR_MAX_STEPS
  * steps. */
-#define FL_OSCILLATOR_WANTED 1e-4
-#define FL_OSCILLATOR_STEPS 1e8
-enum { FL_OSCILLATOR_HALVINGS = 6 };
+#define FL_OSCILLATOR_TOLERANCE 1e-4
+#define FL_OSCILLATOR_MAX_STEPS 1e8
+enum { FL_OSCILLATOR_MAX_HALVINGS = 6 };
 int fl_oscillator_solve(const fl_oscillator *o, int32_t n, const double *edge, const double *x,
-                        fl_response *r, fl_sway *at, fl_err *err);
+                        fl_response *r, fl_oscillator_state *at, fl_err *err);
 
-/* Is a load of this dominant frequency near the natural one, |f - fn| < FL_LOCK_IN fn?  Then the motion may
+/* Is a load of this dominant frequency near the natural one, |f - fn| < FL_LOCK_IN_RANGE fn?  Then the motion may
  * take hold of the breaking of the ice, which a load that was found on a structure at rest does not know of.
  * 0 for a frequency that is NAN.  Source: the range that is usual in practice, as ISO 19906 A.8.2.6 asks to
  * look for frequency lock-in near a natural frequency. */
-#define FL_LOCK_IN 0.1
-int fl_oscillator_near(const fl_oscillator *o, double frequency);
+#define FL_LOCK_IN_RANGE 0.1
+int fl_oscillator_near_frequency(const fl_oscillator *o, double frequency);
 
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/panels.h"
 #include "stat/record.h"
 
@@ -14,7 +14,7 @@ int fl_panels_open(fl_panels *p, const char *path, fl_err *err)
     *p = (fl_panels){0};
     if (fl_table_open(&p->table, path, "panels", 1, err)) return -1;
     for (int k = 0; k < COLUMNS; k++)
-        if (fl_table_find(&p->table, NAME[k], &p->col[k], err)) return -1;
+        if (fl_table_require(&p->table, NAME[k], &p->col[k], err)) return -1;
     p->t = p->table.start;
     return 0;
 }
@@ -35,13 +35,13 @@ static int take(fl_panels *p, int32_t k, fl_err *err)
     const char *name = fl_table_word(&p->table, p->col[PANEL]);
     double x[COLUMNS];
     for (int c = X; c < COLUMNS; c++)
-        if (fl_table_within(&p->table, p->col[c], FL_SERIES_LARGEST, &x[c], err)) return -1;
+        if (fl_table_f64_bounded(&p->table, p->col[c], FL_RECORD_LARGEST_VALUE, &x[c], err)) return -1;
     if (!(x[AREA] > 0.0))
-        return fl_text_fail(&p->table.text, err, "panel %.40s has the area %g m2, above 0 was wanted", name,
+        return fl_text_fail(&p->table.text, err, "panel %.40s has the area %g m2, above 0 is expected", name,
                             x[AREA]);
     if (p->times == 0 && add_panel(p, name, x, err)) return -1;
     if (k == p->n || strcmp(name, p->panel[k].name) != 0)
-        return fl_text_fail(&p->table.text, err, "panel %.40s comes where %.40s was wanted", name,
+        return fl_text_fail(&p->table.text, err, "panel %.40s comes where %.40s is expected", name,
                             k < p->n ? p->panel[k].name : "a later time");
     p->panel[k].force = v3(x[FX], x[FY], x[FZ]);
     return 0;
@@ -56,7 +56,7 @@ int fl_panels_next(fl_panels *p, fl_err *err)
             const int more = fl_table_row(&p->table, err);
             if (more < 0) return -1;
             if (more == 0) break;
-            if (fl_table_within(&p->table, p->col[T], FL_SERIES_LARGEST, &t, err)) return -1;
+            if (fl_table_f64_bounded(&p->table, p->col[T], FL_RECORD_LARGEST_VALUE, &t, err)) return -1;
         }
         if (k && t != p->t) {
             p->pending = 1;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/peaks.h"
 
 static int push(fl_peaks *p, int32_t at, fl_err *err)
 {
-    if (fl_grow(&p->at, &p->cap, (int64_t)p->n + 1, sizeof *p->at, err)) return -1;
-    p->at[p->n++] = at;
+    if (fl_grow(&p->row, &p->cap, (int64_t)p->n + 1, sizeof *p->row, err)) return -1;
+    p->row[p->n++] = at;
     return 0;
 }
 
@@ -34,6 +34,6 @@ int fl_peaks_rayleigh(int32_t n, const double *x, double ratio, double threshold
 
 void fl_peaks_free(fl_peaks *p)
 {
-    free(p->at);
+    free(p->row);
     *p = (fl_peaks){0};
 }

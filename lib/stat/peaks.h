@@ -7,7 +7,7 @@
 
 typedef struct {
     int32_t n, cap;
-    int32_t *at; /* [n] rows of the record, rising */
+    int32_t *row; /* [n] rows of the record, rising */
 } fl_peaks;
 
 /* Peaks by Rayleigh separation.  A maximum is a value, or a run of equal values, with a smaller one before it

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "stat/pressure.h"
 
@@ -9,36 +9,39 @@
 static const double RIM = 1e-12;
 
 /* From this direction of the centre on, a force is inside, or is no longer. */
-struct fl_turn {
+struct fl_arc_end {
     double angle, force;
     int32_t change; /* +1, -1 */
 };
 
 static int by_angle(const void *a, const void *b)
 {
-    const struct fl_turn *p = a, *q = b;
+    const struct fl_arc_end *p = a, *q = b;
     if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
     return q->change - p->change; /* in before out: the rim belongs to the disc */
 }
 
-static double inside_of(const fl_hit *c, double area, double r)
+static double inside_of(const fl_contact_event *c, double area, double r)
 {
     double share = 1.0;
     if (c->area > area) share = area / c->area;
     if (c->length > 2.0 * r) share = fmin(share, 2.0 * r / c->length);
-    return share * c->push;
+    return share * c->normal_force;
 }
 
-static int counts(const fl_hit *c, int32_t part) { return c->part == part && c->push > 0.0; }
+static int counts(const fl_contact_event *c, int32_t part)
+{
+    return c->part == part && c->normal_force > 0.0;
+}
 
 static void add_turn(fl_window_work *w, int32_t *n, double angle, double force, int32_t change)
 {
-    w->turn[(*n)++] = (struct fl_turn){angle, force, change};
+    w->arc_end[(*n)++] = (struct fl_arc_end){angle, force, change};
 }
 
 /* All discs with contact i on their rim. */
-static void around(int32_t n, const fl_hit *hit, int32_t i, int32_t part, double area, fl_window *best,
-                   fl_window_work *w)
+static void around(int32_t n, const fl_contact_event *hit, int32_t i, int32_t part, double area,
+                   fl_window *best, fl_window_work *w)
 {
     const double r = sqrt(area / PI);
     const fl_vec3 e1 = v3_normal_to(hit[i].n), e2 = v3_cross(hit[i].n, e1);
@@ -65,29 +68,29 @@ static void around(int32_t n, const fl_hit *hit, int32_t i, int32_t part, double
             add_turn(w, &turns, end + shift, f, -1);
         }
     }
-    qsort(w->turn, (size_t)turns, sizeof *w->turn, by_angle);
+    qsort(w->arc_end, (size_t)turns, sizeof *w->arc_end, by_angle);
     double most = force;
     int32_t inside = hits, held = hits;
     for (int32_t k = 0; k < turns; k++) {
-        force += w->turn[k].change * w->turn[k].force;
-        inside += w->turn[k].change;
+        force += w->arc_end[k].change * w->arc_end[k].force;
+        inside += w->arc_end[k].change;
         if (!(force > most)) continue;
         most = force;
         held = inside;
-        at = w->turn[k].angle;
+        at = w->arc_end[k].angle;
     }
     if (!(most > best->force)) return;
     const int alone = held == hits; /* then the window may as well lie around the contact */
     best->force = most;
-    best->hits = held;
+    best->contacts = held;
     best->centre = alone ? hit[i].p : v3_madd(v3_madd(hit[i].p, r * cos(at), e1), r * sin(at), e2);
 }
 
-int fl_pressure_window(int32_t n, const fl_hit *hit, int32_t part, double area, fl_window *best,
-                       fl_window_work *w, fl_err *err)
+int fl_largest_load_window(int32_t n, const fl_contact_event *hit, int32_t part, double area, fl_window *best,
+                           fl_window_work *w, fl_err *err)
 {
     *best = (fl_window){0};
-    if (fl_grow(&w->turn, &w->cap, 4 * (int64_t)n + 4, sizeof *w->turn, err)) return -1;
+    if (fl_grow(&w->arc_end, &w->cap, 4 * (int64_t)n + 4, sizeof *w->arc_end, err)) return -1;
     for (int32_t i = 0; i < n; i++)
         if (counts(&hit[i], part)) around(n, hit, i, part, area, best, w);
     return 0;
@@ -95,7 +98,7 @@ int fl_pressure_window(int32_t n, const fl_hit *hit, int32_t part, double area, 
 
 void fl_window_work_free(fl_window_work *w)
 {
-    free(w->turn);
+    free(w->arc_end);
     *w = (fl_window_work){0};
 }
 

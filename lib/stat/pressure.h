@@ -3,17 +3,17 @@
 #ifndef FL_STAT_PRESSURE_H
 #define FL_STAT_PRESSURE_H
 #include "base/err.h"
-#include "stat/hits.h"
+#include "stat/contact_events.h"
 
 typedef struct {
-    double force;   /* F(A), sum of the forces inside [N] */
-    int32_t hits;   /* how many contacts are inside */
-    fl_vec3 centre; /* of the window [m] */
+    double force;     /* F(A), sum of the forces inside [N] */
+    int32_t contacts; /* how many contacts are inside */
+    fl_vec3 centre;   /* of the window [m] */
 } fl_window;
 
 /* Scratch, one a thread. */
 typedef struct {
-    struct fl_turn *turn;
+    struct fl_arc_end *arc_end;
     int32_t cap;
 } fl_window_work;
 
@@ -29,8 +29,8 @@ typedef struct {
  * it lies in its point.  0 (a window without contacts has force 0), or -1 with FL_SYSTEM in err.
  * Source: ISO 19906 (2019), A.8.2.5, for local pressures on areas; Chazelle & Lee 1986, Computing 36:1, for
  * the circle that holds most points. */
-int fl_pressure_window(int32_t n, const fl_hit *hit, int32_t part, double area, fl_window *best,
-                       fl_window_work *w, fl_err *err);
+int fl_largest_load_window(int32_t n, const fl_contact_event *hit, int32_t part, double area, fl_window *best,
+                           fl_window_work *w, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */
 void fl_window_work_free(fl_window_work *w);

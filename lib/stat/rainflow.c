@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/rainflow.h"
 
 const char *fl_rainflow_rule_name(int rule)
@@ -26,7 +26,7 @@ static int close_cycle(fl_rainflow *f, double a, double b, double count, fl_err 
 /* Take the two points before the last one out. */
 static void drop_inner(fl_rainflow *f)
 {
-    f->at[f->n - 3] = f->at[f->n - 1];
+    f->point[f->n - 3] = f->point[f->n - 1];
     f->n -= 2;
 }
 
@@ -34,13 +34,13 @@ static void drop_inner(fl_rainflow *f)
 static int reduce_astm(fl_rainflow *f, fl_err *err)
 {
     while (f->n >= 3) {
-        const double *p = f->at + f->n - 3, X = fabs(p[2] - p[1]), Y = fabs(p[1] - p[0]);
+        const double *p = f->point + f->n - 3, X = fabs(p[2] - p[1]), Y = fabs(p[1] - p[0]);
         if (X < Y) break;
         /* The range that holds the start is the first one there is; every later range has one before it. */
         if (f->n == 3) {
             if (close_cycle(f, p[0], p[1], 0.5, err)) return -1;
-            f->at[0] = f->at[1];
-            f->at[1] = f->at[2];
+            f->point[0] = f->point[1];
+            f->point[1] = f->point[2];
             f->n = 2;
         } else {
             if (close_cycle(f, p[0], p[1], 1.0, err)) return -1;
@@ -53,7 +53,7 @@ static int reduce_astm(fl_rainflow *f, fl_err *err)
 static int reduce_four(fl_rainflow *f, fl_err *err)
 {
     while (f->n >= 4) {
-        const double *p = f->at + f->n - 4, inner = fabs(p[2] - p[1]);
+        const double *p = f->point + f->n - 4, inner = fabs(p[2] - p[1]);
         if (inner > fabs(p[1] - p[0]) || inner > fabs(p[3] - p[2])) break;
         if (close_cycle(f, p[1], p[2], 1.0, err)) return -1;
         drop_inner(f);
@@ -69,25 +69,25 @@ static int reduce(fl_rainflow *f, fl_err *err)
 int fl_rainflow_push(fl_rainflow *f, double x, fl_err *err)
 {
     const int32_t n = f->n;
-    if (n && x == f->at[n - 1]) return 0;
-    if (n >= 2 && (x > f->at[n - 1]) == (f->at[n - 1] > f->at[n - 2])) {
-        f->at[n - 1] = x; /* the same way on: the last point was none */
+    if (n && x == f->point[n - 1]) return 0;
+    if (n >= 2 && (x > f->point[n - 1]) == (f->point[n - 1] > f->point[n - 2])) {
+        f->point[n - 1] = x; /* the same way on: the last point was none */
         return 0;
     }
     if (n >= 2 && reduce(f, err)) return -1;
-    if (fl_grow(&f->at, &f->cap, (int64_t)f->n + 1, sizeof *f->at, err)) return -1;
-    f->at[f->n++] = x;
+    if (fl_grow(&f->point, &f->cap, (int64_t)f->n + 1, sizeof *f->point, err)) return -1;
+    f->point[f->n++] = x;
     return 0;
 }
 
 int fl_rainflow_end(fl_rainflow *f, int residue, fl_err *err)
 {
     if (f->n && reduce(f, err)) return -1;
-    if (f->rule == FL_RAINFLOW_FOUR && residue == FL_RESIDUE_REPEAT && f->n > 1) {
+    if (f->rule == FL_RAINFLOW_FOUR_POINT && residue == FL_RESIDUE_REPEAT && f->n > 1) {
         const int32_t n = f->n;
         double *copy = fl_alloc(n, sizeof *copy, err);
         int rc = copy ? 0 : -1;
-        for (int32_t k = 0; rc == 0 && k < n; k++) copy[k] = f->at[k];
+        for (int32_t k = 0; rc == 0 && k < n; k++) copy[k] = f->point[k];
         for (int32_t k = 0; rc == 0 && k < n; k++) rc = fl_rainflow_push(f, copy[k], err);
         free(copy);
         /* The residue of the doubled residue is the residue again: it stands for the rest of eternity. */
@@ -95,7 +95,7 @@ int fl_rainflow_end(fl_rainflow *f, int residue, fl_err *err)
     }
     if (f->rule == FL_RAINFLOW_ASTM || residue == FL_RESIDUE_HALF) {
         for (int32_t k = 0; k + 1 < f->n; k++)
-            if (close_cycle(f, f->at[k], f->at[k + 1], 0.5, err)) return -1;
+            if (close_cycle(f, f->point[k], f->point[k + 1], 0.5, err)) return -1;
     }
     f->n = 0;
     return 0;
@@ -112,12 +112,12 @@ int fl_rainflow_count(fl_rainflow *f, int rule, int residue, int32_t n, const do
 
 void fl_rainflow_free(fl_rainflow *f)
 {
-    free(f->at);
+    free(f->point);
     free(f->cycle);
     *f = (fl_rainflow){0};
 }
 
-double fl_sn_damage(const fl_sn *sn, double range, double count)
+double fl_sn_damage(const fl_sn_curve *sn, double range, double count)
 {
     if (!(range > 0.0)) return 0.0;
     if (range >= sn->knee) return count * pow(range, sn->m) / sn->a;

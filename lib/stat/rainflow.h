@@ -7,7 +7,7 @@
  *                      range X is not smaller; as half a cycle when it holds the start, whose point is then
  *                      dropped, else as one.  What is left counts as half cycles: the rule has its own
  *                      residue.
- *   FL_RAINFLOW_FOUR   ISO 12110-2, four points: the inner range is a cycle when neither neighbour is
+ *   FL_RAINFLOW_FOUR_POINT   ISO 12110-2, four points: the inner range is a cycle when neither neighbour is
  *                      smaller.  What is left is treated by one of
  *     FL_RESIDUE_HALF    each of its ranges is half a cycle
  *     FL_RESIDUE_REPEAT  the residue follows on itself, and its second passage closes cycles: the load
@@ -19,7 +19,7 @@
 #include <stdint.h>
 #include "base/err.h"
 
-enum fl_rainflow_rule { FL_RAINFLOW_ASTM, FL_RAINFLOW_FOUR, FL_RAINFLOW_RULES };
+enum fl_rainflow_rule { FL_RAINFLOW_ASTM, FL_RAINFLOW_FOUR_POINT, FL_RAINFLOW_RULES };
 enum fl_residue { FL_RESIDUE_HALF, FL_RESIDUE_REPEAT, FL_RESIDUE_NONE, FL_RESIDUES };
 
 /* "astm" "iso"; "half" "repeat" "none" */
@@ -34,7 +34,7 @@ typedef struct {
 /* A counter that takes values one by one; cycles are handed on as they close. */
 typedef struct {
     int rule;
-    double *at; /* [n] turning points that are still open, the last of them provisional */
+    double *point; /* [n] turning points that are still open, the last of them provisional */
     int32_t n, cap;
     fl_cycle *cycle;
     int32_t cycles, cycle_cap; /* closed since the caller last set cycles = 0 */
@@ -57,10 +57,10 @@ void fl_rainflow_free(fl_rainflow *f);
  * Appl. Mech. 12:A159; the two slopes as in EN 1993-1-9 and DNV-RP-C203. */
 typedef struct {
     double m, a, m2, knee;
-} fl_sn;
+} fl_sn_curve;
 
 /* Damage of count cycles of range S >= 0. */
-double fl_sn_damage(const fl_sn *sn, double range, double count);
+double fl_sn_damage(const fl_sn_curve *sn, double range, double count);
 
 /* The constant range that does the damage of n cycles together: (sum n_i S_i^m / sum n_i)^(1/m).  0 without
  * cycles. */

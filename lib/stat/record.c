@@ -3,10 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/table.h"
 #include "stat/record.h"
-#include "stat/where.h"
+#include "stat/row_filter.h"
 
 enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
 
@@ -24,12 +24,12 @@ typedef struct {
 
 struct fl_record_reader {
     fl_table table;
-    fl_series_ask ask;
+    fl_record_selection ask;
     int loads;
     int32_t time, key;          /* columns; key < 0 when rows are not told apart */
     int32_t col[RAW_MAX], raws; /* columns that are read */
     int adds[RAW_MAX];
-    fl_where where;
+    fl_row_filter where;
     formula form[SIGNAL_MAX];
     const char *name[SIGNAL_MAX], *unit[SIGNAL_MAX];
     int32_t signals;
@@ -52,9 +52,9 @@ struct fl_record_reader {
 
 /* --- which columns -------------------------------------------------------------------------------------- */
 
-const char *fl_over_name(int over)
+const char *fl_reduction_name(int over)
 {
-    static const char *const name[FL_OVERS] = {"", "sum", "mean", "min", "max", "count"};
+    static const char *const name[FL_REDUCTIONS] = {"", "sum", "mean", "min", "max", "count"};
     return name[over];
 }
 
@@ -69,15 +69,15 @@ static int adds_up(const char *name)
 static int want_column(fl_record_reader *r, const char *name, int *raw, fl_err *err)
 {
     int32_t col;
-    if (fl_table_find(&r->table, name, &col, err)) return -1;
+    if (fl_table_require(&r->table, name, &col, err)) return -1;
     for (*raw = 0; *raw < r->raws; ++*raw)
         if (r->col[*raw] == col) return 0;
-    r->adds[r->raws] = r->loads && !r->ask.over && adds_up(r->table.name[col]);
+    r->adds[r->raws] = r->loads && !r->ask.reduction && adds_up(r->table.name[col]);
     r->col[r->raws++] = col;
     return 0;
 }
 
-static int want_signal(fl_record_reader *r, const fl_series_ask *ask, const char *name, fl_err *err)
+static int want_signal(fl_record_reader *r, const fl_record_selection *ask, const char *name, fl_err *err)
 {
     static const char *const axis[] = {"fx", "fy", "fz"};
     formula *f = &r->form[r->signals];
@@ -96,14 +96,14 @@ static int want_signal(fl_record_reader *r, const fl_series_ask *ask, const char
     }
     const int32_t first = r->col[f->raw[0]];
     r->name[r->signals] = f->n == 1 ? r->table.name[first] : name;
-    r->unit[r->signals] = ask->over == FL_OVER_COUNT ? "" : r->table.unit[first];
+    r->unit[r->signals] = ask->reduction == FL_REDUCE_COUNT ? "" : r->table.unit[first];
     for (int32_t k = 0; k < r->signals; k++)
         if (strcmp(r->name[k], r->name[r->signals]) == 0) return 0; /* asked for twice: once is enough */
     r->signals++;
     return 0;
 }
 
-static int want_all(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
+static int want_all(fl_record_reader *r, const fl_record_selection *ask, fl_err *err)
 {
     static const char *const usual[] = {"fx", "fy", "fz", "fh"};
     const int loads = r->loads;
@@ -112,12 +112,12 @@ static int want_all(fl_record_reader *r, const fl_series_ask *ask, fl_err *err)
     if (!loads && !ask->signals)
         return fl_fail(err, FL_USAGE, "%s: a column of this %s table must be chosen, it is not loads",
                        fl_in_name(r->table.text.in), r->table.text.kind);
-    if (fl_table_find(&r->table, "t", &r->time, err)) return -1;
-    if (fl_where_make(&r->where, &r->table, ask->where, ask->wheres, err)) return -1;
-    if (ask->over) r->key = -1;
-    else if (loads && fl_table_find(&r->table, "part", &r->key, err)) return -1;
-    if (!loads && !ask->over) r->key = fl_table_column(&r->table, "part");
-    if (!loads && !ask->over && r->key < 0) r->key = fl_table_column(&r->table, "body");
+    if (fl_table_require(&r->table, "t", &r->time, err)) return -1;
+    if (fl_row_filter_make(&r->where, &r->table, ask->where, ask->wheres, err)) return -1;
+    if (ask->reduction) r->key = -1;
+    else if (loads && fl_table_require(&r->table, "part", &r->key, err)) return -1;
+    if (!loads && !ask->reduction) r->key = fl_table_column(&r->table, "part");
+    if (!loads && !ask->reduction && r->key < 0) r->key = fl_table_column(&r->table, "body");
     for (int32_t k = 0; k < n; k++)
         if (want_signal(r, ask, list[k], err)) return -1;
     if (ask->part && strcmp(ask->part, "total") == 0) {
@@ -242,7 +242,7 @@ static double length3(const double *raw, const formula *f)
 static int close_time(fl_record_reader *r, fl_err *err)
 {
     if (!r->by_name && freeze_parts(r, err)) return -1;
-    if (r->ask.over == FL_OVER_MEAN)
+    if (r->ask.reduction == FL_REDUCE_MEAN)
         for (int32_t c = 0; c < r->raws; c++) r->raw[c] /= r->seen;
     for (int32_t p = 0; r->seen < r->parts && p < r->parts; p++)
         if (r->part[p].n == r->n)
@@ -268,10 +268,10 @@ static int close_time(fl_record_reader *r, fl_err *err)
 /* Put x into what the rows of this time have come to. */
 static void put_together(int over, int first, double x, double *sum)
 {
-    if (over == FL_OVER_COUNT) x = 1.0;
-    if (first || over == FL_OVER_NONE) *sum = x;
-    else if (over == FL_OVER_MIN) *sum = fmin(*sum, x);
-    else if (over == FL_OVER_MAX) *sum = fmax(*sum, x);
+    if (over == FL_REDUCE_COUNT) x = 1.0;
+    if (first || over == FL_REDUCE_NONE) *sum = x;
+    else if (over == FL_REDUCE_MIN) *sum = fmin(*sum, x);
+    else if (over == FL_REDUCE_MAX) *sum = fmax(*sum, x);
     else *sum += x;
 }
 
@@ -281,10 +281,10 @@ static int take_values(fl_record_reader *r, int32_t part, fl_err *err)
     double *sum = r->raw + (int64_t)part * r->raws, x;
     for (int32_t k = 0; p->keep && k < r->raws; k++, sum++) {
         if (fl_table_f64(&r->table, r->col[k], &x, err)) return -1;
-        if (fabs(x) > FL_SERIES_LARGEST)
+        if (fabs(x) > FL_RECORD_LARGEST_VALUE)
             return fl_text_fail(&r->table.text, err, "%.60s is %g, at most %g was expected",
-                                r->table.name[r->col[k]], x, FL_SERIES_LARGEST);
-        put_together(r->ask.over, r->seen == 1, x, sum);
+                                r->table.name[r->col[k]], x, FL_RECORD_LARGEST_VALUE);
+        put_together(r->ask.reduction, r->seen == 1, x, sum);
     }
     if (p->n == r->n) p->n++;
     return 0;
@@ -302,7 +302,8 @@ static int take_row(fl_record_reader *r, fl_err *err)
     double t;
     int32_t p;
     if (fl_table_f64(&r->table, r->time, &t, err)) return -1;
-    if (fabs(t) > FL_SERIES_LARGEST) return fl_text_fail(&r->table.text, err, "time %g s is out of reach", t);
+    if (fabs(t) > FL_RECORD_LARGEST_VALUE)
+        return fl_text_fail(&r->table.text, err, "time %g s is out of reach", t);
     r->pending = r->seen && t != r->now;
     if (r->pending) return 0;
     if (r->seen == 0 && (r->n || r->loads)) {
@@ -312,7 +313,7 @@ static int take_row(fl_record_reader *r, fl_err *err)
             return find_part(r, name) < 0
                        ? not_there(r, name, err)
                        : fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
-        if (r->n && r->key < 0 && !r->ask.over && t == before)
+        if (r->n && r->key < 0 && !r->ask.reduction && t == before)
             return fl_text_fail(&r->table.text, err,
                                 "several rows at %.10g s, and no column part or body tells them apart", t);
         if (!(t > before))
@@ -321,11 +322,11 @@ static int take_row(fl_record_reader *r, fl_err *err)
     }
     if (r->n == 0 && r->seen == 0) r->first = t;
     r->now = t;
-    if (r->ask.over && r->parts) p = 0;
+    if (r->ask.reduction && r->parts) p = 0;
     else p = r->by_name ? find_part(r, name) : add_part(r, name, err);
     if (p < 0 && !r->by_name) return -1;
     if (p < 0) return not_there(r, name, err);
-    if (r->part[p].n > r->n && !r->ask.over)
+    if (r->part[p].n > r->n && !r->ask.reduction)
         return fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
     r->seen++;
     return take_values(r, p, err);
@@ -347,16 +348,16 @@ static int read_time(fl_record_reader *r, fl_err *err)
                                     r->table.text.kind, r->ask.wheres ? " that was asked for" : "");
             }
         }
-        if (r->pending == 0 && !fl_where_holds(&r->where, &r->table)) continue;
+        if (r->pending == 0 && !fl_row_filter_matches(&r->where, &r->table)) continue;
         if (take_row(r, err)) return -1;
-        if (r->pending || (!r->ask.over && (r->key < 0 || (r->by_name && r->seen == r->parts))))
+        if (r->pending || (!r->ask.reduction && (r->key < 0 || (r->by_name && r->seen == r->parts))))
             return close_time(r, err) ? -1 : 1;
     }
 }
 
 /* --- all of it ------------------------------------------------------------------------------------------ */
 
-int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_err *err)
+int fl_record_open(fl_record *r, const char *path, const fl_record_selection *ask, fl_err *err)
 {
     *r = (fl_record){0};
     fl_record_reader *own = r->reader = fl_alloc(1, sizeof *own, err);
@@ -365,7 +366,7 @@ int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_
     own->ask = *ask;
     int rc = fl_table_open(&own->table, path, NULL, 1, err);
     if (rc == 0 && strcmp(own->table.text.kind, "summary") == 0)
-        rc = fl_fail(err, FL_INPUT, "%s: this is a summary of runs, a record was wanted",
+        rc = fl_fail(err, FL_INPUT, "%s: this is a summary of runs, a record is expected",
                      fl_in_name(own->table.text.in));
     own->loads = rc == 0 && strcmp(own->table.text.kind, "loads") == 0;
     if (rc == 0) rc = want_all(own, ask, err);
@@ -374,7 +375,7 @@ int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_
         return -1;
     }
     r->kind = own->table.text.kind;
-    fl_in_patience(own->table.text.in, ask->patience);
+    fl_in_follow(own->table.text.in, ask->patience);
     own->before = own->table.start;
     r->signals = own->signals;
     r->signal = own->name;
@@ -387,7 +388,7 @@ static void show(fl_record *r, int which)
     fl_record_reader *own = r->reader;
     r->parts = own->n_shown;
     r->part = own->label;
-    r->has = own->has;
+    r->defined = own->has;
     r->x = own->x[which];
     r->t = own->t[which];
     r->n++;

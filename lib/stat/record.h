@@ -10,7 +10,7 @@
 #include "base/err.h"
 
 /* Larger values are refused: no load is near it, and squares and sums of any number of rows stay finite. */
-#define FL_SERIES_LARGEST 1e100
+#define FL_RECORD_LARGEST_VALUE 1e100
 
 /* What to read.
  *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total
@@ -18,7 +18,7 @@
  *   part             one part or "total"; NULL takes all of them and the total
  *   over             what becomes of several rows at one time, see below
  *   where[wheres]    "COLUMN=WORD": only rows whose field is that word
- *   patience         a file that has ended is waited for so long, should it grow [s], see fl_in_patience()
+ *   patience         a file that has ended is waited for so long, should it grow [s], see fl_in_follow()
  *   from, to         only rows whose interval lies within [s]; -INFINITY and INFINITY take all
  *   last             only the rows of the last so many seconds; 0 takes all
  *   after            only what is so many seconds or more after the start of the first row in which a signal
@@ -27,19 +27,27 @@ typedef struct {
     const char *const *signal;
     int32_t signals;
     const char *part;
-    double from, to, last, after;
-    int over;
+    double from, to, last, after_first_load;
+    int reduction;
     const char *const *where;
     int32_t wheres;
     double patience;
-} fl_series_ask;
+} fl_record_selection;
 
 /* Rows of one time are told apart by their part, or become one value: the sum of their values, their mean,
  * the smallest, the largest, or how many there are.  There is then one part, "-". */
-enum fl_over { FL_OVER_NONE, FL_OVER_SUM, FL_OVER_MEAN, FL_OVER_MIN, FL_OVER_MAX, FL_OVER_COUNT, FL_OVERS };
+enum fl_time_reduction {
+    FL_REDUCE_NONE,
+    FL_REDUCE_SUM,
+    FL_REDUCE_MEAN,
+    FL_REDUCE_MIN,
+    FL_REDUCE_MAX,
+    FL_REDUCE_COUNT,
+    FL_REDUCTIONS
+};
 
-/* "sum", "mean", "min", "max", "count" for 1 .. FL_OVERS - 1. */
-const char *fl_over_name(int over);
+/* "sum", "mean", "min", "max", "count" for 1 .. FL_REDUCTIONS - 1. */
+const char *fl_reduction_name(int over);
 
 typedef struct fl_record_reader fl_record_reader;
 
@@ -49,10 +57,10 @@ typedef struct {
     int32_t parts, signals;
     const char *const *part; /* [parts] the sum over the parts is the last one, "total"; see below */
     const char *const *signal, *const *unit; /* [signals] */
-    const unsigned char *has; /* [parts * signals] 0 where the sum over the parts would mean nothing */
-    int64_t n;                /* times read so far */
-    double t, edge[2];        /* the time as written, and the interval its row holds for [s] */
-    const double *x;          /* [parts * signals] of part p and signal s at x[p * signals + s] */
+    const unsigned char *defined; /* [parts * signals] 0 where the sum over the parts would mean nothing */
+    int64_t n;                    /* times read so far */
+    double t, edge[2];            /* the time as written, and the interval its row holds for [s] */
+    const double *x;              /* [parts * signals] of part p and signal s at x[p * signals + s] */
 } fl_record;
 
 /* Open a table that has a column t and, where rows share a time, a column part or body that tells them apart.
@@ -60,10 +68,10 @@ typedef struct {
  * the sum over the parts of fx, fy, fz, mx, my, mz and contacts; other columns have none.  from, to, last
  * and after are left to the caller.  Which parts there are is known after the first fl_record_next().
  * 0, or -1 with FL_INPUT, FL_USAGE (a total that does not exist, or signals needed) or FL_SYSTEM in err. */
-int fl_record_open(fl_record *r, const char *path, const fl_series_ask *ask, fl_err *err);
+int fl_record_open(fl_record *r, const char *path, const fl_record_selection *ask, fl_err *err);
 
 /* The next time.  1, or 0 at the end, or -1 with err: FL_INPUT for no row at all, a missing, new or repeated
- * part, time that does not rise, a field that is not a number or beyond FL_SERIES_LARGEST.
+ * part, time that does not rise, a field that is not a number or beyond FL_RECORD_LARGEST_VALUE.
  * A loads table hands on a time as soon as its last row is there, any other with the first row after it;
  * so does any table whose rows are put together, for their number is not known. */
 int fl_record_next(fl_record *r, fl_err *err);

@@ -4,7 +4,7 @@
 
 static const double EQUAL = 1e-6; /* of the mean interval */
 
-double fl_resample_step(int32_t n, const double *edge)
+double fl_resample_common_interval(int32_t n, const double *edge)
 {
     const double h = (edge[n] - edge[0]) / n;
     for (int32_t k = 0; k < n; k++)

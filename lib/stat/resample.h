@@ -7,7 +7,7 @@
 /* The common length of the intervals edge[k] .. edge[k + 1], k = 0 .. n - 1, when they are equal to a
  * millionth of their mean: then a row is nowhere off its place by more than a millionth of the whole record.
  * 0 otherwise. */
-double fl_resample_step(int32_t n, const double *edge);
+double fl_resample_common_interval(int32_t n, const double *edge);
 
 /* Means over m equal intervals of a record that is constant in each of its own,
  *     y_j = (1/h) sum_k x_k |[edge_k, edge_(k+1)] and [a_j, a_(j+1)]|,  a_j = edge_0 + j h,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/sample.h"
 
 /* A record of whole blocks must not lose its last one by the rounding of its times: a millionth of a
@@ -9,13 +9,13 @@ static const double SLACK = 1e-6;
 
 static int push(fl_peaks *p, int32_t at, fl_err *err)
 {
-    if (fl_grow(&p->at, &p->cap, (int64_t)p->n + 1, sizeof *p->at, err)) return -1;
-    p->at[p->n++] = at;
+    if (fl_grow(&p->row, &p->cap, (int64_t)p->n + 1, sizeof *p->row, err)) return -1;
+    p->row[p->n++] = at;
     return 0;
 }
 
-int fl_sample_over(int32_t n, const double *x, const double *edge, double threshold, double gap, fl_peaks *p,
-                   fl_err *err)
+int fl_sample_peaks_over_threshold(int32_t n, const double *x, const double *edge, double threshold,
+                                   double gap, fl_peaks *p, fl_err *err)
 {
     int32_t last = -1; /* the last row above */
     p->n = 0;
@@ -23,14 +23,14 @@ int fl_sample_over(int32_t n, const double *x, const double *edge, double thresh
         if (!(x[k] > threshold)) continue;
         const int apart = last < 0 || (last + 1 < k && edge[k] - edge[last + 1] >= gap);
         if (apart && push(p, k, err)) return -1;
-        if (x[k] > x[p->at[p->n - 1]]) p->at[p->n - 1] = k;
+        if (x[k] > x[p->row[p->n - 1]]) p->row[p->n - 1] = k;
         last = k;
     }
     return 0;
 }
 
-int fl_sample_blocks(int32_t n, const double *x, const double *edge, double length, fl_peaks *p,
-                     int32_t *blocks, fl_err *err)
+int fl_sample_block_maxima(int32_t n, const double *x, const double *edge, double length, fl_peaks *p,
+                           int32_t *blocks, fl_err *err)
 {
     const double whole = floor((edge[n] - edge[0]) / length + SLACK);
     double now = -1.0;
@@ -40,7 +40,7 @@ int fl_sample_blocks(int32_t n, const double *x, const double *edge, double leng
         if (block >= whole) break;
         if (block > now && push(p, k, err)) return -1;
         now = block;
-        if (x[k] > x[p->at[p->n - 1]]) p->at[p->n - 1] = k;
+        if (x[k] > x[p->row[p->n - 1]]) p->row[p->n - 1] = k;
     }
     if (blocks) *blocks = whole < INT32_MAX ? (int32_t)whole : INT32_MAX;
     return 0;

@@ -8,13 +8,13 @@
  * below it for at least `gap` between them, and of each cluster the first largest value is the peak.  gap = 0
  * separates every excursion. n, x[n], edge[n + 1]   row k holds x for edge[k] .. edge[k + 1] [s] p out;
  * zeroed, or used before 0, or -1 with FL_SYSTEM in err.  Source: Coles 2001, 5.3.2, runs declustering. */
-int fl_sample_over(int32_t n, const double *x, const double *edge, double threshold, double gap, fl_peaks *p,
-                   fl_err *err);
+int fl_sample_peaks_over_threshold(int32_t n, const double *x, const double *edge, double threshold,
+                                   double gap, fl_peaks *p, fl_err *err);
 
 /* The first largest value of each whole block of the given length, counted from edge[0]; a row belongs to the
  * block its middle lies in, a block without rows has none, and what is left at the end is left out. blocks
  * may be NULL; else out, the number of whole blocks of the record. 0, or -1 with FL_SYSTEM in err. */
-int fl_sample_blocks(int32_t n, const double *x, const double *edge, double length, fl_peaks *p,
-                     int32_t *blocks, fl_err *err);
+int fl_sample_block_maxima(int32_t n, const double *x, const double *edge, double length, fl_peaks *p,
+                           int32_t *blocks, fl_err *err);
 
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/series.h"
 
 /* --- rows ----------------------------------------------------------------------------------------------- */
@@ -35,7 +35,7 @@ static int grow(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
     int32_t next = *cap;
     for (int64_t k = 0; k < (int64_t)r->parts * r->signals; k++) {
         next = *cap;
-        if (r->has[k] && fl_grow(&s->x[k], &next, want, sizeof **s->x, err)) return -1;
+        if (r->defined[k] && fl_grow(&s->x[k], &next, want, sizeof **s->x, err)) return -1;
     }
     next = *cap;
     if (fl_grow(&s->t, &next, want, sizeof *s->t, err)) return -1;
@@ -49,7 +49,7 @@ static int add_row(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
 {
     if (s->n + 1 >= *cap && grow(s, r, cap, err)) return -1;
     for (int64_t k = 0; k < (int64_t)r->parts * r->signals; k++)
-        if (r->has[k]) s->x[k][s->n] = r->x[k];
+        if (r->defined[k]) s->x[k][s->n] = r->x[k];
     s->t[s->n] = r->t;
     s->edge[s->n] = r->edge[0];
     s->edge[++s->n] = r->edge[1];
@@ -72,12 +72,12 @@ static double first_load(const fl_series *s)
     return INFINITY;
 }
 
-static int cut(fl_series *s, const fl_series_ask *ask, const char *name, fl_err *err)
+static int cut(fl_series *s, const fl_record_selection *ask, const char *name, fl_err *err)
 {
     const double first = s->edge[0], end = s->edge[s->n], slack = CUT_SLACK * (end - first) / s->n;
     const double to = fmin(ask->to, end);
     double from = fmax(ask->from, ask->last > 0.0 ? to - ask->last : first);
-    if (ask->after > 0.0) from = fmax(from, first_load(s) + ask->after);
+    if (ask->after_first_load > 0.0) from = fmax(from, first_load(s) + ask->after_first_load);
     if (from == INFINITY) return fl_fail(err, FL_INPUT, "%s: every load is 0, nothing ever comes near", name);
     int32_t a = 0, b = s->n;
     while (a < b && s->edge[a] < from - slack) a++;
@@ -99,7 +99,7 @@ static int cut(fl_series *s, const fl_series_ask *ask, const char *name, fl_err 
 
 /* --- all of it ------------------------------------------------------------------------------------------ */
 
-int fl_series_read(fl_series *s, const char *path, const fl_series_ask *ask, fl_err *err)
+int fl_series_read(fl_series *s, const char *path, const fl_record_selection *ask, fl_err *err)
 {
     fl_record r = {0};
     int32_t cap = 0;

@@ -22,7 +22,7 @@ typedef struct {
 
 /* Read a table as fl_record_open() and fl_record_next() do, and apply the cut.
  * 0, or -1 with their errors, or FL_INPUT when the cut leaves nothing. */
-int fl_series_read(fl_series *s, const char *path, const fl_series_ask *ask, fl_err *err);
+int fl_series_read(fl_series *s, const char *path, const fl_record_selection *ask, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */
 void fl_series_free(fl_series *s);

@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "stat/summary.h"
 
-int fl_values_add(fl_values *v, double x, int64_t count, fl_err *err)
+int fl_multiset_add(fl_multiset *v, double x, int64_t count, fl_err *err)
 {
     if (v->n && v->v[v->n - 1].x == x) {
         v->v[v->n - 1].count += count;
         return 0;
     }
     if (fl_grow(&v->v, &v->cap, (int64_t)v->n + 1, sizeof *v->v, err)) return -1;
-    v->v[v->n++] = (fl_value){x, count};
+    v->v[v->n++] = (fl_multiset_entry){x, count};
     return 0;
 }
 
 static int rising(const void *a, const void *b)
 {
-    const fl_value *p = a, *q = b;
+    const fl_multiset_entry *p = a, *q = b;
     return (p->x > q->x) - (p->x < q->x);
 }
 
-void fl_values_sort(fl_values *v)
+void fl_multiset_sort(fl_multiset *v)
 {
     int32_t n = 0;
     if (v->n) qsort(v->v, (size_t)v->n, sizeof *v->v, rising);
@@ -32,17 +32,17 @@ void fl_values_sort(fl_values *v)
     v->n = n;
 }
 
-int64_t fl_values_count(const fl_values *v)
+int64_t fl_multiset_size(const fl_multiset *v)
 {
     int64_t n = 0;
     for (int32_t k = 0; k < v->n; k++) n += v->v[k].count;
     return n;
 }
 
-static int add_values(fl_values *v, const fl_values *other, fl_err *err)
+static int add_values(fl_multiset *v, const fl_multiset *other, fl_err *err)
 {
     for (int32_t k = 0; k < other->n; k++)
-        if (fl_values_add(v, other->v[k].x, other->v[k].count, err)) return -1;
+        if (fl_multiset_add(v, other->v[k].x, other->v[k].count, err)) return -1;
     return 0;
 }
 
@@ -70,9 +70,9 @@ static void empty_signal(fl_summary_signal *s)
     char *const part = s->part, *const signal = s->signal, *const unit = s->unit;
     for (int k = 0; k < 5; k++) fl_exact_free(&s->sum[k]);
     fl_exact_free(&s->peak_sum);
-    fl_classes_free(&s->level);
-    fl_classes_free(&s->peak);
-    fl_classes_free(&s->cycle);
+    fl_log_histogram_free(&s->level);
+    fl_log_histogram_free(&s->peak);
+    fl_log_histogram_free(&s->cycle);
     free(s->block.v);
     for (int k = 0; k < FL_RUN_VALUES; k++) free(s->run[k].v);
     *s = (fl_summary_signal){.part = part, .signal = signal, .unit = unit};
@@ -87,33 +87,33 @@ static void free_signal(fl_summary_signal *s)
     *s = (fl_summary_signal){0};
 }
 
-fl_summary_signal *fl_summary_find(fl_summary *s, const char *part, const char *signal, const char *unit,
-                                   const char *name, fl_err *err)
+fl_summary_signal *fl_summary_get_signal(fl_summary *s, const char *part, const char *signal,
+                                         const char *unit, const char *name, fl_err *err)
 {
     int32_t lo = 0, hi = s->n; /* entries before lo come earlier, those from hi on do not */
     while (lo < hi) {
         const int32_t k = lo + (hi - lo) / 2;
-        const int c = order_parts(s->s[k].part, part);
-        if (c < 0 || (c == 0 && order_signals(s->s[k].signal, signal) < 0)) lo = k + 1;
+        const int c = order_parts(s->entry[k].part, part);
+        if (c < 0 || (c == 0 && order_signals(s->entry[k].signal, signal) < 0)) lo = k + 1;
         else hi = k;
     }
-    if (lo < s->n && strcmp(s->s[lo].part, part) == 0 && strcmp(s->s[lo].signal, signal) == 0) {
-        if (strcmp(s->s[lo].unit, unit) == 0) return &s->s[lo];
+    if (lo < s->n && strcmp(s->entry[lo].part, part) == 0 && strcmp(s->entry[lo].signal, signal) == 0) {
+        if (strcmp(s->entry[lo].unit, unit) == 0) return &s->entry[lo];
         fl_fail(err, FL_INPUT, "%s: %.60s of %.60s is in \"%.20s\", in another run it was in \"%.20s\"", name,
-                signal, part, unit, s->s[lo].unit);
+                signal, part, unit, s->entry[lo].unit);
         return NULL;
     }
     fl_summary_signal new = {.part = fl_alloc_text(part, err)};
     new.signal = new.part ? fl_alloc_text(signal, err) : NULL;
     new.unit = new.signal ? fl_alloc_text(unit, err) : NULL;
-    if (!new.unit || fl_grow(&s->s, &s->cap, (int64_t)s->n + 1, sizeof *s->s, err)) {
+    if (!new.unit || fl_grow(&s->entry, &s->cap, (int64_t)s->n + 1, sizeof *s->entry, err)) {
         free_signal(&new);
         return NULL;
     }
-    memmove(s->s + lo + 1, s->s + lo, (size_t)(s->n - lo) * sizeof *s->s);
-    s->s[lo] = new;
+    memmove(s->entry + lo + 1, s->entry + lo, (size_t)(s->n - lo) * sizeof *s->entry);
+    s->entry[lo] = new;
     s->n++;
-    return &s->s[lo];
+    return &s->entry[lo];
 }
 
 static int merge_signal(fl_summary_signal *s, const fl_summary_signal *t, fl_err *err)
@@ -135,13 +135,14 @@ static int merge_signal(fl_summary_signal *s, const fl_summary_signal *t, fl_err
         if (fl_exact_merge(&s->sum[k], &t->sum[k], err)) return -1;
     for (int k = 0; k < FL_RUN_VALUES; k++)
         if (add_values(&s->run[k], &t->run[k], err)) return -1;
-    if (fl_exact_merge(&s->peak_sum, &t->peak_sum, err) || fl_classes_merge(&s->level, &t->level, err) ||
-        fl_classes_merge(&s->peak, &t->peak, err) || fl_classes_merge(&s->cycle, &t->cycle, err))
+    if (fl_exact_merge(&s->peak_sum, &t->peak_sum, err) ||
+        fl_log_histogram_merge(&s->level, &t->level, err) ||
+        fl_log_histogram_merge(&s->peak, &t->peak, err) || fl_log_histogram_merge(&s->cycle, &t->cycle, err))
         return -1;
     return add_values(&s->block, &t->block, err);
 }
 
-int fl_summary_copy(fl_summary_signal *to, const fl_summary_signal *from, fl_err *err)
+int fl_summary_copy_signal(fl_summary_signal *to, const fl_summary_signal *from, fl_err *err)
 {
     empty_signal(to);
     return merge_signal(to, from, err);
@@ -196,7 +197,8 @@ int fl_summary_add_history(fl_summary *s, const char *lines, fl_err *err)
 
 /* --- all of it ------------------------------------------------------------------------------------------ */
 
-static int check_ask(const fl_summary_ask *a, const fl_summary_ask *b, const char *name, fl_err *err)
+static int check_ask(const fl_summary_settings *a, const fl_summary_settings *b, const char *name,
+                     fl_err *err)
 {
     static const char what[] = "%s: its %s %g, that of the other runs %g: they do not add up";
     if (a->separation != b->separation)
@@ -214,11 +216,11 @@ static int check_ask(const fl_summary_ask *a, const fl_summary_ask *b, const cha
 int fl_summary_merge(fl_summary *s, const fl_summary *other, const char *name, fl_err *err)
 {
     if (other->n == 0) return 0;
-    if (s->n == 0) s->ask = other->ask;
-    if (check_ask(&s->ask, &other->ask, name, err)) return -1;
+    if (s->n == 0) s->settings = other->settings;
+    if (check_ask(&s->settings, &other->settings, name, err)) return -1;
     for (int32_t k = 0; k < other->n; k++) {
-        const fl_summary_signal *t = &other->s[k];
-        fl_summary_signal *to = fl_summary_find(s, t->part, t->signal, t->unit, name, err);
+        const fl_summary_signal *t = &other->entry[k];
+        fl_summary_signal *to = fl_summary_get_signal(s, t->part, t->signal, t->unit, name, err);
         if (!to || merge_signal(to, t, err)) return -1;
     }
     return fl_summary_add_history(s, other->history, err);
@@ -228,8 +230,8 @@ void fl_summary_moments(const fl_summary_signal *s, double out[4]) { fl_exact_mo
 
 void fl_summary_free(fl_summary *s)
 {
-    for (int32_t k = 0; k < s->n; k++) free_signal(&s->s[k]);
-    free(s->s);
+    for (int32_t k = 0; k < s->n; k++) free_signal(&s->entry[k]);
+    free(s->entry);
     free(s->history);
     *s = (fl_summary){0};
 }

@@ -2,10 +2,10 @@
 /* summary.h -- what is kept of any number of runs in constant memory, and adds up in any order.
  *
  * A run is one record.  Of each signal of each part there are kept
- *     the exact sums of w x^k, k = 0 .. 4, w being the time a row lasts (exactsum.h);
+ *     the exact sums of w x^k, k = 0 .. 4, w being the time a row lasts (exact_sum.h);
  *     smallest and largest value, each with the first time it has in its run (of equal ones the earliest);
  *     how long which value lasted, how many separate peaks had which height, how many cycles which range, in
- *     classes (classes.h); the exact sum of the peaks;
+ *     classes (log_histogram.h); the exact sum of the peaks;
  *     of every whole block of a run its largest value; of every run its mean, std, smallest and largest
  * value. Peaks, cycles and blocks belong to a run: they do not go on from one to another, and what a run
  * leaves open at its end (the residue of rainflow, a block that is not complete) is settled there.  Nothing
@@ -16,8 +16,8 @@
 #define FL_STAT_SUMMARY_H
 #include <stdint.h>
 #include "base/err.h"
-#include "stat/classes.h"
-#include "stat/exactsum.h"
+#include "stat/log_histogram.h"
+#include "stat/exact_sum.h"
 
 /* How the numbers are made; all runs of a summary are made alike.
  *   separation, threshold   of the peaks, fl_peaks_rayleigh()
@@ -26,17 +26,17 @@
 typedef struct {
     double separation, threshold, block;
     int rule, residue;
-} fl_summary_ask;
+} fl_summary_settings;
 
 /* A bag of values: x[k] is in it count[k] times. */
 typedef struct {
     double x;
     int64_t count;
-} fl_value;
+} fl_multiset_entry;
 typedef struct {
     int32_t n, cap;
-    fl_value *v;
-} fl_values;
+    fl_multiset_entry *v;
+} fl_multiset;
 
 enum fl_run_value { FL_RUN_MEAN, FL_RUN_STD, FL_RUN_MIN, FL_RUN_MAX, FL_RUN_VALUES };
 
@@ -45,16 +45,16 @@ typedef struct {
     int64_t rows, peaks;
     double from, to; /* from the earliest start to the latest end of a run [s] */
     double min, max, t_min, t_max;
-    fl_exact sum[5], peak_sum;
-    fl_classes level, peak, cycle; /* of a cycle n counts halves */
-    fl_values block;               /* maxima */
-    fl_values run[FL_RUN_VALUES];  /* a value a run */
+    fl_exact_sum sum[5], peak_sum;
+    fl_log_histogram level, peak, cycle; /* of a cycle n counts halves */
+    fl_multiset block;                   /* maxima */
+    fl_multiset run[FL_RUN_VALUES];      /* a value a run */
 } fl_summary_signal;
 
 typedef struct {
-    fl_summary_ask ask;
+    fl_summary_settings settings;
     char *history; /* the chains of "#by" lines of all runs, each once, in alphabetical order; NULL: none */
-    fl_summary_signal *s; /* [n] by part, the total last, then by signal */
+    fl_summary_signal *entry; /* [n] by part, the total last, then by signal */
     int32_t n, cap;
 } fl_summary;
 
@@ -64,23 +64,23 @@ int fl_summary_merge(fl_summary *s, const fl_summary *other, const char *name, f
 
 /* The entry of a signal, made empty where there is none yet; borrowed until the next call.  NULL with
  * FL_SYSTEM, or with FL_INPUT where it has another unit, in err. */
-fl_summary_signal *fl_summary_find(fl_summary *s, const char *part, const char *signal, const char *unit,
-                                   const char *name, fl_err *err);
+fl_summary_signal *fl_summary_get_signal(fl_summary *s, const char *part, const char *signal,
+                                         const char *unit, const char *name, fl_err *err);
 
 /* Make an entry what another one is, but for part, signal and unit.  0, or -1 with FL_SYSTEM in err. */
-int fl_summary_copy(fl_summary_signal *to, const fl_summary_signal *from, fl_err *err);
+int fl_summary_copy_signal(fl_summary_signal *to, const fl_summary_signal *from, fl_err *err);
 
 /* Join a chain of "#by" lines, or several, to the history: each line that holds " --summary" ends a chain. */
 int fl_summary_add_history(fl_summary *s, const char *lines, fl_err *err);
 
 /* Put a value into the bag, count >= 1 times.  0, or -1 with FL_SYSTEM in err. */
-int fl_values_add(fl_values *v, double x, int64_t count, fl_err *err);
+int fl_multiset_add(fl_multiset *v, double x, int64_t count, fl_err *err);
 
 /* Bring a bag into ascending order, equal values together. */
-void fl_values_sort(fl_values *v);
+void fl_multiset_sort(fl_multiset *v);
 
 /* How many values there are. */
-int64_t fl_values_count(const fl_values *v);
+int64_t fl_multiset_size(const fl_multiset *v);
 
 /* Mean, std, skew and kurtosis, by fl_exact_moments(). */
 void fl_summary_moments(const fl_summary_signal *s, double out[4]);

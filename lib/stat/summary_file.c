@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "base/table.h"
 #include "stat/rainflow.h"
 #include "stat/summary_file.h"
@@ -25,31 +25,31 @@ typedef struct {
 static void put(const writer *w, const char *item, double from, double to, double count, double value)
 {
     const double x[] = {from, to, count, value};
-    char buf[FL_NUM_LEN];
+    char buf[FL_NUMBER_LEN];
     if (w->s)
         fprintf(w->f, "%s\t%s\t%s\t%s", w->s->part, w->s->signal, w->s->unit[0] ? w->s->unit : "-", item);
     else fprintf(w->f, "-\t-\t-\t%s", item);
-    for (int k = 0; k < 4; k++) fprintf(w->f, "\t%s", isnan(x[k]) ? "-" : fl_num_text(x[k], buf));
+    for (int k = 0; k < 4; k++) fprintf(w->f, "\t%s", isnan(x[k]) ? "-" : fl_number_text(x[k], buf));
     putc('\t', w->f);
 }
 
 static void put_exact(const writer *w, const char *item, double from, double to, double count,
-                      const fl_exact *sum)
+                      const fl_exact_sum *sum)
 {
     put(w, item, from, to, count, fl_exact_value(sum));
     fl_exact_print(w->f, sum);
     putc('\n', w->f);
 }
 
-static int put_classes(const writer *w, const char *item, const fl_classes *c, double unit, int timed,
+static int put_classes(const writer *w, const char *item, const fl_log_histogram *c, double unit, int timed,
                        fl_err *err)
 {
-    fl_class *sorted;
-    if (fl_classes_sort(c, &sorted, err)) return -1;
+    fl_log_bin *sorted;
+    if (fl_log_histogram_sort(c, &sorted, err)) return -1;
     for (int32_t k = 0; k < c->n; k++) {
-        const fl_class *s = &sorted[k];
-        put(w, item, fl_classes_lower(s->key), fl_classes_upper(s->key), unit * (double)s->n,
-            timed ? fl_fixed_value(s->time) : NAN);
+        const fl_log_bin *s = &sorted[k];
+        put(w, item, fl_log_bin_lower(s->key), fl_log_bin_upper(s->key), unit * (double)s->n,
+            timed ? fl_fixed_time_seconds(s->time) : NAN);
         if (timed)
             fprintf(w->f, "%llu:%016llx\n", (unsigned long long)s->time.seconds,
                     (unsigned long long)s->time.part);
@@ -59,7 +59,7 @@ static int put_classes(const writer *w, const char *item, const fl_classes *c, d
     return 0;
 }
 
-static void put_values(const writer *w, const char *item, const fl_values *v)
+static void put_values(const writer *w, const char *item, const fl_multiset *v)
 {
     for (int32_t k = 0; k < v->n; k++) {
         put(w, item, NAN, NAN, (double)v->v[k].count, v->v[k].x);
@@ -72,21 +72,21 @@ int fl_summary_write(FILE *f, fl_summary *s, fl_err *err)
     writer w = {.f = f};
     fprintf(f, "#summary 1\n%s", s->history ? s->history : "");
     for (int k = 0; k < COLUMNS; k++) fprintf(f, "%s%c", COLUMN[k], k + 1 < COLUMNS ? '\t' : '\n');
-    put(&w, "separation", NAN, NAN, NAN, s->ask.separation);
+    put(&w, "separation", NAN, NAN, NAN, s->settings.separation);
     fputs("-\n", f);
-    put(&w, "threshold", NAN, NAN, NAN, s->ask.threshold);
+    put(&w, "threshold", NAN, NAN, NAN, s->settings.threshold);
     fputs("-\n", f);
-    put(&w, "block_length", NAN, NAN, NAN, s->ask.block);
+    put(&w, "block_length", NAN, NAN, NAN, s->settings.block);
     fputs("-\n", f);
     put(&w, "rule", NAN, NAN, NAN, NAN);
-    fprintf(f, "%s\n", fl_rainflow_rule_name(s->ask.rule));
+    fprintf(f, "%s\n", fl_rainflow_rule_name(s->settings.rule));
     put(&w, "residue", NAN, NAN, NAN, NAN);
-    fprintf(f, "%s\n", fl_residue_name(s->ask.residue));
+    fprintf(f, "%s\n", fl_residue_name(s->settings.residue));
     for (int32_t i = 0; i < s->n; i++) {
-        fl_summary_signal *t = &s->s[i];
+        fl_summary_signal *t = &s->entry[i];
         w.s = t;
-        fl_values_sort(&t->block);
-        for (int k = 0; k < FL_RUN_VALUES; k++) fl_values_sort(&t->run[k]);
+        fl_multiset_sort(&t->block);
+        for (int k = 0; k < FL_RUN_VALUES; k++) fl_multiset_sort(&t->run[k]);
         put_exact(&w, SUM[0], t->from, t->to, (double)t->rows, &t->sum[0]);
         for (int k = 1; k < 5; k++) put_exact(&w, SUM[k], NAN, NAN, NAN, &t->sum[k]);
         put(&w, "min", t->t_min, t->t_min, NAN, t->min);
@@ -145,7 +145,7 @@ static int count_of(reader *r, double unit, int64_t lo, int64_t *n, fl_err *err)
         *n = (int64_t)x;
         return 0;
     }
-    return fl_text_fail(&r->t.text, err, "count is \"%.40s\", a whole number of %s from %g on was wanted",
+    return fl_text_fail(&r->t.text, err, "count is \"%.40s\", a whole number of %s from %g on is expected",
                         word(r, COUNT), unit < 1.0 ? "halves" : "rows", unit * (double)lo);
 }
 
@@ -160,7 +160,7 @@ static int find_word(reader *r, const char *(*name)(int), int n, int *k, fl_err 
 static int read_setting(reader *r, fl_err *err)
 {
     static const char *const name[] = {"separation", "threshold", "block_length", "rule", "residue"};
-    double *const to[] = {&r->s.ask.separation, &r->s.ask.threshold, &r->s.ask.block};
+    double *const to[] = {&r->s.settings.separation, &r->s.settings.threshold, &r->s.settings.block};
     int k = 0, rc;
     while (k < 5 && strcmp(word(r, ITEM), name[k]) != 0) k++;
     if (k == 5)
@@ -169,14 +169,14 @@ static int read_setting(reader *r, fl_err *err)
     if (r->settings & 1 << k || r->last)
         return fl_text_fail(&r->t.text, err, "%s is given twice, or below the first signal", name[k]);
     r->settings |= 1 << k;
-    if (k == 3) return find_word(r, fl_rainflow_rule_name, FL_RAINFLOW_RULES, &r->s.ask.rule, err);
-    if (k == 4) return find_word(r, fl_residue_name, FL_RESIDUES, &r->s.ask.residue, err);
+    if (k == 3) return find_word(r, fl_rainflow_rule_name, FL_RAINFLOW_RULES, &r->s.settings.rule, err);
+    if (k == 4) return find_word(r, fl_residue_name, FL_RESIDUES, &r->s.settings.residue, err);
     rc = bounded(r, VALUE, to[k], err);
     if (rc == 0 && !(*to[k] >= 0.0)) rc = fl_text_fail(&r->t.text, err, "%s is below 0", name[k]);
     return rc;
 }
 
-static int read_exact(reader *r, fl_exact *sum, fl_err *err)
+static int read_exact(reader *r, fl_exact_sum *sum, fl_err *err)
 {
     fl_err why = {0};
     double value;
@@ -189,7 +189,7 @@ static int read_exact(reader *r, fl_exact *sum, fl_err *err)
                         fl_exact_value(sum));
 }
 
-static int read_time(reader *r, fl_fixed *time, fl_err *err)
+static int read_time(reader *r, fl_fixed_time *time, fl_err *err)
 {
     const char *text = word(r, EXACT), *colon = strchr(text, ':');
     char digits[32];
@@ -200,33 +200,33 @@ static int read_time(reader *r, fl_fixed *time, fl_err *err)
         digits[n] = '\0';
         for (const char *p = colon + 1; *p; p++)
             part = part << 4 | (uint64_t)(*p <= '9' ? *p - '0' : *p - 'a' + 10);
-        *time = (fl_fixed){0, part};
-        if (fl_num_u64(digits, &time->seconds) == 0 && time->seconds < UINT64_C(1) << 62) return 0;
+        *time = (fl_fixed_time){0, part};
+        if (fl_number_u64(digits, &time->seconds) == 0 && time->seconds < UINT64_C(1) << 62) return 0;
     }
     return fl_text_fail(&r->t.text, err,
-                        "exact is \"%.40s\", a time SECONDS:PART of 16 hexadecimal digits was wanted", text);
+                        "exact is \"%.40s\", a time SECONDS:PART of 16 hexadecimal digits is expected", text);
 }
 
-static int read_class(reader *r, fl_classes *c, double unit, int timed, fl_err *err)
+static int read_class(reader *r, fl_log_histogram *c, double unit, int timed, fl_err *err)
 {
     double from, to;
-    fl_fixed time = {0, 0};
+    fl_fixed_time time = {0, 0};
     int64_t n;
     if (bounded(r, FROM, &from, err) || bounded(r, TO, &to, err) || count_of(r, unit, 1, &n, err)) return -1;
-    const int32_t key = fl_classes_key(0.5 * from + 0.5 * to);
-    if (fl_classes_lower(key) != from || fl_classes_upper(key) != to)
+    const int32_t key = fl_log_bin_key(0.5 * from + 0.5 * to);
+    if (fl_log_bin_lower(key) != from || fl_log_bin_upper(key) != to)
         return fl_text_fail(&r->t.text, err, "%.40s to %.40s is no class of %s", word(r, FROM), word(r, TO),
                             word(r, ITEM));
     if (timed && read_time(r, &time, err)) return -1;
-    return fl_classes_add(c, key, n, time, err);
+    return fl_log_histogram_add(c, key, n, time, err);
 }
 
-static int read_values(reader *r, fl_values *v, fl_err *err)
+static int read_values(reader *r, fl_multiset *v, fl_err *err)
 {
     double x;
     int64_t n;
     if (bounded(r, VALUE, &x, err) || count_of(r, 1.0, 1, &n, err)) return -1;
-    return fl_values_add(v, x, n, err);
+    return fl_multiset_add(v, x, n, err);
 }
 
 static int once(reader *r, int bit, fl_err *err)
@@ -266,7 +266,7 @@ static int read_item(reader *r, fl_summary_signal *s, fl_err *err)
     return fl_text_fail(&r->t.text, err, "a summary has no item %.60s", item);
 }
 
-static int64_t count_all(const fl_classes *c)
+static int64_t count_all(const fl_log_histogram *c)
 {
     int64_t n = 0;
     for (int32_t k = 0; k < c->cap; k++) n += c->slot[k].n;
@@ -281,7 +281,7 @@ static int check_signal(const reader *r, fl_err *err)
     if (!s) return 0;
     if (r->items != ITEMS)
         return fl_text_fail(
-            t, err, "%.60s of %.60s is not complete: time, sum1 to sum4, min, max and peaks were wanted",
+            t, err, "%.60s of %.60s is not complete: time, sum1 to sum4, min, max and peaks are expected",
             s->signal, s->part);
     if (!(s->from < s->to) || !(fl_exact_value(&s->sum[0]) > 0.0) || !(s->min <= s->max))
         return fl_text_fail(t, err, "%.60s of %.60s has no extent: from %g to %g s, from %g to %g", s->signal,
@@ -290,7 +290,7 @@ static int check_signal(const reader *r, fl_err *err)
         return fl_text_fail(t, err, "%.60s of %.60s has %lld rows and %lld peaks, its classes hold others",
                             s->signal, s->part, (long long)s->rows, (long long)s->peaks);
     for (int k = 0; k < FL_RUN_VALUES; k++) {
-        const int64_t n = fl_values_count(&s->run[k]), runs = fl_values_count(&s->run[0]);
+        const int64_t n = fl_multiset_size(&s->run[k]), runs = fl_multiset_size(&s->run[0]);
         if (n == 0 || n != runs)
             return fl_text_fail(t, err, "%.60s of %.60s has %lld values %s, of %lld runs", s->signal, s->part,
                                 (long long)n, RUN[k], (long long)runs);
@@ -304,12 +304,12 @@ static int read_row(reader *r, fl_err *err)
     if (strcmp(part, "-") == 0 && strcmp(signal, "-") == 0) return read_setting(r, err);
     if (r->settings != SETTINGS)
         return fl_text_fail(&r->t.text, err,
-                            "separation, threshold, block_length, rule and residue were wanted first");
+                            "separation, threshold, block_length, rule and residue are expected first");
     if (!r->last || strcmp(r->last->part, part) != 0 || strcmp(r->last->signal, signal) != 0) {
         const int32_t before = r->s.n;
         if (check_signal(r, err)) return -1;
-        r->last = fl_summary_find(&r->s, part, signal, strcmp(unit, "-") ? unit : "",
-                                  fl_in_name(r->t.text.in), err);
+        r->last = fl_summary_get_signal(&r->s, part, signal, strcmp(unit, "-") ? unit : "",
+                                        fl_in_name(r->t.text.in), err);
         if (!r->last) return -1;
         if (r->s.n == before)
             return fl_text_fail(&r->t.text, err, "rows of %.60s of %.60s do not stand together", signal,
@@ -325,7 +325,7 @@ int fl_summary_read(fl_summary *s, const char *path, fl_err *err)
     int more, rc = -1;
     if (fl_table_open(&r.t, path, "summary", 1, err)) goto done;
     for (int k = 0; k < COLUMNS; k++)
-        if (fl_table_find(&r.t, COLUMN[k], &r.col[k], err)) goto done;
+        if (fl_table_require(&r.t, COLUMN[k], &r.col[k], err)) goto done;
     while ((more = fl_table_row(&r.t, err)) > 0)
         if (read_row(&r, err)) goto done;
     if (more < 0 || check_signal(&r, err)) goto done;

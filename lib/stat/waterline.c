@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/pi.h"
 #include "stat/waterline.h"
 
@@ -17,7 +17,7 @@ static int number(const char **text, char end, double *x)
     memcpy(word, *text, len);
     word[len] = '\0';
     *text += len + (end != '\0');
-    return fl_num_f64(word, x) || fabs(*x) > LARGEST ? -1 : 0;
+    return fl_number_f64(word, x) || fabs(*x) > LARGEST ? -1 : 0;
 }
 
 static int make_circle(fl_waterline *w, const char *text)
@@ -55,10 +55,10 @@ int fl_waterline_make(fl_waterline *w, const char *text, fl_err *err)
                     : colon                                   ? -1
                                                               : make_chain(w, text);
     if (!bad) return 0;
-    return fl_fail(err, FL_USAGE, "\"%.80s\" is no waterline, circle:X,Y,R or X,Y:X,Y:... was wanted", text);
+    return fl_fail(err, FL_USAGE, "\"%.80s\" is no waterline, circle:X,Y,R or X,Y:X,Y:... is expected", text);
 }
 
-double fl_waterline_at(const fl_waterline *w, double x, double y)
+double fl_waterline_nearest(const fl_waterline *w, double x, double y)
 {
     if (w->circle) {
         const double angle = atan2(y - w->y0, x - w->x0);

@@ -25,7 +25,7 @@ int fl_waterline_make(fl_waterline *w, const char *text, fl_err *err);
 
 /* s of the point of the waterline nearest to (x, y) in plan, of several the first: 0 <= s <= length.  The
  * centre of a circle has s = 0. */
-double fl_waterline_at(const fl_waterline *w, double x, double y);
+double fl_waterline_nearest(const fl_waterline *w, double x, double y);
 
 /* The point at s, 0 <= s <= length. */
 void fl_waterline_point(const fl_waterline *w, double s, double *x, double *y);

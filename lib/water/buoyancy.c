@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "geom/dilate.h"
 #include "water/buoyancy.h"
@@ -9,15 +9,15 @@
 int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
 {
     const int round = p->nv <= 2;
-    fl_hull out = {.p = p, .radius = round ? radius : 0.0};
+    fl_hull out = {.shape = p, .radius = round ? radius : 0.0};
     fl_mass m;
     if (fl_mass_of(&m, p, out.radius, err)) return -1;
     out.volume = m.volume;
     out.centre = m.centre;
-    out.surface = fl_dilate_area(p, out.radius);
+    out.surface_area = fl_dilate_area(p, out.radius);
     if (!round) {
-        out.area = fl_alloc(4 * (int64_t)p->nf, sizeof *out.area, err);
-        if (!out.area) return -1;
+        out.face_area = fl_alloc(4 * (int64_t)p->nf, sizeof *out.face_area, err);
+        if (!out.face_area) return -1;
     }
     for (int32_t f = 0; !round && f < p->nf; f++) {
         const fl_vec3 a = p->v[p->loop[p->first[f]]];
@@ -25,11 +25,11 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
         for (int32_t k = p->first[f] + 2; k < p->first[f + 1]; k++) {
             const fl_vec3 c = v3_sub(p->v[p->loop[k]], a);
             const double tri = 0.5 * v3_dot(p->n[f], v3_cross(b, c));
-            out.area[f] += tri;
+            out.face_area[f] += tri;
             g = v3_madd(g, tri / 3.0, v3_add(b, c));
             b = c;
         }
-        fl_hull_middles(&out)[f] = v3_madd(a, 1.0 / out.area[f], g);
+        fl_hull_face_centroids(&out)[f] = v3_madd(a, 1.0 / out.face_area[f], g);
     }
     if (!round) fl_prism_of(&out.prism, p);
     *h = out;
@@ -74,14 +74,14 @@ static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec
 /* The shape that floats. */
 static const fl_poly *shape_of(const fl_hull *h, struct standing *room)
 {
-    return h->area || h->p->nf == 0 ? h->p : stand_out(room, h->p, h->prism.e, h->radius);
+    return h->face_area || h->shape->nf == 0 ? h->shape : stand_out(room, h->shape, h->prism.e, h->radius);
 }
 
 #define OFF 1e-12 /* of the size */
 
-int fl_hull_by_core(fl_hull *h, const fl_poly *core, double r)
+int fl_hull_borrow_core(fl_hull *h, const fl_poly *core, double r)
 {
-    const fl_poly *p = h->p;
+    const fl_poly *p = h->shape;
     struct standing room;
     if (!(h->prism.area > 0.0) || p->nv > KEPT || core->nv != p->nv || core->nf != p->nf) return 0;
     const int32_t loops = p->first[p->nf];
@@ -91,16 +91,16 @@ int fl_hull_by_core(fl_hull *h, const fl_poly *core, double r)
     const fl_poly *q = stand_out(&room, core, h->prism.e, r);
     for (int32_t v = 0; v < p->nv; v++) /* no number is worse than any */
         if (!(v3_norm(v3_sub(p->v[v], q->v[v])) <= OFF * p->size)) return 0;
-    free(h->area);
-    h->area = NULL;
-    h->p = core;
+    free(h->face_area);
+    h->face_area = NULL;
+    h->shape = core;
     h->radius = r;
     return 1;
 }
 
 void fl_hull_free(fl_hull *h)
 {
-    free(h->area);
+    free(h->face_area);
     *h = (fl_hull){0};
 }
 
@@ -217,7 +217,7 @@ static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct water *w
     return 0;
 }
 
-static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
+static void solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
 {
     struct standing room;
     const fl_poly *p = shape_of(h, &room);
@@ -226,8 +226,9 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
     struct water water;
     const int state = find_apex(p, up, level, &water, &apex);
     if (state) {
-        *wet = state < 0 ? (fl_wet){0}
-                         : (fl_wet){.volume = h->volume, .centre = h->centre, .wetted = h->surface};
+        *wet = state < 0
+                   ? (fl_submerged){0}
+                   : (fl_submerged){.volume = h->volume, .centre = h->centre, .wetted_area = h->surface_area};
         return;
     }
     for (int32_t f = 0; f < p->nf; f++) {
@@ -237,9 +238,9 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
         fl_vec3 moment;
         for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) below += over(p, p->loop[k], &water) <= 0.0;
         if (below == 0) continue;
-        if (below == m && h->area) {
-            area = h->area[f];
-            moment = v3_scale(area, v3_sub(fl_hull_middles(h)[f], apex));
+        if (below == m && h->face_area) {
+            area = h->face_area[f];
+            moment = v3_scale(area, v3_sub(fl_hull_face_centroids(h)[f], apex));
         } else {
             const struct part part = below == m ? whole_face(p, f, apex) : clip_face(p, f, &water, apex);
             area = part.area;
@@ -253,26 +254,26 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
     }
     wet->volume = v3fold / 3.0;
     wet->centre = v3fold > 0.0 ? v3_madd(apex, 0.75 / v3fold, sum) : apex;
-    wet->wetted = wetted;
-    wet->waterplane = plane > 0.0 ? plane : 0.0;
+    wet->wetted_area = wetted;
+    wet->waterplane_area = plane > 0.0 ? plane : 0.0;
 }
 
 /* Spherical cap of height t = level + r over the lowest point:
  *     V = pi t^2 (3r - t) / 3,  its centroid 3 (2r - t)^2 / (4 (3r - t)) below the centre. */
-static void sphere(const fl_hull *h, fl_vec3 up, double water, fl_wet *wet)
+static void sphere(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
 {
-    const fl_vec3 o = h->p->v[0];
+    const fl_vec3 o = h->shape->v[0];
     const double r = h->radius, level = water - v3_dot(up, o), t = level + r;
-    *wet = (fl_wet){0};
+    *wet = (fl_submerged){0};
     if (t <= 0.0) return;
     if (t >= 2.0 * r) {
-        *wet = (fl_wet){.volume = h->volume, .centre = h->centre, .wetted = h->surface};
+        *wet = (fl_submerged){.volume = h->volume, .centre = h->centre, .wetted_area = h->surface_area};
         return;
     }
     wet->volume = PI * t * t * (3.0 * r - t) / 3.0;
     wet->centre = v3_madd(o, -0.75 * (2.0 * r - t) * (2.0 * r - t) / (3.0 * r - t), up);
-    wet->wetted = 2.0 * PI * r * t;
-    wet->waterplane = PI * t * (2.0 * r - t);
+    wet->wetted_area = 2.0 * PI * r * t;
+    wet->waterplane_area = PI * t * (2.0 * r - t);
 }
 
 /* What the parts of a capsule add up to: first moments about its middle, along the axis and along w, the
@@ -376,9 +377,10 @@ static void add_cylinder(struct parts *t, const struct capsule *c)
     }
 }
 
-static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_wet *wet)
+static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
 {
-    const fl_vec3 ends = v3_sub(h->p->v[1], h->p->v[0]), mid = v3_lerp(h->p->v[0], h->p->v[1], 0.5);
+    const fl_vec3 ends = v3_sub(h->shape->v[1], h->shape->v[0]),
+                  mid = v3_lerp(h->shape->v[0], h->shape->v[1], 0.5);
     const double len = v3_norm(ends), r = h->radius, half = 0.5 * len;
     const fl_vec3 axis = v3_scale((v3_dot(up, ends) < 0.0 ? -1.0 : 1.0) / len, ends);
     const fl_vec3 cross = v3_madd(up, -v3_dot(up, axis), axis);
@@ -391,10 +393,10 @@ static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_wet *wet)
     const double reach = half * c.sine + r;
     struct parts t = {0};
 
-    *wet = (fl_wet){0};
+    *wet = (fl_submerged){0};
     if (c.level <= -reach) return;
     if (c.level >= reach) {
-        *wet = (fl_wet){.volume = h->volume, .centre = h->centre, .wetted = h->surface};
+        *wet = (fl_submerged){.volume = h->volume, .centre = h->centre, .wetted_area = h->surface_area};
         return;
     }
     add_cap(&t, &c, -1);
@@ -405,18 +407,19 @@ static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_wet *wet)
     wet->volume = t.volume;
     wet->centre = v3_madd(v3_madd(mid, clamped(t.along / t.volume, -half - r, half + r), axis),
                           clamped(t.across / t.volume, -r, 0.0) / c.cosine, cross);
-    wet->wetted = fmax(t.wetted, 0.0);
-    wet->waterplane = fmax(t.plane, 0.0);
+    wet->wetted_area = fmax(t.wetted, 0.0);
+    wet->waterplane_area = fmax(t.plane, 0.0);
 }
 
-void fl_buoyancy(const fl_hull *h, fl_vec3 up, double level, fl_wet *wet)
+void fl_hull_submerged(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
 {
-    if (h->p->nv == 1) sphere(h, up, level, wet);
-    else if (h->p->nv == 2) capsule(h, up, level, wet);
-    else if (!(h->prism.area > 0.0) || !fl_prism_wet(&h->prism, up, level, wet)) solid(h, up, level, wet);
+    if (h->shape->nv == 1) sphere(h, up, level, wet);
+    else if (h->shape->nv == 2) capsule(h, up, level, wet);
+    else if (!(h->prism.area > 0.0) || !fl_prism_submerged(&h->prism, up, level, wet))
+        solid(h, up, level, wet);
 }
 
-void fl_buoyancy_plane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane *w)
+void fl_hull_waterplane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane *w)
 {
     struct standing room;
     const fl_poly *p = shape_of(h, &room);
@@ -446,7 +449,7 @@ void fl_buoyancy_plane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane
     w->centre = v3_add(apex, g);
 }
 
-double fl_buoyancy_force(const fl_wet *wet, fl_vec3 up, double level, double weight, fl_vec3 *force,
+double fl_buoyancy_force(const fl_submerged *wet, fl_vec3 up, double level, double weight, fl_vec3 *force,
                          fl_vec3 *moment)
 {
     *force = v3_scale(weight * wet->volume, up);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/expo.h"
-#include "base/mem.h"
+#include "base/fast_math.h"
+#include "base/array.h"
 #include "base/text.h"
 #include "water/current.h"
 
@@ -30,7 +30,7 @@ fl_vec3 fl_current_at(const fl_current *c, double z)
     return v3_scale(c->kind == FL_PROFILE_POWER ? fl_pow(part, c->exponent) : part, c->velocity);
 }
 
-double fl_current_most(const fl_current *c)
+double fl_current_max_speed(const fl_current *c)
 {
     double most = c->kind == FL_PROFILE_TABLE ? 0.0 : v3_norm(c->velocity);
     for (int32_t k = 0; k < c->n; k++) most = fmax(most, v3_norm(c->u[k]));
@@ -43,18 +43,18 @@ static int read_row(fl_current *c, int32_t *z_cap, int32_t *u_cap, fl_text *in, 
     double z = 0.0;
     fl_vec3 u = {0};
     if (fl_text_f64(in, "z", &z, err) || fl_text_f64(in, "u", &u.x, err) || fl_text_f64(in, "v", &u.y, err) ||
-        fl_text_end(in, err))
+        fl_text_no_more(in, err))
         return -1;
     if (!(fabs(z) <= DEEPEST))
-        return fl_text_fail(in, err, "height %g m found, one within %g m was wanted", z, DEEPEST);
+        return fl_text_fail(in, err, "height %g m found, one within %g m is expected", z, DEEPEST);
     if (!(v3_norm(u) <= FASTEST))
-        return fl_text_fail(in, err, "speed %g m/s found, one up to %g m/s was wanted", v3_norm(u), FASTEST);
+        return fl_text_fail(in, err, "speed %g m/s found, one up to %g m/s is expected", v3_norm(u), FASTEST);
     if (c->n) {
         const double last = c->z[c->n - 1];
         if (z == last || (c->n > 1 && (z > last) != (last > c->z[0])))
             return fl_text_fail(in, err,
                                 "height %g m does not follow %g m: heights all rising or all falling "
-                                "were wanted",
+                                "are expected",
                                 z, last);
     }
     if (fl_grow(&c->z, z_cap, (int64_t)c->n + 1, sizeof *c->z, err) ||
@@ -88,7 +88,7 @@ int fl_current_read(fl_current *c, const char *path, fl_err *err)
         if (read_row(&t, &z_cap, &u_cap, &in, err)) goto done;
     if (more < 0) goto done;
     if (t.n == 0) {
-        fl_text_fail(&in, err, "no row found, rows of height and velocity were wanted");
+        fl_text_fail(&in, err, "no row found, rows of height and velocity are expected");
         goto done;
     }
     if (t.n > 1 && t.z[0] > t.z[1]) turn_round(&t);

@@ -32,7 +32,7 @@ fl_vec3 fl_current_at(const fl_current *c, double z);
 int fl_current_read(fl_current *c, const char *path, fl_err *err);
 
 /* Largest speed that it has anywhere [m/s]. */
-double fl_current_most(const fl_current *c);
+double fl_current_max_speed(const fl_current *c);
 
 /* Frees the table; accepts a zeroed struct and leaves one. */
 void fl_current_free(fl_current *c);

@@ -6,9 +6,9 @@
 
 /* What drags: water on the wetted surface, air on the dry one. */
 typedef struct {
-    double density; /* rho                                     [kg/m^3] */
-    double force;   /* C of the force, 0.005 for skin on water      [-] */
-    double moment;  /* C of the moment                              [-] */
+    double density;            /* rho                                     [kg/m^3] */
+    double force_coefficient;  /* C of the force, 0.005 for skin on water      [-] */
+    double moment_coefficient; /* C of the moment                              [-] */
 } fl_fluid;
 
 /* r_eff, the radius at which spin meets the fluid: that of the smallest sphere about the centre of mass that
@@ -25,13 +25,13 @@ double fl_drag_radius(const fl_poly *p, double dilation);
  *   u        velocity of the body in the fluid, v - v_w      [m/s]
  *   w        angular velocity                              [rad/s]
  * Source: DilatedDEM manual (2016), eqs. (8), (9). */
-static inline double fl_drag_of_force(const fl_fluid *fluid, double area)
+static inline double fl_drag_force_constant(const fl_fluid *fluid, double area)
 {
-    return 0.5 * fluid->force * fluid->density * area;
+    return 0.5 * fluid->force_coefficient * fluid->density * area;
 }
-static inline double fl_drag_of_moment(const fl_fluid *fluid, double area, double radius)
+static inline double fl_drag_moment_constant(const fl_fluid *fluid, double area, double radius)
 {
-    return 0.5 * fluid->moment * fluid->density * area * radius * radius * radius;
+    return 0.5 * fluid->moment_coefficient * fluid->density * area * radius * radius * radius;
 }
 
 /* The factor that takes u(t) to u(t + dt) under m du/dt = -c |u| u alone, exactly:
@@ -40,7 +40,7 @@ static inline double fl_drag_of_moment(const fl_fluid *fluid, double area, doubl
  * large the step or the coefficient.  (One division: it is asked for four times a step.)
  *   m   what is slowed down [kg] or [kg m2];   c   [kg/m] or [kg m2]
  *   speed   |u| [m/s] or [rad/s];              dt  [s] */
-static inline double fl_drag_factor(double m, double c, double speed, double dt)
+static inline double fl_drag_decay_factor(double m, double c, double speed, double dt)
 {
     return m / (m + c * speed * dt);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "water/drag.h"
 #include "water/facet_cut.h"
 
 static int32_t corners_of(const fl_poly *p, int32_t f) { return p->first[f + 1] - p->first[f]; }
 
-#define SAME 1e-12 /* of a radian, as in prism.c */
+#define SAME 1e-12 /* of a radian, as in prism_buoyancy.c */
 
 /* The axis of the body that is +-e, or -1. */
 static int32_t axis_of(fl_vec3 e)
@@ -36,7 +36,7 @@ static void stand_up(fl_facets *k, const fl_poly *p, const fl_prism *q)
             caps[up > 0.0] = f;
         }
     }
-    k->upright = axis;
+    k->cap_axis = axis;
     k->bottom = caps[0], k->top = caps[1];
     k->y0 = -p->c[k->bottom], k->y1 = p->c[k->top];
     for (int32_t f = 0; f < p->nf; f++) {
@@ -48,15 +48,15 @@ static void stand_up(fl_facets *k, const fl_poly *p, const fl_prism *q)
 
 int fl_facets_make(fl_facets *k, const fl_hull *h, fl_err *err)
 {
-    const fl_poly *p = h->p;
-    *k = (fl_facets){.reach = fl_drag_radius(p, 0.0), .top = -1, .bottom = -1, .upright = -1};
+    const fl_poly *p = h->shape;
+    *k = (fl_facets){.max_radius = fl_drag_radius(p, 0.0), .top = -1, .bottom = -1, .cap_axis = -1};
     k->axis = fl_alloc(2 * (int64_t)p->nf, sizeof *k->axis, err);
     if (!k->axis) return -1;
     for (int32_t f = 0; f < p->nf; f++) {
         const int32_t *at = p->loop + p->first[f];
         k->axis[2 * f] = v3_unit(v3_sub(p->v[at[1]], p->v[at[0]]));
         k->axis[2 * f + 1] = v3_cross(p->n[f], k->axis[2 * f]);
-        if (corners_of(p, f) > corners_of(p, k->widest)) k->widest = f;
+        if (corners_of(p, f) > corners_of(p, k->most_corners)) k->most_corners = f;
     }
     stand_up(k, p, &h->prism);
     return 0;
@@ -83,32 +83,32 @@ static int32_t most_rows(const fl_poly *p, int32_t fours)
     return 3 * sum;
 }
 
-int fl_patches_make(fl_patches *s, const fl_hull *h, int dry, int flows, fl_err *err)
+int fl_facet_cut_make(fl_facet_cut *s, const fl_hull *h, int dry, int flows, fl_err *err)
 {
-    *s = (fl_patches){.dry = dry, .upright = -1, .most = (h->p->nf + 1) / FL_LANES + 1};
-    s->most_rows = most_rows(h->p, s->most);
-    s->four = fl_alloc(s->most, sizeof *s->four, err);
-    s->row = fl_alloc(s->most_rows, sizeof *s->row, err);
-    if (!s->four || !s->row) return -1;
-    if (flows) s->flow = fl_alloc(s->most_rows, sizeof *s->flow, err);
+    *s = (fl_facet_cut){.dry = dry, .cap_axis = -1, .max_groups = (h->shape->nf + 1) / FL_SIMD_WIDTH + 1};
+    s->max_pieces = most_rows(h->shape, s->max_groups);
+    s->group = fl_alloc(s->max_groups, sizeof *s->group, err);
+    s->piece = fl_alloc(s->max_pieces, sizeof *s->piece, err);
+    if (!s->group || !s->piece) return -1;
+    if (flows) s->flow = fl_alloc(s->max_pieces, sizeof *s->flow, err);
     return flows && !s->flow ? -1 : 0;
 }
 
-void fl_patches_free(fl_patches *s)
+void fl_facet_cut_free(fl_facet_cut *s)
 {
-    free(s->four), free(s->row), free(s->flow);
-    *s = (fl_patches){0};
+    free(s->group), free(s->piece), free(s->flow);
+    *s = (fl_facet_cut){0};
 }
 
 double fl_facets_bytes(const fl_facets *k, const fl_hull *h)
 {
-    return k->axis ? 2.0 * h->p->nf * (double)sizeof *k->axis : 0.0;
+    return k->axis ? 2.0 * h->shape->nf * (double)sizeof *k->axis : 0.0;
 }
 
-double fl_patches_bytes(const fl_patches *s)
+double fl_facet_cut_bytes(const fl_facet_cut *s)
 {
-    const double rows = s->most_rows;
-    return s->most * (double)sizeof *s->four + rows * (double)sizeof *s->row +
+    const double rows = s->max_pieces;
+    return s->max_groups * (double)sizeof *s->group + rows * (double)sizeof *s->piece +
            (s->flow ? rows * (double)sizeof *s->flow : 0.0);
 }
 
@@ -123,13 +123,13 @@ typedef struct {
 /* A skin that is being filled: the four that is open, its rows, lanes that are taken and how many pieces they
  * have. */
 typedef struct {
-    fl_patches *s;
-    fl_patches_four *four;
-    fl_patches_row *row;
-    int32_t lanes, pieces[FL_LANES];
+    fl_facet_cut *s;
+    fl_facet_group *four;
+    fl_facet_piece *row;
+    int32_t lanes, pieces[FL_SIMD_WIDTH];
 } filler;
 
-static void set_frame(fl_patches_four *to, int32_t l, fl_vec3 n, fl_vec3 e, fl_vec3 g, double c)
+static void set_frame(fl_facet_group *to, int32_t l, fl_vec3 n, fl_vec3 e, fl_vec3 g, double c)
 {
     to->n[0][l] = n.x, to->n[1][l] = n.y, to->n[2][l] = n.z;
     to->e[0][l] = e.x, to->e[1][l] = e.y, to->e[2][l] = e.z;
@@ -144,21 +144,22 @@ static void close_four(filler *to)
     const fl_vec3 no = v3(0, 0, 0);
     int32_t rows = 0;
     if (to->lanes == 0) return;
-    for (int32_t l = to->lanes; l < FL_LANES; l++) set_frame(to->four, l, no, no, no, 0.0), to->pieces[l] = 0;
-    for (int32_t l = 0; l < FL_LANES; l++) rows = to->pieces[l] > rows ? to->pieces[l] : rows;
-    for (int32_t l = 0; l < FL_LANES; l++)
+    for (int32_t l = to->lanes; l < FL_SIMD_WIDTH; l++)
+        set_frame(to->four, l, no, no, no, 0.0), to->pieces[l] = 0;
+    for (int32_t l = 0; l < FL_SIMD_WIDTH; l++) rows = to->pieces[l] > rows ? to->pieces[l] : rows;
+    for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
         for (int32_t k = to->pieces[l]; k < rows; k++)
             to->row[k].area[l] = to->row[k].x[l] = to->row[k].y[l] = 0.0;
-    to->four->rows = rows;
+    to->four->pieces = rows;
     to->four++;
     to->row += rows;
     to->lanes = 0;
-    to->s->fours++;
+    to->s->groups++;
 }
 
 /* Round face f: the corners of what is left of it, x and y in every other row; returns how many. */
 static int32_t outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, const half *part,
-                       fl_patches_row *row, int32_t l)
+                       fl_facet_piece *row, int32_t l)
 {
     const int32_t *at = p->loop + p->first[f], m = corners_of(p, f);
     fl_vec3 v = p->v[at[m - 1]];
@@ -183,7 +184,7 @@ static int32_t outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, const 
 }
 
 /* Of n corners to the pieces of the fan about their centroid, which are as many as are returned. */
-static int32_t fan(fl_patches_row *row, int32_t l, int32_t n)
+static int32_t fan(fl_facet_piece *row, int32_t l, int32_t n)
 {
     const double ox = row[0].x[l], oy = row[0].y[l];
     double twice = 0.0, mx = 0.0, my = 0.0;
@@ -199,7 +200,7 @@ static int32_t fan(fl_patches_row *row, int32_t l, int32_t n)
     const double first_x = ox - hx, first_y = oy - hy;
     double ax = first_x, ay = first_y, last = 0.0;
     for (int32_t k = 0; k < n; k++) {
-        fl_patches_row *spoke = &row[2 * k], *rim = spoke + 1;
+        fl_facet_piece *spoke = &row[2 * k], *rim = spoke + 1;
         const int closing = k + 1 == n;
         const double bx = closing ? first_x : rim[1].x[l] - hx, by = closing ? first_y : rim[1].y[l] - hy;
         const double w = ax * by - bx * ay, third = w > 0.0 ? w / 6.0 : 0.0;
@@ -215,7 +216,7 @@ static int32_t fan(fl_patches_row *row, int32_t l, int32_t n)
 static void add_face(filler *to, const fl_facets *k, const fl_poly *p, int32_t f, const half *part)
 {
     const fl_vec3 e = k->axis[2 * f], g = k->axis[2 * f + 1];
-    if (to->lanes == FL_LANES) close_four(to);
+    if (to->lanes == FL_SIMD_WIDTH) close_four(to);
     const int32_t l = to->lanes, corners = outline(p, f, e, g, part, to->row, l);
     to->pieces[l] = corners > 2 ? fan(to->row, l, corners) : 0;
     if (to->pieces[l] == 0) return;
@@ -226,13 +227,13 @@ static void add_face(filler *to, const fl_facets *k, const fl_poly *p, int32_t f
 /* The same of a face that takes all lanes that are left. */
 static void spread_face(filler *to, const fl_facets *k, const fl_poly *p, int32_t f, const half *part)
 {
-    const int32_t l = to->lanes % FL_LANES, parts = FL_LANES - l;
+    const int32_t l = to->lanes % FL_SIMD_WIDTH, parts = FL_SIMD_WIDTH - l;
     add_face(to, k, p, f, part);
     if (to->lanes <= l) return;
     const int32_t all = to->pieces[l], each = (all + parts - 1) / parts;
     for (int32_t j = each; j < all; j++) {
         const int32_t lane = l + j / each;
-        fl_patches_row *row = &to->row[j % each];
+        fl_facet_piece *row = &to->row[j % each];
         row->area[lane] = to->row[j].area[l];
         row->x[lane] = to->row[j].x[l], row->y[lane] = to->row[j].y[l];
     }
@@ -241,23 +242,24 @@ static void spread_face(filler *to, const fl_facets *k, const fl_poly *p, int32_
         to->pieces[l + j] = left < 0 ? 0 : left < each ? left : each;
         set_frame(to->four, l + j, p->n[f], k->axis[2 * f], k->axis[2 * f + 1], p->c[f]);
     }
-    to->lanes = FL_LANES;
+    to->lanes = FL_SIMD_WIDTH;
 }
 
-static filler start(fl_patches *s, enum fl_patches_state state)
+static filler start(fl_facet_cut *s, enum fl_facet_cut_state state)
 {
     s->state = state;
-    s->upright = -1;
-    s->fours = 0;
-    return (filler){.s = s, .four = s->four, .row = s->row};
+    s->cap_axis = -1;
+    s->groups = 0;
+    return (filler){.s = s, .four = s->group, .row = s->piece};
 }
 
-static void cut(fl_patches *s, const fl_facets *k, const fl_poly *p, enum fl_patches_state state, half part)
+static void cut(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, enum fl_facet_cut_state state,
+                half part)
 {
     filler to = start(s, state);
     for (int32_t f = 0; f < p->nf; f++)
-        if (f != k->widest) add_face(&to, k, p, f, &part);
-    spread_face(&to, k, p, k->widest, &part);
+        if (f != k->most_corners) add_face(&to, k, p, f, &part);
+    spread_face(&to, k, p, k->most_corners, &part);
     close_four(&to);
 }
 
@@ -265,35 +267,37 @@ static void cut(fl_patches *s, const fl_facets *k, const fl_poly *p, enum fl_pat
 
 enum { SIDE = 8 }; /* pieces of a side, which has four corners */
 
-FL_WIDE_PART void put(fl_patches_row *row, const fl_wide *area, const fl_wide *x, const fl_wide *y)
+FL_SIMD_INLINE void put(fl_facet_piece *row, const fl_simd *area, const fl_simd *x, const fl_simd *y)
 {
-    FL_FOUR_INTO(row->area) = *area;
-    FL_FOUR_INTO(row->x) = *x;
-    FL_FOUR_INTO(row->y) = *y;
+    FL_SIMD_STORE(row->area) = *area;
+    FL_SIMD_STORE(row->x) = *x;
+    FL_SIMD_STORE(row->y) = *y;
 }
 
 /* Four sides: their trapezoids from the cap at y0 on, on the side of sign; 0 where one of their long edges,
  * so long, is not crossed.  Lanes that are zero stand where the origin is, have no width and no area. */
-FL_WIDE_PART int trapezoids(const fl_patches_four *f, fl_patches_row *row, fl_vec3 up, double level,
-                            double per, double y0, double sign, double length)
+FL_SIMD_INLINE int trapezoids(const fl_facet_group *f, fl_facet_piece *row, fl_vec3 up, double level,
+                              double per, double y0, double sign, double length)
 {
-    const fl_wide un = up.x * FL_FOUR(f->n[0]) + up.y * FL_FOUR(f->n[1]) + up.z * FL_FOUR(f->n[2]),
-                  ue = up.x * FL_FOUR(f->e[0]) + up.y * FL_FOUR(f->e[1]) + up.z * FL_FOUR(f->e[2]);
-    const fl_wide x0 = FL_FOUR(f->x0), x1 = FL_FOUR(f->x1), L = x1 - x0, slope = per * ue;
-    const fl_wide l = per * (level - FL_FOUR(f->c) * un) - y0, a = l - slope * x0, b = l - slope * x1;
-    const fl_wide la = sign * a, lb = sign * b;
-    const fl_wide_mask in = (la > 0.0) & (la < length) & (lb > 0.0) & (lb < length), off = ~in;
-    if (fl_wide_any(&off)) return 0;
-    const fl_wide ab = a + b, third = 1.0 / (3.0 * ab);
-    const fl_wide x = L * (ab + b) * third, y = (a * ab + b * b) * third, rest = L - x;
-    const fl_wide hx = x0 + x, hy = y0 + y, da = a - y, db = b - y; /* the hub, and the water over it */
+    const fl_simd un = up.x * FL_SIMD_LOAD(f->n[0]) + up.y * FL_SIMD_LOAD(f->n[1]) +
+                       up.z * FL_SIMD_LOAD(f->n[2]),
+                  ue = up.x * FL_SIMD_LOAD(f->e[0]) + up.y * FL_SIMD_LOAD(f->e[1]) +
+                       up.z * FL_SIMD_LOAD(f->e[2]);
+    const fl_simd x0 = FL_SIMD_LOAD(f->x0), x1 = FL_SIMD_LOAD(f->x1), L = x1 - x0, slope = per * ue;
+    const fl_simd l = per * (level - FL_SIMD_LOAD(f->c) * un) - y0, a = l - slope * x0, b = l - slope * x1;
+    const fl_simd la = sign * a, lb = sign * b;
+    const fl_simd_mask in = (la > 0.0) & (la < length) & (lb > 0.0) & (lb < length), off = ~in;
+    if (fl_simd_any(&off)) return 0;
+    const fl_simd ab = a + b, third = 1.0 / (3.0 * ab);
+    const fl_simd x = L * (ab + b) * third, y = (a * ab + b * b) * third, rest = L - x;
+    const fl_simd hx = x0 + x, hy = y0 + y, da = a - y, db = b - y; /* the hub, and the water over it */
     const double sixth = sign / 6.0;
-    const fl_wide low = sixth * (L * y), right = sixth * (b * rest), left = sixth * (a * x),
+    const fl_simd low = sixth * (L * y), right = sixth * (b * rest), left = sixth * (a * x),
                   high = sixth * (rest * da + x * db);
-    const fl_wide w0 = left + low, w1 = low + right, w2 = right + high, w3 = high + left;
-    const fl_wide xl = x0 + 0.5 * x, xr = hx + 0.5 * rest, xm = 0.5 * (x0 + x1);
-    const fl_wide yl = y0 + 0.5 * y, ya = hy + 0.5 * da, yb = hy + 0.5 * db, yz = {y0, y0, y0, y0};
-    const fl_wide ra = y0 + 0.5 * a, rb = y0 + 0.5 * b, rm = y0 + 0.5 * ab;
+    const fl_simd w0 = left + low, w1 = low + right, w2 = right + high, w3 = high + left;
+    const fl_simd xl = x0 + 0.5 * x, xr = hx + 0.5 * rest, xm = 0.5 * (x0 + x1);
+    const fl_simd yl = y0 + 0.5 * y, ya = hy + 0.5 * da, yb = hy + 0.5 * db, yz = {y0, y0, y0, y0};
+    const fl_simd ra = y0 + 0.5 * a, rb = y0 + 0.5 * b, rm = y0 + 0.5 * ab;
     put(&row[0], &w0, &xl, &yl), put(&row[1], &low, &xm, &yz);
     put(&row[2], &w1, &xr, &yl), put(&row[3], &right, &x1, &rb);
     put(&row[4], &w2, &xr, &yb), put(&row[5], &high, &xm, &rm);
@@ -301,16 +305,16 @@ FL_WIDE_PART int trapezoids(const fl_patches_four *f, fl_patches_row *row, fl_ve
     return 1;
 }
 
-FL_FOUR_VERSIONS static int all_sides(fl_patches *s, fl_vec3 up, double level, double per, double y0,
-                                      double sign, double length)
+FL_SIMD4_VERSIONS static int all_sides(fl_facet_cut *s, fl_vec3 up, double level, double per, double y0,
+                                       double sign, double length)
 {
-    for (int32_t k = 0; k + 1 < s->fours; k++)
-        if (!trapezoids(&s->four[k], &s->row[SIDE * k], up, level, per, y0, sign, length)) return 0;
+    for (int32_t k = 0; k + 1 < s->groups; k++)
+        if (!trapezoids(&s->group[k], &s->piece[SIDE * k], up, level, per, y0, sign, length)) return 0;
     return 1;
 }
 
 /* Sides one after another, then the cap; the pieces of the sides are still to be told. */
-static void stand(fl_patches *s, const fl_facets *k, const fl_poly *p, enum fl_patches_state state,
+static void stand(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, enum fl_facet_cut_state state,
                   int32_t cap)
 {
     const half all = {.up = p->n[cap], .level = INFINITY, .sign = 1.0};
@@ -329,29 +333,29 @@ static void stand(fl_patches *s, const fl_facets *k, const fl_poly *p, enum fl_p
     close_four(&to);
     spread_face(&to, k, p, cap, &all);
     close_four(&to);
-    s->upright = k->upright;
+    s->cap_axis = k->cap_axis;
 }
 
 /* Returns 0 where some long edge is not crossed. */
-static int stands(fl_patches *s, const fl_facets *k, const fl_poly *p, fl_vec3 up, double level)
+static int stands(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, fl_vec3 up, double level)
 {
-    const double ue = k->upright == 0 ? up.x : k->upright == 1 ? up.y : up.z;
-    if (k->upright < 0 || !(fabs(ue) > 0.1)) return 0;
+    const double ue = k->cap_axis == 0 ? up.x : k->cap_axis == 1 ? up.y : up.z;
+    if (k->cap_axis < 0 || !(fabs(ue) > 0.1)) return 0;
     const int top = (ue > 0.0) == s->dry;
-    const enum fl_patches_state state = top ? FL_PATCHES_TOP : FL_PATCHES_BOTTOM;
+    const enum fl_facet_cut_state state = top ? FL_FACET_CUT_TOP : FL_FACET_CUT_BOTTOM;
     if (s->state != state) stand(s, k, p, state, top ? k->top : k->bottom);
     return all_sides(s, up, level, 1.0 / ue, top ? k->y1 : k->y0, top ? -1.0 : 1.0, k->y1 - k->y0);
 }
 
-void fl_patches_look(fl_patches *s, const fl_facets *k, const fl_hull *h, fl_vec3 up, double level)
+void fl_facet_cut_update(fl_facet_cut *s, const fl_facets *k, const fl_hull *h, fl_vec3 up, double level)
 {
     const double sign = s->dry ? -1.0 : 1.0;
-    if (!(fabs(level) < k->reach)) {
-        const enum fl_patches_state state = sign * level > 0.0 ? FL_PATCHES_WHOLE : FL_PATCHES_NONE;
+    if (!(fabs(level) < k->max_radius)) {
+        const enum fl_facet_cut_state state = sign * level > 0.0 ? FL_FACET_CUT_WHOLE : FL_FACET_CUT_NONE;
         if (s->state == state) return;
-        if (state == FL_PATCHES_NONE) start(s, state);
-        else cut(s, k, h->p, state, (half){up, sign * INFINITY, sign});
-    } else if (!stands(s, k, h->p, up, level)) {
-        cut(s, k, h->p, FL_PATCHES_ANYHOW, (half){up, level, sign});
+        if (state == FL_FACET_CUT_NONE) start(s, state);
+        else cut(s, k, h->shape, state, (half){up, sign * INFINITY, sign});
+    } else if (!stands(s, k, h->shape, up, level)) {
+        cut(s, k, h->shape, FL_FACET_CUT_GENERAL, (half){up, level, sign});
     }
 }

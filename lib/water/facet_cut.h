@@ -13,54 +13,54 @@
  * whole.  So is a body that is wholly wet: what is whole is not cut again as long as it stays so. */
 #ifndef FL_WATER_FACET_CUT_H
 #define FL_WATER_FACET_CUT_H
-#include "base/wide.h"
+#include "base/simd.h"
 #include "water/buoyancy.h"
 
 /* Four facets, or parts of one; lanes that are left are zero. */
 typedef struct {
-    double n[3][FL_LANES], e[3][FL_LANES], g[3][FL_LANES], c[FL_LANES];
-    double x0[FL_LANES], x1[FL_LANES]; /* of sides of a prism [m] */
-    int32_t rows;                      /* pieces of each lane */
-} fl_patches_four;
+    double n[3][FL_SIMD_WIDTH], e[3][FL_SIMD_WIDTH], g[3][FL_SIMD_WIDTH], c[FL_SIMD_WIDTH];
+    double x0[FL_SIMD_WIDTH], x1[FL_SIMD_WIDTH]; /* of sides of a prism [m] */
+    int32_t pieces;                              /* pieces of each lane */
+} fl_facet_group;
 
 /* A piece of each of them; lanes that have fewer end in such of no area. */
 typedef struct {
-    double area[FL_LANES], x[FL_LANES], y[FL_LANES]; /* [m2], [m] */
-} fl_patches_row;
+    double area[FL_SIMD_WIDTH], x[FL_SIMD_WIDTH], y[FL_SIMD_WIDTH]; /* [m2], [m] */
+} fl_facet_piece;
 
 /* Velocity of the fluid there along e, g and n, seen as v of the body is seen [m/s]. */
 typedef struct {
-    double u[3][FL_LANES];
-} fl_patches_flow;
+    double u[3][FL_SIMD_WIDTH];
+} fl_facet_flow;
 
 /* What there is of it now. */
-enum fl_patches_state {
-    FL_PATCHES_UNSEEN,
-    FL_PATCHES_NONE,
-    FL_PATCHES_WHOLE,
-    FL_PATCHES_TOP,
-    FL_PATCHES_BOTTOM,
-    FL_PATCHES_ANYHOW
+enum fl_facet_cut_state {
+    FL_FACET_CUT_UNSET,
+    FL_FACET_CUT_NONE,
+    FL_FACET_CUT_WHOLE,
+    FL_FACET_CUT_TOP,
+    FL_FACET_CUT_BOTTOM,
+    FL_FACET_CUT_GENERAL
 };
 
 typedef struct {
-    fl_patches_four *four; /* [fours] of [most] */
-    fl_patches_row *row;   /* those of one four after those of another; room for [most_rows] */
-    fl_patches_flow *flow; /* alike; NULL where no piece has another than the body */
-    int32_t fours, most, most_rows;
-    int dry;                     /* above the water, not below it */
-    enum fl_patches_state state; /* TOP, BOTTOM: all sides of a prism, then that cap in a four of its own */
-    int32_t upright;             /* then fl_facets.upright, else -1 */
-} fl_patches;
+    fl_facet_group *group; /* [fours] of [most] */
+    fl_facet_piece *piece; /* those of one four after those of another; room for [most_rows] */
+    fl_facet_flow *flow;   /* alike; NULL where no piece has another than the body */
+    int32_t groups, max_groups, max_pieces;
+    int dry;                       /* above the water, not below it */
+    enum fl_facet_cut_state state; /* TOP, BOTTOM: all sides of a prism, then that cap in a four of its own */
+    int32_t cap_axis;              /* then fl_facets.upright, else -1 */
+} fl_facet_cut;
 
 /* The planes of the faces of a hull. */
 typedef struct {
-    fl_vec3 *axis;       /* [2 nf] e and g of each face */
-    int32_t widest;      /* the face with the most corners */
-    int32_t top, bottom; /* caps of a right prism along an axis of the body, or -1 */
-    int32_t upright;     /* that axis, 0 to 2, or -1 */
-    double y0, y1;       /* where they lie along it [m] */
-    double reach;        /* max |x_v| [m] */
+    fl_vec3 *axis;        /* [2 nf] e and g of each face */
+    int32_t most_corners; /* the face with the most corners */
+    int32_t top, bottom;  /* caps of a right prism along an axis of the body, or -1 */
+    int32_t cap_axis;     /* that axis, 0 to 2, or -1 */
+    double y0, y1;        /* where they lie along it [m] */
+    double max_radius;    /* max |x_v| [m] */
 } fl_facets;
 
 /* Of a hull with faces of its own.  -1 with FL_SYSTEM. */
@@ -68,25 +68,25 @@ int fl_facets_make(fl_facets *k, const fl_hull *h, fl_err *err);
 void fl_facets_free(fl_facets *k); /* accepts a zeroed struct, leaves one */
 
 /* Room for one, unseen.  flows: whether pieces have flows.  -1 with FL_SYSTEM, and it is to be freed. */
-int fl_patches_make(fl_patches *s, const fl_hull *h, int dry, int flows, fl_err *err);
-void fl_patches_free(fl_patches *s); /* accepts a zeroed struct, leaves one */
+int fl_facet_cut_make(fl_facet_cut *s, const fl_hull *h, int dry, int flows, fl_err *err);
+void fl_facet_cut_free(fl_facet_cut *s); /* accepts a zeroed struct, leaves one */
 
 /* The surface below the plane up.x = level, above it with dry.  Leaves flow alone. */
-void fl_patches_look(fl_patches *s, const fl_facets *k, const fl_hull *h, fl_vec3 up, double level);
+void fl_facet_cut_update(fl_facet_cut *s, const fl_facets *k, const fl_hull *h, fl_vec3 up, double level);
 
 /* How many bytes they take. */
 double fl_facets_bytes(const fl_facets *k, const fl_hull *h);
-double fl_patches_bytes(const fl_patches *s);
+double fl_facet_cut_bytes(const fl_facet_cut *s);
 
 /* a along the axes e, g and n of the facet in lane l, and back. */
-static inline fl_vec3 fl_patches_in(const fl_patches_four *f, int l, fl_vec3 a)
+static inline fl_vec3 fl_facet_group_to_local(const fl_facet_group *f, int l, fl_vec3 a)
 {
     return v3(v3_dot(v3(f->e[0][l], f->e[1][l], f->e[2][l]), a),
               v3_dot(v3(f->g[0][l], f->g[1][l], f->g[2][l]), a),
               v3_dot(v3(f->n[0][l], f->n[1][l], f->n[2][l]), a));
 }
 
-static inline fl_vec3 fl_patches_out(const fl_patches_four *f, int l, fl_vec3 a)
+static inline fl_vec3 fl_facet_group_to_body(const fl_facet_group *f, int l, fl_vec3 a)
 {
     const fl_vec3 e = v3(f->e[0][l], f->e[1][l], f->e[2][l]), g = v3(f->g[0][l], f->g[1][l], f->g[2][l]),
                   n = v3(f->n[0][l], f->n[1][l], f->n[2][l]);
@@ -94,9 +94,9 @@ static inline fl_vec3 fl_patches_out(const fl_patches_four *f, int l, fl_vec3 a)
 }
 
 /* Place of the piece in lane l of a row, body axes [m]. */
-static inline fl_vec3 fl_patches_place(const fl_patches_four *f, const fl_patches_row *row, int l)
+static inline fl_vec3 fl_facet_piece_position(const fl_facet_group *f, const fl_facet_piece *row, int l)
 {
-    return fl_patches_out(f, l, v3(row->x[l], row->y[l], f->c[l]));
+    return fl_facet_group_to_body(f, l, v3(row->x[l], row->y[l], f->c[l]));
 }
 
 #endif

@@ -27,34 +27,36 @@
  * here. */
 #ifndef FL_WATER_FACET_DRAG_H
 #define FL_WATER_FACET_DRAG_H
-#include "body/few.h"
+#include "body/body_batch.h"
 #include "water/facet_cut.h"
 
 /* What drags along a facet and across it: 1/2 rho C_s, 1/2 rho C_f [kg/m3]. */
 typedef struct {
     double skin, form;
-} fl_facet_law;
+} fl_facet_drag_law;
 
 /* What pieces add up to: h sum D U and h sum r x D U, then h K, its lower half row by row. */
 enum { FL_DRAG_MATRIX = 6, FL_DRAG_SUMS = FL_DRAG_MATRIX + 21 };
 
 /* A few bodies side by side, one array a quantity. */
 typedef struct {
-    _Alignas(64) double sum[FL_DRAG_SUMS][FL_FEW];
-    double mass[6][FL_FEW]; /* of each along and about its axes, with the water it moves [kg], [kg m2] */
-    double y[6][FL_FEW];    /* velocity and angular velocity, body axes [m/s], [rad/s] */
-} fl_facet_few;
+    _Alignas(64) double sum[FL_DRAG_SUMS][FL_BODY_BATCH];
+    double mass[6]
+               [FL_BODY_BATCH]; /* of each along and about its axes, with the water it moves [kg], [kg m2] */
+    double y[6][FL_BODY_BATCH]; /* velocity and angular velocity, body axes [m/s], [rad/s] */
+} fl_facet_drag_batch;
 
 /* sum of the i-th of them, which goes as y says; h: the step [s]. */
-void fl_facet_sum(fl_facet_few *a, int32_t i, const fl_patches *s, fl_facet_law law, double h);
+void fl_facet_drag_sum(fl_facet_drag_batch *a, int32_t i, const fl_facet_cut *s, fl_facet_drag_law law,
+                       double h);
 
-/* The step of all of them, of which there are lanes, a multiple of FL_LANES: y becomes y'. */
-void fl_facet_step(fl_facet_few *a, int32_t lanes);
+/* The step of all of them, of which there are lanes, a multiple of FL_SIMD_WIDTH: y becomes y'. */
+void fl_facet_drag_step(fl_facet_drag_batch *a, int32_t lanes);
 
 /* Both for one body.
  *   mass, inertia  as above
  *   v, w           in, out: y */
-void fl_facet_drag(const fl_patches *s, fl_facet_law law, fl_vec3 mass, fl_vec3 inertia, double h, fl_vec3 *v,
-                   fl_vec3 *w);
+void fl_facet_drag(const fl_facet_cut *s, fl_facet_drag_law law, fl_vec3 mass, fl_vec3 inertia, double h,
+                   fl_vec3 *v, fl_vec3 *w);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/expo.h"
-#include "base/mem.h"
+#include "base/fast_math.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "water/wave.h"
@@ -29,9 +29,9 @@ static void fill_train(const fl_waves *w, fl_wave_train *t, double omega, double
                          .omega = omega,
                          .a = a,
                          .phase = phase,
-                         .back = kd2 < 40.0 ? exp(-kd2) : 0.0};
-    t->share = w->gravity * t->k / omega;
-    t->gain = 1.0 / (1.0 + t->back);
+                         .mirror = kd2 < 40.0 ? exp(-kd2) : 0.0};
+    t->velocity_factor = w->gravity * t->k / omega;
+    t->norm = 1.0 / (1.0 + t->mirror);
     t->power[0] = 1.0;
     for (int m = 1; m < FL_WAVE_TERMS; m++) t->power[m] = t->power[m - 1] * t->k / m;
 }
@@ -39,21 +39,21 @@ static void fill_train(const fl_waves *w, fl_wave_train *t, double omega, double
 static int start(fl_waves *w, int32_t n, double direction, double depth, double gravity, fl_err *err)
 {
     const double a = fl_radians(direction);
-    *w = (fl_waves){.n = n, .along = v3(cos(a), sin(a), 0), .depth = depth, .gravity = gravity};
+    *w = (fl_waves){.n = n, .direction = v3(cos(a), sin(a), 0), .depth = depth, .gravity = gravity};
     w->train = fl_alloc(n, sizeof *w->train, err);
     return w->train ? 0 : -1;
 }
 
 static void finish(fl_waves *w)
 {
-    w->top = w->train[w->n - 1].k;
-    w->most = w->train[(int32_t)(0.95 * (w->n - 1))].k;
+    w->max_k = w->train[w->n - 1].k;
+    w->k95 = w->train[(int32_t)(0.95 * (w->n - 1))].k;
     double sum = 0.0;
     for (int32_t j = 0; j < w->n; j++) {
-        w->crest += w->train[j].a;
+        w->max_crest += w->train[j].a;
         sum += 0.5 * w->train[j].a * w->train[j].a;
     }
-    w->swing = fmin(w->crest, 4.0 * sqrt(sum));
+    w->four_sigma = fmin(w->max_crest, 4.0 * sqrt(sum));
 }
 
 int fl_waves_airy(fl_waves *w, double height, double period, double direction, double depth, double gravity,
@@ -65,7 +65,7 @@ int fl_waves_airy(fl_waves *w, double height, double period, double direction, d
     return 0;
 }
 
-double fl_wave_jonswap(double f, double Hs, double Tp, double gamma)
+double fl_jonswap_spectrum(double f, double Hs, double Tp, double gamma)
 {
     const double fp = 1.0 / Tp, x = f / fp, sigma = x <= 1.0 ? 0.07 : 0.09, off = (x - 1.0) / sigma;
     if (!(f > 0.0)) return 0.0;
@@ -88,7 +88,7 @@ int fl_waves_jonswap(fl_waves *w, double Hs, double Tp, double gamma, int32_t n,
         return -1;
     }
     for (int c = 0; c < CELLS; c++)
-        sum[c + 1] = sum[c] + df * fl_wave_jonswap(SLOWEST / Tp + (c + 0.5) * df, Hs, Tp, gamma);
+        sum[c + 1] = sum[c] + df * fl_jonswap_spectrum(SLOWEST / Tp + (c + 0.5) * df, Hs, Tp, gamma);
     int c = 0;
     for (int32_t j = 0; j < n; j++) {
         fl_rng g = fl_rng_of(seed, j, FL_RNG_WAVE);
@@ -138,12 +138,12 @@ static void reflect(fl_wave_series *f, const fl_wave_series *h, int terms)
     }
 }
 
-void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t, fl_wave_near *near)
+void fl_wave_expand(const fl_waves *w, double s, double z, double radius, double t, fl_wave_expansion *near)
 {
     near->s = s;
     near->z = z;
     near->terms = terms_of(&w->train[w->n - 1], radius);
-    const int wall = w->train[0].back > 1e-12; /* the bottom is felt */
+    const int wall = w->train[0].mirror > 1e-12; /* the bottom is felt */
     fl_wave_series h, v;
     fl_wave_series *const all[4] = {&near->f, &near->u, &h, &v};
     for (int k = 0; k < (wall ? 4 : 2); k++)
@@ -153,13 +153,14 @@ void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t
         const int terms = terms_of(train, radius);
         double c, d;
         fl_cos_sin(train->k * s - train->omega * t + train->phase, &c, &d);
-        const double down = z < 0.0 ? fl_exp(train->k * z) : 1.0, a = train->a * train->gain;
+        const double down = z < 0.0 ? fl_exp(train->k * z) : 1.0, a = train->a * train->norm;
         add(train->power, terms, a * down * c, a * down * d, &near->f);
-        add(train->power, terms, a * down * train->share * c, a * down * train->share * d, &near->u);
+        add(train->power, terms, a * down * train->velocity_factor * c, a * down * train->velocity_factor * d,
+            &near->u);
         if (!wall) continue;
-        const double b = a * train->back * (z < 0.0 ? fl_exp(-train->k * z) : 1.0);
+        const double b = a * train->mirror * (z < 0.0 ? fl_exp(-train->k * z) : 1.0);
         add(train->power, terms, b * c, b * d, &h);
-        add(train->power, terms, b * train->share * c, b * train->share * d, &v);
+        add(train->power, terms, b * train->velocity_factor * c, b * train->velocity_factor * d, &v);
     }
     if (wall) reflect(&near->f, &h, near->terms), reflect(&near->u, &v, near->terms);
     /* on zeta = 0: f_m (i s)^m, the real part; i^m is 1, i, -1, -i */
@@ -169,7 +170,7 @@ void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t
     }
 }
 
-double fl_wave_elevation(const fl_wave_near *near, double s, double *slope)
+double fl_wave_elevation(const fl_wave_expansion *near, double s, double *slope)
 {
     const double x = s - near->s;
     double y = 0.0, dy = 0.0;
@@ -205,15 +206,15 @@ static void series(const fl_wave_series *a, int terms, double x, double y, doubl
     if (slope) slope[0] = dre, slope[1] = dim;
 }
 
-double fl_wave_pressure(const fl_wave_near *near, double s, double zeta)
+double fl_wave_pressure(const fl_wave_expansion *near, double s, double zeta)
 {
     double f[2];
     series(&near->f, near->terms, zeta - near->z, s - near->s, f, NULL);
     return f[0];
 }
 
-void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],
-                    double acceleration[2])
+void fl_wave_kinematics(const fl_waves *w, const fl_wave_expansion *near, double s, double zeta,
+                        double velocity[2], double acceleration[2])
 {
     const double x = zeta - near->z, y = s - near->s;
     double f[2], df[2];

@@ -21,7 +21,7 @@
 #define FL_WATER_WAVE_H
 #include <stdint.h>
 #include "base/err.h"
-#include "base/wide.h"
+#include "base/simd.h"
 #include "geom/vec3.h"
 
 /* Terms of a series, and the largest k times distance from its centre that they do for: 8^32/32! = 3e-7. */
@@ -30,19 +30,20 @@ enum { FL_WAVE_TERMS = 32 };
 
 typedef struct {
     double k, omega, a, phase;   /* [1/m], [rad/s], [m], [rad] */
-    double share;                /* g k / omega [1/s] */
-    double gain, back;           /* 1 / (1 + e^(-2kd)); e^(-2kd), 0 in deep water */
+    double velocity_factor;      /* g k / omega [1/s] */
+    double norm, mirror;         /* 1 / (1 + e^(-2kd)); e^(-2kd), 0 in deep water */
     double power[FL_WAVE_TERMS]; /* k^m / m! */
 } fl_wave_train;
 
 typedef struct {
     int32_t n;
     fl_wave_train *train; /* [n] by rising k */
-    fl_vec3 along;        /* unit vector they run along */
+    fl_vec3 direction;    /* unit vector they run along */
     double depth;         /* d, INFINITY: deep [m] */
     double gravity;       /* g [m/s2] */
-    double top, most;     /* largest k, and that below which 95 % of the energy lies [1/m] */
-    double crest, swing;  /* sum of all amplitudes: no crest is higher; four standard deviations [m] */
+    double max_k, k95;    /* largest k, and that below which 95 % of the energy lies [1/m] */
+    double max_crest,
+        four_sigma; /* sum of all amplitudes: no crest is higher; four standard deviations [m] */
 } fl_waves;
 
 /* k of omega^2 = g k tanh kd, to rounding [1/m]. */
@@ -65,7 +66,7 @@ int fl_waves_jonswap(fl_waves *w, double Hs, double Tp, double gamma, int32_t n,
  *     S(f) = 5/16 Hs^2 fp^4 f^-5 e^(-5/4 (fp/f)^4) gamma^q (1 - 0.287 ln gamma),
  *     q = e^(-(f/fp - 1)^2 / 2 sigma^2),  sigma = 0.07 up to fp = 1/Tp, 0.09 above.
  * Its area is Hs^2/16 to 1 % only.  Source: DNV-RP-C205, 3.5.5. */
-double fl_wave_jonswap(double f, double Hs, double Tp, double gamma);
+double fl_jonswap_spectrum(double f, double Hs, double Tp, double gamma);
 
 typedef struct {
     double re[FL_WAVE_TERMS], im[FL_WAVE_TERMS];
@@ -77,59 +78,59 @@ typedef struct {
     double s, z;               /* centre [m] */
     fl_wave_series f, u;       /* of P [m^(1-m)], and of the velocity */
     double eta[FL_WAVE_TERMS]; /* elevation over s, where z = 0 */
-} fl_wave_near;
+} fl_wave_expansion;
 
 /* The series about (s, z) at time t, for points within the radius.  z <= 0; z = 0 gives the elevation too. */
-void fl_wave_look(const fl_waves *w, double s, double z, double radius, double t, fl_wave_near *near);
+void fl_wave_expand(const fl_waves *w, double s, double z, double radius, double t, fl_wave_expansion *near);
 
 /* Elevation at s, and its slope along s (may be NULL); near was made at z = 0. */
-double fl_wave_elevation(const fl_wave_near *near, double s, double *slope);
+double fl_wave_elevation(const fl_wave_expansion *near, double s, double *slope);
 
 /* Height z over still water, stretched below the elevation eta; never above 0. */
 double fl_wave_stretch(const fl_waves *w, double z, double eta);
 
 /* P at s and the stretched height zeta [m]. */
-double fl_wave_pressure(const fl_wave_near *near, double s, double zeta);
+double fl_wave_pressure(const fl_wave_expansion *near, double s, double zeta);
 
 /* Both at FL_WAVE_BATCH places s, z (over still water) at once: elevation, and P at the stretched height. All
  * places go in step: a single sum waits for itself. */
 enum { FL_WAVE_BATCH = 8 };
-FL_WIDE_PART void fl_wave_heads(const fl_waves *w, const fl_wave_near *near, const double *s, const double *z,
-                                double *eta, double *head)
+FL_SIMD_INLINE void fl_wave_pressure_batch(const fl_waves *w, const fl_wave_expansion *near, const double *s,
+                                           const double *z, double *eta, double *head)
 {
-    enum { PARTS = FL_WAVE_BATCH / FL_LANES };
-    const fl_wide zero = {0.0, 0.0, 0.0, 0.0};
+    enum { PARTS = FL_WAVE_BATCH / FL_SIMD_WIDTH };
+    const fl_simd zero = {0.0, 0.0, 0.0, 0.0};
     const double depth = w->depth;
-    fl_wide x[PARTS], y[PARTS], over[PARTS] = {zero, zero}, re[PARTS] = {zero, zero},
+    fl_simd x[PARTS], y[PARTS], over[PARTS] = {zero, zero}, re[PARTS] = {zero, zero},
                                 im[PARTS] = {zero, zero};
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) y[k] = FL_FOUR(&s[FL_LANES * k]) - near->s;
+    FL_SIMD_UNROLL for (int k = 0; k < PARTS; k++) y[k] = FL_SIMD_LOAD(&s[FL_SIMD_WIDTH * k]) - near->s;
     for (int m = near->terms - 1; m >= 0; m--) {
         const double c = near->eta[m];
-        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) over[k] = over[k] * y[k] + c;
+        FL_SIMD_UNROLL for (int k = 0; k < PARTS; k++) over[k] = over[k] * y[k] + c;
     }
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) /* as fl_wave_stretch() */
+    FL_SIMD_UNROLL for (int k = 0; k < PARTS; k++) /* as fl_wave_stretch() */
     {
-        fl_wide below = FL_FOUR(&z[FL_LANES * k]) - over[k];
-        const fl_wide_mask wet = below < 0.0;
+        fl_simd below = FL_SIMD_LOAD(&z[FL_SIMD_WIDTH * k]) - over[k];
+        const fl_simd_mask wet = below < 0.0;
         if (depth < INFINITY) below = below * depth / (depth + over[k]);
-        x[k] = FL_WIDE_WHERE(wet, below) - near->z;
-        FL_FOUR_INTO(&eta[FL_LANES * k]) = over[k];
+        x[k] = FL_SIMD_MASKED(wet, below) - near->z;
+        FL_SIMD_STORE(&eta[FL_SIMD_WIDTH * k]) = over[k];
     }
     for (int m = near->terms - 1; m >= 0; m--) {
         const double c = near->f.re[m], d = near->f.im[m];
-        FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++)
+        FL_SIMD_UNROLL for (int k = 0; k < PARTS; k++)
         {
-            const fl_wide r = re[k] * x[k] - im[k] * y[k] + c;
+            const fl_simd r = re[k] * x[k] - im[k] * y[k] + c;
             im[k] = re[k] * y[k] + im[k] * x[k] + d;
             re[k] = r;
         }
     }
-    FL_WIDE_UNROLL for (int k = 0; k < PARTS; k++) FL_FOUR_INTO(&head[FL_LANES * k]) = re[k];
+    FL_SIMD_UNROLL for (int k = 0; k < PARTS; k++) FL_SIMD_STORE(&head[FL_SIMD_WIDTH * k]) = re[k];
 }
 
 /* Velocity and acceleration of the water there: along s and up [m/s], [m/s2]. */
-void fl_wave_motion(const fl_waves *w, const fl_wave_near *near, double s, double zeta, double velocity[2],
-                    double acceleration[2]);
+void fl_wave_kinematics(const fl_waves *w, const fl_wave_expansion *near, double s, double zeta,
+                        double velocity[2], double acceleration[2]);
 
 /* Height over length, of the train of the peak: for a warning where it is above 0.142 tanh kd, the height at
  * which a wave breaks (Miche 1944). */

@@ -6,10 +6,10 @@
 
 /* The edge row of ice that is driven: held at a velocity, and on a spring in heave where that is free. */
 typedef struct {
-    int32_t n;    /* floes of the ice file, or 0: nobody is driven */
-    uint8_t *in;  /* [n] is driven */
-    double *k;    /* [n] spring [N/m]            */
-    double *rest; /* [n] the height it pulls to [m] */
-} fl_row;
+    int32_t n;           /* floes of the ice file, or 0: nobody is driven */
+    uint8_t *is_driven;  /* [n] is driven */
+    double *k;           /* [n] spring [N/m]            */
+    double *rest_height; /* [n] the height it pulls to [m] */
+} fl_driven_floes;
 
 #endif

@@ -12,6 +12,6 @@ typedef struct {
     double stiffness, damping; /* k_A [N/m3], c_A [N s/m3] */
     fl_poly *outer;            /* [n] sharp outer shapes, body frames; empty where the core is round */
     fl_hull *hull;             /* [n]; NULL: no wall is elastic */
-} fl_beds;
+} fl_elastic_walls;
 
 #endif

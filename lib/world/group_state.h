@@ -5,12 +5,19 @@
 #include <stdint.h>
 #include "geom/vec3.h"
 
-/* What a step tells of a group of bodies, FL_BALLS_GROUP in a row. */
+/* What a step tells of a group of bodies, FL_BODY_BLOCK in a row. */
 typedef struct {
-    fl_vec3 pushed;        /* sum of the forces of contacts [N]                      */
-    double damped, rubbed; /* taken out by damping and friction in the step [J] */
-    int32_t lost;          /* the first that has a number which is not finite, or -1 */
-    double moved[2];       /* the longest ways since the last search, after the first half of a step [m] */
-} fl_group;
+    fl_vec3 contact_force;              /* sum of the forces of contacts [N]                      */
+    double damping_work, friction_work; /* taken out by damping and friction in the step [J] */
+    int32_t not_finite;                 /* the first that has a number which is not finite, or -1 */
+    double largest_moves[2]; /* the longest ways since the last search, after the first half of a step [m] */
+} fl_body_block;
+
+/* The two longest ways so far, and another. */
+static inline void fl_update_two_largest(double first[2], double moved)
+{
+    if (moved > first[0]) first[1] = first[0], first[0] = moved;
+    else if (moved > first[1]) first[1] = moved;
+}
 
 #endif

@@ -10,9 +10,10 @@ typedef struct {
     double friction_now, damping_now, drag;        /* taken out since the start                        */
     double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
     double waves;                                  /* and by waves, the work of buoyancy with it */
-    double moving, spring, damper; /* of a structure that moves by itself: in it, in its springs; taken out */
-    double bond, fracture;         /* in bonds; taken out by their damage */
-    double carried;                /* put in by floes that came, less what left with others */
+    double structure, spring,
+        damper;            /* of a structure that moves by itself: in it, in its springs; taken out */
+    double bond, fracture; /* in bonds; taken out by their damage */
+    double carried;        /* put in by floes that came, less what left with others */
     double start, residual;
     double throughput; /* largest kinetic energy + |each of the works|: what the residual is held against */
     double friction, damping, drive; /* the works booked so far: with that of the half kick that lies ahead */

@@ -5,43 +5,43 @@
 #include "broad/bvh.h"
 #include "geom/vec3.h"
 
-/* Where the ice presses, see press.h; panels = 0 and no memory where nobody asks. */
+/* Where the ice presses, see panel_load.h; panels = 0 and no memory where nobody asks. */
 typedef struct {
-    fl_vec3 v[3], middle; /* in the pose of the file; a cone has its middle three times [m] */
-    double area;          /* [m2] */
+    fl_vec3 v[3], centroid; /* in the pose of the file; a cone has its middle three times [m] */
+    double area;            /* [m2] */
     int32_t part;
-} fl_panel_place;
+} fl_load_panel;
 
 /* One place of a contact. */
 typedef struct {
-    int32_t pair, turn, i, part, panel;
-    fl_vec3 f;      /* on the floe [N] */
-    fl_vec3 n, at;  /* from the structure to the floe; the point, world [m] */
-    double normal;  /* [N] */
-    double area;    /* of the whole contact [m2] */
-    double overlap; /* [m] */
-} fl_press_mark;
+    int32_t pair, order, i, part, panel;
+    fl_vec3 force;       /* on the floe [N] */
+    fl_vec3 n, point;    /* from the structure to the floe; the point, world [m] */
+    double normal_force; /* [N] */
+    double area;         /* of the whole contact [m2] */
+    double overlap;      /* [m] */
+} fl_panel_point;
 
 typedef struct {
-    fl_press_mark *mark;
+    fl_panel_point *point;
     int32_t *list;
-    int32_t n, mark_cap, list_cap;
-} fl_press_notes;
+    int32_t n, point_cap, list_cap;
+} fl_panel_points;
 
-typedef struct fl_press_event fl_press_event;
+typedef struct fl_load_event fl_load_event;
 
 typedef struct {
     int32_t panels, trees, threads;
-    fl_panel_place *panel; /* [panels] part by part, triangles before cones */
-    fl_aabb *box;          /* [panels] */
-    fl_vec3 *impulse;      /* [panels] of the interval [N s] */
-    int32_t *first;        /* [parts + 1] */
-    fl_bvh *tree;          /* [parts] over the triangles of each */
-    int32_t *cone;         /* [pieces + walls] panel of a cone, -1 for others */
-    fl_press_notes *noted; /* [threads] */
-    fl_press_mark *now;    /* [n_now] of all pairs, in their order */
-    fl_press_event *event; /* [events] of the interval, by floe and part */
-    int32_t n_now, now_cap, events, event_cap;
-} fl_press;
+    fl_load_panel *panel;       /* [panels] part by part, triangles before cones */
+    fl_aabb *box;               /* [panels] */
+    fl_vec3 *impulse;           /* [panels] of the interval [N s] */
+    int32_t *first;             /* [parts + 1] */
+    fl_bvh *tree;               /* [parts] over the triangles of each */
+    int32_t *cone;              /* [pieces + walls] panel of a cone, -1 for others */
+    fl_panel_points *by_thread; /* [threads] */
+    fl_panel_point *point;      /* [n_now] of all pairs, in their order */
+    fl_load_event *event;       /* [events] of the interval, by floe and part */
+    int32_t points, point_cap, events, event_cap;
+} fl_panel_loads;
 
 #endif

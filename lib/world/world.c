@@ -8,7 +8,7 @@
 
 static fl_vec3 normal_of(const fl_piece *wall) { return q_rotate(wall->q, v3(0, 0, 1)); }
 
-const char *fl_world_wall(const fl_world *w, int32_t k, char name[64])
+const char *fl_wall_name(const fl_world *w, int32_t k, char name[64])
 {
     const fl_piece *wall = &w->structure.piece[w->pieces + k];
     const fl_vec3 e = normal_of(wall);
@@ -20,7 +20,7 @@ const char *fl_world_wall(const fl_world *w, int32_t k, char name[64])
     return name;
 }
 
-int32_t fl_world_name(const fl_world *w, int32_t k)
+int32_t fl_world_id(const fl_world *w, int32_t k)
 {
     if (k < w->n) return w->id[k];
     const int32_t part = w->structure.piece[k - w->n].part;

@@ -17,9 +17,9 @@
 #include <string.h>
 #include <time.h>
 #include "base/pi.h"
-#include "step/awake.h"
-#include "step/interact.h"
-#include "support/lab.h"
+#include "contact/active_pairs.h"
+#include "contact/pair_force.h"
+#include "support/small_world.h"
 
 #define RADIUS 0.05
 #define OVERLAP 0.004
@@ -123,7 +123,7 @@ static void make(lab *l, which c, const char *law, double surrogate, int copies)
 static fl_pair *touching(lab *l)
 {
     for (int32_t c = 0; c < l->w.n_pair; c++)
-        if (l->w.pair[c].n) return l->w.pair[c].full;
+        if (l->w.pair[c].touching) return l->w.pair[c].contact;
     return NULL;
 }
 
@@ -140,7 +140,7 @@ static void evaluate(lab *l, fl_pair *p, int times)
 {
     for (int k = 0; k < times; k++) {
         go(l, p->i, k);
-        fl_interact(&l->w, p, 0, 1e-9, 0);
+        fl_pair_evaluate(&l->w, p, 0, 1e-9, 0);
     }
 }
 
@@ -150,9 +150,9 @@ static void evaluate_all(lab *l, int times)
     fl_world *w = &l->w;
     for (int k = 0; k < times; k++) {
         for (int32_t c = 0; c < w->n_pair; c++)
-            if (w->pair[c].n) go(l, w->pair[c].i, k);
-        fl_awake_share(w);
-        fl_awake_look(w, 1e-9, 0);
+            if (w->pair[c].touching) go(l, w->pair[c].i, k);
+        fl_share_active_pairs(w);
+        fl_evaluate_active_pairs(w, 1e-9, 0);
     }
 }
 
@@ -170,7 +170,7 @@ static double energy_at(lab *l, const fl_pair *p, fl_vec3 d)
 static double off_gradient(lab *l, const fl_pair *p)
 {
     const double h = 1e-7;
-    const fl_vec3 f = lab_look(&l->w, p->i, p->j).f;
+    const fl_vec3 f = lab_look(&l->w, p->i, p->j).force;
     const fl_vec3 g = v3(energy_at(l, p, v3(h, 0, 0)) - energy_at(l, p, v3(-h, 0, 0)),
                          energy_at(l, p, v3(0, h, 0)) - energy_at(l, p, v3(0, -h, 0)),
                          energy_at(l, p, v3(0, 0, h)) - energy_at(l, p, v3(0, 0, -h)));
@@ -239,16 +239,17 @@ static double told(which c, double tolerance, double *looks, double *off)
     *looks = 1.0, *off = INFINITY;
     if (!p) return INFINITY;
     evaluate_all(&l, 200);
-    const int64_t before = l.w.told[0].told;
+    const int64_t before = l.w.surrogate_counts[0].hits;
     const double begun = now();
     evaluate_all(&l, TIMES);
     const double spent = (now() - begun) / TIMES / EIGHT;
-    *looks = 1.0 - (double)(l.w.told[0].told - before) / TIMES / EIGHT;
+    *looks = 1.0 - (double)(l.w.surrogate_counts[0].hits - before) / TIMES / EIGHT;
     *off = 0.0;
     for (int k = 0; k < 400; k++) {
         evaluate_all(&l, 1);
-        const fl_vec3 f = lab_look(&l.w, p->i, p->j).f;
-        *off = fmax(*off, v3_norm(v3_sub(v3_sub(p->f, v3_add(p->fs, p->fd)), f)) / v3_norm(f));
+        const fl_vec3 f = lab_look(&l.w, p->i, p->j).force;
+        *off = fmax(*off, v3_norm(v3_sub(v3_sub(p->force, v3_add(p->force_friction, p->force_damping)), f)) /
+                              v3_norm(f));
     }
     lab_free(&l);
     return spent;
@@ -265,7 +266,7 @@ static int row(which c, const char *law)
     const double begun = now();
     evaluate(&l, p, TIMES);
     const double ns = 1e9 * (now() - begun) / TIMES;
-    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, p->matches ? p->matches->n : 0,
+    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, p->feature_pairs ? p->feature_pairs->n : 0,
            l.w.scratch[0].n, ns, off);
     if (p->j < l.w.n && strcmp(law, "patch") == 0) {
         double error[2], t[2];
@@ -280,7 +281,7 @@ static int row(which c, const char *law)
         printf(" %8.0f %8.3f %9.1e", 1e9 * t, looks, most);
     }
     printf("\n");
-    const int bad = p->n == 0 || (strcmp(law, "patch") == 0 && !(off < 1e-5));
+    const int bad = p->touching == 0 || (strcmp(law, "patch") == 0 && !(off < 1e-5));
     lab_free(&l);
     return bad;
 }
@@ -315,7 +316,7 @@ static int curves(const char *dir)
     for (int k = -200; k <= 200; k++) {
         const double tilt = 1e-5 * k;
         fprintf(f, "%g", tilt);
-        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], tilt, 0.0).ti.y);
+        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], tilt, 0.0).torque_i.y);
         fprintf(f, "\n");
     }
     int bad = fclose(f);
@@ -325,7 +326,7 @@ static int curves(const char *dir)
     for (int k = 0; k <= 440; k++) {
         const double slide = 0.8 + 0.005 * k;
         fprintf(f, "%g", slide);
-        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], 0.0, slide).f.z);
+        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], 0.0, slide).force.z);
         fprintf(f, "\n");
     }
     bad |= fclose(f);

@@ -20,7 +20,7 @@
 #include "geom/quat.h"
 #include "narrow/contact.h"
 #include "support/oracle.h"
-#include "support/couples.h"
+#include "support/convex_pairs.h"
 
 #define RADIUS 0.05
 
@@ -73,9 +73,9 @@ static int make(motion *m, enum scene scene, int k)
         fl_err err = {0};
         if (fl_poly_copy(&pa, &a, &err) || fl_poly_copy(&pb, &b, &err) || pair_take(q, pa, pb)) return -1;
         const fl_vec3 small = v3_scale(1e-4 * f, v3(0.3, 1.0, scene == FLUSH ? 0.0 : 0.1));
-        pair_place(q, 0, v3(0, 0, 0), q_matrix(q_about(2, -ta)));
+        pair_place(q, 0, v3(0, 0, 0), q_matrix(q_about_axis(2, -ta)));
         const fl_vec3 w = scene == FLUSH ? v3(0, 0, 0) : v3_add(tilt, v3_scale(0.1, small));
-        pair_place(q, 1, v3_add(slide, small), q_matrix(q_mul(q_of_vector(w), q_about(2, -tb))));
+        pair_place(q, 1, v3_add(slide, small), q_matrix(q_mul(q_of_vector(w), q_about_axis(2, -tb))));
         double ha = -INFINITY, lb = INFINITY;
         for (int32_t i = 0; i < a.nv; i++) ha = fmax(ha, q->v[0][i].x);
         for (int32_t i = 0; i < b.nv; i++) lb = fmin(lb, q->v[1][i].x);

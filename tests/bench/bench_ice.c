@@ -13,13 +13,13 @@
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
-#include "base/mem.h"
-#include "base/num.h"
-#include "base/par.h"
-#include "ice/cells.h"
+#include "base/array.h"
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "ice/power_cells.h"
 #include "ice/certificate.h"
 #include "ice/floes.h"
-#include "scene/field.h"
+#include "scene/ice_field.h"
 
 #define CONCENTRATION 0.8
 #define RADIUS 0.05
@@ -49,7 +49,7 @@ static double lap(double *since)
 }
 
 /* As voronoi-ice does: prisms are checked, and what only the file needs is kept of them. */
-static int add_bodies(fl_field *field, const fl_floes *a, fl_err *err)
+static int add_bodies(fl_ice_field *field, const fl_floes *a, fl_err *err)
 {
     fl_poly *core = fl_alloc(a->n, sizeof *core, err);
     int bad = !core;
@@ -64,35 +64,35 @@ static int add_bodies(fl_field *field, const fl_floes *a, fl_err *err)
         free(xy);
     }
     for (int32_t i = 0; i < a->n && !bad; i++)
-        bad = fl_field_add(field, i, RADIUS, &core[i], "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err);
+        bad = fl_ice_field_add(field, i, RADIUS, &core[i], "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err);
     for (int32_t i = 0; i < a->n && core; i++) fl_poly_free(&core[i]);
     free(core);
     return bad ? fl_fail(err, FL_NUMERIC, "a floe is no prism") : 0;
 }
 
-static int write_file(const fl_field *field, double *bytes, fl_err *err)
+static int write_file(const fl_ice_field *field, double *bytes, fl_err *err)
 {
     char path[300];
     const char *tmp = getenv("TMPDIR");
-    fl_by by;
+    fl_history_line by;
     FILE *f;
     snprintf(path, sizeof path, "%.200s/floe-bench-ice-%ld", tmp ? tmp : "/tmp", (long)getpid());
     f = fopen(path, "w");
     if (!f) return fl_fail(err, FL_SYSTEM, "%s cannot be written", path);
-    fl_by_start(&by, "bench_ice");
-    fl_field_write(f, field, &by);
+    fl_history_line_start(&by, "bench_ice");
+    fl_ice_field_write(f, field, &by);
     *bytes = (double)ftell(f);
     const int bad = fclose(f);
     unlink(path);
     return bad ? fl_fail(err, FL_SYSTEM, "%s could not be written", path) : 0;
 }
 
-static double sum_of_cells(const fl_cells *c, fl_err *err)
+static double sum_of_cells(const fl_power_cells *c, fl_err *err)
 {
     double *area = fl_alloc(c->n, sizeof *area, err), sum = NAN;
     if (area) {
-        fl_cells_areas(c, area);
-        sum = fl_par_sum(area, c->n);
+        fl_power_cells_areas(c, area);
+        sum = fl_parallel_sum(area, c->n);
     }
     free(area);
     return sum;
@@ -103,20 +103,20 @@ static int make(struct row *r, uint64_t seed, fl_err *err)
     const double side = 4.0 * sqrt(r->n), total = side * side;
     const fl_vec2 lo = {-0.5 * side, -0.5 * side}, hi = {0.5 * side, 0.5 * side};
     fl_vec2 *site = fl_alloc(r->n, sizeof *site, err);
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_floes a = {0};
-    fl_field field = {0};
+    fl_ice_field field = {0};
     fl_certificate t = {0};
     double at = now(), bytes = 0.0;
     int rc = -1;
     if (!site) return -1;
-    fl_cells_sites(r->n, seed, lo, hi, site);
-    if (fl_cells_build(&c, r->n, site, lo, hi, err)) goto done;
+    fl_random_sites(r->n, seed, lo, hi, site);
+    if (fl_power_cells_build(&c, r->n, site, lo, hi, err)) goto done;
     r->stage[0] += lap(&at);
     for (int k = 0; k < SMOOTH; k++) {
-        fl_cells_centroids(&c, site);
-        fl_cells_free(&c);
-        if (fl_cells_build(&c, r->n, site, lo, hi, err)) goto done;
+        fl_power_cells_centroids(&c, site);
+        fl_power_cells_free(&c);
+        if (fl_power_cells_build(&c, r->n, site, lo, hi, err)) goto done;
     }
     r->stage[1] += lap(&at);
     if (fl_floes_make(&a, &c, CONCENTRATION, RADIUS, (fl_vec2){0, 0}, err)) goto done;
@@ -124,20 +124,20 @@ static int make(struct row *r, uint64_t seed, fl_err *err)
     if (fl_certificate_make(&t, &a, err)) goto done;
     r->stage[3] += lap(&at);
     r->cells = fmax(r->cells, fabs(sum_of_cells(&c, err) / total - 1.0));
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
     if (add_bodies(&field, &a, err)) goto done;
     r->stage[4] += lap(&at);
     if (write_file(&field, &bytes, err)) goto done;
     r->stage[5] += lap(&at);
-    r->floes = fmax(r->floes, fabs(t.total / (CONCENTRATION * total) - 1.0));
-    r->wrong += t.overlaps + t.bent;
+    r->floes = fmax(r->floes, fabs(t.total_area / (CONCENTRATION * total) - 1.0));
+    r->wrong += t.overlaps + t.nonconvex;
     r->bytes += bytes;
     rc = 0;
 done:
     free(site);
-    fl_field_free(&field);
+    fl_ice_field_free(&field);
     fl_floes_free(&a);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
     return rc;
 }
 
@@ -187,8 +187,8 @@ int main(int argc, char **argv)
     fl_err err = {0};
     int rows = 0, ok = 1;
     (void)argc;
-    fl_par_wait_briefly(argv);
-    if (most && fl_num_i32(most, 1000, 1000000, &largest)) largest = 1000;
+    fl_parallel_limit_spin(argv);
+    if (most && fl_number_i32(most, 1000, 1000000, &largest)) largest = 1000;
     while (rows < ROWS && number[rows] <= largest) rows++;
     for (int round = 0; round < ROUNDS; round++)
         for (int k = 0; k < rows && ok; k++) {

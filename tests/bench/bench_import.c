@@ -24,7 +24,7 @@
 #include <unistd.h>
 #include "base/tool.h"
 #include "geom/moments.h"
-#include "geom/patch.h"
+#include "geom/mesh_patch.h"
 #include "geom/weld.h"
 #include "mesh/crossing.h"
 #include "mesh/gstruct.h"
@@ -351,15 +351,15 @@ static int in_stages(const char *mesh, const char *out, double took[STAGES])
     fl_surface s = {0};
     fl_err err = {0};
     fl_weld w;
-    fl_quality q;
-    fl_orient o;
+    fl_mesh_quality q;
+    fl_orient_counts o;
     fl_crossing c = {-1, -1};
-    fl_by by;
+    fl_history_line by;
     char note[FL_MESH_NOTE];
     double at[STAGES + 1];
     FILE *f = fopen(out, "w");
     int bad = !f;
-    fl_by_start(&by, "bench_import");
+    fl_history_line_start(&by, "bench_import");
     at[READ] = spent();
     bad = bad || fl_mesh_read(&s, mesh, NULL, note, &err) || s.n != 1;
     at[MOMENTS] = spent();

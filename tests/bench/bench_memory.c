@@ -9,8 +9,8 @@
 #include <malloc.h>
 #include <stdlib.h>
 #include "sim/energy_balance.h"
-#include "step/footprint.h"
-#include "support/eddies.h"
+#include "sim/memory_use.h"
+#include "support/stirring_flow.h"
 #include "world/access.h"
 
 #define STIRRED 1.0 /* [m/s] */
@@ -34,18 +34,18 @@ static int row(int32_t n, int water)
     lab_make(&l, 0.0);
     int bad = 0;
     for (int k = 0; k <= LOOKS && !bad; k++) {
-        const int64_t to = (int64_t)(END * k / LOOKS / l.w.dt), touched = l.w.touching_steps;
+        const int64_t to = (int64_t)(END * k / LOOKS / l.w.dt), touched = l.w.contact_steps;
         const int64_t steps = to - l.w.step;
         bad = lab_run(&l, steps);
-        const fl_footprint b = fl_footprint_of(&l.w);
-        const double all = memory() - before, sum = fl_footprint_sum(&b);
+        const fl_memory_use b = fl_memory_use_of(&l.w);
+        const double all = memory() - before, sum = fl_memory_use_sum(&b);
         printf("%-6s %6d %6.2f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %7.0f %10.0f %7.0f %6.2f %8.2f %9.1e "
                "%016llx\n",
                water ? "water" : "dry", n, fl_world_time(&l.w), b.bodies / n, b.shapes / n, b.water / n,
-               b.search / n, b.pairs / n, b.lists / n, sum / n, all / n, b.passing / n,
+               b.search / n, b.pairs / n, b.feature_pairs / n, sum / n, all / n, b.search_peak / n,
                (double)l.w.n_pair / n,
-               steps ? (double)(l.w.touching_steps - touched) / (double)steps / n : 0.0, l.w.worst_overlap,
-               (unsigned long long)fl_step_hash(&l.w));
+               steps ? (double)(l.w.contact_steps - touched) / (double)steps / n : 0.0, l.w.max_overlap,
+               (unsigned long long)fl_state_hash(&l.w));
         bad |= sum > MOST * n;
         bad |= !(all > 0.98 * sum && all < 1.25 * sum); /* small blocks at hand were counted before */
     }

@@ -9,10 +9,10 @@
 #include <time.h>
 #include <unistd.h>
 #include "base/decimal.h"
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/rng.h"
 #include "base/table.h"
-#include "stat/reduce.h"
+#include "stat/run_summary.h"
 
 enum { ROWS = 400000, ROUNDS = 5, COLUMNS = 10, WAYS = 5 };
 
@@ -26,13 +26,13 @@ static double now(void)
 static int write_table(const char *path)
 {
     FILE *f = fopen(path, "w");
-    char text[FL_NUM_LEN];
+    char text[FL_NUMBER_LEN];
     if (!f) return -1;
     fputs("#loads 1\nt[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts\n", f);
     for (int k = 0; k < ROWS; k++) {
         fl_rng g = fl_rng_of(1, k, FL_RNG_TEST);
-        fprintf(f, "%s\tleg", fl_num_text(0.01 * (k + 1), text));
-        for (int c = 0; c < 7; c++) fprintf(f, "\t%s", fl_num_text(1e4 * fl_rng_normal(&g), text));
+        fprintf(f, "%s\tleg", fl_number_text(0.01 * (k + 1), text));
+        for (int c = 0; c < 7; c++) fprintf(f, "\t%s", fl_number_text(1e4 * fl_rng_normal(&g), text));
         fprintf(f, "\t%d\n", k % 20);
     }
     return fclose(f);
@@ -62,16 +62,16 @@ static double read_table(const char *path, int numbers, double *sum)
 static double sum_up(const char *path, int columns, double *sum)
 {
     static const char *const name[] = {"fx", "fy", "fz", "fh"};
-    const fl_series_ask ask = {.signal = name, .signals = columns, .from = -INFINITY, .to = INFINITY};
-    const fl_summary_ask how = {.separation = 0.5};
+    const fl_record_selection ask = {.signal = name, .signals = columns, .from = -INFINITY, .to = INFINITY};
+    const fl_summary_settings how = {.separation = 0.5};
     fl_err err = {0};
     fl_run r = {0};
     double moment[4] = {NAN};
     const double start = now();
     int more = fl_run_open(&r, path, &ask, &how, &err);
     while (more >= 0 && (more = fl_run_next(&r, &err)) > 0) {}
-    if (more == 0) more = fl_run_end(&r, "", &err);
-    if (more == 0) fl_summary_moments(&r.sum.s[0], moment);
+    if (more == 0) more = fl_run_finish(&r, "", &err);
+    if (more == 0) fl_summary_moments(&r.sum.entry[0], moment);
     const double seconds = now() - start;
     fl_run_close(&r);
     if (more < 0) fprintf(stderr, "bench_parse: %s\n", err.text);
@@ -101,7 +101,7 @@ static long differences(const char *path, long *numbers, double *ours, double *t
     *ours = *theirs = 0.0;
     if (fl_table_open(&t, path, "loads", 1, &err)) return -1;
     enum { BATCH = 1000 };
-    static char text[BATCH * COLUMNS][FL_NUM_LEN];
+    static char text[BATCH * COLUMNS][FL_NUMBER_LEN];
     for (int done = 0, n; !done;) {
         for (n = 0; n + COLUMNS <= BATCH * COLUMNS;) {
             if (fl_table_row(&t, &err) <= 0) {
@@ -109,12 +109,12 @@ static long differences(const char *path, long *numbers, double *ours, double *t
                 break;
             }
             for (int32_t c = 0; c < t.n; c++)
-                if (c != 1) snprintf(text[n++], FL_NUM_LEN, "%s", fl_table_word(&t, c));
+                if (c != 1) snprintf(text[n++], FL_NUMBER_LEN, "%s", fl_table_word(&t, c));
         }
         const double a = now();
         for (int k = 0; k < n; k++) {
             double x = 0.0;
-            fl_decimal(text[k], &x);
+            fl_decimal_read(text[k], &x);
             sum += x;
         }
         const double b = now();
@@ -123,7 +123,7 @@ static long differences(const char *path, long *numbers, double *ours, double *t
         *theirs += now() - b;
         for (int k = 0; k < n; k++) {
             double x = NAN, y = strtod(text[k], NULL);
-            bad += !fl_decimal(text[k], &x) || memcmp(&x, &y, sizeof x) != 0;
+            bad += !fl_decimal_read(text[k], &x) || memcmp(&x, &y, sizeof x) != 0;
         }
         *numbers += n;
     }

@@ -16,10 +16,10 @@
 #include <stdlib.h>
 #include <time.h>
 #include "sim/energy_balance.h"
-#include "step/awake.h"
-#include "step/footprint.h"
-#include "step/search.h"
-#include "support/eddies.h"
+#include "contact/active_pairs.h"
+#include "sim/memory_use.h"
+#include "sim/neighbour_list.h"
+#include "support/stirring_flow.h"
 #include "world/access.h"
 
 #define STIRRED 2.0 /* [m/s] */
@@ -83,7 +83,7 @@ static int32_t touching(const fl_world *w, int32_t part)
 {
     int32_t n = 0;
     for (int32_t c = first_of(w, part * FEWEST), end = first_of(w, (part + 1) * FEWEST); c < end; c++)
-        n += w->hit[c];
+        n += w->pair_touches[c];
     return n;
 }
 
@@ -96,9 +96,10 @@ static double look(field *f, double *least)
     fl_world *const w = &f->l.w;
     double all = 0.0;
     for (int32_t p = 0; p < f->n / FEWEST; p++) {
-        w->share[0] = (fl_portion){.next = first_of(w, p * FEWEST), .end = first_of(w, (p + 1) * FEWEST)};
+        w->pair_share[0] =
+            (fl_work_share){.next = first_of(w, p * FEWEST), .end = first_of(w, (p + 1) * FEWEST)};
         const double begun = now();
-        fl_awake_look(w, 0.0, 0);
+        fl_evaluate_active_pairs(w, 0.0, 0);
         const double took = now() - begun;
         least[p] = fmin(least[p], took / touching(w, p));
         all += took;
@@ -110,7 +111,7 @@ static double of_all(const field *f, const double *least)
 {
     double sum = 0.0;
     for (int32_t p = 0; p < f->n / FEWEST; p++) sum += least[p] * touching(&f->l.w, p);
-    return sum / f->l.w.n_live;
+    return sum / f->l.w.n_touching;
 }
 
 static void empty_cache(void)
@@ -123,9 +124,9 @@ static void empty_cache(void)
 static double search(field *f)
 {
     fl_err err = {0};
-    f->l.w.found_at = -1;
+    f->l.w.last_search_step = -1;
     const double begun = now();
-    f->bad |= fl_search(&f->l.w, &err) != 0;
+    f->bad |= fl_neighbour_list_update(&f->l.w, &err) != 0;
     return now() - begun;
 }
 
@@ -158,17 +159,17 @@ int main(void)
     for (int k = 0; k < ROWS; k++) {
         field *const f = &row[k];
         fl_world *const w = &f->l.w;
-        const fl_footprint b = fl_footprint_of(w);
-        fl_step_ledger(w);
+        const fl_memory_use b = fl_memory_use_of(w);
+        fl_energy_update(w);
         const double residual = fabs(w->ledger.residual) / w->ledger.throughput;
         contact[k] = of_all(f, f->contact);
         qsort(f->rest, (size_t)f->steps, sizeof *f->rest, by_size);
         body[k] = f->steps ? f->rest[f->steps / 2] : INFINITY;
-        bytes[k] = fl_footprint_sum(&b) / f->n;
+        bytes[k] = fl_memory_use_sum(&b) / f->n;
         printf("%7d %6.3f %9.3f %5.2f %13.0f %8.0f %10.0f %12.0f %6.0f %5.2f %9.1e %11.2f %016llx\n", f->n,
-               fl_world_time(w), (double)w->n_live / f->n, (double)w->n_pair / f->n, 1e9 * contact[k],
+               fl_world_time(w), (double)w->n_touching / f->n, (double)w->n_pair / f->n, 1e9 * contact[k],
                1e9 * of_all(f, f->emptied), 1e9 * body[k], 1e9 * f->search / f->n, bytes[k],
-               contact[k] / contact[0], residual, w->worst_overlap, (unsigned long long)fl_step_hash(w));
+               contact[k] / contact[0], residual, w->max_overlap, (unsigned long long)fl_state_hash(w));
         if (!f->bad && residual < OFF) good++;
         else bad++;
     }

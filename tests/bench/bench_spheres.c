@@ -20,10 +20,10 @@
 #include <string.h>
 #include <time.h>
 #include "base/rng.h"
-#include "scene/field_order.h"
+#include "scene/ice_field_order.h"
 #include "sim/energy_balance.h"
-#include "step/search.h"
-#include "support/lab.h"
+#include "sim/neighbour_list.h"
+#include "support/small_world.h"
 
 #define RADIUS 0.05 /* mean [m] */
 #define PITCH 0.112 /* of the lattice that is let fall [m] */
@@ -76,7 +76,7 @@ static void pour(ball *b, double *dt)
     for (int32_t k = 0; k < COLUMN; k++) {
         const fl_bodies *a = &l.w.b;
         b[k] = (ball){a->x[k], a->v[k], a->w[k], a->radius[k]};
-        b[k].x = fl_cell_inside(&l.w.cell, b[k].x);
+        b[k].x = fl_periodic_cell_wrap(&l.w.cell, b[k].x);
     }
     lab_free(&l);
 }
@@ -97,7 +97,7 @@ static void lay(lab *l, const ball *b, int32_t tiles, int threads, double dt)
     set(l, b, tiles, threads);
     fl_err err = {0};
     int32_t *at = malloc((size_t)l->field.n * sizeof *at);
-    if (!at || fl_field_order(&l->field, at, &err)) exit(1); /* as dem-solve does */
+    if (!at || fl_ice_field_order(&l->field, at, &err)) exit(1); /* as dem-solve does */
     free(at);
     lab_make(l, dt);
 }
@@ -120,27 +120,27 @@ static int row(const ball *b, int32_t tiles, int threads, double dt, int64_t ste
     const double bytes = (memory() - before - field) / n;
     double best = INFINITY, cpu = INFINITY, contacts = 0.0;
     for (int k = 0; k < WINDOWS; k++) {
-        const int64_t touched = l.w.touching_steps;
+        const int64_t touched = l.w.contact_steps;
         const double begun = now(CLOCK_MONOTONIC), used = now(CLOCK_PROCESS_CPUTIME_ID);
         if (lab_run(&l, steps)) return 1;
         best = fmin(best, (now(CLOCK_MONOTONIC) - begun) / (double)steps);
         cpu = fmin(cpu, (now(CLOCK_PROCESS_CPUTIME_ID) - used) / (double)steps);
-        contacts = (double)(l.w.touching_steps - touched) / (double)steps;
+        contacts = (double)(l.w.contact_steps - touched) / (double)steps;
     }
     fl_err err = {0};
     double search = INFINITY;
     for (int k = 0; k < 3; k++) {
         const double used = now(CLOCK_PROCESS_CPUTIME_ID);
-        l.w.found_at = -1;
-        if (fl_search(&l.w, &err)) return 1;
+        l.w.last_search_step = -1;
+        if (fl_neighbour_list_update(&l.w, &err)) return 1;
         search = fmin(search, now(CLOCK_PROCESS_CPUTIME_ID) - used);
     }
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     const fl_ledger *g = &l.w.ledger;
     printf("%8d %7d %10.1f %12.1f %10.2f %10.4f %10.0f %10.0f %12.1e %12.1e\n", n, threads, 1e9 * cpu / n,
            1e9 * cpu / contacts, 1e9 * best / contacts, contacts / n, 1e9 * search / n, bytes,
-           fabs(g->residual) / g->elastic, l.w.worst_overlap);
-    const int bad = !(fabs(g->residual) < 1e-3 * g->elastic && l.w.worst_overlap < 0.1);
+           fabs(g->residual) / g->elastic, l.w.max_overlap);
+    const int bad = !(fabs(g->residual) < 1e-3 * g->elastic && l.w.max_overlap < 0.1);
     lab_free(&l);
     return bad;
 }
@@ -162,9 +162,9 @@ static int count(ball *b, int64_t steps)
         b[k] = (ball){.x = v3_scale(PITCH, at), .v = v3(0.01 * at.z, 0, 0), .r = 0.51 * PITCH};
     }
     lay(&l, b, 1, 1, 1e-5);
-    const int64_t before = l.w.touching_steps;
+    const int64_t before = l.w.contact_steps;
     const int failed = lab_run(&l, steps);
-    printf("%lld\n", (long long)(l.w.touching_steps - before));
+    printf("%lld\n", (long long)(l.w.contact_steps - before));
     lab_free(&l);
     return failed;
 }
@@ -179,7 +179,7 @@ static int tell(const ball *b, int32_t tiles, double dt, int64_t steps, int64_t 
     const fl_bodies *a = &l.w.b;
     printf("%d %.17g %.17g\n", l.w.n, dt, PITCH * SIDE * tiles);
     for (int32_t k = 0; k < l.w.n; k++) {
-        const fl_vec3 x = fl_cell_inside(&l.w.cell, a->x[k]), v = a->v[k], w = a->w[k];
+        const fl_vec3 x = fl_periodic_cell_wrap(&l.w.cell, a->x[k]), v = a->v[k], w = a->w[k];
         printf("%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", a->radius[k], x.x, x.y, x.z,
                v.x, v.y, v.z, w.x, w.y, w.z);
     }

@@ -21,14 +21,14 @@
 #include <time.h>
 #include "base/rng.h"
 #include "body/integrate.h"
-#include "step/awake.h"
+#include "contact/active_pairs.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "sim/energy_balance.h"
-#include "step/search.h"
-#include "step/sleep.h"
-#include "support/lab.h"
+#include "sim/neighbour_list.h"
+#include "sim/sleep.h"
+#include "support/small_world.h"
 #include "support/scenes.h"
 
 static double now(void)
@@ -47,10 +47,10 @@ static int row(const char *law, int potential, double safety)
     const int64_t steps = (int64_t)(4.0 / l.w.dt);
     const int ended = lab_run(&l, steps) == 0;
     const double drift = lab_energy(&l) / energy - 1.0;
-    const double spent = now() - begun, touches = (double)l.w.touching_steps;
+    const double spent = now() - begun, touches = (double)l.w.contact_steps;
     printf("%-10s %8.3f %10.3g %12.0f %15.0f %15.2g %14.3g %12.2g\n", law, safety, l.w.dt,
            1e9 * spent / (double)steps / l.w.n, touches > 0 ? 1e9 * spent / touches : 0.0,
-           (double)l.w.touching_steps / (double)steps, drift, l.w.worst_overlap);
+           (double)l.w.contact_steps / (double)steps, drift, l.w.max_overlap);
     lab_free(&l);
     return ended && isfinite(drift) && (!potential || fabs(drift) < 1e-3);
 }
@@ -81,11 +81,11 @@ static void scatter(fl_bodies *b, int32_t k, double sign, fl_vec3 f, fl_vec3 t)
 static void collect(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
-    for (int64_t c = w->inc_first[k]; c < w->inc_first[k + 1]; c++) {
-        if (!w->hit[w->inc[c]]) continue;
-        const fl_pair *p = w->pair[w->inc[c]].full;
-        b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->f);
-        b->t[k] = v3_add(b->t[k], p->i == k ? p->ti : p->tj);
+    for (int64_t c = w->first_pair_of_body[k]; c < w->first_pair_of_body[k + 1]; c++) {
+        if (!w->pair_touches[w->pairs_of_body[c]]) continue;
+        const fl_pair *p = w->pair[w->pairs_of_body[c]].contact;
+        b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->force);
+        b->t[k] = v3_add(b->t[k], p->i == k ? p->torque_i : p->torque_j);
     }
 }
 
@@ -102,19 +102,19 @@ static int bare_step(fl_world *w, int ordered)
         b->f[i] = b->t[i] = v3(0, 0, 0);
     }
     w->step++;
-    if (fl_search(w, &err)) return -1;
+    if (fl_neighbour_list_update(w, &err)) return -1;
 #pragma omp parallel for schedule(dynamic, 16)
     for (int32_t c = 0; c < w->n_pair; c++) {
-        if (fl_world_apart(w, c)) continue;
-        fl_near_awake(w, c, omp_get_thread_num(), NULL, w->dt, 0);
-        fl_world_watch(w, c);
-        w->hit[c] = w->pair[c].n;
-        if (ordered || !w->hit[c]) continue;
-        const fl_pair *p = w->pair[c].full;
-        scatter(b, p->i, 1.0, p->f, p->ti);
-        scatter(b, p->j, -1.0, p->f, p->tj);
+        if (fl_next_check_pending(w, c)) continue;
+        fl_evaluate_neighbour_pair(w, c, omp_get_thread_num(), NULL, w->dt, 0);
+        fl_set_next_check(w, c);
+        w->pair_touches[c] = w->pair[c].touching;
+        if (ordered || !w->pair_touches[c]) continue;
+        const fl_pair *p = w->pair[c].contact;
+        scatter(b, p->i, 1.0, p->force, p->torque_i);
+        scatter(b, p->j, -1.0, p->force, p->torque_j);
     }
-    fl_search_live(w);
+    fl_update_touching_pairs(w);
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < w->n; i++) {
         if (ordered) collect(w, i);
@@ -184,7 +184,7 @@ static void grid(lab *l, int32_t side, int spheres, double pitch, enum sea water
         const fl_vec3 at = v3(pitch * (k % side), pitch * (k / side), water ? -0.03 : 0.0);
         const fl_vec3 v = v3(fl_rng_in(&g, -0.2, 0.2), fl_rng_in(&g, -0.2, 0.2), 0);
         if (spheres) lab_sphere(l, at, 0.5, v, v3(0, 0, 0));
-        else lab_box(l, at, v3(0.5, 0.5, 0.2), 0.03, q_about(2, fl_rng_in(&g, 0, 0.05)), v, v3(0, 0, 0));
+        else lab_box(l, at, v3(0.5, 0.5, 0.2), 0.03, q_about_axis(2, fl_rng_in(&g, 0, 0.05)), v, v3(0, 0, 0));
     }
     lab_make(l, 2e-4);
 }
@@ -194,14 +194,14 @@ static double cost(int32_t side, int spheres, double pitch, enum sea water, int6
     lab l;
     grid(&l, side, spheres, pitch, water);
     lab_run(&l, 2);
-    const int64_t touching = l.w.touching_steps;
+    const int64_t touching = l.w.contact_steps;
     const double begun = now();
     const int bad = lab_run(&l, steps);
     const double each = 1e9 * (now() - begun) / (double)steps / l.w.n;
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     printf("%-34s %8d bodies %8.0f ns a body-step, %8.3g contacts a body, energy residual %8.2g of the "
            "throughput\n",
-           what, l.w.n, each, (double)(l.w.touching_steps - touching) / (double)steps / l.w.n,
+           what, l.w.n, each, (double)(l.w.contact_steps - touching) / (double)steps / l.w.n,
            fabs(l.w.ledger.residual) / l.w.ledger.throughput);
     lab_free(&l);
     return bad ? INFINITY : each;
@@ -226,7 +226,7 @@ static int alone(const char *where, int64_t steps)
         lab_set(&l, "boundary.min=-3.5 -9 -9"), lab_set(&l, "boundary.max=3.5 9 none"); /* out of reach */
         lab_make(&l, 1e-5);
         const int bad = lab_run(&l, steps);
-        printf("%lld\n", (long long)(steps * l.w.frozen.n));
+        printf("%lld\n", (long long)(steps * l.w.bonds.n));
         lab_free(&l);
         return bad;
     }
@@ -264,7 +264,7 @@ static double asleep(int rests, double sleep, lab *l)
     const double begun = now();
     const int bad = lab_run(l, 2000);
     const double each = 1e9 * (now() - begun) / 2000 / l->w.n;
-    fl_sleep_look(&l->w);
+    fl_sleep_advance_to_now(&l->w);
     return bad ? INFINITY : each;
 }
 
@@ -300,7 +300,7 @@ static double seldom(int every, lab *l)
     const double begun = now();
     const int bad = lab_run(l, 500);
     const double each = 1e9 * (now() - begun) / 500 / l->w.n;
-    fl_step_ledger(&l->w);
+    fl_energy_update(&l->w);
     return bad ? INFINITY : each;
 }
 

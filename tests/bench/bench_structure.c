@@ -14,11 +14,11 @@
 #include <string.h>
 #include <time.h>
 #include "base/pi.h"
-#include "step/interact.h"
+#include "contact/pair_force.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 
 #define RADIUS 0.05
 #define OVERLAP 0.004
@@ -187,7 +187,7 @@ static void evaluate(lab *l, fl_pair *p, int times)
 {
     for (int k = 0; k < times; k++) {
         go(l, k);
-        fl_interact(&l->w, p, 0, 1e-9, 0);
+        fl_pair_evaluate(&l->w, p, 0, 1e-9, 0);
     }
 }
 
@@ -224,25 +224,27 @@ static void told(const structure *c, int edge_on, found *out)
     lab l;
     fl_pair p;
     make(&l, c, edge_on, TOLERANCE);
-    fl_pair_start(&l.w, &p, 0, 1);
+    fl_pair_init(&l.w, &p, 0, 1);
     evaluate(&l, &p, 200);
     out->told = INFINITY;
-    const int64_t before = l.w.told[0].told;
+    const int64_t before = l.w.surrogate_counts[0].hits;
     for (int k = 0; k < TURNS; k++) {
         const double begun = now();
         evaluate(&l, &p, TIMES);
         const double ns = 1e9 * (now() - begun) / TIMES;
         out->told = ns < out->told ? ns : out->told;
     }
-    out->looks = 1.0 - (double)(l.w.told[0].told - before) / (TURNS * TIMES);
+    out->looks = 1.0 - (double)(l.w.surrogate_counts[0].hits - before) / (TURNS * TIMES);
     out->told_off = 0.0;
     for (int k = 0; k < 400; k++) {
         go(&l, k);
-        fl_interact(&l.w, &p, 0, 1e-9, 0);
-        const fl_vec3 f = lab_look(&l.w, 0, 1).f;
-        out->told_off = fmax(out->told_off, v3_norm(v3_sub(v3_sub(p.f, v3_add(p.fs, p.fd)), f)) / v3_norm(f));
+        fl_pair_evaluate(&l.w, &p, 0, 1e-9, 0);
+        const fl_vec3 f = lab_look(&l.w, 0, 1).force;
+        out->told_off =
+            fmax(out->told_off,
+                 v3_norm(v3_sub(v3_sub(p.force, v3_add(p.force_friction, p.force_damping)), f)) / v3_norm(f));
     }
-    fl_pair_end(&p);
+    fl_pair_free(&p);
     lab_free(&l);
 }
 
@@ -250,11 +252,11 @@ static int run(const structure *c, int edge_on, found *out)
 {
     lab l;
     make(&l, c, edge_on, 0.0);
-    const fl_vec3 f = lab_look(&l.w, 0, 1).f;
+    const fl_vec3 f = lab_look(&l.w, 0, 1).force;
     fl_pair p;
     *out = (found){
         .triangles = l.surface.part[0].nt, .f = v3_norm(f), .off = off_gradient(&l, f), .ns = INFINITY};
-    fl_pair_start(&l.w, &p, 0, 1);
+    fl_pair_init(&l.w, &p, 0, 1);
     evaluate(&l, &p, 200);
     for (int k = 0; k < TURNS; k++) {
         const double begun = now();
@@ -262,10 +264,10 @@ static int run(const structure *c, int edge_on, found *out)
         const double ns = 1e9 * (now() - begun) / TIMES;
         out->ns = ns < out->ns ? ns : out->ns;
     }
-    out->matches = p.matches ? p.matches->n : 0;
+    out->matches = p.feature_pairs ? p.feature_pairs->n : 0;
     out->places = l.w.scratch[0].n;
-    const int bad = p.n == 0 || !(out->off < 1e-5);
-    fl_pair_end(&p);
+    const int bad = p.touching == 0 || !(out->off < 1e-5);
+    fl_pair_free(&p);
     lab_free(&l);
     told(c, edge_on, out);
     return bad;
@@ -281,10 +283,10 @@ int main(int argc, char **argv)
         fl_pair p;
         if (c < 0 || c >= 2 * CASES) return 2;
         make(&l, &CASE[c / 2], c % 2, 0.0);
-        fl_pair_start(&l.w, &p, 0, 1);
+        fl_pair_init(&l.w, &p, 0, 1);
         evaluate(&l, &p, atoi(argv[2]));
-        bad = p.n == 0;
-        fl_pair_end(&p);
+        bad = p.touching == 0;
+        fl_pair_free(&p);
         lab_free(&l);
         return bad;
     }

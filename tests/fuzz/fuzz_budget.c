@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an error budget remembers, inside a checkpoint, behind its hash. */
 #include "scene/scene_check.h"
-#include "step/budget.h"
+#include "sim/error_budget.h"
 #include "support/fuzz.h"
 #include "support/scenes.h"
 
 static lab world_of;
-static fl_budget into; /* made once: what is read takes the place of what was */
+static fl_error_budget into; /* made once: what is read takes the place of what was */
 
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};
     fl_text in = {0};
-    const int rc = fl_text_open(&in, fuzz_file(data, n), &err) || fl_budget_read(&into, &in, &err) ? -1 : 0;
+    const int rc =
+        fl_text_open(&in, fuzz_file(data, n), &err) || fl_error_budget_read(&into, &in, &err) ? -1 : 0;
     fl_text_close(&in);
     return fuzz_verdict(rc, &err);
 }
@@ -24,10 +25,11 @@ int main(int argc, char **argv)
     lab_set(&world_of, "structure.file=lab");
     lab_set(&world_of, "run.error=0.01");
     if (fl_scene_check(&world_of.scene, &err) ||
-        fl_budget_make(&into, &world_of.scene, &world_of.field, &world_of.field, &world_of.surface, &err))
+        fl_error_budget_make(&into, &world_of.scene, &world_of.field, &world_of.field, &world_of.surface,
+                             &err))
         return 1;
     const int rc = fuzz_main(argc, argv, "budget", fuzz_one);
-    fl_budget_free(&into);
+    fl_error_budget_free(&into);
     lab_free(&world_of);
     return rc;
 }

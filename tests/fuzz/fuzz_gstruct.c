@@ -9,7 +9,7 @@ static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};
     fl_surface s = {0}, again = {0};
-    fl_by by;
+    fl_history_line by;
     char *text = NULL;
     size_t len = 0;
     FILE *f;
@@ -18,7 +18,7 @@ static int fuzz_one(const unsigned char *data, size_t n)
     if (!mesh_sound(&s)) verdict = FUZZ_BROKEN;
     f = verdict == FUZZ_READ ? open_memstream(&text, &len) : NULL;
     if (f) {
-        fl_by_start(&by, "fuzz");
+        fl_history_line_start(&by, "fuzz");
         fl_gstruct_write(f, &s, &by);
         fclose(f);
         rc = fl_gstruct_read(&again, fuzz_file((const unsigned char *)text, len), &err);

@@ -4,7 +4,7 @@
 #include <string.h>
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
-#include "scene/scene_show.h"
+#include "scene/scene_print.h"
 #include "support/fuzz.h"
 
 static char *written(const fl_scene *s, size_t *n)

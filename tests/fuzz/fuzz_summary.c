@@ -26,7 +26,7 @@ static int fuzz_one(const unsigned char *data, size_t n)
         double moment[4];
         sound = text[1] && size[0] == size[1] && memcmp(text[0], text[1], size[0]) == 0;
         for (int32_t k = 0; k < s.n; k++) {
-            fl_summary_moments(&s.s[k], moment);
+            fl_summary_moments(&s.entry[k], moment);
             sound &= isfinite(moment[0]) && (moment[1] >= 0.0 || isnan(moment[1]));
         }
         rc = fl_summary_merge(&s, &again, "again", &err);

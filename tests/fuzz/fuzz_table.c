@@ -10,7 +10,8 @@ static int fuzz_one(const unsigned char *data, size_t n)
     fl_table t = {0};
     int32_t col = -1;
     int sound = 1, rc = fl_table_open(&t, fuzz_file(data, n), NULL, 1, &err), more;
-    if (rc == 0 && (fl_table_find(&t, t.name[t.n - 1], &col, &err) || col != t.n - 1 || !isfinite(t.start)))
+    if (rc == 0 &&
+        (fl_table_require(&t, t.name[t.n - 1], &col, &err) || col != t.n - 1 || !isfinite(t.start)))
         sound = 0;
     while (rc == 0 && sound && (more = fl_table_row(&t, &err)) != 0) {
         rc = more < 0 ? -1 : 0;

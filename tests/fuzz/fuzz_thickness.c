@@ -9,7 +9,7 @@ static int fuzz_one(const unsigned char *data, size_t n)
     fl_thickness t = {0};
     int32_t again;
     int rc = fl_thickness_read(&t, fuzz_file(data, n), &err);
-    if (rc == 0 && !(fl_thickness_of(&t, 1, 2, 0.0, &again) > 0.0))
+    if (rc == 0 && !(fl_thickness_draw(&t, 1, 2, 0.0, &again) > 0.0))
         rc = fl_fail(&err, FL_NUMERIC, "a thickness that is none");
     fl_thickness_free(&t);
     return fuzz_verdict(rc, &err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "bound/track.h"
+#include "structure/prescribed_track.h"
 #include "support/fuzz.h"
 
 /* What is read must also serve: every time has a finite place. */
@@ -10,7 +10,7 @@ static int fuzz_one(const unsigned char *data, size_t n)
     int rc = fl_track_read(&tr, fuzz_file(data, n), 1, &err);
     for (int k = -2; rc == 0 && k < 10; k++) {
         fl_pose6 x, rate, second;
-        fl_track_look(&tr, 0.5 * k, &x, &rate, &second);
+        fl_track_evaluate(&tr, 0.5 * k, &x, &rate, &second);
         if (!isfinite(x.x.x + x.x.y + x.x.z + x.r.x + x.r.y + x.r.z))
             rc = fl_fail(&err, FL_NUMERIC, "a place that is none");
     }

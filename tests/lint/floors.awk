@@ -2,7 +2,7 @@
 # floors.awk -- the rules of the house that can be read from the text of a file.  Files are named as arguments, paths
 # from the root of the tree.  Prints "file:line: complaint"; status 1 when there was one.
 BEGIN {
-    n = split("base geom shim mesh broad ice narrow law body water bond bound scene out stat step", floor)
+    n = split("base geom shim mesh broad ice stat scene body narrow law patch water bond structure out world contact sphere sim", floor)
     for (k = 1; k <= n; k++) rank[floor[k]] = k
     # Spelt so that this file does not hold them.
     marks = "(^|[^A-Za-z_])(TO" "DO|FIX" "ME|XX" "X)([^A-Za-z_]|$)"
@@ -63,7 +63,7 @@ is_c && file ~ /\.h$/ && guard == "" && /^#ifndef/ {
     if (house == "tools") want = toupper(part[2] "_" part[parts])
     if (house == "tests") want = toupper("FL_TESTS_" stem "_H")
     gsub(/[^A-Z0-9_]/, "_", want)
-    if (guard != want && !(house == "tools" && guard == "FL_" want)) complain("the guard is " guard ", " want " was wanted")
+    if (guard != want && !(house == "tools" && guard == "FL_" want)) complain("the guard is " guard ", " want " is expected")
 }
 
 is_c && /^[ \t]*#[ \t]*include[ \t]*"/ {

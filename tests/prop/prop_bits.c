@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "support/near.h"
-#include "scene/field_order.h"
-#include "step/frozen.h"
-#include "step/snapshot.h"
+#include "scene/ice_field_order.h"
+#include "contact/bond_list.h"
+#include "sim/snapshot.h"
 #include "support/bits.h"
 #include "support/scenes.h"
 
@@ -34,7 +34,7 @@ typedef struct {
         (a)[i] = (a)[j], (a)[j] = swap;                                                                      \
     } while (0)
 
-static void renumber(fl_field *a)
+static void renumber(fl_ice_field *a)
 {
     for (int32_t i = 0; i < a->n; i++) a->id[i] = 100000 - 3 * a->id[i];
     for (int32_t i = 0, j = a->n - 1; i < j; i++, j--) {
@@ -43,11 +43,11 @@ static void renumber(fl_field *a)
         SWAP(int32_t, a->group, i, j);
         SWAP(double, a->radius, i, j);
         SWAP(fl_poly, a->core, i, j);
-        SWAP(fl_vec3, a->vel, i, j);
+        SWAP(fl_vec3, a->velocity, i, j);
         SWAP(fl_vec3, a->spin, i, j);
     }
-    for (int32_t k = 0; k < a->bonds; k++) { /* fl_field_order() sorts them */
-        fl_field_bond *d = &a->bond[k];
+    for (int32_t k = 0; k < a->bonds; k++) { /* fl_ice_field_order() sorts them */
+        fl_ice_field_bond *d = &a->bond[k];
         d->i = a->n - 1 - d->i, d->j = a->n - 1 - d->j;
     }
 }
@@ -59,13 +59,13 @@ static void make(lab *l, const way *how, int32_t threads, const what *it)
     int32_t *at = calloc((size_t)l->field.n, sizeof *at);
     assert_non_null(at);
     if (how->other) renumber(&l->field);
-    assert_int_equal(fl_field_order(&l->field, at, &err), 0); /* as dem-solve does */
+    assert_int_equal(fl_ice_field_order(&l->field, at, &err), 0); /* as dem-solve does */
     free(at);
     lab_setf(l, "run.threads=%d", threads);
     if (how->every) lab_setf(l, "run.search_every=%d", how->every);
     lab_make(l, 0);
     l->w.skin *= how->skin;
-    l->w.found_at = -1; /* the list at hand is that of the other skin */
+    l->w.last_search_step = -1; /* the list at hand is that of the other skin */
 }
 
 static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touching, int64_t *searches)
@@ -93,14 +93,15 @@ static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touc
         assert_int_equal(lab_run(&l, steps - how->stop), 0);
     }
     const uint64_t got = bits_of(&l.w);
-    if (it->scene == scene_of_traffic) assert_true(l.w.traffic.entered > 0 && l.w.traffic.left > 0);
+    if (it->scene == scene_of_traffic) assert_true(l.w.inflow.n_entered > 0 && l.w.inflow.n_left > 0);
     if (it->scene == scene_of_bonds && steps >= 200) {
-        const fl_frozen_count c = fl_frozen_counted(&l.w);
-        assert_true(c.state[FL_BOND_HURT] > 0 && c.state[FL_BOND_BROKEN] > 0 && c.state[FL_BOND_ENDED] > 0);
+        const fl_bond_counts c = fl_bond_list_counts(&l.w);
+        assert_true(c.state[FL_BOND_DAMAGED] > 0 && c.state[FL_BOND_BROKEN] > 0 &&
+                    c.state[FL_BOND_ENDED] > 0);
     }
     if (it->scene == scene_of_surrogates)
-        assert_true(10 * fl_surrogate_sum(l.w.told, l.w.threads).told > l.w.touching_steps);
-    *touching = l.w.touching_steps;
+        assert_true(10 * fl_surrogate_count_sum(l.w.surrogate_counts, l.w.threads).hits > l.w.contact_steps);
+    *touching = l.w.contact_steps;
     *searches = l.w.searches;
     lab_free(&l);
     return got;

@@ -77,7 +77,7 @@ static void pick_plane(const fl_poly *p, fl_rng *g, fl_vec3 *n, double *c)
 static double area_of(const fl_poly *p)
 {
     double a = 0.0;
-    for (int32_t f = 0; f < p->nf; f++) a += v3_norm(fl_poly_area(p, f));
+    for (int32_t f = 0; f < p->nf; f++) a += v3_norm(fl_poly_face_area_vector(p, f));
     return a;
 }
 
@@ -133,7 +133,7 @@ static void halves_make_the_whole(void **state)
             sum = v3_madd(sum, m.volume, d);
             xx += m.second.m[0][0] + m.second.m[1][1] + m.second.m[2][2] + m.volume * v3_norm2(d);
             surface += area_of(&half[s]);
-            cut[s] = half[s].nf ? v3_norm(fl_poly_area(&half[s], half[s].nf - 1)) : 0.0;
+            cut[s] = half[s].nf ? v3_norm(fl_poly_face_area_vector(&half[s], half[s].nf - 1)) : 0.0;
             assert_int_equal(half[s].nv - half[s].ne + half[s].nf, 2);
         }
         const double tol = cut_tolerance(&p, normal, c, whole.volume);
@@ -311,7 +311,7 @@ static void buoyancy_is_the_wet_part(void **state)
         fl_err err = {0};
         fl_poly p, q;
         fl_hull h;
-        fl_wet wet;
+        fl_submerged wet;
         fl_waterplane w;
         double lo, hi;
         floating(&p, &g);
@@ -319,20 +319,20 @@ static void buoyancy_is_the_wet_part(void **state)
         const fl_vec3 up = shape_direction(&g);
         reach(&p, up, &lo, &hi);
         const double level = fl_rng_in(&g, lo, hi);
-        fl_buoyancy(&h, up, level, &wet);
-        fl_buoyancy_plane(&h, up, level, &w);
+        fl_hull_submerged(&h, up, level, &wet);
+        fl_hull_waterplane(&h, up, level, &w);
         assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
         if (fl_poly_cut(&q, up, level, &err) == 0 && q.nv) {
             const fl_mass m = mass_of(&q, 0.0);
-            const fl_vec3 cap = fl_poly_area(&q, q.nf - 1);
+            const fl_vec3 cap = fl_poly_face_area_vector(&q, q.nf - 1);
             const double tol = cut_tolerance(&p, up, level, h.volume);
             assert_near_of(wet.volume, m.volume, tol, h.volume);
             assert_near_of(v3_norm(v3_sub(v3_scale(wet.volume, wet.centre), v3_scale(m.volume, m.centre))),
                            0.0, tol, h.volume * p.size);
             if (!beside(&p, up, level)) {
-                assert_near_of(wet.waterplane, v3_norm(cap), 1e-12, h.surface);
-                assert_near_of(w.area, v3_norm(cap), 1e-12, h.surface);
-                assert_near_of(wet.wetted, area_of(&q) - v3_norm(cap), 1e-12, h.surface);
+                assert_near_of(wet.waterplane_area, v3_norm(cap), 1e-12, h.surface_area);
+                assert_near_of(w.area, v3_norm(cap), 1e-12, h.surface_area);
+                assert_near_of(wet.wetted_area, area_of(&q) - v3_norm(cap), 1e-12, h.surface_area);
             }
             double polar = 0.0; /* int |x - c|^2 dA of the cut, triangle by triangle */
             const int32_t *cut = q.loop + q.first[q.nf - 1], m3 = q.first[q.nf] - q.first[q.nf - 1];
@@ -344,18 +344,18 @@ static void buoyancy_is_the_wet_part(void **state)
             }
             if (!beside(&p, up, level))
                 assert_near_of(w.second.m[0][0] + w.second.m[1][1] + w.second.m[2][2], polar, 1e-12,
-                               p.size * p.size * h.surface);
+                               p.size * p.size * h.surface_area);
             assert_near_of(v3_dot(up, w.centre), level, 1e-12, p.size);
-            assert_near_of(v3_norm(m3_mul(w.second, up)), 0.0, 1e-12, p.size * p.size * h.surface);
+            assert_near_of(v3_norm(m3_mul(w.second, up)), 0.0, 1e-12, p.size * p.size * h.surface_area);
         }
         fl_poly_free(&q);
         /* what one side lacks the other has */
-        fl_wet dry;
-        fl_buoyancy(&h, v3_neg(up), -level, &dry);
-        assert_near(wet.volume + dry.volume, h.volume, 1e-14 * p.size * h.surface / h.volume);
-        assert_near(wet.wetted + dry.wetted, h.surface, 1e-13);
+        fl_submerged dry;
+        fl_hull_submerged(&h, v3_neg(up), -level, &dry);
+        assert_near(wet.volume + dry.volume, h.volume, 1e-14 * p.size * h.surface_area / h.volume);
+        assert_near(wet.wetted_area + dry.wetted_area, h.surface_area, 1e-13);
         assert_near_of(v3_norm(v3_add(v3_scale(wet.volume, wet.centre), v3_scale(dry.volume, dry.centre))),
-                       0.0, 1e-14 * p.size * h.surface / h.volume, h.volume * p.size);
+                       0.0, 1e-14 * p.size * h.surface_area / h.volume, h.volume * p.size);
         fl_hull_free(&h);
         fl_poly_free(&p);
     }
@@ -367,9 +367,9 @@ static double energy_at(const fl_hull *h, fl_vec3 up, double level, double dz, f
     /* Raising the body lowers the water over it; turning the body by `turn` (body axes) turns up back. */
     const fl_vec3 u = m3_tmul(q_matrix(q_of_vector(turn)), up);
     fl_vec3 f, m;
-    fl_wet w;
-    fl_buoyancy(h, u, level - dz, &w);
-    if (plane) *plane = w.waterplane;
+    fl_submerged w;
+    fl_hull_submerged(h, u, level - dz, &w);
+    if (plane) *plane = w.waterplane_area;
     return fl_buoyancy_force(&w, u, level - dz, 1.0, &f, &m);
 }
 
@@ -384,7 +384,7 @@ static void force_is_the_gradient(void **state)
         fl_err err = {0};
         fl_poly p;
         fl_hull h;
-        fl_wet wet;
+        fl_submerged wet;
         fl_vec3 f, m;
         double lo, hi, round = 0.0;
         const double kind = fl_rng_unit(&g);
@@ -399,7 +399,7 @@ static void force_is_the_gradient(void **state)
         const fl_vec3 up = shape_direction(&g);
         reach(&p, up, &lo, &hi);
         const double size = p.size + round, level = fl_rng_in(&g, lo - round, hi + round);
-        fl_buoyancy(&h, up, level, &wet);
+        fl_hull_submerged(&h, up, level, &wet);
         fl_buoyancy_force(&wet, up, level, 1.0, &f, &m);
         const double d = 1e-5 * (hi - lo + 2 * round), tol = 2e-6 * h.volume;
         const double dz = (energy_at(&h, up, level, d, v3(0, 0, 0), NULL) -
@@ -415,12 +415,12 @@ static void force_is_the_gradient(void **state)
             assert_near_of(-du, v3_dot(m, t), 1.0, tol * size);
         }
         /* and the volume's slope is the water plane: dV/dlevel */
-        fl_wet a, b;
-        fl_buoyancy(&h, up, level + d, &a);
-        fl_buoyancy(&h, up, level - d, &b);
-        double least = fmin(a.waterplane, fmin(b.waterplane, wet.waterplane)),
-               most = fmax(a.waterplane, fmax(b.waterplane, wet.waterplane));
-        const double slope = (a.volume - b.volume) / (2 * d), room = (most - least) + 1e-8 * h.surface;
+        fl_submerged a, b;
+        fl_hull_submerged(&h, up, level + d, &a);
+        fl_hull_submerged(&h, up, level - d, &b);
+        double least = fmin(a.waterplane_area, fmin(b.waterplane_area, wet.waterplane_area)),
+               most = fmax(a.waterplane_area, fmax(b.waterplane_area, wet.waterplane_area));
+        const double slope = (a.volume - b.volume) / (2 * d), room = (most - least) + 1e-8 * h.surface_area;
         assert_true(slope >= least - room && slope <= most + room);
         fl_hull_free(&h);
         fl_poly_free(&p);
@@ -437,15 +437,15 @@ static void volume_is_continuous(void **state)
         fl_rng g = start(k, 7);
         fl_poly p;
         fl_hull h;
-        fl_wet w[3];
+        fl_submerged w[3];
         fl_vec3 up;
         double level;
         floating(&p, &g);
         hull_of(&h, &p, 0.0);
         pick_plane(&p, &g, &up, &level);
         const double d = 1e-9 * p.size;
-        for (int i = 0; i < 3; i++) fl_buoyancy(&h, up, level + (i - 1) * d, &w[i]);
-        const double plane = h.surface, eps = 1e-14 * p.size * h.surface;
+        for (int i = 0; i < 3; i++) fl_hull_submerged(&h, up, level + (i - 1) * d, &w[i]);
+        const double plane = h.surface_area, eps = 1e-14 * p.size * h.surface_area;
         for (int i = 0; i < 2; i++) {
             const double dv = w[i + 1].volume - w[i].volume;
             assert_true(dv >= -eps && dv <= plane * d + eps);
@@ -473,7 +473,7 @@ static void capsule_lies_between_polyhedra(void **state)
         static int32_t loop[8 * M * N], first[2 * M * N + 3];
         fl_poly axis, p;
         fl_hull h, hp;
-        fl_wet a, b;
+        fl_submerged a, b;
         int32_t nf = 0, nl = 0;
         for (int i = 0; i < 2 * M; i++) {
             const double t = i < M ? -0.5 * pi * (1 - (i + 0.5) / M) : 0.5 * pi * (i - M + 0.5) / M;
@@ -501,17 +501,17 @@ static void capsule_lies_between_polyhedra(void **state)
         hull_of(&hp, &p, 0.0);
         const fl_vec3 up = shape_direction(&g);
         const double level = fl_rng_in(&g, -1, 1) * (0.5 * len * fabs(up.z) + r);
-        fl_buoyancy(&h, up, level, &a);
-        fl_buoyancy(&hp, up, level, &b);
+        fl_hull_submerged(&h, up, level, &a);
+        fl_hull_submerged(&hp, up, level, &b);
         assert_near_of(b.volume, a.volume, 0.012, h.volume);
         assert_near_of(v3_norm(v3_sub(v3_scale(b.volume, b.centre), v3_scale(a.volume, a.centre))), 0.0,
                        0.012, h.volume * (len + r));
-        assert_near_of(b.wetted, a.wetted, 0.012, h.surface);
-        assert_near_of(b.waterplane, a.waterplane, 0.012, h.surface);
-        fl_wet dry;
-        fl_buoyancy(&h, v3_neg(up), -level, &dry);
+        assert_near_of(b.wetted_area, a.wetted_area, 0.012, h.surface_area);
+        assert_near_of(b.waterplane_area, a.waterplane_area, 0.012, h.surface_area);
+        fl_submerged dry;
+        fl_hull_submerged(&h, v3_neg(up), -level, &dry);
         assert_near(a.volume + dry.volume, h.volume, 1e-12);
-        assert_near(a.wetted + dry.wetted, h.surface, 1e-12);
+        assert_near(a.wetted_area + dry.wetted_area, h.surface_area, 1e-12);
         fl_hull_free(&h);
         fl_hull_free(&hp);
         fl_poly_free(&p);

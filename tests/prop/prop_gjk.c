@@ -8,7 +8,7 @@
 #include "geom/dd.h"
 #include "narrow/gjk.h"
 #include "support/oracle.h"
-#include "support/couples.h"
+#include "support/convex_pairs.h"
 
 enum {
     CASES = 100000,
@@ -25,7 +25,7 @@ enum {
 
 struct tally {
     long n, brute, starts, ties, meet, ccd_wrong;
-    fl_deep_count count;
+    fl_penetration_count count;
     double worst_d, worst_n, worst_room, steps;
     int most_steps;
 };
@@ -120,10 +120,10 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
                    : 0;
     }
     if (g.overlap) {
-        /* Bodies that are apart are apart along a face normal or a product of edges, and fl_deep() finds
+        /* Bodies that are apart are apart along a face normal or a product of edges, and fl_penetration_find() finds
          * the least overlap of all these. */
-        fl_overlap deep;
-        fl_deep(&q.a, &q.b, &t->count, &deep);
+        fl_penetration deep;
+        fl_penetration_find(&q.a, &q.b, &t->count, &deep);
         depth = deep.depth;
         room = (double)oracle_room(&q.a, &q.b, deep.n) / size;
         bad |= fabs(room * size + depth) > 2e-15 * size || fabs(v3_norm(deep.n) - 1.0) > 1e-15 ? 32 : 0;
@@ -198,8 +198,8 @@ static void run(enum pair_kind kind, long cases)
         "meeting: %ld; the start showed %ld times\n"
         "    depths: %lld, of which libccd had none %lld, a poor one %lld, was capped %lld\n",
         n, name[kind], t.meet, t.worst_room, t.brute, t.worst_d, t.worst_n, t.ties, t.steps / (double)n,
-        t.most_steps, t.ccd_wrong, t.starts, (long long)t.count.asked, (long long)t.count.none,
-        (long long)t.count.poor, (long long)t.count.capped);
+        t.most_steps, t.ccd_wrong, t.starts, (long long)t.count.queries, (long long)t.count.no_answer,
+        (long long)t.count.rejected, (long long)t.count.capped);
     assert_int_equal(t.n, 0);
     assert_true(t.starts <= 1 + n / 10000);
 }

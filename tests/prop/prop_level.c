@@ -5,16 +5,16 @@
 #include "support/near.h"
 #include <math.h>
 #include <stdio.h>
-#include "step/interact.h"
+#include "contact/pair_force.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/shapes.h"
 
 enum { CASES = 600, TURNS = 6 };
 
-/* Of the force: what is left where one rule of Gauss takes over from another (strips.h), and where an
+/* Of the force: what is left where one rule of Gauss takes over from another (edge_integral.h), and where an
  * edge is cut in two or not, whose places are damped along the directions that they have in the mean. */
 #define LEFT 1e-7
 
@@ -32,9 +32,9 @@ static double tiny(fl_rng *g, double lo, double hi)
 static fl_pair look(fl_world *w)
 {
     fl_pair p;
-    fl_pair_start(w, &p, 0, 1);
-    fl_interact(w, &p, 0, 0.0, 1);
-    fl_pair_end(&p);
+    fl_pair_init(w, &p, 0, 1);
+    fl_pair_evaluate(w, &p, 0, 0.0, 1);
+    fl_pair_free(&p);
     assert_false(w->failed);
     return p;
 }
@@ -43,16 +43,16 @@ static fl_pair look(fl_world *w)
  * d, over what their stiffness and LEFT allow. */
 static double jump(fl_world *w, const fl_pair *p, fl_rng *g)
 {
-    const double d = pow(10.0, -fl_rng_in(g, 11.0, 15.5)), arm = w->b.bound[0];
+    const double d = pow(10.0, -fl_rng_in(g, 11.0, 15.5)), arm = w->b.bounding_radius[0];
     const fl_vec3 x = w->b.x[0];
     const fl_quat q = w->b.q[0];
     lab_pose(w, 0, v3_madd(x, d, shape_direction(g)), q_mul(q_of_vector(v3_scale(d, shape_direction(g))), q));
     w->b.v[0] = v3(-0.5, 0.1, 0.02), w->b.w[0] = v3(0.01, 0.05, 0.2);
     const fl_pair o = look(w);
     w->b.x[0] = x, w->b.q[0] = q;
-    const double off = v3_norm(v3_sub(o.f, p->f)) + v3_norm(v3_sub(o.ti, p->ti)) / arm;
-    const double stiff = p->stiff_i * w->b.m[0] * (1.0 + arm);
-    return off / (10.0 * stiff * (d + 1e-15) + LEFT * v3_norm(p->f));
+    const double off = v3_norm(v3_sub(o.force, p->force)) + v3_norm(v3_sub(o.torque_i, p->torque_i)) / arm;
+    const double stiff = p->omega2_i * w->b.m[0] * (1.0 + arm);
+    return off / (10.0 * stiff * (d + 1e-15) + LEFT * v3_norm(p->force));
 }
 
 /* Body 0 with a face on the left, against a thing with one on the right at x = 0. */
@@ -79,8 +79,8 @@ static void one(enum thing b, fl_rng *g, int *met, double *worst)
              q_mul(q_of_vector(turn), w->b.q[0]));
     w->b.v[0] = v3(-0.5, 0.1, 0.02), w->b.w[0] = v3(0.01, 0.05, 0.2);
     const fl_pair p = look(w);
-    if (p.n) ++*met;
-    for (int k = 0; k < TURNS && p.n; k++) {
+    if (p.touching) ++*met;
+    for (int k = 0; k < TURNS && p.touching; k++) {
         const double e = jump(w, &p, g);
         if (!(e < 1.0))
             printf("%s: jumps by %.2e of what is allowed, depth %.1e, turned %.1e %.1e %.1e, y %.3g\n",
@@ -124,8 +124,8 @@ static void a_rounding_has_no_stiffness(void **state)
         lab_make(&l, 1e-9);
         const fl_pair p = lab_look(&l.w, 0, 1);
         const double stiff = l.w.b.m[0] / (l.w.dt_critical * l.w.dt_critical);
-        assert_true(isfinite(v3_norm(p.f)) && isfinite(v3_norm(p.ti)));
-        if (p.n) assert_true(stiff > 0.4e9 * a && stiff < 1.6e9 * a);
+        assert_true(isfinite(v3_norm(p.force)) && isfinite(v3_norm(p.torque_i)));
+        if (p.touching) assert_true(stiff > 0.4e9 * a && stiff < 1.6e9 * a);
         else assert_true(overlap < 1e-12 * a);
         lab_free(&l);
     }

@@ -8,9 +8,9 @@
 #include "sim/energy_balance.h"
 #include "support/near.h"
 #include "base/rng.h"
-#include "step/balls.h"
-#include "step/snapshot.h"
-#include "step/step.h"
+#include "sphere/contact_list.h"
+#include "sim/snapshot.h"
+#include "sim/step.h"
 #include "support/scenes.h"
 #include "world/access.h"
 
@@ -37,11 +37,13 @@ static int put_back(fl_world *w, const char *text, size_t n, fl_err *err)
 static void same_sea(const fl_world *a, const fl_world *b)
 {
     for (int32_t i = 0; i < a->sea.n; i++) {
-        if (fl_world_away(a, i) || !a->sea.water) continue;
-        const fl_vec3 all[2][2] = {{fl_sea_push(&a->sea, i), fl_sea_flow(&a->sea, i)},
-                                   {fl_sea_push(&b->sea, i), fl_sea_flow(&b->sea, i)}};
+        if (fl_body_absent(a, i) || !a->sea.water) continue;
+        const fl_vec3 all[2][2] = {{fl_environment_water_force(&a->sea, i), fl_environment_flow(&a->sea, i)},
+                                   {fl_environment_water_force(&b->sea, i), fl_environment_flow(&b->sea, i)}};
         assert_memory_equal(all[0], all[1], sizeof all[0]);
-        if (a->sea.waves) assert_memory_equal(&a->sea.turn[i], &b->sea.turn[i], sizeof *a->sea.turn);
+        if (a->sea.waves)
+            assert_memory_equal(&a->sea.water_moment[i], &b->sea.water_moment[i],
+                                sizeof *a->sea.water_moment);
     }
 }
 
@@ -49,14 +51,14 @@ static void same_sea(const fl_world *a, const fl_world *b)
 static void same(fl_world *a, fl_world *b, const char *law, int64_t at)
 {
     size_t na = 0, nb = 0;
-    fl_step_ledger(a);
-    fl_step_ledger(b);
+    fl_energy_update(a);
+    fl_energy_update(b);
     char *ta = snapshot(a, &na), *tb = snapshot(b, &nb);
     if (na != nb || memcmp(ta, tb, na) != 0)
         print_error("law %s, stopped after %lld steps\n", law, (long long)at);
     assert_int_equal(na, nb);
     assert_memory_equal(ta, tb, na);
-    assert_true(fl_step_hash(a) == fl_step_hash(b));
+    assert_true(fl_state_hash(a) == fl_state_hash(b));
     same_sea(a, b);
     free(ta);
     free(tb);
@@ -96,7 +98,7 @@ static void any_step_is_a_place_to_stop(void **state)
             assert_int_equal(lab_run(&whole, further), 0);
             assert_int_equal(lab_run(&l, further), 0);
             same(&whole.w, &l.w, IT[k].law, at);
-            pairs = whole.w.touching_steps;
+            pairs = whole.w.contact_steps;
             lab_free(&l);
         }
         assert_true(pairs > 3000 && whole.w.searches >= 2);
@@ -118,7 +120,7 @@ static void beside_a_hook(lab *l, int64_t seed)
     lab_prism(l, 6, hook, -1, 1);
     for (int k = 0; k < 3; k++) {
         const fl_vec3 x = v3(-2.0 + 1.5 * k, fl_rng_in(&g, 0.52, 0.6), 0);
-        const fl_quat q = q_about(2, fl_rng_in(&g, -0.03, 0.03));
+        const fl_quat q = q_about_axis(2, fl_rng_in(&g, -0.03, 0.03));
         const fl_vec3 v = v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 1.0), fl_rng_in(&g, -0.2, 0.2));
         lab_box(l, x, v3(0.5, 0.5, 0.3), 0.05, q, v3_scale(fast, v),
                 v3(0, 0, fast * fl_rng_in(&g, -0.1, 0.1)));
@@ -162,11 +164,11 @@ static void told_and_guided(lab *l)
 static int let_go(const fl_world *w, const uint8_t *was)
 {
     for (int64_t c = 0; c < w->n_pair; c++) {
-        const fl_near *q = &w->pair[c];
-        if (!q->n || !q->full->surrogate || !q->full->surrogate->live) continue;
+        const fl_neighbour_pair *q = &w->pair[c];
+        if (!q->touching || !q->contact->surrogate || !q->contact->surrogate->valid) continue;
         for (int side = 0; side < 2; side++) {
             const int32_t i = side ? q->j : q->i;
-            if (i < w->n && was[i] && !w->traffic.guided[i] && !w->traffic.away[i]) return 1;
+            if (i < w->n && was[i] && !w->inflow.guided[i] && !w->inflow.absent[i]) return 1;
         }
     }
     return 0;
@@ -184,7 +186,7 @@ static void who_is_let_go_is_told_as_before(void **state)
     uint8_t *const was = malloc((size_t)whole.w.n);
     assert_non_null(was);
     for (int k = 0; k < 1300; k++) {
-        memcpy(was, whole.w.traffic.guided, (size_t)whole.w.n);
+        memcpy(was, whole.w.inflow.guided, (size_t)whole.w.n);
         free(before);
         before = snapshot(&whole.w, &n_before);
         assert_int_equal(lab_run(&whole, 1), 0);
@@ -227,7 +229,8 @@ static void a_state_stays_what_it_is(void **state)
             size_t n = 0;
             int now = 0;
             assert_int_equal(lab_run(&whole, 1), 0);
-            for (int32_t c = 0; c < whole.w.n_pair; c++) now += whole.w.pair[c].full && !whole.w.pair[c].n;
+            for (int32_t c = 0; c < whole.w.n_pair; c++)
+                now += whole.w.pair[c].contact && !whole.w.pair[c].touching;
             if (now == 0) continue;
             loose += now;
             SCENE[k](&l, 3, "patch");
@@ -260,7 +263,7 @@ static void a_step_that_begins_anew_finds_the_water_it_had(void **state)
             SCENE[k](&whole, 2, "patch");
             lab_make(&whole, 0);
             assert_int_equal(lab_run(&whole, at), 0);
-            fl_step_resize(&whole.w, whole.w.dt, fl_world_time(&whole.w) * (1.0 + 1e-14));
+            fl_step_set_size(&whole.w, whole.w.dt, fl_world_time(&whole.w) * (1.0 + 1e-14));
             char *text = snapshot(&whole.w, &n);
             SCENE[k](&l, 2, "patch");
             lab_make(&l, 0);
@@ -285,7 +288,7 @@ static void balls_that_part(lab *l, double x)
     lab_set(l, "material.ice.young=1e6");
     lab_sphere(l, v3(-x, 0, 0), 0.5, v3(2, 0, 0.3), v3(0, 0, 0));
     lab_sphere(l, v3(x, 0, 0.1), 0.5, v3(-2, 0.1, 0), v3(0, 0, 0));
-    lab_box(l, v3(0, 4, 0), v3(0.6, 0.7, 0.4), 0.05, q_about(0, 0.1), v3(0, 0, 0), v3(0, 0, 0));
+    lab_box(l, v3(0, 4, 0), v3(0.6, 0.7, 0.4), 0.05, q_about_axis(0, 0.1), v3(0, 0, 0), v3(0, 0, 0));
     lab_make(l, 0);
 }
 
@@ -298,10 +301,10 @@ static void rows_that_were_are_not_seen(void **state)
     size_t n = 0;
     (void)state;
     balls_that_part(&whole, 0.53);
-    while (fl_balls_rows(&whole.w) || whole.w.step < 10) assert_int_equal(lab_run(&whole, 10), 0);
-    assert_true(whole.w.balls.bodies > 0 && whole.w.touching_steps > 10);
+    while (fl_contact_list_size(&whole.w) || whole.w.step < 10) assert_int_equal(lab_run(&whole, 10), 0);
+    assert_true(whole.w.spheres.bodies > 0 && whole.w.contact_steps > 10);
     balls_that_part(&l, 5.0);
-    assert_int_equal(l.w.balls.bodies, 0);
+    assert_int_equal(l.w.spheres.bodies, 0);
     char *text = snapshot(&whole.w, &n);
     assert_int_equal(put_back(&l.w, text, n, &err), 0);
     free(text);
@@ -320,9 +323,9 @@ static void frozen_deep(lab *l)
     lab_set(l, "bond.on=true");
     lab_set(l, "material.ice.young=1e7");
     for (int k = 0; k < 2; k++)
-        lab_box(l, v3(0.99 * k, 0, 0.1 * k), v3(0.5, 0.4, 0.3), 0.02, q_about(0, 0.02 * k), v3(0, 0, 0),
+        lab_box(l, v3(0.99 * k, 0, 0.1 * k), v3(0.5, 0.4, 0.3), 0.02, q_about_axis(0, 0.02 * k), v3(0, 0, 0),
                 v3(0, 0, 0));
-    assert_int_equal(fl_field_add_bond(&l->field, 0, 1, 0.4, 1.0, v3(0.495, 0, 0), &err), 0);
+    assert_int_equal(fl_ice_field_add_bond(&l->field, 0, 1, 0.4, 1.0, v3(0.495, 0, 0), &err), 0);
     lab_make(l, 1e-4);
 }
 
@@ -342,17 +345,18 @@ static void radii_that_were_are_not_seen(void **state)
     (void)state;
     frozen_deep(&whole);
     frozen_deep(&l);
-    fl_bond_end(&whole.w.frozen.bond[0]);
-    whole.w.frozen.ended = 1;
+    fl_bond_end(&whole.w.bonds.bond[0]);
+    whole.w.bonds.ended = 1;
     for (size_t k = 0; k < sizeof WAY / sizeof *WAY; k++) {
         whole.w.b.v[1] = v3(WAY[k].v, 0, 0);
-        fl_body_derive(&whole.w.b, 1);
+        fl_body_update_spin(&whole.w.b, 1);
         assert_int_equal(lab_run(&whole, WAY[k].steps), 0);
         assert_int_equal(whole.w.n_pair, 1);
-        assert_int_equal(whole.w.pair[0].n, WAY[k].touch);
-        if (k == 1) keep = whole.w.pair[0].full->keep;
+        assert_int_equal(whole.w.pair[0].touching, WAY[k].touch);
+        if (k == 1) keep = whole.w.pair[0].contact->radius_factor;
     }
-    assert_true(keep > 0.0 && whole.w.pair[0].full->keep > keep && whole.w.pair[0].full->keep < 1.0);
+    assert_true(keep > 0.0 && whole.w.pair[0].contact->radius_factor > keep &&
+                whole.w.pair[0].contact->radius_factor < 1.0);
     char *text = snapshot(&whole.w, &n);
     assert_int_equal(put_back(&l.w, text, n, &err), 0);
     free(text);

@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/rng.h"
 #include "scene/scene_read.h"
 #include "scene/scene_section.h"
-#include "scene/scene_show.h"
+#include "scene/scene_print.h"
 #include "scene/scene_value.h"
 
 /* One of n, by chance. */
@@ -18,7 +18,7 @@ static int pick(fl_rng *g, int n) { return (int)(fl_rng_u64(g) % (uint64_t)n); }
 static void number(fl_rng *g, const fl_key *key, char *text, size_t size)
 {
     double lo = -INFINITY, hi = INFINITY, x;
-    char buf[FL_NUM_LEN];
+    char buf[FL_NUMBER_LEN];
     if (key->special && pick(g, 4) == 0) {
         snprintf(text, size, "%s", key->special);
         return;
@@ -31,7 +31,7 @@ static void number(fl_rng *g, const fl_key *key, char *text, size_t size)
     x = isfinite(lo) && isfinite(hi) ? fl_rng_in(g, lo, hi) : pow(10.0, fl_rng_in(g, -12.0, 12.0));
     if (isfinite(lo) && isinf(hi)) x += lo;
     if (isinf(lo) && pick(g, 2)) x = -x;
-    snprintf(text, size, "%s", fl_num_text(x, buf));
+    snprintf(text, size, "%s", fl_number_text(x, buf));
 }
 
 static void random_value(fl_rng *g, const fl_key *key, char *text, size_t size)
@@ -101,7 +101,7 @@ static void what_is_set_is_written_and_read_back(void **state)
         fl_err err = {0};
         char *first, *second, assignment[2000];
         const int sets = pick(&g, 60);
-        fl_scene_start(&s);
+        fl_scene_init(&s);
         fl_scene_set(&s, "material.m-0.density=1000", &err);
         for (int k = 0; k < sets; k++) {
             const fl_key *key = &fl_key_table[pick(&g, fl_key_count)];
@@ -152,7 +152,7 @@ static void pairs_are_symmetric(void **state)
         fl_rng g = fl_rng_of(test_seed(), 1000000 + c, FL_RNG_TEST);
         fl_scene s;
         fl_err err = {0};
-        fl_scene_start(&s);
+        fl_scene_init(&s);
         for (int k = 0; k < 12; k++) {
             char assignment[200];
             snprintf(assignment, sizeof assignment,

@@ -7,12 +7,12 @@
 #include <string.h>
 #include "sim/energy_balance.h"
 #include "support/near.h"
-#include "base/par.h"
+#include "base/parallel.h"
 #include "base/rng.h"
 #include "narrow/gjk.h"
-#include "step/sleep.h"
-#include "step/snapshot.h"
-#include "support/lab.h"
+#include "sim/sleep.h"
+#include "sim/snapshot.h"
+#include "support/small_world.h"
 
 #define RADIUS 0.03
 
@@ -87,16 +87,17 @@ static void off_by_what_was_told(void **state)
         lab off;
         floes(&off, (enum sea)sea, 4.0, 0.05, test_seed(), 0.0);
         assert_int_equal(lab_run(&off, STEPS), 0);
-        assert_int_equal(off.w.touching_steps, 0);
+        assert_int_equal(off.w.contact_steps, 0);
         for (int k = 0; k < 2; k++) {
             lab on;
             floes(&on, (enum sea)sea, 4.0, 0.05, test_seed(), tol[k]);
             assert_int_equal(lab_run(&on, STEPS), 0);
-            const fl_sleep_count c = fl_sleep_counted(&on.w);
-            const double naps = (double)c.naps / FLOES;
-            fl_sleep_look(&on.w);
-            if (k == 0) assert_true((double)c.coasted > 0.9 * STEPS * FLOES && naps < STEPS / 4.0);
-            assert_true(c.off <= tol[k] && apart(&on, &off) <= RADIUS * (naps * c.summed + tol[k]));
+            const fl_sleep_totals c = fl_sleep_sum_totals(&on.w);
+            const double naps = (double)c.n_skips / FLOES;
+            fl_sleep_advance_to_now(&on.w);
+            if (k == 0) assert_true((double)c.ballistic_steps > 0.9 * STEPS * FLOES && naps < STEPS / 4.0);
+            assert_true(c.max_error <= tol[k] &&
+                        apart(&on, &off) <= RADIUS * (naps * c.max_error_sum + tol[k]));
             lab_free(&on);
         }
         lab_free(&off);
@@ -127,20 +128,20 @@ static void no_contact_goes_unnoticed(void **state)
         for (int look = 0; look < 24; look++) {
             uint8_t live[FLOES][FLOES] = {{0}};
             assert_int_equal(lab_run(&l, 41), 0);
-            for (int32_t c = 0; c < l.w.n_live; c++) {
-                const fl_pair *p = l.w.pair[l.w.live[c]].full;
+            for (int32_t c = 0; c < l.w.n_touching; c++) {
+                const fl_pair *p = l.w.pair[l.w.touching_pairs[c]].contact;
                 live[p->i][p->j] = 1;
                 touched++;
             }
-            const uint64_t before = fl_step_hash(&l.w);
-            fl_sleep_look(&l.w);
+            const uint64_t before = fl_state_hash(&l.w);
+            fl_sleep_advance_to_now(&l.w);
             for (int32_t i = 0; i < FLOES; i++)
                 for (int32_t j = i + 1; j < FLOES; j++)
                     if (distance(&l.w, i, j) < 2.0 * RADIUS * (1.0 - 1e-9)) assert_true(live[i][j]);
-            fl_sleep_back(&l.w);
-            assert_true(fl_step_hash(&l.w) == before);
+            fl_sleep_restore(&l.w);
+            assert_true(fl_state_hash(&l.w) == before);
         }
-        assert_true(fl_sleep_counted(&l.w).coasted > 1000);
+        assert_true(fl_sleep_sum_totals(&l.w).ballistic_steps > 1000);
         lab_free(&l);
     }
     assert_true(touched > 100);
@@ -173,20 +174,20 @@ static void rest_and_wake(void **state)
     heap(&off, 0.0);
     heap(&on, tol);
     for (int k = 0; k < 300; k++) {
-        const int32_t before = on.w.sleep.resting;
+        const int32_t before = on.w.sleep.n_resting;
         assert_int_equal(lab_run(&off, 16), 0);
         assert_int_equal(lab_run(&on, 16), 0);
-        fl_sleep_look(&on.w);
+        fl_sleep_advance_to_now(&on.w);
         for (int32_t i = 0; i < 5 && woken == 0; i++)
             assert_true(v3_norm(v3_sub(on.w.b.x[i], off.w.b.x[i])) < 4.0 * tol * RADIUS);
-        fl_sleep_back(&on.w);
+        fl_sleep_restore(&on.w);
         for (int32_t i = 0; i < on.w.n; i++) /* who is awake is asked again soon, also after a rest */
-            assert_true(on.w.sleep.kind[i] != FL_AWAKE || on.w.sleep.until[i] <= on.w.step + 100);
-        most = on.w.sleep.resting > most ? on.w.sleep.resting : most;
-        woken += on.w.sleep.resting == 0 && before >= 3;
+            assert_true(on.w.sleep.phase[i] != FL_AWAKE || on.w.sleep.phase_end[i] <= on.w.step + 100);
+        most = on.w.sleep.n_resting > most ? on.w.sleep.n_resting : most;
+        woken += on.w.sleep.n_resting == 0 && before >= 3;
     }
-    const fl_sleep_count c = fl_sleep_counted(&on.w);
-    assert_true(most >= 3 && woken > 0 && c.rested > 1000);
+    const fl_sleep_totals c = fl_sleep_sum_totals(&on.w);
+    assert_true(most >= 3 && woken > 0 && c.resting_steps > 1000);
     assert_true(on.w.b.x[2].x < 2.4 - 0.01 && fabs(on.w.b.x[2].x - off.w.b.x[2].x) < 0.1);
     lab_free(&on);
     lab_free(&off);
@@ -221,13 +222,13 @@ static void all_rest_however_they_came(void **state)
     for (int late = 0; late < LEVELS; late++) {
         lab l;
         stack(&l);
-        for (int k = 0; k < 500 && l.w.sleep.resting < LEVELS; k++) assert_int_equal(lab_run(&l, 64), 0);
-        assert_int_equal(l.w.sleep.resting, LEVELS);
-        fl_sleep_wake(&l.w);
+        for (int k = 0; k < 500 && l.w.sleep.n_resting < LEVELS; k++) assert_int_equal(lab_run(&l, 64), 0);
+        assert_int_equal(l.w.sleep.n_resting, LEVELS);
+        fl_sleep_wake_resting(&l.w);
         assert_int_equal(lab_run(&l, 64), 0);
-        l.w.sleep.nap[late].mark = -1.0;
-        for (int k = 0; k < 20 && l.w.sleep.resting < LEVELS; k++) assert_int_equal(lab_run(&l, 64), 0);
-        assert_int_equal(l.w.sleep.resting, LEVELS);
+        l.w.sleep.state[late].window_odometer = -1.0;
+        for (int k = 0; k < 20 && l.w.sleep.n_resting < LEVELS; k++) assert_int_equal(lab_run(&l, 64), 0);
+        assert_int_equal(l.w.sleep.n_resting, LEVELS);
         lab_free(&l);
     }
 }
@@ -252,7 +253,7 @@ static double shelved(double top, double sleep, int64_t *rested)
     lab_make(&l, 0);
     while (fl_world_time(&l.w) < 12.0) assert_int_equal(lab_run(&l, 10), 0);
     const double bears = -l.w.part_impulse[0].z / (l.w.b.m[0] * 9.81 * fl_world_time(&l.w));
-    *rested = fl_sleep_counted(&l.w).rested;
+    *rested = fl_sleep_sum_totals(&l.w).resting_steps;
     lab_free(&l);
     return bears;
 }
@@ -290,11 +291,11 @@ static void who_is_led_does_not_rest(void **state)
     assert_int_equal(fl_poly_box(&core, v3(0.47, 0.47, 0.22), &err), 0);
     fl_poly_to_frame(&core, v3(0, 0, -0.25), q_matrix(q_one()));
     assert_int_equal(
-        fl_field_add(&l.field, 1, RADIUS, &core, NULL, "push", v3(speed, 0, 0), v3(0, 0, 0), &err), 0);
+        fl_ice_field_add(&l.field, 1, RADIUS, &core, NULL, "push", v3(speed, 0, 0), v3(0, 0, 0), &err), 0);
     lab_box(&l, v3(1, 0, 0.25), v3(0.5, 0.5, 0.25), RADIUS, q_one(), v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 0);
     assert_int_equal(lab_run(&l, (int64_t)(2.0 / l.w.dt)), 0);
-    fl_sleep_look(&l.w);
+    fl_sleep_advance_to_now(&l.w);
     assert_near(l.w.b.x[0].x, speed * fl_world_time(&l.w), 1e-6);
     lab_free(&l);
 }
@@ -313,7 +314,7 @@ static double falls_at(double lean, double sleep)
     lab_set(&l, "boundary.type=free free rigid");
     lab_set(&l, "boundary.min=none none 0");
     const fl_vec3 none = v3(0, 0, 0);
-    lab_box(&l, v3(0, 0, 0.5 - 2e-6), v3(0.5, 0.0501, 0.5), 0.05, q_about(0, lean), none, none);
+    lab_box(&l, v3(0, 0, 0.5 - 2e-6), v3(0.5, 0.0501, 0.5), 0.05, q_about_axis(0, lean), none, none);
     lab_make(&l, 0);
     while (l.w.b.x[0].z > 0.25 && fl_world_time(&l.w) < 60.0) assert_int_equal(lab_run(&l, 10), 0);
     const double t = fl_world_time(&l.w);
@@ -370,9 +371,9 @@ static void threads_stops_and_looks(void **state)
             for (int64_t k = 0; k < stop; k += 10) {
                 assert_int_equal(lab_run(&l, k + 10 < stop ? 10 : stop - k), 0);
                 if (way != 2) continue;
-                fl_sleep_look(&l.w);
-                fl_step_ledger(&l.w);
-                fl_sleep_back(&l.w);
+                fl_sleep_advance_to_now(&l.w);
+                fl_energy_update(&l.w);
+                fl_sleep_restore(&l.w);
             }
             FILE *f = open_memstream(&text, &n);
             assert_non_null(f);
@@ -383,8 +384,8 @@ static void threads_stops_and_looks(void **state)
             fl_text_close(&in);
             free(text);
             assert_true(everything(&m.w, 0) == everything(&l.w, 0));
-            const fl_sleep_count c = fl_sleep_counted(&l.w);
-            assert_true(sea > MASSES ? c.rested > 0 : c.coasted > 0);
+            const fl_sleep_totals c = fl_sleep_sum_totals(&l.w);
+            assert_true(sea > MASSES ? c.resting_steps > 0 : c.ballistic_steps > 0);
             fl_world *go = way == 1 ? &m.w : &l.w;
             for (int k = 0; k < 150; k++) assert_int_equal(fl_step(go, &err), 0);
             for (int without = 0; without < 2 && way == 0; without++)
@@ -400,7 +401,7 @@ static void threads_stops_and_looks(void **state)
 int main(int argc, char **argv)
 {
     (void)argc;
-    fl_par_wait_briefly(argv); /* two threads, and tests at the same time */
+    fl_parallel_limit_spin(argv); /* two threads, and tests at the same time */
     const struct CMUnitTest tests[] = {cmocka_unit_test(off_by_what_was_told),
                                        cmocka_unit_test(no_contact_goes_unnoticed),
                                        cmocka_unit_test(rest_and_wake),

@@ -7,7 +7,7 @@
 #include "sim/energy_balance.h"
 #include "support/near.h"
 #include "base/rng.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/shapes.h"
 
 /* What to vary. */
@@ -76,7 +76,7 @@ static void build(lab *l, const heap *h, uint64_t seed)
     lab_make(l, 0);
     if (h->skin > 0.0) {
         l->w.skin *= h->skin;
-        l->w.found_at = -1; /* the list at hand is that of the old skin */
+        l->w.last_search_step = -1; /* the list at hand is that of the old skin */
     }
 }
 
@@ -85,8 +85,8 @@ static uint64_t hash_after(const heap *h, uint64_t seed, int64_t steps, int64_t 
     lab l;
     build(&l, h, seed);
     assert_int_equal(lab_run(&l, steps), 0);
-    const uint64_t hash = fl_step_hash(&l.w);
-    *touching = l.w.touching_steps;
+    const uint64_t hash = fl_state_hash(&l.w);
+    *touching = l.w.contact_steps;
     *searches = l.w.searches;
     if (h->threads > 1) assert_int_equal(l.w.threads, h->threads);
     lab_free(&l);
@@ -161,11 +161,11 @@ static uint64_t on_a_pole(int64_t seed, int every)
     lab_sphere(&l, v3_scale(thick + 0.05 + 0.063, up), 0.05, v3_scale(-1.0, up), v3(1, 2, 3));
     lab_cone(&l, (fl_cone){v3_scale(-200, a), v3_scale(200, a), thick, thick});
     lab_make(&l, 2e-4);
-    lab_pose(&l.w, 1, l.w.b.x[1], q_mul(l.w.b.q[1], q_about(2, fl_rng_in(&g, 0.0, 0.1))));
-    l.w.found_at = -1;
+    lab_pose(&l.w, 1, l.w.b.x[1], q_mul(l.w.b.q[1], q_about_axis(2, fl_rng_in(&g, 0.0, 0.1))));
+    l.w.last_search_step = -1;
     assert_int_equal(lab_run(&l, 500), 0);
-    const uint64_t hash = fl_step_hash(&l.w);
-    assert_true(l.w.touching_steps > 0 && l.w.half_steps == 0);
+    const uint64_t hash = fl_state_hash(&l.w);
+    assert_true(l.w.contact_steps > 0 && l.w.deep_overlap_steps == 0);
     lab_free(&l);
     return hash;
 }
@@ -195,7 +195,7 @@ static uint64_t about_a_sheet(int64_t seed, int every)
             fl_surface_triangle(&l.surface.part[0], TRIANGLE[k][0], TRIANGLE[k][1], TRIANGLE[k][2], &err), 0);
     lab_make(&l, 5e-5);
     const int rc = lab_run(&l, 2000);
-    const uint64_t hash = fl_step_hash(&l.w) + (uint64_t)rc;
+    const uint64_t hash = fl_state_hash(&l.w) + (uint64_t)rc;
     lab_free(&l);
     return hash;
 }
@@ -233,10 +233,10 @@ static void momenta_are_conserved(void **state)
             }
             if (t == 0) assert_int_equal(lab_run(&l, 1000), 0);
         }
-        assert_true(l.w.touching_steps > 5000);
+        assert_true(l.w.contact_steps > 5000);
         assert_near_of(v3_norm(v3_sub(p[1], p[0])), 0.0, 1e-12, ps);
         assert_near_of(v3_norm(v3_sub(J[1], J[0])), 0.0, 1e-12, Js);
-        assert_near_of(v3_norm(l.w.imbalance), 0.0, 1e-13, l.w.impulse_size);
+        assert_near_of(v3_norm(l.w.imbalance), 0.0, 1e-13, l.w.impulse_sum);
         lab_free(&l);
     }
 }
@@ -259,7 +259,7 @@ static void the_order_of_bodies_does_not_matter(void **state)
             x = fmax(x, v3_norm(v3_sub(a->x[i], b->x[n - 1 - i])));
             v = fmax(v, v3_norm(v3_sub(a->v[i], b->v[n - 1 - i])));
         }
-        assert_true(l[0].w.touching_steps > 1000);
+        assert_true(l[0].w.contact_steps > 1000);
         assert_near_of(x, 0.0, 1e-9, 1.0); /* bodies of 1 m at 1 m/s */
         assert_near_of(v, 0.0, 1e-9, 1.0);
         lab_free(&l[0]);
@@ -328,7 +328,7 @@ static void a_mirror_changes_nothing(void **state)
                 v[k][i] = l.w.b.v[i], w[k][i] = l.w.b.w[i];
                 v[k][i].x *= m, w[k][i].y *= m, w[k][i].z *= m;
             }
-            touching += l.w.touching_steps;
+            touching += l.w.contact_steps;
             lab_free(&l);
         }
         assert_true(touching > 100);

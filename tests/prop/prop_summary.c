@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/rng.h"
-#include "stat/describe.h"
+#include "stat/descriptive_stats.h"
 #include "stat/peaks.h"
 #include "stat/rainflow.h"
-#include "stat/reduce.h"
+#include "stat/run_summary.h"
 #include "stat/sample.h"
 #include "stat/series.h"
 #include "stat/summary_file.h"
@@ -33,7 +33,7 @@ static void must(int rc)
  * and sizes that differ by many powers of ten. */
 static const char *write_record(fl_rng *g, int run)
 {
-    char name[40], buf[2][FL_NUM_LEN];
+    char name[40], buf[2][FL_NUMBER_LEN];
     snprintf(name, sizeof name, "run%d", run);
     const char *path = test_path(name);
     FILE *f = fopen(path, "w");
@@ -50,22 +50,23 @@ static const char *write_record(fl_rng *g, int run)
         for (int p = 0; p < parts; p++) {
             double x = fl_rng_unit(g) < 0.3 ? 0.0 : mean + size * fl_rng_normal(g);
             if (fl_rng_unit(g) < 0.1) x = floor(x);
-            fprintf(f, "%s\t%s%s\n", fl_num_text(t, buf[0]), loads ? (p ? "b\t" : "a\t") : "",
-                    fl_num_text(x, buf[1]));
+            fprintf(f, "%s\t%s%s\n", fl_number_text(t, buf[0]), loads ? (p ? "b\t" : "a\t") : "",
+                    fl_number_text(x, buf[1]));
         }
     }
     assert_int_equal(fclose(f), 0);
     return path;
 }
 
-static void reduce(fl_summary *s, const char *path, const fl_series_ask *ask, const fl_summary_ask *how)
+static void reduce(fl_summary *s, const char *path, const fl_record_selection *ask,
+                   const fl_summary_settings *how)
 {
     fl_run r = {0};
     int more;
     must(fl_run_open(&r, path, ask, how, &err));
     while ((more = fl_run_next(&r, &err)) > 0) {}
     must(more);
-    must(fl_run_end(&r, "#by loadstats --summary\n", &err));
+    must(fl_run_finish(&r, "#by loadstats --summary\n", &err));
     must(fl_summary_merge(s, &r.sum, path, &err));
     fl_run_close(&r);
 }
@@ -107,12 +108,12 @@ static void grow(fl_rng *g, fl_summary *s, const fl_summary *run, const int *ord
 static void any_order_any_groups(void **state)
 {
     static char first[TEXT], other[TEXT];
-    const fl_series_ask ask = {
+    const fl_record_selection ask = {
         .signal = (const char *const[]){"fx"}, .signals = 1, .from = -INFINITY, .to = INFINITY};
     (void)state;
     for (the_case = 0; the_case < test_times(20); the_case++) {
         fl_rng g = fl_rng_of(test_seed(), the_case, FL_RNG_TEST);
-        const fl_summary_ask how = {
+        const fl_summary_settings how = {
             .separation = 0.5, .block = the_case % 2 ? 0.35 : 0.0, .rule = (int)(the_case % 3 == 1)};
         fl_summary run[RUNS], all = {0};
         memset(run, 0, sizeof run);
@@ -160,8 +161,9 @@ static void says_what_the_record_says(void **state)
     for (the_case = 0; the_case < test_times(100); the_case++) {
         fl_rng g = fl_rng_of(test_seed() + 1, the_case, FL_RNG_TEST);
         const char *const fx[] = {"fx"};
-        fl_series_ask ask = {.signal = fx, .signals = 1, .from = -INFINITY, .to = INFINITY};
-        const fl_summary_ask how = {.separation = 0.5, .threshold = the_case % 2 ? 1.0 : 0.0, .block = 0.2};
+        fl_record_selection ask = {.signal = fx, .signals = 1, .from = -INFINITY, .to = INFINITY};
+        const fl_summary_settings how = {
+            .separation = 0.5, .threshold = the_case % 2 ? 1.0 : 0.0, .block = 0.2};
         const char *path = write_record(&g, 0);
         fl_summary sum = {0};
         fl_series s = {0};
@@ -173,7 +175,7 @@ static void says_what_the_record_says(void **state)
             fl_err told = {0};
             assert_int_equal(fl_run_open(&r, path, &ask, &how, &told), 0);
             assert_int_equal(fl_run_next(&r, &told), 0);
-            assert_int_equal(fl_run_end(&r, "", &told), -1);
+            assert_int_equal(fl_run_finish(&r, "", &told), -1);
             assert_int_equal(told.code, FL_INPUT);
             fl_run_close(&r);
             err = (fl_err){0};
@@ -184,18 +186,18 @@ static void says_what_the_record_says(void **state)
         unlink(path);
         assert_int_equal(sum.n, s.parts);
         for (int32_t p = 0; p < s.parts; p++) {
-            const fl_summary_signal *t = &sum.s[p];
+            const fl_summary_signal *t = &sum.entry[p];
             const double *x = s.x[p];
             double w[400], moment[4], q;
-            fl_describe d;
+            fl_descriptive_stats d;
             fl_peaks peaks = {0};
             fl_rainflow rain = {0};
-            fl_class *sorted = NULL;
+            fl_log_bin *sorted = NULL;
             for (int32_t k = 0; k < s.n; k++) w[k] = s.edge[k + 1] - s.edge[k];
             assert_string_equal(t->part, s.part[p]);
             assert_int_equal(t->rows, s.n);
             assert_true(t->from == s.edge[0] && t->to == s.edge[s.n]);
-            fl_describe_moments(s.n, x, w, &d);
+            fl_compute_moments(s.n, x, w, &d);
             fl_summary_moments(t, moment);
             const double large = fmax(fabs(d.min), fabs(d.max));
             assert_near_of(moment[0], d.mean, 1e-14, large);
@@ -205,22 +207,22 @@ static void says_what_the_record_says(void **state)
                         t->t_max == s.t[d.at_max]);
             must(fl_peaks_rayleigh(s.n, x, how.separation, how.threshold, &peaks, &err));
             double sum_of_peaks = 0.0;
-            for (int32_t k = 0; k < peaks.n; k++) sum_of_peaks += x[peaks.at[k]];
+            for (int32_t k = 0; k < peaks.n; k++) sum_of_peaks += x[peaks.row[k]];
             assert_int_equal(t->peaks, peaks.n);
             assert_near_of(fl_exact_value(&t->peak_sum), sum_of_peaks, 1e-13, peaks.n * large);
             must(fl_rainflow_count(&rain, how.rule, how.residue, s.n, x, &err));
             int64_t n = 0;
             for (int32_t k = 0; k < t->cycle.cap; k++) n += t->cycle.slot[k].n;
             assert_int_equal(n, halves(&rain));
-            must(fl_sample_blocks(s.n, x, s.edge, how.block, &peaks, NULL, &err));
-            assert_int_equal(fl_values_count(&t->block), peaks.n);
+            must(fl_sample_block_maxima(s.n, x, s.edge, how.block, &peaks, NULL, &err));
+            assert_int_equal(fl_multiset_size(&t->block), peaks.n);
             double highest = -INFINITY, found = -INFINITY;
-            for (int32_t k = 0; k < peaks.n; k++) highest = fmax(highest, x[peaks.at[k]]);
+            for (int32_t k = 0; k < peaks.n; k++) highest = fmax(highest, x[peaks.row[k]]);
             for (int32_t k = 0; k < t->block.n; k++) found = fmax(found, t->block.v[k].x);
             assert_true(highest == found);
             /* The quantile lies in the class of the value of that rank, or beside it. */
-            must(fl_classes_sort(&t->level, &sorted, &err));
-            q = fl_classes_quantile(t->level.n, sorted, 0.5, t->min, t->max);
+            must(fl_log_histogram_sort(&t->level, &sorted, &err));
+            q = fl_log_histogram_quantile(t->level.n, sorted, 0.5, t->min, t->max);
             double below = 0.0, above = 0.0, total = 0.0;
             const double slack = fabs(q) / 100;
             for (int32_t k = 0; k < s.n; k++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
 #include <stdio.h>
-#include "base/par.h"
+#include "base/parallel.h"
 #include "sim/energy_balance.h"
 #include "support/bits.h"
 #include "support/scenes.h"
@@ -9,17 +9,16 @@
 uint64_t bits_of(fl_world *w)
 {
     const fl_ledger *g = &w->ledger;
-    fl_step_ledger(w);
-    const double books[] = {g->bond,        g->fracture,     g->carried,       g->kinetic,
-                            g->gravity,     g->elastic,      g->hydrostatic,   g->friction_now,
-                            g->damping_now, g->drag,         g->wind,          g->drive_now,
-                            g->residual,    g->throughput,   w->imbalance.x,   w->imbalance.y,
-                            w->imbalance.z, w->impulse_size, w->worst_overlap, w->dt_critical};
-    uint64_t h = fl_hash(fl_step_hash(w), books, (int64_t)sizeof books);
+    fl_energy_update(w);
+    const double books[] = {g->bond,        g->fracture,    g->carried,      g->kinetic,     g->gravity,
+                            g->elastic,     g->hydrostatic, g->friction_now, g->damping_now, g->drag,
+                            g->wind,        g->drive_now,   g->residual,     g->throughput,  w->imbalance.x,
+                            w->imbalance.y, w->imbalance.z, w->impulse_sum,  w->max_overlap, w->dt_critical};
+    uint64_t h = fl_hash(fl_state_hash(w), books, (int64_t)sizeof books);
     h = fl_hash(h, w->part_impulse, w->parts * (int64_t)sizeof *w->part_impulse);
     h = fl_hash(h, w->part_moment, w->parts * (int64_t)sizeof *w->part_moment);
     h = fl_hash(h, w->part_peak, w->parts * (int64_t)sizeof *w->part_peak);
-    return fl_hash(h, &w->touching_steps, (int64_t)sizeof w->touching_steps);
+    return fl_hash(h, &w->contact_steps, (int64_t)sizeof w->contact_steps);
 }
 
 void bits_of_scenes(char text[BITS_TEXT])

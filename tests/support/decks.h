@@ -4,7 +4,7 @@
 #ifndef FL_TESTS_DECKS_H
 #define FL_TESTS_DECKS_H
 #include <string.h>
-#include "geom/patch.h"
+#include "geom/mesh_patch.h"
 #include "mesh/read_mesh.h"
 #include "support/mesh.h"
 #include "support/near.h"
@@ -30,16 +30,16 @@ static inline int clear(void **state)
 }
 
 /* The text as a file called "deck". */
-static inline int read_some(const char *text, fl_wish *w)
+static inline int read_some(const char *text, fl_import_options *w)
 {
     clear(NULL);
     return fl_mesh_read(&s, test_file("deck", text, strlen(text)), w, note, &err);
 }
 
 /* It is read, and this is how good it is. */
-static inline fl_quality reads(const char *text)
+static inline fl_mesh_quality reads(const char *text)
 {
-    fl_quality q;
+    fl_mesh_quality q;
     if (read_some(text, NULL)) fail_msg("%s", err.text);
     assert_true(mesh_sound(&s));
     assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
@@ -47,12 +47,12 @@ static inline fl_quality reads(const char *text)
 }
 
 /* What is like the pattern. */
-static inline fl_quality takes(const char *text, const char *pattern)
+static inline fl_mesh_quality takes(const char *text, const char *pattern)
 {
     const char *const list[] = {pattern};
     char hit[1] = {0};
-    fl_wish w = {.pattern = list, .patterns = 1, .hit = hit};
-    fl_quality q;
+    fl_import_options w = {.pattern = list, .patterns = 1, .matched = hit};
+    fl_mesh_quality q;
     if (read_some(text, &w)) fail_msg("%s: %s", pattern, err.text);
     if (!hit[0]) fail_msg("nothing is like %s", pattern);
     assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
@@ -63,8 +63,8 @@ static inline fl_quality takes(const char *text, const char *pattern)
 static inline void refuses(const char *text, const char *why)
 {
     const char *const list[] = {"*"};
-    fl_wish w = {.pattern = list, .patterns = 1};
-    if (read_some(text, NULL) == 0 && read_some(text, &w) == 0) fail_msg("read, but \"%s\" was wanted", why);
+    fl_import_options w = {.pattern = list, .patterns = 1};
+    if (read_some(text, NULL) == 0 && read_some(text, &w) == 0) fail_msg("read, but \"%s\" is expected", why);
     assert_int_equal(err.code, FL_INPUT);
     if (!strstr(err.text, why)) fail_msg("\"%s\" is not in \"%s\"", why, err.text);
 }

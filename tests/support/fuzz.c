@@ -11,9 +11,9 @@
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
-#include "base/mem.h"
-#include "base/num.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/number_text.h"
+#include "base/parallel.h"
 #include "base/rng.h"
 #include "support/fuzz.h"
 #include "support/verify.h"
@@ -381,10 +381,10 @@ static int replay_starved(const char *name, const bytes *b, fuzz_fn *one, int us
 {
     for (long k = 0;; k += k < 200 ? 1 : k / 8) {
         snprintf(now, sizeof now, "tests/fuzz/%s/%s with allocation %ld failing", name, b->name, k);
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         const int verdict = try_it(one, b);
-        const long refused = fl_mem_refused();
-        fl_mem_fail_after(-1);
+        const long refused = fl_alloc_refused();
+        fl_alloc_fail_after(-1);
         if (refused == 0) return verdict == usual ? 0 : complain(verdict);
         if (verdict != FUZZ_SYSTEM && !(verdict == FUZZ_REFUSED && usual == FUZZ_REFUSED))
             return complain(verdict);
@@ -397,7 +397,7 @@ static int print_copy(const char *path, const char *number)
     char folder[1024];
     const char *slash = strrchr(path, '/');
     bytes work = {0};
-    if (fl_num_u64(number, &m)) {
+    if (fl_number_u64(number, &m)) {
         fprintf(stderr, "\"%s\" is not the number of a copy\n", number);
         return 2;
     }
@@ -417,7 +417,7 @@ int fuzz_main(int argc, char **argv, const char *name, fuzz_fn *one)
     int failed = 0;
     bytes work = {0};
     if (argc == 4 && strcmp(argv[1], "--print") == 0) return print_copy(argv[2], argv[3]);
-    if (argc > 2 || (asked && fl_num_u64(asked, &most))) {
+    if (argc > 2 || (asked && fl_number_u64(asked, &most))) {
         fprintf(stderr, "usage: fuzz_%s [FOLDER] | --print FILE M; FLOE_FUZZ, if set, is a number\n", name);
         return 2;
     }

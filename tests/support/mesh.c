@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "geom/patch.h"
+#include "geom/mesh_patch.h"
 #include "geom/weld.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
@@ -69,10 +69,10 @@ static int round_trip(const fl_surface *s, fl_err *err)
     size_t n = 0;
     FILE *f = open_memstream(&text, &n);
     fl_surface again = {0};
-    fl_by by;
+    fl_history_line by;
     int rc;
     if (!f) return FUZZ_SYSTEM;
-    fl_by_start(&by, "mesh-fuzz");
+    fl_history_line_start(&by, "mesh-fuzz");
     fl_gstruct_write(f, s, &by);
     if (fclose(f) != 0) return FUZZ_SYSTEM;
     rc = fl_gstruct_read(&again, fuzz_file((const unsigned char *)text, n), err);
@@ -86,12 +86,12 @@ static int round_trip(const fl_surface *s, fl_err *err)
 /* Welding may refuse a part that is too large to measure; nothing else may. */
 static int mend(fl_part *p, fl_err *err)
 {
-    fl_quality q;
-    fl_orient o;
+    fl_mesh_quality q;
+    fl_orient_counts o;
     fl_weld w;
     if (fl_part_weld(p, -1.0, &w, err) || fl_part_orient(p, &q, &o, err) || fl_part_measure(p, &q, err))
         return -1;
-    return q.inverted == 0 && q.incoherent <= 3 * o.twisted * (int64_t)p->nt ? 0 : 1;
+    return q.inverted == 0 && q.incoherent <= 3 * o.one_sided * (int64_t)p->nt ? 0 : 1;
 }
 
 /* The same bytes, few at a time: the head may then not tell what they are, but what is read is sound. */
@@ -101,9 +101,9 @@ static int through_a_window(const unsigned char *data, size_t n)
     fl_surface s = {0};
     char note[FL_MESH_NOTE];
     int verdict;
-    fl_bytes_window(64 + (int32_t)(n % 512));
+    fl_bytes_set_window(64 + (int32_t)(n % 512));
     verdict = fuzz_verdict(fl_mesh_read(&s, fuzz_file(data, n), NULL, note, &err), &err);
-    fl_bytes_window(0);
+    fl_bytes_set_window(0);
     if (verdict == FUZZ_READ && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
     fl_surface_free(&s);
     return verdict == FUZZ_REFUSED ? FUZZ_READ : verdict;
@@ -134,8 +134,8 @@ done:
 int mesh_fuzz_all(const unsigned char *data, size_t n)
 {
     const char *const pattern[] = {"*"};
-    fl_names seen = {0};
-    fl_wish w = {.pattern = pattern, .patterns = 1, .seen = &seen, .subdivide = 1};
+    fl_string_table seen = {0};
+    fl_import_options w = {.pattern = pattern, .patterns = 1, .available = &seen, .subdivide = 1};
     fl_err err = {0};
     fl_surface s = {0};
     char note[FL_MESH_NOTE];
@@ -145,6 +145,6 @@ int mesh_fuzz_all(const unsigned char *data, size_t n)
     if (verdict == FUZZ_READ && s.n && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
     if (verdict != FUZZ_READ && s.n) verdict = FUZZ_BROKEN;
     fl_surface_free(&s);
-    fl_names_free(&seen);
+    fl_string_table_free(&seen);
     return verdict;
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "support/near.h"
 
 void near_check(double value, double expected, double tol, double scale, const char *what, const char *file,
@@ -13,7 +13,7 @@ void near_check(double value, double expected, double tol, double scale, const c
 {
     const double miss = fabs(value - expected), room = tol * (scale < 0.0 ? fabs(expected) : scale);
     if (isfinite(value) && isfinite(expected) && miss <= room) return;
-    print_error("%s is %.17g, %.17g was wanted: off by %.3g, %.3g is allowed\n", what, value, expected, miss,
+    print_error("%s is %.17g, %.17g is expected: off by %.3g, %.3g is allowed\n", what, value, expected, miss,
                 room);
     _fail(file, line);
 }
@@ -22,8 +22,8 @@ uint64_t test_seed(void)
 {
     const char *s = getenv("FLOE_SEED");
     uint64_t seed = 1;
-    if (s && fl_num_u64(s, &seed)) {
-        fprintf(stderr, "FLOE_SEED is \"%s\", a whole number was wanted\n", s);
+    if (s && fl_number_u64(s, &seed)) {
+        fprintf(stderr, "FLOE_SEED is \"%s\", a whole number is expected\n", s);
         exit(2);
     }
     return seed;
@@ -33,8 +33,8 @@ long test_times(long n)
 {
     const char *s = getenv("FLOE_TIMES");
     double times = 1.0;
-    if (s && (fl_num_f64(s, &times) || times <= 0.0 || times * (double)n > 1e15)) {
-        fprintf(stderr, "FLOE_TIMES is \"%s\", a positive number was wanted\n", s);
+    if (s && (fl_number_f64(s, &times) || times <= 0.0 || times * (double)n > 1e15)) {
+        fprintf(stderr, "FLOE_TIMES is \"%s\", a positive number is expected\n", s);
         exit(2);
     }
     n = lround(times * (double)n);

@@ -3,7 +3,7 @@
  * hold the narrow phase to. */
 #ifndef FL_TESTS_ORACLE_H
 #define FL_TESTS_ORACLE_H
-#include "narrow/deep.h"
+#include "narrow/penetration.h"
 
 typedef long double real;
 

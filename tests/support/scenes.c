@@ -33,8 +33,8 @@ static void put(lab *l, int32_t side, int32_t k)
     default: bad = fl_poly_box(&p, v3(fl_rng_in(&g, 0.36, 0.42), fl_rng_in(&g, 0.36, 0.42), 0.42), &err);
     }
     shape_move(&p, q_of_vector(v3_scale(0.05, turn)), cell);
-    if (bad || fl_field_add(&l->field, k + 1, r, &p, NULL, GROUP[k % 11],
-                            v3_add(v3_scale(0.3, v), v3_scale(-0.3, cell)), v3_scale(0.3, w), &err)) {
+    if (bad || fl_ice_field_add(&l->field, k + 1, r, &p, NULL, GROUP[k % 11],
+                                v3_add(v3_scale(0.3, v), v3_scale(-0.3, cell)), v3_scale(0.3, w), &err)) {
         printf("scene_of_everything: %s\n", err.text);
         exit(1);
     }
@@ -121,7 +121,7 @@ static void freeze(lab *l, int32_t side, int32_t k, fl_vec3 cell)
         if (next[e] < 0) continue;
         const int round = k % 7 == 3 || next[e] % 7 == 3;
         const fl_vec3 at = v3_add(cell, v3(e == 0 ? 0.5 : 0.0, e == 1 ? 0.5 : 0.0, e == 2 ? 0.5 : 0.0));
-        if (fl_field_add_bond(&l->field, k, next[e], round ? 0.7 : 1.0, 1.0, at, &err)) exit(1);
+        if (fl_ice_field_add_bond(&l->field, k, next[e], round ? 0.7 : 1.0, 1.0, at, &err)) exit(1);
     }
 }
 
@@ -159,8 +159,8 @@ void scene_of_bonds(lab *l, int32_t side, const char *law)
                    : fl_poly_box(&p, v3(0.45, 0.45, 0.45), &err)))
             exit(1);
         shape_move(&p, q_one(), cell);
-        if (fl_field_add(&l->field, k + 1, round ? 0.5 : 0.05, &p, NULL, k % 11 == 5 ? "towed" : NULL, v,
-                         spin, &err))
+        if (fl_ice_field_add(&l->field, k + 1, round ? 0.5 : 0.05, &p, NULL, k % 11 == 5 ? "towed" : NULL, v,
+                             spin, &err))
             exit(1);
         freeze(l, side, k, cell);
     }

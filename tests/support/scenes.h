@@ -3,7 +3,7 @@
  * kind of structure, walls, water, wind, friction and restitution. */
 #ifndef FL_TESTS_SCENES_H
 #define FL_TESTS_SCENES_H
-#include "support/lab.h"
+#include "support/small_world.h"
 
 /* side^3 bodies in a heap that meet one another from the start; law NULL: patch, each other law where the
  * bodies are polyhedra.  Keys may still be set; then lab_make(). */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/clip.h"
 #include "support/shapes.h"
 

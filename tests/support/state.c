@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/setup.h"
-#include "step/snapshot.h"
+#include "sim/snapshot.h"
 #include "support/fuzz.h"
 #include "support/state.h"
 

@@ -3,7 +3,7 @@
 #ifndef FL_TESTS_STATE_H
 #define FL_TESTS_STATE_H
 #include <stddef.h>
-#include "support/lab.h"
+#include "support/small_world.h"
 
 /* Reads the bytes into a fresh world of a lab whose scene has been checked; a fuzz_fn (fuzz.h) beside. */
 int state_fuzz(const lab *of, const unsigned char *data, size_t n);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* width.h -- all of prop_width and prop_avx2: the same bits for any width of vectors.  Functions that are
- * compiled for several (base/wide.h) are chosen when a program is loaded, by what __cpu_model tells of the
+ * compiled for several (base/simd.h) are chosen when a program is loaded, by what __cpu_model tells of the
  * machine.  Here that is defined anew, as of a machine that has FEATURES, nothing or AVX2; prop_bits, beside
  * this program, has what the machine has.  Elsewhere than on x86-64 both are the same, and so is what is
  * compared. */

@@ -3,7 +3,7 @@
 #include <omp.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "geom/clip.h"
 #include "ice/blocks.h"
@@ -30,8 +30,8 @@ static void cells_are_those_of_the_nearest_site(void **state)
         region(&r, k % 2);
         box = fl_poly_aabb(&r);
         assert_int_equal(fl_blocks_cells(&b, &r, n, (uint64_t)k, 1000, k % 3, &err), 0);
-        assert_near(b.cells, b.region, 1e-11);
-        assert_near(b.region, k % 2 ? 25.0 : 24.0, 1e-14);
+        assert_near(b.cells_volume, b.region_volume, 1e-11);
+        assert_near(b.region_volume, k % 2 ? 25.0 : 24.0, 1e-14);
         for (int t = 0; t < 300; t++) {
             fl_rng g = fl_rng_of(test_seed(), t, FL_RNG_TEST);
             const fl_vec3 x = {fl_rng_in(&g, box.lo.x, box.hi.x), fl_rng_in(&g, box.lo.y, box.hi.y),
@@ -64,7 +64,7 @@ static void blocks_fill_their_part_and_stay_apart(void **state)
         region(&r, k % 2);
         assert_int_equal(fl_blocks_cells(&b, &r, 40, (uint64_t)k, 0, 1, &err), 0);
         assert_int_equal(fl_blocks_shrink(&b, solid, radius, &err), 0);
-        assert_near(b.solid, solid * b.region, 1e-9);
+        assert_near(b.solid_volume, solid * b.region_volume, 1e-9);
         assert_int_equal(fl_blocks_overlaps(&b, radius, &pairs, &err), 0);
         assert_int_equal(pairs, 0);
         for (int32_t i = 0; i < b.n; i++) {
@@ -76,11 +76,11 @@ static void blocks_fill_their_part_and_stay_apart(void **state)
             for (int32_t f = 0; f < b.cell[i].nf; f++)
                 for (int32_t v = 0; v < outer.nv; v++)
                     assert_true(v3_dot(b.cell[i].n[f], outer.v[v]) <=
-                                b.cell[i].c[f] - FL_BLOCKS_CLEAR * b.gap + 1e-11);
+                                b.cell[i].c[f] - FL_BLOCKS_CLEARANCE * b.inset + 1e-11);
             fl_poly_free(&outer);
         }
-        assert_near(sum, b.solid, 1e-12);
-        assert_true(b.lost <= 6);
+        assert_near(sum, b.solid_volume, 1e-12);
+        assert_true(b.blockless <= 6);
         fl_blocks_free(&b);
         fl_poly_free(&r);
     }
@@ -157,10 +157,10 @@ static void memory_that_runs_out_is_told(void **state)
         fl_blocks b = {0};
         fl_err err = {0};
         int64_t pairs;
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         rc = fl_blocks_cells(&b, &r, 3, 1, 0, 1, &err) || fl_blocks_shrink(&b, 0.5, 0.02, &err) ||
              fl_blocks_overlaps(&b, 0.02, &pairs, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
         fl_blocks_free(&b);
         assert_true(k < 1000000);

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "broad/bvh.h"
 
@@ -32,7 +32,7 @@ static void compare(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_aabb q)
     qsort(out, (size_t)found, sizeof *out, ascending);
     int32_t at = 0;
     for (int32_t k = 0; k < n; k++) {
-        if (!aabb_meet(box[k], q)) continue;
+        if (!aabb_overlap(box[k], q)) continue;
         assert_true(at < found);
         assert_int_equal(out[at], k);
         at++;
@@ -48,15 +48,15 @@ static void walk_about(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x
     int32_t *times = calloc((size_t)n + 1, sizeof *times), looks = 0;
     double nearest = INFINITY, found = INFINITY;
     assert_non_null(times);
-    fl_bvh_walk at = fl_bvh_about(t, box, x);
-    for (int32_t k; (k = fl_bvh_next(&at, within)) >= 0;) times[k]++;
+    fl_bvh_walk at = fl_bvh_walk_from(t, box, x);
+    for (int32_t k; (k = fl_bvh_walk_next(&at, within)) >= 0;) times[k]++;
     for (int32_t k = 0; k < n; k++) {
         const double d2 = aabb_distance2(box[k], x);
         assert_int_equal(times[k], d2 <= within * within);
         nearest = fmin(nearest, d2);
     }
-    at = fl_bvh_about(t, box, x);
-    for (int32_t k; (k = fl_bvh_next(&at, found)) >= 0; looks++)
+    at = fl_bvh_walk_from(t, box, x);
+    for (int32_t k; (k = fl_bvh_walk_next(&at, found)) >= 0; looks++)
         found = fmin(found, sqrt(aabb_distance2(box[k], x)));
     assert_true(n == 0 ? looks == 0 : found == sqrt(nearest));
     free(times);
@@ -179,9 +179,9 @@ static void runs_out_of_memory_in_peace(void **state)
     for (int64_t after = 0; after < 2; after++) {
         fl_bvh t = {0};
         fl_err err = {0};
-        fl_mem_fail_after(after);
+        fl_alloc_fail_after(after);
         const int rc = fl_bvh_build(&t, box, 50, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(rc, -1);
         assert_int_equal(err.code, FL_SYSTEM);
         fl_bvh_free(&t);

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "mesh/read_mesh.h"
 #include "support/mesh.h"
 #include "support/near.h"
@@ -14,7 +14,7 @@ static fl_bytes b;
 static int end(void **state)
 {
     (void)state;
-    fl_bytes_window(0);
+    fl_bytes_set_window(0);
     fl_bytes_free(&b);
     return 0;
 }
@@ -23,7 +23,7 @@ static void open_with(const char *text, size_t n, int32_t window)
 {
     fl_bytes_free(&b);
     err = (fl_err){0};
-    fl_bytes_window(window);
+    fl_bytes_set_window(window);
     if (fl_bytes_open(&b, test_file("text", text, n), &err)) fail_msg("%s", err.text);
 }
 
@@ -68,12 +68,12 @@ static void lines_and_bytes_do_not_either(void **state)
             assert_int_equal(len, strlen(want[k]));
         }
         for (int k = 0; k < 4; k++) {
-            assert_int_equal(fl_bytes_take(&b, 2, &p, &err), 1);
+            assert_int_equal(fl_bytes_read(&b, 2, &p, &err), 1);
             assert_int_equal(p[0], '1' + 2 * k);
             assert_int_equal(p[1], '2' + 2 * k);
         }
-        assert_int_equal(fl_bytes_take(&b, 1, &p, &err), 0);
-        assert_int_equal(b.before + b.pos, sizeof text - 1);
+        assert_int_equal(fl_bytes_read(&b, 1, &p, &err), 0);
+        assert_int_equal(b.offset + b.pos, sizeof text - 1);
     }
 }
 
@@ -110,14 +110,14 @@ static void numbers_and_marks_do_not_either(void **state)
         assert_string_equal(line, "$EndX ");
         assert_int_equal(fl_bytes_peek(&b, 10, &p, &err), 6);
         assert_int_equal(fl_bytes_skip(&b, 5, &err), 1);
-        assert_int_equal(fl_bytes_place(&b), sizeof text - 2);
+        assert_int_equal(fl_bytes_offset(&b), sizeof text - 2);
         assert_int_equal(fl_bytes_skip(&b, 2, &err), 0);
         assert_int_equal(fl_bytes_seek(&b, "$EndX", &err), 0);
         assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 0);
         open_with("1 zwei", 6, window);
         assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 1);
         assert_int_equal(fl_bytes_real(&b, 0, &x, &err), -1);
-        assert_non_null(strstr(err.text, "\"zwei\" was found, a number was wanted"));
+        assert_non_null(strstr(err.text, "\"zwei\" was found, a number is expected"));
         open_with("1\0", 2, window);
         assert_int_equal(fl_bytes_real(&b, 1, &x, &err), -1);
     }
@@ -130,9 +130,9 @@ static int same_through(const char *path, int32_t window)
     char note[FL_MESH_NOTE];
     int same = -1;
     err = (fl_err){0};
-    fl_bytes_window(0);
+    fl_bytes_set_window(0);
     if (fl_mesh_read(&whole, path, NULL, note, &err) == 0) {
-        fl_bytes_window(window);
+        fl_bytes_set_window(window);
         /* a small head may not tell what the file is */
         if (fl_mesh_read(&part, path, NULL, note, &err) == 0) same = mesh_same(&whole, &part);
     }
@@ -175,11 +175,11 @@ static void without_memory_it_says_so(void **state)
     for (long fail = 0; rc; fail++) {
         fl_bytes_free(&b);
         err = (fl_err){0};
-        fl_bytes_window(4);
-        fl_mem_fail_after(fail);
+        fl_bytes_set_window(4);
+        fl_alloc_fail_after(fail);
         rc = fl_bytes_open(&b, test_file("text", "a\nbcdefghijklmnopqrst\n", 22), &err);
         for (int k = 0; rc == 0 && k < 2; k++) rc = fl_bytes_line(&b, &line, &len, &err) < 0;
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
         assert_true(fail < 50);
     }

@@ -2,12 +2,12 @@
 /* Crossings, their repair, simplification and remeshing, and the distance by which each is judged. */
 #include <math.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "geom/facet.h"
-#include "geom/patch.h"
-#include "geom/shells.h"
+#include "geom/mesh_patch.h"
+#include "geom/connected_parts.h"
 #include "geom/weld.h"
 #include "shim/cgal_crossing.h"
 #include "shim/cgal_distance.h"
@@ -45,14 +45,14 @@ static int untangled(fl_soup *s, fl_untangle *did, fl_err *why)
     const fl_part p = {.nv = s->nv, .nt = s->nt, .v = (fl_vec3 *)s->x, .t = (fl_tri *)s->t};
     int32_t *shell = fl_alloc(p.nt, sizeof *shell, why);
     int32_t odd;
-    const int rc = fl_part_shells(&p, shell, &odd, why) || fl_cgal_untangle(s, shell, did, why);
+    const int rc = fl_part_connected(&p, shell, &odd, why) || fl_cgal_untangle(s, shell, did, why);
     free(shell);
     return rc ? -1 : 0;
 }
 
-static fl_quality measured(const fl_part *p)
+static fl_mesh_quality measured(const fl_part *p)
 {
-    fl_quality q;
+    fl_mesh_quality q;
     assert_int_equal(fl_part_measure(p, &q, &err), 0);
     return q;
 }
@@ -128,7 +128,7 @@ static void crossing_boxes_become_their_union(void **state)
         fl_part p = {0};
         fl_soup s;
         fl_untangle did;
-        fl_quality q;
+        fl_mesh_quality q;
         fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
         fl_facet_box(&p, v3(.5, .25, .25), v3(2, .75, .75), &err);
         if (k) fl_facet_box(&p, v3(1.75, 0, 0), v3(3, 1, 1), &err);
@@ -181,7 +181,7 @@ static void joints_of_tubes_become_one(void **state)
         fl_soup s;
         fl_weld w;
         fl_untangle did;
-        fl_quality q, leg;
+        fl_mesh_quality q, leg;
         fl_facet_cone(&p, &(fl_cone){v3(0, 0, -3), v3(0, 0, 3), .5, .5}, 16, &err);
         leg = measured(&p);
         for (int k = 0; k < braces; k++) {
@@ -209,7 +209,7 @@ static void a_patch_through_itself_is_rebuilt(void **state)
     fl_part p = {0};
     fl_soup s;
     fl_untangle did;
-    fl_quality q;
+    fl_mesh_quality q;
     (void)state;
     fl_facet_cone(&p, &(fl_cone){v3(0, 0, 0), v3(0, 0, 4), 1.0, 1.0}, 24, &err);
     fl_surface_vertex(&p, v3(0, 0, 0), &err);
@@ -322,7 +322,7 @@ static void remeshed_is_even_and_where_it_was(void **state)
     fl_part p = {0}, q = {0};
     fl_soup s, t;
     double least, most;
-    fl_quality m;
+    fl_mesh_quality m;
     (void)state;
     fl_facet_box(&p, v3(0, 0, 0), v3(1, 2, 3), &err);
     s = soup_of(&p);
@@ -338,7 +338,7 @@ static void remeshed_is_even_and_where_it_was(void **state)
     assert_near(m.volume, 6.0, 1e-13);
     assert_near(m.area, 22.0, 1e-13);
     assert_true(m.triangles > 22.0 / (0.25 * 0.25 * 0.75) && m.triangles < 22.0 / (0.25 * 0.25 * 0.2));
-    assert_true(m.shortest > 0.25 / 4.0);
+    assert_true(m.shortest_edge > 0.25 / 4.0);
     fl_soup_free(&t);
     fl_part_free(&p);
     fl_part_free(&q);

@@ -2,10 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "geom/facet.h"
-#include "geom/patch.h"
+#include "geom/mesh_patch.h"
 #include "geom/weld.h"
 #include "shim/cgal_crossing.h"
 #include "shim/cgal_repair.h"
@@ -32,11 +32,11 @@ static fl_soup soup_of(const fl_part *p)
 }
 
 /* Repair p in place, and measure what is left after joining what lies in the same place. */
-static fl_quality repaired(fl_part *p, int32_t holes, fl_repair *did)
+static fl_mesh_quality repaired(fl_part *p, int32_t holes, fl_repair *did)
 {
     fl_soup s = soup_of(p);
     fl_weld w;
-    fl_quality q;
+    fl_mesh_quality q;
     if (fl_cgal_repair(&s, holes, 0.0, did, &err)) fail_msg("%s", err.text);
     p->nv = p->nt = 0;
     for (int32_t v = 0; v < s.nv; v++)
@@ -88,7 +88,7 @@ static void doubles_and_turned_triangles_are_mended(void **state)
     fl_surface s = {0};
     fl_part *p = part(&s);
     fl_repair did;
-    fl_quality q;
+    fl_mesh_quality q;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
     for (int32_t t = 0; t < 12; t += 5) turn(p, t);
@@ -109,7 +109,7 @@ static void holes_are_closed_on_request(void **state)
         fl_surface s = {0};
         fl_part *p = part(&s);
         fl_repair did;
-        fl_quality q;
+        fl_mesh_quality q;
         fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
         p->nt -= 2; /* the top: a rim of four edges */
         q = repaired(p, most, &did);
@@ -127,7 +127,7 @@ static void cavities_look_inward(void **state)
     fl_surface s = {0};
     fl_part *p = part(&s);
     fl_repair did;
-    fl_quality q;
+    fl_mesh_quality q;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(4, 4, 4), &err);
     fl_facet_box(p, v3(1, 1, 1), v3(2, 2, 2), &err);
@@ -146,7 +146,7 @@ static void crossing_bodies_are_told_of(void **state)
     fl_surface s = {0};
     fl_part *p = part(&s);
     fl_repair did;
-    fl_quality q;
+    fl_mesh_quality q;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_facet_box(p, v3(0.5, 0.25, 0.25), v3(2, 0.75, 0.75), &err);
@@ -164,7 +164,7 @@ static void triangles_of_one_line_are_taken_out(void **state)
     fl_surface s = {0};
     fl_part *p = part(&s);
     fl_repair did;
-    fl_quality q;
+    fl_mesh_quality q;
     int32_t a = 0, b = 0, c = 0;
     const int32_t t = 11;
     (void)state;
@@ -198,7 +198,7 @@ static void branched_edges_stay_what_they_are(void **state)
     fl_part *p = part(&s);
     fl_repair did;
     fl_weld w;
-    fl_quality q;
+    fl_mesh_quality q;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_facet_box(p, v3(1, 1, 0), v3(2, 2, 1), &err);
@@ -281,9 +281,9 @@ static void failure_leaves_the_soup(void **state)
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
     soup = soup_of(p);
-    fl_mem_fail_after(0);
+    fl_alloc_fail_after(0);
     assert_int_equal(fl_cgal_repair(&soup, 0, 0.0, &did, &e), -1);
-    fl_mem_fail_after(-1);
+    fl_alloc_fail_after(-1);
     assert_int_equal(e.code, FL_SYSTEM);
     assert_int_equal(soup.nt, 12);
     assert_memory_equal(soup.t, p->t, 12 * sizeof *p->t);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "shim/cgal_voronoi.h"
 
@@ -130,9 +130,9 @@ static void no_memory_is_told(void **state)
     const int32_t name[3] = {0, 1, 2};
     int32_t first[4], *near = NULL;
     fl_err err = {0};
-    fl_mem_fail_after(0);
+    fl_alloc_fail_after(0);
     assert_int_equal(fl_cgal_neighbours(3, site, name, first, &near, &err), -1);
-    fl_mem_fail_after(-1);
+    fl_alloc_fail_after(-1);
     assert_int_equal(err.code, FL_SYSTEM);
     assert_null(near);
 }
@@ -148,7 +148,7 @@ static void turns_are_exact(void **state)
             const fl_vec2 a = {0.5 + ldexp(i, -53), 0.5 + ldexp(j, -53)};
             const double det = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
             const int left = (j > i) - (j < i); /* of the diagonal */
-            assert_int_equal(fl_cgal_turn(b, c, a), left);
+            assert_int_equal(fl_cgal_orientation(b, c, a), left);
             wrong += (det > 0.0) - (det < 0.0) != left;
         }
     }

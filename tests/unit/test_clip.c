@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "support/near.h"
@@ -53,7 +53,7 @@ static void planes_through_vertices_and_edges(void **state)
     assert_int_equal(p.nv, 6);
     assert_int_equal(p.nf, 5);
     assert_near(volume(&p), 0.5, 1e-15);
-    assert_near(v3_norm(fl_poly_area(&p, 4)), 1.4142135623730951, 1e-15);
+    assert_near(v3_norm(fl_poly_face_area_vector(&p, 4)), 1.4142135623730951, 1e-15);
     fl_poly_free(&p);
     box(&p, 0.5, 0.5, 0.5);
     /* through three vertices */
@@ -80,7 +80,7 @@ static void flat_and_thin_cores(void **state)
     assert_int_equal(fl_poly_cut(&p, v3(0.6, 0, 0.8), 0.15, &err), 0);
     assert_int_equal(p.nv, 4);
     assert_int_equal(p.nf, 2);
-    assert_near(v3_norm(fl_poly_area(&p, 0)), 2.5, 1e-15);
+    assert_near(v3_norm(fl_poly_face_area_vector(&p, 0)), 2.5, 1e-15);
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), 0.0, &err), 0); /* lies in the plane: stays */
     assert_int_equal(p.nv, 4);
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), -0.1, &err), 0);
@@ -257,10 +257,10 @@ static void memory_may_run_out(void **state)
             fl_poly p, q = {0};
             box(&p, 1, 1, 1);
             if (what == 2) assert_int_equal(fl_poly_cut(&p, v3_unit(v3(1, 1, 1)), 1.7, &err), 0);
-            fl_mem_fail_after(after);
+            fl_alloc_fail_after(after);
             const int rc =
                 what == 0 ? fl_poly_cut(&p, v3(0.6, 0, 0.8), 0.3, &err) : fl_poly_offset(&q, &p, -0.05, &err);
-            fl_mem_fail_after(-1);
+            fl_alloc_fail_after(-1);
             fl_poly_free(&p);
             fl_poly_free(&q);
             if (rc == 0) {

@@ -6,7 +6,7 @@
 #include "geom/quat.h"
 #include "narrow/contact.h"
 #include "narrow/overlap.h"
-#include "support/couples.h"
+#include "support/convex_pairs.h"
 
 static fl_mat3 turn(fl_vec3 r) { return q_matrix(q_of_vector(r)); }
 
@@ -241,8 +241,8 @@ static void outlines_overlap(void **state)
                 b[i] = m3_mul(r, v3(want[c].x + want[c].w * a[i].x, want[c].y + want[c].h * a[i].y, 7.0));
                 a[i] = m3_mul(r, a[i]);
             }
-            const fl_across t = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-            const fl_common o = fl_overlap_area(&t, (fl_loop){a, loop, 4}, (fl_loop){b, other, 4});
+            const fl_plane_axes t = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+            const fl_projected_overlap o = fl_overlap_area(&t, (fl_loop){a, loop, 4}, (fl_loop){b, other, 4});
             assert_near_of(o.size, want[c].area, 4e-15, 1.0);
             if (want[c].area > 0.0) {
                 const fl_vec3 m = m3_mul(r, v3(want[c].cx, want[c].cy, 0));

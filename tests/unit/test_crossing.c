@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <omp.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "mesh/crossing.h"
 #include "support/near.h"
@@ -176,9 +176,9 @@ static void small_parts_and_no_memory(void **state)
     assert_int_equal(agree().crossings, 40 * 39 / 2);
     for (long fail = 0; rc; fail++) {
         err = (fl_err){0};
-        fl_mem_fail_after(fail);
+        fl_alloc_fail_after(fail);
         rc = fl_part_crossings(&p, &c, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
     }
     end(state);

@@ -16,10 +16,10 @@ static void check(const char *text, long k)
     char *end;
     const double want = strtod(text, &end);
     double x = 99.0;
-    const char *stop = fl_decimal(text, &x);
+    const char *stop = fl_decimal_read(text, &x);
     if (stop == end && memcmp(&x, &want, sizeof x) == 0) return;
-    print_error("seed %llu case %ld: \"%s\" reads as %a, %a was wanted\n", (unsigned long long)test_seed(), k,
-                text, x, want);
+    print_error("seed %llu case %ld: \"%s\" reads as %a, %a is expected\n", (unsigned long long)test_seed(),
+                k, text, x, want);
     fail();
 }
 
@@ -85,10 +85,10 @@ static void no_numbers(void **state)
     static const char *const text[] = {"", ".", "-", "+", "+.", "e5", ".e5", "--1", "inf", "nan", " 1", "x"};
     double x = 99.0;
     (void)state;
-    for (size_t k = 0; k < sizeof text / sizeof *text; k++) assert_null(fl_decimal(text[k], &x));
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) assert_null(fl_decimal_read(text[k], &x));
     assert_true(x == 99.0);
     /* strtod() would take these for more than they are. */
-    assert_string_equal(fl_decimal("0x10", &x), "x10");
+    assert_string_equal(fl_decimal_read("0x10", &x), "x10");
     assert_true(x == 0.0);
 }
 

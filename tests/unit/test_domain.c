@@ -2,13 +2,13 @@
 #include <math.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "ice/domain.h"
 #include "ice/domain_read.h"
 #include "ice/faces.h"
-#include "ice/section.h"
+#include "ice/waterplane_cut.h"
 #include "mesh/gstruct.h"
 
 /* A star of n corners about c, its radii random between a and b. */
@@ -31,15 +31,15 @@ static double ring_area(const fl_domain *d, int32_t r)
 static void cut(fl_pieces *p, const fl_domain *d, int32_t n, uint64_t seed, double least)
 {
     fl_vec2 site[300];
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_err err = {0};
     assert_true(n <= 300);
     assert_int_equal(fl_domain_sites(n, seed, d, site, &err), 0);
-    assert_int_equal(fl_cells_build(&c, n, site, (fl_vec2){d->lo.x - 1, d->lo.y - 1},
-                                    (fl_vec2){d->hi.x + 1, d->hi.y + 1}, &err),
+    assert_int_equal(fl_power_cells_build(&c, n, site, (fl_vec2){d->lo.x - 1, d->lo.y - 1},
+                                          (fl_vec2){d->hi.x + 1, d->hi.y + 1}, &err),
                      0);
     assert_int_equal(fl_domain_cut(p, &c, d, least, &err), 0);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
 /* Stars with star-shaped islands wholly inside: the pieces have the area of the outline less the islands,
@@ -61,26 +61,26 @@ static void pieces_fill_the_water_and_no_more(void **state)
         want = ring_area(&d, 0);
         assert_true(want > 0.0);
         for (int32_t k = 0; k < islands; k++) want += ring_area(&d, 1 + k); /* clockwise: negative */
-        assert_int_equal(fl_domain_ready(&d, &err), 0);
+        assert_int_equal(fl_domain_build(&d, &err), 0);
         cut(&p, &d, n, seed, 0.0);
         assert_near(p.area, want, 1e-11);
-        assert_true(p.lost == 0.0 && p.dropped == 0);
+        assert_true(p.dropped_area == 0.0 && p.dropped == 0);
         for (int32_t i = 0; i < p.cells.n; i++) {
             const int32_t m = p.cells.first[i + 1] - p.cells.first[i];
             const fl_vec2 *v = p.cells.v + p.cells.first[i];
             sum += fl_polygon_area(m, v);
-            assert_int_equal(fl_domain_holds(&d, fl_polygon_centroid(m, v), &err), 1);
+            assert_int_equal(fl_domain_contains(&d, fl_polygon_centroid(m, v), &err), 1);
             for (int32_t k = 0; k < m; k++) {
                 const fl_vec2 a = v[k], b = v[(k + 1) % m], c = v[(k + 2) % m];
                 assert_true((b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x) > -1e-9);
             }
-            if (i > 0 && i < p.whole) assert_true(p.site[i] > p.site[i - 1]);
+            if (i > 0 && i < p.largest) assert_true(p.parent[i] > p.parent[i - 1]);
         }
         assert_near(sum, want, 1e-11);
         {
             const fl_floes as = {.n = p.cells.n, .first = p.cells.first, .outer = p.cells.v};
             assert_int_equal(fl_faces_find(&f, &as, &err), 0);
-            assert_true(f.deep <= f.within);
+            assert_true(f.max_overlap <= f.tolerance);
         }
         fl_faces_free(&f);
         fl_pieces_free(&p);
@@ -97,19 +97,19 @@ static void slivers_are_told(void **state)
     fl_err err = {0};
     assert_int_equal(fl_domain_add(&d, 4, box, &err), 0);
     assert_int_equal(fl_domain_add(&d, 4, strip, &err), 0);
-    assert_int_equal(fl_domain_ready(&d, &err), 0);
-    assert_int_equal(fl_domain_convex(&d), 0);
+    assert_int_equal(fl_domain_build(&d, &err), 0);
+    assert_int_equal(fl_domain_is_convex(&d), 0);
     cut(&all, &d, 100, 1, 0.0);
     cut(&some, &d, 100, 1, 0.2);
     assert_near(all.area, 40.0, 1e-13);
     assert_near(some.area, 40.0, 1e-13);
-    assert_true(some.dropped > 0 && some.lost > 0.0);
+    assert_true(some.dropped > 0 && some.dropped_area > 0.0);
     assert_int_equal(some.cells.n + some.dropped, all.cells.n);
     fl_pieces_free(&all);
     fl_pieces_free(&some);
     fl_domain_free(&d);
     assert_int_equal(fl_domain_add(&d, 4, box, &err), 0);
-    assert_int_equal(fl_domain_convex(&d), 1);
+    assert_int_equal(fl_domain_is_convex(&d), 1);
     fl_domain_free(&d);
 }
 
@@ -123,14 +123,14 @@ static void islands_may_overlap(void **state)
     fl_err err = {0};
     assert_int_equal(fl_domain_add(&d, 4, box, &err) | fl_domain_add(&d, 4, a, &err) |
                          fl_domain_add(&d, 4, b, &err) | fl_domain_add(&d, 4, over, &err) |
-                         fl_domain_ready(&d, &err),
+                         fl_domain_build(&d, &err),
                      0);
     cut(&p, &d, 40, 3, 0.0);
     assert_near(p.area, 100.0 - 28.0 - 1.0, 1e-13);
-    assert_int_equal(fl_domain_holds(&d, (fl_vec2){5, 5}, &err), 0);
-    assert_int_equal(fl_domain_holds(&d, (fl_vec2){1, 1}, &err), 1);
-    assert_int_equal(fl_domain_holds(&d, (fl_vec2){-1, 1}, &err), 0);
-    assert_int_equal(fl_domain_holds(&d, (fl_vec2){11, 11}, &err), 0);
+    assert_int_equal(fl_domain_contains(&d, (fl_vec2){5, 5}, &err), 0);
+    assert_int_equal(fl_domain_contains(&d, (fl_vec2){1, 1}, &err), 1);
+    assert_int_equal(fl_domain_contains(&d, (fl_vec2){-1, 1}, &err), 0);
+    assert_int_equal(fl_domain_contains(&d, (fl_vec2){11, 11}, &err), 0);
     fl_pieces_free(&p);
     fl_domain_free(&d);
 }
@@ -151,7 +151,7 @@ static void wrong_rings_are_told(void **state)
     assert_int_equal(d.rings, 0);
     err = (fl_err){0};
     assert_int_equal(
-        fl_domain_add(&d, 3, thin, &err) | fl_domain_add(&d, 4, hole, &err) | fl_domain_ready(&d, &err), 0);
+        fl_domain_add(&d, 3, thin, &err) | fl_domain_add(&d, 4, hole, &err) | fl_domain_build(&d, &err), 0);
     assert_int_equal(fl_domain_sites(1, 1, &d, &site, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
     fl_domain_free(&d);
@@ -173,7 +173,7 @@ static void structures_are_kept_out(void **state)
     double far = 0.0;
     assert_int_equal(fl_gstruct_read(&s, test_file("s.dat", text, sizeof text - 1), &err), 0);
     assert_int_equal(fl_domain_add(&d, 4, box, &err), 0);
-    assert_int_equal(fl_section_keep_out(&d, &s, -0.5, 0.5, 0.25, 0.01, &kept, &err), 0);
+    assert_int_equal(fl_waterplane_keep_out(&d, &s, -0.5, 0.5, 0.25, 0.01, &kept, &err), 0);
     assert_int_equal(kept, 2);
     assert_int_equal(d.rings, 3);
     /* the cone is widest at the lower level: 1.525 there, and the polygon stands off by 0.01 and rounding */
@@ -181,9 +181,9 @@ static void structures_are_kept_out(void **state)
     assert_true(far >= 1.525 + 0.25 && far <= 1.525 + 0.25 + 0.011);
     assert_true(-ring_area(&d, 1) >= PI * 1.775 * 1.775);
     /* the tetrahedron at the lower level, z = -0.5: its base shrunk by an eighth towards the apex (-4, -4) */
-    assert_int_equal(fl_domain_ready(&d, &err), 0);
-    assert_int_equal(fl_domain_holds(&d, (fl_vec2){-4.875 + 0.001, -4.875 + 0.0005}, &err), 0);
-    assert_int_equal(fl_domain_holds(&d, (fl_vec2){-4.875 - 0.4, -4.875 - 0.4}, &err), 1);
+    assert_int_equal(fl_domain_build(&d, &err), 0);
+    assert_int_equal(fl_domain_contains(&d, (fl_vec2){-4.875 + 0.001, -4.875 + 0.0005}, &err), 0);
+    assert_int_equal(fl_domain_contains(&d, (fl_vec2){-4.875 - 0.4, -4.875 - 0.4}, &err), 1);
     fl_domain_free(&d);
     fl_surface_free(&s);
 }
@@ -197,16 +197,16 @@ static void memory_that_runs_out_is_told(void **state)
     for (long k = 0; rc; k++) {
         fl_domain d = {0};
         fl_pieces p = {0};
-        fl_cells c = {0};
+        fl_power_cells c = {0};
         fl_err err = {0};
-        assert_int_equal(fl_cells_build(&c, 3, site, (fl_vec2){-1, -1}, (fl_vec2){11, 11}, &err), 0);
-        fl_mem_fail_after(k);
-        rc = fl_domain_add(&d, 4, box, &err) || fl_domain_add(&d, 4, a, &err) || fl_domain_ready(&d, &err) ||
+        assert_int_equal(fl_power_cells_build(&c, 3, site, (fl_vec2){-1, -1}, (fl_vec2){11, 11}, &err), 0);
+        fl_alloc_fail_after(k);
+        rc = fl_domain_add(&d, 4, box, &err) || fl_domain_add(&d, 4, a, &err) || fl_domain_build(&d, &err) ||
              fl_domain_cut(&p, &c, &d, 0.0, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
         fl_pieces_free(&p);
-        fl_cells_free(&c);
+        fl_power_cells_free(&c);
         fl_domain_free(&d);
         assert_true(k < 1000);
     }

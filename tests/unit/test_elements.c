@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
-#include "base/mem.h"
-#include "geom/patch.h"
+#include "base/array.h"
+#include "geom/mesh_patch.h"
 #include "geom/weld.h"
 #include "mesh/elements.h"
 #include "mesh/skin.h"
@@ -32,11 +32,11 @@ static int end(void **state)
     return 0;
 }
 
-static int32_t part(const char *name) { return fl_names_add(&e.parts, name, &err); }
+static int32_t part(const char *name) { return fl_string_table_add(&e.parts, name, &err); }
 
 static void node(int64_t id, double x, double y, double z)
 {
-    assert_true(fl_elements_node(&e, 0, id, v3(x, y, z), &err) >= 0);
+    assert_true(fl_elements_add_node(&e, 0, id, v3(x, y, z), &err) >= 0);
 }
 
 /* Add an element of the nodes that follow, numbered as they stand in the text. */
@@ -47,9 +47,9 @@ static int32_t add(int64_t id, enum fl_shape shape, int32_t p, const int64_t *n)
     return k;
 }
 
-static fl_quality surface(fl_wish *w)
+static fl_mesh_quality surface(fl_import_options *w)
 {
-    fl_quality q = {0};
+    fl_mesh_quality q = {0};
     if (fl_elements_surface(&e, &s, &b, w, &err)) fail_msg("%s", err.text);
     assert_true(mesh_sound(&s));
     assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
@@ -104,8 +104,8 @@ static void solids_are_closed_and_look_outward(void **state)
         for (int way = 0; way < 8; way++) {
             const enum fl_shape shape = way & 1 ? SOLID[k].quadratic : SOLID[k].linear;
             const int pieces = (way & 5) == 5;
-            fl_wish w = {.subdivide = way & 4};
-            fl_quality q;
+            fl_import_options w = {.subdivide = way & 4};
+            fl_mesh_quality q;
             assert_int_equal(begin(state), 0);
             put_solid(&SOLID[k], shape, way & 2 ? -1.0 : 1.0);
             q = surface(&w);
@@ -153,7 +153,7 @@ static void collapsed_solids_are_what_is_left(void **state)
         {{1, 2, 2, 1, 5, 6, 7, 8}, 0.5, 8},       /* wedge of a collapsed side */
     };
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
-        fl_quality q;
+        fl_mesh_quality q;
         assert_int_equal(begin(state), 0);
         for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
         add(1, FL_HEX8, part("p"), row[k].n);
@@ -188,7 +188,7 @@ static void block(int nx, int ny, int nz)
 static void faces_between_solids_are_interior(void **state)
 {
     (void)state;
-    fl_quality q, one;
+    fl_mesh_quality q, one;
     block(4, 3, 5);
     q = surface(NULL);
     assert_int_equal(q.triangles, 4 * (4 * 3 + 3 * 5 + 4 * 5));
@@ -217,8 +217,8 @@ static void a_part_taken_alone_is_closed(void **state)
     (void)state;
     const char *const pattern[] = {"B"};
     char hit[1] = {0};
-    fl_wish w = {.pattern = pattern, .patterns = 1, .hit = hit};
-    fl_quality q;
+    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = hit};
+    fl_mesh_quality q;
     block(4, 3, 5);
     q = surface(&w);
     assert_int_equal(s.n, 1);
@@ -231,15 +231,15 @@ static void a_part_taken_alone_is_closed(void **state)
 static void sets_are_taken_when_they_are_asked_for(void **state)
 {
     const char *const all[] = {"*"}, *const face[] = {"side"}, *const skin[] = {"skin", "a"};
-    fl_wish w = {.pattern = all, .patterns = 1};
-    fl_quality q;
+    fl_import_options w = {.pattern = all, .patterns = 1};
+    fl_mesh_quality q;
     for (int way = 0; way < 4; way++) {
         int32_t side, shell, top;
         assert_int_equal(begin(state), 0);
         block(2, 2, 2);
-        side = fl_names_add(&e.sets, "side", &err);
-        shell = fl_names_add(&e.sets, "skin", &err);
-        top = fl_names_add(&e.sets, "top", &err);
+        side = fl_string_table_add(&e.sets, "side", &err);
+        shell = fl_string_table_add(&e.sets, "skin", &err);
+        top = fl_string_table_add(&e.sets, "top", &err);
         for (int32_t k = 0; k < 8; k++) {
             assert_int_equal(fl_elements_pick(&e, (fl_pick){k, shell, FL_PICK_FREE, 0}, &err), 0);
             if (k >= 4) fl_elements_pick(&e, (fl_pick){k, top, FL_PICK_WHOLE, 0}, &err);
@@ -282,8 +282,8 @@ static void twins_count_once(void **state)
     const char *const all[] = {"*"}, *const second[] = {"b"};
     const int64_t hex[8] = {1, 2, 3, 4, 5, 6, 7, 8}, turned[8] = {5, 6, 7, 8, 1, 2, 3, 4};
     for (int way = 0; way < 3; way++) {
-        fl_wish w = {.pattern = way == 1 ? all : second, .patterns = 1};
-        fl_quality q;
+        fl_import_options w = {.pattern = way == 1 ? all : second, .patterns = 1};
+        fl_mesh_quality q;
         int32_t set;
         assert_int_equal(begin(state), 0);
         for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
@@ -296,9 +296,9 @@ static void twins_count_once(void **state)
         add(4, FL_TRI3, part("b"), (const int64_t[]){11, 9, 10});
         for (int k = 0; k < 3; k++) { /* two of one radius, and one more */
             const int32_t l = add(5 + k, FL_LINE2, part("b"), (const int64_t[]){1 + k % 2, 2 - k % 2});
-            fl_elements_radius(&e, l, k < 2 ? 0.5 : 0.6, 0.5, &err);
+            fl_elements_set_radius(&e, l, k < 2 ? 0.5 : 0.6, 0.5, &err);
         }
-        set = fl_names_add(&e.sets, "top", &err);
+        set = fl_string_table_add(&e.sets, "top", &err);
         for (int k = 0; k < 2; k++)
             assert_int_equal(fl_elements_pick(&e, (fl_pick){k, set, k == 0, 0}, &err), 0); /* z = 1 */
         q = surface(way ? &w : NULL);
@@ -307,8 +307,8 @@ static void twins_count_once(void **state)
         assert_int_equal(s.n, way == 0 ? 2 : way == 1 ? 3 : 1);
         assert_non_null(strstr(b.note, way < 2 ? "3 elements stand on the nodes of others" : "1 elements"));
         if (way == 0) {
-            assert_int_equal(s.part[0].doubled, 2);
-            assert_int_equal(s.part[1].doubled, 1);
+            assert_int_equal(s.part[0].duplicates, 2);
+            assert_int_equal(s.part[1].duplicates, 1);
             assert_int_equal(s.part[0].nt, 13);
         }
         if (way == 1) assert_int_equal(s.part[2].nt, 2);
@@ -323,8 +323,8 @@ static void shells_on_solids_are_no_second_face(void **state)
 {
     const char *const all[] = {"*"}, *const skin[] = {"skin"};
     for (int way = 0; way < 3; way++) {
-        fl_wish w = {.pattern = way == 1 ? all : skin, .patterns = 1};
-        fl_quality q;
+        fl_import_options w = {.pattern = way == 1 ? all : skin, .patterns = 1};
+        fl_mesh_quality q;
         assert_int_equal(begin(state), 0);
         block(2, 1, 1);
         add(101, FL_QUAD4, part("skin"), (const int64_t[]){1, 4, 10, 7}); /* x = 0, wound inward */
@@ -338,7 +338,7 @@ static void shells_on_solids_are_no_second_face(void **state)
             assert_non_null(strstr(b.note, "2 shells lie on faces of solids, which are there already"));
             assert_non_null(strstr(b.note, "--part gives such faces"));
             assert_non_null(strstr(b.note, "1 shells lie between two solids"));
-            assert_int_equal(s.part[0].doubled, 2);
+            assert_int_equal(s.part[0].duplicates, 2);
         } else {
             const fl_part *p = &s.part[way == 1 ? 2 : 0];
             assert_string_equal(p->name, "skin");
@@ -362,7 +362,7 @@ static void shells_keep_their_side(void **state)
 {
     const char *const pattern[] = {"under"};
     for (int behind = 0; behind < 2; behind++) {
-        fl_wish w = {.pattern = pattern, .patterns = 1};
+        fl_import_options w = {.pattern = pattern, .patterns = 1};
         int32_t k, v[3];
         assert_int_equal(begin(state), 0);
         node(5, 0, 0, 0);
@@ -370,7 +370,7 @@ static void shells_keep_their_side(void **state)
         node(7, 2, 1, 0);
         node(8, 0, 1, 0);
         k = add(1, FL_QUAD4, part("plate"), (const int64_t[]){5, 6, 7, 8});
-        fl_elements_pick(&e, (fl_pick){k, fl_names_add(&e.sets, "under", &err), 0, 1}, &err);
+        fl_elements_pick(&e, (fl_pick){k, fl_string_table_add(&e.sets, "under", &err), 0, 1}, &err);
         assert_int_equal(surface(behind ? &w : NULL).triangles, 2);
         assert_string_equal(s.part[0].name, behind ? "under" : "plate");
         for (int t = 0; t < 2; t++) {
@@ -426,8 +426,8 @@ static void curved_shells_are_subdivided(void **state)
                {FL_QUAD8, (const int64_t[]){1, 2, 3, 3, 5, 6, 0, 10}, 4}}; /* collapsed to a triangle */
     for (int k = 0; k < 6; k++)
         for (int fine = 0; fine < 2; fine++) {
-            fl_wish w = {.subdivide = fine};
-            fl_quality q;
+            fl_import_options w = {.subdivide = fine};
+            fl_mesh_quality q;
             assert_int_equal(begin(state), 0);
             for (int i = 0; i < 4; i++) node(1 + i, HEX[i][0], HEX[i][1], 0);
             node(5, 0.5, 0, 0.125);
@@ -452,15 +452,15 @@ static void lines_become_cones(void **state)
 {
     (void)state;
     const int64_t n[3] = {1, 2, 3};
-    fl_wish w = {.subdivide = 1};
+    fl_import_options w = {.subdivide = 1};
     const int32_t p = part("legs");
     node(1, 0, 0, 0);
     node(2, 0, 0, 4);
     node(3, 1, 0, 2);
-    assert_int_equal(fl_elements_radius(&e, add(1, FL_LINE2, p, n), 0.5, 0.5, &err), 0);
-    assert_int_equal(fl_elements_radius(&e, add(2, FL_LINE3, p, n), 0.5, 0.25, &err), 0);
+    assert_int_equal(fl_elements_set_radius(&e, add(1, FL_LINE2, p, n), 0.5, 0.5, &err), 0);
+    assert_int_equal(fl_elements_set_radius(&e, add(2, FL_LINE3, p, n), 0.5, 0.25, &err), 0);
     add(3, FL_LINE2, p, n); /* without a section */
-    assert_int_equal(fl_elements_radius(&e, add(4, FL_LINE2, p, (const int64_t[]){1, 1}), 1, 1, &err), 0);
+    assert_int_equal(fl_elements_set_radius(&e, add(4, FL_LINE2, p, (const int64_t[]){1, 1}), 1, 1, &err), 0);
     surface(&w);
     assert_int_equal(s.part[0].nc, 3);
     assert_near(s.part[0].cone[1].r1, 0.375, 0.0);
@@ -477,7 +477,7 @@ static void scopes_keep_equal_numbers_apart(void **state)
     const int64_t n[3] = {1, 2, 3};
     for (int scope = 0; scope < 2; scope++) {
         for (int i = 0; i < 3; i++)
-            assert_true(fl_elements_node(&e, scope, i + 1, v3(TET[i][0], TET[i][1], scope), &err) >= 0);
+            assert_true(fl_elements_add_node(&e, scope, i + 1, v3(TET[i][0], TET[i][1], scope), &err) >= 0);
         assert_int_equal(fl_elements_add(&e, scope, 1, FL_TRI3, part("p"), n, &err), scope);
     }
     assert_int_equal(fl_elements_add(&e, 0, -1, FL_TRI3, part("p"), n, &err), 2); /* without a number */
@@ -507,16 +507,16 @@ static void complaints_name_file_and_line(void **state)
     const int64_t n[3] = {1, 2, 99}, zero[3] = {1, 0, 2};
     e.line = 4;
     node(1, 0, 0, 0);
-    assert_int_equal(fl_elements_node(&e, 0, 2, v3(0, NAN, 0), &err), -1);
-    assert_string_equal(err.text, "test.inp:4: node 2 is at 0 nan 0, finite coordinates were wanted");
+    assert_int_equal(fl_elements_add_node(&e, 0, 2, v3(0, NAN, 0), &err), -1);
+    assert_string_equal(err.text, "test.inp:4: node 2 is at 0 nan 0, finite coordinates are expected");
     err = (fl_err){0};
     e.line = 5;
     assert_int_equal(fl_elements_add(&e, 0, 1, FL_TRI3, part("p"), zero, &err), -1);
     assert_string_equal(err.text,
-                        "test.inp:5: corner 2 of the element is node 0, a number of 1 or more was wanted");
+                        "test.inp:5: corner 2 of the element is node 0, a number of 1 or more is expected");
     err = (fl_err){0};
     node(2, 1, 0, 0);
-    assert_int_equal(fl_elements_file(&e, "more.inp", &err), 0);
+    assert_int_equal(fl_elements_set_file(&e, "more.inp", &err), 0);
     e.line = 12;
     add(1, FL_TRI3, part("p"), n);
     e.line = 20;
@@ -552,22 +552,23 @@ static void without_memory_it_says_so(void **state)
     int rc = -1;
     end(state);
     for (long fail = 0; rc; fail++) {
-        fl_wish w = {.pattern = pattern, .patterns = 1, .subdivide = 1};
+        fl_import_options w = {.pattern = pattern, .patterns = 1, .subdivide = 1};
         err = (fl_err){0};
-        fl_mem_fail_after(fail);
+        fl_alloc_fail_after(fail);
         rc = begin(state);
         for (int i = 0; rc == 0 && i < 8; i++)
-            rc = fl_elements_node(&e, 0, i + 1, v3(HEX[i][0], HEX[i][1], HEX[i][2]), &err) < 0;
+            rc = fl_elements_add_node(&e, 0, i + 1, v3(HEX[i][0], HEX[i][1], HEX[i][2]), &err) < 0;
         if (rc == 0) {
             const int64_t n[8] = {1, 2, 3, 4, 5, 6, 7, 8};
-            const int32_t p = fl_names_add(&e.parts, "p", &err), set = fl_names_add(&e.sets, "t", &err);
+            const int32_t p = fl_string_table_add(&e.parts, "p", &err),
+                          set = fl_string_table_add(&e.sets, "t", &err);
             const int32_t k = p < 0 || set < 0 ? -1 : fl_elements_add(&e, 0, 1, FL_HEX8, p, n, &err);
             const int32_t l = k < 0 ? -1 : fl_elements_add(&e, 0, 2, FL_LINE2, p, n, &err);
-            rc = l < 0 || fl_elements_radius(&e, l, 1, 1, &err) || fl_elements_skip(&e, "X", &err) ||
+            rc = l < 0 || fl_elements_set_radius(&e, l, 1, 1, &err) || fl_elements_skip(&e, "X", &err) ||
                  fl_elements_pick(&e, (fl_pick){k, set, FL_PICK_FREE, 0}, &err) ||
                  fl_elements_surface(&e, &s, &b, &w, &err);
         }
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(rc ? FL_SYSTEM : 0, err.code);
         if (rc) end(state);
         assert_true(fail < 500);

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "ice/faces.h"
 
 static void make(fl_floes *a, int32_t n, uint64_t seed, int smooth, double radius, fl_vec2 shift)
 {
     const fl_vec2 lo = {-4.0, -3.0}, hi = {4.0, 3.0};
     fl_vec2 site[500];
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_err err = {0};
     assert_true(n <= 500);
-    fl_cells_sites(n, seed, lo, hi, site);
-    assert_int_equal(fl_cells_build(&c, n, site, lo, hi, &err), 0);
+    fl_random_sites(n, seed, lo, hi, site);
+    assert_int_equal(fl_power_cells_build(&c, n, site, lo, hi, &err), 0);
     for (int k = 0; k < smooth; k++) {
-        fl_cells_centroids(&c, site);
-        fl_cells_free(&c);
-        assert_int_equal(fl_cells_build(&c, n, site, lo, hi, &err), 0);
+        fl_power_cells_centroids(&c, site);
+        fl_power_cells_free(&c);
+        assert_int_equal(fl_power_cells_build(&c, n, site, lo, hi, &err), 0);
     }
     assert_int_equal(fl_floes_fill(a, &c, radius, shift, &err), 0);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
 /* Every side lies on another one or on the outline; the faces of n cells of one plane graph with e inner
@@ -40,8 +40,8 @@ static void sides_pair_up(void **state)
             area += fl_polygon_area(a.first[i + 1] - a.first[i], a.outer + a.first[i]);
         assert_near(area, 48.0, 1e-7);
         /* corners, and sides that were too short, may be lost: they are shorter than 1e-3 of a floe's size */
-        assert_near_of(f.outline - 2.0 * f.length, 28.0, 1e-3 / sqrt(n), f.outline);
-        assert_true(f.deep <= f.within);
+        assert_near_of(f.perimeter - 2.0 * f.total_length, 28.0, 1e-3 / sqrt(n), f.perimeter);
+        assert_true(f.max_overlap <= f.tolerance);
         for (int32_t k = 0; k < f.n; k++) {
             assert_true(f.face[k].i < f.face[k].j);
             if (k)
@@ -66,9 +66,9 @@ static void rounded_floes_lose_short_sides_only(void **state)
     for (int32_t i = 0; i < a.n; i++)
         area += fl_polygon_area(a.first[i + 1] - a.first[i], a.outer + a.first[i]);
     assert_true(area <= 48.0 * (1.0 + 1e-14) && area > 0.999 * 48.0);
-    assert_true(f.deep <= f.within);
-    assert_true(f.outline - 2.0 * f.length >= 28.0 - 1e-9);
-    assert_true(f.outline - 2.0 * f.length < 28.0 + 0.01 * f.outline);
+    assert_true(f.max_overlap <= f.tolerance);
+    assert_true(f.perimeter - 2.0 * f.total_length >= 28.0 - 1e-9);
+    assert_true(f.perimeter - 2.0 * f.total_length < 28.0 + 0.01 * f.perimeter);
     fl_faces_free(&f);
     fl_floes_free(&a);
 }
@@ -87,19 +87,19 @@ static void pieces_of_sides_are_found(void **state)
     assert_int_equal(f.n, 2);
     assert_int_equal(f.face[0].j, 1);
     assert_int_equal(f.face[1].j, 2);
-    assert_near(f.length, 3.5, 1e-15);
+    assert_near(f.total_length, 3.5, 1e-15);
     assert_near(f.face[0].a.x, 1.5, 1e-15); /* counter-clockwise round the long one */
     assert_true(f.face[0].b.x == 0.0 && f.face[0].b.y == 1.0);
-    assert_true(f.deep <= 0.0);
+    assert_true(f.max_overlap <= 0.0);
     fl_faces_free(&f);
     outer[12] = (fl_vec2){3.75, 0.5}; /* the fourth reaches into the first by a quarter */
     outer[13] = (fl_vec2){6, 0.5};
     outer[14] = (fl_vec2){6, 0.75};
     outer[15] = (fl_vec2){3.75, 0.75};
     assert_int_equal(fl_faces_find(&f, &a, &err), 0);
-    assert_near(f.deep, 0.25, 1e-14);
-    assert_int_equal(f.deep_of[0], 0);
-    assert_int_equal(f.deep_of[1], 3);
+    assert_near(f.max_overlap, 0.25, 1e-14);
+    assert_int_equal(f.max_overlap_pair[0], 0);
+    assert_int_equal(f.max_overlap_pair[1], 3);
     fl_faces_free(&f);
 }
 
@@ -112,9 +112,9 @@ static void memory_that_runs_out_is_told(void **state)
     for (long k = 0; rc; k++) {
         fl_faces f = {0};
         fl_err err = {0};
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         rc = fl_faces_find(&f, &a, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
         if (rc) assert_null(f.face);
         fl_faces_free(&f);

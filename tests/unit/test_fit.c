@@ -2,11 +2,11 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "stat/extreme.h"
 #include "stat/fit.h"
-#include "stat/returns.h"
+#include "stat/return_level.h"
 #include "stat/sample.h"
 #include "support/near.h"
 
@@ -95,10 +95,10 @@ static void levels_by_reference(void **state)
     const fl_dist p = {FL_GPD, 60.0, 15.0, 0.1};
     (void)state;
     for (int k = 0; k < 3; k++) {
-        assert_near(fl_dist_level(&g, tail[k]), gumbel[k], 1e-6);
-        assert_near(fl_dist_level(&e, tail[k]), gev[k], 1e-5);
+        assert_near(fl_dist_upper_quantile(&g, tail[k]), gumbel[k], 1e-6);
+        assert_near(fl_dist_upper_quantile(&e, tail[k]), gev[k], 1e-5);
     }
-    assert_near(fl_dist_level(&p, 1.0 / (11.0 * 100.0)), 212.1555, 1e-6);
+    assert_near(fl_dist_upper_quantile(&p, 1.0 / (11.0 * 100.0)), 212.1555, 1e-6);
 }
 
 /* Level, tail and cdf belong together, and the density is the slope of the cdf, also through shape 0. */
@@ -112,8 +112,8 @@ static void laws_agree_with_themselves(void **state)
     for (size_t k = 0; k < sizeof law / sizeof *law; k++) {
         const fl_dist *d = &law[k];
         for (double tail = 0.9; tail > 1e-12; tail *= 0.3) {
-            const double x = fl_dist_level(d, tail), h = 1e-5 * d->scale;
-            assert_near(fl_dist_tail(d, x), tail, 1e-8);
+            const double x = fl_dist_upper_quantile(d, tail), h = 1e-5 * d->scale;
+            assert_near(fl_dist_survival(d, x), tail, 1e-8);
             if (tail < 1e-3) continue;
             assert_near(fl_dist_cdf(d, x), 1.0 - tail, 1e-10);
             assert_near((fl_dist_cdf(d, x + h) - fl_dist_cdf(d, x - h)) / (2.0 * h),
@@ -138,7 +138,7 @@ static void fits_return_their_law(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof law / sizeof *law; k++) {
         double best = -INFINITY;
-        for (int32_t j = 0; j < M; j++) x[j] = fl_dist_level(&law[k], (M - j - 0.5) / M);
+        for (int32_t j = 0; j < M; j++) x[j] = fl_dist_upper_quantile(&law[k], (M - j - 0.5) / M);
         for (int method = 0; method < FL_FIT_METHODS; method++) {
             const fl_dist d = fitted(law[k].kind, method, M, x, law[k].location);
             assert_near(d.scale, law[k].scale, 0.03);
@@ -150,7 +150,7 @@ static void fits_return_their_law(void **state)
         }
         /* The best law with its own level is itself, and none with another level is better. */
         const fl_dist d = fitted(law[k].kind, FL_FIT_LIKELIHOOD, M, x, law[k].location);
-        const double q = fl_dist_level(&d, 1e-3);
+        const double q = fl_dist_upper_quantile(&d, 1e-3);
         assert_near(fl_fit_constrained(&d, M, x, 1e-3, q, &work, NULL), best, 1e-9);
         assert_true(fl_fit_constrained(&d, M, x, 1e-3, 1.02 * q, &work, NULL) < best - 1e-3);
         assert_true(fl_fit_constrained(&d, M, x, 1e-3, 0.98 * q, &work, NULL) < best - 1e-3);
@@ -189,7 +189,7 @@ static void any_sample_is_answered(void **state)
         int32_t rank[40];
         double y[40];
         fl_err err = {0};
-        assert_int_equal(fl_extreme_rank(n, x, rank, &err), 0);
+        assert_int_equal(fl_rank_descending(n, x, rank, &err), 0);
         for (int32_t k = 0; k < n; k++) y[k] = x[rank[k]];
         for (int kind = 0; kind < FL_DISTS; kind++) {
             for (int method = 0; method < FL_FIT_METHODS; method++) {
@@ -209,10 +209,10 @@ static void intervals_enclose(void **state)
     for (int kind = 0; kind < FL_DISTS; kind++) {
         const int32_t n = kind == FL_GPD ? OVER : N;
         const fl_dist d = fitted(kind, FL_FIT_LIKELIHOOD, n, X, 60.0);
-        fl_return r[2] = {{.tail = 0.1}, {.tail = 0.01}};
-        fl_goodness g;
+        fl_return_level r[2] = {{.tail = 0.1}, {.tail = 0.01}};
+        fl_goodness_of_fit g;
         fl_err err = {0};
-        assert_int_equal(fl_returns(&d, n, X, 2, r, &g, 99, 1, 0, &work, &err), 0);
+        assert_int_equal(fl_compute_return_levels(&d, n, X, 2, r, &g, 99, 1, 0, &work, &err), 0);
         for (int k = 0; k < 2; k++) {
             assert_true(r[k].profile[0] < r[k].level && r[k].level < r[k].profile[1]);
             assert_true(r[k].bootstrap[0] < r[k].level && r[k].level < r[k].bootstrap[1]);
@@ -221,8 +221,8 @@ static void intervals_enclose(void **state)
             /* An end is where the ratio has its cut. */
             for (int e = 0; e < 2; e++) {
                 const double l = fl_fit_constrained(&d, n, X, r[k].tail, r[k].profile[e], &work, NULL);
-                const double t = gsl_cdf_tdist_Qinv(0.025, n - fl_dist_free(kind)),
-                             cut = n * log1p(t * t / (n - fl_dist_free(kind)));
+                const double t = gsl_cdf_tdist_Qinv(0.025, n - fl_dist_parameter_count(kind)),
+                             cut = n * log1p(t * t / (n - fl_dist_parameter_count(kind)));
                 if (isfinite(l)) assert_near(2.0 * (fl_fit_log_likelihood(&d, n, X) - l), cut, 1e-3);
                 else assert_true(kind == FL_GPD && e == 0); /* no law with shape > -1/2 lies lower */
             }
@@ -243,7 +243,7 @@ static void crowded_values_end_at_the_bound(void **state)
         const fl_dist best = fitted(kind, FL_FIT_LIKELIHOOD, N, x, 60.0);
         const double most = fl_fit_log_likelihood(&best, N, x);
         assert_near(best.shape, -0.5, 1e-12);
-        assert_true(fl_dist_level(&best, 1e-12) > x[0]);
+        assert_true(fl_dist_upper_quantile(&best, 1e-12) > x[0]);
         for (int k = 0; k < 8; k++) {
             fl_dist d = best;
             d.scale *= 1.0 + 0.01 * (k % 3 - 1);
@@ -267,7 +267,7 @@ static void anderson_by_hand(void **state)
 static void expect(const fl_peaks *p, int32_t n, const int32_t *at)
 {
     assert_int_equal(p->n, n);
-    for (int32_t k = 0; k < n; k++) assert_int_equal(p->at[k], at[k]);
+    for (int32_t k = 0; k < n; k++) assert_int_equal(p->row[k], at[k]);
 }
 
 static void clusters_and_blocks(void **state)
@@ -277,23 +277,24 @@ static void clusters_and_blocks(void **state)
     fl_err err = {0};
     int32_t whole;
     (void)state;
-    assert_int_equal(fl_sample_over(10, x, edge, 4.0, 0.0, &p, &err), 0);
+    assert_int_equal(fl_sample_peaks_over_threshold(10, x, edge, 4.0, 0.0, &p, &err), 0);
     expect(&p, 3, (int32_t[]){1, 3, 8});
-    assert_int_equal(fl_sample_over(10, x, edge, 4.0, 3.0, &p, &err), 0); /* 3 s between rows 3 and 7 */
+    assert_int_equal(fl_sample_peaks_over_threshold(10, x, edge, 4.0, 3.0, &p, &err),
+                     0); /* 3 s between rows 3 and 7 */
     expect(&p, 2, (int32_t[]){3, 8});
-    assert_int_equal(fl_sample_over(10, x, edge, 4.0, 3.5, &p, &err), 0);
+    assert_int_equal(fl_sample_peaks_over_threshold(10, x, edge, 4.0, 3.5, &p, &err), 0);
     expect(&p, 1, (int32_t[]){8});
-    assert_int_equal(fl_sample_over(10, x, edge, 9.0, 0.0, &p, &err), 0);
+    assert_int_equal(fl_sample_peaks_over_threshold(10, x, edge, 9.0, 0.0, &p, &err), 0);
     expect(&p, 0, NULL);
-    assert_int_equal(fl_sample_blocks(10, x, edge, 3.0, &p, &whole, &err), 0);
+    assert_int_equal(fl_sample_block_maxima(10, x, edge, 3.0, &p, &whole, &err), 0);
     expect(&p, 3, (int32_t[]){1, 3, 8});
     assert_int_equal(whole, 3);
-    assert_int_equal(fl_sample_blocks(10, x, edge, 20.0, &p, &whole, &err), 0);
+    assert_int_equal(fl_sample_block_maxima(10, x, edge, 20.0, &p, &whole, &err), 0);
     expect(&p, 0, NULL);
-    fl_mem_fail_after(0);
+    fl_alloc_fail_after(0);
     fl_peaks_free(&p);
-    assert_int_equal(fl_sample_blocks(10, x, edge, 3.0, &p, NULL, &err), -1);
-    fl_mem_fail_after(-1);
+    assert_int_equal(fl_sample_block_maxima(10, x, edge, 3.0, &p, NULL, &err), -1);
+    fl_alloc_fail_after(-1);
     assert_int_equal(err.code, FL_SYSTEM);
     fl_peaks_free(&p);
 }

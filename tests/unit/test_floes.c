@@ -3,7 +3,7 @@
 #include <omp.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "geom/clip.h"
@@ -14,23 +14,23 @@
 static const fl_vec2 LO = {-25.0, -20.0}, HI = {25.0, 20.0};
 #define AREA 2000.0
 
-static void make_cells(fl_cells *c, int32_t n, uint64_t seed, int smooth)
+static void make_cells(fl_power_cells *c, int32_t n, uint64_t seed, int smooth)
 {
     fl_vec2 site[1000];
     fl_err err = {0};
     assert_true(n <= 1000);
-    fl_cells_sites(n, seed, LO, HI, site);
-    assert_int_equal(fl_cells_build(c, n, site, LO, HI, &err), 0);
+    fl_random_sites(n, seed, LO, HI, site);
+    assert_int_equal(fl_power_cells_build(c, n, site, LO, HI, &err), 0);
     for (int k = 0; k < smooth; k++) {
-        fl_cells_centroids(c, site);
-        fl_cells_free(c);
-        assert_int_equal(fl_cells_build(c, n, site, LO, HI, &err), 0);
+        fl_power_cells_centroids(c, site);
+        fl_power_cells_free(c);
+        assert_int_equal(fl_power_cells_build(c, n, site, LO, HI, &err), 0);
     }
 }
 
 /* What every field must be: area as asked, measured by adding up; the outer polygon is the core's offset and
  * stays in its cell by half the inset of the floe; no overlap. */
-static void check_field(const fl_cells *c, const fl_floes *a, double concentration, double radius)
+static void check_field(const fl_power_cells *c, const fl_floes *a, double concentration, double radius)
 {
     fl_certificate cert;
     fl_err err = {0};
@@ -46,14 +46,14 @@ static void check_field(const fl_cells *c, const fl_floes *a, double concentrati
             assert_true((q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x) > 0.0);
             assert_near_of((q.x - p.x) * (o.y - p.y) - (q.y - p.y) * (o.x - p.x), -radius * e, 1e-12, e);
             for (int32_t f = c->first[i]; f < c->first[i + 1]; f++)
-                assert_true(fl_side_beyond(c->side[f], outer[k]) < 0.0);
+                assert_true(fl_polygon_side_distance(c->side[f], outer[k]) < 0.0);
         }
     }
     assert_near(sum, concentration * AREA, 1e-12);
     assert_int_equal(fl_certificate_make(&cert, a, &err), 0);
     assert_int_equal(cert.overlaps, 0);
-    assert_near(cert.total, sum, 1e-14);
-    assert_true(cert.gap > 0.0);
+    assert_near(cert.total_area, sum, 1e-14);
+    assert_true(cert.min_gap > 0.0);
 }
 
 static void concentration_is_met_and_nothing_overlaps(void **state)
@@ -62,7 +62,7 @@ static void concentration_is_met_and_nothing_overlaps(void **state)
     static const double asked[] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95};
     for (int s = 0; s < test_times(30); s++) {
         const double radius[3] = {0.0, 0.05, 0.12};
-        fl_cells c = {0};
+        fl_power_cells c = {0};
         make_cells(&c, 120, test_seed() + (uint64_t)s, s % 4);
         for (int k = 0; k < 8; k++) {
             fl_floes a = {0};
@@ -73,7 +73,7 @@ static void concentration_is_met_and_nothing_overlaps(void **state)
             check_field(&c, &a, asked[k], radius[s % 3]);
             fl_floes_free(&a);
         }
-        fl_cells_free(&c);
+        fl_power_cells_free(&c);
     }
 }
 
@@ -83,7 +83,7 @@ static void the_solver_sees_the_ice_that_was_asked_for(void **state)
 {
     (void)state;
     const double thickness = 0.6, radius = 0.1;
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_floes a = {0};
     fl_err err = {0};
     double volume = 0.0;
@@ -105,7 +105,7 @@ static void the_solver_sees_the_ice_that_was_asked_for(void **state)
     }
     assert_near(volume, 0.9 * AREA * thickness, 1e-11);
     fl_floes_free(&a);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
 /* Dense fields of coarse floes: nearly every short side asks for a decision. */
@@ -117,7 +117,7 @@ static void dense_and_coarse_fields_settle(void **state)
         fl_rng g = fl_rng_of(test_seed(), s, FL_RNG_TEST);
         const double concentration = 1.0 - pow(10.0, fl_rng_in(&g, -3.0, -0.5)),
                      radius = fl_rng_in(&g, 0.0, 0.3);
-        fl_cells c = {0};
+        fl_power_cells c = {0};
         fl_floes a = {0};
         fl_err err = {0};
         make_cells(&c, 200, test_seed() + (uint64_t)s, 3);
@@ -129,7 +129,7 @@ static void dense_and_coarse_fields_settle(void **state)
                              FL_INPUT); /* the radius takes more of the corners than there is water */
         }
         fl_floes_free(&a);
-        fl_cells_free(&c);
+        fl_power_cells_free(&c);
     }
     assert_true(made > test_times(40) / 2);
 }
@@ -138,7 +138,7 @@ static void dense_and_coarse_fields_settle(void **state)
 static void one_floe_is_a_rectangle(void **state)
 {
     (void)state;
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_floes a = {0};
     fl_certificate cert;
     fl_err err = {0};
@@ -146,46 +146,46 @@ static void one_floe_is_a_rectangle(void **state)
     assert_int_equal(fl_floes_make(&a, &c, 0.3, 1.5, (fl_vec2){100.0, 0.0}, &err), 0);
     assert_near(a.inset, (180.0 - sqrt(180.0 * 180.0 - 16.0 * (1.0 - 0.3) * AREA)) / 8.0, 1e-14);
     assert_int_equal(fl_certificate_make(&cert, &a, &err), 0);
-    assert_near(cert.total, 600.0, 1e-13);
-    assert_true(isinf(cert.gap));
-    assert_int_equal(cert.gap_of[0], -1);
-    assert_near(cert.edge, 40.0 - 2.0 * (a.inset + 1.5), 1e-13);
-    assert_near(cert.angle, 0.5 * PI, 1e-14);
+    assert_near(cert.total_area, 600.0, 1e-13);
+    assert_true(isinf(cert.min_gap));
+    assert_int_equal(cert.min_gap_pair[0], -1);
+    assert_near(cert.min_side, 40.0 - 2.0 * (a.inset + 1.5), 1e-13);
+    assert_near(cert.min_angle, 0.5 * PI, 1e-14);
     assert_true(a.core[0].x > 75.0);
     fl_floes_free(&a);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
-static void refused(const fl_cells *c, double concentration, double radius, const char *why)
+static void refused(const fl_power_cells *c, double concentration, double radius, const char *why)
 {
     fl_floes a = {0};
     fl_err err = {0};
     assert_int_equal(fl_floes_make(&a, c, concentration, radius, (fl_vec2){0, 0}, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
     assert_int_equal(a.n, 0);
-    if (!strstr(err.text, why)) fail_msg("\"%s\" where \"%s\" was wanted", err.text, why);
+    if (!strstr(err.text, why)) fail_msg("\"%s\" where \"%s\" is expected", err.text, why);
 }
 
 static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
     fl_vec2 site[4] = {{-10, 0}, {10, 0}, {0.3, 0.0}, {0.0, 15.0}};
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_err err = {0};
     make_cells(&c, 100, 1, 2);
     refused(&c, 0.5, 5.0, "too little for a core inside a dilation radius of 5 m");
     refused(&c, 0.01, 0.5, "of the area at least, 0.01 was asked for");
     refused(&c, 1.0 - 1e-7, 0.5, "of the area at most, 0.9999999 was asked for");
-    fl_cells_free(&c);
-    assert_int_equal(fl_cells_build(&c, 3, site, LO, HI, &err), 0);
+    fl_power_cells_free(&c);
+    assert_int_equal(fl_power_cells_build(&c, 3, site, LO, HI, &err), 0);
     refused(&c, 0.5, 5.2, "the cell of floe 2 has an inscribed radius");
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
 static void threads_change_nothing(void **state)
 {
     (void)state;
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_floes a[3] = {{0}};
     const int threads = omp_get_max_threads(), use[3] = {1, 2, 5};
     make_cells(&c, 700, test_seed(), 1);
@@ -198,13 +198,13 @@ static void threads_change_nothing(void **state)
     }
     omp_set_num_threads(threads);
     for (int k = 0; k < 3; k++) fl_floes_free(&a[k]);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
 static void floes_that_go_leave_the_others(void **state)
 {
     (void)state;
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_floes a = {0}, b = {0};
     fl_err err = {0};
     char gone[50] = {0};
@@ -216,7 +216,7 @@ static void floes_that_go_leave_the_others(void **state)
         name[i] = i;
         gone[i] = i == 0 || i == 7 || i == 8 || i == 49;
     }
-    fl_floes_drop(&b, gone, name);
+    fl_floes_remove(&b, gone, name);
     assert_int_equal(b.n, 46);
     for (int32_t i = 0; i < 50; i++) {
         const size_t n = (size_t)(a.first[i + 1] - a.first[i]);
@@ -229,7 +229,7 @@ static void floes_that_go_leave_the_others(void **state)
     }
     fl_floes_free(&a);
     fl_floes_free(&b);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
 /* Squares of side 1 in a row, `gap` between them; the last one `by` lower than the others. */
@@ -259,10 +259,10 @@ static void the_certificate_sees_what_is_wrong(void **state)
         squares(&a, 10, gap[k], 0.0);
         assert_int_equal(fl_certificate_make(&c, &a, &err), 0);
         assert_int_equal(c.overlaps, gap[k] > 0.0 ? 0 : 9);
-        assert_near_of(c.gap, gap[k] > 0.0 ? gap[k] : 0.0, 1e-14, 1.0);
-        assert_near(c.total, 10.0, 1e-14);
+        assert_near_of(c.min_gap, gap[k] > 0.0 ? gap[k] : 0.0, 1e-14, 1.0);
+        assert_near(c.total_area, 10.0, 1e-14);
         assert_near_of(c.cv, 0.0, 1e-13, 1.0);
-        assert_int_equal(c.gap_of[1], c.gap_of[0] + 1);
+        assert_int_equal(c.min_gap_pair[1], c.min_gap_pair[0] + 1);
         fl_floes_free(&a);
     }
     fl_floes a; /* far apart: the search must widen; corner to corner 3 and 4 */
@@ -270,7 +270,7 @@ static void the_certificate_sees_what_is_wrong(void **state)
     fl_err err = {0};
     squares(&a, 2, 3.0, 5.0);
     assert_int_equal(fl_certificate_make(&c, &a, &err), 0);
-    assert_near(c.gap, 5.0, 1e-15);
+    assert_near(c.min_gap, 5.0, 1e-15);
     fl_floes_free(&a);
 }
 
@@ -294,7 +294,7 @@ static void the_certificate_sees_what_is_bent(void **state)
         if (k == 3)
             for (int e = 0; e < 4; e++) v[e] = was[2 * e % 4 + e / 2];
         assert_int_equal(fl_certificate_make(&c, &a, &err), 0);
-        assert_int_equal(c.bent, k < 4);
+        assert_int_equal(c.nonconvex, k < 4);
         fl_floes_free(&a);
     }
 }
@@ -302,22 +302,22 @@ static void the_certificate_sees_what_is_bent(void **state)
 static void memory_that_runs_out_is_told(void **state)
 {
     (void)state;
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     int rc = -1;
     make_cells(&c, 30, 1, 2);
     for (long k = 0; rc; k++) {
         fl_floes a = {0};
         fl_certificate cert;
         fl_err err = {0};
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         rc = fl_floes_make(&a, &c, 0.8, 0.05, (fl_vec2){0, 0}, &err);
         if (rc == 0) rc = fl_certificate_make(&cert, &a, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
         fl_floes_free(&a);
         assert_true(k < 1000);
     }
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
 }
 
 int main(void)

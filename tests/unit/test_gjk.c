@@ -9,9 +9,9 @@
 #include "base/rng.h"
 #include "geom/dd.h"
 #include "geom/quat.h"
-#include "narrow/deep.h"
+#include "narrow/penetration.h"
 #include "narrow/gjk.h"
-#include "support/couples.h"
+#include "support/convex_pairs.h"
 #include "support/oracle.h"
 
 #define CORE(v) ((fl_core){(v), (int32_t)(sizeof(v) / sizeof *(v)), NULL})
@@ -27,13 +27,13 @@ static void pairs_of_doubles_keep_106_bits(void **state)
 {
     (void)state;
     /* (1 + 2^-60) (1 - 2^-60) = 1 - 2^-120, beyond the last bit; its distance from 1 - 2^-100 is not. */
-    const fl_dd a = dd_sum(1.0, 0x1p-60), b = dd_sum(1.0, -0x1p-60), p = dd_mul(a, b);
+    const fl_dd a = dd_two_sum(1.0, 0x1p-60), b = dd_two_sum(1.0, -0x1p-60), p = dd_mul(a, b);
     assert_true(p.h == 1.0 && fabs(p.l) <= 0x1p-106);
-    assert_true(dd_cmp(p, dd_sum(1.0, -0x1p-100)) > 0.0);
+    assert_true(dd_cmp(p, dd_two_sum(1.0, -0x1p-100)) > 0.0);
     for (int k = 0; k < 1000; k++) {
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
-        const fl_dd x = dd_sum(fl_rng_in(&g, -1.0, 1.0), 1e-17 * fl_rng_unit(&g)),
-                    y = dd_sum(fl_rng_in(&g, 0.5, 1.0), 1e-17 * fl_rng_unit(&g));
+        const fl_dd x = dd_two_sum(fl_rng_in(&g, -1.0, 1.0), 1e-17 * fl_rng_unit(&g)),
+                    y = dd_two_sum(fl_rng_in(&g, 0.5, 1.0), 1e-17 * fl_rng_unit(&g));
         /* (x / y) y = x and (x + y) - y = x to 2^-100. */
         assert_true(fabs(dd_sub(dd_mul(dd_div(x, y), y), x).h) <= 0x1p-100);
         assert_true(fabs(dd_sub(dd_sub(dd_add(x, y), y), x).h) <= 0x1p-100);
@@ -135,9 +135,9 @@ static void aligned_boxes_and_plates(void **state)
             }
             pair_place(&q, 0, v3_add(o, v3(0, 0, thick[t])), one);
             const fl_gap g = gap_of(fl_solid_core(&q.a), fl_solid_core(&q.b));
-            fl_overlap deep;
+            fl_penetration deep;
             assert_true(g.overlap && g.d == 0.0); /* faces touch exactly */
-            fl_deep(&q.a, &q.b, NULL, &deep);
+            fl_penetration_find(&q.a, &q.b, NULL, &deep);
             assert_near_of(deep.depth, 0.0, 1e-15, 10.0);
             assert_true(deep.n.z == 1.0);
             pair_free(&q);
@@ -149,7 +149,7 @@ static void coincident_bodies_get_one_direction(void **state)
 {
     (void)state;
     pair_case q;
-    fl_overlap first, again;
+    fl_penetration first, again;
     assert_int_equal(pair_take(&q, box(3, 2, 1), box(3, 2, 1)), 0);
     for (int k = 0; k < 50; k++) {
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
@@ -157,11 +157,11 @@ static void coincident_bodies_get_one_direction(void **state)
         pair_place(&q, 0, v3(1e3, 2, 3), r);
         pair_place(&q, 1, v3(1e3, 2, 3), r);
         assert_true(gap_of(fl_solid_core(&q.a), fl_solid_core(&q.b)).overlap);
-        fl_deep(&q.a, &q.b, NULL, &first);
-        fl_deep(&q.b, &q.a, NULL, &again); /* the same numbers, so the same answer */
+        fl_penetration_find(&q.a, &q.b, NULL, &first);
+        fl_penetration_find(&q.b, &q.a, NULL, &again); /* the same numbers, so the same answer */
         assert_near(first.depth, 1.0, 1e-12);
         assert_true(isfinite(first.n.x + first.pa.x + first.pb.x));
-        assert_true(first.depth == again.depth && first.of == again.of);
+        assert_true(first.depth == again.depth && first.turns_with == again.turns_with);
         assert_memory_equal(&first.n, &again.n, sizeof first.n);
         assert_memory_equal(&first.pa, &again.pa, sizeof first.pa);
         assert_memory_equal(&first.pb, &again.pb, sizeof first.pb);
@@ -178,12 +178,12 @@ static void coincident_bodies_get_one_direction(void **state)
         assert_int_equal(fl_poly_make(&s[k], 2, v, 0, &none, NULL, &err), 0);
     }
     assert_int_equal(pair_take(&q, p[0], p[1]), 0);
-    fl_deep(&q.a, &q.b, NULL, &first);
+    fl_penetration_find(&q.a, &q.b, NULL, &first);
     assert_true(first.depth == 0.0 && first.n.z == 1.0);
     pair_free(&q);
     assert_int_equal(pair_take(&q, s[0], s[1]), 0);
     pair_place(&q, 1, v3(1, 0, 0), q_matrix(q_one()));
-    fl_deep(&q.a, &q.b, NULL, &first);
+    fl_penetration_find(&q.a, &q.b, NULL, &first);
     assert_true(first.depth == 0.0 && first.n.x == 0.0);
     assert_near(v3_norm(first.n), 1.0, 1e-15);
     pair_free(&q);
@@ -194,16 +194,16 @@ static void depth_is_the_shortest_way_out(void **state)
 {
     (void)state;
     pair_case q;
-    fl_overlap deep;
-    fl_deep_count count = {0};
+    fl_penetration deep;
+    fl_penetration_count count = {0};
     const fl_mat3 one = q_matrix(q_one());
     assert_int_equal(pair_take(&q, box(2, 2, 2), box(10, 8, 6)), 0);
     pair_place(&q, 0, v3(4, 0.5, 0.25), one);
-    fl_deep(&q.a, &q.b, &count, &deep);
+    fl_penetration_find(&q.a, &q.b, &count, &deep);
     assert_near(deep.depth, 2.0, 1e-15); /* by +x: 5 - (4 - 1) */
     assert_true(deep.n.x == 1.0);
     pair_place(&q, 0, v3(0.5, -0.5, -0.25), one);
-    fl_deep(&q.a, &q.b, &count, &deep);
+    fl_penetration_find(&q.a, &q.b, &count, &deep);
     assert_near(deep.depth, 3.75, 1e-15); /* by -z: 3 + 1 - 0.25 */
     assert_true(deep.n.z == -1.0);
     pair_free(&q);
@@ -213,12 +213,12 @@ static void depth_is_the_shortest_way_out(void **state)
     pair_place(&q, 0, v3(0, 0, 2.0 * h - 0.3), q_matrix(q_of_vector(v3(atan(1.0), 0, 0))));
     pair_place(&q, 1, v3(0, 0, 0), q_matrix(q_of_vector(v3(0, atan(1.0), 0))));
     assert_true(gap_of(fl_solid_core(&q.a), fl_solid_core(&q.b)).overlap);
-    fl_deep(&q.a, &q.b, &count, &deep);
+    fl_penetration_find(&q.a, &q.b, &count, &deep);
     assert_near(deep.depth, 0.3, 1e-14);
     assert_near(deep.n.z, 1.0, 1e-15);
     assert_near_of(v3_norm(v3_sub(deep.pa, v3(0, 0, h - 0.3))), 0.0, 1e-14, 1.0);
     assert_near_of(v3_norm(v3_sub(deep.pb, v3(0, 0, h))), 0.0, 1e-14, 1.0);
-    assert_int_equal(count.asked, 3);
+    assert_int_equal(count.queries, 3);
     pair_free(&q);
 }
 
@@ -349,8 +349,8 @@ static void pairs_that_were_wrong(void **state)
         fl_gjk(b, a, NULL, &back);
         assert_int_equal(g.overlap, row[i].why == DEPTH);
         if (row[i].why == DEPTH) {
-            fl_overlap deep;
-            fl_deep(&q.a, &q.b, NULL, &deep);
+            fl_penetration deep;
+            fl_penetration_find(&q.a, &q.b, NULL, &deep);
             assert_true(fabs((double)(o.d + (real)deep.depth)) <= 1e-13 * q.size + coarse);
             assert_true(fabs((double)(oracle_room(&q.a, &q.b, deep.n) + (real)deep.depth)) <= 2e-15 * q.size);
         } else {

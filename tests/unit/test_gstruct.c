@@ -43,7 +43,7 @@ static void comes_back_the_same(void **state)
 {
     fl_surface s = {0}, again = {0};
     fl_err err = {0};
-    fl_by by;
+    fl_history_line by;
     char *text = NULL, *second = NULL;
     size_t n = 0, m = 0;
     FILE *f;
@@ -55,14 +55,14 @@ static void comes_back_the_same(void **state)
     fl_surface_triangle(&s.part[0], 2, 0, 1, &err);
     fl_surface_add(&s, "", 0, &err);
     fl_surface_cone(&s.part[1], (fl_cone){v3(0.1, 0.2, 0.3), v3(1.1, 2.2, 3.3), 0.7, 0}, &err);
-    fl_by_start(&by, "test");
+    fl_history_line_start(&by, "test");
     f = open_memstream(&text, &n);
     fl_gstruct_write(f, &s, &by);
     fclose(f);
     assert_int_equal(fl_gstruct_read(&again, test_file("g", text, n), &err), 0);
     assert_int_equal(mesh_same(&s, &again), 1);
     assert_string_equal(again.history, "#by test " FL_VERSION "\n");
-    fl_by_start(&by, "second");
+    fl_history_line_start(&by, "second");
     f = open_memstream(&second, &m);
     fl_gstruct_write(f, &again, &by); /* the history grows by a line, the rest is the same bytes */
     fclose(f);
@@ -81,21 +81,21 @@ static void each_fault_has_its_sentence(void **state)
     static const struct {
         const char *text, *says; /* behind the name of the file */
     } fault[] = {
-        {"", ": empty, a g_struct file was wanted"},
-        {"hello\n", ":1: \"hello\" does not open a g_struct file, \"#g_struct 1\" was wanted"},
-        {"#g-polys 1\n", ":1: this is a g-polys file, a g_struct file was wanted"},
+        {"", ": empty, a g_struct file is expected"},
+        {"hello\n", ":1: \"hello\" does not open a g_struct file, \"#g_struct 1\" is expected"},
+        {"#g-polys 1\n", ":1: this is a g-polys file, a g_struct file is expected"},
         {"#g_struct 2\n", ":1: g_struct version 2 is newer than this program, which reads up to 1"},
-        {"#g_struct 1\n", ": no part, at least one with triangles or cones was wanted"},
+        {"#g_struct 1\n", ": no part, at least one with triangles or cones is expected"},
         {"#g_struct 1\nv 0 0 0\n", ":2: \"v\" stands before the first part"},
         {"#g_struct 1\npart 0 a\npart 1 b\n", ":2: part \"a\" has neither triangles nor cones"},
         {HEAD, ":2: part \"a\" has neither triangles nor cones"},
         {HEAD "t 0 1 3\n", ":6: triangle 0 wants vertex 3, but part \"a\" has 3 so far"},
-        {HEAD "t 0 1 -1\n", ":6: vertex index is \"-1\", a whole number from 0 to 2147483647 was wanted"},
+        {HEAD "t 0 1 -1\n", ":6: vertex index is \"-1\", a whole number from 0 to 2147483647 is expected"},
         {HEAD "t 0 1 1\n", ":6: triangle 0 1 1 repeats a vertex"},
         {HEAD "t 0 1\n", ":6: vertex index is missing after 3 fields"},
         {HEAD "t 0 1 2 0\n", ":6: \"0\" was not expected after 4 fields"},
-        {HEAD "v 0 nan 0\n", ":6: y is \"nan\", a finite number was wanted"},
-        {HEAD "v 0 0 1e999\n", ":6: z is \"1e999\", a finite number was wanted"},
+        {HEAD "v 0 nan 0\n", ":6: y is \"nan\", a finite number is expected"},
+        {HEAD "v 0 0 1e999\n", ":6: z is \"1e999\", a finite number is expected"},
         {HEAD "cone 0 0 0 -1 0 0 1 1\n", ":6: cone radius -1 is negative"},
         {HEAD "cone 0 0 0 0 0 0 1 0\n", ":6: both radii of the cone are 0"},
         {HEAD "cone 1 2 3 1 1 2 3 1\n", ":6: the cone has no length"},
@@ -105,9 +105,9 @@ static void each_fault_has_its_sentence(void **state)
         {HEAD "t 0 1 2\npart 0 b\n", ":7: part id 0 is used a second time"},
         {HEAD "t 0 1 2\npart 1 a\n", ":7: part name \"a\" is used a second time"},
         {HEAD "t 0 1 2\npart 1 total\n",
-         ":7: a part is called total, as loads call the sum over the parts: another name was wanted"},
+         ":7: a part is called total, as loads call the sum over the parts: another name is expected"},
         {HEAD "t 0 1 2\npart 1\n", ":7: part name is missing after 2 fields"},
-        {HEAD "t 0 1 2\npart x a\n", ":7: part id is \"x\", a whole number from 0 to 999999999 was wanted"},
+        {HEAD "t 0 1 2\npart x a\n", ":7: part id is \"x\", a whole number from 0 to 999999999 is expected"},
     };
     (void)state;
     for (size_t k = 0; k < sizeof fault / sizeof fault[0]; k++) {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "broad/pairs.h"
 
@@ -38,7 +38,7 @@ static void compare(const fl_pairs *p, const fl_aabb *box, int32_t n, int32_t to
     for (int32_t i = 0; i < n; i++) {
         assert_true(p->first[i] == at);
         for (int32_t j = i + 1; j < total; j++) {
-            if (!aabb_meet(box[i], box[j])) continue;
+            if (!aabb_overlap(box[i], box[j])) continue;
             assert_true(at < p->first[n]);
             assert_int_equal(p->partner[at], j);
             at++;
@@ -80,8 +80,8 @@ static void what_is_dropped_comes_again(void **state)
     int32_t *partner = malloc((size_t)n * sizeof *partner);
     assert_non_null(partner);
     memcpy(partner, p.partner, (size_t)n * sizeof *partner);
-    fl_pairs_drop(&p);
-    fl_pairs_drop(&p);
+    fl_pairs_clear(&p);
+    fl_pairs_clear(&p);
     assert_true(!p.first && !p.partner && !p.image && !p.tree.node && p.absent == away);
     assert_near(p.period.x, 40.0, 0.0);
     assert_int_equal(fl_pairs_find(&p, box, 200, 211, 1, &err), 0);
@@ -163,10 +163,10 @@ static void runs_out_of_memory_in_peace(void **state)
     for (int64_t after = 0; !done && after < 100; after++) {
         fl_pairs p = {0};
         fl_err err = {0};
-        fl_mem_fail_after(after);
+        fl_alloc_fail_after(after);
         const int rc = fl_pairs_find(&p, box, 200, 206, 1, &err);
-        const int64_t refused = fl_mem_refused();
-        fl_mem_fail_after(-1);
+        const int64_t refused = fl_alloc_refused();
+        fl_alloc_fail_after(-1);
         done = rc == 0;
         assert_int_equal(done, refused == 0);
         if (!done) assert_int_equal(err.code, FL_SYSTEM);
@@ -200,12 +200,12 @@ static void finds_images(void **state)
                     const fl_vec3 way = v3(x * p.period.x, y * p.period.y, z * p.period.z);
                     const fl_aabb q = {v3_sub(box[i].lo, way), v3_sub(box[i].hi, way)};
                     if ((!(which & 1) && x) || (!(which & 2) && y) || (!(which & 4) && z)) continue;
-                    if (!aabb_meet(q, box[j])) continue;
+                    if (!aabb_overlap(q, box[j])) continue;
                     assert_true(at < p.first[i + 1]);
                     assert_int_equal(p.partner[at], j);
-                    assert_int_equal(fl_pairs_image(p.image[at], 0), x);
-                    assert_int_equal(fl_pairs_image(p.image[at], 1), y);
-                    assert_int_equal(fl_pairs_image(p.image[at], 2), z);
+                    assert_int_equal(fl_pairs_image_shift(p.image[at], 0), x);
+                    assert_int_equal(fl_pairs_image_shift(p.image[at], 1), y);
+                    assert_int_equal(fl_pairs_image_shift(p.image[at], 2), z);
                     at++;
                 }
             }

@@ -2,23 +2,23 @@
 #include <math.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "ice/certificate.h"
 #include "ice/pancakes.h"
 
 static const fl_vec2 LO = {-25.0, -20.0}, HI = {25.0, 20.0};
 
-static void make_cells(fl_cells *c, int32_t n, uint64_t seed, int smooth)
+static void make_cells(fl_power_cells *c, int32_t n, uint64_t seed, int smooth)
 {
     fl_vec2 site[500];
     fl_err err = {0};
     assert_true(n <= 500);
-    fl_cells_sites(n, seed, LO, HI, site);
-    assert_int_equal(fl_cells_build(c, n, site, LO, HI, &err), 0);
+    fl_random_sites(n, seed, LO, HI, site);
+    assert_int_equal(fl_power_cells_build(c, n, site, LO, HI, &err), 0);
     for (int k = 0; k < smooth; k++) {
-        fl_cells_centroids(c, site);
-        fl_cells_free(c);
-        assert_int_equal(fl_cells_build(c, n, site, LO, HI, &err), 0);
+        fl_power_cells_centroids(c, site);
+        fl_power_cells_free(c);
+        assert_int_equal(fl_power_cells_build(c, n, site, LO, HI, &err), 0);
     }
 }
 
@@ -30,26 +30,26 @@ static void floes_are_round_and_inside(void **state)
     for (int k = 0; k < 24; k++) {
         const int32_t n = 1 + k * k / 2, sides = 6 + k;
         const double c = 0.3 + 0.02 * k, radius = 0.04 * (k % 3), turn = 4.0 * acos(-1.0) / sides;
-        fl_cells cells = {0};
+        fl_power_cells cells = {0};
         fl_floes a = {0};
         fl_certificate cert;
         fl_err err = {0};
         make_cells(&cells, n, (uint64_t)k, 3);
         assert_int_equal(fl_pancakes_make(&a, &cells, sides, c, radius, (fl_vec2){0, 0}, &err), 0);
         assert_int_equal(fl_certificate_make(&cert, &a, &err), 0);
-        assert_near(cert.total, c * 2000.0, 1e-12);
+        assert_near(cert.total_area, c * 2000.0, 1e-12);
         assert_int_equal(cert.overlaps, 0);
-        assert_true(cert.angle > acos(-1.0) - turn);
+        assert_true(cert.min_angle > acos(-1.0) - turn);
         for (int32_t i = 0; i < n; i++) {
-            const double keep = a.held ? 0.0 : a.inset;
+            const double keep = a.limited ? 0.0 : a.inset;
             assert_int_equal(a.first[i + 1] - a.first[i], sides);
             for (int32_t v = a.first[i]; v < a.first[i + 1]; v++)
                 for (int32_t e = cells.first[i]; e < cells.first[i + 1]; e++)
-                    assert_true(fl_side_beyond(cells.side[e], a.outer[v]) <= -keep + 1e-12 * 25.0);
+                    assert_true(fl_polygon_side_distance(cells.side[e], a.outer[v]) <= -keep + 1e-12 * 25.0);
         }
         if (sides >= 20) assert_true(fl_pancakes_circularity(&a) > 0.93);
         fl_floes_free(&a);
-        fl_cells_free(&cells);
+        fl_power_cells_free(&cells);
     }
 }
 
@@ -59,12 +59,12 @@ static void many_sides_come_to_the_opening(void **state)
 {
     (void)state;
     const fl_vec2 lo = {-1.0, -1.0}, hi = {1.0, 1.0};
-    const double r = FL_PANCAKES_ROUND, most = 4.0 - (4.0 - acos(-1.0)) * r * r;
+    const double r = FL_PANCAKES_ROUNDNESS, most = 4.0 - (4.0 - acos(-1.0)) * r * r;
     const fl_vec2 site = {0.1, 0.2};
-    fl_cells cells = {0};
+    fl_power_cells cells = {0};
     fl_floes a = {0};
     fl_err err = {0};
-    assert_int_equal(fl_cells_build(&cells, 1, &site, lo, hi, &err), 0);
+    assert_int_equal(fl_power_cells_build(&cells, 1, &site, lo, hi, &err), 0);
     assert_int_equal(fl_pancakes_make(&a, &cells, 120, 0.999 * most / 4.0, 0.0, (fl_vec2){0, 0}, &err), 0);
     assert_true(a.inset < 5e-4);
     fl_floes_free(&a);
@@ -73,27 +73,27 @@ static void many_sides_come_to_the_opening(void **state)
     err = (fl_err){0};
     assert_int_equal(fl_pancakes_make(&a, &cells, 12, 0.5, 1.5, (fl_vec2){0, 0}, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
-    fl_cells_free(&cells);
+    fl_power_cells_free(&cells);
 }
 
 static void memory_that_runs_out_is_told(void **state)
 {
     (void)state;
-    fl_cells cells = {0};
+    fl_power_cells cells = {0};
     int rc = -1;
     make_cells(&cells, 20, 1, 2);
     for (long k = 0; rc; k++) {
         fl_floes a = {0};
         fl_err err = {0};
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         rc = fl_pancakes_make(&a, &cells, 12, 0.6, 0.05, (fl_vec2){0, 0}, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
         if (rc) assert_null(a.first);
         fl_floes_free(&a);
         assert_true(k < 100);
     }
-    fl_cells_free(&cells);
+    fl_power_cells_free(&cells);
 }
 
 int main(void)

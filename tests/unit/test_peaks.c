@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "stat/extreme.h"
 #include "stat/histogram.h"
@@ -14,7 +14,7 @@ static void expect(int32_t n, const double *x, double ratio, double threshold, i
     fl_peaks p = {0};
     assert_int_equal(fl_peaks_rayleigh(n, x, ratio, threshold, &p, &err), 0);
     assert_int_equal(p.n, count);
-    for (int32_t k = 0; k < count; k++) assert_int_equal(p.at[k], at[k]);
+    for (int32_t k = 0; k < count; k++) assert_int_equal(p.row[k], at[k]);
     fl_peaks_free(&p);
 }
 
@@ -67,11 +67,11 @@ static void random_records_obey_the_rule(void **state)
         assert_int_equal(fl_peaks_rayleigh(N, x, 0.5, 0.0, &p, &err), 0);
         for (int32_t k = 0; k + 1 < p.n; k++) {
             double low = INFINITY, high = 0.0;
-            for (int32_t j = p.at[k]; j <= p.at[k + 1]; j++) low = fmin(low, x[j]);
-            assert_true(low < 0.5 * fmin(x[p.at[k]], x[p.at[k + 1]]));
+            for (int32_t j = p.row[k]; j <= p.row[k + 1]; j++) low = fmin(low, x[j]);
+            assert_true(low < 0.5 * fmin(x[p.row[k]], x[p.row[k + 1]]));
             /* What was dropped between two peaks is no larger than the larger of them. */
-            for (int32_t j = p.at[k]; j <= p.at[k + 1]; j++) high = fmax(high, x[j]);
-            assert_near(high, fmax(x[p.at[k]], x[p.at[k + 1]]), 0.0);
+            for (int32_t j = p.row[k]; j <= p.row[k + 1]; j++) high = fmax(high, x[j]);
+            assert_near(high, fmax(x[p.row[k]], x[p.row[k + 1]]), 0.0);
         }
         fl_peaks_free(&p);
     }
@@ -83,9 +83,9 @@ static void memory_that_runs_out(void **state)
     fl_err err = {0};
     fl_peaks p = {0};
     (void)state;
-    fl_mem_fail_after(0);
+    fl_alloc_fail_after(0);
     assert_int_equal(fl_peaks_rayleigh(3, x, 0.5, 0.0, &p, &err), -1);
-    fl_mem_fail_after(-1);
+    fl_alloc_fail_after(-1);
     assert_int_equal(err.code, FL_SYSTEM);
     fl_peaks_free(&p);
 }
@@ -96,10 +96,10 @@ static void ranks_and_positions(void **state)
     int32_t rank[4];
     fl_err err = {0};
     (void)state;
-    assert_int_equal(fl_extreme_rank(4, x, rank, &err), 0);
+    assert_int_equal(fl_rank_descending(4, x, rank, &err), 0);
     assert_memory_equal(rank, ((int32_t[]){1, 3, 0, 2}), sizeof rank);
-    assert_near(fl_extreme_position(1, 4), 0.2, 1e-16);
-    assert_near(fl_extreme_position(4, 4), 0.8, 1e-16);
+    assert_near(fl_plotting_position(1, 4), 0.2, 1e-16);
+    assert_near(fl_plotting_position(4, 4), 0.8, 1e-16);
 }
 
 static void classes_hold_everything_once(void **state)

@@ -2,19 +2,19 @@
 #include <math.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "ice/faces.h"
 #include "ice/floes.h"
 #include "ice/periodic.h"
 
 static const fl_vec2 LO = {-4.0, -3.0}, HI = {4.0, 3.0};
 
-static void make(fl_cells *c, int32_t n, uint64_t seed, const int periodic[2])
+static void make(fl_power_cells *c, int32_t n, uint64_t seed, const int periodic[2])
 {
     fl_vec2 site[300];
     fl_err err = {0};
     assert_true(n <= 300);
-    fl_cells_sites(n, seed, LO, HI, site);
+    fl_random_sites(n, seed, LO, HI, site);
     assert_int_equal(fl_periodic_cells(c, n, site, LO, HI, periodic, &err), 0);
     assert_int_equal(c->n, n);
 }
@@ -47,7 +47,7 @@ static void copies_fit_without_a_seam(void **state)
         const int periodic[2] = {seed % 3 != 1, seed % 3 != 2};
         const int32_t n = 1 + (int32_t)(seed * seed / 4);
         double area = 0.0, open[4];
-        fl_cells c = {0};
+        fl_power_cells c = {0};
         fl_err err = {0};
         make(&c, n, seed, periodic);
         for (int32_t i = 0; i < n; i++)
@@ -57,13 +57,13 @@ static void copies_fit_without_a_seam(void **state)
             fl_floes t = tile(n, c.first, c.v, periodic[0] ? k : 1, periodic[1] ? k : 1);
             fl_faces f = {0};
             assert_int_equal(fl_faces_find(&f, &t, &err), 0);
-            assert_true(f.deep <= f.within);
-            open[k] = f.outline - 2.0 * f.length;
+            assert_true(f.max_overlap <= f.tolerance);
+            open[k] = f.perimeter - 2.0 * f.total_length;
             fl_faces_free(&f);
             fl_floes_free(&t);
         }
         assert_near_of(open[3] - open[2], open[2] - open[1], 1e-7, open[3]);
-        fl_cells_free(&c);
+        fl_power_cells_free(&c);
     }
 }
 
@@ -72,7 +72,7 @@ static void neighbours_are_sites(void **state)
 {
     (void)state;
     const int both[2] = {1, 1}, none[2] = {0, 0};
-    fl_cells c = {0}, d = {0};
+    fl_power_cells c = {0}, d = {0};
     fl_vec2 site[80];
     fl_err err = {0};
     make(&c, 80, 5, both);
@@ -84,14 +84,14 @@ static void neighbours_are_sites(void **state)
             for (int32_t m = c.first[j]; m < c.first[j + 1]; m++) back |= c.side[m].tag == i;
             assert_true(back);
         }
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
     make(&c, 80, 5, none); /* without a period they are the plain cells, bit for bit */
-    fl_cells_sites(80, 5, LO, HI, site);
-    assert_int_equal(fl_cells_build(&d, 80, site, LO, HI, &err), 0);
+    fl_random_sites(80, 5, LO, HI, site);
+    assert_int_equal(fl_power_cells_build(&d, 80, site, LO, HI, &err), 0);
     assert_memory_equal(c.first, d.first, 81 * sizeof *c.first);
     assert_memory_equal(c.v, d.v, (size_t)c.first[80] * sizeof *c.v);
-    fl_cells_free(&c);
-    fl_cells_free(&d);
+    fl_power_cells_free(&c);
+    fl_power_cells_free(&d);
 }
 
 static void points_are_brought_back(void **state)
@@ -112,16 +112,16 @@ static void memory_that_runs_out_is_told(void **state)
     const int both[2] = {1, 1};
     fl_vec2 site[10];
     int rc = -1;
-    fl_cells_sites(10, 1, LO, HI, site);
+    fl_random_sites(10, 1, LO, HI, site);
     for (long k = 0; rc; k++) {
-        fl_cells c = {0};
+        fl_power_cells c = {0};
         fl_err err = {0};
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         rc = fl_periodic_cells(&c, 10, site, LO, HI, both, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
         if (rc) assert_null(c.first);
-        fl_cells_free(&c);
+        fl_power_cells_free(&c);
         assert_true(k < 1000);
     }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "support/near.h"
 #include "support/shapes.h"
@@ -45,14 +45,14 @@ static void cube_has_its_parts(void **state)
                 found += p.loop[k] == from && p.loop[k + 1 < p.first[f + 1] ? k + 1 : p.first[f]] == to;
         }
         assert_int_equal(found, 2);
-        assert_near(fl_poly_bend(&p, e), 1.5707963267948966, 1e-15);
+        assert_near(fl_poly_compute_bend(&p, e), 1.5707963267948966, 1e-15);
     }
     const fl_vec3 n[6] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
     const double c[6] = {0, 1, 0, 1, 1, 0};
     for (int f = 0; f < 6; f++) {
         assert_near_of(v3_norm(v3_sub(p.n[f], n[f])), 0.0, 1e-15, 1.0);
         assert_near_of(p.c[f], c[f], 1e-15, 1.0);
-        assert_near(v3_dot(fl_poly_area(&p, f), n[f]), 1.0, 1e-15);
+        assert_near(v3_dot(fl_poly_face_area_vector(&p, f), n[f]), 1.0, 1e-15);
     }
     fl_poly_free(&p);
     assert_null(p.v);
@@ -73,11 +73,11 @@ static void points_segments_polygons(void **state)
     assert_int_equal(fl_poly_make(&p, 2, v, 0, NULL, NULL, &err), 0);
     assert_int_equal(p.ne, 1);
     assert_int_equal(p.edge[0].left, -1);
-    assert_near(fl_poly_bend(&p, 0), 6.283185307179586, 0.0);
+    assert_near(fl_poly_compute_bend(&p, 0), 6.283185307179586, 0.0);
     fl_poly_free(&p);
     assert_int_equal(fl_poly_make(&p, 4, v, 2, first, loop, &err), 0);
     assert_int_equal(p.ne, 4);
-    for (int e = 0; e < 4; e++) assert_near(fl_poly_bend(&p, e), PI, 1e-15);
+    for (int e = 0; e < 4; e++) assert_near(fl_poly_compute_bend(&p, e), PI, 1e-15);
     fl_poly_free(&p);
     refused(2, (fl_vec3[2]){{1, 2, 3}, {1, 2, 3}}, 0, NULL, NULL,
             "vertices 0 and 1 coincide: a sphere has one vertex");
@@ -276,7 +276,7 @@ static void straight_corners_and_shared_planes_are_fine(void **state)
     assert_int_equal(fl_poly_make(&p, 9, v, 7, first, loop, &err), 0);
     assert_int_equal(p.ne, 14);
     double least = 9.0;
-    for (int e = 0; e < p.ne; e++) least = fmin(least, fl_poly_bend(&p, e));
+    for (int e = 0; e < p.ne; e++) least = fmin(least, fl_poly_compute_bend(&p, e));
     assert_near_of(least, 0.0, 1e-15, 1.0);
     fl_poly_free(&p);
 }
@@ -371,9 +371,9 @@ static void memory_may_run_out(void **state)
     for (int after = 0; after < 3; after++) {
         fl_err err = {0};
         fl_poly p = {.nv = 5};
-        fl_mem_fail_after(after);
+        fl_alloc_fail_after(after);
         const int rc = fl_poly_make(&p, 8, cube_v, 6, cube_first, cube_loop, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         if (rc == 0) {
             assert_int_equal(after, 2);
             fl_poly_free(&p);
@@ -392,9 +392,9 @@ static void what_is_stripped_has_its_corners_and_faces(void **state)
     fl_err err = {0};
     assert_int_equal(fl_poly_prism(&p, 5, xy, -1.0, 2.0, &err), 0);
     assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
-    fl_mem_fail_after(0);
+    fl_alloc_fail_after(0);
     assert_int_equal(fl_poly_strip(&q, &err), -1);
-    fl_mem_fail_after(-1);
+    fl_alloc_fail_after(-1);
     assert_int_equal(err.code, FL_SYSTEM);
     assert_int_equal(q.ne, p.ne);
     err = (fl_err){0};

@@ -12,7 +12,7 @@ static double half_tan_sum(int32_t n, const fl_polygon_side *side)
     double sum = 0.0;
     for (int32_t k = 0; k < n; k++) {
         const fl_polygon_side a = side[k], b = side[(k + 1) % n];
-        sum += tan(0.5 * atan2(fl_side_sin(a, b), fl_side_cos(a, b)));
+        sum += tan(0.5 * atan2(fl_polygon_side_sin(a, b), fl_polygon_side_cos(a, b)));
     }
     return sum;
 }
@@ -37,7 +37,7 @@ static void area_and_centroid_of_a_far_triangle(void **state)
     assert_true(fl_polygon_area(3, v) == 9.0);
     assert_near(c.x, 1e6 + 1.0, 1e-15);
     assert_near(c.y, 1e6 + 2.0, 1e-15);
-    assert_near(fl_polygon_outline(3, v), 9.0 + sqrt(45.0), 1e-15);
+    assert_near(fl_polygon_perimeter(3, v), 9.0 + sqrt(45.0), 1e-15);
 }
 
 static void cuts_through_corners_leave_no_empty_side(void **state)
@@ -77,8 +77,8 @@ static void two_halves_add_up(void **state)
         m = fl_polygon_cut(m, w, b, (fl_polygon_side){-cos(t), -sin(t), -c, 51});
         assert_near_of(fl_polygon_area(n, v) + fl_polygon_area(m, w), all, 4e-15, 4.0);
         for (int32_t k = 0; k < n; k++) {
-            assert_near_of(fl_side_beyond(a[k], v[k]), 0.0, 4e-15, 1.0);
-            assert_near_of(fl_side_beyond(a[k], v[(k + 1) % n]), 0.0, 4e-15, 1.0);
+            assert_near_of(fl_polygon_side_distance(a[k], v[k]), 0.0, 4e-15, 1.0);
+            assert_near_of(fl_polygon_side_distance(a[k], v[(k + 1) % n]), 0.0, 4e-15, 1.0);
         }
     }
 }
@@ -101,7 +101,7 @@ static void small_insets_follow_their_law(void **state)
         const double d = 1e-3;
         s.n = random_polygon(&g, s.v, s.side);
         const int32_t n = s.n;
-        const double area = fl_polygon_area(n, s.v), outline = fl_polygon_outline(n, s.v),
+        const double area = fl_polygon_area(n, s.v), outline = fl_polygon_perimeter(n, s.v),
                      t = half_tan_sum(n, s.side);
         s.n = fl_polygon_inset(n, s.v, s.side, d, &depth);
         if (s.n < n) continue;
@@ -144,7 +144,7 @@ static void insets_add_up(void **state)
         once.n = fl_polygon_inset(once.n, once.v, once.side, inradius * (1.0 - 1e-9), &depth);
         assert_true(once.n >= 3);
         for (int32_t e = 0; e < first.n; e++)
-            assert_true(fl_side_beyond(first.side[e], once.v[0]) <= -inradius * (1.0 - 2e-9));
+            assert_true(fl_polygon_side_distance(first.side[e], once.v[0]) <= -inradius * (1.0 - 2e-9));
     }
 }
 
@@ -209,13 +209,13 @@ static void distances_of_squares(void **state)
     (void)state;
     const fl_vec2 a[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, b[4] = {{4, 5}, {6, 5}, {6, 7}, {4, 7}},
                   c[4] = {{1, 0}, {2, 0}, {2, 1}, {1, 1}}, d[4] = {{0.9, 0.9}, {2, 0.9}, {2, 2}, {0.9, 2}};
-    assert_near(fl_polygon_gap(4, a, 4, b), 5.0, 1e-15);
-    assert_true(fl_polygon_apart(4, a, 4, b));
-    assert_false(fl_polygon_apart(4, a, 4, c)); /* they touch */
-    assert_false(fl_polygon_apart(4, a, 4, d));
-    assert_true(fl_polygon_from_point(4, a, (fl_vec2){0.5, 0.5}) == 0.0);
-    assert_near(fl_polygon_from_point(4, a, (fl_vec2){4.0, 5.0}), 5.0, 1e-15);
-    assert_near(fl_polygon_from_point(4, a, (fl_vec2){0.5, -2.0}), 2.0, 1e-15);
+    assert_near(fl_polygon_distance(4, a, 4, b), 5.0, 1e-15);
+    assert_true(fl_polygon_is_apart(4, a, 4, b));
+    assert_false(fl_polygon_is_apart(4, a, 4, c)); /* they touch */
+    assert_false(fl_polygon_is_apart(4, a, 4, d));
+    assert_true(fl_polygon_point_distance(4, a, (fl_vec2){0.5, 0.5}) == 0.0);
+    assert_near(fl_polygon_point_distance(4, a, (fl_vec2){4.0, 5.0}), 5.0, 1e-15);
+    assert_near(fl_polygon_point_distance(4, a, (fl_vec2){0.5, -2.0}), 2.0, 1e-15);
 }
 
 int main(void)

@@ -3,23 +3,23 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "stat/pressure.h"
 #include "support/near.h"
 
-static fl_hit at(double x, double y, double z, double push)
+static fl_contact_event at(double x, double y, double z, double push)
 {
-    return (fl_hit){.part = -1, .p = v3(x, y, z), .n = v3(1, 0, 0), .push = push};
+    return (fl_contact_event){.part = -1, .p = v3(x, y, z), .n = v3(1, 0, 0), .normal_force = push};
 }
 
-static fl_window best_of(int32_t n, const fl_hit *hit, double area)
+static fl_window best_of(int32_t n, const fl_contact_event *hit, double area)
 {
     fl_window_work w = {0};
     fl_window best;
     fl_err err = {0};
-    assert_int_equal(fl_pressure_window(n, hit, -1, area, &best, &w, &err), 0);
+    assert_int_equal(fl_largest_load_window(n, hit, -1, area, &best, &w, &err), 0);
     fl_window_work_free(&w);
     return best;
 }
@@ -27,26 +27,27 @@ static fl_window best_of(int32_t n, const fl_hit *hit, double area)
 /* Three contacts on a wall, 1 m apart on a line: a disc of less than 1 m across holds one, of 1 m two. */
 static void three_on_a_line(void **state)
 {
-    const fl_hit hit[] = {at(0, 0, 0, 5), at(0, 1, 0, 4), at(0, 2, 0, 8)};
+    const fl_contact_event hit[] = {at(0, 0, 0, 5), at(0, 1, 0, 4), at(0, 2, 0, 8)};
     (void)state;
     fl_window b = best_of(3, hit, PI * 0.499 * 0.499);
     assert_near(b.force, 8.0, 1e-15);
-    assert_int_equal(b.hits, 1);
+    assert_int_equal(b.contacts, 1);
     assert_near(b.centre.y, 2.0, 1e-12);
     b = best_of(3, hit, PI * 0.501 * 0.501);
     assert_near(b.force, 12.0, 1e-15);
-    assert_int_equal(b.hits, 2);
+    assert_int_equal(b.contacts, 2);
     assert_true(b.centre.y > 1.4 && b.centre.y < 1.6 && fabs(b.centre.z) < 0.05);
     b = best_of(3, hit, PI * 1.001 * 1.001);
     assert_near(b.force, 17.0, 1e-15);
-    assert_int_equal(best_of(0, hit, 1.0).hits, 0);
+    assert_int_equal(best_of(0, hit, 1.0).contacts, 0);
 }
 
 /* What lies over an area, or along a line, gives a small window its part; what pulls, none; nor do another
  * part and the other side of a thin wall. */
 static void shares_and_sides(void **state)
 {
-    fl_hit hit[] = {at(0, 0, 0, 10), at(0, 0.1, 0, 6), at(0, 0, 0.1, -3), at(0, 0, 0, 7), at(0.01, 0, 0, 9)};
+    fl_contact_event hit[] = {at(0, 0, 0, 10), at(0, 0.1, 0, 6), at(0, 0, 0.1, -3), at(0, 0, 0, 7),
+                              at(0.01, 0, 0, 9)};
     (void)state;
     hit[0].area = 4.0;
     hit[1].length = 2.0;
@@ -55,7 +56,7 @@ static void shares_and_sides(void **state)
     const double area = PI * 0.25; /* 1 m across */
     assert_near(best_of(2, hit, area).force, 10.0 * area / 4.0 + 3.0, 1e-15);
     assert_near(best_of(5, hit, area).force, 9.0, 1e-15); /* the other side carries more */
-    hit[4].push = 1.0;
+    hit[4].normal_force = 1.0;
     assert_near(best_of(5, hit, area).force, 10.0 * area / 4.0 + 3.0, 1e-15);
     assert_near(best_of(3, hit, 100.0).force, 16.0, 1e-15);
 }
@@ -71,11 +72,11 @@ static void no_disc_carries_more(void **state)
         const fl_vec3 e = v3_normal_to(n), f = v3_cross(n, e);
         const double r = fl_rng_in(&g, 0.05, 0.6);
         double u[N], v[N], most = 0.0, inside = 0.0;
-        fl_hit hit[N];
+        fl_contact_event hit[N];
         for (int k = 0; k < N; k++) {
             u[k] = fl_rng_unit(&g);
             v[k] = fl_rng_unit(&g);
-            hit[k] = (fl_hit){.part = -1, .n = n, .push = fl_rng_in(&g, 0.5, 2.0)};
+            hit[k] = (fl_contact_event){.part = -1, .n = n, .normal_force = fl_rng_in(&g, 0.5, 2.0)};
             hit[k].p = v3_add(v3_scale(u[k], e), v3_scale(v[k], f));
         }
         const fl_window b = best_of(N, hit, PI * r * r);
@@ -83,12 +84,13 @@ static void no_disc_carries_more(void **state)
             for (int j = -GRID / 4; j <= GRID * 5 / 4; j++) {
                 double sum = 0.0;
                 for (int k = 0; k < N; k++)
-                    if (hypot(u[k] - (double)i / GRID, v[k] - (double)j / GRID) <= r) sum += hit[k].push;
+                    if (hypot(u[k] - (double)i / GRID, v[k] - (double)j / GRID) <= r)
+                        sum += hit[k].normal_force;
                 most = fmax(most, sum);
             }
         }
         for (int k = 0; k < N; k++)
-            if (v3_norm(v3_sub(hit[k].p, b.centre)) <= r * (1.0 + 1e-9)) inside += hit[k].push;
+            if (v3_norm(v3_sub(hit[k].p, b.centre)) <= r * (1.0 + 1e-9)) inside += hit[k].normal_force;
         assert_true(b.force >= most * (1.0 - 1e-12));
         assert_near(inside, b.force, 1e-9);
     }
@@ -113,14 +115,15 @@ static void fits_and_reference(void **state)
 static const char HEAD[] = "#contacts 1\nt[s] i j mode gap[m] nx ny nz px[m] py[m] pz[m] length[m] area[m2] "
                            "fn[N] fsx[N] fsy[N] fsz[N]\n";
 
-static int read_all(const char *rows, const fl_hits_ask *ask, fl_hits *h, int32_t *hits, fl_err *err)
+static int read_all(const char *rows, const fl_contact_selection *ask, fl_contact_events *h, int32_t *hits,
+                    fl_err *err)
 {
     char text[4000];
     int more;
     snprintf(text, sizeof text, "%s%s", HEAD, rows);
     *hits = 0;
-    if (fl_hits_open(h, test_file("touch.contacts", text, strlen(text)), ask, err)) return -1;
-    while ((more = fl_hits_next(h, err)) > 0) *hits += h->n;
+    if (fl_contact_events_open(h, test_file("touch.contacts", text, strlen(text)), ask, err)) return -1;
+    while ((more = fl_contact_events_next(h, err)) > 0) *hits += h->n;
     return more;
 }
 
@@ -131,8 +134,8 @@ static void contacts_are_read(void **state)
         "0.1 1 2 FF 0 1 0 0 0 0 0 0 0 9 0 0 0\n0.2 1 -1 FF 0 1 0 0 1 2 3 0 0.5 9 0 -2 1\n"
         "0.2 2 -2 VF 0 0 1 0 1 2 3 0 0 4 0 0 0\n0.5 1 -1 VF 0 1 0 0 1 2 3 0 0 9 0 0 0\n"
         "0.6 3 4 VF 0 1 0 0 1 2 3 0 0 9 0 0 0\n";
-    fl_hits_ask ask = {.from = -INFINITY, .to = INFINITY};
-    fl_hits h = {0};
+    fl_contact_selection ask = {.from = -INFINITY, .to = INFINITY};
+    fl_contact_events h = {0};
     fl_err err = {0};
     int64_t times;
     int32_t hits;
@@ -141,20 +144,20 @@ static void contacts_are_read(void **state)
     assert_int_equal(read_all(rows, &ask, &h, &hits, &err), 0);
     assert_int_equal(hits, 3);
     assert_int_equal(h.times, 4);
-    assert_int_equal(fl_hits_span(&h, &times, &step, &err), 0);
+    assert_int_equal(fl_contact_events_span(&h, &times, &step, &err), 0);
     assert_int_equal(times, 6);
     assert_near(step, 0.1, 1e-12);
-    fl_hits_close(&h);
-    ask = (fl_hits_ask){.from = 0.15, .to = 0.25, .part = -1};
-    assert_int_equal(fl_hits_open(&h, test_path("touch.contacts"), &ask, &err), 0);
-    assert_int_equal(fl_hits_next(&h, &err), 1);
+    fl_contact_events_close(&h);
+    ask = (fl_contact_selection){.from = 0.15, .to = 0.25, .part = -1};
+    assert_int_equal(fl_contact_events_open(&h, test_path("touch.contacts"), &ask, &err), 0);
+    assert_int_equal(fl_contact_events_next(&h, &err), 1);
     assert_int_equal(h.n, 1);
-    assert_near(h.hit[0].push, 9.0, 0.0);
-    assert_near(h.hit[0].force.x, -9.0, 0.0); /* on the structure, against the normal */
-    assert_near(h.hit[0].force.y, 2.0, 0.0);
-    assert_near(h.hit[0].area, 0.5, 0.0);
-    assert_int_equal(fl_hits_next(&h, &err), 0);
-    fl_hits_close(&h);
+    assert_near(h.event[0].normal_force, 9.0, 0.0);
+    assert_near(h.event[0].force.x, -9.0, 0.0); /* on the structure, against the normal */
+    assert_near(h.event[0].force.y, 2.0, 0.0);
+    assert_near(h.event[0].area, 0.5, 0.0);
+    assert_int_equal(fl_contact_events_next(&h, &err), 0);
+    fl_contact_events_close(&h);
 }
 
 static void bad_contacts_are_refused(void **state)
@@ -164,17 +167,18 @@ static void bad_contacts_are_refused(void **state)
         "0.2 1 -1 FF 0 2 0 0 1 2 3 0 0 9 0 0 0\n", "0.2 1 -1 FF 0 1 0 0 1 2 3 0 -1 9 0 0 0\n",
         "0.2 1 -1 FF 0 1 0 0 1 2 3 0 0 1e200 0 0 0\n", ""};
     static const char *const said[] = {"time 0.1 s comes after 0.2 s", "the normal has the length 2",
-                                       "not below 0 was wanted", "at most 1e+100 was wanted", "no row of it"};
-    const fl_hits_ask ask = {.from = -INFINITY, .to = INFINITY};
+                                       "not below 0 is expected", "at most 1e+100 is expected",
+                                       "no row of it"};
+    const fl_contact_selection ask = {.from = -INFINITY, .to = INFINITY};
     (void)state;
     for (int k = 0; k < 5; k++) {
-        fl_hits h = {0};
+        fl_contact_events h = {0};
         fl_err err = {0};
         int32_t hits;
         assert_int_equal(read_all(rows[k], &ask, &h, &hits, &err), -1);
         assert_int_equal(err.code, FL_INPUT);
         assert_non_null(strstr(err.text, said[k]));
-        fl_hits_close(&h);
+        fl_contact_events_close(&h);
     }
 }
 

@@ -52,7 +52,7 @@ static void handedness(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         fl_vec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        expect_vector(q_rotate(q_about(k, PI / 2), axis[(k + 1) % 3]), axis[(k + 2) % 3], 4 * EPS);
+        expect_vector(q_rotate(q_about_axis(k, PI / 2), axis[(k + 1) % 3]), axis[(k + 2) % 3], 4 * EPS);
         expect_vector(q_rotate(q_of_vector(v3_scale(PI / 2, axis[k])), axis[(k + 1) % 3]), axis[(k + 2) % 3],
                       4 * EPS);
     }
@@ -69,7 +69,7 @@ static void half_angles(void **state)
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
         const double a = pow(10.0, fl_rng_in(&g, -12.0, 1.0));
         for (int i = 0; i < 3; i++) {
-            const fl_quat q = q_about(i, a);
+            const fl_quat q = q_about_axis(i, a);
             const double s = i == 0 ? q.x : i == 1 ? q.y : q.z;
             const double miss = (double)fmaxl(fabsl(cosl(0.5L * a) - q.w), fabsl(sinl(0.5L * a) - s));
             if (a <= 0.5) worst_small = fmax(worst_small, miss);

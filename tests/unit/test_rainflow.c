@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "stat/rainflow.h"
 #include "support/near.h"
@@ -30,7 +30,7 @@ static double all_cycles(void)
 
 static double miner(double m)
 {
-    const fl_sn sn = {m, 1.0, 0.0, 0.0};
+    const fl_sn_curve sn = {m, 1.0, 0.0, 0.0};
     double sum = 0.0;
     for (int32_t k = 0; k < f.cycles; k++) sum += fl_sn_damage(&sn, f.cycle[k].range, f.cycle[k].count);
     return sum;
@@ -59,16 +59,16 @@ static void example_of_astm(void **state)
 static void example_by_four_points(void **state)
 {
     (void)state;
-    count(FL_RAINFLOW_FOUR, FL_RESIDUE_NONE, 9, ASTM);
+    count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_NONE, 9, ASTM);
     assert_int_equal(f.cycles, 1);
     assert_near(f.cycle[0].range, 4.0, 0.0);
     assert_near(f.cycle[0].mean, 1.0, 0.0);
     /* Half cycles for the residue: the same counts as by ASTM. */
-    count(FL_RAINFLOW_FOUR, FL_RESIDUE_HALF, 9, ASTM);
+    count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_HALF, 9, ASTM);
     assert_near(cycles_of(4.0), 1.5, 0.0);
     assert_near(miner(5.0), 67838.0, 1e-13);
     /* Repeated: from the highest point 5 round to itself, 5 -4 4 -3 5, with the range 3 of 1 -2 inside. */
-    count(FL_RAINFLOW_FOUR, FL_RESIDUE_REPEAT, 9, ASTM);
+    count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, 9, ASTM);
     assert_near(cycles_of(9.0), 1.0, 0.0);
     assert_near(cycles_of(7.0), 1.0, 0.0);
     assert_near(cycles_of(4.0), 1.0, 0.0);
@@ -115,9 +115,9 @@ static void random_records(void **state)
         for (int32_t k = 0; k < f.cycles; k++) sum += f.cycle[k].range * f.cycle[k].count;
         assert_near(sum, 0.5 * way, 1e-13);
         astm = miner(3.0);
-        count(FL_RAINFLOW_FOUR, FL_RESIDUE_HALF, N + 1, x);
+        count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_HALF, N + 1, x);
         assert_near(miner(3.0), astm, 1e-13);
-        count(FL_RAINFLOW_FOUR, FL_RESIDUE_REPEAT, N + 1, x);
+        count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, N + 1, x);
         sum = 0.0;
         for (int32_t k = 0; k < f.cycles; k++) {
             sum += f.cycle[k].range * f.cycle[k].count;
@@ -129,7 +129,8 @@ static void random_records(void **state)
 
 static void lines(void **state)
 {
-    const fl_sn one = {3.0, 1e12, 0.0, 0.0}, two = {3.0, 1e12, 5.0, 10.0}, cut = {3.0, 1e12, INFINITY, 10.0};
+    const fl_sn_curve one = {3.0, 1e12, 0.0, 0.0}, two = {3.0, 1e12, 5.0, 10.0},
+                      cut = {3.0, 1e12, INFINITY, 10.0};
     (void)state;
     assert_near(fl_sn_damage(&one, 100.0, 2e6), 2.0, 1e-14);
     assert_near(fl_sn_damage(&two, 100.0, 2e6), 2.0, 1e-14);
@@ -145,9 +146,9 @@ static void memory_that_runs_out(void **state)
     fl_rainflow_free(&f);
     for (long n = 0;; n++) {
         fl_err err = {0};
-        fl_mem_fail_after(n);
-        const int rc = fl_rainflow_count(&f, FL_RAINFLOW_FOUR, FL_RESIDUE_REPEAT, 9, ASTM, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(n);
+        const int rc = fl_rainflow_count(&f, FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, 9, ASTM, &err);
+        fl_alloc_fail_after(-1);
         fl_rainflow_free(&f);
         if (rc == 0) break;
         assert_int_equal(err.code, FL_SYSTEM);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/facet.h"
 #include "geom/raster.h"
 #include "support/near.h"
@@ -117,9 +117,9 @@ static void what_lies_behind_is_hidden(void **state)
     assert_int_equal(at(&r, 0.76, 0.74), 1); /* on the hidden one's longest side */
     assert_int_equal(at(&r, 0.01, 1), FL_RASTER_LINE);
     fl_raster_free(&r);
-    fl_mem_fail_after(1);
+    fl_alloc_fail_after(1);
     assert_int_equal(fl_raster_start(&r, (fl_view_axes){0, 1, 2, 1}, 9, 9, 0, 0, 1, &err), -1);
-    fl_mem_fail_after(-1);
+    fl_alloc_fail_after(-1);
     fl_surface_free(&s);
 }
 

@@ -38,18 +38,18 @@ static void fields_of_every_kind(void **state)
         CUBE "CHEXA   1       1       1       2       3       4       5       6\n        7       8\n",
         CUBE "CHEXA,1,1,1,2,3,4,5,6\n,7,8\n", "BEGIN,BULK\n" CUBE "CHEXA,1,,1,2,3,4,5,6,,\n,7,8\n"};
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
-        const fl_quality q = reads(text[k]);
+        const fl_mesh_quality q = reads(text[k]);
         if (!q.closed || q.triangles != 12 || q.volume != 1.0) fail_msg("deck %d: %g", (int)k, q.volume);
         assert_string_equal(s.part[0].name, "property_1");
         says("8 nodes; elements: hex8 1");
     }
     refuses("GRID,1,,0.,0.,0.,,,,,7\n", "deck:1: 10 fields behind the name");
-    refuses("GRID,x\n", "deck:1: field 2 of GRID is \"x\", a whole number was wanted");
-    refuses("GRID\n", "field 2 of GRID is \"\", a number of 1 or more was wanted");
-    refuses("\n$ c\nGRID,1,,1.e999\n" HEX, "deck:3: field 4 of GRID is \"1.e999\", a number was wanted");
-    refuses("GRID,1,-2\n", "field 3 of GRID is \"-2\", 0 or more was wanted");
+    refuses("GRID,x\n", "deck:1: field 2 of GRID is \"x\", a whole number is expected");
+    refuses("GRID\n", "field 2 of GRID is \"\", a number of 1 or more is expected");
+    refuses("\n$ c\nGRID,1,,1.e999\n" HEX, "deck:3: field 4 of GRID is \"1.e999\", a number is expected");
+    refuses("GRID,1,-2\n", "field 3 of GRID is \"-2\", 0 or more is expected");
     refuses(CUBE "CHEXA,1,1,1,2,3,4,5,6\n", "deck:9: field 10 of CHEXA is \"\"");
-    refuses(CUBE "CTRIA3,1,-1,1,2,3\n", "field 3 of CTRIA3 is \"-1\", a property was wanted");
+    refuses(CUBE "CTRIA3,1,-1,1,2,3\n", "field 3 of CTRIA3 is \"-1\", a property is expected");
     refuses(CUBE "CTRIA3,1,1,1,2,9\n", "deck:9: the element wants node 9, which is defined nowhere");
     refuses(CUBE, "no triangles");
 }
@@ -80,7 +80,7 @@ static void elements_of_every_kind(void **state)
         snprintf(deck, sizeof deck,
                  CUBE "GRID,11,,.5\nGRID,12,,1.,.5\nGRID,13,,.5,.5\nGRID,14,,.5,1.\nGRID,15,,0.,.5\n%s\n",
                  row[k].text);
-        const fl_quality q = reads(deck);
+        const fl_mesh_quality q = reads(deck);
         says(row[k].counts);
         if (k != 11) assert_near(q.area, row[k].area, 1e-15);
     }
@@ -113,7 +113,7 @@ static void lines_have_radii(void **state)
         assert_near(s.part[k].cone[0].r0, row[k].r0, 1e-14);
         assert_near(s.part[k].cone[0].r1, row[k].r1, 1e-14);
     }
-    refuses("GRID,1\nGRID,2,,4.\nCROD,1,1,1,2\nPTUBE,1,1,-2.\n", "PTUBE 1 is -2 wide, 0 or more was wanted");
+    refuses("GRID,1\nGRID,2,,4.\nCROD,1,1,1,2\nPTUBE,1,1,-2.\n", "PTUBE 1 is -2 wide, 0 or more is expected");
     refuses("GRID,1\nGRID,2,,4.\nCONROD,1,1,2,1,-1.\n", "CONROD 1 has the area -1");
 }
 
@@ -227,7 +227,7 @@ static void files_are_included(void **state)
     assert_near(reads(deck).volume, 1.0, 0.0); /* ... but is read */
     refuses("INCLUDE 'none.bdf'\n", "deck:1: the included file is wanted here, but ");
     refuses("INCLUDE 'none.bdf\n", "deck:1: the name of the file to include has no closing quote");
-    refuses("BEGIN BULK\nINCLUDE '\n'\n", "a file to include was wanted");
+    refuses("BEGIN BULK\nINCLUDE '\n'\n", "a file to include is expected");
 }
 
 /* What only looks like a deck, and decks that look like something else. */

@@ -73,7 +73,7 @@ static void components_are_parts(void **state)
                                "CMBLOCK,SOME_NODES,NODE,       1\n(8i10)\n         1\n";
     const char *pattern[] = {"all*"};
     char hit[1] = {0};
-    fl_wish w = {.pattern = pattern, .patterns = 1, .hit = hit};
+    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = hit};
     (void)state;
     reads(text);
     assert_int_equal(s.n, 3);
@@ -171,11 +171,11 @@ static void bad_decks_are_told_where_and_why(void **state)
     (void)state;
     refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n       1       0       0 0.0\n", "ends inside NBLOCK");
     refuses("ET,1,185\nNBLOCK,6,SOLID\n       1       0       0 0.0\n", ":3: \"       1");
-    refuses("ET,1,185\nNBLOCK,6,SOLID\n", "where a format line was wanted");
+    refuses("ET,1,185\nNBLOCK,6,SOLID\n", "where a format line is expected");
     refuses("ET,1,185\nNBLOCK,6,SOLID\n(6e20.13)\n", "whole numbers and then reals");
     refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,900e20.13)\n", "a format like");
     refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n       1       0       0 nan\n  -1\n",
-            ":4: column 4 is \"nan\", a finite number was wanted");
+            ":4: column 4 is \"nan\", a finite number is expected");
     refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n     1.5       0       0 1.0\n  -1\n", "whole number");
     refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n       0       0       0 1.0\n  -1\n", "node 0");
     refuses(NODES HEX, "of type 1, which no ET");
@@ -192,7 +192,7 @@ static void bad_decks_are_told_where_and_why(void **state)
             "   1   1   1   1   0   0   0   0  20   0   9   1   2   3   4   5   6   7   8\n",
             "ends after 8 of its 20 nodes");
     refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,ELEM,1\n(8i10)\n        -9\n", "-9 was found after 0");
-    refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,LINE,1\n(8i10)\n         9\n", "ELEM or NODE was wanted");
+    refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,LINE,1\n(8i10)\n         9\n", "ELEM or NODE is expected");
     refuses("ET,1,185\nNBLOCK,3\n(i8,3e20.13)\n  -1\nEN,R5.5,ATTR,8,1\n", "CDWRITE");
     refuses("ET,1,185\n" NODES "/INPUT,rest,dat\n", "/INPUT is not followed");
     refuses("ET,1,185\n" NODES "CSYS,12\nN,12,1,2,3\n", "coordinate system 12");

@@ -34,7 +34,7 @@ static void lines_of_every_kind(void **state)
         "*NODE OUTPUT\nU,\n*NODE\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n*MATERIAL, NAME=A\n*ELASTIC\n1e9, "
         ".3\n" HEX};
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
-        const fl_quality q = reads(text[k]);
+        const fl_mesh_quality q = reads(text[k]);
         assert_true(q.closed && q.triangles == 12);
         assert_near(q.volume, 1.0, 0.0);
         says("8 nodes; elements: hex8 1");
@@ -47,7 +47,7 @@ static void lines_of_every_kind(void **state)
 static void elements_go_on(void **state)
 {
     (void)state;
-    fl_quality q =
+    fl_mesh_quality q =
         reads(CUBE "*ELEMENT, TYPE=S3, ELSET=A\n1, 1, 2, 3,\n2, 1, 3, 4,\n*ELEMENT, TYPE=S4R, ELSET=A\n"
                    "3, 5, 6,\n7, 8\n");
     assert_int_equal(q.triangles, 4);
@@ -55,7 +55,7 @@ static void elements_go_on(void **state)
     assert_near(q.area, 2.0, 1e-15);
     refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n2, 5, 6, 7, 8\n",
             "deck:12: element 1 has more than 4 nodes");
-    refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n*STEP\n", "deck:11: element 1 has 3 nodes, 4 were wanted");
+    refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n*STEP\n", "deck:11: element 1 has 3 nodes, 4 are expected");
 }
 
 /* What CalculiX reads as well: a mark before the first comment, stars alone, nodes behind those of the type,
@@ -63,8 +63,8 @@ static void elements_go_on(void **state)
 static void decks_are_taken_as_calculix_does(void **state)
 {
     (void)state;
-    fl_quality q = reads(">** a beam\n*\n" CUBE "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8, 1, 2,\n"
-                         "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n");
+    fl_mesh_quality q = reads(">** a beam\n*\n" CUBE "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8, 1, 2,\n"
+                              "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n");
     assert_true(q.closed && q.triangles == 12);
     says("1 elements list more nodes than their type has; those behind were passed over");
     q = takes("some words\n" CUBE HEX "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n", "A");
@@ -155,7 +155,7 @@ static void lines_have_radii(void **state)
     assert_near(s.part[0].cone[0].p1.z, 6.0, 0.0);
     refuses(
         "*NODE\n1\n2, 1\n*ELEMENT, TYPE=B31, ELSET=A\n1, 1, 2\n*BEAM SECTION, SECTION=CIRC, ELSET=A\n-1\n",
-        "a radius of -1, 0 or more was wanted");
+        "a radius of -1, 0 or more is expected");
 }
 
 /* --- sets and surfaces ---------------------------------------------------------------------------------- */
@@ -183,7 +183,7 @@ static void sets_name_sets(void **state)
     } row[] = {{"ends", 2},  {"middle", 2}, {"odd", 2},  {"both", 4}, {"more", 3},
                {"later", 3}, {"first", 1},  {"rest", 3}, {"huge", 2}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
-        const fl_quality q = takes(deck, row[k].name);
+        const fl_mesh_quality q = takes(deck, row[k].name);
         assert_true(q.closed);
         assert_int_equal(s.n, 1);
         assert_near(q.volume, row[k].volume, 1e-15);
@@ -192,7 +192,7 @@ static void sets_name_sets(void **state)
     assert_int_equal(s.n, 2);
     refuses(ROW "*ELSET, ELSET=A\n1, NONE\n", "\"A\" wants \"NONE\", which is defined nowhere");
     refuses(ROW "*ELSET, ELSET=A\nB\n*ELSET, ELSET=B\nC\n*ELSET, ELSET=C\nA\n", "\"A\" contains itself");
-    refuses(ROW "*ELSET, ELSET=A, GENERATE\n5, 1\n", "deck:30: from 5 to 1 by 1: a rising range was wanted");
+    refuses(ROW "*ELSET, ELSET=A, GENERATE\n5, 1\n", "deck:30: from 5 to 1 by 1: a rising range is expected");
     refuses(ROW "*ELSET, GENERATE\n1, 5\n", "*ELSET wants ELSET=");
 }
 
@@ -213,7 +213,7 @@ static void sets_of_sets_take_no_time(void **state)
     for (int k = 0; k < 50000; k++) n += (size_t)sprintf(deck + n, "*ELSET, ELSET=S%d\nS%d\n", k, k + 1);
     sprintf(deck + n, "*ELSET, ELSET=S50000\n2,3\n");
     const char *const list[] = {"S0"};
-    fl_wish w = {.pattern = list, .patterns = 1};
+    fl_import_options w = {.pattern = list, .patterns = 1};
     assert_int_equal(read_some(deck, &w), -1);
     assert_non_null(strstr(err.text, "sets are named by sets more than 1000 deep"));
     free(deck);
@@ -307,7 +307,7 @@ static void instances_are_moved_then_turned(void **state)
                                                               "ELSET=Pair, INSTANCE=Three\nhalf\n*ELSET, "
                                                               "ELSET=Dots\nTwo.1, Three.half\n"
                                                               "*END ASSEMBLY\n";
-    fl_quality q = reads(deck);
+    fl_mesh_quality q = reads(deck);
     assert_int_equal(s.n, 3);
     assert_string_equal(s.part[0].name, "One");
     assert_string_equal(s.part[2].name, "Three.half");
@@ -327,8 +327,8 @@ static void other_assemblies(void **state)
 {
     (void)state;
     /* an instance with a mesh of its own, moved as a whole; radii and sets of a part in each instance */
-    fl_quality q = reads("*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=P\n0, 0, 3\n" CUBE HEX
-                         "*ELSET, ELSET=E\n1\n*SURFACE, NAME=F\nE, S2\n*END INSTANCE\n");
+    fl_mesh_quality q = reads("*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=P\n0, 0, 3\n" CUBE HEX
+                              "*ELSET, ELSET=E\n1\n*SURFACE, NAME=F\nE, S2\n*END INSTANCE\n");
     assert_near(q.volume, 1.0, 0.0);
     assert_near(q.box.lo.z, 3.0, 0.0);
     reads(PART("P", "*NODE\n1\n2, 1\n*ELEMENT, TYPE=B31, ELSET=L\n1, 1, 2\n*BEAM SECTION, SECTION=CIRC, "
@@ -375,7 +375,7 @@ static void broken_assemblies(void **state)
     refuses("*PART, NAME=P\n" CUBE HEX "*END PART\n*INSTANCE, NAME=J, PART=P\n*END INSTANCE\n"
             "*ELSET, ELSET=A, INSTANCE=I\n1\n",
             "there is no instance I");
-    refuses("*PART, NAME=P\n*NODE\n1, x\n", "deck:3: field 2 is \"x\", a number was wanted");
+    refuses("*PART, NAME=P\n*NODE\n1, x\n", "deck:3: field 2 is \"x\", a number is expected");
     refuses(PART("P", "*NODE\n1\n2, 1\n*ELEMENT, TYPE=S3\n1, 1, 2, 7\n") "*INSTANCE, NAME=I, PART=P\n",
             "deck:6: the element wants node 7, which is defined nowhere");
 }
@@ -387,7 +387,7 @@ static void systems_place_nodes(void **state)
     (void)state;
     /* a cylinder's quarter turns are exact; a moved and turned system; one whose axis is projected; and none
      */
-    fl_quality q =
+    fl_mesh_quality q =
         reads("*NODE, SYSTEM=C\n1, 2, 0, 0\n2, 2, 90., 0\n3, 2, 180, 0\n4, 2, 270, 0\n*ELEMENT, TYPE=S4\n"
               "1, 1, 2, 3, 4\n");
     assert_near(q.area, 8.0, 1e-15);
@@ -421,7 +421,7 @@ static void meshes_are_generated(void **state)
         "115\n121, 125\n"
         "*ELEMENT, TYPE=C3D8, ELSET=BODY\n1, 1, 2, 12, 11, 101, 102, 112, 111\n*ELGEN, ELSET=EALL\n"
         "1, 4, 1, 1, 2, 10, 10, 2, 100, 100\n";
-    fl_quality q = reads(deck);
+    fl_mesh_quality q = reads(deck);
     assert_int_equal(q.triangles, 2 * 2 * (8 + 8 + 4));
     assert_true(q.closed);
     assert_near(q.volume, 16.0, 1e-15);
@@ -429,7 +429,7 @@ static void meshes_are_generated(void **state)
     assert_near(takes(deck, "EALL").volume, 16.0, 1e-15);
     reads(CUBE HEX "*ELEMENT, TYPE=MASS\n5, 1\n*ELGEN\n5, 3\n"); /* of what was passed over */
     refuses("*NODE\n1\n2, 1\n*NGEN\n1, 4\n", "*NGEN wants node 4, which is not defined yet");
-    refuses("*NODE\n1\n4, 1\n*NGEN\n1, 4, 2\n", "nodes 1 to 4 by 2: steps that end there were wanted");
+    refuses("*NODE\n1\n4, 1\n*NGEN\n1, 4, 2\n", "nodes 1 to 4 by 2: steps that end there are expected");
     refuses("*NODE\n1\n4, 1\n*NGEN, LINE=C\n1, 4, 1, 9\n", "*NGEN on arcs and parabolas is not read");
     refuses("*NODE\n1\n900000000, 1\n*NGEN\n1, 900000000\n",
             "more than 2000000 nodes and elements are generated");
@@ -472,11 +472,11 @@ static void what_is_not_read_is_named(void **state)
         assert_non_null(strstr(err.text, "deck:12: *"));
     }
     refuses("*KEYWORD\n*NODE\n       1  0.0\n", "a deck of LS-DYNA is not read");
-    refuses("*NODE\n1, 0, 1e999\n", "deck:2: field 3 is \"1e999\", a number was wanted");
-    refuses("*NODE\n0, 0, 1\n", "field 1 is \"0\", a number of 1 or more was wanted");
+    refuses("*NODE\n1, 0, 1e999\n", "deck:2: field 3 is \"1e999\", a number is expected");
+    refuses("*NODE\n0, 0, 1\n", "field 1 is \"0\", a number of 1 or more is expected");
     refuses("*NODE\n       1         0.0\n", "field 1 is ");
     refuses("*ELEMENT\n1, 1, 2, 3\n", "*ELEMENT wants TYPE=");
-    refuses("*ELEMENT, TYPE=S3\n1, 1, 2.5, 3\n", "field 3 is \"2.5\", a whole number was wanted");
+    refuses("*ELEMENT, TYPE=S3\n1, 1, 2.5, 3\n", "field 3 is \"2.5\", a whole number is expected");
     refuses("*ELEMENT, TYPE=S3\n1, 1, 0, 3\n", "corner 2 of the element is node 0");
 }
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "geom/facet.h"
-#include "geom/patch.h"
+#include "geom/mesh_patch.h"
 #include "geom/weld.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
@@ -98,8 +98,8 @@ static char *written(const fl_surface *s, int kind, size_t *n)
     char *text = NULL;
     FILE *f = open_memstream(&text, n);
     const fl_part *p = &s->part[0];
-    fl_by by;
-    fl_by_start(&by, "test");
+    fl_history_line by;
+    fl_history_line_start(&by, "test");
     switch (kind) {
     case STL_ASCII: fl_stl_write_ascii(f, s); break;
     case STL_BINARY: fl_stl_write_binary(f, s); break;
@@ -299,31 +299,32 @@ static void each_fault_has_its_sentence(void **state)
     static const struct {
         const char *text, *says; /* behind the name of the file */
     } fault[] = {
-        {"", ": empty, a mesh was wanted"},
+        {"", ": empty, a mesh is expected"},
         {"hello world\n",
          ": neither STL, OBJ, OFF, PLY, VTK, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran"},
         {"solid a\nendsolid a\n", ": no triangles"},
         {"solid a\n" FACET, ":8: the file ends inside solid \"a\""},
-        {"solid a\n" FACET "oops\n", ":9: \"oops\" was found, \"facet\" or \"endsolid\" was wanted"},
+        {"solid a\n" FACET "oops\n", ":9: \"oops\" was found, \"facet\" or \"endsolid\" is expected"},
         {"solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 nan 0\n",
-         ":4: y is \"nan\", a finite number was wanted"},
+         ":4: y is \"nan\", a finite number is expected"},
         {"solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n",
-         ":6: a loop of 2 corners, at least 3 were wanted"},
+         ":6: a loop of 2 corners, at least 3 are expected"},
         {FOUR "f 1 2 5\n", ":5: the face wants vertex 5, but there are 4 so far"},
         {FOUR "f 1 2 -5\n", ":5: the face wants vertex -5, but there are 4 so far"},
-        {FOUR "f 1 2 0\n", ":5: vertex index \"0\" was found, a whole number other than 0 was wanted"},
-        {FOUR "f 1 2\n", ":5: a face of 2 corners, at least 3 were wanted"},
-        {FOUR "v 1 inf 2\n", ":5: y is \"inf\", a finite number was wanted"},
+        {FOUR "f 1 2 0\n", ":5: vertex index \"0\" was found, a whole number other than 0 is expected"},
+        {FOUR "f 1 2\n", ":5: a face of 2 corners, at least 3 are expected"},
+        {FOUR "v 1 inf 2\n", ":5: y is \"inf\", a finite number is expected"},
         {FOUR "v 1 2\n", ":5: z is missing after 3 words"},
         {FOUR, ": no triangles"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: the file ends after 2 of 3 vertices"},
-        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: vertex index \"3\" was found, 0 to 2 was wanted"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
+         ":6: vertex index \"3\" was found, 0 to 2 is expected"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n", ":6: the face has 3 of its 4 corners"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", ":7: a row follows the last of 1 faces"},
-        {"OFF\n3 many 0\n", ":2: the number of faces is \"many\", a whole number >= 0 was wanted"},
-        {"OFF BINARY\n", ":1: a binary OFF file, an ASCII one was wanted"},
+        {"OFF\n3 many 0\n", ":2: the number of faces is \"many\", a whole number >= 0 is expected"},
+        {"OFF BINARY\n", ":1: a binary OFF file, an ASCII one is expected"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nend_header\n",
-         ":4: one element \"vertex\" with properties x, y and z was wanted"},
+         ":4: one element \"vertex\" with properties x, y and z is expected"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n",
          ":4: \"half\" is not a type of PLY 1.0"},
         {"ply\nelement vertex 1\n", ":2: the file ends inside the header"},

@@ -10,7 +10,7 @@ static fl_err err;
 static char note[FL_MESH_NOTE];
 static fl_surface s;
 
-static int read_bytes(const char *data, size_t n, fl_wish *w)
+static int read_bytes(const char *data, size_t n, fl_import_options *w)
 {
     fl_surface_free(&s);
     err = (fl_err){0};
@@ -62,7 +62,7 @@ static void two_groups_do_not_make_two_elements(void **state)
         HEAD2 NODES2 "$Elements\n3\n1 4 2 1 1 1 20 300 50000\n"
                      "2 4 2 2 1 1 20 300 50000\n3 4 2 2 1 1 300 4000 50000\n$EndElements\n";
     const char *pattern[] = {"volume_2"};
-    fl_wish w = {.pattern = pattern, .patterns = 1};
+    fl_import_options w = {.pattern = pattern, .patterns = 1};
     (void)state;
     refuses(text, "an element is \"$EndElements\"");
     reads(fixed);
@@ -81,7 +81,7 @@ static void entities_name_groups(void **state)
         "$Nodes\n2 4 1 4\n2 5 1 2\n4\n3\n0 0 0 .1 .2\n1 0 0 .3 .4\n2 6 0 2\n2\n1\n1 1 0\n0 1 0\n$EndNodes\n"
         "$Elements\n2 2 1 2\n2 5 2 1\n1 4 3 2\n2 6 2 1\n9 2 1 4\n$EndElements\n";
     const char *pattern[] = {"surface_8"};
-    fl_wish w = {.pattern = pattern, .patterns = 1};
+    fl_import_options w = {.pattern = pattern, .patterns = 1};
     (void)state;
     reads(text);
     assert_int_equal(s.n, 2);
@@ -122,8 +122,8 @@ static void bad_files_are_told_where_and_why(void **state)
     refuses("$NOD\n3\n", "version 1 of the format");
     refuses("$MeshFormat\n2.2 2 8\n$EndMeshFormat\n", "file type \"2\"");
     refuses("$MeshFormat\n2.2 0 16\n$EndMeshFormat\n", "data size \"16\"");
-    refuses("$MeshFormat\n2.2 0 8\n$Nodes\n", "\"$Nodes\" was found, $EndMeshFormat was wanted");
-    refuses("$PhysicalNames\n1\n2 x \"a\"\n", "DIMENSION TAG \"NAME\" was wanted");
+    refuses("$MeshFormat\n2.2 0 8\n$Nodes\n", "\"$Nodes\" was found, $EndMeshFormat is expected");
+    refuses("$PhysicalNames\n1\n2 x \"a\"\n", "DIMENSION TAG \"NAME\" is expected");
     refuses(HEAD2 "$Nodes\n2000000000\n1 0 0 0\n", "the file ends where the number of a node");
     refuses(HEAD2 "$Nodes\n1\n1 0 inf 0\n$EndNodes\n", ":6: y is \"inf\"");
     refuses(HEAD2 "$Nodes\n1\n0 0 0 0\n$EndNodes\n", "node 0 was found");

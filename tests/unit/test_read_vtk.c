@@ -87,11 +87,11 @@ static void bad_files_are_told_where_and_why(void **state)
 {
     (void)state;
     refuses(HEAD "STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n", ":4: a data set of kind \"STRUCTURED_POINTS\"");
-    refuses("# vtk DataFile Version 3.0\nt\nTEXT\n", "ASCII or BINARY was wanted");
+    refuses("# vtk DataFile Version 3.0\nt\nTEXT\n", "ASCII or BINARY is expected");
     refuses("# vtk DataFile Version 3.0\n", "inside its head");
     refuses(HEAD "POLYDATA\nPOINTS 3 float\n0 0 0 1 0\n", "the file ends inside the data");
     refuses(HEAD "POLYDATA\nPOINTS 2000000000 float\n0 0 0 1 0\n", "the file ends inside the data");
-    refuses(HEAD "POLYDATA\nPOINTS 1 float\n0 0 x\n", ":6: \"x\" was found, a number was wanted");
+    refuses(HEAD "POLYDATA\nPOINTS 1 float\n0 0 x\n", ":6: \"x\" was found, a number is expected");
     refuses(HEAD "POLYDATA\nPOINTS 1 float\n0 0 1e999\n", "finite coordinates");
     refuses(HEAD "POLYDATA\nPOINTS 1 colour\n", "points of type");
     refuses(HEAD "POLYDATA\n" CUBE "POLYGONS 1 4\n3 0 1 8\n", "cell 0 wants point 8, 0 to 7");

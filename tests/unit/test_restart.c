@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "base/par.h"
+#include "base/parallel.h"
 #include "base/stream.h"
 #include "out/restart.h"
 #include "support/near.h"

@@ -8,13 +8,13 @@
 #include "base/rng.h"
 #include "stat/resample.h"
 #include "stat/series.h"
-#include "stat/view.h"
+#include "stat/signal_view.h"
 #include "support/near.h"
 
 static fl_err err;
-static const fl_series_ask ALL = {.from = -INFINITY, .to = INFINITY};
+static const fl_record_selection ALL = {.from = -INFINITY, .to = INFINITY};
 
-static int read_text(fl_series *s, const fl_series_ask *ask, const char *data)
+static int read_text(fl_series *s, const fl_record_selection *ask, const char *data)
 {
     err = (fl_err){0};
     return fl_series_read(s, test_file("series", data, strlen(data)), ask, &err);
@@ -62,7 +62,7 @@ static void asking(void **state)
 {
     const char *const force[] = {"f"}, *const peak[] = {"fpeak", "contacts"}, *const wrong[] = {"fpeek"};
     fl_series s;
-    fl_series_ask ask = ALL;
+    fl_record_selection ask = ALL;
     (void)state;
     ask.part = "b";
     ask.signal = force;
@@ -103,7 +103,7 @@ static void asking(void **state)
 static void cuts(void **state)
 {
     fl_series s;
-    fl_series_ask ask = ALL;
+    fl_record_selection ask = ALL;
     (void)state;
     ask.from = 1.0;
     ask.to = 3.0;
@@ -127,7 +127,7 @@ static void samples_of_another_table(void **state)
 {
     const char *const column[] = {"kinetic"}, *const x[] = {"x"};
     fl_series s;
-    fl_series_ask ask = ALL;
+    fl_record_selection ask = ALL;
     (void)state;
     assert_int_equal(read_text(&s, &ask, "#energy 1\nt[s] kinetic[J]\n0 1\n"), -1);
     expect_told(FL_USAGE, 0, "a column of this energy table must be chosen, it is not loads");
@@ -156,26 +156,26 @@ static const char TOUCH[] = "#contacts 1\nt[s] i j fn[N] gap[m]\n0 1 2 10 -1\n0 
 /* Rows of one time become one, or some of them are chosen. */
 static void rows_of_one_time(void **state)
 {
-    static const double want[FL_OVERS][3] = {{0},        {40, 7, 7}, {20, 7, 7.0 / 3.0},
-                                             {10, 7, 1}, {30, 7, 4}, {2, 1, 3}};
+    static const double want[FL_REDUCTIONS][3] = {{0},        {40, 7, 7}, {20, 7, 7.0 / 3.0},
+                                                  {10, 7, 1}, {30, 7, 4}, {2, 1, 3}};
     const char *const fn[] = {"fn"}, *const leg[] = {"j=-1"}, *const both[] = {"j=2", "i=1"},
                       *const none[] = {"i=9"}, *const wrong[] = {"i9"};
     fl_series s;
     (void)state;
-    fl_series_ask ask = {.signal = fn, .signals = 1, .from = -INFINITY, .to = INFINITY};
+    fl_record_selection ask = {.signal = fn, .signals = 1, .from = -INFINITY, .to = INFINITY};
     assert_int_equal(read_text(&s, &ask, TOUCH), -1);
     expect_told(FL_INPUT, 4, "several rows at 0 s, and no column part or body tells them apart");
-    for (ask.over = FL_OVER_SUM; ask.over < FL_OVERS; ask.over++) {
+    for (ask.reduction = FL_REDUCE_SUM; ask.reduction < FL_REDUCTIONS; ask.reduction++) {
         assert_int_equal(read_text(&s, &ask, TOUCH), 0);
         assert_int_equal(s.n, 3);
         assert_int_equal(s.parts, 1);
         assert_string_equal(s.part[0], "-");
-        assert_string_equal(s.unit[0], ask.over == FL_OVER_COUNT ? "" : "N");
+        assert_string_equal(s.unit[0], ask.reduction == FL_REDUCE_COUNT ? "" : "N");
         assert_memory_equal(s.t, ((double[]){0, 1, 3}), 3 * sizeof(double));
-        assert_memory_equal(s.x[0], want[ask.over], 3 * sizeof(double));
+        assert_memory_equal(s.x[0], want[ask.reduction], 3 * sizeof(double));
         fl_series_free(&s);
     }
-    ask.over = FL_OVER_NONE;
+    ask.reduction = FL_REDUCE_NONE;
     ask.wheres = 1;
     ask.where = leg;
     assert_int_equal(read_text(&s, &ask, TOUCH), 0);
@@ -195,7 +195,7 @@ static void rows_of_one_time(void **state)
     assert_int_equal(read_text(&s, &ask, TOUCH), -1);
     assert_int_equal(err.code, FL_USAGE);
     /* Of a loads table too: then there is no total beside it. */
-    ask = (fl_series_ask){.from = -INFINITY, .to = INFINITY, .over = FL_OVER_MAX};
+    ask = (fl_record_selection){.from = -INFINITY, .to = INFINITY, .reduction = FL_REDUCE_MAX};
     assert_int_equal(read_text(&s, &ask, TWO), 0);
     assert_int_equal(s.parts, 1);
     assert_memory_equal(s.x[0], ((double[]){3, 6, 1}), 3 * sizeof(double));
@@ -218,10 +218,10 @@ static void complaints(void **state)
         {HEAD "1 a 1 1 1 1 1\n2 a 1 1 1 1 1\n2 a 1 1 1 1 1\n", 6, "a has two rows at 2 s"},
         {HEAD "1 a 1 1 1 1 1\n1 b 1 1 1 1 1\n2 a 1 1 1 1 1\n", 6, "b has no row at 2 s"},
         {HEAD "1 a 1 1 1 1 1\n2 a 1 1 1 1 1\n2 b 1 1 1 1 1\n", 6, "b was not there at 1 s"},
-        {HEAD "1 a nan 1 1 1 1\n", 4, "fx is \"nan\", a finite number was wanted"},
+        {HEAD "1 a nan 1 1 1 1\n", 4, "fx is \"nan\", a finite number is expected"},
         {HEAD "1 a 1e101 1 1 1 1\n", 4, "fx is 1e+101, at most 1e+100 was expected"},
-        {HEAD "inf a 1 1 1 1 1\n", 4, "t is \"inf\", a finite number was wanted"},
-        {HEAD "1 a 1 1\n", 4, "4 fields, 7 were wanted as there are columns"},
+        {HEAD "inf a 1 1 1 1 1\n", 4, "t is \"inf\", a finite number is expected"},
+        {HEAD "1 a 1 1\n", 4, "4 fields, 7 are expected as there are columns"},
         {HEAD "1 a 1 1 1 1 1\n1 total 1 1 1 1 1\n", 0,
          "a part is called total, the name of the sum over the parts"},
         {"#loads 1\nt part fx fz\n1 a 1 1\n", 2, "no column fy in this loads table, the nearest is fx"},
@@ -273,8 +273,8 @@ static void resampling_keeps_the_impulse(void **state)
     }
     fl_resample_means(3, (double[]){0, 1, 3, 4}, (double[]){3, 6, 0}, 2, even, y);
     assert_memory_equal(y, ((double[]){4.5, 3}), 2 * sizeof(double));
-    assert_near(fl_resample_step(3, (double[]){0, 1, 3, 4}), 0.0, 0.0);
-    assert_near(fl_resample_step(3, (double[]){1, 1.5, 2, 2.5}), 0.5, 1e-15);
+    assert_near(fl_resample_common_interval(3, (double[]){0, 1, 3, 4}), 0.0, 0.0);
+    assert_near(fl_resample_common_interval(3, (double[]){1, 1.5, 2, 2.5}), 0.5, 1e-15);
 }
 
 /* The filtered view of a record of unequal intervals has the mean and the slow wave of the record. */
@@ -287,9 +287,9 @@ static void filtered_view(void **state)
     int n = sprintf(data, "#loads 1\nt[s] part fx[N]\n");
     double t = 0.0;
     fl_series s;
-    fl_view raw, slow;
-    fl_series_ask ask = ALL;
-    fl_view_ask how = {.filter = 2.0, .order = 4, .ratio = 0.5, .quantiles = 1, .p = p};
+    fl_signal_view raw, slow;
+    fl_record_selection ask = ALL;
+    fl_signal_view_settings how = {.filter = 2.0, .order = 4, .ratio = 0.5, .quantiles = 1, .p = p};
     (void)state;
     for (int k = 0; k < N; k++) {
         const double dt = k % 3 ? 0.01 : 0.02, mean = (cos(w * t) - cos(w * (t + dt))) / (w * dt);
@@ -300,23 +300,23 @@ static void filtered_view(void **state)
     ask.signals = 1;
     assert_int_equal(read_text(&s, &ask, data), 0);
     free(data);
-    assert_int_equal(fl_view_make(&slow, &s, 0, 0, &how, &err), 0);
+    assert_int_equal(fl_signal_view_make(&slow, &s, 0, 0, &how, &err), 0);
     how.filter = 0.0;
-    assert_int_equal(fl_view_make(&raw, &s, 0, 0, &how, &err), 0);
+    assert_int_equal(fl_signal_view_make(&raw, &s, 0, 0, &how, &err), 0);
     assert_ptr_equal(raw.x, s.x[0]);
-    assert_near_of(slow.d.mean, raw.d.mean, 2e-3, 10.0);
+    assert_near_of(slow.stats.mean, raw.stats.mean, 2e-3, 10.0);
     for (int32_t k = N / 4; k < 3 * N / 4; k++) {
         const double middle = 0.5 * (slow.edge[k] + slow.edge[k + 1]);
         assert_near_of(slow.x[k], 10.0 + sin(w * middle), 0.01, 1.0);
     }
     assert_near(slow.t[N - 1], slow.edge[N], 0.0);
-    assert_near(slow.value[0], 11.0, 2e-3);
-    fl_view_free(&raw);
+    assert_near(slow.peak_value[0], 11.0, 2e-3);
+    fl_signal_view_free(&raw);
     how.filter = 60.0;
-    fl_view_free(&slow);
-    assert_int_equal(fl_view_make(&slow, &s, 0, 0, &how, &err), -1);
+    fl_signal_view_free(&slow);
+    assert_int_equal(fl_signal_view_make(&slow, &s, 0, 0, &how, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
-    fl_view_free(&slow);
+    fl_signal_view_free(&slow);
     fl_series_free(&s);
 }
 

@@ -22,7 +22,7 @@ static void follows(const fl_sizes *s, double mean)
             sum += a[k];
         }
         assert_near(sum, n * mean, 1e-12);
-        assert_true(fl_sizes_distance(s, mean, n, a) <= 1.0 / n + 1e-12);
+        assert_true(fl_sizes_ks_distance(s, mean, n, a) <= 1.0 / n + 1e-12);
     }
 }
 
@@ -48,11 +48,11 @@ static void known_values(void **state)
     const fl_sizes exponential = {.kind = FL_SIZES_WEIBULL, .k = 1.0};
     const fl_sizes lognormal = {.kind = FL_SIZES_LOGNORMAL, .mean = 4.0, .cv = sqrt(exp(1.0) - 1.0)};
     assert_near(fl_sizes_mean(&cubic), 0.25 * PI * log(10.0) / 0.495, 1e-14);
-    assert_near(fl_sizes_below(&cubic, fl_sizes_mean(&cubic), PI), (1.0 - 0.25) / (1.0 - 0.01), 1e-13);
-    assert_near(fl_sizes_below(&flat, fl_sizes_mean(&flat), 25.0 * PI), 0.5, 1e-13);
-    assert_near(fl_sizes_below(&exponential, 2.0, 2.0), 1.0 - exp(-1.0), 1e-14);
+    assert_near(fl_sizes_cdf(&cubic, fl_sizes_mean(&cubic), PI), (1.0 - 0.25) / (1.0 - 0.01), 1e-13);
+    assert_near(fl_sizes_cdf(&flat, fl_sizes_mean(&flat), 25.0 * PI), 0.5, 1e-13);
+    assert_near(fl_sizes_cdf(&exponential, 2.0, 2.0), 1.0 - exp(-1.0), 1e-14);
     /* the median is the mean over sqrt(1 + cv^2) */
-    assert_near(fl_sizes_below(&lognormal, 4.0, 4.0 * exp(-0.5)), 0.5, 1e-14);
+    assert_near(fl_sizes_cdf(&lognormal, 4.0, 4.0 * exp(-0.5)), 0.5, 1e-14);
 }
 
 static void distance_sees_what_is_off(void **state)
@@ -64,9 +64,9 @@ static void distance_sees_what_is_off(void **state)
     double worst = 0.0;
     for (int32_t k = 0; k < N; k++) a[k] = -2.0 * log1p(-(k + 0.5) / N); /* twice the size */
     for (double x = 0.0; x < 5.0; x += 1e-4) worst = fmax(worst, exp(-0.5 * x) - exp(-x));
-    assert_near_of(fl_sizes_distance(&s, 1.0, N, a), worst, 1.0, 1.5 / N);
+    assert_near_of(fl_sizes_ks_distance(&s, 1.0, N, a), worst, 1.0, 1.5 / N);
     for (int32_t k = 0; k < 4; k++) a[k] = k < 3 ? 1.0 + 1e-6 * k : 1.1;
-    assert_near(fl_sizes_distance(&equal, 1.0, 4, a), 0.25, 1e-12);
+    assert_near(fl_sizes_ks_distance(&equal, 1.0, 4, a), 0.25, 1e-12);
 }
 
 static void lists_are_read(void **state)
@@ -93,7 +93,7 @@ static void bad_lists_are_told(void **state)
 {
     (void)state;
     static const char *const bad[][2] = {
-        {"", ": the file ends without a size, one a row was wanted"},
+        {"", ": the file ends without a size, one a row is expected"},
         {"1\n-2\n", ":2: size -2 found"},
         {"1\nd[m]\n", ":2: "},
         {"1 2\n", ":1: "},
@@ -101,7 +101,7 @@ static void bad_lists_are_told(void **state)
         {"1e13\n", ":1: size 1e+13 found"},
         {"area[m2] count\n1 0\n", ":2: count 0 found"},
         {"area[m2] count\n1\n", ":2: "},
-        {"x[m] y[m]\n\n", "a polygon was wanted"},
+        {"x[m] y[m]\n\n", "a polygon is expected"},
         {"x[m] y[m]\n0 0\n1 0\n0 0\n\n", ":2: a polygon of 2 different corners"},
         {"x[m] y[m]\n\n0 0\n4 4\n4 0\n0 4\n", ":3: the polygon of 4 corners crosses"},
         {"x[m] y[m]\n0 0\n1e10 0\n", ":3: corner (1e+10, 0) found"}};
@@ -130,10 +130,10 @@ static void tables_are_lists(void **state)
         fl_sizes_areas(&t, n, 7.0, a);
         fl_sizes_areas(&l, n, 7.0, b);
         for (int32_t k = 0; k < n; k++) assert_near(a[k], b[k], 1e-12);
-        assert_near_of(fl_sizes_distance(&t, 7.0, n, a), fl_sizes_distance(&l, 7.0, n, b), 1e-12, 1.0);
+        assert_near_of(fl_sizes_ks_distance(&t, 7.0, n, a), fl_sizes_ks_distance(&l, 7.0, n, b), 1e-12, 1.0);
     }
     for (double x = 0.5; x < 6.0; x += 0.25)
-        assert_near_of(fl_sizes_below(&t, 2.6, x), fl_sizes_below(&l, 2.6, x), 1e-15, 1.0);
+        assert_near_of(fl_sizes_cdf(&t, 2.6, x), fl_sizes_cdf(&l, 2.6, x), 1e-15, 1.0);
     follows(&t, 5.0);
     fl_sizes_free(&t);
     fl_sizes_free(&l);
@@ -209,7 +209,7 @@ static void bad_laws_are_told(void **state)
         fl_err err = {0};
         assert_int_equal(fl_sizes_parse(&s, name, bad[k], &err), -1);
         assert_int_equal(err.code, FL_USAGE);
-        assert_non_null(strstr(err.text, "was wanted"));
+        assert_non_null(strstr(err.text, "is expected"));
         assert_string_equal(name, "untouched");
         assert_true(s.cv == -7.0);
     }

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "out/restart.h"
-#include "step/budget.h"
-#include "step/snapshot.h"
+#include "sim/error_budget.h"
+#include "sim/snapshot.h"
 #include "support/scenes.h"
 
 /* Name and number of words of each kind of row.  A pair that remembers vertices has a count of them before
@@ -76,19 +76,19 @@ static void state_of(rows *all, lab *l, int wraps)
 
 static void budget_of(rows *all)
 {
-    fl_borne borne[2] = {{.peak = 0.0}};
-    fl_budget g = {.trial = {.parts = 3},
-                   .rows = 1,
-                   .least = 1,
-                   .windows = 1,
-                   .beside = {.w = {.parts = 1}, .run = &borne[0], .other = &borne[1]}};
-    g.window[0] = (fl_budget_window){.h = 1.0, .order = 1.0, .astray_order = 1.0};
+    fl_total_load borne[2] = {{.peak = 0.0}};
+    fl_error_budget g = {.trial = {.parts = 3},
+                         .window_rows = 1,
+                         .min_row_steps = 1,
+                         .windows = 1,
+                         .companion = {.world = {.parts = 1}, .run_load = &borne[0], .own_load = &borne[1]}};
+    g.window[0] = (fl_error_window){.h = 1.0, .order = 1.0, .momentum_order = 1.0};
     double known[5] = {0};
     char *text = NULL;
     size_t n = 0;
-    g.known = known;
+    g.known_momentum = known;
     FILE *f = open_memstream(&text, &n);
-    fl_budget_write(f, &g);
+    fl_error_budget_write(f, &g);
     fclose(f);
     rows_of(all, text, n, 0);
 }
@@ -96,23 +96,23 @@ static void budget_of(rows *all)
 /* Where steps of a trial failed its error has no end, and comes back so. */
 static void a_budget_of_failed_trials_comes_back(void **state)
 {
-    fl_budget g = {.trial = {.parts = 3}, .rows = 1, .least = 1, .windows = 1},
-              back = {.trial = {.parts = 3}};
+    fl_error_budget g = {.trial = {.parts = 3}, .window_rows = 1, .min_row_steps = 1, .windows = 1},
+                    back = {.trial = {.parts = 3}};
     double known[5] = {0}, read[5] = {0};
     char *text = NULL;
     size_t n = 0;
     fl_text in = {0};
     fl_err err = {0};
     (void)state;
-    g.window[0] =
-        (fl_budget_window){.h = 1.0, .order = 1.0, .astray_order = 1.0, .off = INFINITY, .astray = 0.5};
-    g.known = known, back.known = read;
+    g.window[0] = (fl_error_window){
+        .h = 1.0, .order = 1.0, .momentum_order = 1.0, .error = INFINITY, .momentum_error = 0.5};
+    g.known_momentum = known, back.known_momentum = read;
     FILE *f = open_memstream(&text, &n);
-    fl_budget_write(f, &g);
+    fl_error_budget_write(f, &g);
     fclose(f);
     assert_int_equal(fl_text_open_bytes(&in, "state", text, (int64_t)n, &err), 0);
-    assert_int_equal(fl_budget_read(&back, &in, &err), 0);
-    assert_true(back.window[0].off == INFINITY && back.window[0].astray == 0.5);
+    assert_int_equal(fl_error_budget_read(&back, &in, &err), 0);
+    assert_true(back.window[0].error == INFINITY && back.window[0].momentum_error == 0.5);
     fl_text_close(&in);
     free(text);
 }

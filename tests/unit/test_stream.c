@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "base/stream.h"
 #include "support/near.h"
@@ -149,9 +149,9 @@ static void what_cannot_be_read(void **state)
     expect_failure("", FL_INPUT, "No such file");
     fl_in_close(NULL);
     const char *path = test_file("mem", "x", 1);
-    fl_mem_fail_after(0);
+    fl_alloc_fail_after(0);
     expect_failure(path, FL_SYSTEM, "out of memory");
-    fl_mem_fail_after(-1);
+    fl_alloc_fail_after(-1);
     unlink(path);
 }
 
@@ -322,7 +322,7 @@ static void what_is_kept(void **state)
         int bad = 0;
         assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
         assert_int_equal(fl_out_open(&out, path, 0, &err), 0);
-        out.keep = keep;
+        out.keep_part = keep;
         small = (struct rlimit){5000, was.rlim_max};
         void (*const old)(int) = signal(SIGXFSZ, SIG_IGN);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
@@ -431,9 +431,9 @@ static void to_standard_output(void **state)
 
 /* Written in two runs, the first of which went on after its mark and then failed, ended or was killed. */
 /* The mark of a program that was killed a little later. */
-static fl_mark written_and_killed(const char *path, int gz)
+static fl_file_mark written_and_killed(const char *path, int gz)
 {
-    fl_mark mark = {0};
+    fl_file_mark mark = {0};
     int way[2];
     assert_int_equal(pipe(way), 0);
     const pid_t child = fork();
@@ -463,7 +463,7 @@ static void gone_on_with_at_a_mark(void **state)
             char part[300];
             fl_err err = {0};
             fl_out out = {0}, again = {0};
-            fl_mark mark;
+            fl_file_mark mark;
             int fresh = 1;
             snprintf(part, sizeof part, "%s.part", path);
             if (end == 2) mark = written_and_killed(path, gz);
@@ -473,11 +473,11 @@ static void gone_on_with_at_a_mark(void **state)
                 assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
                 fwrite("lost", 1, 4, out.f);
             }
-            assert_true(gz ? mark.at > 0 : mark.at == 100000);
+            assert_true(gz ? mark.offset > 0 : mark.offset == 100000);
             if (end == 0) fl_out_abort(&out); /* keeps PATH.part, as a mark speaks of it */
             if (end == 1) assert_int_equal(fl_out_close(&out, &err), 0);
             assert_int_equal(access(end == 1 ? path : part, F_OK), 0);
-            assert_int_equal(fl_out_marked(path, &mark, &err), 0);
+            assert_int_equal(fl_out_check_mark(path, &mark, &err), 0);
             assert_int_equal(fl_out_resume(&again, path, gz, &mark, &fresh, &err), 0);
             assert_int_equal(fresh, 0);
             assert_int_equal(access(part, F_OK), 0);
@@ -495,7 +495,7 @@ static void another_file_is_not_gone_on_with(void **state)
     const char *path = test_path("marked");
     fl_err err = {0};
     fl_out out = {0};
-    fl_mark mark, longer, other, none = {-1, 0};
+    fl_file_mark mark, longer, other, none = {-1, 0};
     int fresh;
     (void)state;
     assert_int_equal(fl_out_open(&out, path, 0, &err), 0);
@@ -503,14 +503,14 @@ static void another_file_is_not_gone_on_with(void **state)
     assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
     assert_int_equal(fl_out_close(&out, &err), 0);
     longer = other = mark;
-    longer.at++;
-    other.tail++;
-    assert_int_equal(fl_out_marked(path, &mark, &err), 0);
-    assert_int_equal(fl_out_marked(path, &none, &err), 0);
-    const fl_mark *const bad[2] = {&longer, &other};
+    longer.offset++;
+    other.tail_hash++;
+    assert_int_equal(fl_out_check_mark(path, &mark, &err), 0);
+    assert_int_equal(fl_out_check_mark(path, &none, &err), 0);
+    const fl_file_mark *const bad[2] = {&longer, &other};
     for (int k = 0; k < 2; k++) {
         fl_err why = {0};
-        assert_int_equal(fl_out_marked(path, bad[k], &why), -1);
+        assert_int_equal(fl_out_check_mark(path, bad[k], &why), -1);
         assert_int_equal(why.code, FL_INPUT);
         why = (fl_err){0};
         assert_int_equal(fl_out_resume(&out, path, 0, bad[k], &fresh, &why), -1);
@@ -520,7 +520,7 @@ static void another_file_is_not_gone_on_with(void **state)
     /* a device has no places: it begins anew */
     assert_int_equal(fl_out_open(&out, "/dev/null", 0, &err), 0);
     assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
-    assert_int_equal(mark.at, -1);
+    assert_int_equal(mark.offset, -1);
     assert_int_equal(fl_out_close(&out, &err), 0);
     assert_int_equal(fl_out_resume(&out, "/dev/null", 0, &mark, &fresh, &err), 0);
     assert_int_equal(fresh, 1);
@@ -545,7 +545,7 @@ static void one_writer_at_a_time(void **state)
         const char *path = test_path("shared");
         fl_out first = {0}, second = {0}, third = {0};
         fl_err err = {0}, none = {0};
-        fl_mark mark;
+        fl_file_mark mark;
         int fresh;
         assert_int_equal(fl_out_open(&first, path, gz, &none), 0);
         fwrite(sample, 1, 5000, first.f);

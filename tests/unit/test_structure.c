@@ -3,10 +3,10 @@
 #include "support/near.h"
 #include <math.h>
 #include <string.h>
-#include "bound/structure.h"
+#include "structure/structure.h"
 #include "geom/facet.h"
 #include "geom/mass.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/shapes.h"
 
 static fl_structure build(const fl_surface *s)
@@ -191,7 +191,7 @@ static void flat_open_parts_are_plates(void **state)
         assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
         assert_int_equal(st.piece[0].core.nf, 2);
         assert_int_equal(st.piece[0].core.nv, 4);
-        assert_near(v3_norm(fl_poly_area(&st.piece[0].core, 0)), 2.0 * sqrt(9.01), 1e-12);
+        assert_near(v3_norm(fl_poly_face_area_vector(&st.piece[0].core, 0)), 2.0 * sqrt(9.01), 1e-12);
         fl_structure_free(&st);
         fl_surface_free(&s);
     }
@@ -203,9 +203,9 @@ static void flat_open_parts_are_plates(void **state)
     for (int k = 0; k < 6; k++) vertex(p, xy[k][0], xy[k][1], 0.0);
     assert_int_equal(fl_facet_polygon(p, 6, loop, &err), 0);
     fl_structure st = build(&s);
-    assert_int_equal(st.piece[0].kind, FL_PIECE_SHELL);
+    assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
     assert_int_equal(st.piece[0].core.ne, 6);
-    assert_int_equal(st.piece[0].shell.corners, 6);
+    assert_int_equal(st.piece[0].mesh.corners, 6);
     assert_true(st.piece[0].one_sided);
     fl_structure_free(&st);
     fl_surface_free(&s);
@@ -233,10 +233,10 @@ static void a_sheet_is_what_it_covers(void **state)
         fl_structure st = build(&s);
         /* a back of one triangle is half a back, and a square without a quarter is none */
         const int plate = what != 4 && what != 6;
-        assert_int_equal(st.piece[0].kind, plate ? FL_PIECE_SOLID : FL_PIECE_SHELL);
+        assert_int_equal(st.piece[0].kind, plate ? FL_PIECE_SOLID : FL_PIECE_MESH);
         assert_int_equal(st.piece[0].one_sided, !plate);
         if (plate) assert_int_equal(st.piece[0].core.nv, 4);
-        if (plate) assert_near(v3_norm(fl_poly_area(&st.piece[0].core, 0)), 4.0, 1e-14);
+        if (plate) assert_near(v3_norm(fl_poly_face_area_vector(&st.piece[0].core, 0)), 4.0, 1e-14);
         fl_structure_free(&st);
         fl_surface_free(&s);
     }
@@ -251,10 +251,10 @@ static void what_is_not_convex_is_a_shell_without_seams(void **state)
     lab_prism(&l, 6, xy, 0, 1);
     fl_structure st = build(&l.surface);
     const fl_piece *q = &st.piece[0];
-    assert_int_equal(q->kind, FL_PIECE_SHELL);
+    assert_int_equal(q->kind, FL_PIECE_MESH);
     assert_int_equal(q->core.nf, 6 + 2 * 2); /* the L in two */
     assert_int_equal(q->core.ne, 18);        /* of the solid: 6 + 6 + 6, none inside a face */
-    assert_int_equal(q->shell.corners, 12);
+    assert_int_equal(q->mesh.corners, 12);
     fl_structure_free(&st);
     lab_free(&l);
 }
@@ -283,10 +283,10 @@ static void what_is_open_or_several_is_a_shell(void **state)
         }
         fl_structure st = build(&s);
         assert_int_equal(st.n, 1);
-        assert_int_equal(st.piece[0].kind, FL_PIECE_SHELL);
+        assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
         assert_int_equal(st.piece[0].core.nf, faces);
         assert_int_equal(st.piece[0].core.ne, edges);
-        assert_int_equal(st.piece[0].shell.corners, corners);
+        assert_int_equal(st.piece[0].mesh.corners, corners);
         fl_structure_free(&st);
         fl_surface_free(&s);
     }
@@ -341,8 +341,8 @@ static void a_closed_part_that_looks_inward_is_told(void **state)
         lab_prism(&l, 6, xy, 0, 1);
         for (int32_t t = 0; inward && t < l.surface.part[0].nt; t++) turn(&l.surface.part[0], t);
         fl_structure st = build(&l.surface);
-        assert_int_equal(st.piece[0].kind, FL_PIECE_SHELL);
-        assert_int_equal(st.piece[0].inward, inward);
+        assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
+        assert_int_equal(st.piece[0].inward_triangle, inward);
         fl_structure_free(&st);
         lab_free(&l);
     }
@@ -363,8 +363,8 @@ static void a_body_that_looks_inward_among_others_is_told(void **state)
             triangle(p, o, o + c, o + b), triangle(p, o + 1, o + b, o + c);
         }
         fl_structure st = build(&s);
-        assert_int_equal(st.piece[0].kind, FL_PIECE_SHELL);
-        assert_int_equal(st.piece[0].inward, inward ? 5 : 0); /* from its fifth triangle on */
+        assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
+        assert_int_equal(st.piece[0].inward_triangle, inward ? 5 : 0); /* from its fifth triangle on */
         fl_structure_free(&st);
         fl_surface_free(&s);
     }

@@ -2,11 +2,11 @@
 #include <stdio.h>
 #include <math.h>
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "geom/facet.h"
-#include "geom/patch.h"
+#include "geom/mesh_patch.h"
 #include "geom/surface.h"
 #include "geom/weld.h"
 #include "support/near.h"
@@ -20,9 +20,9 @@ static fl_part *part(fl_surface *s)
     return &s->part[i];
 }
 
-static fl_quality measured(const fl_part *p)
+static fl_mesh_quality measured(const fl_part *p)
 {
-    fl_quality q;
+    fl_mesh_quality q;
     assert_int_equal(fl_part_measure(p, &q, &err), 0);
     return q;
 }
@@ -71,7 +71,7 @@ static void box_is_exact_far_from_the_origin(void **state)
         const double far = k ? pow(2.0, 10.0 * k) : 0.0; /* exact sums */
         fl_surface s = {0};
         fl_part *p = part(&s);
-        fl_quality q;
+        fl_mesh_quality q;
         fl_facet_box(p, v3(far, -far, 3 * far), v3(far + 1, -far + 2, 3 * far + 3), &err);
         q = measured(p);
         assert_near(q.volume, 6.0, 1e-15);
@@ -80,7 +80,7 @@ static void box_is_exact_far_from_the_origin(void **state)
         assert_int_equal(q.closed, 1);
         assert_int_equal(q.open + q.branched + q.incoherent + q.inverted + q.degenerate, 0);
         assert_int_equal(q.patches, 1);
-        assert_near(q.shortest, 1.0, 0);
+        assert_near(q.shortest_edge, 1.0, 0);
         assert_near(q.box.hi.y, -far + 2, 0);
         fl_surface_free(&s);
     }
@@ -92,7 +92,7 @@ static void tetrahedron_is_exact(void **state)
     static const int32_t t[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
     fl_surface s = {0};
     fl_part *p = part(&s);
-    fl_quality q;
+    fl_mesh_quality q;
     (void)state;
     for (int k = 0; k < 4; k++) fl_surface_vertex(p, v3(x[k][0], x[k][1], x[k][2]), &err);
     for (int k = 0; k < 4; k++) fl_surface_triangle(p, t[k][0], t[k][1], t[k][2], &err);
@@ -117,7 +117,7 @@ static void facets_have_the_volume_of_their_prism(void **state)
             const double along = 0.25 * (r0 * r0 + 2 * r0 * r1 + 3 * r1 * r1) / squares;
             fl_surface s = {0};
             fl_part *p = part(&s);
-            fl_quality q;
+            fl_mesh_quality q;
             assert_int_equal(fl_facet_cone(p, &c, corners[k], &err), 0);
             q = measured(p);
             assert_near(q.volume, 0.5 * n * sin(2 * PI / n) * 13.0 * squares / 3.0, 1e-12);
@@ -134,7 +134,7 @@ static void cones_are_the_limit_of_their_facets(void **state)
 {
     const fl_cone c = {v3(1, 2, 3), v3(2, 4, 5), 0.75, 0.25};
     fl_surface s = {0};
-    fl_quality round, flat, both;
+    fl_mesh_quality round, flat, both;
     (void)state;
     fl_surface_cone(part(&s), c, &err);
     fl_facet_cone(part(&s), &c, 2000, &err);
@@ -159,7 +159,7 @@ static void check_polygon(int32_t n, const double (*xy)[2], double area, int32_t
     fl_surface s = {0};
     fl_part *p = part(&s);
     int32_t loop[16];
-    fl_quality q;
+    fl_mesh_quality q;
     for (int32_t k = 0; k < n; k++) {
         fl_surface_vertex(p, v3(xy[k][0] + 100, xy[k][1], 0.3 * xy[k][0]), &err);
         loop[k] = k;
@@ -241,9 +241,9 @@ static void wrong_orientation_is_mended(void **state)
     for (int mask = 0; mask < 4096; mask += 7) {
         fl_surface s = {0};
         fl_part *p = part(&s);
-        fl_quality came;
-        fl_orient o;
-        fl_quality q;
+        fl_mesh_quality came;
+        fl_orient_counts o;
+        fl_mesh_quality q;
         int turned = 0;
         fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
         for (int t = 0; t < 12; t++)
@@ -257,7 +257,7 @@ static void wrong_orientation_is_mended(void **state)
         assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
         assert_memory_equal(&came, &q, sizeof q); /* measured before it was turned */
         assert_int_equal(o.triangles, turned < 12 - turned ? turned : 12 - turned);
-        assert_int_equal(o.rimmed + o.twisted, 0);
+        assert_int_equal(o.kept_side + o.one_sided, 0);
         if (turned != 6) assert_int_equal(o.patches, turned > 6);
         q = measured(p);
         assert_near(q.volume, 1.0, 1e-15);
@@ -271,9 +271,9 @@ static void open_patches_keep_the_side_of_most_area(void **state)
     static const double x[6][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}};
     fl_surface s = {0};
     fl_part *p = part(&s);
-    fl_quality came;
-    fl_orient o;
-    fl_quality q;
+    fl_mesh_quality came;
+    fl_orient_counts o;
+    fl_mesh_quality q;
     (void)state;
     for (int k = 0; k < 6; k++) fl_surface_vertex(p, v3(x[k][0], x[k][1], x[k][2]), &err);
     fl_surface_triangle(p, 0, 1, 2, &err); /* up, small */
@@ -282,7 +282,7 @@ static void open_patches_keep_the_side_of_most_area(void **state)
     fl_surface_triangle(p, 4, 2, 5, &err); /* down, large */
     assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
     assert_int_equal(o.triangles, 2);
-    assert_int_equal(o.rimmed, 1);
+    assert_int_equal(o.kept_side, 1);
     assert_int_equal(o.patches, 0);
     assert_int_equal(p->t[2].v[1], 2);
     q = measured(p);
@@ -299,9 +299,9 @@ static void a_twisted_band_is_named(void **state)
     enum { N = 9 };
     fl_surface s = {0};
     fl_part *p = part(&s);
-    fl_quality came;
-    fl_orient o;
-    fl_quality q;
+    fl_mesh_quality came;
+    fl_orient_counts o;
+    fl_mesh_quality q;
     (void)state;
     for (int k = 0; k < N; k++) {
         const double a = 2 * PI * k / N, b = a / 2;
@@ -316,7 +316,7 @@ static void a_twisted_band_is_named(void **state)
         fl_surface_triangle(p, a, d, c, &err);
     }
     assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
-    assert_int_equal(o.twisted, 1);
+    assert_int_equal(o.one_sided, 1);
     q = measured(p);
     assert_int_equal(q.patches, 1);
     assert_int_equal(q.incoherent > 0, 1);
@@ -329,7 +329,7 @@ static void a_shared_edge_is_branched(void **state)
     fl_surface s = {0};
     fl_part *p = part(&s);
     fl_weld w;
-    fl_quality q;
+    fl_mesh_quality q;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_facet_box(p, v3(1, 1, 0), v3(2, 2, 1), &err);
@@ -366,7 +366,7 @@ static void welding_closes_a_soup(void **state)
         fl_surface s = {0};
         fl_part *whole, *soup;
         fl_weld w;
-        fl_quality q;
+        fl_mesh_quality q;
         part(&s);
         part(&s);
         whole = &s.part[0];
@@ -424,7 +424,7 @@ static void welding_refuses_what_it_would_spoil(void **state)
     assert_int_equal(e.code, FL_INPUT);
     assert_string_equal(e.text,
                         "part \"p\": the welding tolerance 0.3 m is above the shortest edge, 0.25 m: less "
-                        "was wanted");
+                        "is expected");
     assert_int_equal(p->nt, 12);
     p->v[0].x = 1e200;
     e = (fl_err){0};
@@ -474,15 +474,15 @@ static void memory_may_run_out(void **state)
         fl_surface s = {0};
         fl_err e = {0};
         fl_weld w;
-        fl_orient o;
-        fl_quality q;
+        fl_orient_counts o;
+        fl_mesh_quality q;
         int32_t i;
         int rc;
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         i = fl_surface_add(&s, "p", 1, &e);
         rc = i < 0 || fl_facet_cone(&s.part[i], &c, 12, &e) || fl_part_weld(&s.part[i], -1.0, &w, &e) ||
              fl_part_orient(&s.part[i], &q, &o, &e) || fl_surface_measure(&s, &q, &e);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         fl_surface_free(&s);
         assert_int_equal(rc, e.code != 0);
         if (!rc) break;

@@ -2,12 +2,12 @@
 /* What a surrogate tells, against what a look finds. */
 #include <math.h>
 #include "base/rng.h"
-#include "step/interact.h"
+#include "contact/pair_force.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "step/pulls.h"
-#include "support/lab.h"
+#include "patch/no_tension.h"
+#include "support/small_world.h"
 #include "support/near.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
@@ -56,8 +56,8 @@ typedef struct {
 static void look(laid *a)
 {
     if (a->p.surrogate) a->p.surrogate->reach = 1e-9;
-    fl_interact(&a->l.w, &a->p, 0, 0.0, 0);
-    assert_true(a->p.n && a->p.surrogate && a->p.surrogate->live);
+    fl_pair_evaluate(&a->l.w, &a->p, 0, 0.0, 0);
+    assert_true(a->p.touching && a->p.surrogate && a->p.surrogate->valid);
 }
 
 static void lay(laid *a, int kind)
@@ -65,13 +65,13 @@ static void lay(laid *a, int kind)
     two(&a->l, kind);
     a->x = a->l.w.b.x[1];
     a->q = a->l.w.b.q[1];
-    fl_pair_start(&a->l.w, &a->p, 0, 1);
+    fl_pair_init(&a->l.w, &a->p, 0, 1);
     look(a);
 }
 
 static void take_up(laid *a)
 {
-    fl_pair_end(&a->p);
+    fl_pair_free(&a->p);
     lab_free(&a->l);
 }
 
@@ -92,12 +92,12 @@ static way some(fl_rng *g)
 static void go_from(laid *l, fl_vec3 x, fl_quat q, way a, double h)
 {
     const fl_surrogate *s = l->p.surrogate;
-    const fl_quat turn = q_of_vector(v3_scale(h / s->arm, a.w));
+    const fl_quat turn = q_of_vector(v3_scale(h / s->length, a.w));
     fl_bodies *b = &l->l.w.b;
-    const fl_vec3 point = v3_add(b->x[0], m3_mul(fl_body_axes(b, 0), s->own));
+    const fl_vec3 point = v3_add(b->x[0], m3_mul(fl_body_axes(b, 0), s->point_a));
     b->q[1] = q_mul(turn, q);
     b->x[1] = v3_madd(v3_add(point, q_rotate(turn, v3_sub(x, point))), h, a.u);
-    fl_body_derive(b, 1);
+    fl_body_update_spin(b, 1);
 }
 
 /* The same from where it was laid. */
@@ -115,37 +115,37 @@ static fl_vec3 pose(const lab *l, fl_mat3 *M)
 }
 
 /* What it tells for that, in the k-th lane, the others being of some other pose. */
-static fl_told told_in(const laid *l, int lane)
+static fl_surrogate_value told_in(const laid *l, int lane)
 {
-    const fl_surrogate *all[FL_TOLD];
-    fl_tellers b;
+    const fl_surrogate *all[FL_SURROGATE_BATCH];
+    fl_surrogate_lanes b;
     fl_mat3 M;
     const fl_vec3 o = pose(&l->l, &M);
-    for (int k = 0; k < FL_TOLD; k++) {
+    for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         all[k] = l->p.surrogate;
-        fl_lane3_put(b.o, k, v3_scale(k == lane ? 1.0 : 1.0 + 1e-3 * k, o));
-        for (int r = 0; r < 3; r++) fl_lane3_put(b.M + 3 * r, k, v3(M.m[r][0], M.m[r][1], M.m[r][2]));
+        fl_lane3_set(b.o, k, v3_scale(k == lane ? 1.0 : 1.0 + 1e-3 * k, o));
+        for (int r = 0; r < 3; r++) fl_lane3_set(b.M + 3 * r, k, v3(M.m[r][0], M.m[r][1], M.m[r][2]));
     }
-    fl_surrogate_lay(&b, all, FL_TOLD);
-    fl_surrogate_tell(&b);
-    return fl_surrogate_told(&b, lane);
+    fl_surrogate_pack(&b, all, FL_SURROGATE_BATCH);
+    fl_surrogate_evaluate(&b);
+    return fl_surrogate_unpack(&b, lane);
 }
 
-static fl_told told_of(const laid *l) { return told_in(l, 0); }
+static fl_surrogate_value told_of(const laid *l) { return told_in(l, 0); }
 
 /* By how much the force and the moment that are told are off, over the force. */
 static double off(laid *l)
 {
     fl_world *w = &l->l.w;
-    const fl_told t = told_of(l);
+    const fl_surrogate_value t = told_of(l);
     const fl_pair p = lab_look(w, 0, 1);
     const fl_mat3 R = fl_body_axes(&w->b, 1);
     const fl_vec3 f = m3_mul(R, t.gradient.f);
-    const fl_vec3 at = v3_add(w->b.x[1], m3_mul(R, t.at)), arm = v3_sub(at, w->b.x[0]);
-    const fl_vec3 m = v3_sub(p.ti, v3_cross(arm, p.f)); /* about the point */
-    const double df = v3_norm(v3_sub(f, p.f)),
-                 dm = v3_norm(v3_sub(m3_mul(R, t.gradient.m), m)) / l->p.surrogate->arm;
-    return fmax(df, dm) / v3_norm(p.f);
+    const fl_vec3 at = v3_add(w->b.x[1], m3_mul(R, t.point)), arm = v3_sub(at, w->b.x[0]);
+    const fl_vec3 m = v3_sub(p.torque_i, v3_cross(arm, p.force)); /* about the point */
+    const double df = v3_norm(v3_sub(f, p.force)),
+                 dm = v3_norm(v3_sub(m3_mul(R, t.gradient.m), m)) / l->p.surrogate->length;
+    return fmax(df, dm) / v3_norm(p.force);
 }
 
 static void what_is_told_is_a_potential(void **state)
@@ -163,7 +163,7 @@ static void what_is_told_is_a_potential(void **state)
         for (int k = 0; k < 12; k++) {
             const way to = some(&g), along = some(&g);
             const double h = 1e-4 * DEPTH;
-            fl_told t[3];
+            fl_surrogate_value t[3];
             for (int e = 0; e < 3; e++) { /* by h along a second way, both ways */
                 go(&l, to, 0.2 * DEPTH);
                 go_from(&l, b->x[1], b->q[1], along, e == 0 ? 0.0 : e == 1 ? -h : h);
@@ -171,7 +171,7 @@ static void what_is_told_is_a_potential(void **state)
             }
             go(&l, to, 0.2 * DEPTH);
             const fl_mat3 R = fl_body_axes(b, 1);
-            const double arm = l.p.surrogate->arm;
+            const double arm = l.p.surrogate->length;
             const fl_vec3 f = m3_mul(R, t[0].gradient.f), m = m3_mul(R, t[0].gradient.m);
             /* what B goes, A goes the other way */
             const double work = -h * (v3_dot(f, along.u) + v3_dot(m, along.w) / arm);
@@ -190,9 +190,9 @@ static void lanes_are_alike(void **state)
         laid l;
         lay(&l, kind);
         go(&l, (way){v3(0.3, 0.5, 0.2), v3(0.4, -0.5, 0.4)}, 0.1 * DEPTH);
-        const fl_told one = told_of(&l);
-        for (int k = 1; k < FL_TOLD; k++) {
-            const fl_told other = told_in(&l, k);
+        const fl_surrogate_value one = told_of(&l);
+        for (int k = 1; k < FL_SURROGATE_BATCH; k++) {
+            const fl_surrogate_value other = told_in(&l, k);
             assert_memory_equal(&one, &other, sizeof one);
         }
         take_up(&l);
@@ -210,12 +210,12 @@ static void the_slope_is_told(void **state)
         double off = 0.0, changed = 0.0; /* sums */
         laid l;
         lay(&l, kind);
-        const double first = l.p.slip.k;
+        const double first = l.p.springs.k;
         assert_true(first > 0.0);
         for (int k = 0; k < 50; k++) {
             go(&l, some(&g), 0.05 * DEPTH);
-            const fl_told t = told_of(&l);
-            const double now = lab_look(&l.l.w, 0, 1).slip.k;
+            const fl_surrogate_value t = told_of(&l);
+            const double now = lab_look(&l.l.w, 0, 1).springs.k;
             off += fabs(t.slope / l.p.surrogate->slope * first - now);
             changed += fabs(now - first);
         }
@@ -302,18 +302,18 @@ static void move(laid *l, way a, double times)
     fl_bodies *b = &l->l.w.b;
     const double speed = times * sqrt(2.0 * l->p.energy / b->m[1]);
     b->v[1] = v3_scale(speed, a.u);
-    b->w[1] = v3_scale(speed / l->p.surrogate->arm, a.w);
+    b->w[1] = v3_scale(speed / l->p.surrogate->length, a.w);
 }
 
 /* What damping does as it is told and as a look finds it, over the force without it. */
 static void damped(laid *l, fl_vec3 *told, fl_vec3 *looked)
 {
-    l->p.surrogate->reach = FL_SURROGATE_MOST;
-    fl_interact(&l->l.w, &l->p, 0, 0.0, 0);
+    l->p.surrogate->reach = FL_SURROGATE_MAX_REACH;
+    fl_pair_evaluate(&l->l.w, &l->p, 0, 0.0, 0);
     assert_true(l->p.surrogate->used);
     const fl_pair p = lab_look(&l->l.w, 0, 1);
-    const double each = 1.0 / v3_norm(v3_sub(v3_sub(p.f, p.fd), p.fs));
-    *told = v3_scale(each, l->p.fd), *looked = v3_scale(each, p.fd);
+    const double each = 1.0 / v3_norm(v3_sub(v3_sub(p.force, p.force_damping), p.force_friction));
+    *told = v3_scale(each, l->p.force_damping), *looked = v3_scale(each, p.force_damping);
 }
 
 /* Damping is told as it was found at the look, also where it would pull at a part of what presses; and
@@ -332,10 +332,10 @@ static void damping_is_told(void **state)
             lay(&l, kind);
             l.l.w.dt = 0.0; /* of no length: nothing is held back */
             move(&l, a, k % 2 ? 0.02 : 0.3);
-            fl_interact_look(&l.l.w, &l.p, 0, NULL, 0.0, 0);
+            fl_pair_evaluate_exact(&l.l.w, &l.p, 0, NULL, 0.0, 0);
             damped(&l, &told[0], &looked[0]);
             const fl_surrogate *s = l.p.surrogate;
-            const int held = s->spreads != FL_PULLS_EVEN;
+            const int held = s->half_width != FL_UNIFORM_HALF_WIDTH;
             go(&l, a, 0.01 * DEPTH);
             damped(&l, &told[1], &looked[1]);
             if (!held) assert_true(v3_norm(v3_sub(told[0], looked[0])) < 1e-9);
@@ -365,9 +365,11 @@ static void what_is_owed_is_a_number(void **state)
                 go(&l, a, 0.1 * c * DEPTH);
                 const int over = told_of(&l).z <= 0.0;
                 l.p.surrogate->used = 1;
-                fl_interact(&l.l.w, &l.p, 0, 0.0, 0);
-                const int touches = l.p.n;
-                if (touches) assert_true(isfinite(l.p.surrogate->owed) && isfinite(l.p.surrogate->back));
+                fl_pair_evaluate(&l.l.w, &l.p, 0, 0.0, 0);
+                const int touches = l.p.touching;
+                if (touches)
+                    assert_true(isfinite(l.p.surrogate->energy_defect) &&
+                                isfinite(l.p.surrogate->defect_return));
                 past += touches && over;
                 take_up(&l);
             }
@@ -395,10 +397,10 @@ static void a_floor_is_the_same_everywhere(void **state)
         assert_int_equal(lab_run(&l[slides], STEPS), 0);
     }
     const fl_bodies *a = &l[0].w.b, *b = &l[1].w.b;
-    const fl_surrogate_count *still = l[0].w.told, *moves = l[1].w.told;
+    const fl_surrogate_count *still = l[0].w.surrogate_counts, *moves = l[1].w.surrogate_counts;
     assert_true(fabs(b->x[0].x) > 0.1);
-    assert_true(moves->told > STEPS / 4 && moves->looked > 10);
-    assert_true(moves->told == still->told && moves->looked == still->looked);
+    assert_true(moves->hits > STEPS / 4 && moves->checks > 10);
+    assert_true(moves->hits == still->hits && moves->checks == still->checks);
     assert_true(fabs(a->x[0].z - b->x[0].z) < 1e-13 && fabs(a->v[0].z - b->v[0].z) < 1e-12);
     assert_true(v3_norm(v3_sub(a->w[0], b->w[0])) < 1e-12);
     for (int slides = 0; slides < 2; slides++) lab_free(&l[slides]);

@@ -49,7 +49,7 @@ static void columns_and_rows(void **state)
     assert_int_equal(fl_table_column(&t, "mx[N]"), -1);
     assert_int_equal(fl_table_column(&t, "m"), -1);
     assert_int_equal(fl_table_column(&t, ""), -1);
-    assert_int_equal(fl_table_find(&t, "contacts", &col, &err), 0);
+    assert_int_equal(fl_table_require(&t, "contacts", &col, &err), 0);
     assert_int_equal(col, 3);
     assert_int_equal(fl_table_row(&t, &err), 1);
     assert_string_equal(fl_table_word(&t, 1), "tower");
@@ -58,9 +58,9 @@ static void columns_and_rows(void **state)
     assert_string_equal(t.name[2], "mx"); /* the names outlive the row they came from */
     assert_int_equal(fl_table_row(&t, &err), 1);
     assert_int_equal(fl_table_f64(&t, 1, &x, &err), -1);
-    expect_told(9, "part is \"deck\", a finite number was wanted");
+    expect_told(9, "part is \"deck\", a finite number is expected");
     err = (fl_err){0};
-    assert_int_equal(fl_table_find(&t, "contact", &col, &err), -1);
+    assert_int_equal(fl_table_require(&t, "contact", &col, &err), -1);
     expect_told(9, "no column contact in this loads table, the nearest is contacts");
     assert_int_equal(fl_table_row(&t, &err), 0);
     fl_table_close(&t);
@@ -86,14 +86,14 @@ static void complaints(void **state)
         int line;
         const char *says;
     } bad[] = {
-        {"", 0, "empty, a loads file was wanted"},
-        {"#state 1\nt\n", 1, "this is a state file, a loads file was wanted"},
+        {"", 0, "empty, a loads file is expected"},
+        {"#state 1\nt\n", 1, "this is a state file, a loads file is expected"},
         {"#loads 2\nt\n", 1, "loads version 2 is newer than this program, which reads up to 1"},
-        {"#loads 1\n#by x\n", 2, "the loads table ends here, a row of column names was wanted"},
+        {"#loads 1\n#by x\n", 2, "the loads table ends here, a row of column names is expected"},
         {"#loads 1\nt[s] fx[N] t\n", 2, "column t appears twice"},
         {"#loads 1\nt[s] [N]\n", 2, "a column has a unit and no name"},
-        {"#loads 1\n#start soon\nt\n", 2, "start is \"soon\", a finite number was wanted"},
-        {"#loads 1\n#start\tnan\nt\n", 2, "start is \"nan\", a finite number was wanted"},
+        {"#loads 1\n#start soon\nt\n", 2, "start is \"soon\", a finite number is expected"},
+        {"#loads 1\n#start\tnan\nt\n", 2, "start is \"nan\", a finite number is expected"},
     };
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -111,7 +111,7 @@ static void fields_must_match_columns(void **state)
     assert_int_equal(open_table(&t, "loads", "#loads 1\nt part fx\n1 a 2\n2 a\n"), 0);
     assert_int_equal(fl_table_row(&t, &err), 1);
     assert_int_equal(fl_table_row(&t, &err), -1);
-    expect_told(4, "2 fields, 3 were wanted as there are columns");
+    expect_told(4, "2 fields, 3 are expected as there are columns");
     fl_table_close(&t);
 }
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/text.h"
 #include "base/tool.h"
 #include "support/near.h"
@@ -22,7 +22,7 @@ static void close_text(fl_text *t)
     unlink(fl_in_name(t->in));
     fl_text_close(t);
     assert_null(t->line);
-    assert_int_equal(t->number, 0);
+    assert_int_equal(t->line_number, 0);
     fl_text_close(t); /* a zeroed one too */
 }
 
@@ -48,11 +48,11 @@ static void lines_with_any_end(void **state)
             assert_int_equal(fl_text_line(&t, &err), 1);
             assert_string_equal(t.line, line[i]);
             assert_int_equal(t.len, (int)strlen(line[i]));
-            assert_int_equal(t.number, i + 1);
+            assert_int_equal(t.line_number, i + 1);
         }
         for (int i = 0; i < 2; i++) {
             assert_int_equal(fl_text_line(&t, &err), 0);
-            assert_int_equal(t.number, 4);
+            assert_int_equal(t.line_number, 4);
         }
         close_text(&t);
     }
@@ -68,7 +68,7 @@ static void an_empty_file(void **state)
     close_text(&t);
     open_text(&t, "");
     assert_int_equal(fl_text_magic(&t, "g-polys", 1, &err), -1);
-    expect_told(0, "empty, a g-polys file was wanted");
+    expect_told(0, "empty, a g-polys file is expected");
     close_text(&t);
 }
 
@@ -132,16 +132,17 @@ static void kind_and_version(void **state)
         const char *data, *says;
     } bad[] = {
         {"#loads 3\n", "loads version 3 is newer than this program, which reads up to 2"},
-        {"#state 1\n", "this is a state file, a loads file was wanted"},
-        {"hello\n", "\"hello\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"#loads\n", "\"#loads\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"#loads 0\n", "\"#loads 0\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"#loads -1\n", "\"#loads -1\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"#loads 1 2\n", "\"#loads 1 2\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"#loads 4294967297\n", "\"#loads 4294967297\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"\033[2J\001\r#loads 1\n", "\"?[2J??#loads 1\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"#loads 1.5\n", "\"#loads 1.5\" does not open a loads file, \"#loads 2\" was wanted"},
-        {"\n#loads 1\n", "\"\" does not open a loads file, \"#loads 2\" was wanted"},
+        {"#state 1\n", "this is a state file, a loads file is expected"},
+        {"hello\n", "\"hello\" does not open a loads file, \"#loads 2\" is expected"},
+        {"#loads\n", "\"#loads\" does not open a loads file, \"#loads 2\" is expected"},
+        {"#loads 0\n", "\"#loads 0\" does not open a loads file, \"#loads 2\" is expected"},
+        {"#loads -1\n", "\"#loads -1\" does not open a loads file, \"#loads 2\" is expected"},
+        {"#loads 1 2\n", "\"#loads 1 2\" does not open a loads file, \"#loads 2\" is expected"},
+        {"#loads 4294967297\n", "\"#loads 4294967297\" does not open a loads file, \"#loads 2\" is expected"},
+        {"\033[2J\001\r#loads 1\n",
+         "\"?[2J??#loads 1\" does not open a loads file, \"#loads 2\" is expected"},
+        {"#loads 1.5\n", "\"#loads 1.5\" does not open a loads file, \"#loads 2\" is expected"},
+        {"\n#loads 1\n", "\"\" does not open a loads file, \"#loads 2\" is expected"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         open_text(&t, bad[k].data);
@@ -161,12 +162,12 @@ static void rows_and_history(void **state)
     assert_int_equal(fl_text_row(&t, &err), 1);
     assert_string_equal(t.history, "#by one 1 --seed 7\n#by two 2\n");
     assert_int_equal(t.n, 3);
-    assert_int_equal(t.number, 6);
+    assert_int_equal(t.line_number, 6);
     assert_string_equal(t.field[0], "a");
     assert_string_equal(t.field[1], "b");
     assert_string_equal(t.field[2], "c");
     assert_int_equal(fl_text_row(&t, &err), 1);
-    assert_int_equal(t.number, 8);
+    assert_int_equal(t.line_number, 8);
     assert_int_equal(t.n, 2); /* a mark within a word is part of it */
     assert_string_equal(t.field[0], "d#e");
     assert_int_equal(fl_text_row(&t, &err), 0);
@@ -188,12 +189,12 @@ static void fields_and_complaints(void **state)
     assert_true(x == 1.5);
     assert_int_equal(fl_text_i32(&t, "count", 0, 3, &i, &err), 0);
     assert_int_equal(i, 3);
-    assert_int_equal(fl_text_end(&t, &err), 0);
+    assert_int_equal(fl_text_no_more(&t, &err), 0);
 
     assert_int_equal(fl_text_row(&t, &err), 1);
     assert_int_equal(fl_text_word(&t, "record", &w, &err), 0);
     assert_int_equal(fl_text_f64(&t, "x", &x, &err), -1);
-    expect_told(2, "x is \"nan\", a finite number was wanted");
+    expect_told(2, "x is \"nan\", a finite number is expected");
     assert_true(x == 1.5);
 
     err = (fl_err){0};
@@ -206,12 +207,12 @@ static void fields_and_complaints(void **state)
     assert_int_equal(fl_text_row(&t, &err), 1);
     t.next = 1;
     assert_int_equal(fl_text_i32(&t, "index", 0, 8, &i, &err), -1);
-    expect_told(4, "index is \"9\", a whole number from 0 to 8 was wanted");
+    expect_told(4, "index is \"9\", a whole number from 0 to 8 is expected");
 
     err = (fl_err){0};
     assert_int_equal(fl_text_row(&t, &err), 1);
     t.next = 2;
-    assert_int_equal(fl_text_end(&t, &err), -1);
+    assert_int_equal(fl_text_no_more(&t, &err), -1);
     expect_told(5, "\"2\" was not expected after 2 fields");
     close_text(&t);
 }
@@ -245,11 +246,11 @@ static void memory_runs_out(void **state)
         const char *path = test_file("text", data, strlen(data));
         int rc = -1;
         err = (fl_err){0};
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         if (fl_text_open(&t, path, &err) == 0 && fl_text_magic(&t, "loads", 1, &err) == 0)
             while ((rc = fl_text_row(&t, &err)) > 0) continue;
-        const long refused = fl_mem_refused();
-        fl_mem_fail_after(-1);
+        const long refused = fl_alloc_refused();
+        fl_alloc_fail_after(-1);
         assert_int_equal(rc, refused ? -1 : 0);
         assert_int_equal(err.code, refused ? FL_SYSTEM : 0);
         fl_text_close(&t);
@@ -280,23 +281,23 @@ static void nearest_word(void **state)
 
 static void history_line(void **state)
 {
-    fl_by by;
-    char longer[3 * FL_BY_MAX], read[3000];
+    fl_history_line by;
+    char longer[3 * FL_HISTORY_LINE_MAX], read[3000];
     (void)state;
-    fl_by_start(&by, "dem-solve");
-    fl_by_add(&by, "--seed %d", 7);
-    fl_by_add(&by, "%s", "two\nlines\tand a tab");
+    fl_history_line_start(&by, "dem-solve");
+    fl_history_line_add(&by, "--seed %d", 7);
+    fl_history_line_add(&by, "%s", "two\nlines\tand a tab");
     assert_string_equal(by.text, "#by dem-solve " FL_VERSION " --seed 7 two lines and a tab");
     memset(longer, 'x', sizeof longer - 1);
     longer[sizeof longer - 1] = '\0';
-    for (int k = 0; k < 3; k++) fl_by_add(&by, "%s", longer);
-    assert_true(strlen(by.text) < FL_BY_MAX && by.len == (int)strlen(by.text));
+    for (int k = 0; k < 3; k++) fl_history_line_add(&by, "%s", longer);
+    assert_true(strlen(by.text) < FL_HISTORY_LINE_MAX && by.len == (int)strlen(by.text));
 
-    fl_by_start(&by, "two");
+    fl_history_line_start(&by, "two");
     FILE *f = fopen(test_path("by"), "w+");
     assert_non_null(f);
-    fl_by_header(f, "loads", 3, "#by one 0\n", &by);
-    fl_by_header(f, "loads", 3, NULL, &by);
+    fl_write_file_header(f, "loads", 3, "#by one 0\n", &by);
+    fl_write_file_header(f, "loads", 3, NULL, &by);
     rewind(f);
     read[fread(read, 1, sizeof read - 1, f)] = '\0';
     assert_string_equal(read,

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "support/near.h"
-#include "base/mem.h"
+#include "base/array.h"
 #include "ice/thickness.h"
 
 enum { N = 20000 };
@@ -18,7 +18,7 @@ static double sample(const fl_thickness *t, uint64_t seed, double least, double 
     double sum = 0.0, square = 0.0;
     for (int32_t i = 0; i < N; i++) {
         int32_t again;
-        h[i] = fl_thickness_of(t, seed, i, least, &again);
+        h[i] = fl_thickness_draw(t, seed, i, least, &again);
         assert_true(h[i] > least);
         sum += h[i];
         square += h[i] * h[i];
@@ -26,7 +26,7 @@ static double sample(const fl_thickness *t, uint64_t seed, double least, double 
     *mean = sum / N;
     *cv = sqrt(square / N - *mean * *mean) / *mean;
     qsort(h, N, sizeof *h, ascending);
-    return fl_thickness_distance(t, least, N, h);
+    return fl_thickness_ks_distance(t, least, N, h);
 }
 
 /* Kolmogorov's distance of N numbers exceeds 1.95 / sqrt(N) once in a thousand times: 0.0138. */
@@ -52,8 +52,8 @@ static void numbers_follow_their_law(void **state)
     assert_int_equal(t.n, 2);
     assert_true(sample(&t, 3, 0.0, h, &mean, &cv) < 1.95 / sqrt(N));
     assert_near(mean, 0.68, 0.01);
-    assert_true(fl_thickness_below(&t, 0.0, 0.2) == 0.2 && fl_thickness_below(&t, 0.0, 0.1999) == 0.0);
-    assert_true(fl_thickness_below(&t, 0.2, 0.5) == 0.0 && fl_thickness_below(&t, 0.2, 0.8) == 1.0);
+    assert_true(fl_thickness_cdf(&t, 0.0, 0.2) == 0.2 && fl_thickness_cdf(&t, 0.0, 0.1999) == 0.0);
+    assert_true(fl_thickness_cdf(&t, 0.2, 0.5) == 0.0 && fl_thickness_cdf(&t, 0.2, 0.8) == 1.0);
     fl_thickness_free(&t);
 }
 
@@ -66,19 +66,20 @@ static void numbers_are_those_of_the_floe(void **state)
     int32_t again, drawn = 0;
     assert_int_equal(fl_thickness_parse(&t, "lognormal:0.7,0.5", &err), 0);
     for (int32_t i = 0; i < 200; i++) {
-        const double a = fl_thickness_of(&t, 7, i, 0.0, &again), b = fl_thickness_of(&t, 7, i, 0.5, &again);
-        assert_true(a == fl_thickness_of(&t, 7, i, 0.0, &again));
+        const double a = fl_thickness_draw(&t, 7, i, 0.0, &again),
+                     b = fl_thickness_draw(&t, 7, i, 0.5, &again);
+        assert_true(a == fl_thickness_draw(&t, 7, i, 0.0, &again));
         assert_true(again == 0);
         if (a > 0.5) assert_true(a == b);
-        fl_thickness_of(&t, 7, i, 0.5, &again);
+        fl_thickness_draw(&t, 7, i, 0.5, &again);
         assert_true((again > 0) == (a <= 0.5));
         drawn += again;
     }
     assert_true(drawn > 10);
-    assert_true(fl_thickness_of(&t, 7, 1, 1e5, &again) == 0.0);
+    assert_true(fl_thickness_draw(&t, 7, 1, 1e5, &again) == 0.0);
     assert_int_equal(fl_thickness_parse(&t, "0.25", &err), 0);
-    assert_true(fl_thickness_of(&t, 7, 1, 0.0, &again) == 0.25 &&
-                fl_thickness_of(&t, 7, 1, 0.3, &again) == 0.0);
+    assert_true(fl_thickness_draw(&t, 7, 1, 0.0, &again) == 0.25 &&
+                fl_thickness_draw(&t, 7, 1, 0.3, &again) == 0.0);
 }
 
 static void wrong_laws_are_told(void **state)

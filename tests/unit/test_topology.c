@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "geom/topology.h"
 #include "support/near.h"
@@ -29,13 +29,13 @@ static void same(const fl_poly *p, const fl_poly *q)
     if (nf) assert_memory_equal(p->loop, q->loop, (size_t)p->first[nf] * sizeof *p->loop);
     if (ne) assert_memory_equal(p->edge, q->edge, ne * sizeof *p->edge);
     for (int32_t e = 0; e < p->ne; e++)
-        assert_true(fmin(fl_poly_edge(p, e), FL_POLY_BLUNT_EDGE) ==
-                    fmin(fl_poly_edge(q, e), FL_POLY_BLUNT_EDGE));
+        assert_true(fmin(fl_poly_edge_angle(p, e), FL_POLY_BLUNT_EDGE) ==
+                    fmin(fl_poly_edge_angle(q, e), FL_POLY_BLUNT_EDGE));
     for (int32_t v = 0; v < p->nv; v++)
-        assert_true(fmin(fl_poly_corner(p, v), FL_POLY_BLUNT_CORNER) ==
-                    fmin(fl_poly_corner(q, v), FL_POLY_BLUNT_CORNER));
-    assert_memory_equal(p->begin, q->begin, (nv + 1) * sizeof *p->begin);
-    if (ne) assert_memory_equal(p->beside, q->beside, 2 * ne * sizeof *p->beside);
+        assert_true(fmin(fl_poly_corner_angle(p, v), FL_POLY_BLUNT_CORNER) ==
+                    fmin(fl_poly_corner_angle(q, v), FL_POLY_BLUNT_CORNER));
+    assert_memory_equal(p->neighbour_first, q->neighbour_first, (nv + 1) * sizeof *p->neighbour_first);
+    if (ne) assert_memory_equal(p->neighbour, q->neighbour, 2 * ne * sizeof *p->neighbour);
 }
 
 /* Of 3 to 190 corners, each three times: more kinds than the table begins with. */
@@ -116,7 +116,7 @@ static void few_angles_are_kept(void **state)
         for (int32_t e = 0; e < p.ne; e++) blunt += p.bend[e] < FL_POLY_BLUNT_EDGE;
         for (int32_t v = 0; v < p.nv; v++) blunt += p.defect[v] < FL_POLY_BLUNT_CORNER;
         assert_int_equal(blunt, way == 3 ? 40 : way == 2 ? 3 : way == 1 ? 2 : 0);
-        assert_int_equal(q.blunts, way == 3 ? 0 : blunt);
+        assert_int_equal(q.kept_angles, way == 3 ? 0 : blunt);
         assert_true(!q.bend == (way < 3) && !q.defect == (way < 3));
         same(&p, &q);
         fl_poly r = {0};
@@ -143,9 +143,9 @@ static void without_memory_all_stays(void **state)
     prism(&p, 6, 1.0), prism(&q, 6, 1.0);
     for (long k = 0; k < 10; k++) {
         fl_err lost = {0};
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         const int rc = fl_topologies_share(&t, &q, FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &lost);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         same(&p, &q);
         if (rc == 0) break;
         assert_int_equal(lost.code, FL_SYSTEM);

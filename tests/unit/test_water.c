@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "geom/clip.h"
@@ -23,23 +23,23 @@ static void upright_box(void **state)
     (void)state;
     fl_poly p;
     fl_hull h;
-    fl_wet w;
+    fl_submerged w;
     fl_waterplane a;
     fl_vec3 f, m;
     floe(&p, &h, 10, 6, 1);
     assert_near(h.volume, 60.0, 1e-15);
-    assert_near(h.surface, 152.0, 1e-15);
-    fl_buoyancy(&h, v3(0, 0, 1), 0.3, &w);
+    assert_near(h.surface_area, 152.0, 1e-15);
+    fl_hull_submerged(&h, v3(0, 0, 1), 0.3, &w);
     assert_near(w.volume, 48.0, 1e-15);
     assert_near(w.centre.z, -0.1, 1e-15);
     assert_near_of(w.centre.x, 0.0, 1e-15, 10.0);
-    assert_near(w.waterplane, 60.0, 1e-15);
-    assert_near(w.wetted, 60.0 + 0.8 * 32, 1e-15);
+    assert_near(w.waterplane_area, 60.0, 1e-15);
+    assert_near(w.wetted_area, 60.0 + 0.8 * 32, 1e-15);
     const double u = fl_buoyancy_force(&w, v3(0, 0, 1), 0.3, 1e4, &f, &m);
     assert_near(f.z, 48e4, 1e-15);
     assert_near_of(v3_norm(m), 0.0, 1e-15, 48e5);
     assert_near(u, 1e4 * 48.0 * 0.4, 1e-15);
-    fl_buoyancy_plane(&h, v3(0, 0, 1), 0.3, &a);
+    fl_hull_waterplane(&h, v3(0, 0, 1), 0.3, &a);
     assert_near(a.area, 60.0, 1e-15);
     assert_near(a.second.m[0][0], 6 * 1000.0 / 12, 1e-14);
     assert_near(a.second.m[1][1], 10 * 216.0 / 12, 1e-14);
@@ -55,24 +55,24 @@ static void plane_through_faces(void **state)
     (void)state;
     fl_poly p;
     fl_hull h;
-    fl_wet w;
+    fl_submerged w;
     floe(&p, &h, 10, 10, 1);
     for (int k = -20; k <= 20; k++) {
         const double off = k * 1e-10;
-        fl_buoyancy(&h, v3(0, 0, 1), 0.5 + off, &w);
+        fl_hull_submerged(&h, v3(0, 0, 1), 0.5 + off, &w);
         assert_near_of(w.volume, off < 0 ? 100 + 100 * off : 100.0, 1e-14, 100.0);
         assert_near_of(w.centre.z, off < 0 ? off / 2 : 0.0, 1e-13, 1.0);
-        assert_near(w.waterplane, off < 0 ? 100.0 : 0.0, 1e-14);
-        fl_buoyancy(&h, v3(0, 0, 1), -0.5 + off, &w);
+        assert_near(w.waterplane_area, off < 0 ? 100.0 : 0.0, 1e-14);
+        fl_hull_submerged(&h, v3(0, 0, 1), -0.5 + off, &w);
         assert_near_of(w.volume, off > 0 ? 100 * off : 0.0, 1e-14, 100.0);
-        assert_near(w.waterplane, off > 0 ? 100.0 : 0.0, 1e-14);
+        assert_near(w.waterplane_area, off > 0 ? 100.0 : 0.0, 1e-14);
     }
-    fl_buoyancy(&h, v3(0, 0, 1), 1e9, &w);
+    fl_hull_submerged(&h, v3(0, 0, 1), 1e9, &w);
     assert_near(w.volume, 100.0, 1e-15);
-    assert_near(w.wetted, 240.0, 1e-15);
-    fl_buoyancy(&h, v3(0, 0, 1), -1e9, &w);
+    assert_near(w.wetted_area, 240.0, 1e-15);
+    fl_hull_submerged(&h, v3(0, 0, 1), -1e9, &w);
     assert_near(w.volume, 0.0, 0.0);
-    assert_near(w.wetted, 0.0, 0.0);
+    assert_near(w.wetted_area, 0.0, 0.0);
     fl_hull_free(&h);
     fl_poly_free(&p);
 }
@@ -102,7 +102,7 @@ static void prisms_have_closed_formulae(void **state)
         fl_rng g = fl_rng_of(test_seed(), t, FL_RNG_TEST);
         fl_poly p;
         fl_hull h;
-        fl_wet w, clipped;
+        fl_submerged w, clipped;
         fl_err err = {0};
         some_prism(&p, &g, 3 + t % 14);
         assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
@@ -114,14 +114,14 @@ static void prisms_have_closed_formulae(void **state)
             v3_unit(v3_madd(v3_madd(e, tilt * cos(to), as.a), tilt * sin(to), v3_cross(as.e, as.a)));
         const double middle = v3_dot(up, v3_madd(as.o, 0.5 * (as.z0 + as.z1), as.e));
         const double level = middle + fl_rng_in(&g, -0.3, 0.3);
-        fl_buoyancy(&h, up, level, &w);
-        const int closed = fl_prism_wet(&as, up, level, &clipped);
+        fl_hull_submerged(&h, up, level, &w);
+        const int closed = fl_prism_submerged(&as, up, level, &clipped);
         used += closed, left += !closed;
         h.prism.area = 0.0;
-        fl_buoyancy(&h, up, level, &clipped);
+        fl_hull_submerged(&h, up, level, &clipped);
         assert_near_of(w.volume, clipped.volume, 1e-13, h.volume);
-        assert_near_of(w.wetted, clipped.wetted, 1e-13, h.surface);
-        assert_near_of(w.waterplane, clipped.waterplane, 1e-13, h.surface);
+        assert_near_of(w.wetted_area, clipped.wetted_area, 1e-13, h.surface_area);
+        assert_near_of(w.waterplane_area, clipped.waterplane_area, 1e-13, h.surface_area);
         if (closed) assert_near_of(v3_norm(v3_sub(w.centre, clipped.centre)), 0.0, 1e-12, p.size);
         fl_hull_free(&h);
         fl_poly_free(&p);
@@ -137,7 +137,7 @@ static void a_hull_by_its_core(void **state)
         fl_rng g = fl_rng_of(test_seed(), t, FL_RNG_TEST);
         fl_poly core, outer;
         fl_hull h, by;
-        fl_wet w, known;
+        fl_submerged w, known;
         fl_waterplane a, b;
         fl_err err = {0};
         const double r = t % 5 ? fl_rng_in(&g, 0.01, 0.3) : 0.0;
@@ -146,22 +146,22 @@ static void a_hull_by_its_core(void **state)
                          0);
         assert_int_equal(fl_hull_make(&h, &outer, 0.0, &err), 0);
         assert_int_equal(fl_hull_make(&by, &outer, 0.0, &err), 0);
-        assert_int_equal(fl_hull_by_core(&by, &core, r + 1e-9), 0);
-        assert_true(by.p == &outer && by.area);
-        assert_int_equal(fl_hull_by_core(&by, &core, r), 1);
-        assert_true(by.p == &core && !by.area);
+        assert_int_equal(fl_hull_borrow_core(&by, &core, r + 1e-9), 0);
+        assert_true(by.shape == &outer && by.face_area);
+        assert_int_equal(fl_hull_borrow_core(&by, &core, r), 1);
+        assert_true(by.shape == &core && !by.face_area);
         const fl_vec3 up = v3_unit(v3(fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1), fl_rng_in(&g, -1, 1)));
         const double level = v3_dot(up, h.centre) + fl_rng_in(&g, -2, 2);
-        fl_buoyancy(&h, up, level, &w);
-        fl_buoyancy(&by, up, level, &known);
+        fl_hull_submerged(&h, up, level, &w);
+        fl_hull_submerged(&by, up, level, &known);
         assert_near_of(w.volume, known.volume, 1e-12, h.volume);
-        assert_near_of(w.wetted, known.wetted, 1e-12, h.surface);
-        assert_near_of(w.waterplane, known.waterplane, 1e-12, h.surface);
+        assert_near_of(w.wetted_area, known.wetted_area, 1e-12, h.surface_area);
+        assert_near_of(w.waterplane_area, known.waterplane_area, 1e-12, h.surface_area);
         assert_near_of(v3_norm(v3_sub(w.centre, known.centre)) * w.volume, 0.0, 1e-12, outer.size * h.volume);
-        fl_buoyancy_plane(&h, up, level, &a);
-        fl_buoyancy_plane(&by, up, level, &b);
-        assert_near_of(a.area, b.area, 1e-12, h.surface);
-        assert_near_of(m3_col(a.second, 0).x, m3_col(b.second, 0).x, 1e-12, h.surface * h.surface);
+        fl_hull_waterplane(&h, up, level, &a);
+        fl_hull_waterplane(&by, up, level, &b);
+        assert_near_of(a.area, b.area, 1e-12, h.surface_area);
+        assert_near_of(m3_col(a.second, 0).x, m3_col(b.second, 0).x, 1e-12, h.surface_area * h.surface_area);
         fl_hull_free(&h), fl_hull_free(&by);
         fl_poly_free(&core), fl_poly_free(&outer);
     }
@@ -179,15 +179,15 @@ static void hulls_that_need_their_own(void **state)
         for (int k = 0; k < n; k++) xy[k] = v3(cos(2.0 * PI * k / n), sin(2.0 * PI * k / n), 0);
         assert_int_equal(fl_poly_prism(&p, n, xy, 0, 1, &err), 0);
         assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
-        assert_int_equal(fl_hull_by_core(&h, &p, 0.0), n == 32);
+        assert_int_equal(fl_hull_borrow_core(&h, &p, 0.0), n == 32);
         fl_hull_free(&h), fl_poly_free(&p);
     }
     const fl_vec3 corner[4] = {v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0), v3(0, 0, 1)};
     const int32_t first[5] = {0, 3, 6, 9, 12}, loop[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
     assert_int_equal(fl_poly_make(&p, 4, corner, 4, first, loop, &err), 0);
     assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
-    assert_int_equal(fl_hull_by_core(&h, &p, 0.0), 0);
-    assert_non_null(h.area);
+    assert_int_equal(fl_hull_borrow_core(&h, &p, 0.0), 0);
+    assert_non_null(h.face_area);
     fl_hull_free(&h), fl_poly_free(&p);
 }
 
@@ -220,12 +220,12 @@ static void what_is_a_prism(void **state)
                             v3(-1, -1, 0.5),  v3(1, -1, 0.5),  v3(1, 1, 0.5),  v3(-1, 1, 0.5)};
     const int32_t begin[8] = {0, 4, 7, 10, 14, 18, 22, 26},
                   round[26] = {3, 2, 1, 0, 4, 5, 6, 4, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
-    fl_wet w;
+    fl_submerged w;
     assert_int_equal(fl_poly_make(&p, 8, box, 7, begin, round, &err), 0);
     assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
-    fl_buoyancy(&h, v3(0, 0, 1), 0.1, &w);
+    fl_hull_submerged(&h, v3(0, 0, 1), 0.1, &w);
     assert_near(w.volume, 2.4, 1e-15);
-    assert_near(w.wetted, 8.8, 1e-15);
+    assert_near(w.wetted_area, 8.8, 1e-15);
     fl_hull_free(&h);
     fl_poly_free(&p);
 }
@@ -236,15 +236,15 @@ static void plane_through_vertices(void **state)
     (void)state;
     fl_poly p;
     fl_hull h;
-    fl_wet w;
+    fl_submerged w;
     const double third = 1.0 / sqrt(3.0);
     floe(&p, &h, 1, 1, 1);
-    fl_buoyancy(&h, v3(third, third, third), -0.5 * third, &w);
+    fl_hull_submerged(&h, v3(third, third, third), -0.5 * third, &w);
     assert_near(w.volume, 1.0 / 6, 1e-15);
-    assert_near(w.waterplane, sqrt(3.0) / 2, 1e-15);
-    fl_buoyancy(&h, v3(third, third, third), 0.5 * third, &w);
+    assert_near(w.waterplane_area, sqrt(3.0) / 2, 1e-15);
+    fl_hull_submerged(&h, v3(third, third, third), 0.5 * third, &w);
     assert_near(w.volume, 5.0 / 6, 1e-15);
-    fl_buoyancy(&h, v3(third, third, third), 0.0, &w);
+    fl_hull_submerged(&h, v3(third, third, third), 0.0, &w);
     assert_near(w.volume, 0.5, 1e-15);
     assert_near(w.centre.x, -13.0 / 96, 1e-14);
     fl_hull_free(&h);
@@ -258,32 +258,32 @@ static void spheres_and_capsules(void **state)
     fl_err err = {0};
     fl_poly ball, rod;
     fl_hull hb, hr;
-    fl_wet w;
+    fl_submerged w;
     assert_int_equal(fl_poly_make(&ball, 1, &(fl_vec3){0}, 0, NULL, NULL, &err), 0);
     assert_int_equal(fl_poly_make(&rod, 2, v, 0, NULL, NULL, &err), 0);
     assert_int_equal(fl_hull_make(&hb, &ball, 0.5, &err), 0);
     assert_int_equal(fl_hull_make(&hr, &rod, 0.5, &err), 0);
-    fl_buoyancy(&hb, v3(0, 0.6, 0.8), 0.0, &w);
+    fl_hull_submerged(&hb, v3(0, 0.6, 0.8), 0.0, &w);
     assert_near(w.volume, PI / 12, 1e-15);
     assert_near(v3_dot(w.centre, v3(0, 0.6, 0.8)), -3.0 / 16, 1e-15);
-    assert_near(w.wetted, PI / 2, 1e-15);
-    assert_near(w.waterplane, PI / 4, 1e-15);
-    fl_buoyancy(&hb, v3(0, 0.6, 0.8), 0.5, &w);
+    assert_near(w.wetted_area, PI / 2, 1e-15);
+    assert_near(w.waterplane_area, PI / 4, 1e-15);
+    fl_hull_submerged(&hb, v3(0, 0.6, 0.8), 0.5, &w);
     assert_near(w.volume, PI / 6, 1e-15);
-    fl_buoyancy(&hb, v3(0, 0.6, 0.8), -0.5, &w);
+    fl_hull_submerged(&hb, v3(0, 0.6, 0.8), -0.5, &w);
     assert_near(w.volume, 0.0, 0.0);
     /* standing: half a ball and a piece of cylinder */
-    fl_buoyancy(&hr, v3(0, 0, 1), 0.25, &w);
+    fl_hull_submerged(&hr, v3(0, 0, 1), 0.25, &w);
     assert_near(w.volume, PI / 12 + PI / 4 * 1.25, 1e-14);
-    assert_near(w.waterplane, PI / 4, 1e-14);
-    assert_near(w.wetted, PI / 2 + PI * 1.25, 1e-14);
+    assert_near(w.waterplane_area, PI / 4, 1e-14);
+    assert_near(w.wetted_area, PI / 2 + PI * 1.25, 1e-14);
     assert_near(w.volume * w.centre.z, PI / 12 * (-1 - 3.0 / 16) + PI / 4 * 1.25 * -0.375, 1e-14);
-    fl_buoyancy(&hr, v3(0, 0, -1), 0.25, &w); /* and on its head */
+    fl_hull_submerged(&hr, v3(0, 0, -1), 0.25, &w); /* and on its head */
     assert_near(w.volume, PI / 12 + PI / 4 * 1.25, 1e-14);
     /* lying half in: half of everything */
-    fl_buoyancy(&hr, v3(0.6, 0.8, 0), 0.0, &w);
+    fl_hull_submerged(&hr, v3(0.6, 0.8, 0), 0.0, &w);
     assert_near(w.volume, 0.5 * hr.volume, 1e-14);
-    assert_near(w.waterplane, 2.0 + PI / 4, 1e-14);
+    assert_near(w.waterplane_area, 2.0 + PI / 4, 1e-14);
     assert_near(w.volume * v3_dot(w.centre, v3(0.6, 0.8, 0)), -2.0 * 2.0 / 3 * 0.125 - PI / 4 * 0.0625,
                 1e-14);
     assert_near_of(w.centre.z, 0.0, 1e-15, 1.0);
@@ -291,7 +291,7 @@ static void spheres_and_capsules(void **state)
     double last = 0.0;
     for (int k = 0; k <= 100000; k++) {
         const double t = 0.5 * PI * k / 100000;
-        fl_buoyancy(&hr, v3(sin(t), 0, cos(t)), 0.3, &w);
+        fl_hull_submerged(&hr, v3(sin(t), 0, cos(t)), 0.3, &w);
         if (k) assert_near_of(w.volume, last, 5e-5, 1.0);
         last = w.volume;
     }
@@ -321,9 +321,9 @@ static void what_cannot_float(void **state)
         fl_poly p;
         fl_hull h = {0};
         assert_int_equal(fl_poly_box(&p, v3(1, 1, 1), &err), 0);
-        fl_mem_fail_after(0);
+        fl_alloc_fail_after(0);
         assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), -1);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(err.code, FL_SYSTEM);
         fl_poly_free(&p);
     }
@@ -338,14 +338,14 @@ static void many_vertices(void **state)
     fl_err err = {0};
     fl_poly p;
     fl_hull h;
-    fl_wet w;
+    fl_submerged w;
     for (int k = 0; k < N; k++) xy[k] = v3(cos(2 * PI * k / N), sin(2 * PI * k / N), 0);
     assert_int_equal(fl_poly_prism(&p, N, xy, -1, 1, &err), 0);
     assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
     const double area = 0.5 * N * sin(2 * PI / N);
-    fl_buoyancy(&h, v3_unit(v3(0.3, 0, 1)), 0.0, &w);
+    fl_hull_submerged(&h, v3_unit(v3(0.3, 0, 1)), 0.0, &w);
     assert_near(w.volume, area, 1e-14);
-    assert_near(w.waterplane, area * sqrt(1.09), 1e-14);
+    assert_near(w.waterplane_area, area * sqrt(1.09), 1e-14);
     fl_hull_free(&h);
     fl_poly_free(&p);
 }
@@ -353,7 +353,7 @@ static void many_vertices(void **state)
 static void drag_laws(void **state)
 {
     (void)state;
-    const fl_fluid sea = {.density = 1025, .force = 0.005, .moment = 0.004};
+    const fl_fluid sea = {.density = 1025, .force_coefficient = 0.005, .moment_coefficient = 0.004};
     fl_err err = {0};
     fl_poly p;
     assert_int_equal(fl_poly_box(&p, v3(5, 5, 0.5), &err), 0);
@@ -361,8 +361,8 @@ static void drag_laws(void **state)
     assert_near(fl_drag_radius(&p, 0.25), 7.338723439378913, 1e-15);
     fl_poly_free(&p);
     /* c |u|^2 is the force, c w^2 the moment */
-    assert_near(fl_drag_of_force(&sea, 100.0) * 25, 0.5 * 0.005 * 1025 * 100 * 25, 1e-15);
-    assert_near(fl_drag_of_moment(&sea, 100.0, 2.0) * 4, 0.5 * 0.004 * 1025 * 100 * 8 * 4, 1e-15);
+    assert_near(fl_drag_force_constant(&sea, 100.0) * 25, 0.5 * 0.005 * 1025 * 100 * 25, 1e-15);
+    assert_near(fl_drag_moment_constant(&sea, 100.0, 2.0) * 4, 0.5 * 0.004 * 1025 * 100 * 8 * 4, 1e-15);
 }
 
 /* One long step, or many short ones: m du/dt = -c u^2 is followed exactly, and no step, however long, turns
@@ -371,46 +371,47 @@ static void drag_never_reverses(void **state)
 {
     (void)state;
     double u = 3.0;
-    for (int k = 0; k < 1000; k++) u *= fl_drag_factor(5.0, 1.0, u, 0.05);
-    assert_near(u, 3.0 * fl_drag_factor(5.0, 1.0, 3.0, 50.0), 1e-12);
+    for (int k = 0; k < 1000; k++) u *= fl_drag_decay_factor(5.0, 1.0, u, 0.05);
+    assert_near(u, 3.0 * fl_drag_decay_factor(5.0, 1.0, 3.0, 50.0), 1e-12);
     for (int k = 0; k < 1000; k++) {
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
-        const double f = fl_drag_factor(pow(10, fl_rng_in(&g, -12, 12)), pow(10, fl_rng_in(&g, -9, 300)),
-                                        pow(10, fl_rng_in(&g, -9, 9)), pow(10, fl_rng_in(&g, -9, 9)));
+        const double f =
+            fl_drag_decay_factor(pow(10, fl_rng_in(&g, -12, 12)), pow(10, fl_rng_in(&g, -9, 300)),
+                                 pow(10, fl_rng_in(&g, -9, 9)), pow(10, fl_rng_in(&g, -9, 9)));
         assert_true(f >= 0.0 && f <= 1.0);
     }
-    assert_near(fl_drag_factor(0.3, 1.0, 0.0, 1.0), 1.0, 0.0);
+    assert_near(fl_drag_decay_factor(0.3, 1.0, 0.0, 1.0), 1.0, 0.0);
 }
 
-static double skin_area(const fl_patches *s)
+static double skin_area(const fl_facet_cut *s)
 {
     double total = 0.0;
     int32_t row = 0;
-    for (int32_t k = 0; k < s->fours; row += s->four[k++].rows)
-        for (int32_t r = 0; r < s->four[k].rows; r++)
-            for (int l = 0; l < FL_LANES; l++) total += s->row[row + r].area[l];
+    for (int32_t k = 0; k < s->groups; row += s->group[k++].pieces)
+        for (int32_t r = 0; r < s->group[k].pieces; r++)
+            for (int l = 0; l < FL_SIMD_WIDTH; l++) total += s->piece[row + r].area[l];
     return total;
 }
 
 /* One step by all pieces one after another, in the axes of the body, solved by elimination. */
-static void drag_plainly(const fl_patches *s, fl_facet_law law, fl_vec3 mass, fl_vec3 inertia, double h,
-                         fl_vec3 *v, fl_vec3 *w)
+static void drag_plainly(const fl_facet_cut *s, fl_facet_drag_law law, fl_vec3 mass, fl_vec3 inertia,
+                         double h, fl_vec3 *v, fl_vec3 *w)
 {
     const double M[6] = {mass.x, mass.y, mass.z, inertia.x, inertia.y, inertia.z},
                  y[6] = {v->x, v->y, v->z, w->x, w->y, w->z};
     double a[6][7] = {{0}};
     int32_t row = 0;
     for (int i = 0; i < 6; i++) a[i][i] = M[i], a[i][6] = M[i] * y[i];
-    for (int32_t k = 0; k < s->fours; row += s->four[k++].rows) {
-        const fl_patches_four *f = &s->four[k];
-        for (int32_t c = 0; c < f->rows * FL_LANES; c++) {
-            const int l = (int)(c % FL_LANES);
-            const fl_patches_row *p = &s->row[row + c / FL_LANES];
-            const fl_vec3 r = fl_patches_place(f, p, l), n = v3(f->n[0][l], f->n[1][l], f->n[2][l]);
+    for (int32_t k = 0; k < s->groups; row += s->group[k++].pieces) {
+        const fl_facet_group *f = &s->group[k];
+        for (int32_t c = 0; c < f->pieces * FL_SIMD_WIDTH; c++) {
+            const int l = (int)(c % FL_SIMD_WIDTH);
+            const fl_facet_piece *p = &s->piece[row + c / FL_SIMD_WIDTH];
+            const fl_vec3 r = fl_facet_piece_position(f, p, l), n = v3(f->n[0][l], f->n[1][l], f->n[2][l]);
             fl_vec3 U = v3(0, 0, 0);
             if (s->flow) {
-                const fl_patches_flow *q = &s->flow[row + c / FL_LANES];
-                U = fl_patches_out(f, l, v3(q->u[0][l], q->u[1][l], q->u[2][l]));
+                const fl_facet_flow *q = &s->flow[row + c / FL_SIMD_WIDTH];
+                U = fl_facet_group_to_body(f, l, v3(q->u[0][l], q->u[1][l], q->u[2][l]));
             }
             const fl_vec3 u = v3_sub(v3_add(*v, v3_cross(*w, r)), U);
             const double un = v3_dot(u, n), skin = h * law.skin * p->area[l] * v3_norm(v3_madd(u, -un, n)),
@@ -444,18 +445,19 @@ static void facets_drag_exactly_along_an_axis(void **state)
     fl_hull h;
     fl_err err = {0};
     fl_facets k;
-    fl_patches skin, dry;
-    const fl_facet_law law = {2.0, 7.0};
+    fl_facet_cut skin, dry;
+    const fl_facet_drag_law law = {2.0, 7.0};
     const fl_vec3 m = v3(100, 200, 300), I = v3(50, 60, 70);
     const double area[3] = {12, 8, 6};
     assert_int_equal(fl_poly_box(&p, v3(1, 1.5, 2), &err), 0);
     assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
     assert_int_equal(fl_facets_make(&k, &h, &err), 0);
-    assert_int_equal(fl_patches_make(&skin, &h, 0, 0, &err), 0);
-    assert_int_equal(fl_patches_make(&dry, &h, 1, 0, &err), 0);
-    fl_patches_look(&skin, &k, &h, v3(0, 0, 1), 10.0), fl_patches_look(&dry, &k, &h, v3(0, 0, 1), 10.0);
+    assert_int_equal(fl_facet_cut_make(&skin, &h, 0, 0, &err), 0);
+    assert_int_equal(fl_facet_cut_make(&dry, &h, 1, 0, &err), 0);
+    fl_facet_cut_update(&skin, &k, &h, v3(0, 0, 1), 10.0),
+        fl_facet_cut_update(&dry, &k, &h, v3(0, 0, 1), 10.0);
     assert_near(skin_area(&skin), 52.0, 1e-14);
-    assert_int_equal(dry.fours, 0);
+    assert_int_equal(dry.groups, 0);
     for (int axis = 0; axis < 3; axis++) {
         for (int e = -6; e < 12; e++) {
             const double step = pow(10, e), speed = axis == 1 ? -3.0 : 3.0, mass = 100.0 * (axis + 1);
@@ -480,10 +482,10 @@ static void facets_drag_exactly_along_an_axis(void **state)
     /* what is wet and what is dry add up, wherever the water stands */
     for (int c = -25; c <= 25; c++) {
         const fl_vec3 up = v3_unit(v3(0.1 * c, 0.3, 1));
-        fl_patches_look(&skin, &k, &h, up, 0.1 * c), fl_patches_look(&dry, &k, &h, up, 0.1 * c);
+        fl_facet_cut_update(&skin, &k, &h, up, 0.1 * c), fl_facet_cut_update(&dry, &k, &h, up, 0.1 * c);
         assert_near(skin_area(&skin) + skin_area(&dry), 52.0, 1e-13);
     }
-    fl_patches_free(&skin), fl_patches_free(&dry);
+    fl_facet_cut_free(&skin), fl_facet_cut_free(&dry);
     fl_facets_free(&k);
     fl_hull_free(&h);
     fl_poly_free(&p);
@@ -517,34 +519,36 @@ static void facets_drag_as_their_pieces_do(void **state)
         fl_poly_to_frame(&p, v3(0.05, 0.02, 0.01), axes[way]);
         assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
         assert_int_equal(fl_facets_make(&k, &h, &err), 0);
-        assert_int_equal(k.upright, way < 3 ? way : -1);
+        assert_int_equal(k.cap_axis, way < 3 ? way : -1);
         for (int dry = 0; dry < 2; dry++) {
-            fl_patches s, fresh;
-            assert_int_equal(fl_patches_make(&s, &h, dry, (int)(t & 1), &err), 0);
+            fl_facet_cut s, fresh;
+            assert_int_equal(fl_facet_cut_make(&s, &h, dry, (int)(t & 1), &err), 0);
             for (int look = 0; look < 6; look++) {
                 const fl_vec3 tilt =
                     v3(fl_rng_in(&g, -0.1, 0.1), fl_rng_in(&g, -0.1, 0.1), look == 4 ? -1 : 1);
                 const fl_vec3 up = look == 3 ? v3_unit(v3(fl_rng_normal(&g), fl_rng_normal(&g), 1))
                                              : v3_unit(m3_tmul(axes[way], tilt));
                 const double level = look == 5 ? (dry ? -9 : 9) : fl_rng_in(&g, -0.1, 0.1);
-                const fl_facet_law law = {fl_rng_in(&g, 0, 3), fl_rng_in(&g, 0, 3)};
+                const fl_facet_drag_law law = {fl_rng_in(&g, 0, 3), fl_rng_in(&g, 0, 3)};
                 const fl_vec3 m = v3(2, 3, 4), I = v3(0.5, 0.6, 0.7);
                 fl_vec3 v = v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g)),
                         w = v3(fl_rng_normal(&g), fl_rng_normal(&g), fl_rng_normal(&g)), v2 = v, w2 = w,
                         v3rd = v, w3rd = w;
-                fl_wet wet;
-                fl_patches_look(&s, &k, &h, up, level);
-                upright += s.upright >= 0, cut += s.state == FL_PATCHES_ANYHOW;
-                fl_buoyancy(&h, up, level, &wet);
-                assert_near_of(skin_area(&s), dry ? h.surface - wet.wetted : wet.wetted, 1e-13, h.surface);
+                fl_submerged wet;
+                fl_facet_cut_update(&s, &k, &h, up, level);
+                upright += s.cap_axis >= 0, cut += s.state == FL_FACET_CUT_GENERAL;
+                fl_hull_submerged(&h, up, level, &wet);
+                assert_near_of(skin_area(&s), dry ? h.surface_area - wet.wetted_area : wet.wetted_area, 1e-13,
+                               h.surface_area);
                 if (!(t & 1)) {
-                    assert_int_equal(fl_patches_make(&fresh, &h, dry, 0, &err), 0);
-                    fl_patches_look(&fresh, &k, &h, up, level);
+                    assert_int_equal(fl_facet_cut_make(&fresh, &h, dry, 0, &err), 0);
+                    fl_facet_cut_update(&fresh, &k, &h, up, level);
                     fl_facet_drag(&fresh, law, m, I, 0.3, &v3rd, &w3rd);
-                    fl_patches_free(&fresh);
+                    fl_facet_cut_free(&fresh);
                 }
-                for (int32_t r = 0; r < s.most_rows * FL_LANES && s.flow; r++)
-                    for (int c = 0; c < 3; c++) s.flow[r / FL_LANES].u[c][r % FL_LANES] = fl_rng_normal(&g);
+                for (int32_t r = 0; r < s.max_pieces * FL_SIMD_WIDTH && s.flow; r++)
+                    for (int c = 0; c < 3; c++)
+                        s.flow[r / FL_SIMD_WIDTH].u[c][r % FL_SIMD_WIDTH] = fl_rng_normal(&g);
                 fl_facet_drag(&s, law, m, I, 0.3, &v, &w);
                 drag_plainly(&s, law, m, I, 0.3, &v2, &w2);
                 assert_near_of(v3_norm(v3_sub(v, v2)), 0.0, 1e-13, v3_norm(v2) + v3_norm(w2));
@@ -552,7 +556,7 @@ static void facets_drag_as_their_pieces_do(void **state)
                 if (!(t & 1))
                     assert_memory_equal(&v, &v3rd, sizeof v), assert_memory_equal(&w, &w3rd, sizeof w);
             }
-            fl_patches_free(&s);
+            fl_facet_cut_free(&s);
         }
         fl_facets_free(&k);
         fl_hull_free(&h);
@@ -579,7 +583,7 @@ static void currents_follow_their_profile(void **state)
     c.kind = FL_PROFILE_LINEAR;
     assert_near(fl_current_at(&c, -5).x, 0.375, 1e-15);
     assert_true(fl_current_at(&c, 1).x == 0.5 && fl_current_at(&c, -25).x == 0.0);
-    assert_near(fl_current_most(&c), sqrt(0.3125), 1e-15);
+    assert_near(fl_current_max_speed(&c), sqrt(0.3125), 1e-15);
 }
 
 static void a_table_of_currents(void **state)

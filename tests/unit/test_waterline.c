@@ -22,10 +22,10 @@ static void circle_runs_counter_clockwise(void **state)
     double x, y;
     (void)state;
     assert_near(w.length, 6.0 * PI, 1e-15);
-    assert_near(fl_waterline_at(&w, 12.0, -1.0), 0.0, 1e-15);
-    assert_near(fl_waterline_at(&w, 2.0, 0.0), 1.5 * PI, 1e-14);
-    assert_near(fl_waterline_at(&w, 2.0, -9.0), 4.5 * PI, 1e-14);
-    assert_near(fl_waterline_at(&w, 2.0, -1.0), 0.0, 1e-15);
+    assert_near(fl_waterline_nearest(&w, 12.0, -1.0), 0.0, 1e-15);
+    assert_near(fl_waterline_nearest(&w, 2.0, 0.0), 1.5 * PI, 1e-14);
+    assert_near(fl_waterline_nearest(&w, 2.0, -9.0), 4.5 * PI, 1e-14);
+    assert_near(fl_waterline_nearest(&w, 2.0, -1.0), 0.0, 1e-15);
     fl_waterline_point(&w, 3.0 * PI, &x, &y);
     assert_near(x, -1.0, 1e-14);
     assert_near(y, -1.0, 1e-14);
@@ -38,11 +38,11 @@ static void chain_takes_the_nearest_point(void **state)
     double x, y;
     (void)state;
     assert_near(w.length, 7.0, 1e-15);
-    assert_near(fl_waterline_at(&w, 1.5, -2.0), 1.5, 1e-15);
-    assert_near(fl_waterline_at(&w, 9.0, 2.0), 6.0, 1e-15);
-    assert_near(fl_waterline_at(&w, -5.0, -5.0), 0.0, 1e-15);
-    assert_near(fl_waterline_at(&w, 9.0, 99.0), 7.0, 1e-15);
-    assert_near(fl_waterline_at(&w, 5.0, -1.0), 4.0, 1e-15); /* beyond the corner */
+    assert_near(fl_waterline_nearest(&w, 1.5, -2.0), 1.5, 1e-15);
+    assert_near(fl_waterline_nearest(&w, 9.0, 2.0), 6.0, 1e-15);
+    assert_near(fl_waterline_nearest(&w, -5.0, -5.0), 0.0, 1e-15);
+    assert_near(fl_waterline_nearest(&w, 9.0, 99.0), 7.0, 1e-15);
+    assert_near(fl_waterline_nearest(&w, 5.0, -1.0), 4.0, 1e-15); /* beyond the corner */
     fl_waterline_point(&w, 5.0, &x, &y);
     assert_near(x, 4.0, 1e-15);
     assert_near(y, 1.0, 1e-15);
@@ -59,7 +59,7 @@ static void there_and_back(void **state)
         const double s = fl_rng_in(&g, 0.001, 0.999) * w.length;
         double x, y;
         fl_waterline_point(&w, s, &x, &y);
-        assert_near_of(fl_waterline_at(&w, x, y), s, 1e-9, w.length);
+        assert_near_of(fl_waterline_nearest(&w, x, y), s, 1e-9, w.length);
     }
 }
 
@@ -110,10 +110,10 @@ static void bad_panels_are_refused(void **state)
         "1 a 0 0 0 1 1 0 0\n2 a 0 0 0 1 1 0 0\n2 a 0 0 0 1 1 0 0\n",
         "0 a 0 0 0 1 1 0 0\n"};
     static const char *const said[] = {"has no rows",
-                                       "above 0 was wanted",
-                                       "panel b comes where a was wanted",
+                                       "above 0 is expected",
+                                       "panel b comes where a is expected",
                                        "panel b has no row at 2 s",
-                                       "where a later time was wanted",
+                                       "where a later time is expected",
                                        "time 0 s does not follow 0 s"};
     (void)state;
     for (int k = 0; k < 6; k++) {

@@ -2,11 +2,11 @@
 #include "support/near.h"
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "support/shapes.h"
-#include "water/froude.h"
+#include "water/froude_krylov.h"
 
 static double head(const fl_waves *w, double s, double z, double t)
 {
@@ -27,22 +27,24 @@ static void cells_cover_a_body(void **state)
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
         fl_waves w = {0};
         fl_err err = {0};
-        fl_wave_around a;
+        fl_wave_field a;
         const double depth = k % 3 ? INFINITY : 30.0, reach = pow(10, fl_rng_in(&g, -1, 1.5));
         assert_int_equal(
             fl_waves_jonswap(&w, 1.0, fl_rng_in(&g, 2.5, 9.0), 3.3, 30, (uint64_t)k, 40, depth, 9.81, &err),
             0);
-        const int32_t room = fl_wave_cells(&w, reach + w.swing);
-        fl_wave_near *cell = fl_alloc(room, sizeof *cell, &err);
+        const int32_t room = fl_wave_field_cells(&w, reach + w.four_sigma);
+        fl_wave_expansion *cell = fl_alloc(room, sizeof *cell, &err);
         assert_non_null(cell);
         const double s0 = fl_rng_in(&g, -300, 300), z0 = fl_rng_in(&g, -25, 1), t = fl_rng_in(&g, 0, 1e4);
-        fl_wave_surround(&w, s0 - reach, s0 + reach, z0 - reach - w.swing, z0 + reach + w.swing, t, cell, &a);
+        fl_wave_field_fill(&w, s0 - reach, s0 + reach, z0 - reach - w.four_sigma, z0 + reach + w.four_sigma,
+                           t, cell, &a);
         assert_true(a.columns * (1 + a.rows) <= room);
         for (int j = 0; j < 50; j++) {
             const double s = s0 + fl_rng_in(&g, -reach, reach);
             const double z = fmax(fmin(z0 + fl_rng_in(&g, -reach, reach), 0.0), -w.depth);
-            assert_near_of(fl_wave_over(&a, s, NULL), head(&w, s, 0.0, t), 1e-4, 1.0);
-            assert_near_of(fl_wave_pressure(fl_wave_at(&a, s, z), s, z), head(&w, s, z, t), 1e-4, 1.0);
+            assert_near_of(fl_wave_field_elevation(&a, s, NULL), head(&w, s, 0.0, t), 1e-4, 1.0);
+            assert_near_of(fl_wave_pressure(fl_wave_field_cell(&a, s, z), s, z), head(&w, s, z, t), 1e-4,
+                           1.0);
         }
         free(cell);
         fl_waves_free(&w);
@@ -57,28 +59,29 @@ static void deep_and_dry(void **state)
     fl_err err = {0};
     fl_poly p;
     fl_hull h;
-    fl_tiles tiles = {0};
-    fl_push push;
-    fl_wave_around a;
+    fl_hull_panels tiles = {0};
+    fl_water_load push;
+    fl_wave_field a;
     assert_int_equal(fl_waves_airy(&w, 2.0, 6.0, 0.0, INFINITY, 9.81, &err), 0);
-    fl_wave_near *cell = fl_alloc(fl_wave_cells(&w, 20.0), sizeof *cell, &err);
+    fl_wave_expansion *cell = fl_alloc(fl_wave_field_cells(&w, 20.0), sizeof *cell, &err);
     assert_non_null(cell);
     assert_int_equal(fl_poly_box(&p, v3(0.3, 0.4, 0.2), &err), 0);
     assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
-    assert_int_equal(fl_tiles_make(&tiles, &h, &w, &err), 0);
+    assert_int_equal(fl_hull_panels_make(&tiles, &h, &w, &err), 0);
     for (int k = 0; k < 20; k++) {
         const double z = k < 10 ? -3.0 : 4.0, s = 5.0 * k, kk = w.train[0].k;
-        const fl_afloat at = {.up = v3(0, 0, 1), .along = v3(1, 0, 0), .s = s, .z = z};
-        fl_wave_surround(&w, s - 0.3, s + 0.3, z - 0.2 - w.swing, z + 0.2 + w.swing, 7.0, cell, &a);
-        fl_froude_solid(&tiles, &h, &w, &a, &at, 1000 * 9.81, &push);
+        const fl_hull_pose at = {.up = v3(0, 0, 1), .along = v3(1, 0, 0), .s = s, .z = z};
+        fl_wave_field_fill(&w, s - 0.3, s + 0.3, z - 0.2 - w.four_sigma, z + 0.2 + w.four_sigma, 7.0, cell,
+                           &a);
+        fl_froude_krylov_solid(&tiles, &h, &w, &a, &at, 1000 * 9.81, &push);
         if (k >= 10) {
             assert_true(push.volume == 0.0 && push.wetted == 0.0 && v3_norm(push.force) == 0.0);
             continue;
         }
-        const double eta = fl_wave_over(&a, s, NULL), zeta = z - eta;
+        const double eta = fl_wave_field_elevation(&a, s, NULL), zeta = z - eta;
         const double psi = kk * s - w.train[0].omega * 7.0, m = 1000 * h.volume;
         assert_near(push.volume, h.volume, 1e-9);
-        assert_near(push.wetted, h.surface, 1e-12);
+        assert_near(push.wetted, h.surface_area, 1e-12);
         assert_near_of(push.centre.z, 0.0, 1e-9, 1.0);
         /* the stretching makes the column under a crest longer: a share of the slope and of the height k a */
         assert_near_of(push.force.x, m * 9.81 * kk * exp(kk * zeta) * sin(psi), 0.2, m * 9.81 * kk);
@@ -86,7 +89,7 @@ static void deep_and_dry(void **state)
                        m * 9.81 * kk);
     }
     free(cell);
-    fl_tiles_free(&tiles);
+    fl_hull_panels_free(&tiles);
     fl_hull_free(&h);
     fl_poly_free(&p);
     fl_waves_free(&w);
@@ -120,9 +123,9 @@ static void memory_may_run_out(void **state)
     for (long k = 0; k < 3; k++) {
         fl_waves w = {0};
         fl_err err = {0};
-        fl_mem_fail_after(k);
+        fl_alloc_fail_after(k);
         const int rc = fl_waves_jonswap(&w, 3, 9, 2, 50, 4, 0, INFINITY, 9.81, &err);
-        fl_mem_fail_after(-1);
+        fl_alloc_fail_after(-1);
         assert_int_equal(rc, k < 2 ? -1 : 0);
         if (rc) assert_int_equal(err.code, FL_SYSTEM);
         fl_waves_free(&w);

@@ -7,8 +7,8 @@
 #include "base/rng.h"
 #include "body/integrate.h"
 #include "sim/energy_balance.h"
-#include "step/frozen.h"
-#include "support/lab.h"
+#include "contact/bond_list.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 #include "world/access.h"
 
@@ -25,7 +25,7 @@ static void bar(lab *l, int32_t n, double length, double width, double height, d
         lab_box(l, v3((k + 0.5) * d, 0, 0), v3(0.5 * d, 0.5 * width, 0.5 * height), radius, q_one(), ZERO,
                 ZERO);
     for (int32_t k = 0; k + 1 < n; k++)
-        if (fl_field_add_bond(&l->field, k, k + 1, width * height, width, v3((k + 1) * d, 0, 0), &err))
+        if (fl_ice_field_add_bond(&l->field, k, k + 1, width * height, width, v3((k + 1) * d, 0, 0), &err))
             exit(1);
 }
 
@@ -45,7 +45,7 @@ static void push(lab *l, int32_t i, fl_vec3 force, fl_vec3 at)
     fl_bodies *b = &l->w.b;
     b->v[i] = v3_madd(b->v[i], 0.5 * l->w.dt * b->invm[i], force);
     b->L[i] = v3_madd(b->L[i], 0.5 * l->w.dt, v3_cross(v3_sub(at, b->x[i]), force));
-    fl_body_derive(b, i);
+    fl_body_update_spin(b, i);
 }
 
 /* All velocities fall by the rate [1/s] in the step to come. */
@@ -55,7 +55,7 @@ static void calm(lab *l, double rate)
     for (int32_t i = 0; i < l->w.n; i++) {
         b->v[i] = v3_scale(1.0 - rate * l->w.dt, b->v[i]);
         b->L[i] = v3_scale(1.0 - rate * l->w.dt, b->L[i]);
-        fl_body_derive(b, i);
+        fl_body_update_spin(b, i);
     }
 }
 
@@ -73,9 +73,9 @@ static void cantilever(lab *l, int32_t n)
     lab_set(l, "bond.shear_strength=none");
     bar(l, n + 1, 1.0 + 1.0 / n, 0.1, 0.1, 0.0);
     lab_make(l, 0);
-    l->w.b.hold[0] = 63;
-    l->w.frozen.bond[0].kn *= 2.0, l->w.frozen.bond[0].ks *= 2.0;
-    fl_step_resize(&l->w, 2.5 * l->w.dt, 0.0);
+    l->w.b.fixed_dof[0] = 63;
+    l->w.bonds.bond[0].kn *= 2.0, l->w.bonds.bond[0].ks *= 2.0;
+    fl_step_set_size(&l->w, 2.5 * l->w.dt, 0.0);
 }
 
 static double bent_by(int32_t n)
@@ -125,7 +125,7 @@ static void frequency(void)
     for (int32_t k = 1; k <= n; k++) { /* bent by its tip, nearly the first shape; its slope as well */
         const double x = (k - 0.5) / n, s = 0.5 * x * x * (3 - x), turn = 1.5 * x * (2 - x);
         l.w.b.v[k].z = 1e-3 * s;
-        fl_body_spin(&l.w.b, k, v3(0, -1e-3 * turn, 0));
+        fl_body_set_spin(&l.w.b, k, v3(0, -1e-3 * turn, 0));
     }
     double last = 0.0, first = -1.0, t = 0.0;
     int crossings = 0;
@@ -169,15 +169,15 @@ static answer ask(const lab *l, const fl_bond *c, fl_vec3 u, fl_vec3 v)
                                   : q_one();
         b->x[k] = v3_add(v3_madd(face, 0.5 * s, u), q_rotate(q, v3_sub(x0[k], face)));
         b->q[k] = q_mul(q, q0[k]);
-        fl_body_derive(b, k);
+        fl_body_update_spin(b, k);
     }
     fl_bond_force(&out.c, b, ZERO);
-    out.f = out.c.f;
-    out.m = v3_sub(out.c.ti, v3_cross(v3_sub(v3_madd(face, -0.5, u), b->x[0]), out.f));
-    out.whole = out.c.state == FL_BOND_WHOLE;
+    out.f = out.c.force;
+    out.m = v3_sub(out.c.torque_i, v3_cross(v3_sub(v3_madd(face, -0.5, u), b->x[0]), out.f));
+    out.whole = out.c.state == FL_BOND_INTACT;
     for (int k = 0; k < 2; k++) {
         b->x[k] = x0[k], b->q[k] = q0[k];
-        fl_body_derive(b, k);
+        fl_body_update_spin(b, k);
     }
     return out;
 }
@@ -186,7 +186,7 @@ static answer ask(const lab *l, const fl_bond *c, fl_vec3 u, fl_vec3 v)
 static answer at_break(const lab *l, fl_vec3 u, fl_vec3 v)
 {
     double lo = 0.0, hi = 1.0;
-    const fl_bond c = l->w.frozen.bond[0];
+    const fl_bond c = l->w.bonds.bond[0];
     for (int k = 0; k < 60; k++) {
         const double mid = 0.5 * (lo + hi);
         if (ask(l, &c, v3_scale(mid, u), v3_scale(mid, v)).whole) lo = mid;
@@ -249,7 +249,7 @@ static void cycle(void)
     start(&l);
     lab_set(&l, "bond.energy=150 J/m2");
     pair_of_blocks(&l);
-    fl_bond c = l.w.frozen.bond[0];
+    fl_bond c = l.w.bonds.bond[0];
     double F = 0.0, work = open_to(&l, &c, 0, uc, 100, &F);
     verify_row("V66", "softening: largest force over strength x area", F / (s * A), 1.0, 1e-8, VERIFY_REL);
     work += open_to(&l, &c, uc, um, 400, &F);
@@ -266,7 +266,7 @@ static void cycle(void)
     verify_row("V66", "opened again: F over that before", F / top, 1.0, 1e-8, VERIFY_REL);
     work += open_to(&l, &c, um, uf, 600, &F);
     verify_row("V66", "area under it over Fmax uf/2", work / (0.5 * s * A * uf), 1.0, 1e-8, VERIFY_REL);
-    verify_row("V66", "booked as fracture over G A", c.spent / (G * A), 1.0, 1e-8, VERIFY_REL);
+    verify_row("V66", "booked as fracture over G A", c.dissipated / (G * A), 1.0, 1e-8, VERIFY_REL);
     verify_true("V66", "failed and open: ended", c.state == FL_BOND_ENDED);
     lab_free(&l);
 }
@@ -292,13 +292,14 @@ static double thrown_apart(int brittle, double dt, int *ended)
     }
     for (int k = 0; k < 16; k++) {
         const double x = k % 4, y = (double)(k / 4);
-        if (k % 4 < 3 && fl_field_add_bond(&l.field, k, k + 1, 0.6, 1.0, v3(x + 0.5, y, 0), &err)) exit(1);
-        if (k < 12 && fl_field_add_bond(&l.field, k, k + 4, 0.6, 1.0, v3(x, y + 0.5, 0), &err)) exit(1);
+        if (k % 4 < 3 && fl_ice_field_add_bond(&l.field, k, k + 1, 0.6, 1.0, v3(x + 0.5, y, 0), &err))
+            exit(1);
+        if (k < 12 && fl_ice_field_add_bond(&l.field, k, k + 4, 0.6, 1.0, v3(x, y + 0.5, 0), &err)) exit(1);
     }
     lab_make(&l, dt);
     if (lab_run(&l, (int64_t)(0.06 / dt + 0.5))) exit(1);
-    fl_step_ledger(&l.w);
-    *ended = fl_frozen_counted(&l.w).state[FL_BOND_ENDED];
+    fl_energy_update(&l.w);
+    *ended = fl_bond_list_counts(&l.w).state[FL_BOND_ENDED];
     const double off = fabs(l.w.ledger.residual) / l.w.ledger.throughput;
     lab_free(&l);
     return off;
@@ -333,25 +334,25 @@ static void tension(void)
     lab_set(&l, "bond.damping=0.05");
     bar(&l, n, 1.0, 0.1, 0.1, 0.01);
     lab_make(&l, 0);
-    fl_step_resize(&l.w, 2.0 * l.w.dt, 0.0);
-    fl_bond *middle = &l.w.frozen.bond[n / 2 - 1];
-    middle->tension *= 0.999;
+    fl_step_set_size(&l.w, 2.0 * l.w.dt, 0.0);
+    fl_bond *middle = &l.w.bonds.bond[n / 2 - 1];
+    middle->tensile_strength *= 0.999;
     for (int e = 0; e < 2; e++) {
-        l.w.b.hold[e ? n - 1 : 0] = 63;
+        l.w.b.fixed_dof[e ? n - 1 : 0] = 63;
         l.w.b.v[e ? n - 1 : 0].x = e ? speed : -speed;
     }
     /* a uniform start, without a wave */
     for (int32_t k = 0; k < n; k++) l.w.b.v[k].x = speed * (2.0 * k / (n - 1) - 1.0);
     while (middle->state < FL_BOND_BROKEN && middle->state != FL_BOND_ENDED && fl_world_time(&l.w) < 1.0) {
         step(&l);
-        fl_step_ledger(&l.w);
-        if (l.w.frozen.bond[0].f.x > peak) peak = l.w.frozen.bond[0].f.x, store = l.w.ledger.bond;
+        fl_energy_update(&l.w);
+        if (l.w.bonds.bond[0].force.x > peak) peak = l.w.bonds.bond[0].force.x, store = l.w.ledger.bond;
     }
     /* the springs of n blocks are those of n - 1 lengths of them */
     verify_row("V65", "tension of a bar: strength over that of its ice", peak / A / s, 1.0, 1e-2, VERIFY_REL);
     verify_row("V65", "energy in it at the peak over sigma^2 V/2E",
                store / (0.5 * s * s / E * A * (n - 1.0) / n), 1.0, 1e-2, VERIFY_REL);
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     verify_row("V65", "fracture over G A", l.w.ledger.fracture / (G * A), 1.0, 1e-2, VERIFY_REL);
     verify_below("V65", "residual over the energy at the peak", fabs(l.w.ledger.residual) / store, 1e-3);
     lab_free(&l);
@@ -376,9 +377,9 @@ static void bending(void)
     start(&l);
     bar(&l, n, 1.0, 0.1, 0.1, 0.005);
     lab_make(&l, 0);
-    fl_step_resize(&l.w, 2.5 * l.w.dt, 0.0);
+    fl_step_set_size(&l.w, 2.5 * l.w.dt, 0.0);
     const double rate = 0.02 * P * omega;
-    while (l.w.frozen.bond[n / 2 - 1].state == FL_BOND_WHOLE && load < 2 * P) {
+    while (l.w.bonds.bond[n / 2 - 1].state == FL_BOND_INTACT && load < 2 * P) {
         load = rate * fl_world_time(&l.w);
         three_loads(&l, n, load);
         step(&l);
@@ -411,7 +412,7 @@ static void floating(void)
     lab_setf(&l, "water.level=%.17g", h * 900 / rho - 0.5 * h);
     bar(&l, n, n * d, 1.0, h, 0.01);
     lab_make(&l, 0);
-    fl_step_resize(&l.w, 2.5 * l.w.dt, 0.0);
+    fl_step_set_size(&l.w, 2.5 * l.w.dt, 0.0);
     while (where == 0.0 && load < 2 * P) {
         load = P * fl_world_time(&l.w) / 6.0;
         push(&l, 0, v3(0, 0, load), v3(0, 0, 0));
@@ -419,7 +420,7 @@ static void floating(void)
         push(&l, 0, v3(0, 0, load), v3(0, 0, 0));
         calm(&l, 0.4 * heave);
         for (int32_t k = 0; k + 1 < n; k++)
-            if (l.w.frozen.bond[k].state != FL_BOND_WHOLE) where = (k + 1) * d;
+            if (l.w.bonds.bond[k].state != FL_BOND_INTACT) where = (k + 1) * d;
     }
     verify_row("V69", "floating beam: place of the crack over pi l/4", where / at, 1.0, 1.0 / cells + 1e-9,
                VERIFY_REL);

@@ -9,8 +9,8 @@
 #include "scene/scene_check.h"
 #include "sim/energy_balance.h"
 #include "sim/setup.h"
-#include "step/traffic.h"
-#include "support/lab.h"
+#include "sim/inflow.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 #include "world/access.h"
 
@@ -158,9 +158,9 @@ static int hit(const char *type, fl_vec3 corner, fl_vec3 L, fl_vec3 over, fl_vec
             v3(1.6, 1.9, 2.0), ZERO);
     lab_make(&l, 1e-4);
     for (int64_t n = 0; n < WRAP_STEPS && rc == 0; n++) {
-        const fl_vec3 before = fl_cell_of(&l.w.cell, l.w.b.x[0]);
+        const fl_vec3 before = fl_periodic_cell_of(&l.w.cell, l.w.b.x[0]);
         rc = lab_run(&l, 1);
-        const fl_vec3 after = fl_cell_of(&l.w.cell, l.w.b.x[0]);
+        const fl_vec3 after = fl_periodic_cell_of(&l.w.cell, l.w.b.x[0]);
         force[n] = l.w.b.f[0];
         if (v3_norm(force[n]) > most) {
             most = v3_norm(force[n]);
@@ -224,7 +224,7 @@ static void gas(lab *l, fl_vec3 by, double safety)
         const fl_vec3 at = v3(pitch * (k % SIDE + 0.5) - half, pitch * (k / SIDE + 0.5) - half, 0);
         const double turn = fl_rng_in(&g, 0.0, 1.5), a = fl_rng_in(&g, 0.7, 1.0);
         const fl_vec3 v = v3(fl_rng_in(&g, -0.5, 0.5), fl_rng_in(&g, -0.5, 0.5), 0);
-        lab_box(l, v3_add(at, by), v3(a, a, 0.25), 0.05, q_about(2, turn), v,
+        lab_box(l, v3_add(at, by), v3(a, a, 0.25), 0.05, q_about_axis(2, turn), v,
                 v3(0, 0, fl_rng_in(&g, -0.2, 0.2)));
     }
     lab_make(l, 0.0);
@@ -262,7 +262,7 @@ static void periodic_gas(void)
             for (int32_t c = 0; c < l.w.n_pair; c++)
                 wrapped += l.w.pair[c].image[0] != 0 || l.w.pair[c].image[1] != 0;
             verify_note("%lld contact-steps in %g s; %lld of %d near pairs reach over a border",
-                        (long long)l.w.touching_steps, seconds, (long long)wrapped, l.w.n_pair);
+                        (long long)l.w.contact_steps, seconds, (long long)wrapped, l.w.n_pair);
             verify_below("B02", "periodic gas: change of momentum over the sum of its sizes",
                          v3_norm(v3_sub(momentum(&l.w, &size), p)) / size, 1e-13);
         }
@@ -342,22 +342,22 @@ static void leaving(void)
     const fl_vec3 p = momentum(&l.w, &size);
     double kinetic = 0.0;
     for (int32_t i = 0; i < l.w.n; i++) mass += l.w.b.m[i];
-    while (fl_traffic_there(&l.w) > 3 && fl_world_time(&l.w) < 40.0)
+    while (fl_floes_in_domain(&l.w) > 3 && fl_world_time(&l.w) < 40.0)
         if (lab_run(&l, 100)) return;
     kinetic = lab_energy(&l);
     double there = 0.0, now;
-    fl_vec3 q = l.w.traffic.momentum_left;
+    fl_vec3 q = l.w.inflow.momentum_left;
     for (int32_t i = 0; i < l.w.n; i++)
-        if (!fl_world_away(&l.w, i)) there += l.w.b.m[i], q = v3_madd(q, l.w.b.m[i], l.w.b.v[i]);
+        if (!fl_body_absent(&l.w, i)) there += l.w.b.m[i], q = v3_madd(q, l.w.b.m[i], l.w.b.v[i]);
     now = kinetic - l.w.ledger.carried;
-    verify_note("%lld of %d bodies have left in %.3g s", (long long)l.w.traffic.left, l.w.n,
+    verify_note("%lld of %d bodies have left in %.3g s", (long long)l.w.inflow.n_left, l.w.n,
                 fl_world_time(&l.w));
-    verify_row("B03", "bodies that leave: mass there and gone [kg]", there + l.w.traffic.mass_left, mass,
+    verify_row("B03", "bodies that leave: mass there and gone [kg]", there + l.w.inflow.mass_left, mass,
                1e-13, VERIFY_REL);
     verify_below("B03", "momentum there and gone, less that of the start, over its size",
                  v3_norm(v3_sub(q, p)) / size, 1e-13);
     verify_row("B03", "energy there and gone [J]", now, start, 1e-4, VERIFY_REL);
-    verify_true("B03", "all but three have left", l.w.traffic.left >= l.w.n - 3);
+    verify_true("B03", "all but three have left", l.w.inflow.n_left >= l.w.n - 3);
     lab_free(&l);
 }
 
@@ -403,23 +403,23 @@ static void stream(void)
         if (lab_run(&l, 5)) return;
         if (fl_world_time(&l.w) < 45.0) continue;
         for (int32_t i = 0; i < l.w.n; i++)
-            if (!fl_world_away(&l.w, i) && fabs(l.w.b.x[i].x) <= 20.0) covered += l.w.b.m[i] / (900.0 * 0.5);
-        most = fl_traffic_there(&l.w) > most ? fl_traffic_there(&l.w) : most;
+            if (!fl_body_absent(&l.w, i) && fabs(l.w.b.x[i].x) <= 20.0) covered += l.w.b.m[i] / (900.0 * 0.5);
+        most = fl_floes_in_domain(&l.w) > most ? fl_floes_in_domain(&l.w) : most;
         looks++;
     }
-    const fl_traffic *t = &l.w.traffic;
-    verify_note("%lld floes came in and %lld left in 300 s; %d at a time, room for %d", (long long)t->entered,
-                (long long)t->left, most, l.w.n);
+    const fl_inflow_state *t = &l.w.inflow;
+    verify_note("%lld floes came in and %lld left in 300 s; %d at a time, room for %d",
+                (long long)t->n_entered, (long long)t->n_left, most, l.w.n);
     /* Every floe comes in once a pitch: after 20 of them no more is open than one copy of what is just due.
      */
     verify_row("B04", "mass that came in per time, over speed x concentration x width x thickness x density",
                t->mass_entered / fl_world_time(&l.w) / flux, 1.0, 1.0 / (20.0 * ALONG), VERIFY_ABS);
     verify_row("B04", "and in the long run it covers, over the concentration",
                covered / (double)looks / (40.0 * WIDTH) / (area / (PITCH * WIDTH)), 1.0, 1e-3, VERIFY_ABS);
-    verify_row("B04", "floes that found their place taken", (double)t->waited, 0, 0, VERIFY_ABS);
+    verify_row("B04", "floes that found their place taken", (double)t->n_blocked, 0, 0, VERIFY_ABS);
     verify_below("B04", "nothing touches: energy of contacts [J]",
-                 l.w.ledger.throughput > 0 ? l.w.impulse_size : 0, 0.0);
-    verify_true("B04", "places are taken again: more came than there is room for", t->entered > l.w.n);
+                 l.w.ledger.throughput > 0 ? l.w.impulse_sum : 0, 0.0);
+    verify_true("B04", "places are taken again: more came than there is room for", t->n_entered > l.w.n);
     lab_free(&l);
 }
 
@@ -427,7 +427,7 @@ static void stream(void)
 static void group(lab *l, int32_t k, const char *name)
 {
     fl_err err = {0};
-    l->field.group[k] = fl_names_add(&l->field.groups, name, &err);
+    l->field.group[k] = fl_string_table_add(&l->field.groups, name, &err);
 }
 
 /* What a group holds against the drift is not copied; what it holds at the speed of the sheet, or across that
@@ -448,17 +448,17 @@ static void copies_of_groups(void)
     while (fl_world_time(&l.w) < 33.0) {
         if (lab_run(&l, 1)) return;
         for (int32_t i = 0; i < l.w.n; i++) {
-            if (fl_world_away(&l.w, i)) continue;
-            const int32_t k = l.w.traffic.floe[i] < 0 ? i : l.w.traffic.floe[i];
+            if (fl_body_absent(&l.w, i)) continue;
+            const int32_t k = l.w.inflow.source_floe[i] < 0 ? i : l.w.inflow.source_floe[i];
             high = fmax(high, fabs(l.w.b.v[i].z));
             if (k == TOWED) off = fmax(off, fabs(l.w.b.v[i].x - speed));
         }
     }
-    verify_row("B04", "copies of a floe that its group holds", (double)l.w.traffic.tile[POST], 0, 0,
+    verify_row("B04", "copies of a floe that its group holds", (double)l.w.inflow.next_copy[POST], 0, 0,
                VERIFY_ABS);
     verify_row("B04", "and that one has moved by [m]", l.w.b.x[POST].x - post, 0, 0, VERIFY_ABS);
-    verify_row("B04", "copies of one that its group moves as the sheet", (double)l.w.traffic.tile[TOWED], 2,
-               0, VERIFY_ABS);
+    verify_row("B04", "copies of one that its group moves as the sheet", (double)l.w.inflow.next_copy[TOWED],
+               2, 0, VERIFY_ABS);
     verify_row("B04", "their speed, off by [m/s]", off, 0, 0, VERIFY_ABS);
     verify_row("B04", "floes held in z fall with [m/s]", high, 0, 0, VERIFY_ABS);
     lab_free(&l);
@@ -496,21 +496,21 @@ static double held_up_by(double dy, double safety, double seconds, int tells, do
     *dt = l.w.dt;
     while (fl_world_time(&l.w) < seconds) {
         if (lab_run(&l, 50)) return -1.0;
-        fl_step_ledger(&l.w);
+        fl_energy_update(&l.w);
         most = fmax(most, fabs(l.w.ledger.residual));
     }
-    const fl_traffic *t = &l.w.traffic;
+    const fl_inflow_state *t = &l.w.inflow;
     const fl_ledger *g = &l.w.ledger;
     const double lost = g->friction_now + g->damping_now, all = g->throughput;
     if (tells) {
-        verify_note("%lld came in, %lld left, %lld found their place taken", (long long)t->entered,
-                    (long long)t->left, (long long)t->waited);
+        verify_note("%lld came in, %lld left, %lld found their place taken", (long long)t->n_entered,
+                    (long long)t->n_left, (long long)t->n_blocked);
         verify_note(
             "of %.3g J turned over the sheet brought %.3g J and pushed with %.3g J; %.3g J were lost in "
             "contacts",
             all, g->carried, g->drive_now, lost);
         verify_true("B04", "there was something to push, and floes came and left",
-                    t->entered > 20 && t->left > 0 && lost > 0.0);
+                    t->n_entered > 20 && t->n_left > 0 && lost > 0.0);
     }
     lab_free(&l);
     return most / all;

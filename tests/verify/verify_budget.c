@@ -5,11 +5,11 @@
 #include <string.h>
 #include "base/pi.h"
 #include "scene/scene_check.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/verify.h"
-#include "step/budget.h"
-#include "step/critical.h"
-#include "step/step.h"
+#include "sim/error_budget.h"
+#include "sim/critical_step.h"
+#include "sim/step.h"
 #include "world/access.h"
 
 /* --- the scenes -------------------------------------------------------------------------------- */
@@ -18,7 +18,7 @@ static const fl_vec3 NONE = {0, 0, 0};
 
 static void floe(lab *l, fl_vec3 x, double half, double turn, fl_vec3 v)
 {
-    lab_box(l, x, v3(half, half, 0.3), 0.05, q_about(2, turn), v, NONE);
+    lab_box(l, x, v3(half, half, 0.3), 0.05, q_about_axis(2, turn), v, NONE);
 }
 
 static void plate(lab *l) { lab_wall(l, v3(-4, -4, -1), v3(4, 4, 0), 1); }
@@ -168,13 +168,13 @@ typedef struct {
 } result;
 
 /* A row in the steps of the budget, and the run beside it. */
-static int row_of(lab *l, fl_budget *g, result *r)
+static int row_of(lab *l, fl_error_budget *g, result *r)
 {
     fl_err err = {0};
     const int64_t m = lround(EVERY / l->w.dt);
     for (int64_t k = 0; k < m; k++) {
         if (lab_run(l, 1)) return -1;
-        if (fl_budget_follow(g, &l->w, &err)) exit(1);
+        if (fl_error_budget_follow(g, &l->w, &err)) exit(1);
     }
     for (int32_t p = 0; p < l->w.parts; p++) {
         r->J[p] = v3_add(r->J[p], l->w.part_impulse[p]);
@@ -189,7 +189,7 @@ static int row_of(lab *l, fl_budget *g, result *r)
 static result run(const scene *s, double goal, const char *of, int64_t m)
 {
     lab l;
-    fl_budget g = {0};
+    fl_error_budget g = {0};
     fl_err err = {0};
     result r = {0};
     lab_start(&l);
@@ -201,25 +201,25 @@ static result run(const scene *s, double goal, const char *of, int64_t m)
     if (m == 0) {
         lab_set(&l, "structure.file=lab"); /* as lab_make() will */
         if (fl_scene_check(&l.scene, &err) ||
-            fl_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
+            fl_error_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
             exit(1);
-        r.least = (int32_t)lround(g.every / fl_budget_start(&g));
+        r.least = (int32_t)lround(g.row_interval / fl_error_budget_first_step(&g));
     }
-    lab_make(&l, m ? EVERY / (double)m : fl_budget_start(&g));
+    lab_make(&l, m ? EVERY / (double)m : fl_error_budget_first_step(&g));
     for (int64_t row = 0; row < (int64_t)lround(s->seconds / EVERY); row++) {
-        if (m == 0 && fl_budget_look(&g, &l.w, row, &err)) exit(1);
+        if (m == 0 && fl_error_budget_update(&g, &l.w, row, &err)) exit(1);
         if (m == 0 ? row_of(&l, &g, &r) : lab_run(&l, m)) break;
     }
     for (int32_t p = 0; m && p < l.w.parts; p++) r.J[p] = l.w.part_impulse[p], r.peak[p] = l.w.part_peak[p];
     if (m == 0) {
         double apart;
-        r.whole = fl_budget_whole(&g, &apart);
-        r.since = g.beside.since;
-        r.spent = (double)g.spent / (double)l.w.step;
-        r.shortest = g.shortest;
-        r.estimate = fl_budget_estimate(&g, l.w.dt);
+        r.whole = fl_error_budget_run_error(&g, &apart);
+        r.since = g.companion.exceeded_since;
+        r.spent = (double)g.trial_steps / (double)l.w.step;
+        r.shortest = g.min_dt;
+        r.estimate = fl_error_budget_estimate(&g, l.w.dt);
     }
-    fl_budget_free(&g);
+    fl_error_budget_free(&g);
     lab_free(&l);
     return r;
 }
@@ -329,11 +329,11 @@ static int told(const scene *s, double *share)
         s->build(&l);
         lab_make(&l, 0);
         const int64_t m = (int64_t)ceil(s->seconds / l.w.dt) * (fine ? 16 : 1);
-        fl_step_resize(&l.w, s->seconds / (double)m, 0.0);
+        fl_step_set_size(&l.w, s->seconds / (double)m, 0.0);
         if (lab_run(&l, m)) exit(1);
         for (int32_t p = 0; p < l.w.parts; p++)
             r[fine].J[p] = l.w.part_impulse[p], r[fine].peak[p] = l.w.part_peak[p];
-        if (!fine) peak = fl_world_peak_off(&l.w), impulse = fl_world_impulse_off(&l.w);
+        if (!fine) peak = fl_peak_error(&l.w), impulse = fl_impulse_error(&l.w);
         lab_free(&l);
     }
     const double is = error_of("peak", &r[0], &r[1]), was = error_of("impulse", &r[0], &r[1]);
@@ -359,9 +359,9 @@ static void sheet(lab *l, int n, double half, int round)
     for (int k = 0; k < n * n; k++) {
         const double x = -0.85 - (2 * (k / n) + 1) * half, y = (2 * (k % n) + 1 - n) * half;
         if ((k % n < n - 1 &&
-             fl_field_add_bond(&l->field, k, k + 1, area, 2 * half, v3(x, y + half, 0), &err)) ||
+             fl_ice_field_add_bond(&l->field, k, k + 1, area, 2 * half, v3(x, y + half, 0), &err)) ||
             (k / n < n - 1 &&
-             fl_field_add_bond(&l->field, k, k + n, area, 2 * half, v3(x - half, y, 0), &err)))
+             fl_ice_field_add_bond(&l->field, k, k + n, area, 2 * half, v3(x - half, y, 0), &err)))
             exit(1);
     }
 }
@@ -444,7 +444,7 @@ static void billiards_made(lab *l, int neighbour, double seconds, double error)
 
 /* Two floes that graze one another at 0.1 mm/s, beside one that tumbles through the water; a world and what
  * looks after its step, at t = 0. */
-static void grazed_made(lab *l, fl_budget *g)
+static void grazed_made(lab *l, fl_error_budget *g)
 {
     fl_err err = {0};
     lab_start(l);
@@ -453,43 +453,43 @@ static void grazed_made(lab *l, fl_budget *g)
     lab_set(l, "material.ice.young=2e7");
     post(l, 30, 0, 1);
     for (int k = 0; k < 2; k++)
-        lab_box(l, v3(1.100001 * k, 0, 0), v3(0.55, 0.55, 0.25), 0.05, q_about(2, 0), v3(k ? 0 : 1e-4, 0, 0),
-                NONE);
-    lab_box(l, v3(0, 6, 1), v3(0.55, 0.55, 0.25), 0.05, q_about(2, 0), v3(1, 0, 0), v3(0.7, 0.3, 0.2));
+        lab_box(l, v3(1.100001 * k, 0, 0), v3(0.55, 0.55, 0.25), 0.05, q_about_axis(2, 0),
+                v3(k ? 0 : 1e-4, 0, 0), NONE);
+    lab_box(l, v3(0, 6, 1), v3(0.55, 0.55, 0.25), 0.05, q_about_axis(2, 0), v3(1, 0, 0), v3(0.7, 0.3, 0.2));
     lab_set(l, "structure.file=lab");
     if (fl_scene_check(&l->scene, &err) ||
-        fl_budget_make(g, &l->scene, &l->field, &l->field, &l->surface, &err))
+        fl_error_budget_make(g, &l->scene, &l->field, &l->field, &l->surface, &err))
         exit(1);
-    lab_make(l, fl_budget_start(g));
+    lab_make(l, fl_error_budget_first_step(g));
 }
 
 /* What the tumbling one is off by is no error of the touch: the step was 100 times shorter for it. */
 static void grazed(void)
 {
     lab l;
-    fl_budget g = {0};
+    fl_error_budget g = {0};
     fl_err err = {0};
     grazed_made(&l, &g);
     for (int64_t row = 0; row < 20; row++) {
-        if (fl_budget_look(&g, &l.w, row, &err)) exit(1);
+        if (fl_error_budget_update(&g, &l.w, row, &err)) exit(1);
         if (lab_run(&l, lround(0.1 / l.w.dt))) exit(1);
     }
-    verify_true("E08", "the floes touch", l.w.impulse_size > 0.0);
+    verify_true("E08", "the floes touch", l.w.impulse_sum > 0.0);
     verify_below("E08", "steps of trials over those of a run with the largest step, floes that graze",
-                 (double)g.spent / (2.0 / fl_budget_start(&g)), 20.0);
-    verify_row("E08", "shortest step over the largest there may be", g.shortest / fl_budget_start(&g), 1.0,
-               0.5, VERIFY_ABS);
-    fl_budget_free(&g), lab_free(&l);
+                 (double)g.trial_steps / (2.0 / fl_error_budget_first_step(&g)), 20.0);
+    verify_row("E08", "shortest step over the largest there may be",
+               g.min_dt / fl_error_budget_first_step(&g), 1.0, 0.5, VERIFY_ABS);
+    fl_error_budget_free(&g), lab_free(&l);
 }
 
 /* What a budget remembers and the step that is taken: to be freed. */
-static char *all_of(const fl_budget *g, const fl_world *w)
+static char *all_of(const fl_error_budget *g, const fl_world *w)
 {
     char *text = NULL;
     size_t n;
     FILE *f = open_memstream(&text, &n);
     if (!f) exit(1);
-    fl_budget_write(f, g);
+    fl_error_budget_write(f, g);
     fprintf(f, "%a\n", w->dt);
     if (fclose(f)) exit(1);
     return text;
@@ -501,7 +501,7 @@ static void broken_off(void)
 {
     volatile sig_atomic_t stop = 1;
     lab l[2];
-    fl_budget g[2] = {{0}};
+    fl_error_budget g[2] = {{0}};
     fl_err err = {0};
     char *text[2];
     int kept = 1;
@@ -512,23 +512,23 @@ static void broken_off(void)
             if (k) {
                 g[k].stop = row ? &stop : &g[k].windows;
                 char *before = all_of(&g[k], &l[k].w);
-                if (fl_budget_look(&g[k], &l[k].w, row, &err)) exit(1);
+                if (fl_error_budget_update(&g[k], &l[k].w, row, &err)) exit(1);
                 char *after = all_of(&g[k], &l[k].w);
                 kept &= strcmp(before, after) == 0;
                 free(before), free(after);
             }
             stop = 0;
             g[k].stop = &stop;
-            if (fl_budget_look(&g[k], &l[k].w, row, &err)) exit(1);
+            if (fl_error_budget_update(&g[k], &l[k].w, row, &err)) exit(1);
             text[k] = all_of(&g[k], &l[k].w);
             if (lab_run(&l[k], lround(0.1 / l[k].w.dt))) exit(1);
         }
         kept &= strcmp(text[0], text[1]) == 0;
         free(text[0]), free(text[1]);
     }
-    verify_true("E09", "trials were made, or nothing could be broken off", g[0].spent > 0);
+    verify_true("E09", "trials were made, or nothing could be broken off", g[0].trial_steps > 0);
     verify_true("E09", "looks that are broken off leave nothing behind, and can be made again", kept);
-    for (int k = 0; k < 2; k++) fl_budget_free(&g[k]), lab_free(&l[k]);
+    for (int k = 0; k < 2; k++) fl_error_budget_free(&g[k]), lab_free(&l[k]);
 }
 
 /* Root of the mean square distance of the floes of two worlds. */
@@ -557,39 +557,41 @@ static double parted(int neighbour, double from, double seconds, double dt, doub
 }
 
 /* What a run tells of itself, which stays in g. */
-static double told_horizon(fl_budget *g, int neighbour, double seconds, double goal)
+static double told_horizon(fl_error_budget *g, int neighbour, double seconds, double goal)
 {
     lab l;
     fl_err err = {0};
     billiards_made(&l, neighbour, seconds, goal);
     lab_set(&l, "structure.file=lab");
-    if (fl_scene_check(&l.scene, &err) || fl_budget_make(g, &l.scene, &l.field, &l.field, &l.surface, &err))
+    if (fl_scene_check(&l.scene, &err) ||
+        fl_error_budget_make(g, &l.scene, &l.field, &l.field, &l.surface, &err))
         exit(1);
-    lab_make(&l, fl_budget_start(g));
+    lab_make(&l, fl_error_budget_first_step(g));
     for (int64_t row = 0; row < (int64_t)lround(seconds / EVERY); row++) {
-        if (fl_budget_look(g, &l.w, row, &err)) exit(1);
+        if (fl_error_budget_update(g, &l.w, row, &err)) exit(1);
         if (lab_run(&l, (int64_t)lround(EVERY / l.w.dt))) break;
     }
     verify_note("elastic floes about a post: states part at %.3g /s, horizon %.3g s, windows of %.3g s",
-                g->rate, fl_budget_horizon(g), g->every * g->rows);
+                g->divergence_rate, fl_error_budget_horizon(g), g->row_interval * g->window_rows);
     lab_free(&l);
-    return fl_budget_horizon(g);
+    return fl_error_budget_horizon(g);
 }
 
 /* One run is one sample of how states part: so the mean of several that are hardly different. */
 static void parting(void)
 {
     const double goal = 0.01, seconds = verify_quick() ? 12.0 : 60.0;
-    fl_budget g = {0};
+    fl_error_budget g = {0};
     double horizon = 0.0, off = 0.0;
     const int many = verify_quick() ? 1 : 5;
     for (int k = 0; k < many; k++) {
         double found = 0.0;
-        fl_budget_free(&g);
+        fl_error_budget_free(&g);
         const double one = told_horizon(&g, k, seconds, goal);
         horizon += one / many;
         for (int start = 0; start < 2 && !verify_quick(); start++)
-            found += 0.5 * parted(k, 0.5 * start * seconds, seconds, 2.0 * fl_budget_start(&g) / 3.0, goal);
+            found += 0.5 * parted(k, 0.5 * start * seconds, seconds,
+                                  2.0 * fl_error_budget_first_step(&g) / 3.0, goal);
         if (verify_quick()) continue;
         verify_note("two runs a bit apart are %g m apart %.3g s later in the mean", goal, found);
         off += log2(one / found) / many;
@@ -598,8 +600,9 @@ static void parting(void)
         verify_row("E04", "log2 of the horizon over that of two runs a bit apart, mean of five", off, 0.0,
                    1.0, VERIFY_ABS);
     verify_true("E04", "runs as a whole are told to be undetermined", horizon < 60.0);
-    verify_below("E04", "length of windows times the rate", g.rate * g.every * g.rows, 1.0);
-    fl_budget_free(&g);
+    verify_below("E04", "length of windows times the rate",
+                 g.divergence_rate * g.row_interval * g.window_rows, 1.0);
+    fl_error_budget_free(&g);
 }
 
 int main(void)

@@ -5,8 +5,8 @@
 #include <string.h>
 #include "base/pi.h"
 #include "base/rng.h"
-#include "step/ride.h"
-#include "support/lab.h"
+#include "sim/moving_structure.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
@@ -26,7 +26,7 @@ static void sphere_at(const char *id, const char *what, double r0, double r1, do
     const fl_pair p = lab_look(&l.w, 0, 1);
     verify_row(id, what, p.overlap, overlap, 1e-14, VERIFY_ABS);
     if (overlap > 0.0 && v3_norm(n) > 0.0)
-        verify_row(id, "  direction", v3_norm(v3_sub(v3_unit(p.f), q_rotate(q, v3_unit(n)))), 0.0, 1e-13,
+        verify_row(id, "  direction", v3_norm(v3_sub(v3_unit(p.force), q_rotate(q, v3_unit(n)))), 0.0, 1e-13,
                    VERIFY_ABS);
     lab_free(&l);
 }
@@ -80,11 +80,11 @@ static void round_it(void)
             const double a = 2.0 * PI * k / many;
             const fl_vec3 out = v3(cos(a), sin(a), 0);
             lab_pose(&l.w, 0, v3_scale(R + reach[edge], out),
-                     q_about(2, a + (edge ? PI - atan2(0.35, 0.45) : 0.0)));
+                     q_about_axis(2, a + (edge ? PI - atan2(0.35, 0.45) : 0.0)));
             const fl_pair p = lab_look(&l.w, 0, 1);
             off = fmax(off, fabs(p.overlap - 0.01));
-            turn = fmax(turn, v3_norm(v3_cross(v3_unit(p.f), out)));
-            low = fmin(low, v3_dot(p.f, out)), high = fmax(high, v3_dot(p.f, out));
+            turn = fmax(turn, v3_norm(v3_cross(v3_unit(p.force), out)));
+            low = fmin(low, v3_dot(p.force, out)), high = fmax(high, v3_dot(p.force, out));
         }
         snprintf(what, sizeof what, "%s of a floe all round a cylinder: change of the force", ON[edge]);
         verify_below("cone", what, (high - low) / high, 1e-9);
@@ -117,9 +117,10 @@ static void gradient(void)
             const double z = fl_rng_in(&g, -0.2, 0.2), a = fl_rng_in(&g, 0, 6.28);
             const double r = 0.5 * (shape[c][0] + shape[c][1]),
                          slope = (shape[c][1] - shape[c][0]) / shape[c][2];
-            const fl_quat q = q_mul(q_about(2, a), q_of_vector(v3(fl_rng_in(&g, -0.05, 0.05),
-                                                                  -0.5 * slope + fl_rng_in(&g, -0.05, 0.05),
-                                                                  fl_rng_in(&g, -0.6, 0.6))));
+            const fl_quat q =
+                q_mul(q_about_axis(2, a),
+                      q_of_vector(v3(fl_rng_in(&g, -0.05, 0.05), -0.5 * slope + fl_rng_in(&g, -0.05, 0.05),
+                                     fl_rng_in(&g, -0.6, 0.6))));
             double far = r + 1.0;
             for (double e = 0.0; far > r && !(e > 0.0); far -= 0.01) /* nearer until it touches well */
                 e = energy_at(&l, v3((far - 0.01) * cos(a), (far - 0.01) * sin(a), z), q);
@@ -139,7 +140,8 @@ static void gradient(void)
                                               q_mul(q_of_vector(v3_neg(m < 3 ? none : d)), q));
                 *at[m] = (down - up) / (2.0 * h);
             }
-            worst = fmax(worst, fmax(v3_norm(v3_sub(f, p.f)), v3_norm(v3_sub(t, p.ti))) / v3_norm(p.f));
+            worst = fmax(worst, fmax(v3_norm(v3_sub(f, p.force)), v3_norm(v3_sub(t, p.torque_i))) /
+                                    v3_norm(p.force));
         }
         lab_free(&l);
         snprintf(what, sizeof what, "floes on %s: |force + grad W|, |torque + ...|, over the force", NAME[c]);
@@ -164,7 +166,7 @@ static void limits(void)
         }
         lab_pose(&l.w, 0, v3(k ? 0.495 : 1e6 + 0.495, 0.01, 0.02), q);
         const fl_pair p = lab_look(&l.w, 0, 1);
-        f[k] = v3_norm(p.f) / p.k; /* the stiffness of a wall is not that of a structure */
+        f[k] = v3_norm(p.force) / p.k; /* the stiffness of a wall is not that of a structure */
         lab_free(&l);
     }
     verify_row("cone", "force of a floe on a cylinder of 1000 km over that on a wall, at one stiffness",
@@ -214,7 +216,7 @@ static void hull(void)
     lab_set(&l, "structure.spin=0.3 -0.2 0.5");
     lab_set(&l, "structure.reference=0.2 0.1 0");
     lab_make(&l, 1e-3);
-    const fl_shell *shell = &l.w.structure.piece[0].shell;
+    const fl_piece_mesh *shell = &l.w.structure.piece[0].mesh;
     const fl_bvh_node *node = shell->tree.node;
     const fl_aabb box = node[0].box;
     const fl_vec3 x = v3(2.49, 0.3, 0.1);
@@ -222,15 +224,16 @@ static void hull(void)
     const fl_pair before = lab_look(&l.w, 0, 1);
     lab_pose(&l.w, 0, v3(60, 0, 0), q_one());
     lab_run(&l, 1000);
-    const fl_bodies *m = &l.w.ride.m.b;
+    const fl_bodies *m = &l.w.moving.movers.b;
     const fl_vec3 from = v3_sub(x, v3(0.2, 0.1, 0));
     lab_pose(&l.w, 0, v3_add(m->x[0], m3_mul(fl_body_axes(m, 0), from)), q_mul(m->q[0], l.w.q0[0]));
     const fl_pair after = lab_look(&l.w, 0, 1);
     char what[96];
     snprintf(what, sizeof what, "a hull of %d triangles, after 1 s of way and turn: force", shell->tree.n);
     verify_row("hull", what,
-               v3_norm(v3_sub(m3_tmul(fl_body_axes(m, 0), after.f), before.f)) / v3_norm(before.f), 0.0, 1e-9,
-               VERIFY_ABS);
+               v3_norm(v3_sub(m3_tmul(fl_body_axes(m, 0), after.force), before.force)) /
+                   v3_norm(before.force),
+               0.0, 1e-9, VERIFY_ABS);
     verify_true("hull", "  its tree is the one that was built",
                 node == shell->tree.node && memcmp(&box, &node[0].box, sizeof box) == 0 &&
                     l.w.structure.piece[0].x.x == 0.0);
@@ -248,7 +251,7 @@ static double swapped(double lift)
         for (int q = 0; q < 2; q++) {
             const int k = s ? 1 - q : q;
             lab_box(&l[s], v3(k ? -2.3 : -4.6, k ? 0.2 : -0.1, k * lift), v3(1, 0.9, 0.3), 0.05,
-                    q_about(2, k ? 0.3 : -0.2), v3(k ? 0.5 : 0.9, 0, 0), ZERO);
+                    q_about_axis(2, k ? 0.3 : -0.2), v3(k ? 0.5 : 0.9, 0, 0), ZERO);
         }
         lab_cone(&l[s], (fl_cone){v3(0, 0, -3), v3(0, 0, 3), 1, 1});
         lab_make(&l[s], 1e-4);

@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/pi.h"
-#include "narrow/places.h"
+#include "patch/patch_points.h"
 #include "sim/energy_balance.h"
-#include "step/stance.h"
-#include "support/lab.h"
-#include "support/sweep.h"
+#include "contact/pair_geometry.h"
+#include "support/small_world.h"
+#include "support/sweeps.h"
 #include "support/verify.h"
 
 #define G 9.81
@@ -57,8 +57,8 @@ static double largest_jump(lab *l, sampler at, double from, double to, double fi
 static sample look(lab *l, double s)
 {
     const fl_pair p = lab_look(&l->w, 0, 1);
-    const double f = v3_norm(p.f);
-    return (sample){s, f, p.energy, p.ti.y, v3_scale(1.0 / f, p.f), p.f, p.mode};
+    const double f = v3_norm(p.force);
+    return (sample){s, f, p.energy, p.torque_i.y, v3_scale(1.0 / f, p.force), p.force, p.mode};
 }
 
 /* A path at a fixed distance from the box |x|, |y| <= 1, |z| <= 1: over the face to the edge, round it, down
@@ -218,7 +218,7 @@ static double bounce(const char *law, double tx, double ty, double fraction)
     for (int64_t s = 0; s < 2000000 && done < 400; s++) {
         if (lab_run(&l, 1)) return NAN;
         int now = 0;
-        for (int32_t c = 0; c < l.w.n_pair; c++) now |= l.w.pair[c].n > 0;
+        for (int32_t c = 0; c < l.w.n_pair; c++) now |= l.w.pair[c].touching > 0;
         touched |= now;
         done = touched && !now && l.w.b.v[0].z > 0.0 ? done + 1 : 0; /* off, and not coming back soon */
     }
@@ -326,7 +326,7 @@ static void equal_boxes(void)
 
 /* Without friction the same is an unstable equilibrium of rounded boxes.  Moved aside by e, the lower core's
  * left rim loses some of the upper face, and two vertices and one edge of each stand beyond the other, at a
- * distance larger by e^2/2h, h = R - s.  With U of places.h, e'' = -g U_ee/U_s e:
+ * distance larger by e^2/2h, h = R - s.  With U of patch_points.h, e'' = -g U_ee/U_s e:
  *
  *     U    = A s^4 + 4 (Ex + Ey) + 8 V,
  *     U_ee = -(Ly s^4/w + 9 Ey/(s h) + 20 V/(s h)),
@@ -335,12 +335,13 @@ static void equal_boxes(void)
  * E and V the terms of one edge and of one vertex. */
 static double parting_rate(double c, double weight)
 {
-    const double R = 0.2, rho = 0.1, w = FL_PLACE_RIM * R, Lx = 1.8, Ly = 0.8;
+    const double R = 0.2, rho = 0.1, w = FL_PATCH_RIM_WIDTH * R, Lx = 1.8, Ly = 0.8;
     const double A = Lx * Ly - w * (Lx + Ly) + 4.0 / 3.0 * w * w;
     double s = 1e-6, rate = 0.0;
     for (int k = 0; k < 50; k++) { /* the force grows with s but for powers of s/R */
-        const double line = FL_PLACE_ROUND * 256.0 / 315.0 * sqrt(2.0 * rho) * pow(s, 4.5), Ex = line * Lx,
-                     Ey = line * Ly, V = FL_PLACE_ROUND * 0.4 * PI * rho * pow(s, 5.0), s4 = s * s * s * s;
+        const double line = FL_PATCH_ROUND_FACTOR * 256.0 / 315.0 * sqrt(2.0 * rho) * pow(s, 4.5),
+                     Ex = line * Lx, Ey = line * Ly, V = FL_PATCH_ROUND_FACTOR * 0.4 * PI * rho * pow(s, 5.0),
+                     s4 = s * s * s * s;
         const double U = A * s4 + 4.0 * (Ex + Ey) + 8.0 * V;
         const double Us = (4.0 * A * s4 + 18.0 * (Ex + Ey) + 40.0 * V) / s, h = R - s;
         rate = sqrt(G * (Ly * s4 / w + 9.0 * Ey / (s * h) + 20.0 * V / (s * h)) / Us);
@@ -359,7 +360,7 @@ static void frictionless_boxes(void)
     lab_box(&l, v3(0, 0, 0.5), v3(1, 0.5, 0.5), 0.1, q_one(), ZERO, ZERO);
     lab_box(&l, v3(0, 0, 1.5), v3(1, 0.5, 0.5), 0.1, q_one(), ZERO, ZERO);
     lab_make(&l, 0.0);
-    for (int32_t i = 0; i < 2; i++) l.w.b.hold[i] = i ? 63 & ~(FL_HOLD_X | FL_HOLD_Z) : 63;
+    for (int32_t i = 0; i < 2; i++) l.w.b.fixed_dof[i] = i ? 63 & ~(FL_DOF_X | FL_DOF_Z) : 63;
     lab_run(&l, 20000);
     l.w.b.x[1].x += start;
     l.w.b.v[1].x = 0.0;
@@ -367,7 +368,7 @@ static void frictionless_boxes(void)
     lab_run(&l, steps);
     verify_row("H02", "without friction aligned boxes part, rate [1/s]",
                acosh(l.w.b.x[1].x / start) / ((double)steps * l.w.dt),
-               parting_rate(l.w.pair[0].full->k, l.w.b.m[1] * G), 1e-3, VERIFY_REL);
+               parting_rate(l.w.pair[0].contact->k, l.w.b.m[1] * G), 1e-3, VERIFY_REL);
     lab_free(&l);
 }
 
@@ -376,7 +377,7 @@ static double signed_distance(lab *l)
 {
     fl_contact c;
     const fl_pair p = {.i = 0, .j = 1};
-    fl_stance_probe(&l->w, &p, INFINITY, &c);
+    fl_pair_probe(&l->w, &p, INFINITY, &c);
     return c.d;
 }
 
@@ -397,7 +398,7 @@ static void interpenetrating(void)
             for (int s = 0; s < 4000 && signed_distance(&l) < 0.2; s++)
                 if (lab_run(&l, 1)) break;
             if (!(signed_distance(&l) > 0.1)) apart = 0; /* R = 0.1: nothing stored any more */
-            fl_step_ledger(&l.w);
+            fl_energy_update(&l.w);
             const double out = l.w.ledger.kinetic / W;
             if (what & 2) {
                 automatic = fmax(automatic, out);
@@ -533,7 +534,7 @@ static void sliding_on_an_edge(void)
                              {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
     for (int c = 0; c < 8; c++) fl_surface_triangle(part, t[c][0], t[c][1], t[c][2], &e2);
     lab_make(&l, 1e-5);
-    l.w.b.hold[0] = FL_HOLD_X | FL_HOLD_Y | FL_HOLD_Z | FL_HOLD_RX | FL_HOLD_RY | FL_HOLD_RZ;
+    l.w.b.fixed_dof[0] = FL_DOF_X | FL_DOF_Y | FL_DOF_Z | FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ;
     lab_run(&l, 10000); /* 10 mm: the spring of friction slips after 3 */
     double jump = 0.0, ft = 0.0, fn = 0.0;
     for (int64_t s = 0; s < steps; s++) {
@@ -596,8 +597,8 @@ static void slope(void)
     const double settled = l.w.b.x[0].x;
     lab_run(&l, steps);
     /* k_t is tangential times the normal stiffness of what carries: at least that of the face, 2 c sqrt(A) */
-    const fl_pair *p = l.w.pair[0].full;
-    const double kt = 2.0 * p->k * sqrt(1.8 * 0.8) * p->law->tangential,
+    const fl_pair *p = l.w.pair[0].contact;
+    const double kt = 2.0 * p->k * sqrt(1.8 * 0.8) * p->law->tangential_ratio,
                  bound = mu * 900 * 2 * G * cos(angle) / kt + 1e-6;
     verify_note("a box on a slope of 20 degrees, mu = 0.5, %ld steps", (long)steps);
     verify_below("H16", "way from the start [m]", fabs(l.w.b.x[0].x), bound);
@@ -613,7 +614,7 @@ static double sinking(lab *l, int32_t i, int32_t j, double load)
     double s = 1e-3;
     for (int k = 0; k < 30; k++) {
         l->w.b.x[i].z = z - s;
-        s *= load / v3_norm(lab_look(&l->w, i < j ? i : j, i < j ? j : i).f);
+        s *= load / v3_norm(lab_look(&l->w, i < j ? i : j, i < j ? j : i).force);
     }
     l->w.b.x[i].z = z;
     return s;
@@ -644,7 +645,7 @@ static void stack(int n, const char *young)
     for (int k = 0; k < n; k++) l.w.b.x[k].z -= 0.99 * down[k];
     free(down);
     lab_run(&l, n < 20 ? 20000 : 400000);
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     kinetic = l.w.ledger.kinetic / (n * m * G * sum);
     const double sunk = n - 0.5 - l.w.b.x[n - 1].z;
     snprintf(what, sizeof what, "stack of %d: the top has sunk by [m]", n);

@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include "law/material.h"
 #include "sim/energy_balance.h"
-#include "step/interact.h"
+#include "contact/pair_force.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/shapes.h"
-#include "support/sweep.h"
+#include "support/sweeps.h"
 #include "support/verify.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
@@ -34,7 +34,8 @@ static double drift(const char *law, double safety, double time, double surrogat
         }
         worst = fmax(worst, fabs(lab_energy(&l) / start - 1.0));
     }
-    if (told) *told = (double)fl_surrogate_sum(l.w.told, 1).told / (double)l.w.touching_steps;
+    if (told)
+        *told = (double)fl_surrogate_count_sum(l.w.surrogate_counts, 1).hits / (double)l.w.contact_steps;
     lab_free(&l);
     return worst;
 }
@@ -77,7 +78,7 @@ static double carried(double area, double radius, double overlap)
     lab_box(&l, v3(0, 0, 3.0 * h), v3(h, h, h), radius, q_one(), ZERO, ZERO);
     lab_make(&l, 1e-9);
     l.w.b.x[1].z -= overlap;
-    const double f = v3_norm(lab_look(&l.w, 0, 1).f);
+    const double f = v3_norm(lab_look(&l.w, 0, 1).force);
     lab_free(&l);
     return f;
 }
@@ -85,7 +86,7 @@ static double carried(double area, double radius, double overlap)
 /* (25) of the manual, with beta of a square. */
 static void areas(void)
 {
-    const fl_elastic ice = {1e9, 0.3};
+    const fl_elastic_constants ice = {1e9, 0.3};
     const double E = fl_material_modulus(ice, ice);
     verify_note("a cube on a cube, radius a hundredth of the side, overlap a tenth of the radius");
     for (int k = -2; k <= 2; k++) {
@@ -104,7 +105,7 @@ static double slide_force(void *what, double s, double t)
     fl_vec3 f[2];
     for (int k = 0; k < 2; k++) {
         l->w.b.x[1].x = k ? t : s;
-        f[k] = lab_look(&l->w, 0, 1).f;
+        f[k] = lab_look(&l->w, 0, 1).force;
     }
     return v3_norm(v3_sub(f[1], f[0]));
 }
@@ -117,11 +118,11 @@ static void sliding_off(void)
     lab_box(&l, v3(0, 0, 0), v3(0.5, 0.4, 0.3), radius, q_one(), ZERO, ZERO);
     lab_box(&l, v3(0, 0.1, 0.6 - s), v3(0.5, 0.4, 0.3), radius, q_one(), ZERO, ZERO);
     lab_make(&l, 1e-9);
-    const double whole = v3_norm(lab_look(&l.w, 0, 1).f);
+    const double whole = v3_norm(lab_look(&l.w, 0, 1).force);
     double most = 0.0, before = INFINITY;
     for (int k = 0; k <= 1000; k++) {
         l.w.b.x[1].x = 1e-3 * k;
-        const double f = fabs(lab_look(&l.w, 0, 1).f.z) / whole;
+        const double f = fabs(lab_look(&l.w, 0, 1).force.z) / whole;
         if (k > 0) most = fmax(most, f - before);
         before = f;
     }
@@ -170,7 +171,7 @@ static double slot(double surrogate)
     lab_box(&l, v3(1e-5, 0, 0), v3(0.5, 0.4, 0.5), 0.05, q_one(), v3(0.001, 0, -1), ZERO);
     lab_make(&l, 0.0);
     const int bad = lab_run(&l, (int64_t)(0.4 / l.w.dt));
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     const double work = l.w.ledger.friction_now;
     lab_free(&l);
     return bad ? NAN : work;
@@ -196,16 +197,16 @@ static double swing(double surrogate, const double lean[2], const double depth[2
     lab_box(&l, v3(0, 0, 10), v3(0.5, 0.5, 0.3), R, q_one(), ZERO, ZERO);
     lab_make(&l, 1e-5);
     fl_bodies *b = &l.w.b;
-    fl_pair_start(&l.w, &p, 0, 1);
+    fl_pair_init(&l.w, &p, 0, 1);
     for (int c = 0; c <= CYCLES; c++) {
-        if (c == 1) taken = 0.0, first = p.spring; /* the first brings it there */
+        if (c == 1) taken = 0.0, first = p.spring_energy; /* the first brings it there */
         for (int k = 0; k < STEPS; k++) {
             const int part = 4 * k / STEPS;
             const double t = (4.0 * (k + 1)) / STEPS - part, u = t * t * (3.0 - 2.0 * t);
             const double y = shear * (part == 0 ? u : part == 1 ? 1.0 : part == 2 ? 1.0 - u : 0.0);
             const double m = part == 0 ? 0.0 : part == 1 ? u : part == 2 ? 1.0 : 1.0 - u;
             const double angle = lean[0] + m * (lean[1] - lean[0]), s = depth[0] + m * (depth[1] - depth[0]);
-            const fl_quat q = q_about(1, angle);
+            const fl_quat q = q_about_axis(1, angle);
             const fl_vec3 low = q_rotate(q, v3(0.4, 0, -0.2)), x = v3(-low.x, y, R - s - low.z);
             if (c == 0 && k == 0) was = x;
             const fl_vec3 v = v3_scale(1.0 / dt, v3_sub(x, was)), w = v3(0, (angle - leant) / dt, 0);
@@ -213,13 +214,13 @@ static double swing(double surrogate, const double lean[2], const double depth[2
             lab_pose(&l.w, 0, x, q);
             b->v[0] = v, b->w[0] = w;
             l.w.step++;
-            fl_interact(&l.w, &p, 0, dt, 1);
-            taken -= (v3_dot(p.fs, v) + v3_dot(p.si, w)) * dt;
-            held = fmax(held, p.spring);
+            fl_pair_evaluate(&l.w, &p, 0, dt, 1);
+            taken -= (v3_dot(p.force_friction, v) + v3_dot(p.torque_i_friction, w)) * dt;
+            held = fmax(held, p.spring_energy);
         }
     }
-    taken -= p.spring - first;
-    fl_pair_end(&p);
+    taken -= p.spring_energy - first;
+    fl_pair_free(&p);
     lab_free(&l);
     return taken / CYCLES / held;
 }

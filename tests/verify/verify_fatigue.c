@@ -2,7 +2,7 @@
 /* Load cycles and fatigue against the example of ASTM E1049 and closed forms. */
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
 #include "stat/rainflow.h"
 #include "support/verify.h"
@@ -23,7 +23,7 @@ static double cycles_of(double range)
     return sum;
 }
 
-static double damage(const fl_sn *sn)
+static double damage(const fl_sn_curve *sn)
 {
     double sum = 0.0;
     for (int32_t k = 0; k < f.cycles; k++) sum += fl_sn_damage(sn, f.cycle[k].range, f.cycle[k].count);
@@ -42,14 +42,14 @@ static void example(void)
         verify_true("F01", "the cycles of ASTM E1049 figure 6 are counted", count(k, FL_RESIDUE_HALF, 9, x));
         for (int j = 0; j < 5; j++) verify_row("F01", rule[k], cycles_of(range[j]), want[j], 0.0, VERIFY_ABS);
         for (int j = 0; j < 3; j++)
-            verify_row("F02", "Miner sum of n S^m, m = 3 4 5", damage(&(fl_sn){.m = m[j], .a = 1.0}), sum[j],
-                       1e-14, VERIFY_REL);
+            verify_row("F02", "Miner sum of n S^m, m = 3 4 5", damage(&(fl_sn_curve){.m = m[j], .a = 1.0}),
+                       sum[j], 1e-14, VERIFY_REL);
         verify_row("F03", "equivalent range, m = 3, (1094 / 4)^(1/3)",
                    fl_rainflow_equivalent(f.cycles, f.cycle, 3.0), cbrt(273.5), 1e-14, VERIFY_REL);
     }
-    verify_true("F04", "and repeated for ever", count(FL_RAINFLOW_FOUR, FL_RESIDUE_REPEAT, 9, x));
+    verify_true("F04", "and repeated for ever", count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, 9, x));
     /* By hand: 5 -4 4 -3 5 encloses 3 -1 and 1 -2. */
-    verify_row("F04", "repeated: sum of n S^3 of ranges 9 7 4 3", damage(&(fl_sn){.m = 3.0, .a = 1.0}),
+    verify_row("F04", "repeated: sum of n S^3 of ranges 9 7 4 3", damage(&(fl_sn_curve){.m = 3.0, .a = 1.0}),
                729.0 + 343.0 + 64.0 + 27.0, 1e-14, VERIFY_REL);
 }
 
@@ -71,7 +71,7 @@ static void narrow_band(void)
             }
             const int ok = x && count(FL_RAINFLOW_ASTM, FL_RESIDUE_HALF, 2 * n, x);
             const double want = pow(2.0 * sqrt(2.0), m[j]) * tgamma(1.0 + 0.5 * m[j]);
-            const double miss = ok ? fabs(damage(&(fl_sn){.m = m[j], .a = 1.0}) / n / want - 1.0) : NAN;
+            const double miss = ok ? fabs(damage(&(fl_sn_curve){.m = m[j], .a = 1.0}) / n / want - 1.0) : NAN;
             if (level == LEVELS - 1)
                 verify_below("F10", "narrow band: damage of 6400 amplitudes", miss, 0.01);
             h[level] = 1.0 / n;
@@ -90,11 +90,11 @@ static void no_beginning(void)
     enum { N = 400 };
     double x[2 * N], first = 0.0, worst = 0.0;
     fl_rng g = fl_rng_of(1, 0, FL_RNG_TEST);
-    const fl_sn sn = {.m = 3.0, .a = 1e3, .m2 = 5.0, .knee = 8.0};
+    const fl_sn_curve sn = {.m = 3.0, .a = 1e3, .m2 = 5.0, .knee = 8.0};
     int ok = 1;
     for (int k = 0; k < N; k++) x[k] = x[k + N] = floor(fl_rng_in(&g, 0.0, 64.0));
     for (int k = 0; k < N && ok; k++) {
-        ok = count(FL_RAINFLOW_FOUR, FL_RESIDUE_REPEAT, N, x + k);
+        ok = count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, N, x + k);
         if (k == 0) first = damage(&sn);
         worst = fmax(worst, fabs(damage(&sn) / first - 1.0));
     }
@@ -108,7 +108,7 @@ static void lines(void)
     /* As EN 1993-1-9 has it for category 71: 2e6 cycles at 71 MPa, slopes 3 and 5, the knee at 5e6, the end
      * at 1e8 cycles. */
     const double knee = 71.0 * cbrt(2.0 / 5.0), cut_off = knee * pow(5e6 / 1e8, 0.2);
-    const fl_sn sn = {.m = 3.0, .a = 2e6 * pow(71.0, 3.0), .m2 = 5.0, .knee = knee};
+    const fl_sn_curve sn = {.m = 3.0, .a = 2e6 * pow(71.0, 3.0), .m2 = 5.0, .knee = knee};
     verify_row("F30", "EN 1993-1-9 category 71: knee [MPa], 52", knee, 52.0, 0.01, VERIFY_REL);
     verify_row("F30", "EN 1993-1-9 category 71: cut-off [MPa], 29", cut_off, 29.0, 0.015, VERIFY_REL);
     verify_row("F31", "damage of 2e6 cycles of 71 MPa", fl_sn_damage(&sn, 71.0, 2e6), 1.0, 1e-14, VERIFY_REL);

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/rng.h"
-#include "stat/returns.h"
+#include "stat/return_level.h"
 #include "support/verify.h"
 
 enum { N = 20, OVER = 12, SIZE = 50 };
@@ -47,14 +47,14 @@ static void references(fl_fit_work *w)
     law("L47", FL_GPD, FL_FIT_MOMENTS, OVER, w, 60.0, 18.721001, -0.230970, none);
     for (int k = 0; k < 3; k++) {
         if (fl_fit(&d, FL_GUMBEL, FL_FIT_LIKELIHOOD, N, X, 0.0, w))
-            verify_row("L48", "Gumbel level T = 10, 50, 100", fl_dist_level(&d, tail[k]), gumbel[k], 1e-6,
-                       VERIFY_REL);
+            verify_row("L48", "Gumbel level T = 10, 50, 100", fl_dist_upper_quantile(&d, tail[k]), gumbel[k],
+                       1e-6, VERIFY_REL);
         if (fl_fit(&d, FL_GEV, FL_FIT_LIKELIHOOD, N, X, 0.0, w))
-            verify_row("L49", "GEV level T = 10, 50, 100", fl_dist_level(&d, tail[k]), gev[k], 1e-5,
+            verify_row("L49", "GEV level T = 10, 50, 100", fl_dist_upper_quantile(&d, tail[k]), gev[k], 1e-5,
                        VERIFY_REL);
     }
-    verify_row("L50", "GPD level u = 60, 15, 0.1, 11 a year, T = 100", fl_dist_level(&p, 1.0 / 1100.0),
-               212.1555, 1e-6, VERIFY_REL);
+    verify_row("L50", "GPD level u = 60, 15, 0.1, 11 a year, T = 100",
+               fl_dist_upper_quantile(&p, 1.0 / 1100.0), 212.1555, 1e-6, VERIFY_REL);
     if (fl_fit(&d, FL_WEIBULL, FL_FIT_LIKELIHOOD, N, X, 0.0, w))
         verify_row("L51", "Kolmogorov-Smirnov D of the Weibull law", fl_fit_kolmogorov(&d, N, X), 0.111858,
                    1e-4, VERIFY_REL);
@@ -75,21 +75,21 @@ static int rising(const void *a, const void *b)
 static int trial(const fl_dist *truth, int32_t n, int64_t k, int32_t resamples, score *s, fl_err *err)
 {
     fl_rng g = fl_rng_of((uint64_t)n, k * FL_DISTS + truth->kind, FL_RNG_TEST);
-    const double want = fl_dist_level(truth, 0.01);
+    const double want = fl_dist_upper_quantile(truth, 0.01);
     fl_fit_work w;
     double x[SIZE];
     fl_dist d;
-    fl_return r = {.tail = 0.01};
+    fl_return_level r = {.tail = 0.01};
     int rc = 0;
     if (fl_fit_work_make(&w, n, err)) return -1;
-    for (int j = 0; j < n; j++) x[j] = fl_dist_level(truth, 1.0 - 0.999999999 * fl_rng_unit(&g));
+    for (int j = 0; j < n; j++) x[j] = fl_dist_upper_quantile(truth, 1.0 - 0.999999999 * fl_rng_unit(&g));
     qsort(x, (size_t)n, sizeof *x, rising);
     for (int method = 0; method < FL_FIT_METHODS; method++)
         s->level[method] = fl_fit(&d, truth->kind, method, n, x, truth->location, &w)
-                               ? fl_dist_level(&d, 0.01) / want
+                               ? fl_dist_upper_quantile(&d, 0.01) / want
                                : (double)NAN;
     if (fl_fit(&d, truth->kind, FL_FIT_LIKELIHOOD, n, x, truth->location, &w)) {
-        rc = fl_returns(&d, n, x, 1, &r, NULL, resamples, 4, k, &w, err);
+        rc = fl_compute_return_levels(&d, n, x, 1, &r, NULL, resamples, 4, k, &w, err);
         s->done = 1;
         s->profile = !(r.profile[0] > want) && !(r.profile[1] < want);
         s->bootstrap = isfinite(r.bootstrap[0]) && !(r.bootstrap[0] > want) && !(r.bootstrap[1] < want);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include "base/pi.h"
 #include "sim/energy_balance.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/near.h"
 #include "support/verify.h"
 
@@ -57,7 +57,7 @@ static void draft(void)
     verify_row("V48", "draft after 1e4 steps, started at it [m]", 0.5 - l.w.b.x[0].z, DRAFT, 1e-9,
                VERIFY_ABS);
     verify_row("V48", "freeboard [m]", 0.5 + l.w.b.x[0].z, 0.1219512195121951, 1e-9, VERIFY_ABS);
-    verify_row("V48", "lift over weight", l.w.sea.lift[0] / (90000 * G), 1.0, 1e-13, VERIFY_ABS);
+    verify_row("V48", "lift over weight", l.w.sea.buoyancy[0] / (90000 * G), 1.0, 1e-13, VERIFY_ABS);
     lab_free(&l);
 
     verify_note("released 1 mm and 0.1 m above: with this step the period of Verlet's method is 1000 steps");
@@ -113,7 +113,7 @@ static void heavier(void)
         floe(&l, REST + 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_setf(&l, "water.added_mass=0 0 %g", Ca[k]);
         lab_make(&l, T / 400);
-        const double lift = l.w.sea.lift[0], got = period(&l, 10, heave);
+        const double lift = l.w.sea.buoyancy[0], got = period(&l, 10, heave);
         verify_row("V49", k ? "added mass 1: period of heave [s]" : "added mass 0.5: period of heave [s]",
                    got, T, 1e-4, VERIFY_REL);
         verify_row("V49", "  as listed", got, listed[k], 1e-3, VERIFY_REL);
@@ -127,9 +127,9 @@ static void heavier(void)
     lab_set(&l, "water.added_inertia=auto");
     lab_make(&l, 0.01);
     const double a = 10 / sqrt(PI);
-    verify_row("V49", "auto: heave, over the displaced, 4/3pi a/d", l.w.b.added[0].z / 90000,
+    verify_row("V49", "auto: heave, over the displaced, 4/3pi a/d", l.w.b.added_mass[0].z / 90000,
                4 / (3 * PI) * a / DRAFT, 1e-12, VERIFY_REL);
-    verify_row("V49", "auto: surge", l.w.b.added[0].x / 90000, 0.1, 1e-12, VERIFY_REL);
+    verify_row("V49", "auto: surge", l.w.b.added_mass[0].x / 90000, 0.1, 1e-12, VERIFY_REL);
     verify_row("V50", "auto: roll, 8/45 rho a^5 [kg m2]", l.w.b.I[0].x - 90000 * 101 / 12.0,
                8 / 45.0 * 1025 * pow(a, 5), 1e-9, VERIFY_REL);
     lab_free(&l);
@@ -153,7 +153,7 @@ static void stands_up(void)
         up = fmax(up,
                   fabs((v3_dot(z, fl_body_momentum(b, 0, z)) - b->m[0]) / (4 / 3.0 * 1025 * a * a * a) - 1));
         const double own = b->m[0] * (1 + 1.44) / 12, water = 8 / 45.0 * 1025 * pow(a, 5);
-        roll = fmax(roll, fabs(1 / v3_dot(e, fl_body_turn(b, 0, e)) / (own + water) - 1));
+        roll = fmax(roll, fabs(1 / v3_dot(e, fl_body_apply_inverse_inertia(b, 0, e)) / (own + water) - 1));
         lab_free(&l);
     }
     verify_below("V49", "auto, a block of 1 x 1 x 1.2 m turned about z: surge, error in any direction", along,
@@ -187,12 +187,12 @@ static void kirchhoff(void)
         lab_make(&l, dt);
         const fl_bodies *b = &l.w.b;
         const fl_vec3 P = fl_body_momentum(b, 0, b->v[0]), J = v3_add(b->L[0], v3_cross(b->x[0], P));
-        const double start = fl_body_kinetic(b, 0);
+        const double start = fl_body_kinetic_energy(b, 0);
         double far = 0.0;
         for (int s = 0; s < (int)(40 / dt + 0.5); s++) {
             lab_run(&l, 1);
             const fl_vec3 p = fl_body_momentum(b, 0, b->v[0]);
-            far = fmax(far, fabs(fl_body_kinetic(b, 0) - start) / start);
+            far = fmax(far, fabs(fl_body_kinetic_energy(b, 0) - start) / start);
             worst_P = fmax(worst_P, v3_norm(v3_sub(p, P)) / v3_norm(P));
             worst_J = fmax(worst_J, v3_norm(v3_sub(v3_add(b->L[0], v3_cross(b->x[0], p)), J)) / v3_norm(J));
         }
@@ -233,8 +233,8 @@ static void kirchhoff(void)
     const fl_vec3 drift = v3_scale(40, v3(0.7, -0.3, 0));
     verify_below("K03", "apart after 40 s [m]",
                  v3_norm(v3_sub(v3_sub(moving.w.b.x[0], drift), still.w.b.x[0])), 1e-9);
-    fl_step_ledger(&moving.w);
-    fl_step_ledger(&still.w);
+    fl_energy_update(&moving.w);
+    fl_energy_update(&still.w);
     verify_row("K03", "energy residual [J]", moving.w.ledger.residual, still.w.ledger.residual,
                1e-9 * moving.w.ledger.throughput, VERIFY_ABS);
     lab_free(&still);
@@ -268,7 +268,7 @@ static void tumbling(void)
         residual[k] = 0.0;
         for (int s = 0; s < 500 << k; s++) {
             lab_run(&l, 1);
-            fl_step_ledger(&l.w);
+            fl_energy_update(&l.w);
             residual[k] = fmax(residual[k], fabs(l.w.ledger.residual));
         }
         residual[k] /= l.w.ledger.throughput;
@@ -402,11 +402,11 @@ static void facets(void)
         lab_set(&l, "water.form_coef=2");
         lab_set(&l, "water.added_mass=0.1 0.3 1");
         lab_make(&l, dt);
-        double last = fl_body_kinetic(&l.w.b, 0);
+        double last = fl_body_kinetic_energy(&l.w.b, 0);
         for (int s = 0; s < (int)(10 / dt + 0.5); s++) {
             lab_run(&l, 1);
-            falls &= fl_body_kinetic(&l.w.b, 0) <= last * (1 + 1e-3 * dt * dt);
-            last = fl_body_kinetic(&l.w.b, 0);
+            falls &= fl_body_kinetic_energy(&l.w.b, 0) <= last * (1 + 1e-3 * dt * dt);
+            last = fl_body_kinetic_energy(&l.w.b, 0);
         }
         at[k] = l.w.b.x[0];
         if (k < 4) {
@@ -489,7 +489,7 @@ static void spinning(void)
     lab_make(&l, 0.05);
     lab_run(&l, 2000);
     verify_row("V56", "spin after 100 s [rad/s]", l.w.b.w[0].z, 0.054877, 1e-4, VERIFY_REL);
-    verify_row("V56", "  r_eff [m]", l.w.sea.reach[0], 7.088723, 1e-6, VERIFY_REL);
+    verify_row("V56", "  r_eff [m]", l.w.sea.drag_radius[0], 7.088723, 1e-6, VERIFY_REL);
     lab_free(&l);
 }
 

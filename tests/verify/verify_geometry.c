@@ -36,8 +36,8 @@ static void cuts_of_a_cube(void)
     box(&p, 1, 1, 1);
     must(fl_poly_cut(&p, v3(s3, s3, s3), 0.0, &err) || fl_mass_of(&m, &p, 0.0, &err), "a cube can be cut");
     verify_row("V33", "half a cube, cut across (1,1,1): V [m3]", m.volume, 0.5, 1e-13, VERIFY_ABS);
-    verify_row("V33", "its section, a hexagon [m2]", v3_norm(fl_poly_area(&p, p.nf - 1)), 0.75 * sqrt(3.0),
-               1e-13, VERIFY_ABS);
+    verify_row("V33", "its section, a hexagon [m2]", v3_norm(fl_poly_face_area_vector(&p, p.nf - 1)),
+               0.75 * sqrt(3.0), 1e-13, VERIFY_ABS);
     verify_row("V33", "its centroid, x [m]", m.centre.x, -13.0 / 96, 1e-13, VERIFY_ABS);
     verify_row("V33", "its centroid, z [m]", m.centre.z, -13.0 / 96, 1e-13, VERIFY_ABS);
     fl_poly_free(&p);
@@ -107,11 +107,11 @@ static void dilated(void)
 /* Level of the water over the body's origin at which it displaces the volume v. */
 static double float_level(const fl_hull *h, fl_vec3 up, double v)
 {
-    double lo = -2 * h->p->size, hi = 2 * h->p->size;
-    fl_wet w;
+    double lo = -2 * h->shape->size, hi = 2 * h->shape->size;
+    fl_submerged w;
     for (int k = 0; k < 200; k++) {
         const double mid = 0.5 * (lo + hi);
-        fl_buoyancy(h, up, mid, &w);
+        fl_hull_submerged(h, up, mid, &w);
         if (w.volume < v) lo = mid;
         else hi = mid;
     }
@@ -123,8 +123,8 @@ static double float_level(const fl_hull *h, fl_vec3 up, double v)
 static double righting_arm(const fl_hull *h, double a, double v)
 {
     const fl_vec3 up = v3(0, sin(a), cos(a)), across = v3(0, cos(a), -sin(a));
-    fl_wet w;
-    fl_buoyancy(h, up, float_level(h, up, v), &w);
+    fl_submerged w;
+    fl_hull_submerged(h, up, float_level(h, up, v), &w);
     return -v3_dot(w.centre, across);
 }
 
@@ -134,7 +134,7 @@ static void floating_box(void)
     fl_poly p;
     fl_hull h;
     fl_err err = {0};
-    fl_wet w;
+    fl_submerged w;
     fl_waterplane plane;
     box(&p, 10, 10, 1);
     must(fl_hull_make(&h, &p, 0.0, &err), "a box floats");
@@ -142,19 +142,19 @@ static void floating_box(void)
     verify_row("V48", "draft of a 10 x 10 x 1 box, 900/1025 [m]", level + 0.5, 0.8780488, 5e-8, VERIFY_ABS);
     verify_row("V48", "draft over density ratio", (level + 0.5) / ratio, 1.0, 1e-13, VERIFY_ABS);
     verify_row("V48", "freeboard [m]", 0.5 - level, 1 - ratio, 1e-13, VERIFY_ABS);
-    fl_buoyancy(&h, v3(0, 0, 1), level, &w);
-    fl_buoyancy_plane(&h, v3(0, 0, 1), level, &plane);
+    fl_hull_submerged(&h, v3(0, 0, 1), level, &w);
+    fl_hull_waterplane(&h, v3(0, 0, 1), level, &plane);
     verify_row("V50", "metacentric height GM = I/V - BG [m]", plane.second.m[0][0] / w.volume + w.centre.z,
                9.429765, 5e-7, VERIFY_ABS);
-    verify_row("V54", "wetted surface [m2]", w.wetted, 135.122, 5e-4, VERIFY_ABS);
-    const fl_fluid sea = {.density = 1025, .force = 0.005, .moment = 0.005};
+    verify_row("V54", "wetted surface [m2]", w.wetted_area, 135.122, 5e-4, VERIFY_ABS);
+    const fl_fluid sea = {.density = 1025, .force_coefficient = 0.005, .moment_coefficient = 0.005};
     verify_row("V54", "decay coefficient of skin drag [1/m]",
-               fl_drag_of_force(&sea, w.wetted) / (900 * h.volume), 3.847222e-3, 1e-6, VERIFY_REL);
+               fl_drag_force_constant(&sea, w.wetted_area) / (900 * h.volume), 3.847222e-3, 1e-6, VERIFY_REL);
     verify_row("V56", "effective radius of spin [m]", fl_drag_radius(&p, 0.0), 7.088723, 5e-7, VERIFY_ABS);
-    const double c = fl_drag_of_moment(&sea, w.wetted, fl_drag_radius(&p, 0.0)),
+    const double c = fl_drag_moment_constant(&sea, w.wetted_area, fl_drag_radius(&p, 0.0)),
                  inertia = 900 * 1 * 100.0 * (100 + 100) / 12;
-    verify_row("V56", "spin after 100 s, from 0.1 [rad/s]", 0.1 * fl_drag_factor(inertia, c, 0.1, 100.0),
-               0.054877, 1e-5, VERIFY_REL);
+    verify_row("V56", "spin after 100 s, from 0.1 [rad/s]",
+               0.1 * fl_drag_decay_factor(inertia, c, 0.1, 100.0), 0.054877, 1e-5, VERIFY_REL);
     fl_hull_free(&h);
     fl_poly_free(&p);
 
@@ -190,11 +190,11 @@ static double resting_heel(const fl_hull *h, double s, double lo, double hi)
 
 static double upright_gm(const fl_hull *h, double s)
 {
-    fl_wet w;
+    fl_submerged w;
     fl_waterplane plane;
     const double level = float_level(h, v3(0, 0, 1), s * h->volume);
-    fl_buoyancy(h, v3(0, 0, 1), level, &w);
-    fl_buoyancy_plane(h, v3(0, 0, 1), level, &plane);
+    fl_hull_submerged(h, v3(0, 0, 1), level, &w);
+    fl_hull_waterplane(h, v3(0, 0, 1), level, &plane);
     return plane.second.m[1][1] / w.volume + w.centre.z;
 }
 
@@ -242,11 +242,11 @@ static void continuity(void)
     for (int k = 0; k < 3; k++) {
         double worst = 0.0;
         for (int i = -10; i < 10; i++) {
-            fl_wet a, b;
-            fl_buoyancy(&h, up[k], at[k] + i * 1e-10, &a);
-            fl_buoyancy(&h, up[k], at[k] + (i + 1) * 1e-10, &b);
+            fl_submerged a, b;
+            fl_hull_submerged(&h, up[k], at[k] + i * 1e-10, &a);
+            fl_hull_submerged(&h, up[k], at[k] + (i + 1) * 1e-10, &b);
             /* the deck is at 0: below it the water plane is 1 m2, above it there is none */
-            const double slope = k ? 0.5 * (a.waterplane + b.waterplane) : i < 0 ? 1.0 : 0.0;
+            const double slope = k ? 0.5 * (a.waterplane_area + b.waterplane_area) : i < 0 ? 1.0 : 0.0;
             worst = fmax(worst, fabs(b.volume - a.volume - slope * 1e-10));
         }
         verify_below(k ? "H24" : "H23", what[k], worst, 1e-12);

@@ -7,7 +7,7 @@
 #include "base/pi.h"
 #include "base/rng.h"
 #include "law/material.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 
 #define DEGREES (PI / 180.0)
@@ -34,7 +34,8 @@ static fate tilted(double high, double friction)
 {
     const double slope = 40.0 * DEGREES, flat = BASE - 2.0 * ROUND,
                  weight = BASE * BASE * high * 2000.0 * PULL,
-                 modulus = fl_material_modulus((fl_elastic){1e10, 0.3}, (fl_elastic){INFINITY, 0.0}),
+                 modulus = fl_material_modulus((fl_elastic_constants){1e10, 0.3},
+                                               (fl_elastic_constants){INFINITY, 0.0}),
                  overlap = weight / fl_material_punch(modulus, flat * flat);
     lab l;
     lab_start(&l);
@@ -148,9 +149,9 @@ static void settle(heap *p, const char *lo, const char *hi, double bottom, doubl
         lab_sphere(&l, p->floor[k].x, p->floor[k].r, v3(0, 0, 0), v3(0, 0, 0));
     for (int32_t k = 0; k < p->n; k++) lab_sphere(&l, p->g[k].x, p->g[k].r, v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 0.0);
-    for (int32_t k = 0; k < p->floors; k++) l.w.b.hold[k] = 63;
+    for (int32_t k = 0; k < p->floors; k++) l.w.b.fixed_dof[k] = 63;
     run(&l, seconds);
-    for (int32_t k = 0; k < p->n; k++) p->g[k].x = fl_cell_inside(&l.w.cell, l.w.b.x[p->floors + k]);
+    for (int32_t k = 0; k < p->n; k++) p->g[k].x = fl_periodic_cell_wrap(&l.w.cell, l.w.b.x[p->floors + k]);
     lab_free(&l);
 }
 

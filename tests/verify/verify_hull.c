@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include "base/pi.h"
 #include "sim/energy_balance.h"
-#include "step/ride.h"
-#include "support/lab.h"
+#include "sim/moving_structure.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
@@ -39,25 +39,25 @@ static void hull(void)
     lab_setf(&l, "structure.inertia=%.17g %.17g 0", I[1], I[2]);
     lab_set(&l, "structure.hydrostatic=mesh");
     lab_make(&l, 2e-3);
-    const fl_flotation *f = &l.w.ride.afloat[0];
+    const fl_hydrostatics *f = &l.w.moving.hydrostatics[0];
     verify_row("hull", "displaced volume of a box [m3]", f->volume, V, 1e-13, VERIFY_REL);
-    verify_row("hull", "its centre of buoyancy over the keel [m]", f->buoyancy.z + kg + T, 0.5 * T, 1e-13,
-               VERIFY_REL);
+    verify_row("hull", "its centre of buoyancy over the keel [m]", f->buoyancy_centre.z + kg + T, 0.5 * T,
+               1e-13, VERIFY_REL);
     for (int k = 0; k < 3; k++) {
         char what[64];
         snprintf(what, sizeof what, "C%d%d of the box", 3 + k, 3 + k);
-        verify_row("hull", what, l.w.ride.m.motion[0].K[2 + k][2 + k], C[k], 1e-12, VERIFY_REL);
+        verify_row("hull", what, l.w.moving.movers.motion[0].K[2 + k][2 + k], C[k], 1e-12, VERIFY_REL);
     }
     for (int k = 0; k < 3; k++) { /* a small push, then the second zero crossing */
-        fl_bodies *b = &l.w.ride.m.b;
+        fl_bodies *b = &l.w.moving.movers.b;
         char what[64];
         double before = 1.0, last = 0.0, first = 0.0;
         int found = 0;
         b->x[0] = G;
         b->q[0] = q_one();
         b->v[0] = v3(0, 0, k == 0 ? 0.01 : 0);
-        fl_body_derive(b, 0);
-        fl_body_spin(b, 0, v3(k == 1 ? 0.01 : 0, k == 2 ? 0.01 : 0, 0));
+        fl_body_update_spin(b, 0);
+        fl_body_set_spin(b, 0, v3(k == 1 ? 0.01 : 0, k == 2 ? 0.01 : 0, 0));
         b->f[0] = b->t[0] = ZERO;
         for (int64_t s = 1; found < 3 && s < 20000; s++) {
             lab_run(&l, 1);
@@ -78,7 +78,7 @@ static void hull(void)
  * mesh of n by n quadrangles a side: V = 4/9 L B T, KB = 5/8 T, BM = 3 B^2/(35 T), int x^2 dA = L^3 B/30. */
 static double wigley_y(double u, double v) { return (1 - u * u) * (v < 0 ? 1 - v * v : 1); }
 
-static void wigley(int n, double L, double B, double T, fl_flotation *f)
+static void wigley(int n, double L, double B, double T, fl_hydrostatics *f)
 {
     fl_surface surface = {0};
     fl_err err = {0};
@@ -112,8 +112,8 @@ static void wigley(int n, double L, double B, double T, fl_flotation *f)
             fl_surface_triangle(p, a, end ? b : a + 1, b + 1, &err);
             fl_surface_triangle(p, a, b + 1, end ? a + 1 : b, &err);
         }
-    *f = (fl_flotation){0};
-    if (fl_flotation_add(f, p, 0.0, ZERO, &err) || fl_flotation_end(f, 0.0, ZERO, &err))
+    *f = (fl_hydrostatics){0};
+    if (fl_hydrostatics_add(f, p, 0.0, ZERO, &err) || fl_hydrostatics_finish(f, 0.0, ZERO, &err))
         printf("wigley: %s\n", err.text);
     fl_surface_free(&surface);
 }
@@ -126,10 +126,10 @@ static void wigleys(void)
                                         "BM [m]", "int x2 dA [m4]"};
     double h[3], e[4][3], got[4];
     for (int k = 0; k < 3; k++) {
-        fl_flotation f;
+        fl_hydrostatics f;
         wigley(20 << k, L, B, T, &f);
         h[k] = 1.0 / (20 << k);
-        got[0] = f.volume, got[1] = f.buoyancy.z, got[2] = f.yy / f.volume, got[3] = f.xx;
+        got[0] = f.volume, got[1] = f.buoyancy_centre.z, got[2] = f.yy / f.volume, got[3] = f.xx;
         for (int c = 0; c < 4; c++) e[c][k] = fabs(got[c] / exact[c] - 1.0);
     }
     verify_note("Wigley's hull of 30 m, meshes of 20, 40 and 80 quadrangles a side each way: their exact "
@@ -163,9 +163,9 @@ static void coupled(void)
         lab_setf(&l, "structure.turn_stiffness=0 %g 0", C55);
         lab_setf(&l, "structure.coupling=0 %g 0", C35);
         lab_make(&l, 1e-3);
-        fl_bodies *s = &l.w.ride.m.b;
+        fl_bodies *s = &l.w.moving.movers.b;
         s->v[0].z = small * w;
-        fl_body_spin(s, 0, v3(0, small * w * shape, 0));
+        fl_body_set_spin(s, 0, v3(0, small * w * shape, 0));
         for (int64_t k = 1; k <= 4000; k++) {
             lab_run(&l, 1);
             const double x = small * sin(w * 1e-3 * (double)k);
@@ -191,10 +191,10 @@ static void rolling(void)
     lab_setf(&l, "structure.turn_stiffness=%g 0 0", k);
     lab_setf(&l, "structure.turn_damping=%.17g 0 0", 2 * D * sqrt(k * I));
     lab_make(&l, dt);
-    fl_body_spin(&l.w.ride.m.b, 0, v3(1e-3, 0, 0));
+    fl_body_set_spin(&l.w.moving.movers.b, 0, v3(1e-3, 0, 0));
     for (int64_t n = 0; found < 2 && n < 10000; n++) {
         lab_run(&l, 1);
-        const double x = 2.0 * l.w.ride.m.b.q[0].x;
+        const double x = 2.0 * l.w.moving.movers.b.q[0].x;
         if (before > 0.0 && before > before2 && before >= x) top[found++] = before;
         before2 = before;
         before = x;
@@ -216,17 +216,17 @@ static double tumbled(double dt, double *turn)
     lab_set(&l, "structure.turn_stiffness=2e4 1e4 3e4");
     lab_set(&l, "structure.coupling=2000 -3000 4000");
     lab_make(&l, dt);
-    fl_body_spin(&l.w.ride.m.b, 0, v3(3, 2, -2));
-    l.w.ride.m.b.v[0] = v3(1, 2, -1);
-    fl_step_ledger(&l.w);
-    const double e0 = l.w.ledger.moving + l.w.ledger.spring;
+    fl_body_set_spin(&l.w.moving.movers.b, 0, v3(3, 2, -2));
+    l.w.moving.movers.b.v[0] = v3(1, 2, -1);
+    fl_energy_update(&l.w);
+    const double e0 = l.w.ledger.structure + l.w.ledger.spring;
     double worst = 0.0;
     *turn = 0.0;
     for (int64_t k = 0; k < (int64_t)(10.0 / dt); k++) {
         lab_run(&l, 1);
-        fl_step_ledger(&l.w);
-        worst = fmax(worst, fabs((l.w.ledger.moving + l.w.ledger.spring) / e0 - 1.0));
-        const fl_quat q = l.w.ride.m.b.q[0];
+        fl_energy_update(&l.w);
+        worst = fmax(worst, fabs((l.w.ledger.structure + l.w.ledger.spring) / e0 - 1.0));
+        const fl_quat q = l.w.moving.movers.b.q[0];
         *turn = fmax(*turn, 2.0 * asin(sqrt(q.x * q.x + q.y * q.y + q.z * q.z)));
     }
     lab_free(&l);

@@ -10,16 +10,16 @@
 #include <stdlib.h>
 #include <unistd.h>
 #include "support/verify.h"
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
-#include "ice/cells.h"
+#include "ice/power_cells.h"
 #include "ice/certificate.h"
 #include "ice/floes.h"
-#include "scene/field.h"
+#include "scene/ice_field.h"
 
 #define THICKNESS 0.5
 #define ICE 900.0
@@ -33,7 +33,7 @@ struct seen {
     int32_t bodies;
 };
 
-static int add(fl_field *out, const fl_floes *a, int32_t i, double radius, fl_err *err)
+static int add(fl_ice_field *out, const fl_floes *a, int32_t i, double radius, fl_err *err)
 {
     const double draft = THICKNESS * (ICE / WATER);
     const int32_t n = a->first[i + 1] - a->first[i];
@@ -43,7 +43,7 @@ static int add(fl_field *out, const fl_floes *a, int32_t i, double radius, fl_er
     if (!xy) return -1;
     for (int32_t k = 0; k < n; k++) xy[k] = v3(a->core[a->first[i] + k].x, a->core[a->first[i] + k].y, 0.0);
     rc = fl_poly_prism(&core, n, xy, radius - draft, THICKNESS - draft - radius, err) ||
-                 fl_field_add(out, i, radius, &core, "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err)
+                 fl_ice_field_add(out, i, radius, &core, "ice", NULL, v3(0, 0, 0), v3(0, 0, 0), err)
              ? -1
              : 0;
     free(xy);
@@ -51,28 +51,28 @@ static int add(fl_field *out, const fl_floes *a, int32_t i, double radius, fl_er
 }
 
 /* To a file and back. */
-static int by_file(fl_field *field, fl_err *err)
+static int by_file(fl_ice_field *field, fl_err *err)
 {
     char path[300];
     const char *tmp = getenv("TMPDIR");
-    fl_by by;
-    fl_field back = {0};
+    fl_history_line by;
+    fl_ice_field back = {0};
     FILE *f;
     int rc;
     snprintf(path, sizeof path, "%.200s/floe-ice-%ld", tmp ? tmp : "/tmp", (long)getpid());
     f = fopen(path, "w");
     if (!f) return fl_fail(err, FL_SYSTEM, "%s cannot be written", path);
-    fl_by_start(&by, "verify_ice");
-    fl_field_write(f, field, &by);
-    rc = fclose(f) == 0 ? fl_field_read(&back, path, err) : -1;
+    fl_history_line_start(&by, "verify_ice");
+    fl_ice_field_write(f, field, &by);
+    rc = fclose(f) == 0 ? fl_ice_field_read(&back, path, err) : -1;
     unlink(path);
     if (rc) return -1;
-    fl_field_free(field);
+    fl_ice_field_free(field);
     *field = back;
     return 0;
 }
 
-static int weigh(const fl_field *field, const fl_floes *a, struct seen *s, fl_err *err)
+static int weigh(const fl_ice_field *field, const fl_floes *a, struct seen *s, fl_err *err)
 {
     *s = (struct seen){.least = INFINITY, .bodies = field->n};
     for (int32_t i = 0; i < field->n; i++) {
@@ -97,9 +97,9 @@ static int field_of(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo
                     double concentration, double radius, const char *id)
 {
     fl_vec2 *x = NULL;
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_floes a = {0};
-    fl_field field = {0};
+    fl_ice_field field = {0};
     fl_certificate t;
     struct seen s;
     fl_err err = {0};
@@ -110,9 +110,9 @@ static int field_of(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo
     if (!x) goto done;
     for (int32_t i = 0; i < n; i++) x[i] = site[i];
     for (int k = 0; k <= smooth; k++) {
-        if (k) fl_cells_centroids(&c, x);
-        fl_cells_free(&c);
-        if (fl_cells_build(&c, n, x, lo, hi, &err)) goto done;
+        if (k) fl_power_cells_centroids(&c, x);
+        fl_power_cells_free(&c);
+        if (fl_power_cells_build(&c, n, x, lo, hi, &err)) goto done;
     }
     if (fl_floes_make(&a, &c, concentration, radius, (fl_vec2){0, 0}, &err) ||
         fl_certificate_make(&t, &a, &err))
@@ -121,23 +121,23 @@ static int field_of(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo
         if (add(&field, &a, i, radius, &err)) goto done;
     if (by_file(&field, &err) || weigh(&field, &a, &s, &err)) goto done;
     verify_note("%s: %d floes, %d sides of cells dropped, %d moved in farther, %d corners cut off", what, n,
-                a.dropped, a.cut, a.blunted);
+                a.dropped_sides, a.shifted_sides, a.blunted_corners);
     snprintf(text, sizeof text, "mass of all [kg]");
     verify_row(id, text, s.mass, asked, 1e-12, VERIFY_REL);
     verify_below(id, "mass of one, largest relative error", s.worst, 1e-12);
     verify_below(id, "weight and buoyancy of one at rest, difference", s.afloat, 1e-12);
-    verify_below(id, "overlaps and floes that are not convex", (double)t.overlaps + t.bent, 0.0);
+    verify_below(id, "overlaps and floes that are not convex", (double)t.overlaps + t.nonconvex, 0.0);
     verify_true(id, "no corner of a core is sharper than the bound",
-                t.angle >= FL_FLOES_SHARP * (1.0 - 1e-12));
+                t.min_angle >= FL_FLOES_SHARP_ANGLE * (1.0 - 1e-12));
     verify_true(id, "moments of inertia of all are positive", s.least > 0.0);
     rc = 0;
 done:
     if (rc) verify_note("%s: %s", what, err.text);
     if (rc) verify_true(id, "the field can be made", 0);
     free(x);
-    fl_field_free(&field);
+    fl_ice_field_free(&field);
     fl_floes_free(&a);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
     return rc;
 }
 
@@ -150,7 +150,7 @@ static void random_fields(void)
     const double side = 4.0 * sqrt(n);
     const fl_vec2 lo = {1000.0, -0.5 * side}, hi = {1000.0 + side, 0.5 * side};
     char what[80];
-    fl_cells_sites(n, 7, lo, hi, site);
+    fl_random_sites(n, 7, lo, hi, site);
     for (int k = 0; k < 5; k++) {
         snprintf(what, sizeof what, "smoothed cells, concentration %g, radius 0.02 m", concentration[k]);
         field_of(what, n, site, lo, hi, 2, concentration[k], 0.02, "mass");
@@ -207,7 +207,7 @@ static void slivers(void)
 int main(int argc, char **argv)
 {
     (void)argc;
-    fl_par_wait_briefly(argv);
+    fl_parallel_limit_spin(argv);
     verify_begin("Fields of ice as the solver sees them");
     random_fields();
     slivers();

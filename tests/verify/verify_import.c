@@ -9,8 +9,8 @@
 #include "base/pi.h"
 #include "geom/facet.h"
 #include "geom/moments.h"
-#include "geom/patch.h"
-#include "geom/similar.h"
+#include "geom/mesh_patch.h"
+#include "geom/affine.h"
 #include "geom/weld.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
@@ -40,7 +40,7 @@ static fl_part *add(fl_surface *s, const char *name)
 static void model(fl_surface *s, int32_t facets)
 {
     static const fl_vec3 at[4] = {{-7, -5, 0}, {7, -5, 0}, {-7, 5, 0}, {7, 5, 0}};
-    const fl_similar turn = {fl_similar_rotation(v3(1, 2, 3), 37.0), 1.0, v3(120, -45, 3)};
+    const fl_affine turn = {fl_affine_rotation(v3(1, 2, 3), 37.0), 1.0, v3(120, -45, 3)};
     fl_weld w;
     fl_part *p = add(s, "legs");
     int bad = 0;
@@ -90,8 +90,8 @@ enum { OWN, STL, STL32, OBJ, OFF, PLY, VTP, WAYS };
 
 static void put(int way, FILE *f, const fl_surface *s)
 {
-    fl_by by;
-    fl_by_start(&by, "verify-import");
+    fl_history_line by;
+    fl_history_line_start(&by, "verify-import");
     if (way == OWN) fl_gstruct_write(f, s, &by);
     else if (way == STL) fl_stl_write_ascii(f, s);
     else if (way == STL32) fl_stl_write_binary(f, s);

@@ -3,9 +3,9 @@
 #include <math.h>
 #include "base/rng.h"
 #include "sim/energy_balance.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/verify.h"
-#include "step/sleep.h"
+#include "sim/sleep.h"
 
 enum { ROWS = 15, FLOES = 200 };
 
@@ -64,12 +64,12 @@ static result follow(double safety, int elastic, double pitch, double sleep, dou
     r.step = l.w.dt;
     for (int64_t k = 0; k < steps; k += 20) {
         if (lab_run(&l, steps - k < 20 ? steps - k : 20)) return (result){.residual = NAN};
-        fl_sleep_look(&l.w);
-        fl_step_ledger(&l.w);
-        fl_sleep_back(&l.w);
+        fl_sleep_advance_to_now(&l.w);
+        fl_energy_update(&l.w);
+        fl_sleep_restore(&l.w);
         r.residual = fmax(r.residual, fabs(l.w.ledger.residual));
     }
-    r.asleep = (double)fl_sleep_counted(&l.w).coasted / ((double)l.w.step * l.w.n);
+    r.asleep = (double)fl_sleep_sum_totals(&l.w).ballistic_steps / ((double)l.w.step * l.w.n);
     const double all = l.w.ledger.throughput;
     r.lost = (l.w.ledger.friction_now + l.w.ledger.damping_now) / all;
     r.residual /= all;
@@ -90,7 +90,7 @@ static double hit(double dt)
     lab_sphere(&l, v3(0, 0, 0.51), 0.5, v3(0.5, 0, -1), v3(0, 1, 0));
     lab_make(&l, dt);
     if (lab_run(&l, (int64_t)(0.1 / dt))) return NAN;
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     const double lost = l.w.ledger.damping_now + l.w.ledger.friction_now,
                  r = l.w.ledger.elastic > 0.0 ? NAN : fabs(l.w.ledger.residual) / lost;
     lab_free(&l);

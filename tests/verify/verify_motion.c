@@ -7,8 +7,8 @@
 #include <unistd.h>
 #include "base/pi.h"
 #include "sim/energy_balance.h"
-#include "step/ride.h"
-#include "support/lab.h"
+#include "sim/moving_structure.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 
 static const fl_vec3 ZERO = {0, 0, 0};
@@ -66,9 +66,9 @@ static void told_error(int n, const char *between, double *way, double *speed)
         lab_run(&l, 1);
         const double now = 2e-3 * k;
         if (now < 0.25 || now > 1.75) continue; /* the ends are of order 3 */
-        *way = fmax(*way, fabs(l.w.ride.m.b.x[0].x - sin(2.0 * now)));
-        *speed = fmax(*speed, fabs(l.w.ride.m.b.v[0].x - 2.0 * cos(2.0 * now)));
-        *speed = fmax(*speed, fabs(l.w.ride.m.b.w[0].z - 1.5 * cos(3.0 * now)));
+        *way = fmax(*way, fabs(l.w.moving.movers.b.x[0].x - sin(2.0 * now)));
+        *speed = fmax(*speed, fabs(l.w.moving.movers.b.v[0].x - 2.0 * cos(2.0 * now)));
+        *speed = fmax(*speed, fabs(l.w.moving.movers.b.w[0].z - 1.5 * cos(3.0 * now)));
     }
     lab_free(&l);
 }
@@ -121,7 +121,7 @@ static void clamped(void)
         lab_make(&l, h[k]);
         for (int late = 0; late < 2; late++) {
             lab_run(&l, (int64_t)((late ? 15.0 : 5.0) / h[k] + 0.5));
-            const fl_vec3 n = m3_col(fl_body_axes(&l.w.b, 0), 2), f = lab_pair(&l, 0).f;
+            const fl_vec3 n = m3_col(fl_body_axes(&l.w.b, 0), 2), f = lab_pair(&l, 0).force;
             normal[k] = fabs(v3_dot(n, f));
             pull[k][late] = v3_norm(v3_madd(f, -v3_dot(n, f), n));
         }
@@ -175,7 +175,7 @@ static double stepped(double D, double dt, double *period, double *decrement, do
     const int64_t steps = (int64_t)lround(3.0 / dt);
     for (int64_t k = 1; k <= steps; k++) {
         lab_run(&l, 1);
-        const double now = l.w.ride.m.b.x[0].x, time = (double)k * dt;
+        const double now = l.w.moving.movers.b.x[0].x, time = (double)k * dt;
         const double exact = after_step(D, time - 1.5 * dt);
         if (k > 2) worst = fmax(worst, fabs(now - exact));
         if (before < 1.0 && now >= 1.0 && crossed < 2)
@@ -236,8 +236,8 @@ static double shaken(double r, double D, double dt)
     lab_run(&l, (int64_t)(30.0 / dt));
     for (int64_t k = 0; k < (int64_t)(2.0 / r / dt); k++) {
         lab_run(&l, 1);
-        top = fmax(top, l.w.ride.m.b.x[0].x);
-        low = fmin(low, l.w.ride.m.b.x[0].x);
+        top = fmax(top, l.w.moving.movers.b.x[0].x);
+        low = fmin(low, l.w.moving.movers.b.x[0].x);
     }
     lab_free(&l);
     return 0.5 * (top - low);
@@ -269,11 +269,11 @@ static void dashpot(void)
         lab_set(&l, "structure.mass=1");
         lab_setf(&l, "structure.damping=%g 0 0", C[k]);
         lab_make(&l, 1.0);
-        l.w.ride.m.b.v[0].x = 1.0;
+        l.w.moving.movers.b.v[0].x = 1.0;
         lab_run(&l, 2);
         snprintf(what, sizeof what, "a dashpot of c t/m = %g: what is left of a speed of 1 m/s", 2.0 * C[k]);
-        verify_row("damper", what, l.w.ride.m.b.v[0].x, exp(-2.0 * C[k]), 1e-15, VERIFY_ABS);
-        fl_step_ledger(&l.w);
+        verify_row("damper", what, l.w.moving.movers.b.v[0].x, exp(-2.0 * C[k]), 1e-15, VERIFY_ABS);
+        fl_energy_update(&l.w);
         verify_row("damper", "  energy that it took [J]", l.w.ledger.damper, 0.5 - 0.5 * exp(-4.0 * C[k]),
                    1e-15, VERIFY_ABS);
         lab_free(&l);
@@ -284,10 +284,10 @@ static void dashpot(void)
 
 static fl_vec3 momentum(const lab *l, fl_vec3 *turn)
 {
-    const fl_bodies *b = &l->w.b, *s = &l->w.ride.m.b;
+    const fl_bodies *b = &l->w.b, *s = &l->w.moving.movers.b;
     fl_vec3 p = ZERO;
     *turn = ZERO;
-    for (int32_t i = 0; i < l->w.n + l->w.ride.m.n; i++) {
+    for (int32_t i = 0; i < l->w.n + l->w.moving.movers.n; i++) {
         const fl_bodies *a = i < l->w.n ? b : s;
         const int32_t k = i < l->w.n ? i : i - l->w.n;
         p = v3_madd(p, a->m[k], a->v[k]);
@@ -329,11 +329,11 @@ static void bounce(void)
         lab_set(&l, "structure.free=x");
         lab_setf(&l, "structure.mass=%.17g", M);
         lab_make(&l, 0);
-        for (int64_t n = 0; n < 1000000 && (n < 10 || l.w.pair[0].n || l.w.touching_steps == 0); n++)
+        for (int64_t n = 0; n < 1000000 && (n < 10 || l.w.pair[0].touching || l.w.contact_steps == 0); n++)
             if (lab_run(&l, 1)) break;
         snprintf(what, sizeof what, "a ball on a free block of %g of its mass: its speed after", M / m);
         verify_row("free", what, l.w.b.v[0].x, (m - e * M) / (m + M), 1e-4, VERIFY_ABS);
-        verify_row("free", "  that of the block", l.w.ride.m.b.v[0].x, m * (1 + e) / (m + M), 4e-3,
+        verify_row("free", "  that of the block", l.w.moving.movers.b.v[0].x, m * (1 + e) / (m + M), 4e-3,
                    VERIFY_ABS);
         lab_free(&l);
     }
@@ -353,12 +353,12 @@ static void gate(void)
     lab_set(&l, "structure.free=rz");
     lab_setf(&l, "structure.inertia=0 0 %.17g", I);
     lab_make(&l, 0);
-    for (int64_t n = 0; n < 1000000 && (n < 10 || l.w.pair[0].n || l.w.touching_steps == 0); n++)
+    for (int64_t n = 0; n < 1000000 && (n < 10 || l.w.pair[0].touching || l.w.contact_steps == 0); n++)
         if (lab_run(&l, 1)) break;
     verify_row("free", "a ball on a gate of 0.7 of its mass: its speed after", l.w.b.v[0].x,
                (m - e * M) / (m + M), 3e-3, VERIFY_ABS);
-    verify_row("free", "  that of the gate [rad/s]", l.w.ride.m.b.w[0].z, -m * (1 + e) / (m + M) / a, 3e-3,
-               VERIFY_ABS);
+    verify_row("free", "  that of the gate [rad/s]", l.w.moving.movers.b.w[0].z, -m * (1 + e) / (m + M) / a,
+               3e-3, VERIFY_ABS);
     lab_free(&l);
 }
 
@@ -399,12 +399,12 @@ static void together(void)
     lab_run(&l, (int64_t)(4.0 / l.w.dt));
     const fl_vec3 after = momentum(&l, &turn);
     verify_note("eight floes run into a box that is free; friction and restitution");
-    verify_true("free", "they have touched", l.w.touching_steps > 100);
+    verify_true("free", "they have touched", l.w.contact_steps > 100);
     verify_row("free", "linear momentum gained, over m v of the floes", v3_norm(v3_sub(after, before)) / size,
                0.0, 1e-13, VERIFY_ABS);
     verify_row("free", "angular momentum gained", v3_norm(v3_sub(turn, turn0)) / arm, 0.0, 1e-13, VERIFY_ABS);
-    verify_below("free", "0.01 m/s over the speed that the box has got", 0.01 / v3_norm(l.w.ride.m.b.v[0]),
-                 1.0);
+    verify_below("free", "0.01 m/s over the speed that the box has got",
+                 0.01 / v3_norm(l.w.moving.movers.b.v[0]), 1.0);
     lab_free(&l);
 }
 
@@ -435,7 +435,7 @@ static double residual_of(double safety, int damped, double restitution)
     lab_setf(&l, "run.safety=%g", safety);
     lab_make(&l, 0);
     lab_run(&l, (int64_t)(4.0 / l.w.dt));
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     const double r = fabs(l.w.ledger.residual) / l.w.ledger.throughput;
     lab_free(&l);
     return r;
@@ -461,7 +461,7 @@ static double driven(double safety, int spin)
     lab_setf(&l, "run.safety=%g", safety);
     lab_make(&l, 0);
     lab_run(&l, (int64_t)(4.0 / l.w.dt));
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     const double r = fabs(l.w.ledger.residual) / l.w.ledger.throughput;
     lab_free(&l);
     return r;

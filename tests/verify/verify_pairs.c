@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include "narrow/descent.h"
+#include "narrow/gjk_double.h"
 #include "narrow/gjk.h"
-#include "support/couples.h"
+#include "support/convex_pairs.h"
 #include "support/oracle.h"
 #include "support/verify.h"
 
@@ -44,7 +44,7 @@ static void ccd_support(const void *obj, const ccd_vec3_t *dir, ccd_vec3_t *out)
         ccdVec3Set(out, 0, 0, 0);
         return;
     }
-    const int32_t i = fl_core_lowest(s->c, v3(-dir->v[0], -dir->v[1], -dir->v[2]), &low);
+    const int32_t i = fl_core_support(s->c, v3(-dir->v[0], -dir->v[1], -dir->v[2]), &low);
     const fl_vec3 p = v3_scale(s->scale, v3_sub(s->c.v[i], s->o));
     ccdVec3Set(out, p.x, p.y, p.z);
 }
@@ -109,8 +109,8 @@ static void look(const pair_case *q, tally *t)
         second_opinion(q, &o, t);
     }
     if (g.overlap) {
-        fl_overlap deep;
-        fl_deep(&q->a, &q->b, NULL, &deep);
+        fl_penetration deep;
+        fl_penetration_find(&q->a, &q->b, NULL, &deep);
         t->depth = fmax(t->depth, ((double)fabsl(o.d + (real)deep.depth) - far) / q->size);
         return;
     }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "stat/oscillator.h"
@@ -20,10 +20,10 @@ static void free_vibration(void)
     for (int j = 0; j < 5; j++) {
         double angle = 0.0;
         char what[80];
-        fl_sway s = {.u = 1.0};
-        fl_oscillator_settle(&o, 0.0, &s);
+        fl_oscillator_state s = {.u = 1.0};
+        fl_oscillator_set_acceleration(&o, 0.0, &s);
         for (int32_t k = 0; k < steps; k++) {
-            const fl_sway from = s;
+            const fl_oscillator_state from = s;
             fl_oscillator_step(&o, part[j], 0.0, &s);
             angle += atan2(from.v * s.u - from.u * s.v, from.u * s.u * w + from.v * s.v / w);
         }
@@ -44,14 +44,14 @@ static void sudden(void)
     fl_response r;
     fl_err err = {0};
     for (int j = 0; j < LEVELS; j++) {
-        fl_oscillator_run(&o, 2, edge, x, 10.0, 1 << j, &r, NULL);
+        fl_oscillator_integrate(&o, 2, edge, x, 10.0, 1 << j, &r, NULL);
         h[j] = r.step;
         error[j] = fabs(r.largest - want);
     }
     verify_order("R10", "sudden load, 5 % damping: overshoot", h, error, LEVELS, 2.0, 0.1);
     const int failed = fl_oscillator_solve(&o, 2, edge, x, &r, NULL, &err);
     verify_row("R11", "overshoot, steps halved until it stands", failed ? (double)NAN : r.largest, 1.854468,
-               FL_OSCILLATOR_WANTED, VERIFY_REL);
+               FL_OSCILLATOR_TOLERANCE, VERIFY_REL);
     verify_row("R11", "the error that is told", r.error, fabs(r.largest - want) / want, 1e-5, VERIFY_ABS);
 }
 
@@ -68,7 +68,7 @@ static void pulse(void)
         fl_err err = {0};
         const int failed = fl_oscillator_solve(&o, 3, edge, x, &r, NULL, &err);
         snprintf(what, sizeof what, "pulse of %g T: amplification", d[j]);
-        verify_row("R20", what, failed ? (double)NAN : r.largest, want, 2.0 * FL_OSCILLATOR_WANTED,
+        verify_row("R20", what, failed ? (double)NAN : r.largest, want, 2.0 * FL_OSCILLATOR_TOLERANCE,
                    VERIFY_REL);
     }
 }
@@ -88,7 +88,7 @@ static void harmonic(void)
             const int32_t rows = 64 << level, n = CYCLES * rows, half = n / 2;
             fl_err err = {0};
             double *x = fl_alloc(2 * (int64_t)n + 1, sizeof *x, &err), *edge = x + n, largest = 0.0;
-            fl_sway *at = fl_alloc(n, sizeof *at, &err);
+            fl_oscillator_state *at = fl_alloc(n, sizeof *at, &err);
             fl_response r;
             if (!x || !at) {
                 verify_true("R30", "memory", 0);
@@ -97,7 +97,7 @@ static void harmonic(void)
             for (int32_t k = 0; k <= n; k++) edge[k] = k / (q * rows);
             for (int32_t k = 0; k < n; k++)
                 x[k] = (cos(2.0 * PI * k / rows) - cos(2.0 * PI * (k + 1) / rows)) * rows / (2.0 * PI);
-            fl_oscillator_run(&o, n, edge, x, 1.0, 1, &r, at);
+            fl_oscillator_integrate(&o, n, edge, x, 1.0, 1, &r, at);
             /* The amplitude of the steady half, by projection on the frequency of the load. */
             double in = 0.0, out = 0.0;
             for (int32_t k = half; k < n; k++) {
@@ -138,7 +138,7 @@ static void noise(void)
     }
     for (int32_t k = 0; k <= n; k++) edge[k] = step * k;
     for (int32_t k = 0; k < n; k++) x[k] = fl_rng_in(&g, -sqrt(3.0), sqrt(3.0)); /* variance 1 */
-    fl_oscillator_run(&o, n, edge, x, 50.0, 2, &r, NULL);
+    fl_oscillator_integrate(&o, n, edge, x, 50.0, 2, &r, NULL);
     /* The variance of the estimate of a variance s^2 over a time D is s^4 / (2 pi z fn D). */
     const double want = PI * 1.0 * 2.0 * step / (4.0 * 0.05);
     verify_row("R40", "white noise: variance of the response", r.std * r.std, want,

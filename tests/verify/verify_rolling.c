@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What keeps a sphere from rolling, law/rolling.h, against closed forms of rigid rolling: on a wall of the
- * boundary, which is a row (leans.h), on a plate of the structure and on another sphere. */
+ * boundary, which is a row (wall_contact.h), on a plate of the structure and on another sphere. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/pi.h"
 #include "law/material.h"
 #include "sim/energy_balance.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 #include "world/access.h"
 
@@ -22,7 +22,8 @@ static const double R = 0.5;
 static double round_of(enum ground on) { return on == SPHERE ? 0.5 * R : R; }
 static double kappa(enum ground on)
 {
-    const fl_elastic ice = {1e8, 0.3}, under[SPHERE + 1] = {{INFINITY, 0.0}, {210e9, 0.3}, {1e8, 0.3}};
+    const fl_elastic_constants ice = {1e8, 0.3},
+                               under[SPHERE + 1] = {{INFINITY, 0.0}, {210e9, 0.3}, {1e8, 0.3}};
     return fl_material_hertz(fl_material_modulus(ice, under[on]), round_of(on));
 }
 
@@ -62,7 +63,7 @@ static int32_t made(lab *l, double dt)
 {
     lab_make(l, dt);
     const int32_t k = l->w.n == 2 && l->w.b.x[0].z < l->w.b.x[1].z ? 1 : 0;
-    if (l->w.n == 2) l->w.b.hold[1 - k] = 63;
+    if (l->w.n == 2) l->w.b.fixed_dof[1 - k] = 63;
     return k;
 }
 
@@ -171,9 +172,9 @@ static void frozen_rolls_out(enum ground on, int ended)
     rest_on(&l, on, mu, 0.0, v3(v, 0, 0), v3(0, v / R, 0));
     lab_set(&l, "bond.on=true");
     lab_sphere(&l, v3(0, 2 * R, R - depth_of(on, 0.0)), R, v3(v, 0, 0), v3(0, v / R, 0));
-    if (fl_field_add_bond(&l.field, 0, 1, PI * R * R, 2 * R, v3(0, R, R), &err)) exit(1);
+    if (fl_ice_field_add_bond(&l.field, 0, 1, PI * R * R, 2 * R, v3(0, R, R), &err)) exit(1);
     lab_make(&l, 2e-4);
-    if (ended) l.w.frozen.bond[0].state = FL_BOND_ENDED;
+    if (ended) l.w.bonds.bond[0].state = FL_BOND_ENDED;
     lab_run(&l, lround(0.5 / l.w.dt));
     const double was = l.w.b.v[0].x;
     lab_run(&l, lround(0.5 / l.w.dt));
@@ -198,7 +199,7 @@ static void plate_on_a_sphere(const char *law)
     lab_box(&l, v3(0, 0, 4.11), v3(0.2, 0.2, 0.05), 0.02, q_one(), v3(0.1, 0.05, 0), v3(0.5, 0, 3));
     lab_make(&l, 0.0);
     const int rc = lab_run(&l, lround(0.5 / l.w.dt));
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     snprintf(what, sizeof what, "%s, a plate on a sphere: step over the critical one", law);
     verify_below("RR7", what, rc ? INFINITY : l.w.dt / l.w.dt_critical, 0.2);
     snprintf(what, sizeof what, "%s, and energy residual over what was turned over", law);
@@ -220,7 +221,7 @@ static double residual(double dt, int *resting)
                    k % 3 ? 0.5 : 0.42, v3(0, 0, 0), v3(0.3 * (k % 4), 0.2, 0.1 * k));
     lab_make(&l, dt);
     lab_run(&l, lround(3.0 / dt));
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     const fl_ledger *g = &l.w.ledger;
     *resting = g->kinetic < 1e-2 * (g->friction_now + g->damping_now);
     const double off = fabs(g->residual) / (g->friction_now + g->damping_now);

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "support/verify.h"
-#include "base/mem.h"
-#include "base/par.h"
-#include "ice/laguerre.h"
+#include "base/array.h"
+#include "base/parallel.h"
+#include "ice/prescribed_areas.h"
 #include "ice/sizes.h"
 
 #define CONCENTRATION 0.8
@@ -41,7 +41,7 @@ static int field(const char *name, const fl_sizes *s, int32_t n, double *area, d
 {
     const double side = sqrt(n), mean = CONCENTRATION;
     const fl_outline in = {.lo = {-0.5 * side, -0.5 * side}, .hi = {0.5 * side, 0.5 * side}};
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     fl_floes a = {0};
     fl_err err = {0};
     double off, total = 0.0;
@@ -53,7 +53,8 @@ static int field(const char *name, const fl_sizes *s, int32_t n, double *area, d
         area[i] = area[j];
         area[j] = x;
     }
-    if (fl_laguerre_floes(&c, &a, n, 61, area, &in, 2, CONCENTRATION, 1e-4, (fl_vec2){0, 0}, &off, &err)) {
+    if (fl_prescribed_areas_floes(&c, &a, n, 61, area, &in, 2, CONCENTRATION, 1e-4, (fl_vec2){0, 0}, &off,
+                                  &err)) {
         verify_note("%s: %s", name, err.text);
         return -1;
     }
@@ -63,12 +64,12 @@ static int field(const char *name, const fl_sizes *s, int32_t n, double *area, d
     }
     qsort(area, (size_t)n, sizeof *area, ascending);
     snprintf(what, sizeof what, "%s, %d floes: distance of distributions", name, n);
-    verify_below("S6", what, fl_sizes_distance(s, mean, n, area), bound);
+    verify_below("S6", what, fl_sizes_ks_distance(s, mean, n, area), bound);
     snprintf(what, sizeof what, "%s, %d floes: largest diameter over smallest", name, n);
     verify_row("S6", what, sqrt(area[n - 1] / area[0]), RATIO, 0.01, VERIFY_REL);
     snprintf(what, sizeof what, "%s, %d floes: concentration", name, n);
     verify_row("S6", what, total / n, CONCENTRATION, 1e-12, VERIFY_REL);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
     fl_floes_free(&a);
     return 0;
 }
@@ -82,7 +83,7 @@ int main(int argc, char **argv)
     fl_err err = {0};
     double *area = fl_alloc(10000, sizeof *area, &err);
     (void)argc;
-    fl_par_wait_briefly(argv);
+    fl_parallel_limit_spin(argv);
     verify_begin("Floes of asked sizes");
     for (int k = 0; area && k < (verify_quick() ? 1 : 2); k++) {
         const int32_t n = size[k].n;

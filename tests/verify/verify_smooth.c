@@ -5,7 +5,7 @@
 #include "base/pi.h"
 #include "base/rng.h"
 #include "narrow/gjk.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/shapes.h"
 #include "support/verify.h"
 
@@ -38,7 +38,7 @@ static fl_pair at(lab *l, fl_vec3 x, fl_quat q)
 static double off_gradient(lab *l, fl_vec3 x, fl_quat q, double step)
 {
     const fl_pair now = at(l, x, q);
-    const double arm = l->w.b.bound[0], size = v3_norm(now.f) + v3_norm(now.ti) / arm;
+    const double arm = l->w.b.bounding_radius[0], size = v3_norm(now.force) + v3_norm(now.torque_i) / arm;
     double best = INFINITY;
     for (int k = 0; k < 4; k++, step /= 3.0) {
         double worst = 0.0;
@@ -50,7 +50,7 @@ static double off_gradient(lab *l, fl_vec3 x, fl_quat q, double step)
                 w[s] = d < 3 ? at(l, v3_madd(x, h, e), q).energy
                              : at(l, x, q_mul(q_of_vector(v3_scale(h / arm, e)), q)).energy;
             }
-            const double told = d < 3 ? v3_dot(now.f, e) : v3_dot(now.ti, e) / arm;
+            const double told = d < 3 ? v3_dot(now.force, e) : v3_dot(now.torque_i, e) / arm;
             worst = fmax(worst, fabs((w[0] - w[1]) / (2.0 * step) + told) / size);
         }
         best = fmin(best, worst);
@@ -194,7 +194,7 @@ static double jump(lab *l, fl_vec3 x, fl_quat q, double way, int steps)
     for (int k = 1; k <= steps; k++) {
         const double h = 2.0 * way / steps;
         const fl_pair now = at(l, v3(x.x - way + k * h, x.y, x.z), q);
-        const double work = 0.5 * h * (was.f.x + now.f.x);
+        const double work = 0.5 * h * (was.force.x + now.force.x);
         worst = fmax(worst, fabs(now.energy - was.energy + work) / now.energy);
         was = now;
     }
@@ -207,7 +207,7 @@ static void valleys(void)
     verify_note("a corner and an edge go over the seam of two panels that rise on both sides, in steps of 2 "
                 "um: what the energy changes by beyond the work, over the energy");
     for (int k = 0; k < 4; k++) {
-        const fl_quat upon_edge = q_about(1, PI / 4.0), upon_corner = q_of_vector(v3(0.7, 0.6, 0.3));
+        const fl_quat upon_edge = q_about_axis(1, PI / 4.0), upon_corner = q_of_vector(v3(0.7, 0.6, 0.3));
         char what[96];
         lab l;
         lab_start(&l);
@@ -254,7 +254,8 @@ static void rims(void)
 static void inner_corners(void)
 {
     const double bends[3] = {90, 30, 2};
-    const fl_quat q = q_mul(q_about(1, 0.6154797), q_about(0, PI / 4.0)); /* a corner of the box below all */
+    const fl_quat q =
+        q_mul(q_about_axis(1, 0.6154797), q_about_axis(0, PI / 4.0)); /* a corner of the box below all */
     fl_vec3 low = v3(0, 0, 1);
     for (int k = 0; k < 8; k++) {
         const fl_vec3 r = q_rotate(q, v3(k & 1 ? 0.3 : -0.3, k & 2 ? 0.3 : -0.3, k & 4 ? 0.3 : -0.3));
@@ -330,7 +331,7 @@ static void fins(void)
         lab_box(&l, v3(50, 0, 0), v3(0.55, 0.45, 0.35), RADIUS, q_one(), ZERO, ZERO);
         triangles(&l, 10, v, fin ? 8 : 6, t, q_one());
         lab_make(&l, 1e-9);
-        const fl_quat lean = q_about(1, 0.3);
+        const fl_quat lean = q_about_axis(1, 0.3);
         const fl_vec3 upon = v3(0.4, 0.1, 0.5 * sin(0.3) + 0.3 * cos(0.3) + RADIUS - 0.004);
         W[fin][0] = at(&l, upon, lean).energy;
         W[fin][1] = at(&l, v3(0.1, 0.1, 0.346), q_one()).energy;
@@ -359,15 +360,16 @@ static void poles(void)
             fl_rng g = fl_rng_of(1, k, FL_RNG_TEST);
             const double s = 0.1 * fl_rng_in(&g, 0.1, 0.9), lean = fl_rng_in(&g, 0.6, 0.9),
                          yaw = fl_rng_in(&g, -0.3, 0.3), up = fl_rng_in(&g, 0, 3);
-            const fl_quat q[2] = {q_mul(q_about(2, yaw), q_about(1, lean)),
-                                  q_mul(q_about(0, up), q_of_vector(v3(0, 0.2 * yaw, 0.1 * yaw)))};
+            const fl_quat q[2] = {q_mul(q_about_axis(2, yaw), q_about_axis(1, lean)),
+                                  q_mul(q_about_axis(0, up), q_of_vector(v3(0, 0.2 * yaw, 0.1 * yaw)))};
             const fl_vec3 on[2] = {
                 q_rotate(q[0], v3(-0.5, fl_rng_in(&g, -0.2, 0.2), -0.3)),
                 q_rotate(q[1], v3(-0.5, fl_rng_in(&g, -0.38, 0.38), fl_rng_in(&g, -0.28, 0.28)))};
             for (int face = 0; face < 2; face++) {
                 const fl_vec3 x = v3(r + 0.1 - s - on[face].x, -on[face].y, -on[face].z);
                 const fl_pair p = at(&l, x, q[face]);
-                if (p.n && !p.deep) worst[face] = fmax(worst[face], off_gradient(&l, x, q[face], 1e-5));
+                if (p.touching && !p.cores_overlap)
+                    worst[face] = fmax(worst[face], off_gradient(&l, x, q[face], 1e-5));
             }
             lab_free(&l);
         }
@@ -380,13 +382,13 @@ static void poles(void)
     lab_box(&l, v3(50, 0, 0), v3(0.6, 0.5, 0.4), 0.1, q_one(), ZERO, ZERO);
     lab_cone(&l, (fl_cone){v3(0, 0, -5), v3(0, 0, 5), 1, 1});
     lab_make(&l, 1e-9);
-    const fl_quat q = q_about(1, PI / 4.0);
+    const fl_quat q = q_about_axis(1, PI / 4.0);
     const fl_vec3 e = q_rotate(q, v3(-0.5, 0.4, -0.3));
     const double x0 = 1.05, y0 = sqrt(1.1 * 1.1 - x0 * x0);
     const fl_pair a = at(&l, v3(x0 - e.x, y0 - e.y - 1e-12, 0), q),
                   b = at(&l, v3(x0 - e.x, y0 - e.y + 1e-12, 0), q);
     verify_below("SH7", "where the end of an edge passes s = 0: change of the force over 2 pm",
-                 v3_norm(v3_sub(a.f, b.f)) / v3_norm(a.f), 1e-10);
+                 v3_norm(v3_sub(a.force, b.force)) / v3_norm(a.force), 1e-10);
     lab_free(&l);
 }
 
@@ -442,11 +444,11 @@ static void discs(void)
     for (int k = 0; k < (verify_quick() ? 6 : 40); k++) {
         const fl_quat lies =
             q_mul(q_of_vector(v3(0, 0.02 * fl_rng_in(&g, -1, 1), 0.02 * fl_rng_in(&g, -1, 1))),
-                  q_about(1, PI / 2.0));
+                  q_about_axis(1, PI / 2.0));
         const double s = 0.1 * fl_rng_in(&g, 0.3, 0.9);
         const fl_vec3 x = v3(1.3 - s, fl_rng_in(&g, -0.5, 0.5), fl_rng_in(&g, -0.5, 0.5));
         const fl_pair p = at(&l, x, lies);
-        if (p.n && !p.deep) worst = fmax(worst, off_gradient(&l, x, lies, 1e-5));
+        if (p.touching && !p.cores_overlap) worst = fmax(worst, off_gradient(&l, x, lies, 1e-5));
     }
     lab_free(&l);
     verify_below("SH9", "a disc of 240 corners: |F + grad W| / F", worst, 3e-7);
@@ -461,7 +463,7 @@ static void wedges(void)
     for (int k = 0; k < 4; k++) {
         const double half = tan(0.5 * degrees[k] * PI / 180.0), tilt = 0.3;
         const fl_vec3 xy[3] = {v3(0, 0, 0), v3(2, -2 * half, 0), v3(2, 2 * half, 0)};
-        const fl_quat q = q_about(1, tilt);
+        const fl_quat q = q_about_axis(1, tilt);
         const fl_vec3 low = q_rotate(q, v3(0.45, 0, -0.2));
         fl_poly wedge = {0};
         fl_err err = {0};
@@ -493,7 +495,7 @@ static void wedges(void)
 static void sharp_made(lab *l, int ahead, int onto)
 {
     const fl_quat turn[3] = {q_of_vector(v3_scale(atan(sqrt(2.0)), v3_unit(v3(1, -1, 0)))),
-                             q_about(0, PI / 4.0), q_one()};
+                             q_about_axis(0, PI / 4.0), q_one()};
     const double low[3] = {0.5 * sqrt(3.0), 0.5 * sqrt(2.0), 0.5};
     const fl_vec3 v[4] = {v3(-3, -3, 0), v3(3, -3, 0), v3(3, 3, 0), v3(-3, 3, 0)}, half = v3(0.5, 0.5, 0.5);
     static const int32_t two[2][3] = {{0, 1, 2}, {0, 2, 3}};
@@ -503,7 +505,7 @@ static void sharp_made(lab *l, int ahead, int onto)
     if (onto == 1) triangles(l, 4, v, 2, two, q_one());
     if (onto == 2) lab_set(l, "boundary.min=none none 0");
     if (onto == 3) lab_cone(l, (fl_cone){v3(-5, 0, -1), v3(5, 0, -1), 1, 1});
-    if (onto == 4) lab_box(l, v3(0, 0, -0.5), half, 0.0, q_about(2, 0.3), ZERO, ZERO);
+    if (onto == 4) lab_box(l, v3(0, 0, -0.5), half, 0.0, q_about_axis(2, 0.3), ZERO, ZERO);
     lab_make(l, 0);
 }
 

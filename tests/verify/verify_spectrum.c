@@ -3,19 +3,19 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
-#include "stat/welch.h"
+#include "stat/power_spectrum.h"
 #include "support/verify.h"
 
-static fl_welch s;
+static fl_power_spectrum s;
 
 static int make(int32_t n, const double *x, double fs, int32_t length, int taper)
 {
     fl_err err = {0};
-    fl_welch_free(&s);
-    return fl_welch_make(&s, n, x, fs, length, taper, &err) == 0;
+    fl_power_spectrum_free(&s);
+    return fl_power_spectrum_make(&s, n, x, fs, length, taper, &err) == 0;
 }
 
 static double normal(fl_rng *g)
@@ -35,14 +35,16 @@ static void sine(void)
     verify_true("W01", "2 sin(2 pi 10 t), 100 Hz, Hann 1000, half overlap",
                 make(N, x, 100.0, 1000, FL_TAPER_HANN));
     verify_row("W01", "peak of the spectrum [1/Hz]", s.psd[100], 13.3333, 1e-5, VERIFY_REL);
-    verify_row("W01", "its frequency [Hz]", fl_welch_dominant(&s, NULL), 10.0, 1e-9, VERIFY_ABS);
-    verify_row("W02", "integral of the spectrum, A^2 / 2", fl_welch_power(&s), 2.0, 1e-12, VERIFY_REL);
+    verify_row("W01", "its frequency [Hz]", fl_power_spectrum_dominant(&s, NULL), 10.0, 1e-9, VERIFY_ABS);
+    verify_row("W02", "integral of the spectrum, A^2 / 2", fl_power_spectrum_variance(&s), 2.0, 1e-12,
+               VERIFY_REL);
     for (int taper = 0; taper < FL_TAPERS; taper++) {
         char what[80];
         const int ok = make(N, x, 100.0, 1000, taper);
         snprintf(what, sizeof what, "noise bandwidth of %s [df]", name[taper]);
         verify_row("W03", what, ok ? s.enbw / s.df : (double)NAN, bins[taper], 0.005, VERIFY_ABS);
-        verify_row("W04", "integral of the spectrum, A^2 / 2", fl_welch_power(&s), 2.0, 1e-12, VERIFY_REL);
+        verify_row("W04", "integral of the spectrum, A^2 / 2", fl_power_spectrum_variance(&s), 2.0, 1e-12,
+                   VERIFY_REL);
     }
 }
 
@@ -56,8 +58,9 @@ static void between(void)
         for (int j = 0; j <= 20; j++) {
             const double f = (10.0 + j / 20.0) / L;
             for (int k = 0; k < N; k++) x[k] = sin(2.0 * PI * f * k + 0.3);
-            worst =
-                make(N, x, 1.0, L, taper) ? fmax(worst, fabs(fl_welch_dominant(&s, NULL) - f) / s.df) : NAN;
+            worst = make(N, x, 1.0, L, taper)
+                        ? fmax(worst, fabs(fl_power_spectrum_dominant(&s, NULL) - f) / s.df)
+                        : NAN;
         }
         verify_below("W05", "dominant frequency of a sine between two bins [df]", worst,
                      taper == FL_TAPER_NONE ? 0.2 : 0.02);
@@ -82,13 +85,13 @@ static void process(void)
             const double w = 2.0 * PI * k / L;
             const double want = 2.0 / (1.0 - 2.0 * a * cos(w) + a * a);
             double low, high;
-            fl_welch_interval(&s, k, &low, &high);
+            fl_power_spectrum_interval(&s, k, &low, &high);
             held += low <= want && want <= high;
             below += high < want;
             ratio += s.psd[k] / want;
             all += 1.0;
         }
-        power += fl_welch_power(&s) / runs;
+        power += fl_power_spectrum_variance(&s) / runs;
     }
     verify_true("W10", "spectra of an autoregressive process", ok);
     /* Five standard errors: of P over its closed form sqrt(2 / nu) for each, of a share sqrt(p (1 - p)); and
@@ -116,7 +119,7 @@ static void crossings(void)
     for (int k = 0; k < N; k++) x[k] = normal(&g);
     const int ok = make(N, x, 2.0, 512, FL_TAPER_HANN);
     verify_row("W13", "crossings of white noise, fs / (2 sqrt 3) [Hz]",
-               ok ? fl_welch_crossings(&s) : (double)NAN, 1.0 / sqrt(3.0), 0.01, VERIFY_REL);
+               ok ? fl_power_spectrum_crossing_rate(&s) : (double)NAN, 1.0 / sqrt(3.0), 0.01, VERIFY_REL);
 }
 
 int main(void)
@@ -126,6 +129,6 @@ int main(void)
     between();
     process();
     crossings();
-    fl_welch_free(&s);
+    fl_power_spectrum_free(&s);
     return verify_end();
 }

@@ -15,7 +15,7 @@
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "support/lab.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 
 #define HALF_DIGIT 5.01e-6 /* of a table printed to five decimals, and its rounding */
@@ -69,11 +69,11 @@ static impact collide(lab *l, int64_t most)
     for (int64_t k = 0; k < most; k++) {
         if (lab_run(l, 1)) break;
         p = lab_pair(l, 0);
-        s[0] = s[1], s[1] = s[2], s[2] = p.n ? p.overlap : 0.0;
-        f[0] = f[1], f[1] = f[2], f[2] = p.n ? v3_norm(p.f) : 0.0;
+        s[0] = s[1], s[1] = s[2], s[2] = p.touching ? p.overlap : 0.0;
+        f[0] = f[1], f[1] = f[2], f[2] = p.touching ? v3_norm(p.force) : 0.0;
         if (s[1] >= s[0] && s[1] >= s[2]) r.depth = fmax(r.depth, peak(s));
         if (f[1] >= f[0] && f[1] >= f[2]) r.force = fmax(r.force, peak(f));
-        if (p.n == 0 && r.depth > 0.0) break;
+        if (p.touching == 0 && r.depth > 0.0) break;
     }
     /* The end lies inside the last step: go back by the gap over the speed of separation. */
     const fl_bodies *b = &l->w.b;
@@ -216,7 +216,7 @@ static double sticking(const matter *m, double R, double v, double angle, double
 {
     const double mass = m->density * 4.0 / 3.0 * PI * R * R * R, inertia = 0.4 * mass * R * R,
                  k = 4.0 / 3.0 * m->young / (1.0 - m->poisson * m->poisson) * sqrt(R), ratio = mindlin(m),
-                 chi = fl_damping_crossley(e) / (v * cos(angle)),
+                 chi = fl_damping_hunt_crossley(e) / (v * cos(angle)),
                  dt = 3.0 * pow(mass * mass / (k * k * v), 0.2) / 100000;
     double s = 0.0, u = v * cos(angle), vt = v * sin(angle), w = 0.0, spring = 0.0, fn = 0.0, ft = 0.0,
            kt = 0.0;
@@ -454,7 +454,7 @@ static void V09_solver(void)
     }
 }
 
-/* Against one that is held in some directions (FL_HOLD_X | ...), whatever it weighs, or moves so many times
+/* Against one that is held in some directions (FL_DOF_X | ...), whatever it weighs, or moves so many times
  * the mass of the other of water with it; a box along x alone. */
 static double on_held(const char *law, double radius, int box, unsigned hold, double water, double e)
 {
@@ -468,12 +468,12 @@ static double on_held(const char *law, double radius, int box, unsigned hold, do
     else lab_sphere(&l, x, radius, none, none);
     lab_make(&l, 0);
     const int32_t flies = l.w.b.v[0].x > 0.0 ? 0 : 1;
-    l.w.b.hold[1 - flies] = (uint8_t)hold;
+    l.w.b.fixed_dof[1 - flies] = (uint8_t)hold;
     if (water > 0.0) {
         fl_err err = {0};
-        if (fl_bodies_add_mass(&l.w.b, &err)) exit(1);
+        if (fl_bodies_alloc_added_mass(&l.w.b, &err)) exit(1);
         const double m = water * l.w.b.m[flies];
-        l.w.b.added[1 - flies] = box ? v3(m, 0, 0) : v3(m, m, m);
+        l.w.b.added_mass[1 - flies] = box ? v3(m, 0, 0) : v3(m, m, m);
     }
     l.w.dt /= 20.0;
     while (l.w.b.v[flies].x > 0.0 || l.w.b.x[flies].x > 0.1)
@@ -486,7 +486,8 @@ static double on_held(const char *law, double radius, int box, unsigned hold, do
 static void V10(void)
 {
     const int fine = verify_quick() ? 100 : 1000;
-    verify_row("V10", "D of Hunt-Crossley for e = 0.5", fl_damping_crossley(0.5), 1.432751, 1e-6, VERIFY_REL);
+    verify_row("V10", "D of Hunt-Crossley for e = 0.5", fl_damping_hunt_crossley(0.5), 1.432751, 1e-6,
+               VERIFY_REL);
     verify_row("V10", "boxes by patch: e", boxes("patch", "1", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
     verify_row("V10", "boxes by core, n = 1: e", boxes("core", "1", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
     verify_row("V10", "boxes by core, n = 3/2: e", boxes("core", "1.5", 0.5, fine), 0.5, 1e-5, VERIFY_ABS);
@@ -502,12 +503,12 @@ static void V10(void)
         verify_row("V10", text(who, "patch, e"), on_held("patch", r, 1, 63, 0, 0.3), 0.3, 2e-3, VERIFY_ABS);
         for (int box = 0; box < 2; box++) {
             snprintf(who, sizeof who, "on a %s of %g m", box ? "box" : "sphere", (box ? 2.0 : 1.0) * r);
-            verify_row("V10", text("held along x alone:", who), on_held("patch", r, box, FL_HOLD_X, 0, 0.3),
+            verify_row("V10", text("held along x alone:", who), on_held("patch", r, box, FL_DOF_X, 0, 0.3),
                        0.3, 2e-3, VERIFY_ABS);
             verify_row("V10", text("with water:", who), on_held("patch", r, box, 0, 8, 0.3), 0.3, 2e-3,
                        VERIFY_ABS);
         }
-        verify_row("V10", "the same by manual-si", on_held("manual-si", r, 1, FL_HOLD_X, 0, 0.3), 0.3, 0.02,
+        verify_row("V10", "the same by manual-si", on_held("manual-si", r, 1, FL_DOF_X, 0, 0.3), 0.3, 0.02,
                    VERIFY_ABS);
     }
     double h[4], error[4];
@@ -535,9 +536,10 @@ static void V13(void)
         lab_setf(&l, "run.gravity=%.17g 0 %.17g", g * sin(a), -g * cos(a));
         lab_set(&l, "contact.restitution=0.3");
         lab_setf(&l, "contact.friction=%.17g", 2.0 * 2.0 / 7.0 * tan(a));
-        const double kappa = fl_material_hertz(fl_material_modulus((fl_elastic){NYLON.young, NYLON.poisson},
-                                                                   (fl_elastic){INFINITY, 0.0}),
-                                               R),
+        const double kappa = fl_material_hertz(
+                         fl_material_modulus((fl_elastic_constants){NYLON.young, NYLON.poisson},
+                                             (fl_elastic_constants){INFINITY, 0.0}),
+                         R),
                      weight = NYLON.density * 4.0 / 3.0 * PI * R * R * R * g * cos(a);
         lab_sphere(&l, v3(0, 0, R - pow(weight / kappa, 2.0 / 3.0)), R, v3(0, 0, 0), v3(0, 0, 0));
         lab_make(&l, 1e-5);
@@ -583,7 +585,7 @@ static void V14(void)
         if (c == 0) mean[0] = sum;
         if (c == windows - 1) mean[1] = sum;
     }
-    verify_true("V14", "all three contacts held at every step", l.w.touching_steps == 3 * l.w.step);
+    verify_true("V14", "all three contacts held at every step", l.w.contact_steps == 3 * l.w.step);
     verify_note("%d steps; kinetic energy at the start %g of the whole", windows * SAMPLES * EVERY,
                 swing / start);
     verify_below("V14", "largest |dE|/E", worst, 1e-6);

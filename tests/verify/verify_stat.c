@@ -2,13 +2,13 @@
 /* Load statistics against numbers of scipy 1.10 and closed forms. */
 #include <math.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
-#include "stat/butter.h"
-#include "stat/describe.h"
+#include "stat/butterworth.h"
+#include "stat/descriptive_stats.h"
 #include "stat/extreme.h"
-#include "stat/movemean.h"
+#include "stat/moving_mean.h"
 #include "stat/peaks.h"
 #include "stat/resample.h"
 #include "support/verify.h"
@@ -17,13 +17,13 @@ static void sample(void)
 {
     static const double x[] = {52.1, 60.3, 47.8, 71.5, 66.2, 58.4,  83.7, 49.9, 55.0, 91.2,
                                62.6, 77.3, 68.8, 45.2, 59.7, 102.4, 73.1, 64.5, 53.6, 80.9};
-    fl_describe d;
-    fl_describe_moments(20, x, NULL, &d);
+    fl_descriptive_stats d;
+    fl_compute_moments(20, x, NULL, &d);
     verify_row("L01", "mean of the sample of 20", d.mean, 66.21, 1e-12, VERIFY_REL);
     verify_row("L02", "standard deviation s(n-1)", d.std_sample, 15.123105, 1e-7, VERIFY_REL);
     verify_row("L03", "standard deviation s(n)", d.std, 14.740180, 1e-7, VERIFY_REL);
     verify_row("L04", "skewness g1", d.skew, 0.722765, 1e-6, VERIFY_REL);
-    verify_row("L05", "exceedance of the largest of 20", fl_extreme_position(1, 20), 1.0 / 21.0, 1e-15,
+    verify_row("L05", "exceedance of the largest of 20", fl_plotting_position(1, 20), 1.0 / 21.0, 1e-15,
                VERIFY_REL);
 }
 
@@ -34,19 +34,20 @@ static void filter(void)
     static const double freq[] = {1.0, 5.0, 10.0, 20.0},
                         gain[] = {0.9999988, 0.7071068, 0.0563709, 0.0022584};
     fl_err err = {0};
-    fl_butter f;
+    fl_butterworth f;
     double b[5], a[5];
-    if (fl_butter_low(&f, 4, 5.0, 100.0, &err)) {
+    if (fl_butterworth_low(&f, 4, 5.0, 100.0, &err)) {
         verify_true("L10", "filter of order 4 at 5 Hz of 100 Hz is designed", 0);
         return;
     }
-    fl_butter_polynomials(&f, b, a);
+    fl_butterworth_polynomials(&f, b, a);
     for (int k = 0; k < 5; k++)
         verify_row("L10", "Butterworth a, order 4, 5 Hz of 100 Hz", a[k], want_a[k], 1e-8, VERIFY_REL);
     for (int k = 0; k < 5; k++)
         verify_row("L11", "Butterworth b", b[k], 4.166e-4 * want_b[k], 1e-4, VERIFY_REL);
     for (int k = 0; k < 4; k++)
-        verify_row("L12", "gain at 1, 5, 10, 20 Hz", fl_butter_gain(&f, freq[k]), gain[k], 5e-8, VERIFY_ABS);
+        verify_row("L12", "gain at 1, 5, 10, 20 Hz", fl_butterworth_gain(&f, freq[k]), gain[k], 5e-8,
+                   VERIFY_ABS);
 }
 
 /* The response to a sine, measured, against the square of the gain of one pass; and its phase. */
@@ -57,10 +58,10 @@ static void zero_phase(void)
     static const double freq[] = {1.0, 4.0, 5.0, 10.0};
     for (int j = 0; j < 4; j++) {
         fl_err err = {0};
-        fl_butter f;
+        fl_butterworth f;
         double in = 0.0, out = 0.0, side = 0.0;
         for (int k = 0; k < N; k++) x[k] = sin(2.0 * PI * freq[j] * k / 100.0);
-        if (fl_butter_low(&f, 4, 5.0, 100.0, &err) || fl_butter_zero_phase(&f, N, x, y, &err)) {
+        if (fl_butterworth_low(&f, 4, 5.0, 100.0, &err) || fl_butterworth_zero_phase(&f, N, x, y, &err)) {
             verify_true("L13", "zero-phase filter runs", 0);
             return;
         }
@@ -69,8 +70,8 @@ static void zero_phase(void)
             out += x[k] * y[k];
             side += cos(2.0 * PI * freq[j] * k / 100.0) * y[k];
         }
-        verify_row("L13", "zero-phase gain at 1, 4, 5, 10 Hz", out / in, pow(fl_butter_gain(&f, freq[j]), 2),
-                   1e-10, VERIFY_ABS);
+        verify_row("L13", "zero-phase gain at 1, 4, 5, 10 Hz", out / in,
+                   pow(fl_butterworth_gain(&f, freq[j]), 2), 1e-10, VERIFY_ABS);
         verify_row("L14", "its phase [rad]", atan2(side, out), 0.0, 1e-9, VERIFY_ABS);
     }
 }
@@ -92,14 +93,14 @@ static void other_filters(void)
         for (int k = 0; k < N; k++) x[k] = sin(2.0 * PI * freq[j] * k / 100.0);
         for (int kind = 0; kind < 3; kind++) {
             fl_err err = {0};
-            fl_butter f;
+            fl_butterworth f;
             double in = 0.0, out = 0.0;
             int rc;
-            if (kind == 2) rc = fl_movemean(N, edge, x, 0.31, y, &err);
+            if (kind == 2) rc = fl_moving_mean(N, edge, x, 0.31, y, &err);
             else
-                rc = (kind ? fl_butter_band(&f, 4, 2.0, 8.0, 100.0, &err)
-                           : fl_butter_high(&f, 4, 2.0, 100.0, &err)) ||
-                     fl_butter_zero_phase(&f, N, x, y, &err);
+                rc = (kind ? fl_butterworth_band(&f, 4, 2.0, 8.0, 100.0, &err)
+                           : fl_butterworth_high(&f, 4, 2.0, 100.0, &err)) ||
+                     fl_butterworth_zero_phase(&f, N, x, y, &err);
             for (int k = FROM; k < TO; k++) {
                 in += x[k] * x[k];
                 out += x[k] * y[k];
@@ -120,11 +121,11 @@ static void laws(void)
     fl_rng g = fl_rng_of(1, 0, FL_RNG_TEST);
     int ok = x && down && rank;
     for (int32_t k = 0; ok && k < n; k++) x[k] = -log(1.0 - fl_rng_unit(&g)); /* exponential, mean 1 */
-    ok = ok && !fl_describe_quantiles(n, x, NULL, 3, p, q, &err) && !fl_extreme_rank(n, x, rank, &err);
+    ok = ok && !fl_compute_quantiles(n, x, NULL, 3, p, q, &err) && !fl_rank_descending(n, x, rank, &err);
     verify_true("L20", "an exponential sample is described", ok);
     if (ok) {
-        fl_describe d;
-        fl_describe_moments(n, x, NULL, &d);
+        fl_descriptive_stats d;
+        fl_compute_moments(n, x, NULL, &d);
         for (int32_t k = 0; k < n; k++) down[k] = x[rank[k]];
         /* Five standard errors: of a quantile sqrt(p (1 - p) / n) / f(q), with f(q) = 1 - p; of the mean of
          * the highest share a, whose excess over its lower end has mean and deviation 1, sqrt((2 - a) / (a
@@ -133,9 +134,9 @@ static void laws(void)
         for (int j = 0; j < 3; j++)
             verify_row("L20", "exponential quantile 0.5, 0.9, 0.99", q[j], -log(1.0 - p[j]),
                        5.0 * sqrt(p[j] / (1.0 - p[j]) / n), VERIFY_ABS);
-        verify_row("L21", "its highest third, 1 + ln 3", fl_describe_highest(n, down, 1.0 / 3.0),
+        verify_row("L21", "its highest third, 1 + ln 3", fl_mean_of_highest(n, down, 1.0 / 3.0),
                    1.0 + log(3.0), 5.0 * sqrt(5.0 / n), VERIFY_ABS);
-        verify_row("L22", "its highest tenth, 1 + ln 10", fl_describe_highest(n, down, 0.1), 1.0 + log(10.0),
+        verify_row("L22", "its highest tenth, 1 + ln 10", fl_mean_of_highest(n, down, 0.1), 1.0 + log(10.0),
                    5.0 * sqrt(19.0 / n), VERIFY_ABS);
         verify_row("L23", "its skewness", d.skew, 2.0, 5.0 * sqrt(72.0 / n), VERIFY_ABS);
         verify_row("L24", "its excess kurtosis", d.kurtosis, 6.0, 5.0 * sqrt(8064.0 / n), VERIFY_ABS);

@@ -5,9 +5,9 @@
 #include "base/rng.h"
 #include "law/damping.h"
 #include "sim/energy_balance.h"
-#include "step/balls.h"
-#include "step/critical.h"
-#include "support/lab.h"
+#include "sphere/contact_list.h"
+#include "sim/critical_step.h"
+#include "support/small_world.h"
 #include "support/shapes.h"
 #include "support/verify.h"
 #include "world/access.h"
@@ -33,12 +33,12 @@ static void accelerations(fl_world *w, const fl_vec3 *x, const fl_quat *q, doubl
     fl_err err = {0};
     for (int32_t i = 0; i < w->n; i++)
         lab_pose(w, i, v3_madd(x[i], e, u->shift[i]), q_mul(q_of_vector(v3_scale(e, u->turn[i])), q[i]));
-    for (int32_t i = 0; i < w->n; i++) fl_body_derive(&w->b, i);
-    w->found_at = -1;
+    for (int32_t i = 0; i < w->n; i++) fl_body_update_spin(&w->b, i);
+    w->last_search_step = -1;
     if (fl_step_start(w, &err)) exit(1);
     for (int32_t i = 0; i < w->n; i++) {
         a->shift[i] = v3_scale(w->b.invm[i], w->b.f[i]);
-        a->turn[i] = fl_body_turn(&w->b, i, w->b.t[i]);
+        a->turn[i] = fl_body_apply_inverse_inertia(&w->b, i, w->b.t[i]);
     }
 }
 
@@ -110,7 +110,7 @@ static void two_spheres(void)
     for (int above = 0; above < 2; above++) {
         fl_err err = {0};
         l.w.dt = (above ? 1.001 : 0.999) * l.w.dt_critical;
-        l.w.found_at = -1;
+        l.w.last_search_step = -1;
         const int rc = fl_step_start(&l.w, &err);
         if (above) verify_note("%s", err.text);
         verify_true("S01",
@@ -153,8 +153,8 @@ static void heap(const char *id, int32_t side, double squeeze)
         else lab_sphere(&l, v3_scale(squeeze, cell), 0.5, v3(0, 0, 0), v3(0, 0, 0));
     }
     lab_make(&l, 1e-9);
-    fl_pair_walk at = {.w = &l.w};
-    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) touching += p->n > 0;
+    fl_pair_iterator at = {.w = &l.w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) touching += p->touching > 0;
     verify_note("%d boxes and spheres in a heap, %lld contacts", l.w.n, (long long)touching);
     judge(id, &l, 1e-3, 4.0);
     lab_free(&l);
@@ -170,7 +170,7 @@ static void pinched(const char *id, double half, double share)
     lab_wall(&l, v3(from, -to, gap), v3(to, to, gap + 1.0), 1);
     lab_wall(&l, v3(from, -to, -gap - 1.0), v3(to, to, -gap), 1);
     lab_make(&l, 1e-9);
-    const double stable = 2.0 / highest(&l.w, r), bound = fl_world_critical(&l.w);
+    const double stable = 2.0 / highest(&l.w, r), bound = fl_critical_step(&l.w);
     lab_free(&l);
     verify_note("a capsule %g times as long as thick, pressed at %g of its length: stable up to %.3g of what "
                 "the step starts from",
@@ -204,11 +204,11 @@ static void settle(lab *l)
 {
     for (int k = 0; k < 60000 && (k < 100 || speed(&l->w.b) > 1e-11); k += 100) {
         const double dt = fmin(2e-4, 0.02 * l->w.dt_critical); /* what only begins to touch is soft */
-        if (isfinite(l->w.dt_critical)) fl_step_resize(&l->w, dt, fl_world_time(&l->w));
+        if (isfinite(l->w.dt_critical)) fl_step_set_size(&l->w, dt, fl_world_time(&l->w));
         if (lab_run(l, 100)) exit(1);
     }
     for (int64_t k = 0; k < l->w.n_pair; k++)
-        if (l->w.pair[k].n) l->w.pair[k].full->touch = 0.0;
+        if (l->w.pair[k].touching) l->w.pair[k].contact->max_approach_speed = 0.0;
 }
 
 /* At rest under its weight and damped by the restitution e; rough, if it is to be pushed across. */
@@ -223,7 +223,7 @@ static void resting(lab *l, const lying *s, int across, double e)
     lab_set(l, "contact.stiffness=5e6");
     lab_setf(l, "contact.friction=%g", across ? 0.9 : 0.0);
     if (s->half.x > 0.0)
-        lab_box(l, s->leans > 0.0 ? centre : v3(0, 0, s->half.z), s->half, r, q_about(1, -s->leans),
+        lab_box(l, s->leans > 0.0 ? centre : v3(0, 0, s->half.z), s->half, r, q_about_axis(1, -s->leans),
                 v3(0, 0, 0), v3(0, 0, 0));
     else lab_sphere(l, v3(0, 0, 0.499), 0.5, v3(0, 0, 0), v3(0, 0, 0));
     if (s->step) { /* its edge just under the face, at nine tenths of that */
@@ -241,7 +241,7 @@ static int dies(lab *l, int across, double share)
     double most = 0.0;
     const double push = 1e-9;
     *(across ? &l->w.b.v[0].x : &l->w.b.v[0].z) += push;
-    fl_step_resize(&l->w, share * l->w.dt_critical, fl_world_time(&l->w));
+    fl_step_set_size(&l->w, share * l->w.dt_critical, fl_world_time(&l->w));
     for (int k = 0; k < 400 && most < 1e3 * push; k++) {
         if (lab_run(l, 10)) exit(1);
         most = fmax(most, speed(&l->w.b));
@@ -266,7 +266,7 @@ static void damped(const char *id, const lying *s, int across, double e)
 {
     lab l;
     resting(&l, s, across, e);
-    const double bound = FL_STEADY, stable = largest(&l, across);
+    const double bound = FL_DAMPED_SHARE_MIN, stable = largest(&l, across);
     lab_free(&l);
     verify_note("a %s at rest, e = %g, pushed %s: stable up to %.3g of 2/omega, the bound says %.3g", s->name,
                 e, across ? "across" : "down", stable, bound);
@@ -279,8 +279,8 @@ static double kept(lab *l, int measured)
 {
     int32_t body;
     lab_set(l, measured ? "run.error=0.01" : "run.safety=1");
-    const double share = fl_world_dt(&l->w, &body) / fl_world_critical(&l->w);
-    return measured ? share * fl_world_across(&l->w) : share;
+    const double share = fl_automatic_step(&l->w, &body) / fl_critical_step(&l->w);
+    return measured ? share * fl_lateral_share(&l->w) : share;
 }
 
 static void shaken(const char *id, const lying *s, double e)
@@ -294,8 +294,9 @@ static void shaken(const char *id, const lying *s, double e)
                 s->name, e, stable, half, most);
     verify_below(id, "what runs keep to over the largest that is stable", half / stable, 1.0);
     verify_below(id, "with run.error over the largest that is stable", most / stable, 1.0);
-    verify_below(id, "what damping leaves over the largest that is stable", FL_STEADY / stable, 1.0);
-    verify_below(id, "the largest that is stable over that", stable / FL_STEADY, 1.5);
+    verify_below(id, "what damping leaves over the largest that is stable", FL_DAMPED_SHARE_MIN / stable,
+                 1.0);
+    verify_below(id, "the largest that is stable over that", stable / FL_DAMPED_SHARE_MIN, 1.5);
 }
 
 /* A box runs flat into a wall, in steps of a share of 2/omega: its restitution. */
@@ -321,14 +322,13 @@ static double bounces(double e, double share, double *critical)
 /* Up to what runs keep to at most, the impact has the restitution that it is to have. */
 static void run_into(const char *id, double e)
 {
-    const double left = fl_damping_struck(fl_damping_crossley(e));
+    const double left = fl_damping_impact_share(fl_damping_hunt_crossley(e));
     double limit = 0.0;
     bounces(e, 0.0, &limit);
     for (double part = 0.8; part > 0.05; part *= 0.5) {
         const double critical = limit;
         double again = limit;
-        const double share = part * left,
-                     off = fabs(bounces(e, share, &again) - fmax(e, FL_RESTITUTION_LEAST));
+        const double share = part * left, off = fabs(bounces(e, share, &again) - fmax(e, FL_MIN_RESTITUTION));
         verify_note("a box runs into a wall, e = %g, in steps of %.3g of 2/omega = %.3g s: off by %.2g", e,
                     share, critical, off);
         verify_below(id, "restitution off by", off, 0.2 * share * share);
@@ -338,7 +338,7 @@ static void run_into(const char *id, double e)
 /* The largest step of an impact, where 1 + D u and D s are its stiffness and damping: K dt^2 + 2 C dt = 4. */
 static void struck(const char *id, double e)
 {
-    const double D = fl_damping_crossley(e), bound = fl_damping_crossley_left(D, 1.0);
+    const double D = fl_damping_hunt_crossley(e), bound = fl_hunt_crossley_stable_share(D, 1.0);
     double least = INFINITY;
     for (int k = 0; k <= 1000; k++) { /* s^2 from u du/(1 + D u) = -s ds */
         const double u = 1e-3 * k, s2 = 2.0 * ((1.0 - u) - log((1.0 + D) / (1.0 + D * u)) / D) / D;
@@ -361,7 +361,7 @@ static double beside(int others)
     lab_set(&l, "contact.friction=0.5");
     lab_set(&l, "contact.stiffness=5e6");
     lab_wall(&l, v3(-100, -3, -1), v3(100, 3, 0), 1);
-    lab_box(&l, v3(0, 0, half.z + 0.01), half, 0.05, q_about(1, 0.01), v3(0.2, 0, -0.3), v3(0, 0, 0));
+    lab_box(&l, v3(0, 0, half.z + 0.01), half, 0.05, q_about_axis(1, 0.01), v3(0.2, 0, -0.3), v3(0, 0, 0));
     for (int k = 0; k < others; k++)
         lab_box(&l, v3(3.0 * (k + 1), 0, half.z - 1e-4), half, 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 2e-4);
@@ -393,13 +393,13 @@ static double slotted(double e, double friction, int seed)
     lab_box(&l, v3(1e-5 * r[0], 0, 0), half, 0.05, q_of_vector(v3(0, 1e-5 * r[1], 1e-5 * r[2])),
             v3(level * r[3], level * r[4], level * r[5]), v3(level * r[6], level * r[7], level * r[8]));
     lab_make(&l, 1e-6);
-    fl_step_resize(&l.w, fl_world_dt(&l.w, &body), 0.0);
+    fl_step_set_size(&l.w, fl_automatic_step(&l.w, &body), 0.0);
     const fl_ledger *at = &l.w.ledger;
-    fl_step_ledger(&l.w);
+    fl_energy_update(&l.w);
     const double start = at->kinetic + at->elastic;
     for (int k = 0; k < 2000; k++) {
         if (lab_run(&l, 1)) exit(1);
-        fl_step_ledger(&l.w);
+        fl_energy_update(&l.w);
         most = fmax(most, (at->kinetic + at->elastic) / start);
     }
     lab_free(&l);
@@ -467,7 +467,7 @@ static void sinking(const char *id)
     lab_set(&l, "run.gravity=9.81");
     for (int k = 0; k < 3; k++) lab_sphere(&l, v3(k, 0, 0), 0.125, v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 1e-6);
-    critical = fl_world_critical(&l.w);
+    critical = fl_critical_step(&l.w);
     lab_free(&l);
     const double time = 0.12 * critical * STEPS[0] * TENTHS;
     sink(1536, time, truth);

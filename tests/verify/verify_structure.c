@@ -8,8 +8,8 @@
 #include "base/rng.h"
 #include "law/manual.h"
 #include "sim/energy_balance.h"
-#include "support/lab.h"
-#include "support/sweep.h"
+#include "support/small_world.h"
+#include "support/sweeps.h"
 #include "support/verify.h"
 #include "world/access.h"
 
@@ -48,7 +48,7 @@ static void sphere_and_cylinder(void)
         const fl_pair p = lab_look(&l.w, 0, 1);
         verify_row("V30", at[k].what, p.overlap, at[k].overlap, 1e-14, VERIFY_ABS);
         if (at[k].overlap == 0.0) continue;
-        const fl_vec3 n = v3_scale(1.0 / v3_norm(p.f), p.f);
+        const fl_vec3 n = v3_scale(1.0 / v3_norm(p.force), p.force);
         if (isnan(at[k].n.x))
             verify_row("V30", "  direction: any across the axis", hypot(n.x, n.y), 1.0, 1e-14, VERIFY_ABS);
         else verify_row("V30", "  direction", v3_norm(v3_sub(n, at[k].n)), 0.0, 1e-14, VERIFY_ABS);
@@ -60,7 +60,7 @@ static void crossed_cylinders(void)
 {
     const double degrees[4] = {90, 60, 30, 15}, R[4] = {0.1, 0.1154700538379252, 0.2, 0.3863703305156273};
     for (int k = 0; k < 4; k++) {
-        const fl_manual_contact c = {.touch = FL_TOUCH_EE,
+        const fl_manual_contact c = {.kind = FL_MANUAL_EE,
                                      .sine = sin(degrees[k] * PI / 180),
                                      .r_low = 0.1,
                                      .r_high = 0.1,
@@ -110,7 +110,7 @@ static fl_vec3 start_of_slide;
 static fl_vec3 force_at(lab *l, double s)
 {
     l->w.b.x[0] = v3_add(start_of_slide, v3(s, 0.37 * s, 0));
-    return lab_look(&l->w, 0, 1).f;
+    return lab_look(&l->w, 0, 1).force;
 }
 
 static double force_change(void *what, double s, double t)
@@ -132,8 +132,9 @@ static void triangles(void)
                 lab l;
                 on_face(&l, (enum face)kind, ns[k / 2], k % 2, sphere);
                 const fl_pair p = lab_look(&l.w, 0, 1);
-                if (k == 0) f0 = p.f, t0 = p.ti;
-                off = fmax(off, fmax(v3_norm(v3_sub(p.f, f0)), v3_norm(v3_sub(p.ti, t0))) / v3_norm(f0));
+                if (k == 0) f0 = p.force, t0 = p.torque_i;
+                off = fmax(off,
+                           fmax(v3_norm(v3_sub(p.force, f0)), v3_norm(v3_sub(p.torque_i, t0))) / v3_norm(f0));
                 start_of_slide = l.w.b.x[0];
                 if (k % 2 == 0) /* over some ten seams of the finest */
                     bump = fmax(bump, sweep_largest(force_change, &l, 0.0, 0.3, 1e-3));
@@ -170,7 +171,7 @@ static void rounded(void)
             verify_row("H29", "  faces", piece->core.nf, 6, 0, VERIFY_ABS);
             verify_row("H29", "  vertices", piece->core.nv, 8, 0, VERIFY_ABS);
         }
-        f[k] = lab_look(&l.w, 0, 1).f;
+        f[k] = lab_look(&l.w, 0, 1).force;
         lab_free(&l);
     }
     /* a plane through rounded corners is off by 1e-7 m against an overlap of 0.01 m */
@@ -221,7 +222,7 @@ static double walk_change(void *what, double s, double t)
     w->l->w.b.x[0] = v3_sub(w->path(t), w->tip);
     const fl_pair b = lab_look(&w->l->w, 0, 1);
     if (w->energy) return fabs(b.energy - a.energy) / fmax(a.energy, b.energy);
-    return v3_norm(v3_sub(b.f, a.f)) / fmax(v3_norm(a.f), v3_norm(b.f));
+    return v3_norm(v3_sub(b.force, a.force)) / fmax(v3_norm(a.force), v3_norm(b.force));
 }
 
 /* A needle of 1 m whose tip points towards -x - y: it fits into the inner corner. */
@@ -334,7 +335,7 @@ static void impacts(void)
     }
 }
 
-/* --- balls in grooves (bound/passes.h) */
+/* --- balls in grooves (structure/persistence_contact.h) */
 
 /* An L of one part, or of two boxes side by side. */
 static void walls(lab *l, int parts)
@@ -486,10 +487,10 @@ static double tumble(int32_t run, double surrogate, double *worst)
     lab_make(&l, 2e-5);
     for (int k = 0; k < 100; k++) {
         if (lab_run(&l, 600)) exit(1);
-        fl_step_ledger(&l.w);
+        fl_energy_update(&l.w);
         most = fmax(most, fabs(l.w.ledger.residual));
     }
-    if (surrogate > 0.0) *worst = fmax(*worst, fl_surrogate_sum(l.w.told, 1).worst);
+    if (surrogate > 0.0) *worst = fmax(*worst, fl_surrogate_count_sum(l.w.surrogate_counts, 1).worst_error);
     most /= l.w.ledger.throughput;
     lab_free(&l);
     return most;
@@ -574,10 +575,10 @@ static void hull(void)
         const fl_pair now = lab_look(&l.w, 0, 1);
         for (int c = 0; c < 3; c++) {
             const fl_vec3 d = v3_scale(h, axis[c]);
-            df = fmax(df, fabs(v3_dot(now.f, axis[c]) + rises(&l, x, q, d, ZERO) / h));
-            dm = fmax(dm, fabs(v3_dot(now.ti, axis[c]) + rises(&l, x, q, ZERO, d) / h));
+            df = fmax(df, fabs(v3_dot(now.force, axis[c]) + rises(&l, x, q, d, ZERO) / h));
+            dm = fmax(dm, fabs(v3_dot(now.torque_i, axis[c]) + rises(&l, x, q, ZERO, d) / h));
         }
-        const double size = v3_norm(now.f);
+        const double size = v3_norm(now.force);
         if (!(size > 1e3)) df = NAN; /* it does not touch */
         snprintf(what, sizeof what, "%s of a floe on 28 800 triangles: F + grad W, over F", POSE[k].what);
         verify_below("H29", what, df / size, 1e-5);

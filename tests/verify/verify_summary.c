@@ -8,17 +8,17 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/rng.h"
-#include "stat/classes.h"
-#include "stat/describe.h"
-#include "stat/estimate.h"
-#include "stat/exactsum.h"
+#include "stat/log_histogram.h"
+#include "stat/descriptive_stats.h"
+#include "stat/mean_interval.h"
+#include "stat/exact_sum.h"
 #include "support/verify.h"
 
 enum { NIST = 1001 };
 
 static void moments_of(int32_t n, const double *x, const double *w, double out[4])
 {
-    fl_exact s[5] = {{0}};
+    fl_exact_sum s[5] = {{0}};
     fl_err err = {0};
     for (int32_t k = 0; k < n; k++)
         if (fl_exact_add_powers(s, w ? w[k] : 1.0, x[k], &err)) abort();
@@ -77,8 +77,8 @@ static void large_mean(void)
         for (int i = 0; i < N; i++) x[i] += pow(10.0, e);
         moments_of(N, x, w, far);
         for (int k = 1; k < 4; k++) worst = fmax(worst, fabs(far[k] / near[k] - 1.0));
-        fl_describe d;
-        fl_describe_moments(N, x, w, &d);
+        fl_descriptive_stats d;
+        fl_compute_moments(N, x, w, &d);
         two_pass = fmax(two_pass, fabs(d.std / near[1] - 1.0));
     }
     verify_below("shift", "std, skew, kurtosis of values + 10^12 [rel]", worst, 4.0 * DBL_EPSILON);
@@ -102,23 +102,24 @@ static void quantiles(void)
     fl_err err = {0};
     if (!x) abort();
     for (int law = 0; law < 4; law++) {
-        fl_classes c = {0};
-        fl_class *sorted;
+        fl_log_histogram c = {0};
+        fl_log_bin *sorted;
         double lo = INFINITY, hi = -INFINITY;
         for (int32_t k = 0; k < n; k++) {
             fl_rng g = fl_rng_of(5 + (uint64_t)law, k, FL_RNG_TEST);
             x[k] = value_of(&g, law);
             lo = fmin(lo, x[k]);
             hi = fmax(hi, x[k]);
-            if (fl_classes_add(&c, fl_classes_key(x[k]), 1, fl_fixed_of(0.01), &err)) abort();
+            if (fl_log_histogram_add(&c, fl_log_bin_key(x[k]), 1, fl_fixed_time_of(0.01), &err)) abort();
         }
-        if (fl_classes_sort(&c, &sorted, &err) || fl_describe_quantiles(n, x, NULL, P, p, q, &err)) abort();
+        if (fl_log_histogram_sort(&c, &sorted, &err) || fl_compute_quantiles(n, x, NULL, P, p, q, &err))
+            abort();
         for (int j = 0; j < P; j++) {
-            const double got = fl_classes_quantile(c.n, sorted, p[j], lo, hi);
+            const double got = fl_log_histogram_quantile(c.n, sorted, p[j], lo, hi);
             worst = fmax(worst, q[j] == got ? 0.0 : fabs(got - q[j]) / fabs(q[j]));
         }
         free(sorted);
-        fl_classes_free(&c);
+        fl_log_histogram_free(&c);
     }
     free(x);
     verify_below("class", "quantiles of four laws from classes [rel]", worst, 1.0 / 128);
@@ -149,7 +150,7 @@ static void coverage(int n, int law, int many, double *held, double *student)
     for (int k = 0; k < many; k++) {
         fl_rng g = fl_rng_of(11 + (uint64_t)(16 * n + law), k, FL_RNG_TEST);
         for (int i = 0; i < n; i++) x[i] = run_value(&g, law);
-        const fl_estimate e = fl_estimate_mean(n, x);
+        const fl_mean_interval e = fl_mean_interval_of(n, x);
         *held += (e.low <= 0.0 && e.high >= 0.0) / (double)many;
         *student += (fabs(e.mean) <= t * e.std / sqrt(n)) / (double)many;
     }

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "support/verify.h"
-#include "base/mem.h"
-#include "ice/cells.h"
+#include "base/array.h"
+#include "ice/power_cells.h"
 
 /* At one site to the unit of area no cell of a million reaches farther than 3 for its corners, and so 6 for
  * its neighbours: an empty circle of radius 3 has probability exp(-9 pi). */
@@ -22,7 +22,7 @@ struct stats {
 };
 
 /* Cells of site[n] in the periodic square 0 .. side; image has room. */
-static int build(int32_t n, const fl_vec2 *site, double side, fl_vec2 *image, int32_t room, fl_cells *c)
+static int build(int32_t n, const fl_vec2 *site, double side, fl_vec2 *image, int32_t room, fl_power_cells *c)
 {
     fl_err err = {0};
     int32_t m = n;
@@ -36,11 +36,11 @@ static int build(int32_t n, const fl_vec2 *site, double side, fl_vec2 *image, in
             image[m++] = p;
         }
     }
-    return fl_cells_build(c, m, image, (fl_vec2){-MARGIN, -MARGIN}, (fl_vec2){side + MARGIN, side + MARGIN},
-                          &err);
+    return fl_power_cells_build(c, m, image, (fl_vec2){-MARGIN, -MARGIN},
+                                (fl_vec2){side + MARGIN, side + MARGIN}, &err);
 }
 
-static struct stats describe(int32_t n, const fl_cells *c)
+static struct stats describe(int32_t n, const fl_power_cells *c)
 {
     struct stats s = {0};
     for (int32_t i = 0; i < n; i++) {
@@ -48,7 +48,7 @@ static struct stats describe(int32_t n, const fl_cells *c)
         const double area = fl_polygon_area(m, c->v + c->first[i]);
         s.sides += m;
         s.sides_var += (m - 6.0) * (m - 6.0);
-        s.outline += fl_polygon_outline(m, c->v + c->first[i]);
+        s.outline += fl_polygon_perimeter(m, c->v + c->first[i]);
         s.area_var += (area - 1.0) * (area - 1.0); /* the mean is 1: they fill the square */
         if (m < 20) s.share[m] += 1.0 / n;
     }
@@ -63,13 +63,13 @@ static int poisson(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
 {
     static const double share[10] = {0, 0, 0, 0.011, 0.107, 0.260, 0.294, 0.199, 0.090, 0.029};
     const double side = sqrt(n), tol = verify_quick() ? 0.04 : 0.01;
-    fl_cells c = {0};
+    fl_power_cells c = {0};
     struct stats s;
     char what[60];
-    fl_cells_sites(n, 41, (fl_vec2){0, 0}, (fl_vec2){side, side}, site);
+    fl_random_sites(n, 41, (fl_vec2){0, 0}, (fl_vec2){side, side}, site);
     if (build(n, site, side, image, room, &c)) return -1;
     s = describe(n, &c);
-    fl_cells_free(&c);
+    fl_power_cells_free(&c);
     verify_note("%d cells of random sites, periodic, one to the unit of area", n);
     verify_row("V41", "sides, mean", s.sides, 6.0, 1e-12, VERIFY_ABS);
     verify_row("V41", "sides, variance", s.sides_var, 1.7808, tol, VERIFY_REL);
@@ -88,12 +88,12 @@ static int lloyd(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
     static const double cv[] = {0.538, 0.386, 0.303, 0.227, 0.181, 0.121};
     const double side = sqrt(n);
     char what[60];
-    fl_cells_sites(n, 43, (fl_vec2){0, 0}, (fl_vec2){side, side}, site);
+    fl_random_sites(n, 43, (fl_vec2){0, 0}, (fl_vec2){side, side}, site);
     verify_note("%d cells, each site moved to the centroid of its cell, step by step", n);
     for (int k = 0, done = 0; k < 6; k++) {
-        fl_cells c = {0};
+        fl_power_cells c = {0};
         for (; done <= step[k]; done++) {
-            fl_cells_free(&c);
+            fl_power_cells_free(&c);
             if (build(n, site, side, image, room, &c)) return -1;
             if (done == step[k]) {
                 snprintf(what, sizeof what, "area, deviation over mean, %d steps", step[k]);
@@ -107,7 +107,7 @@ static int lloyd(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
                 site[i].y -= side * floor(site[i].y / side);
             }
         }
-        fl_cells_free(&c);
+        fl_power_cells_free(&c);
     }
     return 0;
 }

@@ -3,12 +3,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
 #include "sim/energy_balance.h"
-#include "stat/welch.h"
-#include "support/lab.h"
+#include "stat/power_spectrum.h"
+#include "support/small_world.h"
 #include "support/shapes.h"
 #include "support/verify.h"
 
@@ -38,13 +38,13 @@ static void dispersion(void)
                1e-5, VERIFY_REL);
     fl_waves w;
     fl_err err = {0};
-    fl_wave_near near;
+    fl_wave_expansion near;
     double u[2], a[2];
     fl_waves_airy(&w, 1, 8, 0, 20, G, &err);
-    fl_wave_look(&w, 0, 0, 20, 0, &near);
-    fl_wave_motion(&w, &near, 0, 0, u, a);
+    fl_wave_expand(&w, 0, 0, 20, 0, &near);
+    fl_wave_kinematics(&w, &near, 0, 0, u, a);
     verify_row("V58", "u under the crest, H = 1 m [m/s]", u[0], 0.44193, 2e-5, VERIFY_REL);
-    fl_wave_motion(&w, &near, 0, -20, u, a);
+    fl_wave_kinematics(&w, &near, 0, -20, u, a);
     verify_row("V58", "at the bottom [m/s]", u[0], 0.20270, 2e-5, VERIFY_REL);
     verify_below("V58", "  and none across it [m/s]", fabs(u[1]), 1e-7);
     fl_waves_free(&w);
@@ -62,13 +62,13 @@ static void series(void)
         for (int k = 0; k < 300; k++) {
             fl_rng g = fl_rng_of(3, k, FL_RNG_TEST);
             const double s0 = fl_rng_in(&g, -500, 500), z0 = k % 3 ? 0.0 : fl_rng_in(&g, -6, 0);
-            const double t = fl_rng_in(&g, 0, 1e4), R = FL_WAVE_REACH / w.top;
+            const double t = fl_rng_in(&g, 0, 1e4), R = FL_WAVE_REACH / w.max_k;
             const double angle = fl_rng_in(&g, 0, PI), r = fl_rng_in(&g, 0, 0.95 * R);
             const double s = s0 + r * cos(angle), z = z0 - r * sin(angle);
             double P = 0, eta = 0, u[2] = {0}, a[2] = {0}, v[2], b[2];
-            fl_wave_near near;
+            fl_wave_expansion near;
             if (z < -w.depth) continue;
-            fl_wave_look(&w, s0, z0, R, t, &near);
+            fl_wave_expand(&w, s0, z0, R, t, &near);
             for (int32_t j = 0; j < w.n; j++) {
                 const fl_wave_train *q = &w.train[j];
                 const double psi = q->k * s - q->omega * t + q->phase, kd = q->k * w.depth;
@@ -81,7 +81,7 @@ static void series(void)
                 a[0] += q->a * G * q->k * C * sin(psi);
                 a[1] -= q->a * G * q->k * S * cos(psi);
             }
-            fl_wave_motion(&w, &near, s, z, v, b);
+            fl_wave_kinematics(&w, &near, s, z, v, b);
             off[0] = fmax(off[0], fabs(fl_wave_pressure(&near, s, z) - P));
             if (z0 == 0.0) off[1] = fmax(off[1], fabs(fl_wave_elevation(&near, s, NULL) - eta));
             off[2] = fmax(off[2], hypot(v[0] - u[0], v[1] - u[1]));
@@ -101,16 +101,16 @@ static void spectrum(void)
     double m[3] = {0}, e = 0, m7 = 0, up = 0;
     const double df = 1e-5;
     for (double f = 0.5 * df; f < 5; f += df) {
-        const double S = fl_wave_jonswap(f, 2, 8, 3.3);
+        const double S = fl_jonswap_spectrum(f, 2, 8, 3.3);
         m[0] += S * df;
         m[1] += S * f * df;
         m[2] += S * f * f * df;
         e += S / f * df;
-        m7 += fl_wave_jonswap(f, 2, 8, 7) * df;
+        m7 += fl_jonswap_spectrum(f, 2, 8, 7) * df;
     }
     verify_row("V58", "JONSWAP, Hs 2 m, Tp 8 s: 4 sqrt(m0) [m]", 4 * sqrt(m[0]), 2.00241, 1e-5, VERIFY_REL);
     verify_row("V58", "  gamma = 7", 4 * sqrt(m7), 1.98239, 1e-5, VERIFY_REL);
-    verify_row("V58", "  S(fp) [m2 s]", fl_wave_jonswap(0.125, 2, 8, 3.3), 6.21497, 1e-5, VERIFY_REL);
+    verify_row("V58", "  S(fp) [m2 s]", fl_jonswap_spectrum(0.125, 2, 8, 3.3), 6.21497, 1e-5, VERIFY_REL);
     verify_row("V58", "  Tz [s]", sqrt(m[0] / m[2]), 6.221, 1e-4, VERIFY_REL);
     verify_row("V58", "  Te [s]", e / m[0], 7.226, 1e-4, VERIFY_REL);
 
@@ -120,33 +120,33 @@ static void spectrum(void)
     for (int seed = 1; seed <= 3; seed++) {
         fl_waves w;
         fl_err err = {0};
-        fl_welch welch = {0};
+        fl_power_spectrum welch = {0};
         double mean = 0, var = 0, worst = 0;
         fl_waves_jonswap(&w, 2, 8, 3.3, 100, (uint64_t)seed, 0, INFINITY, G, &err);
         for (int k = 0; k < N; k++) {
-            fl_wave_near near;
-            fl_wave_look(&w, 3.0, 0, 0.01, 0.5 * k, &near);
+            fl_wave_expansion near;
+            fl_wave_expand(&w, 3.0, 0, 0.01, 0.5 * k, &near);
             mean += x[k] = fl_wave_elevation(&near, 3.0, NULL);
         }
         mean /= N;
         for (int k = 0; k < N; k++) var += (x[k] - mean) * (x[k] - mean) / N;
         verify_note("3 h of the sea with seed %d", seed);
         verify_row("V58", "4 standard deviations [m]", 4 * sqrt(var), 2.0, 0.01, VERIFY_REL);
-        if (fl_welch_make(&welch, N, x, 2.0, 1000, FL_TAPER_HANN, &err)) continue;
-        verify_row("V58", "area of the spectrum by Welch [m2]", fl_welch_power(&welch), 0.25, 0.03,
-                   VERIFY_REL);
+        if (fl_power_spectrum_make(&welch, N, x, 2.0, 1000, FL_TAPER_HANN, &err)) continue;
+        verify_row("V58", "area of the spectrum by Welch [m2]", fl_power_spectrum_variance(&welch), 0.25,
+                   0.03, VERIFY_REL);
         for (int c = 0; c < 5; c++) {
             double got = 0, want = 0;
             for (int32_t k = 0; k < welch.n; k++)
                 if (k * welch.df >= EDGE[c] && k * welch.df < EDGE[c + 1]) got += welch.psd[k] * welch.df;
             for (double f = EDGE[c] + 0.5 * df - 0.5 * welch.df; f < EDGE[c + 1] - 0.5 * welch.df; f += df)
-                want += fl_wave_jonswap(f, 2, 8, 3.3) * df;
+                want += fl_jonswap_spectrum(f, 2, 8, 3.3) * df;
             worst = fmax(worst, fabs(got - want));
         }
         /* a line that a band cuts spreads over 3 df of it, and a hundredth of the energy is in a train */
         verify_below("V58", "energy of five bands of frequency: off by, of all", worst / 0.25, 0.05);
         for (int k = 1; k < N; k++) up += (x[k - 1] < mean && x[k] >= mean) / 3.0;
-        fl_welch_free(&welch);
+        fl_power_spectrum_free(&welch);
         fl_waves_free(&w);
     }
     verify_row("V58", "upward crossings of the mean, three seas: Tz [s]", 0.5 * N / up, 6.221, 0.05,
@@ -189,9 +189,10 @@ static void flat(void)
         const double size = 1025 * G * 320;
         force = fmax(force, v3_norm(v3_sub(a.w.b.f[k], b.w.b.f[k])) / size);
         moment = fmax(moment, v3_norm(v3_sub(a.w.b.t[k], b.w.b.t[k])) / (size * 5));
-        volume = fmax(volume, fabs(a.w.sea.lift[k] - b.w.sea.lift[k]) / size);
-        centre = fmax(centre, d * v3_norm(v3_sub(a.w.sea.flow[k], b.w.sea.flow[k])) * (a.w.sea.lift[k] > 0));
-        wetted = fmax(wetted, fabs(a.w.sea.wetted[k] - b.w.sea.wetted[k]) / 232);
+        volume = fmax(volume, fabs(a.w.sea.buoyancy[k] - b.w.sea.buoyancy[k]) / size);
+        centre = fmax(centre, d * v3_norm(v3_sub(a.w.sea.flow_velocity[k], b.w.sea.flow_velocity[k])) *
+                                  (a.w.sea.buoyancy[k] > 0));
+        wetted = fmax(wetted, fabs(a.w.sea.wetted_area[k] - b.w.sea.wetted_area[k]) / 232);
     }
     verify_note("60 boxes askew in a wave of 1e-15 m: against exact clipping");
     verify_below("V48", "force, of the largest", force, 1e-13);
@@ -327,7 +328,7 @@ static void books(void)
         residual[c] = 0.0;
         for (int s = 0; s < 250 << c; s++) {
             lab_run(&l, 1);
-            fl_step_ledger(&l.w);
+            fl_energy_update(&l.w);
             residual[c] = fmax(residual[c], fabs(l.w.ledger.residual));
         }
         residual[c] /= l.w.ledger.throughput;
@@ -359,7 +360,7 @@ static void looks(void)
         if (c >= 0) h[c] = every * l.w.dt, off[c] = 0.0;
         for (int s = 0; s < STEPS / MOST; s++) {
             if (lab_run(&l, MOST)) exit(1);
-            fl_step_ledger(&l.w);
+            fl_energy_update(&l.w);
             still = fmax(still, fabs(l.w.ledger.residual) / l.w.ledger.throughput);
             if (c < 0) path[s] = l.w.b.x[0];
             else off[c] = fmax(off[c], v3_norm(v3_sub(l.w.b.x[0], path[s])));
@@ -425,7 +426,7 @@ static void thrown(void)
                  v3(0.2857940533669441, -0.4262772995146036, 0.04415947528091868));
         lab_make(&l, dt);
         if (lab_run(&l, (int64_t)(0.3 / dt))) exit(1);
-        const double now = fl_body_kinetic(&l.w.b, 0);
+        const double now = fl_body_kinetic_energy(&l.w.b, 0);
         least = fmin(least, now), most = fmax(most, now);
         lab_free(&l);
     }

@@ -4,20 +4,20 @@
 #include <signal.h>
 #include <string.h>
 #include <unistd.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/stream.h"
 #include "options.h"
 #include "run.h"
 #include "save.h"
 #include "sim/setup.h"
 #include "targets.h"
-#include "scene/field.h"
-#include "scene/field_order.h"
+#include "scene/ice_field.h"
+#include "scene/ice_field_order.h"
 #include "mesh/gstruct.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
-#include "scene/scene_show.h"
+#include "scene/scene_print.h"
 #include "world/access.h"
 
 /* The scene with what the command line says of it. */
@@ -93,13 +93,13 @@ static int act(struct run *r, fl_err *err)
 /* What a run is made from. */
 struct inputs {
     fl_scene scene;
-    fl_field field, feed; /* feed: what comes in, of another file */
+    fl_ice_field field, feed; /* feed: what comes in, of another file */
     fl_surface surface;
     fl_restart saved;
     fl_restart_part kept[KEPT];
     char *text[KEPT]; /* of kept, where it is owned */
     char *history;
-    fl_by by;
+    fl_history_line by;
 };
 
 /* A file that is not there is told by the line of the scene that names it; any other trouble, and what the
@@ -141,9 +141,9 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
     if (read_scene(&in->scene, o, err)) return -1;
     if (o->echo) return 0;
     if (files_there(&in->scene, err)) return -1;
-    if (fl_field_read(&in->field, in->scene.ice.file, err)) return -1;
+    if (fl_ice_field_read(&in->field, in->scene.ice.file, err)) return -1;
     if (in->scene.boundary.inflow == FL_INFLOW_FILE &&
-        fl_field_read(&in->feed, in->scene.boundary.inflow_file, err))
+        fl_ice_field_read(&in->feed, in->scene.boundary.inflow_file, err))
         return -1;
     if (in->scene.structure.head.present && in->scene.structure.file[0] &&
         fl_gstruct_read(&in->surface, in->scene.structure.file, err))
@@ -170,10 +170,10 @@ static int keep_texts(struct inputs *in, const fl_surface *surface, fl_err *err)
 }
 
 /* Bring a field into the order of its places; where the k-th body has gone into *at, NULL: nobody asks. */
-static int order(fl_field *field, int32_t **at, fl_err *err)
+static int order(fl_ice_field *field, int32_t **at, fl_err *err)
 {
     int32_t *to = fl_alloc(field->n, sizeof *to, err);
-    const int bad = !to || fl_field_order(field, to, err);
+    const int bad = !to || fl_ice_field_order(field, to, err);
     if (at) *at = to;
     else free(to);
     return bad ? -1 : 0;
@@ -203,7 +203,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
 {
     struct inputs in = {0};
     fl_world world = {0};
-    fl_budget budget = {0};
+    fl_error_budget budget = {0};
     char path[FL_SCENE_PATH];
     int32_t *at = NULL;
     int rc = -1;
@@ -216,18 +216,19 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     }
     const fl_surface *surface = in.surface.n ? &in.surface : NULL;
     if (in.field.n == 0) {
-        fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice was wanted", in.scene.ice.file);
+        fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice is expected", in.scene.ice.file);
         goto done;
     }
     const int fed = in.scene.boundary.inflow != FL_INFLOW_NONE;
     if (keep_texts(&in, surface, err) || order(&in.field, &at, err) ||
         (in.feed.n && order(&in.feed, NULL, err)) ||
-        fl_world_make_fed(&world, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err) ||
-        (!o->resume && fl_world_before_walls(&world, err)) || places(&at, in.field.n, world.n, err) ||
+        fl_world_make_with_inflow(&world, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface,
+                                  err) ||
+        (!o->resume && fl_world_check_walls(&world, err)) || places(&at, in.field.n, world.n, err) ||
         (in.scene.run.error > 0.0 &&
-         fl_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err)))
+         fl_error_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err)))
         goto done;
-    if (!fed) fl_field_free(&in.field);
+    if (!fed) fl_ice_field_free(&in.field);
     struct run r = {.o = o,
                     .scene = &in.scene,
                     .at = at,
@@ -250,7 +251,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     if (targets_check(&in.scene, o, r.out, err)) goto done;
     run_step_size(&r);
     if (run_countable(&r, err)) goto done;
-    if (!o->quiet && world.frozen.n) report_bonds(&world, stderr);
+    if (!o->quiet && world.bonds.n) report_bonds(&world, stderr);
     rc = act(&r, err);
     *stopped = r.stopped;
     if (r.stopped && !o->quiet) tell_stop(&r);
@@ -260,10 +261,10 @@ done:
     free(in.history);
     fl_restart_free(&in.saved);
     fl_world_free(&world);
-    fl_budget_free(&budget);
+    fl_error_budget_free(&budget);
     fl_surface_free(&in.surface);
-    fl_field_free(&in.field);
-    fl_field_free(&in.feed);
+    fl_ice_field_free(&in.field);
+    fl_ice_field_free(&in.feed);
     fl_scene_free(&in.scene);
     return rc;
 }
@@ -274,7 +275,7 @@ int main(int argc, char **argv)
     fl_err err = {0};
     int stopped = 0;
     fl_tool_begin();
-    fl_par_wait_briefly(argv);
+    fl_parallel_limit_spin(argv);
     int rc = options_parse(&o, argc, argv, &err);
     if (rc == 0 && !o.ended) rc = run(&o, &stopped, &err);
     if (rc == 0 && stopped == SIGPIPE) { /* quietly, as what stands in a pipe does */

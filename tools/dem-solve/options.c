@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <getopt.h>
 #include <string.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/option.h"
 #include "options.h"
 
@@ -65,8 +65,8 @@ static int take(struct options *o, int c, fl_err *err)
     case ECHO: o->echo = 1; return 0;
     case PLAN: o->plan = 1; return 0;
     case PROBE:
-        if (fl_num_f64(optarg, &o->probe) || o->probe < 0.0)
-            return fl_fail(err, FL_USAGE, "--probe is \"%.40s\", a distance in metres was wanted", optarg);
+        if (fl_number_f64(optarg, &o->probe) || o->probe < 0.0)
+            return fl_fail(err, FL_USAGE, "--probe is \"%.40s\", a distance in metres is expected", optarg);
         return 0;
     case 'z': o->gzip = 1; return 0;
     case 'j': return fl_option_whole("threads", optarg, 1, 1024, &o->threads, err);
@@ -101,7 +101,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(
             err, FL_USAGE,
             "--resume goes on with what its checkpoint holds: no scene, --ice, --structure, --gzip, "
-            "--plan or --probe was wanted");
+            "--plan or --probe is expected");
     if (!o->scene && !o->explain && !o->resume)
         return fl_fail(err, FL_USAGE, "a scene file is wanted; see dem-solve --help");
     return 0;
@@ -113,13 +113,13 @@ static const char *base_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-void options_by(const struct options *o, fl_by *by)
+void options_by(const struct options *o, fl_history_line *by)
 {
-    fl_by_start(by, "dem-solve");
-    if (o->ice) fl_by_word(by, "--ice ", base_name(o->ice));
-    if (o->structure) fl_by_word(by, "--structure ", base_name(o->structure));
+    fl_history_line_start(by, "dem-solve");
+    if (o->ice) fl_history_line_word(by, "--ice ", base_name(o->ice));
+    if (o->structure) fl_history_line_word(by, "--structure ", base_name(o->structure));
     for (int k = 0; k < o->sets; k++)
         if (strncmp(o->set[k], "run.threads", 11) != 0 && strncmp(o->set[k], "output.", 7) != 0)
-            fl_by_add(by, "--set '%s'", o->set[k]);
-    fl_by_word(by, "", base_name(o->scene));
+            fl_history_line_add(by, "--set '%s'", o->set[k]);
+    fl_history_line_word(by, "", base_name(o->scene));
 }

@@ -21,6 +21,6 @@ struct options {
 int options_parse(struct options *o, int argc, char **argv, fl_err *err);
 
 /* What bears on the result, for the history. */
-void options_by(const struct options *o, fl_by *by);
+void options_by(const struct options *o, fl_history_line *by);
 
 #endif

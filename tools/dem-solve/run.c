@@ -3,21 +3,21 @@
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "out/frames.h"
 #include "out/tables.h"
 #include "run.h"
 #include "save.h"
 #include "sim/energy_balance.h"
-#include "step/balls.h"
-#include "step/critical.h"
-#include "step/frozen.h"
-#include "step/press.h"
-#include "step/ride.h"
-#include "step/sleep.h"
-#include "step/stance.h"
-#include "step/step.h"
-#include "step/traffic.h"
+#include "sphere/contact_list.h"
+#include "sim/critical_step.h"
+#include "contact/bond_list.h"
+#include "contact/panel_load.h"
+#include "sim/moving_structure.h"
+#include "sim/sleep.h"
+#include "contact/pair_geometry.h"
+#include "sim/step.h"
+#include "sim/inflow.h"
 
 double run_clock(void)
 {
@@ -35,7 +35,7 @@ double run_processor(void)
 
 const char *run_body(const fl_world *w, int32_t k, char name[64])
 {
-    if (k >= w->b.total) snprintf(name, 64, "%s", fl_ride_name(w, k - w->b.total));
+    if (k >= w->b.total) snprintf(name, 64, "%s", fl_mover_name(w, k - w->b.total));
     else if (k >= 0) snprintf(name, 64, "body %d", w->id[k]);
     else snprintf(name, 64, "a floe that has left");
     return name;
@@ -62,7 +62,7 @@ int run_countable(const struct run *r, fl_err *err)
                  n = r->scene->run.duration / r->w->dt; /* doubles tell those apart */
     if (n < most) return 0;
     return fl_scene_fail(r->scene, "run.duration", err,
-                         "run.duration of %g s in steps of %g s: %.3g steps, at most %.3g were wanted",
+                         "run.duration of %g s in steps of %g s: %.3g steps, at most %.3g are expected",
                          r->scene->run.duration, r->w->dt, n, most);
 }
 
@@ -82,16 +82,17 @@ static void damped_origin(char *to, size_t n, double share, double left, double 
 static void step_origin(struct run *r, double automatic)
 {
     const fl_scene_run *s = &r->scene->run;
-    const double left = fl_world_damped(r->w), every = r->scene->output.loads_every;
+    const double left = fl_damped_share(r->w), every = r->scene->output.loads_every;
     char name[64], *to = r->step_by;
     const size_t n = sizeof r->step_by;
     if (r->budget)
         snprintf(to, n, "run.error, up to %.3g of the critical %.4g s",
-                 r->budget->across * automatic / r->limit, r->limit);
+                 r->budget->lateral_share * automatic / r->limit, r->limit);
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
-    else if (r->w->frozen.n && automatic / r->limit > fl_world_foreseen(r->w).touching * (1.0 + ROUNDING))
+    else if (r->w->bonds.n &&
+             automatic / r->limit > fl_predict_step_limit(r->w).contact_share * (1.0 + ROUNDING))
         snprintf(to, n, "bonds and contacts, %.3g of the critical %.4g s", automatic / r->limit, r->limit);
     else if (automatic / r->limit < s->safety * (1.0 - ROUNDING))
         damped_origin(to, n, automatic / r->limit, left, r->limit);
@@ -104,12 +105,12 @@ static void step_origin(struct run *r, double automatic)
 void run_step_size(struct run *r)
 {
     const double every = r->scene->output.loads_every;
-    const double automatic = fl_world_dt(r->w, &r->step_body);
+    const double automatic = fl_automatic_step(r->w, &r->step_body);
     double dt = r->scene->run.dt;
-    r->limit = fl_world_critical(r->w);
+    r->limit = fl_critical_step(r->w);
     step_origin(r, automatic);
     if (r->budget) {
-        dt = fl_budget_start(r->budget);
+        dt = fl_error_budget_first_step(r->budget);
     } else if (dt <= 0.0) {
         dt = fmin(automatic, fmin(every, r->scene->run.duration));
         dt = every / ceil(every / dt * (1.0 - 1e-12));
@@ -129,7 +130,7 @@ static double told_time(const struct run *r, double due)
     double x = t;
     if (!(fabs(t - due) <= ROUNDING * due)) return t;
     snprintf(digits, sizeof digits, "%.15g", due);
-    return fl_num_f64(digits, &x) ? t : x;
+    return fl_number_f64(digits, &x) ? t : x;
 }
 
 /* --- outputs that come at an interval ---------------------------------------------------------- */
@@ -152,16 +153,16 @@ void run_frames_path(const struct run *r, const struct outputs *u, char path[FL_
 /* The bodies as the tables tell them. */
 static fl_poses poses(const struct run *r)
 {
-    return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->at, &r->w->cell, r->w->traffic.away};
+    return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->at, &r->w->cell, r->w->inflow.absent};
 }
 
 static void energy_header(const struct run *r, FILE *f)
 {
     char columns[400];
     snprintf(columns, sizeof columns, "%s%s%s%s", FL_ENERGY_COLUMNS,
-             fl_ride_free_ones(r->w) ? FL_ENERGY_MOVING : "", r->w->sea.waves ? FL_ENERGY_WAVES : "",
-             r->w->frozen.n ? FL_ENERGY_BONDS : "");
-    fl_rows_header(f, "energy", r->history, r->by, columns);
+             fl_structure_moves_freely(r->w) ? FL_ENERGY_MOVING : "", r->w->sea.waves ? FL_ENERGY_WAVES : "",
+             r->w->bonds.n ? FL_ENERGY_BONDS : "");
+    fl_values_header(f, "energy", r->history, r->by, columns);
 }
 
 void run_header(struct run *r, struct outputs *u, int k)
@@ -169,7 +170,7 @@ void run_header(struct run *r, struct outputs *u, int k)
     const fl_poses now = poses(r);
     FILE *f = u->table[k].f;
     switch (k) {
-    case AT_LOADS: fl_loads_header(f, r->history, r->by, u->last_row, fl_ride_columns(r->w)); break;
+    case AT_LOADS: fl_loads_header(f, r->history, r->by, u->last_row, fl_motion_columns(r->w)); break;
     case AT_STATE: fl_state_header(f, r->history, r->by); break;
     case AT_ENERGY: energy_header(r, f); break;
     case AT_CONTACTS: fl_contacts_header(f, r->history, r->by); break;
@@ -210,7 +211,7 @@ static int open_outputs(struct run *r, struct outputs *u, fl_err *err)
 /* From here on the tables hold rows, which are good without those that a full disk leaves no room for. */
 static void keep_tables(struct outputs *u)
 {
-    for (int k = 0; k < TABLES; k++) u->table[k].keep = 1;
+    for (int k = 0; k < TABLES; k++) u->table[k].keep_part = 1;
 }
 
 /* A table that has lost a row is not gone on with: the run ends. */
@@ -225,37 +226,37 @@ static int lost_row(struct outputs *u, fl_err *err)
 static void write_panels(struct run *r, FILE *f, double t, double length)
 {
     fl_world *w = r->w;
-    const fl_press *s = &w->press;
+    const fl_panel_loads *s = &w->panel_load;
     for (int32_t k = 0; k < s->panels; k++) {
-        const fl_panel_place *p = &s->panel[k];
+        const fl_load_panel *p = &s->panel[k];
         char name[32];
-        fl_vec3 x = p->middle;
+        fl_vec3 x = p->centroid;
         if (!(p->area > 0.0)) continue; /* a triangle without one has no pressure */
-        if (w->ride.m.n && w->ride.part[p->part] >= 0) x = fl_ride_place(w, p->part, x);
+        if (w->moving.movers.n && w->moving.mover_of_part[p->part] >= 0) x = fl_part_point(w, p->part, x);
         snprintf(name, sizeof name, ".%d", k - s->first[p->part] + 1);
         fl_panels_row(f, t, r->surface->part[p->part].name, name, x, p->area,
                       v3_scale(1.0 / length, s->impulse[k]));
     }
-    fl_press_panels_end(w);
+    fl_panels_end_interval(w);
 }
 
 static void write_events(struct run *r, FILE *f, double t, double length)
 {
     fl_world *w = r->w;
-    for (int32_t k = 0; k < w->press.events; k++) {
-        const fl_press_event *e = &w->press.event[k];
+    for (int32_t k = 0; k < w->panel_load.events; k++) {
+        const fl_load_event *e = &w->panel_load.event[k];
         const fl_vec3 force = v3_scale(-1.0 / length, e->impulse); /* on the floe */
-        fl_contact c = {.gap = -e->overlap, .n = v3_unit(e->across)};
-        if (e->weight > 0.0) {
-            c.p = v3_scale(1.0 / e->weight, e->at);
-            c.area = e->area / e->weight;
+        fl_contact c = {.gap = -e->max_overlap, .n = v3_unit(e->normal_impulse)};
+        if (e->impulse_sum > 0.0) {
+            c.p = v3_scale(1.0 / e->impulse_sum, e->impulse_point);
+            c.area = e->impulse_area / e->impulse_sum;
         }
         if (!(v3_norm2(c.n) > 0.5)) c.n = v3_unit(force);
         if (!(v3_norm2(c.n) > 0.5)) continue; /* no force at all */
         const double normal = v3_dot(force, c.n);
         fl_contacts_row(f, t, e->id, -1 - e->part, &c, normal, v3_madd(force, -normal, c.n));
     }
-    fl_press_events_end(w);
+    fl_events_end_interval(w);
 }
 
 static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
@@ -263,16 +264,16 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
     fl_world *w = r->w;
     fl_out *loads = &u->table[AT_LOADS];
     const double length = t - u->last_row;
-    const enum fl_loads_moving moving = fl_ride_columns(w);
+    const enum fl_loads_motion_kind moving = fl_motion_columns(w);
     for (int32_t p = 0; p < w->parts; p++) {
         fl_loads_motion motion;
         int32_t touching = 0;
-        if (moving) fl_ride_tell(w, p, t, &motion);
+        if (moving) fl_part_motion(w, p, t, &motion);
         for (int32_t k = 0; k < w->pieces; k++) {
             const int32_t j = w->n + k;
             if (w->structure.piece[k].part != p) continue;
-            for (int64_t c = w->inc_first[j]; c < w->inc_first[j + 1]; c++)
-                touching += w->pair[w->inc[c]].n > 0;
+            for (int64_t c = w->first_pair_of_body[j]; c < w->first_pair_of_body[j + 1]; c++)
+                touching += w->pair[w->pairs_of_body[c]].touching > 0;
         }
         fl_loads_row(loads->f, t, r->surface->part[p].name, v3_scale(1.0 / length, w->part_impulse[p]),
                      v3_scale(1.0 / length, w->part_moment[p]), w->part_peak[p], touching, moving, &motion);
@@ -289,13 +290,13 @@ static int write_loads(struct run *r, struct outputs *u, double t, fl_err *err)
 static void write_contacts(struct run *r, struct outputs *u, double t)
 {
     fl_world *w = r->w;
-    fl_pair_walk at = {.w = w};
+    fl_pair_iterator at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         fl_contact k;
-        if (p->n == 0 || !fl_stance_probe(w, p, 0.0, &k)) continue;
-        const double normal = v3_dot(p->f, k.n);
-        fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], fl_world_name(w, p->j), &k, normal,
-                        v3_madd(p->f, -normal, k.n));
+        if (p->touching == 0 || !fl_pair_probe(w, p, 0.0, &k)) continue;
+        const double normal = v3_dot(p->force, k.n);
+        fl_contacts_row(u->table[AT_CONTACTS].f, t, w->id[p->i], fl_world_id(w, p->j), &k, normal,
+                        v3_madd(p->force, -normal, k.n));
     }
 }
 
@@ -303,66 +304,67 @@ static void write_bonds(struct run *r, struct outputs *u, double t)
 {
     static const char *const STATE[] = {"whole", "damaged", "broken", "ended"};
     const fl_world *w = r->w;
-    for (int32_t k = 0; k < w->frozen.n; k++) {
-        const fl_bond *c = &w->frozen.bond[k];
-        const fl_bond_load q = fl_frozen_load(w, k);
-        if (fl_world_away(w, c->i) || fl_world_away(w, c->j)) continue;
+    for (int32_t k = 0; k < w->bonds.n; k++) {
+        const fl_bond *c = &w->bonds.bond[k];
+        const fl_bond_load q = fl_bond_list_load(w, k);
+        if (fl_body_absent(w, c->i) || fl_body_absent(w, c->j)) continue;
         fl_bonds_row(u->table[AT_BONDS].f, t,
-                     &(fl_bonds_line){w->id[c->i], w->id[c->j], STATE[c->state], fl_bond_mean(c), q.tension,
-                                      q.shear, q.moment, c->area, q.x});
+                     &(fl_bonds_record){w->id[c->i], w->id[c->j], STATE[c->state], fl_bond_mean_damage(c),
+                                        q.tension, q.shear, q.moment, c->area, q.x});
     }
 }
 
 static void write_energy(struct run *r, struct outputs *u, double t)
 {
     const fl_ledger *g = &r->w->ledger;
-    fl_step_ledger(r->w);
+    fl_energy_update(r->w);
     double row[18] = {
         t,        g->kinetic, g->gravity,   g->elastic, g->hydrostatic, g->friction_now, g->damping_now,
-        g->drag,  g->wind,    g->drive_now, g->carried, g->residual,    g->moving,       g->spring,
+        g->drag,  g->wind,    g->drive_now, g->carried, g->residual,    g->structure,    g->spring,
         g->damper};
-    int all = fl_ride_free_ones(r->w) ? 15 : 12;
+    int all = fl_structure_moves_freely(r->w) ? 15 : 12;
     if (r->w->sea.waves) row[all++] = g->waves;
-    if (r->w->frozen.n) {
+    if (r->w->bonds.n) {
         row[all++] = g->bond;
         row[all++] = g->fracture;
     }
-    fl_rows_row(u->table[AT_ENERGY].f, all, row);
+    fl_values_row(u->table[AT_ENERGY].f, all, row);
 }
 
 /* A structure that as a whole goes one way is told by that way, any other part by part. */
 static int one_way(const fl_world *w)
 {
-    return w->ride.m.n == 1 && w->scene->n_part == 0 && fl_ride_columns(w) == FL_LOADS_MOVES;
+    return w->moving.movers.n == 1 && w->scene->n_part == 0 && fl_motion_columns(w) == FL_LOADS_TRANSLATION;
 }
 
 static fl_vec3 gone_one_way(const fl_world *w)
 {
     if (!one_way(w)) return v3(0, 0, 0);
-    return v3_sub(w->ride.m.b.x[0], w->ride.m.motion[0].reference);
+    return v3_sub(w->moving.movers.b.x[0], w->moving.movers.motion[0].reference);
 }
 
 static void write_moved(const struct run *r, FILE *f)
 {
-    const fl_movers *v = &r->w->ride.m;
+    const fl_rigid_motions *v = &r->w->moving.movers;
     if (v->n == 0 || one_way(r->w)) return;
     for (int32_t p = 0; p < r->w->parts; p++) {
-        const int32_t m = r->w->ride.part[p];
+        const int32_t m = r->w->moving.mover_of_part[p];
         if (m < 0) continue;
-        fl_frames_moved(f, r->surface->part[p].id,
-                        v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference)), v->b.q[m]);
+        fl_frames_part_pose(f, r->surface->part[p].id,
+                            v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference)),
+                            v->b.q[m]);
     }
 }
 
 /* The shapes of floes that have come in since the last frame with ice. */
 static void write_newcomers(const struct run *r, const struct outputs *u, const fl_poses *now)
 {
-    const fl_traffic *t = &r->w->traffic;
+    const fl_inflow_state *t = &r->w->inflow;
     struct timer last = u->at[AT_ICE];
-    if (!t->away || last.k == 0) return; /* the first frame is that of the header */
+    if (!t->absent || last.k == 0) return; /* the first frame is that of the header */
     run_timer(&last, last.k - 1, r->w);
     for (int32_t i = 0; i < r->w->n; i++)
-        if (!t->away[i] && t->born[i] > 0 && t->born[i] >= last.due)
+        if (!t->absent[i] && t->entry_step[i] > 0 && t->entry_step[i] >= last.due)
             fl_frames_shape(u->table[AT_FRAMES].f, now, i);
 }
 
@@ -399,7 +401,7 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         if (!u->table[k].f || r->w->step < u->at[k].due || k == AT_PANELS || k == AT_EVENTS) continue;
         const double t = told_time(r, (double)u->at[k].k * u->at[k].every);
         if (asleep && k != AT_LOADS && k != AT_CONTACTS) {
-            fl_sleep_look(r->w);
+            fl_sleep_advance_to_now(r->w);
             asleep = 0;
         }
         switch (k) {
@@ -410,14 +412,14 @@ static int write_due(struct run *r, struct outputs *u, fl_err *err)
         case AT_ENERGY: write_energy(r, u, t); break;
         case AT_CONTACTS: write_contacts(r, u, t); break;
         case AT_BONDS: write_bonds(r, u, t); break;
-        case AT_HASH: fl_hash_row(u->table[k].f, t, fl_step_hash(r->w)); break;
+        case AT_HASH: fl_hash_row(u->table[k].f, t, fl_state_hash(r->w)); break;
         default:
             if (write_frames(r, u, t, err)) return -1;
         }
         if (lost_row(u, err)) return -1;
         next(u, k, r->w);
     }
-    if (!asleep) fl_sleep_back(r->w);
+    if (!asleep) fl_sleep_restore(r->w);
     return 0;
 }
 
@@ -492,7 +494,7 @@ static int look_after_step(struct run *r, struct outputs *u, fl_err *err)
     const int64_t row = u->at[AT_LOADS].k - 1;
     const double dt = r->w->dt, begun = run_clock();
     if (!r->budget || step_at(r->w, (double)row * u->at[AT_LOADS].every) != r->w->step) return 0;
-    if (fl_budget_look(r->budget, r->w, row, err)) return -1;
+    if (fl_error_budget_update(r->budget, r->w, row, err)) return -1;
     if (r->w->dt != dt) {
         for (int k = 0; k < TIMERS; k++) run_timer(&u->at[k], u->at[k].k, r->w);
         run_steps(r);
@@ -505,7 +507,7 @@ static int look_after_step(struct run *r, struct outputs *u, fl_err *err)
 static int follow(struct run *r, fl_err *err)
 {
     const double begun = run_clock();
-    if (fl_budget_follow(r->budget, r->w, err)) return -1;
+    if (fl_error_budget_follow(r->budget, r->w, err)) return -1;
     r->look_wall += run_clock() - begun;
     return 0;
 }
@@ -526,7 +528,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     while (w->step < r->steps && !told_to_stop) {
         if (look_after_step(r, u, err)) return -1;
         if (told_to_stop) break; /* a look that was broken off is made again where the run goes on */
-        r->moved += w->traffic.away ? fl_traffic_there(w) : w->n;
+        r->moved += w->inflow.absent ? fl_floes_in_domain(w) : w->n;
         if (fl_step(w, err) || (r->budget && follow(r, err)) || write_due(r, u, err) ||
             save_due(r, u, 0, err))
             return -1;
@@ -539,7 +541,7 @@ static int run_steps_of(struct run *r, struct outputs *u, int show, double begun
     if (r->stopped) return save_due(r, u, 0, err); /* the signal may have come before the first step */
     /* The last interval of the loads may be shorter than the others, and the books are looked at.  A longer
      * run would do neither here, so what can be gone on from comes before. */
-    if (save_due(r, u, 1, err) || fl_step_balance(w, err)) return -1;
+    if (save_due(r, u, 1, err) || fl_energy_check(w, err)) return -1;
     const double end = told_time(r, r->scene->run.duration);
     return end > u->last_row * (1.0 + ROUNDING) ? write_loads(r, u, end, err) : 0;
 }
@@ -565,8 +567,8 @@ int run_scene(struct run *r, fl_err *err)
     r->wall = run_clock() - begun - r->save_wall - r->look_wall;
     r->busy = run_processor() - busy;
     if (show) progress(r, begun, 1);
-    fl_sleep_look(r->w);
-    fl_step_ledger(r->w);
+    fl_sleep_advance_to_now(r->w);
+    fl_energy_update(r->w);
     warn_at_end(r, rc != 0);
     /* Also after a failure of the run: the rows until then are good and keep their names. */
     if (!close_outputs(&u, err) && !rc) return 0;

@@ -5,7 +5,7 @@
 #include "base/stream.h"
 #include "options.h"
 #include "out/restart.h"
-#include "step/budget.h"
+#include "sim/error_budget.h"
 
 /* Texts that a checkpoint carries on. */
 enum { KEPT = 3 };
@@ -17,16 +17,16 @@ struct run {
     const int32_t *at;         /* where the k-th body of the ice file is in the world */
     const fl_surface *surface; /* NULL: none */
     const char *history;       /* of the inputs; NULL: none */
-    const fl_by *by;
+    const fl_history_line *by;
     const fl_restart *saved;     /* the run goes on from here; NULL: it begins */
     const fl_restart_part *kept; /* [KEPT] ice, structure and inflow as texts, for checkpoints */
     fl_world *w;
-    fl_budget *budget; /* NULL: the step is given or a fraction of the critical one */
-    const char *out;   /* where the loads go */
-    int gzip;          /* they are compressed */
-    double limit;      /* the critical step known before the run, 2/omega [s] */
-    int32_t step_body; /* the body that set the automatic step, -1 */
-    char step_by[160]; /* what the step comes from */
+    fl_error_budget *budget; /* NULL: the step is given or a fraction of the critical one */
+    const char *out;         /* where the loads go */
+    int gzip;                /* they are compressed */
+    double limit;            /* the critical step known before the run, 2/omega [s] */
+    int32_t step_body;       /* the body that set the automatic step, -1 */
+    char step_by[160];       /* what the step comes from */
     int64_t steps;
     int64_t begun; /* the step this program began with, its time [s], and the contact-steps until then */
     double begun_time;
@@ -108,7 +108,7 @@ void report_write(const struct run *r, FILE *f);
 /* A line about bonds that are too long for their fracture energy; nothing where none is. */
 void report_bonds(const fl_world *w, FILE *f);
 
-/* look.c: --plan and --probe */
+/* plan_probe.c: --plan and --probe */
 int look_plan(struct run *r, FILE *f, fl_err *err);
 int look_probe(struct run *r, FILE *f, fl_err *err);
 

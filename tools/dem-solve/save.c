@@ -2,16 +2,16 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "mesh/gstruct.h"
 #include "save.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
-#include "scene/scene_show.h"
-#include "step/critical.h"
-#include "step/snapshot.h"
-#include "step/step.h"
+#include "scene/scene_print.h"
+#include "sim/critical_step.h"
+#include "sim/snapshot.h"
+#include "sim/step.h"
 #include "world/access.h"
 
 static const char *const TABLE[TABLES] = {"loads",  "state",  "energy", "contacts", "hash",
@@ -45,8 +45,8 @@ static int text_end(FILE *f, fl_restart_part *part, const size_t *n, fl_err *err
     return 0;
 }
 
-int save_keep(fl_restart_part kept[KEPT], const fl_field *field, const fl_surface *surface,
-              const fl_field *feed, const fl_by *by, fl_err *err)
+int save_keep(fl_restart_part kept[KEPT], const fl_ice_field *field, const fl_surface *surface,
+              const fl_ice_field *feed, const fl_history_line *by, fl_err *err)
 {
     static const char *const NAME[KEPT] = {"ice", "structure", "inflow"};
     const int there[KEPT] = {1, surface != NULL, feed->n > 0};
@@ -59,7 +59,7 @@ int save_keep(fl_restart_part kept[KEPT], const fl_field *field, const fl_surfac
         FILE *f = open_memstream(&text, &n);
         if (!f) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
         if (k == 1) fl_gstruct_write(f, surface, by);
-        else fl_field_write(f, k ? feed : field, by);
+        else fl_ice_field_write(f, k ? feed : field, by);
         const int bad = text_end(f, &kept[k], &n, err);
         kept[k].text = text;
         if (bad) return -1;
@@ -68,15 +68,15 @@ int save_keep(fl_restart_part kept[KEPT], const fl_field *field, const fl_surfac
 }
 
 /* Where the run is in its tables. */
-static void write_place(FILE *f, const struct run *r, const struct outputs *u, const fl_mark *mark)
+static void write_place(FILE *f, const struct run *r, const struct outputs *u, const fl_file_mark *mark)
 {
-    char num[FL_NUM_LEN];
+    char num[FL_NUMBER_LEN];
     fprintf(f, "rows");
     for (int k = 0; k < TIMERS; k++) fprintf(f, " %" PRId64, u->at[k].k);
-    fprintf(f, " %s %" PRId32 "\n", fl_num_text(u->last_row, num), u->frame_file);
+    fprintf(f, " %s %" PRId32 "\n", fl_number_text(u->last_row, num), u->frame_file);
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f)
-            fprintf(f, "table %s %" PRId64 " %" PRIu64 " %d\n", TABLE[k], mark[k].at, mark[k].tail,
+            fprintf(f, "table %s %" PRId64 " %" PRIu64 " %d\n", TABLE[k], mark[k].offset, mark[k].tail_hash,
                     k == AT_LOADS && r->gzip);
 }
 
@@ -92,13 +92,13 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
                                    [STATE] = {.name = "state"},
                                    [BUDGET] = {.name = "budget"},
                                    [BESIDE] = {.name = "beside"}};
-    fl_mark mark[TABLES];
+    fl_file_mark mark[TABLES];
     char *text[PARTS] = {0}, *history = NULL;
     size_t n[PARTS] = {0};
     const double begun = run_clock();
     fl_scene scene = *r->scene; /* to be written; nothing in it is changed but this */
     int rc = -1;
-    const int beside = r->budget && fl_beside_goes(&r->budget->beside);
+    const int beside = r->budget && fl_companion_is_active(&r->budget->companion);
     if (!r->budget) part[BUDGET].name[0] = '\0';
     if (!beside) part[BESIDE].name[0] = '\0';
     scene.run.threads = 0; /* they belong to the machine, and would be the only bytes that tell */
@@ -114,8 +114,8 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
         if (k == SCENE) fl_scene_write(f, &scene);
         if (k == PLACE) write_place(f, r, u, mark);
         if (k == STATE) fl_snapshot_write(f, r->w);
-        if (k == BUDGET) fl_budget_write(f, r->budget);
-        if (k == BESIDE) fl_snapshot_write(f, &r->budget->beside.w);
+        if (k == BUDGET) fl_error_budget_write(f, r->budget);
+        if (k == BESIDE) fl_snapshot_write(f, &r->budget->companion.world);
         if (text_end(f, &part[k], &n[k], err)) goto done;
         part[k].text = text[k];
     }
@@ -158,8 +158,8 @@ static int change(fl_scene *scene, const char *set, fl_err *err)
                    set);
 }
 
-int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_field *field,
-                fl_field *feed, fl_surface *surface, fl_err *err)
+int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_ice_field *field,
+                fl_ice_field *feed, fl_surface *surface, fl_err *err)
 {
     fl_text text = {0};
     if (fl_restart_open(saved, "scene", &text, err) || fl_scene_read_text(scene, &text, err)) return -1;
@@ -170,20 +170,20 @@ int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scen
     if (fl_scene_check(scene, err)) return -1;
     if (scene->output.until == duration)
         scene->output.until = scene->run.duration; /* it followed then, too */
-    if (fl_restart_open(saved, "ice", &text, err) || fl_field_read_text(field, &text, err)) return -1;
+    if (fl_restart_open(saved, "ice", &text, err) || fl_ice_field_read_text(field, &text, err)) return -1;
     if (fl_restart_find(saved, "inflow") &&
-        (fl_restart_open(saved, "inflow", &text, err) || fl_field_read_text(feed, &text, err)))
+        (fl_restart_open(saved, "inflow", &text, err) || fl_ice_field_read_text(feed, &text, err)))
         return -1;
     if (!fl_restart_find(saved, "structure")) return 0;
     return fl_restart_open(saved, "structure", &text, err) || fl_gstruct_read_text(surface, &text, err) ? -1
                                                                                                         : 0;
 }
 
-int save_history(const fl_restart *saved, char **history, fl_by *by, fl_err *err)
+int save_history(const fl_restart *saved, char **history, fl_history_line *by, fl_err *err)
 {
     const char *all = saved->history, *own = NULL;
     for (const char *p = all; *p; p = strchr(p, '\n') + 1) own = p;
-    if (!own || strlen(own) > FL_BY_MAX)
+    if (!own || strlen(own) > FL_HISTORY_LINE_MAX)
         return fl_fail(err, FL_INPUT, "%s: the checkpoint has no history of its run", saved->path);
     by->len = (int)strlen(own) - 1;
     memcpy(by->text, own, (size_t)by->len);
@@ -201,7 +201,7 @@ static int word_i64(fl_text *in, int64_t *x, fl_err *err)
     if (fl_text_word(in, "count", &word, err)) return -1;
     const long long n = strtoll(word, &end, 10);
     if (end == word || *end || n < -1 || n > INT64_C(1) << 53)
-        return fl_text_fail(in, err, "\"%.40s\" found, a count was wanted", word);
+        return fl_text_fail(in, err, "\"%.40s\" found, a count is expected", word);
     *x = n;
     return 0;
 }
@@ -222,21 +222,22 @@ static int read_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
     while (u->at[AT_SAVE].due <= r->w->step) run_timer(&u->at[AT_SAVE], u->at[AT_SAVE].k + 1, r->w);
     return fl_text_f64(in, "time of the last row", &u->last_row, err) ||
                    fl_text_i32(in, "file of the frames", 0, INT32_MAX, &u->frame_file, err) ||
-                   fl_text_end(in, err)
+                   fl_text_no_more(in, err)
                ? -1
                : 0;
 }
 
-static int read_table(fl_text *in, fl_mark mark[TABLES], int had[TABLES], struct run *r, fl_err *err)
+static int read_table(fl_text *in, fl_file_mark mark[TABLES], int had[TABLES], struct run *r, fl_err *err)
 {
     const char *name = "", *tail = "";
-    fl_mark m = {0};
+    fl_file_mark m = {0};
     int32_t gzip = 0;
-    if (fl_text_word(in, "table", &name, err) || word_i64(in, &m.at, err) ||
+    if (fl_text_word(in, "table", &name, err) || word_i64(in, &m.offset, err) ||
         fl_text_word(in, "hash", &tail, err) || fl_text_i32(in, "gzip", 0, 1, &gzip, err) ||
-        fl_text_end(in, err))
+        fl_text_no_more(in, err))
         return -1;
-    if (fl_num_u64(tail, &m.tail)) return fl_text_fail(in, err, "\"%.40s\" found, a hash was wanted", tail);
+    if (fl_number_u64(tail, &m.tail_hash))
+        return fl_text_fail(in, err, "\"%.40s\" found, a hash is expected", tail);
     for (int k = 0; k < TABLES; k++) {
         if (strcmp(name, TABLE[k]) != 0) continue;
         mark[k] = m;
@@ -247,7 +248,8 @@ static int read_table(fl_text *in, fl_mark mark[TABLES], int had[TABLES], struct
     return fl_text_fail(in, err, "unknown table \"%.40s\"", name);
 }
 
-static int read_place(struct run *r, struct outputs *u, fl_mark mark[TABLES], int had[TABLES], fl_err *err)
+static int read_place(struct run *r, struct outputs *u, fl_file_mark mark[TABLES], int had[TABLES],
+                      fl_err *err)
 {
     fl_text in = {0};
     const char *word = "";
@@ -287,14 +289,14 @@ static int change_step(struct run *r, double dt, fl_err *err)
     if (!r->o->quiet)
         fprintf(stderr, "dem-solve: note: from t = %.9g s on with steps of %.4g s instead of %.4g s\n",
                 fl_world_time(r->w), dt, r->w->dt);
-    fl_step_resize(r->w, dt, fl_world_time(r->w));
-    return fl_world_looks(r->w, err);
+    fl_step_set_size(r->w, dt, fl_world_time(r->w));
+    return fl_check_wave_sampling(r->w, err);
 }
 
 int save_restore(struct run *r, struct outputs *u, fl_err *err)
 {
     char path[FL_SCENE_PATH + 16];
-    fl_mark mark[TABLES];
+    fl_file_mark mark[TABLES];
     fl_text in = {0};
     int had[TABLES] = {0}, fresh[TABLES] = {0};
     const double dt = r->w->dt; /* as the scene asks for */
@@ -303,22 +305,22 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
     fl_text_close(&in);
     if (!err->code) change_step(r, dt, err);
     if (!err->code && r->budget && fl_restart_open(r->saved, "budget", &in, err) == 0) {
-        fl_budget_read(r->budget, &in, err);
+        fl_error_budget_read(r->budget, &in, err);
         fl_text_close(&in);
     }
-    if (!err->code && r->budget && fl_beside_goes(&r->budget->beside) &&
+    if (!err->code && r->budget && fl_companion_is_active(&r->budget->companion) &&
         fl_restart_open(r->saved, "beside", &in, err) == 0) {
-        fl_snapshot_read(&r->budget->beside.w, &in, err);
+        fl_snapshot_read(&r->budget->companion.world, &in, err);
         fl_text_close(&in);
     }
     if (err->code || read_place(r, u, mark, had, err)) return -1;
     run_steps(r);
     r->begun = r->w->step;
     r->begun_time = fl_world_time(r->w);
-    r->begun_touching = r->w->touching_steps;
+    r->begun_touching = r->w->contact_steps;
     if (r->steps < r->w->step)
         return fl_fail(err, FL_USAGE,
-                       "run.duration is %g s, and the checkpoint is of t = %g s: a later end was wanted",
+                       "run.duration is %g s, and the checkpoint is of t = %g s: a later end is expected",
                        r->scene->run.duration, fl_world_time(r->w));
     for (int k = 0; k < TABLES; k++) { /* all of them are there, before one is touched */
         table_path(r, u, k, path);
@@ -328,9 +330,9 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
                            TABLE[k]);
         if (!path[0] && had[k])
             return fl_fail(err, FL_USAGE,
-                           "the run to resume writes output.%s, and it cannot end now: a file was wanted",
+                           "the run to resume writes output.%s, and it cannot end now: a file is expected",
                            TABLE[k]);
-        if (path[0] && fl_out_marked(path, &mark[k], err)) return -1;
+        if (path[0] && fl_out_check_mark(path, &mark[k], err)) return -1;
     }
     for (int k = 0; k < TABLES; k++) {
         table_path(r, u, k, path);

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/clobber.h"
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/output_guard.h"
+#include "base/array.h"
+#include "base/number_text.h"
 
 /* An input, or NULL for the checkpoint that is gone on from, where that is to be renewed. */
 static const char *kept(const char *input, const fl_scene *s, const struct options *o)
@@ -20,14 +20,14 @@ static int is_frame(const fl_scene *s, const char *path)
     char stem[FL_SCENE_PATH];
     int32_t k;
     const char *dot = path ? strrchr(path, '.') : NULL;
-    if (!dot || (size_t)(dot - path) >= sizeof stem || fl_num_i32(dot + 1, 0, s->output.files - 1, &k))
+    if (!dot || (size_t)(dot - path) >= sizeof stem || fl_number_i32(dot + 1, 0, s->output.files - 1, &k))
         return 0;
     snprintf(stem, sizeof stem, "%.*s", (int)(dot - path), path);
     return fl_same_file(stem, s->output.frames);
 }
 
-static int check_frames(const fl_scene *s, const fl_target *out, size_t outs, const fl_target *in, size_t ins,
-                        fl_err *err)
+static int check_frames(const fl_scene *s, const fl_named_path *out, size_t outs, const fl_named_path *in,
+                        size_t ins, fl_err *err)
 {
     for (size_t k = 0; k < outs; k++)
         if (is_frame(s, out[k].path))
@@ -44,17 +44,17 @@ static int check_frames(const fl_scene *s, const fl_target *out, size_t outs, co
 int targets_check(const fl_scene *s, const struct options *o, const char *loads, fl_err *err)
 {
     const int split = s->output.files > 1 && s->output.frames[0];
-    const fl_target out[] = {{"--output", loads},
-                             {"--report", o->report},
-                             {"output.frames", split ? NULL : s->output.frames},
-                             {"output.state", s->output.state},
-                             {"output.energy", s->output.energy},
-                             {"output.contacts", s->output.contacts},
-                             {"output.hash", s->output.hash},
-                             {"output.panels", s->output.panels},
-                             {"output.events", s->output.events},
-                             {"output.bonds", s->output.bonds},
-                             {"output.checkpoint", s->output.checkpoint}};
+    const fl_named_path out[] = {{"--output", loads},
+                                 {"--report", o->report},
+                                 {"output.frames", split ? NULL : s->output.frames},
+                                 {"output.state", s->output.state},
+                                 {"output.energy", s->output.energy},
+                                 {"output.contacts", s->output.contacts},
+                                 {"output.hash", s->output.hash},
+                                 {"output.panels", s->output.panels},
+                                 {"output.events", s->output.events},
+                                 {"output.bonds", s->output.bonds},
+                                 {"output.checkpoint", s->output.checkpoint}};
     const char *const one[] = {o->resume,
                                o->scene,
                                s->ice.file,
@@ -64,14 +64,15 @@ int targets_check(const fl_scene *s, const struct options *o, const char *loads,
                                s->water.profile_file};
     const size_t ones = sizeof one / sizeof *one;
     size_t n = 0;
-    fl_target *in = fl_alloc((int64_t)ones + s->n_part + s->n_file, sizeof *in, err);
+    fl_named_path *in = fl_alloc((int64_t)ones + s->n_part + s->n_file, sizeof *in, err);
     if (!in) return -1;
     for (size_t k = 0; k < ones; k++) in[n++].path = kept(one[k], s, o);
     for (int32_t k = 0; k < s->n_part; k++) in[n++].path = s->part[k].motion.track;
     for (int32_t k = 0; k < s->n_file; k++) in[n++].path = kept(s->file[k], s, o);
     const size_t outs = sizeof out / sizeof *out;
     const int rc =
-        fl_clobber_check(out, outs, in, n, err) || (split && check_frames(s, out, outs, in, n, err)) ? -1 : 0;
+        fl_output_guard_check(out, outs, in, n, err) || (split && check_frames(s, out, outs, in, n, err)) ? -1
+                                                                                                          : 0;
     free(in);
     return rc;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* targets.h -- what a run writes is none of what it reads, and nothing is written twice (base/clobber.h). */
+/* targets.h -- what a run writes is none of what it reads, and nothing is written twice (base/output_guard.h). */
 #ifndef DEM_SOLVE_TARGETS_H
 #define DEM_SOLVE_TARGETS_H
 #include "options.h"

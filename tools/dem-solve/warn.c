@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <inttypes.h>
 #include <string.h>
-#include "bound/shell.h"
+#include "structure/mesh_contact.h"
 #include "run.h"
 #include "sim/energy_balance.h"
-#include "step/balls.h"
-#include "step/ride.h"
-#include "step/step.h"
+#include "sphere/contact_list.h"
+#include "sim/moving_structure.h"
+#include "sim/step.h"
 
 /* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
 #define RESTS 1e-3
@@ -18,9 +18,10 @@ static void warn_overlaps(const struct run *r)
     const fl_world *w = r->w;
     int32_t found = 0, i = -1, j = -1;
     char other[64];
-    fl_pair_walk at = {.w = w};
+    fl_pair_iterator at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
-        if (!p->n || !(p->overlap > FL_OVERLAP_HALF * p->keep * (w->b.radius[p->i] + w->b.radius[p->j])))
+        if (!p->touching ||
+            !(p->overlap > FL_DEEP_OVERLAP * p->radius_factor * (w->b.radius[p->i] + w->b.radius[p->j])))
             continue;
         if (!found++) i = p->i, j = p->j;
     }
@@ -28,8 +29,8 @@ static void warn_overlaps(const struct run *r)
     fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
             found == 1 ? "pair overlaps by more than half its radii"
                        : "pairs overlap by more than half their radii");
-    if (j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_name(w, j));
-    else fl_world_wall(w, j - w->n - w->pieces, other);
+    if (j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_id(w, j));
+    else fl_wall_name(w, j - w->n - w->pieces, other);
     fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[i], other);
 }
 
@@ -38,11 +39,12 @@ static int stands_inside(const fl_world *w, int32_t i, int32_t k)
 {
     const fl_piece *piece = &w->structure.piece[k];
     const int32_t j = w->n + k;
-    if (piece->kind != FL_PIECE_SHELL || fl_world_away(w, i)) return 0;
-    if (!fl_shell_holds(piece, m3_tmul(fl_body_axes(&w->b, j), v3_sub(w->b.x[i], w->b.x[j])))) return 0;
-    fl_pair_walk at = {.w = w};
+    if (piece->kind != FL_PIECE_MESH || fl_body_absent(w, i)) return 0;
+    if (!fl_mesh_contact_contains(piece, m3_tmul(fl_body_axes(&w->b, j), v3_sub(w->b.x[i], w->b.x[j]))))
+        return 0;
+    fl_pair_iterator at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;)
-        if (p->n && p->i == i && p->j == j) return 0;
+        if (p->touching && p->i == i && p->j == j) return 0;
     return 1;
 }
 
@@ -80,11 +82,11 @@ static void warn_sheets(const struct run *r)
 static void warn_hulls(const struct run *r)
 {
     const fl_world *w = r->w;
-    for (int32_t k = 0; k < w->ride.m.n; k++) {
-        const fl_flotation *f = &w->ride.afloat[k];
-        const fl_motion *m = &w->ride.m.motion[k];
+    for (int32_t k = 0; k < w->moving.movers.n; k++) {
+        const fl_hydrostatics *f = &w->moving.hydrostatics[k];
+        const fl_rigid_motion *m = &w->moving.movers.motion[k];
         const double water = w->scene->water.density * f->volume, size = cbrt(f->volume);
-        const char *name = fl_ride_name(w, k);
+        const char *name = fl_mover_name(w, k);
         if (f->volume == 0.0) continue;
         if (m->mass > 0.0 && fabs(m->mass - water) > RESTS * water)
             fprintf(stderr,
@@ -92,14 +94,14 @@ static void warn_hulls(const struct run *r)
                     "%.3g m %s\n",
                     name, m->mass, water, fabs(m->mass - water) / (w->scene->water.density * f->area),
                     m->mass < water ? "higher" : "deeper");
-        if (hypot(f->buoyancy.x, f->buoyancy.y) > RESTS * size)
+        if (hypot(f->buoyancy_centre.x, f->buoyancy_centre.y) > RESTS * size)
             fprintf(
                 stderr,
                 "dem-solve: warning: the buoyancy of %s acts %.3g m in x and %.3g m in y from its reference "
                 "point: at rest it would lean\n",
-                name, fabs(f->buoyancy.x) > 1e-9 * size ? f->buoyancy.x : 0.0,
-                fabs(f->buoyancy.y) > 1e-9 * size ? f->buoyancy.y : 0.0);
-        if ((m->free & FL_HOLD_RX && m->K[3][3] <= 0.0) || (m->free & FL_HOLD_RY && m->K[4][4] <= 0.0))
+                name, fabs(f->buoyancy_centre.x) > 1e-9 * size ? f->buoyancy_centre.x : 0.0,
+                fabs(f->buoyancy_centre.y) > 1e-9 * size ? f->buoyancy_centre.y : 0.0);
+        if ((m->free_dof & FL_DOF_RX && m->K[3][3] <= 0.0) || (m->free_dof & FL_DOF_RY && m->K[4][4] <= 0.0))
             fprintf(stderr, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
                     m->K[3][3], m->K[4][4]);
     }
@@ -125,9 +127,9 @@ static void warn_materials(const struct run *r)
 {
     const fl_world *w = r->w;
     const fl_scene *s = r->scene;
-    for (int32_t k = 0; k < s->n_material && !w->traffic.feed; k++) {
+    for (int32_t k = 0; k < s->n_material && !w->inflow.feed; k++) {
         const fl_scene_material *m = &s->material[k];
-        const fl_scene_mark *at = &m->head.opened;
+        const fl_scene_mark *at = &m->head.heading;
         int used = strcmp(m->name, "ice") == 0 || strcmp(m->name, "steel") == 0 || at->file > 0 ||
                    (s->structure.head.present && strcmp(m->name, s->structure.material) == 0);
         for (int32_t i = 0; i < w->n && !used; i++) used = w->material[i] == k;
@@ -169,7 +171,7 @@ void warn_at_row(struct run *r, double t)
     const fl_world *w = r->w;
     for (int32_t i = 0; i < w->n && !r->swift; i++) {
         const double way = w->dt * v3_norm(w->b.v[i]);
-        if (!(way > 2.0 * w->b.radius[i]) || fl_world_away(w, i)) continue;
+        if (!(way > 2.0 * w->b.radius[i]) || fl_body_absent(w, i)) continue;
         const double thick = thickness(&w->b.core[i], w->b.radius[i]);
         if (!(way > thick) || isinf(way)) continue;
         r->swift = 1;
@@ -183,50 +185,51 @@ void warn_at_row(struct run *r, double t)
 
 static void warn_overlapped(const fl_world *w)
 {
-    if (!w->half_steps) return;
+    if (!w->deep_overlap_steps) return;
     fprintf(
         stderr,
         "dem-solve: warning: overlaps past half the radii in %" PRId64
         " step%s, up to %.3g of them, first of body %d and %d at t = %.6g s: contacts are too soft for these "
         "speeds%s\n",
-        w->half_steps, w->half_steps == 1 ? "" : "s", w->worst_overlap, w->half_i, w->half_j, w->half_time,
-        w->worst_overlap >= 1.0 ? ", and bodies may have gone through each other" : "");
+        w->deep_overlap_steps, w->deep_overlap_steps == 1 ? "" : "s", w->max_overlap, w->deep_overlap_i,
+        w->deep_overlap_j, w->deep_overlap_time,
+        w->max_overlap >= 1.0 ? ", and bodies may have gone through each other" : "");
 }
 
 static void warn_energy(const fl_world *w)
 {
-    if (!fl_step_unbalanced(w)) return;
+    if (!fl_energy_unbalanced(w)) return;
     fprintf(stderr,
             "dem-solve: warning: the energy balance is off by %.2g of the throughput (%.3g J of %.3g J), and "
             "above %g the loads should not be used: a shorter step or another contact.law is wanted\n",
-            fl_step_off(w), w->ledger.residual, w->ledger.throughput, FL_STEP_USABLE);
+            fl_energy_error(w), w->ledger.residual, w->ledger.throughput, FL_ENERGY_ERROR_USABLE);
 }
 
 /* An error that was asked for and is not kept is told: no shorter step need do any better. */
 static void warn_budget(const struct run *r)
 {
     double apart;
-    const fl_budget *g = r->budget;
-    const double off = fl_budget_whole(g, &apart), windows = fl_budget_estimate(g, r->w->dt);
+    const fl_error_budget *g = r->budget;
+    const double off = fl_error_budget_run_error(g, &apart), windows = fl_error_budget_estimate(g, r->w->dt);
     if (!isfinite(windows))
         fprintf(
             stderr,
             "dem-solve: warning: run.error: windows fail in any step that was tried, and nothing is known "
             "of what the loads are off by: another contact.law, stiffer contacts or bodies that do not "
             "begin in one another are wanted\n");
-    else if (windows > FL_DOUBT * g->goal)
+    else if (windows > FL_COMPANION_TOLERANCE * g->goal)
         fprintf(stderr,
                 "dem-solve: warning: run.error: %.2g was asked for, and windows are off by about %.2g in any "
                 "step "
                 "that was tried: what meets in them parts faster than a step can tell; shorter rows "
                 "(output.loads_every) are shorter windows\n",
                 g->goal, windows);
-    if (g->beside.since < 0.0) return;
+    if (g->companion.exceeded_since < 0.0) return;
     fprintf(stderr,
             "dem-solve: warning: run.error: %.2g was asked for, and the load as a whole is off by about %.2g "
             "from t = %.4g s on: hits make more of what any step is off by, so that it holds for the time "
             "from one to the next alone; of such a load the mean of several runs is what can be told\n",
-            g->goal, off, g->beside.since);
+            g->goal, off, g->companion.exceeded_since);
 }
 
 /* Whether gravity g pulls body i away from all there is for good, and has by its own size. */
@@ -235,9 +238,11 @@ static int falls(const fl_world *w, int32_t i, double g)
     const fl_bodies *b = &w->b;
     const fl_vec3 down = v3_scale(1.0 / g, w->gravity);
     const double speed = v3_dot(b->v[i], down);
-    if (fl_world_away(w, i) || !(speed > sqrt(2.0 * g * (b->bound[i] + b->radius[i])))) return 0;
+    if (fl_body_absent(w, i) || !(speed > sqrt(2.0 * g * (b->bounding_radius[i] + b->radius[i])))) return 0;
     for (int32_t k = w->n; k < w->n + w->pieces; k++)
-        if (v3_dot(v3_sub(b->x[i], b->x[k]), down) <= b->bound[i] + b->bound[k] + b->radius[i]) return 0;
+        if (v3_dot(v3_sub(b->x[i], b->x[k]), down) <=
+            b->bounding_radius[i] + b->bounding_radius[k] + b->radius[i])
+            return 0;
     for (int32_t k = w->pieces; k < w->structure.n; k++) /* a wall that it goes towards */
         if (v3_dot(q_rotate(w->structure.piece[k].q, v3(0, 0, 1)), down) < -0.1) return 0;
     return 1;
@@ -248,7 +253,7 @@ static void warn_fallen(const fl_world *w)
 {
     const double g = v3_norm(w->gravity);
     int32_t many = 0, first = 0;
-    if (w->sea.water || w->cell.wraps || !(g > 0.0)) return;
+    if (w->sea.water || w->cell.periodic || !(g > 0.0)) return;
     for (int32_t i = w->n - 1; i >= 0; i--)
         if (falls(w, i, g)) many++, first = w->id[i];
     if (many)

@@ -3,12 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "base/option.h"
 #include "base/text.h"
-#include "stat/butter.h"
-#include "stat/view.h"
+#include "stat/butterworth.h"
+#include "stat/signal_view.h"
 #include "options.h"
 
 static const char HELP[] =
@@ -179,11 +179,11 @@ static const char *const TABLE[] = {[TABLE_STATS] = "stats",         [TABLE_PEAK
                                     [TABLE_LINE] = "line-load",      [TABLE_MAP] = "map"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
-static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_over_name() */
+static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_reduction_name() */
 static const char *const CYCLE_RULE[] = {"astm", "iso"};                     /* as fl_rainflow_rule_name() */
 static const char *const OPEN_CYCLES[] = {"half", "repeat", "none"};         /* as fl_residue_name() */
 static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none"}; /* as fl_taper_name() */
-static const char *const PASS[] = {"low", "high", "band", "mean"};           /* as fl_pass_name() */
+static const char *const PASS[] = {"low", "high", "band", "mean"};           /* as fl_filter_name() */
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
@@ -195,8 +195,8 @@ int options_many_runs(const struct options *o) { return o->merge || o->stream; }
 static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
                   fl_err *err)
 {
-    if (fl_num_f64(text, x) == 0 && *x >= lo && *x <= hi) return 0;
-    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", %s was wanted", option, text, wanted);
+    if (fl_number_f64(text, x) == 0 && *x >= lo && *x <= hi) return 0;
+    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", %s is expected", option, text, wanted);
 }
 
 static int choice(const char *option, const char *text, const char *const *list, int n, fl_err *err)
@@ -268,14 +268,15 @@ static int time_of(const char *option, const char *text, double *t, fl_err *err)
         memcpy(number_text, text, digits);
         number_text[digits] = '\0';
         for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-            if (strcmp(text + digits, known[k].unit) != 0 || fl_num_f64(number_text, t) || !(*t > 0.0))
+            if (strcmp(text + digits, known[k].unit) != 0 || fl_number_f64(number_text, t) || !(*t > 0.0))
                 continue;
             *t *= known[k].seconds;
             if (*t <= 1e300) return 0;
         }
     }
-    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", a time above 0 was wanted, as 90, 10min, 3h, 2d or 50a",
-                   option, text);
+    return fl_fail(err, FL_USAGE,
+                   "--%s is \"%.40s\", a time above 0 is expected, as 90, 10min, 3h, 2d or 50a", option,
+                   text);
 }
 
 static int take_return(struct options *o, char *word, fl_err *err)
@@ -300,17 +301,17 @@ static int take_filter(struct options *o, const char *text, fl_err *err)
 {
     const char *colon = strchr(text, ':'), *value = colon ? colon + 1 : text, *comma = strchr(value, ',');
     char word[40];
-    o->pass = FL_PASS_LOW;
+    o->pass = FL_FILTER_LOW;
     if (colon) {
         snprintf(word, sizeof word, "%.*s", (int)(colon - text), text);
         o->pass = choice("filter", word, PASS, COUNT(PASS), err);
         if (o->pass < 0) return -1;
     }
-    if (o->pass == FL_PASS_MEAN) return time_of("filter", value, &o->filter, err);
-    if (o->pass != FL_PASS_BAND)
+    if (o->pass == FL_FILTER_MEAN) return time_of("filter", value, &o->filter, err);
+    if (o->pass != FL_FILTER_BAND)
         return number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
     if (!comma || comma - value >= (int)sizeof word)
-        return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", band:HZ,HZ was wanted", text);
+        return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", band:HZ,HZ is expected", text);
     snprintf(word, sizeof word, "%.*s", (int)(comma - value), value);
     if (number("filter", word, 1e-300, 1e300, "a frequency above 0", &o->filter, err) ||
         number("filter", comma + 1, 1e-300, 1e300, "a frequency above 0", &o->upper, err))
@@ -322,7 +323,7 @@ static int take_filter(struct options *o, const char *text, fl_err *err)
 /* The words of one --sn; o->sns is raised when all of them are known. */
 static int take_sn(struct options *o, char *word, fl_err *err)
 {
-    fl_sn *sn = &o->sn[o->sns];
+    fl_sn_curve *sn = &o->sn[o->sns];
     const double tiny = 1e-300, huge = 1e300;
     switch (o->sn_words++) {
     case 0: return number("sn", word, 1e-3, 100.0, "an exponent above 0", &sn->m, err);
@@ -339,7 +340,7 @@ static int take_sn(struct options *o, char *word, fl_err *err)
 static int add_sn(struct options *o, const char *text, fl_err *err)
 {
     if (o->sns == SNS_MAX) return fl_fail(err, FL_USAGE, "more than %d S-N lines were given", SNS_MAX);
-    o->sn[o->sns] = (fl_sn){.a = NAN};
+    o->sn[o->sns] = (fl_sn_curve){.a = NAN};
     o->sn_words = 0;
     if (each(o, "sn", text, take_sn, err)) return -1;
     if (o->sn_words == 3)
@@ -377,7 +378,7 @@ static int add_sway(struct options *o, const char *text, fl_err *err)
     o->sway_words = 0;
     if (each(o, "oscillator", text, take_sway, err)) return -1;
     if (o->sway_words < 2)
-        return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, F,Z was wanted", text);
+        return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, F,Z is expected", text);
     o->sways++;
     return 0;
 }
@@ -417,7 +418,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case TO: return number("to", arg, -huge, huge, "a time", &o->to, err);
     case 'w': return number("window", arg, tiny, huge, "a time above 0", &o->window, err);
     case 'f': return take_filter(o, arg, err);
-    case ORDER: return fl_option_whole("order", arg, 1, FL_BUTTER_ORDER_MAX, &o->order, err);
+    case ORDER: return fl_option_whole("order", arg, 1, FL_BUTTERWORTH_ORDER_MAX, &o->order, err);
     case 's': return number("separation", arg, 0.0, 1.0, "a number from 0 to 1", &o->separation, err);
     case THRESHOLD: return number("threshold", arg, 0.0, huge, "a number not below 0", &o->threshold, err);
     case 'b': return fl_option_whole("bins", arg, 1, 1000000, &o->bins, err);
@@ -474,7 +475,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         o->skip[2] = NAN;
         if (each(o, "skip", arg, take_skip, err)) return -1;
         return o->skips >= 2 ? 0
-                             : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", N,D or N,D,GAP was wanted", arg);
+                             : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", N,D or N,D,GAP is expected", arg);
     case STEP: return time_of("step", arg, &o->step, err);
     case SN: return add_sn(o, arg, err);
     case STRESS: return number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
@@ -629,9 +630,9 @@ void options_free(struct options *o)
 
 void options_filter(const struct options *o, char *text, size_t size)
 {
-    if (o->pass == FL_PASS_LOW) snprintf(text, size, "%g Hz", o->filter);
-    else if (o->pass == FL_PASS_HIGH) snprintf(text, size, "above %g Hz", o->filter);
-    else if (o->pass == FL_PASS_BAND) snprintf(text, size, "%g to %g Hz", o->filter, o->upper);
+    if (o->pass == FL_FILTER_LOW) snprintf(text, size, "%g Hz", o->filter);
+    else if (o->pass == FL_FILTER_HIGH) snprintf(text, size, "above %g Hz", o->filter);
+    else if (o->pass == FL_FILTER_BAND) snprintf(text, size, "%g to %g Hz", o->filter, o->upper);
     else snprintf(text, size, "mean of %g s", o->filter);
 }
 

@@ -59,7 +59,7 @@ struct options {
     int skips;               /* how many of them were given */
     double step;             /* [s], 0 for the rows as they are */
     double filter, upper;    /* [Hz], of a moving mean [s]; 0 for none; upper is of a band */
-    int pass, order;         /* fl_pass */
+    int pass, order;         /* fl_filter_kind */
     double separation, threshold;
     int32_t bins;
     double quantile[QUANTILES_MAX];
@@ -83,9 +83,9 @@ struct options {
     double patience;
     const char *where[WHERES_MAX]; /* "COLUMN=WORD", borrowed from argv */
     int32_t wheres;
-    int over;          /* fl_over */
-    int rule, residue; /* of the cycles, fl_rainflow_rule and fl_residue */
-    fl_sn sn[SNS_MAX]; /* a is NAN where only the exponent was given */
+    int over;                /* fl_time_reduction */
+    int rule, residue;       /* of the cycles, fl_rainflow_rule and fl_residue */
+    fl_sn_curve sn[SNS_MAX]; /* a is NAN where only the exponent was given */
     int32_t sns, sn_words;
     double segment, speed; /* [s] of a spectrum, 0 for what suits the record; [m/s] 0 for not known */
     int taper;             /* fl_taper */

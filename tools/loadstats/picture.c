@@ -32,7 +32,7 @@ plot_scale plot_scale_of(const char *unit, double large)
 
 static double largest_of(const picture *p, int32_t s)
 {
-    const fl_describe *d = &view_of(p->r, p->part, s, 0)->d;
+    const fl_descriptive_stats *d = &view_of(p->r, p->part, s, 0)->stats;
     return fmax(fabs(d->min), fabs(d->max));
 }
 
@@ -208,7 +208,7 @@ int plot_make(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *err
     if (plot_path(path, p.o->plot, p.stem, "gp", err) || fl_out_open(&script, path, 0, err)) goto done;
     p.data = data.f;
     p.script = script.f;
-    fl_by_header(p.data, p.what, 1, p.r->s->history, p.by);
+    fl_write_file_header(p.data, p.what, 1, p.r->s->history, p.by);
     if (fill(&p, err)) goto done;
     fputs("unset multiplot\nset output\n", p.script);
     if (fl_out_close(&data, err) || fl_out_close(&script, err)) goto done;

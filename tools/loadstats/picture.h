@@ -2,7 +2,7 @@
 /* picture.h -- what all pictures by gnuplot have in common: names, data, panels, and the run of gnuplot. */
 #ifndef LOADSTATS_PICTURE_H
 #define LOADSTATS_PICTURE_H
-#include "statrows.h"
+#include "table_stats.h"
 
 enum { PLOT_STEM_LEN = 80, PLOT_FOOT = 70 };
 
@@ -35,7 +35,7 @@ int plot_draw(const char *dir, const char *stem, const char *format, fl_err *err
 typedef struct {
     const struct result *r;
     const struct options *o;
-    const fl_by *by;
+    const fl_history_line *by;
     int32_t part;
     const char *what;         /* "history", "peaks" */
     char stem[PLOT_STEM_LEN]; /* "history-tower" */

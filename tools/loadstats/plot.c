@@ -6,13 +6,13 @@
 #include <sys/stat.h>
 #include "stat/extreme.h"
 #include "stat/histogram.h"
-#include "stat/welch.h"
-#include "cycleplot.h"
-#include "fitplot.h"
-#include "legrows.h"
+#include "stat/power_spectrum.h"
+#include "plot_rainflow.h"
+#include "plot_levels.h"
+#include "table_parts.h"
 #include "plot.h"
-#include "specplot.h"
-#include "swayplot.h"
+#include "plot_spectrum.h"
+#include "plot_response.h"
 
 enum { PARTS_MAX = 24, GAP = 26, STRETCHES = 2000, CLASSES = 20, ALL_RANKS = 200 };
 
@@ -30,7 +30,7 @@ static void history_row(const picture *p, int32_t s, int w, double t, double x)
 /* A row of a loads table is the mean of an interval: a step where there is room for it, else its middle. */
 static void history_block(picture *p, int32_t s, int w)
 {
-    const fl_view *v = view_of(p->r, p->part, s, w);
+    const fl_signal_view *v = view_of(p->r, p->part, s, w);
     const int means = strcmp(p->r->s->kind, "loads") == 0, steps = means && w == 0 && v->n <= STRETCHES;
     const int64_t stretches = v->n > 2 * STRETCHES ? STRETCHES : v->n;
     plot_block(p);
@@ -58,13 +58,14 @@ static int32_t next_rank(int32_t k) { return k < ALL_RANKS ? k + 1 : k + k / (AL
 
 static void exceedance_block(picture *p, int32_t s, int w)
 {
-    const fl_view *v = view_of(p->r, p->part, s, w);
+    const fl_signal_view *v = view_of(p->r, p->part, s, w);
     const int32_t n = v->peaks.n;
     plot_block(p);
     for (int32_t k = 0; k < n; k = next_rank(k)) {
         plot_label(p, s, w);
         plot_columns(p, 3,
-                     (double[]){v->value[k], fl_extreme_position(k + 1, n), v->t[v->peaks.at[v->rank[k]]]});
+                     (double[]){v->peak_value[k], fl_plotting_position(k + 1, n),
+                                v->t[v->peaks.row[v->peak_rank[k]]]});
     }
 }
 
@@ -82,13 +83,13 @@ static void classes_block(picture *p, int32_t s, int w, const fl_histogram *h)
 static void history_panel(picture *p, int k, int32_t s)
 {
     const struct result *r = p->r;
-    const fl_view *v = view_of(r, p->part, s, 0);
+    const fl_signal_view *v = view_of(r, p->part, s, 0);
     const plot_scale c = plot_scale_here(p, s);
-    double lo = v->d.min, hi = v->d.max;
+    double lo = v->stats.min, hi = v->stats.max;
     char text[300];
     for (int w = 1; w < r->each; w++) {
-        lo = fmin(lo, view_of(r, p->part, s, w)->d.min);
-        hi = fmax(hi, view_of(r, p->part, s, w)->d.max);
+        lo = fmin(lo, view_of(r, p->part, s, w)->stats.min);
+        hi = fmax(hi, view_of(r, p->part, s, w)->stats.max);
     }
     if (!(hi - lo > FLAT * fmax(fabs(lo), fabs(hi)))) { /* a constant has no range of its own */
         const double room = lo != 0.0 ? 0.5 * fabs(lo) : 1.0;
@@ -149,15 +150,15 @@ static int classes_panel(picture *p, int k, int32_t s, fl_err *err)
     char text[300];
     int rc = -1;
     for (int w = 0; w < r->each; w++) {
-        const fl_view *v = view_of(r, p->part, s, w);
+        const fl_signal_view *v = view_of(r, p->part, s, w);
         if (!v->peaks.n) continue;
-        hi = fmax(hi, v->value[0]);
-        lo = fmin(lo, v->value[v->peaks.n - 1]);
+        hi = fmax(hi, v->peak_value[0]);
+        lo = fmin(lo, v->peak_value[v->peaks.n - 1]);
     }
     for (int w = 0; w < r->each; w++) {
-        const fl_view *v = view_of(r, p->part, s, w);
+        const fl_signal_view *v = view_of(r, p->part, s, w);
         if (fl_histogram_make(&h[w], CLASSES, lo, hi, err)) goto done;
-        for (int32_t i = 0; i < v->peaks.n; i++) fl_histogram_add(&h[w], v->value[i], 1.0);
+        for (int32_t i = 0; i < v->peaks.n; i++) fl_histogram_add(&h[w], v->peak_value[i], 1.0);
         for (int32_t i = 0; i < CLASSES; i++) most = fmax(most, h[w].bin[i]);
     }
     plot_place(p, k, 0.1, 0.475);
@@ -228,28 +229,28 @@ static int plot_table(picture *p, int *made, fl_err *err)
     const struct options *o = p->o;
     const int cycles = o->page || o->table == TABLE_RAINFLOW || o->table == TABLE_DAMAGE;
     const int spectra = o->table == TABLE_SPECTRUM || o->table == TABLE_FREQUENCY ||
-                        (o->page && p->r->s->n >= FL_WELCH_SHORTEST);
+                        (o->page && p->r->s->n >= FL_SPECTRUM_SHORTEST_SEGMENT);
     const int sway = o->sways && (o->page || o->table == TABLE_RESPONSE || o->table == TABLE_MOTION);
     int varies = 0;
     for (int32_t s = 0; s < p->r->s->signals; s++) {
-        const fl_view *v = view_of(p->r, p->part, s, 0);
-        varies += v && v->d.max > v->d.min;
+        const fl_signal_view *v = view_of(p->r, p->part, s, 0);
+        varies += v && v->stats.max > v->stats.min;
     }
     const int levels = o->returns && (o->page || o->table == TABLE_LEVELS);
     p->what = "levels";
-    const int drawn = levels ? fitplot(p, made, err) : 0;
+    const int drawn = levels ? plot_levels(p, made, err) : 0;
     if (drawn) return drawn;
     p->what = "rainflow";
-    if (cycles && varies && plot_make(p, cycleplot, err)) return -1;
+    if (cycles && varies && plot_make(p, plot_rainflow, err)) return -1;
     p->what = "spectrum";
-    if (spectra && varies && plot_make(p, specplot, err)) return -1;
+    if (spectra && varies && plot_make(p, plot_spectrum, err)) return -1;
     p->what = "response";
-    if (sway && plot_make(p, swayplot, err)) return -1;
+    if (sway && plot_make(p, plot_response, err)) return -1;
     *made += (cycles && varies) + (spectra && varies) + sway;
     return 0;
 }
 
-int plot(const struct result *r, const struct options *o, const fl_by *by, fl_err *err)
+int plot(const struct result *r, const struct options *o, const fl_history_line *by, fl_err *err)
 {
     const int32_t parts = r->s->parts, alone = parts == 2 && strcmp(r->s->part[1], "total") == 0;
     picture p = {.r = r, .o = o, .by = by};
@@ -275,7 +276,7 @@ int plot(const struct result *r, const struct options *o, const fl_by *by, fl_er
         if (plot_table(&p, &made, err)) return -1;
     }
     if (o->table == TABLE_LEGS || (o->page && !alone && parts > 2)) {
-        if (legrows_plot(r, o, by, err)) return -1;
+        if (plot_parts(r, o, by, err)) return -1;
         made++;
     }
     if (!o->quiet) fprintf(stderr, "loadstats: %d picture(s) in %s\n", made, o->plot);

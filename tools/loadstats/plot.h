@@ -3,7 +3,7 @@
 #ifndef LOADSTATS_PLOT_H
 #define LOADSTATS_PLOT_H
 #include "picture.h"
-#include "statrows.h"
+#include "table_stats.h"
 
 /* Write into the folder o->plot, made if need be, for each part P (for the total alone, when it is the sum of
  * one part):
@@ -15,6 +15,6 @@
  * stretch, and ranks beyond the 200th to steps of a hundredth.
  * 0, or -1 with FL_USAGE (too many parts) or FL_SYSTEM (gnuplot missing or failing, a file not written) in
  * err. */
-int plot(const struct result *r, const struct options *o, const fl_by *by, fl_err *err);
+int plot(const struct result *r, const struct options *o, const fl_history_line *by, fl_err *err);
 
 #endif

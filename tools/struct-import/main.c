@@ -2,10 +2,10 @@
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/stream.h"
-#include "base/clobber.h"
+#include "base/output_guard.h"
 #include "geom/facet.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
@@ -14,11 +14,11 @@
 #include "mesh/write_ply.h"
 #include "mesh/write_stl.h"
 #include "mesh/write_vtp.h"
-#include "named.h"
+#include "part_names.h"
 #include "options.h"
 #include "views.h"
-#include "quality.h"
-#include "unite.h"
+#include "quality_report.h"
+#include "joint_closure.h"
 
 /* Of a round solid in a format that knows triangles only; 0.2 % of its volume is lost. */
 enum { ROUND_FACETS = 64 };
@@ -50,7 +50,8 @@ static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *
     return 0;
 }
 
-static int read_file(const struct options *o, const struct item *it, fl_wish *w, fl_surface *s, fl_err *err)
+static int read_file(const struct options *o, const struct item *it, fl_import_options *w, fl_surface *s,
+                     fl_err *err)
 {
     const int32_t first = s->n;
     char note[FL_MESH_NOTE];
@@ -86,9 +87,10 @@ static int check_names(const fl_surface *s, fl_err *err)
 {
     for (int32_t i = 0; i < s->n; i++)
         if (strcmp(s->part[i].name, FL_GSTRUCT_TOTAL) == 0)
-            return fl_fail(err, FL_INPUT,
-                           "a part is called " FL_GSTRUCT_TOTAL
-                           ", as loads call the sum over the parts: another --name, or --rename, was wanted");
+            return fl_fail(
+                err, FL_INPUT,
+                "a part is called " FL_GSTRUCT_TOTAL
+                ", as loads call the sum over the parts: another --name, or --rename, is expected");
     return 0;
 }
 
@@ -109,7 +111,7 @@ static int collect(const struct options *o, fl_surface *s, fl_err *err)
     return 0;
 }
 
-static int write_as(enum format to, FILE *f, const fl_surface *s, const fl_by *by, fl_err *err)
+static int write_as(enum format to, FILE *f, const fl_surface *s, const fl_history_line *by, fl_err *err)
 {
     switch (to) {
     case TO_STL: fl_stl_write_ascii(f, s); return 0;
@@ -125,7 +127,7 @@ static int write_as(enum format to, FILE *f, const fl_surface *s, const fl_by *b
 static int write_out(const struct options *o, const fl_surface *s, fl_err *err)
 {
     fl_out out = {0};
-    fl_by by;
+    fl_history_line by;
     int rc = -1;
     options_by(o, &by);
     if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
@@ -140,7 +142,7 @@ done:
 static int judge(const fl_surface *s, const struct mended *m, fl_err *err)
 {
     for (int32_t i = 0; i < s->n; i++) {
-        const fl_quality *q = &m[i].left;
+        const fl_mesh_quality *q = &m[i].left;
         if ((q->open && !m[i].fits) || q->branched || q->incoherent)
             return fl_fail(err, FL_NO,
                            "part \"%.60s\" is left with %d open, %d non-manifold and %d twisted edges",
@@ -155,9 +157,9 @@ static int judge(const fl_surface *s, const struct mended *m, fl_err *err)
 
 static int check_targets(const struct options *o, fl_err *err)
 {
-    const fl_target out = {"--output", o->out};
+    const fl_named_path out = {"--output", o->out};
     for (int32_t k = 0; k < o->items; k++)
-        if (fl_clobber_check(&out, 1, &(fl_target){.path = o->item[k].path}, 1, err)) return -1;
+        if (fl_output_guard_check(&out, 1, &(fl_named_path){.path = o->item[k].path}, 1, err)) return -1;
     return 0;
 }
 
@@ -188,7 +190,7 @@ int main(int argc, char **argv)
     struct options o;
     fl_err err = {0};
     fl_tool_begin();
-    fl_par_wait_briefly(argv);
+    fl_parallel_limit_spin(argv);
     int rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
     if (rc == 0 && !o.ended) rc = run(&o, &err);
     options_free(&o);

@@ -2,8 +2,8 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/mem.h"
-#include "base/num.h"
+#include "base/array.h"
+#include "base/number_text.h"
 #include "base/option.h"
 #include "geom/facet.h"
 #include "options.h"
@@ -118,7 +118,7 @@ static int numbers(const char *option, const char *text, int least, int most, do
     for (char *p = copy, *end; p; p = end) {
         end = strchr(p, ',');
         if (end) *end++ = '\0';
-        if (n < most && (fl_num_f64(p, &x[n]) || !(fabs(x[n]) <= FAR)) && !odd[0])
+        if (n < most && (fl_number_f64(p, &x[n]) || !(fabs(x[n]) <= FAR)) && !odd[0])
             snprintf(odd, sizeof odd, "%.40s", p[0] ? p : " ");
         n++;
     }
@@ -128,12 +128,12 @@ static int numbers(const char *option, const char *text, int least, int most, do
         return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", and \"%s\" is no number from %g to %g", option,
                        text, odd, -FAR, FAR);
     if (least == most && least == 1)
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number was wanted", option, text);
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number is expected", option, text);
     if (least == most)
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d numbers with commas were wanted", option, text,
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d numbers with commas are expected", option, text,
                        least);
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d or %d numbers with commas were wanted", option, text,
-                   least, most);
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d or %d numbers with commas are expected", option,
+                   text, least, most);
 }
 
 /* The part that comes next gets the name that waits. */
@@ -156,9 +156,9 @@ static int round_solid(const char *option, const char *text, struct item *it, fl
     const double *axis = n > least ? x + least : (const double[]){0.0, 0.0};
     const double r0 = x[0], z0 = x[1], r1 = cylinder ? x[0] : x[2], z1 = cylinder ? x[2] : x[3];
     if (r0 < 0.0 || r1 < 0.0 || !(r0 + r1 > 0.0))
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", radii >= 0 and not both 0 were wanted", option,
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", radii >= 0 and not both 0 are expected", option,
                        text);
-    if (!(z0 < z1)) return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", Z0 < Z1 was wanted", option, text);
+    if (!(z0 < z1)) return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", Z0 < Z1 is expected", option, text);
     *it = (struct item){.kind = cylinder ? ITEM_CYLINDER : ITEM_CONE, .text = text};
     it->cone = (fl_cone){v3(axis[0], axis[1], z0), v3(axis[0], axis[1], z1), r0, r1};
     return 0;
@@ -170,7 +170,7 @@ static int box(const char *text, struct item *it, fl_err *err)
     if (numbers("box", text, 6, 6, x, err) < 0) return -1;
     *it = (struct item){.kind = ITEM_BOX, .text = text, .box = {v3(x[0], x[1], x[2]), v3(x[3], x[4], x[5])}};
     if (x[0] < x[3] && x[1] < x[4] && x[2] < x[5]) return 0;
-    return fl_fail(err, FL_USAGE, "--box is \"%.60s\", X0 < X1, Y0 < Y1 and Z0 < Z1 was wanted", text);
+    return fl_fail(err, FL_USAGE, "--box is \"%.60s\", X0 < X1, Y0 < Y1 and Z0 < Z1 is expected", text);
 }
 
 static int unit(struct options *o, const char *text, fl_err *err)
@@ -181,19 +181,19 @@ static int unit(struct options *o, const char *text, fl_err *err)
             o->map.s = UNIT[k].metres;
             return 0;
         }
-    return fl_fail(err, FL_USAGE, "--unit is \"%.60s\", one of mm cm m in ft was wanted", text);
+    return fl_fail(err, FL_USAGE, "--unit is \"%.60s\", one of mm cm m in ft is expected", text);
 }
 
 static int positive(const char *option, const char *text, double *x, fl_err *err)
 {
     if (numbers(option, text, 1, 1, x, err) < 0) return -1;
     return *x > 0.0 ? 0
-                    : fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number above 0 was wanted", option, text);
+                    : fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number above 0 is expected", option, text);
 }
 
 static int pattern(struct options *o, const char *text, fl_err *err)
 {
-    if (*text == '\0') return fl_fail(err, FL_USAGE, "--part is empty, a pattern was wanted");
+    if (*text == '\0') return fl_fail(err, FL_USAGE, "--part is empty, a pattern is expected");
     if (fl_grow(&o->part, &o->part_cap, (int64_t)o->parts + 1, sizeof *o->part, err)) return -1;
     o->part[o->parts++] = text;
     return 0;
@@ -205,7 +205,7 @@ static int rename_as(struct options *o, const char *text, fl_err *err)
     const char *mid = strrchr(text, '=');
     struct alias *a;
     if (!mid || mid == text || mid[1] == '\0')
-        return fl_fail(err, FL_USAGE, "--rename is \"%.60s\", OLD=NEW was wanted", text);
+        return fl_fail(err, FL_USAGE, "--rename is \"%.60s\", OLD=NEW is expected", text);
     if (fl_grow(&o->alias, &o->alias_cap, (int64_t)o->aliases + 1, sizeof *o->alias, err)) return -1;
     a = &o->alias[o->aliases];
     *a = (struct alias){.text = text, .name = mid + 1, .old = fl_alloc(mid - text + 1, 1, err)};
@@ -221,11 +221,11 @@ static int rotate(struct options *o, const char *text, fl_err *err)
     double x[4] = {0};
     if (numbers("rotate", text, 4, 4, x, err) < 0) return -1;
     if (!(v3_norm(v3(x[0], x[1], x[2])) > 0.0))
-        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", an axis of some length was wanted", text);
+        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", an axis of some length is expected", text);
     if (o->turns == TURNS) return fl_fail(err, FL_USAGE, "--rotate is given more than %d times", TURNS);
-    const fl_mat3 r = fl_similar_rotation(v3(x[0], x[1], x[2]), x[3]);
+    const fl_mat3 r = fl_affine_rotation(v3(x[0], x[1], x[2]), x[3]);
     o->rotate[o->turns++] = text;
-    o->map.q = fl_similar_product(&r, &o->map.q);
+    o->map.q = fl_affine_matrix_product(&r, &o->map.q);
     return 0;
 }
 
@@ -233,11 +233,11 @@ static int rotate(struct options *o, const char *text, fl_err *err)
 static void place_first(struct options *o)
 {
     static const fl_mat3 y_up = {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
-    fl_mat3 first = fl_similar_one().q;
+    fl_mat3 first = fl_affine_identity().q;
     if (o->y_up) first = y_up;
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < 3 && o->mirror >> k & 1; j++) first.m[k][j] = -first.m[k][j];
-    o->map.q = fl_similar_product(&o->map.q, &first);
+    o->map.q = fl_affine_matrix_product(&o->map.q, &first);
 }
 
 static int remesh(struct options *o, const char *text, fl_err *err)
@@ -248,7 +248,7 @@ static int remesh(struct options *o, const char *text, fl_err *err)
     o->remesh = x[0];
     o->remesh_within = n == 2 ? x[1] : x[0] / 10.0;
     if (o->remesh > 0.0 && o->remesh_within > 0.0) return 0;
-    return fl_fail(err, FL_USAGE, "--remesh is \"%.60s\", lengths above 0 were wanted", text);
+    return fl_fail(err, FL_USAGE, "--remesh is \"%.60s\", lengths above 0 are expected", text);
 }
 
 static int format(struct options *o, const char *text, fl_err *err)
@@ -260,7 +260,7 @@ static int format(struct options *o, const char *text, fl_err *err)
             return 0;
         }
     return fl_fail(err, FL_USAGE,
-                   "--to is \"%.60s\", one of g_struct stl stl-binary obj off ply vtp was wanted", text);
+                   "--to is \"%.60s\", one of g_struct stl stl-binary obj off ply vtp is expected", text);
 }
 
 static int apply(struct options *o, int c, const char *arg, const char **waiting, fl_err *err)
@@ -275,7 +275,7 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
     case 'n':
         if (*waiting)
             return fl_fail(err, FL_USAGE,
-                           "--name %.60s is followed by --name %.60s, a part was wanted between them",
+                           "--name %.60s is followed by --name %.60s, a part is expected between them",
                            *waiting, arg);
         if (*arg == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
         *waiting = arg;
@@ -289,10 +289,10 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
     case UP:
         o->y_up = strcmp(arg, "y") == 0;
         if (o->y_up || strcmp(arg, "z") == 0) return 0;
-        return fl_fail(err, FL_USAGE, "--up is \"%.60s\", y or z was wanted", arg);
+        return fl_fail(err, FL_USAGE, "--up is \"%.60s\", y or z is expected", arg);
     case MIRROR:
         if (strlen(arg) != 1 || !strchr("xyz", *arg))
-            return fl_fail(err, FL_USAGE, "--mirror is \"%.60s\", x, y or z was wanted", arg);
+            return fl_fail(err, FL_USAGE, "--mirror is \"%.60s\", x, y or z is expected", arg);
         o->mirror ^= 1 << (*arg - 'x');
         return 0;
     case ROTATE: return rotate(o, arg, err);
@@ -303,7 +303,7 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
     case 'w':
         if (numbers("weld", arg, 1, 1, &o->weld, err) < 0) return -1;
         return o->weld >= 0.0 ? 0
-                              : fl_fail(err, FL_USAGE, "--weld is \"%.60s\", a length >= 0 was wanted", arg);
+                              : fl_fail(err, FL_USAGE, "--weld is \"%.60s\", a length >= 0 is expected", arg);
     case FILL_HOLES: return fl_option_whole("fill-holes", arg, 0, 1000, &o->fill_holes, err);
     case FILL: return positive("fill", arg, &o->fill, err);
     case REPAIR: o->repair = 1; return 0;
@@ -358,7 +358,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
     const char *waiting = NULL; /* a name without a part yet */
     int c;
-    *o = (struct options){.out = "-", .map = fl_similar_one(), .factor = 1.0, .weld = -1.0};
+    *o = (struct options){.out = "-", .map = fl_affine_identity(), .factor = 1.0, .weld = -1.0};
     opterr = 0;
     /* "-": files come in their order among the options, as if by an option of code 1 */
     while (!o->ended && (c = getopt_long(argc, argv, "-:n:f:u:s:t:w:o:zj:qvh", LONG, NULL)) != -1) {
@@ -379,36 +379,38 @@ void options_free(struct options *o)
     free(o->item);
 }
 
-void options_by(const struct options *o, fl_by *by)
+void options_by(const struct options *o, fl_history_line *by)
 {
     static const char *const option[] = {"", "--cylinder ", "--cone ", "--box "};
-    char a[FL_NUM_LEN], b[FL_NUM_LEN], c[FL_NUM_LEN];
-    fl_by_start(by, "struct-import");
-    for (int32_t k = 0; k < o->parts; k++) fl_by_word(by, "--part ", o->part[k]);
-    for (int32_t k = 0; k < o->aliases; k++) fl_by_word(by, "--rename ", o->alias[k].text);
-    if (o->subdivide) fl_by_add(by, "--subdivide");
-    if (o->facets) fl_by_add(by, "--facets %d", o->facets);
-    if (o->unit) fl_by_add(by, "--unit %s", o->unit);
-    if (o->factor != 1.0) fl_by_add(by, "--scale %s", fl_num_text(o->factor, a));
-    if (o->y_up) fl_by_add(by, "--up y");
+    char a[FL_NUMBER_LEN], b[FL_NUMBER_LEN], c[FL_NUMBER_LEN];
+    fl_history_line_start(by, "struct-import");
+    for (int32_t k = 0; k < o->parts; k++) fl_history_line_word(by, "--part ", o->part[k]);
+    for (int32_t k = 0; k < o->aliases; k++) fl_history_line_word(by, "--rename ", o->alias[k].text);
+    if (o->subdivide) fl_history_line_add(by, "--subdivide");
+    if (o->facets) fl_history_line_add(by, "--facets %d", o->facets);
+    if (o->unit) fl_history_line_add(by, "--unit %s", o->unit);
+    if (o->factor != 1.0) fl_history_line_add(by, "--scale %s", fl_number_text(o->factor, a));
+    if (o->y_up) fl_history_line_add(by, "--up y");
     for (int k = 0; k < 3; k++)
-        if (o->mirror >> k & 1) fl_by_add(by, "--mirror %c", 'x' + k);
-    for (int k = 0; k < o->turns; k++) fl_by_add(by, "--rotate %s", o->rotate[k]);
+        if (o->mirror >> k & 1) fl_history_line_add(by, "--mirror %c", 'x' + k);
+    for (int k = 0; k < o->turns; k++) fl_history_line_add(by, "--rotate %s", o->rotate[k]);
     if (v3_norm(o->map.t) > 0.0)
-        fl_by_add(by, "--translate %s,%s,%s", fl_num_text(o->map.t.x, a), fl_num_text(o->map.t.y, b),
-                  fl_num_text(o->map.t.z, c));
-    if (o->weld >= 0.0) fl_by_add(by, "--weld %s", fl_num_text(o->weld, a));
-    if (o->fill_holes) fl_by_add(by, "--fill-holes %d", o->fill_holes);
-    if (o->fill > 0.0) fl_by_add(by, "--fill %s", fl_num_text(o->fill, a));
-    if (o->repair) fl_by_add(by, "--repair");
-    if (o->simplify > 0.0) fl_by_add(by, "--simplify %s", fl_num_text(o->simplify, a));
+        fl_history_line_add(by, "--translate %s,%s,%s", fl_number_text(o->map.t.x, a),
+                            fl_number_text(o->map.t.y, b), fl_number_text(o->map.t.z, c));
+    if (o->weld >= 0.0) fl_history_line_add(by, "--weld %s", fl_number_text(o->weld, a));
+    if (o->fill_holes) fl_history_line_add(by, "--fill-holes %d", o->fill_holes);
+    if (o->fill > 0.0) fl_history_line_add(by, "--fill %s", fl_number_text(o->fill, a));
+    if (o->repair) fl_history_line_add(by, "--repair");
+    if (o->simplify > 0.0) fl_history_line_add(by, "--simplify %s", fl_number_text(o->simplify, a));
     if (o->remesh > 0.0)
-        fl_by_add(by, "--remesh %s,%s", fl_num_text(o->remesh, a), fl_num_text(o->remesh_within, b));
-    if (o->raw) fl_by_add(by, "--raw");
+        fl_history_line_add(by, "--remesh %s,%s", fl_number_text(o->remesh, a),
+                            fl_number_text(o->remesh_within, b));
+    if (o->raw) fl_history_line_add(by, "--raw");
     for (int32_t k = 0; k < o->items; k++) {
         const struct item *it = &o->item[k];
         const char *slash = it->path ? strrchr(it->path, '/') : NULL;
-        if (it->name) fl_by_word(by, "--name ", it->name);
-        fl_by_word(by, option[it->kind], it->kind == ITEM_FILE ? slash ? slash + 1 : it->path : it->text);
+        if (it->name) fl_history_line_word(by, "--name ", it->name);
+        fl_history_line_word(by, option[it->kind],
+                             it->kind == ITEM_FILE ? slash ? slash + 1 : it->path : it->text);
     }
 }

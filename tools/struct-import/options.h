@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include "base/err.h"
 #include "base/tool.h"
-#include "geom/similar.h"
+#include "geom/affine.h"
 #include "geom/surface.h"
 
 enum { TURNS = 16 };
@@ -43,7 +43,7 @@ struct options {
     double remesh, remesh_within; /* length of edges, 0 for none, and how far they may stray [m] */
     int repair;
     const char *plot; /* borrowed; NULL for none */
-    fl_similar map;   /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
+    fl_affine map;    /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
     double factor;    /* --scale alone, 1 when not given */
     const char *rotate[TURNS]; /* [turns] borrowed, as given */
     int turns, mirror;         /* bits 0, 1, 2 of mirror: x, y, z */
@@ -58,6 +58,6 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err);
 void options_free(struct options *o);
 
 /* The history line: what bears on the result; files by their base names. */
-void options_by(const struct options *o, fl_by *by);
+void options_by(const struct options *o, fl_history_line *by);
 
 #endif

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include "base/mem.h"
+#include "base/array.h"
 #include "geom/facet.h"
 #include "geom/raster.h"
 #include "views.h"
@@ -210,7 +210,7 @@ static int names(const char *where, char **path, char **tmp, fl_err *err)
     const size_t room = strlen(where) + 60;
     struct stat there;
     if (!file && mkdir(where, 0777) != 0 && (stat(where, &there) != 0 || !S_ISDIR(there.st_mode)))
-        return fl_fail(err, FL_SYSTEM, "%s: %s: a folder, or a name in .png or .svg was wanted for --plot",
+        return fl_fail(err, FL_SYSTEM, "%s: %s: a folder, or a name in .png or .svg is expected for --plot",
                        where, strerror(errno));
     *path = fl_alloc((int64_t)room, 1, err);
     *tmp = *path ? fl_alloc((int64_t)room, 1, err) : NULL;

@@ -3,32 +3,32 @@
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
-#include "base/mem.h"
-#include "base/par.h"
+#include "base/array.h"
+#include "base/parallel.h"
 #include "base/rng.h"
 #include "base/stream.h"
-#include "base/clobber.h"
+#include "base/output_guard.h"
 #include "base/tool.h"
-#include "ice/cells.h"
+#include "ice/power_cells.h"
 #include "ice/certificate.h"
 #include "ice/faces.h"
 #include "ice/floes.h"
-#include "ice/grade.h"
-#include "ice/laguerre.h"
+#include "ice/concentration_gradient.h"
+#include "ice/prescribed_areas.h"
 #include "ice/pancakes.h"
 #include "ice/periodic.h"
-#include "scene/field.h"
-#include "certify.h"
-#include "chart.h"
-#include "depth.h"
+#include "scene/ice_field.h"
+#include "certificate_table.h"
+#include "field_plot.h"
+#include "floe_thickness.h"
 #include "options.h"
-#include "pile.h"
-#include "sheet.h"
-#include "sizing.h"
-#include "water.h"
+#include "ridge.h"
+#include "sphere_sheet.h"
+#include "floe_sizing.h"
+#include "open_water.h"
 
 struct field {
-    fl_cells cells; /* but for their number gone once they are measured */
+    fl_power_cells cells; /* but for their number gone once they are measured */
     fl_floes floes;
     int32_t *name;        /* [floes.n] number of the cell */
     double full;          /* covered area before floes were taken out [m2]             */
@@ -62,29 +62,29 @@ static int32_t id_of(const struct field *a, int32_t i)
 
 static int is_periodic(const struct options *o) { return o->periodic[0] || o->periodic[1]; }
 
-static int build(const struct options *o, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, fl_cells *cells,
+static int build(const struct options *o, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, fl_power_cells *cells,
                  fl_err *err)
 {
     if (is_periodic(o)) return fl_periodic_cells(cells, o->floes, site, lo, hi, o->periodic, err);
-    return fl_cells_build(cells, o->floes, site, lo, hi, err);
+    return fl_power_cells_build(cells, o->floes, site, lo, hi, err);
 }
 
 static int make_cells(const struct options *o, struct field *a, fl_err *err)
 {
     const fl_outline in = water_outline(&a->water, o);
-    fl_cells *cells = &a->cells;
+    fl_power_cells *cells = &a->cells;
     fl_vec2 *site;
     int rc = -1;
     tell(o, "dividing the field into cells");
     if (a->water.on) return water_cells(&a->water, o, cells, err);
     if (!(site = fl_alloc(o->floes, sizeof *site, err))) return -1;
-    fl_cells_sites(o->floes, o->seed, in.lo, in.hi, site);
+    fl_random_sites(o->floes, o->seed, in.lo, in.hi, site);
     if (build(o, site, in.lo, in.hi, cells, err)) goto done;
     for (int k = 0; k < o->smooth; k++) {
         tell(o, "smoothing");
-        fl_cells_centroids(cells, site);
+        fl_power_cells_centroids(cells, site);
         for (int32_t i = 0; i < o->floes; i++) site[i] = fl_periodic_wrap(site[i], in.lo, in.hi, o->periodic);
-        fl_cells_free(cells);
+        fl_power_cells_free(cells);
         if (build(o, site, in.lo, in.hi, cells, err)) goto done;
     }
     rc = 0;
@@ -100,29 +100,29 @@ static int shrink_graded(const struct options *o, struct field *a, double factor
     const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y}, lo = {-hi.x, -hi.y}, shift = a->water.shift;
     const double angle = o->grade_angle * (acos(-1.0) / 180.0);
     double *part = fl_alloc(a->cells.n, sizeof *part, err), *area = fl_alloc(a->cells.n, sizeof *area, err);
-    fl_grade g = {0};
+    fl_concentration_gradient g = {0};
     int rc = -1;
     if (!part || !area) goto done;
-    if (o->grade_file
-            ? fl_grade_read(&g, angle, o->grade_file, err)
-            : fl_grade_linear(&g, angle, o->grade[0], o->grade[1], (fl_vec2){lo.x + shift.x, lo.y + shift.y},
-                              (fl_vec2){hi.x + shift.x, hi.y + shift.y}, err))
+    if (o->grade_file ? fl_concentration_read(&g, angle, o->grade_file, err)
+                      : fl_concentration_linear(&g, angle, o->grade[0], o->grade[1],
+                                                (fl_vec2){lo.x + shift.x, lo.y + shift.y},
+                                                (fl_vec2){hi.x + shift.x, hi.y + shift.y}, err))
         goto done;
-    fl_cells_areas(&a->cells, area);
+    fl_power_cells_areas(&a->cells, area);
     a->lo = a->hi = NAN;
     for (int32_t i = 0; i < a->cells.n; i++) {
         const int32_t first = a->cells.first[i], n = a->cells.first[i + 1] - first;
         const fl_vec2 m = fl_polygon_centroid(n, a->cells.v + first);
-        const double c = fl_grade_at(&g, (fl_vec2){m.x + shift.x, m.y + shift.y});
+        const double c = fl_concentration_at(&g, (fl_vec2){m.x + shift.x, m.y + shift.y});
         a->lo = fmin(a->lo, c);
         a->hi = fmax(a->hi, c);
         part[i] = c * factor;
         area[i] *= part[i];
     }
-    a->asked = fl_par_sum(area, a->cells.n) / a->water.area;
-    rc = fl_floes_grade(&a->floes, &a->cells, part, o->radius, shift, &a->off, err);
+    a->asked = fl_parallel_sum(area, a->cells.n) / a->water.area;
+    rc = fl_floes_make_graded(&a->floes, &a->cells, part, o->radius, shift, &a->off, err);
 done:
-    fl_grade_free(&g);
+    fl_concentration_free(&g);
     free(part);
     free(area);
     return rc;
@@ -157,11 +157,11 @@ static int make_sized(const struct options *o, struct field *a, fl_err *err)
     tell(o, "dividing the field into cells of given areas");
     a->asked = o->bonded ? 1.0 : o->concentration;
     if (o->bonded) {
-        if (fl_laguerre_cells(&a->cells, o->floes, o->seed, a->sizing.area, &in, o->smooth, err) ||
+        if (fl_prescribed_areas_cells(&a->cells, o->floes, o->seed, a->sizing.area, &in, o->smooth, err) ||
             fl_floes_fill(&a->floes, &a->cells, o->radius, a->water.shift, err))
             return -1;
-    } else if (fl_laguerre_floes(&a->cells, &a->floes, o->floes, o->seed, a->sizing.area, &in, o->smooth,
-                                 o->concentration, o->radius, a->water.shift, &off, err))
+    } else if (fl_prescribed_areas_floes(&a->cells, &a->floes, o->floes, o->seed, a->sizing.area, &in,
+                                         o->smooth, o->concentration, o->radius, a->water.shift, &off, err))
         return -1;
     return sizing_measure(&a->sizing, &a->floes, err);
 }
@@ -171,8 +171,8 @@ static int make_sized(const struct options *o, struct field *a, fl_err *err)
 static int meets(const struct keep_out *s, int32_t n, const fl_vec2 *v)
 {
     const fl_vec2 box[4] = {s->lo, {s->hi.x, s->lo.y}, s->hi, {s->lo.x, s->hi.y}};
-    if (s->circle) return fl_polygon_from_point(n, v, s->lo) <= s->r;
-    return !fl_polygon_apart(n, v, 4, box);
+    if (s->circle) return fl_polygon_point_distance(n, v, s->lo) <= s->r;
+    return !fl_polygon_is_apart(n, v, 4, box);
 }
 
 /* What is kept out of a periodic field is kept out of its copies. */
@@ -209,7 +209,7 @@ static int take_out(const struct options *o, struct field *a, fl_err *err)
         for (int k = 0; k < o->keep_outs && !gone[i]; k++)
             gone[i] = (char)meets_any(o, &o->keep_out[k], n, v, w);
     }
-    fl_floes_drop(&a->floes, gone, a->name);
+    fl_floes_remove(&a->floes, gone, a->name);
     free(gone);
     free(w);
     if (a->floes.n) return 0;
@@ -235,7 +235,7 @@ static int make_core(const struct options *o, const struct field *a, int32_t i, 
     return fl_fail(err, why.code == FL_INPUT ? FL_NUMERIC : why.code, "floe %d: %s", id_of(a, i), why.text);
 }
 
-static int add_floes(const struct options *o, const struct field *a, fl_field *out, fl_err *err)
+static int add_floes(const struct options *o, const struct field *a, fl_ice_field *out, fl_err *err)
 {
     const int32_t n = a->floes.n;
     const fl_vec3 v = v3(o->velocity.x, o->velocity.y, 0.0);
@@ -255,7 +255,7 @@ static int add_floes(const struct options *o, const struct field *a, fl_field *o
     }
     if (bad < INT32_MAX) goto done;
     for (int32_t i = 0; i < n; i++)
-        if (fl_field_add(out, id_of(a, i), o->radius, &core[i], o->material, NULL, v, v3(0, 0, 0), err))
+        if (fl_ice_field_add(out, id_of(a, i), o->radius, &core[i], o->material, NULL, v, v3(0, 0, 0), err))
             goto done;
     rc = 0;
 done:
@@ -274,15 +274,15 @@ static double face_height(const struct options *o, const struct field *a, const 
     return h;
 }
 
-static int add_bonds(const struct options *o, const struct field *a, fl_field *out, fl_err *err)
+static int add_bonds(const struct options *o, const struct field *a, fl_ice_field *out, fl_err *err)
 {
     for (int32_t k = 0; k < a->faces.n; k++) {
         const fl_face *f = &a->faces.face[k];
         const double length = hypot(f->b.x - f->a.x, f->b.y - f->a.y);
         double z;
         const double area = length * face_height(o, a, f, &z);
-        if (fl_field_add_bond(out, f->i, f->j, area, length,
-                              v3(0.5 * (f->a.x + f->b.x), 0.5 * (f->a.y + f->b.y), z), err))
+        if (fl_ice_field_add_bond(out, f->i, f->j, area, length,
+                                  v3(0.5 * (f->a.x + f->b.x), 0.5 * (f->a.y + f->b.y), z), err))
             return -1;
     }
     return 0;
@@ -290,9 +290,9 @@ static int add_bonds(const struct options *o, const struct field *a, fl_field *o
 
 static int write_field(struct options *o, const struct field *a, int32_t layers, fl_err *err)
 {
-    fl_field out = {0};
+    fl_ice_field out = {0};
     fl_out file = {0};
-    fl_by by;
+    fl_history_line by;
     int rc = -1;
     for (int32_t k = 0; k < layers; k++)
         if (add_floes(o, &a[k], &out, err)) goto done;
@@ -300,10 +300,10 @@ static int write_field(struct options *o, const struct field *a, int32_t layers,
     options_id(o, &out);
     options_by(o, &by);
     if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
-    fl_field_write(file.f, &out, &by);
+    fl_ice_field_write(file.f, &out, &by);
     rc = fl_out_close(&file, err);
 done:
-    fl_field_free(&out);
+    fl_ice_field_free(&out);
     return rc;
 }
 
@@ -313,9 +313,9 @@ done:
 static void certify_faces(const struct options *o, const struct field *a, struct certify *t)
 {
     const fl_faces *f = &a->faces;
-    const double open = f->outline - 2.0 * f->length, outline = 2.0 * (o->size.x + o->size.y);
+    const double open = f->perimeter - 2.0 * f->total_length, outline = 2.0 * (o->size.x + o->size.y);
     double area = 0.0;
-    certify_add(t, "overlap, deepest [m]", 0, f->deep, f->deep, 4, NULL);
+    certify_add(t, "overlap, deepest [m]", 0, f->max_overlap, f->max_overlap, 4, NULL);
     certify_add(t, "bond candidates", NOT_ASKED, f->n, NO_DISTANCE, 10, NULL);
     for (int32_t k = 0; k < f->n; k++) {
         double z;
@@ -325,7 +325,7 @@ static void certify_faces(const struct options *o, const struct field *a, struct
     certify_add(t, "bonded area [m2]", NOT_ASKED, area, NO_DISTANCE, 6, NULL);
     if (takes_out(o, a) || a->water.on)
         certify_add(t, "sides on no other [m]", NOT_ASKED, open, NO_DISTANCE, 6, NULL);
-    else certify_add(t, "sides on no other [m]", outline, open, fabs(open - outline) / f->outline, 6, NULL);
+    else certify_add(t, "sides on no other [m]", outline, open, fabs(open - outline) / f->perimeter, 6, NULL);
 }
 
 static void certify(const struct options *o, const struct field *a, struct certify *t)
@@ -351,33 +351,35 @@ static void certify(const struct options *o, const struct field *a, struct certi
     }
     if (o->bonded) certify_faces(o, a, t);
     else certify_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
-    certify_add(t, "floes not convex", 0, c->bent, c->bent, 10, NULL);
+    certify_add(t, "floes not convex", 0, c->nonconvex, c->nonconvex, 10, NULL);
     depth_certify(&a->depth, o, t);
     pile_certify(&a->pile, o, t);
-    certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean, NO_DISTANCE, 6, NULL);
+    certify_add(t, "area, mean [m2]", NOT_ASKED, c->mean_area, NO_DISTANCE, 6, NULL);
     certify_add(t, "area, deviation over mean", NOT_ASKED, c->cv, NO_DISTANCE, 4, NULL);
-    certify_add(t, "area, smallest [m2]", NOT_ASKED, c->least, NO_DISTANCE, 6, "floe %d",
-                id_of(a, c->least_of));
-    certify_add(t, "area, largest [m2]", NOT_ASKED, c->most, NO_DISTANCE, 6, "floe %d", id_of(a, c->most_of));
-    certify_add(t, "sides of a floe, mean", NOT_ASKED, c->sides, NO_DISTANCE, 4, NULL);
-    certify_add(t, "shortest side of a core [m]", NOT_ASKED, c->edge, NO_DISTANCE, 4, "floe %d",
-                id_of(a, c->edge_of));
-    certify_add(t, "sharpest corner [degrees]", NOT_ASKED, c->angle * (180.0 / acos(-1.0)), NO_DISTANCE, 4,
-                "floe %d", id_of(a, c->angle_of));
-    if (c->gap_of[0] >= 0 && !o->bonded)
-        certify_add(t, "narrowest gap [m]", NOT_ASKED, c->gap, NO_DISTANCE, 6, "floes %d and %d",
-                    id_of(a, c->gap_of[0]), id_of(a, c->gap_of[1]));
+    certify_add(t, "area, smallest [m2]", NOT_ASKED, c->min_area, NO_DISTANCE, 6, "floe %d",
+                id_of(a, c->min_area_floe));
+    certify_add(t, "area, largest [m2]", NOT_ASKED, c->max_area, NO_DISTANCE, 6, "floe %d",
+                id_of(a, c->max_area_floe));
+    certify_add(t, "sides of a floe, mean", NOT_ASKED, c->mean_sides, NO_DISTANCE, 4, NULL);
+    certify_add(t, "shortest side of a core [m]", NOT_ASKED, c->min_side, NO_DISTANCE, 4, "floe %d",
+                id_of(a, c->min_side_floe));
+    certify_add(t, "sharpest corner [degrees]", NOT_ASKED, c->min_angle * (180.0 / acos(-1.0)), NO_DISTANCE,
+                4, "floe %d", id_of(a, c->min_angle_floe));
+    if (c->min_gap_pair[0] >= 0 && !o->bonded)
+        certify_add(t, "narrowest gap [m]", NOT_ASKED, c->min_gap, NO_DISTANCE, 6, "floes %d and %d",
+                    id_of(a, c->min_gap_pair[0]), id_of(a, c->min_gap_pair[1]));
     certify_add(t, "inset of the cells [m]", NOT_ASKED, a->floes.inset, NO_DISTANCE, 6, NULL);
-    certify_add(t, "floes inset less: small cells", NOT_ASKED, a->floes.held, NO_DISTANCE, 10, NULL);
+    certify_add(t, "floes inset less: small cells", NOT_ASKED, a->floes.limited, NO_DISTANCE, 10, NULL);
     if (o->pancakes) {
         certify_add(t, "circularity, mean", NOT_ASKED, fl_pancakes_circularity(&a->floes), NO_DISTANCE, 6,
                     NULL);
         return;
     }
-    certify_add(t, "sides of cells dropped", NOT_ASKED, a->floes.dropped, NO_DISTANCE, 10, NULL);
-    if (a->floes.blunted)
-        certify_add(t, "corners below 5 degrees cut off", NOT_ASKED, a->floes.blunted, NO_DISTANCE, 10, NULL);
-    certify_add(t, "sides moved in farther", NOT_ASKED, a->floes.cut, NO_DISTANCE, 10, NULL);
+    certify_add(t, "sides of cells dropped", NOT_ASKED, a->floes.dropped_sides, NO_DISTANCE, 10, NULL);
+    if (a->floes.blunted_corners)
+        certify_add(t, "corners below 5 degrees cut off", NOT_ASKED, a->floes.blunted_corners, NO_DISTANCE,
+                    10, NULL);
+    certify_add(t, "sides moved in farther", NOT_ASKED, a->floes.shifted_sides, NO_DISTANCE, 10, NULL);
 }
 
 /* Gaps and overlaps of a periodic field are those of the floes and of their copies one period on, in all
@@ -408,8 +410,8 @@ static int measure_copies(const struct options *o, struct field *a, fl_err *err)
     }
     if (fl_certificate_make(&c, &t, err)) goto done;
     a->c.overlaps = c.overlaps;
-    a->c.gap = c.gap;
-    for (int k = 0; k < 2; k++) a->c.gap_of[k] = c.gap_of[k] < 0 ? -1 : c.gap_of[k] % n;
+    a->c.min_gap = c.min_gap;
+    for (int k = 0; k < 2; k++) a->c.min_gap_pair[k] = c.min_gap_pair[k] < 0 ? -1 : c.min_gap_pair[k] % n;
     rc = 0;
 done:
     fl_floes_free(&t);
@@ -419,27 +421,29 @@ done:
 static int measure(const struct options *o, struct field *a, fl_err *err)
 {
     if (fl_certificate_make(&a->c, &a->floes, err)) return -1;
-    a->full = a->covered = a->c.total;
+    a->full = a->covered = a->c.total_area;
     if (takes_out(o, a)) {
         if (take_out(o, a, err) || fl_certificate_make(&a->c, &a->floes, err)) return -1;
-        a->covered = a->c.total;
+        a->covered = a->c.total_area;
     }
     if (is_periodic(o) && measure_copies(o, a, err)) return -1;
     for (int32_t i = 0; i < a->floes.n; i++) {
         const int32_t first = a->cells.first[a->name[i]];
         a->kept += fl_polygon_area(a->cells.first[a->name[i] + 1] - first, a->cells.v + first);
     }
-    if (a->c.bent) return fl_fail(err, FL_NUMERIC, "%d floes are not convex: nothing is written", a->c.bent);
+    if (a->c.nonconvex)
+        return fl_fail(err, FL_NUMERIC, "%d floes are not convex: nothing is written", a->c.nonconvex);
     if (o->bonded) {
         if (fl_faces_find(&a->faces, &a->floes, err)) return -1;
-        if (a->faces.deep <= a->faces.within) return 0;
+        if (a->faces.max_overlap <= a->faces.tolerance) return 0;
         return fl_fail(err, FL_NUMERIC, "floes %d and %d overlap by %g m: nothing is written",
-                       id_of(a, a->faces.deep_of[0]), id_of(a, a->faces.deep_of[1]), a->faces.deep);
+                       id_of(a, a->faces.max_overlap_pair[0]), id_of(a, a->faces.max_overlap_pair[1]),
+                       a->faces.max_overlap);
     }
     if (a->c.overlaps)
-        return fl_fail(err, FL_NUMERIC,
-                       "%lld pairs of floes overlap, floes %d and %d among them: nothing is written",
-                       (long long)a->c.overlaps, id_of(a, a->c.gap_of[0]), id_of(a, a->c.gap_of[1]));
+        return fl_fail(
+            err, FL_NUMERIC, "%lld pairs of floes overlap, floes %d and %d among them: nothing is written",
+            (long long)a->c.overlaps, id_of(a, a->c.min_gap_pair[0]), id_of(a, a->c.min_gap_pair[1]));
     return 0;
 }
 
@@ -465,7 +469,7 @@ static int measure_depth(const struct options *o, struct field *a, fl_err *err)
 static void forget_cells(struct field *a)
 {
     const int32_t n = a->cells.n;
-    fl_cells_free(&a->cells);
+    fl_power_cells_free(&a->cells);
     a->cells.n = n;
 }
 
@@ -494,7 +498,7 @@ static void free_layer(struct field *a)
     depth_free(&a->depth);
     pile_free(&a->pile);
     fl_floes_free(&a->floes);
-    fl_cells_free(&a->cells);
+    fl_power_cells_free(&a->cells);
     free(a->name);
 }
 
@@ -551,20 +555,20 @@ static void certify_rafts(const struct options *o, const struct field *a, struct
 
 static int check_targets(const struct options *o, fl_err *err)
 {
-    const fl_target out[] = {{"--output", o->out}, {"--certificate", o->certificate}};
-    fl_target in[4 + KEEP_OUT_MAX] = {{.path = o->thickness_law},
-                                      {.path = o->sizes_file ? o->sizes : NULL},
-                                      {.path = o->outline},
-                                      {.path = o->grade_file}};
+    const fl_named_path out[] = {{"--output", o->out}, {"--certificate", o->certificate}};
+    fl_named_path in[4 + KEEP_OUT_MAX] = {{.path = o->thickness_law},
+                                          {.path = o->sizes_file ? o->sizes : NULL},
+                                          {.path = o->outline},
+                                          {.path = o->grade_file}};
     for (int k = 0; k < o->structures; k++) in[4 + k].path = o->structure[k];
-    return fl_clobber_check(out, sizeof out / sizeof *out, in, sizeof in / sizeof *in, err);
+    return fl_output_guard_check(out, sizeof out / sizeof *out, in, sizeof in / sizeof *in, err);
 }
 
 static int run(struct options *o, fl_err *err)
 {
     struct certify table = {0};
     struct field *a;
-    fl_by by;
+    fl_history_line by;
     int rc = -1;
     if (check_targets(o, err)) return -1;
     if (o->threads) omp_set_num_threads(o->threads);
@@ -572,7 +576,7 @@ static int run(struct options *o, fl_err *err)
     a = fl_alloc(o->layers, sizeof *a, err);
     if (!a) return -1;
     if (depth_make(&a->depth, o, err)) goto done;
-    if ((o->rubble || o->layers > 1) && a->depth.law.kind != FL_THICKNESS_SAME) {
+    if ((o->rubble || o->layers > 1) && a->depth.law.kind != FL_THICKNESS_CONSTANT) {
         fl_fail(err, FL_USAGE, "--%s needs one thickness, not a law", o->rubble ? "rubble" : "layers");
         goto done;
     }
@@ -581,7 +585,7 @@ static int run(struct options *o, fl_err *err)
         goto done;
     }
     if (o->ridges && !(o->block > 0.0)) {
-        if (a->depth.law.kind != FL_THICKNESS_SAME) {
+        if (a->depth.law.kind != FL_THICKNESS_CONSTANT) {
             fl_fail(err, FL_USAGE,
                     "--ridge in ice whose thickness is a law needs the size of its blocks, --block");
             goto done;
@@ -610,7 +614,7 @@ int main(int argc, char **argv)
     fl_err err = {0};
     int rc;
     fl_tool_begin();
-    fl_par_wait_briefly(argv);
+    fl_parallel_limit_spin(argv);
     rc = options_parse(&o, argc, argv, &err); /* answers --help and --version itself */
     if (rc == 0 && !o.ended) rc = run(&o, &err);
     return fl_tool_end("voronoi-ice", rc, &err); /* closes stdout, prints err, picks the status */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
-#include "base/num.h"
+#include "base/number_text.h"
 #include "base/option.h"
 #include "ice/pancakes.h"
 #include "options.h"
@@ -136,7 +136,7 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-/* The farthest a shape may lie, as FL_FIELD_FAR; the longest field, where an ulp is a tenth of a nanometre;
+/* The farthest a shape may lie, as FL_ICE_FIELD_MAX_COORD; the longest field, where an ulp is a tenth of a nanometre;
  * and the shortest length [m]. */
 #define FAR 1e9
 #define LONGEST 1e6
@@ -154,12 +154,12 @@ static int numbers(const char *option, const char *text, int skip, char by, int 
         if (len >= sizeof word) goto bad;
         memcpy(word, p, len);
         word[len] = '\0';
-        if (fl_num_f64(word, &x[k]) || !(x[k] >= lo && x[k] <= hi)) goto bad;
+        if (fl_number_f64(word, &x[k]) || !(x[k] >= lo && x[k] <= hi)) goto bad;
         p = end + 1;
     }
     return 0;
 bad:
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %s was wanted", option, text, wanted);
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %s is expected", option, text, wanted);
 }
 
 static int number(const char *option, const char *text, double lo, double hi, double *x, const char *wanted,
@@ -186,7 +186,7 @@ static int sizes(struct options *o, const char *text, fl_err *err)
     if (!o->sizes_file && fl_sizes_parse(&o->law, o->sizes_name, text, err)) return -1;
     if (o->sizes_file && (text[0] == '\0' || strlen(text) > 1000 || strpbrk(text, " \t\r\n\f\v")))
         return fl_fail(err, FL_USAGE,
-                       "--sizes is \"%.60s\", a law or the name of a file without blanks was wanted", text);
+                       "--sizes is \"%.60s\", a law or the name of a file without blanks is expected", text);
     o->sizes = o->sizes_file ? text : o->sizes_name;
     return 0;
 }
@@ -195,7 +195,7 @@ static int sizes(struct options *o, const char *text, fl_err *err)
 static int name(const char *option, const char *text, const char **out, fl_err *err)
 {
     if (text[0] == '\0' || strlen(text) > 200 || strpbrk(text, " \t\r\n\f\v"))
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", one word of up to 200 bytes was wanted", option,
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", one word of up to 200 bytes is expected", option,
                        text);
     *out = text;
     return 0;
@@ -205,7 +205,7 @@ static int name(const char *option, const char *text, const char **out, fl_err *
 static int file(const char *option, const char *text, const char **out, fl_err *err)
 {
     if (text[0] == '\0' || strlen(text) > 1000 || strpbrk(text, " \t\r\n\f\v"))
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", the name of a file without blanks was wanted",
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", the name of a file without blanks is expected",
                        option, text);
     *out = text;
     return 0;
@@ -214,7 +214,7 @@ static int file(const char *option, const char *text, const char **out, fl_err *
 int options_there(const char *option, const char *text, const char *wanted, fl_err *err)
 {
     if (strcmp(text, "-") == 0 || access(text, F_OK) == 0) return 0;
-    return fl_fail(err, FL_INPUT, "--%s is \"%.60s\", %s or a file that is there was wanted", option, text,
+    return fl_fail(err, FL_INPUT, "--%s is \"%.60s\", %s or a file that is there is expected", option, text,
                    wanted);
 }
 
@@ -236,14 +236,14 @@ static int shape(struct options *o, const char *text, fl_err *err)
     if (strncmp(text, "circle:", 7) == 0) {
         if (numbers("keep-out", text, 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
         k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
-        if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 was wanted", text);
+        if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 is expected", text);
     } else if (strncmp(text, "box:", 4) == 0) {
         if (numbers("keep-out", text, 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
         k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
         if (!(x[0] < x[2] && x[1] < x[3]))
-            return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 was wanted", text);
+            return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 is expected", text);
     } else {
-        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s was wanted", text, wanted);
+        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s is expected", text, wanted);
     }
     o->keep_out[o->keep_outs++] = k;
     return 0;
@@ -258,7 +258,7 @@ static int the_outline(struct options *o, const char *text, fl_err *err)
     if (strncmp(text, "disc:", 5) != 0) return file("outline", text, &o->outline, err);
     if (numbers("outline", text, 5, ',', centred ? 1 : 3, -LONGEST, LONGEST, o->disc, wanted, err)) return -1;
     if (o->disc[0] >= SHORTEST) return 0;
-    return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", R of %g at least was wanted", text, SHORTEST);
+    return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", R of %g at least is expected", text, SHORTEST);
 }
 
 static int lead(struct options *o, const char *text, fl_err *err)
@@ -267,7 +267,7 @@ static int lead(struct options *o, const char *text, fl_err *err)
     if (o->leads == LEAD_MAX) return fl_fail(err, FL_USAGE, "--lead is given more than %d times", LEAD_MAX);
     if (numbers("lead", text, 0, ',', 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
     if (!(x[4] >= SHORTEST && fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST))
-        return fl_fail(err, FL_USAGE, "--lead is \"%.60s\", a length and a width of %g at least were wanted",
+        return fl_fail(err, FL_USAGE, "--lead is \"%.60s\", a length and a width of %g at least are expected",
                        text, SHORTEST);
     o->leads++;
     return 0;
@@ -289,13 +289,13 @@ static int concentration(const char *option, const char *text, double *out, fl_e
             part = 10.0;
         }
         /* the bounds themselves are no concentration of floes with water between them */
-        if (fl_num_f64(word, out) == 0 && *out / part > 0.0 && *out / part < 1.0) {
+        if (fl_number_f64(word, out) == 0 && *out / part > 0.0 && *out / part < 1.0) {
             *out /= part;
             return 0;
         }
     }
     return fl_fail(err, FL_USAGE,
-                   "--%s is \"%.60s\", a number between 0 and 1, as 0.8, 80%% or 8/10, was wanted", option,
+                   "--%s is \"%.60s\", a number between 0 and 1, as 0.8, 80%% or 8/10, is expected", option,
                    text);
 }
 
@@ -310,7 +310,7 @@ static int grade(struct options *o, const char *text, fl_err *err)
     word[len] = '\0';
     if (strcmp(word, "x") == 0) o->grade_angle = 0.0;
     else if (strcmp(word, "y") == 0) o->grade_angle = 90.0;
-    else if (fl_num_f64(word, &o->grade_angle) || fabs(o->grade_angle) > 360.0) goto bad;
+    else if (fl_number_f64(word, &o->grade_angle) || fabs(o->grade_angle) > 360.0) goto bad;
     o->graded = 1;
     o->grade_file = NULL;
     rest++;
@@ -325,7 +325,7 @@ static int grade(struct options *o, const char *text, fl_err *err)
                : 0;
 bad:
     return fl_fail(err, FL_USAGE,
-                   "--grade is \"%.60s\", DIR:C0,C1 or DIR:FILE with DIR x, y or degrees was wanted", text);
+                   "--grade is \"%.60s\", DIR:C0,C1 or DIR:FILE with DIR x, y or degrees is expected", text);
 }
 
 static int periodic(const char *text, int *out, fl_err *err)
@@ -333,7 +333,7 @@ static int periodic(const char *text, int *out, fl_err *err)
     out[0] = strcmp(text, "x") == 0 || strcmp(text, "xy") == 0;
     out[1] = strcmp(text, "y") == 0 || strcmp(text, "xy") == 0;
     if (out[0] || out[1]) return 0;
-    return fl_fail(err, FL_USAGE, "--periodic is \"%.60s\", x, y or xy was wanted", text);
+    return fl_fail(err, FL_USAGE, "--periodic is \"%.60s\", x, y or xy is expected", text);
 }
 
 static int ridge(struct options *o, const char *text, fl_err *err)
@@ -345,10 +345,10 @@ static int ridge(struct options *o, const char *text, fl_err *err)
     if (numbers("ridge", text, 0, ',', 9, -LONGEST, LONGEST, x, wanted, err)) return -1;
     for (int k = 4; k < 8; k++)
         if (!(x[k] >= SHORTEST))
-            return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", heights and widths above 0 were wanted",
+            return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", heights and widths above 0 are expected",
                            text);
     if (!(fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST) || !(x[8] >= 0.0 && x[8] <= x[7]))
-        return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", a length and a WB from 0 to WK were wanted",
+        return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", a length and a WB from 0 to WK are expected",
                        text);
     o->ridges++;
     return 0;
@@ -363,7 +363,7 @@ static int lattice(const char *text, int *out, fl_err *err)
             *out = k;
             return 0;
         }
-    return fl_fail(err, FL_USAGE, "--lattice is \"%.60s\", hcp, hex or square was wanted", text);
+    return fl_fail(err, FL_USAGE, "--lattice is \"%.60s\", hcp, hex or square is expected", text);
 }
 
 /* Options that say nothing where another one stands must not look as if they did. */
@@ -395,7 +395,7 @@ static int check_water(const struct options *o, fl_err *err)
         if (useless(o, "beside --outline", 2, without, err)) return -1;
         if (o->outline && strcmp(o->outline, "-") == 0)
             return fl_fail(err, FL_USAGE,
-                           "--outline is \"-\", a file was wanted: a pipe cannot be named again");
+                           "--outline is \"-\", a file is expected: a pipe cannot be named again");
     }
     return o->structures ? 0 : useless(o, "without the file of a structure", 1, within, err);
 }
@@ -409,7 +409,7 @@ static int check_graded(const struct options *o, fl_err *err)
     if (!o->periodic[0] && !o->periodic[1]) return 0;
     if (o->structures)
         return fl_fail(err, FL_USAGE,
-                       "--keep-out of a file means nothing beside --periodic, a shape was wanted");
+                       "--keep-out of a file means nothing beside --periodic, a shape is expected");
     return useless(o, "beside --periodic", 4, none, err);
 }
 
@@ -450,8 +450,8 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case THICKNESS: return file("thickness", arg, &o->thickness_law, err);
     case RADIUS: return number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
     case SEED:
-        if (fl_num_u64(arg, &o->seed) == 0) return 0;
-        return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", a whole number from 0 to 2^64 - 1 was wanted",
+        if (fl_number_u64(arg, &o->seed) == 0) return 0;
+        return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", a whole number from 0 to 2^64 - 1 is expected",
                        arg);
     case SMOOTH: return fl_option_whole("smooth", arg, 0, 10000, &o->smooth, err);
     case MATERIAL: return name("material", arg, &o->material, err);
@@ -465,7 +465,8 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case GRADE: return grade(o, arg, err);
     case PERIODIC: return periodic(arg, o->periodic, err);
     case PANCAKES:
-        return fl_option_whole("pancakes", arg, FL_PANCAKES_LEAST, FL_PANCAKES_MOST, &o->pancakes, err);
+        return fl_option_whole("pancakes", arg, FL_PANCAKES_MIN_SIDES, FL_PANCAKES_MAX_SIDES, &o->pancakes,
+                               err);
     case RUBBLE: o->rubble = 1; return 0;
     case RIDGE: return ridge(o, arg, err);
     case BLOCK: return number("block", arg, SHORTEST, LONGEST, &o->block, "a length", err);
@@ -480,7 +481,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case FORMAT:
         o->format = arg;
         if (strcmp(arg, "svg") == 0 || strcmp(arg, "png") == 0) return 0;
-        return fl_fail(err, FL_USAGE, "--format is \"%.60s\", svg or png was wanted", arg);
+        return fl_fail(err, FL_USAGE, "--format is \"%.60s\", svg or png is expected", arg);
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
     case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
@@ -540,69 +541,70 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     return 0;
 }
 
-static void add_numbers(fl_by *by, const char *option, char divide, int n, const double *x)
+static void add_numbers(fl_history_line *by, const char *option, char divide, int n, const double *x)
 {
-    char text[9][FL_NUM_LEN], all[9 * (FL_NUM_LEN + 1) + 1] = "";
+    char text[9][FL_NUMBER_LEN], all[9 * (FL_NUMBER_LEN + 1) + 1] = "";
     for (int k = 0; k < n; k++) {
         const size_t at = strlen(all);
-        snprintf(all + at, sizeof all - at, "%s%.1s", fl_num_text(x[k], text[k]), k + 1 < n ? &divide : "");
+        snprintf(all + at, sizeof all - at, "%s%.1s", fl_number_text(x[k], text[k]),
+                 k + 1 < n ? &divide : "");
     }
-    fl_by_add(by, "%s%s", option, all);
+    fl_history_line_add(by, "%s%s", option, all);
 }
 
-static void add_pair(fl_by *by, const char *option, char divide, fl_vec2 p)
+static void add_pair(fl_history_line *by, const char *option, char divide, fl_vec2 p)
 {
     add_numbers(by, option, divide, 2, (const double[]){p.x, p.y});
 }
 
-void options_id(struct options *o, const fl_field *field)
+void options_id(struct options *o, const fl_ice_field *field)
 {
     if (!o->id || strcmp(o->id, "auto") != 0) return;
-    snprintf(o->id_made, sizeof o->id_made, "%016llx", (unsigned long long)fl_field_hash(field));
+    snprintf(o->id_made, sizeof o->id_made, "%016llx", (unsigned long long)fl_ice_field_hash(field));
     o->id = o->id_made;
 }
 
-static void add_grade(fl_by *by, const struct options *o)
+static void add_grade(fl_history_line *by, const struct options *o)
 {
-    char text[FL_NUM_LEN], option[FL_NUM_LEN + 16];
-    snprintf(option, sizeof option, "--grade %s:", fl_num_text(o->grade_angle, text));
-    if (o->grade_file) fl_by_word(by, option, o->grade_file);
+    char text[FL_NUMBER_LEN], option[FL_NUMBER_LEN + 16];
+    snprintf(option, sizeof option, "--grade %s:", fl_number_text(o->grade_angle, text));
+    if (o->grade_file) fl_history_line_word(by, option, o->grade_file);
     else add_numbers(by, option, ',', 2, o->grade);
 }
 
-void options_by(const struct options *o, fl_by *by)
+void options_by(const struct options *o, fl_history_line *by)
 {
-    fl_by_start(by, "voronoi-ice");
-    if (o->id) fl_by_add(by, "--id %s", o->id);
-    if (o->outline) fl_by_word(by, "--outline ", o->outline);
+    fl_history_line_start(by, "voronoi-ice");
+    if (o->id) fl_history_line_add(by, "--id %s", o->id);
+    if (o->outline) fl_history_line_word(by, "--outline ", o->outline);
     else if (o->disc[0] > 0.0) add_numbers(by, "--outline disc:", ',', 3, o->disc);
     else {
         add_pair(by, "--size ", 'x', o->size);
         add_pair(by, "--origin ", ',', o->origin);
     }
     if (o->lattice >= 0) {
-        fl_by_add(by, "--lattice %s --layers %d", LATTICES[o->lattice], o->layers);
+        fl_history_line_add(by, "--lattice %s --layers %d", LATTICES[o->lattice], o->layers);
         add_numbers(by, "--diameter ", ',', 1, &o->diameter);
     } else {
-        fl_by_add(by, "--floes %d", o->floes);
-        if (o->sizes) fl_by_word(by, "--sizes ", o->sizes);
+        fl_history_line_add(by, "--floes %d", o->floes);
+        if (o->sizes) fl_history_line_word(by, "--sizes ", o->sizes);
         if (o->graded) add_grade(by, o);
         else if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
-        fl_by_word(by, "--thickness ", o->thickness_law);
+        fl_history_line_word(by, "--thickness ", o->thickness_law);
         add_numbers(by, "--radius ", ',', 1, &o->radius);
-        fl_by_add(by, "--seed %llu", (unsigned long long)o->seed);
-        fl_by_add(by, "--smooth %d", o->smooth);
+        fl_history_line_add(by, "--seed %llu", (unsigned long long)o->seed);
+        fl_history_line_add(by, "--smooth %d", o->smooth);
     }
-    if (o->lattice < 0 && o->layers > 1) fl_by_add(by, "--layers %d", o->layers);
-    if (o->rubble) fl_by_add(by, "--rubble");
+    if (o->lattice < 0 && o->layers > 1) fl_history_line_add(by, "--layers %d", o->layers);
+    if (o->rubble) fl_history_line_add(by, "--rubble");
     for (int k = 0; k < o->ridges; k++) add_numbers(by, "--ridge ", ',', 9, o->ridge[k]);
     if (o->ridges && o->block > 0.0) add_numbers(by, "--block ", ',', 1, &o->block);
     if (o->ridges) add_numbers(by, "--porosity ", ',', 1, &o->porosity);
-    if (o->pancakes) fl_by_add(by, "--pancakes %d", o->pancakes);
-    if (o->bonded) fl_by_add(by, "--bonded");
+    if (o->pancakes) fl_history_line_add(by, "--pancakes %d", o->pancakes);
+    if (o->bonded) fl_history_line_add(by, "--bonded");
     if (o->periodic[0] || o->periodic[1])
-        fl_by_add(by, "--periodic %s%s", o->periodic[0] ? "x" : "", o->periodic[1] ? "y" : "");
-    fl_by_add(by, "--material %s", o->material);
+        fl_history_line_add(by, "--periodic %s%s", o->periodic[0] ? "x" : "", o->periodic[1] ? "y" : "");
+    fl_history_line_add(by, "--material %s", o->material);
     add_numbers(by, "--ice-density ", ',', 1, &o->ice_density);
     add_numbers(by, "--water-density ", ',', 1, &o->water_density);
     add_pair(by, "--velocity ", ',', o->velocity);
@@ -613,6 +615,6 @@ void options_by(const struct options *o, fl_by *by)
         else add_numbers(by, "--keep-out box:", ',', 4, (const double[]){s->lo.x, s->lo.y, s->hi.x, s->hi.y});
     }
     for (int k = 0; k < o->leads; k++) add_numbers(by, "--lead ", ',', 5, o->lead[k]);
-    for (int k = 0; k < o->structures; k++) fl_by_word(by, "--keep-out ", o->structure[k]);
+    for (int k = 0; k < o->structures; k++) fl_history_line_word(by, "--keep-out ", o->structure[k]);
     if (o->structures) add_numbers(by, "--margin ", ',', 1, &o->margin);
 }

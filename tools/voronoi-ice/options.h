@@ -7,7 +7,7 @@
 #include "base/tool.h"
 #include "geom/polygon.h"
 #include "ice/sizes_law.h"
-#include "scene/field.h"
+#include "scene/ice_field.h"
 
 enum { KEEP_OUT_MAX = 16, LEAD_MAX = 16, RIDGE_MAX = 4, FLOES_MOST = 10000000 };
 
@@ -50,7 +50,7 @@ struct options {
     double block, porosity; /* of ridges: size of a block [m], 0 for the thickness */
     int32_t pancakes;       /* sides of round floes, 0: not round */
     int bonded;
-    int lattice; /* -1, or an fl_lattice_kind */
+    int lattice; /* -1, or an fl_packing_kind */
     int32_t layers;
     double diameter; /* of the spheres of a lattice [m] */
     int gzip, quiet, verbose, threads;
@@ -68,10 +68,10 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err);
 
 /* The history line: everything that bears on the field, defaults included, so that it can be made again by a
  * version with other defaults. */
-void options_by(const struct options *o, fl_by *by);
+void options_by(const struct options *o, fl_history_line *by);
 
 /* With --id auto the id becomes a number of the field: 16 hexadecimal digits, others for another field. */
-void options_id(struct options *o, const fl_field *field);
+void options_id(struct options *o, const fl_ice_field *field);
 
 /* Of an option that is a law or the name of a file, where it is no law: -1 with FL_INPUT where there is no
  * such file, which is then more likely a law that is misspelt. */

@@ -69,7 +69,7 @@ function kilo(a) { return sprintf("%.5g", a / 1000) }
 END {
     block()
     if (!floes || !rows || blocks < 2 || energy == "") {
-        print "check.awk: scene, report, ice, state and loads were wanted, in this order" >"/dev/stderr"
+        print "check.awk: scene, report, ice, state and loads are expected, in this order" >"/dev/stderr"
         exit 3
     }
     still = of["[water] drag_force_coef"] * of["[water] density"] / 2 * total_wet

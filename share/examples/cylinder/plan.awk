@@ -5,7 +5,7 @@
 # dilation radius. Second block: the structure, its triangles and cones one by one.
 BEGIN {
     if (frame != "first" && frame != "last") {
-        print "plan.awk: -v frame=first or -v frame=last was wanted" >"/dev/stderr"
+        print "plan.awk: -v frame=first or -v frame=last is expected" >"/dev/stderr"
         bad = 2
         exit bad
     }

@@ -34,7 +34,7 @@ what == "loads" {
 }
 function kilo(x, format) { return sprintf(format, x / 1000) }
 END {
-    if (!cases) { print "steps.awk: reports, stats and loads were wanted" >"/dev/stderr"; exit 3 }
+    if (!cases) { print "steps.awk: reports, stats and loads are expected" >"/dev/stderr"; exit 3 }
     row = "| %9s | %7s | %7s | %7s | %8s | %14s | %18s | %13s | %8s |\n"
     printf row, "softening", "step", "steps", "overlap", "impulse", "mean from " from " s",
         "largest below " filter " Hz", "hit at 1.95 s", "residual"

@@ -40,7 +40,7 @@ function row(what, value, wanted, ok) {
 function worst(a,    i, w) { for (i = 1; i <= 3; i++) if (a[i] + 0 > w) w = a[i] + 0; return w }
 END {
     if (file != 6 || !early || !throughput || energy[3] == "") {
-        print "check.awk: three reports and three tables of loads were wanted, with hits in the first " SAME " s" \
+        print "check.awk: three reports and three tables of loads are expected, with hits in the first " SAME " s" \
             >"/dev/stderr"
         exit 3
     }

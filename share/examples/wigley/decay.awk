@@ -58,7 +58,7 @@ function row(what, q, M, C, c,    D, exact, r, off, before, ok, known) {
     if (!ok) failed = 1
 }
 END {
-    if (!runs) { print "decay.awk: the loads of a free hull were wanted" >"/dev/stderr"; exit 3 }
+    if (!runs) { print "decay.awk: the loads of a free hull are expected" >"/dev/stderr"; exit 3 }
     close_run()
     PI = atan2(0, -1)
     V = 4 / 9 * L * B * T; m = 1025 * V; w = 1025 * 9.81

@@ -29,7 +29,7 @@ function quad(i, j, side,    a, b, c, d) {
 }
 BEGIN {
     if (!(L > 0 && B > 0 && T > 0 && F > 0 && NX >= 4 && NX % 2 == 0 && NZ >= 2)) {
-        print "hull.awk: L, B, T, F above 0, NX even and at least 4, NZ at least 2 were wanted" >"/dev/stderr"
+        print "hull.awk: L, B, T, F above 0, NX even and at least 4, NZ at least 2 are expected" >"/dev/stderr"
         exit 2
     }
     corners = faces = 0

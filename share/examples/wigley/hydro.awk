@@ -34,7 +34,7 @@ function told(what, exact, tol,    m, off, before, order, ok) {
 }
 END {
     if (mesh < 2 || !(L > 0 && B > 0 && T > 0)) {
-        print "hydro.awk: L, B, T and two or more meshes were wanted" >"/dev/stderr"
+        print "hydro.awk: L, B, T and two or more meshes are expected" >"/dev/stderr"
         exit 3
     }
     printf "%-46s", "the hull, and by how much its meshes miss it"

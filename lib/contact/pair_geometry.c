@@ -1,0 +1,502 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include "base/array.h"
+#include "base/simd.h"
+#include "structure/mesh_contact.h"
+#include "patch/cone.h"
+#include "narrow/closest_point.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
+#include "contact/pair_geometry.h"
+#include "world/access.h"
+
+/* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
+ * bound by the old direction lets it sleep for long enough.  One that hovers nearer than that is awake in
+ * nearly every step: it asks in one of so many, and else believes the bound that it does not touch. */
+#define NEARLY 1.02
+enum { HOVERS = 8 };
+
+/* A number without the rhythm that steps and pairs may have. */
+static uint32_t mixed(int64_t step, int32_t k)
+{
+    return ((uint32_t)step * UINT32_C(2654435761) + (uint32_t)k * UINT32_C(0x9e3779b1)) >> 16;
+}
+
+static double believed(const fl_world *w, int32_t i, int32_t j)
+{
+    return mixed(w->step, i + j) % HOVERS ? 1.0 : NEARLY;
+}
+
+fl_relative_pose fl_relative_pose_of(const fl_world *w, const fl_pair *p)
+{
+    const fl_bodies *b = &w->b;
+    const int32_t i = p->i, j = p->j;
+    fl_relative_pose r;
+    const fl_mat3 *B = &r.R;
+    r.R = fl_body_axes(b, j);
+    r.off = fl_separation(w, i, j, p->image);
+    r.o = v3_neg(m3_tmul(*B, r.off));
+    if (b->core[i].nv == 1) {
+        r.M = (fl_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        return r;
+    }
+    const fl_mat3 A = fl_body_axes(b, i);
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++)
+            r.M.m[k][l] = B->m[0][k] * A.m[0][l] + B->m[1][k] * A.m[1][l] + B->m[2][k] * A.m[2][l];
+    return r;
+}
+
+/* --- where they touch -------------------------------------------------------------------------- */
+
+/* One point against anything with a closed form. */
+static int point_places(fl_patch_points *s, const fl_poly *b, const fl_piece *piece, fl_vec3 x, double ra,
+                        double R, double *distance)
+{
+    fl_closest_point q;
+    if (piece && piece->kind == FL_PIECE_PLANE) q = (fl_closest_point){.d = x.z, .n = v3(0, 0, 1)};
+    else if (piece && piece->kind == FL_PIECE_CONE) q = fl_closest_on_cone(piece->r0, piece->r1, piece->h, x);
+    else if (b->nv == 1) q = fl_closest_of_point(b->v[0], x);
+    else q = fl_closest_on_poly(b, x);
+    *distance = q.d;
+    return q.d < R ? fl_patch_points_add_plain(s, x, q.n, R - q.d, ra) : 0;
+}
+
+/* The point of A that is lowest over the plane, for `core`. */
+static int lowest_place(fl_patch_points *s, int32_t nv, double ra, double *distance)
+{
+    fl_vec3 x = v3(0, 0, INFINITY);
+    for (int32_t v = 0; v < nv; v++)
+        if (s->va[v].z < x.z) x = s->va[v];
+    *distance = x.z;
+    return x.z < ra ? fl_patch_points_add_plain(s, x, v3(0, 0, 1), ra - x.z, ra) : 0;
+}
+
+/* The least n.v of m points. */
+FL_SIMD_VERSIONS static double lowest(const fl_vec3 *v, int32_t m, fl_vec3 n)
+{
+    fl_simd least = {INFINITY, INFINITY, INFINITY, INFINITY};
+    double low = INFINITY;
+    int32_t k = 0;
+    for (; k + FL_SIMD_WIDTH <= m; k += FL_SIMD_WIDTH) {
+        fl_simd x[3];
+        fl_simd_from_triples(x, &v[k]);
+        const fl_simd h = n.x * x[0] + n.y * x[1] + n.z * x[2];
+        least = FL_SIMD_SELECT(h < least, h, least);
+    }
+    for (; k < m; k++) {
+        const double h = n.x * v[k].x + n.y * v[k].y + n.z * v[k].z;
+        low = h < low ? h : low;
+    }
+    FL_SIMD_UNROLL
+    for (int l = 0; l < FL_SIMD_WIDTH; l++) low = least[l] < low ? least[l] : low;
+    return low;
+}
+
+/* Width of the gap that the planes across n leave between the cores: a lower bound of their distance. */
+static double gap_along(const fl_vec3 *va, int32_t na, const fl_poly *b, fl_vec3 n)
+{
+    return lowest(va, na, n) + lowest(b->v, b->nv, v3_neg(n));
+}
+
+/* Normals of A in B's frame, for the few who ask; to be freed.  NULL when memory runs out. */
+static fl_vec3 *normals(const fl_poly *a, const fl_mat3 *M)
+{
+    fl_err lost = {0};
+    fl_vec3 *n = fl_alloc(a->nf, sizeof *n, &lost);
+    for (int32_t f = 0; n && f < a->nf; f++) n[f] = m3_mul(*M, a->n[f]);
+    return n;
+}
+
+/* The rare case of overlapping cores; the scratch of places holds the vertices of A. */
+static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl_patch_points *s, fl_mat3 M,
+                       fl_penetration *deep)
+{
+    fl_vec3 *const n = normals(a, &M);
+    if (!n) return -1;
+    const fl_solid A = {a, s->va, n, 0.0}, B = {b, b->v, b->n, 0.0};
+    fl_penetration_count count = {0};
+    fl_penetration_find(&A, &B, &count, deep);
+    free(n);
+#pragma omp critical(fl_deep_statistics)
+    {
+        w->penetration_count.queries += count.queries;
+        w->penetration_count.no_answer += count.no_answer;
+        w->penetration_count.rejected += count.rejected;
+        w->penetration_count.capped += count.capped;
+        w->overlapping_cores++;
+    }
+    return 0;
+}
+
+/* Direction between the cores in B's frame, p->axis, and a lower bound of their distance (negative:
+ * penetration).  The direction of the last look serves while it still separates them by `enough`; otherwise
+ * gap has the nearest points, where it is not NULL. */
+static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b, const fl_patch_points *s,
+                    fl_mat3 M, double enough, fl_penetration *deep, fl_gap *gap, double *distance)
+{
+    *distance = gap_along(s->va, a->nv, b, p->axis);
+    *deep = (fl_penetration){0};
+    p->cores_overlap = 0;
+    if (p->has_axis && *distance > enough) return 0;
+    const fl_core A = {s->va, a->nv, a}, B = {b->v, b->nv, b};
+    fl_gap exact;
+    if (!gap) {
+        fl_vec3 n;
+        if (fl_gjk_direction(A, B, &p->cache, &n) && (*distance = gap_along(s->va, a->nv, b, n)) > 0.0) {
+            p->axis = n;
+            p->has_axis = 1;
+            return 0;
+        }
+        gap = &exact;
+    }
+    fl_gjk(A, B, &p->cache, gap);
+    if (!gap->overlap) {
+        p->axis = gap->n;
+        p->has_axis = 1;
+        *distance = gap->d;
+        return 0;
+    }
+    if (penetration(w, a, b, s, M, deep)) return -1;
+    p->axis = deep->n;
+    p->has_axis = 1;
+    p->cores_overlap = 1;
+    *distance = -deep->depth;
+    return 0;
+}
+
+/* How much of U on a cone is that of the cone itself, the rest being that of its polygon, and its
+ * derivatives: after the height z of the centre of A, and after a turn of A. */
+typedef struct {
+    double cone, slope; /* [1/m] */
+    fl_vec3 turn;       /* [1/rad] */
+} part_of_cone;
+
+/* How far A reaches along the axis of the cone from its centre, or more, and what that changes by as A turns:
+ * of how far its vertices are the norm (sum h^8)^(1/8), which bends smoothly and does not ask how A's own
+ * axes lie. */
+static double reach_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
+{
+    const fl_vec3 axis = v3(M->m[2][0], M->m[2][1], M->m[2][2]);
+    double sum = 0.0;
+    fl_vec3 g = v3(0, 0, 0); /* sum of h^7 a */
+    for (int32_t v = 0; v < a->nv; v++) {
+        const double h = v3_dot(axis, a->v[v]), h2 = h * h, h7 = h2 * h2 * h2 * h;
+        sum += h7 * h;
+        g = v3_madd(g, h7, a->v[v]);
+    }
+    const double e4 = sqrt(sum), e2 = sqrt(e4), e = sqrt(e2), e7 = e4 * e2 * e;
+    *turn = v3_cross(v3_scale(e7 > 0.0 ? 1.0 / e7 : 0.0, m3_mul(*M, g)), v3(0, 0, 1));
+    return e;
+}
+
+/* All where the ends are farther from the centre of A than twice its reach and R together, none where they
+ * are nearer than once. */
+static part_of_cone share_of_cone(const fl_piece *piece, const fl_poly *a, const fl_relative_pose *r,
+                                  double R)
+{
+    fl_vec3 turn;
+    const double z = r->o.z, size = reach_along(a, &r->M, &turn) + R;
+    double share[2], along[2], by_size[2];
+    for (int end = 0; end < 2; end++) {
+        const double t = (end ? piece->h - z : z) / size - 1.0, u = t <= 0.0 ? 0.0 : t >= 1.0 ? 1.0 : t;
+        const double bend = 30.0 * u * u * (1.0 - u) * (1.0 - u) / size;
+        share[end] = u * u * u * (10.0 + u * (6.0 * u - 15.0));
+        along[end] = end ? -bend : bend;
+        by_size[end] = -bend * (t + 1.0);
+    }
+    return (part_of_cone){share[0] * share[1], along[0] * share[1] + share[0] * along[1],
+                          v3_scale(by_size[0] * share[1] + share[0] * by_size[1], turn)};
+}
+
+/* Add the places on the cone itself.  Its polygon tells a direction that separates the two, the cone how far;
+ * what overlaps it is looked at every time. */
+static int cone_places(fl_pair *p, fl_patch_points *s, const fl_poly *a, const fl_poly *b,
+                       const fl_piece *piece, double ra, double *distance)
+{
+    const fl_truncated_cone cone = {piece->r0, piece->r1, piece->h};
+    p->cores_overlap = 0;
+    for (int again = 0; again < 2; again++) {
+        double low = INFINITY;
+        for (int32_t v = 0; v < a->nv; v++) low = fmin(low, v3_dot(p->axis, s->va[v]));
+        *distance = p->has_axis ? low - fl_cone_support(&cone, p->axis) : -INFINITY;
+        if (again || (p->has_axis && *distance > (p->touching ? 0.0 : NEARLY * ra))) break;
+        fl_gap gap;
+        fl_gjk((fl_core){s->va, a->nv, a}, (fl_core){b->v, b->nv, b}, &p->cache, &gap);
+        p->has_axis = !gap.overlap;
+        p->cores_overlap = gap.overlap;
+        if (p->has_axis) p->axis = gap.n;
+    }
+    return *distance < ra ? fl_cone_evaluate(s, a, &cone, ra) : 0;
+}
+
+/* U = (1 - share) of the first n places + share of the others; where the share changes a force along the
+ * axis, and a couple. */
+static int blend(fl_patch_points *s, int32_t n, fl_vec3 couple, const part_of_cone *of, fl_vec3 centre)
+{
+    double u[2] = {0};
+    for (int32_t k = 0; k < s->n; k++) {
+        fl_patch_point *q = &s->point[k];
+        const double part = k < n ? 1.0 - of->cone : of->cone;
+        u[k >= n] += q->u;
+        q->u *= part, q->du *= part, q->ddu *= part;
+    }
+    const double more = u[1] - u[0], du = -of->slope * more;
+    s->couple = v3_add(v3_scale(1.0 - of->cone, couple), v3_scale(of->cone, s->couple));
+    s->couple = v3_madd(s->couple, -more, of->turn);
+    if (du == 0.0) return 0;
+    return fl_patch_points_add(
+        s, (fl_patch_point){.du = fabs(du), .n = v3(0, 0, du > 0.0 ? 1.0 : -1.0), .p = centre});
+}
+
+/* The list of a pair, which only pairs that come within reach have.  NULL when memory runs out. */
+static fl_feature_pairs *matches_of(fl_pair *p)
+{
+    if (!p->feature_pairs) {
+        fl_err lost = {0};
+        p->feature_pairs = fl_alloc(1, sizeof *p->feature_pairs, &lost);
+    }
+    return p->feature_pairs;
+}
+
+/* The places of two convex cores in B's frame, A's entered. */
+static int convex_places(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_relative_pose *r,
+                         double *distance)
+{
+    const fl_bodies *b = &w->b;
+    const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
+    const double ra = p->radius_factor * b->radius[p->i], rb = p->radius_factor * b->radius[p->j],
+                 R = ra + rb;
+    const int core_law = p->law->kind == FL_LAW_CORE;
+    fl_penetration deep;
+    fl_gap gap;
+    /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
+     * sleeps wants its distance. */
+    if (separate(w, p, A, B, s, r->M,
+                 core_law      ? INFINITY
+                 : p->touching ? 0.0
+                               : believed(w, p->i, p->j) * R,
+                 &deep, core_law ? &gap : NULL, distance))
+        return -1;
+    if (*distance >= R) return 0;
+    if (core_law) {
+        if (p->cores_overlap) {
+            const double overlap = R - *distance;
+            fl_vec3 x = v3(0, 0, 0);
+            double low = INFINITY;
+            for (int32_t v = 0; v < A->nv; v++) {
+                const double h = v3_dot(p->axis, s->va[v]);
+                if (h < low) low = h, x = s->va[v];
+            }
+            return fl_patch_points_add_plain(s, x, p->axis, overlap, ra);
+        }
+        return fl_patch_points_add_plain(s, gap.pa, gap.n, R - gap.d, ra);
+    }
+    fl_feature_pairs *const l = matches_of(p);
+    if (!l || fl_patch_points_find(s, A, B, ra, rb, p->axis, &deep, l)) return -1;
+    if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
+        p->has_axis = 0;
+        return separate(w, p, A, B, s, r->M, INFINITY, &deep, NULL, distance);
+    }
+    return 0;
+}
+
+int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, double *distance)
+{
+    fl_patch_points *const s = &w->scratch[thread];
+    const fl_bodies *b = &w->b;
+    const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    const double ra = p->radius_factor * b->radius[p->i], rb = p->radius_factor * b->radius[p->j],
+                 R = ra + rb;
+    s->n = 0;
+    if (A->nv == 1 && (!piece || piece->kind != FL_PIECE_MESH))
+        return point_places(s, B, piece, r->o, ra, R, distance);
+    if (B->nv == 1 && !piece) { /* the point is B: look from A, then turn the place round */
+        if (point_places(s, A, NULL, v3_neg(m3_tmul(r->M, r->o)), rb, R, distance)) return -1;
+        if (s->n) {
+            const fl_vec3 n = v3_neg(m3_mul(r->M, s->point[0].n));
+            const double overlap = s->point[0].overlap;
+            s->n = 0;
+            return fl_patch_points_add_plain(s, v3_scale(R - overlap, n), n, overlap, ra);
+        }
+        return 0;
+    }
+    if (p->touching && p->exponent == 0.0 && (!piece || piece->kind == FL_PIECE_SOLID) && p->feature_pairs &&
+        p->feature_pairs->separated && fl_feature_pairs_valid(p->feature_pairs, &r->M, r->o)) {
+        if (fl_patch_points_find_listed(s, A, B, ra, rb, r->M, r->o, p->feature_pairs)) return -1;
+        p->cores_overlap = 0;
+        if (s->n) return 0;
+    }
+    if (fl_patch_points_transform(s, A, r->M, r->o)) return -1;
+    if (piece && piece->kind == FL_PIECE_PLANE)
+        return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance)
+                                 : fl_patch_points_on_plane(s, A, ra, distance);
+    if (piece && piece->kind == FL_PIECE_MESH && A->nv == 1 && p->exponent > 0.0)
+        return matches_of(p)
+                   ? fl_mesh_contact_sphere(s, &w->mesh_near[thread], piece, ra, p->feature_pairs, distance)
+                   : -1;
+    if (piece && piece->kind == FL_PIECE_MESH)
+        return matches_of(p) ? fl_mesh_contact_points(s, &w->mesh_near[thread], A, piece, ra, ra + w->skin,
+                                                      p->feature_pairs, distance)
+                             : -1;
+    double farther = INFINITY;
+    part_of_cone of = {0};
+    if (piece && piece->kind == FL_PIECE_CONE && p->exponent == 0.0) of = share_of_cone(piece, A, r, ra);
+    if (of.cone < 1.0 && convex_places(w, p, s, r, distance)) return -1;
+    if (of.cone == 0.0) return 0;
+    const int32_t n = s->n;
+    const int deep = p->cores_overlap;
+    const fl_vec3 couple = n ? s->couple : v3(0, 0, 0);
+    s->couple = v3(0, 0, 0);
+    if (cone_places(p, s, A, B, piece, ra, &farther)) return -1;
+    p->cores_overlap |= of.cone < 1.0 ? deep : 0;
+    *distance = of.cone < 1.0 ? fmin(*distance, farther) : farther;
+    return of.cone < 1.0 ? blend(s, n, couple, &of, r->o) : 0;
+}
+
+/* The contact of two dilated cores, the scratch of places holding the vertices of A. */
+static int entered_contact(const fl_patch_points *s, const fl_poly *A, const fl_poly *B, double ra, double rb,
+                           const fl_mat3 *M, fl_mode before, fl_gjk_cache *cache, fl_contact *out)
+{
+    fl_vec3 *const n = normals(A, M);
+    if (!n) return -1;
+    const fl_solid a = {A, s->va, n, ra}, b = {B, B->v, B->n, rb};
+    fl_contact_find(&a, &b, before, cache, NULL, out);
+    free(n);
+    return 0;
+}
+
+int fl_pair_find_contact(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, fl_contact *out)
+{
+    const fl_bodies *b = &w->b;
+    const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
+    fl_patch_points *const s = &w->scratch[thread];
+    if (fl_patch_points_transform(s, A, r->M, r->o)) return -1;
+    return entered_contact(s, A, B, p->radius_factor * b->radius[p->i], p->radius_factor * b->radius[p->j],
+                           &r->M, p->mode, &p->cache, out);
+}
+
+/* --- how far apart they are --------------------------------------------------------------------- */
+
+/* Farther apart than this multiple of its reach, a pair forgets which of its features may touch: a contact
+ * that chatters opens by less, and one that comes back later is listed anew for as much as four looks. */
+#define FAR 1.003
+
+/* What the odometers add up to when cores that are so far apart now may touch. */
+static double awake_after(const fl_world *w, int32_t i, int32_t j, double distance, double R)
+{
+    return w->b.odometer[i] + w->b.odometer[j] + (distance > R ? (distance - R) * (1.0 - 1e-9) : 0.0);
+}
+
+void fl_pair_set_free_travel(const fl_world *w, fl_pair *p, double distance, double R)
+{
+    p->free_travel = awake_after(w, p->i, p->j, distance, R);
+    if (distance > FAR * R) fl_pair_free(p);
+}
+
+/* The lowest of A over planes across n, in world axes, from its centre. */
+static double lowest_of(const fl_world *w, int32_t i, fl_vec3 n)
+{
+    const fl_poly *A = &w->b.core[i];
+    return lowest(A->v, A->nv, m3_tmul(fl_body_axes(&w->b, i), n));
+}
+
+int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
+{
+    const fl_bodies *b = &w->b;
+    const int32_t i = q->i, j = q->j;
+    const fl_poly *B = &b->core[j];
+    const fl_piece *piece = fl_world_piece(w, j);
+    const int wall = piece && piece->kind == FL_PIECE_PLANE && !piece->elastic;
+    const double R = b->radius[i] + b->radius[j];
+    fl_pair *const p = q->contact; /* it has let go a moment ago */
+    if ((p && (p->touching || p->bond)) || b->core[i].nv == 1 ||
+        fl_pair_law_of(w, i, j)->kind != FL_LAW_PATCH)
+        return 0;
+    if (!wall && (!(p ? p->has_axis : q->has_axis) || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID)))
+        return 0;
+    const fl_mat3 axes = fl_body_axes(b, j);
+    const fl_vec3 axis = wall ? v3(0, 0, 1)
+                         : p  ? p->axis
+                              : v3(q->axis[0], q->axis[1], q->axis[2]),
+                  n = wall ? m3_col(axes, 2) : m3_mul(axes, axis);
+    const double apart = -v3_dot(n, fl_separation(w, i, j, q->image)),
+                 distance = lowest_of(w, i, n) + apart + (wall ? 0.0 : lowest(B->v, B->nv, v3_neg(axis)));
+    if (!(distance > (wall ? 1.0 : believed(w, i, j)) * R))
+        return 0; /* of a wall it is no bound, but the truth */
+    q->cores_overlap = 0;
+    q->free_travel = awake_after(w, i, j, distance, R);
+    if (!p) return 1;
+    p->cores_overlap = 0;
+    fl_pair_set_free_travel(w, p, distance, R);
+    return 1;
+}
+
+/* Of a shell the deepest place, or where it is nearest: in the frame of B. */
+static int probe_shell(fl_world *w, const fl_pair *p, const fl_relative_pose *r, double reach,
+                       fl_contact *out)
+{
+    const double ra = p->radius_factor * w->b.radius[p->i];
+    fl_patch_points *s = &w->scratch[0];
+    fl_pair own = *p; /* its list of features stays as it is */
+    double distance, deepest = -INFINITY;
+    fl_gap gap;
+    own.feature_pairs = NULL;
+    const int rc = fl_pair_find_points(w, &own, 0, r, &distance);
+    if (own.feature_pairs) fl_feature_pairs_free(own.feature_pairs);
+    free(own.feature_pairs);
+    if (rc) return 0;
+    *out = (fl_contact){.mode = FL_MODE_NONE};
+    for (int32_t k = 0; k < s->n; k++) {
+        const fl_patch_point *q = &s->point[k];
+        if (q->overlap <= deepest) continue;
+        deepest = q->overlap;
+        *out = (fl_contact){.d = ra - deepest, .gap = -deepest, .n = q->unit_normal, .p = q->p};
+    }
+    if (s->n) return 1;
+    if (fl_mesh_contact_gap(&w->mesh_near[0], s->va, &w->b.core[p->i], fl_world_piece(w, p->j), ra + reach,
+                            &gap) <= 0)
+        return 0;
+    *out = (fl_contact){.d = gap.d, .gap = gap.d - ra, .n = gap.n};
+    out->p = v3_madd(gap.pb, 0.5 * out->gap, gap.n);
+    return 1;
+}
+
+int fl_pair_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out)
+{
+    const fl_bodies *b = &w->b;
+    const int32_t i = p->i, j = p->j;
+    const fl_poly *A = &b->core[i], *B = &b->core[j];
+    const fl_relative_pose r = fl_relative_pose_of(w, p);
+    const fl_piece *piece = fl_world_piece(w, j);
+    fl_patch_points *s = &w->scratch[0];
+    if (fl_patch_points_transform(s, A, r.M, r.o)) return 0;
+    if (piece && piece->kind == FL_PIECE_MESH) {
+        if (!probe_shell(w, p, &r, reach, out)) return 0;
+    } else if (piece && (piece->kind == FL_PIECE_PLANE || (piece->kind == FL_PIECE_CONE && A->nv == 1))) {
+        double d;
+        s->n = 0;
+        const double ra = b->radius[i];
+        if (piece->kind == FL_PIECE_PLANE) {
+            int32_t low = 0;
+            for (int32_t v = 1; v < A->nv; v++)
+                if (s->va[v].z < s->va[low].z) low = v;
+            d = s->va[low].z;
+            *out = (fl_contact){.mode = FL_VF, .d = d, .gap = d - ra, .n = v3(0, 0, 1)};
+            out->p = v3_madd(s->va[low], -ra - 0.5 * out->gap, out->n);
+        } else {
+            const fl_closest_point q = fl_closest_on_cone(piece->r0, piece->r1, piece->h, r.o);
+            *out = (fl_contact){.mode = FL_VF, .d = q.d, .gap = q.d - ra, .n = q.n};
+            out->p = v3_madd(r.o, -ra - 0.5 * out->gap, q.n);
+        }
+    } else {
+        if (entered_contact(s, A, B, b->radius[i], b->radius[j], &r.M, FL_MODE_NONE, NULL, out)) return 0;
+    }
+    out->n = m3_mul(r.R, out->n);
+    /* b->x[j] where j is no image: the bits of a scene without a cell */
+    out->p = v3_add(w->cell.periodic ? v3_add(b->x[i], r.off) : b->x[j], m3_mul(r.R, out->p));
+    out->p = fl_periodic_cell_wrap(&w->cell, out->p);
+    return out->gap < reach;
+}

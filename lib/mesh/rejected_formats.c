@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stddef.h>
+#include <string.h>
+#include <strings.h>
+#include "mesh/rejected_formats.h"
+
+enum { LINES = 40 }; /* in which a kind has to show */
+
+#define SOLIDS "geometry without a mesh: mesh it in its program or in Gmsh, and export STL or MSH"
+#define SURFACE "export the surface as STL, OBJ or PLY"
+#define DECK "export the mesh as Abaqus, Nastran, VTK or STL"
+
+/* How a file begins, behind blanks where it is text. */
+static const struct {
+    const char *begins;
+    size_t n; /* bytes of it, 0 for all up to the zero byte */
+    const char *what;
+} KIND[] = {
+    {"ISO-10303-21", 0, "a STEP file, which is " SOLIDS},
+    {"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", 0, "a Parasolid file, which is " SOLIDS},
+    {"glTF", 0, "a glTF scene: " SURFACE},
+    {"Kaydara FBX", 0, "an FBX scene: " SURFACE},
+    {"PK\003\004", 4, "a ZIP archive, as 3MF is: unpack it, or " SURFACE},
+    {"\211HDF\r\n", 6, "an HDF5 file, as MED and CGNS are: " DECK},
+    {"CDF\001", 4, "a NetCDF file, as Exodus is: " DECK},
+    {"CDF\002", 4, "a NetCDF file, as Exodus is: " DECK},
+    {"MeshVersionFormatted", 0, "a MEDIT mesh: " DECK},
+    {"MeshVersionUnformatted", 0, "a MEDIT mesh: " DECK},
+    {"#RADIOSS", 0, "a deck of Radioss: " DECK},
+    {"version https://git-lfs", 0,
+     "a pointer of Git LFS to the file, and not the file: git lfs pull brings it"},
+    {"\377\376", 2, "text in UTF-16: save it as UTF-8 or ASCII"},
+    {"\376\377", 2, "text in UTF-16: save it as UTF-8 or ASCII"},
+    {"%PDF", 0, "a PDF document, where a mesh is expected"},
+};
+
+/* And a line near the beginning. */
+static const struct {
+    const char *line, *what;
+} LINE[] = {
+    {"*KEYWORD", "a deck of LS-DYNA: export it as Abaqus, Nastran, Ansys or STL"},
+    {"/PREP7", "commands of ANSYS without NBLOCK or EBLOCK: write the mesh with CDWRITE,DB,,,,,,BLOCKED"},
+};
+
+static const char *skip_blanks(const char *p) { return p + strspn(p, " \t\r\n"); }
+
+/* The line after p, or the end. */
+static const char *next_line(const char *p)
+{
+    p += strcspn(p, "\n");
+    return *p ? p + 1 : p;
+}
+
+/* Is the line at p this word alone? */
+static int is_line(const char *p, const char *word)
+{
+    p += strspn(p, " \t");
+    return strncasecmp(p, word, strlen(word)) == 0 && strchr(" \t\r\n", p[strlen(word)]) != NULL;
+}
+
+/* Section letter S in column 73 of lines of eighty. */
+static int is_iges(const char *p) { return strcspn(p, "\r\n") >= 80 && p[72] == 'S' && p[79] == '1'; }
+
+/* "(0 "comment")" or "(2 3)". */
+static int is_fluent(const char *p)
+{
+    return p[0] == '(' && p[1] >= '0' && p[1] <= '2' && p[2] == ' ' && (p[3] == '"' || p[3] == '3');
+}
+
+const char *fl_rejected_format(const fl_bytes *b)
+{
+    const char *text = skip_blanks(b->data), *p = b->data;
+    for (size_t k = 0; k < sizeof KIND / sizeof *KIND; k++) {
+        const size_t n = KIND[k].n ? KIND[k].n : strlen(KIND[k].begins);
+        if ((size_t)(b->data + b->n - text) >= n && memcmp(text, KIND[k].begins, n) == 0) return KIND[k].what;
+    }
+    if (is_iges(b->data)) return "an IGES file, which is " SOLIDS;
+    if (is_fluent(text)) return "a mesh of Fluent: " DECK;
+    if (is_line(text, "0") && is_line(next_line(text), "SECTION")) return "a DXF drawing: " SURFACE;
+    if (is_line(text, "-1")) return "a universal file of I-DEAS: " DECK;
+    if (*text == '{' && strstr(text, "\"asset\"")) return "a glTF scene: " SURFACE;
+    for (int line = 0; line < LINES && *p; line++, p = next_line(p))
+        for (size_t k = 0; k < sizeof LINE / sizeof *LINE; k++)
+            if (is_line(p, LINE[k].line)) return LINE[k].what;
+    return NULL;
+}

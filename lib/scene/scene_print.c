@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/text.h"
+#include "scene/scene_section.h"
+#include "scene/scene_print.h"
+#include "scene/scene_value.h"
+
+/* Of [contact A B] only what was given is written: a default in it would overrule [contact]. */
+static void write_section(FILE *f, int section, const char *names, const void *at, int given_only)
+{
+    const fl_scene_head *head = at;
+    const int first = fl_key_first(section);
+    char text[FL_VALUE_TEXT];
+    fprintf(f, "\n[%s%s]\n", fl_section_table[section].name, names);
+    for (int k = first; k < fl_key_first(section + 1); k++)
+        if (!(given_only && head->key[k - first].line == 0))
+            fprintf(f, "%s = %s\n", fl_key_table[k].key, fl_value_text(&fl_key_table[k], at, text));
+}
+
+void fl_scene_write(FILE *f, const fl_scene *scene)
+{
+    char names[2 * FL_SCENE_NAME + 2];
+    fl_scene_contact all;
+    fprintf(f, "#scene 1\n");
+    for (int s = 0; s < FL_SECTIONS; s++) {
+        /* [contact] without names holds for what is below it, so it comes first, and always */
+        if (s == FL_SEC_CONTACT) {
+            const int32_t i = fl_section_named(scene, s, "", "");
+            fl_section_defaults(s, "", &all);
+            write_section(f, s, "", i < 0 ? &all : &scene->contact[i], 0);
+        }
+        for (int32_t i = 0; i < fl_section_count(scene, s); i++) {
+            const fl_scene_head *head = fl_section_at(scene, s, i);
+            const int pair = s == FL_SEC_CONTACT;
+            names[0] = '\0';
+            if (s == FL_SEC_MATERIAL) snprintf(names, sizeof names, " %s", scene->material[i].name);
+            if (s == FL_SEC_GROUP) snprintf(names, sizeof names, " %s", scene->group[i].name);
+            if (s == FL_SEC_PART) snprintf(names, sizeof names, " %s", scene->part[i].name);
+            if (pair) snprintf(names, sizeof names, " %s %s", scene->contact[i].a, scene->contact[i].b);
+            if (pair && scene->contact[i].a[0] == '\0') continue;
+            if (fl_section_table[s].names || head->present || s == FL_SEC_RUN || s == FL_SEC_OUTPUT)
+                write_section(f, s, names, head, pair);
+        }
+    }
+}
+
+/* "a|b|c" */
+static void explain_choices(FILE *f, const char *choices)
+{
+    while (*choices) {
+        const size_t len = strcspn(choices, "|");
+        fprintf(f, " %.*s", (int)len, choices);
+        choices += len + (choices[len] == '|');
+        if (*choices) fputc(',', f);
+    }
+}
+
+static void explain_type(FILE *f, const fl_key *k)
+{
+    char units[100], range[100];
+    switch (k->type) {
+    case FL_VALUE_F64: fprintf(f, "a number"); break;
+    case FL_VALUE_VEC3: fprintf(f, k->lone ? "one number or three" : "three numbers"); break;
+    case FL_VALUE_I32: fprintf(f, "a whole number"); break;
+    case FL_VALUE_WORD: fprintf(f, "one of"); break;
+    case FL_VALUE_WORDS: fprintf(f, "one, or one for each of x, y, z, of"); break;
+    case FL_VALUE_FIXED: fprintf(f, "some of x y z rx ry rz"); break;
+    case FL_VALUE_NAME: fprintf(f, "a name"); break;
+    case FL_VALUE_PATH: fprintf(f, "a file"); break;
+    }
+    if (k->type == FL_VALUE_F64 && k->choices) fprintf(f, ":");
+    if (k->choices) explain_choices(f, k->choices);
+    if (k->unit != FL_UNIT_ONE)
+        fprintf(f, " in %s (units: %s)", fl_unit_si(k->unit), fl_unit_list(k->unit, units, sizeof units));
+    if (k->range) fprintf(f, ", %s", fl_value_range(k, range, sizeof range));
+    if (k->special) fprintf(f, ", or %s", k->special);
+}
+
+static void explain_key(FILE *f, const fl_key *k)
+{
+    const char *section = fl_section_table[k->section].name;
+    fprintf(f, "%s.%s: %s\n", section, k->key, k->meaning);
+    fprintf(f, "  value    ");
+    explain_type(f, k);
+    fprintf(f, "\n");
+    fprintf(f, "  default  %s%s%s%s\n", k->fallback, k->steel ? " (steel: " : "", k->steel ? k->steel : "",
+            k->steel ? ")" : "");
+    for (int w = 0; w < fl_manual_count; w++)
+        if (fl_manual_table[w].section == k->section && strcmp(fl_manual_table[w].key, k->key) == 0)
+            fprintf(f, "  manual   %s\n", fl_manual_table[w].word);
+    if (k->source) fprintf(f, "  source   %s\n", k->source);
+}
+
+/* A word alone may be a section or a key of any: the nearest of all. */
+static int no_word(const char *word, fl_err *err)
+{
+    const char *near[2 * FL_SECTIONS], *list[FL_SCENE_KEYS];
+    for (int s = 0; s < FL_SECTIONS; s++) {
+        const int first = fl_key_first(s), n = fl_key_first(s + 1) - first;
+        for (int k = 0; k < n; k++) list[k] = fl_key_table[first + k].key;
+        near[s] = fl_section_table[s].name;
+        near[FL_SECTIONS + s] = n ? fl_text_nearest(word, list, n) : near[s];
+    }
+    const char *best = fl_text_nearest(word, near, 2 * FL_SECTIONS);
+    for (int s = 0; s < FL_SECTIONS; s++)
+        if (near[s] == best)
+            return fl_fail(err, FL_USAGE, "unknown section [%.40s], nearest is [%s]", word, best);
+    int of = 0;
+    while (near[FL_SECTIONS + of] != best) of++;
+    return fl_fail(err, FL_USAGE, "unknown section [%.40s], nearest is the key %s.%s", word,
+                   fl_section_table[of].name, best);
+}
+
+int fl_scene_explain(FILE *f, const char *key, fl_err *err)
+{
+    char text[200], why[400];
+    const char *dot = strrchr(key, '.');
+    fl_address at;
+    int section;
+    if (key[0] == '\0') {
+        for (int s = 0; s < FL_SECTIONS; s++)
+            fprintf(f, "%-16s  %s\n", fl_section_table[s].form, fl_section_table[s].meaning);
+        return 0;
+    }
+    /* "material.young" as well as "material ice.young": the bare section has no names to check */
+    snprintf(text, sizeof text, "%.*s", (int)(dot ? dot - key : (long)strlen(key)), key);
+    section = fl_section_find(text);
+    if (section >= 0) {
+        at = (fl_address){.section = section, .key = -1};
+        if (dot && (at.key = fl_address_key(section, dot + 1, why, sizeof why)) < 0)
+            return fl_fail(err, FL_USAGE, "%s", why);
+    } else if (!strpbrk(key, ". ")) {
+        return no_word(key, err);
+    } else if (fl_address_read(key, &at, why, sizeof why)) {
+        return fl_fail(err, FL_USAGE, "%s", why);
+    }
+    if (at.key >= 0) {
+        explain_key(f, &fl_key_table[at.key]);
+        return 0;
+    }
+    fprintf(f, "%s: %s\n", fl_section_table[at.section].form, fl_section_table[at.section].meaning);
+    for (int k = fl_key_first(at.section); k < fl_key_first(at.section + 1); k++)
+        explain_key(f, &fl_key_table[k]);
+    return 0;
+}

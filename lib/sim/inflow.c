@@ -1,0 +1,401 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include "base/array.h"
+#include "narrow/gjk.h"
+#include "sim/body_step.h"
+#include "sim/energy_balance.h"
+#include "sim/floe_setup.h"
+#include "sphere/contact_list.h"
+#include "contact/bond_list.h"
+#include "sim/neighbour_list.h"
+#include "sim/sleep.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
+#include "sim/inflow.h"
+#include "sim/energy_ledger.h"
+
+/* Copies stand where rounding puts them: neighbours that touch in the field may overlap by this fraction of
+ * a floe's size, a million times the rounding of coordinates of a kilometre, and no contact feels it. */
+#define TOUCH 1e-7
+
+/* A floe that waits asks for its place once in so many steps. */
+enum { PATIENCE = 16 };
+
+/* --- the plan ---------------------------------------------------------------------------------- */
+
+#define MOST_ROOM 1e8 /* floes */
+
+/* Places for those that come: what comes in over the length of the domain, a quarter more where it is held
+ * up, and a field besides; -1: more than anybody means. */
+static int32_t room(const fl_scene_boundary *s, const fl_ice_field *feed, double pitch)
+{
+    const double length = s->inflow_from / 2 ? s->max.y - s->min.y : s->max.x - s->min.x;
+    const double most = (double)feed->n * (1.25 * length / pitch + 1.0);
+    if (s->room > 0) return s->room > feed->n ? s->room : feed->n;
+    return most < MOST_ROOM ? (int32_t)ceil(most) : -1;
+}
+
+double fl_inflow_extent(const fl_inflow_state *t, const fl_ice_field *field, int32_t k, double end)
+{
+    double most = -INFINITY;
+    for (int32_t v = 0; v < field->core[k].nv; v++) {
+        const fl_vec3 x = field->core[k].v[v];
+        most = fmax(most, end * t->sign * (t->axis ? x.y : x.x));
+    }
+    return end * (most + field->radius[k]);
+}
+
+/* Whether floe k of the feed comes in: not where its group holds it along the drift, unless it goes
+ * as the sheet does. */
+static int comes(const fl_world *w, const fl_ice_field *feed, int32_t k)
+{
+    const fl_inflow_state *t = &w->inflow;
+    const int32_t g =
+        feed->group[k] < 0 ? -1 : fl_scene_find_group(w->scene, feed->groups.name[feed->group[k]]);
+    if (g < 0) return 1;
+    const fl_scene_group *s = &w->scene->group[g];
+    return !(s->fixed & (t->axis ? FL_DOF_Y : FL_DOF_X)) ||
+           (t->axis ? s->velocity.y : s->velocity.x) == t->sign * t->speed;
+}
+
+/* What leaves and what comes, but for the arrays of all places. */
+static int plan_traffic(fl_world *w, const fl_ice_field *field, const fl_ice_field *feed, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_inflow_state *t = &w->inflow;
+    double front = -INFINITY, back = INFINITY;
+    t->feed = feed;
+    t->ice = field;
+    t->axis = s->inflow_from / 2;
+    t->sign = s->inflow_from % 2 ? -1.0 : 1.0;
+    t->entry = t->sign > 0.0 ? (t->axis ? s->min.y : s->min.x) : -(t->axis ? s->max.y : s->max.x);
+    t->speed = s->inflow_speed > 0.0
+                   ? s->inflow_speed
+                   : t->sign * (t->axis ? w->scene->water.current.y : w->scene->water.current.x);
+    for (int32_t k = 0; k < feed->n; k++) {
+        if (!comes(w, feed, k)) continue;
+        front = fmax(front, fl_inflow_extent(t, feed, k, 1.0));
+        back = fmin(back, fl_inflow_extent(t, feed, k, -1.0));
+    }
+    if (!(front >= back))
+        return fl_scene_fail(w->scene, "boundary.inflow", err,
+                             "every floe of %s is held by its group along the drift: none comes in",
+                             s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file);
+    t->pitch = s->inflow_pitch > 0.0 ? s->inflow_pitch : front - back;
+    t->lag = fl_alloc(feed->n, sizeof *t->lag, err);
+    t->next_copy = fl_alloc(feed->n, sizeof *t->next_copy, err);
+    if (!t->lag || !t->next_copy) return -1;
+    for (int32_t k = 0; k < feed->n; k++)
+        t->lag[k] = comes(w, feed, k) ? front - fl_inflow_extent(t, feed, k, 1.0) : INFINITY;
+    return 0;
+}
+
+int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *feed, fl_err *err)
+{
+    const fl_scene_boundary *s = &w->scene->boundary;
+    fl_inflow_state *t = &w->inflow;
+    const double far = INFINITY;
+    if (!s->head.present) return 0;
+    t->lo =
+        v3(s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -far, s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -far,
+           s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -far);
+    t->hi =
+        v3(s->type[0] == FL_BOUNDARY_FREE ? s->max.x : far, s->type[1] == FL_BOUNDARY_FREE ? s->max.y : far,
+           s->type[2] == FL_BOUNDARY_FREE ? s->max.z : far);
+    const int leave =
+        t->lo.x > -far || t->lo.y > -far || t->lo.z > -far || t->hi.x < far || t->hi.y < far || t->hi.z < far;
+    if (!leave) return 0;
+    if (s->inflow != FL_INFLOW_NONE) {
+        if (feed->n == 0)
+            return fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice is expected", s->inflow_file);
+        if (plan_traffic(w, field, feed, err)) return -1;
+        const int32_t more = room(s, feed, t->pitch);
+        if (more < 0)
+            return fl_fail(err, FL_INPUT,
+                           "%s: fields %.3g m apart, boundary.inflow_pitch, would be more than %.3g floes in "
+                           "the domain; "
+                           "boundary.room or a wider pitch is expected",
+                           s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file, t->pitch,
+                           MOST_ROOM);
+        w->n += more;
+    }
+    t->absent = fl_alloc(w->n, sizeof *t->absent, err);
+    t->entry_step = fl_alloc(w->n, sizeof *t->entry_step, err);
+    t->source_floe = fl_alloc(w->n, sizeof *t->source_floe, err);
+    t->guided = fl_alloc(w->n, sizeof *t->guided, err);
+    t->own_fixed_dof = fl_alloc(w->n, sizeof *t->own_fixed_dof, err);
+    if (!t->absent || !t->entry_step || !t->source_floe || !t->guided || !t->own_fixed_dof) return -1;
+    for (int32_t i = 0; i < w->n; i++) t->source_floe[i] = -1;
+    for (int32_t i = 0; i < field->n; i++)
+        if (field->id[i] >= t->next_id) t->next_id = field->id[i] + 1;
+    return 0;
+}
+
+void fl_inflow_free(fl_inflow_state *t)
+{
+    free(t->absent), free(t->entry_step), free(t->lag), free(t->next_copy);
+    free(t->source_floe), free(t->guided), free(t->own_fixed_dof);
+    *t = (fl_inflow_state){0};
+}
+
+/* --- who is there ------------------------------------------------------------------------------ */
+
+int32_t fl_floes_in_domain(const fl_world *w)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < w->n; i++) n += !fl_body_absent(w, i);
+    return n;
+}
+
+static double along(const fl_inflow_state *t, fl_vec3 x) { return t->sign * (t->axis ? x.y : x.x); }
+
+/* --- who leaves -------------------------------------------------------------------------------- */
+
+static int beyond(const fl_world *w, int32_t i)
+{
+    const fl_inflow_state *t = &w->inflow;
+    const fl_vec3 x = w->b.x[i];
+    const double r = w->b.bounding_radius[i] + w->b.radius[i];
+    return x.x + r < t->lo.x || x.x - r > t->hi.x || x.y + r < t->lo.y || x.y - r > t->hi.y ||
+           x.z + r < t->lo.z || x.z - r > t->hi.z;
+}
+
+static void take_out(fl_world *w, int32_t i)
+{
+    fl_inflow_state *t = &w->inflow;
+    fl_bodies *b = &w->b;
+    t->absent[i] = 1;
+    if (w->critical_body == i) w->critical_body = -1; /* its name goes with it */
+    t->n_left++;
+    t->mass_left += b->m[i];
+    t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
+    b->v[i] = b->L[i] = b->w[i] = b->f[i] = b->t[i] = v3(0, 0, 0);
+    fl_sums_clear(w, i);
+}
+
+/* End the pairs of those that are away, and let their partners feel it. */
+static int drop_pairs(fl_world *w, fl_err *err)
+{
+    int32_t kept = 0;
+    fl_bond_list_end_absent(w);
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        fl_neighbour_pair *p = &w->pair[c];
+        const int32_t i = p->i, j = p->j;
+        if (!fl_body_absent(w, i) && !(j < w->n && fl_body_absent(w, j))) {
+            w->pair[kept++] = *p;
+            continue;
+        }
+        fl_neighbour_pair_free(w, p);
+        p->touching = 0;
+    }
+    w->n_pair = kept;
+    kept = 0;
+    for (int32_t k = 0; k < w->panel_load.points; k++)
+        if (!fl_body_absent(w, w->panel_load.point[k].i))
+            w->panel_load.point[kept++] = w->panel_load.point[k];
+    w->panel_load.points = kept;
+    if (fl_neighbour_list_index(w, err) || fl_contact_list_remove_absent(w, err)) return -1;
+    for (int32_t k = 0; k < w->b.total; k++)
+        if (k >= w->n || !fl_body_absent(w, k)) fl_body_sum_forces(w, k);
+    return 0;
+}
+
+/* --- who comes --------------------------------------------------------------------------------- */
+
+/* The vertices of the core of thing k about `origin`, in world axes. */
+static int around(const fl_world *w, int32_t k, fl_vec3 origin, fl_vec3 **v, int32_t *cap, fl_err *err)
+{
+    const fl_poly *p = &w->b.core[k];
+    const fl_vec3 x = v3_sub(w->b.x[k], origin);
+    const fl_mat3 R = fl_body_axes(&w->b, k);
+    if (fl_grow(v, cap, p->nv, sizeof **v, err)) return -1;
+    for (int32_t n = 0; n < p->nv; n++) (*v)[n] = v3_add(x, m3_mul(R, p->v[n]));
+    return 0;
+}
+
+/* The number of lengths between two coordinates, to the nearest image. */
+static double nearest(double apart, double length) { return length > 0.0 ? round(apart / length) : 0.0; }
+
+/* 1 when nothing that is there overlaps floe i, 0 when something does. */
+static int is_free(const fl_world *w, int32_t i, fl_err *err)
+{
+    const fl_bodies *b = &w->b;
+    const fl_vec3 L = w->cell.length;
+    const double size = b->bounding_radius[i] + b->radius[i];
+    fl_vec3 *va = NULL, *vb = NULL;
+    int32_t cap_a = 0, cap_b = 0;
+    int is = around(w, i, b->x[i], &va, &cap_a, err) ? -1 : 1;
+    for (int32_t k = 0; k < b->total - w->walls && is == 1; k++) {
+        if (k == i || (k < w->n && fl_body_absent(w, k))) continue;
+        fl_vec3 off = v3_sub(b->x[k], b->x[i]), origin = b->x[i];
+        if (w->cell.periodic) {
+            const fl_vec3 way = fl_periodic_cell_offset(
+                &w->cell, v3(nearest(off.x, L.x), nearest(off.y, L.y), nearest(off.z, L.z)));
+            off = v3_sub(off, way);
+            origin = v3_add(origin, way);
+        }
+        const double R = b->radius[i] + b->radius[k];
+        if (v3_norm(off) > size + b->bounding_radius[k] + b->radius[k]) continue;
+        fl_gap gap;
+        if (around(w, k, origin, &vb, &cap_b, err)) {
+            is = -1;
+            break;
+        }
+        fl_gjk((fl_core){va, b->core[i].nv, &b->core[i]}, (fl_core){vb, b->core[k].nv, &b->core[k]}, NULL,
+               &gap);
+        if (gap.overlap || gap.d < R - TOUCH * size) is = 0;
+    }
+    free(va), free(vb);
+    return is;
+}
+
+/* Put the next copy of floe k into place i, its foremost point `in` beyond the bound. */
+static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
+{
+    fl_inflow_state *t = &w->inflow;
+    fl_bodies *b = &w->b;
+    double front = -INFINITY;
+    t->source_floe[i] = k;
+    if (fl_world_place_floe(w, i, t->feed, k, err)) return -1;
+    const fl_mat3 R = fl_body_axes(b, i);
+    for (int32_t v = 0; v < b->core[i].nv; v++)
+        front = fmax(front, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
+    const double way = t->sign * (t->entry + in - front - b->radius[i]);
+    const double drift = t->sign * t->speed;
+    const fl_vec3 held =
+        v3(b->fixed_dof[i] & FL_DOF_X ? b->v[i].x : 0.0, b->fixed_dof[i] & FL_DOF_Y ? b->v[i].y : 0.0,
+           b->fixed_dof[i] & FL_DOF_Z ? b->v[i].z : 0.0); /* at which its group wants it */
+    b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : way, t->axis ? way : 0.0, 0.0));
+    b->v[i] = v3(t->axis ? held.x : drift, t->axis ? drift : held.y, held.z);
+    fl_body_set_spin(b, i, v3(0, 0, 0));
+    return 0;
+}
+
+void fl_inflow_set_guided(fl_world *w, int32_t i, int guided)
+{
+    fl_inflow_state *t = &w->inflow;
+    uint8_t *const hold = &w->b.fixed_dof[i];
+    if (guided == t->guided[i]) return;
+    if (guided) t->own_fixed_dof[i] = *hold, *hold |= FL_DOF_X | FL_DOF_Y | FL_DOF_RZ;
+    else *hold = t->own_fixed_dof[i];
+    t->guided[i] = (uint8_t)guided;
+}
+
+static void take_in(fl_world *w, int32_t i)
+{
+    fl_inflow_state *t = &w->inflow;
+    fl_bodies *b = &w->b;
+    t->absent[i] = 0;
+    fl_sleep_reset_body(w, i);
+    fl_inflow_set_guided(w, i, 1);
+    w->id[i] = t->next_id++;
+    t->entry_step[i] = w->step;
+    t->n_entered++;
+    t->mass_entered += b->m[i];
+    t->momentum_entered = v3_madd(t->momentum_entered, b->m[i], b->v[i]);
+    fl_body_sum_forces(w, i);
+    w->last_search_step = -1;
+}
+
+/* Fields that do not come in because nobody looked: more in one step are a scene gone wrong. */
+#define MOST_BEHIND 1e9
+
+/* The copies of floe k that are due.  Returns 0 or -1; *came counts who comes in. */
+static int let_in(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *err)
+{
+    fl_inflow_state *t = &w->inflow;
+    const double way = t->speed * fl_world_time(w), step = t->speed * w->dt;
+    for (;;) {
+        const double late = way - t->lag[k] - (double)t->next_copy[k] * t->pitch;
+        if (late < 0.0) return 0;
+        if (late >= t->pitch) {
+            const double behind = floor(late / t->pitch);
+            if (!(behind < MOST_BEHIND))
+                return fl_fail(err, FL_NUMERIC, "inflow is %.3g fields behind in step %lld (t = %g s)",
+                               behind, (long long)w->step, fl_world_time(w));
+            t->next_copy[k] += (int64_t)behind;
+            t->n_dropped += (int64_t)behind;
+            continue;
+        }
+        const int first = late < step * (1.0 + 1e-9); /* also what is due at the start */
+        if (!first && w->step % PATIENCE) return 0;
+        while (*place < w->n && !t->absent[*place]) ++*place;
+        int is = 0;
+        if (*place < w->n) {
+            if (stand(w, *place, k, first ? late : 0.0, err)) return -1;
+            is = is_free(w, *place, err);
+            if (is < 0) return -1;
+        }
+        if (!is) {
+            t->n_blocked += first;
+            return 0;
+        }
+        if (t->next_id == INT32_MAX) return fl_fail(err, FL_NUMERIC, "there is no number left for a floe");
+        take_in(w, *place);
+        t->next_copy[k]++;
+        ++*came;
+    }
+}
+
+/* Floes whose last point has passed the bound go on by themselves. */
+static void let_go(fl_world *w)
+{
+    fl_inflow_state *t = &w->inflow;
+    const fl_bodies *b = &w->b;
+    for (int32_t i = 0; i < w->n; i++) {
+        if (!t->guided[i] || t->absent[i]) continue;
+        double last = INFINITY;
+        const fl_mat3 R = fl_body_axes(b, i);
+        for (int32_t v = 0; v < b->core[i].nv; v++)
+            last = fmin(last, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
+        if (last - b->radius[i] < t->entry) continue;
+        fl_inflow_set_guided(w, i, 0);
+    }
+}
+
+/* --- both -------------------------------------------------------------------------------------- */
+
+static int due(const fl_world *w)
+{
+    const fl_inflow_state *t = &w->inflow;
+    const double way = t->speed * fl_world_time(w);
+    for (int32_t k = 0; t->feed && k < t->feed->n; k++)
+        if (way >= t->lag[k] + (double)t->next_copy[k] * t->pitch) return 1;
+    return 0;
+}
+
+int fl_inflow_step(fl_world *w, fl_err *err)
+{
+    fl_inflow_state *t = &w->inflow;
+    fl_ledger *g = &w->ledger;
+    fl_work before, after;
+    int out = 0, came = 0;
+    int32_t place = 0;
+    if (t->feed) let_go(w);
+    for (int32_t i = 0; i < w->n && !out; i++) out = !t->absent[i] && !t->guided[i] && beyond(w, i);
+    if (!out && !due(w)) return 0;
+    fl_sleep_advance_to_now(w);
+    fl_energy_update(w);
+    const double residual = g->residual, throughput = g->throughput;
+    if (out) {
+        /* What lies ahead is booked, and will not be given by the contacts that end. */
+        before = fl_work_ahead(w);
+        for (int32_t i = 0; i < w->n; i++)
+            if (!t->absent[i] && !t->guided[i] && beyond(w, i)) take_out(w, i);
+        if (drop_pairs(w, err)) return -1;
+        fl_sleep_wake_resting(w);
+        after = fl_work_ahead(w);
+        g->damping -= before.damping - after.damping;
+        g->friction -= before.friction - after.friction;
+        g->drive -= before.drive - after.drive;
+    }
+    for (int32_t k = 0; t->feed && k < t->feed->n; k++)
+        if (let_in(w, k, &place, &came, err)) return -1;
+    fl_energy_update(w);
+    g->carried += g->residual - residual;
+    g->throughput = throughput;
+    fl_sleep_restore(w);
+    return 0;
+}

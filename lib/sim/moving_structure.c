@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+#include "base/array.h"
+#include "base/pi.h"
+#include "sim/moving_structure.h"
+#include "sim/energy_ledger.h"
+
+static int moves(const fl_scene_motion *m)
+{
+    return v3_nonzero(m->velocity) || v3_nonzero(m->spin) || m->track[0] || m->free;
+}
+
+/* Springs of a scene's motion. */
+static void hang(fl_rigid_motion *out, const fl_scene_motion *m)
+{
+    const double T[] = {m->period.x, m->period.y, m->period.z},
+                 k[] = {m->stiffness.x, m->stiffness.y, m->stiffness.z},
+                 kt[] = {m->turn_stiffness.x, m->turn_stiffness.y, m->turn_stiffness.z};
+    for (int i = 0; i < 3; i++) {
+        const double w = T[i] > 0.0 ? 2.0 * PI / T[i] : 0.0;
+        out->K[i][i] = k[i] + m->mass * w * w;
+        out->K[3 + i][3 + i] = kt[i];
+    }
+    out->K[2][3] = out->K[3][2] = m->coupling.x;
+    out->K[2][4] = out->K[4][2] = m->coupling.y;
+    out->K[3][4] = out->K[4][3] = m->coupling.z;
+}
+
+/* Dashpots beside all springs there are, those of the sea with them: c = 2 D sqrt(k m) along x y z. */
+static void damp(fl_rigid_motion *out, const fl_scene_motion *m)
+{
+    const double D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z};
+    double c[3] = {m->damping.x, m->damping.y, m->damping.z};
+    for (int i = 0; i < 3; i++)
+        if (D[i] > 0.0) c[i] = 2.0 * D[i] * sqrt(out->K[i][i] * m->mass);
+    out->c = v3(c[0], c[1], c[2]);
+    out->ct = m->turn_damping;
+}
+
+/* The sea's stiffness for the parts of mover k. */
+static int float_it(fl_world *w, int32_t k, fl_rigid_motion *out, const fl_surface *surface, const char *of,
+                    fl_err *err)
+{
+    const fl_scene *s = w->scene;
+    fl_hydrostatics *f = &w->moving.hydrostatics[k];
+    fl_err why = {0};
+    char key[3 * FL_SCENE_NAME];
+    int bad = 0;
+    for (int32_t p = 0; p < surface->n && !bad; p++)
+        if (w->moving.mover_of_part[p] == k)
+            bad = fl_hydrostatics_add(f, &surface->part[p], s->water.level, out->reference, &why);
+    if (bad || fl_hydrostatics_finish(f, s->water.level, out->reference, &why)) {
+        if (why.code == FL_SYSTEM) {
+            *err = why;
+            return -1;
+        }
+        snprintf(key, sizeof key, "%s.hydrostatic", of);
+        return fl_scene_fail(s, key, err, "%s: %s", key, why.text);
+    }
+    fl_hydrostatics_stiffness(f, s->water.density * v3_norm(s->run.gravity), out->K);
+    return 0;
+}
+
+/* A mover of scene motion m, called `of` in the scene, whose parts are marked with its number already. */
+static int add_mover(fl_world *w, const fl_scene_motion *m, const char *of, const fl_surface *surface,
+                     fl_err *err)
+{
+    fl_rigid_motion out = {.reference = m->reference,
+                           .velocity = m->velocity,
+                           .spin = m->spin,
+                           .free_dof = m->free,
+                           .mass = m->mass,
+                           .inertia = m->inertia};
+    hang(&out, m);
+    char key[3 * FL_SCENE_NAME];
+    if (m->hydrostatic && float_it(w, w->moving.movers.n, &out, surface, of, err)) return -1;
+    damp(&out, m);
+    if ((m->track[0] &&
+         fl_track_read(&out.track, m->track, m->interpolation == FL_INTERPOLATION_CUBIC, err)) ||
+        fl_rigid_motions_add(&w->moving.movers, &out, err) < 0) {
+        fl_track_free(&out.track);
+        return -1;
+    }
+    const fl_track *tr = &w->moving.movers.motion[w->moving.movers.n - 1].track;
+    snprintf(key, sizeof key, "%s.track", of);
+    for (int32_t i = 0; m->free && i < tr->n; i++)
+        if (v3_nonzero(tr->value[i].r))
+            return fl_scene_fail(w->scene, key, err,
+                                 "%s: the track turns at %g s, and a structure with free directions turns by "
+                                 "itself or not at all",
+                                 key, tr->t[i]);
+    return 0;
+}
+
+/* Movers of [structure] and of each [part NAME], and which part rides on which. */
+static int make_movers(fl_world *w, const fl_surface *surface, fl_err *err)
+{
+    const fl_scene *s = w->scene;
+    fl_moving_structure *r = &w->moving;
+    int32_t next = moves(&s->structure.motion) ? 1 : 0;
+    for (int32_t p = 0; p < surface->n; p++) r->mover_of_part[p] = next - 1;
+    for (int32_t i = 0; i < s->n_part; i++) {
+        const char *name = s->part[i].name;
+        const int32_t p = fl_surface_find(surface, name, strlen(name));
+        char of[FL_SCENE_NAME + 8];
+        snprintf(of, sizeof of, "part %s", name);
+        if (p < 0) return fl_scene_fail(s, of, err, "there is no part %s in %s", name, s->structure.file);
+        r->mover_of_part[p] = moves(&s->part[i].motion) ? next++ : -1;
+        w->part_reference[p] = s->part[i].motion.reference;
+    }
+    if (moves(&s->structure.motion) && add_mover(w, &s->structure.motion, "structure", surface, err))
+        return -1;
+    for (int32_t i = 0; i < s->n_part; i++) {
+        char of[FL_SCENE_NAME + 8];
+        snprintf(of, sizeof of, "part %s", s->part[i].name);
+        if (moves(&s->part[i].motion) && add_mover(w, &s->part[i].motion, of, surface, err)) return -1;
+    }
+    return 0;
+}
+
+/* How fast a told motion gets at most, by its rows [m/s]. */
+static double fastest(const fl_rigid_motion *m, double arm)
+{
+    double most = v3_norm(m->velocity) + arm * v3_norm(m->spin);
+    for (int32_t i = 0; i < m->track.n; i++) {
+        fl_pose6 x, rate, second;
+        fl_track_evaluate(&m->track, m->track.t[i], &x, &rate, &second);
+        most = fmax(most, v3_norm(rate.x) + arm * v3_norm(rate.r));
+    }
+    return most;
+}
+
+/* Piece k where its mover has it, at the mean velocity of the last dt. */
+static void place(fl_world *w, int32_t k, double dt)
+{
+    fl_moving_structure *r = &w->moving;
+    const int32_t m = r->mover_of_piece[k], j = w->n + k;
+    const fl_bodies *mb = &r->movers.b;
+    fl_bodies *b = &w->b;
+    const fl_vec3 arm = m3_mul(fl_body_axes(mb, m), r->arm[k]);
+    b->x[j] = v3_add(mb->x[m], arm);
+    b->q[j] = q_mul(mb->q[m], r->rotation[k]);
+    b->v[j] = v3_add(mb->v[m], v3_cross(mb->w[m], v3_madd(arm, -0.5 * dt, v3_cross(mb->w[m], arm))));
+    b->w[j] = mb->w[m];
+}
+
+static void speed(fl_world *w, int32_t k)
+{
+    const fl_bodies *mb = &w->moving.movers.b;
+    const int32_t m = w->moving.mover_of_piece[k], j = w->n + k;
+    w->b.v[j] = v3_add(mb->v[m], v3_cross(mb->w[m], v3_sub(w->b.x[j], mb->x[m])));
+    w->b.w[j] = mb->w[m];
+}
+
+int fl_moving_structure_make(fl_world *w, const fl_surface *surface, fl_err *err)
+{
+    fl_moving_structure *r = &w->moving;
+    const int32_t pieces = w->structure.n; /* walls have none, and an entry */
+    for (int32_t p = 0; p < w->parts; p++) w->part_reference[p] = w->scene->structure.motion.reference;
+    if (!surface || (!moves(&w->scene->structure.motion) && w->scene->n_part == 0)) return 0;
+    r->mover_of_part = fl_alloc(w->parts, sizeof *r->mover_of_part, err);
+    r->mover_of_piece = fl_alloc(pieces, sizeof *r->mover_of_piece, err);
+    r->arm = fl_alloc(pieces, sizeof *r->arm, err);
+    r->rotation = fl_alloc(pieces, sizeof *r->rotation, err);
+    r->contact_omega2 = fl_alloc(w->scene->n_part + 1, sizeof *r->contact_omega2, err);
+    r->hydrostatics = fl_alloc(w->scene->n_part + 1, sizeof *r->hydrostatics, err);
+    if (err->code || make_movers(w, surface, err) || fl_rigid_motions_start(&r->movers, 0.0, err)) return -1;
+    for (int32_t k = 0; k < pieces; k++) {
+        const int32_t p = w->structure.piece[k].part, m = p < 0 ? -1 : r->mover_of_part[p], j = w->n + k;
+        r->mover_of_piece[k] = m;
+        if (m < 0) continue;
+        const fl_rigid_motion *motion = &r->movers.motion[m];
+        r->arm[k] = v3_sub(w->b.x[j], motion->reference);
+        r->rotation[k] = w->b.q[j];
+        if (motion
+                ->free_dof) { /* compliance of a place but for turns, see the survey; 1 where none is free */
+            w->b.m[j] = motion->free_dof & 7u ? r->movers.b.m[m] : 0.0;
+            w->b.invm[j] = r->movers.b.invm[m];
+            fl_body_set_inertia(&w->b, j, v3(INFINITY, INFINITY, INFINITY));
+        }
+        r->max_speed = fmax(r->max_speed, fastest(motion, v3_norm(r->arm[k]) + w->b.bounding_radius[j]));
+        place(w, k, 0.0);
+    }
+    return 0;
+}
+
+void fl_moving_structure_free(fl_moving_structure *r)
+{
+    fl_rigid_motions_free(&r->movers);
+    free(r->mover_of_piece), free(r->mover_of_part), free(r->arm), free(r->rotation), free(r->contact_omega2),
+        free(r->hydrostatics);
+    *r = (fl_moving_structure){0};
+}
+
+static void tell_points(fl_world *w)
+{
+    const fl_moving_structure *r = &w->moving;
+    for (int32_t p = 0; p < w->parts; p++)
+        if (r->mover_of_part[p] >= 0) w->part_reference[p] = r->movers.b.x[r->mover_of_part[p]];
+}
+
+void fl_moving_structure_set_step(fl_world *w)
+{
+    fl_rigid_motions_set_step(&w->moving.movers, w->dt);
+    tell_points(w);
+}
+
+void fl_moving_structure_first_half(fl_world *w, double t)
+{
+    fl_moving_structure *r = &w->moving;
+    for (int32_t m = 0; m < r->movers.n; m++) fl_rigid_motion_first_half(&r->movers, m, t, w->dt);
+    for (int32_t k = 0; k < w->structure.n; k++) {
+        if (r->mover_of_piece[k] < 0) continue;
+        const int32_t j = w->n + k;
+        const fl_vec3 x = w->b.x[j];
+        const fl_quat q = w->b.q[j];
+        const fl_velocity_change before = {w->b.v[j], w->b.w[j]};
+        place(w, k, w->dt);
+        fl_set_predicted_change(w, j, v3_sub(w->b.v[j], before.v), v3_sub(w->b.w[j], before.w));
+        const fl_quat d = q_mul(w->b.q[j], q_conj(q)); /* its chord, as in integrate.c */
+        w->b.odometer[j] += v3_norm(v3_sub(w->b.x[j], x)) +
+                            2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z) * w->b.bounding_radius[j];
+    }
+    tell_points(w);
+}
+
+void fl_moving_structure_second_half(fl_world *w, double t, double h)
+{
+    fl_moving_structure *r = &w->moving;
+    fl_bodies *mb = &r->movers.b;
+    for (int32_t m = 0; m < r->movers.n; m++) mb->f[m] = mb->t[m] = v3(0, 0, 0);
+    for (int32_t k = 0; k < w->structure.n; k++) {
+        const int32_t m = r->mover_of_piece[k], j = w->n + k;
+        if (m < 0) continue;
+        mb->f[m] = v3_add(mb->f[m], w->b.f[j]);
+        mb->t[m] = v3_add(mb->t[m], v3_add(w->b.t[j], v3_cross(v3_sub(w->b.x[j], mb->x[m]), w->b.f[j])));
+    }
+    for (int32_t m = 0; m < r->movers.n; m++) {
+        fl_rigid_motion_add_springs(&r->movers, m);
+        if (h > 0.0) {
+            fl_rigid_motion_second_kick(&r->movers, m, t, h);
+            fl_rigid_motion_damp(&r->movers, m);
+        }
+    }
+    for (int32_t k = 0; k < w->structure.n; k++)
+        if (r->mover_of_piece[k] >= 0) speed(w, k);
+}
+
+/* What a step must bear: springs, and places of this much stiffness over its mass, on pieces so far out. */
+static double arm_of(const fl_world *w, int32_t k)
+{
+    return v3_norm(w->moving.arm[k]) + w->b.bounding_radius[w->n + k];
+}
+
+void fl_moving_structure_limit(fl_world *w)
+{
+    fl_moving_structure *r = &w->moving;
+    for (int32_t m = 0; m < r->movers.n; m++) r->contact_omega2[m] = 0.0;
+    for (int32_t k = 0; k < w->pieces; k++) {
+        const int32_t m = r->mover_of_piece[k], j = w->n + k;
+        if (m < 0 || !r->movers.motion[m].free_dof) continue;
+        double sum = 0.0; /* of slope times invm */
+        for (int64_t c = w->first_pair_of_body[j]; c < w->first_pair_of_body[j + 1]; c++) {
+            const fl_neighbour_pair *p = &w->pair[w->pairs_of_body[c]];
+            if (p->touching) sum += p->contact->omega2_j;
+        }
+        r->contact_omega2[m] +=
+            sum / w->b.invm[j] * fl_rigid_motion_compliance(&r->movers.motion[m], arm_of(w, k));
+    }
+    for (int32_t m = 0; m < r->movers.n; m++) {
+        const double sum = 2.0 * r->contact_omega2[m] + fl_rigid_motion_max_omega2(&r->movers.motion[m]);
+        if (!(sum > 0.0)) continue;
+        const double limit = 2.0 / sqrt(sum);
+        w->dt_critical_contacts = fmin(w->dt_critical_contacts, limit);
+        if (limit < w->dt_critical) {
+            w->dt_critical = limit;
+            w->critical_body = w->b.total + m;
+        }
+    }
+}
+
+double fl_mover_omega2(const fl_world *w, int32_t k, double stiffest)
+{
+    const fl_rigid_motion *m = &w->moving.movers.motion[k];
+    double arm = 0.0;
+    if (!m->free_dof) return 0.0;
+    for (int32_t c = 0; c < w->pieces; c++)
+        if (w->moving.mover_of_piece[c] == k) arm = fmax(arm, arm_of(w, c));
+    return 2.0 * stiffest * fl_rigid_motion_compliance(m, arm) + fl_rigid_motion_max_omega2(m);
+}
+
+fl_moving_energy fl_moving_structure_energy(const fl_world *w)
+{
+    const fl_rigid_motions *v = &w->moving.movers;
+    fl_moving_energy all = {0};
+    for (int32_t m = 0; m < v->n; m++) {
+        all.kinetic += fl_rigid_motion_kinetic_energy(v, m);
+        all.spring += v->spring_energy[m];
+        all.damper_work += v->damper_loss[m];
+        all.drive_work += v->prescribed_work[m] + v->b.work_of_constraints[m];
+    }
+    return all;
+}
+
+enum fl_loads_motion_kind fl_motion_columns(const fl_world *w)
+{
+    enum fl_loads_motion_kind most = w->moving.movers.n ? FL_LOADS_TRANSLATION : FL_LOADS_FIXED;
+    for (int32_t m = 0; m < w->moving.movers.n; m++) {
+        const fl_rigid_motion *motion = &w->moving.movers.motion[m];
+        if (motion->free_dof >> 3 || v3_nonzero(motion->spin)) most = FL_LOADS_ROTATION;
+        for (int32_t i = 0; i < motion->track.n; i++)
+            if (v3_nonzero(motion->track.value[i].r)) most = FL_LOADS_ROTATION;
+    }
+    return most;
+}
+
+fl_vec3 fl_part_point(const fl_world *w, int32_t part, fl_vec3 x)
+{
+    const fl_rigid_motions *v = &w->moving.movers;
+    const int32_t m = w->moving.mover_of_part[part];
+    return v3_add(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v3_sub(x, v->motion[m].reference)));
+}
+
+int fl_structure_moves_freely(const fl_world *w)
+{
+    for (int32_t m = 0; m < w->moving.movers.n; m++)
+        if (w->moving.movers.motion[m].free_dof) return 1;
+    return 0;
+}
+
+/* Of q, by an angle of at most pi. */
+static fl_vec3 rotation_vector(fl_quat q)
+{
+    const double s = sqrt(q.x * q.x + q.y * q.y + q.z * q.z), sign = q.w < 0.0 ? -1.0 : 1.0;
+    if (s == 0.0) return v3(0, 0, 0);
+    return v3_scale(2.0 * sign * atan2(s, sign * q.w) / s, v3(q.x, q.y, q.z));
+}
+
+void fl_part_motion(const fl_world *w, int32_t part, double t, fl_loads_motion *out)
+{
+    const fl_rigid_motions *v = &w->moving.movers;
+    const int32_t m = w->moving.mover_of_part[part];
+    *out = (fl_loads_motion){0};
+    if (m < 0) return;
+    out->u = v3_sub(v->b.x[m], v->motion[m].reference);
+    out->v = v->b.v[m];
+    out->r = rotation_vector(v->b.q[m]);
+    out->w = v->b.w[m];
+    fl_rigid_motion_acceleration(v, m, t, &out->a, &out->e);
+}
+
+const char *fl_mover_name(const fl_world *w, int32_t k)
+{
+    const fl_scene *s = w->scene;
+    int32_t next = moves(&s->structure.motion) ? 1 : 0;
+    if (k < next) return "structure";
+    for (int32_t i = 0; i < s->n_part; i++)
+        if (moves(&s->part[i].motion) && next++ == k) return s->part[i].name;
+    return "structure";
+}

@@ -1,0 +1,419 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/array.h"
+#include "base/parallel.h"
+#include "out/state_io.h"
+#include "sim/floe_setup.h"
+#include "sim/setup.h"
+#include "sphere/contact_list.h"
+#include "contact/bond_list.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
+#include "contact/panel_load.h"
+#include "sim/moving_structure.h"
+#include "sim/neighbour_list.h"
+#include "sim/sleep.h"
+#include "sim/snapshot.h"
+#include "sim/snapshot_pair.h"
+#include "sim/inflow.h"
+#include "sim/energy_ledger.h"
+
+static void books(fl_state_io *t, fl_world *w)
+{
+    fl_ledger *g = &w->ledger;
+    fl_state_io_open(t, "books");
+    fl_state_io_real(t, &g->start);
+    fl_state_io_real(t, &g->residual);
+    fl_state_io_real(t, &g->throughput);
+    fl_state_io_real(t, &g->friction);
+    fl_state_io_real(t, &g->damping);
+    fl_state_io_real(t, &g->drive);
+    fl_state_io_real(t, &g->carried);
+    fl_state_io_vec3(t, &w->imbalance);
+    fl_state_io_real(t, &w->impulse_sum);
+    fl_state_io_real(t, &w->max_overlap);
+    fl_state_io_int(t, -1, INT32_MAX, &w->max_overlap_i);
+    fl_state_io_int(t, -INT32_MAX, INT32_MAX, &w->max_overlap_j);
+    fl_state_io_real(t, &w->max_overlap_time);
+    fl_state_io_count(t, &w->deep_overlap_steps);
+    fl_state_io_int(t, -INT32_MAX, INT32_MAX, &w->deep_overlap_i);
+    fl_state_io_int(t, -INT32_MAX, INT32_MAX, &w->deep_overlap_j);
+    fl_state_io_real(t, &w->deep_overlap_time);
+    fl_state_io_count(t, &w->contact_steps);
+    fl_state_io_count(t, &w->searches);
+    fl_state_io_count(t, &w->overlapping_cores);
+    fl_state_io_count(t, &w->penetration_count.queries);
+    fl_state_io_count(t, &w->penetration_count.no_answer);
+    fl_state_io_count(t, &w->penetration_count.rejected);
+    fl_state_io_count(t, &w->penetration_count.capped);
+    fl_state_io_close(t);
+}
+
+static void told(fl_state_io *t, fl_world *w)
+{
+    fl_surrogate_count all = fl_surrogate_count_sum(w->surrogate_counts, w->threads);
+    fl_state_io_open(t, "told");
+    fl_state_io_count(t, &all.hits);
+    fl_state_io_count(t, &all.checks);
+    fl_state_io_count(t, &all.misses);
+    fl_state_io_real(t, &all.worst_error);
+    fl_state_io_close(t);
+    if (!t->in || t->err->code) return;
+    for (int32_t k = 0; k < w->threads; k++) w->surrogate_counts[k] = (fl_surrogate_count){0};
+    w->surrogate_counts[0] = all;
+}
+
+/* Who has come and gone, and who stands in which place: a floe that came in is made again before its body is
+ * read. */
+static void coming(fl_state_io *t, fl_world *w)
+{
+    fl_inflow_state *c = &w->inflow;
+    const int32_t feed = c->feed ? c->feed->n : 0;
+    fl_state_io_open(t, "traffic");
+    fl_state_io_count(t, &c->n_left);
+    fl_state_io_count(t, &c->n_entered);
+    fl_state_io_real(t, &c->mass_left);
+    fl_state_io_real(t, &c->mass_entered);
+    fl_state_io_vec3(t, &c->momentum_left);
+    fl_state_io_vec3(t, &c->momentum_entered);
+    fl_state_io_int(t, 0, INT32_MAX, &c->next_id);
+    fl_state_io_count(t, &c->n_blocked);
+    fl_state_io_count(t, &c->n_dropped);
+    fl_state_io_close(t);
+    for (int32_t k = 0; k < feed && !t->err->code; k++) {
+        fl_state_io_open(t, "next");
+        fl_state_io_count(t, &c->next_copy[k]);
+        fl_state_io_close(t);
+    }
+    for (int32_t i = 0; i < w->n && !t->err->code; i++) {
+        int32_t floe = c->source_floe[i], id = w->id[i];
+        uint8_t guided = c->guided[i];
+        fl_state_io_open(t, "place");
+        fl_state_io_byte(t, 1, &c->absent[i]);
+        fl_state_io_int(t, -1, feed - 1, &floe);
+        fl_state_io_int(t, 0, INT32_MAX, &id);
+        fl_state_io_count(t, &c->entry_step[i]);
+        fl_state_io_byte(t, 1, &guided);
+        fl_state_io_close(t);
+        if (t->f || t->err->code) continue;
+        if (floe != c->source_floe[i] && (!c->feed || (floe < 0 && i >= c->ice->n))) {
+            fl_text_fail(t->in, t->err, "place %d has no floe of its own", i);
+            continue;
+        }
+        const int other = floe != c->source_floe[i];
+        fl_inflow_set_guided(w, i, 0); /* who was in a state before */
+        c->source_floe[i] = floe;
+        if (other && fl_world_place_floe(w, i, floe < 0 ? c->ice : c->feed, floe < 0 ? i : floe, t->err))
+            continue;
+        w->id[i] = id;
+        fl_inflow_set_guided(w, i, guided);
+    }
+}
+
+/* What moves it, to the last bit: the spin is not always what L and q give. */
+static void motion(fl_state_io *t, fl_bodies *b, int32_t k)
+{
+    fl_state_io_vec3(t, &b->x[k]);
+    fl_state_io_vec3(t, &b->v[k]);
+    fl_state_io_vec3(t, &b->L[k]);
+    fl_state_io_quat(t, &b->q[k]);
+    fl_state_io_vec3(t, &b->w[k]);
+    fl_state_io_vec3(t, &b->f[k]);
+    fl_state_io_vec3(t, &b->t[k]);
+    fl_state_io_real(t, &b->work_of_constraints[k]);
+}
+
+static void body(fl_state_io *t, fl_world *w, int32_t k)
+{
+    fl_bodies *b = &w->b;
+    fl_state_io_open(t, "body");
+    motion(t, b, k);
+    if (b->added_mass) fl_state_io_real(t, &b->flow_work[k]);
+    fl_state_io_real(t, &b->odometer[k]);
+    fl_state_io_real(t, &w->odometer_at_search[k]);
+    fl_state_io_close(t);
+}
+
+/* The table of the current is not kept, but it must be the one that the run had. */
+static void table_of(fl_state_io *t, const fl_current *c)
+{
+    const uint64_t bits = fl_hash(FL_HASH_START, c->z, c->n * (int64_t)sizeof *c->z);
+    fl_state_io_open(t, "current");
+    if (fl_state_io_hash(t, fl_hash(bits, c->u, c->n * (int64_t)sizeof *c->u)))
+        fl_text_fail(t->in, t->err, "the rows of water.profile_file are not those that the run had");
+    fl_state_io_close(t);
+}
+
+/* Who sleeps, and since when. */
+static void nap(fl_state_io *t, fl_world *w, int32_t k)
+{
+    fl_sleep_state *n = &w->sleep.state[k];
+    fl_state_io_open(t, "nap");
+    fl_state_io_byte(t, FL_RESTING, &w->sleep.phase[k]);
+    fl_state_io_count(t, &n->since_step);
+    fl_state_io_count(t, &w->sleep.phase_end[k]);
+    fl_state_io_real(t, &n->path_bound);
+    fl_state_io_real(t, &n->window_odometer);
+    fl_state_io_real(t, &n->drag_rate);
+    fl_state_io_real(t, &n->max_error);
+    fl_state_io_real(t, &n->sum_error);
+    fl_state_io_count(t, &n->ballistic_steps);
+    fl_state_io_count(t, &n->resting_steps);
+    fl_state_io_count(t, &n->n_skips);
+    fl_state_io_int(t, 1, INT32_MAX, &n->next_skip);
+    fl_state_io_close(t);
+    if (t->in && !t->err->code && (n->since_step > w->step || n->path_bound < 0.0))
+        fl_text_fail(t->in, t->err, "body %d sleeps since step %g of %g", w->id[k], (double)n->since_step,
+                     (double)w->step);
+}
+
+static void sea(fl_state_io *t, fl_environment *s, const fl_bodies *b, int32_t i)
+{
+    double energy = s->water && !s->waves ? fl_environment_energy(s, b, i) : 0.0,
+           none = 0.0; /* told, and not needed */
+    fl_state_io_open(t, "sea");
+    fl_state_io_real(t, &s->wetted_area[i]);
+    fl_state_io_real(t, &s->buoyancy[i]);
+    fl_state_io_real(t, &energy);
+    fl_state_io_real(t, &s->drag_loss[i]);
+    fl_state_io_real(t, s->wind_work ? &s->wind_work[i] : &none);
+    if (s->waves) fl_state_io_real(t, &s->water_work[i]);
+    if (s->sample) {
+        fl_wave_sample *h = &s->sample[i];
+        fl_state_io_vec3(t, &h->df), fl_state_io_vec3(t, &h->dt), fl_state_io_vec3(t, &h->dflow);
+        fl_state_io_real(t, &h->dz), fl_state_io_real(t, &h->dslope);
+        fl_state_io_pose(t, &h->x, &h->q);
+        fl_state_io_real(t, &h->when);
+    }
+    fl_state_io_close(t);
+}
+
+/* The track is read again from its file, so its hash stands for it. */
+static void mover(fl_state_io *t, fl_world *w, int32_t k)
+{
+    fl_rigid_motions *m = &w->moving.movers;
+    fl_bodies *b = &m->b;
+    const fl_track *tr = &m->motion[k].track;
+    uint64_t bits = FL_HASH_START;
+    if (tr->n)
+        bits = fl_hash(fl_hash(bits, tr->t, tr->n * (int64_t)sizeof *tr->t), tr->value,
+                       tr->n * (int64_t)sizeof *tr->value);
+    fl_state_io_open(t, "mover");
+    if (fl_state_io_hash(t, bits))
+        fl_text_fail(t->in, t->err, "the rows of the track of %s are not those that the run had",
+                     fl_mover_name(w, k));
+    motion(t, b, k);
+    fl_state_io_vec3(t, &m->prescribed[k]);
+    fl_state_io_vec3(t, &m->prescribed_velocity[k]);
+    fl_state_io_vec3(t, &m->spring_force[k]);
+    fl_state_io_vec3(t, &m->spring_torque[k]);
+    fl_state_io_real(t, &m->spring_energy[k]);
+    fl_state_io_real(t, &m->damper_loss[k]);
+    fl_state_io_real(t, &m->prescribed_work[k]);
+    fl_state_io_close(t);
+}
+
+/* Where the ice pressed last, and what the panels and events of the interval have so far. */
+static void mark(fl_state_io *t, fl_world *w, fl_panel_point *m)
+{
+    fl_state_io_open(t, "mark");
+    fl_state_io_int(t, 0, w->n - 1, &m->i);
+    fl_state_io_int(t, 0, w->parts - 1, &m->part);
+    fl_state_io_int(t, 0, w->panel_load.panels - 1, &m->panel);
+    fl_state_io_vec3(t, &m->force);
+    fl_state_io_vec3(t, &m->n);
+    fl_state_io_vec3(t, &m->point);
+    fl_state_io_real(t, &m->normal_force);
+    fl_state_io_real(t, &m->area);
+    fl_state_io_real(t, &m->overlap);
+    fl_state_io_close(t);
+}
+
+static void event(fl_state_io *t, fl_world *w, fl_load_event *e)
+{
+    fl_state_io_open(t, "event");
+    fl_state_io_int(t, INT32_MIN, INT32_MAX, &e->id);
+    fl_state_io_int(t, 0, w->parts - 1, &e->part);
+    fl_state_io_vec3(t, &e->impulse);
+    fl_state_io_vec3(t, &e->normal_impulse);
+    fl_state_io_vec3(t, &e->impulse_point);
+    fl_state_io_real(t, &e->impulse_sum);
+    fl_state_io_real(t, &e->impulse_area);
+    fl_state_io_real(t, &e->max_overlap);
+    fl_state_io_close(t);
+}
+
+static void pressed(fl_state_io *t, fl_world *w)
+{
+    fl_panel_loads *s = &w->panel_load;
+    int32_t panels = s->panels, loaded = 0;
+    for (int32_t k = 0; k < s->panels; k++) loaded += v3_norm2(s->impulse[k]) > 0.0;
+    fl_state_io_open(t, "pressed");
+    fl_state_io_int(t, s->panels, s->panels, &panels);
+    fl_state_io_int(t, 0, s->panels, &loaded);
+    fl_state_io_int(t, 0, INT32_MAX, &s->points);
+    fl_state_io_int(t, 0, INT32_MAX, &s->events);
+    fl_state_io_close(t);
+    const int32_t marks = s->points, events = s->events;
+    if (t->in) s->points = s->events = 0;
+    if (t->in && !t->err->code) fl_panels_end_interval(w);
+    for (int32_t c = 0, k = -1; c < loaded && !t->err->code; c++) {
+        if (t->f) do
+                k++;
+            while (!(v3_norm2(s->impulse[k]) > 0.0));
+        fl_state_io_open(t, "panel");
+        fl_state_io_int(t, k < 0 ? 0 : k, s->panels - 1, &k);
+        if (!t->err->code) fl_state_io_vec3(t, &s->impulse[k]);
+        fl_state_io_close(t);
+    }
+    for (int32_t k = 0; k < marks && !t->err->code; k++) { /* the numbers are hints: room comes as rows do */
+        if (t->in && fl_grow(&s->point, &s->point_cap, (int64_t)k + 1, sizeof *s->point, t->err)) return;
+        if (t->in) s->point[k] = (fl_panel_point){0};
+        mark(t, w, &s->point[k]);
+        s->points = k + 1;
+    }
+    for (int32_t k = 0; k < events && !t->err->code; k++) {
+        if (t->in && fl_grow(&s->event, &s->event_cap, (int64_t)k + 1, sizeof *s->event, t->err)) return;
+        if (t->in) s->event[k] = (fl_load_event){0};
+        event(t, w, &s->event[k]);
+        s->events = k + 1;
+    }
+}
+
+/* A bond: its past, and what acts of it.  Separations follow from where the bodies are; the face and its law
+ * from the scene. */
+static void bond(fl_state_io *t, fl_world *w, int32_t k)
+{
+    fl_bond *c = &w->bonds.bond[k];
+    fl_vec3 *const all[] = {&c->force,          &c->torque_i,          &c->torque_j,
+                            &c->force_damping,  &c->torque_i_damping,  &c->torque_j_damping,
+                            &c->force_friction, &c->torque_i_friction, &c->torque_j_friction};
+    fl_state_io_open(t, "bond");
+    fl_state_io_int(t, FL_BOND_INTACT, FL_BOND_ENDED, &c->state);
+    fl_state_io_real(t, &c->h0);
+    fl_state_io_real(t, &c->wear);
+    fl_state_io_real(t, &c->dissipated);
+    fl_state_io_real(t, &c->given_to_friction);
+    fl_state_io_real(t, &c->elastic_energy);
+    fl_state_io_real(t, &c->friction_spring_energy);
+    fl_state_io_real(t, &w->bonds.radius_factor[k]);
+    for (int e = 0; e < 9; e++) fl_state_io_vec3(t, all[e]);
+    for (int e = 0; e < FL_BOND_POINTS; e++) {
+        fl_bond_point *p = &c->point[e];
+        if (t->in) *p = (fl_bond_point){0};
+        if (c->state == FL_BOND_INTACT || t->err->code) continue;
+        fl_state_io_real(t, &p->d);
+        fl_state_io_real(t, &p->lambda_c);
+        fl_state_io_real(t, &p->lambda_f);
+        fl_state_io_real(t, &p->slip[0]);
+        fl_state_io_real(t, &p->slip[1]);
+        if (t->in && !t->err->code &&
+            !(p->d >= 0.0 && p->d <= 1.0 && p->lambda_c >= 0.0 && p->lambda_f >= p->lambda_c))
+            fl_text_fail(t->in, t->err, "damage %g between %g and %g is none of a bond", p->d, p->lambda_c,
+                         p->lambda_f);
+    }
+    fl_state_io_close(t);
+}
+
+/* Everything but the pairs, whose number the first row tells. */
+static int32_t all_but_pairs(fl_state_io *t, fl_world *w, int32_t *balls)
+{
+    int32_t parts = w->parts, total = w->b.total, n_sea = w->sea.n, pairs = w->n_pair;
+    *balls = fl_contact_list_size(w);
+    fl_state_io_open(t, "world");
+    fl_state_io_count(t, &w->step);
+    fl_state_io_count(t, &w->last_search_step);
+    fl_state_io_real(t, &w->dt);
+    fl_state_io_real(t, &w->t0);
+    fl_state_io_count(t, &w->step0);
+    fl_state_io_real(t, &w->sea.time);
+    fl_state_io_real(t, &w->skin);
+    fl_state_io_real(t, &w->dt_critical);
+    fl_state_io_real(t, &w->dt_critical_contacts);
+    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1, &w->critical_body);
+    fl_state_io_real(t, &w->dt_safe);
+    fl_state_io_int(t, w->parts, w->parts, &parts);
+    fl_state_io_int(t, w->b.total, w->b.total, &total);
+    fl_state_io_int(t, w->sea.n, w->sea.n, &n_sea);
+    fl_state_io_int(t, 0, INT32_MAX, &pairs);
+    fl_state_io_int(t, 0, INT32_MAX, balls);
+    fl_state_io_close(t);
+    if (t->in && !t->err->code &&
+        !(w->step >= 0 && w->dt > 0.0 && isfinite(w->dt) && w->skin >= 0.0 && w->t0 >= 0.0 &&
+          isfinite(w->t0) && w->step0 >= 0 && w->step0 <= w->step &&
+          fabs(w->sea.time - fl_world_time(w)) < 0.5 * w->dt)) /* a new step may begin a rounding before */
+        fl_text_fail(t->in, t->err, "step %g of %g s is no state of a run", (double)w->step, w->dt);
+    books(t, w);
+    if (w->surrogate_counts) told(t, w);
+    for (int32_t p = 0; p < w->parts && !t->err->code; p++) {
+        fl_state_io_open(t, "part");
+        fl_state_io_vec3(t, &w->part_impulse[p]);
+        fl_state_io_vec3(t, &w->part_moment[p]);
+        fl_state_io_real(t, &w->part_peak[p]);
+        fl_state_io_close(t);
+    }
+    if (w->inflow.absent && !t->err->code) coming(t, w);
+    for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
+    if (t->in) w->sleep.n_resting = 0;
+    for (int32_t k = 0; k < w->n && w->sleep.state && !t->err->code; k++) {
+        nap(t, w, k);
+        if (t->in) w->sleep.n_resting += w->sleep.phase[k] == FL_RESTING;
+    }
+    for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) mover(t, w, k);
+    for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) bond(t, w, k);
+    if (t->in && !t->err->code) fl_bond_list_refresh(w);
+    if (w->panel_load.panels && !t->err->code) pressed(t, w);
+    const double seen = w->sea.time;
+    if (w->sea.current.n) table_of(t, &w->sea.current);
+    for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
+        sea(t, &w->sea, &w->b, i);
+        if (t->in && !t->err->code && w->sea.sample && !fl_body_absent(w, i) &&
+            !(w->sea.sample[i].when <= seen))
+            fl_text_fail(t->in, t->err, "a look at the water at %g s is none that has been",
+                         w->sea.sample[i].when);
+        if (!t->in || t->err->code || fl_body_absent(w, i)) continue;
+        if (fl_sleep_phase_of(w, i) != FL_AWAKE) /* what it meets is of then */
+            w->sea.time = fl_sleep_start_time(w, i);
+        fl_environment_refresh(&w->sea, &w->b, i);
+        w->sea.time = seen;
+    }
+    return pairs;
+}
+
+void fl_snapshot_write(FILE *f, fl_world *w)
+{
+    fl_err none = {0};
+    fl_state_io t = {.f = f, .err = &none};
+    int32_t balls;
+    all_but_pairs(&t, w, &balls);
+    for (int32_t c = 0; c < w->n_pair; c++) fl_snapshot_pair(&t, w, c);
+    fl_contact_iterator at = {0};
+    for (int32_t c = 0; c < balls; c++) fl_snapshot_sphere_contact(&t, w, fl_contact_list_next(w, &at), NULL);
+}
+
+int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
+{
+    fl_state_io t = {.in = in, .err = err};
+    int32_t cap = 0, balls, last[2] = {-1, -1};
+    const int32_t pairs = all_but_pairs(&t, w, &balls);
+    fl_neighbour_pairs_free(w);
+    /* The number is a hint: room comes as rows do. */
+    for (int32_t c = 0; c < pairs && !err->code; c++) {
+        if (fl_grow(&w->pair, &cap, (int64_t)c + 1, sizeof *w->pair, err)) return -1;
+        w->pair[c] = (fl_neighbour_pair){0};
+        fl_snapshot_pair(&t, w, c);
+        w->n_pair = c + 1;
+    }
+    w->spheres.n = w->spheres.walls = 0;
+    for (int32_t c = 0; c < balls && !err->code; c++) fl_snapshot_sphere_contact(&t, w, c, last);
+    if (err->code) return -1;
+    const int more = fl_text_row(in, err);
+    if (more > 0) fl_text_fail(in, err, "\"%.40s\" behind the last pair was not expected", in->field[0]);
+    if (more) return -1;
+    if (w->moving.movers.n) fl_moving_structure_set_step(w);
+    if ((fl_contact_list_size(w) || w->spheres.bodies) && fl_contact_list_index(w, err)) return -1;
+    if (fl_neighbour_list_index(w, err)) return -1;
+    fl_sleep_after_read(w);
+    for (int32_t k = 0; k < w->b.total; k++) fl_contact_sums_recompute(w, k);
+    return 0;
+}

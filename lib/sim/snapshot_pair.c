@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/snapshot_pair.h"
+#include <string.h>
+#include "base/array.h"
+#include "sphere/sphere_pair.h"
+#include "sphere/contact_list.h"
+#include "contact/bond_list.h"
+#include "contact/pair_force.h"
+#include "contact/pair_law.h"
+#include "contact/pair_response.h"
+#include "contact/pair_store.h"
+#include "contact/rolling_pair.h"
+
+/* Rows at right angles, of length 1. */
+static int turns(const fl_mat3 *M)
+{
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++) {
+            double sum = k == l ? -1.0 : 0.0;
+            for (int m = 0; m < 3; m++) sum += M->m[k][m] * M->m[l][m];
+            if (!(fabs(sum) < 1e-9)) return 0;
+        }
+    return 1;
+}
+
+/* What a pair remembers of its past. */
+static void memory(fl_state_io *t, fl_pair *p)
+{
+    int32_t mode = (int32_t)p->mode;
+    fl_state_io_int(t, FL_MODE_NONE, FL_FF, &mode);
+    p->mode = (fl_mode)mode;
+    fl_state_io_int(t, 0, 1, &p->cores_overlap);
+    fl_state_io_int(t, 0, 1, &p->has_axis);
+    fl_state_io_vec3(t, &p->axis);
+    fl_state_io_int(t, 0, 4, &p->cache.n);
+    for (int k = 0; k < p->cache.n && !t->err->code; k++) {
+        fl_state_io_int(t, 0, INT32_MAX, &p->cache.a[k]);
+        fl_state_io_int(t, 0, INT32_MAX, &p->cache.b[k]);
+    }
+    fl_state_io_real(t, &p->free_travel);
+    fl_state_io_real(t, &p->max_approach_speed);
+    fl_state_io_vec3(t, &p->springs.force);
+    fl_state_io_real(t, &p->springs.k);
+    fl_state_io_real(t, &p->springs.moment);
+    fl_state_io_real(t, &p->springs.k_turn);
+}
+
+static void rolling(fl_state_io *t, fl_rolling_spring *r)
+{
+    fl_state_io_vec3(t, &r->elastic);
+    fl_state_io_real(t, &r->k);
+    fl_state_io_vec3(t, &r->total);
+    fl_state_io_real(t, &r->arm);
+}
+
+/* What keeps a sphere from rolling, where anything does and it touches. */
+static void roll_of(fl_state_io *t, const fl_world *w, fl_pair *p)
+{
+    if (!p->touching || !fl_pair_has_rolling(w, p)) return;
+    if (!p->rolling && !(p->rolling = fl_alloc(1, sizeof *p->rolling, t->err))) return;
+    rolling(t, p->rolling);
+}
+
+/* What its last evaluation found. */
+static void forces(fl_state_io *t, fl_pair *p)
+{
+    fl_vec3 *const all[] = {&p->force,          &p->torque_i,          &p->torque_j,
+                            &p->force_damping,  &p->torque_i_damping,  &p->torque_j_damping,
+                            &p->force_friction, &p->torque_i_friction, &p->torque_j_friction};
+    for (int k = 0; k < 9; k++) fl_state_io_vec3(t, all[k]);
+    fl_state_io_real(t, &p->energy);
+    fl_state_io_real(t, &p->spring_energy);
+    fl_state_io_real(t, &p->overlap);
+    fl_state_io_real(t, &p->omega2_i);
+    fl_state_io_real(t, &p->omega2_j);
+}
+
+/* Unit or nothing. */
+static int points(const double e[6])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 6; k++) sum += e[k] * e[k];
+    return sum == 0.0 || fabs(sum - 1.0) < 1e-9;
+}
+
+/* What was learnt of the way can be. */
+static int learnt(const fl_surrogate *s)
+{
+    double zero = 0.0 * (s->previous.energy + s->slope_trend + s->defect_return + s->energy_defect +
+                         s->half_width + s->skewness);
+    for (int k = 0; k < 6; k++)
+        zero += 0.0 * (s->third_order[k] + s->previous.slope[k] + s->previous.path[k]);
+    return zero == 0.0 && points(s->path) && s->previous.energy >= 0.0 && s->half_width >= 0.0 &&
+           s->skewness >= 0.0;
+}
+
+/* What a contact remembers of its last look; all else follows from how the two stood then. */
+static void look(fl_state_io *t, const fl_pair *p, fl_surrogate *s)
+{
+    fl_state_io_int(t, 0, p->exponent == 0.0, &s->valid);
+    if (!s->valid) return;
+    fl_state_io_int(t, 0, 1, &s->used);
+    for (int k = 0; k < 9; k++) fl_state_io_real(t, &s->M.m[k / 3][k % 3]);
+    fl_state_io_vec3(t, &s->o);
+    fl_state_io_vec3(t, &s->point_a);
+    fl_state_io_real(t, &s->length);
+    fl_state_io_real(t, &s->reach);
+    fl_state_io_real(t, &s->stiffness_i);
+    fl_state_io_real(t, &s->stiffness_j);
+    for (int r = 0; r < 6; r++)
+        for (int k = r; k < 6; k++) {
+            fl_state_io_real(t, &s->learnt[r][k]);
+            s->learnt[k][r] = s->learnt[r][k];
+        }
+    for (int k = 0; k < 6; k++) {
+        fl_state_io_real(t, &s->path[k]);
+        fl_state_io_real(t, &s->third_order[k]);
+        fl_state_io_real(t, &s->previous.slope[k]);
+        fl_state_io_real(t, &s->previous.path[k]);
+    }
+    fl_state_io_real(t, &s->previous.energy);
+    fl_state_io_real(t, &s->slope_trend);
+    fl_state_io_real(t, &s->defect_return);
+    fl_state_io_real(t, &s->energy_defect);
+    fl_state_io_real(t, &s->half_width);
+    fl_state_io_real(t, &s->skewness);
+    if (t->in && !t->err->code &&
+        !(turns(&s->M) && s->length > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MAX_REACH &&
+          learnt(s)))
+        fl_text_fail(t->in, t->err, "a look at a contact that is none");
+}
+
+/* The surrogate that was read gets what it looked at. */
+static void look_again(fl_world *w, fl_pair *p, const fl_surrogate *seen, fl_err *err)
+{
+    p->surrogate = fl_alloc(1, sizeof *p->surrogate, err);
+    if (!p->surrogate) return;
+    *p->surrogate = *seen;
+    p->surrogate->valid = 0;
+    p->surrogate->max_change = fl_surrogate_max_change(p->law->surrogate_tolerance);
+    if (fl_pair_rebuild_surrogate(w, p, &seen->M, seen->o))
+        fl_fail(err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
+    p->surrogate->used = seen->used;
+}
+
+void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
+{
+    fl_neighbour_pair *near = &w->pair[c];
+    fl_pair made = {0}, *p = near->contact ? near->contact : &made;
+    if (t->f && p == &made) fl_neighbour_pair_expand(w, near, p);
+    int32_t i = p->i, j = p->j;
+    fl_state_io_open(t, "pair");
+    fl_state_io_int(t, 0, w->n - 1, &i);
+    fl_state_io_int(t, 0, w->b.total - 1, &j);
+    if (t->in) {
+        const fl_neighbour_pair *q = c > 0 ? near - 1 : NULL;
+        if (t->err->code) return;
+        if (i >= j || (q && (q->i > i || (q->i == i && (w->cell.periodic ? q->j > j : q->j >= j))))) {
+            fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in rising order are expected", i, j);
+            return;
+        }
+        if (fl_sphere_pair_kind(w, i, j)) {
+            fl_text_fail(t->in, t->err, "pair %d and %d is of spheres, a row \"ball\" is expected", i, j);
+            return;
+        }
+        fl_pair_init(w, p, i, j);
+    }
+    for (int axis = 0; w->cell.periodic && axis < 3; axis++)
+        fl_state_io_int(t, -INT32_MAX, INT32_MAX, &p->image[axis]);
+    if (t->in && !t->err->code && fl_bond_list_is_bonded(w, i, j, p->image))
+        fl_text_fail(t->in, t->err, "pair %d and %d found, and their bond stands", i, j);
+    if (t->in && !t->err->code) fl_bond_list_init_pair(w, p);
+    fl_state_io_int(t, 0, 1, &p->touching);
+    memory(t, p);
+    if (p->touching) forces(t, p);
+    roll_of(t, w, p);
+    fl_surrogate seen = {0};
+    if (t->f && p->surrogate) seen = *p->surrogate;
+    if (p->touching && p->law->surrogate_tolerance > 0.0) look(t, p, &seen);
+    fl_state_io_close(t);
+    if (!t->in || t->err->code) return;
+    fl_neighbour_pair_init(near, i, j, p->image);
+    if (fl_neighbour_pair_store(w, near, p))
+        fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", i, j);
+    else if (seen.valid) look_again(w, near->contact, &seen, t->err);
+}
+
+void fl_snapshot_sphere_contact(fl_state_io *t, fl_world *w, int32_t c, int32_t last[2])
+{
+    const fl_sphere_contacts *s = &w->spheres;
+    fl_sphere_contact r = {0};
+    fl_rolling_spring roll = {.k = 0.0};
+    int32_t i = 0, j = 0, hit = 0, image[3] = {0};
+    double n;
+    if (t->f && c < 0) {
+        const fl_wall_contact *const l = &s->wall[~c];
+        i = l->i, j = l->j, hit = l->touches, r = l->contact;
+        if (w->has_rolling) roll = s->wall_rolling[~c];
+    } else if (t->f) {
+        i = s->i[c], j = s->j[c], hit = s->touches[c], r = s->contact[c];
+        if (w->has_rolling) roll = s->rolling[c];
+        if (s->image) memcpy(image, &s->image[3 * c], sizeof image);
+    }
+    fl_state_io_open(t, "ball");
+    fl_state_io_int(t, 0, w->n - 1, &i);
+    fl_state_io_int(t, 0, w->b.total - 1, &j);
+    for (int axis = 0; w->cell.periodic && axis < 3; axis++)
+        fl_state_io_int(t, -INT32_MAX, INT32_MAX, &image[axis]);
+    fl_state_io_int(t, 0, 1, &hit);
+    fl_state_io_real(t, &r.max_approach_speed);
+    fl_state_io_vec3(t, &r.spring_force);
+    fl_state_io_real(t, &r.spring_stiffness);
+    fl_state_io_vec3(t, &r.friction_force);
+    fl_state_io_real(t, &r.normal_damping);
+    if (w->has_rolling) rolling(t, &roll);
+    fl_state_io_close(t);
+    if (t->f || t->err->code) return;
+    if (i >= j || i < last[0] || (i == last[0] && (w->cell.periodic ? j < last[1] : j <= last[1])) ||
+        !fl_sphere_pair_kind(w, i, j)) {
+        fl_text_fail(t->in, t->err, "spheres %d and %d found, pairs of spheres in rising order are expected",
+                     i, j);
+        return;
+    }
+    last[0] = i, last[1] = j;
+    r.k = fl_pair_stiffness(w, i, j, &n);
+    fl_contact_list_append(w, i, j, image, hit, &r, &roll, t->err);
+}

@@ -1,0 +1,558 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <assert.h>
+#include <math.h>
+#include <stdalign.h>
+#include <stddef.h>
+#include <string.h>
+#include "base/array.h"
+#include "base/simd.h"
+#include "body/integrate.h"
+#include "law/damping.h"
+#include "law/sphere_batch.h"
+#include "sphere/contact_force.h"
+#include "sphere/sphere_pair.h"
+#include "contact/velocity_predictor.h"
+#include "sphere/wall_contact.h"
+#include "contact/rolling_pair.h"
+#include "patch/stiffness_bound.h"
+#include "world/access.h"
+
+enum {
+    AHEAD = 64,   /* rows whose bodies j are on their way */
+    ON_WAY = 24,  /* rows that are so themselves */
+    PASSED_ON = 8 /* slots */
+};
+
+/* Touching rows are worked on when there are so many. */
+enum { BLOCK = 16 };
+static_assert(BLOCK + FL_SIMD_WIDTH <= FL_SPHERE_BATCH,
+              "what four rows add has room behind what is not a block yet");
+
+typedef struct {
+    fl_sphere_batch at;
+    double d[FL_SPHERE_BATCH][FL_SIMD_WIDTH]; /* D and something, as they are found */
+    int32_t row[FL_SPHERE_BATCH];             /* filled to the end of a register */
+    int32_t law[FL_SPHERE_BATCH];             /* whose numbers stand there */
+    double rest2[FL_SPHERE_BATCH];
+    int32_t m;
+} batch;
+
+/* Those of the rows from c on that have begun to touch or ended it, bit by bit: one that ends forgets. */
+static void turn_over(fl_sphere_contacts *s, int32_t c, uint32_t turned)
+{
+    for (; turned; turned >>= 1, c++) {
+        if (!(turned & 1)) continue;
+        if (s->touches[c]) s->contact[c] = (fl_sphere_contact){.k = s->contact[c].k};
+        if (s->touches[c] && s->rolling) s->rolling[c] = (fl_rolling_spring){.k = 0.0};
+        s->touches[c] ^= 1;
+        fl_sphere_add_contact_count(s, s->i[c], s->touches[c] ? 1 : -1),
+            fl_sphere_add_contact_count(s, s->j[c], s->touches[c] ? 1 : -1);
+    }
+}
+
+/* Row c by itself: whether |D|^2 < (r_i + r_j)^2, and D to the end of the batch. */
+static int look_one(const fl_world *w, batch *t, int32_t c)
+{
+    const fl_vec3 d = fl_sphere_separation(w, c);
+    const double R = w->b.radius[w->spheres.i[c]] + w->b.radius[w->spheres.j[c]];
+    t->row[t->m] = c;
+    t->d[t->m][0] = d.x, t->d[t->m][1] = d.y, t->d[t->m][2] = d.z;
+    return v3_norm2(d) - R * R < 0.0;
+}
+
+/* What adds to 1/M of contacts of body k in whatever direction; NAN where they differ. */
+static double plainly(const fl_bodies *b, int32_t k)
+{
+    if (fl_body_fixed_translations(b, k)) return NAN;
+    return b->added_mass ? 1.0 / (b->m[k] + b->added_mass[k].x) : b->invm[k];
+}
+
+/* What the second half of a step changes of the speeds of body k, as far as it does what the first did. */
+static fl_velocity_change lead_of(const fl_world *w, int32_t k, double h)
+{
+    const fl_bodies *b = &w->b;
+    fl_vec3 a, turn;
+    if (fl_body_is_free_isotropic(b, k))
+        a = v3_scale(b->invm[k], b->f[k]), turn = v3_scale(b->invI[k].x, b->t[k]);
+    else fl_body_accelerations(b, k, &a, &turn);
+    const fl_velocity_change kick = {v3_scale(h, a), v3_scale(h, turn)};
+    return w->drag_change ? (fl_velocity_change){v3_add(kick.v, w->drag_change[k].v),
+                                                 v3_add(kick.w, w->drag_change[k].w)}
+                          : kick;
+}
+
+/* Of one velocity of the rim for an impulse there, r^2/I, where anything lets it turn. */
+static double turns_of(const fl_bodies *b, int32_t k)
+{
+    const int held = FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ;
+    return (b->fixed_dof[k] & held) == held ? 0.0 : b->radius[k] * b->radius[k] * b->invI[k].x;
+}
+
+/* So many contacts in one line damp a motion as n all round a sphere do, of which two are in line: 3.4 for
+ * six, 5.5 for twelve, or less (crowd() of critical_step.c). */
+static double all_round(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
+
+void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h)
+{
+    const fl_bodies *b = &w->b;
+    fl_sphere_state *const seen = w->spheres.state;
+    for (int32_t k = from; k < to; k++) {
+        const fl_velocity_change lead = lead_of(w, k, h);
+        const int32_t rows = w->spheres.previous_contact_count[k] = w->spheres.contact_count[k];
+        const double n = all_round(rows + fl_sums_before(w, k)->contacts), r = b->radius[k],
+                     crowd = n > 1.0 ? (n - 1.0) * fl_body_inverse_mass(b, k) : 0.0;
+        seen[k] = (fl_sphere_state){b->x[k], r,      b->v[k], plainly(b, k),       b->w[k],
+                                    r,       lead.v, crowd,   v3_scale(r, lead.w), turns_of(b, k)};
+    }
+}
+
+/* The difference a - b of vectors, and the sum of the numbers behind them. */
+FL_SIMD_INLINE void compare_two(fl_simd *d, const void *a, const void *b)
+{
+    *d = __builtin_shufflevector(FL_SIMD_LOAD(a) - FL_SIMD_LOAD(b), FL_SIMD_LOAD(a) + FL_SIMD_LOAD(b), 0, 1,
+                                 2, 7);
+}
+
+/* What the loop below reads and writes. */
+typedef struct {
+    fl_world *w;
+    const int32_t *i, *j;
+    const fl_image_shift *way;
+    const uint8_t *by, *hit;
+    const fl_sphere_state *seen;
+    const fl_sphere_contact *row;
+    int32_t n; /* rows there are */
+} seeker;
+
+/* Rows [c, to), four at a time, until the batch is a block or less than four are left: behind the last.
+ * Whether a row touches is nothing that could be foreseen, so nothing here branches on it: it is written down
+ * behind the last that does, and counts or does not.  That it begins to, or ends, is rare.  What comes is
+ * sent for: with 100 000 spheres all that is not is waited for. */
+FL_SIMD4_VERSIONS static int32_t look(const seeker *restrict s, batch *restrict t, int32_t c, int32_t to)
+{
+    const int32_t *bi = s->i, *bj = s->j;
+    const fl_sphere_state *seen = s->seen;
+    const uint8_t *hit = s->hit, *by = s->by;
+    const fl_image_shift *way = s->way;
+    int32_t m = t->m;
+    for (; c + FL_SIMD_WIDTH <= to && m < BLOCK; c += FL_SIMD_WIDTH) {
+        fl_simd v[FL_SIMD_WIDTH];
+        uint32_t turned = 0;
+        const int32_t *far = &bj[c + AHEAD + FL_SIMD_WIDTH <= s->n ? c + AHEAD : c];
+        fl_prefetch(&s->row[c + ON_WAY + FL_SIMD_WIDTH <= s->n ? c + ON_WAY : c],
+                    FL_SIMD_WIDTH * sizeof *s->row);
+        FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
+        {
+            const int32_t i = bi[c + l], j = bj[c + l];
+            compare_two(&v[l], &seen[i].x, &seen[j].x);
+            v[l] -= FL_SIMD_LOAD(&way[by[c + l]]);
+            fl_prefetch(&seen[far[l]], sizeof *seen);
+        }
+        fl_simd d[] = {v[0], v[1], v[2], v[3]};
+        fl_simd_transpose(d);
+        const fl_simd gap = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - d[3] * d[3];
+        const fl_simd_mask touches = gap < 0.0;
+        FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
+        {
+            const uint32_t one = (uint32_t)touches[l] & 1;
+            t->row[m] = c + l;
+            FL_SIMD_STORE(t->d[m]) = v[l];
+            m += (int32_t)one;
+            turned |= (one ^ hit[c + l]) << l;
+        }
+        if (turned) turn_over(&s->w->spheres, c, turned);
+    }
+    t->m = m;
+    return c;
+}
+
+/* What the batch needs to be placed again, */
+static void load_forces(const fl_world *w, batch *t)
+{
+    const fl_sphere_contacts *s = &w->spheres;
+    fl_sphere_batch *a = &t->at;
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m];
+        const fl_sphere_contact *r = &s->contact[c];
+        for (int axis = 0; axis < 3; axis++) a->d[axis][m] = t->d[m][axis];
+        a->ri[m] = w->b.radius[s->i[c]];
+        a->rj[m] = w->b.radius[s->j[c]];
+        a->k[m] = r->k;
+        a->friction_force[0][m] = r->friction_force.x;
+        a->friction_force[1][m] = r->friction_force.y;
+        a->friction_force[2][m] = r->friction_force.z;
+        a->normal_damping[m] = r->normal_damping;
+    }
+}
+
+/* and to be evaluated. */
+typedef struct {
+    const int32_t *i, *j;
+    const fl_sphere_contact *row;
+    const fl_sphere_state *seen;
+} source;
+
+FL_SIMD4_VERSIONS static int load(const source *restrict s, batch *restrict t)
+{
+    static_assert(offsetof(fl_sphere_contact, spring_stiffness) == sizeof(fl_vec3),
+                  "a spring is a register of four");
+    static_assert(offsetof(fl_sphere_contact, k) ==
+                      offsetof(fl_sphere_contact, max_approach_speed) + sizeof(double),
+                  "one of two");
+    const int32_t *bi = s->i, *bj = s->j;
+    const fl_sphere_contact *row = s->row;
+    const fl_sphere_state *seen = s->seen;
+    const int32_t n = t->m;
+    fl_sphere_batch *a = &t->at;
+    const fl_simd zero = {0.0, 0.0, 0.0, 0.0};
+    fl_simd all = zero;
+    for (int32_t k = n; k % FL_SIMD_WIDTH; k++) t->row[k] = t->row[n - 1];
+    for (int32_t m = 0; m < n; m += FL_SIMD_WIDTH) {
+        fl_simd d[] = {FL_SIMD_LOAD(t->d[m]), FL_SIMD_LOAD(t->d[m + 1]), FL_SIMD_LOAD(t->d[m + 2]),
+                       FL_SIMD_LOAD(t->d[m + 3])};
+        fl_simd u[FL_SIMD_WIDTH], p[FL_SIMD_WIDTH], q[FL_SIMD_WIDTH], h[FL_SIMD_WIDTH], f[FL_SIMD_WIDTH],
+            du[FL_SIMD_WIDTH], dw[FL_SIMD_WIDTH];
+        fl_simd2 last[FL_SIMD_WIDTH];
+        FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
+        {
+            const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
+            const fl_sphere_contact *r = &row[c];
+            compare_two(&u[l], &seen[i].v, &seen[j].v);
+            p[l] = FL_SIMD_LOAD(&seen[i].w);
+            q[l] = FL_SIMD_LOAD(&seen[j].w);
+            h[l] = FL_SIMD_LOAD(&r->spring_force);
+            f[l] = FL_SIMD_LOAD(&r->friction_force);
+            compare_two(&du[l], &seen[i].dv, &seen[j].dv);
+            dw[l] = FL_SIMD_LOAD(&seen[i].rdw) + FL_SIMD_LOAD(&seen[j].rdw);
+            last[l] = *(const fl_simd2 *)(const void *)&r->max_approach_speed;
+        }
+        const fl_simd even = __builtin_shufflevector(last[0], last[2], 0, 1, 2, 3),
+                      odd = __builtin_shufflevector(last[1], last[3], 0, 1, 2, 3);
+        FL_SIMD_STORE(&a->max_approach_speed[m]) = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+        FL_SIMD_STORE(&a->k[m]) = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+        fl_simd_transpose(d);
+        fl_simd_transpose(u);
+        fl_simd_transpose(p);
+        fl_simd_transpose(q);
+        fl_simd_transpose(h);
+        fl_simd_transpose(f);
+        fl_simd_transpose(du);
+        fl_simd_transpose(dw);
+        FL_SIMD_UNROLL for (int axis = 0; axis < 3; axis++)
+        {
+            FL_SIMD_STORE(&a->friction_force[axis][m]) = f[axis];
+            FL_SIMD_STORE(&a->du[axis][m]) = du[axis];
+            FL_SIMD_STORE(&a->rdw[axis][m]) = dw[axis];
+            FL_SIMD_STORE(&a->d[axis][m]) = d[axis];
+            FL_SIMD_STORE(&a->u[axis][m]) = u[axis];
+            FL_SIMD_STORE(&a->wi[axis][m]) = p[axis];
+            FL_SIMD_STORE(&a->wj[axis][m]) = q[axis];
+            FL_SIMD_STORE(&a->spring_force[axis][m]) = h[axis];
+        }
+        FL_SIMD_STORE(&a->spring_stiffness[m]) = h[3];
+        FL_SIMD_STORE(&a->normal_damping[m]) = f[3];
+        FL_SIMD_STORE(&a->contact_count[m]) = FL_SIMD_SELECT(u[3] > 0.0, 1.0 + du[3] / u[3], 1.0 + zero);
+        FL_SIMD_STORE(&a->inv_inertia[m]) = dw[3];
+        FL_SIMD_STORE(&a->inv_mass[m]) = u[3];
+        FL_SIMD_STORE(&a->inv_mass_tangent[m]) = u[3];
+        FL_SIMD_STORE(&a->slow_inv_mass[m]) =
+            FL_SIMD_LOAD(&t->rest2[m]) * u[3]; /* for nothing but the stored energy */
+        FL_SIMD_STORE(&a->ri[m]) = p[3];
+        FL_SIMD_STORE(&a->rj[m]) = q[3];
+        all += u[3];
+    }
+    const double sum = fl_simd_sum(&all);
+    return sum == sum;
+}
+
+/* Of those that depend on the direction. */
+static void load_masses(const fl_world *w, batch *t)
+{
+    const fl_bodies *b = &w->b;
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t i = w->spheres.i[t->row[m]], j = w->spheres.j[t->row[m]];
+        if (t->at.slow_inv_mass[m] == t->at.slow_inv_mass[m]) continue;
+        const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
+        t->at.inv_mass[m] = fl_body_mobility_along(b, i, n) + fl_body_mobility_along(b, j, n);
+        t->at.inv_mass_tangent[m] = fl_body_inverse_mass(b, i) + fl_body_inverse_mass(b, j);
+        t->at.contact_count[m] =
+            fl_effective_contact_count(w->spheres.state[i].contact_inv_mass,
+                                       w->spheres.state[j].contact_inv_mass, t->at.inv_mass_tangent[m]);
+        t->at.slow_inv_mass[m] = t->rest2[m] * t->at.inv_mass[m];
+    }
+}
+
+static void load_law(const fl_world *w, batch *t, int32_t m, int32_t l)
+{
+    const fl_pair_law *law = &w->law[l];
+    t->law[m] = l;
+    t->at.friction[m] = law->friction;
+    t->at.tangential[m] = law->tangential_ratio;
+    t->at.impact_damping[m] = law->impact_damping;
+    t->rest2[m] = law->slow_damping_factor * law->slow_damping_factor;
+}
+
+/* Where there is not one law for all, most often the numbers stand there from the contacts before. */
+static void load_laws(const fl_world *w, batch *t)
+{
+    const int32_t *law = w->spheres.law;
+    for (int32_t m = 0; m < t->m; m++)
+        if (law[t->row[m]] != t->law[m]) load_law(w, t, m, law[t->row[m]]);
+}
+
+FL_SIMD4_VERSIONS static void save(fl_sphere_contact *restrict row, const batch *restrict t)
+{
+    static_assert(offsetof(fl_sphere_contact, normal_damping) ==
+                      offsetof(fl_sphere_contact, friction_force) + sizeof(fl_vec3),
+                  "see sphere_contacts.h");
+    const fl_sphere_batch *a = &t->at;
+    const int32_t n = t->m;
+    for (int32_t m = 0; m < n; m += FL_SIMD_WIDTH) {
+        fl_simd h[] = {FL_SIMD_LOAD(&a->spring_force[0][m]), FL_SIMD_LOAD(&a->spring_force[1][m]),
+                       FL_SIMD_LOAD(&a->spring_force[2][m]), FL_SIMD_LOAD(&a->spring_stiffness[m])};
+        fl_simd f[] = {FL_SIMD_LOAD(&a->friction_force[0][m]), FL_SIMD_LOAD(&a->friction_force[1][m]),
+                       FL_SIMD_LOAD(&a->friction_force[2][m]), FL_SIMD_LOAD(&a->normal_damping[m])};
+        fl_simd_transpose(h);
+        fl_simd_transpose(f);
+        FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
+        {
+            if (m + l >= n) break;
+            fl_sphere_contact *r = &row[t->row[m + l]];
+            FL_SIMD_STORE(&r->spring_force) = h[l];
+            FL_SIMD_STORE(&r->friction_force) = f[l];
+            r->max_approach_speed = a->max_approach_speed[m + l];
+        }
+    }
+}
+
+/* A sum is three registers of four. */
+enum { PARTS = 3 };
+static_assert(sizeof(fl_sphere_sum) == PARTS * sizeof(fl_simd), "a sum is twelve doubles");
+
+/* Without the string instruction that a compiler makes of it, which takes longer than all else here. */
+FL_SIMD4_VERSIONS static void clear(fl_sphere_sum *s, int32_t n)
+{
+    const fl_simd zero = {0.0, 0.0, 0.0, 0.0};
+    for (int32_t k = 0; k < n; k++) {
+        volatile fl_simd *sum = (volatile fl_simd *)&s[k];
+        sum[0] = sum[1] = sum[2] = zero;
+    }
+}
+
+/* What four contacts do, each a row: to i and j alike but for the sign, and to either. */
+typedef struct {
+    fl_simd one[FL_SIMD_WIDTH], two[FL_SIMD_WIDTH], on_i[FL_SIMD_WIDTH], on_j[FL_SIMD_WIDTH];
+} wrenches;
+
+FL_SIMD_INLINE void find_wrenches(wrenches *q, const fl_sphere_batch *a, int32_t m)
+{
+    q->one[0] = FL_SIMD_LOAD(&a->elastic_force[0][m]), q->one[1] = FL_SIMD_LOAD(&a->elastic_force[1][m]);
+    q->one[2] = FL_SIMD_LOAD(&a->elastic_force[2][m]), q->one[3] = FL_SIMD_LOAD(&a->damping_force[0][m]);
+    q->two[0] = FL_SIMD_LOAD(&a->damping_force[1][m]), q->two[1] = FL_SIMD_LOAD(&a->damping_force[2][m]);
+    q->two[2] = FL_SIMD_LOAD(&a->friction_force[0][m]), q->two[3] = FL_SIMD_LOAD(&a->friction_force[1][m]);
+    q->on_i[0] = FL_SIMD_LOAD(&a->friction_force[2][m]), q->on_i[1] = FL_SIMD_LOAD(&a->ti[0][m]);
+    q->on_i[2] = FL_SIMD_LOAD(&a->ti[1][m]), q->on_i[3] = FL_SIMD_LOAD(&a->ti[2][m]);
+    q->on_j[0] = -q->on_i[0], q->on_j[1] = FL_SIMD_LOAD(&a->tj[0][m]);
+    q->on_j[2] = FL_SIMD_LOAD(&a->tj[1][m]), q->on_j[3] = FL_SIMD_LOAD(&a->tj[2][m]);
+    fl_simd_transpose(q->one);
+    fl_simd_transpose(q->two);
+    fl_simd_transpose(q->on_i);
+    fl_simd_transpose(q->on_j);
+}
+
+/* The l-th of them to the sum of i, and to that of j or to a slot.  Which of the two cannot be foreseen, so
+ * nothing branches on it. */
+FL_SIMD_INLINE void hand_one(fl_sphere_sum *sums, fl_sphere_sum *slots, int32_t i, int32_t to,
+                             const wrenches *q, int32_t l)
+{
+    const int32_t beyond = to < 0 ? -1 : 0;
+    const uintptr_t which = ((uintptr_t)sums ^ (uintptr_t)slots) & (uintptr_t)(intptr_t)beyond;
+    fl_simd *on = (fl_simd *)&sums[i],
+            *off = (fl_simd *)&((fl_sphere_sum *)((uintptr_t)sums ^ which))[to ^ beyond];
+    on[0] += q->one[l], on[1] += q->two[l], on[2] += q->on_i[l];
+    off[0] -= q->one[l], off[1] -= q->two[l], off[2] += q->on_j[l];
+}
+
+/* The wrenches of the batch. */
+FL_SIMD4_VERSIONS static void hand_out(const fl_sphere_contacts *restrict s, const batch *restrict t)
+{
+    const int32_t *bi = s->i, *bto = s->target, *row = t->row, n = t->m;
+    fl_sphere_sum *sums = s->sum, *slots = s->slot;
+    int32_t m = 0;
+    for (; m + FL_SIMD_WIDTH <= n; m += FL_SIMD_WIDTH) {
+        wrenches q;
+        find_wrenches(&q, &t->at, m);
+        FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
+            hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
+    }
+    if (m < n) {
+        wrenches q;
+        find_wrenches(&q, &t->at, m);
+        for (int32_t l = 0; m + l < n; l++) hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
+    }
+}
+
+FL_SIMD4_VERSIONS static void collect(fl_sphere_sum *restrict sums, const fl_sphere_sum *restrict slot,
+                                      const int32_t *restrict slots, const int32_t *restrict into,
+                                      int32_t from, int32_t to)
+{
+    for (int32_t k = from; k < to; k++) {
+        fl_simd *sum = (fl_simd *)&sums[k], a = sum[0], b = sum[1], c = sum[2];
+        if (into[k] == into[k + 1]) continue;
+        for (int32_t at = into[k]; at < into[k + 1]; at++) {
+            fl_prefetch(&slot[slots[at + PASSED_ON < into[to] ? at + PASSED_ON : at]], sizeof *slot);
+            const fl_simd *in = (const fl_simd *)&slot[slots[at]];
+            a += in[0], b += in[1], c += in[2];
+        }
+        sum[0] = a, sum[1] = b, sum[2] = c;
+    }
+}
+
+/* Whether one of the first m, or of those that fill the register behind them, is deeper than so much of the
+ * sum of the radii. */
+FL_SIMD_VERSIONS static int deeper(const fl_sphere_batch *a, int32_t m, double most)
+{
+    int any = 0;
+#pragma omp simd reduction(| : any)
+    for (int32_t k = 0; k < m; k++) any |= a->overlap[k] > most * (a->ri[k] + a->rj[k]);
+    return any;
+}
+
+/* Of the first m, lane by lane. */
+FL_SIMD4_VERSIONS static double all_sizes(const fl_sphere_batch *a, int32_t m)
+{
+    fl_simd sum = {0.0, 0.0, 0.0, 0.0};
+    double rest = 0.0;
+    int32_t k = 0;
+    for (; k + FL_SIMD_WIDTH <= m; k += FL_SIMD_WIDTH) sum += FL_SIMD_LOAD(&a->magnitude[k]);
+    for (; k < m; k++) rest += a->magnitude[k];
+    return fl_simd_sum(&sum) + rest;
+}
+
+static void count(const batch *t, fl_chunk_totals *tally)
+{
+    const fl_sphere_batch *a = &t->at;
+    tally->force_sum += all_sizes(a, t->m);
+    tally->touching += t->m;
+    if (!deeper(a, t->m, tally->max_overlap)) return;
+    for (int32_t m = 0; m < t->m; m++) {
+        const double both = a->ri[m] + a->rj[m];
+        if (!(a->overlap[m] > tally->max_overlap * both)) continue;
+        tally->max_overlap = a->overlap[m] / both;
+        tally->max_overlap_contact = t->row[m];
+    }
+}
+
+/* As share_of() of step.c says. */
+static void survey_batch(fl_world *w, const batch *t)
+{
+    fl_sphere_contacts *s = &w->spheres;
+    const fl_sphere_batch *a = &t->at;
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m], i = s->i[c], j = s->j[c], to = s->target[c];
+        const double half = 0.5 * a->overlap[m];
+        const double rolls = s->rolling ? fl_rolling_turn_stiffness(&s->rolling[c]) : 0.0,
+                     ki = fl_stiffness_of_point(&w->b, i, a->slope[m], a->spring_stiffness[m],
+                                                a->ri[m] - half, rolls),
+                     kj = fl_stiffness_of_point(&w->b, j, a->slope[m], a->spring_stiffness[m],
+                                                a->rj[m] - half, rolls),
+                     both = sqrt(ki * kj);
+        s->omega2[i] += ki + both;
+        if (to >= 0) s->omega2[j] += kj + both;
+        else s->omega2_slot[~to] = kj + both;
+    }
+}
+
+/* What keeps those of the batch from rolling. */
+static void roll(const fl_world *w, batch *t, double dt)
+{
+    const fl_sphere_contacts *s = &w->spheres;
+    fl_rolling_contact row[FL_SPHERE_BATCH];
+    for (int32_t m = 0; m < t->m; m++) {
+        const int32_t c = t->row[m];
+        row[m] = (fl_rolling_contact){&w->law[s->law[c]], &s->rolling[c], s->i[c], s->j[c]};
+    }
+    fl_rolling_evaluate(w, &t->at, row, t->m, dt);
+}
+
+/* What is done with the batch, which then is empty. */
+static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
+{
+    fl_sphere_contacts *s = &w->spheres;
+    if (dt < 0.0) {
+        load_forces(w, t);
+        fl_sphere_batch_restore(&t->at, t->m);
+    } else {
+        const source from = {s->i, s->j, s->contact, s->state};
+        if (s->one_law < 0) load_laws(w, t);
+        if (!load(&from, t)) load_masses(w, t);
+        fl_sphere_batch_evaluate(&t->at, t->m, dt, fl_predictor_step_of(w, dt).half_step);
+        save(s->contact, t);
+    }
+    if (s->rolling) roll(w, t, dt);
+    hand_out(s, t);
+    count(t, &s->totals[a]);
+    if (survey) survey_batch(w, t);
+    t->m = 0;
+}
+
+/* And of the first BLOCK of it; the others move up. */
+static void finish_block(fl_world *w, int32_t a, batch *t, double dt, int survey)
+{
+    const int32_t more = t->m - BLOCK;
+    if (more < 0) return;
+    t->m = BLOCK;
+    finish(w, a, t, dt, survey);
+    memcpy(t->d, t->d[BLOCK], (size_t)more * sizeof *t->d);
+    memcpy(t->row, &t->row[BLOCK], (size_t)more * sizeof *t->row);
+    t->m = more;
+}
+
+void fl_sphere_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey)
+{
+    fl_sphere_contacts *s = &w->spheres;
+    const int32_t begin = a * FL_SPHERE_CHUNK, end = fl_chunk_end(s, a), to = s->first[end],
+                  cross = s->slot_first[a];
+    const seeker by = {w, s->i, s->j, s->shift, s->shift_index, s->touches, s->state, s->contact, s->n};
+    const int wide = dt >= 0.0 && s->shifts;
+    batch t;
+    memset(t.law, -1, sizeof t.law);
+    for (int32_t m = 0; s->one_law >= 0 && m < FL_SPHERE_BATCH; m++) load_law(w, &t, m, s->one_law);
+    t.m = 0;
+    s->totals[a] = (fl_chunk_totals){.max_overlap_contact = -1};
+    clear(&s->sum[begin], end - begin);
+    clear(&s->slot[cross], s->slot_first[a + 1] - cross);
+    if (survey) {
+        memset(&s->omega2[begin], 0, (size_t)(end - begin) * sizeof *s->omega2);
+        memset(&s->omega2_slot[cross], 0, (size_t)(s->slot_first[a + 1] - cross) * sizeof *s->omega2_slot);
+    }
+    for (int32_t c = s->first[begin]; c < to;) {
+        if (wide) c = look(&by, &t, c, to);
+        for (; c < to && t.m < BLOCK && (!wide || to - c < FL_SIMD_WIDTH); c++) {
+            const uint8_t touches = (uint8_t)look_one(w, &t, c);
+            if (dt >= 0.0 && touches != s->touches[c]) turn_over(s, c, 1);
+            t.m += s->touches[c];
+        }
+        finish_block(w, a, &t, dt, survey);
+    }
+    if (t.m) finish(w, a, &t, dt, survey);
+    if (s->walls) fl_wall_chunk_evaluate(w, a, dt, survey);
+}
+
+void fl_sphere_sums_collect(fl_world *w, int32_t from, int32_t to)
+{
+    collect(w->spheres.sum, w->spheres.slot, w->spheres.incoming, w->spheres.incoming_first, from, to);
+}
+
+int32_t fl_sphere_chunk_share(const fl_world *w, int t, int parts)
+{
+    const fl_sphere_contacts *s = &w->spheres;
+    const int64_t all = (int64_t)s->n + s->bodies;
+    int32_t lo = 0, hi = s->chunks; /* the first with as many rows and bodies before it as belong to others */
+    while (lo < hi) {
+        const int32_t a = (lo + hi) / 2, k = a * FL_SPHERE_CHUNK;
+        if (((int64_t)s->first[k] + k) * parts < all * t) lo = a + 1;
+        else hi = a;
+    }
+    return lo;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* run_summary.h -- one run, reduced to its summary while it is read. */
+#ifndef FL_STAT_RUN_SUMMARY_H
+#define FL_STAT_RUN_SUMMARY_H
+#include "stat/record.h"
+#include "stat/summary.h"
+
+/* One run under way. */
+typedef struct fl_run_state fl_run_state;
+typedef struct {
+    fl_record record;
+    fl_summary sum;      /* of what has been read: blocks and cycles as they end; see fl_run_update() */
+    fl_run_state *state; /* [states] of each signal that is summed up, in the order of the record */
+    int32_t states;
+    fl_record_selection selection;
+    double end; /* [s] of the last row that was taken */
+} fl_run;
+
+/* Open a record as a run.  ask->last must be 0.  0, or -1 with the errors of fl_record_open(). */
+int fl_run_open(fl_run *r, const char *path, const fl_record_selection *ask, const fl_summary_settings *how,
+                fl_err *err);
+
+/* Take the next time.  1, 0 at the end, -1 with the errors of fl_record_next() or FL_INPUT for an interval
+ * above FL_LOG_HISTOGRAM_LONGEST. */
+int fl_run_next(fl_run *r, fl_err *err);
+
+/* Bring r->sum up to date: the total of a structure of one part is that part, and is summed up only once.
+ * fl_run_finish() does it too.  0, or -1 with FL_SYSTEM in err. */
+int fl_run_update(fl_run *r, fl_err *err);
+
+/* The record has ended: settle what is open; by is the "#by" line of this summary, which ends the chain of
+ * the record.  0, or -1 with FL_INPUT (no row lies within the cut, or all last for no time) or FL_SYSTEM. */
+int fl_run_finish(fl_run *r, const char *by, fl_err *err);
+
+/* Accepts a zeroed struct and leaves one. */
+void fl_run_close(fl_run *r);
+
+#endif

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include "base/array.h"
+#include "stat/extreme.h"
+#include "stat/moving_mean.h"
+#include "stat/resample.h"
+#include "stat/signal_view.h"
+
+const char *fl_filter_name(int pass)
+{
+    static const char *const name[FL_FILTER_KINDS] = {"low", "high", "band", "mean"};
+    return name[pass];
+}
+
+static int design(fl_butterworth *f, double fs, const fl_signal_view_settings *ask, fl_err *err)
+{
+    switch (ask->kind) {
+    case FL_FILTER_HIGH: return fl_butterworth_high(f, ask->order, ask->filter, fs, err);
+    case FL_FILTER_BAND: return fl_butterworth_band(f, ask->order, ask->filter, ask->upper, fs, err);
+    default: return fl_butterworth_low(f, ask->order, ask->filter, fs, err);
+    }
+}
+
+static int filter(fl_signal_view *v, const fl_series *s, const double *x, const fl_signal_view_settings *ask,
+                  fl_err *err)
+{
+    const int32_t n = s->n;
+    const int mean = ask->kind == FL_FILTER_MEAN,
+              even = mean || fl_resample_common_interval(n, s->edge) > 0.0;
+    fl_butterworth f;
+    if (!mean && design(&f, n / (s->edge[n] - s->edge[0]), ask, err)) return -1;
+    v->owned = fl_alloc(3 * (int64_t)n + 1, sizeof *v->owned, err);
+    if (!v->owned) return -1;
+    double *y = v->owned, *t = y + n, *edge = t + n;
+    if (even) {
+        memcpy(y, x, (size_t)n * sizeof *y);
+        memcpy(t, s->t, (size_t)n * sizeof *t);
+        memcpy(edge, s->edge, ((size_t)n + 1) * sizeof *edge);
+    } else {
+        const int ends = strcmp(s->kind, "loads") == 0;
+        fl_resample_means(n, s->edge, x, n, edge, y);
+        for (int32_t k = 0; k < n; k++) t[k] = ends ? edge[k + 1] : edge[k] + 0.5 * (edge[k + 1] - edge[k]);
+    }
+    v->x = y;
+    v->t = t;
+    v->edge = edge;
+    return mean ? fl_moving_mean(n, s->edge, x, ask->filter, y, err)
+                : fl_butterworth_zero_phase(&f, n, y, y, err);
+}
+
+static int describe(fl_signal_view *v, const fl_signal_view_settings *ask, fl_err *err)
+{
+    int rc = -1;
+    double *w = fl_alloc(v->n, sizeof *w, err);
+    if (!w) return -1;
+    for (int32_t k = 0; k < v->n; k++) w[k] = v->edge[k + 1] - v->edge[k];
+    fl_compute_moments(v->n, v->x, w, &v->stats);
+    v->quantile = fl_alloc(ask->quantiles, sizeof *v->quantile, err);
+    if (v->quantile) rc = fl_compute_quantiles(v->n, v->x, w, ask->quantiles, ask->p, v->quantile, err);
+    free(w);
+    return rc;
+}
+
+static int rank(fl_signal_view *v, const fl_signal_view_settings *ask, fl_err *err)
+{
+    if (fl_peaks_rayleigh(v->n, v->x, ask->ratio, ask->threshold, &v->peaks, err)) return -1;
+    const int32_t n = v->peaks.n;
+    double *value = fl_alloc(n, sizeof *value, err);
+    v->peak_rank = value ? fl_alloc(n, sizeof *v->peak_rank, err) : NULL;
+    v->peak_value = v->peak_rank ? fl_alloc(n, sizeof *v->peak_value, err) : NULL;
+    int rc = v->peak_value ? 0 : -1;
+    for (int32_t k = 0; rc == 0 && k < n; k++) value[k] = v->x[v->peaks.row[k]];
+    if (rc == 0) rc = fl_rank_descending(n, value, v->peak_rank, err);
+    for (int32_t k = 0; rc == 0 && k < n; k++) v->peak_value[k] = value[v->peak_rank[k]];
+    free(value);
+    return rc;
+}
+
+int fl_signal_view_make(fl_signal_view *v, const fl_series *s, int32_t part, int32_t signal,
+                        const fl_signal_view_settings *ask, fl_err *err)
+{
+    const double *x = s->x[(int64_t)part * s->signals + signal];
+    *v = (fl_signal_view){.n = s->n, .t = s->t, .edge = s->edge, .x = x};
+    if ((ask->filter > 0.0 && filter(v, s, x, ask, err)) || describe(v, ask, err) || rank(v, ask, err)) {
+        fl_signal_view_free(v);
+        return -1;
+    }
+    return 0;
+}
+
+void fl_signal_view_free(fl_signal_view *v)
+{
+    free(v->owned);
+    fl_peaks_free(&v->peaks);
+    free(v->peak_rank);
+    free(v->peak_value);
+    free(v->quantile);
+    *v = (fl_signal_view){0};
+}

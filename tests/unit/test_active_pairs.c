@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Near pairs are shared out by the contacts of the step before, and each is looked at, whoever does. */
+#include <string.h>
+#include "base/array.h"
+#include "contact/active_pairs.h"
+#include "support/small_world.h"
+#include "support/near.h"
+#include "world/access.h"
+
+/* 144 floes in rows; those of a row touch one another, and are near the rows beside. */
+static void rows(lab *l, int threads)
+{
+    lab_start(l);
+    lab_setf(l, "run.threads=%d", threads);
+    for (int k = 0; k < 144; k++)
+        lab_box(l, v3(0.999 * (k % 12), 1.01 * (k / 12), 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(0, 0, 0),
+                v3(0, 0, 0));
+    lab_make(l, 1e-5);
+    assert_int_equal(l->w.threads, threads);
+    assert_true(l->w.n_touching >= 12 * 11 && l->w.n_touching < l->w.n_pair / 2);
+}
+
+/* Contacts in a share, and that shares follow each other over all pairs. */
+static void shares_are_even(void **state)
+{
+    (void)state;
+    lab l;
+    rows(&l, 5);
+    const fl_world *w = &l.w;
+    fl_share_active_pairs(&l.w);
+    assert_int_equal(w->pair_share[0].next, 0);
+    for (int32_t t = 0; t < 5; t++) {
+        int32_t many = 0;
+        for (int32_t k = 0; k < w->n_touching; k++)
+            many +=
+                w->touching_pairs[k] >= w->pair_share[t].next && w->touching_pairs[k] < w->pair_share[t].end;
+        assert_true(many == w->n_touching / 5 || many == w->n_touching / 5 + 1);
+        assert_int_equal(w->pair_share[t].end, t < 4 ? w->pair_share[t + 1].next : w->n_pair);
+    }
+    lab_free(&l);
+}
+
+/* Before anything touches, pairs count. */
+static void without_contacts_too(void **state)
+{
+    (void)state;
+    lab l;
+    rows(&l, 3);
+    l.w.n_touching = 0;
+    fl_share_active_pairs(&l.w);
+    assert_int_equal(l.w.pair_share[0].next, 0);
+    for (int32_t t = 0; t < 3; t++) {
+        const int32_t many = l.w.pair_share[t].end - l.w.pair_share[t].next;
+        assert_true(many >= l.w.n_pair / 3 && many <= l.w.n_pair / 3 + 1);
+    }
+    assert_int_equal(l.w.pair_share[2].end, l.w.n_pair);
+    lab_free(&l);
+}
+
+/* A team of any size, of one too. */
+static void all_are_looked_at(void **state)
+{
+    (void)state;
+    lab l;
+    rows(&l, 4);
+    fl_world *w = &l.w;
+    fl_err err = {0};
+    uint8_t *hit = fl_alloc(w->n_pair, 1, &err);
+    assert_non_null(hit);
+    memcpy(hit, w->pair_touches, (size_t)w->n_pair);
+    for (int team = 1; team <= 4; team++) {
+        for (int32_t c = 0; c < w->n_pair; c++)
+            w->pair_touches[c] = 2, w->pair[c].free_travel = -1.0, fl_set_next_check(w, c);
+        fl_share_active_pairs(w);
+#pragma omp parallel num_threads(team)
+        fl_evaluate_active_pairs(w, 0.0, 0);
+        assert_memory_equal(w->pair_touches, hit, (size_t)w->n_pair);
+        for (int32_t t = 0; t < 4; t++) assert_true(w->pair_share[t].next >= w->pair_share[t].end);
+    }
+    assert_int_equal(w->failed, 0);
+    free(hit);
+    lab_free(&l);
+}
+
+/* Who sleeps stays as it is. */
+static void sleepers_are_left_alone(void **state)
+{
+    (void)state;
+    lab l;
+    rows(&l, 2);
+    fl_world *w = &l.w;
+    int32_t slept = 0;
+    for (int32_t c = 0; c < w->n_pair; c++)
+        if (!w->pair[c].touching)
+            w->pair[c].free_travel = 1e9, fl_set_next_check(w, c), w->pair_touches[c] = 2, slept++;
+    assert_true(slept > 0);
+    fl_share_active_pairs(w);
+    fl_evaluate_active_pairs(w, 0.0, 0);
+    for (int32_t c = 0; c < w->n_pair; c++) slept -= w->pair_touches[c] == 2 && w->pair[c].free_travel == 1e9;
+    assert_int_equal(slept, 0);
+    lab_free(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_are_even), cmocka_unit_test(without_contacts_too),
+        cmocka_unit_test(all_are_looked_at), cmocka_unit_test(sleepers_are_left_alone)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "base/number_text.h"
+#include "stat/record.h"
+#include "stat/signal_view.h"
+#include "stat/power_spectrum.h"
+#include "history_line.h"
+
+static void add_number(fl_history_line *by, const char *option, double x)
+{
+    char buf[FL_NUMBER_LEN];
+    fl_history_line_add(by, "--%s %s", option, fl_number_text(x, buf));
+}
+
+static void add_sn_line(fl_history_line *by, const fl_sn_curve *sn)
+{
+    char m[FL_NUMBER_LEN], a[FL_NUMBER_LEN], m2[FL_NUMBER_LEN] = "inf", knee[FL_NUMBER_LEN];
+    fl_number_text(sn->m, m);
+    if (isnan(sn->a)) {
+        fl_history_line_add(by, "--sn %s", m);
+        return;
+    }
+    fl_number_text(sn->a, a);
+    if (isfinite(sn->m2)) fl_number_text(sn->m2, m2);
+    if (sn->knee > 0.0) fl_history_line_add(by, "--sn %s,%s,%s,%s", m, a, m2, fl_number_text(sn->knee, knee));
+    else fl_history_line_add(by, "--sn %s,%s", m, a);
+}
+
+/* What is read. */
+static void add_choice(const struct options *o, fl_history_line *by)
+{
+    for (int32_t k = 0; k < o->signals; k++) fl_history_line_add(by, "--column %s", o->signal[k]);
+    if (o->part) fl_history_line_add(by, "--part %s", o->part);
+    for (int32_t k = 0; k < o->wheres; k++) fl_history_line_add(by, "--where %s", o->where[k]);
+    if (o->over) fl_history_line_add(by, "--over %s", fl_reduction_name(o->over));
+    if (isfinite(o->from)) add_number(by, "from", o->from);
+    if (isfinite(o->to)) add_number(by, "to", o->to);
+    if (o->skips) {
+        char n[FL_NUMBER_LEN], d[FL_NUMBER_LEN], gap[FL_NUMBER_LEN];
+        fl_number_text(o->skip[0], n);
+        fl_number_text(o->skip[1], d);
+        if (isnan(o->skip[2])) fl_history_line_add(by, "--skip %s,%s", n, d);
+        else fl_history_line_add(by, "--skip %s,%s,%s", n, d, fl_number_text(o->skip[2], gap));
+        add_number(by, "speed", o->speed);
+    }
+}
+
+static void add_files(const struct options *o, fl_history_line *by)
+{
+    for (int k = 0; k < o->files; k++)
+        if (strcmp(o->file[k], "-") != 0) fl_history_line_word(by, "", o->file[k]);
+}
+
+/* Of contacts and panels. */
+static void add_places(const struct options *o, fl_history_line *by)
+{
+    if (o->page) fl_history_line_add(by, "--table %s", options_table(o->table));
+    if (o->table == TABLE_PRESSURE && o->areas_text) fl_history_line_add(by, "--areas %s", o->areas_text);
+    if (o->table != TABLE_PRESSURE && o->waterline)
+        fl_history_line_add(by, "--waterline %s --bins %d", o->waterline, o->bins);
+    if (o->table == TABLE_MAP && o->heights_text) fl_history_line_add(by, "--heights %s", o->heights_text);
+    add_files(o, by);
+}
+
+void history_line_run(const struct options *o, fl_history_line *by)
+{
+    fl_history_line_start(by, "loadstats");
+    add_choice(o, by);
+    if (o->window > 0.0) add_number(by, "window", o->window);
+    if (o->step > 0.0) add_number(by, "step", o->step);
+    if (o->filter > 0.0) {
+        char x[FL_NUMBER_LEN], y[FL_NUMBER_LEN];
+        fl_number_text(o->filter, x);
+        if (o->pass == FL_FILTER_LOW) fl_history_line_add(by, "--filter %s", x);
+        else if (o->pass == FL_FILTER_BAND)
+            fl_history_line_add(by, "--filter band:%s,%s", x, fl_number_text(o->upper, y));
+        else fl_history_line_add(by, "--filter %s:%s", fl_filter_name(o->pass), x);
+        if (o->pass != FL_FILTER_MEAN) fl_history_line_add(by, "--order %d", o->order);
+    }
+    const int placed = o->table == TABLE_PRESSURE || o->table == TABLE_LINE || o->table == TABLE_MAP;
+    if (placed) {
+        add_places(o, by);
+        return;
+    }
+    add_number(by, "separation", o->separation);
+    if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
+    if ((o->table == TABLE_HISTOGRAM && !options_many_runs(o)) || o->table == TABLE_RAINFLOW)
+        fl_history_line_add(by, "--bins %d", o->bins);
+    if ((o->table == TABLE_STATS || o->page) && o->quantiles_text)
+        fl_history_line_add(by, "--quantiles %s", o->quantiles_text);
+    if (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->page) {
+        if (o->sample) fl_history_line_add(by, "--sample %s", options_sample(o->sample));
+        if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
+        if (o->block > 0.0) add_number(by, "block", o->block);
+        for (int32_t k = 0; (o->table == TABLE_LEVELS || o->page) && k < o->returns; k++)
+            add_number(by, "return", o->period[k]);
+        fl_history_line_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
+    }
+    if ((o->table == TABLE_LEGS || o->table == TABLE_EVENTS || o->page) && o->level != 0.5)
+        add_number(by, "level", o->level);
+    if (o->page && o->table != TABLE_STATS) fl_history_line_add(by, "--table %s", options_table(o->table));
+    const enum table t = o->table;
+    const int damage = t == TABLE_DAMAGE || o->page;
+    const int cycles = damage || t == TABLE_CYCLES || t == TABLE_RAINFLOW;
+    const int sway = t == TABLE_RESPONSE || t == TABLE_MOTION || o->page;
+    const int spectra = t == TABLE_SPECTRUM || t == TABLE_FREQUENCY || t == TABLE_RESPONSE || o->page;
+    if (cycles && o->rule && !o->merge) {
+        fl_history_line_add(by, "--rule %s", fl_rainflow_rule_name(o->rule));
+        fl_history_line_add(by, "--residue %s", fl_residue_name(o->residue));
+    }
+    for (int32_t k = 0; sway && k < o->sways; k++)
+        fl_history_line_add(by, "--oscillator %s", o->sway[k].text);
+    if (spectra && o->segment > 0.0) add_number(by, "segment", o->segment);
+    if (spectra && o->taper) fl_history_line_add(by, "--taper %s", fl_taper_name(o->taper));
+    if ((t == TABLE_FREQUENCY || o->page) && o->speed > 0.0 && !o->skips) add_number(by, "speed", o->speed);
+    for (int32_t k = 0; damage && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
+    if (damage && o->stress != 1.0) add_number(by, "stress", o->stress);
+    if (o->merge) fl_history_line_add(by, "--merge");
+    if (o->stream) fl_history_line_add(by, "--stream");
+    if (o->follow > 0.0) add_number(by, "follow", o->follow);
+    if (o->table == TABLE_ENSEMBLE && o->block > 0.0) add_number(by, "block", o->block);
+    add_files(o, by);
+}
+
+void history_line_summary(const struct options *o, char *text)
+{
+    fl_history_line by;
+    fl_history_line_start(&by, "loadstats");
+    fl_history_line_add(&by, "--summary");
+    add_choice(o, &by);
+    add_number(&by, "separation", o->separation);
+    if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
+    if (o->block > 0.0) add_number(&by, "block", o->block);
+    if (o->rule) fl_history_line_add(&by, "--rule %s", fl_rainflow_rule_name(o->rule));
+    if (o->rule) fl_history_line_add(&by, "--residue %s", fl_residue_name(o->residue));
+    snprintf(text, FL_HISTORY_LINE_MAX + 2, "%s\n", by.text);
+}

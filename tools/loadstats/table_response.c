@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include "base/array.h"
+#include "table_spectrum.h"
+#include "table_response.h"
+
+void response_header(FILE *f, const struct options *o)
+{
+    fputs("\tfn[Hz]\tdamping", f);
+    if (o->table == TABLE_MOTION) fputs("\tt[s]\tload\tresponse\tx[m]\tv[m/s]\ta[m/s^2]\n", f);
+    else
+        fputs(
+            "\tstiffness[unit/m]\tstatic\tdynamic\tamplification\tt_max[s]\tstd_ratio\tx_static[m]\tx_max[m]"
+            "\ta_max[m/s^2]\tf[Hz]\tshare\tlock_in\tstep[s]\terror\n",
+            f);
+}
+
+static void put_start(FILE *f, const struct result *r, int32_t p, int32_t s, int w, const struct sway *a)
+{
+    write_labels(f, r, p, s, w);
+    write_cell(f, a->o.frequency);
+    write_cell(f, a->o.damping);
+}
+
+static void motion_rows(FILE *f, const struct result *r, int32_t p, int32_t s, int w, const struct sway *a,
+                        const fl_oscillator_state *at)
+{
+    const fl_signal_view *v = view_of(r, p, s, w);
+    for (int32_t k = 0; k < v->n; k++) {
+        put_start(f, r, p, s, w, a);
+        write_cell(f, v->edge[k + 1]);
+        write_cell(f, v->x[k]);
+        write_cell(f, at[k].u);
+        write_cell(f, at[k].u / a->stiffness);
+        write_cell(f, at[k].v / a->stiffness);
+        write_cell(f, at[k].a / a->stiffness);
+        putc('\n', f);
+    }
+}
+
+typedef struct {
+    double frequency, share;
+} dominant;
+
+static int find_dominant(dominant *d, const struct result *r, const struct options *o, int32_t p, int32_t s,
+                         int w, fl_err *err)
+{
+    fl_power_spectrum spectrum;
+    int32_t at;
+    *d = (dominant){NAN, NAN};
+    if (!(o->segment > 0.0) && view_of(r, p, s, w)->n < FL_SPECTRUM_SHORTEST_SEGMENT)
+        return 0; /* there is none */
+    if (spectrum_make(&spectrum, r, o, p, s, w, err)) return -1;
+    d->frequency = fl_power_spectrum_dominant(&spectrum, &at);
+    if (at >= 0) d->share = fl_power_spectrum_share(&spectrum, at);
+    fl_power_spectrum_free(&spectrum);
+    return 0;
+}
+
+static void response_row(FILE *f, const struct result *r, int32_t p, int32_t s, int w, const struct sway *a,
+                         const fl_response *got, const dominant *d)
+{
+    const fl_signal_view *v = view_of(r, p, s, w);
+    const double load = fmax(fabs(v->stats.min), fabs(v->stats.max));
+    put_start(f, r, p, s, w, a);
+    write_cell(f, a->stiffness);
+    write_cell(f, load);
+    write_cell(f, got->largest);
+    write_cell(f, got->largest / load);
+    write_cell(f, got->t_largest);
+    write_cell(f, got->std / v->stats.std);
+    write_cell(f, load / a->stiffness);
+    write_cell(f, got->largest / a->stiffness);
+    write_cell(f, got->largest_acceleration / a->stiffness);
+    write_cell(f, d->frequency);
+    write_cell(f, d->share);
+    fputs(isnan(d->frequency)                                 ? "\t-"
+          : fl_oscillator_near_frequency(&a->o, d->frequency) ? "\tyes"
+                                                              : "\tno",
+          f);
+    write_cell(f, got->step);
+    write_cell(f, got->error);
+    putc('\n', f);
+}
+
+/* A load that jumps from row to row shakes what is as quick as the rows. */
+static void warn(const struct result *r, const struct options *o)
+{
+    const double ROWS = 10.0; /* to a period: the jumps of a sine are then a third of its amplitude */
+    const fl_series *s = r->s;
+    double longest = 0.0;
+    for (int32_t k = 0; k < s->n; k++) longest = fmax(longest, s->edge[k + 1] - s->edge[k]);
+    for (int32_t k = 0; !o->quiet && k < o->sways; k++)
+        if (longest * o->sway[k].o.frequency * ROWS > 1.0 + 1e-9)
+            fprintf(stderr,
+                    "loadstats: rows of %.4g s are long for an oscillator of %.6g Hz, %g or more to a period "
+                    "were "
+                    "wanted\n",
+                    longest, o->sway[k].o.frequency, ROWS);
+}
+
+int response_write(FILE *f, const struct result *r, const struct options *o, int32_t part, int32_t signal,
+                   int w, fl_err *err)
+{
+    const fl_signal_view *v = view_of(r, part, signal, w);
+    dominant d = {NAN, NAN};
+    fl_oscillator_state *at = fl_alloc(v->n, sizeof *at, err);
+    int rc = at ? 0 : -1;
+    if (part == 0 && signal == 0 && w == 0) warn(r, o);
+    if (rc == 0 && o->table == TABLE_RESPONSE) rc = find_dominant(&d, r, o, part, signal, w, err);
+    for (int32_t k = 0; rc == 0 && k < o->sways; k++) {
+        const struct sway *a = &o->sway[k];
+        fl_response got;
+        rc = fl_oscillator_solve(&a->o, v->n, v->edge, v->x, &got, at, err);
+        if (rc == 0 && o->table == TABLE_MOTION) motion_rows(f, r, part, signal, w, a, at);
+        if (rc == 0 && o->table == TABLE_RESPONSE) response_row(f, r, part, signal, w, a, &got, &d);
+    }
+    free(at);
+    return rc;
+}

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+#include "quality_report.h"
+
+static const double LARGEST = 1000.0, SMALLEST = 0.01; /* [m] sides of a box that are likely another unit */
+static const double MUCH = 0.01;      /* change of a patch that was rebuilt, of its area or volume */
+static const double ROUNDING = 1e-12; /* of the diagonal: thousands of roundings of 1e-16 */
+
+/* A coordinate of the centroid, without the rounding left where the parts of a symmetric body cancel. */
+static double shown(double x, const fl_aabb *b)
+{
+    return fabs(x) > ROUNDING * v3_norm(v3_sub(b->hi, b->lo)) ? x : 0.0;
+}
+
+static void shape_row(const char *name, int width, const fl_mesh_quality *q)
+{
+    char volume[40] = "-";
+    if (q->closed) snprintf(volume, sizeof volume, "%.9g", q->volume);
+    fprintf(stderr, "%-*s %9d %5d %13s %13.9g   %.6g %.6g %.6g   %.6g %.6g %.6g .. %.6g %.6g %.6g\n", width,
+            name, q->triangles, q->cones, volume, q->area, shown(q->centroid.x, &q->box),
+            shown(q->centroid.y, &q->box), shown(q->centroid.z, &q->box), q->box.lo.x, q->box.lo.y,
+            q->box.lo.z, q->box.hi.x, q->box.hi.y, q->box.hi.z);
+}
+
+static void mesh_row(const char *name, int width, const struct mended *m)
+{
+    const fl_mesh_quality *q = &m->left;
+    fprintf(stderr, "%-*s %7d %10d %9d %7d %7d %7d %5d %12d %7d %7d %8d %8d\n", width, name, m->weld.merged,
+            m->weld.collapsed + m->repair.degenerate, m->doubled + m->repair.duplicates, m->orient.patches,
+            m->orient.triangles, q->patches, q->open, q->branched, q->incoherent, q->degenerate,
+            m->meet.crossings, m->meet.touching);
+}
+
+static void add(struct mended *sum, const struct mended *m)
+{
+    sum->weld.merged += m->weld.merged;
+    sum->weld.collapsed += m->weld.collapsed;
+    sum->repair.degenerate += m->repair.degenerate;
+    sum->doubled += m->doubled;
+    sum->repair.duplicates += m->repair.duplicates;
+    sum->meet.crossings += m->meet.crossings;
+    sum->meet.touching += m->meet.touching;
+    sum->orient.patches += m->orient.patches;
+    sum->orient.triangles += m->orient.triangles;
+}
+
+/* Share by which a number grew, its sign apart: a body inside out becomes one outward. */
+static void put_change(int width, double came, double went)
+{
+    if (came == 0.0) fprintf(stderr, " %*s", width, went == 0.0 ? "0" : "-");
+    else fprintf(stderr, " %*.3g", width, (fabs(went) - fabs(came)) / fabs(came));
+}
+
+/* Of the largest element of the tensor of inertia. */
+static double inertia_change(const fl_moments *came, const fl_moments *went)
+{
+    const double turn = came->volume * went->volume < 0.0 ? -1.0 : 1.0;
+    double most = 0.0, size = 0.0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            most = fmax(most, fabs(turn * went->inertia.m[i][j] - came->inertia.m[i][j]));
+            size = fmax(size, fabs(came->inertia.m[i][j]));
+        }
+    return size > 0.0 ? most / size : 0.0;
+}
+
+static void cost_row(const char *name, int width, const struct mended *m)
+{
+    const int solid = m->came_closed && m->left.closed && m->came.volume != 0.0;
+    fprintf(stderr, "%-*s %9d %9d %6d %6d %7d", width, name, m->came_triangles, m->left.triangles,
+            m->repair.holes, m->untangle.joined, m->untangle.rebuilt);
+    if (solid) {
+        put_change(10, m->came.volume, m->went.volume);
+        put_change(10, m->came.area, m->went.area);
+        fprintf(stderr, " %10.3g %11.3g", v3_norm(v3_sub(m->went.centroid, m->came.centroid)),
+                inertia_change(&m->came, &m->went));
+    } else {
+        fprintf(stderr, " %10s", "-");
+        put_change(10, m->came.area, m->went.area);
+        fprintf(stderr, " %10s %11s", "-", "-");
+    }
+    fprintf(stderr, " %9.3g %9.3g\n", m->strays, m->misses);
+}
+
+static void details(const fl_part *p, const struct mended *m)
+{
+    const char *name = p->name;
+    if (p->nt == 0) return;
+    fprintf(stderr, "%s: welded within %.3g m, vertices moved by up to %.3g m, %d unused\n", name,
+            m->weld.tol, m->weld.moved, m->weld.unused);
+    if (m->repair.stitched) fprintf(stderr, "%s: %d pairs of rim edges stitched\n", name, m->repair.stitched);
+    if (m->repair.holes)
+        fprintf(stderr, "%s: %d holes closed by %d triangles\n", name, m->repair.holes, m->repair.patched);
+    if (m->walls) fprintf(stderr, "%s: %d triangles of walls inside left out\n", name, m->walls);
+    if (m->simplified) fprintf(stderr, "%s: %d triangles fewer\n", name, m->simplified);
+    if (m->repair.bounding && m->left.inverted)
+        fprintf(stderr, "%s: %d patches bound cavities and look inward\n", name, m->left.inverted);
+}
+
+static void warn(const char *name, const struct mended *m)
+{
+    const int32_t twisted = m->orient.one_sided, rimmed = m->orient.kept_side;
+    if (rimmed && m->left.open && !m->fits)
+        fprintf(stderr,
+                "struct-import: warning: %s: open patches have no outside: but for flat convex ones they are "
+                "felt on one side "
+                "alone, the one that most of their area had\n",
+                name);
+    if (m->fins)
+        fprintf(stderr,
+                "struct-import: warning: %s: %d triangles of plates with two sides that stand on others were "
+                "left out: as a part of its own such a plate is felt\n",
+                name, m->fins);
+    if (m->untangle.failed)
+        fprintf(stderr, "struct-import: warning: %s: %d patches or pairs of them still cross\n", name,
+                m->untangle.failed);
+    if (m->untangle.changed > MUCH)
+        fprintf(stderr,
+                "struct-import: warning: %s: a patch that passed through itself was rebuilt with %.3g of its "
+                "area or volume more or less: look at it\n",
+                name, m->untangle.changed);
+    if (twisted)
+        fprintf(stderr, "struct-import: warning: %s: %d patches have one side only and cannot be oriented\n",
+                name, twisted);
+    if (m->left.degenerate)
+        fprintf(stderr, "struct-import: warning: %s: %d triangles without area are left\n", name,
+                m->left.degenerate);
+}
+
+static void warn_size(const struct options *o, fl_aabb box)
+{
+    const fl_vec3 side = v3_sub(box.hi, box.lo);
+    const double largest = fmax(side.x, fmax(side.y, side.z));
+    if (largest <= LARGEST && largest >= SMALLEST) return;
+    fprintf(stderr, "struct-import: warning: the bounding box is %.6g x %.6g x %.6g m; %s\n", side.x, side.y,
+            side.z,
+            o->unit ? "is the unit right?" : "the unit is unknown and was taken as m, --unit sets it");
+}
+
+/* Parts that are open by themselves and close together have a volume together. */
+static int32_t close_together(const fl_surface *s, const struct mended *m, fl_mesh_quality *sum)
+{
+    int32_t fits = 0, open = 0;
+    for (int32_t i = 0; i < s->n; i++) {
+        fits += m[i].fits;
+        open += !m[i].left.closed;
+    }
+    if (fits && fits == open) {
+        const fl_moments all = fl_moments_of(s->part, s->n);
+        sum->closed = 1;
+        sum->volume = all.volume;
+        sum->centroid = all.centroid;
+    }
+    return fits;
+}
+
+int report(const struct options *o, const fl_surface *s, const struct mended *m, fl_err *err)
+{
+    struct mended sum = {0};
+    int width = 5; /* of "total" */
+    if (s->n == 1) sum.left = m[0].left;
+    else if (fl_surface_measure(s, &sum.left, err)) return -1;
+    if (o->quiet) return 0;
+    const int32_t fits = close_together(s, m, &sum.left);
+    for (int32_t i = 0; i < s->n; i++)
+        if ((int)strlen(s->part[i].name) > width) width = (int)strlen(s->part[i].name);
+    fprintf(stderr, "%-*s %9s %5s %13s %13s   %s   %s\n", width, "part", "triangles", "cones", "volume[m3]",
+            "area[m2]", "centroid[m]", "box[m]");
+    for (int32_t i = 0; i < s->n; i++) shape_row(s->part[i].name, width, &m[i].left);
+    if (s->n > 1) shape_row("total", width, &sum.left);
+    fprintf(stderr, "\n%-*s %7s %10s %9s %7s %7s %7s %5s %12s %7s %7s %8s %8s\n", width, "part", "welded",
+            "degenerate", "duplicate", "flipped", "turned", "patches", "open", "non-manifold", "twisted",
+            "slivers", "crossing", "touching");
+    for (int32_t i = 0; i < s->n; i++) {
+        mesh_row(s->part[i].name, width, &m[i]);
+        add(&sum, &m[i]);
+    }
+    if (s->n > 1) mesh_row("total", width, &sum);
+    fprintf(stderr, "\n%-*s %9s %9s %6s %6s %7s %10s %10s %10s %11s %9s %9s\n", width, "part", "came", "went",
+            "filled", "joined", "rebuilt", "volume[1]", "area[1]", "centre[m]", "inertia[1]", "strays[m]",
+            "misses[m]");
+    for (int32_t i = 0; i < s->n; i++) cost_row(s->part[i].name, width, &m[i]);
+    for (int32_t i = 0; i < s->n; i++) {
+        if (o->verbose) details(&s->part[i], &m[i]);
+        warn(s->part[i].name, &m[i]);
+    }
+    if (fits) fprintf(stderr, "struct-import: %d open parts fit one another: together they close\n", fits);
+    warn_size(o, sum.left.box);
+    return 0;
+}

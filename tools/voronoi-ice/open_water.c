@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include "base/array.h"
+#include "base/pi.h"
+#include "geom/surface.h"
+#include "ice/domain_read.h"
+#include "ice/waterplane_cut.h"
+#include "mesh/gstruct.h"
+#include "open_water.h"
+
+/* The cells of a domain are made in a box larger than its own by this part, so that no side of a cell lies on
+ * a side of the domain. */
+#define CLEAR 0.05
+
+enum { DISC_LEAST = 24, DISC_MOST = 720 };
+
+/* --- what the options name ------------------------------------------------------------------------------ */
+
+/* A regular polygon of the area of the disc, with sides of about half a floe. */
+static int add_disc(fl_domain *d, const struct options *o, fl_err *err)
+{
+    const double r = o->disc[0], floe = sqrt(PI / o->floes) * r;
+    const int want = (int)fmin(DISC_MOST, ceil(2.0 * PI * r / (0.5 * floe)));
+    const int n = want < DISC_LEAST ? DISC_LEAST : want;
+    const double out = r * sqrt(2.0 * PI / (n * sin(2.0 * PI / n)));
+    fl_vec2 v[DISC_MOST];
+    for (int k = 0; k < n; k++)
+        v[k] = (fl_vec2){o->disc[1] + out * cos(2.0 * PI * k / n), o->disc[2] + out * sin(2.0 * PI * k / n)};
+    return fl_domain_add(d, n, v, err);
+}
+
+static int add_rectangle(fl_domain *d, const struct options *o, fl_err *err)
+{
+    const fl_vec2 lo = o->origin, hi = {lo.x + o->size.x, lo.y + o->size.y};
+    const fl_vec2 v[4] = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}};
+    return fl_domain_add(d, 4, v, err);
+}
+
+/* A strip of water between two points, its ends square. */
+static int add_lead(fl_domain *d, const double *x, fl_err *err)
+{
+    const double l = hypot(x[2] - x[0], x[3] - x[1]);
+    const double nx = -0.5 * x[4] * (x[3] - x[1]) / l, ny = 0.5 * x[4] * (x[2] - x[0]) / l;
+    const fl_vec2 v[4] = {
+        {x[0] - nx, x[1] - ny}, {x[2] - nx, x[3] - ny}, {x[2] + nx, x[3] + ny}, {x[0] + nx, x[1] + ny}};
+    return fl_domain_add(d, 4, v, err);
+}
+
+/* What ice of thickness h would touch: the structure from the bottom of the ice to its top. */
+static int add_structure(struct water *w, fl_domain *d, const struct options *o, double h, const char *path,
+                         fl_err *err)
+{
+    const double draft = h * (o->ice_density / o->water_density);
+    const double coarse = WATER_COARSE * sqrt(o->size.x * o->size.y / o->floes);
+    fl_surface s = {0};
+    int32_t kept = 0;
+    int rc;
+    if (fl_gstruct_read(&s, path, err)) return -1;
+    rc = fl_waterplane_keep_out(d, &s, -draft, h - draft, o->margin, coarse, &kept, err);
+    w->kept += kept;
+    fl_surface_free(&s);
+    return rc;
+}
+
+/* The field is made round the origin, where numbers are finest, and shifted when it is done. */
+static void centre(struct water *w, struct options *o)
+{
+    fl_domain *d = &w->d;
+    o->origin = d->lo;
+    o->size = (fl_vec2){d->hi.x - d->lo.x, d->hi.y - d->lo.y};
+    w->shift = (fl_vec2){0.5 * (d->lo.x + d->hi.x), 0.5 * (d->lo.y + d->hi.y)};
+    for (int32_t k = 0; k < d->corners; k++) {
+        d->v[k].x -= w->shift.x;
+        d->v[k].y -= w->shift.y;
+    }
+    d->lo = (fl_vec2){d->lo.x - w->shift.x, d->lo.y - w->shift.y};
+    d->hi = (fl_vec2){d->hi.x - w->shift.x, d->hi.y - w->shift.y};
+}
+
+/* What is not ice in the field. */
+static int add_open(struct water *w, fl_domain *d, const struct options *o, double h, fl_err *err)
+{
+    for (int k = 0; k < o->leads; k++)
+        if (add_lead(d, o->lead[k], err)) return -1;
+    for (int k = 0; k < o->ridges; k++) { /* the floes make room for sail and keel */
+        const double *r = o->ridge[k], x[5] = {r[0], r[1], r[2], r[3], fmax(r[5], r[7])};
+        if (add_lead(d, x, err)) return -1;
+    }
+    for (int k = 0; k < o->structures; k++)
+        if (add_structure(w, d, o, h, o->structure[k], err)) return -1;
+    return 0;
+}
+
+int water_make(struct water *w, struct options *o, double h, fl_err *err)
+{
+    const int open = o->leads || o->ridges || o->structures;
+    w->on = o->outline || o->disc[0] > 0.0 || (open && !o->sizes);
+    w->area = o->size.x * o->size.y;
+    w->shift = (fl_vec2){o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
+    if (!w->on) return open ? add_open(w, &w->gone, o, h, err) : 0;
+    if (o->outline         ? fl_domain_read(&w->d, o->outline, err)
+        : o->disc[0] > 0.0 ? add_disc(&w->d, o, err)
+                           : add_rectangle(&w->d, o, err))
+        return -1;
+    o->size = (fl_vec2){w->d.hi.x - w->d.lo.x, w->d.hi.y - w->d.lo.y};
+    if (add_open(w, o->sizes ? &w->gone : &w->d, o, h, err)) return -1;
+    centre(w, o);
+    if (fl_domain_build(&w->d, err)) return -1;
+    if (fl_domain_is_convex(&w->d)) w->area = fl_polygon_area(w->d.corners, w->d.v);
+    else if (o->sizes) return fl_fail(err, FL_INPUT, "--sizes needs water whose outline is convex");
+    return 0;
+}
+
+int water_takes(const struct water *w, int32_t n, const fl_vec2 *v)
+{
+    for (int32_t r = 0; r < w->gone.rings; r++) {
+        const int32_t first = w->gone.first[r], m = w->gone.first[r + 1] - first;
+        fl_vec2 ring[FL_WATERPLANE_MAX_SIDES];
+        const int turned = fl_polygon_area(m, w->gone.v + first) < 0.0; /* all but the first are */
+        for (int32_t k = 0; k < m; k++) ring[k] = w->gone.v[first + (turned ? m - 1 - k : k)];
+        if (!fl_polygon_is_apart(n, v, m, ring)) return 1;
+    }
+    return 0;
+}
+
+fl_outline water_outline(const struct water *w, const struct options *o)
+{
+    const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y};
+    fl_outline in = {.lo = {-hi.x, -hi.y}, .hi = hi};
+    if (w->on) {
+        in.n = w->d.corners;
+        in.v = w->d.v;
+    }
+    return in;
+}
+
+/* --- cells ---------------------------------------------------------------------------------------------- */
+
+static int divide(const struct water *w, const struct options *o, const fl_vec2 *site, double least,
+                  fl_pieces *out, fl_err *err)
+{
+    const double m = CLEAR * (w->d.hi.x - w->d.lo.x + w->d.hi.y - w->d.lo.y);
+    const fl_vec2 lo = {w->d.lo.x - m, w->d.lo.y - m}, hi = {w->d.hi.x + m, w->d.hi.y + m};
+    fl_power_cells cells = {0};
+    int rc;
+    if (fl_power_cells_build(&cells, o->floes, site, lo, hi, err)) return -1;
+    rc = fl_domain_cut(out, &cells, &w->d, least, err);
+    fl_power_cells_free(&cells);
+    return rc;
+}
+
+static void to_centroids(const fl_pieces *p, fl_vec2 *site)
+{
+    for (int32_t k = 0; k < p->largest; k++) {
+        const int32_t first = p->cells.first[k];
+        site[p->parent[k]] = fl_polygon_centroid(p->cells.first[k + 1] - first, p->cells.v + first);
+    }
+}
+
+int water_cells(struct water *w, const struct options *o, fl_power_cells *cells, fl_err *err)
+{
+    fl_vec2 *site = fl_alloc(o->floes, sizeof *site, err);
+    fl_pieces p = {0};
+    double least;
+    int rc = -1;
+    if (!site || fl_domain_sites(o->floes, o->seed, &w->d, site, err) || divide(w, o, site, 0.0, &p, err))
+        goto done;
+    /* a core needs room inside the dilation radius as well */
+    least = fmax(WATER_SLIVER * sqrt(p.area / o->floes), 1.5 * o->radius);
+    for (int k = 0; k < o->smooth; k++) {
+        to_centroids(&p, site);
+        fl_pieces_free(&p);
+        if (divide(w, o, site, 0.0, &p, err)) goto done;
+    }
+    fl_pieces_free(&p);
+    if (divide(w, o, site, least, &p, err)) goto done;
+    if (p.cells.n == 0) {
+        fl_fail(err, FL_INPUT, "no piece of the water has room for a floe: more floes or a smaller radius");
+        goto done;
+    }
+    w->id = fl_alloc(p.cells.n, sizeof *w->id, err);
+    if (!w->id) goto done;
+    for (int32_t k = 0; k < p.cells.n; k++) w->id[k] = k < p.largest ? p.parent[k] : o->floes + k - p.largest;
+    w->area = p.area;
+    w->lost = p.dropped_area;
+    w->dropped = p.dropped;
+    *cells = p.cells;
+    p.cells = (fl_power_cells){0};
+    rc = 0;
+done:
+    fl_pieces_free(&p);
+    free(site);
+    return rc;
+}
+
+/* --- the rest ------------------------------------------------------------------------------------------- */
+
+void water_certify(const struct water *w, const struct options *o, struct certify *t)
+{
+    if (o->structures && !w->on)
+        certify_add(t, "parts of structures kept out", NOT_ASKED, w->kept, NO_DISTANCE, 10, NULL);
+    if (!w->on) return;
+    if (o->disc[0] > 0.0 && w->d.rings == 1) {
+        const double asked = PI * o->disc[0] * o->disc[0];
+        certify_add(t, "water [m2]", asked, w->area, fabs(w->area - asked) / asked, 10, NULL);
+    } else {
+        certify_add(t, "water [m2]", NOT_ASKED, w->area, NO_DISTANCE, 10, NULL);
+    }
+    if (o->structures)
+        certify_add(t, "parts of structures kept out", NOT_ASKED, w->kept, NO_DISTANCE, 10, NULL);
+    certify_add(t, "slivers left open [m2]", NOT_ASKED, w->lost, NO_DISTANCE, 4, "%d", w->dropped);
+}
+
+void water_free(struct water *w)
+{
+    fl_domain_free(&w->d);
+    fl_domain_free(&w->gone);
+    free(w->id);
+    *w = (struct water){0};
+}
