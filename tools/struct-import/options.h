@@ -34,8 +34,9 @@ struct options {
     int32_t parts, part_cap;
     struct alias *alias; /* [aliases] */
     int32_t aliases, alias_cap;
-    const char *out, *unit; /* borrowed; unit is NULL when unknown */
-    enum format to;
+    const char *out, *unit;       /* borrowed; unit is NULL when unknown */
+    const char *next_name;        /* of --name, for the part that comes next; NULL: none */
+    int to;                       /* enum format */
     int32_t facets;               /* 0: round solids stay what they are */
     int32_t fill_holes;           /* rims of up to this many edges are closed */
     double fill;                  /* and those whose box has a diagonal of up to this [m] */
