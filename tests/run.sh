@@ -117,7 +117,7 @@ programs() # KIND
 all_verify()
 {
     programs verify
-    add verify/verify_hard_told "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
+    add verify/verify_hard_surrogate "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
 }
 
 # The sanitizers' map of memory may collide with addresses drawn at random where the kernel draws from many.
@@ -202,7 +202,7 @@ wait $crew
 if [ -f "$scratch/durations" ]; then
     sort -k1,1nr -k2 "$scratch/durations" >"$build/durations.tsv"
     printf 'longest [s]:'
-    awk -F '\t' 'NR <= 10 && $1 > 1 { printf "%s %s %s", NR > 1 ? "," : "", $2, $1 }' "$build/durations.tsv"
+    awk -F '\t' 'NR <= 10 && $1 > 1 { printf "%s %s %s", (NR > 1 ? "," : ""), $2, $1 }' "$build/durations.tsv"
     printf '\n'
 fi
 [ "$what" = verify ] && cat "$scratch"/*.out | awk -f tests/hard.awk
