@@ -29,8 +29,8 @@ static int add_panel(fl_panels *p, const char *name, const double *x, fl_err *er
     return 0;
 }
 
-/* The row in the table is that of panel k of this time. */
-static int take(fl_panels *p, int32_t k, fl_err *err)
+/* Read the row of panel k of this time. */
+static int read_panel(fl_panels *p, int32_t k, fl_err *err)
 {
     const char *name = fl_table_word(&p->table, p->col[PANEL]);
     double x[COLUMNS];
@@ -69,7 +69,7 @@ int fl_panels_next(fl_panels *p, fl_err *err)
             p->edge[0] = p->t;
             p->edge[1] = p->t = t;
         }
-        if (take(p, k++, err)) return -1;
+        if (read_panel(p, k++, err)) return -1;
     }
     if (k == 0 && p->times == 0)
         return fl_fail(err, FL_INPUT, "%s: this panels table has no rows", fl_in_name(p->table.text.in));
