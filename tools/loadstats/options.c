@@ -9,7 +9,9 @@
 #include "base/text.h"
 #include "stat/butterworth.h"
 #include "stat/signal_view.h"
+#include "base/tool.h"
 #include "options.h"
+#include "table_list.h"
 
 static const char HELP[] =
     "usage: loadstats [options] [FILE ...]\n"
@@ -167,16 +169,6 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-static const char *const TABLE[] = {[TABLE_STATS] = "stats",         [TABLE_PEAKS] = "peaks",
-                                    [TABLE_HISTOGRAM] = "histogram", [TABLE_EXCEEDANCE] = "exceedance",
-                                    [TABLE_FITS] = "fits",           [TABLE_LEVELS] = "levels",
-                                    [TABLE_LEGS] = "legs",           [TABLE_EVENTS] = "events",
-                                    [TABLE_RAINFLOW] = "rainflow",   [TABLE_DAMAGE] = "damage",
-                                    [TABLE_SPECTRUM] = "spectrum",   [TABLE_FREQUENCY] = "frequency",
-                                    [TABLE_RESPONSE] = "response",   [TABLE_MOTION] = "motion",
-                                    [TABLE_SUMMARY] = "summary",     [TABLE_ENSEMBLE] = "ensemble",
-                                    [TABLE_CYCLES] = "cycles",       [TABLE_PRESSURE] = "pressure-area",
-                                    [TABLE_LINE] = "line-load",      [TABLE_MAP] = "map"};
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
 static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_reduction_name() */
@@ -186,11 +178,6 @@ static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none"}; /* 
 static const char *const PASS[] = {"low", "high", "band", "mean"};           /* as fl_filter_name() */
 static const char *const PICTURE[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
-
-const char *options_table(enum table t) { return TABLE[t]; }
-const char *options_sample(enum sample s) { return SAMPLES[s]; }
-
-int options_many_runs(const struct options *o) { return o->merge || o->stream; }
 
 static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
                   fl_err *err)
@@ -205,6 +192,15 @@ static int choice(const char *option, const char *text, const char *const *list,
         if (strcmp(text, list[k]) == 0) return k;
     return fl_fail(err, FL_USAGE, "--%s does not know \"%.40s\", the nearest is %s", option, text,
                    fl_text_nearest(text, list, n));
+}
+
+static int choose_table(struct options *o, const char *text, fl_err *err)
+{
+    const char *name[TABLES_MAX];
+    for (int k = 0; k < table_count(); k++) name[k] = table_at(k)->name;
+    const int k = choice("table", text, name, table_count(), err);
+    if (k >= 0) o->table = table_at(k);
+    return k < 0 ? -1 : 0;
 }
 
 /* Cut a list at its commas; each word goes to `take`. */
@@ -301,14 +297,14 @@ static int take_filter(struct options *o, const char *text, fl_err *err)
 {
     const char *colon = strchr(text, ':'), *value = colon ? colon + 1 : text, *comma = strchr(value, ',');
     char word[40];
-    o->pass = FL_FILTER_LOW;
+    o->filter_kind = FL_FILTER_LOW;
     if (colon) {
         snprintf(word, sizeof word, "%.*s", (int)(colon - text), text);
-        o->pass = choice("filter", word, PASS, COUNT(PASS), err);
-        if (o->pass < 0) return -1;
+        o->filter_kind = choice("filter", word, PASS, COUNT(PASS), err);
+        if (o->filter_kind < 0) return -1;
     }
-    if (o->pass == FL_FILTER_MEAN) return time_of("filter", value, &o->filter, err);
-    if (o->pass != FL_FILTER_BAND)
+    if (o->filter_kind == FL_FILTER_MEAN) return time_of("filter", value, &o->filter, err);
+    if (o->filter_kind != FL_FILTER_BAND)
         return number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
     if (!comma || comma - value >= (int)sizeof word)
         return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", band:HZ,HZ is expected", text);
@@ -320,10 +316,10 @@ static int take_filter(struct options *o, const char *text, fl_err *err)
     return fl_fail(err, FL_USAGE, "--filter \"%.40s\" ends before it begins", text);
 }
 
-/* The words of one --sn; o->sns is raised when all of them are known. */
+/* The words of one --sn; o->sn_curves is raised when all of them are known. */
 static int take_sn(struct options *o, char *word, fl_err *err)
 {
-    fl_sn_curve *sn = &o->sn[o->sns];
+    fl_sn_curve *sn = &o->sn[o->sn_curves];
     const double tiny = 1e-300, huge = 1e300;
     switch (o->sn_words++) {
     case 0: return number("sn", word, 1e-3, 100.0, "an exponent above 0", &sn->m, err);
@@ -339,25 +335,26 @@ static int take_sn(struct options *o, char *word, fl_err *err)
 
 static int add_sn(struct options *o, const char *text, fl_err *err)
 {
-    if (o->sns == SNS_MAX) return fl_fail(err, FL_USAGE, "more than %d S-N lines were given", SNS_MAX);
-    o->sn[o->sns] = (fl_sn_curve){.a = NAN};
+    if (o->sn_curves == SN_CURVES_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d S-N lines were given", SN_CURVES_MAX);
+    o->sn[o->sn_curves] = (fl_sn_curve){.a = NAN};
     o->sn_words = 0;
     if (each(o, "sn", text, take_sn, err)) return -1;
     if (o->sn_words == 3)
         return fl_fail(err, FL_USAGE, "--sn \"%.60s\" has a second slope but no knee", text);
-    o->sns++;
+    o->sn_curves++;
     return 0;
 }
 
-/* The words of one --oscillator; o->sways is raised when all of them are known. */
+/* The words of one --oscillator; o->oscillators is raised when all of them are known. */
 static int take_sway(struct options *o, char *word, fl_err *err)
 {
-    struct sway *a = &o->sway[o->sways];
+    struct oscillator_case *a = &o->oscillator[o->oscillators];
     const double tiny = 1e-100, huge = 1e100;
     const size_t len = strlen(word);
     const int mass = len > 2 && strcmp(word + len - 2, "kg") == 0;
     double k;
-    switch (o->sway_words++) {
+    switch (o->oscillator_words++) {
     case 0:
         return number("oscillator", word, tiny, huge, "a natural frequency above 0", &a->o.frequency, err);
     case 1: return number("oscillator", word, 0.0, 100.0, "a damping ratio from 0 on", &a->o.damping, err);
@@ -372,14 +369,14 @@ static int take_sway(struct options *o, char *word, fl_err *err)
 
 static int add_sway(struct options *o, const char *text, fl_err *err)
 {
-    if (o->sways == SWAYS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d oscillators were given", SWAYS_MAX);
-    o->sway[o->sways] = (struct sway){.stiffness = NAN, .text = text};
-    o->sway_words = 0;
+    if (o->oscillators == OSCILLATORS_MAX)
+        return fl_fail(err, FL_USAGE, "more than %d oscillators were given", OSCILLATORS_MAX);
+    o->oscillator[o->oscillators] = (struct oscillator_case){.stiffness = NAN, .text = text};
+    o->oscillator_words = 0;
     if (each(o, "oscillator", text, take_sway, err)) return -1;
-    if (o->sway_words < 2)
+    if (o->oscillator_words < 2)
         return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, F,Z is expected", text);
-    o->sways++;
+    o->oscillators++;
     return 0;
 }
 
@@ -406,11 +403,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     const double tiny = 1e-300, huge = 1e300;
     int k;
     switch (c) {
-    case 't':
-        k = choice("table", arg, TABLE, COUNT(TABLE), err);
-        o->table = k < 0 ? TABLE_STATS : (enum table)k;
-        o->table_given = 1;
-        return k < 0 ? -1 : 0;
+    case 't': o->table_given = 1; return choose_table(o, arg, err);
     case 'c': return each(o, "component", arg, take_component, err);
     case 'C': return each(o, "column", arg, take_signal, err);
     case 'p': o->part = arg; return 0;
@@ -447,15 +440,15 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case SEED: return fl_option_whole("seed", arg, 0, INT32_MAX, &o->seed, err);
     case PLOT: o->plot = arg; return 0;
     case SUMMARY:
-        o->table = TABLE_SUMMARY;
+        o->table = table_named("summary");
         o->table_given = 1;
         return 0;
     case MERGE: o->merge = 1; return 0;
     case STREAM: o->stream = 1; return 0;
     case REPORT: o->report = arg; return 0;
     case WHERE:
-        if (o->wheres == WHERES_MAX)
-            return fl_fail(err, FL_USAGE, "more than %d conditions were given", WHERES_MAX);
+        if (o->wheres == CONDITIONS_MAX)
+            return fl_fail(err, FL_USAGE, "more than %d conditions were given", CONDITIONS_MAX);
         o->where[o->wheres++] = arg;
         return 0;
     case OVER:
@@ -523,14 +516,15 @@ static int check_places(const struct options *o, fl_err *err)
                       : o->stream       ? "stream"
                       : o->follow > 0.0 ? "follow"
                                         : NULL;
-    if (o->table != TABLE_PRESSURE && o->table != TABLE_LINE && o->table != TABLE_MAP) return 0;
-    if (not ) return fl_fail(err, FL_USAGE, "--%s is of loads, --table %s has none", not, TABLE[o->table]);
-    if (o->table == TABLE_LINE && !o->waterline)
-        return fl_fail(err, FL_USAGE, "--table line-load needs --waterline, as circle:0,0,2");
-    if (o->table == TABLE_MAP && o->waterline && o->heights < 2)
+    const int map = (o->table->uses & USES_HEIGHTS) != 0;
+    if (o->table->source != FROM_CONTACTS) return 0;
+    if (not ) return fl_fail(err, FL_USAGE, "--%s is of loads, --table %s has none", not, o->table->name);
+    if ((o->table->needs & NEEDS_WATERLINE) && !o->waterline)
+        return fl_fail(err, FL_USAGE, "--table %s needs --waterline, as circle:0,0,2", o->table->name);
+    if (map && o->waterline && o->heights < 2)
         return fl_fail(err, FL_USAGE,
                        "--table map of contacts needs --heights, two or more, as -1,-0.5,0,0.5");
-    if (o->table == TABLE_MAP && !o->waterline && (o->heights || o->part || o->wheres))
+    if (map && !o->waterline && (o->heights || o->part || o->wheres))
         return fl_fail(err, FL_USAGE, "--%s is of contacts, whose --table map needs --waterline too",
                        o->part      ? "part"
                        : o->heights ? "heights"
@@ -541,22 +535,20 @@ static int check_places(const struct options *o, fl_err *err)
 /* What works in constant memory, and on many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
-    const int many = o->table >= TABLE_SUMMARY || o->merge;
+    const int many = o->table->source == FROM_RUNS || o->merge;
     const char *how = o->follow > 0.0 ? "follow" : o->merge ? "merge" : "stream";
-    if (o->merge && !o->table_given) o->table = TABLE_SUMMARY;
-    const int table = o->table == TABLE_STATS || o->table == TABLE_HISTOGRAM || o->table >= TABLE_SUMMARY ||
-                      (options_many_runs(o) &&
-                       (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->table == TABLE_DAMAGE));
+    if (o->merge && !o->table_given) o->table = table_named("summary");
+    const int table = o->table->source == FROM_RUNS || o->table->run_rows;
     if (o->files > 1 && !many && !o->stream)
         return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
     if (!many && !o->stream && !(o->follow > 0.0)) return 0;
-    if (o->follow > 0.0 && o->table != TABLE_STATS)
-        return fl_fail(err, FL_USAGE, "--follow prints the table stats, not %s", TABLE[o->table]);
+    if (o->follow > 0.0 && !o->table->follows)
+        return fl_fail(err, FL_USAGE, "--follow prints the table stats, not %s", o->table->name);
     if (!table)
-        return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", TABLE[o->table], how);
+        return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", o->table->name, how);
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
-    const int pictures = (o->plot || o->report) && o->table != TABLE_ENSEMBLE;
+    const int pictures = (o->plot || o->report) && !o->table->draw_runs;
     const int first = o->skips && isnan(o->skip[2]); /* the first load is not known beforehand */
     const char *whole = first             ? "skip without GAP"
                         : o->step > 0.0   ? "step"
@@ -566,7 +558,7 @@ static int check_summary(struct options *o, fl_err *err)
                                           : "report";
     if (first || o->step > 0.0 || o->filter > 0.0 || o->window > 0.0 || pictures)
         return fl_fail(err, FL_USAGE, "--%s needs the whole record, not %s%s", whole,
-                       many ? "--table " : "--", many ? TABLE[o->table] : how);
+                       many ? "--table " : "--", many ? o->table->name : how);
     return 0;
 }
 
@@ -578,6 +570,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     *o = (struct options){.in = "-",
                           .out = "-",
                           .format = "svg",
+                          .table = table_default(),
                           .from = -INFINITY,
                           .to = INFINITY,
                           .order = 4,
@@ -603,17 +596,17 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
-    if (o->sample == SAMPLE_RUNS && !options_many_runs(o))
+    if (o->sample == SAMPLE_RUNS && !settings_many_runs(o))
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
         return fl_fail(err, FL_USAGE, "--sample blocks needs --block, their length");
     if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue is of --rule iso, astm has its own");
     if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE, "--report - needs another place for the table, --output");
-    if ((o->table == TABLE_RESPONSE || o->table == TABLE_MOTION) && !o->sways)
-        return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", TABLE[o->table]);
-    if (o->table == TABLE_LEVELS && !o->returns)
-        return fl_fail(err, FL_USAGE, "--table levels needs --return, the return periods");
+    if ((o->table->needs & NEEDS_OSCILLATOR) && !o->oscillators)
+        return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", o->table->name);
+    if ((o->table->needs & NEEDS_RETURNS) && !o->returns)
+        return fl_fail(err, FL_USAGE, "--table %s needs --return, the return periods", o->table->name);
     char *word = o->words;
     for (int32_t k = 0; k < o->signals; k++) {
         o->signal[k] = word;
@@ -626,23 +619,4 @@ void options_free(struct options *o)
 {
     free(o->words);
     o->words = NULL;
-}
-
-void options_filter(const struct options *o, char *text, size_t size)
-{
-    if (o->pass == FL_FILTER_LOW) snprintf(text, size, "%g Hz", o->filter);
-    else if (o->pass == FL_FILTER_HIGH) snprintf(text, size, "above %g Hz", o->filter);
-    else if (o->pass == FL_FILTER_BAND) snprintf(text, size, "%g to %g Hz", o->filter, o->upper);
-    else snprintf(text, size, "mean of %g s", o->filter);
-}
-
-double options_from(const struct options *o)
-{
-    if (!o->skips || isnan(o->skip[2])) return o->from;
-    return fmax(o->from, (o->skip[2] + o->skip[0] * o->skip[1]) / o->speed);
-}
-
-double options_after(const struct options *o)
-{
-    return o->skips && isnan(o->skip[2]) ? o->skip[0] * o->skip[1] / o->speed : 0.0;
 }
