@@ -12,13 +12,12 @@ static const double NARROWEST = 1e-6;
 static int check_design(int order, double fc, double fs, fl_err *err)
 {
     if (order < 1 || order > FL_BUTTERWORTH_ORDER_MAX)
-        return fl_fail(err, FL_INPUT, "filter of order %d, 1 to %d is expected", order,
+        return fl_fail(err, FL_INPUT, "filter of order %d, expected 1 to %d", order,
                        FL_BUTTERWORTH_ORDER_MAX);
     if (!(fc > 0.0) || !(fc < 0.5 * fs))
-        return fl_fail(
-            err, FL_INPUT,
-            "filter at %g Hz, more than 0 and less than %g Hz, half the sampling rate, is expected", fc,
-            0.5 * fs);
+        return fl_fail(err, FL_INPUT,
+                       "filter at %g Hz, expected more than 0 and less than %g Hz, half the sampling rate",
+                       fc, 0.5 * fs);
     return 0;
 }
 
@@ -78,8 +77,8 @@ int fl_butterworth_band(fl_butterworth *f, int order, double f1, double f2, doub
 {
     if (check_design(order, f1, fs, err) || check_design(order, f2, fs, err)) return -1;
     if (!(f2 - f1 > NARROWEST * f2))
-        return fl_fail(err, FL_INPUT, "filter from %g Hz to %g Hz, the second is expected above the first",
-                       f1, f2);
+        return fl_fail(err, FL_INPUT, "filter from %g Hz to %g Hz, expected the second above the first", f1,
+                       f2);
     const double K1 = tan(PI * f1 / fs), K2 = tan(PI * f2 / fs), W = sqrt(K1 * K2);
     /* tan a - tan b without cancellation */
     const double B = sin(PI * (f2 - f1) / fs) / (cos(PI * f1 / fs) * cos(PI * f2 / fs));

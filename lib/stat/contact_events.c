@@ -40,10 +40,10 @@ static int read_contact(fl_contact_events *h, fl_err *err)
                           .normal_force = x[FN]};
     across = v3_norm(c.n);
     if (!(fabs(across - 1.0) <= NORMAL_TOLERANCE))
-        return fl_text_fail(&h->table.text, err, "the normal has the length %g, 1 is expected", across);
+        return fl_text_fail(&h->table.text, err, "the normal has the length %g, expected 1", across);
     if (c.length < 0.0 || c.area < 0.0)
-        return fl_text_fail(&h->table.text, err,
-                            "length and area are %g m and %g m2, not below 0 is expected", c.length, c.area);
+        return fl_text_fail(&h->table.text, err, "length and area are %g m and %g m2, expected not below 0",
+                            c.length, c.area);
     c.force = v3_neg(v3_add(v3_scale(c.normal_force, c.n), v3(x[FSX], x[FSY], x[FSZ])));
     if (fl_grow(&h->event, &h->cap, (int64_t)h->n + 1, sizeof *h->event, err)) return -1;
     h->event[h->n++] = c;
@@ -79,8 +79,7 @@ int fl_contact_events_next(fl_contact_events *h, fl_err *err)
         if (read_contact(h, err)) return -1;
     }
     if (h->times) return open;
-    return fl_fail(err, FL_INPUT, "%s: no row of it is between the times that were asked for",
-                   fl_in_name(h->table.text.in));
+    return fl_fail(err, FL_INPUT, "%s: no row lies between the selected times", fl_in_name(h->table.text.in));
 }
 
 static int compare_rising(const void *a, const void *b)

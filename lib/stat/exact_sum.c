@@ -224,10 +224,10 @@ int fl_exact_read(fl_exact_sum *s, const char *text, fl_err *err)
         for (p += 2; digit_of(p[n]) >= 0; n++) {}
     if (n == 0 || p[0] == '0' || p[n] != 'p' || fl_number_i32(p + n + 1, 64 * LEAST, BITS_MAX, &e) ||
         digit_of(p[n - 1]) % 2 == 0)
-        return fl_fail(err, FL_INPUT, "\"%.40s\" is no exact sum, which is 0xHEXpEXPONENT with HEX odd, or 0",
-                       text);
+        return fl_fail(err, FL_INPUT,
+                       "\"%.40s\" is not an exact sum, expected 0xHEXpEXPONENT with HEX odd, or 0", text);
     if (n > DIGITS_MAX || e + 4 * (int64_t)n > BITS_MAX)
-        return fl_fail(err, FL_INPUT, "the exact sum \"%.20s...\" is larger than any can be", text);
+        return fl_fail(err, FL_INPUT, "the exact sum \"%.20s...\" is out of range", text);
     /* One word of 16 digits at a time, from the lowest. */
     while (n > 0) {
         const size_t k = n < 16 ? n : 16;

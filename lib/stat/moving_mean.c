@@ -22,9 +22,8 @@ int fl_moving_mean(int32_t n, const double *edge, const double *x, double T, dou
     int32_t a = 0, b = 0;
     if (!(T > 0.0) || !(T <= span * (1.0 + SLACK)))
         return fl_fail(err, FL_INPUT,
-                       "a moving mean over %g s, more than 0 and at most the %g s of the record was "
-                       "wanted",
-                       T, span);
+                       "a moving mean over %g s, expected more than 0 and at most the %g s of the record", T,
+                       span);
     double *sum = fl_alloc((int64_t)n + 1, sizeof *sum, err);
     if (!sum) return -1;
     /* Without the mean the integral returns to 0 at the end, and its rounding is that of the deviations. */

@@ -83,10 +83,9 @@ int fl_oscillator_solve(const fl_oscillator *o, int32_t n, const double *edge, c
     double steps = 0.0, before;
     for (int32_t k = 0; k < n; k++) steps += steps_of(o, edge[k + 1] - edge[k], FIRST_STEPS);
     if (!(steps <= FL_OSCILLATOR_MAX_STEPS))
-        return fl_fail(
-            err, FL_INPUT,
-            "an oscillator of %g Hz would take %.3g steps through the record of %g s, %g are the most",
-            o->frequency, steps, edge[n] - edge[0], FL_OSCILLATOR_MAX_STEPS);
+        return fl_fail(err, FL_INPUT,
+                       "an oscillator of %g Hz needs %.3g steps for the record of %g s, expected at most %g",
+                       o->frequency, steps, edge[n] - edge[0], FL_OSCILLATOR_MAX_STEPS);
     fl_oscillator_integrate(o, n, edge, x, FIRST_STEPS, 1, r, at);
     for (int k = 1; k <= FL_OSCILLATOR_MAX_HALVINGS; k++) {
         before = r->largest;

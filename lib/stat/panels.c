@@ -37,11 +37,11 @@ static int read_panel(fl_panels *p, int32_t k, fl_err *err)
     for (int c = X; c < COLUMNS; c++)
         if (fl_table_f64_bounded(&p->table, p->col[c], FL_RECORD_LARGEST_VALUE, &x[c], err)) return -1;
     if (!(x[AREA] > 0.0))
-        return fl_text_fail(&p->table.text, err, "panel %.40s has the area %g m2, above 0 is expected", name,
+        return fl_text_fail(&p->table.text, err, "panel %.40s has the area %g m2, expected above 0", name,
                             x[AREA]);
     if (p->times == 0 && add_panel(p, name, x, err)) return -1;
     if (k == p->n || strcmp(name, p->panel[k].name) != 0)
-        return fl_text_fail(&p->table.text, err, "panel %.40s comes where %.40s is expected", name,
+        return fl_text_fail(&p->table.text, err, "panel %.40s comes here, expected %.40s", name,
                             k < p->n ? p->panel[k].name : "a later time");
     p->panel[k].force = v3(x[FX], x[FY], x[FZ]);
     return 0;

@@ -103,8 +103,8 @@ int fl_power_spectrum_make(fl_power_spectrum *s, int32_t n, const double *x, dou
 {
     *s = (fl_power_spectrum){.taper = taper, .length = length, .fs = fs};
     if (length < FL_SPECTRUM_SHORTEST_SEGMENT || length > n)
-        return fl_fail(err, FL_INPUT, "a segment of %d rows, from %d to all %d of the record are expected",
-                       length, FL_SPECTRUM_SHORTEST_SEGMENT, n);
+        return fl_fail(err, FL_INPUT, "a segment of %d rows, expected %d to all %d of the record", length,
+                       FL_SPECTRUM_SHORTEST_SEGMENT, n);
     s->step = length - length / 2;
     s->segments = 1 + (n - length) / s->step;
     s->n = length / 2 + 1;

@@ -84,7 +84,7 @@ static int add_signal(fl_record_reader *r, const fl_record_selection *selection,
     formula *f = &r->form[r->signals];
     const char *of[3] = {name, NULL, NULL};
     if (r->signals == SIGNAL_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d signals were asked for at once", SIGNAL_MAX);
+        return fl_fail(err, FL_USAGE, "at most %d signals can be selected", SIGNAL_MAX);
     f->n = 1;
     if (fl_table_column(&r->table, name) < 0 && (strcmp(name, "fh") == 0 || strcmp(name, "f") == 0)) {
         f->n = name[1] == 'h' ? 2 : 3;
@@ -124,7 +124,7 @@ static int add_signals(fl_record_reader *r, const fl_record_selection *selection
     if (selection->part && strcmp(selection->part, "total") == 0) {
         for (int32_t k = 0; k < r->signals; k++)
             if (!r->form[k].adds)
-                return fl_fail(err, FL_USAGE, "%s has no total: its sum over the parts means nothing",
+                return fl_fail(err, FL_USAGE, "%s has no total: its sum over the parts is meaningless",
                                r->name[k]);
     }
     return 0;
@@ -284,7 +284,7 @@ static int read_values(fl_record_reader *r, int32_t part, fl_err *err)
     for (int32_t k = 0; p->keep && k < r->raws; k++, sum++) {
         if (fl_table_f64(&r->table, r->col[k], &x, err)) return -1;
         if (fabs(x) > FL_RECORD_LARGEST_VALUE)
-            return fl_text_fail(&r->table.text, err, "%.60s is %g, at most %g was expected",
+            return fl_text_fail(&r->table.text, err, "%.60s is %g, expected at most %g",
                                 r->table.name[r->col[k]], x, FL_RECORD_LARGEST_VALUE);
         combine_value(r->selection.reduction, r->seen == 1, x, sum);
     }
@@ -305,7 +305,7 @@ static int read_row(fl_record_reader *r, fl_err *err)
     int32_t p;
     if (fl_table_f64(&r->table, r->time, &t, err)) return -1;
     if (fabs(t) > FL_RECORD_LARGEST_VALUE)
-        return fl_text_fail(&r->table.text, err, "time %g s is out of reach", t);
+        return fl_text_fail(&r->table.text, err, "time %g s is out of range", t);
     r->pending = r->seen && t != r->now;
     if (r->pending) return 0;
     if (r->seen == 0 && (r->n || r->loads)) {
@@ -347,7 +347,8 @@ static int read_time(fl_record_reader *r, fl_err *err)
                 if (r->seen) return close_time(r, err) ? -1 : 1;
                 if (r->n) return 0;
                 return fl_text_fail(&r->table.text, err, "the %s table ends here without a row%s",
-                                    r->table.text.kind, r->selection.wheres ? " that was asked for" : "");
+                                    r->table.text.kind,
+                                    r->selection.wheres ? " that meets the conditions" : "");
             }
         }
         if (r->pending == 0 && !fl_row_filter_matches(&r->where, &r->table)) continue;
@@ -368,7 +369,7 @@ int fl_record_open(fl_record *r, const char *path, const fl_record_selection *se
     own->selection = *selection;
     int rc = fl_table_open(&own->table, path, NULL, 1, err);
     if (rc == 0 && strcmp(own->table.text.kind, "summary") == 0)
-        rc = fl_fail(err, FL_INPUT, "%s: this is a summary of runs, a record is expected",
+        rc = fl_fail(err, FL_INPUT, "%s: this is a summary of runs, expected a record",
                      fl_in_name(own->table.text.in));
     own->loads = rc == 0 && strcmp(own->table.text.kind, "loads") == 0;
     if (rc == 0) rc = add_signals(own, selection, err);

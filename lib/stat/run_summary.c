@@ -233,11 +233,10 @@ int fl_run_finish(fl_run *r, const char *by, fl_err *err)
 {
     const char *history = fl_record_history(&r->record);
     if (!r->state || r->states == 0)
-        return fl_fail(err, FL_INPUT, "%s: nothing is left by the cut, the record ends at %.10g s",
+        return fl_fail(err, FL_INPUT, "%s: the cut leaves no row, the record ends at %.10g s",
                        fl_record_name(&r->record), r->record.edge[1]);
     if (!(fl_exact_value(&r->sum.entry[r->state[0].at].sum[0]) > 0.0))
-        return fl_fail(err, FL_INPUT,
-                       "%s: its rows last for no time, they lie too close for a number to tell",
+        return fl_fail(err, FL_INPUT, "%s: its rows have no duration, their times are too close together",
                        fl_record_name(&r->record));
     for (int32_t k = 0; k < r->states; k++)
         if (end_signal(r, &r->state[k], err)) return -1;

@@ -79,12 +79,12 @@ static int apply_cut(fl_series *s, const fl_record_selection *selection, const c
     double from = fmax(selection->from, selection->last > 0.0 ? to - selection->last : first);
     if (selection->after_first_load > 0.0)
         from = fmax(from, first_load_time(s) + selection->after_first_load);
-    if (from == INFINITY) return fl_fail(err, FL_INPUT, "%s: every load is 0, nothing ever comes near", name);
+    if (from == INFINITY) return fl_fail(err, FL_INPUT, "%s: every load is 0, there is no first load", name);
     int32_t a = 0, b = s->n;
     while (a < b && s->edge[a] < from - slack) a++;
     while (b > a && s->edge[b] > to + slack) b--;
     if (a == b && from >= to)
-        return fl_fail(err, FL_INPUT, "%s: nothing is left by the cut, the record is from %.10g s to %.10g s",
+        return fl_fail(err, FL_INPUT, "%s: the cut leaves no row, the record is from %.10g s to %.10g s",
                        name, first, end);
     if (a == b)
         return fl_fail(err, FL_INPUT,

@@ -132,7 +132,7 @@ static int read_bounded(reader *r, int column, double *x, fl_err *err)
 {
     if (read_number(r, column, x, err)) return -1;
     if (fabs(*x) <= 1e100) return 0;
-    return fl_text_fail(&r->t.text, err, "%s is %g, at most 1e+100 was expected", COLUMN[column], *x);
+    return fl_text_fail(&r->t.text, err, "%s is %g, expected at most 1e+100", COLUMN[column], *x);
 }
 
 /* Read a whole number of units, at least lo, small enough for a double to be exact. */
@@ -145,7 +145,7 @@ static int read_count(reader *r, double unit, int64_t lo, int64_t *n, fl_err *er
         *n = (int64_t)x;
         return 0;
     }
-    return fl_text_fail(&r->t.text, err, "count is \"%.40s\", a whole number of %s from %g on is expected",
+    return fl_text_fail(&r->t.text, err, "count is \"%.40s\", expected a whole number of %s, at least %g",
                         word_of(r, COUNT), unit < 1.0 ? "halves" : "rows", unit * (double)lo);
 }
 
@@ -164,8 +164,8 @@ static int read_setting(reader *r, fl_err *err)
     int k = 0, rc;
     while (k < 5 && strcmp(word_of(r, ITEM), name[k]) != 0) k++;
     if (k == 5)
-        return fl_text_fail(&r->t.text, err, "no setting is called %.60s, the nearest is %s",
-                            word_of(r, ITEM), fl_text_nearest(word_of(r, ITEM), name, 5));
+        return fl_text_fail(&r->t.text, err, "unknown setting %.60s, the nearest is %s", word_of(r, ITEM),
+                            fl_text_nearest(word_of(r, ITEM), name, 5));
     if (r->settings & 1 << k || r->last)
         return fl_text_fail(&r->t.text, err, "%s is given twice, or below the first signal", name[k]);
     r->settings |= 1 << k;
@@ -204,7 +204,7 @@ static int read_time(reader *r, fl_fixed_time *time, fl_err *err)
         if (fl_number_u64(digits, &time->seconds) == 0 && time->seconds < UINT64_C(1) << 62) return 0;
     }
     return fl_text_fail(&r->t.text, err,
-                        "exact is \"%.40s\", a time SECONDS:PART of 16 hexadecimal digits is expected", text);
+                        "exact is \"%.40s\", expected a time SECONDS:PART of 16 hexadecimal digits", text);
 }
 
 static int read_class(reader *r, fl_log_histogram *c, double unit, int timed, fl_err *err)
@@ -216,7 +216,7 @@ static int read_class(reader *r, fl_log_histogram *c, double unit, int timed, fl
         return -1;
     const int32_t key = fl_log_bin_key(0.5 * from + 0.5 * to);
     if (fl_log_bin_lower(key) != from || fl_log_bin_upper(key) != to)
-        return fl_text_fail(&r->t.text, err, "%.40s to %.40s is no class of %s", word_of(r, FROM),
+        return fl_text_fail(&r->t.text, err, "%.40s to %.40s is not a class of %s", word_of(r, FROM),
                             word_of(r, TO), word_of(r, ITEM));
     if (timed && read_time(r, &time, err)) return -1;
     return fl_log_histogram_add(c, key, n, time, err);
@@ -287,14 +287,15 @@ static int check_signal(const reader *r, fl_err *err)
     const fl_text *t = &r->t.text;
     if (!s) return 0;
     if (r->items != ITEMS)
-        return fl_text_fail(
-            t, err, "%.60s of %.60s is not complete: time, sum1 to sum4, min, max and peaks are expected",
-            s->signal, s->part);
+        return fl_text_fail(t, err,
+                            "%.60s of %.60s is not complete, expected time, sum1 to sum4, min, max and peaks",
+                            s->signal, s->part);
     if (!(s->from < s->to) || !(fl_exact_value(&s->sum[0]) > 0.0) || !(s->min <= s->max))
         return fl_text_fail(t, err, "%.60s of %.60s has no extent: from %g to %g s, from %g to %g", s->signal,
                             s->part, s->from, s->to, s->min, s->max);
     if (count_values(&s->level) != s->rows || count_values(&s->peak) != s->peaks)
-        return fl_text_fail(t, err, "%.60s of %.60s has %lld rows and %lld peaks, its classes hold others",
+        return fl_text_fail(t, err,
+                            "%.60s of %.60s has %lld rows and %lld peaks, its classes hold other numbers",
                             s->signal, s->part, (long long)s->rows, (long long)s->peaks);
     for (int k = 0; k < FL_RUN_VALUES; k++) {
         const int64_t n = fl_multiset_size(&s->run[k]), runs = fl_multiset_size(&s->run[0]);
@@ -311,7 +312,7 @@ static int read_row(reader *r, fl_err *err)
     if (strcmp(part, "-") == 0 && strcmp(signal, "-") == 0) return read_setting(r, err);
     if (r->settings != SETTINGS)
         return fl_text_fail(&r->t.text, err,
-                            "separation, threshold, block_length, rule and residue are expected first");
+                            "expected separation, threshold, block_length, rule and residue first");
     if (!r->last || strcmp(r->last->part, part) != 0 || strcmp(r->last->signal, signal) != 0) {
         const int32_t before = r->s.n;
         if (check_signal(r, err)) return -1;
@@ -319,8 +320,7 @@ static int read_row(reader *r, fl_err *err)
                                         fl_in_name(r->t.text.in), err);
         if (!r->last) return -1;
         if (r->s.n == before)
-            return fl_text_fail(&r->t.text, err, "rows of %.60s of %.60s do not stand together", signal,
-                                part);
+            return fl_text_fail(&r->t.text, err, "rows of %.60s of %.60s are not contiguous", signal, part);
         r->items = 0;
     }
     return read_item(r, r->last, err);

@@ -49,8 +49,8 @@ int fl_resample_uniform(fl_series *s, double step, fl_resampling_loss *loss, fl_
     const double first = s->edge[0], span = s->edge[s->n] - first, steps = floor(span / step * (1.0 + SLACK));
     const int64_t pairs = (int64_t)s->parts * s->signals;
     if (!(steps >= 1.0) || steps > ROWS_MAX)
-        return fl_fail(err, FL_INPUT, "steps of %g s in a record of %g s: 1 to %d steps are expected", step,
-                       span, ROWS_MAX);
+        return fl_fail(err, FL_INPUT, "steps of %g s in a record of %g s, expected 1 to %d steps", step, span,
+                       ROWS_MAX);
     const int32_t m = (int32_t)steps;
     double *edge = fl_alloc((int64_t)s->n + 1, sizeof *edge, err);
     double *even = edge ? fl_alloc((int64_t)m + 1, sizeof *even, err) : NULL;

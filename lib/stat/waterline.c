@@ -57,7 +57,7 @@ int fl_waterline_make(fl_waterline *w, const char *text, fl_err *err)
                     : colon                                   ? -1
                                                               : make_polyline(w, text);
     if (!bad) return 0;
-    return fl_fail(err, FL_USAGE, "\"%.80s\" is no waterline, circle:X,Y,R or X,Y:X,Y:... is expected", text);
+    return fl_fail(err, FL_USAGE, "\"%.80s\" is not a waterline, expected circle:X,Y,R or X,Y:X,Y:...", text);
 }
 
 double fl_waterline_nearest(const fl_waterline *w, double x, double y)

@@ -111,7 +111,7 @@ static void bad_panels_are_refused(void **state)
         "0 a 0 0 0 1 1 0 0\n"};
     static const char *const said[] = {"has no rows",
                                        "above 0 is expected",
-                                       "panel b comes where a is expected",
+                                       "panel b comes here, expected a",
                                        "panel b has no row at 2 s",
                                        "where a later time is expected",
                                        "time 0 s does not follow 0 s"};

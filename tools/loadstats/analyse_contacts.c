@@ -16,11 +16,11 @@ static void print_fits(const load_map *p, const struct options *o)
         double c, e;
         fit_pressure_area(p, &p->part[k], &c, &e);
         if (isfinite(c))
-            fprintf(stderr,
-                    "loadstats: part %d: the largest pressures are near to %.3g MPa A^%.2f, A in m2\n",
+            fprintf(stderr, "loadstats: part %d: the largest pressures fit %.3g MPa A^%.2f, A in m2\n",
                     p->part[k].part, 1e-6 * c, -e);
     }
-    if (p->parts == 0) fputs("loadstats: no contact of the structure has that, the table is empty\n", stderr);
+    if (p->parts == 0)
+        fputs("loadstats: no contact of the structure is selected, the table is empty\n", stderr);
 }
 
 static void write_intro(FILE *f, const void *what)
@@ -28,7 +28,7 @@ static void write_intro(FILE *f, const void *what)
     const load_map *p = what;
     fputs(p->o->table->report.note, f);
     if (p->across || p->parts)
-        fputs(" From contacts at single times; what was between them was not seen.", f);
+        fputs(" From contacts at single times; contacts between them are not recorded.", f);
 }
 
 static int write_table(FILE *f, const void *what, const struct options *o, fl_err *err)
@@ -63,7 +63,7 @@ int analyse_contacts(const struct options *o, fl_err *err)
     rc = 0;
     if (o->report) {
         const report_source from = {.what = &p,
-                                    .title = "Where the ice presses",
+                                    .title = "Ice loads by location",
                                     .alone = 1,
                                     .history = p.history,
                                     .intro = write_intro,

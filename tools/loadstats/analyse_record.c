@@ -57,7 +57,7 @@ static void print_notes(const fl_series *s, const struct options *o)
     if (o->verbose)
         fprintf(stderr, "loadstats: %d rows from %.10g s to %.10g s\n", s->n, s->edge[0], s->edge[s->n]);
     if (o->skips)
-        fprintf(stderr, "loadstats: left out until %.10g s, by when the ice front has passed %g diameters\n",
+        fprintf(stderr, "loadstats: dropped until %.10g s, when the ice front has passed %g diameters\n",
                 s->edge[0], o->skip[0]);
     if (o->filter > 0.0 && o->filter_kind != FL_FILTER_MEAN &&
         fl_resample_common_interval(s->n, s->edge) <= 0.0)
@@ -75,19 +75,19 @@ static void write_intro(FILE *f, const void *what)
     double share = 0.0;
     fprintf(f, "%d rows of the %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
     if (strcmp(s->kind, "loads") == 0)
-        fputs(" A row is the mean over its interval; every mean is the impulse over the time.", f);
+        fputs(" A row is the mean over its interval; every mean is the impulse divided by the time.", f);
     for (int64_t k = 0; r->loss && k < (int64_t)s->parts * s->signals; k++) {
         const fl_signal_view *v = &r->views[k * r->view_count];
         if (v->n && v->stats.std > 0.0)
             share = fmax(share, r->loss[k].rms / hypot(r->loss[k].rms, v->stats.std));
     }
     if (r->loss)
-        fprintf(f,
-                " The record was brought to equal steps, which takes up to %.3g %% of a standard deviation "
-                "from it.",
-                100.0 * share);
+        fprintf(
+            f,
+            " The record was resampled to equal steps, which removes up to %.3g %% of a standard deviation.",
+            100.0 * share);
     if (r->view_count > 1)
-        fputs(" The filtered view stands beside the raw one, for a filter hides spikes.", f);
+        fputs(" The raw view is shown beside the filtered one, because a filter hides spikes.", f);
 }
 
 /* The loss of --step stands above the column names. */

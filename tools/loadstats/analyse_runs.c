@@ -143,8 +143,7 @@ static void write_intro(FILE *f, const void *what)
     const fl_summary_signal *s = &runs->all.entry[0];
     fprintf(f,
             "%d runs of %lld rows and %.6g s in all, from %.6g s to %.6g s of a run. Every mean is the "
-            "impulse over "
-            "the time; what runs differ by is told with the estimates.",
+            "impulse divided by the time; the intervals of the estimates show the scatter between runs.",
             runs->e.runs, (long long)s->rows, fl_exact_value(&s->sum[0]), s->from, s->to);
 }
 

@@ -19,8 +19,7 @@ static const double REACH = 4.0;
 
 static const char STYLE[] =
     "body { font: 15px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 66rem; margin: 2.5rem auto; "
-    "padding: 0 "
-    "1.5rem; }\n"
+    "padding: 0 1.5rem; }\n"
     "h1 { font-size: 1.6rem; margin: 0 0 .3rem; }\n"
     "h2 { font-size: 1.15rem; margin: 2.4rem 0 .6rem; }\n"
     "p { max-width: 46rem; }\n"
@@ -187,11 +186,12 @@ static void write_likelihood_fits(FILE *f, const sheet *s)
         laws += fl_number_f64(word, &x) == 0;
     }
     if (laws == 0) {
-        fputs("<p>There are too few values to fit a law to.</p>\n", f);
+        fputs("<p>There are too few values to fit a distribution.</p>\n", f);
         return;
     }
-    fputs("<p>By maximum likelihood; of each sample the law with the smallest AIC is in bold type. ks_p and "
-          "ad_p tell how often a sample of the law itself lies as far from its fit.</p>\n<div><table>\n",
+    fputs("<p>By maximum likelihood; the distribution with the smallest AIC of each sample is in bold type. "
+          "ks_p and ad_p are the probabilities that a sample of the distribution itself lies as far from its "
+          "fit.</p>\n<div><table>\n",
           f);
     write_column_names(f, s);
     for (int32_t from = 1, to; from < s->rows; from = to) {
@@ -266,7 +266,7 @@ static void write_extrapolation(FILE *f, double span, const struct options *o)
     if (most > REACH * span)
         fprintf(f,
                 "<p>The record lasts for %.6g s. A return period of more than %g times that, here up to %.3g "
-                "times, rests on the law alone and not on what was seen.</p>\n",
+                "times, is an extrapolation of the fitted distribution.</p>\n",
                 span, REACH, most / span);
 }
 
@@ -404,11 +404,10 @@ static int is_standard(const struct table *t, const report_source *from, const s
 
 static void write_end(FILE *f, const report_source *from, const fl_history_line *by)
 {
-    fputs(
-        "<h2>How to make it again</h2>\n<p>The programs in the order in which they ran, with what they were "
-        "asked; the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
-        "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
-        f);
+    fputs("<h2>How to reproduce it</h2>\n<p>The programs in the order in which they ran, with their options; "
+          "the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
+          "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
+          f);
     if (from->history) write_text(f, from->history);
     write_text(f, by->text);
     fputs("\n</pre>\n</body>\n</html>\n", f);

@@ -139,7 +139,7 @@ static int read_panels(load_map *p, fl_err *err)
     }
     if (more < 0) goto done;
     if (!(p->weight > 0.0)) {
-        fl_fail(err, FL_INPUT, "%s: no interval of it is between the times that were selectioned for",
+        fl_fail(err, FL_INPUT, "%s: no interval lies between the selected times",
                 fl_in_name(r.table.text.in));
         goto done;
     }

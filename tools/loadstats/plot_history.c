@@ -185,9 +185,7 @@ static void write_exceedance_panel(picture *p, int k, int32_t s)
     const plot_scale c = plot_scale_of_signal(p, s);
     plot_set_margins(p, k, 0.58, 0.97);
     plot_left_title(p, "Probability of exceedance", 0.508);
-    fputs("set xtics autofreq\nset logscale y\nset yrange [*:1]\nset ytics "
-          "autofreq\nset "
-          "format y '%g'\n",
+    fputs("set xtics autofreq\nset logscale y\nset yrange [*:1]\nset ytics autofreq\nset format y '%g'\n",
           p->script);
     for (int w = 0; w < p->r->view_count; w++) {
         if (!find_view(p->r, p->part, s, w)->peaks.n) continue;

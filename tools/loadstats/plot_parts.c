@@ -46,8 +46,7 @@ static void write_panel(FILE *f, const struct record_views *r, int32_t s, int in
     fputs("plot data index block using ($0-0.24):(factor*$3):(0.22) with boxes ls 1 title 'mean', \\\n"
           "     '' index block using 0:(factor*$4):(0.22):xtic(1) with boxes ls 2 title 'third of the "
           "peaks', \\\n"
-          "     '' index block using ($0+0.24):(factor*$5):(0.22) with boxes ls 3 title 'extremes', "
-          "\\\n"
+          "     '' index block using ($0+0.24):(factor*$5):(0.22) with boxes ls 3 title 'extremes', \\\n"
           "     '' index block using ($0+0.24):(factor*$6):(0.22) with boxes ls 3 notitle, \\\n"
           "     '' index block using 0:(factor*$7) with points ls 4 title 'at largest total'\n",
           f);
@@ -60,14 +59,13 @@ static void write_script(FILE *f, const struct record_views *r, const struct opt
     const int png = strcmp(o->format, "png") == 0, height = HEAD + panels * PANEL;
     int index = 0;
     plot_open(f, "legs", o->format, 1000, height);
-    fputs(
-        "set style line 1 lc rgb '#9ecae1'\nset style line 2 lc rgb '#4292c6'\nset style line 3 lc rgb "
-        "'#08519c'\nset style line 4 lc rgb '#c8642d' pt 7 ps 0.9\nset style fill solid 1.0 noborder\n"
-        "set border 3 lc rgb '#444444' lw 1\nset tics nomirror out scale 0.6 textcolor rgb '#222222'\nset "
-        "datafile separator '\\t'\nset datafile missing '-'\nset multiplot\nset lmargin at screen 0.095\n"
-        "set rmargin at screen 0.97\nset xtics scale 0\nset xzeroaxis lc rgb '#444444' lw 1\nset grid ytics "
-        "back lc rgb '#dddddd' lw 0.8\n",
-        f);
+    fputs("set style line 1 lc rgb '#9ecae1'\nset style line 2 lc rgb '#4292c6'\nset style line 3 lc rgb "
+          "'#08519c'\nset style line 4 lc rgb '#c8642d' pt 7 ps 0.9\nset style fill solid 1.0 noborder\n"
+          "set border 3 lc rgb '#444444' lw 1\nset tics nomirror out scale 0.6 textcolor rgb '#222222'\nset "
+          "datafile separator '\\t'\nset datafile missing '-'\nset multiplot\nset lmargin at screen 0.095\n"
+          "set rmargin at screen 0.97\nset xtics scale 0\nset xzeroaxis lc rgb '#444444' lw 1\nset grid "
+          "ytics back lc rgb '#dddddd' lw 0.8\n",
+          f);
     fprintf(f, "set label 1 'Parts side by side' at screen 0.095, screen %.4f left font ',%d'\n",
             1.0 - 24.0 / height, png ? 14 : 18);
     fprintf(f,

@@ -85,11 +85,10 @@ static int write_matrix_panel(picture *p, int k, int32_t s, const count *n, fl_e
     fputs("set label 4 'cycles' at graph 1.05, graph 1.09 center\n", f);
     fputs("set colorbox user origin graph 1.03, graph 0 size graph 0.035, graph 1\n", f);
     plot_curve(p);
-    fprintf(
-        f,
-        "using ($4*%g):($5*%g):($6*%g):($7*%g):($8*%g):($9*%g):10 with boxxyerror fill solid 1.0 noborder "
-        "lc palette notitle",
-        c.factor, c.factor, c.factor, c.factor, c.factor, c.factor);
+    fprintf(f,
+            "using ($4*%g):($5*%g):($6*%g):($7*%g):($8*%g):($9*%g):10 with boxxyerror fill solid 1.0 "
+            "noborder lc palette notitle",
+            c.factor, c.factor, c.factor, c.factor, c.factor, c.factor);
     plot_block(p);
     for (int32_t i = 0; i < m.cells; i++) {
         const double x0 = fl_rainflow_matrix_mean(&m, m.cell[i].mean),

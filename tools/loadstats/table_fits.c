@@ -159,7 +159,7 @@ static void warn_few(const struct record_views *r, const struct options *o, int3
                      int w, const extreme_sample *c)
 {
     if (!o->quiet && c->n < FEW)
-        fprintf(stderr, "loadstats: %s %s %s: laws are fitted to %d value(s), %d or more are expected\n",
+        fprintf(stderr, "loadstats: %s %s %s: fitted to %d value(s), expected %d or more\n",
                 r->series->part[part], r->series->signal[signal], view_name(w), c->n, FEW);
 }
 
@@ -167,11 +167,10 @@ static void warn_extrapolation(const struct options *o, double span)
 {
     for (int32_t k = 0; !o->quiet && k < o->returns; k++)
         if (o->period[k] > REACH * span)
-            fprintf(
-                stderr,
-                "loadstats: a return period of %.6g s is %.3g times the record of %.6g s, beyond %g times "
-                "it rests on the law alone\n",
-                o->period[k], o->period[k] / span, span, REACH);
+            fprintf(stderr,
+                    "loadstats: a return period of %.6g s is %.3g times the record of %.6g s, beyond %g "
+                    "times it is an extrapolation\n",
+                    o->period[k], o->period[k] / span, span, REACH);
 }
 
 int fits_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,

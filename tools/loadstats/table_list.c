@@ -44,35 +44,32 @@ static const struct table TABLES[] = {
      .view_rows = fits_rows,
      .run_rows = fits_of_runs,
      .report = {.position = 4,
-                .heading = "Laws of the peaks",
-                .heading_of_runs = "Laws of the largest values",
+                .heading = "Distributions of the peaks",
+                .heading_of_runs = "Distributions of the largest values",
                 .layout = LAYOUT_FITS}},
     {.name = "levels",
      .uses = USES_SAMPLE | USES_RETURNS,
      .needs = NEEDS_RETURNS,
-     .columns =
-         LABELS "\tsample\tn\tlaw\tT[s]\tlevel\tprofile_low\tprofile_high\tbootstrap_low\tbootstrap_high"
-                "\trecords",
+     .columns = LABELS
+     "\tsample\tn\tlaw\tT[s]\tlevel\tprofile_low\tprofile_high\tbootstrap_low\tbootstrap_high\trecords",
      .view_rows = levels_rows,
      .run_rows = fits_of_runs,
      .picture = &levels_picture,
      .report = {.position = 5, .heading = "Return levels"}},
     {.name = "legs",
      .uses = USES_LEVEL,
-     .columns =
-         LABELS "\tmean\tstd\tmin\tmax\tt_max[s]\tpeak_third\tpeak_tenth\timpulse\tabove[s]\tpeaks\trise[s]"
-                "\tduration[s]\tmean_ratio\tmax_ratio\tat_total\tsimultaneity",
+     .columns = LABELS "\tmean\tstd\tmin\tmax\tt_max[s]\tpeak_third\tpeak_tenth\timpulse\tabove[s]"
+                       "\tpeaks\trise[s]\tduration[s]\tmean_ratio\tmax_ratio\tat_total\tsimultaneity",
      .view_rows = legs_rows,
      .by_signal = 1,
      .picture = &parts_picture,
      .report = {.position = 2,
                 .needs = NEEDS_PARTS,
                 .heading = "Parts side by side",
-                .note =
-                    "Ratios are those to the part that carries most. at_total is the value at the moment "
-                    "the total is largest, simultaneity that over the own largest value; of the total, its "
-                    "largest value over the sum of those of the parts. Rise and duration are means over the "
-                    "peaks."}},
+                .note = "Ratios are relative to the part with the largest load. at_total is the value at the "
+                        "moment the total is largest, simultaneity its ratio to the largest value of the "
+                        "part; for the total, the ratio of its largest value to the sum of those of the "
+                        "parts. Rise and duration are means over the peaks."}},
     {.name = "events",
      .uses = USES_LEVEL,
      .columns = LABELS "\tt[s]\tpeak\tfrom[s]\tto[s]\trise[s]\tfall[s]\tduration[s]\timpulse",
@@ -88,11 +85,10 @@ static const struct table TABLES[] = {
      .signal_rows = damage_rows,
      .run_rows = damage_of_runs,
      .picture = &rainflow_picture,
-     .report =
-         {.position = 7,
-          .heading = "Fatigue",
-          .note = "Cycles by the rule that is named, with their residue; the equivalent range does the same "
-                  "damage as all of them with as many."}},
+     .report = {.position = 7,
+                .heading = "Fatigue",
+                .note = "Cycles by the named rule, with their residue; the equivalent range does the same "
+                        "damage with the same number of cycles."}},
     {.name = "spectrum",
      .uses = USES_SEGMENT,
      .columns = LABELS "\twindow\tsegment[s]\tsegments\tf[Hz]\tpsd[unit^2/Hz]\tpsd_low\tpsd_high",
@@ -101,33 +97,30 @@ static const struct table TABLES[] = {
      .report = {.needs = NEEDS_SEGMENT}},
     {.name = "frequency",
      .uses = USES_SEGMENT | USES_SPEED,
-     .columns = LABELS "\twindow\tsegment[s]\tsegments\tdf[Hz]\tenbw[Hz]\tdof\tvariance\tpower\tf[Hz]"
-                       "\tpsd[unit^2/Hz]\tshare\tcrossings[Hz]\tlength[m]",
+     .columns = LABELS "\twindow\tsegment[s]\tsegments\tdf[Hz]\tenbw[Hz]\tdof\tvariance\tpower\tf[Hz]\tpsd["
+                       "unit^2/Hz]\tshare\tcrossings[Hz]\tlength[m]",
      .view_rows = frequency_rows,
      .picture = &spectrum_picture,
-     .report =
-         {.position = 6,
-          .needs = NEEDS_SEGMENT,
-          .heading = "Frequencies",
-          .note =
-              "Of Welch's spectrum: share is the part of the variance within two steps df of the dominant "
-              "frequency f; where it is small, no frequency dominates.",
-          .layout = LAYOUT_TRANSPOSED}},
+     .report = {.position = 6,
+                .needs = NEEDS_SEGMENT,
+                .heading = "Frequencies",
+                .note = "From Welch's spectrum: share is the fraction of the variance within two steps df of "
+                        "the dominant frequency f; where it is small, no frequency dominates.",
+                .layout = LAYOUT_TRANSPOSED}},
     {.name = "response",
      .uses = USES_OSCILLATOR | USES_SEGMENT,
      .needs = NEEDS_OSCILLATOR,
-     .columns =
-         LABELS "\tfn[Hz]\tdamping\tstiffness[unit/m]\tstatic\tdynamic\tamplification\tt_max[s]\tstd_ratio"
-                "\tx_static[m]\tx_max[m]\ta_max[m/s^2]\tf[Hz]\tshare\tlock_in\tstep[s]\terror",
+     .columns = LABELS "\tfn[Hz]\tdamping\tstiffness[unit/"
+                       "m]\tstatic\tdynamic\tamplification\tt_max[s]\tstd_ratio\tx_static[m]\tx_max[m]\ta_"
+                       "max[m/s^2]\tf[Hz]\tshare\tlock_in\tstep[s]\terror",
      .view_rows = response_rows,
      .picture = &response_picture,
-     .report =
-         {.position = 8,
-          .needs = NEEDS_RECORD,
-          .heading = "Response of an oscillator",
-          .note = "Lock-in is flagged where the dominant frequency of the load is within 10 % of the natural "
-                  "one.",
-          .layout = LAYOUT_TRANSPOSED}},
+     .report = {.position = 8,
+                .needs = NEEDS_RECORD,
+                .heading = "Response of an oscillator",
+                .note = "Lock-in is flagged where the dominant frequency of the load is within 10 % of the "
+                        "natural one.",
+                .layout = LAYOUT_TRANSPOSED}},
     {.name = "motion",
      .uses = USES_OSCILLATOR,
      .needs = NEEDS_OSCILLATOR,
@@ -137,15 +130,12 @@ static const struct table TABLES[] = {
     {.name = "pressure-area",
      .source = FROM_CONTACTS,
      .uses = USES_AREAS,
-     .columns =
-         "part\tarea[m2]\tp_max[Pa]\tp_mean[Pa]\tF_max[N]\tt_max[s]\tx[m]\ty[m]\tz[m]\tcontacts\tfit[Pa]"
-         "\tiso_19906[Pa]",
+     .columns = "part\tarea[m2]\tp_max[Pa]\tp_mean[Pa]\tF_max[N]\tt_max[s]\tx[m]\ty[m]\tz[m]\tcontacts\tfit["
+                "Pa]\tiso_19906[Pa]",
      .contact_rows = pressure_rows,
      .contact_picture = &pressure_picture,
-     .report =
-         {.note =
-              "The largest force on a round window of given area, wherever it lies on the structure, over "
-              "that area."}},
+     .report = {.note = "The largest force on a circular window of given area anywhere on the structure, "
+                        "divided by the area."}},
     {.name = "line-load",
      .source = FROM_CONTACTS,
      .uses = USES_WATERLINE,
@@ -153,9 +143,7 @@ static const struct table TABLES[] = {
      .columns = "from[m]\tto[m]\tx[m]\ty[m]\tq_mean[N/m]\tq_max[N/m]\tt_max[s]\tloaded",
      .contact_rows = line_rows,
      .contact_picture = &line_picture,
-     .report =
-         {.note =
-              "The load along the waterline: what presses inward, level, over the length of each piece."}},
+     .report = {.note = "The load along the waterline: horizontal inward force per length of each section."}},
     {.name = "map",
      .source = FROM_CONTACTS,
      .uses = USES_WATERLINE | USES_HEIGHTS,
@@ -163,7 +151,7 @@ static const struct table TABLES[] = {
                 "\tt_max[s]\tloaded",
      .contact_rows = map_rows,
      .contact_picture = &map_picture,
-     .report = {.note = "The load on panels: what presses on each, over its area."}},
+     .report = {.note = "The load on panels: force on each panel divided by its area."}},
     {.name = "summary", .source = FROM_RUNS}, /* summary_file.h writes it */
     {.name = "ensemble",
      .source = FROM_RUNS,
@@ -173,13 +161,12 @@ static const struct table TABLES[] = {
      .run_rows = ensemble_rows,
      .per_run = 1,
      .draw_runs = plot_ensemble,
-     .report =
-         {.position = 3,
-          .needs = NEEDS_RUNS,
-          .heading = "How sure they are",
-          .note = "Of the first n runs: mean of their means and mean of their largest values, each with its "
-                  "95 % interval, skewness included, and the deviation between runs.",
-          .layout = LAYOUT_RUNS}},
+     .report = {.position = 3,
+                .needs = NEEDS_RUNS,
+                .heading = "Confidence of the estimates",
+                .note = "The first n runs: mean of their means and mean of their largest values, each with "
+                        "its 95 % interval, corrected for skewness, and the standard deviation between runs.",
+                .layout = LAYOUT_RUNS}},
     {.name = "cycles",
      .source = FROM_RUNS,
      .uses = USES_RULE,

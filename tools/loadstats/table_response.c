@@ -84,9 +84,8 @@ static void warn_long_rows(const struct record_views *r, const struct options *o
     for (int32_t k = 0; !o->quiet && k < o->oscillators; k++)
         if (longest * o->oscillator[k].o.frequency * ROWS > 1.0 + 1e-9)
             fprintf(stderr,
-                    "loadstats: rows of %.4g s are long for an oscillator of %.6g Hz, %g or more to a period "
-                    "were "
-                    "wanted\n",
+                    "loadstats: rows of %.4g s are long for an oscillator of %.6g Hz, expected %g or more "
+                    "per period\n",
                     longest, o->oscillator[k].o.frequency, ROWS);
 }
 

@@ -12,13 +12,13 @@ int ensemble_add(ensemble *e, const fl_summary *all, const fl_summary *one, cons
 {
     if (e->runs == 0) e->signals = one->n;
     if (one->n != e->signals || all->n != e->signals)
-        return fl_fail(err, FL_INPUT, "%s: its parts and signals are not those of the runs before", name);
+        return fl_fail(err, FL_INPUT, "%s: its parts and signals differ from those of the runs before", name);
     if (fl_grow(&e->x, &e->cap, 2 * ((int64_t)e->runs + 1) * e->signals, sizeof *e->x, err)) return -1;
     double *x = e->x + 2 * (int64_t)e->runs * e->signals;
     for (int32_t k = 0; k < e->signals; k++) {
         const fl_summary_signal *s = &one->entry[k];
         if (fl_multiset_size(&s->run[FL_RUN_MEAN]) != 1)
-            return fl_fail(err, FL_INPUT, "%s: a summary of several runs, which cannot be told apart", name);
+            return fl_fail(err, FL_INPUT, "%s: a summary of several runs, expected one run per file", name);
         *x++ = s->run[FL_RUN_MEAN].v[0].x;
         *x++ = s->run[FL_RUN_MAX].v[0].x;
     }
@@ -140,7 +140,7 @@ int fits_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struc
     own.sample = of_runs ? SAMPLE_RUNS : SAMPLE_BLOCKS;
     own.block = of_runs ? fl_exact_value(&s->sum[0]) / (double)n : all->settings.block;
     if (n < 1 || n > INT32_MAX / 4)
-        return fl_fail(err, FL_INPUT, "%s of %s has %lld maxima of blocks, some are expected", s->signal,
+        return fl_fail(err, FL_INPUT, "%s of %s has %lld maxima of blocks, expected at least 1", s->signal,
                        s->part, (long long)n);
     double *x = fl_alloc(2 * n + 1, sizeof *x, err), *edge = x + n;
     if (!x) return -1;
