@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* history_line.h -- the history line of a table: the options that differ from their defaults, in a fixed order. */
+/* history_line.h -- the history line of a table: the options that differ from their defaults, in a fixed
+ * order. */
 #ifndef LOADSTATS_HISTORY_LINE_H
 #define LOADSTATS_HISTORY_LINE_H
 #include "base/tool.h"

@@ -25,9 +25,9 @@ typedef struct {
 } report_source;
 
 /* Write o->report: the tables that have a position in the report and whose needs are met (table_kind.h), the
- * table of --table where it is another, the pictures as inline SVG, and the "#by" lines that reproduce all of it.
- * Numbers are rounded to six digits.  The pictures are drawn in a folder of TMPDIR that is removed again.  0, or
- * -1 with the errors of the functions above or FL_SYSTEM in err. */
+ * table of --table where it is another, the pictures as inline SVG, and the "#by" lines that reproduce all
+ * of it. Numbers are rounded to six digits.  The pictures are drawn in a folder of TMPDIR that is removed
+ * again.  0, or -1 with the errors of the functions above or FL_SYSTEM in err. */
 int html_report_write(const report_source *from, const struct options *o, fl_err *err);
 
 #endif

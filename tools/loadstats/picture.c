@@ -63,7 +63,8 @@ void plot_signal_label(const picture *p, int32_t s, char *label, size_t size)
     plot_axis_label(label, size, p->r->series->signal[s], p->r->series->unit[s], largest_of(p, s));
 }
 
-/* gnuplot places the title of a vertical axis beside its longest number; a label at a fixed x aligns the titles. */
+/* gnuplot places the title of a vertical axis beside its longest number; a label at a fixed x aligns the
+ * titles. */
 void plot_left_title(const picture *p, const char *text, double x)
 {
     fputs("set label 2 ", p->script);
@@ -71,7 +72,8 @@ void plot_left_title(const picture *p, const char *text, double x)
     fprintf(p->script, " at screen %.4f, graph 0.5 center rotate\n", x);
 }
 
-/* A part may have any name.  Other characters become _, and the number of the part then distinguishes the file. */
+/* A part may have any name.  Other characters become _, and the number of the part then distinguishes the
+ * file. */
 static void make_stem(picture *p)
 {
     const char *name = p->r->series->part[p->part];

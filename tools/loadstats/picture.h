@@ -10,8 +10,8 @@
 
 enum { PLOT_STEM_LEN = 80, PLOT_FOOT = 70 };
 
-/* A factor and the prefix of the unit: newtons and pascals in thousands or millions, so that the axis of values up
- * to magnitude `large` has short numbers. */
+/* A factor and the prefix of the unit: newtons and pascals in thousands or millions, so that the axis of
+ * values up to magnitude `large` has short numbers. */
 typedef struct {
     double factor;
     const char *prefix;
@@ -62,8 +62,8 @@ struct picture_kind {
                           fl_err *err);
 };
 
-/* Make the picture plan->name: open data and script, let fill() write into both, run gnuplot.  0, or -1 with the
- * errors of fill() or FL_SYSTEM in err. */
+/* Make the picture plan->name: open data and script, let fill() write into both, run gnuplot.  0, or -1 with
+ * the errors of fill() or FL_SYSTEM in err. */
 int make_picture(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *err);
 
 /* The first lines of the script, when the number of panels is known; the part is added to the heading. */
@@ -73,8 +73,8 @@ void plot_start(const picture *p, const char *heading);
 void plot_set_margins(picture *p, int k, double left, double right);
 void plot_end_panel(const picture *p);
 
-/* "plot data index K " for the next curve of the panel.  The caller adds its columns, and its data as a block that
- * begins with plot_block(). */
+/* "plot data index K " for the next curve of the panel.  The caller adds its columns, and its data as a
+ * block that begins with plot_block(). */
 void plot_curve(picture *p);
 void plot_block(picture *p);
 

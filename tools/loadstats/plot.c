@@ -18,8 +18,8 @@ static unsigned available(const struct record_views *r, const struct options *o)
            (r->series->n >= FL_SPECTRUM_SHORTEST_SEGMENT ? NEEDS_SEGMENT : 0u);
 }
 
-/* True if the picture of kind k is drawn: that of the table, and in a report those of all kinds whose needs are
- * met.  Kinds that share a picture draw it once. */
+/* True if the picture of kind k is drawn: that of the table, and in a report those of all kinds whose needs
+ * are met.  Kinds that share a picture draw it once. */
 static int is_drawn(int k, const struct record_views *r, const struct options *o)
 {
     const struct table *t = table_at(k);

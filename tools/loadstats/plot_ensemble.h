@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* plot_ensemble.h -- pictures of an ensemble: mean and largest value with intervals, against the number of runs. */
+/* plot_ensemble.h -- pictures of an ensemble: mean and largest value with intervals, against the number of
+ * runs. */
 #ifndef LOADSTATS_PLOT_ENSEMBLE_H
 #define LOADSTATS_PLOT_ENSEMBLE_H
 #include "base/tool.h"

@@ -19,7 +19,8 @@ static void write_history_row(const picture *p, int32_t s, int w, double t, doub
     plot_columns(p, 2, (double[]){t, x});
 }
 
-/* A row of a loads table is the mean of an interval: drawn as a step in a short record, else at its middle. */
+/* A row of a loads table is the mean of an interval: drawn as a step in a short record, else at its
+ * middle. */
 static void write_history_block(picture *p, int32_t s, int w)
 {
     const fl_signal_view *v = find_view(p->r, p->part, s, w);

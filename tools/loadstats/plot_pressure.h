@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* plot_pressure.h -- pictures of loads by place: pressure against area, load along the waterline, map of panels. */
+/* plot_pressure.h -- pictures of loads by place: pressure against area, load along the waterline, map of
+ * panels. */
 #ifndef LOADSTATS_PLOT_PRESSURE_H
 #define LOADSTATS_PLOT_PRESSURE_H
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* plot_response.h -- the picture response: response of oscillators against time, or amplification against frequency. */
+/* plot_response.h -- the picture response: response of oscillators against time, or amplification against
+ * frequency. */
 #ifndef LOADSTATS_PLOT_RESPONSE_H
 #define LOADSTATS_PLOT_RESPONSE_H
 #include "picture.h"

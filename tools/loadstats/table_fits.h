@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table_fits.h -- rows of the tables fits and levels: distributions of the extremes of a view, return levels. */
+/* table_fits.h -- rows of the tables fits and levels: distributions of the extremes of a view, return
+ * levels. */
 #ifndef LOADSTATS_TABLE_FITS_H
 #define LOADSTATS_TABLE_FITS_H
 #include "cell.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* table_kind.h -- a kind of table: its columns, its rows, its picture, its needs and its place in the report.
  *
- * table_list.c holds one entry for each kind.  Options, history line, pictures and report read the entry, so a
- * new table is its rows and one entry. */
+ * table_list.c holds one entry for each kind.  Options, history line, pictures and report read the entry, so
+ * a new table is its rows and one entry. */
 #ifndef LOADSTATS_TABLE_KIND_H
 #define LOADSTATS_TABLE_KIND_H
 #include "base/err.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table_parts.h -- rows of the tables legs and events: parts of a structure side by side, and loading events. */
+/* table_parts.h -- rows of the tables legs and events: parts of a structure side by side, and loading
+ * events. */
 #ifndef LOADSTATS_TABLE_PARTS_H
 #define LOADSTATS_TABLE_PARTS_H
 #include "cell.h"

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table_rainflow.h -- rows of the tables rainflow and damage: load cycles by range and mean, and their fatigue
- * damage. */
+/* table_rainflow.h -- rows of the tables rainflow and damage: load cycles by range and mean, and their
+ * fatigue damage. */
 #ifndef LOADSTATS_TABLE_RAINFLOW_H
 #define LOADSTATS_TABLE_RAINFLOW_H
 #include "stat/rainflow.h"
 #include "cell.h"
 #include "settings.h"
 
-/* Rows of all views of a signal.  The views share the classes of the matrix.  0, or -1 with FL_SYSTEM in err. */
+/* Rows of all views of a signal.  The views share the classes of the matrix.  0, or -1 with FL_SYSTEM in
+ * err. */
 int rainflow_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
                   int32_t signal, fl_err *err);
 int damage_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,

@@ -6,8 +6,8 @@
 #include "cell.h"
 #include "settings.h"
 
-/* Rows of one view, oscillator by oscillator.  0, or -1 with FL_INPUT (too many steps, a segment longer than the
- * record) or FL_SYSTEM in err. */
+/* Rows of one view, oscillator by oscillator.  0, or -1 with FL_INPUT (too many steps, a segment longer than
+ * the record) or FL_SYSTEM in err. */
 int response_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
                   int32_t signal, int w, fl_err *err);
 int motion_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table_stats.h -- rows of the tables stats, peaks, histogram and exceedance; loads(5) defines the columns. */
+/* table_stats.h -- rows of the tables stats, peaks, histogram and exceedance; loads(5) defines the
+ * columns. */
 #ifndef LOADSTATS_TABLE_STATS_H
 #define LOADSTATS_TABLE_STATS_H
 #include "cell.h"

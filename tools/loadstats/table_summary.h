@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table_summary.h -- rows of tables from the summaries of runs: stats, histogram, fits, levels, damage, cycles,
- * ensemble. */
+/* table_summary.h -- rows of tables from the summaries of runs: stats, histogram, fits, levels, damage,
+ * cycles, ensemble. */
 #ifndef LOADSTATS_TABLE_SUMMARY_H
 #define LOADSTATS_TABLE_SUMMARY_H
 #include <stdio.h>
@@ -23,8 +23,8 @@ struct run_set {
  * err. */
 int ensemble_add(ensemble *e, const fl_summary *all, const fl_summary *one, const char *name, fl_err *err);
 
-/* Rows of one entry of the summary; fits_of_runs() prints fits or levels.  0, or -1 with FL_INPUT (no maxima of
- * blocks) or FL_SYSTEM in err. */
+/* Rows of one entry of the summary; fits_of_runs() prints fits or levels.  0, or -1 with FL_INPUT (no maxima
+ * of blocks) or FL_SYSTEM in err. */
 int stats_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o, fl_err *err);
 int histogram_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o,
                       fl_err *err);
