@@ -14,7 +14,7 @@
 
 enum { PATH_LEN = 4096, DIR_LEN = 3000, WORD_MAX = 200, ROWS_MAX = 400 };
 
-/* Levels beyond this many record lengths rest on the law, not on the record. */
+/* Beyond this many record lengths a level is an extrapolation of the distribution. */
 static const double REACH = 4.0;
 
 static const char STYLE[] =
@@ -60,10 +60,10 @@ static void write_html_cell(FILE *f, const char *word)
 
 /* --- tables --------------------------------------------------------------------------------------------- */
 
-/* A table of ours in memory, cut into its rows and fields. */
+/* A table of loadstats in memory, split into rows. */
 typedef struct {
     char *text;
-    char **row; /* [rows] the first one is that of the names */
+    char **row; /* [rows] the first one holds the column names */
     int32_t rows, cap;
 } sheet;
 
@@ -80,7 +80,7 @@ static int sheet_make(sheet *s, const report_source *from, const struct options 
     struct options own = *o;
     size_t size = 0;
     own.table = table;
-    own.quiet = 1; /* what is to be said was said with the table itself */
+    own.quiet = 1; /* warnings were printed with the table itself */
     FILE *f = open_memstream(&s->text, &size);
     if (!f) return fl_fail(err, FL_SYSTEM, "out of memory");
     int rc = from->table(f, from->what, &own, err);
@@ -97,7 +97,7 @@ static int sheet_make(sheet *s, const report_source *from, const struct options 
     return rc;
 }
 
-/* The next field of a row; the tab behind it is kept. */
+/* Copy the next field of a row; returns the start of the field after it, or NULL. */
 static const char *next_word(const char *p, char word[WORD_MAX])
 {
     const size_t len = strcspn(p, "\t"), take = len < WORD_MAX - 1 ? len : WORD_MAX - 1;
@@ -160,7 +160,7 @@ static void write_all_rows(FILE *f, const sheet *s)
     if (n < s->rows) fprintf(f, "<p>%d more rows are in the table itself.</p>\n", s->rows - n);
 }
 
-/* Do two rows of the table fits speak of the same sample? */
+/* True if two rows of the table fits belong to the same sample. */
 static int same_sample(const char *a, const char *b)
 {
     enum { LABELS = 5 };
@@ -173,8 +173,7 @@ static int same_sample(const char *a, const char *b)
     return 1;
 }
 
-/* Of the laws only those by likelihood, which have an AIC; of each sample the one with the smallest stands
- * out. */
+/* Only fits by likelihood, which have an AIC; the smallest one of each sample is in bold type. */
 static void write_likelihood_fits(FILE *f, const sheet *s)
 {
     const int aic = column_of(s, "AIC");
@@ -212,7 +211,7 @@ static void write_likelihood_fits(FILE *f, const sheet *s)
     fputs("</table></div>\n", f);
 }
 
-/* The table stats has few rows and many columns: on a page it stands upright, part by part. */
+/* A table of few rows and many columns is transposed, part by part. */
 static void write_transposed(FILE *f, const sheet *s)
 {
     enum { LABELS = 4 };
@@ -270,7 +269,7 @@ static void write_extrapolation(FILE *f, double span, const struct options *o)
                 span, REACH, most / span);
 }
 
-/* Of an ensemble the first few numbers of runs, tens, and the last. */
+/* The rows of an ensemble for 2, 5, tens and hundreds of runs, and the last one. */
 static void write_some_runs(FILE *f, const sheet *s)
 {
     const int runs = column_of(s, "runs");
@@ -319,13 +318,13 @@ static int is_picture(const char *name)
 
 static int is_picture_entry(const struct dirent *d) { return is_picture(d->d_name); }
 
-/* dir is shorter than DIR_LEN. */
+/* DIR/NAME; dir is shorter than DIR_LEN. */
 static void join_path(char path[PATH_LEN], const char *dir, const char *name)
 {
     snprintf(path, PATH_LEN, "%.*s/%.*s", DIR_LEN, dir, PATH_LEN - DIR_LEN - 2, name);
 }
 
-/* The picture from its first tag on: what stands above is for a file of its own. */
+/* The picture from its svg tag on, without the XML header of a separate file. */
 static int write_picture(FILE *f, const char *dir, const char *name, fl_err *err)
 {
     char path[PATH_LEN], *text = NULL;
@@ -388,7 +387,7 @@ static void write_head(FILE *f, const report_source *from)
     fputs("</p>\n", f);
 }
 
-/* What there is for the report, table_need. */
+/* Data and options that are available for the report, table_need. */
 static unsigned available(const report_source *from, const struct options *o)
 {
     return (from->many ? NEEDS_RUNS : NEEDS_RECORD) | (from->legs ? NEEDS_PARTS : 0u) |
@@ -435,8 +434,8 @@ static int write_page(FILE *f, const char *dir, const report_source *from, const
     return 0;
 }
 
-/* The page in memory, so that the folder of the pictures is gone before anything is written: who reads the
- * page may stop reading. */
+/* The page is made in memory, so that the folder of the pictures is removed before anything is written: a
+ * reader that closes the pipe ends the program. */
 static int make_page(char **text, size_t *size, const report_source *from, const struct options *o,
                      fl_err *err)
 {
@@ -448,7 +447,7 @@ static int make_page(char **text, size_t *size, const report_source *from, const
     snprintf(dir, sizeof dir, "%.*s/loadstats-XXXXXX", DIR_LEN - 20, tmp && *tmp ? tmp : "/tmp");
     if (!mkdtemp(dir)) return fl_fail(err, FL_SYSTEM, "%s: %s", dir, strerror(errno));
     own.report_page = 1;
-    history_line_run(&own, &by); /* the pictures too are those of a page */
+    history_line_run(&own, &by); /* report_page also selects all pictures */
     own.plot = dir;
     own.format = "svg";
     own.quiet = 1;

@@ -48,7 +48,7 @@ static const char HELP[] =
     "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
     "      --block S           of blocks: their length\n";
 
-/* The rest of it: a string of C has no more than 4095 characters. */
+/* Second half: a string literal of C has at most 4095 characters. */
 static const char HELP_MORE[] =
     "      --areas LIST        of pressure-area: areas of the window (0.01,0.02,0.05 ... 10)\n"
     "      --waterline LINE    of line-load, map: circle:X,Y,R or X,Y:X,Y:...; --bins pieces of it\n"
@@ -171,22 +171,22 @@ static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
 
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
 static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
-static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_reduction_name() */
+static const char *const REDUCTIONS[] = {"sum", "mean", "min", "max", "count"}; /* as fl_reduction_name() */
 static const char *const CYCLE_RULE[] = {"astm", "iso"};                     /* as fl_rainflow_rule_name() */
-static const char *const OPEN_CYCLES[] = {"half", "repeat", "none"};         /* as fl_residue_name() */
+static const char *const RESIDUES[] = {"half", "repeat", "none"};            /* as fl_residue_name() */
 static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none"}; /* as fl_taper_name() */
-static const char *const PASS[] = {"low", "high", "band", "mean"};           /* as fl_filter_name() */
-static const char *const PICTURE[] = {"svg", "png"};
+static const char *const FILTERS[] = {"low", "high", "band", "mean"};        /* as fl_filter_name() */
+static const char *const FORMATS[] = {"svg", "png"};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
-static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
-                  fl_err *err)
+static int parse_number(const char *option, const char *text, double lo, double hi, const char *wanted,
+                        double *x, fl_err *err)
 {
     if (fl_number_f64(text, x) == 0 && *x >= lo && *x <= hi) return 0;
     return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", %s is expected", option, text, wanted);
 }
 
-static int choice(const char *option, const char *text, const char *const *list, int n, fl_err *err)
+static int parse_choice(const char *option, const char *text, const char *const *list, int n, fl_err *err)
 {
     for (int k = 0; k < n; k++)
         if (strcmp(text, list[k]) == 0) return k;
@@ -198,21 +198,21 @@ static int choose_table(struct options *o, const char *text, fl_err *err)
 {
     const char *name[TABLES_MAX];
     for (int k = 0; k < table_count(); k++) name[k] = table_at(k)->name;
-    const int k = choice("table", text, name, table_count(), err);
+    const int k = parse_choice("table", text, name, table_count(), err);
     if (k >= 0) o->table = table_at(k);
     return k < 0 ? -1 : 0;
 }
 
-/* Cut a list at its commas; each word goes to `take`. */
-static int each(struct options *o, const char *option, const char *text,
-                int (*take)(struct options *, char *, fl_err *), fl_err *err)
+/* Split a list at its commas and pass each word to `parse_word`. */
+static int parse_list(struct options *o, const char *option, const char *text,
+                      int (*parse_word)(struct options *, char *, fl_err *), fl_err *err)
 {
     char *word = fl_alloc_text(text, err), *copy = word;
     int rc = word ? 0 : -1;
     while (rc == 0 && word) {
         char *comma = strchr(word, ',');
         if (comma) *comma++ = '\0';
-        rc = word[0] ? take(o, word, err)
+        rc = word[0] ? parse_word(o, word, err)
                      : fl_fail(err, FL_USAGE, "--%s has an empty entry in \"%.60s\"", option, text);
         word = comma;
     }
@@ -221,7 +221,7 @@ static int each(struct options *o, const char *option, const char *text,
 }
 
 /* words moves when it grows, so the list keeps offsets until options_parse() is done. */
-static int take_signal(struct options *o, char *word, fl_err *err)
+static int parse_signal(struct options *o, char *word, fl_err *err)
 {
     const int32_t bytes = (int32_t)strnlen(word, 1000) + 1;
     if (o->signals == SIGNALS_MAX)
@@ -234,25 +234,26 @@ static int take_signal(struct options *o, char *word, fl_err *err)
     return 0;
 }
 
-static int take_component(struct options *o, char *word, fl_err *err)
+static int parse_component(struct options *o, char *word, fl_err *err)
 {
-    return choice("component", word, COMPONENT, COUNT(COMPONENT), err) < 0 ? -1 : take_signal(o, word, err);
+    return parse_choice("component", word, COMPONENT, COUNT(COMPONENT), err) < 0 ? -1
+                                                                                 : parse_signal(o, word, err);
 }
 
-static int take_quantile(struct options *o, char *word, fl_err *err)
+static int parse_quantile(struct options *o, char *word, fl_err *err)
 {
     if (o->quantiles == QUANTILES_MAX)
         return fl_fail(err, FL_USAGE, "more than %d quantiles were asked for", QUANTILES_MAX);
     double *q = &o->quantile[o->quantiles];
-    if (number("quantiles", word, 0.0, 1.0, "a number from 0 to 1", q, err)) return -1;
-    for (int32_t k = 0; k < o->quantiles; k++) /* it names a column, and columns have different names */
+    if (parse_number("quantiles", word, 0.0, 1.0, "a number from 0 to 1", q, err)) return -1;
+    for (int32_t k = 0; k < o->quantiles; k++) /* a quantile names a column, and names are unique */
         if (o->quantile[k] == *q) return fl_fail(err, FL_USAGE, "--quantiles has %.40s twice", word);
     o->quantiles++;
     return 0;
 }
 
 /* A time in seconds, or with its unit: 90s 10min 3h 2d 50a. */
-static int time_of(const char *option, const char *text, double *t, fl_err *err)
+static int parse_time(const char *option, const char *text, double *t, fl_err *err)
 {
     static const struct {
         const char *unit;
@@ -275,60 +276,60 @@ static int time_of(const char *option, const char *text, double *t, fl_err *err)
                    text);
 }
 
-static int take_return(struct options *o, char *word, fl_err *err)
+static int parse_return(struct options *o, char *word, fl_err *err)
 {
     if (o->returns == RETURNS_MAX)
         return fl_fail(err, FL_USAGE, "more than %d return periods were asked for", RETURNS_MAX);
-    return time_of("return", word, &o->period[o->returns++], err);
+    return parse_time("return", word, &o->period[o->returns++], err);
 }
 
-static int take_skip(struct options *o, char *word, fl_err *err)
+static int parse_skip(struct options *o, char *word, fl_err *err)
 {
     static const char *const wanted[] = {"a number of diameters above 0", "a diameter above 0",
                                          "a distance from 0 on"};
     if (o->skips == 3) return fl_fail(err, FL_USAGE, "--skip has more than N,D,GAP");
     const double least = o->skips < 2 ? 1e-100 : 0.0;
     double *to = &o->skip[o->skips];
-    return number("skip", word, least, 1e100, wanted[o->skips++], to, err);
+    return parse_number("skip", word, least, 1e100, wanted[o->skips++], to, err);
 }
 
 /* HZ, low:HZ, high:HZ, band:HZ,HZ or mean:S. */
-static int take_filter(struct options *o, const char *text, fl_err *err)
+static int parse_filter(struct options *o, const char *text, fl_err *err)
 {
     const char *colon = strchr(text, ':'), *value = colon ? colon + 1 : text, *comma = strchr(value, ',');
     char word[40];
     o->filter_kind = FL_FILTER_LOW;
     if (colon) {
         snprintf(word, sizeof word, "%.*s", (int)(colon - text), text);
-        o->filter_kind = choice("filter", word, PASS, COUNT(PASS), err);
+        o->filter_kind = parse_choice("filter", word, FILTERS, COUNT(FILTERS), err);
         if (o->filter_kind < 0) return -1;
     }
-    if (o->filter_kind == FL_FILTER_MEAN) return time_of("filter", value, &o->filter, err);
+    if (o->filter_kind == FL_FILTER_MEAN) return parse_time("filter", value, &o->filter, err);
     if (o->filter_kind != FL_FILTER_BAND)
-        return number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
+        return parse_number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
     if (!comma || comma - value >= (int)sizeof word)
         return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", band:HZ,HZ is expected", text);
     snprintf(word, sizeof word, "%.*s", (int)(comma - value), value);
-    if (number("filter", word, 1e-300, 1e300, "a frequency above 0", &o->filter, err) ||
-        number("filter", comma + 1, 1e-300, 1e300, "a frequency above 0", &o->upper, err))
+    if (parse_number("filter", word, 1e-300, 1e300, "a frequency above 0", &o->filter, err) ||
+        parse_number("filter", comma + 1, 1e-300, 1e300, "a frequency above 0", &o->upper, err))
         return -1;
     if (o->upper > o->filter) return 0;
     return fl_fail(err, FL_USAGE, "--filter \"%.40s\" ends before it begins", text);
 }
 
-/* The words of one --sn; o->sn_curves is raised when all of them are known. */
-static int take_sn(struct options *o, char *word, fl_err *err)
+/* One word of --sn; add_sn() counts the curve when all its words are read. */
+static int parse_sn_word(struct options *o, char *word, fl_err *err)
 {
     fl_sn_curve *sn = &o->sn[o->sn_curves];
     const double tiny = 1e-300, huge = 1e300;
     switch (o->sn_words++) {
-    case 0: return number("sn", word, 1e-3, 100.0, "an exponent above 0", &sn->m, err);
-    case 1: return number("sn", word, tiny, huge, "cycles to failure at a stress of 1", &sn->a, err);
+    case 0: return parse_number("sn", word, 1e-3, 100.0, "an exponent above 0", &sn->m, err);
+    case 1: return parse_number("sn", word, tiny, huge, "cycles to failure at a stress of 1", &sn->a, err);
     case 2:
         sn->m2 = INFINITY;
         if (strcmp(word, "inf") == 0) return 0;
-        return number("sn", word, 1e-3, 100.0, "the exponent below the knee, or inf,", &sn->m2, err);
-    case 3: return number("sn", word, tiny, huge, "the stress at the knee", &sn->knee, err);
+        return parse_number("sn", word, 1e-3, 100.0, "the exponent below the knee, or inf,", &sn->m2, err);
+    case 3: return parse_number("sn", word, tiny, huge, "the stress at the knee", &sn->knee, err);
     default: return fl_fail(err, FL_USAGE, "--sn has more than M,A,M2,KNEE");
     }
 }
@@ -339,15 +340,15 @@ static int add_sn(struct options *o, const char *text, fl_err *err)
         return fl_fail(err, FL_USAGE, "more than %d S-N lines were given", SN_CURVES_MAX);
     o->sn[o->sn_curves] = (fl_sn_curve){.a = NAN};
     o->sn_words = 0;
-    if (each(o, "sn", text, take_sn, err)) return -1;
+    if (parse_list(o, "sn", text, parse_sn_word, err)) return -1;
     if (o->sn_words == 3)
         return fl_fail(err, FL_USAGE, "--sn \"%.60s\" has a second slope but no knee", text);
     o->sn_curves++;
     return 0;
 }
 
-/* The words of one --oscillator; o->oscillators is raised when all of them are known. */
-static int take_sway(struct options *o, char *word, fl_err *err)
+/* One word of --oscillator; add_oscillator() counts it when all its words are read. */
+static int parse_oscillator_word(struct options *o, char *word, fl_err *err)
 {
     struct oscillator_case *a = &o->oscillator[o->oscillators];
     const double tiny = 1e-100, huge = 1e100;
@@ -356,86 +357,90 @@ static int take_sway(struct options *o, char *word, fl_err *err)
     double k;
     switch (o->oscillator_words++) {
     case 0:
-        return number("oscillator", word, tiny, huge, "a natural frequency above 0", &a->o.frequency, err);
-    case 1: return number("oscillator", word, 0.0, 100.0, "a damping ratio from 0 on", &a->o.damping, err);
+        return parse_number("oscillator", word, tiny, huge, "a natural frequency above 0", &a->o.frequency,
+                            err);
+    case 1:
+        return parse_number("oscillator", word, 0.0, 100.0, "a damping ratio from 0 on", &a->o.damping, err);
     case 2:
         if (mass) word[len - 2] = '\0';
-        if (number("oscillator", word, tiny, huge, "a stiffness or a mass above 0", &k, err)) return -1;
+        if (parse_number("oscillator", word, tiny, huge, "a stiffness or a mass above 0", &k, err)) return -1;
         a->stiffness = mass ? k * pow(6.283185307179586 * a->o.frequency, 2.0) : k;
         return 0;
     default: return fl_fail(err, FL_USAGE, "--oscillator has more than F,Z,K");
     }
 }
 
-static int add_sway(struct options *o, const char *text, fl_err *err)
+static int add_oscillator(struct options *o, const char *text, fl_err *err)
 {
     if (o->oscillators == OSCILLATORS_MAX)
         return fl_fail(err, FL_USAGE, "more than %d oscillators were given", OSCILLATORS_MAX);
     o->oscillator[o->oscillators] = (struct oscillator_case){.stiffness = NAN, .text = text};
     o->oscillator_words = 0;
-    if (each(o, "oscillator", text, take_sway, err)) return -1;
+    if (parse_list(o, "oscillator", text, parse_oscillator_word, err)) return -1;
     if (o->oscillator_words < 2)
         return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, F,Z is expected", text);
     o->oscillators++;
     return 0;
 }
 
-static int take_area(struct options *o, char *word, fl_err *err)
+static int parse_area(struct options *o, char *word, fl_err *err)
 {
     if (o->areas == AREAS_MAX) return fl_fail(err, FL_USAGE, "more than %d areas were asked for", AREAS_MAX);
-    return number("areas", word, 1e-12, 1e12, "an area above 0", &o->area[o->areas++], err);
+    return parse_number("areas", word, 1e-12, 1e12, "an area above 0", &o->area[o->areas++], err);
 }
 
-static int take_height(struct options *o, char *word, fl_err *err)
+static int parse_height(struct options *o, char *word, fl_err *err)
 {
     double *z = &o->height[o->heights];
     if (o->heights == HEIGHTS_MAX)
         return fl_fail(err, FL_USAGE, "more than %d heights were asked for", HEIGHTS_MAX);
-    if (number("heights", word, -1e6, 1e6, "a height", z, err)) return -1;
+    if (parse_number("heights", word, -1e6, 1e6, "a height", z, err)) return -1;
     if (o->heights && !(*z > z[-1]))
         return fl_fail(err, FL_USAGE, "--heights do not rise at \"%.40s\"", word);
     o->heights++;
     return 0;
 }
 
-static int apply(struct options *o, int c, const char *arg, fl_err *err)
+static int apply_option(struct options *o, int c, const char *arg, fl_err *err)
 {
     const double tiny = 1e-300, huge = 1e300;
     int k;
     switch (c) {
     case 't': o->table_given = 1; return choose_table(o, arg, err);
-    case 'c': return each(o, "component", arg, take_component, err);
-    case 'C': return each(o, "column", arg, take_signal, err);
+    case 'c': return parse_list(o, "component", arg, parse_component, err);
+    case 'C': return parse_list(o, "column", arg, parse_signal, err);
     case 'p': o->part = arg; return 0;
-    case FROM: return number("from", arg, -huge, huge, "a time", &o->from, err);
-    case TO: return number("to", arg, -huge, huge, "a time", &o->to, err);
-    case 'w': return number("window", arg, tiny, huge, "a time above 0", &o->window, err);
-    case 'f': return take_filter(o, arg, err);
+    case FROM: return parse_number("from", arg, -huge, huge, "a time", &o->from, err);
+    case TO: return parse_number("to", arg, -huge, huge, "a time", &o->to, err);
+    case 'w': return parse_number("window", arg, tiny, huge, "a time above 0", &o->window, err);
+    case 'f': return parse_filter(o, arg, err);
     case ORDER: return fl_option_whole("order", arg, 1, FL_BUTTERWORTH_ORDER_MAX, &o->order, err);
-    case 's': return number("separation", arg, 0.0, 1.0, "a number from 0 to 1", &o->separation, err);
-    case THRESHOLD: return number("threshold", arg, 0.0, huge, "a number not below 0", &o->threshold, err);
+    case 's': return parse_number("separation", arg, 0.0, 1.0, "a number from 0 to 1", &o->separation, err);
+    case THRESHOLD:
+        return parse_number("threshold", arg, 0.0, huge, "a number not below 0", &o->threshold, err);
     case 'b': return fl_option_whole("bins", arg, 1, 1000000, &o->bins, err);
     case QUANTILES:
         o->quantiles = 0;
         o->quantiles_text = arg;
-        return each(o, "quantiles", arg, take_quantile, err);
+        return parse_list(o, "quantiles", arg, parse_quantile, err);
     case SAMPLE:
-        k = choice("sample", arg, SAMPLES, COUNT(SAMPLES), err);
+        k = parse_choice("sample", arg, SAMPLES, COUNT(SAMPLES), err);
         o->sample = k < 0 ? SAMPLE_PEAKS : (enum sample)k;
         return k < 0 ? -1 : 0;
-    case GAP: return strcmp(arg, "0") == 0 ? 0 : time_of("gap", arg, &o->gap, err);
-    case BLOCK: return time_of("block", arg, &o->block, err);
+    case GAP: return strcmp(arg, "0") == 0 ? 0 : parse_time("gap", arg, &o->gap, err);
+    case BLOCK: return parse_time("block", arg, &o->block, err);
     case AREAS:
         o->areas = 0;
         o->areas_text = arg;
-        return each(o, "areas", arg, take_area, err);
+        return parse_list(o, "areas", arg, parse_area, err);
     case WATERLINE: o->waterline = arg; return 0;
     case HEIGHTS:
         o->heights = 0;
         o->heights_text = arg;
-        return each(o, "heights", arg, take_height, err);
-    case LEVEL: return number("level", arg, 1e-9, 1.0 - 1e-9, "a number between 0 and 1", &o->level, err);
-    case RETURN: return each(o, "return", arg, take_return, err);
+        return parse_list(o, "heights", arg, parse_height, err);
+    case LEVEL:
+        return parse_number("level", arg, 1e-9, 1.0 - 1e-9, "a number between 0 and 1", &o->level, err);
+    case RETURN: return parse_list(o, "return", arg, parse_return, err);
     case RESAMPLES: return fl_option_whole("resamples", arg, 0, 100000, &o->resamples, err);
     case SEED: return fl_option_whole("seed", arg, 0, INT32_MAX, &o->seed, err);
     case PLOT: o->plot = arg; return 0;
@@ -452,31 +457,35 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
         o->where[o->wheres++] = arg;
         return 0;
     case OVER:
-        k = choice("over", arg, OVER_WHAT, COUNT(OVER_WHAT), err);
+        k = parse_choice("over", arg, REDUCTIONS, COUNT(REDUCTIONS), err);
         o->over = k + 1;
         return k < 0 ? -1 : 0;
-    case RULE: o->rule = choice("rule", arg, CYCLE_RULE, COUNT(CYCLE_RULE), err); return o->rule < 0 ? -1 : 0;
+    case RULE:
+        o->rule = parse_choice("rule", arg, CYCLE_RULE, COUNT(CYCLE_RULE), err);
+        return o->rule < 0 ? -1 : 0;
     case RESIDUE:
-        o->residue = choice("residue", arg, OPEN_CYCLES, COUNT(OPEN_CYCLES), err);
+        o->residue = parse_choice("residue", arg, RESIDUES, COUNT(RESIDUES), err);
         return o->residue < 0 ? -1 : 0;
-    case SEGMENT: return time_of("segment", arg, &o->segment, err);
-    case TAPER: o->taper = choice("taper", arg, TAPERS, COUNT(TAPERS), err); return o->taper < 0 ? -1 : 0;
-    case SPEED: return number("speed", arg, tiny, huge, "a speed above 0", &o->speed, err);
-    case OSCILLATOR: return add_sway(o, arg, err);
+    case SEGMENT: return parse_time("segment", arg, &o->segment, err);
+    case TAPER:
+        o->taper = parse_choice("taper", arg, TAPERS, COUNT(TAPERS), err);
+        return o->taper < 0 ? -1 : 0;
+    case SPEED: return parse_number("speed", arg, tiny, huge, "a speed above 0", &o->speed, err);
+    case OSCILLATOR: return add_oscillator(o, arg, err);
     case SKIP:
         o->skips = 0;
         o->skip[2] = NAN;
-        if (each(o, "skip", arg, take_skip, err)) return -1;
+        if (parse_list(o, "skip", arg, parse_skip, err)) return -1;
         return o->skips >= 2 ? 0
                              : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", N,D or N,D,GAP is expected", arg);
-    case STEP: return time_of("step", arg, &o->step, err);
+    case STEP: return parse_time("step", arg, &o->step, err);
     case SN: return add_sn(o, arg, err);
-    case STRESS: return number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
-    case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
-    case FOLLOW: return time_of("follow", arg, &o->follow, err);
+    case STRESS: return parse_number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
+    case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : parse_time("patience", arg, &o->patience, err);
+    case FOLLOW: return parse_time("follow", arg, &o->follow, err);
     case FORMAT:
-        k = choice("format", arg, PICTURE, COUNT(PICTURE), err);
-        if (k >= 0) o->format = PICTURE[k];
+        k = parse_choice("format", arg, FORMATS, COUNT(FORMATS), err);
+        if (k >= 0) o->format = FORMATS[k];
         return k < 0 ? -1 : 0;
     case 'o': o->out = arg; return 0;
     case 'z': o->gzip = 1; return 0;
@@ -496,7 +505,7 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     }
 }
 
-static void take_files(struct options *o, int n, char *const *file)
+static void set_files(struct options *o, int n, char *const *file)
 {
     static char input[] = "-";
     static char *const only[] = {input};
@@ -505,8 +514,8 @@ static void take_files(struct options *o, int n, char *const *file)
     o->in = o->file[0];
 }
 
-/* What reads contacts or panels knows no signals. */
-static int check_places(const struct options *o, fl_err *err)
+/* Tables of contacts or panels have no signals. */
+static int check_contacts(const struct options *o, fl_err *err)
 {
     const char *not = o->signals        ? "column"
                       : o->filter > 0.0 ? "filter"
@@ -532,7 +541,7 @@ static int check_places(const struct options *o, fl_err *err)
     return 0;
 }
 
-/* What works in constant memory, and on many files. */
+/* Options of summaries: constant memory, many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
     const int many = o->table->source == FROM_RUNS || o->merge;
@@ -549,7 +558,7 @@ static int check_summary(struct options *o, fl_err *err)
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
     const int pictures = (o->plot || o->report) && !o->table->draw_runs;
-    const int first = o->skips && isnan(o->skip[2]); /* the first load is not known beforehand */
+    const int first = o->skips && isnan(o->skip[2]); /* the first load is not known in advance */
     const char *whole = first             ? "skip without GAP"
                         : o->step > 0.0   ? "step"
                         : o->filter > 0.0 ? "filter"
@@ -588,11 +597,11 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     while (!o->ended && (c = getopt_long(argc, argv, ":t:c:C:p:w:f:s:b:o:zj:qvh", LONG, NULL)) != -1) {
         if (c == ':' || c == '?')
             return fl_option_unknown("loadstats", LONG, c, optopt, argv[optind - 1], err);
-        if (apply(o, c, optarg, err)) return -1;
+        if (apply_option(o, c, optarg, err)) return -1;
     }
     if (o->ended) return 0;
-    take_files(o, argc - optind, argv + optind);
-    if (check_places(o, err) || check_summary(o, err)) return -1;
+    set_files(o, argc - optind, argv + optind);
+    if (check_contacts(o, err) || check_summary(o, err)) return -1;
     if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);

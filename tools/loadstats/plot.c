@@ -10,7 +10,7 @@
 
 enum { PARTS_MAX = 24 };
 
-/* What there is in a report of this record, table_need. */
+/* Data and options that are available for a report of this record, table_need. */
 static unsigned available(const struct record_views *r, const struct options *o)
 {
     return NEEDS_RECORD | (o->returns ? NEEDS_RETURNS : 0u) | (o->oscillators ? NEEDS_OSCILLATOR : 0u) |
