@@ -500,7 +500,7 @@ static double level_excess(double shape, const void *data)
  * with the location and scale of the best fit and the shape that gives the level, because the middle of the
  * sample hardly determines the level.  The scale grows until all values are inside the support.  The search
  * restarts from its result, because a simplex may collapse. */
-static double plane(level *c, const fl_dist *start, fl_fit_work *w)
+static double minimise_in_plane(level *c, const fl_dist *start, fl_fit_work *w)
 {
     const level_target a = {-log(-log1p(-c->tail)), (c->q - start->location) / start->scale};
     const double shape = find_root(level_excess, &a, SHAPE_LEAST + 0.01, 10.0);
@@ -533,7 +533,7 @@ double fl_fit_constrained(const fl_dist *start, int32_t n, const double *x, doub
     gsl_function f = {cost_on_line, &c};
     double best;
     if (start->kind == FL_GEV) {
-        best = plane(&c, start, w);
+        best = minimise_in_plane(&c, start, w);
     } else {
         double u = start->kind == FL_GUMBEL ? 0.0 : log(start->shape), lo = -700.0, hi = 700.0;
         if (start->kind == FL_GPD) {

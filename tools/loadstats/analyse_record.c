@@ -127,7 +127,7 @@ static int draw_pictures(const void *what, const struct options *o, fl_err *err)
 {
     fl_history_line by;
     history_line_run(o, &by);
-    return plot(what, o, &by, err);
+    return plot_record(what, o, &by, err);
 }
 
 static int write_report(const struct record_views *r, const struct options *o, fl_err *err)

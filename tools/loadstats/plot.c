@@ -62,7 +62,7 @@ static int part_exists(const struct record_views *r, int32_t part)
     return 0;
 }
 
-int plot(const struct record_views *r, const struct options *o, const fl_history_line *by, fl_err *err)
+int plot_record(const struct record_views *r, const struct options *o, const fl_history_line *by, fl_err *err)
 {
     const int32_t parts = r->series->parts, alone = parts == 2 && strcmp(r->series->part[1], "total") == 0;
     picture p = {.r = r, .o = o, .by = by};

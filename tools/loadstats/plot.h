@@ -16,6 +16,7 @@
  * reduced to what a picture resolves: a long history to the smallest and the largest value of each stretch,
  * ranks beyond the 200th to steps of a hundredth. 0, or -1 with FL_USAGE (too many parts) or FL_SYSTEM
  * (gnuplot missing or failing, a file not written) in err. */
-int plot(const struct record_views *r, const struct options *o, const fl_history_line *by, fl_err *err);
+int plot_record(const struct record_views *r, const struct options *o, const fl_history_line *by,
+                fl_err *err);
 
 #endif
