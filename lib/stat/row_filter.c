@@ -6,7 +6,7 @@ int fl_row_filter_make(fl_row_filter *w, const fl_table *t, const char *const *t
 {
     *w = (fl_row_filter){0};
     if (n > FL_ROW_FILTER_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d conditions were given", FL_ROW_FILTER_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d conditions", FL_ROW_FILTER_MAX);
     for (int32_t k = 0; k < n; k++) {
         const char *equal = strchr(text[k], '=');
         char name[80];

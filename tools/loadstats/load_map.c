@@ -63,7 +63,7 @@ static int add_panel_loads(load_map *p, const fl_contact_events *h, fl_err *err)
         const fl_contact_event *c = &h->event[i];
         if (p->only && c->part != p->only)
             return fl_fail(err, FL_USAGE,
-                           "%s: contacts of parts %d and %d have one waterline, choose one with --part",
+                           "%s: contacts of parts %d and %d, but one waterline; choose a part with --part",
                            fl_in_name(h->table.text.in), p->only, c->part);
         p->only = c->part;
         const double s = fl_waterline_nearest(&p->line, c->p.x, c->p.y), flat = hypot(c->n.x, c->n.y);
@@ -164,7 +164,7 @@ static int read_contacts(load_map *p, fl_err *err)
     double step;
     const int windows = (o->table->uses & USES_AREAS) != 0;
     if (o->part && (fl_number_i32(o->part, INT32_MIN, -1, &selection.part)))
-        return fl_fail(err, FL_USAGE, "--part is \"%.40s\", of contacts it is a number below 0, as -1",
+        return fl_fail(err, FL_USAGE, "--part is \"%.40s\", expected a number below 0 for contacts, as -1",
                        o->part);
     if (!windows && make_grid(p, err)) return -1;
     if (fl_contact_events_open(&h, o->in, &selection, err)) goto done;

@@ -225,7 +225,7 @@ static int parse_signal(struct options *o, char *word, fl_err *err)
 {
     const int32_t bytes = (int32_t)strnlen(word, 1000) + 1;
     if (o->signals == SIGNALS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d components and columns were asked for", SIGNALS_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d components and columns", SIGNALS_MAX);
     if (fl_grow(&o->words, &o->words_cap, (int64_t)o->words_len + bytes, 1, err)) return -1;
     memcpy(o->words + o->words_len, word, (size_t)bytes - 1);
     o->words_len += bytes;
@@ -243,7 +243,7 @@ static int parse_component(struct options *o, char *word, fl_err *err)
 static int parse_quantile(struct options *o, char *word, fl_err *err)
 {
     if (o->quantiles == QUANTILES_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d quantiles were asked for", QUANTILES_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d quantiles", QUANTILES_MAX);
     double *q = &o->quantile[o->quantiles];
     if (parse_number("quantiles", word, 0.0, 1.0, "a number from 0 to 1", q, err)) return -1;
     for (int32_t k = 0; k < o->quantiles; k++) /* a quantile names a column, and names are unique */
@@ -271,15 +271,14 @@ static int parse_time(const char *option, const char *text, double *t, fl_err *e
             if (*t <= 1e300) return 0;
         }
     }
-    return fl_fail(err, FL_USAGE,
-                   "--%s is \"%.40s\", a time above 0 is expected, as 90, 10min, 3h, 2d or 50a", option,
-                   text);
+    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", expected a time above 0, as 90, 10min, 3h, 2d or 50a",
+                   option, text);
 }
 
 static int parse_return(struct options *o, char *word, fl_err *err)
 {
     if (o->returns == RETURNS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d return periods were asked for", RETURNS_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d return periods", RETURNS_MAX);
     return parse_time("return", word, &o->period[o->returns++], err);
 }
 
@@ -308,13 +307,13 @@ static int parse_filter(struct options *o, const char *text, fl_err *err)
     if (o->filter_kind != FL_FILTER_BAND)
         return parse_number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
     if (!comma || comma - value >= (int)sizeof word)
-        return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", band:HZ,HZ is expected", text);
+        return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", expected band:HZ,HZ", text);
     snprintf(word, sizeof word, "%.*s", (int)(comma - value), value);
     if (parse_number("filter", word, 1e-300, 1e300, "a frequency above 0", &o->filter, err) ||
         parse_number("filter", comma + 1, 1e-300, 1e300, "a frequency above 0", &o->upper, err))
         return -1;
     if (o->upper > o->filter) return 0;
-    return fl_fail(err, FL_USAGE, "--filter \"%.40s\" ends before it begins", text);
+    return fl_fail(err, FL_USAGE, "--filter \"%.40s\" has its second frequency below the first", text);
 }
 
 /* One word of --sn; add_sn() counts the curve when all its words are read. */
@@ -337,7 +336,7 @@ static int parse_sn_word(struct options *o, char *word, fl_err *err)
 static int add_sn(struct options *o, const char *text, fl_err *err)
 {
     if (o->sn_curves == SN_CURVES_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d S-N lines were given", SN_CURVES_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d S-N curves", SN_CURVES_MAX);
     o->sn[o->sn_curves] = (fl_sn_curve){.a = NAN};
     o->sn_words = 0;
     if (parse_list(o, "sn", text, parse_sn_word, err)) return -1;
@@ -373,27 +372,26 @@ static int parse_oscillator_word(struct options *o, char *word, fl_err *err)
 static int add_oscillator(struct options *o, const char *text, fl_err *err)
 {
     if (o->oscillators == OSCILLATORS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d oscillators were given", OSCILLATORS_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d oscillators", OSCILLATORS_MAX);
     o->oscillator[o->oscillators] = (struct oscillator_case){.stiffness = NAN, .text = text};
     o->oscillator_words = 0;
     if (parse_list(o, "oscillator", text, parse_oscillator_word, err)) return -1;
     if (o->oscillator_words < 2)
-        return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, F,Z is expected", text);
+        return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, expected F,Z", text);
     o->oscillators++;
     return 0;
 }
 
 static int parse_area(struct options *o, char *word, fl_err *err)
 {
-    if (o->areas == AREAS_MAX) return fl_fail(err, FL_USAGE, "more than %d areas were asked for", AREAS_MAX);
+    if (o->areas == AREAS_MAX) return fl_fail(err, FL_USAGE, "expected at most %d areas", AREAS_MAX);
     return parse_number("areas", word, 1e-12, 1e12, "an area above 0", &o->area[o->areas++], err);
 }
 
 static int parse_height(struct options *o, char *word, fl_err *err)
 {
     double *z = &o->height[o->heights];
-    if (o->heights == HEIGHTS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d heights were asked for", HEIGHTS_MAX);
+    if (o->heights == HEIGHTS_MAX) return fl_fail(err, FL_USAGE, "expected at most %d heights", HEIGHTS_MAX);
     if (parse_number("heights", word, -1e6, 1e6, "a height", z, err)) return -1;
     if (o->heights && !(*z > z[-1]))
         return fl_fail(err, FL_USAGE, "--heights do not rise at \"%.40s\"", word);
@@ -453,7 +451,7 @@ static int apply_option(struct options *o, int c, const char *arg, fl_err *err)
     case REPORT: o->report = arg; return 0;
     case WHERE:
         if (o->wheres == CONDITIONS_MAX)
-            return fl_fail(err, FL_USAGE, "more than %d conditions were given", CONDITIONS_MAX);
+            return fl_fail(err, FL_USAGE, "expected at most %d conditions", CONDITIONS_MAX);
         o->where[o->wheres++] = arg;
         return 0;
     case OVER:
@@ -477,7 +475,7 @@ static int apply_option(struct options *o, int c, const char *arg, fl_err *err)
         o->skip[2] = NAN;
         if (parse_list(o, "skip", arg, parse_skip, err)) return -1;
         return o->skips >= 2 ? 0
-                             : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", N,D or N,D,GAP is expected", arg);
+                             : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", expected N,D or N,D,GAP", arg);
     case STEP: return parse_time("step", arg, &o->step, err);
     case SN: return add_sn(o, arg, err);
     case STRESS: return parse_number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
@@ -527,14 +525,14 @@ static int check_contacts(const struct options *o, fl_err *err)
                                         : NULL;
     const int map = (o->table->uses & USES_HEIGHTS) != 0;
     if (o->table->source != FROM_CONTACTS) return 0;
-    if (not ) return fl_fail(err, FL_USAGE, "--%s is of loads, --table %s has none", not, o->table->name);
+    if (not ) return fl_fail(err, FL_USAGE, "--%s is for loads, not for --table %s", not, o->table->name);
     if ((o->table->needs & NEEDS_WATERLINE) && !o->waterline)
         return fl_fail(err, FL_USAGE, "--table %s needs --waterline, as circle:0,0,2", o->table->name);
     if (map && o->waterline && o->heights < 2)
         return fl_fail(err, FL_USAGE,
                        "--table map of contacts needs --heights, two or more, as -1,-0.5,0,0.5");
     if (map && !o->waterline && (o->heights || o->part || o->wheres))
-        return fl_fail(err, FL_USAGE, "--%s is of contacts, whose --table map needs --waterline too",
+        return fl_fail(err, FL_USAGE, "--%s is for --table map of contacts, which needs --waterline",
                        o->part      ? "part"
                        : o->heights ? "heights"
                                     : "where");
@@ -549,7 +547,7 @@ static int check_summary(struct options *o, fl_err *err)
     if (o->merge && !o->table_given) o->table = table_named("summary");
     const int table = o->table->source == FROM_RUNS || o->table->run_rows;
     if (o->files > 1 && !many && !o->stream)
-        return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
+        return fl_fail(err, FL_USAGE, "expected one file, \"%.60s\" is another one", o->file[1]);
     if (!many && !o->stream && !(o->follow > 0.0)) return 0;
     if (o->follow > 0.0 && !o->table->follows)
         return fl_fail(err, FL_USAGE, "--follow prints the table stats, not %s", o->table->name);
@@ -608,10 +606,10 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->sample == SAMPLE_RUNS && !settings_many_runs(o))
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
-        return fl_fail(err, FL_USAGE, "--sample blocks needs --block, their length");
-    if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue is of --rule iso, astm has its own");
+        return fl_fail(err, FL_USAGE, "--sample blocks needs --block");
+    if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue needs --rule iso");
     if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
-        return fl_fail(err, FL_USAGE, "--report - needs another place for the table, --output");
+        return fl_fail(err, FL_USAGE, "--report - needs --output for the table");
     if ((o->table->needs & NEEDS_OSCILLATOR) && !o->oscillators)
         return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", o->table->name);
     if ((o->table->needs & NEEDS_RETURNS) && !o->returns)

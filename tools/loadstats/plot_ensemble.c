@@ -116,7 +116,7 @@ int plot_ensemble(const struct run_set *m, const struct options *o, const fl_his
     if (mkdir(o->plot, 0777) != 0 && errno != EEXIST)
         return fl_fail(err, FL_SYSTEM, "%s: %s", o->plot, strerror(errno));
     if (m->all.n > PICTURES_MAX)
-        return fl_fail(err, FL_USAGE, "at most %d signals are drawn, here are %d: choose some", PICTURES_MAX,
+        return fl_fail(err, FL_USAGE, "at most %d signals are drawn, here are %d: select some", PICTURES_MAX,
                        m->all.n);
     for (int32_t k = 0; k < m->all.n; k++)
         if (draw_signal(m, k, o, by, err)) return -1;
