@@ -55,7 +55,7 @@ int fl_option_time(const char *word, const char *text, double *seconds, fl_err *
             return 0;
         }
     }
-    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", expected a time above 0, as 90 or 90s 10min 3h 2d 50a",
+    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", expected a time above 0, as 90, 10min, 3h, 2d or 50a",
                    word, text);
 }
 
