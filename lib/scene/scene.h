@@ -29,11 +29,11 @@ int32_t fl_scene_find_part(const fl_scene *scene, const char *name);
 
 /* Contact parameters of a body of material a (an index) with b: a material, the structure or the boundary.
  * A member takes the first of these values that was given:
- *     [contact A B], names in either order; the structure is named "structure" or by its material, the boundary
- *                    "boundary"
+ *     [contact A B], names in either order; the structure is named "structure" or by its material, the
+ *                    boundary "boundary"
  *     [structure] friction, [boundary] stiffness        where b is the structure, the boundary
  *     [contact]      without names
- *     friction, restitution: the smaller value of the two materials (the boundary has none: that of material a);
+ *     friction, restitution: the smaller value of the two materials (of material a at the boundary);
  *     other keys: the default.
  * Call fl_scene_check() before.  Cannot fail. */
 enum { FL_SCENE_STRUCTURE = -1, FL_SCENE_BOUNDARY = -2 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* scene_key.h -- the tables of sections and keys of a scene, and of the bare words of the DilatedDEM manual.
  *
- * Reading, defaults, --set, --explain, printing, ranges and error messages all use these tables.  A new key is
+ * Reading, defaults, --set, --explain, printing, ranges and error messages use these tables.  A new key is
  * a member in scene_types.h and a row of fl_key_table. */
 #ifndef FL_SCENE_SCENE_KEY_H
 #define FL_SCENE_SCENE_KEY_H

@@ -61,8 +61,8 @@ static fl_scene_head *open_section(const source *in, const fl_address *at)
     return head;
 }
 
-/* Check whether this line may set the key.  Returns 1; 0 if the scene itself has set it, which overrides included
- * files; -1 if the key is given twice. */
+/* Check whether this line may set the key.  Returns 1; 0 if the scene itself has set it, which overrides
+ * included files; -1 if the key is given twice. */
 static int check_key_is_new(const source *in, const fl_address *at, uint32_t parts)
 {
     const int32_t i = fl_section_named(in->scene, at->section, at->a, at->b);
@@ -85,7 +85,7 @@ static int check_key_is_new(const source *in, const fl_address *at, uint32_t par
                      in->scene->file[old->file]);
 }
 
-/* Convert the value of a word of the manual to the text of its key; text is unchanged if both mean the same. */
+/* Convert the value of a word of the manual to the text of its key; unchanged if both mean the same. */
 static int convert_manual_value(enum fl_word_map map, const char **text, char buf[FL_NUMBER_LEN], char *why)
 {
     static const char *const bound[] = {"rigid", "elastic", "periodic", "free"};

@@ -10,7 +10,7 @@
 void *fl_section_at(const fl_scene *scene, int section, int32_t i);
 int32_t fl_section_count(const fl_scene *scene, int section);
 
-/* Index of the section with these names (a, b empty for a kind without names; a pair in either order), or -1. */
+/* Index of the section with these names (empty for a kind without names; a pair in either order), or -1. */
 int32_t fl_section_named(const fl_scene *scene, int section, const char *a, const char *b);
 
 /* Append a named section with every key at its default.  Returns its index, or -1 with FL_SYSTEM. */

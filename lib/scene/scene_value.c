@@ -182,8 +182,8 @@ static int apply_unit(const message *c, const char *unit, double *x, const int *
     return 0;
 }
 
-/* Parse numbers with units.  A unit applies to the preceding numbers without a unit: "1 2 3 mm", "-5m 0 2 km".
- * Returns the count of numbers, or -1. */
+/* Parse numbers with units.  A unit applies to the preceding numbers without a unit: "1 2 3 mm", "-5m 0 2
+ * km". Returns the count of numbers, or -1. */
 static int read_numbers(const message *c, const char *text, double *x)
 {
     const fl_key *key = c->key;
