@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* certificate_table.h -- the certificate of a field: requested values, achieved values, distance of the two. */
+/* certificate_table.h -- certificate of a field: requested values, achieved values and their distance. */
 #ifndef VORONOI_ICE_CERTIFICATE_TABLE_H
 #define VORONOI_ICE_CERTIFICATE_TABLE_H
 #include <math.h>

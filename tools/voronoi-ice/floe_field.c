@@ -24,7 +24,7 @@
 
 /* One layer of floes.  Layers of rafted ice lie above each other. */
 struct layer {
-    fl_power_cells cells; /* only their number is kept once they are measured */
+    fl_power_cells cells; /* freed after measuring, except their number */
     fl_floes floes;
     int32_t *cell_of;            /* [floes.n] index of the cell of a floe */
     double full_area;            /* of the floes before some were removed [m2] */
@@ -42,7 +42,7 @@ struct layer {
     double lift; /* rafted: height above the position of the layer if it floated alone [m] */
 };
 
-/* Layers of rafted ice lie this part of their thickness apart, so that none touches another at the start. */
+/* Gap between layers of rafted ice over their thickness: no layer touches another at the start. */
 #define LAYER_GAP 1e-3
 
 static void print_stage(const struct recipe *o, const char *what)
@@ -50,7 +50,7 @@ static void print_stage(const struct recipe *o, const char *what)
     if (o->verbose) fprintf(stderr, "voronoi-ice: %s\n", what);
 }
 
-/* The id in the file is the number of the site; further pieces of a cell come behind all sites. */
+/* Id of a floe in the file: the index of the site; further pieces of a cell follow all sites. */
 static int32_t id_of(const struct layer *a, int32_t i)
 {
     return a->first_id + (a->water.is_domain && a->water.id ? a->water.id[a->cell_of[i]] : a->cell_of[i]);
@@ -89,8 +89,8 @@ done:
     return rc;
 }
 
-/* Every cell is asked for the concentration of its centroid; where that changes linearly they add up to the
- * integral over the field.  factor makes up for slivers. */
+/* The concentration of a cell is that at its centroid; for a linear change the cells add up to the
+ * integral over the field.  factor compensates the area of slivers. */
 static int make_graded_floes(const struct recipe *o, struct layer *a, double factor, fl_err *err)
 {
     const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y}, lo = {-hi.x, -hi.y}, shift = a->water.shift;
@@ -124,7 +124,7 @@ done:
     return rc;
 }
 
-/* Slivers were left out of the cells: the others make up for their area. */
+/* Make floes inside the cells; other cells compensate the area of the slivers, which have no floe. */
 static int make_floes(const struct recipe *o, struct layer *a, fl_err *err)
 {
     const struct open_water *w = &a->water;
@@ -134,18 +134,17 @@ static int make_floes(const struct recipe *o, struct layer *a, fl_err *err)
     if (o->graded) return make_graded_floes(o, a, 1.0 / part, err);
     if (o->bonded) return fl_floes_fill(&a->floes, &a->cells, o->radius, w->shift, err);
     if (!(o->concentration < part))
-        return fl_fail(
-            err, FL_INPUT,
-            "the pieces of cells that have room for a floe cover %.6g of the water, %.10g was asked "
-            "for: more floes or a smaller radius is wanted",
-            part, o->concentration);
+        return fl_fail(err, FL_INPUT,
+                       "the pieces of cells that have room for a floe cover %.6g of the water, %.10g is "
+                       "requested: more floes or a smaller radius is needed",
+                       part, o->concentration);
     if (o->pancakes)
         return fl_pancakes_make(&a->floes, &a->cells, o->pancakes, o->concentration / part, o->radius,
                                 w->shift, err);
     return fl_floes_make(&a->floes, &a->cells, o->concentration / part, o->radius, w->shift, err);
 }
 
-/* Cells and floes in one: which cells there must be depends on the floes they leave. */
+/* Make cells and floes together: the cells are adjusted until the floes have the requested areas. */
 static int make_floes_of_sizes(const struct recipe *o, struct layer *a, fl_err *err)
 {
     const fl_outline in = open_water_outline(&a->water, o);
@@ -171,7 +170,7 @@ static int meets_shape(const struct keep_out *s, int32_t n, const fl_vec2 *v)
     return !fl_polygon_is_apart(n, v, 4, box);
 }
 
-/* What is kept out of a periodic field is kept out of its copies. */
+/* 1 if a floe meets the shape or, in a periodic field, a copy of it.  w: room for n corners. */
 static int meets_shape_or_copy(const struct recipe *o, const struct keep_out *s, int32_t n, const fl_vec2 *v,
                                fl_vec2 *w)
 {
@@ -209,13 +208,13 @@ static int remove_floes(const struct recipe *o, struct layer *a, fl_err *err)
     free(gone);
     free(w);
     if (a->floes.n) return 0;
-    return fl_fail(err, FL_INPUT, "all %d floes meet what is kept out: none is left", o->floes);
+    return fl_fail(err, FL_INPUT, "all %d floes meet kept-out regions: none is left", o->floes);
 }
 
 /* --- the file ------------------------------------------------------------------------------------------- */
 
-/* Prisms that float upright: still water is z = 0, the outer shape goes from -draft to thickness - draft.
- * What is checked once and then only written is stripped. */
+/* Core of a floe: an upright floating prism.  Still water is z = 0; the outer shape extends from -draft to
+ * thickness - draft.  The core is only written after the check, so its derived data are dropped. */
 static int make_core(const struct recipe *o, const struct layer *a, int32_t i, fl_poly *core, fl_err *err)
 {
     const int32_t first = a->floes.first[i], n = a->floes.first[i + 1] - first;
@@ -244,7 +243,7 @@ static int add_floes(const struct recipe *o, const struct layer *a, fl_ice_field
         fl_err why = {0};
         if (make_core(o, a, i, &core[i], &why) == 0) continue;
 #pragma omp critical
-        if (i < bad) { /* whichever thread comes first, the first floe is told */
+        if (i < bad) { /* report the first floe, independent of the threads */
             bad = i;
             *err = why;
         }
@@ -260,14 +259,14 @@ done:
     return rc;
 }
 
-/* The common face of two prisms stands on the side they share, as high as both are there. */
+/* Height of the common face of two prisms and, in middle, the z of its centre. */
 static double common_face_height(const struct recipe *o, const struct layer *a, const fl_face *f,
                                  double *middle)
 {
     const double hi = floe_thickness_at(&a->thickness, o, id_of(a, f->i)),
                  hj = floe_thickness_at(&a->thickness, o, id_of(a, f->j));
     const double h = fmin(hi, hj),
-                 r = a->thickness.draft_ratio; /* the thinner one has the lower top and higher bottom */
+                 r = a->thickness.draft_ratio; /* the thinner floe has the lower top and the higher bottom */
     *middle = (0.5 - r) * h;
     return h;
 }
@@ -307,8 +306,8 @@ done:
 
 /* --- the certificate ------------------------------------------------------------------------------------ */
 
-/* Where all floes are there, what their outlines have beside the shared sides is the outline of the field. */
-static void certify_faces(const struct recipe *o, const struct layer *a, struct certificate_table *t)
+/* If no floe was removed, the perimeters without the shared sides are the outline of the field. */
+static void add_face_rows(const struct recipe *o, const struct layer *a, struct certificate_table *t)
 {
     const fl_faces *f = &a->faces;
     const double open = f->perimeter - 2.0 * f->total_length, outline = 2.0 * (o->size.x + o->size.y);
@@ -328,7 +327,7 @@ static void certify_faces(const struct recipe *o, const struct layer *a, struct 
                         NULL);
 }
 
-static void certify(const struct recipe *o, const struct layer *a, struct certificate_table *t)
+static void add_certificate_rows(const struct recipe *o, const struct layer *a, struct certificate_table *t)
 {
     const fl_certificate *c = &a->certificate;
     const double area = a->water.area, concentration = a->full_area / area;
@@ -353,7 +352,7 @@ static void certify(const struct recipe *o, const struct layer *a, struct certif
         certificate_add(t, "concentration, cells left", NOT_REQUESTED, a->floe_area / a->cell_area,
                         NO_DISTANCE, 6, NULL);
     }
-    if (o->bonded) certify_faces(o, a, t);
+    if (o->bonded) add_face_rows(o, a, t);
     else certificate_add(t, "overlaps", 0, (double)c->overlaps, (double)c->overlaps, 10, NULL);
     certificate_add(t, "floes not convex", 0, c->nonconvex, c->nonconvex, 10, NULL);
     floe_thickness_certify(&a->thickness, o, t);
@@ -389,8 +388,8 @@ static void certify(const struct recipe *o, const struct layer *a, struct certif
                     NULL);
 }
 
-/* Gaps and overlaps of a periodic field are those of the floes and of their copies one period on, in all
- * directions of which one of two has the other ahead. */
+/* Measure gaps and overlaps of a periodic field, with copies of the floes one period away.  Of two
+ * opposite directions one is enough. */
 static int measure_copies(const struct recipe *o, struct layer *a, fl_err *err)
 {
     static const int step[5][2] = {{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}};
@@ -426,7 +425,7 @@ done:
     return rc;
 }
 
-static int measure(const struct recipe *o, struct layer *a, fl_err *err)
+static int measure_floes(const struct recipe *o, struct layer *a, fl_err *err)
 {
     if (fl_certificate_make(&a->certificate, &a->floes, err)) return -1;
     a->full_area = a->floe_area = a->certificate.total_area;
@@ -495,7 +494,7 @@ static int make_layer(struct recipe *o, struct layer *a, fl_err *err)
     if (o->ridges) print_stage(o, "piling up blocks");
     if (ridges_make(&a->ridges, o, err)) return -1;
     print_stage(o, "measuring");
-    if (measure(o, a, err) || measure_thickness(o, a, err)) return -1;
+    if (measure_floes(o, a, err) || measure_thickness(o, a, err)) return -1;
     free_cells_but_count(a);
     return 0;
 }
@@ -512,15 +511,15 @@ static void free_layer(struct layer *a)
     free(a->cell_of);
 }
 
-/* Depth of the bottom of n layers that cover the same part of the water: each has the thickness h, the ice
- * displaces ratio n h of it, and the gaps displace nothing. */
+/* Depth of the bottom of n layers of thickness h with equal concentration [m].  The ice displaces a height of
+ * ratio n h of water; gaps displace none. */
 static double bottom_depth(int32_t n, double h, double ratio)
 {
     const double wet = ratio * n * h, full = floor(wet / h);
     return full * h * (1.0 + LAYER_GAP) + (wet - full * h);
 }
 
-/* Further layers are fields of their own, of seeds that follow from the first, above each other. */
+/* Make all layers, one above the other; further layers have seeds derived from the first. */
 static int make_layers(struct recipe *o, struct layer *a, fl_err *err)
 {
     const double h = o->thickness, deep = bottom_depth(o->layers, h, a->thickness.draft_ratio);
@@ -534,7 +533,7 @@ static int make_layers(struct recipe *o, struct layer *a, fl_err *err)
         if (rc == 0 && o->layers > 1) {
             a[k].first_id = (int32_t)id;
             a[k].lift = h * a->thickness.draft_ratio - deep + k * h * (1.0 + LAYER_GAP);
-            /* pieces of cells are numbered behind the sites */
+            /* pieces of cells have ids after the sites */
             id += (int64_t)o->floes + a[k].cells.n;
             if (id > INT32_MAX)
                 rc = fl_fail(err, FL_INPUT, "%d layers have more floes than there are ids", o->layers);
@@ -544,7 +543,7 @@ static int make_layers(struct recipe *o, struct layer *a, fl_err *err)
     return rc;
 }
 
-static void certify_layers(const struct recipe *o, const struct layer *a, struct certificate_table *t)
+static void add_layer_rows(const struct recipe *o, const struct layer *a, struct certificate_table *t)
 {
     double off = 0.0;
     int64_t overlaps = 0;
@@ -594,8 +593,8 @@ int floe_field_make(struct recipe *o, fl_err *err)
     if (read_thickness(o, &a->thickness, err) || make_layers(o, a, err)) goto done;
     print_stage(o, "writing");
     if (write_field(o, a, o->layers, err)) goto done;
-    certify(o, a, &table);
-    certify_layers(o, a, &table);
+    add_certificate_rows(o, a, &table);
+    add_layer_rows(o, a, &table);
     recipe_history(o, &by);
     if (o->certificate && certificate_write(&table, o->certificate, &by, err)) goto done;
     if (!o->quiet) certificate_print(&table);

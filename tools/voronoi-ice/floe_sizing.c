@@ -8,9 +8,9 @@
 #include "ice/sizes_read.h"
 #include "floe_sizing.h"
 
-static double diameter(double area) { return sqrt(4.0 / PI * area); }
+static double diameter_of(double area) { return sqrt(4.0 / PI * area); }
 
-static int ascending(const void *a, const void *b)
+static int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -28,10 +28,10 @@ static int by_number(const void *a, const void *b)
     return (p->i > q->i) - (p->i < q->i);
 }
 
-static double covered(const struct recipe *o) { return o->bonded ? 1.0 : o->concentration; }
+static double concentration_of(const struct recipe *o) { return o->bonded ? 1.0 : o->concentration; }
 
-/* How many floes, and which concentration, where the command line leaves them to the sizes. */
-static int settle(const struct floe_sizing *s, struct recipe *o, double area, fl_err *err)
+/* Set number and concentration where the command line leaves them to the sizes. */
+static int set_open_values(const struct floe_sizing *s, struct recipe *o, double area, fl_err *err)
 {
     const double each = fl_sizes_mean(&s->law);
     const int list = s->law.kind == FL_SIZES_LIST;
@@ -40,17 +40,17 @@ static int settle(const struct floe_sizing *s, struct recipe *o, double area, fl
         const double cover = s->law.cumulative_area[s->law.n] / area;
         if (!(cover > 0.0 && cover < 1.0))
             return fl_fail(err, FL_INPUT,
-                           "the sizes of %s cover %.4g of the field as they are, a part between 0 and 1 was "
-                           "wanted: --concentration scales them, --size gives them room",
+                           "the sizes of %s cover %.4g of the field as they are, a part between 0 and 1 is "
+                           "expected: --concentration scales them, --size gives them room",
                            o->sizes, cover);
         o->concentration = cover;
     }
     if (list && !o->has_floes) n = s->law.cumulative_count[s->law.n];
-    if (s->law.kind == FL_SIZES_POWER && !o->has_floes) n = covered(o) * area / each;
+    if (s->law.kind == FL_SIZES_POWER && !o->has_floes) n = concentration_of(o) * area / each;
     if (!(n >= 0.5 && n <= FLOES_MAX))
         return fl_fail(
             err, FL_INPUT,
-            "%.3g floes of these sizes would cover the field as asked, 1 to %d are expected: --floes "
+            "%.3g floes of these sizes would give this concentration, 1 to %d are expected: --floes "
             "scales the sizes",
             n, FLOES_MAX);
     o->floes = (int32_t)(n + 0.5);
@@ -66,8 +66,8 @@ int floe_sizing_assign(struct floe_sizing *s, struct recipe *o, double area, fl_
     if (o->sizes_file &&
         (recipe_check_file("sizes", o->sizes, "a law", err) || fl_sizes_read(&s->law, o->sizes, err)))
         return -1;
-    if (settle(s, o, area, err)) return -1;
-    s->mean = covered(o) * area / o->floes;
+    if (set_open_values(s, o, area, err)) return -1;
+    s->mean = concentration_of(o) * area / o->floes;
     s->factor = s->law.kind == FL_SIZES_POWER || s->law.kind == FL_SIZES_LIST
                     ? sqrt(s->mean / fl_sizes_mean(&s->law))
                     : NAN;
@@ -80,8 +80,8 @@ int floe_sizing_assign(struct floe_sizing *s, struct recipe *o, double area, fl_
         fl_rng g = fl_rng_of(o->seed, i, FL_RNG_SIZE);
         rank[i] = (struct ranked){fl_rng_u64(&g), i};
     }
-    s->min_diameter = diameter(size[0]);
-    s->max_diameter = diameter(size[o->floes - 1]);
+    s->min_diameter = diameter_of(size[0]);
+    s->max_diameter = diameter_of(size[o->floes - 1]);
     qsort(rank, (size_t)o->floes, sizeof *rank, by_number);
     for (int32_t k = 0; k < o->floes; k++) s->area[rank[k].i] = size[k];
     rc = 0;
@@ -105,7 +105,7 @@ int floe_sizing_measure(struct floe_sizing *s, const fl_floes *floes, fl_err *er
         s->n_missed++;
         if (s->area[i] > s->largest_missed) s->largest_missed = s->area[i];
     }
-    qsort(s->achieved, (size_t)floes->n, sizeof *s->achieved, ascending);
+    qsort(s->achieved, (size_t)floes->n, sizeof *s->achieved, by_value);
     return 0;
 }
 
@@ -113,7 +113,7 @@ void floe_sizing_certify(const struct floe_sizing *s, const struct recipe *o, do
                          struct certificate_table *t)
 {
     const double ks = fl_sizes_ks_distance(&s->law, s->mean, o->floes, s->achieved);
-    const double least = diameter(s->achieved[0]), most = diameter(s->achieved[o->floes - 1]);
+    const double least = diameter_of(s->achieved[0]), most = diameter_of(s->achieved[o->floes - 1]);
     certificate_add_text(t, "sizes", o->sizes, NULL);
     certificate_add(t, "sizes, distribution", NOT_REQUESTED, NOT_REQUESTED, ks, 6, "Kolmogorov-Smirnov");
     if (!isnan(s->factor))
@@ -122,7 +122,7 @@ void floe_sizing_certify(const struct floe_sizing *s, const struct recipe *o, do
     certificate_add(t, "sizes, worst floe, part of area", 0.0, s->max_error, s->max_error, 2, NULL);
     if (s->n_missed)
         certificate_add(t, "sizes, floes off by 1 percent", 0.0, s->n_missed, s->n_missed, 10,
-                        "asked for with up to %.4g m, among gaps of %.4g m", diameter(s->largest_missed),
+                        "requested up to %.4g m, with gaps of %.4g m", diameter_of(s->largest_missed),
                         2.0 * inset);
     certificate_add(t, "diameter, smallest [m]", s->min_diameter, least, fabs(least - s->min_diameter), 6,
                     NULL);

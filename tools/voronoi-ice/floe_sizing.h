@@ -33,7 +33,7 @@ int floe_sizing_assign(struct floe_sizing *s, struct recipe *o, double area, fl_
 /* Measure the floes. */
 int floe_sizing_measure(struct floe_sizing *s, const fl_floes *floes, fl_err *err);
 
-/* Add the rows of the sizes to the certificate.  inset: of the cells, half of the gap between two floes [m] */
+/* Add the rows of the sizes to the certificate.  inset: half of the gap between two floes [m]. */
 void floe_sizing_certify(const struct floe_sizing *s, const struct recipe *o, double inset,
                          struct certificate_table *t);
 

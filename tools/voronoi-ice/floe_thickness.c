@@ -8,7 +8,7 @@
 int floe_thickness_read(struct floe_thickness *d, struct recipe *o, fl_err *err)
 {
     fl_err why = {0};
-    int32_t again;
+    int32_t redraws;
     d->draft_ratio = o->ice_density / o->water_density;
     if (fl_thickness_parse(&d->law, o->thickness_law, &why)) {
         if (why.code == FL_INPUT && recipe_check_file("thickness", o->thickness_law, "metres, a law", err))
@@ -24,7 +24,7 @@ int floe_thickness_read(struct floe_thickness *d, struct recipe *o, fl_err *err)
     }
     d->min = 2.0 * (1.0 + FL_THICKNESS_MIN_CORE) * o->radius;
     if (fl_thickness_cdf(&d->law, d->min, INFINITY) < 0.5 ||
-        fl_thickness_draw(&d->law, o->seed, 0, d->min, &again) == 0.0)
+        fl_thickness_draw(&d->law, o->seed, 0, d->min, &redraws) == 0.0)
         return fl_fail(
             err, FL_INPUT,
             "--thickness %.60s has less than half of its floes above %g m, which a dilation radius "
@@ -37,12 +37,12 @@ int floe_thickness_read(struct floe_thickness *d, struct recipe *o, fl_err *err)
 
 double floe_thickness_at(const struct floe_thickness *d, const struct recipe *o, int32_t id)
 {
-    int32_t again;
+    int32_t redraws;
     return d->law.kind == FL_THICKNESS_CONSTANT ? d->law.a
-                                                : fl_thickness_draw(&d->law, o->seed, id, d->min, &again);
+                                                : fl_thickness_draw(&d->law, o->seed, id, d->min, &redraws);
 }
 
-static int ascending(const void *a, const void *b)
+static int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -55,17 +55,17 @@ int floe_thickness_measure(struct floe_thickness *d, const struct recipe *o, int
     if (h && volume) {
         d->redraws = 0;
         for (int32_t i = 0; i < n; i++) {
-            int32_t again = 0;
+            int32_t redraws = 0;
             h[i] = d->law.kind == FL_THICKNESS_CONSTANT
                        ? d->law.a
-                       : fl_thickness_draw(&d->law, o->seed, id[i], d->min, &again);
-            d->redraws += again;
+                       : fl_thickness_draw(&d->law, o->seed, id[i], d->min, &redraws);
+            d->redraws += redraws;
             volume[i] = h[i] * area[i];
         }
         d->n = n;
         d->volume = fl_parallel_sum(volume, n);
         d->mean = fl_parallel_sum(h, n) / n;
-        qsort(h, (size_t)n, sizeof *h, ascending);
+        qsort(h, (size_t)n, sizeof *h, by_value);
         d->smallest = h[0];
         d->largest = h[n - 1];
         d->ks_distance = fl_thickness_ks_distance(&d->law, d->min, n, h);

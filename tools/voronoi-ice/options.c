@@ -345,7 +345,7 @@ static int parse_ridge(struct recipe *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* --- options against each other -------------------------------------------------------------------------- */
+/* --- checks between options ----------------------------------------------------------------------------- */
 
 static int is_given(uint64_t given, int c) { return (int)(given >> (c - SIZE) & 1); }
 

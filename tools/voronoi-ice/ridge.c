@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ridge.h"
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
 #include "base/stream.h"
 #include "block_field.h"
-#include "ridge.h"
 
 enum { BLOCKS_MOST = 1000000 };
 
 /* --- regions -------------------------------------------------------------------------------------------- */
 
-/* A cross-section (s, z), counter-clockwise seen against the line, drawn along the line from x[0..1] to
- * x[2..3]; s is counted to the left of it. */
+/* Extrude a cross-section along the line from x[0..1] to x[2..3].  The section has corners (s, z) with s
+ * to the left of the line, counter-clockwise as seen against its direction. */
 static int extrude(fl_poly *p, const double *x, int32_t n, const fl_vec2 *section, fl_err *err)
 {
     const double l = hypot(x[2] - x[0], x[3] - x[1]), ux = (x[2] - x[0]) / l, uy = (x[3] - x[1]) / l;
@@ -34,8 +34,8 @@ static int extrude(fl_poly *p, const double *x, int32_t n, const fl_vec2 *sectio
     return fl_poly_make(p, 2 * n, v, n + 2, first, loop, err);
 }
 
-/* -1 with FL_INPUT where there are too many. */
-static int32_t blocks_in(const fl_poly *region, double block, fl_err *err)
+/* Number of blocks of that size in the region, or -1 with FL_INPUT if it is too large. */
+static int32_t count_blocks(const fl_poly *region, double block, fl_err *err)
 {
     const double n = fmax(1.0, floor(fl_blocks_volume(region) / (block * block * block) + 0.5));
     if (n <= BLOCKS_MOST) return (int32_t)n;
@@ -52,7 +52,7 @@ static int make_part(struct ridges *p, const struct recipe *o, const double *x, 
     int64_t pairs;
     int rc = -1;
     if (extrude(&region, x, n, section, &why)) goto done;
-    const int32_t many = blocks_in(&region, o->block, &why);
+    const int32_t many = count_blocks(&region, o->block, &why);
     if (many < 0 ||
         fl_blocks_cells(b, &region, many, o->seed, (p->n + 1) * BLOCK_FIELD_FIRST_SITE, o->smooth, &why))
         goto done;
@@ -68,7 +68,7 @@ done:
     return rc;
 }
 
-static void strip(const double *x, fl_vec2 *v)
+static void strip_of(const double *x, fl_vec2 *v)
 {
     const double l = hypot(x[2] - x[0], x[3] - x[1]), half = 0.5 * fmax(x[5], x[7]);
     const double nx = -half * (x[3] - x[1]) / l, ny = half * (x[2] - x[0]) / l;
@@ -78,14 +78,14 @@ static void strip(const double *x, fl_vec2 *v)
     v[3] = (fl_vec2){x[0] + nx, x[1] + ny};
 }
 
-/* Blocks of two ridges are apart when their strips are. */
+/* Check that the strips of all ridges are apart; their blocks are apart then. */
 static int check_apart(const struct recipe *o, fl_err *err)
 {
     fl_vec2 a[4], b[4];
     for (int i = 0; i < o->ridges; i++)
         for (int j = 0; j < i; j++) {
-            strip(o->ridge[i], a);
-            strip(o->ridge[j], b);
+            strip_of(o->ridge[i], a);
+            strip_of(o->ridge[j], b);
             if (!fl_polygon_is_apart(4, a, 4, b))
                 return fl_fail(err, FL_INPUT, "ridges %d and %d meet, ridges that are apart are expected",
                                j + 1, i + 1);

@@ -59,7 +59,7 @@ static int add_spheres(const struct recipe *o, const fl_sphere_packing *a, doubl
     return 0;
 }
 
-/* Largest distance by which a sphere extends beyond the field, and largest overlap of two touching spheres. */
+/* Largest extent of a sphere beyond the field, and largest overlap of two touching spheres. */
 static void measure(const struct recipe *o, const fl_sphere_packing *a, double *outside, double *max_overlap)
 {
     const double r = 0.5 * o->diameter;
