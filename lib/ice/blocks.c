@@ -10,12 +10,12 @@
 #include "geom/mass.h"
 #include "ice/blocks.h"
 
-/* Sites to a cell of the grid that finds neighbours. */
+/* Mean number of sites in a cell of the search grid. */
 #define CROWD 3.0
-/* The parts filled must agree with the one asked for to this part, which is far below any porosity that is
- * known, and above the rounding of volumes. */
+/* Relative tolerance of the filled volume: far below the accuracy of any measured porosity, above the
+ * rounding of volumes. */
 #define FILLED 1e-10
-#define ROUGH 0.1 /* the most that blocks which vanish together may leave of what is asked for */
+#define ROUGH 0.1 /* largest relative error that blocks vanishing together may leave */
 
 enum { STEPS = 80, DEEPER = 12, TRIES = 100000 };
 
@@ -53,7 +53,7 @@ static int throw_sites(int32_t n, uint64_t seed, int64_t first, const fl_poly *r
     return 0;
 }
 
-/* Sites by the cells of a grid: those of cell k are order[first[k] .. first[k + 1]). */
+/* Sites sorted by grid cells: those of cell k are order[first[k] .. first[k + 1]). */
 struct grid {
     fl_vec3 lo;
     double step;
@@ -85,7 +85,7 @@ static int grid_build(struct grid *g, int32_t n, const fl_vec3 *site, fl_aabb bo
     g->lo = box.lo;
     g->step = cbrt(CROWD * volume / n);
     for (int k = 0; k < 3; k++) {
-        /* a long thin region has few sites to its box: no more cells than would hold them all in a row */
+        /* a long thin region has few sites in its box: limit the number of grid cells */
         g->m[k] = (int32_t)fmin(fmax(1.0, ceil(size[k] / g->step)), 512.0);
         g->step = fmax(g->step, size[k] / 512.0);
     }
@@ -130,7 +130,8 @@ static int nearer(const void *a, const void *b)
     return (p->j > q->j) - (p->j < q->j);
 }
 
-/* Sites in the cells of the grid that are `ring` cells away along some axis, and no more along any. */
+/* Collect the sites in the grid cells at a distance of exactly `ring` cells in the maximum norm, nearest
+ * first. */
 static int gather(const struct grid *g, const fl_vec3 *site, int32_t i, int32_t ring, struct other **list,
                   int32_t *cap, int32_t *n, fl_err *err)
 {
@@ -175,7 +176,7 @@ static int cut_cell(fl_poly *cell, const fl_poly *region, const struct grid *g, 
     int rc = -1;
     if (fl_poly_copy(cell, region, err)) return -1;
     reach = 2.0 * farthest(cell, site[i]);
-    /* what lies beyond a ring of the grid is that many steps away at least */
+    /* sites beyond a ring of the grid are at least that many steps away */
     for (int32_t ring = 0; ring <= most && (ring - 1) * g->step < reach; ring++) {
         if (gather(g, site, i, ring, &list, &cap, &n, err)) goto done;
         for (int32_t k = 0; k < n && list[k].far < reach; k++) {
@@ -255,7 +256,7 @@ done:
 
 /* --- blocks --------------------------------------------------------------------------------------------- */
 
-/* An offset that leaves nothing, or nothing with faces, is no failure here: there is no block.  1 then. */
+/* Offset a polyhedron.  Returns 1 if nothing with faces remains, which means that there is no block. */
 static int offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
 {
     fl_err why = {0};
@@ -264,8 +265,8 @@ static int offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
     return why.code == FL_SYSTEM ? fl_fail(err, FL_SYSTEM, "%s", why.text) : 1;
 }
 
-/* A core is a body, and no sheet: between two planes along its faces there is this much of the dilation
- * radius at least, and of its size. */
+/* A core has a least width between two parallel planes, over the dilation radius and over its size;
+ * otherwise it would be a sheet. */
 static const double THICK_OF_RADIUS = 1e-2, THICK_OF_SIZE = 1e-4;
 
 static int too_thin(const fl_poly *p, double radius)
@@ -279,7 +280,7 @@ static int too_thin(const fl_poly *p, double radius)
     return 0;
 }
 
-/* How far corners of p stand out of the cell moved inward by d. */
+/* Largest distance of corners of p beyond the faces of the cell moved inward by d. */
 static double beyond(const fl_poly *cell, const fl_poly *p, double d)
 {
     double most = -INFINITY;
@@ -288,7 +289,7 @@ static double beyond(const fl_poly *cell, const fl_poly *p, double d)
     return most;
 }
 
-/* The core of a cell for a gap, and the volume of its outer block; no core (nv = 0) where room is lacking. */
+/* Make the core of a cell for an inset, and the volume of its outer block; nv = 0 if there is no room. */
 static int shape(const fl_poly *cell, double gap, double radius, fl_poly *core, double *volume, fl_err *err)
 {
     const double spare = (1.0 - FL_BLOCKS_CLEARANCE) * gap + 1e-12 * cell->size;
@@ -348,7 +349,7 @@ int fl_blocks_shrink(fl_blocks *b, double solid, double radius, fl_err *err)
             "blocks of dilation radius %.4g m fill %.4g of their region at most, %.10g was asked for: a "
             "smaller radius or larger blocks are wanted",
             radius, sum / b->region_volume, solid);
-    over_hi = -want; /* a gap of the size of a cell leaves nothing */
+    over_hi = -want; /* an inset of the size of a cell leaves nothing */
     over = over_lo;
     for (int step = 0; step < STEPS && fabs(over) > FILLED * want; step++) {
         const double line = lo + (hi - lo) * (over_lo / (over_lo - over_hi));
@@ -394,7 +395,7 @@ int fl_blocks_overlaps(const fl_blocks *b, double radius, int64_t *pairs, fl_err
     *pairs = 0;
     if (!outer || !box) goto done;
     for (int32_t i = 0; i < b->n; i++) {
-        box[i] = (fl_aabb){b->site[i], b->site[i]}; /* of nothing: meets its own site only */
+        box[i] = (fl_aabb){b->site[i], b->site[i]}; /* empty box, meets its own site only */
         if (b->core[i].nv == 0) continue;
         if (offset(&outer[i], &b->core[i], radius, err) < 0) goto done;
         box[i] = fl_poly_aabb(&outer[i]);

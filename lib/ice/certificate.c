@@ -43,7 +43,7 @@ static fl_aabb box_of(const fl_floes *a, int32_t i)
     return b;
 }
 
-/* The nearest pair of those seen, the first of them where several are as near. */
+/* The nearest pair so far; of equally near pairs the first. */
 struct nearest {
     double gap;
     int32_t i, j;
@@ -55,16 +55,15 @@ static void take(struct nearest *n, double gap, int32_t i, int32_t j)
     *n = (struct nearest){gap, i, j};
 }
 
-/* The floes along Hilbert's curve, in the order of which they are worked on: what is near a floe has been
- * seen a moment before. */
+/* Floes in the order of a Hilbert curve, so that neighbours are near in memory and still in the cache. */
 struct row {
     const fl_floes *a;
-    int32_t *floe; /* [n] at place k */
-    fl_aabb *box;  /* [n] of it  [m] */
+    int32_t *floe; /* [n] at position k */
+    fl_aabb *box;  /* [n] of that floe [m] */
     fl_bvh tree;
 };
 
-/* What the floe at place k has to do with those of higher places that are near it. */
+/* Evaluate the pairs of the floe at position k with near floes at higher positions. */
 static int look_round(const struct row *r, double reach, int32_t k, int32_t **near, int32_t *cap,
                       int64_t *overlaps, struct nearest *n, fl_err *err)
 {
@@ -87,8 +86,8 @@ static int look_round(const struct row *r, double reach, int32_t k, int32_t **ne
     return 0;
 }
 
-/* Pairs within reach of each other: count those not apart, find the nearest.  Touching boxes are within any
- * reach >= 0, so that each pass sees every overlap there is. */
+/* Evaluate all pairs within `reach`: count overlaps, find the nearest pair.  Boxes that touch are within
+ * any reach >= 0, so each pass counts all overlaps. */
 static int pass(const struct row *r, double reach, fl_certificate *out, fl_err *err)
 {
     struct nearest best = {INFINITY, INT32_MAX, INT32_MAX};
@@ -137,7 +136,7 @@ static int measure_pairs(const fl_floes *a, fl_certificate *out, fl_err *err)
 {
     struct row r = {.a = a};
     fl_aabb all = aabb_empty();
-    /* Neighbours stand two insets apart: one pass finds the nearest, unless floes are few and far between. */
+    /* neighbours are two insets apart: one pass finds the nearest pair, unless floes are sparse */
     double reach = 2.0 * a->inset * (1.0 + 1e-9), far;
     int rc = -1;
     if (row_make(&r, err)) goto done;

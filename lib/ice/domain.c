@@ -38,7 +38,7 @@ int fl_domain_add(fl_domain *d, int32_t n, const fl_vec2 *v, fl_err *err)
     return 0;
 }
 
-/* The corner behind corner k of ring r. */
+/* The corner after corner k of ring r. */
 static fl_vec2 end_of(const fl_domain *d, int32_t r, int32_t k)
 {
     return d->v[k + 1 < d->first[r + 1] ? k + 1 : d->first[r]];
@@ -85,7 +85,7 @@ static int look(const fl_domain *d, fl_aabb q, struct near *near, fl_err *err)
     return 0;
 }
 
-/* The side from corner k; rings are few and corners many, so the ring is looked for by halves. */
+/* The side from corner k.  The ring is found by bisection. */
 static void side_of(const fl_domain *d, int32_t k, fl_vec2 *p, fl_vec2 *q)
 {
     int32_t lo = 0, hi = d->rings;
@@ -98,7 +98,8 @@ static void side_of(const fl_domain *d, int32_t k, fl_vec2 *p, fl_vec2 *q)
     *q = end_of(d, lo, k);
 }
 
-/* A ray towards +x: sides that cross it upward count +1, downward -1; a corner belongs to the side above. */
+/* Winding number by a ray towards +x: sides that cross it upward count +1, downward -1; a corner belongs
+ * to the side above. */
 static int inside(const fl_domain *d, fl_vec2 at, struct near *near, int *is, fl_err *err)
 {
     const fl_aabb ray = {{at.x, at.y, 0.0}, {INFINITY, at.y, 0.0}};
@@ -133,7 +134,7 @@ int fl_domain_sites(int32_t n, uint64_t seed, const fl_domain *d, fl_vec2 *site,
     for (int32_t i = 0; i < n; i++) {
         fl_rng g = fl_rng_of(seed, i, FL_RNG_SITE);
         int is = 0;
-        /* a domain of that part of its box is missed so often with a probability of exp(-20) */
+        /* a domain of the least share is missed so often with probability exp(-20) */
         for (int32_t k = 0; k < (int32_t)(20.0 / FL_DOMAIN_MIN_SHARE) && !is; k++) {
             site[i].x = fl_rng_in(&g, d->lo.x, d->hi.x);
             site[i].y = fl_rng_in(&g, d->lo.y, d->hi.y);
@@ -152,7 +153,7 @@ done:
 
 /* --- cutting -------------------------------------------------------------------------------------------- */
 
-/* Pieces to be looked at, and those that are done, lie in one growing pool each. */
+/* Pool of polygons: those still to be cut, and the finished pieces. */
 struct pool {
     int32_t n, at, cap, first_cap, v_cap, side_cap;
     int32_t *first; /* [n + 1] */
@@ -184,8 +185,8 @@ struct cutting {
     const fl_domain *d;
     double least, touch;
     struct pool todo, done;
-    int32_t *site, site_cap; /* of the pieces done      */
-    double *area, *gone;     /* of those, and of those dropped [m2] */
+    int32_t *site, site_cap; /* of the finished pieces */
+    double *area, *gone;     /* of the finished and of the dropped pieces [m2] */
     int32_t area_cap, gone_cap, dropped;
     struct near near, ray;
     fl_vec2 *v; /* scratch */
@@ -199,7 +200,7 @@ static fl_polygon_side line_of(fl_vec2 p, fl_vec2 q, int32_t tag)
     return (fl_polygon_side){s * dy, -s * dx, s * (dy * p.x - dx * p.y), tag};
 }
 
-/* Length of the part of p q that lies inside the polygon by more than touch. */
+/* Length of the part of p q that is inside the polygon by more than `touch`. */
 static double length_in(int32_t n, const fl_polygon_side *side, fl_vec2 p, fl_vec2 q, double touch)
 {
     double from = 0.0, to = 1.0;
@@ -213,7 +214,7 @@ static double length_in(int32_t n, const fl_polygon_side *side, fl_vec2 p, fl_ve
     return to > from ? (to - from) * hypot(q.x - p.x, q.y - p.y) : 0.0;
 }
 
-/* The side of the domain that runs through a piece for the longest way, -1 when none does. */
+/* The side of the domain with the greatest length inside a piece, -1 if there is none. */
 static int32_t longest(const struct cutting *c, int32_t n, const fl_polygon_side *side)
 {
     int32_t at = -1;
@@ -231,7 +232,7 @@ static int32_t longest(const struct cutting *c, int32_t n, const fl_polygon_side
     return at;
 }
 
-/* A piece that nothing runs through is inside or outside as a whole. */
+/* Store a piece that no side crosses, if it is inside the domain and no sliver. */
 static int finish(struct cutting *c, int32_t i, int32_t n, fl_vec2 *v, fl_polygon_side *side, int cut,
                   fl_err *err)
 {
@@ -273,7 +274,7 @@ static int cut_cell(struct cutting *c, const fl_power_cells *cells, int32_t i, f
     for (int32_t t = 0; t < todo->n; t++) {
         const int32_t at = todo->first[t], n = todo->first[t + 1] - at;
         const int32_t along = longest(c, n, todo->side + at);
-        /* room for the piece and one corner more, twice: what is cut may not be moved by what is added */
+        /* room for the piece and one more corner, twice: the pool may move when a piece is added */
         if (fl_grow(&c->v, &c->v_cap, 2 * ((int64_t)n + 1), sizeof *c->v, err) ||
             fl_grow(&c->side, &c->side_cap, 2 * ((int64_t)n + 1), sizeof *c->side, err))
             return -1;
@@ -299,7 +300,7 @@ static int cut_cell(struct cutting *c, const fl_power_cells *cells, int32_t i, f
 
 /* --- the pieces ----------------------------------------------------------------------------------------- */
 
-/* Largest pieces first, in the order of their cells, then the others. */
+/* Collect the pieces: largest pieces first, by cell, then the others. */
 static int collect(const struct cutting *c, int32_t cells, fl_pieces *out, fl_err *err)
 {
     const int32_t n = c->done.n;

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "ice/domain_read.h"
 
-/* As far as any shape may lie [m]. */
+/* Largest coordinate [m]. */
 #define FAR 1e9
 
 struct ring {
@@ -39,7 +39,7 @@ static int close_ring(fl_domain *d, struct ring *r, fl_text *in, fl_err *err)
     if (n > 1 && r->v[n - 1].x == r->v[0].x && r->v[n - 1].y == r->v[0].y) n--;
     if (fl_domain_add(d, n, r->v, &why) == 0) return 0;
     if (why.code != FL_INPUT) return fl_fail(err, why.code, "%s", why.text);
-    in->line_number = r->begun; /* the complaint is about the ring, not about the line behind it */
+    in->line_number = r->begun; /* the message is about the ring, not about the line after it */
     fl_text_fail(in, err, "%s", why.text);
     in->line_number = now;
     return -1;

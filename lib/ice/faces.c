@@ -5,7 +5,7 @@
 #include "broad/bvh.h"
 #include "ice/faces.h"
 
-/* A field far from the origin has corners that are rounded to its distance: some hundred ulps of that. */
+/* Rounding of corners of a field far from the origin, over the distance: some hundred ulps. */
 #define FAR 1e-14
 
 struct polygon {
@@ -20,14 +20,14 @@ static struct polygon outer(const fl_floes *a, int32_t i)
 
 static fl_vec2 next(struct polygon p, int32_t k) { return p.v[k + 1 < p.n ? k + 1 : 0]; }
 
-/* The line through two corners, with the outward normal. */
+/* The line through two corners, with its outward normal. */
 static fl_polygon_side line(fl_vec2 p, fl_vec2 q)
 {
     const double s = 1.0 / hypot(q.x - p.x, q.y - p.y), nx = s * (q.y - p.y), ny = -s * (q.x - p.x);
     return (fl_polygon_side){nx, ny, nx * p.x + ny * p.y, 0};
 }
 
-/* Depth of the overlap by the sides of a: the side that has the other polygon least far behind it. */
+/* Overlap by the sides of a: the least depth of b behind a side of a. */
 static double depth(struct polygon a, struct polygon b)
 {
     double most = -INFINITY;
@@ -40,8 +40,8 @@ static double depth(struct polygon a, struct polygon b)
     return -most;
 }
 
-/* The piece that the sides p q and r s share, from p to q; the line is that of the longer side, whose
- * direction is the better known one.  Returns its length, 0 when there is none. */
+/* The common part of the sides p q and r s, from p to q, on the line of the longer side, whose direction
+ * is more accurate.  Returns its length, 0 if there is none. */
 static double shared(fl_vec2 p, fl_vec2 q, fl_vec2 r, fl_vec2 s, double within, fl_vec2 *from, fl_vec2 *to)
 {
     const double pq = hypot(q.x - p.x, q.y - p.y), rs = hypot(s.x - r.x, s.y - r.y);
@@ -57,7 +57,8 @@ static double shared(fl_vec2 p, fl_vec2 q, fl_vec2 r, fl_vec2 s, double within, 
     return hi - lo;
 }
 
-/* Two convex polygons that do not overlap share one piece at most; rounding may make it look like two. */
+/* The common side of two polygons: convex polygons without overlap have at most one; rounding may split
+ * it. */
 static double face_of(struct polygon a, struct polygon b, double within, fl_face *out)
 {
     double best = 0.0;

@@ -67,8 +67,8 @@ double fl_floe_sides_inset(const fl_floe_sides *f, int32_t i, double d)
     return d < f->max_inset[i] ? d : f->max_inset[i];
 }
 
-/* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
- * from the corner of a and b to the inscribed circle leave rho (tan + tan) at depth of the circle: half of it
+/* Least length of side e, between sides a and b, on a core of inscribed radius rho.  The tangents from the
+ * corner of a and b to the inscribed circle cut rho (tan + tan) at the depth of the circle; half of it
  * stays clear. */
 static double least_side(const fl_floe_sides *f, fl_polygon_side a, fl_polygon_side e, fl_polygon_side b,
                          double rho)
@@ -77,8 +77,8 @@ static double least_side(const fl_floe_sides *f, fl_polygon_side a, fl_polygon_s
     return rho * (clear < f->min_side ? clear : f->min_side);
 }
 
-/* The outer corner of a and b at inset d must stay inside the cell by `spare`: how far is it beyond that,
- * against the cell's sides between the two, and against which? */
+/* The outer corner of a and b at inset d has to be inside the cell by `spare`. Returns how far it is
+ * beyond that, and the side of the cell between a and b that it violates most. */
 static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b, double d,
                      double spare, int32_t *worst)
 {
@@ -94,7 +94,7 @@ static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, 
     return most;
 }
 
-/* Let side e pass between the core's sides a and b, so deep that its own length is the least one. */
+/* Move side e inward between the sides a and b of the core until its own length is the least one. */
 static void cut_corner(const fl_floe_sides *f, fl_polygon_side *line, unsigned char *state, int32_t e,
                        fl_polygon_side a, fl_polygon_side b, double inset, double rho)
 {
@@ -106,7 +106,7 @@ static void cut_corner(const fl_floe_sides *f, fl_polygon_side *line, unsigned c
     state[e] = KEPT | FIXED;
 }
 
-/* The core of the sides kept so far, in left and corner; those that vanish are kept no more. */
+/* The core of the sides kept so far; sides that vanish are no longer kept. */
 static int32_t core_of(const fl_polygon_side *line, unsigned char *state, int32_t m, double inset,
                        fl_polygon_side *left, fl_vec2 *corner)
 {
@@ -121,8 +121,8 @@ static int32_t core_of(const fl_polygon_side *line, unsigned char *state, int32_
     return k;
 }
 
-/* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were
- * cut after it and took of its length; a quarter may go before it is cut again. */
+/* The shortest side that is too short, -1 if there is none: a side without a decision, or a fixed side
+ * that its neighbours shortened by more than a quarter. */
 static int32_t find_short(const fl_floe_sides *f, const unsigned char *state, int32_t n,
                           const fl_polygon_side *left, const fl_vec2 *corner, double rho)
 {
@@ -141,7 +141,7 @@ static int32_t find_short(const fl_floe_sides *f, const unsigned char *state, in
     return at;
 }
 
-/* One short side: drop it, cut it deeper, or leave it for good.  Returns 0 when there was none. */
+/* Decide on one short side: drop it, move it inward, or keep it.  Returns 0 if there was none. */
 static int mend_short(const fl_floe_sides *f, const fl_polygon_side *cell, int32_t m, fl_polygon_side *line,
                       unsigned char *state, int32_t n, const fl_polygon_side *left, const fl_vec2 *corner,
                       double d, double rho)
@@ -158,7 +158,7 @@ static int mend_short(const fl_floe_sides *f, const fl_polygon_side *cell, int32
     else if (fl_polygon_side_sin(a, b) > 0.0 &&
              fl_polygon_side_length(n, corner, at) < least_side(f, a, left[at], b, rho))
         cut_corner(f, line, state, e, a, b, d + f->radius, rho);
-    else state[e] |= FIXED; /* it stays as it is; between sides that open outward it only looks short */
+    else state[e] |= FIXED; /* it stays as it is; between sides that open outward it is short only here */
     return 1;
 }
 
@@ -176,7 +176,8 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
         line[e].tag = e;
         state[e] = KEPT;
     }
-    /* Each side is dropped once and cut a few times; a cell that asks for more has no room for a floe. */
+    /* Each side is dropped once and moved a few times; a cell that needs more rounds has no room for a
+     * floe. */
     for (int32_t round = 0; round < 8 * (m + 2); round++) {
         const int32_t n = core_of(line, state, m, di + f->radius, left, corner);
         int changed = 0;
@@ -197,7 +198,7 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
     return -1;
 }
 
-/* Half of every margin may be used up. */
+/* Sides are valid while at least half of every margin is left. */
 int fl_floe_sides_are_valid(fl_floe_sides *f, int32_t i, double d)
 {
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first, n = f->count[i];

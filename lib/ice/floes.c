@@ -10,8 +10,8 @@ enum { ROUNDS = 40, NEWTON = 60 };
 
 /* --- the inset ------------------------------------------------------------------------------------------ */
 
-/* Area that the outer polygons have in excess of target at inset d, and how fast it falls: the outlines of
- * the floes that are not held.  With raw the sides are all those that the cell has left. */
+/* Area of the outer polygons minus target at inset d.  *fall: its rate of decrease with d, the sum of the
+ * perimeters of floes that are not limited. raw: with all sides that remain of the cells. */
 static double excess(fl_floe_sides *f, int raw, double d, double target, double *fall)
 {
     const int32_t n = f->cells->n;
@@ -38,11 +38,11 @@ static double excess(fl_floe_sides *f, int raw, double d, double target, double 
     return fl_parallel_sum(f->area, n) - target;
 }
 
-/* Root of excess(), which falls and is convex: Newton's step from the left stays left of the root and
- * converges; the bracket catches rounding, and the start from the right.  Ends when three steps in a row
- * bring no improvement, which is at the rounding of the sum.
- *   *d  in: where to start.  out: the root
- * Returns 0, or -1 when there is none in [0, hi]. */
+/* Root of excess_area(), which decreases and is convex: Newton's step from the left stays left of the root
+ * and converges; a bracket handles rounding and a start from the right.  The iteration ends after three
+ * steps without improvement, which is at the rounding of the sum.
+ *    *d  in: initial value.  out: the root
+ * Returns 0, or -1 if there is none in [0, hi]. */
 static int solve(fl_floe_sides *f, int raw, double target, double hi, double *d)
 {
     double lo = 0.0, x = *d, best = INFINITY;
@@ -66,7 +66,7 @@ static int solve(fl_floe_sides *f, int raw, double target, double hi, double *d)
     return best <= 1e-9 * target ? 0 : -1;
 }
 
-/* Inscribed circles; the smallest cell must have room for a core. */
+/* Measure the inscribed circles; the smallest cell must have room for a core. */
 static int measure_cells(fl_floe_sides *f, double *total, double *hi, fl_err *err)
 {
     const fl_power_cells *c = f->cells;
@@ -87,7 +87,7 @@ static int measure_cells(fl_floe_sides *f, double *total, double *hi, fl_err *er
         if (f->max_inset[i] > *hi) *hi = f->max_inset[i];
     }
     *total = fl_parallel_sum(f->area, c->n);
-    /* A core of less than a thousandth of its cell would have sides too short for any contact. */
+    /* a core below a thousandth of its cell would have sides too short for any contact */
     if (f->inradius[tight] * (1.0 - 1e-3) > f->radius) return 0;
     return fl_fail(err, FL_INPUT,
                    "the cell of floe %d has an inscribed radius of %.4g m, too little for a core inside a "
@@ -103,9 +103,9 @@ static int no_room(const fl_floe_sides *f, int32_t i, fl_err *err)
                    i, f->inradius[i], f->radius);
 }
 
-/* Sides and inset in turn, until the sides chosen serve at the inset that they lead to.  The floes are to
- * cover `lost` [m2] more than asked for, since so much will be cut off their corners; total and hi are those
- * of measure_cells(). */
+/* Alternate between sides and inset until the sides are valid at the resulting inset.  The floes cover
+ * `lost` [m2] more than requested, since their corners will be cut; total and hi are those of
+ * measure_cells(). */
 static int settle(fl_floe_sides *f, double concentration, double total, double hi, double lost, double *d,
                   fl_err *err)
 {
@@ -147,11 +147,11 @@ static int settle(fl_floe_sides *f, double concentration, double total, double h
 
 /* --- sharp corners -------------------------------------------------------------------------------------- */
 
-/* How far from corner k of the core of floe i, along its two sides, it is to be cut off; 0: it stays.  The
- * new side is FL_FLOES_MIN_SIDE times the radius rho of the inscribed circle long, unless the corner is so sharp
- * that this would take more than a quarter of a side.  *lost is the triangle that the outer polygon loses:
- * its corner is r / sin(t / 2) away from that of the core, t being the angle, and the new side r, so that
- * it is cut at a depth of h + r (1 / sin(t / 2) - 1) when the core is at h, whatever the inset. */
+/* Distance from corner k of the core of floe i, along its two sides, at which the corner is cut; 0: it
+ * stays.  The new side has FL_FLOES_MIN_SIDE times the radius rho of the inscribed circle, unless the
+ * corner is so sharp that this would take more than a quarter of a side.  *lost is the triangle that the
+ * outer polygon loses.  With the angle t its corner is r / sin(t / 2) from that of the core, and the new
+ * side r; so it is cut at the depth h + r (1 / sin(t / 2) - 1) if the core is cut at h, for any inset. */
 static double blunt(const fl_floe_sides *f, int32_t n, const fl_polygon_side *side, const fl_vec2 *core,
                     int32_t k, double rho, double *lost)
 {
@@ -176,7 +176,7 @@ static double rho_of(const fl_floe_sides *f, int32_t i, double d)
     return f->inradius[i] - fl_floe_sides_inset(f, i, d) - f->radius;
 }
 
-/* What all floes lose at inset d, and in how many corners. */
+/* Total lost area at inset d, and the number of cut corners. */
 static double lost_at(fl_floe_sides *f, double d, int32_t *corners)
 {
     int32_t all = 0;
@@ -196,7 +196,7 @@ static double lost_at(fl_floe_sides *f, double d, int32_t *corners)
     return fl_parallel_sum(f->area, f->cells->n);
 }
 
-/* Sides and inset, and what is cut off at the inset to which that leads: it changes little with the inset. */
+/* Alternate between sides with inset and the lost area, which changes little with the inset. */
 static int settle_blunt(fl_floe_sides *f, double concentration, double *d, fl_err *err)
 {
     double lost = 0.0, total, hi;
@@ -216,7 +216,8 @@ static int settle_blunt(fl_floe_sides *f, double concentration, double *d, fl_er
 
 /* --- the floes ------------------------------------------------------------------------------------------ */
 
-/* The core of floe i at inset d, about the origin; v has room for twice its sides.  Returns their number. */
+/* Corners of the core of floe i at inset d, about the origin; v has room for twice its sides.  Returns
+ * their number. */
 static int32_t core_at(const fl_floe_sides *f, int32_t i, double d, fl_vec2 *v)
 {
     const fl_polygon_side *side = f->side + f->cells->first[i];
@@ -232,7 +233,7 @@ static int32_t core_at(const fl_floe_sides *f, int32_t i, double d, fl_vec2 *v)
             v[m++] = core[k];
             continue;
         }
-        /* side a runs along (-ny, nx), and ends here; b begins */
+        /* side a has the direction (-ny, nx) and ends here; b starts here */
         v[m++] = (fl_vec2){core[k].x + along * a.ny, core[k].y - along * a.nx};
         v[m++] = (fl_vec2){core[k].x - along * b.ny, core[k].y + along * b.nx};
     }
@@ -293,7 +294,7 @@ done:
 
 /* --- each its own --------------------------------------------------------------------------------------- */
 
-/* Area of floe i at an inset d, with the sides that were chosen, or, raw, with all that its cell has left. */
+/* Area of floe i at inset d, with the selected sides or, raw, with all sides that remain of its cell. */
 static double area_at(fl_floe_sides *f, int raw, int32_t i, double d, double *outline)
 {
     const int32_t first = f->cells->first[i];
@@ -313,8 +314,8 @@ static double area_at(fl_floe_sides *f, int raw, int32_t i, double d, double *ou
     return fl_polygon_area(m, v);
 }
 
-/* Newton's steps from an inset of 0, where the area is largest, towards the target: it falls and is convex,
- * so that they come from the left.  Returns -1 when even no inset leaves too little. */
+/* Newton's method from inset 0, where the area is largest: the area decreases and is convex, so the
+ * iterates approach from the left.  Returns -1 if the floe is too small without an inset. */
 static int solve_one(fl_floe_sides *f, int raw, int32_t i, double target, double *d)
 {
     double x = 0.0, best = INFINITY;
@@ -333,7 +334,7 @@ static int solve_one(fl_floe_sides *f, int raw, int32_t i, double target, double
     return 0;
 }
 
-/* Sides and inset of floe i in turn.  Returns 0, 1: no room, or 2: it cannot cover so much. */
+/* Alternate between sides and inset of floe i.  Returns 0; 1: no room; 2: the target is too large. */
 static int settle_one(fl_floe_sides *f, double *own, int32_t i, double target)
 {
     if (solve_one(f, 1, i, target, &own[i])) return 2;
@@ -364,7 +365,7 @@ static int grade_all(fl_floe_sides *f, double *own, const double *part, double f
                    much, factor * part[much]);
 }
 
-/* What floes that are held have too much the others are to have less. */
+/* Find the insets; the other floes compensate the excess of limited floes. */
 static int grade(fl_floe_sides *f, double *own, const double *part, double *off, fl_err *err)
 {
     const int32_t n = f->cells->n;
@@ -373,7 +374,7 @@ static int grade(fl_floe_sides *f, double *own, const double *part, double *off,
     int rc = -1;
     if (!asked || !free_part || !held || measure_cells(f, &total, &hi, err)) goto done;
     for (int32_t i = 0; i < n; i++) {
-        held[i] = f->area[i]; /* of the cell, as measured */
+        held[i] = f->area[i]; /* area of the cell, as measured */
         asked[i] = part[i] * held[i];
     }
     total = fl_parallel_sum(asked, n);
@@ -456,7 +457,7 @@ void fl_floes_remove(fl_floes *a, const char *gone, int32_t *name)
         if (gone[i]) continue;
         memmove(a->core + at, a->core + from, (size_t)m * sizeof *a->core);
         memmove(a->outer + at, a->outer + from, (size_t)m * sizeof *a->outer);
-        a->first[n] = at; /* n <= i: first[i + 1] is still to be read */
+        a->first[n] = at; /* n <= i: first[i + 1] is read later */
         name[n++] = name[i];
         at += m;
     }

@@ -7,10 +7,10 @@
 #include "base/pi.h"
 #include "ice/pancakes.h"
 
-/* Steps until the bracket is down to rounding: it halves at least in every second one. */
+/* Iterations until the bracket has the width of rounding: every second one at least halves it. */
 enum { STEPS = 120 };
 
-/* The core of a cell with less than this to spare would have sides too short for any contact. */
+/* Least relative spare radius of a cell; below, a core would have sides too short for any contact. */
 #define ROOM 1e-3
 
 struct dough {
@@ -19,7 +19,7 @@ struct dough {
     double radius, reach;  /* R, and R / cos(2 pi / S) */
     double *rho;           /* [n] */
     double *area;          /* [n] of the outer polygons */
-    fl_vec2 *v, *outer;    /* scratch: the cell's corners, and sides a floe */
+    fl_vec2 *v, *outer;    /* scratch: corners of the cell, and `sides` for each floe */
     fl_polygon_side *side; /* scratch */
     fl_vec2 *core;         /* [n sides] */
 };
@@ -30,7 +30,8 @@ static double inset_of(const struct dough *p, int32_t i, double d)
     return d < most ? d : most;
 }
 
-/* The golden section turns neighbours apart from each other, whatever their number. */
+/* Phase of the normals of floe i, by the golden section: neighbours have different phases for any number
+ * of floes. */
 static double phase(int32_t i)
 {
     const double x = 0.61803398874989485 * i;
@@ -49,7 +50,7 @@ static double bake(struct dough *p, int32_t i, double d)
     n = fl_polygon_inset(m, v, p->side + first, near + r, &depth);
     for (int32_t k = 0, at = -1; k < s; k++) {
         const double t = 2.0 * PI * (k + phase(i)) / s, ux = cos(t), uy = sin(t);
-        if (at < 0) { /* the farthest corner once by looking at all, then by going on counter-clockwise */
+        if (at < 0) { /* farthest corner: once over all corners, then counter-clockwise from the last one */
             at = 0;
             for (int32_t e = 1; e < n; e++)
                 if (ux * (v[e].x - v[at].x) + uy * (v[e].y - v[at].y) > 0.0) at = e;
@@ -72,7 +73,7 @@ static double bake_all(struct dough *p, double d)
     return fl_parallel_sum(p->area, p->cells->n);
 }
 
-/* The covered area falls with d: a bracket, cut by the line through its ends and by halves in turn. */
+/* The covered area decreases with d: regula falsi and bisection in turn. */
 static double solve(struct dough *p, double target, double lo, double hi, double over_lo, double over_hi)
 {
     double best = INFINITY, d = lo;

@@ -4,8 +4,8 @@
 #include "base/array.h"
 #include "ice/periodic.h"
 
-/* Width of the first band, in roots of the mean area of a cell: a cell of random sites reaches farther for
- * its corners in about one field of 1e9 cells. */
+/* Width of the first band, in square roots of the mean area of a cell: cells of random sites need more in
+ * about one of 1e9 cells. */
 #define BAND 3.0
 
 static double wrap(double x, double lo, double hi)
@@ -19,7 +19,7 @@ fl_vec2 fl_periodic_wrap(fl_vec2 p, fl_vec2 lo, fl_vec2 hi, const int periodic[2
     return (fl_vec2){periodic[0] ? wrap(p.x, lo.x, hi.x) : p.x, periodic[1] ? wrap(p.y, lo.y, hi.y) : p.y};
 }
 
-/* The sites and their copies up to a distance of band outside; of[] is the site of a copy. */
+/* Add the copies of the sites up to a distance of band outside; of[] is the site of a copy. */
 static int lay_copies(int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, const int reach[2],
                       fl_vec2 band, fl_vec2 **image, int32_t **of, int32_t *count, fl_err *err)
 {
@@ -59,7 +59,7 @@ static int wide_enough(const fl_power_cells *c, int32_t n, const fl_vec2 *site, 
     return 1;
 }
 
-/* Forget the cells of the copies. */
+/* Drop the cells of the copies. */
 static void keep_first(fl_power_cells *c, int32_t n, const int32_t *of)
 {
     c->n = n;

@@ -8,8 +8,8 @@
 #include "shim/cgal_power.h"
 #include "shim/cgal_voronoi.h"
 
-/* The rectangle that the sides of a polygon cut is larger than its box by this part, so that every cut is a
- * plain one: no wall of the rectangle runs along a side of the polygon. */
+/* Margin of the initial rectangle over the size of the polygon: no wall of the rectangle coincides with a
+ * side of the polygon. */
 #define CLEAR 0.05
 
 double fl_outline_area(const fl_outline *a)
@@ -51,16 +51,15 @@ void fl_random_sites(int32_t n, uint64_t seed, fl_vec2 lo, fl_vec2 hi, fl_vec2 *
     fl_random_sites_in_outline(n, seed, &(fl_outline){.lo = lo, .hi = hi}, site);
 }
 
-/* The sites along Hilbert's curve, so that neighbours are near in memory; name is the number that the caller
- * knows a site by.  It decides wherever an order does, so that no bit of a cell depends on that of the work.
- */
+/* The sites along a Hilbert curve, so that neighbours are near in memory. name is the index of a site for
+ * the caller; it defines all orders, so that no bit of a cell depends on the order of work. */
 struct row {
     int32_t *name;
     fl_vec2 *site;
-    double *weight; /* NULL: all are 0 */
+    double *weight; /* NULL: all 0 */
     char *empty;
     int32_t *near_first, *near;
-    int32_t *from, *count; /* where the cell lies in side and v, and its sides */
+    int32_t *from, *count; /* offset of the cell in side and v, and its number of sides */
     fl_polygon_side *side;
     fl_vec2 *v;
 };
@@ -96,8 +95,8 @@ static int row_make(struct row *r, int32_t n, const fl_vec2 *site, const double 
                   : fl_cgal_neighbours(n, r->site, r->name, r->near_first, &r->near, err);
 }
 
-/* What is nearer, or of less power, to site i than to site j.  Always computed from the lower to the higher
- * name, so that both cells see one line. */
+/* The half-plane nearer to site i, or of less power, than to site j.  It is always computed from the lower
+ * to the higher name, so that both cells have the same line. */
 static fl_polygon_side bisector(const struct row *r, int32_t i, int32_t j)
 {
     const int rising = r->name[i] < r->name[j];
@@ -109,14 +108,14 @@ static fl_polygon_side bisector(const struct row *r, int32_t i, int32_t j)
         s * dx, s * dy, s * (r->weight ? middle + 0.5 * (r->weight[l] - r->weight[h]) : middle), r->name[j]};
 }
 
-/* A rectangle cut k times has at most 4 + k sides; with that room for each no cell runs into the next. */
+/* Offset of cell k: a rectangle cut k times has at most 4 + k sides. */
 static int64_t room(const fl_outline *in, const struct row *r, int32_t k)
 {
     return r->near_first[k] + (4 + (int64_t)in->n) * k;
 }
 
-/* Each thread puts its cells one behind the other, from where the room of its first one begins: memory that
- * no cell needs stays untouched. */
+/* Cut all cells.  Each thread stores its cells contiguously from the offset of its first one, so that
+ * unused memory stays untouched. */
 static void cut_all(struct row *r, int32_t n, const fl_outline *in, fl_vec2 lo, fl_vec2 hi)
 {
 #pragma omp parallel
@@ -139,7 +138,7 @@ static void cut_all(struct row *r, int32_t n, const fl_outline *in, fl_vec2 lo, 
     }
 }
 
-/* The cells in the order of their names. */
+/* Collect the cells in the order of their names. */
 static int collect(fl_power_cells *c, const struct row *r, fl_err *err)
 {
     const int32_t n = c->n;

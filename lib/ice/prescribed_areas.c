@@ -8,25 +8,25 @@
 #include "base/rng.h"
 #include "ice/prescribed_areas.h"
 
-/* MANY: fewer rows of the matrix take less time than waking the other threads does. */
+/* MANY: with fewer rows of the matrix a parallel loop costs more than it saves. */
 enum { TRIES = 300, STEPS = 60, HALVES = 30, ROUNDS = 24, IDLE = 3, MANY = 8192, FEW = 2000, GROUPS = 500 };
 
-/* Rough enough to be quick while the sites still move; near enough that the fit of the floes does not see it;
- * and the mean error of the areas at which the fit ends. */
+/* Relative tolerances: while sites still move; for the fit of the floes, below its resolution; mean error
+ * at which the fit ends; for cells alone. */
 #define ROUGH 0.02
 #define NEAR 2e-6
 #define FITTED 1e-5
 #define EXACT 1e-9
-/* The area of a cell in squares of the radius of its inscribed circle, before the cell is known: a regular
- * hexagon has 3.46, the cells of random sites somewhat more. */
+/* Initial estimate of the area of a cell over its squared inscribed radius: 3.46 for a regular hexagon,
+ * somewhat more for cells of random sites. */
 #define SHAPE 3.7
-/* A cell grows or shrinks by no more than this factor in length from round to round. */
+/* Largest factor on the size of a cell from round to round. */
 #define LEAP 4.0
 
 /* --- places --------------------------------------------------------------------------------------------- */
 
-/* Discs by the squares of a grid that their boxes touch; a square is as large as the mean cell, so that n
- * discs touch of the order of n squares whatever their sizes. */
+/* Discs sorted by the grid squares that their boxes touch.  A square has the size of the mean cell, so
+ * that n discs touch of the order of n squares for any sizes. */
 struct thrown {
     double h;
     fl_vec2 lo;
@@ -93,7 +93,7 @@ int fl_prescribed_areas_sites(int32_t n, uint64_t seed, const double *area, cons
     struct ranked *order = fl_alloc(n, sizeof *order, err);
     int rc = -1;
     if (!order) goto done;
-    /* a field of one row or column of squares needs no more than n of them either */
+    /* a field of one row or column of squares needs at most n of them */
     g.nx = (int32_t)(fmin(wx / g.h, n) + 1.0);
     g.ny = (int32_t)(fmin(wy / g.h, n) + 1.0);
     g.head = fl_alloc((int64_t)g.nx * g.ny, sizeof *g.head, err);
@@ -131,12 +131,12 @@ struct newton {
     const fl_vec2 *site;
     const double *area;
     double *got, *lost, *step,
-        *least;                       /* [n] areas [m2], area - got [m2], step of the weights, floor of got */
+        *least; /* [n] areas [m2], area - achieved [m2], step of the weights, lower bound of achieved */
     double *diagonal, *r, *z, *p, *q; /* [n] of the conjugate gradients */
     double *trial;                    /* [n] weights */
-    int32_t groups;                   /* coarse unknowns, 0 where there are none */
+    int32_t groups;                   /* coarse unknowns, 0: none */
     int32_t *group;                   /* [n] of site i */
-    double *coarse, *column, *y;      /* [groups^2] factor, lower; [groups] scratch twice */
+    double *coarse, *column, *y;      /* [groups^2] Cholesky factor, lower; [groups] scratch */
     double *slope;                    /* [sides] l / (2 |x_i - x_j|), 0 at a wall */
     int32_t slopes;
     void *mem;
@@ -187,7 +187,7 @@ static int slopes(struct newton *s, const fl_power_cells *c, fl_err *err)
     return 0;
 }
 
-/* q = (the matrix) p */
+/* q = A p, A: matrix of the slopes. */
 static void times(struct newton *s, const fl_power_cells *c)
 {
 #pragma omp parallel for schedule(static) if (s->n >= MANY)
@@ -201,8 +201,8 @@ static void times(struct newton *s, const fl_power_cells *c)
 
 /* --- the coarse part of the preconditioner -------------------------------------------------------------- */
 
-/* Groups are the sites in one square of a grid; the grid has no more squares than that the factor of their
- * matrix costs less than the iterations it saves. */
+/* Group the sites by squares of a grid; the number of squares limits the cost of the factorisation to less
+ * than that of the saved iterations. */
 static int make_groups(struct newton *s, const fl_outline *in, fl_err *err)
 {
     const double wx = in->hi.x - in->lo.x, wy = in->hi.y - in->lo.y;
@@ -226,9 +226,9 @@ static int make_groups(struct newton *s, const fl_outline *in, fl_err *err)
     return s->coarse && s->column && s->y ? 0 : -1;
 }
 
-/* The matrix of the slopes for steps that are the same in all of a group, and its Cholesky factor.  Constants
- * are in its kernel too: a multiple of the matrix of ones makes it definite, and changes nothing for what
- * adds up to nothing.  Returns 0, or 1 when rounding has left it indefinite. */
+/* Matrix of the slopes for steps that are constant in each group, and its Cholesky factor.  Its kernel
+ * contains constants; a multiple of the matrix of ones makes it definite and has no effect on vectors
+ * whose sum is zero.  Returns 0, or 1 if rounding made it indefinite. */
 static int factor(struct newton *s, const fl_power_cells *c)
 {
     const int32_t n = s->groups;
@@ -256,7 +256,7 @@ static int factor(struct newton *s, const fl_power_cells *c)
     return 0;
 }
 
-/* z += (the coarse inverse) r */
+/* z += C r, C: coarse inverse. */
 static void add_coarse(struct newton *s)
 {
     const int32_t n = s->groups;
@@ -275,8 +275,8 @@ static void add_coarse(struct newton *s)
     for (int32_t i = 0; i < s->n; i++) s->z[i] += y[s->group[i]];
 }
 
-/* z = (the preconditioner) r: the diagonal, since small cells have small slopes, and the coarse part, without
- * which what one end of the field lacks would reach the other cell by cell. */
+/* z = M r, M: preconditioner.  The diagonal accounts for small cells with small slopes.  The coarse part
+ * transports area over the whole field, which would otherwise move cell by cell. */
 static void precondition(struct newton *s)
 {
 #pragma omp parallel for schedule(static) if (s->n >= MANY)
@@ -284,10 +284,10 @@ static void precondition(struct newton *s)
     if (s->groups) add_coarse(s);
 }
 
-/* Conjugate gradients on the matrix of the slopes, a graph Laplacian: constants are its kernel, and what is
- * lost adds up to nothing, so that the method stays where the matrix is definite.  A thousandth of the error
- * is enough for a step.  Source of the two levels: Smith, Bjorstad & Gropp, Domain Decomposition (1996), ch.
- * 2. */
+/* Conjugate gradients on the matrix of the slopes, a graph Laplacian.  Its kernel contains constants, and
+ * the sum of the residual is zero, so the iteration stays where the matrix is definite.  A residual of a
+ * thousandth is enough for a step.  Source of the two levels: Smith, Bjorstad & Gropp, Domain
+ * Decomposition (1996), ch.  2. */
 static void find_step(struct newton *s, const fl_power_cells *c)
 {
     const int32_t n = s->n, most = 200 + (int32_t)(20.0 * sqrt(n));
@@ -315,7 +315,7 @@ static void find_step(struct newton *s, const fl_power_cells *c)
     }
 }
 
-/* Errors of the areas, relative to each: their sum of squares, and the largest. */
+/* Relative errors of the areas: sum of squares, and the largest. */
 static double errors(struct newton *s, double *largest)
 {
     *largest = 0.0;
@@ -328,7 +328,7 @@ static double errors(struct newton *s, double *largest)
     return fl_parallel_sum(s->q, s->n);
 }
 
-/* The cells at trial, with the areas in got. */
+/* Build the cells for the weights, with the areas in achieved. */
 static int look(struct newton *s, fl_power_cells *c, const double *weight, const fl_outline *in, fl_err *err)
 {
     fl_power_cells_free(c);
@@ -344,7 +344,8 @@ static int all_above(const struct newton *s)
     return 1;
 }
 
-/* One step, halved until no cell is too small and the error falls as it should.  1 when none does. */
+/* Take one step, halved until no cell is too small and the error decreases sufficiently.  Returns 1 if
+ * none does. */
 static int take_step(struct newton *s, fl_power_cells *c, double *weight, const fl_outline *in, double *sum,
                      double *largest, fl_err *err)
 {
@@ -409,8 +410,9 @@ done:
 
 /* --- floes ---------------------------------------------------------------------------------------------- */
 
-/* A cell of area A, outline P and inscribed radius R, inset by d, leaves A - P d + c d^2 (c the sum of the
- * tangents of half the turns, as long as no side vanishes; here what the last round left tells it). */
+/* Model of a cell of area A, perimeter P and inscribed radius R: an inset of d leaves A - P d + c d^2. c
+ * is the sum of the tangents of half the turning angles, while no side vanishes; here it is fitted to the
+ * last round. */
 struct model {
     double area, outline, c, r; /* [m2, m, 1, m] */
 };
@@ -425,7 +427,7 @@ struct fitted {
     struct model *model;         /* [n] */
 };
 
-/* Larger root of a x^2 + b x + c, nan when there is none. */
+/* Larger root of a x^2 + b x + c, NaN if there is none. */
 static double root(double a, double b, double c)
 {
     const double disc = b * b - 4.0 * a * c, q = sqrt(disc);
@@ -433,19 +435,19 @@ static double root(double a, double b, double c)
     return (q - b) / (2.0 * a);
 }
 
-/* How many times as large the cell must be, in length, to leave the area wanted at inset d, which is never
- * more than (1 - KEEP) of what a cell has to spare over the dilation radius. */
+/* Factor on the length of a cell that leaves the requested area at inset d.  The inset is at most (1 -
+ * FL_FLOES_MIN_CORE) of the radius beyond the dilation radius. */
 static double growth(const struct model *m, double wanted, double d, double radius)
 {
     const double most = 1.0 - FL_FLOES_MIN_CORE;
     double s = root(m->area, -m->outline * d, m->c * d * d - wanted);
-    if (!(s * m->r - radius > d / most)) { /* held: its inset is most (s R - radius) */
+    if (!(s * m->r - radius > d / most)) { /* limited: its inset is most (s R - radius) */
         const double x = root(m->area - most * m->outline * m->r + most * most * m->c * m->r * m->r,
                               most * radius * (m->outline - 2.0 * most * m->c * m->r),
                               most * most * m->c * radius * radius - wanted);
         if (x > 0.0) s = x;
     }
-    /* one round does not leave the shape as it was when the size changes by more */
+    /* the shape of a cell is not preserved when its size changes by more in a round */
     return s < LEAP ? s > 1.0 / LEAP ? s : 1.0 / LEAP : LEAP;
 }
 
@@ -459,8 +461,8 @@ static double cells_total(struct fitted *s, double d)
     return fl_parallel_sum(s->cell, s->n);
 }
 
-/* Areas of the cells that would leave the floes asked for, were the models right: the inset d is the one at
- * which the cells fill the outline. */
+/* Areas of the cells that give the requested floes by the models; d is the inset for which the cells fill
+ * the outline. */
 static void ask(struct fitted *s)
 {
     double lo = 0.0, hi = sqrt(s->total), sum;
@@ -485,7 +487,7 @@ static struct model model_of(const fl_power_cells *c, int32_t i, double inset, d
     fl_polygon_inset(n, v, side, INFINITY, &m.r);
     if (d > (1.0 - FL_FLOES_MIN_CORE) * (m.r - radius)) d = (1.0 - FL_FLOES_MIN_CORE) * (m.r - radius);
     m.c = (got - m.area + m.outline * d) / (d * d);
-    /* Sides have vanished on the way: as a cell that touches its inscribed circle all round. */
+    /* sides have vanished: model of a cell that touches its inscribed circle everywhere */
     if (!(4.0 * m.area * m.c < m.outline * m.outline)) {
         const double root_k = (sqrt(m.area) - sqrt(got)) / d;
         m.outline = 2.0 * sqrt(m.area) * root_k;
@@ -508,8 +510,8 @@ static int learn(struct fitted *s, const fl_power_cells *c, const fl_floes *a, f
     return v && side ? 0 : -1;
 }
 
-/* How far the floes are from what was asked: the mean of |achieved - asked| / asked, none counting for more
- * than one, since a few that cannot be reached must not decide; and the largest. */
+/* Mean relative error of the floes, each counted as 1 at most, since a few unreachable floes must not
+ * dominate; and the largest. */
 static double measure(struct fitted *s, const fl_floes *a, double *most)
 {
     double sum = 0.0;
@@ -524,7 +526,7 @@ static double measure(struct fitted *s, const fl_floes *a, double *most)
     return sum / s->n;
 }
 
-/* Every site to the centroid of its cell, or part of the way where that would leave a cell empty. */
+/* Move every site to the centroid of its cell, or part of the way if a cell would become empty. */
 static int smooth_once(struct fitted *s, fl_power_cells *c, fl_err *err)
 {
     fl_vec2 *from = s->site, *to = s->to;

@@ -6,15 +6,15 @@
 #include "base/pi.h"
 #include "ice/sizes.h"
 
-/* int_0^y e^(q t) dt = (e^(q y) - 1) / q.  In y = ln(D / dmin) the distribution of a power law is the ratio
- * of two of these, q = 1 - beta, and so is its Lorenz curve of areas, q = 3 - beta. */
+/* int_0^y e^(q t) dt = (e^(q y) - 1) / q.  With y = ln(D / dmin) the distribution of a power law is the
+ * ratio of two of these, q = 1 - beta, and so is its Lorenz curve of areas, q = 3 - beta. */
 static double grown(double q, double y) { return q == 0.0 ? y : expm1(q * y) / q; }
 
-/* y for which grown(q, y) is u grown(q, end) */
+/* The y for which exp_integral(q, y) is u exp_integral(q, end). */
 static double regrown(double q, double u, double end)
 {
     const double whole = expm1(q * end);
-    /* below this the second term of the series is lost in the first */
+    /* the second term of the series is below the rounding of the first */
     if (fabs(whole) < 1e-12) return u * end;
     return log1p(u * whole) / q;
 }
@@ -33,7 +33,7 @@ double fl_sizes_mean(const fl_sizes *s)
     }
 }
 
-/* The size that the x-th floe of the list has. */
+/* Index of the size of the x-th floe of the list. */
 static int32_t holds(const fl_sizes *s, double x)
 {
     int32_t lo = 0, hi = s->n - 1;
@@ -81,11 +81,11 @@ void fl_sizes_areas(const fl_sizes *s, int32_t n, double mean, double *area)
         if (s->kind == FL_SIZES_LIST && n == s->n && s->cumulative_count[n] == n)
             area[k] = s->area[k] * (mean / fl_sizes_mean(s));
     }
-    /* Where two parts hold the same size, rounding may have turned them round. */
+    /* for parts with the same size, rounding may have changed the order */
     qsort(area, (size_t)n, sizeof *area, ascending);
 }
 
-/* Numbers of the list at most a, or below it. */
+/* Number of sizes of the list that are at most a. */
 static int32_t counted(const fl_sizes *s, double a)
 {
     int32_t lo = 0, hi = s->n;
@@ -122,7 +122,7 @@ double fl_sizes_ks_distance(const fl_sizes *s, double mean, int32_t n, const dou
 {
     double most = 0.0;
     for (int32_t k = 0; k < n; k++) {
-        /* just below area[k] there are k of n, from it on at least k + 1 */
+        /* just below area[k] the fraction is k / n, from it on at least (k + 1) / n */
         const double over = fl_sizes_cdf(s, mean, area[k] * (1.0 - FL_SIZES_SAME_TOL)) - (double)k / n;
         const double under = (k + 1.0) / n - fl_sizes_cdf(s, mean, area[k] * (1.0 + FL_SIZES_SAME_TOL));
         if (over > most) most = over;

@@ -4,8 +4,8 @@
 #include "base/number_text.h"
 #include "ice/sizes_law.h"
 
-/* Bounds within which areas, their sums and their logarithms stay finite: diameters [m], exponents, the shape
- * of a Weibull law (below the least one the mean of a law lies beyond all that a field has), deviations. */
+/* Bounds for which areas, their sums and their logarithms are finite: diameters [m], exponents, the shape
+ * of a Weibull law (below the least one the mean of a law exceeds any field), coefficients of variation. */
 #define SHORTEST 1e-6
 #define LONGEST 1e6
 #define STEEPEST 20.0
@@ -35,7 +35,8 @@ static int wanted(fl_err *err, const char *text, const char *what)
     return fl_fail(err, FL_USAGE, "--sizes is \"%.80s\", %s is expected", text, what);
 }
 
-/* Words between commas behind the colon; -1 for too many, or too long ones. */
+/* Split the text after the colon at commas.  Returns the number of words, -1 if there are too many or too
+ * long ones. */
 static int cut(const char *text, char word[WORDS][WORD_LEN])
 {
     const char *p = strchr(text, ':');

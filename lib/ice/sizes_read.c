@@ -9,8 +9,8 @@
 #include "ice/sizes_read.h"
 #include "shim/cgal_simple.h"
 
-/* Sizes and counts between which a file may lie [m, m2, 1], and coordinates [m]: squares and sums stay
- * finite, and the area of a polygon far from the origin keeps its digits. */
+/* Bounds of sizes and counts [m, m2, 1], and of coordinates [m]: squares and sums are finite, and the area
+ * of a polygon far from the origin is accurate. */
 #define SMALLEST 1e-12
 #define LARGEST 1e12
 #define FAR 1e9
@@ -27,8 +27,8 @@ struct reading {
     int counted;
     int32_t n, cap, corners, room;
     struct size *size;
-    fl_vec2 *v;    /* corners of the polygon at hand */
-    int64_t begun; /* the line of its first corner   */
+    fl_vec2 *v;    /* corners of the current polygon */
+    int64_t begun; /* line of its first corner */
 };
 
 static int add(struct reading *r, double area, double count, fl_err *err)
@@ -82,7 +82,7 @@ static int close_polygon(struct reading *r, fl_err *err)
     if (n == 0) return 0;
     r->corners = 0;
     if (n > 1 && v[n - 1].x == v[0].x && v[n - 1].y == v[0].y) n--;
-    r->in.line_number = r->begun; /* the complaint is about the polygon, not about the line behind it */
+    r->in.line_number = r->begun; /* the message is about the polygon, not about the line after it */
     if (n < 3)
         return fl_text_fail(&r->in, err, "a polygon of %d different corners found, three are expected", n);
     simple = fl_cgal_is_simple(n, v, err);
@@ -103,7 +103,7 @@ static int close_polygon(struct reading *r, fl_err *err)
 
 /* --- the file ------------------------------------------------------------------------------------------- */
 
-/* 1 when the row names the columns. */
+/* 1 if the row names the columns. */
 static int header(struct reading *r)
 {
     char **f = r->in.field;
@@ -149,7 +149,7 @@ static int ascending(const void *a, const void *b)
     return (x->count > y->count) - (x->count < y->count);
 }
 
-/* Sums of sizes in ascending order lose least, and do not depend on the order of the file. */
+/* Cumulative sums in ascending order: least rounding, independent of the order of the file. */
 static int sum_up(struct reading *r, fl_sizes *s, fl_err *err)
 {
     *s = (fl_sizes){.kind = FL_SIZES_LIST, .n = r->n};

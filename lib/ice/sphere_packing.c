@@ -8,7 +8,7 @@ enum { SPHERES_MAX = 1 << 27 };
 
 static double whole(double x) { return floor(x * (1.0 + FL_PACKING_WHOLE_TOL)); }
 
-/* Places along x count half diameters: column c of a row lies at 2 c + aside(). */
+/* Positions along x count half diameters: column c of a row is at 2 c + row_offset(). */
 static int aside(enum fl_packing_kind kind, int32_t k, int32_t r)
 {
     return kind == FL_PACKING_HCP ? (r + k) & 1 : kind == FL_PACKING_HEX ? r & 1 : 0;
@@ -21,7 +21,7 @@ static double row_apart(enum fl_packing_kind kind, double d)
 
 /* --- the pairs ------------------------------------------------------------------------------------------ */
 
-/* Add the pair of sphere i and the one in layer k, row r at place `at`, when there is one. */
+/* Add the pair of sphere i and the sphere in layer k, row r at position `at`, if it exists. */
 static int touch(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, int32_t i, int32_t k,
                  int32_t r, int32_t at, fl_err *err)
 {
@@ -33,7 +33,7 @@ static int touch(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, 
     return 0;
 }
 
-/* Neighbours of higher number, in ascending order. */
+/* Add the neighbours with higher index, ascending. */
 static int touch_all(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, int32_t k, int32_t r,
                      int32_t c, fl_err *err)
 {
@@ -44,8 +44,8 @@ static int touch_all(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind ki
     if (touch(a, cap, kind, i, k, r + 1, at - 1, err) || touch(a, cap, kind, i, k, r + 1, at + 1, err))
         return -1;
     if (kind == FL_PACKING_HEX) return touch(a, cap, kind, i, k + 1, r, at, err);
-    /* Odd layers stand D sqrt(3)/6 farther along y: from an even one the hollow's third sphere lies a row
-     * back, from an odd one a row ahead. */
+    /* odd layers are D sqrt(3)/6 farther along y: the third sphere of the hollow is a row back from an
+     * even one, a row ahead from an odd one */
     if (k % 2 == 0 && touch(a, cap, kind, i, k + 1, r - 1, at, err)) return -1;
     if (touch(a, cap, kind, i, k + 1, r, at - 1, err) || touch(a, cap, kind, i, k + 1, r, at + 1, err))
         return -1;

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "ice/thickness.h"
 
-/* Thicknesses and counts between which a law may lie [m, 1]. */
+/* Bounds of thicknesses and counts [m, 1]. */
 #define SMALLEST 1e-6
 #define LARGEST 1e6
 
@@ -129,7 +129,7 @@ done:
 
 /* --- the law -------------------------------------------------------------------------------------------- */
 
-/* ln h has the deviation s and the mean m:  exp(m + s^2/2) = mean,  exp(s^2) - 1 = cv^2. */
+/* Mean m and standard deviation s of ln h:  exp(m + s^2/2) = mean,  exp(s^2) - 1 = cv^2. */
 static void in_logarithms(const fl_thickness *t, double *m, double *s)
 {
     *s = sqrt(log1p(t->b * t->b));
@@ -168,7 +168,8 @@ double fl_thickness_draw(const fl_thickness *t, uint64_t seed, int32_t id, doubl
     return 0.0;
 }
 
-/* Of the whole law; `with` says whether h itself counts, which matters where the law has jumps. */
+/* Cumulative distribution of the whole law; `with`: h itself counts, which matters where the law has
+ * jumps. */
 static double below(const fl_thickness *t, double h, int with)
 {
     double m, s;
@@ -179,7 +180,7 @@ static double below(const fl_thickness *t, double h, int with)
         return 0.5 * erfc((m - log(h)) / (s * sqrt(2.0)));
     }
     if (t->kind == FL_THICKNESS_TABLE) {
-        int32_t k = 0, hi = t->n; /* how many are below h, or not above it */
+        int32_t k = 0, hi = t->n; /* number of thicknesses below h, or not above it */
         while (k < hi) {
             const int32_t mid = k + (hi - k) / 2;
             if (t->h[mid] < h || (with && t->h[mid] == h)) k = mid + 1;

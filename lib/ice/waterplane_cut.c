@@ -4,10 +4,11 @@
 #include "base/pi.h"
 #include "ice/waterplane_cut.h"
 
-/* Generators of a cone; its discs are drawn as polygons round them, so that nothing is cut off. */
+/* Generators of a cone; its discs are circumscribed polygons, so that nothing is cut off. */
 enum { AROUND = 4 * FL_WATERPLANE_MAX_SIDES };
 
-/* How far a group reaches in each direction 2 pi k / FL_WATERPLANE_MAX_SIDES; those of fewer sides are among them. */
+/* Extent of a group in each direction 2 pi k / FL_WATERPLANE_MAX_SIDES, which include those of fewer
+ * sides. */
 struct reach {
     double far[FL_WATERPLANE_MAX_SIDES], x0, x1, y0, y1;
     int any;
@@ -40,8 +41,8 @@ static void reach_point(struct reach *r, double x, double y)
     r->any = 1;
 }
 
-/* The piece of an edge between the levels.  The plan view of a polyhedron cut by two levels is spanned by
- * such pieces: its corners are corners and points of edges. */
+/* Add the part of an edge between the levels.  Corners of the plan view of a cut polyhedron are corners
+ * and points of edges. */
 static void reach_edge(struct reach *r, fl_vec3 a, fl_vec3 b, double z0, double z1)
 {
     double from = 0.0, to = 1.0;
@@ -75,7 +76,7 @@ static void reach_cone(struct reach *r, const fl_cone *c, double z0, double z1)
     }
 }
 
-/* Directions of a polygon that is coarse enough. */
+/* Number of sides of a polygon that is within `coarse` of the group. */
 static int sides_for(double size, double coarse)
 {
     int n = FL_WATERPLANE_MIN_SIDES;
@@ -93,7 +94,7 @@ static int keep_out(fl_domain *d, const struct reach *r, double margin, double c
     if (!r->any) return 0;
     if (margin == 0.0 && !(r->x1 > r->x0 && r->y1 > r->y0))
         return fl_fail(err, FL_INPUT, "a part of the structure is a line in plan: a margin is wanted");
-    /* the four directions of the axes, which every polygon has, then the others */
+    /* the four axis directions, which every polygon has, then the others */
     fl_polygon_rectangle((fl_vec2){r->x0 - margin, r->y0 - margin}, (fl_vec2){r->x1 + margin, r->y1 + margin},
                          v, side);
     for (int k = 0; k < n; k++) {
@@ -113,7 +114,7 @@ static int32_t root(int32_t *up, int32_t v)
     return v;
 }
 
-/* Triangles that hang together by their vertices are one group; the lowest vertex names it. */
+/* Triangles that are connected by vertices form a group, named by its lowest vertex. */
 static int keep_out_part(fl_domain *d, const fl_part *p, double z0, double z1, double margin, double coarse,
                          int32_t *kept, fl_err *err)
 {

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "scene/ice_field.h"
 
-/* Make room for one more body in every array; cap moves only when all have it. */
+/* Make room for one more body in every array; cap changes only if all have it. */
 static int grow(fl_ice_field *a, fl_err *err)
 {
     const int64_t want = (int64_t)a->n + 1;
@@ -76,10 +76,10 @@ void fl_ice_field_free(fl_ice_field *a)
 
 /* --- read ----------------------------------------------------------------------------------------------- */
 
-/* The record under way. */
+/* The current record. */
 struct body {
-    int32_t line, id, nv, nf;                  /* as the poly row announced them */
-    int32_t has_v, has_f, v_cap, f_cap, l_cap; /* as they arrive */
+    int32_t line, id, nv, nf;                  /* as announced by the poly row */
+    int32_t has_v, has_f, v_cap, f_cap, l_cap; /* as read so far */
     int open, has_vel, material_given, group_given;
     int32_t material, group;
     double radius;
@@ -111,8 +111,8 @@ static int by_place(const void *a, const void *b)
     return (s->k > t->k) - (s->k < t->k);
 }
 
-/* Corners of a solid that were written twice become one, at the first of its places; what is left of a face
- * with fewer than three is left out. */
+/* Merge corners of a solid that coincide, at the first of them; drop faces with fewer than three corners
+ * left. */
 static int merge_corners(struct body *b, fl_err *err)
 {
     int32_t corners = 0, faces = 0, sides = 0;
@@ -127,7 +127,7 @@ static int merge_corners(struct body *b, fl_err *err)
     for (int32_t k = 0, first = 0; k < b->nv; k++) {
         const fl_vec3 p = s[k].x, q = s[first].x;
         if (p.x != q.x || p.y != q.y || p.z != q.z) first = k;
-        to[s[k].k] = s[first].k; /* never a later one */
+        to[s[k].k] = s[first].k; /* never a later index */
     }
     for (int32_t k = 0; k < b->nv; k++) {
         if (to[k] == k) b->v[corners] = b->v[k], to[k] = corners++;
@@ -149,7 +149,7 @@ static int merge_corners(struct body *b, fl_err *err)
     return 0;
 }
 
-/* The record is complete when its vertices and faces are there; then it becomes a body. */
+/* Append the complete record as a body. */
 static int close_body(fl_ice_field *a, struct body *b, const fl_text *in, fl_err *err)
 {
     fl_poly core = {0};
@@ -289,7 +289,7 @@ static int read_vel(struct body *b, fl_text *in, fl_err *err)
     return fl_text_no_more(in, err);
 }
 
-/* i and j hold ids until all bodies are known. */
+/* Read a bond; i and j are ids until all bodies are known. */
 static int read_bond(fl_ice_field *a, struct body *b, fl_text *in, fl_err *err)
 {
     fl_ice_field_bond d = {0};
@@ -344,7 +344,7 @@ static int by_id(const void *a, const void *b)
 
 /* --- bonds, when all bodies are known ------------------------------------------------------------------- */
 
-/* Place of the body with that id among the sorted ones, -1 when there is none. */
+/* Position of the body with that id in the sorted list, -1 if there is none. */
 static int32_t place_of(const struct id_line *s, int32_t n, int32_t id)
 {
     int32_t lo = 0, hi = n;
@@ -369,7 +369,7 @@ static int by_pair(const void *a, const void *b)
     return (p->line > q->line) - (p->line < q->line);
 }
 
-/* Turn ids into places, then sort; s has the ids in order. */
+/* Replace ids by indices, then sort; s has the ids ascending. */
 static int resolve_bonds(fl_ice_field *a, const struct id_line *s, const int32_t *line, const fl_text *in,
                          fl_err *err)
 {
@@ -410,7 +410,7 @@ static int resolve_bonds(fl_ice_field *a, const struct id_line *s, const int32_t
     return twice >= 0 ? -1 : 0;
 }
 
-/* Sorted once at the end: one id that comes twice is found in n log n, whatever the order of the file. */
+/* Check that ids differ, by one sort at the end: n log n for any order of the file. */
 static int check_ids(fl_ice_field *a, const int32_t *bond_line, const fl_text *in, fl_err *err)
 {
     struct id_line *s = fl_alloc(a->n, sizeof *s, err);
@@ -469,13 +469,13 @@ int fl_ice_field_read(fl_ice_field *out, const char *path, fl_err *err)
 
 /* --- write ---------------------------------------------------------------------------------------------- */
 
-/* A buffer of its own: a call of the C library for each number takes as long as its digits do. */
+/* Own output buffer: a call of the C library for each number would cost as much as its conversion. */
 enum { BUFFER = 1 << 16 };
 
 struct put {
     FILE *f;
     int n, z_len;
-    double z; /* the number that z_text prints: prisms have two heights for all their corners */
+    double z; /* the number in z_text: a prism has two heights for all its corners */
     char z_text[FL_NUMBER_LEN];
     char text[BUFFER];
 };

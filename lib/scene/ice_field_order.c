@@ -14,7 +14,7 @@ struct place {
     int32_t id, from;
 };
 
-/* A field of this size fits the caches however it is ordered; a larger one is worth a curve. */
+/* A smaller field fits the caches in any order. */
 enum { LARGE = 4096 };
 
 static int by_number(double a, double b) { return (a > b) - (a < b); }
@@ -52,13 +52,13 @@ static void move(void *array, size_t size, const struct place *s, int32_t n, voi
         memcpy((char *)array + (size_t)k * size, (char *)spare + (size_t)s[k].from * size, size);
 }
 
-/* Where the means lie on Hilbert's curve over the plane. */
+/* Positions of the means on a Hilbert curve over the plane. */
 static void follow_curve(struct place *s, int32_t n)
 {
     fl_aabb all = aabb_empty();
     for (int32_t i = 0; i < n; i++) all = aabb_add(all, s[i].mean);
     const double wide = fmax(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
-    const double scale = wide > 0.0 ? 65535.5 / wide : 0.0; /* just short of 2^16 squares */
+    const double scale = wide > 0.0 ? 65535.5 / wide : 0.0; /* just below 2^16 squares */
     for (int32_t i = 0; i < n; i++)
         s[i].curve = fl_hilbert_index((uint32_t)(scale * (s[i].mean.x - all.lo.x)),
                                       (uint32_t)(scale * (s[i].mean.y - all.lo.y)));
