@@ -45,13 +45,13 @@ static int close_ring(fl_domain *d, struct ring *r, fl_text *in, fl_err *err)
     return -1;
 }
 
-static int blank(const char *line) { return line[strspn(line, " \t\f\v")] == '\0'; }
+static int is_blank(const char *line) { return line[strspn(line, " \t\f\v")] == '\0'; }
 
-static int read_all(fl_domain *d, struct ring *r, fl_text *in, fl_err *err)
+static int read_rings(fl_domain *d, struct ring *r, fl_text *in, fl_err *err)
 {
     int more, rows = 0;
     while ((more = fl_text_line(in, err)) > 0) {
-        const int empty = blank(in->line), cut = fl_text_split(in, err);
+        const int empty = is_blank(in->line), cut = fl_text_split(in, err);
         if (cut < 0) return -1;
         if (cut && rows++ == 0 && in->n == 2 && strcmp(in->field[0], "x[m]") == 0 &&
             strcmp(in->field[1], "y[m]") == 0)
@@ -71,7 +71,7 @@ int fl_domain_read(fl_domain *d, const char *path, fl_err *err)
     struct ring r = {0};
     fl_text in = {0};
     int rc = -1;
-    if (fl_text_open(&in, path, err) == 0) rc = read_all(d, &r, &in, err);
+    if (fl_text_open(&in, path, err) == 0) rc = read_rings(d, &r, &in, err);
     if (rc) fl_domain_free(d);
     free(r.v);
     fl_text_close(&in);

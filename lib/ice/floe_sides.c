@@ -79,8 +79,8 @@ static double least_side(const fl_floe_sides *f, fl_polygon_side a, fl_polygon_s
 
 /* The outer corner of a and b at inset d has to be inside the cell by `spare`. Returns how far it is
  * beyond that, and the side of the cell between a and b that it violates most. */
-static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b, double d,
-                     double spare, int32_t *worst)
+static double max_excess(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b,
+                         double d, double spare, int32_t *worst)
 {
     const fl_vec2 w = fl_polygon_side_intersect(a, b, d);
     double most = -INFINITY;
@@ -95,8 +95,8 @@ static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, 
 }
 
 /* Move side e inward between the sides a and b of the core until its own length is the least one. */
-static void cut_corner(const fl_floe_sides *f, fl_polygon_side *line, unsigned char *state, int32_t e,
-                       fl_polygon_side a, fl_polygon_side b, double inset, double rho)
+static void move_side(const fl_floe_sides *f, fl_polygon_side *line, unsigned char *state, int32_t e,
+                      fl_polygon_side a, fl_polygon_side b, double inset, double rho)
 {
     const fl_vec2 q = fl_polygon_side_intersect(a, b, inset);
     const fl_polygon_side s = line[e];
@@ -123,8 +123,8 @@ static int32_t core_of(const fl_polygon_side *line, unsigned char *state, int32_
 
 /* The shortest side that is too short, -1 if there is none: a side without a decision, or a fixed side
  * that its neighbours shortened by more than a quarter. */
-static int32_t find_short(const fl_floe_sides *f, const unsigned char *state, int32_t n,
-                          const fl_polygon_side *left, const fl_vec2 *corner, double rho)
+static int32_t find_short_side(const fl_floe_sides *f, const unsigned char *state, int32_t n,
+                               const fl_polygon_side *left, const fl_vec2 *corner, double rho)
 {
     int32_t at = -1;
     double least = INFINITY;
@@ -142,22 +142,22 @@ static int32_t find_short(const fl_floe_sides *f, const unsigned char *state, in
 }
 
 /* Decide on one short side: drop it, move it inward, or keep it.  Returns 0 if there was none. */
-static int mend_short(const fl_floe_sides *f, const fl_polygon_side *cell, int32_t m, fl_polygon_side *line,
-                      unsigned char *state, int32_t n, const fl_polygon_side *left, const fl_vec2 *corner,
-                      double d, double rho)
+static int fix_short_side(const fl_floe_sides *f, const fl_polygon_side *cell, int32_t m,
+                          fl_polygon_side *line, unsigned char *state, int32_t n, const fl_polygon_side *left,
+                          const fl_vec2 *corner, double d, double rho)
 {
-    const int32_t at = find_short(f, state, n, left, corner, rho);
+    const int32_t at = find_short_side(f, state, n, left, corner, rho);
     int32_t e, worst = 0;
     fl_polygon_side a, b;
     if (at < 0) return 0;
     e = left[at].tag;
     a = left[at ? at - 1 : n - 1];
     b = left[at + 1 < n ? at + 1 : 0];
-    if (n > 3 && fl_polygon_side_sin(a, b) > 0.0 && beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
+    if (n > 3 && fl_polygon_side_sin(a, b) > 0.0 && max_excess(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
         state[e] &= (unsigned char)~KEPT;
     else if (fl_polygon_side_sin(a, b) > 0.0 &&
              fl_polygon_side_length(n, corner, at) < least_side(f, a, left[at], b, rho))
-        cut_corner(f, line, state, e, a, b, d + f->radius, rho);
+        move_side(f, line, state, e, a, b, d + f->radius, rho);
     else state[e] |= FIXED; /* it stays as it is; between sides that open outward it is short only here */
     return 1;
 }
@@ -185,12 +185,12 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
         for (int32_t k = 0; k < n; k++) {
             const fl_polygon_side a = left[k], b = left[k + 1 < n ? k + 1 : 0];
             int32_t e = 0;
-            if (beyond(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
-                cut_corner(f, line, state, e, a, b, di + f->radius, rho);
+            if (max_excess(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
+                move_side(f, line, state, e, a, b, di + f->radius, rho);
                 changed = 1;
             }
         }
-        if (changed || mend_short(f, cell, m, line, state, n, left, corner, di, rho)) continue;
+        if (changed || fix_short_side(f, cell, m, line, state, n, left, corner, di, rho)) continue;
         memcpy(f->side + first, left, (size_t)n * sizeof *left);
         f->count[i] = n;
         return 0;
@@ -212,7 +212,7 @@ int fl_floe_sides_are_valid(fl_floe_sides *f, int32_t i, double d)
         int32_t e = 0;
         if ((q.y - p.y) * side[k].nx - (q.x - p.x) * side[k].ny < 0.5 * least_side(f, a, side[k], b, rho))
             return 0;
-        if (beyond(f->cells->side + first, m, side[k], b, di, 0.25 * di, &e) > 0.0) return 0;
+        if (max_excess(f->cells->side + first, m, side[k], b, di, 0.25 * di, &e) > 0.0) return 0;
     }
     return 1;
 }
