@@ -4,28 +4,28 @@
 #include "scene/scene_key.h"
 
 const fl_section fl_section_table[FL_SECTIONS] = {
-    {"run", "[run]", 0, offsetof(fl_scene, run), sizeof(fl_scene_run), "how long and in what steps"},
+    {"run", "[run]", 0, offsetof(fl_scene, run), sizeof(fl_scene_run), "duration and time step"},
     {"output", "[output]", 0, offsetof(fl_scene, output), sizeof(fl_scene_output),
-     "what is written besides the loads, and how often"},
+     "tables and files besides the loads, and their intervals"},
     {"material", "[material NAME]", 1, offsetof(fl_scene, material), sizeof(fl_scene_material),
-     "what bodies and structure are made of; ice and steel are known without one"},
+     "material of bodies and structure; ice and steel are predefined"},
     {"contact", "[contact A B]", 2, offsetof(fl_scene, contact), sizeof(fl_scene_contact),
-     "how two materials touch; A or B may be \"structure\" or \"boundary\"; without names, all pairs"},
-    {"ice", "[ice]", 0, offsetof(fl_scene, ice), sizeof(fl_scene_ice), "the bodies; a scene needs them"},
+     "contact of two materials; A or B may be \"structure\" or \"boundary\"; without names, all pairs"},
+    {"ice", "[ice]", 0, offsetof(fl_scene, ice), sizeof(fl_scene_ice), "the ice field; required"},
     {"structure", "[structure]", 0, offsetof(fl_scene, structure), sizeof(fl_scene_structure),
-     "what the ice loads; absent, there is none and the load table stays empty"},
+     "the loaded structure; absent, there is none and the load table stays empty"},
     {"boundary", "[boundary]", 0, offsetof(fl_scene, boundary), sizeof(fl_scene_boundary),
-     "the walls of the domain; absent, the ice is free to leave"},
+     "the bounds of the domain; absent, the ice is free to leave"},
     {"water", "[water]", 0, offsetof(fl_scene, water), sizeof(fl_scene_water),
-     "buoyancy and drag of the sea; absent, the bodies are dry"},
+     "buoyancy, drag and waves; absent, the bodies are dry"},
     {"wind", "[wind]", 0, offsetof(fl_scene, wind), sizeof(fl_scene_wind),
      "drag of the air; absent, it is calm"},
     {"bond", "[bond]", 0, offsetof(fl_scene, bond), sizeof(fl_scene_bond),
-     "frozen faces between neighbours; absent, nothing is frozen together"},
+     "bonds between neighbouring floes; absent, there are none"},
     {"group", "[group NAME]", 1, offsetof(fl_scene, group), sizeof(fl_scene_group),
-     "bodies of the ice file with that group, held or driven"},
+     "bodies of the ice file with that group, fixed or driven"},
     {"part", "[part NAME]", 1, offsetof(fl_scene, part), sizeof(fl_scene_part),
-     "a part of the structure that moves by its own; the others move as [structure] says"},
+     "a part of the structure with a motion of its own; the others move with [structure]"},
 };
 
 #define OFFSET(section, member) offsetof(fl_scene_##section, member)
@@ -38,8 +38,8 @@ const fl_section fl_section_table[FL_SECTIONS] = {
      .unit = FL_UNIT_LENGTH,                                                                                 \
      .offset = OFFSET(OWNER, motion.reference),                                                              \
      .default_text = "0 0 0 m",                                                                              \
-     .meaning =                                                                                              \
-         "point that turns and moments are about, the centre of mass of what is free; it moves along"},      \
+     .meaning = "centre of rotations and moments, and centre of mass of a free body; it "                    \
+                "moves with the structure"},                                                                 \
         {.section = SECTION,                                                                                 \
          .key = "velocity",                                                                                  \
          .type = FL_VALUE_VEC3,                                                                              \
@@ -79,8 +79,8 @@ const fl_section fl_section_table[FL_SECTIONS] = {
          .offset = OFFSET(OWNER, motion.free),                                                               \
          .default_text = "none",                                                                             \
          .special = "none",                                                                                  \
-         .meaning = "directions x y z and turns rx ry rz, world axes, in which forces move it; weight and "  \
-                    "buoyancy at rest are in balance"},                                                      \
+         .meaning = "free directions x y z and rotations rx ry rz, world axes, in which forces "             \
+                    "move the structure; weight and buoyancy at rest are balanced"},                         \
         {.section = SECTION,                                                                                 \
          .key = "mass",                                                                                      \
          .type = FL_VALUE_F64,                                                                               \
@@ -96,7 +96,8 @@ const fl_section fl_section_table[FL_SECTIONS] = {
          .unit = FL_UNIT_INERTIA,                                                                            \
          .offset = OFFSET(OWNER, motion.inertia),                                                            \
          .default_text = "0 0 0 kg.m2",                                                                      \
-         .meaning = "moments of inertia about axes through the reference point, for free turns"},            \
+         .meaning = "moments of inertia about axes through the reference point, for free "                   \
+                    "rotations"},                                                                            \
         {.section = SECTION,                                                                                 \
          .key = "stiffness",                                                                                 \
          .type = FL_VALUE_VEC3,                                                                              \
@@ -110,15 +111,15 @@ const fl_section fl_section_table[FL_SECTIONS] = {
          .unit = FL_UNIT_ROTATIONAL_STIFFNESS,                                                               \
          .offset = OFFSET(OWNER, motion.turn_stiffness),                                                     \
          .default_text = "0 0 0 N.m/rad",                                                                    \
-         .meaning = "springs that hold the free turns rx ry rz"},                                            \
+         .meaning = "springs of the free rotations rx ry rz"},                                               \
         {.section = SECTION,                                                                                 \
          .key = "coupling",                                                                                  \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_ONE,                                                                                \
          .offset = OFFSET(OWNER, motion.coupling),                                                           \
          .default_text = "0 0 0",                                                                            \
-         .meaning = "of the stiffness matrix C34 and C35 [N] between heave and roll, pitch, and C45 [N.m] "  \
-                    "between those"},                                                                        \
+         .meaning = "terms of the stiffness matrix: C34 and C35 [N] between heave and roll, "                \
+                    "pitch; C45 [N.m] between roll and pitch"},                                              \
         {.section = SECTION,                                                                                 \
          .key = "period",                                                                                    \
          .type = FL_VALUE_VEC3,                                                                              \
@@ -139,18 +140,18 @@ const fl_section fl_section_table[FL_SECTIONS] = {
          .unit = FL_UNIT_ROTATIONAL_DAMPING,                                                                 \
          .offset = OFFSET(OWNER, motion.turn_damping),                                                       \
          .default_text = "0 0 0 N.m.s",                                                                      \
-         .meaning = "dashpots of the free turns, about axes that turn with the structure"},                  \
+         .meaning = "dashpots of the free rotations, about axes that rotate with the structure"},            \
         {.section = SECTION,                                                                                 \
          .key = "damping_ratio",                                                                             \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_ONE,                                                                                \
          .offset = OFFSET(OWNER, motion.damping_ratio),                                                      \
          .default_text = "0 0 0",                                                                            \
-         .meaning = "of the critical damping, in place of damping, c = 2 D sqrt(k m)"},                      \
+         .meaning = "fraction of critical damping, in place of damping, c = 2 D sqrt(k m)"},                 \
     {                                                                                                        \
         .section = SECTION, .key = "hydrostatic", .type = FL_VALUE_WORD,                                     \
         .offset = OFFSET(OWNER, motion.hydrostatic), .default_text = "none", .choices = "none|mesh",         \
-        .meaning = "mesh adds the stiffness in z, rx, ry that the sea gives to the closed mesh at rest",     \
+        .meaning = "mesh adds the hydrostatic stiffness of the closed mesh at rest in z, rx, ry",            \
         .source = "Faltinsen, Sea Loads (1990), ch. 3"                                                       \
     }
 
@@ -190,9 +191,9 @@ const fl_key fl_key_table[] = {
      .default_text = "none",
      .special = "none",
      .range = "(0,1)",
-     .meaning =
-         "error that the load on the structure may have by the time step, over its size: the step is the "
-         "largest that keeps it, found by repeating short windows of the run with finer steps",
+     .meaning = "allowed relative error of the load on the structure by the time step; the "
+                "step is the largest that keeps it, found by repeating short windows of the "
+                "run with smaller steps",
      .source = "Richardson, Phil. Trans. A 226 (1927) 299"},
     {.section = FL_SEC_RUN,
      .key = "error_of",
@@ -201,9 +202,9 @@ const fl_key fl_key_table[] = {
      .default_text = "impulse",
      .choices = "impulse|peak|fx|fy|fz|mx|my|mz",
      .needs = {"error"},
-     .meaning =
-         "what run.error is of: the impulse of all the run, the largest force of a step, or the impulse of "
-         "one column of the loads; parts count by their sizes"},
+     .meaning = "load that run.error refers to: impulse of the whole run, largest force of a "
+                "step, or impulse of one column of the loads; parts are weighted by their "
+                "sizes"},
     {.section = FL_SEC_RUN,
      .key = "gravity",
      .type = FL_VALUE_VEC3,
@@ -211,8 +212,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(run, gravity),
      .default_text = "9.81 m/s2",
      .single = FL_SINGLE_DOWN,
-     .meaning = "acceleration of gravity; one number acts along -z, three are a vector, which is along -z "
-                "where there is water",
+     .meaning = "acceleration of gravity; one number acts along -z, three are a vector, "
+                "which is along -z if there is water",
      .source = "the value of the verification cases"},
     {.section = FL_SEC_RUN,
      .key = "threads",
@@ -221,8 +222,8 @@ const fl_key fl_key_table[] = {
      .default_text = "auto",
      .special = "auto",
      .range = "[1,1024]",
-     .meaning = "number of threads; auto takes as many as OpenMP offers, one for 32 bodies at the most, and "
-                "of these as many as are the fastest as it goes; the results are the same bytes for any "
+     .meaning = "number of threads; auto uses at most those of OpenMP, one for 32 bodies, "
+                "and adjusts the number to the fastest; results are the same bytes for any "
                 "number"},
     {.section = FL_SEC_RUN,
      .key = "sleep",
@@ -231,12 +232,10 @@ const fl_key fl_key_table[] = {
      .default_text = "none",
      .special = "none",
      .range = "(0,0.01]",
-     .meaning =
-         "floes to which nothing happens take many steps at once: those that touch nothing, with an "
-         "error of each of at most this fraction of their radius, and those that lie still against each "
-         "other; none sleeps by default; 1e-5 leaves the loads of a field as they are to a millionth, or, "
-         "after many impacts, to what a change of the last bit would make of them, and saves the more the "
-         "fewer floes touch at a time",
+     .meaning = "skip steps of inactive floes: a floe without contacts is advanced over many "
+                "steps at once, a floe at rest against its neighbours not at all; the value "
+                "is the allowed position error of a skip as a fraction of the dilation "
+                "radius; with 1e-5 loads change by less than 1e-6 until chaos sets in",
      .source = "local error of the step"},
     {.section = FL_SEC_RUN,
      .key = "search_every",
@@ -245,8 +244,8 @@ const fl_key fl_key_table[] = {
      .default_text = "auto",
      .special = "auto",
      .range = "[1,1000000]",
-     .meaning = "steps between two searches for neighbours; auto searches when the fastest body may have "
-                "used up the skin"},
+     .meaning = "steps between two neighbour searches; auto searches when the fastest body "
+                "may have used up the skin"},
     {.section = FL_SEC_OUTPUT,
      .key = "loads_every",
      .type = FL_VALUE_F64,
@@ -358,9 +357,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(output, events),
      .default_text = "none",
      .special = "none",
-     .meaning =
-         "file of the floes that touch the structure, each with its mean over the interval of the load "
-         "table: time, place, area, force",
+     .meaning = "file of the floes in contact with the structure, with means over the "
+                "interval of the load table: time, place, area, force",
      .source = "contacts(5)"},
     {.section = FL_SEC_OUTPUT,
      .key = "bonds",
@@ -368,7 +366,7 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(output, bonds),
      .default_text = "none",
      .special = "none",
-     .meaning = "file of the faces that are frozen together, and of the cracks: state, damage, forces",
+     .meaning = "file of the bonded faces and of the cracks: state, damage, forces",
      .source = "bonds(5)"},
     {.section = FL_SEC_OUTPUT,
      .key = "bonds_every",
@@ -385,7 +383,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(output, hash),
      .default_text = "none",
      .special = "none",
-     .meaning = "file of the hash of the state: equal where two runs are equal to the last bit"},
+     .meaning = "file of the hash of the state, equal for two runs that are equal to the "
+                "last bit"},
     {.section = FL_SEC_OUTPUT,
      .key = "hash_every",
      .type = FL_VALUE_F64,
@@ -409,8 +408,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(output, checkpoint_every),
      .default_text = "10 s",
      .range = "(0,inf)",
-     .meaning =
-         "simulated time between two checkpoints; one more is written at the end, and when a signal asks"},
+     .meaning = "simulated time between two checkpoints; another one is written at the end, "
+                "and at a signal"},
     {.section = FL_SEC_MATERIAL,
      .key = "density",
      .type = FL_VALUE_F64,
@@ -447,9 +446,9 @@ const fl_key fl_key_table[] = {
      .default_text = "0.3",
      .default_steel = "0.3",
      .range = "[0,1]",
-     .meaning =
-         "rebound speed over impact speed; a pair takes the smaller of its two, and below 0.01 that: no "
-         "damping is large enough for 0",
+     .meaning = "rebound speed over impact speed; a pair takes the smaller value of its "
+                "materials; values below 0.01 count as 0.01, since no damping is large "
+                "enough for 0",
      .source = "ice on ice 0.2 to 0.5; the pair with steel is taken alike"},
     {.section = FL_SEC_MATERIAL,
      .key = "friction",
@@ -468,7 +467,8 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .special_value = -1,
      .range = "[0,1e6]",
-     .meaning = "coefficient of friction of the pair; auto is the smaller of the two materials'"},
+     .meaning = "coefficient of friction of the pair; auto is the smaller value of the two "
+                "materials"},
     {.section = FL_SEC_CONTACT,
      .key = "restitution",
      .type = FL_VALUE_F64,
@@ -477,19 +477,18 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .special_value = -1,
      .range = "[0,1]",
-     .meaning =
-         "rebound speed over impact speed of the pair, below 0.01 that; auto is the smaller of the two "
-         "materials'"},
+     .meaning = "rebound speed over impact speed of the pair, at least 0.01; auto is the "
+                "smaller value of the two materials"},
     {.section = FL_SEC_CONTACT,
      .key = "law",
      .type = FL_VALUE_WORD,
      .offset = OFFSET(contact, law),
      .default_text = "patch",
      .choices = "patch|manual|manual-si|core",
-     .meaning = "patch: a root of the sum over the faces, edges and vertices that touch, with one potential; "
-                "core: the nearest pair of features alone; manual: the "
-                "DilatedDEM manual's table of modes with its lengths as numbers; manual-si: the same with "
-                "consistent units; for parts that are not convex patch stands in for all",
+     .meaning = "patch: root of a sum over touching faces, edges and vertices, with one "
+                "potential; core: the nearest pair of features; manual: the mode table of "
+                "the DilatedDEM manual with lengths as numbers; manual-si: the same with "
+                "consistent units; for parts that are not convex patch replaces all",
      .source = "DilatedDEM manual (2016), equations (1) to (25), corrected"},
     {.section = FL_SEC_CONTACT,
      .key = "exponent",
@@ -497,8 +496,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(contact, exponent),
      .default_text = "1",
      .choices = "1|1.5",
-     .meaning = "the n of F = kappa delta^n in the law core; what is round has 1.5 always, patch and "
-                "the laws of the manual their own",
+     .meaning = "n of F = kappa delta^n in the law core; spheres and ends of capsules always "
+                "have 1.5, patch and the laws of the manual their own",
      .source = "1 linear; 1.5 Hertz"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness",
@@ -508,8 +507,9 @@ const fl_key fl_key_table[] = {
      .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "the kappa of a whole face in the law patch, of the one place in the law core, of Hertz' law "
-                "[N/m^1.5] for spheres and for the ends of capsules; auto takes it from the moduli",
+     .meaning = "kappa of a whole face in the law patch, of the contact point in the law "
+                "core, of Hertz' law [N/m^1.5] for spheres and ends of capsules; auto "
+                "follows from the moduli",
      .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for what is round"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness_factor",
@@ -518,9 +518,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(contact, stiffness_factor),
      .default_text = "1",
      .range = "(0,1]",
-     .meaning =
-         "the factor s_k of the automatic stiffness, so that steps may be longer; the report tells the "
-         "overlap it costs",
+     .meaning = "factor s_k of the automatic stiffness; below 1 contacts are softer and "
+                "steps longer; the report gives the overlap",
      .source = "allowed while the overlap stays below 0.3 of the dilation radius"},
     {.section = FL_SEC_CONTACT,
      .key = "tangential_ratio",
@@ -529,7 +528,7 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(contact, tangential_ratio),
      .default_text = "0.824",
      .range = "(0,2]",
-     .meaning = "stiffness along the face over stiffness across it, kt/kn",
+     .meaning = "tangential stiffness over normal stiffness, kt/kn",
      .source = "Mindlin, 2(1-nu)/(2-nu) at nu = 0.3"},
     {.section = FL_SEC_CONTACT,
      .key = "rolling",
@@ -537,9 +536,9 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(contact, rolling),
      .default_text = "0",
      .range = "[0,2]",
-     .meaning = "mu_r, what keeps spheres from rolling and spinning on what they touch: an elastic moment "
-                "that gives way at mu_r R* F_n, R* being r_i r_j/(r_i + r_j) of two spheres and else the "
-                "radius; of the laws patch and core, and of nothing but spheres",
+     .meaning = "mu_r, resistance of spheres to rolling and spinning: an elastic moment that "
+                "yields at mu_r R* F_n, with R* = r_i r_j/(r_i + r_j) of two spheres, else "
+                "the radius; laws patch and core, spheres only",
      .source = "Ai, Chen, Rotter & Ooi, Powder Technology 206 (2011) 269"},
     {.section = FL_SEC_CONTACT,
      .key = "damping",
@@ -549,8 +548,8 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .special_value = -1,
      .range = "[0,1000]",
-     .meaning = "damping in place of what restitution asks for: D = chi v_impact of patch and core; zeta of "
-                "the linear and alpha of the 3/2 modes of the manual's laws",
+     .meaning = "damping in place of that of restitution: D = chi v_impact of patch and "
+                "core; zeta of the linear and alpha of the 3/2 modes of the manual's laws",
      .source = "Hunt & Crossley 1975; DilatedDEM manual (2016), equation (2)"},
     {.section = FL_SEC_CONTACT,
      .key = "surrogate",
@@ -558,10 +557,9 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(contact, surrogate),
      .default_text = "0",
      .range = "[0,0.1]",
-     .meaning =
-         "a contact of the law patch that has moved little is carried by an expansion of its energy, "
-         "whose force is to be off by no more than this part of it, which is aimed at and no bound: the "
-         "report tells by how much looks found it off; 0 looks at it in every step",
+     .meaning = "target relative force error of the surrogate, an expansion of the energy of "
+                "a patch contact that has moved little; not a guaranteed bound, the report "
+                "lists the errors found; 0 evaluates every contact exactly in every step",
      .source = "share/doc/contact.md"},
     {.section = FL_SEC_CONTACT,
      .key = "manual_eq2",
@@ -588,7 +586,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(ice, file),
      .default_text = "none",
      .special = "none",
-     .meaning = "the ice, a g-polys file; \"-\" is standard input; it must be given, here or by --ice",
+     .meaning = "ice field, a g-polys file; \"-\" is standard input; required, here or by "
+                "--ice",
      .source = "g-polys(5)"},
     {.section = FL_SEC_ICE,
      .key = "material",
@@ -602,9 +601,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(ice, shape),
      .default_text = "sharp",
      .choices = "sharp|round",
-     .meaning = "the shape that mass, inertia and buoyancy see: the faces moved outward by the radius and "
-                "meeting in sharp edges, "
-                "or the Minkowski sum itself",
+     .meaning = "shape for mass, inertia and buoyancy: faces moved outward by the radius "
+                "with sharp edges, or the Minkowski sum itself",
      .source = "Steiner's formula, Schneider, Convex Bodies (2014), ch. 4"},
     {.section = FL_SEC_STRUCTURE,
      .key = "file",
@@ -612,8 +610,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(structure, file),
      .default_text = "none",
      .special = "none",
-     .meaning =
-         "the structure, a g_struct file; \"-\" is standard input; it must be given, here or by --structure",
+     .meaning = "structure, a g_struct file; \"-\" is standard input; required, here or by "
+                "--structure",
      .source = "g_struct(5)"},
     {.section = FL_SEC_STRUCTURE,
      .key = "material",
@@ -638,10 +636,10 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(boundary, type),
      .default_text = "rigid",
      .choices = "rigid|elastic|periodic|free",
-     .meaning =
-         "what stands at the bounds, one word for all directions or one for each of x, y and z; rigid: "
-         "walls; elastic: walls on springs and dashpots; periodic: what leaves at one bound comes in at the "
-         "other; free: nothing, floes that are wholly beyond a bound are taken out",
+     .meaning = "boundary at the bounds, one word for all directions or one for each of x, y "
+                "and z; rigid: walls; elastic: walls on springs and dashpots; periodic: what "
+                "leaves at one bound enters at the other; free: no wall, floes entirely "
+                "beyond a bound are removed",
      .source = "DilatedDEM manual (2016), bound_type"},
     {.section = FL_SEC_BOUNDARY,
      .key = "min",
@@ -669,9 +667,8 @@ const fl_key fl_key_table[] = {
      .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning =
-         "the kappa of the springs against the walls, in place of contact.stiffness; auto is that of the "
-         "contact"},
+     .meaning = "kappa of the springs against the walls, in place of contact.stiffness; auto "
+                "is that of the contact"},
     {.section = FL_SEC_BOUNDARY,
      .key = "foundation",
      .type = FL_VALUE_F64,
@@ -680,8 +677,8 @@ const fl_key fl_key_table[] = {
      .default_text = "10 MN/m3",
      .range = "(0,inf)",
      .needs = {"type"},
-     .meaning = "stiffness of an elastic wall per area that presses into it; the force is this times the "
-                "volume behind the wall, of the shape that mass sees",
+     .meaning = "stiffness of an elastic wall per contact area; the force is this times the "
+                "volume behind the wall, of the shape for mass",
      .source = "a sheet of 1 GPa that goes on for 100 m behind the wall, E/L"},
     {.section = FL_SEC_BOUNDARY,
      .key = "damping",
@@ -691,8 +688,8 @@ const fl_key fl_key_table[] = {
      .default_text = "0 N.s/m3",
      .range = "[0,inf)",
      .needs = {"type"},
-     .meaning = "dashpots of an elastic wall per area that presses into it; sqrt(density young) of the ice "
-                "takes a wave up without reflection",
+     .meaning = "dashpots of an elastic wall per contact area; sqrt(density young) of the "
+                "ice absorbs a wave without reflection",
      .source = "Lysmer & Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow",
@@ -700,9 +697,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(boundary, inflow),
      .default_text = "none",
      .choices = "none|ice|file",
-     .meaning =
-         "whether new floes come in, and which; ice: copies of the field of ice.file, again and again; "
-         "file: of that of inflow_file"},
+     .meaning = "source of new floes; ice: repeated copies of the field of ice.file; file: "
+                "of that of inflow_file"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_file",
      .type = FL_VALUE_PATH,
@@ -710,7 +706,7 @@ const fl_key fl_key_table[] = {
      .default_text = "none",
      .special = "none",
      .needs = {"inflow"},
-     .meaning = "the field of what comes in, a g-polys file, for inflow = file",
+     .meaning = "field of the inflow, a g-polys file, for inflow = file",
      .source = "g-polys(5)"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_from",
@@ -719,8 +715,8 @@ const fl_key fl_key_table[] = {
      .default_text = "-x",
      .choices = "-x|x|-y|y",
      .needs = {"inflow"},
-     .meaning = "the bound the new floes come in through: the lower or the upper one of x or y; floes leave "
-                "through both"},
+     .meaning = "bound of the inflow: the lower or upper one of x or y; floes leave through "
+                "both"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_speed",
      .type = FL_VALUE_F64,
@@ -730,8 +726,8 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .range = "(0,inf)",
      .needs = {"inflow"},
-     .meaning = "speed of the ice that comes in, straight from its bound, whatever is in its way; auto is "
-                "that of water.current"},
+     .meaning = "speed of the entering ice, normal to its bound, independent of obstacles; "
+                "auto is that of water.current"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_pitch",
      .type = FL_VALUE_F64,
@@ -741,8 +737,9 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .range = "(0,inf)",
      .needs = {"inflow"},
-     .meaning = "distance of one copy of the field from the next, along the drift; auto is the length that "
-                "the floes take up; the length of the domain they were made for keeps their concentration"},
+     .meaning = "distance between copies of the field along the drift; auto is the length of "
+                "the floes; the length of the domain they were made for keeps their "
+                "concentration"},
     {.section = FL_SEC_BOUNDARY,
      .key = "room",
      .type = FL_VALUE_I32,
@@ -751,10 +748,9 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .range = "[1,100000000]",
      .needs = {"inflow"},
-     .meaning =
-         "how many floes there may be at a time besides those of the start; a floe for which there is "
-         "no room waits; auto is one and a quarter of what comes in over the length of the domain, and "
-         "a field besides"},
+     .meaning = "largest number of floes at a time besides the initial ones; further floes "
+                "wait; auto is 1.25 times the inflow over the length of the domain plus one "
+                "field"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive",
      .type = FL_VALUE_VEC3,
@@ -763,9 +759,8 @@ const fl_key fl_key_table[] = {
      .default_text = "0 m/s",
      .single = FL_SINGLE_X,
      .needs = {"drive_width", "drive_group"},
-     .meaning =
-         "velocity at which an edge row of the ice is moved, whatever it takes; one number is along x; "
-         "drive_width or drive_group says which floes"},
+     .meaning = "prescribed velocity of an edge row of the ice; one number is along x; "
+                "drive_width or drive_group selects the floes"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_width",
      .type = FL_VALUE_F64,
@@ -774,8 +769,8 @@ const fl_key fl_key_table[] = {
      .default_text = "none",
      .special = "none",
      .range = "(0,inf)",
-     .meaning =
-         "floes whose middle is within this distance of the edge of the field at the start are driven"},
+     .meaning = "floes whose centre is within this distance of the edge of the field at the "
+                "start are driven"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_edge",
      .type = FL_VALUE_WORD,
@@ -783,9 +778,8 @@ const fl_key fl_key_table[] = {
      .default_text = "auto",
      .choices = "auto|-x|x|-y|y",
      .needs = {"drive_width"},
-     .meaning =
-         "the edge of the field that drive_width counts from: least or greatest x or y; auto is the one "
-         "behind the drive"},
+     .meaning = "edge of the field for drive_width: least or greatest x or y; auto is the "
+                "one at the rear of the drive"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_group",
      .type = FL_VALUE_NAME,
@@ -800,8 +794,8 @@ const fl_key fl_key_table[] = {
      .default_text = "x y rz",
      .special = "none",
      .needs = {"drive_width", "drive_group"},
-     .meaning = "directions of driven floes that follow the drive, and turns that are held; without z they "
-                "heave, without rx and ry they roll and pitch"},
+     .meaning = "directions of driven floes that follow the drive, and fixed rotations; "
+                "without z they heave, without rx and ry they roll and pitch"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_spring",
      .type = FL_VALUE_F64,
@@ -810,7 +804,7 @@ const fl_key fl_key_table[] = {
      .default_text = "0 N/m",
      .range = "[0,inf)",
      .needs = {"drive_width", "drive_group"},
-     .meaning = "spring that pulls each driven floe back to the height it had at the start"},
+     .meaning = "spring that pulls each driven floe back to its initial height"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_foundation",
      .type = FL_VALUE_F64,
@@ -819,7 +813,8 @@ const fl_key fl_key_table[] = {
      .default_text = "0 N/m3",
      .range = "[0,inf)",
      .needs = {"drive_width", "drive_group"},
-     .meaning = "the same per area of the floe's largest face, besides; rho g of the water is 10 kN/m3"},
+     .meaning = "additional spring per area of the largest face of the floe; rho g of the "
+                "water is 10 kN/m3"},
     {.section = FL_SEC_WATER,
      .key = "level",
      .type = FL_VALUE_F64,
@@ -836,7 +831,8 @@ const fl_key fl_key_table[] = {
      .special = "none",
      .special_value = INFINITY,
      .range = "(0,inf)",
-     .meaning = "depth of the water; it bears on waves and sheared currents alone; none is deep water"},
+     .meaning = "depth of the water, used by waves and sheared currents only; none is deep "
+                "water"},
     {.section = FL_SEC_WATER,
      .key = "density",
      .type = FL_VALUE_F64,
@@ -860,9 +856,9 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(water, profile),
      .default_text = "uniform",
      .choices = "uniform|power|linear|table",
-     .meaning = "how the current U changes with the height z over still water: not at all, as "
-                "U0 (1 + z/d)^a, as U0 (1 + z/d), or by the rows of a file; above still water it is that of "
-                "the surface",
+     .meaning = "current U against the height z above still water: uniform, U0 (1 + z/d)^a, "
+                "U0 (1 + z/d), or rows of a file; above still water it is that of the "
+                "surface",
      .source = "DNV-RP-C205 (2010), 4.1.4"},
     {.section = FL_SEC_WATER,
      .key = "profile_exponent",
@@ -871,7 +867,7 @@ const fl_key fl_key_table[] = {
      .default_text = "0.14285714285714285",
      .range = "(0,10]",
      .needs = {"profile"},
-     .meaning = "the a of the profile power",
+     .meaning = "exponent a of the profile power",
      .source = "1/7, turbulent flow over a bottom of sand"},
     {.section = FL_SEC_WATER,
      .key = "profile_depth",
@@ -882,8 +878,8 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .range = "(0,inf)",
      .needs = {"profile"},
-     .meaning = "the d of the profiles power and linear, below which there is no current; auto is the depth "
-                "of the water",
+     .meaning = "depth d of the profiles power and linear, below which there is no current; "
+                "auto is the depth of the water",
      .source = "currents of the wind reach 20 to 50 m down"},
     {.section = FL_SEC_WATER,
      .key = "profile_file",
@@ -891,8 +887,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(water, profile_file),
      .default_text = "none",
      .special = "none",
-     .meaning = "file of the profile table, heights and velocities, see current(5); it takes the place of "
-                "current",
+     .meaning = "file of the profile table, heights and velocities, see current(5); it "
+                "replaces current",
      .source = "measurements of the site"},
     {.section = FL_SEC_WATER,
      .key = "drag_force_coef",
@@ -900,7 +896,7 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(water, drag_force_coef),
      .default_text = "0.005",
      .range = "[0,inf)",
-     .meaning = "the C of the drag force, on the wetted area",
+     .meaning = "coefficient C of the drag force, on the wetted area",
      .source = "DilatedDEM manual (2016), equation (8); skin friction of ice, 0.001 to 0.035"},
     {.section = FL_SEC_WATER,
      .key = "drag_moment_coef",
@@ -908,7 +904,7 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(water, drag_moment_coef),
      .default_text = "0.002",
      .range = "[0,inf)",
-     .meaning = "the C of the drag moment, on the wetted area",
+     .meaning = "coefficient C of the drag moment, on the wetted area",
      .source = "DilatedDEM manual (2016), equation (9); 2/5 of the skin coefficient for a disc"},
     {.section = FL_SEC_WATER,
      .key = "drag",
@@ -916,9 +912,9 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(water, drag),
      .default_text = "manual",
      .choices = "manual|facet",
-     .meaning =
-         "manual takes force and moment of the manual's equations, on the whole wetted area; facet adds "
-         "up skin and form drag over the wetted part of each face; what is round has manual always",
+     .meaning = "manual: force and moment of the manual's equations on the whole wetted "
+                "area; facet: skin and form drag summed over the wetted part of each face; "
+                "spheres and capsules always have manual",
      .source = "DilatedDEM manual (2016), equations (8) and (9); Hoerner, Fluid-Dynamic Drag (1965)"},
     {.section = FL_SEC_WATER,
      .key = "skin_coef",
@@ -927,7 +923,7 @@ const fl_key fl_key_table[] = {
      .default_text = "0.005",
      .range = "[0,inf)",
      .needs = {"drag"},
-     .meaning = "C of the drag along each wetted face, of drag = facet",
+     .meaning = "C of the drag along each wetted face, for drag = facet",
      .source = "0.001 to 0.035 under ice (Steiner 2001)"},
     {.section = FL_SEC_WATER,
      .key = "form_coef",
@@ -936,7 +932,7 @@ const fl_key fl_key_table[] = {
      .default_text = "0.5",
      .range = "[0,inf)",
      .needs = {"drag"},
-     .meaning = "C of the drag on each wetted face that goes ahead, of drag = facet",
+     .meaning = "C of the drag on each wetted face that moves forward, for drag = facet",
      .source = "edges of floes 0.3 to 1"},
     {.section = FL_SEC_WATER,
      .key = "added_mass",
@@ -946,10 +942,10 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .special_value = -1.0,
      .single = FL_SINGLE_ALL,
-     .meaning = "mass of water that moves with a body, over the displaced, along its axes: two in the plane "
-                "of a floe, the third across it, which is the axis nearest to the vertical where it starts; "
-                "auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area "
-                "with one side wet, across; 1/2 of what is round",
+     .meaning = "added mass over displaced mass along the body axes: two in the plane of a "
+                "floe, the third normal to it, the axis nearest to the vertical at the "
+                "start; auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area with "
+                "one wet side, normal to it; 1/2 for spheres and capsules",
      .source = "Lamb, Hydrodynamics (1932), art. 92, 102; surge 0.1 to 0.15"},
     {.section = FL_SEC_WATER,
      .key = "added_inertia",
@@ -959,8 +955,9 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .special_value = -1.0,
      .single = FL_SINGLE_ALL,
-     .meaning = "moment of inertia of water that turns with a body, over its own, about its axes; auto is "
-                "8/45 rho a^5, a disc with one side wet, about those in the plane of a floe, and 0 else",
+     .meaning = "added moment of inertia over that of the body about its axes; auto is 8/45 "
+                "rho a^5, a disc with one wet side, about axes in the plane of a floe, 0 "
+                "about others",
      .source = "Lamb, Hydrodynamics (1932), art. 102"},
     {.section = FL_SEC_WATER,
      .key = "every",
@@ -968,16 +965,17 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(water, every),
      .default_text = "1",
      .range = "[1,1000]",
-     .meaning = "steps between two looks at what waves do to a floe, 20 at least in the shortest period; in "
-                "between it floats on a plane that goes on as it moved, and the rest in a straight line"},
+     .meaning = "steps between two evaluations of the wave load on a floe, at least 20 in "
+                "the shortest period; in between the floe floats on a moving plane and other "
+                "loads are extrapolated linearly"},
     {.section = FL_SEC_WATER,
      .key = "wave",
      .type = FL_VALUE_WORD,
      .offset = OFFSET(water, wave),
      .default_text = "none",
      .choices = "none|airy|jonswap",
-     .meaning = "waves, all running one way: none; airy, one regular train with its crest at the origin at "
-                "the start; jonswap, a sea by chance",
+     .meaning = "waves, all in one direction; airy: one regular train with its crest at the "
+                "origin at the start; jonswap: a random sea",
      .source = "Airy 1845; Hasselmann et al. 1973; DNV-RP-C205 (2010), 3.3 and 3.5"},
     {.section = FL_SEC_WATER,
      .key = "height",
@@ -988,8 +986,8 @@ const fl_key fl_key_table[] = {
      .special = "none",
      .range = "(0,inf)",
      .needs = {"wave"},
-     .meaning = "height of the wave from trough to crest; of a sea the significant one, four standard "
-                "deviations of the elevation"},
+     .meaning = "wave height from trough to crest; of a sea the significant height, four "
+                "standard deviations of the elevation"},
     {.section = FL_SEC_WATER,
      .key = "period",
      .type = FL_VALUE_F64,
@@ -999,7 +997,7 @@ const fl_key fl_key_table[] = {
      .special = "none",
      .range = "(0,inf)",
      .needs = {"wave"},
-     .meaning = "period of the wave; of a sea that of the peak of its spectrum"},
+     .meaning = "wave period; of a sea that of the spectral peak"},
     {.section = FL_SEC_WATER,
      .key = "direction",
      .type = FL_VALUE_F64,
@@ -1015,7 +1013,7 @@ const fl_key fl_key_table[] = {
      .default_text = "3.3",
      .range = "[1,20]",
      .needs = {"wave"},
-     .meaning = "how much the peak of the spectrum of a sea is raised; 1 is a fully developed one",
+     .meaning = "peak enhancement factor of the spectrum; 1 is a fully developed sea",
      .source = "mean of the North Sea, Hasselmann et al. 1973; 1 to 7"},
     {.section = FL_SEC_WATER,
      .key = "components",
@@ -1024,7 +1022,7 @@ const fl_key fl_key_table[] = {
      .default_text = "100",
      .range = "[1,10000]",
      .needs = {"wave"},
-     .meaning = "number of trains that a sea is made of, all of the same energy"},
+     .meaning = "number of wave trains of a sea, all of equal energy"},
     {.section = FL_SEC_WATER,
      .key = "seed",
      .type = FL_VALUE_I32,
@@ -1074,8 +1072,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(wind, drag),
      .default_text = "manual",
      .choices = "manual|facet",
-     .meaning = "manual takes one force on the whole dry area; facet adds up skin and form drag over the dry "
-                "part of each face; what is round has manual always",
+     .meaning = "manual: one force on the whole dry area; facet: skin and form drag summed "
+                "over the dry part of each face; spheres and capsules always have manual",
      .source = "as water.drag"},
     {.section = FL_SEC_WIND,
      .key = "drag_coef",
@@ -1083,7 +1081,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(wind, drag_coef),
      .default_text = "0.0015",
      .range = "[0,inf)",
-     .meaning = "drag coefficient, on the dry area; of drag = facet, that along each dry face",
+     .meaning = "drag coefficient, on the dry area; for drag = facet that along each dry "
+                "face",
      .source = "ice in air 0.001 to 0.009 (Steiner 2001)"},
     {.section = FL_SEC_WIND,
      .key = "form_coef",
@@ -1092,7 +1091,7 @@ const fl_key fl_key_table[] = {
      .default_text = "0.5",
      .range = "[0,inf)",
      .needs = {"drag"},
-     .meaning = "C of the drag on each dry face that faces the wind, of drag = facet",
+     .meaning = "C of the drag on each dry face that faces the wind, for drag = facet",
      .source = "as water.form_coef"},
     {.section = FL_SEC_BOND,
      .key = "on",
@@ -1100,7 +1099,7 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(bond, on),
      .default_text = "false",
      .choices = "false|true",
-     .meaning = "whether neighbours start frozen together, where the ice file has a bond record for them",
+     .meaning = "whether neighbours start bonded, if the ice file has a bond record for them",
      .source = "DilatedDEM manual (2016), isbonding"},
     {.section = FL_SEC_BOND,
      .key = "normal_strength",
@@ -1112,7 +1111,7 @@ const fl_key fl_key_table[] = {
      .special_value = INFINITY,
      .range = "(0,inf)",
      .needs = {"on"},
-     .meaning = "tensile strength of a frozen face; none: it never breaks so",
+     .meaning = "tensile strength of a bonded face; none: no tensile failure",
      .source = "0.69 to 0.95 MPa in bonded-sphere models (2014)"},
     {.section = FL_SEC_BOND,
      .key = "shear_strength",
@@ -1124,7 +1123,7 @@ const fl_key fl_key_table[] = {
      .special_value = INFINITY,
      .range = "(0,inf)",
      .needs = {"on"},
-     .meaning = "shear strength of a frozen face without pressure on it; none: it never breaks so",
+     .meaning = "shear strength of a bonded face without pressure; none: no shear failure",
      .source = "taken alike"},
     {.section = FL_SEC_BOND,
      .key = "friction",
@@ -1133,8 +1132,8 @@ const fl_key fl_key_table[] = {
      .default_text = "0.3",
      .range = "[0,inf)",
      .needs = {"on"},
-     .meaning = "share of the pressure on a face by which it resists more shear, and by which what of it is "
-                "broken rubs",
+     .meaning = "friction coefficient of a face: increase of the shear strength with "
+                "pressure, and friction of the broken part",
      .source = "ice on ice 0.1 to 0.5"},
     {.section = FL_SEC_BOND,
      .key = "young",
@@ -1145,8 +1144,8 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .range = "(0,inf)",
      .needs = {"on"},
-     .meaning = "E of the ice between two centres at a distance l: a face is a spring of E/l per area; auto: "
-                "of the materials",
+     .meaning = "E of the ice between two centres at a distance l: a face is a spring of E/l "
+                "per area; auto: of the materials",
      .source = "series of two half bodies"},
     {.section = FL_SEC_BOND,
      .key = "poisson",
@@ -1167,8 +1166,8 @@ const fl_key fl_key_table[] = {
      .special = "none",
      .range = "(0,inf)",
      .needs = {"on"},
-     .meaning = "fracture energy in tension, by which stress falls along a line; none: a point breaks at its "
-                "strength at once",
+     .meaning = "fracture energy in tension, with linear softening; none: a point breaks at "
+                "its strength at once",
      .source = "sea ice 1 to 15 J/m2"},
     {.section = FL_SEC_BOND,
      .key = "shear_energy",
@@ -1180,7 +1179,7 @@ const fl_key fl_key_table[] = {
      .special_value = -1.0,
      .range = "(0,inf)",
      .needs = {"energy"},
-     .meaning = "the same in shear; auto: as energy"},
+     .meaning = "fracture energy in shear; auto: as energy"},
     {.section = FL_SEC_BOND,
      .key = "mixing",
      .type = FL_VALUE_I32,
@@ -1188,8 +1187,8 @@ const fl_key fl_key_table[] = {
      .default_text = "2",
      .range = "[1,1000]",
      .needs = {"energy"},
-     .meaning = "exponent by which the fracture energy goes from that of tension to that of shear, after the "
-                "share of shear in the energy",
+     .meaning = "exponent of the mixed-mode fracture energy in the share of shear in the "
+                "energy",
      .source = "Benzeggagh & Kenane, Compos. Sci. Technol. 56 (1996) 439"},
     {.section = FL_SEC_BOND,
      .key = "softening",
@@ -1198,10 +1197,10 @@ const fl_key fl_key_table[] = {
      .default_text = "keep",
      .choices = "keep|stretch|weaken",
      .needs = {"on"},
-     .meaning =
-         "what becomes of a bond longer than 2 E G/strength^2, which stores more than its fracture "
-         "energy: keep its strength, and it takes what it has stored; stretch its softening; or weaken "
-         "it by the root of the ratio, which keeps the energy",
+     .meaning = "treatment of a bond longer than 2 E G/strength^2, which stores more than "
+                "its fracture energy; keep: it keeps its strength and dissipates the stored "
+                "energy; stretch: longer softening; weaken: strengths reduced by the root of "
+                "the ratio, which keeps the fracture energy",
      .source = "Bazant & Oh, Mater. Struct. 16 (1983) 155"},
     {.section = FL_SEC_BOND,
      .key = "stretch",
@@ -1210,7 +1209,8 @@ const fl_key fl_key_table[] = {
      .default_text = "1.5",
      .range = "(1,inf)",
      .needs = {"softening"},
-     .meaning = "separation at failure over that at the peak, at least, of softening = stretch",
+     .meaning = "least ratio of the separation at failure to that at the peak, for softening "
+                "= stretch",
      .source = "bonded spheres against a jack-up, 1.5"},
     {.section = FL_SEC_BOND,
      .key = "damping",
@@ -1219,8 +1219,8 @@ const fl_key fl_key_table[] = {
      .default_text = "0",
      .range = "[0,1]",
      .needs = {"on"},
-     .meaning = "dashpots beside the springs, as a share of the critical damping of the two bodies on their "
-                "face",
+     .meaning = "dashpots parallel to the springs, as a fraction of the critical damping of "
+                "the two bodies on their face",
      .source = "none: what is frozen has no damping of its own here"},
     {.section = FL_SEC_GROUP,
      .key = "fixed",
@@ -1228,8 +1228,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(group, fixed),
      .default_text = "none",
      .special = "none",
-     .meaning = "directions x y z and turns rx ry rz, world axes, in which forces do not move the bodies of "
-                "the group"},
+     .meaning = "directions x y z and rotations rx ry rz, world axes, in which forces do not "
+                "move the bodies of the group"},
     {.section = FL_SEC_GROUP,
      .key = "velocity",
      .type = FL_VALUE_VEC3,
