@@ -370,22 +370,23 @@ static int fit_all_floes(fl_floe_sides *f, double *own, const double *part, doub
 static int fit_graded(fl_floe_sides *f, double *own, const double *part, double *off, fl_err *err)
 {
     const int32_t n = f->cells->n;
-    double total, hi, *asked = fl_alloc(n, sizeof *asked, err), *free_part = fl_alloc(n, sizeof *asked, err);
+    double total, hi, *requested = fl_alloc(n, sizeof *requested, err),
+                      *free_part = fl_alloc(n, sizeof *requested, err);
     double *limited_area = fl_alloc(n, sizeof *limited_area, err), factor = 1.0, last = 0.0;
     int rc = -1;
-    if (!asked || !free_part || !limited_area || measure_cells(f, &total, &hi, err)) goto done;
+    if (!requested || !free_part || !limited_area || measure_cells(f, &total, &hi, err)) goto done;
     for (int32_t i = 0; i < n; i++) {
         limited_area[i] = f->area[i]; /* area of the cell, as measured */
-        asked[i] = part[i] * limited_area[i];
+        requested[i] = part[i] * limited_area[i];
     }
-    total = fl_parallel_sum(asked, n);
+    total = fl_parallel_sum(requested, n);
     for (int round = 0; round < ROUNDS && fabs(factor - last) > 1e-15; round++) {
         if (fit_all_floes(f, own, part, factor, err)) goto done;
         *off = 0.0;
         for (int32_t i = 0; i < n; i++) {
             const int is = own[i] >= f->max_inset[i];
-            if (!is) *off = fmax(*off, part[i] * fabs(f->area[i] / asked[i] - 1.0));
-            free_part[i] = is ? 0.0 : asked[i];
+            if (!is) *off = fmax(*off, part[i] * fabs(f->area[i] / requested[i] - 1.0));
+            free_part[i] = is ? 0.0 : requested[i];
             limited_area[i] = is ? f->area[i] : 0.0;
         }
         last = factor;
@@ -397,7 +398,7 @@ static int fit_graded(fl_floe_sides *f, double *own, const double *part, double 
     }
     rc = 0;
 done:
-    free(asked);
+    free(requested);
     free(free_part);
     free(limited_area);
     return rc;

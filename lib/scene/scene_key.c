@@ -510,7 +510,7 @@ const fl_key fl_key_table[] = {
      .meaning = "kappa of a whole face in the law patch, of the contact point in the law "
                 "core, of Hertz' law [N/m^1.5] for spheres and ends of capsules; auto "
                 "follows from the moduli",
-     .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for what is round"},
+     .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for spheres"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness_factor",
      .old_name = "softening",
@@ -1221,7 +1221,7 @@ const fl_key fl_key_table[] = {
      .needs = {"on"},
      .meaning = "dashpots parallel to the springs, as a fraction of the critical damping of "
                 "the two bodies on their face",
-     .source = "none: what is frozen has no damping of its own here"},
+     .source = "none: bonds have no damping of their own here"},
     {.section = FL_SEC_GROUP,
      .key = "fixed",
      .type = FL_VALUE_FIXED,
