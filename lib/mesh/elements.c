@@ -6,7 +6,6 @@
 #include <string.h>
 #include "base/array.h"
 #include "mesh/elements.h"
-#include "mesh/skin.h"
 
 static const struct {
     const char *name;
@@ -30,6 +29,7 @@ static const struct {
     [FL_HEX20] = {"hex20", 8, 20, 6, {"0123", "4765", "0451", "1562", "2673", "3740"}},
 };
 
+const char *fl_shape_name(enum fl_shape shape) { return SHAPE[shape].name; }
 int fl_shape_nodes(enum fl_shape shape) { return SHAPE[shape].nodes; }
 int fl_shape_corners(enum fl_shape shape) { return SHAPE[shape].corners; }
 int fl_shape_faces(enum fl_shape shape) { return SHAPE[shape].faces; }
@@ -177,98 +177,4 @@ void fl_elements_free(fl_elements *e)
     free(e->skip_count);
     free(e->section);
     *e = (fl_elements){0};
-}
-
-/* --- from elements to a surface ------------------------------------------------------------------------- */
-
-/* "hex8 4, tri3 2", what does not fit as dots. */
-typedef struct {
-    char text[300];
-    size_t len;
-} list;
-
-static void list_add(list *l, const char *name, int32_t n)
-{
-    char item[80];
-    const int k = snprintf(item, sizeof item, "%s%.40s %d", l->len ? ", " : "", name, n);
-    if (l->len + (size_t)k + 6 < sizeof l->text) memcpy(l->text + l->len, item, (size_t)k + 1);
-    else if (l->text[l->len] == '\0' && l->len + 6 < sizeof l->text) strcpy(l->text + l->len, ", ...");
-    else return;
-    l->len += strlen(l->text + l->len);
-}
-
-static void tell_counts(const fl_elements *e, fl_bytes *b)
-{
-    int32_t count[FL_SHAPES] = {0}, nodes = 0;
-    list in = {{0}, 0}, out = {{0}, 0};
-    for (int32_t k = 0; k < e->node_id.n; k++) nodes += !isnan(e->x[k].x);
-    for (int32_t k = 0; k < e->element_id.n; k++) count[e->element[k].shape]++;
-    for (int k = 0; k < FL_SHAPES; k++)
-        if (count[k]) list_add(&in, SHAPE[k].name, count[k]);
-    for (int32_t k = 0; k < e->skipped.n; k++) list_add(&out, e->skipped.name[k], e->skip_count[k]);
-    fl_bytes_note(b, "%d nodes; elements: %s", nodes, in.len ? in.text : "none");
-    if (e->moved) fl_bytes_note(b, "%d nodes were given another place by a later line", e->moved);
-    if (e->replaced)
-        fl_bytes_note(b, "%d elements were replaced by later ones of the same number", e->replaced);
-    if (out.len) fl_bytes_note(b, "elements without a surface, or not known, passed over: %s", out.text);
-}
-
-/* A set that has the name of a part which is wanted too goes on with it. */
-static int32_t namesake(const fl_elements *e, const char *want, int32_t target)
-{
-    const int32_t parts = e->parts.n;
-    const int32_t part = target < parts ? -1 : fl_string_table_find(&e->parts, e->sets.name[target - parts]);
-    return part >= 0 && want[part] ? part : target;
-}
-
-/* Where each element goes: its part, or a set that was asked for; sets are counted on behind the parts. */
-static int choose(fl_elements *e, fl_skin *k, fl_import_options *w, fl_err *err)
-{
-    const int32_t parts = e->parts.n, all = parts + e->sets.n;
-    int32_t *first = NULL, *order = NULL; /* picks by their sets */
-    char *want = fl_alloc(all, 1, err);
-    int yes, rc = -1;
-    if (!want || fl_group_by_target(e->picks, e->sets.n, e->picks ? &e->pick[0].set : NULL,
-                                    (int)(sizeof *e->pick / sizeof(int32_t)), &first, &order, err))
-        goto done;
-    for (int32_t t = 0; t < all; t++) {
-        yes = fl_import_selects(w, t < parts ? e->parts.name[t] : e->sets.name[t - parts], err);
-        if (yes < 0) goto done;
-        want[t] = (char)(yes && (t < parts || fl_import_by_name(w)));
-    }
-    for (int32_t i = 0; i < e->element_id.n; i++)
-        k->target[i] = want[e->element[i].part] ? e->element[i].part : -1;
-    for (int32_t i = 0; i < e->picks; i++) {
-        const fl_pick *p = &e->pick[i];
-        const int32_t t = parts + p->set, solid = SHAPE[e->element[p->element].shape].faces;
-        int32_t *target = &k->target[p->element];
-        if (!want[t] || (solid && p->face != FL_PICK_WHOLE)) continue;
-        if (*target >= parts && *target <= t) continue;
-        *target = t;
-        k->reversed[p->element] = p->reversed;
-    }
-    for (int32_t i = 0; i < e->element_id.n; i++) k->target[i] = namesake(e, want, k->target[i]);
-    for (int32_t i = 0; i < e->picks; i++) {
-        const fl_pick *p = &e->pick[order[i]];
-        if (want[parts + p->set] && p->face != FL_PICK_WHOLE &&
-            fl_skin_pick(k, p, namesake(e, want, parts + p->set), err))
-            goto done;
-    }
-    rc = 0;
-done:
-    free(first);
-    free(order);
-    free(want);
-    return rc;
-}
-
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
-{
-    fl_skin k = {0};
-    int rc = -1;
-    tell_counts(e, b);
-    if (fl_skin_start(&k, e, w, err) == 0 && choose(e, &k, w, err) == 0) rc = fl_skin_emit(&k, s, err);
-    if (rc == 0) fl_skin_report(&k, b);
-    fl_skin_free(&k);
-    return rc;
 }

@@ -79,6 +79,9 @@ typedef struct {
     int32_t x_cap, element_cap, connectivity_cap, pick_cap, skip_cap, section_cap;
 } fl_elements;
 
+/* Name ("hex8") of a shape. */
+const char *fl_shape_name(enum fl_shape shape);
+
 /* Nodes of a shape: 2 for FL_LINE2 ... 20 for FL_HEX20; its corners alone. */
 int fl_shape_nodes(enum fl_shape shape);
 int fl_shape_corners(enum fl_shape shape);
@@ -126,24 +129,6 @@ int fl_elements_pick(fl_elements *e, fl_pick pick, fl_err *err);
 
 /* Count an element of a type that has no surface, or is not known.  -1 with FL_SYSTEM. */
 int fl_elements_skip(fl_elements *e, const char *type, fl_err *err);
-
-/* Add the surface of the mesh to s, a part for each part (and each set) that is wanted and holds something:
- *   solids   their faces that no other solid among the wanted ones has (by their corner nodes), outward
- *            whatever way the element is numbered
- *   shells   as they are: the normal follows the order of the nodes
- *   lines    solid truncated cones with the radii of their section; without one they are counted in a remark
- * With wishes, a set that is like one takes its elements out of their parts, the first such set in the order
- * of the file; picked faces become triangles of the set and no longer of the solid's part.  A set that has
- * the name of a part goes on with it.
- * A face comes once, whatever lies on it: fl_resolve_shared_faces() says who brings it.
- * Quadrilaterals are split by fl_facet_polygon() with the numbers of the nodes deciding on ties.  Mid-side
- * nodes are dropped, and the largest sagitta (distance of the middle node from the chord) told in a remark;
- * or with w->subdivide a triangle becomes 4, a quadrilateral 6, one with a centre node 8.
- *   b   takes the remarks: what came in, what was passed over
- *   w   NULL wants everything
- * Returns 0, or -1 with FL_INPUT (a node that is nowhere defined, named with the line of the element) or
- * FL_SYSTEM. */
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err);
 
 void fl_elements_free(fl_elements *e); /* accepts a zeroed struct, leaves one */
 

@@ -8,6 +8,7 @@
 #include "base/array.h"
 #include "base/pi.h"
 #include "geom/affine.h"
+#include "mesh/element_surface.h"
 #include "mesh/bdf_entry.h"
 #include "mesh/read_bdf.h"
 

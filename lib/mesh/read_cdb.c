@@ -4,6 +4,7 @@
 #include <strings.h>
 #include "base/array.h"
 #include "base/number_text.h"
+#include "mesh/element_surface.h"
 #include "mesh/cdb_block.h"
 #include "mesh/cdb_routine.h"
 #include "mesh/read_cdb.h"

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include "mesh/element_surface.h"
 #include "mesh/inp_assembly.h"
 #include "mesh/inp_elements.h"
 #include "mesh/inp_nodes.h"

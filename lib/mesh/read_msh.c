@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "base/number_text.h"
 #include "mesh/deck_lines.h"
-#include "mesh/elements.h"
+#include "mesh/element_surface.h"
 #include "mesh/read_msh.h"
 
 enum { NODES = 125, TYPES = 94, DIMS = 4 };

@@ -7,6 +7,7 @@
 #include <strings.h>
 #include "base/array.h"
 #include "base/number_text.h"
+#include "mesh/element_surface.h"
 #include "mesh/read_vtk.h"
 #include "mesh/vtk_cells.h"
 

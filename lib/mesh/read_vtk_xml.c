@@ -9,6 +9,7 @@
 #include "base/decimal.h"
 #include "base/array.h"
 #include "base/number_text.h"
+#include "mesh/element_surface.h"
 #include "mesh/read_vtk_xml.h"
 #include "mesh/vtk_cells.h"
 

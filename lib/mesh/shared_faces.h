@@ -5,13 +5,6 @@
 #define FL_MESH_SHARED_FACES_H
 #include "mesh/skin.h"
 
-/* Different corners of a face of a solid (of a shell or a line when face < 0) in ascending order, the rest
- * -1. How many. */
-int fl_face_corner_nodes(const fl_elements *e, int32_t element, int face, int32_t c[4]);
-
-/* free[element] gets a bit for each face of a solid that no other solid of e has.  -1 with FL_SYSTEM. */
-int fl_mark_free_faces(const fl_elements *e, uint8_t *free, fl_err *err);
-
 /* Settle who brings each face, by its corner nodes, from k->target and from what sets picked of single faces:
  *  - of elements of one kind on the same nodes (lines: of the same radii too) the first that is wanted stays;
  *  - a face of one wanted solid is brought by the set that picked it, or else, when parts were chosen by name

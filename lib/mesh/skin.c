@@ -3,7 +3,7 @@
 #include <string.h>
 #include "base/array.h"
 #include "geom/facet.h"
-#include "mesh/shared_faces.h"
+#include "mesh/face_groups.h"
 #include "mesh/skin.h"
 
 int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *w, fl_err *err)
@@ -354,8 +354,7 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
     const int32_t targets = e->parts.n + e->sets.n;
     int32_t *first = NULL, *list = NULL, *pick_first = NULL, *pick_list = NULL;
     int rc = -1;
-    if (fl_resolve_shared_faces(k, err) ||
-        fl_group_by_target(e->element_id.n, targets, k->target, 1, &first, &list, err) ||
+    if (fl_group_by_target(e->element_id.n, targets, k->target, 1, &first, &list, err) ||
         fl_group_by_target(k->picks, targets, k->picks ? &k->pick[0].target : NULL,
                            (int)(sizeof *k->pick / sizeof(int32_t)), &pick_first, &pick_list, err))
         goto done;

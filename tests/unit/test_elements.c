@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "geom/mesh_patch.h"
 #include "geom/weld.h"
-#include "mesh/elements.h"
+#include "mesh/element_surface.h"
 #include "mesh/skin.h"
 #include "support/mesh.h"
 #include "support/near.h"
