@@ -85,6 +85,8 @@ int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err)
     return 0;
 }
 
+int fl_bytes_is_text(const fl_bytes *b) { return memchr(b->data, '\0', (size_t)b->n) == NULL; }
+
 int fl_bytes_read_all(fl_bytes *b, fl_err *err)
 {
     while (!b->ended) {

@@ -36,6 +36,9 @@ int fl_bytes_read_all(fl_bytes *b, fl_err *err);
 /* What words are parted by, but for ends of lines. */
 static inline int fl_bytes_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 
+/* True if the head holds no zero byte. */
+int fl_bytes_is_text(const fl_bytes *b);
+
 /* For tests: a head and a window of so many bytes; 0 for those above. */
 void fl_bytes_set_window(int32_t bytes);
 

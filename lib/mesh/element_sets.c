@@ -219,7 +219,7 @@ static int pick_one(void *context, fl_pick pick, fl_err *err)
     return fl_elements_pick(p->e, pick, err);
 }
 
-static int tell_one(fl_element_sets *r, int32_t set, int32_t place, fl_elements *e, fl_import_options *w,
+static int tell_one(fl_element_sets *r, int32_t set, int32_t place, fl_elements *e, fl_import_options *opt,
                     fl_err *err)
 {
     const char *own = r->words.name[r->set[set].name];
@@ -232,17 +232,17 @@ static int tell_one(fl_element_sets *r, int32_t set, int32_t place, fl_elements 
     else snprintf(name, sizeof name, "%.*s", FL_SET_NAME_MAX - 1, own);
     p.set = fl_string_table_add(&e->sets, name, err);
     if (p.set < 0) return -1;
-    if (fl_import_by_name(w)) wanted = fl_import_selects(w, name, err);
+    if (fl_import_by_name(opt)) wanted = fl_import_selects(opt, name, err);
     if (wanted < 0) return -1;
     return wanted ? fl_element_sets_visit(r, e, set, place, pick_one, &p, err) : 0;
 }
 
-int fl_element_sets_export(fl_element_sets *r, fl_elements *e, fl_import_options *w, fl_err *err)
+int fl_element_sets_export(fl_element_sets *r, fl_elements *e, fl_import_options *opt, fl_err *err)
 {
     for (int32_t k = 0; k < r->key.n; k++)
         for (int32_t at = 0; r->set[k].is_explicit && at < r->instances; at++)
             if ((r->instance[at].scope == r->set[k].scope || r->instance[at].part_scope == r->set[k].scope) &&
-                tell_one(r, k, at, e, w, err))
+                tell_one(r, k, at, e, opt, err))
                 return -1;
     return 0;
 }

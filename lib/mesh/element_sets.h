@@ -75,7 +75,7 @@ int32_t fl_element_sets_find(const fl_element_sets *r, enum fl_set_kind kind, in
 
 /* Add all sets to e, as seen from all places: "place.set" for those of instances; their elements only where
  * the wish chooses them.  -1 with FL_INPUT or FL_SYSTEM. */
-int fl_element_sets_export(fl_element_sets *r, fl_elements *e, fl_import_options *w, fl_err *err);
+int fl_element_sets_export(fl_element_sets *r, fl_elements *e, fl_import_options *opt, fl_err *err);
 
 void fl_element_sets_free(fl_element_sets *r); /* accepts a zeroed struct, leaves one */
 

@@ -48,7 +48,7 @@ static int32_t namesake(const fl_elements *e, const char *want, int32_t target)
 }
 
 /* Where each element goes: its part, or a set that was asked for; sets are counted on behind the parts. */
-static int choose(fl_elements *e, fl_skin *k, fl_import_options *w, fl_err *err)
+static int choose(fl_elements *e, fl_skin *k, fl_import_options *opt, fl_err *err)
 {
     const int32_t parts = e->parts.n, all = parts + e->sets.n;
     int32_t *first = NULL, *order = NULL; /* picks by their sets */
@@ -58,9 +58,9 @@ static int choose(fl_elements *e, fl_skin *k, fl_import_options *w, fl_err *err)
                                     (int)(sizeof *e->pick / sizeof(int32_t)), &first, &order, err))
         goto done;
     for (int32_t t = 0; t < all; t++) {
-        yes = fl_import_selects(w, t < parts ? e->parts.name[t] : e->sets.name[t - parts], err);
+        yes = fl_import_selects(opt, t < parts ? e->parts.name[t] : e->sets.name[t - parts], err);
         if (yes < 0) goto done;
-        want[t] = (char)(yes && (t < parts || fl_import_by_name(w)));
+        want[t] = (char)(yes && (t < parts || fl_import_by_name(opt)));
     }
     for (int32_t i = 0; i < e->element_id.n; i++)
         k->target[i] = want[e->element[i].part] ? e->element[i].part : -1;
@@ -88,12 +88,12 @@ done:
     return rc;
 }
 
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
+int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *opt, fl_err *err)
 {
     fl_skin k = {0};
     int rc = -1;
     tell_counts(e, b);
-    if (fl_skin_start(&k, e, w, err) == 0 && choose(e, &k, w, err) == 0 &&
+    if (fl_skin_start(&k, e, opt, err) == 0 && choose(e, &k, opt, err) == 0 &&
         fl_resolve_shared_faces(&k, err) == 0)
         rc = fl_skin_emit(&k, s, err);
     if (rc == 0) fl_skin_report(&k, b);

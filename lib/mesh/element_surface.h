@@ -20,6 +20,6 @@
  *   w   NULL wants everything
  * Returns 0, or -1 with FL_INPUT (a node that is nowhere defined, named with the line of the element) or
  * FL_SYSTEM. */
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err);
+int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *opt, fl_err *err);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include "base/number_text.h"
 #include "base/text.h"
 #include "mesh/gstruct.h"
@@ -127,6 +128,21 @@ int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err)
 {
     fl_text in = {0};
     return fl_text_open(&in, path, err) ? -1 : fl_gstruct_read_text(s, &in, err);
+}
+
+int fl_gstruct_is(const fl_bytes *b)
+{
+    return strncasecmp(b->data + strspn(b->data, " \t\r\n"), "#g_struct", 9) == 0;
+}
+
+int fl_gstruct_read_bytes(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
+{
+    fl_text text = {.in = b->in, .chunk = b->data, .chunk_len = b->n};
+    (void)name;
+    (void)opt;
+    b->in = NULL;
+    b->data = NULL;
+    return fl_gstruct_read_text(s, &text, err);
 }
 
 static void put(FILE *f, const char *before, double x)

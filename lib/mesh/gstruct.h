@@ -6,6 +6,8 @@
 #include "base/text.h"
 #include "base/tool.h"
 #include "geom/surface.h"
+#include "mesh/bytes.h"
+#include "mesh/import_options.h"
 
 enum { FL_GSTRUCT_VERSION = 1 };
 
@@ -21,6 +23,13 @@ int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err);
 
 /* The same from a text that was opened already, which it closes. */
 int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err);
+
+/* True if b begins with "#g_struct". */
+int fl_gstruct_is(const fl_bytes *b);
+
+/* The same from a mesh file whose head has been read; b gives up its stream.  name and opt are not used: parts
+ * have names, and the caller selects them. */
+int fl_gstruct_read_bytes(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 /* Write s with its history and the line of this run.  Write errors show in fl_out_close(). */
 void fl_gstruct_write(FILE *f, const fl_surface *s, const fl_history_line *by);

@@ -32,15 +32,15 @@ int fl_pattern_matches(const char *pattern, const char *name)
     return *pattern == '\0';
 }
 
-int fl_import_selects(fl_import_options *w, const char *name, fl_err *err)
+int fl_import_selects(fl_import_options *opt, const char *name, fl_err *err)
 {
     int like = 0;
-    if (!w) return 1;
-    if (w->available && fl_string_table_add(w->available, name, err) < 0) return -1;
-    for (int32_t k = 0; k < w->patterns; k++)
-        if (fl_pattern_matches(w->pattern[k], name)) {
-            if (w->matched) w->matched[k] = 1;
+    if (!opt) return 1;
+    if (opt->available && fl_string_table_add(opt->available, name, err) < 0) return -1;
+    for (int32_t k = 0; k < opt->patterns; k++)
+        if (fl_pattern_matches(opt->pattern[k], name)) {
+            if (opt->matched) opt->matched[k] = 1;
             like = 1;
         }
-    return like || w->patterns == 0;
+    return like || opt->patterns == 0;
 }

@@ -18,7 +18,7 @@ typedef struct {
 int fl_pattern_matches(const char *pattern, const char *name);
 
 /* Is name wanted?  1 or 0, or -1 with FL_SYSTEM; records hit and seen.  w NULL wants everything. */
-int fl_import_selects(fl_import_options *w, const char *name, fl_err *err);
+int fl_import_selects(fl_import_options *opt, const char *name, fl_err *err);
 
 /* Are parts chosen by name? */
 static inline int fl_import_by_name(const fl_import_options *w) { return w && w->patterns > 0; }

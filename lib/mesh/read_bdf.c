@@ -60,6 +60,7 @@ static int starts(const char *p, const char *word)
 
 int fl_bdf_is(const fl_bytes *b)
 {
+    if (!fl_bytes_is_text(b)) return 0;
     for (const char *p = b->data; *p; p += strspn(p, "\r\n")) {
         const char *q = p + strspn(p, " \t");
         /* lines of Nastran begin with a letter, with the mark of a continuation, or with a blank */
@@ -468,10 +469,11 @@ static void end(reader *r)
     free(r->radius);
 }
 
-int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
+int fl_bdf_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     reader r = {.at = {.comment = comment}};
     int rc = -1, more;
+    (void)name; /* each element has a property or is a CONROD */
     r.at.context = &r;
     if (fl_elements_start(&r.e, fl_in_name(b->in), err)) goto done;
     fl_deck_start(&r.at.deck, &r.e, b);
@@ -483,7 +485,7 @@ int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
     b->data = NULL;
     b->n = b->cap = 0;
     if (settle_all(&r, err) || name_parts(&r, err)) goto done;
-    rc = fl_elements_surface(&r.e, s, b, w, err);
+    rc = fl_elements_surface(&r.e, s, b, opt, err);
 done:
     end(&r);
     return rc;

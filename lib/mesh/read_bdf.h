@@ -27,6 +27,6 @@ int fl_bdf_is(const fl_bytes *b);
  * the name that HyperMesh ($HMNAME PROP), ANSA ($ANSA_NAME_COMMENT) or Femap ($ Femap Property) leave in a
  * comment; "conrod" is that of CONROD. Returns 0, or -1 with FL_INPUT or FL_SYSTEM.  Source: MSC Nastran
  * Quick Reference Guide (2012). */
-int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err);
+int fl_bdf_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

@@ -273,7 +273,7 @@ static int read_all(reader *c, fl_err *err)
     return more < 0 || finish(c, err) ? -1 : 0;
 }
 
-int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     reader c = {.type = 1, .real = 1, .section = 1};
     fl_cdb *k = &c.k;
@@ -282,12 +282,12 @@ int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     fl_deck_start(&k->d, &k->e, b);
     k->part = fl_string_table_add(&k->e.parts, name, err);
     if (k->part < 0 || read_all(&c, err) || fl_cdb_section_apply(&k->sections, &k->e, err) ||
-        fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(w), err))
+        fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(opt), err))
         goto done;
     if (k->node_sets) fl_bytes_note(b, "%d components of nodes were passed over", k->node_sets);
     if (c.unread)
         fl_bytes_note(b, "%d commands with parameters that are not numbers were passed over", c.unread);
-    rc = fl_elements_surface(&k->e, s, b, w, err);
+    rc = fl_elements_surface(&k->e, s, b, opt, err);
 done:
     fl_deck_free(&k->d);
     fl_elements_free(&k->e);

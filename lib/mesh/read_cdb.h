@@ -24,6 +24,6 @@ int fl_cdb_is(const fl_bytes *b);
  *   b   its lines are cut in place
  *   w   NULL wishes for everything
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err; s may then have new parts. */
-int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err);
+int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

@@ -97,7 +97,7 @@ static int read_keywords(fl_inp_model *r, fl_err *err)
     return kind;
 }
 
-int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     fl_inp_model r = {.name = name};
     const char *path = fl_in_name(b->in);
@@ -115,8 +115,8 @@ int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     free(b->data);
     b->data = NULL;
     b->n = b->cap = 0;
-    if (fl_inp_apply_sections(&r, err) || fl_element_sets_export(&r.sets, &r.e, w, err)) goto done;
-    rc = fl_elements_surface(&r.e, s, b, w, err);
+    if (fl_inp_apply_sections(&r, err) || fl_element_sets_export(&r.sets, &r.e, opt, err)) goto done;
+    rc = fl_elements_surface(&r.e, s, b, opt, err);
 done:
     fl_inp_model_free(&r);
     return rc;

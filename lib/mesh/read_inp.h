@@ -31,6 +31,6 @@ int fl_inp_is(const fl_bytes *b);
  *   name   of elements without a set in a flat deck
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM.
  * Source: Abaqus Keywords Reference Guide (2016); CalculiX CrunchiX User's Manual 2.20. */
-int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err);
+int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

@@ -593,13 +593,13 @@ static int give_parts(msh *m, int picks, fl_err *err)
     return 0;
 }
 
-int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     msh m = {.b = b};
     int rc = -1;
     if (fl_elements_start(&m.e, fl_in_name(b->in), err)) return -1;
     if (fl_string_table_add(&m.e.parts, name, err) < 0 || read_sections(&m, err) ||
-        give_parts(&m, fl_import_by_name(w), err))
+        give_parts(&m, fl_import_by_name(opt), err))
         goto done;
     if (m.e.element_id.n == 0) {
         b->line = 0;
@@ -607,7 +607,7 @@ int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
         goto done;
     }
     if (m.coarse) fl_bytes_note(b, "%d elements of order 3 or more were taken by their corners", m.coarse);
-    rc = fl_elements_surface(&m.e, s, b, w, err);
+    rc = fl_elements_surface(&m.e, s, b, opt, err);
 done:
     fl_elements_free(&m.e);
     fl_id_map_free(&m.group);

@@ -32,6 +32,7 @@ static const char *skip_blanks(const char *p) { return p + strspn(p, " \t"); }
 
 int fl_obj_is(const fl_bytes *b)
 {
+    if (!fl_bytes_is_text(b)) return 0;
     for (const char *p = b->data; p; p = next_line(p)) {
         int found = 0;
         p = skip_blanks(p);
@@ -200,10 +201,11 @@ static int deal(state *o, fl_surface *s, const char *name, fl_err *err)
     return 0;
 }
 
-int fl_obj_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+int fl_obj_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     state o = {0};
     int more;
+    (void)opt; /* fl_mesh_read() selects parts */
     b->comment = '#';
     while ((more = fl_bytes_row(b, err)) > 0)
         if (read_row(&o, b, err)) {

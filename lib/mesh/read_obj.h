@@ -4,6 +4,7 @@
 #define FL_MESH_READ_OBJ_H
 #include "geom/surface.h"
 #include "mesh/bytes.h"
+#include "mesh/import_options.h"
 
 /* Does a row of b, before any that is not OBJ, start with "v" or "f"? */
 int fl_obj_is(const fl_bytes *b);
@@ -13,6 +14,6 @@ int fl_obj_is(const fl_bytes *b);
  * 1, negative ones count back from the latest vertex; texture and normal indices are not looked at.
  * Free-form surfaces and unknown words are counted in a remark, lines and points are passed over.
  * 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
-int fl_obj_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err);
+int fl_obj_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

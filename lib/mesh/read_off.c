@@ -28,6 +28,7 @@ static const char *first_word(const char *p)
 int fl_off_is(const fl_bytes *b)
 {
     const char *p = first_word(b->data);
+    if (!fl_bytes_is_text(b)) return 0;
     if (header_word(p)) return 1;
     for (int k = 0; k < 3; k++) {
         const size_t digits = strspn(p, "0123456789");
@@ -109,10 +110,11 @@ static int wanted_row(fl_bytes *b, const char *what, int32_t k, int32_t n, fl_er
     return -1;
 }
 
-int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     int32_t n[2] = {0}, *loop = NULL, cap = 0, i;
     int homogeneous = 0, rc = -1;
+    (void)opt; /* fl_mesh_read() selects parts */
     b->comment = '#';
     if (read_head(b, &homogeneous, n, err)) return -1;
     i = fl_surface_add(s, name, strlen(name), err);

@@ -4,6 +4,7 @@
 #define FL_MESH_READ_OFF_H
 #include "geom/surface.h"
 #include "mesh/bytes.h"
+#include "mesh/import_options.h"
 
 /* Is the first word one of these, or are the first words of b three whole numbers alone on their row? */
 int fl_off_is(const fl_bytes *b);
@@ -12,6 +13,6 @@ int fl_off_is(const fl_bytes *b);
  * z/w), a face a row of n and n indices from 0; what follows on the row (colours, normals) is passed over,
  * and so are faces of fewer than three corners.  Counts may stand beside the header word or below it; rows
  * that are missing are an error. 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
-int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err);
+int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

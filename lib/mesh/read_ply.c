@@ -374,12 +374,13 @@ static int has_parts(const ply *p)
     return 0;
 }
 
-int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     ply p = {.b = b};
     fl_part all = {0};
     int32_t i;
     int rc = -1;
+    (void)opt; /* fl_mesh_read() selects parts */
     if (read_header(&p, err)) goto done;
     if (p.binary) b->line = 0;
     for (int32_t e = 0; e < p.els; e++) {

@@ -4,6 +4,7 @@
 #define FL_MESH_READ_PLY_H
 #include "geom/surface.h"
 #include "mesh/bytes.h"
+#include "mesh/import_options.h"
 
 /* Is the first line "ply"? */
 int fl_ply_is(const fl_bytes *b);
@@ -14,6 +15,6 @@ int fl_ply_is(const fl_bytes *b);
  * Where faces have a property "part" of a whole type there is a part for each of its numbers instead, in
  * their order, called as the header says in "comment part NUMBER NAME", or else part_NUMBER.
  * 0, or -1 with FL_INPUT or FL_SYSTEM in err. */
-int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err);
+int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

@@ -23,14 +23,14 @@ static double f32_at(const unsigned char *p)
 }
 
 /* How many triangles the head tells, -1 where there is none. */
-static int64_t told(const fl_bytes *b)
+static int64_t header_count(const fl_bytes *b)
 {
     return b->n < HEAD ? -1 : (int64_t)u32_at((const unsigned char *)b->data + 80);
 }
 
-int fl_stl_is_binary(const fl_bytes *b)
+static int is_binary(const fl_bytes *b)
 {
-    const int64_t n = told(b);
+    const int64_t n = header_count(b);
     if (n < 0) return 0;
     if (!b->ended) return memchr(b->data, '\0', (size_t)b->n) && (n == 0 || HEAD + RECORD * n > b->n);
     return b->n == HEAD + RECORD * n || (n == 0 && b->n > HEAD && (b->n - HEAD) % RECORD == 0);
@@ -49,9 +49,9 @@ static int read_record(fl_bytes *b, const unsigned char *at, int32_t t, fl_part 
     return fl_surface_triangle(p, 3 * t, 3 * t + 1, 3 * t + 2, err);
 }
 
-int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+static int read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
-    const int64_t want = told(b);
+    const int64_t want = header_count(b);
     const int32_t i = fl_surface_add(s, name, strlen(name), err);
     const unsigned char *at;
     int32_t n = 0;
@@ -131,7 +131,7 @@ static int32_t open_solid(fl_surface *s, fl_bytes *b, const char *name, fl_err *
     return fl_surface_add(s, first, (size_t)(last - first) + strlen(last), err);
 }
 
-int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+static int read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
     const char *word = "";
     int32_t *loop = NULL, cap = 0, i = -1; /* i: part of the open solid */
@@ -160,4 +160,20 @@ int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 done:
     free(loop);
     return rc;
+}
+
+/* --- either kind ---------------------------------------------------------------------------------------- */
+
+static int is_ascii(const fl_bytes *b)
+{
+    const char *p = b->data + strspn(b->data, " \t\r\n");
+    return fl_bytes_is_text(b) && strncasecmp(p, "solid", 5) == 0;
+}
+
+int fl_stl_is(const fl_bytes *b) { return is_binary(b) || is_ascii(b); }
+
+int fl_stl_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
+{
+    (void)opt; /* fl_mesh_read() selects parts */
+    return is_binary(b) ? read_binary(s, b, name, err) : read_ascii(s, b, name, err);
 }

@@ -508,7 +508,7 @@ static int faces(vtk *v, fl_err *err)
     return 0;
 }
 
-int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     vtk v = {.b = b, .rank = -1};
     fl_vtk_names names = {0};
@@ -521,7 +521,7 @@ int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
         goto done;
     if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
     fl_vtk_grid_free(&v.g); /* its elements have all of it */
-    rc = fl_elements_surface(&e, s, b, w, err);
+    rc = fl_elements_surface(&e, s, b, opt, err);
 done:
     for (int k = 0; k < LISTS; k++) {
         free(v.list[k].corner.x);

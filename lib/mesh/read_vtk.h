@@ -16,6 +16,6 @@ int fl_vtk_is(const fl_bytes *b);
  *   w   NULL wishes for everything
  * Returns 0, or -1 with FL_INPUT, which names the line or, in binary data, the byte, or FL_SYSTEM; s may then
  * have new parts. */
-int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err);
+int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

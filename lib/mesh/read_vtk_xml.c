@@ -580,7 +580,7 @@ done:
     return rc;
 }
 
-int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     vtx v = {.b = b, .appended = -1};
     fl_vtk_names names = {0};
@@ -593,7 +593,7 @@ int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_opti
         if (read_piece(&v, k, &e, &names, name, &coarse, err)) goto done;
     b->line = 0;
     if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
-    rc = fl_elements_surface(&e, s, b, w, err);
+    rc = fl_elements_surface(&e, s, b, opt, err);
 done:
     free(v.a);
     fl_vtk_names_free(&names);

@@ -18,6 +18,6 @@ int fl_vtk_xml_is(const fl_bytes *b);
  * Returns 0, or -1 with FL_INPUT, which names the line or, in appended data, the byte (other packings, other
  * data sets and files of several files are refused by their word), or FL_SYSTEM; s may then have new
  * parts. */
-int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err);
+int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

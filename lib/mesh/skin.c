@@ -6,10 +6,10 @@
 #include "mesh/face_groups.h"
 #include "mesh/skin.h"
 
-int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *w, fl_err *err)
+int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *opt, fl_err *err)
 {
     const int32_t n = e->element_id.n, targets = e->parts.n + e->sets.n;
-    *k = (fl_skin){.e = e, .subdivide = w && w->subdivide, .by_name = fl_import_by_name(w)};
+    *k = (fl_skin){.e = e, .subdivide = opt && opt->subdivide, .by_name = fl_import_by_name(opt)};
     if (!(k->target = fl_alloc(n, sizeof *k->target, err)) || !(k->reversed = fl_alloc(n, 1, err)) ||
         !(k->outer_faces = fl_alloc(n, 1, err)) || !(k->picked_faces = fl_alloc(n, 1, err)) ||
         !(k->duplicate_faces = fl_alloc(n, 1, err)) || !(k->dropped = fl_alloc(n, 1, err)) ||

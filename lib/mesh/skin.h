@@ -44,7 +44,7 @@ typedef struct {
 } fl_skin;
 
 /* Start with every element going nowhere.  -1 with FL_SYSTEM. */
-int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *w, fl_err *err);
+int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *opt, fl_err *err);
 
 /* Give the face of a solid (or its free ones) to a target, unless it went to one before.  Shells and lines
  * are passed over.  -1 with FL_SYSTEM. */

@@ -222,7 +222,7 @@ static void files_are_included(void **state)
     snprintf(deck, sizeof deck, "include \"%.5s\n%s\" $ over two lines\n" HEX, name, name + 5);
     assert_near(reads(deck).volume, 1.0, 0.0);
     snprintf(deck, sizeof deck, HEX "  INCLUDE %s\n", name);
-    refuses(deck, "neither STL"); /* without quotes it could be anything, so it does not tell the kind ... */
+    refuses(deck, "unknown format"); /* without quotes it could be anything, so it does not tell the kind ... */
     snprintf(deck, sizeof deck, "BEGIN BULK\n" HEX "  INCLUDE %s\n", name);
     assert_near(reads(deck).volume, 1.0, 0.0); /* ... but is read */
     refuses("INCLUDE 'none.bdf'\n", "deck:1: the included file is wanted here, but ");
@@ -234,8 +234,8 @@ static void files_are_included(void **state)
 static void kinds_are_told_apart(void **state)
 {
     (void)state;
-    refuses("GRIDDLE CAKES\n", "neither STL");
-    refuses("a letter\nto nobody\n", "neither STL");
+    refuses("GRIDDLE CAKES\n", "unknown format");
+    refuses("a letter\nto nobody\n", "unknown format");
     assert_int_equal(reads("$ v 1 2 3\n" CUBE HEX).triangles, 12);
     assert_int_equal(reads("FACILITY A\nBEGIN BULK\n" CUBE HEX).triangles, 12);
 }

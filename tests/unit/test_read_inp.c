@@ -69,7 +69,7 @@ static void decks_are_taken_as_calculix_does(void **state)
     says("1 elements list more nodes than their type has; those behind were passed over");
     q = takes("some words\n" CUBE HEX "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n", "A");
     assert_true(q.closed && q.triangles == 12);
-    refuses("some words\n*G1, 2\n", "neither STL");
+    refuses("some words\n*G1, 2\n", "unknown format");
 }
 
 /* --- types ---------------------------------------------------------------------------------------------- */

@@ -300,8 +300,8 @@ static void each_fault_has_its_sentence(void **state)
         const char *text, *says; /* behind the name of the file */
     } fault[] = {
         {"", ": empty, a mesh is expected"},
-        {"hello world\n",
-         ": neither STL, OBJ, OFF, PLY, VTK, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran"},
+        {"hello world\n", ": unknown format, expected a mesh in one of Gmsh, VTK, ANSYS, Abaqus, STL, PLY, "
+                          "g_struct, OFF, OBJ, Nastran"},
         {"solid a\nendsolid a\n", ": no triangles"},
         {"solid a\n" FACET, ":8: the file ends inside solid \"a\""},
         {"solid a\n" FACET "oops\n", ":9: \"oops\" was found, \"facet\" or \"endsolid\" is expected"},
@@ -375,6 +375,88 @@ static void size_decides_on_binary(void **state)
     unlink(test_path("b"));
 }
 
+/* The text of a file, of which up to 200 kB count. */
+static const char *file_text(const char *path)
+{
+    static char text[200000];
+    FILE *f = fopen(path, "r");
+    size_t n;
+    if (!f) fail_msg("%s cannot be read", path);
+    n = fread(text, 1, sizeof text - 1, f);
+    fclose(f);
+    text[n] = '\0';
+    return text;
+}
+
+/* True if the table has a format of that name. */
+static int is_format(const char *name, size_t n)
+{
+    for (const fl_mesh_format *f = FL_MESH_FORMATS; f->name; f++)
+        if (strlen(f->name) == n && strncmp(f->name, name, n) == 0) return 1;
+    return 0;
+}
+
+/* FORMATS of struct-import(1) has an entry for each format of the table, and no other. */
+static void the_manual_page_lists_every_format(void **state)
+{
+    const char *from = strstr(file_text("tools/struct-import/struct-import.1"), "\n.Sh FORMATS\n");
+    const char *to = from ? strstr(from, "\n.El\n") : NULL;
+    int entries = 0, formats = 0;
+    (void)state;
+    assert_non_null(from);
+    assert_non_null(to);
+    for (const char *p = from; (p = strstr(p, "\n.It ")) != NULL && p < to; p++) entries++;
+    for (const fl_mesh_format *f = FL_MESH_FORMATS; f->name; f++) {
+        char entry[100];
+        const char *at;
+        int again = 0;
+        for (const fl_mesh_format *g = FL_MESH_FORMATS; g < f; g++)
+            again |= strcmp(f->heading, g->heading) == 0;
+        formats += !again;
+        snprintf(entry, sizeof entry, "\n.It %s\n", f->heading);
+        at = strstr(from, entry);
+        if (!at || at > to) fail_msg("FORMATS of struct-import.1 lacks the entry %s", f->heading);
+    }
+    if (entries != formats)
+        fail_msg("FORMATS of struct-import.1 has %d entries for %d formats", entries, formats);
+}
+
+/* README.md lists in parentheses the formats of the table, but for g_struct, which this program writes. */
+static void the_readme_lists_every_format(void **state)
+{
+    const char *from = strstr(file_text("README.md"), "STL"), *to;
+    int names = 0, formats = 0;
+    (void)state;
+    assert_non_null(from);
+    while (*from != '(' && *from != '\n') from--;
+    to = strchr(from, ')');
+    if (*from != '(' || !to) fail_msg("README.md has no list of formats in parentheses");
+    for (const char *p = from + 1; p < to; p += strspn(p, ", \n")) {
+        const size_t n = strcspn(p, ", \n)");
+        if (!is_format(p, n)) fail_msg("README.md lists %.*s, which is no format", (int)n, p);
+        names++;
+        p += n;
+    }
+    for (const fl_mesh_format *f = FL_MESH_FORMATS; f->name; f++) {
+        int again = strcmp(f->name, "g_struct") == 0;
+        const char *at = strstr(from, f->name);
+        for (const fl_mesh_format *g = FL_MESH_FORMATS; g < f; g++) again |= strcmp(f->name, g->name) == 0;
+        if (again) continue;
+        if (!at || at > to) fail_msg("README.md does not list %s", f->name);
+        formats++;
+    }
+    assert_int_equal(names, formats);
+}
+
+/* So does --help of struct-import, whose text is in options.c. */
+static void help_lists_every_format(void **state)
+{
+    const char *text = file_text("tools/struct-import/options.c");
+    (void)state;
+    for (const fl_mesh_format *f = FL_MESH_FORMATS; f->name; f++)
+        if (!strstr(text, f->name)) fail_msg("--help of struct-import does not list %s", f->name);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_model_in_every_format),
@@ -385,6 +467,9 @@ int main(void)
                                        cmocka_unit_test(files_add_up),
                                        cmocka_unit_test(what_is_foreign_is_named),
                                        cmocka_unit_test(each_fault_has_its_sentence),
-                                       cmocka_unit_test(size_decides_on_binary)};
+                                       cmocka_unit_test(size_decides_on_binary),
+                                       cmocka_unit_test(the_manual_page_lists_every_format),
+                                       cmocka_unit_test(the_readme_lists_every_format),
+                                       cmocka_unit_test(help_lists_every_format)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
