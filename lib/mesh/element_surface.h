@@ -4,22 +4,23 @@
 #define FL_MESH_ELEMENT_SURFACE_H
 #include "mesh/elements.h"
 
-/* Add the surface of the mesh to s, a part for each part (and each set) that is wanted and holds something:
- *   solids   their faces that no other solid among the wanted ones has (by their corner nodes), outward
- *            whatever way the element is numbered
+/* Add the surface of the mesh to s, with one part for each part and set that is selected and not empty:
+ *   solids   faces that no other selected solid has (by corner nodes), oriented outward whatever the
+ *            numbering of the element
  *   shells   as they are: the normal follows the order of the nodes
- *   lines    solid truncated cones with the radii of their section; without one they are counted in a remark
- * With wishes, a set that is like one takes its elements out of their parts, the first such set in the order
- * of the file; picked faces become triangles of the set and no longer of the solid's part.  A set that has
- * the name of a part goes on with it.
- * A face comes once, whatever lies on it: fl_resolve_shared_faces() says who brings it.
- * Quadrilaterals are split by fl_facet_polygon() with the numbers of the nodes deciding on ties.  Mid-side
- * nodes are dropped, and the largest sagitta (distance of the middle node from the chord) told in a remark;
- * or with w->subdivide a triangle becomes 4, a quadrilateral 6, one with a centre node 8.
- *   b   takes the remarks: what came in, what was passed over
- *   w   NULL wants everything
- * Returns 0, or -1 with FL_INPUT (a node that is nowhere defined, named with the line of the element) or
- * FL_SYSTEM. */
+ *   lines    solid truncated cones with the radii of their section; lines without a section are counted in a
+ *            remark
+ * If sets are selected by name, a set takes its elements out of their parts, the first such set in the order
+ * of the file; a picked face becomes part of the set instead of the part of its solid.  A set with the name
+ * of a selected part is merged with it.  A face is added once, however many elements share it;
+ * fl_resolve_shared_faces() decides to which part.
+ * Quadrilaterals are split by fl_facet_polygon(); node numbers decide ties.  Mid-side nodes are dropped, and
+ * a remark gives the largest sagitta (distance of the mid-side node from the chord).  With opt->subdivide
+ * they are kept: a triangle becomes 4, a quadrilateral 6, one with a centre node 8 triangles.
+ *   b     takes the remarks on what was read and what was skipped
+ *   opt   NULL selects everything
+ * Returns 0, or -1 with FL_INPUT (an undefined node; the message names the line of the element) or FL_SYSTEM.
+ */
 int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *opt, fl_err *err);
 
 #endif

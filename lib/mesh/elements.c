@@ -10,7 +10,7 @@
 static const struct {
     const char *name;
     int8_t corners, nodes, faces;
-    const char *face[6]; /* corners of each, as digits */
+    const char *face[6]; /* corners of each face, as digits */
 } SHAPE[FL_SHAPES] = {
     [FL_LINE2] = {"line2", 2, 2, 0, {0}},
     [FL_LINE3] = {"line3", 2, 3, 0, {0}},
@@ -69,18 +69,18 @@ int fl_elements_fail(const fl_elements *e, int32_t file, int32_t line, fl_err *e
     return fl_fail(err, FL_INPUT, "%s: %s", e->files.name[file], what);
 }
 
-/* The index of a node that is spoken of. */
-static int32_t spoken(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
+/* Index of a node, which is added if new. */
+static int32_t add_node_id(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
 {
     const int32_t k = fl_id_map_add(&e->node_id, scope, id, err), had = k < 0 ? 0 : e->node_id.n;
     if (k < 0 || fl_grow(&e->x, &e->x_cap, had, sizeof *e->x, err)) return -1;
     return k;
 }
 
-/* A node that was just numbered has no place yet. */
-static int32_t mention(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
+/* Index of a node that an element uses; a new node has no position yet. */
+static int32_t refer_to_node(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
 {
-    const int32_t before = e->node_id.n, k = spoken(e, scope, id, err);
+    const int32_t before = e->node_id.n, k = add_node_id(e, scope, id, err);
     if (k >= before) e->x[k] = v3(NAN, NAN, NAN);
     return k;
 }
@@ -93,7 +93,7 @@ int32_t fl_elements_add_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 
         return fl_elements_fail(e, e->file, e->line, err,
                                 "node %lld is at %g %g %g, finite coordinates are expected", (long long)id,
                                 x.x, x.y, x.z);
-    k = spoken(e, scope, id, err);
+    k = add_node_id(e, scope, id, err);
     if (k < 0) return -1;
     if (k < had && !isnan(e->x[k].x) && v3_norm2(v3_sub(e->x[k], x)) > 0.0) e->moved++;
     e->x[k] = x;
@@ -115,11 +115,11 @@ int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape
                 e, e->file, e->line, err,
                 "corner %d of the element is node %lld, a number of 1 or more is expected", i + 1,
                 (long long)node[i]);
-        k = node[i] < 1 ? -1 : mention(e, scope, node[i], err);
+        k = node[i] < 1 ? -1 : refer_to_node(e, scope, node[i], err);
         if (k < 0 && node[i] >= 1) return -1;
         e->connectivity[first + i] = k;
     }
-    /* Elements without a number get one that no file can ask for. */
+    /* an element without a number gets one that no file can refer to */
     k = id < 0 ? fl_id_map_add(&e->element_id, -1, e->element_id.n, err)
                : fl_id_map_add(&e->element_id, scope, id, err);
     if (k < 0) return -1;
@@ -132,7 +132,7 @@ int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape
 int fl_elements_set_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err)
 {
     const int32_t k = e->sections;
-    /* the elements of a set come one after the other with the same radii */
+    /* the elements of a set follow one another with the same radii */
     if (k && e->section[k - 1][0] == r0 && e->section[k - 1][1] == r1) {
         e->element[element].section = k - 1;
         return 0;

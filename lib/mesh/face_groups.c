@@ -4,19 +4,19 @@
 #include "base/array.h"
 #include "mesh/face_groups.h"
 
-enum { WHOLE = 7 }; /* stands for the face of a shell or a line; solids have six at most */
+enum { WHOLE_ELEMENT = 7 }; /* face index that stands for a shell or a line; solids have six faces at most */
 
-static int by_corners(const fl_face_ref *a, const fl_face_ref *b)
+static int compare_corners(const fl_face_ref *a, const fl_face_ref *b)
 {
     for (int i = 0; i < 3; i++)
         if (a->key[i] != b->key[i]) return a->key[i] < b->key[i] ? -1 : 1;
     return 0;
 }
 
-static int by_key(const void *va, const void *vb)
+static int compare_refs(const void *va, const void *vb)
 {
     const fl_face_ref *a = va, *b = vb;
-    const int order = by_corners(a, b);
+    const int order = compare_corners(a, b);
     if (order) return order;
     if (a->rank != b->rank) return a->rank < b->rank ? -1 : 1;
     if (a->element != b->element) return a->element < b->element ? -1 : 1;
@@ -73,12 +73,13 @@ int fl_distinct_solids(const fl_elements *e, const fl_face_ref *s, int32_t n, in
     return count;
 }
 
-static int faces_of(const fl_elements *e, int32_t element, int rank)
+static int face_count(const fl_elements *e, int32_t element, int rank)
 {
     return rank >= FL_FACE_SHELL ? 1 : fl_shape_faces((enum fl_shape)e->element[element].shape);
 }
 
-/* Faces are put into a bucket by their lowest corner node; buckets are small and are processed one by one. */
+/* Faces are sorted into buckets by their lowest corner node; buckets are small and are processed one by one.
+ */
 int fl_visit_face_groups(const fl_elements *e, fl_face_rank *rank_of, fl_face_visitor *visit, void *context,
                          fl_err *err)
 {
@@ -92,12 +93,12 @@ int fl_visit_face_groups(const fl_elements *e, fl_face_rank *rank_of, fl_face_vi
         for (int32_t i = 0; i < e->element_id.n; i++) {
             const int rank = rank_of(context, i);
             if (rank < 0) continue;
-            for (int f = 0; f < faces_of(e, i, rank); f++) {
+            for (int f = 0; f < face_count(e, i, rank); f++) {
                 if (fl_face_corner_nodes(e, i, rank >= FL_FACE_SHELL ? -1 : f, c) <
                     (rank == FL_FACE_LINE ? 2 : 3))
                     continue;
                 if (pass == 0) first[c[0]]++;
-                else at[--first[c[0]]] = 8 * (int64_t)i + (rank >= FL_FACE_SHELL ? WHOLE : f);
+                else at[--first[c[0]]] = 8 * (int64_t)i + (rank >= FL_FACE_SHELL ? WHOLE_ELEMENT : f);
             }
         }
         if (pass) break;
@@ -113,12 +114,12 @@ int fl_visit_face_groups(const fl_elements *e, fl_face_rank *rank_of, fl_face_vi
             one->element = (int32_t)(at[j] / 8);
             one->face = (int8_t)(at[j] % 8);
             one->rank = (int8_t)rank_of(context, one->element);
-            fl_face_corner_nodes(e, one->element, one->face == WHOLE ? -1 : one->face, c);
+            fl_face_corner_nodes(e, one->element, one->face == WHOLE_ELEMENT ? -1 : one->face, c);
             memcpy(one->key, c + 1, sizeof one->key);
         }
-        if (n > 1) qsort(s, (size_t)n, sizeof *s, by_key);
+        if (n > 1) qsort(s, (size_t)n, sizeof *s, compare_refs);
         for (int32_t i = 0, j; i < n; i = j) {
-            for (j = i + 1; j < n && by_corners(&s[i], &s[j]) == 0; j++) {}
+            for (j = i + 1; j < n && compare_corners(&s[i], &s[j]) == 0; j++) {}
             if (visit(context, s + i, j - i, err)) goto done;
         }
     }
@@ -130,22 +131,22 @@ done:
     return rc;
 }
 
-/* --- faces that no other solid has ---------------------------------------------------------------------- */
+/* --- free faces ----------------------------------------------------------------------------------------- */
 
 typedef struct {
     const fl_elements *e;
     uint8_t *bit;
-} free_faces;
+} free_context;
 
-static int solids_only(const void *context, int32_t element)
+static int rank_solids(const void *context, int32_t element)
 {
-    const free_faces *k = context;
+    const free_context *k = context;
     return fl_shape_faces((enum fl_shape)k->e->element[element].shape) ? FL_FACE_WANTED : -1;
 }
 
-static int mark_free(void *context, const fl_face_ref *s, int32_t n, fl_err *err)
+static int mark_if_free(void *context, const fl_face_ref *s, int32_t n, fl_err *err)
 {
-    const free_faces *k = context;
+    const free_context *k = context;
     int32_t first;
     (void)err;
     if (fl_distinct_solids(k->e, s, n, &first) != 1) return 0;
@@ -155,6 +156,6 @@ static int mark_free(void *context, const fl_face_ref *s, int32_t n, fl_err *err
 
 int fl_mark_free_faces(const fl_elements *e, uint8_t *free, fl_err *err)
 {
-    free_faces k = {e, free};
-    return fl_visit_face_groups(e, solids_only, mark_free, &k, err);
+    free_context k = {e, free};
+    return fl_visit_face_groups(e, rank_solids, mark_if_free, &k, err);
 }

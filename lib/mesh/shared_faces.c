@@ -11,7 +11,7 @@ static void set_bit(uint8_t *bits, const fl_face_ref *s)
     bits[s->element] = (uint8_t)(bits[s->element] | 1 << s->face);
 }
 
-static int rank_of(const void *context, int32_t element)
+static int rank_of_element(const void *context, int32_t element)
 {
     const fl_skin *k = context;
     const enum fl_shape shape = (enum fl_shape)k->e->element[element].shape;
@@ -21,27 +21,27 @@ static int rank_of(const void *context, int32_t element)
     return k->mixed ? FL_FACE_SHELL : -1;
 }
 
-/* This element stands on another, which is of the part that keeps what both are. */
-static void stand_back(fl_skin *k, int32_t element, int32_t keeper)
+/* Drop an element that lies on another one, which belongs to the target keeper. */
+static void drop_element(fl_skin *k, int32_t element, int32_t keeper)
 {
     k->dropped[element] = 1;
     if (keeper >= 0) k->dropped_of[keeper]++;
 }
 
-/* Twins among the wanted solids stand back, once for all of their faces. */
-static void part_twins(fl_skin *k, const fl_face_ref *s, int32_t n)
+/* Drop selected solids on the corner nodes of another one, once for all of their faces. */
+static void drop_duplicate_solids(fl_skin *k, const fl_face_ref *s, int32_t n)
 {
     for (int32_t i = 1; i < n; i++)
         for (int32_t j = 0; j < i && !k->dropped[s[i].element]; j++)
             if (s[j].element != s[i].element && fl_same_corners(k->e, s[j].element, s[i].element)) {
-                stand_back(k, s[i].element, k->target[s[j].element]);
+                drop_element(k, s[i].element, k->target[s[j].element]);
                 k->duplicates++;
             }
 }
 
-/* Was the face picked by a set, of a wanted solid where there is one, or of a twin?  Of twins
- * that were both asked for the first counts. */
-static int picked(fl_skin *k, const fl_face_ref *s, int32_t n, const fl_face_ref *wanted)
+/* True if a set picked the face of a selected solid, or of any solid if none is selected, or of a duplicate
+ * of such a solid.  Of duplicates that were both picked the first counts. */
+static int is_picked_face(fl_skin *k, const fl_face_ref *s, int32_t n, const fl_face_ref *wanted)
 {
     int32_t by = -1;
     for (int32_t i = 0; i < n; i++) {
@@ -55,7 +55,7 @@ static int picked(fl_skin *k, const fl_face_ref *s, int32_t n, const fl_face_ref
     return by >= 0;
 }
 
-static int has_places(const fl_elements *e, int32_t element)
+static int has_positions(const fl_elements *e, int32_t element)
 {
     const fl_element *el = &e->element[element];
     for (int i = 0; i < fl_shape_nodes((enum fl_shape)el->shape); i++) {
@@ -65,8 +65,8 @@ static int has_places(const fl_elements *e, int32_t element)
     return 1;
 }
 
-/* The face of the solid comes to the part of the shell on it. */
-static int take(fl_skin *k, const fl_face_ref *solid, const fl_face_ref *shell, fl_err *err)
+/* Assign the face of the solid to the part of the shell on it. */
+static int take_shell_face(fl_skin *k, const fl_face_ref *solid, const fl_face_ref *shell, fl_err *err)
 {
     if (fl_grow(&k->pick, &k->pick_cap, (int64_t)k->picks + 1, sizeof *k->pick, err)) return -1;
     k->pick[k->picks++] = (fl_skin_face){k->target[shell->element], solid->element, solid->face};
@@ -74,19 +74,19 @@ static int take(fl_skin *k, const fl_face_ref *solid, const fl_face_ref *shell, 
     return 0;
 }
 
-/* The shells on a face of so many solids, n[FL_FACE_WANTED] and n[FL_FACE_OTHER]; `alone` is the first of these.  The first
- * shell may bring the face, the others do not. */
-static int settle_shells(fl_skin *k, const fl_face_ref *shell, int32_t shells, const int n[2],
-                         const fl_face_ref *alone, int is_picked, fl_err *err)
+/* Resolve the shells on a face of n[FL_FACE_WANTED] and n[FL_FACE_OTHER] solids; `alone` is the first of
+ * these.  The first shell may get the face; all others are dropped. */
+static int resolve_shells(fl_skin *k, const fl_face_ref *shell, int32_t shells, const int n[2],
+                          const fl_face_ref *alone, int is_picked, fl_err *err)
 {
     const int free = !is_picked && (n[FL_FACE_WANTED] == 0 || (n[FL_FACE_WANTED] == 1 && k->by_name));
     const int32_t keeper = free                     ? k->target[shell->element]
                            : n[FL_FACE_WANTED] == 1 ? k->target[alone->element]
                                                     : -1;
-    const int told = k->target[shell->element] >= k->e->parts.n; /* a surface tells its side */
-    if (free && n[n[FL_FACE_WANTED] ? FL_FACE_WANTED : FL_FACE_OTHER] == 1 && !(told && !n[FL_FACE_WANTED]) &&
-        has_places(k->e, alone->element)) {
-        if (take(k, alone, shell, err)) return -1;
+    const int has_side = k->target[shell->element] >= k->e->parts.n; /* a surface set gives the side */
+    if (free && n[n[FL_FACE_WANTED] ? FL_FACE_WANTED : FL_FACE_OTHER] == 1 &&
+        !(has_side && !n[FL_FACE_WANTED]) && has_positions(k->e, alone->element)) {
+        if (take_shell_face(k, alone, shell, err)) return -1;
         if (n[FL_FACE_WANTED]) set_bit(k->picked_faces, alone);
         k->shell_faces++;
     }
@@ -94,7 +94,7 @@ static int settle_shells(fl_skin *k, const fl_face_ref *shell, int32_t shells, c
         if (n[FL_FACE_WANTED] > 1) k->interior_shells++;
         else if (free) k->duplicates++;
         else k->covered_shells++;
-        stand_back(k, shell[i].element, keeper);
+        drop_element(k, shell[i].element, keeper);
     }
     return 0;
 }
@@ -105,42 +105,42 @@ static int same_radii(const fl_elements *e, int32_t a, int32_t b)
     return p >= 0 && q >= 0 && memcmp(e->section[p], e->section[q], sizeof e->section[p]) == 0;
 }
 
-static void settle_lines(fl_skin *k, const fl_face_ref *s, int32_t n)
+static void drop_duplicate_lines(fl_skin *k, const fl_face_ref *s, int32_t n)
 {
     for (int32_t i = 1; i < n; i++)
         for (int32_t j = 0; j < i && !k->dropped[s[i].element]; j++)
             if (!k->dropped[s[j].element] && same_radii(k->e, s[i].element, s[j].element)) {
-                stand_back(k, s[i].element, k->target[s[j].element]);
+                drop_element(k, s[i].element, k->target[s[j].element]);
                 k->duplicates++;
             }
 }
 
-static int settle(void *context, const fl_face_ref *s, int32_t n, fl_err *err)
+static int resolve_group(void *context, const fl_face_ref *s, int32_t n, fl_err *err)
 {
     fl_skin *k = context;
-    int32_t from[FL_FACE_LINE + 2] = {0}; /* of each rank */
+    int32_t from[FL_FACE_LINE + 2] = {0}; /* first face of each rank */
     int32_t first[2];
     int count[2], is_picked;
     for (int32_t i = 0; i < n; i++) from[s[i].rank + 1]++;
     for (int r = FL_FACE_WANTED; r <= FL_FACE_LINE; r++) from[r + 1] += from[r];
-    part_twins(k, s, from[FL_FACE_OTHER]);
+    drop_duplicate_solids(k, s, from[FL_FACE_OTHER]);
     count[FL_FACE_WANTED] = fl_distinct_solids(k->e, s, from[FL_FACE_OTHER], &first[FL_FACE_WANTED]);
     count[FL_FACE_OTHER] = fl_distinct_solids(
         k->e, s + from[FL_FACE_OTHER], from[FL_FACE_SHELL] - from[FL_FACE_OTHER], &first[FL_FACE_OTHER]);
     const fl_face_ref *alone =
         count[FL_FACE_WANTED] ? s + first[FL_FACE_WANTED] : s + from[FL_FACE_OTHER] + first[FL_FACE_OTHER];
-    is_picked = picked(k, s, from[FL_FACE_SHELL], count[FL_FACE_WANTED] ? alone : NULL);
+    is_picked = is_picked_face(k, s, from[FL_FACE_SHELL], count[FL_FACE_WANTED] ? alone : NULL);
     k->nonmanifold += count[FL_FACE_WANTED] > 2;
     if (count[FL_FACE_WANTED] == 1) set_bit(is_picked ? k->picked_faces : k->outer_faces, alone);
     if (from[FL_FACE_LINE] > from[FL_FACE_SHELL] &&
-        settle_shells(k, s + from[FL_FACE_SHELL], from[FL_FACE_LINE] - from[FL_FACE_SHELL], count, alone,
-                      is_picked, err))
+        resolve_shells(k, s + from[FL_FACE_SHELL], from[FL_FACE_LINE] - from[FL_FACE_SHELL], count, alone,
+                       is_picked, err))
         return -1;
-    settle_lines(k, s + from[FL_FACE_LINE], n - from[FL_FACE_LINE]);
+    drop_duplicate_lines(k, s + from[FL_FACE_LINE], n - from[FL_FACE_LINE]);
     return 0;
 }
 
-/* Shells alone, of one part, need no look at the faces of others: the mending finds what is there twice. */
+/* Shells alone, of one part, need no comparison with others: the later cleanup finds duplicates. */
 static int is_mixed(const fl_skin *k)
 {
     int32_t target = -1;
@@ -158,7 +158,7 @@ int fl_resolve_shared_faces(fl_skin *k, fl_err *err)
 {
     const int32_t n = k->e->element_id.n;
     k->mixed = is_mixed(k);
-    if (fl_visit_face_groups(k->e, rank_of, settle, k, err)) return -1;
+    if (fl_visit_face_groups(k->e, rank_of_element, resolve_group, k, err)) return -1;
     for (int32_t i = 0; i < n; i++)
         if (k->dropped[i]) k->target[i] = -1;
     return 0;
