@@ -18,10 +18,10 @@
 #include "mesh/read_vtk.h"
 #include "mesh/read_vtk_xml.h"
 
-enum { NAME = 128 };
+enum { NAME_MAX = 128 };
 
 /* "dir/tower.v2.stl" is called "tower.v2"; so is "tower.v2.stl.gz". */
-static void base_name(const char *path, char name[NAME])
+static void base_name(const char *path, char name[NAME_MAX])
 {
     const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path;
     size_t len = strlen(start);
@@ -35,7 +35,7 @@ static void base_name(const char *path, char name[NAME])
             len = k;
             break;
         }
-    if (len > NAME - 1) len = NAME - 1;
+    if (len > NAME_MAX - 1) len = NAME_MAX - 1;
     memcpy(name, start, len);
     name[len] = '\0';
 }
@@ -108,7 +108,7 @@ static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_import_opti
     return f->selects ? 0 : select_parts(s, opt, err);
 }
 
-static void drop_empty(fl_surface *s, fl_bytes *b)
+static void drop_empty_parts(fl_surface *s, fl_bytes *b)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < s->n; i++) {
@@ -123,9 +123,9 @@ static void drop_empty(fl_surface *s, fl_bytes *b)
 }
 
 /* Move the parts of one surface to the end of another. */
-static int append(fl_surface *to, fl_surface *from, fl_err *err)
+static int append_surface(fl_surface *to, fl_surface *from, fl_err *err)
 {
-    const int32_t had = to->n;
+    const int32_t first = to->n;
     const size_t old = to->history ? strlen(to->history) : 0,
                  more = from->history ? strlen(from->history) : 0;
     char *history = NULL;
@@ -136,15 +136,15 @@ static int append(fl_surface *to, fl_surface *from, fl_err *err)
     for (int32_t i = 0; i < from->n; i++) {
         const int32_t k = fl_surface_add(to, from->part[i].name, strlen(from->part[i].name), err);
         if (k >= 0) {
-            if (had == 0) to->part[k].id = from->part[i].id; /* the first file keeps its numbers */
+            if (first == 0) to->part[k].id = from->part[i].id; /* the first file keeps the ids of its parts */
             continue;
         }
-        while (to->n > had) fl_part_free(&to->part[--to->n]);
+        while (to->n > first) fl_part_free(&to->part[--to->n]);
         free(history);
         return -1;
     }
     for (int32_t i = 0; i < from->n; i++) {
-        fl_part *p = &to->part[had + i], *q = &from->part[i];
+        fl_part *p = &to->part[first + i], *q = &from->part[i];
         char *name = p->name;
         const int32_t id = p->id;
         free(q->name);
@@ -166,18 +166,18 @@ int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *opt, char *
 {
     fl_bytes b = {0};
     fl_surface got = {0};
-    char name[NAME];
+    char name[NAME_MAX];
     int rc = -1;
     note[0] = '\0';
     base_name(path, name);
     if (fl_bytes_open(&b, path, err) || read_any(&got, &b, name, opt, err)) goto done;
-    drop_empty(&got, &b);
+    drop_empty_parts(&got, &b);
     memcpy(note, b.note, FL_MESH_NOTE);
     if (got.n == 0 && !fl_import_by_name(opt)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);
         goto done;
     }
-    if (append(s, &got, err)) goto done;
+    if (append_surface(s, &got, err)) goto done;
     rc = 0;
 done:
     fl_surface_free(&got);

@@ -14,12 +14,13 @@ typedef struct {
 } fl_skin_face;
 
 typedef struct {
-    const fl_elements *e;     /* borrowed */
-    int32_t *target;          /* [elements] part, or parts.n plus the set; -1 for none */
-    int8_t *reversed;         /* [elements] 1 for a shell to be reversed */
-    uint8_t *outer_faces;     /* [elements] bit mask of faces that no other selected solid has */
-    uint8_t *free_faces;      /* [elements] the same among all solids; NULL until a set needs it */
-    uint8_t *picked_faces;    /* [elements] faces picked by a set; FL_SKIN_COUNTED */
+    const fl_elements *e; /* borrowed */
+    int32_t *target;      /* [elements] part, or parts.n plus the set; -1 for none */
+    int8_t *reversed;     /* [elements] 1 for a shell to be reversed */
+    uint8_t *outer_faces; /* [elements] bit mask of faces that no other selected solid has */
+    uint8_t *free_faces;  /* [elements] the same among all solids; NULL until a set needs it */
+    uint8_t *
+        picked_faces; /* [elements] faces picked by a set; FL_SKIN_COUNTED once the solid is in zero_volume etc. */
     uint8_t *duplicate_faces; /* [elements] bit mask of picked faces that a duplicate element contributes */
     uint8_t *dropped;         /* [elements] 1 if other elements contribute all of its faces */
     int32_t *dropped_of;      /* [targets] elements dropped as duplicates of those of the target */
@@ -35,10 +36,10 @@ typedef struct {
     int32_t zero_volume, left_handed; /* solids */
     int32_t nonmanifold;              /* faces of three or more solids */
     int32_t duplicates;               /* elements on the nodes of another one */
-    int32_t covered_shells,
-        shell_faces;            /* shells on faces of other elements; shells that got the face of a solid */
-    int32_t interior_shells;    /* shells between two solids */
-    fl_merged_cylinders merged; /* of lines */
+    int32_t covered_shells;           /* shells on faces of other elements */
+    int32_t shell_faces;              /* faces of solids that went to the part of a shell */
+    int32_t interior_shells;          /* shells between two solids */
+    fl_merged_cylinders merged;       /* of lines */
 } fl_skin;
 
 /* Initialise k with no target for any element.  -1 with FL_SYSTEM. */
