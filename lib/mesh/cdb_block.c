@@ -124,8 +124,7 @@ static void check_count(fl_cdb *c, const char *block, const char *promise, int64
 {
     int64_t x;
     if (fl_deck_integer(promise, &x) == 0 && x > 0 && x != n)
-        fl_bytes_note(c->d.base, "%s is to hold %lld entries, and has %lld", block, (long long)x,
-                      (long long)n);
+        fl_bytes_note(c->d.base, "%s announces %lld entries and has %lld", block, (long long)x, (long long)n);
 }
 
 int fl_cdb_nblock(fl_cdb *c, fl_err *err)

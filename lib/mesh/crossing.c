@@ -362,7 +362,7 @@ __attribute__((always_inline)) static inline void test_leaves(const box_tree *f,
     const octet *own = &f->level[0][i], *there = &f->level[0][j];
     const box all = box_in(&f->level[1][j / LANES], j % LANES);
     unsigned hits[LANES];
-    int32_t who[LANES];
+    int32_t lane[LANES];
     int n = 0, pairs = 0;
     for (unsigned mine = overlap_mask(own, &all); mine; mine &= mine - 1) {
         const int k = __builtin_ctz(mine);
@@ -378,11 +378,11 @@ __attribute__((always_inline)) static inline void test_leaves(const box_tree *f,
         hit &= ~common_vertex_mask(&f->name[j], v);
         if (!hit) continue;
         hits[n] = hit;
-        who[n++] = k;
+        lane[n++] = k;
         pairs += __builtin_popcount(hit);
     }
     if (pairs >= GROUP_TEST_MIN && groups_separated(f, LANES, i, j)) return;
-    for (int k = 0; k < n; k++) test_triangles(f, i, who[k], j, hits[k], sum);
+    for (int k = 0; k < n; k++) test_triangles(f, i, lane[k], j, hits[k], sum);
 }
 
 /* Test the leaves of block i against those of block j >= i.  In a fan of very many triangles most blocks

@@ -98,7 +98,7 @@ int fl_deck_include(fl_deck *d, const char *path, fl_err *err)
             /* report the line that includes the file, which is where the user has to look */
             const fl_err why = *err;
             *err = (fl_err){0};
-            fl_deck_fail(d, err, "the included file is wanted here, but %.300s", why.text);
+            fl_deck_fail(d, err, "the file included here cannot be read: %.300s", why.text);
         }
         goto done;
     }

@@ -185,7 +185,7 @@ static int visit_set(const visit_context *w, int32_t set, int32_t place, const f
         inner = fl_element_sets_find(r, (enum fl_set_kind)n->kind, &at, r->words.name[n->set]);
         if (inner < 0)
             return fl_elements_fail(w->e, n->file, n->line, err,
-                                    "\"%.60s\" wants \"%.60s\", which is defined nowhere",
+                                    "\"%.60s\" refers to \"%.60s\", which is not defined",
                                     r->words.name[s->name], r->words.name[n->set]);
         if (r->set[inner].visiting)
             return fl_elements_fail(w->e, n->file, n->line, err, "\"%.60s\" contains itself",

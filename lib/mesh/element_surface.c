@@ -33,10 +33,10 @@ static void report_counts(const fl_elements *e, fl_bytes *b)
         if (count[k]) add_count(&in, fl_shape_name((enum fl_shape)k), count[k]);
     for (int32_t k = 0; k < e->skipped.n; k++) add_count(&out, e->skipped.name[k], e->skip_count[k]);
     fl_bytes_note(b, "%d nodes; elements: %s", nodes, in.len ? in.text : "none");
-    if (e->moved) fl_bytes_note(b, "%d nodes were given another place by a later line", e->moved);
+    if (e->moved) fl_bytes_note(b, "%d nodes were moved by a later line", e->moved);
     if (e->replaced)
         fl_bytes_note(b, "%d elements were replaced by later ones of the same number", e->replaced);
-    if (out.len) fl_bytes_note(b, "elements without a surface, or not known, passed over: %s", out.text);
+    if (out.len) fl_bytes_note(b, "elements of unknown types or without a surface, skipped: %s", out.text);
 }
 
 /* The part with the name of this set if that part is selected, else the target itself. */

@@ -43,7 +43,7 @@ static int read_triangle(fl_text *in, fl_part *p, fl_err *err)
     for (int k = 0; k < 3; k++) {
         if (fl_text_i32(in, "vertex index", 0, INT32_MAX, &v[k], err)) return -1;
         if (v[k] >= p->nv)
-            return fl_text_fail(in, err, "triangle %d wants vertex %d, but part \"%.60s\" has %d so far",
+            return fl_text_fail(in, err, "triangle %d refers to vertex %d, but part \"%.60s\" has %d so far",
                                 p->nt, v[k], p->name, p->nv);
     }
     if (fl_text_no_more(in, err)) return -1;

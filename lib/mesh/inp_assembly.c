@@ -149,7 +149,7 @@ int fl_inp_place_unused_parts(fl_inp_model *r, fl_err *err)
     fl_inp_leave_part(r);
     if (left && alone)
         fl_bytes_note(r->line.deck.base, "no *INSTANCE: %d parts were taken where they are defined", left);
-    else if (left) fl_bytes_note(r->line.deck.base, "%d parts have no *INSTANCE and were passed over", left);
+    else if (left) fl_bytes_note(r->line.deck.base, "%d parts have no *INSTANCE and were skipped", left);
     return 0;
 }
 

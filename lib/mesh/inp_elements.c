@@ -140,7 +140,7 @@ static int generate_elements(fl_inp_model *r, int32_t set, fl_err *err)
     master = fl_id_map_find(&r->store->element_id, r->scope, id);
     if (master < 0 && r->e.skipped.n) return 0; /* the master may be a skipped element */
     if (master < 0)
-        return fl_deck_fail(&r->line.deck, err, "*ELGEN wants element %lld, which is not defined yet",
+        return fl_deck_fail(&r->line.deck, err, "*ELGEN refers to element %lld, which is not defined yet",
                             (long long)id);
     if (fl_inp_count_generated(r, total, err) || add_to_set(r, set, master, 0, err)) return -1;
     el = r->store->element[master];

@@ -135,7 +135,7 @@ const char *fl_inp_required(const fl_inp_line *r, const char *key, fl_err *err)
 {
     const char *s = fl_inp_param(r, key);
     if (s && *s) return s;
-    fl_deck_fail(&r->deck, err, "*%s wants %s=", r->word, key);
+    fl_deck_fail(&r->deck, err, "*%s needs %s=", r->word, key);
     return NULL;
 }
 

@@ -60,7 +60,7 @@ static int position_of(fl_inp_model *r, int64_t id, fl_vec3 *x, fl_err *err)
 {
     const int32_t k = fl_id_map_find(&r->store->node_id, r->scope, id);
     if (k < 0 || isnan(r->store->x[k].x))
-        return fl_deck_fail(&r->line.deck, err, "*NGEN wants node %lld, which is not defined yet",
+        return fl_deck_fail(&r->line.deck, err, "*NGEN refers to node %lld, which is not defined yet",
                             (long long)id);
     *x = r->store->x[k];
     return 0;

@@ -97,7 +97,7 @@ int fl_inp_surface(fl_inp_model *r, fl_err *err)
     if (!name || parse_instance(r, &instance, err)) return -1;
     if (union_of && !fl_inp_param_is(&r->line, "COMBINE", "UNION")) {
         fl_bytes_note(r->line.deck.base,
-                      "surface \"%.60s\" is a difference or an intersection and was passed over", name);
+                      "surface \"%.60s\" is a difference or an intersection and was skipped", name);
         return fl_inp_skip_data(r, err);
     }
     if (fl_inp_param(&r->line, "TYPE") && !fl_inp_param_is(&r->line, "TYPE", "ELEMENT"))
@@ -115,8 +115,7 @@ int fl_inp_surface(fl_inp_model *r, fl_err *err)
         if (parse_entry(r, r->line.field[0], &n, err) || fl_element_sets_add_entry(&r->sets, set, n, err))
             return -1;
     }
-    if (edges)
-        fl_bytes_note(r->line.deck.base, "%d lines of surfaces name edges and were passed over", edges);
+    if (edges) fl_bytes_note(r->line.deck.base, "%d lines of surfaces name edges and were skipped", edges);
     return more;
 }
 

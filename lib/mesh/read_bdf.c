@@ -274,11 +274,11 @@ static int resolve_system(bdf_reader *r, int64_t id, int depth, system_def **out
     system_def *f = at < 0 ? NULL : &r->frame[at];
     if ((!f || !f->by) && referrer_of.grid)
         return fl_elements_fail(&r->e, referrer_of.file, referrer_of.line, err,
-                                "grid %lld wants coordinate system %lld, which is defined nowhere",
+                                "grid %lld refers to coordinate system %lld, which is not defined",
                                 (long long)referrer_of.grid, (long long)id);
     if (!f || !f->by)
         return fl_elements_fail(&r->e, referrer_of.file, referrer_of.line, err,
-                                "coordinate system %lld is defined nowhere", (long long)id);
+                                "coordinate system %lld is not defined", (long long)id);
     *out = f;
     if (f->state == 2) return 0;
     if (f->state == 1)
@@ -292,7 +292,7 @@ static int resolve_system(bdf_reader *r, int64_t id, int depth, system_def **out
         if (f->by == 1) {
             const int32_t k = fl_id_map_find(&r->e.node_id, 0, f->grid[i]);
             if (k < 0 || isnan(r->e.x[k].x))
-                return fl_elements_fail(&r->e, f->file, f->line, err, "grid %lld is defined nowhere",
+                return fl_elements_fail(&r->e, f->file, f->line, err, "grid %lld is not defined",
                                         (long long)f->grid[i]);
             if (resolve_grid(r, k, depth + 1, err)) return -1;
             f->point[i] = r->e.x[k];

@@ -286,9 +286,8 @@ int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     if (k->part < 0 || read_commands(&c, err) || fl_cdb_section_apply(&k->sections, &k->e, err) ||
         fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(opt), err))
         goto done;
-    if (k->node_sets) fl_bytes_note(b, "%d components of nodes were passed over", k->node_sets);
-    if (c.unread)
-        fl_bytes_note(b, "%d commands with parameters that are not numbers were passed over", c.unread);
+    if (k->node_sets) fl_bytes_note(b, "%d components of nodes were skipped", k->node_sets);
+    if (c.unread) fl_bytes_note(b, "%d commands with parameters that are not numbers were skipped", c.unread);
     rc = fl_elements_surface(&k->e, s, b, opt, err);
 done:
     fl_deck_free(&k->d);

@@ -109,7 +109,7 @@ int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     fl_deck_start(&r.line.deck, &r.e, b);
     if (read_keywords(&r, err) || fl_inp_place_unused_parts(&r, err)) goto done;
     if (r.extra_nodes)
-        fl_bytes_note(b, "%d elements list more nodes than their type has; those behind were passed over",
+        fl_bytes_note(b, "%d elements list more nodes than their type has; those behind were skipped",
                       r.extra_nodes);
     fl_elements_free(&r.part_defs); /* saves the memory of two more copies of a large deck */
     free(b->data);

@@ -505,7 +505,7 @@ static int read_format(msh_reader *m, fl_err *err)
     if (one == 1) return 0;
     m->swap = 1;
     if (one == 0x01000000) return 0;
-    return fail_at_position(m, err, "%llu was found where the number 1 tells the byte order",
+    return fail_at_position(m, err, "%llu was found, the number 1 in either byte order is expected",
                             (unsigned long long)one);
 }
 
@@ -625,10 +625,11 @@ int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
         goto done;
     if (m.e.element_id.n == 0) {
         b->line = 0;
-        fl_bytes_fail(b, err, "no elements: put what is wanted into a physical group, or save all elements");
+        fl_bytes_fail(b, err,
+                      "no elements: put the parts to import into a physical group, or save all elements");
         goto done;
     }
-    if (m.coarse) fl_bytes_note(b, "%d elements of order 3 or more were taken by their corners", m.coarse);
+    if (m.coarse) fl_bytes_note(b, "%d elements of order 3 or more were reduced to their corners", m.coarse);
     rc = fl_elements_surface(&m.e, s, b, opt, err);
 done:
     fl_elements_free(&m.e);

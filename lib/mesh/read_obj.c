@@ -97,7 +97,7 @@ static int parse_corner(const obj_reader *o, const fl_bytes *b, char *word, int3
             b, err, "vertex index \"%.40s\" was found, a whole number other than 0 is expected", word);
     *v = i > 0 ? i - 1 : o->pool.nv + i;
     if (*v < 0 || *v >= o->pool.nv)
-        return fl_bytes_fail(b, err, "the face wants vertex %d, but there are %d so far", i, o->pool.nv);
+        return fl_bytes_fail(b, err, "the face refers to vertex %d, but there are %d so far", i, o->pool.nv);
     return 0;
 }
 
@@ -213,7 +213,7 @@ int fl_obj_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
             more = -1;
             break;
         }
-    if (more == 0 && o.skipped) fl_bytes_note(b, "%d rows of unknown words were passed over", o.skipped);
+    if (more == 0 && o.skipped) fl_bytes_note(b, "%d rows of unknown words were skipped", o.skipped);
     if (more == 0) more = assign_parts(&o, s, name, err);
     free_reader(&o);
     return more;

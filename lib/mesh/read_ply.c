@@ -242,7 +242,7 @@ static int read_list(ply_reader *p, const ply_property *q, const fl_part *part, 
         if (read_number(p, q->of, q->is == CORNERS, &v, err)) return -1;
         if (q->is != CORNERS) continue;
         if (!(v >= 0.0 && v < part->nv) || v != floor(v))
-            return fl_bytes_fail(p->b, err, "face %lld wants vertex %g, 0 to %d is expected",
+            return fl_bytes_fail(p->b, err, "face %lld refers to vertex %g, 0 to %d is expected",
                                  (long long)p->row, v, part->nv - 1);
         p->loop[(int32_t)k] = (int32_t)v;
     }

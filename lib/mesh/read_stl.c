@@ -73,7 +73,7 @@ static int read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err
             "found",
             (long long)want, n, b->n - b->pos);
     if (n > 0 && want == 0)
-        fl_bytes_note(b, "the header says no triangles, the size says %d: these were read", n);
+        fl_bytes_note(b, "the header says 0 triangles, the size of the file %d: these were read", n);
     return 0;
 }
 

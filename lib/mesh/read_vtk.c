@@ -532,7 +532,7 @@ int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     if (read_all(&v, err) || join_lists(&v, err) || extract_polyhedra(&v, err) ||
         fl_vtk_add_cells(&e, &v.g, 0, &names, name, &coarse, err))
         goto done;
-    if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
+    if (coarse) fl_bytes_note(b, "%d cells of higher order were reduced to their corners", coarse);
     fl_vtk_grid_free(&v.g); /* the elements hold all of it */
     rc = fl_elements_surface(&e, s, b, opt, err);
 done:

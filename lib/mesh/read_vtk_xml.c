@@ -601,7 +601,7 @@ int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_opti
     for (int32_t k = 0; k < v.pieces; k++)
         if (read_piece(&v, k, &e, &names, name, &coarse, err)) goto done;
     b->line = 0;
-    if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
+    if (coarse) fl_bytes_note(b, "%d cells of higher order were reduced to their corners", coarse);
     rc = fl_elements_surface(&e, s, b, opt, err);
 done:
     free(v.a);

@@ -211,7 +211,7 @@ static int check_defined(const fl_elements *e, const fl_element *el, int32_t nod
 {
     if (node < 0 || !isnan(e->x[node].x)) return 0;
     return fl_elements_fail(e, el->file, el->line, err,
-                            "the element wants node %lld, which is defined nowhere",
+                            "the element refers to node %lld, which is not defined",
                             (long long)e->node_id.id[node]);
 }
 
@@ -393,7 +393,7 @@ void fl_skin_report(const fl_skin *k, fl_bytes *b)
 {
     char accuracy[100] = "";
     if (k->merged.max_error > 0.0)
-        snprintf(accuracy, sizeof accuracy, ", at most %.3g from where they were, in the unit of the file",
+        snprintf(accuracy, sizeof accuracy, ", with a deviation of at most %.3g in the unit of the file",
                  k->merged.max_error);
     if (k->curved)
         fl_bytes_note(
@@ -402,27 +402,25 @@ void fl_skin_report(const fl_skin *k, fl_bytes *b)
             "unit of the file; --subdivide keeps them",
             k->curved, k->sagitta);
     if (k->lines_without_radius)
-        fl_bytes_note(b, "%d lines without a section radius or a length were passed over",
+        fl_bytes_note(b, "%d lines without a section radius or a length were skipped",
                       k->lines_without_radius);
     if (k->merged.merged)
-        fl_bytes_note(b, "%d lines that go straight on became %d%s", k->merged.merged, k->merged.remaining,
-                      accuracy);
+        fl_bytes_note(b, "%d lines that continue one another were merged into %d%s", k->merged.merged,
+                      k->merged.remaining, accuracy);
     if (k->left_handed)
-        fl_bytes_note(b, "%d solids are numbered left-handed; their faces were turned outward",
-                      k->left_handed);
+        fl_bytes_note(b, "%d solids are numbered left-handed; their faces were reversed", k->left_handed);
     if (k->zero_volume) fl_bytes_note(b, "%d solids have no volume", k->zero_volume);
     if (k->duplicates)
-        fl_bytes_note(b, "%d elements stand on the nodes of others of their kind and were left out",
-                      k->duplicates);
+        fl_bytes_note(b, "%d elements on the nodes of others of their kind were skipped", k->duplicates);
     if (k->covered_shells)
-        fl_bytes_note(b, "%d shells lie on faces of solids, which are there already, and were left out%s",
+        fl_bytes_note(b, "%d shells lie on faces of solids, which are there already, and were skipped%s",
                       k->covered_shells,
                       k->by_name ? "" : "; --part gives such faces to the parts of the shells");
     if (k->shell_faces)
         fl_bytes_note(b, "%d faces of solids went to the parts of the shells that lie on them",
                       k->shell_faces);
     if (k->interior_shells)
-        fl_bytes_note(b, "%d shells lie between two solids and were left out", k->interior_shells);
+        fl_bytes_note(b, "%d shells lie between two solids and were skipped", k->interior_shells);
     if (k->nonmanifold)
         fl_bytes_note(b, "%d faces belong to three or more solids and were taken as interior",
                       k->nonmanifold);

@@ -321,8 +321,8 @@ static int read_nodes(cell_adder *a, int64_t cell, fl_err *err)
         const double x = a->g->corner.x[k];
         if (!is_integer(x, 0.0, (double)point_count(a) - 1.0))
             return fl_elements_fail(a->e, a->e->file, 0, err,
-                                    "cell %lld wants point %.17g, 0 to %lld is expected", (long long)cell, x,
-                                    (long long)point_count(a) - 1);
+                                    "cell %lld refers to point %.17g, 0 to %lld is expected", (long long)cell,
+                                    x, (long long)point_count(a) - 1);
         a->node[a->nodes++] = (int64_t)x + 1;
     }
     return 0;

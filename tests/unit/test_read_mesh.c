@@ -230,7 +230,7 @@ static void remarks_are_made(void **state)
 {
     fl_surface s = read_text(FOUR "curv2 1 2\nsurf 0 1\nf 1 2 3\nl 1 2\ns off\n");
     (void)state;
-    assert_string_equal(note, "2 rows of unknown words were passed over\n");
+    assert_string_equal(note, "2 rows of unknown words were skipped\n");
     fl_surface_free(&s);
 }
 
@@ -309,8 +309,8 @@ static void each_fault_has_its_sentence(void **state)
          ":4: y is \"nan\", a finite number is expected"},
         {"solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n",
          ":6: a loop of 2 corners, at least 3 are expected"},
-        {FOUR "f 1 2 5\n", ":5: the face wants vertex 5, but there are 4 so far"},
-        {FOUR "f 1 2 -5\n", ":5: the face wants vertex -5, but there are 4 so far"},
+        {FOUR "f 1 2 5\n", ":5: the face refers to vertex 5, but there are 4 so far"},
+        {FOUR "f 1 2 -5\n", ":5: the face refers to vertex -5, but there are 4 so far"},
         {FOUR "f 1 2 0\n", ":5: vertex index \"0\" was found, a whole number other than 0 is expected"},
         {FOUR "f 1 2\n", ":5: a face of 2 corners, at least 3 are expected"},
         {FOUR "v 1 inf 2\n", ":5: y is \"inf\", a finite number is expected"},
@@ -364,7 +364,7 @@ static void size_decides_on_binary(void **state)
     memset(text + 80, 0, 4);
     assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), NULL, note, &err), 0);
     assert_int_equal(got.part[0].nt, s.part[0].nt);
-    assert_non_null(strstr(note, "the header says no triangles"));
+    assert_non_null(strstr(note, "the header says 0 triangles"));
     fl_surface_free(&got);
     memset(text + 84 + 50 * 3 + 12, 0xff, 4); /* a nan */
     e = (fl_err){0};

@@ -106,9 +106,9 @@ static const struct unit {
     double metres;
 } UNIT[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
 
-static const double FAR = 1e9; /* [m] no structure reaches farther; squares and cubes stay exact in range */
+static const double FAR = 1e9; /* [m] largest coordinate; its square and cube stay exact in range */
 
-/* least .. most numbers divided by commas.  Their count, or -1. */
+/* Parse least .. most numbers separated by commas.  Returns their count, or -1. */
 static int numbers(const char *option, const char *text, int least, int most, double *x, fl_err *err)
 {
     char copy[400], odd[42] = "";
@@ -136,12 +136,12 @@ static int numbers(const char *option, const char *text, int least, int most, do
                    text, least, most);
 }
 
-/* The part that comes next gets the name that waits. */
-static int add_item(struct options *o, struct item it, const char **waiting, fl_err *err)
+/* Add an item; it gets the pending name. */
+static int add_item(struct options *o, struct item it, const char **pending, fl_err *err)
 {
     if (fl_grow(&o->item, &o->item_cap, (int64_t)o->items + 1, sizeof *o->item, err)) return -1;
-    it.name = *waiting;
-    *waiting = NULL;
+    it.name = *pending;
+    *pending = NULL;
     o->item[o->items++] = it;
     return 0;
 }
@@ -199,7 +199,8 @@ static int pattern(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* OLD=NEW, divided at the last "=": names in decks hold any byte, new ones are the user's own. */
+/* OLD=NEW, divided at the last "=": names in decks contain any character, new names are chosen by the user.
+ */
 static int rename_as(struct options *o, const char *text, fl_err *err)
 {
     const char *mid = strrchr(text, '=');
@@ -215,7 +216,7 @@ static int rename_as(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* Kept as text too: the history says what was given. */
+/* The text is kept for the history. */
 static int rotate(struct options *o, const char *text, fl_err *err)
 {
     double x[4] = {0};
@@ -229,7 +230,7 @@ static int rotate(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* The axis is turned and mirrored before the turns of --rotate, whatever order they were given in. */
+/* --- up and --mirror apply before the turns of --rotate, whatever the order of the options. ------------- */
 static void place_first(struct options *o)
 {
     static const fl_mat3 y_up = {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
@@ -263,22 +264,22 @@ static int format(struct options *o, const char *text, fl_err *err)
                    "--to is \"%.60s\", one of g_struct stl stl-binary obj off ply vtp is expected", text);
 }
 
-static int apply(struct options *o, int c, const char *arg, const char **waiting, fl_err *err)
+static int apply(struct options *o, int c, const char *arg, const char **pending, fl_err *err)
 {
     struct item it = {0};
     double x[3] = {0};
     switch (c) {
-    case 1: return add_item(o, (struct item){.kind = ITEM_FILE, .path = arg}, waiting, err);
-    case CYLINDER: return round_solid("cylinder", arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
-    case CONE: return round_solid("cone", arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
-    case BOX: return box(arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
+    case 1: return add_item(o, (struct item){.kind = ITEM_FILE, .path = arg}, pending, err);
+    case CYLINDER: return round_solid("cylinder", arg, &it, err) || add_item(o, it, pending, err) ? -1 : 0;
+    case CONE: return round_solid("cone", arg, &it, err) || add_item(o, it, pending, err) ? -1 : 0;
+    case BOX: return box(arg, &it, err) || add_item(o, it, pending, err) ? -1 : 0;
     case 'n':
-        if (*waiting)
+        if (*pending)
             return fl_fail(err, FL_USAGE,
                            "--name %.60s is followed by --name %.60s, a part is expected between them",
-                           *waiting, arg);
+                           *pending, arg);
         if (*arg == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
-        *waiting = arg;
+        *pending = arg;
         return 0;
     case PART: return pattern(o, arg, err);
     case RENAME: return rename_as(o, arg, err);
@@ -330,18 +331,18 @@ static int apply(struct options *o, int c, const char *arg, const char **waiting
     }
 }
 
-/* The last word on names and input, once everything was read. */
-static int finish(struct options *o, const char *waiting, fl_err *err)
+/* Checks between options, after all have been read. */
+static int finish(struct options *o, const char *pending, fl_err *err)
 {
     int32_t streams = 0;
     if (o->items == 0) {
-        if (add_item(o, (struct item){.kind = ITEM_FILE, .path = "-"}, &waiting, err)) return -1;
-    } else if (waiting) {
+        if (add_item(o, (struct item){.kind = ITEM_FILE, .path = "-"}, &pending, err)) return -1;
+    } else if (pending) {
         struct item *last = &o->item[o->items - 1];
         if (last->name)
-            return fl_fail(err, FL_USAGE, "--name %.60s stands behind a part that is called %.60s", waiting,
+            return fl_fail(err, FL_USAGE, "--name %.60s stands behind a part that is called %.60s", pending,
                            last->name);
-        last->name = waiting;
+        last->name = pending;
     }
     for (int32_t k = 0; k < o->items; k++)
         streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
@@ -356,19 +357,19 @@ static int finish(struct options *o, const char *waiting, fl_err *err)
 
 int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
-    const char *waiting = NULL; /* a name without a part yet */
+    const char *pending = NULL; /* name for the next part */
     int c;
     *o = (struct options){.out = "-", .map = fl_affine_identity(), .factor = 1.0, .weld = -1.0};
     opterr = 0;
-    /* "-": files come in their order among the options, as if by an option of code 1 */
+    /* "-": files are returned in their order among the options, as arguments of an option of code 1 */
     while (!o->ended && (c = getopt_long(argc, argv, "-:n:f:u:s:t:w:o:zj:qvh", LONG, NULL)) != -1) {
         if (c == ':' || c == '?')
             return fl_option_unknown("struct-import", LONG, c, optopt, argv[optind - 1], err);
-        if (apply(o, c, optarg, &waiting, err)) return -1;
+        if (apply(o, c, optarg, &pending, err)) return -1;
     }
     for (; !o->ended && optind < argc; optind++) /* behind "--" */
-        if (apply(o, 1, argv[optind], &waiting, err)) return -1;
-    return o->ended ? 0 : finish(o, waiting, err);
+        if (apply(o, 1, argv[optind], &pending, err)) return -1;
+    return o->ended ? 0 : finish(o, pending, err);
 }
 
 void options_free(struct options *o)
