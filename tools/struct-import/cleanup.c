@@ -154,8 +154,8 @@ static int remesh_part(fl_part *p, const struct options *o, double accuracy, fl_
     if (s.nt == 0 || measure_distances(&s, &before, accuracy, &deviation, &source_deviation, err)) goto done;
     if (fmax(deviation, source_deviation) > o->remesh_within) {
         fl_fail(err, FL_NUMERIC,
-                "part \"%.60s\": triangles of %g m stray up to %g m from it, %g m were allowed: a smaller "
-                "length or a larger distance is expected",
+                "part \"%.60s\": triangles of %g m deviate up to %g m, %g m are allowed: choose a smaller "
+                "length or a larger distance",
                 p->name, o->remesh, fmax(deviation, source_deviation), o->remesh_within);
         goto done;
     }
@@ -210,7 +210,7 @@ static int clean_triangles(fl_part *p, const struct options *o, struct cleanup *
     int rc = -1;
     if (fl_part_weld(p, o->weld, &m->weld, err)) return -1;
     if (p->nt == 0 && p->nc == 0)
-        return fl_fail(err, FL_INPUT, "part \"%.60s\": each of its triangles is a point or a line", p->name);
+        return fl_fail(err, FL_INPUT, "part \"%.60s\": all of its triangles are degenerate", p->name);
     if (o->raw ? fl_part_measure(p, &m->quality, err) : fl_part_orient(p, &m->quality, &m->orient, err))
         return -1;
     m->was_closed = m->quality.closed;

@@ -144,11 +144,11 @@ static int check_strict(const fl_surface *s, const struct cleanup *m, fl_err *er
         const fl_mesh_quality *q = &m[i].quality;
         if ((q->open && !m[i].closes_jointly) || q->branched || q->incoherent)
             return fl_fail(err, FL_NO,
-                           "part \"%.60s\" is left with %d open, %d non-manifold and %d twisted edges",
+                           "part \"%.60s\" still has %d open, %d non-manifold and %d twisted edges",
                            s->part[i].name, q->open, q->branched, q->incoherent);
         if (q->degenerate || m[i].crossing.crossings)
             return fl_fail(err, FL_NO,
-                           "part \"%.60s\" is left with %d triangles without area and %d pairs that cross",
+                           "part \"%.60s\" still has %d triangles without area and %d pairs that cross",
                            s->part[i].name, q->degenerate, m[i].crossing.crossings);
     }
     return 0;

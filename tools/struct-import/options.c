@@ -222,7 +222,7 @@ static int rotate(struct options *o, const char *text, fl_err *err)
     double x[4] = {0};
     if (numbers("rotate", text, 4, 4, x, err) < 0) return -1;
     if (!(v3_norm(v3(x[0], x[1], x[2])) > 0.0))
-        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", an axis of some length is expected", text);
+        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", an axis of non-zero length is expected", text);
     if (o->turns == TURNS) return fl_fail(err, FL_USAGE, "--rotate is given more than %d times", TURNS);
     const fl_mat3 r = fl_affine_rotation(v3(x[0], x[1], x[2]), x[3]);
     o->rotate[o->turns++] = text;
@@ -276,8 +276,8 @@ static int apply(struct options *o, int c, const char *arg, const char **pending
     case 'n':
         if (*pending)
             return fl_fail(err, FL_USAGE,
-                           "--name %.60s is followed by --name %.60s, a part is expected between them",
-                           *pending, arg);
+                           "--name %.60s is followed by --name %.60s without a part between them", *pending,
+                           arg);
         if (*arg == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
         *pending = arg;
         return 0;
@@ -340,16 +340,16 @@ static int finish(struct options *o, const char *pending, fl_err *err)
     } else if (pending) {
         struct item *last = &o->item[o->items - 1];
         if (last->name)
-            return fl_fail(err, FL_USAGE, "--name %.60s stands behind a part that is called %.60s", pending,
+            return fl_fail(err, FL_USAGE, "--name %.60s follows a part that is called %.60s", pending,
                            last->name);
         last->name = pending;
     }
     for (int32_t k = 0; k < o->items; k++)
         streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
     if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
-    if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes do not go together");
+    if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes exclude each other");
     if (o->raw && (o->fill > 0.0 || o->repair || o->simplify > 0.0 || o->remesh > 0.0))
-        return fl_fail(err, FL_USAGE, "--raw does not go together with what it leaves undone");
+        return fl_fail(err, FL_USAGE, "--raw excludes --fill, --repair, --simplify and --remesh");
     o->map.s *= o->factor;
     place_first(o);
     return 0;

@@ -34,7 +34,7 @@ int selection_check(const struct selection *c, fl_err *err)
     for (int32_t k = 0; k < c->available.n; k++) add_name(names, c->available.name[k]);
     for (int32_t k = 0; k < c->opt.patterns; k++)
         if (!c->opt.matched[k])
-            return fl_fail(err, FL_INPUT, "--part %.100s: no part or set is like it; there are %s",
+            return fl_fail(err, FL_INPUT, "--part %.100s: no part or set matches; there are %s",
                            c->opt.pattern[k], names[0] ? names : "none");
     return 0;
 }
@@ -73,8 +73,8 @@ static int check_patterns(const struct options *o, const fl_surface *s, fl_err *
         for (int32_t i = 0; !matched && i < s->n; i++)
             matched = fl_pattern_matches(o->alias[k].old, s->part[i].name);
         if (!matched)
-            return fl_fail(err, FL_INPUT, "--rename %.100s: no part is like it; there are %s",
-                           o->alias[k].text, names[0] ? names : "none");
+            return fl_fail(err, FL_INPUT, "--rename %.100s: no part matches; there are %s", o->alias[k].text,
+                           names[0] ? names : "none");
     }
     return 0;
 }

@@ -92,10 +92,10 @@ static void print_details(const fl_part *p, const struct cleanup *m)
     if (m->repair.stitched) fprintf(stderr, "%s: %d pairs of rim edges stitched\n", name, m->repair.stitched);
     if (m->repair.holes)
         fprintf(stderr, "%s: %d holes closed by %d triangles\n", name, m->repair.holes, m->repair.patched);
-    if (m->walls) fprintf(stderr, "%s: %d triangles of walls inside left out\n", name, m->walls);
+    if (m->walls) fprintf(stderr, "%s: %d triangles of inner walls dropped\n", name, m->walls);
     if (m->simplified) fprintf(stderr, "%s: %d triangles fewer\n", name, m->simplified);
     if (m->repair.bounding && m->quality.inverted)
-        fprintf(stderr, "%s: %d patches bound cavities and look inward\n", name, m->quality.inverted);
+        fprintf(stderr, "%s: %d patches bound cavities and face inward\n", name, m->quality.inverted);
 }
 
 static void print_warnings(const char *name, const struct cleanup *m)
@@ -103,14 +103,13 @@ static void print_warnings(const char *name, const struct cleanup *m)
     const int32_t twisted = m->orient.one_sided, rimmed = m->orient.kept_side;
     if (rimmed && m->quality.open && !m->closes_jointly)
         fprintf(stderr,
-                "struct-import: warning: %s: open patches have no outside: but for flat convex ones they are "
-                "felt on one side "
-                "alone, the one that most of their area had\n",
+                "struct-import: warning: %s: open patches have no outside: except for flat convex ones, ice "
+                "meets them on one side only, the side of most of their area\n",
                 name);
     if (m->fins)
         fprintf(stderr,
-                "struct-import: warning: %s: %d triangles of plates with two sides that stand on others were "
-                "left out: as a part of its own such a plate is felt\n",
+                "struct-import: warning: %s: %d triangles of two-sided plates that stand on others were "
+                "skipped: ice meets such a plate only as a part of its own\n",
                 name, m->fins);
     if (m->untangle.failed)
         fprintf(stderr, "struct-import: warning: %s: %d patches or pairs of them still cross\n", name,
@@ -118,7 +117,7 @@ static void print_warnings(const char *name, const struct cleanup *m)
     if (m->untangle.changed > LARGE_CHANGE)
         fprintf(stderr,
                 "struct-import: warning: %s: a patch that passed through itself was rebuilt with %.3g of its "
-                "area or volume more or less: look at it\n",
+                "area or volume more or less: check it\n",
                 name, m->untangle.changed);
     if (twisted)
         fprintf(stderr, "struct-import: warning: %s: %d patches have one side only and cannot be oriented\n",
@@ -185,7 +184,7 @@ int print_report(const struct options *o, const fl_surface *s, const struct clea
         if (o->verbose) print_details(&s->part[i], &m[i]);
         print_warnings(s->part[i].name, &m[i]);
     }
-    if (joint) fprintf(stderr, "struct-import: %d open parts fit one another: together they close\n", joint);
+    if (joint) fprintf(stderr, "struct-import: %d open parts form a closed surface together\n", joint);
     check_size(o, sum.quality.box);
     return 0;
 }
