@@ -14,13 +14,12 @@ typedef struct {
 } fl_skin_face;
 
 typedef struct {
-    const fl_elements *e; /* borrowed */
-    int32_t *target;      /* [elements] part, or parts.n plus the set; -1 for none */
-    int8_t *reversed;     /* [elements] 1 for a shell to be reversed */
-    uint8_t *outer_faces; /* [elements] bit mask of faces that no other selected solid has */
-    uint8_t *free_faces;  /* [elements] the same among all solids; NULL until a set needs it */
-    uint8_t *
-        picked_faces; /* [elements] faces picked by a set; FL_SKIN_COUNTED once the solid is in zero_volume etc. */
+    const fl_elements *e;     /* borrowed */
+    int32_t *target;          /* [elements] part, or parts.n plus the set; -1 for none */
+    int8_t *reversed;         /* [elements] 1 for a shell to be reversed */
+    uint8_t *outer_faces;     /* [elements] bit mask of faces that no other selected solid has */
+    uint8_t *free_faces;      /* [elements] the same among all solids; NULL until a set needs it */
+    uint8_t *picked_faces;    /* [elements] faces picked by a set, and FL_SKIN_COUNTED */
     uint8_t *duplicate_faces; /* [elements] bit mask of picked faces that a duplicate element contributes */
     uint8_t *dropped;         /* [elements] 1 if other elements contribute all of its faces */
     int32_t *dropped_of;      /* [targets] elements dropped as duplicates of those of the target */
