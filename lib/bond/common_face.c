@@ -7,31 +7,32 @@
 
 /* Coordinates of a file have sixteen digits and faces of cells are flat to a billionth of their size, so that
  * faces which were cut alike agree far better than this; and what does not is no frozen face. */
-#define AGREE 1e-6
+#define FACE_TOL 1e-6
 
 /* The plane in which it is looked at, about x. */
 typedef struct {
     fl_vec3 x, n, e, d;
-} sheet;
+} face_plane;
 
-static fl_vec2 flat(const sheet *s, fl_vec3 v)
+static fl_vec2 to_plane(const face_plane *s, fl_vec3 v)
 {
     const fl_vec3 r = v3_sub(v, s->x);
     return (fl_vec2){v3_dot(r, s->e), v3_dot(r, s->d)};
 }
 
 /* Corners of face f, moved by way, counter-clockwise about s->n; back: the face looks the other way. */
-static int32_t corners(const sheet *s, const fl_poly *p, int32_t f, fl_vec3 way, int back, fl_vec2 *out)
+static int32_t corners_in_plane(const face_plane *s, const fl_poly *p, int32_t f, fl_vec3 way, int back,
+                                fl_vec2 *out)
 {
     const int32_t n = p->first[f + 1] - p->first[f];
     for (int32_t k = 0; k < n; k++) {
         const int32_t at = p->first[f] + (back ? n - 1 - k : k);
-        out[k] = flat(s, v3_add(p->v[p->loop[at]], way));
+        out[k] = to_plane(s, v3_add(p->v[p->loop[at]], way));
     }
     return n;
 }
 
-static fl_polygon_side side(fl_vec2 a, fl_vec2 b)
+static fl_polygon_side side_of(fl_vec2 a, fl_vec2 b)
 {
     const double dx = b.x - a.x, dy = b.y - a.y, l = sqrt(dx * dx + dy * dy);
     fl_polygon_side s = {dy / l, -dx / l, 0.0, 0};
@@ -40,15 +41,16 @@ static fl_polygon_side side(fl_vec2 a, fl_vec2 b)
 }
 
 /* Cut v[n] by all sides of cut[m]; what is left, in place. */
-static int32_t clip(int32_t n, fl_vec2 *v, fl_polygon_side *sides, int32_t m, const fl_vec2 *cut)
+static int32_t clip_polygon(int32_t n, fl_vec2 *v, fl_polygon_side *sides, int32_t m, const fl_vec2 *cut)
 {
-    for (int32_t k = 0; k < n; k++) sides[k] = side(v[k], v[(k + 1) % n]);
-    for (int32_t k = 0; k < m && n > 0; k++) n = fl_polygon_cut(n, v, sides, side(cut[k], cut[(k + 1) % m]));
+    for (int32_t k = 0; k < n; k++) sides[k] = side_of(v[k], v[(k + 1) % n]);
+    for (int32_t k = 0; k < m && n > 0; k++)
+        n = fl_polygon_cut(n, v, sides, side_of(cut[k], cut[(k + 1) % m]));
     return n;
 }
 
 /* Principal axes and half sides from the second moments about the centroid. */
-static void measure(const sheet *s, int32_t n, const fl_vec2 *v, fl_common_face *out)
+static void set_moments(const face_plane *s, int32_t n, const fl_vec2 *v, fl_common_face *out)
 {
     const fl_vec2 c = fl_polygon_centroid(n, v);
     double xx = 0.0, xy = 0.0, yy = 0.0;
@@ -75,19 +77,19 @@ static void measure(const sheet *s, int32_t n, const fl_vec2 *v, fl_common_face 
 }
 
 /* The common part of face f of p and face g of q, when it is larger than what out has. */
-static void common(const fl_poly *p, int32_t f, const fl_poly *q, int32_t g, fl_vec3 way, fl_vec3 x,
-                   fl_vec2 *v, fl_polygon_side *sides, fl_common_face *out)
+static void common_part(const fl_poly *p, int32_t f, const fl_poly *q, int32_t g, fl_vec3 way, fl_vec3 x,
+                        fl_vec2 *v, fl_polygon_side *sides, fl_common_face *out)
 {
     const fl_vec3 n = p->n[f], e = v3_normal_to(n);
-    const sheet s = {x, n, e, v3_cross(n, e)};
+    const face_plane s = {x, n, e, v3_cross(n, e)};
     fl_vec2 *cut = v + (p->first[f + 1] - p->first[f]) + (q->first[g + 1] - q->first[g]) + 1;
-    int32_t k = corners(&s, p, f, v3(0, 0, 0), 0, v);
-    k = clip(k, v, sides, corners(&s, q, g, way, 1, cut), cut);
+    int32_t k = corners_in_plane(&s, p, f, v3(0, 0, 0), 0, v);
+    k = clip_polygon(k, v, sides, corners_in_plane(&s, q, g, way, 1, cut), cut);
     if (k < 3 || !(fl_polygon_area(k, v) > out->area)) return;
-    measure(&s, k, v, out);
+    set_moments(&s, k, v, out);
 }
 
-static int32_t most(const fl_poly *p)
+static int32_t max_corners(const fl_poly *p)
 {
     int32_t n = 0;
     for (int32_t f = 0; f < p->nf; f++)
@@ -98,10 +100,10 @@ static int32_t most(const fl_poly *p)
 int fl_common_face_find(const fl_poly *p, const fl_poly *q, fl_vec3 way, fl_vec3 x, fl_common_face *out,
                         fl_err *err)
 {
-    const int64_t room = (int64_t)most(p) + most(q) + 1;
-    const double near = AGREE * (p->size < q->size ? p->size : q->size);
-    fl_vec2 *v = fl_alloc(2 * room, sizeof *v, err);
-    fl_polygon_side *sides = fl_alloc(room, sizeof *sides, err);
+    const int64_t n_corners = (int64_t)max_corners(p) + max_corners(q) + 1;
+    const double near = FACE_TOL * (p->size < q->size ? p->size : q->size);
+    fl_vec2 *v = fl_alloc(2 * n_corners, sizeof *v, err);
+    fl_polygon_side *sides = fl_alloc(n_corners, sizeof *sides, err);
     fl_common_face best = {0};
     if (!v || !sides) {
         free(v), free(sides);
@@ -111,14 +113,14 @@ int fl_common_face_find(const fl_poly *p, const fl_poly *q, fl_vec3 way, fl_vec3
         if (fabs(v3_dot(p->n[f], v3_sub(x, p->v[p->loop[p->first[f]]]))) > near) continue;
         for (int32_t g = 0; g < q->nf; g++) {
             const fl_vec3 corner = v3_add(q->v[q->loop[q->first[g]]], way);
-            if (v3_norm(v3_add(p->n[f], q->n[g])) > AGREE) continue;
+            if (v3_norm(v3_add(p->n[f], q->n[g])) > FACE_TOL) continue;
             if (fabs(v3_dot(p->n[f], v3_sub(x, corner))) > near) continue;
-            common(p, f, q, g, way, x, v, sides, &best);
+            common_part(p, f, q, g, way, x, v, sides, &best);
         }
     }
     free(v), free(sides);
     /* a sliver has no second moment to speak of */
-    if (!(v3_norm(best.a) > AGREE * v3_norm(best.b))) return 0;
+    if (!(v3_norm(best.a) > FACE_TOL * v3_norm(best.b))) return 0;
     *out = best;
     return 1;
 }

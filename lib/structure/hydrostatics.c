@@ -31,7 +31,7 @@ static void add_triangle(fl_hydrostatics *f, fl_vec3 a, fl_vec3 b, fl_vec3 c)
 }
 
 /* The point of a b at z = 0, the same from either end. */
-static fl_vec3 at_water(fl_vec3 a, fl_vec3 b)
+static fl_vec3 waterplane_crossing(fl_vec3 a, fl_vec3 b)
 {
     const fl_vec3 low = a.z < b.z ? a : b, high = a.z < b.z ? b : a;
     fl_vec3 x = v3_madd(low, -low.z / (high.z - low.z), v3_sub(high, low));
@@ -47,18 +47,18 @@ static void add_cut(fl_hydrostatics *f, const fl_vec3 v[3])
     for (int k = 0; k < 3; k++) {
         const fl_vec3 a = v[k], b = v[(k + 1) % 3];
         if (a.z <= 0.0) wet[n++] = a;
-        if ((a.z < 0.0 && b.z > 0.0) || (a.z > 0.0 && b.z < 0.0)) wet[n++] = at_water(a, b);
+        if ((a.z < 0.0 && b.z > 0.0) || (a.z > 0.0 && b.z < 0.0)) wet[n++] = waterplane_crossing(a, b);
     }
     for (int k = 2; k < n; k++) add_triangle(f, wet[0], wet[k - 1], wet[k]);
 }
 
 typedef struct {
-    int32_t a, b, way; /* a < b; +1 from a to b */
-} border;
+    int32_t a, b, sense; /* a < b; +1 from a to b */
+} directed_edge;
 
-static int border_order(const void *x, const void *y)
+static int compare_edges(const void *x, const void *y)
 {
-    const border *p = x, *q = y;
+    const directed_edge *p = x, *q = y;
     if (p->a != q->a) return p->a < q->a ? -1 : 1;
     return (p->b > q->b) - (p->b < q->b);
 }
@@ -67,17 +67,17 @@ static int border_order(const void *x, const void *y)
 static int is_closed(const fl_part *p, fl_err *err)
 {
     const int32_t n = 3 * p->nt;
-    border *e = fl_alloc(n, sizeof *e, err);
+    directed_edge *e = fl_alloc(n, sizeof *e, err);
     int closed = 1;
     if (!e) return -1;
     for (int32_t k = 0; k < n; k++) {
         const int32_t a = p->t[k / 3].v[k % 3], b = p->t[k / 3].v[(k + 1) % 3];
-        e[k] = a < b ? (border){a, b, 1} : (border){b, a, -1};
+        e[k] = a < b ? (directed_edge){a, b, 1} : (directed_edge){b, a, -1};
     }
-    qsort(e, (size_t)n, sizeof *e, border_order);
+    qsort(e, (size_t)n, sizeof *e, compare_edges);
     for (int32_t k = 0, end; k < n && closed; k = end) {
         int32_t sum = 0;
-        for (end = k; end < n && e[end].a == e[k].a && e[end].b == e[k].b; end++) sum += e[end].way;
+        for (end = k; end < n && e[end].a == e[k].a && e[end].b == e[k].b; end++) sum += e[end].sense;
         closed = sum == 0;
     }
     free(e);

@@ -37,12 +37,12 @@ typedef struct {
     int32_t j;
     int32_t inward; /* the surface bends inward there, or in no way that could be told */
     fl_vec3 a, b;
-} fl_filter_kind;
+} fl_tile_seam;
 
 /* Of a surface.  Zeroed: not made. */
 typedef struct {
     int32_t *begin; /* [tiles + 1] offsets into pass, by i */
-    fl_filter_kind *seam;
+    fl_tile_seam *seam;
     uint8_t *rim; /* [sides] over this side of a tile, or a part of it, there is no other */
     int32_t n, cap;
     double tol;      /* nearer than that two tiles meet [m] */

@@ -37,16 +37,16 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
 }
 
 /* Vertices that a few numbers each are kept of while one shape is looked at. */
-enum { KEPT = 64 };
+enum { MAX_KEPT = 64 };
 
 /* A shape whose faces stand r out from those of a right prism with its long edges along e. */
-struct standing {
+struct offset_prism {
     fl_poly p;
-    fl_vec3 v[KEPT];
-    double c[KEPT];
+    fl_vec3 v[MAX_KEPT];
+    double c[MAX_KEPT];
 };
 
-static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec3 e, double r)
+static const fl_poly *offset_faces(struct offset_prism *to, const fl_poly *core, fl_vec3 e, double r)
 {
     fl_vec3 *v = to->v;
     const int32_t *first = core->first, *loop = core->loop;
@@ -72,25 +72,26 @@ static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec
 }
 
 /* The shape that floats. */
-static const fl_poly *shape_of(const fl_hull *h, struct standing *room)
+static const fl_poly *floating_shape(const fl_hull *h, struct offset_prism *scratch)
 {
-    return h->face_area || h->shape->nf == 0 ? h->shape : stand_out(room, h->shape, h->prism.e, h->radius);
+    return h->face_area || h->shape->nf == 0 ? h->shape
+                                             : offset_faces(scratch, h->shape, h->prism.e, h->radius);
 }
 
-#define OFF 1e-12 /* of the size */
+#define CORE_TOL 1e-12 /* of the size */
 
 int fl_hull_borrow_core(fl_hull *h, const fl_poly *core, double r)
 {
     const fl_poly *p = h->shape;
-    struct standing room;
-    if (!(h->prism.area > 0.0) || p->nv > KEPT || core->nv != p->nv || core->nf != p->nf) return 0;
+    struct offset_prism scratch;
+    if (!(h->prism.area > 0.0) || p->nv > MAX_KEPT || core->nv != p->nv || core->nf != p->nf) return 0;
     const int32_t loops = p->first[p->nf];
     if (memcmp(core->first, p->first, ((size_t)p->nf + 1) * sizeof *p->first) != 0 ||
         memcmp(core->loop, p->loop, (size_t)loops * sizeof *p->loop) != 0)
         return 0;
-    const fl_poly *q = stand_out(&room, core, h->prism.e, r);
+    const fl_poly *q = offset_faces(&scratch, core, h->prism.e, r);
     for (int32_t v = 0; v < p->nv; v++) /* no number is worse than any */
-        if (!(v3_norm(v3_sub(p->v[v], q->v[v])) <= OFF * p->size)) return 0;
+        if (!(v3_norm(v3_sub(p->v[v], q->v[v])) <= CORE_TOL * p->size)) return 0;
     free(h->face_area);
     h->face_area = NULL;
     h->shape = core;
@@ -106,32 +107,32 @@ void fl_hull_free(fl_hull *h)
 
 /* The water plane, and the heights of the vertices over it when there are few enough to keep: every face of a
  * vertex asks for its height. */
-struct water {
+struct plane_heights {
     fl_vec3 up;
-    double level, s[KEPT];
+    double level, s[MAX_KEPT];
     int kept;
 };
 
-static double over(const fl_poly *p, int32_t v, const struct water *w)
+static double height_over(const fl_poly *p, int32_t v, const struct plane_heights *w)
 {
     return w->kept ? w->s[v] : v3_dot(w->up, p->v[v]) - w->level;
 }
 
 /* The wetted part of a face: area, int (x - apex) dA, and the two points where the water leaves and enters
  * the loop. */
-struct part {
+struct wet_face {
     double area;
     fl_vec3 moment, leave, enter;
     int cut;
 };
 
 /* A fan of triangles over its first corner, as its corners come. */
-struct fan {
+struct face_fan {
     fl_vec3 n, apex, hub, rim;
     int have;
 };
 
-static inline void open_to(struct fan *fan, struct part *out, fl_vec3 corner)
+static inline void fan_add(struct face_fan *fan, struct wet_face *out, fl_vec3 corner)
 {
     const fl_vec3 x = v3_sub(corner, fan->apex);
     if (fan->have >= 2) {
@@ -146,26 +147,26 @@ static inline void open_to(struct fan *fan, struct part *out, fl_vec3 corner)
 
 /* Walk round face f and keep what is wet, as a fan over its first wet corner: no list of corners is needed.
  * A crossing is always computed from its wet end, so that the two faces of an edge find the same point. */
-static struct part clip_face(const fl_poly *p, int32_t f, const struct water *w, fl_vec3 apex)
+static struct wet_face clip_face(const fl_poly *p, int32_t f, const struct plane_heights *w, fl_vec3 apex)
 {
     const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
-    struct part out = {0};
-    struct fan fan = {.n = p->n[f], .apex = apex};
+    struct wet_face out = {0};
+    struct face_fan fan = {.n = p->n[f], .apex = apex};
     fl_vec3 from = p->v[at[m - 1]];
-    double s0 = over(p, at[m - 1], w);
+    double s0 = height_over(p, at[m - 1], w);
     for (int32_t k = 0; k < m; k++) {
         const fl_vec3 to = p->v[at[k]];
-        const double s1 = over(p, at[k], w);
+        const double s1 = height_over(p, at[k], w);
         const int wet0 = s0 <= 0.0, wet1 = s1 <= 0.0;
         if (wet0 && !wet1) {
             out.leave = v3_lerp(from, to, s0 / (s0 - s1));
             out.cut = 1;
-            open_to(&fan, &out, out.leave);
+            fan_add(&fan, &out, out.leave);
         } else if (!wet0 && wet1) {
             out.enter = v3_lerp(to, from, s1 / (s1 - s0));
-            open_to(&fan, &out, out.enter);
+            fan_add(&fan, &out, out.enter);
         }
-        if (wet1) open_to(&fan, &out, to);
+        if (wet1) fan_add(&fan, &out, to);
         from = to;
         s0 = s1;
     }
@@ -173,12 +174,12 @@ static struct part clip_face(const fl_poly *p, int32_t f, const struct water *w,
 }
 
 /* The same of a face that is wet all over. */
-static struct part whole_face(const fl_poly *p, int32_t f, fl_vec3 apex)
+static struct wet_face whole_face_of(const fl_poly *p, int32_t f, fl_vec3 apex)
 {
     const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
     const fl_vec3 hub = p->v[at[0]], n = p->n[f], by = v3_sub(hub, apex);
     fl_vec3 rim = v3_sub(p->v[at[1]], hub);
-    struct part out = {0};
+    struct wet_face out = {0};
     for (int32_t k = 2; k < m; k++) {
         const fl_vec3 x = v3_sub(p->v[at[k]], hub);
         const double tri = 0.5 * v3_dot(n, v3_cross(rim, x));
@@ -192,13 +193,13 @@ static struct part whole_face(const fl_poly *p, int32_t f, fl_vec3 apex)
 
 /* -1 dry, +1 wet, 0 cut: then the apex is where the line from the deepest to the highest vertex meets the
  * water, a point inside. */
-static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct water *w, fl_vec3 *apex)
+static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct plane_heights *w, fl_vec3 *apex)
 {
     double low = INFINITY, high = -INFINITY;
     int32_t l = 0, h = 0;
     w->up = up;
     w->level = level;
-    w->kept = p->nv <= KEPT;
+    w->kept = p->nv <= MAX_KEPT;
     for (int32_t v = 0; v < p->nv; v++) {
         const double s = v3_dot(up, p->v[v]) - level;
         if (w->kept) w->s[v] = s;
@@ -217,13 +218,13 @@ static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct water *w
     return 0;
 }
 
-static void solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
+static void submerge_solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
 {
-    struct standing room;
-    const fl_poly *p = shape_of(h, &room);
+    struct offset_prism scratch;
+    const fl_poly *p = floating_shape(h, &scratch);
     fl_vec3 apex, sum = {0};
     double v3fold = 0.0, wetted = 0.0, plane = 0.0;
-    struct water water;
+    struct plane_heights water;
     const int state = find_apex(p, up, level, &water, &apex);
     if (state) {
         *wet = state < 0
@@ -236,13 +237,15 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
         const int32_t m = p->first[f + 1] - p->first[f];
         double area;
         fl_vec3 moment;
-        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) below += over(p, p->loop[k], &water) <= 0.0;
+        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++)
+            below += height_over(p, p->loop[k], &water) <= 0.0;
         if (below == 0) continue;
         if (below == m && h->face_area) {
             area = h->face_area[f];
             moment = v3_scale(area, v3_sub(fl_hull_face_centroids(h)[f], apex));
         } else {
-            const struct part part = below == m ? whole_face(p, f, apex) : clip_face(p, f, &water, apex);
+            const struct wet_face part =
+                below == m ? whole_face_of(p, f, apex) : clip_face(p, f, &water, apex);
             area = part.area;
             moment = part.moment;
         }
@@ -260,7 +263,7 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
 
 /* Spherical cap of height t = level + r over the lowest point:
  *     V = pi t^2 (3r - t) / 3,  its centroid 3 (2r - t)^2 / (4 (3r - t)) below the centre. */
-static void sphere(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
+static void submerge_sphere(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
 {
     const fl_vec3 o = h->shape->v[0];
     const double r = h->radius, level = water - v3_dot(up, o), t = level + r;
@@ -279,7 +282,7 @@ static void sphere(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet
 /* What the parts of a capsule add up to: first moments about its middle, along the axis and along w, the
  * direction across it that leads out of the water; plane is the area of the water plane, found as minus the
  * sum of A (n.up) over the wetted surface. */
-struct parts {
+struct capsule_sums {
     double volume, along, across, wetted, plane;
 };
 
@@ -289,7 +292,7 @@ struct capsule {
     double sine, cosine;   /* up = sine axis + cosine w, cosine > 0 */
 };
 
-static double clamped(double x, double lo, double hi) { return fmin(fmax(x, lo), hi); }
+static double clamp(double x, double lo, double hi) { return fmin(fmax(x, lo), hi); }
 
 /* theta/2 - sin cos/2 - sin^3 cos/3: what rho^2 A - int |x|^2 dA is for a circular segment of radius rho and
  * half angle theta, in units of rho^4 */
@@ -306,10 +309,10 @@ static double segment4(double theta, double s, double c)
  *     A0       = r^2 (2 atan2(q, sp r) + 2 (d/r) t1)                          (Gauss and Bonnet)
  * where q is half the chord that A1 and A2 share, times the cosine.  All three angles are atan2 of q; where
  * the circles miss each other q = 0, and they come out as the 0 or pi that is right. */
-static void add_cap(struct parts *t, const struct capsule *c, int side)
+static void add_cap(struct capsule_sums *t, const struct capsule *c, int side)
 {
     const double r = c->r, g = c->cosine, sp = side * c->sine, at = c->level - sp * c->half;
-    const double d = clamped(at, -r, r), qq = (g * r - d) * (g * r + d), q = qq > 0.0 ? sqrt(qq) : 0.0;
+    const double d = clamp(at, -r, r), qq = (g * r - d) * (g * r + d), q = qq > 0.0 ? sqrt(qq) : 0.0;
     const double rho2 = (r - d) * (r + d), t1 = atan2(q, -d * sp), t2 = atan2(q, -d);
     const double rho = sqrt(rho2), s1 = rho > 0.0 ? q / (g * rho) : 0.0,
                  c1 = rho > 0.0 ? -d * sp / (g * rho) : 0.0;
@@ -345,7 +348,7 @@ static double wet_angle(const struct capsule *c, double s)
  * segment has cos theta linear in s; over theta instead of s all integrands are entire functions (sixteen
  * nodes leave 1e-16 even for a range of pi), and differences of cosines written as products of sines stay
  * good when the axis lies along the water and all angles are nearly one. */
-static void add_cylinder(struct parts *t, const struct capsule *c)
+static void add_cylinder(struct capsule_sums *t, const struct capsule *c)
 {
     const double r = c->r, h = c->half, in = (c->level - c->cosine * r) / c->sine,
                  out = (c->level + c->cosine * r) / c->sine;
@@ -377,7 +380,7 @@ static void add_cylinder(struct parts *t, const struct capsule *c)
     }
 }
 
-static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
+static void submerge_capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
 {
     const fl_vec3 ends = v3_sub(h->shape->v[1], h->shape->v[0]),
                   mid = v3_lerp(h->shape->v[0], h->shape->v[1], 0.5);
@@ -391,7 +394,7 @@ static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *we
                               .sine = v3_dot(up, axis),
                               .cosine = fmax(v3_norm(cross), 1e-140)};
     const double reach = half * c.sine + r;
-    struct parts t = {0};
+    struct capsule_sums t = {0};
 
     *wet = (fl_submerged){0};
     if (c.level <= -reach) return;
@@ -405,32 +408,32 @@ static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *we
     /* The last rounding of a body just dipping in must not leave it, nor throw its centroid about. */
     if (!(t.volume > 0.0)) return;
     wet->volume = t.volume;
-    wet->centre = v3_madd(v3_madd(mid, clamped(t.along / t.volume, -half - r, half + r), axis),
-                          clamped(t.across / t.volume, -r, 0.0) / c.cosine, cross);
+    wet->centre = v3_madd(v3_madd(mid, clamp(t.along / t.volume, -half - r, half + r), axis),
+                          clamp(t.across / t.volume, -r, 0.0) / c.cosine, cross);
     wet->wetted_area = fmax(t.wetted, 0.0);
     wet->waterplane_area = fmax(t.plane, 0.0);
 }
 
 void fl_hull_submerged(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
 {
-    if (h->shape->nv == 1) sphere(h, up, level, wet);
-    else if (h->shape->nv == 2) capsule(h, up, level, wet);
+    if (h->shape->nv == 1) submerge_sphere(h, up, level, wet);
+    else if (h->shape->nv == 2) submerge_capsule(h, up, level, wet);
     else if (!(h->prism.area > 0.0) || !fl_prism_submerged(&h->prism, up, level, wet))
-        solid(h, up, level, wet);
+        submerge_solid(h, up, level, wet);
 }
 
 void fl_hull_waterplane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane *w)
 {
-    struct standing room;
-    const fl_poly *p = shape_of(h, &room);
+    struct offset_prism scratch;
+    const fl_poly *p = floating_shape(h, &scratch);
     double xx[3][3] = {{0}};
     fl_vec3 apex, sum = {0};
-    struct water water;
+    struct plane_heights water;
     *w = (fl_waterplane){0};
     if (p->nf == 0 || find_apex(p, up, level, &water, &apex)) return;
     /* Each cut face gives one side of the water plane, which the wet part's cap runs from enter to leave. */
     for (int32_t f = 0; f < p->nf; f++) {
-        const struct part part = clip_face(p, f, &water, apex);
+        const struct wet_face part = clip_face(p, f, &water, apex);
         if (!part.cut) continue;
         const fl_vec3 a = v3_sub(part.enter, apex), b = v3_sub(part.leave, apex), s = v3_add(a, b);
         const double tri = 0.5 * v3_dot(up, v3_cross(a, b));

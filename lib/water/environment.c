@@ -5,13 +5,13 @@
 #include "water/environment.h"
 
 /* Places that a wave is looked at in for one body, at most. */
-#define MOST_CELLS 1000000
+#define MAX_CELLS 1000000
 
 /* Where a plane is fitted to the wave, to a column of cells, which is no wider than 1.6 of the shortest wave:
  * one bend after another evens out. */
-enum { PLACES = 8 };
+enum { FIT_POINTS = 8 };
 
-static const fl_wave_sample unseen = {.q = {1, 0, 0, 0}, .when = INFINITY};
+static const fl_wave_sample no_sample = {.q = {1, 0, 0, 0}, .when = INFINITY};
 
 int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
 {
@@ -39,7 +39,7 @@ int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
     if (s->sample_every > 1) {
         s->sample = fl_alloc(n, sizeof *s->sample, err);
         if (!s->sample) return -1;
-        for (int32_t i = 0; i < n; i++) s->sample[i] = unseen;
+        for (int32_t i = 0; i < n; i++) s->sample[i] = no_sample;
         s->sample_now = 1;
     }
     s->panels = fl_alloc(n, sizeof *s->panels, err);
@@ -49,17 +49,17 @@ int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
     return s->panels && s->water_force && s->water_moment && s->water_work ? 0 : -1;
 }
 
-static void bare_skin(fl_drag_surface *skin)
+static void free_surface(fl_drag_surface *skin)
 {
     fl_facets_free(&skin->facets);
     fl_facet_cut_free(&skin->wet), fl_facet_cut_free(&skin->dry);
 }
 
-static int fit_skin(fl_environment *s, int32_t i, fl_err *err)
+static int fit_surface(fl_environment *s, int32_t i, fl_err *err)
 {
     const fl_hull *h = &s->hull[i];
     fl_drag_surface *skin = &s->drag_surface[i];
-    bare_skin(skin);
+    free_surface(skin);
     if (h->shape->nf == 0) return 0;
     if (fl_facets_make(&skin->facets, h, err)) return -1;
     if (s->water && s->water_drag_law == FL_DRAG_FACET &&
@@ -75,16 +75,16 @@ static int fit_skin(fl_environment *s, int32_t i, fl_err *err)
 
 int fl_environment_fit_hull(fl_environment *s, int32_t i, fl_err *err)
 {
-    if (s->sample) s->sample[i] = unseen;
-    if (s->drag_surface && fit_skin(s, i, err)) return -1;
+    if (s->sample) s->sample[i] = no_sample;
+    if (s->drag_surface && fit_surface(s, i, err)) return -1;
     if (!s->waves) return 0;
     const int32_t want = fl_wave_field_cells(&s->wave, s->drag_radius[i] + s->wave.four_sigma);
-    if (want > MOST_CELLS)
+    if (want > MAX_CELLS)
         return fl_fail(err, FL_INPUT,
                        "water.height, water.period: waves down to %.3g m long that rise by up to %.3g m "
                        "would be seen by "
                        "a floe that reaches %.3g m in more than %d places",
-                       2.0 * PI / s->wave.max_k, s->wave.four_sigma, s->drag_radius[i], MOST_CELLS);
+                       2.0 * PI / s->wave.max_k, s->wave.four_sigma, s->drag_radius[i], MAX_CELLS);
     if (want > s->cells_per_thread) {
         fl_wave_expansion *cells = fl_alloc((int64_t)s->threads * want, sizeof *cells, err);
         if (!cells) return -1;
@@ -129,7 +129,7 @@ void fl_environment_free(fl_environment *s)
     for (int32_t i = 0; i < s->n; i++) {
         if (s->hull) fl_environment_clear_hull(s, i);
         if (s->panels) fl_hull_panels_free(&s->panels[i]);
-        if (s->drag_surface) bare_skin(&s->drag_surface[i]);
+        if (s->drag_surface) free_surface(&s->drag_surface[i]);
     }
     free(s->hull), free(s->drag_radius), free(s->wetted_area), free(s->buoyancy);
     free(s->flow_velocity), free(s->drag_loss), free(s->wind_work);
@@ -141,8 +141,8 @@ void fl_environment_free(fl_environment *s)
 }
 
 /* Velocity of the waves at r from the origin of a body, and the acceleration; world axes. */
-static fl_vec3 orbital(const fl_environment *s, const fl_hull_pose *at, const fl_wave_field *around,
-                       fl_vec3 r, fl_vec3 *acceleration)
+static fl_vec3 orbital_velocity(const fl_environment *s, const fl_hull_pose *at, const fl_wave_field *around,
+                                fl_vec3 r, fl_vec3 *acceleration)
 {
     const double x = at->s + v3_dot(at->along, r), z = at->z + v3_dot(at->up, r),
                  zeta = fl_wave_stretch(&s->wave, z, fl_wave_field_elevation(around, x, NULL));
@@ -153,8 +153,8 @@ static fl_vec3 orbital(const fl_environment *s, const fl_hull_pose *at, const fl
 }
 
 /* How the water goes by at all pieces that are wet. */
-static void look_at_flow(fl_environment *s, const fl_bodies *b, int32_t i, const fl_hull_pose *at,
-                         const fl_wave_field *around)
+static void update_flow(fl_environment *s, const fl_bodies *b, int32_t i, const fl_hull_pose *at,
+                        const fl_wave_field *around)
 {
     const fl_mat3 R = fl_body_axes(b, i);
     fl_facet_cut *wet = &s->drag_surface[i].wet;
@@ -166,7 +166,7 @@ static void look_at_flow(fl_environment *s, const fl_bodies *b, int32_t i, const
                 fl_vec3 u = v3(0, 0, 0), none;
                 if (wet->piece[k].area[l] > 0.0) {
                     u = fl_current_at(&s->current, at->z + v3_dot(at->up, r));
-                    if (around) u = v3_add(u, orbital(s, at, around, r, &none));
+                    if (around) u = v3_add(u, orbital_velocity(s, at, around, r, &none));
                     u = fl_facet_group_to_local(f, l, m3_tmul(R, v3_sub(u, fl_environment_flow(s, i))));
                 }
                 wet->flow[k].u[0][l] = u.x, wet->flow[k].u[1][l] = u.y, wet->flow[k].u[2][l] = u.z;
@@ -174,29 +174,29 @@ static void look_at_flow(fl_environment *s, const fl_bodies *b, int32_t i, const
 }
 
 /* Where the surface of body i is wet and dry, and how the water goes by there; around: NULL without waves. */
-static void look_at_skin(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
-                         const fl_hull_pose *at, const fl_wave_field *around)
+static void update_surface(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
+                           const fl_hull_pose *at, const fl_wave_field *around)
 {
     const fl_hull *h = &s->hull[i];
     fl_drag_surface *skin = &s->drag_surface[i];
     if (skin->dry.group) fl_facet_cut_update(&skin->dry, &skin->facets, h, up, level);
     if (!skin->wet.group) return;
     fl_facet_cut_update(&skin->wet, &skin->facets, h, up, level);
-    if (skin->wet.flow) look_at_flow(s, b, i, at, around);
+    if (skin->wet.flow) update_flow(s, b, i, at, around);
 }
 
 void fl_environment_update_surface(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level)
 {
     const fl_hull_pose at = {.up = up, .z = -level};
-    look_at_skin(s, b, i, up, level, &at, NULL);
+    update_surface(s, b, i, up, level, &at, NULL);
 }
 
 /* e_z of the world in the frame of a body with these axes. */
-static fl_vec3 upward(fl_mat3 R) { return v3(R.m[2][0], R.m[2][1], R.m[2][2]); }
+static fl_vec3 vertical_of(fl_mat3 R) { return v3(R.m[2][0], R.m[2][1], R.m[2][2]); }
 
 /* What is below still water; one that is wholly dry or wet by far is told by its reach alone.  up is
  * transpose(R) e_z. */
-static fl_submerged wet_of(const fl_environment *s, int32_t i, fl_vec3 up, double level)
+static fl_submerged submerged_of(const fl_environment *s, int32_t i, fl_vec3 up, double level)
 {
     const fl_hull *h = &s->hull[i];
     fl_submerged wet = {0};
@@ -208,20 +208,20 @@ static fl_submerged wet_of(const fl_environment *s, int32_t i, fl_vec3 up, doubl
 
 double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_t i)
 {
-    const fl_vec3 up = upward(fl_body_axes(b, i));
+    const fl_vec3 up = vertical_of(fl_body_axes(b, i));
     const double level = s->level - b->x[i].z;
-    const fl_submerged wet = wet_of(s, i, up, level);
+    const fl_submerged wet = submerged_of(s, i, up, level);
     fl_vec3 f, turn;
     return fl_buoyancy_force(&wet, up, level, s->specific_weight, &f, &turn);
 }
 
 /* Still water as it meets body i: force and moment about its centre, world axes. */
-static void look_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+static void evaluate_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_mat3 R = fl_body_axes(b, i);
-    const fl_vec3 up = upward(R);
+    const fl_vec3 up = vertical_of(R);
     const double level = s->level - b->x[i].z;
-    const fl_submerged wet = wet_of(s, i, up, level);
+    const fl_submerged wet = submerged_of(s, i, up, level);
     fl_vec3 turn;
     s->wetted_area[i] = wet.wetted_area;
     fl_buoyancy_force(&wet, up, level, s->specific_weight, f, &turn);
@@ -237,7 +237,7 @@ double fl_environment_omega2(const fl_environment *s, const fl_bodies *b, int32_
 {
     const fl_hull *h = &s->hull[i];
     const fl_mat3 R = fl_body_axes(b, i);
-    const fl_vec3 up = upward(R), none = v3(0, 0, 0);
+    const fl_vec3 up = vertical_of(R), none = v3(0, 0, 0);
     const fl_mobility yields = fl_body_mobility(b, i);
     fl_submerged wet;
     fl_hull_submerged(h, up, 0.0, &wet);
@@ -259,7 +259,7 @@ double fl_environment_omega2(const fl_environment *s, const fl_bodies *b, int32_
 }
 
 /* How far body i reaches along a direction of its own axes. */
-static void extent(const fl_environment *s, int32_t i, fl_vec3 d, double *lo, double *hi)
+static void extent_along(const fl_environment *s, int32_t i, fl_vec3 d, double *lo, double *hi)
 {
     const fl_poly *p = s->hull[i].shape;
     const double r = s->hull[i].radius;
@@ -276,8 +276,8 @@ static void extent(const fl_environment *s, int32_t i, fl_vec3 d, double *lo, do
 /* The plane that lies nearest to the wave along a body whose origin is at s. */
 static void fit_plane(const fl_wave_field *a, double s, double *z, double *slope)
 {
-    const int n = PLACES * a->columns;
-    const double all = n, step = a->width / PLACES, spread = all * (all * all - 1.0) / 12.0 * step * step,
+    const int n = FIT_POINTS * a->columns;
+    const double all = n, step = a->width / FIT_POINTS, spread = all * (all * all - 1.0) / 12.0 * step * step,
                  middle = a->s0 + 0.5 * all * step; /* spread: the sum of off^2 */
     double sum = 0.0, tilt = 0.0;
     for (int k = 0; k < n; k++) {
@@ -290,13 +290,13 @@ static void fit_plane(const fl_wave_field *a, double s, double *z, double *slope
 }
 
 /* Buoyancy of body i where the water is a plane, z over still water at the body's origin; world axes. */
-static void float_on(const fl_environment *s, const fl_bodies *b, int32_t i, double z, double slope,
-                     fl_vec3 *f, fl_vec3 *t)
+static void buoyancy_on_plane(const fl_environment *s, const fl_bodies *b, int32_t i, double z, double slope,
+                              fl_vec3 *f, fl_vec3 *t)
 {
     const fl_mat3 R = fl_body_axes(b, i);
     const double c = 1.0 / sqrt(1.0 + slope * slope), level = c * (z + s->level - b->x[i].z);
-    const fl_vec3 up = v3_scale(c, v3_madd(upward(R), -slope, m3_tmul(R, s->wave.direction)));
-    const fl_submerged wet = wet_of(s, i, up, level);
+    const fl_vec3 up = v3_scale(c, v3_madd(vertical_of(R), -slope, m3_tmul(R, s->wave.direction)));
+    const fl_submerged wet = submerged_of(s, i, up, level);
     fl_vec3 force, turn;
     fl_buoyancy_force(&wet, up, level, s->specific_weight / c, &force,
                       &turn); /* the pressure grows downwards */
@@ -305,7 +305,7 @@ static void float_on(const fl_environment *s, const fl_bodies *b, int32_t i, dou
 }
 
 /* The plane about body i, at s, as it is now, and how it went on from the look before. */
-static void hold_plane(fl_environment *s, int32_t i, const fl_wave_field *around, double at)
+static void update_plane(fl_environment *s, int32_t i, const fl_wave_field *around, double at)
 {
     fl_wave_sample *h = &s->sample[i];
     const double past = s->time - h->when, z = h->z, slope = h->slope;
@@ -316,11 +316,11 @@ static void hold_plane(fl_environment *s, int32_t i, const fl_wave_field *around
 }
 
 /* A sea with waves as it meets body i. */
-static void look_wavy(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+static void evaluate_waves(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_waves *w = &s->wave;
     const fl_mat3 R = fl_body_axes(b, i);
-    const fl_hull_pose at = {.up = upward(R),
+    const fl_hull_pose at = {.up = vertical_of(R),
                              .along = m3_tmul(R, w->direction),
                              .s = v3_dot(w->direction, b->x[i]),
                              .z = b->x[i].z - s->level};
@@ -331,12 +331,12 @@ static void look_wavy(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl
     *f = *t = v3(0, 0, 0);
     if (meets || s->sample) {
         double s_lo, s_hi, z_lo, z_hi;
-        extent(s, i, at.along, &s_lo, &s_hi);
-        extent(s, i, at.up, &z_lo, &z_hi);
+        extent_along(s, i, at.along, &s_lo, &s_hi);
+        extent_along(s, i, at.up, &z_lo, &z_hi);
         fl_wave_field_fill(w, at.s + s_lo, at.s + s_hi, at.z + z_lo - w->four_sigma,
                            at.z + z_hi + w->four_sigma, s->time,
                            s->cells + (int64_t)omp_get_thread_num() * s->cells_per_thread, &around);
-        if (s->sample) hold_plane(s, i, &around, at.s);
+        if (s->sample) update_plane(s, i, &around, at.s);
         if (meets && h->shape->nf)
             fl_froude_krylov_solid(&s->panels[i], h, w, &around, &at, s->specific_weight, &p);
         else if (meets) fl_froude_krylov_round(h, w, &around, &at, s->specific_weight, &p);
@@ -347,16 +347,16 @@ static void look_wavy(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl
     if (p.volume > 0.0) {
         fl_vec3 a, up;
         double level;
-        s->flow_velocity[i] = v3_add(s->flow_velocity[i], orbital(s, &at, &around, p.centre, &a));
+        s->flow_velocity[i] = v3_add(s->flow_velocity[i], orbital_velocity(s, &at, &around, p.centre, &a));
         *f = m3_mul(R, p.force);
         *t = m3_mul(R, p.moment);
         if (b->added_mass) *f = v3_add(*f, m3_mul(R, v3_mul(b->added_mass[i], m3_tmul(R, a))));
         if (s->drag_surface) {
             fl_wave_field_plane(&around, &at, &up, &level);
-            look_at_skin(s, b, i, up, level, &at, &around);
+            update_surface(s, b, i, up, level, &at, &around);
         }
     } else if (s->drag_surface) {
-        look_at_skin(s, b, i, at.up, -INFINITY, &at, NULL);
+        update_surface(s, b, i, at.up, -INFINITY, &at, NULL);
     }
     if (b->added_mass) b->flow_velocity[i] = s->flow_velocity[i];
     s->water_force[i] = *f;
@@ -364,41 +364,41 @@ static void look_wavy(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl
 }
 
 /* From then to now. */
-static fl_vec3 change(fl_vec3 now, fl_vec3 then, double past)
+static fl_vec3 rate_of_change(fl_vec3 now, fl_vec3 then, double past)
 {
     return v3_scale(1.0 / past, v3_sub(now, then));
 }
 
 /* What of it the plane does not tell. */
-static void hold(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 f, fl_vec3 t)
+static void store_sample(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 f, fl_vec3 t)
 {
     fl_wave_sample *h = &s->sample[i];
     const double past = s->time - h->when;
     fl_vec3 force, turn;
-    float_on(s, b, i, h->z, h->slope, &force, &turn);
+    buoyancy_on_plane(s, b, i, h->z, h->slope, &force, &turn);
     f = v3_sub(f, force), t = v3_sub(t, turn);
     if (past > 0.0) {
-        h->df = change(f, h->f, past);
-        h->dt = change(t, h->t, past);
-        h->dflow = change(s->flow_velocity[i], h->flow, past);
+        h->df = rate_of_change(f, h->f, past);
+        h->dt = rate_of_change(t, h->t, past);
+        h->dflow = rate_of_change(s->flow_velocity[i], h->flow, past);
     }
     h->f = f, h->t = t, h->flow = s->flow_velocity[i];
     h->x = b->x[i], h->q = b->q[i], h->when = s->time;
 }
 
-static void look(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+static void evaluate_water(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
-    if (s->waves) look_wavy(s, b, i, f, t);
-    else look_still(s, b, i, f, t);
-    if (s->sample) hold(s, b, i, *f, *t);
+    if (s->waves) evaluate_waves(s, b, i, f, t);
+    else evaluate_still(s, b, i, f, t);
+    if (s->sample) store_sample(s, b, i, *f, *t);
 }
 
 /* What there would be to see by now. */
-static void go_on(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+static void extrapolate_sample(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_wave_sample *h = &s->sample[i];
     const double past = s->time - h->when;
-    float_on(s, b, i, h->z + past * h->dz, h->slope + past * h->dslope, f, t);
+    buoyancy_on_plane(s, b, i, h->z + past * h->dz, h->slope + past * h->dslope, f, t);
     *f = v3_add(*f, v3_madd(h->f, past, h->df));
     *t = v3_add(*t, v3_madd(h->t, past, h->dt));
     s->flow_velocity[i] = v3_madd(h->flow, past, h->dflow);
@@ -409,8 +409,8 @@ static void go_on(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec
 void fl_environment_force(fl_environment *s, fl_bodies *b, int32_t i)
 {
     fl_vec3 f, t;
-    if (s->sample && !s->sample_now) go_on(s, b, i, &f, &t);
-    else look(s, b, i, &f, &t);
+    if (s->sample && !s->sample_now) extrapolate_sample(s, b, i, &f, &t);
+    else evaluate_water(s, b, i, &f, &t);
     b->f[i] = v3_add(b->f[i], f);
     b->t[i] = v3_add(b->t[i], t);
 }
@@ -420,16 +420,17 @@ void fl_environment_refresh(fl_environment *s, fl_bodies *b, int32_t i)
     fl_vec3 f, t;
     if (!s->water) return;
     if (!s->sample) {
-        look(s, b, i, &f, &t);
+        evaluate_water(s, b, i, &f, &t);
         return;
     }
     const fl_vec3 x = b->x[i];
     const fl_quat q = b->q[i];
     const double now = s->time;
     b->x[i] = s->sample[i].x, b->q[i] = s->sample[i].q, s->time = s->sample[i].when;
-    look(s, b, i, &f, &t);
+    evaluate_water(s, b, i, &f, &t);
     b->x[i] = x, b->q[i] = q, s->time = now;
-    if (now > s->sample[i].when) go_on(s, b, i, &f, &t); /* else it was a look, which nothing is added to */
+    if (now > s->sample[i].when)
+        extrapolate_sample(s, b, i, &f, &t); /* else it was a look, which nothing is added to */
 }
 
 void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0,
@@ -441,8 +442,8 @@ void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, d
 }
 
 /* Decay of body i in a fluid that goes by with velocity c; returns the work done on the body. */
-static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach, fl_vec3 c,
-                    double h)
+static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach,
+                             fl_vec3 c, double h)
 {
     const double before = fl_body_kinetic_energy(b, i) - b->work_of_constraints[i];
     const fl_vec3 u = v3_sub(b->v[i], c), v0 = b->v[i], w0 = b->w[i];
@@ -473,7 +474,7 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
 }
 
 /* The same facet by facet. */
-static double decay_of_facets(fl_bodies *b, int32_t i, const fl_facet_cut *of, fl_facet_drag_law law,
+static double decay_by_facets(fl_bodies *b, int32_t i, const fl_facet_cut *of, fl_facet_drag_law law,
                               fl_vec3 c, double h)
 {
     const double before = fl_body_kinetic_energy(b, i) - b->work_of_constraints[i], m = b->m[i];
@@ -488,31 +489,31 @@ static double decay_of_facets(fl_bodies *b, int32_t i, const fl_facet_cut *of, f
     return fl_body_kinetic_energy(b, i) - b->work_of_constraints[i] - before;
 }
 
-static void drag_of_water(fl_environment *s, fl_bodies *b, int32_t i, double h)
+static void apply_water_drag(fl_environment *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->water || s->wetted_area[i] <= 0.0) return;
     if (s->drag_surface && s->drag_surface[i].wet.group)
-        s->drag_loss[i] -= decay_of_facets(b, i, &s->drag_surface[i].wet, fl_environment_water_law(s),
+        s->drag_loss[i] -= decay_by_facets(b, i, &s->drag_surface[i].wet, fl_environment_water_law(s),
                                            fl_environment_flow(s, i), h);
     else
-        s->drag_loss[i] -=
-            decay(b, i, &s->seawater, s->wetted_area[i], s->drag_radius[i], fl_environment_flow(s, i), h);
+        s->drag_loss[i] -= decay_velocity(b, i, &s->seawater, s->wetted_area[i], s->drag_radius[i],
+                                          fl_environment_flow(s, i), h);
 }
 
-static void drag_of_wind(fl_environment *s, fl_bodies *b, int32_t i, double h)
+static void apply_wind_drag(fl_environment *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->wind) return;
     const double dry = s->hull[i].surface_area - (s->water ? s->wetted_area[i] : 0.0);
     if (!(dry > 0.0)) return;
     if (s->drag_surface && s->drag_surface[i].dry.group)
         s->wind_work[i] +=
-            decay_of_facets(b, i, &s->drag_surface[i].dry, fl_environment_wind_law(s), s->wind_velocity, h);
-    else s->wind_work[i] += decay(b, i, &s->air, dry, s->drag_radius[i], s->wind_velocity, h);
+            decay_by_facets(b, i, &s->drag_surface[i].dry, fl_environment_wind_law(s), s->wind_velocity, h);
+    else s->wind_work[i] += decay_velocity(b, i, &s->air, dry, s->drag_radius[i], s->wind_velocity, h);
 }
 
 void fl_environment_drag(fl_environment *s, fl_bodies *b, int32_t i, double h, int back)
 {
-    if (back) drag_of_wind(s, b, i, h);
-    drag_of_water(s, b, i, h);
-    if (!back) drag_of_wind(s, b, i, h);
+    if (back) apply_wind_drag(s, b, i, h);
+    apply_water_drag(s, b, i, h);
+    if (!back) apply_wind_drag(s, b, i, h);
 }

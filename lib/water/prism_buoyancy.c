@@ -3,13 +3,13 @@
 #include "water/buoyancy.h"
 #include "water/prism_buoyancy.h"
 
-#define SAME 1e-12 /* of the size, and of a radian */
+#define PRISM_TOL 1e-12 /* of the size, and of a radian */
 
 /* Length of the edges along e if every vertex ends just one, all of them are as long and from one plane at
  * right angles to e to another; 0 if not.  *low: e.x of the lower plane. */
-static double long_edges(const fl_poly *p, fl_vec3 e, double *low)
+static double long_edge_length(const fl_poly *p, fl_vec3 e, double *low)
 {
-    const double same = SAME * p->size;
+    const double same = PRISM_TOL * p->size;
     double length = 0.0;
     int32_t n = 0;
     *low = INFINITY;
@@ -30,11 +30,11 @@ static double long_edges(const fl_poly *p, fl_vec3 e, double *low)
 }
 
 /* The cap that looks along e; -1 when there is none, or it is in several faces. */
-static int32_t cap(const fl_poly *p, fl_vec3 e)
+static int32_t find_cap(const fl_poly *p, fl_vec3 e)
 {
     int32_t found = -1;
     for (int32_t f = 0; f < p->nf; f++) {
-        if (v3_norm(v3_sub(p->n[f], e)) > SAME) continue;
+        if (v3_norm(v3_sub(p->n[f], e)) > PRISM_TOL) continue;
         if (found >= 0) return -1;
         found = f;
     }
@@ -42,7 +42,7 @@ static int32_t cap(const fl_poly *p, fl_vec3 e)
 }
 
 /* The cross-section, from cap f. */
-static void section(fl_prism *q, const fl_poly *p, int32_t f)
+static void set_section(fl_prism *q, const fl_poly *p, int32_t f)
 {
     const int32_t *loop = p->loop + p->first[f], n = p->first[f + 1] - p->first[f];
     const fl_vec3 hub = p->v[loop[0]], b = v3_cross(q->e, q->a);
@@ -85,14 +85,14 @@ void fl_prism_of(fl_prism *out, const fl_poly *p)
     for (int32_t k = p->neighbour_first[0]; k < p->neighbour_first[1]; k++) {
         const fl_vec3 e = v3_unit(v3_sub(p->v[p->neighbour[k]], p->v[0]));
         double low;
-        const double length = long_edges(p, e, &low);
-        const int32_t top = cap(p, e), bottom = cap(p, v3_neg(e));
+        const double length = long_edge_length(p, e, &low);
+        const int32_t top = find_cap(p, e), bottom = find_cap(p, v3_neg(e));
         if (!(length > 0.0) || length >= best || top < 0 || bottom < 0) continue;
         best = length;
         *out = (fl_prism){.e = p->n[top], .z0 = low, .z1 = low + length};
         const fl_vec3 x = fabs(e.x) < 0.6 ? v3(1, 0, 0) : v3(0, 1, 0);
         out->a = v3_unit(v3_cross(out->e, x));
-        section(out, p, top);
+        set_section(out, p, top);
     }
 }
 
