@@ -28,7 +28,8 @@ int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
                   {&b->odometer, sizeof *b->odometer}};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
         void *p =
-            fl_alloc((int64_t)total + 1, arrays[k].size, err); /* four numbers of the last x are there */
+            /* +1: SIMD loads of the last x read four numbers */
+            fl_alloc((int64_t)total + 1, arrays[k].size, err);
         if (!p) {
             fl_bodies_free(b);
             return -1;

@@ -11,7 +11,7 @@ static fl_vec3 pack_one(const double (*from)[FL_BODY_BATCH], int32_t k)
     return v3(from[0][k], from[1][k], from[2][k]);
 }
 
-/* q_matrix() */
+/* q_matrix() on lanes. */
 FL_SIMD_VERSIONS void fl_body_batch_update_axes(fl_body_batch *restrict s)
 {
 #pragma omp simd
@@ -207,7 +207,7 @@ FL_SIMD_VERSIONS void fl_body_batch_kick_momentum(fl_body_batch *restrict s)
     }
 }
 
-/* What a force gives to v in h seconds.  a: NULL, or what moves along. */
+/* Change of v by the force in h seconds. a: NULL without added mass. */
 FL_SIMD_INLINE fl_vec3 velocity_gain(const fl_body_batch *s, const fl_body_batch_water *a, int32_t i)
 {
     const double h = s->h[i];
@@ -283,7 +283,13 @@ void fl_body_batch_velocity_change(const fl_body_batch *s, const fl_body_batch_w
     else changes_free(s, g);
 }
 
-/* The square of the farthest that one of them turns in its step with these L, at most. */
+/* Margin of max_turn2() over the angles that the three rotations compute.  In exact arithmetic none of them is
+ * larger.  Each is some 30 operations away from the bound and q is normal to rounding, so that they may exceed
+ * it by 30 * 2^-53 = 3e-15 of itself.  1e-9 is far above that, and moves the choice of series by no more than
+ * that part. */
+#define ROUNDING_MARGIN 1e-9
+
+/* Upper bound of the squared angle [rad2] that any body turns in its step at the angular momenta L. */
 FL_SIMD_VERSIONS static double max_turn2(const fl_body_batch *restrict s, double (*restrict L)[FL_BODY_BATCH])
 {
     double most = 0.0;
@@ -301,7 +307,7 @@ FL_SIMD_VERSIONS static double max_turn2(const fl_body_batch *restrict s, double
 static inline double versine_of(double x2, int small) { return small ? q_versine_small(x2) : q_versine(x2); }
 static inline double sinc_of(double x2, int small) { return small ? q_sinc_small(x2) : q_sinc(x2); }
 
-/* Straight on for dt seconds. */
+/* Moves body i straight on for dt seconds. */
 FL_SIMD_INLINE void advance_position(fl_body_batch *s, int32_t i, double dt)
 {
     const double vx = s->v[0][i], vy = s->v[1][i], vz = s->v[2][i];
@@ -311,12 +317,12 @@ FL_SIMD_INLINE void advance_position(fl_body_batch *s, int32_t i, double dt)
     s->odometer[i] += fabs(dt) * sqrt(vx * vx + vy * vy + vz * vz);
 }
 
-/* fl_drift() with fl_drift_rotation() and its three turns written out, in loops of their own: what a turn is
- * depends on the one before, so that the time of a loop with all of them would be that of waiting.  few: none
- * is farther than Q_HALF_ANGLE2_SMALL.
+/* fl_drift(): the three rotations of fl_drift_rotation(), each in its own loop. A rotation depends on the one
+ * before it, so one loop over all of them would wait on latency. small: no half angle squared exceeds
+ * Q_HALF_ANGLE2_SMALL.
  *
- * Straight on, where that is not done apart from it, and about the first axis: from from[] to q.  w is its
- * share in the spin. */
+ * First rotation, about axis 0. straight: translate as well. from: q before it. w: its share of the mean
+ * angular velocity. */
 FL_SIMD_INLINE void turn_first_axis(fl_body_batch *restrict s, int small, int straight,
                                     double (*restrict from)[FL_BODY_BATCH])
 {
@@ -338,7 +344,7 @@ FL_SIMD_INLINE void turn_first_axis(fl_body_batch *restrict s, int small, int st
     }
 }
 
-/* As a symmetric top: about the third axis, then about L.  top: of the spin. */
+/* Symmetric top: rotation about axis 2, then about L. top: its share of the mean angular velocity. */
 FL_SIMD_INLINE void turn_symmetric_top(fl_body_batch *restrict s, int small,
                                        double (*restrict top)[FL_BODY_BATCH])
 {
@@ -368,7 +374,7 @@ FL_SIMD_INLINE void turn_symmetric_top(fl_body_batch *restrict s, int small,
     }
 }
 
-/* About the first axis again; one without momentum stays as it is, to the bit. */
+/* Axis 0 again. A body without angular momentum keeps its q, to the bit. */
 FL_SIMD_INLINE void turn_last_axis(fl_body_batch *restrict s, int small,
                                    double (*restrict from)[FL_BODY_BATCH],
                                    double (*restrict top)[FL_BODY_BATCH])
@@ -420,7 +426,7 @@ FL_SIMD_VERSIONS static void drift_large(fl_body_batch *restrict s) { drift_lane
 FL_SIMD_VERSIONS static void turn_small(fl_body_batch *restrict s) { drift_lanes(s, 1, 0); }
 FL_SIMD_VERSIONS static void turn_large(fl_body_batch *restrict s) { drift_lanes(s, 0, 0); }
 
-/* drift_with_water() of integrate.c: half of the way straight on, the turn, the other half. */
+/* drift_with_water() of integrate.c: half the translation, the rotation, the other half. */
 typedef struct {
     _Alignas(64) double P[3][FL_BODY_BATCH], L[3][FL_BODY_BATCH], carried[FL_BODY_BATCH];
 } half_drift;
@@ -432,7 +438,7 @@ FL_SIMD_INLINE double flow_energy(fl_rows3 R, fl_vec3 added, fl_vec3 U)
     return 0.5 * v3_dot(u, v3_mul(added, u));
 }
 
-/* P, L after the first half, and what is carried before it. */
+/* P, L after the first half, and the flow energy before it. */
 FL_SIMD_VERSIONS static void begin_water_drift(const fl_body_batch *restrict s,
                                                const fl_body_batch_water *restrict a, half_drift *restrict to)
 {
@@ -457,7 +463,7 @@ FL_SIMD_VERSIONS static void advance_half(fl_body_batch *restrict s, const half_
     }
 }
 
-/* The other half, with R of where they have turned to. */
+/* The other half, with R after the rotation. */
 FL_SIMD_VERSIONS static void finish_water_drift(fl_body_batch *restrict s, fl_body_batch_water *restrict a,
                                                 const half_drift *restrict to)
 {
@@ -479,7 +485,7 @@ static int drift_with_water(fl_body_batch *s, fl_body_batch_water *a)
 {
     half_drift to;
     begin_water_drift(s, a, &to);
-    const double most = 0.25 * (1.0 + 1e-9) * max_turn2(s, to.L);
+    const double most = 0.25 * (1.0 + ROUNDING_MARGIN) * max_turn2(s, to.L);
     if (!(most <= Q_HALF_ANGLE2_MAX)) return 0;
     advance_half(s, &to);
     if (most <= Q_HALF_ANGLE2_SMALL) turn_small(s);
@@ -492,7 +498,7 @@ static int drift_with_water(fl_body_batch *s, fl_body_batch_water *a)
 int fl_body_batch_drift(fl_body_batch *s, fl_body_batch_water *a)
 {
     if (a) return drift_with_water(s, a);
-    const double most = 0.25 * (1.0 + 1e-9) * max_turn2(s, s->L);
+    const double most = 0.25 * (1.0 + ROUNDING_MARGIN) * max_turn2(s, s->L);
     if (!(most <= Q_HALF_ANGLE2_MAX)) return 0;
     if (most <= Q_HALF_ANGLE2_SMALL) drift_small(s);
     else drift_large(s);

@@ -2,7 +2,7 @@
 #include "base/simd.h"
 #include "body/integrate.h"
 
-/* Rounding alone moves |q| from 1: one Newton step for 1/sqrt(|q|^2) takes it back. */
+/* Only rounding moves |q| from 1: one Newton step for 1/sqrt(|q|^2) removes it. */
 static fl_quat normalise(fl_quat q)
 {
     const double s = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
@@ -39,7 +39,7 @@ void fl_kick(fl_bodies *b, int32_t i, double h)
     if (b->fixed_dof[i]) fl_body_apply_fixed_dof(b, i, v0, w0);
 }
 
-/* Solve the k x k system a x = y, k <= 3, a symmetric and positive definite (Cholesky). */
+/* Solves the k x k system a x = y, k <= 3, with a symmetric and positive definite (Cholesky). */
 static void solve_spd(int k, double a[3][3], const double *y, double *x)
 {
     for (int i = 0; i < k; i++) {
@@ -60,8 +60,8 @@ static void solve_spd(int k, double a[3][3], const double *y, double *x)
     }
 }
 
-/* The vector u whose held components are those given and whose free ones have the momentum Y = A u, where A
- * has the diagonal `diag` in the axes of R.  hold: bit r for the world's axis r. */
+/* The vector u with the given fixed components whose free components satisfy Y = A u; A is `diag` in the axes
+ * of R. hold: bit r fixes world axis r. */
 static fl_vec3 solve_free_dof(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3 given, fl_vec3 Y)
 {
     double A[3][3], a[3][3], y[3], s[3], u[3];
@@ -85,14 +85,14 @@ static fl_vec3 solve_free_dof(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_
     return v3(u[0], u[1], u[2]);
 }
 
-/* The turning part: w of the held axes given, of the free ones from what is left of L. */
+/* Sets the fixed components of w as given, and the free ones from L. */
 static void apply_fixed_rotation(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
 {
     const fl_mat3 R = fl_body_axes(b, i);
     fl_body_set_spin(b, i, solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, w_held, b->L[i]));
 }
 
-/* The velocity of body i that has the momentum P, but for what is held. */
+/* Velocity of body i at momentum P, with its fixed components as given. */
 static fl_vec3 velocity_with_fixed_dof(const fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 P)
 {
     const unsigned hold = b->fixed_dof[i] & (FL_DOF_X | FL_DOF_Y | FL_DOF_Z);
@@ -102,23 +102,23 @@ static fl_vec3 velocity_with_fixed_dof(const fl_bodies *b, int32_t i, fl_vec3 v_
     return solve_free_dof(&R, v3_add(m, b->added_mass[i]), hold, v_held, P);
 }
 
-/* Work of an impulse of what holds: only along the held axes is it one, beyond rounding. */
+/* Work of a constraint impulse. It acts along fixed axes only; other components are rounding. */
 static double linear_constraint_work(unsigned hold, fl_vec3 impulse, fl_vec3 v)
 {
     return (hold & FL_DOF_X ? impulse.x * v.x : 0.0) + (hold & FL_DOF_Y ? impulse.y * v.y : 0.0) +
            (hold & FL_DOF_Z ? impulse.z * v.z : 0.0);
 }
 
-/* Work of a turning impulse of what holds: only along the held axes is it one, beyond rounding. */
+/* Work of an angular constraint impulse. It acts about fixed axes only; other components are rounding. */
 static double angular_constraint_work(unsigned hold, fl_vec3 impulse, fl_vec3 w)
 {
     return (hold & FL_DOF_RX ? impulse.x * w.x : 0.0) + (hold & FL_DOF_RY ? impulse.y * w.y : 0.0) +
            (hold & FL_DOF_RZ ? impulse.z * w.z : 0.0);
 }
 
-/* What holds a turn acts between kicks too: with products of inertia, turning about one axis takes a torque
- * about the others.  It has no component along the free axes, so L keeps its free components and w its held
- * ones.  By the midpoint, order 2. */
+/* A constraint of rotation acts between kicks too: with products of inertia, rotation about one axis needs a
+ * torque about the others. It has no component about the free axes, so L keeps its free components and w its
+ * fixed ones. Midpoint rule, order 2. */
 static void drift_fixed_rotation(fl_bodies *b, int32_t i, double dt)
 {
     const unsigned hold = b->fixed_dof[i];
@@ -132,8 +132,8 @@ static void drift_fixed_rotation(fl_bodies *b, int32_t i, double dt)
     b->work_of_constraints[i] += angular_constraint_work(hold, v3_sub(b->L[i], L), w);
 }
 
-/* How far a step from q to r takes a point at distance 1 at most: the chord 2 sin(angle/2).  |w| dt would not
- * do, for w changes on the way. */
+/* Largest path of a point at distance 1 in the rotation from q to r: the chord 2 sin(angle/2). |w| dt is no
+ * bound, since w changes within the step. */
 static double chord_of_turn(fl_quat q, fl_quat r)
 {
     const fl_quat d = q_mul(r, q_conj(q));
@@ -150,7 +150,7 @@ static void drift_rotation(fl_bodies *b, int32_t i, double dt)
     }
     if (held) {
         drift_fixed_rotation(b, i, dt);
-    } else if (b->is_isotropic[i]) { /* turns about L for ever, and nothing of it moves by that */
+    } else if (b->is_isotropic[i]) { /* it turns about L, and no point of its core moves by that */
         b->q[i] = normalise(q_mul(q_of_vector(v3_scale(dt * b->invI[i].x, b->L[i])), q));
         return;
     } else {
@@ -159,8 +159,7 @@ static void drift_rotation(fl_bodies *b, int32_t i, double dt)
     b->odometer[i] += chord_of_turn(q, b->q[i]) * b->bounding_radius[i];
 }
 
-/* Half a step straight on, with the moment of the water on a body that goes askew; P goes with the speed u
- * through it. */
+/* Half a translation, with Munk's moment; P is the momentum of the velocity u through the water. */
 static void translate_with_water(fl_bodies *b, int32_t i, double h, fl_vec3 P)
 {
     const unsigned hold = b->fixed_dof[i];
@@ -233,9 +232,9 @@ void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *t
     *turn = solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, rest, b->t[i]);
 }
 
-/* --- balls, several at a time ------------------------------------------------------------------ */
+/* --- isotropic bodies, four at a time ---------------------------------------------------------- */
 
-/* From the first of them on. */
+/* Arrays from the first body of the run on. */
 typedef struct {
     const double *invm;
     const fl_vec3 *invI, *f, *t;
@@ -246,7 +245,7 @@ typedef struct {
 
 #define NORM2(a) (a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 
-/* q_versine() and q_sinc() of four. */
+/* q_versine() and q_sinc() of four lanes. */
 FL_SIMD_INLINE void versine_and_sinc(const fl_simd *x2, fl_simd *versine, fl_simd *sinc)
 {
     const fl_simd x = *x2, v = x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720))),
@@ -264,8 +263,8 @@ FL_SIMD_INLINE void versine_and_sinc(const fl_simd *x2, fl_simd *versine, fl_sim
     *versine = FL_SIMD_SELECT(few, v, cosine), *sinc = FL_SIMD_SELECT(few, f, sine);
 }
 
-/* Kick and drift of the four from the k-th on; whether they did turn: by more than the series is for they do
- * not. */
+/* Kick and drift of the four bodies from k on. Returns 0, without the drift, if one turns beyond the range of
+ * the series. */
 FL_SIMD_INLINE int kick_drift_four(const isotropic_run *a, int32_t k, double h, double dt)
 {
     const fl_simd s = h * FL_SIMD_LOAD(&a->invm[k]);
@@ -315,8 +314,8 @@ FL_SIMD_INLINE int kick_drift_four(const isotropic_run *a, int32_t k, double h, 
     return 1;
 }
 
-/* The first of n, a multiple of four, that do not turn as the others do, or n; up to it all are done, and its
- * four are kicked. */
+/* Runs until four bodies turn beyond the series: returns the first of those four, kicked and not drifted, or
+ * n. n is a multiple of four. */
 FL_SIMD4_VERSIONS static int32_t kick_drift_run(const isotropic_run *restrict a, int32_t from, int32_t n,
                                                 double h, double dt)
 {
@@ -340,7 +339,7 @@ void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, d
     }
 }
 
-/* u for Y by solve_free() with nothing given, as a matrix. */
+/* The matrix from Y to u of solve_free_dof() with the fixed components zero. */
 static fl_sym3 free_inverse(const fl_mat3 *R, fl_vec3 diag, unsigned hold)
 {
     const fl_vec3 none = v3(0, 0, 0), x = solve_free_dof(R, diag, hold, none, v3(1, 0, 0)),
