@@ -44,8 +44,7 @@ typedef struct {
     fl_poly core;  /* in that frame; a plate for plates         */
     int elastic;   /* a plane on springs                        */
     int one_sided; /* a flat sheet that is a shell: what comes from behind feels nothing of it */
-    int32_t
-        inward_triangle; /* a closed shell, a body of which looks inward: 1 + its first triangle; all is solid but
+    int32_tinward_triangle; /* a closed shell, a body of which looks inward: 1 + its first triangle; all is solid but
                        * what that encloses */
     double r0, r1, h; /* cone: between z = 0 and z = h of the frame */
     fl_piece_mesh mesh;

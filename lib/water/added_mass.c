@@ -9,16 +9,20 @@ static double value_or_auto(double asked, double unit, double otherwise)
 
 static double *component_of(fl_vec3 *a, int axis) { return axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z; }
 
-/* The axis nearest to the vertical; of several that are as near but for rounding, the last. */
+/* Inclinations that differ by less than this fraction are equal: far above the rounding of the direction,
+ * 1e-16, and far below any difference that counts. */
+#define AXIS_MARGIN 1e-9
+
+/* The axis nearest to the vertical; among equal ones the last. */
 static int vertical_axis(fl_vec3 up)
 {
     int axis = 2;
     for (int c = 1; c >= 0; c--)
-        if (fabs(*component_of(&up, c)) > (1.0 + 1e-9) * fabs(*component_of(&up, axis))) axis = c;
+        if (fabs(*component_of(&up, c)) > (1.0 + AXIS_MARGIN) * fabs(*component_of(&up, axis))) axis = c;
     return axis;
 }
 
-/* Radius of the disc with the area of the shadow along that axis: half of sum A |n_z|. */
+/* Radius of the disc with the projected area along that axis, half of sum A |n_z|. */
 static double disc_radius(const fl_poly *p, int axis)
 {
     double area = 0.0;
@@ -29,7 +33,7 @@ static double disc_radius(const fl_poly *p, int axis)
     return sqrt(area / PI);
 }
 
-/* Numbers of the two other axes, in their order, and of the one across. */
+/* Puts the numbers of the two axes in the plane, in their order, and that of the axis across in place. */
 static fl_vec3 arrange_axes(int across, fl_vec3 a)
 {
     fl_vec3 out = {0};

@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "water/current.h"
 
-/* No sea goes deeper, and none runs faster [m], [m/s]. */
+/* Bounds of a plausible current: no sea is deeper than 12 km, and none is faster [m], [m/s]. */
 #define MAX_HEIGHT 12000.0
 #define MAX_SPEED 100.0
 
@@ -37,7 +37,7 @@ double fl_current_max_speed(const fl_current *c)
     return most;
 }
 
-/* A row follows the one before it in the direction that the first two have. */
+/* Reads one row. Heights continue in the direction of the first two rows. */
 static int read_row(fl_current *c, int32_t *z_cap, int32_t *u_cap, fl_text *in, fl_err *err)
 {
     double z = 0.0;

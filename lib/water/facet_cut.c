@@ -341,7 +341,7 @@ static void lay_out_prism(fl_facet_cut *s, const fl_facets *k, const fl_poly *p,
 static int cut_prism(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, fl_vec3 up, double level)
 {
     const double ue = k->cap_axis == 0 ? up.x : k->cap_axis == 1 ? up.y : up.z;
-    if (k->cap_axis < 0 || !(fabs(ue) > 0.1)) return 0;
+    if (k->cap_axis < 0 || !(fabs(ue) > FL_PRISM_MIN_UPRIGHT)) return 0;
     const int top = (ue > 0.0) == s->dry;
     const enum fl_facet_cut_state state = top ? FL_FACET_CUT_TOP : FL_FACET_CUT_BOTTOM;
     if (s->state != state) lay_out_prism(s, k, p, state, top ? k->top : k->bottom);

@@ -334,12 +334,12 @@ FL_SIMD_INLINE prism_submerged submerge_lane(const prism_lanes *q, int32_t i, fl
     const int over = along < 0.0; /* turned over: seen along -e */
     const double ue = over ? -along : along, sign = over ? -1.0 : 1.0, z0 = over ? -q->p[Z1][i] : q->p[Z0][i],
                  z1 = over ? -q->p[Z0][i] : q->p[Z1][i];
-    const double per_ue = 1.0 / (ue > 0.1 ? ue : 1.0);
+    const double per_ue = 1.0 / (ue > FL_PRISM_MIN_UPRIGHT ? ue : 1.0);
     const double sa = -per_ue * (ux * ax + uy * ay + uz * az), sb = -per_ue * (ux * bx + uy * by + uz * bz);
     const double zw = per_ue * (level - (ux * ox + uy * oy + uz * oz)), wet0 = zw - z0, dry0 = z1 - zw;
     const double least = wet0 < dry0 ? wet0 : dry0;
-    const int floats = area > 0.0 && ue > 0.1 && level < reach && level > -reach && least > 0.0 &&
-                       least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
+    const int floats = area > 0.0 && ue > FL_PRISM_MIN_UPRIGHT && level < reach && level > -reach &&
+                       least > 0.0 && least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
     const double ja = q->p[JAA][i] * sa + jab * sb, jb = jab * sa + q->p[JBB][i] * sb;
     const double volume = area * wet0, per = 1.0 / (floats ? volume : 1.0);
     const double mz = 0.5 * (area * wet0 * (zw + z0) + sa * ja + sb * jb);
