@@ -6,9 +6,9 @@
 
 static int32_t corners_of(const fl_poly *p, int32_t f) { return p->first[f + 1] - p->first[f]; }
 
-#define AXIS_TOL 1e-12 /* of a radian, as in prism_buoyancy.c */
+#define AXIS_TOL 1e-12 /* of a radian, as PRISM_TOL: the rounding of a normal */
 
-/* The axis of the body that is +-e, or -1. */
+/* The body axis that is +-e, or -1. */
 static int32_t body_axis_of(fl_vec3 e)
 {
     const double a[3] = {fabs(e.x), fabs(e.y), fabs(e.z)};
@@ -17,10 +17,10 @@ static int32_t body_axis_of(fl_vec3 e)
     return -1;
 }
 
-/* That axis, and the next ones. */
+/* Unit vector of body axis k, modulo 3. */
 static fl_vec3 unit_axis(int32_t k) { return v3(k % 3 == 0, k % 3 == 1, k % 3 == 2); }
 
-/* Where faces of p are the sides and caps of a prism, their axes are those of facet_cut.h. */
+/* If the faces of p are the sides and caps of a prism, gives them the axes of facet_cut.h. */
 static void set_prism_axes(fl_facets *k, const fl_poly *p, const fl_prism *q)
 {
     const int32_t axis = q->area > 0.0 ? body_axis_of(q->e) : -1;
@@ -32,7 +32,7 @@ static void set_prism_axes(fl_facets *k, const fl_poly *p, const fl_prism *q)
         if (fabs(up) < 0.5) {
             if (corners_of(p, f) != 4) return;
         } else {
-            if (caps[up > 0.0] >= 0) return; /* it is in two */
+            if (caps[up > 0.0] >= 0) return; /* the cap has two faces */
             caps[up > 0.0] = f;
         }
     }
@@ -68,9 +68,9 @@ void fl_facets_free(fl_facets *k)
     *k = (fl_facets){0};
 }
 
-/* What the water leaves of m corners are m + 1, and m + m/2 where rounding puts every other one of a level
- * face into it; two pieces each.  Fours, at most those of all sides of a prism and one of a cap, have no
- * more rows than as many of the faces with the most corners: of numbers m_f the G largest add up to
+/* A cut leaves at most m + 1 of m corners, or m + m/2 where rounding submerges every other corner of a level
+ * face; each corner has two pieces. The groups, at most all sides of a prism and a cap, need no more pieces
+ * than as many of the faces with the most corners. Of numbers m_f the G largest add up to
  *     sum_{k > 0} min(G, number of m_f >= k). */
 static int32_t max_pieces_of(const fl_poly *p, int32_t fours)
 {
@@ -114,14 +114,13 @@ double fl_facet_cut_bytes(const fl_facet_cut *s)
 
 /* --- facet by facet ---------------------------------------------------------------------------- */
 
-/* Below (sign 1) or above (-1) the plane up.x = level. */
+/* Points below (sign 1) or above (-1) the plane up.x = level. */
 typedef struct {
     fl_vec3 up;
     double level, sign;
 } half_space;
 
-/* A skin that is being filled: the four that is open, its rows, lanes that are taken and how many pieces they
- * have. */
+/* A cut under construction: the open group, its pieces, the lanes in use and the pieces of each. */
 typedef struct {
     fl_facet_cut *s;
     fl_facet_group *four;
@@ -138,7 +137,7 @@ static void set_frame(fl_facet_group *to, int32_t l, fl_vec3 n, fl_vec3 e, fl_ve
     to->x0[l] = to->x1[l] = 0.0;
 }
 
-/* Whatever has been told of no lane, or of no piece, is zero. */
+/* Zeroes unused lanes and pieces, and closes the group. */
 static void close_group(cut_builder *to)
 {
     const fl_vec3 no = v3(0, 0, 0);
@@ -157,7 +156,7 @@ static void close_group(cut_builder *to)
     to->s->groups++;
 }
 
-/* Round face f: the corners of what is left of it, x and y in every other row; returns how many. */
+/* Clips face f: writes its corners x, y to every other piece and returns their number. */
 static int32_t clip_outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, const half_space *part,
                             fl_facet_piece *row, int32_t l)
 {
@@ -183,7 +182,7 @@ static int32_t clip_outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, c
     return n;
 }
 
-/* Of n corners to the pieces of the fan about their centroid, which are as many as are returned. */
+/* Turns n corners into the pieces of the fan about their centroid; returns the number of pieces. */
 static int32_t fan_pieces(fl_facet_piece *row, int32_t l, int32_t n)
 {
     const double ox = row[0].x[l], oy = row[0].y[l];
@@ -212,7 +211,7 @@ static int32_t fan_pieces(fl_facet_piece *row, int32_t l, int32_t n)
     return 2 * n;
 }
 
-/* What is left of face f, in the next lane. */
+/* Adds the clipped face f in the next lane. */
 static void add_face(cut_builder *to, const fl_facets *k, const fl_poly *p, int32_t f, const half_space *part)
 {
     const fl_vec3 e = k->axis[2 * f], g = k->axis[2 * f + 1];
@@ -224,7 +223,7 @@ static void add_face(cut_builder *to, const fl_facets *k, const fl_poly *p, int3
     to->lanes++;
 }
 
-/* The same of a face that takes all lanes that are left. */
+/* Adds the clipped face f over all lanes that are left. */
 static void spread_face(cut_builder *to, const fl_facets *k, const fl_poly *p, int32_t f,
                         const half_space *part)
 {
@@ -275,8 +274,8 @@ FL_SIMD_INLINE void store_piece(fl_facet_piece *row, const fl_simd *area, const 
     FL_SIMD_STORE(row->y) = *y;
 }
 
-/* Four sides: their trapezoids from the cap at y0 on, on the side of sign; 0 where one of their long edges,
- * so long, is not crossed.  Lanes that are zero stand where the origin is, have no width and no area. */
+/* Four sides: their trapezoids from the cap at y0 on, in the direction of sign. Returns 0 if a long edge
+ * (`length`) does not cross the water plane. Zero lanes lie at the origin and have neither width nor area. */
 FL_SIMD_INLINE int cut_sides(const fl_facet_group *f, fl_facet_piece *row, fl_vec3 up, double level,
                              double per, double y0, double sign, double length)
 {
@@ -291,7 +290,8 @@ FL_SIMD_INLINE int cut_sides(const fl_facet_group *f, fl_facet_piece *row, fl_ve
     if (fl_simd_any(&off)) return 0;
     const fl_simd ab = a + b, third = 1.0 / (3.0 * ab);
     const fl_simd x = L * (ab + b) * third, y = (a * ab + b * b) * third, rest = L - x;
-    const fl_simd hx = x0 + x, hy = y0 + y, da = a - y, db = b - y; /* the hub, and the water over it */
+    /* the centroid, and the water line relative to it */
+    const fl_simd hx = x0 + x, hy = y0 + y, da = a - y, db = b - y;
     const double sixth = sign / 6.0;
     const fl_simd low = sixth * (L * y), right = sixth * (b * rest), left = sixth * (a * x),
                   high = sixth * (rest * da + x * db);
@@ -314,7 +314,7 @@ FL_SIMD4_VERSIONS static int cut_all_sides(fl_facet_cut *s, fl_vec3 up, double l
     return 1;
 }
 
-/* Sides one after another, then the cap; the pieces of the sides are still to be told. */
+/* Lays out the sides one after another, then the cap; cut_all_sides() computes the pieces of the sides. */
 static void lay_out_prism(fl_facet_cut *s, const fl_facets *k, const fl_poly *p,
                           enum fl_facet_cut_state state, int32_t cap)
 {
@@ -337,7 +337,7 @@ static void lay_out_prism(fl_facet_cut *s, const fl_facets *k, const fl_poly *p,
     s->cap_axis = k->cap_axis;
 }
 
-/* Returns 0 where some long edge is not crossed. */
+/* Returns 0 if a long edge does not cross the water plane. */
 static int cut_prism(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, fl_vec3 up, double level)
 {
     const double ue = k->cap_axis == 0 ? up.x : k->cap_axis == 1 ? up.y : up.z;

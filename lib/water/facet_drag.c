@@ -14,13 +14,13 @@ FL_SIMD_INLINE void take_square_roots(fl_simd *x)
 
 #define DOT(a, v) (v.x * a[0] + v.y * a[1] + v.z * a[2])
 
-/* Moments of s and of f over the pieces of four facets, and those with U. */
+/* Moments of s and of f over the pieces of four facets, and their moments with U. */
 typedef struct {
     fl_simd s, sx, sy, srr, f, fx, fy, fxx, fxy, fyy;
     fl_simd se, sg, turn, fn, fnx, fny;
 } moments;
 
-/* u0: at the foot of the origin, x = y = 0; w: both along e, g and n.  skin, form: times h. */
+/* u0: velocity at x = y = 0 of the facet; w: angular velocity; both along e, g and n. skin, form: times h. */
 FL_SIMD_INLINE void sum_pieces(moments *to, const fl_facet_piece *row, const fl_facet_flow *flow,
                                int32_t rows, double skin, double form, const fl_simd u0[3],
                                const fl_simd w[3])
@@ -59,10 +59,10 @@ FL_SIMD_INLINE void sum_pieces(moments *to, const fl_facet_piece *row, const fl_
     to->fn = form * m.fn, to->fnx = form * m.fnx, to->fny = form * m.fny;
 }
 
-/* Where a row of the matrix begins. */
+/* First number of row i of the matrix. */
 #define ROW(sum, i) ((sum) + FL_DRAG_MATRIX + (i) * ((i) + 1) / 2)
 
-/* Four facets, into sums of four each.  skin, form: times h. */
+/* Adds four facets to sums of four each. skin, form: times h. */
 FL_SIMD_INLINE void add_group(const fl_facet_group *at, const fl_facet_piece *row, const fl_facet_flow *flow,
                               double skin, double form, fl_vec3 v, fl_vec3 w, fl_simd *sum)
 {
@@ -114,8 +114,7 @@ FL_SIMD_INLINE void add_group(const fl_facet_group *at, const fl_facet_piece *ro
     }
 }
 
-/* The same of sides of a prism that stands along the last axis: n = (a, b, 0), e = (-b, a, 0),
- * g = (0, 0, 1). */
+/* Adds four sides of a prism along the last axis: n = (a, b, 0), e = (-b, a, 0), g = (0, 0, 1). */
 FL_SIMD_INLINE void add_prism_sides(const fl_simd *a, const fl_simd *b, const fl_facet_group *at,
                                     const fl_facet_piece *row, const fl_facet_flow *flow, double skin,
                                     double form, fl_vec3 v, fl_vec3 w, fl_simd *sum)
@@ -146,7 +145,7 @@ FL_SIMD_INLINE void add_prism_sides(const fl_simd *a, const fl_simd *b, const fl
     sum[3] += m.turn * n1 - re * n2, sum[4] += m.turn * n2 + re * n1, sum[5] += c * m.se - m.fnx;
 }
 
-/* And of its cap: n = (0, 0, z), e = (1, 0, 0), g = (0, z, 0), z being 1 or -1. */
+/* Adds its cap: n = (0, 0, z), e = (1, 0, 0), g = (0, z, 0), z = 1 or -1. */
 FL_SIMD_INLINE void add_prism_cap(double z, const fl_facet_group *at, const fl_facet_piece *row,
                                   const fl_facet_flow *flow, double skin, double form, fl_vec3 v, fl_vec3 w,
                                   fl_simd *sum)
@@ -171,8 +170,9 @@ FL_SIMD_INLINE void add_prism_cap(double z, const fl_facet_group *at, const fl_f
     sum[3] += m.fny - c * m.sg, sum[4] += z * (c * m.se - m.fnx), sum[5] += z * m.turn;
 }
 
-/* Where sums along the axes k + 1, k + 2 and k go, in doubles from the first on; the last is no sum. */
-static_assert(FL_BODY_BATCH == 16, "places below are times that");
+/* Where the sums along the axes k + 1, k + 2 and k are stored, in doubles from the first one; the last is no
+ * sum. */
+static_assert(FL_BODY_BATCH == 16, "position_of[] counts in rows of 16");
 static const uint16_t position_of[3][FL_DRAG_SUMS + 1] = {
     {16,  32,  0,   64,  80,  48,  128, 160, 176, 112, 144, 96,  272, 288,
      256, 320, 352, 368, 336, 400, 416, 208, 224, 192, 304, 384, 240, 432},
@@ -181,7 +181,7 @@ static const uint16_t position_of[3][FL_DRAG_SUMS + 1] = {
     {0,   16,  32,  48,  64,  80,  96,  112, 128, 144, 160, 176, 192, 208,
      224, 240, 256, 272, 288, 304, 320, 336, 352, 368, 384, 400, 416, 432}};
 
-/* Four sums of four each to four, which go to so many places of a body. */
+/* Reduces four sums of four lanes and stores them at n positions of a body. */
 FL_SIMD_INLINE void store_four(fl_facet_drag_batch *to, int32_t i, fl_simd *sum, const uint16_t *place, int n)
 {
     fl_simd_transpose(sum);
@@ -209,7 +209,7 @@ FL_SIMD_INLINE void add_facets(fl_facet_drag_batch *to, int32_t i, const fl_face
     store_sums(to, i, sum, position_of[2], flows);
 }
 
-/* Where they stand along an axis of the body. */
+/* Adds a prism along a body axis. */
 FL_SIMD_INLINE void add_prism(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s, double skin,
                               double form, int flows)
 {
@@ -259,8 +259,8 @@ void fl_facet_drag_sum(fl_facet_drag_batch *a, int32_t i, const fl_facet_cut *s,
     else (s->flow ? sum_prism_flowing : sum_prism_still)(a, i, s, skin, form);
 }
 
-/* (M + h K) y' = M y + ..., of four bodies: L d L^T, whose pivots are no less than M but for rounding, where
- * h K is 1e16 times larger. */
+/* Solves (M + h K) y' = M y + ... of four bodies by L d L^T. The pivots are at least M but for rounding,
+ * which counts where h K is 1e16 times M. */
 FL_SIMD_INLINE void solve_four_bodies(fl_facet_drag_batch *of, int32_t at)
 {
     fl_simd l[6][6], x[6], per[6];

@@ -4,13 +4,13 @@
 #include "base/simd.h"
 #include "water/froude_krylov.h"
 
-/* Longest side of a panel, in 1/k, and up to what size of a body the rule of degree 2 will do.  Boxes of 2 to
- * 60 m in waves of 14 m and in seas then feel forces right to 3e-4 of their mean (verify_waves); 2 and 0.1
- * would cost up to twice the time for 5e-6, and 5 leaves 4e-3. */
+/* Longest side of a panel, and largest body for which the rule of degree 2 is used, both in 1/k. The forces
+ * on boxes of 2 to 60 m in waves of 14 m, and in irregular waves, are then within 3e-4 of their mean
+ * (verify_waves). 2 and 0.1 would reach 5e-6 at up to twice the time; 5 leaves 4e-3. */
 #define MAX_SIDE 3.0
 #define SMALL_BODY 0.3
 
-/* Half of a cell, in 1/k_top: its corner is 7.07 away, which leaves room for crests below FL_WAVE_REACH. */
+/* Half a cell, in 1/max_k: its corner is 7.07 away, which leaves room for crests below FL_WAVE_REACH. */
 #define HALF_CELL 5.0
 
 /* --- panels ------------------------------------------------------------------------------------ */
@@ -37,7 +37,7 @@ static int add_panel(panel_cutter *c, int32_t face, const fl_vec3 v[3], fl_err *
     return 0;
 }
 
-/* Halve the longest side until none is too long. */
+/* Halves the longest side until none is too long. */
 static int split_triangle(panel_cutter *c, int32_t face, fl_vec3 a, fl_vec3 b, fl_vec3 d, fl_err *err)
 {
     const fl_vec3 v[3] = {a, b, d};
@@ -92,7 +92,7 @@ void fl_wave_field_fill(const fl_waves *w, double s_lo, double s_hi, double z_lo
     a->width = (s_hi - s_lo) / a->columns;
     a->s0 = s_lo;
     a->half = most;
-    /* the first row is the surface's; row r below it is centred 2 r halves down */
+    /* row 0 is that of the surface; row r is centred 2 r halves below it */
     a->row0 = (int)fmax(1.0, floor((-high + most) / (2.0 * most)));
     const int last = (int)floor((-low + most) / (2.0 * most));
     a->rows = last >= a->row0 ? last - a->row0 + 1 : 0;
@@ -137,8 +137,8 @@ void fl_wave_field_plane(const fl_wave_field *a, const fl_hull_pose *at, fl_vec3
 
 /* --- the sums ---------------------------------------------------------------------------------- */
 
-/* Radon's rule of degree 5 and the rule of degree 2 with points inside: weights, and the shares of the three
- * corners in each point; what is left of a batch weighs nothing. */
+/* Radon's rule of degree 5, and the rule of degree 2 with interior points: weights, and barycentric
+ * coordinates of each point. Unused points of a batch have weight 0. */
 #define SQRT15 3.872983346207417
 #define W1 ((155.0 - SQRT15) / 1200.0)
 #define W2 ((155.0 + SQRT15) / 1200.0)
@@ -159,7 +159,7 @@ static const double RULE[2][4][FL_WAVE_BATCH] = {{{T, T, T, 0, 0, 0, 0, 0},
 #undef S
 #undef T
 static const int POINTS[2] = {3, 7};
-/* Of what is summed up lane by lane. */
+/* Sums kept per lane. */
 typedef double lanes[FL_SIMD_WIDTH];
 
 typedef struct {
@@ -170,7 +170,7 @@ typedef struct {
     lanes first[3], volume, height, wetted; /* int x (z - eta) n_z, ... */
 } load_sums;
 
-/* The cell of the surface that all m points lie in, NULL where there is none. */
+/* The surface cell that contains all m points, or NULL. */
 static const fl_wave_expansion *common_cell(const load_sums *S, int m, const double *s, const double *z)
 {
     const fl_wave_expansion *cell = column_cell(S->a, s[0]);
@@ -182,7 +182,7 @@ static const fl_wave_expansion *common_cell(const load_sums *S, int m, const dou
     return cell;
 }
 
-/* The points of a triangle: in the body's axes, along the wave and over still water. */
+/* Quadrature points of a triangle: body axes, along the wave, and above still water. */
 typedef struct {
     double x[3][FL_WAVE_BATCH], s[FL_WAVE_BATCH], z[FL_WAVE_BATCH];
 } quadrature_points;
@@ -203,7 +203,7 @@ FL_SIMD_INLINE void place_points(const fl_hull_pose *at, int fine, fl_vec3 a, fl
     }
 }
 
-/* Book them: p = area (head - z) presses at each of them along -n. */
+/* Adds the loads: the pressure head (head - z) times the area acts at each point along -n. */
 FL_SIMD_INLINE void add_loads(load_sums *S, const quadrature_points *p, int fine, double area, fl_vec3 n,
                               double nz, const double *eta, const double *head)
 {
@@ -251,8 +251,8 @@ FL_SIMD4_VERSIONS static void integrate_triangle(load_sums *S, int fine, fl_vec3
     add_loads(S, &p, fine, area, n, nz, eta, head);
 }
 
-/* The part of a panel below the wave: h[k] are the heights of its corners over the wave, in between they go
- * straight. */
+/* Integrates the part of a panel below the wave. h[k]: heights of its corners above the wave, linear in
+ * between. */
 static void integrate_panel(load_sums *S, int fine, fl_vec3 n, double nz, const fl_vec3 *v, const double *h)
 {
     fl_vec3 out[4];
@@ -260,17 +260,17 @@ static void integrate_panel(load_sums *S, int fine, fl_vec3 n, double nz, const 
     for (int k = 0; k < 3; k++) {
         const int j = (k + 1) % 3;
         if (h[k] <= 0.0) out[m++] = v[k];
-        if ((h[k] <= 0.0) != (h[j] <= 0.0)) /* from the wet end, as the neighbour across the side does */
+        if ((h[k] <= 0.0) != (h[j] <= 0.0)) /* from the wet end, as across the side */
             out[m++] = h[k] <= 0.0 ? v3_lerp(v[k], v[j], h[k] / (h[k] - h[j]))
                                    : v3_lerp(v[j], v[k], h[j] / (h[j] - h[k]));
     }
     for (int k = 1; k + 1 < m; k++) integrate_triangle(S, fine, n, nz, &out[0], &out[k], &out[k + 1]);
 }
 
-/* Panels whose corners are looked at side by side. */
+/* Panels whose corners are evaluated side by side. */
 enum { PANELS_AT_ONCE = FL_SIMD_WIDTH, CORNERS = 3 * PANELS_AT_ONCE };
 
-/* Heights of their corners over the wave, all in one cell. */
+/* Heights of their corners above the wave, all in one cell. */
 FL_SIMD4_VERSIONS static void corner_heights(const fl_wave_expansion *one, const fl_hull_pose *at,
                                              const fl_vec3 *v, double *over)
 {
@@ -290,7 +290,7 @@ FL_SIMD4_VERSIONS static void corner_heights(const fl_wave_expansion *one, const
     FL_SIMD_UNROLL for (int k = 0; k < 3; k++) FL_SIMD_STORE(over + FL_SIMD_WIDTH * k) = z[k] - eta[k];
 }
 
-/* The same of corners anywhere. */
+/* The same for corners in any cells. */
 static void heights_over_wave(const fl_wave_field *a, const fl_hull_pose *at, const fl_vec3 *v, double *over)
 {
     double s[CORNERS];
@@ -307,7 +307,7 @@ static void heights_over_wave(const fl_wave_field *a, const fl_hull_pose *at, co
         over[c] = at->z + v3_dot(at->up, v[c]) - fl_wave_field_elevation(a, s[c], NULL);
 }
 
-/* So many panels, and their first corner after them. */
+/* Fills up an incomplete group of panels with its first corner. */
 static const fl_vec3 *pad_panels(fl_vec3 *to, const fl_vec3 *v, int many)
 {
     for (int c = 0; c < CORNERS; c++) to[c] = v[c < 3 * many ? c : 0];
@@ -316,8 +316,8 @@ static const fl_vec3 *pad_panels(fl_vec3 *to, const fl_vec3 *v, int many)
 
 static double sum_lanes(const double *a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
-/* The nearest place in the box around a body: of a volume that is hardly more than what the bend of the wave
- * within a panel makes of it, the centre may be found anywhere. */
+/* The nearest point of the bounding box of a body. For a volume hardly larger than the error by the curvature
+ * of the wave within a panel, the computed centre can lie anywhere. */
 static fl_vec3 clamp_to_box(const fl_poly *p, fl_vec3 x)
 {
     fl_vec3 lo = p->v[0], hi = p->v[0];
@@ -354,7 +354,7 @@ void fl_froude_krylov_solid(const fl_hull_panels *tiles, const fl_hull *h, const
                             .volume = volume > 0.0 ? volume : 0.0,
                             .wetted = sum_lanes(S.wetted)};
     if (!(volume > 0.0)) return;
-    /* the sum is right along the water; up it takes the place of what the height says */
+    /* the sum is right along the water; the vertical part is replaced by that of the heights */
     const fl_vec3 c =
         v3_scale(1.0 / volume, v3(sum_lanes(S.first[0]), sum_lanes(S.first[1]), sum_lanes(S.first[2])));
     push->centre =

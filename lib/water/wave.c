@@ -5,19 +5,28 @@
 #include "base/rng.h"
 #include "water/wave.h"
 
-/* What a series may leave out of a train, over its amplitude. */
+/* k d from which on the water is deep: 1 - tanh 20 = 2 e^-40 = 8e-18 is below the rounding of 1. */
+#define DEEP_KD 20.0
+/* Newton's step that is rounding: 2^-53 of x. */
+#define NEWTON_TOL 1e-16
+/* Reflection by the bottom, of the amplitude, that has no effect: far below SERIES_TOL. */
+#define MIRROR_TOL 1e-12
+/* Trains have equal energy: this part of them in ascending k is this part of the energy. */
+#define ENERGY_PART 0.95
+
+/* Largest relative error of a truncated series of one train. */
 #define SERIES_TOL 1e-5
 
-/* x tanh x = y by Newton from above: the function is convex there, so the steps only fall. */
+/* Solves x tanh x = y by Newton from above; the function is convex there, so the iterates decrease. */
 double fl_wave_number(double omega, double depth, double gravity)
 {
     const double deep = omega * omega / gravity, y = deep * depth;
-    if (!(y < 20.0)) return deep; /* tanh 20 is 1 to rounding */
+    if (!(y < DEEP_KD)) return deep;
     double x = fmax(y, sqrt(y)) * 1.2;
     for (int k = 0; k < 50; k++) {
         const double t = tanh(x), step = (x * t - y) / (t + x * (1.0 - t * t));
         x -= step;
-        if (fabs(step) <= 1e-16 * x) break;
+        if (fabs(step) <= NEWTON_TOL * x) break;
     }
     return x / depth;
 }
@@ -29,7 +38,7 @@ static void fill_train(const fl_waves *w, fl_wave_train *t, double omega, double
                          .omega = omega,
                          .a = a,
                          .phase = phase,
-                         .mirror = kd2 < 40.0 ? exp(-kd2) : 0.0};
+                         .mirror = kd2 < 2.0 * DEEP_KD ? exp(-kd2) : 0.0};
     t->velocity_factor = w->gravity * t->k / omega;
     t->norm = 1.0 / (1.0 + t->mirror);
     t->power[0] = 1.0;
@@ -47,7 +56,7 @@ static int begin_waves(fl_waves *w, int32_t n, double direction, double depth, d
 static void finish_waves(fl_waves *w)
 {
     w->max_k = w->train[w->n - 1].k;
-    w->k95 = w->train[(int32_t)(0.95 * (w->n - 1))].k;
+    w->k95 = w->train[(int32_t)(ENERGY_PART * (w->n - 1))].k;
     double sum = 0.0;
     for (int32_t j = 0; j < w->n; j++) {
         w->max_crest += w->train[j].a;
@@ -73,7 +82,8 @@ double fl_jonswap_spectrum(double f, double Hs, double Tp, double gamma)
            pow(gamma, exp(-0.5 * off * off)) * (1.0 - 0.287 * log(gamma));
 }
 
-/* Parts of the peak frequency between which the energy of a sea is cut: 1e-67 and 0.4 % of it lie outside. */
+/* The spectrum is used between these parts of the peak frequency: 1e-67 and 0.4 % of the energy lie outside.
+ */
 #define LOW_FREQUENCY 0.3
 #define HIGH_FREQUENCY 4.0
 enum { CELLS = 8192 };
@@ -105,7 +115,7 @@ int fl_waves_jonswap(fl_waves *w, double Hs, double Tp, double gamma, int32_t n,
 
 /* --- the field around a place ------------------------------------------------------------------ */
 
-/* How many terms a train needs within the radius: until k^m r^m / m! is of no account. */
+/* Terms that a train needs within the radius: until k^m r^m / m! is below SERIES_TOL. */
 static int terms_of(const fl_wave_train *t, double radius)
 {
     const double x = t->k * radius;
@@ -143,7 +153,7 @@ void fl_wave_expand(const fl_waves *w, double s, double z, double radius, double
     near->s = s;
     near->z = z;
     near->terms = terms_of(&w->train[w->n - 1], radius);
-    const int wall = w->train[0].mirror > 1e-12; /* the bottom is felt */
+    const int wall = w->train[0].mirror > MIRROR_TOL; /* 1: the bottom has an effect */
     fl_wave_series h, v;
     fl_wave_series *const all[4] = {&near->f, &near->u, &h, &v};
     for (int k = 0; k < (wall ? 4 : 2); k++)
@@ -163,7 +173,7 @@ void fl_wave_expand(const fl_waves *w, double s, double z, double radius, double
         add_series(train->power, terms, b * train->velocity_factor * c, b * train->velocity_factor * d, &v);
     }
     if (wall) add_reflected(&near->f, &h, near->terms), add_reflected(&near->u, &v, near->terms);
-    /* on zeta = 0: f_m (i s)^m, the real part; i^m is 1, i, -1, -i */
+    /* on zeta = 0: the real part of f_m (i s)^m; i^m is 1, i, -1, -i */
     for (int m = 0; m < near->terms; m++) {
         const double sign = m & 2 ? -1.0 : 1.0;
         near->eta[m] = m & 1 ? -sign * near->f.im[m] : sign * near->f.re[m];
@@ -188,7 +198,7 @@ double fl_wave_stretch(const fl_waves *w, double z, double eta)
     return w->depth < INFINITY ? (z - eta) * w->depth / (w->depth + eta) : z - eta;
 }
 
-/* sum a_m (x + i y)^m, and its derivative by that number (may be NULL) */
+/* sum a_m (x + i y)^m, and its derivative by x + i y (may be NULL). */
 static void evaluate_series(const fl_wave_series *a, int terms, double x, double y, double value[2],
                             double slope[2])
 {
