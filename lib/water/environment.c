@@ -4,11 +4,11 @@
 #include "base/pi.h"
 #include "water/environment.h"
 
-/* Places that a wave is looked at in for one body, at most. */
+/* Most cells of the wave field of one body. */
 #define MAX_CELLS 1000000
 
-/* Where a plane is fitted to the wave, to a column of cells, which is no wider than 1.6 of the shortest wave:
- * one bend after another evens out. */
+/* Points per column of cells for the fit of a plane to the wave. A column is no wider than 1.6 of the
+ * shortest wavelength, and crests and troughs even out. */
 enum { FIT_POINTS = 8 };
 
 static const fl_wave_sample no_sample = {.q = {1, 0, 0, 0}, .when = INFINITY};
@@ -35,7 +35,7 @@ int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
         s->drag_surface = fl_alloc(n, sizeof *s->drag_surface, err);
         if (!s->drag_surface) return -1;
     }
-    if (!s->waves) return 0; /* a look at still water costs no more than its drag */
+    if (!s->waves) return 0; /* still water is evaluated in every step: it costs no more than its drag */
     if (s->sample_every > 1) {
         s->sample = fl_alloc(n, sizeof *s->sample, err);
         if (!s->sample) return -1;
@@ -67,7 +67,7 @@ static int fit_surface(fl_environment *s, int32_t i, fl_err *err)
         return -1;
     if (s->wind && s->wind_drag_law == FL_DRAG_FACET) {
         if (fl_facet_cut_make(&skin->dry, h, 1, 0, err)) return -1;
-        /* where there is no water to tell otherwise, all is dry */
+        /* without water all of it is dry */
         fl_facet_cut_update(&skin->dry, &skin->facets, h, v3(0, 0, 1), -INFINITY);
     }
     return 0;
@@ -140,7 +140,7 @@ void fl_environment_free(fl_environment *s)
     *s = (fl_environment){0};
 }
 
-/* Velocity of the waves at r from the origin of a body, and the acceleration; world axes. */
+/* Orbital velocity of the waves at offset r from the origin of a body, and the acceleration; world axes. */
 static fl_vec3 orbital_velocity(const fl_environment *s, const fl_hull_pose *at, const fl_wave_field *around,
                                 fl_vec3 r, fl_vec3 *acceleration)
 {
@@ -152,7 +152,7 @@ static fl_vec3 orbital_velocity(const fl_environment *s, const fl_hull_pose *at,
     return v3_madd(v3(0, 0, u[1]), u[0], s->wave.direction);
 }
 
-/* How the water goes by at all pieces that are wet. */
+/* Updates the flow at all wet pieces. */
 static void update_flow(fl_environment *s, const fl_bodies *b, int32_t i, const fl_hull_pose *at,
                         const fl_wave_field *around)
 {
@@ -173,7 +173,7 @@ static void update_flow(fl_environment *s, const fl_bodies *b, int32_t i, const 
             }
 }
 
-/* Where the surface of body i is wet and dry, and how the water goes by there; around: NULL without waves. */
+/* Updates the wet and dry surface of body i, and the flow there; around: NULL without waves. */
 static void update_surface(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
                            const fl_hull_pose *at, const fl_wave_field *around)
 {
@@ -191,11 +191,11 @@ void fl_environment_update_surface(fl_environment *s, const fl_bodies *b, int32_
     update_surface(s, b, i, up, level, &at, NULL);
 }
 
-/* e_z of the world in the frame of a body with these axes. */
+/* e_z in body axes. */
 static fl_vec3 vertical_of(fl_mat3 R) { return v3(R.m[2][0], R.m[2][1], R.m[2][2]); }
 
-/* What is below still water; one that is wholly dry or wet by far is told by its reach alone.  up is
- * transpose(R) e_z. */
+/* The part below still water; up is transpose(R) e_z. Bodies wholly dry or wet by their drag radius are not
+ * cut. */
 static fl_submerged submerged_of(const fl_environment *s, int32_t i, fl_vec3 up, double level)
 {
     const fl_hull *h = &s->hull[i];
@@ -215,7 +215,7 @@ double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_
     return fl_buoyancy_force(&wet, up, level, s->specific_weight, &f, &turn);
 }
 
-/* Still water as it meets body i: force and moment about its centre, world axes. */
+/* Evaluates still water at body i: force and moment about its centre, world axes. */
 static void evaluate_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_mat3 R = fl_body_axes(b, i);
@@ -243,12 +243,12 @@ double fl_environment_omega2(const fl_environment *s, const fl_bodies *b, int32_
     fl_hull_submerged(h, up, 0.0, &wet);
     double most = s->specific_weight * wet.waterplane_area * fl_mobility_along(&yields, v3(0, 0, 1), none);
     *turns = 0;
-    if (h->shape->nf == 0) return most; /* what is round hardly rights itself */
+    if (h->shape->nf == 0) return most; /* a sphere or capsule has hardly any restoring moment */
     fl_waterplane plane;
     fl_hull_waterplane(h, up, 0.0, &plane);
     const fl_vec3 e = m3_tmul(R, v3(1, 0, 0)), g = m3_tmul(R, v3(0, 1, 0)), Te = m3_mul(plane.second, e);
     const double xx = v3_dot(e, Te), xy = v3_dot(g, Te), yy = v3_dot(g, m3_mul(plane.second, g)),
-                 angle = 0.5 * atan2(2.0 * xy, xx - yy); /* of its main axes */
+                 angle = 0.5 * atan2(2.0 * xy, xx - yy); /* of the principal axes */
     for (int k = 0; k < 2; k++) {
         const double a = angle + 0.5 * k * PI, c = cos(a), d = sin(a),
                      J = c * c * xx + 2.0 * c * d * xy + d * d * yy;
@@ -258,7 +258,7 @@ double fl_environment_omega2(const fl_environment *s, const fl_bodies *b, int32_
     return most;
 }
 
-/* How far body i reaches along a direction of its own axes. */
+/* Extent of body i along a direction of its own axes. */
 static void extent_along(const fl_environment *s, int32_t i, fl_vec3 d, double *lo, double *hi)
 {
     const fl_poly *p = s->hull[i].shape;
@@ -273,7 +273,7 @@ static void extent_along(const fl_environment *s, int32_t i, fl_vec3 d, double *
     *hi = most + r;
 }
 
-/* The plane that lies nearest to the wave along a body whose origin is at s. */
+/* Least-squares plane of the wave along a body whose origin is at s. */
 static void fit_plane(const fl_wave_field *a, double s, double *z, double *slope)
 {
     const int n = FIT_POINTS * a->columns;
@@ -289,7 +289,8 @@ static void fit_plane(const fl_wave_field *a, double s, double *z, double *slope
     *z = sum / all + (s - middle) * *slope;
 }
 
-/* Buoyancy of body i where the water is a plane, z over still water at the body's origin; world axes. */
+/* Buoyancy of body i if the water surface is a plane, z above still water at the body's origin; world axes.
+ */
 static void buoyancy_on_plane(const fl_environment *s, const fl_bodies *b, int32_t i, double z, double slope,
                               fl_vec3 *f, fl_vec3 *t)
 {
@@ -304,7 +305,7 @@ static void buoyancy_on_plane(const fl_environment *s, const fl_bodies *b, int32
     *t = m3_mul(R, turn);
 }
 
-/* The plane about body i, at s, as it is now, and how it went on from the look before. */
+/* Updates the plane at body i, which is at s, and its rates since the last sample. */
 static void update_plane(fl_environment *s, int32_t i, const fl_wave_field *around, double at)
 {
     fl_wave_sample *h = &s->sample[i];
@@ -315,7 +316,7 @@ static void update_plane(fl_environment *s, int32_t i, const fl_wave_field *arou
     h->dslope = (h->slope - slope) / past;
 }
 
-/* A sea with waves as it meets body i. */
+/* Evaluates the waves at body i. */
 static void evaluate_waves(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_waves *w = &s->wave;
@@ -363,13 +364,13 @@ static void evaluate_waves(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *
     s->water_moment[i] = *t;
 }
 
-/* From then to now. */
+/* Rate of change over `past` seconds. */
 static fl_vec3 rate_of_change(fl_vec3 now, fl_vec3 then, double past)
 {
     return v3_scale(1.0 / past, v3_sub(now, then));
 }
 
-/* What of it the plane does not tell. */
+/* Stores the part of the load that the plane leaves out, and its rates. */
 static void store_sample(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 f, fl_vec3 t)
 {
     fl_wave_sample *h = &s->sample[i];
@@ -393,7 +394,7 @@ static void evaluate_water(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *
     if (s->sample) store_sample(s, b, i, *f, *t);
 }
 
-/* What there would be to see by now. */
+/* Extrapolates the load from the last sample. */
 static void extrapolate_sample(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_wave_sample *h = &s->sample[i];
@@ -430,7 +431,7 @@ void fl_environment_refresh(fl_environment *s, fl_bodies *b, int32_t i)
     evaluate_water(s, b, i, &f, &t);
     b->x[i] = x, b->q[i] = q, s->time = now;
     if (now > s->sample[i].when)
-        extrapolate_sample(s, b, i, &f, &t); /* else it was a look, which nothing is added to */
+        extrapolate_sample(s, b, i, &f, &t); /* at the time of the sample itself there is nothing to add */
 }
 
 void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0,
@@ -441,7 +442,7 @@ void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, d
         (v3_dot(s->water_force[i], v3_add(v0, b->v[i])) + v3_dot(s->water_moment[i], v3_add(w0, b->w[i])));
 }
 
-/* Decay of body i in a fluid that goes by with velocity c; returns the work done on the body. */
+/* Decay of the velocities of body i in a fluid of velocity c; returns the work done on the body. */
 static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach,
                              fl_vec3 c, double h)
 {
@@ -450,8 +451,8 @@ static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, dou
     const double speed = v3_norm(u), spin2 = v3_norm2(b->w[i]);
     const double c_force = fl_drag_force_constant(fluid, area), m = b->m[i];
     if (b->added_mass) {
-        /* each axis with its own mass: the step that is implicit in u and frozen in |u|, which is the exact
-         * decay along an axis, and slows the others down whatever the step */
+        /* each axis with its own mass: implicit in u, with |u| of the start, which is the exact decay along
+         * an axis and slows the others for any step */
         const fl_mat3 R = fl_body_axes(b, i);
         const fl_vec3 a = b->added_mass[i], p = m3_tmul(R, u);
         const double s = c_force * speed * h;
@@ -462,7 +463,7 @@ static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, dou
     }
     const double turning = v3_dot(b->w[i], b->L[i]);
     if (turning > 0.0 && fluid->moment_coefficient > 0.0) {
-        /* about the axis of the motion, whose moment of inertia is w.L/w^2: exact for a principal axis; both
+        /* about the axis of rotation, whose moment of inertia is w.L/w^2: exact for a principal axis; both
          * sides of the factor times w^2 */
         const double turn = fl_drag_decay_factor(turning, fl_drag_moment_constant(fluid, area, reach) * spin2,
                                                  sqrt(spin2), h);
@@ -473,7 +474,7 @@ static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, dou
     return fl_body_kinetic_energy(b, i) - b->work_of_constraints[i] - before;
 }
 
-/* The same facet by facet. */
+/* The same by facets. */
 static double decay_by_facets(fl_bodies *b, int32_t i, const fl_facet_cut *of, fl_facet_drag_law law,
                               fl_vec3 c, double h)
 {

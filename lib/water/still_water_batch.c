@@ -4,7 +4,7 @@
 #include <string.h>
 #include "water/still_water_batch.h"
 
-/* Of the i-th of a few that goes with v: twice the kinetic energy of its way; */
+/* Twice the kinetic energy of translation of lane i at velocity v. */
 FL_SIMD_INLINE double twice_kinetic(const fl_body_batch *a, const fl_body_batch_water *water, int32_t i,
                                     fl_vec3 v)
 {
@@ -14,7 +14,7 @@ FL_SIMD_INLINE double twice_kinetic(const fl_body_batch *a, const fl_body_batch_
         v, fl_body_batch_momentum(fl_body_batch_axes(a, i), m, FL_BODY_BATCH_VEC(water->added_mass, i), v));
 }
 
-/* what c |u| u leaves of u, its speed through the fluid. */
+/* Velocity u through the fluid of lane i after the decay by c |u| u. */
 FL_SIMD_INLINE fl_vec3 slowed_velocity(const fl_body_batch *a, const fl_body_batch_water *water, int32_t i,
                                        double c, fl_vec3 u)
 {
@@ -27,8 +27,8 @@ FL_SIMD_INLINE fl_vec3 slowed_velocity(const fl_body_batch *a, const fl_body_bat
                         p.z / (1.0 + s / (m + added.z))));
 }
 
-/* decay() of environment.c, where nothing is held, by the surface that the fluid meets, r_eff, and its velocity; what
- * it does is added to work[], times sign. */
+/* decay_velocity() of environment.c for bodies without constraints: surface in contact with the fluid, r_eff,
+ * velocity c of the fluid. Adds sign times the work to work[]. */
 FL_SIMD_INLINE void decay_lanes(fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
                                 const fl_fluid *fluid, const double *restrict surface,
                                 const double *restrict reach, double (*restrict c)[FL_BODY_BATCH],
@@ -43,7 +43,7 @@ FL_SIMD_INLINE void decay_lanes(fl_body_batch *restrict a, const fl_body_batch_w
         const double before = 0.5 * (twice_kinetic(a, water, i, v) + turning) - held[i];
         const fl_vec3 slow =
             slowed_velocity(a, water, i, fl_drag_force_constant(fluid, area), v3_sub(v, flow));
-        /* 1 where it does not turn, or meets nothing */
+        /* 1 for a body that does not rotate, or has no contact with the fluid */
         const double about = turning > 0.0 ? turning : 1.0, by = turning > 0.0 ? spin2 : 0.0,
                      stays = fl_drag_decay_factor(about, fl_drag_moment_constant(fluid, area, r) * by,
                                                   sqrt(by), h);
@@ -90,7 +90,7 @@ FL_SIMD_VERSIONS static int any_positive(const double *restrict area, int32_t n)
     return many > 0.0;
 }
 
-/* By what the fluid meets of each, and its velocity there. */
+/* The same for surface[] and c[] of the batch; work[] is an array over all bodies. */
 static void decay_bodies(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
                          const fl_bodies *b, const fl_fluid *fluid, const double *surface,
                          double (*c)[FL_BODY_BATCH], double sign, double *work)
@@ -104,11 +104,11 @@ static void decay_bodies(fl_body_batch *a, const fl_body_batch_water *water, con
     fl_body_batch_scatter(a, work, sum);
 }
 
-/* decay_of_facets() of environment.c. */
+/* State of decay_by_facets() of environment.c. */
 typedef struct {
     fl_facet_drag_batch few;
     double I[3][FL_BODY_BATCH], before[FL_BODY_BATCH];
-    double has[FL_BODY_BATCH]; /* 1 where a body has facets that the fluid meets, or 0 */
+    double has[FL_BODY_BATCH]; /* 1 if the body has facets in contact with the fluid, else 0 */
 } facet_state;
 
 FL_SIMD_INLINE void begin_facets(const fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
@@ -183,7 +183,7 @@ FL_SIMD_VERSIONS static void end_facets_with_water(fl_body_batch *restrict a,
     end_facets(a, water, c, held, q, sign, work);
 }
 
-/* Those of them whose facets the fluid meets, as decay_all(); air: which fluid. */
+/* Drag by facets on the bodies with has[] set; air: 1 for the wind. */
 static void decay_facets(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
                          const fl_bodies *b, int air, const double *has, double (*c)[FL_BODY_BATCH],
                          double sign, double *work)
@@ -210,7 +210,7 @@ static void decay_facets(fl_body_batch *a, const fl_body_batch_water *water, con
     fl_body_batch_scatter(a, work, sum);
 }
 
-/* Drag on the area that the fluid meets of each, or on its facets where it has such. */
+/* Drag by facets on bodies that have such, and on the whole surface of the others. */
 static void decay_mixed(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
                         const fl_bodies *b, int air, const double *area, double (*c)[FL_BODY_BATCH])
 {
@@ -275,8 +275,8 @@ void fl_still_water_batch_add_work(fl_environment *s, const fl_body_batch *a, do
     }
 }
 
-/* Right prisms, one array a number, in the order of fl_prism: read by that order. */
-enum { AREA, O, A = O + 3, E = A + 3, Z0 = E + 3, Z1, JAA, JAB, JBB, ROUND, GA, GB, FAR2, NUMBERS };
+/* Numbers of fl_prism in its order, one array per number. */
+enum { AREA, O, A = O + 3, E = A + 3, Z0 = E + 3, Z1, JAA, JAB, JBB, PERIMETER, GA, GB, FAR2, NUMBERS };
 static_assert(offsetof(fl_prism, o) == O * sizeof(double) && offsetof(fl_prism, e) == E * sizeof(double) &&
                   offsetof(fl_prism, jaa) == JAA * sizeof(double) &&
                   offsetof(fl_prism, far2) == FAR2 * sizeof(double),
@@ -284,8 +284,8 @@ static_assert(offsetof(fl_prism, o) == O * sizeof(double) && offsetof(fl_prism, 
 
 typedef struct {
     _Alignas(64) double p[NUMBERS][FL_BODY_BATCH];
-    double level[FL_BODY_BATCH];  /* of the water over the origin */
-    double floats[FL_BODY_BATCH]; /* out: 1 where all of it holds, 0 */
+    double level[FL_BODY_BATCH];  /* of the water above the origin */
+    double floats[FL_BODY_BATCH]; /* out: 1 if it floats as a prism, else 0 */
 } prism_lanes;
 
 FL_SIMD4_VERSIONS static void load_contiguous(prism_lanes *q, const fl_hull *h, int32_t lanes)
@@ -293,7 +293,7 @@ FL_SIMD4_VERSIONS static void load_contiguous(prism_lanes *q, const fl_hull *h, 
     const double *first = &h->prism.area;
     for (int32_t k = 0; k < lanes; k += FL_SIMD_WIDTH) {
         for (int c = 0; c + 4 <= NUMBERS; c += 4) fl_body_batch_unpack4(q->p + c, first + c, sizeof *h, k);
-        /* the last four begin early, so as not to read beyond */
+        /* the last four overlap the ones before, so as not to read beyond the struct */
         fl_body_batch_unpack4(q->p + NUMBERS - 4, first + NUMBERS - 4, sizeof *h, k);
     }
 }
@@ -315,7 +315,7 @@ static void load_prisms(prism_lanes *q, const fl_environment *s, const fl_body_b
     else load_gathered(q, s->hull, a->index, a->lanes);
 }
 
-/* What of a prism is under water: fl_prism_submerged(), where it floats as one does. */
+/* Submerged part of a prism by fl_prism_submerged(), and whether that applies. */
 typedef struct {
     double volume, wetted, floats; /* 1 or 0 */
     fl_vec3 centre;
@@ -331,7 +331,7 @@ FL_SIMD_INLINE prism_submerged submerge_lane(const prism_lanes *q, int32_t i, fl
     const double bx = ey * az - ez * ay, by = ez * ax - ex * az, bz = ex * ay - ey * ax;
     const double area = q->p[AREA][i], jab = q->p[JAB][i];
     const double along = ux * ex + uy * ey + uz * ez;
-    const int over = along < 0.0; /* turned over: seen along -e */
+    const int over = along < 0.0; /* upside down: seen along -e */
     const double ue = over ? -along : along, sign = over ? -1.0 : 1.0, z0 = over ? -q->p[Z1][i] : q->p[Z0][i],
                  z1 = over ? -q->p[Z0][i] : q->p[Z1][i];
     const double per_ue = 1.0 / (ue > FL_PRISM_MIN_UPRIGHT ? ue : 1.0);
@@ -347,13 +347,13 @@ FL_SIMD_INLINE prism_submerged submerge_lane(const prism_lanes *q, int32_t i, fl
     const double cx = ox + pa * ax + pb * bx + pe * ex, cy = oy + pa * ay + pb * by + pe * ey,
                  cz = oz + pa * az + pb * bz + pe * ez;
     return (prism_submerged){.volume = volume,
-                             .wetted = area + q->p[ROUND][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]),
+                             .wetted =
+                                 area + q->p[PERIMETER][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]),
                              .floats = floats ? 1.0 : 0.0,
                              .centre = v3(cx, cy, cz)};
 }
 
-/* fl_buoyancy_force() of that and what look_still() of environment.c makes of it; returns how many float as prisms
- * do. */
+/* evaluate_still() of environment.c for prisms; returns how many float as prisms. */
 FL_SIMD_VERSIONS static double add_prism_buoyancy(prism_lanes *restrict q, fl_body_batch *restrict a,
                                                   double weight, const double *restrict reach,
                                                   double *restrict wetted, double *restrict lift,
@@ -383,7 +383,7 @@ FL_SIMD_VERSIONS static double add_prism_buoyancy(prism_lanes *restrict q, fl_bo
     return afloat;
 }
 
-/* Where all of them are, told by their reach alone: -1 wholly out of the water, 1 wholly in, 0 neither. */
+/* -1 if all bodies are wholly out of the water by their drag radius, 1 if all are wholly in, else 0. */
 FL_SIMD_VERSIONS static int all_dry_or_wet(const double *restrict level, const double *restrict reach,
                                            int32_t n)
 {
@@ -396,7 +396,7 @@ FL_SIMD_VERSIONS static int all_dry_or_wet(const double *restrict level, const d
     return out == n ? -1 : in == n;
 }
 
-/* The same as look() makes where all of each is out of the water, but for the zeros that it adds; */
+/* add_prism_buoyancy() for bodies wholly out of the water, without the zeros that it adds. */
 FL_SIMD_VERSIONS static void set_dry(const double *restrict level, int32_t n, double *restrict wetted,
                                      double *restrict lift, double *restrict centre)
 {
@@ -408,7 +408,7 @@ FL_SIMD_VERSIONS static void set_dry(const double *restrict level, int32_t n, do
     }
 }
 
-/* and where all of it is in. */
+/* Volumes and centres for bodies wholly in the water. */
 typedef struct {
     _Alignas(64) double volume[FL_BODY_BATCH];
     double c[3][FL_BODY_BATCH];
@@ -434,7 +434,7 @@ FL_SIMD_VERSIONS static void add_whole_buoyancy(const whole_hulls *restrict q, c
     }
 }
 
-/* What is kept of them, where it is or in rooms of its own. */
+/* Buffers for a batch that is not contiguous. */
 typedef struct {
     double wetted[FL_BODY_BATCH], lift[FL_BODY_BATCH], reach[FL_BODY_BATCH];
 } lane_buffers;
@@ -464,7 +464,7 @@ static void update_flow(fl_environment *s, const fl_bodies *b, const fl_body_bat
         b->flow_velocity[a->index[k]] = fl_environment_flow(s, a->index[k]);
 }
 
-/* What a look at the waves has left, in the order of fl_wave_sample: read by that order. */
+/* Numbers of fl_wave_sample in its order, one array per number. */
 enum {
     SAMPLE_F,
     SAMPLE_T = 3,
@@ -488,7 +488,7 @@ static_assert(offsetof(fl_wave_sample, t) == SAMPLE_T * sizeof(double) &&
 typedef struct {
     _Alignas(64) double h[SAMPLE_NUMBERS][FL_BODY_BATCH];
     double past[FL_BODY_BATCH], over[FL_BODY_BATCH],
-        reach[FL_BODY_BATCH]; /* over: of still water over the origin */
+        reach[FL_BODY_BATCH]; /* over: height of still water above the origin */
     double push[3][FL_BODY_BATCH], turn[3][FL_BODY_BATCH], flow[3][FL_BODY_BATCH]; /* out */
 } sampled_lanes;
 
@@ -500,7 +500,7 @@ FL_SIMD4_VERSIONS static void load_samples(sampled_lanes *r, const fl_wave_sampl
             fl_body_batch_gather4(r->h + c, (const double *)(const void *)h + c, sizeof *h, at, k);
 }
 
-/* go_on() of environment.c; returns how many float as prisms do. */
+/* extrapolate_sample() of environment.c; returns how many float as prisms. */
 FL_SIMD_VERSIONS static double add_sampled_buoyancy(prism_lanes *restrict q, sampled_lanes *restrict r,
                                                     fl_body_batch *restrict a, fl_vec3 along, double weight)
 {
@@ -531,7 +531,7 @@ FL_SIMD_VERSIONS static double add_sampled_buoyancy(prism_lanes *restrict q, sam
     return afloat;
 }
 
-/* On the planes that were fitted to the waves. */
+/* Force on the planes fitted to the waves. */
 static double force_from_samples(fl_environment *s, const fl_bodies *b, fl_body_batch *a, prism_lanes *q)
 {
     sampled_lanes r;
@@ -553,11 +553,11 @@ static double force_from_samples(fl_environment *s, const fl_bodies *b, fl_body_
     return afloat;
 }
 
-/* On still water. */
+/* Force in still water. */
 static double force_on_still_water(fl_environment *s, const fl_bodies *b, fl_body_batch *a, prism_lanes *q)
 {
     lane_buffers room;
-    _Alignas(64) double centre[FL_BODY_BATCH]; /* height of the submerged centres over still water [m] */
+    _Alignas(64) double centre[FL_BODY_BATCH]; /* height of the submerged centres above still water [m] */
     double *const wetted = fl_body_batch_buffer(a, s->wetted_area, room.wetted);
     double *const lift = fl_body_batch_buffer(a, s->buoyancy, room.lift);
     const double *const reach = fl_body_batch_gather(a, s->drag_radius, room.reach);
@@ -584,8 +584,7 @@ int32_t fl_still_water_batch_force(fl_environment *s, const fl_bodies *b, fl_bod
     const double afloat = s->waves ? force_from_samples(s, b, a, &q) : force_on_still_water(s, b, a, &q);
     int32_t others = 0;
     for (int32_t k = 0; k < a->n && s->drag_surface && !s->waves; k++) {
-        if (afloat < a->lanes && !(q.floats[k] > 0.0))
-            continue; /* whoever looks at it sees to that as well */
+        if (afloat < a->lanes && !(q.floats[k] > 0.0)) continue; /* the scalar path updates it */
         fl_environment_update_surface(s, b, a->index[k], FL_BODY_BATCH_VEC(a->R + 6, k), q.level[k]);
     }
     for (int32_t k = 0; k < a->n && afloat < a->lanes; k++)
