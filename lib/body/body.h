@@ -19,9 +19,9 @@ enum { FL_DOF_X = 1, FL_DOF_Y = 2, FL_DOF_Z = 4, FL_DOF_RX = 8, FL_DOF_RY = 16, 
 typedef struct {
     int32_t n, total;
     /* state, [total] each */
-    fl_vec3 *x; /* centre of mass                          [m]       */
+    fl_vec3 *x; /* centre of mass [m] */
     fl_vec3 *v; /* velocity of that centre [m/s] */
-    fl_vec3 *L; /* angular momentum, world axes            [kg m2/s] */
+    fl_vec3 *L; /* angular momentum, world axes [kg m2/s] */
     fl_quat *q; /* rotation from body axes to world axes */
     /* derived from the state */
     fl_vec3 *w; /* angular velocity, world axes [rad/s]; fl_drift() leaves its mean over the step */
@@ -31,10 +31,10 @@ typedef struct {
     double *m, *invm;            /* [kg], [1/kg]; 0 and 0 for a piece of the structure */
     fl_vec3 *I;                  /* principal moments, ascending before added inertia [kg m2] */
     fl_vec3 *invI;               /* 1 / I by component; fl_body_set_inertia() sets both */
-    double *radius;              /* dilation radius                   [m]       */
+    double *radius;              /* dilation radius [m] */
     double *bounding_radius;     /* distance from x to the farthest vertex of the core [m] */
     fl_poly *core;               /* core polyhedron, body frame */
-    uint8_t *fixed_dof;          /* FL_DOF_X | ...                             */
+    uint8_t *fixed_dof;          /* FL_DOF_X | ... */
     uint8_t *is_isotropic;       /* 1: isotropic; its axes are the world's whatever q is */
     double *work_of_constraints; /* work done by the constraints so far [J] */
     /* bound of the path of any point of the core: sum over steps of |v| dt + chord bound [m] */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "bond/bond.h"
 #include "bond/bond_kinematics.h"
 
 static const double LOBATTO[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
@@ -32,7 +33,7 @@ void fl_bond_set_face(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl
     c->bi = m3_tmul(Ri, h), c->bj = m3_tmul(Rj, h);
 }
 
-/* 0 where the sides have turned away from each other, and there is no frame. */
+/* Returns 0 if the sides have turned away from each other, so that there is no frame. */
 static int find_kinematics(const fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_bond_kinematics *q)
 {
     const fl_vec3 off = v3_add(v3_sub(b->x[c->j], b->x[c->i]), way);
@@ -51,10 +52,10 @@ static void separation_at(const fl_bond_kinematics *q, double xi, double eta, do
     s[2] = q->s.z + xi * q->su.z + eta * q->sv.z;
 }
 
-/* --- how a point breaks ------------------------------------------------------------------------ */
+/* --- fracture of a point ------------------------------------------------------------------------ */
 
-/* Begin the damage of a point whose stress has reached the strength: lambda at that, by the way on which all
- * of it grows alike, and the end. */
+/* Begins the damage of a point whose stress has reached the strength: sets lambda_c, on a path along which
+ * all stresses grow in proportion, and lambda_f. */
 static void begin_damage(const fl_bond *c, fl_bond_point *p, double lambda2, double shear2, double over)
 {
     const double share = shear2 / lambda2;
@@ -66,7 +67,7 @@ static void begin_damage(const fl_bond *c, fl_bond_point *p, double lambda2, dou
     if (p->lambda_f <= p->lambda_c) p->lambda_f = p->lambda_c;
 }
 
-/* Damage by the separation s. */
+/* Damage at the separation s. */
 static double damage_of(const fl_bond *c, fl_bond_point *p, const double s[3])
 {
     const double open = fl_bond_positive_part(s[0]), pressed = fl_bond_positive_part(-s[0]),
@@ -87,7 +88,7 @@ static double damage_of(const fl_bond *c, fl_bond_point *p, const double s[3])
     return d >= 1.0 ? 1.0 : d > p->d ? d : p->d;
 }
 
-/* Slip so that friction bears what is there: e[2], what its springs are drawn by. */
+/* Slips until friction carries the traction; e[2]: the stretch of the friction springs. */
 static void slip_to_friction(const fl_bond *c, fl_bond_point *p, const double s[3], double kn, double e[2])
 {
     const double limit = c->friction * kn * fl_bond_positive_part(-s[0]);
@@ -101,7 +102,7 @@ static void slip_to_friction(const fl_bond *c, fl_bond_point *p, const double s[
     e[0] = e0, e[1] = e1;
 }
 
-/* How much of the two sides still faces the other. */
+/* Share h of the sides that still overlap. */
 static double overlap_share(const fl_bond *c, const fl_bond_kinematics *q)
 {
     const double a = fl_bond_positive_part(1.0 - fabs(q->s.y) / (2.0 * v3_norm(c->ai))),
@@ -109,7 +110,7 @@ static double overlap_share(const fl_bond *c, const fl_bond_kinematics *q)
     return a * b * (q->cosine < FL_BOND_TURN_COSINE ? q->cosine / FL_BOND_TURN_COSINE : 1.0);
 }
 
-/* How much of the pressing part is gone. */
+/* Wear c of the stiffness in compression. */
 static double wear_of(const fl_bond *c, const fl_bond_kinematics *q)
 {
     double now = 0.0;
@@ -118,7 +119,7 @@ static double wear_of(const fl_bond *c, const fl_bond_kinematics *q)
     return now > c->wear ? now : c->wear;
 }
 
-/* --- all of it --------------------------------------------------------------------------------- */
+/* --- the face ---------------------------------------------------------------------------------- */
 
 static void add_traction(fl_traction *t, double xi, double eta, double x, double y, double z)
 {
@@ -167,7 +168,7 @@ void fl_bond_end(fl_bond *c)
     c->state = FL_BOND_ENDED;
 }
 
-/* What is kept of a look. */
+/* Stores the separation. */
 static void store_separation(fl_bond *c, const fl_bond_kinematics *q)
 {
     c->s[0] = q->s.x, c->s[1] = q->s.y, c->s[2] = q->s.z;
@@ -181,15 +182,15 @@ void fl_bond_update_separation(fl_bond *c, const fl_bodies *b, fl_vec3 way)
     if (c->state != FL_BOND_ENDED && find_kinematics(c, b, way, &q)) store_separation(c, &q);
 }
 
-/* What the points come to. */
+/* Sums over the points. */
 typedef struct {
     fl_traction elastic, friction;
-    double turn[2];         /* for the turn of m */
-    fl_vec3 half;           /* the moment of friction */
-    int hurt, failed, open; /* points */
+    double turn[2];         /* for the rotation of m */
+    fl_vec3 half;           /* moment of friction */
+    int hurt, failed, open; /* numbers of points */
 } point_sums;
 
-/* Point k: what a look does to it, and what it gives.  more: what has worn off since the last. */
+/* Evaluates point k and adds its tractions. more: wear since the last evaluation. */
 static void evaluate_point(fl_bond *c, const fl_bond_kinematics *q, int k, double more, point_sums *out)
 {
     fl_bond_point *p = &c->point[k];
@@ -225,19 +226,19 @@ static void evaluate_point(fl_bond *c, const fl_bond_kinematics *q, int k, doubl
     c->dissipated -= grown * held;
 }
 
-/* Whether no point can have reached its strength. */
+/* True if no point can have reached its strength. */
 static int is_below_strength(const fl_bond *c, const fl_bond_kinematics *q)
 {
     return fl_bond_strength_used(*q, c->kn, c->ks, c->tensile_strength, c->cohesion) < FL_BOND_INTACT_LIMIT;
 }
 
-/* What acts elastically. */
+/* Sets the elastic force and torques. */
 static void set_elastic(fl_bond *c, fl_bond_wrench p)
 {
     c->force = p.f, c->torque_i = p.ti, c->torque_j = p.tj;
 }
 
-/* A face of which some point may be damaged, or worn by so much more.  1 where it is ended. */
+/* Evaluates all points of a face with damage, or with `more` wear. Returns 1 if the face ends. */
 static int evaluate_points(fl_bond *c, const fl_bond_kinematics *q, double more, point_sums *r)
 {
     for (int k = 0; k < FL_BOND_POINTS; k++) evaluate_point(c, q, k, more, r);

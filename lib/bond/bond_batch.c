@@ -4,18 +4,18 @@
 #include "bond/bond_batch.h"
 #include "bond/bond_kinematics.h"
 
-/* As fl_bond has them in a row. */
+/* Positions of the members of fl_bond, in numbers from pi and from force on. */
 enum { PI, PJ = 3, NI = 6, NJ = 9, AI = 12, AJ = 15, BI = 18, BJ = 21, AREA = 24, KN, KS, TENSION, COHESION };
 enum { F, TI = 3, TJ = 6, STORE = 9, S = 10, SU = 13, SV = 16, FD = 19, DI = 22, DJ = 25 };
 
 #define POSITION(member, first) ((offsetof(fl_bond, member) - offsetof(fl_bond, first)) / sizeof(double))
 static_assert(POSITION(nj, pi) == NJ && POSITION(bj, pi) == BJ && POSITION(area, pi) == AREA &&
                   POSITION(cohesion, pi) == COHESION && POSITION(force_friction, pi) == FL_BOND_FACE_NUMBERS,
-              "the face");
+              "the order of the face");
 static_assert(POSITION(torque_j, force) == TJ && POSITION(elastic_energy, force) == STORE &&
                   POSITION(sv, force) == SV && POSITION(force_damping, force) == FD &&
                   POSITION(torque_j_damping, force) == DJ && POSITION(pi, force) == FL_BOND_OUTPUT_NUMBERS,
-              "what is told");
+              "the order of the results");
 
 typedef struct {
     _Alignas(64) fl_lane face[FL_BOND_FACE_NUMBERS];
@@ -31,7 +31,7 @@ FL_SIMD4_VERSIONS static void load_lanes(bond_lanes *restrict a, const double *c
     fl_lanes_load(a->qj, qj, 4);
 }
 
-/* Whether some of them have dashpots. */
+/* Returns 1 if some of them have dashpots. */
 static int load_batch(bond_lanes *a, fl_bond *const *c, const fl_vec3 *way, int n, const fl_bodies *b)
 {
     const double *face[FL_LANE_COUNT], *qi[FL_LANE_COUNT], *qj[FL_LANE_COUNT];
@@ -78,7 +78,7 @@ FL_SIMD_INLINE void evaluate_lanes(bond_lanes *restrict a, int damped)
                 fl_bond_damping_wrench(q, damping, area, kn, ks,
                                        fl_bond_separation_rate(q, fl_lane3(a->vi, k), fl_lane3(a->wi, k),
                                                                fl_lane3(a->vj, k), fl_lane3(a->wj, k)));
-            const fl_vec3 none = v3(0, 0, 0); /* of friction */
+            const fl_vec3 none = v3(0, 0, 0); /* no friction */
             fl_lane3_set(a->out + FD, k, d.f);
             fl_lane3_set(a->out + DI, k, d.ti);
             fl_lane3_set(a->out + DJ, k, d.tj);
@@ -101,7 +101,7 @@ FL_SIMD_INLINE void evaluate_lanes(bond_lanes *restrict a, int damped)
 FL_SIMD_VERSIONS static void evaluate_elastic(bond_lanes *restrict a) { evaluate_lanes(a, 0); }
 FL_SIMD_VERSIONS static void evaluate_damped(bond_lanes *restrict a) { evaluate_lanes(a, 1); }
 
-/* To those that hold. */
+/* Stores the results of bonds that stay intact. */
 FL_SIMD4_VERSIONS static void store_intact(const bond_lanes *restrict a, fl_bond *const *c, int n, int rows)
 {
     for (int k = 0; k < n; k += FL_SIMD_WIDTH) {

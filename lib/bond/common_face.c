@@ -5,11 +5,14 @@
 #include "bond/common_face.h"
 #include "geom/polygon.h"
 
-/* Coordinates of a file have sixteen digits and faces of cells are flat to a billionth of their size, so that
- * faces which were cut alike agree far better than this; and what does not is no frozen face. */
+/* Relative distance and angle of planes that are one face. File coordinates have sixteen digits and faces of
+ * cells are flat to 1e-9 of their size, so faces cut alike agree far better; others are not bonded. */
 #define FACE_TOL 1e-6
+/* Least difference of the principal moments, relative to their mean. They are sums of some 10 terms, right to
+ * 1e-15, so that a smaller difference is rounding. */
+#define MOMENT_TOL 1e-12
 
-/* The plane in which it is looked at, about x. */
+/* The plane of the face, with x as origin. */
 typedef struct {
     fl_vec3 x, n, e, d;
 } face_plane;
@@ -20,7 +23,7 @@ static fl_vec2 to_plane(const face_plane *s, fl_vec3 v)
     return (fl_vec2){v3_dot(r, s->e), v3_dot(r, s->d)};
 }
 
-/* Corners of face f, moved by way, counter-clockwise about s->n; back: the face looks the other way. */
+/* Corners of face f moved by way, counter-clockwise about s->n; back: the face has the opposite normal. */
 static int32_t corners_in_plane(const face_plane *s, const fl_poly *p, int32_t f, fl_vec3 way, int back,
                                 fl_vec2 *out)
 {
@@ -40,7 +43,7 @@ static fl_polygon_side side_of(fl_vec2 a, fl_vec2 b)
     return s;
 }
 
-/* Cut v[n] by all sides of cut[m]; what is left, in place. */
+/* Cuts v[n] by all sides of cut[m] in place; returns what is left. */
 static int32_t clip_polygon(int32_t n, fl_vec2 *v, fl_polygon_side *sides, int32_t m, const fl_vec2 *cut)
 {
     for (int32_t k = 0; k < n; k++) sides[k] = side_of(v[k], v[(k + 1) % n]);
@@ -49,13 +52,13 @@ static int32_t clip_polygon(int32_t n, fl_vec2 *v, fl_polygon_side *sides, int32
     return n;
 }
 
-/* Principal axes and half sides from the second moments about the centroid. */
+/* Sets the principal axes and half sides from the second moments about the centroid. */
 static void set_moments(const face_plane *s, int32_t n, const fl_vec2 *v, fl_common_face *out)
 {
     const fl_vec2 c = fl_polygon_centroid(n, v);
     double xx = 0.0, xy = 0.0, yy = 0.0;
     out->area = fl_polygon_area(n, v);
-    for (int32_t k = 0; k < n; k++) { /* of triangles to the centroid: sums over the middles of their sides */
+    for (int32_t k = 0; k < n; k++) { /* triangles to the centroid: sums over the mid-sides */
         const fl_vec2 p = {v[k].x - c.x, v[k].y - c.y}, q = {v[(k + 1) % n].x - c.x, v[(k + 1) % n].y - c.y};
         const double w = 0.5 * (p.x * q.y - p.y * q.x) / 3.0 / 4.0;
         const double mx = p.x + q.x, my = p.y + q.y;
@@ -67,7 +70,7 @@ static void set_moments(const face_plane *s, int32_t n, const fl_vec2 *v, fl_com
     fl_vec2 less = {xy, -half - off}; /* of the smaller moment: (xx - mean + off) x + xy y = 0 */
     if (half < 0.0) less = (fl_vec2){half - off, xy};
     double size = sqrt(less.x * less.x + less.y * less.y);
-    if (!(size > 1e-12 * mean)) less = (fl_vec2){1.0, 0.0}, size = 1.0; /* all directions are alike */
+    if (!(size > MOMENT_TOL * mean)) less = (fl_vec2){1.0, 0.0}, size = 1.0; /* all directions are equal */
     const fl_vec3 a = v3_add(v3_scale(less.x / size, s->e), v3_scale(less.y / size, s->d));
     const double small = mean - off > 0.0 ? mean - off : 0.0;
     out->n = s->n;
@@ -76,7 +79,7 @@ static void set_moments(const face_plane *s, int32_t n, const fl_vec2 *v, fl_com
     out->b = v3_scale(sqrt(3.0 * (mean + off) / out->area), v3_cross(s->n, a));
 }
 
-/* The common part of face f of p and face g of q, when it is larger than what out has. */
+/* Stores the common part of face f of p and face g of q if it is larger than that of out. */
 static void common_part(const fl_poly *p, int32_t f, const fl_poly *q, int32_t g, fl_vec3 way, fl_vec3 x,
                         fl_vec2 *v, fl_polygon_side *sides, fl_common_face *out)
 {
@@ -119,7 +122,7 @@ int fl_common_face_find(const fl_poly *p, const fl_poly *q, fl_vec3 way, fl_vec3
         }
     }
     free(v), free(sides);
-    /* a sliver has no second moment to speak of */
+    /* a sliver has no meaningful second moment */
     if (!(v3_norm(best.a) > FACE_TOL * v3_norm(best.b))) return 0;
     *out = best;
     return 1;

@@ -11,8 +11,8 @@
 
 typedef struct {
     int periodic;   /* 0: in no direction, and the rest is not read */
-    fl_vec3 lo;     /* its lower corner [m]                         */
-    fl_vec3 length; /* [m]; 0 in a direction that does not repeat   */
+    fl_vec3 lo;     /* its lower corner [m] */
+    fl_vec3 length; /* [m]; 0 in a direction that does not repeat */
 } fl_periodic_cell;
 
 /* How many lengths above the cell a coordinate is. */

@@ -38,12 +38,12 @@ typedef struct {
 
 typedef struct {
     fl_piece_kind kind;
-    int32_t part;  /* index in the surface                      */
-    fl_vec3 x;     /* origin of the frame of the piece      [m] */
-    fl_quat q;     /* its axes                                  */
-    fl_poly core;  /* in that frame; a plate for plates         */
-    int elastic;   /* a plane on springs                        */
-    int one_sided; /* a flat sheet that is a shell: what comes from behind feels nothing of it */
+    int32_t part;           /* index in the surface */
+    fl_vec3 x;              /* origin of the frame of the piece [m] */
+    fl_quat q;              /* its axes */
+    fl_poly core;           /* in that frame; a plate for plates */
+    int elastic;            /* a plane on springs */
+    int one_sided;          /* a flat sheet that is a shell: what comes from behind feels nothing of it */
     int32_tinward_triangle; /* a closed shell, a body of which looks inward: 1 + its first triangle; all is solid but
                        * what that encloses */
     double r0, r1, h; /* cone: between z = 0 and z = h of the frame */

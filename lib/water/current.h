@@ -15,13 +15,13 @@
 enum fl_profile { FL_PROFILE_UNIFORM, FL_PROFILE_POWER, FL_PROFILE_LINEAR, FL_PROFILE_TABLE };
 
 typedef struct {
-    fl_vec3 velocity; /* U0 [m/s]                                   */
-    int kind;         /* enum fl_profile                            */
-    double depth;     /* d > 0 [m]; of power and linear             */
-    double exponent;  /* a > 0                                      */
-    int32_t n;        /* rows of the table, 0 for the other kinds   */
-    double *z;        /* [n] rising [m]                             */
-    fl_vec3 *u;       /* [n] [m/s], horizontal                      */
+    fl_vec3 velocity; /* U0 [m/s] */
+    int kind;         /* enum fl_profile */
+    double depth;     /* d > 0 [m]; of power and linear */
+    double exponent;  /* a > 0 */
+    int32_t n;        /* rows of the table, 0 for the other kinds */
+    double *z;        /* [n] rising [m] */
+    fl_vec3 *u;       /* [n] [m/s], horizontal */
 } fl_current;
 
 /* Velocity at height z above still water [m/s]. The same bits on every machine. */

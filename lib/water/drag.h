@@ -6,7 +6,7 @@
 
 /* A fluid: water on the wetted surface, air on the dry one. */
 typedef struct {
-    double density;            /* rho                                     [kg/m^3] */
+    double density;            /* rho [kg/m^3] */
     double force_coefficient;  /* C_f, 0.005 for skin friction in water [-] */
     double moment_coefficient; /* C_m [-] */
 } fl_fluid;

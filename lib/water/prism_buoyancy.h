@@ -26,10 +26,10 @@ typedef struct {
     /* unit and orthogonal: first axis of q, and the long edges; e x a is the second axis of q */
     fl_vec3 a, e;
     double z0, z1;        /* [m] */
-    double jaa, jab, jbb; /* J                                                    [m^4] */
-    double perimeter;     /* P                                                      [m] */
-    double ga, gb;        /* g                                                      [m] */
-    double far2;          /* largest |q|^2                                        [m^2] */
+    double jaa, jab, jbb; /* J [m^4] */
+    double perimeter;     /* P [m] */
+    double ga, gb;        /* g [m] */
+    double far2;          /* largest |q|^2 [m^2] */
 } fl_prism;
 
 /* Finds the right prism that p is; of several, as in a box, the one with the shortest long edges. out->area
