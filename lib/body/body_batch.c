@@ -283,10 +283,10 @@ void fl_body_batch_velocity_change(const fl_body_batch *s, const fl_body_batch_w
     else changes_free(s, g);
 }
 
-/* Margin of max_turn2() over the angles that the three rotations compute.  In exact arithmetic none of them is
- * larger.  Each is some 30 operations away from the bound and q is normal to rounding, so that they may exceed
- * it by 30 * 2^-53 = 3e-15 of itself.  1e-9 is far above that, and moves the choice of series by no more than
- * that part. */
+/* Margin of max_turn2() over the angles that the three rotations compute.  In exact arithmetic none of them
+ * is larger.  Each is some 30 operations away from the bound and q is normal to rounding, so that they may
+ * exceed it by 30 * 2^-53 = 3e-15 of itself.  1e-9 is far above that, and moves the choice of series by no
+ * more than that part. */
 #define ROUNDING_MARGIN 1e-9
 
 /* Upper bound of the squared angle [rad2] that any body turns in its step at the angular momenta L. */

@@ -3,10 +3,10 @@
 #include <math.h>
 #include "base/array.h"
 
-/* Vertices within this fraction of the part's diagonal of a plane lie in it: coordinates that went through
- * 32-bit floats, as in STL, are rounded by 6e-8 of the largest of them. */
+/* Largest distance of a vertex from the plane of its region, relative to the diagonal of the part:
+ * coordinates that went through 32-bit floats, as in STL, are rounded by 6e-8 of the largest of them. */
 #define PLANE_TOL 1e-6
-/* and two triangles whose normals differ by more than this bend all the same [rad] */
+/* Angle between normals above which two triangles are not one plane, whatever their size [rad]. */
 #define MAX_BEND 1e-3
 
 static int compare_sides(const void *x, const void *y)
@@ -25,15 +25,15 @@ int fl_region_side_of(const fl_tri *t, int32_t a, int32_t b)
     return t->v[(k + 1) % 3] == b ? k : corner_of(t, b);
 }
 
-/* Both have an area, and are not one triangle that came twice. */
+/* True if both have an area, and are not one triangle twice. */
 static int is_misoriented(const fl_coplanar_regions *f, int32_t t, int kt, int32_t u, int ku)
 {
     return v3_norm2(f->normal[t]) > 0.0 && v3_norm2(f->normal[u]) > 0.0 &&
            f->p->t[t].v[(kt + 2) % 3] != f->p->t[u].v[(ku + 2) % 3];
 }
 
-/* Of three or more triangles at an edge, s[k .. end), the two that go on flat over it, if there are two: a
- * plate with a stiffener behind it has no rim there. */
+/* Of three or more triangles at an edge, side[k .. end), finds the two that continue most nearly in one
+ * plane, if any: a plate with a stiffener behind it has no rim there. */
 static int find_smoothest(const fl_coplanar_regions *f, int32_t k, int32_t end, int32_t *one, int32_t *two)
 {
     double best = 1.0 - 0.5 * MAX_BEND * MAX_BEND;
@@ -75,7 +75,7 @@ static void join_sides(fl_coplanar_regions *f)
         }
         const int32_t t = f->side[one].t, u = f->side[two].t, a = f->side[k].a, b = f->side[k].b;
         const int kt = fl_region_side_of(&p->t[t], a, b), ku = fl_region_side_of(&p->t[u], a, b);
-        if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: turned against each other */
+        if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: opposite orientations */
             f->closed = 0;
             if (f->misoriented[0] < 0 && is_misoriented(f, t, kt, u, ku))
                 f->misoriented[0] = t, f->misoriented[1] = u;
@@ -86,8 +86,8 @@ static void join_sides(fl_coplanar_regions *f)
     }
 }
 
-/* Triangle t lies in the plane: its corners do, and its normal agrees as well as they tell it, which for a
- * triangle of small height is not well. */
+/* True if triangle t lies in the plane: its corners do, and its normal agrees within its accuracy, which is
+ * poor for a triangle of small height. */
 static int is_in_plane(const fl_coplanar_regions *f, int32_t t, fl_vec3 n, double c)
 {
     const int32_t *v = f->p->t[t].v;
@@ -101,8 +101,8 @@ static int is_in_plane(const fl_coplanar_regions *f, int32_t t, fl_vec3 n, doubl
     return 1;
 }
 
-/* The plane of the triangles queue[0 .. n): their area vector, which the rim alone decides, is known better
- * than the normal of any of them; the offset lies halfway between their lowest and highest corner.  Returns
+/* Fits the plane of the triangles queue[0 .. n). Their area vector, which depends on the rim alone, is more
+ * accurate than any of their normals. The offset is midway between the lowest and the highest corner. Returns
  * half the distance of those two. */
 static double fit_plane(const fl_coplanar_regions *f, int32_t n, fl_vec3 *normal, double *offset)
 {
@@ -124,9 +124,9 @@ static double fit_plane(const fl_coplanar_regions *f, int32_t n, fl_vec3 *normal
     return 0.5 * (high - low);
 }
 
-/* Flood region f->regions from a triangle; queue[0 .. returned) is what it took.
- *   follow  fit the plane again whenever the region has doubled: that of a small triangle, whose corners are
- *           rounded, leaves a wide wall by more than the tolerance */
+/* Floods region f->regions from a triangle; its triangles are queue[0 .. returned).
+ *   follow  refit the plane whenever the region has doubled: the plane of a small triangle, with rounded
+ *           corners, misses a wide wall by more than the tolerance */
 static int32_t flood_region(fl_coplanar_regions *f, int32_t seed, int follow)
 {
     fl_vec3 n = f->normal[seed];
@@ -149,8 +149,8 @@ static int32_t flood_region(fl_coplanar_regions *f, int32_t seed, int follow)
     return tail;
 }
 
-/* The flat region of a triangle and its plane.  A plane that follows may creep round a gentle curve until
- * what it took at first no longer lies in it; then the first triangle's own plane decides. */
+/* Grows the region of a triangle and fits its plane. A plane that follows may creep round a gentle curve
+ * until its first triangles no longer lie in it; then the plane of the seed decides. */
 static void grow_region(fl_coplanar_regions *f, int32_t seed)
 {
     fl_vec3 n = f->normal[seed];
@@ -177,7 +177,7 @@ static int compare_area(const void *x, const void *y)
     return (p->t > q->t) - (p->t < q->t);
 }
 
-/* The largest triangles first: their normals are the best known. */
+/* The largest triangles come first: their normals are the most accurate. */
 int fl_coplanar_regions_find(fl_coplanar_regions *f, const fl_part *p, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(p);

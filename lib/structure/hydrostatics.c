@@ -3,8 +3,8 @@
 #include "base/array.h"
 #include "structure/hydrostatics.h"
 
-/* Add the triangle a b c, all z <= 0.  A polynomial of degree 2 over it is its mean at the middles of the
- * sides, one of degree 3 takes the corners, these and the centroid: 3/60, 8/60 and 27/60. */
+/* Adds the triangle a b c, all z <= 0. The rule is exact for polynomials of degree 3: weights 3/60 at the
+ * corners, 8/60 at the mid-sides, 27/60 at the centroid. */
 static void add_triangle(fl_hydrostatics *f, fl_vec3 a, fl_vec3 b, fl_vec3 c)
 {
     const fl_vec3 e = v3_sub(b, a), g = v3_sub(c, a);
@@ -43,7 +43,7 @@ static void add_cut(fl_hydrostatics *f, const fl_vec3 v[3])
 {
     fl_vec3 wet[4];
     int n = 0;
-    if (v[0].z >= 0.0 && v[1].z >= 0.0 && v[2].z >= 0.0) return; /* dry, or part of the lid */
+    if (v[0].z >= 0.0 && v[1].z >= 0.0 && v[2].z >= 0.0) return; /* dry, or part of the water plane */
     for (int k = 0; k < 3; k++) {
         const fl_vec3 a = v[k], b = v[(k + 1) % 3];
         if (a.z <= 0.0) wet[n++] = a;
@@ -63,7 +63,7 @@ static int compare_edges(const void *x, const void *y)
     return (p->b > q->b) - (p->b < q->b);
 }
 
-/* Every edge is run both ways, as often each: 1; else 0, or -1 with FL_SYSTEM. */
+/* Returns 1 if every edge is run both ways equally often, 0 if not, -1 with FL_SYSTEM. */
 static int is_closed(const fl_part *p, fl_err *err)
 {
     const int32_t n = 3 * p->nt;

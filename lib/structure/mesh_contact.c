@@ -4,18 +4,19 @@
 #include "structure/mesh_contact.h"
 #include "narrow/closest_point.h"
 
-/* Two distances within this fraction of the size are one: rounding of the coordinates. */
+/* Distances within this fraction of the size are equal: rounding of the coordinates. */
 #define ROUNDING_TOL 1e-12
-/* A point is on an edge or a face where it is within this fraction of the size: straight runs of edges are as
- * straight, and corners of faces as far from their planes, as that (coplanar_regions.c). */
+/* A point lies on an edge or face if it is within this fraction of the size: straight runs of edges are
+ * straight, and corners of faces lie in their planes, to that (coplanar_regions.c). */
 #define EDGE_TOL 2e-6
-/* Where the way to a face is upright to it but for that cosine, no other tells the side. */
+/* Cosine between the way to a face and its normal above which that face decides the side: another face of the
+ * same point could be more in front by 1e-9 of the distance at most. */
 #define NORMAL_COSINE (1.0 - 1e-9)
 
-/* A wall that is as deep in a core as that part of the deepest is known by what it bears. */
+/* A wall that overlaps a core by this part of the largest overlap counts as loaded. */
 #define KNOWN_SHARE 0.8
 
-/* The point lies where the surface ends. */
+/* True if the point lies on the rim of the surface. */
 static int is_on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
     const double same = EDGE_TOL * p->size;
@@ -30,17 +31,18 @@ static int is_on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
     return 0;
 }
 
-/* The nearest point of some faces, looked at one by one, in any order but for rounding. */
+/* Search for the nearest point of some faces, tried one by one; the result does not depend on their order but
+ * for rounding. */
 typedef struct {
     fl_closest_point at;
-    double least; /* distance, in any order at all */
-    double front; /* how far x is in front of the face */
+    double least; /* distance, whatever the order */
+    double front; /* height of x in front of the face */
     double same;
-    int32_t of; /* the face */
+    int32_t of; /* face */
 } nearest_search;
 
-/* Of faces whose nearest points agree within rounding (a shared edge or corner) the one that x is most in
- * front of tells the side: its plane passes between x and the others. */
+/* Among faces whose nearest points agree within rounding (a shared edge or corner), the one that x is most in
+ * front of decides the side: its plane passes between x and the others. */
 static inline void try_face(nearest_search *b, const fl_poly *p, int32_t f, fl_vec3 x)
 {
     const double s = v3_dot(p->n[f], x) - p->c[f], most = b->at.d + b->same;
@@ -51,8 +53,8 @@ static inline void try_face(nearest_search *b, const fl_poly *p, int32_t f, fl_v
     if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
 }
 
-/* How far x is in front of the surface: of the faces that meet in the nearest point the one that it is most
- * in front of tells, seen from that point, since the plane of a face may pass its corners by. */
+/* Height of x in front of the surface: the largest among the faces that meet in the nearest point, seen from
+ * that point, since the plane of a face may miss its corners. */
 static double height_in_front(const nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
     const fl_vec3 r = v3_sub(x, b->at.p);
@@ -67,7 +69,7 @@ static double height_in_front(const nearest_search *b, const fl_poly *p, const f
     return most;
 }
 
-/* With its sign: what is nearest to a rim is beside the surface, not behind it. */
+/* Signs the distance: a point nearest to a rim is beside the surface, not behind it. */
 static fl_closest_point with_sign(const nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh,
                                   fl_vec3 x)
 {
@@ -99,8 +101,8 @@ static fl_closest_point signed_nearest(const fl_poly *p, const fl_piece_mesh *sh
     return with_sign(&b, p, sh, x);
 }
 
-/* Is x behind the surface, or may it come there when it moves by the margin?  Not when it is farther off than
- * that, and in front of every face that may become the nearest. */
+/* True if x is behind the surface, or may pass behind when it moves by the margin. That is excluded if x is
+ * farther away, and in front of every face that may become the nearest. */
 static int may_pass_behind(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x, double margin)
 {
     const double d = signed_nearest(p, sh, x).d, most = d + 2.0 * margin;
@@ -128,7 +130,7 @@ static int compare_int(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Every feature of the core. */
+/* Lists every feature of the core. */
 static int list_all_features(fl_feature_set *r, const fl_poly *a)
 {
     fl_err lost = {0};
@@ -145,7 +147,7 @@ static int list_all_features(fl_feature_set *r, const fl_poly *a)
     return 0;
 }
 
-/* Faces within the reach, edges and corners within the radius; -1 when memory runs out. */
+/* Lists faces within the reach, edges and corners within the radius; -1 when memory runs out. */
 static int list_near_features(fl_feature_set *r, const fl_poly *core, const fl_piece_mesh *sh, fl_aabb box,
                               double ra, double reach)
 {
@@ -166,8 +168,8 @@ static int list_near_features(fl_feature_set *r, const fl_poly *core, const fl_p
     return 0;
 }
 
-/* The vertices of the core that may be behind the surface: signed distances.  *behind is set when one is; the
- * places of those are added here. */
+/* Evaluates the vertices of the core that may be behind the surface. Adds the contact points of those behind,
+ * and sets *behind if there are any. */
 static int add_vertices_behind(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B,
                                const fl_piece_mesh *sh, const fl_feature_pairs *l, double ra, int *behind)
 {
@@ -182,8 +184,8 @@ static int add_vertices_behind(fl_patch_points *w, const fl_patch_core *A, const
     return 0;
 }
 
-/* Some face of the core has all of the points beyond it by `far`: they are farther than that from the core.
- */
+/* True if some face of the core has all of the points beyond it by `far`: they are farther than that from the
+ * core. */
 static int is_beyond(const fl_patch_core *A, const fl_patch_core *B, const int32_t *at, int32_t n, double far)
 {
     for (int32_t F = 0; F < A->p->nf; F++) {
@@ -195,7 +197,7 @@ static int is_beyond(const fl_patch_core *A, const fl_patch_core *B, const int32
     return 0;
 }
 
-/* Leave of the walls what is within `far` of the core. */
+/* Keeps the walls within `far` of the core. */
 static void keep_near(fl_feature_set *r, const fl_patch_core *A, const fl_patch_core *B, double far)
 {
     const fl_poly *p = B->p;
@@ -217,8 +219,8 @@ static void keep_near(fl_feature_set *r, const fl_patch_core *A, const fl_patch_
     r->vertices = n;
 }
 
-/* The walls within reach, and what of them and of the core may have places, until the pair has moved by the
- * margin. */
+/* Lists the walls within reach, and the features of them and of the core that may have contact points, until
+ * the pair has moved by the margin. */
 static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
                               const fl_patch_core *B, const fl_piece_mesh *shell, double ra, double reach,
                               fl_feature_pairs *l)
@@ -242,8 +244,8 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
                : 0;
 }
 
-/* Whether no face is in reach now: the list may be one of another time, and what sleeps by the distance has
- * to be told the same with a list that is new. */
+/* Sets *distance to reach if no face is in reach now. The list may be an old one, and the free travel
+ * computed from the distance has to be the same with a new list. */
 static int bound_distance(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
                           const fl_piece_mesh *shell, double reach, double *distance)
 {
@@ -270,12 +272,12 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
         list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, l))
         return -1;
     if (l->out_of_reach) {
-        l->max_shift2 = 0.0; /* what is not near now is not known later */
+        l->max_shift2 = 0.0; /* not near now: no list is kept */
         return 0;
     }
-    *distance = ra; /* something is near: no bound is claimed */
+    *distance = ra; /* a face is near: no bound is claimed */
     if (add_vertices_behind(w, &A, &B, &b->mesh, l, ra, &behind)) return -1;
-    if (behind) { /* what is farther behind than all faces reach is beyond the surface, not in it */
+    if (behind) { /* a vertex farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
         if (bound_distance(w, near, a, &b->mesh, ra, &beside)) return -1;
         if (beside == ra) {
@@ -291,8 +293,8 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
     return w->n ? 0 : bound_distance(w, near, a, &b->mesh, reach, distance);
 }
 
-/* The faces that the point may meet until it has moved by the margin: where it can touch one wall only those
- * that can be the nearest, else all in reach.  None where nothing is near enough: *distance tells how far. */
+/* Lists the faces that the point may meet until it has moved by the margin: those that can be the nearest if
+ * it can touch one wall only, else all in reach. None if nothing is near enough; then *distance is set. */
 static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
                              fl_feature_pairs *l, double *distance)
 {
@@ -341,7 +343,7 @@ int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const
     for (int32_t c = 0; c < l->candidates; c++) try_face(&best, core, l->candidate[c], x);
     const fl_closest_point q = with_sign(&best, core, sh, x);
     *distance = best.least;
-    if (best.least >= ra) return 0; /* also from behind */
+    if (best.least >= ra) return 0; /* from behind as well */
     return l->single_wall
                ? fl_patch_points_add_plain(w, x, q.n, ra - q.d, ra)
                : fl_persistence_points(&sh->seams, &near->persistence, w, core,
@@ -381,7 +383,7 @@ int fl_mesh_contact_gap(fl_mesh_contact_work *near, const fl_vec3 *v, const fl_p
     return r->faces < 0 || lost.code ? -1 : out->d < within;
 }
 
-/* The lowest of the points over a plane, or something lower than `enough` as soon as one is. */
+/* Height of the lowest point above a plane, or any height below `enough` as soon as one is found. */
 static double lowest_above(fl_vec3 n, fl_vec3 o, const fl_vec3 *v, int32_t points, double enough)
 {
     const double level = v3_dot(n, o);

@@ -4,17 +4,31 @@
 #include "base/array.h"
 #include "structure/persistence_contact.h"
 
-/* Of the size: so near to each other two tiles meet.  Tiles and straight runs of their sides are as flat and
- * as straight as half of that (coplanar_regions.c). */
+/* Distance up to which two tiles meet, relative to the size. Tiles are flat, and straight runs of their sides
+ * straight, to half of that (coplanar_regions.c). */
 #define SEAM_TOL 2e-6
-/* So much two that meet may rise from one another and be one wall: of the distance it is half the square. */
+/* Slope up to which one of two tiles that meet may rise from the plane of the other and be one wall with it:
+ * it changes the distance by half its square, 5e-13. */
 #define RISE_TOL 1e-6
-/* And of the size so much is rounding, and half the square of the above. */
+/* Rounding of distances, relative to the size; half the square of RISE_TOL is below it. */
 #define ROUNDING_TOL 1e-12
 
-enum { DROPPED = -1 }; /* a pass that is to go */
+/* Length of a seam below which it is one point, in SEAM_TOL: both its ends may be off by that along the seam,
+ * on either tile. */
+#define POINT_SEAM 4.0
+/* Excess, in SEAM_TOL, by which ends of different intervals have to be farther apart than the longest
+ * interval to be the seam. Twice POINT_SEAM: the ends compared may be off by that, and those of the interval
+ * too. */
+#define LONGER 8.0
+/* Cosine of the normals below which two tiles are the two sides of a sheet (154 degrees): their seam is no
+ * convex edge. */
+#define BACK_TO_BACK -0.9
+/* Gap between spans, as a fraction of a side, that is rounding: far above 1e-15, far below any tile. */
+#define COVER_TOL 1e-9
 
-/* --- where tiles meet --------------------------------------------------------------------------- */
+enum { DROPPED = -1 }; /* marks a seam to be dropped */
+
+/* --- seams of tiles ------------------------------------------------------------------------------ */
 
 static int32_t sides_of(const fl_poly *p, int32_t f) { return p->first[f + 1] - p->first[f]; }
 static const int32_t *loop_of(const fl_poly *p, int32_t f) { return p->loop + p->first[f]; }
@@ -25,7 +39,8 @@ static fl_vec3 side_vector(const fl_poly *p, int32_t f, int32_t c)
     return v3_sub(p->v[p->loop[c + 1 < p->first[f + 1] ? c + 1 : p->first[f]]], p->v[p->loop[c]]);
 }
 
-/* Leave of the stretch from t[0] to t[1] of a line what is below: h0 and h1 are heights at 0 and 1. */
+/* Clips the interval t[0] to t[1] of a line to where the height is at most 0; h0 and h1 are the heights at 0
+ * and 1. Returns 0 if nothing is left. */
 static int clip_interval(double t[2], double h0, double h1)
 {
     if (h0 > 0.0 && h1 > 0.0) return 0;
@@ -34,7 +49,7 @@ static int clip_interval(double t[2], double h0, double h1)
     return t[0] <= t[1];
 }
 
-/* The stretch of a b that lies within tol of tile f; 0 when there is none. */
+/* The interval of a b that lies within tol of tile f; 0 if there is none. */
 static int interval_on_tile(const fl_poly *p, int32_t f, fl_vec3 a, fl_vec3 b, double tol, double t[2])
 {
     const int32_t *v = loop_of(p, f), m = sides_of(p, f);
@@ -50,25 +65,25 @@ static int interval_on_tile(const fl_poly *p, int32_t f, fl_vec3 a, fl_vec3 b, d
     return 1;
 }
 
-/* A part of a side, numbered as in loop, that another tile lies over. */
+/* A part of a side, numbered as in loop, that another tile covers. */
 typedef struct {
     int32_t side;
-    double from, to; /* shares of it */
+    double from, to; /* fractions of the side */
 } side_span;
 
-/* What is in work while passes are made. */
+/* State while seams are made. */
 typedef struct {
     const fl_poly *p;
     const fl_bvh *tree;
     const fl_aabb *box;
     side_span *over;
-    fl_vec3 *end; /* of all stretches of two tiles on each other */
+    fl_vec3 *end; /* ends of all intervals of two tiles on each other */
     int32_t overs, ends, over_cap, end_cap;
     fl_persistence_work k;
 } seam_builder;
 
-/* The stretches of sides of tile f on tile g: spans, ends, and the longest, where it is longer than *most,
- * into *pass.  -1 when memory runs out. */
+/* Collects the intervals of sides of tile f on tile g: spans and ends. Sets *seam to the longest if it is
+ * longer than *most. Returns -1 when memory runs out. */
 static int collect_intervals(seam_builder *q, int32_t f, int32_t g, double tol, double *most,
                              fl_tile_seam *seam)
 {
@@ -97,22 +112,22 @@ static fl_vec3 mean_corner(const fl_poly *p, int32_t f)
     return v3_scale(1.0 / m, sum);
 }
 
-/* Tile g rises from the plane of f, where they meet at x. */
+/* True if tile g rises from the plane of f, where they meet at x. */
 static int rises_above(const fl_poly *p, int32_t f, int32_t g, fl_vec3 x)
 {
     const fl_vec3 way = v3_sub(mean_corner(p, g), x);
     return v3_dot(p->n[f], way) > RISE_TOL * v3_norm(way);
 }
 
-/* Both have that point, to the last digits. */
+/* True if both tiles contain that point to rounding. */
 static int is_shared_point(const fl_poly *p, int32_t f, int32_t g, fl_vec3 x)
 {
     return fl_closest_on_face_border(p, f, x).d <= ROUNDING_TOL * p->size &&
            fl_closest_on_face_border(p, g, x).d <= ROUNDING_TOL * p->size;
 }
 
-/* Where tiles f < g meet: 1, or 0 where they do not; -1 when memory runs out.  What two convex tiles share is
- * convex: a side or a part of it, or, where they cross or lie on each other, what ends at sides. */
+/* The seam of tiles f < g: 1, or 0 if they do not meet; -1 when memory runs out. Two convex tiles share a
+ * convex set: a side or a part of it, or, if they cross or overlap, what ends at sides. */
 static int find_seam(seam_builder *q, int32_t f, int32_t g, double tol, fl_tile_seam *seam)
 {
     const fl_poly *p = q->p;
@@ -124,16 +139,16 @@ static int find_seam(seam_builder *q, int32_t f, int32_t g, double tol, fl_tile_
     for (int32_t i = 0; i < q->ends; i++)
         for (int32_t j = 0; j < i; j++) {
             const double across = v3_norm(v3_sub(q->end[i], q->end[j]));
-            if (across > length + 8.0 * tol) length = across, seam->a = q->end[j], seam->b = q->end[i];
+            if (across > length + LONGER * tol) length = across, seam->a = q->end[j], seam->b = q->end[i];
         }
-    if (length < 4.0 * tol) { /* corners alone, if exact */
+    if (length < POINT_SEAM * tol) { /* corners only, if exact */
         if (is_shared_point(p, f, g, seam->a)) seam->b = seam->a;
         else if (is_shared_point(p, f, g, seam->b)) seam->a = seam->b;
     }
     seam->j = g;
-    seam->inward = rises_above(p, f, g, seam->a) || rises_above(p, g, f, seam->a) ||
-                   v3_dot(p->n[f], p->n[g]) < -0.9 || !is_shared_point(p, f, g, seam->a) ||
-                   !is_shared_point(p, f, g, seam->b);
+    seam->concave = rises_above(p, f, g, seam->a) || rises_above(p, g, f, seam->a) ||
+                    v3_dot(p->n[f], p->n[g]) < BACK_TO_BACK || !is_shared_point(p, f, g, seam->a) ||
+                    !is_shared_point(p, f, g, seam->b);
     return 1;
 }
 
@@ -155,7 +170,7 @@ static int32_t query_boxes(fl_persistence_work *k, const fl_bvh *tree, const fl_
     return n;
 }
 
-/* The passes of tile f to those behind it. */
+/* Appends the seams of tile f with later tiles. */
 static int seams_of(fl_tile_seams *s, seam_builder *q, int32_t f)
 {
     const int32_t n = query_boxes(&q->k, q->tree, q->box, aabb_grow(q->box[f], s->tol));
@@ -172,9 +187,9 @@ static int seams_of(fl_tile_seams *s, seam_builder *q, int32_t f)
     return 0;
 }
 
-/* --- what a ball meets -------------------------------------------------------------------------- */
+/* --- contact of a sphere -------------------------------------------------------------------------- */
 
-/* The number in the scratch of a tile, -1 for none; tiles there are ascending. */
+/* Index of a tile in the scratch, -1 for none; tiles there are ascending. */
 static int32_t index_of_tile(const fl_persistence_work *k, int32_t tile)
 {
     int32_t low = 0, high = k->tiles;
@@ -192,14 +207,14 @@ static int32_t root_of(fl_persistence_work *k, int32_t i)
     return i;
 }
 
-/* Nearest point of a tile for who stands before it, of its rim for who stands behind it. */
+/* Nearest point of a tile if x is in front of it, else of its rim. */
 static fl_closest_point closest_of_tile(const fl_poly *p, int32_t f, fl_vec3 x)
 {
     return v3_dot(p->n[f], x) >= p->c[f] ? fl_closest_on_face(p, f, x) : fl_closest_on_face_border(p, f, x);
 }
 
-/* Those of some tiles, ascending, that are nearer than `radius`; q, where there is one, is that of tile `of`,
- * and what stands behind a tile sees its rim.  -1 when memory runs out. */
+/* Collects the tiles of an ascending list that are nearer than `radius`. If q is given, it is the nearest
+ * point of tile `of`, and of tiles that face away only the rim counts. Returns -1 when memory runs out. */
 static int collect_tiles(fl_persistence_work *k, const fl_poly *p, const fl_near_tiles *some, fl_vec3 x,
                          double radius, const fl_closest_point *q, int32_t of)
 {
@@ -216,7 +231,7 @@ static int collect_tiles(fl_persistence_work *k, const fl_poly *p, const fl_near
     return 0;
 }
 
-/* A pass is never nearer than the tiles that it joins, and rounding makes no walls. */
+/* A saddle is never nearer than the tiles that it joins; the margin keeps rounding from separating pieces. */
 static fl_closest_point saddle_of(const fl_tile_seams *s, const fl_persistence_work *k,
                                   const fl_persistence_link *l, fl_vec3 x)
 {
@@ -227,7 +242,7 @@ static fl_closest_point saddle_of(const fl_tile_seams *s, const fl_persistence_w
     return q;
 }
 
-/* Links of the tiles in the scratch that a ball of that radius meets.  -1 when memory runs out. */
+/* Collects the links of tiles in the scratch within that radius. Returns -1 when memory runs out. */
 static int collect_links(const fl_tile_seams *s, fl_persistence_work *k, fl_vec3 x, double radius)
 {
     k->links = 0;
@@ -245,7 +260,7 @@ static int collect_links(const fl_tile_seams *s, fl_persistence_work *k, fl_vec3
     return 0;
 }
 
-/* The surface ends on a side of tile f that is nearer than that. */
+/* True if a side of tile f nearer than that is a rim. */
 static int has_rim_within(const fl_tile_seams *s, const fl_poly *p, int32_t f, fl_vec3 x, double radius)
 {
     for (int32_t c = p->first[f]; c < p->first[f + 1]; c++) {
@@ -255,8 +270,8 @@ static int has_rim_within(const fl_tile_seams *s, const fl_poly *p, int32_t f, f
     return 0;
 }
 
-/* In a ball in which it does not end, nor bends inward, and hangs together, the surface is that of a convex
- * body (Tietze and Nakajima). */
+/* Within a ball where the surface has no rim, is not concave and is connected, it is that of a convex body
+ * (Tietze and Nakajima). */
 int fl_persistence_is_single(const fl_tile_seams *s, fl_persistence_work *k, const fl_poly *p,
                              const fl_near_tiles *near, fl_vec3 x, double r)
 {
@@ -267,7 +282,7 @@ int fl_persistence_is_single(const fl_tile_seams *s, fl_persistence_work *k, con
         if (has_rim_within(s, p, k->tile[i].tile, x, r)) return 0;
     for (int32_t c = 0; c < k->links; c++) {
         const int32_t i = root_of(k, k->link[c].i), j = root_of(k, k->link[c].j);
-        if (s->seam[k->link[c].seam].inward) return 0;
+        if (s->seam[k->link[c].seam].concave) return 0;
         if (i != j) k->tile[i].parent = j, pieces--;
     }
     return pieces == 1;
@@ -280,7 +295,7 @@ static int compare_links(const void *a, const void *b)
     return x->seam < y->seam ? -1 : x->seam > y->seam;
 }
 
-/* Tiles that lie on each other have one point in two: the minimum of piece i is that of a nearer piece. */
+/* Overlapping tiles have one point twice. True if the minimum of piece i is that of a nearer piece. */
 static int is_repeated(const fl_tile_seams *s, fl_persistence_work *k, int32_t i)
 {
     const fl_persistence_tile *const it = &k->tile[i];
@@ -306,13 +321,13 @@ int fl_persistence_points(const fl_tile_seams *s, fl_persistence_work *k, fl_pat
 {
     if (!(q->d < radius)) return 0;
     if (add_point(w, x, q, radius, 1.0)) return -1;
-    if (q->d < 0.0) return 0; /* from behind all other walls are those of the other side */
+    if (q->d < 0.0) return 0; /* from behind all other walls belong to the other side */
     if (collect_tiles(k, p, near, x, radius, q, of)) return -1;
     if (k->tiles < 2) return 0;
     if (collect_links(s, k, x, radius)) return -1;
     if (k->links > 1) qsort(k->link, (size_t)k->links, sizeof *k->link, compare_links);
     const int32_t first = index_of_tile(k, of);
-    for (int32_t c = 0; c < k->links; c++) { /* roots are minima of their pieces */
+    for (int32_t c = 0; c < k->links; c++) { /* roots are the minima of their pieces */
         const fl_persistence_link *const l = &k->link[c];
         int32_t old = root_of(k, l->i), young = root_of(k, l->j);
         if (old == young) continue;
@@ -335,7 +350,7 @@ int fl_persistence_points(const fl_tile_seams *s, fl_persistence_work *k, fl_pat
     return 0;
 }
 
-/* --- all of them ---------------------------------------------------------------------------------- */
+/* --- making the seams ----------------------------------------------------------------------------- */
 
 /* The tiles at every vertex. */
 typedef struct {
@@ -356,24 +371,26 @@ static int find_corners(vertex_tiles *c, const fl_poly *p, fl_err *err)
     return 0;
 }
 
-/* Tiles that a walk round their corner, at x, joins need no pass there.  Of the passes between the tiles in
- * the scratch the long ones join; then the short ones within what has been joined leave. */
+/* Tiles round a vertex x that a chain of longer seams joins need no seam at the vertex itself. With drop = 0
+ * joins tiles in the scratch by the long seams; with drop = 1 drops the short seams between tiles that are
+ * joined. */
 static void join_round_corner(fl_tile_seams *s, fl_persistence_work *k, fl_vec3 x, const int32_t *number,
-                              int leave)
+                              int drop)
 {
     for (int32_t i = 0; i < k->tiles; i++) {
         for (int32_t at = s->begin[k->tile[i].tile]; at < s->begin[k->tile[i].tile + 1]; at++) {
             fl_tile_seam *const l = &s->seam[at];
             const int32_t j = number[l->j];
-            const int is_short = v3_norm(v3_sub(l->b, l->a)) < 4.0 * s->tol;
-            if (j < 0 || is_short != leave || fl_closest_on_segment(l->a, l->b, x).d > 4.0 * s->tol) continue;
-            if (!leave) k->tile[root_of(k, i)].parent = root_of(k, j);
-            else if (root_of(k, i) == root_of(k, j)) l->inward = DROPPED;
+            const int is_short = v3_norm(v3_sub(l->b, l->a)) < POINT_SEAM * s->tol;
+            if (j < 0 || is_short != drop || fl_closest_on_segment(l->a, l->b, x).d > POINT_SEAM * s->tol)
+                continue;
+            if (!drop) k->tile[root_of(k, i)].parent = root_of(k, j);
+            else if (root_of(k, i) == root_of(k, j)) l->concave = DROPPED;
         }
     }
 }
 
-/* Leave out the passes that are corners, where they can be.  -1 with FL_SYSTEM. */
+/* Drops the seams that are corners, where possible. Returns -1 with FL_SYSTEM. */
 static int drop_corner_seams(fl_tile_seams *s, fl_persistence_work *k, const fl_poly *p, fl_err *err)
 {
     vertex_tiles c = {0};
@@ -389,14 +406,14 @@ static int drop_corner_seams(fl_tile_seams *s, fl_persistence_work *k, const fl_
             k->tile[i] = (fl_persistence_tile){.tile = c.tile[c.begin[v] + i], .parent = i};
             number[k->tile[i].tile] = i;
         }
-        for (int leave = 0; leave < 2; leave++) join_round_corner(s, k, p->v[v], number, leave);
+        for (int drop = 0; drop < 2; drop++) join_round_corner(s, k, p->v[v], number, drop);
         for (int32_t i = 0; i < n; i++) number[k->tile[i].tile] = -1;
     }
     for (int32_t f = 0, at = 0; f < p->nf; f++) {
         const int32_t end = s->begin[f + 1];
         s->begin[f] = kept;
         for (; at < end; at++)
-            if (s->seam[at].inward != DROPPED) s->seam[kept++] = s->seam[at];
+            if (s->seam[at].concave != DROPPED) s->seam[kept++] = s->seam[at];
     }
     s->n = s->begin[p->nf] = kept;
     fl_tile_seam *const trimmed = realloc(s->seam, (size_t)(kept + 1) * sizeof *s->seam);
@@ -414,17 +431,16 @@ static int compare_spans(const void *a, const void *b)
     return (x->from > y->from) - (x->from < y->from);
 }
 
-/* Sides that spans do not cover from end to end. */
+/* Marks sides that spans do not cover from end to end. */
 static void find_rims(fl_tile_seams *s, seam_builder *q)
 {
-    const double cover_tol = 1e-9;
     int32_t at = 0;
     if (q->overs > 1) qsort(q->over, (size_t)q->overs, sizeof *q->over, compare_spans);
     for (int32_t c = 0; c < q->p->first[q->p->nf]; c++) {
         double covered = 0.0;
         for (; at < q->overs && q->over[at].side == c; at++)
-            if (q->over[at].from <= covered + cover_tol) covered = fmax(covered, q->over[at].to);
-        s->rim[c] = covered < 1.0 - cover_tol;
+            if (q->over[at].from <= covered + COVER_TOL) covered = fmax(covered, q->over[at].to);
+        s->rim[c] = covered < 1.0 - COVER_TOL;
     }
 }
 

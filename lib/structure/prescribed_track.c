@@ -6,7 +6,7 @@
 #include "base/table.h"
 #include "structure/prescribed_track.h"
 
-/* Beyond this no motion is meant, and its squares stay finite [m, deg, s]. */
+/* Larger values are no plausible motion; the square of this one is finite [m, deg, s]. */
 #define MAX_VALUE 1e15
 
 static const char *const NAME[6] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -33,9 +33,10 @@ static double end_slope(const fl_track *tr, int k, int32_t end, int32_t inward)
     return first + (first - next) * h / (h + g);
 }
 
-/* Continuous second derivatives at the inner rows: with h, g the intervals before and behind row i,
- *     g s[i-1] + 2 (h + g) s[i] + h s[i+1] = 3 (g d[before] + h d[behind]),
- * by elimination; rows are dominated by their diagonal, so that no pivot is wanted. */
+/* Sets slopes that make the second derivatives continuous at the inner rows: with h, g the intervals before
+ * and after row i,
+ *     g s[i-1] + 2 (h + g) s[i] + h s[i+1] = 3 (g d[before] + h d[after]),
+ * by elimination; the matrix is diagonally dominant, so no pivoting is needed. */
 static int make_slopes(fl_track *tr, fl_err *err)
 {
     const int32_t n = tr->n;
@@ -73,8 +74,8 @@ static int make_slopes(fl_track *tr, fl_err *err)
     return 0;
 }
 
-/* The columns that there are, -1 for the others, in the units that the page tells: what is in other units, or
- * no motion at all, is no structure at rest. */
+/* Finds the columns, -1 for those missing, and checks their units: a table in other units, or without a
+ * motion, is an error and not a structure at rest. */
 static int find_columns(const fl_table *in, int32_t *time, int32_t col[6], fl_err *err)
 {
     int there = 0;
@@ -132,7 +133,7 @@ done:
     return rc;
 }
 
-/* Row at or before t, so that row + 1 is there too; n > 1. */
+/* Row at or before t, such that row + 1 exists; n > 1. */
 static int32_t row_before(const fl_track *tr, double t)
 {
     int32_t low = 0, high = tr->n - 1;

@@ -13,7 +13,7 @@ int fl_region_is_flat(const fl_part *p, fl_vec3 n, double c, double tol)
     return 1;
 }
 
-/* A corner in the plane, and which vertex it is. */
+/* A corner in the plane, and its vertex. */
 typedef struct {
     fl_vec2 at;
     int32_t v;
@@ -27,13 +27,13 @@ static int compare_position(const void *x, const void *y)
     return (p->v > q->v) - (p->v < q->v);
 }
 
-/* Of a to b and c: positive where c is to the left. */
+/* Twice the signed area of a b c: positive if c is to the left of a b. */
 static double left_of(fl_vec2 a, fl_vec2 b, fl_vec2 c)
 {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* The hull of sorted corners, counter-clockwise, into out, with room for one more than there are.
+/* Convex hull of sorted corners, counter-clockwise, into out, which has room for one more than there are.
  * Source: Andrew, Inf. Process. Lett. 9 (1979) 216. */
 static int32_t hull_of(int32_t n, const corner *c, corner *out)
 {
@@ -45,12 +45,12 @@ static int32_t hull_of(int32_t n, const corner *c, corner *out)
             while (m >= start + 2 && left_of(out[m - 2].at, out[m - 1].at, at->at) <= 0.0) m--;
             out[m++] = *at;
         }
-        m--; /* the next run begins with it */
+        m--; /* the upper chain begins with it */
     }
     return m;
 }
 
-/* A triangle by its vertices in their order, the side that it faces and its area; 0 where it has none. */
+/* A triangle: its vertices in ascending order, the side that it faces (1: along n) and its area. */
 typedef struct {
     int32_t v[3], up;
     double area;
@@ -79,7 +79,7 @@ static flat_triangle triangle_of(const fl_part *p, const fl_tri *t, fl_vec3 n)
     return f;
 }
 
-/* What faces down and up covers, each triangle once. */
+/* Areas covered by the triangles that face down and up, each triangle once. */
 static void areas_of(const fl_part *p, fl_vec3 n, flat_triangle *all, double area[2])
 {
     area[0] = area[1] = 0.0;
@@ -105,7 +105,7 @@ int fl_region_covers_hull(const fl_part *p, fl_vec3 n, double tol, int32_t *loop
             if (used[v]) all[m++] = (corner){{v3_dot(d, x), v3_dot(d, y)}, v};
         }
         qsort(all, (size_t)m, sizeof *all, compare_position);
-        for (int32_t k = 0; k < m; k++) /* of vertices at one place the first */
+        for (int32_t k = 0; k < m; k++) /* of vertices at one position the first */
             if (k == 0 || all[k].at.x != all[kept - 1].at.x || all[k].at.y != all[kept - 1].at.y)
                 all[kept++] = all[k];
         *count = hull_of(kept, all, rim);

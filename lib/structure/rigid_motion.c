@@ -14,7 +14,7 @@ int32_t fl_rigid_motions_add(fl_rigid_motions *v, fl_rigid_motion *m, fl_err *er
     return v->n++;
 }
 
-/* What is told at time t: way and turn, their rates and second derivatives. */
+/* The prescribed motion at time t: displacement and rotation, their rates and second derivatives. */
 static void prescribed_at(const fl_rigid_motion *m, double t, fl_pose6 *x, fl_pose6 *rate, fl_pose6 *second)
 {
     if (m->track.n) {
@@ -29,8 +29,8 @@ static void prescribed_at(const fl_rigid_motion *m, double t, fl_pose6 *x, fl_po
 /* Below this |r|^2 the series of the two quotients is exact to rounding: r^8 is left out. */
 #define SMALL_TURN 1e-4
 
-/* Angular velocity of exp(r(t)):  w = r' + (1 - cos a)/a^2 r x r' + (a - sin a)/a^3 r x (r x r'), a = |r|.
- * Cosine and sine come from the quaternion of the turn. */
+/* Angular velocity of exp(r(t)): w = r' + (1 - cos a)/a^2 r x r' + (a - sin a)/a^3 r x (r x r'), a = |r|.
+ * Cosine and sine come from the quaternion of the rotation. */
 static fl_vec3 angular_velocity(fl_vec3 r, fl_vec3 rate)
 {
     const double a2 = v3_norm2(r);
@@ -55,7 +55,8 @@ static void set_component(fl_vec3 *a, int k, double x)
     else a->z = x;
 }
 
-/* The told components of a free mover's velocity become v; what holds them works at the mean. */
+/* Sets the prescribed components of a free mover's velocity; the constraint does work at the mean of old and
+ * new velocity. */
 static void set_prescribed_velocity(fl_rigid_motions *m, int32_t k, fl_vec3 v)
 {
     fl_bodies *b = &m->b;
@@ -146,7 +147,7 @@ static void kick_motion(fl_rigid_motions *v, int32_t k, double h)
     v->prescribed_work[k] += h * v3_dot(v->spring_force[k], v->prescribed_velocity[k]);
 }
 
-/* Rounding aside, x follows the told way in the held directions by itself. */
+/* Removes the rounding of x in the fixed directions, where it follows the prescribed displacement. */
 static void reset_fixed_position(fl_rigid_motions *v, int32_t k)
 {
     fl_bodies *b = &v->b;
@@ -219,6 +220,10 @@ double fl_rigid_motion_kinetic_energy(const fl_rigid_motions *v, int32_t k)
     return v->motion[k].free_dof ? fl_body_kinetic_energy(&v->b, k) : 0.0;
 }
 
+/* Half the interval of a central difference [s], for rates up to 1 rad/s.  Its truncation, of order 1e-8, and
+ * the rounding that it magnifies, 1e-12, are both far below the accuracy of a table of motion. */
+#define DIFFERENCE 1e-4
+
 void fl_rigid_motion_acceleration(const fl_rigid_motions *v, int32_t k, double t, fl_vec3 *a, fl_vec3 *turn)
 {
     const fl_bodies *b = &v->b;
@@ -226,8 +231,9 @@ void fl_rigid_motion_acceleration(const fl_rigid_motions *v, int32_t k, double t
     fl_pose6 x, rate, second;
     prescribed_at(m, t, &x, &rate, &second);
     *a = second.x;
-    if (!m->free_dof) { /* how w changes with r'' at once, and with r along r': the difference over a short way */
-        const double h = 1e-4 / (1.0 + v3_norm(rate.r));
+    /* w changes with r'' directly, and with r along r': a central difference */
+    if (!m->free_dof) {
+        const double h = DIFFERENCE / (1.0 + v3_norm(rate.r));
         const fl_vec3 late = angular_velocity(v3_madd(x.r, h, rate.r), rate.r),
                       early = angular_velocity(v3_madd(x.r, -h, rate.r), rate.r);
         *turn = v3_madd(angular_velocity(x.r, second.r), 0.5 / h, v3_sub(late, early));

@@ -8,7 +8,7 @@
 #include "geom/clip.h"
 #include "geom/merge_coplanar.h"
 
-/* Every vertex in use lies behind every region's plane. */
+/* True if every vertex in use lies behind every region's plane. */
 static int is_convex(const fl_coplanar_regions *f)
 {
     const fl_part *p = f->p;
@@ -27,7 +27,7 @@ static fl_piece *add_piece(fl_structure *s, fl_err *err)
     return piece;
 }
 
-/* The convex part as the intersection of its faces' half-spaces, cut out of a box that holds it. */
+/* The convex part as the intersection of the half-spaces of its faces, cut out of a box that contains it. */
 static int make_solid(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(f->p);
@@ -42,7 +42,7 @@ static int make_solid(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err
     return 0;
 }
 
-/* A plate, the rim of which runs through loop[0 .. n) of the part's vertices: 1 where that is convex. */
+/* Makes a plate whose rim is loop[0 .. n) of the part's vertices. Returns 1 if that is convex, else 0. */
 static int make_plate_of_loop(fl_piece *piece, const fl_coplanar_regions *f, int32_t n, const int32_t *loop,
                               fl_err *err)
 {
@@ -57,9 +57,10 @@ static int make_plate_of_loop(fl_piece *piece, const fl_coplanar_regions *f, int
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
     for (int32_t k = 0; k < n; k++) {
         const fl_vec3 x = p->v[loop[k]];
-        rim[k] = v3_madd(v3_sub(x, piece->x), f->region_offset[0] - v3_dot(up, x), up); /* into the plane */
+        /* projected onto the plane */
+        rim[k] = v3_madd(v3_sub(x, piece->x), f->region_offset[0] - v3_dot(up, x), up);
     }
-    for (int again = 1; again && count > 3;) { /* corners that are straight go */
+    for (int again = 1; again && count > 3;) { /* drop straight corners */
         again = 0;
         for (int32_t k = 0; k < count && count > 3; k++) {
             const fl_vec3 a = rim[(k + count - 1) % count], b = rim[k], c = rim[(k + 1) % count];
@@ -82,7 +83,7 @@ done:
     return made;
 }
 
-/* The rim of a flat open part, into loop: how many vertices it has, 0 when it is not a single loop. */
+/* The rim of a flat open part, into loop. Returns its number of vertices, 0 if it is not a single loop. */
 static int32_t find_rim(const fl_coplanar_regions *f, int32_t *next, int32_t *loop)
 {
     const fl_part *p = f->p;
@@ -104,7 +105,8 @@ static int32_t find_rim(const fl_coplanar_regions *f, int32_t *next, int32_t *lo
     return sides;
 }
 
-/* A flat part that is one convex polygon, by its rim or else by what it covers: 1, and else 0. */
+/* Makes a plate of a flat part that is one convex polygon, by its rim or else by the area it covers. Returns
+ * 1, or 0 if it is none. */
 static int make_plate(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
@@ -126,12 +128,12 @@ static void mesh_free(fl_piece_mesh *s)
     fl_bvh_free(&s->edge_tree);
 }
 
-/* The bent edges at a vertex: how many, and the far ends of the first two. */
+/* Bent edges at a vertex: their number, and the far ends of the first two. */
 typedef struct {
     int32_t n, v[2];
 } vertex_bends;
 
-/* The sides where the surface bends or ends, each once, and what meets at every vertex. */
+/* Lists the sides where the surface bends or ends, each once, and the bent edges at every vertex. */
 static void bent_edges(const fl_coplanar_regions *f, fl_region_side *edge, int32_t *edges, vertex_bends *ends)
 {
     const fl_part *p = f->p;
@@ -142,7 +144,7 @@ static void bent_edges(const fl_coplanar_regions *f, fl_region_side *edge, int32
         for (const fl_region_side *o = s; o < f->side + 3 * p->nt && o->a == s->a && o->b == s->b && u < 0;
              o++) {
             u = f->neighbour[3 * o->t + fl_region_side_of(&p->t[o->t], o->a, o->b)];
-            if (u >= 0) s = o; /* of three at an edge one of the two that go on over it */
+            if (u >= 0) s = o; /* of three at an edge one of the two that are joined */
         }
         if (f->region[s->t] < 0 || (u >= 0 && f->region[u] == f->region[s->t])) continue;
         edge[(*edges)++] = *s;
@@ -154,7 +156,7 @@ static void bent_edges(const fl_coplanar_regions *f, fl_region_side *edge, int32
     }
 }
 
-/* Two bent edges meet at v in one line: v is a seam of the mesh, not a corner of the shape. */
+/* True if exactly two bent edges meet at v in one line: v is no corner of the shape. */
 static int is_straight(const fl_part *p, const vertex_bends *ends, int32_t v, double tol)
 {
     if (ends[v].n != 2) return 0;
@@ -171,7 +173,7 @@ static double triangle_area(const fl_part *p, int32_t t)
 }
 
 /* The faces on both sides of the edge a b of triangle t: left where a b runs counter-clockwise round it; -1
- * where the surface ends. */
+ * beyond a rim. */
 static fl_edge faces_of_edge(const fl_coplanar_regions *f, const int32_t *face_of, int32_t t, int32_t a,
                              int32_t b)
 {
@@ -181,8 +183,8 @@ static fl_edge faces_of_edge(const fl_coplanar_regions *f, const int32_t *face_o
     return tri->v[k] == a ? (fl_edge){a, b, one, other} : (fl_edge){a, b, other, one};
 }
 
-/* The faces of a shell: convex tiles of its flat regions.  The block of a fl_poly is laid out by hand: it is
- * not convex, so fl_poly_make() is not asked. */
+/* Lays out the faces of a mesh, convex tiles of its flat regions. The block of a fl_poly is laid out by hand,
+ * since fl_poly_make() requires a convex one. */
 static int lay_out_mesh(fl_piece *piece, const fl_coplanar_regions *f, const fl_merged_faces *tiles,
                         fl_err *err)
 {
@@ -233,7 +235,7 @@ static int lay_out_mesh(fl_piece *piece, const fl_coplanar_regions *f, const fl_
     return 0;
 }
 
-/* Sides of triangles where one flat region passes into another, by the vertex that they begin at. */
+/* Sides of triangles at borders between flat regions, by their first vertex. */
 typedef struct {
     int32_t *begin; /* [nv + 1] */
     int32_t *side;  /* 3 triangle + side */
@@ -258,8 +260,8 @@ static int find_borders(region_borders *s, const fl_coplanar_regions *f, fl_err 
     return 0;
 }
 
-/* The tile over the side from a to b of a tile of this region, or -1 where there is none, or several that are
- * not of one plane. */
+/* The tile across the side from a to b of a tile of this region; -1 if there is none, or several that are not
+ * of one plane. */
 static int32_t tile_across(const region_borders *s, const fl_coplanar_regions *f,
                            const fl_merged_faces *tiles, int32_t region, int32_t a, int32_t b)
 {
@@ -285,7 +287,8 @@ static int32_t tile_across(const region_borders *s, const fl_coplanar_regions *f
     return over;
 }
 
-#define MIN_CONCAVE_COSINE 0.5 /* cosine of the bend from which on every wall bears for itself */
+/* cosine of the bend of a concave edge: sharper inner corners have independent walls */
+#define MIN_CONCAVE_COSINE 0.5
 
 static int find_concave_faces(fl_piece *piece, const fl_coplanar_regions *f, const fl_merged_faces *tiles,
                               fl_err *err)
@@ -313,7 +316,7 @@ static int find_concave_faces(fl_piece *piece, const fl_coplanar_regions *f, con
     return rc;
 }
 
-/* What bends outward from vertices at which something bends inward, also the rim within its surface. */
+/* Marks convex edges at vertices where the surface is concave too, or where a rim lies within it. */
 static int find_saddles(fl_piece *piece, fl_err *err)
 {
     fl_poly *p = &piece->core;
@@ -386,11 +389,11 @@ done:
     return rc;
 }
 
-/* An inside that is one to one triangle and none to the next would push both ways. */
+/* Rejects inconsistent orientation: a wall would push both ways. */
 static int check_orientation(const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
-    const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one behind the other */
+    const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one after another in the file */
     const int32_t first = rows ? p->line : 0;
     if (f->misoriented[0] < 0) return 0;
     return fl_fail(err, FL_INPUT,
@@ -399,7 +402,7 @@ static int check_orientation(const fl_coplanar_regions *f, fl_err *err)
                    p->name, rows ? "of lines " : "", first + f->misoriented[0], first + f->misoriented[1]);
 }
 
-/* Six times what triangle t encloses with o. */
+/* Six times the volume that triangle t encloses with o. */
 static double six_volumes(const fl_part *p, int32_t t, fl_vec3 o)
 {
     const int32_t *v = p->t[t].v;
@@ -407,8 +410,8 @@ static double six_volumes(const fl_part *p, int32_t t, fl_vec3 o)
                   v3_cross(v3_sub(p->v[v[1]], p->v[v[0]]), v3_sub(p->v[v[2]], p->v[v[0]])));
 }
 
-/* Whether a body of a closed surface, which is what edges join, encloses less than nothing, as cavities do
- * and what is inside out: 1 + its first triangle, or 0.  -1 with FL_SYSTEM. */
+/* Finds a connected body of a closed surface with a negative volume, as of a cavity or of a mesh inside out:
+ * 1 + its first triangle, or 0. Returns -1 with FL_SYSTEM. */
 static int32_t find_inward_body(const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
