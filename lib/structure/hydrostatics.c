@@ -93,9 +93,10 @@ int fl_hydrostatics_add(fl_hydrostatics *f, const fl_part *p, double level, fl_v
     const int closed = is_closed(p, err);
     if (closed < 0) return -1;
     if (!closed)
-        return fl_fail(err, FL_INPUT,
-                       "part %s: its triangles do not close, which the sea's stiffness is expected of",
-                       p->name);
+        return fl_fail(
+            err, FL_INPUT,
+            "part %s: its triangles do not close, expected a closed mesh for its hydrostatic stiffness",
+            p->name);
     for (int32_t t = 0; t < p->nt; t++) {
         fl_vec3 v[3];
         for (int k = 0; k < 3; k++) {
@@ -111,7 +112,7 @@ int fl_hydrostatics_finish(fl_hydrostatics *f, double level, fl_vec3 reference, 
 {
     if (!(f->volume > 0.0))
         return fl_fail(err, FL_INPUT,
-                       "the mesh displaces %g m3, more than 0 is expected: z of the water is %g m", f->volume,
+                       "the mesh displaces %g m3, expected more than 0; z of the water is %g m", f->volume,
                        level);
     f->buoyancy_centre = v3_scale(1.0 / f->volume, f->buoyancy_centre);
     f->buoyancy_centre.z += level - reference.z;

@@ -85,11 +85,11 @@ static int find_columns(const fl_table *in, int32_t *time, int32_t col[6], fl_er
         const char *unit = k < 0 ? "s" : k < 3 ? "m" : "deg";
         there += k >= 0 && c >= 0;
         if (c >= 0 && in->unit[c][0] && strcmp(in->unit[c], unit) != 0)
-            return fl_text_fail(&in->text, err, "column %s has the unit \"%.40s\", %s is expected",
-                                in->name[c], in->unit[c], unit);
+            return fl_text_fail(&in->text, err, "column %s has the unit \"%.40s\", expected %s", in->name[c],
+                                in->unit[c], unit);
     }
     if (there) return 0;
-    return fl_text_fail(&in->text, err, "no column of a motion, at least one of x y z rx ry rz is expected");
+    return fl_text_fail(&in->text, err, "no column of a motion, expected at least one of x y z rx ry rz");
 }
 
 int fl_track_read(fl_track *out, const char *path, int cubic, fl_err *err)

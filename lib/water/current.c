@@ -46,16 +46,15 @@ static int read_row(fl_current *c, int32_t *z_cap, int32_t *u_cap, fl_text *in, 
         fl_text_no_more(in, err))
         return -1;
     if (!(fabs(z) <= MAX_HEIGHT))
-        return fl_text_fail(in, err, "height %g m found, one within %g m is expected", z, MAX_HEIGHT);
+        return fl_text_fail(in, err, "height %g m found, expected one within %g m", z, MAX_HEIGHT);
     if (!(v3_norm(u) <= MAX_SPEED))
-        return fl_text_fail(in, err, "speed %g m/s found, one up to %g m/s is expected", v3_norm(u),
-                            MAX_SPEED);
+        return fl_text_fail(in, err, "speed %g m/s found, expected one up to %g m/s", v3_norm(u), MAX_SPEED);
     if (c->n) {
         const double last = c->z[c->n - 1];
         if (z == last || (c->n > 1 && (z > last) != (last > c->z[0])))
             return fl_text_fail(in, err,
-                                "height %g m does not follow %g m: heights all rising or all falling "
-                                "are expected",
+                                "height %g m does not follow %g m: expected heights all rising or all "
+                                "falling",
                                 z, last);
     }
     if (fl_grow(&c->z, z_cap, (int64_t)c->n + 1, sizeof *c->z, err) ||
@@ -89,7 +88,7 @@ int fl_current_read(fl_current *c, const char *path, fl_err *err)
         if (read_row(&t, &z_cap, &u_cap, &in, err)) goto done;
     if (more < 0) goto done;
     if (t.n == 0) {
-        fl_text_fail(&in, err, "no row found, rows of height and velocity are expected");
+        fl_text_fail(&in, err, "no row found, expected rows of height and velocity");
         goto done;
     }
     if (t.n > 1 && t.z[0] > t.z[1]) reverse_rows(&t);

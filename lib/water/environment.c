@@ -82,8 +82,7 @@ int fl_environment_fit_hull(fl_environment *s, int32_t i, fl_err *err)
     if (want > MAX_CELLS)
         return fl_fail(err, FL_INPUT,
                        "water.height, water.period: waves down to %.3g m long that rise by up to %.3g m "
-                       "would be seen by "
-                       "a floe that reaches %.3g m in more than %d places",
+                       "would need, for a floe of radius %.3g m, more than %d cells",
                        2.0 * PI / s->wave.max_k, s->wave.four_sigma, s->drag_radius[i], MAX_CELLS);
     if (want > s->cells_per_thread) {
         fl_wave_expansion *cells = fl_alloc((int64_t)s->threads * want, sizeof *cells, err);
