@@ -185,9 +185,9 @@ void fl_bond_update_separation(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 /* Sums over the points. */
 typedef struct {
     fl_traction elastic, friction;
-    double turn[2];         /* for the rotation of m */
-    fl_vec3 half;           /* moment of friction */
-    int hurt, failed, open; /* numbers of points */
+    double turn[2];            /* for the rotation of m */
+    fl_vec3 half;              /* moment of friction */
+    int damaged, failed, open; /* numbers of points */
 } point_sums;
 
 /* Evaluates point k and adds its tractions. more: wear since the last evaluation. */
@@ -212,7 +212,7 @@ static void evaluate_point(fl_bond *c, const fl_bond_kinematics *q, int k, doubl
     c->elastic_energy += 0.5 * wa * (kn * s[0] * s[0] + ks * (s[1] * s[1] + s[2] * s[2]));
     out->turn[0] += wa * (kn - ks) * s[0] * s[1];
     out->turn[1] += wa * (kn - ks) * s[0] * s[2];
-    out->hurt += d > 0.0;
+    out->damaged += d > 0.0;
     out->failed += d == 1.0;
     out->open += s[0] >= 0.0;
     if (d == 0.0) return;
@@ -245,7 +245,9 @@ static int evaluate_points(fl_bond *c, const fl_bond_kinematics *q, double more,
     store_separation(c, q);
     if (c->state != FL_BOND_BROKEN && r->failed == FL_BOND_POINTS) c->h0 = overlap_share(c, q);
     if (c->state != FL_BOND_BROKEN)
-        c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN : r->hurt ? FL_BOND_DAMAGED : FL_BOND_INTACT;
+        c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN
+                   : r->damaged                ? FL_BOND_DAMAGED
+                                               : FL_BOND_INTACT;
     if (c->state == FL_BOND_BROKEN && (r->open == FL_BOND_POINTS || c->wear >= 1.0)) return 1;
     set_elastic(c, fl_traction_with_rotation(*q, r->elastic, r->turn[0], r->turn[1]));
     return 0;
@@ -260,10 +262,10 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
         fl_bond_end(c);
         return 1;
     }
-    const double worn = wear_of(c, &q), more = worn - c->wear;
-    c->wear = worn;
+    const double worn_now = wear_of(c, &q), more = worn_now - c->wear;
+    c->wear = worn_now;
     clear_output(c);
-    if (c->state == FL_BOND_INTACT && worn == 0.0 && is_below_strength(c, &q)) {
+    if (c->state == FL_BOND_INTACT && worn_now == 0.0 && is_below_strength(c, &q)) {
         store_separation(c, &q);
         set_elastic(c, fl_bond_elastic_wrench(q, c->area, c->kn, c->ks));
         c->elastic_energy = fl_bond_elastic_energy(q, c->area, c->kn, c->ks);
@@ -271,7 +273,7 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
         fl_bond_end(c);
         return 1;
     }
-    if (r.hurt) {
+    if (r.damaged) {
         const fl_bond_wrench p = fl_traction_at_middle(q, r.friction, r.half);
         c->force_friction = p.f, c->torque_i_friction = p.ti, c->torque_j_friction = p.tj;
     }
@@ -279,7 +281,7 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
         const fl_bond_wrench p = damping_wrench(c, b, &q);
         c->force_damping = p.f, c->torque_i_damping = p.ti, c->torque_j_damping = p.tj;
     }
-    if (!r.hurt && !(c->damping > 0.0)) return 0;
+    if (!r.damaged && !(c->damping > 0.0)) return 0;
     c->force = v3_add(c->force, v3_add(c->force_friction, c->force_damping));
     c->torque_i = v3_add(c->torque_i, v3_add(c->torque_i_friction, c->torque_i_damping));
     c->torque_j = v3_add(c->torque_j, v3_add(c->torque_j_friction, c->torque_j_damping));

@@ -78,7 +78,7 @@ typedef struct {
     const fl_aabb *box;
     side_span *over;
     fl_vec3 *end; /* ends of all intervals of two tiles on each other */
-    int32_t overs, ends, over_cap, end_cap;
+    int32_t n_over, n_end, over_cap, end_cap;
     fl_persistence_work k;
 } seam_builder;
 
@@ -92,13 +92,13 @@ static int collect_intervals(seam_builder *q, int32_t f, int32_t g, double tol, 
         const fl_vec3 a = p->v[p->loop[c]], way = side_vector(p, f, c);
         double t[2];
         if (!interval_on_tile(p, g, a, v3_add(a, way), tol, t)) continue;
-        if (fl_reserve(&q->over, &q->over_cap, (int64_t)q->overs + 1, sizeof *q->over) ||
-            fl_reserve(&q->end, &q->end_cap, (int64_t)q->ends + 2, sizeof *q->end))
+        if (fl_reserve(&q->over, &q->over_cap, (int64_t)q->n_over + 1, sizeof *q->over) ||
+            fl_reserve(&q->end, &q->end_cap, (int64_t)q->n_end + 2, sizeof *q->end))
             return -1;
         const fl_vec3 from = v3_madd(a, t[0], way), to = v3_madd(a, t[1], way);
         const double length = (t[1] - t[0]) * v3_norm(way);
-        q->over[q->overs++] = (side_span){c, t[0], t[1]};
-        q->end[q->ends++] = from, q->end[q->ends++] = to;
+        q->over[q->n_over++] = (side_span){c, t[0], t[1]};
+        q->end[q->n_end++] = from, q->end[q->n_end++] = to;
         if (length > *most) *most = length, seam->a = from, seam->b = to;
     }
     return 0;
@@ -132,11 +132,11 @@ static int find_seam(seam_builder *q, int32_t f, int32_t g, double tol, fl_tile_
 {
     const fl_poly *p = q->p;
     double length = -1.0;
-    q->ends = 0;
+    q->n_end = 0;
     if (collect_intervals(q, f, g, tol, &length, seam) || collect_intervals(q, g, f, tol, &length, seam))
         return -1;
     if (length < 0.0) return 0;
-    for (int32_t i = 0; i < q->ends; i++)
+    for (int32_t i = 0; i < q->n_end; i++)
         for (int32_t j = 0; j < i; j++) {
             const double across = v3_norm(v3_sub(q->end[i], q->end[j]));
             if (across > length + LONGER * tol) length = across, seam->a = q->end[j], seam->b = q->end[i];
@@ -435,10 +435,10 @@ static int compare_spans(const void *a, const void *b)
 static void find_rims(fl_tile_seams *s, seam_builder *q)
 {
     int32_t at = 0;
-    if (q->overs > 1) qsort(q->over, (size_t)q->overs, sizeof *q->over, compare_spans);
+    if (q->n_over > 1) qsort(q->over, (size_t)q->n_over, sizeof *q->over, compare_spans);
     for (int32_t c = 0; c < q->p->first[q->p->nf]; c++) {
         double covered = 0.0;
-        for (; at < q->overs && q->over[at].side == c; at++)
+        for (; at < q->n_over && q->over[at].side == c; at++)
             if (q->over[at].from <= covered + COVER_TOL) covered = fmax(covered, q->over[at].to);
         s->rim[c] = covered < 1.0 - COVER_TOL;
     }

@@ -398,7 +398,7 @@ static int check_orientation(const fl_coplanar_regions *f, fl_err *err)
     if (f->misoriented[0] < 0) return 0;
     return fl_fail(err, FL_INPUT,
                    "part %s: its triangles %s%d and %d share an edge and face different ways: struct-import "
-                   "turns what has two sides",
+                   "orients them",
                    p->name, rows ? "of lines " : "", first + f->misoriented[0], first + f->misoriented[1]);
 }
 

@@ -2,9 +2,9 @@
 #include "water/added_mass.h"
 #include "base/pi.h"
 
-static double value_or_auto(double asked, double unit, double otherwise)
+static double value_or_auto(double factor, double unit, double otherwise)
 {
-    return asked == FL_ADDED_MASS_AUTO ? otherwise : asked * unit;
+    return factor == FL_ADDED_MASS_AUTO ? otherwise : factor * unit;
 }
 
 static double *component_of(fl_vec3 *a, int axis) { return axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z; }
@@ -43,21 +43,21 @@ static fl_vec3 arrange_axes(int across, fl_vec3 a)
     return out;
 }
 
-fl_vec3 fl_added_mass(const fl_poly *outer, fl_vec3 up, double displaced, double density, fl_vec3 asked)
+fl_vec3 fl_added_mass(const fl_poly *outer, fl_vec3 up, double displaced, double density, fl_vec3 factor)
 {
     const int round = outer->nf == 0, axis = vertical_axis(up);
     const double a = disc_radius(outer, axis), plane = (round ? 0.5 : 0.1) * displaced,
                  across = round ? plane : 4.0 / 3.0 * density * a * a * a;
-    return arrange_axes(axis,
-                        v3(value_or_auto(asked.x, displaced, plane), value_or_auto(asked.y, displaced, plane),
-                           value_or_auto(asked.z, displaced, across)));
+    return arrange_axes(axis, v3(value_or_auto(factor.x, displaced, plane),
+                                 value_or_auto(factor.y, displaced, plane),
+                                 value_or_auto(factor.z, displaced, across)));
 }
 
-fl_vec3 fl_added_inertia(const fl_poly *outer, fl_vec3 up, fl_vec3 own, double density, fl_vec3 asked)
+fl_vec3 fl_added_inertia(const fl_poly *outer, fl_vec3 up, fl_vec3 own, double density, fl_vec3 factor)
 {
     const int axis = vertical_axis(up);
     const double a = disc_radius(outer, axis), tilt = 8.0 / 45.0 * density * a * a * a * a * a;
-    return arrange_axes(axis, v3(value_or_auto(asked.x, *component_of(&own, axis == 0 ? 1 : 0), tilt),
-                                 value_or_auto(asked.y, *component_of(&own, axis == 2 ? 1 : 2), tilt),
-                                 value_or_auto(asked.z, *component_of(&own, axis), 0.0)));
+    return arrange_axes(axis, v3(value_or_auto(factor.x, *component_of(&own, axis == 0 ? 1 : 0), tilt),
+                                 value_or_auto(factor.y, *component_of(&own, axis == 2 ? 1 : 2), tilt),
+                                 value_or_auto(factor.z, *component_of(&own, axis), 0.0)));
 }

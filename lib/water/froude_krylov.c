@@ -207,12 +207,12 @@ FL_SIMD_INLINE void place_points(const fl_hull_pose *at, int fine, fl_vec3 a, fl
 FL_SIMD_INLINE void add_loads(load_sums *S, const quadrature_points *p, int fine, double area, fl_vec3 n,
                               double nz, const double *eta, const double *head)
 {
-    fl_simd press = {0.0, 0.0, 0.0, 0.0}, arm[3] = {press, press, press};
+    fl_simd pressure = {0.0, 0.0, 0.0, 0.0}, arm[3] = {pressure, pressure, pressure};
     for (int k = 0; k < FL_WAVE_BATCH; k += FL_SIMD_WIDTH) {
         const fl_simd part = area * FL_SIMD_LOAD(&RULE[fine][0][k]), z = FL_SIMD_LOAD(&p->z[k]),
                       e = FL_SIMD_LOAD(&eta[k]), f = part * (FL_SIMD_LOAD(&head[k]) - z),
                       v = part * (z - e) * nz;
-        press += f;
+        pressure += f;
         FL_SIMD_UNROLL for (int c = 0; c < 3; c++)
         {
             const fl_simd x = FL_SIMD_LOAD(&p->x[c][k]);
@@ -223,7 +223,7 @@ FL_SIMD_INLINE void add_loads(load_sums *S, const quadrature_points *p, int fine
         FL_SIMD_STORE(S->height) += 0.5 * v * (z + e);
         FL_SIMD_STORE(S->wetted) += part;
     }
-    S->force = v3_madd(S->force, -fl_simd_sum(&press), n);
+    S->force = v3_madd(S->force, -fl_simd_sum(&pressure), n);
     S->moment =
         v3_sub(S->moment, v3_cross(v3(fl_simd_sum(&arm[0]), fl_simd_sum(&arm[1]), fl_simd_sum(&arm[2])), n));
 }
