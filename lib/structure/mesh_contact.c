@@ -226,7 +226,7 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
                               fl_feature_pairs *l)
 {
     const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * (A->p->size + B->p->size),
-                 shy = margin + EDGE_TOL * B->p->size;
+                 margin_behind = margin + EDGE_TOL * B->p->size;
     fl_feature_set *walls = &near->of_shell, *all = &near->of_core;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
@@ -236,7 +236,7 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
     l->candidates = 0;
     if (fl_reserve(&l->candidate, &l->candidate_cap, A->p->nv, sizeof *l->candidate)) return -1;
     for (int32_t v = 0; v < A->p->nv && !l->out_of_reach; v++)
-        if (may_pass_behind(B->p, shell, w->va[v], shy)) l->candidate[l->candidates++] = v;
+        if (may_pass_behind(B->p, shell, w->va[v], margin_behind)) l->candidate[l->candidates++] = v;
     keep_near(walls, A, B, ra + margin + same);
     return list_all_features(all, A->p) || fl_feature_pairs_build(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_mesh_under_face_list(l, A, B)

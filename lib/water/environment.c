@@ -511,9 +511,22 @@ static void apply_wind_drag(fl_environment *s, fl_bodies *b, int32_t i, double h
     else s->wind_work[i] += decay_velocity(b, i, &s->air, dry, s->drag_radius[i], s->wind_velocity, h);
 }
 
+void fl_environment_apply_impulses(fl_environment *s, fl_bodies *b, int32_t i, double h, int back)
+{
+    for (int32_t k = 0; k < s->impulses; k++) {
+        const double before = fl_body_kinetic_energy(b, i) - b->work_of_constraints[i];
+        const fl_vec3 v0 = b->v[i], w0 = b->w[i];
+        s->impulse[back ? s->impulses - 1 - k : k]->impulse(s, b, i, h);
+        if (b->fixed_dof[i]) fl_body_apply_fixed_dof(b, i, v0, w0);
+        s->drag_loss[i] -= fl_body_kinetic_energy(b, i) - b->work_of_constraints[i] - before;
+    }
+}
+
 void fl_environment_drag(fl_environment *s, fl_bodies *b, int32_t i, double h, int back)
 {
+    if (back && s->impulses) fl_environment_apply_impulses(s, b, i, h, back);
     if (back) apply_wind_drag(s, b, i, h);
     apply_water_drag(s, b, i, h);
     if (!back) apply_wind_drag(s, b, i, h);
+    if (!back && s->impulses) fl_environment_apply_impulses(s, b, i, h, back);
 }

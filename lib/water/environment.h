@@ -12,6 +12,7 @@
 #include "water/drag.h"
 #include "water/facet_drag.h"
 #include "water/froude_krylov.h"
+#include "water/water_force.h"
 
 /* In the order of the choices of water.drag and wind.drag. */
 enum fl_drag_law { FL_DRAG_MANUAL, FL_DRAG_FACET };
@@ -47,7 +48,9 @@ typedef struct {
     double when; /* time of the sample [s]; INFINITY: none yet */
 } fl_wave_sample;
 
-typedef struct {
+enum { FL_WATER_FORCES_MAX = 16 };
+
+struct fl_environment {
     int water, wind;        /* 1 if there is water, wind; with neither nothing below is allocated or used */
     double level;           /* z of the still water [m] */
     double specific_weight; /* rho g [N/m3] */
@@ -80,7 +83,11 @@ typedef struct {
     int sample_every;       /* steps between two samples; above 1: */
     int sample_now;         /* 1: the next fl_environment_force() samples the waves; set by the step */
     fl_wave_sample *sample; /* [n], or NULL */
-} fl_environment;
+    /* rows of the table of forces that are present and have an `impulse` */
+    const fl_water_force *impulse[FL_WATER_FORCES_MAX];
+    int32_t impulses;
+    const fl_scene *scene; /* borrowed, for rows of the table that read their keys */
+};
 
 /* Sharp outer shape of body i, body frame, owned by the environment; NULL if the core floats or the core
  * gives the shape. */
@@ -171,5 +178,9 @@ double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_
  *         order 2
  */
 void fl_environment_drag(fl_environment *s, fl_bodies *b, int32_t i, double h, int back);
+
+/* The part of that which is the forces with an `impulse`, in the order of the table, or with back against it.
+ */
+void fl_environment_apply_impulses(fl_environment *s, fl_bodies *b, int32_t i, double h, int back);
 
 #endif

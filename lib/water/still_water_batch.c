@@ -255,12 +255,27 @@ static void apply_wind_drag(fl_environment *s, const fl_bodies *b, fl_body_batch
     decay_mixed(a, water, s, b, 1, dry, c);
 }
 
-void fl_still_water_batch_drag(fl_environment *s, const fl_bodies *b, fl_body_batch *a,
+/* Forces with an `impulse` work on the arrays of the bodies, one by one. */
+static void apply_impulses(fl_environment *s, fl_bodies *b, fl_body_batch *a, int back)
+{
+    fl_body_batch_store_velocities(a, b);
+    for (int32_t k = 0; k < a->n; k++) fl_environment_apply_impulses(s, b, a->index[k], a->h[k], back);
+    for (int32_t k = 0; k < a->lanes; k++) {
+        const int32_t i = a->index[k];
+        fl_body_batch_set_vec(a->v, k, b->v[i]);
+        fl_body_batch_set_vec(a->L, k, b->L[i]);
+        fl_body_batch_set_vec(a->w, k, b->w[i]);
+    }
+}
+
+void fl_still_water_batch_drag(fl_environment *s, fl_bodies *b, fl_body_batch *a,
                                const fl_body_batch_water *water, int back)
 {
+    if (back && s->impulses) apply_impulses(s, b, a, back);
     if (back && s->wind) apply_wind_drag(s, b, a, water);
     if (s->water) apply_water_drag(s, b, a, water);
     if (!back && s->wind) apply_wind_drag(s, b, a, water);
+    if (!back && s->impulses) apply_impulses(s, b, a, back);
 }
 
 void fl_still_water_batch_add_work(fl_environment *s, const fl_body_batch *a, double (*v)[FL_BODY_BATCH],

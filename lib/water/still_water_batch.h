@@ -15,7 +15,7 @@ static inline int fl_still_water_batch_applies(const fl_environment *s)
 }
 
 /* fl_environment_drag() over half the step of each. water: added mass, which needs R; or NULL. */
-void fl_still_water_batch_drag(fl_environment *s, const fl_bodies *b, fl_body_batch *a,
+void fl_still_water_batch_drag(fl_environment *s, fl_bodies *b, fl_body_batch *a,
                                const fl_body_batch_water *water, int back);
 
 /* fl_environment_add_work() of a kick from v and w to the present velocities. */
