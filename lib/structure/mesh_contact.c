@@ -222,21 +222,21 @@ static void keep_near(fl_feature_set *r, const fl_patch_core *A, const fl_patch_
 /* Lists the walls within reach, and the features of them and of the core that may have contact points, until
  * the pair has moved by the margin. */
 static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
-                              const fl_patch_core *B, const fl_piece_mesh *shell, double ra, double reach,
+                              const fl_patch_core *B, const fl_piece_mesh *mesh, double ra, double reach,
                               fl_feature_pairs *l)
 {
     const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * (A->p->size + B->p->size),
                  margin_behind = margin + EDGE_TOL * B->p->size;
-    fl_feature_set *walls = &near->of_shell, *all = &near->of_core;
+    fl_feature_set *walls = &near->of_mesh, *all = &near->of_core;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
-    if (list_near_features(walls, B->p, shell, box, ra + margin, reach + margin)) return -1;
+    if (list_near_features(walls, B->p, mesh, box, ra + margin, reach + margin)) return -1;
     l->out_of_reach = walls->faces == 0;
     l->stores_planes = 1;
     l->candidates = 0;
     if (fl_reserve(&l->candidate, &l->candidate_cap, A->p->nv, sizeof *l->candidate)) return -1;
     for (int32_t v = 0; v < A->p->nv && !l->out_of_reach; v++)
-        if (may_pass_behind(B->p, shell, w->va[v], margin_behind)) l->candidate[l->candidates++] = v;
+        if (may_pass_behind(B->p, mesh, w->va[v], margin_behind)) l->candidate[l->candidates++] = v;
     keep_near(walls, A, B, ra + margin + same);
     return list_all_features(all, A->p) || fl_feature_pairs_build(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_mesh_under_face_list(l, A, B)
@@ -247,13 +247,12 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
 /* Sets *distance to reach if no face is in reach now. The list may be an old one, and the free travel
  * computed from the distance has to be the same with a new list. */
 static int bound_distance(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece_mesh *shell, double reach, double *distance)
+                          const fl_piece_mesh *mesh, double reach, double *distance)
 {
-    fl_feature_set *walls = &near->of_shell;
+    fl_feature_set *walls = &near->of_mesh;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
-    walls->faces =
-        query_boxes(&shell->tree, shell->box, aabb_grow(box, reach), &walls->face, &walls->face_cap);
+    walls->faces = query_boxes(&mesh->tree, mesh->box, aabb_grow(box, reach), &walls->face, &walls->face_cap);
     if (walls->faces < 0) return -1;
     if (walls->faces == 0) *distance = reach;
     return 0;
@@ -302,7 +301,7 @@ static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, con
                  far = ra + margin + same;
     const fl_piece_mesh *sh = &b->mesh;
     const fl_vec3 x = w->va[0];
-    fl_feature_set *walls = &near->of_shell;
+    fl_feature_set *walls = &near->of_mesh;
     int32_t n = 0;
     l->candidates = 0;
     l->max_shift2 = 0.0;
@@ -361,7 +360,7 @@ int fl_mesh_contact_gap(fl_mesh_contact_work *near, const fl_vec3 *v, const fl_p
                         double within, fl_gap *out)
 {
     const fl_poly *core = &b->core;
-    fl_feature_set *r = &near->of_shell;
+    fl_feature_set *r = &near->of_mesh;
     fl_err lost = {0};
     fl_vec3 *tile = NULL;
     int32_t cap = 0;
@@ -398,7 +397,7 @@ double fl_mesh_contact_free_travel(fl_mesh_contact_work *near, const fl_vec3 *v,
     const fl_poly *core = &b->core;
     const double known = ra - KNOWN_SHARE * overlap;
     double most = ra;
-    fl_feature_set *r = &near->of_shell;
+    fl_feature_set *r = &near->of_mesh;
     fl_aabb box = aabb_empty();
     for (int32_t k = 0; k < a->nv; k++) box = aabb_add(box, v[k]);
     r->faces = query_boxes(&b->mesh.tree, b->mesh.box, aabb_grow(box, ra + most), &r->face, &r->face_cap);
@@ -413,6 +412,6 @@ double fl_mesh_contact_free_travel(fl_mesh_contact_work *near, const fl_vec3 *v,
 void fl_mesh_contact_work_free(fl_mesh_contact_work *near)
 {
     fl_persistence_work_free(&near->persistence);
-    fl_feature_set_free(&near->of_shell), fl_feature_set_free(&near->of_core);
+    fl_feature_set_free(&near->of_mesh), fl_feature_set_free(&near->of_core);
     fl_mesh_under_face_work_free(&near->under_face);
 }

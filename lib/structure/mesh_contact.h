@@ -16,7 +16,7 @@
 
 /* Scratch: faces and edges in reach, and what lies under a face. */
 typedef struct {
-    fl_feature_set of_shell, of_core;
+    fl_feature_set of_mesh, of_core;
     fl_persistence_work persistence;
     fl_mesh_under_face_work under_face;
 } fl_mesh_contact_work;
