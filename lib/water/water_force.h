@@ -26,8 +26,8 @@ enum { FL_FORCE_LEDGERS = FL_FORCE_WAVES + 1, FL_FORCE_TEXT = 160 };
 typedef struct {
     const char *name; /* in the plan */
 
-    /* Reads the scene and allocates what does not belong to a body of its own; s->water and s->wind are set.
-     * Returns 0, or -1 with FL_INPUT or FL_SYSTEM.  NULL: nothing to do. */
+    /* Reads its parameters from the scene into s, and allocates arrays that do not depend on the hulls.
+     * s->water and s->wind are set before.  Returns 0, or -1 with FL_INPUT or FL_SYSTEM.  NULL: no parameters. */
     int (*set_up)(fl_environment *s, fl_bodies *b, const fl_scene *scene, fl_err *err);
 
     /* True if the force acts in this run, after set_up(). */
@@ -36,15 +36,14 @@ typedef struct {
     /* Describes the force for the plan, with the bodies at their start.  Called if present; NULL: no text. */
     void (*describe)(const fl_environment *s, char text[FL_FORCE_TEXT]);
 
-    /* Energy of body i in column `ledger`: stored by the force, or exchanged through it since the start [J].
-     * Called if present, for bodies outside the domain too; NULL: none. */
+    /* Energy of body i in column `ledger` [J]: stored now (hydrostatic), or exchanged since the start (the other
+     * columns).  Called if present; stores of bodies outside the domain do not count.  NULL: none. */
     enum fl_force_ledger ledger;
     double (*energy)(const fl_environment *s, const fl_bodies *b, int32_t i);
 
-    /* Changes v, L and w of body i by the force over h seconds, at constant position; by the drag of
-     * facet_drag.h, or v += h F/m.  Called if present, together with the drag, in both halves of a step.  The
-     * constraints of the body and the work, in column drag, are the caller's.  NULL: the step calls the force
-     * directly. */
+    /* Changes v, L and w of body i by the force over h seconds at constant position, for example v += h F/m.
+     * Called if present, with the drag, in both halves of a step.  The caller applies the constraints of the body
+     * and adds the work to drag_loss.  NULL: the step calls the force directly. */
     void (*impulse)(const fl_environment *s, fl_bodies *b, int32_t i, double h);
 } fl_water_force;
 
