@@ -27,7 +27,8 @@ typedef struct {
     const char *name; /* in the plan */
 
     /* Reads its parameters from the scene into s, and allocates arrays that do not depend on the hulls.
-     * s->water and s->wind are set before.  Returns 0, or -1 with FL_INPUT or FL_SYSTEM.  NULL: no parameters. */
+     * s->water and s->wind are set before.  Returns 0, or -1 with FL_INPUT or FL_SYSTEM.  NULL: no
+     * parameters. */
     int (*set_up)(fl_environment *s, fl_bodies *b, const fl_scene *scene, fl_err *err);
 
     /* True if the force acts in this run, after set_up(). */
@@ -36,14 +37,14 @@ typedef struct {
     /* Describes the force for the plan, with the bodies at their start.  Called if present; NULL: no text. */
     void (*describe)(const fl_environment *s, char text[FL_FORCE_TEXT]);
 
-    /* Energy of body i in column `ledger` [J]: stored now (hydrostatic), or exchanged since the start (the other
-     * columns).  Called if present; stores of bodies outside the domain do not count.  NULL: none. */
+    /* Energy of body i in column `ledger` [J]: stored now (hydrostatic), or exchanged since the start (the
+     * other columns).  Called if present; stores of bodies outside the domain do not count.  NULL: none. */
     enum fl_force_ledger ledger;
     double (*energy)(const fl_environment *s, const fl_bodies *b, int32_t i);
 
     /* Changes v, L and w of body i by the force over h seconds at constant position, for example v += h F/m.
-     * Called if present, with the drag, in both halves of a step.  The caller applies the constraints of the body
-     * and adds the work to drag_loss.  NULL: the step calls the force directly. */
+     * Called if present, with the drag, in both halves of a step.  The caller applies the constraints of the
+     * body and adds the work to drag_loss.  NULL: the step calls the force directly. */
     void (*impulse)(const fl_environment *s, fl_bodies *b, int32_t i, double h);
 } fl_water_force;
 
