@@ -13,8 +13,8 @@
 /* Rounding of distances, relative to the size; half the square of RISE_TOL is below it. */
 #define ROUNDING_TOL 1e-12
 
-/* Length of a seam below which it is one point, in SEAM_TOL: both its ends may be off by that along the seam,
- * on either tile. */
+/* Length of a seam, in SEAM_TOL, below which it is one point: each of its two ends may be off by 1 on either
+ * tile. */
 #define POINT_SEAM 4.0
 /* Excess, in SEAM_TOL, by which ends of different intervals have to be farther apart than the longest
  * interval to be the seam. Twice POINT_SEAM: the ends compared may be off by that, and those of the interval
