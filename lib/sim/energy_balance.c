@@ -7,6 +7,7 @@
 #include "contact/bond_list.h"
 #include "sim/moving_structure.h"
 #include "sim/energy_ledger.h"
+#include "water/force_table.h"
 #include "world/access.h"
 
 /* A residual of no more than this of what is stored may be rounding: that of sums over thousands of floes and
@@ -57,8 +58,8 @@ void fl_energy_update(fl_world *w)
 {
     const fl_bodies *b = &w->b;
     fl_ledger *g = &w->ledger;
-    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
-           held = 0.0, waves = 0.0;
+    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, held = 0.0,
+           water[FL_FORCE_LEDGERS] = {0.0};
     const fl_work lies_ahead = fl_work_ahead(w);
     for (int32_t i = 0; i < w->n; i++) {
         const int there = !fl_body_absent(w, i);
@@ -70,14 +71,10 @@ void fl_energy_update(fl_world *w)
             const double k = fl_driven_floe_spring(w, i, &drawn);
             elastic += 0.5 * k * drawn * drawn;
         }
-        if (b->added_mass) drag -= b->flow_work[i];
-        if (w->sea.n) {
-            if (w->sea.water && !w->sea.waves && there) hydro += fl_environment_energy(&w->sea, b, i);
-            drag += w->sea.drag_loss[i];
-            if (w->sea.wind_work) wind += w->sea.wind_work[i];
-            if (w->sea.waves) waves += w->sea.water_work[i];
-        }
+        if (w->sea.n) fl_environment_add_energy(&w->sea, b, i, there, water);
     }
+    const double hydro = water[FL_FORCE_HYDROSTATIC], drag = water[FL_FORCE_DRAG],
+                 wind = water[FL_FORCE_WIND], waves = water[FL_FORCE_WAVES];
     for (int32_t c = 0; c < w->n_touching; c++) {
         const fl_pair *p = w->pair[w->touching_pairs[c]].contact;
         elastic += p->energy;

@@ -12,6 +12,7 @@
 #include "sim/neighbour_list.h"
 #include "contact/pair_geometry.h"
 #include "sim/step.h"
+#include "water/force_table.h"
 
 int look_probe(struct run *r, FILE *f, fl_err *err)
 {
@@ -33,32 +34,14 @@ static void stage(FILE *f, const char *name, int on, const char *what)
     fprintf(f, "  %-12s %-4s %s\n", name, on ? "yes" : "no", what);
 }
 
-/* How the bodies stand in the water at the start: what is wholly out of it or under is not clipped. */
-static void sea_stages(const fl_world *w, char what[3][160])
+/* Describes the forces of water and wind, with the bodies at their start. */
+static void describe_forces(const fl_world *w, char text[][FL_FORCE_TEXT])
 {
-    static const char *const PROFILE[] = {"at all depths", "by a power of the depth", "linear in the depth",
-                                          "by a table"};
-    const fl_scene_water *s = &w->scene->water;
-    int32_t dry = 0, under = 0;
-    what[0][0] = what[1][0] = what[2][0] = '\0';
-    if (!w->sea.water) return;
-    for (int32_t i = 0; i < w->n; i++) {
-        const double whole = w->sea.specific_weight * w->sea.hull[i].volume;
-        dry += w->sea.buoyancy[i] <= 0.0;
-        under += whole > 0.0 && w->sea.buoyancy[i] >= whole * (1.0 - 1e-12);
+    for (int32_t k = 0; k < fl_water_force_count; k++) {
+        const fl_water_force *f = &fl_water_forces[k];
+        text[k][0] = '\0';
+        if (f->describe && f->present(&w->sea, &w->b)) f->describe(&w->sea, text[k]);
     }
-    snprintf(what[0], sizeof what[0], "%d %s at the surface, %d wholly under it, %d dry", w->n - dry - under,
-             w->sea.waves ? "integrated" : "clipped", under, dry);
-    if (fl_current_max_speed(&w->sea.current) > 0.0)
-        snprintf(what[2], sizeof what[2], "%.3g m/s at most, %s", fl_current_max_speed(&w->sea.current),
-                 PROFILE[s->profile]);
-    if (!w->sea.waves) return;
-    double breaking;
-    const double steep = fl_wave_steepness(s->height, s->period, s->depth, w->sea.wave.gravity, &breaking);
-    snprintf(what[1], sizeof what[1], "%s of %.3g m and %.3g s, %d train%s, %.3g m long, steepness %.3g%s",
-             s->wave == FL_WAVE_AIRY ? "airy" : "jonswap", s->height, s->period, w->sea.wave.n,
-             w->sea.wave.n == 1 ? "" : "s", s->height / steep, steep,
-             steep > breaking ? ": they would break" : "");
 }
 
 int look_plan(struct run *r, FILE *f, fl_err *err)
@@ -77,14 +60,14 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     /* Steps of this very scene tell the time better than any table. */
     const double begun = run_clock();
     double spent = 0.0;
-    char what[4][160] = {{0}};
+    char what[160] = "", water[FL_WATER_FORCES_MAX][FL_FORCE_TEXT];
     if (w->bonds.n)
-        snprintf(what[3], sizeof what[3], "%d faces frozen together, %d bonds a body", w->bonds.n,
+        snprintf(what, sizeof what, "%d faces frozen together, %d bonds a body", w->bonds.n,
                  (2 * w->bonds.n + there / 2) / there);
     const int bad = fl_step_start(w, err);
     if (!bad || err->code == FL_NUMERIC) warn_at_start(r); /* as before the run itself */
     if (bad) return -1;
-    sea_stages(w, what);
+    describe_forces(w, water);
     while (w->step < r->steps && (spent = run_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;
     fprintf(f, "bodies         %d: %d polyhedra, %d spheres, %d capsules\n", there,
@@ -106,19 +89,9 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     stage(f, "cell", w->cell.periodic, "space repeats itself");
     stage(f, "outflow", w->inflow.absent != NULL, "floes beyond a free bound are taken out");
     stage(f, "inflow", w->inflow.feed != NULL, "");
-    stage(f, "buoyancy", w->sea.water, what[0]);
-    stage(f, "waves", w->sea.waves, what[1]);
-    stage(f, "current", w->sea.water && fl_current_max_speed(&w->sea.current) > 0.0, what[2]);
-    stage(f, "added mass", w->b.added_mass != NULL, "");
-    stage(f, "water drag", w->sea.water,
-          !w->sea.water                            ? ""
-          : w->sea.water_drag_law == FL_DRAG_FACET ? "by facets"
-                                                   : "of the whole");
-    stage(f, "wind", w->sea.wind,
-          !w->sea.wind                            ? ""
-          : w->sea.wind_drag_law == FL_DRAG_FACET ? "by facets"
-                                                  : "of the whole");
-    stage(f, "bonds", w->bonds.n > 0, what[3]);
+    for (int32_t k = 0; k < fl_water_force_count; k++)
+        stage(f, fl_water_forces[k].name, fl_water_forces[k].present(&w->sea, &w->b), water[k]);
+    stage(f, "bonds", w->bonds.n > 0, what);
     stage(f, "holds", held > 0, "");
     stage(f, "sleep", w->sleep.state != NULL, "floes to which nothing happens take many steps at once");
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate", w->dt, r->steps,
