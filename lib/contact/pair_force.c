@@ -275,7 +275,7 @@ static int force_points(fl_world *w, fl_pair *p, const fl_patch_points *s, const
                         const ahead *by, int survey)
 {
     const fl_bodies *b = &w->b;
-    const int one = s->n == 1 && p->law->kind == FL_LAW_PATCH;
+    const int one = s->n == 1 && p->law->law->end_speed;
     const ahead late = {.of = by->of, .lag = by->lag, .by = {.contact_count = 1.0}}, *const a =
                                                                                          one ? by : &late;
     const double k = p->k;
@@ -605,8 +605,8 @@ static int force_manual(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
                                   .r_low = c.lower_is_b ? rb : ra,
                                   .r_high = c.lower_is_b ? ra : rb,
                                   .edge = c.edge};
-    double exponent, k = fl_manual_stiffness(&mc, law->modulus, overlap, law->kind == FL_LAW_MANUAL_SI,
-                                             law->literal18, &exponent);
+    double exponent,
+        k = fl_manual_stiffness(&mc, law->modulus, overlap, law->law->si, law->literal18, &exponent);
     k = law->stiffness > 0.0 ? law->stiffness : law->stiffness_factor * k;
     const fl_vec3 nw = m3_mul(r->R, c.n), aj = m3_mul(r->R, c.p), ai = v3_add(aj, r->off);
     const fl_vec3 u = went(b, p, a, ai, aj); /* without a lead: as the manual has it */
@@ -660,21 +660,19 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
         p->force_friction = p->torque_i_friction = p->torque_j_friction = v3(0, 0, 0);
     p->energy = p->spring_energy = p->overlap = p->omega2_i = p->omega2_j = 0.0;
     const fl_piece *piece = fl_world_piece(w, p->j);
-    const int manual = (p->law->kind == FL_LAW_MANUAL || p->law->kind == FL_LAW_MANUAL_SI) &&
-                       (!piece || piece->kind == FL_PIECE_SOLID || piece->kind == FL_PIECE_CONE);
     if (piece && piece->elastic) {
         const int touch = force_bed(w, p, &r, &a, survey, &distance);
         if (touch < 0) goto failed;
         if (touch) return;
         distance += R; /* what sleeps is told by the distance of the cores */
-    } else if (manual) {
+    } else if (p->points == FL_POINTS_FEATURES) {
         if (force_manual(w, p, thread, &r, &a, survey, &distance)) goto failed;
         if (p->touching) goto touches;
     } else {
         if (fl_pair_find_points(w, p, thread, &r, &distance)) goto failed;
-        const int touch = p->exponent == 0.0 ? force_patch(w, p, thread, t, &r, &a, survey)
-                          : s->n             ? force_points(w, p, s, &r, &a, survey)
-                                             : 0;
+        const int touch = p->points == FL_POINTS_PATCH ? force_patch(w, p, thread, t, &r, &a, survey)
+                          : s->n                       ? force_points(w, p, s, &r, &a, survey)
+                                                       : 0;
         if (touch < 0) goto failed;
         if (touch) goto touches;
     }

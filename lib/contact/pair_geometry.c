@@ -268,7 +268,7 @@ static int convex_places(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_r
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
     const double ra = p->radius_factor * b->radius[p->i], rb = p->radius_factor * b->radius[p->j],
                  R = ra + rb;
-    const int core_law = p->law->kind == FL_LAW_CORE;
+    const int core_law = p->points == FL_POINTS_NEAREST;
     fl_penetration deep;
     fl_gap gap;
     /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
@@ -323,17 +323,18 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
         }
         return 0;
     }
-    if (p->touching && p->exponent == 0.0 && (!piece || piece->kind == FL_PIECE_SOLID) && p->feature_pairs &&
-        p->feature_pairs->separated && fl_feature_pairs_valid(p->feature_pairs, &r->M, r->o)) {
+    if (p->touching && p->points == FL_POINTS_PATCH && (!piece || piece->kind == FL_PIECE_SOLID) &&
+        p->feature_pairs && p->feature_pairs->separated &&
+        fl_feature_pairs_valid(p->feature_pairs, &r->M, r->o)) {
         if (fl_patch_points_find_listed(s, A, B, ra, rb, r->M, r->o, p->feature_pairs)) return -1;
         p->cores_overlap = 0;
         if (s->n) return 0;
     }
     if (fl_patch_points_transform(s, A, r->M, r->o)) return -1;
     if (piece && piece->kind == FL_PIECE_PLANE)
-        return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance)
-                                 : fl_patch_points_on_plane(s, A, ra, distance);
-    if (piece && piece->kind == FL_PIECE_MESH && A->nv == 1 && p->exponent > 0.0)
+        return p->points == FL_POINTS_NEAREST ? lowest_place(s, A->nv, ra, distance)
+                                              : fl_patch_points_on_plane(s, A, ra, distance);
+    if (piece && piece->kind == FL_PIECE_MESH && A->nv == 1 && p->points == FL_POINTS_NEAREST)
         return matches_of(p)
                    ? fl_mesh_contact_sphere(s, &w->mesh_near[thread], piece, ra, p->feature_pairs, distance)
                    : -1;
@@ -343,7 +344,8 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
                              : -1;
     double farther = INFINITY;
     part_of_cone of = {0};
-    if (piece && piece->kind == FL_PIECE_CONE && p->exponent == 0.0) of = share_of_cone(piece, A, r, ra);
+    if (piece && piece->kind == FL_PIECE_CONE && p->points == FL_POINTS_PATCH)
+        of = share_of_cone(piece, A, r, ra);
     if (of.cone < 1.0 && convex_places(w, p, s, r, distance)) return -1;
     if (of.cone == 0.0) return 0;
     const int32_t n = s->n;
@@ -413,7 +415,7 @@ int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
     const double R = b->radius[i] + b->radius[j];
     fl_pair *const p = q->contact; /* it has let go a moment ago */
     if ((p && (p->touching || p->bond)) || b->core[i].nv == 1 ||
-        fl_pair_law_of(w, i, j)->kind != FL_LAW_PATCH)
+        fl_pair_law_of(w, i, j)->law->points != FL_POINTS_PATCH)
         return 0;
     if (!wall && (!(p ? p->has_axis : q->has_axis) || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID)))
         return 0;

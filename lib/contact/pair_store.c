@@ -11,7 +11,10 @@ void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 {
     const double mi = w->b.m[i], mj = w->b.m[j];
     *p = (fl_pair){.i = i, .j = j, .radius_factor = 1.0, .law = fl_pair_law_of(w, i, j)};
-    p->k = fl_pair_stiffness(w, i, j, &p->exponent);
+    const fl_pair_spring s = fl_pair_stiffness(w, i, j);
+    p->k = s.k;
+    p->exponent = s.exponent;
+    p->points = fl_pair_points(w, i, j, s);
     p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
 }
 

@@ -337,7 +337,8 @@ void fl_panels_record_points(fl_world *w, const fl_pair *p, const fl_patch_point
 {
     fl_panel_points *notes = &w->panel_load.by_thread[omp_get_thread_num()];
     const int32_t from = notes->n;
-    const int pair_patch = p->exponent == 0.0, shell = w->structure.piece[p->j - w->n].kind == FL_PIECE_MESH;
+    const int pair_patch = p->points == FL_POINTS_PATCH,
+              shell = w->structure.piece[p->j - w->n].kind == FL_PIECE_MESH;
     double u = 0.0, du = 0.0;
     int32_t share = 0;
     for (int32_t k = 0; k < s->n; k++) u += s->point[k].u, du += s->point[k].du;

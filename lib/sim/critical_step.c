@@ -96,10 +96,12 @@ static worst worst_of(const fl_world *w)
 /* Tangent stiffness of one place of a law with exponent 3/2 needs an overlap: that of an impact of the
  * heaviest at the speed that bodies have or will take from gravity and current over their own size, (5 M
  * v^2/4 k)^(2/5). */
-static double place_slope(const fl_world *w, int32_t i, int32_t j, double k, double exponent, worst met)
+static double place_slope(const fl_world *w, int32_t i, int32_t j, fl_pair_spring s, worst met)
 {
-    if (exponent == 1.0) return k;
-    if (exponent == 0.0) { /* a face; or the line of a segment at the largest overlap there should be */
+    const double k = s.k;
+    if (s.exponent == 1.0) return k;
+    if (s.points ==
+        FL_POINTS_PATCH) { /* a face; or the line of a segment at the largest overlap there should be */
         const double other = w->max_face_area[j], r = w->b.radius[i];
         if (w->max_face_area[i] > 0.0)
             return 2.0 * k * sqrt(other > 0.0 && other < w->max_face_area[i] ? other : w->max_face_area[i]);
@@ -177,10 +179,10 @@ static rolled_on rolled_on_of(const fl_world *w)
 /* omega^2 of body i by that [1/s2]. */
 static double rolled(const fl_world *w, int32_t i, rolled_on by, worst met)
 {
-    double n;
     if (by.sphere < 0 || w->b.core[i].nv == 1) return 0.0;
-    const double k = fl_pair_stiffness(w, i, by.sphere, &n), R = w->b.radius[by.sphere];
-    return by.part * R * R * place_slope(w, by.sphere, i, k, n, met) / w->b.I[i].x;
+    const double R = w->b.radius[by.sphere];
+    return by.part * R * R * place_slope(w, by.sphere, i, fl_pair_stiffness(w, i, by.sphere), met) /
+           w->b.I[i].x;
 }
 
 /* How many times as stiff, and as damped, a contact is that is shaken across in place of along; what keeps a
@@ -223,10 +225,7 @@ typedef struct {
 
 static double left_of(const fl_pair_law *law, double times)
 {
-    const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE;
-    if (times == 1.0) return law->stable_share;
-    if (closed) return fl_hunt_crossley_stable_share(law->impact_damping, times);
-    return fl_damping_stable_share(0.5 * (1.0 / law->stable_share - law->stable_share) * sqrt(times));
+    return fl_contact_law_scaled_share(law->law, law->impact_damping, law->stable_share, times);
 }
 
 /* The part of 2/omega that a trial may be, of what an impact leaves: beyond 0.12 of 2/omega and a quarter of
@@ -244,8 +243,8 @@ static double shows(double left)
 static void leave(const fl_world *w, remains *r, const fl_pair_law *law, int late, double across, double few,
                   double many)
 {
-    const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE, spheres = many > FLOES_AMONG;
-    if (law->kind == FL_LAW_PATCH && !late) {
+    const int closed = law->law->damping == FL_DAMPING_IMPACT, spheres = many > FLOES_AMONG;
+    if (law->law->end_speed && !late) {
         const double struck = fl_damping_impact_share(law->impact_damping);
         r->one = fmin(r->one, struck);
         r->alone = fmin(r->alone, 0.8 * struck); /* S25 of verify_step */
@@ -278,8 +277,7 @@ static double stiffest_contact(const fl_world *w, int edges, double bonds, int32
     for (int32_t i = 0; i < w->n; i++) {
         const int round = w->b.core[i].nv < 2;
         const double places = round ? 1.0 : FACES, turns = turning(w, i, edges);
-        double n, k = fl_pair_stiffness(w, i, i, &n),
-                  stiffest = place_slope(w, i, i, k, n, met); /* one like itself */
+        double stiffest = place_slope(w, i, i, fl_pair_stiffness(w, i, i), met); /* one like itself */
         const fl_pair_law *law = fl_pair_law_of(w, i, i);
         double times = shaken(law, round, turns);
         const double few = edges && round ? 2.0 : 1.0;
@@ -292,8 +290,7 @@ static double stiffest_contact(const fl_world *w, int edges, double bonds, int32
                 stiffest = fmax(stiffest, stiffer * bed_slope(w, i));
                 continue;
             }
-            k = fl_pair_stiffness(w, i, j, &n);
-            const double slope = place_slope(w, i, j, k, n, met);
+            const double slope = place_slope(w, i, j, fl_pair_stiffness(w, i, j), met);
             stiffest = fmax(stiffest, stiffer * slope);
             if (w->moving.movers.n && w->moving.mover_of_piece[j - w->n] >= 0)
                 ridden = fmax(ridden, places * slope);
@@ -434,8 +431,8 @@ static double most_damped(const fl_world *w, int late)
     double D = 0.0;
     for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
         const fl_pair_law *law = &w->law[k];
-        const int manual = law->kind == FL_LAW_MANUAL || law->kind == FL_LAW_MANUAL_SI;
-        D = fmax(D, manual ? 2.0 * law->zeta : all || law->kind == FL_LAW_CORE ? law->impact_damping : 0.0);
+        const double impact = all || !law->law->end_speed ? law->impact_damping : 0.0;
+        D = fmax(D, law->law->damping == FL_DAMPING_RATIO ? 2.0 * law->zeta : impact);
     }
     return D;
 }

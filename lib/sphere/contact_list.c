@@ -179,7 +179,6 @@ static void fill(const fl_world *w, fl_sphere_contacts *s, const uint8_t *listed
     for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++) {
         const int32_t j = w->candidates.partner[k];
         int32_t cells[3] = {0};
-        double n;
         if (!listed[k]) continue;
         image(w, k, i, j, cells);
         while (at < end && compare(old, at, j, cells) < 0) at++;
@@ -192,7 +191,7 @@ static void fill(const fl_world *w, fl_sphere_contacts *s, const uint8_t *listed
             s->touches[c] = old->touches[at];
             s->contact[c] = old->contact[at++];
         } else {
-            s->contact[c].k = fl_pair_stiffness(w, i, j, &n);
+            s->contact[c].k = fl_pair_stiffness(w, i, j).k;
         }
         c++;
     }

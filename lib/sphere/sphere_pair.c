@@ -10,8 +10,7 @@ enum fl_sphere_kind fl_sphere_pair_kind(const fl_world *w, int32_t i, int32_t j)
     if (!w->b.is_isotropic[i]) return FL_SPHERE_NONE;
     const int wall = j >= w->n + w->pieces && !w->structure.piece[j - w->n].elastic;
     if (!wall && (j >= w->n || !w->b.is_isotropic[j])) return FL_SPHERE_NONE;
-    const int32_t law = fl_pair_law_of(w, i, j)->kind;
-    if (law != FL_LAW_PATCH && law != FL_LAW_CORE) return FL_SPHERE_NONE;
+    if (!fl_pair_law_of(w, i, j)->law->spheres) return FL_SPHERE_NONE;
     return wall ? FL_SPHERE_WALL : FL_SPHERE_SPHERE;
 }
 

@@ -52,14 +52,13 @@ int fl_wall_list_build(fl_world *w, int64_t n, fl_err *err)
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++) {
             const int32_t j = w->candidates.partner[k];
-            double exponent;
             if (fl_sphere_pair_kind(w, i, j) != FL_SPHERE_WALL) continue;
             while (at < n_old && before(&old[at], i, j)) at++;
             if (at < n_old && old[at].i == i && old[at].j == j) {
                 if (rolled) s->wall_rolling[s->walls] = rolled[at];
                 s->wall[s->walls++] = old[at];
             } else {
-                const fl_sphere_contact fresh = {.k = fl_pair_stiffness(w, i, j, &exponent)};
+                const fl_sphere_contact fresh = {.k = fl_pair_stiffness(w, i, j).k};
                 fl_wall_list_append(w, i, j, 0, &fresh, &none, err);
             }
         }

@@ -4,6 +4,7 @@
 #define FL_WORLD_PAIR_H
 #include <math.h>
 #include <stddef.h>
+#include "law/contact_law.h"
 #include "law/tangent.h"
 #include "narrow/contact.h"
 #include "narrow/gjk.h"
@@ -13,7 +14,7 @@
 
 /* A pair of materials, resolved. */
 typedef struct {
-    int32_t kind;               /* enum fl_law                                       */
+    const fl_contact_law *law;  /* the row of its law                                */
     double exponent;            /* n of the polyhedra's places                       */
     double modulus;             /* E* [Pa]                                           */
     double stiffness;           /* given by the user [N/m^n]; 0: from the modulus    */
@@ -44,10 +45,11 @@ typedef struct {
     fl_mode mode;               /* of the manual's laws                                  */
     int32_t cores_overlap;      /* the cores overlap                                     */
     int32_t has_axis;           /* axis has been set                                     */
+    int32_t points;             /* enum fl_contact_points: what is evaluated             */
     fl_vec3 axis;               /* from j to i in the frame of j: separates the cores, or did */
     double free_travel;         /* while the odometers add up to less, it cannot touch [m] */
     double k;                   /* stiffness of one place [N/m^n]; of `patch`, c in W = c sqrt(U) [N/m2] */
-    double exponent;            /* n; 0 for `patch` */
+    double exponent;            /* n of that place; 0 with FL_POINTS_PATCH */
     double mass;                /* reduced [kg]                                          */
     double max_approach_speed;  /* largest approach speed of this touch [m/s]            */
     int32_t bond;               /* 1 + number of the bond that stood here, 0: there was none; bond_list.h */

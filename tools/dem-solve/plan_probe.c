@@ -63,7 +63,6 @@ static void sea_stages(const fl_world *w, char what[3][160])
 
 int look_plan(struct run *r, FILE *f, fl_err *err)
 {
-    static const char *const LAW[] = {"patch", "manual", "manual-si", "core"};
     fl_world *w = r->w;
     int32_t there = 0, spheres = 0, capsules = 0, held = 0, kind[4] = {0};
     for (int32_t i = 0; i < w->n; i++) {
@@ -94,7 +93,7 @@ int look_plan(struct run *r, FILE *f, fl_err *err)
     if (w->inflow.feed) fprintf(f, "room           for %d more\n", w->n - there);
     fprintf(f, "near pairs     %d, search again after %.3g m\n", w->n_pair + fl_contact_list_size(w),
             w->skin);
-    fprintf(f, "law            %s between like bodies\n", w->n ? LAW[fl_pair_law_of(w, 0, 0)->kind] : "none");
+    fprintf(f, "law            %s between like bodies\n", w->n ? fl_pair_law_of(w, 0, 0)->law->name : "none");
     fprintf(f, "stages\n");
     stage(f, "weight", v3_norm(w->gravity) > 0.0, "");
     stage(f, "contacts", 1, "");
