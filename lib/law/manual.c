@@ -8,7 +8,7 @@ double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double ov
                            double *n)
 {
     const double both = fl_material_radius(c->r_low, c->r_high);
-    const double low = c->r_low > 0.0 ? c->r_low : both; /* a sharp feature meets the other's roundness */
+    const double low = c->r_low > 0.0 ? c->r_low : both; /* a sharp feature takes the radius of the other */
     double r = both;
     *n = 1.5;
     switch (c->kind) {

@@ -5,16 +5,16 @@
 #include "law/sphere_batch.h"
 #include "law/tangent.h"
 
-/* Registers are filled to the end: what stands behind the last contact is computed too, and not used. */
+/* Registers are filled: contacts after the last one are computed as well and not used. */
 enum { FULL = 8 };
-static int32_t filled(int32_t m) { return (m + FULL - 1) / FULL * FULL; }
+static int32_t padded_count(int32_t m) { return (m + FULL - 1) / FULL * FULL; }
 
-/* No branches, so that the compiler puts several contacts side by side. */
-#define SIDE_BY_SIDE _Pragma("omp simd")
+/* The loops have no branches, so that the compiler vectorises them over contacts. */
+#define SIMD_LOOP _Pragma("omp simd")
 
-FL_SIMD_VERSIONS static void stand(fl_sphere_batch *restrict b, int32_t m)
+FL_SIMD_VERSIONS static void find_geometry(fl_sphere_batch *restrict b, int32_t m)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const double x = b->d[0][c], y = b->d[1][c], z = b->d[2][c];
         const double d = sqrt(x * x + y * y + z * z), one = d > 0.0 ? 1.0 / d : 0.0;
@@ -28,8 +28,8 @@ FL_SIMD_VERSIONS static void stand(fl_sphere_batch *restrict b, int32_t m)
     }
 }
 
-/* How the surfaces go by each other across n where centres do by u; turn: a_i w_i + a_j w_j. */
-FL_SIMD_INLINE fl_vec3 sliding(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
+/* Tangential velocity at the contact: u of the centres, turn = a_i w_i + a_j w_j. */
+FL_SIMD_INLINE fl_vec3 tangential_velocity(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
 {
     const fl_vec3 s = v3_sub(u, v3_cross(turn, n));
     return v3_madd(s, -v3_dot(s, n), n);
@@ -37,9 +37,10 @@ FL_SIMD_INLINE fl_vec3 sliding(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
 
 #define VECTOR(a) v3(b->a[0][c], b->a[1][c], b->a[2][c])
 
-FL_SIMD_VERSIONS static void press(fl_sphere_batch *restrict b, int32_t m, double dt, double h, double begins)
+FL_SIMD_VERSIONS static void find_normal_forces(fl_sphere_batch *restrict b, int32_t m, double dt, double h,
+                                                double begins)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const fl_vec3 n = VECTOR(n), u = VECTOR(u);
         const double s = b->overlap[c], elastic = b->elastic[c], last = b->max_approach_speed[c];
@@ -59,17 +60,18 @@ FL_SIMD_VERSIONS static void press(fl_sphere_batch *restrict b, int32_t m, doubl
     }
 }
 
-FL_SIMD_VERSIONS static void rub(fl_sphere_batch *restrict b, int32_t m, double dt, double h, double begins)
+FL_SIMD_VERSIONS static void find_friction(fl_sphere_batch *restrict b, int32_t m, double dt, double h,
+                                           double begins)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const fl_vec3 n = VECTOR(n), u = VECTOR(u), wi = VECTOR(wi), wj = VECTOR(wj);
         const double ri = b->ri[c], rj = b->rj[c], half = 0.5 * b->overlap[c], ai = ri - half, aj = rj - half,
                      part = (ai + aj) / (ri + rj);
-        const fl_vec3 v = sliding(u, v3_madd(v3_scale(ai, wi), aj, wj), n),
-                      next = v3_add(v, sliding(VECTOR(du), v3_scale(part, VECTOR(rdw)), n));
+        const fl_vec3 v = tangential_velocity(u, v3_madd(v3_scale(ai, wi), aj, wj), n),
+                      next = v3_add(v, tangential_velocity(VECTOR(du), v3_scale(part, VECTOR(rdw)), n));
         const double twist = dt * (0.5 * v3_dot(v3_add(wi, wj), n));
-        /* the remembered force turns about n, lies down in the tangent plane, and falls with the stiffness */
+        /* the remembered force rotates about n and is projected into the tangent plane */
         const fl_vec3 p = VECTOR(spring_force), t = v3_madd(p, twist, v3_cross(n, p)),
                       q = v3_madd(t, -v3_dot(t, n), n), r = v3_sub(VECTOR(friction_force), p),
                       was = v3_madd(r, -v3_dot(r, n), n);
@@ -93,9 +95,9 @@ FL_SIMD_VERSIONS static void rub(fl_sphere_batch *restrict b, int32_t m, double 
     }
 }
 
-FL_SIMD_VERSIONS static void tell(fl_sphere_batch *restrict b, int32_t m)
+FL_SIMD_VERSIONS static void find_forces(fl_sphere_batch *restrict b, int32_t m)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c];
         const double x = b->friction_force[0][c], y = b->friction_force[1][c], z = b->friction_force[2][c];
@@ -118,10 +120,11 @@ FL_SIMD_VERSIONS static void tell(fl_sphere_batch *restrict b, int32_t m)
     }
 }
 
-FL_SIMD_VERSIONS static void roll(const fl_sphere_batch *restrict b, fl_sphere_rolling_batch *restrict r,
-                                  int32_t m, double dt, double h, double begins)
+FL_SIMD_VERSIONS static void find_rolling(const fl_sphere_batch *restrict b,
+                                          fl_sphere_rolling_batch *restrict r, int32_t m, double dt, double h,
+                                          double begins)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const fl_vec3 wi = VECTOR(wi), wj = VECTOR(wj);
         const double mu = r->rolling[c], part = fl_rolling_stiffness_ratio(mu), arm = r->arm[c];
@@ -161,23 +164,23 @@ void fl_sphere_batch_add_rolling(fl_sphere_batch *b, const fl_sphere_rolling_bat
 void fl_sphere_batch_rolling(fl_sphere_batch *b, fl_sphere_rolling_batch *r, int32_t m, double dt,
                              double half)
 {
-    roll(b, r, filled(m), dt, half, dt > 0.0 ? 0.0 : 1.0);
+    find_rolling(b, r, padded_count(m), dt, half, dt > 0.0 ? 0.0 : 1.0);
     fl_sphere_batch_add_rolling(b, r, m);
 }
 
 void fl_sphere_batch_evaluate(fl_sphere_batch *b, int32_t m, double dt, double half)
 {
-    const int32_t full = filled(m);
+    const int32_t full = padded_count(m);
     const double begins = dt > 0.0 ? 0.0 : 1.0;
-    stand(b, full);
-    press(b, full, dt, half, begins);
-    rub(b, full, dt, half, begins);
-    tell(b, full);
+    find_geometry(b, full);
+    find_normal_forces(b, full, dt, half, begins);
+    find_friction(b, full, dt, half, begins);
+    find_forces(b, full);
 }
 
 void fl_sphere_batch_restore(fl_sphere_batch *b, int32_t m)
 {
-    const int32_t full = filled(m);
-    stand(b, full);
-    tell(b, full);
+    const int32_t full = padded_count(m);
+    find_geometry(b, full);
+    find_forces(b, full);
 }
