@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* contact_law.h -- the table of contact laws that `contact.law` of a scene can name.
  *
- * A row states what the rest of the program has to know of a law.  The row is read by the scene reader (choices
- * and keys), the pair law, the pair geometry and force, the sphere lists, the critical step and the plan.  A new
- * law is one row, with its formulae in a header of this folder where none of the existing ones serves.
+ * A row states what the rest of the program has to know of a law.  The row is read by the scene reader
+ * (choices and keys), the pair law, the pair geometry and force, the sphere lists, the critical step and
+ * the plan.  A new law is one row, with its formulae in a header of this folder where none of the existing
+ * ones serves.
  *
- *   patch             W = c sqrt(U), U an integral over the faces, edges and vertices in contact; patch/patch_law.h
+ *   patch             W = c sqrt(U), U an integral over faces, edges and vertices; patch/patch_law.h
  *   core              F = k s^n at the closest point of the two cores, n of the scene; normal.h
  *   manual, manual-si the contact of two features by the formulae of the DilatedDEM manual; manual.h
  *

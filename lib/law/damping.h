@@ -26,8 +26,9 @@ double fl_damping_stored_speed(double D);
  *
  * Such a contact has the damping ratio D/(2 c), which the time step has to resolve unless
  * fl_damping_end_speed() is used.  c = 1 up to a ratio of 2.5, that is down to e = 0.2.  Below e = 0.2 the
- * ratio stays at the larger of 2.5 and the ratio that the impact itself reaches, D fl_damping_stored_speed(D)/2.
- * Since c fl_damping_stored_speed(D) <= 1, v_touch is the larger speed in an impact, and e holds. */
+ * ratio stays at the larger of 2.5 and the ratio that the impact itself reaches, D
+ * fl_damping_stored_speed(D)/2. Since c fl_damping_stored_speed(D) <= 1, v_touch is the larger speed in an
+ * impact, and e holds. */
 double fl_damping_slow_factor(double D);
 
 /* chi [s/m] of a contact.
@@ -49,14 +50,15 @@ static inline double fl_damping_impact_share(double D) { return 1.0 / sqrt(1.0 +
  * ago, K dt^2 + 2 C dt <= 4.  For a damping ratio z it is sqrt(1 + z^2) - z. */
 double fl_damping_stable_share(double z);
 
-/* The same for Hunt and Crossley with the factor c above, of a contact that is `times` as stiff and as damped.
- * It is the smaller of the share at rest and the least share during an impact.  In the impact, with s and u in
- * units of v/omega and v, the stiffness is 1 + D u, the damping D s, and
- * s^2 = 2 (1 - u)/D - 2 ln[(1 + D)/(1 + D u)]/D^2. */
+/* The same for Hunt and Crossley with the factor c above, of a contact that is `times` as stiff and as
+ * damped. It is the smaller of the share at rest and the least share during an impact.  In the impact, with
+ * s and u in units of v/omega and v, the stiffness is 1 + D u, the damping D s, and s^2 = 2 (1 - u)/D - 2
+ * ln[(1 + D)/(1 + D u)]/D^2. */
 double fl_hunt_crossley_stable_share(double D, double times);
 
-/* Weight of the implicit treatment of one contact among n that damp the same body, y = h C.  It is 1 where all
- * of them change a speed little in a step, a = 2 n y << 1, and tends to `most` where they would oscillate. */
+/* Weight of the implicit treatment of one contact among n that damp the same body, y = h C.  It is 1 where
+ * all of them change a speed little in a step, a = 2 n y << 1, and tends to `most` where they would
+ * oscillate. */
 static inline double fl_damping_implicit_weight(double y, double n, double most)
 {
     const double a = 2.0 * n * y, much = a * a;
@@ -74,13 +76,13 @@ static inline double fl_damping_implicit_weight(double y, double n, double most)
  *
  * Each of n contacts that damp one body knows only its own change.  Explicit among one another, they would
  * oscillate where n h C is not small.  There the damping changes by no more than if 2n - 1 contacts changed
- * like this one.  That is stable, again for all damping of bodies free to move as M says, up to 0.7 of the step
- * that the springs alone allow (verify_step).  Where n h C is small each contact counts once; the effect of the
- * others on d is of order 4 there.
+ * like this one.  That is stable, again for all damping of bodies free to move as M says, up to 0.7 of the
+ * step that the springs alone allow (verify_step).  Where n h C is small each contact counts once; the
+ * effect of the others on d is of order 4 there.
  *
- * The held-back part lags behind the motion.  Where it would drive the motion, the previous step is ignored.
- * At the start of a run there is no previous step: damping is taken as unchanged and is held back where it would
- * oscillate, and the elastic force as unchanged.
+ * The held-back part lags behind the motion.  Where it would drive the motion, the previous step is
+ * ignored. At the start of a run there is no previous step: damping is taken as unchanged and is held back
+ * where it would oscillate, and the elastic force as unchanged.
  *
  *   c         predicted approach speed at the end [m/s]
  *   C         damping coefficient [N s/m]
@@ -98,8 +100,8 @@ static inline double fl_damping_end_speed(double c, double C, double h, double n
 }
 
 /* Number of contacts in line to which the contacts of both bodies amount.  Body i has n_i contacts and the
- * inverse mass y_i, body j n_j and y_j; the result is the number on one body of the inverse mass y = y_i + y_j.
- * Another contact moves its body by that body's own inverse mass only.  Like Gershgorin's bound of the
+ * inverse mass y_i, body j n_j and y_j; the result is the number on one body of the inverse mass y = y_i +
+ * y_j. Another contact moves its body by that body's own inverse mass only.  Like Gershgorin's bound of the
  * eigenvalues of the compliance matrix of the contacts.
  *   pi, pj  (n - 1) times the inverse mass, of either body */
 static inline double fl_effective_contact_count(double pi, double pj, double y)
@@ -114,8 +116,8 @@ double fl_damping_linear(double e);
 /* Restitution of the ratio zeta: the inverse of fl_damping_linear(). */
 double fl_damping_linear_restitution(double zeta);
 
-/* alpha of Tsuji's law, which never pulls, for the restitution e: the fit of Thornton, Cummins & Cleary, Powder
- * Technology 233 (2013) 30; within 0.2 %. */
+/* alpha of Tsuji's law, which never pulls, for the restitution e: the fit of Thornton, Cummins & Cleary,
+ * Powder Technology 233 (2013) 30; within 0.2 %. */
 double fl_damping_tsuji(double e);
 
 #endif

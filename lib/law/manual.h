@@ -41,7 +41,8 @@ typedef struct {
 double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double overlap, int si, int literal18,
                            double *n);
 
-/* Damping force at the approach speed u [N]: 2 zeta sqrt(M k) u for n = 1, alpha sqrt(M k) s^(1/4) u for 3/2. */
+/* Damping force at the approach speed u [N]: 2 zeta sqrt(M k) u for n = 1, alpha sqrt(M k) s^(1/4) u for
+ * 3/2. */
 double fl_manual_damping(double k, double n, double overlap, double mass, double zeta, double alpha,
                          double u);
 

@@ -3,8 +3,9 @@
  *
  *     F = k s^n (1 + chi u) >= 0,     phi(s) = s^(n+1)/(n+1),     n = 1 or 3/2,
  *
- * s overlap [m], u approach speed [m/s], k stiffness [N/m^n], chi damping factor [s/m].  Damping in proportion to
- * the elastic force starts at zero and never pulls.  The restitution depends on chi u_impact alone (damping.h).  Source: Hunt & Crossley, J. Appl. Mech. 42 (1975) 440. */
+ * s overlap [m], u approach speed [m/s], k stiffness [N/m^n], chi damping factor [s/m].  Damping in
+ * proportion to the elastic force starts at zero and never pulls.  The restitution depends on chi u_impact
+ * alone (damping.h).  Source: Hunt & Crossley, J. Appl. Mech. 42 (1975) 440. */
 #ifndef FL_LAW_NORMAL_H
 #define FL_LAW_NORMAL_H
 #include <math.h>

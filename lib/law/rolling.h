@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rolling.h -- rolling and spinning resistance of a sphere: an elastic moment in the relative rotation, damped
- * and limited.
+/* rolling.h -- rolling and spinning resistance of a sphere: an elastic moment in the relative rotation,
+ * damped and limited.
  *
  *     M = -k_r theta - eta w,   |M| <= mu_r R* F_n,   k_r = 2.25 mu_r^2 R*^2 k_n,      w = w_i - w_j
  *
@@ -11,8 +11,8 @@
  *   mu_r   coefficient of rolling friction
  *   eta    damping: the fraction of k_r that normal damping is of k_n
  *
- * The limit is reached at the rotation 4/9 F_n/(k_n mu_r R*), which is 8/27 s/(mu_r R*) for Hertz.  The component
- * across the normal n resists rolling, the one along n spinning; both share the limit.
+ * The limit is reached at the rotation 4/9 F_n/(k_n mu_r R*), which is 8/27 s/(mu_r R*) for Hertz.  The
+ * component across the normal n resists rolling, the one along n spinning; both share the limit.
  *
  * M/R* is a force [N] and R* w a velocity [m/s].  The moment is therefore the spring of tangent.h with the
  * stiffness 2.25 mu_r^2 k_n and the limit mu_r F_n.
@@ -40,8 +40,8 @@ typedef struct {
     fl_vec3 spin;      /* [rad/s] */
 } fl_rolling_motion;
 
-/* Advances the spring by a step.  c: k_r/R*^2, damping, limit mu_r F_n and inverse mass; half, at_start: as in
- * fl_damping_end_speed(). */
+/* Advances the spring by a step.  c: k_r/R*^2, damping, limit mu_r F_n and inverse mass; half, at_start: as
+ * in fl_damping_end_speed(). */
 FL_SIMD_INLINE fl_rolling_spring fl_rolling_step(fl_rolling_spring s, fl_tangent_spring c,
                                                  fl_rolling_motion by, double dt, double half,
                                                  double at_start)

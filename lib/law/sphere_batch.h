@@ -10,9 +10,10 @@
  *     k_t = c_t 3/2 k sqrt(s),  g = c_t chi F_e,  F_t by tangent.h with the spin 1/2 n.(w_i + w_j);
  *     force on i F_n n + F_t, torques -a_i n x F_t and -a_j n x F_t.
  *
- * Damping uses the speeds at the end of the step: d by fl_damping_end_speed(), friction as fl_tangent_damping()
- * with a number in place of its P, 1/m + a^2/I of both spheres.  Both arms a are taken as the same fraction of
- * the radius.  F_e of the step before is that of the overlap before the approach of this step. */
+ * Damping uses the speeds at the end of the step: d by fl_damping_end_speed(), friction as
+ * fl_tangent_damping() with a number in place of its P, 1/m + a^2/I of both spheres.  Both arms a are taken
+ * as the same fraction of the radius.  F_e of the step before is that of the overlap before the approach of
+ * this step. */
 #ifndef FL_LAW_SPHERE_BATCH_H
 #define FL_LAW_SPHERE_BATCH_H
 #include <stdalign.h>
@@ -73,15 +74,16 @@ typedef struct {
     double total[3][FL_SPHERE_BATCH];
 } fl_sphere_rolling_batch;
 
-/* Evaluates the first m contacts over a step of dt [s].  half: half of the step, for the implicit damping [s].
- * The bits of a contact depend neither on the other contacts nor on the width of the registers. */
+/* Evaluates the first m contacts over a step of dt [s].  half: half of the step, for the implicit damping
+ * [s]. The bits of a contact depend neither on the other contacts nor on the width of the registers. */
 void fl_sphere_batch_evaluate(fl_sphere_batch *b, int32_t m, double dt, double half);
 
 /* Restores n, overlap, slope, elastic, forces, torques and magnitude from d, radii, k, friction_force and
  * normal_damping, to the same bits. */
 void fl_sphere_batch_restore(fl_sphere_batch *b, int32_t m);
 
-/* After either of these: evaluates the rolling resistance and adds its moments to the torques; or only adds. */
+/* After either of these: evaluates the rolling resistance and adds its moments to the torques; or only
+ * adds. */
 void fl_sphere_batch_rolling(fl_sphere_batch *b, fl_sphere_rolling_batch *r, int32_t m, double dt,
                              double half);
 void fl_sphere_batch_add_rolling(fl_sphere_batch *b, const fl_sphere_rolling_batch *r, int32_t m);

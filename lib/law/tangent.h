@@ -82,11 +82,11 @@ FL_SIMD_INLINE fl_friction_wrench fl_friction_wrench_madd(fl_friction_wrench a, 
 
 /* Direction of the friction of a sliding contact after a step; the length of the result has no meaning.
  *
- * Sliding follows F = limit e, e' = -(k/limit)(v - (v.e) e).  The step starts from F0 of the given size, and |F0|
- * is taken as the mean of the limits before and now.  With s = -k v dt and r = F0.s/2F0^2 the direction is that
- * of F0 + (1 + r) s to order 2 for |s| << |F0|, and that of s for |s| >> |F0|.  Where r < 0, 1/(1 - r) replaces
- * 1 + r, which keeps the direction from reversing.  r is kept as a quotient, and the result is multiplied by the
- * denominators. */
+ * Sliding follows F = limit e, e' = -(k/limit)(v - (v.e) e).  The step starts from F0 of the given size,
+ * and |F0| is taken as the mean of the limits before and now.  With s = -k v dt and r = F0.s/2F0^2 the
+ * direction is that of F0 + (1 + r) s to order 2 for |s| << |F0|, and that of s for |s| >> |F0|.  Where r <
+ * 0, 1/(1 - r) replaces 1 + r, which keeps the direction from reversing.  r is kept as a quotient, and the
+ * result is multiplied by the denominators. */
 FL_SIMD_INLINE fl_friction_wrench fl_tangent_slide(fl_friction_wrench from, double size, double limit,
                                                    fl_friction_wrench s)
 {
@@ -114,9 +114,9 @@ FL_SIMD_INLINE fl_friction_wrench fl_tangent_slide_path(double size, double limi
  *   before    damping of the step before
  *   h         half a step [s]
  *
- * A sliding contact also rocks, which damps the same motion, and counts for one contact more.  Across n that is
- * a system of two equations, x + a P x = r, with P = compliance without its parts along n.  Cramer's rule solves
- * it; 1 + a P has the eigenvalue 1 along n. */
+ * A sliding contact also rocks, which damps the same motion, and counts for one contact more.  Across n
+ * that is a system of two equations, x + a P x = r, with P = compliance without its parts along n.
+ * Cramer's rule solves it; 1 + a P has the eigenvalue 1 along n. */
 FL_SIMD_INLINE fl_friction_wrench fl_tangent_damping(fl_friction_contact c, fl_friction_wrench motion,
                                                      fl_friction_wrench change, fl_friction_wrench before,
                                                      double h, double at_start)
@@ -211,17 +211,17 @@ FL_SIMD_INLINE fl_friction_forces fl_tangent_point_step(fl_vec3 kept, fl_vec3 tu
 
 /* One step of friction over dt [s], without a branch or a pointer, so that loops over lanes can call it.
  *
- * 1. The remembered force is rotated about n by the mean spin of the pair, projected into the tangent plane and
- *    given its length again: it rolls with the contact.
- * 2. F -= k v dt, M -= k arm^2 w dt, with the mean of k before and now where k has risen.  Where k has fallen,
- *    force and moment fall with it first (Thornton, J. Appl. Mech. 64 (1997) 363), since they would else hold
- *    more energy than was put in; then F/k -= v dt.  Both are of order 2.
- * 3. The two are limited together, (F/limit)^2 + (M/(limit arm))^2 <= 1.  Beyond it the contact slides: the norm
- *    is the limit and the direction that of fl_tangent_slide().  Source of the ellipse: Goyal, Ruina &
+ * 1. The remembered force is rotated about n by the mean spin of the pair, projected into the tangent plane
+ *    and given its length again: it rolls with the contact.
+ * 2. F -= k v dt, M -= k arm^2 w dt, with the mean of k before and now where k has risen.  Where k has
+ *    fallen, force and moment fall with it first (Thornton, J. Appl. Mech. 64 (1997) 363), since they would
+ *    else hold more energy than was put in; then F/k -= v dt.  Both are of order 2.
+ * 3. The two are limited together, (F/limit)^2 + (M/(limit arm))^2 <= 1.  Beyond it the contact slides: the
+ *    norm is the limit and the direction that of fl_tangent_slide().  Source of the ellipse: Goyal, Ruina &
  *    Papadopoulos, Wear 143 (1991) 307.
- * 4. Damping by fl_tangent_damping(), -g v and -g arm^2 w of the end of the step, is added up to what the limit
- *    leaves beside the springs.  A sliding contact has none, as Coulomb's law says (V04 of verify_spheres), and
- *    the force does not jump as sliding begins or ends. */
+ * 4. Damping by fl_tangent_damping(), -g v and -g arm^2 w of the end of the step, is added up to what the
+ *    limit leaves beside the springs.  A sliding contact has none, as Coulomb's law says (V04 of
+ *    verify_spheres), and the force does not jump as sliding begins or ends. */
 FL_SIMD_INLINE fl_friction_result fl_tangent_step(fl_friction_springs s, fl_friction_contact c,
                                                   fl_friction_motion by, double dt)
 {
@@ -252,9 +252,9 @@ FL_SIMD_INLINE fl_friction_result fl_tangent_step(fl_friction_springs s, fl_fric
 
 /* Rescales the springs after the exact stiffness turned out to be `by` times the predicted one.
  *
- * Where the stiffness has fallen since (fell), force and moment have fallen with the predicted stiffness and now
- * fall with the exact one.  Where it has risen the springs have not been unloaded: they keep their forces if
- * they are stiffer.  If they are softer that would create energy, and they keep their energy. */
+ * Where the stiffness has fallen since (fell), force and moment have fallen with the predicted stiffness
+ * and now fall with the exact one.  Where it has risen the springs have not been unloaded: they keep their
+ * forces if they are stiffer.  If they are softer that would create energy, and they keep their energy. */
 static inline void fl_tangent_rescale(fl_friction_springs *s, double by, int fell)
 {
     const double scale = fell ? by : by < 1.0 ? sqrt(by) : 1.0;
