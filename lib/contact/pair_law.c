@@ -13,8 +13,8 @@ static fl_elastic_constants elastic_of(const fl_scene *s, int32_t material)
     return (fl_elastic_constants){s->material[material].young, s->material[material].poisson};
 }
 
-/* Column of the law table for the partner's material. */
-static int32_t column(const fl_world *w, int32_t material)
+/* Column of the table for the partner's material. */
+static int32_t column_of(const fl_world *w, int32_t material)
 {
     return material >= 0 ? material : material == FL_SCENE_STRUCTURE ? w->materials : w->materials + 1;
 }
@@ -22,7 +22,7 @@ static int32_t column(const fl_world *w, int32_t material)
 int fl_pair_law_make_table(fl_world *w, fl_err *err)
 {
     const fl_scene *s = w->scene;
-    int asked = 0;
+    int any_surrogate = 0;
     w->materials = s->n_material;
     w->law = fl_alloc((int64_t)w->materials * (w->materials + 2), sizeof *w->law, err);
     if (!w->law) return -1;
@@ -56,21 +56,21 @@ int fl_pair_law_make_table(fl_world *w, fl_err *err)
                 .literal18 = t.manual_eq18,
             };
             w->has_rolling |= w->law[a * (w->materials + 2) + c].rolling > 0.0;
-            asked |= w->law[a * (w->materials + 2) + c].surrogate_tolerance > 0.0;
+            any_surrogate |= w->law[a * (w->materials + 2) + c].surrogate_tolerance > 0.0;
         }
     }
-    if (asked) w->surrogate_counts = fl_alloc(w->threads, sizeof *w->surrogate_counts, err);
-    return asked && !w->surrogate_counts ? -1 : 0;
+    if (any_surrogate) w->surrogate_counts = fl_alloc(w->threads, sizeof *w->surrogate_counts, err);
+    return any_surrogate && !w->surrogate_counts ? -1 : 0;
 }
 
 const fl_pair_law *fl_pair_law_of(const fl_world *w, int32_t i, int32_t j)
 {
-    return &w->law[w->material[i] * (w->materials + 2) + column(w, w->material[j])];
+    return &w->law[w->material[i] * (w->materials + 2) + column_of(w, w->material[j])];
 }
 
-/* c of `patch` from the kappa that was given: that of the modulus which makes kappa the stiffness of a whole
- * face, or of what is round: of a capsule's end; of `core`, which it stands in for, of its one place. */
-static double given_patch(const fl_world *w, int32_t i, int32_t j, double area)
+/* c of a patch from the given kappa: that of the modulus for which kappa is the stiffness of a whole face,
+ * or of the end of a capsule; where the patch stands in for `core`, of its one point. */
+static double patch_stiffness_of(const fl_world *w, int32_t i, int32_t j, double area)
 {
     const fl_bodies *b = &w->b;
     const fl_pair_law *law = fl_pair_law_of(w, i, j);
@@ -98,7 +98,7 @@ fl_pair_spring fl_pair_stiffness(const fl_world *w, int32_t i, int32_t j)
                                     : nearest ? law->exponent
                                               : 0.0};
     const int patch = s.points == FL_POINTS_PATCH;
-    if (law->stiffness > 0.0) s.k = patch ? given_patch(w, i, j, area) : law->stiffness;
+    if (law->stiffness > 0.0) s.k = patch ? patch_stiffness_of(w, i, j, area) : law->stiffness;
     else if (patch) s.k = 0.5 * law->stiffness_factor * fl_material_punch(law->modulus, 1.0);
     else if (s.exponent == 1.0)
         s.k = law->stiffness_factor * fl_material_punch(law->modulus, area) / law->law->face_ratio;
