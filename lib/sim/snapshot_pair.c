@@ -5,7 +5,7 @@
 #include "sphere/sphere_pair.h"
 #include "sphere/contact_list.h"
 #include "contact/bond_list.h"
-#include "contact/pair_force.h"
+#include "contact/pair_surrogate.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
