@@ -18,19 +18,20 @@ enum { PREVIOUS = 28, SPRINGS = 8 };
 typedef struct {
     fl_surrogate_lanes s;
     _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row */
-    fl_lane off[3], u[3], wi[3],
-        wj[3];      /* from A's centre to B's; v_A - v_B with the lag; angular velocities */
-    fl_lane lag_dt; /* dt of fl_pair_rotation_lag(), 0 for spheres */
-    fl_lane du[3], dwi[3], dwj[3], count; /* fl_predicted_velocity */
-    fl_lane previous[PREVIOUS];           /* results of the last step, from force on */
-    fl_lane mass, reduced, max_approach, slow_factor, impact_damping, friction,
-        tangential;  /* of pair and law */
-    fl_lane turn[3]; /* rotation of the force since the evaluation, frame of B */
-    fl_lane chi, weight_y, growth, shift[3], fd[3],
-        md[3];                /* of damping; frame of B, for a force ratio of 1 */
+    fl_lane off[3], u[3];                    /* from A's centre to B's; v_A - v_B with the lag */
+    fl_lane wi[3], wj[3];                    /* angular velocities */
+    fl_lane lag_dt;                          /* dt of fl_pair_rotation_lag(), 0 for spheres */
+    fl_lane du[3], dwi[3], dwj[3], count;    /* fl_predicted_velocity */
+    fl_lane previous[PREVIOUS];              /* results of the last step, from force on */
+    fl_lane mass, reduced, max_approach;     /* of the pair */
+    fl_lane slow_factor, impact_damping, friction, tangential; /* of its law */
+    fl_lane turn[3]; /* rotation of the force since the exact evaluation, frame of B */
+    /* damping; fd and md in the frame of B, for a force ratio of 1 */
+    fl_lane chi, weight_y, growth, shift[3], fd[3], md[3];
     fl_lane springs[SPRINGS]; /* fl_friction_springs; the last two are unused */
     fl_lane compliance[6];
-    fl_lane n[3], v[3], v_end[3], aj[3], k, g, limit, arm, spin_mean, spin, spin_end; /* input of friction */
+    /* input of friction */
+    fl_lane n[3], v[3], v_end[3], aj[3], k, g, limit, arm, spin_mean, spin, spin_end;
     fl_lane results[FL_PAIR_RESULTS]; /* of fl_pair, from force on */
 } batch;
 
@@ -202,9 +203,9 @@ FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step o
                       D = fl_lane3(OF(direction), k), T = fl_lane3(OF(torque), k);
         /* the pressures shift to where the force and the moment act */
         const fl_vec3 arm = v3_sub(fl_lane3(b->s.point, k), first);
-        const fl_vec3 acts =
+        const fl_vec3 centre =
             fl_surrogate_force_centre(force, v3_add(fl_lane3(b->s.m, k), v3_cross(arm, force)));
-        const fl_vec3 by = v3_sub(acts, fl_lane3(OF(centre), k));
+        const fl_vec3 by = v3_sub(centre, fl_lane3(OF(centre), k));
         const fl_vec3 was = fl_lane3(OF(g), k); /* opposite to the force */
         const double size2 = v3_norm2(force) * v3_norm2(was), each2 = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0;
         const fl_vec3 turn = v3_scale(each2, v3_cross(force, was)), back = v3_neg(turn);
@@ -218,29 +219,33 @@ FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step o
                       m = v3(row_times(A, k, 3, v, w), row_times(A, k, 4, v, w), row_times(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
         /* approach speed for damping: the mean over the approaching points, with evenly distributed speeds */
-        const double c2 = each * (v3_dot(f, v) + v3_dot(m, w)), apart = c2 - closing * closing,
-                     wide = sqrt(3.0 * (apart > 0.0 ? apart : 0.0)), met = mean_approach(closing, wide),
-                     touch = met > b->max_approach.a[k] ? met : b->max_approach.a[k];
+        const double c2 = each * (v3_dot(f, v) + v3_dot(m, w)), variance = c2 - closing * closing,
+                     wide = sqrt(3.0 * (variance > 0.0 ? variance : 0.0)),
+                     mean = mean_approach(closing, wide),
+                     touch = mean > b->max_approach.a[k] ? mean : b->max_approach.a[k];
         const double chi = fl_damping_chi(b->impact_damping.a[k], b->slow_factor.a[k], touch,
                                           b->s.energy.a[k], b->mass.a[k]);
         /* the change by the contact itself */
         const fl_previous_force before = previous_of(b, k);
-        const double size = v3_norm(force), presses = b->s.force_ratio.a[k] * OF(pressure)->a[k],
-                     own = fl_predict_approach(closing, size, chi * size, OF(inv_mass)->a[k], b->count.a[k],
-                                               of, before),
-                     nearer = fl_predictor_share(size, presses) * (own - closing), ends = closing + nearer;
-        const double grown = 1.0 + chi * ends, var = chi * chi * apart;
-        const fl_no_tension held = fl_no_tension_of(
-            grown, var, OF(half_width)->a[k] * sqrt(var > 0.0 ? var : 0.0), OF(skewness)->a[k]);
-        const double adds = -chi * (1.0 + held.q), still = held.p + held.q * (1.0 - grown);
+        const double size = v3_norm(force), pressure = b->s.force_ratio.a[k] * OF(pressure)->a[k],
+                     corrected = fl_predict_approach(closing, size, chi * size, OF(inv_mass)->a[k],
+                                                     b->count.a[k], of, before),
+                     correction = fl_predictor_share(size, pressure) * (corrected - closing),
+                     end_speed = closing + correction;
+        const double growth = 1.0 + chi * end_speed, var = chi * chi * variance;
+        const fl_no_tension stable = fl_no_tension_of(
+            growth, var, OF(half_width)->a[k] * sqrt(var > 0.0 ? var : 0.0), OF(skewness)->a[k]);
+        const double factor = -chi * (1.0 + stable.q), unmoved = stable.p + stable.q * (1.0 - growth);
         b->max_approach.a[k] = touch;
         b->chi.a[k] = chi;
-        b->weight_y.a[k] = 2.0 * of.half_step * chi * presses / b->reduced.a[k];
-        b->growth.a[k] = grown + held.p;
+        b->weight_y.a[k] = 2.0 * of.half_step * chi * pressure / b->reduced.a[k];
+        b->growth.a[k] = growth + stable.p;
         fl_lane3_set(b->shift, k, by);
         fl_lane3_set(b->turn, k, turn);
-        fl_lane3_set(b->fd, k, rotated(turn, v3_madd(v3_scale(still, D), adds, v3_madd(f, -nearer, D))));
-        fl_lane3_set(b->md, k, rotated(turn, v3_madd(v3_scale(still, T), adds, v3_madd(m, -nearer, T))));
+        fl_lane3_set(b->fd, k,
+                     rotated(turn, v3_madd(v3_scale(unmoved, D), factor, v3_madd(f, -correction, D))));
+        fl_lane3_set(b->md, k,
+                     rotated(turn, v3_madd(v3_scale(unmoved, T), factor, v3_madd(m, -correction, T))));
     }
 }
 
@@ -252,52 +257,52 @@ FL_SIMD_VERSIONS static void find_normal_forces(batch *restrict b)
         const fl_rows3 R = rows_of(b->R, k);
         const fl_vec3 first = fl_lane3(OF(first_point), k), point = fl_lane3(b->s.point, k),
                       f = fl_lane3(b->s.f, k), m = fl_lane3(b->s.m, k), off = fl_lane3(b->off, k);
-        const double share = b->s.force_ratio.a[k], grown = b->growth.a[k];
+        const double share = b->s.force_ratio.a[k], growth = b->growth.a[k];
         const fl_vec3 by = fl_lane3(b->shift, k), turn = fl_lane3(b->turn, k);
         fl_vec3 fd = fl_lane3(b->fd, k), md = fl_lane3(b->md, k);
-        const fl_vec3 still = rotated(turn, fl_lane3(OF(direction), k)), direction = v3_add(still, fd),
+        const fl_vec3 unmoved = rotated(turn, fl_lane3(OF(direction), k)), direction = v3_add(unmoved, fd),
                       turning = v3_add(rotated(turn, fl_lane3(OF(torque), k)), md);
         /* the force that is not pressure scales with damping as well */
         const fl_vec3 rest =
-            v3_sub(v3_sub(v3_scale(1.0 / share, f), rotated(turn, fl_lane3(OF(other_force), k))), still);
-        const fl_vec3 less = v3_madd(fd, grown - 1.0, rest);
-        fd = v3(grown < 1.0 ? less.x : fd.x, grown < 1.0 ? less.y : fd.y, grown < 1.0 ? less.z : fd.z);
+            v3_sub(v3_sub(v3_scale(1.0 / share, f), rotated(turn, fl_lane3(OF(other_force), k))), unmoved);
+        const fl_vec3 less = v3_madd(fd, growth - 1.0, rest);
+        fd = v3(growth < 1.0 ? less.x : fd.x, growth < 1.0 ? less.y : fd.y, growth < 1.0 ? less.z : fd.z);
         md = v3_add(md, v3_cross(by, fd));
         /* to world axes */
         const fl_vec3 at = r3_mul(R, point), aj = r3_mul(R, first), F = r3_mul(R, f), FM = r3_mul(R, m);
         const fl_vec3 D1 = v3_scale(share, r3_mul(R, fd)), DM = v3_scale(share, r3_mul(R, md));
-        const fl_vec3 amid = v3_scale(0.5, off);
-        const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, amid), F), FM)},
-                        damping = {D1, v3_add(v3_cross(v3_add(aj, amid), D1), DM)};
+        const fl_vec3 middle = v3_scale(0.5, off);
+        const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, middle), F), FM)},
+                        damping = {D1, v3_add(v3_cross(v3_add(aj, middle), D1), DM)};
         const fl_previous_force was = previous_of(b, k);
-        const fl_wrench held = fl_stabilised_damping(elastic, damping, share * OF(pressure)->a[k],
-                                                     b->weight_y.a[k], b->count.a[k], was, 0.0);
-        const fl_vec3 D = held.f, half = v3_cross(amid, D), di = v3_add(half, held.m),
-                      dj = v3_sub(half, held.m);
+        const fl_wrench stable = fl_stabilised_damping(elastic, damping, share * OF(pressure)->a[k],
+                                                       b->weight_y.a[k], b->count.a[k], was, 0.0);
+        const fl_vec3 D = stable.f, half = v3_cross(middle, D), di = v3_add(half, stable.m),
+                      dj = v3_sub(half, stable.m);
         fl_lane3_set(TO(force_damping), k, D);
         fl_lane3_set(TO(torque_i_damping), k, di);
         fl_lane3_set(TO(torque_j_damping), k, dj);
         fl_lane3_set(TO(force), k, v3_add(F, D));
         fl_lane3_set(TO(torque_i), k, v3_add(v3_add(v3_cross(v3_add(at, off), F), FM), di));
         fl_lane3_set(TO(torque_j), k, v3_sub(dj, v3_add(v3_cross(at, F), FM)));
-        /* friction acts at the centre of the pressures, in size and height */
+        /* friction centre at the centre of the pressures, in size and height */
         const double size = v3_norm(direction), least = 1e-12 * OF(pressure)->a[k],
-                     each = size > least ? 1.0 / size : 0.0, rubs = size > least ? b->friction.a[k] : 0.0,
-                     springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
+                     each = size > least ? 1.0 / size : 0.0, mu = size > least ? b->friction.a[k] : 0.0,
+                     springs = mu > 0.0 ? b->tangential.a[k] : 0.0;
         const fl_vec3 n = r3_mul(R, v3_scale(each, direction));
-        const fl_vec3 acts = v3_add(v3_add(by, rotated(turn, fl_lane3(OF(centre_offset), k))),
-                                    v3_scale(each * each, v3_cross(direction, turning)));
-        const fl_vec3 centred = v3_add(aj, r3_mul(R, acts));
+        const fl_vec3 centre = v3_add(v3_add(by, rotated(turn, fl_lane3(OF(centre_offset), k))),
+                                      v3_scale(each * each, v3_cross(direction, turning)));
+        const fl_vec3 at_centre = v3_add(aj, r3_mul(R, centre));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n),
                      more = v3_dot(fl_lane3(b->dwi, k), n) - v3_dot(fl_lane3(b->dwj, k), n);
-        const fl_vec3 goes = mean_velocity(b, k, centred);
+        const fl_vec3 v = mean_velocity(b, k, at_centre);
         fl_lane3_set(b->n, k, n);
-        fl_lane3_set(b->aj, k, centred);
-        fl_lane3_set(b->v, k, goes);
-        fl_lane3_set(b->v_end, k, v3_add(goes, predicted_change(b, k, centred)));
+        fl_lane3_set(b->aj, k, at_centre);
+        fl_lane3_set(b->v, k, v);
+        fl_lane3_set(b->v_end, k, v3_add(v, predicted_change(b, k, at_centre)));
         b->k.a[k] = springs * b->s.slope.a[k];
         b->g.a[k] = springs * b->chi.a[k] * (share * OF(pressure)->a[k]);
-        b->limit.a[k] = rubs * (share * size);
+        b->limit.a[k] = mu * (share * size);
         b->arm.a[k] = OF(radius)->a[k];
         b->spin.a[k] = wi - wj;
         b->spin_end.a[k] = wi - wj + more;
@@ -308,7 +313,7 @@ FL_SIMD_VERSIONS static void find_normal_forces(batch *restrict b)
 /* Friction and the remaining results. */
 FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step of, int survey)
 {
-    const double asked = survey ? 1.0 : 0.0;
+    const double surveyed = survey ? 1.0 : 0.0;
 #pragma omp simd
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_friction_contact c = {
@@ -336,7 +341,7 @@ FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step 
         const fl_friction_result to = fl_tangent_step(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
-        const double spring = fl_tangent_energy(to.springs), slope = asked * b->s.slope.a[k];
+        const double spring = fl_tangent_energy(to.springs), slope = surveyed * b->s.slope.a[k];
         fl_lane3_set(b->springs, k, to.springs.force);
         b->springs[3].a[k] = to.springs.k, b->springs[4].a[k] = to.springs.moment,
         b->springs[5].a[k] = to.springs.k_turn;
