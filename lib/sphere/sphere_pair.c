@@ -15,14 +15,14 @@ enum fl_sphere_kind fl_sphere_pair_kind(const fl_world *w, int32_t i, int32_t j)
 }
 
 void fl_sphere_contact_to_pair(const fl_world *w, int32_t i, int32_t j, const fl_sphere_contact *r,
-                               const fl_rolling_spring *roll, int hit, fl_vec3 n, double over, fl_pair *p)
+                               const fl_rolling_spring *roll, int touches, fl_vec3 n, double over, fl_pair *p)
 {
     const fl_bodies *b = &w->b;
     const double arm = b->radius[i] - 0.5 * over;
     fl_pair_init(w, p, i, j);
     p->free_travel = b->odometer[i] + b->odometer[j] + (over < 0.0 ? -over : 0.0);
-    p->touching = hit;
-    if (!hit) return;
+    p->touching = touches;
+    if (!touches) return;
     p->springs.force = r->spring_force;
     p->springs.k = r->spring_stiffness;
     p->max_approach_speed = r->max_approach_speed;
