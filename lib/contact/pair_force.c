@@ -396,8 +396,8 @@ static pressure add_damping_and_friction(fl_world *w, fl_pair *p, const fl_force
 
 /* --- exact evaluation -------------------------------------------------------------------------- */
 
-/* Evaluates a patch, W = k sqrt(U), each point with its share of dW/dU; t as in fl_pair_update_surrogate().  1 when
- * they touch, 0 when they do not, -1 when memory runs out. */
+/* Evaluates a patch, W = k sqrt(U), each point with its share of dW/dU; t as in fl_pair_update_surrogate().
+ * 1 when they touch, 0 when they do not, -1 when memory runs out. */
 static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surrogate_value *t,
                           const fl_relative_pose *r, const prediction *a, int survey)
 {
@@ -504,7 +504,7 @@ static int evaluate_elastic_wall(fl_world *w, fl_pair *p, const fl_relative_pose
     add_pressure(&all, elastic, normal, n, v3(0, 0, 0));
     add_friction(w, p, &all, 0.0, &(contact_compliance){0}, r, a);
     if (add_rolling(w, p, &all, 0.0, a)) return -1;
-    if (survey) { /* the section at the wall rotates with the body: bounded by the stiffness at its farthest point */
+    if (survey) { /* the section rotates with the body: take its farthest point */
         fl_stiffness si = {0}, sj = {0};
         fl_stiffness_add_force(&si, b, i, all.slope, n, v3_cross(ai, n));
         bound_stiffness(w, p, &all, r, &si, &sj);

@@ -555,10 +555,7 @@ int32_t fl_sphere_chunk_share(const fl_world *w, int t, int parts)
 {
     const fl_sphere_contacts *s = &w->spheres;
     const int64_t all = (int64_t)s->n + s->bodies;
-    int32_t
-        lo = 0,
-        hi =
-            s->chunks; /* the first chunk with as many contacts and bodies before it as the shares before have */
+    int32_t lo = 0, hi = s->chunks; /* the result: the first chunk after the work of the shares before */
     while (lo < hi) {
         const int32_t a = (lo + hi) / 2, k = a * FL_SPHERE_CHUNK;
         if (((int64_t)s->first[k] + k) * parts < all * t) lo = a + 1;
