@@ -3,9 +3,9 @@
 #include <string.h>
 #include "base/array.h"
 #include "contact/active_pairs.h"
-#include "contact/pair_store.h"
 #include "contact/pair_force.h"
 #include "contact/pair_geometry.h"
+#include "contact/pair_store.h"
 #include "contact/surrogate_batch.h"
 #include "world/access.h"
 

@@ -4,8 +4,8 @@
 #include "base/array.h"
 #include "bond/bond_batch.h"
 #include "bond/common_face.h"
-#include "geom/clip.h"
 #include "contact/bond_list.h"
+#include "geom/clip.h"
 #include "patch/stiffness_bound.h"
 #include "world/access.h"
 

@@ -2,13 +2,13 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "base/simd.h"
-#include "structure/mesh_contact.h"
-#include "patch/cone.h"
-#include "narrow/closest_point.h"
+#include "contact/pair_geometry.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "contact/pair_geometry.h"
+#include "narrow/closest_point.h"
+#include "patch/cone.h"
+#include "structure/mesh_contact.h"
 #include "world/access.h"
 
 /* A pair that does not touch computes its exact distance only within this multiple of the sum of its radii.

@@ -4,9 +4,9 @@
 #include <string.h>
 #include "base/array.h"
 #include "base/pi.h"
+#include "contact/panel_load.h"
 #include "law/normal.h"
 #include "narrow/closest_point.h"
-#include "contact/panel_load.h"
 
 /* --- panels ------------------------------------------------------------------------------------ */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "contact/rolling_pair.h"
 #include "body/integrate.h"
+#include "contact/rolling_pair.h"
 #include "contact/velocity_predictor.h"
 
 /* 1/I of sphere k, 0 if it cannot rotate, and the predicted change of its angular velocity. */

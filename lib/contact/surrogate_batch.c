@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stddef.h>
 #include "base/simd.h"
-#include "law/damping.h"
-#include "contact/velocity_predictor.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "patch/no_tension.h"
 #include "contact/surrogate_batch.h"
+#include "contact/velocity_predictor.h"
+#include "law/damping.h"
+#include "patch/no_tension.h"
 
 /* Numbers of rows: force to torque_j_friction of fl_pair and one more; fl_friction_springs and two more. */
 enum { PREVIOUS = 28, SPRINGS = 8 };

@@ -16,10 +16,10 @@
  * contact that begins has had no effect yet. */
 #ifndef FL_CONTACT_VELOCITY_PREDICTOR_H
 #define FL_CONTACT_VELOCITY_PREDICTOR_H
-#include "law/damping.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
+#include "law/damping.h"
 #include "world/access.h"
 
 typedef struct {

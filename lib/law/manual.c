@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "law/manual.h"
 #include "base/pi.h"
+#include "law/manual.h"
 #include "law/material.h"
 
 double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double overlap, int si, int literal18,

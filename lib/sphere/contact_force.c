@@ -7,14 +7,14 @@
 #include "base/array.h"
 #include "base/simd.h"
 #include "body/integrate.h"
+#include "contact/rolling_pair.h"
+#include "contact/velocity_predictor.h"
 #include "law/damping.h"
 #include "law/sphere_batch.h"
+#include "patch/stiffness_bound.h"
 #include "sphere/contact_force.h"
 #include "sphere/sphere_pair.h"
-#include "contact/velocity_predictor.h"
 #include "sphere/wall_contact.h"
-#include "contact/rolling_pair.h"
-#include "patch/stiffness_bound.h"
 #include "world/access.h"
 
 /* Distances of prefetching: contacts to the body j, to the contact record, and slots. */

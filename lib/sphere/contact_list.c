@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/array.h"
-#include "law/normal.h"
-#include "sphere/contact_force.h"
-#include "sphere/sphere_pair.h"
-#include "sphere/contact_list.h"
-#include "sphere/wall_contact.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/rolling_pair.h"
+#include "law/normal.h"
 #include "patch/stiffness_bound.h"
+#include "sphere/contact_force.h"
+#include "sphere/contact_list.h"
+#include "sphere/sphere_pair.h"
+#include "sphere/wall_contact.h"
 #include "world/access.h"
 
 /* Relative margin of a distance for rounding of coordinates, up to a million sizes from the origin. */

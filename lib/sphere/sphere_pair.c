@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contact/pair_law.h"
 #include "contact/pair_store.h"
+#include "contact/rolling_pair.h"
 #include "law/normal.h"
 #include "sphere/sphere_pair.h"
-#include "contact/rolling_pair.h"
 
 enum fl_sphere_kind fl_sphere_pair_kind(const fl_world *w, int32_t i, int32_t j)
 {

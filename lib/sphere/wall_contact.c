@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/array.h"
 #include "body/integrate.h"
-#include "law/damping.h"
-#include "law/normal.h"
-#include "law/sphere_batch.h"
-#include "sphere/sphere_pair.h"
-#include "contact/velocity_predictor.h"
-#include "sphere/wall_contact.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/rolling_pair.h"
+#include "contact/velocity_predictor.h"
+#include "law/damping.h"
+#include "law/normal.h"
+#include "law/sphere_batch.h"
 #include "patch/stiffness_bound.h"
+#include "sphere/sphere_pair.h"
+#include "sphere/wall_contact.h"
 
 /* --- list -------------------------------------------------------------------------------------- */
 
