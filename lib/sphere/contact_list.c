@@ -202,16 +202,16 @@ static void fill_contacts(const fl_world *w, fl_sphere_contacts *s, const uint8_
 int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl_err *err)
 {
     fl_sphere_contacts fresh = {0}, *s = &w->spheres;
-    int64_t near = 0, lean = 0;
+    int64_t near = 0, walls = 0;
     int32_t *at = fl_alloc((int64_t)w->n + 1, sizeof *at, err);
     uint8_t *listed = fl_alloc(w->candidates.first[w->n], sizeof *listed, err);
     if (!at || !listed) goto fail;
-#pragma omp parallel for schedule(static) reduction(+ : near, lean)
+#pragma omp parallel for schedule(static) reduction(+ : near, walls)
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++) {
             const int32_t j = w->candidates.partner[k];
             int32_t cells[3] = {0};
-            lean += fl_sphere_pair_kind(w, i, j) == FL_SPHERE_WALL;
+            walls += fl_sphere_pair_kind(w, i, j) == FL_SPHERE_WALL;
             if (fl_sphere_pair_kind(w, i, j) != FL_SPHERE_SPHERE) continue;
             image(w, k, i, j, cells);
             listed[k] = (uint8_t)may_touch(w, i, j, cells);
@@ -219,14 +219,14 @@ int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl
             near++;
         }
     }
-    *others = w->candidates.first[w->n] - near - lean;
+    *others = w->candidates.first[w->n] - near - walls;
     int64_t n = 0;
     for (int32_t i = 0; i < w->n; i++) n += at[i + 1], at[i + 1] = (int32_t)n;
-    if (n + lean == 0 && !s->bodies) {
+    if (n + walls == 0 && !s->bodies) {
         free(at), free(listed);
         return 0;
     }
-    if (alloc_contacts(&fresh, w, n, err) || fl_wall_list_build(w, lean, err)) goto fail;
+    if (alloc_contacts(&fresh, w, n, err) || fl_wall_list_build(w, walls, err)) goto fail;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < w->n; i++)
         if (at[i + 1] > at[i]) fill_contacts(w, &fresh, listed, i, at[i], image);
