@@ -238,7 +238,7 @@ static void fill_gas(lab *l, double safety)
 {
     enum { SIDE = 14 };
     lab_setf(l, "run.safety=%g", safety);
-    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.stiffness_factor=0.02");
     lab_set(l, "boundary.type=rigid");
     lab_set(l, "boundary.min=-26.6 -26.6 none");
     lab_set(l, "boundary.max=26.6 26.6 none");

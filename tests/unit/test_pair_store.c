@@ -16,7 +16,7 @@
 static void two(lab *l, const char *more)
 {
     lab_start(l);
-    lab_set(l, "contact.softening=0.05");
+    lab_set(l, "contact.stiffness_factor=0.05");
     if (more) lab_set(l, more);
     lab_box(l, v3(0, 0, 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
     lab_box(l, v3(1.02, 0.3, 0), v3(0.5, 0.5, 0.2), 0.05, q_one(), v3(-1, 0, 0), v3(0, 0, 0));
