@@ -12,8 +12,8 @@ enum fl_sleep_phase { FL_AWAKE, FL_BALLISTIC, FL_RESTING, FL_WAKING, FL_CANDIDAT
 
 typedef struct {
     int64_t since_step;          /* step in which the body fell asleep or woke */
-    double path_bound;           /* bound of the path of a ballistic body until it wakes, already
-                                                 * in its odometer; of a candidate, path in the rest window [m] */
+    double path_bound;           /* bound of the path of a ballistic body until it wakes, in its odometer
+                                  * already; of a candidate, its path in the rest window [m] */
     double window_odometer;      /* odometer at the start of the rest window [m]; -1: none */
     double drag_rate;            /* rate at which drag changed its speed last [m/s2] */
     double max_error, sum_error; /* of all skips: largest error over the radius, and the sum */
