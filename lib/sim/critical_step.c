@@ -233,9 +233,9 @@ static double stable_share_of(const fl_pair_law *law, double times)
 /* Largest share of 2/omega for a trial with run.error, from the share that an impact leaves.  Above 0.12 of
  * 2/omega and a quarter of that share, windows of a few impacts did not show the error of the whole run (a
  * corner in a hook, verify_budget).  Weak damping permits more. */
-static double trial_share(double shares)
+static double trial_share(double left)
 {
-    return fmax(fmax(0.25 * shares, 0.8 * shares * shares * shares), fmin(0.8 * shares, 0.12));
+    return fmax(fmax(0.25 * left, 0.8 * left * left * left), fmin(0.8 * left, 0.12));
 }
 
 /* Lower the shares *r by a law.
@@ -266,7 +266,7 @@ static void lower_shares(const fl_world *w, damping_shares *r, const fl_pair_law
     r->many = fmin(r->many, stable_share_of(law, times / few * many) / sqrt(many));
 }
 
-/* Largest omega^2 of any body, which *body has it, and the shares *left of its critical step that damping leaves.
+/* Largest omega^2 of any body, which *body has it, and the shares of its critical step that damping leaves.
  *   edges  include bodies that stand on edges, and round ones between two others
  *   bonds  weight of the omega^2 of bonds beside that of contacts */
 static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t *body, damping_shares *shares)
