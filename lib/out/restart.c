@@ -10,8 +10,8 @@
 
 enum { FAST_GZIP = 2 }; /* level: a checkpoint is written often and read seldom */
 
-/* The whole file as one text.  fl_hash() reads words of eight bytes and pads the last one, so the file is hashed
- * in one piece. */
+/* The whole file as one text.  fl_hash() reads words of eight bytes and pads the last one, so the file is
+ * hashed in one piece. */
 static int compose(char **text, size_t *n, const char *history, const fl_restart_part *part, int parts)
 {
     FILE *f = open_memstream(text, n);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* state_io.h -- write or read the rows of a state, from one list of members.
  *
- * Every function writes a member to f if f is set, and reads it from `in` otherwise.  One list of calls serves
- * both ways, so that writer and reader cannot differ.  After the first failure, kept in err, nothing is read.
- * A double is written as the hexadecimal digits of its bits, without leading zeros. */
+ * Every function writes a member to f if f is set, and reads it from `in` otherwise.  One list of calls
+ * serves both ways, so that writer and reader cannot differ.  After the first failure, kept in err,
+ * nothing is read. A double is written as the hexadecimal digits of its bits, without leading zeros. */
 #ifndef FL_OUT_STATE_IO_H
 #define FL_OUT_STATE_IO_H
 #include <stdio.h>

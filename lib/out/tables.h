@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tables.h -- the tables that a run writes: loads(5), state(5), contacts(5), bonds(5), panels(5), hash(5).
+/* tables.h -- the tables that a run writes: loads(5), state(5), contacts(5), bonds(5), panels(5),
+ * hash(5).
  *
- * A table is a list of columns.  A column is one row of that list: its name, its unit, when the table has it,
- * and the member of the row struct that it prints.  Header and rows are written from the list, and
+ * A table is a list of columns.  A column is one row of that list: its name, its unit, when the table has
+ * it, and the member of the row struct that it prints.  Header and rows are written from the list, and
  * test_tables.c checks the manual page against it.  The table energy(5) has its columns in
  * sim/energy_balance.c, beside the ledger that it prints.
  *
- * A header has kind, version, history and column names.  A row is one line, tab-separated, with numbers that
- * read back to the same double.  Every table begins with the column t[s].  Write errors stay in the stream. */
+ * A header has kind, version, history and column names.  A row is one line, tab-separated, with numbers
+ * that read back to the same double.  Every table begins with the column t[s].  Write errors stay in the
+ * stream. */
 #ifndef FL_OUT_TABLES_H
 #define FL_OUT_TABLES_H
 #include <stddef.h>

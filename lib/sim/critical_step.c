@@ -16,8 +16,8 @@
 /* contacts_per_motion() of floes; that of spheres is larger. */
 #define FLOE_CONTACTS 2.7
 
-/* Share of the stable step of a pack of spheres at which its implicit damping is accurate: to 1e-4 of the load on
- * the floor under the pack, and to 4e-3 at any time.  It is 0.12 of 2/omega (S28 of verify_step). */
+/* Share of the stable step of a pack of spheres at which its implicit damping is accurate: to 1e-4 of the
+ * load on the floor under the pack, and to 4e-3 at any time.  It is 0.12 of 2/omega (S28 of verify_step). */
 #define ACCURATE_SHARE 0.4
 
 /* Largest compliance of the vertices of core i along the normals of their faces, 1/m + (v x n).I^-1 (v x n)
@@ -38,11 +38,11 @@ static double max_vertex_compliance(const fl_world *w, int32_t i)
     return largest + w->b.invm[i];
 }
 
-/* The same for a contact on a face, whose stiffness goes with the root of its area.  It is the largest, over
- * faces f and shares s of their size, of s times the largest eigenvalue of the mean of g g^T over the part of f
- * that is s times as large and has its farthest vertex.  A whole square plate has the compliance of its mass, a
- * corner a quarter more.  The vertex alone, with the stiffness of the whole face, would have seven times as
- * much: that is max_vertex_compliance(). */
+/* The same for a contact on a face, whose stiffness goes with the root of its area.  It is the largest,
+ * over faces f and shares s of their size, of s times the largest eigenvalue of the mean of g g^T over
+ * the part of f that is s times as large and has its farthest vertex.  A whole square plate has the
+ * compliance of its mass, a corner a quarter more.  The vertex alone, with the stiffness of the whole
+ * face, would have seven times as much: that is max_vertex_compliance(). */
 static double max_face_compliance(const fl_world *w, int32_t i)
 {
     static const double SHARE[] = {1.0, 0.8, 0.6, 0.4, 0.25};
@@ -124,9 +124,9 @@ static double elastic_wall_stiffness(const fl_world *w, int32_t i)
                                                       : 4.0 * r * (r + w->b.bounding_radius[i]));
 }
 
-/* Largest 1 + m d^2/I over the edges of body i, with d the distance of the edge from the centre and I about the
- * parallel to the edge through the centre; for a segment over its ends and its line.  4 for any edge of a box
- * without radius. */
+/* Largest 1 + m d^2/I over the edges of body i, with d the distance of the edge from the centre and I
+ * about the parallel to the edge through the centre; for a segment over its ends and its line.  4 for any
+ * edge of a box without radius. */
 static double max_edge_ratio(const fl_world *w, int32_t i)
 {
     const fl_bodies *b = &w->b;
@@ -142,11 +142,12 @@ static double max_edge_ratio(const fl_world *w, int32_t i)
     return 1.0 + b->m[i] * largest;
 }
 
-/* Tangential over normal compliance of body i in a contact, as it rotates: 1 + m r^2/I for a round body.  Other
- * bodies have as much where they stand on a narrow end or an edge.  The critical step of the present contacts
- * includes that, but late damping leaves down to 0.55 of law->stable_share of it.  A face at the height h has
- * 1 + m h^2/I, less than its edges; a corner has up to 7, but does not touch alone.  Automatic steps use half of
- * law->stable_share with such damping, which is below all of these: 0 is returned unless `edges`. */
+/* Tangential over normal compliance of body i in a contact, as it rotates: 1 + m r^2/I for a round body.
+ * Other bodies have as much where they stand on a narrow end or an edge.  The critical step of the
+ * present contacts includes that, but late damping leaves down to 0.55 of law->stable_share of it.  A
+ * face at the height h has 1 + m h^2/I, less than its edges; a corner has up to 7, but does not touch
+ * alone.  Automatic steps use half of law->stable_share with such damping, which is below all of these: 0
+ * is returned unless `edges`. */
 static double tangential_ratio_of(const fl_world *w, int32_t i, int edges)
 {
     const fl_bodies *b = &w->b;
@@ -182,8 +183,8 @@ static double rolling_omega2(const fl_world *w, int32_t i, rolling_load load, ex
     return load.part * R * R * tangent_stiffness(w, load.sphere, i, k, n, hit) / w->b.I[i].x;
 }
 
-/* Tangential over normal stiffness, and damping, of a contact.  Rolling resistance rotates a sphere as friction
- * does, with an arm of its radius at most. */
+/* Tangential over normal stiffness, and damping, of a contact.  Rolling resistance rotates a sphere as
+ * friction does, with an arm of its radius at most. */
 static double tangential_factor(const fl_pair_law *law, int round, double rotates)
 {
     const double friction_part = law->friction > 0.0 ? law->tangential_ratio * rotates : 0.0,
@@ -331,7 +332,8 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
     return largest;
 }
 
-/* Share of the critical step that is used: that of the scene, bounded by damping; for contacts and for bonds. */
+/* Share of the critical step that is used: that of the scene, bounded by damping; for contacts and for
+ * bonds. */
 static double share_of(const fl_world *w, const damping_shares *shares)
 {
     const fl_scene_run *run = &w->scene->run;
@@ -425,8 +427,8 @@ int fl_check_wave_sampling(const fl_world *w, fl_err *err)
                    (int)fmax(1.0, largest));
 }
 
-/* D of the most damped contacts; late: of those that do not use fl_damping_end_speed() alone, the laws `core`,
- * `manual` and `manual-si`, and spheres in concave edges of a mesh. */
+/* D of the most damped contacts; late: of those that do not use fl_damping_end_speed() alone, the laws
+ * `core`, `manual` and `manual-si`, and spheres in concave edges of a mesh. */
 static double max_damping(const fl_world *w, int late)
 {
     int all = !late;

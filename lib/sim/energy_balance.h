@@ -26,8 +26,8 @@ double fl_energy_error(const fl_world *w);
 /* Sum of the magnitudes of all stores [J]. */
 double fl_energy_stored(const fl_world *w);
 
-/* 1 if energy was created or lost: more than FL_ENERGY_ERROR_USABLE of the throughput plus the energy stored in
- * contacts. */
+/* 1 if energy was created or lost: more than FL_ENERGY_ERROR_USABLE of the throughput plus the energy
+ * stored in contacts. */
 int fl_energy_unbalanced(const fl_world *w);
 
 /* The table energy(5); its rows are w->ledger.  The options say which columns the table of w has. */

@@ -13,8 +13,8 @@
 #include "sphere/contact_list.h"
 #include "world/access.h"
 
-/* The part of the goal that is used, as the estimate has an error of its own; a peak is one value, in which nothing
- * cancels. */
+/* The part of the goal that is used, as the estimate has an error of its own; a peak is one value, in
+ * which nothing cancels. */
 #define GOAL_SHARE 0.92
 #define GOAL_SHARE_PEAK 0.65
 /* A contact with this factor more momentum than any before starts a search. */
@@ -23,8 +23,8 @@
 #define EQUAL_STEPS 1.2
 /* Half a step or less reduces the error at least to this share, where the step causes it. */
 #define IMPROVED 0.7
-/* Allowed error of the momenta of floes over that of the load; half for a peak, whose error adds to that of the speed
- * of impact. */
+/* Allowed error of the momenta of floes over that of the load; half for a peak, whose error adds to that
+ * of the speed of impact. */
 #define MOMENTUM_SHARE 1.0
 #define MOMENTUM_SHARE_PEAK 0.5
 /* Shift of floes over their size to measure divergence: far above rounding, far below contact overlaps. */
@@ -124,7 +124,8 @@ static void record_load(const fl_error_budget *g, fl_window_end *end, int32_t c)
 /* Run the stored state through `rows` rows of m steps each; returns the number of rows.
  *   rows < 0  -rows, and up to FOLLOW times as many if there is a contact in them
  *   shift     of the floes before, in their own sizes
- * -1 with FL_SYSTEM, or without an error if it was abandoned.  end->failed: the step was above the critical one. */
+ * -1 with FL_SYSTEM, or without an error if it was abandoned.  end->failed: the step was above the
+ * critical one. */
 static int32_t run_trial(fl_error_budget *g, int32_t m, int32_t rows, double shift, fl_window_end *end,
                          fl_err *err)
 {
@@ -198,8 +199,8 @@ static double difference_at(const fl_error_budget *g, int32_t c, const fl_window
     return sum;
 }
 
-/* The larger one of both comparisons, each relative to its load and times the last load.  At one time alone the
- * difference may be small by chance, as a later impact cancels the error of an earlier one. */
+/* The larger one of both comparisons, each relative to its load and times the last load.  At one time
+ * alone the difference may be small by chance, as a later impact cancels the error of an earlier one. */
 static double difference(const fl_error_budget *g, const fl_window_end *x, const fl_window_end *y,
                          double *along)
 {
@@ -227,8 +228,8 @@ static double momentum_difference(const fl_error_budget *g, const fl_window_end 
 /* Ratio of the errors of a step and of half of it. */
 static double halving_ratio(double order) { return fl_exp(order * fl_log(2.0)); }
 
-/* e and p from three differences.  An order above 2 is not accepted: sliding and successive impacts are less smooth
- * than a window may suggest. */
+/* e and p from three differences.  An order above 2 is not accepted: sliding and successive impacts are
+ * less smooth than a window may suggest. */
 static double richardson(double first, double second, double both, double *order)
 {
     *order = 2.0;
@@ -338,7 +339,8 @@ static int32_t min_used_steps(const fl_error_budget *g)
                          (double)g->min_row_steps * STEP_RANGE);
 }
 
-/* Search the step, from *m steps a row on; *m becomes the number to use.  end[0] is the trial with *m already. */
+/* Search the step, from *m steps a row on; *m becomes the number to use.  end[0] is the trial with *m
+ * already. */
 static int search_step(fl_error_budget *g, int32_t *m, int32_t rows, fl_err *err)
 {
     fl_error_window *v, accepted = {0}, tried = {0};
@@ -445,8 +447,8 @@ static double distance(const fl_error_budget *g, const fl_window_end *x, const f
     return sqrt(sum / g->trial.n);
 }
 
-/* Measure the divergence of two states that differ by a shift s and by s/T in speed.  In free flight they end at a
- * squared distance of (2 s)^2 + s^2. */
+/* Measure the divergence of two states that differ by a shift s and by s/T in speed.  In free flight they
+ * end at a squared distance of (2 s)^2 + s^2. */
 static int measure_divergence(fl_error_budget *g, const fl_world *w, int64_t row, int32_t m, fl_err *err)
 {
     const int32_t rows = (int32_t)fmax(g->window_rows, (double)(row / DIVERGENCE_INTERVAL));

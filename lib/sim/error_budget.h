@@ -1,37 +1,38 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* error_budget.h -- the largest step that keeps the error of a load within a goal: run.error.
  *
- * The step is chosen at ends of rows of the loads, where whole steps end.  A search writes the state, reads it
- * into a second world of the same scene, and runs that through a window of some rows with steps h, h/2 and h/4.
- * With X the load of the window, d = |X(h) - X(h/2)| and d' = |X(h/2) - X(h/4)|,
+ * The step is chosen at ends of rows of the loads, where whole steps end.  A search writes the state,
+ * reads it into a second world of the same scene, and runs that through a window of some rows with steps
+ * h, h/2 and h/4. With X the load of the window, d = |X(h) - X(h/2)| and d' = |X(h/2) - X(h/4)|,
  *     order    p = log2(d/d'), limited to [1, 2],
  *     error    e = |X(h) - X(h/4)| + d'/(2^p - 1),       e(h') = e (h'/h)^p            (Richardson)
- * Once the order is known, a further step needs h and h/2 only, and e = d/(1 - 2^-p).
- * The result is the largest step, among those that divide a row, for which all windows together stay within
+ * Once the order is known, a further step needs h and h/2 only, and e = d/(1 - 2^-p). The result is the
+ * largest step, among those that divide a row, for which all windows together stay within
  *     max(|sum s(h)|, sqrt(sum e(h)^2)) <= 0.92 goal sum |X|,
- * with s the part of the error along X: errors of either sign cancel, those of one sign add up.  For peaks the
- * largest error is compared with the largest peak, and the factor is 0.65.
+ * with s the part of the error along X: errors of either sign cancel, those of one sign add up.  For
+ * peaks the largest error is compared with the largest peak, and the factor is 0.65.
  *
- * What goes wrong between floes reaches the structure later.  So the momenta of the floes at the end of the
- * window must be right, too: to the goal, or half of it for a peak, relative to the impulses that they took.
- * These are the impulses of contacts, or of all forces where that is more: a floe that water turns while another
- * one is grazed does not owe its momentum to that contact.
+ * What goes wrong between floes reaches the structure later.  So the momenta of the floes at the end of
+ * the window must be right, too: to the goal, or half of it for a peak, relative to the impulses that
+ * they took. These are the impulses of contacts, or of all forces where that is more: a floe that water
+ * turns while another one is grazed does not owe its momentum to that contact.
  *
- * The step used has been tried itself or is shorter: with laws other than `patch`, bodies that rock on an edge are
- * stable up to fl_lateral_share() of the largest step tried, and a window may not show that.
+ * The step used has been tried itself or is shorter: with laws other than `patch`, bodies that rock on an
+ * edge are stable up to fl_lateral_share() of the largest step tried, and a window may not show that.
  *
- * A search runs at the start; before two things may meet whose kind of contact has not been seen with nearly that
- * momentum (floe and floe, floe and each part of the structure, floe and wall); and again after ten times as many
- * steps as the last search took.  Where things meet in a window it becomes ten times as long.  Its load is compared
- * after eight and after ten of these, and the larger error counts: later contacts may add to the error of an
- * impact or cancel it, as a floe that comes to rest in the end has given all its momentum.
+ * A search runs at the start; before two things may meet whose kind of contact has not been seen with
+ * nearly that momentum (floe and floe, floe and each part of the structure, floe and wall); and again
+ * after ten times as many steps as the last search took.  Where things meet in a window it becomes ten
+ * times as long.  Its load is compared after eight and after ten of these, and the larger error counts:
+ * later contacts may add to the error of an impact or cancel it, as a floe that comes to rest in the end
+ * has given all its momentum.
  *
- * Divergence of nearby states is measured after some time, and again after twice that, by two windows of length T
- * whose floes differ by a small shift s, and by s/T in speed:
+ * Divergence of nearby states is measured after some time, and again after twice that, by two windows of
+ * length T whose floes differ by a small shift s, and by s/T in speed:
  *     rate = ln(distance at the end / that of free flight) / T, averaged,
- * with the distance of positions and of speeds times T.  Windows stay shorter than 1/rate.
- * All of it depends on the states alone: same bits for any number of threads, and after a stop.
- * Source: Richardson, Phil. Trans. A 226 (1927) 299. */
+ * with the distance of positions and of speeds times T.  Windows stay shorter than 1/rate. All of it
+ * depends on the states alone: same bits for any number of threads, and after a stop. Source: Richardson,
+ * Phil. Trans. A 226 (1927) 299. */
 #ifndef FL_SIM_ERROR_BUDGET_H
 #define FL_SIM_ERROR_BUDGET_H
 #include <signal.h>
@@ -94,16 +95,16 @@ void fl_error_budget_free(fl_error_budget *g); /* accepts a zeroed struct, leave
 /* The step to start with: the largest allowed [s]. */
 double fl_error_budget_first_step(const fl_error_budget *g);
 
-/* Run a search if one is due, for w at the end of a row, t = row * row_interval; sets the step of w for the next
- * rows.  w has started; a second call in one step does nothing.  An abandoned search leaves g and the step as if
- * it had not begun; the run must end there.  -1 with FL_SYSTEM. */
+/* Run a search if one is due, for w at the end of a row, t = row * row_interval; sets the step of w for
+ * the next rows.  w has started; a second call in one step does nothing.  An abandoned search leaves g
+ * and the step as if it had not begun; the run must end there.  -1 with FL_SYSTEM. */
 int fl_error_budget_update(fl_error_budget *g, fl_world *w, int64_t row, fl_err *err);
 
 /* After each step of w, before its row is written: let the companion run follow.  -1 with FL_SYSTEM. */
 int fl_error_budget_follow(fl_error_budget *g, const fl_world *w, fl_err *err);
 
-/* Relative error of the load of the run as a whole, up to companion.last_row_time; *difference: of the companion
- * run (companion_run.h). */
+/* Relative error of the load of the run as a whole, up to companion.last_row_time; *difference: of the
+ * companion run (companion_run.h). */
 double fl_error_budget_run_error(const fl_error_budget *g, double *difference);
 
 /* Relative error of the load by the windows so far, if all steps were h; 0 before the first window. */

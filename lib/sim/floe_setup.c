@@ -120,8 +120,8 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
     return fl_environment_fit_hull(&w->sea, i, err);
 }
 
-/* Set up body i for elastic walls.  Its sharp corners are outside the dilated core, which enlarges the bounding
- * radius. */
+/* Set up body i for elastic walls.  Its sharp corners are outside the dilated core, which enlarges the
+ * bounding radius. */
 static int make_wall_hull(fl_world *w, int32_t i, const fl_poly *outer, fl_err *err)
 {
     const fl_poly *core = &w->b.core[i];

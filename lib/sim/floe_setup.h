@@ -4,8 +4,8 @@
 #define FL_SIM_FLOE_SETUP_H
 #include "world/world.h"
 
-/* Build floe k of a field in place i, instead of the floe there: at the pose of the field, with works of 0.  -1 as
- * fl_world_make(). */
+/* Build floe k of a field in place i, instead of the floe there: at the pose of the field, with works of
+ * 0.  -1 as fl_world_make(). */
 int fl_world_place_floe(fl_world *w, int32_t i, const fl_ice_field *field, int32_t k, fl_err *err);
 
 /* Fail with file, line of the record and id of floe k of the field: "FILE:LINE: body ID: what". */

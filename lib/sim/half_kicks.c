@@ -34,8 +34,8 @@ static int32_t run_end(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
     return k;
 }
 
-/* End of the run of bodies from k on that only need kick and drift, and that are spheres if k is one.  Returns k
- * if k is not such a body. */
+/* End of the run of bodies from k on that only need kick and drift, and that are spheres if k is one.
+ * Returns k if k is not such a body. */
 static int32_t simple_run_end(const fl_world *w, int32_t k, int32_t to)
 {
     if (w->b.is_isotropic[k] && (w->b.added_mass || w->sea.waves)) return k;
@@ -478,8 +478,8 @@ static void end_free_spheres(fl_world *w, int32_t from, int32_t to, double h, fl
     }
 }
 
-/* Velocity change of body k by the first kick, computed before the forces are updated.  For a sphere that only
- * touches spheres it was not stored. */
+/* Velocity change of body k by the first kick, computed before the forces are updated.  For a sphere that
+ * only touches spheres it was not stored. */
 static fl_velocity_change first_change_of(const fl_world *w, int32_t k, double h)
 {
     const fl_velocity_change *const stored = fl_kick_change(w, k);
@@ -527,8 +527,8 @@ static int32_t end_batched_spheres(fl_world *w, int32_t k, int32_t to, double h,
     return end;
 }
 
-/* Second half for a block of dry spheres alone that only touch spheres and walls, now and before.  Returns 0 if
- * the block is not such a block. */
+/* Second half for a block of dry spheres alone that only touch spheres and walls, now and before.
+ * Returns 0 if the block is not such a block. */
 static int end_sphere_block(fl_world *w, int32_t from, int32_t to, double h, fl_body_block *own, int *finite)
 {
     const int32_t *sink = w->contact_sums.slot, *was = w->previous_sums.slot;
@@ -553,8 +553,8 @@ static int32_t next_batched_sphere(const fl_world *w, int32_t k, int32_t to)
     return k;
 }
 
-/* 1 if n numbers of each of five arrays are finite: 0 x is 0 for a finite x.  A sum that overflows gives 0, too;
- * first_not_finite() then tests each number. */
+/* 1 if n numbers of each of five arrays are finite: 0 x is 0 for a finite x.  A sum that overflows gives
+ * 0, too; first_not_finite() then tests each number. */
 FL_SIMD_VERSIONS static int all_finite(const double *restrict a, const double *restrict b,
                                        const double *restrict c, const double *restrict d,
                                        const double *restrict e, int32_t n)
@@ -589,8 +589,8 @@ static void start_block(fl_world *w, int32_t g)
     fl_sphere_sums_collect(w, from, to);
 }
 
-/* Second half for the run of spheres from k on that need the same operations, within one block [k, to); returns
- * its end.  *finite = 0 unless their numbers are known to be finite. */
+/* Second half for the run of spheres from k on that need the same operations, within one block [k, to);
+ * returns its end.  *finite = 0 unless their numbers are known to be finite. */
 static int32_t end_sphere_run(fl_world *w, int32_t k, int32_t to, double h, int *finite)
 {
     fl_body_block *own = block_of(w, k);
@@ -635,8 +635,8 @@ static int end_block(fl_world *w, int32_t g, double h, batch_list *c)
     return !finite;
 }
 
-/* Second half for the bodies of blocks [g, last) that are not ballistic.  lost: 1 if a number may not be finite.
- * A body that wakes and is touched is handled alone, see fl_sleep_second_half(). */
+/* Second half for the bodies of blocks [g, last) that are not ballistic.  lost: 1 if a number may not be
+ * finite. A body that wakes and is touched is handled alone, see fl_sleep_second_half(). */
 static void end_awake_bodies(fl_world *w, int32_t g, int32_t last, double h, batch_list *c,
                              int lost[FL_BLOCKS_AT_ONCE])
 {

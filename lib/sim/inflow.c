@@ -16,8 +16,8 @@
 #include "sim/sleep.h"
 #include "sphere/contact_list.h"
 
-/* Copies of floes that touch in the field may overlap by rounding.  This fraction of the size of a floe is a million
- * times the rounding of coordinates of a kilometre, and too small to load a contact. */
+/* Copies of floes that touch in the field may overlap by rounding.  This fraction of the size of a floe
+ * is a million times the rounding of coordinates of a kilometre, and too small to load a contact. */
 #define TOLERANCE 1e-7
 
 /* Steps between two attempts to place a floe that waits. */
@@ -27,8 +27,8 @@ enum { RETRY_INTERVAL = 16 };
 
 #define MAX_PLACES 1e8 /* floes */
 
-/* Number of places for floes that come in: those of the length of the domain, a quarter more for congestion, and one
- * field.  -1: too many. */
+/* Number of places for floes that come in: those of the length of the domain, a quarter more for
+ * congestion, and one field.  -1: too many. */
 static int32_t places_needed(const fl_scene_boundary *s, const fl_ice_field *feed, double pitch)
 {
     const double length = s->inflow_from / 2 ? s->max.y - s->min.y : s->max.x - s->min.x;
@@ -47,8 +47,8 @@ double fl_inflow_extent(const fl_inflow_state *t, const fl_ice_field *field, int
     return end * (largest + field->radius[k]);
 }
 
-/* 1 if floe k of the feed comes in: not if its group fixes it along the drift at another velocity than that of the
- * sheet. */
+/* 1 if floe k of the feed comes in: not if its group fixes it along the drift at another velocity than
+ * that of the sheet. */
 static int comes_in(const fl_world *w, const fl_ice_field *feed, int32_t k)
 {
     const fl_inflow_state *t = &w->inflow;

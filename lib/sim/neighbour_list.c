@@ -105,7 +105,8 @@ static int is_due(const fl_world *w, int by_block)
     return first[0] + first[1] >= w->skin * (1.0 - 1e-6);
 }
 
-/* Size an array for n new elements; it is kept if it is large enough and not more than a quarter too large. */
+/* Size an array for n new elements; it is kept if it is large enough and not more than a quarter too
+ * large. */
 static int fit_array(void *array, int32_t *cap, int64_t n, size_t size, fl_err *err)
 {
     void *old;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* neighbour_list.h -- the list of near pairs: a Verlet list with a skin.
  *
- * Boxes are those of the dilated cores, larger by half the skin on each side, so that no unlisted pair can touch
- * until two bodies have moved by more than the skin together.  The list is then rebuilt.  What a pair remembers
- * is carried over: the old and the new list, both sorted by (i, j) and image, are merged. */
+ * Boxes are those of the dilated cores, larger by half the skin on each side, so that no unlisted pair
+ * can touch until two bodies have moved by more than the skin together.  The list is then rebuilt.  What
+ * a pair remembers is carried over: the old and the new list, both sorted by (i, j) and image, are
+ * merged. */
 #ifndef FL_SIM_NEIGHBOUR_LIST_H
 #define FL_SIM_NEIGHBOUR_LIST_H
 #include "world/world.h"

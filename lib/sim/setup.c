@@ -21,7 +21,8 @@
 #include "water/added_mass.h"
 #include "world/access.h"
 
-/* Smallest number of bodies per thread: with fewer the work of a thread is shorter than the wait for the others. */
+/* Smallest number of bodies per thread: with fewer the work of a thread is shorter than the wait for the
+ * others. */
 enum { BODIES_PER_THREAD = 32 };
 
 /* --- surroundings ------------------------------------------------------------------------------ */
@@ -313,9 +314,9 @@ static double winding_number(const fl_part *p, fl_vec3 x)
     return angle / (2.0 * PI);
 }
 
-/* A closed part with inward normals is solid outside: a tank holds its floes, but of a post that is inside out the
- * floes around it would be in the solid.  Floes in the solid between a surface and its cavities are not checked
- * here. */
+/* A closed part with inward normals is solid outside: a tank holds its floes, but of a post that is
+ * inside out the floes around it would be in the solid.  Floes in the solid between a surface and its
+ * cavities are not checked here. */
 static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *err)
 {
     for (int32_t k = 0; k < w->structure.n; k++) {
@@ -390,7 +391,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         fl_bond_list_make(w, field, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
-    /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never touch. */
+    /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
+     * touch. */
     w->skin = field->n ? 0.1 * bound / field->n : 0.0;
     w->candidates.absent = w->inflow.absent;
     return 0;

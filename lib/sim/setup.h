@@ -11,15 +11,15 @@
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_ice_field *field, const fl_surface *surface,
                   fl_err *err);
 
-/* The same where the inflow is another field than the ice: boundary.inflow = file.  With an inflow both fields are
- * borrowed until fl_world_free(). */
+/* The same where the inflow is another field than the ice: boundary.inflow = file.  With an inflow both
+ * fields are borrowed until fl_world_free(). */
 int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_field *field,
                               const fl_ice_field *feed, const fl_surface *surface, fl_err *err);
 
 void fl_world_free(fl_world *w);
 
-/* -1 with FL_INPUT if the centre of a floe is behind a rigid wall: it would be pushed back with the energy of that
- * depth. */
+/* -1 with FL_INPUT if the centre of a floe is behind a rigid wall: it would be pushed back with the
+ * energy of that depth. */
 int fl_world_check_walls(const fl_world *w, fl_err *err);
 
 #endif

@@ -88,8 +88,8 @@ static void start_skip(fl_world *w, int32_t k, double s)
     fl_body_first_half(w, k, s);
 }
 
-/* Error of a step of s seconds after its end [m].  The forces are those of now; v and spin are the velocities before
- * the last drag. */
+/* Error of a step of s seconds after its end [m].  The forces are those of now; v and spin are the
+ * velocities before the last drag. */
 static double error_of_skip(fl_world *w, int32_t k, double s, fl_vec3 v, fl_vec3 spin)
 {
     fl_sleep_state *state = &w->sleep.state[k];
@@ -181,8 +181,9 @@ static void mark_pairs(fl_world *w, int32_t k)
     }
 }
 
-/* Only bodies that move can have come too near to another: the paths of ballistic bodies are in their odometers
- * already, and waking a body brings no pair nearer.  Pairs of a new list have not been evaluated yet. */
+/* Only bodies that move can have come too near to another: the paths of ballistic bodies are in their
+ * odometers already, and waking a body brings no pair nearer.  Pairs of a new list have not been
+ * evaluated yet. */
 void fl_sleep_find_waking(fl_world *w, int thread, int threads)
 {
     fl_sleep *s = &w->sleep;
@@ -203,7 +204,8 @@ void fl_sleep_find_waking(fl_world *w, int thread, int threads)
         if (w->moving.mover_of_piece[k - w->n] >= 0) mark_pairs(w, k);
 }
 
-/* Book a skip of floe k with this error, and choose the length of the next; the error goes with its third power. */
+/* Book a skip of floe k with this error, and choose the length of the next; the error goes with its third
+ * power. */
 static void book_skip(fl_world *w, int32_t k, double error)
 {
     fl_sleep *all = &w->sleep;
@@ -242,11 +244,11 @@ void fl_sleep_second_half(fl_world *w, int32_t k)
     w->b.t[k] = t;
 }
 
-/* Number of steps, at most `left`, whose common error stays within the tolerance.  Water and springs pull a point back
- * with at most omega^2 = rho g A (1/m + r^2/2I), with A the largest waterplane, at most half of the surface.  So the
- * acceleration changes by at most omega^2 times the path of the points relative to the water surface, whose speed u
- * grows by their acceleration a: the error of s seconds is up to s^3/12 omega^2 (u + s a).  It may use three
- * quarters of the tolerance, rotations a quarter. */
+/* Number of steps, at most `left`, whose common error stays within the tolerance.  Water and springs pull
+ * a point back with at most omega^2 = rho g A (1/m + r^2/2I), with A the largest waterplane, at most half
+ * of the surface.  So the acceleration changes by at most omega^2 times the path of the points relative
+ * to the water surface, whose speed u grows by their acceleration a: the error of s seconds is up to
+ * s^3/12 omega^2 (u + s a).  It may use three quarters of the tolerance, rotations a quarter. */
 static int32_t steps_within_tolerance(const fl_world *w, int32_t k, const motion_bounds *p, int32_t left)
 {
     const fl_bodies *b = &w->b;
@@ -268,8 +270,8 @@ static int32_t steps_within_tolerance(const fl_world *w, int32_t k, const motion
     return left;
 }
 
-/* Number of steps, at most `left`, in which floe k cannot touch a neighbour that moves on with its speed.  The speed
- * of a neighbour is not computed if it would have to be three times as fast. */
+/* Number of steps, at most `left`, in which floe k cannot touch a neighbour that moves on with its
+ * speed.  The speed of a neighbour is not computed if it would have to be three times as fast. */
 static double steps_to_neighbour(const fl_world *w, int32_t k, double left, double speed)
 {
     const fl_bodies *b = &w->b;
@@ -293,8 +295,8 @@ static int may_sleep(const fl_world *w, int32_t k)
            !(t->absent && t->feed && t->guided[k]);
 }
 
-/* Number of steps that floe k, which is awake, can skip from now on; 0: not enough.  Its path is stored, but not yet
- * added to its odometer, which other bodies read. */
+/* Number of steps that floe k, which is awake, can skip from now on; 0: not enough.  Its path is stored,
+ * but not yet added to its odometer, which other bodies read. */
 static int32_t skip_length(fl_world *w, int32_t k)
 {
     if (w->body_touches[k] || fl_sums_now(w, k)->contacts || fl_sums_before(w, k)->contacts ||
@@ -474,8 +476,9 @@ static void find_candidates(fl_world *w)
     }
 }
 
-/* The island of candidate k rests, unless it is faster now than in the mean of the window.  What begins to fall off an
- * edge is faster: its path grows exponentially, so that of a window does not bound the next. */
+/* The island of candidate k rests, unless it is faster now than in the mean of the window.  What begins
+ * to fall off an edge is faster: its path grows exponentially, so that of a window does not bound the
+ * next. */
 static void rest_island(fl_world *w, int32_t k)
 {
     fl_sleep *s = &w->sleep;

@@ -4,26 +4,27 @@
  * Ballistic floes.  A floe without contacts feels smooth forces only.  It takes one long step of the same
  * integrator over the time s since it fell asleep.  Its path until then is bounded by
  *     path = s (|v| + r w) + s^2 (|a| + r e)/2 + s^2 d,     w = |L|/I_min,  e = |T|/I_min,
- * with r the radius of its core, a and T by the forces at the begin of that step, and d the rate at which drag
- * changed the speed of its points last.  Drag slows down, so twice that is a bound.  The path is added to the
- * odometer at once: a pair is skipped only while the two cannot touch anywhere on their paths
- * (fl_pair.free_travel).  Where that ends, or the time does, the floe is advanced to the time of now before the
- * pair is evaluated.  A contact that begins then gives the impulse of one ordinary step.  The error of the long
- * step is estimated from what acts at its end,
+ * with r the radius of its core, a and T by the forces at the begin of that step, and d the rate at which
+ * drag changed the speed of its points last.  Drag slows down, so twice that is a bound.  The path is
+ * added to the odometer at once: a pair is skipped only while the two cannot touch anywhere on their
+ * paths (fl_pair.free_travel).  Where that ends, or the time does, the floe is advanced to the time of
+ * now before the pair is evaluated.  A contact that begins then gives the impulse of one ordinary step.
+ * The error of the long step is estimated from what acts at its end,
  *     error = s^2/12 (|a1 - a0| + r |e1 - e0| + |d1 - d0|) + r (w s)^3/12.
- * s is chosen to keep it below tol times the radius of the floe.  s at most doubles, and ends when the next
- * neighbour may be reached.  A floe that could skip a few steps only stays awake, and is tested again after as
- * many.
+ * s is chosen to keep it below tol times the radius of the floe.  s at most doubles, and ends when the
+ * next neighbour may be reached.  A floe that could skip a few steps only stays awake, and is tested
+ * again after as many.
  *
- * Resting floes.  Floes that touch each other rest if each of them moved by a path p of at most tol R/4 in the
- * last 64 steps, and together they are no faster at the end than in the mean of these steps.  (What begins to
- * fall off an edge is faster.)  They stay where they are for 64 sqrt(tol R/p) steps, in which the acceleration
- * that explains p would move them by tol R.  All floes of such an island rest together, or none does.  A new
- * contact with one of them wakes all.  Their pairs are not evaluated; the forces stay.
+ * Resting floes.  Floes that touch each other rest if each of them moved by a path p of at most tol R/4
+ * in the last 64 steps, and together they are no faster at the end than in the mean of these steps.
+ * (What begins to fall off an edge is faster.)  They stay where they are for 64 sqrt(tol R/p) steps, in
+ * which the acceleration that explains p would move them by tol R.  All floes of such an island rest
+ * together, or none does.  A new contact with one of them wakes all.  Their pairs are not evaluated; the
+ * forces stay.
  *
- * Always awake: spheres, guided floes, floes of radius 0, and floes that touch what moves, or a structure whose
- * panel loads are written.  Floes that waves reach, or that are held at a speed, do not rest.  Threads, stops and
- * tables change no bit; the skin does, as it decides when a pair is evaluated. */
+ * Always awake: spheres, guided floes, floes of radius 0, and floes that touch what moves, or a structure
+ * whose panel loads are written.  Floes that waves reach, or that are held at a speed, do not rest.
+ * Threads, stops and tables change no bit; the skin does, as it decides when a pair is evaluated. */
 #ifndef FL_SIM_SLEEP_H
 #define FL_SIM_SLEEP_H
 #include <string.h>
@@ -43,8 +44,8 @@ static inline int fl_is_asleep(const fl_world *w, int32_t k)
     return phase == FL_BALLISTIC || phase == FL_RESTING;
 }
 
-/* List the bodies of [from, to) that are not ballistic in active[]; returns their number.  Eight ballistic ones are
- * skipped at a time; the rest is listed without branches, which would be mispredicted. */
+/* List the bodies of [from, to) that are not ballistic in active[]; returns their number.  Eight
+ * ballistic ones are skipped at a time; the rest is listed without branches, which would be mispredicted. */
 static inline int32_t fl_sleep_list_active(const fl_world *w, int32_t from, int32_t to, int32_t *active)
 {
     const uint8_t *phase = w->sleep.phase;
@@ -74,19 +75,20 @@ static inline double fl_sleep_duration(const fl_world *w, int32_t k)
     return (double)(w->step - w->sleep.state[k].since_step) * w->dt;
 }
 
-/* Find the ballistic bodies that wake in this step (FL_WAKING): their time has come, a neighbour has come near, or
- * they may have left the domain.  Marks the near pairs to evaluate, sleep.pair_due.  Called by every thread of the
- * team; complete after a barrier. */
+/* Find the ballistic bodies that wake in this step (FL_WAKING): their time has come, a neighbour has come
+ * near, or they may have left the domain.  Marks the near pairs to evaluate, sleep.pair_due.  Called by
+ * every thread of the team; complete after a barrier. */
 void fl_sleep_find_waking(fl_world *w, int thread, int threads);
 
-/* Store what the error estimate needs, before the first half of the long step of body k, which is FL_WAKING. */
+/* Store what the error estimate needs, before the first half of the long step of body k, which is
+ * FL_WAKING. */
 void fl_sleep_first_half(fl_world *w, int32_t k);
 
 /* Second half of that step, and the error estimate. */
 void fl_sleep_second_half(fl_world *w, int32_t k);
 
-/* The error estimate alone, after another function has made the second half of body k, which has no contact.  v,
- * spin: its velocities before the last drag. */
+/* The error estimate alone, after another function has made the second half of body k, which has no
+ * contact.  v, spin: its velocities before the last drag. */
 void fl_sleep_finish_skip(fl_world *w, int32_t k, fl_vec3 v, fl_vec3 spin);
 
 /* Body k is awake after that. */
@@ -111,8 +113,8 @@ void fl_sleep_reset_body(fl_world *w, int32_t i);
 void fl_sleep_advance_to_now(fl_world *w);
 void fl_sleep_restore(fl_world *w);
 
-/* Totals so far: steps skipped by ballistic and by resting bodies, number of ballistic skips; as fractions of the
- * radius the largest error of one skip, and the largest sum of errors of one floe. */
+/* Totals so far: steps skipped by ballistic and by resting bodies, number of ballistic skips; as
+ * fractions of the radius the largest error of one skip, and the largest sum of errors of one floe. */
 typedef struct {
     int64_t ballistic_steps, resting_steps, n_skips;
     double max_error, max_error_sum;

@@ -63,8 +63,8 @@ static void exchange_surrogate_counts(fl_state_io *t, fl_world *w)
     w->surrogate_counts[0] = all;
 }
 
-/* Counts of outflow and inflow, and the floe in each place.  A floe that came in is built again before its body is
- * read. */
+/* Counts of outflow and inflow, and the floe in each place.  A floe that came in is built again before
+ * its body is read. */
 static void exchange_inflow(fl_state_io *t, fl_world *w)
 {
     fl_inflow_state *c = &w->inflow;

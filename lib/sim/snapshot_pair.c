@@ -94,7 +94,8 @@ static int is_possible(const fl_surrogate *s)
            s->skewness >= 0.0;
 }
 
-/* Memory of the surrogate of its last exact evaluation; the rest follows from the relative pose of that time. */
+/* Memory of the surrogate of its last exact evaluation; the rest follows from the relative pose of that
+ * time. */
 static void exchange_surrogate(fl_state_io *t, const fl_pair *p, fl_surrogate *s)
 {
     fl_state_io_int(t, 0, p->exponent == 0.0, &s->valid);

@@ -14,11 +14,11 @@
  * be set.  -1 with FL_SYSTEM, or FL_NUMERIC when a number is not finite. */
 int fl_step_start(fl_world *w, fl_err *err);
 
-/* Advance w by one step.
- * -1 with FL_SYSTEM, or with FL_NUMERIC, which names body and step, if
+/* Advance w by one step. -1 with FL_SYSTEM, or with FL_NUMERIC, which names body and step, if
  *     a number is not finite,
  *     the step is above the critical step, or
- *     an overlap above FL_DEEP_OVERLAP creates energy: the residual is more than 1 % of the throughput plus the
+ *     an overlap above FL_DEEP_OVERLAP creates energy: the residual is more than 1 % of the throughput plus
+ *     the
  *     energy stored in contacts. */
 int fl_step(fl_world *w, fl_err *err);
 

@@ -6,10 +6,11 @@
 #include "sim/moving_structure.h"
 #include "sphere/contact_list.h"
 
-/* Steps between two updates.  A contact lasts many steps of the default size, so every DEFAULT_INTERVAL steps
- * is enough.  Longer steps could miss a contact in between: they update more often, and every step from four
- * times dt_safe on.  Steps that are short against dt_critical update every SHORT_INTERVAL steps: half a period
- * is pi/2 of the critical step, so a tenth of it has fifteen steps, of which every fourth is used. */
+/* Steps between two updates.  A contact lasts many steps of the default size, so every DEFAULT_INTERVAL
+ * steps is enough.  Longer steps could miss a contact in between: they update more often, and every step
+ * from four times dt_safe on.  Steps that are short against dt_critical update every SHORT_INTERVAL
+ * steps: half a period is pi/2 of the critical step, so a tenth of it has fifteen steps, of which every
+ * fourth is used. */
 enum { DEFAULT_INTERVAL = 16, SHORT_INTERVAL = 4 };
 
 int fl_stiffness_due(const fl_world *w, int64_t step)
