@@ -7,26 +7,23 @@
  * ice and structure: the world that reads it has been built from the same ones.  Doubles are the
  * hexadecimal digits of their bits, without leading zeros.  Rows, by name:
  *     world     step, step of the last search, dt, t0, step0, time of the water, skin, critical steps and
- *               body,
- *               dt_safe; numbers of parts, things, floes in the water, pairs, sphere contacts
+ *               body, dt_safe; numbers of parts, things, floes in the water, pairs, sphere contacts
  *     books     start, residual, throughput and works of the ledger; imbalance; largest overlaps; counts
  *     told      hits, checks and misses of surrogates, with contact.surrogate
  *     part ...  impulse, moment and peak of the loads in the interval
  *     traffic   counts of outflow and inflow; next ... of each floe of the feed; place ... of each floe
- *     body ...  x v L q w f t, work of constraints, work of the flow (with added mass), odometer now and at
- *               the last
- *               search
+ *     body ...  x v L q w f t, work of constraints, work of the flow (with added mass), odometer now and
+ *               at the last search
  *     nap ...   with run.sleep: phase, its steps, bounds, sums for the report
  *     mover ... hash of its track, x v L q w f t, work of constraints, springs and dampers
- *     bond ...  state, energies, radius factor, forces; damage, its bounds and slip of each point unless
- *               intact
+ *     bond ...  state, energies, radius factor, forces; unless intact damage, its bounds and slip of each
+ *               point
  *     pressed   with panels or events: numbers of the rows panel, mark and event that follow
  *     current   hash of its table, if there is one
  *     sea ...   wetted area, buoyancy, energy, drag and wind works, with waves their work;
  *               with water.every in waves the last sample, fl_wave_sample
- *     pair ...  i j, image in a periodic cell, memory; of a touching pair the forces; with contact.surrogate
- *               the
- *               last evaluation and what was learnt
+ *     pair ...  i j, image in a periodic cell, memory; of a touching pair the forces; with
+ *               contact.surrogate the last evaluation and what was learnt
  *     ball ...  sphere contact: i j, image in a periodic cell, whether it touches, fl_sphere_contact */
 #ifndef FL_SIM_SNAPSHOT_H
 #define FL_SIM_SNAPSHOT_H
