@@ -210,8 +210,9 @@ static int fit_blunted(fl_floe_sides *f, double concentration, double *d, fl_err
         f->blunted_corners = corners;
         lost = next;
     }
-    return fl_fail(err, FL_NUMERIC, "corners and inset of %d floes do not converge at a concentration of %.17g",
-                   f->cells->n, concentration);
+    return fl_fail(err, FL_NUMERIC,
+                   "corners and inset of %d floes do not converge at a concentration of %.17g", f->cells->n,
+                   concentration);
 }
 
 /* --- the floes ------------------------------------------------------------------------------------------ */

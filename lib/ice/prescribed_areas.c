@@ -388,11 +388,10 @@ int fl_prescribed_areas_solve(fl_power_cells *out, int32_t n, const fl_vec2 *sit
         stuck = step == STEPS ? 1 : take_step(&s, &c, weight, in, &sum, &largest, err);
         if (stuck < 0) goto done;
         if (stuck) {
-            fl_fail(
-                err, FL_NUMERIC,
-                "the areas of %d cells do not converge: after %d steps the largest relative error is "
-                "%.2g",
-                n, step, largest);
+            fl_fail(err, FL_NUMERIC,
+                    "the areas of %d cells do not converge: after %d steps the largest relative error is "
+                    "%.2g",
+                    n, step, largest);
             goto done;
         }
     }

@@ -15,7 +15,7 @@ const struct generator generator_table[] = {
      .history = sphere_sheet_history,
      .make = sphere_sheet_make},
     {.name = "rubble",
-     .help = "blocks that fill the field from bottom to top, C being their part of its volume",
+     .help = "blocks that fill the field from bottom to top, C is their fraction of its volume",
      .keys =
          "size origin floes concentration thickness radius seed smooth material ice-density water-density "
          "velocity certificate id format",
