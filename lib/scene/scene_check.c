@@ -4,6 +4,7 @@
 #include <string.h>
 #include "scene/scene_check.h"
 #include "base/pi.h"
+#include "law/contact_law.h"
 #include "scene/unused_keys.h"
 #include "scene/scene_section.h"
 
@@ -92,12 +93,28 @@ static int32_t law_of(const fl_scene *s, int32_t i, int32_t all)
     return s->contact[i].head.key[law].line || all < 0 ? s->contact[i].law : s->contact[all].law;
 }
 
-/* 1 if a contact to which section i applies has that law. */
-static int has_law(const fl_scene *s, int32_t i, int32_t all, int32_t law)
+/* True if a contact that section i covers has a law that uses the key. */
+static int law_uses_key(const fl_scene *s, int32_t i, int32_t all, const char *key)
 {
-    int has = law_of(s, i, all) == law;
-    for (int32_t k = 0; k < s->n_contact && i == all; k++) has |= law_of(s, k, all) == law;
-    return has;
+    int uses = fl_contact_law_uses(&fl_contact_laws[law_of(s, i, all)], key);
+    for (int32_t k = 0; k < s->n_contact && i == all; k++)
+        uses |= fl_contact_law_uses(&fl_contact_laws[law_of(s, k, all)], key);
+    return uses;
+}
+
+/* Refuses a key of section i, called `at`, that is given and that none of its laws uses. */
+static int check_law_key(const fl_scene *s, int32_t i, int32_t all, const char *at, const char *key,
+                         int given, fl_err *err)
+{
+    char full[4 * FL_SCENE_NAME], laws[160] = "";
+    size_t n = 0;
+    if (!given || law_uses_key(s, i, all, key)) return 0;
+    for (int32_t k = 0; k < fl_contact_law_count; k++)
+        if (fl_contact_law_uses(&fl_contact_laws[k], key) && n < sizeof laws)
+            n += (size_t)snprintf(laws + n, sizeof laws - n, "%s%s", n ? " and " : "",
+                                  fl_contact_laws[k].name);
+    snprintf(full, sizeof full, "%s.%s", at, key);
+    return fl_scene_fail(s, full, err, "%s applies to law = %s only", key, laws);
 }
 
 static int check_contacts(const fl_scene *s, fl_err *err)
@@ -105,27 +122,21 @@ static int check_contacts(const fl_scene *s, fl_err *err)
     const int32_t all = fl_section_named(s, FL_SEC_CONTACT, "", "");
     for (int32_t i = 0; i < s->n_contact; i++) {
         const fl_scene_contact *c = &s->contact[i];
-        const int32_t in_force = law_of(s, i, all);
         char at[3 * FL_SCENE_NAME], key[4 * FL_SCENE_NAME];
         snprintf(at, sizeof at, "contact%s%s%s%s", c->a[0] ? " " : "", c->a, c->b[0] ? " " : "", c->b);
-        snprintf(key, sizeof key, "%s.manual_eq%d", at, c->manual_eq2 ? 2 : 18);
-        if ((c->manual_eq2 || c->manual_eq18) && in_force != FL_LAW_MANUAL && in_force != FL_LAW_MANUAL_SI)
-            return fl_scene_fail(s, key, err, "manual_eq%d applies to law = manual and manual-si only",
-                                 c->manual_eq2 ? 2 : 18);
+        if (check_law_key(s, i, all, at, "manual_eq2", c->manual_eq2, err) ||
+            check_law_key(s, i, all, at, "manual_eq18", c->manual_eq18, err))
+            return -1;
         snprintf(key, sizeof key, "%s.surrogate", at);
         if (s->run.error > 0.0 && c->surrogate > 0.0)
             return fl_scene_fail(s, key, err,
                                  "run.error compares steps of different sizes, which a surrogate would "
                                  "disturb: either run.error or surrogate in [%s] is expected",
                                  at);
-        if (c->surrogate > 0.0 && !has_law(s, i, all, FL_LAW_PATCH))
-            return fl_scene_fail(s, key, err, "surrogate applies to law = patch only");
-        snprintf(key, sizeof key, "%s.rolling", at);
-        if (c->rolling > 0.0 && !has_law(s, i, all, FL_LAW_PATCH) && !has_law(s, i, all, FL_LAW_CORE))
-            return fl_scene_fail(s, key, err, "rolling applies to law = patch and core only");
-        snprintf(key, sizeof key, "%s.exponent", at);
-        if (c->exponent != 1.0 && !has_law(s, i, all, FL_LAW_CORE))
-            return fl_scene_fail(s, key, err, "exponent applies to law = core only");
+        if (check_law_key(s, i, all, at, "surrogate", c->surrogate > 0.0, err) ||
+            check_law_key(s, i, all, at, "rolling", c->rolling > 0.0, err) ||
+            check_law_key(s, i, all, at, "exponent", c->exponent != 1.0, err))
+            return -1;
         if (i == all) continue;
         if (check_material(s, at, c->a, 1, err) || check_material(s, at, c->b, 1, err)) return -1;
         if (fl_scene_find_material(s, c->a) < 0 && fl_scene_find_material(s, c->b) < 0)

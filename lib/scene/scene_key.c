@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
+#include "law/contact_law.h"
 #include "scene/scene_key.h"
 
 const fl_section fl_section_table[FL_SECTIONS] = {
@@ -484,11 +485,8 @@ const fl_key fl_key_table[] = {
      .type = FL_VALUE_WORD,
      .offset = OFFSET(contact, law),
      .default_text = "patch",
-     .choices = "patch|manual|manual-si|core",
-     .meaning = "patch: root of a sum over touching faces, edges and vertices, with one "
-                "potential; core: the nearest pair of features; manual: the mode table of "
-                "the DilatedDEM manual with lengths as numbers; manual-si: the same with "
-                "consistent units; for parts that are not convex patch replaces all",
+     .choices = fl_contact_law_choices,
+     .meaning = fl_contact_law_meaning,
      .source = "DilatedDEM manual (2016), equations (1) to (25), corrected"},
     {.section = FL_SEC_CONTACT,
      .key = "exponent",

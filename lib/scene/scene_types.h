@@ -26,7 +26,6 @@ typedef struct {
     fl_scene_mark key[FL_SCENE_KEYS]; /* one per key, in the order of the table */
 } fl_scene_head;
 
-enum fl_law { FL_LAW_PATCH, FL_LAW_MANUAL, FL_LAW_MANUAL_SI, FL_LAW_CORE };
 enum fl_shape { FL_SHAPE_SHARP, FL_SHAPE_ROUND };
 enum fl_boundary_type {
     FL_BOUNDARY_RIGID,
@@ -89,7 +88,7 @@ typedef struct {
 typedef struct {
     fl_scene_head head;
     char a[FL_SCENE_NAME], b[FL_SCENE_NAME]; /* both empty: the defaults of all pairs */
-    int32_t law;                             /* enum fl_law */
+    int32_t law;                             /* row of fl_contact_laws, law/contact_law.h */
     double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
     double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
     double stiffness_factor;                 /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */

@@ -228,7 +228,7 @@ static void looks_at_waves_are_often_enough(void **state)
     assert_int_equal(err.code, FL_INPUT);
     assert_string_equal(err.text,
                         "water.every: 19 steps of 0.005 s, and body 1 heaves with a period of 1.88 s: 19 "
-                        "looks in it, at most 18 steps are expected, or a smaller run.dt");
+                        "samples in it; at most 18 steps expected, or a smaller run.dt");
     /* one that is held moves with nothing, and the waves themselves are left */
     w->b.fixed_dof[0] = FL_DOF_Z | FL_DOF_RX | FL_DOF_RY;
     w->sea.sample_every = 100;
@@ -236,7 +236,7 @@ static void looks_at_waves_are_often_enough(void **state)
     w->sea.sample_every = 101;
     err = (fl_err){0};
     assert_int_equal(fl_check_wave_sampling(w, &err), -1);
-    assert_non_null(strstr(err.text, ", and the waves have a period of 10 s: 19 looks in it, at most 100"));
+    assert_non_null(strstr(err.text, ", and the waves have a period of 10 s: 19 samples in it; at most 100"));
     lab_free(&l);
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "law/contact_law.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
 #include "scene/scene_section.h"
@@ -483,7 +484,7 @@ static void pairs_take_the_nearest_word(void **state)
     assert_near(fl_scene_pair(&s, snow, FL_SCENE_STRUCTURE).friction, 0.15, 0);
     assert_near(fl_scene_pair(&s, snow, FL_SCENE_BOUNDARY).friction, 0.6, 0);
     assert_near(fl_scene_pair(&s, snow, FL_SCENE_BOUNDARY).stiffness, 3e6, 0);
-    assert_int_equal(fl_scene_pair(&s, ice, ice).law, FL_LAW_PATCH);
+    assert_string_equal(fl_contact_laws[fl_scene_pair(&s, ice, ice).law].name, "patch");
     assert_near(fl_scene_pair(&s, ice, ice).tangential_ratio, 0.824, 0);
     assert_true(fl_scene_pair(&s, ice, ice).damping < 0);
     fl_scene_free(&s);
@@ -493,13 +494,13 @@ static void pairs_take_the_nearest_word(void **state)
                  "structure]\nstiffness = auto\ndamping = 2\n[contact boundary ice]\nrestitution = 0\n");
     ice = fl_scene_find_material(&s, "ice");
     c = fl_scene_pair(&s, ice, FL_SCENE_STRUCTURE);
-    assert_near(c.friction, 0.4, 0);        /* [structure] over [contact] */
-    assert_near(c.restitution, 0.7, 0);     /* [contact] over the materials */
-    assert_int_equal(c.law, FL_LAW_MANUAL); /* the structure's material */
-    assert_near(c.stiffness, 5000.0, 0);    /* auto gives the word on */
+    assert_near(c.friction, 0.4, 0);                            /* [structure] over [contact] */
+    assert_near(c.restitution, 0.7, 0);                         /* [contact] over the materials */
+    assert_string_equal(fl_contact_laws[c.law].name, "manual"); /* the structure's material */
+    assert_near(c.stiffness, 5000.0, 0);                        /* auto gives the word on */
     assert_near(c.damping, 2.0, 0);
     assert_string_equal(c.b, "structure");
-    assert_int_equal(fl_scene_pair(&s, ice, ice).law, FL_LAW_CORE);
+    assert_string_equal(fl_contact_laws[fl_scene_pair(&s, ice, ice).law].name, "core");
     assert_near(fl_scene_pair(&s, ice, FL_SCENE_BOUNDARY).restitution, 0.0, 0);
     assert_near(fl_scene_pair(&s, ice, FL_SCENE_BOUNDARY).friction, 0.9, 0);
     fl_scene_free(&s);
