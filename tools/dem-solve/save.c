@@ -16,8 +16,8 @@
 #include "step_choice.h"
 #include "world/access.h"
 
-/* Keys that a resumed run may change.  The first two give it another step from then on; the others change no step
- * and no row. */
+/* Keys that a resumed run may change.  The first two give it another step from then on; the others change
+ * no step and no row. */
 enum { STEP_KEYS = 2 };
 static const char *const FREE_KEY[] = {"run.dt",
                                        "run.safety",
@@ -266,8 +266,8 @@ static int read_positions(struct run *r, struct outputs *u, fl_file_mark mark[TA
     return err->code ? -1 : 0;
 }
 
-/* Change the step from now on if the command line does: rows are due at the first step at or after their times.
- * water.every stays the same number of steps. */
+/* Change the step from now on if the command line does: rows are due at the first step at or after their
+ * times. water.every stays the same number of steps. */
 static int change_step(struct run *r, double dt, fl_err *err)
 {
     int requested = 0;

@@ -32,8 +32,8 @@ int check_step_count(const struct run *r, fl_err *err)
                          r->scene->run.duration, r->w->dt, n, most);
 }
 
-/* The step is half of the critical one, or what one damped contact leaves or 0.8 of it, or less by many damped
- * contacts. */
+/* The step is half of the critical one, or what one damped contact leaves or 0.8 of it, or less by many
+ * damped contacts. */
 static void describe_damped_step(char *to, size_t n, double share, double left, double critical)
 {
     const double part = share / left;

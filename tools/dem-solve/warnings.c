@@ -7,12 +7,12 @@
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
 
-/* A hull is at rest if mass and centre differ by less than this from its displacement, relative to displacement
- * and size. */
+/* A hull is at rest if mass and centre differ by less than this from its displacement, relative to
+ * displacement and size. */
 #define AT_REST 1e-3
 
-/* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take hours, so
- * this is said before it.  Rounded edges cannot overlap by more than the sum of the radii. */
+/* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take
+ * hours, so this is said before it.  Rounded edges cannot overlap by more than the sum of the radii. */
 static void warn_overlaps(const struct run *r)
 {
     const fl_world *w = r->w;
@@ -122,8 +122,8 @@ static void warn_waves(const struct run *r)
             steep, breaking);
 }
 
-/* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more materials
- * than needed, and floes that come in later may use any. */
+/* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more
+ * materials than needed, and floes that come in later may use any. */
 static void warn_materials(const struct run *r)
 {
     const fl_world *w = r->w;
