@@ -212,7 +212,7 @@ static double load_difference(const fl_error_budget *g, const fl_window_end *x, 
         const double size = difference_at(g, c, x, NULL, &unused);
         const double rel = size > 0.0 ? difference_at(g, c, x, y, &one) / size : 0.0;
         if (size > 0.0) *along += one / size * whole / COMPARISONS;
-        largest = fmax(limit_value, rel);
+        largest = fmax(largest, rel);
     }
     return whole * largest;
 }
@@ -285,7 +285,7 @@ double fl_error_budget_estimate(const fl_error_budget *g, double h)
         along += v->error > 0.0 ? v->signed_error * (e / v->error) : 0.0;
         squares += e * e;
         size += v->size;
-        if (v->size > 0.0) max_error = fmax(limit_value, e);
+        if (v->size > 0.0) max_error = fmax(max_error, e);
         largest = fmax(largest, v->size);
     }
     if (size <= 0.0) return 0.0;
